@@ -1,2 +1,36 @@
-//! Placeholder.
-#![no_std]
+//! Robot dynamics on a microcontroller: inverse and forward dynamics of any tree of bodies, every
+//! control tick, in f32 or f64, with no heap, no panic and no `unsafe`.
+//!
+//! The layers, each written on those above it:
+//!
+//! | module | what |
+//! |---|---|
+//! | [`scalar`], [`trig`] | f32 and f64 as one type parameter; sine and cosine without f64 |
+//! | [`spatial`] | motion and force vectors, transforms, inertias |
+//! | [`model`], [`robots`] | a robot's description, checked while compiling; four real ones |
+//! | [`state`] | q, q̇, q̈, and the sines and cosines of one configuration |
+//! | [`effects`] | what acts on the robot: only what a scene names is computed |
+//! | [`algorithms`] | RNEA, ABA: the textbook, for every model |
+//! | [`control`] | trajectories, observer, control law, safety gate |
+//! | [`sim`] | time steps of a simulated robot |
+//!
+#![doc = include_str!("../../NOTATION.md")]
+#![cfg_attr(not(test), no_std)]
+#![forbid(unsafe_code)]
+
+pub mod algorithms;
+mod articulated;
+mod const_math;
+pub mod control;
+pub mod effects;
+pub mod model;
+pub mod robots;
+pub mod scalar;
+pub mod sim;
+pub mod spatial;
+pub mod state;
+mod symmetric;
+pub mod trig;
+
+mod core_form;
+pub use core_form::Core;

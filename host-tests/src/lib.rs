@@ -1,1 +1,6 @@
-//! Placeholder.
+//! The core on the host: recordings of independent oracles, one tolerance table, and the robots
+//! as those oracles are given them.
+
+pub mod export;
+pub mod recordings;
+pub mod tolerances;

@@ -1,0 +1,67 @@
+//! Uniform gravity: a_0 = −g instead of a force on every body.
+//!
+//! Featherstone & Orin (2000), remark after (7); Luh, Walker & Paul (1980).
+
+use core::marker::PhantomData;
+
+use super::Effect;
+use crate::scalar::{Real, Vector};
+
+/// A direction in base coordinates, known to the compiler.
+pub trait Direction {
+    /// The unit vector.
+    const UNIT: [f64; 3];
+}
+
+/// Along −z of the base frame.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Down;
+
+impl Direction for Down {
+    const UNIT: [f64; 3] = [0.0, 0.0, -1.0];
+}
+
+/// Uniform gravity of a direction carried in its type; magnitude in m/s².
+///
+/// Its direction lets the engine drop the products with its zero components, and the sine and
+/// cosine of a first joint whose axis is parallel to it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gravity<D = Down> {
+    double: f64,
+    single: f32,
+    direction: PhantomData<D>,
+}
+
+impl Gravity<Down> {
+    /// 9.81 m/s² along −z of the base frame.
+    pub const EARTH: Self = Self::new(9.81);
+    /// 1.62 m/s² along −z of the base frame.
+    pub const MOON: Self = Self::new(1.62);
+}
+
+impl<D: Direction> Gravity<D> {
+    /// Gravity of the magnitude g, m/s², along D.
+    ///
+    /// ```
+    /// use dynamics_core::effects::{Down, Gravity};
+    /// const MARS: Gravity<Down> = Gravity::new(3.72);
+    /// ```
+    pub const fn new(g: f64) -> Self {
+        Self {
+            double: g,
+            single: g as f32,
+            direction: PhantomData,
+        }
+    }
+}
+
+impl<R: Real, D: Direction, const B: usize, const V: usize> Effect<R, B, V> for Gravity<D> {
+    const FIELD: bool = true;
+    const FIELD_AXES: [bool; 3] = [D::UNIT[0] != 0.0, D::UNIT[1] != 0.0, D::UNIT[2] != 0.0];
+
+    #[inline(always)]
+    fn field(&self, g: &mut R::Vec3) {
+        let [x, y, z] = D::UNIT.map(R::from_f64);
+        *g += R::Vec3::new(x, y, z) * R::pick_value(self.double, self.single);
+    }
+}

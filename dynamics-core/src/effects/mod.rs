@@ -1,0 +1,111 @@
+//! Effects: a scene is a tuple of them, and what it does not name is not in the machine code.
+//!
+//! ```
+//! use dynamics_core::effects::{Coriolis, Gravity, Inertia, Viscous};
+//! use dynamics_core::{Core, robots::Ur5e, state::State};
+//!
+//! let scene = (Gravity::EARTH, Inertia, Coriolis, Viscous([0.5_f32; 6]));
+//! let state = State::at([0.0, -1.2, 1.5, 0.3, 0.0, 0.0]);
+//! let full = Core::<Ur5e>::rnea(&state, &scene);
+//! let gravity = Core::<Ur5e>::rnea(&state, &(Gravity::EARTH,));
+//! assert_eq!(full, gravity); // at rest nothing else acts
+//! ```
+//!
+//! Signs are stated once, on M q̈ + C = τ: joint hooks add the torque that the motor must supply
+//! (left side); body hooks add the wrench fˣ that the environment exerts on the body
+//! (f + fˣ = I a + v ×* I v), which the library subtracts.
+
+mod coulomb;
+mod gravity;
+mod rigid;
+mod rotor;
+mod tuple;
+mod viscous;
+
+pub use coulomb::{Coulomb, smooth_sign};
+pub use gravity::{Direction, Down, Gravity};
+pub use rigid::{Coriolis, Inertia, RIGID_BODY};
+pub use rotor::RotorInertia;
+pub use viscous::Viscous;
+
+use crate::scalar::Real;
+use crate::spatial::{Force, Motion};
+
+/// The state of one joint, as joint hooks see it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct JointState<R> {
+    /// Position, rad or m.
+    pub q: R,
+    /// Velocity, rad/s or m/s.
+    pub qd: R,
+    /// Acceleration, rad/s² or m/s²; zero where forward dynamics asks.
+    pub qdd: R,
+}
+
+/// A physical effect, or a tuple of them, on a robot of B bodies and V velocity coordinates.
+///
+/// Every hook defaults to nothing, and what is default costs nothing. Hooks *add* to what they
+/// are given: an effect that returned a zero would leave an addition behind (x + 0.0 is not x for
+/// IEEE's −0.0). Sizes are part of the type, so that five friction values on six joints do not
+/// compile.
+///
+/// ```
+/// use dynamics_core::effects::{Effect, JointState};
+/// use dynamics_core::scalar::Real;
+///
+/// /// A spring of 3 N·m/rad on the first joint.
+/// struct Spring;
+/// impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Spring {
+///     fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R) {
+///         if joint == 0 {
+///             *tau += at.q * R::from_f64(3.0);
+///         }
+///     }
+/// }
+/// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not an effect on a robot of {B} bodies and {V} joints in `{R}`",
+    label = "not an effect of this size and scalar",
+    note = "effects: Gravity, Inertia, Coriolis, Viscous([R; V]), Coulomb {{ .. }}, RotorInertia([R; V]), \
+            tuples of up to 12 of them, and your own through `impl Effect`"
+)]
+pub trait Effect<R: Real, const B: usize, const V: usize> {
+    /// It is a field that accelerates every body: `field` adds something.
+    const FIELD: bool = false;
+    /// Which base components of the field may differ from zero.
+    const FIELD_AXES: [bool; 3] = [Self::FIELD; 3];
+    /// It asks for the products M q̈ of accelerations.
+    const ACCELERATIONS: bool = false;
+    /// It asks for the velocity products C(q, q̇) q̇.
+    const VELOCITY_PRODUCTS: bool = false;
+    /// `wrench` adds something.
+    const WRENCH: bool = false;
+    /// `wrench` reads the body's velocity (which does not switch the velocity products on).
+    const BODY_VELOCITY: bool = false;
+
+    /// Adds to the acceleration g of free fall, in base coordinates, m/s².
+    #[inline(always)]
+    fn field(&self, g: &mut R::Vec3) {
+        let _ = g;
+    }
+
+    /// Adds to the wrench fˣ that the environment exerts on `body`, about the origin of the
+    /// body's frame and in its coordinates, N·m and N; `velocity` is the body's, same frame.
+    #[inline(always)]
+    fn wrench(&self, body: usize, velocity: Motion<R>, fx: &mut Force<R>) {
+        let _ = (body, velocity, fx);
+    }
+
+    /// Adds to the torque τ that the motor of `joint` must supply, N·m or N.
+    #[inline(always)]
+    fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R) {
+        let _ = (joint, at, tau);
+    }
+
+    /// Adds to the inertia at `joint`, that is to M's diagonal, kg·m² or kg; `torque` adds the
+    /// same times q̈.
+    #[inline(always)]
+    fn inertia(&self, joint: usize, diagonal: &mut R) {
+        let _ = (joint, diagonal);
+    }
+}

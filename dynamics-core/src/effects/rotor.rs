@@ -1,0 +1,26 @@
+//! Rotors behind gears, as inertia at the joints: τ = ρ² I_r q̈, without their gyroscopic torque.
+
+use super::{Effect, JointState};
+use crate::scalar::Real;
+
+/// Rotor inertia reflected to each joint, ρ² I_r in kg·m² (ρ the gear ratio).
+///
+/// The diagonal approximation of Spong (1987): good at high gear ratios.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RotorInertia<R, const V: usize>(pub [R; V]);
+
+impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for RotorInertia<R, V> {
+    #[inline(always)]
+    fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R) {
+        if let Some(&inertia) = self.0.get(joint) {
+            *tau += inertia * at.qdd;
+        }
+    }
+
+    #[inline(always)]
+    fn inertia(&self, joint: usize, diagonal: &mut R) {
+        if let Some(&inertia) = self.0.get(joint) {
+            *diagonal += inertia;
+        }
+    }
+}

@@ -1,0 +1,59 @@
+//! Tuples of effects: constants are joined, hooks run in the order of the tuple.
+
+use super::{Effect, JointState};
+use crate::scalar::Real;
+use crate::spatial::{Force, Motion};
+
+macro_rules! tuple {
+    ($($name:ident $at:tt),*) => {
+        impl<R: Real, const B: usize, const V: usize, $($name: Effect<R, B, V>),*> Effect<R, B, V>
+            for ($($name,)*)
+        {
+            const FIELD: bool = false $(| $name::FIELD)*;
+            const FIELD_AXES: [bool; 3] = [
+                false $(| $name::FIELD_AXES[0])*,
+                false $(| $name::FIELD_AXES[1])*,
+                false $(| $name::FIELD_AXES[2])*,
+            ];
+            const ACCELERATIONS: bool = false $(| $name::ACCELERATIONS)*;
+            const VELOCITY_PRODUCTS: bool = false $(| $name::VELOCITY_PRODUCTS)*;
+            const WRENCH: bool = false $(| $name::WRENCH)*;
+            const BODY_VELOCITY: bool = false $(| $name::BODY_VELOCITY)*;
+
+            #[inline(always)]
+            fn field(&self, g: &mut R::Vec3) {
+                let _ = &g;
+                $(self.$at.field(g);)*
+            }
+            #[inline(always)]
+            fn wrench(&self, body: usize, velocity: Motion<R>, fx: &mut Force<R>) {
+                let _ = (body, velocity, &fx);
+                $(self.$at.wrench(body, velocity, fx);)*
+            }
+            #[inline(always)]
+            fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R) {
+                let _ = (joint, at, &tau);
+                $(self.$at.torque(joint, at, tau);)*
+            }
+            #[inline(always)]
+            fn inertia(&self, joint: usize, diagonal: &mut R) {
+                let _ = (joint, &diagonal);
+                $(self.$at.inertia(joint, diagonal);)*
+            }
+        }
+    };
+}
+
+tuple!();
+tuple!(E0 0);
+tuple!(E0 0, E1 1);
+tuple!(E0 0, E1 1, E2 2);
+tuple!(E0 0, E1 1, E2 2, E3 3);
+tuple!(E0 0, E1 1, E2 2, E3 3, E4 4);
+tuple!(E0 0, E1 1, E2 2, E3 3, E4 4, E5 5);
+tuple!(E0 0, E1 1, E2 2, E3 3, E4 4, E5 5, E6 6);
+tuple!(E0 0, E1 1, E2 2, E3 3, E4 4, E5 5, E6 6, E7 7);
+tuple!(E0 0, E1 1, E2 2, E3 3, E4 4, E5 5, E6 6, E7 7, E8 8);
+tuple!(E0 0, E1 1, E2 2, E3 3, E4 4, E5 5, E6 6, E7 7, E8 8, E9 9);
+tuple!(E0 0, E1 1, E2 2, E3 3, E4 4, E5 5, E6 6, E7 7, E8 8, E9 9, E10 10);
+tuple!(E0 0, E1 1, E2 2, E3 3, E4 4, E5 5, E6 6, E7 7, E8 8, E9 9, E10 10, E11 11);

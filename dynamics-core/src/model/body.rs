@@ -1,0 +1,161 @@
+//! The description of a body, as a person writes it.
+
+use super::error::Problem;
+use super::joint::Joint;
+use crate::const_math as m;
+use crate::scalar::Real;
+use crate::spatial::SpatialInertia;
+use glam::DMat3;
+
+/// The parent of a body that hangs on the fixed base.
+pub const BASE: usize = usize::MAX;
+
+/// The limits of a joint: what its drive and mechanics allow.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limits<R> {
+    /// Least position, rad or m.
+    pub lower: R,
+    /// Greatest position, rad or m.
+    pub upper: R,
+    /// Greatest speed, rad/s or m/s.
+    pub velocity: R,
+    /// Greatest torque or force, N·m or N.
+    pub torque: R,
+}
+
+impl Limits<f64> {
+    /// No limits.
+    pub const NONE: Self = Self {
+        lower: f64::NEG_INFINITY,
+        upper: f64::INFINITY,
+        velocity: f64::INFINITY,
+        torque: f64::INFINITY,
+    };
+}
+
+/// A body and the joint that carries it, in URDF's conventions, SI units and f64.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Body {
+    pub(super) name: &'static str,
+    pub(super) parent: usize,
+    pub(super) joint: Joint<f64>,
+    pub(super) position: [f64; 3],
+    pub(super) rotation: DMat3,
+    pub(super) mass: f64,
+    pub(super) com: [f64; 3],
+    pub(super) inertia: [f64; 6],
+    pub(super) limits: Limits<f64>,
+}
+
+impl Body {
+    /// A massless body on `joint`, at its parent's origin. `parent` is an index in the model's
+    /// list, or [`BASE`].
+    pub const fn new(name: &'static str, parent: usize, joint: Joint<f64>) -> Self {
+        Self {
+            name,
+            parent,
+            joint,
+            position: [0.0; 3],
+            rotation: DMat3::IDENTITY,
+            mass: 0.0,
+            com: [0.0; 3],
+            inertia: [0.0; 6],
+            limits: Limits::NONE,
+        }
+    }
+
+    /// Origin of the body's frame in the parent's frame at q = 0, m.
+    pub const fn xyz(mut self, position: [f64; 3]) -> Self {
+        self.position = position;
+        self
+    }
+
+    /// Attitude of the body's frame in the parent's at q = 0: roll, pitch, yaw about the parent's
+    /// fixed axes, rad.
+    pub const fn rpy(mut self, rpy: [f64; 3]) -> Self {
+        self.rotation = m::rotation(m::sin_cos(rpy[0]), m::sin_cos(rpy[1]), m::sin_cos(rpy[2]));
+        self
+    }
+
+    /// As [`Body::rpy`], in quarter turns: exact zeros and ones, which the engine exploits.
+    pub const fn quarter_turns(mut self, rpy: [i32; 3]) -> Self {
+        self.rotation = m::rotation(m::quarter(rpy[0]), m::quarter(rpy[1]), m::quarter(rpy[2]));
+        self
+    }
+
+    /// Mass, kg.
+    pub const fn mass(mut self, mass: f64) -> Self {
+        self.mass = mass;
+        self
+    }
+
+    /// Centre of mass in the body's frame, m.
+    pub const fn com(mut self, com: [f64; 3]) -> Self {
+        self.com = com;
+        self
+    }
+
+    /// Rotational inertia about the centre of mass, along the body's axes:
+    /// xx, xy, xz, yy, yz, zz in kg·m².
+    pub const fn inertia(mut self, inertia: [f64; 6]) -> Self {
+        self.inertia = inertia;
+        self
+    }
+
+    /// The joint's limits.
+    pub const fn limits(mut self, limits: Limits<f64>) -> Self {
+        self.limits = limits;
+        self
+    }
+
+    pub(super) const fn problem(&self, index: usize) -> Option<Problem> {
+        if self.parent != BASE && self.parent >= index {
+            return Some(Problem::Parent);
+        }
+        if !self.joint.has_axis() {
+            return Some(Problem::Axis);
+        }
+        if !(self.mass >= 0.0 && self.mass.is_finite()) {
+            return Some(Problem::Mass);
+        }
+        let mut i = 0;
+        while i < 6 {
+            let finite = self.inertia[i].is_finite()
+                && self.com[i % 3].is_finite()
+                && self.position[i % 3].is_finite();
+            if !finite {
+                return Some(Problem::NotFinite);
+            }
+            i += 1;
+        }
+        // An angle that is not finite makes an attitude that is not a rotation.
+        let x = self.rotation.x_axis;
+        if !m::dot(x, x).is_finite() {
+            return Some(Problem::NotFinite);
+        }
+        None
+    }
+}
+
+/// By how much the largest principal moment about the centre of mass exceeds the sum of the other
+/// two (or a moment is negative), relative to the largest; 0 if it does not.
+pub(super) fn triangle_excess<R: Real>(inertia: &SpatialInertia<R>) -> f64 {
+    use crate::scalar::{Matrix, Vector};
+    let (mass, h) = (inertia.mass.to_f64(), inertia.moment.array().map(R::to_f64));
+    let mut a = inertia.inertia.cols().map(|c| c.array().map(R::to_f64));
+    let hh = h.iter().map(|x| x * x).sum::<f64>();
+    if mass > 0.0 {
+        for i in 0..3 {
+            for j in 0..3 {
+                a[i][j] -= (if i == j { hh } else { 0.0 } - h[i] * h[j]) / mass;
+            }
+        }
+    }
+    let mut p = crate::symmetric::eigenvalues(a);
+    p.sort_unstable_by(f64::total_cmp);
+    let scale = p[2].abs().max(p[0].abs());
+    if scale == 0.0 {
+        return 0.0;
+    }
+    (-p[0]).max(p[2] - p[0] - p[1]).max(0.0) / scale
+}

@@ -1,0 +1,196 @@
+//! Spatial vectors, transforms and inertias in compact form: never a 6×6 matrix.
+//!
+//! Motion and force vectors are different types, so that a frame or duality error does not
+//! compile: `motion.dot(force)` is power, `motion.cross(motion)` is ×, `motion.cross_force(force)`
+//! is ×*. Featherstone, *Rigid Body Dynamics Algorithms* (RBDA, 2008), chapter 2 and table 2.6.
+//!
+//! ```compile_fail
+//! use dynamics_core::spatial::{Force, Motion};
+//! let v = Motion::<f32>::ZERO;
+//! let f = Force::<f32>::ZERO;
+//! let _ = v + f; // a velocity is not a force
+//! ```
+
+use core::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
+
+use crate::scalar::{Matrix, Real, Vector};
+
+/// A spatial motion vector in M⁶: velocity (rad/s, m/s) or acceleration (rad/s², m/s²).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Motion<R: Real> {
+    /// Angular part ω, rad/s.
+    pub ang: R::Vec3,
+    /// Linear part v of the body-fixed point at the frame's origin, m/s.
+    pub lin: R::Vec3,
+}
+
+/// A spatial force vector in F⁶: couple about the frame's origin (N·m) and force (N).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Force<R: Real> {
+    /// Couple n about the origin, N·m.
+    pub ang: R::Vec3,
+    /// Force f, N.
+    pub lin: R::Vec3,
+}
+
+/// The coordinate transform ᴮX_A from frame A to frame B: E rotates coordinates, r places B in A.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Xform<R: Real> {
+    /// Rotation of coordinates from A to B.
+    pub rot: R::Mat3,
+    /// Origin of B in A coordinates, m.
+    pub pos: R::Vec3,
+}
+
+/// The inertia of a rigid body at its frame's origin: ten numbers.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SpatialInertia<R: Real> {
+    /// Mass m, kg.
+    pub mass: R,
+    /// First moment h = m c, kg·m.
+    pub moment: R::Vec3,
+    /// Rotational inertia about the frame's origin, kg·m².
+    pub inertia: R::Mat3,
+}
+
+macro_rules! vector_space {
+    ($t:ident, $what:literal) => {
+        impl<R: Real> $t<R> {
+            #[doc = concat!("The zero ", $what, ".")]
+            pub const ZERO: Self = Self {
+                ang: R::Vec3::ZERO,
+                lin: R::Vec3::ZERO,
+            };
+            #[doc = concat!("A ", $what, " from its angular and linear parts.")]
+            #[inline(always)]
+            pub fn new(ang: R::Vec3, lin: R::Vec3) -> Self {
+                Self { ang, lin }
+            }
+        }
+        impl<R: Real> Add for $t<R> {
+            type Output = Self;
+            #[inline(always)]
+            fn add(self, o: Self) -> Self {
+                Self::new(self.ang + o.ang, self.lin + o.lin)
+            }
+        }
+        impl<R: Real> Sub for $t<R> {
+            type Output = Self;
+            #[inline(always)]
+            fn sub(self, o: Self) -> Self {
+                Self::new(self.ang - o.ang, self.lin - o.lin)
+            }
+        }
+        impl<R: Real> Neg for $t<R> {
+            type Output = Self;
+            #[inline(always)]
+            fn neg(self) -> Self {
+                Self::new(-self.ang, -self.lin)
+            }
+        }
+        impl<R: Real> Mul<R> for $t<R> {
+            type Output = Self;
+            #[inline(always)]
+            fn mul(self, s: R) -> Self {
+                Self::new(self.ang * s, self.lin * s)
+            }
+        }
+        impl<R: Real> AddAssign for $t<R> {
+            #[inline(always)]
+            fn add_assign(&mut self, o: Self) {
+                *self = *self + o;
+            }
+        }
+        impl<R: Real> SubAssign for $t<R> {
+            #[inline(always)]
+            fn sub_assign(&mut self, o: Self) {
+                *self = *self - o;
+            }
+        }
+    };
+}
+vector_space!(Motion, "motion");
+vector_space!(Force, "force");
+
+impl<R: Real> Motion<R> {
+    /// Power m · f in W if `self` is a velocity. RBDA 2.1. 11 flops.
+    #[inline(always)]
+    pub fn dot(self, f: Force<R>) -> R {
+        self.ang.dot(f.ang) + self.lin.dot(f.lin)
+    }
+
+    /// m × m₂, the rate of change of m₂ moving with velocity m. RBDA (2.31). 30 flops.
+    #[inline(always)]
+    pub fn cross(self, m: Self) -> Self {
+        Self::new(
+            self.ang.cross(m.ang),
+            self.ang.cross(m.lin) + self.lin.cross(m.ang),
+        )
+    }
+
+    /// m ×* f, the rate of change of f moving with velocity m. RBDA (2.32). 30 flops.
+    #[inline(always)]
+    pub fn cross_force(self, f: Force<R>) -> Force<R> {
+        Force::new(
+            self.ang.cross(f.ang) + self.lin.cross(f.lin),
+            self.ang.cross(f.lin),
+        )
+    }
+}
+
+impl<R: Real> Xform<R> {
+    /// The transform that changes nothing.
+    pub const IDENTITY: Self = Self {
+        rot: R::Mat3::IDENTITY,
+        pos: R::Vec3::ZERO,
+    };
+
+    /// Xᵀ f: a force from B to A coordinates, RBDA table 2.6. 39 flops.
+    #[inline(always)]
+    pub fn transpose_mul(&self, f: Force<R>) -> Force<R> {
+        let lin = self.rot.transpose_mul(f.lin);
+        Force::new(self.rot.transpose_mul(f.ang) + self.pos.cross(lin), lin)
+    }
+}
+
+/// X m: a motion from A to B coordinates, RBDA table 2.6. 39 flops.
+impl<R: Real> Mul<Motion<R>> for Xform<R> {
+    type Output = Motion<R>;
+    #[inline(always)]
+    fn mul(self, m: Motion<R>) -> Motion<R> {
+        Motion::new(self.rot * m.ang, self.rot * (m.lin - self.pos.cross(m.ang)))
+    }
+}
+
+/// ᶜX_B ᴮX_A, RBDA table 2.6. 63 flops.
+impl<R: Real> Mul for Xform<R> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, first: Self) -> Self {
+        Self {
+            rot: self.rot * first.rot,
+            pos: first.pos + first.rot.transpose_mul(self.pos),
+        }
+    }
+}
+
+impl<R: Real> SpatialInertia<R> {
+    /// The inertia of nothing.
+    pub const ZERO: Self = Self {
+        mass: R::ZERO,
+        moment: R::Vec3::ZERO,
+        inertia: R::Mat3::ZERO,
+    };
+}
+
+/// I v: momentum from velocity, force from acceleration. RBDA (2.63). 45 flops.
+impl<R: Real> Mul<Motion<R>> for SpatialInertia<R> {
+    type Output = Force<R>;
+    #[inline(always)]
+    fn mul(self, m: Motion<R>) -> Force<R> {
+        Force::new(
+            self.inertia * m.ang + self.moment.cross(m.lin),
+            m.lin * self.mass - self.moment.cross(m.ang),
+        )
+    }
+}

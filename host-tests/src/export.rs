@@ -1,0 +1,96 @@
+//! A robot's constants as the oracle's script reads them.
+
+use dynamics_core::model::{BASE, JointKind, Link, Model};
+use serde::{Deserialize, Serialize};
+
+/// A robot in URDF's terms.
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+pub struct Robot {
+    /// The robot's name.
+    pub name: String,
+    /// The bodies, parents first.
+    pub bodies: Vec<Body>,
+}
+
+/// A body and the joint that carries it.
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+pub struct Body {
+    /// The body's name.
+    pub name: String,
+    /// Index of the parent; −1 is the base.
+    pub parent: i64,
+    /// `revolute`, `prismatic` or `fixed`.
+    pub joint: String,
+    /// The joint's unit axis in the body's frame.
+    pub axis: [f64; 3],
+    /// The joint's frame in the parent's.
+    pub placement: Placement,
+    /// kg
+    pub mass: f64,
+    /// Centre of mass in the body's frame, m.
+    pub com: [f64; 3],
+    /// About the centre of mass: xx, xy, xz, yy, yz, zz, kg m².
+    pub inertia_com: [f64; 6],
+}
+
+/// x_parent = R x + p.
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+pub struct Placement {
+    /// R by rows.
+    pub rotation: [f64; 9],
+    /// p, m.
+    pub position: [f64; 3],
+}
+
+/// The robot's f64 numbers as they stand in the library.
+pub fn robot<const B: usize, const Q: usize, const V: usize>(model: &Model<f64, B, Q, V>) -> Robot {
+    Robot {
+        name: model.name.into(),
+        bodies: model.links.iter().map(body).collect(),
+    }
+}
+
+fn body(link: &Link<f64>) -> Body {
+    let inertia = &link.inertia;
+    let com = if inertia.mass > 0.0 {
+        inertia.moment / inertia.mass
+    } else {
+        inertia.moment
+    };
+    let about_origin = inertia.inertia.to_cols_array_2d();
+    let c = com.to_array();
+    let about_com = |i: usize, j: usize| {
+        let diagonal = if i == j { com.dot(com) } else { 0.0 };
+        about_origin[i][j] - inertia.mass * (diagonal - c[i] * c[j])
+    };
+    Body {
+        name: link.name.into(),
+        parent: if link.parent == BASE {
+            -1
+        } else {
+            link.parent as i64
+        },
+        joint: match link.joint.kind {
+            JointKind::Revolute => "revolute",
+            JointKind::Prismatic => "prismatic",
+            _ => "fixed",
+        }
+        .into(),
+        axis: link.joint.axis.to_array(),
+        placement: Placement {
+            // The columns of the transform of coordinates are the rows of its inverse.
+            rotation: link.placement.rot.to_cols_array(),
+            position: link.placement.pos.to_array(),
+        },
+        mass: inertia.mass,
+        com: c,
+        inertia_com: [
+            about_com(0, 0),
+            about_com(0, 1),
+            about_com(0, 2),
+            about_com(1, 1),
+            about_com(1, 2),
+            about_com(2, 2),
+        ],
+    }
+}

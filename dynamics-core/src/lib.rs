@@ -23,6 +23,7 @@ mod articulated;
 mod const_math;
 pub mod control;
 pub mod effects;
+mod engine;
 pub mod model;
 pub mod robots;
 pub mod scalar;
@@ -34,3 +35,4 @@ pub mod trig;
 
 mod core_form;
 pub use core_form::Core;
+pub use engine::Engine;

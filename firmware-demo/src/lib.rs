@@ -1,2 +1,21 @@
-//! Placeholder.
+//! Motor-control firmware on `embedded-hal`: a control loop that computes feed-forward torques
+//! each tick, and what it takes to run it in an emulator.
+//!
+//! | module | what | on hardware |
+//! |---|---|---|
+//! | [`control_loop`] | the tick: read, reference, dynamics, safety, write | as it is |
+//! | [`encoder`], [`drive`] | an AS5047P-type encoder on SPI, a current-controlled drive on PWM | as they are |
+//! | [`marker`] | the measured regions | `dbg` is a no-op there |
+//! | [`plant`] | a simulated robot behind the same traits | left out |
+//! | [`scene`] | runs of one trajectory under several laws, with their tracking errors | left out |
+//! | `target` | interrupt, log, panic handler of the emulated board | your board's |
 #![no_std]
+
+pub mod control_loop;
+pub mod drive;
+pub mod encoder;
+pub mod marker;
+pub mod plant;
+pub mod scene;
+#[cfg(target_arch = "arm")]
+pub mod target;

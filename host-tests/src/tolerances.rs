@@ -7,7 +7,7 @@ const TABLE: &[(&str, &str, f64, f64)] = &[
     ("ur5e", "rnea", 1e-15, 5e-7),
     ("ur5e", "gravity", 1e-15, 5e-7),
     ("ur5e", "bias", 1e-15, 5e-7),
-    ("ur5e", "aba", 2.0e-13, 3.0e-05),
+    ("ur5e", "aba", 2.0e-13, 9.0e-5),
     ("panda", "rnea", 1e-15, 5e-7),
     ("panda", "gravity", 1e-15, 5e-7),
     ("panda", "bias", 1e-15, 5e-7),

@@ -1,1 +1,88 @@
-//! Placeholder.
+//! Control: where the arm should be, where it is, the torque in between, and the gate that every
+//! command passes.
+//!
+//! | item | what | memory |
+//! |---|---|---|
+//! | [`Trajectory`] | quintics through way-points, checked against speed and acceleration limits | none |
+//! | [`TurnCounter`] | an encoder's counts, turns included | counts |
+//! | [`Observer`] | velocity from positions | estimate |
+//! | [`Gains`], [`feedback`] | K_p (q_d − q) + K_d (q̇_d − q̇) | none |
+//! | [`Supervisor`] | limits, plausibility, what to do on a fault | last good values |
+//!
+//! Time is counted in integer ticks of one nominal length; nothing divides by a measured interval.
+//! What has no memory gives the same bits for the same inputs whatever happened before; what has
+//! memory never takes in a value that it rejects. Nothing here panics or returns NaN.
+//!
+//! One tick of an arm's control loop:
+//!
+//! ```
+//! use dynamics_core::control::*;
+//! use dynamics_core::{Core, effects::RIGID_BODY, robots::Ur5e, state::State};
+//!
+//! const TICK: f32 = 1e-3;
+//! let home = [0.0, -1.57, 1.57, -1.57, -1.57, 0.0];
+//! let away = [1.0, -1.2, 1.4, -1.57, -1.57, 0.0];
+//! let stop = |q, ticks| WayPoint { q, qd: [0.0; 6], ticks };
+//! let limits = [Speed { velocity: 3.0, acceleration: 10.0 }; 6];
+//! let trajectory = Trajectory::new(&[stop(home, 0), stop(away, 1000)], TICK, &limits)?;
+//!
+//! let bounds = Bounds {
+//!     torque: [150.0, 150.0, 150.0, 28.0, 28.0, 28.0],
+//!     rate: [20.0; 6],
+//!     speed: [3.2; 6],
+//!     lower: [-6.3; 6],
+//!     upper: [6.3; 6],
+//! };
+//! let mut supervisor = Supervisor::new(bounds, TICK, 100, 200);
+//! let mut observer = Observer::new(250.0, TICK);
+//! let gains = Gains::from_inertia(&[3.0, 3.0, 1.0, 0.3, 0.3, 0.3], 25.0, 1.0);
+//! let mut clock = 0;
+//!
+//! # for _ in 0..3 {
+//! let measured = Ok(&home); // or Err(Fault::Encoder { joint })
+//! let reference = trajectory.at(clock);
+//! let estimate = match supervisor.admit(measured) {
+//!     Mode::Full => observer.update(supervisor.last_good(), &reference.qdd),
+//!     _ => observer.predict(&[0.0; 6]),
+//! };
+//! // On a fault the same law holds the last good position: gravity torque, and fading damping.
+//! let (aim, q, qd) = match supervisor.watch(&estimate.qd) {
+//!     Mode::Full => (reference, estimate.q, estimate.qd),
+//!     _ => {
+//!         let (q, fade) = (*supervisor.last_good(), supervisor.hold_fade());
+//!         (State::at(q), q, estimate.qd.map(|qd| qd * fade))
+//!     }
+//! };
+//! let mut tau = Core::<Ur5e>::rnea(&aim, &RIGID_BODY);
+//! for (tau, pd) in tau.iter_mut().zip(feedback(&gains, &aim, &q, &qd)) {
+//!     *tau += pd;
+//! }
+//! let command = supervisor.pass(&tau); // command.torque and command.brake go to the drives
+//! clock += u32::from(command.status.mode == Mode::Full);
+//! # assert_eq!(command.status.fault, None);
+//! # assert!(!command.brake);
+//! # }
+//! # assert_eq!(clock, 3);
+//! # Ok::<(), TrajectoryError>(())
+//! ```
+
+mod law;
+mod observer;
+mod supervisor;
+mod trajectory;
+mod turns;
+
+pub use law::{Gains, feedback};
+pub use observer::{Estimate, Observer};
+pub use supervisor::{Bounds, Command, Fault, Mode, Status, Supervisor};
+pub use trajectory::{Speed, Trajectory, TrajectoryError, WayPoint};
+pub use turns::TurnCounter;
+
+use crate::scalar::Real;
+
+/// A number of ticks as a scalar.
+#[inline(always)]
+fn real<R: Real>(ticks: u32) -> R {
+    // One VCVT in f32: the other conversion, a call into software there, is dead code.
+    R::pick_value(f64::from(ticks), ticks as f32)
+}

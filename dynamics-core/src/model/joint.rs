@@ -105,7 +105,7 @@ impl<R: Real> Turn<R> {
 
 impl<R: Real> Joint<R> {
     /// X_J: from the joint's frame to the body's, RBDA table 4.1. Revolute: Rodrigues' formula
-    /// E = c 1 + (1 − c) u uᵀ − s [u]×.
+    /// E = c 1 + (1 − c) u uᵀ − s u×.
     #[inline(always)]
     pub fn xform(&self, turn: Turn<R>) -> Xform<R> {
         match self.kind {

@@ -1,1 +1,87 @@
-//! Placeholder.
+//! Instructions and modelled Cortex-M4F cycles between two markers.
+//!
+//! Built as a shared library this is a plugin for QEMU's system emulator:
+//!
+//! ```text
+//! qemu-system-arm … -plugin libcycle_meter.so,out=samples.txt -kernel firmware
+//! ```
+//!
+//! The firmware opens region k (0 to 7) with the instruction `dbg #2k` and closes it
+//! with `dbg #2k+1`, a hint that does nothing on silicon. Regions may nest and
+//! overlap. When QEMU exits, the plugin writes a line for each closed region (see
+//! [`parse_samples`]). As an ordinary library it reads that file. It must be the
+//! only plugin that runs, on a machine with one processor, under a QEMU that
+//! takes version 1 of the plugin interface (up to 8.2); newer ones refuse to load it.
+//! QEMU's functions are looked up when it is loaded, so the library links anywhere.
+//!
+//! # What is exact
+//!
+//! Instructions: each one that QEMU executes between the markers is counted once,
+//! a predicated one whether its condition holds or not, and those of an interrupt
+//! that is served in between. Markers count nothing and cost nothing, so marking the
+//! phases of a region leaves the region's figures as they were. Under `-icount` two
+//! runs give the same file; without it, interrupts come when the host pleases.
+//!
+//! # What is modelled
+//!
+//! Cycles, after the instruction timings in the Cortex-M4 Technical Reference Manual
+//! (ARM 100166, sections 3.3 and 7.2.3 with their notes), for memory that never waits:
+//!
+//! | instructions | cycles |
+//! |---|---|
+//! | data processing, `MUL`, `MLA`, `UMULL`, `SMLAL` …, `IT`, `NOP`, `DMB`, `DSB` | 1 |
+//! | `SDIV`, `UDIV` | 12, the worst of 2 to 12 |
+//! | `MRS`, `MSR`, `CPS`; `ISB` | 2; 3 |
+//! | branch not taken; taken (also calls, returns, loads into the PC) | 1; 2 more |
+//! | `TBB`, `TBH` | 2 and the branch |
+//! | `LDR`, `LDREX`, `STREX`, `VLDR.32` | 2; 1 right behind another of them, unless its address depends on that one |
+//! | `STR`, `VSTR.32` | 1 |
+//! | `LDM`, `STM`, `PUSH`, `POP`, `LDRD`, `STRD`, `VLDM`, `VSTM`, `VLDR.64`, `VSTR.64` | 1 + words |
+//! | address from a register that the previous instruction wrote | 1 more |
+//! | `VADD`, `VSUB`, `VMUL`, `VCVT`, `VCMP`, `VMOV`, `VABS`, `VNEG`, `VMRS`, `VMSR` | 1 |
+//! | `VMOV` of two words between core and floating-point registers | 2 |
+//! | `VMLA`, `VMLS`, `VFMA`, `VFMS` and their negations | 3 |
+//! | result of a sum, product, quotient, conversion … used by the next instruction | 1 more |
+//! | `VDIV`, `VSQRT` | 1, and 13 more which the next floating-point instruction waits for |
+//!
+//! Where the manual leaves room, these are the choices:
+//!
+//! - The manual charges the address interlock after data processing; we charge it after a load too.
+//!   A base register that is only updated (`[r0], #4`, `PUSH`) interlocks nothing.
+//! - `VSTR` is given 1 cycle like `STR`, which the manual gives 2: the store buffer takes it.
+//! - An `IT` is often folded into its predecessor and then free; we charge it. A
+//!   predicated instruction costs the same whether its condition holds or not.
+//! - The multiply-accumulate takes its addend a cycle later than its factors; we charge all three alike.
+//! - Whether a branch was taken is told by the address after it. One to the very
+//!   next address counts as not taken.
+//! - A division still running when its region is closed is charged to whoever waits for it.
+//! - The refill is 1 to 3 cycles, by the alignment and the width of the target; we take 2.
+//!
+//! # What is not modelled
+//!
+//! Wait states of flash and their caches, contention on the buses (between literals and
+//! instruction fetch, with DMA), unaligned access, a full write buffer, entry to and return from an
+//! interrupt (12 and 10 cycles at least), waiting in `WFI` and `WFE`, and any other
+//! core: the Cortex-M7 issues two instructions at once and is nothing like this.
+//!
+//! # How
+//!
+//! Code is decoded once, when QEMU translates a block of it, and its costs are
+//! summed then; at run time there is one call for each block and one for each marker.
+//! A block is charged when its successor is known. Stalls from one
+//! block to the next are followed, so where QEMU cuts its blocks does not show.
+
+mod block;
+mod decode;
+#[cfg(unix)]
+mod ffi;
+pub mod hand_counted;
+mod insn;
+mod meter;
+mod model;
+#[cfg(unix)]
+mod plugin;
+mod samples;
+
+pub use hand_counted::check_hand_counted;
+pub use samples::{Error, HEADER, Sample, Summary, parse_samples};

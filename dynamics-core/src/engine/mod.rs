@@ -1,0 +1,117 @@
+//! The engine: the algorithms of a robot known at compile time, specialised by the compiler.
+//!
+//! The same robot, state and effects as [`crate::Core`], under the same names: a user switches by
+//! changing one word. No code generator, no nightly: [`known`] folds what the robot's constants
+//! leave to fold, [`prepare`] regroups its inertias to base parameters while compiling, and one
+//! recursion over its bodies keeps what it can in registers.
+//!
+//! Joints: revolute, prismatic and fixed, on trees of up to 32 moving bodies.
+
+mod known;
+mod prepare;
+mod rnea;
+mod small;
+
+use core::marker::PhantomData;
+
+use crate::effects::Effect;
+use crate::model::{Robot, Turn};
+use crate::scalar::Real;
+use crate::state::{Posture, State};
+use prepare::Prepared;
+use rnea::{Task, base, stands, visit};
+
+/// The specialised form of the robot `T`.
+///
+/// ```
+/// use dynamics_core::{Core, Engine, effects::RIGID_BODY, robots::Ur5e, state::State};
+/// let state = State { q: [0.1_f32; 6], qd: [0.5; 6], qdd: [1.0; 6] };
+/// let (a, b) = (Core::<Ur5e>::rnea(&state, &RIGID_BODY), Engine::<Ur5e>::rnea(&state, &RIGID_BODY));
+/// assert!(a.iter().zip(b).all(|(a, b)| (a - b).abs() < 4e-5));
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Engine<T>(PhantomData<T>);
+
+impl<T> Engine<T> {
+    /// The sines and cosines of the configuration q, for every algorithm of a tick.
+    #[inline(always)]
+    pub fn posture<R: Real, const B: usize, const Q: usize, const V: usize>(
+        q: &[R; Q],
+    ) -> Posture<R, Q>
+    where
+        T: Robot<B, Q, V>,
+    {
+        let mut turns = [Turn::default(); Q];
+        for (j, turn) in turns.iter_mut().enumerate() {
+            let prismatic = Prepared::<T, B, Q, V>::TREE.joints[j].prismatic;
+            *turn = if prismatic {
+                Turn {
+                    q: q[j],
+                    ..Turn::default()
+                }
+            } else {
+                Turn::new(q[j])
+            };
+        }
+        Posture { turns }
+    }
+
+    /// τ = ID(q, q̇, q̈), see [`crate::algorithms::rnea`]. Sines and cosines that no named effect
+    /// needs are not computed.
+    #[inline(never)]
+    pub fn rnea<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+        state: &State<R, Q, V>,
+        effects: &E,
+    ) -> [R; V]
+    where
+        T: Robot<B, Q, V>,
+        E: Effect<R, B, V>,
+    {
+        Self::run(&Self::posture(&state.q), state, effects)
+    }
+
+    /// As [`Engine::rnea`], at a posture whose sines and cosines are at hand.
+    #[inline(never)]
+    pub fn rnea_at<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+        posture: &Posture<R, Q>,
+        state: &State<R, Q, V>,
+        effects: &E,
+    ) -> [R; V]
+    where
+        T: Robot<B, Q, V>,
+        E: Effect<R, B, V>,
+    {
+        Self::run(posture, state, effects)
+    }
+
+    #[inline(always)]
+    fn run<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+        posture: &Posture<R, Q>,
+        state: &State<R, Q, V>,
+        effects: &E,
+    ) -> [R; V]
+    where
+        T: Robot<B, Q, V>,
+        E: Effect<R, B, V>,
+    {
+        const { assert!(V <= 32, "the engine takes up to 32 moving bodies") };
+        let length = const { Prepared::<T, B, Q, V>::TREE.length };
+        let base = base::<R, E, B, V>(effects, length);
+        let mut tau = [R::ZERO; V];
+        let mut task = Task {
+            turns: &posture.turns,
+            state,
+            effects,
+            tau: &mut tau,
+        };
+        macro_rules! roots {
+            ($($j:literal)*) => {$(
+                if const { stands::<T, B, Q, V>($j) } {
+                    visit::<R, T, E, B, Q, V, $j>(&mut task, &base);
+                }
+            )*};
+        }
+        roots!(0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24 25 26 27 28 29 30 31);
+        tau
+    }
+}

@@ -1,0 +1,57 @@
+//! Marks the regions that `cycle-meter` measures.
+//!
+//! A marker is one `DBG` instruction, a hint that does nothing on the processor: it may stay
+//! in the firmware. There are eight regions, which may nest. In QEMU the plugin
+//! `cycle-meter` counts between a region's two markers; without it, and on a
+//! host, they do nothing at all.
+//!
+//! A marker keeps accesses to memory on their side of it, but not arithmetic on
+//! values in registers, which the compiler may move across: measure a call of an
+//! `#[inline(never)]` function with `black_box` around its arguments and its result.
+
+/// Opens region `K`, 0 to 7.
+///
+/// ```
+/// firmware_demo::marker::start::<0>();
+/// // what is to be measured
+/// firmware_demo::marker::stop::<0>();
+/// ```
+///
+/// ```compile_fail
+/// firmware_demo::marker::start::<8>(); // there is no such region
+/// ```
+#[inline(always)]
+pub fn start<const K: u8>() {
+    const { assert!(K < 8, "regions are numbered 0 to 7") };
+    // SAFETY: a hint that changes nothing; it may touch memory as far as the
+    // compiler knows, which keeps accesses in order around it.
+    #[cfg(target_arch = "arm")]
+    unsafe {
+        core::arch::asm!("dbg #{}", const 2 * K, options(nostack, preserves_flags));
+    }
+}
+
+/// Closes region `K`, 0 to 7.
+#[inline(always)]
+pub fn stop<const K: u8>() {
+    const { assert!(K < 8, "regions are numbered 0 to 7") };
+    // SAFETY: as in `start`.
+    #[cfg(target_arch = "arm")]
+    unsafe {
+        core::arch::asm!("dbg #{}", const 2 * K + 1, options(nostack, preserves_flags));
+    }
+}
+
+/// The result of `run`, executed in region `K`.
+///
+/// ```
+/// let sum = firmware_demo::marker::measured::<3, _>(|| 2 + 2);
+/// assert_eq!(sum, 4);
+/// ```
+#[inline(always)]
+pub fn measured<const K: u8, T>(run: impl FnOnce() -> T) -> T {
+    start::<K>();
+    let result = run();
+    stop::<K>();
+    result
+}

@@ -1,0 +1,353 @@
+//! A scene: one trajectory run under several laws, on a plant that the controller knows exactly and
+//! on one that it does not, with the tracking errors of each.
+
+use core::convert::Infallible;
+use core::marker::PhantomData;
+
+use dynamics_core::algorithms::rnea;
+use dynamics_core::control::{
+    Bounds, Gains, Observer, Speed, Status, Supervisor, Trajectory, TrajectoryError, WayPoint,
+};
+use dynamics_core::effects::Effect;
+use dynamics_core::model::{Model, Robot, model};
+use dynamics_core::state::State;
+use embedded_hal::digital::{self, OutputPin};
+use heapless::spsc::Producer;
+
+use crate::control_loop::{ControlLoop, Law, Telemetry};
+use crate::drive::Drive;
+use crate::encoder::Encoder;
+use crate::plant::{Plant, SimDrive, SimEncoder, Wires};
+
+/// A tick, s.
+pub const TICK: f32 = 1e-3;
+/// Steps of the simulated robot in a tick.
+const STEPS: u32 = 4;
+/// Natural frequency and damping ratio of the feedback on M's diagonal.
+const OMEGA_N: f32 = core::f32::consts::TAU * 4.0;
+const ZETA: f32 = 1.0;
+/// Bandwidth of the observer, rad/s.
+const OBSERVER: f32 = core::f32::consts::TAU * 40.0;
+/// Ticks of gravity compensation before a fault stops the arm, and of the way back from one.
+const HOLD: u32 = 100;
+const REENTRY: u32 = 200;
+/// Ticks that each run goes on after the trajectory's end.
+const SETTLE: u32 = 200;
+
+/// The data sheet of a scene.
+pub trait Scene<const B: usize, const N: usize, const W: usize>: 'static {
+    /// The arm.
+    type Robot: Robot<B, N, N>;
+    /// The effects that act, in control and in the plant.
+    type Effects: Effect<f32, B, N> + Send + 'static;
+    /// With the arm's full model.
+    type FeedForward: Law<N>;
+    /// With gravity alone.
+    type Gravity: Law<N>;
+
+    /// The name on the command line.
+    const NAME: &'static str;
+    /// Where the arm passes and when.
+    const WAY_POINTS: [WayPoint<f32, N>; W];
+    /// Greatest acceleration of each joint on the way, rad/s² or m/s².
+    const ACCELERATION: [f32; N];
+    /// The pose whose M sets the gains.
+    const GAIN_POSE: [f32; N];
+
+    /// The effects as the controller knows them.
+    fn effects() -> Self::Effects;
+    /// The effects of a plant whose friction is off by a factor from `noise` for each joint.
+    fn disturbed(noise: &mut Noise) -> Self::Effects;
+}
+
+/// No feed-forward at all.
+#[derive(Clone, Copy, Debug)]
+pub struct PdOnly;
+
+impl<const N: usize> Law<N> for PdOnly {
+    fn feedforward(_: &State<f32, N, N>) -> [f32; N] {
+        [0.0; N]
+    }
+}
+
+/// Factors about one, from a fixed seed (Marsaglia's xorshift32, 2003).
+#[derive(Clone, Copy, Debug)]
+pub struct Noise(u32);
+
+impl Noise {
+    /// The same factors each time.
+    pub const fn seeded() -> Self {
+        Self(0x5eed_1234)
+    }
+
+    /// A factor in 1 ± `spread`.
+    pub fn factor(&mut self, spread: f32) -> f32 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 17;
+        self.0 ^= self.0 << 5;
+        1.0 + spread * (self.0 as f32 * (2.0 / 4_294_967_296.0) - 1.0)
+    }
+}
+
+/// The runs of every scene: plant and law, as the log names them.
+pub const RUNS: [(&str, &str); 6] = [
+    ("exact", "feedforward"),
+    ("exact", "gravity"),
+    ("exact", "pd"),
+    ("mismatched", "feedforward"),
+    ("mismatched", "gravity"),
+    ("mismatched", "pd"),
+];
+
+/// A tick's telemetry with the truth that only a simulation knows.
+#[derive(Clone, Copy, Debug)]
+pub struct Record<const N: usize> {
+    /// Index in [`RUNS`].
+    pub run: usize,
+    /// Ticks since the run's start.
+    pub tick: u32,
+    /// The loop's own words.
+    pub telemetry: Telemetry<N>,
+    /// Where the joints truly are.
+    pub actual: [f32; N],
+}
+
+/// A brake that only a simulation has.
+#[derive(Clone, Copy, Debug)]
+pub struct SimBrake;
+
+impl digital::ErrorType for SimBrake {
+    type Error = Infallible;
+}
+
+impl OutputPin for SimBrake {
+    fn set_low(&mut self) -> Result<(), Infallible> {
+        Ok(())
+    }
+    fn set_high(&mut self) -> Result<(), Infallible> {
+        Ok(())
+    }
+}
+
+/// The scene at work: what the interrupt calls.
+pub struct App<S: Scene<B, N, W>, const B: usize, const N: usize, const W: usize> {
+    trajectory: Trajectory<f32, N, W>,
+    wires: &'static Wires<N>,
+    plant: Plant<S::Effects, B, N>,
+    control: ControlLoop<SimEncoder, SimDrive, SimBrake, N>,
+    records: Producer<'static, Record<N>>,
+    run: usize,
+    tick: u32,
+    scene: PhantomData<S>,
+}
+
+impl<S: Scene<B, N, W>, const B: usize, const N: usize, const W: usize> App<S, B, N, W> {
+    /// The scene at the start of its first run.
+    ///
+    /// # Errors
+    /// Way-points that the arm's limits do not allow.
+    pub fn new(
+        wires: &'static Wires<N>,
+        records: Producer<'static, Record<N>>,
+    ) -> Result<Self, TrajectoryError> {
+        let links = limits::<S, B, N, W>();
+        let mut speeds = links.map(|l| Speed {
+            velocity: l.velocity,
+            acceleration: 0.0,
+        });
+        for (speed, acceleration) in speeds.iter_mut().zip(S::ACCELERATION) {
+            speed.acceleration = acceleration;
+        }
+        let trajectory = Trajectory::new(&S::WAY_POINTS, TICK, &speeds)?;
+        let (plant, control) = start::<S, B, N, W>(wires, 0);
+        let scene = PhantomData;
+        Ok(Self {
+            trajectory,
+            wires,
+            plant,
+            control,
+            records,
+            run: 0,
+            tick: 0,
+            scene,
+        })
+    }
+
+    /// Ticks of one run.
+    pub fn ticks(&self) -> u32 {
+        self.trajectory.ticks() + SETTLE
+    }
+
+    /// One tick of the present run; nothing after the last.
+    pub fn tick(&mut self) {
+        if self.run >= RUNS.len() {
+            return;
+        }
+        let telemetry = match self.run % 3 {
+            0 => self.control.tick::<S::FeedForward, W>(&self.trajectory),
+            1 => self.control.tick::<S::Gravity, W>(&self.trajectory),
+            _ => self.control.tick::<PdOnly, W>(&self.trajectory),
+        };
+        let actual = self.plant.state.q;
+        let record = Record {
+            run: self.run,
+            tick: self.tick,
+            telemetry,
+            actual,
+        };
+        // A full queue loses the record; the reader sees the gap in the ticks and says so.
+        let _ = self.records.enqueue(record);
+        let step = TICK / STEPS as f32;
+        if self.plant.advance(self.wires, STEPS, step).is_err() {
+            self.run = RUNS.len();
+        }
+        self.tick += 1;
+        if self.tick == self.ticks() {
+            self.run += 1;
+            self.tick = 0;
+            (self.plant, self.control) = start::<S, B, N, W>(self.wires, self.run);
+        }
+    }
+}
+
+/// The arm's limits, joint by joint.
+fn limits<S, const B: usize, const N: usize, const W: usize>()
+-> [dynamics_core::model::Limits<f32>; N]
+where
+    S: Scene<B, N, W>,
+{
+    let model = model::<f32, S::Robot, B, N, N>();
+    let mut limits = [model.links[0].limits; N];
+    for link in &model.links {
+        if let Some(limit) = limits.get_mut(link.v_at) {
+            *limit = link.limits;
+        }
+    }
+    limits
+}
+
+/// A plant at rest on the first way-point and a loop that knows it so.
+fn start<S, const B: usize, const N: usize, const W: usize>(
+    wires: &'static Wires<N>,
+    run: usize,
+) -> (
+    Plant<S::Effects, B, N>,
+    ControlLoop<SimEncoder, SimDrive, SimBrake, N>,
+)
+where
+    S: Scene<B, N, W>,
+{
+    let exact = model::<f32, S::Robot, B, N, N>();
+    let (model, effects) = if run < 3 {
+        (*exact, S::effects())
+    } else {
+        let mut noise = Noise::seeded();
+        (disturbed(exact, &mut noise), S::disturbed(&mut noise))
+    };
+    let limits = limits::<S, B, N, W>();
+    let torque = limits.map(|l| l.torque);
+    let plant = Plant::new(model, effects, torque, S::WAY_POINTS[0].q);
+    plant.publish(wires);
+    let bounds = Bounds {
+        torque,
+        rate: torque.map(|t| t * 0.5),
+        speed: limits.map(|l| l.velocity),
+        lower: limits.map(|l| l.lower),
+        upper: limits.map(|l| l.upper),
+    };
+    let control = ControlLoop::new(
+        core::array::from_fn(|j| Encoder::new(wires.encoder(j))),
+        core::array::from_fn(|j| Drive::new(wires.drive(j), torque[j])),
+        SimBrake,
+        Gains::from_inertia(&diagonal(exact, &S::effects(), S::GAIN_POSE), OMEGA_N, ZETA),
+        Observer::new(OBSERVER, TICK),
+        Supervisor::new(bounds, TICK, HOLD, REENTRY),
+    );
+    (plant, control)
+}
+
+/// Masses off by up to 3 %, each body's inertia with its mass.
+fn disturbed<const B: usize, const N: usize>(
+    exact: &Model<f32, B, N, N>,
+    noise: &mut Noise,
+) -> Model<f32, B, N, N> {
+    let mut model = *exact;
+    for link in &mut model.links {
+        let factor = noise.factor(0.03);
+        link.inertia.mass *= factor;
+        link.inertia.moment *= factor;
+        link.inertia.inertia *= factor;
+    }
+    model
+}
+
+/// M's diagonal at q, column by column: M δ_j = ID(q, 0, δ_j) − ID(q, 0, 0).
+fn diagonal<E: Effect<f32, B, N>, const B: usize, const N: usize>(
+    model: &Model<f32, B, N, N>,
+    effects: &E,
+    q: [f32; N],
+) -> [f32; N] {
+    let rest = rnea(model, &State::at(q), effects);
+    core::array::from_fn(|j| {
+        let mut state = State::at(q);
+        state.qdd[j] = 1.0;
+        rnea(model, &state, effects)[j] - rest[j]
+    })
+}
+
+/// Tracking errors of one run, gathered outside the interrupt.
+#[derive(Clone, Copy, Debug)]
+pub struct Errors<const N: usize> {
+    count: u32,
+    squares: [f64; N],
+    /// Largest absolute error of each joint.
+    pub max: [f32; N],
+    /// The last status that was not plain, or the last.
+    pub status: Option<Status>,
+}
+
+impl<const N: usize> Default for Errors<N> {
+    fn default() -> Self {
+        Self {
+            count: 0,
+            squares: [0.0; N],
+            max: [0.0; N],
+            status: None,
+        }
+    }
+}
+
+impl<const N: usize> Errors<N> {
+    /// Takes a tick in.
+    pub fn add(&mut self, record: &Record<N>) {
+        self.count += 1;
+        for j in 0..N {
+            let error = record.actual[j] - record.telemetry.reference[j];
+            self.squares[j] += f64::from(error) * f64::from(error);
+            self.max[j] = self.max[j].max(error.abs());
+        }
+        let plain = |s: &Status| s.fault.is_none() && !s.limited;
+        if self.status.is_none_or(|s| plain(&s)) {
+            self.status = Some(record.telemetry.status);
+        }
+    }
+
+    /// Root mean square of each joint.
+    pub fn rms(&self) -> [f32; N] {
+        self.squares.map(|s| self.root(s))
+    }
+
+    /// Root mean square over all joints.
+    pub fn total(&self) -> f32 {
+        self.root(self.squares.iter().sum::<f64>() / N as f64)
+    }
+
+    /// Ticks taken in.
+    pub fn count(&self) -> u32 {
+        self.count
+    }
+
+    fn root(&self, squares: f64) -> f32 {
+        libm::sqrt(squares / f64::from(self.count.max(1))) as f32
+    }
+}

@@ -1,0 +1,221 @@
+//! A translation block: straight-line code that QEMU runs from its start, with
+//! its costs summed once, when it is translated.
+
+use crate::insn::{Class, Insn, Marker};
+use crate::model::Pipe;
+
+/// Instructions and cycles.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Tally {
+    /// Exact.
+    pub instructions: u64,
+    /// Modelled.
+    pub cycles: u64,
+}
+
+impl Tally {
+    fn charge(&mut self, insn: &Insn, pipe: &mut Pipe) {
+        self.instructions += u64::from(!insn.is_marker());
+        self.cycles += u64::from(pipe.step(insn));
+    }
+}
+
+/// A marker and where in its block it stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Mark {
+    /// Number of instructions of the block before it.
+    pub index: usize,
+    /// What it says.
+    pub marker: Marker,
+}
+
+/// A translated block.
+#[derive(Debug)]
+pub struct Block {
+    start: u32,
+    end: u32,
+    insns: Box<[Insn]>,
+    /// Entry k is what the first k instructions cost when the block is entered with a clear pipe.
+    before: Box<[Tally]>,
+    /// The pipe at its end, entered likewise.
+    exit: Pipe,
+    marks: Box<[Mark]>,
+    checkpoints: Box<[usize]>,
+}
+
+impl Block {
+    /// The block of these instructions, the first of which is at address `start`.
+    pub fn new(start: u32, insns: Vec<Insn>) -> Self {
+        let mut exit = Pipe::default();
+        let mut sum = Tally::default();
+        let mut before = vec![sum];
+        for insn in &insns {
+            sum.charge(insn, &mut exit);
+            before.push(sum);
+        }
+        let marks = insns
+            .iter()
+            .enumerate()
+            .filter_map(|(index, insn)| match insn.class {
+                Class::Marker(marker) => Some(Mark { index, marker }),
+                _ => None,
+            });
+        Self {
+            start,
+            end: insns
+                .iter()
+                .fold(start, |pc, insn| pc.wrapping_add(u32::from(insn.size))),
+            before: before.into(),
+            exit,
+            marks: marks.collect(),
+            checkpoints: checkpoints(&insns),
+            insns: insns.into(),
+        }
+    }
+
+    /// Address of the first instruction.
+    pub fn start(&self) -> u32 {
+        self.start
+    }
+
+    /// Address after the last instruction.
+    pub fn end(&self) -> u32 {
+        self.end
+    }
+
+    /// What it was made of.
+    pub fn insns(&self) -> &[Insn] {
+        &self.insns
+    }
+
+    /// The markers in it.
+    pub fn marks(&self) -> &[Mark] {
+        &self.marks
+    }
+
+    /// Indices of the instructions whose start must be reported while the block
+    /// runs, so that it is known how far it came if QEMU leaves it early. Under
+    /// `-icount` QEMU does so at every access to a device, and executes the access
+    /// again in a block of its own which plugins do not see. Empty if that cannot happen.
+    pub fn checkpoints(&self) -> &[usize] {
+        &self.checkpoints
+    }
+
+    /// How many instructions were executed, `passed` checkpoints having been reported.
+    pub fn executed(&self, passed: usize) -> usize {
+        match passed {
+            _ if passed >= self.checkpoints.len() => self.insns.len(),
+            0 => 0,
+            _ => self.checkpoints[passed - 1] + 1,
+        }
+    }
+
+    /// Cost of the first `count` instructions entered with the pipe in state
+    /// `entry`, and its state after them.
+    pub fn cost(&self, entry: Pipe, count: usize) -> (Tally, Pipe) {
+        if entry.is_clear() && count == self.insns.len() {
+            return (self.before[count], self.exit);
+        }
+        let mut pipe = entry;
+        let mut sum = Tally::default();
+        for insn in &self.insns[..count] {
+            sum.charge(insn, &mut pipe);
+        }
+        (sum, pipe)
+    }
+
+    /// As [`Block::cost`], without the state.
+    pub fn cost_before(&self, entry: Pipe, index: usize) -> Tally {
+        if entry.is_clear() {
+            self.before[index]
+        } else {
+            self.cost(entry, index).0
+        }
+    }
+
+    /// Whether its last instruction may go elsewhere than to the next address.
+    pub fn may_branch(&self) -> bool {
+        self.insns.last().is_some_and(|insn| insn.may_branch)
+    }
+}
+
+/// Every access to a device but one that comes last, and the last instruction to
+/// tell that the others came through.
+fn checkpoints(insns: &[Insn]) -> Box<[usize]> {
+    let Some(last) = insns.len().checked_sub(1) else {
+        return Box::default();
+    };
+    let mut found: Vec<usize> = (0..last)
+        .filter(|&index| insns[index].may_access_device())
+        .collect();
+    if !found.is_empty() {
+        found.push(last);
+    }
+    found.into()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::decode::decode;
+
+    const NOP: u16 = 0xBF00;
+    const LDR_R0_R1: u16 = 0x6808;
+
+    fn block(codes: &[u16]) -> Block {
+        Block::new(0x100, codes.iter().map(|&code| decode(code, 0)).collect())
+    }
+
+    #[test]
+    fn sums_agree_with_the_walk() {
+        let block = block(&[NOP, LDR_R0_R1, LDR_R0_R1, NOP]);
+        for count in 0..=4 {
+            assert_eq!(
+                block.cost(Pipe::default(), count).0,
+                block.cost_before(Pipe::default(), count)
+            );
+        }
+        assert_eq!(
+            block.cost(Pipe::default(), 4).0,
+            Tally {
+                instructions: 4,
+                cycles: 5
+            }
+        );
+        assert_eq!(block.end(), 0x108);
+    }
+
+    #[test]
+    fn a_pending_load_shortens_the_first() {
+        let mut pipe = Pipe::default();
+        pipe.step(&decode(LDR_R0_R1, 0));
+        assert_eq!(block(&[LDR_R0_R1, NOP]).cost(pipe, 2).0.cycles, 2);
+        assert_eq!(block(&[NOP, LDR_R0_R1]).cost(pipe, 2).0.cycles, 3);
+    }
+
+    #[test]
+    fn checkpoints_tell_how_far_it_came() {
+        let block = block(&[NOP, LDR_R0_R1, NOP, LDR_R0_R1, NOP]);
+        assert_eq!(block.checkpoints(), [1, 3, 4]);
+        assert_eq!(
+            [0, 1, 2, 3].map(|passed| block.executed(passed)),
+            [0, 2, 4, 5]
+        );
+    }
+
+    #[test]
+    fn code_without_device_access_needs_no_checkpoints() {
+        const LDR_R0_SP: u16 = 0x9801;
+        const LDR_R0_LITERAL: u16 = 0x4801;
+        for codes in [
+            &[][..],
+            &[NOP],
+            &[LDR_R0_SP, LDR_R0_LITERAL, NOP],
+            &[NOP, LDR_R0_R1],
+        ] {
+            let block = block(codes);
+            assert!(block.checkpoints().is_empty());
+            assert_eq!(block.executed(0), codes.len());
+        }
+    }
+}

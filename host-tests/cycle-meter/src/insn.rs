@@ -1,0 +1,123 @@
+//! What the timing model needs to know of an instruction, and nothing more.
+
+/// One end of a measured region: `dbg #2k` opens region k, `dbg #2k+1` closes it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Marker {
+    /// 0 to 7.
+    pub region: u8,
+    /// Whether it opens the region (else it closes it).
+    pub opens: bool,
+}
+
+/// Instructions of one class cost the same.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Class {
+    /// One end of a region: neither counted nor charged.
+    Marker(Marker),
+    /// Data processing, multiplication, branches, hints, IT, DMB, DSB.
+    Integer,
+    /// `SDIV`, `UDIV`.
+    IntegerDivide,
+    /// `MRS`, `MSR`, `CPS`.
+    System,
+    /// `ISB`.
+    InstructionBarrier,
+    /// One word or less from memory, into a core or a floating-point register.
+    Load,
+    /// One word or less to memory.
+    Store,
+    /// Several words (`LDM`, `STM`, `LDRD`, `VLDM`, `VLDR.64` …) in one instruction.
+    Words(u8),
+    /// `TBB`, `TBH`.
+    TableBranch,
+    /// Floating-point moves, `VABS`, `VNEG`, `VMRS`, `VMSR`: the result may be used at once.
+    FloatMove,
+    /// Two words between core and floating-point registers.
+    FloatMovePair,
+    /// Floating-point sum, difference, product, comparison, conversion.
+    FloatArithmetic,
+    /// Floating-point multiply-accumulate, fused or not.
+    FloatMultiplyAdd,
+    /// `VDIV`, `VSQRT`.
+    FloatDivide,
+    /// No instruction of an ARMv7E-M with FPv4-SP that we know of.
+    Unknown,
+}
+
+/// A decoded instruction. Register sets are bit masks: bit n for `Rn` or `Sn`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Insn {
+    /// What it costs.
+    pub class: Class,
+    /// 2 or 4 bytes.
+    pub size: u8,
+    /// Core registers that form a memory address (never the PC).
+    pub address: u16,
+    /// Core registers that receive a result. A base register that is merely
+    /// updated is not listed: the address unit made the value and keeps it.
+    pub core_writes: u16,
+    /// Floating-point registers read.
+    pub float_reads: u32,
+    /// Floating-point registers written.
+    pub float_writes: u32,
+    /// Whether it is executed by the floating-point unit (loads and stores of its registers too).
+    pub float: bool,
+    /// Whether the instruction after it may be elsewhere.
+    pub may_branch: bool,
+}
+
+const SP: u16 = 1 << 13;
+const PC: u16 = 1 << 15;
+
+impl Insn {
+    /// An instruction of that class and size which touches no register.
+    pub(crate) const fn new(class: Class, size: u8) -> Self {
+        Self {
+            class,
+            size,
+            address: 0,
+            core_writes: 0,
+            float_reads: 0,
+            float_writes: 0,
+            float: false,
+            may_branch: false,
+        }
+    }
+
+    /// Adds core results; one that goes to the PC makes it a branch.
+    pub(crate) const fn writing(mut self, registers: u16) -> Self {
+        self.core_writes |= registers & !PC;
+        self.may_branch |= registers & PC != 0;
+        self
+    }
+
+    /// Adds address registers.
+    pub(crate) const fn addressed_by(mut self, registers: u16) -> Self {
+        self.address |= registers & !PC;
+        self
+    }
+
+    /// Makes it a branch.
+    pub(crate) const fn branching(mut self) -> Self {
+        self.may_branch = true;
+        self
+    }
+
+    /// Makes it a floating-point instruction with these operands.
+    pub(crate) const fn on_floats(mut self, reads: u32, writes: u32) -> Self {
+        self.float = true;
+        self.float_reads = reads;
+        self.float_writes = writes;
+        self
+    }
+
+    /// Whether it may access a device. Literals and the stack are memory.
+    pub fn may_access_device(&self) -> bool {
+        self.address & !SP != 0
+    }
+
+    /// Whether it is a region's end rather than an instruction of the program.
+    pub fn is_marker(&self) -> bool {
+        matches!(self.class, Class::Marker(_))
+    }
+}

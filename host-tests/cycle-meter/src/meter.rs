@@ -1,0 +1,182 @@
+//! Follows the execution from block to block and cuts it into samples.
+
+use crate::block::{Block, Mark, Tally};
+use crate::insn::Marker;
+use crate::model::Pipe;
+use crate::samples::Sample;
+
+/// The running count and the regions that are open.
+///
+/// A block is charged when the next one starts: only then is it known whether its
+/// last instruction branched.
+#[derive(Debug, Default)]
+pub struct Meter<'b> {
+    /// Everything up to the start of the current block.
+    total: Tally,
+    /// The pipe as the current block found it.
+    entry: Pipe,
+    current: Option<&'b Block>,
+    open: [Option<Tally>; 8],
+    samples: Vec<Sample>,
+    unmatched: u64,
+}
+
+impl<'b> Meter<'b> {
+    /// A block starts; the one before it passed so many of its checkpoints.
+    pub fn enter(&mut self, block: &'b Block, passed: usize) {
+        if let Some(last) = self.current.replace(block) {
+            self.settle(last, passed, block.start());
+        }
+    }
+
+    /// A marker of the current block is executed.
+    pub fn mark(&mut self, mark: &Mark) {
+        let Some(block) = self.current else { return };
+        let part = block.cost_before(self.entry, mark.index);
+        let now = Tally {
+            instructions: self.total.instructions + part.instructions,
+            cycles: self.total.cycles + part.cycles,
+        };
+        let Marker { region, opens } = mark.marker;
+        let slot = &mut self.open[usize::from(region)];
+        if opens {
+            self.unmatched += u64::from(slot.replace(now).is_some());
+        } else if let Some(then) = slot.take() {
+            self.samples.push(Sample {
+                region,
+                instructions: now.instructions - then.instructions,
+                cycles: now.cycles - then.cycles,
+            });
+        } else {
+            self.unmatched += 1;
+        }
+    }
+
+    /// Closed regions, in the order of their closing.
+    pub fn samples(&self) -> &[Sample] {
+        &self.samples
+    }
+
+    /// Markers that opened an open region or closed a closed one.
+    pub fn unmatched(&self) -> u64 {
+        self.unmatched
+    }
+
+    fn settle(&mut self, last: &Block, passed: usize, next: u32) {
+        let executed = last.executed(passed);
+        let (cost, pipe) = last.cost(self.entry, executed);
+        self.total.instructions += cost.instructions;
+        self.total.cycles += cost.cycles;
+        self.entry = pipe;
+        // A block that was left early goes on elsewhere; an interrupt is no branch.
+        if executed == last.insns().len() && next != last.end() {
+            if last.may_branch() {
+                self.total.cycles += u64::from(self.entry.refill());
+            } else {
+                self.entry = Pipe::default();
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::decode::{decode, size};
+
+    const NOP: u16 = 0xBF00;
+    const BACK: u16 = 0xD1FC; // bne
+    const LDR_R0_R1: u16 = 0x6808;
+
+    fn dbg(option: u16) -> [u16; 2] {
+        [0xF3AF, 0x80F0 | option]
+    }
+
+    fn block(start: u32, codes: &[u16]) -> Block {
+        let mut insns = Vec::new();
+        let mut rest = codes;
+        while let [first, tail @ ..] = rest {
+            insns.push(decode(*first, tail.first().copied().unwrap_or(0)));
+            rest = &rest[usize::from(size(*first) / 2)..];
+        }
+        Block::new(start, insns)
+    }
+
+    /// Runs blocks to their ends, markers included; closes region 0 at the end.
+    fn run(blocks: &[&Block]) -> Vec<Sample> {
+        let open = block(0, &dbg(0));
+        let close = block(blocks.last().map_or(4, |last| last.end()), &dbg(1));
+        let mut meter = Meter::default();
+        for block in [&[&open][..], blocks, &[&close]].concat() {
+            meter.enter(block, usize::MAX);
+            block.marks().iter().for_each(|mark| meter.mark(mark));
+        }
+        assert_eq!(meter.unmatched(), 0);
+        meter.samples().to_vec()
+    }
+
+    fn sample(region: u8, instructions: u64, cycles: u64) -> Sample {
+        Sample {
+            region,
+            instructions,
+            cycles,
+        }
+    }
+
+    #[test]
+    fn a_taken_branch_is_told_by_its_successor() {
+        let body = block(4, &[NOP, BACK]);
+        let tail = block(8, &[NOP]);
+        assert_eq!(run(&[&body, &tail]), [sample(0, 3, 3)]);
+        assert_eq!(run(&[&body, &body, &body, &tail]), [sample(0, 7, 11)]);
+    }
+
+    #[test]
+    fn an_interrupt_is_no_branch() {
+        assert_eq!(
+            run(&[&block(4, &[NOP]), &block(0x40, &[NOP])]),
+            [sample(0, 2, 2)]
+        );
+    }
+
+    #[test]
+    fn where_a_block_is_cut_does_not_matter() {
+        let codes = [LDR_R0_R1, LDR_R0_R1, 0x6801, LDR_R0_R1, NOP];
+        let whole = run(&[&block(4, &codes)]);
+        for cut in 1..codes.len() {
+            let (head, tail) = codes.split_at(cut);
+            let tail = block(4 + 2 * cut as u32, tail);
+            assert_eq!(run(&[&block(4, head), &tail]), whole, "{cut}");
+        }
+    }
+
+    #[test]
+    fn inner_regions_leave_the_outer_one_alone() {
+        let marked = [&[LDR_R0_R1][..], &dbg(2), &[LDR_R0_R1], &dbg(3), &[NOP]].concat();
+        let plain = run(&[&block(4, &[LDR_R0_R1, LDR_R0_R1, NOP])]);
+        assert_eq!(run(&[&block(4, &marked)]), [sample(1, 1, 1), plain[0]]);
+    }
+
+    #[test]
+    fn a_block_left_at_a_device_is_charged_once() {
+        let open = block(0, &dbg(0));
+        let whole = block(4, &[NOP, LDR_R0_R1, NOP, NOP]);
+        let rest = block(8, &[NOP, NOP]);
+        let close = block(12, &dbg(1));
+        let mut meter = Meter::default();
+        for (block, passed) in [(&open, 0), (&whole, 0), (&rest, 1), (&close, 0)] {
+            meter.enter(block, passed);
+            block.marks().iter().for_each(|mark| meter.mark(mark));
+        }
+        assert_eq!(meter.samples(), [sample(0, 4, 5)]);
+    }
+
+    #[test]
+    fn unmatched_markers_are_counted() {
+        let block = block(0, &[dbg(0), dbg(0), dbg(1), dbg(1)].concat());
+        let mut meter = Meter::default();
+        meter.enter(&block, 0);
+        block.marks().iter().for_each(|mark| meter.mark(mark));
+        assert_eq!((meter.samples().len(), meter.unmatched()), (1, 2));
+    }
+}

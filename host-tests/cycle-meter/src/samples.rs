@@ -1,0 +1,241 @@
+//! The plugin's output file.
+//!
+//! ```text
+//! cycle-meter 1 cortex-m4f zero-wait
+//! 1 390 508
+//! 0 1204 1657
+//! ```
+//!
+//! After the header, which names the version of the format and the model, one line
+//! for each region that was closed, in the order of closing: region, instructions,
+//! cycles. A last line `unmatched n` says that n markers opened an open region or
+//! closed a closed one; such a file is refused. A region still open at the exit is not in it.
+
+use std::fmt::{self, Write as _};
+
+/// First line of a file.
+pub const HEADER: &str = "cycle-meter 1 cortex-m4f zero-wait";
+
+/// One passage through a region.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Sample {
+    /// 0 to 7.
+    pub region: u8,
+    /// Executed, exact.
+    pub instructions: u64,
+    /// Modelled.
+    pub cycles: u64,
+}
+
+/// Why a file was refused.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Error {
+    /// The first line is not [`HEADER`]; this is what stands there.
+    Header(String),
+    /// Not a sample: number of the line, from 1, and the line.
+    Line(usize, String),
+    /// So many markers had no partner.
+    Unmatched(u64),
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Header(found) => write!(f, "expected the header `{HEADER}`, found `{found}`"),
+            Self::Line(number, line) => write!(f, "line {number} is not a sample: `{line}`"),
+            Self::Unmatched(count) => write!(f, "{count} region markers have no partner"),
+        }
+    }
+}
+
+impl std::error::Error for Error {}
+
+/// Reads the plugin's output file.
+///
+/// # Errors
+///
+/// If the text is not such a file, or says that markers had no partner.
+///
+/// ```
+/// let file = "cycle-meter 1 cortex-m4f zero-wait\n0 70 103\n";
+/// let samples = cycle_meter::parse_samples(file)?;
+/// assert_eq!(samples[0].cycles, 103);
+/// # Ok::<(), cycle_meter::Error>(())
+/// ```
+pub fn parse_samples(text: &str) -> Result<Vec<Sample>, Error> {
+    let mut lines = text.lines().enumerate();
+    let header = lines.next().map_or("", |(_, line)| line);
+    if header != HEADER {
+        return Err(Error::Header(header.into()));
+    }
+    lines.map(|(index, line)| sample(line, index + 1)).collect()
+}
+
+fn sample(line: &str, number: usize) -> Result<Sample, Error> {
+    let malformed = || Error::Line(number, line.into());
+    if let Some(count) = line.strip_prefix("unmatched ") {
+        return Err(count.parse().map_or_else(|_| malformed(), Error::Unmatched));
+    }
+    let mut words = line.split(' ');
+    let mut word = || words.next()?.parse::<u64>().ok();
+    let (Some(region @ 0..8), Some(instructions), Some(cycles), None) =
+        (word(), word(), word(), words.next())
+    else {
+        return Err(malformed());
+    };
+    Ok(Sample {
+        region: region as u8,
+        instructions,
+        cycles,
+    })
+}
+
+/// Writes what [`parse_samples`] reads.
+pub fn format_samples(samples: &[Sample], unmatched: u64) -> String {
+    let mut text = format!("{HEADER}\n");
+    // Writing to a string does not fail.
+    for Sample {
+        region,
+        instructions,
+        cycles,
+    } in samples
+    {
+        let _ = writeln!(text, "{region} {instructions} {cycles}");
+    }
+    if unmatched > 0 {
+        let _ = writeln!(text, "unmatched {unmatched}");
+    }
+    text
+}
+
+/// Smallest, middle and largest of some values.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Summary {
+    /// The smallest.
+    pub min: u64,
+    /// The middle one in order of size; of an even number the lower of the two
+    /// middle ones, so that it is a value that was seen.
+    pub median: u64,
+    /// The largest.
+    pub max: u64,
+}
+
+impl Summary {
+    /// Of these values; `None` if there are none.
+    pub fn of(values: impl IntoIterator<Item = u64>) -> Option<Self> {
+        let mut values: Vec<u64> = values.into_iter().collect();
+        values.sort_unstable();
+        let max = *values.last()?;
+        Some(Self {
+            min: values[0],
+            median: values[(values.len() - 1) / 2],
+            max,
+        })
+    }
+
+    /// Of a region's instructions; `None` if it was never closed.
+    pub fn instructions(samples: &[Sample], region: u8) -> Option<Self> {
+        Self::of(
+            samples
+                .iter()
+                .filter(|sample| sample.region == region)
+                .map(|sample| sample.instructions),
+        )
+    }
+
+    /// Of a region's cycles; `None` if it was never closed.
+    pub fn cycles(samples: &[Sample], region: u8) -> Option<Self> {
+        Self::of(
+            samples
+                .iter()
+                .filter(|sample| sample.region == region)
+                .map(|sample| sample.cycles),
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SAMPLES: [Sample; 2] = [
+        Sample {
+            region: 1,
+            instructions: 390,
+            cycles: 508,
+        },
+        Sample {
+            region: 0,
+            instructions: 1204,
+            cycles: 1657,
+        },
+    ];
+
+    #[test]
+    fn what_is_written_is_read() {
+        assert_eq!(
+            parse_samples(&format_samples(&SAMPLES, 0)),
+            Ok(SAMPLES.to_vec())
+        );
+        assert_eq!(parse_samples(&format_samples(&[], 0)), Ok(vec![]));
+    }
+
+    #[test]
+    fn a_file_with_unmatched_markers_is_refused() {
+        assert_eq!(
+            parse_samples(&format_samples(&SAMPLES, 3)),
+            Err(Error::Unmatched(3))
+        );
+    }
+
+    #[test]
+    fn what_is_no_sample_is_refused_by_its_line() {
+        assert_eq!(parse_samples(""), Err(Error::Header(String::new())));
+        for line in [
+            "",
+            "0 1",
+            "0 1 2 3",
+            "8 1 2",
+            "0 1 x",
+            "0 -1 2",
+            "unmatched x",
+        ] {
+            let refused = Err(Error::Line(2, line.into()));
+            assert_eq!(
+                parse_samples(&format!("{HEADER}\n{line}\n")),
+                refused,
+                "{line}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_summary_holds_values_that_were_seen() {
+        assert_eq!(Summary::of([]), None);
+        assert_eq!(
+            Summary::of([5]),
+            Some(Summary {
+                min: 5,
+                median: 5,
+                max: 5
+            })
+        );
+        assert_eq!(
+            Summary::of([9, 1, 4, 2]),
+            Some(Summary {
+                min: 1,
+                median: 2,
+                max: 9
+            })
+        );
+        assert_eq!(
+            Summary::cycles(&SAMPLES, 1).map(|cycles| cycles.max),
+            Some(508)
+        );
+        assert_eq!(
+            Summary::instructions(&SAMPLES, 0).map(|insns| insns.min),
+            Some(1204)
+        );
+        assert_eq!(Summary::cycles(&SAMPLES, 5), None);
+    }
+}

@@ -36,3 +36,8 @@ pub mod trig;
 mod core_form;
 pub use core_form::Core;
 pub use engine::Engine;
+
+/// The README's example compiles.
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+struct Readme;

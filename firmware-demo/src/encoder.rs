@@ -76,7 +76,7 @@ impl<Spi: SpiDevice> Encoder<Spi> {
 /// ```
 #[inline(always)]
 pub fn decode(frame: u16) -> Result<u16, FrameError> {
-    if frame.count_ones() % 2 != 0 {
+    if !frame.count_ones().is_multiple_of(2) {
         return Err(FrameError::Parity);
     }
     if frame & ERROR != 0 {

@@ -5,12 +5,14 @@
 //! |---|---|---|
 //! | [`control_loop`] | the tick: read, reference, dynamics, safety, write | as it is |
 //! | [`encoder`], [`drive`] | an AS5047P-type encoder on SPI, a current-controlled drive on PWM | as they are |
+//! | [`bits`] | digests of the dynamics' results on recorded states | as they are |
 //! | [`marker`] | the measured regions | `dbg` is a no-op there |
 //! | [`plant`] | a simulated robot behind the same traits | left out |
 //! | [`scene`] | runs of one trajectory under several laws, with their tracking errors | left out |
 //! | `target` | interrupt, log, panic handler of the emulated board | your board's |
 #![no_std]
 
+pub mod bits;
 pub mod control_loop;
 pub mod drive;
 pub mod encoder;

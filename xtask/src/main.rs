@@ -1,2 +1,157 @@
-//! Placeholder.
-fn main() {}
+//! `cargo xtask …`: set-up, demo, test and reports.
+
+mod budgets;
+mod callgraph;
+mod demo;
+mod docs;
+mod elf;
+mod error;
+mod firmware;
+mod meter;
+mod plot;
+mod progress;
+mod protocol;
+mod qemu;
+mod render;
+mod report;
+mod scene;
+mod setup;
+mod shell;
+mod system;
+mod table;
+mod test;
+mod toolchain;
+mod workspace;
+
+use std::process::ExitCode;
+
+use clap::error::ErrorKind;
+use clap::{CommandFactory, Parser, Subcommand};
+
+use crate::error::{Error, Result};
+use crate::scene::Scene;
+use crate::workspace::Workspace;
+
+/// Set-up, demo, tests and reports of this workspace
+#[derive(Parser)]
+#[command(name = "cargo xtask", bin_name = "cargo xtask")]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+    #[command(flatten)]
+    setup: setup::Options,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Run a scene in QEMU, report what a tick costs and how well the arm tracks
+    Demo {
+        /// The scene
+        #[arg(long, value_enum, default_value_t, value_name = "NAME")]
+        scene: Scene,
+        /// The report as JSON on stdout; progress stays on stderr
+        #[arg(long)]
+        json: bool,
+        /// Rewrite the README's tables from this run
+        #[arg(long)]
+        write_docs: bool,
+        /// Rewrite the scene's budgets from this run
+        #[arg(long)]
+        write_budgets: bool,
+    },
+    /// Run everything that CI runs
+    Test {
+        /// Only these steps (see --list)
+        #[arg(value_name = "STEP", value_parser = test::names())]
+        steps: Vec<String>,
+        /// List the steps
+        #[arg(long)]
+        list: bool,
+    },
+}
+
+fn main() -> ExitCode {
+    let cli = Cli::try_parse().unwrap_or_else(|error| {
+        // Clap lists the values that it would take, but not the commands and options.
+        let valid = valid_words(error.kind());
+        let code = error.exit_code();
+        let _ = error.print();
+        if let Some(valid) = valid {
+            eprintln!("\n{valid}");
+        }
+        std::process::exit(code);
+    });
+    match run(cli) {
+        Ok(code) => code,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// What could have stood where a word was not understood.
+fn valid_words(kind: ErrorKind) -> Option<String> {
+    let mut root = Cli::command();
+    root.build();
+    let commands = root.get_subcommands().map(clap::Command::get_name);
+    match kind {
+        ErrorKind::InvalidSubcommand => Some(format!(
+            "valid commands: {}",
+            commands.collect::<Vec<_>>().join(", ")
+        )),
+        ErrorKind::UnknownArgument => {
+            let command = std::env::args()
+                .find_map(|word| root.find_subcommand(&word))
+                .unwrap_or(&root);
+            let options = command
+                .get_arguments()
+                .filter(|argument| !argument.is_hide_set())
+                .filter_map(|argument| Some(format!("--{}", argument.get_long()?)));
+            let options = options.collect::<Vec<_>>().join(", ");
+            Some(format!(
+                "valid options of {}: {options}",
+                command.get_name()
+            ))
+        }
+        _ => None,
+    }
+}
+
+fn run(cli: Cli) -> Result<ExitCode> {
+    match cli.command {
+        Command::Demo {
+            scene,
+            json,
+            write_docs,
+            write_budgets,
+        } => {
+            let workspace = Workspace::find()?;
+            let tools = setup::for_demo(cli.setup)?;
+            let measured = demo::build_and_measure(&workspace, &tools, scene)?;
+            let picture = workspace.output(&format!("{}.svg", scene.name()))?;
+            plot::write(&measured.recording, &picture)?;
+            if write_docs {
+                docs::write(&workspace, &measured.report)?;
+                let shown = workspace.root.join(format!("docs/{}.svg", scene.name()));
+                plot::write(&measured.recording, &shown)?;
+            }
+            if write_budgets {
+                budgets::write(&workspace, &measured.report)?;
+            }
+            if json {
+                let text = serde_json::to_string_pretty(&measured.report)
+                    .map_err(|e| Error::check(format!("cannot write the JSON: {e}")))?;
+                println!("{text}");
+            } else {
+                print!("{}", measured.report.text(workspace.relative(&picture)));
+            }
+            Ok(ExitCode::SUCCESS)
+        }
+        Command::Test { list: true, .. } => {
+            test::list();
+            Ok(ExitCode::SUCCESS)
+        }
+        Command::Test { steps, .. } => test::run(cli.setup, &steps),
+    }
+}

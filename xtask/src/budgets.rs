@@ -1,0 +1,159 @@
+//! `budgets.toml`: what a scene may cost at most. Lowering a budget is part of the change that
+//! earns it; `cargo xtask demo --write-budgets` writes it.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+use serde::{Deserialize, Serialize};
+
+use crate::error::{Error, Result};
+use crate::report::Report;
+use crate::workspace::{self, Workspace};
+
+/// What another compiler than the budgets' own may add: its code differs by a few per cent.
+pub const OTHER_RUSTC: f64 = 0.03;
+
+const HEADER: &str = "\
+# What each scene may cost at most, as measured with the named compiler (another one is given
+# 3 % more). `cargo xtask test` fails when a budget is exceeded; to lower it,
+# `cargo xtask demo --write-budgets`.
+";
+
+type Budgets = BTreeMap<String, Budget>;
+
+/// What a scene may cost.
+#[derive(Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Budget {
+    /// The compiler that it was measured with.
+    rustc: String,
+    /// Instructions of the longest tick.
+    tick_instructions: u64,
+    /// Modelled cycles of the longest tick.
+    tick_cycles: u64,
+    /// Instructions of the dynamics in the longest tick.
+    dynamics_instructions: u64,
+    /// Modelled cycles of the dynamics in the longest tick.
+    dynamics_cycles: u64,
+    /// Flash in bytes.
+    flash_bytes: u64,
+    /// RAM in bytes, without the stack.
+    ram_bytes: u64,
+    /// Peak stack in bytes.
+    stack_bytes: u64,
+}
+
+impl Budget {
+    fn measured(report: &Report) -> Self {
+        Self {
+            rustc: report.rustc.clone(),
+            tick_instructions: report.tick.total.instructions.max,
+            tick_cycles: report.tick.total.cycles.max,
+            dynamics_instructions: report.tick.dynamics.instructions.max,
+            dynamics_cycles: report.tick.dynamics.cycles.max,
+            flash_bytes: report.flash_bytes,
+            ram_bytes: report.ram_bytes,
+            stack_bytes: report.stack_bytes,
+        }
+    }
+
+    fn items(&self) -> [(&'static str, u64); 7] {
+        [
+            ("tick_instructions", self.tick_instructions),
+            ("tick_cycles", self.tick_cycles),
+            ("dynamics_instructions", self.dynamics_instructions),
+            ("dynamics_cycles", self.dynamics_cycles),
+            ("flash_bytes", self.flash_bytes),
+            ("ram_bytes", self.ram_bytes),
+            ("stack_bytes", self.stack_bytes),
+        ]
+    }
+
+    /// What exceeds this budget, in words.
+    fn exceeded_by(&self, measured: &Self) -> Vec<String> {
+        let slack = if self.rustc == measured.rustc {
+            0.0
+        } else {
+            OTHER_RUSTC
+        };
+        std::iter::zip(self.items(), measured.items())
+            .filter(|((_, allowed), (_, taken))| *taken as f64 > *allowed as f64 * (1.0 + slack))
+            .map(|((what, allowed), (_, taken))| format!("{what} {taken} > {allowed}"))
+            .collect()
+    }
+}
+
+fn file(workspace: &Workspace) -> PathBuf {
+    workspace.root.join("budgets.toml")
+}
+
+fn read(workspace: &Workspace) -> Result<Budgets> {
+    let path = file(workspace);
+    if !path.exists() {
+        return Ok(Budgets::new());
+    }
+    toml::from_str(&workspace::read(&path)?)
+        .map_err(|e| Error::check(format!("{}: {e}", path.display())))
+}
+
+/// Rewrites the budget of the report's scene.
+pub fn write(workspace: &Workspace, report: &Report) -> Result<()> {
+    let path = file(workspace);
+    let mut budgets = read(workspace)?;
+    budgets.insert(report.scene.clone(), Budget::measured(report));
+    let text =
+        toml::to_string(&budgets).map_err(|e| Error::check(format!("{}: {e}", path.display())))?;
+    workspace::write(&path, format!("{HEADER}\n{text}"))
+}
+
+/// Fails if the report exceeds its scene's budget; else says what there is to spare.
+pub fn check(workspace: &Workspace, report: &Report) -> Result<String> {
+    let budgets = read(workspace)?;
+    let budget = budgets.get(&report.scene).ok_or_else(|| {
+        Error::check(format!(
+            "budgets.toml has no [{0}]: `cargo xtask demo --scene {0} --write-budgets`",
+            report.scene
+        ))
+    })?;
+    let measured = Budget::measured(report);
+    let exceeded = budget.exceeded_by(&measured);
+    if !exceeded.is_empty() {
+        return Err(Error::check(format!(
+            "over budget: {} (budget of {}, measured with {})",
+            exceeded.join(", "),
+            budget.rustc,
+            measured.rustc
+        )));
+    }
+    Ok(format!(
+        "tick {} of {} cycles, stack {} of {} B",
+        measured.tick_cycles, budget.tick_cycles, measured.stack_bytes, budget.stack_bytes
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Budget;
+
+    fn budget(rustc: &str, cost: u64) -> Budget {
+        Budget {
+            rustc: rustc.into(),
+            tick_instructions: cost,
+            tick_cycles: cost,
+            dynamics_instructions: cost,
+            dynamics_cycles: cost,
+            flash_bytes: cost,
+            ram_bytes: cost,
+            stack_bytes: cost,
+        }
+    }
+
+    #[test]
+    fn another_compiler_gets_three_per_cent_and_no_more() {
+        let ours = budget("rustc 1", 1000);
+        assert!(ours.exceeded_by(&budget("rustc 1", 1000)).is_empty());
+        assert_eq!(ours.exceeded_by(&budget("rustc 1", 1001)).len(), 7);
+        assert!(ours.exceeded_by(&budget("rustc 2", 1030)).is_empty());
+        assert_eq!(ours.exceeded_by(&budget("rustc 2", 1031)).len(), 7);
+    }
+}

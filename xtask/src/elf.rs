@@ -1,0 +1,116 @@
+//! What an ELF says of itself: sizes, functions, and where Thumb code is.
+
+use std::path::Path;
+
+use object::{Object, ObjectSection, ObjectSymbol, SectionKind, SymbolKind};
+
+use crate::error::{Error, Result};
+
+/// Where RAM begins on a Cortex-M.
+const RAM: u64 = 0x2000_0000;
+
+/// Bytes of the memories that an image takes.
+#[derive(Clone, Copy, Debug)]
+pub struct Sizes {
+    /// Code, constants and the initial values of variables.
+    pub flash: u64,
+    /// Variables, without the stack.
+    pub ram: u64,
+}
+
+/// A function.
+#[derive(Clone, Debug)]
+pub struct Function {
+    /// All its names: identical functions are folded into one.
+    pub names: Vec<String>,
+    /// The address of its first instruction.
+    pub address: u64,
+    /// Its instructions and literal pools.
+    pub bytes: Vec<u8>,
+    /// The addresses at which data begins (`true`) or code goes on (`false`).
+    pub data: Vec<(u64, bool)>,
+}
+
+/// An image, read.
+pub struct Image {
+    /// What it takes.
+    pub sizes: Sizes,
+    /// Its functions by address.
+    pub functions: Vec<Function>,
+}
+
+impl Image {
+    /// Reads an ELF.
+    pub fn read(path: &Path) -> Result<Self> {
+        let bytes = std::fs::read(path).map_err(Error::file("read", path))?;
+        let file = object::File::parse(&*bytes)
+            .map_err(|e| Error::check(format!("{}: {e}", path.display())))?;
+        Ok(Self {
+            sizes: sizes(&file),
+            functions: functions(&file),
+        })
+    }
+}
+
+fn sizes(file: &object::File<'_>) -> Sizes {
+    let mut sizes = Sizes { flash: 0, ram: 0 };
+    for section in file.sections() {
+        let in_ram = section.address() >= RAM;
+        match section.kind() {
+            SectionKind::Text | SectionKind::ReadOnlyData => sizes.flash += section.size(),
+            // Initial values lie in flash and are copied to RAM at start-up.
+            SectionKind::Data => {
+                sizes.flash += section.size();
+                sizes.ram += if in_ram { section.size() } else { 0 };
+            }
+            SectionKind::UninitializedData => sizes.ram += section.size(),
+            _ => {}
+        }
+    }
+    sizes
+}
+
+fn functions(file: &object::File<'_>) -> Vec<Function> {
+    // The ARM ABI marks where code and literal pools begin by symbols `$t` and `$d`.
+    let mut marks: Vec<(u64, bool)> = file
+        .symbols()
+        .filter_map(|symbol| match symbol.name().ok()?.get(..2)? {
+            "$t" => Some((symbol.address(), false)),
+            "$d" => Some((symbol.address(), true)),
+            _ => None,
+        })
+        .collect();
+    marks.sort_unstable();
+
+    let mut functions: Vec<Function> = Vec::new();
+    let mut symbols: Vec<_> = file
+        .symbols()
+        .filter(|symbol| symbol.kind() == SymbolKind::Text && symbol.size() > 0)
+        .collect();
+    symbols.sort_by_key(ObjectSymbol::address);
+    for symbol in symbols {
+        // The lowest bit says Thumb and is no part of the address.
+        let address = symbol.address() & !1;
+        let name = symbol.name().unwrap_or_default().to_owned();
+        if let Some(last) = functions.last_mut().filter(|last| last.address == address) {
+            last.names.push(name);
+            continue;
+        }
+        let end = address + symbol.size();
+        let bytes = symbol
+            .section_index()
+            .and_then(|index| file.section_by_index(index).ok())
+            .and_then(|section| section.data_range(address, symbol.size()).ok().flatten());
+        functions.push(Function {
+            names: vec![name],
+            address,
+            bytes: bytes.unwrap_or_default().to_vec(),
+            data: marks
+                .iter()
+                .copied()
+                .filter(|(at, _)| (address..end).contains(at))
+                .collect(),
+        });
+    }
+    functions
+}

@@ -1,0 +1,83 @@
+//! Everything that can go wrong, in words that name the command or file concerned.
+
+use std::path::PathBuf;
+use std::process::{Command, ExitStatus};
+
+use crate::shell;
+
+/// The result of anything here that touches the outside.
+pub type Result<T> = std::result::Result<T, Error>;
+
+/// Why a command of xtask stopped.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// A program could not be started at all.
+    #[error("cannot start `{command}`: {source}")]
+    Spawn {
+        /// The command line.
+        command: String,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// A program ran and failed.
+    #[error("`{command}` failed ({status}){output}")]
+    Failed {
+        /// The command line.
+        command: String,
+        /// How it ended.
+        status: ExitStatus,
+        /// What it printed, on lines of its own, if it was captured.
+        output: String,
+    },
+    /// A file could not be read or written.
+    #[error("cannot {verb} {}: {source}", path.display())]
+    File {
+        /// `read`, `write`, `create` …
+        verb: &'static str,
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// Something has to be installed that was not.
+    #[error("something is missing; to install it:\n\n    {}\n", commands.join("\n    "))]
+    Missing {
+        /// The exact commands.
+        commands: Vec<String>,
+    },
+    /// QEMU, or the firmware in it, misbehaved.
+    #[error("`{program}` in QEMU: {what}")]
+    Qemu {
+        /// The firmware's binary.
+        program: String,
+        /// What happened.
+        what: String,
+    },
+    /// A check did not hold.
+    #[error("{0}")]
+    Check(String),
+}
+
+impl Error {
+    /// `command` could not be started.
+    pub fn spawn(command: &Command, source: std::io::Error) -> Self {
+        Self::Spawn {
+            command: shell::display(command),
+            source,
+        }
+    }
+
+    /// A closure for `map_err` on a file operation.
+    pub fn file(
+        verb: &'static str,
+        path: impl Into<PathBuf>,
+    ) -> impl FnOnce(std::io::Error) -> Self {
+        let path = path.into();
+        move |source| Self::File { verb, path, source }
+    }
+
+    /// A check that did not hold, or data that cannot be made sense of.
+    pub fn check(what: impl Into<String>) -> Self {
+        Self::Check(what.into())
+    }
+}

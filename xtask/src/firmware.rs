@@ -1,0 +1,42 @@
+//! Builds what runs in QEMU, and the plugin that watches it.
+
+use std::path::PathBuf;
+
+use crate::error::{Error, Result};
+use crate::shell;
+use crate::toolchain::Toolchain;
+use crate::workspace::Workspace;
+
+/// Builds a bin of the firmware and returns its ELF. Here and below, what cargo says is shown
+/// only if it fails: rustc warns at each call of the target features that it hands to LLVM.
+pub fn build(workspace: &Workspace, toolchain: Toolchain, bin: &str) -> Result<PathBuf> {
+    let mut command = toolchain.firmware(workspace, "build");
+    shell::capture(command.args(["--release", "--bin", bin]))?;
+    existing(toolchain.elf(workspace, bin))
+}
+
+/// Builds every bin of the firmware.
+pub fn build_all(workspace: &Workspace, toolchain: Toolchain) -> Result<()> {
+    let mut command = toolchain.firmware(workspace, "build");
+    shell::capture(command.args(["--release", "--bins"]))?;
+    Ok(())
+}
+
+/// Builds the cycle meter and returns the shared library.
+pub fn build_meter(workspace: &Workspace) -> Result<PathBuf> {
+    let mut command = workspace.cargo("build");
+    shell::capture(command.args(["--release", "--package", "cycle-meter"]))?;
+    let library = format!(
+        "{}cycle_meter{}",
+        std::env::consts::DLL_PREFIX,
+        std::env::consts::DLL_SUFFIX
+    );
+    existing(workspace.target.join("release").join(library))
+}
+
+fn existing(path: PathBuf) -> Result<PathBuf> {
+    match std::fs::metadata(&path) {
+        Ok(_) => Ok(path),
+        Err(e) => Err(Error::file("find", path)(e)),
+    }
+}

@@ -1,0 +1,48 @@
+//! Spinners on stderr, where there is someone to see them.
+
+use std::sync::LazyLock;
+use std::time::Duration;
+
+use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
+
+/// All that spin now: a step of the tests, and what it is doing.
+static SPINNERS: LazyLock<MultiProgress> = LazyLock::new(MultiProgress::new);
+
+/// What is going on, until dropped.
+pub struct Spinner(ProgressBar);
+
+impl Spinner {
+    /// Says what is going on: with a spinner on a terminal, as a plain line elsewhere.
+    pub fn start(what: &str) -> Self {
+        let bar = ProgressBar::new_spinner();
+        if SPINNERS.is_hidden() {
+            eprintln!("{what} …");
+            bar.set_draw_target(indicatif::ProgressDrawTarget::hidden());
+            return Self(bar);
+        }
+        let bar = SPINNERS.add(bar);
+        if let Ok(style) = ProgressStyle::with_template("{spinner} {msg} ({elapsed})") {
+            bar.set_style(style);
+        }
+        bar.set_message(what.to_owned());
+        bar.enable_steady_tick(Duration::from_millis(100));
+        Self(bar)
+    }
+
+    /// Says what is going on now, to those who watch.
+    pub fn say(&self, what: String) {
+        self.0.set_message(what);
+    }
+
+    /// Prints a line above the spinners.
+    pub fn line(&self, line: &str) {
+        SPINNERS.suspend(|| eprintln!("{line}"));
+    }
+}
+
+impl Drop for Spinner {
+    fn drop(&mut self) {
+        self.0.finish_and_clear();
+        SPINNERS.remove(&self.0);
+    }
+}

@@ -1,0 +1,231 @@
+//! The firmware's log lines, as one recording.
+//!
+//! ```text
+//! scene NAME joints N tick-us US ticks T
+//! run PLANT LAW
+//! sample TICK qd1..qdN q1..qN
+//! rms PLANT LAW e1..eN        max PLANT LAW e1..eN
+//! total PLANT LAW RMS         status PLANT LAW WORD…
+//! stack BYTES
+//! done
+//! ```
+
+use std::collections::BTreeMap;
+
+use crate::error::{Error, Result};
+use crate::qemu::DONE;
+
+/// The laws, the one to sell first, with their names in print.
+pub const LAWS: [(&str, &str); 3] = [
+    ("feedforward", "feed-forward"),
+    ("gravity", "gravity"),
+    ("pd", "PD"),
+];
+
+/// The plants, the one that the controller knows exactly first.
+pub const PLANTS: [&str; 2] = ["exact", "mismatched"];
+
+/// One trajectory run under one law on one plant.
+#[derive(Clone, Debug, Default)]
+pub struct Trajectory {
+    /// Tick, reference and true joint angles, every so many ticks.
+    pub samples: Vec<Sample>,
+    /// RMS of the tracking error of each joint in rad.
+    pub rms: Vec<f64>,
+    /// Largest absolute error of each joint in rad.
+    pub max: Vec<f64>,
+    /// RMS of the error over all joints in rad.
+    pub total: Option<f64>,
+    /// What the safety gate said.
+    pub status: String,
+}
+
+/// A moment of a run.
+#[derive(Clone, Debug)]
+pub struct Sample {
+    /// In ticks from the start of the run.
+    pub tick: u32,
+    /// Reference angle of each joint in rad.
+    pub reference: Vec<f64>,
+    /// Angle of each joint in rad.
+    pub angle: Vec<f64>,
+}
+
+/// All that a scene reported.
+#[derive(Debug, Default)]
+pub struct Recording {
+    /// The scene's name.
+    pub scene: String,
+    /// Number of joints.
+    pub joints: usize,
+    /// Length of a tick in µs.
+    pub tick_us: u32,
+    /// Ticks of each run.
+    pub ticks: u32,
+    /// Plant and law of each run, in the order in which they ran.
+    pub order: Vec<(String, String)>,
+    /// The runs by plant and law.
+    pub runs: BTreeMap<(String, String), Trajectory>,
+    /// Peak stack in bytes.
+    pub stack: Option<u64>,
+}
+
+impl Recording {
+    /// Takes a line in; `false` if it is none of the protocol's.
+    pub fn line(&mut self, line: &str) -> Result<bool> {
+        let words: Vec<&str> = line.split(' ').collect();
+        let bad = || Error::check(format!("the firmware's line {line:?} cannot be understood"));
+        match *words.as_slice() {
+            [
+                "scene",
+                name,
+                "joints",
+                joints,
+                "tick-us",
+                tick_us,
+                "ticks",
+                ticks,
+            ] => {
+                self.scene = name.into();
+                self.joints = joints.parse().map_err(|_| bad())?;
+                self.tick_us = tick_us.parse().map_err(|_| bad())?;
+                self.ticks = ticks.parse().map_err(|_| bad())?;
+            }
+            ["run", plant, law] => {
+                let key = known(plant, law).ok_or_else(bad)?;
+                self.order.push(key.clone());
+                if self.runs.insert(key, Trajectory::default()).is_some() {
+                    return Err(bad());
+                }
+            }
+            ["sample", tick, ref angles @ ..] => {
+                let mut reference = self.numbers(angles, 2).ok_or_else(bad)?;
+                let angle = reference.split_off(self.joints);
+                let tick = tick.parse().map_err(|_| bad())?;
+                let run = self.order.last().and_then(|key| self.runs.get_mut(key));
+                run.ok_or_else(bad)?.samples.push(Sample {
+                    tick,
+                    reference,
+                    angle,
+                });
+            }
+            ["rms", plant, law, ref errors @ ..] => {
+                let rms = self.numbers(errors, 1).ok_or_else(bad)?;
+                self.run(plant, law).ok_or_else(bad)?.rms = rms;
+            }
+            ["max", plant, law, ref errors @ ..] => {
+                let max = self.numbers(errors, 1).ok_or_else(bad)?;
+                self.run(plant, law).ok_or_else(bad)?.max = max;
+            }
+            ["total", plant, law, rms] => {
+                let rms = number(rms).ok_or_else(bad)?;
+                self.run(plant, law).ok_or_else(bad)?.total = Some(rms);
+            }
+            ["status", plant, law, ref said @ ..] => {
+                self.run(plant, law).ok_or_else(bad)?.status = said.join(" ");
+            }
+            ["stack", bytes] => self.stack = Some(bytes.parse().map_err(|_| bad())?),
+            [DONE] => {}
+            _ => return Ok(false),
+        }
+        Ok(true)
+    }
+
+    /// Fails with what is not there, if anything that the report needs is not.
+    pub fn complete(&self) -> Result<()> {
+        let lacks = |what: String| Err(Error::check(format!("the firmware did not report {what}")));
+        if self.joints == 0 {
+            return lacks("its `scene`".into());
+        }
+        if self.stack.is_none() {
+            return lacks("its `stack`".into());
+        }
+        for plant in PLANTS {
+            for (law, _) in LAWS {
+                match self.trajectory(plant, law) {
+                    None => return lacks(format!("`run {plant} {law}`")),
+                    Some(run)
+                        if run.rms.is_empty() || run.max.is_empty() || run.total.is_none() =>
+                    {
+                        return lacks(format!("`rms`, `max` and `total` of {plant} {law}"));
+                    }
+                    Some(_) => {}
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The greatest speed of a joint's reference between two samples, rad/s.
+    pub fn peak_speed(&self) -> f64 {
+        let samples = self
+            .runs
+            .values()
+            .next()
+            .map_or(&[][..], |run| &run.samples);
+        let speeds = samples.windows(2).flat_map(|pair| {
+            let seconds = f64::from(pair[1].tick - pair[0].tick) * f64::from(self.tick_us) * 1e-6;
+            let turns = pair[1].reference.iter().zip(&pair[0].reference);
+            turns.map(move |(to, from)| (to - from).abs() / seconds)
+        });
+        speeds.fold(0.0, f64::max)
+    }
+
+    /// The run of a law on a plant.
+    pub fn trajectory(&self, plant: &str, law: &str) -> Option<&Trajectory> {
+        self.runs.get(&(plant.to_owned(), law.to_owned()))
+    }
+
+    fn run(&mut self, plant: &str, law: &str) -> Option<&mut Trajectory> {
+        self.runs.get_mut(&(plant.to_owned(), law.to_owned()))
+    }
+
+    /// So many numbers per joint, all of them finite.
+    fn numbers(&self, words: &[&str], per_joint: usize) -> Option<Vec<f64>> {
+        if self.joints == 0 || words.len() != per_joint * self.joints {
+            return None;
+        }
+        words.iter().map(|word| number(word)).collect()
+    }
+}
+
+fn number(word: &str) -> Option<f64> {
+    // defmt prints a slice with brackets and commas.
+    let digits = word.trim_matches(['[', ']', ',']);
+    digits.parse().ok().filter(|x: &f64| x.is_finite())
+}
+
+fn known(plant: &str, law: &str) -> Option<(String, String)> {
+    let known = PLANTS.contains(&plant) && LAWS.iter().any(|(name, _)| *name == law);
+    known.then(|| (plant.to_owned(), law.to_owned()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Recording;
+
+    #[test]
+    fn a_recording_takes_its_lines_and_leaves_the_others() {
+        let mut recording = Recording::default();
+        for line in [
+            "scene two joints 2 tick-us 1000 ticks 3",
+            "run exact pd",
+            "sample 0 0.1 0.2 0.11 2e-1",
+            "rms exact pd 1e-3 2e-3",
+            "max exact pd [1e-3, 2e-3]",
+            "stack 512",
+        ] {
+            assert!(recording.line(line).is_ok_and(|taken| taken), "{line}");
+        }
+        assert!(recording.line("hello there").is_ok_and(|taken| !taken));
+        for line in [
+            "sample 1 0.1",
+            "rms exact pd NaN 0",
+            "run exact magic",
+            "run exact pd",
+        ] {
+            assert!(recording.line(line).is_err(), "{line}");
+        }
+        assert!(recording.complete().is_err());
+    }
+}

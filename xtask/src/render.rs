@@ -1,0 +1,167 @@
+//! A report in print: text for a terminal, Markdown for the docs.
+
+use std::path::Path;
+
+use crate::report::{Errors, MODEL, Report, Tracking};
+use crate::table::{Table, thousands};
+
+/// The clock of the STM32F405 in MHz, so cycles per µs.
+const CLOCK_MHZ: f64 = 168.0;
+
+impl Report {
+    /// For a terminal.
+    pub fn text(&self, plot: &Path) -> String {
+        let mut text = format!(
+            "\nCost of a tick, feed-forward, {} ticks ({MODEL})\n\n{}",
+            thousands(self.ticks_measured as u64),
+            self.costs().text()
+        );
+        for (what, tracking) in self.trackings() {
+            text += &format!("\n{what}\n\n{}", errors_table(tracking).text());
+        }
+        text += &format!("\n{}\n{}\n", self.memory(), self.provenance());
+        text += &self.gate();
+        text + &format!("Plot: {}\n", plot.display())
+    }
+
+    /// For the README.
+    pub fn markdown(&self) -> String {
+        let mut text = format!(
+            "Cost of a tick with feed-forward, {} ticks ({MODEL}):\n\n{}",
+            thousands(self.ticks_measured as u64),
+            self.costs().markdown()
+        );
+        let mut table = Table::new(&["tracking error RMS, mrad", "exact model", "model off"]);
+        let percent = |errors: &Errors, pd: &Errors| {
+            format!(
+                "{} ({:.1} %)",
+                milli(errors.rms_rad),
+                100.0 * errors.rms_rad / pd.rms_rad
+            )
+        };
+        let (exact, off) = (&self.tracking, &self.tracking_mismatched);
+        for ((law, errors), (_, errors_off)) in exact.laws().into_iter().zip(off.laws()) {
+            table.row([
+                law.to_owned(),
+                percent(errors, &exact.pd),
+                percent(errors_off, &off.pd),
+            ]);
+        }
+        text += &format!(
+            "\nIn brackets the share of PD's error. \"Model off\": the plant's inertias differ by \
+             ±3 % and its friction by ±10 %.\n\n{}",
+            table.markdown()
+        );
+        text + &format!("\n{}.\nMeasured with {}.\n", self.memory(), self.rustc)
+    }
+
+    /// What the safety gate said: once, if it said the same of every run.
+    fn gate(&self) -> String {
+        let said: Vec<(String, &str)> = self
+            .trackings()
+            .into_iter()
+            .flat_map(|(what, tracking)| {
+                tracking
+                    .laws()
+                    .map(|(law, errors)| (format!("{what}, {law}"), errors.status.as_str()))
+            })
+            .collect();
+        match said.as_slice() {
+            [(_, first), rest @ ..] if rest.iter().all(|(_, status)| status == first) => {
+                format!("Safety gate in every run: {first}\n")
+            }
+            each => each
+                .iter()
+                .map(|(run, status)| format!("Safety gate. {run}: {status}\n"))
+                .collect(),
+        }
+    }
+
+    fn trackings(&self) -> [(&'static str, &Tracking); 2] {
+        [
+            ("Tracking error, exact model", &self.tracking),
+            (
+                "Tracking error, plant's inertias off by ±3 % and friction by ±10 %",
+                &self.tracking_mismatched,
+            ),
+        ]
+    }
+
+    fn costs(&self) -> Table {
+        let mut table = Table::new(&[
+            "phase",
+            "insn min",
+            "median",
+            "max",
+            "cycles min",
+            "median",
+            "max",
+            "µs median",
+            "µs max",
+            "share",
+        ]);
+        let whole = self.tick.total.cycles.median as f64;
+        for (name, cost) in self.tick.phases() {
+            let (i, c) = (cost.instructions, cost.cycles);
+            let counts = [i.min, i.median, i.max, c.min, c.median, c.max].map(thousands);
+            let times = [c.median, c.max].map(|n| format!("{:.2}", n as f64 / CLOCK_MHZ));
+            let share = format!("{:.1} %", 100.0 * c.median as f64 / whole);
+            table.row(
+                std::iter::once(name.to_owned())
+                    .chain(counts)
+                    .chain(times)
+                    .chain([share]),
+            );
+        }
+        table
+    }
+
+    fn memory(&self) -> String {
+        format!(
+            "Flash {} B, RAM {} B, peak stack {} B",
+            thousands(self.flash_bytes),
+            thousands(self.ram_bytes),
+            thousands(self.stack_bytes)
+        )
+    }
+
+    fn provenance(&self) -> String {
+        format!("{}; {}; µs at {CLOCK_MHZ} MHz", self.rustc, self.qemu)
+    }
+}
+
+/// A row per law: RMS and maximum of each joint and of all, and the ratio to PD.
+fn errors_table(tracking: &Tracking) -> Table {
+    let joints = tracking.pd.per_joint.len();
+    let joint_names: Vec<String> = (1..=joints).map(|joint| format!("joint {joint}")).collect();
+    let head: Vec<&str> = std::iter::once("mrad")
+        .chain(joint_names.iter().map(String::as_str))
+        .chain(["all", "of PD"])
+        .collect();
+    let mut table = Table::new(&head);
+    type Pick = fn(&Errors) -> (f64, Vec<f64>);
+    let kinds: [(&str, Pick); 2] = [
+        ("RMS", |e| {
+            (e.rms_rad, e.per_joint.iter().map(|j| j.rms_rad).collect())
+        }),
+        ("max", |e| {
+            (e.max_rad, e.per_joint.iter().map(|j| j.max_rad).collect())
+        }),
+    ];
+    for (kind, pick) in kinds {
+        let (pd, _) = pick(&tracking.pd);
+        for (law, errors) in tracking.laws() {
+            let (all, each) = pick(errors);
+            table.row(
+                std::iter::once(format!("{law} {kind}"))
+                    .chain(each.into_iter().map(milli))
+                    .chain([milli(all), format!("{:.1} %", 100.0 * all / pd)]),
+            );
+        }
+    }
+    table
+}
+
+fn milli(radians: f64) -> String {
+    format!("{:.3}", 1e3 * radians)
+}

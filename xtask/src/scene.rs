@@ -1,0 +1,23 @@
+//! The scenes: the one list of them.
+
+use clap::ValueEnum;
+
+/// A bin of `firmware-demo` that moves an arm and reports what it costs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum Scene {
+    /// A UR5e picks and places, its encoders on SPI and its drives on PWM.
+    #[default]
+    Ur5e,
+}
+
+impl Scene {
+    /// All of them.
+    pub const ALL: &[Self] = &[Self::Ur5e];
+
+    /// The name on the command line, of the bin, and in every generated file.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Ur5e => "ur5e",
+        }
+    }
+}

@@ -1,0 +1,211 @@
+//! Finds what is missing, says what it will install, installs it.
+
+use std::process::Command;
+
+use crate::error::{Error, Result};
+use crate::qemu::Qemu;
+use crate::shell;
+use crate::system::{self, System};
+use crate::toolchain::{self, Choice, DEBIAN_PACKAGES, TARGET, Toolchain};
+
+const DEBIAN_CLIPPY: &str = "rust-web-clippy";
+
+/// How the user wants the set-up done.
+#[derive(Clone, Copy, Debug, clap::Args)]
+pub struct Options {
+    /// Install nothing: print the commands that would, and stop
+    #[arg(long, global = true)]
+    pub no_install: bool,
+    /// Which compiler builds the firmware
+    #[arg(long, global = true, value_enum, default_value_t, hide = true)]
+    pub toolchain: Choice,
+}
+
+/// What a set-up ends with.
+pub struct Tools {
+    /// The compiler for the firmware.
+    pub toolchain: Toolchain,
+    /// The emulator.
+    pub qemu: Qemu,
+}
+
+/// What has to be installed, and why.
+#[derive(Default)]
+struct Plan {
+    reasons: Vec<String>,
+    rustup: Vec<Vec<&'static str>>,
+    apt: Vec<&'static str>,
+    /// For systems where the user has to do it.
+    manual: Vec<String>,
+}
+
+impl Plan {
+    fn add_apt(&mut self, reason: &str, packages: &[&'static str]) {
+        self.reasons.push(reason.to_owned());
+        self.apt.extend(packages);
+    }
+
+    fn commands(&self) -> Vec<String> {
+        let mut lines: Vec<String> = self.rustup.iter().map(|words| words.join(" ")).collect();
+        if !self.apt.is_empty() {
+            lines.extend(system::apt_lines(&self.apt));
+        }
+        lines.extend(self.manual.iter().cloned());
+        lines
+    }
+
+    /// Announces and installs everything, or says why it may not.
+    fn carry_out(&self, options: Options) -> Result<()> {
+        let commands = self.commands();
+        if commands.is_empty() {
+            return Ok(());
+        }
+        for reason in &self.reasons {
+            eprintln!("missing: {reason}");
+        }
+        if options.no_install || !self.manual.is_empty() {
+            return Err(Error::Missing { commands });
+        }
+        eprintln!("about to install it with:");
+        for command in &commands {
+            eprintln!("    {command}");
+        }
+        for words in &self.rustup {
+            shell::run(Command::new(words[0]).args(&words[1..]))?;
+        }
+        if !self.apt.is_empty() {
+            system::apt_install(&self.apt)?;
+        }
+        Ok(())
+    }
+}
+
+/// Everything that the demo needs.
+pub fn for_demo(options: Options) -> Result<Tools> {
+    let toolchain = compiler(options)?;
+    Ok(Tools {
+        toolchain,
+        qemu: Qemu::find()?,
+    })
+}
+
+/// Everything that the tests need: what the demo needs, rustfmt and clippy.
+pub fn for_test(options: Options) -> Result<Tools> {
+    let tools = for_demo(options)?;
+    let mut plan = Plan::default();
+    for (subcommand, component, package) in [
+        ("fmt", "rustfmt", "rustfmt-web"),
+        ("clippy", "clippy", DEBIAN_CLIPPY),
+    ] {
+        let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+        let native = shell::succeeds(Command::new(cargo).args([subcommand, "--version"]));
+        if !native && shell::which("rustup").is_some() {
+            plan.reasons.push(format!("`cargo {subcommand}`"));
+            plan.rustup
+                .push(vec!["rustup", "component", "add", component]);
+        } else if !native && System::this() == System::Debian {
+            plan.add_apt(&format!("`cargo {subcommand}`"), &[package]);
+        } else if !native {
+            plan.reasons.push(format!("`cargo {subcommand}`"));
+            plan.manual
+                .push(format!("install Rust's `{component}` component"));
+        }
+    }
+    let is_debian = tools.toolchain == Toolchain::Debian;
+    if is_debian && !toolchain::has_debian_clippy() && !plan.apt.contains(&DEBIAN_CLIPPY) {
+        plan.add_apt("the clippy of Debian's compiler", &[DEBIAN_CLIPPY]);
+    }
+    plan.carry_out(options)?;
+    Ok(tools)
+}
+
+/// Installs what Debian's way needs, where Debian has it.
+pub fn debian(options: Options) -> Result<Toolchain> {
+    if let Some(why) = toolchain::debian_lacks() {
+        let mut plan = Plan::default();
+        plan.add_apt(&format!("Debian's own compiler: {why}"), DEBIAN_PACKAGES);
+        plan.carry_out(options)?;
+        toolchain::require_debian()?;
+    }
+    Ok(Toolchain::Debian)
+}
+
+/// The compiler and QEMU in one plan, so that the user is told everything at once.
+fn compiler(options: Options) -> Result<Toolchain> {
+    let system = System::this();
+    let mut plan = Plan::default();
+    let mut chosen = choose(options.toolchain, system, &mut plan)?;
+    if !Qemu::is_installed() {
+        let reason = "`qemu-system-arm`, the emulator that runs the firmware";
+        if system == System::Debian {
+            plan.add_apt(reason, &["qemu-system-arm"]);
+        } else {
+            plan.reasons.push(reason.into());
+            plan.manual.push(system.qemu_command());
+        }
+    }
+    let may_fall_back = options.toolchain == Choice::Auto && system == System::Debian;
+    if options.no_install && !plan.rustup.is_empty() && may_fall_back {
+        eprintln!(
+            "where rustup cannot fetch the target, Debian's own compiler does:\n    {}",
+            system::apt_lines(DEBIAN_PACKAGES).join("\n    ")
+        );
+    }
+    let outcome = plan.carry_out(options);
+    let is_unfetched = !plan.rustup.is_empty() && !toolchain::native_has_target();
+    match outcome {
+        Err(missing @ Error::Missing { .. }) => return Err(missing),
+        outcome if is_unfetched && may_fall_back => {
+            if let Err(error) = outcome {
+                eprintln!("{error}");
+            }
+            eprintln!("rustup cannot fetch the target: falling back on Debian's compiler");
+            plan.rustup.clear();
+            plan.apt.extend(DEBIAN_PACKAGES);
+            plan.carry_out(options)?;
+            chosen = Toolchain::Debian;
+        }
+        outcome => outcome?,
+    }
+    match chosen {
+        Toolchain::Debian => toolchain::require_debian()?,
+        Toolchain::Native if !toolchain::native_has_target() => {
+            return Err(Error::check(format!(
+                "rustup succeeded, yet `rustc` finds no core library for {TARGET}: is the \
+                 `rustc` on the PATH (or in RUSTC) rustup's?"
+            )));
+        }
+        Toolchain::Native => {}
+    }
+    Ok(chosen)
+}
+
+/// Which compiler it will be, and what it lacks.
+fn choose(choice: Choice, system: System, plan: &mut Plan) -> Result<Toolchain> {
+    let core = format!("a Rust core library for {TARGET}");
+    if choice != Choice::Debian {
+        if toolchain::native_has_target() {
+            return Ok(Toolchain::Native);
+        }
+        // A machine that once fell back on Debian's compiler need not ask rustup again.
+        let debian_is_there = system == System::Debian && toolchain::debian_lacks().is_none();
+        if choice == Choice::Auto && debian_is_there {
+            return Ok(Toolchain::Debian);
+        }
+        if shell::which("rustup").is_some() {
+            plan.reasons.push(core);
+            plan.rustup.push(vec!["rustup", "target", "add", TARGET]);
+            return Ok(Toolchain::Native);
+        }
+    }
+    if choice == Choice::Rustup || system != System::Debian {
+        return Err(Error::check(format!(
+            "the Rust compiler here has no core library for {TARGET}, and there is no rustup to \
+             add it: install Rust through rustup, or the target with what installed Rust"
+        )));
+    }
+    if let Some(why) = toolchain::debian_lacks() {
+        plan.add_apt(&format!("{core} ({why})"), DEBIAN_PACKAGES);
+    }
+    Ok(Toolchain::Debian)
+}

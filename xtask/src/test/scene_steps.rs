@@ -1,0 +1,156 @@
+//! The steps about what the scenes do.
+
+use super::{Context, Outcome};
+use crate::budgets;
+use crate::demo;
+use crate::docs;
+use crate::error::{Error, Result};
+use crate::firmware;
+use crate::plot;
+use crate::scene::Scene;
+use crate::setup;
+use crate::system::{self, Privilege, System};
+use crate::toolchain::{self, DEBIAN_PACKAGES, Toolchain};
+
+/// The error with feed-forward as a share of PD's, with the exact model and with one that is
+/// off.
+const LARGEST_RATIO: [f64; 2] = [0.1, 0.2];
+
+/// Modelled cycles of the longest tick.
+const LARGEST_TICK: u64 = 6000;
+
+pub fn runs(context: &Context) -> Result<Outcome> {
+    let mut ticks = 0;
+    for measured in context.measured()? {
+        let name = &measured.report.scene;
+        let picture = context.workspace.output(&format!("{name}.svg"))?;
+        plot::write(&measured.recording, &picture)?;
+        ticks += measured.recording.ticks as usize * measured.recording.order.len();
+    }
+    Ok(Outcome::Passed(format!("{ticks} ticks")))
+}
+
+pub fn determinism(context: &Context) -> Result<Outcome> {
+    let mut bytes = 0;
+    for (first, scene) in context.measured()?.iter().zip(Scene::ALL) {
+        let second = demo::measure(
+            &context.workspace,
+            &context.tools,
+            *scene,
+            context.tools.toolchain,
+            &first.elf,
+            context.meter()?,
+        )?;
+        if first.raw.0 != second.raw.0 {
+            return Err(Error::check(
+                "two runs of the same ELF logged different bytes",
+            ));
+        }
+        if first.raw.1 != second.raw.1 {
+            return Err(Error::check("two runs of the same ELF cost differently"));
+        }
+        bytes += first.raw.0.len() + first.raw.1.len();
+    }
+    Ok(Outcome::Passed(format!("{bytes} bytes")))
+}
+
+/// The peak joint speed that a trajectory must reach for its tracking to mean something, rad/s.
+const LEAST_PEAK_SPEED: f64 = 1.5;
+
+pub fn tracking(context: &Context) -> Result<Outcome> {
+    let mut seen = Vec::new();
+    for measured in context.measured()? {
+        let report = &measured.report;
+        let plants = [
+            ("exact", &report.tracking),
+            ("mismatched", &report.tracking_mismatched),
+        ];
+        for ((plant, tracking), largest) in plants.into_iter().zip(LARGEST_RATIO) {
+            let ratio = tracking.ratio();
+            // A ratio that is not a number fails as well.
+            if ratio.is_nan() || ratio > largest {
+                return Err(Error::check(format!(
+                    "{}, {plant} plant: feed-forward's error is {ratio:.4} of PD's, more than \
+                     {largest}",
+                    report.scene
+                )));
+            }
+            seen.push(format!("{plant} {ratio:.4}"));
+        }
+        let peak = measured.recording.peak_speed();
+        if peak < LEAST_PEAK_SPEED {
+            return Err(Error::check(format!(
+                "{}: no joint is faster than {peak:.2} rad/s: too easy a trajectory",
+                report.scene
+            )));
+        }
+        seen.push(format!("peak speed {peak:.2} rad/s"));
+    }
+    Ok(Outcome::Passed(seen.join(", ")))
+}
+
+pub fn cycles(context: &Context) -> Result<Outcome> {
+    let mut seen = Vec::new();
+    for measured in context.measured()? {
+        let longest = measured.report.tick.total.cycles.max;
+        if longest > LARGEST_TICK {
+            return Err(Error::check(format!(
+                "{}: the longest tick takes {longest} modelled cycles, more than {LARGEST_TICK}",
+                measured.report.scene
+            )));
+        }
+        seen.push(format!("{longest} of {LARGEST_TICK}"));
+    }
+    Ok(Outcome::Passed(seen.join(", ")))
+}
+
+pub fn budgets(context: &Context) -> Result<Outcome> {
+    let spare = context
+        .measured()?
+        .iter()
+        .map(|measured| budgets::check(&context.workspace, &measured.report))
+        .collect::<Result<Vec<_>>>()?;
+    Ok(Outcome::Passed(spare.join("; ")))
+}
+
+pub fn readme(context: &Context) -> Result<Outcome> {
+    // The README shows the default scene alone.
+    if let Some(first) = context.measured()?.first() {
+        docs::check(&context.workspace, &first.report)?;
+    }
+    Outcome::PASSED
+}
+
+pub fn debian(context: &Context) -> Result<Outcome> {
+    if context.tools.toolchain == Toolchain::Debian {
+        return Ok(Outcome::Skipped("all of this ran with it".into()));
+    }
+    if System::this() != System::Debian {
+        return Ok(Outcome::Skipped("not on Debian".into()));
+    }
+    if let Some(lack) = toolchain::debian_lacks() {
+        let allowed = matches!(Privilege::this(), Privilege::Root | Privilege::Sudo);
+        if context.options.no_install || !allowed {
+            return Ok(Outcome::Skipped(format!("{lack}, and may not install it")));
+        }
+        if !DEBIAN_PACKAGES.iter().all(|name| system::apt_knows(name)) {
+            return Ok(Outcome::Skipped(format!("{lack}, and apt has none")));
+        }
+    }
+    let toolchain = setup::debian(context.options)?;
+    let scene = Scene::default();
+    let elf = firmware::build(&context.workspace, toolchain, scene.name())?;
+    let measured = demo::measure(
+        &context.workspace,
+        &context.tools,
+        scene,
+        toolchain,
+        &elf,
+        context.meter()?,
+    )?;
+    let spare = budgets::check(&context.workspace, &measured.report)?;
+    Ok(Outcome::Passed(format!(
+        "{}: {spare}",
+        measured.report.rustc
+    )))
+}

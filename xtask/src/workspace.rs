@@ -1,0 +1,98 @@
+//! Where the workspace and its artefacts are.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use serde::Deserialize;
+
+use crate::error::{Error, Result};
+use crate::shell;
+
+/// The package whose bins are the scenes and the checks that run on the target.
+pub const FIRMWARE: &str = "firmware-demo";
+
+/// The workspace that xtask was called in.
+pub struct Workspace {
+    /// Its root directory.
+    pub root: PathBuf,
+    /// Cargo's target directory, wherever `CARGO_TARGET_DIR` or a config put it.
+    pub target: PathBuf,
+    /// The firmware's bins.
+    pub bins: Vec<String>,
+}
+
+#[derive(Deserialize)]
+struct Metadata {
+    workspace_root: PathBuf,
+    target_directory: PathBuf,
+    packages: Vec<Package>,
+}
+
+#[derive(Deserialize)]
+struct Package {
+    name: String,
+    targets: Vec<Target>,
+}
+
+#[derive(Deserialize)]
+struct Target {
+    name: String,
+    kind: Vec<String>,
+}
+
+impl Workspace {
+    /// Asks cargo, from the current directory.
+    pub fn find() -> Result<Self> {
+        let mut command = host_cargo();
+        command.args(["metadata", "--no-deps", "--format-version", "1"]);
+        let json = shell::capture(&mut command)?;
+        let metadata: Metadata = serde_json::from_str(&json)
+            .map_err(|e| Error::check(format!("`{}`: {e}", shell::display(&command))))?;
+        let bins = metadata
+            .packages
+            .into_iter()
+            .filter(|package| package.name == FIRMWARE)
+            .flat_map(|package| package.targets)
+            .filter(|target| target.kind.iter().any(|kind| kind == "bin"))
+            .map(|target| target.name)
+            .collect();
+        Ok(Self {
+            root: metadata.workspace_root,
+            target: metadata.target_directory,
+            bins,
+        })
+    }
+
+    /// A cargo command for host crates, with the cargo that started xtask.
+    pub fn cargo(&self, subcommand: &str) -> Command {
+        let mut command = host_cargo();
+        command.arg(subcommand).current_dir(&self.root);
+        command
+    }
+
+    /// A file in the demo's output directory, which is made if it is not there.
+    pub fn output(&self, name: &str) -> Result<PathBuf> {
+        let dir = self.target.join("demo");
+        std::fs::create_dir_all(&dir).map_err(Error::file("create", &dir))?;
+        Ok(dir.join(name))
+    }
+
+    /// `path` from the workspace's root, if it is inside it.
+    pub fn relative<'a>(&self, path: &'a Path) -> &'a Path {
+        path.strip_prefix(&self.root).unwrap_or(path)
+    }
+}
+
+fn host_cargo() -> Command {
+    Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
+}
+
+/// Reads a text file, with an error that names it.
+pub fn read(path: &Path) -> Result<String> {
+    std::fs::read_to_string(path).map_err(Error::file("read", path))
+}
+
+/// Writes a file, with an error that names it.
+pub fn write(path: &Path, contents: impl AsRef<[u8]>) -> Result<()> {
+    std::fs::write(path, contents).map_err(Error::file("write", path))
+}

@@ -51,7 +51,7 @@ pub fn sin_cos_4pi(x: f32) -> (f32, f32) {
 fn kernel(r: f32, k: u32) -> (f32, f32) {
     let u = r * r;
     let s = r + r * u * (SIN[0] + u * (SIN[1] + u * SIN[2]));
-    let c = (1.0 - 0.5 * u) + u * u * (COS[0] + u * (COS[1] + u * COS[2]));
+    let c = 1.0 + u * (-0.5 + u * (COS[0] + u * (COS[1] + u * COS[2])));
     // Exchange and change signs in integer registers: no branch, no wait for the FPU's flags.
     let (s, c) = (s.to_bits(), c.to_bits());
     let exchanged = (s ^ c) & (k & 1).wrapping_neg();

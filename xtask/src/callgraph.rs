@@ -39,15 +39,20 @@ impl Instruction {
         to_register && (calls || !link_register)
     }
 
-    /// Whether a Cortex-M4F lacks it: FPv5 (an M7's VSEL, VRINT, VMINNM …) or f64 arithmetic.
-    pub fn is_beyond_fpv4(self) -> bool {
+    /// Whether a Cortex-M4F lacks it: FPv5 (VSEL, VRINT, VMINNM …), f64 arithmetic, and what
+    /// ARMv8-M and v8.1-M added (CSEL …, low-overhead loops, load-acquire and store-release).
+    pub fn is_beyond_m4f(self) -> bool {
         let Some(second) = self.second else {
             return false;
         };
         let coprocessor = (second >> 8) & 0xf;
         let fpv5 = self.first >> 8 == 0xfe && matches!(coprocessor, 10 | 11);
         let f64_arithmetic = self.first >> 8 == 0xee && coprocessor == 11 && second & 0x10 == 0;
-        fpv5 || f64_arithmetic
+        let conditional_select = self.first >> 4 == 0xea5 && second >> 15 == 1;
+        let low_overhead_loop = self.first >> 11 == 0b11110 && second & 0xd000 == 0xc000;
+        let ordered = matches!(self.first >> 4, 0xe8c | 0xe8d)
+            && matches!((second >> 4) & 0xf, 0x8 | 0x9 | 0xa | 0xc | 0xd | 0xe);
+        fpv5 || f64_arithmetic || conditional_select || low_overhead_loop || ordered
     }
 }
 
@@ -214,17 +219,23 @@ mod tests {
     }
 
     #[test]
-    fn opcodes_of_an_m7_are_told_from_those_of_an_m4f() {
+    fn opcodes_beyond_an_m4f_are_told_from_its_own() {
         let beyond = |first, second| {
             Instruction {
                 address: 0,
                 first,
                 second: Some(second),
             }
-            .is_beyond_fpv4()
+            .is_beyond_m4f()
         };
         assert!(beyond(0xfe00, 0x0a00)); // vseleq.f32 s0, s0, s0
         assert!(beyond(0xee30, 0x0b00)); // vadd.f64 d0, d0, d0
+        assert!(beyond(0xea51, 0x8002)); // csel r0, r1, r2, eq
+        assert!(beyond(0xf040, 0xe001)); // dls lr, r0
+        assert!(beyond(0xe8d0, 0x1faf)); // lda r1, [r0]
+        assert!(!beyond(0xea51, 0x0002)); // orrs.w r0, r1, r2
+        assert!(!beyond(0xf7ff, 0xff7e)); // bl
+        assert!(!beyond(0xe8d0, 0x1f4f)); // ldrexb r1, [r0]
         assert!(!beyond(0xee30, 0x0a00)); // vadd.f32 s0, s0, s0
         assert!(!beyond(0xed2d, 0x8b02)); // vpush {d8}
         assert!(!beyond(0xee00, 0x0b10)); // vmov.32 d0[0], r0

@@ -8,6 +8,7 @@ mod elf;
 mod error;
 mod firmware;
 mod meter;
+mod peers;
 mod plot;
 mod progress;
 mod protocol;
@@ -58,6 +59,12 @@ enum Command {
         /// Rewrite the scene's budgets from this run
         #[arg(long)]
         write_budgets: bool,
+    },
+    /// Measure other libraries and this one side by side, rewrite docs/peers.md: takes minutes
+    Peers {
+        /// The measurements as JSON on stdout; progress stays on stderr
+        #[arg(long)]
+        json: bool,
     },
     /// Run everything that CI runs
     Test {
@@ -148,6 +155,7 @@ fn run(cli: Cli) -> Result<ExitCode> {
             }
             Ok(ExitCode::SUCCESS)
         }
+        Command::Peers { json } => peers::run(cli.setup, json),
         Command::Test { list: true, .. } => {
             test::list();
             Ok(ExitCode::SUCCESS)

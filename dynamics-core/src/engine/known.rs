@@ -1,9 +1,11 @@
 //! Scalars that may be known while compiling.
 //!
-//! LLVM may not fold 0·x, 0 + x or x − x for floats (IEEE's −0, NaN and infinities forbid it); here
-//! the operators fold them by a tag. Tags come from constants and every operator is inlined, so
-//! that none of them is left in the machine code: placements of real arms are mostly zeros and
-//! ones, and most products vanish. Tags live between load and store; memory holds plain numbers.
+//! LLVM may not fold 0·x or 0 + x for floats (IEEE's −0, NaN and infinities forbid it); here the
+//! operators fold them by a tag. Tags come from constants and every operator is inlined, so that
+//! none of them is left in the machine code: placements of real arms are mostly zeros and ones, and
+//! most products vanish. Signs are carried beside the number and spent in the next addition, so
+//! that no negation and no second constant −c is left either. Tags live between load and store;
+//! memory holds plain numbers.
 
 use core::ops::{Add, Mul, Neg, Sub};
 
@@ -14,28 +16,30 @@ enum Tag {
     Any,
     Zero,
     One,
-    Minus,
 }
 
-/// A number with what the compiler knows of it: anything, 0, 1 or −1.
+/// A number with what the compiler knows of it: anything, 0 or 1, and its sign.
 #[derive(Clone, Copy)]
 pub(crate) struct Known<R> {
-    value: R,
+    magnitude: R,
     tag: Tag,
+    minus: bool,
 }
 
 impl<R: Real> Known<R> {
     pub(crate) const ZERO: Self = Self {
-        value: R::ZERO,
+        magnitude: R::ZERO,
         tag: Tag::Zero,
+        minus: false,
     };
 
     /// A number known only at run time.
     #[inline(always)]
     pub(crate) fn any(value: R) -> Self {
         Self {
-            value,
+            magnitude: value,
             tag: Tag::Any,
+            minus: false,
         }
     }
 
@@ -48,42 +52,50 @@ impl<R: Real> Known<R> {
     /// A constant of the robot.
     #[inline(always)]
     pub(crate) fn constant(value: f64) -> Self {
-        let tag = if value == 0.0 {
-            Tag::Zero
-        } else if value == 1.0 {
-            Tag::One
-        } else if value == -1.0 {
-            Tag::Minus
-        } else {
-            Tag::Any
-        };
+        let size = if value < 0.0 { -value } else { value };
         Self {
-            value: R::from_f64(value),
-            tag,
+            magnitude: R::from_f64(size),
+            tag: if size == 0.0 {
+                Tag::Zero
+            } else if size == 1.0 {
+                Tag::One
+            } else {
+                Tag::Any
+            },
+            minus: value < 0.0,
         }
     }
 
     /// The plain number.
     #[inline(always)]
     pub(crate) fn get(self) -> R {
-        match self.tag {
-            Tag::Any => self.value,
-            Tag::Zero => R::ZERO,
-            Tag::One => R::ONE,
-            Tag::Minus => -R::ONE,
+        if self.minus {
+            -self.magnitude
+        } else {
+            self.magnitude
         }
     }
 }
+
+// Few and flat branches: what is not yet known when LLVM first sees it is paid for in build time.
 
 impl<R: Real> Add for Known<R> {
     type Output = Self;
     #[inline(always)]
     fn add(self, o: Self) -> Self {
-        match (self.tag, o.tag) {
-            (Tag::Zero, _) => o,
-            (_, Tag::Zero) => self,
-            (Tag::One, Tag::Minus) | (Tag::Minus, Tag::One) => Self::ZERO,
-            _ => Self::any(self.get() + o.get()),
+        if self.tag == Tag::Zero {
+            return o;
+        }
+        if o.tag == Tag::Zero {
+            return self;
+        }
+        let same = self.minus == o.minus;
+        let sum = self.magnitude + o.magnitude;
+        let difference = self.magnitude - o.magnitude;
+        Self {
+            magnitude: if same { sum } else { difference },
+            tag: Tag::Any,
+            minus: self.minus,
         }
     }
 }
@@ -92,12 +104,7 @@ impl<R: Real> Sub for Known<R> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, o: Self) -> Self {
-        match (self.tag, o.tag) {
-            (Tag::Zero, _) => -o,
-            (_, Tag::Zero) => self,
-            (Tag::One, Tag::One) | (Tag::Minus, Tag::Minus) => Self::ZERO,
-            _ => Self::any(self.get() - o.get()),
-        }
+        self + -o
     }
 }
 
@@ -105,13 +112,20 @@ impl<R: Real> Mul for Known<R> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, o: Self) -> Self {
-        match (self.tag, o.tag) {
-            (Tag::Zero, _) | (_, Tag::Zero) => Self::ZERO,
-            (Tag::One, _) => o,
-            (_, Tag::One) => self,
-            (Tag::Minus, _) => -o,
-            (_, Tag::Minus) => -self,
-            _ => Self::any(self.value * o.value),
+        if self.tag == Tag::Zero || o.tag == Tag::Zero {
+            return Self::ZERO;
+        }
+        let minus = self.minus != o.minus;
+        if self.tag == Tag::One {
+            return Self { minus, ..o };
+        }
+        if o.tag == Tag::One {
+            return Self { minus, ..self };
+        }
+        Self {
+            magnitude: self.magnitude * o.magnitude,
+            tag: Tag::Any,
+            minus,
         }
     }
 }
@@ -120,17 +134,9 @@ impl<R: Real> Neg for Known<R> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        match self.tag {
-            Tag::Any => Self::any(-self.value),
-            Tag::Zero => self,
-            Tag::One => Self {
-                value: -R::ONE,
-                tag: Tag::Minus,
-            },
-            Tag::Minus => Self {
-                value: R::ONE,
-                tag: Tag::One,
-            },
+        Self {
+            minus: !self.minus,
+            ..self
         }
     }
 }

@@ -133,11 +133,12 @@ impl<R: Real> Field<R> {
         let ([wx, wy, wz], [sxx, sxy, sxz]) = (self.omega.0, sx.0);
         let (syy, syz, szz) = (sy.0[1], sy.0[2], sz.0[2]);
         let (xx, yy, zz) = (wx * wx, wy * wy, wz * wz);
-        let n = Vec3([
-            x.0[2] * sxy + y.0[2] * syy + (zz - yy) * syz - x.0[1] * sxz - z.0[1] * szz,
-            (xx - zz) * sxz + y.0[0] * syz + z.0[0] * szz - x.0[2] * sxx - y.0[2] * sxy,
-            x.0[1] * sxx + (yy - xx) * sxy + z.0[1] * sxz - y.0[0] * syy - z.0[0] * syz,
-        ]);
+        let (zy, xz, yx) = (zz - yy, xx - zz, yy - xx);
+        let n = Vec3([zy * syz, xz * sxz, yx * sxy])
+            + Vec3([x.0[2] * sxy, y.0[0] * syz, z.0[1] * sxz])
+            + Vec3([y.0[2] * syy, z.0[0] * szz, x.0[1] * sxx])
+            - Vec3([x.0[1] * sxz, y.0[2] * sxy, z.0[0] * syz])
+            - Vec3([z.0[1] * szz, x.0[2] * sxx, y.0[0] * syy]);
         Wrench {
             f: self.a.scale(mass) + self.u.mul(h),
             n: h.cross(self.a) + n,

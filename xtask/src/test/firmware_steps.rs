@@ -120,7 +120,7 @@ pub fn opcodes(context: &Context) -> Result<Outcome> {
         for function in Image::read(&measured.elf)?.functions {
             for instruction in function.instructions() {
                 seen += 1;
-                if instruction.is_beyond_fpv4() {
+                if instruction.is_beyond_m4f() {
                     return Err(Error::check(format!(
                         "`{}` has {instruction:x?}",
                         function.names[0]

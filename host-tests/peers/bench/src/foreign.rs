@@ -1,0 +1,96 @@
+//! Functions in shared libraries: what C and C++ compilers made of the peers.
+
+use std::error::Error;
+use std::ffi::{CString, c_char, c_void};
+use std::path::PathBuf;
+use std::ptr;
+
+use dynamics_core::scalar::Real;
+use dynamics_core::state::State;
+use libloading::{Library, Symbol};
+use serde::Deserialize;
+
+use crate::subject::Subject;
+
+type Open = unsafe extern "C" fn(*const c_char, *const c_char) -> *mut c_void;
+type Run<R> = unsafe extern "C" fn(*mut c_void, *const R, usize, *mut R);
+
+/// A function in a shared library.
+#[derive(Deserialize)]
+pub struct Foreign {
+    /// The robot that it is for.
+    pub robot: String,
+    /// What it computes.
+    pub algorithm: String,
+    /// What it is called in the report.
+    pub peer: String,
+    /// `f32` or `f64`.
+    pub precision: String,
+    /// The library.
+    library: PathBuf,
+    /// The function.
+    run: String,
+    /// The function that makes its context from a file and a name, and that file.
+    open: Option<(String, String)>,
+    /// Whether it is given cosines and sines instead of angles.
+    cs: bool,
+    /// Numbers that it writes for a state.
+    outputs: usize,
+    /// Whether it is timed, or only checked.
+    timed: bool,
+}
+
+impl Foreign {
+    /// The function with its context and its inputs; q̈ stands for the torque in forward dynamics.
+    pub fn load<R: Real, const N: usize>(
+        &self,
+        states: &[State<R, N, N>],
+    ) -> Result<Subject<R>, Box<dyn Error>> {
+        // SAFETY: xtask has compiled this library, which runs no code when it is loaded beyond
+        // what C++ needs. It is never unloaded.
+        let library: &'static Library =
+            Box::leak(Box::new(unsafe { Library::new(&self.library) }?));
+        // SAFETY: the sources in `host-tests/peers/cpp` give these functions these types.
+        let run: Symbol<'static, Run<R>> = unsafe { library.get(self.run.as_bytes()) }?;
+        let context = match &self.open {
+            None => ptr::null_mut(),
+            Some((name, file)) => {
+                // SAFETY: as above.
+                let open: Symbol<'_, Open> = unsafe { library.get(name.as_bytes()) }?;
+                let (file, robot) = (CString::new(file.as_str())?, CString::new(&*self.robot)?);
+                // SAFETY: two strings that end in a zero, which it does not keep.
+                let context = unsafe { open(file.as_ptr(), robot.as_ptr()) };
+                if context.is_null() {
+                    return Err(format!("{} does not take {}", self.peer, self.robot).into());
+                }
+                context
+            }
+        };
+        let (outputs, count) = (self.outputs, states.len());
+        let input: Vec<R> = states.iter().flat_map(|state| self.input(state)).collect();
+        Ok(Subject {
+            peer: self.peer.clone(),
+            outputs,
+            order: (0..outputs).collect(),
+            timed: self.timed,
+            gravity: 1.0,
+            run: Box::new(move |out| {
+                assert_eq!(out.len(), count * outputs);
+                // SAFETY: as many states as it is told, of the size that it expects, and room for
+                // their outputs, as xtask's manifest says; the context is its own.
+                unsafe { run(context, input.as_ptr(), count, out.as_mut_ptr()) }
+            }),
+        })
+    }
+
+    fn input<R: Real, const N: usize>(&self, state: &State<R, N, N>) -> Vec<R> {
+        // Sines in f64 and rounded: what is checked is the function, not its trigonometry.
+        let of = |f: fn(f64) -> f64| state.q.map(|q| R::from_f64(f(q.to_f64()))).to_vec();
+        let position = if self.cs {
+            [of(f64::cos), of(f64::sin)].concat()
+        } else {
+            state.q.to_vec()
+        };
+        [position, state.qd.to_vec(), state.qdd.to_vec()].concat()
+    }
+}

@@ -1,0 +1,148 @@
+//! One robot: every algorithm in both precisions.
+
+use std::error::Error;
+
+use dynamics_core::model::Robot;
+use dynamics_core::scalar::Real;
+use dynamics_core::state::State;
+use host_tests::recordings::{self, Recording};
+
+use crate::subject::{Row, Subject, interleaved};
+use crate::{Manifest, dynibo, ours};
+
+/// States in a timed batch; the recording is gone through again until there are so many.
+const BATCH: usize = 256;
+
+/// Checks, times and prints everything about a robot.
+pub fn run<T: Robot<B, N, N>, const B: usize, const N: usize>(
+    manifest: &Manifest,
+) -> Result<(), Box<dyn Error>> {
+    let recording = recordings::load(T::MODEL.name);
+    for algorithm in ["rnea", "bias", "gravity", "crba", "aba"] {
+        let urdf = manifest.urdfs.join(format!("{}.urdf", recording.robot));
+        let extra =
+            |states: &_| dynibo::subject::<N>(algorithm, &urdf, &recording.model.bodies, states);
+        one::<T, f64, B, N>(manifest, &recording, algorithm, "f64", extra)?;
+        one::<T, f32, B, N>(manifest, &recording, algorithm, "f32", |_| Ok(None))?;
+    }
+    Ok(())
+}
+
+fn one<T, R, const B: usize, const N: usize>(
+    manifest: &Manifest,
+    recording: &Recording,
+    algorithm: &str,
+    precision: &str,
+    extra: impl Fn(&[State<R, N, N>]) -> Result<Option<Subject<R>>, Box<dyn Error>>,
+) -> Result<(), Box<dyn Error>>
+where
+    T: Robot<B, N, N>,
+    R: Real,
+{
+    let states = states(recording, algorithm, recording.q.len());
+    let mut checked = gather::<T, R, B, N>(manifest, algorithm, precision, &states, &extra)?;
+    let mut errors = Vec::new();
+    for subject in &mut checked {
+        let (expected, full_scale) = expected(recording, algorithm, subject.gravity);
+        let bound = bound(algorithm, precision);
+        let error = subject.check(states.len(), &expected, full_scale, bound);
+        errors.push(error.map_err(|e| format!("{algorithm} of {}: {e}", recording.robot))?);
+    }
+    let states = self::states(recording, algorithm, BATCH);
+    let mut subjects = gather::<T, R, B, N>(manifest, algorithm, precision, &states, &extra)?;
+    let mut timed: Vec<_> = subjects
+        .iter_mut()
+        .filter(|subject| subject.timed)
+        .collect();
+    let mut times = interleaved(&mut timed, BATCH).into_iter();
+    for (subject, error) in std::iter::zip(&subjects, errors) {
+        let row = Row {
+            robot: &recording.robot,
+            algorithm,
+            peer: &subject.peer,
+            precision,
+            error,
+            ns: if subject.timed { times.next() } else { None },
+        };
+        println!("{}", serde_json::to_string(&row)?);
+    }
+    Ok(())
+}
+
+/// Every function for this robot, algorithm and precision, ours first.
+fn gather<T, R, const B: usize, const N: usize>(
+    manifest: &Manifest,
+    algorithm: &str,
+    precision: &str,
+    states: &[State<R, N, N>],
+    extra: &impl Fn(&[State<R, N, N>]) -> Result<Option<Subject<R>>, Box<dyn Error>>,
+) -> Result<Vec<Subject<R>>, Box<dyn Error>>
+where
+    T: Robot<B, N, N>,
+    R: Real,
+{
+    let mut subjects = ours::subjects::<T, R, B, N>(algorithm, states);
+    for foreign in &manifest.foreign {
+        let key = (&*foreign.robot, &*foreign.algorithm, &*foreign.precision);
+        if key == (T::MODEL.name, algorithm, precision) {
+            subjects.push(foreign.load(states)?);
+        }
+    }
+    subjects.extend(extra(states)?);
+    Ok(subjects)
+}
+
+/// So many recorded states; in forward dynamics the torque stands in the place of q̈.
+fn states<R: Real, const N: usize>(
+    recording: &Recording,
+    algorithm: &str,
+    count: usize,
+) -> Vec<State<R, N, N>> {
+    let last = if algorithm == "aba" {
+        &recording.tau
+    } else {
+        &recording.qdd
+    };
+    let row = |rows: &[Vec<f64>], k| recordings::row::<N>(rows, k).map(R::from_f64);
+    (0..recording.q.len())
+        .cycle()
+        .take(count)
+        .map(|k| State {
+            q: row(&recording.q, k),
+            qd: row(&recording.qd, k),
+            qdd: row(last, k),
+        })
+        .collect()
+}
+
+/// What Pinocchio recorded, under `gravity` times its own, and its full scale.
+fn expected(recording: &Recording, algorithm: &str, gravity: f64) -> (Vec<Vec<f64>>, f64) {
+    let scale = &recording.full_scale;
+    let (rows, full_scale) = match algorithm {
+        "rnea" => (&recording.rnea, scale.rnea),
+        "bias" => (&recording.bias, scale.bias),
+        "gravity" => (&recording.gravity, scale.gravity),
+        "crba" => (&recording.mass_matrix, scale.mass_matrix),
+        _ => (&recording.aba, scale.aba),
+    };
+    let mut rows = rows.clone();
+    if gravity != 1.0 {
+        for (row, weight) in std::iter::zip(&mut rows, &recording.gravity) {
+            for (entry, weight) in std::iter::zip(row, weight) {
+                *entry += (gravity - 1.0) * weight;
+            }
+        }
+    }
+    (rows, full_scale)
+}
+
+/// Largest error of a function that is worth timing, relative to full scale. Forward dynamics is
+/// ill-conditioned: its rounding errors are those of the mass matrix's inverse.
+fn bound(algorithm: &str, precision: &str) -> f64 {
+    match (algorithm, precision) {
+        ("aba", "f32") => 1e-3,
+        (_, "f32") => 1e-5,
+        ("aba", _) => 1e-11,
+        _ => 1e-12,
+    }
+}

@@ -1,0 +1,25 @@
+// A function that CasADi generated, behind the C interface of the benchmark (see
+// pinocchio_peer.cpp). Compiled once for each, with its file, its name and the joints:
+//
+//     cc -DFILE='"ur5e_rnea_q_f64.c"' -DNAME=ur5e_rnea_q_f64 -DJOINTS=6 -DOUTPUTS=6 -DCS=0 …
+
+#include <stddef.h>
+
+#define PEER(name) name
+#include FILE
+
+#define CONCAT(a, b) a##b
+#define RUN(name) CONCAT(casadi_, name)
+
+// With CS a state is cosines, sines, q̇ and q̈ in a row.
+__attribute__((visibility("default"))) void RUN(NAME)(
+    void *unused, const casadi_real *state, size_t count, casadi_real *out) {
+  (void)unused;
+  for (; count > 0; --count, state += (3 + CS) * JOINTS, out += OUTPUTS) {
+#if CS
+    NAME(state, state + JOINTS, state + 2 * JOINTS, state + 3 * JOINTS, out);
+#else
+    NAME(state, state + JOINTS, state + 2 * JOINTS, out);
+#endif
+  }
+}

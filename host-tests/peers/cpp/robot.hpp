@@ -1,0 +1,92 @@
+// A robot from `cargo xtask peers`' text form, as Pinocchio's model.
+#pragma once
+
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <pinocchio/multibody.hpp>
+
+// What joints take as their position: the angle, or its cosine and sine.
+enum class Position { angle, cos_sin };
+
+struct Body {
+  std::string name, joint;
+  int parent;
+  double axis[3], rotation[9], position[3], mass, com[3], inertia[6];
+};
+
+struct Robot {
+  std::string name;
+  std::vector<Body> bodies;
+};
+
+template <int N>
+void read(std::istream &in, double (&numbers)[N]) {
+  for (double &number : numbers) in >> number;
+}
+
+// Robots of a file: a line `name bodies`, then one line a body. C++ reads a decimal number to the
+// nearest double, so that the numbers are the library's own.
+inline std::vector<Robot> read_robots(const std::string &path) {
+  std::ifstream in(path);
+  std::vector<Robot> robots;
+  Robot robot;
+  std::size_t count;
+  while (in >> robot.name >> count) {
+    robot.bodies.resize(count);
+    for (Body &body : robot.bodies) {
+      in >> body.name >> body.parent >> body.joint;
+      read(in, body.axis);
+      read(in, body.rotation);
+      read(in, body.position);
+      in >> body.mass;
+      read(in, body.com);
+      read(in, body.inertia);
+    }
+    if (!in) throw std::runtime_error(path + ": " + robot.name + " is incomplete");
+    robots.push_back(robot);
+  }
+  if (robots.empty()) throw std::runtime_error(path + ": no robot");
+  return robots;
+}
+
+inline pinocchio::JointModel joint_model(const Body &body, Position position) {
+  using namespace pinocchio;
+  const Eigen::Vector3d axis(body.axis);
+  const bool angle = position == Position::angle;
+  if (body.joint != "revolute") throw std::runtime_error("a joint that is not revolute");
+  if (axis == Eigen::Vector3d::UnitX())
+    return angle ? JointModel(JointModelRX()) : JointModel(JointModelRUBX());
+  if (axis == Eigen::Vector3d::UnitY())
+    return angle ? JointModel(JointModelRY()) : JointModel(JointModelRUBY());
+  if (axis == Eigen::Vector3d::UnitZ())
+    return angle ? JointModel(JointModelRZ()) : JointModel(JointModelRUBZ());
+  if (angle) return JointModel(JointModelRevoluteUnaligned(axis));
+  return JointModel(JointModelRevoluteUnboundedUnaligned(axis));
+}
+
+inline pinocchio::Model pinocchio_model(const Robot &robot, Position position) {
+  using namespace pinocchio;
+  Model model;
+  model.name = robot.name;
+  std::vector<std::pair<JointIndex, SE3>> placed;
+  for (const Body &body : robot.bodies) {
+    JointIndex joint = 0;
+    SE3 at = SE3::Identity();
+    if (body.parent >= 0) std::tie(joint, at) = placed.at(body.parent);
+    const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> rotation(body.rotation);
+    SE3 here = at * SE3(Eigen::Matrix3d(rotation), Eigen::Vector3d(body.position));
+    if (body.joint != "fixed") {
+      joint = model.addJoint(joint, joint_model(body, position), here, body.name);
+      here = SE3::Identity();
+    }
+    placed.emplace_back(joint, here);
+    const double *i = body.inertia;  // xx, xy, xz, yy, yz, zz
+    const Symmetric3 inertia(i[0], i[1], i[3], i[2], i[4], i[5]);
+    model.appendBodyToJoint(joint, Inertia(body.mass, Eigen::Vector3d(body.com), inertia), here);
+  }
+  return model;
+}

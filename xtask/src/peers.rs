@@ -1,0 +1,117 @@
+//! `cargo xtask peers`: the same dynamics by other libraries and by ours, side by side in one run.
+
+mod bars;
+mod build;
+mod host;
+mod progress;
+mod report;
+mod robots;
+mod target;
+mod tools;
+
+use std::process::{Command, ExitCode};
+
+use serde::Deserialize;
+
+use crate::error::{Error, Result};
+use crate::peers::build::Workshop;
+use crate::peers::progress::Progress;
+use crate::peers::report::Report;
+use crate::peers::tools::Peers;
+use crate::setup::{Options, Tools};
+use crate::shell;
+use crate::workspace::{self, Workspace};
+
+/// What the peers compute: ID(q, q̇, q̈), ID(q, q̇, 0), ID(q, 0, 0), the mass matrix, and FD(q, q̇, τ).
+const ALGORITHMS: [&str; 5] = ["rnea", "bias", "gravity", "crba", "aba"];
+const PRECISIONS: [&str; 2] = ["f32", "f64"];
+
+/// Steps beside those of host and target: the generator.
+const OTHER_STEPS: usize = 1;
+
+/// Numbers that an algorithm gives for a robot of so many joints; of M one triangle.
+fn outputs(algorithm: &str, joints: usize) -> usize {
+    if algorithm == "crba" {
+        joints * (joints + 1) / 2
+    } else {
+        joints
+    }
+}
+
+/// Sets up, builds, measures, and writes `docs/peers.md`.
+pub fn run(options: Options, json: bool) -> Result<ExitCode> {
+    let workspace = Workspace::find()?;
+    let (tools, peers) = tools::set_up(&workspace, options)?;
+    let robots = robots::export(&workspace)?;
+    let steps = OTHER_STEPS + host::steps(robots.len()) + target::steps(robots.len());
+    let progress = Progress::new(steps);
+    let shop = Workshop::new(&workspace, &peers, &progress)?;
+    shop.generate(&robots)?;
+    let mut rows = target::measure(&workspace, &shop, &tools, &robots)?;
+    rows.extend(host::measure(&workspace, &shop, &robots)?);
+    drop(progress);
+    let (date, versions) = versions(&workspace, &tools, &peers)?;
+    let report = Report {
+        rows,
+        versions,
+        date,
+    };
+    workspace::write(&workspace.root.join("docs/peers.md"), report.markdown())?;
+    if json {
+        let text = serde_json::to_string_pretty(&report.rows)
+            .map_err(|e| Error::check(format!("cannot write the JSON: {e}")))?;
+        println!("{text}");
+    } else {
+        print!("{}", report.text());
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Today, and the versions of all that was measured or measured with.
+fn versions(workspace: &Workspace, tools: &Tools, peers: &Peers) -> Result<(String, Vec<String>)> {
+    let script = "import datetime; from importlib.metadata import version\n\
+                  print(datetime.date.today())\n\
+                  for p in ('pin', 'casadi', 'mujoco'): print(p, version(p))";
+    let said = shell::capture(Command::new(&peers.python).args(["-c", script]))?;
+    let mut lines = said.lines().map(str::to_owned);
+    let date = lines.next().unwrap_or_default();
+    let mut versions: Vec<String> = lines.collect();
+    versions.push(format!("dynibo {}", locked(workspace, "dynibo")?));
+    versions.extend(target::compilers());
+    versions.push(tools.toolchain.rustc_version()?);
+    versions.push(tools.qemu.version.clone());
+    versions.extend(processor().map(|name| format!("host: {name}")));
+    Ok((date, versions))
+}
+
+#[derive(Deserialize)]
+struct Lock {
+    package: Vec<Locked>,
+}
+
+#[derive(Deserialize)]
+struct Locked {
+    name: String,
+    version: String,
+}
+
+/// The version of a crate in Cargo.lock.
+fn locked(workspace: &Workspace, name: &str) -> Result<String> {
+    let path = workspace.root.join("Cargo.lock");
+    let lock: Lock = toml::from_str(&workspace::read(&path)?)
+        .map_err(|e| Error::check(format!("{}: {e}", path.display())))?;
+    let found = lock
+        .package
+        .into_iter()
+        .find(|package| package.name == name);
+    found
+        .map(|package| package.version)
+        .ok_or_else(|| Error::check(format!("no `{name}` in Cargo.lock")))
+}
+
+/// What this machine calls its processor, if it says.
+fn processor() -> Option<String> {
+    let text = std::fs::read_to_string("/proc/cpuinfo").ok()?;
+    let line = text.lines().find(|line| line.starts_with("model name"))?;
+    Some(line.split_once(':')?.1.trim().to_owned())
+}

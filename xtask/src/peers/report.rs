@@ -1,0 +1,203 @@
+//! What was measured, as tables, as JSON and as the page in the docs.
+
+use serde::Serialize;
+
+use crate::peers::bars::{self, Bar};
+use crate::peers::{ALGORITHMS, PRECISIONS};
+use crate::report::MODEL;
+use crate::table::{Table, thousands};
+
+/// The processor that runs xtask.
+pub const HOST: &str = "host";
+/// The emulated one.
+pub const M4F: &str = "cortex-m4f";
+
+const COMMAND: &str = "cargo xtask peers";
+
+/// A measurement. Its fields, but for those that are skipped, are those of the JSON.
+#[derive(Debug, Default, Serialize)]
+pub struct Row {
+    /// [`HOST`] or [`M4F`].
+    pub target: &'static str,
+    /// The robot's name.
+    pub robot: String,
+    /// One of [`ALGORITHMS`].
+    pub algorithm: String,
+    /// Whose code, and how it was compiled.
+    pub peer: String,
+    /// `f32` or `f64`.
+    pub precision: String,
+    /// Median nanoseconds a state, on the host, sines and cosines included.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ns: Option<f64>,
+    /// Modelled cycles, on the target, sines and cosines at hand.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cycles: Option<u64>,
+    /// Instructions and literals of the function and what it calls; not known on the host.
+    pub code_bytes: Option<u64>,
+    /// Instructions executed, on the target.
+    #[serde(skip)]
+    pub instructions: Option<u64>,
+}
+
+/// Everything that is printed.
+pub struct Report {
+    /// The measurements.
+    pub rows: Vec<Row>,
+    /// What was measured with what.
+    pub versions: Vec<String>,
+    /// The day of the run.
+    pub date: String,
+}
+
+/// A part of the report.
+struct Section {
+    title: String,
+    /// What its figures are.
+    note: &'static str,
+    table: Table,
+}
+
+const ON_TARGET: &str = "f32, sines and cosines at hand; instructions are exact, cycles modelled. \
+    `casadi clang` has our CPU flags and is outside the bars.";
+const ON_HOST: &str = "Nanoseconds a state, sines and cosines included.";
+
+impl Report {
+    /// For a terminal.
+    pub fn text(&self) -> String {
+        let mut text = String::new();
+        for Section { title, note, table } in self.sections() {
+            text += &format!("{title}\n{note}\n\n{}\n", table.text());
+        }
+        for bar in bars::of(&self.rows) {
+            text += &format!("{bar}\n");
+        }
+        text + &format!("\n{MODEL}\n")
+    }
+
+    /// For the docs.
+    pub fn markdown(&self) -> String {
+        let mut text = format!(
+            "# Peers\n\n<!-- written by `{COMMAND}`: do not edit -->\n\n\
+             The same robots, from the same numbers, by other libraries and by this one, measured \
+             in one run on {}. Every function was compared with what Pinocchio recorded before it \
+             was timed: on the host within 1e-12 of full scale in f64, 1e-5 in f32 (forward dynamics \
+             1e-11 and 1e-3). On the target, inverse dynamics was compared once more, with our core, \
+             within 1e-5.\n\nTarget: {MODEL}. The code of a function is its instructions \
+             and literals and those of what it calls.\n\n{}\n",
+            self.date, ABOUT
+        );
+        for Section { title, note, table } in self.sections() {
+            text += &format!("\n## {title}\n\n{note}\n\n{}", table.markdown());
+        }
+        text += "\n## Against the bars\n\n";
+        let mut table = Table::new(&["what", "measured", "at most", ""]);
+        for Bar {
+            what,
+            measured,
+            limit,
+            unit,
+            ..
+        } in bars::of(&self.rows)
+        {
+            let verdict = if measured <= limit { "met" } else { "missed" };
+            let digits = if unit == "×" { 2 } else { 0 };
+            let number = |x: f64| format!("{x:.digits$} {unit}");
+            table.row([what, number(measured), number(limit), verdict.into()]);
+        }
+        text += &table.markdown();
+        text += "\n## Versions\n\n";
+        for version in &self.versions {
+            text += &format!("- {version}\n");
+        }
+        text
+    }
+
+    fn sections(&self) -> Vec<Section> {
+        let targets = ALGORITHMS.iter().map(|algorithm| Section {
+            title: format!("Cortex-M4F: {algorithm}"),
+            note: ON_TARGET,
+            table: self.on_target(algorithm),
+        });
+        let hosts = ALGORITHMS.iter().map(|algorithm| Section {
+            title: format!("Host: {algorithm}"),
+            note: ON_HOST,
+            table: self.on_host(algorithm),
+        });
+        targets.chain(hosts).collect()
+    }
+
+    fn on_target(&self, algorithm: &str) -> Table {
+        let mut table = Table::new(&[
+            "robot, code",
+            "instructions",
+            "cycles",
+            "bytes",
+            "engine / this",
+        ]);
+        for row in self.of(M4F, algorithm) {
+            let engine = self
+                .of(M4F, algorithm)
+                .find(|other| other.robot == row.robot && other.peer == "engine")
+                .and_then(|engine| engine.cycles);
+            let ratio = engine
+                .zip(row.cycles)
+                .map(|(engine, cycles)| format!("{:.2}", engine as f64 / cycles as f64));
+            let number = |value: Option<u64>| value.map_or("–".into(), thousands);
+            table.row([
+                format!("{}, {}", row.robot, row.peer),
+                number(row.instructions),
+                number(row.cycles),
+                number(row.code_bytes),
+                ratio.unwrap_or("–".into()),
+            ]);
+        }
+        table
+    }
+
+    fn on_host(&self, algorithm: &str) -> Table {
+        let mut table = Table::new(&["robot, code", "f64", "f32"]);
+        let mut lines: Vec<(&str, &str)> = Vec::new();
+        for row in self.of(HOST, algorithm) {
+            if !lines.contains(&(&row.robot, &row.peer)) {
+                lines.push((&row.robot, &row.peer));
+            }
+        }
+        // By robot, which the two precisions of a peer interrupt.
+        let mut robots: Vec<&str> = lines.iter().map(|(robot, _)| *robot).collect();
+        robots.dedup();
+        for robot in robots {
+            for (_, peer) in lines.iter().filter(|(other, _)| *other == robot) {
+                let [single, double] = PRECISIONS.map(|precision| {
+                    self.of(HOST, algorithm)
+                        .find(|row| {
+                            (&*row.robot, &*row.peer, &*row.precision) == (robot, peer, precision)
+                        })
+                        .and_then(|row| row.ns)
+                        .map_or("–".into(), |ns| format!("{ns:.1}"))
+                });
+                table.row([format!("{robot}, {peer}"), double, single]);
+            }
+        }
+        table
+    }
+
+    fn of<'a>(&'a self, target: &'a str, algorithm: &'a str) -> impl Iterator<Item = &'a Row> {
+        self.rows
+            .iter()
+            .filter(move |row| (row.target, &*row.algorithm) == (target, algorithm))
+    }
+}
+
+const ABOUT: &str = "\
+- **casadi**: C that CasADi generates from Pinocchio's algorithms for one robot, all constants folded;
+  f32 with its sines and literals made f32, called through a function whose pointers may not be null,
+  which lets the compiler drop CasADi's tests for that. On the host with `-O3
+  -march=native`, on the target with `-O3` and the named flags, there the better of two: whether or
+  not `restrict` says that inputs and output do not overlap.
+- **pinocchio**: its C++ templates, `-O3 -march=native -DNDEBUG`, model loaded at run time.
+- **mujoco**: f64, as its maker compiles it. `mj_inverse` is what a user calls, MuJoCo's whole
+  pipeline of inverse dynamics. `mj_rne` is the least that gives the torques: `mj_kinematics`, `mj_comPos`,
+  `mj_comVel`, `mj_rne`. Contacts and constraints are off.
+- **dynibo**: a Rust crate; f64, model read from a URDF at run time, gravity fixed at 9.80665 m/s².
+- **core**, **engine**: this library's two forms, with `-C target-cpu=native` on the host.";

@@ -1,0 +1,231 @@
+//! The library's robots in the forms that the peers read. All of them hold the numbers that are in
+//! our source, none is a maker's URDF with rounded angles.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use serde::Deserialize;
+
+use crate::error::{Error, Result};
+use crate::shell;
+use crate::workspace::{self, Workspace};
+
+/// A robot as `export_robots` prints it.
+#[derive(Deserialize)]
+pub struct Robot {
+    /// Its name.
+    pub name: String,
+    /// Its bodies, parents first.
+    bodies: Vec<Body>,
+}
+
+#[derive(Deserialize)]
+struct Body {
+    name: String,
+    parent: i64,
+    joint: String,
+    axis: [f64; 3],
+    placement: Placement,
+    mass: f64,
+    com: [f64; 3],
+    inertia_com: [f64; 6],
+}
+
+#[derive(Deserialize)]
+struct Placement {
+    rotation: [f64; 9],
+    position: [f64; 3],
+}
+
+/// Asks the library for its robots.
+pub fn export(workspace: &Workspace) -> Result<Vec<Robot>> {
+    let mut command = workspace.cargo("run");
+    command.args([
+        "--quiet",
+        "--package",
+        "host-tests",
+        "--bin",
+        "export_robots",
+    ]);
+    let json = shell::capture(&mut command)?;
+    let mut robots: Vec<Robot> = serde_json::from_str(&json)
+        .map_err(|e| Error::check(format!("`{}`: {e}", shell::display(&command))))?;
+    for body in robots.iter_mut().flat_map(|robot| &mut robot.bodies) {
+        // The library holds inertias about the link's origin. What comes back to the centre of mass
+        // is off by rounding, and CasADi drops products with exact zeros only.
+        let [xx, _, _, yy, _, zz] = body.inertia_com;
+        for entry in &mut body.inertia_com {
+            if entry.abs() < 1e-15 * (xx + yy + zz) {
+                *entry = 0.0;
+            }
+        }
+    }
+    Ok(robots)
+}
+
+impl Robot {
+    /// Joints that move.
+    pub fn joints(&self) -> usize {
+        self.bodies.iter().filter(|body| body.moves()).count()
+    }
+
+    /// Writes `<name>.urdf` and `<name>.xml` (MuJoCo's form).
+    pub fn write(&self, dir: &Path) -> Result<()> {
+        workspace::write(&dir.join(format!("{}.urdf", self.name)), self.urdf())?;
+        workspace::write(&dir.join(format!("{}.xml", self.name)), self.mjcf())
+    }
+
+    /// What `robot.hpp` reads.
+    pub fn text(&self) -> String {
+        let mut text = format!("{} {}\n", self.name, self.bodies.len());
+        for body in &self.bodies {
+            let Placement { rotation, position } = &body.placement;
+            let numbers = [
+                &body.axis[..],
+                rotation,
+                position,
+                &[body.mass],
+                &body.com,
+                &body.inertia_com,
+            ];
+            let (name, numbers) = (&body.name, spaced(&numbers.concat()));
+            let _ = writeln!(text, "{name} {} {} {numbers}", body.parent, body.joint);
+        }
+        text
+    }
+
+    fn urdf(&self) -> String {
+        let mut text = format!("<robot name=\"{}\">\n<link name=\"base\"/>\n", self.name);
+        for body in &self.bodies {
+            let Body {
+                name,
+                mass,
+                placement,
+                ..
+            } = body;
+            let [xx, xy, xz, yy, yz, zz] = body.inertia_com;
+            let (com, axis) = (spaced(&body.com), spaced(&body.axis));
+            let (xyz, rpy) = (
+                spaced(&placement.position),
+                spaced(&angles(&placement.rotation)),
+            );
+            let kind = if body.moves() { "continuous" } else { "fixed" };
+            let parent = usize::try_from(body.parent).ok();
+            let parent = parent.map_or("base", |index| &self.bodies[index].name);
+            let _ = write!(
+                text,
+                "<link name=\"{name}\"><inertial><origin xyz=\"{com}\"/><mass value=\"{mass}\"/>\
+                 <inertia ixx=\"{xx}\" ixy=\"{xy}\" ixz=\"{xz}\" iyy=\"{yy}\" iyz=\"{yz}\" \
+                 izz=\"{zz}\"/></inertial></link>\n\
+                 <joint name=\"{name}_joint\" type=\"{kind}\"><origin xyz=\"{xyz}\" rpy=\"{rpy}\"/>\
+                 <parent link=\"{parent}\"/><child link=\"{name}\"/><axis xyz=\"{axis}\"/></joint>\n"
+            );
+        }
+        text + "</robot>\n"
+    }
+
+    /// Without contacts and constraints, which a robot that moves freely has none of.
+    fn mjcf(&self) -> String {
+        format!(
+            "<mujoco model=\"{}\">\n<compiler angle=\"radian\"/>\n<option gravity=\"0 0 -9.81\">\
+             <flag contact=\"disable\" constraint=\"disable\"/></option>\n<worldbody>\n{}\
+             </worldbody>\n</mujoco>\n",
+            self.name,
+            self.mjcf_children(-1)
+        )
+    }
+
+    fn mjcf_children(&self, parent: i64) -> String {
+        let mut text = String::new();
+        for (index, body) in self.bodies.iter().enumerate() {
+            if body.parent != parent {
+                continue;
+            }
+            let [xx, xy, xz, yy, yz, zz] = body.inertia_com;
+            let inertia = spaced(&[xx, yy, zz, xy, xz, yz]);
+            let (pos, com) = (spaced(&body.placement.position), spaced(&body.com));
+            let quat = spaced(&quaternion(&body.placement.rotation));
+            let axis = spaced(&body.axis);
+            let joint = match body.moves() {
+                true => format!("<joint type=\"hinge\" axis=\"{axis}\"/>"),
+                false => String::new(),
+            };
+            let children = self.mjcf_children(index as i64);
+            let _ = writeln!(
+                text,
+                "<body name=\"{}\" pos=\"{pos}\" quat=\"{quat}\"><inertial pos=\"{com}\" \
+                 mass=\"{}\" fullinertia=\"{inertia}\"/>{joint}\n{children}</body>",
+                body.name, body.mass
+            );
+        }
+        text
+    }
+}
+
+impl Body {
+    fn moves(&self) -> bool {
+        self.joint != "fixed"
+    }
+}
+
+/// Shortest decimals that read back to the same f64.
+fn spaced(numbers: &[f64]) -> String {
+    numbers
+        .iter()
+        .map(f64::to_string)
+        .collect::<Vec<_>>()
+        .join(" ")
+}
+
+/// Roll, pitch and yaw of a rotation by rows: R = Rz(yaw) Ry(pitch) Rx(roll).
+fn angles(r: &[f64; 9]) -> [f64; 3] {
+    let level = r[0].hypot(r[3]);
+    let pitch = (-r[6]).atan2(level);
+    if level < 1e-12 {
+        // Roll and yaw turn about the same axis: all of it is called roll.
+        return [(-r[5]).atan2(r[4]), pitch, 0.0];
+    }
+    [r[7].atan2(r[8]), pitch, r[3].atan2(r[0])]
+}
+
+/// The unit quaternion w, x, y, z of a rotation by rows, from its largest component (Shepperd 1978).
+fn quaternion(r: &[f64; 9]) -> [f64; 4] {
+    let trace = r[0] + r[4] + r[8];
+    // Four times the squares of w, x, y and z.
+    let squares = [
+        trace,
+        2.0 * r[0] - trace,
+        2.0 * r[4] - trace,
+        2.0 * r[8] - trace,
+    ]
+    .map(|s| 1.0 + s);
+    let (wx, wy, wz) = (r[7] - r[5], r[2] - r[6], r[3] - r[1]);
+    let (xy, xz, yz) = (r[1] + r[3], r[2] + r[6], r[5] + r[7]);
+    let rows = [
+        [squares[0], wx, wy, wz],
+        [wx, squares[1], xy, xz],
+        [wy, xy, squares[2], yz],
+        [wz, xz, yz, squares[3]],
+    ];
+    let largest = (0..4)
+        .max_by(|&a, &b| squares[a].total_cmp(&squares[b]))
+        .unwrap_or(0);
+    rows[largest].map(|entry| entry / (2.0 * squares[largest].sqrt()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{angles, quaternion};
+
+    #[test]
+    fn a_quarter_turn_is_one_in_every_form() {
+        let close = |a: &[f64], b: &[f64]| std::iter::zip(a, b).all(|(a, b)| (a - b).abs() < 1e-15);
+        let (quarter, half) = (std::f64::consts::FRAC_PI_2, std::f64::consts::FRAC_1_SQRT_2);
+        let about_x = [1.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0];
+        assert!(close(&angles(&about_x), &[quarter, 0.0, 0.0]));
+        assert!(close(&quaternion(&about_x), &[half, half, 0.0, 0.0]));
+        let about_y = [0.0, 0.0, 1.0, 0.0, 1.0, 0.0, -1.0, 0.0, 0.0];
+        assert!(close(&angles(&about_y), &[0.0, quarter, 0.0]));
+        assert!(close(&quaternion(&about_y), &[half, 0.0, half, 0.0]));
+    }
+}

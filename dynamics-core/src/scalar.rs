@@ -52,10 +52,12 @@ pub trait Real:
     fn from_f64(x: f64) -> Self;
     /// The same value in f64, exactly.
     fn to_f64(self) -> f64;
-    /// (sin, cos) of an angle in rad; f32: [`crate::trig::sin_cos`], f64: `libm`.
+    /// (sin, cos) of an angle in rad: [`crate::trig::sin_cos`] or [`crate::trig::sin_cos_f64`].
     ///
-    /// Cost: about 70 instructions in f32 on a Cortex-M4F, the same for every input.
+    /// Cost: the same instructions for every input; [`crate::trig`] has range and error.
     fn sin_cos(self) -> (Self, Self);
+    /// As `sin_cos`, for angles within ±100 rad: [`crate::trig::sin_cos_near`] in f32.
+    fn sin_cos_near(self) -> (Self, Self);
     /// |x|.
     fn abs(self) -> Self;
     /// Neither infinite nor NaN.
@@ -131,7 +133,7 @@ pub trait Matrix<R: Real>:
 }
 
 macro_rules! real {
-    ($r:ident, $vec:path, $mat:path, $sin_cos:expr, |$double:ident, $single:ident| $pick:ident) => {
+    ($r:ident, $vec:path, $mat:path, $sin_cos:expr, $near:expr, |$double:ident, $single:ident| $pick:ident) => {
         impl Real for $r {
             type Vec3 = $vec;
             type Mat3 = $mat;
@@ -148,6 +150,10 @@ macro_rules! real {
             #[inline(always)]
             fn sin_cos(self) -> (Self, Self) {
                 $sin_cos(self)
+            }
+            #[inline(always)]
+            fn sin_cos_near(self) -> (Self, Self) {
+                $near(self)
             }
             #[inline(always)]
             fn abs(self) -> Self {
@@ -225,12 +231,14 @@ real!(
     glam::Vec3,
     glam::Mat3,
     crate::trig::sin_cos,
+    crate::trig::sin_cos_near,
     |double, single| single
 );
 real!(
     f64,
     glam::DVec3,
     glam::DMat3,
-    libm::sincos,
+    crate::trig::sin_cos_f64,
+    crate::trig::sin_cos_f64,
     |double, single| double
 );

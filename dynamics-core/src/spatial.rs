@@ -175,6 +175,18 @@ impl<R: Real> Mul for Xform<R> {
 }
 
 impl<R: Real> SpatialInertia<R> {
+    /// I a + v ×* I v: the force that accelerates a body moving with v. RBDA (2.58), written out by
+    /// the acceleration a + ω × v of the origin's point. 102 flops.
+    #[inline(always)]
+    pub fn force(&self, a: Motion<R>, v: Motion<R>) -> Force<R> {
+        let w = v.ang;
+        let point = a.lin + w.cross(v.lin);
+        Force::new(
+            self.inertia * a.ang + self.moment.cross(point) + w.cross(self.inertia * w),
+            point * self.mass + a.ang.cross(self.moment) + w.cross(w.cross(self.moment)),
+        )
+    }
+
     /// The inertia of nothing.
     pub const ZERO: Self = Self {
         mass: R::ZERO,

@@ -1,54 +1,60 @@
-//! Sine and cosine in f32, without a branch and without f64.
+//! Sine and cosine without a branch, and in f32 without f64.
 //!
 //! Cody and Waite, *Software Manual for the Elementary Functions* (1980): x = k π/2 + r with π/2
-//! in parts whose products with k are exact, then minimax polynomials of degree 7 (sine) and 8
-//! (cosine) on |r| ≤ π/4. The coefficients are printed by `host-tests/oracle/minimax.py`.
+//! in parts whose products with k are exact, then minimax polynomials on |r| ≤ π/4: of degree 7 and
+//! 8 in f32, of 13 and 14 in f64. The f32 coefficients are printed by `host-tests/oracle/minimax.py`.
 //! `libm::sinf` computes in f64, which the FPU of a Cortex-M4F does not have: 30 times the cost.
+//!
+//! For infinite or NaN input the result has no meaning: callers gate such angles before they get here.
 
-/// Adding and subtracting 1.5·2²³ rounds an f32 below 2²² to the nearest integer, and leaves
-/// that integer in the low bits of the sum.
-const ROUND: f32 = 12_582_912.0;
-
-const SIN: [f32; 3] = [-0.166_666_55, 0.008_332_174, -0.000_195_156_54];
-const COS: [f32; 3] = [0.041_666_653, -0.001_388_761_9, 2.446_341_2e-5];
-
-/// (sin x, cos x) of x in rad, |x| ≤ 10⁴: absolute error below 1.2·10⁻⁷.
+/// (sin x, cos x) of x in rad, |x| ≤ 10⁴: absolute error below 10⁻⁷.
 ///
-/// Beyond 10⁴ rad accuracy is lost gradually; beyond 6·10⁶ rad, and for infinite or NaN input,
-/// the result has no meaning (it may be NaN): callers gate such angles before they get here.
-/// The same instructions whatever x.
+/// Beyond 10⁴ rad accuracy is lost gradually; beyond 6·10⁶ rad the result has no meaning. Cost: the
+/// same instructions whatever x.
 ///
 /// ```
 /// let (s, c) = dynamics_core::trig::sin_cos(0.5);
-/// assert!((s - 0.479_425_54).abs() < 1.2e-7 && (c - 0.877_582_55).abs() < 1.2e-7);
+/// assert!((s - 0.479_425_54).abs() < 1e-7 && (c - 0.877_582_55).abs() < 1e-7);
 /// ```
 #[inline(always)]
 pub fn sin_cos(x: f32) -> (f32, f32) {
-    let t = x * core::f32::consts::FRAC_2_PI + ROUND;
-    let k = t - ROUND;
+    let (k, quadrant) = quarter_turns(x);
     let r = ((x - k * 1.570_312_5) - k * 4.837_513e-4) - k * 7.549_79e-8;
-    kernel(r, t.to_bits())
+    kernel(r, quadrant)
 }
 
-/// (sin x, cos x) of x in rad for joints that never leave ±4π: absolute error below 1.2·10⁻⁷.
+/// (sin x, cos x) of x in rad for joints that stay within ±100 rad: absolute error below 10⁻⁷.
 ///
-/// A reduction in two parts instead of three. The same instructions whatever x.
+/// A reduction in two parts instead of three. The engine takes it for joints whose limits lie within
+/// ±4π. Cost: the same instructions whatever x.
 ///
 /// ```
-/// let (s, c) = dynamics_core::trig::sin_cos_4pi(-3.0);
-/// assert!((s + 0.141_120_01).abs() < 1.2e-7 && (c + 0.989_992_5).abs() < 1.2e-7);
+/// let (s, c) = dynamics_core::trig::sin_cos_near(-3.0);
+/// assert!((s + 0.141_120_01).abs() < 1e-7 && (c + 0.989_992_5).abs() < 1e-7);
 /// ```
 #[inline(always)]
-pub fn sin_cos_4pi(x: f32) -> (f32, f32) {
-    let t = x * core::f32::consts::FRAC_2_PI + ROUND;
-    let k = t - ROUND;
+pub fn sin_cos_near(x: f32) -> (f32, f32) {
+    let (k, quadrant) = quarter_turns(x);
     let r = (x - k * 1.570_785_5) - k * 1.080_433_4e-5;
-    kernel(r, t.to_bits())
+    kernel(r, quadrant)
+}
+
+/// The nearest whole number of quarter turns, as a number and with its low bits.
+///
+/// Adding and subtracting 1.5·2²³ rounds an f32 below 2²² to the nearest integer and leaves that
+/// integer in the low bits of the sum.
+#[inline(always)]
+fn quarter_turns(x: f32) -> (f32, u32) {
+    const ROUND: f32 = 12_582_912.0;
+    let t = x * core::f32::consts::FRAC_2_PI + ROUND;
+    (t - ROUND, t.to_bits())
 }
 
 /// Sine and cosine of r + k π/2; the low two bits of `k` choose the quadrant.
 #[inline(always)]
 fn kernel(r: f32, k: u32) -> (f32, f32) {
+    const SIN: [f32; 3] = [-0.166_666_55, 0.008_332_174, -0.000_195_156_54];
+    const COS: [f32; 3] = [0.041_666_653, -0.001_388_761_9, 2.446_341_2e-5];
     let u = r * r;
     let s = r + r * u * (SIN[0] + u * (SIN[1] + u * SIN[2]));
     let c = 1.0 + u * (-0.5 + u * (COS[0] + u * (COS[1] + u * COS[2])));
@@ -58,4 +64,48 @@ fn kernel(r: f32, k: u32) -> (f32, f32) {
     let sine = s ^ exchanged ^ ((k & 2) << 30);
     let cosine = c ^ exchanged ^ ((k.wrapping_add(1) & 2) << 30);
     (f32::from_bits(sine), f32::from_bits(cosine))
+}
+
+/// (sin x, cos x) in f64 of x in rad, |x| ≤ 10⁵: absolute error below 3·10⁻¹⁶.
+///
+/// The coefficients are those of fdlibm's kernels (Sun Microsystems, 1993); unlike fdlibm and its
+/// descendants it has no branch, so that compilers can do several joints at once.
+///
+/// ```
+/// let (s, c) = dynamics_core::trig::sin_cos_f64(2.0);
+/// assert!((s - 0.909_297_426_825_681_7).abs() < 3e-16 && (c + 0.416_146_836_547_142_4).abs() < 3e-16);
+/// ```
+#[inline(always)]
+pub fn sin_cos_f64(x: f64) -> (f64, f64) {
+    const ROUND: f64 = 6_755_399_441_055_744.0;
+    const SIN: [f64; 6] = [
+        -1.666_666_666_666_663_2e-1,
+        8.333_333_333_322_49e-3,
+        -1.984_126_982_985_795e-4,
+        2.755_731_370_707_006_8e-6,
+        -2.505_076_025_340_686_3e-8,
+        1.589_690_995_211_55e-10,
+    ];
+    const COS: [f64; 6] = [
+        4.166_666_666_666_66e-2,
+        -1.388_888_888_887_411e-3,
+        2.480_158_728_947_673e-5,
+        -2.755_731_435_139_066_3e-7,
+        2.087_572_321_298_175e-9,
+        -1.135_964_755_778_819_5e-11,
+    ];
+    let t = x * core::f64::consts::FRAC_2_PI + ROUND;
+    let (k, quadrant) = (t - ROUND, t.to_bits());
+    let r = ((x - k * 1.570_796_326_734_125_6) - k * 6.077_100_506_303_966e-11)
+        - k * 2.022_266_248_795_950_6e-21;
+    let u = r * r;
+    let s = SIN[1] + u * (SIN[2] + u * (SIN[3] + u * (SIN[4] + u * SIN[5])));
+    let s = r + r * u * (SIN[0] + u * s);
+    let c = COS[1] + u * (COS[2] + u * (COS[3] + u * (COS[4] + u * COS[5])));
+    let c = 1.0 + u * (-0.5 + u * (COS[0] + u * c));
+    let (s, c) = (s.to_bits(), c.to_bits());
+    let exchanged = (s ^ c) & (quadrant & 1).wrapping_neg();
+    let sine = s ^ exchanged ^ ((quadrant & 2) << 62);
+    let cosine = c ^ exchanged ^ ((quadrant.wrapping_add(1) & 2) << 62);
+    (f64::from_bits(sine), f64::from_bits(cosine))
 }

@@ -99,12 +99,13 @@ where
     let mut v: Vec<Motion<R>, B> = Vec::new();
     let mut bodies: Vec<Body<'_, R>, B> = Vec::new();
     for (i, link) in model.links.iter().enumerate() {
-        let x = link.joint.xform(entry(&posture.turns, link.q_at)) * link.placement;
-        let vj = link.joint.motion(entry(&state.qd, link.v_at));
-        let v_i = x * *v.get(link.parent).unwrap_or(&v_0) + vj;
+        let turn = entry(&posture.turns, link.q_at);
+        let x = link.joint.xform(turn, &link.placement);
+        let qd = entry(&state.qd, link.v_at);
+        let v_i = x * *v.get(link.parent).unwrap_or(&v_0) + link.joint.motion(qd);
         let (mut c, mut pa) = (Motion::ZERO, Force::ZERO);
         if E::VELOCITY_PRODUCTS {
-            c = v_i.cross(vj);
+            c = link.joint.velocity_product(v_i, qd);
             pa = v_i.cross_force(link.inertia * v_i);
         }
         if E::WRENCH {

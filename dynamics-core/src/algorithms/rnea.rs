@@ -61,12 +61,13 @@ where
     let mut a: Vec<Motion<R>, B> = Vec::new();
     let mut bodies: Vec<Body<R>, B> = Vec::new();
     for (i, link) in model.links.iter().enumerate() {
-        let x = link.joint.xform(entry(&posture.turns, link.q_at)) * link.placement;
-        let vj = link.joint.motion(entry(&state.qd, link.v_at));
+        let turn = entry(&posture.turns, link.q_at);
+        let x = link.joint.xform(turn, &link.placement);
+        let qd = entry(&state.qd, link.v_at);
         let mut v_i = Motion::ZERO;
         let mut f_i = Force::ZERO;
         if moving {
-            v_i = x * *v.get(link.parent).unwrap_or(&v_0) + vj; // (3)
+            v_i = x * *v.get(link.parent).unwrap_or(&v_0) + link.joint.motion(qd); // (3)
             let _ = v.push(v_i);
         }
         if accelerated {
@@ -75,13 +76,14 @@ where
                 a_i += link.joint.motion(entry(&state.qdd, link.v_at));
             }
             if E::VELOCITY_PRODUCTS {
-                a_i += v_i.cross(vj);
+                a_i += link.joint.velocity_product(v_i, qd);
             }
             let _ = a.push(a_i);
-            f_i = link.inertia * a_i; // (5)
-        }
-        if E::VELOCITY_PRODUCTS {
-            f_i += v_i.cross_force(link.inertia * v_i);
+            f_i = if E::VELOCITY_PRODUCTS {
+                link.inertia.force(a_i, v_i) // (5)
+            } else {
+                link.inertia * a_i
+            };
         }
         if E::WRENCH {
             let mut fx = Force::ZERO;

@@ -61,7 +61,10 @@ impl<R: Real, D: Direction, const B: usize, const V: usize> Effect<R, B, V> for 
 
     #[inline(always)]
     fn field(&self, g: &mut R::Vec3) {
-        let [x, y, z] = D::UNIT.map(R::from_f64);
+        // Component by component: a loop would convert from f64 at run time at opt-level s.
+        let x = R::from_f64(D::UNIT[0]);
+        let y = R::from_f64(D::UNIT[1]);
+        let z = R::from_f64(D::UNIT[2]);
         *g += R::Vec3::new(x, y, z) * R::pick_value(self.double, self.single);
     }
 }

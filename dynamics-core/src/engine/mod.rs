@@ -7,6 +7,20 @@
 //!
 //! Joints: revolute, prismatic and fixed, on trees of up to 32 moving bodies.
 
+/// Expands a block once for each joint that there may be, its number a constant: loops are not
+/// unrolled at every opt-level, and a constant can be a const generic argument.
+macro_rules! for_each_joint {
+    ($j:ident, $body:block) => {
+        for_each_joint!(@ $j $body 0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15
+            16 17 18 19 20 21 22 23 24 25 26 27 28 29 30 31);
+    };
+    (@ $j:ident $body:block $($n:literal)*) => {$({
+        const $j: usize = $n;
+        $body
+    })*};
+}
+
+mod field;
 mod known;
 mod prepare;
 mod rnea;
@@ -42,17 +56,19 @@ impl<T> Engine<T> {
         T: Robot<B, Q, V>,
     {
         let mut turns = [Turn::default(); Q];
-        for (j, turn) in turns.iter_mut().enumerate() {
-            let prismatic = Prepared::<T, B, Q, V>::TREE.joints[j].prismatic;
-            *turn = if prismatic {
-                Turn {
-                    q: q[j],
-                    ..Turn::default()
-                }
-            } else {
-                Turn::new(q[j])
-            };
-        }
+        for_each_joint!(J, {
+            if const { J < V } {
+                let joint = const { &Prepared::<T, B, Q, V>::joint(J) };
+                turns[J] = match (joint.prismatic, joint.near) {
+                    (true, _) => Turn {
+                        q: q[J],
+                        ..Turn::default()
+                    },
+                    (false, true) => Turn::near(q[J]),
+                    (false, false) => Turn::new(q[J]),
+                };
+            }
+        });
         Posture { turns }
     }
 
@@ -104,14 +120,11 @@ impl<T> Engine<T> {
             effects,
             tau: &mut tau,
         };
-        macro_rules! roots {
-            ($($j:literal)*) => {$(
-                if const { stands::<T, B, Q, V>($j) } {
-                    visit::<R, T, E, B, Q, V, $j>(&mut task, &base);
-                }
-            )*};
-        }
-        roots!(0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24 25 26 27 28 29 30 31);
+        for_each_joint!(J, {
+            if const { stands::<T, B, Q, V>(J) } {
+                visit::<R, T, E, B, Q, V, J>(&mut task, &base);
+            }
+        });
         tau
     }
 }

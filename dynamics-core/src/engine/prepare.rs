@@ -22,6 +22,8 @@ pub(crate) struct Joint {
     /// The joint that carries this one, or [`BASE`].
     pub(crate) parent: usize,
     pub(crate) prismatic: bool,
+    /// Its limits keep it within ±4π.
+    pub(crate) near: bool,
     /// Coordinates of the body at q = 0 to the parent's.
     pub(crate) rot: DMat3,
     /// Origin in the parent's frame, in units of length.
@@ -71,6 +73,7 @@ impl<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize> Prepared
 const NO_JOINT: Joint = Joint {
     parent: BASE,
     prismatic: false,
+    near: false,
     rot: DMat3::IDENTITY,
     pos: DVec3::ZERO,
     mass: 0.0,
@@ -113,6 +116,7 @@ const fn prepare<const B: usize, const Q: usize, const V: usize>(
             let joint = &mut joints[link.v_at];
             joint.parent = carrier.joint;
             joint.prismatic = prismatic;
+            joint.near = link.limits.lower >= -FOUR_PI && link.limits.upper <= FOUR_PI;
             joint.rot = rot;
             joint.pos = snap_small(add(pos, scale(rot.z_axis, slide)));
             // x_engine = Q (x_user − slide·u), and Q u = z.
@@ -143,14 +147,14 @@ const fn prepare<const B: usize, const Q: usize, const V: usize>(
     i = 0;
     while i < V {
         let joint = &mut joints[i];
-        joint.pos = scale(joint.pos, 1.0 / length);
+        joint.pos = divide(joint.pos, length);
         joint.moment = scale(joint.moment, length);
         joint.mass *= length * length;
         i += 1;
     }
     i = 0;
     while i < B {
-        places[i].pos = scale(places[i].pos, 1.0 / length);
+        places[i].pos = divide(places[i].pos, length);
         i += 1;
     }
     Tree {
@@ -212,6 +216,11 @@ const fn unit_of_length<const V: usize>(joints: &[Joint; V]) -> f64 {
         i += 1;
     }
     best
+}
+
+/// v / s, where s/s is exactly one.
+const fn divide(v: DVec3, s: f64) -> DVec3 {
+    DVec3::new(v.x / s, v.y / s, v.z / s)
 }
 
 const fn offset(joint: &Joint, k: usize) -> f64 {
@@ -299,5 +308,8 @@ const fn snap_small(v: DVec3) -> DVec3 {
         if v.z.abs() <= limit { 0.0 } else { v.z },
     )
 }
+
+/// No joint that limits hold within this leaves it by so much that two parts of π/2 do not do.
+const FOUR_PI: f64 = 4.0 * core::f64::consts::PI;
 
 const ROUNDING: f64 = 4.0 * f64::EPSILON;

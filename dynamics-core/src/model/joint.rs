@@ -101,23 +101,29 @@ impl<R: Real> Turn<R> {
         let (sin, cos) = q.sin_cos();
         Self { q, sin, cos }
     }
+
+    /// The turn by q rad, |q| ≤ 100.
+    #[inline(always)]
+    pub fn near(q: R) -> Self {
+        let (sin, cos) = q.sin_cos_near();
+        Self { q, sin, cos }
+    }
 }
 
 impl<R: Real> Joint<R> {
-    /// X_J: from the joint's frame to the body's, RBDA table 4.1. Revolute: Rodrigues' formula
-    /// E = c 1 + (1 − c) u uᵀ − s u×.
+    /// ⁱX_λ(i) = X_J ᵀX: from the parent's frame to the body's, RBDA (4.5) and table 4.1.
     #[inline(always)]
-    pub fn xform(&self, turn: Turn<R>) -> Xform<R> {
+    pub fn xform(&self, turn: Turn<R>, placement: &Xform<R>) -> Xform<R> {
         match self.kind {
             JointKind::Revolute => Xform {
-                rot: rotation(self.axis, turn),
-                pos: R::Vec3::ZERO,
+                rot: rotation(self.axis, turn) * placement.rot,
+                pos: placement.pos,
             },
             JointKind::Prismatic => Xform {
-                rot: R::Mat3::IDENTITY,
-                pos: self.axis * turn.q,
+                rot: placement.rot,
+                pos: placement.pos + placement.rot.transpose_mul(self.axis * turn.q),
             },
-            JointKind::Fixed => Xform::IDENTITY,
+            JointKind::Fixed => *placement,
         }
     }
 
@@ -127,6 +133,17 @@ impl<R: Real> Joint<R> {
         match self.kind {
             JointKind::Revolute => Motion::new(self.axis * rate, R::Vec3::ZERO),
             JointKind::Prismatic => Motion::new(R::Vec3::ZERO, self.axis * rate),
+            JointKind::Fixed => Motion::ZERO,
+        }
+    }
+
+    /// v × S q̇: the acceleration of a body that moves with v as its joint turns at `rate`.
+    #[inline(always)]
+    pub fn velocity_product(&self, v: Motion<R>, rate: R) -> Motion<R> {
+        let along = self.axis * rate;
+        match self.kind {
+            JointKind::Revolute => Motion::new(v.ang.cross(along), v.lin.cross(along)),
+            JointKind::Prismatic => Motion::new(R::Vec3::ZERO, v.ang.cross(along)),
             JointKind::Fixed => Motion::ZERO,
         }
     }
@@ -142,7 +159,8 @@ impl<R: Real> Joint<R> {
     }
 }
 
-/// The rotation of coordinates for a turn about the unit axis u.
+/// The rotation of coordinates for a turn about the unit axis u, Rodrigues' formula:
+/// E = c 1 + (1 − c) u uᵀ − s u×.
 #[inline(always)]
 fn rotation<R: Real>(axis: R::Vec3, turn: Turn<R>) -> R::Mat3 {
     let [x, y, z] = axis.array();

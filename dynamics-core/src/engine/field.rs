@@ -1,0 +1,148 @@
+//! How the points of a body accelerate, handed from parent to child, and what its inertia takes.
+//!
+//! The field form of Newton-Euler: a body's points accelerate as a(r) = a + U r with
+//! U = [α]× + [ω]×[ω]×, and with Σ = ∫ r rᵀ dm the body takes f = m a + U h and
+//! n = h × a + axial(U Σ − Σ Uᵀ). Balafoutis & Patel, *Dynamic Analysis of Robot Manipulators*
+//! (1991), use U likewise.
+
+use super::known::Known;
+use super::prepare::Joint;
+use super::small::{Mat3, Vec3};
+use crate::model::Turn;
+use crate::scalar::Real;
+
+/// How the points of a body move, in its frame.
+#[derive(Clone, Copy)]
+pub(crate) struct Field<R> {
+    /// ω, for effects that read the body's velocity.
+    pub(crate) omega: Vec3<R>,
+    /// ω as its products see it: zero unless an effect asks for velocity products.
+    pub(crate) spin: Vec3<R>,
+    /// α.
+    pub(crate) alpha: Vec3<R>,
+    /// U = [α]× + [ω]×[ω]×.
+    pub(crate) u: Mat3<R>,
+    /// Acceleration of the origin, in units of length.
+    pub(crate) a: Vec3<R>,
+    /// Velocity of the origin, in units of length; zero unless an effect reads it.
+    pub(crate) v: Vec3<R>,
+}
+
+/// How a joint moves, in units of length; zero where no effect asks.
+#[derive(Clone, Copy)]
+pub(crate) struct Rates<R> {
+    pub(crate) velocity: Known<R>,
+    /// The velocity as its products see it.
+    pub(crate) spin: Known<R>,
+    pub(crate) accel: Known<R>,
+}
+
+/// A force f at the origin and a couple n.
+#[derive(Clone, Copy)]
+pub(crate) struct Wrench<R> {
+    pub(crate) f: Vec3<R>,
+    pub(crate) n: Vec3<R>,
+}
+
+impl<R: Real> Field<R> {
+    /// The field of a child behind a revolute joint.
+    #[inline(always)]
+    pub(crate) fn turned(&self, joint: &Joint, turn: Turn<R>, rates: Rates<R>) -> Self {
+        let (rot, p) = (Mat3::constant(&joint.rot), Vec3::constant(joint.pos));
+        let spin = enter(&rot, turn, self.spin) + along_z(rates.spin);
+        let az = rot.transpose_mul(self.alpha).0[2] + rates.accel;
+        // Points on the joint's axis move with both links: U's column along it is the parent's.
+        let along = enter(&rot, turn, self.u.mul(rot.0[2]));
+        let a = enter(&rot, turn, self.a + self.u.mul(p));
+        let (ax, ay, u) = complete(spin, az, along);
+        Self {
+            omega: enter(&rot, turn, self.omega) + along_z(rates.velocity),
+            spin,
+            alpha: Vec3([ax, ay, az]),
+            u,
+            a,
+            v: enter(&rot, turn, self.v + self.omega.cross(p)),
+        }
+    }
+
+    /// The field of a child behind a prismatic joint at q, in units of length.
+    #[inline(always)]
+    pub(crate) fn slid(&self, joint: &Joint, q: Known<R>, rates: Rates<R>) -> Self {
+        let rot = Mat3::constant(&joint.rot);
+        let p = Vec3::constant(joint.pos) + rot.0[2].scale(q);
+        let spin = rot.transpose_mul(self.spin);
+        let a = rot.transpose_mul(self.a + self.u.mul(p));
+        let v = rot.transpose_mul(self.v + self.omega.cross(p));
+        let u = Mat3([
+            rot.transpose_mul(self.u.mul(rot.0[0])),
+            rot.transpose_mul(self.u.mul(rot.0[1])),
+            rot.transpose_mul(self.u.mul(rot.0[2])),
+        ]);
+        Self {
+            omega: rot.transpose_mul(self.omega),
+            spin,
+            alpha: rot.transpose_mul(self.alpha),
+            u,
+            a: a + spin.cross(along_z(rates.spin + rates.spin)) + along_z(rates.accel),
+            v: v + along_z(rates.velocity),
+        }
+    }
+
+    /// What the body's inertia takes: f = m a + U h, n = h × a + axial(U Σ − Σ Uᵀ).
+    #[inline(always)]
+    pub(crate) fn wrench(&self, mass: Known<R>, h: Vec3<R>, second: &Mat3<R>) -> Wrench<R> {
+        let ([x, y, z], [sx, sy, sz]) = (self.u.0, second.0);
+        let ([wx, wy, wz], [sxx, sxy, sxz]) = (self.spin.0, sx.0);
+        let (syy, syz, szz) = (sy.0[1], sy.0[2], sz.0[2]);
+        let (xx, yy, zz) = (wx * wx, wy * wy, wz * wz);
+        let (zy, xz, yx) = (zz - yy, xx - zz, yy - xx);
+        let n = Vec3([zy * syz, xz * sxz, yx * sxy])
+            + Vec3([x.0[2] * sxy, y.0[0] * syz, z.0[1] * sxz])
+            + Vec3([y.0[2] * syy, z.0[0] * szz, x.0[1] * sxx])
+            - Vec3([x.0[1] * sxz, y.0[2] * sxy, z.0[0] * syz])
+            - Vec3([z.0[1] * szz, x.0[2] * sxx, y.0[0] * syy]);
+        Wrench {
+            f: self.a.scale(mass) + self.u.mul(h),
+            n: h.cross(self.a) + n,
+        }
+    }
+}
+
+/// α_x, α_y and U from ω, α_z and U's z column.
+#[inline(always)]
+fn complete<R: Real>(
+    omega: Vec3<R>,
+    az: Known<R>,
+    along: Vec3<R>,
+) -> (Known<R>, Known<R>, Mat3<R>) {
+    let ([wx, wy, wz], [uxz, uyz, uzz]) = (omega.0, along.0);
+    let (xz, yz, xy) = (wx * wz, wy * wz, wx * wy);
+    let (xx, yy, zz) = (wx * wx, wy * wy, wz * wz);
+    let (ax, ay) = (yz - uyz, uxz - xz);
+    let u = Mat3([
+        Vec3([-(yy + zz), xy + az, xz - ay]),
+        Vec3([xy - az, -(xx + zz), yz + ax]),
+        Vec3([uxz, uyz, uzz]),
+    ]);
+    (ax, ay, u)
+}
+
+/// Rz(q)ᵀ Rᵀ v: from the parent's frame into the body's. A function, not a closure: closures are
+/// inlined too late for the tags to fold.
+#[inline(always)]
+fn enter<R: Real>(rot: &Mat3<R>, turn: Turn<R>, v: Vec3<R>) -> Vec3<R> {
+    rot.transpose_mul(v)
+        .turn_back(Known::any(turn.sin), Known::any(turn.cos))
+}
+
+/// R Rz(q) v: out of the body's frame into the parent's.
+#[inline(always)]
+pub(crate) fn leave<R: Real>(rot: &Mat3<R>, turn: Turn<R>, v: Vec3<R>) -> Vec3<R> {
+    rot.mul(v.turn(Known::any(turn.sin), Known::any(turn.cos)))
+}
+
+/// A vector along the joint's axis.
+#[inline(always)]
+fn along_z<R: Real>(z: Known<R>) -> Vec3<R> {
+    Vec3([Known::ZERO, Known::ZERO, z])
+}

@@ -10,7 +10,8 @@
 //! | [`model`], [`robots`] | a robot's description, checked while compiling; four real ones |
 //! | [`state`] | q, q̇, q̈, and the sines and cosines of one configuration |
 //! | [`effects`] | what acts on the robot: only what a scene names is computed |
-//! | [`algorithms`] | RNEA, ABA: the textbook, for every model |
+//! | [`algorithms`], [`Core`] | RNEA, ABA: the textbook, for every model and for robots known at compile time |
+//! | [`Engine`] | RNEA specialised by the compiler for a robot known at compile time |
 //! | [`control`] | trajectories, observer, control law, safety gate |
 //! | [`sim`] | time steps of a simulated robot |
 //!

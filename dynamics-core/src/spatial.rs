@@ -34,6 +34,16 @@ pub struct Force<R: Real> {
 }
 
 /// The coordinate transform ᴮX_A from frame A to frame B: E rotates coordinates, r places B in A.
+///
+/// ```
+/// use dynamics_core::spatial::{Force, Motion, Xform};
+/// use glam::Vec3;
+/// // B stands 1 m along x of A: a rotation about A's z moves its origin along y.
+/// let x = Xform { pos: Vec3::X, ..Xform::<f32>::IDENTITY };
+/// assert_eq!((x * Motion::new(Vec3::Z, Vec3::ZERO)).lin, Vec3::Y);
+/// // A force along y at B's origin is a couple about A's z.
+/// assert_eq!(x.transpose_mul(Force::new(Vec3::ZERO, Vec3::Y)).ang, Vec3::Z);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Xform<R: Real> {
     /// Rotation of coordinates from A to B.
@@ -43,6 +53,13 @@ pub struct Xform<R: Real> {
 }
 
 /// The inertia of a rigid body at its frame's origin: ten numbers.
+///
+/// ```
+/// use dynamics_core::spatial::{Motion, SpatialInertia};
+/// use glam::Vec3;
+/// let ball = SpatialInertia::<f32> { mass: 2.0, ..SpatialInertia::ZERO };
+/// assert_eq!((ball * Motion::new(Vec3::ZERO, Vec3::X)).lin, Vec3::X * 2.0); // momentum
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SpatialInertia<R: Real> {
     /// Mass m, kg.
@@ -114,6 +131,13 @@ vector_space!(Force, "force");
 
 impl<R: Real> Motion<R> {
     /// Power m · f in W if `self` is a velocity. RBDA 2.1. 11 flops.
+    ///
+    /// ```
+    /// use dynamics_core::spatial::{Force, Motion};
+    /// use glam::Vec3;
+    /// let v = Motion::<f32>::new(Vec3::Z, Vec3::X);
+    /// assert_eq!(v.dot(Force::new(Vec3::Z * 3.0, Vec3::X * 4.0)), 7.0);
+    /// ```
     #[inline(always)]
     pub fn dot(self, f: Force<R>) -> R {
         self.ang.dot(f.ang) + self.lin.dot(f.lin)

@@ -1,11 +1,11 @@
-//! Core against Pinocchio, in f64 and f32, on every recorded state.
+//! Core and engine against Pinocchio, in f64 and f32, on every recorded state.
 
-use dynamics_core::algorithms::{aba, rnea};
-use dynamics_core::effects::{Coriolis, Effect, Gravity, RIGID_BODY};
-use dynamics_core::model::{Model, Robot, model};
+use dynamics_core::effects::{Coriolis, Gravity, RIGID_BODY};
+use dynamics_core::model::Robot;
 use dynamics_core::robots::{A1, Iiwa14, Panda, Ur5e};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
+use dynamics_core::{Core, Engine};
 use host_tests::recordings::{Recording, load, row};
 use host_tests::{export, tolerances};
 
@@ -20,28 +20,41 @@ impl Verdict {
     }
 }
 
-fn worst<R: Real, const N: usize>(got: [R; N], want: [f64; N], scale: f64) -> f64 {
-    got.iter().zip(want).fold(0.0, |worst, (&got, want)| {
-        let error = (got.to_f64() - want).abs() / scale;
-        if error > worst || error.is_nan() {
-            error
-        } else {
-            worst
-        }
-    })
+/// The largest error of one quantity over the states.
+struct Worst {
+    quantity: &'static str,
+    full_scale: f64,
+    error: f64,
 }
 
-fn compare<R: Real, const B: usize, const N: usize>(
-    model: &Model<R, B, N, N>,
-    recording: &Recording,
-    verdict: &mut Verdict,
-) where
-    (Gravity, Coriolis): Effect<R, B, N>,
+impl Worst {
+    fn new(quantity: &'static str, full_scale: f64) -> Self {
+        Self {
+            quantity,
+            full_scale,
+            error: 0.0,
+        }
+    }
+
+    fn see<R: Real, const N: usize>(&mut self, got: [R; N], want: [f64; N]) {
+        for (got, want) in got.iter().zip(want) {
+            let error = (got.to_f64() - want).abs() / self.full_scale;
+            if error > self.error || error.is_nan() {
+                self.error = error;
+            }
+        }
+    }
+}
+
+fn compare<R: Real, T, const B: usize, const N: usize>(recording: &Recording, verdict: &mut Verdict)
+where
+    T: Robot<B, N, N>,
 {
-    let name = recording.robot.as_str();
-    let scalar = std::any::type_name::<R>();
-    let (mut full, mut gravity, mut bias, mut forward) = (0.0_f64, 0.0_f64, 0.0_f64, 0.0_f64);
     let scale = recording.full_scale;
+    let mut full = ["rnea", "engine rnea"].map(|q| Worst::new(q, scale.rnea));
+    let mut gravity = ["gravity", "engine gravity"].map(|q| Worst::new(q, scale.gravity));
+    let mut bias = ["bias", "engine bias"].map(|q| Worst::new(q, scale.bias));
+    let mut forward = Worst::new("aba", scale.aba);
     assert!(recording.q.len() > 200);
     for i in 0..recording.q.len() {
         let cast = |rows| row::<N>(rows, i).map(R::from_f64);
@@ -50,20 +63,22 @@ fn compare<R: Real, const B: usize, const N: usize>(
             qd: cast(&recording.qd),
             qdd: cast(&recording.qdd),
         };
-        let expect = |rows| row::<N>(rows, i);
-        let tau = rnea(model, &state, &RIGID_BODY);
-        full = full.max(worst(tau, expect(&recording.rnea), scale.rnea));
-        let tau = rnea(model, &state, &(Gravity::EARTH,));
-        gravity = gravity.max(worst(tau, expect(&recording.gravity), scale.gravity));
-        let tau = rnea(model, &state, &(Gravity::EARTH, Coriolis));
-        bias = bias.max(worst(tau, expect(&recording.bias), scale.bias));
-        let qdd = aba(model, &state, &cast(&recording.tau), &RIGID_BODY).expect("M is positive");
-        forward = forward.max(worst(qdd, expect(&recording.aba), scale.aba));
+        let want = row::<N>(&recording.rnea, i);
+        full[0].see(Core::<T>::rnea(&state, &RIGID_BODY), want);
+        full[1].see(Engine::<T>::rnea(&state, &RIGID_BODY), want);
+        let (want, scene) = (row::<N>(&recording.gravity, i), (Gravity::EARTH,));
+        gravity[0].see(Core::<T>::rnea(&state, &scene), want);
+        gravity[1].see(Engine::<T>::rnea(&state, &scene), want);
+        let (want, scene) = (row::<N>(&recording.bias, i), (Gravity::EARTH, Coriolis));
+        bias[0].see(Core::<T>::rnea(&state, &scene), want);
+        bias[1].see(Engine::<T>::rnea(&state, &scene), want);
+        let qdd = Core::<T>::aba(&state, &cast(&recording.tau), &RIGID_BODY);
+        forward.see(qdd.expect("M is positive"), row::<N>(&recording.aba, i));
     }
-    verdict.check(name, "rnea", scalar, full);
-    verdict.check(name, "gravity", scalar, gravity);
-    verdict.check(name, "bias", scalar, bias);
-    verdict.check(name, "aba", scalar, forward);
+    let scalar = std::any::type_name::<R>();
+    for worst in full.iter().chain(&gravity).chain(&bias).chain([&forward]) {
+        verdict.check(&recording.robot, worst.quantity, scalar, worst.error);
+    }
 }
 
 fn robot<T, const B: usize, const N: usize>(verdict: &mut Verdict)
@@ -76,12 +91,12 @@ where
         export::robot(&T::MODEL),
         "the recording is of other numbers: run host-tests/oracle/record.py again"
     );
-    compare::<f64, B, N>(model::<f64, T, B, N, N>(), &recording, verdict);
-    compare::<f32, B, N>(model::<f32, T, B, N, N>(), &recording, verdict);
+    compare::<f64, T, B, N>(&recording, verdict);
+    compare::<f32, T, B, N>(&recording, verdict);
 }
 
 #[test]
-fn core_agrees_with_pinocchio_within_the_table() {
+fn core_and_engine_agree_with_pinocchio_within_the_table() {
     let mut verdict = Verdict(vec![]);
     robot::<Ur5e, 6, 6>(&mut verdict);
     robot::<Panda, 7, 7>(&mut verdict);

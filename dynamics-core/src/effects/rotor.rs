@@ -5,7 +5,14 @@ use crate::scalar::Real;
 
 /// Rotor inertia reflected to each joint, ρ² I_r in kg·m² (ρ the gear ratio).
 ///
-/// The diagonal approximation of Spong (1987): good at high gear ratios.
+/// The diagonal approximation of Spong (1987): good at high gear ratios. Cost: a multiplication and
+/// an addition a joint.
+///
+/// ```
+/// use dynamics_core::{Core, effects::RotorInertia, robots::Ur5e, state::State};
+/// let starting = State { qdd: [4.0_f32; 6], ..State::at([0.0; 6]) };
+/// assert_eq!(Core::<Ur5e>::rnea(&starting, &(RotorInertia([0.25; 6]),)), [1.0; 6]);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RotorInertia<R, const V: usize>(pub [R; V]);
 

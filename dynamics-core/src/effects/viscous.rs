@@ -4,6 +4,14 @@ use super::{Effect, JointState};
 use crate::scalar::Real;
 
 /// Viscous friction of each joint, N·m·s/rad or N·s/m: the motor supplies τ = b q̇.
+///
+/// Cost: a multiplication and an addition a joint. Source: Armstrong-Hélouvry (1991), chapter 2.
+///
+/// ```
+/// use dynamics_core::{Core, effects::Viscous, robots::Ur5e, state::State};
+/// let moving = State { qd: [2.0_f32; 6], ..State::at([0.0; 6]) };
+/// assert_eq!(Core::<Ur5e>::rnea(&moving, &(Viscous([0.5; 6]),)), [1.0; 6]);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Viscous<R, const V: usize>(pub [R; V]);
 

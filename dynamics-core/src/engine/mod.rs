@@ -72,8 +72,11 @@ impl<T> Engine<T> {
         Posture { turns }
     }
 
-    /// τ = ID(q, q̇, q̈), see [`crate::algorithms::rnea`]. Sines and cosines that no named effect
-    /// needs are not computed.
+    /// τ = ID(q, q̇, q̈): the torque of each motor, N·m or N, as [`crate::algorithms::rnea`] has it.
+    ///
+    /// Sines and cosines that no named effect needs are not computed. Angles: those of joints whose
+    /// limits lie within ±4π may go to ±100 rad, others to ±10⁴ rad. Cost: `docs/costs.md` in the
+    /// repository; the same instructions whatever the data. Source: the module's documentation.
     #[inline(never)]
     pub fn rnea<R: Real, E, const B: usize, const Q: usize, const V: usize>(
         state: &State<R, Q, V>,

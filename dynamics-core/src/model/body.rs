@@ -5,7 +5,7 @@ use super::joint::Joint;
 use crate::const_math as m;
 use crate::scalar::Real;
 use crate::spatial::SpatialInertia;
-use glam::DMat3;
+use glam::{DMat3, DVec3};
 
 /// The parent of a body that hangs on the fixed base.
 pub const BASE: usize = usize::MAX;
@@ -128,13 +128,27 @@ impl Body {
             }
             i += 1;
         }
-        // An angle that is not finite makes an attitude that is not a rotation.
-        let x = self.rotation.x_axis;
-        if !m::dot(x, x).is_finite() {
+        let com = m::vec3(self.com);
+        if !(self.mass * m::dot(com, com)).is_finite() || !is_rotation(&self.rotation) {
             return Some(Problem::NotFinite);
+        }
+        let limits = &self.limits;
+        // Comparisons that a NaN fails too.
+        if !(limits.lower <= limits.upper && limits.velocity >= 0.0 && limits.torque >= 0.0) {
+            return Some(Problem::Limits);
         }
         None
     }
+}
+
+/// Whether the columns have unit length: an angle that is not finite, or beyond all reduction,
+/// makes an attitude that is not a rotation.
+const fn is_rotation(r: &DMat3) -> bool {
+    is_unit(r.x_axis) && is_unit(r.y_axis) && is_unit(r.z_axis)
+}
+
+const fn is_unit(v: DVec3) -> bool {
+    (m::dot(v, v) - 1.0).abs() < 1e-9
 }
 
 /// By how much the largest principal moment about the centre of mass exceeds the sum of the other

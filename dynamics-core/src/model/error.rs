@@ -22,8 +22,10 @@ pub enum Problem {
     Axis,
     /// The mass is negative or not finite.
     Mass,
-    /// A length or an inertia is not finite.
+    /// A length, an angle or an inertia is not finite, or so large that what follows from it is not.
     NotFinite,
+    /// A limit is NaN, the lower one exceeds the upper, or that of speed or torque is negative.
+    Limits,
     /// The joints do not add up to Q position and V velocity coordinates.
     Coordinates,
     /// The principal moments break the triangle inequality by this much, relative to the largest.
@@ -36,7 +38,10 @@ impl Problem {
             Self::Parent => "its parent is not listed before it",
             Self::Axis => "its joint axis is zero or not finite",
             Self::Mass => "its mass is negative or not finite",
-            Self::NotFinite => "a length or an inertia is not finite",
+            Self::NotFinite => "a length, an angle or an inertia is not finite",
+            Self::Limits => {
+                "a limit is not a number, lower exceeds upper, or a speed or torque limit is negative"
+            }
             Self::Coordinates => {
                 "the joints do not add up to Q position and V velocity coordinates"
             }

@@ -68,12 +68,14 @@ impl Joint<f64> {
     pub(super) const fn normalised(self) -> Self {
         let squared = m::dot(self.axis, self.axis);
         // An exact unit vector keeps its bits.
-        if squared == 1.0 || matches!(self.kind, JointKind::Fixed) {
-            return self;
-        }
+        let axis = if squared == 1.0 || matches!(self.kind, JointKind::Fixed) {
+            self.axis
+        } else {
+            m::scale(self.axis, 1.0 / m::sqrt(squared))
+        };
         Self {
             kind: self.kind,
-            axis: m::scale(self.axis, 1.0 / m::sqrt(squared)),
+            axis,
         }
     }
 }
@@ -102,6 +104,12 @@ impl<R: Real> Turn<R> {
         Self { q, sin, cos }
     }
 
+    /// A vector's coordinates in a frame turned by q about z.
+    #[inline(always)]
+    fn about_z(self, [x, y, z]: [R; 3]) -> R::Vec3 {
+        R::Vec3::new(self.cos * x + self.sin * y, self.cos * y - self.sin * x, z)
+    }
+
     /// The turn by q rad, |q| ≤ 100.
     #[inline(always)]
     pub fn near(q: R) -> Self {
@@ -116,7 +124,11 @@ impl<R: Real> Joint<R> {
     pub fn xform(&self, turn: Turn<R>, placement: &Xform<R>) -> Xform<R> {
         match self.kind {
             JointKind::Revolute => Xform {
-                rot: rotation(self.axis, turn) * placement.rot,
+                rot: if self.is_along_z() {
+                    turned_about_z(&placement.rot, turn)
+                } else {
+                    rotation(self.axis, turn) * placement.rot
+                },
                 pos: placement.pos,
             },
             JointKind::Prismatic => Xform {
@@ -125,6 +137,13 @@ impl<R: Real> Joint<R> {
             },
             JointKind::Fixed => *placement,
         }
+    }
+
+    /// Whether the axis is exactly z, as most robots have it: its rotation is cheaper.
+    #[inline(always)]
+    fn is_along_z(&self) -> bool {
+        let [x, y, z] = self.axis.array();
+        (x == R::ZERO) & (y == R::ZERO) & (z == R::ONE)
     }
 
     /// S q̇: the velocity across the joint in the body's frame. Zero if fixed.
@@ -157,6 +176,17 @@ impl<R: Real> Joint<R> {
             JointKind::Fixed => R::ZERO,
         }
     }
+}
+
+/// The same about z, applied to E: two rows are mixed. 18 flops instead of 69.
+#[inline(always)]
+fn turned_about_z<R: Real>(e: &R::Mat3, turn: Turn<R>) -> R::Mat3 {
+    let [x, y, z] = e.cols();
+    R::Mat3::from_cols(
+        turn.about_z(x.array()),
+        turn.about_z(y.array()),
+        turn.about_z(z.array()),
+    )
 }
 
 /// The rotation of coordinates for a turn about the unit axis u, Rodrigues' formula:

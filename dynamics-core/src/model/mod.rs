@@ -17,15 +17,45 @@
 //! assert_eq!(Pendulum::MODEL.links[0].inertia.mass, 2.0);
 //! ```
 //!
-//! A parent that is not listed before its child does not compile, nor does a zero axis
-//! or a negative mass; the message names the body:
+//! A description that cannot be does not compile; the message names the body. This one can be,
 //!
-//! ```compile_fail
+//! ```
 //! use dynamics_core::model::{Arm, BASE, Body, Joint, Model};
-//! const ROD: Arm<f64, 1> = Model::new("rod", [
-//!     Body::new("rod", BASE, Joint::revolute([0.0, 1.0, 0.0])).mass(-2.0),
-//! ]); // error: body `rod`: its mass is negative or not finite
-//! const _: usize = ROD.links.len();
+//! const ARM: Arm<f64, 2> = Model::new("arm", [
+//!     Body::new("root", BASE, Joint::revolute([0.0, 0.0, 1.0])).mass(2.0),
+//!     Body::new("tip", 0, Joint::revolute([0.0, 1.0, 0.0])).mass(1.0),
+//! ]);
+//! const _: usize = ARM.links.len();
+//! ```
+//!
+//! and the same with a parent that is not listed before its child, a zero axis or a negative mass
+//! cannot:
+//!
+//! ```compile_fail,E0080
+//! use dynamics_core::model::{Arm, BASE, Body, Joint, Model};
+//! const ARM: Arm<f64, 2> = Model::new("arm", [
+//!     Body::new("root", BASE, Joint::revolute([0.0, 0.0, 1.0])).mass(2.0),
+//!     Body::new("tip", 1, Joint::revolute([0.0, 1.0, 0.0])).mass(1.0),
+//! ]); // error: body `tip`: its parent is not listed before it
+//! const _: usize = ARM.links.len();
+//! ```
+//!
+//! ```compile_fail,E0080
+//! use dynamics_core::model::{Arm, BASE, Body, Joint, Model};
+//! const ARM: Arm<f64, 2> = Model::new("arm", [
+//!     Body::new("root", BASE, Joint::revolute([0.0, 0.0, 1.0])).mass(2.0),
+//!     Body::new("tip", 0, Joint::revolute([0.0, 0.0, 0.0])).mass(1.0),
+//! ]); // error: body `tip`: its joint axis is zero or not finite
+//! const _: usize = ARM.links.len();
+//! ```
+//!
+//! ```compile_fail,E0080
+//! use dynamics_core::model::{Arm, BASE, Body, Joint, Model};
+//! const ARM: Arm<f64, 2> = Model::new("arm", [
+//!     Body::new("root", BASE, Joint::revolute([0.0, 0.0, 1.0])).mass(2.0),
+//!     Body::new("tip", 0, Joint::revolute([0.0, 1.0, 0.0])).mass(-1.0),
+//! ]); // error: body `tip`: its mass is negative or not finite
+//! const _: usize = ARM.links.len();
 //! ```
 
 mod body;
@@ -114,7 +144,8 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
     ///
     /// # Errors
     /// [`ModelError`] names the body: parent not listed before it, zero or non-finite axis,
-    /// negative or non-finite mass, non-finite numbers, or Q or V that the joints do not add up to.
+    /// negative or non-finite mass, other non-finite numbers, limits that are NaN or exclude each
+    /// other, or Q or V that the joints do not add up to.
     pub const fn try_new(name: &'static str, bodies: [Body; B]) -> Result<Self, ModelError> {
         let mut links = [EMPTY; B];
         let (mut q_at, mut v_at, mut i) = (0, 0, 0);

@@ -1,0 +1,256 @@
+//! Core and engine are each other's oracle: the same robot, state and scene, the same torques.
+
+use dynamics_core::effects::{
+    Coriolis, Coulomb, Direction, Effect, Gravity, Inertia, RIGID_BODY, RotorInertia, Viscous,
+};
+use dynamics_core::model::{BASE, Body, Joint, Model, Robot};
+use dynamics_core::robots::{A1, Iiwa14, Panda, Ur5e};
+use dynamics_core::scalar::{Real, Vector};
+use dynamics_core::spatial::{Force, Motion};
+use dynamics_core::state::State;
+use dynamics_core::{Core, Engine};
+use proptest::prelude::RngExt;
+use proptest::test_runner::{RngAlgorithm, TestRng};
+
+/// All that the four robots lack: prismatic joints, oblique axes of both kinds, welds on the
+/// base, in mid-tree (a branch among them) and at a tip, two roots.
+struct Odd;
+
+impl Robot<11, 7, 7> for Odd {
+    const MODEL: Model<f64, 11, 7, 7> = Model::new(
+        "odd",
+        [
+            Body::new("plinth", BASE, Joint::fixed())
+                .xyz([0.1, 0.2, 0.3])
+                .rpy([0.3, 0.2, 0.1])
+                .mass(3.0)
+                .com([0.1, 0.0, 0.0]),
+            Body::new("rail", 0, Joint::prismatic([1.0, 2.0, -0.5]))
+                .xyz([0.3, -0.1, 0.2])
+                .rpy([0.5, -0.2, 0.7])
+                .mass(2.0)
+                .com([0.1, -0.2, 0.3])
+                .inertia([0.2, 0.01, -0.02, 0.3, 0.03, 0.25]),
+            Body::new("yoke", 1, Joint::revolute([0.3, -0.4, 0.8]))
+                .xyz([0.3, 0.5, -0.2])
+                .rpy([-0.5, 1.2, 0.7])
+                .mass(1.5)
+                .com([-0.1, 0.2, 0.3])
+                .inertia([0.1, 0.01, -0.02, 0.12, 0.03, 0.15]),
+            Body::new("bracket", 2, Joint::fixed())
+                .xyz([0.1, 0.5, 0.2])
+                .rpy([0.5, 0.2, -0.7])
+                .mass(0.7)
+                .com([0.1, 0.2, -0.3])
+                .inertia([0.05, 0.0, 0.0, 0.06, 0.0, 0.04]),
+            Body::new("quill", 3, Joint::prismatic([0.0, 0.0, 1.0]))
+                .xyz([0.3, 0.3, 0.3])
+                .mass(1.0)
+                .com([0.05, 0.02, 0.3])
+                .inertia([0.05, 0.0, 0.0, 0.06, 0.0, 0.04]),
+            Body::new("head", 4, Joint::revolute([0.0, 1.0, 0.0]))
+                .xyz([0.0, 0.3, 0.3])
+                .rpy([0.1, 0.2, 0.3])
+                .mass(0.8)
+                .com([0.15, 0.02, 0.1])
+                .inertia([0.05, 0.004, 0.0, 0.06, 0.0, 0.04]),
+            Body::new("tool", 5, Joint::fixed())
+                .xyz([0.0, 0.1, 0.2])
+                .quarter_turns([1, 0, 2])
+                .mass(0.3)
+                .com([0.0, 0.02, 0.1]),
+            Body::new("boom", 3, Joint::revolute([-1.0, 0.2, 0.0]))
+                .xyz([0.2, 0.1, 0.3])
+                .rpy([1.1, 0.2, 0.3])
+                .mass(0.9)
+                .com([0.15, -0.12, 0.1])
+                .inertia([0.05, 0.004, 0.0, 0.06, 0.0, 0.04]),
+            Body::new("jib", 7, Joint::revolute([1.0, 0.0, 0.0]))
+                .xyz([0.2, 0.1, 0.3])
+                .mass(0.4)
+                .com([0.15, -0.12, 0.1])
+                .inertia([0.05, 0.004, 0.0, 0.06, 0.0, 0.04]),
+            Body::new("lift", BASE, Joint::prismatic([0.0, -1.0, 0.0]))
+                .xyz([0.2, 0.1, 0.3])
+                .rpy([0.2, 0.3, 0.4])
+                .mass(0.4)
+                .com([0.15, -0.12, 0.1])
+                .inertia([0.05, 0.004, 0.0, 0.06, 0.0, 0.04]),
+            Body::new("ballast", 9, Joint::fixed())
+                .xyz([0.0, 0.1, 0.2])
+                .mass(0.5)
+                .com([0.05, 0.0, 0.1]),
+        ],
+    );
+}
+
+/// Pushes the plinth, the rail, the bracket (a weld in mid-tree), the tool (a weld at a tip) and
+/// the jib, each in its own frame.
+struct Push;
+
+impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Push {
+    const WRENCH: bool = true;
+
+    fn wrench(&self, body: usize, _: Motion<R>, fx: &mut Force<R>) {
+        if matches!(body, 0 | 1 | 3 | 6 | 8) {
+            let k = R::from_f64(2.0 + body as f64);
+            *fx += Force::new(
+                R::Vec3::new(k, -k, R::ONE),
+                R::Vec3::new(R::ONE, k, k + R::ONE),
+            );
+        }
+    }
+}
+
+/// A drag on every body, against its own velocity.
+struct Drag;
+
+impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Drag {
+    const WRENCH: bool = true;
+    const BODY_VELOCITY: bool = true;
+
+    fn wrench(&self, body: usize, velocity: Motion<R>, fx: &mut Force<R>) {
+        let k = R::from_f64(0.3 + 0.1 * body as f64);
+        *fx -= Force::new(velocity.ang * k, velocity.lin * k);
+    }
+}
+
+/// Down a slope that no axis of the base frame lies on.
+#[derive(Clone, Copy, Debug)]
+struct Aslant;
+
+impl Direction for Aslant {
+    const UNIT: [f64; 3] = [0.48, 0.6, -0.64];
+}
+
+/// Ulps of full scale that the two may differ by.
+const ULPS: f64 = 4.0;
+
+/// The worst difference over `states` random states and that of all zeros, in ulps of full scale.
+fn compare<R, T, E, const B: usize, const N: usize>(scene: &E, states: usize) -> f64
+where
+    R: Real,
+    T: Robot<B, N, N>,
+    E: Effect<R, B, N>,
+{
+    let mut rng = TestRng::deterministic_rng(RngAlgorithm::ChaCha);
+    let mut random = |bound: f64| -> [R; N] {
+        core::array::from_fn(|_| R::from_f64(rng.random_range(-bound..bound)))
+    };
+    let (mut worst, mut full_scale) = (0.0_f64, 0.0_f64);
+    for i in 0..=states {
+        let mut state = State::at([R::ZERO; N]);
+        if i > 0 {
+            state = State {
+                q: random(std::f64::consts::PI),
+                qd: random(3.0),
+                qdd: random(10.0),
+            };
+        }
+        let core = Core::<T>::rnea(&state, scene);
+        let engine = Engine::<T>::rnea(&state, scene);
+        for (core, engine) in core.iter().zip(engine) {
+            let (core, engine) = (core.to_f64(), engine.to_f64());
+            assert!(core.is_finite() && engine.is_finite());
+            worst = worst.max((core - engine).abs());
+            full_scale = full_scale.max(core.abs());
+        }
+    }
+    let ulp = if R::from_f64(1.0 + f64::EPSILON) == R::ONE {
+        f64::from(f32::EPSILON)
+    } else {
+        f64::EPSILON
+    };
+    let ulps = worst / (ulp * full_scale);
+    println!(
+        "{} {}: {ulps:.2} ulp of {full_scale:.1}",
+        T::MODEL.name,
+        std::any::type_name::<R>()
+    );
+    ulps
+}
+
+fn robot<T, const B: usize, const N: usize>()
+where
+    T: Robot<B, N, N>,
+{
+    let single = compare::<f32, T, _, B, N>(&RIGID_BODY, 10_000);
+    let double = compare::<f64, T, _, B, N>(&RIGID_BODY, 10_000);
+    let worst = single.max(double);
+    assert!(
+        worst <= ULPS,
+        "{}: {single:.2}, {double:.2} ulp",
+        T::MODEL.name
+    );
+}
+
+#[test]
+fn engine_equals_core_on_ur5e() {
+    robot::<Ur5e, 6, 6>();
+}
+
+#[test]
+fn engine_equals_core_on_panda() {
+    robot::<Panda, 7, 7>();
+}
+
+#[test]
+fn engine_equals_core_on_iiwa14() {
+    robot::<Iiwa14, 7, 7>();
+}
+
+#[test]
+fn engine_equals_core_on_a1() {
+    robot::<A1, 16, 12>();
+}
+
+#[test]
+fn engine_equals_core_on_an_odd_tree_under_every_effect() {
+    fn ulps<R: Real>() -> f64 {
+        let scene = (
+            Gravity::EARTH,
+            Inertia,
+            Coriolis,
+            Viscous([0.7, 0.3, 0.9, 0.2, 0.4, 0.1, 0.6].map(R::from_f64)),
+            Coulomb {
+                torque: [0.5, 0.2, 0.8, 0.1, 0.3, 0.4, 0.7].map(R::from_f64),
+                per_width: R::from_f64(2.0),
+            },
+            RotorInertia([0.2, 0.1, 0.3, 0.05, 0.15, 0.4, 0.25].map(R::from_f64)),
+            Push,
+            Drag,
+        );
+        compare::<R, Odd, _, 11, 7>(&scene, 10_000)
+    }
+    let (single, double) = (ulps::<f32>(), ulps::<f64>());
+    assert!(single.max(double) <= ULPS, "{single:.2}, {double:.2} ulp");
+}
+
+#[test]
+fn an_effect_that_reads_velocities_does_not_switch_coriolis_on() {
+    let scene = (Gravity::<Aslant>::new(9.81), Inertia, Drag);
+    let single = compare::<f32, Odd, _, 11, 7>(&scene, 10_000);
+    let double = compare::<f64, Odd, _, 11, 7>(&scene, 10_000);
+    assert!(single.max(double) <= ULPS, "{single:.2}, {double:.2} ulp");
+    // The core itself: what drag adds does not depend on what else is there.
+    let state = State {
+        q: [0.3; 7],
+        qd: [1.0, -2.0, 3.0, 1.5, -1.0, 2.0, 0.5],
+        qdd: [0.0; 7],
+    };
+    let drag = Core::<Odd>::rnea(&state, &(Drag,));
+    let with = Core::<Odd>::rnea(&state, &(Coriolis, Drag));
+    let without = Core::<Odd>::rnea(&state, &(Coriolis,));
+    for ((drag, with), without) in drag.iter().zip(with).zip(without) {
+        assert!(
+            (with - without - drag).abs() < 1e-12,
+            "{with} {without} {drag}"
+        );
+    }
+}
+
+#[test]
+fn engine_equals_core_where_nothing_moves() {
+    let ulps = compare::<f32, Odd, _, 11, 7>(&(Gravity::<Aslant>::new(9.81), Push), 10_000);
+    assert!(ulps <= ULPS, "{ulps:.2} ulp");
+}

@@ -1,0 +1,220 @@
+//! What is wrong with a robot's description is said with the body's name.
+
+use dynamics_core::model::{Arm, BASE, Body, Joint, Limits, Model, ModelError, Problem, Robot};
+use dynamics_core::robots::{A1, Iiwa14, Panda, Ur5e};
+
+const Y: [f64; 3] = [0.0, 1.0, 0.0];
+
+/// A body that has nothing wrong with it.
+fn tip() -> Body {
+    Body::new("tip", 0, Joint::revolute(Y))
+        .xyz([0.3, 0.0, 0.1])
+        .rpy([0.1, 0.2, 0.3])
+        .mass(1.0)
+        .com([0.1, 0.0, 0.0])
+        .inertia([0.1, 0.0, 0.0, 0.1, 0.0, 0.1])
+        .limits(LIMITS)
+}
+
+const LIMITS: Limits<f64> = Limits {
+    lower: -1.0,
+    upper: 1.0,
+    velocity: 3.0,
+    torque: 100.0,
+};
+
+fn root() -> Body {
+    Body::new("root", BASE, Joint::prismatic(Y)).mass(1.0)
+}
+
+fn arm(tip: Body) -> Arm<f64, 2> {
+    Model::new("arm", [root(), tip])
+}
+
+fn problem(tip: Body) -> Option<Problem> {
+    match Model::<f64, 2, 2, 2>::try_new("arm", [root(), tip]) {
+        Ok(_) => None,
+        Err(ModelError { body, problem, .. }) => {
+            assert_eq!(body, "tip");
+            Some(problem)
+        }
+    }
+}
+
+#[test]
+fn a_sound_description_is_taken() {
+    assert_eq!(arm(tip()).links[1].name, "tip");
+    assert_eq!(problem(tip().limits(Limits::NONE)), None);
+    // A weld has no axis, a massless body is one that only carries others.
+    let weld = Body::new("tip", 0, Joint::fixed());
+    assert!(Model::<f64, 2, 1, 1>::try_new("arm", [root(), weld]).is_ok());
+}
+
+#[test]
+#[should_panic(expected = "body `tip`: its parent is not listed before it")]
+fn a_parent_listed_after_its_child_is_named() {
+    arm(Body::new("tip", 1, Joint::revolute(Y)));
+}
+
+#[test]
+#[should_panic(expected = "body `tip`: its joint axis is zero or not finite")]
+fn a_zero_axis_is_named() {
+    arm(Body::new("tip", 0, Joint::revolute([0.0; 3])));
+}
+
+#[test]
+#[should_panic(expected = "body `tip`: its mass is negative or not finite")]
+fn a_negative_mass_is_named() {
+    arm(tip().mass(-1.0));
+}
+
+#[test]
+#[should_panic(expected = "body `tip`: a length, an angle or an inertia is not finite")]
+fn a_length_that_is_not_finite_is_named() {
+    arm(tip().xyz([0.0, f64::NAN, 0.0]));
+}
+
+#[test]
+#[should_panic(
+    expected = "body `tip`: a limit is not a number, lower exceeds upper, or a speed \
+                           or torque limit is negative"
+)]
+fn limits_that_exclude_each_other_are_named() {
+    arm(tip().limits(Limits {
+        lower: 1.0,
+        upper: -1.0,
+        ..LIMITS
+    }));
+}
+
+#[test]
+#[should_panic(expected = "body `arm`: the joints do not add up to Q position and V velocity")]
+fn coordinates_that_do_not_add_up_are_laid_to_the_robot() {
+    arm(Body::new("tip", 0, Joint::fixed()));
+}
+
+#[test]
+fn numbers_that_are_not_finite_are_refused_wherever_they_stand() {
+    for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        for i in 0..3 {
+            let at = |i: usize| {
+                let mut v = [0.1, 0.2, 0.3];
+                v[i] = bad;
+                v
+            };
+            let not_finite = Some(Problem::NotFinite);
+            assert_eq!(problem(tip().xyz(at(i))), not_finite, "xyz[{i}] = {bad}");
+            assert_eq!(problem(tip().rpy(at(i))), not_finite, "rpy[{i}] = {bad}");
+            assert_eq!(problem(tip().com(at(i))), not_finite, "com[{i}] = {bad}");
+            for joint in [Joint::revolute(at(i)), Joint::prismatic(at(i))] {
+                let tip = Body::new("tip", 0, joint);
+                assert_eq!(problem(tip), Some(Problem::Axis), "axis[{i}] = {bad}");
+            }
+            for k in [i, i + 3] {
+                let mut inertia = [0.1, 0.0, 0.0, 0.1, 0.0, 0.1];
+                inertia[k] = bad;
+                let tip = tip().inertia(inertia);
+                assert_eq!(problem(tip), not_finite, "inertia[{k}] = {bad}");
+            }
+        }
+        assert_eq!(problem(tip().mass(bad)), Some(Problem::Mass), "mass {bad}");
+    }
+}
+
+#[test]
+fn angles_too_large_to_be_an_attitude_are_refused() {
+    for i in 0..3 {
+        for huge in [1e20, -1e100, 1e300] {
+            let mut rpy = [0.1; 3];
+            rpy[i] = huge;
+            assert_eq!(problem(tip().rpy(rpy)), Some(Problem::NotFinite), "{rpy:?}");
+        }
+    }
+}
+
+#[test]
+fn a_moment_of_inertia_that_overflows_is_refused() {
+    let far = tip().mass(1e10).com([1e155, 0.0, 0.0]);
+    assert_eq!(problem(far), Some(Problem::NotFinite));
+}
+
+#[test]
+fn limits_that_are_not_numbers_or_negative_are_refused() {
+    let nan = f64::NAN;
+    for limits in [
+        Limits {
+            lower: nan,
+            ..LIMITS
+        },
+        Limits {
+            upper: nan,
+            ..LIMITS
+        },
+        Limits {
+            velocity: nan,
+            ..LIMITS
+        },
+        Limits {
+            torque: nan,
+            ..LIMITS
+        },
+        Limits {
+            velocity: -3.0,
+            ..LIMITS
+        },
+        Limits {
+            torque: -100.0,
+            ..LIMITS
+        },
+        Limits {
+            lower: 1.0,
+            upper: -1.0,
+            ..LIMITS
+        },
+    ] {
+        assert_eq!(
+            problem(tip().limits(limits)),
+            Some(Problem::Limits),
+            "{limits:?}"
+        );
+    }
+}
+
+#[test]
+fn the_message_of_a_const_is_that_of_the_error() {
+    let bodies = [root(), tip().mass(-1.0)];
+    let error = Model::<f64, 2, 2, 2>::try_new("arm", bodies).unwrap_err();
+    let panic = std::panic::catch_unwind(|| Model::<f64, 2, 2, 2>::new("arm", bodies)).unwrap_err();
+    let said = panic.downcast_ref::<String>().expect("a formatted message");
+    assert_eq!(said.trim_end(), error.to_string());
+}
+
+#[test]
+fn an_impossible_inertia_is_named_with_its_amount() {
+    // Moments 1, 1 and 4: the largest exceeds the sum of the others by 2, half of itself.
+    let model = arm(tip().inertia([1.0, 0.0, 0.0, 4.0, 0.0, 1.0]));
+    let error = model.check(1e-6).unwrap_err();
+    assert_eq!(error.body, "tip");
+    let Problem::Triangle(excess) = error.problem else {
+        panic!("{error}");
+    };
+    assert!((excess - 0.5).abs() < 1e-12, "{excess}");
+    assert_eq!(
+        error.to_string(),
+        "body `tip`: its moments of inertia break the triangle inequality by 5.00e-1 of the largest"
+    );
+    assert!(model.check(0.51).is_ok(), "the tolerance is the caller's");
+    let negative = arm(tip().inertia([-0.1, 0.0, 0.0, 0.1, 0.0, 0.1]));
+    assert_eq!(negative.check(1e-6).unwrap_err().body, "tip");
+    // The same moments about other axes: they are principal ones that count, not the diagonal.
+    let turned = arm(tip().inertia([2.5, 1.5, 0.0, 2.5, 0.0, 1.0]));
+    assert_eq!(turned.check(1e-6).unwrap_err().body, "tip");
+}
+
+#[test]
+fn the_robots_of_the_library_have_possible_inertias() {
+    Ur5e::MODEL.check(1e-9).unwrap();
+    Panda::MODEL.check(1e-9).unwrap();
+    Iiwa14::MODEL.check(1e-9).unwrap();
+    A1::MODEL.check(1e-9).unwrap();
+}

@@ -1,10 +1,15 @@
 //! The tick: read, reference, dynamics, safety, write.
 //!
 //! The loop owns its encoders, drives and brake through `embedded-hal` traits and keeps nothing
-//! else from tick to tick but its clock, observer and supervisor.
+//! else from tick to tick but its clock, observer, supervisor and way back.
+//!
+//! A measurement that is lost now and then is ridden through: the arm goes on as the observer
+//! expects. When more are lost, the clock stands still and the arm is damped to rest, as the
+//! observer expects it to be, under the torque of gravity; on the way back a reference leads from
+//! there onto the trajectory.
 
 use dynamics_core::control::{
-    Estimate, Fault, Gains, Mode, Observer, Status, Supervisor, Trajectory, feedback,
+    Fault, Gains, Mode, Observer, Rejoin, Status, Supervisor, Trajectory, feedback,
 };
 use dynamics_core::state::State;
 use embedded_hal::digital::OutputPin;
@@ -12,7 +17,7 @@ use embedded_hal::pwm::SetDutyCycle;
 use embedded_hal::spi::SpiDevice;
 
 use crate::drive::Drive;
-use crate::encoder::Encoder;
+use crate::encoder::{Encoder, FrameError};
 use crate::marker::measured;
 
 /// The measured regions of a tick; [`region::TICK`] holds the others.
@@ -31,10 +36,32 @@ pub mod region {
     pub const WRITE: u8 = 5;
 }
 
+/// How far a joint may be from its reference for [`ControlLoop::reset`], rad or m.
+pub const NEAR: f32 = 0.15;
+
 /// Where the torque that the feedback need not supply comes from.
 pub trait Law<const V: usize> {
+    /// Whether the feed-forward brings about the reference's acceleration. If so an arm that is held
+    /// is slowed down by it, coupling and all; if not, by the feedback's K_d alone.
+    const ACCELERATES: bool = true;
+
     /// The torque for the reference, N·m or N.
     fn feedforward(reference: &State<f32, V, V>) -> [f32; V];
+}
+
+/// Why a stopped arm does not start again.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Refusal {
+    /// It is not stopped.
+    Running,
+    /// There was no measurement in the last tick.
+    Unseen,
+    /// A joint is further than [`NEAR`] from where its trajectory waits.
+    Far {
+        /// The joint.
+        joint: usize,
+    },
 }
 
 /// What a tick did, for whoever logs it.
@@ -50,6 +77,8 @@ pub struct Telemetry<const V: usize> {
     pub torque: [f32; V],
     /// What the supervisor says.
     pub status: Status,
+    /// What the first encoder that gave no angle said.
+    pub frame: Option<FrameError>,
 }
 
 /// The control loop of a robot with V joints.
@@ -62,8 +91,13 @@ pub struct ControlLoop<Spi, Pwm, Brake, const V: usize> {
     gains: Gains<f32, V>,
     observer: Observer<f32, V>,
     supervisor: Supervisor<f32, V>,
+    rejoin: Rejoin<f32, V>,
+    /// The reference's acceleration, which acts until the next tick.
     expected: [f32; V],
     clock: u32,
+    /// The estimate has gone without a measurement for longer than is ridden through.
+    blind: bool,
+    frame: Option<FrameError>,
 }
 
 impl<Spi, Pwm, Brake, const V: usize> ControlLoop<Spi, Pwm, Brake, V>
@@ -72,16 +106,18 @@ where
     Pwm: SetDutyCycle,
     Brake: OutputPin,
 {
-    /// A loop at the start of its trajectory.
+    /// A loop at the start of its trajectory; starts the encoders. The first tick should follow
+    /// within a tick's time, or the arm stand still till then.
     pub fn new(
-        encoders: [Encoder<Spi>; V],
+        mut encoders: [Encoder<Spi>; V],
         drives: [Drive<Pwm>; V],
         brake: Brake,
         gains: Gains<f32, V>,
         observer: Observer<f32, V>,
         supervisor: Supervisor<f32, V>,
+        rejoin: Rejoin<f32, V>,
     ) -> Self {
-        let expected = [0.0; V];
+        encoders.iter_mut().for_each(Encoder::start);
         Self {
             encoders,
             drives,
@@ -89,8 +125,11 @@ where
             gains,
             observer,
             supervisor,
-            expected,
+            rejoin,
+            expected: [0.0; V],
             clock: 0,
+            blind: false,
+            frame: None,
         }
     }
 
@@ -101,83 +140,169 @@ where
         trajectory: &Trajectory<f32, V, W>,
     ) -> Telemetry<V> {
         measured::<{ region::TICK }, _>(|| {
-            let (mode, estimate) = measured::<{ region::READ }, _>(|| self.read());
+            measured::<{ region::READ }, _>(|| self.read());
             let reference =
-                measured::<{ region::REFERENCE }, _>(|| self.reference(trajectory, mode));
-            let torque =
-                measured::<{ region::DYNAMICS }, _>(|| self.torque::<L>(&reference, &estimate));
+                measured::<{ region::REFERENCE }, _>(|| self.reference(trajectory, L::ACCELERATES));
+            let torque = measured::<{ region::DYNAMICS }, _>(|| self.torque::<L>(&reference));
             let command = measured::<{ region::SAFETY }, _>(|| self.supervisor.pass(&torque));
             measured::<{ region::WRITE }, _>(|| self.write(&command.torque, command.brake));
             let telemetry = Telemetry {
                 tick: self.clock,
                 reference: reference.q,
-                estimate: estimate.q,
+                estimate: self.observer.estimate().q,
                 torque: command.torque,
                 status: command.status,
+                frame: self.frame,
             };
-            self.clock += u32::from(matches!(command.status.mode, Mode::Full));
+            let moving = matches!(command.status.mode, Mode::Full) & !self.rejoin.active();
+            self.clock = self.clock.saturating_add(u32::from(moving));
             telemetry
         })
     }
 
-    /// Clears a latched fault; the brake stays until the next tick.
-    pub fn reset(&mut self) {
+    /// Starts a stopped arm again: clears the fault, and leads the arm back onto its trajectory. The
+    /// brake holds until the torque of rest is there, a few ticks.
+    ///
+    /// # Errors
+    /// [`Refusal`]: nothing has changed then.
+    pub fn reset<const W: usize>(
+        &mut self,
+        trajectory: &Trajectory<f32, V, W>,
+    ) -> Result<(), Refusal> {
+        if !matches!(self.supervisor.mode(), Mode::Stopped) {
+            return Err(Refusal::Running);
+        }
+        if self.blind {
+            return Err(Refusal::Unseen);
+        }
+        let goal = trajectory.at(self.clock).q;
+        let mut joints = goal.iter().zip(&self.observer.estimate().q);
+        let near = |(goal, q): (&f32, &f32)| (goal - q).abs() <= NEAR;
+        if let Some(joint) = joints.position(|joint| !near(joint)) {
+            return Err(Refusal::Far { joint });
+        }
         self.supervisor.reset();
+        self.rejoin.start(self.observer.estimate(), self.clock);
+        self.expected = [0.0; V];
+        Ok(())
     }
 
-    /// Measured positions, whether they may be used, and the estimate to act on.
+    /// Measures, and brings the observer and the supervisor up to date.
     #[inline(never)]
-    fn read(&mut self) -> (Mode, Estimate<f32, V>) {
-        let mut q = [0.0; V];
-        let mut fault = None;
-        for (j, (q, encoder)) in q.iter_mut().zip(&mut self.encoders).enumerate() {
-            match encoder.read() {
-                Ok(angle) => *q = angle,
-                Err(_) => fault = Some(Fault::Encoder { joint: j }),
+    fn read(&mut self) {
+        let (mut bad, mut joint) = (None, 0);
+        let q = self.encoders.each_mut().map(|encoder| {
+            let angle = encoder.read();
+            if let Err(error) = angle {
+                bad = bad.or(Some((joint, error)));
+            }
+            joint += 1;
+            angle.unwrap_or(0.0)
+        });
+        self.frame = bad.map(|(_, error)| error);
+        let fault = bad.map(|(joint, _)| Fault::Encoder { joint });
+        self.supervisor.admit(fault.map_or(Ok(&q), Err));
+        let stopped = matches!(self.supervisor.mode(), Mode::Stopped);
+        if self.supervisor.seen() & !self.blind & !stopped {
+            self.observer.update_late(&q, &self.expected);
+        } else {
+            self.improvise(&q, fault.is_some());
+        }
+        self.supervisor.watch(&self.observer.estimate().qd);
+    }
+
+    /// The estimate when there is no measurement, or no torque from it.
+    #[cold]
+    fn improvise(&mut self, q: &[f32; V], lost: bool) {
+        match self.supervisor.mode() {
+            // The brake holds the arm where it is.
+            Mode::Stopped => {
+                self.blind = lost;
+                if !lost {
+                    self.observer.reset(q);
+                }
+            }
+            _ if self.supervisor.seen() => {
+                self.blind = false;
+                self.observer.relocate(q);
+            }
+            mode => {
+                self.blind |= matches!(mode, Mode::Hold);
+                self.observer.predict(&self.expected);
             }
         }
-        let estimate = match self.supervisor.admit(fault.map_or(Ok(&q), Err)) {
-            Mode::Full => self.observer.update(&q, &self.expected),
-            _ => self.observer.predict(&[0.0; V]),
-        };
-        let mode = self.supervisor.watch(&estimate.qd);
-        if matches!(mode, Mode::Full) {
-            return (mode, estimate);
-        }
-        // Without a measurement: the last good position, and damping on a speed that fades.
-        let fade = self.supervisor.hold_fade();
-        let held = Estimate {
-            q: *self.supervisor.last_good(),
-            qd: estimate.qd.map(|qd| qd * fade),
-        };
-        (mode, held)
     }
 
-    /// Where the joints should be; rest at the last good position while a fault lasts, so that the
-    /// same dynamics then yields the gravity torque.
+    /// Where the joints should be.
     #[inline(never)]
     fn reference<const W: usize>(
         &mut self,
         trajectory: &Trajectory<f32, V, W>,
-        mode: Mode,
+        accelerates: bool,
     ) -> State<f32, V, V> {
-        let reference = if matches!(mode, Mode::Full) {
-            trajectory.at(self.clock)
+        let full = matches!(self.supervisor.mode(), Mode::Full);
+        if (!full | self.rejoin.active()) && !self.arrived(full) {
+            return self.detour(trajectory, full, accelerates);
+        }
+        let reference = trajectory.at(self.clock);
+        self.expected = reference.qdd;
+        reference
+    }
+
+    /// Whether the way back ends in this tick.
+    #[cold]
+    fn arrived(&mut self, full: bool) -> bool {
+        let arrived = full & (self.supervisor.authority() >= 1.0);
+        if arrived {
+            self.clock = self.rejoin.finish();
+        }
+        arrived
+    }
+
+    /// While the arm is held: where it is, its speed decaying, so that the same law yields the torque
+    /// of gravity and damping. Then the way back.
+    #[cold]
+    #[inline(never)]
+    fn detour<const W: usize>(
+        &mut self,
+        trajectory: &Trajectory<f32, V, W>,
+        full: bool,
+        accelerates: bool,
+    ) -> State<f32, V, V> {
+        let reference = if full {
+            let share = self.supervisor.authority();
+            self.rejoin.at(trajectory, share)
         } else {
-            State::at(*self.supervisor.last_good())
+            self.halt(accelerates)
         };
         self.expected = reference.qdd;
         reference
     }
 
+    /// Slows the arm down where it is. The clock stops when that begins; the way back starts anew in
+    /// each of these ticks.
+    fn halt(&mut self, accelerates: bool) -> State<f32, V, V> {
+        if self.rejoin.active() {
+            self.clock = self.rejoin.abandon();
+        } else {
+            self.clock = self.rejoin.meet(self.clock);
+        }
+        let estimate = *self.observer.estimate();
+        self.rejoin.start(&estimate, self.clock);
+        let decay = self.rejoin.decay();
+        State {
+            q: estimate.q,
+            // Zero leaves the slowing down to K_d.
+            qd: estimate.qd.map(|qd| if accelerates { qd } else { 0.0 }),
+            qdd: estimate.qd.map(|qd| -(decay * qd)),
+        }
+    }
+
     /// τ = feed-forward + K_p (q_d − q) + K_d (q̇_d − q̇).
     #[inline(never)]
-    fn torque<L: Law<V>>(
-        &self,
-        reference: &State<f32, V, V>,
-        estimate: &Estimate<f32, V>,
-    ) -> [f32; V] {
+    fn torque<L: Law<V>>(&self, reference: &State<f32, V, V>) -> [f32; V] {
         let mut tau = L::feedforward(reference);
+        let estimate = self.observer.estimate();
         let pd = feedback(&self.gains, reference, &estimate.q, &estimate.qd);
         for (tau, pd) in tau.iter_mut().zip(pd) {
             *tau += pd;
@@ -187,14 +312,20 @@ where
 
     #[inline(never)]
     fn write(&mut self, torque: &[f32; V], brake: bool) {
-        for (drive, &torque) in self.drives.iter_mut().zip(torque) {
-            // A PWM channel that refuses leaves its joint to the supervisor's limits.
-            let _ = drive.set(torque);
+        let mut failed = None;
+        for (joint, (drive, &torque)) in self.drives.iter_mut().zip(torque).enumerate() {
+            if drive.set(torque).is_err() {
+                failed = failed.or(Some(Fault::Drive { joint }));
+            }
         }
-        let _ = if brake {
+        // A drive that may not obey: the brake at once, the other drives from the next tick on.
+        let set = if brake | failed.is_some() {
             self.brake.set_high()
         } else {
             self.brake.set_low()
         };
+        if let Some(fault) = failed.or(set.err().map(|_| Fault::Brake)) {
+            self.supervisor.stop(fault);
+        }
     }
 }

@@ -4,7 +4,7 @@
 //! quantise, drives that know only their duty. Nothing here is in a measured region.
 
 use core::convert::Infallible;
-use core::sync::atomic::{AtomicU16, Ordering::Relaxed};
+use core::sync::atomic::{AtomicU16, AtomicU32, Ordering::Relaxed};
 
 use dynamics_core::algorithms::NotPositiveDefinite;
 use dynamics_core::effects::Effect;
@@ -14,15 +14,16 @@ use dynamics_core::state::State;
 use embedded_hal::pwm::{self, SetDutyCycle};
 use embedded_hal::spi::{self, Operation, SpiDevice};
 
-use crate::encoder::{encode, quantise};
+use crate::encoder::{ERROR, READ_ANGLE, READ_ERRORS, encode, quantise, with_parity};
 
 /// The duty that a simulated timer counts to: 20 kHz from 168 MHz.
 pub const MAX_DUTY: u16 = 8400;
 
-/// The wires between firmware and robot: one encoder count and one duty per joint.
+/// The wires between firmware and robot: one encoder and one duty per joint.
 #[derive(Debug)]
 pub struct Wires<const N: usize> {
-    counts: [AtomicU16; N],
+    /// The answers that hold the angles of now, and above them [`FLAG`].
+    encoders: [AtomicU32; N],
     duties: [AtomicU16; N],
 }
 
@@ -30,14 +31,23 @@ impl<const N: usize> Wires<N> {
     /// Encoders at zero, drives at zero torque.
     pub const fn new() -> Self {
         Self {
-            counts: [const { AtomicU16::new(0) }; N],
+            encoders: [const { AtomicU32::new(encode(0) as u32) }; N],
             duties: [const { AtomicU16::new(MAX_DUTY / 2) }; N],
         }
     }
 
     /// The SPI device of joint j's encoder.
     pub fn encoder(&'static self, j: usize) -> SimEncoder {
-        SimEncoder(&self.counts[j])
+        SimEncoder {
+            wire: &self.encoders[j],
+            answer: GARBAGE,
+        }
+    }
+
+    /// Lets joint j's encoder find an error: its answers say so until it is asked which.
+    pub fn flag(&self, j: usize) {
+        let encoder = &self.encoders[j];
+        encoder.store(encoder.load(Relaxed) | FLAG, Relaxed);
     }
 
     /// The PWM channel of joint j's drive.
@@ -52,27 +62,58 @@ impl<const N: usize> Default for Wires<N> {
     }
 }
 
-/// A simulated encoder on SPI.
-#[derive(Clone, Copy, Debug)]
-pub struct SimEncoder(&'static AtomicU16);
+/// What an encoder answers before it has been asked: an angle that is none.
+const GARBAGE: u16 = encode(0x2a5a);
+
+/// The encoder has found an error and not been asked for it.
+const FLAG: u32 = 1 << 31;
+
+/// A simulated encoder on SPI, which answers the frame before.
+#[derive(Clone, Debug)]
+pub struct SimEncoder {
+    wire: &'static AtomicU32,
+    /// What the next frame will carry.
+    answer: u16,
+}
+
+impl SimEncoder {
+    /// What is latched at the end of a frame with this command.
+    #[inline(always)]
+    fn latch(&self, command: u16) -> u16 {
+        let wire = self.wire.load(Relaxed);
+        if command == READ_ANGLE && wire & FLAG == 0 {
+            return wire as u16;
+        }
+        self.latch_rare(command, wire)
+    }
+
+    #[cold]
+    fn latch_rare(&self, command: u16, wire: u32) -> u16 {
+        let flagged = wire & FLAG != 0;
+        let error = if flagged { ERROR } else { 0 };
+        let (answer, flag) = match command {
+            READ_ANGLE => (wire as u16, wire & FLAG),
+            READ_ERRORS => (u16::from(flagged), 0),
+            _ => (0, FLAG),
+        };
+        self.wire.store(wire & !FLAG | flag, Relaxed);
+        with_parity(answer | error)
+    }
+}
 
 impl spi::ErrorType for SimEncoder {
     type Error = Infallible;
 }
 
 impl SpiDevice for SimEncoder {
+    /// Frames are transfers in place of two bytes, which is all that the firmware sends.
+    #[inline(always)]
     fn transaction(&mut self, operations: &mut [Operation<'_, u8>]) -> Result<(), Infallible> {
-        let answer = encode(self.0.load(Relaxed)).to_be_bytes();
         for operation in operations {
-            match operation {
-                Operation::Read(words)
-                | Operation::TransferInPlace(words)
-                | Operation::Transfer(words, _) => {
-                    for (word, byte) in words.iter_mut().zip(answer) {
-                        *word = byte;
-                    }
-                }
-                _ => {}
+            if let Operation::TransferInPlace([high, low]) = operation {
+                let command = u16::from_be_bytes([*high, *low]);
+                [*high, *low] = self.answer.to_be_bytes();
+                self.answer = self.latch(command);
             }
         }
         Ok(())
@@ -121,8 +162,9 @@ impl<E: Effect<f32, B, N>, const B: usize, const N: usize> Plant<E, B, N> {
 
     /// Shows the encoders the present positions.
     pub fn publish(&self, wires: &Wires<N>) {
-        for (count, &q) in wires.counts.iter().zip(&self.state.q) {
-            count.store(quantise(q), Relaxed);
+        for (encoder, &q) in wires.encoders.iter().zip(&self.state.q) {
+            let flag = encoder.load(Relaxed) & FLAG;
+            encoder.store(u32::from(encode(quantise(q))) | flag, Relaxed);
         }
     }
 

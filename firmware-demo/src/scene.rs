@@ -6,7 +6,8 @@ use core::marker::PhantomData;
 
 use dynamics_core::algorithms::rnea;
 use dynamics_core::control::{
-    Bounds, Gains, Observer, Speed, Status, Supervisor, Trajectory, TrajectoryError, WayPoint,
+    Bounds, Gains, Observer, Rejoin, Speed, Status, Supervisor, Trajectory, TrajectoryError,
+    WayPoint,
 };
 use dynamics_core::effects::Effect;
 use dynamics_core::model::{Model, Robot, model};
@@ -16,7 +17,7 @@ use heapless::spsc::Producer;
 
 use crate::control_loop::{ControlLoop, Law, Telemetry};
 use crate::drive::Drive;
-use crate::encoder::Encoder;
+use crate::encoder::{Encoder, RESOLUTION};
 use crate::plant::{Plant, SimDrive, SimEncoder, Wires};
 
 /// A tick, s.
@@ -28,7 +29,9 @@ const OMEGA_N: f32 = core::f32::consts::TAU * 4.0;
 const ZETA: f32 = 1.0;
 /// Bandwidth of the observer, rad/s.
 const OBSERVER: f32 = core::f32::consts::TAU * 40.0;
-/// Ticks of gravity compensation before a fault stops the arm, and of the way back from one.
+/// Ticks that a fault is ridden through, those of gravity compensation before it stops the arm, and
+/// those of the way back.
+const RIDE: u32 = 5;
 const HOLD: u32 = 100;
 const REENTRY: u32 = 200;
 /// Ticks that each run goes on after the trajectory's end.
@@ -65,6 +68,8 @@ pub trait Scene<const B: usize, const N: usize, const W: usize>: 'static {
 pub struct PdOnly;
 
 impl<const N: usize> Law<N> for PdOnly {
+    const ACCELERATES: bool = false;
+
     fn feedforward(_: &State<f32, N, N>) -> [f32; N] {
         [0.0; N]
     }
@@ -110,6 +115,9 @@ pub struct Record<const N: usize> {
     pub telemetry: Telemetry<N>,
     /// Where the joints truly are.
     pub actual: [f32; N],
+    /// The plant failed in this tick: its mass matrix is not positive definite, and no record
+    /// follows.
+    pub broken: bool,
 }
 
 /// A brake that only a simulation has.
@@ -138,6 +146,8 @@ pub struct App<S: Scene<B, N, W>, const B: usize, const N: usize, const W: usize
     records: Producer<'static, Record<N>>,
     run: usize,
     tick: u32,
+    /// The plant has no forward dynamics in its present state.
+    broken: bool,
     scene: PhantomData<S>,
 }
 
@@ -169,6 +179,7 @@ impl<S: Scene<B, N, W>, const B: usize, const N: usize, const W: usize> App<S, B
             records,
             run: 0,
             tick: 0,
+            broken: false,
             scene,
         })
     }
@@ -178,9 +189,9 @@ impl<S: Scene<B, N, W>, const B: usize, const N: usize, const W: usize> App<S, B
         self.trajectory.ticks() + SETTLE
     }
 
-    /// One tick of the present run; nothing after the last.
+    /// One tick of the present run; nothing after the last, nor after a plant that failed.
     pub fn tick(&mut self) {
-        if self.run >= RUNS.len() {
+        if self.run >= RUNS.len() || self.broken {
             return;
         }
         let telemetry = match self.run % 3 {
@@ -189,17 +200,19 @@ impl<S: Scene<B, N, W>, const B: usize, const N: usize, const W: usize> App<S, B
             _ => self.control.tick::<PdOnly, W>(&self.trajectory),
         };
         let actual = self.plant.state.q;
+        let step = TICK / STEPS as f32;
+        self.broken = self.plant.advance(self.wires, STEPS, step).is_err();
         let record = Record {
             run: self.run,
             tick: self.tick,
             telemetry,
             actual,
+            broken: self.broken,
         };
         // A full queue loses the record; the reader sees the gap in the ticks and says so.
         let _ = self.records.enqueue(record);
-        let step = TICK / STEPS as f32;
-        if self.plant.advance(self.wires, STEPS, step).is_err() {
-            self.run = RUNS.len();
+        if self.broken {
+            return;
         }
         self.tick += 1;
         if self.tick == self.ticks() {
@@ -261,7 +274,11 @@ where
         SimBrake,
         Gains::from_inertia(&diagonal(exact, &S::effects(), S::GAIN_POSE), OMEGA_N, ZETA),
         Observer::new(OBSERVER, TICK),
-        Supervisor::new(bounds, TICK, HOLD, REENTRY),
+        Supervisor::new(bounds, TICK, HOLD, REENTRY)
+            .riding(RIDE)
+            .with_resolution(RESOLUTION),
+        // Half of what K_d does: at full speed the torques for more are not to be had.
+        Rejoin::new(TICK, ZETA * OMEGA_N, REENTRY),
     );
     (plant, control)
 }
@@ -302,7 +319,7 @@ pub struct Errors<const N: usize> {
     squares: [f64; N],
     /// Largest absolute error of each joint.
     pub max: [f32; N],
-    /// The last status that was not plain, or the last.
+    /// The first status with a fault or a limit in effect, or else the last.
     pub status: Option<Status>,
 }
 

@@ -83,6 +83,9 @@ where
             if record.run != run || record.tick != errors.count() {
                 fail("a record was lost: the queue is too short");
             }
+            if record.broken {
+                fail("the simulated robot failed: its mass matrix is not positive definite");
+            }
             errors.add(&record);
             if record.tick % SAMPLE == 0 {
                 let (reference, actual) = (record.telemetry.reference, record.actual);

@@ -8,6 +8,7 @@
 //! | [`Observer`] | velocity from positions | estimate |
 //! | [`Gains`], [`feedback`] | K_p (q_d − q) + K_d (q̇_d − q̇) | none |
 //! | [`Supervisor`] | limits, plausibility, what to do on a fault | last good values |
+//! | [`Rejoin`] | from where a fault left the arm back onto the trajectory | reference |
 //!
 //! Time is counted in integer ticks of one nominal length; nothing divides by a measured interval.
 //! What has no memory gives the same bits for the same inputs whatever happened before; what has
@@ -33,32 +34,36 @@
 //!     lower: [-6.3; 6],
 //!     upper: [6.3; 6],
 //! };
-//! let mut supervisor = Supervisor::new(bounds, TICK, 100, 200);
+//! const LAMBDA: f32 = 2.0 * 25.0; // how fast damping takes a speed away: K_d / M = 2 ζ ω_n
+//! let mut supervisor = Supervisor::new(bounds, TICK, 100, 200).riding(5);
 //! let mut observer = Observer::new(250.0, TICK);
+//! let mut rejoin = Rejoin::new(TICK, LAMBDA, 200);
 //! let gains = Gains::from_inertia(&[3.0, 3.0, 1.0, 0.3, 0.3, 0.3], 25.0, 1.0);
-//! let mut clock = 0;
+//! let (mut clock, mut expected) = (0, [0.0; 6]);
 //!
 //! # for _ in 0..3 {
 //! let measured = Ok(&home); // or Err(Fault::Encoder { joint })
-//! let reference = trajectory.at(clock);
-//! let estimate = match supervisor.admit(measured) {
-//!     Mode::Full => observer.update(supervisor.last_good(), &reference.qdd),
-//!     _ => observer.predict(&[0.0; 6]),
+//! supervisor.admit(measured);
+//! let estimate = match supervisor.seen() {
+//!     true => observer.update(supervisor.last_good(), &expected),
+//!     false => observer.predict(&expected),
 //! };
-//! // On a fault the same law holds the last good position: gravity torque, and fading damping.
-//! let (aim, q, qd) = match supervisor.watch(&estimate.qd) {
-//!     Mode::Full => (reference, estimate.q, estimate.qd),
-//!     _ => {
-//!         let (q, fade) = (*supervisor.last_good(), supervisor.hold_fade());
-//!         (State::at(q), q, estimate.qd.map(|qd| qd * fade))
-//!     }
+//! let held = supervisor.watch(&estimate.qd) != Mode::Full;
+//! let aim = if held {
+//!     rejoin.start(&estimate, clock); // the way back will start here
+//!     State::at(estimate.q) // the same law: gravity torque and damping
+//! } else if rejoin.active() && supervisor.authority() < 1.0 {
+//!     rejoin.at(&trajectory, supervisor.authority())
+//! } else {
+//!     clock = if rejoin.active() { rejoin.finish() } else { clock + 1 };
+//!     trajectory.at(clock)
 //! };
+//! expected = if held { estimate.qd.map(|qd| -LAMBDA * qd) } else { aim.qdd };
 //! let mut tau = Core::<Ur5e>::rnea(&aim, &RIGID_BODY);
-//! for (tau, pd) in tau.iter_mut().zip(feedback(&gains, &aim, &q, &qd)) {
+//! for (tau, pd) in tau.iter_mut().zip(feedback(&gains, &aim, &estimate.q, &estimate.qd)) {
 //!     *tau += pd;
 //! }
 //! let command = supervisor.pass(&tau); // command.torque and command.brake go to the drives
-//! clock += u32::from(command.status.mode == Mode::Full);
 //! # assert_eq!(command.status.fault, None);
 //! # assert!(!command.brake);
 //! # }
@@ -66,15 +71,21 @@
 //! # Ok::<(), TrajectoryError>(())
 //! ```
 
+mod command;
+mod fault;
 mod law;
 mod observer;
+mod rejoin;
 mod supervisor;
 mod trajectory;
 mod turns;
 
+pub use command::{Bounds, Command, Mode, Status};
+pub use fault::Fault;
 pub use law::{Gains, feedback};
 pub use observer::{Estimate, Observer};
-pub use supervisor::{Bounds, Command, Fault, Mode, Status, Supervisor};
+pub use rejoin::Rejoin;
+pub use supervisor::Supervisor;
 pub use trajectory::{Speed, Trajectory, TrajectoryError, WayPoint};
 pub use turns::TurnCounter;
 

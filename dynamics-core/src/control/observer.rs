@@ -38,6 +38,7 @@ pub struct Estimate<R, const V: usize> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Observer<R, const V: usize> {
     tick: R,
+    half_tick: R,
     half_tick_squared: R,
     /// 1 − β².
     position_gain: R,
@@ -71,6 +72,7 @@ impl<R: Real, const V: usize> Observer<R, V> {
         let gap = growth / (R::ONE + growth);
         Self {
             tick,
+            half_tick: R::from_f64(0.5) * tick,
             half_tick_squared: R::from_f64(0.5) * tick * tick,
             position_gain: gap * (R::from_f64(2.0) - gap),
             velocity_gain: if usable { gap * gap / tick } else { R::ZERO },
@@ -129,6 +131,64 @@ impl<R: Real, const V: usize> Observer<R, V> {
         }
         let next = self.predicted(qdd);
         self.keep(next)
+    }
+
+    /// The estimate now, after a measurement q (rad, m) of the tick before: as encoders answer that
+    /// latch a position at the end of one frame and send it in the next. `qdd` has acted since.
+    ///
+    /// What was expected of the tick before is corrected, then goes on: the poles are those of
+    /// [`Self::update`], the estimate lacks what the newest tick would have told. Cost and the rest
+    /// as there.
+    ///
+    /// ```
+    /// use dynamics_core::control::Observer;
+    /// let mut observer = Observer::<f32, 1>::new(200.0, 1e-3);
+    /// let position = |tick: i32| 0.5 + 2e-3 * tick as f32;
+    /// for tick in 0..200 {
+    ///     observer.update_late(&[position(tick - 1)], &[0.0]);
+    /// }
+    /// assert!((observer.estimate().q[0] - position(199)).abs() < 1e-5);
+    /// ```
+    #[inline]
+    pub fn update_late(&mut self, q: &[R; V], qdd: &[R; V]) -> &Estimate<R, V> {
+        if !self.started {
+            self.reset(q);
+            return &self.estimate;
+        }
+        let mut next = self.estimate;
+        let mut sum = R::ZERO;
+        let inputs = q.iter().zip(qdd);
+        for ((next, rate), (&q, &qdd)) in next.q.iter_mut().zip(&mut next.qd).zip(inputs) {
+            let e = q - *next;
+            let speed = *rate + self.velocity_gain * e;
+            *rate = speed + self.tick * qdd;
+            *next = (*next + self.position_gain * e) + self.tick * (speed + self.half_tick * qdd);
+            // Every input reaches the position, and every position the sum.
+            sum += *next;
+        }
+        if sum.is_finite() {
+            self.estimate = next;
+        }
+        &self.estimate
+    }
+
+    /// After ticks without measurements: the positions q (rad, m) of the tick before, moved on to
+    /// now at the velocities that were expected, which stay as they are. A non-finite q changes
+    /// nothing.
+    pub fn relocate(&mut self, q: &[R; V]) {
+        if !all_finite(q) {
+            return;
+        }
+        let rates = self.estimate.qd.iter();
+        for ((out, &q), &qd) in self.estimate.q.iter_mut().zip(q).zip(rates) {
+            *out = q + self.tick * qd;
+        }
+    }
+
+    /// The estimate as it is.
+    #[inline(always)]
+    pub fn estimate(&self) -> &Estimate<R, V> {
+        &self.estimate
     }
 
     #[inline(always)]

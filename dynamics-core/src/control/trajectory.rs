@@ -235,7 +235,7 @@ impl<R: Real, const V: usize, const W: usize> Trajectory<R, V, W> {
     /// assert_eq!((trajectory.at(u32::MAX).q, trajectory.at(u32::MAX).qd), ([1.0], [0.0]));
     /// # Ok::<(), dynamics_core::control::TrajectoryError>(())
     /// ```
-    #[inline]
+    #[inline(always)]
     pub fn at(&self, tick: u32) -> State<R, V, V> {
         // W ≥ 1: the compiler drops the other branch.
         let Some(mut segment) = self.segments.first() else {

@@ -1,4 +1,4 @@
-//! Cycles of the dynamics on a real STM32F405, read from DWT.CYCCNT between the markers that the
+//! Cycles of the dynamics and of a whole tick on a real STM32F405, read from DWT.CYCCNT between the markers that the
 //! emulated meter uses; needs a debug probe that serves semihosting.
 //!
 //! 168 MHz from the 8 MHz crystal of the usual boards, five wait states, flash accelerator on.
@@ -33,6 +33,7 @@ fn main() -> ! {
     robot::<Panda, 7, 7>();
     robot::<Iiwa14, 7, 7>();
     robot::<A1, 16, 12>();
+    tick::run();
     defmt::println!("done");
     target::leave(debug::EXIT_SUCCESS)
 }
@@ -76,6 +77,94 @@ fn least<T>(mut work: impl FnMut() -> T) -> u32 {
         black_box(measured::<0, _>(&mut work));
         least.min(DWT::cycle_count().wrapping_sub(start))
     })
+}
+
+/// The whole control loop of a UR5e on simulated wires, whose encoders stand still: the same
+/// instructions as on an arm that moves.
+mod tick {
+    use cortex_m::peripheral::DWT;
+    use dynamics_core::Engine;
+    use dynamics_core::control::{
+        Bounds, Gains, Mode, Observer, Rejoin, Speed, Supervisor, Trajectory, WayPoint,
+    };
+    use dynamics_core::effects::RIGID_BODY;
+    use dynamics_core::robots::Ur5e;
+    use dynamics_core::state::State;
+    use firmware_demo::control_loop::{ControlLoop, Law};
+    use firmware_demo::drive::Drive;
+    use firmware_demo::encoder::Encoder;
+    use firmware_demo::plant::{SimDrive, SimEncoder, Wires};
+    use firmware_demo::scene::{SimBrake, TICK};
+    use firmware_demo::target;
+
+    const TICKS: usize = 1000;
+    const TORQUE: [f32; 6] = [150.0, 150.0, 150.0, 28.0, 28.0, 28.0];
+
+    struct RigidBody;
+
+    impl Law<6> for RigidBody {
+        fn feedforward(reference: &State<f32, 6, 6>) -> [f32; 6] {
+            Engine::<Ur5e>::rnea(reference, &RIGID_BODY)
+        }
+    }
+
+    pub fn run() {
+        static WIRES: Wires<6> = Wires::new();
+        let Ok(trajectory) = trajectory() else {
+            target::fail("the way-points need more than the arm's limits");
+        };
+        let mut control = control(&WIRES);
+        let mut cycles = [0_u32; TICKS];
+        for cycles in &mut cycles {
+            let start = DWT::cycle_count();
+            let telemetry = control.tick::<RigidBody, 9>(&trajectory);
+            *cycles = DWT::cycle_count().wrapping_sub(start);
+            if !matches!(telemetry.status.mode, Mode::Full) {
+                target::fail("the loop did not run as it should: nothing was measured");
+            }
+        }
+        cycles.sort_unstable();
+        let [min, .., max] = cycles;
+        let median = cycles[TICKS / 2];
+        defmt::println!(
+            "cycles ur5e tick min {=u32} median {=u32} max {=u32}",
+            min,
+            median,
+            max
+        );
+    }
+
+    fn trajectory() -> Result<Trajectory<f32, 6, 9>, impl Sized> {
+        let points = core::array::from_fn(|i| WayPoint {
+            q: [if i % 2 == 0 { 0.0 } else { 0.05 }; 6],
+            qd: [0.0; 6],
+            ticks: if i == 0 { 0 } else { 120 },
+        });
+        let limit = Speed {
+            velocity: 3.0,
+            acceleration: 30.0,
+        };
+        Trajectory::new(&points, TICK, &[limit; 6])
+    }
+
+    fn control(wires: &'static Wires<6>) -> ControlLoop<SimEncoder, SimDrive, SimBrake, 6> {
+        let bounds = Bounds {
+            torque: TORQUE,
+            rate: TORQUE,
+            speed: [3.1; 6],
+            lower: [-6.3; 6],
+            upper: [6.3; 6],
+        };
+        ControlLoop::new(
+            core::array::from_fn(|j| Encoder::new(wires.encoder(j))),
+            core::array::from_fn(|j| Drive::new(wires.drive(j), TORQUE[j])),
+            SimBrake,
+            Gains::from_inertia(&[3.0, 3.0, 1.0, 0.3, 0.3, 0.3], 25.0, 1.0),
+            Observer::new(250.0, TICK),
+            Supervisor::new(bounds, TICK, 100, 200).riding(5),
+            Rejoin::new(TICK, 25.0, 200),
+        )
+    }
 }
 
 /// The STM32F405's clock tree (reference manual RM0090, sections 3.5 and 7.3).

@@ -1,0 +1,51 @@
+//! What the supervisor is told and what it tells.
+
+use super::Fault;
+
+/// What the arm does, in the order in which faults take it down.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mode {
+    /// The full control law; while a fault is ridden through, on what the observer expects.
+    Full,
+    /// Gravity compensation and damping where the arm is.
+    Hold,
+    /// Zero torque and the brake, until [`super::Supervisor::reset`].
+    Stopped,
+}
+
+/// What the supervisor did in a tick, and why.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Status {
+    /// What the arm did.
+    pub mode: Mode,
+    /// The first fault of this tick; in [`Mode::Stopped`] the one that stopped the arm.
+    pub fault: Option<Fault>,
+    /// A limit on torque or rate took effect.
+    pub limited: bool,
+}
+
+/// What goes to the drives.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Command<R, const V: usize> {
+    /// Torques, N·m or N: finite and within their limits.
+    pub torque: [R; V],
+    /// Whether the brake is to hold the arm.
+    pub brake: bool,
+    /// Why so.
+    pub status: Status,
+}
+
+/// The limits of each joint.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounds<R, const V: usize> {
+    /// Greatest |τ|, N·m or N.
+    pub torque: [R; V],
+    /// Greatest change of τ from one tick to the next, N·m or N.
+    pub rate: [R; V],
+    /// Greatest |q̇|, rad/s or m/s.
+    pub speed: [R; V],
+    /// Least position, rad or m.
+    pub lower: [R; V],
+    /// Greatest position, rad or m.
+    pub upper: [R; V],
+}

@@ -1,0 +1,72 @@
+//! Why a measurement or a command was rejected.
+
+use core::fmt;
+
+/// Why a measurement or a command was rejected. Joints count from 0.
+///
+/// ```
+/// use dynamics_core::control::Fault;
+/// assert_eq!(format!("{}", Fault::Jump { joint: 2 }), "joint 2: its position jumped");
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Fault {
+    /// The encoder reported an error, or its answer was damaged.
+    Encoder {
+        /// The joint.
+        joint: usize,
+    },
+    /// There is no measurement of this tick.
+    Stale,
+    /// The measured position is not finite.
+    NotFinite {
+        /// The joint.
+        joint: usize,
+    },
+    /// The measured position is outside its bounds.
+    Position {
+        /// The joint.
+        joint: usize,
+    },
+    /// The measured position is further from the last good one than the joint can have moved.
+    Jump {
+        /// The joint.
+        joint: usize,
+    },
+    /// The joint is faster than it may be.
+    Speed {
+        /// The joint.
+        joint: usize,
+    },
+    /// The torque asked for is not finite.
+    Torque {
+        /// The joint.
+        joint: usize,
+    },
+    /// The drive did not take its torque.
+    Drive {
+        /// The joint.
+        joint: usize,
+    },
+    /// The brake did not take its order.
+    Brake,
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (joint, text) = match *self {
+            Self::Stale => return write!(out, "no measurement of this tick"),
+            Self::Brake => return write!(out, "the brake did not take its order"),
+            Self::Encoder { joint } => (joint, "its encoder reports an error"),
+            Self::NotFinite { joint } => (joint, "its measured position is not finite"),
+            Self::Position { joint } => (joint, "its position is outside its bounds"),
+            Self::Jump { joint } => (joint, "its position jumped"),
+            Self::Speed { joint } => (joint, "it is faster than it may be"),
+            Self::Torque { joint } => (joint, "the torque asked for is not finite"),
+            Self::Drive { joint } => (joint, "its drive did not take its torque"),
+        };
+        write!(out, "joint {joint}: {text}")
+    }
+}
+
+impl core::error::Error for Fault {}

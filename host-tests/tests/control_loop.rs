@@ -1,0 +1,268 @@
+//! Claims about the control loop that ships, on the scene's plant, with wires that fail.
+
+mod arm;
+
+use arm::outcome::bad_frames;
+use arm::{Arm, HOLD, POISON, RIDE};
+use dynamics_core::control::{Fault, Mode};
+use firmware_demo::control_loop::Refusal;
+use firmware_demo::encoder::FrameError;
+use proptest::prelude::*;
+
+/// The fastest moment of the way: 1.9 rad/s.
+const FAST: u32 = 3200;
+/// A moment with a load on the shoulder, slower.
+const SLOW: u32 = 1600;
+
+#[test]
+fn a_bad_frame_does_not_jolt_the_arm() {
+    for at in [SLOW, FAST, 5000] {
+        let whole = bad_frames(at, 0, 0).worst;
+        for mask in [1, 0x8000] {
+            for ticks in 1..=RIDE {
+                let ridden = bad_frames(at, ticks, mask);
+                assert!(
+                    ridden.worst - whole < 1e-4,
+                    "{at} {ticks}: {}",
+                    ridden.worst
+                );
+                assert!(ridden.modes.iter().all(|&mode| mode == Mode::Full));
+                assert_eq!((ridden.others, ridden.back), (vec![], 0));
+            }
+        }
+    }
+}
+
+#[test]
+fn a_longer_fault_ends_on_the_trajectory_without_a_turn_back() {
+    for at in [SLOW, FAST, 5000] {
+        for ticks in [RIDE + 1, 20, 50, 100, RIDE + HOLD] {
+            let held = bad_frames(at, ticks, 1);
+            assert!(held.reversal < 0.02, "{at} {ticks}: {}", held.reversal);
+            assert!(held.worst < 4e-3, "{at} {ticks}: {}", held.worst);
+            assert!(held.back <= 120, "{at} {ticks}: {}", held.back);
+            assert_eq!(held.others, vec![]);
+            let of = |mode| held.modes.iter().filter(|&&m| m == mode).count() as u32;
+            assert_eq!((of(Mode::Hold), of(Mode::Stopped)), (ticks - RIDE, 0));
+        }
+    }
+}
+
+#[test]
+fn a_fault_that_lasts_brakes_the_arm_and_names_frame_and_joint() {
+    let mut arm = Arm::new();
+    arm.run(SLOW);
+    arm.corrupt(3, 1);
+    arm.corrupt(5, 1);
+    for tick in 0..2 * (RIDE + HOLD) {
+        let telemetry = arm.tick();
+        assert_eq!(telemetry.status.fault, Some(Fault::Encoder { joint: 3 }));
+        assert_eq!(telemetry.frame, Some(FrameError::Parity));
+        let stopped = tick >= RIDE + HOLD;
+        assert_eq!(telemetry.status.mode == Mode::Stopped, stopped);
+        assert_eq!(arm.brake.0.0.get(), stopped);
+        assert!(!stopped || telemetry.torque == [0.0; 6]);
+    }
+}
+
+#[test]
+fn an_error_flag_costs_one_angle_and_is_asked_for() {
+    let mut arm = Arm::new();
+    arm.run(FAST);
+    arm.wires.flag(2);
+    // The answer of this tick was latched before.
+    assert_eq!(arm.tick().frame, None);
+    let telemetry = arm.tick();
+    assert_eq!(telemetry.frame, Some(FrameError::Flag));
+    assert_eq!(telemetry.status.fault, Some(Fault::Encoder { joint: 2 }));
+    for _ in 0..100 {
+        assert_eq!(arm.tick().status.fault, None);
+    }
+}
+
+#[test]
+fn a_bus_that_fails_for_a_moment_is_ridden_through() {
+    let mut arm = Arm::new();
+    arm.run(FAST);
+    arm.bent[4].bus.set(true);
+    for _ in 0..RIDE {
+        let telemetry = arm.tick();
+        assert_eq!(telemetry.frame, Some(FrameError::Bus));
+        assert_eq!(telemetry.status.mode, Mode::Full);
+    }
+    arm.bent[4].bus.set(false);
+    for _ in 0..100 {
+        let actual = arm.plant.state.q;
+        let telemetry = arm.tick();
+        // The frame after the failure still carries the angle of before it.
+        assert_eq!(telemetry.status.mode, Mode::Full);
+        assert!(Arm::error(&telemetry.reference, &actual) < 1e-3);
+    }
+}
+
+#[test]
+fn nan_from_the_law_never_reaches_a_drive() {
+    for poison in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+        let mut arm = Arm::new();
+        let before = arm.run(SLOW).torque;
+        let fault = Some(Fault::Torque { joint: 1 });
+        POISON.set(Some((1, poison)));
+        for tick in 0..20 {
+            let telemetry = arm.tick();
+            assert_eq!(telemetry.status.fault, fault);
+            let (torque, mode) = match tick {
+                0..RIDE => (before, Mode::Full),
+                RIDE => (before, Mode::Hold),
+                _ => ([0.0; 6], Mode::Stopped),
+            };
+            assert_eq!((telemetry.torque, telemetry.status.mode), (torque, mode));
+            assert_eq!(arm.brake.0.0.get(), mode == Mode::Stopped);
+        }
+        POISON.set(None);
+    }
+}
+
+#[test]
+fn a_moment_without_a_torque_does_not_jolt_the_arm() {
+    let mut arm = Arm::new();
+    arm.run(FAST);
+    for tick in 0..300 {
+        POISON.set((tick < RIDE).then_some((0, f32::NAN)));
+        let actual = arm.plant.state.q;
+        let telemetry = arm.tick();
+        assert!(Arm::error(&telemetry.reference, &actual) < 1e-3);
+        assert_eq!(telemetry.status.mode, Mode::Full);
+    }
+}
+
+#[test]
+fn a_drive_that_refuses_brakes_the_arm_at_once_and_is_named() {
+    let mut arm = Arm::new();
+    arm.run(SLOW);
+    arm.bent[2].drive.set(true);
+    arm.bent[4].drive.set(true);
+    assert_eq!(arm.tick().status.fault, None);
+    assert!(arm.brake.0.0.get());
+    let telemetry = arm.tick();
+    assert_eq!(telemetry.status.fault, Some(Fault::Drive { joint: 2 }));
+    assert_eq!(
+        (telemetry.status.mode, telemetry.torque),
+        (Mode::Stopped, [0.0; 6])
+    );
+    arm.bent[2].drive.set(false);
+    arm.bent[4].drive.set(false);
+    assert_eq!(arm.run(50).status.mode, Mode::Stopped);
+}
+
+#[test]
+fn a_brake_that_refuses_stops_the_arm() {
+    let mut arm = Arm::new();
+    arm.run(SLOW);
+    arm.brake.0.1.set(true);
+    arm.tick();
+    let status = arm.tick().status;
+    assert_eq!(
+        (status.mode, status.fault),
+        (Mode::Stopped, Some(Fault::Brake))
+    );
+}
+
+/// An arm that a lasting fault at full speed has stopped.
+fn stopped() -> Arm {
+    let mut arm = Arm::new();
+    arm.run(FAST);
+    arm.corrupt(0, 1);
+    arm.run(RIDE + HOLD + 20);
+    arm
+}
+
+#[test]
+fn after_a_reset_the_arm_goes_back_to_its_trajectory() {
+    let mut arm = stopped();
+    assert_eq!(arm.control.reset(&arm.trajectory), Err(Refusal::Unseen));
+    arm.corrupt(0, 0);
+    arm.run(2000);
+    assert_eq!(arm.control.reset(&arm.trajectory), Ok(()));
+    for tick in 0..600 {
+        let actual = arm.plant.state.q;
+        let telemetry = arm.tick();
+        assert_eq!(
+            (telemetry.status.mode, telemetry.status.fault),
+            (Mode::Full, None)
+        );
+        // The brake opens no sooner than the torque is there.
+        assert!(tick > 0 || arm.brake.0.0.get() == telemetry.status.limited);
+        let error = Arm::error(&telemetry.reference, &actual);
+        assert!(
+            error < 5e-3 && (tick < 400 || error < 1e-3),
+            "{tick}: {error}"
+        );
+        assert!(arm.plant.state.qd.iter().all(|qd| qd.abs() < 2.5));
+    }
+    assert_eq!(arm.control.reset(&arm.trajectory), Err(Refusal::Running));
+}
+
+#[test]
+fn an_arm_far_from_its_reference_is_not_started_again() {
+    let mut arm = stopped();
+    arm.corrupt(0, 0);
+    arm.plant.state.q[4] += 0.2;
+    arm.plant.publish(arm.wires);
+    arm.run(5);
+    assert_eq!(
+        arm.control.reset(&arm.trajectory),
+        Err(Refusal::Far { joint: 4 })
+    );
+    assert_eq!(arm.tick().status.mode, Mode::Stopped);
+    arm.plant.state.q[4] -= 0.2;
+    arm.plant.publish(arm.wires);
+    arm.run(5);
+    assert_eq!(arm.control.reset(&arm.trajectory), Ok(()));
+}
+
+#[test]
+fn encoders_are_started_before_the_first_tick() {
+    let mut arm = Arm::new();
+    let telemetry = arm.tick();
+    assert_eq!((telemetry.status.fault, telemetry.frame), (None, None));
+    assert!(Arm::error(&telemetry.estimate, &arm.plant.state.q) < 1e-3);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig {
+        failure_persistence: None,
+        cases: 64,
+        ..ProptestConfig::default()
+    })]
+
+    #[test]
+    fn whatever_happens_no_torque_is_beyond_its_limits(
+        at in 0..6000_u32,
+        wrongs in prop::collection::vec((0..6_usize, 0..6_u8, any::<u16>(), 1..150_u32), 1..6),
+    ) {
+        let mut arm = Arm::new();
+        arm.run(at + 1);
+        for (joint, kind, bits, ticks) in wrongs {
+            match kind {
+                0 | 1 => arm.corrupt(joint, bits),
+                2 => arm.bent[joint].bus.set(true),
+                3 => POISON.set(Some((joint, f32::from_bits(u32::from(bits) << 16)))),
+                4 => arm.wires.flag(joint),
+                _ => arm.bent[joint].drive.set(bits % 4 == 0),
+            }
+            for _ in 0..ticks {
+                let telemetry = arm.tick();
+                for (tau, limit) in telemetry.torque.iter().zip(&arm.limits) {
+                    prop_assert!(tau.abs() <= limit.torque, "{telemetry:?}");
+                }
+                let stopped = telemetry.status.mode == Mode::Stopped;
+                prop_assert!(!stopped || telemetry.torque == [0.0; 6] && arm.brake.0.0.get());
+                prop_assert!(telemetry.estimate.iter().all(|q| q.is_finite()));
+            }
+            arm.corrupt(joint, 0);
+            arm.bent[joint].bus.set(false);
+            POISON.set(None);
+            let _ = arm.control.reset(&arm.trajectory);
+        }
+    }
+}

@@ -24,9 +24,10 @@ use crate::plant::{Plant, SimDrive, SimEncoder, Wires};
 pub const TICK: f32 = 1e-3;
 /// Steps of the simulated robot in a tick.
 const STEPS: u32 = 4;
-/// Natural frequency and damping ratio of the feedback on M's diagonal.
-const OMEGA_N: f32 = core::f32::consts::TAU * 4.0;
-const ZETA: f32 = 1.0;
+/// Natural frequency of the feedback on M's diagonal, rad/s.
+pub const OMEGA_N: f32 = core::f32::consts::TAU * 4.0;
+/// Damping ratio of the same.
+pub const ZETA: f32 = 1.0;
 /// Bandwidth of the observer, rad/s.
 const OBSERVER: f32 = core::f32::consts::TAU * 40.0;
 /// Ticks that a fault is ridden through, those of gravity compensation before it stops the arm, and
@@ -56,6 +57,8 @@ pub trait Scene<const B: usize, const N: usize, const W: usize>: 'static {
     const ACCELERATION: [f32; N];
     /// The pose whose M sets the gains.
     const GAIN_POSE: [f32; N];
+    /// What that pose is called.
+    const GAIN_POSE_NAME: &'static str;
 
     /// The effects as the controller knows them.
     fn effects() -> Self::Effects;

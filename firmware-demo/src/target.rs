@@ -10,7 +10,7 @@ use defmt_semihosting as _;
 use dynamics_core::control::Status;
 use heapless::spsc::Consumer;
 
-use crate::scene::{App, Errors, RUNS, Record, Scene, TICK};
+use crate::scene::{App, Errors, OMEGA_N, RUNS, Record, Scene, TICK, ZETA};
 
 /// The core's clock, Hz.
 const CLOCK: u32 = 168_000_000;
@@ -65,6 +65,8 @@ where
         us,
         ticks
     );
+    let pose = S::GAIN_POSE_NAME;
+    defmt::println!("gains {=f32} {=f32} {=str}", OMEGA_N, ZETA, pose);
     cortex_m::interrupt::free(|cs| TICKED.borrow(cs).replace(Some(app)));
     peripherals.SYST.set_clock_source(SystClkSource::Core);
     peripherals.SYST.set_reload(CLOCK / 1_000_000 * us - 1);

@@ -1,11 +1,12 @@
-//! `budgets.toml`: what a scene may cost at most. Lowering a budget is part of the change that
-//! earns it; `cargo xtask demo --write-budgets` writes it.
+//! `budgets.toml`: what each scene and each row of `docs/costs.md` may cost at most. Lowering a budget
+//! is part of the change that earns it; `--write-budgets` writes it.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 
+use crate::costs::{self, Bars, TICK};
 use crate::error::{Error, Result};
 use crate::report::Report;
 use crate::workspace::{self, Workspace};
@@ -14,12 +15,24 @@ use crate::workspace::{self, Workspace};
 pub const OTHER_RUSTC: f64 = 0.03;
 
 const HEADER: &str = "\
-# What each scene may cost at most, as measured with the named compiler (another one is given
+# What scenes and functions may cost at most, as measured with the named compiler (another one is given
 # 3 % more). `cargo xtask test` fails when a budget is exceeded; to lower it,
-# `cargo xtask demo --write-budgets`.
+# `cargo xtask demo --write-budgets` and `cargo xtask costs --write-budgets`.
 ";
 
-type Budgets = BTreeMap<String, Budget>;
+const BARS: &str = "\
+# What was promised, whatever it costs now: nobody gets more, and no command writes it.
+";
+
+/// The file.
+#[derive(Debug, Default, Deserialize)]
+struct Budgets {
+    #[serde(default)]
+    bars: Bars,
+    costs: Option<costs::Budget>,
+    #[serde(flatten)]
+    scenes: BTreeMap<String, Budget>,
+}
 
 /// What a scene may cost.
 #[derive(Debug, Serialize, Deserialize)]
@@ -71,15 +84,20 @@ impl Budget {
 
     /// What exceeds this budget, in words.
     fn exceeded_by(&self, measured: &Self) -> Vec<String> {
-        let slack = if self.rustc == measured.rustc {
-            0.0
-        } else {
-            OTHER_RUSTC
-        };
+        let slack = slack(&self.rustc, &measured.rustc);
         std::iter::zip(self.items(), measured.items())
             .filter(|((_, allowed), (_, taken))| *taken as f64 > *allowed as f64 * (1.0 + slack))
             .map(|((what, allowed), (_, taken))| format!("{what} {taken} > {allowed}"))
             .collect()
+    }
+}
+
+/// What may be added to a budget of one compiler when another one is measured.
+pub fn slack(budgeted: &str, measured: &str) -> f64 {
+    if budgeted == measured {
+        0.0
+    } else {
+        OTHER_RUSTC
     }
 }
 
@@ -90,7 +108,7 @@ fn file(workspace: &Workspace) -> PathBuf {
 fn read(workspace: &Workspace) -> Result<Budgets> {
     let path = file(workspace);
     if !path.exists() {
-        return Ok(Budgets::new());
+        return Ok(Budgets::default());
     }
     toml::from_str(&workspace::read(&path)?)
         .map_err(|e| Error::check(format!("{}: {e}", path.display())))
@@ -98,25 +116,80 @@ fn read(workspace: &Workspace) -> Result<Budgets> {
 
 /// Rewrites the budget of the report's scene.
 pub fn write(workspace: &Workspace, report: &Report) -> Result<()> {
-    let path = file(workspace);
     let mut budgets = read(workspace)?;
-    budgets.insert(report.scene.clone(), Budget::measured(report));
-    let text =
-        toml::to_string(&budgets).map_err(|e| Error::check(format!("{}: {e}", path.display())))?;
-    workspace::write(&path, format!("{HEADER}\n{text}"))
+    let scene = report.scene.clone();
+    budgets.scenes.insert(scene, Budget::measured(report));
+    budgets.write(workspace)
+}
+
+/// Rewrites the budgets of the costs' rows.
+pub fn write_costs(workspace: &Workspace, costs: costs::Budget) -> Result<()> {
+    let mut budgets = read(workspace)?;
+    budgets.costs = Some(costs);
+    budgets.write(workspace)
+}
+
+/// What was promised.
+pub fn bars(workspace: &Workspace) -> Result<Bars> {
+    Ok(read(workspace)?.bars)
+}
+
+/// Fails if a row of the costs exceeds its budget or misses its bar; else says how many rows hold.
+pub fn check_costs(workspace: &Workspace, report: &costs::Report) -> Result<String> {
+    let budgets = read(workspace)?;
+    let budget = budgets.costs.ok_or_else(|| {
+        Error::check("budgets.toml has no [costs]: `cargo xtask costs --write-budgets`")
+    })?;
+    let mut wrong = budget.exceeded_by(&costs::Budget::measured(report));
+    let missed = costs::missed(&budgets.bars, &report.rows);
+    wrong.extend(missed.iter().map(|bar| format!("bar: {bar}")));
+    if !wrong.is_empty() {
+        return Err(Error::check(wrong.join("\n")));
+    }
+    Ok(format!("{} rows", report.rows.len()))
+}
+
+impl Budgets {
+    fn write(&self, workspace: &Workspace) -> Result<()> {
+        let path = file(workspace);
+        let bad = |e: toml::ser::Error| Error::check(format!("{}: {e}", path.display()));
+        let scenes = toml::to_string(&self.scenes).map_err(bad)?;
+        let mut bars = String::new();
+        for (key, bar) in &self.bars {
+            let value = toml::Value::try_from(bar).map_err(bad)?;
+            bars += &format!("{key:?} = {value}\n");
+        }
+        let costs = self.costs.as_ref().map_or_else(String::new, |c| c.toml());
+        workspace::write(
+            &path,
+            format!("{HEADER}\n{scenes}\n{BARS}[bars]\n{bars}\n{costs}"),
+        )
+    }
 }
 
 /// Fails if the report exceeds its scene's budget; else says what there is to spare.
 pub fn check(workspace: &Workspace, report: &Report) -> Result<String> {
     let budgets = read(workspace)?;
-    let budget = budgets.get(&report.scene).ok_or_else(|| {
+    let budget = budgets.scenes.get(&report.scene).ok_or_else(|| {
         Error::check(format!(
             "budgets.toml has no [{0}]: `cargo xtask demo --scene {0} --write-budgets`",
             report.scene
         ))
     })?;
     let measured = Budget::measured(report);
-    let exceeded = budget.exceeded_by(&measured);
+    let mut exceeded = budget.exceeded_by(&measured);
+    let key = format!("{}{TICK}", report.scene);
+    if let Some(bar) = budgets.bars.get(&key)
+        && let Some(most) = bar.cycles
+    {
+        let held = costs::Held {
+            what: format!("bar: {key}: cycles"),
+            taken: measured.tick_cycles,
+            most,
+            recorded: bar.missed.iter().any(|figure| figure == "cycles"),
+        };
+        exceeded.extend(held.complaint());
+    }
     if !exceeded.is_empty() {
         return Err(Error::check(format!(
             "over budget: {} (budget of {}, measured with {})",

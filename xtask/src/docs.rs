@@ -25,21 +25,32 @@ pub fn write(workspace: &Workspace, report: &Report) -> Result<()> {
 pub fn check(workspace: &Workspace, report: &Report) -> Result<()> {
     let text = workspace::read(&workspace.root.join("README.md"))?;
     let (_, written, _) = split(&text)?;
-    let fresh = generated(report);
-    let same = if written.contains(&report.rustc) {
+    compare(
+        "README.md",
+        COMMAND,
+        written,
+        &generated(report),
+        &report.rustc,
+    )
+}
+
+/// Fails unless what was written is what would be written now with the compiler `rustc`, or close to
+/// it if it was written with another one.
+pub fn compare(file: &str, command: &str, written: &str, fresh: &str, rustc: &str) -> Result<()> {
+    let same = if written.contains(rustc) {
         written.trim() == fresh.trim()
     } else {
-        alike(written, &fresh)
+        alike(written, fresh)
     };
     if same {
         return Ok(());
     }
     let differing = std::iter::zip(written.trim().lines(), fresh.trim().lines())
         .find(|(old, new)| old != new)
-        .map(|(old, new)| format!("\n  README: {old}\n  now:    {new}"))
+        .map(|(old, new)| format!("\n  there: {old}\n  now:   {new}"))
         .unwrap_or_default();
     Err(Error::check(format!(
-        "the README's tables are out of date: `{COMMAND}` rewrites them{differing}"
+        "{file} is out of date: `{command}` rewrites it{differing}"
     )))
 }
 

@@ -15,6 +15,23 @@ pub fn build(workspace: &Workspace, toolchain: Toolchain, bin: &str) -> Result<P
     existing(toolchain.elf(workspace, bin))
 }
 
+/// Builds some bins side by side and returns their ELFs.
+pub fn build_bins(
+    workspace: &Workspace,
+    toolchain: Toolchain,
+    bins: &[&str],
+) -> Result<Vec<PathBuf>> {
+    let mut command = toolchain.firmware(workspace, "build");
+    command.arg("--release");
+    for bin in bins {
+        command.args(["--bin", bin]);
+    }
+    shell::capture(&mut command)?;
+    bins.iter()
+        .map(|bin| existing(toolchain.elf(workspace, bin)))
+        .collect()
+}
+
 /// Builds every bin of the firmware.
 pub fn build_all(workspace: &Workspace, toolchain: Toolchain) -> Result<()> {
     let mut command = toolchain.firmware(workspace, "build");

@@ -2,6 +2,7 @@
 
 mod budgets;
 mod callgraph;
+mod costs;
 mod demo;
 mod docs;
 mod elf;
@@ -60,6 +61,15 @@ enum Command {
         #[arg(long)]
         write_budgets: bool,
     },
+    /// Measure what each algorithm costs on each robot, rewrite docs/costs.md
+    Costs {
+        /// The measurements as JSON on stdout; progress stays on stderr
+        #[arg(long)]
+        json: bool,
+        /// Rewrite the budgets from this run
+        #[arg(long)]
+        write_budgets: bool,
+    },
     /// Measure other libraries and this one side by side, rewrite docs/peers.md: takes minutes
     Peers {
         /// The measurements as JSON on stdout; progress stays on stderr
@@ -74,6 +84,9 @@ enum Command {
         /// List the steps
         #[arg(long)]
         list: bool,
+        /// Let the step `debian` install Debian's own compiler, as on CI (CI=true)
+        #[arg(long)]
+        debian: bool,
     },
 }
 
@@ -155,11 +168,21 @@ fn run(cli: Cli) -> Result<ExitCode> {
             }
             Ok(ExitCode::SUCCESS)
         }
+        Command::Costs {
+            json,
+            write_budgets,
+        } => {
+            let wish = costs::Wish {
+                json,
+                write_budgets,
+            };
+            costs::run(cli.setup, wish)
+        }
         Command::Peers { json } => peers::run(cli.setup, json),
         Command::Test { list: true, .. } => {
             test::list();
             Ok(ExitCode::SUCCESS)
         }
-        Command::Test { steps, .. } => test::run(cli.setup, &steps),
+        Command::Test { steps, debian, .. } => test::run(cli.setup, &steps, debian),
     }
 }

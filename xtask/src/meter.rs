@@ -37,7 +37,11 @@ pub fn read(path: &Path) -> Result<Vec<Sample>> {
         .map_err(|e| Error::check(format!("{}: {e}", path.display())))
 }
 
-/// The cost of each of [`REGIONS`], over the ticks that `counts` picks by their number.
+/// The name of what a tick does outside its phases: moving their results, and its own entry.
+pub const BETWEEN: &str = "between";
+
+/// The cost of each of [`REGIONS`] and then of what is [`BETWEEN`] them, over the ticks that `counts`
+/// picks by their number.
 ///
 /// # Errors
 /// A region does not occur once in each tick, or the number of ticks is not `ticks`.
@@ -46,37 +50,55 @@ pub fn costs(
     ticks: usize,
     counts: impl Fn(usize) -> bool,
 ) -> Result<Vec<Cost>> {
-    REGIONS
-        .iter()
-        .enumerate()
-        .map(|(number, name)| {
-            let of_region: Vec<&Sample> = samples
-                .iter()
-                .filter(|sample| usize::from(sample.region) == number)
-                .collect();
-            if of_region.len() != ticks {
-                return Err(Error::check(format!(
-                    "the cycle meter saw region {number} ({name}) {} times in {ticks} ticks",
-                    of_region.len()
-                )));
-            }
-            let chosen = || {
-                of_region
-                    .iter()
-                    .enumerate()
-                    .filter(|(tick, _)| counts(*tick))
-            };
-            Ok(Cost {
-                instructions: spread(chosen().map(|(_, p)| p.instructions))?,
-                cycles: spread(chosen().map(|(_, p)| p.cycles))?,
-            })
+    let mut regions = Vec::new();
+    for (number, name) in REGIONS.iter().enumerate() {
+        let of_region: Vec<[u64; 2]> = samples
+            .iter()
+            .filter(|sample| usize::from(sample.region) == number)
+            .map(|sample| [sample.instructions, sample.cycles])
+            .collect();
+        if of_region.len() != ticks {
+            return Err(Error::check(format!(
+                "the cycle meter saw region {number} ({name}) {} times in {ticks} ticks",
+                of_region.len()
+            )));
+        }
+        regions.push(of_region);
+    }
+    let between = (0..ticks).map(|tick| {
+        [0, 1].map(|which| {
+            let phases: u64 = regions[1..].iter().map(|phase| phase[tick][which]).sum();
+            regions[0][tick][which].saturating_sub(phases)
         })
-        .collect()
+    });
+    regions.push(between.collect());
+    let cost = |ticks: &Vec<[u64; 2]>| {
+        let chosen = |which: usize| {
+            let numbered = ticks.iter().enumerate();
+            let chosen = numbered.filter(|(tick, _)| counts(*tick));
+            chosen.map(move |(_, values)| values[which])
+        };
+        Cost::of(chosen(0), chosen(1))
+    };
+    regions.iter().map(cost).collect()
 }
 
-fn spread(values: impl Iterator<Item = u64>) -> Result<Spread> {
+impl Cost {
+    /// The cost of some passages through a region.
+    pub fn of(
+        instructions: impl IntoIterator<Item = u64>,
+        cycles: impl IntoIterator<Item = u64>,
+    ) -> Result<Self> {
+        Ok(Self {
+            instructions: spread(instructions)?,
+            cycles: spread(cycles)?,
+        })
+    }
+}
+
+fn spread(values: impl IntoIterator<Item = u64>) -> Result<Spread> {
     let Summary { min, median, max } =
-        Summary::of(values).ok_or_else(|| Error::check("the cycle meter measured no tick"))?;
+        Summary::of(values).ok_or_else(|| Error::check("the cycle meter measured nothing"))?;
     Ok(Spread { min, median, max })
 }
 
@@ -94,11 +116,27 @@ mod tests {
                     region,
                     instructions: 10 * tick,
                     cycles: 20 * tick,
+                    flops: 0,
                 })
             })
             .collect();
         let total = costs(&samples, 4, |tick| tick < 3).expect("complete")[0];
         assert_eq!((total.instructions.median, total.cycles.max), (10, 40));
         assert!(costs(&samples, 5, |_| true).is_err());
+    }
+
+    #[test]
+    fn what_is_in_no_phase_is_between_them() {
+        let samples: Vec<Sample> = (0..REGIONS.len() as u8)
+            .map(|region| Sample {
+                region,
+                instructions: if region == 0 { 100 } else { 19 },
+                cycles: if region == 0 { 200 } else { 39 },
+                flops: 0,
+            })
+            .collect();
+        let costs = costs(&samples, 1, |_| true).expect("complete");
+        let between = costs[REGIONS.len()];
+        assert_eq!((between.instructions.max, between.cycles.max), (5, 5));
     }
 }

@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! scene NAME joints N tick-us US ticks T
+//! gains OMEGA ZETA POSE
 //! run PLANT LAW
 //! sample TICK qd1..qdN q1..qN
 //! rms PLANT LAW e1..eN        max PLANT LAW e1..eN
@@ -11,6 +12,8 @@
 //! ```
 
 use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, Result};
 use crate::qemu::DONE;
@@ -51,6 +54,17 @@ pub struct Sample {
     pub angle: Vec<f64>,
 }
 
+/// What the feedback's gains are made of.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Gains {
+    /// Natural frequency in rad/s.
+    pub omega_n: f64,
+    /// Damping ratio.
+    pub zeta: f64,
+    /// The pose whose mass matrix they are for.
+    pub pose: String,
+}
+
 /// All that a scene reported.
 #[derive(Debug, Default)]
 pub struct Recording {
@@ -62,6 +76,8 @@ pub struct Recording {
     pub tick_us: u32,
     /// Ticks of each run.
     pub ticks: u32,
+    /// The feedback's gains, if the scene says.
+    pub gains: Option<Gains>,
     /// Plant and law of each run, in the order in which they ran.
     pub order: Vec<(String, String)>,
     /// The runs by plant and law.
@@ -90,6 +106,13 @@ impl Recording {
                 self.joints = joints.parse().map_err(|_| bad())?;
                 self.tick_us = tick_us.parse().map_err(|_| bad())?;
                 self.ticks = ticks.parse().map_err(|_| bad())?;
+            }
+            ["gains", omega_n, zeta, pose] => {
+                self.gains = Some(Gains {
+                    omega_n: number(omega_n).ok_or_else(bad)?,
+                    zeta: number(zeta).ok_or_else(bad)?,
+                    pose: pose.into(),
+                });
             }
             ["run", plant, law] => {
                 let key = known(plant, law).ok_or_else(bad)?;
@@ -156,6 +179,13 @@ impl Recording {
         Ok(())
     }
 
+    /// The first run whose status is not this one, with its status.
+    pub fn unlike(&self, status: &str) -> Option<String> {
+        let mut runs = self.runs.iter();
+        let ((plant, law), run) = runs.find(|(_, run)| run.status != status)?;
+        Some(format!("{plant} {law}: {:?}", run.status))
+    }
+
     /// The greatest speed of a joint's reference between two samples, rad/s.
     pub fn peak_speed(&self) -> f64 {
         let samples = self
@@ -209,6 +239,7 @@ mod tests {
         let mut recording = Recording::default();
         for line in [
             "scene two joints 2 tick-us 1000 ticks 3",
+            "gains 25.1 1 home",
             "run exact pd",
             "sample 0 0.1 0.2 0.11 2e-1",
             "rms exact pd 1e-3 2e-3",
@@ -221,6 +252,7 @@ mod tests {
         for line in [
             "sample 1 0.1",
             "rms exact pd NaN 0",
+            "gains fast 1 home",
             "run exact magic",
             "run exact pd",
         ] {

@@ -6,7 +6,7 @@ use crate::report::{Errors, MODEL, Report, Tracking};
 use crate::table::{Table, thousands};
 
 /// The clock of the STM32F405 in MHz, so cycles per µs.
-const CLOCK_MHZ: f64 = 168.0;
+pub const CLOCK_MHZ: f64 = 168.0;
 
 impl Report {
     /// For a terminal.
@@ -20,6 +20,7 @@ impl Report {
             text += &format!("\n{what}\n\n{}", errors_table(tracking).text());
         }
         text += &format!("\n{}\n{}\n", self.memory(), self.provenance());
+        text += &self.feedback();
         text += &self.gate();
         text + &format!("Plot: {}\n", plot.display())
     }
@@ -49,21 +50,35 @@ impl Report {
         }
         text += &format!(
             "\nIn brackets the share of PD's error. \"Model off\": the plant's inertias differ by \
-             ±3 % and its friction by ±10 %.\n\n{}",
+             up to ±3 % and its friction by up to ±10 %.\n\n{}",
             table.markdown()
         );
         text + &format!("\n{}.\nMeasured with {}.\n", self.memory(), self.rustc)
     }
 
+    /// What the laws have in common.
+    fn feedback(&self) -> String {
+        let gains = self.gains.as_ref().map_or_else(String::new, |gains| {
+            format!(
+                "Feedback in every run: ω_n {:.1} rad/s, ζ {:.2}, on M's diagonal at the pose {}\n",
+                gains.omega_n, gains.zeta, gains.pose
+            )
+        });
+        format!(
+            "{gains}The reference reaches {:.2} rad/s\n",
+            self.peak_speed
+        )
+    }
+
     /// What the safety gate said: once, if it said the same of every run.
     fn gate(&self) -> String {
-        let said: Vec<(String, &str)> = self
+        let said: Vec<(String, String)> = self
             .trackings()
             .into_iter()
             .flat_map(|(what, tracking)| {
                 tracking
                     .laws()
-                    .map(|(law, errors)| (format!("{what}, {law}"), errors.status.as_str()))
+                    .map(|(law, errors)| (format!("{what}, {law}"), words(&errors.status)))
             })
             .collect();
         match said.as_slice() {
@@ -81,7 +96,7 @@ impl Report {
         [
             ("Tracking error, exact model", &self.tracking),
             (
-                "Tracking error, plant's inertias off by ±3 % and friction by ±10 %",
+                "Tracking error, plant's inertias off by up to ±3 %, friction by up to ±10 %",
                 &self.tracking_mismatched,
             ),
         ]
@@ -98,19 +113,27 @@ impl Report {
             "max",
             "µs median",
             "µs max",
-            "share",
+            "of the work",
+            &format!("of {} ms", f64::from(self.period_us) / 1e3),
         ]);
         let whole = self.tick.total.cycles.median as f64;
         for (name, cost) in self.tick.phases() {
             let (i, c) = (cost.instructions, cost.cycles);
             let counts = [i.min, i.median, i.max, c.min, c.median, c.max].map(thousands);
             let times = [c.median, c.max].map(|n| format!("{:.2}", n as f64 / CLOCK_MHZ));
-            let share = format!("{:.1} %", 100.0 * c.median as f64 / whole);
+            let (median, longest) = (c.median as f64, c.max as f64);
+            let shares = [
+                format!("{:.1} %", 100.0 * median / whole),
+                format!(
+                    "{:.2} %",
+                    100.0 * longest / CLOCK_MHZ / f64::from(self.period_us)
+                ),
+            ];
             table.row(
                 std::iter::once(name.to_owned())
                     .chain(counts)
                     .chain(times)
-                    .chain([share]),
+                    .chain(shares),
             );
         }
         table
@@ -162,6 +185,51 @@ fn errors_table(tracking: &Tracking) -> Table {
     table
 }
 
+/// The safety gate's status in words, from `mode Full, fault None, limited false`.
+fn words(status: &str) -> String {
+    let mut text = status.to_owned();
+    for (logged, plain) in [
+        ("mode Full", "the full law"),
+        ("mode Hold", "holding on gravity compensation"),
+        ("mode Stopped", "stopped on the brake"),
+        ("fault None", "no fault"),
+        ("limited false", "no limit reached"),
+        ("limited true", "torque or its rate limited"),
+        ("fault Some(", "fault: "),
+        (" }),", ","),
+        ("),", ","),
+        (" { joint: ", " of joint "),
+    ] {
+        text = text.replace(logged, plain);
+    }
+    text
+}
+
 fn milli(radians: f64) -> String {
     format!("{:.3}", 1e3 * radians)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::words;
+
+    #[test]
+    fn a_status_is_told_in_words() {
+        for (logged, told) in [
+            (
+                "mode Full, fault None, limited false",
+                "the full law, no fault, no limit reached",
+            ),
+            (
+                "mode Hold, fault Some(Encoder { joint: 2 }), limited true",
+                "holding on gravity compensation, fault: Encoder of joint 2, torque or its rate limited",
+            ),
+            (
+                "mode Stopped, fault Some(Stale), limited false",
+                "stopped on the brake, fault: Stale, no limit reached",
+            ),
+        ] {
+            assert_eq!(words(logged), told);
+        }
+    }
 }

@@ -5,8 +5,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::elf::Sizes;
 use crate::error::{Error, Result};
-use crate::meter::{self, Cost, REGIONS};
-use crate::protocol::{LAWS, PLANTS, Recording, Trajectory};
+use crate::meter::{self, BETWEEN, Cost, REGIONS};
+use crate::protocol::{Gains, LAWS, PLANTS, Recording, Trajectory};
 
 /// What every cycle figure has to say of itself.
 pub const MODEL: &str = "modelled Cortex-M4F, zero-wait memory; instructions exact";
@@ -20,8 +20,14 @@ pub struct Report {
     pub model: String,
     /// Ticks measured: those of the runs with feed-forward.
     pub ticks_measured: usize,
+    /// Length of a tick's period in µs.
+    pub period_us: u32,
     /// The price of a tick.
     pub tick: Tick,
+    /// The feedback's gains, if the scene says.
+    pub gains: Option<Gains>,
+    /// The greatest speed of a joint's reference in rad/s.
+    pub peak_speed: f64,
     /// Errors with a plant that the controller knows exactly.
     pub tracking: Tracking,
     /// Errors with a plant that it does not know exactly.
@@ -53,6 +59,8 @@ pub struct Tick {
     pub safety: Cost,
     /// Commanding the drives.
     pub write: Cost,
+    /// What is in none of them.
+    pub between: Cost,
 }
 
 /// The error of each law.
@@ -90,13 +98,14 @@ pub struct JointError {
 
 impl Tick {
     /// The phases with their names, the total last.
-    pub fn phases(&self) -> [(&'static str, &Cost); 6] {
+    pub fn phases(&self) -> [(&'static str, &Cost); 7] {
         [
             ("read", &self.read),
             ("reference", &self.reference),
             ("dynamics", &self.dynamics),
             ("safety", &self.safety),
             ("write", &self.write),
+            (BETWEEN, &self.between),
             ("total", &self.total),
         ]
     }
@@ -163,13 +172,15 @@ impl Report {
         let all = ticks * recording.order.len();
         let costs = meter::costs(samples, all, is_sold)?;
         let cost = |name: &str| {
-            let at = REGIONS.iter().position(|region| *region == name);
+            let mut names = REGIONS.iter().chain([&BETWEEN]);
+            let at = names.position(|region| *region == name);
             at.and_then(|at| costs.get(at).copied()).unwrap_or_default()
         };
         Ok(Self {
             scene: recording.scene.clone(),
             model: MODEL.to_owned(),
             ticks_measured: (0..all).filter(|tick| is_sold(*tick)).count(),
+            period_us: recording.tick_us,
             tick: Tick {
                 total: cost("total"),
                 read: cost("read"),
@@ -177,7 +188,10 @@ impl Report {
                 dynamics: cost("dynamics"),
                 safety: cost("safety"),
                 write: cost("write"),
+                between: cost(BETWEEN),
             },
+            gains: recording.gains.clone(),
+            peak_speed: recording.peak_speed(),
             tracking: Tracking::of(recording, PLANTS[0])?,
             tracking_mismatched: Tracking::of(recording, PLANTS[1])?,
             flash_bytes: sizes.flash,

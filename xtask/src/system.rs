@@ -3,6 +3,7 @@
 use std::process::Command;
 
 use crate::error::Result;
+use crate::qemu;
 use crate::shell;
 
 /// What installs QEMU here.
@@ -56,20 +57,32 @@ impl System {
         Self::Other
     }
 
-    /// What the user has to type to get QEMU where xtask does not install it itself.
+    /// What the user has to do to get a QEMU that takes the cycle meter, where xtask does not
+    /// install it itself.
     pub fn qemu_command(self) -> String {
+        let versions = qemu::versions();
+        let newer = |who: &str| {
+            format!(
+                "# {who} brings a newer `qemu-system-arm` than the cycle meter takes ({versions}): {}",
+                qemu::another_version()
+            )
+        };
+        let older_too = |command: &str| {
+            format!(
+                "{command}\n    # if that is not QEMU {versions}: {}",
+                qemu::another_version()
+            )
+        };
         match self {
             Self::Debian => apt_lines(&["qemu-system-arm"]).join(" && "),
-            Self::Fedora => "sudo dnf install -y qemu-system-arm-core".into(),
-            Self::Arch => "sudo pacman -S --needed qemu-system-arm".into(),
-            Self::Suse => "sudo zypper install -y qemu-arm".into(),
-            Self::MacOs => "brew install qemu".into(),
-            Self::Windows => "winget install --id SoftwareFreedomConservancy.QEMU \
-                              (and add its directory to the PATH)"
-                .into(),
-            Self::Other => "install QEMU's `qemu-system-arm` (version 6.0 or newer) with \
-                            your system's package manager"
-                .into(),
+            Self::Fedora => older_too("sudo dnf install -y qemu-system-arm-core"),
+            Self::Suse => older_too("sudo zypper install -y qemu-arm"),
+            Self::Arch => newer("pacman"),
+            Self::MacOs => newer("Homebrew"),
+            Self::Windows => newer("winget"),
+            Self::Other => {
+                older_too("# install QEMU's `qemu-system-arm` with your system's package manager")
+            }
         }
     }
 }
@@ -152,6 +165,23 @@ pub fn apt_knows(package: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::System;
+    use crate::qemu;
+
+    #[test]
+    fn whoever_may_get_another_qemu_is_told_which_one_it_takes() {
+        for system in [
+            System::Fedora,
+            System::Arch,
+            System::Suse,
+            System::MacOs,
+            System::Windows,
+            System::Other,
+        ] {
+            let told = system.qemu_command();
+            assert!(told.contains(&qemu::versions()), "{told}");
+            assert!(told.contains(&qemu::another_version()), "{told}");
+        }
+    }
 
     #[test]
     fn derivatives_are_recognised_by_what_they_are_like() {

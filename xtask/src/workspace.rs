@@ -17,7 +17,7 @@ pub struct Workspace {
     pub root: PathBuf,
     /// Cargo's target directory, wherever `CARGO_TARGET_DIR` or a config put it.
     pub target: PathBuf,
-    /// The firmware's bins.
+    /// The firmware's bins that are built without a feature being asked for.
     pub bins: Vec<String>,
 }
 
@@ -38,6 +38,8 @@ struct Package {
 struct Target {
     name: String,
     kind: Vec<String>,
+    #[serde(default, rename = "required-features")]
+    required_features: Vec<String>,
 }
 
 impl Workspace {
@@ -54,6 +56,7 @@ impl Workspace {
             .filter(|package| package.name == FIRMWARE)
             .flat_map(|package| package.targets)
             .filter(|target| target.kind.iter().any(|kind| kind == "bin"))
+            .filter(|target| target.required_features.is_empty())
             .map(|target| target.name)
             .collect();
         Ok(Self {

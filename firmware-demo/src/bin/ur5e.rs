@@ -50,6 +50,7 @@ impl Scene<6, 6, 9> for PickAndPlace {
     const NAME: &'static str = "ur5e";
     const ACCELERATION: [f32; 6] = [12.0; 6];
     const GAIN_POSE: [f32; 6] = HOME;
+    const GAIN_POSE_NAME: &'static str = "home";
     const WAY_POINTS: [WayPoint<f32, 6>; 9] = [
         stop(HOME, 0),
         pass(

@@ -4,19 +4,22 @@
 use crate::insn::{Class, Insn, Marker};
 use crate::model::Pipe;
 
-/// Instructions and cycles.
+/// Instructions, cycles and floating-point operations.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Tally {
     /// Exact.
     pub instructions: u64,
     /// Modelled.
     pub cycles: u64,
+    /// Exact.
+    pub flops: u64,
 }
 
 impl Tally {
     fn charge(&mut self, insn: &Insn, pipe: &mut Pipe) {
         self.instructions += u64::from(!insn.is_marker());
         self.cycles += u64::from(pipe.step(insn));
+        self.flops += insn.flops();
     }
 }
 
@@ -179,7 +182,8 @@ mod tests {
             block.cost(Pipe::default(), 4).0,
             Tally {
                 instructions: 4,
-                cycles: 5
+                cycles: 5,
+                flops: 0
             }
         );
         assert_eq!(block.end(), 0x108);

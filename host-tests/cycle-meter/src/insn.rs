@@ -34,8 +34,10 @@ pub enum Class {
     FloatMove,
     /// Two words between core and floating-point registers.
     FloatMovePair,
-    /// Floating-point sum, difference, product, comparison, conversion.
+    /// Floating-point sum, difference, product.
     FloatArithmetic,
+    /// Floating-point comparison, conversion: timed like arithmetic, but no flop.
+    FloatConversion,
     /// Floating-point multiply-accumulate, fused or not.
     FloatMultiplyAdd,
     /// `VDIV`, `VSQRT`.
@@ -114,6 +116,16 @@ impl Insn {
     /// Whether it may access a device. Literals and the stack are memory.
     pub fn may_access_device(&self) -> bool {
         self.address & !SP != 0
+    }
+
+    /// Floating-point operations that it does: a multiply-accumulate is two; moves, signs,
+    /// comparisons and conversions are none.
+    pub fn flops(&self) -> u64 {
+        match self.class {
+            Class::FloatArithmetic | Class::FloatDivide => 1,
+            Class::FloatMultiplyAdd => 2,
+            _ => 0,
+        }
     }
 
     /// Whether it is a region's end rather than an instruction of the program.

@@ -1,4 +1,4 @@
-//! Instructions and modelled Cortex-M4F cycles between two markers.
+//! Instructions, modelled Cortex-M4F cycles and floating-point operations between two markers.
 //!
 //! Built as a shared library this is a plugin for QEMU's system emulator:
 //!
@@ -21,6 +21,9 @@
 //! that is served in between. Markers count nothing and cost nothing, so marking the
 //! phases of a region leaves the region's figures as they were. Under `-icount` two
 //! runs give the same file; without it, interrupts come when the host pleases.
+//!
+//! Floating-point operations: sums, differences, products, quotients and roots one each,
+//! multiply-accumulates two; moves, signs, comparisons and conversions none.
 //!
 //! # What is modelled
 //!

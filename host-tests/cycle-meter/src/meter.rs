@@ -36,6 +36,7 @@ impl<'b> Meter<'b> {
         let now = Tally {
             instructions: self.total.instructions + part.instructions,
             cycles: self.total.cycles + part.cycles,
+            flops: self.total.flops + part.flops,
         };
         let Marker { region, opens } = mark.marker;
         let slot = &mut self.open[usize::from(region)];
@@ -46,6 +47,7 @@ impl<'b> Meter<'b> {
                 region,
                 instructions: now.instructions - then.instructions,
                 cycles: now.cycles - then.cycles,
+                flops: now.flops - then.flops,
             });
         } else {
             self.unmatched += 1;
@@ -67,6 +69,7 @@ impl<'b> Meter<'b> {
         let (cost, pipe) = last.cost(self.entry, executed);
         self.total.instructions += cost.instructions;
         self.total.cycles += cost.cycles;
+        self.total.flops += cost.flops;
         self.entry = pipe;
         // A block that was left early goes on elsewhere; an interrupt is no branch.
         if executed == last.insns().len() && next != last.end() {
@@ -120,6 +123,7 @@ mod tests {
             region,
             instructions,
             cycles,
+            flops: 0,
         }
     }
 
@@ -129,6 +133,13 @@ mod tests {
         let tail = block(8, &[NOP]);
         assert_eq!(run(&[&body, &tail]), [sample(0, 3, 3)]);
         assert_eq!(run(&[&body, &body, &body, &tail]), [sample(0, 7, 11)]);
+    }
+
+    #[test]
+    fn flops_are_counted_as_often_as_they_are_executed() {
+        let body = block(4, &[0xEE30, 0x0A81, 0xEEA0, 0x0A81, BACK]); // vadd, vfma
+        let tail = block(14, &[NOP]);
+        assert_eq!(run(&[&body, &body, &tail])[0].flops, 6);
     }
 
     #[test]

@@ -47,7 +47,10 @@ impl Pipe {
         let cycles = stall + self.issue(insn.class, interlock);
         let arithmetic = matches!(
             insn.class,
-            Class::FloatArithmetic | Class::FloatMultiplyAdd | Class::FloatDivide
+            Class::FloatArithmetic
+                | Class::FloatConversion
+                | Class::FloatMultiplyAdd
+                | Class::FloatDivide
         );
         *self = Self {
             core_results: insn.core_writes,
@@ -83,6 +86,7 @@ impl Pipe {
             | Class::Store
             | Class::FloatMove
             | Class::FloatArithmetic
+            | Class::FloatConversion
             | Class::FloatDivide
             | Class::Unknown => 1,
         }

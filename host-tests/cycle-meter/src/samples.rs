@@ -1,20 +1,20 @@
 //! The plugin's output file.
 //!
 //! ```text
-//! cycle-meter 1 cortex-m4f zero-wait
-//! 1 390 508
-//! 0 1204 1657
+//! cycle-meter 2 cortex-m4f zero-wait
+//! 1 390 508 308
+//! 0 1204 1657 402
 //! ```
 //!
 //! After the header, which names the version of the format and the model, one line
 //! for each region that was closed, in the order of closing: region, instructions,
-//! cycles. A last line `unmatched n` says that n markers opened an open region or
+//! cycles, floating-point operations. A last line `unmatched n` says that n markers opened an open region or
 //! closed a closed one; such a file is refused. A region still open at the exit is not in it.
 
 use std::fmt::{self, Write as _};
 
 /// First line of a file.
-pub const HEADER: &str = "cycle-meter 1 cortex-m4f zero-wait";
+pub const HEADER: &str = "cycle-meter 2 cortex-m4f zero-wait";
 
 /// One passage through a region.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,6 +25,8 @@ pub struct Sample {
     pub instructions: u64,
     /// Modelled.
     pub cycles: u64,
+    /// Floating-point operations executed, exact; a multiply-accumulate is two.
+    pub flops: u64,
 }
 
 /// Why a file was refused.
@@ -57,7 +59,7 @@ impl std::error::Error for Error {}
 /// If the text is not such a file, or says that markers had no partner.
 ///
 /// ```
-/// let file = "cycle-meter 1 cortex-m4f zero-wait\n0 70 103\n";
+/// let file = "cycle-meter 2 cortex-m4f zero-wait\n0 70 103 48\n";
 /// let samples = cycle_meter::parse_samples(file)?;
 /// assert_eq!(samples[0].cycles, 103);
 /// # Ok::<(), cycle_meter::Error>(())
@@ -78,8 +80,8 @@ fn sample(line: &str, number: usize) -> Result<Sample, Error> {
     }
     let mut words = line.split(' ');
     let mut word = || words.next()?.parse::<u64>().ok();
-    let (Some(region @ 0..8), Some(instructions), Some(cycles), None) =
-        (word(), word(), word(), words.next())
+    let (Some(region @ 0..8), Some(instructions), Some(cycles), Some(flops), None) =
+        (word(), word(), word(), word(), words.next())
     else {
         return Err(malformed());
     };
@@ -87,6 +89,7 @@ fn sample(line: &str, number: usize) -> Result<Sample, Error> {
         region: region as u8,
         instructions,
         cycles,
+        flops,
     })
 }
 
@@ -98,9 +101,10 @@ pub fn format_samples(samples: &[Sample], unmatched: u64) -> String {
         region,
         instructions,
         cycles,
+        flops,
     } in samples
     {
-        let _ = writeln!(text, "{region} {instructions} {cycles}");
+        let _ = writeln!(text, "{region} {instructions} {cycles} {flops}");
     }
     if unmatched > 0 {
         let _ = writeln!(text, "unmatched {unmatched}");
@@ -163,11 +167,13 @@ mod tests {
             region: 1,
             instructions: 390,
             cycles: 508,
+            flops: 308,
         },
         Sample {
             region: 0,
             instructions: 1204,
             cycles: 1657,
+            flops: 402,
         },
     ];
 
@@ -193,11 +199,11 @@ mod tests {
         assert_eq!(parse_samples(""), Err(Error::Header(String::new())));
         for line in [
             "",
-            "0 1",
-            "0 1 2 3",
-            "8 1 2",
-            "0 1 x",
-            "0 -1 2",
+            "0 1 2",
+            "0 1 2 3 4",
+            "8 1 2 3",
+            "0 1 x 3",
+            "0 -1 2 3",
             "unmatched x",
         ] {
             let refused = Err(Error::Line(2, line.into()));

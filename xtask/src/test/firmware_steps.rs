@@ -84,7 +84,8 @@ pub fn no_f64(context: &Context) -> Result<Outcome> {
         let reach = Reach::of(&image, is_tick)?;
         for (function, path) in reach.functions() {
             seen += 1;
-            if let Some(name) = function.names.iter().find(|name| is_f64(name)) {
+            let unwanted = |name: &&String| is_f64(name) || is_panic(name);
+            if let Some(name) = function.names.iter().find(unwanted) {
                 return Err(Error::check(format!("the tick reaches `{name}`: {path}")));
             }
         }
@@ -114,6 +115,23 @@ fn is_f64(symbol: &str) -> bool {
     runtime || plain || of_libm
 }
 
+/// Whether a symbol is one of those that a failed check of `core`'s ends in.
+fn is_panic(symbol: &str) -> bool {
+    [
+        "4core9panicking",
+        "unwrap_failed",
+        "expect_failed",
+        "index_fail",
+        "index_len_fail",
+        "index_order_fail",
+        "len_mismatch_fail",
+        "panic_already_",
+        "rust_begin_unwind",
+    ]
+    .iter()
+    .any(|part| symbol.contains(part))
+}
+
 pub fn opcodes(context: &Context) -> Result<Outcome> {
     let mut seen = 0;
     for measured in context.measured()? {
@@ -134,7 +152,22 @@ pub fn opcodes(context: &Context) -> Result<Outcome> {
 
 #[cfg(test)]
 mod tests {
-    use super::is_f64;
+    use super::{is_f64, is_panic};
+
+    #[test]
+    fn panics_are_known_by_their_symbols() {
+        for symbol in [
+            "_ZN4core9panicking5panic17h0123456789abcdefE",
+            "_ZN4core9panicking18panic_bounds_check17h0123456789abcdefE",
+            "_RNvNtCs1_4core9panicking9panic_fmt",
+            "_ZN4core6option13unwrap_failed17h0123456789abcdefE",
+            "_ZN4core5slice5index24slice_end_index_len_fail17h0123456789abcdefE",
+            "_ZN4core5slice5index16slice_index_fail17h0123456789abcdefE",
+        ] {
+            assert!(is_panic(symbol), "{symbol}");
+        }
+        assert!(!is_panic("_ZN13dynamics_core7control10supervisor4pass17hE"));
+    }
 
     #[test]
     fn f64_is_known_by_its_symbols() {

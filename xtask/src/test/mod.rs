@@ -1,5 +1,6 @@
 //! `cargo xtask test`: everything that CI runs, as a table of steps.
 
+mod cost_steps;
 mod firmware_steps;
 mod host_steps;
 mod scene_steps;
@@ -44,6 +45,8 @@ impl Outcome {
 struct Context {
     workspace: Workspace,
     options: Options,
+    /// Whether the step `debian` may install Debian's compiler.
+    may_install_debian: bool,
     tools: Tools,
     meter: OnceCell<PathBuf>,
     measured: OnceCell<Vec<Measured>>,
@@ -117,7 +120,7 @@ const STEPS: &[Step] = &[
     },
     Step {
         name: "no-f64",
-        title: "the tick reaches no f64 arithmetic and no libm trigonometry",
+        title: "the tick reaches no f64 arithmetic, no libm trigonometry and no panic",
         run: firmware_steps::no_f64,
     },
     Step {
@@ -129,6 +132,16 @@ const STEPS: &[Step] = &[
         name: "budgets",
         title: "every scene is within budgets.toml",
         run: scene_steps::budgets,
+    },
+    Step {
+        name: "constant",
+        title: "the work costs the same whatever the data",
+        run: cost_steps::constant,
+    },
+    Step {
+        name: "costs",
+        title: "every function is within budgets.toml and its bar, and docs/costs.md says so",
+        run: cost_steps::costs,
     },
     Step {
         name: "readme",
@@ -183,11 +196,13 @@ pub fn list() {
 }
 
 /// Runs the steps of these names, or all of them.
-pub fn run(options: Options, only: &[String]) -> Result<ExitCode> {
+pub fn run(options: Options, only: &[String], debian: bool) -> Result<ExitCode> {
     let context = Context {
         workspace: Workspace::find()?,
         tools: setup::for_test(options)?,
         options,
+        // A CI machine is thrown away: what is installed there is in nobody's way.
+        may_install_debian: debian || std::env::var_os("CI").is_some_and(|ci| ci == "true"),
         meter: OnceCell::new(),
         measured: OnceCell::new(),
     };

@@ -117,11 +117,11 @@ fn arithmetic(first: u16, second: u16) -> Insn {
         _ => match (first & 0xF, second & 0x80 != 0) {
             (0, _) | (1, false) => class(Class::FloatMove).on_floats(m, d), // VMOV, VABS, VNEG
             (1, true) => class(Class::FloatDivide).on_floats(m, d),         // VSQRT
-            (4, _) => class(Class::FloatArithmetic).on_floats(d | m, 0),    // VCMP
-            (5, _) => class(Class::FloatArithmetic).on_floats(d, 0),        // VCMP with zero
+            (4, _) => class(Class::FloatConversion).on_floats(d | m, 0),    // VCMP
+            (5, _) => class(Class::FloatConversion).on_floats(d, 0),        // VCMP with zero
             // Fixed-point conversions work in place.
-            (10 | 11 | 14 | 15, _) => class(Class::FloatArithmetic).on_floats(d, d),
-            (2 | 3 | 8 | 12 | 13, _) => class(Class::FloatArithmetic).on_floats(m, d),
+            (10 | 11 | 14 | 15, _) => class(Class::FloatConversion).on_floats(d, d),
+            (2 | 3 | 8 | 12 | 13, _) => class(Class::FloatConversion).on_floats(m, d),
             _ => class(Class::Unknown),
         },
     }
@@ -149,16 +149,45 @@ mod tests {
             (0xEEB1, 0x0A60, Class::FloatMove, 1 << 1, 1),                // vneg.f32 s0, s1
             (0xEEB0, 0x0A60, Class::FloatMove, 1 << 1, 1),                // vmov.f32 s0, s1
             (0xEEB7, 0x0A00, Class::FloatMove, 0, 1),                     // vmov.f32 s0, #1.0
-            (0xEEB4, 0x0A60, Class::FloatArithmetic, 3, 0),               // vcmp.f32 s0, s1
-            (0xEEB5, 0x0A40, Class::FloatArithmetic, 1, 0),               // vcmp.f32 s0, #0
-            (0xEEBD, 0x0AE0, Class::FloatArithmetic, 1 << 1, 1),          // vcvt.s32.f32 s0, s1
-            (0xEEB8, 0x0AE0, Class::FloatArithmetic, 1 << 1, 1),          // vcvt.f32.s32 s0, s1
+            (0xEEB4, 0x0A60, Class::FloatConversion, 3, 0),               // vcmp.f32 s0, s1
+            (0xEEB5, 0x0A40, Class::FloatConversion, 1, 0),               // vcmp.f32 s0, #0
+            (0xEEBD, 0x0AE0, Class::FloatConversion, 1 << 1, 1),          // vcvt.s32.f32 s0, s1
+            (0xEEB8, 0x0AE0, Class::FloatConversion, 1 << 1, 1),          // vcvt.f32.s32 s0, s1
         ];
         for (first, second, class, reads, writes) in cases {
             let insn = decode(first, second);
             let found = (insn.class, insn.float_reads, insn.float_writes);
             assert_eq!(found, (class, reads, writes), "{first:#06x} {second:#06x}");
             assert!(insn.float && !insn.may_branch && insn.core_writes == 0);
+        }
+    }
+
+    #[test]
+    fn flops_are_those_of_sums_products_quotients_and_roots() {
+        let cases = [
+            (0xEE30, 0x0A81, 1), // vadd.f32 s0, s1, s2
+            (0xEE30, 0x0AC1, 1), // vsub.f32 s0, s1, s2
+            (0xEE20, 0x0A81, 1), // vmul.f32 s0, s1, s2
+            (0xEE20, 0x0AC1, 1), // vnmul.f32 s0, s1, s2
+            (0xEE80, 0x0A81, 1), // vdiv.f32 s0, s1, s2
+            (0xEEB1, 0x0AE0, 1), // vsqrt.f32 s0, s1
+            (0xEE00, 0x0A81, 2), // vmla.f32 s0, s1, s2
+            (0xEE00, 0x0AC1, 2), // vmls.f32 s0, s1, s2
+            (0xEE10, 0x0A81, 2), // vnmls.f32 s0, s1, s2
+            (0xEEA0, 0x0A81, 2), // vfma.f32 s0, s1, s2
+            (0xEE90, 0x0A81, 2), // vfnms.f32 s0, s1, s2
+            (0xEEB1, 0x0A60, 0), // vneg.f32 s0, s1
+            (0xEEB0, 0x0AE0, 0), // vabs.f32 s0, s1
+            (0xEEB0, 0x0A60, 0), // vmov.f32 s0, s1
+            (0xEEB4, 0x0A60, 0), // vcmp.f32 s0, s1
+            (0xEEBD, 0x0AE0, 0), // vcvt.s32.f32 s0, s1
+        ];
+        for (first, second, flops) in cases {
+            assert_eq!(
+                decode(first, second).flops(),
+                flops,
+                "{first:#06x} {second:#06x}"
+            );
         }
     }
 

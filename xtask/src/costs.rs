@@ -1,0 +1,66 @@
+//! `cargo xtask costs`: what each algorithm costs on each robot, and what it may.
+
+mod bars;
+mod budget;
+mod measure;
+mod report;
+
+use std::process::ExitCode;
+
+use crate::budgets;
+use crate::error::{Error, Result};
+use crate::setup::{self, Options};
+use crate::workspace::{self, Workspace};
+
+pub use bars::{Bars, Held, TICK, missed};
+pub use budget::Budget;
+pub use measure::measure;
+pub use report::Report;
+
+/// The generated page.
+const PAGE: &str = "docs/costs.md";
+const COMMAND: &str = "cargo xtask costs";
+
+/// What to do with the measurements.
+#[derive(Clone, Copy)]
+pub struct Wish {
+    /// Print JSON.
+    pub json: bool,
+    /// Rewrite the budgets.
+    pub write_budgets: bool,
+}
+
+/// Measures, writes the page and prints it.
+pub fn run(options: Options, wish: Wish) -> Result<ExitCode> {
+    let workspace = Workspace::find()?;
+    let tools = setup::for_demo(options)?;
+    let rows = measure(&workspace, &tools)?;
+    let report = Report {
+        bars: budgets::bars(&workspace)?,
+        rustc: tools.toolchain.rustc_version()?,
+        rows,
+    };
+    workspace::write(&workspace.root.join(PAGE), report.markdown())?;
+    if wish.write_budgets {
+        budgets::write_costs(&workspace, Budget::measured(&report))?;
+    }
+    if wish.json {
+        let text = serde_json::to_string_pretty(&report.rows)
+            .map_err(|e| Error::check(format!("cannot write the JSON: {e}")))?;
+        println!("{text}");
+    } else {
+        print!("{}", report.text());
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Fails unless the page is that of the report, or close to it if another compiler wrote it.
+pub fn check_page(workspace: &Workspace, report: &Report) -> Result<()> {
+    let path = workspace.root.join(PAGE);
+    let written = if path.exists() {
+        workspace::read(&path)?
+    } else {
+        String::new()
+    };
+    crate::docs::compare(PAGE, COMMAND, &written, &report.markdown(), &report.rustc)
+}

@@ -1,0 +1,135 @@
+//! The rows in print.
+
+use super::bars::{Bars, held};
+use super::measure::Row;
+use crate::render::CLOCK_MHZ;
+use crate::report::MODEL;
+use crate::table::{Table, thousands};
+
+/// The least arithmetic known for a general arm of six joints, flops: Balafoutis; McMillan & Orin.
+const FLOORS: [(&str, u64); 3] = [("rnea", 836), ("crba", 855), ("aba", 2067)];
+const FLOOR_JOINTS: usize = 6;
+
+/// Everything that is printed.
+pub struct Report {
+    /// What was measured.
+    pub rows: Vec<Row>,
+    /// What was promised.
+    pub bars: Bars,
+    /// The compiler of the firmware.
+    pub rustc: String,
+}
+
+impl Report {
+    /// For a terminal.
+    pub fn text(&self) -> String {
+        let mut text = format!("\nCost of a call ({MODEL})\n");
+        for (robot, table) in self.tables() {
+            text += &format!("\n{robot}\n\n{}", table.text());
+        }
+        text += &format!("\nBars\n\n{}", self.bars_table().text());
+        text + &format!("\n{}; µs at {CLOCK_MHZ} MHz\n", self.rustc)
+    }
+
+    /// For the docs.
+    pub fn markdown(&self) -> String {
+        let mut text = format!(
+            "# Costs\n\n\
+             <!-- written by `{}`: do not edit -->\n\n\
+             What a call costs, its passing of arguments included, over 32 random states: {MODEL}, µs at \
+             {CLOCK_MHZ} MHz.\n\n\
+             - form: `core`, the textbook loop over the model; `engine`, specialised to the robot\n\
+             - inputs, the effects named: `full`: gravity, inertia and velocity products; `bias`: gravity and \
+             velocity products; `gravity`: gravity alone; `no_coriolis`: gravity and inertia\n\
+             - sin/cos: whether they are computed inside, or at hand\n\
+             - flops: sums, products, quotients and roots executed; a multiply-accumulate is two\n\
+             - of floor: flops as a share of the least arithmetic known for a general arm of six joints, sines \
+             and cosines aside (RNEA {}, CRBA {}, ABA {})\n\
+             - code: instructions and literals of the function and of all that it calls, in bytes, without the \
+             robot's constants in memory and without library functions of trigonometry\n\
+             - stack: bytes that it and all that it calls write to\n",
+            super::COMMAND,
+            thousands(FLOORS[0].1),
+            thousands(FLOORS[1].1),
+            thousands(FLOORS[2].1),
+        );
+        for (robot, table) in self.tables() {
+            text += &format!("\n## {robot}\n\n{}", table.markdown());
+        }
+        text += &format!(
+            "\n## Bars\n\nWhat was promised, from `budgets.toml`.\n\n{}",
+            self.bars_table().markdown()
+        );
+        text + &format!("\nMeasured with {}.\n", self.rustc)
+    }
+
+    /// A table for each robot.
+    fn tables(&self) -> Vec<(&str, Table)> {
+        let mut tables: Vec<(&str, Table)> = Vec::new();
+        for row in &self.rows {
+            if tables.last().is_none_or(|(robot, _)| *robot != row.robot) {
+                let table = Table::new(&[
+                    "algorithm, form, inputs",
+                    "sin/cos",
+                    "insn min",
+                    "median",
+                    "max",
+                    "cycles min",
+                    "median",
+                    "max",
+                    "µs",
+                    "flops",
+                    "of floor",
+                    "code",
+                    "stack",
+                ]);
+                tables.push((&row.robot, table));
+            }
+            if let Some((_, table)) = tables.last_mut() {
+                table.row(cells(row));
+            }
+        }
+        tables
+    }
+
+    fn bars_table(&self) -> Table {
+        let mut table = Table::new(&["bar", "at most", "now", ""]);
+        for held in held(&self.bars, &self.rows) {
+            let met = match (held.is_met(), held.recorded) {
+                (true, _) => "met",
+                (false, true) => "missed, see decisions/0002-bars.md",
+                (false, false) => "MISSED",
+            };
+            table.row([
+                held.what,
+                thousands(held.most),
+                thousands(held.taken),
+                met.to_owned(),
+            ]);
+        }
+        table
+    }
+}
+
+fn cells(row: &Row) -> Vec<String> {
+    let (i, c) = (row.instructions, row.cycles);
+    let mut cells = vec![
+        format!("{} {} {}", row.algorithm, row.form, row.inputs),
+        if row.trig { "inside" } else { "at hand" }.to_owned(),
+    ];
+    cells.extend([i.min, i.median, i.max, c.min, c.median, c.max].map(thousands));
+    cells.push(format!("{:.2}", c.max as f64 / CLOCK_MHZ));
+    cells.push(thousands(row.flops));
+    cells.push(floor_share(row).map_or_else(String::new, |share| format!("{share:.2}")));
+    cells.extend([row.code_bytes, row.stack_bytes].map(thousands));
+    cells
+}
+
+/// Flops as a share of the floor, where there is one: for what the floor computes.
+fn floor_share(row: &Row) -> Option<f64> {
+    let (_, floor) = FLOORS
+        .iter()
+        .find(|(algorithm, _)| *algorithm == row.algorithm)?;
+    let comparable = row.joints == FLOOR_JOINTS && row.inputs == "full" && !row.trig;
+    comparable.then(|| row.flops as f64 / *floor as f64)
+}

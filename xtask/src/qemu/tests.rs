@@ -1,0 +1,193 @@
+//! Programs that stand in for QEMU and misbehave.
+
+use std::path::PathBuf;
+use std::process::{Command, Stdio};
+use std::sync::atomic::{AtomicU32, Ordering};
+use std::time::{Duration, Instant};
+
+use defmt_decoder::DecodeError;
+
+use super::watch::{Decoder, Line, Watch};
+use super::{Qemu, another_version};
+
+/// A script, gone with its directory.
+struct Script(PathBuf);
+
+impl Script {
+    fn new(lines: &str) -> Self {
+        static COUNT: AtomicU32 = AtomicU32::new(0);
+        let number = COUNT.fetch_add(1, Ordering::Relaxed);
+        let name = format!("xtask-qemu-{}-{number}", std::process::id());
+        let dir = std::env::temp_dir().join(name);
+        std::fs::create_dir_all(&dir).expect("a temporary directory");
+        std::fs::write(dir.join("qemu"), lines).expect("a script");
+        Self(dir)
+    }
+}
+
+impl Drop for Script {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
+}
+
+/// Lines of text in frames that end with a zero, as defmt's do; `!` marks an error and `?` is
+/// malformed.
+#[derive(Default)]
+struct Plain(Vec<u8>);
+
+impl Decoder for Plain {
+    fn received(&mut self, bytes: &[u8]) {
+        self.0.extend(bytes);
+    }
+
+    fn decode(&mut self) -> Result<Line, DecodeError> {
+        let end = self.0.iter().position(|byte| *byte == 0);
+        let frame: Vec<u8> = self
+            .0
+            .drain(..=end.ok_or(DecodeError::UnexpectedEof)?)
+            .collect();
+        let text = String::from_utf8_lossy(&frame[..frame.len() - 1]).into_owned();
+        match text.strip_prefix('!') {
+            _ if text.starts_with('?') => Err(DecodeError::Malformed),
+            Some(error) => Ok(Line {
+                text: error.into(),
+                is_error: true,
+            }),
+            None => Ok(Line {
+                text,
+                is_error: false,
+            }),
+        }
+    }
+}
+
+const PATIENCE: Duration = Duration::from_millis(400);
+
+/// What comes of a run of these lines of shell, within a few times [`PATIENCE`].
+fn outcome(lines: &str) -> Result<Vec<u8>, String> {
+    let script = Script::new(lines);
+    let start = Instant::now();
+    let watch = Watch {
+        name: "fake",
+        patience: PATIENCE,
+        decoder: Some(Box::new(Plain::default())),
+    };
+    let mut command = Command::new("sh");
+    command
+        .arg(script.0.join("qemu"))
+        .stdin(Stdio::null())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped());
+    let outcome = watch.run(&mut command, &mut |_| Ok(()));
+    // A busy machine may start a script late, but not for ever.
+    assert!(start.elapsed() < Duration::from_secs(10), "{lines}");
+    outcome.map_err(|error| error.to_string())
+}
+
+fn assert_fails(lines: &str, with: &[&str]) {
+    let message = outcome(lines).expect_err(lines);
+    for part in with {
+        assert!(message.contains(part), "{lines}: {message}");
+    }
+}
+
+#[test]
+fn a_run_that_ends_with_done_passes() {
+    assert_eq!(
+        outcome(r"printf 'hello\0done\0'"),
+        Ok(b"hello\0done\0".to_vec())
+    );
+}
+
+#[test]
+fn a_crash_is_told_with_what_it_said() {
+    assert_fails(
+        r"printf 'hello\0'; echo 'no such machine' >&2; exit 3",
+        &["it failed", "3", "QEMU said: no such machine"],
+    );
+    assert_fails(
+        r"printf '!a record was lost\0'; exit 1",
+        &["a record was lost"],
+    );
+    assert_fails("kill -SEGV $$", &["it failed", "signal"]);
+}
+
+#[test]
+fn a_hang_is_killed() {
+    assert_fails(
+        r"printf 'hello\0'; exec sleep 100",
+        &["no progress for 400ms, killed", "\"hello\""],
+    );
+}
+
+#[test]
+fn a_flood_of_junk_is_killed_by_its_size() {
+    assert_fails("exec yes junk", &["not the defmt log", "junk"]);
+}
+
+#[test]
+fn a_trickle_of_junk_is_killed_by_the_clock() {
+    assert_fails(
+        "while :; do printf junk; sleep 0.02; done",
+        &["no progress for 400ms"],
+    );
+}
+
+#[test]
+fn malformed_frames_are_told() {
+    assert_fails(
+        r"printf '?bad\0'; exec sleep 100",
+        &["not the defmt log", "?bad"],
+    );
+    assert_fails(
+        r"printf 'done\0half a frame'",
+        &["not the defmt log", "half a"],
+    );
+}
+
+#[test]
+fn a_silent_exit_is_no_success() {
+    assert_fails("exit 0", &["ended without `done`", "\"\""]);
+    assert_fails(r"printf 'hello\0'", &["ended without `done`", "\"hello\""]);
+}
+
+#[test]
+fn a_panic_is_told_at_once() {
+    assert_fails(
+        r"printf '!panic: out of bounds\0'; exec sleep 100",
+        &["the firmware panicked: panic: out of bounds"],
+    );
+}
+
+#[test]
+fn a_program_that_goes_on_without_output_is_killed() {
+    assert_fails(
+        r"printf 'done\0'; exec >&- 2>&-; exec sleep 100",
+        &["closed its output and went on for 400ms, killed"],
+    );
+}
+
+#[test]
+fn a_child_that_holds_the_pipe_of_stderr_keeps_nobody() {
+    assert!(outcome(r"sleep 20 >/dev/null & printf 'done\0'").is_ok());
+}
+
+#[test]
+fn a_qemu_with_another_plugin_interface_is_named() {
+    let takes = |version: &str| {
+        Qemu {
+            version: format!("QEMU emulator version {version} (somewhere's)"),
+        }
+        .takes_the_meter()
+        .map_err(|error| error.to_string())
+    };
+    for version in ["4.2.0", "7.2.22", "8.2.0"] {
+        assert_eq!(takes(version), Ok(()), "{version}");
+    }
+    for version in ["4.1.0", "9.0.1", "10.0.2"] {
+        let told = [version, "QEMU 4.2 to 8.2", &another_version()];
+        let refused = takes(version).expect_err(version);
+        assert!(told.iter().all(|part| refused.contains(part)), "{refused}");
+    }
+}

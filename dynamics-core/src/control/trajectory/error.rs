@@ -1,0 +1,104 @@
+//! Why way-points make no trajectory.
+
+use core::fmt;
+
+/// Why way-points make no trajectory. Points and joints count from 0; of a segment, the point that
+/// ends it is named.
+///
+/// ```
+/// use dynamics_core::control::TrajectoryError;
+/// let error = TrajectoryError::Velocity { point: 2, joint: 3, needed: 3.5, allowed: 3.0 };
+/// assert_eq!(
+///     format!("{error}"),
+///     "way-point 2, joint 3: needs a speed of 3.5000, 3.0000 allowed"
+/// );
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum TrajectoryError {
+    /// The length of a tick is not a positive number.
+    Tick,
+    /// A position or velocity is not finite.
+    NotFinite {
+        /// The way-point.
+        point: usize,
+        /// The joint.
+        joint: usize,
+    },
+    /// The first or the last way-point does not stop.
+    NotAtRest {
+        /// The way-point.
+        point: usize,
+        /// The joint.
+        joint: usize,
+    },
+    /// No ticks to get there (for the first point: not 0), or more than a `u32` in total.
+    Ticks {
+        /// The way-point.
+        point: usize,
+    },
+    /// The joint must move faster than it may.
+    Velocity {
+        /// The way-point.
+        point: usize,
+        /// The joint.
+        joint: usize,
+        /// The greatest |q̇| on the way, rad/s or m/s.
+        needed: f64,
+        /// The limit.
+        allowed: f64,
+    },
+    /// The joint must accelerate more than it may.
+    Acceleration {
+        /// The way-point.
+        point: usize,
+        /// The joint.
+        joint: usize,
+        /// The greatest |q̈| on the way, rad/s² or m/s².
+        needed: f64,
+        /// The limit.
+        allowed: f64,
+    },
+}
+
+impl fmt::Display for TrajectoryError {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::Tick => write!(out, "the length of a tick is not a positive number"),
+            Self::NotFinite { point, joint } => write!(
+                out,
+                "way-point {point}, joint {joint}: position or velocity is not finite"
+            ),
+            Self::NotAtRest { point, joint } => write!(
+                out,
+                "way-point {point}, joint {joint}: the first and the last way-point have to stop"
+            ),
+            Self::Ticks { point: 0 } => write!(out, "way-point 0: its ticks are not 0"),
+            Self::Ticks { point } => write!(
+                out,
+                "way-point {point}: no ticks to get there, or more than 2^32 in total"
+            ),
+            Self::Velocity {
+                point,
+                joint,
+                needed,
+                allowed,
+            } => write!(
+                out,
+                "way-point {point}, joint {joint}: needs a speed of {needed:.4}, {allowed:.4} allowed"
+            ),
+            Self::Acceleration {
+                point,
+                joint,
+                needed,
+                allowed,
+            } => write!(
+                out,
+                "way-point {point}, joint {joint}: needs an acceleration of {needed:.4}, \
+                 {allowed:.4} allowed"
+            ),
+        }
+    }
+}
+
+impl core::error::Error for TrajectoryError {}

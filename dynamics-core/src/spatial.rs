@@ -219,6 +219,18 @@ impl<R: Real> SpatialInertia<R> {
     };
 }
 
+impl<R: Real> Add for SpatialInertia<R> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, o: Self) -> Self {
+        Self {
+            mass: self.mass + o.mass,
+            moment: self.moment + o.moment,
+            inertia: self.inertia + o.inertia,
+        }
+    }
+}
+
 /// I v: momentum from velocity, force from acceleration. RBDA (2.63). 45 flops.
 impl<R: Real> Mul<Motion<R>> for SpatialInertia<R> {
     type Output = Force<R>;

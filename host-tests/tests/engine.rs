@@ -1,7 +1,9 @@
 //! Core and engine are each other's oracle: the same robot, state and scene, the same torques.
 
+use dynamics_core::algorithms::rnea;
 use dynamics_core::effects::{
-    Coriolis, Coulomb, Direction, Effect, Gravity, Inertia, RIGID_BODY, RotorInertia, Viscous,
+    Coriolis, Coulomb, Direction, Effect, Gravity, Inertia, Payload, RIGID_BODY, RotorInertia,
+    Viscous,
 };
 use dynamics_core::model::{BASE, Body, Joint, Model, Robot};
 use dynamics_core::robots::{A1, Iiwa14, Panda, Ur5e};
@@ -219,11 +221,45 @@ fn engine_equals_core_on_an_odd_tree_under_every_effect() {
             RotorInertia([0.2, 0.1, 0.3, 0.05, 0.15, 0.4, 0.25].map(R::from_f64)),
             Push,
             Drag,
+            payload::<R>(),
         );
         compare::<R, Odd, _, 11, 7>(&scene, 10_000)
     }
     let (single, double) = (ulps::<f32>(), ulps::<f64>());
     assert!(single.max(double) <= ULPS, "{single:.2}, {double:.2} ulp");
+}
+
+/// 2.5 kg off the axis, with dense inertia.
+fn payload<R: Real>() -> Payload<R> {
+    let inertia = [0.03, -0.004, 0.002, 0.05, 0.006, 0.04].map(R::from_f64);
+    Payload::new(R::from_f64(2.5), [0.1, -0.2, 0.3].map(R::from_f64), inertia)
+}
+
+#[test]
+fn a_payload_is_inertia_of_the_last_body() {
+    let mut rng = TestRng::deterministic_rng(RngAlgorithm::ChaCha);
+    let mut loaded = Panda::MODEL;
+    loaded.links[6].inertia = loaded.links[6].inertia + payload::<f64>().0;
+    let scene = (Gravity::EARTH, Inertia, Coriolis, payload::<f64>());
+    for _ in 0..100 {
+        let mut random = |bound: f64| [0.0; 7].map(|_: f64| rng.random_range(-bound..bound));
+        let state = State {
+            q: random(3.0),
+            qd: random(3.0),
+            qdd: random(10.0),
+        };
+        let want = rnea(&loaded, &state, &RIGID_BODY);
+        let core = Core::<Panda>::rnea(&state, &scene);
+        let engine = Engine::<Panda>::rnea(&state, &scene);
+        for i in 0..7 {
+            assert!((core[i] - want[i]).abs() < 2e-13, "core, joint {i}");
+            assert!((engine[i] - want[i]).abs() < 2e-13, "engine, joint {i}");
+        }
+        let qdd = Core::<Panda>::aba(&state, &want, &scene).expect("M is positive");
+        for (got, want) in qdd.iter().zip(state.qdd) {
+            assert!((got - want).abs() < 1e-11);
+        }
+    }
 }
 
 #[test]

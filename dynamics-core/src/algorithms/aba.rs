@@ -99,6 +99,13 @@ where
     let mut v: Vec<Motion<R>, B> = Vec::new();
     let mut bodies: Vec<Body<'_, R>, B> = Vec::new();
     for (i, link) in model.links.iter().enumerate() {
+        let mut loaded = link.inertia;
+        let inertia = if E::PAYLOAD && i + 1 == B {
+            effects.payload(&mut loaded);
+            &loaded
+        } else {
+            &link.inertia
+        };
         let turn = entry(&posture.turns, link.q_at);
         let x = link.joint.xform(turn, &link.placement);
         let qd = entry(&state.qd, link.v_at);
@@ -106,7 +113,7 @@ where
         let (mut c, mut pa) = (Motion::ZERO, Force::ZERO);
         if E::VELOCITY_PRODUCTS {
             c = link.joint.velocity_product(v_i, qd);
-            pa = v_i.cross_force(link.inertia * v_i);
+            pa = v_i.cross_force(*inertia * v_i);
         }
         if E::WRENCH {
             let mut fx = Force::ZERO;
@@ -118,7 +125,7 @@ where
             link,
             x,
             c,
-            ia: link.inertia.into(),
+            ia: (*inertia).into(),
             pa,
             u_hat: Force::ZERO,
             per_d: R::ZERO,

@@ -61,6 +61,13 @@ where
     let mut a: Vec<Motion<R>, B> = Vec::new();
     let mut bodies: Vec<Body<R>, B> = Vec::new();
     for (i, link) in model.links.iter().enumerate() {
+        let mut loaded = link.inertia;
+        let inertia = if E::PAYLOAD && i + 1 == B {
+            effects.payload(&mut loaded);
+            &loaded
+        } else {
+            &link.inertia
+        };
         let turn = entry(&posture.turns, link.q_at);
         let x = link.joint.xform(turn, &link.placement);
         let qd = entry(&state.qd, link.v_at);
@@ -80,9 +87,9 @@ where
             }
             let _ = a.push(a_i);
             f_i = if E::VELOCITY_PRODUCTS {
-                link.inertia.force(a_i, v_i) // (5)
+                inertia.force(a_i, v_i) // (5)
             } else {
-                link.inertia * a_i
+                *inertia * a_i
             };
         }
         if E::WRENCH {

@@ -17,6 +17,7 @@
 
 mod coulomb;
 mod gravity;
+mod payload;
 mod rigid;
 mod rotor;
 mod tuple;
@@ -24,12 +25,13 @@ mod viscous;
 
 pub use coulomb::{Coulomb, smooth_sign};
 pub use gravity::{Direction, Down, Gravity};
+pub use payload::Payload;
 pub use rigid::{Coriolis, Inertia, RIGID_BODY};
 pub use rotor::RotorInertia;
 pub use viscous::Viscous;
 
 use crate::scalar::Real;
-use crate::spatial::{Force, Motion};
+use crate::spatial::{Force, Motion, SpatialInertia};
 
 /// The state of one joint, as joint hooks see it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -66,7 +68,7 @@ pub struct JointState<R> {
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not an effect on a robot of {B} bodies and {V} joints in `{R}`",
     label = "not an effect of this size and scalar",
-    note = "effects: Gravity, Inertia, Coriolis, Viscous([R; V]), Coulomb {{ .. }}, RotorInertia([R; V]), \
+    note = "effects: Gravity, Inertia, Coriolis, Viscous([R; V]), Coulomb {{ .. }}, RotorInertia([R; V]), Payload, \
             tuples of up to 12 of them, and your own through `impl Effect`"
 )]
 pub trait Effect<R: Real, const B: usize, const V: usize> {
@@ -82,6 +84,15 @@ pub trait Effect<R: Real, const B: usize, const V: usize> {
     const WRENCH: bool = false;
     /// `wrench` reads the body's velocity (which does not switch the velocity products on).
     const BODY_VELOCITY: bool = false;
+
+    /// `payload` adds something.
+    const PAYLOAD: bool = false;
+
+    /// Adds to the inertia of the last body, about the origin of its frame and in its coordinates.
+    #[inline(always)]
+    fn payload(&self, inertia: &mut SpatialInertia<R>) {
+        let _ = inertia;
+    }
 
     /// Adds to the acceleration g of free fall, in base coordinates, m/s².
     #[inline(always)]

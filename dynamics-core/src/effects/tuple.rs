@@ -2,7 +2,7 @@
 
 use super::{Effect, JointState};
 use crate::scalar::Real;
-use crate::spatial::{Force, Motion};
+use crate::spatial::{Force, Motion, SpatialInertia};
 
 macro_rules! tuple {
     ($($name:ident $at:tt),*) => {
@@ -19,6 +19,13 @@ macro_rules! tuple {
             const VELOCITY_PRODUCTS: bool = false $(| $name::VELOCITY_PRODUCTS)*;
             const WRENCH: bool = false $(| $name::WRENCH)*;
             const BODY_VELOCITY: bool = false $(| $name::BODY_VELOCITY)*;
+            const PAYLOAD: bool = false $(| $name::PAYLOAD)*;
+
+            #[inline(always)]
+            fn payload(&self, inertia: &mut SpatialInertia<R>) {
+                let _ = &inertia;
+                $(self.$at.payload(inertia);)*
+            }
 
             #[inline(always)]
             fn field(&self, g: &mut R::Vec3) {

@@ -37,6 +37,14 @@ pub(crate) struct Rates<R> {
     pub(crate) accel: Known<R>,
 }
 
+/// The inertia left to a body: m, h and Σ, in units of length.
+#[derive(Clone, Copy)]
+pub(crate) struct Inertia<R> {
+    pub(crate) mass: Known<R>,
+    pub(crate) moment: Vec3<R>,
+    pub(crate) second: Mat3<R>,
+}
+
 /// A force f at the origin and a couple n.
 #[derive(Clone, Copy)]
 pub(crate) struct Wrench<R> {
@@ -90,7 +98,8 @@ impl<R: Real> Field<R> {
 
     /// What the body's inertia takes: f = m a + U h, n = h × a + axial(U Σ − Σ Uᵀ).
     #[inline(always)]
-    pub(crate) fn wrench(&self, mass: Known<R>, h: Vec3<R>, second: &Mat3<R>) -> Wrench<R> {
+    pub(crate) fn wrench(&self, body: &Inertia<R>) -> Wrench<R> {
+        let (mass, h, second) = (body.mass, body.moment, &body.second);
         let ([x, y, z], [sx, sy, sz]) = (self.u.0, second.0);
         let ([wx, wy, wz], [sxx, sxy, sxz]) = (self.spin.0, sx.0);
         let (syy, syz, szz) = (sy.0[1], sy.0[2], sz.0[2]);

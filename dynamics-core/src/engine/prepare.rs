@@ -59,6 +59,20 @@ pub(crate) struct Prepared<T, const B: usize, const Q: usize, const V: usize>(
 impl<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize> Prepared<T, B, Q, V> {
     pub(crate) const TREE: Tree<B, V> = prepare(&T::MODEL);
 
+    /// Where the last body of the description is found.
+    pub(crate) const fn last() -> Place {
+        if B == 0 {
+            ON_BASE
+        } else {
+            Self::TREE.places[B - 1]
+        }
+    }
+
+    /// Whether the last body moves with joint `i`.
+    pub(crate) const fn last_on(i: usize) -> bool {
+        Self::last().joint == i
+    }
+
     /// Joint `i`; beyond the last one something harmless, since the compiler evaluates the
     /// constants of branches that it does not take.
     pub(crate) const fn joint(i: usize) -> Joint {

@@ -1,14 +1,14 @@
 //! Inverse dynamics by one recursion over the bodies: out on the way down, back on the way up, so
 //! that what lies between stays in registers.
 
-use super::field::{Field, Rates, Wrench, leave};
+use super::field::{Field, Inertia, Rates, Wrench, leave};
 use super::known::Known;
 use super::prepare::{Prepared, Tree};
 use super::small::{Mat3, Vec3};
 use crate::effects::{Effect, JointState};
 use crate::model::{BASE, Robot, Turn};
-use crate::scalar::{Real, Vector};
-use crate::spatial::{Force, Motion};
+use crate::scalar::{Matrix, Real, Vector};
+use crate::spatial::{Force, Motion, SpatialInertia};
 use crate::state::State;
 
 /// What all bodies share.
@@ -81,12 +81,15 @@ where
     } else {
         parent.turned(joint, turn, rates)
     };
-    let moment = Vec3::constant(joint.moment);
-    let mut total = field.wrench(
-        Known::constant(joint.mass),
-        moment,
-        &Mat3::constant(&joint.second),
-    );
+    let mut body = Inertia {
+        mass: Known::constant(joint.mass),
+        moment: Vec3::constant(joint.moment),
+        second: Mat3::constant(&joint.second),
+    };
+    if const { E::PAYLOAD && Prepared::<T, B, Q, V>::last_on(I) } {
+        body = loaded::<R, T, E, B, Q, V>(task.effects, body);
+    }
+    let mut total = field.wrench(&body);
     if E::WRENCH {
         total = environment::<R, T, E, B, Q, V, I>(task.effects, &field, total);
     }
@@ -122,6 +125,50 @@ where
     Wrench {
         f,
         n: leave(&rot, turn, total.n) + p.cross(f),
+    }
+}
+
+/// Adds the payload, which is given in the last body's own frame, to the inertia of its joint.
+#[inline(always)]
+fn loaded<R, T, E, const B: usize, const Q: usize, const V: usize>(
+    effects: &E,
+    body: Inertia<R>,
+) -> Inertia<R>
+where
+    R: Real,
+    T: Robot<B, Q, V>,
+    E: Effect<R, B, V>,
+{
+    let place = const { &Prepared::<T, B, Q, V>::last() };
+    let (rot, d) = (Mat3::constant(&place.rot), Vec3::constant(place.pos));
+    let length = Known::constant(const { Prepared::<T, B, Q, V>::TREE.length });
+    let mut load = SpatialInertia::ZERO;
+    effects.payload(&mut load);
+    let mass = Known::any(load.mass) * length * length;
+    let h = rot.mul(Vec3::any(load.moment)).scale(length);
+    // Σ = ½ tr(Ī) 1 − Ī, turned and moved to the joint's frame.
+    let [x, y, z] = load.inertia.cols();
+    let trace = x.array()[0] + y.array()[1] + z.array()[2];
+    let half = Known::any(trace * R::from_f64(0.5));
+    let zero = Known::ZERO;
+    let sigma = Mat3([
+        rot.mul(Vec3([half, zero, zero]) - Vec3::any(x)),
+        rot.mul(Vec3([zero, half, zero]) - Vec3::any(y)),
+        rot.mul(Vec3([zero, zero, half]) - Vec3::any(z)),
+    ]);
+    let moved = h + d.scale(mass);
+    let [dx, dy, dz] = d.0;
+    let [hx, hy, hz] = h.0;
+    let [tx, ty, tz] = rot.rows();
+    let second = Mat3([
+        sigma.mul(tx) + moved.scale(dx) + d.scale(hx),
+        sigma.mul(ty) + moved.scale(dy) + d.scale(hy),
+        sigma.mul(tz) + moved.scale(dz) + d.scale(hz),
+    ]);
+    Inertia {
+        mass: body.mass + mass,
+        moment: body.moment + moved,
+        second: body.second + second,
     }
 }
 

@@ -112,6 +112,17 @@ impl<R: Real> Mat3<R> {
         ])
     }
 
+    /// The rows.
+    #[inline(always)]
+    pub(crate) fn rows(&self) -> [Vec3<R>; 3] {
+        let [x, y, z] = self.0;
+        [
+            Vec3([x.0[0], y.0[0], z.0[0]]),
+            Vec3([x.0[1], y.0[1], z.0[1]]),
+            Vec3([x.0[2], y.0[2], z.0[2]]),
+        ]
+    }
+
     /// M v.
     #[inline(always)]
     pub(crate) fn mul(&self, v: Vec3<R>) -> Vec3<R> {
@@ -124,5 +135,14 @@ impl<R: Real> Mat3<R> {
     pub(crate) fn transpose_mul(&self, v: Vec3<R>) -> Vec3<R> {
         let [x, y, z] = self.0;
         Vec3([x.dot(v), y.dot(v), z.dot(v)])
+    }
+}
+
+impl<R: Real> Add for Mat3<R> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, o: Self) -> Self {
+        let ([ax, ay, az], [bx, by, bz]) = (self.0, o.0);
+        Self([ax + bx, ay + by, az + bz])
     }
 }

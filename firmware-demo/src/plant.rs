@@ -1,7 +1,7 @@
 //! A simulated robot behind the same `embedded-hal` traits as the real one.
 //!
-//! Forward dynamics under the scene's effects at a finer step than the tick, encoders that
-//! quantise, drives that know only their duty. Nothing here is in a measured region.
+//! Forward dynamics under the scene's effects at a finer step than the tick: outside the measured
+//! regions. Encoders that quantise and drives that know only their duty: their transfers are inside.
 
 use core::convert::Infallible;
 use core::sync::atomic::{AtomicU16, AtomicU32, Ordering::Relaxed};

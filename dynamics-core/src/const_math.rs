@@ -87,6 +87,29 @@ pub(crate) const fn transpose(m: &DMat3) -> DMat3 {
     )
 }
 
+/// The rotation Q of coordinates with Q x = (1, 0, 0) and Q z = (0, 0, 1), of orthonormal x and z.
+pub(crate) const fn frame(x: DVec3, z: DVec3) -> DMat3 {
+    let y = DVec3::new(
+        z.y * x.z - z.z * x.y,
+        z.z * x.x - z.x * x.z,
+        z.x * x.y - z.y * x.x,
+    );
+    transpose(&DMat3::from_cols(x, y, z))
+}
+
+/// A unit vector perpendicular to the unit vector u: a coordinate axis where u is one.
+pub(crate) const fn perpendicular(u: DVec3) -> DVec3 {
+    let helper = if u.x.abs() <= u.y.abs() && u.x.abs() <= u.z.abs() {
+        DVec3::X
+    } else if u.y.abs() <= u.z.abs() {
+        DVec3::Y
+    } else {
+        DVec3::Z
+    };
+    let x = add(helper, scale(u, -dot(helper, u)));
+    scale(x, 1.0 / sqrt(dot(x, x)))
+}
+
 /// R = Rz(yaw) Ry(pitch) Rx(roll) from (sin, cos) pairs: child coordinates to parent's.
 pub(crate) const fn rotation(roll: (f64, f64), pitch: (f64, f64), yaw: (f64, f64)) -> DMat3 {
     let x = DMat3::from_cols(

@@ -4,7 +4,7 @@ use core::marker::PhantomData;
 
 use crate::algorithms::{self, NotPositiveDefinite};
 use crate::effects::Effect;
-use crate::model::{Robot, model};
+use crate::model::{Of, Robot};
 use crate::scalar::Real;
 use crate::state::{Posture, State};
 
@@ -29,7 +29,7 @@ impl<T> Core<T> {
     where
         T: Robot<B, Q, V>,
     {
-        Posture::of(model::<R, T, B, Q, V>(), q)
+        Posture::of(&Of::<T>::NEW, q)
     }
 
     /// τ = ID(q, q̇, q̈), see [`algorithms::rnea`].
@@ -42,7 +42,7 @@ impl<T> Core<T> {
         T: Robot<B, Q, V>,
         E: Effect<R, B, V>,
     {
-        algorithms::rnea(model::<R, T, B, Q, V>(), state, effects)
+        algorithms::rnea(&Of::<T>::NEW, state, effects)
     }
 
     /// As [`Core::rnea`], at a posture whose sines and cosines are at hand.
@@ -56,7 +56,7 @@ impl<T> Core<T> {
         T: Robot<B, Q, V>,
         E: Effect<R, B, V>,
     {
-        algorithms::rnea_at(model::<R, T, B, Q, V>(), posture, state, effects)
+        algorithms::rnea_at(&Of::<T>::NEW, posture, state, effects)
     }
 
     /// q̈ = FD(q, q̇, τ), see [`algorithms::aba`].
@@ -73,6 +73,24 @@ impl<T> Core<T> {
         T: Robot<B, Q, V>,
         E: Effect<R, B, V>,
     {
-        algorithms::aba(model::<R, T, B, Q, V>(), state, tau, effects)
+        algorithms::aba(&Of::<T>::NEW, state, tau, effects)
+    }
+
+    /// As [`Core::aba`], at a posture whose sines and cosines are at hand.
+    ///
+    /// # Errors
+    /// As [`Core::aba`].
+    #[inline(never)]
+    pub fn aba_at<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+        posture: &Posture<R, Q>,
+        state: &State<R, Q, V>,
+        tau: &[R; V],
+        effects: &E,
+    ) -> Result<[R; V], NotPositiveDefinite>
+    where
+        T: Robot<B, Q, V>,
+        E: Effect<R, B, V>,
+    {
+        algorithms::aba_at(&Of::<T>::NEW, posture, state, tau, effects)
     }
 }

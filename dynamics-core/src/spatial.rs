@@ -206,9 +206,28 @@ impl<R: Real> SpatialInertia<R> {
         let w = v.ang;
         let point = a.lin + w.cross(v.lin);
         Force::new(
-            self.inertia * a.ang + self.moment.cross(point) + w.cross(self.inertia * w),
+            self.moment.cross(point) + (self.turn(a.ang) + w.cross(self.turn(w))),
             point * self.mass + a.ang.cross(self.moment) + w.cross(w.cross(self.moment)),
         )
+    }
+
+    /// Ī w, reading the upper triangle of Ī. 15 flops.
+    #[inline(always)]
+    fn turn(&self, w: R::Vec3) -> R::Vec3 {
+        let ([xx, xy, xz, yy, yz, zz], [x, y, z]) = (self.upper(), w.array());
+        R::Vec3::new(
+            xx * x + xy * y + xz * z,
+            xy * x + yy * y + yz * z,
+            xz * x + yz * y + zz * z,
+        )
+    }
+
+    /// The upper triangle of Ī: xx, xy, xz, yy, yz, zz.
+    #[inline(always)]
+    fn upper(&self) -> [R; 6] {
+        let [x, y, z] = self.inertia.cols();
+        let ([xx, _, _], [xy, yy, _], [xz, yz, zz]) = (x.array(), y.array(), z.array());
+        [xx, xy, xz, yy, yz, zz]
     }
 
     /// The inertia of nothing.

@@ -1,6 +1,6 @@
 //! A robot's constants as the oracle's script reads them.
 
-use dynamics_core::model::{BASE, JointKind, Link, Model};
+use dynamics_core::model::{BASE, JointKind, Model};
 use serde::{Deserialize, Serialize};
 
 /// A robot in URDF's terms.
@@ -46,12 +46,15 @@ pub struct Placement {
 pub fn robot<const B: usize, const Q: usize, const V: usize>(model: &Model<f64, B, Q, V>) -> Robot {
     Robot {
         name: model.name.into(),
-        bodies: model.links.iter().map(body).collect(),
+        bodies: (0..B).map(|i| body(model, i)).collect(),
     }
 }
 
-fn body(link: &Link<f64>) -> Body {
-    let inertia = &link.inertia;
+fn body<const B: usize, const Q: usize, const V: usize>(
+    model: &Model<f64, B, Q, V>,
+    i: usize,
+) -> Body {
+    let (link, (placement, inertia)) = (&model.links[i], model.described(i));
     let com = if inertia.mass > 0.0 {
         inertia.moment / inertia.mass
     } else {
@@ -79,8 +82,8 @@ fn body(link: &Link<f64>) -> Body {
         axis: link.joint.axis.to_array(),
         placement: Placement {
             // The columns of the transform of coordinates are the rows of its inverse.
-            rotation: link.placement.rot.to_cols_array(),
-            position: link.placement.pos.to_array(),
+            rotation: placement.rot.to_cols_array(),
+            position: placement.pos.to_array(),
         },
         mass: inertia.mass,
         com: c,

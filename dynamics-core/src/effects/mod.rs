@@ -17,6 +17,7 @@
 
 mod coulomb;
 mod gravity;
+mod hooks;
 mod payload;
 mod rigid;
 mod rotor;
@@ -30,13 +31,15 @@ pub use rigid::{Coriolis, Inertia, RIGID_BODY};
 pub use rotor::RotorInertia;
 pub use viscous::Viscous;
 
+pub(crate) use hooks::{base_motion, body_inertia, body_wrench, joint_losses, joint_torques};
+
 use crate::scalar::Real;
 use crate::spatial::{Force, Motion, SpatialInertia};
 
 /// The state of one joint, as joint hooks see it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JointState<R> {
-    /// Position, rad or m.
+    /// Position, rad or m; zero for a velocity that no position belongs to (ω beside a quaternion).
     pub q: R,
     /// Velocity, rad/s or m/s.
     pub qd: R,
@@ -84,7 +87,8 @@ pub trait Effect<R: Real, const B: usize, const V: usize> {
     const WRENCH: bool = false;
     /// `wrench` reads the body's velocity (which does not switch the velocity products on).
     const BODY_VELOCITY: bool = false;
-
+    /// `base` adds something.
+    const BASE_MOTION: bool = false;
     /// `payload` adds something.
     const PAYLOAD: bool = false;
 
@@ -98,6 +102,13 @@ pub trait Effect<R: Real, const B: usize, const V: usize> {
     #[inline(always)]
     fn field(&self, g: &mut R::Vec3) {
         let _ = g;
+    }
+
+    /// Adds to the spatial velocity v₀ and acceleration a₀ of the base, at its origin and in its
+    /// coordinates.
+    #[inline(always)]
+    fn base(&self, velocity: &mut Motion<R>, acceleration: &mut Motion<R>) {
+        let _ = (velocity, acceleration);
     }
 
     /// Adds to the wrench fˣ that the environment exerts on `body`, about the origin of the

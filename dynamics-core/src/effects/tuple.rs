@@ -19,6 +19,7 @@ macro_rules! tuple {
             const VELOCITY_PRODUCTS: bool = false $(| $name::VELOCITY_PRODUCTS)*;
             const WRENCH: bool = false $(| $name::WRENCH)*;
             const BODY_VELOCITY: bool = false $(| $name::BODY_VELOCITY)*;
+            const BASE_MOTION: bool = false $(| $name::BASE_MOTION)*;
             const PAYLOAD: bool = false $(| $name::PAYLOAD)*;
 
             #[inline(always)]
@@ -31,6 +32,11 @@ macro_rules! tuple {
             fn field(&self, g: &mut R::Vec3) {
                 let _ = &g;
                 $(self.$at.field(g);)*
+            }
+            #[inline(always)]
+            fn base(&self, velocity: &mut Motion<R>, acceleration: &mut Motion<R>) {
+                let _ = (&velocity, &acceleration);
+                $(self.$at.base(velocity, acceleration);)*
             }
             #[inline(always)]
             fn wrench(&self, body: usize, velocity: Motion<R>, fx: &mut Force<R>) {

@@ -13,7 +13,7 @@
 
 use glam::{DMat3, DVec3};
 
-use crate::const_math::{self as m, add, dot, mul, mul_vec, scale, transpose};
+use crate::const_math::{add, dot, mul, mul_vec, scale, transpose};
 use crate::model::{BASE, JointKind, Model, Robot};
 
 /// A joint with the inertia that is left to its body.
@@ -123,9 +123,12 @@ const fn prepare<const B: usize, const Q: usize, const V: usize>(
                 pos,
             };
         } else {
-            let to_z = turn_to_z(link.joint.axis);
-            let rot = snapped(&mul(&rot, &transpose(&to_z)));
-            let prismatic = matches!(link.joint.kind, JointKind::Prismatic);
+            let rot = snapped(&rot);
+            let prismatic = match link.joint.kind {
+                JointKind::Prismatic => true,
+                JointKind::Revolute | JointKind::Continuous => false,
+                _ => panic!("the engine takes revolute, prismatic and fixed joints; use `Core`"),
+            };
             let slide = -dot(pos, rot.z_axis);
             let joint = &mut joints[link.v_at];
             joint.parent = carrier.joint;
@@ -133,12 +136,10 @@ const fn prepare<const B: usize, const Q: usize, const V: usize>(
             joint.near = link.limits.lower >= -FOUR_PI && link.limits.upper <= FOUR_PI;
             joint.rot = rot;
             joint.pos = snap_small(add(pos, scale(rot.z_axis, slide)));
-            // x_engine = Q (x_user − slide·u), and Q u = z.
-            let pos = DVec3::new(0.0, 0.0, -slide);
             places[i] = Place {
                 joint: link.v_at,
-                rot: to_z,
-                pos,
+                rot: DMat3::IDENTITY,
+                pos: DVec3::new(0.0, 0.0, -slide),
             };
         }
         if places[i].joint != BASE {
@@ -168,6 +169,8 @@ const fn prepare<const B: usize, const Q: usize, const V: usize>(
     }
     i = 0;
     while i < B {
+        // From the aligned frames to those of the description.
+        places[i].rot = mul(&places[i].rot, &model.links[i].frame);
         places[i].pos = divide(places[i].pos, length);
         i += 1;
     }
@@ -246,25 +249,6 @@ const fn offset(joint: &Joint, k: usize) -> f64 {
         1 => joint.pos.y.abs(),
         _ => joint.pos.z.abs(),
     }
-}
-
-/// A rotation Q with Q u = z; a signed permutation where u is a coordinate axis.
-const fn turn_to_z(u: DVec3) -> DMat3 {
-    let helper = if u.x.abs() <= u.y.abs() && u.x.abs() <= u.z.abs() {
-        DVec3::X
-    } else if u.y.abs() <= u.z.abs() {
-        DVec3::Y
-    } else {
-        DVec3::Z
-    };
-    let x = add(helper, scale(u, -dot(helper, u)));
-    let x = scale(x, 1.0 / m::sqrt(dot(x, x)));
-    let y = DVec3::new(
-        u.y * x.z - u.z * x.y,
-        u.z * x.x - u.x * x.z,
-        u.x * x.y - u.y * x.x,
-    );
-    transpose(&DMat3::from_cols(x, y, u))
 }
 
 /// Σ = ½ tr(Ī) 1 − Ī.

@@ -25,6 +25,12 @@ pub(crate) fn base<R: Real, E, const B: usize, const V: usize>(effects: &E, leng
 where
     E: Effect<R, B, V>,
 {
+    const {
+        assert!(
+            !E::BASE_MOTION,
+            "the engine's base stands still; use `Core`"
+        )
+    };
     let mut g = R::Vec3::ZERO;
     effects.field(&mut g);
     let (g, [x, y, z]) = (g.array(), E::FIELD_AXES);

@@ -112,7 +112,7 @@ impl Body {
         if self.parent != BASE && self.parent >= index {
             return Some(Problem::Parent);
         }
-        if !self.joint.has_axis() {
+        if !self.joint.is_sound() {
             return Some(Problem::Axis);
         }
         if !(self.mass >= 0.0 && self.mass.is_finite()) {

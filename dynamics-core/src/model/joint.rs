@@ -1,206 +1,270 @@
-//! Joints of one degree of freedom, and none.
+//! What a joint lets its body do: kinds, axes, coordinates. RBDA (2008), table 4.1.
 
 use crate::const_math as m;
-use crate::scalar::{Matrix, Real, Vector};
-use crate::spatial::{Force, Motion, Xform};
+use crate::scalar::Real;
+use glam::{DMat3, DVec3};
 
-/// What a joint lets its body do.
+/// What a joint lets its body do, and the coordinates that say it.
+///
+/// "Parent side" is the joint's frame, fixed in the parent; velocities are those of the body in its own
+/// frame. Turns are in rad, lengths in m.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum JointKind {
-    /// Rotation about an axis, q in rad.
+    /// A turn q about an axis.
     Revolute,
-    /// Translation along an axis, q in m.
+    /// A turn without end: as `Revolute`, but q and q + 2π are the same place.
+    Continuous,
+    /// A slide q along an axis.
     Prismatic,
+    /// A turn q about an axis and a slide pitch·q along it.
+    Helical,
+    /// A turn q₀ about an axis and a slide q₁ along it.
+    Cylindrical,
+    /// A turn q₀ about an axis of the parent side, then a turn q₁ about an axis of the body.
+    Universal,
+    /// A ball joint: q is a unit quaternion (x, y, z, w), the body's attitude on the parent side; q̇
+    /// stands for ω.
+    Spherical,
+    /// A turn q₀ about z and the place (q₁, q₂) of the body's origin on the parent side's x-y plane;
+    /// q̇ stands for (ω_z, v_x, v_y).
+    Planar,
+    /// No constraint: a unit quaternion (x, y, z, w) and the place of the body's origin on the parent
+    /// side; q̇ stands for (ω, v).
+    Free,
     /// Nothing: no coordinate.
     Fixed,
 }
 
 impl JointKind {
     /// The numbers of position and velocity coordinates.
+    ///
+    /// ```
+    /// use dynamics_core::model::JointKind;
+    /// assert_eq!(JointKind::Free.coordinates(), (7, 6));
+    /// ```
     pub const fn coordinates(self) -> (usize, usize) {
         match self {
-            Self::Revolute | Self::Prismatic => (1, 1),
+            Self::Revolute | Self::Continuous | Self::Prismatic | Self::Helical => (1, 1),
+            Self::Cylindrical | Self::Universal => (2, 2),
+            Self::Planar => (3, 3),
+            Self::Spherical => (4, 3),
+            Self::Free => (7, 6),
             Self::Fixed => (0, 0),
+        }
+    }
+
+    /// How many of its first coordinates are angles, and how many a quaternion's.
+    pub(crate) const fn angles(self) -> (usize, usize) {
+        match self {
+            Self::Revolute | Self::Continuous | Self::Helical => (1, 0),
+            Self::Cylindrical | Self::Planar => (1, 0),
+            Self::Universal => (2, 0),
+            Self::Spherical | Self::Free => (0, 4),
+            Self::Prismatic | Self::Fixed => (0, 0),
         }
     }
 }
 
-/// A joint: its kind and the axis it acts along.
+/// The kinds of joint that a robot has: what others would do is not in its machine code.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Kinds(u16);
+
+impl Kinds {
+    /// Every kind: a robot known only at run time.
+    pub const ALL: Self = Self(u16::MAX);
+
+    /// No kind.
+    pub(super) const NONE: Self = Self(0);
+
+    /// These and one more.
+    pub(super) const fn with(self, kind: JointKind) -> Self {
+        Self(self.0 | 1 << kind as u16)
+    }
+
+    /// Whether each has one coordinate.
+    pub(super) const fn are_single(self) -> bool {
+        use JointKind::*;
+        let single = Self::NONE.with(Revolute).with(Continuous).with(Prismatic);
+        self.0 & !single.with(Helical).0 == 0
+    }
+
+    const fn has(self, kind: JointKind) -> bool {
+        self.0 & (1 << kind as u16) != 0
+    }
+
+    /// `kind`, which is one of these; written so that the compiler sees that it is.
+    #[inline(always)]
+    pub(super) fn of(self, kind: JointKind) -> JointKind {
+        use JointKind::*;
+        macro_rules! known {
+            ($($kind:ident)*) => {
+                match kind {
+                    $($kind if self.has($kind) => $kind,)*
+                    _ => self.first(),
+                }
+            };
+        }
+        known!(Revolute Continuous Prismatic Helical Cylindrical Universal Spherical Planar Free Fixed)
+    }
+
+    #[inline(always)]
+    const fn first(self) -> JointKind {
+        use JointKind::*;
+        let kinds = [
+            Revolute,
+            Continuous,
+            Prismatic,
+            Helical,
+            Cylindrical,
+            Universal,
+            Spherical,
+            Planar,
+            Free,
+        ];
+        let mut i = 0;
+        while i < kinds.len() {
+            if self.has(kinds[i]) {
+                return kinds[i];
+            }
+            i += 1;
+        }
+        Fixed
+    }
+}
+
+/// A joint: its kind and axes, in the body's frame.
+///
+/// ```
+/// use dynamics_core::model::Joint;
+/// let screw = Joint::helical([0.0, 0.0, 2.0], 0.01); // 10 mm per rad
+/// assert_eq!(screw.pitch, 0.01);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Joint<R: Real> {
     /// What the joint lets its body do.
     pub kind: JointKind,
-    /// Unit axis in the body's frame (the same in the joint's frame); zero if fixed.
+    /// Unit axis (the second of a universal joint) in the body's frame; zero if it has none.
     pub axis: R::Vec3,
+    /// Unit axis of a universal joint's first turn, at q = 0 in the body's frame; else zero.
+    pub first_axis: R::Vec3,
+    /// Slide per turn of a helical joint, m/rad; else zero.
+    pub pitch: R,
 }
 
 impl Joint<f64> {
+    const fn new(kind: JointKind, axis: [f64; 3]) -> Self {
+        Self {
+            kind,
+            axis: m::vec3(axis),
+            first_axis: DVec3::ZERO,
+            pitch: 0.0,
+        }
+    }
+
     /// A rotation about `axis`, given in the body's frame; any length but zero.
     pub const fn revolute(axis: [f64; 3]) -> Self {
-        Self {
-            kind: JointKind::Revolute,
-            axis: m::vec3(axis),
-        }
+        Self::new(JointKind::Revolute, axis)
+    }
+
+    /// A rotation without end about `axis`, given in the body's frame; any length but zero.
+    pub const fn continuous(axis: [f64; 3]) -> Self {
+        Self::new(JointKind::Continuous, axis)
     }
 
     /// A translation along `axis`, given in the body's frame; any length but zero.
     pub const fn prismatic(axis: [f64; 3]) -> Self {
-        Self {
-            kind: JointKind::Prismatic,
-            axis: m::vec3(axis),
-        }
+        Self::new(JointKind::Prismatic, axis)
+    }
+
+    /// A screw along `axis`, given in the body's frame, of `pitch` m/rad.
+    pub const fn helical(axis: [f64; 3], pitch: f64) -> Self {
+        let mut joint = Self::new(JointKind::Helical, axis);
+        joint.pitch = pitch;
+        joint
+    }
+
+    /// A rotation about and a translation along `axis`, given in the body's frame.
+    pub const fn cylindrical(axis: [f64; 3]) -> Self {
+        Self::new(JointKind::Cylindrical, axis)
+    }
+
+    /// A rotation about `first`, which stands still on the parent side, then one about `second`, which
+    /// moves with the body; perpendicular, both given in the body's frame at q = 0.
+    pub const fn universal(first: [f64; 3], second: [f64; 3]) -> Self {
+        let mut joint = Self::new(JointKind::Universal, second);
+        joint.first_axis = m::vec3(first);
+        joint
+    }
+
+    /// A ball joint.
+    pub const fn spherical() -> Self {
+        Self::new(JointKind::Spherical, [0.0; 3])
+    }
+
+    /// Motion on the x-y plane of the joint's frame.
+    pub const fn planar() -> Self {
+        Self::new(JointKind::Planar, [0.0; 3])
+    }
+
+    /// Any motion: the joint of a floating base.
+    pub const fn free() -> Self {
+        Self::new(JointKind::Free, [0.0; 3])
     }
 
     /// No motion.
     pub const fn fixed() -> Self {
-        Self {
-            kind: JointKind::Fixed,
-            axis: m::vec3([0.0; 3]),
-        }
+        Self::new(JointKind::Fixed, [0.0; 3])
     }
 
-    pub(super) const fn has_axis(&self) -> bool {
-        let squared = m::dot(self.axis, self.axis);
-        matches!(self.kind, JointKind::Fixed) || (squared > 0.0 && squared.is_finite())
+    /// Whether it has the axes that its kind needs, at right angles if there are two, and a finite
+    /// pitch.
+    pub(super) const fn is_sound(&self) -> bool {
+        use JointKind::*;
+        match self.kind {
+            Spherical | Planar | Free | Fixed => true,
+            Universal => {
+                let (a, b) = (self.first_axis, self.axis);
+                let product = m::dot(a, a) * m::dot(b, b);
+                let skew = m::dot(a, b);
+                is_axis(a) && is_axis(b) && skew * skew <= 1e-18 * product
+            }
+            _ => is_axis(self.axis) && self.pitch.is_finite(),
+        }
     }
 
     pub(super) const fn normalised(self) -> Self {
-        let squared = m::dot(self.axis, self.axis);
-        // An exact unit vector keeps its bits.
-        let axis = if squared == 1.0 || matches!(self.kind, JointKind::Fixed) {
-            self.axis
-        } else {
-            m::scale(self.axis, 1.0 / m::sqrt(squared))
-        };
         Self {
             kind: self.kind,
-            axis,
+            axis: unit(self.axis),
+            first_axis: unit(self.first_axis),
+            pitch: self.pitch,
         }
     }
-}
 
-/// The position of a joint as the algorithms use it: q itself with its sine and cosine.
-///
-/// ```
-/// use dynamics_core::model::Turn;
-/// assert_eq!(Turn::new(0.0_f32), Turn { q: 0.0, sin: 0.0, cos: 1.0 });
-/// ```
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Turn<R> {
-    /// Position, rad or m.
-    pub q: R,
-    /// sin q.
-    pub sin: R,
-    /// cos q.
-    pub cos: R,
-}
-
-impl<R: Real> Turn<R> {
-    /// The turn by q rad.
-    #[inline(always)]
-    pub fn new(q: R) -> Self {
-        let (sin, cos) = q.sin_cos();
-        Self { q, sin, cos }
-    }
-
-    /// A vector's coordinates in a frame turned by q about z.
-    #[inline(always)]
-    fn about_z(self, [x, y, z]: [R; 3]) -> R::Vec3 {
-        R::Vec3::new(self.cos * x + self.sin * y, self.cos * y - self.sin * x, z)
-    }
-
-    /// The turn by q rad, |q| ≤ 100.
-    #[inline(always)]
-    pub fn near(q: R) -> Self {
-        let (sin, cos) = q.sin_cos_near();
-        Self { q, sin, cos }
-    }
-}
-
-impl<R: Real> Joint<R> {
-    /// ⁱX_λ(i) = X_J ᵀX: from the parent's frame to the body's, RBDA (4.5) and table 4.1.
-    #[inline(always)]
-    pub fn xform(&self, turn: Turn<R>, placement: &Xform<R>) -> Xform<R> {
+    /// The rotation of coordinates from the body's frame to one whose z is the axis, and whose x is a
+    /// universal joint's first axis; a signed permutation where the axes are coordinate axes.
+    pub(super) const fn frame(&self) -> DMat3 {
+        use JointKind::*;
         match self.kind {
-            JointKind::Revolute => Xform {
-                rot: if self.is_along_z() {
-                    turned_about_z(&placement.rot, turn)
-                } else {
-                    rotation(self.axis, turn) * placement.rot
-                },
-                pos: placement.pos,
-            },
-            JointKind::Prismatic => Xform {
-                rot: placement.rot,
-                pos: placement.pos + placement.rot.transpose_mul(self.axis * turn.q),
-            },
-            JointKind::Fixed => *placement,
-        }
-    }
-
-    /// Whether the axis is exactly z, as most robots have it: its rotation is cheaper.
-    #[inline(always)]
-    fn is_along_z(&self) -> bool {
-        let [x, y, z] = self.axis.array();
-        (x == R::ZERO) & (y == R::ZERO) & (z == R::ONE)
-    }
-
-    /// S q̇: the velocity across the joint in the body's frame. Zero if fixed.
-    #[inline(always)]
-    pub fn motion(&self, rate: R) -> Motion<R> {
-        match self.kind {
-            JointKind::Revolute => Motion::new(self.axis * rate, R::Vec3::ZERO),
-            JointKind::Prismatic => Motion::new(R::Vec3::ZERO, self.axis * rate),
-            JointKind::Fixed => Motion::ZERO,
-        }
-    }
-
-    /// v × S q̇: the acceleration of a body that moves with v as its joint turns at `rate`.
-    #[inline(always)]
-    pub fn velocity_product(&self, v: Motion<R>, rate: R) -> Motion<R> {
-        let along = self.axis * rate;
-        match self.kind {
-            JointKind::Revolute => Motion::new(v.ang.cross(along), v.lin.cross(along)),
-            JointKind::Prismatic => Motion::new(R::Vec3::ZERO, v.ang.cross(along)),
-            JointKind::Fixed => Motion::ZERO,
-        }
-    }
-
-    /// Sᵀ f: the part of a force that the joint's motor carries.
-    #[inline(always)]
-    pub fn project(&self, f: Force<R>) -> R {
-        match self.kind {
-            JointKind::Revolute => self.axis.dot(f.ang),
-            JointKind::Prismatic => self.axis.dot(f.lin),
-            JointKind::Fixed => R::ZERO,
+            Spherical | Planar | Free | Fixed => DMat3::IDENTITY,
+            Universal => m::frame(self.first_axis, self.axis),
+            _ => m::frame(m::perpendicular(self.axis), self.axis),
         }
     }
 }
 
-/// The same about z, applied to E: two rows are mixed. 18 flops instead of 69.
-#[inline(always)]
-fn turned_about_z<R: Real>(e: &R::Mat3, turn: Turn<R>) -> R::Mat3 {
-    let [x, y, z] = e.cols();
-    R::Mat3::from_cols(
-        turn.about_z(x.array()),
-        turn.about_z(y.array()),
-        turn.about_z(z.array()),
-    )
+const fn is_axis(v: DVec3) -> bool {
+    let squared = m::dot(v, v);
+    squared > 0.0 && squared.is_finite()
 }
 
-/// The rotation of coordinates for a turn about the unit axis u, Rodrigues' formula:
-/// E = c 1 + (1 − c) u uᵀ − s u×.
-#[inline(always)]
-fn rotation<R: Real>(axis: R::Vec3, turn: Turn<R>) -> R::Mat3 {
-    let [x, y, z] = axis.array();
-    let (s, c) = (turn.sin, turn.cos);
-    let k = R::ONE - c;
-    let (sx, sy, sz) = (s * x, s * y, s * z);
-    let (kx, ky, kz) = (k * x, k * y, k * z);
-    R::Mat3::from_cols(
-        R::Vec3::new(kx * x + c, kx * y - sz, kx * z + sy),
-        R::Vec3::new(kx * y + sz, ky * y + c, ky * z - sx),
-        R::Vec3::new(kx * z - sy, ky * z + sx, kz * z + c),
-    )
+/// v at length one; an exact unit vector, and zero, keep their bits.
+const fn unit(v: DVec3) -> DVec3 {
+    let squared = m::dot(v, v);
+    if squared == 1.0 || squared == 0.0 {
+        v
+    } else {
+        m::scale(v, 1.0 / m::sqrt(squared))
+    }
 }

@@ -59,19 +59,27 @@
 //! ```
 
 mod body;
+mod description;
 mod error;
 mod joint;
+mod node;
+mod single;
+mod turn;
 
 pub use body::{BASE, Body, Limits};
+pub use description::{Description, Of};
 pub use error::{ModelError, Problem};
-pub use joint::{Joint, JointKind, Turn};
+pub use joint::{Joint, JointKind, Kinds};
+pub use node::Node;
+pub use turn::Turn;
 
-use crate::const_math::{self as m, add, dot, scale, vec3};
+use crate::const_math::{add, dot, mul, mul_vec, scale, transpose, vec3};
 use crate::scalar::Real;
 use crate::spatial::{SpatialInertia, Xform};
-use glam::{DMat3, DVec3, Mat3, Vec3};
+use glam::{DMat3, DVec3};
 
-/// One body with the joint that carries it, as the algorithms use it.
+/// One body with the joint that carries it, as the algorithms use it: in an aligned frame, which has
+/// the origin of the body's own frame, but whose z is the joint's axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Link<R: Real> {
     /// The body's name.
@@ -80,15 +88,17 @@ pub struct Link<R: Real> {
     pub parent: usize,
     /// The joint between parent and body.
     pub joint: Joint<R>,
-    /// ᵀX: from the parent's frame to the joint's frame at q = 0.
+    /// Rotation of coordinates from the body's own frame, as described, to the aligned one.
+    pub frame: R::Mat3,
+    /// ᵀX: from the parent's aligned frame to this one's at q = 0.
     pub placement: Xform<R>,
-    /// The body's inertia at the origin of its own frame.
+    /// The body's inertia at the origin, in the aligned frame.
     pub inertia: SpatialInertia<R>,
     /// Where the joint's position stands in q; [`BASE`] if it has none.
     pub q_at: usize,
     /// Where the joint's velocity stands in q̇; [`BASE`] if it has none.
     pub v_at: usize,
-    /// The joint's limits.
+    /// The limits of the joint's coordinates.
     pub limits: Limits<R>,
 }
 
@@ -99,6 +109,9 @@ pub struct Model<R: Real, const B: usize, const Q: usize, const V: usize> {
     pub name: &'static str,
     /// The bodies, parents first.
     pub links: [Link<R>; B],
+    /// λ of every velocity coordinate: the one before it, on its own joint or on the nearest joint
+    /// that carries it; [`BASE`] for the first of a branch. RBDA (2008), section 6.5.
+    pub lambda: [usize; V],
 }
 
 /// A robot of N bodies on N joints of one degree of freedom.
@@ -148,6 +161,7 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
     /// other, or Q or V that the joints do not add up to.
     pub const fn try_new(name: &'static str, bodies: [Body; B]) -> Result<Self, ModelError> {
         let mut links = [EMPTY; B];
+        let mut lambda = [BASE; V];
         let (mut q_at, mut v_at, mut i) = (0, 0, 0);
         while i < B {
             let body = &bodies[i];
@@ -158,19 +172,16 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
                 });
             }
             let (nq, nv) = body.joint.kind.coordinates();
-            links[i] = Link {
-                name: body.name,
-                parent: body.parent,
-                joint: body.joint.normalised(),
-                placement: Xform {
-                    rot: m::transpose(&body.rotation),
-                    pos: vec3(body.position),
-                },
-                inertia: at_origin(body),
-                q_at: if nq == 0 { BASE } else { q_at },
-                v_at: if nv == 0 { BASE } else { v_at },
-                limits: body.limits,
-            };
+            let mut link = aligned(body, &links);
+            link.q_at = if nq == 0 { BASE } else { q_at };
+            link.v_at = if nv == 0 { BASE } else { v_at };
+            links[i] = link;
+            let (mut above, mut k) = (last_coordinate(&links, body.parent), 0);
+            while k < nv && v_at + k < V {
+                lambda[v_at + k] = above;
+                above = v_at + k;
+                k += 1;
+            }
             q_at += nq;
             v_at += nv;
             i += 1;
@@ -181,21 +192,53 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
                 problem: Problem::Coordinates,
             });
         }
-        Ok(Self { name, links })
+        Ok(Self {
+            name,
+            links,
+            lambda,
+        })
     }
 
-    /// The same robot in f32, each number rounded to nearest.
-    pub const fn to_f32(&self) -> Model<f32, B, Q, V> {
-        let mut links = [EMPTY.single(); B];
-        let mut i = 0;
+    /// The kinds of its joints.
+    pub const fn kinds(&self) -> Kinds {
+        let (mut kinds, mut i) = (Kinds::NONE, 0);
         while i < B {
-            links[i] = self.links[i].single();
+            kinds = kinds.with(self.links[i].joint.kind);
             i += 1;
         }
-        Model {
-            name: self.name,
-            links,
+        kinds
+    }
+
+    /// Whether every body hangs on the one before it.
+    pub const fn is_chain(&self) -> bool {
+        let mut i = 0;
+        while i < B {
+            if self.links[i].parent != i.wrapping_sub(1) {
+                return false;
+            }
+            i += 1;
         }
+        true
+    }
+
+    /// Placement and inertia of link `i` in the frames of its description, as URDF has them; not of a
+    /// robot's last bit where an axis is none of x, y, z.
+    pub fn described(&self, i: usize) -> (Xform<f64>, SpatialInertia<f64>) {
+        let link = &self.links[i];
+        let (back, above) = match self.links.get(link.parent) {
+            Some(parent) => (link.frame.transpose(), parent.frame),
+            None => (link.frame.transpose(), DMat3::IDENTITY),
+        };
+        let placement = Xform {
+            rot: back * link.placement.rot * above,
+            pos: above.transpose() * link.placement.pos,
+        };
+        let inertia = SpatialInertia {
+            mass: link.inertia.mass,
+            moment: back * link.inertia.moment,
+            inertia: back * link.inertia.inertia * link.frame,
+        };
+        (placement, inertia)
     }
 
     /// Whether every inertia could be that of a body: principal moments (about the centre of
@@ -225,6 +268,7 @@ const EMPTY: Link<f64> = Link {
     name: "",
     parent: BASE,
     joint: Joint::fixed(),
+    frame: DMat3::IDENTITY,
     placement: Xform {
         rot: DMat3::IDENTITY,
         pos: DVec3::ZERO,
@@ -238,6 +282,47 @@ const EMPTY: Link<f64> = Link {
     v_at: BASE,
     limits: Limits::NONE,
 };
+
+/// The body in its aligned frame, after those of `links` before it; its coordinates are not set.
+const fn aligned<const B: usize>(body: &Body, links: &[Link<f64>; B]) -> Link<f64> {
+    let joint = body.joint.normalised();
+    let frame = joint.frame();
+    let above = if body.parent == BASE {
+        DMat3::IDENTITY
+    } else {
+        links[body.parent].frame
+    };
+    let rot = mul(&mul(&frame, &transpose(&body.rotation)), &transpose(&above));
+    let pos = mul_vec(&above, vec3(body.position));
+    let inertia = at_origin(body);
+    Link {
+        name: body.name,
+        parent: body.parent,
+        joint,
+        frame,
+        placement: Xform { rot, pos },
+        inertia: SpatialInertia {
+            mass: inertia.mass,
+            moment: mul_vec(&frame, inertia.moment),
+            inertia: mul(&mul(&frame, &inertia.inertia), &transpose(&frame)),
+        },
+        q_at: BASE,
+        v_at: BASE,
+        limits: body.limits,
+    }
+}
+
+/// The last velocity coordinate of the nearest joint that has one, from body `at` to the base.
+const fn last_coordinate<const B: usize>(links: &[Link<f64>; B], mut at: usize) -> usize {
+    while at != BASE {
+        let (_, count) = links[at].joint.kind.coordinates();
+        if count > 0 {
+            return links[at].v_at + count - 1;
+        }
+        at = links[at].parent;
+    }
+    BASE
+}
 
 /// The parallel-axis theorem, RBDA (2.63): Ī_O = Ī_C + m (c·c 1 − c cᵀ).
 const fn at_origin(body: &Body) -> SpatialInertia<f64> {
@@ -257,42 +342,4 @@ const fn at_origin(body: &Body) -> SpatialInertia<f64> {
 /// m (c·c e − c (c·e)), a column of the parallel-axis term.
 const fn parallel(mass: f64, e: DVec3, c: DVec3, cc: f64) -> DVec3 {
     scale(add(scale(e, cc), scale(c, -dot(c, e))), mass)
-}
-
-impl Link<f64> {
-    const fn single(&self) -> Link<f32> {
-        Link {
-            name: self.name,
-            parent: self.parent,
-            joint: Joint {
-                kind: self.joint.kind,
-                axis: single(self.joint.axis),
-            },
-            placement: Xform {
-                rot: single_mat(&self.placement.rot),
-                pos: single(self.placement.pos),
-            },
-            inertia: SpatialInertia {
-                mass: self.inertia.mass as f32,
-                moment: single(self.inertia.moment),
-                inertia: single_mat(&self.inertia.inertia),
-            },
-            q_at: self.q_at,
-            v_at: self.v_at,
-            limits: Limits {
-                lower: self.limits.lower as f32,
-                upper: self.limits.upper as f32,
-                velocity: self.limits.velocity as f32,
-                torque: self.limits.torque as f32,
-            },
-        }
-    }
-}
-
-const fn single(v: DVec3) -> Vec3 {
-    Vec3::new(v.x as f32, v.y as f32, v.z as f32)
-}
-
-const fn single_mat(m: &DMat3) -> Mat3 {
-    Mat3::from_cols(single(m.x_axis), single(m.y_axis), single(m.z_axis))
 }

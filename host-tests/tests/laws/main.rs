@@ -224,13 +224,13 @@ fn energies<const B: usize, const N: usize>(
         let mut along = DVec3::ZERO;
         match link.joint.kind {
             JointKind::Revolute => {
-                rot *= DMat3::from_axis_angle(link.joint.axis, q[link.q_at]);
+                rot *= DMat3::from_axis_angle(DVec3::Z, q[link.q_at]);
                 v += omega.cross(step);
-                omega += rot * link.joint.axis * qd[link.v_at];
+                omega += rot * DVec3::Z * qd[link.v_at];
             }
             JointKind::Prismatic => {
-                step += rot * link.joint.axis * q[link.q_at];
-                along = rot * link.joint.axis * qd[link.v_at];
+                step += rot * DVec3::Z * q[link.q_at];
+                along = rot * DVec3::Z * qd[link.v_at];
                 v += omega.cross(step);
             }
             _ => v += omega.cross(step),

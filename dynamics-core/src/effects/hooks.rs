@@ -1,0 +1,110 @@
+//! How the textbook algorithms ask the effects: in the frames that the hooks speak of.
+
+use super::{Effect, JointState};
+use crate::model::{Description, Node};
+use crate::scalar::{Matrix, Real, Vector};
+use crate::spatial::{Force, Motion, SpatialInertia};
+use crate::state::{State, entry};
+
+/// v₀ and a₀ of the base, a₀ less the field g: gravity is an acceleration of the base. RBDA (5.20).
+#[inline(always)]
+pub(crate) fn base_motion<R: Real, E, const B: usize, const V: usize>(
+    effects: &E,
+) -> (Motion<R>, Motion<R>)
+where
+    E: Effect<R, B, V>,
+{
+    let (mut v, mut a, mut g) = (Motion::ZERO, Motion::ZERO, R::Vec3::ZERO);
+    effects.field(&mut g);
+    if E::BASE_MOTION {
+        effects.base(&mut v, &mut a);
+        a.lin -= g;
+    } else {
+        a.lin = -g;
+    }
+    (v, a)
+}
+
+/// The inertia of body `i` with what the effects add to it, in its aligned frame.
+#[inline(always)]
+pub(crate) fn body_inertia<R: Real, E, const B: usize, const V: usize>(
+    effects: &E,
+    i: usize,
+    node: &Node<'_, R>,
+) -> SpatialInertia<R>
+where
+    E: Effect<R, B, V>,
+{
+    if !E::PAYLOAD || i + 1 != B {
+        return node.inertia;
+    }
+    let mut load = SpatialInertia::ZERO;
+    effects.payload(&mut load);
+    node.inertia
+        + SpatialInertia {
+            mass: load.mass,
+            moment: node.frame * load.moment,
+            inertia: node.frame * load.inertia * node.frame.transpose(),
+        }
+}
+
+/// fˣ on body `i`, which moves with v, in its aligned frame.
+#[inline(always)]
+pub(crate) fn body_wrench<R: Real, E, const B: usize, const V: usize>(
+    effects: &E,
+    i: usize,
+    node: &Node<'_, R>,
+    v: Motion<R>,
+) -> Force<R>
+where
+    E: Effect<R, B, V>,
+{
+    let (frame, mut fx) = (&node.frame, Force::ZERO);
+    let mut velocity = Motion::ZERO;
+    if E::BODY_VELOCITY {
+        velocity = Motion::new(frame.transpose_mul(v.ang), frame.transpose_mul(v.lin));
+    }
+    effects.wrench(i, velocity, &mut fx);
+    Force::new(*frame * fx.ang, *frame * fx.lin)
+}
+
+/// Adds to the torques of one joint's coordinates what the effects ask of its motors.
+#[inline(always)]
+pub(crate) fn joint_torques<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+    effects: &E,
+    node: &Node<'_, R>,
+    state: &State<R, Q, V>,
+    tau: &mut [R; V],
+) where
+    E: Effect<R, B, V>,
+{
+    for k in node.coordinates() {
+        let at = JointState {
+            q: node.position(&state.q, k),
+            qd: entry(&state.qd, k),
+            qdd: entry(&state.qdd, k),
+        };
+        if let Some(tau) = tau.get_mut(k) {
+            effects.torque(k, at, tau);
+        }
+    }
+}
+
+/// What the effects ask of every motor at q̈ = 0.
+#[inline(always)]
+pub(crate) fn joint_losses<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
+    effects: &E,
+    robot: &D,
+    state: &State<R, Q, V>,
+) -> [R; V]
+where
+    D: Description<R, B, Q, V>,
+    E: Effect<R, B, V>,
+{
+    let (mut losses, qdd) = ([R::ZERO; V], [R::ZERO; V]);
+    let state = State { qdd, ..*state };
+    for node in robot.nodes() {
+        joint_torques(effects, &node, &state, &mut losses);
+    }
+    losses
+}

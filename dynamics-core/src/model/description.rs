@@ -1,0 +1,82 @@
+//! A robot as the algorithms take it: known at run time, or while compiling.
+
+use core::marker::PhantomData;
+
+use super::{Kinds, Model, Node, Robot, model};
+use crate::scalar::Real;
+
+/// A robot of B bodies, Q position and V velocity coordinates, with what is known of it while
+/// compiling: what its joints never do is not in the machine code.
+///
+/// A [`Model`] is one of which nothing is known; [`Of`] is a [`Robot`] of which all is.
+pub trait Description<R: Real, const B: usize, const Q: usize, const V: usize> {
+    /// The kinds of joint that occur.
+    const KINDS: Kinds = Kinds::ALL;
+    /// Every body is known to hang on the one before it.
+    const CHAIN: bool = false;
+    /// Every body is known to have one coordinate.
+    const SINGLE: bool = false;
+
+    /// The robot's numbers.
+    fn model(&self) -> &Model<R, B, Q, V>;
+
+    /// The links, parents first, each with what is known of its joint.
+    #[inline(always)]
+    fn nodes<'a>(&'a self) -> impl DoubleEndedIterator<Item = Node<'a, R>> + ExactSizeIterator
+    where
+        R: 'a,
+    {
+        let links = self.model().links.iter().enumerate();
+        links.map(|(i, link)| Node::new(i, link, Self::KINDS, Self::SINGLE))
+    }
+
+    /// Link `i`.
+    #[inline(always)]
+    fn node<'a>(&'a self, i: usize) -> Option<Node<'a, R>>
+    where
+        R: 'a,
+    {
+        let link = self.model().links.get(i)?;
+        Some(Node::new(i, link, Self::KINDS, Self::SINGLE))
+    }
+}
+
+impl<R: Real, const B: usize, const Q: usize, const V: usize> Description<R, B, Q, V>
+    for Model<R, B, Q, V>
+{
+    #[inline(always)]
+    fn model(&self) -> &Self {
+        self
+    }
+}
+
+/// The robot `T`, known while compiling, as a [`Description`].
+///
+/// ```
+/// use dynamics_core::{algorithms::rnea, effects::RIGID_BODY, model::{Of, Robot}, robots::Ur5e, state::State};
+/// let state = State::at([0.3_f64; 6]);
+/// let known = rnea(&Of::<Ur5e>::NEW, &state, &RIGID_BODY);
+/// assert_eq!(known, rnea(&Ur5e::MODEL, &state, &RIGID_BODY));
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Of<T>(PhantomData<T>);
+
+impl<T> Of<T> {
+    /// The only one there is.
+    pub const NEW: Self = Self(PhantomData);
+}
+
+impl<R, T, const B: usize, const Q: usize, const V: usize> Description<R, B, Q, V> for Of<T>
+where
+    R: Real,
+    T: Robot<B, Q, V>,
+{
+    const KINDS: Kinds = T::MODEL.kinds();
+    const CHAIN: bool = T::MODEL.is_chain();
+    const SINGLE: bool = T::MODEL.kinds().are_single() && B == Q && B == V;
+
+    #[inline(always)]
+    fn model(&self) -> &Model<R, B, Q, V> {
+        model::<R, T, B, Q, V>()
+    }
+}

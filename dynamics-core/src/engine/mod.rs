@@ -20,6 +20,7 @@ macro_rules! for_each_joint {
     })*};
 }
 
+mod crba;
 mod field;
 mod known;
 mod prepare;

@@ -38,7 +38,7 @@ pub mod trig;
 mod core_form;
 pub use core_form::Core;
 pub use engine::Engine;
-pub use mass_matrix::MassMatrix;
+pub use mass_matrix::{Factor, MassMatrix};
 
 /// The README's example compiles.
 #[cfg(doctest)]

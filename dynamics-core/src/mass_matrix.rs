@@ -37,3 +37,14 @@ impl<R: Real, const V: usize> MassMatrix<R, V> {
         self.rows.get(i)
     }
 }
+
+/// M = Lᵀ D L: L lower triangular with a unit diagonal, D diagonal and positive.
+///
+/// Featherstone, RBDA (2008), section 6.5: L is zero wherever M is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Factor<R, const V: usize> {
+    /// L below the diagonal; the rest is not used.
+    pub(crate) rows: [[R; V]; V],
+    /// The reciprocals of D.
+    pub(crate) per_d: [R; V],
+}

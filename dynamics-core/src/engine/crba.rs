@@ -129,12 +129,13 @@ fn column<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usiz
     task.m.rows[I][I] = diagonal;
     // From joint I to the base: parents come before their children.
     for_each_joint!(N, {
-        if const { supports::<T, B, Q, V>(31 - N, I) } {
-            let joint = const { &Prepared::<T, B, Q, V>::joint(31 - N) };
+        const K: usize = 31 - N;
+        if const { supports::<T, B, Q, V>(K, I) } {
+            let joint = const { &Prepared::<T, B, Q, V>::joint(K) };
             if joint.parent != BASE {
-                let turn = task.turns[31 - N];
+                let turn = task.turns[K];
                 wrench = wrench.handed_down(joint, turn, Known::any(turn.q) * per_length);
-                let above = const { &Prepared::<T, B, Q, V>::parent_of(31 - N) };
+                let above = const { &Prepared::<T, B, Q, V>::parent_of(K) };
                 let entry = wrench.along(above.prismatic, per_length).get();
                 task.m.rows[I][joint.parent] = entry;
                 task.m.rows[joint.parent][I] = entry;
@@ -159,4 +160,15 @@ where
         at = Prepared::<T, B, Q, V>::joint(at).parent;
     }
     false
+}
+
+/// Whether joint `k` carries joint `i`, through whatever lies between.
+pub(crate) const fn above<T, const B: usize, const Q: usize, const V: usize>(
+    k: usize,
+    i: usize,
+) -> bool
+where
+    T: Robot<B, Q, V>,
+{
+    k != i && supports::<T, B, Q, V>(k, i)
 }

@@ -25,6 +25,7 @@ mod const_math;
 pub mod control;
 pub mod effects;
 mod engine;
+mod mass_matrix;
 pub mod model;
 pub mod robots;
 pub mod scalar;
@@ -37,6 +38,7 @@ pub mod trig;
 mod core_form;
 pub use core_form::Core;
 pub use engine::Engine;
+pub use mass_matrix::{Factor, MassMatrix};
 
 /// The README's example compiles.
 #[cfg(doctest)]

@@ -5,9 +5,11 @@
 //! n = h × a + axial(U Σ − Σ Uᵀ). Balafoutis & Patel, *Dynamic Analysis of Robot Manipulators*
 //! (1991), use U likewise.
 
+use core::ops::Add;
+
 use super::known::Known;
 use super::prepare::Joint;
-use super::small::{Mat3, Vec3};
+use super::small::{Mat3, Sym3, Vec3};
 use crate::model::Turn;
 use crate::scalar::Real;
 
@@ -37,12 +39,12 @@ pub(crate) struct Rates<R> {
     pub(crate) accel: Known<R>,
 }
 
-/// The inertia left to a body: m, h and Σ, in units of length.
+/// The inertia left to a body, or to a body and all that it carries: m, h and Σ, in units of length.
 #[derive(Clone, Copy)]
 pub(crate) struct Inertia<R> {
     pub(crate) mass: Known<R>,
     pub(crate) moment: Vec3<R>,
-    pub(crate) second: Mat3<R>,
+    pub(crate) second: Sym3<R>,
 }
 
 /// A force f at the origin and a couple n.
@@ -50,6 +52,79 @@ pub(crate) struct Inertia<R> {
 pub(crate) struct Wrench<R> {
     pub(crate) f: Vec3<R>,
     pub(crate) n: Vec3<R>,
+}
+
+impl<R: Real> Wrench<R> {
+    /// What a joint at the origin feels of it: N·m about z, or N along z.
+    #[inline(always)]
+    pub(crate) fn along(&self, prismatic: bool, per_length: Known<R>) -> Known<R> {
+        if prismatic {
+            self.f.0[2] * per_length
+        } else {
+            self.n.0[2]
+        }
+    }
+
+    /// The wrench on joint I's body, in the parent's frame and about its origin.
+    #[inline(always)]
+    pub(crate) fn handed_down(self, joint: &Joint, turn: Turn<R>, slide: Known<R>) -> Self {
+        let (rot, p) = (Mat3::constant(&joint.rot), Vec3::constant(joint.pos));
+        if joint.prismatic {
+            let f = rot.mul(self.f);
+            return Self {
+                f,
+                n: rot.mul(self.n) + (p + rot.0[2].scale(slide)).cross(f),
+            };
+        }
+        let f = leave(&rot, turn, self.f);
+        Self {
+            f,
+            n: leave(&rot, turn, self.n) + p.cross(f),
+        }
+    }
+}
+
+impl<R: Real> Inertia<R> {
+    /// The inertia left to a body.
+    #[inline(always)]
+    pub(crate) fn of(joint: &Joint) -> Self {
+        Self {
+            mass: Known::constant(joint.mass),
+            moment: Vec3::constant(joint.moment),
+            second: Sym3::of(&Mat3::constant(&joint.second)),
+        }
+    }
+
+    /// The same in the parent's frame.
+    #[inline(always)]
+    pub(crate) fn handed_down(self, joint: &Joint, turn: Turn<R>, slide: Known<R>) -> Self {
+        let (rot, mut p) = (Mat3::constant(&joint.rot), Vec3::constant(joint.pos));
+        let (mut h, mut second) = (self.moment, self.second);
+        if joint.prismatic {
+            p = p + rot.0[2].scale(slide);
+        } else {
+            let (sin, cos) = (Known::any(turn.sin), Known::any(turn.cos));
+            (h, second) = (h.turn(sin, cos), second.turn(sin, cos));
+        }
+        let h = rot.mul(h);
+        Self {
+            mass: self.mass,
+            moment: h + p.scale(self.mass),
+            second: second.rotate(&rot) + Sym3::both(h, p) + Sym3::square(p, self.mass),
+        }
+    }
+}
+
+impl<R: Real> Add for Inertia<R> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, o: Self) -> Self {
+        Self {
+            mass: self.mass + o.mass,
+            moment: self.moment + o.moment,
+            second: self.second + o.second,
+        }
+    }
 }
 
 impl<R: Real> Field<R> {
@@ -99,10 +174,10 @@ impl<R: Real> Field<R> {
     /// What the body's inertia takes: f = m a + U h, n = h × a + axial(U Σ − Σ Uᵀ).
     #[inline(always)]
     pub(crate) fn wrench(&self, body: &Inertia<R>) -> Wrench<R> {
-        let (mass, h, second) = (body.mass, body.moment, &body.second);
-        let ([x, y, z], [sx, sy, sz]) = (self.u.0, second.0);
-        let ([wx, wy, wz], [sxx, sxy, sxz]) = (self.spin.0, sx.0);
-        let (syy, syz, szz) = (sy.0[1], sy.0[2], sz.0[2]);
+        let (mass, h) = (body.mass, body.moment);
+        let ([x, y, z], [wx, wy, wz]) = (self.u.0, self.spin.0);
+        let (sxx, sxy, sxz) = (body.second.xx, body.second.xy, body.second.xz);
+        let (syy, syz, szz) = (body.second.yy, body.second.yz, body.second.zz);
         let (xx, yy, zz) = (wx * wx, wy * wy, wz * wz);
         let (zy, xz, yx) = (zz - yy, xx - zz, yy - xx);
         let n = Vec3([zy * syz, xz * sxz, yx * sxy])
@@ -152,6 +227,6 @@ pub(crate) fn leave<R: Real>(rot: &Mat3<R>, turn: Turn<R>, v: Vec3<R>) -> Vec3<R
 
 /// A vector along the joint's axis.
 #[inline(always)]
-fn along_z<R: Real>(z: Known<R>) -> Vec3<R> {
+pub(crate) fn along_z<R: Real>(z: Known<R>) -> Vec3<R> {
     Vec3([Known::ZERO, Known::ZERO, z])
 }

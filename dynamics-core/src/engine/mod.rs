@@ -20,7 +20,11 @@ macro_rules! for_each_joint {
     })*};
 }
 
+mod bias;
+mod crba;
+mod factor;
 mod field;
+mod forward;
 mod known;
 mod prepare;
 mod rnea;
@@ -104,7 +108,7 @@ impl<T> Engine<T> {
     }
 
     #[inline(always)]
-    fn run<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+    pub(crate) fn run<R: Real, E, const B: usize, const Q: usize, const V: usize>(
         posture: &Posture<R, Q>,
         state: &State<R, Q, V>,
         effects: &E,

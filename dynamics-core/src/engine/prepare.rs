@@ -82,6 +82,11 @@ impl<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize> Prepared
             NO_JOINT
         }
     }
+
+    /// The joint that carries joint `i`, or something harmless.
+    pub(crate) const fn parent_of(i: usize) -> Joint {
+        Self::joint(Self::joint(i).parent)
+    }
 }
 
 const NO_JOINT: Joint = Joint {

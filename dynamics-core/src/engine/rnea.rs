@@ -1,10 +1,10 @@
 //! Inverse dynamics by one recursion over the bodies: out on the way down, back on the way up, so
 //! that what lies between stays in registers.
 
-use super::field::{Field, Inertia, Rates, Wrench, leave};
+use super::field::{Field, Inertia, Rates, Wrench};
 use super::known::Known;
 use super::prepare::{Prepared, Tree};
-use super::small::{Mat3, Vec3};
+use super::small::{Mat3, Sym3, Vec3};
 use crate::effects::{Effect, JointState};
 use crate::model::{BASE, Robot, Turn};
 use crate::scalar::{Matrix, Real, Vector};
@@ -87,11 +87,7 @@ where
     } else {
         parent.turned(joint, turn, rates)
     };
-    let mut body = Inertia {
-        mass: Known::constant(joint.mass),
-        moment: Vec3::constant(joint.moment),
-        second: Mat3::constant(&joint.second),
-    };
+    let mut body = Inertia::of(joint);
     if const { E::PAYLOAD && Prepared::<T, B, Q, V>::last_on(I) } {
         body = loaded::<R, T, E, B, Q, V>(task.effects, body);
     }
@@ -110,33 +106,16 @@ where
         }
     });
 
-    let along = if joint.prismatic {
-        total.f.0[2] * per_length
-    } else {
-        total.n.0[2]
-    };
-    let mut tau = along.get();
+    let mut tau = total.along(joint.prismatic, per_length).get();
     task.effects.torque(I, at, &mut tau);
     task.tau[I] = tau;
 
-    let (rot, p) = (Mat3::constant(&joint.rot), Vec3::constant(joint.pos));
-    if joint.prismatic {
-        let f = rot.mul(total.f);
-        return Wrench {
-            f,
-            n: rot.mul(total.n) + (p + rot.0[2].scale(slide)).cross(f),
-        };
-    }
-    let f = leave(&rot, turn, total.f);
-    Wrench {
-        f,
-        n: leave(&rot, turn, total.n) + p.cross(f),
-    }
+    total.handed_down(joint, turn, slide)
 }
 
 /// Adds the payload, which is given in the last body's own frame, to the inertia of its joint.
 #[inline(always)]
-fn loaded<R, T, E, const B: usize, const Q: usize, const V: usize>(
+pub(crate) fn loaded<R, T, E, const B: usize, const Q: usize, const V: usize>(
     effects: &E,
     body: Inertia<R>,
 ) -> Inertia<R>
@@ -174,7 +153,7 @@ where
     Inertia {
         mass: body.mass + mass,
         moment: body.moment + moved,
-        second: body.second + second,
+        second: body.second + Sym3::of(&second),
     }
 }
 

@@ -146,3 +146,126 @@ impl<R: Real> Add for Mat3<R> {
         Self([ax + bx, ay + by, az + bz])
     }
 }
+
+/// A symmetric matrix, by its upper triangle.
+#[derive(Clone, Copy)]
+pub(crate) struct Sym3<R> {
+    pub(crate) xx: Known<R>,
+    pub(crate) xy: Known<R>,
+    pub(crate) xz: Known<R>,
+    pub(crate) yy: Known<R>,
+    pub(crate) yz: Known<R>,
+    pub(crate) zz: Known<R>,
+}
+
+impl<R: Real> Sym3<R> {
+    pub(crate) const ZERO: Self = Self {
+        xx: Known::ZERO,
+        xy: Known::ZERO,
+        xz: Known::ZERO,
+        yy: Known::ZERO,
+        yz: Known::ZERO,
+        zz: Known::ZERO,
+    };
+
+    /// A matrix that is symmetric but for rounding.
+    #[inline(always)]
+    pub(crate) fn of(m: &Mat3<R>) -> Self {
+        let [x, y, z] = m.0;
+        Self {
+            xx: x.0[0],
+            xy: y.0[0],
+            xz: z.0[0],
+            yy: y.0[1],
+            yz: z.0[1],
+            zz: z.0[2],
+        }
+    }
+
+    /// Rz S Rzᵀ, by five products.
+    #[inline(always)]
+    pub(crate) fn turn(self, sin: Known<R>, cos: Known<R>) -> Self {
+        let bend = cos * self.xy;
+        let w = sin * (self.xx - self.yy) + bend + bend;
+        let step = sin * w;
+        Self {
+            xx: self.xx - step,
+            yy: self.yy + step,
+            xy: cos * w - self.xy,
+            xz: cos * self.xz - sin * self.yz,
+            yz: sin * self.xz + cos * self.yz,
+            zz: self.zz,
+        }
+    }
+
+    /// R S Rᵀ.
+    #[inline(always)]
+    pub(crate) fn rotate(self, rot: &Mat3<R>) -> Self {
+        let half = Mat3([
+            rot.mul(Vec3([self.xx, self.xy, self.xz])),
+            rot.mul(Vec3([self.xy, self.yy, self.yz])),
+            rot.mul(Vec3([self.xz, self.yz, self.zz])),
+        ]);
+        let [x, y, z] = rot.rows();
+        Self::of(&Mat3([half.mul(x), half.mul(y), half.mul(z)]))
+    }
+
+    /// a bᵀ + b aᵀ.
+    #[inline(always)]
+    pub(crate) fn both(a: Vec3<R>, b: Vec3<R>) -> Self {
+        let ([ax, ay, az], [bx, by, bz]) = (a.0, b.0);
+        let (xx, yy, zz) = (ax * bx, ay * by, az * bz);
+        Self {
+            xx: xx + xx,
+            xy: ax * by + ay * bx,
+            xz: ax * bz + az * bx,
+            yy: yy + yy,
+            yz: ay * bz + az * by,
+            zz: zz + zz,
+        }
+    }
+
+    /// s a aᵀ.
+    #[inline(always)]
+    pub(crate) fn square(a: Vec3<R>, s: Known<R>) -> Self {
+        let ([x, y, z], [sx, sy, sz]) = (a.0, a.scale(s).0);
+        Self {
+            xx: sx * x,
+            xy: sx * y,
+            xz: sx * z,
+            yy: sy * y,
+            yz: sy * z,
+            zz: sz * z,
+        }
+    }
+}
+
+impl<R: Real> Add for Sym3<R> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, o: Self) -> Self {
+        Self {
+            xx: self.xx + o.xx,
+            xy: self.xy + o.xy,
+            xz: self.xz + o.xz,
+            yy: self.yy + o.yy,
+            yz: self.yz + o.yz,
+            zz: self.zz + o.zz,
+        }
+    }
+}
+
+impl<R: Real> Sub for Sym3<R> {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, o: Self) -> Self {
+        Self {
+            xx: self.xx - o.xx,
+            xy: self.xy - o.xy,
+            xz: self.xz - o.xz,
+            yy: self.yy - o.yy,
+            yz: self.yz - o.yz,
+            zz: self.zz - o.zz,
+        }
+    }
+}

@@ -1,0 +1,46 @@
+//! A scene without its accelerations: what inverse dynamics of forward dynamics' bias computes.
+
+use crate::effects::{Effect, JointState};
+use crate::scalar::Real;
+use crate::spatial::{Force, Motion, SpatialInertia};
+
+/// The effects of `E` at q̈ = 0, known while compiling.
+pub(crate) struct Bias<'a, E>(pub(crate) &'a E);
+
+impl<R: Real, E, const B: usize, const V: usize> Effect<R, B, V> for Bias<'_, E>
+where
+    E: Effect<R, B, V>,
+{
+    const FIELD: bool = E::FIELD;
+    const FIELD_AXES: [bool; 3] = E::FIELD_AXES;
+    const ACCELERATIONS: bool = false;
+    const VELOCITY_PRODUCTS: bool = E::VELOCITY_PRODUCTS;
+    const WRENCH: bool = E::WRENCH;
+    const BODY_VELOCITY: bool = E::BODY_VELOCITY;
+    const PAYLOAD: bool = E::PAYLOAD;
+
+    #[inline(always)]
+    fn payload(&self, inertia: &mut SpatialInertia<R>) {
+        self.0.payload(inertia);
+    }
+
+    #[inline(always)]
+    fn field(&self, g: &mut R::Vec3) {
+        self.0.field(g);
+    }
+
+    #[inline(always)]
+    fn wrench(&self, body: usize, velocity: Motion<R>, fx: &mut Force<R>) {
+        self.0.wrench(body, velocity, fx);
+    }
+
+    #[inline(always)]
+    fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R) {
+        self.0.torque(joint, JointState { qdd: R::ZERO, ..at }, tau);
+    }
+
+    #[inline(always)]
+    fn inertia(&self, joint: usize, diagonal: &mut R) {
+        self.0.inertia(joint, diagonal);
+    }
+}

@@ -1,0 +1,174 @@
+//! M(q) by composite bodies: what a joint moves, as one rigid body, and the wrench that it takes.
+//!
+//! Walker & Orin (1982); Featherstone, RBDA (2008), table 6.2, over base parameters: the masses of
+//! composite bodies are known zeros behind revolute joints, and h travels as R h.
+
+use super::Engine;
+use super::field::{Inertia, Wrench, along_z};
+use super::known::Known;
+use super::prepare::Prepared;
+use super::rnea::{carries, loaded, stands};
+use super::small::Vec3;
+use crate::effects::Effect;
+use crate::mass_matrix::MassMatrix;
+use crate::model::{BASE, Robot, Turn};
+use crate::scalar::Real;
+use crate::state::Posture;
+
+impl<T> Engine<T> {
+    /// M(q) with the rotors and the payload that the effects name.
+    #[inline(never)]
+    pub fn crba<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+        q: &[R; Q],
+        effects: &E,
+    ) -> MassMatrix<R, V>
+    where
+        T: Robot<B, Q, V>,
+        E: Effect<R, B, V>,
+    {
+        let mut m = MassMatrix::ZERO;
+        mass_matrix::<R, T, E, B, Q, V>(&Self::posture(q).turns, effects, &mut m);
+        m
+    }
+
+    /// As [`Engine::crba`], at a posture whose sines and cosines are at hand.
+    #[inline(never)]
+    pub fn crba_at<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+        posture: &Posture<R, Q>,
+        effects: &E,
+    ) -> MassMatrix<R, V>
+    where
+        T: Robot<B, Q, V>,
+        E: Effect<R, B, V>,
+    {
+        let mut m = MassMatrix::ZERO;
+        mass_matrix::<R, T, E, B, Q, V>(&posture.turns, effects, &mut m);
+        m
+    }
+}
+
+/// What all bodies share.
+struct Task<'a, R, E, const Q: usize, const V: usize> {
+    turns: &'a [Turn<R>; Q],
+    effects: &'a E,
+    m: &'a mut MassMatrix<R, V>,
+}
+
+/// Writes M(q), both triangles; what is zero by the tree's branches stays as it is.
+#[inline(always)]
+pub(crate) fn mass_matrix<R, T, E, const B: usize, const Q: usize, const V: usize>(
+    turns: &[Turn<R>; Q],
+    effects: &E,
+    m: &mut MassMatrix<R, V>,
+) where
+    R: Real,
+    T: Robot<B, Q, V>,
+    E: Effect<R, B, V>,
+{
+    const { assert!(V <= 32, "the engine takes up to 32 moving bodies") };
+    let mut task = Task { turns, effects, m };
+    for_each_joint!(J, {
+        if const { stands::<T, B, Q, V>(J) } {
+            let _ = composite::<R, T, E, B, Q, V, J>(&mut task);
+        }
+    });
+}
+
+/// Writes the columns of joint I and of all that it carries; returns their inertia in the parent's
+/// frame.
+#[inline(always)]
+fn composite<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
+    task: &mut Task<'_, R, E, Q, V>,
+) -> Inertia<R>
+where
+    R: Real,
+    T: Robot<B, Q, V>,
+    E: Effect<R, B, V>,
+{
+    let joint = const { &Prepared::<T, B, Q, V>::joint(I) };
+    let mut body = Inertia::of(joint);
+    if const { E::PAYLOAD && Prepared::<T, B, Q, V>::last_on(I) } {
+        body = loaded::<R, T, E, B, Q, V>(task.effects, body);
+    }
+    for_each_joint!(J, {
+        if const { carries::<T, B, Q, V>(I, J) } {
+            body = body + composite::<R, T, E, B, Q, V, J>(task);
+        }
+    });
+    column::<R, T, E, B, Q, V, I>(task, &body);
+    let per_length = Known::constant(const { 1.0 / Prepared::<T, B, Q, V>::TREE.length });
+    body.handed_down(joint, task.turns[I], Known::any(task.turns[I].q) * per_length)
+}
+
+/// Column I of M: the wrench of joint I's unit acceleration, felt at each joint down to the base.
+#[inline(always)]
+fn column<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
+    task: &mut Task<'_, R, E, Q, V>,
+    body: &Inertia<R>,
+) where
+    R: Real,
+    T: Robot<B, Q, V>,
+    E: Effect<R, B, V>,
+{
+    let joint = const { &Prepared::<T, B, Q, V>::joint(I) };
+    let per_length = Known::constant(const { 1.0 / Prepared::<T, B, Q, V>::TREE.length });
+    let ([hx, hy, _], s) = (body.moment.0, &body.second);
+    let mut wrench = if joint.prismatic {
+        Wrench {
+            f: along_z(body.mass * per_length),
+            n: Vec3([hy, -hx, Known::ZERO]).scale(per_length),
+        }
+    } else {
+        Wrench {
+            f: Vec3([-hy, hx, Known::ZERO]),
+            n: Vec3([-s.xz, -s.yz, s.xx + s.yy]),
+        }
+    };
+    let mut diagonal = wrench.along(joint.prismatic, per_length).get();
+    task.effects.inertia(I, &mut diagonal);
+    task.m.rows[I][I] = diagonal;
+    // From joint I to the base: parents come before their children.
+    for_each_joint!(N, {
+        const K: usize = 31 - N;
+        if const { supports::<T, B, Q, V>(K, I) } {
+            let joint = const { &Prepared::<T, B, Q, V>::joint(K) };
+            if joint.parent != BASE {
+                let turn = task.turns[K];
+                wrench = wrench.handed_down(joint, turn, Known::any(turn.q) * per_length);
+                let above = const { &Prepared::<T, B, Q, V>::parent_of(K) };
+                let entry = wrench.along(above.prismatic, per_length).get();
+                task.m.rows[I][joint.parent] = entry;
+                task.m.rows[joint.parent][I] = entry;
+            }
+        }
+    });
+}
+
+/// Whether joint `k` is joint `i` or carries it, through whatever lies between.
+pub(crate) const fn supports<T, const B: usize, const Q: usize, const V: usize>(
+    k: usize,
+    i: usize,
+) -> bool
+where
+    T: Robot<B, Q, V>,
+{
+    let mut at = i;
+    while at < V {
+        if at == k {
+            return true;
+        }
+        at = Prepared::<T, B, Q, V>::joint(at).parent;
+    }
+    false
+}
+
+/// Whether joint `k` carries joint `i`, through whatever lies between.
+pub(crate) const fn above<T, const B: usize, const Q: usize, const V: usize>(
+    k: usize,
+    i: usize,
+) -> bool
+where
+    T: Robot<B, Q, V>,
+{
+    k != i && supports::<T, B, Q, V>(k, i)
+}

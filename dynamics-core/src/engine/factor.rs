@@ -1,0 +1,180 @@
+//! M = Lᵀ D L and M x = τ, without the entries that the tree's branches leave zero.
+//!
+//! Featherstone, RBDA (2008), section 6.5, tables 6.3 and 6.4: from the tips to the base, so that
+//! no zero is ever filled. All sums run over the joints above a joint, λ(i), λ(λ(i)) …
+
+use super::Engine;
+use super::crba::{above, supports};
+use crate::algorithms::NotPositiveDefinite;
+use crate::mass_matrix::{Factor, MassMatrix};
+use crate::model::Robot;
+use crate::scalar::Real;
+
+impl<T> Engine<T> {
+    /// The factors of M = Lᵀ D L, for [`Engine::solve`].
+    ///
+    /// Cost: one division a joint, and for a chain of n joints n (n² − 1)/3 + n (n − 1)/2 flops, less
+    /// on a tree; the same instructions whatever the data. Source: Featherstone, RBDA (2008), table 6.3.
+    ///
+    /// ```
+    /// use dynamics_core::{Engine, effects::RIGID_BODY, robots::Ur5e};
+    /// let m = Engine::<Ur5e>::crba(&[0.0_f32, -1.2, 1.5, 0.3, 0.0, 0.0], &RIGID_BODY);
+    /// let x = Engine::<Ur5e>::solve(&Engine::<Ur5e>::factor(&m)?, &[1.0; 6]);
+    /// let first: f32 = (0..6).map(|j| m.get(0, j) * x[j]).sum();
+    /// assert!((first - 1.0).abs() < 1e-4);
+    /// # Ok::<(), dynamics_core::algorithms::NotPositiveDefinite>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`NotPositiveDefinite`] names a joint that moves no inertia, or whose inertia is not a number.
+    #[inline(never)]
+    pub fn factor<R: Real, const B: usize, const Q: usize, const V: usize>(
+        m: &MassMatrix<R, V>,
+    ) -> Result<Factor<R, V>, NotPositiveDefinite>
+    where
+        T: Robot<B, Q, V>,
+    {
+        let mut rows = m.rows;
+        let per_d = decompose::<R, T, B, Q, V>(&mut rows);
+        positive(&per_d)?;
+        Ok(Factor { rows, per_d })
+    }
+
+    /// x with M x = τ: accelerations of torques, rad/s² or m/s² of N·m or N.
+    ///
+    /// Cost: 2 n² − n flops for a chain of n joints, less on a tree. Source: RBDA, table 6.4.
+    #[inline(never)]
+    pub fn solve<R: Real, const B: usize, const Q: usize, const V: usize>(
+        factor: &Factor<R, V>,
+        tau: &[R; V],
+    ) -> [R; V]
+    where
+        T: Robot<B, Q, V>,
+    {
+        let mut x = *tau;
+        substitute::<R, T, B, Q, V>(&factor.rows, &factor.per_d, &mut x);
+        x
+    }
+}
+
+/// M's lower triangle becomes L; returns the reciprocals of D.
+#[inline(always)]
+pub(crate) fn decompose<R: Real, T, const B: usize, const Q: usize, const V: usize>(
+    m: &mut [[R; V]; V],
+) -> [R; V]
+where
+    T: Robot<B, Q, V>,
+{
+    let mut per_d = [R::ZERO; V];
+    for_each_joint!(N, {
+        const K: usize = 31 - N;
+        if const { K < V } {
+            per_d[K] = R::ONE / m[K][K];
+            eliminate::<R, T, B, Q, V, K>(m, per_d[K]);
+        }
+    });
+    per_d
+}
+
+/// Row K of L, and what it takes from the rows above it.
+#[inline(always)]
+fn eliminate<R: Real, T, const B: usize, const Q: usize, const V: usize, const K: usize>(
+    m: &mut [[R; V]; V],
+    per_d: R,
+) where
+    T: Robot<B, Q, V>,
+{
+    for_each_joint!(N, {
+        const I: usize = 31 - N;
+        if const { above::<T, B, Q, V>(I, K) } {
+            let l = m[K][I] * per_d;
+            subtract::<R, T, B, Q, V, K, I>(m, l);
+            m[K][I] = l;
+        }
+    });
+}
+
+/// Row I less `l` times row K.
+#[inline(always)]
+fn subtract<
+    R: Real,
+    T,
+    const B: usize,
+    const Q: usize,
+    const V: usize,
+    const K: usize,
+    const I: usize,
+>(
+    m: &mut [[R; V]; V],
+    l: R,
+) where
+    T: Robot<B, Q, V>,
+{
+    for_each_joint!(J, {
+        if const { supports::<T, B, Q, V>(J, I) } {
+            m[I][J] = m[I][J] - l * m[K][J];
+        }
+    });
+}
+
+/// Lᵀ y = τ, D z = y, L x = z, in place.
+#[inline(always)]
+pub(crate) fn substitute<R: Real, T, const B: usize, const Q: usize, const V: usize>(
+    l: &[[R; V]; V],
+    per_d: &[R; V],
+    x: &mut [R; V],
+) where
+    T: Robot<B, Q, V>,
+{
+    for_each_joint!(N, {
+        const I: usize = 31 - N;
+        if const { I < V } {
+            for_each_joint!(J, {
+                if const { above::<T, B, Q, V>(J, I) } {
+                    x[J] = x[J] - l[I][J] * x[I];
+                }
+            });
+        }
+    });
+    for_each_joint!(I, {
+        if const { I < V } {
+            x[I] = x[I] * per_d[I];
+            for_each_joint!(J, {
+                if const { above::<T, B, Q, V>(J, I) } {
+                    x[I] = x[I] - l[I][J] * x[J];
+                }
+            });
+        }
+    });
+}
+
+/// Whether the reciprocals of all pivots are positive and finite; the same instructions if they are.
+#[inline(always)]
+pub(crate) fn positive<R: Real, const V: usize>(
+    per_d: &[R; V],
+) -> Result<(), NotPositiveDefinite> {
+    // Products of finite numbers with zero add up to zero, others to NaN, which nothing exceeds.
+    let mut zero = R::ZERO;
+    for_each_joint!(J, {
+        if const { J < V } {
+            zero += per_d[J] * R::ZERO;
+        }
+    });
+    let mut all = true;
+    for_each_joint!(J, {
+        if const { J < V } {
+            all &= per_d[J] > zero;
+        }
+    });
+    if all { Ok(()) } else { Err(culprit(per_d)) }
+}
+
+/// The first joint from the tips to the base whose pivot is not positive and finite.
+#[cold]
+#[inline(never)]
+fn culprit<R: Real>(per_d: &[R]) -> NotPositiveDefinite {
+    let good = |&per_d: &R| per_d > R::ZERO && per_d.is_finite();
+    NotPositiveDefinite {
+        joint: per_d.iter().rposition(|p| !good(p)).unwrap_or_default(),
+    }
+}

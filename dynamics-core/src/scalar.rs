@@ -58,6 +58,11 @@ pub trait Real:
     fn sin_cos(self) -> (Self, Self);
     /// As `sin_cos`, for angles within ±100 rad: [`crate::trig::sin_cos_near`] in f32.
     fn sin_cos_near(self) -> (Self, Self);
+    /// √x, rounded to nearest; NaN below zero. In software where the target's compiler offers no
+    /// instruction without std: never in the control tick.
+    fn sqrt(self) -> Self;
+    /// The angle of the point (x, self) from the x axis, rad, within ±π. Never in the control tick.
+    fn atan2(self, x: Self) -> Self;
     /// |x|.
     fn abs(self) -> Self;
     /// Neither infinite nor NaN.
@@ -133,7 +138,7 @@ pub trait Matrix<R: Real>:
 }
 
 macro_rules! real {
-    ($r:ident, $vec:path, $mat:path, $sin_cos:expr, $near:expr, |$double:ident, $single:ident| $pick:ident) => {
+    ($r:ident, $vec:path, $mat:path, $sin_cos:expr, $near:expr, $sqrt:expr, $atan2:expr, |$double:ident, $single:ident| $pick:ident) => {
         impl Real for $r {
             type Vec3 = $vec;
             type Mat3 = $mat;
@@ -154,6 +159,14 @@ macro_rules! real {
             #[inline(always)]
             fn sin_cos_near(self) -> (Self, Self) {
                 $near(self)
+            }
+            #[inline]
+            fn sqrt(self) -> Self {
+                $sqrt(self)
+            }
+            #[inline]
+            fn atan2(self, x: Self) -> Self {
+                $atan2(self, x)
             }
             #[inline(always)]
             fn abs(self) -> Self {
@@ -232,6 +245,8 @@ real!(
     glam::Mat3,
     crate::trig::sin_cos,
     crate::trig::sin_cos_near,
+    libm::sqrtf,
+    libm::atan2f,
     |double, single| single
 );
 real!(
@@ -240,5 +255,7 @@ real!(
     glam::DMat3,
     crate::trig::sin_cos_f64,
     crate::trig::sin_cos_f64,
+    libm::sqrt,
+    libm::atan2,
     |double, single| double
 );

@@ -95,7 +95,7 @@ const fn foot(name: &'static str, parent: usize) -> Body {
 }
 
 /// What the trunk carries.
-pub(super) const LEGS: [Body; 16] = [
+const LEGS: [Body; 16] = [
     hip("FR_hip", 1.0, -1.0),
     thigh("FR_thigh", 0, -1.0),
     calf("FR_calf", 1),

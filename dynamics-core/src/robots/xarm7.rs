@@ -13,7 +13,7 @@ use crate::model::{Arm, BASE, Body, Joint, Limits, Model, Robot};
 ///
 /// # Changed
 ///
-/// Rotations are exact quarter turns where the source rounds (1.5708). The base link is omitted since it
+/// Rotations are exact quarter turns where the source rounds (1.5708), speeds 180°/s where it has 3.14 rad/s. The base link is omitted since it
 /// does not move, the end effector's frame since it has no mass.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct XArm7;
@@ -24,7 +24,7 @@ const fn limits(lower: f64, upper: f64, torque: f64) -> Limits<f64> {
     Limits {
         lower,
         upper,
-        velocity: 3.14,
+        velocity: PI,
         torque,
     }
 }

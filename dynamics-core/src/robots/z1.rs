@@ -16,7 +16,7 @@ use crate::model::{Arm, BASE, Body, Joint, Limits, Model, Robot};
 /// # Changed
 ///
 /// The gripper's fixed half is welded to link 6, the base link omitted since it does not move. Limits are
-/// the degrees that the source prints in full.
+/// the degrees that the source prints as radians, 180°/s where it has 3.1415 rad/s.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Z1;
 
@@ -29,7 +29,7 @@ const fn limits(lower: f64, upper: f64, torque: f64) -> Limits<f64> {
     Limits {
         lower: lower * PI / 180.0,
         upper: upper * PI / 180.0,
-        velocity: 3.1415,
+        velocity: PI,
         torque,
     }
 }
@@ -104,12 +104,7 @@ impl Robot<7, 7, 7> for Z1 {
                 .inertia([
                     0.00017716, 1.683e-5, -1.786e-5, 0.00026787, 2.62e-6, 0.00035728,
                 ])
-                .limits(Limits {
-                    lower: -1.5707,
-                    upper: 0.0,
-                    velocity: 3.1415,
-                    torque: 30.0,
-                }),
+                .limits(limits(-90.0, 0.0, 30.0)),
         ],
     );
 }

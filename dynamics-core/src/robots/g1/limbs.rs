@@ -1,37 +1,22 @@
-//! Unitree G1, with its pelvis held or free.
+//! Legs, waist and arms of the Unitree G1.
 
-use super::part::Part;
-use crate::model::{Arm, BASE, Body, Joint, Limits, Model, Robot};
+use core::f64::consts::PI;
 
-/// Unitree G1 humanoid with its pelvis welded to the base: 29 revolute joints (6 a leg, 3 in the waist,
-/// 7 an arm), no fingers, 29.5 kg of moving mass.
-///
-/// The order is left leg, right leg, waist, left arm, right arm. The base frame is the pelvis': x ahead,
-/// y left, z up.
-///
-/// # Source
-///
-/// - The PyPI package example-robot-data 6.0.0, `robots/g1_description/urdf/g1_29dof_rev_1_0.urdf`, which
-///   states as its origin unitreerobotics/unitree_ros (`robots/g1_description`) and BSD-3-Clause as the
-///   licence.
-///
-/// # Changed
-///
-/// Left and right are written once and mirrored where the source's are exact mirror images; where they
-/// are not (the sign of one product of inertia at the knee, 10 µm at the shoulder) both numbers stand
-/// here. Head and palms are welded to torso and wrists. Omitted are frames without mass and the
-/// contour and the logo, 1 g each. The pelvis does not move here; [`super::G1Free`] has it.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct G1;
+use crate::model::{BASE, Body, Joint, Limits};
+use crate::robots::part::Part;
 
 const X: [f64; 3] = [1.0, 0.0, 0.0];
 const Y: [f64; 3] = [0.0, 1.0, 0.0];
 const Z: [f64; 3] = [0.0, 0.0, 1.0];
 
+/// What the source's 0.52 rad are in degrees.
+const WAIST: f64 = 0.52 * 180.0 / PI;
+
+/// From `lower` to `upper` degrees.
 const fn limits(lower: f64, upper: f64, torque: f64, velocity: f64) -> Limits<f64> {
     Limits {
-        lower,
-        upper,
+        lower: lower * PI / 180.0,
+        upper: upper * PI / 180.0,
         velocity,
         torque,
     }
@@ -61,7 +46,7 @@ const fn part(left: f64, mass: f64, [x, y, z]: [f64; 3], i: [f64; 6]) -> Part {
 }
 
 /// Six bodies from hip to foot; `first` is the index of the first.
-const fn leg(names: [&'static str; 6], first: usize, left: f64) -> [Body; 6] {
+pub(super) const fn leg(names: [&'static str; 6], first: usize, left: f64) -> [Body; 6] {
     let i = [
         part(
             left,
@@ -115,29 +100,35 @@ const fn leg(names: [&'static str; 6], first: usize, left: f64) -> [Body; 6] {
     [
         i[0].of(Body::new(names[0], BASE, Joint::revolute(Y)))
             .xyz([0.0, left * 0.064452, -0.1027])
-            .limits(limits(-2.5307, 2.8798, 88.0, 32.0)),
+            .limits(limits(-145.0, 165.0, 88.0, 32.0)),
         i[1].of(Body::new(names[1], first, Joint::revolute(X)))
             .xyz([0.0, left * 0.052, -0.030465])
             .rpy([0.0, -0.1749, 0.0])
-            .limits(sideways(left, 0.5236, 2.9671, (139.0, 20.0))),
+            .limits(sideways(left, 30.0, 170.0, (139.0, 20.0))),
         i[2].of(Body::new(names[2], first + 1, Joint::revolute(Z)))
             .xyz([0.025001, 0.0, -0.12412])
-            .limits(limits(-2.7576, 2.7576, 88.0, 32.0)),
+            .limits(limits(-158.0, 158.0, 88.0, 32.0)),
         i[3].of(Body::new(names[3], first + 2, Joint::revolute(Y)))
             .xyz([-0.078273, left * 0.0021489, -0.17734])
             .rpy([0.0, 0.1749, 0.0])
-            .limits(limits(-0.087267, 2.8798, 139.0, 20.0)),
+            .limits(limits(-5.0, 165.0, 139.0, 20.0)),
         i[4].of(Body::new(names[4], first + 3, Joint::revolute(Y)))
             .xyz([0.0, left * -9.4445e-5, -0.30001])
-            .limits(limits(-0.87267, 0.5236, 35.0, 30.0)),
+            .limits(limits(-50.0, 30.0, 35.0, 30.0)),
         i[5].of(Body::new(names[5], first + 4, Joint::revolute(X)))
             .xyz([0.0, 0.0, -0.017558])
-            .limits(limits(-0.2618, 0.2618, 35.0, 30.0)),
+            .limits(limits(-15.0, 15.0, 35.0, 30.0)),
     ]
 }
 
 /// Seven bodies from shoulder to palm; `first` is the index of the first, which hangs on `torso`.
-const fn arm(names: [&'static str; 7], torso: usize, first: usize, left: f64, y: f64) -> [Body; 7] {
+pub(super) const fn arm(
+    names: [&'static str; 7],
+    torso: usize,
+    first: usize,
+    left: f64,
+    y: f64,
+) -> [Body; 7] {
     let palm = part(
         left,
         0.17,
@@ -217,25 +208,25 @@ const fn arm(names: [&'static str; 7], torso: usize, first: usize, left: f64, y:
         )
         .with(palm.at([0.0415, left * 0.003, 0.0])),
     ];
-    let wrist = limits(-1.614429558, 1.614429558, 5.0, 22.0);
+    let wrist = limits(-92.5, 92.5, 5.0, 22.0);
     [
         i[0].of(Body::new(names[0], torso, Joint::revolute(Y)))
             .xyz([0.0039563, y, 0.24778])
             .rpy([left * 0.27931, 5.4949e-5, left * -0.00019159])
-            .limits(limits(-3.0892, 2.6704, 25.0, 37.0)),
+            .limits(limits(-177.0, 153.0, 25.0, 37.0)),
         i[1].of(Body::new(names[1], first, Joint::revolute(X)))
             .xyz([0.0, left * 0.038, -0.013831])
             .rpy([left * -0.27925, 0.0, 0.0])
-            .limits(sideways(left, 1.5882, 2.2515, (25.0, 37.0))),
+            .limits(sideways(left, 91.0, 129.0, (25.0, 37.0))),
         i[2].of(Body::new(names[2], first + 1, Joint::revolute(Z)))
             .xyz([0.0, left * 0.00624, -0.1032])
-            .limits(limits(-2.618, 2.618, 25.0, 37.0)),
+            .limits(limits(-150.0, 150.0, 25.0, 37.0)),
         i[3].of(Body::new(names[3], first + 2, Joint::revolute(Y)))
             .xyz([0.015783, 0.0, -0.080518])
-            .limits(limits(-1.0472, 2.0944, 25.0, 37.0)),
+            .limits(limits(-60.0, 120.0, 25.0, 37.0)),
         i[4].of(Body::new(names[4], first + 3, Joint::revolute(X)))
             .xyz([0.1, left * 0.00188791, -0.01])
-            .limits(limits(-1.972222054, 1.972222054, 25.0, 37.0)),
+            .limits(limits(-113.0, 113.0, 25.0, 37.0)),
         i[5].of(Body::new(names[5], first + 4, Joint::revolute(Y)))
             .xyz([0.038, 0.0, 0.0])
             .limits(wrist),
@@ -246,7 +237,7 @@ const fn arm(names: [&'static str; 7], torso: usize, first: usize, left: f64, y:
 }
 
 /// Three bodies from waist to torso, the head welded on; `first` is the index of the first.
-const fn waist(first: usize) -> [Body; 3] {
+pub(super) const fn waist(first: usize) -> [Body; 3] {
     let head = Part {
         mass: 1.036,
         com: [0.005267, 0.000299, 0.449869],
@@ -273,74 +264,16 @@ const fn waist(first: usize) -> [Body; 3] {
             .inertia([
                 0.00010673, 2.703e-6, -7.631e-6, 0.00010422, -2.01e-7, 0.0001625,
             ])
-            .limits(limits(-2.618, 2.618, 88.0, 32.0)),
+            .limits(limits(-150.0, 150.0, 88.0, 32.0)),
         Body::new("waist_roll", first, Joint::revolute(X))
             .xyz([-0.0039635, 0.0, 0.044])
             .mass(0.086)
             .com([0.0, 2.3e-5, 0.0])
             .inertia([7.079e-6, 0.0, 0.0, 6.339e-6, 0.0, 8.245e-6])
-            .limits(limits(-0.52, 0.52, 35.0, 30.0)),
+            .limits(limits(-WAIST, WAIST, 35.0, 30.0)),
         torso
             .with(head.at([0.0039635, 0.0, -0.044]))
             .of(Body::new("torso", first + 1, Joint::revolute(Y)))
-            .limits(limits(-0.52, 0.52, 35.0, 30.0)),
+            .limits(limits(-WAIST, WAIST, 35.0, 30.0)),
     ]
-}
-
-/// `bodies` into `all` from index `first`.
-const fn put<const N: usize>(all: &mut [Body; 29], first: usize, bodies: [Body; N]) {
-    let mut i = 0;
-    while i < N {
-        all[first + i] = bodies[i];
-        i += 1;
-    }
-}
-
-/// What the pelvis carries.
-pub(super) const LIMBS: [Body; 29] = {
-    let mut all = [Body::new("", BASE, Joint::fixed()); 29];
-    let left = [
-        "left_hip_pitch",
-        "left_hip_roll",
-        "left_hip_yaw",
-        "left_knee",
-        "left_ankle_pitch",
-        "left_ankle_roll",
-    ];
-    let right = [
-        "right_hip_pitch",
-        "right_hip_roll",
-        "right_hip_yaw",
-        "right_knee",
-        "right_ankle_pitch",
-        "right_ankle_roll",
-    ];
-    put(&mut all, 0, leg(left, 0, 1.0));
-    put(&mut all, 6, leg(right, 6, -1.0));
-    put(&mut all, 12, waist(12));
-    let left = [
-        "left_shoulder_pitch",
-        "left_shoulder_roll",
-        "left_shoulder_yaw",
-        "left_elbow",
-        "left_wrist_roll",
-        "left_wrist_pitch",
-        "left_wrist_yaw",
-    ];
-    let right = [
-        "right_shoulder_pitch",
-        "right_shoulder_roll",
-        "right_shoulder_yaw",
-        "right_elbow",
-        "right_wrist_roll",
-        "right_wrist_pitch",
-        "right_wrist_yaw",
-    ];
-    put(&mut all, 15, arm(left, 14, 15, 1.0, 0.10022));
-    put(&mut all, 22, arm(right, 14, 22, -1.0, -0.10021));
-    all
-};
-
-impl Robot<29, 29, 29> for G1 {
-    const MODEL: Arm<f64, 29> = Model::new("g1", LIMBS);
 }

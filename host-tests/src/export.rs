@@ -61,7 +61,7 @@ fn body<const B: usize, const Q: usize, const V: usize>(
         inertia.moment
     };
     let about_origin = inertia.inertia.to_cols_array_2d();
-    let c = com.to_array();
+    let c = com.to_array().map(|x| x + 0.0); // no negative zero
     let about_com = |i: usize, j: usize| {
         let diagonal = if i == j { com.dot(com) } else { 0.0 };
         about_origin[i][j] - inertia.mass * (diagonal - c[i] * c[j])

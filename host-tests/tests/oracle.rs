@@ -2,7 +2,7 @@
 
 use dynamics_core::effects::{Coriolis, Gravity, RIGID_BODY};
 use dynamics_core::model::Robot;
-use dynamics_core::robots::{A1, Iiwa14, Panda, Ur5e};
+use dynamics_core::robots::{A1, G1, Gen3, Iiwa14, Panda, Ur5e, XArm7, Z1};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
@@ -46,42 +46,77 @@ impl Worst {
     }
 }
 
-fn compare<R: Real, T, const B: usize, const N: usize>(recording: &Recording, verdict: &mut Verdict)
-where
-    T: Robot<B, N, N>,
-{
-    let scale = recording.full_scale;
-    let mut full = ["rnea", "engine rnea"].map(|q| Worst::new(q, scale.rnea));
-    let mut gravity = ["gravity", "engine gravity"].map(|q| Worst::new(q, scale.gravity));
-    let mut bias = ["bias", "engine bias"].map(|q| Worst::new(q, scale.bias));
-    let mut forward = Worst::new("aba", scale.aba);
+/// One recorded state.
+fn state<R: Real, const N: usize>(recording: &Recording, i: usize) -> State<R, N, N> {
+    let cast = |rows| row::<N>(rows, i).map(R::from_f64);
+    State {
+        q: cast(&recording.q),
+        qd: cast(&recording.qd),
+        qdd: cast(&recording.qdd),
+    }
+}
+
+/// Holds one form of the dynamics against the recording: its quantities, each with its answer.
+fn compare<R: Real, const N: usize>(
+    recording: &Recording,
+    verdict: &mut Verdict,
+    names: [&'static str; 3],
+    rnea: impl Fn(&State<R, N, N>) -> [[R; N]; 3],
+) {
+    let (scale, rows) = (recording.full_scale, recording);
+    let wanted = [&rows.rnea, &rows.gravity, &rows.bias];
+    let scales = [scale.rnea, scale.gravity, scale.bias];
+    let mut worst = std::array::from_fn::<_, 3, _>(|k| Worst::new(names[k], scales[k]));
     assert!(recording.q.len() > 200);
     for i in 0..recording.q.len() {
-        let cast = |rows| row::<N>(rows, i).map(R::from_f64);
-        let state = State {
-            q: cast(&recording.q),
-            qd: cast(&recording.qd),
-            qdd: cast(&recording.qdd),
-        };
-        let want = row::<N>(&recording.rnea, i);
-        full[0].see(Core::<T>::rnea(&state, &RIGID_BODY), want);
-        full[1].see(Engine::<T>::rnea(&state, &RIGID_BODY), want);
-        let (want, scene) = (row::<N>(&recording.gravity, i), (Gravity::EARTH,));
-        gravity[0].see(Core::<T>::rnea(&state, &scene), want);
-        gravity[1].see(Engine::<T>::rnea(&state, &scene), want);
-        let (want, scene) = (row::<N>(&recording.bias, i), (Gravity::EARTH, Coriolis));
-        bias[0].see(Core::<T>::rnea(&state, &scene), want);
-        bias[1].see(Engine::<T>::rnea(&state, &scene), want);
-        let qdd = Core::<T>::aba(&state, &cast(&recording.tau), &RIGID_BODY);
-        forward.see(qdd.expect("M is positive"), row::<N>(&recording.aba, i));
+        let got = rnea(&state(recording, i));
+        for ((worst, got), want) in worst.iter_mut().zip(got).zip(wanted) {
+            worst.see(got, row::<N>(want, i));
+        }
     }
     let scalar = std::any::type_name::<R>();
-    for worst in full.iter().chain(&gravity).chain(&bias).chain([&forward]) {
+    for worst in worst {
         verdict.check(&recording.robot, worst.quantity, scalar, worst.error);
     }
 }
 
-fn robot<T, const B: usize, const N: usize>(verdict: &mut Verdict)
+fn core<R: Real, T, const B: usize, const N: usize>(recording: &Recording, verdict: &mut Verdict)
+where
+    T: Robot<B, N, N>,
+{
+    compare::<R, N>(recording, verdict, ["rnea", "gravity", "bias"], |state| {
+        [
+            Core::<T>::rnea(state, &RIGID_BODY),
+            Core::<T>::rnea(state, &(Gravity::EARTH,)),
+            Core::<T>::rnea(state, &(Gravity::EARTH, Coriolis)),
+        ]
+    });
+    let mut forward = Worst::new("aba", recording.full_scale.aba);
+    for i in 0..recording.q.len() {
+        let tau = row::<N>(&recording.tau, i).map(R::from_f64);
+        let qdd = Core::<T>::aba(&state(recording, i), &tau, &RIGID_BODY);
+        forward.see(qdd.expect("M is positive"), row::<N>(&recording.aba, i));
+    }
+    let scalar = std::any::type_name::<R>();
+    verdict.check(&recording.robot, forward.quantity, scalar, forward.error);
+}
+
+fn engine<R: Real, T, const B: usize, const N: usize>(recording: &Recording, verdict: &mut Verdict)
+where
+    T: Robot<B, N, N>,
+{
+    let names = ["engine rnea", "engine gravity", "engine bias"];
+    compare::<R, N>(recording, verdict, names, |state| {
+        [
+            Engine::<T>::rnea(state, &RIGID_BODY),
+            Engine::<T>::rnea(state, &(Gravity::EARTH,)),
+            Engine::<T>::rnea(state, &(Gravity::EARTH, Coriolis)),
+        ]
+    });
+}
+
+/// The core against the recording, which is returned.
+fn core_of<T, const B: usize, const N: usize>(verdict: &mut Verdict) -> Recording
 where
     T: Robot<B, N, N>,
 {
@@ -91,16 +126,31 @@ where
         export::robot(&T::MODEL),
         "the recording is of other numbers: run host-tests/oracle/record.py again"
     );
-    compare::<f64, T, B, N>(&recording, verdict);
-    compare::<f32, T, B, N>(&recording, verdict);
+    core::<f64, T, B, N>(&recording, verdict);
+    core::<f32, T, B, N>(&recording, verdict);
+    recording
+}
+
+/// Core and engine against the recording.
+fn both_of<T, const B: usize, const N: usize>(verdict: &mut Verdict)
+where
+    T: Robot<B, N, N>,
+{
+    let recording = core_of::<T, B, N>(verdict);
+    engine::<f64, T, B, N>(&recording, verdict);
+    engine::<f32, T, B, N>(&recording, verdict);
 }
 
 #[test]
 fn core_and_engine_agree_with_pinocchio_within_the_table() {
     let mut verdict = Verdict(vec![]);
-    robot::<Ur5e, 6, 6>(&mut verdict);
-    robot::<Panda, 7, 7>(&mut verdict);
-    robot::<Iiwa14, 7, 7>(&mut verdict);
-    robot::<A1, 16, 12>(&mut verdict);
+    both_of::<Ur5e, 6, 6>(&mut verdict);
+    both_of::<Panda, 7, 7>(&mut verdict);
+    both_of::<Iiwa14, 7, 7>(&mut verdict);
+    both_of::<A1, 16, 12>(&mut verdict);
+    core_of::<Gen3, 7, 7>(&mut verdict);
+    core_of::<XArm7, 7, 7>(&mut verdict);
+    core_of::<Z1, 7, 7>(&mut verdict);
+    core_of::<G1, 29, 29>(&mut verdict);
     assert!(verdict.0.is_empty(), "\n{}", verdict.0.join("\n"));
 }

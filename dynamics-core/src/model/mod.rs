@@ -61,6 +61,7 @@
 mod body;
 mod description;
 mod error;
+mod floating;
 mod joint;
 mod node;
 mod single;
@@ -69,6 +70,7 @@ mod turn;
 pub use body::{BASE, Body, Limits};
 pub use description::{Description, Of};
 pub use error::{ModelError, Problem};
+pub use floating::on_root;
 pub use joint::{Joint, JointKind, Kinds};
 pub use node::Node;
 pub use turn::Turn;

@@ -94,26 +94,26 @@ const fn foot(name: &'static str, parent: usize) -> Body {
         .inertia([0.0000096, 0.0, 0.0, 0.0000096, 0.0, 0.0000096])
 }
 
+/// What the trunk carries.
+const LEGS: [Body; 16] = [
+    hip("FR_hip", 1.0, -1.0),
+    thigh("FR_thigh", 0, -1.0),
+    calf("FR_calf", 1),
+    foot("FR_foot", 2),
+    hip("FL_hip", 1.0, 1.0),
+    thigh("FL_thigh", 4, 1.0),
+    calf("FL_calf", 5),
+    foot("FL_foot", 6),
+    hip("RR_hip", -1.0, -1.0),
+    thigh("RR_thigh", 8, -1.0),
+    calf("RR_calf", 9),
+    foot("RR_foot", 10),
+    hip("RL_hip", -1.0, 1.0),
+    thigh("RL_thigh", 12, 1.0),
+    calf("RL_calf", 13),
+    foot("RL_foot", 14),
+];
+
 impl Robot<16, 12, 12> for A1 {
-    const MODEL: Model<f64, 16, 12, 12> = Model::new(
-        "a1",
-        [
-            hip("FR_hip", 1.0, -1.0),
-            thigh("FR_thigh", 0, -1.0),
-            calf("FR_calf", 1),
-            foot("FR_foot", 2),
-            hip("FL_hip", 1.0, 1.0),
-            thigh("FL_thigh", 4, 1.0),
-            calf("FL_calf", 5),
-            foot("FL_foot", 6),
-            hip("RR_hip", -1.0, -1.0),
-            thigh("RR_thigh", 8, -1.0),
-            calf("RR_calf", 9),
-            foot("RR_foot", 10),
-            hip("RL_hip", -1.0, 1.0),
-            thigh("RL_thigh", 12, 1.0),
-            calf("RL_calf", 13),
-            foot("RL_foot", 14),
-        ],
-    );
+    const MODEL: Model<f64, 16, 12, 12> = Model::new("a1", LEGS);
 }

@@ -1,7 +1,7 @@
 //! Prints the library's robots as JSON for `host-tests/oracle/record.py`.
 
 use dynamics_core::model::Robot;
-use dynamics_core::robots::{A1, Iiwa14, Panda, Ur5e};
+use dynamics_core::robots::{A1, G1, Gen3, Iiwa14, Panda, Ur5e, XArm7, Z1};
 use host_tests::export::robot;
 
 fn main() -> serde_json::Result<()> {
@@ -10,6 +10,10 @@ fn main() -> serde_json::Result<()> {
         robot(&Panda::MODEL),
         robot(&Iiwa14::MODEL),
         robot(&A1::MODEL),
+        robot(&G1::MODEL),
+        robot(&Gen3::MODEL),
+        robot(&XArm7::MODEL),
+        robot(&Z1::MODEL),
     ];
     println!("{}", serde_json::to_string(&robots)?);
     Ok(())

@@ -1,12 +1,14 @@
 //! Core and engine against Pinocchio, in f64 and f32, on every recorded state.
 
+use dynamics_core::configuration::{difference, integrate};
 use dynamics_core::effects::{Coriolis, Gravity, RIGID_BODY};
-use dynamics_core::model::Robot;
-use dynamics_core::robots::{A1, G1, Gen3, Iiwa14, Panda, Ur5e, XArm7, Z1};
+use dynamics_core::model::{JointKind, Robot};
+use dynamics_core::robots::{A1, A1Free, G1, G1Free, Gen3, Iiwa14, Panda, Ur5e, XArm7, Z1};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
-use host_tests::recordings::{Recording, load, row};
+use host_tests::recordings::{Recording, full_scale, load, row};
+use host_tests::trees::{TreeA, TreeB};
 use host_tests::{export, tolerances};
 
 /// Collects every complaint, so that one run shows the whole table.
@@ -47,21 +49,24 @@ impl Worst {
 }
 
 /// One recorded state.
-fn state<R: Real, const N: usize>(recording: &Recording, i: usize) -> State<R, N, N> {
-    let cast = |rows| row::<N>(rows, i).map(R::from_f64);
+fn state<R: Real, const Q: usize, const V: usize>(
+    recording: &Recording,
+    i: usize,
+) -> State<R, Q, V> {
+    let velocity = |rows| row::<V>(rows, i).map(R::from_f64);
     State {
-        q: cast(&recording.q),
-        qd: cast(&recording.qd),
-        qdd: cast(&recording.qdd),
+        q: row::<Q>(&recording.q, i).map(R::from_f64),
+        qd: velocity(&recording.qd),
+        qdd: velocity(&recording.qdd),
     }
 }
 
 /// Holds one form of the dynamics against the recording: its quantities, each with its answer.
-fn compare<R: Real, const N: usize>(
+fn compare<R: Real, const Q: usize, const V: usize>(
     recording: &Recording,
     verdict: &mut Verdict,
     names: [&'static str; 3],
-    rnea: impl Fn(&State<R, N, N>) -> [[R; N]; 3],
+    rnea: impl Fn(&State<R, Q, V>) -> [[R; V]; 3],
 ) {
     let (scale, rows) = (recording.full_scale, recording);
     let wanted = [&rows.rnea, &rows.gravity, &rows.bias];
@@ -71,7 +76,7 @@ fn compare<R: Real, const N: usize>(
     for i in 0..recording.q.len() {
         let got = rnea(&state(recording, i));
         for ((worst, got), want) in worst.iter_mut().zip(got).zip(wanted) {
-            worst.see(got, row::<N>(want, i));
+            worst.see(got, row::<V>(want, i));
         }
     }
     let scalar = std::any::type_name::<R>();
@@ -80,11 +85,13 @@ fn compare<R: Real, const N: usize>(
     }
 }
 
-fn core<R: Real, T, const B: usize, const N: usize>(recording: &Recording, verdict: &mut Verdict)
-where
-    T: Robot<B, N, N>,
+fn core<R: Real, T, const B: usize, const Q: usize, const V: usize>(
+    recording: &Recording,
+    verdict: &mut Verdict,
+) where
+    T: Robot<B, Q, V>,
 {
-    compare::<R, N>(recording, verdict, ["rnea", "gravity", "bias"], |state| {
+    compare::<R, Q, V>(recording, verdict, ["rnea", "gravity", "bias"], |state| {
         [
             Core::<T>::rnea(state, &RIGID_BODY),
             Core::<T>::rnea(state, &(Gravity::EARTH,)),
@@ -93,9 +100,9 @@ where
     });
     let mut forward = Worst::new("aba", recording.full_scale.aba);
     for i in 0..recording.q.len() {
-        let tau = row::<N>(&recording.tau, i).map(R::from_f64);
+        let tau = row::<V>(&recording.tau, i).map(R::from_f64);
         let qdd = Core::<T>::aba(&state(recording, i), &tau, &RIGID_BODY);
-        forward.see(qdd.expect("M is positive"), row::<N>(&recording.aba, i));
+        forward.see(qdd.expect("M is positive"), row::<V>(&recording.aba, i));
     }
     let scalar = std::any::type_name::<R>();
     verdict.check(&recording.robot, forward.quantity, scalar, forward.error);
@@ -106,7 +113,7 @@ where
     T: Robot<B, N, N>,
 {
     let names = ["engine rnea", "engine gravity", "engine bias"];
-    compare::<R, N>(recording, verdict, names, |state| {
+    compare::<R, N, N>(recording, verdict, names, |state| {
         [
             Engine::<T>::rnea(state, &RIGID_BODY),
             Engine::<T>::rnea(state, &(Gravity::EARTH,)),
@@ -115,10 +122,43 @@ where
     });
 }
 
+/// Steps and differences of configurations against the recording.
+fn manifold<T, const B: usize, const Q: usize, const V: usize>(
+    recording: &Recording,
+    verdict: &mut Verdict,
+) where
+    T: Robot<B, Q, V>,
+{
+    let mut step = Worst::new("integrate", full_scale(&recording.integrated));
+    let mut way = Worst::new("difference", full_scale(&recording.difference));
+    for i in 0..recording.first_states() {
+        let [q, next, want] = [
+            row::<Q>(&recording.q, i),
+            row::<Q>(&recording.q, i + 1),
+            row::<Q>(&recording.integrated, i),
+        ];
+        let mut got = integrate(&T::MODEL, &q, &row::<V>(&recording.step, i));
+        for link in &T::MODEL.links {
+            // A quaternion and its negative are the same attitude.
+            if matches!(link.joint.kind, JointKind::Spherical | JointKind::Free) {
+                let at = link.q_at..link.q_at + 4;
+                let dot = at.clone().map(|k| got[k] * want[k]).sum::<f64>();
+                at.for_each(|k| got[k] *= dot.signum());
+            }
+        }
+        step.see(got, want);
+        let got = difference(&T::MODEL, &q, &next);
+        way.see(got, row::<V>(&recording.difference, i));
+    }
+    for worst in [step, way] {
+        verdict.check(&recording.robot, worst.quantity, "f64", worst.error);
+    }
+}
+
 /// The core against the recording, which is returned.
-fn core_of<T, const B: usize, const N: usize>(verdict: &mut Verdict) -> Recording
+fn core_of<T, const B: usize, const Q: usize, const V: usize>(verdict: &mut Verdict) -> Recording
 where
-    T: Robot<B, N, N>,
+    T: Robot<B, Q, V>,
 {
     let recording = load(T::MODEL.name);
     assert_eq!(
@@ -126,8 +166,8 @@ where
         export::robot(&T::MODEL),
         "the recording is of other numbers: run host-tests/oracle/record.py again"
     );
-    core::<f64, T, B, N>(&recording, verdict);
-    core::<f32, T, B, N>(&recording, verdict);
+    core::<f64, T, B, Q, V>(&recording, verdict);
+    core::<f32, T, B, Q, V>(&recording, verdict);
     recording
 }
 
@@ -136,9 +176,18 @@ fn both_of<T, const B: usize, const N: usize>(verdict: &mut Verdict)
 where
     T: Robot<B, N, N>,
 {
-    let recording = core_of::<T, B, N>(verdict);
+    let recording = core_of::<T, B, N, N>(verdict);
     engine::<f64, T, B, N>(&recording, verdict);
     engine::<f32, T, B, N>(&recording, verdict);
+}
+
+/// The core and the manifold of configurations against the recording.
+fn joints_of<T, const B: usize, const Q: usize, const V: usize>(verdict: &mut Verdict)
+where
+    T: Robot<B, Q, V>,
+{
+    let recording = core_of::<T, B, Q, V>(verdict);
+    manifold::<T, B, Q, V>(&recording, verdict);
 }
 
 #[test]
@@ -148,9 +197,19 @@ fn core_and_engine_agree_with_pinocchio_within_the_table() {
     both_of::<Panda, 7, 7>(&mut verdict);
     both_of::<Iiwa14, 7, 7>(&mut verdict);
     both_of::<A1, 16, 12>(&mut verdict);
-    core_of::<Gen3, 7, 7>(&mut verdict);
-    core_of::<XArm7, 7, 7>(&mut verdict);
-    core_of::<Z1, 7, 7>(&mut verdict);
-    core_of::<G1, 29, 29>(&mut verdict);
+    core_of::<XArm7, 7, 7, 7>(&mut verdict);
+    core_of::<Z1, 7, 7, 7>(&mut verdict);
+    core_of::<G1, 29, 29, 29>(&mut verdict);
+    assert!(verdict.0.is_empty(), "\n{}", verdict.0.join("\n"));
+}
+
+#[test]
+fn every_kind_of_joint_agrees_with_pinocchio_within_the_table() {
+    let mut verdict = Verdict(vec![]);
+    core_of::<Gen3, 7, 7, 7>(&mut verdict);
+    joints_of::<A1Free, 17, 19, 18>(&mut verdict);
+    joints_of::<G1Free, 30, 36, 35>(&mut verdict);
+    joints_of::<TreeA, 17, 35, 32>(&mut verdict);
+    joints_of::<TreeB, 17, 35, 32>(&mut verdict);
     assert!(verdict.0.is_empty(), "\n{}", verdict.0.join("\n"));
 }

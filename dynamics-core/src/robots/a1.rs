@@ -21,10 +21,10 @@ use crate::model::{BASE, Body, Joint, Limits, Model, Robot, on_root};
 ///
 /// # Changed
 ///
-/// The legs are written once and mirrored, since the source's four are exact mirror images. The trunk is
-/// omitted since it does not move, the IMU since its 1 g has the inertia of a placeholder, the shoulder links since they have no mass. The foot's inertia
-/// is 2/5 m r² of a 20 mm sphere, which the source prints as 9.600000000000001e-06. Limits are the degrees
-/// of the source's constants.
+/// The legs are written once and mirrored, since the source's four are exact mirror images. Omitted are the
+/// trunk since it does not move, the IMU (1 g, with the inertia of a placeholder), and the shoulder links
+/// since they have no mass. The foot's inertia is 2/5 m r² of a 20 mm sphere, which the source prints as
+/// 9.600000000000001e-06. Limits are the degrees of the source's constants.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct A1;
 

@@ -1,13 +1,14 @@
 //! Core and engine against Pinocchio, in f64 and f32, on every recorded state.
 
 use dynamics_core::configuration::{difference, integrate};
-use dynamics_core::effects::{Coriolis, Gravity, RIGID_BODY};
+use dynamics_core::effects::{Coriolis, Effect, Gravity, RIGID_BODY, RotorInertia};
 use dynamics_core::model::{JointKind, Robot};
 use dynamics_core::robots::{A1, A1Free, G1, G1Free, Gen3, Iiwa14, Panda, Ur5e, XArm7, Z1};
-use dynamics_core::scalar::Real;
+use dynamics_core::scalar::{Real, Vector};
+use dynamics_core::spatial::{Force, Motion};
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
-use host_tests::recordings::{Recording, full_scale, load, row};
+use host_tests::recordings::{Recording, columns, full_scale, load, row};
 use host_tests::trees::{TreeA, TreeB};
 use host_tests::{export, tolerances};
 
@@ -155,6 +156,77 @@ fn manifold<T, const B: usize, const Q: usize, const V: usize>(
     }
 }
 
+/// Recorded wrenches on the bodies.
+struct Wrenches<R, const B: usize>([[R; 6]; B]);
+
+impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Wrenches<R, B> {
+    const WRENCH: bool = true;
+    fn wrench(&self, body: usize, _: Motion<R>, fx: &mut Force<R>) {
+        let (ang, lin) = halves(self.0[body]);
+        *fx = Force::new(fx.ang + ang, fx.lin + lin);
+    }
+}
+
+/// A recorded motion of the base.
+struct BaseMotion<R>([R; 6], [R; 6]);
+
+impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for BaseMotion<R> {
+    const BASE_MOTION: bool = true;
+    fn base(&self, velocity: &mut Motion<R>, acceleration: &mut Motion<R>) {
+        for (at, add) in [(velocity, self.0), (acceleration, self.1)] {
+            let (ang, lin) = halves(add);
+            *at = Motion::new(at.ang + ang, at.lin + lin);
+        }
+    }
+}
+
+fn halves<R: Real>([a, b, c, d, e, f]: [R; 6]) -> (R::Vec3, R::Vec3) {
+    (R::Vec3::new(a, b, c), R::Vec3::new(d, e, f))
+}
+
+/// Forces on the bodies, a moving base and rotors against the recording.
+fn surroundings<R: Real, T, const B: usize, const Q: usize, const V: usize>(
+    recording: &Recording,
+    verdict: &mut Verdict,
+) where
+    T: Robot<B, Q, V>,
+{
+    let r = recording;
+    let answers = [
+        ("rnea with wrenches", &r.rnea_wrenches),
+        ("aba with wrenches", &r.aba_wrenches),
+        ("rnea on a moving base", &r.rnea_moving_base),
+        ("rnea with rotors", &r.rnea_armature),
+        ("aba with rotors", &r.aba_armature),
+    ];
+    let mut worst = answers.map(|(name, rows)| Worst::new(name, full_scale(rows)));
+    let (gravity, inertia, coriolis) = RIGID_BODY;
+    let rotors = std::array::from_fn(|k| R::from_f64(r.armature[k]));
+    let rotors = (gravity, inertia, coriolis, RotorInertia(rotors));
+    for i in 0..r.first_states() {
+        let (state, tau) = (state::<R, Q, V>(r, i), row::<V>(&r.tau, i).map(R::from_f64));
+        let fx = columns::<B>(&r.wrenches, i).map(|f| f.map(R::from_f64));
+        let loaded = (gravity, inertia, coriolis, Wrenches(fx));
+        let base = [&r.base_velocity, &r.base_acceleration];
+        let [v0, a0] = base.map(|rows| row::<6>(rows, i).map(R::from_f64));
+        let carried = (gravity, inertia, coriolis, BaseMotion(v0, a0));
+        let got = [
+            Core::<T>::rnea(&state, &loaded),
+            Core::<T>::aba(&state, &tau, &loaded).expect("M is positive"),
+            Core::<T>::rnea(&state, &carried),
+            Core::<T>::rnea(&state, &rotors),
+            Core::<T>::aba(&state, &tau, &rotors).expect("M is positive"),
+        ];
+        for ((worst, got), (_, rows)) in worst.iter_mut().zip(got).zip(answers) {
+            worst.see(got, row::<V>(rows, i));
+        }
+    }
+    let scalar = std::any::type_name::<R>();
+    for worst in worst {
+        verdict.check(&r.robot, worst.quantity, scalar, worst.error);
+    }
+}
+
 /// The core against the recording, which is returned.
 fn core_of<T, const B: usize, const Q: usize, const V: usize>(verdict: &mut Verdict) -> Recording
 where
@@ -211,5 +283,24 @@ fn every_kind_of_joint_agrees_with_pinocchio_within_the_table() {
     joints_of::<G1Free, 30, 36, 35>(&mut verdict);
     joints_of::<TreeA, 17, 35, 32>(&mut verdict);
     joints_of::<TreeB, 17, 35, 32>(&mut verdict);
+    assert!(verdict.0.is_empty(), "\n{}", verdict.0.join("\n"));
+}
+
+#[test]
+fn forces_on_bodies_a_moving_base_and_rotors_agree_with_pinocchio_within_the_table() {
+    fn both<T, const B: usize, const Q: usize, const V: usize>(verdict: &mut Verdict)
+    where
+        T: Robot<B, Q, V>,
+    {
+        let recording = load(T::MODEL.name);
+        surroundings::<f64, T, B, Q, V>(&recording, verdict);
+        surroundings::<f32, T, B, Q, V>(&recording, verdict);
+    }
+    let mut verdict = Verdict(vec![]);
+    both::<Panda, 7, 7, 7>(&mut verdict);
+    both::<A1, 16, 12, 12>(&mut verdict);
+    both::<G1Free, 30, 36, 35>(&mut verdict);
+    both::<TreeA, 17, 35, 32>(&mut verdict);
+    both::<TreeB, 17, 35, 32>(&mut verdict);
     assert!(verdict.0.is_empty(), "\n{}", verdict.0.join("\n"));
 }

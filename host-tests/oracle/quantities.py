@@ -160,12 +160,14 @@ def of_state(plant, q, qd, qdd, tau, next_q, more):
     close(robot, "torque of rotors", row["rnea_armature"], plain + rotors * qdd)
     close(robot, "acceleration with rotors", row["aba_armature"], solved, condition * 1e-14)
 
-    # The manifold of configurations; turns of a continuous joint are counted, but not in a difference.
+    # The manifold of configurations. Turns are counted, as Pinocchio's (cos, sin) cannot; but not in a
+    # difference, which goes the shorter way round.
     moved = order.q_back(pin.integrate(model, Q, order.v(more["step"])))
     difference = order.v_back(pin.difference(model, Q, order.q(next_q)))
     for kind, q_at, v_at in order.places():
-        if kind == "continuous":
+        if kind in ("continuous", "planar"):
             moved[q_at] = q[q_at] + more["step"][v_at]
+        if kind == "continuous":
             apart = next_q[q_at] - q[q_at]
             difference[v_at] = apart - 2 * np.pi * np.round(apart / (2 * np.pi))
     row["integrated"], row["difference"] = moved, difference

@@ -5,3 +5,4 @@ pub mod export;
 pub mod random;
 pub mod recordings;
 pub mod tolerances;
+pub mod trees;

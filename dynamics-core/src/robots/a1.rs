@@ -1,8 +1,8 @@
-//! Unitree A1 with its trunk held.
+//! Unitree A1 with its trunk held, and free.
 
 use core::f64::consts::PI;
 
-use crate::model::{BASE, Body, Joint, Limits, Model, Robot};
+use crate::model::{BASE, Body, Joint, Limits, Model, Robot, on_root};
 
 /// Unitree A1 quadruped with its trunk welded to the base: a tree of four equal legs, 12 revolute joints.
 ///
@@ -21,10 +21,10 @@ use crate::model::{BASE, Body, Joint, Limits, Model, Robot};
 ///
 /// # Changed
 ///
-/// The legs are written once and mirrored, since the source's four are exact mirror images. Trunk and
-/// IMU are omitted since they do not move, the shoulder links since they have no mass. The foot's inertia
-/// is 2/5 m r² of a 20 mm sphere, which the source prints as 9.600000000000001e-06. Limits are the degrees
-/// of the source's constants.
+/// The legs are written once and mirrored, since the source's four are exact mirror images. Omitted are the
+/// trunk since it does not move, the IMU (1 g, with the inertia of a placeholder), and the shoulder links
+/// since they have no mass. The foot's inertia is 2/5 m r² of a 20 mm sphere, which the source prints as
+/// 9.600000000000001e-06. Limits are the degrees of the source's constants.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct A1;
 
@@ -116,4 +116,21 @@ const LEGS: [Body; 16] = [
 
 impl Robot<16, 12, 12> for A1 {
     const MODEL: Model<f64, 16, 12, 12> = Model::new("a1", LEGS);
+}
+
+/// Unitree A1 on a free joint: the trunk of 6 kg, then the legs of [`A1`]; 17 bodies, 18 degrees of freedom.
+///
+/// Source and licence as [`A1`]; mujoco_menagerie gives the trunk 4.713 kg.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct A1Free;
+
+const TRUNK: Body = Body::new("trunk", BASE, Joint::free())
+    .mass(6.0)
+    .com([0.0, 0.0041, -0.0005])
+    .inertia([
+        0.0158533, -0.0000366, -0.0000611, 0.0377999, -0.0000275, 0.0456542,
+    ]);
+
+impl Robot<17, 19, 18> for A1Free {
+    const MODEL: Model<f64, 17, 19, 18> = Model::new("a1_free", on_root(TRUNK, &LEGS));
 }

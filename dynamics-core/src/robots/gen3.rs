@@ -47,7 +47,7 @@ impl Robot<7, 7, 7> for Gen3 {
     const MODEL: Arm<f64, 7> = Model::new(
         "gen3",
         [
-            Body::new("shoulder", BASE, Joint::revolute(Z))
+            Body::new("shoulder", BASE, Joint::continuous(Z))
                 .xyz([0.0, 0.0, 0.15643])
                 .quarter_turns([2, 0, 0])
                 .mass(1.3773)
@@ -61,7 +61,7 @@ impl Robot<7, 7, 7> for Gen3 {
                 .com([-4.4e-5, -0.09958, -0.013278])
                 .inertia([0.011088, 5e-6, 0.0, 0.001072, -0.000691, 0.011255])
                 .limits(large(2.41)),
-            Body::new("half_arm_2", 1, Joint::revolute(Z))
+            Body::new("half_arm_2", 1, Joint::continuous(Z))
                 .xyz([0.0, -0.21038, -0.006375])
                 .quarter_turns([-1, 0, 0])
                 .mass(1.1636)
@@ -75,7 +75,7 @@ impl Robot<7, 7, 7> for Gen3 {
                 .com([-1.8e-5, -0.075478, -0.015006])
                 .inertia([0.008147, -1e-6, 0.0, 0.000631, -0.0005, 0.008316])
                 .limits(large(2.66)),
-            Body::new("wrist_1", 3, Joint::revolute(Z))
+            Body::new("wrist_1", 3, Joint::continuous(Z))
                 .xyz([0.0, -0.20843, -0.006375])
                 .quarter_turns([-1, 0, 0])
                 .mass(0.6781)
@@ -89,7 +89,7 @@ impl Robot<7, 7, 7> for Gen3 {
                 .com([1e-6, -0.045483, -0.00965])
                 .inertia([0.001641, 0.0, 0.0, 0.00041, -0.000278, 0.001641])
                 .limits(small(2.23)),
-            Body::new("bracelet", 5, Joint::revolute(Z))
+            Body::new("bracelet", 5, Joint::continuous(Z))
                 .xyz([0.0, -0.10593, -0.00017505])
                 .quarter_turns([-1, 0, 0])
                 .mass(0.5)

@@ -1,8 +1,8 @@
-//! Unitree G1 with its pelvis held.
+//! Unitree G1 with its pelvis held, and free.
 
 mod limbs;
 
-use crate::model::{Arm, BASE, Body, Joint, Model, Robot};
+use crate::model::{Arm, BASE, Body, Joint, Model, Robot, on_root};
 use limbs::{arm, leg, waist};
 
 /// Unitree G1 humanoid with its pelvis welded to the base: 29 revolute joints (6 a leg, 3 in the waist,
@@ -83,4 +83,18 @@ const LIMBS: [Body; 29] = {
 
 impl Robot<29, 29, 29> for G1 {
     const MODEL: Arm<f64, 29> = Model::new("g1", LIMBS);
+}
+
+/// Unitree G1 on a free joint: the pelvis of 3.8 kg, then the limbs of [`G1`]; 30 bodies, 35 degrees of
+/// freedom, 33.3 kg. Source and licence as [`G1`].
+#[derive(Clone, Copy, Debug, Default)]
+pub struct G1Free;
+
+const PELVIS: Body = Body::new("pelvis", BASE, Joint::free())
+    .mass(3.813)
+    .com([0.0, 0.0, -0.07605])
+    .inertia([0.010549, 0.0, 2.1e-6, 0.0093089, 0.0, 0.0079184]);
+
+impl Robot<30, 36, 35> for G1Free {
+    const MODEL: Model<f64, 30, 36, 35> = Model::new("g1_free", on_root(PELVIS, &LIMBS));
 }

@@ -213,7 +213,7 @@ pub(crate) const fn carries<T, const B: usize, const Q: usize, const V: usize>(
 where
     T: Robot<B, Q, V>,
 {
-    j < V && Prepared::<T, B, Q, V>::TREE.joints[j].parent == i
+    j < V && Prepared::<T, B, Q, V>::PARENTS[j] == i
 }
 
 /// Whether joint `j` stands on the base.

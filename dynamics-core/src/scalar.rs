@@ -65,6 +65,10 @@ pub trait Real:
     fn sqrt(self) -> Self;
     /// The angle of the point (x, self) from the x axis, rad, within ±π. Never in the control tick.
     fn atan2(self, x: Self) -> Self;
+    /// The distance from 1 to the next number.
+    const EPSILON: Self;
+    /// 1/√x of a positive normal number, within 2 ulp; no division, the same instructions for every x.
+    fn per_sqrt(self) -> Self;
     /// |x|.
     fn abs(self) -> Self;
     /// Neither infinite nor NaN.
@@ -145,7 +149,7 @@ pub trait Matrix<R: Real>:
 }
 
 macro_rules! real {
-    ($r:ident, $whole:ident, $vec:path, $mat:path, $sin_cos:expr, $near:expr, $sqrt:expr, $atan2:expr, |$double:ident, $single:ident| $pick:ident) => {
+    ($r:ident, $whole:ident, $vec:path, $mat:path, $sin_cos:expr, $near:expr, $sqrt:expr, $atan2:expr, $magic:literal, $steps:literal, |$double:ident, $single:ident| $pick:ident) => {
         impl Real for $r {
             type Vec3 = $vec;
             type Mat3 = $mat;
@@ -175,6 +179,17 @@ macro_rules! real {
             #[inline]
             fn atan2(self, x: Self) -> Self {
                 $atan2(self, x)
+            }
+            const EPSILON: Self = <$r>::EPSILON;
+            #[inline(always)]
+            fn per_sqrt(self) -> Self {
+                // Halves the exponent, then Newton's iteration for 1/y² = x.
+                let mut y = <$r>::from_bits($magic - (self.to_bits() >> 1));
+                let half = 0.5 * self;
+                for _ in 0..$steps {
+                    y += y * (0.5 - half * y * y);
+                }
+                y
             }
             #[inline(always)]
             fn abs(self) -> Self {
@@ -260,6 +275,8 @@ real!(
     crate::trig::sin_cos_near,
     libm::sqrtf,
     libm::atan2f,
+    0x5f37_59df,
+    3,
     |double, single| single
 );
 real!(
@@ -271,5 +288,7 @@ real!(
     crate::trig::sin_cos_f64,
     libm::sqrt,
     libm::atan2,
+    0x5fe6_eb50_c7b5_37a9,
+    4,
     |double, single| double
 );

@@ -1,10 +1,20 @@
 //! The algorithms, one a file, for every tree and joint.
 
 mod aba;
+mod cholesky;
+mod crba;
 mod error;
+mod factor;
+mod forward;
 mod handed;
+mod hybrid;
 mod rnea;
 
 pub use aba::{aba, aba_at};
+pub use cholesky::{Cholesky, cholesky};
+pub use crba::{crba, crba_at};
 pub use error::NotPositiveDefinite;
+pub use factor::{factor, inverse, solve};
+pub use forward::{forward, forward_at};
+pub use hybrid::{Given, Response, hybrid, hybrid_at};
 pub use rnea::{rnea, rnea_at};

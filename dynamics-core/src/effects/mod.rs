@@ -31,7 +31,9 @@ pub use rigid::{Coriolis, Inertia, RIGID_BODY};
 pub use rotor::RotorInertia;
 pub use viscous::Viscous;
 
-pub(crate) use hooks::{base_motion, body_inertia, body_wrench, joint_losses, joint_torques};
+pub(crate) use hooks::{
+    base_given, base_motion, body_inertia, body_wrench, joint_losses, joint_torques,
+};
 
 use crate::scalar::Real;
 use crate::spatial::{Force, Motion, SpatialInertia};

@@ -1,5 +1,8 @@
 //! The algorithms of a robot known at compile time, in their textbook form.
 
+mod kinematics;
+mod momentum;
+
 use core::marker::PhantomData;
 
 use crate::algorithms::{self, NotPositiveDefinite};

@@ -14,14 +14,26 @@ pub(crate) fn base_motion<R: Real, E, const B: usize, const V: usize>(
 where
     E: Effect<R, B, V>,
 {
-    let (mut v, mut a, mut g) = (Motion::ZERO, Motion::ZERO, R::Vec3::ZERO);
+    let mut g = R::Vec3::ZERO;
     effects.field(&mut g);
-    if E::BASE_MOTION {
-        effects.base(&mut v, &mut a);
-        a.lin -= g;
-    } else {
-        a.lin = -g;
+    if !E::BASE_MOTION {
+        return (Motion::ZERO, Motion::new(R::Vec3::ZERO, -g));
     }
+    let (v, mut a) = base_given(effects);
+    a.lin -= g;
+    (v, a)
+}
+
+/// v₀ and a₀ of the base.
+#[inline(always)]
+pub(crate) fn base_given<R: Real, E, const B: usize, const V: usize>(
+    effects: &E,
+) -> (Motion<R>, Motion<R>)
+where
+    E: Effect<R, B, V>,
+{
+    let (mut v, mut a) = (Motion::ZERO, Motion::ZERO);
+    effects.base(&mut v, &mut a);
     (v, a)
 }
 

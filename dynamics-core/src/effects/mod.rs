@@ -35,7 +35,9 @@ pub use rotor::RotorInertia;
 pub use seen::{BodyState, JointState, Slopes};
 pub use viscous::Viscous;
 
-pub(crate) use hooks::{base_motion, body_inertia, body_wrench, joint_loss, joint_torques};
+pub(crate) use hooks::{
+    base_given, base_motion, body_inertia, body_wrench, joint_loss, joint_torques,
+};
 
 use crate::scalar::Real;
 use crate::spatial::{Force, Motion, SpatialInertia};

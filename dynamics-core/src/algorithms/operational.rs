@@ -1,0 +1,147 @@
+//! Operational space: the inertia that a task feels, and torques that leave it alone.
+//!
+//! Khatib, "A unified approach for motion and force control of robot manipulators: the operational
+//! space formulation" (1987): Λ = (J M⁻¹ Jᵀ)⁻¹, J̄ = M⁻¹ Jᵀ Λ, τ = Jᵀ F + (1 − Jᵀ J̄ᵀ) τ₀.
+
+use super::damped::{Conditioning, Damping, damped_inverse};
+use crate::scalar::Real;
+use crate::spatial::{Force, Motion};
+
+/// The rows of a task's Jacobian: the rates of M directions of a body, given as forces, from the columns of
+/// that body's [`super::jacobian`] in the same frame.
+///
+/// A direction is the force that a unit of the task's coordinate pushes with; its rate is their power
+/// v·f. Unit forces along the axes give velocities in m/s, unit couples rates in rad/s; a couple of
+/// 1/l gives the velocity at the radius l, which makes turns comparable to lengths. 11 M flops a
+/// coordinate.
+///
+/// ```
+/// use dynamics_core::{Core, algorithms::{frame, task_rows}, robots::Ur5e, spatial::Force};
+/// use glam::Vec3;
+/// let j = Core::<Ur5e>::jacobian(&[0.1_f32; 6], 5, frame::Mixed);
+/// let [height] = task_rows(&j, &[Force::new(Vec3::ZERO, Vec3::Z)]);
+/// assert!(height[0].abs() < 1e-7); // a turn about the vertical lifts nothing
+/// ```
+#[inline(always)]
+pub fn task_rows<R: Real, const M: usize, const V: usize>(
+    jacobian: &[Motion<R>; V],
+    directions: &[Force<R>; M],
+) -> [[R; V]; M] {
+    directions.map(|direction| jacobian.map(|column| column.dot(direction)))
+}
+
+/// A task of M coordinates on a robot of V, at one configuration.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OperationalSpace<R, const M: usize, const V: usize> {
+    /// J by rows: ẋ = J q̇.
+    pub jacobian: [[R; V]; M],
+    /// M⁻¹ Jᵀ by columns: the accelerations q̈ that a unit of each task force gives.
+    pub response: [[R; V]; M],
+    /// Λ⁻¹ = J M⁻¹ Jᵀ.
+    pub mobility: [[R; M]; M],
+    /// Λ, damped near singularities: the task force F = Λ ẍ.
+    pub inertia: [[R; M]; M],
+    /// Whether it had to be damped.
+    pub conditioning: Conditioning<R>,
+}
+
+impl<R: Real, const M: usize, const V: usize> OperationalSpace<R, M, V> {
+    /// From the task's Jacobian, by rows, and M⁻¹, as whatever solves M x = τ: the factors of core or
+    /// engine.
+    ///
+    /// Cost: M solutions, 2 M² V flops, and the inverse. Errors:
+    /// none; at a singular pose all is finite, and `conditioning` says so. Source: Khatib (1987), (18).
+    ///
+    /// ```
+    /// use dynamics_core::{Core, Engine, effects::RIGID_BODY, robots::Ur5e, spatial::Force};
+    /// use dynamics_core::algorithms::{Conditioning, Damping, OperationalSpace, frame, task_rows};
+    /// use glam::Vec3;
+    /// let q = [0.0_f32, -1.2, 1.5, 0.3, 0.7, 0.0];
+    /// let factor = Engine::<Ur5e>::factor(&Engine::<Ur5e>::crba(&q, &RIGID_BODY))?;
+    /// let place = [Vec3::X, Vec3::Y, Vec3::Z].map(|axis| Force::new(Vec3::ZERO, axis));
+    /// let rows = task_rows(&Core::<Ur5e>::jacobian(&q, 5, frame::Mixed), &place);
+    /// let solve = |tau: &_| Engine::<Ur5e>::solve(&factor, tau);
+    /// let task = OperationalSpace::new(rows, solve, Damping::relative(1e-3));
+    /// assert_eq!(task.conditioning, Conditioning::Regular);
+    /// assert!(task.inertia[2][2] > 1.0); // kg that the hand feels vertically
+    /// # Ok::<(), dynamics_core::algorithms::NotPositiveDefinite>(())
+    /// ```
+    #[inline(always)]
+    pub fn new(
+        jacobian: [[R; V]; M],
+        solve: impl Fn(&[R; V]) -> [R; V],
+        damping: Damping<R>,
+    ) -> Self {
+        let mut response = [[R::ZERO; V]; M];
+        for (response, row) in response.iter_mut().zip(&jacobian) {
+            *response = solve(row);
+        }
+        let mut mobility = [[R::ZERO; M]; M];
+        for (i, response) in response.iter().enumerate() {
+            // The lower triangle, and with it the upper one: the inverse is then symmetric to the last bit.
+            for (j, row) in jacobian.iter().enumerate().take(i + 1) {
+                let x = dot(row, response);
+                mobility[i][j] = x;
+                mobility[j][i] = x;
+            }
+        }
+        let (inertia, conditioning) = damped_inverse(&mobility, damping);
+        Self {
+            jacobian,
+            response,
+            mobility,
+            inertia,
+            conditioning,
+        }
+    }
+
+    /// F = Λ ẍ: the task force of a task acceleration. 2 M² flops.
+    #[inline(always)]
+    pub fn force(&self, acceleration: &[R; M]) -> [R; M] {
+        self.inertia.map(|row| dot(&row, acceleration))
+    }
+
+    /// τ = Jᵀ F: the torques of a task force, N·m or N. 2 M V flops.
+    #[inline(always)]
+    pub fn torque(&self, force: &[R; M]) -> [R; V] {
+        combine(&self.jacobian, force)
+    }
+
+    /// J̄ = M⁻¹ Jᵀ Λ by columns: the dynamically consistent inverse of J, whose q̇ = J̄ ẋ has the least
+    /// kinetic energy. 2 M² V flops. Khatib (1987), (37).
+    #[inline(always)]
+    pub fn consistent_inverse(&self) -> [[R; V]; M] {
+        self.inertia.map(|row| combine(&self.response, &row))
+    }
+
+    /// (1 − Jᵀ J̄ᵀ) τ₀: of some torques the part that does not accelerate the task. Khatib (1987), (53).
+    ///
+    /// Where Λ is damped, some acceleration along the damped direction remains. 4 M V + 2 M² flops.
+    #[inline(always)]
+    pub fn unseen(&self, tau: &[R; V]) -> [R; V] {
+        let seen = self.force(&self.response.map(|response| dot(&response, tau)));
+        let mut unseen = self.torque(&seen);
+        for (unseen, &tau) in unseen.iter_mut().zip(tau) {
+            *unseen = tau - *unseen;
+        }
+        unseen
+    }
+}
+
+#[inline(always)]
+fn dot<R: Real, const N: usize>(a: &[R; N], b: &[R; N]) -> R {
+    let products = a.iter().zip(b).map(|(&a, &b)| a * b);
+    products.fold(R::ZERO, |sum, product| sum + product)
+}
+
+/// Σ rows × weights.
+#[inline(always)]
+fn combine<R: Real, const M: usize, const V: usize>(rows: &[[R; V]; M], by: &[R; M]) -> [R; V] {
+    let mut sum = [R::ZERO; V];
+    for (row, &by) in rows.iter().zip(by) {
+        for (sum, &x) in sum.iter_mut().zip(row) {
+            *sum += x * by;
+        }
+    }
+    sum
+}

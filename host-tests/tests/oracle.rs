@@ -1,7 +1,7 @@
 //! Core and engine against Pinocchio, in f64 and f32, on every recorded state.
 
 use dynamics_core::configuration::{difference, integrate};
-use dynamics_core::effects::{Coriolis, Effect, Gravity, RIGID_BODY, RotorInertia};
+use dynamics_core::effects::{BodyState, Coriolis, Effect, Gravity, RIGID_BODY, RotorInertia};
 use dynamics_core::model::{JointKind, Robot};
 use dynamics_core::robots::{A1, A1Free, G1, G1Free, Gen3, Iiwa14, Panda, Ur5e, XArm7, Z1};
 use dynamics_core::scalar::{Real, Vector};
@@ -161,7 +161,7 @@ struct Wrenches<R, const B: usize>([[R; 6]; B]);
 
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Wrenches<R, B> {
     const WRENCH: bool = true;
-    fn wrench(&self, body: usize, _: Motion<R>, fx: &mut Force<R>) {
+    fn wrench(&self, body: usize, _: &BodyState<R>, fx: &mut Force<R>) {
         let (ang, lin) = halves(self.0[body]);
         *fx = Force::new(fx.ang + ang, fx.lin + lin);
     }

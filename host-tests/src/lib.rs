@@ -2,5 +2,6 @@
 //! as those oracles are given them.
 
 pub mod export;
+pub mod odd;
 pub mod recordings;
 pub mod tolerances;

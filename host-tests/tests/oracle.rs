@@ -54,7 +54,8 @@ where
     let mut full = ["rnea", "engine rnea"].map(|q| Worst::new(q, scale.rnea));
     let mut gravity = ["gravity", "engine gravity"].map(|q| Worst::new(q, scale.gravity));
     let mut bias = ["bias", "engine bias"].map(|q| Worst::new(q, scale.bias));
-    let mut forward = Worst::new("aba", scale.aba);
+    let mut forward = ["aba", "engine aba", "engine forward"].map(|q| Worst::new(q, scale.aba));
+    let mut matrix = Worst::new("engine crba", scale.mass_matrix);
     assert!(recording.q.len() > 200);
     for i in 0..recording.q.len() {
         let cast = |rows| row::<N>(rows, i).map(R::from_f64);
@@ -72,11 +73,28 @@ where
         let (want, scene) = (row::<N>(&recording.bias, i), (Gravity::EARTH, Coriolis));
         bias[0].see(Core::<T>::rnea(&state, &scene), want);
         bias[1].see(Engine::<T>::rnea(&state, &scene), want);
-        let qdd = Core::<T>::aba(&state, &cast(&recording.tau), &RIGID_BODY);
-        forward.see(qdd.expect("M is positive"), row::<N>(&recording.aba, i));
+        let (want, tau) = (row::<N>(&recording.aba, i), cast(&recording.tau));
+        let accelerations = [
+            Core::<T>::aba(&state, &tau, &RIGID_BODY),
+            Engine::<T>::aba(&state, &tau, &RIGID_BODY),
+            Engine::<T>::forward(&state, &tau, &RIGID_BODY),
+        ];
+        for (worst, qdd) in forward.iter_mut().zip(accelerations) {
+            worst.see(qdd.expect("M is positive"), want);
+        }
+        if let Some(triangle) = recording.mass_matrix.get(i) {
+            let m = Engine::<T>::crba(&state.q, &RIGID_BODY);
+            let mut triangle = triangle.iter();
+            for i in 0..N {
+                for j in i..N {
+                    let want = *triangle.next().expect("a triangle of N");
+                    matrix.see([m.get(i, j), m.get(j, i)], [want; 2]);
+                }
+            }
+        }
     }
     let scalar = std::any::type_name::<R>();
-    for worst in full.iter().chain(&gravity).chain(&bias).chain([&forward]) {
+    for worst in full.iter().chain(&gravity).chain(&bias).chain(&forward).chain([&matrix]) {
         verdict.check(&recording.robot, worst.quantity, scalar, worst.error);
     }
 }

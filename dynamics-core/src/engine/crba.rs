@@ -97,7 +97,11 @@ where
     });
     column::<R, T, E, B, Q, V, I>(task, &body);
     let per_length = Known::constant(const { 1.0 / Prepared::<T, B, Q, V>::TREE.length });
-    body.handed_down(joint, task.turns[I], Known::any(task.turns[I].q) * per_length)
+    body.handed_down(
+        joint,
+        task.turns[I],
+        Known::any(task.turns[I].q) * per_length,
+    )
 }
 
 /// Column I of M: the wrench of joint I's unit acceleration, felt at each joint down to the base.

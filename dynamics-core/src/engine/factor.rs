@@ -150,9 +150,7 @@ pub(crate) fn substitute<R: Real, T, const B: usize, const Q: usize, const V: us
 
 /// Whether the reciprocals of all pivots are positive and finite; the same instructions if they are.
 #[inline(always)]
-pub(crate) fn positive<R: Real, const V: usize>(
-    per_d: &[R; V],
-) -> Result<(), NotPositiveDefinite> {
+pub(crate) fn positive<R: Real, const V: usize>(per_d: &[R; V]) -> Result<(), NotPositiveDefinite> {
     // Products of finite numbers with zero add up to zero, others to NaN, which nothing exceeds.
     let mut zero = R::ZERO;
     for_each_joint!(J, {

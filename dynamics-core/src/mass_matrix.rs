@@ -36,6 +36,64 @@ impl<R: Real, const V: usize> MassMatrix<R, V> {
     pub fn row(&self, i: usize) -> Option<&[R; V]> {
         self.rows.get(i)
     }
+
+    /// M x: torques of accelerations, N·m or N of rad/s² or m/s². 2 V² − V flops.
+    pub fn mul_vec(&self, x: &[R; V]) -> [R; V] {
+        self.rows.map(|row| {
+            let products = row.iter().zip(x).map(|(&m, &x)| m * x);
+            products.fold(R::ZERO, |sum, product| sum + product)
+        })
+    }
+
+    /// M + diag(d): with d = h b, what an implicit step of h s solves with under a damping of b.
+    ///
+    /// ```
+    /// use dynamics_core::algorithms::{factor, forward, rnea, solve};
+    /// use dynamics_core::effects::{Coriolis, Gravity, Inertia, Viscous};
+    /// use dynamics_core::{Core, model::Robot, robots::Ur5e, state::State};
+    ///
+    /// // A damping so stiff that an explicit step of 10 ms overshoots: q̇ is thrown back beyond zero.
+    /// let (h, b) = (0.01, [200.0_f64; 6]);
+    /// let scene = (Gravity::EARTH, Inertia, Coriolis, Viscous(b));
+    /// let state = State { qd: [0.1; 6], ..State::at([0.0, -1.2, 1.5, 0.3, 0.0, 0.0]) };
+    /// let tau = [0.0; 6];
+    /// let explicit = forward(&Ur5e::MODEL, &state, &tau, &scene)?;
+    /// assert!(state.qd[5] + h * explicit[5] < -100.0);
+    ///
+    /// // (M + h b) q̈ = τ − C(q, q̇) − b q̇ takes the damping at the end of the step: q̇ dies out.
+    /// let bias = rnea(&Ur5e::MODEL, &state, &scene); // its q̈ is zero
+    /// let m = Core::<Ur5e>::crba(&state.q, &scene).plus_diagonal(&b.map(|b| h * b));
+    /// let rest = core::array::from_fn(|i| tau[i] - bias[i]);
+    /// let implicit = solve(&Ur5e::MODEL, &factor(&Ur5e::MODEL, &m)?, &rest);
+    /// assert!((state.qd[5] + h * implicit[5]).abs() < 0.1);
+    /// # Ok::<(), dynamics_core::algorithms::NotPositiveDefinite>(())
+    /// ```
+    #[must_use]
+    pub fn plus_diagonal(mut self, d: &[R; V]) -> Self {
+        for (i, &d) in d.iter().enumerate() {
+            if let Some(diagonal) = self.diagonal_mut(i) {
+                *diagonal += d;
+            }
+        }
+        self
+    }
+
+    /// Sets M_ij and M_ji.
+    #[inline(always)]
+    pub(crate) fn set(&mut self, i: usize, j: usize, value: R) {
+        if let Some(entry) = self.rows.get_mut(i).and_then(|row| row.get_mut(j)) {
+            *entry = value;
+        }
+        if let Some(entry) = self.rows.get_mut(j).and_then(|row| row.get_mut(i)) {
+            *entry = value;
+        }
+    }
+
+    /// M_ii.
+    #[inline(always)]
+    pub(crate) fn diagonal_mut(&mut self, i: usize) -> Option<&mut R> {
+        self.rows.get_mut(i).and_then(|row| row.get_mut(i))
+    }
 }
 
 /// M = Lᵀ D L: L lower triangular with a unit diagonal, D diagonal and positive.

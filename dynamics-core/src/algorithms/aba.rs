@@ -1,39 +1,23 @@
 //! Forward dynamics: the articulated-body algorithm in link coordinates.
 //!
 //! Featherstone, RBDA (2008), table 7.1; Featherstone & Orin (2000), section 3.2. A joint of several
-//! degrees of freedom is eliminated a coordinate at a time, which is the same as by its block D.
+//! degrees of freedom is eliminated a coordinate at a time, which is the same as by its block D. Where
+//! [`hybrid`](super::hybrid()) prescribes a coordinate's motion, RBDA section 9.2, nothing is eliminated.
 
 use heapless::Vec;
 
-use super::NotPositiveDefinite;
 use super::handed::Handed;
+use super::{Given, NotPositiveDefinite, Response};
 use crate::articulated::ArticulatedInertia;
-use crate::effects::{Effect, base_motion, body_inertia, body_wrench, joint_losses};
+use crate::effects::{Effect, base_motion, body_inertia, body_wrench, joint_loss};
 use crate::model::{Description, Node};
 use crate::scalar::Real;
 use crate::spatial::{Force, Motion, Xform};
 use crate::state::{Posture, State, entry};
 
-/// What one pass leaves for the next.
-struct Body<'a, R: Real> {
-    node: Node<'a, R>,
-    x: Xform<R>,
-    c: Motion<R>,
-    ia: ArticulatedInertia<R>,
-    pa: Force<R>,
-}
-
-/// A coordinate on its own: U, 1/D and u.
-#[derive(Clone, Copy, Default)]
-struct Handle<R: Real> {
-    u_hat: Force<R>,
-    per_d: R,
-    u: R,
-}
-
 /// q̈ = FD(q, q̇, τ): the acceleration of each joint, rad/s² or m/s², under the effects named.
 ///
-/// Shape: V. Cost: O(B); some 700 flops a revolute joint. `state.qdd` is not read. Source: Featherstone (1983; RBDA table 7.1).
+/// Shape: V. Cost: O(B); some 560 flops a revolute joint. `state.qdd` is not read. Source: Featherstone (1983; RBDA table 7.1).
 /// A scene without `Inertia` does not compile:
 ///
 /// ```compile_fail
@@ -74,6 +58,40 @@ where
     D: Description<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
+    let given = |joint| Given::Torque(entry(tau, joint));
+    Ok(sweep(robot, posture, state, effects, given)?.qdd)
+}
+
+/// What one pass leaves for the next.
+struct Body<'a, R: Real> {
+    node: Node<'a, R>,
+    x: Xform<R>,
+    c: Motion<R>,
+    ia: ArticulatedInertia<R>,
+    pa: Force<R>,
+}
+
+/// A coordinate on its own: U, 1/D and u; where its motion is prescribed, only U and sᵀ pᴬ.
+#[derive(Clone, Copy, Default)]
+struct Handle<R: Real> {
+    u_hat: Force<R>,
+    per_d: R,
+    u: R,
+}
+
+/// The three passes; each coordinate's torque or its acceleration is `given`.
+#[inline(always)]
+pub(super) fn sweep<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
+    robot: &D,
+    posture: &Posture<R, Q>,
+    state: &State<R, Q, V>,
+    effects: &E,
+    given: impl Fn(usize) -> Given<R>,
+) -> Result<Response<R, V>, NotPositiveDefinite>
+where
+    D: Description<R, B, Q, V>,
+    E: Effect<R, B, V>,
+{
     const {
         assert!(
             E::ACCELERATIONS,
@@ -85,14 +103,17 @@ where
 
     let mut v = Handed::<_, B>::from(v_0);
     let mut bodies: Vec<Body<'_, R>, B> = Vec::new();
-    for (i, node) in robot.nodes().enumerate() {
+    for i in 0..B {
+        let Some(node) = robot.node(i) else {
+            break;
+        };
         let x = node.xform(turns);
         let v_i = node.plus_motion(x * v.by(D::CHAIN, node.parent), turns, &state.qd);
         let inertia = body_inertia(effects, i, &node);
         let (mut c, mut pa) = (Motion::ZERO, Force::ZERO);
         if E::VELOCITY_PRODUCTS {
             c = node.plus_velocity_product(Motion::ZERO, turns, &state.qd, v_i);
-            pa = v_i.cross_force(inertia * v_i);
+            pa = inertia.force(Motion::ZERO, v_i); // v ×* I v
         }
         if E::WRENCH {
             pa -= body_wrench(effects, i, &node, v_i);
@@ -103,48 +124,64 @@ where
     }
 
     let mut handles = [Handle::default(); V];
-    let losses = joint_losses(effects, robot, state);
     let mut inner = bodies.as_mut_slice();
     while let Some((body, rest)) = core::mem::take(&mut inner).split_last_mut() {
         let (mut ia, mut pa) = (body.ia, body.pa);
         for (k, joint) in body.node.coordinates().enumerate().rev() {
-            let s = body.node.column(turns, k);
-            let u_hat = ia * s;
-            let mut d = s.dot(u_hat);
-            effects.inertia(joint, &mut d);
-            // One comparison that a NaN fails too.
-            if !(d > R::ZERO && d.is_finite()) {
-                return Err(NotPositiveDefinite { joint });
-            }
-            let per_d = R::ONE / d;
-            let u = entry(tau, joint) - entry(&losses, joint) - s.dot(pa);
-            ia = ia.minus_outer(u_hat, per_d);
-            pa += u_hat * (u * per_d);
-            if let Some(handle) = handles.get_mut(joint) {
-                *handle = Handle { u_hat, per_d, u };
+            let s = body.node.axis(turns, k);
+            let u_hat = ia.along(&s);
+            let handle = match given(joint) {
+                Given::Torque(tau) => {
+                    let mut d = s.dot(u_hat);
+                    effects.inertia(joint, &mut d);
+                    // One comparison that a NaN fails too.
+                    if !(d > R::ZERO && d.is_finite()) {
+                        return Err(NotPositiveDefinite { joint });
+                    }
+                    let per_d = R::ONE / d;
+                    let u = tau - joint_loss(effects, &body.node, state, joint) - s.dot(pa);
+                    ia = ia.minus_outer(u_hat, per_d);
+                    pa += u_hat * (u * per_d);
+                    Handle { u_hat, per_d, u }
+                }
+                Given::Acceleration(qdd) => {
+                    let (per_d, u) = (R::ZERO, s.dot(pa));
+                    pa += u_hat * qdd;
+                    Handle { u_hat, per_d, u }
+                }
+            };
+            if let Some(place) = handles.get_mut(joint) {
+                *place = handle;
             }
         }
         if let Some(parent) = rest.get_mut(body.node.parent) {
-            pa += ia * body.c;
+            pa += ia.times(body.c);
             parent.ia += ia.at_parent(&body.x);
             parent.pa += body.x.transpose_mul(pa);
         }
         inner = rest;
     }
 
-    let mut qdd = [R::ZERO; V];
+    let mut response = Response::ZERO;
     let mut a = Handed::<_, B>::from(a_0);
     for body in &bodies {
         let mut a_i = body.x * a.by(D::CHAIN, body.node.parent) + body.c;
         for (k, joint) in body.node.coordinates().enumerate() {
             let Handle { u_hat, per_d, u } = entry(&handles, joint);
-            let qdd_k = (u - a_i.dot(u_hat)) * per_d;
-            a_i += body.node.column(turns, k) * qdd_k;
-            if let Some(qdd) = qdd.get_mut(joint) {
-                *qdd = qdd_k;
-            }
+            let s = body.node.axis(turns, k);
+            let (tau, qdd) = match given(joint) {
+                Given::Torque(tau) => (tau, (u - a_i.dot(u_hat)) * per_d),
+                Given::Acceleration(qdd) => {
+                    let (mut tau, mut rotor) = (a_i.dot(u_hat) + s.dot(u_hat) * qdd + u, R::ZERO);
+                    effects.inertia(joint, &mut rotor);
+                    tau += rotor * qdd + joint_loss(effects, &body.node, state, joint);
+                    (tau, qdd)
+                }
+            };
+            a_i = s.raise(a_i, qdd);
+            response.set(joint, tau, qdd);
         }
         a.push(D::CHAIN, a_i);
     }
-    Ok(qdd)
+    Ok(response)
 }

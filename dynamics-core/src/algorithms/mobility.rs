@@ -102,7 +102,7 @@ struct Handle<R: Real> {
 /// Λ⁻¹ of `body` in a [`Frame`]: J M⁻¹ Jᵀ without J or M.
 ///
 /// Inertias of joints and a payload that the effects name count. Zero for a body that there is not.
-/// Cost: O(B); some 480 flops a revolute joint, and 390 more a joint that carries the body. Source: the
+/// Cost: O(B); some 390 flops a revolute joint, and 390 more a joint that carries the body. Source: the
 /// module's.
 ///
 /// ```
@@ -196,8 +196,8 @@ where
         };
         let mut ia = *body;
         for (k, joint) in node.coordinates().enumerate().rev() {
-            let s = node.column(turns, k);
-            let u_hat = ia * s;
+            let s = node.axis(turns, k);
+            let u_hat = ia.along(&s);
             let mut d = s.dot(u_hat);
             effects.inertia(joint, &mut d);
             // One comparison that a NaN fails too.

@@ -2,11 +2,16 @@
 
 mod aba;
 mod centroidal;
+mod cholesky;
+mod crba;
 mod damped;
 mod energy;
 mod error;
+mod factor;
+mod forward;
 pub mod frame;
 mod handed;
+mod hybrid;
 mod jacobian;
 mod kinematics;
 mod mobility;
@@ -18,10 +23,15 @@ pub use aba::{aba, aba_at};
 pub use centroidal::{
     centroidal_matrix, centroidal_matrix_at, centroidal_momentum, centroidal_momentum_at,
 };
+pub use cholesky::{Cholesky, cholesky};
+pub use crba::{crba, crba_at};
 pub use damped::{Conditioning, Damping, damped_inverse};
 pub use energy::{kinetic_energy, kinetic_energy_at, potential_energy, potential_energy_at};
 pub use error::NotPositiveDefinite;
+pub use factor::{factor, inverse, solve};
+pub use forward::{forward, forward_at};
 pub use frame::{Frame, Pose, classical};
+pub use hybrid::{Given, Response, hybrid, hybrid_at};
 pub use jacobian::{drift, drift_at, jacobian, jacobian_at};
 pub use kinematics::{Kinematics, kinematics, kinematics_at, poses, poses_at};
 pub use mobility::{Mobility, mobility, mobility_at};

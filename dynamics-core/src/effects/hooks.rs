@@ -1,7 +1,7 @@
 //! How the textbook algorithms ask the effects: in the frames that the hooks speak of.
 
 use super::{Effect, JointState};
-use crate::model::{Description, Node};
+use crate::model::Node;
 use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::{Force, Motion, SpatialInertia};
 use crate::state::{State, entry};
@@ -102,21 +102,23 @@ pub(crate) fn joint_torques<R: Real, E, const B: usize, const Q: usize, const V:
     }
 }
 
-/// What the effects ask of every motor at q̈ = 0.
+/// What the effects ask of the motor of one joint's coordinate at q̈ = 0.
 #[inline(always)]
-pub(crate) fn joint_losses<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
+pub(crate) fn joint_loss<R: Real, E, const B: usize, const Q: usize, const V: usize>(
     effects: &E,
-    robot: &D,
+    node: &Node<'_, R>,
     state: &State<R, Q, V>,
-) -> [R; V]
+    joint: usize,
+) -> R
 where
-    D: Description<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    let (mut losses, qdd) = ([R::ZERO; V], [R::ZERO; V]);
-    let state = State { qdd, ..*state };
-    for node in robot.nodes() {
-        joint_torques(effects, &node, &state, &mut losses);
-    }
-    losses
+    let at = JointState {
+        q: node.position(&state.q, joint),
+        qd: entry(&state.qd, joint),
+        qdd: R::ZERO,
+    };
+    let mut loss = R::ZERO;
+    effects.torque(joint, at, &mut loss);
+    loss
 }

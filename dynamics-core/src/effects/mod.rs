@@ -32,7 +32,7 @@ pub use rotor::RotorInertia;
 pub use viscous::Viscous;
 
 pub(crate) use hooks::{
-    base_given, base_motion, body_inertia, body_wrench, joint_losses, joint_torques,
+    base_given, base_motion, body_inertia, body_wrench, joint_loss, joint_torques,
 };
 
 use crate::scalar::Real;

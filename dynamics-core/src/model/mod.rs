@@ -58,6 +58,7 @@
 //! const _: usize = ARM.links.len();
 //! ```
 
+mod axis;
 mod body;
 mod description;
 mod error;
@@ -66,6 +67,7 @@ mod node;
 mod single;
 mod turn;
 
+pub(crate) use axis::Axis;
 pub use body::{BASE, Body, Limits};
 pub use description::{Description, Of};
 pub use error::{ModelError, Problem};

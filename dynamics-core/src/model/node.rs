@@ -18,7 +18,7 @@ use JointKind::*;
 #[derive(Clone, Copy, Debug)]
 pub struct Node<'a, R: Real> {
     link: &'a Link<R>,
-    kind: JointKind,
+    pub(super) kind: JointKind,
     q_at: usize,
     v_at: usize,
 }
@@ -243,7 +243,7 @@ fn z<R: Real>(z: R) -> R::Vec3 {
 
 /// v + z r.
 #[inline(always)]
-fn raised<R: Real>(v: R::Vec3, r: R) -> R::Vec3 {
+pub(super) fn raised<R: Real>(v: R::Vec3, r: R) -> R::Vec3 {
     let [x, y, z] = v.array();
     R::Vec3::new(x, y, z + r)
 }

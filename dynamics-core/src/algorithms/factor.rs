@@ -1,0 +1,157 @@
+//! M = Lᵀ D L and M x = τ, without the entries that the tree's branches leave zero.
+//!
+//! Featherstone, RBDA (2008), section 6.5, tables 6.3 and 6.5: from the tips to the base, so that no
+//! zero is ever filled. All loops run over the coordinates that carry one, λ(i), λ(λ(i)) …
+
+use super::NotPositiveDefinite;
+use crate::mass_matrix::{Factor, MassMatrix};
+use crate::model::{BASE, Description};
+use crate::scalar::Real;
+
+/// How many roundings of M_ii a pivot must exceed: less is what rounding leaves of zero.
+pub(super) const ROUNDINGS: f64 = 4.0;
+
+/// The factors L and D of M = Lᵀ D L, with the reciprocals of D, for [`solve`] and [`inverse`].
+///
+/// L is zero where M is zero. An implicit joint damping is a sum on M's diagonal,
+/// [`MassMatrix::plus_diagonal`].
+/// Cost: V divisions and, on a chain, V (V² − 1)/3 + V (V − 1)/2 other flops; on a tree of branches of
+/// depth d at most V d² + V d. Source: Featherstone, RBDA (2008), table 6.3.
+///
+/// ```
+/// use dynamics_core::algorithms::{crba, factor, solve};
+/// use dynamics_core::{effects::RIGID_BODY, model::Robot, robots::Ur5e};
+/// let m = crba(&Ur5e::MODEL, &[0.0, -1.2, 1.5, 0.3, 0.0, 0.0], &RIGID_BODY);
+/// let x = solve(&Ur5e::MODEL, &factor(&Ur5e::MODEL, &m)?, &[1.0; 6]);
+/// assert!(m.mul_vec(&x).iter().all(|tau| (tau - 1.0).abs() < 1e-12));
+/// # Ok::<(), dynamics_core::algorithms::NotPositiveDefinite>(())
+/// ```
+///
+/// # Errors
+/// [`NotPositiveDefinite`] names the coordinate, outermost first, whose pivot is not a number or not
+/// above four roundings of M_ii: it moves no inertia once the coordinates that it carries give way.
+#[inline(always)]
+pub fn factor<R: Real, D, const B: usize, const Q: usize, const V: usize>(
+    robot: &D,
+    m: &MassMatrix<R, V>,
+) -> Result<Factor<R, V>, NotPositiveDefinite>
+where
+    D: Description<R, B, Q, V>,
+{
+    let lambda = &robot.model().lambda;
+    let (mut rows, mut per_d) = (m.rows, [R::ZERO; V]);
+    for k in (0..V).rev() {
+        let (above, at) = rows.split_at_mut(k);
+        let (Some(row), Some(per_d)) = (at.first_mut(), per_d.get_mut(k)) else {
+            break;
+        };
+        let pivot = row.get(k).copied().unwrap_or_default();
+        check(pivot, m.get(k, k), k)?;
+        *per_d = R::ONE / pivot;
+        let mut i = parent(lambda, k);
+        while let Some(row_i) = above.get_mut(i) {
+            let l = row.get(i).copied().unwrap_or_default() * *per_d;
+            let mut j = i;
+            while let (Some(m_ij), Some(&m_kj)) = (row_i.get_mut(j), row.get(j)) {
+                *m_ij -= l * m_kj;
+                j = parent(lambda, j);
+            }
+            if let Some(entry) = row.get_mut(i) {
+                *entry = l;
+            }
+            i = parent(lambda, i);
+        }
+    }
+    Ok(Factor { rows, per_d })
+}
+
+/// x with M x = τ: accelerations of torques, rad/s² or m/s² of N·m or N.
+///
+/// Cost: 2 V² − V flops on a chain, less on a tree. Source: Featherstone, RBDA (2008), table 6.5.
+#[inline(always)]
+pub fn solve<R: Real, D, const B: usize, const Q: usize, const V: usize>(
+    robot: &D,
+    factor: &Factor<R, V>,
+    tau: &[R; V],
+) -> [R; V]
+where
+    D: Description<R, B, Q, V>,
+{
+    let (lambda, mut x) = (&robot.model().lambda, *tau);
+    // Lᵀ y = τ
+    for (i, row) in factor.rows.iter().enumerate().rev() {
+        let (above, at) = x.split_at_mut(i);
+        let x_i = at.first().copied().unwrap_or_default();
+        let mut j = parent(lambda, i);
+        while let (Some(x_j), Some(&l)) = (above.get_mut(j), row.get(j)) {
+            *x_j -= l * x_i;
+            j = parent(lambda, j);
+        }
+    }
+    // D z = y and L x = z
+    for (i, (row, &per_d)) in factor.rows.iter().zip(&factor.per_d).enumerate() {
+        let (above, at) = x.split_at_mut(i);
+        let Some(x_i) = at.first_mut() else {
+            break;
+        };
+        *x_i *= per_d;
+        let mut j = parent(lambda, i);
+        while let (Some(&x_j), Some(&l)) = (above.get(j), row.get(j)) {
+            *x_i -= l * x_j;
+            j = parent(lambda, j);
+        }
+    }
+    x
+}
+
+/// M⁻¹, a column at a time: accelerations of unit torques.
+///
+/// Cost: V solutions, 2 V³ flops on a chain. Unlike M it has no zeros but between separate roots.
+///
+/// ```
+/// use dynamics_core::algorithms::{crba, factor, inverse};
+/// use dynamics_core::{effects::RIGID_BODY, model::Robot, robots::Ur5e};
+/// let m = crba(&Ur5e::MODEL, &[0.0, -1.2, 1.5, 0.3, 0.0, 0.0], &RIGID_BODY);
+/// let per_m = inverse(&Ur5e::MODEL, &factor(&Ur5e::MODEL, &m)?);
+/// assert!(per_m.get(5, 5) * m.get(5, 5) > 1.0); // the other joints give way
+/// # Ok::<(), dynamics_core::algorithms::NotPositiveDefinite>(())
+/// ```
+#[inline(always)]
+pub fn inverse<R: Real, D, const B: usize, const Q: usize, const V: usize>(
+    robot: &D,
+    factor: &Factor<R, V>,
+) -> MassMatrix<R, V>
+where
+    D: Description<R, B, Q, V>,
+{
+    let mut per_m = MassMatrix::ZERO;
+    for j in 0..V {
+        let unit = core::array::from_fn(|i| if i == j { R::ONE } else { R::ZERO });
+        let column = solve(robot, factor, &unit);
+        for (i, &x) in column.iter().enumerate().skip(j) {
+            per_m.set(i, j, x);
+        }
+    }
+    per_m
+}
+
+/// Whether a pivot is a number and more than rounding leaves of zero.
+#[inline(always)]
+pub(super) fn check<R: Real>(
+    pivot: R,
+    diagonal: R,
+    joint: usize,
+) -> Result<(), NotPositiveDefinite> {
+    let noise = diagonal * (R::EPSILON * R::from_f64(ROUNDINGS));
+    // Comparisons that a NaN fails too, and that zero on zero does.
+    if pivot > noise && pivot > R::ZERO && pivot.is_finite() {
+        return Ok(());
+    }
+    Err(NotPositiveDefinite { joint })
+}
+
+/// λ of a coordinate.
+#[inline(always)]
+pub(super) fn parent<const V: usize>(lambda: &[usize; V], i: usize) -> usize {
+    lambda.get(i).copied().unwrap_or(BASE)
+}

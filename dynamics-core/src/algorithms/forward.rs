@@ -1,0 +1,73 @@
+//! Forward dynamics: M q̈ = τ − C(q, q̇) by bias, M, its factors and their solution.
+//!
+//! Walker & Orin (1982), method 3; Featherstone, RBDA (2008), section 6.1. The articulated-body algorithm
+//! gives the same without M; [`NotPositiveDefinite`] is more certain here, since a pivot is held against
+//! the entry of M that it came from.
+
+use super::{NotPositiveDefinite, crba_at, factor, rnea_at, solve};
+use crate::effects::Effect;
+use crate::model::Description;
+use crate::scalar::Real;
+use crate::state::{Posture, State};
+
+/// q̈ = FD(q, q̇, τ): the acceleration of each joint, rad/s² or m/s², under the effects named.
+///
+/// Shape: V. Cost: [`rnea`](super::rnea()), [`crba`](super::crba()), [`factor`] and [`solve`]; on a
+/// chain O(V³), of a small factor. `state.qdd` is not read. Source: Walker & Orin (1982).
+///
+/// ```
+/// use dynamics_core::{algorithms::{aba, forward}, effects::RIGID_BODY, model::Robot, robots::Ur5e, state::State};
+/// let state = State::at([0.0_f64, -1.2, 1.5, 0.3, 0.0, 0.0]);
+/// let by_matrix = forward(&Ur5e::MODEL, &state, &[0.0; 6], &RIGID_BODY)?;
+/// let by_bodies = aba(&Ur5e::MODEL, &state, &[0.0; 6], &RIGID_BODY)?;
+/// assert!(by_matrix.iter().zip(by_bodies).all(|(a, b)| (a - b).abs() < 1e-9));
+/// # Ok::<(), dynamics_core::algorithms::NotPositiveDefinite>(())
+/// ```
+///
+/// # Errors
+/// As [`factor`].
+#[inline(always)]
+pub fn forward<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
+    robot: &D,
+    state: &State<R, Q, V>,
+    tau: &[R; V],
+    effects: &E,
+) -> Result<[R; V], NotPositiveDefinite>
+where
+    D: Description<R, B, Q, V>,
+    E: Effect<R, B, V>,
+{
+    forward_at(robot, &Posture::of(robot, &state.q), state, tau, effects)
+}
+
+/// As [`forward`], at a posture whose sines and cosines are at hand.
+///
+/// # Errors
+/// As [`forward`].
+#[inline(always)]
+pub fn forward_at<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
+    robot: &D,
+    posture: &Posture<R, Q>,
+    state: &State<R, Q, V>,
+    tau: &[R; V],
+    effects: &E,
+) -> Result<[R; V], NotPositiveDefinite>
+where
+    D: Description<R, B, Q, V>,
+    E: Effect<R, B, V>,
+{
+    const {
+        assert!(
+            E::ACCELERATIONS,
+            "forward dynamics needs `Inertia` in the scene"
+        )
+    };
+    let qdd = [R::ZERO; V];
+    let bias = rnea_at(robot, posture, &State { qdd, ..*state }, effects);
+    let mut rest = *tau;
+    for (rest, bias) in rest.iter_mut().zip(bias) {
+        *rest -= bias;
+    }
+    let factors = factor(robot, &crba_at(robot, posture, effects))?;
+    Ok(solve(robot, &factors, &rest))
+}

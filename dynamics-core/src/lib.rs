@@ -8,7 +8,8 @@
 //! | [`scalar`], [`trig`] | f32 and f64 as one type parameter; sine and cosine without f64 |
 //! | [`spatial`] | motion and force vectors, transforms, inertias |
 //! | [`model`], [`robots`] | a robot's description, checked while compiling; four real ones |
-//! | [`state`] | q, q̇, q̈, and the sines and cosines of one configuration |
+//! | [`state`], [`configuration`] | q, q̇, q̈, the sines and cosines of one configuration; steps and differences of configurations |
+//! | [`transmission`] | joints that motors drive through a constant matrix |
 //! | [`effects`] | what acts on the robot: only what a scene names is computed |
 //! | [`algorithms`], [`Core`] | RNEA, ABA: the textbook, for every model and for robots known at compile time |
 //! | [`Engine`] | RNEA specialised by the compiler for a robot known at compile time |
@@ -21,10 +22,12 @@
 
 pub mod algorithms;
 mod articulated;
+pub mod configuration;
 mod const_math;
 pub mod control;
 pub mod effects;
 mod engine;
+mod lie;
 mod mass_matrix;
 pub mod model;
 pub mod robots;
@@ -33,6 +36,7 @@ pub mod sim;
 pub mod spatial;
 pub mod state;
 mod symmetric;
+pub mod transmission;
 pub mod trig;
 
 mod core_form;

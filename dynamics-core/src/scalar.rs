@@ -46,6 +46,8 @@ pub trait Real:
     const ZERO: Self;
     /// 1.
     const ONE: Self;
+    /// Where [`Real::saturate`] ends: 2³¹ in f32, 2⁶³ in f64.
+    const FULL: f64;
 
     /// The nearest value of this type. Meant for constants: on an FPU without f64 the
     /// conversion of a run-time value is a call into software.
@@ -62,12 +64,22 @@ pub trait Real:
     const EPSILON: Self;
     /// 1/√x of a positive normal number, within 2 ulp; no division, the same instructions for every x.
     fn per_sqrt(self) -> Self;
+    /// √x, rounded to nearest; NaN below zero. In software where the target's compiler offers no
+    /// instruction without std: never in the control tick.
+    fn sqrt(self) -> Self;
+    /// The angle of the point (x, self) from the x axis, rad, within ±π. Never in the control tick.
+    fn atan2(self, x: Self) -> Self;
     /// |x|.
     fn abs(self) -> Self;
     /// Neither infinite nor NaN.
     fn is_finite(self) -> bool;
     /// x limited to [lo, hi]; a NaN becomes `lo`. No branch, no panic if lo > hi.
     fn limit(self, lo: Self, hi: Self) -> Self;
+    /// The whole number next to x towards zero, within ±[`Real::FULL`]; a NaN becomes 0.
+    ///
+    /// Cost: two conversions, which saturate on their own: neither a comparison nor its wait for
+    /// the FPU's flags.
+    fn saturate(self) -> Self;
     /// Of the two casts of one model, that of this type.
     fn pick<'a, const B: usize, const Q: usize, const V: usize>(
         double: &'a Model<f64, B, Q, V>,
@@ -137,12 +149,13 @@ pub trait Matrix<R: Real>:
 }
 
 macro_rules! real {
-    ($r:ident, $vec:path, $mat:path, $sin_cos:expr, $near:expr, $magic:literal, $steps:literal, |$double:ident, $single:ident| $pick:ident) => {
+    ($r:ident, $whole:ident, $vec:path, $mat:path, $sin_cos:expr, $near:expr, $magic:literal, $steps:literal, $sqrt:expr, $atan2:expr, |$double:ident, $single:ident| $pick:ident) => {
         impl Real for $r {
             type Vec3 = $vec;
             type Mat3 = $mat;
             const ZERO: Self = 0.0;
             const ONE: Self = 1.0;
+            const FULL: f64 = -($whole::MIN as f64);
             #[inline(always)]
             fn from_f64(x: f64) -> Self {
                 x as $r
@@ -170,6 +183,14 @@ macro_rules! real {
                 }
                 y
             }
+            #[inline]
+            fn sqrt(self) -> Self {
+                $sqrt(self)
+            }
+            #[inline]
+            fn atan2(self, x: Self) -> Self {
+                $atan2(self, x)
+            }
             #[inline(always)]
             fn abs(self) -> Self {
                 <$r>::abs(self)
@@ -182,6 +203,10 @@ macro_rules! real {
             fn limit(self, lo: Self, hi: Self) -> Self {
                 let x = if self > lo { self } else { lo };
                 if x < hi { x } else { hi }
+            }
+            #[inline(always)]
+            fn saturate(self) -> Self {
+                (self as $whole) as $r
             }
             #[inline(always)]
             fn pick<'a, const B: usize, const Q: usize, const V: usize>(
@@ -243,21 +268,27 @@ macro_rules! real {
 
 real!(
     f32,
+    i32,
     glam::Vec3,
     glam::Mat3,
     crate::trig::sin_cos,
     crate::trig::sin_cos_near,
     0x5f37_59df,
     3,
+    libm::sqrtf,
+    libm::atan2f,
     |double, single| single
 );
 real!(
     f64,
+    i64,
     glam::DVec3,
     glam::DMat3,
     crate::trig::sin_cos_f64,
     crate::trig::sin_cos_f64,
     0x5fe6_eb50_c7b5_37a9,
     4,
+    libm::sqrt,
+    libm::atan2,
     |double, single| double
 );

@@ -1,13 +1,14 @@
 //! Time steps of a simulated robot.
 
 use crate::algorithms::{NotPositiveDefinite, aba};
+use crate::configuration::integrate;
 use crate::effects::Effect;
-use crate::model::Model;
+use crate::model::Description;
 use crate::scalar::Real;
 use crate::state::State;
 
 /// One step of `h` seconds by semi-implicit (symplectic) Euler: q̇ ← q̇ + h FD(q, q̇, τ), then
-/// q ← q + h q̇ with the new q̇. First order in h; `state.qdd` is left at the acceleration used.
+/// q ← q ⊕ h q̇ with the new q̇. First order in h; `state.qdd` is left at the acceleration used.
 ///
 /// Hairer, Lubich & Wanner, *Geometric Numerical Integration* (2006), section I.1.2.
 ///
@@ -21,20 +22,21 @@ use crate::state::State;
 ///
 /// # Errors
 /// As [`aba`]; the state is then left as it was.
-pub fn semi_implicit<R: Real, E, const B: usize, const N: usize>(
-    model: &Model<R, B, N, N>,
-    state: &mut State<R, N, N>,
-    tau: &[R; N],
+pub fn semi_implicit<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
+    robot: &D,
+    state: &mut State<R, Q, V>,
+    tau: &[R; V],
     effects: &E,
     h: R,
 ) -> Result<(), NotPositiveDefinite>
 where
-    E: Effect<R, B, N>,
+    D: Description<R, B, Q, V>,
+    E: Effect<R, B, V>,
 {
-    state.qdd = aba(model, state, tau, effects)?;
-    for ((q, qd), &qdd) in state.q.iter_mut().zip(&mut state.qd).zip(&state.qdd) {
+    state.qdd = aba(robot, state, tau, effects)?;
+    for (qd, &qdd) in state.qd.iter_mut().zip(&state.qdd) {
         *qd += h * qdd;
-        *q += h * *qd;
     }
+    state.q = integrate(robot, &state.q, &state.qd.map(|qd| h * qd));
     Ok(())
 }

@@ -2,11 +2,13 @@
 //!
 //! The states are those that the oracle recorded; core and engine are asked about each of them.
 
-use dynamics_core::effects::{Coriolis, Gravity, RIGID_BODY};
+use dynamics_core::effects::{Coriolis, Gravity, RIGID_BODY, smooth_sign};
 use dynamics_core::model::Robot;
 use dynamics_core::robots::{A1, Iiwa14, Panda, Ur5e};
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
+
+use crate::drive::Scale;
 
 mod states {
     include!(concat!(env!("OUT_DIR"), "/states.rs"));
@@ -32,6 +34,18 @@ pub fn digests(mut report: impl FnMut(&'static str, &'static str, Digest)) {
     robot::<Panda, 7, 7>(&states::PANDA, &mut report);
     robot::<Iiwa14, 7, 7>(&states::IIWA14, &mut report);
     robot::<A1, 16, 12>(&states::A1, &mut report);
+    report("any", "friction and duty", saturating());
+}
+
+/// What ends in a saturating conversion, on floats of every sign and exponent, NaN and infinities too.
+fn saturating() -> Digest {
+    const STEP: usize = 0x1_0003;
+    let mut digest = Digest::EMPTY;
+    let scale = Scale::new(8400, 150.0);
+    for x in (0..=u32::MAX).step_by(STEP).map(f32::from_bits) {
+        digest.add([smooth_sign(x), f32::from(scale.duty(x))]);
+    }
+    digest
 }
 
 fn robot<T: Robot<B, N, N>, const B: usize, const N: usize>(

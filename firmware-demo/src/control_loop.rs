@@ -312,9 +312,13 @@ where
 
     #[inline(never)]
     fn write(&mut self, torque: &[f32; V], brake: bool) {
+        let mut duties = [0; V];
+        for ((duty, drive), &torque) in duties.iter_mut().zip(&self.drives).zip(torque) {
+            *duty = drive.duty(torque);
+        }
         let mut failed = None;
-        for (joint, (drive, &torque)) in self.drives.iter_mut().zip(torque).enumerate() {
-            if drive.set(torque).is_err() {
+        for (joint, (drive, duty)) in self.drives.iter_mut().zip(duties).enumerate() {
+            if drive.set(duty).is_err() {
                 failed = failed.or(Some(Fault::Drive { joint }));
             }
         }

@@ -22,13 +22,19 @@ impl<Pwm: SetDutyCycle> Drive<Pwm> {
         Self { pwm, scale }
     }
 
-    /// Sets the torque, limited to the full scale; what is not a number becomes zero torque.
+    /// The duty of a torque, limited to the full scale; what is not a number becomes zero torque.
+    #[inline(always)]
+    pub fn duty(&self, torque: f32) -> u16 {
+        self.scale.duty(torque)
+    }
+
+    /// Sets a duty of [`Self::duty`]. Two calls, so that the arithmetic of all joints need not wait
+    /// for each one's peripheral.
     ///
     /// # Errors
     /// The PWM peripheral refused.
     #[inline(always)]
-    pub fn set(&mut self, torque: f32) -> Result<(), DriveError> {
-        let duty = self.scale.duty(torque);
+    pub fn set(&mut self, duty: u16) -> Result<(), DriveError> {
         self.pwm.set_duty_cycle(duty).map_err(|_| DriveError)
     }
 }
@@ -43,46 +49,28 @@ impl<Pwm: SetDutyCycle> Drive<Pwm> {
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Scale {
-    /// Duty of one N·m (or N).
+    /// 2³¹ per full scale: beyond it the conversion to an integer saturates.
     slope: f32,
-    /// Duty of zero torque.
-    zero: f32,
+    /// The greatest duty.
+    max: i32,
 }
 
 impl Scale {
     /// Full scale at `max`, zero at half of it.
     pub fn new(max: u16, full_scale: f32) -> Self {
-        let zero = f32::from(max) * 0.5;
         Self {
-            slope: zero / full_scale,
-            zero,
+            slope: 2_147_483_648.0 / full_scale,
+            max: i32::from(max),
         }
     }
 
-    /// The duty of a torque, to the nearest.
+    /// The duty of a torque, to the nearest. Cost: the same instructions whatever the torque.
     #[inline(always)]
     pub fn duty(&self, torque: f32) -> u16 {
-        // Beyond 2²³ a float's last bit is worth one: its low bits are the integer, without the
-        // comparisons of a saturating conversion.
-        const TO_INTEGER: f32 = 12_582_912.0;
-        let relative = self.slope * torque;
-        let relative = if relative.abs() <= self.zero {
-            relative
-        } else {
-            self.beyond(relative)
-        };
-        ((relative + self.zero) + TO_INTEGER).to_bits() as u16
-    }
-
-    /// Full scale, or zero for what is not a number.
-    #[cold]
-    fn beyond(&self, relative: f32) -> f32 {
-        if relative > 0.0 {
-            self.zero
-        } else if relative < 0.0 {
-            -self.zero
-        } else {
-            0.0
-        }
+        // 2³¹ of full scale; what is not a number converts to zero.
+        let share = i64::from((self.slope * torque) as i32);
+        // To the nearest: one multiplication that keeps the upper half.
+        let relative = (share * i64::from(self.max) + (1 << 31)) >> 32;
+        (self.max >> 1).wrapping_add(relative as i32) as u16
     }
 }

@@ -12,9 +12,12 @@ A state is q, q̇, q̈ and a torque. All are exactly representable in f32, so th
 the same question. The torque is the one of another random acceleration (inverse dynamics, rounded to
 f32), which keeps forward dynamics at accelerations of the size of q̈ in every joint.
 
-Before anything is recorded, Pinocchio's model is compared with products of transforms and Jacobians
-written out below in numpy: total mass, centre of mass and pose of the last body, at q = 0 and at a random
-q, mass matrix and gravity torque. An error in building the model shows there.
+Quaternions alone are not: the only unit quaternions on a binary grid are those of half and third turns. So
+theirs are f32's, normalised in f64.
+
+Coordinates are ours throughout, not Pinocchio's (joints.py). Before anything is recorded its model is held
+against products of transforms and Jacobians in numpy (by_hand.py); quantities.py has what is recorded of the
+first states only.
 """
 
 import argparse
@@ -25,23 +28,18 @@ import sys
 
 import numpy as np
 import pinocchio as pin
+from by_hand import check, placement, symmetric
+from joints import Order, joint_model
+from quantities import Plant, armature, inputs, of_state, upper
 
 SEED = 2024
 STATES = 200  # random ones; the state of all zeros comes before them
-MASS_MATRICES = 20  # for the first so many states
+FIRST_STATES = 20  # of which M and everything else is recorded; half as many of a large robot
+LARGE = 12  # more velocity coordinates than that
+INPUTS = ("q", "qd", "qdd", "tau", "wrenches", "base_velocity", "base_acceleration", "step")
 GRAVITY = [0.0, 0.0, -9.81]
-RANGE = {"q": {"revolute": np.pi, "prismatic": 1.0}, "qd": 3.0, "qdd": 10.0}
+RANGE = {"angle": np.pi, "length": 1.0, "qd": 3.0, "qdd": 10.0}
 RECORDINGS = pathlib.Path(__file__).resolve().parent.parent / "recordings"
-
-
-def symmetric(six):
-    xx, xy, xz, yy, yz, zz = six
-    return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
-
-
-def placement(body):
-    p = body["placement"]
-    return np.array(p["rotation"]).reshape(3, 3), np.array(p["position"])
 
 
 def moving(robot):
@@ -51,16 +49,8 @@ def moving(robot):
 # ── Pinocchio ──────────────────────────────────────────────────────────────────────────────────────────
 
 
-def joint_model(kind, axis):
-    for letter, unit in zip("XYZ", np.eye(3)):
-        if np.array_equal(axis, unit):
-            return getattr(pin, {"revolute": "JointModelR", "prismatic": "JointModelP"}[kind] + letter)()
-    general = {"revolute": pin.JointModelRevoluteUnaligned, "prismatic": pin.JointModelPrismaticUnaligned}
-    return general[kind](np.array(axis) / np.linalg.norm(axis))
-
-
 def pinocchio_model(robot):
-    """The model, and for every body its joint and its placement on it."""
+    """The model; for every body its joint and its placement on it; the order of coordinates."""
     model = pin.Model()
     model.name = robot["name"]
     model.gravity = pin.Motion(np.array(GRAVITY), np.zeros(3))
@@ -71,7 +61,7 @@ def pinocchio_model(robot):
         if body["joint"] == "fixed":
             joint, on_joint = parent, here
         else:
-            joint = model.addJoint(parent, joint_model(body["joint"], body["axis"]), here, body["name"])
+            joint = model.addJoint(parent, joint_model(body), here, body["name"])
             on_joint = pin.SE3.Identity()
         bodies.append((joint, on_joint))
         inertia = pin.Inertia(body["mass"], np.array(body["com"]), symmetric(body["inertia_com"]))
@@ -81,76 +71,7 @@ def pinocchio_model(robot):
     for joint in range(1, model.njoints):  # its CRBA takes a subtree's coordinates for contiguous
         subtree = list(model.subtrees[joint])
         assert subtree == list(range(joint, joint + len(subtree))), "bodies are not listed depth first"
-    return model, bodies
-
-
-# ── The same by hand ───────────────────────────────────────────────────────────────────────────────────
-
-
-def joint_transform(body, q):
-    if body["joint"] == "fixed":
-        return np.eye(3), np.zeros(3)
-    u = np.array(body["axis"]) / np.linalg.norm(body["axis"])
-    if body["joint"] == "prismatic":
-        return np.eye(3), u * q
-    ux = np.cross(u, np.eye(3)).T  # [u]×
-    return np.eye(3) + np.sin(q) * ux + (1 - np.cos(q)) * ux @ ux, np.zeros(3)
-
-
-def by_hand(robot, q):
-    """Poses of the bodies in the base frame; mass and centre of mass of what moves; M(q); g(q).
-
-    M = Σ m Jvᵀ Jv + Jωᵀ I Jω and g = −Σ m Jvᵀ g₀, with the Jacobians of the centres of mass.
-    """
-    order = [i for i, body in enumerate(robot["bodies"]) if body["joint"] != "fixed"]
-    poses, lines, moves = [], [], []  # lines: the coordinates that move body i, from base to tip
-    n = len(order)
-    mass, moment, matrix, gravity = 0.0, np.zeros(3), np.zeros((n, n)), np.zeros(n)
-    for i, body in enumerate(robot["bodies"]):
-        parent = body["parent"]
-        r, p = poses[parent] if parent >= 0 else (np.eye(3), np.zeros(3))
-        for r1, p1 in (placement(body), joint_transform(body, q[order.index(i)] if i in order else 0.0)):
-            r, p = r @ r1, p + r @ p1
-        poses.append((r, p))
-        lines.append((lines[parent] if parent >= 0 else []) + ([i] if i in order else []))
-        if not lines[i]:
-            continue  # welded to the base
-        com = p + r @ np.array(body["com"])
-        jv, jw = np.zeros((3, n)), np.zeros((3, n))
-        for k in lines[i]:
-            rk, pk = poses[k]
-            u = rk @ (np.array(robot["bodies"][k]["axis"]) / np.linalg.norm(robot["bodies"][k]["axis"]))
-            if robot["bodies"][k]["joint"] == "revolute":
-                jv[:, order.index(k)], jw[:, order.index(k)] = np.cross(u, com - pk), u
-            else:
-                jv[:, order.index(k)] = u
-        mass, moment = mass + body["mass"], moment + body["mass"] * com
-        inertia = r @ symmetric(body["inertia_com"]) @ r.T
-        matrix += body["mass"] * jv.T @ jv + jw.T @ inertia @ jw
-        gravity -= body["mass"] * jv.T @ np.array(GRAVITY)
-    return poses, mass, moment / mass, matrix, gravity
-
-
-def cross_check(robot, model, bodies, rng):
-    data = model.createData()
-    for q in (np.zeros(model.nq), configuration(robot, rng)):
-        poses, mass, com, matrix, gravity = by_hand(robot, q)
-        found = pin.centerOfMass(model, data, q).copy()
-        close(robot, "total mass", data.mass[0], mass)
-        close(robot, "centre of mass", found, com)
-        joint, on_joint = bodies[-1]
-        tip = data.oMi[joint] * on_joint
-        close(robot, "attitude of the last body", tip.rotation, poses[-1][0])
-        close(robot, "position of the last body", tip.translation, poses[-1][1])
-        close(robot, "mass matrix", mass_matrix(model, data, q), matrix)
-        close(robot, "gravity", pin.computeGeneralizedGravity(model, data, q), gravity)
-
-
-def close(robot, what, found, expected, tolerance=1e-13):
-    scale = max(1.0, np.max(np.abs(expected)))
-    error = np.max(np.abs(np.asarray(found) - expected)) / scale
-    if not error <= tolerance:
-        sys.exit(f"{robot['name']}: {what} is off by {error:.1e} of {scale:.3g}:\n{found}\nnot\n{expected}")
+    return model, bodies, Order(robot)
 
 
 # ── States ─────────────────────────────────────────────────────────────────────────────────────────────
@@ -165,50 +86,83 @@ def uniform(rng, n, bound):
     return single([(2.0 * rng.random() - 1.0) * bound for _ in range(n)])
 
 
+def quaternion(rng):
+    while True:
+        x = single([2.0 * rng.random() - 1.0 for _ in range(4)])
+        if 0.1 < x @ x <= 1.0:
+            return x / np.linalg.norm(x)
+
+
+def position(kind, rng):
+    angle = lambda: uniform(rng, 1, RANGE["angle"])
+    length = lambda n: uniform(rng, n, RANGE["length"])
+    draw = {
+        "prismatic": lambda: length(1),
+        "cylindrical": lambda: np.concatenate([angle(), length(1)]),
+        "universal": lambda: np.concatenate([angle(), angle()]),
+        "spherical": lambda: quaternion(rng),
+        "planar": lambda: np.concatenate([angle(), length(2)]),
+        "free": lambda: np.concatenate([quaternion(rng), length(3)]),
+    }
+    return draw.get(kind, angle)()
+
+
 def configuration(robot, rng):
-    return np.array([uniform(rng, 1, RANGE["q"][body["joint"]])[0] for body in moving(robot)])
+    return np.concatenate([position(body["joint"], rng) for body in moving(robot)])
 
 
-def mass_matrix(model, data, q):
-    upper = np.triu(pin.crba(model, data, q))
-    return upper + np.triu(upper, 1).T
+def states(robot, order, rng):
+    """q, q̇, q̈ and another q̈ for the torque; the first state is at rest at zero."""
+    n = len(order.at)
+    for k in range(1 + STATES):
+        q, qd, qdd = order.neutral(), np.zeros(n), np.zeros(n)
+        if k > 0:
+            q, qd, qdd = configuration(robot, rng), uniform(rng, n, RANGE["qd"]), uniform(rng, n, RANGE["qdd"])
+        yield q, qd, qdd, uniform(rng, n, RANGE["qdd"])
 
 
 def record(robot):
     rng = random.Random(f"{SEED} {robot['name']}")  # its own stream: a new robot does not shift the others
-    model, bodies = pinocchio_model(robot)
-    cross_check(robot, model, bodies, rng)
-    data, n = model.createData(), model.nv
-    rows = {key: [] for key in ("q", "qd", "qdd", "tau", "rnea", "gravity", "bias", "aba", "mass_matrix")}
-    worst = 0.0
-    for k in range(1 + STATES):
-        q, qd, qdd = np.zeros((3, n))
-        if k > 0:
-            q, qd, qdd = configuration(robot, rng), uniform(rng, n, RANGE["qd"]), uniform(rng, n, RANGE["qdd"])
-        tau = single(pin.rnea(model, data, q, qd, uniform(rng, n, RANGE["qdd"])))
+    plant = Plant(robot, pinocchio_model)
+    model, order = plant.model, plant.order
+    configuration(robot, rng)  # what a check once drew: the stream stays
+    drawn = list(states(robot, order, rng))
+    rng = random.Random(f"{SEED} {robot['name']} more")
+    rotors = armature(order, rng)
+    plant.with_armature(rotors)
+    data, rows, worst, condition = model.createData(), {}, 0.0, 0.0
+    first = FIRST_STATES // 2 if model.nv > LARGE else FIRST_STATES
+    for k, (q, qd, qdd, other) in enumerate(drawn):
+        theirs = order.q(q), order.v(qd), order.v(qdd)
+        tau = single(order.v_back(pin.rnea(model, data, *theirs[:2], order.v(other))))
         row = {
             "q": q,
             "qd": qd,
             "qdd": qdd,
             "tau": tau,
-            "rnea": pin.rnea(model, data, q, qd, qdd).copy(),
-            "gravity": pin.computeGeneralizedGravity(model, data, q).copy(),
-            "bias": pin.nonLinearEffects(model, data, q, qd).copy(),
-            "aba": pin.aba(model, data, q, qd, tau).copy(),
+            "rnea": order.v_back(pin.rnea(model, data, *theirs)),
+            "gravity": order.v_back(pin.computeGeneralizedGravity(model, data, theirs[0])),
+            "bias": order.v_back(pin.nonLinearEffects(model, data, *theirs[:2])),
+            "aba": order.v_back(pin.aba(model, data, *theirs[:2], order.v(tau))),
         }
-        matrix = mass_matrix(model, data, q)
-        if k < MASS_MATRICES:
-            row["mass_matrix"] = matrix[np.triu_indices(n)]
+        matrix = order.square(pin.crba(model, data, theirs[0]))
+        if k < first:
+            row["mass_matrix"] = upper(matrix)
+            check(robot, model, order, plant.tip, q, qd, qdd)
+            row.update(of_state(plant, q, qd, qdd, tau, drawn[k + 1][0], inputs(robot, order, rng)))
+        condition = max(condition, np.linalg.cond(matrix))
         for key, values in row.items():
-            rows[key].append([float(x) + 0.0 for x in values])  # + 0.0: no negative zero
+            rows.setdefault(key, []).append([float(x) + 0.0 for x in values])  # + 0.0: no negative zero
         # The oracle against itself: ABA and RNEA are inverse to each other, ABA and CRBA agree.
-        again = pin.rnea(model, data, q, qd, row["aba"])
+        again = order.v_back(pin.rnea(model, data, *theirs[:2], order.v(row["aba"])))
         solved = np.linalg.solve(matrix, tau - row["bias"])
         worst = max(worst, np.max(np.abs(again - tau)), np.max(np.abs(solved - row["aba"])))
     full_scale = {
         key: max(abs(x) for values in rows[key] for x in values)
         for key in ("rnea", "gravity", "bias", "aba", "mass_matrix")
     }
+    if model.nv > LARGE:
+        rows = {key: values if key in INPUTS else shortened(values) for key, values in rows.items()}
     if not worst < 1e-10:
         sys.exit(f"{robot['name']}: RNEA, CRBA and ABA of Pinocchio differ by {worst:.1e}")
     header = {
@@ -221,14 +175,24 @@ def record(robot):
         "joints": [body["name"] for body in moving(robot)],
         "mass_matrix_layout": "upper triangle by rows, first states only",
         "full_scale": full_scale,
+        "condition": float(f"{condition:.3g}"),
+        "armature": list(rotors),
         "model": robot,
     }
     print(
-        f"{robot['name']}: {1 + STATES} states, {n} joints, RNEA, CRBA and ABA agree within {worst:.1e}; full scale "
+        f"{robot['name']}: {1 + STATES} states, {model.nv} velocities, RNEA, CRBA and ABA agree within {worst:.1e}; "
+        + f"condition of M {condition:.1e}; full scale "
         + ", ".join(f"{key} {value:.4g}" for key, value in full_scale.items()),
         file=sys.stderr,
     )
     return text(header, rows)
+
+
+def shortened(values):
+    """Rounded to decimals, by at most 1e-16 of full scale: large robots' files stay small."""
+    scale = max(abs(x) for row in values for x in row)
+    decimals = int(np.ceil(np.log10(0.5e16 / scale))) if scale > 0 else 0
+    return [[round(x, decimals) + 0.0 for x in row] for row in values]
 
 
 def text(header, rows):

@@ -1,6 +1,7 @@
 //! A robot's constants as the oracle's script reads them.
 
-use dynamics_core::model::{BASE, JointKind, Model};
+use dynamics_core::model::{BASE, JointKind, Link, Model};
+use dynamics_core::spatial::{SpatialInertia, Xform};
 use serde::{Deserialize, Serialize};
 
 /// A robot in URDF's terms.
@@ -19,10 +20,17 @@ pub struct Body {
     pub name: String,
     /// Index of the parent; −1 is the base.
     pub parent: i64,
-    /// `revolute`, `prismatic` or `fixed`.
+    /// The joint's kind in small letters.
     pub joint: String,
-    /// The joint's unit axis in the body's frame.
+    /// The joint's unit axis in the body's frame, a universal joint's first one at q = 0; zero if it
+    /// has none.
     pub axis: [f64; 3],
+    /// A universal joint's second unit axis in the body's frame.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub axis2: Option<[f64; 3]>,
+    /// A helical joint's slide per turn, m/rad.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pitch: Option<f64>,
     /// The joint's frame in the parent's.
     pub placement: Placement,
     /// kg
@@ -46,22 +54,22 @@ pub struct Placement {
 pub fn robot<const B: usize, const Q: usize, const V: usize>(model: &Model<f64, B, Q, V>) -> Robot {
     Robot {
         name: model.name.into(),
-        bodies: (0..B).map(|i| body(model, i)).collect(),
+        bodies: (0..B)
+            .map(|i| body(&model.links[i], model.described(i)))
+            .collect(),
     }
 }
 
-fn body<const B: usize, const Q: usize, const V: usize>(
-    model: &Model<f64, B, Q, V>,
-    i: usize,
-) -> Body {
-    let (link, (placement, inertia)) = (&model.links[i], model.described(i));
+fn body(link: &Link<f64>, (placement, inertia): (Xform<f64>, SpatialInertia<f64>)) -> Body {
+    let (joint, kind) = (&link.joint, link.joint.kind);
+    let universal = kind == JointKind::Universal;
     let com = if inertia.mass > 0.0 {
         inertia.moment / inertia.mass
     } else {
         inertia.moment
     };
     let about_origin = inertia.inertia.to_cols_array_2d();
-    let c = com.to_array();
+    let c = com.to_array().map(|x| x + 0.0); // no negative zero
     let about_com = |i: usize, j: usize| {
         let diagonal = if i == j { com.dot(com) } else { 0.0 };
         about_origin[i][j] - inertia.mass * (diagonal - c[i] * c[j])
@@ -73,13 +81,15 @@ fn body<const B: usize, const Q: usize, const V: usize>(
         } else {
             link.parent as i64
         },
-        joint: match link.joint.kind {
-            JointKind::Revolute => "revolute",
-            JointKind::Prismatic => "prismatic",
-            _ => "fixed",
+        joint: format!("{kind:?}").to_lowercase(),
+        axis: if universal {
+            joint.first_axis
+        } else {
+            joint.axis
         }
-        .into(),
-        axis: link.joint.axis.to_array(),
+        .to_array(),
+        axis2: universal.then(|| joint.axis.to_array()),
+        pitch: (kind == JointKind::Helical).then_some(joint.pitch),
         placement: Placement {
             // The columns of the transform of coordinates are the rows of its inverse.
             rotation: placement.rot.to_cols_array(),

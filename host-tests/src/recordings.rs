@@ -5,6 +5,11 @@ use std::path::PathBuf;
 use serde::Deserialize;
 
 /// The recorded answers for one robot; every row of an array is a state.
+///
+/// Coordinates, their order and all spatial vectors are the library's: angular before linear, a
+/// joint's velocity in its body's frame. A matrix of six rows is listed by columns, a symmetric one as
+/// its upper triangle by rows. "The tip" is the last body. From `wrenches` on there are rows only for
+/// the first states: [`Recording::first_states`].
 #[derive(Debug, Deserialize)]
 pub struct Recording {
     /// The robot's name.
@@ -15,7 +20,11 @@ pub struct Recording {
     pub model: crate::export::Robot,
     /// Largest absolute component of each quantity over the states.
     pub full_scale: FullScale,
-    /// Positions, exactly representable in f32 like all inputs.
+    /// The largest condition number κ(M) over the states.
+    pub condition: f64,
+    /// Rotor inertia at every velocity coordinate; 0 at joints of several degrees of freedom, kg·m².
+    pub armature: Vec<f64>,
+    /// Positions, exactly representable in f32 like all inputs, but for unit quaternions.
     pub q: Vec<Vec<f64>>,
     /// Velocities.
     pub qd: Vec<Vec<f64>>,
@@ -31,8 +40,79 @@ pub struct Recording {
     pub bias: Vec<Vec<f64>>,
     /// FD(q, q̇, τ).
     pub aba: Vec<Vec<f64>>,
-    /// Upper triangles of M by rows, of the first states.
+    /// M of the first states.
     pub mass_matrix: Vec<Vec<f64>>,
+
+    /// Input: the wrench of the environment on every body, about its origin in its own frame, by bodies.
+    pub wrenches: Vec<Vec<f64>>,
+    /// Input: spatial velocity of the base in its own frame, which is the world's at that moment.
+    pub base_velocity: Vec<Vec<f64>>,
+    /// Input: spatial acceleration of the base in its own frame, gravity not included.
+    pub base_acceleration: Vec<Vec<f64>>,
+    /// Input: a motion of one second, in velocity coordinates.
+    pub step: Vec<Vec<f64>>,
+
+    /// Attitude (rotation from the tip's frame to the base's, by rows) and position of the tip.
+    pub tip_pose: Vec<Vec<f64>>,
+    /// Spatial velocity of the tip in its own frame.
+    pub tip_velocity: Vec<Vec<f64>>,
+    /// Spatial acceleration of the tip in its own frame, gravity not included.
+    pub tip_acceleration: Vec<Vec<f64>>,
+    /// Geometric Jacobian of the tip in its own frame.
+    pub jacobian_local: Vec<Vec<f64>>,
+    /// The same about the base's origin in base axes.
+    pub jacobian_world: Vec<Vec<f64>>,
+    /// The same about the tip's origin in base axes.
+    pub jacobian_mixed: Vec<Vec<f64>>,
+    /// J̇ q̇ in the tip's frame: its spatial acceleration with q̈ = 0.
+    pub drift_local: Vec<Vec<f64>>,
+    /// J̇ q̇ about the base's origin in base axes.
+    pub drift_world: Vec<Vec<f64>>,
+    /// J̇ q̇ about the tip's origin in base axes: ω̇, and the acceleration of the tip's origin.
+    pub drift_mixed: Vec<Vec<f64>>,
+
+    /// ½ q̇ᵀ M q̇, J.
+    pub kinetic_energy: Vec<Vec<f64>>,
+    /// −Σ m g·c, zero at the base's origin, J; all bodies count, also those welded to the base.
+    pub potential_energy: Vec<Vec<f64>>,
+    /// Centre of mass of all bodies in the base's frame, m.
+    pub centre_of_mass: Vec<Vec<f64>>,
+    /// Spatial momentum of all bodies about the base's origin in base axes.
+    pub momentum: Vec<Vec<f64>>,
+    /// The same about the centre of mass.
+    pub centroidal_momentum: Vec<Vec<f64>>,
+    /// The matrix that takes q̇ to it.
+    pub centroidal_matrix: Vec<Vec<f64>>,
+
+    /// M⁻¹.
+    pub inverse_mass_matrix: Vec<Vec<f64>>,
+    /// Λ⁻¹ = J M⁻¹ Jᵀ of the tip in its own frame.
+    pub operational_inverse: Vec<Vec<f64>>,
+
+    /// ID(q, q̇, q̈) with `wrenches` on the bodies.
+    pub rnea_wrenches: Vec<Vec<f64>>,
+    /// FD(q, q̇, τ) with `wrenches` on the bodies.
+    pub aba_wrenches: Vec<Vec<f64>>,
+    /// ID(q, q̇, q̈) on a base that moves with `base_velocity` and `base_acceleration`.
+    pub rnea_moving_base: Vec<Vec<f64>>,
+    /// The wrench about its origin in its own frame that such a base has to supply.
+    pub base_wrench: Vec<Vec<f64>>,
+    /// ID(q, q̇, q̈) with `armature`.
+    pub rnea_armature: Vec<Vec<f64>>,
+    /// FD(q, q̇, τ) with `armature`.
+    pub aba_armature: Vec<Vec<f64>>,
+
+    /// q moved by `step`.
+    pub integrated: Vec<Vec<f64>>,
+    /// The step from q to the q of the next state.
+    pub difference: Vec<Vec<f64>>,
+}
+
+impl Recording {
+    /// The number of states of which everything is recorded.
+    pub fn first_states(&self) -> usize {
+        self.tip_pose.len()
+    }
 }
 
 /// Full scale of each recorded quantity (DESIGN, "Tests").
@@ -70,4 +150,49 @@ pub fn row<const N: usize>(rows: &[Vec<f64>], state: usize) -> [f64; N] {
         .as_slice()
         .try_into()
         .expect("the recording is of another robot")
+}
+
+/// A recorded matrix of six rows, or a list of wrenches: its columns.
+///
+/// # Panics
+/// If the sizes differ.
+pub fn columns<const N: usize>(rows: &[Vec<f64>], state: usize) -> [[f64; 6]; N] {
+    let (columns, rest) = rows[state].as_chunks::<6>();
+    assert!(rest.is_empty(), "not six rows");
+    columns
+        .try_into()
+        .expect("the recording is of another robot")
+}
+
+/// A recorded symmetric matrix.
+///
+/// # Panics
+/// If the sizes differ.
+pub fn symmetric<const N: usize>(rows: &[Vec<f64>], state: usize) -> [[f64; N]; N] {
+    let entries = &rows[state];
+    assert_eq!(
+        entries.len(),
+        N * (N + 1) / 2,
+        "the recording is of another robot"
+    );
+    // Row i of the triangle begins after N + (N − 1) + … entries.
+    let entry = |i: usize, j: usize| entries[i * (2 * N + 1 - i) / 2 + j - i];
+    std::array::from_fn(|i| std::array::from_fn(|j| entry(i.min(j), i.max(j))))
+}
+
+/// Full scale of a quantity: its largest absolute component over the recorded states.
+pub fn full_scale(rows: &[Vec<f64>]) -> f64 {
+    rows.iter().flatten().fold(0.0, |most, x| most.max(x.abs()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_triangle_by_rows_becomes_its_symmetric_matrix() {
+        let rows = [vec![0.0, 1.0, 2.0, 11.0, 12.0, 22.0]];
+        let want = [[0.0, 1.0, 2.0], [1.0, 11.0, 12.0], [2.0, 12.0, 22.0]];
+        assert_eq!(symmetric::<3>(&rows, 0), want);
+    }
 }

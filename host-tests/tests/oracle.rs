@@ -1,12 +1,15 @@
 //! Core and engine against Pinocchio, in f64 and f32, on every recorded state.
 
-use dynamics_core::effects::{Coriolis, Gravity, RIGID_BODY};
-use dynamics_core::model::Robot;
-use dynamics_core::robots::{A1, Iiwa14, Panda, Ur5e};
-use dynamics_core::scalar::Real;
+use dynamics_core::configuration::{difference, integrate};
+use dynamics_core::effects::{Coriolis, Effect, Gravity, RIGID_BODY, RotorInertia};
+use dynamics_core::model::{JointKind, Robot};
+use dynamics_core::robots::{A1, A1Free, G1, G1Free, Gen3, Iiwa14, Panda, Ur5e, XArm7, Z1};
+use dynamics_core::scalar::{Real, Vector};
+use dynamics_core::spatial::{Force, Motion};
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
-use host_tests::recordings::{Recording, load, row};
+use host_tests::recordings::{Recording, columns, full_scale, load, row};
+use host_tests::trees::{TreeA, TreeB};
 use host_tests::{export, tolerances};
 
 /// Collects every complaint, so that one run shows the whole table.
@@ -46,44 +49,188 @@ impl Worst {
     }
 }
 
-fn compare<R: Real, T, const B: usize, const N: usize>(recording: &Recording, verdict: &mut Verdict)
-where
-    T: Robot<B, N, N>,
-{
-    let scale = recording.full_scale;
-    let mut full = ["rnea", "engine rnea"].map(|q| Worst::new(q, scale.rnea));
-    let mut gravity = ["gravity", "engine gravity"].map(|q| Worst::new(q, scale.gravity));
-    let mut bias = ["bias", "engine bias"].map(|q| Worst::new(q, scale.bias));
-    let mut forward = Worst::new("aba", scale.aba);
+/// One recorded state.
+fn state<R: Real, const Q: usize, const V: usize>(
+    recording: &Recording,
+    i: usize,
+) -> State<R, Q, V> {
+    let velocity = |rows| row::<V>(rows, i).map(R::from_f64);
+    State {
+        q: row::<Q>(&recording.q, i).map(R::from_f64),
+        qd: velocity(&recording.qd),
+        qdd: velocity(&recording.qdd),
+    }
+}
+
+/// Holds one form of the dynamics against the recording: its quantities, each with its answer.
+fn compare<R: Real, const Q: usize, const V: usize>(
+    recording: &Recording,
+    verdict: &mut Verdict,
+    names: [&'static str; 3],
+    rnea: impl Fn(&State<R, Q, V>) -> [[R; V]; 3],
+) {
+    let (scale, rows) = (recording.full_scale, recording);
+    let wanted = [&rows.rnea, &rows.gravity, &rows.bias];
+    let scales = [scale.rnea, scale.gravity, scale.bias];
+    let mut worst = std::array::from_fn::<_, 3, _>(|k| Worst::new(names[k], scales[k]));
     assert!(recording.q.len() > 200);
     for i in 0..recording.q.len() {
-        let cast = |rows| row::<N>(rows, i).map(R::from_f64);
-        let state = State {
-            q: cast(&recording.q),
-            qd: cast(&recording.qd),
-            qdd: cast(&recording.qdd),
-        };
-        let want = row::<N>(&recording.rnea, i);
-        full[0].see(Core::<T>::rnea(&state, &RIGID_BODY), want);
-        full[1].see(Engine::<T>::rnea(&state, &RIGID_BODY), want);
-        let (want, scene) = (row::<N>(&recording.gravity, i), (Gravity::EARTH,));
-        gravity[0].see(Core::<T>::rnea(&state, &scene), want);
-        gravity[1].see(Engine::<T>::rnea(&state, &scene), want);
-        let (want, scene) = (row::<N>(&recording.bias, i), (Gravity::EARTH, Coriolis));
-        bias[0].see(Core::<T>::rnea(&state, &scene), want);
-        bias[1].see(Engine::<T>::rnea(&state, &scene), want);
-        let qdd = Core::<T>::aba(&state, &cast(&recording.tau), &RIGID_BODY);
-        forward.see(qdd.expect("M is positive"), row::<N>(&recording.aba, i));
+        let got = rnea(&state(recording, i));
+        for ((worst, got), want) in worst.iter_mut().zip(got).zip(wanted) {
+            worst.see(got, row::<V>(want, i));
+        }
     }
     let scalar = std::any::type_name::<R>();
-    for worst in full.iter().chain(&gravity).chain(&bias).chain([&forward]) {
+    for worst in worst {
         verdict.check(&recording.robot, worst.quantity, scalar, worst.error);
     }
 }
 
-fn robot<T, const B: usize, const N: usize>(verdict: &mut Verdict)
+fn core<R: Real, T, const B: usize, const Q: usize, const V: usize>(
+    recording: &Recording,
+    verdict: &mut Verdict,
+) where
+    T: Robot<B, Q, V>,
+{
+    compare::<R, Q, V>(recording, verdict, ["rnea", "gravity", "bias"], |state| {
+        [
+            Core::<T>::rnea(state, &RIGID_BODY),
+            Core::<T>::rnea(state, &(Gravity::EARTH,)),
+            Core::<T>::rnea(state, &(Gravity::EARTH, Coriolis)),
+        ]
+    });
+    let mut forward = Worst::new("aba", recording.full_scale.aba);
+    for i in 0..recording.q.len() {
+        let tau = row::<V>(&recording.tau, i).map(R::from_f64);
+        let qdd = Core::<T>::aba(&state(recording, i), &tau, &RIGID_BODY);
+        forward.see(qdd.expect("M is positive"), row::<V>(&recording.aba, i));
+    }
+    let scalar = std::any::type_name::<R>();
+    verdict.check(&recording.robot, forward.quantity, scalar, forward.error);
+}
+
+fn engine<R: Real, T, const B: usize, const N: usize>(recording: &Recording, verdict: &mut Verdict)
 where
     T: Robot<B, N, N>,
+{
+    let names = ["engine rnea", "engine gravity", "engine bias"];
+    compare::<R, N, N>(recording, verdict, names, |state| {
+        [
+            Engine::<T>::rnea(state, &RIGID_BODY),
+            Engine::<T>::rnea(state, &(Gravity::EARTH,)),
+            Engine::<T>::rnea(state, &(Gravity::EARTH, Coriolis)),
+        ]
+    });
+}
+
+/// Steps and differences of configurations against the recording.
+fn manifold<T, const B: usize, const Q: usize, const V: usize>(
+    recording: &Recording,
+    verdict: &mut Verdict,
+) where
+    T: Robot<B, Q, V>,
+{
+    let mut step = Worst::new("integrate", full_scale(&recording.integrated));
+    let mut way = Worst::new("difference", full_scale(&recording.difference));
+    for i in 0..recording.first_states() {
+        let [q, next, want] = [
+            row::<Q>(&recording.q, i),
+            row::<Q>(&recording.q, i + 1),
+            row::<Q>(&recording.integrated, i),
+        ];
+        let mut got = integrate(&T::MODEL, &q, &row::<V>(&recording.step, i));
+        for link in &T::MODEL.links {
+            // A quaternion and its negative are the same attitude.
+            if matches!(link.joint.kind, JointKind::Spherical | JointKind::Free) {
+                let at = link.q_at..link.q_at + 4;
+                let dot = at.clone().map(|k| got[k] * want[k]).sum::<f64>();
+                at.for_each(|k| got[k] *= dot.signum());
+            }
+        }
+        step.see(got, want);
+        let got = difference(&T::MODEL, &q, &next);
+        way.see(got, row::<V>(&recording.difference, i));
+    }
+    for worst in [step, way] {
+        verdict.check(&recording.robot, worst.quantity, "f64", worst.error);
+    }
+}
+
+/// Recorded wrenches on the bodies.
+struct Wrenches<R, const B: usize>([[R; 6]; B]);
+
+impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Wrenches<R, B> {
+    const WRENCH: bool = true;
+    fn wrench(&self, body: usize, _: Motion<R>, fx: &mut Force<R>) {
+        let (ang, lin) = halves(self.0[body]);
+        *fx = Force::new(fx.ang + ang, fx.lin + lin);
+    }
+}
+
+/// A recorded motion of the base.
+struct BaseMotion<R>([R; 6], [R; 6]);
+
+impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for BaseMotion<R> {
+    const BASE_MOTION: bool = true;
+    fn base(&self, velocity: &mut Motion<R>, acceleration: &mut Motion<R>) {
+        for (at, add) in [(velocity, self.0), (acceleration, self.1)] {
+            let (ang, lin) = halves(add);
+            *at = Motion::new(at.ang + ang, at.lin + lin);
+        }
+    }
+}
+
+fn halves<R: Real>([a, b, c, d, e, f]: [R; 6]) -> (R::Vec3, R::Vec3) {
+    (R::Vec3::new(a, b, c), R::Vec3::new(d, e, f))
+}
+
+/// Forces on the bodies, a moving base and rotors against the recording.
+fn surroundings<R: Real, T, const B: usize, const Q: usize, const V: usize>(
+    recording: &Recording,
+    verdict: &mut Verdict,
+) where
+    T: Robot<B, Q, V>,
+{
+    let r = recording;
+    let answers = [
+        ("rnea with wrenches", &r.rnea_wrenches),
+        ("aba with wrenches", &r.aba_wrenches),
+        ("rnea on a moving base", &r.rnea_moving_base),
+        ("rnea with rotors", &r.rnea_armature),
+        ("aba with rotors", &r.aba_armature),
+    ];
+    let mut worst = answers.map(|(name, rows)| Worst::new(name, full_scale(rows)));
+    let (gravity, inertia, coriolis) = RIGID_BODY;
+    let rotors = std::array::from_fn(|k| R::from_f64(r.armature[k]));
+    let rotors = (gravity, inertia, coriolis, RotorInertia(rotors));
+    for i in 0..r.first_states() {
+        let (state, tau) = (state::<R, Q, V>(r, i), row::<V>(&r.tau, i).map(R::from_f64));
+        let fx = columns::<B>(&r.wrenches, i).map(|f| f.map(R::from_f64));
+        let loaded = (gravity, inertia, coriolis, Wrenches(fx));
+        let base = [&r.base_velocity, &r.base_acceleration];
+        let [v0, a0] = base.map(|rows| row::<6>(rows, i).map(R::from_f64));
+        let carried = (gravity, inertia, coriolis, BaseMotion(v0, a0));
+        let got = [
+            Core::<T>::rnea(&state, &loaded),
+            Core::<T>::aba(&state, &tau, &loaded).expect("M is positive"),
+            Core::<T>::rnea(&state, &carried),
+            Core::<T>::rnea(&state, &rotors),
+            Core::<T>::aba(&state, &tau, &rotors).expect("M is positive"),
+        ];
+        for ((worst, got), (_, rows)) in worst.iter_mut().zip(got).zip(answers) {
+            worst.see(got, row::<V>(rows, i));
+        }
+    }
+    let scalar = std::any::type_name::<R>();
+    for worst in worst {
+        verdict.check(&r.robot, worst.quantity, scalar, worst.error);
+    }
+}
+
+/// The core against the recording, which is returned.
+fn core_of<T, const B: usize, const Q: usize, const V: usize>(verdict: &mut Verdict) -> Recording
+where
+    T: Robot<B, Q, V>,
 {
     let recording = load(T::MODEL.name);
     assert_eq!(
@@ -91,16 +238,69 @@ where
         export::robot(&T::MODEL),
         "the recording is of other numbers: run host-tests/oracle/record.py again"
     );
-    compare::<f64, T, B, N>(&recording, verdict);
-    compare::<f32, T, B, N>(&recording, verdict);
+    core::<f64, T, B, Q, V>(&recording, verdict);
+    core::<f32, T, B, Q, V>(&recording, verdict);
+    recording
+}
+
+/// Core and engine against the recording.
+fn both_of<T, const B: usize, const N: usize>(verdict: &mut Verdict)
+where
+    T: Robot<B, N, N>,
+{
+    let recording = core_of::<T, B, N, N>(verdict);
+    engine::<f64, T, B, N>(&recording, verdict);
+    engine::<f32, T, B, N>(&recording, verdict);
+}
+
+/// The core and the manifold of configurations against the recording.
+fn joints_of<T, const B: usize, const Q: usize, const V: usize>(verdict: &mut Verdict)
+where
+    T: Robot<B, Q, V>,
+{
+    let recording = core_of::<T, B, Q, V>(verdict);
+    manifold::<T, B, Q, V>(&recording, verdict);
 }
 
 #[test]
 fn core_and_engine_agree_with_pinocchio_within_the_table() {
     let mut verdict = Verdict(vec![]);
-    robot::<Ur5e, 6, 6>(&mut verdict);
-    robot::<Panda, 7, 7>(&mut verdict);
-    robot::<Iiwa14, 7, 7>(&mut verdict);
-    robot::<A1, 16, 12>(&mut verdict);
+    both_of::<Ur5e, 6, 6>(&mut verdict);
+    both_of::<Panda, 7, 7>(&mut verdict);
+    both_of::<Iiwa14, 7, 7>(&mut verdict);
+    both_of::<A1, 16, 12>(&mut verdict);
+    core_of::<XArm7, 7, 7, 7>(&mut verdict);
+    core_of::<Z1, 7, 7, 7>(&mut verdict);
+    core_of::<G1, 29, 29, 29>(&mut verdict);
+    assert!(verdict.0.is_empty(), "\n{}", verdict.0.join("\n"));
+}
+
+#[test]
+fn every_kind_of_joint_agrees_with_pinocchio_within_the_table() {
+    let mut verdict = Verdict(vec![]);
+    core_of::<Gen3, 7, 7, 7>(&mut verdict);
+    joints_of::<A1Free, 17, 19, 18>(&mut verdict);
+    joints_of::<G1Free, 30, 36, 35>(&mut verdict);
+    joints_of::<TreeA, 17, 35, 32>(&mut verdict);
+    joints_of::<TreeB, 17, 35, 32>(&mut verdict);
+    assert!(verdict.0.is_empty(), "\n{}", verdict.0.join("\n"));
+}
+
+#[test]
+fn forces_on_bodies_a_moving_base_and_rotors_agree_with_pinocchio_within_the_table() {
+    fn both<T, const B: usize, const Q: usize, const V: usize>(verdict: &mut Verdict)
+    where
+        T: Robot<B, Q, V>,
+    {
+        let recording = load(T::MODEL.name);
+        surroundings::<f64, T, B, Q, V>(&recording, verdict);
+        surroundings::<f32, T, B, Q, V>(&recording, verdict);
+    }
+    let mut verdict = Verdict(vec![]);
+    both::<Panda, 7, 7, 7>(&mut verdict);
+    both::<A1, 16, 12, 12>(&mut verdict);
+    both::<G1Free, 30, 36, 35>(&mut verdict);
+    both::<TreeA, 17, 35, 32>(&mut verdict);
+    both::<TreeB, 17, 35, 32>(&mut verdict);
     assert!(verdict.0.is_empty(), "\n{}", verdict.0.join("\n"));
 }

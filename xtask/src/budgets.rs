@@ -6,6 +6,7 @@ use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 
+use crate::bars::{Held, Ratios};
 use crate::costs::{self, Bars, TICK};
 use crate::error::{Error, Result};
 use crate::report::Report;
@@ -24,11 +25,17 @@ const BARS: &str = "\
 # What was promised, whatever it costs now: nobody gets more, and no command writes it.
 ";
 
+const RATIOS: &str = "\
+# The same of multiples: opt-level s against 3 (`costs`), ours against the best build of a peer (`peers`).
+";
+
 /// The file.
 #[derive(Debug, Default, Deserialize)]
 struct Budgets {
     #[serde(default)]
     bars: Bars,
+    #[serde(default)]
+    ratios: Ratios,
     costs: Option<costs::Budget>,
     #[serde(flatten)]
     scenes: BTreeMap<String, Budget>,
@@ -129,9 +136,10 @@ pub fn write_costs(workspace: &Workspace, costs: costs::Budget) -> Result<()> {
     budgets.write(workspace)
 }
 
-/// What was promised.
-pub fn bars(workspace: &Workspace) -> Result<Bars> {
-    Ok(read(workspace)?.bars)
+/// What was promised: of rows, and of pairs.
+pub fn bars(workspace: &Workspace) -> Result<(Bars, Ratios)> {
+    let budgets = read(workspace)?;
+    Ok((budgets.bars, budgets.ratios))
 }
 
 /// Fails if a row of the costs exceeds its budget or misses its bar; else says how many rows hold.
@@ -141,8 +149,7 @@ pub fn check_costs(workspace: &Workspace, report: &costs::Report) -> Result<Stri
         Error::check("budgets.toml has no [costs]: `cargo xtask costs --write-budgets`")
     })?;
     let mut wrong = budget.exceeded_by(&costs::Budget::measured(report));
-    let missed = costs::missed(&budgets.bars, &report.rows);
-    wrong.extend(missed.iter().map(|bar| format!("bar: {bar}")));
+    wrong.extend(report.missed().iter().map(|bar| format!("bar: {bar}")));
     if !wrong.is_empty() {
         return Err(Error::check(wrong.join("\n")));
     }
@@ -154,15 +161,21 @@ impl Budgets {
         let path = file(workspace);
         let bad = |e: toml::ser::Error| Error::check(format!("{}: {e}", path.display()));
         let scenes = toml::to_string(&self.scenes).map_err(bad)?;
-        let mut bars = String::new();
+        let (mut bars, mut ratios) = (String::new(), String::new());
         for (key, bar) in &self.bars {
             let value = toml::Value::try_from(bar).map_err(bad)?;
             bars += &format!("{key:?} = {value}\n");
         }
+        for (key, ratio) in &self.ratios {
+            let value = toml::Value::try_from(ratio).map_err(bad)?;
+            ratios += &format!("{key:?} = {value}\n");
+        }
         let costs = self.costs.as_ref().map_or_else(String::new, |c| c.toml());
         workspace::write(
             &path,
-            format!("{HEADER}\n{scenes}\n{BARS}[bars]\n{bars}\n{costs}"),
+            format!(
+                "{HEADER}\n{scenes}\n{BARS}[bars]\n{bars}\n{RATIOS}[ratios]\n{ratios}\n{costs}"
+            ),
         )
     }
 }
@@ -182,11 +195,12 @@ pub fn check(workspace: &Workspace, report: &Report) -> Result<String> {
     if let Some(bar) = budgets.bars.get(&key)
         && let Some(most) = bar.cycles
     {
-        let held = costs::Held {
+        let held = Held {
             what: format!("bar: {key}: cycles"),
-            taken: measured.tick_cycles,
-            most,
+            taken: measured.tick_cycles as f64,
+            most: most as f64,
             recorded: bar.missed.iter().any(|figure| figure == "cycles"),
+            ratio: false,
         };
         exceeded.extend(held.complaint());
     }

@@ -9,12 +9,11 @@ use std::process::ExitCode;
 
 use crate::budgets;
 use crate::error::{Error, Result};
-use crate::setup::{self, Options};
+use crate::setup::{self, Options, Tools};
 use crate::workspace::{self, Workspace};
 
-pub use bars::{Bars, Held, TICK, missed};
+pub use bars::{Bars, TICK};
 pub use budget::Budget;
-pub use measure::measure;
 pub use report::Report;
 
 /// The generated page.
@@ -34,12 +33,7 @@ pub struct Wish {
 pub fn run(options: Options, wish: Wish) -> Result<ExitCode> {
     let workspace = Workspace::find()?;
     let tools = setup::for_demo(options)?;
-    let rows = measure(&workspace, &tools)?;
-    let report = Report {
-        bars: budgets::bars(&workspace)?,
-        rustc: tools.toolchain.rustc_version()?,
-        rows,
-    };
+    let report = measure(&workspace, &tools)?;
     workspace::write(&workspace.root.join(PAGE), report.markdown())?;
     if wish.write_budgets {
         budgets::write_costs(&workspace, Budget::measured(&report))?;
@@ -52,6 +46,18 @@ pub fn run(options: Options, wish: Wish) -> Result<ExitCode> {
         print!("{}", report.text());
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// Measures every row and says what they may be.
+pub fn measure(workspace: &Workspace, tools: &Tools) -> Result<Report> {
+    let (bars, ratios) = budgets::bars(workspace)?;
+    Ok(Report {
+        rows: measure::all(workspace, tools)?,
+        small: measure::small(workspace, tools)?,
+        bars,
+        ratios,
+        rustc: tools.toolchain.rustc_version()?,
+    })
 }
 
 /// Fails unless the page is that of the report, or close to it if another compiler wrote it.

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use crate::error::{Error, Result};
 use crate::shell;
-use crate::toolchain::Toolchain;
+use crate::toolchain::{RELEASE, Toolchain};
 use crate::workspace::Workspace;
 
 /// Builds a bin of the firmware and returns its ELF. Here and below, what cargo says is shown
@@ -12,23 +12,24 @@ use crate::workspace::Workspace;
 pub fn build(workspace: &Workspace, toolchain: Toolchain, bin: &str) -> Result<PathBuf> {
     let mut command = toolchain.firmware(workspace, "build");
     shell::capture(command.args(["--release", "--bin", bin]))?;
-    existing(toolchain.elf(workspace, bin))
+    existing(toolchain.elf(workspace, RELEASE, bin))
 }
 
-/// Builds some bins side by side and returns their ELFs.
+/// Builds some bins side by side in a profile and returns their ELFs.
 pub fn build_bins(
     workspace: &Workspace,
     toolchain: Toolchain,
+    profile: &str,
     bins: &[&str],
 ) -> Result<Vec<PathBuf>> {
     let mut command = toolchain.firmware(workspace, "build");
-    command.arg("--release");
+    command.args(["--profile", profile]);
     for bin in bins {
         command.args(["--bin", bin]);
     }
     shell::capture(&mut command)?;
     bins.iter()
-        .map(|bin| existing(toolchain.elf(workspace, bin)))
+        .map(|bin| existing(toolchain.elf(workspace, profile, bin)))
         .collect()
 }
 

@@ -1,6 +1,8 @@
 //! `cargo xtask …`: set-up, demo, test and reports.
 
+mod bars;
 mod budgets;
+mod build_time;
 mod callgraph;
 mod costs;
 mod demo;
@@ -72,6 +74,12 @@ enum Command {
     },
     /// Measure other libraries and this one side by side, rewrite docs/peers.md: takes minutes
     Peers {
+        /// The measurements as JSON on stdout; progress stays on stderr
+        #[arg(long)]
+        json: bool,
+    },
+    /// Time release builds with and without one specialised function, rewrite docs/build-time.md
+    BuildTime {
         /// The measurements as JSON on stdout; progress stays on stderr
         #[arg(long)]
         json: bool,
@@ -179,6 +187,7 @@ fn run(cli: Cli) -> Result<ExitCode> {
             costs::run(cli.setup, wish)
         }
         Command::Peers { json } => peers::run(cli.setup, json),
+        Command::BuildTime { json } => build_time::run(cli.setup, json),
         Command::Test { list: true, .. } => {
             test::list();
             Ok(ExitCode::SUCCESS)

@@ -14,6 +14,10 @@ use crate::workspace::{FIRMWARE, Workspace};
 /// The target of the firmware.
 pub const TARGET: &str = "thumbv7em-none-eabihf";
 
+/// The profile of what is measured, and the same at opt-level s.
+pub const RELEASE: &str = "release";
+pub const SMALL: &str = "small";
+
 /// What Debian's way needs.
 pub const DEBIAN_PACKAGES: &[&str] = &["rustc-web", "cargo-web", "rust-web-src", "lld"];
 
@@ -80,11 +84,11 @@ impl Toolchain {
         }
     }
 
-    /// The ELF of a bin of the firmware.
-    pub fn elf(self, workspace: &Workspace, bin: &str) -> PathBuf {
+    /// The ELF of a bin of the firmware in a profile.
+    pub fn elf(self, workspace: &Workspace, profile: &str, bin: &str) -> PathBuf {
         self.target_dir(workspace)
             .join(TARGET)
-            .join("release")
+            .join(profile)
             .join(bin)
     }
 

@@ -162,7 +162,7 @@ impl<R: Real, const V: usize> Observer<R, V> {
             let e = q - *next;
             let speed = *rate + self.velocity_gain * e;
             *rate = speed + self.tick * qdd;
-            *next = (*next + self.position_gain * e) + self.tick * (speed + self.half_tick * qdd);
+            *next = (*next + self.position_gain * e) + self.half_tick * (speed + *rate);
             // Every input reaches the position, and every position the sum.
             sum += *next;
         }

@@ -1,7 +1,7 @@
 //! Coulomb friction with a smooth sign: τ = F s(q̇ / w).
 //!
-//! s is the cubic u (3 − u²) / 2 on |u| ≤ 1 and the sign beyond: continuous with its slope, exact
-//! outside the width, three multiplications and no division.
+//! s is the cubic u (3 − u²) / 2 on |u| ≤ 1 and the sign beyond: continuous with its slope, ±F to
+//! a rounding outside the width, and neither a comparison nor a division.
 
 use super::{Effect, JointState};
 use crate::scalar::Real;
@@ -21,7 +21,8 @@ pub struct Coulomb<R, const V: usize> {
     pub per_width: R,
 }
 
-/// u (3 − u²) / 2 with u limited to ±1: the sign of u with a smooth passage through zero.
+/// u (3 − u²) / 2 with u limited to ±1: the sign of u with a smooth passage through zero. A NaN
+/// counts as 0.
 ///
 /// ```
 /// use dynamics_core::effects::smooth_sign;
@@ -30,15 +31,25 @@ pub struct Coulomb<R, const V: usize> {
 /// ```
 #[inline(always)]
 pub fn smooth_sign<R: Real>(u: R) -> R {
-    let u = u.limit(-R::ONE, R::ONE);
-    u * (R::from_f64(1.5) - R::from_f64(0.5) * u * u)
+    sliding(R::ONE, u * R::from_f64(R::FULL))
+}
+
+/// F s(u), given u in units of 1/FULL: where a conversion to an integer and back limits it.
+#[inline(always)]
+fn sliding<R: Real>(force: R, scaled: R) -> R {
+    let unit = const { 1.0 / R::FULL };
+    let u = scaled.saturate();
+    let steep = force * R::from_f64(1.5 * unit);
+    let bend = force * R::from_f64(0.5 * unit * unit * unit);
+    u * (steep - bend * (u * u))
 }
 
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Coulomb<R, V> {
     #[inline(always)]
     fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R) {
         if let Some(&torque) = self.torque.get(joint) {
-            *tau += torque * smooth_sign(at.qd * self.per_width);
+            // The factors that constants leave constant stand first.
+            *tau += sliding(torque, at.qd * (self.per_width * R::from_f64(R::FULL)));
         }
     }
 }

@@ -48,6 +48,24 @@ impl<'a, R: Real> Node<'a, R> {
         }
     }
 
+    /// The kind of its joint.
+    #[inline(always)]
+    pub fn kind(&self) -> JointKind {
+        self.kind
+    }
+
+    /// Where its position stands in q.
+    #[inline(always)]
+    pub(crate) fn position_at(&self) -> usize {
+        self.q_at
+    }
+
+    /// Where its velocity stands in q̇.
+    #[inline(always)]
+    pub(crate) fn velocity_at(&self) -> usize {
+        self.v_at
+    }
+
     /// Its velocity coordinates, as indices of q̇.
     #[inline(always)]
     pub fn coordinates(&self) -> core::ops::Range<usize> {

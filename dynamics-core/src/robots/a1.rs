@@ -1,8 +1,8 @@
-//! Unitree A1 with its trunk held.
+//! Unitree A1 with its trunk held, and free.
 
 use core::f64::consts::PI;
 
-use crate::model::{BASE, Body, Joint, Limits, Model, Robot};
+use crate::model::{BASE, Body, Joint, Limits, Model, Robot, on_root};
 
 /// Unitree A1 quadruped with its trunk welded to the base: a tree of four equal legs, 12 revolute joints.
 ///
@@ -21,10 +21,10 @@ use crate::model::{BASE, Body, Joint, Limits, Model, Robot};
 ///
 /// # Changed
 ///
-/// The legs are written once and mirrored, since the source's four are exact mirror images. Trunk and
-/// IMU are omitted since they do not move, the shoulder links since they have no mass. The foot's inertia
-/// is 2/5 m r² of a 20 mm sphere, which the source prints as 9.600000000000001e-06. Limits are the degrees
-/// of the source's constants.
+/// The legs are written once and mirrored, since the source's four are exact mirror images. Omitted are the
+/// trunk since it does not move, the IMU (1 g, with the inertia of a placeholder), and the shoulder links
+/// since they have no mass. The foot's inertia is 2/5 m r² of a 20 mm sphere, which the source prints as
+/// 9.600000000000001e-06. Limits are the degrees of the source's constants.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct A1;
 
@@ -94,26 +94,43 @@ const fn foot(name: &'static str, parent: usize) -> Body {
         .inertia([0.0000096, 0.0, 0.0, 0.0000096, 0.0, 0.0000096])
 }
 
+/// What the trunk carries.
+const LEGS: [Body; 16] = [
+    hip("FR_hip", 1.0, -1.0),
+    thigh("FR_thigh", 0, -1.0),
+    calf("FR_calf", 1),
+    foot("FR_foot", 2),
+    hip("FL_hip", 1.0, 1.0),
+    thigh("FL_thigh", 4, 1.0),
+    calf("FL_calf", 5),
+    foot("FL_foot", 6),
+    hip("RR_hip", -1.0, -1.0),
+    thigh("RR_thigh", 8, -1.0),
+    calf("RR_calf", 9),
+    foot("RR_foot", 10),
+    hip("RL_hip", -1.0, 1.0),
+    thigh("RL_thigh", 12, 1.0),
+    calf("RL_calf", 13),
+    foot("RL_foot", 14),
+];
+
 impl Robot<16, 12, 12> for A1 {
-    const MODEL: Model<f64, 16, 12, 12> = Model::new(
-        "a1",
-        [
-            hip("FR_hip", 1.0, -1.0),
-            thigh("FR_thigh", 0, -1.0),
-            calf("FR_calf", 1),
-            foot("FR_foot", 2),
-            hip("FL_hip", 1.0, 1.0),
-            thigh("FL_thigh", 4, 1.0),
-            calf("FL_calf", 5),
-            foot("FL_foot", 6),
-            hip("RR_hip", -1.0, -1.0),
-            thigh("RR_thigh", 8, -1.0),
-            calf("RR_calf", 9),
-            foot("RR_foot", 10),
-            hip("RL_hip", -1.0, 1.0),
-            thigh("RL_thigh", 12, 1.0),
-            calf("RL_calf", 13),
-            foot("RL_foot", 14),
-        ],
-    );
+    const MODEL: Model<f64, 16, 12, 12> = Model::new("a1", LEGS);
+}
+
+/// Unitree A1 on a free joint: the trunk of 6 kg, then the legs of [`A1`]; 17 bodies, 18 degrees of freedom.
+///
+/// Source and licence as [`A1`]; mujoco_menagerie gives the trunk 4.713 kg.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct A1Free;
+
+const TRUNK: Body = Body::new("trunk", BASE, Joint::free())
+    .mass(6.0)
+    .com([0.0, 0.0041, -0.0005])
+    .inertia([
+        0.0158533, -0.0000366, -0.0000611, 0.0377999, -0.0000275, 0.0456542,
+    ]);
+
+impl Robot<17, 19, 18> for A1Free {
+    const MODEL: Model<f64, 17, 19, 18> = Model::new("a1_free", on_root(TRUNK, &LEGS));
 }

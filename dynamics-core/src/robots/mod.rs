@@ -4,17 +4,32 @@
 //! - [`Panda`]: Franka Emika Panda without its hand, 7 revolute joints, dense inertias.
 //! - [`Iiwa14`]: KUKA LBR iiwa 14 R820, 7 revolute joints, diagonal inertias.
 //! - [`A1`]: Unitree A1 with its trunk held, a tree of four legs, 12 revolute joints and 4 fixed feet.
+//! - [`A1Free`]: the same with its trunk free, 18 degrees of freedom.
+//! - [`Gen3`]: Kinova Gen3 with vision module, 7 joints, four of which turn without end.
+//! - [`XArm7`]: UFACTORY xArm7, 7 revolute joints, dense inertias.
+//! - [`Z1`]: Unitree Z1 with its gripper, 7 revolute joints about x, y and z.
+//! - [`G1`]: Unitree G1 with its pelvis held, a humanoid of 29 revolute joints.
+//! - [`G1Free`]: the same with its pelvis free, 35 degrees of freedom.
 //!
 //! All are in SI units with the joint frames of the URDF they come from, so that poses, torques and
 //! signs compare directly with other libraries. The numbers are facts of published descriptions; no
 //! file of those is part of this crate.
 
 mod a1;
+mod g1;
+mod gen3;
 mod iiwa14;
 mod panda;
+mod part;
 mod ur5e;
+mod xarm7;
+mod z1;
 
-pub use a1::A1;
+pub use a1::{A1, A1Free};
+pub use g1::{G1, G1Free};
+pub use gen3::Gen3;
 pub use iiwa14::Iiwa14;
 pub use panda::Panda;
 pub use ur5e::Ur5e;
+pub use xarm7::XArm7;
+pub use z1::Z1;

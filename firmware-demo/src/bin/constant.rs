@@ -1,4 +1,4 @@
-//! The same work whatever the data: dynamics, sine and cosine, control law and safety gate on random
+//! The same work whatever the data: dynamics, sine and cosine, control law, drives and safety gate on random
 //! and adversarial states, between the meter's markers.
 //!
 //! ```text
@@ -18,11 +18,11 @@ use core::hint::black_box;
 use cortex_m_rt::entry;
 use cortex_m_semihosting::debug;
 use dynamics_core::control::{Bounds, Command, Gains, Mode, Supervisor, feedback};
-use dynamics_core::effects::RIGID_BODY;
+use dynamics_core::effects::{Coulomb, RIGID_BODY, RotorInertia, Viscous};
 use dynamics_core::robots::Ur5e;
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine, trig};
-use firmware_demo::{marker::measured, target};
+use firmware_demo::{drive::Scale, marker::measured, target};
 
 const N: usize = 6;
 const STATES: usize = 10_000;
@@ -101,6 +101,15 @@ impl Noise {
     }
 }
 
+const EFFECTS: (Viscous<f32, N>, Coulomb<f32, N>, RotorInertia<f32, N>) = (
+    Viscous([12.0, 12.0, 8.0, 2.0, 2.0, 1.5]),
+    Coulomb {
+        torque: [8.0, 8.0, 6.0, 1.5, 1.5, 1.2],
+        per_width: 20.0,
+    },
+    RotorInertia([0.9, 0.9, 0.9, 0.25, 0.25, 0.25]),
+);
+
 #[entry]
 fn main() -> ! {
     let noise = &mut Noise(0x5eed_1234);
@@ -109,6 +118,9 @@ fn main() -> ! {
     });
     each(noise, "engine", Noise::state, |state| {
         Engine::<Ur5e>::rnea(state, &RIGID_BODY)
+    });
+    each(noise, "effects", Noise::state, |state| {
+        Engine::<Ur5e>::rnea(state, &EFFECTS)
     });
     each(noise, "trig", |noise| noise.number(6.3), sin_cos);
     let gains = Gains {
@@ -120,6 +132,13 @@ fn main() -> ! {
         "law",
         |noise| (noise.state(), noise.numbers(6.3), noise.numbers(3.0)),
         |(reference, q, qd)| law(&gains, reference, q, qd),
+    );
+    let scale = Scale::new(8400, 150.0);
+    each(
+        noise,
+        "drive",
+        |noise| noise.number(200.0),
+        |torque| duty(&scale, *torque),
     );
     defmt::println!("constant gate {=usize}", STATES);
     gate(noise, None);
@@ -140,6 +159,11 @@ fn each<A, T>(noise: &mut Noise, name: &str, ask: impl Fn(&mut Noise) -> A, run:
 #[inline(never)]
 fn sin_cos(x: &f32) -> (f32, f32) {
     trig::sin_cos(*x)
+}
+
+#[inline(never)]
+fn duty(scale: &Scale, torque: f32) -> u16 {
+    scale.duty(torque)
 }
 
 #[inline(never)]

@@ -14,7 +14,7 @@ use dynamics_core::{Core, Engine};
 use glam::{DMat3, DVec3};
 use host_tests::tolerances;
 use proptest::prelude::RngExt;
-use proptest::test_runner::{RngAlgorithm, TestRng};
+use proptest::test_runner::TestRng;
 
 mod closed_forms;
 mod effects;

@@ -1,16 +1,9 @@
 //! Random states and trees, and the worst error over them.
 
 use super::*;
+pub(crate) use host_tests::random::{random_body, random_numbers, within};
 
 pub(crate) const G: f64 = 9.81;
-
-pub(crate) fn random_numbers() -> TestRng {
-    TestRng::deterministic_rng(RngAlgorithm::ChaCha)
-}
-
-pub(crate) fn within<const N: usize>(rng: &mut TestRng, bound: f64) -> [f64; N] {
-    core::array::from_fn(|_| rng.random_range(-bound..bound))
-}
 
 pub(crate) fn random_state<const N: usize>(rng: &mut TestRng) -> State<f64, N, N> {
     State {
@@ -51,25 +44,7 @@ pub(crate) fn random_tree(rng: &mut TestRng) -> Model<f64, 9, 7, 7> {
             0 => Joint::prismatic(axis),
             _ => Joint::revolute(axis),
         };
-        // The inertia of six points: nothing that could not be a body's.
-        let (mut mass, mut moment, mut second) = (0.0, DVec3::ZERO, DMat3::ZERO);
-        for _ in 0..6 {
-            let (m, r) = (rng.random_range(0.1..0.5), DVec3::from(within(rng, 0.3)));
-            mass += m;
-            moment += m * r;
-            second += DMat3::from_cols(r * r.x, r * r.y, r * r.z) * m;
-        }
-        let com = moment / mass;
-        second -= DMat3::from_cols(com * com.x, com * com.y, com * com.z) * mass;
-        let trace = second.x_axis.x + second.y_axis.y + second.z_axis.z;
-        let about_com = DMat3::from_diagonal(DVec3::splat(trace)) - second;
-        let [x, y, z] = about_com.to_cols_array_2d();
-        Body::new(NAMES[i], parent, joint)
-            .xyz(within(rng, 0.5))
-            .rpy(within(rng, 3.0))
-            .mass(mass)
-            .com(com.to_array())
-            .inertia([x[0], x[1], x[2], y[1], y[2], z[2]])
+        random_body(rng, Body::new(NAMES[i], parent, joint))
     });
     Model::new("tree", bodies)
 }

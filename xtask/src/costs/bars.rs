@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::measure::Row;
+use crate::bars::{Held, Ratios};
 
 /// The bars by the rows' names.
 pub type Bars = BTreeMap<String, Bar>;
@@ -30,39 +31,8 @@ pub struct Bar {
 /// The end of the name of a scene's bar.
 pub const TICK: &str = " tick";
 
-/// One figure of a bar, beside what was measured.
-pub struct Held {
-    /// Row and figure.
-    pub what: String,
-    /// What was measured.
-    pub taken: u64,
-    /// The bar.
-    pub most: u64,
-    /// It is recorded as missed.
-    pub recorded: bool,
-}
-
-impl Held {
-    /// Whether it is within the bar.
-    pub fn is_met(&self) -> bool {
-        self.taken <= self.most
-    }
-
-    /// What is wrong, if anything: a bar is missed without a record, or met in spite of one.
-    pub fn complaint(&self) -> Option<String> {
-        let Self {
-            what, taken, most, ..
-        } = self;
-        match (self.is_met(), self.recorded) {
-            (false, false) => Some(format!("{what} {taken} > {most}")),
-            (true, true) => Some(format!("{what} is met now: take it off `missed`")),
-            _ => None,
-        }
-    }
-}
-
 /// Every figure of the bars of these rows. A row that is not there holds none, which
-/// [`missed`] tells.
+/// [`unknown`] tells.
 pub fn held(bars: &Bars, rows: &[Row]) -> Vec<Held> {
     let mut all = Vec::new();
     for (key, bar) in bars {
@@ -76,22 +46,38 @@ pub fn held(bars: &Bars, rows: &[Row]) -> Vec<Held> {
         ] {
             all.extend(most.map(|most| Held {
                 what: format!("{key}: {figure}"),
-                taken,
-                most,
+                taken: taken as f64,
+                most: most as f64,
                 recorded: bar.missed.iter().any(|missed| missed == figure),
+                ratio: false,
             }));
         }
     }
     all
 }
 
-/// The bars that are not as `budgets.toml` has them, or whose row is not there, in words.
-pub fn missed(bars: &Bars, rows: &[Row]) -> Vec<String> {
-    let held = held(bars, rows);
-    let unmet = held.iter().filter_map(Held::complaint);
-    let unknown = bars
-        .keys()
+/// The engine at opt-level s against itself at 3, row by row, as far as there are bars.
+pub fn held_small(ratios: &Ratios, rows: &[Row], small: &[Row]) -> Vec<Held> {
+    let mut all = Vec::new();
+    for small in small {
+        let Some(row) = rows.iter().find(|row| row.key() == small.key()) else {
+            continue;
+        };
+        let key = format!("opt-level s / 3, {}", row.key());
+        for (figure, taken, of) in [
+            ("cycles", small.cycles.max, row.cycles.max),
+            ("code_bytes", small.code_bytes, row.code_bytes),
+        ] {
+            all.extend(Held::ratio(ratios, &key, figure, taken as f64 / of as f64));
+        }
+    }
+    all
+}
+
+/// The bars whose row is not there, in words.
+pub fn unknown(bars: &Bars, rows: &[Row]) -> Vec<String> {
+    bars.keys()
         .filter(|key| !key.ends_with(TICK) && rows.iter().all(|row| row.key() != **key))
-        .map(|key| format!("{key}: there is no such row"));
-    unmet.chain(unknown).collect()
+        .map(|key| format!("{key}: there is no such row"))
+        .collect()
 }

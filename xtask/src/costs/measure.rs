@@ -11,6 +11,7 @@ use crate::meter::{self, Cost, Spread};
 use crate::progress::Spinner;
 use crate::qemu::Run;
 use crate::setup::Tools;
+use crate::toolchain::{RELEASE, SMALL};
 use crate::workspace::Workspace;
 
 /// A bin for each robot: the compiler takes a minute for all of them, side by side.
@@ -57,15 +58,31 @@ impl Row {
 }
 
 /// Builds the bins, runs each of them, and returns their rows in order.
-pub fn measure(workspace: &Workspace, tools: &Tools) -> Result<Vec<Row>> {
-    let spinner = Spinner::start(&format!("building {}", BINS.join(", ")));
-    let elves = firmware::build_bins(workspace, tools.toolchain, &BINS)?;
+pub fn all(workspace: &Workspace, tools: &Tools) -> Result<Vec<Row>> {
+    measure(workspace, tools, RELEASE, &BINS)
+}
+
+/// The engine's rows of the first robot in a firmware that is built for size.
+pub fn small(workspace: &Workspace, tools: &Tools) -> Result<Vec<Row>> {
+    let mut rows = measure(workspace, tools, SMALL, &BINS[..1])?;
+    rows.retain(|row| row.form == "engine");
+    Ok(rows)
+}
+
+fn measure(
+    workspace: &Workspace,
+    tools: &Tools,
+    profile: &str,
+    bins: &[&'static str],
+) -> Result<Vec<Row>> {
+    let spinner = Spinner::start(&format!("building {} ({profile})", bins.join(", ")));
+    let elves = firmware::build_bins(workspace, tools.toolchain, profile, bins)?;
     spinner.say("building the cycle meter".into());
     let plugin = firmware::build_meter(workspace)?;
     let mut rows = Vec::new();
-    for (name, elf) in BINS.into_iter().zip(elves) {
+    for (name, elf) in bins.iter().zip(elves) {
         spinner.say(format!("running {name} in QEMU"));
-        let regions = workspace.output(&format!("{name}.regions"))?;
+        let regions = workspace.output(&format!("{name}.{profile}.regions"))?;
         let run = Run {
             name,
             elf: &elf,

@@ -1,7 +1,8 @@
 //! The rows in print.
 
-use super::bars::{Bars, held};
+use super::bars::{Bars, held, held_small, unknown};
 use super::measure::Row;
+use crate::bars::{self, Held, Ratios};
 use crate::render::CLOCK_MHZ;
 use crate::report::MODEL;
 use crate::table::{Table, thousands};
@@ -14,8 +15,12 @@ const FLOOR_JOINTS: usize = 6;
 pub struct Report {
     /// What was measured.
     pub rows: Vec<Row>,
+    /// The engine's rows of the UR5e at opt-level s.
+    pub small: Vec<Row>,
     /// What was promised.
     pub bars: Bars,
+    /// What was promised of opt-level s, among others.
+    pub ratios: Ratios,
     /// The compiler of the firmware.
     pub rustc: String,
 }
@@ -27,7 +32,8 @@ impl Report {
         for (robot, table) in self.tables() {
             text += &format!("\n{robot}\n\n{}", table.text());
         }
-        text += &format!("\nBars\n\n{}", self.bars_table().text());
+        text += &format!("\nur5e at opt-level s\n\n{}", self.small_table().text());
+        text += &format!("\nBars\n\n{}", bars::table(&self.held()).text());
         text + &format!("\n{}; µs at {CLOCK_MHZ} MHz\n", self.rustc)
     }
 
@@ -57,8 +63,12 @@ impl Report {
             text += &format!("\n## {robot}\n\n{}", table.markdown());
         }
         text += &format!(
+            "\n## ur5e at opt-level s\n\nThe whole firmware built for size.\n\n{}",
+            self.small_table().markdown()
+        );
+        text += &format!(
             "\n## Bars\n\nWhat was promised, from `budgets.toml`.\n\n{}",
-            self.bars_table().markdown()
+            bars::table(&self.held()).markdown()
         );
         text + &format!("\nMeasured with {}.\n", self.rustc)
     }
@@ -92,20 +102,45 @@ impl Report {
         tables
     }
 
-    fn bars_table(&self) -> Table {
-        let mut table = Table::new(&["bar", "at most", "now", ""]);
-        for held in held(&self.bars, &self.rows) {
-            let met = match (held.is_met(), held.recorded) {
-                (true, _) => "met",
-                (false, true) => "missed, see decisions/0002-bars.md",
-                (false, false) => "MISSED",
+    /// Every bar that there is a figure for.
+    fn held(&self) -> Vec<Held> {
+        let mut all = held(&self.bars, &self.rows);
+        all.extend(held_small(&self.ratios, &self.rows, &self.small));
+        all
+    }
+
+    /// The bars that are not as `budgets.toml` has them, or whose row is not there, in words.
+    pub fn missed(&self) -> Vec<String> {
+        let held = self.held();
+        let unmet = held.iter().filter_map(Held::complaint);
+        unmet.chain(unknown(&self.bars, &self.rows)).collect()
+    }
+
+    /// opt-level s beside 3.
+    fn small_table(&self) -> Table {
+        let mut table = Table::new(&[
+            "algorithm, form, inputs",
+            "sin/cos",
+            "cycles at s",
+            "at 3",
+            "s / 3",
+            "code at s",
+            "at 3",
+            "s / 3",
+        ]);
+        for small in &self.small {
+            let Some(row) = self.rows.iter().find(|row| row.key() == small.key()) else {
+                continue;
             };
-            table.row([
-                held.what,
-                thousands(held.most),
-                thousands(held.taken),
-                met.to_owned(),
-            ]);
+            let mut line = cells(small)[..2].to_vec();
+            for (small, row) in [
+                (small.cycles.max, row.cycles.max),
+                (small.code_bytes, row.code_bytes),
+            ] {
+                let ratio = format!("{:.3}", small as f64 / row as f64);
+                line.extend([thousands(small), thousands(row), ratio]);
+            }
+            table.row(line);
         }
         table
     }

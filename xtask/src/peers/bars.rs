@@ -1,107 +1,44 @@
-//! How the engine stands against the best peer, and what it was meant to reach.
+//! How the engine stands against the best peer, and what was promised of that.
 
-use std::fmt;
-
+use crate::bars::{Held, Ratios};
 use crate::peers::report::{HOST, M4F, Row};
 
-/// A figure and its limit.
-pub struct Bar {
-    /// What is measured.
-    pub what: String,
-    /// The figure.
-    pub measured: f64,
-    /// What it may be at most.
-    pub limit: f64,
-    /// `×` for a ratio, else what is counted.
-    pub unit: &'static str,
-}
+/// CasADi's C by gcc on the target: the one with fewer cycles is the peer.
+const BUILDS: [&str; 2] = ["casadi gcc", "casadi gcc -ffp-contract=off"];
 
-impl fmt::Display for Bar {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self {
-            what,
-            measured,
-            limit,
-            unit,
-        } = self;
-        let verdict = if measured <= limit { "met" } else { "missed" };
-        let digits = if *unit == "×" { 2 } else { 0 };
-        write!(
-            f,
-            "{what}: {measured:.digits$} {unit}, at most {limit:.digits$}: {verdict}"
-        )
-    }
-}
-
-/// The bars that this run has the figures for.
-pub fn of(rows: &[Row]) -> Vec<Bar> {
-    let mut bars = Vec::new();
+/// The bars of `budgets.toml` that this run has the figures for.
+pub fn held(ratios: &Ratios, rows: &[Row]) -> Vec<Held> {
+    let mut all = Vec::new();
     for robot in ["ur5e", "panda", "iiwa14", "a1"] {
-        on_target(rows, robot, &mut bars);
-    }
-    if let Some(core) = find(rows, M4F, "ur5e", "f32", "core") {
-        let what = "ur5e rnea, core".to_owned();
-        bars.extend(bar(
-            what.clone(),
-            core.cycles.map(|n| n as f64),
-            2300.0,
-            "cycles",
-        ));
-        bars.extend(bar(
-            what,
-            core.code_bytes.map(|n| n as f64),
-            2300.0,
-            "bytes",
-        ));
+        let key = format!("{robot} rnea, m4f, engine / casadi");
+        let best = BUILDS
+            .iter()
+            .filter_map(|build| find(rows, M4F, robot, "f32", build))
+            .min_by_key(|row| row.cycles);
+        let Some((engine, best)) = find(rows, M4F, robot, "f32", "engine").zip(best) else {
+            continue;
+        };
+        for (figure, ours, theirs) in [
+            ("cycles", engine.cycles, best.cycles),
+            ("code_bytes", engine.code_bytes, best.code_bytes),
+        ] {
+            let pair = ours.zip(theirs);
+            all.extend(
+                pair.and_then(|(a, b)| Held::ratio(ratios, &key, figure, a as f64 / b as f64)),
+            );
+        }
     }
     for robot in ["ur5e", "panda"] {
         for precision in ["f32", "f64"] {
             let time = |peer: &str| best_ns(rows, robot, precision, peer);
-            for (peer, limit) in [("casadi", 0.8), ("pinocchio", 0.15)] {
-                let ratio = time("engine")
-                    .zip(time(peer))
-                    .map(|(engine, peer)| engine / peer);
-                let what = format!("{robot} rnea, host {precision}, engine / best {peer}");
-                bars.extend(bar(what, ratio, limit, "×"));
+            for peer in ["casadi", "pinocchio"] {
+                let key = format!("{robot} rnea, host {precision}, engine / {peer}");
+                let pair = time("engine").zip(time(peer));
+                all.extend(pair.and_then(|(a, b)| Held::ratio(ratios, &key, "ns", a / b)));
             }
         }
     }
-    bars
-}
-
-/// Against the build with fewer cycles of those by gcc.
-fn on_target(rows: &[Row], robot: &str, bars: &mut Vec<Bar>) {
-    let builds = ["casadi gcc", "casadi gcc -ffp-contract=off"];
-    let best = builds
-        .iter()
-        .filter_map(|build| find(rows, M4F, robot, "f32", build))
-        .min_by_key(|row| row.cycles);
-    let Some((engine, best)) = find(rows, M4F, robot, "f32", "engine").zip(best) else {
-        return;
-    };
-    let ratio = |a: Option<u64>, b: Option<u64>| a.zip(b).map(|(a, b)| a as f64 / b as f64);
-    let what = |figure| format!("{robot} rnea, engine / {}, {figure}", best.peer);
-    bars.extend(bar(
-        what("cycles"),
-        ratio(engine.cycles, best.cycles),
-        0.47,
-        "×",
-    ));
-    bars.extend(bar(
-        what("code"),
-        ratio(engine.code_bytes, best.code_bytes),
-        0.6,
-        "×",
-    ));
-}
-
-fn bar(what: String, measured: Option<f64>, limit: f64, unit: &'static str) -> Option<Bar> {
-    measured.map(|measured| Bar {
-        what,
-        measured,
-        limit,
-        unit,
-    })
+    all
 }
 
 /// A row of full inverse dynamics.
@@ -130,7 +67,8 @@ fn best_ns(rows: &[Row], robot: &str, precision: &str, peer: &str) -> Option<f64
 
 #[cfg(test)]
 mod tests {
-    use super::{HOST, M4F, Row, of};
+    use super::{HOST, M4F, Row, held};
+    use crate::bars::{Ratio, Ratios};
 
     #[test]
     fn the_engine_is_held_against_the_best_build() {
@@ -154,7 +92,26 @@ mod tests {
             row(HOST, "casadi clang", None, Some(40.0)),
             row(HOST, "engine", None, Some(20.0)),
         ];
-        let measured: Vec<f64> = of(&rows).iter().map(|bar| bar.measured).collect();
+        let pair = |cycles, ns| Ratio {
+            cycles,
+            code_bytes: cycles,
+            ns,
+            ..Ratio::default()
+        };
+        let ratios = Ratios::from([
+            (
+                "ur5e rnea, m4f, engine / casadi".into(),
+                pair(Some(0.47), None),
+            ),
+            (
+                "ur5e rnea, host f32, engine / casadi".into(),
+                pair(None, Some(0.8)),
+            ),
+        ]);
+        let held = held(&ratios, &rows);
+        let measured: Vec<f64> = held.iter().map(|held| held.taken).collect();
         assert_eq!(measured, [0.5, 0.5, 0.5]);
+        let unmet: Vec<bool> = held.iter().map(|held| held.complaint().is_some()).collect();
+        assert_eq!(unmet, [true, true, false]);
     }
 }

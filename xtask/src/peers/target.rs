@@ -18,6 +18,7 @@ use crate::peers::robots::Robot;
 use crate::qemu::Run;
 use crate::setup::Tools;
 use crate::shell;
+use crate::toolchain::RELEASE;
 use crate::workspace::{self, Workspace};
 
 /// The firmware's bin, and the feature that it is built with.
@@ -97,7 +98,7 @@ pub fn measure(
         )
         .env("PEERS_TABLE", &table);
     shell::capture(&mut command)?;
-    let elf = tools.toolchain.elf(workspace, BIN);
+    let elf = tools.toolchain.elf(workspace, RELEASE, BIN);
     let plugin = firmware::build_meter(workspace)?;
     let regions = shop.built.join("regions.txt");
     shop.progress.doing("running the firmware in QEMU");

@@ -4,7 +4,7 @@ use cycle_meter::Sample;
 
 use super::{Context, Outcome};
 use crate::budgets;
-use crate::costs::{self, Report};
+use crate::costs;
 use crate::error::{Error, Result};
 use crate::firmware;
 use crate::meter::{self, Cost};
@@ -12,11 +12,7 @@ use crate::qemu::Run;
 
 pub fn costs(context: &Context) -> Result<Outcome> {
     let (workspace, tools) = (&context.workspace, &context.tools);
-    let report = Report {
-        rows: costs::measure(workspace, tools)?,
-        bars: budgets::bars(workspace)?,
-        rustc: tools.toolchain.rustc_version()?,
-    };
+    let report = costs::measure(workspace, tools)?;
     // Both are told: a page out of date is no reason to hide what is over budget.
     let budget = budgets::check_costs(workspace, &report);
     match (budget, costs::check_page(workspace, &report)) {

@@ -59,13 +59,14 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
     pub(super) fn plausible(&self, q: &[R; V]) -> bool {
         let ranges = self.middle.iter().zip(&self.half);
         let steps = self.last_good.iter().zip(&self.step);
-        // The ranges are finite, and so is what lies in them.
-        q.iter()
-            .zip(ranges)
-            .zip(steps)
-            .all(|((&q, (&middle, &half)), (&last, &step))| {
-                ((q - middle).abs() <= half) & ((q - last).abs() <= step * self.reach)
-            })
+        // The ranges are finite, and so is what lies in them. Not `all`: joints need not wait for
+        // each other's verdict.
+        q.iter().zip(ranges).zip(steps).fold(
+            true,
+            |ok, ((&q, (&middle, &half)), (&last, &step))| {
+                ok & ((q - middle).abs() <= half) & ((q - last).abs() <= step * self.reach)
+            },
+        )
     }
 
     /// What is wrong with positions that are not plausible, the worst first.

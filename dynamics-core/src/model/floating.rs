@@ -1,0 +1,35 @@
+//! A robot whose base moves freely.
+
+use super::{BASE, Body};
+
+/// The bodies of a robot behind the body that they hung on: `root` comes first, and what had
+/// [`BASE`] for its parent hangs on it.
+///
+/// With `root` on a free joint this makes the floating form of a robot from its fixed one, so that
+/// nothing is listed twice.
+///
+/// ```
+/// use dynamics_core::model::{Arm, BASE, Body, Joint, Model, on_root};
+/// const ARM: [Body; 1] = [Body::new("arm", BASE, Joint::revolute([0.0, 1.0, 0.0])).mass(1.0)];
+/// let cart = Body::new("cart", BASE, Joint::prismatic([1.0, 0.0, 0.0])).mass(2.0);
+/// let model: Arm<f64, 2> = Model::new("cart and arm", on_root(cart, &ARM));
+/// assert_eq!(model.links[1].parent, 0);
+/// ```
+///
+/// # Panics
+/// If B is not M + 1; in a `const` item that is a compile error.
+pub const fn on_root<const M: usize, const B: usize>(root: Body, bodies: &[Body; M]) -> [Body; B] {
+    assert!(B == M + 1, "one body more than there were");
+    let (mut all, mut i) = ([root; B], 0);
+    while i < M {
+        let mut body = bodies[i];
+        body.parent = if body.parent == BASE {
+            0
+        } else {
+            body.parent + 1
+        };
+        all[i + 1] = body;
+        i += 1;
+    }
+    all
+}

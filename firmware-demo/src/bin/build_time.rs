@@ -1,0 +1,148 @@
+//! A firmware with one specialised function, or none: `cargo xtask build-time` times how long the compiler
+//! takes for each. `BUILD_TIME_ROBOT`, at compile time, names the robot.
+#![no_std]
+#![no_main]
+
+use core::f64::consts::FRAC_PI_2;
+use core::hint::black_box;
+
+use cortex_m_rt::entry;
+use cortex_m_semihosting::debug;
+use dynamics_core::Engine;
+use dynamics_core::effects::RIGID_BODY;
+use dynamics_core::model::{BASE, Body, Joint, Limits, Model, Robot};
+use dynamics_core::robots::Panda;
+use dynamics_core::state::State;
+use firmware_demo::target;
+
+const ROBOT: &[u8] = match option_env!("BUILD_TIME_ROBOT") {
+    Some(name) => name.as_bytes(),
+    None => b"none",
+};
+
+/// A made-up humanoid with its pelvis held: two legs of six joints, a waist of three, two arms of
+/// seven; dense inertias, placements in quarter turns and with tilted hips and shoulders, as
+/// published ones have them. Not a robot to compute with: a load for the compiler.
+struct Humanoid;
+
+const X: [f64; 3] = [1.0, 0.0, 0.0];
+const Y: [f64; 3] = [0.0, 1.0, 0.0];
+const Z: [f64; 3] = [0.0, 0.0, 1.0];
+
+/// A link of `mass` kg along its own `length`, in m.
+const fn link(parent: usize, axis: [f64; 3], at: [f64; 3], mass: f64, length: [f64; 3]) -> Body {
+    let [x, y, z] = length;
+    let per_axis = mass / 12.0;
+    Body::new("link", parent, Joint::revolute(axis))
+        .xyz(at)
+        .mass(mass)
+        .com([0.5 * x + 0.003, 0.5 * y - 0.002, 0.5 * z + 0.001])
+        .inertia([
+            per_axis * (y * y + z * z + 0.01),
+            1e-5 * mass,
+            -2e-5 * mass,
+            per_axis * (x * x + z * z + 0.01),
+            3e-5 * mass,
+            per_axis * (x * x + y * y + 0.01),
+        ])
+        .limits(Limits {
+            lower: -FRAC_PI_2,
+            upper: FRAC_PI_2,
+            velocity: 20.0,
+            torque: 80.0,
+        })
+}
+
+/// Six bodies from `first` on; `left` is 1 or -1.
+const fn leg(bodies: &mut [Body; 29], first: usize, left: f64) {
+    let hip = [0.0, 0.064 * left, -0.103];
+    bodies[first] = link(BASE, Y, hip, 1.35, [0.0, 0.05 * left, -0.03]);
+    bodies[first + 1] = link(
+        first,
+        X,
+        [0.0, 0.052 * left, -0.030],
+        1.52,
+        [0.03, 0.0, -0.1],
+    )
+    .rpy([0.0, -0.175, 0.0]);
+    bodies[first + 2] = link(first + 1, Z, [0.025, 0.0, -0.124], 1.7, [0.0, 0.02, -0.15]);
+    bodies[first + 3] = link(
+        first + 2,
+        Y,
+        [-0.078, 0.002, -0.177],
+        1.93,
+        [0.0, 0.0, -0.3],
+    )
+    .rpy([0.0, 0.175, 0.0]);
+    bodies[first + 4] = link(first + 3, Y, [0.0, 0.0, -0.3], 0.07, [0.0, 0.0, -0.02]);
+    bodies[first + 5] = link(first + 4, X, [0.0, 0.0, -0.018], 0.61, [0.13, 0.0, -0.03]);
+}
+
+/// Seven bodies from `first` on, on the last body of the waist.
+const fn arm(bodies: &mut [Body; 29], first: usize, left: f64) {
+    let shoulder = [0.004, 0.1 * left, 0.248];
+    bodies[first] =
+        link(14, Y, shoulder, 0.72, [0.0, 0.04 * left, 0.0]).rpy([0.279 * left, 0.0, 0.0]);
+    bodies[first + 1] = link(
+        first,
+        X,
+        [0.0, 0.038 * left, -0.014],
+        0.64,
+        [0.0, 0.01, -0.09],
+    )
+    .rpy([-0.279 * left, 0.0, 0.0]);
+    bodies[first + 2] = link(
+        first + 1,
+        Z,
+        [0.0, 0.006 * left, -0.103],
+        0.73,
+        [0.01, 0.0, -0.1],
+    );
+    bodies[first + 3] = link(first + 2, Y, [0.016, 0.0, -0.081], 0.6, [0.1, 0.0, -0.01]);
+    bodies[first + 4] = link(
+        first + 3,
+        X,
+        [0.1, 0.002 * left, -0.01],
+        0.09,
+        [0.04, 0.0, 0.0],
+    );
+    bodies[first + 5] = link(first + 4, Y, [0.038, 0.0, 0.0], 0.48, [0.05, 0.0, 0.0]);
+    bodies[first + 6] = link(first + 5, Z, [0.046, 0.0, 0.0], 0.25, [0.09, 0.01, 0.0]);
+}
+
+const fn humanoid() -> [Body; 29] {
+    let mut bodies = [link(BASE, Z, [0.0; 3], 1.0, [0.0; 3]); 29];
+    leg(&mut bodies, 0, 1.0);
+    leg(&mut bodies, 6, -1.0);
+    bodies[12] = link(BASE, Z, [0.0; 3], 0.24, [0.0, 0.0, 0.03]);
+    bodies[13] = link(12, X, [-0.004, 0.0, 0.035], 0.05, [0.0, 0.0, 0.01]);
+    bodies[14] = link(13, Y, [0.0, 0.0, 0.019], 9.6, [0.01, 0.0, 0.35]);
+    arm(&mut bodies, 15, 1.0);
+    arm(&mut bodies, 22, -1.0);
+    bodies
+}
+
+impl Robot<29, 29, 29> for Humanoid {
+    const MODEL: Model<f64, 29, 29, 29> = Model::new("humanoid", humanoid());
+}
+
+/// One call that the compiler cannot foresee.
+fn call<T: Robot<N, N, N>, const N: usize>() {
+    let state = black_box(State {
+        q: [0.1_f32; N],
+        qd: [0.2; N],
+        qdd: [0.3; N],
+    });
+    black_box(Engine::<T>::rnea(&state, &RIGID_BODY));
+}
+
+#[entry]
+fn main() -> ! {
+    if const { matches!(ROBOT, b"panda") } {
+        call::<Panda, 7>();
+    }
+    if const { matches!(ROBOT, b"humanoid") } {
+        call::<Humanoid, 29>();
+    }
+    target::leave(debug::EXIT_SUCCESS)
+}

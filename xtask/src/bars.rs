@@ -1,0 +1,132 @@
+//! Bars: what was promised, held against what was measured, and the record of what is missed.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+use crate::table::{Table, thousands};
+
+/// Where the missed bars are explained.
+const RECORD: &str = "decisions/0002-bars.md";
+
+/// What a figure of one thing may be at most as a multiple of another's, by the pair's name.
+pub type Ratios = BTreeMap<String, Ratio>;
+
+/// The figures of a pair.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Ratio {
+    /// Modelled cycles.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cycles: Option<f64>,
+    /// Code in bytes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub code_bytes: Option<f64>,
+    /// Time on the host.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ns: Option<f64>,
+    /// The figures that are recorded as missed.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub missed: Vec<String>,
+}
+
+/// One figure of a bar, beside what was measured.
+#[derive(Clone, Debug)]
+pub struct Held {
+    /// Row and figure.
+    pub what: String,
+    /// What was measured.
+    pub taken: f64,
+    /// The bar.
+    pub most: f64,
+    /// It is recorded as missed.
+    pub recorded: bool,
+    /// It is a multiple, not a number of something.
+    pub ratio: bool,
+}
+
+impl Held {
+    /// The pair `key` of `ratios`, its `figure` as measured; nothing if no bar is set.
+    pub fn ratio(ratios: &Ratios, key: &str, figure: &str, taken: f64) -> Option<Self> {
+        let ratio = ratios.get(key)?;
+        let most = match figure {
+            "cycles" => ratio.cycles,
+            "code_bytes" => ratio.code_bytes,
+            _ => ratio.ns,
+        }?;
+        Some(Self {
+            what: format!("{key}: {figure}"),
+            taken,
+            most,
+            recorded: ratio.missed.iter().any(|missed| missed == figure),
+            ratio: true,
+        })
+    }
+
+    /// Whether it is within the bar.
+    pub fn is_met(&self) -> bool {
+        self.taken <= self.most
+    }
+
+    /// What is wrong, if anything: a bar is missed without a record, or met in spite of one.
+    pub fn complaint(&self) -> Option<String> {
+        let (what, [most, taken]) = (&self.what, self.numbers());
+        match (self.is_met(), self.recorded) {
+            (false, false) => Some(format!("{what} {taken} > {most}")),
+            (true, true) => Some(format!("{what} is met now: take it off `missed`")),
+            _ => None,
+        }
+    }
+
+    /// The bar and what was measured, in print.
+    fn numbers(&self) -> [String; 2] {
+        [self.most, self.taken].map(|x| {
+            if self.ratio {
+                format!("{x:.3}×")
+            } else {
+                thousands(x as u64)
+            }
+        })
+    }
+}
+
+/// All of them in print.
+pub fn table(held: &[Held]) -> Table {
+    let mut table = Table::new(&["bar", "at most", "now", ""]);
+    for held in held {
+        let verdict = match (held.is_met(), held.recorded) {
+            (true, _) => "met".to_owned(),
+            (false, true) => format!("missed, see {RECORD}"),
+            (false, false) => "MISSED".to_owned(),
+        };
+        let [most, taken] = held.numbers();
+        table.row([held.what.clone(), most, taken, verdict]);
+    }
+    table
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Held, Ratio, Ratios};
+
+    #[test]
+    fn a_bar_is_met_or_recorded() {
+        let pair = Ratio {
+            cycles: Some(0.47),
+            ns: Some(0.15),
+            missed: vec!["ns".into()],
+            ..Ratio::default()
+        };
+        let ratios = Ratios::from([("a / b".into(), pair)]);
+        let complaint = |figure, taken| Held::ratio(&ratios, "a / b", figure, taken)?.complaint();
+        assert_eq!(complaint("cycles", 0.47), None);
+        assert_eq!(
+            complaint("cycles", 0.48).unwrap(),
+            "a / b: cycles 0.480× > 0.470×"
+        );
+        assert_eq!(complaint("ns", 0.16), None);
+        assert!(complaint("ns", 0.14).unwrap().contains("met now"));
+        assert!(Held::ratio(&ratios, "a / b", "code_bytes", 1.0).is_none());
+        assert!(Held::ratio(&ratios, "a / c", "cycles", 1.0).is_none());
+    }
+}

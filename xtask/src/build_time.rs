@@ -1,0 +1,112 @@
+//! `cargo xtask build-time`: how much longer a release build takes for one specialised function of a robot.
+
+use std::process::ExitCode;
+use std::time::Instant;
+
+use serde::Serialize;
+
+use crate::error::{Error, Result};
+use crate::progress::Spinner;
+use crate::setup::{self, Options, Tools};
+use crate::shell;
+use crate::table::Table;
+use crate::workspace::{self, Workspace};
+
+const PAGE: &str = "docs/build-time.md";
+const BIN: &str = "build_time";
+/// The robot that is none.
+const NONE: &str = "none";
+/// Builds of each, of which the fastest counts: the machine may have other work.
+const BUILDS: usize = 2;
+/// Robots that the bin knows, their joints, and how many seconds more were promised at most.
+const ROBOTS: [(&str, usize, f64); 2] = [("panda", 7, 5.0), ("humanoid", 29, 60.0)];
+
+/// A robot's line, as in the JSON.
+#[derive(Debug, Serialize)]
+struct Row {
+    robot: &'static str,
+    joints: usize,
+    /// A build of the bin with one inverse dynamics by the engine, and of the same without, s.
+    seconds: f64,
+    without_seconds: f64,
+    /// The difference, and its bar.
+    more_seconds: f64,
+    at_most_seconds: f64,
+}
+
+/// Times the builds, writes the page and prints it.
+pub fn run(options: Options, json: bool) -> Result<ExitCode> {
+    let workspace = Workspace::find()?;
+    let tools = setup::for_demo(options)?;
+    let rows = measure(&workspace, &tools)?;
+    let table = table(&rows);
+    let rustc = tools.toolchain.rustc_version()?;
+    let page = format!(
+        "# Build time\n\n<!-- written by `cargo xtask build-time`: do not edit -->\n\n\
+         Seconds that a release build of a firmware takes whose libraries are built already: with one \
+         inverse dynamics by the engine, and without. The faster of {BUILDS}; other machines take other \
+         times. The humanoid is made up: two legs of six joints, a waist of three, two arms of seven.\n\n\
+         {}\nMeasured with {rustc}.\n",
+        table.markdown()
+    );
+    workspace::write(&workspace.root.join(PAGE), page)?;
+    if json {
+        let text = serde_json::to_string_pretty(&rows)
+            .map_err(|e| Error::check(format!("cannot write the JSON: {e}")))?;
+        println!("{text}");
+    } else {
+        print!("{}", table.text());
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+fn measure(workspace: &Workspace, tools: &Tools) -> Result<Vec<Row>> {
+    let spinner = Spinner::start("building the libraries");
+    // The first build is not of this bin alone.
+    build(workspace, tools, NONE)?;
+    let mut fastest = [f64::INFINITY; 1 + ROBOTS.len()];
+    for _ in 0..BUILDS {
+        // In turns, so that each build finds that of another robot.
+        let names = ROBOTS.iter().map(|(name, ..)| *name).chain([NONE]);
+        for (name, fastest) in names.zip(&mut fastest) {
+            spinner.say(format!("building for {name}"));
+            let begin = Instant::now();
+            build(workspace, tools, name)?;
+            *fastest = fastest.min(begin.elapsed().as_secs_f64());
+        }
+    }
+    let [with @ .., without_seconds] = fastest;
+    let rows = ROBOTS.into_iter().zip(with);
+    let row = |((robot, joints, at_most_seconds), seconds)| Row {
+        robot,
+        joints,
+        seconds,
+        without_seconds,
+        more_seconds: seconds - without_seconds,
+        at_most_seconds,
+    };
+    Ok(rows.map(row).collect())
+}
+
+fn build(workspace: &Workspace, tools: &Tools, robot: &str) -> Result<()> {
+    let mut command = tools.toolchain.firmware(workspace, "build");
+    command
+        .args(["--release", "--features", "build-time", "--bin", BIN])
+        .env("BUILD_TIME_ROBOT", robot);
+    shell::capture(&mut command)?;
+    Ok(())
+}
+
+fn table(rows: &[Row]) -> Table {
+    let mut table = Table::new(&["robot", "joints", "with", "without", "more", "at most", ""]);
+    for row in rows {
+        let met = row.more_seconds <= row.at_most_seconds;
+        let seconds = [row.seconds, row.without_seconds, row.more_seconds];
+        let mut cells = vec![row.robot.to_owned(), row.joints.to_string()];
+        cells.extend(seconds.map(|s| format!("{s:.1}")));
+        cells.push(format!("{:.0}", row.at_most_seconds));
+        cells.push(if met { "met" } else { "missed" }.to_owned());
+        table.row(cells);
+    }
+    table
+}

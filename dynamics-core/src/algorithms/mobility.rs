@@ -102,7 +102,7 @@ struct Handle<R: Real> {
 /// Λ⁻¹ of `body` in a [`Frame`]: J M⁻¹ Jᵀ without J or M.
 ///
 /// Inertias of joints and a payload that the effects name count. Zero for a body that there is not.
-/// Cost: O(B); some 480 flops a revolute joint, and 390 more a joint that carries the body. Source: the
+/// Cost: O(B); some 390 flops a revolute joint, and 390 more a joint that carries the body. Source: the
 /// module's.
 ///
 /// ```

@@ -36,5 +36,5 @@ pub use jacobian::{drift, drift_at, jacobian, jacobian_at};
 pub use kinematics::{Kinematics, kinematics, kinematics_at, poses, poses_at};
 pub use mobility::{Mobility, mobility, mobility_at};
 pub use momentum::{MassCentre, mass_centre, mass_centre_at, momentum, momentum_at};
-pub use operational::{OperationalSpace, task_rows};
+pub use operational::{OperationalSpace, operational_space, operational_space_at, task_rows};
 pub use rnea::{rnea, rnea_at};

@@ -4,8 +4,12 @@
 //! space formulation" (1987): Λ = (J M⁻¹ Jᵀ)⁻¹, J̄ = M⁻¹ Jᵀ Λ, τ = Jᵀ F + (1 − Jᵀ J̄ᵀ) τ₀.
 
 use super::damped::{Conditioning, Damping, damped_inverse};
+use super::{Frame, NotPositiveDefinite, crba_at, factor, jacobian_at, solve};
+use crate::effects::Effect;
+use crate::model::Description;
 use crate::scalar::Real;
 use crate::spatial::{Force, Motion};
+use crate::state::Posture;
 
 /// The rows of a task's Jacobian: the rates of M directions of a body, given as forces, from the columns of
 /// that body's [`super::jacobian`] in the same frame.
@@ -28,6 +32,84 @@ pub fn task_rows<R: Real, const M: usize, const V: usize>(
     directions: &[Force<R>; M],
 ) -> [[R; V]; M] {
     directions.map(|direction| jacobian.map(|column| column.dot(direction)))
+}
+
+/// A task on `body` along some directions, told in a [`Frame`]: by J, M and its factors.
+///
+/// Rotors and a payload that the effects name count in M. Cost: [`super::crba`], [`super::factor()`],
+/// [`super::jacobian`], M solutions of 2 V² flops, 2 M² V flops and [`damped_inverse`]. Source: Khatib (1987).
+///
+/// ```
+/// use dynamics_core::algorithms::{Damping, frame, operational_space};
+/// use dynamics_core::{control::TaskFrame, effects::RIGID_BODY, model::Robot, robots::Ur5e};
+/// let (q, place) = ([0.0_f64, -1.2, 1.5, 0.3, 0.7, 0.0], TaskFrame::BASE.place());
+/// let damping = Damping::relative(1e-3);
+/// let task = operational_space(&Ur5e::MODEL, &q, (5, frame::Mixed), &place, &RIGID_BODY, damping)?;
+/// assert!(task.inertia[2][2] > 1.0); // kg that the hand feels vertically
+/// # Ok::<(), dynamics_core::algorithms::NotPositiveDefinite>(())
+/// ```
+///
+/// # Errors
+/// [`NotPositiveDefinite`] names a joint that moves no inertia. A singular pose is none: all is finite,
+/// and [`OperationalSpace::conditioning`] says so.
+#[inline(always)]
+pub fn operational_space<
+    R: Real,
+    D,
+    E,
+    F,
+    const M: usize,
+    const B: usize,
+    const Q: usize,
+    const V: usize,
+>(
+    robot: &D,
+    q: &[R; Q],
+    body: (usize, F),
+    directions: &[Force<R>; M],
+    effects: &E,
+    damping: Damping<R>,
+) -> Result<OperationalSpace<R, M, V>, NotPositiveDefinite>
+where
+    D: Description<R, B, Q, V>,
+    E: Effect<R, B, V>,
+    F: Frame,
+{
+    let posture = Posture::of(robot, q);
+    operational_space_at(robot, &posture, body, directions, effects, damping)
+}
+
+/// As [`operational_space`], at a posture whose sines and cosines are at hand.
+///
+/// # Errors
+/// As [`operational_space`].
+#[inline(always)]
+pub fn operational_space_at<
+    R: Real,
+    D,
+    E,
+    F,
+    const M: usize,
+    const B: usize,
+    const Q: usize,
+    const V: usize,
+>(
+    robot: &D,
+    posture: &Posture<R, Q>,
+    (body, frame): (usize, F),
+    directions: &[Force<R>; M],
+    effects: &E,
+    damping: Damping<R>,
+) -> Result<OperationalSpace<R, M, V>, NotPositiveDefinite>
+where
+    D: Description<R, B, Q, V>,
+    E: Effect<R, B, V>,
+    F: Frame,
+{
+    let factors = factor(robot, &crba_at(robot, posture, effects))?;
+    let rows = task_rows(&jacobian_at(robot, posture, body, frame), directions);
+    let solve = |tau: &_| solve(robot, &factors, tau);
+    Ok(OperationalSpace::new(rows, solve, damping))
 }
 
 /// A task of M coordinates on a robot of V, at one configuration.

@@ -7,7 +7,7 @@
 //! | [`TurnCounter`] | an encoder's counts, turns included | counts |
 //! | [`Observer`] | velocity from positions | estimate |
 //! | [`Gains`], [`feedback`] | K_p (q_d − q) + K_d (q̇_d − q̇) | none |
-//! | [`hybrid`], [`Aim`] | motions and forces along a task's directions | none |
+//! | [`motion_and_force`], [`Aim`] | motions and forces along a task's directions | none |
 //! | [`Supervisor`] | limits, plausibility, what to do on a fault | last good values |
 //! | [`Rejoin`] | from where a fault left the arm back onto the trajectory | reference |
 //!
@@ -86,7 +86,7 @@ pub use command::{Bounds, Command, Mode, Status};
 pub use fault::Fault;
 pub use law::{Gains, feedback};
 pub use observer::{Estimate, Observer};
-pub use operational::{Aim, TaskFrame, hybrid, turn_to};
+pub use operational::{Aim, TaskFrame, motion_and_force, turn_to};
 pub use rejoin::Rejoin;
 pub use supervisor::Supervisor;
 pub use trajectory::{Speed, Trajectory, TrajectoryError, WayPoint};

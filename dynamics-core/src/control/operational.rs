@@ -92,7 +92,7 @@ impl<R: Real> Aim<R> {
 ///
 /// ```
 /// use dynamics_core::algorithms::{Damping, OperationalSpace, frame, task_rows};
-/// use dynamics_core::control::{Aim, TaskFrame, hybrid};
+/// use dynamics_core::control::{Aim, TaskFrame, motion_and_force};
 /// use dynamics_core::effects::{Coriolis, Gravity, RIGID_BODY};
 /// use dynamics_core::{Core, Engine, robots::Ur5e, state::State};
 ///
@@ -108,7 +108,7 @@ impl<R: Real> Aim<R> {
 /// let aims = [still, still, Aim::Force { force: -20.0, acceleration: 0.0 }];
 /// let drift = Core::<Ur5e>::drift(&arm, 5, frame::Mixed);
 /// let bias = Engine::<Ur5e>::rnea(&arm, &(Gravity::EARTH, Coriolis));
-/// let mut tau = hybrid(&task, &aims, &directions.map(|d| drift.dot(d)), &bias);
+/// let mut tau = motion_and_force(&task, &aims, &directions.map(|d| drift.dot(d)), &bias);
 /// for (tau, rest) in tau.iter_mut().zip(task.unseen(&arm.qd.map(|qd| -2.0 * qd))) {
 ///     *tau += rest;
 /// }
@@ -116,7 +116,7 @@ impl<R: Real> Aim<R> {
 /// # Ok::<(), dynamics_core::algorithms::NotPositiveDefinite>(())
 /// ```
 #[inline(always)]
-pub fn hybrid<R: Real, const M: usize, const V: usize>(
+pub fn motion_and_force<R: Real, const M: usize, const V: usize>(
     task: &OperationalSpace<R, M, V>,
     aims: &[Aim<R>; M],
     drift: &[R; M],

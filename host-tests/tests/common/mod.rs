@@ -217,6 +217,13 @@ impl Worst {
             self.full_scale = self.full_scale.max(want.abs());
         }
     }
+
+    /// The same, the full scale being known.
+    pub fn compare<const N: usize>(&mut self, got: [f64; N], want: [f64; N]) {
+        let full_scale = self.full_scale;
+        self.see(got, want);
+        self.full_scale = full_scale;
+    }
 }
 
 /// Collects every complaint, so that one run shows the whole table.

@@ -1,0 +1,200 @@
+//! Kinematics, energies, momenta and mobilities against Pinocchio, in f64 and f32.
+
+mod common;
+
+use std::collections::BTreeMap;
+
+use common::{Verdict, Worst, flat, six};
+use dynamics_core::Core;
+use dynamics_core::algorithms::frame;
+use dynamics_core::effects::RIGID_BODY;
+use dynamics_core::model::Robot;
+use dynamics_core::robots::{A1, A1Free, G1, G1Free, Gen3, Iiwa14, Panda, Ur5e, XArm7, Z1};
+use dynamics_core::scalar::{Matrix, Real, Vector};
+use dynamics_core::spatial::Force;
+use dynamics_core::state::State;
+use host_tests::recordings::{Recording, columns, full_scale, load, row, symmetric};
+use host_tests::trees::{TreeA, TreeB};
+
+/// Largest error of a quantity, and the full scale of what was recorded.
+fn worst(rows: &[Vec<f64>]) -> Worst {
+    Worst {
+        error: 0.0,
+        full_scale: full_scale(rows),
+    }
+}
+
+/// Of each quantity in each scalar, the largest error of all robots relative to the robot's full scale.
+#[derive(Default)]
+struct Most(BTreeMap<(&'static str, &'static str), f64>);
+
+impl Most {
+    fn see<R>(&mut self, quantity: &'static str, worst: &Worst) {
+        let most = self
+            .0
+            .entry((quantity, core::any::type_name::<R>()))
+            .or_default();
+        *most = most.max(worst.error / worst.full_scale);
+    }
+}
+
+fn motions<R: Real, T, const B: usize, const Q: usize, const V: usize>(
+    r: &Recording,
+    most: &mut Most,
+) where
+    T: Robot<B, Q, V>,
+{
+    let quantities = [
+        ("tip pose", &r.tip_pose),
+        ("tip velocity", &r.tip_velocity),
+        ("tip acceleration", &r.tip_acceleration),
+        ("jacobian in the body", &r.jacobian_local),
+        ("jacobian in the world", &r.jacobian_world),
+        ("jacobian, mixed", &r.jacobian_mixed),
+        ("drift in the body", &r.drift_local),
+        ("drift in the world", &r.drift_world),
+        ("drift, mixed", &r.drift_mixed),
+        ("kinetic energy", &r.kinetic_energy),
+        ("potential energy", &r.potential_energy),
+        ("centre of mass", &r.centre_of_mass),
+        ("momentum", &r.momentum),
+        ("centroidal momentum", &r.centroidal_momentum),
+        ("centroidal matrix", &r.centroidal_matrix),
+    ];
+    let mut seen = quantities.map(|(_, rows)| worst(rows));
+    let tip = B - 1;
+    for i in 0..r.first_states() {
+        let velocity = |rows| row::<V>(rows, i).map(R::from_f64);
+        let state = State {
+            q: row::<Q>(&r.q, i).map(R::from_f64),
+            qd: velocity(&r.qd),
+            qdd: velocity(&r.qdd),
+        };
+        let k = Core::<T>::kinematics(&state, &());
+        let pose = k.poses[tip];
+        let rows = pose.rot.transpose().cols(); // rows of the rotation
+        let flat_rot = |k: usize| rows[k / 3].array()[k % 3].to_f64();
+        let place = pose.pos.array().map(R::to_f64);
+        let got: [f64; 12] =
+            core::array::from_fn(|k| if k < 9 { flat_rot(k) } else { place[k - 9] });
+        seen[0].compare(got, row(&r.tip_pose, i));
+        seen[1].compare(six(k.velocity(tip, frame::Body)), row(&r.tip_velocity, i));
+        seen[2].compare(
+            six(k.acceleration(tip, frame::Body)),
+            row(&r.tip_acceleration, i),
+        );
+        let jacobians = [
+            Core::<T>::jacobian(&state.q, tip, frame::Body),
+            Core::<T>::jacobian(&state.q, tip, frame::World),
+            Core::<T>::jacobian(&state.q, tip, frame::Mixed),
+        ];
+        for (k, jacobian) in jacobians.into_iter().enumerate() {
+            let want = columns::<V>(quantities[3 + k].1, i);
+            for (got, want) in jacobian.into_iter().zip(want) {
+                seen[3 + k].compare(six(got), want);
+            }
+        }
+        seen[6].compare(
+            six(Core::<T>::drift(&state, tip, frame::Body)),
+            row(&r.drift_local, i),
+        );
+        seen[7].compare(
+            six(Core::<T>::drift(&state, tip, frame::World)),
+            row(&r.drift_world, i),
+        );
+        seen[8].compare(
+            six(Core::<T>::drift(&state, tip, frame::Mixed)),
+            row(&r.drift_mixed, i),
+        );
+        let [kinetic, potential] = [
+            Core::<T>::kinetic_energy(&state, &()),
+            Core::<T>::potential_energy(&state.q, &RIGID_BODY),
+        ];
+        seen[9].compare([kinetic.to_f64()], row(&r.kinetic_energy, i));
+        seen[10].compare([potential.to_f64()], row(&r.potential_energy, i));
+        let centre = Core::<T>::mass_centre(&state, &()).position;
+        seen[11].compare(centre.array().map(R::to_f64), row(&r.centre_of_mass, i));
+        let all = |f: Force<R>| flat::<R>(f.ang, f.lin);
+        seen[12].compare(all(Core::<T>::momentum(&state, &())), row(&r.momentum, i));
+        let h = Core::<T>::centroidal_momentum(&state, &());
+        seen[13].compare(all(h), row(&r.centroidal_momentum, i));
+        let matrix = Core::<T>::centroidal_matrix(&state.q, &());
+        for (got, want) in matrix
+            .into_iter()
+            .zip(columns::<V>(&r.centroidal_matrix, i))
+        {
+            seen[14].compare(all(got), want);
+        }
+    }
+    for ((name, _), worst) in quantities.iter().zip(&seen) {
+        most.see::<R>(name, worst);
+    }
+}
+
+/// Λ⁻¹ of the tip by the O(n) recursion.
+fn mobilities<R: Real, T, const B: usize, const Q: usize, const V: usize>(
+    r: &Recording,
+    most: &mut Most,
+) where
+    T: Robot<B, Q, V>,
+{
+    let mut seen = worst(&r.operational_inverse);
+    let unit: [Force<R>; 6] = core::array::from_fn(|k| {
+        let at = |i| if i == k { R::ONE } else { R::ZERO };
+        Force::new(
+            R::Vec3::new(at(0), at(1), at(2)),
+            R::Vec3::new(at(3), at(4), at(5)),
+        )
+    });
+    for i in 0..r.first_states() {
+        let q = row::<Q>(&r.q, i).map(R::from_f64);
+        let mobility = Core::<T>::mobility(&q, B - 1, frame::Body, &()).expect("M is positive");
+        let got = mobility.along(&unit).map(|row| row.map(R::to_f64));
+        for (got, want) in got
+            .into_iter()
+            .zip(symmetric::<6>(&r.operational_inverse, i))
+        {
+            seen.compare(got, want);
+        }
+    }
+    most.see::<R>("mobility", &seen);
+}
+
+fn both<T, const B: usize, const Q: usize, const V: usize>(most: &mut Most)
+where
+    T: Robot<B, Q, V>,
+{
+    let recording = load(T::MODEL.name);
+    motions::<f64, T, B, Q, V>(&recording, most);
+    motions::<f32, T, B, Q, V>(&recording, most);
+    mobilities::<f64, T, B, Q, V>(&recording, most);
+    mobilities::<f32, T, B, Q, V>(&recording, most);
+}
+
+#[test]
+fn motions_energies_momenta_and_mobilities_agree_with_pinocchio_within_the_table() {
+    let mut most = Most::default();
+    both::<Ur5e, 6, 6, 6>(&mut most);
+    both::<Panda, 7, 7, 7>(&mut most);
+    both::<Iiwa14, 7, 7, 7>(&mut most);
+    both::<Gen3, 7, 7, 7>(&mut most);
+    both::<XArm7, 7, 7, 7>(&mut most);
+    both::<Z1, 7, 7, 7>(&mut most);
+    both::<A1, 16, 12, 12>(&mut most);
+    both::<A1Free, 17, 19, 18>(&mut most);
+    both::<G1, 29, 29, 29>(&mut most);
+    both::<G1Free, 30, 36, 35>(&mut most);
+    both::<TreeA, 17, 35, 32>(&mut most);
+    both::<TreeB, 17, 35, 32>(&mut most);
+    let mut verdict = Verdict::default();
+    for ((quantity, scalar), &error) in &most.0 {
+        let full_scale = 1.0;
+        verdict.see(
+            "recorded robots",
+            quantity,
+            scalar,
+            &Worst { error, full_scale },
+        );
+    }
+    verdict.speak();
+}

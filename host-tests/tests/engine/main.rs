@@ -14,6 +14,8 @@ use dynamics_core::{Core, Engine};
 use proptest::prelude::RngExt;
 use proptest::test_runner::{RngAlgorithm, TestRng};
 
+mod large;
+
 /// All that the four robots lack: prismatic joints, oblique axes of both kinds, welds on the
 /// base, in mid-tree (a branch among them) and at a tip, two roots.
 struct Odd;

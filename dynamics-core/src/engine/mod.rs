@@ -104,8 +104,13 @@ impl<T> Engine<T> {
         T: Robot<B, Q, V>,
         E: Effect<R, B, V>,
     {
-        // Nothing that the compiler could keep: it would spill what it loads.
-        Self::run(posture, black_box(posture), state, effects)
+        // Unknown to the compiler, which else spills what it has loaded; gravity alone needs no spills.
+        let back = if const { E::VELOCITY_PRODUCTS | E::ACCELERATIONS } {
+            black_box(posture)
+        } else {
+            posture
+        };
+        Self::run(posture, back, state, effects)
     }
 
     #[inline(always)]

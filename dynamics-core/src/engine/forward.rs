@@ -79,7 +79,7 @@ impl<T> Engine<T> {
                 "forward dynamics needs `Inertia` in the scene"
             )
         };
-        let bias = Self::run(posture, state, &Bias(effects));
+        let bias = Self::run(posture, posture, state, &Bias(effects));
         let mut rest = *tau;
         for_each_joint!(J, {
             if const { J < V } {

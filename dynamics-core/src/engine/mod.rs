@@ -29,17 +29,20 @@ mod field;
 mod forward;
 mod jacobian;
 mod known;
+mod limb;
 mod place;
 mod prepare;
 mod rnea;
 mod small;
 
+use core::hint::black_box;
 use core::marker::PhantomData;
 
 use crate::effects::Effect;
 use crate::model::{Robot, Turn};
 use crate::scalar::Real;
 use crate::state::{Posture, State};
+use limb::{is_large, limb};
 use prepare::Prepared;
 use rnea::{Task, base, stands, visit};
 
@@ -94,7 +97,8 @@ impl<T> Engine<T> {
         T: Robot<B, Q, V>,
         E: Effect<R, B, V>,
     {
-        Self::run(&Self::posture(&state.q), state, effects)
+        let posture = Self::posture(&state.q);
+        Self::run(&posture, &posture, state, effects)
     }
 
     /// As [`Engine::rnea`], at a posture whose sines and cosines are at hand.
@@ -108,12 +112,19 @@ impl<T> Engine<T> {
         T: Robot<B, Q, V>,
         E: Effect<R, B, V>,
     {
-        Self::run(posture, state, effects)
+        // Unknown to the compiler, which else spills what it has loaded; gravity alone needs no spills.
+        let back = if const { E::VELOCITY_PRODUCTS | E::ACCELERATIONS } {
+            black_box(posture)
+        } else {
+            posture
+        };
+        Self::run(posture, back, state, effects)
     }
 
     #[inline(always)]
     pub(crate) fn run<R: Real, E, const B: usize, const Q: usize, const V: usize>(
         posture: &Posture<R, Q>,
+        back: &Posture<R, Q>,
         state: &State<R, Q, V>,
         effects: &E,
     ) -> [R; V]
@@ -127,13 +138,18 @@ impl<T> Engine<T> {
         let mut tau = [R::ZERO; V];
         let mut task = Task {
             turns: &posture.turns,
+            back: &back.turns,
             state,
             effects,
             tau: &mut tau,
         };
         for_each_joint!(J, {
             if const { stands::<T, B, Q, V>(J) } {
-                visit::<R, T, E, B, Q, V, J>(&mut task, &base);
+                if const { is_large(V) } {
+                    limb::<R, T, E, B, Q, V, J>(&mut task);
+                } else {
+                    visit::<R, T, E, B, Q, V, J>(&mut task, &base);
+                }
             }
         });
         tau

@@ -15,6 +15,7 @@ use host_tests::odd::Odd;
 use proptest::prelude::RngExt;
 use proptest::test_runner::{RngAlgorithm, TestRng};
 
+mod large;
 /// Pushes the plinth, the rail, the bracket (a weld in mid-tree), the tool (a weld at a tip) and
 /// the jib, each in its own frame.
 struct Push;

@@ -1,0 +1,130 @@
+//! Large robots as a function a limb: what stands on the base, and what branches off.
+//!
+//! The compiler's time grows with the square of a function's length and more: a humanoid of 29 joints in
+//! one function takes it minutes. Between functions numbers are plain; what no effect asks for is a
+//! known zero again on the other side.
+
+use super::field::{Field, Wrench};
+use super::known::Known;
+use super::prepare::Prepared;
+use super::rnea::{Task, base, carries, visit};
+use super::small::{Mat3, Vec3};
+use crate::effects::Effect;
+use crate::model::Robot;
+use crate::scalar::{Real, Vector};
+
+/// Robots of up to so many joints are one function.
+const WHOLE: usize = 16;
+
+/// Whether a robot of so many joints is taken apart.
+pub(crate) const fn is_large(joints: usize) -> bool {
+    joints > WHOLE
+}
+
+/// Whether joint `i` of a large robot carries several others.
+const fn branches<T, const B: usize, const Q: usize, const V: usize>(i: usize) -> bool
+where
+    T: Robot<B, Q, V>,
+{
+    let (mut children, mut j) = (0, 0);
+    while j < V {
+        if carries::<T, B, Q, V>(i, j) {
+            children += 1;
+        }
+        j += 1;
+    }
+    is_large(V) && children > 1
+}
+
+/// Joint I on the base and all that it carries.
+#[inline(never)]
+pub(crate) fn limb<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
+    task: &mut Task<'_, R, E, Q, V>,
+) where
+    R: Real,
+    T: Robot<B, Q, V>,
+    E: Effect<R, B, V>,
+{
+    let length = const { Prepared::<T, B, Q, V>::TREE.length };
+    let base = base::<R, E, B, V>(task.effects, length);
+    visit::<R, T, E, B, Q, V, I>(task, &base);
+}
+
+/// Visits joint J on joint I, whose field is `parent`.
+#[inline(always)]
+pub(crate) fn carried<
+    R,
+    T,
+    E,
+    const B: usize,
+    const Q: usize,
+    const V: usize,
+    const I: usize,
+    const J: usize,
+>(
+    task: &mut Task<'_, R, E, Q, V>,
+    parent: &Field<R>,
+) -> Wrench<R>
+where
+    R: Real,
+    T: Robot<B, Q, V>,
+    E: Effect<R, B, V>,
+{
+    if const { !branches::<T, B, Q, V>(I) } {
+        return visit::<R, T, E, B, Q, V, J>(task, parent);
+    }
+    let [ux, uy, uz] = parent.u.0;
+    let field = Plain {
+        rates: [parent.omega, parent.spin, parent.alpha].map(Vec3::get),
+        u: [ux, uy, uz].map(Vec3::get),
+        origin: [parent.a, parent.v].map(Vec3::get),
+    };
+    let [f, n] = branch::<R, T, E, B, Q, V, J>(task, &field);
+    Wrench {
+        f: Vec3::any(f),
+        n: Vec3::any(n),
+    }
+}
+
+/// A field in memory: ω, ω as its products see it, α; U's columns; a and v of the origin.
+struct Plain<R: Real> {
+    rates: [R::Vec3; 3],
+    u: [R::Vec3; 3],
+    origin: [R::Vec3; 2],
+}
+
+#[inline(never)]
+fn branch<R, T, E, const B: usize, const Q: usize, const V: usize, const J: usize>(
+    task: &mut Task<'_, R, E, Q, V>,
+    parent: &Plain<R>,
+) -> [R::Vec3; 2]
+where
+    R: Real,
+    T: Robot<B, Q, V>,
+    E: Effect<R, B, V>,
+{
+    let ([omega, spin, alpha], [ux, uy, uz]) = (parent.rates, parent.u);
+    let [a, v] = parent.origin;
+    let moves = E::VELOCITY_PRODUCTS | E::ACCELERATIONS;
+    let field = Field {
+        omega: only_if(E::BODY_VELOCITY, omega),
+        spin: only_if(E::VELOCITY_PRODUCTS, spin),
+        alpha: only_if(moves, alpha),
+        u: Mat3([only_if(moves, ux), only_if(moves, uy), only_if(moves, uz)]),
+        a: only_if(moves | E::FIELD, a),
+        v: only_if(E::BODY_VELOCITY, v),
+    };
+    let wrench = visit::<R, T, E, B, Q, V, J>(task, &field);
+    [wrench.f.get(), wrench.n.get()]
+}
+
+/// A vector that is zero unless an effect asks for it.
+#[inline(always)]
+fn only_if<R: Real>(asked: bool, v: R::Vec3) -> Vec3<R> {
+    let [x, y, z] = v.array();
+    Vec3([
+        Known::only_if(asked, x),
+        Known::only_if(asked, y),
+        Known::only_if(asked, z),
+    ])
+}

@@ -1,0 +1,78 @@
+//! A robot of more joints than the engine takes in one function: limbs and branches apart.
+
+use dynamics_core::effects::{Coriolis, Gravity, Inertia};
+use dynamics_core::model::{BASE, Body, Joint, Model, Robot};
+use dynamics_core::scalar::Real;
+
+use super::{Aslant, Drag, Push, ULPS, compare, payload};
+
+/// A trunk of two joints that three arms branch off, one of them sliding, and a second root: 18 joints.
+struct Large;
+
+const fn link(parent: usize, joint: Joint<f64>, turn: f64) -> Body {
+    Body::new("link", parent, joint)
+        .xyz([0.05, -0.02, 0.2])
+        .rpy([turn, 0.0, -0.5 * turn])
+        .mass(1.2)
+        .com([0.02, 0.03, 0.1])
+        .inertia([0.02, 0.001, -0.002, 0.03, 0.003, 0.015])
+}
+
+/// `count` bodies from `first` on, on `parent`.
+const fn chain(bodies: &mut [Body; 18], first: usize, count: usize, parent: usize) {
+    const AXES: [[f64; 3]; 3] = [[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]];
+    let mut i = 0;
+    while i < count {
+        let on = if i == 0 { parent } else { first + i - 1 };
+        let turn = if i % 2 == 0 { 0.4 } else { 0.0 };
+        let joint = if first + i == 8 {
+            Joint::prismatic([0.0, 0.3, 1.0])
+        } else {
+            Joint::revolute(AXES[i % 3])
+        };
+        bodies[first + i] = link(on, joint, turn);
+        i += 1;
+    }
+}
+
+const fn bodies() -> [Body; 18] {
+    let mut bodies = [link(BASE, Joint::fixed(), 0.0); 18];
+    chain(&mut bodies, 0, 2, BASE);
+    chain(&mut bodies, 2, 4, 1);
+    chain(&mut bodies, 6, 4, 1);
+    chain(&mut bodies, 10, 3, 1);
+    chain(&mut bodies, 13, 5, BASE);
+    bodies
+}
+
+impl Robot<18, 18, 18> for Large {
+    const MODEL: Model<f64, 18, 18, 18> = Model::new("large", bodies());
+}
+
+fn ulps<R: Real>() -> f64 {
+    let scene = (
+        Gravity::<Aslant>::new(9.81),
+        Inertia,
+        Coriolis,
+        Push,
+        Drag,
+        payload::<R>(),
+    );
+    compare::<R, Large, _, 18, 18>(&scene, 2_000)
+}
+
+#[test]
+fn engine_equals_core_on_a_large_tree_under_every_effect() {
+    let (single, double) = (ulps::<f32>(), ulps::<f64>());
+    assert!(single.max(double) <= ULPS, "{single:.2}, {double:.2} ulp");
+}
+
+#[test]
+fn engine_equals_core_on_a_large_tree_effect_by_effect() {
+    let worst = [
+        compare::<f64, Large, _, 18, 18>(&(Gravity::<Aslant>::new(9.81),), 2_000),
+        compare::<f64, Large, _, 18, 18>(&(Coriolis,), 2_000),
+        compare::<f64, Large, _, 18, 18>(&(Drag,), 2_000),
+    ];
+    assert!(worst.iter().all(|ulps| *ulps <= ULPS), "{worst:.2?} ulp");
+}

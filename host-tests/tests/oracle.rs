@@ -54,7 +54,7 @@ where
     let mut full = ["rnea", "engine rnea"].map(|q| Worst::new(q, scale.rnea));
     let mut gravity = ["gravity", "engine gravity"].map(|q| Worst::new(q, scale.gravity));
     let mut bias = ["bias", "engine bias"].map(|q| Worst::new(q, scale.bias));
-    let mut forward = ["aba", "engine aba", "engine forward"].map(|q| Worst::new(q, scale.aba));
+    let mut forward = ["aba", "engine forward"].map(|q| Worst::new(q, scale.aba));
     let mut matrix = Worst::new("engine crba", scale.mass_matrix);
     assert!(recording.q.len() > 200);
     for i in 0..recording.q.len() {
@@ -76,7 +76,6 @@ where
         let (want, tau) = (row::<N>(&recording.aba, i), cast(&recording.tau));
         let accelerations = [
             Core::<T>::aba(&state, &tau, &RIGID_BODY),
-            Engine::<T>::aba(&state, &tau, &RIGID_BODY),
             Engine::<T>::forward(&state, &tau, &RIGID_BODY),
         ];
         for (worst, qdd) in forward.iter_mut().zip(accelerations) {

@@ -16,8 +16,8 @@ use super::rnea::{carries, loaded, stands};
 use super::small::{Mat3, Vec3};
 use crate::algorithms::NotPositiveDefinite;
 use crate::effects::Effect;
-use crate::model::{Robot, Turn};
-use crate::scalar::Real;
+use crate::model::{BASE, Robot, Turn};
+use crate::scalar::{Real, Vector};
 use crate::state::{Posture, State};
 
 impl<T> Engine<T> {
@@ -102,7 +102,7 @@ where
     positive(task.per_d)?;
     for_each_joint!(J, {
         if const { stands::<T, B, Q, V>(J) } {
-            swing::<R, T, E, B, Q, V, J>(&mut task, [Vec3::ZERO; 2]);
+            swing::<R, T, E, B, Q, V, J>(&mut task, [R::Vec3::ZERO; 2]);
         }
     });
     Ok(x)
@@ -175,7 +175,7 @@ where
 #[inline(always)]
 fn swing<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     task: &mut Task<'_, R, E, Q, V>,
-    [alpha, a]: [Vec3<R>; 2],
+    [alpha, a]: [R::Vec3; 2],
 ) where
     R: Real,
     T: Robot<B, Q, V>,
@@ -185,7 +185,13 @@ fn swing<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usize
     let per_length = Known::constant(const { 1.0 / Prepared::<T, B, Q, V>::TREE.length });
     let (rot, p) = (Mat3::constant(&joint.rot), Vec3::constant(joint.pos));
     let turn = task.turns[I];
-    let (mut alpha, mut a) = if joint.prismatic {
+    // Plain numbers: what is known of them ends with the first joints, which are at rest.
+    let (mut alpha, mut a) = if joint.parent == BASE {
+        (Vec3::ZERO, Vec3::ZERO)
+    } else {
+        (Vec3::any(alpha), Vec3::any(a))
+    };
+    (alpha, a) = if joint.prismatic {
         let p = p + rot.0[2].scale(Known::any(turn.q) * per_length);
         (
             rot.transpose_mul(alpha),
@@ -197,7 +203,6 @@ fn swing<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usize
             enter(&rot, turn, a + alpha.cross(p)),
         )
     };
-    // Beyond the joints that stand on the base, whose parent is at rest.
     let [nx, ny, nz, fx, fy, fz] = task.u[I].map(Known::any);
     let lost = Vec3([nx, ny, nz]).dot(alpha) + Vec3([fx, fy, fz]).dot(a);
     let qdd = (Known::any(task.x[I]) - lost) * Known::any(task.per_d[I]);
@@ -209,7 +214,7 @@ fn swing<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usize
     }
     for_each_joint!(J, {
         if const { carries::<T, B, Q, V>(I, J) } {
-            swing::<R, T, E, B, Q, V, J>(task, [alpha, a]);
+            swing::<R, T, E, B, Q, V, J>(task, [alpha.get(), a.get()]);
         }
     });
 }

@@ -60,15 +60,15 @@ pub trait Real:
     fn sin_cos(self) -> (Self, Self);
     /// As `sin_cos`, for angles within ±100 rad: [`crate::trig::sin_cos_near`] in f32.
     fn sin_cos_near(self) -> (Self, Self);
-    /// The distance from 1 to the next number.
-    const EPSILON: Self;
-    /// 1/√x of a positive normal number, within 2 ulp; no division, the same instructions for every x.
-    fn per_sqrt(self) -> Self;
     /// √x, rounded to nearest; NaN below zero. In software where the target's compiler offers no
     /// instruction without std: never in the control tick.
     fn sqrt(self) -> Self;
     /// The angle of the point (x, self) from the x axis, rad, within ±π. Never in the control tick.
     fn atan2(self, x: Self) -> Self;
+    /// The distance from 1 to the next number.
+    const EPSILON: Self;
+    /// 1/√x of a positive normal number, within 2 ulp; no division, the same instructions for every x.
+    fn per_sqrt(self) -> Self;
     /// |x|.
     fn abs(self) -> Self;
     /// Neither infinite nor NaN.
@@ -149,7 +149,7 @@ pub trait Matrix<R: Real>:
 }
 
 macro_rules! real {
-    ($r:ident, $whole:ident, $vec:path, $mat:path, $sin_cos:expr, $near:expr, $magic:literal, $steps:literal, $sqrt:expr, $atan2:expr, |$double:ident, $single:ident| $pick:ident) => {
+    ($r:ident, $whole:ident, $vec:path, $mat:path, $sin_cos:expr, $near:expr, $sqrt:expr, $atan2:expr, $magic:literal, $steps:literal, |$double:ident, $single:ident| $pick:ident) => {
         impl Real for $r {
             type Vec3 = $vec;
             type Mat3 = $mat;
@@ -172,6 +172,14 @@ macro_rules! real {
             fn sin_cos_near(self) -> (Self, Self) {
                 $near(self)
             }
+            #[inline]
+            fn sqrt(self) -> Self {
+                $sqrt(self)
+            }
+            #[inline]
+            fn atan2(self, x: Self) -> Self {
+                $atan2(self, x)
+            }
             const EPSILON: Self = <$r>::EPSILON;
             #[inline(always)]
             fn per_sqrt(self) -> Self {
@@ -182,14 +190,6 @@ macro_rules! real {
                     y += y * (0.5 - half * y * y);
                 }
                 y
-            }
-            #[inline]
-            fn sqrt(self) -> Self {
-                $sqrt(self)
-            }
-            #[inline]
-            fn atan2(self, x: Self) -> Self {
-                $atan2(self, x)
             }
             #[inline(always)]
             fn abs(self) -> Self {
@@ -273,10 +273,10 @@ real!(
     glam::Mat3,
     crate::trig::sin_cos,
     crate::trig::sin_cos_near,
-    0x5f37_59df,
-    3,
     libm::sqrtf,
     libm::atan2f,
+    0x5f37_59df,
+    3,
     |double, single| single
 );
 real!(
@@ -286,9 +286,9 @@ real!(
     glam::DMat3,
     crate::trig::sin_cos_f64,
     crate::trig::sin_cos_f64,
-    0x5fe6_eb50_c7b5_37a9,
-    4,
     libm::sqrt,
     libm::atan2,
+    0x5fe6_eb50_c7b5_37a9,
+    4,
     |double, single| double
 );

@@ -2,13 +2,13 @@
 
 use dynamics_core::algorithms::rnea;
 use dynamics_core::effects::{
-    Coriolis, Coulomb, Direction, Effect, Gravity, Inertia, Payload, RIGID_BODY, RotorInertia,
-    Viscous,
+    BodyState, Coriolis, Coulomb, Direction, Effect, Gravity, Inertia, Payload, RIGID_BODY,
+    RotorInertia, Viscous,
 };
 use dynamics_core::model::{BASE, Body, Joint, Model, Robot};
 use dynamics_core::robots::{A1, Iiwa14, Panda, Ur5e};
 use dynamics_core::scalar::{Real, Vector};
-use dynamics_core::spatial::{Force, Motion};
+use dynamics_core::spatial::Force;
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
 use proptest::prelude::RngExt;
@@ -93,7 +93,7 @@ struct Push;
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Push {
     const WRENCH: bool = true;
 
-    fn wrench(&self, body: usize, _: Motion<R>, fx: &mut Force<R>) {
+    fn wrench(&self, body: usize, _: &BodyState<R>, fx: &mut Force<R>) {
         if matches!(body, 0 | 1 | 3 | 6 | 8) {
             let k = R::from_f64(2.0 + body as f64);
             *fx += Force::new(
@@ -111,9 +111,9 @@ impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Drag {
     const WRENCH: bool = true;
     const BODY_VELOCITY: bool = true;
 
-    fn wrench(&self, body: usize, velocity: Motion<R>, fx: &mut Force<R>) {
+    fn wrench(&self, body: usize, at: &BodyState<R>, fx: &mut Force<R>) {
         let k = R::from_f64(0.3 + 0.1 * body as f64);
-        *fx -= Force::new(velocity.ang * k, velocity.lin * k);
+        *fx -= Force::new(at.velocity.ang * k, at.velocity.lin * k);
     }
 }
 

@@ -102,6 +102,7 @@ where
     let turns = &posture.turns;
 
     let mut v = Handed::<_, B>::from(v_0);
+    let mut poses = Handed::<_, B>::from(Xform::IDENTITY);
     let mut bodies: Vec<Body<'_, R>, B> = Vec::new();
     for i in 0..B {
         let Some(node) = robot.node(i) else {
@@ -116,7 +117,12 @@ where
             pa = inertia.force(Motion::ZERO, v_i); // v ×* I v
         }
         if E::WRENCH {
-            pa -= body_wrench(effects, i, &node, v_i);
+            let mut pose = Xform::IDENTITY;
+            if E::BODY_POSE {
+                pose = x * poses.by(D::CHAIN, node.parent);
+                poses.push(D::CHAIN, pose);
+            }
+            pa -= body_wrench(effects, i, &node, &pose, v_i);
         }
         v.push(D::CHAIN, v_i);
         let ia = inertia.into();

@@ -59,6 +59,7 @@ where
     let accelerated = const { E::FIELD | E::BASE_MOTION | E::ACCELERATIONS | E::VELOCITY_PRODUCTS };
     let (v_0, a_0) = base_motion(effects);
     let mut v = Handed::<_, B>::from(v_0);
+    let mut poses = Handed::<_, B>::from(Xform::IDENTITY);
     let mut a = Handed::<_, B>::from(a_0);
     let turns = &posture.turns;
 
@@ -91,7 +92,12 @@ where
             };
         }
         if E::WRENCH {
-            f_i -= body_wrench(effects, i, &node, v_i); // (6)
+            let mut pose = Xform::IDENTITY;
+            if E::BODY_POSE {
+                pose = x * poses.by(D::CHAIN, node.parent);
+                poses.push(D::CHAIN, pose);
+            }
+            f_i -= body_wrench(effects, i, &node, &pose, v_i); // (6)
         }
         let _ = bodies.push(Body { rot: x.rot, f: f_i });
     }

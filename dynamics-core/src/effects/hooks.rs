@@ -1,9 +1,9 @@
 //! How the textbook algorithms ask the effects: in the frames that the hooks speak of.
 
-use super::{Effect, JointState};
+use super::{BodyState, Effect, JointState};
 use crate::model::Node;
 use crate::scalar::{Matrix, Real, Vector};
-use crate::spatial::{Force, Motion, SpatialInertia};
+use crate::spatial::{Force, Motion, SpatialInertia, Xform};
 use crate::state::{State, entry};
 
 /// v₀ and a₀ of the base, a₀ less the field g: gravity is an acceleration of the base. RBDA (5.20).
@@ -60,24 +60,48 @@ where
         }
 }
 
-/// fˣ on body `i`, which moves with v, in its aligned frame.
+/// fˣ on body `i`, in its aligned frame; `pose` and `v` are that frame's.
 #[inline(always)]
 pub(crate) fn body_wrench<R: Real, E, const B: usize, const V: usize>(
     effects: &E,
     i: usize,
     node: &Node<'_, R>,
+    pose: &Xform<R>,
     v: Motion<R>,
 ) -> Force<R>
 where
     E: Effect<R, B, V>,
 {
     let (frame, mut fx) = (&node.frame, Force::ZERO);
-    let mut velocity = Motion::ZERO;
-    if E::BODY_VELOCITY {
-        velocity = Motion::new(frame.transpose_mul(v.ang), frame.transpose_mul(v.lin));
+    let mut at = BodyState {
+        pose: Xform::IDENTITY,
+        velocity: Motion::ZERO,
+    };
+    if E::BODY_POSE {
+        at.pose = Xform {
+            rot: frame.transpose() * pose.rot,
+            pos: pose.pos,
+        };
     }
-    effects.wrench(i, velocity, &mut fx);
+    if E::BODY_VELOCITY {
+        at.velocity = Motion::new(frame.transpose_mul(v.ang), frame.transpose_mul(v.lin));
+    }
+    effects.wrench(i, &at, &mut fx);
     Force::new(*frame * fx.ang, *frame * fx.lin)
+}
+
+/// What joint hooks see of velocity coordinate k.
+#[inline(always)]
+pub(crate) fn joint_state<R: Real, const Q: usize, const V: usize>(
+    node: &Node<'_, R>,
+    state: &State<R, Q, V>,
+    k: usize,
+) -> JointState<R> {
+    JointState {
+        q: node.position(&state.q, k),
+        qd: entry(&state.qd, k),
+        qdd: entry(&state.qdd, k),
+    }
 }
 
 /// Adds to the torques of one joint's coordinates what the effects ask of its motors.
@@ -91,13 +115,8 @@ pub(crate) fn joint_torques<R: Real, E, const B: usize, const Q: usize, const V:
     E: Effect<R, B, V>,
 {
     for k in node.coordinates() {
-        let at = JointState {
-            q: node.position(&state.q, k),
-            qd: entry(&state.qd, k),
-            qdd: entry(&state.qdd, k),
-        };
         if let Some(tau) = tau.get_mut(k) {
-            effects.torque(k, at, tau);
+            effects.torque(k, joint_state(node, state, k), tau);
         }
     }
 }

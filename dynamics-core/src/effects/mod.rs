@@ -18,17 +18,21 @@
 mod coulomb;
 mod gravity;
 mod hooks;
+mod implicit;
 mod payload;
 mod rigid;
 mod rotor;
+mod seen;
 mod tuple;
 mod viscous;
 
 pub use coulomb::{Coulomb, smooth_sign};
 pub use gravity::{Direction, Down, Gravity};
+pub use implicit::Implicit;
 pub use payload::Payload;
 pub use rigid::{Coriolis, Inertia, RIGID_BODY};
 pub use rotor::RotorInertia;
+pub use seen::{BodyState, JointState, Slopes};
 pub use viscous::Viscous;
 
 pub(crate) use hooks::{
@@ -37,17 +41,6 @@ pub(crate) use hooks::{
 
 use crate::scalar::Real;
 use crate::spatial::{Force, Motion, SpatialInertia};
-
-/// The state of one joint, as joint hooks see it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct JointState<R> {
-    /// Position, rad or m; zero for a velocity that no position belongs to (ω beside a quaternion).
-    pub q: R,
-    /// Velocity, rad/s or m/s.
-    pub qd: R,
-    /// Acceleration, rad/s² or m/s²; zero where forward dynamics asks.
-    pub qdd: R,
-}
 
 /// A physical effect, or a tuple of them, on a robot of B bodies and V velocity coordinates.
 ///
@@ -89,6 +82,8 @@ pub trait Effect<R: Real, const B: usize, const V: usize> {
     const WRENCH: bool = false;
     /// `wrench` reads the body's velocity (which does not switch the velocity products on).
     const BODY_VELOCITY: bool = false;
+    /// `wrench` reads the body's pose.
+    const BODY_POSE: bool = false;
     /// `base` adds something.
     const BASE_MOTION: bool = false;
     /// `payload` adds something.
@@ -114,16 +109,29 @@ pub trait Effect<R: Real, const B: usize, const V: usize> {
     }
 
     /// Adds to the wrench fˣ that the environment exerts on `body`, about the origin of the
-    /// body's frame and in its coordinates, N·m and N; `velocity` is the body's, same frame.
+    /// body's frame and in its coordinates, N·m and N.
     #[inline(always)]
-    fn wrench(&self, body: usize, velocity: Motion<R>, fx: &mut Force<R>) {
-        let _ = (body, velocity, fx);
+    fn wrench(&self, body: usize, at: &BodyState<R>, fx: &mut Force<R>) {
+        let _ = (body, at, fx);
     }
 
     /// Adds to the torque τ that the motor of `joint` must supply, N·m or N.
     #[inline(always)]
     fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R) {
         let _ = (joint, at, tau);
+    }
+
+    /// Adds to the slopes ∂τ/∂q and ∂τ/∂q̇ of what `torque` adds, where a plant is to treat it
+    /// implicitly: see [`Implicit`].
+    #[inline(always)]
+    fn slopes(&self, joint: usize, at: JointState<R>, slopes: &mut Slopes<R>) {
+        let _ = (joint, at, slopes);
+    }
+
+    /// Moves what the effect remembers of `joint` (bristles, a motor's current) on by h seconds.
+    #[inline(always)]
+    fn advance(&mut self, joint: usize, at: JointState<R>, h: R) {
+        let _ = (joint, at, h);
     }
 
     /// Adds to the inertia at `joint`, that is to M's diagonal, kg·m² or kg; `torque` adds the

@@ -1,6 +1,6 @@
 //! Tuples of effects: constants are joined, hooks run in the order of the tuple.
 
-use super::{Effect, JointState};
+use super::{BodyState, Effect, JointState, Slopes};
 use crate::scalar::Real;
 use crate::spatial::{Force, Motion, SpatialInertia};
 
@@ -19,6 +19,7 @@ macro_rules! tuple {
             const VELOCITY_PRODUCTS: bool = false $(| $name::VELOCITY_PRODUCTS)*;
             const WRENCH: bool = false $(| $name::WRENCH)*;
             const BODY_VELOCITY: bool = false $(| $name::BODY_VELOCITY)*;
+            const BODY_POSE: bool = false $(| $name::BODY_POSE)*;
             const BASE_MOTION: bool = false $(| $name::BASE_MOTION)*;
             const PAYLOAD: bool = false $(| $name::PAYLOAD)*;
 
@@ -39,14 +40,24 @@ macro_rules! tuple {
                 $(self.$at.base(velocity, acceleration);)*
             }
             #[inline(always)]
-            fn wrench(&self, body: usize, velocity: Motion<R>, fx: &mut Force<R>) {
-                let _ = (body, velocity, &fx);
-                $(self.$at.wrench(body, velocity, fx);)*
+            fn wrench(&self, body: usize, at: &BodyState<R>, fx: &mut Force<R>) {
+                let _ = (body, at, &fx);
+                $(self.$at.wrench(body, at, fx);)*
             }
             #[inline(always)]
             fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R) {
                 let _ = (joint, at, &tau);
                 $(self.$at.torque(joint, at, tau);)*
+            }
+            #[inline(always)]
+            fn slopes(&self, joint: usize, at: JointState<R>, slopes: &mut Slopes<R>) {
+                let _ = (joint, at, &slopes);
+                $(self.$at.slopes(joint, at, slopes);)*
+            }
+            #[inline(always)]
+            fn advance(&mut self, joint: usize, at: JointState<R>, h: R) {
+                let _ = (joint, at, h);
+                $(self.$at.advance(joint, at, h);)*
             }
             #[inline(always)]
             fn inertia(&self, joint: usize, diagonal: &mut R) {

@@ -1,6 +1,6 @@
 //! Viscous friction: τ = b q̇.
 
-use super::{Effect, JointState};
+use super::{Effect, JointState, Slopes};
 use crate::scalar::Real;
 
 /// Viscous friction of each joint, N·m·s/rad or N·s/m: the motor supplies τ = b q̇.
@@ -20,6 +20,13 @@ impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Viscous<R, V> 
     fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R) {
         if let Some(&b) = self.0.get(joint) {
             *tau += b * at.qd;
+        }
+    }
+
+    #[inline(always)]
+    fn slopes(&self, joint: usize, _: JointState<R>, slopes: &mut Slopes<R>) {
+        if let Some(&b) = self.0.get(joint) {
+            slopes.qd += b;
         }
     }
 }

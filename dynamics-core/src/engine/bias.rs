@@ -1,6 +1,6 @@
 //! A scene without its accelerations: what inverse dynamics of forward dynamics' bias computes.
 
-use crate::effects::{Effect, JointState};
+use crate::effects::{BodyState, Effect, JointState};
 use crate::scalar::Real;
 use crate::spatial::{Force, Motion, SpatialInertia};
 
@@ -17,6 +17,8 @@ where
     const VELOCITY_PRODUCTS: bool = E::VELOCITY_PRODUCTS;
     const WRENCH: bool = E::WRENCH;
     const BODY_VELOCITY: bool = E::BODY_VELOCITY;
+    const BODY_POSE: bool = E::BODY_POSE;
+    const BASE_MOTION: bool = E::BASE_MOTION;
     const PAYLOAD: bool = E::PAYLOAD;
 
     #[inline(always)]
@@ -30,8 +32,13 @@ where
     }
 
     #[inline(always)]
-    fn wrench(&self, body: usize, velocity: Motion<R>, fx: &mut Force<R>) {
-        self.0.wrench(body, velocity, fx);
+    fn base(&self, velocity: &mut Motion<R>, acceleration: &mut Motion<R>) {
+        self.0.base(velocity, acceleration);
+    }
+
+    #[inline(always)]
+    fn wrench(&self, body: usize, at: &BodyState<R>, fx: &mut Force<R>) {
+        self.0.wrench(body, at, fx);
     }
 
     #[inline(always)]

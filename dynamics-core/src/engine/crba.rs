@@ -134,7 +134,7 @@ fn column<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usiz
     // From joint I to the base: parents come before their children.
     for_each_joint!(N, {
         const K: usize = 31 - N;
-        if const { supports::<T, B, Q, V>(K, I) } {
+        if const { Prepared::<T, B, Q, V>::supports(K, I) } {
             let joint = const { &Prepared::<T, B, Q, V>::joint(K) };
             if joint.parent != BASE {
                 let turn = task.turns[K];
@@ -146,33 +146,4 @@ fn column<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usiz
             }
         }
     });
-}
-
-/// Whether joint `k` is joint `i` or carries it, through whatever lies between.
-pub(crate) const fn supports<T, const B: usize, const Q: usize, const V: usize>(
-    k: usize,
-    i: usize,
-) -> bool
-where
-    T: Robot<B, Q, V>,
-{
-    let mut at = i;
-    while at < V {
-        if at == k {
-            return true;
-        }
-        at = Prepared::<T, B, Q, V>::joint(at).parent;
-    }
-    false
-}
-
-/// Whether joint `k` carries joint `i`, through whatever lies between.
-pub(crate) const fn above<T, const B: usize, const Q: usize, const V: usize>(
-    k: usize,
-    i: usize,
-) -> bool
-where
-    T: Robot<B, Q, V>,
-{
-    k != i && supports::<T, B, Q, V>(k, i)
 }

@@ -4,7 +4,7 @@
 //! no zero is ever filled. All sums run over the joints above a joint, λ(i), λ(λ(i)) …
 
 use super::Engine;
-use super::crba::{above, supports};
+use super::prepare::Prepared;
 use crate::algorithms::NotPositiveDefinite;
 use crate::mass_matrix::{Factor, MassMatrix};
 use crate::model::Robot;
@@ -86,7 +86,7 @@ fn eliminate<R: Real, T, const B: usize, const Q: usize, const V: usize, const K
 {
     for_each_joint!(N, {
         const I: usize = 31 - N;
-        if const { above::<T, B, Q, V>(I, K) } {
+        if const { Prepared::<T, B, Q, V>::above(I, K) } {
             let l = m[K][I] * per_d;
             subtract::<R, T, B, Q, V, K, I>(m, l);
             m[K][I] = l;
@@ -111,7 +111,7 @@ fn subtract<
     T: Robot<B, Q, V>,
 {
     for_each_joint!(J, {
-        if const { supports::<T, B, Q, V>(J, I) } {
+        if const { Prepared::<T, B, Q, V>::supports(J, I) } {
             m[I][J] = m[I][J] - l * m[K][J];
         }
     });
@@ -129,21 +129,43 @@ pub(crate) fn substitute<R: Real, T, const B: usize, const Q: usize, const V: us
     for_each_joint!(N, {
         const I: usize = 31 - N;
         if const { I < V } {
-            for_each_joint!(J, {
-                if const { above::<T, B, Q, V>(J, I) } {
-                    x[J] = x[J] - l[I][J] * x[I];
-                }
-            });
+            scatter::<R, T, B, Q, V, I>(l, x);
         }
     });
     for_each_joint!(I, {
         if const { I < V } {
             x[I] = x[I] * per_d[I];
-            for_each_joint!(J, {
-                if const { above::<T, B, Q, V>(J, I) } {
-                    x[I] = x[I] - l[I][J] * x[J];
-                }
-            });
+            gather::<R, T, B, Q, V, I>(l, x);
+        }
+    });
+}
+
+/// What x_I takes from the entries of the joints above.
+#[inline(always)]
+fn scatter<R: Real, T, const B: usize, const Q: usize, const V: usize, const I: usize>(
+    l: &[[R; V]; V],
+    x: &mut [R; V],
+) where
+    T: Robot<B, Q, V>,
+{
+    for_each_joint!(J, {
+        if const { Prepared::<T, B, Q, V>::above(J, I) } {
+            x[J] = x[J] - l[I][J] * x[I];
+        }
+    });
+}
+
+/// What the entries of the joints above take from x_I.
+#[inline(always)]
+fn gather<R: Real, T, const B: usize, const Q: usize, const V: usize, const I: usize>(
+    l: &[[R; V]; V],
+    x: &mut [R; V],
+) where
+    T: Robot<B, Q, V>,
+{
+    for_each_joint!(J, {
+        if const { Prepared::<T, B, Q, V>::above(J, I) } {
+            x[I] = x[I] - l[I][J] * x[J];
         }
     });
 }

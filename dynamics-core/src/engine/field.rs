@@ -214,7 +214,7 @@ fn complete<R: Real>(
 /// Rz(q)ᵀ Rᵀ v: from the parent's frame into the body's. A function, not a closure: closures are
 /// inlined too late for the tags to fold.
 #[inline(always)]
-fn enter<R: Real>(rot: &Mat3<R>, turn: Turn<R>, v: Vec3<R>) -> Vec3<R> {
+pub(crate) fn enter<R: Real>(rot: &Mat3<R>, turn: Turn<R>, v: Vec3<R>) -> Vec3<R> {
     rot.transpose_mul(v)
         .turn_back(Known::any(turn.sin), Known::any(turn.cos))
 }

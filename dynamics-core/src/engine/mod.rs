@@ -20,11 +20,14 @@ macro_rules! for_each_joint {
     })*};
 }
 
+mod aba;
+mod articulated;
 mod bias;
 mod crba;
 mod factor;
 mod field;
 mod forward;
+mod jacobian;
 mod known;
 mod prepare;
 mod rnea;

@@ -59,6 +59,40 @@ pub(crate) struct Prepared<T, const B: usize, const Q: usize, const V: usize>(
 impl<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize> Prepared<T, B, Q, V> {
     pub(crate) const TREE: Tree<B, V> = prepare(&T::MODEL);
 
+    /// λ of each joint, or [`BASE`].
+    pub(crate) const PARENTS: [usize; V] = {
+        let (mut parents, mut i) = ([BASE; V], 0);
+        while i < V {
+            parents[i] = Self::TREE.joints[i].parent;
+            i += 1;
+        }
+        parents
+    };
+
+    /// The joints that carry each joint, itself among them, as bits.
+    const SUPPORT: [u32; V] = {
+        let (mut support, mut i) = ([0; V], 0);
+        while i < V {
+            let parent = Self::PARENTS[i];
+            support[i] = 1 << i;
+            if parent != BASE {
+                support[i] |= support[parent];
+            }
+            i += 1;
+        }
+        support
+    };
+
+    /// Whether joint `k` is joint `i` or carries it, through whatever lies between.
+    pub(crate) const fn supports(k: usize, i: usize) -> bool {
+        k < V && i < V && Self::SUPPORT[i] & (1 << k) != 0
+    }
+
+    /// Whether joint `k` carries joint `i`, through whatever lies between.
+    pub(crate) const fn above(k: usize, i: usize) -> bool {
+        k != i && Self::supports(k, i)
+    }
+
     /// Where the last body of the description is found.
     pub(crate) const fn last() -> Place {
         if B == 0 {

@@ -5,10 +5,10 @@ use super::field::{Field, Inertia, Rates, Wrench};
 use super::known::Known;
 use super::prepare::{Prepared, Tree};
 use super::small::{Mat3, Sym3, Vec3};
-use crate::effects::{Effect, JointState};
+use crate::effects::{BodyState, Effect, JointState};
 use crate::model::{BASE, Robot, Turn};
 use crate::scalar::{Matrix, Real, Vector};
-use crate::spatial::{Force, Motion, SpatialInertia};
+use crate::spatial::{Force, Motion, SpatialInertia, Xform};
 use crate::state::State;
 
 /// What all bodies share.
@@ -25,6 +25,12 @@ pub(crate) fn base<R: Real, E, const B: usize, const V: usize>(effects: &E, leng
 where
     E: Effect<R, B, V>,
 {
+    const {
+        assert!(
+            !E::BODY_POSE,
+            "the engine does not tell effects the poses of bodies; use `Core`"
+        )
+    };
     const {
         assert!(
             !E::BASE_MOTION,
@@ -176,16 +182,19 @@ where
             continue;
         }
         let (rot, pos) = (Mat3::constant(&place.rot), Vec3::constant(place.pos));
-        let mut velocity = Motion::ZERO;
+        let mut at = BodyState {
+            pose: Xform::IDENTITY,
+            velocity: Motion::ZERO,
+        };
         if E::BODY_VELOCITY {
             let v = field.v + field.omega.cross(pos);
-            velocity = Motion::new(
+            at.velocity = Motion::new(
                 rot.transpose_mul(field.omega).get(),
                 rot.transpose_mul(v).scale(length).get(),
             );
         }
         let mut fx = Force::ZERO;
-        effects.wrench(body, velocity, &mut fx);
+        effects.wrench(body, &at, &mut fx);
         let f = rot.mul(Vec3::any(fx.lin)).scale(length);
         let n = rot.mul(Vec3::any(fx.ang)) + pos.cross(f);
         total = Wrench {
@@ -204,7 +213,7 @@ pub(crate) const fn carries<T, const B: usize, const Q: usize, const V: usize>(
 where
     T: Robot<B, Q, V>,
 {
-    j < V && Prepared::<T, B, Q, V>::TREE.joints[j].parent == i
+    j < V && Prepared::<T, B, Q, V>::PARENTS[j] == i
 }
 
 /// Whether joint `j` stands on the base.

@@ -138,6 +138,30 @@ impl<R: Real> Mat3<R> {
     }
 }
 
+impl<R: Real> Mat3<R> {
+    /// Rz M Rzᵀ.
+    #[inline(always)]
+    pub(crate) fn turned(&self, sin: Known<R>, cos: Known<R>) -> Self {
+        let [Vec3([xx, yx, zx]), Vec3([xy, yy, zy]), Vec3([xz, yz, zz])] = self.0;
+        let w = sin * (xx - yy) + cos * (xy + yx);
+        let (step, bend) = (sin * w, cos * w);
+        Self([
+            Vec3([xx - step, bend - xy, cos * zx - sin * zy]),
+            Vec3([bend - yx, yy + step, sin * zx + cos * zy]),
+            Vec3([cos * xz - sin * yz, sin * xz + cos * yz, zz]),
+        ])
+    }
+
+    /// R M Rᵀ.
+    #[inline(always)]
+    pub(crate) fn rotate(&self, rot: &Self) -> Self {
+        let [x, y, z] = self.0;
+        let half = Self([rot.mul(x), rot.mul(y), rot.mul(z)]);
+        let [x, y, z] = rot.rows();
+        Self([half.mul(x), half.mul(y), half.mul(z)])
+    }
+}
+
 impl<R: Real> Add for Mat3<R> {
     type Output = Self;
     #[inline(always)]
@@ -182,6 +206,16 @@ impl<R: Real> Sym3<R> {
         }
     }
 
+    /// The columns.
+    #[inline(always)]
+    pub(crate) fn columns(&self) -> [Vec3<R>; 3] {
+        [
+            Vec3([self.xx, self.xy, self.xz]),
+            Vec3([self.xy, self.yy, self.yz]),
+            Vec3([self.xz, self.yz, self.zz]),
+        ]
+    }
+
     /// Rz S Rzᵀ, by five products.
     #[inline(always)]
     pub(crate) fn turn(self, sin: Known<R>, cos: Known<R>) -> Self {
@@ -201,13 +235,7 @@ impl<R: Real> Sym3<R> {
     /// R S Rᵀ.
     #[inline(always)]
     pub(crate) fn rotate(self, rot: &Mat3<R>) -> Self {
-        let half = Mat3([
-            rot.mul(Vec3([self.xx, self.xy, self.xz])),
-            rot.mul(Vec3([self.xy, self.yy, self.yz])),
-            rot.mul(Vec3([self.xz, self.yz, self.zz])),
-        ]);
-        let [x, y, z] = rot.rows();
-        Self::of(&Mat3([half.mul(x), half.mul(y), half.mul(z)]))
+        Self::of(&Mat3(self.columns()).rotate(rot))
     }
 
     /// a bᵀ + b aᵀ.
@@ -251,21 +279,6 @@ impl<R: Real> Add for Sym3<R> {
             yy: self.yy + o.yy,
             yz: self.yz + o.yz,
             zz: self.zz + o.zz,
-        }
-    }
-}
-
-impl<R: Real> Sub for Sym3<R> {
-    type Output = Self;
-    #[inline(always)]
-    fn sub(self, o: Self) -> Self {
-        Self {
-            xx: self.xx - o.xx,
-            xy: self.xy - o.xy,
-            xz: self.xz - o.xz,
-            yy: self.yy - o.yy,
-            yz: self.yz - o.yz,
-            zz: self.zz - o.zz,
         }
     }
 }

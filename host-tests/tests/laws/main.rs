@@ -2,13 +2,13 @@
 
 use dynamics_core::algorithms::{aba, rnea};
 use dynamics_core::effects::{
-    Coriolis, Coulomb, Effect, Gravity, Inertia, JointState, RIGID_BODY, RotorInertia, Viscous,
-    smooth_sign,
+    BodyState, Coriolis, Coulomb, Effect, Gravity, Inertia, JointState, RIGID_BODY, RotorInertia,
+    Viscous, smooth_sign,
 };
 use dynamics_core::model::{Arm, BASE, Body, Joint, JointKind, Model, Robot, model};
 use dynamics_core::robots::{A1, Iiwa14, Panda, Ur5e};
 use dynamics_core::scalar::Real;
-use dynamics_core::spatial::{Force, Motion};
+use dynamics_core::spatial::Force;
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
 use glam::{DMat3, DVec3};
@@ -198,9 +198,9 @@ impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Drag {
     const WRENCH: bool = true;
     const BODY_VELOCITY: bool = true;
 
-    fn wrench(&self, _: usize, velocity: Motion<R>, fx: &mut Force<R>) {
+    fn wrench(&self, _: usize, at: &BodyState<R>, fx: &mut Force<R>) {
         let k = R::from_f64(0.2);
-        *fx -= Force::new(velocity.ang * k, velocity.lin * k);
+        *fx -= Force::new(at.velocity.ang * k, at.velocity.lin * k);
     }
 }
 

@@ -1,0 +1,111 @@
+//! Stiff effects at the end of the time step instead of at its beginning.
+
+use super::hooks::joint_state;
+use super::{BodyState, Effect, JointState, Slopes};
+use crate::model::Description;
+use crate::scalar::Real;
+use crate::spatial::{Force, Motion, SpatialInertia};
+use crate::state::{State, entry};
+
+/// The same effects as a step of `h` seconds treats them: torques taken at its end, along their slopes.
+///
+/// τ(q + h q̇₊, q̇₊) ≈ τ + ∂τ/∂q h (q̇ + h q̈) + ∂τ/∂q̇ h q̈: what goes with q̈ adds to M's diagonal, h ∂τ/∂q̇ +
+/// h² ∂τ/∂q, the rest to τ. Forward dynamics under these effects is the linearly implicit Euler step; no
+/// spring or damper, however stiff, makes it unstable, and it costs some flops a joint. Baraff & Witkin,
+/// "Large steps in cloth simulation" (1998), equation (6).
+///
+/// ```
+/// use dynamics_core::algorithms::aba;
+/// use dynamics_core::effects::{Implicit, Inertia, Viscous};
+/// use dynamics_core::model::{Arm, BASE, Body, Joint, Model};
+/// use dynamics_core::state::State;
+/// let wheel: Arm<f64, 1> = Model::new("wheel", [
+///     Body::new("w", BASE, Joint::revolute([0.0, 0.0, 1.0])).mass(1.0).inertia([0.0, 0.0, 0.0, 0.0, 0.0, 2.0]),
+/// ]);
+/// let turning = State { q: [0.0], qd: [1.0], qdd: [0.0] };
+/// let (scene, h) = ((Inertia, Viscous([50.0])), 0.1);
+/// let [qdd] = aba(&wheel, &turning, &[0.0], &Implicit::new(&wheel, &turning, &scene, h))?;
+/// assert!((1.0 + h * qdd - 1.0 / (1.0 + h * 50.0 / 2.0)).abs() < 1e-15); // slows down, never turns back
+/// # Ok::<(), dynamics_core::algorithms::NotPositiveDefinite>(())
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Implicit<'a, E, R, const V: usize> {
+    effects: &'a E,
+    h: R,
+    slopes: [Slopes<R>; V],
+}
+
+impl<'a, E, R: Real, const V: usize> Implicit<'a, E, R, V> {
+    /// `effects` as a step of `h` seconds from `state` on treats them.
+    #[inline(always)]
+    pub fn new<D, const B: usize, const Q: usize>(
+        robot: &D,
+        state: &State<R, Q, V>,
+        effects: &'a E,
+        h: R,
+    ) -> Self
+    where
+        D: Description<R, B, Q, V>,
+        E: Effect<R, B, V>,
+    {
+        let mut slopes = [Slopes::default(); V];
+        for node in robot.nodes() {
+            for k in node.coordinates() {
+                if let Some(slopes) = slopes.get_mut(k) {
+                    effects.slopes(k, joint_state(&node, state, k), slopes);
+                }
+            }
+        }
+        Self { effects, h, slopes }
+    }
+}
+
+impl<R: Real, E, const B: usize, const V: usize> Effect<R, B, V> for Implicit<'_, E, R, V>
+where
+    E: Effect<R, B, V>,
+{
+    const FIELD: bool = E::FIELD;
+    const FIELD_AXES: [bool; 3] = E::FIELD_AXES;
+    const ACCELERATIONS: bool = E::ACCELERATIONS;
+    const VELOCITY_PRODUCTS: bool = E::VELOCITY_PRODUCTS;
+    const WRENCH: bool = E::WRENCH;
+    const BODY_VELOCITY: bool = E::BODY_VELOCITY;
+    const BODY_POSE: bool = E::BODY_POSE;
+    const BASE_MOTION: bool = E::BASE_MOTION;
+    const PAYLOAD: bool = E::PAYLOAD;
+
+    #[inline(always)]
+    fn payload(&self, inertia: &mut SpatialInertia<R>) {
+        self.effects.payload(inertia);
+    }
+
+    #[inline(always)]
+    fn field(&self, g: &mut R::Vec3) {
+        self.effects.field(g);
+    }
+
+    #[inline(always)]
+    fn base(&self, velocity: &mut Motion<R>, acceleration: &mut Motion<R>) {
+        self.effects.base(velocity, acceleration);
+    }
+
+    #[inline(always)]
+    fn wrench(&self, body: usize, at: &BodyState<R>, fx: &mut Force<R>) {
+        self.effects.wrench(body, at, fx);
+    }
+
+    #[inline(always)]
+    fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R) {
+        self.effects.torque(joint, at, tau);
+        let slopes = entry(&self.slopes, joint);
+        let ahead = at.qd + self.h * at.qdd;
+        *tau += self.h * (slopes.q * ahead + slopes.qd * at.qdd);
+    }
+
+    #[inline(always)]
+    fn inertia(&self, joint: usize, diagonal: &mut R) {
+        self.effects.inertia(joint, diagonal);
+        let slopes = entry(&self.slopes, joint);
+        *diagonal += self.h * (slopes.qd + self.h * slopes.q);
+    }
+}

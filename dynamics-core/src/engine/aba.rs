@@ -1,0 +1,215 @@
+//! Forward dynamics by articulated bodies.
+//!
+//! Featherstone (1983); RBDA (2008), table 7.1, in two steps: the recursion of [`super::rnea`] takes
+//! the bias from the torques, and what is left moves a robot at rest without gravity, so that the
+//! articulated bodies need neither velocities nor velocity products.
+
+use core::hint::black_box;
+
+use super::Engine;
+use super::articulated::Articulated;
+use super::factor::positive;
+use super::field::{Inertia, Wrench, enter};
+use super::known::Known;
+use super::prepare::Prepared;
+use super::rnea::{carries, loaded, stands};
+use super::small::{Mat3, Vec3};
+use crate::algorithms::NotPositiveDefinite;
+use crate::effects::Effect;
+use crate::model::{Robot, Turn};
+use crate::scalar::Real;
+use crate::state::{Posture, State};
+
+impl<T> Engine<T> {
+    /// q̈ = FD(q, q̇, τ) as [`Engine::forward`] has it, by articulated bodies.
+    ///
+    /// Cost: O(V), but more than that of `forward` on short chains: `docs/costs.md` in the repository.
+    /// `state.qdd` is not read. Source: Featherstone (1983; RBDA table 7.1).
+    ///
+    /// # Errors
+    /// As [`Engine::forward`].
+    #[inline(never)]
+    pub fn aba<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+        state: &State<R, Q, V>,
+        tau: &[R; V],
+        effects: &E,
+    ) -> Result<[R; V], NotPositiveDefinite>
+    where
+        T: Robot<B, Q, V>,
+        E: Effect<R, B, V>,
+    {
+        accelerate::<R, T, E, B, Q, V>(&Self::posture(&state.q), state, tau, effects)
+    }
+
+    /// As [`Engine::aba`], at a posture whose sines and cosines are at hand.
+    ///
+    /// # Errors
+    /// As [`Engine::forward`].
+    #[inline(never)]
+    pub fn aba_at<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+        posture: &Posture<R, Q>,
+        state: &State<R, Q, V>,
+        tau: &[R; V],
+        effects: &E,
+    ) -> Result<[R; V], NotPositiveDefinite>
+    where
+        T: Robot<B, Q, V>,
+        E: Effect<R, B, V>,
+    {
+        accelerate::<R, T, E, B, Q, V>(posture, state, tau, effects)
+    }
+}
+
+/// What the pass to the base leaves for the pass to the tips.
+struct Task<'a, R, E, const Q: usize, const V: usize> {
+    turns: &'a [Turn<R>; Q],
+    effects: &'a E,
+    /// U = Iᴬ S: couple and force.
+    u: &'a mut [[R; 6]; V],
+    per_d: &'a mut [R; V],
+    /// The torques, less what the bodies beyond push with; then the accelerations.
+    x: &'a mut [R; V],
+}
+
+#[inline(always)]
+fn accelerate<R, T, E, const B: usize, const Q: usize, const V: usize>(
+    posture: &Posture<R, Q>,
+    state: &State<R, Q, V>,
+    tau: &[R; V],
+    effects: &E,
+) -> Result<[R; V], NotPositiveDefinite>
+where
+    R: Real,
+    T: Robot<B, Q, V>,
+    E: Effect<R, B, V>,
+{
+    // One phase after the other: as one block they would need more registers than there are.
+    let mut x = Engine::<T>::remaining(posture, state, tau, effects);
+    black_box(&mut x);
+    let (mut u, mut per_d) = ([[R::ZERO; 6]; V], [R::ZERO; V]);
+    let mut task = Task {
+        turns: &posture.turns,
+        effects,
+        u: &mut u,
+        per_d: &mut per_d,
+        x: &mut x,
+    };
+    for_each_joint!(J, {
+        if const { stands::<T, B, Q, V>(J) } {
+            let _ = gather::<R, T, E, B, Q, V, J>(&mut task);
+        }
+    });
+    positive(task.per_d)?;
+    for_each_joint!(J, {
+        if const { stands::<T, B, Q, V>(J) } {
+            swing::<R, T, E, B, Q, V, J>(&mut task, [Vec3::ZERO; 2]);
+        }
+    });
+    Ok(x)
+}
+
+/// To the base: the articulated inertia of joint I and what it pushes with, in the parent's frame.
+#[inline(always)]
+fn gather<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
+    task: &mut Task<'_, R, E, Q, V>,
+) -> (Articulated<R>, Wrench<R>)
+where
+    R: Real,
+    T: Robot<B, Q, V>,
+    E: Effect<R, B, V>,
+{
+    let joint = const { &Prepared::<T, B, Q, V>::joint(I) };
+    let per_length = Known::constant(const { 1.0 / Prepared::<T, B, Q, V>::TREE.length });
+    let mut body = Inertia::of(joint);
+    if const { E::PAYLOAD && Prepared::<T, B, Q, V>::last_on(I) } {
+        body = loaded::<R, T, E, B, Q, V>(task.effects, body);
+    }
+    let mut ia = Articulated::of(&body);
+    let mut push = Wrench {
+        f: Vec3::ZERO,
+        n: Vec3::ZERO,
+    };
+    for_each_joint!(J, {
+        if const { carries::<T, B, Q, V>(I, J) } {
+            let (inertia, wrench) = gather::<R, T, E, B, Q, V, J>(task);
+            ia = ia + inertia;
+            push = Wrench {
+                f: push.f + wrench.f,
+                n: push.n + wrench.n,
+            };
+        }
+    });
+    let (n, f) = if joint.prismatic {
+        let [_, _, n] = ia.mixed.0;
+        let [_, _, f] = ia.moving.columns();
+        (n.scale(per_length), f.scale(per_length))
+    } else {
+        let [_, _, n] = ia.turning.columns();
+        let [_, _, f] = ia.mixed.rows();
+        (n, f)
+    };
+    let mut d = Wrench { f, n }.along(joint.prismatic, per_length).get();
+    task.effects.inertia(I, &mut d);
+    let per_d = R::ONE / d;
+    let rest = Known::any(task.x[I]) - push.along(joint.prismatic, per_length);
+    let ([nx, ny, nz], [fx, fy, fz]) = (n.0, f.0);
+    task.u[I] = [nx.get(), ny.get(), nz.get(), fx.get(), fy.get(), fz.get()];
+    task.per_d[I] = per_d;
+    task.x[I] = rest.get();
+
+    let gain = rest * Known::any(per_d);
+    push = Wrench {
+        f: push.f + f.scale(gain),
+        n: push.n + n.scale(gain),
+    };
+    let turn = task.turns[I];
+    let slide = Known::any(turn.q) * per_length;
+    (
+        ia.yielding(n, f, Known::any(per_d))
+            .handed_down(joint, turn, slide),
+        push.handed_down(joint, turn, slide),
+    )
+}
+
+/// To the tips: the acceleration of joint I, from its parent's α and a.
+#[inline(always)]
+fn swing<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
+    task: &mut Task<'_, R, E, Q, V>,
+    [alpha, a]: [Vec3<R>; 2],
+) where
+    R: Real,
+    T: Robot<B, Q, V>,
+    E: Effect<R, B, V>,
+{
+    let joint = const { &Prepared::<T, B, Q, V>::joint(I) };
+    let per_length = Known::constant(const { 1.0 / Prepared::<T, B, Q, V>::TREE.length });
+    let (rot, p) = (Mat3::constant(&joint.rot), Vec3::constant(joint.pos));
+    let turn = task.turns[I];
+    let (mut alpha, mut a) = if joint.prismatic {
+        let p = p + rot.0[2].scale(Known::any(turn.q) * per_length);
+        (
+            rot.transpose_mul(alpha),
+            rot.transpose_mul(a + alpha.cross(p)),
+        )
+    } else {
+        (
+            enter(&rot, turn, alpha),
+            enter(&rot, turn, a + alpha.cross(p)),
+        )
+    };
+    // Beyond the joints that stand on the base, whose parent is at rest.
+    let [nx, ny, nz, fx, fy, fz] = task.u[I].map(Known::any);
+    let lost = Vec3([nx, ny, nz]).dot(alpha) + Vec3([fx, fy, fz]).dot(a);
+    let qdd = (Known::any(task.x[I]) - lost) * Known::any(task.per_d[I]);
+    task.x[I] = qdd.get();
+    if joint.prismatic {
+        a.0[2] = a.0[2] + qdd * per_length;
+    } else {
+        alpha.0[2] = alpha.0[2] + qdd;
+    }
+    for_each_joint!(J, {
+        if const { carries::<T, B, Q, V>(I, J) } {
+            swing::<R, T, E, B, Q, V, J>(task, [alpha, a]);
+        }
+    });
+}

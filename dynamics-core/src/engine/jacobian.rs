@@ -1,0 +1,116 @@
+//! The geometric Jacobian: what a body's frame does when each joint moves by itself.
+//!
+//! Featherstone, RBDA (2008), section 4.1; axes and arms in base coordinates: z_j, z_j × (p − p_j).
+
+use super::Engine;
+use super::known::Known;
+use super::prepare::Prepared;
+use super::rnea::carries;
+use super::small::{Mat3, Vec3};
+use crate::model::{BASE, Robot, Turn};
+use crate::scalar::{Real, Vector};
+use crate::spatial::Motion;
+use crate::state::Posture;
+
+impl<T> Engine<T> {
+    /// J with V = J q̇: the last body's velocity, by columns, one a joint.
+    ///
+    /// ω in rad/s and the velocity in m/s of the origin of that body's frame, both along the axes of
+    /// the base. τ = Jᵀ f for a force at that origin. Cost: `docs/costs.md` in the repository.
+    /// Source: Featherstone, RBDA (2008), section 4.1.
+    ///
+    /// ```
+    /// use dynamics_core::{Engine, robots::Ur5e};
+    /// let j = Engine::<Ur5e>::jacobian(&[0.0_f32, -1.2, 1.5, 0.3, 0.0, 0.0]);
+    /// assert_eq!(j[0].ang.to_array(), [0.0, 0.0, 1.0]); // the first axis is vertical
+    /// ```
+    #[inline(never)]
+    pub fn jacobian<R: Real, const B: usize, const Q: usize, const V: usize>(
+        q: &[R; Q],
+    ) -> [Motion<R>; V]
+    where
+        T: Robot<B, Q, V>,
+    {
+        columns::<R, T, B, Q, V>(&Self::posture(q).turns)
+    }
+
+    /// As [`Engine::jacobian`], at a posture whose sines and cosines are at hand.
+    #[inline(never)]
+    pub fn jacobian_at<R: Real, const B: usize, const Q: usize, const V: usize>(
+        posture: &Posture<R, Q>,
+    ) -> [Motion<R>; V]
+    where
+        T: Robot<B, Q, V>,
+    {
+        columns::<R, T, B, Q, V>(&posture.turns)
+    }
+}
+
+/// The columns of the joints that carry the last body; zero for others.
+#[inline(always)]
+fn columns<R: Real, T, const B: usize, const Q: usize, const V: usize>(
+    turns: &[Turn<R>; Q],
+) -> [Motion<R>; V]
+where
+    T: Robot<B, Q, V>,
+{
+    let mut columns = [Motion::ZERO; V];
+    for_each_joint!(J, {
+        if const { leads::<T, B, Q, V>(BASE, J) } {
+            let base = Mat3::constant(&glam::DMat3::IDENTITY);
+            let _ = reach::<R, T, B, Q, V, J>(turns, &base, &mut columns);
+        }
+    });
+    columns
+}
+
+/// Writes the columns of joint I and of those beyond; returns the way to the body's origin from the
+/// parent's, in base coordinates, m. `parent` holds the axes of the parent's frame.
+#[inline(always)]
+fn reach<R: Real, T, const B: usize, const Q: usize, const V: usize, const I: usize>(
+    turns: &[Turn<R>; Q],
+    parent: &Mat3<R>,
+    columns: &mut [Motion<R>; V],
+) -> Vec3<R>
+where
+    T: Robot<B, Q, V>,
+{
+    let joint = const { &Prepared::<T, B, Q, V>::joint(I) };
+    let length = const { Prepared::<T, B, Q, V>::TREE.length };
+    let rot = Mat3::constant(&joint.rot);
+    let [x, y, z] = rot.0;
+    let (x, y, z) = (parent.mul(x), parent.mul(y), parent.mul(z));
+    let mut offset = parent.mul(Vec3::constant(joint.pos * length));
+    let mut axes = Mat3([x, y, z]);
+    if joint.prismatic {
+        offset = offset + z.scale(Known::any(turns[I].q));
+    } else {
+        let (sin, cos) = (Known::any(turns[I].sin), Known::any(turns[I].cos));
+        axes = Mat3([x.scale(cos) + y.scale(sin), y.scale(cos) - x.scale(sin), z]);
+    }
+    let mut way = Vec3::<R>::ZERO;
+    if const { Prepared::<T, B, Q, V>::last_on(I) } {
+        let place = const { &Prepared::<T, B, Q, V>::last() };
+        way = axes.mul(Vec3::constant(place.pos * length));
+    }
+    for_each_joint!(J, {
+        if const { leads::<T, B, Q, V>(I, J) } {
+            way = reach::<R, T, B, Q, V, J>(turns, &axes, columns);
+        }
+    });
+    columns[I] = if joint.prismatic {
+        Motion::new(R::Vec3::ZERO, z.get())
+    } else {
+        Motion::new(z.get(), z.cross(way).get())
+    };
+    offset + way
+}
+
+/// Whether joint `j` is the next after joint `i` on the way to the last body.
+const fn leads<T, const B: usize, const Q: usize, const V: usize>(i: usize, j: usize) -> bool
+where
+    T: Robot<B, Q, V>,
+{
+    carries::<T, B, Q, V>(i, j)
+        && Prepared::<T, B, Q, V>::supports(j, Prepared::<T, B, Q, V>::last().joint)
+}

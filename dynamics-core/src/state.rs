@@ -64,8 +64,9 @@ impl<R: Real, const Q: usize> Posture<R, Q> {
         D: Description<R, B, Q, V>,
     {
         let mut turns = [Turn::default(); Q];
-        for node in robot.nodes() {
-            node.pose(q, &mut turns);
+        match robot.revolutes() {
+            Some(robot) => robot.nodes().for_each(|node| node.pose(q, &mut turns)),
+            None => robot.nodes().for_each(|node| node.pose(q, &mut turns)),
         }
         Self { turns }
     }

@@ -193,9 +193,13 @@ mod tests {
         let error = turned_back::<f64>(&h, &e) - e.transpose() * h * e;
         assert!(error.abs_diff_eq(DMat3::ZERO, 1e-14), "{error}");
         let s = h + h.transpose();
-        let (got, want) = (Symmetric::of(&s).turned_back(&e), e.transpose() * s * e);
+        let (got, want) = (
+            Symmetric::<f64>::of(&s).turned_back(&e),
+            e.transpose() * s * e,
+        );
         for v in [DVec3::X, DVec3::Y, DVec3::Z] {
-            assert!(got.times(v).abs_diff_eq(want * v, 1e-14), "{got:?} {want}");
+            let got: DVec3 = Symmetric::<f64>::times(&got, v);
+            assert!(got.abs_diff_eq(want * v, 1e-14), "{got:?} {want}");
         }
     }
 

@@ -1,14 +1,14 @@
 //! Core and engine against Pinocchio, in f64 and f32, on every recorded state.
 
 use dynamics_core::configuration::{difference, integrate};
-use dynamics_core::effects::{Coriolis, Effect, Gravity, RIGID_BODY, RotorInertia};
+use dynamics_core::effects::{BodyState, Coriolis, Effect, Gravity, RIGID_BODY, RotorInertia};
 use dynamics_core::model::{JointKind, Robot};
 use dynamics_core::robots::{A1, A1Free, G1, G1Free, Gen3, Iiwa14, Panda, Ur5e, XArm7, Z1};
 use dynamics_core::scalar::{Real, Vector};
 use dynamics_core::spatial::{Force, Motion};
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
-use host_tests::recordings::{Recording, columns, full_scale, load, row};
+use host_tests::recordings::{Recording, columns, full_scale, load, row, symmetric};
 use host_tests::trees::{TreeA, TreeB};
 use host_tests::{export, tolerances};
 
@@ -121,6 +121,31 @@ where
             Engine::<T>::rnea(state, &(Gravity::EARTH, Coriolis)),
         ]
     });
+    let mut forward =
+        ["engine aba", "engine forward"].map(|q| Worst::new(q, recording.full_scale.aba));
+    let mut matrix = Worst::new("engine crba", recording.full_scale.mass_matrix);
+    for i in 0..recording.q.len() {
+        let state = state::<R, N, N>(recording, i);
+        let tau = row::<N>(&recording.tau, i).map(R::from_f64);
+        let accelerations = [
+            Engine::<T>::aba(&state, &tau, &RIGID_BODY),
+            Engine::<T>::forward(&state, &tau, &RIGID_BODY),
+        ];
+        for (worst, qdd) in forward.iter_mut().zip(accelerations) {
+            worst.see(qdd.expect("M is positive"), row::<N>(&recording.aba, i));
+        }
+        if i < recording.mass_matrix.len() {
+            let m = Engine::<T>::crba(&state.q, &RIGID_BODY);
+            let wanted = symmetric::<N>(&recording.mass_matrix, i);
+            for (i, wanted) in wanted.into_iter().enumerate() {
+                matrix.see(std::array::from_fn(|j| m.get(i, j)), wanted);
+            }
+        }
+    }
+    let scalar = std::any::type_name::<R>();
+    for worst in forward.iter().chain([&matrix]) {
+        verdict.check(&recording.robot, worst.quantity, scalar, worst.error);
+    }
 }
 
 /// Steps and differences of configurations against the recording.
@@ -161,7 +186,7 @@ struct Wrenches<R, const B: usize>([[R; 6]; B]);
 
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Wrenches<R, B> {
     const WRENCH: bool = true;
-    fn wrench(&self, body: usize, _: Motion<R>, fx: &mut Force<R>) {
+    fn wrench(&self, body: usize, _: &BodyState<R>, fx: &mut Force<R>) {
         let (ang, lin) = halves(self.0[body]);
         *fx = Force::new(fx.ang + ang, fx.lin + lin);
     }

@@ -59,7 +59,11 @@ where
     E: Effect<R, B, V>,
 {
     let given = |joint| Given::Torque(entry(tau, joint));
-    Ok(sweep(robot, posture, state, effects, given)?.qdd)
+    let response = match robot.revolutes() {
+        Some(robot) => sweep(&robot, posture, state, effects, given)?,
+        None => sweep(robot, posture, state, effects, given)?,
+    };
+    Ok(response.qdd)
 }
 
 /// What one pass leaves for the next.

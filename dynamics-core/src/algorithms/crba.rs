@@ -14,13 +14,6 @@ use crate::scalar::Real;
 use crate::spatial::Xform;
 use crate::state::Posture;
 
-/// What one pass leaves for the next.
-struct Body<'a, R: Real> {
-    node: Node<'a, R>,
-    x: Xform<R>,
-    ic: CompositeInertia<R>,
-}
-
 /// M(q), kg·m² between revolute joints, kg between prismatic ones, kg·m mixed; with rotors and payload
 /// if the scene has them, whatever else it names.
 ///
@@ -50,6 +43,30 @@ where
 /// As [`crba`], at a posture whose sines and cosines are at hand.
 #[inline(always)]
 pub fn crba_at<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
+    robot: &D,
+    posture: &Posture<R, Q>,
+    effects: &E,
+) -> MassMatrix<R, V>
+where
+    D: Description<R, B, Q, V>,
+    E: Effect<R, B, V>,
+{
+    match robot.revolutes() {
+        Some(robot) => sweep(&robot, posture, effects),
+        None => sweep(robot, posture, effects),
+    }
+}
+
+/// What one pass leaves for the next.
+struct Body<'a, R: Real> {
+    node: Node<'a, R>,
+    x: Xform<R>,
+    ic: CompositeInertia<R>,
+}
+
+/// The two passes.
+#[inline(always)]
+fn sweep<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     posture: &Posture<R, Q>,
     effects: &E,

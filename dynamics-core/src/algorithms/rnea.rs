@@ -12,13 +12,6 @@ use crate::scalar::Real;
 use crate::spatial::{Force, Motion, Xform};
 use crate::state::{Posture, State};
 
-/// What the way out leaves for the way back.
-#[derive(Clone, Copy)]
-struct Body<R: Real> {
-    rot: R::Mat3,
-    f: Force<R>,
-}
-
 /// τ = ID(q, q̇, q̈): the torque of each motor, N·m or N, under the effects named.
 ///
 /// Shape: V. Cost: O(B); 250 flops a revolute joint, less what no effect asks for. Errors: none; a
@@ -46,6 +39,31 @@ where
 /// As [`rnea`], at a posture whose sines and cosines are at hand. `state.q` reaches joint effects.
 #[inline(always)]
 pub fn rnea_at<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
+    robot: &D,
+    posture: &Posture<R, Q>,
+    state: &State<R, Q, V>,
+    effects: &E,
+) -> [R; V]
+where
+    D: Description<R, B, Q, V>,
+    E: Effect<R, B, V>,
+{
+    match robot.revolutes() {
+        Some(robot) => sweep(&robot, posture, state, effects),
+        None => sweep(robot, posture, state, effects),
+    }
+}
+
+/// What the way out leaves for the way back.
+#[derive(Clone, Copy)]
+struct Body<R: Real> {
+    rot: R::Mat3,
+    f: Force<R>,
+}
+
+/// The two passes.
+#[inline(always)]
+fn sweep<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     posture: &Posture<R, Q>,
     state: &State<R, Q, V>,

@@ -166,8 +166,8 @@ where
     let slide = Known::any(turn.q) * per_length;
     (
         ia.yielding(n, f, Known::any(per_d))
-            .handed_down(joint, turn, slide),
-        push.handed_down(joint, turn, slide),
+            .handed_down::<T, B, Q, V, I>(turn, slide),
+        push.handed_down::<T, B, Q, V, I>(turn, slide),
     )
 }
 

@@ -7,9 +7,10 @@ use core::ops::Add;
 
 use super::field::Inertia;
 use super::known::Known;
-use super::prepare::Joint;
+use super::place::{crossed, rotated_matrix, rotated_symmetric};
+use super::prepare::Prepared;
 use super::small::{Mat3, Sym3, Vec3};
-use crate::model::Turn;
+use crate::model::{Robot, Turn};
 use crate::scalar::Real;
 
 /// The three blocks.
@@ -61,14 +62,18 @@ impl<R: Real> Articulated<R> {
         }
     }
 
-    /// The same in the parent's frame and about its origin; RBDA (2.66).
+    /// The same in the frame of joint I's parent and about its origin; RBDA (2.66).
     #[inline(always)]
-    pub(crate) fn handed_down(self, joint: &Joint, turn: Turn<R>, slide: Known<R>) -> Self {
-        let (rot, mut p) = (Mat3::constant(&joint.rot), Vec3::constant(joint.pos));
+    pub(crate) fn handed_down<T, const B: usize, const Q: usize, const V: usize, const I: usize>(
+        self,
+        turn: Turn<R>,
+        slide: Known<R>,
+    ) -> Self
+    where
+        T: Robot<B, Q, V>,
+    {
         let mut at = self;
-        if joint.prismatic {
-            p = p + rot.0[2].scale(slide);
-        } else {
+        if const { !Prepared::<T, B, Q, V>::joint(I).prismatic } {
             let (sin, cos) = (Known::any(turn.sin), Known::any(turn.cos));
             at = Self {
                 turning: at.turning.turn(sin, cos),
@@ -76,14 +81,12 @@ impl<R: Real> Articulated<R> {
                 moving: at.moving.turn(sin, cos),
             };
         }
-        let moving = at.moving.rotate(&rot);
-        let here = at.mixed.rotate(&rot);
+        let moving = rotated_symmetric::<R, T, B, Q, V, I>(at.moving);
+        let here = rotated_matrix::<R, T, B, Q, V, I>(&at.mixed);
         // H′ = H + [p]× A; I′ = I + [p]× Hᵀ + ([p]× H′ᵀ)ᵀ.
-        let [ax, ay, az] = moving.columns();
-        let mixed = here + Mat3([p.cross(ax), p.cross(ay), p.cross(az)]);
-        let [[x, y, z], [x_, y_, z_]] = [here.rows(), mixed.rows()];
-        let (lx, ly, lz) = (p.cross(x), p.cross(y), p.cross(z));
-        let (rx, ry, rz) = (p.cross(x_), p.cross(y_), p.cross(z_));
+        let mixed = here + crossed::<R, T, B, Q, V, I>(Mat3(moving.columns()), slide);
+        let Mat3([lx, ly, lz]) = crossed::<R, T, B, Q, V, I>(Mat3(here.rows()), slide);
+        let Mat3([rx, ry, rz]) = crossed::<R, T, B, Q, V, I>(Mat3(mixed.rows()), slide);
         let shift = Sym3 {
             xx: lx.0[0] + rx.0[0],
             xy: ly.0[0] + rx.0[1],
@@ -93,7 +96,7 @@ impl<R: Real> Articulated<R> {
             zz: lz.0[2] + rz.0[2],
         };
         Self {
-            turning: at.turning.rotate(&rot) + shift,
+            turning: rotated_symmetric::<R, T, B, Q, V, I>(at.turning) + shift,
             mixed,
             moving,
         }

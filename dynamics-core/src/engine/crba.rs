@@ -97,11 +97,8 @@ where
     });
     column::<R, T, E, B, Q, V, I>(task, &body);
     let per_length = Known::constant(const { 1.0 / Prepared::<T, B, Q, V>::TREE.length });
-    body.handed_down(
-        joint,
-        task.turns[I],
-        Known::any(task.turns[I].q) * per_length,
-    )
+    let turn = task.turns[I];
+    body.handed_down::<T, B, Q, V, I>(turn, Known::any(turn.q) * per_length)
 }
 
 /// Column I of M: the wrench of joint I's unit acceleration, felt at each joint down to the base.
@@ -138,7 +135,7 @@ fn column<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usiz
             let joint = const { &Prepared::<T, B, Q, V>::joint(K) };
             if joint.parent != BASE {
                 let turn = task.turns[K];
-                wrench = wrench.handed_down(joint, turn, Known::any(turn.q) * per_length);
+                wrench = wrench.handed_down::<T, B, Q, V, K>(turn, Known::any(turn.q) * per_length);
                 let above = const { &Prepared::<T, B, Q, V>::parent_of(K) };
                 let entry = wrench.along(above.prismatic, per_length).get();
                 task.m.rows[I][joint.parent] = entry;

@@ -8,9 +8,10 @@
 use core::ops::Add;
 
 use super::known::Known;
-use super::prepare::Joint;
+use super::place::{arm_cross, rotated, rotated_symmetric};
+use super::prepare::{Joint, Prepared};
 use super::small::{Mat3, Sym3, Vec3};
-use crate::model::Turn;
+use crate::model::{Robot, Turn};
 use crate::scalar::Real;
 
 /// How the points of a body move, in its frame.
@@ -65,21 +66,25 @@ impl<R: Real> Wrench<R> {
         }
     }
 
-    /// The wrench on joint I's body, in the parent's frame and about its origin.
+    /// The same in the frame of joint I's parent and about its origin.
     #[inline(always)]
-    pub(crate) fn handed_down(self, joint: &Joint, turn: Turn<R>, slide: Known<R>) -> Self {
-        let (rot, p) = (Mat3::constant(&joint.rot), Vec3::constant(joint.pos));
-        if joint.prismatic {
-            let f = rot.mul(self.f);
-            return Self {
-                f,
-                n: rot.mul(self.n) + (p + rot.0[2].scale(slide)).cross(f),
-            };
+    pub(crate) fn handed_down<T, const B: usize, const Q: usize, const V: usize, const I: usize>(
+        self,
+        turn: Turn<R>,
+        slide: Known<R>,
+    ) -> Self
+    where
+        T: Robot<B, Q, V>,
+    {
+        let (mut f, mut n) = (self.f, self.n);
+        if const { !Prepared::<T, B, Q, V>::joint(I).prismatic } {
+            let (sin, cos) = (Known::any(turn.sin), Known::any(turn.cos));
+            (f, n) = (f.turn(sin, cos), n.turn(sin, cos));
         }
-        let f = leave(&rot, turn, self.f);
+        let f = rotated::<R, T, B, Q, V, I>(f);
         Self {
             f,
-            n: leave(&rot, turn, self.n) + p.cross(f),
+            n: rotated::<R, T, B, Q, V, I>(n) + arm_cross::<R, T, B, Q, V, I>(f, slide),
         }
     }
 }
@@ -95,22 +100,31 @@ impl<R: Real> Inertia<R> {
         }
     }
 
-    /// The same in the parent's frame.
+    /// The same in the frame of joint I's parent and about its origin.
     #[inline(always)]
-    pub(crate) fn handed_down(self, joint: &Joint, turn: Turn<R>, slide: Known<R>) -> Self {
-        let (rot, mut p) = (Mat3::constant(&joint.rot), Vec3::constant(joint.pos));
+    pub(crate) fn handed_down<T, const B: usize, const Q: usize, const V: usize, const I: usize>(
+        self,
+        turn: Turn<R>,
+        slide: Known<R>,
+    ) -> Self
+    where
+        T: Robot<B, Q, V>,
+    {
+        let joint = const { &Prepared::<T, B, Q, V>::joint(I) };
+        let mut p = Vec3::constant(joint.pos);
         let (mut h, mut second) = (self.moment, self.second);
-        if joint.prismatic {
-            p = p + rot.0[2].scale(slide);
+        if const { Prepared::<T, B, Q, V>::joint(I).prismatic } {
+            p = p + Vec3::constant(joint.rot.z_axis).scale(slide);
         } else {
             let (sin, cos) = (Known::any(turn.sin), Known::any(turn.cos));
             (h, second) = (h.turn(sin, cos), second.turn(sin, cos));
         }
-        let h = rot.mul(h);
+        let h = rotated::<R, T, B, Q, V, I>(h);
+        let second = rotated_symmetric::<R, T, B, Q, V, I>(second);
         Self {
             mass: self.mass,
             moment: h + p.scale(self.mass),
-            second: second.rotate(&rot) + Sym3::both(h, p) + Sym3::square(p, self.mass),
+            second: second + Sym3::both(h, p) + Sym3::square(p, self.mass),
         }
     }
 }
@@ -217,12 +231,6 @@ fn complete<R: Real>(
 pub(crate) fn enter<R: Real>(rot: &Mat3<R>, turn: Turn<R>, v: Vec3<R>) -> Vec3<R> {
     rot.transpose_mul(v)
         .turn_back(Known::any(turn.sin), Known::any(turn.cos))
-}
-
-/// R Rz(q) v: out of the body's frame into the parent's.
-#[inline(always)]
-pub(crate) fn leave<R: Real>(rot: &Mat3<R>, turn: Turn<R>, v: Vec3<R>) -> Vec3<R> {
-    rot.mul(v.turn(Known::any(turn.sin), Known::any(turn.cos)))
 }
 
 /// A vector along the joint's axis.

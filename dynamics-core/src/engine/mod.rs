@@ -29,6 +29,7 @@ mod field;
 mod forward;
 mod jacobian;
 mod known;
+mod place;
 mod prepare;
 mod rnea;
 mod small;

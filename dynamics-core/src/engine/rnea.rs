@@ -116,7 +116,7 @@ where
     task.effects.torque(I, at, &mut tau);
     task.tau[I] = tau;
 
-    total.handed_down(joint, turn, slide)
+    total.handed_down::<T, B, Q, V, I>(turn, slide)
 }
 
 /// Adds the payload, which is given in the last body's own frame, to the inertia of its joint.

@@ -151,15 +151,6 @@ impl<R: Real> Mat3<R> {
             Vec3([cos * xz - sin * yz, sin * xz + cos * yz, zz]),
         ])
     }
-
-    /// R M Rᵀ.
-    #[inline(always)]
-    pub(crate) fn rotate(&self, rot: &Self) -> Self {
-        let [x, y, z] = self.0;
-        let half = Self([rot.mul(x), rot.mul(y), rot.mul(z)]);
-        let [x, y, z] = rot.rows();
-        Self([half.mul(x), half.mul(y), half.mul(z)])
-    }
 }
 
 impl<R: Real> Add for Mat3<R> {
@@ -230,12 +221,6 @@ impl<R: Real> Sym3<R> {
             yz: sin * self.xz + cos * self.yz,
             zz: self.zz,
         }
-    }
-
-    /// R S Rᵀ.
-    #[inline(always)]
-    pub(crate) fn rotate(self, rot: &Mat3<R>) -> Self {
-        Self::of(&Mat3(self.columns()).rotate(rot))
     }
 
     /// a bᵀ + b aᵀ.

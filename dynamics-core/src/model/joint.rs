@@ -77,6 +77,17 @@ impl Kinds {
     /// No kind.
     pub(super) const NONE: Self = Self(0);
 
+    /// Turns about one axis only, with an end or without.
+    pub(super) const REVOLUTE: Self = Self::NONE
+        .with(JointKind::Revolute)
+        .with(JointKind::Continuous);
+
+    /// Whether each is such a turn.
+    #[inline(always)]
+    pub(super) const fn are_revolute(self) -> bool {
+        self.0 & !Self::REVOLUTE.0 == 0
+    }
+
     /// These and one more.
     pub(super) const fn with(self, kind: JointKind) -> Self {
         Self(self.0 | 1 << kind as u16)

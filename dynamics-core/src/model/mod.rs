@@ -70,7 +70,7 @@ mod turn;
 
 pub(crate) use axis::Axis;
 pub use body::{BASE, Body, Limits};
-pub use description::{Description, Of};
+pub use description::{Description, Of, Revolutes};
 pub use error::{ModelError, Problem};
 pub use floating::on_root;
 pub use joint::{Joint, JointKind, Kinds};
@@ -116,6 +116,8 @@ pub struct Model<R: Real, const B: usize, const Q: usize, const V: usize> {
     /// λ of every velocity coordinate: the one before it, on its own joint or on the nearest joint
     /// that carries it; [`BASE`] for the first of a branch. RBDA (2008), section 6.5.
     pub lambda: [usize; V],
+    /// The kinds of its joints.
+    kinds: Kinds,
 }
 
 /// A robot of N bodies on N joints of one degree of freedom.
@@ -165,7 +167,7 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
     /// other, or Q or V that the joints do not add up to.
     pub const fn try_new(name: &'static str, bodies: [Body; B]) -> Result<Self, ModelError> {
         let mut links = [EMPTY; B];
-        let mut lambda = [BASE; V];
+        let (mut lambda, mut kinds) = ([BASE; V], Kinds::NONE);
         let (mut q_at, mut v_at, mut i) = (0, 0, 0);
         while i < B {
             let body = &bodies[i];
@@ -180,6 +182,7 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
             link.q_at = if nq == 0 { BASE } else { q_at };
             link.v_at = if nv == 0 { BASE } else { v_at };
             links[i] = link;
+            kinds = kinds.with(link.joint.kind);
             let (mut above, mut k) = (last_coordinate(&links, body.parent), 0);
             while k < nv && v_at + k < V {
                 lambda[v_at + k] = above;
@@ -200,17 +203,13 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
             name,
             links,
             lambda,
+            kinds,
         })
     }
 
     /// The kinds of its joints.
     pub const fn kinds(&self) -> Kinds {
-        let (mut kinds, mut i) = (Kinds::NONE, 0);
-        while i < B {
-            kinds = kinds.with(self.links[i].joint.kind);
-            i += 1;
-        }
-        kinds
+        self.kinds
     }
 
     /// Whether every body hangs on the one before it.

@@ -18,6 +18,7 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
             name: self.name,
             links,
             lambda: self.lambda,
+            kinds: self.kinds,
         }
     }
 }

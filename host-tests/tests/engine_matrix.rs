@@ -1,0 +1,268 @@
+//! What the engine does with M(q) and J(q), on trees, with prismatic joints, rotors and payloads.
+
+use dynamics_core::effects::{
+    Coriolis, Effect, Gravity, Inertia, Payload, RIGID_BODY, RotorInertia,
+};
+use dynamics_core::model::{BASE, Body, Joint, JointKind, Model, Robot};
+use dynamics_core::robots::{A1, Iiwa14, Panda, Ur5e};
+use dynamics_core::scalar::{Real, Vector};
+use dynamics_core::state::State;
+use dynamics_core::{Core, Engine};
+use glam::{DMat3, DQuat, DVec3};
+use host_tests::odd::Odd;
+use host_tests::tolerances;
+use proptest::prelude::RngExt;
+use proptest::test_runner::{RngAlgorithm, TestRng};
+
+const ROTORS: RotorInertia<f64, 7> = RotorInertia([0.2, 0.1, 0.3, 0.05, 0.15, 0.4, 0.25]);
+
+/// A number from −1 to 1, times what it is asked for.
+struct Random(TestRng);
+
+impl Random {
+    fn new() -> Self {
+        Self(TestRng::deterministic_rng(RngAlgorithm::ChaCha))
+    }
+
+    fn array<R: Real, const N: usize>(&mut self, bound: f64) -> [R; N] {
+        core::array::from_fn(|_| R::from_f64(self.0.random_range(-bound..bound)))
+    }
+
+    fn state<R: Real, const N: usize>(&mut self) -> State<R, N, N> {
+        State {
+            q: self.array(3.0),
+            qd: self.array(3.0),
+            qdd: self.array(10.0),
+        }
+    }
+}
+
+fn payload<R: Real>() -> Payload<R> {
+    let inertia = [0.03, -0.004, 0.002, 0.05, 0.006, 0.04].map(R::from_f64);
+    Payload::new(R::from_f64(2.5), [0.1, -0.2, 0.3].map(R::from_f64), inertia)
+}
+
+fn check(robot: &str, quantity: &str, scalar: &str, error: f64) {
+    if let Err(e) = tolerances::check(robot, quantity, scalar, error) {
+        panic!("{e}");
+    }
+}
+
+/// M against what the core's inverse dynamics asks for one acceleration at a time.
+fn columns<T, E, const B: usize, const N: usize>(scene: &E, quantity: &str)
+where
+    T: Robot<B, N, N>,
+    E: Effect<f64, B, N>,
+{
+    let (mut random, mut worst, mut scale) = (Random::new(), 0.0_f64, 0.0_f64);
+    for _ in 0..200 {
+        let q = random.array(3.0);
+        let m = Engine::<T>::crba(&q, scene);
+        assert_eq!(m, Engine::<T>::crba_at(&Engine::<T>::posture(&q), scene));
+        for j in 0..N {
+            let mut state = State::at(q);
+            state.qdd[j] = 1.0;
+            let column = Core::<T>::rnea(&state, scene);
+            for (i, column) in column.into_iter().enumerate() {
+                worst = worst.max((m.get(i, j) - column).abs());
+                scale = scale.max(column.abs());
+                assert_eq!(m.get(i, j), m.get(j, i));
+            }
+        }
+    }
+    check(T::MODEL.name, quantity, "f64", worst / scale);
+}
+
+#[test]
+fn m_is_what_inverse_dynamics_asks_for_each_acceleration() {
+    columns::<Odd, _, 11, 7>(&(Inertia,), "engine columns of M");
+    columns::<A1, _, 16, 12>(&(Inertia,), "engine columns of M");
+}
+
+#[test]
+fn rotors_and_payload_belong_to_m() {
+    let scene = (Inertia, ROTORS, payload());
+    columns::<Odd, _, 11, 7>(&scene, "engine loaded M");
+    columns::<Panda, _, 7, 7>(&scene, "engine loaded M");
+}
+
+/// The largest errors of `forward` and `aba` on what the core's inverse dynamics gives.
+fn inverted<R: Real, T, E, const B: usize, const N: usize>(scene: &E)
+where
+    T: Robot<B, N, N>,
+    E: Effect<R, B, N>,
+{
+    let (mut random, mut worst) = (Random::new(), [0.0_f64; 2]);
+    for _ in 0..200 {
+        let state = random.state();
+        let tau = Core::<T>::rnea(&state, scene);
+        let posture = Engine::<T>::posture(&state.q);
+        let forward = Engine::<T>::forward(&state, &tau, scene);
+        assert_eq!(
+            forward,
+            Engine::<T>::forward_at(&posture, &state, &tau, scene)
+        );
+        let aba = Engine::<T>::aba(&state, &tau, scene);
+        assert_eq!(aba, Engine::<T>::aba_at(&posture, &state, &tau, scene));
+        for (worst, found) in worst.iter_mut().zip([forward, aba]) {
+            for (found, want) in found.expect("M is positive").iter().zip(state.qdd) {
+                *worst = worst.max((found.to_f64() - want.to_f64()).abs() / 10.0);
+            }
+        }
+    }
+    let scalar = std::any::type_name::<R>();
+    check(T::MODEL.name, "engine forward of rnea", scalar, worst[0]);
+    check(T::MODEL.name, "engine aba of rnea", scalar, worst[1]);
+}
+
+#[test]
+fn forward_and_aba_invert_rnea_on_an_odd_tree_with_rotors_and_payload() {
+    let scene = (Gravity::EARTH, Inertia, Coriolis, ROTORS, payload());
+    inverted::<f64, Odd, _, 11, 7>(&scene);
+    let rotors = RotorInertia(ROTORS.0.map(|x| x as f32));
+    let scene = (Gravity::EARTH, Inertia, Coriolis, rotors, payload::<f32>());
+    inverted::<f32, Odd, _, 11, 7>(&scene);
+}
+
+#[test]
+fn solve_inverts_m() {
+    let (mut random, mut worst) = (Random::new(), 0.0_f64);
+    for _ in 0..200 {
+        let m = Engine::<Odd>::crba(&random.array(3.0), &RIGID_BODY);
+        let x: [f64; 7] = random.array(1.0);
+        let tau = core::array::from_fn(|i| (0..7).map(|j| m.get(i, j) * x[j]).sum());
+        let factor = Engine::<Odd>::factor(&m).expect("M is positive");
+        let found: [f64; 7] = Engine::<Odd>::solve(&factor, &tau);
+        for (found, x) in found.iter().zip(x) {
+            worst = worst.max((found - x).abs());
+        }
+    }
+    check("odd", "engine solve", "f64", worst);
+}
+
+/// The columns of J from the model's own frames: axes and points in base coordinates.
+fn textbook_jacobian<T, const B: usize, const N: usize>(q: &[f64; N]) -> [[DVec3; 2]; N]
+where
+    T: Robot<B, N, N>,
+{
+    let mut frames: Vec<(DMat3, DVec3)> = vec![];
+    let mut joints = [None; N];
+    for link in &T::MODEL.links {
+        let (rot, pos) = match link.parent {
+            BASE => (DMat3::IDENTITY, DVec3::ZERO),
+            parent => frames[parent],
+        };
+        let (mut pos, mut rot) = (
+            pos + rot * link.placement.pos,
+            rot * link.placement.rot.transpose(),
+        );
+        let axis = rot * link.joint.axis;
+        match link.joint.kind {
+            JointKind::Revolute => {
+                rot *= DMat3::from_quat(DQuat::from_axis_angle(link.joint.axis, q[link.q_at]));
+            }
+            JointKind::Prismatic => pos += axis * q[link.q_at],
+            _ => {}
+        }
+        if link.v_at != BASE {
+            joints[link.v_at] = Some((frames.len(), link.joint.kind, axis));
+        }
+        frames.push((rot, pos));
+    }
+    let mut columns = [[DVec3::ZERO; 2]; N];
+    let (mut at, tip) = (B - 1, frames[B - 1].1);
+    while at != BASE {
+        let joint = joints.iter().flatten().find(|joint| joint.0 == at);
+        columns = match joint {
+            Some(&(body, JointKind::Revolute, axis)) => {
+                columns[T::MODEL.links[body].v_at] = [axis, axis.cross(tip - frames[body].1)];
+                columns
+            }
+            Some(&(body, _, axis)) => {
+                columns[T::MODEL.links[body].v_at] = [DVec3::ZERO, axis];
+                columns
+            }
+            None => columns,
+        };
+        at = T::MODEL.links[at].parent;
+    }
+    columns
+}
+
+fn jacobian<R: Real, T, const B: usize, const N: usize>()
+where
+    T: Robot<B, N, N>,
+{
+    let (mut random, mut worst) = (Random::new(), 0.0_f64);
+    for _ in 0..200 {
+        let q: [R; N] = random.array(3.0);
+        let found = Engine::<T>::jacobian(&q);
+        assert_eq!(found, Engine::<T>::jacobian_at(&Engine::<T>::posture(&q)));
+        let want = textbook_jacobian::<T, B, N>(&q.map(R::to_f64));
+        for (found, want) in found.iter().zip(want) {
+            for (found, want) in [found.ang, found.lin].iter().zip(want) {
+                for (found, want) in found.array().iter().zip(want.to_array()) {
+                    worst = worst.max((found.to_f64() - want).abs());
+                }
+            }
+        }
+    }
+    let scalar = std::any::type_name::<R>();
+    check(T::MODEL.name, "engine jacobian", scalar, worst);
+}
+
+#[test]
+fn the_jacobian_is_that_of_the_users_frame() {
+    jacobian::<f64, Ur5e, 6, 6>();
+    jacobian::<f32, Ur5e, 6, 6>();
+    jacobian::<f64, Panda, 7, 7>();
+    jacobian::<f32, Panda, 7, 7>();
+    jacobian::<f64, Iiwa14, 7, 7>();
+    jacobian::<f32, Iiwa14, 7, 7>();
+    jacobian::<f64, A1, 16, 12>();
+    jacobian::<f32, A1, 16, 12>();
+    jacobian::<f64, Odd, 11, 7>();
+    jacobian::<f32, Odd, 11, 7>();
+}
+
+/// A robot on rails whose last link weighs nothing.
+struct Massless;
+
+impl Robot<3, 3, 3> for Massless {
+    const MODEL: Model<f64, 3, 3, 3> = Model::new(
+        "massless",
+        [
+            Body::new("rail", BASE, Joint::prismatic([1.0, 0.0, 0.0])).mass(2.0),
+            Body::new("arm", 0, Joint::revolute([0.0, 0.0, 1.0]))
+                .mass(1.0)
+                .com([0.3, 0.0, 0.0]),
+            Body::new("tip", 1, Joint::revolute([0.0, 1.0, 0.0])).xyz([0.5, 0.0, 0.0]),
+        ],
+    );
+}
+
+#[test]
+fn a_joint_that_moves_no_inertia_is_named() {
+    let (state, tau) = (State::at([0.1, 0.2, 0.3]), [1.0; 3]);
+    let error = |qdd: Result<[f64; 3], _>| qdd.expect_err("a massless tip");
+    // The arm's own joint moves what the tip does not: a point on its axis would be no inertia.
+    let forward = error(Engine::<Massless>::forward(&state, &tau, &RIGID_BODY));
+    assert_eq!(
+        forward,
+        error(Engine::<Massless>::aba(&state, &tau, &RIGID_BODY))
+    );
+    assert_eq!(
+        forward,
+        error(Core::<Massless>::aba(&state, &tau, &RIGID_BODY))
+    );
+    assert_eq!(forward.joint, 2);
+    let m = Engine::<Massless>::crba(&state.q, &RIGID_BODY);
+    assert_eq!(Engine::<Massless>::factor(&m).map(|_| ()), Err(forward));
+    // A rotor is inertia enough, and a payload that is not a number is not.
+    let rotors = (Inertia, RotorInertia([0.0, 0.0, 0.1]));
+    assert!(Engine::<Massless>::forward(&state, &tau, &rotors).is_ok());
+    assert!(Engine::<Massless>::aba(&state, &tau, &rotors).is_ok());
+    let broken = (Inertia, Payload::new(f64::NAN, [0.0; 3], [0.1; 6]));
+    assert!(Engine::<Massless>::forward(&state, &tau, &broken).is_err());
+    assert!(Engine::<Massless>::aba(&state, &tau, &broken).is_err());
+}

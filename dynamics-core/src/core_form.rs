@@ -2,6 +2,7 @@
 
 mod kinematics;
 mod momentum;
+mod operational;
 
 use core::marker::PhantomData;
 

@@ -4,7 +4,7 @@ mod common;
 
 use std::collections::BTreeMap;
 
-use common::{Verdict, Worst, flat, six};
+use common::{Verdict, Worst, flat, six, unit};
 use dynamics_core::Core;
 use dynamics_core::algorithms::frame;
 use dynamics_core::effects::RIGID_BODY;
@@ -139,17 +139,10 @@ fn mobilities<R: Real, T, const B: usize, const Q: usize, const V: usize>(
     T: Robot<B, Q, V>,
 {
     let mut seen = worst(&r.operational_inverse);
-    let unit: [Force<R>; 6] = core::array::from_fn(|k| {
-        let at = |i| if i == k { R::ONE } else { R::ZERO };
-        Force::new(
-            R::Vec3::new(at(0), at(1), at(2)),
-            R::Vec3::new(at(3), at(4), at(5)),
-        )
-    });
     for i in 0..r.first_states() {
         let q = row::<Q>(&r.q, i).map(R::from_f64);
         let mobility = Core::<T>::mobility(&q, B - 1, frame::Body, &()).expect("M is positive");
-        let got = mobility.along(&unit).map(|row| row.map(R::to_f64));
+        let got = mobility.along(&unit()).map(|row| row.map(R::to_f64));
         for (got, want) in got
             .into_iter()
             .zip(symmetric::<6>(&r.operational_inverse, i))

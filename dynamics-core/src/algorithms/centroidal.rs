@@ -18,7 +18,7 @@ use crate::state::{Posture, State};
 
 /// The momentum h_G about the centre of mass, along the base's axes, N·m·s and N·s.
 ///
-/// Cost: O(B); some 300 flops a revolute joint. Errors: none. Source: Orin, Goswami & Lee (2013).
+/// Cost: O(B); some 250 flops a revolute joint. Errors: none. Source: Orin, Goswami & Lee (2013).
 ///
 /// ```
 /// use dynamics_core::{algorithms::centroidal_momentum, model::Robot, robots::Ur5e, state::State};
@@ -58,7 +58,7 @@ where
 /// The centroidal momentum matrix A_G with h_G = A_G q̇, by columns, one a coordinate; for a base at rest.
 ///
 /// Along the base's axes and about the centre of mass; N·m·s and N·s per rad/s (or m/s). Cost: O(B); some
-/// 500 flops a revolute joint. Errors: none. Source: Orin, Goswami & Lee (2013), section 5.
+/// 350 flops a revolute joint. Errors: none. Source: Orin, Goswami & Lee (2013), section 5.
 ///
 /// ```
 /// use dynamics_core::{algorithms::{centroidal_matrix, centroidal_momentum}, model::Robot, robots::Ur5e, state::State};

@@ -13,7 +13,7 @@ use crate::state::{Posture, State, entry};
 ///
 /// Of the bodies, with a payload if the effects name one, and of rotors by their inertia at the joints:
 /// ½ q̇ᵀ M q̇ on a base at rest, M under the same effects. On a base of given motion that of the moving
-/// bodies. Cost: O(B); some 150 flops a revolute joint. Errors: none. Source: RBDA (2008), (2.67).
+/// bodies. Cost: O(B); some 115 flops a revolute joint. Errors: none. Source: RBDA (2008), (2.67).
 ///
 /// ```
 /// use dynamics_core::{algorithms::kinetic_energy, model::Robot, robots::Ur5e, state::State};
@@ -67,7 +67,7 @@ where
 /// The potential energy U = −Σ m g·c in the field of the effects, J; zero at the height of the base's
 /// origin.
 ///
-/// Of the bodies and a payload; springs that are effects of joints are not counted. Cost: O(B); some 130
+/// Of the bodies and a payload; springs that are effects of joints are not counted. Cost: O(B); some 110
 /// flops a revolute joint. Errors: none. Source: RBDA (2008), section 5.3 (a uniform field).
 ///
 /// ```

@@ -95,7 +95,7 @@ where
 ///
 /// `state.qdd` counts; gravity and other effects do not, but for a given motion of the base, whose
 /// v₀ and a₀ all bodies share; everything is told along the base's axes at this moment. Cost: O(B);
-/// some 330 flops a revolute joint. Errors: none. Source: Featherstone & Orin (2000), (3) and (4).
+/// some 290 flops a revolute joint. Errors: none. Source: Featherstone & Orin (2000), (3) and (4).
 ///
 /// ```
 /// use dynamics_core::{algorithms::{kinematics, frame}, model::Robot, robots::Ur5e, state::State};

@@ -115,6 +115,16 @@ impl<R: Real> Aim<R> {
 /// # assert!(tau.iter().all(|tau| tau.is_finite()));
 /// # Ok::<(), dynamics_core::algorithms::NotPositiveDefinite>(())
 /// ```
+///
+/// An aim for each direction, neither more nor less:
+///
+/// ```compile_fail,E0308
+/// use dynamics_core::{algorithms::OperationalSpace, control::{Aim, motion_and_force}};
+/// fn two_of_three(task: &OperationalSpace<f32, 3, 6>) -> [f32; 6] {
+///     let still = Aim::Motion { acceleration: 0.0 };
+///     motion_and_force(task, &[still, still], &[0.0; 3], &[0.0; 6])
+/// }
+/// ```
 #[inline(always)]
 pub fn motion_and_force<R: Real, const M: usize, const V: usize>(
     task: &OperationalSpace<R, M, V>,

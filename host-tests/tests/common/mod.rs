@@ -4,7 +4,7 @@
 
 use dynamics_core::model::{BASE, Body, Joint, JointKind, Model};
 use dynamics_core::scalar::{Real, Vector};
-use dynamics_core::spatial::Motion;
+use dynamics_core::spatial::{Force, Motion};
 use dynamics_core::state::State;
 use glam::{DMat3, DQuat, DVec3};
 use host_tests::tolerances;
@@ -91,6 +91,15 @@ pub fn random_tree(rng: &mut Rng, rooted: bool) -> Tree {
                 .inertia(inertia)
         }),
     )
+}
+
+/// Trees with a state each.
+pub fn trees(rooted: bool) -> impl Iterator<Item = (Tree, State<f64, Q, V>)> {
+    let mut rng = Rng::new(3);
+    (0..100).map(move |_| {
+        let tree = random_tree(&mut rng, rooted);
+        (tree, random_state(&tree, &mut rng))
+    })
 }
 
 /// The inertia of six points: nothing that could not be a body's.
@@ -241,4 +250,15 @@ impl Verdict {
     pub fn speak(self) {
         assert!(self.0.is_empty(), "\n{}", self.0.join("\n"));
     }
+}
+
+/// The six unit forces: all directions of a body.
+pub fn unit<R: Real>() -> [Force<R>; 6] {
+    core::array::from_fn(|k| {
+        let at = |i| if i == k { R::ONE } else { R::ZERO };
+        Force::new(
+            R::Vec3::new(at(0), at(1), at(2)),
+            R::Vec3::new(at(3), at(4), at(5)),
+        )
+    })
 }

@@ -1,0 +1,153 @@
+//! An arm that presses on a wall while it moves along it, under motion and force control.
+
+mod common;
+
+use common::{Verdict, Worst};
+use dynamics_core::algorithms::{
+    Damping, drift_at, frame, kinematics_at, operational_space_at, rnea_at,
+};
+use dynamics_core::control::{Aim, TaskFrame, motion_and_force, turn_to};
+use dynamics_core::effects::{BodyState, Coriolis, Effect, Gravity, Inertia, RIGID_BODY};
+use dynamics_core::model::Robot;
+use dynamics_core::robots::Panda;
+use dynamics_core::sim::semi_implicit;
+use dynamics_core::spatial::Force;
+use dynamics_core::state::{Posture, State};
+use glam::{DMat3, DVec3};
+
+const HAND: usize = 6;
+const TICK: f64 = 1e-3;
+const PARTS: usize = 10; // the plant's steps in a tick
+const STIFFNESS: f64 = 2e4; // N/m
+const WALL_DAMPING: f64 = 20.0; // N s/m
+const PRESS: f64 = 30.0; // N
+const RADIUS: f64 = 0.02; // m, of the loop
+
+/// The wall: the plane through `origin`; `normal` points into it.
+#[derive(Clone, Copy)]
+struct Wall {
+    origin: DVec3,
+    normal: DVec3,
+}
+
+impl Wall {
+    /// What the hand exerts on it along its normal, N.
+    fn pressed(&self, place: DVec3, velocity: DVec3) -> f64 {
+        let depth = (place - self.origin).dot(self.normal);
+        let force = STIFFNESS * depth + WALL_DAMPING * velocity.dot(self.normal);
+        if depth > 0.0 { force.max(0.0) } else { 0.0 }
+    }
+}
+
+impl<const B: usize, const V: usize> Effect<f64, B, V> for Wall {
+    const WRENCH: bool = true;
+    const BODY_POSE: bool = true;
+    const BODY_VELOCITY: bool = true;
+
+    fn wrench(&self, body: usize, at: &BodyState<f64>, fx: &mut Force<f64>) {
+        if body == HAND {
+            let velocity = at.pose.rot.transpose() * at.velocity.lin;
+            let back = -self.pressed(at.pose.pos, velocity);
+            fx.lin += at.pose.rot * (self.normal * back);
+        }
+    }
+}
+
+/// What went wrong at most in the last second.
+#[derive(Debug, Default)]
+struct Errors {
+    force: f64,
+    path: f64,
+    turn: f64,
+    swing: f64,
+}
+
+/// Three seconds along a loop on the wall; `posture` is a torque on all joints, asked in the null space.
+fn run(posture: f64) -> Errors {
+    let robot = &Panda::MODEL;
+    let mut arm = State::at([0.3, -0.4, 0.2, -2.0, 0.3, 1.9, 0.5]);
+    let start = kinematics_at(robot, &Posture::of(robot, &arm.q), &arm, &()).poses[HAND];
+    let axes = DMat3::from_rotation_z(0.5) * DMat3::from_rotation_y(0.3); // normal: x
+    let wall = Wall {
+        origin: start.pos + axes.x_axis * 0.005,
+        normal: axes.x_axis,
+    };
+    let frame = TaskFrame { axes };
+    let directions = frame.turn_and_place(1.0);
+    let mut errors = Errors::default();
+    for tick in 0..3000 {
+        // A loop along y and z of the wall, from rest.
+        let (w, t) = (core::f64::consts::PI, f64::from(tick) * TICK);
+        let swing = |w: f64| {
+            let (s, c) = (w * t).sin_cos();
+            [1.0 - c, w * s, w * w * c].map(|x| RADIUS * x)
+        };
+        let [y, z] = [swing(w), swing(2.0 * w)];
+        let [place, rate, feed] = [0, 1, 2].map(|k| DVec3::new(0.0, y[k], z[k]));
+
+        let at = Posture::of(robot, &arm.q);
+        let k = kinematics_at(robot, &at, &arm, &());
+        let (pose, v) = (k.poses[HAND], k.velocity(HAND, frame::Mixed));
+        let seen = axes.transpose() * (pose.pos - start.pos);
+        let [speed, spin] = [axes.transpose() * v.lin, axes.transpose() * v.ang];
+        let off = axes.transpose() * turn_to::<f64>(&pose.rot, &start.rot);
+        let pressed = wall.pressed(pose.pos, v.lin);
+
+        let task = operational_space_at(
+            robot,
+            &at,
+            (HAND, frame::Mixed),
+            &directions,
+            &RIGID_BODY,
+            Damping::relative(1e-4),
+        )
+        .unwrap();
+        let still = |k: usize| Aim::follow([off[k], 0.0], [0.0, spin[k]], 0.0, 40.0, 1.0);
+        let along =
+            |k: usize| Aim::follow([place[k], rate[k]], [seen[k], speed[k]], feed[k], 40.0, 1.0);
+        let push = Aim::press(PRESS, pressed, 1.0, speed.x, 150.0);
+        let aims = [still(0), still(1), still(2), push, along(1), along(2)];
+        let drift = drift_at(robot, &at, &arm, HAND, frame::Mixed);
+        let bias = rnea_at(robot, &at, &arm, &(Gravity::EARTH, Coriolis));
+        let mut tau = motion_and_force(&task, &aims, &directions.map(|d| drift.dot(d)), &bias);
+        let free = arm.qd.map(|qd| posture - 2.0 * qd);
+        for (tau, free) in tau.iter_mut().zip(task.unseen(&free)) {
+            *tau += free;
+        }
+
+        if t > 2.0 {
+            errors.force = errors.force.max((pressed - PRESS).abs());
+            errors.path = errors.path.max((seen - place).y.hypot((seen - place).z));
+            errors.turn = errors.turn.max(off.length());
+            let free = task.unseen(&arm.qd);
+            errors.swing = errors
+                .swing
+                .max(free.iter().map(|x| x.abs()).fold(0.0, f64::max));
+        }
+        let scene = (Gravity::EARTH, Inertia, Coriolis, wall);
+        for _ in 0..PARTS {
+            semi_implicit(robot, &mut arm, &tau, &scene, TICK / PARTS as f64).unwrap();
+        }
+    }
+    errors
+}
+
+fn within_the_table(errors: &Errors, verdict: &mut Verdict) {
+    let of = |error, full_scale| Worst { error, full_scale };
+    verdict.see("arm on a wall", "force", "f64", &of(errors.force, PRESS));
+    verdict.see("arm on a wall", "path", "f64", &of(errors.path, RADIUS));
+    verdict.see("arm on a wall", "turn", "f64", &of(errors.turn, 1.0));
+}
+
+#[test]
+fn an_arm_presses_on_a_wall_and_moves_along_it_whatever_its_elbow_does() {
+    let (calm, driven) = (run(0.0), run(5.0));
+    assert!(
+        driven.swing > 5.0 * calm.swing,
+        "the elbow is driven: {calm:?} {driven:?}"
+    );
+    let mut verdict = Verdict::default();
+    within_the_table(&calm, &mut verdict);
+    within_the_table(&driven, &mut verdict);
+    verdict.speak();
+}

@@ -69,7 +69,8 @@ pub fn small(workspace: &Workspace, tools: &Tools) -> Result<Vec<Row>> {
     Ok(rows)
 }
 
-fn measure(
+/// Builds these bins in a profile, runs each of them under the meter, and returns their rows in order.
+pub fn measure(
     workspace: &Workspace,
     tools: &Tools,
     profile: &str,

@@ -1,6 +1,7 @@
 //! The steps that need no target.
 
 use super::{Context, Outcome};
+use crate::eliminations;
 use crate::error::Result;
 use crate::shell;
 use crate::workspace::FIRMWARE;
@@ -56,6 +57,11 @@ pub fn doctests(context: &Context) -> Result<Outcome> {
 pub fn doc(context: &Context) -> Result<Outcome> {
     cargo(context, "doc", &[&HOST, &["--no-deps"]])?;
     cargo(context, "doc", &[&FIRMWARE_LIB, &["--no-deps"]])?;
+    Outcome::PASSED
+}
+
+pub fn eliminations(context: &Context) -> Result<Outcome> {
+    eliminations::check(&context.workspace)?;
     Outcome::PASSED
 }
 

@@ -1,43 +1,21 @@
 //! What each algorithm costs on a robot, form by form, effect by effect, between the meter's markers.
-//! `cargo xtask costs` reads the log and cuts the meter's samples by it. One bin a robot, since each
-//! specialised function takes the compiler seconds, and bins are built side by side.
-//!
-//! ```text
-//! config ROBOT ALGORITHM FORM INPUTS TRIG JOINTS STATES ADDRESS STACK
-//! done
-//! ```
-//!
-//! TRIG is 1 if sines and cosines are computed inside; ADDRESS is the function's, and STACK the bytes
-//! that it and all that it calls were seen to use.
-use core::arch::asm;
-use core::hint::black_box;
+//! `cargo xtask costs` reads the log, rows and at last `done`, and cuts the meter's samples by it. One bin
+//! a robot, since each specialised function takes the compiler seconds, and bins are built side by side.
+
+mod forms;
+mod row;
 
 use cortex_m_semihosting::debug;
-use dynamics_core::algorithms::{self, NotPositiveDefinite};
 use dynamics_core::effects::{Coriolis, Effect, Gravity, Inertia, RIGID_BODY};
-use dynamics_core::model::{Robot, model};
+use dynamics_core::model::Robot;
 use dynamics_core::state::{Posture, State};
 use dynamics_core::{Core, Engine};
-use firmware_demo::{marker::measured, target};
+use firmware_demo::target;
+use forms::Forms;
+use row::Row;
 
 /// States that each function is asked for.
 const STATES: usize = 32;
-
-/// Words painted below the stack pointer: more than any of these functions takes.
-const DEPTH: usize = 4096;
-const PAINT: u32 = 0x5eed_a51c;
-
-/// A row of the table, as the log names it.
-#[derive(Clone, Copy)]
-struct Row {
-    robot: &'static str,
-    algorithm: &'static str,
-    form: &'static str,
-    inputs: &'static str,
-    trig: bool,
-    /// Of the function. Taking it also keeps the compiler from shaping the function to its calls.
-    address: usize,
-}
 
 /// What a function may be asked for.
 struct Ask<const N: usize> {
@@ -47,9 +25,6 @@ struct Ask<const N: usize> {
 
 type Inside<E, const N: usize> = fn(&State<f32, N, N>, &E) -> [f32; N];
 type AtHand<E, const N: usize> = fn(&Posture<f32, N>, &State<f32, N, N>, &E) -> [f32; N];
-/// Of forward dynamics; the torques are the state's accelerations: any will do, since the work does
-/// not depend on what they move.
-type Forward<const N: usize> = fn(&Ask<N>) -> Result<[f32; N], NotPositiveDefinite>;
 
 /// Measures every row of the robot T and leaves the emulator.
 pub fn run<T: Robot<B, N, N>, const B: usize, const N: usize>() -> ! {
@@ -58,18 +33,8 @@ pub fn run<T: Robot<B, N, N>, const B: usize, const N: usize>() -> ! {
     inverse::<T, _, B, N>("bias", &asks, &(Gravity::EARTH, Coriolis));
     inverse::<T, _, B, N>("gravity", &asks, &(Gravity::EARTH,));
     inverse::<T, _, B, N>("no_coriolis", &asks, &(Gravity::EARTH, Inertia));
-    let forward: [(bool, Forward<N>); 2] = [(true, aba::<T, B, N>), (false, aba_at::<T, B, N>)];
-    for (trig, run) in forward {
-        let row = Row {
-            robot: T::MODEL.name,
-            algorithm: "aba",
-            form: "core",
-            inputs: "full",
-            trig,
-            address: run as usize,
-        };
-        measure(row, &asks, run);
-    }
+    let both = [Forms::core::<T, B>(), Forms::engine::<T, B>()];
+    forms::measure::<T, B, N>(&asks, &both);
     defmt::println!("done");
     target::leave(debug::EXIT_SUCCESS)
 }
@@ -85,90 +50,19 @@ fn inverse<T: Robot<B, N, N>, E: Effect<f32, B, N>, const B: usize, const N: usi
         ("engine", Engine::<T>::rnea, Engine::<T>::rnea_at),
     ];
     for (form, inside, at_hand) in forms {
-        let row = Row {
+        let row = |trig| Row {
             robot: T::MODEL.name,
             algorithm: "rnea",
             form,
             inputs,
-            trig: true,
-            address: inside as usize,
+            trig,
+            joints: N,
         };
-        measure(row, asks, |ask| inside(&ask.state, effects));
-        let row = Row {
-            trig: false,
-            address: at_hand as usize,
-            ..row
-        };
-        measure(row, asks, |ask| at_hand(&ask.posture, &ask.state, effects));
+        row(true).measure(inside as usize, asks, |ask| inside(&ask.state, effects));
+        row(false).measure(at_hand as usize, asks, |ask| {
+            at_hand(&ask.posture, &ask.state, effects)
+        });
     }
-}
-
-#[inline(never)]
-fn aba<T: Robot<B, N, N>, const B: usize, const N: usize>(
-    ask: &Ask<N>,
-) -> Result<[f32; N], NotPositiveDefinite> {
-    algorithms::aba(
-        model::<f32, T, B, N, N>(),
-        &ask.state,
-        &ask.state.qdd,
-        &RIGID_BODY,
-    )
-}
-
-#[inline(never)]
-fn aba_at<T: Robot<B, N, N>, const B: usize, const N: usize>(
-    ask: &Ask<N>,
-) -> Result<[f32; N], NotPositiveDefinite> {
-    algorithms::aba_at(
-        model::<f32, T, B, N, N>(),
-        &ask.posture,
-        &ask.state,
-        &ask.state.qdd,
-        &RIGID_BODY,
-    )
-}
-
-/// Logs a row, then runs its function once for each state in region 0.
-#[inline(always)]
-fn measure<T, const N: usize>(row: Row, asks: &[Ask<N>; STATES], run: impl Fn(&Ask<N>) -> T) {
-    let stack = asks
-        .iter()
-        .map(|ask| stack_of(|| run(black_box(ask))))
-        .max();
-    defmt::println!(
-        "config {=str} {=str} {=str} {=str} {=u8} {=usize} {=usize} {=usize} {=usize}",
-        row.robot,
-        row.algorithm,
-        row.form,
-        row.inputs,
-        u8::from(row.trig),
-        N,
-        STATES,
-        // The lowest bit of a function's address says Thumb.
-        row.address & !1,
-        stack.unwrap_or_default()
-    );
-    for ask in asks {
-        let ask = black_box(ask);
-        black_box(measured::<0, _>(|| run(ask)));
-    }
-}
-
-/// Bytes of stack that a call writes to.
-#[inline(always)]
-fn stack_of<T>(run: impl FnOnce() -> T) -> usize {
-    let sp: *mut u32;
-    // SAFETY: reads a register.
-    unsafe { asm!("mov {}, sp", out(reg) sp, options(nomem, nostack, preserves_flags)) };
-    for word in 1..=DEPTH {
-        // SAFETY: RAM below the stack pointer, aligned, which nobody uses: no interrupt is enabled.
-        unsafe { sp.sub(word).write_volatile(PAINT) };
-    }
-    black_box(run());
-    // SAFETY: the same words.
-    let painted = |word: &usize| unsafe { sp.sub(*word).read_volatile() } == PAINT;
-    let untouched = (1..=DEPTH).rev().take_while(painted).count();
-    (DEPTH - untouched) * size_of::<u32>()
 }
 
 /// Some states within the joints' usual ranges, from a fixed seed.

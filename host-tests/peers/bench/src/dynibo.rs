@@ -4,15 +4,18 @@ use std::error::Error;
 use std::path::Path;
 
 use dynamics_core::state::State;
-use host_tests::export::Body;
+use host_tests::recordings::Recording;
 
-use crate::subject::Subject;
+use crate::subject::{Subject, square};
 
-/// Its inverse dynamics and its gravity torques; nothing for what we do not compare.
+/// Its gravity, relative to the recordings'.
+const GRAVITY: f64 = 9.80665 / 9.81;
+
+/// Its inverse dynamics, gravity torques, mass matrix and forward dynamics; nothing for what it lacks.
 pub fn subject<const N: usize>(
     algorithm: &str,
     urdf: &Path,
-    bodies: &[Body],
+    recording: &Recording,
     states: &[State<f64, N, N>],
 ) -> Result<Option<Subject<f64>>, Box<dyn Error>> {
     let mut robot = dynibo::Robot::from_urdf(urdf)?;
@@ -23,7 +26,11 @@ pub fn subject<const N: usize>(
     let order = (0..N)
         .map(|index| {
             let name = robot.joint_name(index)?;
-            let moving = bodies.iter().filter(|body| body.joint != "fixed");
+            let moving = recording
+                .model
+                .bodies
+                .iter()
+                .filter(|body| body.joint != "fixed");
             let mut ours = moving.map(|body| format!("{}_joint", body.name));
             Ok(ours
                 .position(|ours| ours == name)
@@ -31,34 +38,58 @@ pub fn subject<const N: usize>(
         })
         .collect::<Result<Vec<usize>, Box<dyn Error>>>()?;
     let sorted = |values: &[f64; N]| std::array::from_fn(|index| values[order[index]]);
-    let states: Vec<State<f64, N, N>> = states
-        .iter()
-        .map(|s| State {
-            q: sorted(&s.q),
-            qd: sorted(&s.qd),
-            qdd: sorted(&s.qdd),
+    let weights = recording.gravity.iter().cycle();
+    let states: Vec<State<f64, N, N>> = std::iter::zip(states, weights)
+        .map(|(s, weight)| {
+            let mut last = s.qdd;
+            if algorithm == "aba" {
+                // The torque that, under its gravity, does what ours does under the recordings'.
+                for (tau, weight) in std::iter::zip(&mut last, weight) {
+                    *tau -= (1.0 - GRAVITY) * weight;
+                }
+            }
+            State {
+                q: sorted(&s.q),
+                qd: sorted(&s.qd),
+                qdd: sorted(&last),
+            }
         })
         .collect();
-    let full = match algorithm {
-        "rnea" => true,
-        "gravity" => false,
+    let gravity = match algorithm {
+        "rnea" | "gravity" => GRAVITY,
+        "crba" | "aba" => 1.0,
         _ => return Ok(None),
     };
+    let is_square = algorithm == "crba";
+    let outputs = if is_square { N * N } else { N };
+    let run = compute(algorithm);
     Ok(Some(Subject {
         peer: "dynibo".to_owned(),
         run: Box::new(move |out| {
-            for (tau, s) in std::iter::zip(out.as_chunks_mut::<N>().0, &states) {
-                let done = if full {
-                    robot.inverse_dynamics(&s.q, &s.qd, &s.qdd, &[], tau)
-                } else {
-                    robot.gravity(&s.q, &[], tau)
-                };
-                done.expect("finite inputs of the right size");
+            for (out, s) in std::iter::zip(out.chunks_exact_mut(outputs), &states) {
+                run(&mut robot, s, out).expect("finite inputs of the right size");
             }
         }),
-        outputs: N,
-        order,
+        outputs,
+        order: if is_square {
+            square(&order)
+        } else {
+            order.into_iter().map(Some).collect()
+        },
         timed: true,
-        gravity: 9.80665 / 9.81,
+        gravity,
     }))
+}
+
+type Compute<const N: usize> =
+    fn(&mut dynibo::Robot, &State<f64, N, N>, &mut [f64]) -> dynibo::Result<()>;
+
+/// Its function; in forward dynamics the torque stands in the place of q̈.
+fn compute<const N: usize>(algorithm: &str) -> Compute<N> {
+    match algorithm {
+        "rnea" => |robot, s, out| robot.inverse_dynamics(&s.q, &s.qd, &s.qdd, &[], out),
+        "gravity" => |robot, s, out| robot.gravity(&s.q, &[], out),
+        "crba" => |robot, s, out| robot.mass_matrix(&s.q, out),
+        _ => |robot, s, out| robot.forward_dynamics(&s.q, &s.qd, &s.qdd, &[], out),
+    }
 }

@@ -156,8 +156,7 @@ impl Report {
         match self.crossing() {
             Some((first, at)) => format!(
                 "Of the lengths measured, ABA is the shorter way from n = {first} on: the two lines cross at \
-                 n = {at:.1}. The literature says 9 (Featherstone 2008, section 10.3; of flops, for general \
-                 chains)."
+                 n = {at:.1}. The literature's figure, by counting flops, is 9."
             ),
             None => "ABA does not overtake within the lengths measured.".to_owned(),
         }
@@ -167,10 +166,11 @@ impl Report {
         format!(
             "# Growth\n\n<!-- written by `{COMMAND}`: do not edit -->\n\n\
              Chains of n rods on revolute joints; the core's loops over a model of run time, f32, sines and \
-             cosines at hand, all effects of a rigid body: {MODEL}; instructions exact. `factor + solve` \
+             cosines at hand, all effects of a rigid body: {MODEL}. `factor + solve` \
              begins with M at hand.\n\n![Instructions against the number of bodies](growth.svg)\n\n{}\n\
              {}\n\nThe engine is another matter: it folds what a robot's constants leave to fold, of M more \
-             than of articulated inertias; `docs/costs.md` has both ways for arms of 6 and 7 joints.\n\n\
+             than of articulated inertias; `docs/costs.md` has both ways for arms of 6 and 7 joints. Where \
+             which is less accurate: `docs/eliminations.md`.\n\n\
              ## Bars\n\nInstructions a body of the longest chain against those of one of {}, from \
              `budgets.toml`.\n\n{}\nMeasured with {}.\n",
             self.table().markdown(),

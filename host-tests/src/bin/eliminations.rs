@@ -1,6 +1,7 @@
 //! Prints how accurate forward dynamics is in f32 by its two eliminations, as lines of a table:
 //! `cargo xtask eliminations` puts them into docs/eliminations.md.
 
+use dynamics_core::Factor;
 use dynamics_core::algorithms::{aba, crba, factor, forward, rnea, solve};
 use dynamics_core::configuration::normalise;
 use dynamics_core::effects::RIGID_BODY;
@@ -146,16 +147,16 @@ fn one<const B: usize, const Q: usize, const V: usize>(
         qdd: state.qdd.map(f64::from),
     };
     // Torques of accelerations of a common size, rounded.
-    let tau = rnea(double, &wide, &RIGID_BODY).map(|x| x as f32);
+    let tau = inverse(double, &wide).map(|x| x as f32);
     let wide_tau = tau.map(f64::from);
     let m = crba(double, &wide.q, &RIGID_BODY);
     let factors = factor(double, &m).expect("M > 0");
     let mut truth = forward(double, &wide, &wide_tau, &RIGID_BODY).expect("M > 0");
     for _ in 0..2 {
         // Iterative refinement: what the torques of this acceleration lack.
-        let now = rnea(double, &State { qdd: truth, ..wide }, &RIGID_BODY);
+        let now = inverse(double, &State { qdd: truth, ..wide });
         let rest = std::array::from_fn(|i| wide_tau[i] - now[i]);
-        let more = solve(double, &factors, &rest);
+        let more = solved(double, &factors, &rest);
         truth = std::array::from_fn(|i| truth[i] + more[i]);
     }
     let by_bodies = aba(double, &wide, &wide_tau, &RIGID_BODY).expect("M > 0");
@@ -167,8 +168,25 @@ fn one<const B: usize, const Q: usize, const V: usize>(
     seen.bodies
         .push(bodies.map_or(f64::INFINITY, |x| error(&x, &truth)));
     let most = largest(|x| m.mul_vec(x));
-    let least = largest(|x| solve(double, &factors, x));
+    let least = largest(|x| solved(double, &factors, x));
     seen.condition = seen.condition.max(most * least);
+}
+
+#[inline(never)]
+fn inverse<const B: usize, const Q: usize, const V: usize>(
+    model: &Model<f64, B, Q, V>,
+    state: &State<f64, Q, V>,
+) -> [f64; V] {
+    rnea(model, state, &RIGID_BODY)
+}
+
+#[inline(never)]
+fn solved<const B: usize, const Q: usize, const V: usize>(
+    model: &Model<f64, B, Q, V>,
+    factors: &Factor<f64, V>,
+    tau: &[f64; V],
+) -> [f64; V] {
+    solve(model, factors, tau)
 }
 
 fn error<const V: usize>(found: &[f64; V], truth: &[f64; V]) -> f64 {

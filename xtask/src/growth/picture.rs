@@ -57,6 +57,7 @@ fn draw(report: &Report, svg: &mut String) -> Outcome {
     });
     let (first, last) = (first as f64 * 0.9, last as f64 * 1.1);
     let (low, high) = (low as f64 * 0.7, high as f64 * 1.4);
+    let ticks = report.lengths().iter().map(|&n| n as f64).collect();
     let mut chart = ChartBuilder::on(&root)
         .margin_top(78)
         .margin_right(28)
@@ -64,7 +65,10 @@ fn draw(report: &Report, svg: &mut String) -> Outcome {
         .margin_bottom(8)
         .x_label_area_size(48)
         .y_label_area_size(84)
-        .build_cartesian_2d((first..last).log_scale(), (low..high).log_scale())?;
+        .build_cartesian_2d(
+            (first..last).log_scale().with_key_points(ticks),
+            (low..high).log_scale(),
+        )?;
     chart
         .configure_mesh()
         .light_line_style(TRANSPARENT)

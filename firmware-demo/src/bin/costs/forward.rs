@@ -1,4 +1,4 @@
-//! The algorithms beside inverse dynamics, each form's functions in one table.
+//! M, what solves with it, and the tip's Jacobian, form by form.
 
 use dynamics_core::algorithms::{NotPositiveDefinite, frame};
 use dynamics_core::effects::{Coriolis, Gravity, Inertia, RIGID_BODY};
@@ -8,8 +8,8 @@ use dynamics_core::spatial::Motion;
 use dynamics_core::state::{Posture, State};
 use dynamics_core::{Core, Engine, MassMatrix};
 
-use super::row::Row;
-use super::{Ask, STATES};
+use super::costs::row::Row;
+use super::costs::{STATES, asks, done};
 
 type Scene = (Gravity, Inertia, Coriolis);
 type Solution<const N: usize> = Result<[f32; N], NotPositiveDefinite>;
@@ -94,12 +94,10 @@ fn tip_jacobian_at<T: Robot<B, N, N>, const B: usize, const N: usize>(
     Core::<T>::jacobian_at(posture, const { B - 1 }, frame::Mixed)
 }
 
-/// Measures the rows of these forms. Torques are the states' accelerations: any will do, since the work
-/// does not depend on what they move.
-pub fn measure<T: Robot<B, N, N>, const B: usize, const N: usize>(
-    asks: &[Ask<N>; STATES],
-    forms: &[Forms<N>],
-) {
+/// Measures the rows of these forms and leaves the emulator. Torques are the states' accelerations: any
+/// will do, since the work does not depend on what they move.
+pub fn run<T: Robot<B, N, N>, const B: usize, const N: usize>(forms: &[Forms<N>]) -> ! {
+    let asks = &asks::<T, B, N>();
     let scene = &RIGID_BODY;
     let row = |form: &Forms<N>, algorithm, trig| Row {
         robot: T::MODEL.name,
@@ -141,4 +139,5 @@ pub fn measure<T: Robot<B, N, N>, const B: usize, const N: usize>(
         row(form, "jacobian", true).measure(inside as usize, asks, |ask| inside(&ask.state.q));
         row(form, "jacobian", false).measure(at_hand as usize, asks, |ask| at_hand(&ask.posture));
     }
+    done()
 }

@@ -197,3 +197,54 @@ impl Report {
         .collect()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Report;
+    use crate::bars::{Ratio, Ratios};
+    use crate::costs::Row;
+    use crate::meter::Spread;
+
+    fn row(algorithm: &str, joints: usize, instructions: u64) -> Row {
+        let spread = Spread {
+            min: instructions,
+            median: instructions,
+            max: instructions,
+        };
+        Row {
+            robot: "chain".into(),
+            algorithm: algorithm.into(),
+            form: "core".into(),
+            inputs: "full".into(),
+            trig: false,
+            joints,
+            instructions: spread,
+            cycles: spread,
+            flops: 0,
+            code_bytes: 0,
+            stack_bytes: 0,
+        }
+    }
+
+    #[test]
+    fn the_crossing_is_between_the_lengths_around_it() {
+        let ratio = Ratio {
+            instructions: Some(1.1),
+            ..Ratio::default()
+        };
+        let report = Report {
+            rows: vec![
+                row("forward", 8, 700),
+                row("aba", 8, 800),
+                row("forward", 64, 6_900),
+                row("aba", 64, 6_800),
+            ],
+            ratios: Ratios::from([("growth, aba a body, 64 / 8".into(), ratio)]),
+            rustc: String::new(),
+        };
+        assert_eq!(report.crossing(), Some((64, 36.0)));
+        let held = report.held();
+        assert_eq!(held.len(), 1);
+        assert_eq!(held[0].taken, 1.0625);
+    }
+}

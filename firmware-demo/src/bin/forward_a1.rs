@@ -1,4 +1,4 @@
-//! What M, forward dynamics and Jacobians cost on the A1. The engine takes the compiler too long for a test.
+//! What M, forward dynamics and Jacobians cost on the A1.
 #![no_std]
 #![no_main]
 
@@ -12,5 +12,5 @@ use forward::Forms;
 
 #[entry]
 fn main() -> ! {
-    forward::run::<A1, 16, 12>(&[Forms::core::<A1, 16>()])
+    forward::run::<A1, 16, 12>(&[Forms::core::<A1, 16>(), Forms::engine::<A1, 16>()])
 }

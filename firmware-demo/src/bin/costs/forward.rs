@@ -9,7 +9,7 @@ use dynamics_core::state::{Posture, State};
 use dynamics_core::{Core, Engine, MassMatrix};
 
 use super::costs::row::Row;
-use super::costs::{STATES, asks, done};
+use super::costs::{asks, done};
 
 type Scene = (Gravity, Inertia, Coriolis);
 type Solution<const N: usize> = Result<[f32; N], NotPositiveDefinite>;

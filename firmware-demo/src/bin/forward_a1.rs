@@ -1,4 +1,4 @@
-//! What M, forward dynamics and Jacobians cost on the A1.
+//! What M, forward dynamics and Jacobians cost on the A1, by the core: the engine's build takes too long for a test.
 #![no_std]
 #![no_main]
 
@@ -12,5 +12,5 @@ use forward::Forms;
 
 #[entry]
 fn main() -> ! {
-    forward::run::<A1, 16, 12>(&[Forms::core::<A1, 16>(), Forms::engine::<A1, 16>()])
+    forward::run::<A1, 16, 12>(&[Forms::core::<A1, 16>()])
 }

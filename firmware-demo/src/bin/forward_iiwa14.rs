@@ -3,6 +3,8 @@
 #![no_main]
 
 mod costs;
+#[path = "costs/engine.rs"]
+mod engine;
 #[path = "costs/forward.rs"]
 mod forward;
 
@@ -12,5 +14,5 @@ use forward::Forms;
 
 #[entry]
 fn main() -> ! {
-    forward::run::<Iiwa14, 7, 7>(&[Forms::core::<Iiwa14, 7>(), Forms::engine::<Iiwa14, 7>()])
+    forward::run::<Iiwa14, 7, 7>(&[Forms::core::<Iiwa14, 7>(), engine::engine::<Iiwa14, 7, 7>()])
 }

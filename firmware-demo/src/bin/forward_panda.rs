@@ -3,6 +3,8 @@
 #![no_main]
 
 mod costs;
+#[path = "costs/engine.rs"]
+mod engine;
 #[path = "costs/forward.rs"]
 mod forward;
 
@@ -12,5 +14,5 @@ use forward::Forms;
 
 #[entry]
 fn main() -> ! {
-    forward::run::<Panda, 7, 7>(&[Forms::core::<Panda, 7>(), Forms::engine::<Panda, 7>()])
+    forward::run::<Panda, 7, 7>(&[Forms::core::<Panda, 7>(), engine::engine::<Panda, 7, 7>()])
 }

@@ -3,6 +3,8 @@
 #![no_main]
 
 mod costs;
+#[path = "costs/engine.rs"]
+mod engine;
 #[path = "costs/forward.rs"]
 mod forward;
 
@@ -12,5 +14,5 @@ use forward::Forms;
 
 #[entry]
 fn main() -> ! {
-    forward::run::<Ur5e, 6, 6>(&[Forms::core::<Ur5e, 6>(), Forms::engine::<Ur5e, 6>()])
+    forward::run::<Ur5e, 6, 6>(&[Forms::core::<Ur5e, 6>(), engine::engine::<Ur5e, 6, 6>()])
 }

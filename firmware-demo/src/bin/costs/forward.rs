@@ -6,29 +6,29 @@ use dynamics_core::effects::{Coriolis, Gravity, Inertia, RIGID_BODY};
 use dynamics_core::model::Robot;
 use dynamics_core::spatial::Motion;
 use dynamics_core::state::{Posture, State};
-use dynamics_core::{Core, Engine, MassMatrix};
+use dynamics_core::{Core, MassMatrix};
 
 use super::costs::row::Row;
 use super::costs::{asks, done};
 
-type Scene = (Gravity, Inertia, Coriolis);
-type Solution<const N: usize> = Result<[f32; N], NotPositiveDefinite>;
-type Forward<const N: usize> = fn(&State<f32, N, N>, &[f32; N], &Scene) -> Solution<N>;
-type ForwardAt<const N: usize> =
+pub type Scene = (Gravity, Inertia, Coriolis);
+pub type Solution<const N: usize> = Result<[f32; N], NotPositiveDefinite>;
+pub type Forward<const N: usize> = fn(&State<f32, N, N>, &[f32; N], &Scene) -> Solution<N>;
+pub type ForwardAt<const N: usize> =
     fn(&Posture<f32, N>, &State<f32, N, N>, &[f32; N], &Scene) -> Solution<N>;
 
 /// The functions of core or engine; those that take a posture have sines and cosines at hand.
 pub struct Forms<const N: usize> {
-    name: &'static str,
-    crba: fn(&[f32; N], &Scene) -> MassMatrix<f32, N>,
-    crba_at: fn(&Posture<f32, N>, &Scene) -> MassMatrix<f32, N>,
-    factor_solve: fn(&MassMatrix<f32, N>, &[f32; N]) -> Solution<N>,
-    forward: Forward<N>,
-    forward_at: ForwardAt<N>,
-    aba: Forward<N>,
-    aba_at: ForwardAt<N>,
-    jacobian: fn(&[f32; N]) -> [Motion<f32>; N],
-    jacobian_at: fn(&Posture<f32, N>) -> [Motion<f32>; N],
+    pub name: &'static str,
+    pub crba: fn(&[f32; N], &Scene) -> MassMatrix<f32, N>,
+    pub crba_at: fn(&Posture<f32, N>, &Scene) -> MassMatrix<f32, N>,
+    pub factor_solve: fn(&MassMatrix<f32, N>, &[f32; N]) -> Solution<N>,
+    pub forward: Forward<N>,
+    pub forward_at: ForwardAt<N>,
+    pub aba: Forward<N>,
+    pub aba_at: ForwardAt<N>,
+    pub jacobian: fn(&[f32; N]) -> [Motion<f32>; N],
+    pub jacobian_at: fn(&Posture<f32, N>) -> [Motion<f32>; N],
 }
 
 impl<const N: usize> Forms<N> {
@@ -46,21 +46,6 @@ impl<const N: usize> Forms<N> {
             jacobian_at: tip_jacobian_at::<T, B, N>,
         }
     }
-
-    pub fn engine<T: Robot<B, N, N>, const B: usize>() -> Self {
-        Self {
-            name: "engine",
-            crba: Engine::<T>::crba,
-            crba_at: Engine::<T>::crba_at,
-            factor_solve: engine_factor_solve::<T, B, N>,
-            forward: Engine::<T>::forward,
-            forward_at: Engine::<T>::forward_at,
-            aba: Engine::<T>::aba,
-            aba_at: Engine::<T>::aba_at,
-            jacobian: Engine::<T>::jacobian,
-            jacobian_at: Engine::<T>::jacobian_at,
-        }
-    }
 }
 
 #[inline(never)]
@@ -69,14 +54,6 @@ fn core_factor_solve<T: Robot<B, N, N>, const B: usize, const N: usize>(
     tau: &[f32; N],
 ) -> Solution<N> {
     Ok(Core::<T>::solve(&Core::<T>::factor(m)?, tau))
-}
-
-#[inline(never)]
-fn engine_factor_solve<T: Robot<B, N, N>, const B: usize, const N: usize>(
-    m: &MassMatrix<f32, N>,
-    tau: &[f32; N],
-) -> Solution<N> {
-    Ok(Engine::<T>::solve(&Engine::<T>::factor(m)?, tau))
 }
 
 /// The engine's: of the last body, along the axes of the base.

@@ -139,15 +139,3 @@ pub fn interleaved<R: Real>(subjects: &mut [&mut Subject<R>], states: usize) -> 
     };
     times.into_iter().map(median).collect()
 }
-
-#[cfg(test)]
-mod tests {
-    use super::square;
-
-    #[test]
-    fn of_a_square_by_columns_the_upper_triangle_is_looked_at() {
-        assert_eq!(square(&[0, 1]), [Some(0), None, Some(1), Some(2)]);
-        // Another order of the joints: its first is our second.
-        assert_eq!(square(&[1, 0]), [Some(2), None, Some(1), Some(0)]);
-    }
-}

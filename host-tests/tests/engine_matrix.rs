@@ -253,8 +253,8 @@ fn the_jacobian_is_that_of_the_users_frame() {
     jacobian::<f32, Iiwa14, 7, 7>();
     jacobian::<f64, A1, 16, 12>();
     jacobian::<f32, A1, 16, 12>();
-    jacobian::<f64, Odd, 11, 7>();
-    jacobian::<f32, Odd, 11, 7>();
+    jacobian::<f64, Fork, 4, 4>();
+    jacobian::<f32, Fork, 4, 4>();
 }
 
 /// A robot on rails whose last link weighs nothing.
@@ -279,8 +279,14 @@ fn a_joint_that_moves_no_inertia_is_named() {
     let error = |qdd: Result<[f64; 3], _>| qdd.expect_err("a massless tip");
     // The arm's own joint moves what the tip does not: a point on its axis would be no inertia.
     let forward = error(Engine::<Massless>::forward(&state, &tau, &RIGID_BODY));
-    assert_eq!(forward, error(Engine::<Massless>::aba(&state, &tau, &RIGID_BODY)));
-    assert_eq!(forward, error(Core::<Massless>::aba(&state, &tau, &RIGID_BODY)));
+    assert_eq!(
+        forward,
+        error(Engine::<Massless>::aba(&state, &tau, &RIGID_BODY))
+    );
+    assert_eq!(
+        forward,
+        error(Core::<Massless>::aba(&state, &tau, &RIGID_BODY))
+    );
     assert_eq!(forward.joint, 2);
     let m = Engine::<Massless>::crba(&state.q, &RIGID_BODY);
     assert_eq!(Engine::<Massless>::factor(&m).map(|_| ()), Err(forward));

@@ -93,7 +93,13 @@ where
         }
     }
     let scalar = std::any::type_name::<R>();
-    for worst in full.iter().chain(&gravity).chain(&bias).chain(&forward).chain([&matrix]) {
+    for worst in full
+        .iter()
+        .chain(&gravity)
+        .chain(&bias)
+        .chain(&forward)
+        .chain([&matrix])
+    {
         verdict.check(&recording.robot, worst.quantity, scalar, worst.error);
     }
 }
@@ -119,5 +125,29 @@ fn core_and_engine_agree_with_pinocchio_within_the_table() {
     robot::<Panda, 7, 7>(&mut verdict);
     robot::<Iiwa14, 7, 7>(&mut verdict);
     robot::<A1, 16, 12>(&mut verdict);
+    assert!(verdict.0.is_empty(), "\n{}", verdict.0.join("\n"));
+}
+
+/// The engine's articulated bodies, on one robot: they take the compiler long.
+fn articulated<R: Real>(recording: &Recording, verdict: &mut Verdict) {
+    let mut worst = Worst::new("engine aba", recording.full_scale.aba);
+    for i in 0..recording.q.len() {
+        let cast = |rows| row::<6>(rows, i).map(R::from_f64);
+        let state = State {
+            qd: cast(&recording.qd),
+            ..State::at(cast(&recording.q))
+        };
+        let qdd = Engine::<Ur5e>::aba(&state, &cast(&recording.tau), &RIGID_BODY);
+        worst.see(qdd.expect("M is positive"), row(&recording.aba, i));
+    }
+    let scalar = std::any::type_name::<R>();
+    verdict.check("ur5e", worst.quantity, scalar, worst.error);
+}
+
+#[test]
+fn articulated_bodies_of_the_engine_agree_with_pinocchio() {
+    let (mut verdict, recording) = (Verdict(vec![]), load("ur5e"));
+    articulated::<f64>(&recording, &mut verdict);
+    articulated::<f32>(&recording, &mut verdict);
     assert!(verdict.0.is_empty(), "\n{}", verdict.0.join("\n"));
 }

@@ -165,7 +165,8 @@ where
     let turn = task.turns[I];
     let slide = Known::any(turn.q) * per_length;
     (
-        ia.yielding(n, f, Known::any(per_d)).handed_down::<T, B, Q, V, I>(turn, slide),
+        ia.yielding(n, f, Known::any(per_d))
+            .handed_down::<T, B, Q, V, I>(turn, slide),
         push.handed_down::<T, B, Q, V, I>(turn, slide),
     )
 }
@@ -192,9 +193,15 @@ fn swing<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usize
     };
     (alpha, a) = if joint.prismatic {
         let p = p + rot.0[2].scale(Known::any(turn.q) * per_length);
-        (rot.transpose_mul(alpha), rot.transpose_mul(a + alpha.cross(p)))
+        (
+            rot.transpose_mul(alpha),
+            rot.transpose_mul(a + alpha.cross(p)),
+        )
     } else {
-        (enter(&rot, turn, alpha), enter(&rot, turn, a + alpha.cross(p)))
+        (
+            enter(&rot, turn, alpha),
+            enter(&rot, turn, a + alpha.cross(p)),
+        )
     };
     let [nx, ny, nz, fx, fy, fz] = task.u[I].map(Known::any);
     let lost = Vec3([nx, ny, nz]).dot(alpha) + Vec3([fx, fy, fz]).dot(a);

@@ -64,13 +64,7 @@ impl<R: Real> Articulated<R> {
 
     /// The same in the frame of joint I's parent and about its origin; RBDA (2.66).
     #[inline(always)]
-    pub(crate) fn handed_down<
-        T,
-        const B: usize,
-        const Q: usize,
-        const V: usize,
-        const I: usize,
-    >(
+    pub(crate) fn handed_down<T, const B: usize, const Q: usize, const V: usize, const I: usize>(
         self,
         turn: Turn<R>,
         slide: Known<R>,
@@ -90,7 +84,7 @@ impl<R: Real> Articulated<R> {
         let moving = rotated_symmetric::<R, T, B, Q, V, I>(at.moving);
         let here = rotated_matrix::<R, T, B, Q, V, I>(&at.mixed);
         // H′ = H + [p]× A; I′ = I + [p]× Hᵀ + ([p]× H′ᵀ)ᵀ.
-                let mixed = here + crossed::<R, T, B, Q, V, I>(Mat3(moving.columns()), slide);
+        let mixed = here + crossed::<R, T, B, Q, V, I>(Mat3(moving.columns()), slide);
         let Mat3([lx, ly, lz]) = crossed::<R, T, B, Q, V, I>(Mat3(here.rows()), slide);
         let Mat3([rx, ry, rz]) = crossed::<R, T, B, Q, V, I>(Mat3(mixed.rows()), slide);
         let shift = Sym3 {

@@ -68,13 +68,7 @@ impl<R: Real> Wrench<R> {
 
     /// The same in the frame of joint I's parent and about its origin.
     #[inline(always)]
-    pub(crate) fn handed_down<
-        T,
-        const B: usize,
-        const Q: usize,
-        const V: usize,
-        const I: usize,
-    >(
+    pub(crate) fn handed_down<T, const B: usize, const Q: usize, const V: usize, const I: usize>(
         self,
         turn: Turn<R>,
         slide: Known<R>,
@@ -108,13 +102,7 @@ impl<R: Real> Inertia<R> {
 
     /// The same in the frame of joint I's parent and about its origin.
     #[inline(always)]
-    pub(crate) fn handed_down<
-        T,
-        const B: usize,
-        const Q: usize,
-        const V: usize,
-        const I: usize,
-    >(
+    pub(crate) fn handed_down<T, const B: usize, const Q: usize, const V: usize, const I: usize>(
         self,
         turn: Turn<R>,
         slide: Known<R>,

@@ -86,11 +86,7 @@ where
         offset = offset + z.scale(Known::any(turns[I].q));
     } else {
         let (sin, cos) = (Known::any(turns[I].sin), Known::any(turns[I].cos));
-        axes = Mat3([
-            x.scale(cos) + y.scale(sin),
-            y.scale(cos) - x.scale(sin),
-            z,
-        ]);
+        axes = Mat3([x.scale(cos) + y.scale(sin), y.scale(cos) - x.scale(sin), z]);
     }
     let mut way = Vec3::<R>::ZERO;
     if const { Prepared::<T, B, Q, V>::last_on(I) } {

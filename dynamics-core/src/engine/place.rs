@@ -49,14 +49,7 @@ where
 
 /// p × each column.
 #[inline(always)]
-pub(crate) fn crossed<
-    R: Real,
-    T,
-    const B: usize,
-    const Q: usize,
-    const V: usize,
-    const I: usize,
->(
+pub(crate) fn crossed<R: Real, T, const B: usize, const Q: usize, const V: usize, const I: usize>(
     Mat3([x, y, z]): Mat3<R>,
     slide: Known<R>,
 ) -> Mat3<R>
@@ -91,14 +84,7 @@ where
 }
 
 #[inline(always)]
-fn columns_rotated<
-    R: Real,
-    T,
-    const B: usize,
-    const Q: usize,
-    const V: usize,
-    const I: usize,
->(
+fn columns_rotated<R: Real, T, const B: usize, const Q: usize, const V: usize, const I: usize>(
     Mat3([x, y, z]): Mat3<R>,
 ) -> Mat3<R>
 where

@@ -323,3 +323,23 @@ fn forces_on_bodies_a_moving_base_and_rotors_agree_with_pinocchio_within_the_tab
     both::<TreeB, 17, 35, 32>(&mut verdict);
     assert!(verdict.0.is_empty(), "\n{}", verdict.0.join("\n"));
 }
+
+/// The engine's articulated bodies, on one robot: they take the compiler long.
+fn articulated<R: Real>(recording: &Recording, verdict: &mut Verdict) {
+    let mut worst = Worst::new("engine aba", recording.full_scale.aba);
+    for i in 0..recording.q.len() {
+        let tau = row::<6>(&recording.tau, i).map(R::from_f64);
+        let qdd = Engine::<Ur5e>::aba(&state(recording, i), &tau, &RIGID_BODY);
+        worst.see(qdd.expect("M is positive"), row::<6>(&recording.aba, i));
+    }
+    let scalar = std::any::type_name::<R>();
+    verdict.check("ur5e", worst.quantity, scalar, worst.error);
+}
+
+#[test]
+fn articulated_bodies_of_the_engine_agree_with_pinocchio() {
+    let (mut verdict, recording) = (Verdict(vec![]), load("ur5e"));
+    articulated::<f64>(&recording, &mut verdict);
+    articulated::<f32>(&recording, &mut verdict);
+    assert!(verdict.0.is_empty(), "\n{}", verdict.0.join("\n"));
+}

@@ -6,10 +6,12 @@ mod operational;
 
 use core::marker::PhantomData;
 
-use crate::algorithms::{self, NotPositiveDefinite};
+use crate::algorithms::{self, Cholesky, Given, NotPositiveDefinite, Response};
 use crate::effects::Effect;
+use crate::mass_matrix::{Factor, MassMatrix};
 use crate::model::{Of, Robot};
 use crate::scalar::Real;
+use crate::spatial::Motion;
 use crate::state::{Posture, State};
 
 /// The textbook loops over the model of the robot `T`.
@@ -96,5 +98,211 @@ impl<T> Core<T> {
         E: Effect<R, B, V>,
     {
         algorithms::aba_at(&Of::<T>::NEW, posture, state, tau, effects)
+    }
+    /// q̈ = FD(q, q̇, τ) by M and its factors, see [`algorithms::forward`].
+    ///
+    /// # Errors
+    /// [`NotPositiveDefinite`] names a joint that moves no inertia.
+    #[inline(never)]
+    pub fn forward<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+        state: &State<R, Q, V>,
+        tau: &[R; V],
+        effects: &E,
+    ) -> Result<[R; V], NotPositiveDefinite>
+    where
+        T: Robot<B, Q, V>,
+        E: Effect<R, B, V>,
+    {
+        algorithms::forward(&Of::<T>::NEW, state, tau, effects)
+    }
+
+    /// As [`Core::forward`], at a posture whose sines and cosines are at hand.
+    ///
+    /// # Errors
+    /// As [`Core::forward`].
+    #[inline(never)]
+    pub fn forward_at<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+        posture: &Posture<R, Q>,
+        state: &State<R, Q, V>,
+        tau: &[R; V],
+        effects: &E,
+    ) -> Result<[R; V], NotPositiveDefinite>
+    where
+        T: Robot<B, Q, V>,
+        E: Effect<R, B, V>,
+    {
+        algorithms::forward_at(&Of::<T>::NEW, posture, state, tau, effects)
+    }
+
+    /// Torques and accelerations, of each coordinate one given, see [`algorithms::hybrid`].
+    ///
+    /// # Errors
+    /// [`NotPositiveDefinite`] names a joint whose torque is given but that moves no inertia.
+    #[inline(never)]
+    pub fn hybrid<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+        state: &State<R, Q, V>,
+        given: &[Given<R>; V],
+        effects: &E,
+    ) -> Result<Response<R, V>, NotPositiveDefinite>
+    where
+        T: Robot<B, Q, V>,
+        E: Effect<R, B, V>,
+    {
+        algorithms::hybrid(&Of::<T>::NEW, state, given, effects)
+    }
+
+    /// As [`Core::hybrid`], at a posture whose sines and cosines are at hand.
+    ///
+    /// # Errors
+    /// As [`Core::hybrid`].
+    #[inline(never)]
+    pub fn hybrid_at<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+        posture: &Posture<R, Q>,
+        state: &State<R, Q, V>,
+        given: &[Given<R>; V],
+        effects: &E,
+    ) -> Result<Response<R, V>, NotPositiveDefinite>
+    where
+        T: Robot<B, Q, V>,
+        E: Effect<R, B, V>,
+    {
+        algorithms::hybrid_at(&Of::<T>::NEW, posture, state, given, effects)
+    }
+
+    /// M(q), see [`algorithms::crba`].
+    #[inline(never)]
+    pub fn crba<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+        q: &[R; Q],
+        effects: &E,
+    ) -> MassMatrix<R, V>
+    where
+        T: Robot<B, Q, V>,
+        E: Effect<R, B, V>,
+    {
+        algorithms::crba(&Of::<T>::NEW, q, effects)
+    }
+
+    /// As [`Core::crba`], at a posture whose sines and cosines are at hand.
+    #[inline(never)]
+    pub fn crba_at<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+        posture: &Posture<R, Q>,
+        effects: &E,
+    ) -> MassMatrix<R, V>
+    where
+        T: Robot<B, Q, V>,
+        E: Effect<R, B, V>,
+    {
+        algorithms::crba_at(&Of::<T>::NEW, posture, effects)
+    }
+
+    /// M(q) and the Jacobian of a body, see [`algorithms::crba_jacobian`].
+    #[inline(never)]
+    pub fn crba_jacobian<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+        q: &[R; Q],
+        body: usize,
+        effects: &E,
+    ) -> (MassMatrix<R, V>, [Motion<R>; V])
+    where
+        T: Robot<B, Q, V>,
+        E: Effect<R, B, V>,
+    {
+        algorithms::crba_jacobian(&Of::<T>::NEW, q, body, effects)
+    }
+
+    /// As [`Core::crba_jacobian`], at a posture whose sines and cosines are at hand.
+    #[inline(never)]
+    pub fn crba_jacobian_at<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+        posture: &Posture<R, Q>,
+        body: usize,
+        effects: &E,
+    ) -> (MassMatrix<R, V>, [Motion<R>; V])
+    where
+        T: Robot<B, Q, V>,
+        E: Effect<R, B, V>,
+    {
+        algorithms::crba_jacobian_at(&Of::<T>::NEW, posture, body, effects)
+    }
+
+    /// M = Lᵀ D L, see [`algorithms::factor`].
+    ///
+    /// # Errors
+    /// [`NotPositiveDefinite`] names a joint that moves no inertia, relative to its entry of M.
+    #[inline(never)]
+    pub fn factor<R: Real, const B: usize, const Q: usize, const V: usize>(
+        m: &MassMatrix<R, V>,
+    ) -> Result<Factor<R, V>, NotPositiveDefinite>
+    where
+        T: Robot<B, Q, V>,
+    {
+        algorithms::factor(&Of::<T>::NEW, m)
+    }
+
+    /// M = Lᵀ L, see [`algorithms::cholesky`].
+    ///
+    /// # Errors
+    /// As [`Core::factor`].
+    #[inline(never)]
+    pub fn cholesky<R: Real, const B: usize, const Q: usize, const V: usize>(
+        m: &MassMatrix<R, V>,
+    ) -> Result<Cholesky<R, V>, NotPositiveDefinite>
+    where
+        T: Robot<B, Q, V>,
+    {
+        algorithms::cholesky(&Of::<T>::NEW, m)
+    }
+
+    /// x with M x = τ, see [`algorithms::solve`].
+    #[inline(never)]
+    pub fn solve<R: Real, const B: usize, const Q: usize, const V: usize>(
+        factor: &Factor<R, V>,
+        tau: &[R; V],
+    ) -> [R; V]
+    where
+        T: Robot<B, Q, V>,
+    {
+        algorithms::solve(&Of::<T>::NEW, factor, tau)
+    }
+
+    /// M⁻¹, see [`algorithms::inverse`].
+    #[inline(never)]
+    pub fn inverse<R: Real, const B: usize, const Q: usize, const V: usize>(
+        factor: &Factor<R, V>,
+    ) -> MassMatrix<R, V>
+    where
+        T: Robot<B, Q, V>,
+    {
+        algorithms::inverse(&Of::<T>::NEW, factor)
+    }
+
+    /// M = Lᵀ D L without M, see [`algorithms::operator_factor`].
+    ///
+    /// # Errors
+    /// [`NotPositiveDefinite`] names a joint that moves no inertia.
+    #[inline(never)]
+    pub fn operator_factor<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+        q: &[R; Q],
+        effects: &E,
+    ) -> Result<Factor<R, V>, NotPositiveDefinite>
+    where
+        T: Robot<B, Q, V>,
+        E: Effect<R, B, V>,
+    {
+        algorithms::operator_factor(&Of::<T>::NEW, q, effects)
+    }
+
+    /// M⁻¹ without M, see [`algorithms::operator_inverse`].
+    ///
+    /// # Errors
+    /// [`NotPositiveDefinite`] names a joint that moves no inertia.
+    #[inline(never)]
+    pub fn operator_inverse<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+        q: &[R; Q],
+        effects: &E,
+    ) -> Result<MassMatrix<R, V>, NotPositiveDefinite>
+    where
+        T: Robot<B, Q, V>,
+        E: Effect<R, B, V>,
+    {
+        algorithms::operator_inverse(&Of::<T>::NEW, q, effects)
     }
 }

@@ -106,3 +106,22 @@ pub struct Factor<R, const V: usize> {
     /// The reciprocals of D.
     pub(crate) per_d: [R; V],
 }
+
+impl<R: Real, const V: usize> Factor<R, V> {
+    /// L_ij: one on the diagonal, zero above it and beyond the matrix.
+    #[inline(always)]
+    pub fn get(&self, i: usize, j: usize) -> R {
+        match self.rows.get(i).and_then(|row| row.get(j)) {
+            Some(_) if i == j => R::ONE,
+            Some(&l) if j < i => l,
+            _ => R::ZERO,
+        }
+    }
+
+    /// The reciprocals of D: what each coordinate accelerates by under a unit torque while those that
+    /// carry it hold still and those that it carries give way.
+    #[inline(always)]
+    pub fn per_d(&self) -> &[R; V] {
+        &self.per_d
+    }
+}

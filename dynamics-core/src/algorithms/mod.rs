@@ -3,8 +3,10 @@
 mod aba;
 mod centroidal;
 mod cholesky;
+mod composite;
 mod crba;
 mod damped;
+mod eigen;
 mod energy;
 mod error;
 mod factor;
@@ -17,6 +19,7 @@ mod kinematics;
 mod mobility;
 mod momentum;
 mod operational;
+mod operator;
 mod rnea;
 
 pub use aba::{aba, aba_at};
@@ -24,6 +27,7 @@ pub use centroidal::{
     centroidal_matrix, centroidal_matrix_at, centroidal_momentum, centroidal_momentum_at,
 };
 pub use cholesky::{Cholesky, cholesky};
+pub use composite::{crba_jacobian, crba_jacobian_at};
 pub use crba::{crba, crba_at};
 pub use damped::{Conditioning, Damping, damped_inverse};
 pub use energy::{kinetic_energy, kinetic_energy_at, potential_energy, potential_energy_at};
@@ -37,4 +41,5 @@ pub use kinematics::{Kinematics, kinematics, kinematics_at, poses, poses_at};
 pub use mobility::{Mobility, mobility, mobility_at};
 pub use momentum::{MassCentre, mass_centre, mass_centre_at, momentum, momentum_at};
 pub use operational::{OperationalSpace, operational_space, operational_space_at, task_rows};
+pub use operator::{operator_factor, operator_inverse};
 pub use rnea::{rnea, rnea_at};

@@ -1,0 +1,156 @@
+//! M and M⁻¹ by the spatial operators of articulated bodies, neither by way of the other.
+//!
+//! Rodriguez, Jain & Kreutz-Delgado (1991, 1992): M = (1 + HΦK) D (1 + HΦK)ᵀ and
+//! M⁻¹ = (1 − HΨK)ᵀ D⁻¹ (1 − HΨK). H projects on the joints; K = U/D of a joint, at its carrier; Φ hands
+//! forces down as through rigid bodies, Ψ as through joints that give way. In the letters of RBDA's
+//! section 6.5 the first factor is Lᵀ: what elimination finds in M, the filter finds in the bodies.
+
+use heapless::Vec;
+
+use super::NotPositiveDefinite;
+use crate::articulated::ArticulatedInertia;
+use crate::effects::{Effect, body_inertia};
+use crate::mass_matrix::{Factor, MassMatrix};
+use crate::model::{Description, Node};
+use crate::scalar::Real;
+use crate::spatial::{Force, Xform};
+use crate::state::{Posture, entry};
+
+/// The factors (1 + HΦK)ᵀ = L and D of M(q), without M: the same as [`factor`](super::factor()) finds.
+///
+/// Cost: the inertias of the articulated-body algorithm, and 40 flops for each joint that carries another.
+/// Source: Rodriguez, Jain & Kreutz-Delgado (1991).
+///
+/// ```
+/// use dynamics_core::algorithms::{crba, operator_factor, solve};
+/// use dynamics_core::{effects::RIGID_BODY, model::Robot, robots::Ur5e};
+/// let q = [0.0, -1.2, 1.5, 0.3, 0.0, 0.0];
+/// let x = solve(&Ur5e::MODEL, &operator_factor(&Ur5e::MODEL, &q, &RIGID_BODY)?, &[1.0; 6]);
+/// let tau = crba(&Ur5e::MODEL, &q, &RIGID_BODY).mul_vec(&x);
+/// assert!(tau.iter().all(|tau| (tau - 1.0).abs() < 1e-12));
+/// # Ok::<(), dynamics_core::algorithms::NotPositiveDefinite>(())
+/// ```
+///
+/// # Errors
+/// [`NotPositiveDefinite`] names a joint that moves no inertia.
+#[inline(always)]
+pub fn operator_factor<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
+    robot: &D,
+    q: &[R; Q],
+    effects: &E,
+) -> Result<Factor<R, V>, NotPositiveDefinite>
+where
+    D: Description<R, B, Q, V>,
+    E: Effect<R, B, V>,
+{
+    columns(robot, q, effects, |f, _, _| f)
+}
+
+/// M⁻¹ = (1 − HΨK)ᵀ D⁻¹ (1 − HΨK), without M and without elimination.
+///
+/// Cost: that of [`operator_factor`], and O(V³) for the product. Source: Rodriguez, Jain &
+/// Kreutz-Delgado (1992).
+///
+/// # Errors
+/// As [`operator_factor`].
+#[inline(always)]
+pub fn operator_inverse<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
+    robot: &D,
+    q: &[R; Q],
+    effects: &E,
+) -> Result<MassMatrix<R, V>, NotPositiveDefinite>
+where
+    D: Description<R, B, Q, V>,
+    E: Effect<R, B, V>,
+{
+    // A joint that gives way takes off its part: ψ = φ − K H φ.
+    let factor = columns(robot, q, effects, |f, felt, k| f - k * felt)?;
+    let w = |a: usize, i: usize| match factor.rows.get(a).and_then(|row| row.get(i)) {
+        _ if a == i => R::ONE,
+        Some(&hpk) if i < a => -hpk,
+        _ => R::ZERO,
+    };
+    let mut per_m = MassMatrix::ZERO;
+    for a in 0..V {
+        for b in 0..=a {
+            let terms = (0..=b).map(|i| w(a, i) * w(b, i) * entry(&factor.per_d, i));
+            per_m.set(a, b, terms.fold(R::ZERO, |sum, term| sum + term));
+        }
+    }
+    Ok(per_m)
+}
+
+/// What one pass leaves for the next.
+struct Body<'a, R: Real> {
+    node: Node<'a, R>,
+    x: Xform<R>,
+    ia: ArticulatedInertia<R>,
+}
+
+/// H (Φ or Ψ) K by rows of joints, and D⁻¹: K of each joint, felt at all that carry it; `pass` is what a
+/// joint hands on of a force, of which it feels a part, given its own K.
+#[inline(always)]
+fn columns<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
+    robot: &D,
+    q: &[R; Q],
+    effects: &E,
+    pass: impl Fn(Force<R>, R, Force<R>) -> Force<R>,
+) -> Result<Factor<R, V>, NotPositiveDefinite>
+where
+    D: Description<R, B, Q, V>,
+    E: Effect<R, B, V>,
+{
+    let turns = &Posture::of(robot, q).turns;
+    let mut bodies: Vec<Body<'_, R>, B> = Vec::new();
+    for (i, node) in robot.nodes().enumerate() {
+        let (x, ia) = (node.xform(turns), body_inertia(effects, i, &node).into());
+        let _ = bodies.push(Body { node, x, ia });
+    }
+    let (mut gains, mut per_d) = ([Force::ZERO; V], [R::ZERO; V]);
+    let mut inner = bodies.as_mut_slice();
+    while let Some((body, rest)) = core::mem::take(&mut inner).split_last_mut() {
+        let mut ia = body.ia;
+        for (k, joint) in body.node.coordinates().enumerate().rev() {
+            let s = body.node.axis(turns, k);
+            let u_hat = ia.along(&s);
+            let mut d = s.dot(u_hat);
+            effects.inertia(joint, &mut d);
+            if !(d > R::ZERO && d.is_finite()) {
+                return Err(NotPositiveDefinite { joint });
+            }
+            if let (Some(k), Some(per)) = (gains.get_mut(joint), per_d.get_mut(joint)) {
+                *per = R::ONE / d;
+                *k = u_hat * *per;
+                ia = ia.minus_outer(u_hat, *per);
+            }
+        }
+        if let Some(parent) = rest.get_mut(body.node.parent) {
+            parent.ia += ia.at_parent(&body.x);
+        }
+        inner = rest;
+    }
+
+    let mut rows = [[R::ZERO; V]; V];
+    for body in &bodies {
+        for joint in body.node.coordinates() {
+            let (mut f, mut at) = (entry(&gains, joint), body);
+            loop {
+                for (k, above) in at.node.coordinates().enumerate().rev() {
+                    if above >= joint {
+                        continue; // itself, and what it carries on the same body
+                    }
+                    let felt = at.node.axis(turns, k).dot(f);
+                    f = pass(f, felt, entry(&gains, above));
+                    if let Some(entry) = rows.get_mut(joint).and_then(|row| row.get_mut(above)) {
+                        *entry = felt;
+                    }
+                }
+                let Some(carrier) = bodies.get(at.node.parent) else {
+                    break;
+                };
+                (f, at) = (at.x.transpose_mul(f), carrier);
+            }
+        }
+    }
+    Ok(Factor { rows, per_d })
+}

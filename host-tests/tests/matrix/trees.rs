@@ -1,0 +1,163 @@
+//! Random trees that mix every kind of joint, their states, and condition numbers.
+
+use dynamics_core::MassMatrix;
+use dynamics_core::model::{BASE, Body, Joint, JointKind, Model};
+use dynamics_core::scalar::Real;
+use dynamics_core::state::State;
+use glam::{DMat3, DVec3};
+use proptest::prelude::RngExt;
+use proptest::test_runner::{RngAlgorithm, TestRng};
+
+use JointKind::*;
+
+/// All of them: 22 position and 20 velocity coordinates.
+pub const KINDS: [JointKind; 10] = [
+    Revolute,
+    Continuous,
+    Prismatic,
+    Helical,
+    Cylindrical,
+    Universal,
+    Spherical,
+    Planar,
+    Free,
+    Fixed,
+];
+
+pub fn random_numbers() -> TestRng {
+    TestRng::deterministic_rng(RngAlgorithm::ChaCha)
+}
+
+pub fn within<const N: usize>(rng: &mut TestRng, bound: f64) -> [f64; N] {
+    core::array::from_fn(|_| rng.random_range(-bound..bound))
+}
+
+/// As many bodies as it has room for: every kind of joint as often, revolute ones for the rest, in any
+/// order; any branches and several roots.
+pub fn mixed<const B: usize, const Q: usize, const V: usize>(
+    rng: &mut TestRng,
+) -> Model<f64, B, Q, V> {
+    let mut kinds = core::array::from_fn(|i| {
+        if i < B - B % KINDS.len() {
+            KINDS[i % KINDS.len()]
+        } else {
+            Revolute
+        }
+    });
+    for i in (1..B).rev() {
+        kinds.swap(i, rng.random_range(0..=i));
+    }
+    tree(rng, kinds)
+}
+
+/// A tree of these joints.
+pub fn tree<const B: usize, const Q: usize, const V: usize>(
+    rng: &mut TestRng,
+    kinds: [JointKind; B],
+) -> Model<f64, B, Q, V> {
+    let bodies = core::array::from_fn(|i| {
+        let parent = match rng.random_range(0..=i) {
+            0 => BASE,
+            // Every other body prolongs a chain.
+            _ if i % 2 == 0 => i - 1,
+            j => j - 1,
+        };
+        let axis = within(rng, 1.0);
+        let joint = match kinds[i] {
+            Revolute => Joint::revolute(axis),
+            Continuous => Joint::continuous(axis),
+            Prismatic => Joint::prismatic(axis),
+            Helical => Joint::helical(axis, rng.random_range(-0.1..0.1)),
+            Cylindrical => Joint::cylindrical(axis),
+            Universal => {
+                let first = DVec3::from(within(rng, 1.0)).cross(DVec3::from(axis));
+                Joint::universal(first.to_array(), axis)
+            }
+            Spherical => Joint::spherical(),
+            Planar => Joint::planar(),
+            Free => Joint::free(),
+            _ => Joint::fixed(),
+        };
+        random_body(rng, parent, joint)
+    });
+    Model::new("mixed", bodies)
+}
+
+/// With the inertia of six points: nothing that could not be a body's.
+fn random_body(rng: &mut TestRng, parent: usize, joint: Joint<f64>) -> Body {
+    let (mut mass, mut moment, mut second) = (0.0, DVec3::ZERO, DMat3::ZERO);
+    for _ in 0..6 {
+        let (m, r) = (rng.random_range(0.1..0.5), DVec3::from(within(rng, 0.3)));
+        mass += m;
+        moment += m * r;
+        second += DMat3::from_cols(r * r.x, r * r.y, r * r.z) * m;
+    }
+    let com = moment / mass;
+    second -= DMat3::from_cols(com * com.x, com * com.y, com * com.z) * mass;
+    let trace = second.x_axis.x + second.y_axis.y + second.z_axis.z;
+    let [x, y, z] = (DMat3::from_diagonal(DVec3::splat(trace)) - second).to_cols_array_2d();
+    Body::new("body", parent, joint)
+        .xyz(within(rng, 0.5))
+        .rpy(within(rng, 3.0))
+        .mass(mass)
+        .com(com.to_array())
+        .inertia([x[0], x[1], x[2], y[1], y[2], z[2]])
+}
+
+/// Any state of a robot; quaternions at unit length.
+pub fn random_state<const B: usize, const Q: usize, const V: usize>(
+    rng: &mut TestRng,
+    model: &Model<f64, B, Q, V>,
+) -> State<f64, Q, V> {
+    let mut q: [f64; Q] = within(rng, std::f64::consts::PI);
+    for link in &model.links {
+        if matches!(link.joint.kind, Spherical | Free) {
+            let p = &mut q[link.q_at..link.q_at + 4];
+            let length = p.iter().map(|x| x * x).sum::<f64>().sqrt();
+            p.iter_mut().for_each(|x| *x /= length);
+        }
+    }
+    State {
+        q,
+        qd: within(rng, 3.0),
+        qdd: within(rng, 10.0),
+    }
+}
+
+pub fn cast<R: Real, const Q: usize, const V: usize>(state: &State<f64, Q, V>) -> State<R, Q, V> {
+    State {
+        q: state.q.map(R::from_f64),
+        qd: state.qd.map(R::from_f64),
+        qdd: state.qdd.map(R::from_f64),
+    }
+}
+
+/// κ(M) in the 2-norm, its eigenvalues by cyclic Jacobi rotations.
+pub fn condition<R: Real, const V: usize>(m: &MassMatrix<R, V>) -> f64 {
+    let mut a: Vec<Vec<f64>> = (0..V)
+        .map(|i| (0..V).map(|j| m.get(i, j).to_f64()).collect())
+        .collect();
+    for _ in 0..10 {
+        for p in 0..V {
+            for q in p + 1..V {
+                if a[p][q] == 0.0 {
+                    continue;
+                }
+                let theta = (a[q][q] - a[p][p]) / (2.0 * a[p][q]);
+                let t = theta.signum() / (theta.abs() + (theta * theta + 1.0).sqrt());
+                let c = 1.0 / (t * t + 1.0).sqrt();
+                let s = t * c;
+                for row in &mut a {
+                    (row[p], row[q]) = (c * row[p] - s * row[q], s * row[p] + c * row[q]);
+                }
+                for k in 0..V {
+                    let (x, y) = (a[p][k], a[q][k]);
+                    (a[p][k], a[q][k]) = (c * x - s * y, s * x + c * y);
+                }
+            }
+        }
+    }
+    let eigenvalues = (0..V).map(|i| a[i][i]);
+    let largest = eigenvalues.clone().fold(0.0, f64::max);
+    largest / eigenvalues.fold(f64::INFINITY, f64::min)
+}

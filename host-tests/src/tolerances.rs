@@ -184,7 +184,7 @@ const TABLE: &[(&str, &str, f64, f64)] = &[
     ("mixed tree", "mobility both ways", 5e-15, NONE),
     ("arms", "Λ of Λ⁻¹", 1e-13, NONE),
     ("arms", "J of its inverse", 1e-13, NONE),
-    ("arms", "free torque", 1e-13, NONE),
+    ("arms", "free torque", 4e-14, NONE),
     ("matrices", "damped inverse", 6e-14, 3e-5),
     ("arm on a wall", "force", 2e-4, NONE),
     ("arm on a wall", "path", 5e-4, NONE),

@@ -7,7 +7,7 @@ use super::Engine;
 use super::field::{Inertia, Wrench, along_z};
 use super::known::Known;
 use super::prepare::Prepared;
-use super::rnea::{carries, loaded, stands};
+use super::rnea::{carries, loaded, no_spinning, stands};
 use super::small::Vec3;
 use crate::effects::Effect;
 use crate::mass_matrix::MassMatrix;
@@ -66,6 +66,7 @@ pub(crate) fn mass_matrix<R, T, E, const B: usize, const Q: usize, const V: usiz
     E: Effect<R, B, V>,
 {
     const { assert!(V <= 32, "the engine takes up to 32 moving bodies") };
+    no_spinning::<R, E, B, V>();
     let mut task = Task { turns, effects, m };
     for_each_joint!(J, {
         if const { stands::<T, B, Q, V>(J) } {

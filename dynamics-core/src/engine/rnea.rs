@@ -40,6 +40,7 @@ where
             "the engine's base stands still; use `Core`"
         )
     };
+    no_spinning::<R, E, B, V>();
     let mut g = R::Vec3::ZERO;
     effects.field(&mut g);
     let (g, [x, y, z]) = (g.array(), E::FIELD_AXES);
@@ -57,6 +58,20 @@ where
         a,
         v: Vec3::ZERO,
     }
+}
+
+/// The engine has no rotors that spin as bodies.
+#[inline(always)]
+pub(crate) const fn no_spinning<R: Real, E, const B: usize, const V: usize>()
+where
+    E: Effect<R, B, V>,
+{
+    const {
+        assert!(
+            !E::SPINNING,
+            "the engine has no rotors that spin as bodies; use `Core`"
+        )
+    };
 }
 
 /// Visits joint I and all that it carries; returns what they ask of the parent, in its frame.

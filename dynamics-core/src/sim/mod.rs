@@ -1,4 +1,10 @@
-//! Time steps of a simulated robot.
+//! Time steps of a simulated robot, and its actuators.
+
+mod actuator;
+mod linearly_implicit;
+
+pub use actuator::Actuator;
+pub use linearly_implicit::linearly_implicit;
 
 use crate::algorithms::{NotPositiveDefinite, aba};
 use crate::configuration::integrate;

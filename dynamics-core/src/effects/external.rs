@@ -14,7 +14,7 @@ use crate::spatial::Force;
 /// use glam::DVec3;
 /// // The last motor holds against a couple about its axis.
 /// let twist = BodyWrench { body: 5, wrench: Force::new(DVec3::Z * 2.0, DVec3::ZERO) };
-/// assert!((Core::<Ur5e>::rnea(&State::at([0.3; 6]), &(twist,))[5] + 2.0).abs() < 1e-15);
+/// assert!((Core::<Ur5e>::rnea(&State::at([0.3_f64; 6]), &(twist,))[5] + 2.0).abs() < 1e-15);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BodyWrench<R: Real> {
@@ -45,7 +45,7 @@ impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for BodyWrench<R> 
 /// use glam::DVec3;
 /// // A balloon at the wrist takes load off the shoulder.
 /// let lift = WorldWrench { body: 5, wrench: Force::new(DVec3::ZERO, DVec3::Z * 20.0) };
-/// let at = State::at([0.3; 6]);
+/// let at = State::at([0.3_f64; 6]);
 /// let [with, without] = [Core::<Ur5e>::rnea(&at, &(Gravity::EARTH, lift)), Core::<Ur5e>::rnea(&at, &(Gravity::EARTH,))];
 /// assert!(with[1].abs() < without[1].abs() - 10.0 && (with[0] - without[0]).abs() < 1e-14);
 /// ```

@@ -4,10 +4,11 @@
 //! composite bodies are known zeros behind revolute joints, and h travels as R h.
 
 use super::Engine;
+use super::base::no_spinning;
 use super::field::{Inertia, Wrench, along_z};
 use super::known::Known;
 use super::prepare::Prepared;
-use super::rnea::{carries, loaded, no_spinning, stands};
+use super::rnea::{carries, loaded, stands};
 use super::small::Vec3;
 use crate::effects::Effect;
 use crate::mass_matrix::MassMatrix;

@@ -9,6 +9,7 @@ use core::ops::Add;
 
 use super::known::Known;
 use super::place::{arm_cross, rotated, rotated_symmetric};
+use super::pose::Pose;
 use super::prepare::{Joint, Prepared};
 use super::small::{Mat3, Sym3, Vec3};
 use crate::model::{Robot, Turn};
@@ -29,6 +30,8 @@ pub(crate) struct Field<R> {
     pub(crate) a: Vec3<R>,
     /// Velocity of the origin, in units of length; zero unless an effect reads it.
     pub(crate) v: Vec3<R>,
+    /// Where the body stands; unknown unless an effect reads it.
+    pub(crate) pose: Pose<R>,
 }
 
 /// How a joint moves, in units of length; zero where no effect asks.
@@ -159,6 +162,7 @@ impl<R: Real> Field<R> {
             u,
             a,
             v: enter(&rot, turn, self.v + self.omega.cross(p)),
+            pose: Pose::UNKNOWN,
         }
     }
 
@@ -182,6 +186,7 @@ impl<R: Real> Field<R> {
             u,
             a: a + spin.cross(along_z(rates.spin + rates.spin)) + along_z(rates.accel),
             v: v + along_z(rates.velocity),
+            pose: Pose::UNKNOWN,
         }
     }
 

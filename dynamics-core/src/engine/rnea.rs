@@ -22,58 +22,6 @@ pub(crate) struct Task<'a, R: Real, E, const Q: usize, const V: usize> {
     pub(crate) tau: &'a mut [R; V],
 }
 
-/// The base at rest: a = −g, in units of length.
-#[inline(always)]
-pub(crate) fn base<R: Real, E, const B: usize, const V: usize>(effects: &E, length: f64) -> Field<R>
-where
-    E: Effect<R, B, V>,
-{
-    const {
-        assert!(
-            !E::BODY_POSE,
-            "the engine does not tell effects the poses of bodies; use `Core`"
-        )
-    };
-    const {
-        assert!(
-            !E::BASE_MOTION,
-            "the engine's base stands still; use `Core`"
-        )
-    };
-    no_spinning::<R, E, B, V>();
-    let mut g = R::Vec3::ZERO;
-    effects.field(&mut g);
-    let (g, [x, y, z]) = (g.array(), E::FIELD_AXES);
-    let per_length = Known::constant(-1.0 / length);
-    let a = Vec3([
-        Known::only_if(x, g[0]) * per_length,
-        Known::only_if(y, g[1]) * per_length,
-        Known::only_if(z, g[2]) * per_length,
-    ]);
-    Field {
-        omega: Vec3::ZERO,
-        spin: Vec3::ZERO,
-        alpha: Vec3::ZERO,
-        u: Mat3::ZERO,
-        a,
-        v: Vec3::ZERO,
-    }
-}
-
-/// The engine has no rotors that spin as bodies.
-#[inline(always)]
-pub(crate) const fn no_spinning<R: Real, E, const B: usize, const V: usize>()
-where
-    E: Effect<R, B, V>,
-{
-    const {
-        assert!(
-            !E::SPINNING,
-            "the engine has no rotors that spin as bodies; use `Core`"
-        )
-    };
-}
-
 /// Visits joint I and all that it carries; returns what they ask of the parent, in its frame.
 #[inline(always)]
 pub(crate) fn visit<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
@@ -106,11 +54,14 @@ where
         accel: Known::only_if(E::ACCELERATIONS, at.qdd) * unit,
     };
 
-    let field = if joint.prismatic {
+    let mut field = if joint.prismatic {
         parent.slid(joint, slide, rates)
     } else {
         parent.turned(joint, turn, rates)
     };
+    if E::BODY_POSE {
+        field.pose = parent.pose.beyond(joint, turn, slide);
+    }
     let mut body = Inertia::of(joint);
     if const { E::PAYLOAD && Prepared::<T, B, Q, V>::last_on(I) } {
         body = loaded::<R, T, E, B, Q, V>(task.effects, body);
@@ -215,6 +166,9 @@ where
                 rot.transpose_mul(field.omega).get(),
                 rot.transpose_mul(v).scale(length).get(),
             );
+        }
+        if E::BODY_POSE {
+            at.pose = field.pose.of(place, length);
         }
         let mut fx = Force::ZERO;
         effects.wrench(body, &at, &mut fx);

@@ -3,16 +3,17 @@
 use super::*;
 use dynamics_core::algorithms::kinetic_energy;
 use dynamics_core::effects::{
-    AsymmetricCoulomb, BodyState, BodyWrench, Cogging, Coriolis, GravityAlong, Inertia, Lugre,
-    RIGID_BODY, Spring, Stops, Stribeck,
+    AsymmetricCoulomb, BodyState, BodyWrench, Cogging, Contact, Coriolis, Foot, GravityAlong,
+    Inertia, Lugre, MovingBase, RIGID_BODY, Spring, Stops, Stribeck, WorldWrench,
 };
 use dynamics_core::model::Robot;
 use dynamics_core::robots::Ur5e;
 use dynamics_core::scalar::Vector;
 use dynamics_core::sim::linearly_implicit;
-use dynamics_core::spatial::Force;
+use dynamics_core::spatial::{Force, Motion};
 use dynamics_core::{Core, Engine};
 use glam::DVec3;
+use host_tests::odd::Odd;
 use host_tests::random::{random_numbers, within};
 
 /// A cable pack tied to one point of a link and dragged along behind it: fˣ = −c v of that point.
@@ -156,6 +157,69 @@ fn engine_equals_core_under_the_other_effects_and_a_users_own() {
         ulps::<f64>(f64::EPSILON),
     );
     assert!(single.max(double) <= 4.0, "{single:.2}, {double:.2} ulp");
+}
+
+/// A base that moves, and what asks where bodies stand, on a tree with slides, welds and two roots.
+#[test]
+fn engine_equals_core_on_a_moving_base_and_where_poses_are_asked() {
+    fn ulps<R: Real>(ulp: f64) -> [f64; 2] {
+        let vec = |x, y, z| R::Vec3::new(R::from_f64(x), R::from_f64(y), R::from_f64(z));
+        let of = R::from_f64;
+        let base = MovingBase {
+            velocity: Motion::new(vec(0.5, -0.3, 0.8), vec(0.2, 0.4, -0.6)),
+            acceleration: Motion::new(vec(-1.0, 2.0, 0.7), vec(1.5, -2.0, 0.9)),
+        };
+        let foot = |body, x| Foot {
+            body,
+            point: vec(x, -0.1, 0.2),
+        };
+        let ground = Contact {
+            feet: [foot(6, 0.1), foot(8, -0.2), foot(3, 0.3)],
+            normal: vec(0.0, 0.6, 0.8),
+            height: of(0.5),
+            stiffness: of(60.0),
+            damping: of(5.0),
+            per_depth: of(3.0),
+            friction: of(0.4),
+            creep: of(0.5),
+        };
+        let wind = WorldWrench {
+            body: 5,
+            wrench: Force::new(vec(1.0, 2.0, -3.0), vec(5.0, -4.0, 2.0)),
+        };
+        let all = (RIGID_BODY, base, ground, wind);
+        let slow = (RIGID_BODY.0, Inertia, base, wind);
+        let rng = &mut random_numbers();
+        let (mut worst, mut full_scale) = ([0.0_f64; 2], [0.0_f64; 2]);
+        for _ in 0..10_000 {
+            let [q, qd, qdd] = [3.1, 3.0, 10.0].map(|bound| within::<7>(rng, bound));
+            let state = cast::<R, 7>(&State { q, qd, qdd });
+            let core = [
+                Core::<Odd>::rnea(&state, &all),
+                Core::<Odd>::rnea(&state, &slow),
+            ];
+            let engine = [
+                Engine::<Odd>::rnea(&state, &all),
+                Engine::<Odd>::rnea(&state, &slow),
+            ];
+            for k in 0..2 {
+                for (core, engine) in core[k].into_iter().zip(engine[k]) {
+                    worst[k] = worst[k].max((core - engine).to_f64().abs());
+                    full_scale[k] = full_scale[k].max(core.to_f64().abs());
+                }
+            }
+        }
+        [0, 1].map(|k| worst[k] / (ulp * full_scale[k]))
+    }
+    let (single, double) = (
+        ulps::<f32>(f64::from(f32::EPSILON)),
+        ulps::<f64>(f64::EPSILON),
+    );
+    println!("{single:.2?} {double:.2?} ulp");
+    assert!(
+        single.into_iter().chain(double).all(|ulps| ulps <= 4.0),
+        "{single:.2?} {double:.2?} ulp"
+    );
 }
 
 #[test]

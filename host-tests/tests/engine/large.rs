@@ -1,8 +1,10 @@
 //! A robot of more joints than the engine takes in one function: limbs and branches apart.
 
-use dynamics_core::effects::{Coriolis, Gravity, Inertia};
+use dynamics_core::effects::{Coriolis, Gravity, Inertia, MovingBase, WorldWrench};
 use dynamics_core::model::{BASE, Body, Joint, Model, Robot};
 use dynamics_core::scalar::Real;
+use dynamics_core::spatial::{Force, Motion};
+use glam::DVec3;
 
 use super::{Aslant, Drag, Push, ULPS, compare, payload};
 
@@ -69,10 +71,19 @@ fn engine_equals_core_on_a_large_tree_under_every_effect() {
 
 #[test]
 fn engine_equals_core_on_a_large_tree_effect_by_effect() {
+    let carried = MovingBase::<f64> {
+        velocity: Motion::new(DVec3::new(0.5, -0.3, 0.8), DVec3::new(0.2, 0.4, -0.6)),
+        acceleration: Motion::new(DVec3::new(-1.0, 2.0, 0.7), DVec3::new(1.5, -2.0, 0.9)),
+    };
+    let wind = WorldWrench {
+        body: 12,
+        wrench: Force::<f64>::new(DVec3::new(1.0, 2.0, -3.0), DVec3::new(5.0, -4.0, 2.0)),
+    };
     let worst = [
         compare::<f64, Large, _, 18, 18>(&(Gravity::<Aslant>::new(9.81),), 2_000),
         compare::<f64, Large, _, 18, 18>(&(Coriolis,), 2_000),
         compare::<f64, Large, _, 18, 18>(&(Drag,), 2_000),
+        compare::<f64, Large, _, 18, 18>(&(carried, wind), 2_000),
     ];
     assert!(worst.iter().all(|ulps| *ulps <= ULPS), "{worst:.2?} ulp");
 }

@@ -191,8 +191,9 @@ macro_rules! real {
             const EPSILON: Self = <$r>::EPSILON;
             #[inline(always)]
             fn per_sqrt(self) -> Self {
-                // Halves the exponent, then Newton's iteration for 1/y² = x.
-                let mut y = <$r>::from_bits($magic - (self.to_bits() >> 1));
+                // Halves the exponent, then Newton's iteration for 1/y² = x. Of a NaN's bits anything may become.
+                let halved = self.to_bits() >> 1;
+                let mut y = <$r>::from_bits(halved.wrapping_neg().wrapping_add($magic));
                 let half = 0.5 * self;
                 for _ in 0..$steps {
                     y += y * (0.5 - half * y * y);

@@ -29,6 +29,26 @@ impl<R: Real> Symmetric<R> {
         }
     }
 
+    /// 0.
+    pub(crate) const ZERO: Self = Self {
+        xx: R::ZERO,
+        xy: R::ZERO,
+        xz: R::ZERO,
+        yy: R::ZERO,
+        yz: R::ZERO,
+        zz: R::ZERO,
+    };
+
+    /// Its columns.
+    #[inline(always)]
+    pub(crate) fn columns(&self) -> [R::Vec3; 3] {
+        [
+            R::Vec3::new(self.xx, self.xy, self.xz),
+            R::Vec3::new(self.xy, self.yy, self.yz),
+            self.column_z(),
+        ]
+    }
+
     /// The upper triangle of a matrix.
     #[inline(always)]
     pub(crate) fn of(m: &R::Mat3) -> Self {

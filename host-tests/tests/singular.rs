@@ -219,3 +219,19 @@ fn at_singular_poses_all_is_finite_and_said_so() {
         ([[0.0; 6]; 6], Conditioning::Damped { smallest: 0.0 })
     );
 }
+
+#[test]
+fn numbers_that_are_not_finite_are_never_called_regular() {
+    for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+        let mut a = [[0.0; 3]; 3];
+        for (i, row) in a.iter_mut().enumerate() {
+            row[i] = 1.0;
+        }
+        for (i, j) in [(0, 0), (2, 2), (0, 1), (1, 2)] {
+            let mut a = a;
+            (a[i][j], a[j][i]) = (bad, bad);
+            let (_, how) = damped_inverse(&a, Damping::relative(1e-3));
+            assert_ne!(how, Conditioning::Regular, "{bad} at {i}, {j}");
+        }
+    }
+}

@@ -78,7 +78,7 @@ struct Body<'a, R: Real> {
 }
 
 /// A coordinate on its own: U, 1/D and u; where its motion is prescribed, only U and sᵀ pᴬ.
-#[derive(Clone, Copy, Default)]
+#[derive(Clone, Copy)]
 struct Handle<R: Real> {
     u_hat: Force<R>,
     per_d: R,
@@ -143,7 +143,7 @@ where
         let _ = bodies.push(Body { node, x, c, ia, pa });
     }
 
-    let mut handles = [Handle::default(); V];
+    let mut handles: Vec<Handle<R>, V> = Vec::new(); // a stack: the last one made is the first used
     let mut inner = bodies.as_mut_slice();
     while let Some((body, rest)) = core::mem::take(&mut inner).split_last_mut() {
         let (mut ia, mut pa) = (body.ia, body.pa);
@@ -175,9 +175,7 @@ where
                     Handle { u_hat, per_d, u }
                 }
             };
-            if let Some(place) = handles.get_mut(joint) {
-                *place = handle;
-            }
+            let _ = handles.push(handle);
         }
         if let Some(parent) = rest.get_mut(body.node.parent) {
             pa += ia.times(body.c);
@@ -192,7 +190,9 @@ where
     for body in &bodies {
         let mut a_i = body.x * a.by(D::CHAIN, body.node.parent) + body.c;
         for (k, joint) in body.node.coordinates().enumerate() {
-            let Handle { u_hat, per_d, u } = entry(&handles, joint);
+            let Some(Handle { u_hat, per_d, u }) = handles.pop() else {
+                break;
+            };
             let s = body.node.axis(turns, k);
             let (tau, qdd) = match given(joint) {
                 Given::Torque(tau) => (tau, (u - a_i.dot(u_hat)) * per_d),

@@ -1,11 +1,14 @@
 //! The inverse of a symmetric matrix that may be singular, damped where it is.
 //!
-//! Jacobi's eigenvalues (Golub & Van Loan, *Matrix Computations*, section 8.5), and damping that begins
-//! smoothly (after Nakamura & Hanafusa, 1986, and Chiaverini, 1997): an eigenvalue λ above the threshold ε
-//! counts with 1/λ, one below with λ/(λ² + (ε − λ)²), which has the same value and slope at ε and goes to
-//! zero with λ. The threshold follows the sum of the eigenvalues, which, unlike the largest, is smooth.
+//! Damping that begins smoothly (after Nakamura & Hanafusa, 1986, and Chiaverini, 1997): an eigenvalue λ above
+//! the threshold ε counts with 1/λ, one below with λ/(λ² + (ε − λ)²), which has the same value and slope at ε
+//! and goes to zero with λ. The threshold follows the sum of the eigenvalues, which, unlike the largest, is
+//! smooth. Whether there is an eigenvalue below it is seen without them: A − ε 1 then has a pivot below zero
+//! (Sylvester's law of inertia).
 
+use super::eigen::eigen;
 use crate::scalar::Real;
+use crate::state::all_finite;
 
 /// From where on a direction that hardly moves is damped.
 ///
@@ -50,23 +53,12 @@ pub enum Conditioning<R> {
     },
 }
 
-/// Sweeps over all off-diagonal entries: what 6×6 matrices of any condition needed to reach rounding, and
-/// one more.
-#[inline(always)]
-fn sweeps<R: Real>() -> usize {
-    if R::EPSILON > R::from_f64(1e-10) {
-        6
-    } else {
-        7
-    }
-}
-
 /// A⁻¹, and whether it had to be damped: A symmetric with no negative eigenvalue.
 ///
 /// What stands along the eigenvector of an eigenvalue below the threshold goes to zero with it, without a
-/// jump in value or slope. Cost: the same whatever the data; in f32 3 M (M − 1) (18 M + 50) + 2 M³ flops, with
-/// 3 M (M − 1) divisions; in f64 a sixth more. Errors: none; numbers that are not finite give such numbers. Source: the
-/// module's.
+/// jump in value or slope. Cost: 4 M³ + M² flops and 2 M divisions where nothing is damped; else
+/// 3 M (M − 1) (18 M + 50) + 2 M³ flops more, with 3 M (M − 1) divisions, in f64 a sixth above that. Errors: none;
+/// numbers that are not finite give such numbers, and are not `Regular`. Source: the module's.
 ///
 /// ```
 /// use dynamics_core::algorithms::{Conditioning, Damping, damped_inverse};
@@ -86,34 +78,81 @@ pub fn damped_inverse<R: Real, const M: usize>(
         sum += row[i];
     }
     let threshold = damping.relative * sum + damping.least;
-    let (values, vectors) = eigen(*a);
+    if let (Some(_), Some(pivots)) = (eliminate(a, threshold), eliminate(a, R::ZERO)) {
+        return (pivots.inverse(), Conditioning::Regular);
+    }
 
-    let mut smallest = values[0];
+    let (values, vectors) = eigen(*a);
+    let mut smallest = sum;
     let mut inverse = [[R::ZERO; M]; M];
     for (&value, vector) in values.iter().zip(&vectors) {
         // Rounding may leave a zero below zero.
         let value = if value < R::ZERO { R::ZERO } else { value };
         smallest = if value < smallest { value } else { smallest };
-        let weight = reciprocal(value, threshold);
-        for (row, &x) in inverse.iter_mut().zip(vector) {
-            for (entry, &y) in row.iter_mut().zip(vector) {
-                *entry += weight * (x * y);
+        add(&mut inverse, reciprocal(value, threshold), vector);
+    }
+    let regular = smallest >= threshold && smallest > R::ZERO;
+    let conditioning = if regular && all_finite(&values) {
+        Conditioning::Regular
+    } else {
+        let smallest = reciprocal(threshold, R::ZERO) * smallest;
+        Conditioning::Damped { smallest }
+    };
+    (inverse, conditioning)
+}
+
+/// A = L D Lᵀ as L⁻¹ and D⁻¹.
+struct Pivots<R, const M: usize> {
+    per_l: [[R; M]; M],
+    per_d: [R; M],
+}
+
+/// The pivots of A − shift 1, if all are positive.
+#[inline(always)]
+fn eliminate<R: Real, const M: usize>(a: &[[R; M]; M], shift: R) -> Option<Pivots<R, M>> {
+    let (mut a, mut per_l, mut per_d) = (*a, [[R::ZERO; M]; M], [R::ZERO; M]);
+    for (k, (row, one)) in a.iter_mut().zip(&mut per_l).enumerate() {
+        (row[k], one[k]) = (row[k] - shift, R::ONE);
+    }
+    for k in 0..M {
+        let (pivot_row, done) = (a[k], per_l[k]);
+        if !(pivot_row[k] > R::ZERO && pivot_row[k].is_finite()) {
+            return None;
+        }
+        per_d[k] = R::ONE / pivot_row[k];
+        for (row, per_l) in a.iter_mut().zip(&mut per_l).skip(k + 1) {
+            let l = row[k] * per_d[k];
+            for j in k + 1..M {
+                row[j] -= l * pivot_row[j];
+            }
+            for j in 0..=k {
+                per_l[j] -= l * done[j];
             }
         }
     }
-    let conditioning = if smallest < threshold || sum == R::ZERO {
-        let per = if threshold > R::ZERO {
-            R::ONE / threshold
-        } else {
-            R::ZERO
-        };
-        Conditioning::Damped {
-            smallest: smallest * per,
+    Some(Pivots { per_l, per_d })
+}
+
+impl<R: Real, const M: usize> Pivots<R, M> {
+    /// A⁻¹ = L⁻ᵀ D⁻¹ L⁻¹.
+    #[inline(always)]
+    fn inverse(&self) -> [[R; M]; M] {
+        let mut inverse = [[R::ZERO; M]; M];
+        for (row, &per_d) in self.per_l.iter().zip(&self.per_d) {
+            add(&mut inverse, per_d, row);
         }
-    } else {
-        Conditioning::Regular
-    };
-    (inverse, conditioning)
+        inverse
+    }
+}
+
+/// A += w v vᵀ.
+#[inline(always)]
+fn add<R: Real, const M: usize>(a: &mut [[R; M]; M], weight: R, vector: &[R; M]) {
+    for (row, &x) in a.iter_mut().zip(vector) {
+        for (entry, &y) in row.iter_mut().zip(vector) {
+            *entry += weight * (x * y);
+        }
+    }
 }
 
 /// 1/λ, damped below ε.
@@ -127,55 +166,4 @@ fn reciprocal<R: Real>(value: R, threshold: R) -> R {
     } else {
         value / squares
     }
-}
-
-/// Eigenvalues and eigenvectors (one a row) of a symmetric matrix, in no order.
-#[inline(always)]
-fn eigen<R: Real, const M: usize>(mut a: [[R; M]; M]) -> ([R; M], [[R; M]; M]) {
-    let mut vectors = [[R::ZERO; M]; M];
-    for (i, row) in vectors.iter_mut().enumerate() {
-        row[i] = R::ONE;
-    }
-    for _ in 0..sweeps::<R>() {
-        for p in 0..M {
-            for q in p + 1..M {
-                let (c, s) = rotation(a[p][p], a[p][q], a[q][q]);
-                for row in &mut a {
-                    (row[p], row[q]) = (c * row[p] - s * row[q], s * row[p] + c * row[q]);
-                }
-                turn(&mut a, p, q, c, s);
-                turn(&mut vectors, p, q, c, s);
-            }
-        }
-    }
-    let mut values = [R::ZERO; M];
-    for (i, (value, row)) in values.iter_mut().zip(&a).enumerate() {
-        *value = row[i];
-    }
-    (values, vectors)
-}
-
-/// Rows p and q turned by an angle.
-#[inline(always)]
-fn turn<R: Real, const M: usize>(rows: &mut [[R; M]; M], p: usize, q: usize, c: R, s: R) {
-    let (x, y) = (rows[p], rows[q]);
-    for (k, (x, y)) in x.into_iter().zip(y).enumerate() {
-        (rows[p][k], rows[q][k]) = (c * x - s * y, s * x + c * y);
-    }
-}
-
-/// Cosine and sine of the least turn that makes [app apq; apq aqq] diagonal; none if it is.
-#[inline(always)]
-fn rotation<R: Real>(app: R, apq: R, aqq: R) -> (R, R) {
-    let (apart, twice) = (aqq - app, apq + apq);
-    let squared = apart * apart + twice * twice;
-    let far = apart.abs() + squared * squared.per_sqrt();
-    let signed = if apart < R::ZERO { -twice } else { twice };
-    let t = if far == R::ZERO {
-        R::ZERO
-    } else {
-        signed / far
-    };
-    let c = (R::ONE + t * t).per_sqrt();
-    (c, t * c)
 }

@@ -20,6 +20,7 @@ use crate::model::{Description, Turn};
 use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::{Force, Motion, Xform};
 use crate::state::{Posture, entry};
+use crate::symmetric::{Symmetric, turned_back};
 
 /// Λ⁻¹: what acceleration a force on a body gives that body, all joints being free to move.
 ///
@@ -30,14 +31,14 @@ use crate::state::{Posture, entry};
 /// let mobility = Core::<Ur5e>::mobility(&[0.1_f32; 6], 5, frame::Mixed, &()).unwrap();
 /// let _ = mobility * Motion::<f32>::ZERO;
 /// ```
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mobility<R: Real> {
     /// Angular acceleration of a couple, 1/(kg·m²).
-    pub ang: R::Mat3,
+    ang: Symmetric<R>,
     /// Angular acceleration of a force, and transposed linear acceleration of a couple, 1/(kg·m).
-    pub coupling: R::Mat3,
+    coupling: R::Mat3,
     /// Linear acceleration of a force, 1/kg.
-    pub lin: R::Mat3,
+    lin: Symmetric<R>,
 }
 
 /// Λ⁻¹ f: the acceleration that a force gives, rad/s² and m/s². 66 flops.
@@ -46,18 +47,18 @@ impl<R: Real> Mul<Force<R>> for Mobility<R> {
     #[inline(always)]
     fn mul(self, f: Force<R>) -> Motion<R> {
         Motion::new(
-            self.ang * f.ang + self.coupling * f.lin,
-            self.coupling.transpose_mul(f.ang) + self.lin * f.lin,
+            self.ang.times(f.ang) + self.coupling * f.lin,
+            self.coupling.transpose_mul(f.ang) + self.lin.times(f.lin),
         )
     }
 }
 
 impl<R: Real> Mobility<R> {
     /// That of a body which cannot move.
-    pub const ZERO: Self = Self {
-        ang: R::Mat3::ZERO,
+    const ZERO: Self = Self {
+        ang: Symmetric::ZERO,
         coupling: R::Mat3::ZERO,
-        lin: R::Mat3::ZERO,
+        lin: Symmetric::ZERO,
     };
 
     /// Λ⁻¹ of a task: of what the body does along some directions, given as forces. 77 M² flops.
@@ -69,31 +70,51 @@ impl<R: Real> Mobility<R> {
         })
     }
 
-    /// X Λ⁻¹ Xᵀ: the same in another frame.
+    /// X Λ⁻¹ Xᵀ: the same in another frame. 300 flops.
     #[inline(always)]
     fn at(&self, x: &Xform<R>) -> Self {
-        let (e, et, r) = (x.rot, x.rot.transpose(), cross_matrix::<R>(x.pos));
-        let coupling = self.coupling + self.ang * r;
-        let lin = self.lin - r * coupling + self.coupling.transpose() * r;
+        // [Σ H; Hᵀ M] at the new origin: H + Σ r×, and M − r× (H + Σ r×) + Hᵀ r×, whose upper triangle is used.
+        let (et, r) = (x.rot.transpose(), x.pos);
+        let turned = self.ang.columns().map(|column| r.cross(column));
+        let [x, y, z] = turned;
+        let coupling = self.coupling - R::Mat3::from_cols(x, y, z).transpose();
+        let old = self.coupling.cols().map(|column| r.cross(column).array());
+        let new = coupling.cols().map(|column| r.cross(column).array());
+        let moved = |i: usize, j: usize| new[j][i] + old[i][j];
+        let lin = Symmetric {
+            xx: self.lin.xx - moved(0, 0),
+            xy: self.lin.xy - moved(0, 1),
+            xz: self.lin.xz - moved(0, 2),
+            yy: self.lin.yy - moved(1, 1),
+            yz: self.lin.yz - moved(1, 2),
+            zz: self.lin.zz - moved(2, 2),
+        };
         Self {
-            ang: e * self.ang * et,
-            coupling: e * coupling * et,
-            lin: e * lin * et,
+            ang: self.ang.turned_back(&et),
+            coupling: turned_back::<R>(&coupling, &et),
+            lin: lin.turned_back(&et),
         }
     }
 
     /// P Λ⁻¹ Pᵀ + s D⁻¹ sᵀ, multiplied out: with w = Λ⁻¹ U that is Λ⁻¹ + s bᵀ + b sᵀ where
-    /// b = s (1 + U·w D⁻¹) D⁻¹/2 − w D⁻¹.
+    /// b = s (1 + U·w D⁻¹) D⁻¹/2 − w D⁻¹. 200 flops.
     #[inline(always)]
     fn across(&self, s: Motion<R>, joint: &Handle<R>) -> Self {
         let (u, per_d) = (joint.u_hat, joint.per_d);
         let w = *self * u;
         let own = (R::ONE + w.dot(u) * per_d) * per_d * R::from_f64(0.5);
         let b = s * own - w * per_d;
+        let coupling = outer::<R>(s.ang, b.lin) + outer::<R>(b.ang, s.lin);
         Self {
-            ang: self.ang + outer::<R>(s.ang, b.ang) + outer::<R>(b.ang, s.ang),
-            coupling: self.coupling + outer::<R>(s.ang, b.lin) + outer::<R>(b.ang, s.lin),
-            lin: self.lin + outer::<R>(s.lin, b.lin) + outer::<R>(b.lin, s.lin),
+            ang: self
+                .ang
+                .minus_outer(-s.ang, b.ang)
+                .minus_outer(-b.ang, s.ang),
+            coupling: self.coupling + coupling,
+            lin: self
+                .lin
+                .minus_outer(-s.lin, b.lin)
+                .minus_outer(-b.lin, s.lin),
         }
     }
 }
@@ -108,7 +129,7 @@ struct Handle<R: Real> {
 /// Λ⁻¹ of `body` in a [`Frame`]: J M⁻¹ Jᵀ without J or M.
 ///
 /// Inertias of joints and a payload that the effects name count. Zero for a body that there is not.
-/// Cost: O(B); some 360 flops a revolute joint, and 710 more one that carries the body. Source: the
+/// Cost: O(B); some 360 flops a revolute joint, and 580 more one that carries the body. Source: the
 /// module's.
 ///
 /// ```
@@ -247,17 +268,6 @@ where
         }
     }
     carries
-}
-
-/// [r]×
-#[inline(always)]
-fn cross_matrix<R: Real>(r: R::Vec3) -> R::Mat3 {
-    let ([x, y, z], zero) = (r.array(), R::ZERO);
-    R::Mat3::from_cols(
-        R::Vec3::new(zero, z, -y),
-        R::Vec3::new(-z, zero, x),
-        R::Vec3::new(y, -x, zero),
-    )
 }
 
 /// a bᵀ

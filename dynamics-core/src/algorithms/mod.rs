@@ -6,6 +6,7 @@ mod cholesky;
 mod composite;
 mod crba;
 mod damped;
+mod eigen;
 mod energy;
 mod error;
 mod factor;

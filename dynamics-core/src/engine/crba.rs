@@ -17,7 +17,19 @@ use crate::scalar::Real;
 use crate::state::Posture;
 
 impl<T> Engine<T> {
-    /// M(q) with the rotors and the payload that the effects name.
+    /// M(q), kg·m², kg and kg·m, with the rotors and the payload that the effects name.
+    ///
+    /// Other effects do not matter: [`crate::effects::RIGID_BODY`] gives the robot's own M. Angles
+    /// as in [`Engine::rnea`]. Cost: `docs/costs.md` in the repository; the same instructions
+    /// whatever the data. Source: Walker & Orin (1982); Featherstone, RBDA (2008), table 6.2.
+    ///
+    /// ```
+    /// use dynamics_core::{Engine, effects::{RIGID_BODY, RotorInertia}, robots::Ur5e};
+    /// let q = [0.0_f32, -1.2, 1.5, 0.3, 0.0, 0.0];
+    /// let (bare, geared) = (Engine::<Ur5e>::crba(&q, &RIGID_BODY), RotorInertia([0.5; 6]));
+    /// let driven = Engine::<Ur5e>::crba(&q, &(RIGID_BODY, geared));
+    /// assert_eq!(driven.get(2, 2), bare.get(2, 2) + 0.5);
+    /// ```
     #[inline(never)]
     pub fn crba<R: Real, E, const B: usize, const Q: usize, const V: usize>(
         q: &[R; Q],

@@ -112,7 +112,7 @@ fn subtract<
 {
     for_each_joint!(J, {
         if const { Prepared::<T, B, Q, V>::supports(J, I) } {
-            m[I][J] = m[I][J] - l * m[K][J];
+            m[I][J] -= l * m[K][J];
         }
     });
 }
@@ -134,7 +134,7 @@ pub(crate) fn substitute<R: Real, T, const B: usize, const Q: usize, const V: us
     });
     for_each_joint!(I, {
         if const { I < V } {
-            x[I] = x[I] * per_d[I];
+            x[I] *= per_d[I];
             gather::<R, T, B, Q, V, I>(l, x);
         }
     });
@@ -150,7 +150,7 @@ fn scatter<R: Real, T, const B: usize, const Q: usize, const V: usize, const I: 
 {
     for_each_joint!(J, {
         if const { Prepared::<T, B, Q, V>::above(J, I) } {
-            x[J] = x[J] - l[I][J] * x[I];
+            x[J] -= l[I][J] * x[I];
         }
     });
 }
@@ -165,7 +165,7 @@ fn gather<R: Real, T, const B: usize, const Q: usize, const V: usize, const I: u
 {
     for_each_joint!(J, {
         if const { Prepared::<T, B, Q, V>::above(J, I) } {
-            x[I] = x[I] - l[I][J] * x[J];
+            x[I] -= l[I][J] * x[J];
         }
     });
 }

@@ -97,11 +97,12 @@ impl<R: Real> Add for Known<R> {
         }
         let same = self.minus == o.minus;
         let sum = self.magnitude + o.magnitude;
-        let difference = self.magnitude - o.magnitude;
+        let (first, second) = if self.minus { (o, self) } else { (self, o) };
+        let difference = first.magnitude - second.magnitude;
         Self {
             magnitude: if same { sum } else { difference },
             tag: Tag::Any,
-            minus: self.minus,
+            minus: same & self.minus,
         }
     }
 }

@@ -250,6 +250,11 @@ const fn regroup<const V: usize>(joints: &mut [Joint; V]) {
             parent.second = mat_add(&parent.second, &mat_add(&second, &outer(p, scale(p, mass))));
             parent.moment = add(parent.moment, add(scale(p, mass), h));
             parent.mass += mass;
+        } else if !child.prismatic {
+            // A base at rest leaves one rotation, about z, which feels Σ_xx + Σ_yy alone.
+            let sum = child.second.x_axis.x + child.second.y_axis.y;
+            let x = DVec3::new(sum, 0.0, 0.0);
+            joints[i].second = DMat3::from_cols(x, DVec3::ZERO, DVec3::ZERO);
         }
     }
 }

@@ -7,17 +7,20 @@ use core::hint::black_box;
 
 use cortex_m_rt::entry;
 use cortex_m_semihosting::debug;
-use dynamics_core::effects::{Coriolis, Effect, Gravity, RIGID_BODY};
+use dynamics_core::algorithms::NotPositiveDefinite;
+use dynamics_core::effects::{Coriolis, Effect, Gravity, Inertia, RIGID_BODY};
 use dynamics_core::model::{Robot, Turn};
 use dynamics_core::robots::{A1, Iiwa14, Panda, Ur5e};
 use dynamics_core::state::{Posture, State};
-use dynamics_core::{Core, Engine};
+use dynamics_core::{Core, Engine, MassMatrix};
 use firmware_demo::{marker::measured, target};
 
 /// What CasADi's C takes: cosines, sines, and two vectors of which an algorithm may need none.
 type C = unsafe extern "C" fn(*const f32, *const f32, *const f32, *const f32, *mut f32);
 /// What ours take.
 type Ours<E, const N: usize> = fn(&Posture<f32, N>, &State<f32, N, N>, &E) -> [f32; N];
+type Forward<E, const N: usize> =
+    fn(&Posture<f32, N>, &State<f32, N, N>, &[f32; N], &E) -> Result<[f32; N], NotPositiveDefinite>;
 
 /// A function of the C.
 struct Peer {
@@ -50,12 +53,62 @@ fn robot<T: Robot<B, N, N>, const B: usize, const N: usize>() {
     inputs::<T, _, B, N>("rnea", &states, &RIGID_BODY);
     inputs::<T, _, B, N>("bias", &states, &(Gravity::EARTH, Coriolis));
     inputs::<T, _, B, N>("gravity", &states, &(Gravity::EARTH,));
-    // Not yet ours at a ready posture: what the peers take is shown all the same.
-    for peer in PEERS.iter().filter(|peer| peer.robot == T::MODEL.name) {
-        if ["crba", "aba"].contains(&peer.algorithm) {
-            casadi(peer, &states, |_| [], 0.0);
+    matrix::<T, B, N>(&states);
+    forward::<T, B, N>(&states);
+}
+
+/// M(q): the engine's against the core's inverse dynamics of one acceleration at a time.
+fn matrix<T: Robot<B, N, N>, const B: usize, const N: usize>(states: &[State<f32, N, N>; STATES]) {
+    let run: fn(&Posture<f32, N>, &_) -> MassMatrix<f32, N> = Engine::<T>::crba_at;
+    let (mut error, mut scale) = (0.0, 0.0);
+    for state in states {
+        let posture = black_box(Core::<T>::posture(&state.q));
+        let m = black_box(measured::<0, _>(|| run(&posture, &RIGID_BODY)));
+        for joint in 0..N {
+            let mut unit = State::at(state.q);
+            unit.qdd[joint] = 1.0;
+            let column = Core::<T>::rnea(&unit, &(Inertia,));
+            scale = column.iter().fold(scale, |s, x| f32::max(s, x.abs()));
+            if let Some(row) = m.row(joint) {
+                error = f32::max(error, worst(row, &column));
+            }
         }
     }
+    let name = T::MODEL.name;
+    report(name, "crba", "engine", run as usize, error / scale);
+    for peer in peers(name, "crba") {
+        casadi(peer, states, |_| [], 0.0);
+    }
+}
+
+/// Forward dynamics: the engine's `forward` beside the articulated-body algorithm of others.
+fn forward<T: Robot<B, N, N>, const B: usize, const N: usize>(states: &[State<f32, N, N>; STATES]) {
+    let run: Forward<_, N> = Engine::<T>::forward_at;
+    let (mut error, mut scale) = (0.0, 0.0);
+    for state in states {
+        let posture = black_box(Core::<T>::posture(&state.q));
+        let qdd = measured::<0, _>(|| run(&posture, black_box(state), &state.qdd, &RIGID_BODY));
+        let textbook = Core::<T>::aba(state, &state.qdd, &RIGID_BODY);
+        let (qdd, textbook) = (black_box(qdd).ok(), textbook.ok());
+        let (Some(qdd), Some(textbook)) = (qdd, textbook) else {
+            error = f32::INFINITY;
+            continue;
+        };
+        scale = textbook.iter().fold(scale, |s, x| f32::max(s, x.abs()));
+        error = f32::max(error, worst(&qdd, &textbook));
+    }
+    let name = T::MODEL.name;
+    report(name, "aba", "engine", run as usize, error / scale);
+    for peer in peers(name, "aba") {
+        casadi(peer, states, |_| [], 0.0);
+    }
+}
+
+/// The C for a robot and an algorithm.
+fn peers(robot: &str, algorithm: &str) -> impl Iterator<Item = &'static Peer> {
+    PEERS
+        .iter()
+        .filter(move |peer| (peer.robot, peer.algorithm) == (robot, algorithm))
 }
 
 /// Inverse dynamics under `effects`: ours in both forms, then each build of the C.
@@ -85,10 +138,7 @@ fn inputs<T: Robot<B, N, N>, E: Effect<f32, B, N>, const B: usize, const N: usiz
         }
         report(name, algorithm, form, run as usize, error / scale);
     }
-    for peer in PEERS
-        .iter()
-        .filter(|peer| (peer.robot, peer.algorithm) == (name, algorithm))
-    {
+    for peer in peers(name, algorithm) {
         casadi(peer, states, textbook, scale);
     }
 }

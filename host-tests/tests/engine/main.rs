@@ -16,6 +16,8 @@ use proptest::prelude::RngExt;
 use proptest::test_runner::{RngAlgorithm, TestRng};
 
 mod large;
+mod matrix;
+mod recorded;
 /// Pushes the plinth, the rail, the bracket (a weld in mid-tree), the tool (a weld at a tip) and
 /// the jib, each in its own frame.
 struct Push;

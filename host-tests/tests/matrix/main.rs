@@ -13,7 +13,7 @@ use dynamics_core::algorithms::{
     operator_inverse, rnea, solve,
 };
 use dynamics_core::effects::{
-    Coriolis, Effect, Gravity, Inertia, Payload, RIGID_BODY, RotorInertia, Viscous,
+    BodyState, Coriolis, Effect, Gravity, Inertia, Payload, RIGID_BODY, RotorInertia, Viscous,
 };
 use dynamics_core::model::{JointKind, Model};
 use dynamics_core::scalar::{Real, Vector};
@@ -95,9 +95,9 @@ impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Witness<R> {
     const WRENCH: bool = true;
     const BODY_VELOCITY: bool = true;
 
-    fn wrench(&self, body: usize, velocity: Motion<R>, _: &mut Force<R>) {
+    fn wrench(&self, body: usize, at: &BodyState<R>, _: &mut Force<R>) {
         if body == self.body {
-            self.seen.set(velocity);
+            self.seen.set(at.velocity);
         }
     }
 }

@@ -75,7 +75,7 @@ fn build(shop: &Workshop<'_>, robots: &[Robot]) -> Result<Vec<Foreign>> {
         let library = shop.pinocchio(compiler)?;
         for robot in robots {
             for precision in PRECISIONS {
-                for algorithm in ["rnea", "bias", "gravity"] {
+                for algorithm in ALGORITHMS {
                     foreign.push(Foreign {
                         run: format!("pinocchio_{precision}_{algorithm}"),
                         open: Some((format!("pinocchio_{precision}_open"), shop.robots_file())),

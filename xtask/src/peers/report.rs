@@ -189,4 +189,6 @@ const ABOUT: &str = "\
   pipeline of inverse dynamics. `mj_rne` is the least that gives the torques: `mj_kinematics`, `mj_comPos`,
   `mj_comVel`, `mj_rne`. Contacts and constraints are off.
 - **dynibo**: a Rust crate; f64, model read from a URDF at run time, gravity fixed at 9.80665 m/s².
-- **core**, **engine**: this library's two forms, with `-C target-cpu=native` on the host.";
+- **core**, **engine**: this library's two forms, with `-C target-cpu=native` on the host. Where
+  others run the articulated-body algorithm (`aba`), the engine runs `Engine::forward`: bias, M and
+  its factors.";

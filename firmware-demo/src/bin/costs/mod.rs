@@ -17,7 +17,7 @@ use dynamics_core::algorithms::{self, NotPositiveDefinite};
 use dynamics_core::effects::{Coriolis, Effect, Gravity, Inertia, RIGID_BODY};
 use dynamics_core::model::{Robot, model};
 use dynamics_core::state::{Posture, State};
-use dynamics_core::{Core, Engine};
+use dynamics_core::{Core, Engine, MassMatrix};
 use firmware_demo::{marker::measured, target};
 
 /// States that each function is asked for.
@@ -51,6 +51,13 @@ type AtHand<E, const N: usize> = fn(&Posture<f32, N>, &State<f32, N, N>, &E) -> 
 /// not depend on what they move.
 type Forward<const N: usize> = fn(&Ask<N>) -> Result<[f32; N], NotPositiveDefinite>;
 
+/// Of M's factors and their solution.
+type FactorSolve<const N: usize> =
+    fn(&MassMatrix<f32, N>, &[f32; N]) -> Result<[f32; N], NotPositiveDefinite>;
+
+/// From so many joints on the engine's articulated bodies take the compiler minutes.
+const ABA_IS_DEAR: usize = 8;
+
 /// Measures every row of the robot T and leaves the emulator.
 pub fn run<T: Robot<B, N, N>, const B: usize, const N: usize>() -> ! {
     let asks = asks::<T, B, N>();
@@ -61,17 +68,54 @@ pub fn run<T: Robot<B, N, N>, const B: usize, const N: usize>() -> ! {
     let forward: [(bool, Forward<N>); 2] = [(true, aba::<T, B, N>), (false, aba_at::<T, B, N>)];
     for (trig, run) in forward {
         let row = Row {
-            robot: T::MODEL.name,
-            algorithm: "aba",
             form: "core",
-            inputs: "full",
-            trig,
-            address: run as usize,
+            ..full::<T, B, N>("aba", trig, run as usize)
         };
         measure(row, &asks, run);
     }
+    matrix::<T, B, N>(&asks);
+    if N < ABA_IS_DEAR {
+        articulated::<T, B, N>(&asks);
+    }
     defmt::println!("done");
     target::leave(debug::EXIT_SUCCESS)
+}
+
+/// A row of the engine under `RIGID_BODY`.
+fn full<T: Robot<B, N, N>, const B: usize, const N: usize>(
+    algorithm: &'static str,
+    trig: bool,
+    address: usize,
+) -> Row {
+    Row {
+        robot: T::MODEL.name,
+        algorithm,
+        form: "engine",
+        inputs: "full",
+        trig,
+        address,
+    }
+}
+
+/// The engine's M, its factors, forward dynamics by them, and the Jacobian. Sines and cosines
+/// inside are `rnea`'s and `aba`'s rows: one more instance of each takes the compiler long.
+fn matrix<T: Robot<B, N, N>, const B: usize, const N: usize>(asks: &[Ask<N>; STATES]) {
+    let crba: fn(&Posture<f32, N>, &_) -> _ = Engine::<T>::crba_at;
+    let row = |algorithm, address| full::<T, B, N>(algorithm, false, address);
+    measure(row("crba", crba as usize), asks, |ask| {
+        crba(&ask.posture, &RIGID_BODY)
+    });
+    let solve: FactorSolve<N> = factor_solve::<T, B, N>;
+    let m = crba(&asks[0].posture, &RIGID_BODY);
+    measure(row("factor_solve", solve as usize), asks, |ask| {
+        solve(black_box(&m), &ask.state.qdd)
+    });
+    let forward: Forward<N> = forward_at::<T, B, N>;
+    measure(row("forward", forward as usize), asks, forward);
+    let jacobian: fn(&Posture<f32, N>) -> _ = Engine::<T>::jacobian_at;
+    measure(row("jacobian", jacobian as usize), asks, |ask| {
+        jacobian(&ask.posture)
+    });
 }
 
 /// Inverse dynamics in both forms, with sines and cosines inside and at hand.
@@ -126,6 +170,34 @@ fn aba_at<T: Robot<B, N, N>, const B: usize, const N: usize>(
         &ask.state.qdd,
         &RIGID_BODY,
     )
+}
+
+/// The engine's articulated bodies, with sines and cosines at hand.
+fn articulated<T: Robot<B, N, N>, const B: usize, const N: usize>(asks: &[Ask<N>; STATES]) {
+    let run: Forward<N> = articulated_at::<T, B, N>;
+    measure(full::<T, B, N>("aba", false, run as usize), asks, run);
+}
+
+#[inline(never)]
+fn forward_at<T: Robot<B, N, N>, const B: usize, const N: usize>(
+    ask: &Ask<N>,
+) -> Result<[f32; N], NotPositiveDefinite> {
+    Engine::<T>::forward_at(&ask.posture, &ask.state, &ask.state.qdd, &RIGID_BODY)
+}
+
+#[inline(never)]
+fn articulated_at<T: Robot<B, N, N>, const B: usize, const N: usize>(
+    ask: &Ask<N>,
+) -> Result<[f32; N], NotPositiveDefinite> {
+    Engine::<T>::aba_at(&ask.posture, &ask.state, &ask.state.qdd, &RIGID_BODY)
+}
+
+#[inline(never)]
+fn factor_solve<T: Robot<B, N, N>, const B: usize, const N: usize>(
+    m: &MassMatrix<f32, N>,
+    tau: &[f32; N],
+) -> Result<[f32; N], NotPositiveDefinite> {
+    Ok(Engine::<T>::solve(&Engine::<T>::factor(m)?, tau))
 }
 
 /// Logs a row, then runs its function once for each state in region 0.

@@ -253,8 +253,8 @@ fn the_jacobian_is_that_of_the_users_frame() {
     jacobian::<f32, Iiwa14, 7, 7>();
     jacobian::<f64, A1, 16, 12>();
     jacobian::<f32, A1, 16, 12>();
-    jacobian::<f64, Odd, 11, 7>();
-    jacobian::<f32, Odd, 11, 7>();
+    jacobian::<f64, Fork, 4, 4>();
+    jacobian::<f32, Fork, 4, 4>();
 }
 
 /// A robot on rails whose last link weighs nothing.

@@ -103,6 +103,15 @@ impl<R: Real> Inertia<R> {
         }
     }
 
+    /// The inertia left to a body on a base that may move.
+    #[inline(always)]
+    pub(crate) fn rocked(joint: &Joint) -> Self {
+        Self {
+            second: Sym3::of(&Mat3::constant(&joint.rocked)),
+            ..Self::of(joint)
+        }
+    }
+
     /// The same in the frame of joint I's parent and about its origin.
     #[inline(always)]
     pub(crate) fn handed_down<T, const B: usize, const Q: usize, const V: usize, const I: usize>(

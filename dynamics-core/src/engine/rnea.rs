@@ -62,7 +62,11 @@ where
     if E::BODY_POSE {
         field.pose = parent.pose.beyond(joint, turn, slide);
     }
-    let mut body = Inertia::of(joint);
+    let mut body = if E::BASE_MOTION {
+        Inertia::rocked(joint)
+    } else {
+        Inertia::of(joint)
+    };
     if const { E::PAYLOAD && Prepared::<T, B, Q, V>::last_on(I) } {
         body = loaded::<R, T, E, B, Q, V>(task.effects, body);
     }

@@ -11,8 +11,8 @@ use crate::state::entry;
 /// LuGre friction of each joint, with the bend of its bristles.
 ///
 /// Memory: `bristle`, V numbers, advanced by the plant (implicitly: z₊ = (z + h q̇)/(1 + h σ₀ |q̇| / g), so
-/// that no step makes it unstable). Damping that is constant makes the model give power back at high
-/// speeds (Barabanov & Ortega, 2000); keep σ₁ ≤ 4 σ₀ g / |q̇|, or near 2 √(σ₀ M) and the speeds small.
+/// that no step makes it unstable). It gives back no more than the σ₀ z²/2 that its bristles store while
+/// σ₁ ≤ 4 g / |q̇|: mind fast joints. Near √(σ₀ M) σ₁ keeps the inertia M from swinging on the bristles.
 /// Cost: an exponential, a division and some 20 flops a joint.
 ///
 /// ```

@@ -11,6 +11,41 @@
 //! assert_eq!(full, gravity); // at rest nothing else acts
 //! ```
 //!
+//! | where | effects |
+//! |---|---|
+//! | all bodies | [`Gravity`], [`GravityAlong`]; [`Inertia`], [`Coriolis`]; [`MovingBase`] |
+//! | a body | [`BodyWrench`], [`WorldWrench`], [`Contact`]; [`Payload`] |
+//! | a joint: friction | [`Viscous`], [`Coulomb`], [`AsymmetricCoulomb`], [`Stribeck`], [`Lugre`] |
+//! | a joint: position | [`Spring`], [`Stops`], [`Cogging`] |
+//! | a motor | [`RotorInertia`], [`Rotors`]; [`crate::sim::Actuator`] and [`crate::flexible`] stand between command and joint |
+//!
+//! What none of them is, a user adds by an `impl` of the same trait, for core, engine and plant alike:
+//!
+//! ```
+//! use dynamics_core::effects::{BodyState, Effect, RIGID_BODY};
+//! use dynamics_core::{Core, Engine, robots::Ur5e, scalar::Real, spatial::Force, state::State};
+//!
+//! /// A cable pack dragged along behind the forearm: fˣ = −c v.
+//! struct CableDrag<R>(R);
+//!
+//! impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for CableDrag<R> {
+//!     const WRENCH: bool = true;
+//!     const BODY_VELOCITY: bool = true;
+//!
+//!     fn wrench(&self, body: usize, at: &BodyState<R>, fx: &mut Force<R>) {
+//!         if body == 3 {
+//!             fx.lin -= at.velocity.lin * self.0;
+//!         }
+//!     }
+//! }
+//!
+//! let swinging = State { qd: [0.5; 6], ..State::at([0.0_f64, -1.2, 1.5, 0.3, 0.0, 0.0]) };
+//! let scene = (RIGID_BODY, CableDrag(8.0));
+//! let [core, engine] = [Core::<Ur5e>::rnea(&swinging, &scene), Engine::<Ur5e>::rnea(&swinging, &scene)];
+//! assert!((core[0] - engine[0]).abs() < 1e-12);
+//! assert!(core[0] > Core::<Ur5e>::rnea(&swinging, &RIGID_BODY)[0]);
+//! ```
+//!
 //! Signs are stated once, on M q̈ + C = τ: joint hooks add the torque that the motor must supply
 //! (left side); body hooks add the wrench fˣ that the environment exerts on the body
 //! (f + fˣ = I a + v ×* I v), which the library subtracts.

@@ -63,6 +63,17 @@ pub struct NotSingle {
 /// # Ok::<(), dynamics_core::flexible::NotSingle>(())
 /// ```
 ///
+/// ```compile_fail,E0080
+/// use dynamics_core::effects::{BodyWrench, RIGID_BODY};
+/// use dynamics_core::flexible::{Course, Flexible, flexible_rnea};
+/// use dynamics_core::{model::Robot, robots::Ur5e, spatial::Force, state::State};
+/// let joints = Flexible { stiffness: [1e4_f64; 6], rotor: [1.0; 6], friction: [0.0; 6] };
+/// let rest = Course { state: State::at([0.3; 6]), jerk: [0.0; 6], snap: [0.0; 6] };
+/// let pushed = (RIGID_BODY, BodyWrench { body: 5, wrench: Force::<f64>::ZERO });
+/// let _ = flexible_rnea(&Ur5e::MODEL, &joints, &rest, &pushed);
+/// // error: inverse dynamics of compliant joints takes no wrenches on bodies, moving base or `Rotors`
+/// ```
+///
 /// # Errors
 /// [`NotSingle`] names a body on a joint of several degrees of freedom.
 pub fn flexible_rnea<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(

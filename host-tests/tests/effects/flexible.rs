@@ -113,6 +113,33 @@ fn motor_torques_of_a_course_are_those_of_its_differences() {
 }
 
 #[test]
+fn motor_torques_in_f32_are_those_in_f64() {
+    let (rng, mut worst) = (&mut random_numbers(), Worst::default());
+    for _ in 0..200 {
+        let joints = Flexible {
+            stiffness: [4096.0; 6],
+            rotor: [0.5; 6],
+            friction: [2.0; 6],
+        };
+        let double = along(&coefficients::<6>(rng), 0.0);
+        let want = flexible_rnea(&Ur5e::MODEL, &joints, &double, &RIGID_BODY).unwrap();
+        let single = Course {
+            state: cast::<f32, 6>(&double.state),
+            jerk: double.jerk.map(|x| x as f32),
+            snap: double.snap.map(|x| x as f32),
+        };
+        let joints = Flexible {
+            stiffness: [4096.0_f32; 6],
+            rotor: [0.5; 6],
+            friction: [2.0; 6],
+        };
+        let got = flexible_rnea(&Ur5e::MODEL_F32, &joints, &single, &RIGID_BODY).unwrap();
+        worst.see_all(&got.torque, &want.torque);
+    }
+    worst.check::<f32>("compliant joints", "motor torque");
+}
+
+#[test]
 fn stiffer_joints_come_to_the_rigid_robot_with_one_over_k() {
     let (rng, rotor) = (&mut random_numbers(), 0.5);
     let c = coefficients::<6>(rng);

@@ -5,7 +5,7 @@
 //!
 //! | module | what |
 //! |---|---|
-//! | [`scalar`], [`trig`] | f32 and f64 as one type parameter; sine and cosine without f64 |
+//! | [`scalar`], [`trig`], [`exponential`] | f32 and f64 as one type parameter; sine, cosine and e⁻ˣ without f64 |
 //! | [`spatial`] | motion and force vectors, transforms, inertias |
 //! | [`model`], [`robots`] | a robot's description, checked while compiling; four real ones |
 //! | [`state`], [`configuration`] | q, q̇, q̈, the sines and cosines of one configuration; steps and differences of configurations |
@@ -14,7 +14,8 @@
 //! | [`algorithms`], [`Core`] | RNEA, ABA: the textbook, for every model and for robots known at compile time |
 //! | [`Engine`] | RNEA specialised by the compiler for a robot known at compile time |
 //! | [`control`] | trajectories, observer, control law, safety gate |
-//! | [`sim`] | time steps of a simulated robot |
+//! | [`flexible`] | joints driven through springs: their plant and their inverse dynamics |
+//! | [`sim`] | time steps of a simulated robot, and its actuators |
 //!
 #![doc = include_str!("../../NOTATION.md")]
 #![cfg_attr(not(test), no_std)]
@@ -27,6 +28,8 @@ mod const_math;
 pub mod control;
 pub mod effects;
 mod engine;
+pub mod exponential;
+pub mod flexible;
 mod lie;
 mod mass_matrix;
 pub mod model;

@@ -60,6 +60,10 @@ pub trait Real:
     fn sin_cos(self) -> (Self, Self);
     /// As `sin_cos`, for angles within ±100 rad: [`crate::trig::sin_cos_near`] in f32.
     fn sin_cos_near(self) -> (Self, Self);
+    /// e⁻ˣ of x ≥ 0: [`crate::exponential::exp_neg`] in f32; 1 for x < 0 and for NaN.
+    ///
+    /// Cost: in f32 the same instructions for every input.
+    fn exp_neg(self) -> Self;
     /// √x, rounded to nearest; NaN below zero. In software where the target's compiler offers no
     /// instruction without std: never in the control tick.
     fn sqrt(self) -> Self;
@@ -149,7 +153,7 @@ pub trait Matrix<R: Real>:
 }
 
 macro_rules! real {
-    ($r:ident, $whole:ident, $vec:path, $mat:path, $sin_cos:expr, $near:expr, $sqrt:expr, $atan2:expr, $magic:literal, $steps:literal, |$double:ident, $single:ident| $pick:ident) => {
+    ($r:ident, $whole:ident, $vec:path, $mat:path, $sin_cos:expr, $near:expr, $exp_neg:expr, $sqrt:expr, $atan2:expr, $magic:literal, $steps:literal, |$double:ident, $single:ident| $pick:ident) => {
         impl Real for $r {
             type Vec3 = $vec;
             type Mat3 = $mat;
@@ -171,6 +175,10 @@ macro_rules! real {
             #[inline(always)]
             fn sin_cos_near(self) -> (Self, Self) {
                 $near(self)
+            }
+            #[inline(always)]
+            fn exp_neg(self) -> Self {
+                $exp_neg(self)
             }
             #[inline]
             fn sqrt(self) -> Self {
@@ -274,6 +282,7 @@ real!(
     glam::Mat3,
     crate::trig::sin_cos,
     crate::trig::sin_cos_near,
+    crate::exponential::exp_neg,
     libm::sqrtf,
     libm::atan2f,
     0x5f37_59df,
@@ -287,6 +296,7 @@ real!(
     glam::DMat3,
     crate::trig::sin_cos_f64,
     crate::trig::sin_cos_f64,
+    |x: f64| libm::exp(-f64::max(x, 0.0)),
     libm::sqrt,
     libm::atan2,
     0x5fe6_eb50_c7b5_37a9,

@@ -9,9 +9,11 @@ use heapless::Vec;
 use super::handed::Handed;
 use super::{Given, NotPositiveDefinite, Response};
 use crate::articulated::ArticulatedInertia;
-use crate::effects::{Effect, base_motion, body_inertia, body_wrench, joint_loss};
+use crate::effects::{
+    Effect, base_motion, body_inertia, body_wrench, gyroscopic, joint_loss, rotor_force,
+};
 use crate::model::{Description, Node};
-use crate::scalar::Real;
+use crate::scalar::{Matrix, Real};
 use crate::spatial::{Force, Motion, Xform};
 use crate::state::{Posture, State, entry};
 
@@ -128,6 +130,14 @@ where
             }
             pa -= body_wrench(effects, i, &node, &pose, v_i);
         }
+        if E::SPINNING
+            && E::VELOCITY_PRODUCTS
+            && let Some(parent) = bodies.get_mut(node.parent)
+        {
+            let rate = entry(&state.qd, node.velocity_at());
+            let couple = gyroscopic(effects, &node, v_i.ang, rate, R::ZERO);
+            parent.pa.ang += x.rot.transpose_mul(couple);
+        }
         v.push(D::CHAIN, v_i);
         let ia = inertia.into();
         let _ = bodies.push(Body { node, x, c, ia, pa });
@@ -139,10 +149,15 @@ where
         let (mut ia, mut pa) = (body.ia, body.pa);
         for (k, joint) in body.node.coordinates().enumerate().rev() {
             let s = body.node.axis(turns, k);
-            let u_hat = ia.along(&s);
+            let mut u_hat = ia.along(&s);
+            let inertia = s.dot(u_hat);
+            if E::SPINNING {
+                // A rotor feels and bears q̈ on the parent's side of the joint.
+                u_hat += rotor_force(effects, &body.node);
+            }
             let handle = match given(joint) {
                 Given::Torque(tau) => {
-                    let mut d = s.dot(u_hat);
+                    let mut d = inertia;
                     effects.inertia(joint, &mut d);
                     // One comparison that a NaN fails too.
                     if !(d > R::ZERO && d.is_finite()) {
@@ -183,6 +198,9 @@ where
                 Given::Torque(tau) => (tau, (u - a_i.dot(u_hat)) * per_d),
                 Given::Acceleration(qdd) => {
                     let (mut tau, mut rotor) = (a_i.dot(u_hat) + s.dot(u_hat) * qdd + u, R::ZERO);
+                    if E::SPINNING {
+                        tau -= s.dot(rotor_force(effects, &body.node)) * qdd;
+                    }
                     effects.inertia(joint, &mut rotor);
                     tau += rotor * qdd + joint_loss(effects, &body.node, state, joint);
                     (tau, qdd)

@@ -91,6 +91,12 @@ where
     D: Description<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
+    const {
+        assert!(
+            !E::SPINNING,
+            "no rotors that spin as bodies here; name `RotorInertia`"
+        )
+    };
     let turns = &posture.turns;
     let (mass, moment) = mass_and_moment(robot, posture, effects);
     let centre = moment * per(mass);

@@ -10,7 +10,7 @@ use heapless::Vec;
 use super::factor::parent;
 use super::handed::Handed;
 use crate::articulated::CompositeInertia;
-use crate::effects::{Effect, body_inertia};
+use crate::effects::{Effect, body_inertia, rotor_force};
 use crate::mass_matrix::MassMatrix;
 use crate::model::{BASE, Description, Node};
 use crate::scalar::{Matrix, Real};
@@ -93,10 +93,13 @@ where
             if let Some(column) = jacobian.get_mut(joint) {
                 *column = node.column(turns, k);
             }
-            let f = ic.along(&node.axis(turns, k));
+            let mut f = ic.along(&node.axis(turns, k));
             let mut above = joint;
             while let Some(column) = jacobian.get(above) {
                 m.set(joint, above, column.dot(f));
+                if E::SPINNING && above == joint {
+                    f += rotor_force(effects, node);
+                }
                 above = parent(lambda, above);
             }
             if let Some(diagonal) = m.diagonal_mut(joint) {

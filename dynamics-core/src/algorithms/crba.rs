@@ -7,7 +7,7 @@
 use heapless::Vec;
 
 use crate::articulated::CompositeInertia;
-use crate::effects::{Effect, body_inertia};
+use crate::effects::{Effect, body_inertia, rotor_force};
 use crate::mass_matrix::MassMatrix;
 use crate::model::{Description, Node};
 use crate::scalar::Real;
@@ -99,6 +99,9 @@ where
             }
             if let Some(diagonal) = m.diagonal_mut(joint) {
                 effects.inertia(joint, diagonal);
+            }
+            if E::SPINNING {
+                f += rotor_force(effects, &body.node);
             }
             let mut below = &*body;
             while let Some(carrier) = rest.get(below.node.parent) {

@@ -4,7 +4,7 @@
 
 use super::handed::Handed;
 use super::momentum::mass_and_moment;
-use crate::effects::{Effect, base_given, body_inertia};
+use crate::effects::{Effect, base_given, body_inertia, rotor_force};
 use crate::model::Description;
 use crate::scalar::{Real, Vector};
 use crate::state::{Posture, State, entry};
@@ -52,6 +52,11 @@ where
     let mut v = Handed::<_, B>::from(base_given(effects).0);
     for (i, node) in robot.nodes().enumerate() {
         let v_i = node.xform(turns) * v.by(D::CHAIN, node.parent);
+        if E::SPINNING {
+            // I (ω_z + ρ q̇)² − I ω_z², less the square of ρ q̇, which `inertia` has.
+            let rotor = rotor_force(effects, &node) * entry(&state.qd, node.velocity_at());
+            twice += v_i.dot(rotor + rotor);
+        }
         let v_i = node.plus_motion(v_i, turns, &state.qd);
         twice += v_i.dot(body_inertia(effects, i, &node) * v_i);
         for k in node.coordinates() {

@@ -211,6 +211,12 @@ where
     D: Description<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
+    const {
+        assert!(
+            !E::SPINNING,
+            "no rotors that spin as bodies here; name `RotorInertia`"
+        )
+    };
     let mut bodies: Vec<ArticulatedInertia<R>, B> = Vec::new();
     for (i, node) in robot.nodes().enumerate() {
         let _ = bodies.push(body_inertia(effects, i, &node).into());

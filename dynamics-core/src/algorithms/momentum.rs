@@ -7,11 +7,11 @@ use heapless::Vec;
 
 use super::frame::Pose;
 use super::handed::Handed;
-use crate::effects::{Effect, base_given, body_inertia};
+use crate::effects::{Effect, base_given, body_inertia, rotor_force};
 use crate::model::Description;
 use crate::scalar::{Real, Vector};
 use crate::spatial::{Force, Xform};
-use crate::state::{Posture, State};
+use crate::state::{Posture, State, entry};
 
 /// Mass, centre of mass and its velocity.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -144,7 +144,10 @@ where
     for (i, node) in robot.nodes().enumerate() {
         let x = node.xform(turns);
         let v_i = node.plus_motion(x * v.by(D::CHAIN, node.parent), turns, &state.qd);
-        let h_i = body_inertia(effects, i, &node) * v_i;
+        let mut h_i = body_inertia(effects, i, &node) * v_i;
+        if E::SPINNING {
+            h_i += rotor_force(effects, &node) * entry(&state.qd, node.velocity_at());
+        }
         let _ = bodies.push((x, node.parent, h_i));
         v.push(D::CHAIN, v_i);
     }

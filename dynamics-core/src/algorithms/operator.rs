@@ -100,6 +100,12 @@ where
     D: Description<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
+    const {
+        assert!(
+            !E::SPINNING,
+            "no rotors that spin as bodies here; name `RotorInertia`"
+        )
+    };
     let turns = &Posture::of(robot, q).turns;
     let mut bodies: Vec<Body<'_, R>, B> = Vec::new();
     for (i, node) in robot.nodes().enumerate() {

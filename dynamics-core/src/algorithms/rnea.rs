@@ -6,11 +6,13 @@
 use heapless::Vec;
 
 use super::handed::Handed;
-use crate::effects::{Effect, base_motion, body_inertia, body_wrench, joint_torques};
+use crate::effects::{
+    Effect, base_motion, body_inertia, body_wrench, gyroscopic, joint_torques, rotor_force,
+};
 use crate::model::Description;
-use crate::scalar::Real;
+use crate::scalar::{Matrix, Real};
 use crate::spatial::{Force, Motion, Xform};
-use crate::state::{Posture, State};
+use crate::state::{Posture, State, entry};
 
 /// τ = ID(q, q̇, q̈): the torque of each motor, N·m or N, under the effects named.
 ///
@@ -82,6 +84,7 @@ where
     let turns = &posture.turns;
 
     let mut bodies: Vec<Body<R>, B> = Vec::new();
+    let mut turned_along = [R::ZERO; V]; // ρ I z·α_λ of the rotors
     for i in 0..B {
         let Some(node) = robot.node(i) else {
             break;
@@ -95,6 +98,11 @@ where
         }
         if accelerated {
             let mut a_i = x * a.by(D::CHAIN, node.parent); // (4)
+            if E::SPINNING
+                && let Some(tau) = turned_along.get_mut(node.velocity_at())
+            {
+                *tau = a_i.dot(rotor_force(effects, &node));
+            }
             if E::ACCELERATIONS {
                 a_i = node.plus_motion(a_i, turns, &state.qdd);
             }
@@ -117,6 +125,23 @@ where
             }
             f_i -= body_wrench(effects, i, &node, &pose, v_i); // (6)
         }
+        if E::SPINNING
+            && let Some(parent) = bodies.get_mut(node.parent)
+        {
+            let at = node.velocity_at();
+            let rate = if E::VELOCITY_PRODUCTS {
+                entry(&state.qd, at)
+            } else {
+                R::ZERO
+            };
+            let accel = if E::ACCELERATIONS {
+                entry(&state.qdd, at)
+            } else {
+                R::ZERO
+            };
+            let couple = gyroscopic(effects, &node, v_i.ang, rate, accel);
+            parent.f.ang += x.rot.transpose_mul(couple);
+        }
         let _ = bodies.push(Body { rot: x.rot, f: f_i });
     }
 
@@ -130,6 +155,11 @@ where
         let f_i = if D::CHAIN { body.f + below } else { body.f };
         node.project(turns, f_i, &mut tau); // (8)
         joint_torques(effects, &node, state, &mut tau);
+        if E::SPINNING
+            && let Some(tau) = tau.get_mut(node.velocity_at())
+        {
+            *tau += entry(&turned_along, node.velocity_at());
+        }
         if rest.is_empty() {
             break; // the first body stands on the base
         }

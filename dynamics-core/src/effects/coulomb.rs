@@ -3,7 +3,7 @@
 //! s is the cubic u (3 − u²) / 2 on |u| ≤ 1 and the sign beyond: continuous with its slope, ±F to
 //! a rounding outside the width, and neither a comparison nor a division.
 
-use super::{Effect, JointState};
+use super::{Effect, JointState, Slopes};
 use crate::scalar::Real;
 
 /// Coulomb friction of each joint.
@@ -34,6 +34,19 @@ pub fn smooth_sign<R: Real>(u: R) -> R {
     sliding(R::ONE, u * R::from_f64(R::FULL))
 }
 
+/// ds/du = 3 (1 − u²) / 2 within the width, 0 beyond, of the sign s of [`smooth_sign`].
+///
+/// ```
+/// use dynamics_core::effects::smooth_sign_slope;
+/// assert_eq!((smooth_sign_slope(0.0_f32), smooth_sign_slope(2.0_f32)), (1.5, 0.0));
+/// ```
+#[inline(always)]
+pub fn smooth_sign_slope<R: Real>(u: R) -> R {
+    let unit = R::from_f64(const { 1.0 / R::FULL });
+    let u = (u * R::from_f64(R::FULL)).saturate() * unit;
+    R::from_f64(1.5) * (R::ONE - u * u)
+}
+
 /// F s(u), given u in units of 1/FULL: where a conversion to an integer and back limits it.
 #[inline(always)]
 fn sliding<R: Real>(force: R, scaled: R) -> R {
@@ -50,6 +63,13 @@ impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Coulomb<R, V> 
         if let Some(&torque) = self.torque.get(joint) {
             // The factors that constants leave constant stand first.
             *tau += sliding(torque, at.qd * (self.per_width * R::from_f64(R::FULL)));
+        }
+    }
+
+    #[inline(always)]
+    fn slopes(&self, joint: usize, at: JointState<R>, slopes: &mut Slopes<R>) {
+        if let Some(&torque) = self.torque.get(joint) {
+            slopes.qd += torque * self.per_width * smooth_sign_slope(at.qd * self.per_width);
         }
     }
 }

@@ -141,3 +141,35 @@ where
     effects.torque(joint, at, &mut loss);
     loss
 }
+
+/// ρ I z of the rotor that spins about the axis of this joint's only coordinate.
+#[inline(always)]
+pub(crate) fn rotor_force<R: Real, E, const B: usize, const V: usize>(
+    effects: &E,
+    node: &Node<'_, R>,
+) -> Force<R>
+where
+    E: Effect<R, B, V>,
+{
+    let (mut coupling, coordinates) = (R::ZERO, node.coordinates());
+    if coordinates.len() == 1 {
+        effects.spin(coordinates.start, &mut coupling);
+    }
+    Force::new(R::Vec3::new(R::ZERO, R::ZERO, coupling), R::Vec3::ZERO)
+}
+
+/// ρ I (q̈ z + q̇ ω × z): the couple that such a rotor asks of the parent link, in the body's aligned frame.
+#[inline(always)]
+pub(crate) fn gyroscopic<R: Real, E, const B: usize, const V: usize>(
+    effects: &E,
+    node: &Node<'_, R>,
+    omega: R::Vec3,
+    rate: R,
+    accel: R,
+) -> R::Vec3
+where
+    E: Effect<R, B, V>,
+{
+    let axis = rotor_force(effects, node).ang;
+    axis * accel + omega.cross(axis) * rate
+}

@@ -73,6 +73,12 @@ where
     const BODY_POSE: bool = E::BODY_POSE;
     const BASE_MOTION: bool = E::BASE_MOTION;
     const PAYLOAD: bool = E::PAYLOAD;
+    const SPINNING: bool = E::SPINNING;
+
+    #[inline(always)]
+    fn spin(&self, joint: usize, coupling: &mut R) {
+        self.effects.spin(joint, coupling);
+    }
 
     #[inline(always)]
     fn payload(&self, inertia: &mut SpatialInertia<R>) {

@@ -11,32 +11,90 @@
 //! assert_eq!(full, gravity); // at rest nothing else acts
 //! ```
 //!
+//! | where | effects |
+//! |---|---|
+//! | all bodies | [`Gravity`], [`GravityAlong`]; [`Inertia`], [`Coriolis`]; [`MovingBase`] |
+//! | a body | [`BodyWrench`], [`WorldWrench`], [`Contact`]; [`Payload`] |
+//! | a joint: friction | [`Viscous`], [`Coulomb`], [`AsymmetricCoulomb`], [`Stribeck`], [`Lugre`] |
+//! | a joint: position | [`Spring`], [`Stops`], [`Cogging`] |
+//! | a motor | [`RotorInertia`], [`Rotors`]; [`crate::sim::Actuator`] and [`crate::flexible`] stand between command and joint |
+//!
+//! What none of them is, a user adds by an `impl` of the same trait, for core, engine and plant alike:
+//!
+//! ```
+//! use dynamics_core::effects::{BodyState, Effect, RIGID_BODY};
+//! use dynamics_core::{Core, Engine, robots::Ur5e, scalar::Real, spatial::Force, state::State};
+//!
+//! /// A cable pack dragged along behind the forearm: fˣ = −c v.
+//! struct CableDrag<R>(R);
+//!
+//! impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for CableDrag<R> {
+//!     const WRENCH: bool = true;
+//!     const BODY_VELOCITY: bool = true;
+//!
+//!     fn wrench(&self, body: usize, at: &BodyState<R>, fx: &mut Force<R>) {
+//!         if body == 3 {
+//!             fx.lin -= at.velocity.lin * self.0;
+//!         }
+//!     }
+//! }
+//!
+//! let swinging = State { qd: [0.5; 6], ..State::at([0.0_f64, -1.2, 1.5, 0.3, 0.0, 0.0]) };
+//! let scene = (RIGID_BODY, CableDrag(8.0));
+//! let [core, engine] = [Core::<Ur5e>::rnea(&swinging, &scene), Engine::<Ur5e>::rnea(&swinging, &scene)];
+//! assert!((core[0] - engine[0]).abs() < 1e-12);
+//! assert!(core[0] > Core::<Ur5e>::rnea(&swinging, &RIGID_BODY)[0]);
+//! ```
+//!
 //! Signs are stated once, on M q̈ + C = τ: joint hooks add the torque that the motor must supply
 //! (left side); body hooks add the wrench fˣ that the environment exerts on the body
 //! (f + fˣ = I a + v ×* I v), which the library subtracts.
 
+mod asymmetric;
+mod cogging;
+mod contact;
 mod coulomb;
+mod external;
 mod gravity;
 mod hooks;
 mod implicit;
+mod lugre;
+mod moving_base;
 mod payload;
+mod ramp;
 mod rigid;
 mod rotor;
 mod seen;
+mod spinning;
+mod spring;
+mod stops;
+mod stribeck;
 mod tuple;
 mod viscous;
 
-pub use coulomb::{Coulomb, smooth_sign};
+pub use asymmetric::AsymmetricCoulomb;
+pub use cogging::Cogging;
+pub use contact::{Contact, Foot};
+pub use coulomb::{Coulomb, smooth_sign, smooth_sign_slope};
+pub use external::{BodyWrench, WorldWrench};
 pub use gravity::{Direction, Down, Gravity};
 pub use implicit::Implicit;
-pub use payload::Payload;
+pub use lugre::Lugre;
+pub use moving_base::{GravityAlong, MovingBase};
+pub use payload::{ImpossibleLoad, Payload};
+pub use ramp::ramp;
 pub use rigid::{Coriolis, Inertia, RIGID_BODY};
 pub use rotor::RotorInertia;
 pub use seen::{BodyState, JointState, Slopes};
+pub use spinning::Rotors;
+pub use spring::Spring;
+pub use stops::Stops;
+pub use stribeck::Stribeck;
 pub use viscous::Viscous;
 
 pub(crate) use hooks::{
-    base_given, base_motion, body_inertia, body_wrench, joint_loss, joint_torques,
+    base_given, base_motion, body_inertia, body_wrench, gyroscopic, joint_loss, joint_state,
+    joint_torques, rotor_force,
 };
 
 use crate::scalar::Real;
@@ -66,8 +124,10 @@ use crate::spatial::{Force, Motion, SpatialInertia};
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not an effect on a robot of {B} bodies and {V} joints in `{R}`",
     label = "not an effect of this size and scalar",
-    note = "effects: Gravity, Inertia, Coriolis, Viscous([R; V]), Coulomb {{ .. }}, RotorInertia([R; V]), Payload, \
-            tuples of up to 12 of them, and your own through `impl Effect`"
+    note = "effects: Gravity, GravityAlong, Inertia, Coriolis, Viscous([R; V]), Coulomb {{ .. }}, \
+            AsymmetricCoulomb {{ .. }}, Stribeck {{ .. }}, Lugre {{ .. }}, Spring {{ .. }}, Stops {{ .. }}, \
+            Cogging {{ .. }}, RotorInertia([R; V]), Rotors {{ .. }}, Payload, BodyWrench, WorldWrench, Contact, \
+            MovingBase, tuples of up to 12 of them, and your own through `impl Effect`"
 )]
 pub trait Effect<R: Real, const B: usize, const V: usize> {
     /// It is a field that accelerates every body: `field` adds something.
@@ -88,6 +148,8 @@ pub trait Effect<R: Real, const B: usize, const V: usize> {
     const BASE_MOTION: bool = false;
     /// `payload` adds something.
     const PAYLOAD: bool = false;
+    /// `spin` adds something.
+    const SPINNING: bool = false;
 
     /// Adds to the inertia of the last body, about the origin of its frame and in its coordinates.
     #[inline(always)]
@@ -139,5 +201,12 @@ pub trait Effect<R: Real, const B: usize, const V: usize> {
     #[inline(always)]
     fn inertia(&self, joint: usize, diagonal: &mut R) {
         let _ = (joint, diagonal);
+    }
+
+    /// Adds to ρ I, the coupling of the rotor that spins on the parent link of `joint` with what carries
+    /// it, kg·m² or kg·m; `torque` and `inertia` add its ρ² I. See [`Rotors`].
+    #[inline(always)]
+    fn spin(&self, joint: usize, coupling: &mut R) {
+        let _ = (joint, coupling);
     }
 }

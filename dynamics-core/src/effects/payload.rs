@@ -1,8 +1,10 @@
 //! A payload held by the last body, known at run time only.
 
 use super::Effect;
+use crate::model::moments_excess;
 use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::SpatialInertia;
+use core::fmt;
 
 /// A rigid payload fixed to the last body of the description.
 ///
@@ -52,6 +54,80 @@ impl<R: Real> Payload<R> {
         })
     }
 }
+
+impl<R: Real> Payload<R> {
+    /// As [`Payload::new`], of numbers that a body could have: no negative mass, principal moments that are
+    /// not negative and obey the triangle inequality within `relative` of the largest (f32 rounds to 1e-6).
+    ///
+    /// Not for the tick: it computes principal moments in f64.
+    ///
+    /// ```
+    /// use dynamics_core::effects::{ImpossibleLoad, Payload};
+    /// let checked = |mass, xx| Payload::checked(mass, [0.0, 0.0, 0.1], [xx, 0.0, 0.0, 0.02, 0.0, 0.02], 1e-6);
+    /// assert!(checked(2.0_f64, 0.01).is_ok());
+    /// assert_eq!(checked(-2.0, 0.01), Err(ImpossibleLoad::Mass));
+    /// assert!(matches!(checked(2.0, 0.05), Err(ImpossibleLoad::Triangle(by)) if (by - 0.2).abs() < 1e-9));
+    /// assert_eq!(checked(0.0, 0.01), Err(ImpossibleLoad::Massless));
+    /// assert_eq!(checked(f64::NAN, 0.01), Err(ImpossibleLoad::NotFinite));
+    /// ```
+    ///
+    /// # Errors
+    /// [`ImpossibleLoad`] says what no body has.
+    pub fn checked(
+        mass: R,
+        com: [R; 3],
+        inertia: [R; 6],
+        relative: f64,
+    ) -> Result<Self, ImpossibleLoad> {
+        let load = Self::new(mass, com, inertia);
+        let finite = |v: &R::Vec3| v.array().iter().all(|x| x.is_finite());
+        if !(mass.is_finite() && finite(&load.0.moment) && load.0.inertia.cols().iter().all(finite))
+        {
+            return Err(ImpossibleLoad::NotFinite);
+        }
+        if mass < R::ZERO {
+            return Err(ImpossibleLoad::Mass);
+        }
+        if mass == R::ZERO && inertia.iter().any(|&x| x != R::ZERO) {
+            return Err(ImpossibleLoad::Massless);
+        }
+        let [xx, xy, xz, yy, yz, zz] = inertia.map(R::to_f64);
+        let excess = moments_excess([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]);
+        if excess > relative {
+            return Err(ImpossibleLoad::Triangle(excess));
+        }
+        Ok(load)
+    }
+}
+
+/// Why no body has such a mass and inertia.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ImpossibleLoad {
+    /// A number is infinite or not a number.
+    NotFinite,
+    /// The mass is negative.
+    Mass,
+    /// There is inertia about the centre of mass without mass.
+    Massless,
+    /// A principal moment is negative or exceeds the sum of the others, by this much of the largest.
+    Triangle(f64),
+}
+
+impl fmt::Display for ImpossibleLoad {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotFinite => f.write_str("payload: a number is not finite"),
+            Self::Mass => f.write_str("payload: its mass is negative"),
+            Self::Massless => f.write_str("payload: it has inertia but no mass"),
+            Self::Triangle(by) => write!(
+                f,
+                "payload: no body has these principal moments (off by {by:.2e} of the largest)"
+            ),
+        }
+    }
+}
+
+impl core::error::Error for ImpossibleLoad {}
 
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Payload<R> {
     const PAYLOAD: bool = true;

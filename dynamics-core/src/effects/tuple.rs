@@ -22,6 +22,7 @@ macro_rules! tuple {
             const BODY_POSE: bool = false $(| $name::BODY_POSE)*;
             const BASE_MOTION: bool = false $(| $name::BASE_MOTION)*;
             const PAYLOAD: bool = false $(| $name::PAYLOAD)*;
+            const SPINNING: bool = false $(| $name::SPINNING)*;
 
             #[inline(always)]
             fn payload(&self, inertia: &mut SpatialInertia<R>) {
@@ -63,6 +64,11 @@ macro_rules! tuple {
             fn inertia(&self, joint: usize, diagonal: &mut R) {
                 let _ = (joint, &diagonal);
                 $(self.$at.inertia(joint, diagonal);)*
+            }
+            #[inline(always)]
+            fn spin(&self, joint: usize, coupling: &mut R) {
+                let _ = (joint, &coupling);
+                $(self.$at.spin(joint, coupling);)*
             }
         }
     };

@@ -4,6 +4,7 @@
 //! composite bodies are known zeros behind revolute joints, and h travels as R h.
 
 use super::Engine;
+use super::base::no_spinning;
 use super::field::{Inertia, Wrench, along_z};
 use super::known::Known;
 use super::prepare::Prepared;
@@ -78,6 +79,7 @@ pub(crate) fn mass_matrix<R, T, E, const B: usize, const Q: usize, const V: usiz
     E: Effect<R, B, V>,
 {
     const { assert!(V <= 32, "the engine takes up to 32 moving bodies") };
+    no_spinning::<R, E, B, V>();
     let mut task = Task { turns, effects, m };
     for_each_joint!(J, {
         if const { stands::<T, B, Q, V>(J) } {

@@ -9,6 +9,7 @@ use core::ops::Add;
 
 use super::known::Known;
 use super::place::{arm_cross, rotated, rotated_symmetric};
+use super::pose::Pose;
 use super::prepare::{Joint, Prepared};
 use super::small::{Mat3, Sym3, Vec3};
 use crate::model::{Robot, Turn};
@@ -29,6 +30,8 @@ pub(crate) struct Field<R> {
     pub(crate) a: Vec3<R>,
     /// Velocity of the origin, in units of length; zero unless an effect reads it.
     pub(crate) v: Vec3<R>,
+    /// Where the body stands; unknown unless an effect reads it.
+    pub(crate) pose: Pose<R>,
 }
 
 /// How a joint moves, in units of length; zero where no effect asks.
@@ -100,6 +103,15 @@ impl<R: Real> Inertia<R> {
         }
     }
 
+    /// The inertia left to a body on a base that may move.
+    #[inline(always)]
+    pub(crate) fn rocked(joint: &Joint) -> Self {
+        Self {
+            second: Sym3::of(&Mat3::constant(&joint.rocked)),
+            ..Self::of(joint)
+        }
+    }
+
     /// The same in the frame of joint I's parent and about its origin.
     #[inline(always)]
     pub(crate) fn handed_down<T, const B: usize, const Q: usize, const V: usize, const I: usize>(
@@ -159,6 +171,7 @@ impl<R: Real> Field<R> {
             u,
             a,
             v: enter(&rot, turn, self.v + self.omega.cross(p)),
+            pose: Pose::UNKNOWN,
         }
     }
 
@@ -182,6 +195,7 @@ impl<R: Real> Field<R> {
             u,
             a: a + spin.cross(along_z(rates.spin + rates.spin)) + along_z(rates.accel),
             v: v + along_z(rates.velocity),
+            pose: Pose::UNKNOWN,
         }
     }
 

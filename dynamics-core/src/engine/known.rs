@@ -33,6 +33,12 @@ impl<R: Real> Known<R> {
         minus: false,
     };
 
+    pub(crate) const ONE: Self = Self {
+        magnitude: R::ONE,
+        tag: Tag::One,
+        minus: false,
+    };
+
     /// A number known only at run time.
     #[inline(always)]
     pub(crate) fn any(value: R) -> Self {

@@ -4,10 +4,12 @@
 //! one function takes it minutes. Between functions numbers are plain; what no effect asks for is a
 //! known zero again on the other side.
 
+use super::base::base;
 use super::field::{Field, Wrench};
 use super::known::Known;
+use super::pose::Pose;
 use super::prepare::Prepared;
-use super::rnea::{Task, base, carries, visit};
+use super::rnea::{Task, carries, visit};
 use super::small::{Mat3, Vec3};
 use crate::effects::Effect;
 use crate::model::Robot;
@@ -73,11 +75,12 @@ where
     if const { !branches::<T, B, Q, V>(I) } {
         return visit::<R, T, E, B, Q, V, J>(task, parent);
     }
-    let [ux, uy, uz] = parent.u.0;
+    let ([ux, uy, uz], [x, y, z]) = (parent.u.0, parent.pose.axes.0);
     let field = Plain {
         rates: [parent.omega, parent.spin, parent.alpha].map(Vec3::get),
         u: [ux, uy, uz].map(Vec3::get),
         origin: [parent.a, parent.v].map(Vec3::get),
+        pose: [x, y, z, parent.pose.origin].map(Vec3::get),
     };
     let [f, n] = branch::<R, T, E, B, Q, V, J>(task, &field);
     Wrench {
@@ -86,11 +89,12 @@ where
     }
 }
 
-/// A field in memory: ω, ω as its products see it, α; U's columns; a and v of the origin.
+/// A field in memory: ω, ω as its products see it, α; U's columns; a and v of the origin; axes and origin.
 struct Plain<R: Real> {
     rates: [R::Vec3; 3],
     u: [R::Vec3; 3],
     origin: [R::Vec3; 2],
+    pose: [R::Vec3; 4],
 }
 
 #[inline(never)]
@@ -105,7 +109,8 @@ where
 {
     let ([omega, spin, alpha], [ux, uy, uz]) = (parent.rates, parent.u);
     let [a, v] = parent.origin;
-    let moves = E::VELOCITY_PRODUCTS | E::ACCELERATIONS;
+    let [x, y, z, origin] = parent.pose.map(|v| only_if(E::BODY_POSE, v));
+    let moves = E::VELOCITY_PRODUCTS | E::ACCELERATIONS | E::BASE_MOTION;
     let field = Field {
         omega: only_if(E::BODY_VELOCITY, omega),
         spin: only_if(E::VELOCITY_PRODUCTS, spin),
@@ -113,6 +118,10 @@ where
         u: Mat3([only_if(moves, ux), only_if(moves, uy), only_if(moves, uz)]),
         a: only_if(moves | E::FIELD, a),
         v: only_if(E::BODY_VELOCITY, v),
+        pose: Pose {
+            axes: Mat3([x, y, z]),
+            origin,
+        },
     };
     let wrench = visit::<R, T, E, B, Q, V, J>(task, &field);
     [wrench.f.get(), wrench.n.get()]

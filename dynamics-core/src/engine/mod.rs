@@ -22,6 +22,7 @@ macro_rules! for_each_joint {
 
 mod aba;
 mod articulated;
+mod base;
 mod bias;
 mod crba;
 mod factor;
@@ -31,6 +32,7 @@ mod jacobian;
 mod known;
 mod limb;
 mod place;
+mod pose;
 mod prepare;
 mod rnea;
 mod small;
@@ -42,9 +44,10 @@ use crate::effects::Effect;
 use crate::model::{Robot, Turn};
 use crate::scalar::Real;
 use crate::state::{Posture, State};
+use base::base;
 use limb::{is_large, limb};
 use prepare::Prepared;
-use rnea::{Task, base, stands, visit};
+use rnea::{Task, stands, visit};
 
 /// The specialised form of the robot `T`.
 ///

@@ -31,6 +31,8 @@ pub(crate) struct Joint {
     pub(crate) mass: f64,
     pub(crate) moment: DVec3,
     pub(crate) second: DMat3,
+    /// Σ as a base that moves feels it.
+    pub(crate) rocked: DMat3,
 }
 
 /// Where a body of the description is found: x_engine = rot x_user + pos on `joint`.
@@ -132,6 +134,7 @@ const NO_JOINT: Joint = Joint {
     mass: 0.0,
     moment: DVec3::ZERO,
     second: DMat3::ZERO,
+    rocked: DMat3::ZERO,
 };
 
 const ON_BASE: Place = Place {
@@ -242,6 +245,7 @@ const fn regroup<const V: usize>(joints: &mut [Joint; V]) {
             );
             joints[i].second = DMat3::from_cols(x, y, DVec3::new(z.x, z.y, 0.0));
         }
+        joints[i].rocked = joints[i].second;
         if child.parent != BASE {
             let parent = &mut joints[child.parent];
             let (p, h) = (child.pos, scale(child.rot.z_axis, rod_h));

@@ -22,43 +22,6 @@ pub(crate) struct Task<'a, R: Real, E, const Q: usize, const V: usize> {
     pub(crate) tau: &'a mut [R; V],
 }
 
-/// The base at rest: a = −g, in units of length.
-#[inline(always)]
-pub(crate) fn base<R: Real, E, const B: usize, const V: usize>(effects: &E, length: f64) -> Field<R>
-where
-    E: Effect<R, B, V>,
-{
-    const {
-        assert!(
-            !E::BODY_POSE,
-            "the engine does not tell effects the poses of bodies; use `Core`"
-        )
-    };
-    const {
-        assert!(
-            !E::BASE_MOTION,
-            "the engine's base stands still; use `Core`"
-        )
-    };
-    let mut g = R::Vec3::ZERO;
-    effects.field(&mut g);
-    let (g, [x, y, z]) = (g.array(), E::FIELD_AXES);
-    let per_length = Known::constant(-1.0 / length);
-    let a = Vec3([
-        Known::only_if(x, g[0]) * per_length,
-        Known::only_if(y, g[1]) * per_length,
-        Known::only_if(z, g[2]) * per_length,
-    ]);
-    Field {
-        omega: Vec3::ZERO,
-        spin: Vec3::ZERO,
-        alpha: Vec3::ZERO,
-        u: Mat3::ZERO,
-        a,
-        v: Vec3::ZERO,
-    }
-}
-
 /// Visits joint I and all that it carries; returns what they ask of the parent, in its frame.
 #[inline(always)]
 pub(crate) fn visit<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
@@ -91,12 +54,19 @@ where
         accel: Known::only_if(E::ACCELERATIONS, at.qdd) * unit,
     };
 
-    let field = if joint.prismatic {
+    let mut field = if joint.prismatic {
         parent.slid(joint, slide, rates)
     } else {
         parent.turned(joint, turn, rates)
     };
-    let mut body = Inertia::of(joint);
+    if E::BODY_POSE {
+        field.pose = parent.pose.beyond(joint, turn, slide);
+    }
+    let mut body = if E::BASE_MOTION {
+        Inertia::rocked(joint)
+    } else {
+        Inertia::of(joint)
+    };
     if const { E::PAYLOAD && Prepared::<T, B, Q, V>::last_on(I) } {
         body = loaded::<R, T, E, B, Q, V>(task.effects, body);
     }
@@ -200,6 +170,9 @@ where
                 rot.transpose_mul(field.omega).get(),
                 rot.transpose_mul(v).scale(length).get(),
             );
+        }
+        if E::BODY_POSE {
+            at.pose = field.pose.of(place, length);
         }
         let mut fx = Force::ZERO;
         effects.wrench(body, &at, &mut fx);

@@ -165,7 +165,13 @@ pub(super) fn triangle_excess<R: Real>(inertia: &SpatialInertia<R>) -> f64 {
             }
         }
     }
-    let mut p = crate::symmetric::eigenvalues(a);
+    moments_excess(a)
+}
+
+/// By how much the largest eigenvalue exceeds the sum of the other two (or one is negative), relative to
+/// the largest; 0 if it does not.
+pub(crate) fn moments_excess(about_com: [[f64; 3]; 3]) -> f64 {
+    let mut p = crate::symmetric::eigenvalues(about_com);
     p.sort_unstable_by(f64::total_cmp);
     let scale = p[2].abs().max(p[0].abs());
     if scale == 0.0 {

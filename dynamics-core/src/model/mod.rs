@@ -69,6 +69,7 @@ mod single;
 mod turn;
 
 pub(crate) use axis::Axis;
+pub(crate) use body::moments_excess;
 pub use body::{BASE, Body, Limits};
 pub use description::{Description, Of, Revolutes};
 pub use error::{ModelError, Problem};

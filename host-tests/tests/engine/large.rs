@@ -1,7 +1,9 @@
 //! A robot of more joints than the engine takes in one function: limbs and branches apart.
 
-use dynamics_core::effects::{Coriolis, Gravity, Inertia};
+use dynamics_core::effects::{Coriolis, Gravity, Inertia, MovingBase, WorldWrench};
 use dynamics_core::model::{BASE, Body, Joint, Model, Robot};
+use dynamics_core::spatial::{Force, Motion};
+use glam::DVec3;
 
 use super::{Aslant, Drag, Push, ULPS, compare, payload};
 
@@ -50,12 +52,22 @@ impl Robot<18, 18, 18> for Large {
 
 #[test]
 fn engine_equals_core_on_a_large_tree_under_every_effect() {
+    let carried = MovingBase::<f64> {
+        velocity: Motion::new(DVec3::new(0.5, -0.3, 0.8), DVec3::new(0.2, 0.4, -0.6)),
+        acceleration: Motion::new(DVec3::new(-1.0, 2.0, 0.7), DVec3::new(1.5, -2.0, 0.9)),
+    };
+    let wind = WorldWrench {
+        body: 12,
+        wrench: Force::<f64>::new(DVec3::new(1.0, 2.0, -3.0), DVec3::new(5.0, -4.0, 2.0)),
+    };
     let scene = (
         Gravity::<Aslant>::new(9.81),
         Inertia,
         Coriolis,
+        carried,
         Push,
         Drag,
+        wind,
         payload::<f64>(),
     );
     let worst = compare::<f64, Large, _, 18, 18>(&scene, 2_000);

@@ -1,4 +1,10 @@
-//! Time steps of a simulated robot.
+//! Time steps of a simulated robot, and its actuators.
+
+mod actuator;
+mod linearly_implicit;
+
+pub use actuator::Actuator;
+pub use linearly_implicit::linearly_implicit;
 
 use crate::algorithms::{NotPositiveDefinite, aba};
 use crate::configuration::integrate;
@@ -8,7 +14,8 @@ use crate::scalar::Real;
 use crate::state::State;
 
 /// One step of `h` seconds by semi-implicit (symplectic) Euler: q̇ ← q̇ + h FD(q, q̇, τ), then
-/// q ← q ⊕ h q̇ with the new q̇. First order in h; `state.qdd` is left at the acceleration used.
+/// q ← q ⊕ h q̇ with the new q̇. First order in h; `state.qdd` is left at the acceleration used. What effects
+/// remember stays as it is: [`linearly_implicit`] moves it on.
 ///
 /// Hairer, Lubich & Wanner, *Geometric Numerical Integration* (2006), section I.1.2.
 ///

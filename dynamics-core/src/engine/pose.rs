@@ -1,0 +1,69 @@
+//! Where a body stands in the base, for effects that ask.
+
+use super::known::Known;
+use super::prepare::{Joint, Place};
+use super::small::{Mat3, Vec3};
+use crate::model::Turn;
+use crate::scalar::{Matrix, Real};
+use crate::spatial::Xform;
+
+/// A body's axes and origin in base coordinates, the origin in units of length.
+#[derive(Clone, Copy)]
+pub(crate) struct Pose<R> {
+    pub(crate) axes: Mat3<R>,
+    pub(crate) origin: Vec3<R>,
+}
+
+impl<R: Real> Pose<R> {
+    /// Where no effect asks.
+    pub(crate) const UNKNOWN: Self = Self {
+        axes: Mat3::ZERO,
+        origin: Vec3::ZERO,
+    };
+
+    /// The base itself.
+    pub(crate) const BASE: Self = {
+        let (one, zero) = (Known::ONE, Known::ZERO);
+        Self {
+            axes: Mat3([
+                Vec3([one, zero, zero]),
+                Vec3([zero, one, zero]),
+                Vec3([zero, zero, one]),
+            ]),
+            origin: Vec3::ZERO,
+        }
+    };
+
+    /// The pose of a child behind `joint`.
+    #[inline(always)]
+    pub(crate) fn beyond(&self, joint: &Joint, turn: Turn<R>, slide: Known<R>) -> Self {
+        let rot = Mat3::constant(&joint.rot);
+        let [x, y, z] = rot.0;
+        let [x, y, z] = [self.axes.mul(x), self.axes.mul(y), self.axes.mul(z)];
+        let origin = self.origin + self.axes.mul(Vec3::constant(joint.pos));
+        if joint.prismatic {
+            return Self {
+                axes: Mat3([x, y, z]),
+                origin: origin + z.scale(slide),
+            };
+        }
+        let (sin, cos) = (Known::any(turn.sin), Known::any(turn.cos));
+        Self {
+            axes: Mat3([x.scale(cos) + y.scale(sin), y.scale(cos) - x.scale(sin), z]),
+            origin,
+        }
+    }
+
+    /// ᵘX₀ of a body of the description: from the base to its own frame.
+    #[inline(always)]
+    pub(crate) fn of(&self, place: &Place, length: Known<R>) -> Xform<R> {
+        let [x, y, z] = Mat3::constant(&place.rot).0;
+        let axes = [self.axes.mul(x), self.axes.mul(y), self.axes.mul(z)];
+        let [x, y, z] = axes.map(Vec3::get);
+        let pos = self.origin + self.axes.mul(Vec3::constant(place.pos));
+        Xform {
+            rot: R::Mat3::from_cols(x, y, z).transpose(),
+            pos: pos.scale(length).get(),
+        }
+    }
+}

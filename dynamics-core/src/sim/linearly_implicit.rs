@@ -1,0 +1,53 @@
+//! A time step that no spring, damper or bristle makes unstable.
+
+use crate::algorithms::{NotPositiveDefinite, aba};
+use crate::configuration::integrate;
+use crate::effects::{Effect, Implicit, joint_state};
+use crate::model::Description;
+use crate::scalar::Real;
+use crate::state::State;
+
+/// One step of `h` seconds by linearly implicit Euler: as [`semi_implicit`](super::semi_implicit), with
+/// joint effects taken at the step's end along their slopes ([`Implicit`]), which then move on what they
+/// remember. First order in h; `state.qdd` is left at the acceleration used.
+///
+/// Hairer & Wanner, *Solving Ordinary Differential Equations II* (1996), section IV.7; Baraff & Witkin
+/// (1998). Wrenches on bodies (contact) are explicit.
+///
+/// ```
+/// use dynamics_core::effects::{RIGID_BODY, Spring};
+/// use dynamics_core::{model::Robot, robots::Ur5e, sim::linearly_implicit, state::State};
+/// let mut arm = State::at([0.0_f64, -1.5, 0.0, 0.0, 0.0, 0.0]);
+/// let mut scene = (RIGID_BODY, Spring { stiffness: [1e9; 6], rest: arm.q });
+/// for _ in 0..1000 {
+///     linearly_implicit(&Ur5e::MODEL, &mut arm, &[0.0; 6], &mut scene, 1e-3)?;
+/// }
+/// assert!((arm.q[1] + 1.5).abs() < 1e-6);
+/// # Ok::<(), dynamics_core::algorithms::NotPositiveDefinite>(())
+/// ```
+///
+/// # Errors
+/// As [`aba`]; state and effects are then left as they were.
+pub fn linearly_implicit<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
+    robot: &D,
+    state: &mut State<R, Q, V>,
+    tau: &[R; V],
+    effects: &mut E,
+    h: R,
+) -> Result<(), NotPositiveDefinite>
+where
+    D: Description<R, B, Q, V>,
+    E: Effect<R, B, V>,
+{
+    state.qdd = aba(robot, state, tau, &Implicit::new(robot, state, effects, h))?;
+    for (qd, &qdd) in state.qd.iter_mut().zip(&state.qdd) {
+        *qd += h * qdd;
+    }
+    state.q = integrate(robot, &state.q, &state.qd.map(|qd| h * qd));
+    for node in robot.nodes() {
+        for k in node.coordinates() {
+            effects.advance(k, joint_state(&node, state, k), h);
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,379 @@
+//! Compliant joints: derivatives against differences, the rigid limit, two masses, and stiffness.
+
+use super::*;
+use dynamics_core::algorithms::rnea;
+use dynamics_core::effects::{Inertia, RIGID_BODY, RotorInertia, Viscous};
+use dynamics_core::flexible::{Course, Flexible, Motors, flexible_rnea, flexible_step};
+use dynamics_core::model::Robot;
+use dynamics_core::robots::{Panda, Ur5e};
+use dynamics_core::sim::linearly_implicit;
+use host_tests::random::{random_body, random_numbers, within};
+use proptest::prelude::RngExt;
+use proptest::test_runner::TestRng;
+
+/// Σ c_k t^k / k! and its first four derivatives, six coefficients a joint.
+fn along<const N: usize>(c: &[[f64; 7]; N], t: f64) -> Course<f64, N, N> {
+    let derivative = |n: usize| {
+        core::array::from_fn(|i| {
+            let (mut sum, mut term) = (0.0, 1.0);
+            for (k, c) in c[i].iter().skip(n).enumerate() {
+                sum += c * term;
+                term *= t / (k + 1) as f64;
+            }
+            sum
+        })
+    };
+    Course {
+        state: State {
+            q: derivative(0),
+            qd: derivative(1),
+            qdd: derivative(2),
+        },
+        jerk: derivative(3),
+        snap: derivative(4),
+    }
+}
+
+fn coefficients<const N: usize>(rng: &mut TestRng) -> [[f64; 7]; N] {
+    core::array::from_fn(|_| {
+        [3.0, 2.0, 5.0, 10.0, 20.0, 40.0, 80.0].map(|bound| rng.random_range(-bound..bound))
+    })
+}
+
+/// A tree of one-axis joints of all four kinds.
+fn tree(rng: &mut TestRng) -> Arm<f64, 8> {
+    const NAMES: [&str; 8] = ["a", "b", "c", "d", "e", "f", "g", "h"];
+    let bodies = core::array::from_fn(|i| {
+        let axis = within(rng, 1.0);
+        let joint = match i % 4 {
+            0 => Joint::revolute(axis),
+            1 => Joint::prismatic(axis),
+            2 => Joint::helical(axis, 0.2),
+            _ => Joint::continuous(axis),
+        };
+        let parent = if i == 0 { BASE } else { rng.random_range(0..i) };
+        random_body(rng, Body::new(NAMES[i], parent, joint))
+    });
+    Model::new("tree", bodies)
+}
+
+/// θ, θ̇ and τ_m by differences of rnea along the course: of sixth order.
+fn by_differences<const N: usize>(
+    model: &Arm<f64, N>,
+    joints: &Flexible<f64, N>,
+    c: &[[f64; 7]; N],
+) -> [[f64; N]; 3] {
+    let scene = (RIGID_BODY, Viscous([0.7; N]), RotorInertia([0.2; N]));
+    let h = 2e-3;
+    let tau: [[f64; N]; 7] =
+        core::array::from_fn(|k| rnea(model, &along(c, h * (k as f64 - 3.0)).state, &scene));
+    let at = along(c, 0.0).state;
+    let of = |i: usize| {
+        let t = |k: usize| tau[k][i];
+        let first = (45.0 * (t(4) - t(2)) - 9.0 * (t(5) - t(1)) + (t(6) - t(0))) / (60.0 * h);
+        let second = (270.0 * (t(4) + t(2)) - 27.0 * (t(5) + t(1)) + 2.0 * (t(6) + t(0))
+            - 490.0 * t(3))
+            / (180.0 * h * h);
+        let k = joints.stiffness[i];
+        let (theta, rate) = (at.q[i] + t(3) / k, at.qd[i] + first / k);
+        let torque = joints.rotor[i] * (at.qdd[i] + second / k) + joints.friction[i] * rate + t(3);
+        [theta, rate, torque]
+    };
+    [0, 1, 2].map(|n| core::array::from_fn(|i| of(i)[n]))
+}
+
+#[test]
+fn motor_torques_of_a_course_are_those_of_its_differences() {
+    fn see<const N: usize>(model: &Arm<f64, N>, rng: &mut TestRng, worst: &mut [Worst; 3]) {
+        let joints = Flexible {
+            stiffness: [100.0; N],
+            rotor: [0.5; N],
+            friction: [2.0; N],
+        };
+        let c = coefficients::<N>(rng);
+        let scene = (RIGID_BODY, Viscous([0.7; N]), RotorInertia([0.2; N]));
+        let got = flexible_rnea(model, &joints, &along(&c, 0.0), &scene).unwrap();
+        let got = [got.position, got.velocity, got.torque];
+        let want = by_differences(model, &joints, &c);
+        for ((worst, got), want) in worst.iter_mut().zip(got).zip(want) {
+            worst.see_all(&got, &want);
+        }
+    }
+    let (rng, mut worst) = (&mut random_numbers(), <[Worst; 3]>::default());
+    for _ in 0..20 {
+        let tree = tree(rng);
+        see(&tree, rng, &mut worst);
+        see(&Ur5e::MODEL, rng, &mut worst);
+        see(&Panda::MODEL, rng, &mut worst);
+    }
+    let names = ["motor angle", "motor rate", "motor torque"];
+    for (worst, name) in worst.iter().zip(names) {
+        worst.check::<f64>("compliant joints", name);
+    }
+}
+
+#[test]
+fn motor_torques_in_f32_are_those_in_f64() {
+    let (rng, mut worst) = (&mut random_numbers(), Worst::default());
+    for _ in 0..200 {
+        let joints = Flexible {
+            stiffness: [4096.0; 6],
+            rotor: [0.5; 6],
+            friction: [2.0; 6],
+        };
+        let double = along(&coefficients::<6>(rng), 0.0);
+        let want = flexible_rnea(&Ur5e::MODEL, &joints, &double, &RIGID_BODY).unwrap();
+        let single = Course {
+            state: cast::<f32, 6>(&double.state),
+            jerk: double.jerk.map(|x| x as f32),
+            snap: double.snap.map(|x| x as f32),
+        };
+        let joints = Flexible {
+            stiffness: [4096.0_f32; 6],
+            rotor: [0.5; 6],
+            friction: [2.0; 6],
+        };
+        let got = flexible_rnea(&Ur5e::MODEL_F32, &joints, &single, &RIGID_BODY).unwrap();
+        worst.see_all(&got.torque, &want.torque);
+    }
+    worst.check::<f32>("compliant joints", "motor torque");
+}
+
+#[test]
+fn stiffer_joints_come_to_the_rigid_robot_with_one_over_k() {
+    let (rng, rotor) = (&mut random_numbers(), 0.5);
+    let c = coefficients::<6>(rng);
+    let course = along(&c, 0.0);
+    let want = rnea(
+        &Ur5e::MODEL,
+        &course.state,
+        &(RIGID_BODY, RotorInertia([rotor; 6])),
+    );
+    let error = |k: f64| {
+        let joints = Flexible {
+            stiffness: [k; 6],
+            rotor: [rotor; 6],
+            friction: [0.0; 6],
+        };
+        let got = flexible_rnea(&Ur5e::MODEL, &joints, &course, &RIGID_BODY).unwrap();
+        let off = |i: usize| (got.torque[i] - want[i]).abs();
+        (0..6).map(off).fold(0.0, f64::max)
+    };
+    for k in [1e3, 1e4, 1e5, 1e6] {
+        let order = (error(k) / error(10.0 * k)).log10();
+        assert!((order - 1.0).abs() < 1e-3, "order {order} at {k}");
+    }
+    // The plant, too: what a step does to the links.
+    let tau = [3.0, -40.0, 10.0, 5.0, -2.0, 1.0];
+    let start = State {
+        qdd: [0.0; 6],
+        ..course.state
+    };
+    let mut rigid = start;
+    let mut scene = (RIGID_BODY, RotorInertia([rotor; 6]));
+    linearly_implicit(&Ur5e::MODEL, &mut rigid, &tau, &mut scene, 1e-3).unwrap();
+    let error = |k: f64| {
+        let joints = Flexible {
+            stiffness: [k; 6],
+            rotor: [rotor; 6],
+            friction: [0.0; 6],
+        };
+        let mut links = start;
+        let mut motors = Motors {
+            position: start.q,
+            velocity: start.qd,
+        };
+        flexible_step(
+            &Ur5e::MODEL,
+            &joints,
+            &mut links,
+            &mut motors,
+            &tau,
+            &mut RIGID_BODY.clone(),
+            1e-3,
+        )
+        .unwrap();
+        (0..6)
+            .map(|i| (links.qd[i] - rigid.qd[i]).abs())
+            .fold(0.0, f64::max)
+    };
+    for k in [1e8, 1e9] {
+        let order = (error(k) / error(10.0 * k)).log10();
+        assert!((order - 1.0).abs() < 1e-2, "order {order} at {k}");
+    }
+    assert!(error(1e10) < 1e-3);
+}
+
+#[test]
+fn a_motor_and_a_sledge_on_a_spring_swing_in_closed_form() {
+    let (k, j, h) = (500.0, 0.5, 1e-6);
+    let joints = Flexible {
+        stiffness: [k],
+        rotor: [j],
+        friction: [0.0],
+    };
+    let mut links = State::at([0.0]);
+    let mut motors = Motors {
+        position: [0.02],
+        velocity: [0.0],
+    };
+    let omega = (k * (1.0 / 2.0 + 1.0 / j)).sqrt();
+    let (mut worst, mut centre) = (Worst::default(), 0.0_f64);
+    for i in 1..=400_000 {
+        flexible_step(
+            &SLEDGE,
+            &joints,
+            &mut links,
+            &mut motors,
+            &[0.0],
+            &mut (Inertia,),
+            h,
+        )
+        .unwrap();
+        let t = h * f64::from(i);
+        worst.see(motors.position[0] - links.q[0], 0.02 * (omega * t).cos());
+        centre = centre.max((j * motors.velocity[0] + 2.0 * links.qd[0]).abs());
+    }
+    assert!(centre < 1e-11, "momentum {centre:e}");
+    worst.check::<f64>("motor and sledge", "stretch");
+}
+
+#[test]
+fn the_plant_is_stable_and_first_order_at_a_stiffness_of_1e7() {
+    fn ends<R: Real>(h: f64, steps: usize) -> [f64; 6] {
+        let model = dynamics_core::model::model::<R, Ur5e, 6, 6, 6>();
+        let joints = Flexible {
+            stiffness: [R::from_f64(1e7); 6],
+            rotor: [R::from_f64(0.5); 6],
+            friction: [R::from_f64(20.0); 6],
+        };
+        let mut links = State::at([0.0, -1.5, 0.5, 0.3, 0.2, 0.1].map(R::from_f64));
+        let mut motors = Motors {
+            position: links.q,
+            velocity: [R::ZERO; 6],
+        };
+        let mut scene = RIGID_BODY;
+        for _ in 0..steps {
+            flexible_step(
+                model,
+                &joints,
+                &mut links,
+                &mut motors,
+                &[R::ZERO; 6],
+                &mut scene,
+                R::from_f64(h),
+            )
+            .unwrap();
+            assert!(links.qd.iter().all(|qd| qd.to_f64().abs() < 10.0));
+            assert!((0..6).all(|i| (links.q[i] - motors.position[i]).to_f64().abs() < 1e-4));
+        }
+        links.q.map(R::to_f64)
+    }
+    let far = |a: [f64; 6], b: [f64; 6]| (0..6).map(|i| (a[i] - b[i]).abs()).fold(0.0, f64::max);
+    let fine = ends::<f64>(2.5e-5, 20_000);
+    let [coarse, half] = [(1e-3, 500), (5e-4, 1000)].map(|(h, n)| far(ends::<f64>(h, n), fine));
+    assert!((coarse / half - 2.0).abs() < 0.15, "{coarse} {half}");
+    let single = far(ends::<f32>(1e-3, 500), ends::<f64>(1e-3, 500));
+    assert!(single < 1e-3, "{single}");
+}
+
+#[test]
+fn fed_forward_through_the_springs_a_compliant_arm_follows_its_course() {
+    // A fifth-order rest-to-rest course in closed form, and a soft arm.
+    let joints = Flexible {
+        stiffness: [800.0; 6],
+        rotor: [0.3; 6],
+        friction: [3.0; 6],
+    };
+    let (from, by) = (
+        [0.0, -1.2, 1.0, 0.2, 0.4, 0.0],
+        [0.4, 0.3, -0.5, 0.3, -0.2, 0.5],
+    );
+    let course = |t: f64| {
+        // s(t) = 35 t⁴ − 84 t⁵ + 70 t⁶ − 20 t⁷: at rest through its jerk at both ends.
+        let s = [
+            t.powi(4) * (35.0 - 84.0 * t + 70.0 * t * t - 20.0 * t * t * t),
+            140.0 * t.powi(3) * (1.0 - t).powi(3),
+            420.0 * t * t * (1.0 - t).powi(2) * (1.0 - 2.0 * t),
+            840.0 * t * (1.0 - t) * (1.0 - 5.0 * t + 5.0 * t * t),
+            840.0 * (1.0 - 12.0 * t + 30.0 * t * t - 20.0 * t * t * t),
+        ];
+        let of = |n: usize| by.map(|by| by * s[n]);
+        let q = core::array::from_fn(|i| from[i] + by[i] * s[0]);
+        Course {
+            state: State {
+                q,
+                qd: of(1),
+                qdd: of(2),
+            },
+            jerk: of(3),
+            snap: of(4),
+        }
+    };
+    let run = |h: f64, stiff: bool| {
+        let start = flexible_rnea(&Ur5e::MODEL, &joints, &course(0.0), &RIGID_BODY).unwrap();
+        let mut links = State::at(from);
+        let mut motors = Motors {
+            position: start.position,
+            velocity: [0.0; 6],
+        };
+        let (mut off, mut scene) = (0.0_f64, RIGID_BODY);
+        for i in 0..(0.5 / h) as u32 {
+            let now = course((f64::from(i) + 0.5) * h);
+            let mut told = flexible_rnea(&Ur5e::MODEL, &joints, &now, &RIGID_BODY).unwrap();
+            if stiff {
+                let rigid = (
+                    RIGID_BODY,
+                    RotorInertia(joints.rotor),
+                    Viscous(joints.friction),
+                );
+                told.torque = rnea(&Ur5e::MODEL, &now.state, &rigid);
+            }
+            flexible_step(
+                &Ur5e::MODEL,
+                &joints,
+                &mut links,
+                &mut motors,
+                &told.torque,
+                &mut scene,
+                h,
+            )
+            .unwrap();
+            let want = course(f64::from(i + 1) * h).state.q;
+            off = (0..6)
+                .map(|i| (links.q[i] - want[i]).abs())
+                .fold(off, f64::max);
+        }
+        off
+    };
+    let [coarse, fine] = [run(2e-4, false), run(1e-4, false)];
+    println!(
+        "off the course by {coarse:.2e}, {fine:.2e} rad; fed forward as if rigid {:.2e}",
+        run(1e-4, true)
+    );
+    assert!(
+        (coarse / fine - 2.0).abs() < 0.3,
+        "it is the integrator's error alone"
+    );
+    assert!(run(1e-4, true) > 3.0 * fine);
+}
+
+#[test]
+fn joints_of_several_degrees_of_freedom_are_refused_by_name() {
+    let ball: Model<f64, 1, 4, 3> = Model::new(
+        "ball",
+        [Body::new("ball", BASE, Joint::spherical()).mass(1.0)],
+    );
+    let joints = Flexible {
+        stiffness: [1.0; 3],
+        rotor: [1.0; 3],
+        friction: [0.0; 3],
+    };
+    let course = Course {
+        state: State::at([0.0, 0.0, 0.0, 1.0]),
+        jerk: [0.0; 3],
+        snap: [0.0; 3],
+    };
+    let told = flexible_rnea(&ball, &joints, &course, &RIGID_BODY);
+    assert_eq!(told.unwrap_err().body, 0);
+}

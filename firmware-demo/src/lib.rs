@@ -9,10 +9,12 @@
 //! | [`marker`] | the measured regions | `dbg` is a no-op there |
 //! | [`plant`] | a simulated robot behind the same traits | left out |
 //! | [`scene`] | runs of one trajectory under several laws, with their tracking errors | left out |
+//! | [`catalogue`], [`trajectories`] | every effect with numbers, and a way to go: what effects are priced by | left out |
 //! | `target` | interrupt, log, panic handler of the emulated board | your board's |
 #![no_std]
 
 pub mod bits;
+pub mod catalogue;
 pub mod control_loop;
 pub mod drive;
 pub mod encoder;
@@ -21,3 +23,4 @@ pub mod plant;
 pub mod scene;
 #[cfg(target_arch = "arm")]
 pub mod target;
+pub mod trajectories;

@@ -9,14 +9,17 @@ use crate::error::{Error, Result};
 /// An instruction, by its one or two halfwords.
 #[derive(Clone, Copy, Debug)]
 pub struct Instruction {
-    address: u64,
-    first: u32,
-    second: Option<u32>,
+    /// Where it lies.
+    pub address: u64,
+    /// Its first halfword.
+    pub first: u32,
+    /// Its second one.
+    pub second: Option<u32>,
 }
 
 impl Instruction {
     /// Where a direct call or jump goes.
-    fn target(self) -> Option<u64> {
+    pub fn target(self) -> Option<u64> {
         let offset = match self.second {
             None if self.first >> 11 == 0b11100 => extend(u64::from(self.first & 0x7ff) << 1, 12),
             None if self.first >> 12 == 0b1101 && (self.first >> 9) & 7 != 7 => {

@@ -12,9 +12,9 @@ use crate::error::{Error, Result};
 use crate::setup::{self, Options, Tools};
 use crate::workspace::{self, Workspace};
 
-pub use bars::{Bars, TICK};
+pub use bars::{ADDED, Bars, TICK};
 pub use budget::Budget;
-pub use measure::{Row, measure as measure_bins};
+pub use measure::{Row, measure as measure_bins, run as run_bin};
 pub use report::Report;
 
 /// The generated page.

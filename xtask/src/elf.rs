@@ -1,5 +1,6 @@
 //! What an ELF says of itself: sizes, functions, and where Thumb code is.
 
+use std::collections::BTreeSet;
 use std::path::Path;
 
 use object::{Object, ObjectSection, ObjectSymbol, SectionKind, SymbolKind};
@@ -37,6 +38,8 @@ pub struct Image {
     pub sizes: Sizes,
     /// Its functions by address.
     pub functions: Vec<Function>,
+    /// Every aligned word of its code and constants.
+    pub words: BTreeSet<u32>,
 }
 
 impl Image {
@@ -48,6 +51,7 @@ impl Image {
         Ok(Self {
             sizes: sizes(&file),
             functions: functions(&file),
+            words: words(&file),
         })
     }
 }
@@ -68,6 +72,21 @@ fn sizes(file: &object::File<'_>) -> Sizes {
         }
     }
     sizes
+}
+
+fn words(file: &object::File<'_>) -> BTreeSet<u32> {
+    let in_flash = |kind| {
+        matches!(
+            kind,
+            SectionKind::Text | SectionKind::ReadOnlyData | SectionKind::Data
+        )
+    };
+    let sections = file.sections().filter(|section| in_flash(section.kind()));
+    sections
+        .filter_map(|section| section.data().ok())
+        .flat_map(|data| data.chunks_exact(4))
+        .map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]]))
+        .collect()
 }
 
 fn functions(file: &object::File<'_>) -> Vec<Function> {

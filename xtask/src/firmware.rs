@@ -33,6 +33,24 @@ pub fn build_bins(
         .collect()
 }
 
+/// Builds some bins side by side that are built for a feature only, and returns their ELFs.
+pub fn build_featured(
+    workspace: &Workspace,
+    toolchain: Toolchain,
+    feature: &str,
+    bins: &[&str],
+) -> Result<Vec<PathBuf>> {
+    let mut command = toolchain.firmware(workspace, "build");
+    command.args(["--release", "--features", feature]);
+    for bin in bins {
+        command.args(["--bin", bin]);
+    }
+    shell::capture(&mut command)?;
+    bins.iter()
+        .map(|bin| existing(toolchain.elf(workspace, RELEASE, bin)))
+        .collect()
+}
+
 /// Builds every bin of the firmware.
 pub fn build_all(workspace: &Workspace, toolchain: Toolchain) -> Result<()> {
     let mut command = toolchain.firmware(workspace, "build");

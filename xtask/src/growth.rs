@@ -223,6 +223,7 @@ mod tests {
             flops: 0,
             code_bytes: 0,
             stack_bytes: 0,
+            address: 0,
         }
     }
 

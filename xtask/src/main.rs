@@ -7,6 +7,7 @@ mod callgraph;
 mod costs;
 mod demo;
 mod docs;
+mod effects;
 mod elf;
 mod eliminations;
 mod error;
@@ -20,6 +21,7 @@ mod protocol;
 mod qemu;
 mod render;
 mod report;
+mod sameness;
 mod scene;
 mod setup;
 mod shell;
@@ -76,6 +78,12 @@ enum Command {
     },
     /// Measure how the core's algorithms grow with a chain's length, rewrite docs/growth.md
     Growth {
+        /// The measurements as JSON on stdout; progress stays on stderr
+        #[arg(long)]
+        json: bool,
+    },
+    /// Measure what each effect costs and the torque it contributes, rewrite docs/effects.md
+    Effects {
         /// The measurements as JSON on stdout; progress stays on stderr
         #[arg(long)]
         json: bool,
@@ -198,6 +206,7 @@ fn run(cli: Cli) -> Result<ExitCode> {
             costs::run(cli.setup, wish)
         }
         Command::Growth { json } => growth::run(cli.setup, json),
+        Command::Effects { json } => effects::run(cli.setup, json),
         Command::Eliminations => eliminations::run(),
         Command::Peers { json } => peers::run(cli.setup, json),
         Command::BuildTime { json } => build_time::run(cli.setup, json),

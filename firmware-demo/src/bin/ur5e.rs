@@ -2,8 +2,6 @@
 #![no_std]
 #![no_main]
 
-use core::f32::consts::FRAC_PI_2;
-
 use cortex_m::singleton;
 use cortex_m_rt::entry;
 use dynamics_core::Engine;
@@ -15,6 +13,7 @@ use firmware_demo::control_loop::Law;
 use firmware_demo::plant::Wires;
 use firmware_demo::scene::{App, Noise, Record, Scene};
 use firmware_demo::target;
+use firmware_demo::trajectories::{HOME, PICK_AND_PLACE};
 use heapless::spsc::Queue;
 
 type Effects = (
@@ -51,25 +50,7 @@ impl Scene<6, 6, 9> for PickAndPlace {
     const ACCELERATION: [f32; 6] = [12.0; 6];
     const GAIN_POSE: [f32; 6] = HOME;
     const GAIN_POSE_NAME: &'static str = "home";
-    const WAY_POINTS: [WayPoint<f32, 6>; 9] = [
-        stop(HOME, 0),
-        pass(
-            [-0.70, -1.35, 1.75, -1.97, -FRAC_PI_2, -0.70],
-            [0.0, 0.35, 0.25, -0.6, 0.0, 0.0],
-            1000,
-        ),
-        stop([-0.70, -1.05, 1.85, -2.37, -FRAC_PI_2, -0.70], 600),
-        stop([-0.70, -1.35, 1.75, -1.97, -FRAC_PI_2, -0.70], 600),
-        pass(
-            [0.30, -1.45, 1.55, -1.67, -FRAC_PI_2, 0.30],
-            [1.9, 0.0, 0.0, 0.0, 0.0, 1.9],
-            1000,
-        ),
-        stop([1.10, -1.30, 1.70, -1.97, -FRAC_PI_2, 1.10], 900),
-        stop([1.10, -0.95, 1.80, -2.42, -FRAC_PI_2, 1.10], 600),
-        stop([1.10, -1.30, 1.70, -1.97, -FRAC_PI_2, 1.10], 600),
-        stop(HOME, 1400),
-    ];
+    const WAY_POINTS: [WayPoint<f32, 6>; 9] = PICK_AND_PLACE;
 
     fn effects() -> Effects {
         EFFECTS
@@ -81,16 +62,6 @@ impl Scene<6, 6, 9> for PickAndPlace {
         effects.4.torque = effects.4.torque.map(|f| f * noise.factor(0.1));
         effects
     }
-}
-
-const HOME: [f32; 6] = [0.0, -FRAC_PI_2, FRAC_PI_2, -FRAC_PI_2, -FRAC_PI_2, 0.0];
-
-const fn stop(q: [f32; 6], ticks: u32) -> WayPoint<f32, 6> {
-    pass(q, [0.0; 6], ticks)
-}
-
-const fn pass(q: [f32; 6], qd: [f32; 6], ticks: u32) -> WayPoint<f32, 6> {
-    WayPoint { q, qd, ticks }
 }
 
 struct FullModel;

@@ -30,6 +30,8 @@ pub struct Bar {
 
 /// The end of the name of a scene's bar.
 pub const TICK: &str = " tick";
+/// The end of the name of a bar of what effects add to a rigid body's call.
+pub const ADDED: &str = " added";
 
 /// Every figure of the bars of these rows. A row that is not there holds none, which
 /// [`unknown`] tells.
@@ -77,7 +79,8 @@ pub fn held_small(ratios: &Ratios, rows: &[Row], small: &[Row]) -> Vec<Held> {
 /// The bars whose row is not there, in words.
 pub fn unknown(bars: &Bars, rows: &[Row]) -> Vec<String> {
     bars.keys()
-        .filter(|key| !key.ends_with(TICK) && rows.iter().all(|row| row.key() != **key))
+        .filter(|key| ![TICK, ADDED].iter().any(|end| key.ends_with(end)))
+        .filter(|key| rows.iter().all(|row| row.key() != **key))
         .map(|key| format!("{key}: there is no such row"))
         .collect()
 }

@@ -1,5 +1,7 @@
 //! Runs the firmware's bins `costs_…` and `forward_…` under the meter and cuts its samples by their logs.
 
+use std::path::Path;
+
 use cycle_meter::Sample;
 use serde::Serialize;
 
@@ -53,6 +55,9 @@ pub struct Row {
     pub code_bytes: u64,
     /// Stack that it and all that it calls write to.
     pub stack_bytes: u64,
+    /// Where the function lies.
+    #[serde(skip)]
+    pub address: u64,
 }
 
 impl Row {
@@ -88,28 +93,39 @@ pub fn measure(
     let spinner = Spinner::start(&format!("building {} ({profile})", bins.join(", ")));
     let elves = firmware::build_bins(workspace, tools.toolchain, profile, bins)?;
     spinner.say("building the cycle meter".into());
-    let plugin = firmware::build_meter(workspace)?;
+    let meter = firmware::build_meter(workspace)?;
     let mut rows = Vec::new();
     for (name, elf) in bins.iter().zip(elves) {
         spinner.say(format!("running {name} in QEMU"));
-        let regions = workspace.output(&format!("{name}.{profile}.regions"))?;
-        let run = Run {
-            name,
-            elf: &elf,
-            meter: Some((&plugin, &regions)),
-            logs: true,
-        };
-        let mut lines = Vec::new();
-        tools.qemu.run(&run, |line| {
-            lines.push(line.to_owned());
-            Ok(())
-        })?;
-        rows.extend(cut(&lines, &meter::read(&regions)?, |address| {
-            let image = Image::read(&elf)?;
-            code_bytes(&image, address)
-        })?);
+        rows.extend(run(tools, &meter, name, &elf)?.0);
     }
     Ok(rows)
+}
+
+/// Runs a bin under the meter; returns its rows in order, and its log.
+pub fn run(
+    tools: &Tools,
+    meter: &Path,
+    name: &'static str,
+    elf: &Path,
+) -> Result<(Vec<Row>, Vec<String>)> {
+    let regions = elf.with_extension("regions");
+    let run = Run {
+        name,
+        elf,
+        meter: Some((meter, &regions)),
+        logs: true,
+    };
+    let mut lines = Vec::new();
+    tools.qemu.run(&run, |line| {
+        lines.push(line.to_owned());
+        Ok(())
+    })?;
+    let image = Image::read(elf)?;
+    let rows = cut(&lines, &meter::read(&regions)?, |address| {
+        code_bytes(&image, address)
+    })?;
+    Ok((rows, lines))
 }
 
 /// The rows that a log announces, each with its share of the samples.
@@ -167,6 +183,7 @@ fn cut(
             flops: mine.iter().map(|sample| sample.flops).max().unwrap_or(0),
             code_bytes: code_bytes(number(address)?)?,
             stack_bytes: number(stack)?,
+            address: number(address)?,
         });
     }
     if rows.is_empty() || !samples.is_empty() {
@@ -194,6 +211,8 @@ fn code_bytes(image: &Image, address: u64) -> Result<u64> {
 
 #[cfg(test)]
 mod tests {
+    use std::path::Path;
+
     use cycle_meter::Sample;
 
     use super::cut;

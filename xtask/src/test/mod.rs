@@ -1,5 +1,6 @@
 //! `cargo xtask test`: everything that CI runs, as a table of steps.
 
+mod absent_steps;
 mod cost_steps;
 mod firmware_steps;
 mod host_steps;
@@ -147,6 +148,11 @@ const STEPS: &[Step] = &[
         name: "growth",
         title: "inverse and forward dynamics grow in step with a chain, and docs/growth.md says so",
         run: cost_steps::growth,
+    },
+    Step {
+        name: "absent-effects",
+        title: "an effect that a scene does not name costs it nothing",
+        run: absent_steps::absent_effects_cost_nothing,
     },
     Step {
         name: "eliminations",

@@ -1,0 +1,76 @@
+//! What is not named is not there: inverse dynamics of a rigid body alone, beside effects that do nothing,
+//! and beside friction and rotors. `cargo xtask test absent-effects` compares what the compiler made of them.
+#![no_std]
+#![no_main]
+
+#[expect(dead_code, reason = "postures are for what takes them at hand")]
+mod costs;
+
+use cortex_m_rt::entry;
+use dynamics_core::effects::{Coulomb, Effect, RIGID_BODY, RotorInertia, Viscous};
+use dynamics_core::model::Robot;
+use dynamics_core::robots::Ur5e;
+use dynamics_core::scalar::Real;
+use dynamics_core::state::State;
+use dynamics_core::{Core, Engine};
+
+use costs::row::Row;
+use costs::{Ask, STATES, asks, done};
+
+/// An effect with nothing but defaults.
+struct Nothing;
+
+impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Nothing {}
+
+const VISCOUS: Viscous<f32, 6> = Viscous([12.0, 12.0, 8.0, 2.0, 2.0, 1.5]);
+const COULOMB: Coulomb<f32, 6> = Coulomb {
+    torque: [8.0, 8.0, 6.0, 1.5, 1.5, 1.2],
+    per_width: 20.0,
+};
+const ROTORS: RotorInertia<f32, 6> = RotorInertia([0.9, 0.9, 0.9, 0.25, 0.25, 0.25]);
+
+type Rnea<E> = fn(&State<f32, 6, 6>, &E) -> [f32; 6];
+
+#[entry]
+fn main() -> ! {
+    let asks = asks::<Ur5e, 6, 6>();
+    both("full", &asks, &RIGID_BODY);
+    both("idle", &asks, &(Nothing, RIGID_BODY, (Nothing, Nothing)));
+    both("friction", &asks, &(RIGID_BODY, VISCOUS, COULOMB, ROTORS));
+    // As a scene has them: their numbers known while compiling, of types that nothing else here has.
+    row("engine", "full_known").measure(full as usize, &asks, |ask| full(&ask.state));
+    row("engine", "friction_known").measure(friction as usize, &asks, |ask| friction(&ask.state));
+    done()
+}
+
+#[inline(never)]
+fn full(state: &State<f32, 6, 6>) -> [f32; 6] {
+    Engine::<Ur5e>::rnea(state, &(RIGID_BODY,))
+}
+
+#[inline(never)]
+fn friction(state: &State<f32, 6, 6>) -> [f32; 6] {
+    Engine::<Ur5e>::rnea(state, &((RIGID_BODY,), VISCOUS, COULOMB, ROTORS))
+}
+
+/// Measures inverse dynamics in both forms, effects at an address.
+fn both<E: Effect<f32, 6, 6>>(inputs: &'static str, asks: &[Ask<6>; STATES], effects: &E) {
+    let forms: [(&str, Rnea<E>); 2] = [
+        ("core", Core::<Ur5e>::rnea),
+        ("engine", Engine::<Ur5e>::rnea),
+    ];
+    for (form, rnea) in forms {
+        row(form, inputs).measure(rnea as usize, asks, |ask| rnea(&ask.state, effects));
+    }
+}
+
+fn row(form: &'static str, inputs: &'static str) -> Row {
+    Row {
+        robot: <Ur5e as Robot<6, 6, 6>>::MODEL.name,
+        algorithm: "rnea",
+        form,
+        inputs,
+        trig: true,
+        joints: 6,
+    }
+}

@@ -1,0 +1,18 @@
+//! The scene of `bristles_named` without its LuGre friction.
+#![no_std]
+#![no_main]
+
+mod bristles;
+
+use cortex_m::singleton;
+use cortex_m_rt::entry;
+use dynamics_core::effects::{Coriolis, Gravity, Inertia};
+
+type Effects = (Gravity, Inertia, Coriolis);
+
+const EFFECTS: Effects = (Gravity::EARTH, Inertia, Coriolis);
+
+#[entry]
+fn main() -> ! {
+    bristles::run(singleton!(: Effects = EFFECTS))
+}

@@ -1,0 +1,145 @@
+//! Every effect once, with numbers of an arm of the UR5e's size: what effects are priced by, on the target
+//! and on the host.
+//!
+//! A scene is a rigid body on earth and one effect more; of a rigid body's own terms, the rigid body
+//! without it. Except for gravity all numbers are assumed, of the order that such arms have.
+
+use dynamics_core::effects::{
+    AsymmetricCoulomb, BodyWrench, Cogging, Contact, Coriolis, Coulomb, Effect, Foot, Gravity,
+    Inertia, Lugre, MovingBase, Payload, RIGID_BODY, RotorInertia, Rotors, Spring, Stops, Stribeck,
+    Viscous, WorldWrench,
+};
+use dynamics_core::spatial::{Force, Motion};
+use glam::Vec3;
+
+/// The scene that all others are held against.
+pub const RIGID: &str = "rigid_body";
+/// What the name begins with of a scene that lacks the effect.
+pub const LESS: &str = "less_";
+
+/// What is done with each scene.
+pub trait Visitor<const N: usize> {
+    /// Takes the scene of this name.
+    fn scene<E: Effect<f32, N, N>>(&mut self, name: &'static str, effects: E);
+}
+
+/// The rigid body, and that with each of its terms left out.
+///
+/// ```
+/// use dynamics_core::effects::Effect;
+/// use firmware_demo::catalogue::{RIGID, Visitor, rigid};
+/// struct Names(Vec<&'static str>);
+/// impl Visitor<6> for Names {
+///     fn scene<E: Effect<f32, 6, 6>>(&mut self, name: &'static str, _: E) {
+///         self.0.push(name);
+///     }
+/// }
+/// let mut names = Names(Vec::new());
+/// rigid(&mut names);
+/// assert_eq!(names.0, [RIGID, "less_gravity", "less_inertia", "less_coriolis"]);
+/// ```
+pub fn rigid<const N: usize>(visitor: &mut impl Visitor<N>) {
+    visitor.scene(RIGID, RIGID_BODY);
+    visitor.scene("less_gravity", (Inertia, Coriolis));
+    visitor.scene("less_inertia", (Gravity::EARTH, Coriolis));
+    visitor.scene("less_coriolis", (Gravity::EARTH, Inertia));
+}
+
+/// What acts at a joint.
+pub fn joints<const N: usize>(visitor: &mut impl Visitor<N>) {
+    let sliding = first([8.0, 8.0, 6.0, 1.5, 1.5, 1.2, 1.2]);
+    let excess = sliding.map(|f| 0.4 * f);
+    let viscous = first([12.0, 12.0, 8.0, 2.0, 2.0, 1.5, 1.5]);
+    let (per_width, per_speed) = (20.0, 10.0);
+    visitor.scene("viscous", (RIGID_BODY, Viscous(viscous)));
+    let coulomb = Coulomb {
+        torque: sliding,
+        per_width,
+    };
+    visitor.scene("coulomb", (RIGID_BODY, coulomb));
+    let asymmetric = AsymmetricCoulomb {
+        forward: sliding,
+        backward: sliding.map(|f| 0.8 * f),
+        per_width,
+    };
+    visitor.scene("asymmetric_coulomb", (RIGID_BODY, asymmetric));
+    let stribeck = Stribeck {
+        excess,
+        per_speed,
+        per_width: 100.0,
+    };
+    visitor.scene("stribeck", (RIGID_BODY, stribeck));
+    let lugre = Lugre {
+        stiffness: sliding.map(|f| 1e4 * f),
+        damping: sliding,
+        viscous,
+        sliding,
+        excess,
+        per_speed,
+        bristle: [0.0; N],
+    };
+    visitor.scene("lugre", (RIGID_BODY, lugre));
+    let rotors = first([0.9, 0.9, 0.9, 0.25, 0.25, 0.25, 0.25]);
+    visitor.scene("rotor_inertia", (RIGID_BODY, RotorInertia(rotors)));
+    let spring = Spring {
+        stiffness: [5.0; N],
+        rest: [0.0; N],
+    };
+    visitor.scene("spring", (RIGID_BODY, spring));
+    let stops = Stops {
+        lower: [-6.0; N],
+        upper: [6.0; N],
+        stiffness: 1e4,
+        damping: 50.0,
+        per_depth: 1e3,
+    };
+    visitor.scene("stops", (RIGID_BODY, stops));
+    let cogging = Cogging {
+        per_turn: [1200.0; N],
+        cos: sliding.map(|f| [0.05 * f, 0.0]),
+        sin: sliding.map(|f| [0.05 * f, 0.02 * f]),
+    };
+    visitor.scene("cogging", (RIGID_BODY, cogging));
+}
+
+/// What acts on a body: the last one, or the base.
+pub fn bodies<const N: usize>(visitor: &mut impl Visitor<N>) {
+    let body = N - 1;
+    let payload = Payload::new(2.0, [0.0, 0.02, 0.08], [0.01, 0.0, 0.0, 0.01, 0.0, 0.005]);
+    visitor.scene("payload", (RIGID_BODY, payload));
+    let wrench = Force::new(Vec3::new(0.5, 0.0, 1.0), Vec3::new(0.0, 5.0, 20.0));
+    visitor.scene("body_wrench", (RIGID_BODY, BodyWrench { body, wrench }));
+    visitor.scene("world_wrench", (RIGID_BODY, WorldWrench { body, wrench }));
+    let floor = Contact {
+        feet: [Foot {
+            body,
+            point: Vec3::new(0.0, 0.0, 0.1),
+        }],
+        normal: Vec3::Z,
+        height: -1.0,
+        stiffness: 1e4,
+        damping: 100.0,
+        per_depth: 1e3,
+        friction: 0.5,
+        creep: 1e-3,
+    };
+    visitor.scene("contact", (RIGID_BODY, floor));
+    let ship = MovingBase {
+        velocity: Motion::new(Vec3::new(0.2, 0.1, 0.0), Vec3::new(1.0, 0.0, 0.3)),
+        acceleration: Motion::new(Vec3::new(0.1, 0.1, 0.0), Vec3::new(0.5, 0.5, 1.0)),
+    };
+    visitor.scene("moving_base", (RIGID_BODY, ship));
+}
+
+/// Rotors as bodies that spin, which the engine does not have.
+pub fn spinning<const N: usize>(visitor: &mut impl Visitor<N>) {
+    let ratio = [100.0; N];
+    let inertia = first([0.9, 0.9, 0.9, 0.25, 0.25, 0.25, 0.25]).map(|i| i * 1e-4);
+    visitor.scene("rotors", (RIGID_BODY, Rotors { inertia, ratio }));
+}
+
+/// The first N of the numbers.
+fn first<const N: usize>(numbers: [f32; 7]) -> [f32; N] {
+    const { assert!(N <= 7, "there are numbers for seven joints") };
+    core::array::from_fn(|joint| numbers[joint])
+}

@@ -1,0 +1,39 @@
+//! Ways that arms go, for scenes and for what is computed of them on a host.
+
+use core::f32::consts::FRAC_PI_2;
+
+use dynamics_core::control::WayPoint;
+
+/// Where the UR5e's pick and place begins and ends, rad.
+pub const HOME: [f32; 6] = [0.0, -FRAC_PI_2, FRAC_PI_2, -FRAC_PI_2, -FRAC_PI_2, 0.0];
+
+/// The UR5e's pick and place.
+pub const PICK_AND_PLACE: [WayPoint<f32, 6>; 9] = [
+    stop(HOME, 0),
+    pass(
+        [-0.70, -1.35, 1.75, -1.97, -FRAC_PI_2, -0.70],
+        [0.0, 0.35, 0.25, -0.6, 0.0, 0.0],
+        1000,
+    ),
+    stop([-0.70, -1.05, 1.85, -2.37, -FRAC_PI_2, -0.70], 600),
+    stop([-0.70, -1.35, 1.75, -1.97, -FRAC_PI_2, -0.70], 600),
+    pass(
+        [0.30, -1.45, 1.55, -1.67, -FRAC_PI_2, 0.30],
+        [1.9, 0.0, 0.0, 0.0, 0.0, 1.9],
+        1000,
+    ),
+    stop([1.10, -1.30, 1.70, -1.97, -FRAC_PI_2, 1.10], 900),
+    stop([1.10, -0.95, 1.80, -2.42, -FRAC_PI_2, 1.10], 600),
+    stop([1.10, -1.30, 1.70, -1.97, -FRAC_PI_2, 1.10], 600),
+    stop(HOME, 1400),
+];
+
+/// A way-point at rest.
+const fn stop(q: [f32; 6], ticks: u32) -> WayPoint<f32, 6> {
+    pass(q, [0.0; 6], ticks)
+}
+
+/// A way-point that the arm passes at speed.
+const fn pass(q: [f32; 6], qd: [f32; 6], ticks: u32) -> WayPoint<f32, 6> {
+    WayPoint { q, qd, ticks }
+}

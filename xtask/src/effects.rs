@@ -1,0 +1,248 @@
+//! `cargo xtask effects`: what each effect adds to inverse dynamics, and the torque that it contributes.
+
+mod picture;
+
+use std::collections::BTreeMap;
+use std::process::ExitCode;
+
+use serde::Serialize;
+
+use crate::costs::{self, Row};
+use crate::error::{Error, Result};
+use crate::firmware;
+use crate::progress::Spinner;
+use crate::report::MODEL;
+use crate::setup::{self, Options, Tools};
+use crate::shell;
+use crate::table::Table;
+use crate::workspace::{self, Workspace};
+
+const FEATURE: &str = "effects";
+/// Three, so that they build side by side.
+const BINS: [&str; 3] = ["effects_core", "effects_joints", "effects_bodies"];
+const HOST_BIN: &str = "effects";
+const PAGE: &str = "docs/effects.md";
+const PICTURE: &str = "docs/effects.svg";
+const COMMAND: &str = "cargo xtask effects";
+const BEGIN: &str = "<!-- effects:begin -->";
+const END: &str = "<!-- effects:end -->";
+
+/// The scene that others are held against, and what the names of those begin with that lack a term of it.
+const RIGID: &str = "rigid_body";
+const LESS: &str = "less_";
+
+/// What an effect adds in a form: the fields are those of the JSON.
+#[derive(Clone, Debug, Serialize)]
+pub struct Price {
+    /// The effect.
+    pub effect: String,
+    /// The robot.
+    pub robot: String,
+    /// `core` or `engine`.
+    pub form: String,
+    /// Instructions of the longest call, exact; negative where it lets the compiler do better.
+    pub instructions: i64,
+    /// Modelled cycles of the longest call.
+    pub cycles: i64,
+    /// Code of the function and of all that it calls, in bytes.
+    pub code_bytes: i64,
+    /// The effect's numbers and what it remembers, in bytes.
+    pub ram_bytes: i64,
+    /// Root mean square over the reference trajectory of |Δτ|, N·m.
+    pub torque_rms_nm: f64,
+}
+
+/// Measures, writes page and picture, and prints.
+pub fn run(options: Options, json: bool) -> Result<ExitCode> {
+    let workspace = Workspace::find()?;
+    let tools = setup::for_demo(options)?;
+    let path = workspace.root.join(PAGE);
+    let text = workspace::read(&path)?;
+    let (before, after) = around(&text)?;
+    let prices = measure(&workspace, &tools)?;
+    let table = table(&prices);
+    let rustc = tools.toolchain.rustc_version()?;
+    let generated = format!(
+        "<!-- written by `{COMMAND}`: do not edit -->\n\n{}\n{MODEL}. Measured with {rustc}.\n",
+        table.markdown()
+    );
+    workspace::write(&path, format!("{before}{BEGIN}\n{generated}{END}{after}"))?;
+    picture::write(&prices, &workspace.root.join(PICTURE))?;
+    if json {
+        let text = serde_json::to_string_pretty(&prices)
+            .map_err(|e| Error::check(format!("cannot write the JSON: {e}")))?;
+        println!("{text}");
+    } else {
+        print!("{}", table.text());
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// What is around the page's generated part.
+fn around(text: &str) -> Result<(&str, &str)> {
+    let parts = || {
+        let (before, rest) = text.split_once(BEGIN)?;
+        Some((before, rest.split_once(END)?.1))
+    };
+    parts().ok_or_else(|| Error::check(format!("{PAGE} lacks the markers {BEGIN} and {END}")))
+}
+
+fn measure(workspace: &Workspace, tools: &Tools) -> Result<Vec<Price>> {
+    let spinner = Spinner::start(&format!("building {}", BINS.join(", ")));
+    let elves = firmware::build_featured(workspace, tools.toolchain, FEATURE, &BINS)?;
+    let meter = firmware::build_meter(workspace)?;
+    let (mut rows, mut held) = (Vec::new(), BTreeMap::new());
+    for (name, elf) in BINS.into_iter().zip(elves) {
+        spinner.say(format!("running {name} in QEMU"));
+        let (mine, lines) = costs::run_bin(tools, &meter, name, &elf)?;
+        rows.extend(mine);
+        held.extend(lines.iter().filter_map(|line| holds(line)));
+    }
+    spinner.say("computing torques on the host".into());
+    let mut command = workspace.cargo("run");
+    command.args(["--quiet", "--release", "--package", "host-tests"]);
+    let torques = shell::capture(command.args(["--bin", HOST_BIN]))?;
+    let torques = torques.lines().filter_map(torque).collect();
+    priced(&rows, &held, &torques)
+}
+
+/// Form and scene, and the bytes of its effects, from a line `holds FORM NAME BYTES`.
+fn holds(line: &str) -> Option<((String, String), i64)> {
+    let words: Vec<&str> = line.split(' ').collect();
+    let ["holds", form, name, bytes] = *words.as_slice() else {
+        return None;
+    };
+    Some(((form.into(), name.into()), bytes.parse().ok()?))
+}
+
+/// A scene and its torque from a line `effect NAME RMS`.
+fn torque(line: &str) -> Option<(String, f64)> {
+    let words: Vec<&str> = line.split(' ').collect();
+    let ["effect", name, rms] = *words.as_slice() else {
+        return None;
+    };
+    Some((name.into(), rms.parse().ok()?))
+}
+
+/// Every scene's difference to the rigid body.
+fn priced(
+    rows: &[Row],
+    held: &BTreeMap<(String, String), i64>,
+    torques: &BTreeMap<String, f64>,
+) -> Result<Vec<Price>> {
+    let mut prices = Vec::new();
+    for row in rows.iter().filter(|row| row.inputs != RIGID) {
+        let missing =
+            |what| Error::check(format!("there is no {what} of {} {}", row.form, row.inputs));
+        let rigid = |other: &&Row| (&*other.inputs, &other.form) == (RIGID, &row.form);
+        let rigid = rows.iter().find(rigid);
+        let rigid = rigid.ok_or_else(|| missing("rigid body beside that"))?;
+        let bytes = |row: &Row| held.get(&(row.form.clone(), row.inputs.clone())).copied();
+        let bytes = bytes(row).zip(bytes(rigid));
+        let (own, of_rigid) = bytes.ok_or_else(|| missing("size"))?;
+        // What a scene lacks is the rigid body's own.
+        let (effect, sign) = match row.inputs.strip_prefix(LESS) {
+            Some(term) => (term, -1),
+            None => (&*row.inputs, 1),
+        };
+        let added = |one: u64, other: u64| sign * (one.cast_signed() - other.cast_signed());
+        prices.push(Price {
+            effect: effect.into(),
+            robot: row.robot.clone(),
+            form: row.form.clone(),
+            instructions: added(row.instructions.max, rigid.instructions.max),
+            cycles: added(row.cycles.max, rigid.cycles.max),
+            code_bytes: added(row.code_bytes, rigid.code_bytes),
+            ram_bytes: sign * (own - of_rigid),
+            torque_rms_nm: *torques.get(&row.inputs).ok_or_else(|| missing("torque"))?,
+        });
+    }
+    Ok(prices)
+}
+
+/// An effect a row, core and engine side by side.
+fn table(prices: &[Price]) -> Table {
+    let mut table = Table::new(&[
+        "effect, robot",
+        "insn: core",
+        "engine",
+        "cycles: core",
+        "engine",
+        "code: core",
+        "engine",
+        "RAM",
+        "torque, N·m",
+    ]);
+    for core in prices.iter().filter(|price| price.form == "core") {
+        let engine = prices.iter().find(|price| {
+            (&*price.form, &price.effect, &price.robot) == ("engine", &core.effect, &core.robot)
+        });
+        let mut cells = vec![format!("{} {}", core.effect, core.robot)];
+        let figures: [fn(&Price) -> i64; 3] = [|p| p.instructions, |p| p.cycles, |p| p.code_bytes];
+        for figure in figures {
+            cells.push(figure(core).to_string());
+            cells.push(engine.map_or_else(|| "–".into(), |engine| figure(engine).to_string()));
+        }
+        cells.push(core.ram_bytes.to_string());
+        cells.push(format!("{:.3}", core.torque_rms_nm));
+        table.row(cells);
+    }
+    table
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeMap;
+
+    use super::{holds, priced, torque};
+    use crate::costs::Row;
+    use crate::meter::Spread;
+
+    fn row(inputs: &str, cost: u64) -> Row {
+        let spread = Spread {
+            min: cost,
+            median: cost,
+            max: cost,
+        };
+        Row {
+            robot: "ur5e".into(),
+            algorithm: "rnea".into(),
+            form: "core".into(),
+            inputs: inputs.into(),
+            trig: true,
+            joints: 6,
+            instructions: spread,
+            cycles: spread,
+            flops: 0,
+            code_bytes: cost,
+            stack_bytes: 0,
+            address: 0,
+        }
+    }
+
+    #[test]
+    fn an_effect_costs_what_its_scene_takes_more() {
+        let rows = [
+            row("viscous", 130),
+            row("rigid_body", 100),
+            row("less_gravity", 80),
+        ];
+        let lines = [
+            "holds core viscous 40",
+            "config …",
+            "holds core rigid_body 16",
+            "holds core less_gravity 0",
+        ];
+        let held: BTreeMap<_, _> = lines.iter().filter_map(|line| holds(line)).collect();
+        let torques = ["effect viscous 3.5", "effect less_gravity 40"];
+        let torques = torques.iter().filter_map(|line| torque(line)).collect();
+        let prices = priced(&rows, &held, &torques).expect("complete");
+        let seen: Vec<_> = prices
+            .iter()
+            .map(|p| (&*p.effect, p.cycles, p.ram_bytes, p.torque_rms_nm))
+            .collect();
+        assert_eq!(seen, [("viscous", 30, 24, 3.5), ("gravity", 20, 16, 40.0)]);
+        assert!(priced(&rows, &held, &BTreeMap::new()).is_err());
+        assert!(priced(&rows[..1], &held, &torques).is_err());
+    }
+}

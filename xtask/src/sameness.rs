@@ -1,0 +1,175 @@
+//! Whether two functions of an image are the same code: instruction for instruction, whatever their
+//! addresses and the places of their literals.
+
+use crate::callgraph::Instruction;
+use crate::elf::{Function, Image};
+use crate::error::{Error, Result};
+
+/// An instruction, with what it refers to instead of how far away that is.
+#[derive(Debug, PartialEq, Eq)]
+enum Act {
+    /// It says all itself.
+    Plain(u32, Option<u32>),
+    /// It goes to another function.
+    Leaves { opcode: [u32; 2], to: u64 },
+    /// It loads literals.
+    Loads { opcode: [u32; 2], words: Vec<u32> },
+}
+
+/// How many instructions two functions, by their addresses, have in common.
+///
+/// # Errors
+/// They are not the same, or there are no such functions.
+pub fn same(image: &Image, one: u64, other: u64) -> Result<usize> {
+    let [a, b] = [one, other].map(|address| function(image, address).map(acts));
+    let (a, b) = (a?, b?);
+    if let Some(at) = std::iter::zip(&a, &b).position(|(a, b)| a != b) {
+        return Err(Error::check(format!(
+            "instruction {at} of {one:#x} is {:x?}, that of {other:#x} {:x?}",
+            a[at], b[at]
+        )));
+    }
+    if a.len() != b.len() {
+        return Err(Error::check(format!(
+            "{one:#x} has {} instructions, {other:#x} {}",
+            a.len(),
+            b.len()
+        )));
+    }
+    Ok(a.len())
+}
+
+/// The function at an address, or that which it does nothing but jump to: the compiler makes such
+/// jumps where it finds two functions the same.
+fn function(image: &Image, address: u64) -> Result<&Function> {
+    let at = |address: u64| image.functions.iter().find(|f| f.address == address);
+    let found =
+        at(address).ok_or_else(|| Error::check(format!("there is no function at {address:#x}")))?;
+    let instructions = found.instructions();
+    let jump = instructions.first().filter(|_| instructions.len() == 1);
+    let target = jump.and_then(|jump| jump.target()).and_then(at);
+    Ok(target.unwrap_or(found))
+}
+
+fn acts(function: &Function) -> Vec<Act> {
+    let instructions = function.instructions().into_iter();
+    instructions.map(|one| act(function, one)).collect()
+}
+
+fn act(function: &Function, instruction: Instruction) -> Act {
+    let Instruction {
+        address,
+        first,
+        second,
+    } = instruction;
+    let end = function.address + function.bytes.len() as u64;
+    if let Some(to) = instruction.target()
+        && !(function.address..end).contains(&to)
+    {
+        // The link, and of the conditional ones the condition; else what is left is the distance.
+        let opcode = match second {
+            None => [first & 0xff00, 0],
+            Some(second) if second & 0x1000 == 0 => [first & 0xfbc0, second & 0xd000],
+            Some(second) => [first & 0xf800, second & 0xd000],
+        };
+        return Act::Leaves { opcode, to };
+    }
+    let base = (address + 4) & !3;
+    let Some((opcode, offset, words)) = literal(first, second) else {
+        return Act::Plain(first, second);
+    };
+    let from = base.wrapping_add_signed(offset);
+    let word = |n: u64| {
+        let at = usize::try_from((from + 4 * n).checked_sub(function.address)?).ok()?;
+        let bytes = function.bytes.get(at..at + 4)?;
+        Some(u32::from_le_bytes(bytes.try_into().ok()?))
+    };
+    match (0..words).map(word).collect() {
+        Some(words) => Act::Loads { opcode, words },
+        // Beyond its own end it loads no literal of its own.
+        None => Act::Leaves { opcode, to: from },
+    }
+}
+
+/// Of a load relative to the program counter: what it is, how far it reaches, and how many words it
+/// loads. ARMv7-M manual: LDR (literal), A7.7.44; VLDR, A7.7.233.
+fn literal(first: u32, second: Option<u32>) -> Option<([u32; 2], i64, u64)> {
+    let signed = |up: bool, offset: u32| {
+        let offset = i64::from(offset);
+        if up { offset } else { -offset }
+    };
+    let up = first & 0x80 != 0;
+    match second {
+        None if first >> 11 == 0b01001 => {
+            Some(([first & 0xff00, 0], i64::from(first & 0xff) * 4, 1))
+        }
+        Some(second) if first & 0xff7f == 0xf85f => {
+            Some(([0xf85f, second & 0xf000], signed(up, second & 0xfff), 1))
+        }
+        Some(second) if first & 0xff3f == 0xed1f => {
+            let words = if second & 0x100 == 0 { 1 } else { 2 };
+            let opcode = [first & 0xff7f, second & 0xff00];
+            Some((opcode, signed(up, second & 0xff) * 4, words))
+        }
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::same;
+    use crate::elf::{Function, Image, Sizes};
+
+    /// Loads a literal from where it lies, calls 0x2000, returns.
+    fn function(address: u64, call: [u16; 2], literal: u32, padding: usize) -> Function {
+        let load = 0x4800 | (2 + padding / 2) as u16;
+        let mut bytes: Vec<u8> = [load, call[0], call[1], 0x4770, 0xbf00, 0xbf00]
+            .iter()
+            .flat_map(|half| half.to_le_bytes())
+            .collect();
+        bytes.extend(std::iter::repeat_n(0, 2 * padding));
+        bytes.extend(literal.to_le_bytes());
+        Function {
+            names: vec![format!("f{address:x}")],
+            address,
+            bytes,
+            data: vec![(address + 12, true)],
+        }
+    }
+
+    fn image(functions: Vec<Function>) -> Image {
+        Image {
+            sizes: Sizes { flash: 0, ram: 0 },
+            functions,
+            words: std::collections::BTreeSet::new(),
+        }
+    }
+
+    #[test]
+    fn code_is_the_same_wherever_it_lies() {
+        // Both calls go to 0x2000: from 0x1002 it is 0xffa ahead, from 0x1102 0xefa.
+        let (one, two) = ([0xf000, 0xfffd], [0xf000, 0xff7d]);
+        let image = image(vec![
+            function(0x1000, one, 1.5_f32.to_bits(), 0),
+            function(0x1100, two, 1.5_f32.to_bits(), 2),
+            function(0x1200, two, 1.5_f32.to_bits(), 0),
+            function(0x1300, one, 2.5_f32.to_bits(), 0),
+        ]);
+        assert_eq!(same(&image, 0x1000, 0x1100).expect("the same"), 5);
+        assert!(same(&image, 0x1000, 0x1200).is_err()); // calls another
+        assert!(same(&image, 0x1000, 0x1300).is_err()); // and loads another number
+        assert!(same(&image, 0x1000, 0x1400).is_err());
+    }
+
+    #[test]
+    fn a_function_that_only_jumps_is_where_it_jumps_to() {
+        let mut image = image(vec![function(0x1000, [0xf000, 0xfffd], 7, 0)]);
+        image.functions.push(Function {
+            names: vec!["jump".into()],
+            address: 0x1100,
+            bytes: vec![0x7e, 0xe7], // b 0x1000
+            data: Vec::new(),
+        });
+        assert_eq!(same(&image, 0x1000, 0x1100).expect("the same"), 5);
+    }
+}

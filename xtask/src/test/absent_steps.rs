@@ -1,0 +1,133 @@
+//! The step about effects that a scene does not name.
+
+use super::{Context, Outcome};
+use crate::bars::Held;
+use crate::budgets;
+use crate::costs::{self, ADDED, Row};
+use crate::elf::Image;
+use crate::error::{Error, Result};
+use crate::firmware;
+use crate::qemu::Run;
+use crate::sameness;
+use crate::toolchain::RELEASE;
+
+const BIN: &str = "absent";
+/// The scene with LuGre friction, and the same without.
+const SCENES: [&str; 2] = ["bristles_named", "bristles_dropped"];
+/// A joint's LuGre friction: σ₀, σ₁, σ₂, F_c, F_s − F_c and its bristle; 1/v_s of all.
+const LUGRE_BYTES: u64 = 4 * (6 * 6 + 1);
+/// Numbers that only LuGre's exponential has, by their bits.
+const LUGRE_NUMBERS: [f32; 2] = [core::f32::consts::LOG2_E, 1.428_606_8e-6];
+
+/// Effects with nothing but defaults leave the code as it is, and one that is dropped leaves nothing.
+pub fn absent_effects_cost_nothing(context: &Context) -> Result<Outcome> {
+    let (workspace, tools) = (&context.workspace, &context.tools);
+    let bins = [BIN, SCENES[0], SCENES[1]];
+    let elves = firmware::build_bins(workspace, tools.toolchain, RELEASE, &bins)?;
+    let rows = costs::measure_bins(workspace, tools, RELEASE, &bins[..1])?;
+    let image = Image::read(&elves[0])?;
+    let mut seen = Vec::new();
+    for form in ["core", "engine"] {
+        let [full, idle, friction] =
+            ["full", "idle", "friction"].map(|inputs| row(&rows, form, inputs));
+        let (full, idle, friction) = (full?, idle?, friction?);
+        let instructions = sameness::same(&image, full.address, idle.address)?;
+        if sameness::same(&image, full.address, friction.address).is_ok() {
+            return Err(Error::check(
+                "friction changes no instruction: the comparison sees nothing",
+            ));
+        }
+        let folded = if full.address == idle.address {
+            ", folded into one function"
+        } else {
+            ""
+        };
+        seen.push(format!(
+            "{form}: {instructions} instructions the same{folded}"
+        ));
+    }
+    let known = |inputs| row(&rows, "engine", inputs);
+    seen.push(added(
+        context,
+        known("full_known")?,
+        known("friction_known")?,
+    )?);
+    let [named, dropped] = [Image::read(&elves[1])?, Image::read(&elves[2])?];
+    let [with, without] = [
+        effects_bytes(context, SCENES[0], &elves[1])?,
+        effects_bytes(context, SCENES[1], &elves[2])?,
+    ];
+    let freed = |of: fn(&Image) -> u64| of(&named).checked_sub(of(&dropped));
+    let (flash, ram) = (freed(|i| i.sizes.flash), freed(|i| i.sizes.ram));
+    // Tuples are padded to the 8 bytes of gravity's f64.
+    let expected = with.checked_sub(without);
+    let shrunk = expected.filter(|b| (LUGRE_BYTES..LUGRE_BYTES + 8).contains(b));
+    if shrunk.is_none() || ram != shrunk || flash.is_none_or(|bytes| bytes == 0) {
+        return Err(Error::check(format!(
+            "LuGre friction takes {LUGRE_BYTES} B; without it the effects shrink from {with} to {without} B, \
+             RAM by {ram:?} and flash by {flash:?}"
+        )));
+    }
+    for number in LUGRE_NUMBERS {
+        let there = [&named, &dropped].map(|image| image.words.contains(&number.to_bits()));
+        if there != [true, false] {
+            return Err(Error::check(format!(
+                "{number} should be with LuGre friction and not without, but is: {there:?}"
+            )));
+        }
+    }
+    let mut names = dropped.functions.iter().flat_map(|f| &f.names);
+    if let Some(name) = names.find(|name| name.contains("exp_neg") || name.contains("ugre")) {
+        return Err(Error::check(format!("without LuGre there is `{name}`")));
+    }
+    seen.push(format!(
+        "LuGre dropped: {} B of flash and {} B of RAM less",
+        flash.unwrap_or_default(),
+        ram.unwrap_or_default()
+    ));
+    Ok(Outcome::Passed(seen.join(", ")))
+}
+
+fn row<'a>(rows: &'a [Row], form: &str, inputs: &str) -> Result<&'a Row> {
+    let mut rows = rows.iter();
+    rows.find(|row| (&*row.form, &*row.inputs) == (form, inputs))
+        .ok_or_else(|| Error::check(format!("`{BIN}` did not measure {form} {inputs}")))
+}
+
+/// What friction and rotors add to a call, held against the bar.
+fn added(context: &Context, full: &Row, friction: &Row) -> Result<String> {
+    let (bars, _) = budgets::bars(&context.workspace)?;
+    let key = format!("{}{ADDED}", friction.key());
+    let bar = bars.get(&key).and_then(|bar| Some((bar, bar.cycles?)));
+    let (bar, most) = bar.ok_or_else(|| Error::check(format!("there is no bar {key:?}")))?;
+    let taken = friction.cycles.max.saturating_sub(full.cycles.max);
+    let held = Held {
+        what: format!("bar: {key}: cycles"),
+        taken: taken as f64,
+        most: most as f64,
+        recorded: bar.missed.iter().any(|figure| figure == "cycles"),
+        ratio: false,
+    };
+    match held.complaint() {
+        Some(complaint) => Err(Error::check(complaint)),
+        None => Ok(format!("friction and rotors {taken} of {most} cycles")),
+    }
+}
+
+/// The bytes of a scene's effects, as it says itself.
+fn effects_bytes(context: &Context, name: &str, elf: &std::path::Path) -> Result<u64> {
+    let run = Run {
+        name,
+        elf,
+        meter: None,
+        logs: true,
+    };
+    let mut bytes = None;
+    context.tools.qemu.run(&run, |line| {
+        if let Some(number) = line.strip_prefix("effects ") {
+            bytes = number.parse().ok();
+        }
+        Ok(())
+    })?;
+    bytes.ok_or_else(|| Error::check(format!("`{name}` did not say how large its effects are")))
+}

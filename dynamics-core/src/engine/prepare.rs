@@ -109,6 +109,36 @@ impl<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize> Prepared
         Self::last().joint == i
     }
 
+    /// How many bodies move with joint `i` as one.
+    pub(crate) const fn riders(i: usize) -> usize {
+        let places = const { &Self::TREE.places };
+        let (mut count, mut body) = (0, 0);
+        while body < B {
+            if places[body].joint == i {
+                count += 1;
+            }
+            body += 1;
+        }
+        count
+    }
+
+    /// The `k`-th body that moves with joint `i`, and where it is found; beyond the last one something
+    /// harmless, as in [`Self::joint`].
+    pub(crate) const fn rider(i: usize, k: usize) -> (usize, Place) {
+        let places = const { &Self::TREE.places };
+        let (mut count, mut body) = (0, 0);
+        while body < B {
+            if places[body].joint == i {
+                if count == k {
+                    return (body, places[body]);
+                }
+                count += 1;
+            }
+            body += 1;
+        }
+        (B, ON_BASE)
+    }
+
     /// Joint `i`; beyond the last one something harmless, since the compiler evaluates the
     /// constants of branches that it does not take.
     pub(crate) const fn joint(i: usize) -> Joint {

@@ -4,7 +4,7 @@
 use super::field::{Field, Inertia, Rates, Wrench};
 use super::known::Known;
 use super::limb::carried;
-use super::prepare::{Prepared, Tree};
+use super::prepare::{Place, Prepared, Tree};
 use super::small::{Mat3, Sym3, Vec3};
 use crate::effects::{BodyState, Effect, JointState};
 use crate::model::{BASE, Robot, Turn};
@@ -141,7 +141,7 @@ where
     }
 }
 
-/// Subtracts the wrenches fˣ of the bodies on joint I, given in their own frames.
+/// Subtracts the wrenches fˣ of the bodies on joint I.
 #[inline(always)]
 fn environment<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     effects: &E,
@@ -153,37 +153,56 @@ where
     T: Robot<B, Q, V>,
     E: Effect<R, B, V>,
 {
-    let tree: &'static Tree<B, V> = const { &Prepared::<T, B, Q, V>::TREE };
-    let length = Known::constant(tree.length);
-    for (body, place) in tree.places.iter().enumerate() {
-        if place.joint != I {
-            continue;
+    const { assert!(Prepared::<T, B, Q, V>::riders(I) <= 32) };
+    // Body by body: in a loop their places would be no constants, and nothing would fold.
+    for_each_joint!(K, {
+        if const { K < Prepared::<T, B, Q, V>::riders(I) } {
+            let (body, place) = const { &Prepared::<T, B, Q, V>::rider(I, K) };
+            let length = const { Prepared::<T, B, Q, V>::TREE.length };
+            let fx = exerted(effects, *body, place, length, field);
+            total = Wrench {
+                f: total.f - fx.f,
+                n: total.n - fx.n,
+            };
         }
-        let (rot, pos) = (Mat3::constant(&place.rot), Vec3::constant(place.pos));
-        let mut at = BodyState {
-            pose: Xform::IDENTITY,
-            velocity: Motion::ZERO,
-        };
-        if E::BODY_VELOCITY {
-            let v = field.v + field.omega.cross(pos);
-            at.velocity = Motion::new(
-                rot.transpose_mul(field.omega).get(),
-                rot.transpose_mul(v).scale(length).get(),
-            );
-        }
-        if E::BODY_POSE {
-            at.pose = field.pose.of(place, length);
-        }
-        let mut fx = Force::ZERO;
-        effects.wrench(body, &at, &mut fx);
-        let f = rot.mul(Vec3::any(fx.lin)).scale(length);
-        let n = rot.mul(Vec3::any(fx.ang)) + pos.cross(f);
-        total = Wrench {
-            f: total.f - f,
-            n: total.n - n,
-        };
-    }
+    });
     total
+}
+
+/// The wrench fˣ of one body, which the effects give in its own frame, in that of its joint.
+#[inline(always)]
+fn exerted<R, E, const B: usize, const V: usize>(
+    effects: &E,
+    body: usize,
+    place: &'static Place,
+    length: f64,
+    field: &Field<R>,
+) -> Wrench<R>
+where
+    R: Real,
+    E: Effect<R, B, V>,
+{
+    let length = Known::constant(length);
+    let (rot, pos) = (Mat3::constant(&place.rot), Vec3::constant(place.pos));
+    let mut at = BodyState {
+        pose: Xform::IDENTITY,
+        velocity: Motion::ZERO,
+    };
+    if E::BODY_VELOCITY {
+        let v = field.v + field.omega.cross(pos);
+        at.velocity = Motion::new(
+            rot.transpose_mul(field.omega).get(),
+            rot.transpose_mul(v).scale(length).get(),
+        );
+    }
+    if E::BODY_POSE {
+        at.pose = field.pose.of(place, length);
+    }
+    let mut fx = Force::ZERO;
+    effects.wrench(body, &at, &mut fx);
+    let f = rot.mul(Vec3::any(fx.lin)).scale(length);
+    let n = rot.mul(Vec3::any(fx.ang)) + pos.cross(f);
+    Wrench { f, n }
 }
 
 /// Whether joint `i` carries joint `j`.

@@ -211,8 +211,6 @@ fn code_bytes(image: &Image, address: u64) -> Result<u64> {
 
 #[cfg(test)]
 mod tests {
-    use std::path::Path;
-
     use cycle_meter::Sample;
 
     use super::cut;

@@ -7,3 +7,4 @@ pub mod random;
 pub mod recordings;
 pub mod tolerances;
 pub mod trees;
+pub mod wide;

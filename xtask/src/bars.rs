@@ -16,6 +16,9 @@ pub type Ratios = BTreeMap<String, Ratio>;
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Ratio {
+    /// Instructions.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub instructions: Option<f64>,
     /// Modelled cycles.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cycles: Option<f64>,
@@ -50,6 +53,7 @@ impl Held {
     pub fn ratio(ratios: &Ratios, key: &str, figure: &str, taken: f64) -> Option<Self> {
         let ratio = ratios.get(key)?;
         let most = match figure {
+            "instructions" => ratio.instructions,
             "cycles" => ratio.cycles,
             "code_bytes" => ratio.code_bytes,
             _ => ratio.ns,

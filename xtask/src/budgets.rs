@@ -26,7 +26,8 @@ const BARS: &str = "\
 ";
 
 const RATIOS: &str = "\
-# The same of multiples: opt-level s against 3 (`costs`), ours against the best build of a peer (`peers`).
+# The same of multiples: opt-level s against 3 (`costs`), long chains against short ones
+# (`growth`), ours against the best build of a peer (`peers`).
 ";
 
 /// The file.

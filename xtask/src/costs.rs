@@ -14,6 +14,7 @@ use crate::workspace::{self, Workspace};
 
 pub use bars::{Bars, TICK};
 pub use budget::Budget;
+pub use measure::{Row, measure as measure_bins};
 pub use report::Report;
 
 /// The generated page.

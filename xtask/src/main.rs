@@ -8,8 +8,10 @@ mod costs;
 mod demo;
 mod docs;
 mod elf;
+mod eliminations;
 mod error;
 mod firmware;
+mod growth;
 mod meter;
 mod peers;
 mod plot;
@@ -72,6 +74,15 @@ enum Command {
         #[arg(long)]
         write_budgets: bool,
     },
+    /// Measure how the core's algorithms grow with a chain's length, rewrite docs/growth.md
+    Growth {
+        /// The measurements as JSON on stdout; progress stays on stderr
+        #[arg(long)]
+        json: bool,
+    },
+    /// Measure on the host which of the two eliminations is less accurate where, rewrite
+    /// docs/eliminations.md
+    Eliminations,
     /// Measure other libraries and this one side by side, rewrite docs/peers.md: takes minutes
     Peers {
         /// The measurements as JSON on stdout; progress stays on stderr
@@ -186,6 +197,8 @@ fn run(cli: Cli) -> Result<ExitCode> {
             };
             costs::run(cli.setup, wish)
         }
+        Command::Growth { json } => growth::run(cli.setup, json),
+        Command::Eliminations => eliminations::run(),
         Command::Peers { json } => peers::run(cli.setup, json),
         Command::BuildTime { json } => build_time::run(cli.setup, json),
         Command::Test { list: true, .. } => {

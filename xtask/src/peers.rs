@@ -27,6 +27,8 @@ use crate::workspace::{self, Workspace};
 /// What the peers compute: ID(q, q̇, q̈), ID(q, q̇, 0), ID(q, 0, 0), the mass matrix, and FD(q, q̇, τ).
 const ALGORITHMS: [&str; 5] = ["rnea", "bias", "gravity", "crba", "aba"];
 const PRECISIONS: [&str; 2] = ["f32", "f64"];
+/// Those of the largest robot, in f64 and on the host alone.
+const LARGE: [&str; 3] = ["rnea", "crba", "aba"];
 
 /// Steps beside those of host and target: the generator.
 const OTHER_STEPS: usize = 1;
@@ -48,7 +50,7 @@ pub fn run(options: Options, json: bool) -> Result<ExitCode> {
     let workspace = Workspace::find()?;
     let (tools, peers) = tools::set_up(&workspace, options)?;
     let robots = robots::export(&workspace)?;
-    let steps = OTHER_STEPS + host::steps(robots.len()) + target::steps(robots.len());
+    let steps = OTHER_STEPS + host::steps(&robots) + target::steps(&robots);
     let progress = Progress::new(steps);
     let shop = Workshop::new(&workspace, &peers, &progress)?;
     shop.generate(&robots)?;

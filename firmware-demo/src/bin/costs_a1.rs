@@ -1,13 +1,15 @@
-//! What the algorithms cost on the A1.
+//! What inverse dynamics costs on the A1.
 #![no_std]
 #![no_main]
 
 mod costs;
+#[path = "costs/inverse.rs"]
+mod inverse;
 
 use cortex_m_rt::entry;
 use dynamics_core::robots::A1;
 
 #[entry]
 fn main() -> ! {
-    costs::run::<A1, 16, 12>()
+    inverse::run::<A1, 16, 12>()
 }

@@ -1,13 +1,15 @@
-//! What the algorithms cost on the Panda.
+//! What inverse dynamics costs on the Panda.
 #![no_std]
 #![no_main]
 
 mod costs;
+#[path = "costs/inverse.rs"]
+mod inverse;
 
 use cortex_m_rt::entry;
 use dynamics_core::robots::Panda;
 
 #[entry]
 fn main() -> ! {
-    costs::run::<Panda, 7, 7>()
+    inverse::run::<Panda, 7, 7>()
 }

@@ -1,13 +1,15 @@
-//! What the algorithms cost on the UR5e.
+//! What inverse dynamics costs on the UR5e.
 #![no_std]
 #![no_main]
 
 mod costs;
+#[path = "costs/inverse.rs"]
+mod inverse;
 
 use cortex_m_rt::entry;
 use dynamics_core::robots::Ur5e;
 
 #[entry]
 fn main() -> ! {
-    costs::run::<Ur5e, 6, 6>()
+    inverse::run::<Ur5e, 6, 6>()
 }

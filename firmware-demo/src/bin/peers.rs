@@ -17,10 +17,15 @@ use firmware_demo::{marker::measured, target};
 
 /// What CasADi's C takes: cosines, sines, and two vectors of which an algorithm may need none.
 type C = unsafe extern "C" fn(*const f32, *const f32, *const f32, *const f32, *mut f32);
+type Scene = (Gravity, Inertia, Coriolis);
 /// What ours take.
-type Ours<E, const N: usize> = fn(&Posture<f32, N>, &State<f32, N, N>, &E) -> [f32; N];
-type Forward<E, const N: usize> =
-    fn(&Posture<f32, N>, &State<f32, N, N>, &[f32; N], &E) -> Result<[f32; N], NotPositiveDefinite>;
+type Inverse<E, const N: usize> = fn(&Posture<f32, N>, &State<f32, N, N>, &E) -> [f32; N];
+type Matrix<const N: usize> = fn(&Posture<f32, N>, &Scene) -> MassMatrix<f32, N>;
+type Forward<const N: usize> =
+    fn(&Posture<f32, N>, &State<f32, N, N>, &[f32; N], &Scene) -> Solution<N>;
+type Solution<const N: usize> = Result<[f32; N], NotPositiveDefinite>;
+/// A form's name and function.
+type Form<F> = (&'static str, F);
 
 /// A function of the C.
 struct Peer {
@@ -43,135 +48,161 @@ fn main() -> ! {
     robot::<Ur5e, 6, 6>();
     robot::<Panda, 7, 7>();
     robot::<Iiwa14, 7, 7>();
-    robot::<A1, 16, 12>();
+    tree::<A1, 16, 12>();
     defmt::println!("done");
     target::leave(debug::EXIT_SUCCESS)
 }
 
+/// Everything of a robot.
 fn robot<T: Robot<B, N, N>, const B: usize, const N: usize>() {
-    let states = states::<N>();
-    inputs::<T, _, B, N>("rnea", &states, &RIGID_BODY);
-    inputs::<T, _, B, N>("bias", &states, &(Gravity::EARTH, Coriolis));
-    inputs::<T, _, B, N>("gravity", &states, &(Gravity::EARTH,));
-    matrix::<T, B, N>(&states);
-    forward::<T, B, N>(&states);
+    inverse::<T, B, N>();
+    crba::<T, B, N>(&[
+        ("core", Core::<T>::crba_at),
+        ("engine", Engine::<T>::crba_at),
+    ]);
+    forward::<T, B, N>(&[
+        ("core", Core::<T>::aba_at),
+        ("engine", Engine::<T>::forward_at),
+    ]);
 }
 
-/// M(q): the engine's against the core's inverse dynamics of one acceleration at a time.
-fn matrix<T: Robot<B, N, N>, const B: usize, const N: usize>(states: &[State<f32, N, N>; STATES]) {
-    let run: fn(&Posture<f32, N>, &_) -> MassMatrix<f32, N> = Engine::<T>::crba_at;
-    let (mut error, mut scale) = (0.0, 0.0);
-    for state in states {
-        let posture = black_box(Core::<T>::posture(&state.q));
-        let m = black_box(measured::<0, _>(|| run(&posture, &RIGID_BODY)));
-        for joint in 0..N {
-            let mut unit = State::at(state.q);
-            unit.qdd[joint] = 1.0;
-            let column = Core::<T>::rnea(&unit, &(Inertia,));
-            scale = column.iter().fold(scale, |s, x| f32::max(s, x.abs()));
-            if let Some(row) = m.row(joint) {
-                error = f32::max(error, worst(row, &column));
-            }
+/// The same of a robot of which only inverse dynamics is specialised here.
+fn tree<T: Robot<B, N, N>, const B: usize, const N: usize>() {
+    inverse::<T, B, N>();
+    crba::<T, B, N>(&[("core", Core::<T>::crba_at)]);
+    forward::<T, B, N>(&[("core", Core::<T>::aba_at)]);
+}
+
+fn inverse<T: Robot<B, N, N>, const B: usize, const N: usize>() {
+    under::<T, _, B, N>("rnea", &RIGID_BODY);
+    under::<T, _, B, N>("bias", &(Gravity::EARTH, Coriolis));
+    under::<T, _, B, N>("gravity", &(Gravity::EARTH,));
+}
+
+fn crba<T: Robot<B, N, N>, const B: usize, const N: usize>(forms: &[Form<Matrix<N>>]) {
+    let run = |run: Matrix<N>, posture: &_, _: &_| run(posture, &RIGID_BODY);
+    let triangle = |m: MassMatrix<f32, N>, out: &mut [f32; MOST]| {
+        let entries = (0..N).flat_map(|i| (i..N).map(move |j| (i, j)));
+        for (out, (i, j)) in core::iter::zip(out, entries) {
+            *out = m.get(i, j);
         }
-    }
-    let name = T::MODEL.name;
-    report(name, "crba", "engine", run as usize, error / scale);
-    for peer in peers(name, "crba") {
-        casadi(peer, states, |_| [], 0.0);
-    }
+        N * (N + 1) / 2
+    };
+    compare::<T, _, _, B, N>("crba", forms, |run| run as usize, run, triangle);
 }
 
-/// Forward dynamics: the engine's `forward` beside the articulated-body algorithm of others.
-fn forward<T: Robot<B, N, N>, const B: usize, const N: usize>(states: &[State<f32, N, N>; STATES]) {
-    let run: Forward<_, N> = Engine::<T>::forward_at;
-    let (mut error, mut scale) = (0.0, 0.0);
-    for state in states {
-        let posture = black_box(Core::<T>::posture(&state.q));
-        let qdd = measured::<0, _>(|| run(&posture, black_box(state), &state.qdd, &RIGID_BODY));
-        let textbook = Core::<T>::aba(state, &state.qdd, &RIGID_BODY);
-        let (qdd, textbook) = (black_box(qdd).ok(), textbook.ok());
-        let (Some(qdd), Some(textbook)) = (qdd, textbook) else {
-            error = f32::INFINITY;
-            continue;
-        };
-        scale = textbook.iter().fold(scale, |s, x| f32::max(s, x.abs()));
-        error = f32::max(error, worst(&qdd, &textbook));
-    }
-    let name = T::MODEL.name;
-    report(name, "aba", "engine", run as usize, error / scale);
-    for peer in peers(name, "aba") {
-        casadi(peer, states, |_| [], 0.0);
-    }
+/// Forward dynamics; the torque stands in the place of q̈.
+fn forward<T: Robot<B, N, N>, const B: usize, const N: usize>(forms: &[Form<Forward<N>>]) {
+    let run = |run: Forward<N>, posture: &_, state: &State<f32, N, N>| {
+        run(posture, state, &state.qdd, &RIGID_BODY)
+    };
+    let flat = |qdd: Solution<N>, out: &mut _| write(&qdd.unwrap_or([f32::NAN; N]), out);
+    compare::<T, _, _, B, N>("aba", forms, |run| run as usize, run, flat);
 }
 
-/// The C for a robot and an algorithm.
-fn peers(robot: &str, algorithm: &str) -> impl Iterator<Item = &'static Peer> {
-    PEERS
-        .iter()
-        .filter(move |peer| (peer.robot, peer.algorithm) == (robot, algorithm))
-}
-
-/// Inverse dynamics under `effects`: ours in both forms, then each build of the C.
-fn inputs<T: Robot<B, N, N>, E: Effect<f32, B, N>, const B: usize, const N: usize>(
-    algorithm: &str,
-    states: &[State<f32, N, N>; STATES],
+/// Inverse dynamics under `effects`.
+fn under<T: Robot<B, N, N>, E: Effect<f32, B, N>, const B: usize, const N: usize>(
+    algorithm: &'static str,
     effects: &E,
 ) {
-    let name = T::MODEL.name;
-    let textbook = |state: &_| Core::<T>::rnea(state, effects);
-    let scale = states
-        .iter()
-        .flat_map(textbook)
-        .fold(0.0, |scale, x| f32::max(scale, x.abs()));
-    let forms: [(&str, Ours<E, N>); 2] = [
+    let forms: [Form<Inverse<E, N>>; 2] = [
         ("core", Core::<T>::rnea_at),
         ("engine", Engine::<T>::rnea_at),
     ];
-    for (form, run) in forms {
-        let mut error = 0.0;
-        for state in states {
-            let posture = black_box(Core::<T>::posture(&state.q));
-            // Made opaque outside, as the peers' arguments are.
-            let asked = black_box(state);
-            let tau = measured::<0, _>(|| run(&posture, asked, effects));
-            error = f32::max(error, worst(&black_box(tau), &textbook(state)));
-        }
-        report(name, algorithm, form, run as usize, error / scale);
-    }
-    for peer in peers(name, algorithm) {
-        casadi(peer, states, textbook, scale);
+    let run = |run: Inverse<E, N>, posture: &_, state: &_| run(posture, state, effects);
+    compare::<T, _, _, B, N>(
+        algorithm,
+        &forms,
+        |run| run as usize,
+        run,
+        |tau, out| write(&tau, out),
+    );
+}
+
+/// Numbers for a state, as far as there are any.
+#[derive(Clone, Copy)]
+struct Numbers([f32; MOST], usize);
+
+impl Numbers {
+    fn all(&self) -> &[f32] {
+        self.0.get(..self.1).unwrap_or_default()
     }
 }
 
-/// A function of the C, with its error relative to the full `scale`; one without an answer to
-/// compare with has none.
-fn casadi<const N: usize, const M: usize>(
-    peer: &Peer,
-    states: &[State<f32, N, N>; STATES],
-    expected: impl Fn(&State<f32, N, N>) -> [f32; M],
-    scale: f32,
-) {
-    let mut error = 0.0;
-    for state in states {
-        let cos = black_box(state.q.map(|q| Turn::new(q).cos));
-        let sin = black_box(state.q.map(|q| Turn::new(q).sin));
-        let (cos, sin, state) = (cos.as_ptr(), sin.as_ptr(), black_box(state));
-        let (qd, qdd) = (state.qd.as_ptr(), state.qdd.as_ptr());
-        let mut out = [0.0; MOST];
-        let to = out.as_mut_ptr();
-        // SAFETY: xtask's table names functions of this type, which read N numbers at most from
-        // each input and write no more than N (N + 1) / 2.
-        measured::<0, _>(|| unsafe { (peer.run)(cos, sin, qd, qdd, to) });
-        error = f32::max(error, worst(black_box(&out), &expected(state)));
+fn write(numbers: &[f32], out: &mut [f32; MOST]) -> usize {
+    for (out, number) in core::iter::zip(out, numbers) {
+        *out = *number;
     }
-    let relative = if scale > 0.0 { error / scale } else { 0.0 };
-    report(
-        peer.robot,
-        peer.algorithm,
-        peer.build,
-        peer.run as usize,
-        relative,
-    );
+    numbers.len()
+}
+
+/// An algorithm: ours in their forms, the first of which is what the others are held against, then each
+/// build of the C.
+fn compare<T: Robot<B, N, N>, F: Copy, O, const B: usize, const N: usize>(
+    algorithm: &'static str,
+    forms: &[Form<F>],
+    address: impl Fn(F) -> usize,
+    call: impl Fn(F, &Posture<f32, N>, &State<f32, N, N>) -> O,
+    flat: impl Fn(O, &mut [f32; MOST]) -> usize,
+) {
+    let name = T::MODEL.name;
+    let states = states::<N>();
+    let numbers = |found| {
+        let mut out = [0.0; MOST];
+        let count = flat(found, &mut out);
+        Numbers(out, count)
+    };
+    let Some(&(_, textbook)) = forms.first() else {
+        return;
+    };
+    let expected = states.each_ref().map(|state| {
+        let posture = Core::<T>::posture(&state.q);
+        numbers(call(textbook, &posture, state))
+    });
+    let scale = expected.iter().flat_map(Numbers::all);
+    let scale = scale.fold(0.0, |scale, x| f32::max(scale, x.abs()));
+    for &(form, run) in forms {
+        let mut error = 0.0;
+        for (state, expected) in core::iter::zip(&states, &expected) {
+            let posture = black_box(Core::<T>::posture(&state.q));
+            // Made opaque outside, as the peers' arguments are.
+            let asked = black_box(state);
+            let found = numbers(black_box(measured::<0, _>(|| call(run, &posture, asked))));
+            error = f32::max(error, worst(found.all(), expected.all()));
+        }
+        report(name, algorithm, form, address(run), error / scale);
+    }
+    for peer in PEERS
+        .iter()
+        .filter(|peer| (peer.robot, peer.algorithm) == (name, algorithm))
+    {
+        let mut error = 0.0;
+        for (state, expected) in core::iter::zip(&states, &expected) {
+            let out = casadi(peer, state);
+            error = f32::max(error, worst(&out, expected.all()));
+        }
+        report(
+            name,
+            algorithm,
+            peer.build,
+            peer.run as usize,
+            error / scale,
+        );
+    }
+}
+
+/// What a function of the C says of a state.
+fn casadi<const N: usize>(peer: &Peer, state: &State<f32, N, N>) -> [f32; MOST] {
+    let cos = black_box(state.q.map(|q| Turn::new(q).cos));
+    let sin = black_box(state.q.map(|q| Turn::new(q).sin));
+    let (cos, sin, state) = (cos.as_ptr(), sin.as_ptr(), black_box(state));
+    let (qd, qdd) = (state.qd.as_ptr(), state.qdd.as_ptr());
+    let mut out = [0.0; MOST];
+    let to = out.as_mut_ptr();
+    // SAFETY: xtask's table names functions of this type, which read N numbers at most from
+    // each input and write no more than N (N + 1) / 2.
+    measured::<0, _>(|| unsafe { (peer.run)(cos, sin, qd, qdd, to) });
+    black_box(out)
 }
 
 /// In the order of the meter's samples.

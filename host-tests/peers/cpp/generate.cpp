@@ -124,9 +124,10 @@ int main(int count, char **arguments) try {
   if (count != 3) throw std::runtime_error("usage: generate ROBOTS OUT");
   for (const Robot &robot : read_robots(arguments[1]))
     for (const char *algorithm : {"rnea", "bias", "gravity", "crba", "aba"})
-      for (const Position position : {Position::angle, Position::cos_sin})
-        for (const char *precision : {"f32", "f64"})
-          write(function(robot, algorithm, position), precision, arguments[2]);
+      for (const Position position : {Position::angle, Position::cos_sin}) {
+        const casadi::Function made = function(robot, algorithm, position);
+        for (const char *precision : {"f32", "f64"}) write(made, precision, arguments[2]);
+      }
   return 0;
 } catch (const std::exception &error) {
   std::cerr << "generate: " << error.what() << "\n";

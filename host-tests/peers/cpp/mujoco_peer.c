@@ -1,4 +1,4 @@
-// MuJoCo's inverse dynamics behind the C interface of the benchmark (see pinocchio_peer.cpp).
+// MuJoCo's dynamics behind the C interface of the benchmark (see pinocchio_peer.cpp).
 
 #include <stddef.h>
 #include <stdio.h>
@@ -55,5 +55,37 @@ EXPORT void mujoco_f64_rnea(void *context, const double *state, size_t count, do
     mj_comPos(peer->model, peer->data);
     mj_comVel(peer->model, peer->data);
     mj_rne(peer->model, peer->data, 1, out);
+  }
+}
+
+// M, dense, after the stages that it needs.
+EXPORT void mujoco_f64_crba(void *context, const double *state, size_t count, double *out) {
+  const struct peer *peer = context;
+  const size_t n = peer->model->nv;
+  for (; count > 0; --count, state += 3 * n, out += n * n) {
+    load(peer, state);
+    mj_kinematics(peer->model, peer->data);
+    mj_comPos(peer->model, peer->data);
+    mj_makeM(peer->model, peer->data);
+    mj_fullM(peer->model, peer->data, out);
+  }
+}
+
+// The stages that the accelerations of a robot without contacts need: bias, M, its factors, their
+// solution. The torque stands in the place of q̈.
+EXPORT void mujoco_f64_forward(void *context, const double *state, size_t count, double *out) {
+  const struct peer *peer = context;
+  mjData *data = peer->data;
+  const size_t n = peer->model->nv;
+  for (; count > 0; --count, state += 3 * n, out += n) {
+    load(peer, state);
+    mj_kinematics(peer->model, data);
+    mj_comPos(peer->model, data);
+    mj_makeM(peer->model, data);
+    mj_factorM(peer->model, data);
+    mj_comVel(peer->model, data);
+    mj_rne(peer->model, data, 0, data->qfrc_bias);
+    for (size_t i = 0; i < n; ++i) data->qfrc_smooth[i] = state[2 * n + i] - data->qfrc_bias[i];
+    mj_solveM(peer->model, data, out, data->qfrc_smooth, 1);
   }
 }

@@ -3,9 +3,10 @@
 //     void *pinocchio_<precision>_open(const char *robots, const char *name);
 //     void pinocchio_<precision>_<algorithm>(void *, const real *states, size_t count, real *out);
 //
-// A state is q, q̇ and q̈ (in forward dynamics τ) in a row. Of the two conventions that Pinocchio has for
-// crba and aba, the local one is the faster for these robots. M is written as its upper triangle, by rows.
+// A state is q, q̇ and q̈ (in forward dynamics τ) in a row; M is written as a square, by columns, of which
+// the upper triangle counts.
 
+#include <algorithm>
 #include <cstddef>
 #include <iostream>
 #include <memory>
@@ -39,13 +40,14 @@ static void *open(const char *path, const char *name) try {
 
 template <typename Real, typename Algorithm>
 static void run(void *peer, const Real *state, std::size_t count, Real *out, Algorithm algorithm) {
-  using Vector = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
-  using View = Eigen::Map<const Vector>;
+  using View = Eigen::Map<const Eigen::Matrix<Real, Eigen::Dynamic, 1>>;
   auto &[model, data] = *static_cast<Peer<Real> *>(peer);
   const Eigen::Index n = model.nv;
-  for (; count > 0; --count, state += 3 * n, out += n)
-    Eigen::Map<Vector>(out, n) =
+  for (; count > 0; --count, state += 3 * n) {
+    const auto &result =
         algorithm(model, data, View(state, n), View(state + n, n), View(state + 2 * n, n));
+    out = std::copy_n(result.data(), result.size(), out);
+  }
 }
 
 #define ALGORITHM(NAME, REAL, PRECISION, CALL)                                              \
@@ -58,32 +60,15 @@ static void run(void *peer, const Real *state, std::size_t count, Real *out, Alg
         });                                                                                 \
   }
 
-template <typename Real>
-static void crba(void *peer, const Real *state, std::size_t count, Real *out) {
-  using Vector = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
-  auto &[model, data] = *static_cast<Peer<Real> *>(peer);
-  const Eigen::Index n = model.nv;
-  for (; count > 0; --count, state += 3 * n) {
-    const Eigen::Map<const Vector> q(state, n);
-    const auto &m = pinocchio::crba(model, data, q, pinocchio::Convention::LOCAL);
-    for (Eigen::Index i = 0; i < n; ++i)
-      for (Eigen::Index j = i; j < n; ++j) *out++ = m(i, j);
-  }
-}
-
 #define PEER(REAL, PRECISION)                                                               \
   EXPORT void *pinocchio_##PRECISION##_open(const char *path, const char *name) {           \
     return open<REAL>(path, name);                                                          \
   }                                                                                         \
-  EXPORT void pinocchio_##PRECISION##_crba(                                                 \
-      void *peer, const REAL *states, std::size_t count, REAL *out) {                       \
-    crba(peer, states, count, out);                                                         \
-  }                                                                                         \
-  ALGORITHM(aba, REAL, PRECISION,                                                           \
-            pinocchio::aba(model, data, q, v, a, pinocchio::Convention::LOCAL))             \
   ALGORITHM(rnea, REAL, PRECISION, pinocchio::rnea(model, data, q, v, a))                   \
   ALGORITHM(bias, REAL, PRECISION, pinocchio::nonLinearEffects(model, data, q, v))          \
-  ALGORITHM(gravity, REAL, PRECISION, pinocchio::computeGeneralizedGravity(model, data, q))
+  ALGORITHM(gravity, REAL, PRECISION, pinocchio::computeGeneralizedGravity(model, data, q))  \
+  ALGORITHM(crba, REAL, PRECISION, pinocchio::crba(model, data, q))                         \
+  ALGORITHM(aba, REAL, PRECISION, pinocchio::aba(model, data, q, v, a))
 
 PEER(float, f32)
 PEER(double, f64)

@@ -61,8 +61,12 @@ where
         let m = Engine::<T>::crba(&q, scene);
         for j in 0..N {
             let mut state = State::at(q);
+            let still = Core::<T>::rnea(&state, scene);
             state.qdd[j] = 1.0;
-            let column = Core::<T>::rnea(&state, scene);
+            let mut column = Core::<T>::rnea(&state, scene);
+            for (column, still) in column.iter_mut().zip(still) {
+                *column -= still;
+            }
             for (i, column) in column.into_iter().enumerate() {
                 worst = worst.max((m.get(i, j) - column).abs());
                 scale = scale.max(column.abs());
@@ -76,7 +80,7 @@ where
 #[test]
 fn m_is_what_inverse_dynamics_asks_for_each_acceleration() {
     columns::<Odd, _, 11, 7>(&(Inertia,), "engine columns of M");
-    columns::<A1, _, 16, 12>(&(Inertia,), "engine columns of M");
+    columns::<A1, _, 16, 12>(&RIGID_BODY, "engine columns of M");
 }
 
 #[test]

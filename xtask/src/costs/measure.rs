@@ -1,4 +1,4 @@
-//! Runs the firmware's bins `costs_…` under the meter and cuts its samples by their logs.
+//! Runs the firmware's bins `costs_…` and `forward_…` under the meter and cuts its samples by their logs.
 
 use cycle_meter::Sample;
 use serde::Serialize;
@@ -14,8 +14,17 @@ use crate::setup::Tools;
 use crate::toolchain::{RELEASE, SMALL};
 use crate::workspace::Workspace;
 
-/// A bin for each robot: the compiler takes a minute for all of them, side by side.
-const BINS: [&str; 4] = ["costs_ur5e", "costs_panda", "costs_iiwa14", "costs_a1"];
+/// Two bins for each robot, inverse dynamics and the rest: the compiler builds them side by side.
+const BINS: [&str; 8] = [
+    "costs_ur5e",
+    "forward_ur5e",
+    "costs_panda",
+    "forward_panda",
+    "costs_iiwa14",
+    "forward_iiwa14",
+    "costs_a1",
+    "forward_a1",
+];
 
 /// What a function costs; the fields are those of the JSON.
 #[derive(Clone, Debug, Serialize)]
@@ -62,14 +71,15 @@ pub fn all(workspace: &Workspace, tools: &Tools) -> Result<Vec<Row>> {
     measure(workspace, tools, RELEASE, &BINS)
 }
 
-/// The engine's rows of the first robot in a firmware that is built for size.
+/// The engine's rows of inverse dynamics of the first robot in a firmware that is built for size.
 pub fn small(workspace: &Workspace, tools: &Tools) -> Result<Vec<Row>> {
     let mut rows = measure(workspace, tools, SMALL, &BINS[..1])?;
     rows.retain(|row| row.form == "engine");
     Ok(rows)
 }
 
-fn measure(
+/// Builds these bins in a profile, runs each of them under the meter, and returns their rows in order.
+pub fn measure(
     workspace: &Workspace,
     tools: &Tools,
     profile: &str,

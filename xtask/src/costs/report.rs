@@ -11,6 +11,12 @@ use crate::table::{Table, thousands};
 const FLOORS: [(&str, u64); 3] = [("rnea", 836), ("crba", 855), ("aba", 2067)];
 const FLOOR_JOINTS: usize = 6;
 
+/// Of the section on forward dynamics.
+const WAYS: &str = "\
+`forward`: bias, CRBA, factors, solution; `aba`: articulated bodies; sines and cosines at hand. The core's two \
+lines over the length of a chain are in `docs/growth.md`; which is less accurate where, in \
+`docs/eliminations.md`. The engine folds more of M than of articulated inertias.";
+
 /// Everything that is printed.
 pub struct Report {
     /// What was measured.
@@ -32,6 +38,7 @@ impl Report {
         for (robot, table) in self.tables() {
             text += &format!("\n{robot}\n\n{}", table.text());
         }
+        text += &format!("\nTwo ways of forward dynamics\n\n{}", self.ways().text());
         text += &format!("\nur5e at opt-level s\n\n{}", self.small_table().text());
         text += &format!("\nBars\n\n{}", bars::table(&self.held()).text());
         text + &format!("\n{}; µs at {CLOCK_MHZ} MHz\n", self.rustc)
@@ -51,6 +58,8 @@ impl Report {
              - flops: sums, products, quotients and roots executed; a multiply-accumulate is two\n\
              - of floor: flops as a share of the least arithmetic known for a general arm of six joints, sines \
              and cosines aside (RNEA {}, CRBA {}, ABA {})\n\
+             - `crba`: M; `factor_solve`: M's factors and one solution, M at hand; `forward`: bias, M, its \
+             factors and the solution; `aba`: the same by articulated bodies; `jacobian`: of the last body\n\
              - code: instructions and literals of the function and of all that it calls, in bytes, without the \
              robot's constants in memory and without library functions of trigonometry\n\
              - stack: bytes that it and all that it calls write to\n",
@@ -62,6 +71,10 @@ impl Report {
         for (robot, table) in self.tables() {
             text += &format!("\n## {robot}\n\n{}", table.markdown());
         }
+        text += &format!(
+            "\n## Two ways of forward dynamics\n\n{WAYS}\n\n{}",
+            self.ways().markdown()
+        );
         text += &format!(
             "\n## ur5e at opt-level s\n\nThe whole firmware built for size.\n\n{}",
             self.small_table().markdown()
@@ -114,6 +127,39 @@ impl Report {
         let held = self.held();
         let unmet = held.iter().filter_map(Held::complaint);
         unmet.chain(unknown(&self.bars, &self.rows)).collect()
+    }
+
+    /// By M and its factors, and by articulated bodies.
+    fn ways(&self) -> Table {
+        let mut table = Table::new(&[
+            "robot, form",
+            "joints",
+            "forward: cycles",
+            "aba: cycles",
+            "aba / forward",
+            "shorter",
+        ]);
+        for row in &self.rows {
+            let of = |other: &&Row| {
+                (&other.robot, &other.form, other.trig, &*other.algorithm)
+                    == (&row.robot, &row.form, row.trig, "aba")
+            };
+            let aba = self.rows.iter().find(of).map(|row| row.cycles.max);
+            let (true, Some(aba)) = (row.algorithm == "forward" && !row.trig, aba) else {
+                continue;
+            };
+            let forward = row.cycles.max;
+            let shorter = if aba < forward { "aba" } else { "forward" };
+            table.row([
+                format!("{} {}", row.robot, row.form),
+                row.joints.to_string(),
+                thousands(forward),
+                thousands(aba),
+                format!("{:.2}", aba as f64 / forward as f64),
+                shorter.to_owned(),
+            ]);
+        }
+        table
     }
 
     /// opt-level s beside 3.

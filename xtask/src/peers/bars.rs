@@ -1,21 +1,31 @@
-//! How the engine stands against the best peer, and what was promised of that.
+//! How engine and core stand against the best peer, and what was promised of that.
 
 use crate::bars::{Held, Ratios};
+use crate::peers::PRECISIONS;
 use crate::peers::report::{HOST, M4F, Row};
 
 /// CasADi's C by gcc on the target: the one with fewer cycles is the peer.
 const BUILDS: [&str; 2] = ["casadi gcc", "casadi gcc -ffp-contract=off"];
 
+/// Ours, on the host.
+const OURS: [&str; 2] = ["engine", "core run-time model"];
+/// Others, on the host, by how their names begin.
+const OTHERS: [&str; 3] = ["casadi", "pinocchio", "dynibo"];
+
 /// The bars of `budgets.toml` that this run has the figures for.
 pub fn held(ratios: &Ratios, rows: &[Row]) -> Vec<Held> {
     let mut all = Vec::new();
-    for robot in ["ur5e", "panda", "iiwa14", "a1"] {
-        let key = format!("{robot} rnea, m4f, engine / casadi");
+    for (robot, algorithm) in pairs(rows, M4F) {
+        let key = format!("{robot} {algorithm}, m4f, engine / casadi");
+        let of = |peer: &str| {
+            rows.iter()
+                .find(|row| is_of(row, M4F, robot, algorithm, "f32") && row.peer == peer)
+        };
         let best = BUILDS
             .iter()
-            .filter_map(|build| find(rows, M4F, robot, "f32", build))
+            .filter_map(|build| of(build))
             .min_by_key(|row| row.cycles);
-        let Some((engine, best)) = find(rows, M4F, robot, "f32", "engine").zip(best) else {
+        let Some((engine, best)) = of("engine").zip(best) else {
             continue;
         };
         for (figure, ours, theirs) in [
@@ -28,41 +38,43 @@ pub fn held(ratios: &Ratios, rows: &[Row]) -> Vec<Held> {
             );
         }
     }
-    for robot in ["ur5e", "panda"] {
-        for precision in ["f32", "f64"] {
-            let time = |peer: &str| best_ns(rows, robot, precision, peer);
-            for peer in ["casadi", "pinocchio"] {
-                let key = format!("{robot} rnea, host {precision}, engine / {peer}");
-                let pair = time("engine").zip(time(peer));
-                all.extend(pair.and_then(|(a, b)| Held::ratio(ratios, &key, "ns", a / b)));
+    for (robot, algorithm) in pairs(rows, HOST) {
+        for precision in PRECISIONS {
+            let best = |is_peer: &dyn Fn(&str) -> bool| {
+                rows.iter()
+                    .filter(|row| is_of(row, HOST, robot, algorithm, precision))
+                    .filter(|row| is_peer(&row.peer))
+                    .filter_map(|row| row.ns)
+                    .min_by(f64::total_cmp)
+            };
+            for ours in OURS {
+                for other in OTHERS {
+                    let key = format!("{robot} {algorithm}, host {precision}, {ours} / {other}");
+                    let pair =
+                        best(&|peer| peer == ours).zip(best(&|peer| peer.starts_with(other)));
+                    all.extend(pair.and_then(|(a, b)| Held::ratio(ratios, &key, "ns", a / b)));
+                }
             }
         }
     }
     all
 }
 
-/// A row of full inverse dynamics.
-fn find<'a>(
-    rows: &'a [Row],
-    target: &str,
-    robot: &str,
-    precision: &str,
-    peer: &str,
-) -> Option<&'a Row> {
-    rows.iter().find(|row| {
-        (row.target, &*row.algorithm) == (target, "rnea")
-            && (&*row.robot, &*row.precision, &*row.peer) == (robot, precision, peer)
-    })
+/// The robots and algorithms of a target, each once.
+fn pairs<'a>(rows: &'a [Row], target: &str) -> Vec<(&'a str, &'a str)> {
+    let mut pairs = Vec::new();
+    for row in rows.iter().filter(|row| row.target == target) {
+        let pair = (&*row.robot, &*row.algorithm);
+        if !pairs.contains(&pair) {
+            pairs.push(pair);
+        }
+    }
+    pairs
 }
 
-/// The shortest time on the host of the peers whose names begin so.
-fn best_ns(rows: &[Row], robot: &str, precision: &str, peer: &str) -> Option<f64> {
-    rows.iter()
-        .filter(|row| (row.target, &*row.algorithm) == (HOST, "rnea"))
-        .filter(|row| (&*row.robot, &*row.precision) == (robot, precision))
-        .filter(|row| row.peer.starts_with(peer))
-        .filter_map(|row| row.ns)
-        .min_by(f64::total_cmp)
+fn is_of(row: &Row, target: &str, robot: &str, algorithm: &str, precision: &str) -> bool {
+    (row.target, &*row.robot, &*row.algorithm, &*row.precision)
+        == (target, robot, algorithm, precision)
 }
 
 #[cfg(test)]

@@ -10,11 +10,18 @@ use crate::error::{Error, Result};
 use crate::peers::build::Workshop;
 use crate::peers::report::{HOST, Row};
 use crate::peers::robots::Robot;
-use crate::peers::{ALGORITHMS, PRECISIONS, outputs};
+use crate::peers::{ALGORITHMS, LARGE, PRECISIONS, outputs};
 use crate::shell;
 use crate::workspace::{self, Workspace};
 
 const C_COMPILERS: [&str; 2] = ["gcc", "clang"];
+/// MuJoCo's: algorithm, name in the report, function.
+const MUJOCO: [(&str, &str, &str); 4] = [
+    ("rnea", "mujoco mj_inverse", "inverse"),
+    ("rnea", "mujoco mj_rne", "rnea"),
+    ("crba", "mujoco mj_makeM", "crba"),
+    ("aba", "mujoco mj_solveM", "forward"),
+];
 const CPP_COMPILERS: [&str; 2] = ["g++", "clang++"];
 
 /// What the benchmark is told.
@@ -36,6 +43,7 @@ struct Foreign {
     open: Option<(String, PathBuf)>,
     cs: bool,
     outputs: usize,
+    square: bool,
     timed: bool,
 }
 
@@ -50,9 +58,22 @@ struct Line {
 }
 
 /// Shared libraries that [`measure`] makes.
-pub fn steps(robots: usize) -> usize {
-    let casadi = robots * ALGORITHMS.len() * PRECISIONS.len() * (C_COMPILERS.len() + 1);
-    casadi + CPP_COMPILERS.len() + 1
+pub fn steps(robots: &[Robot]) -> usize {
+    let casadi = robots.iter().map(|robot| {
+        let (algorithms, precisions) = compared(robot);
+        let cs = usize::from(!robot.is_large());
+        algorithms.len() * precisions.len() * (C_COMPILERS.len() + cs)
+    });
+    casadi.sum::<usize>() + CPP_COMPILERS.len() + 1
+}
+
+/// Algorithms and precisions of a robot.
+fn compared(robot: &Robot) -> (&'static [&'static str], &'static [&'static str]) {
+    if robot.is_large() {
+        (&LARGE, &PRECISIONS[1..])
+    } else {
+        (&ALGORITHMS, &PRECISIONS)
+    }
 }
 
 /// Builds the peers and the benchmark, and runs it.
@@ -74,23 +95,24 @@ fn build(shop: &Workshop<'_>, robots: &[Robot]) -> Result<Vec<Foreign>> {
     for compiler in CPP_COMPILERS {
         let library = shop.pinocchio(compiler)?;
         for robot in robots {
-            for precision in PRECISIONS {
-                for algorithm in ALGORITHMS {
+            let (algorithms, precisions) = compared(robot);
+            for precision in precisions {
+                for algorithm in algorithms {
+                    let one = casadi(robot, algorithm, precision, "", &library);
                     foreign.push(Foreign {
+                        peer: format!("pinocchio {compiler}"),
                         run: format!("pinocchio_{precision}_{algorithm}"),
                         open: Some((format!("pinocchio_{precision}_open"), shop.robots_file())),
-                        ..casadi(robot, algorithm, precision, "", &library)
+                        ..square(one, robot)
                     });
-                    if let Some(last) = foreign.last_mut() {
-                        last.peer = format!("pinocchio {compiler}");
-                    }
                 }
             }
         }
     }
     let library = shop.mujoco()?;
     for robot in robots {
-        for (peer, run) in [("mujoco mj_inverse", "inverse"), ("mujoco mj_rne", "rnea")] {
+        for (algorithm, peer, run) in MUJOCO {
+            let one = casadi(robot, algorithm, "f64", "", &library);
             foreign.push(Foreign {
                 peer: peer.into(),
                 run: format!("mujoco_f64_{run}"),
@@ -98,16 +120,20 @@ fn build(shop: &Workshop<'_>, robots: &[Robot]) -> Result<Vec<Foreign>> {
                     "mujoco_f64_open".into(),
                     shop.robots.join(format!("{}.xml", robot.name)),
                 )),
-                ..casadi(robot, "rnea", "f64", "", &library)
+                ..square(one, robot)
             });
         }
     }
     shop.progress.doing("building CasADi's C for the host");
     for robot in robots {
-        for algorithm in ALGORITHMS {
-            for precision in PRECISIONS {
+        let (algorithms, precisions) = compared(robot);
+        for algorithm in algorithms {
+            for precision in precisions {
                 let sizes = [robot.joints(), outputs(algorithm, robot.joints())];
-                for (inputs, compilers) in [("q", &C_COMPILERS[..]), ("cs", &C_COMPILERS[..1])] {
+                let all = [("q", &C_COMPILERS[..]), ("cs", &C_COMPILERS[..1])];
+                // What takes cosines is for the target.
+                let wanted = if robot.is_large() { &all[..1] } else { &all };
+                for &(inputs, compilers) in wanted {
                     let name = format!("{}_{algorithm}_{inputs}_{precision}", robot.name);
                     for compiler in compilers {
                         let library = shop.casadi(compiler, &name, sizes)?;
@@ -144,8 +170,18 @@ fn casadi(
         open: None,
         cs: false,
         outputs: outputs(algorithm, robot.joints()),
+        square: false,
         timed: true,
     }
+}
+
+/// The same by a library that writes M as a square.
+fn square(mut of: Foreign, robot: &Robot) -> Foreign {
+    if of.algorithm == "crba" {
+        of.outputs = robot.joints() * robot.joints();
+        of.square = true;
+    }
+    of
 }
 
 /// Our side, for this very processor like the others: in a directory of its own, since other flags

@@ -82,8 +82,8 @@ impl Report {
              The same robots, from the same numbers, by other libraries and by this one, measured \
              in one run on {}. Every function was compared with what Pinocchio recorded before it \
              was timed: on the host within 1e-12 of full scale in f64, 1e-5 in f32 (forward dynamics \
-             1e-11 and 1e-3). On the target, inverse dynamics was compared once more, with our core, \
-             within 1e-5.\n\nTarget: {MODEL}. The code of a function is its instructions \
+             1e-11 and 1e-3). On the target, every function was compared once more, with our core, within \
+             1e-5 and 1e-3.\n\nTarget: {MODEL}. The code of a function is its instructions \
              and literals and those of what it calls.\n\n{}\n",
             self.date, ABOUT
         );
@@ -91,8 +91,8 @@ impl Report {
             text += &format!("\n## {title}\n\n{note}\n\n{}", table.markdown());
         }
         text += &format!(
-            "\n## Against the bars\n\nWhat was promised, from `budgets.toml`, against the better build of \
-             CasADi's C.\n\n{}",
+            "\n## Against the bars\n\nWhat was promised, from `budgets.toml`: against the better build of \
+             CasADi's C and the better compiler of Pinocchio.\n\n{}",
             bars::table(&self.held).markdown()
         );
         text += "\n## Versions\n\n";
@@ -189,6 +189,10 @@ const ABOUT: &str = "\
   pipeline of inverse dynamics. `mj_rne` is the least that gives the torques: `mj_kinematics`, `mj_comPos`,
   `mj_comVel`, `mj_rne`. Contacts and constraints are off.
 - **dynibo**: a Rust crate; f64, model read from a URDF at run time, gravity fixed at 9.80665 m/s².
-- **core**, **engine**: this library's two forms, with `-C target-cpu=native` on the host. Where
-  others run the articulated-body algorithm (`aba`), the engine runs `Engine::forward`: bias, M and
-  its factors.";
+- **core**, **engine**: this library's two forms, with `-C target-cpu=native` on the host; **core run-time
+  model**: the core over a model of which the compiler knows nothing, as Pinocchio's and dynibo's are.
+
+Every algorithm gives what a user asks for: `aba` stands for forward dynamics by whatever way is the
+library's best: the articulated-body algorithm, but for `engine` and MuJoCo (`mj_solveM`: the stages that
+accelerations need) bias, M, its factors and their solution. On the host M is written as a square, by CasADi as
+one triangle; Pinocchio fills one triangle of it.";

@@ -37,6 +37,12 @@ struct Placement {
     position: [f64; 3],
 }
 
+/// The library's robots that are compared: of revolute joints alone, as the peers' forms are.
+const COMPARED: [&str; 5] = ["ur5e", "panda", "iiwa14", "a1", "g1"];
+
+/// More joints than a robot has that is compared everywhere and in every precision.
+const MANY: usize = 16;
+
 /// Asks the library for its robots.
 pub fn export(workspace: &Workspace) -> Result<Vec<Robot>> {
     let mut command = workspace.cargo("run");
@@ -50,6 +56,7 @@ pub fn export(workspace: &Workspace) -> Result<Vec<Robot>> {
     let json = shell::capture(&mut command)?;
     let mut robots: Vec<Robot> = serde_json::from_str(&json)
         .map_err(|e| Error::check(format!("`{}`: {e}", shell::display(&command))))?;
+    robots.retain(|robot| COMPARED.contains(&&*robot.name));
     for body in robots.iter_mut().flat_map(|robot| &mut robot.bodies) {
         // The library holds inertias about the link's origin. What comes back to the centre of mass
         // is off by rounding, and CasADi drops products with exact zeros only.
@@ -67,6 +74,11 @@ impl Robot {
     /// Joints that move.
     pub fn joints(&self) -> usize {
         self.bodies.iter().filter(|body| body.moves()).count()
+    }
+
+    /// Whether it is compared on the host alone, in f64, and of less: its C takes compilers minutes.
+    pub fn is_large(&self) -> bool {
+        self.joints() > MANY
     }
 
     /// Writes `<name>.urdf` and `<name>.xml` (MuJoCo's form).

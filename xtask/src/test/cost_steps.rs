@@ -7,6 +7,7 @@ use crate::budgets;
 use crate::costs;
 use crate::error::{Error, Result};
 use crate::firmware;
+use crate::growth;
 use crate::meter::{self, Cost};
 use crate::qemu::Run;
 
@@ -20,6 +21,12 @@ pub fn costs(context: &Context) -> Result<Outcome> {
         (Err(error), Ok(())) | (Ok(_), Err(error)) => Err(error),
         (Err(budget), Err(page)) => Err(Error::check(format!("{budget}\n{page}"))),
     }
+}
+
+pub fn growth(context: &Context) -> Result<Outcome> {
+    let (workspace, tools) = (&context.workspace, &context.tools);
+    let report = growth::measure(workspace, tools)?;
+    Ok(Outcome::Passed(growth::check(workspace, &report)?))
 }
 
 pub fn constant(context: &Context) -> Result<Outcome> {

@@ -144,6 +144,16 @@ const STEPS: &[Step] = &[
         run: cost_steps::costs,
     },
     Step {
+        name: "growth",
+        title: "inverse and forward dynamics grow in step with a chain, and docs/growth.md says so",
+        run: cost_steps::growth,
+    },
+    Step {
+        name: "eliminations",
+        title: "docs/eliminations.md has today's accuracies",
+        run: host_steps::eliminations,
+    },
+    Step {
         name: "readme",
         title: "the README's tables are those of this run",
         run: scene_steps::readme,

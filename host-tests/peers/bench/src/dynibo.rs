@@ -4,18 +4,18 @@ use std::error::Error;
 use std::path::Path;
 
 use dynamics_core::state::State;
-use host_tests::export::Body;
+use host_tests::recordings::Recording;
 
-use crate::subject::Subject;
+use crate::subject::{Subject, square};
 
-/// Its gravity, of ours.
+/// Its gravity, relative to the recordings'.
 const GRAVITY: f64 = 9.80665 / 9.81;
 
-/// What it has of the algorithms that we compare.
+/// Its inverse dynamics, gravity torques, mass matrix and forward dynamics; nothing for what it lacks.
 pub fn subject<const N: usize>(
     algorithm: &str,
     urdf: &Path,
-    bodies: &[Body],
+    recording: &Recording,
     states: &[State<f64, N, N>],
 ) -> Result<Option<Subject<f64>>, Box<dyn Error>> {
     let mut robot = dynibo::Robot::from_urdf(urdf)?;
@@ -26,7 +26,11 @@ pub fn subject<const N: usize>(
     let order = (0..N)
         .map(|index| {
             let name = robot.joint_name(index)?;
-            let moving = bodies.iter().filter(|body| body.joint != "fixed");
+            let moving = recording
+                .model
+                .bodies
+                .iter()
+                .filter(|body| body.joint != "fixed");
             let mut ours = moving.map(|body| format!("{}_joint", body.name));
             Ok(ours
                 .position(|ours| ours == name)
@@ -34,67 +38,58 @@ pub fn subject<const N: usize>(
         })
         .collect::<Result<Vec<usize>, Box<dyn Error>>>()?;
     let sorted = |values: &[f64; N]| std::array::from_fn(|index| values[order[index]]);
-    let outputs = if algorithm == "crba" {
-        N * (N + 1) / 2
-    } else {
-        N
-    };
-    let mut states: Vec<State<f64, N, N>> = states
-        .iter()
-        .map(|s| State {
-            q: sorted(&s.q),
-            qd: sorted(&s.qd),
-            qdd: sorted(&s.qdd),
+    let weights = recording.gravity.iter().cycle();
+    let states: Vec<State<f64, N, N>> = std::iter::zip(states, weights)
+        .map(|(s, weight)| {
+            let mut last = s.qdd;
+            if algorithm == "aba" {
+                // The torque that, under its gravity, does what ours does under the recordings'.
+                for (tau, weight) in std::iter::zip(&mut last, weight) {
+                    *tau -= (1.0 - GRAVITY) * weight;
+                }
+            }
+            State {
+                q: sorted(&s.q),
+                qd: sorted(&s.qd),
+                qdd: sorted(&last),
+            }
         })
         .collect();
-    if !["rnea", "gravity", "crba", "aba"].contains(&algorithm) {
-        return Ok(None);
-    }
-    if algorithm == "aba" {
-        // The torque that makes up for its gravity, so that it accelerates as under ours.
-        for state in &mut states {
-            let mut weight = [0.0; N];
-            robot.gravity(&state.q, &[], &mut weight)?;
-            for (tau, weight) in std::iter::zip(&mut state.qdd, weight) {
-                *tau += weight * (1.0 - 1.0 / GRAVITY);
-            }
-        }
-    }
-    let weighs = matches!(algorithm, "rnea" | "gravity");
-    let algorithm = algorithm.to_owned();
-    let (mut m, matrix) = (vec![0.0; N * N], algorithm == "crba");
+    let gravity = match algorithm {
+        "rnea" | "gravity" => GRAVITY,
+        "crba" | "aba" => 1.0,
+        _ => return Ok(None),
+    };
+    let is_square = algorithm == "crba";
+    let outputs = if is_square { N * N } else { N };
+    let run = compute(algorithm);
     Ok(Some(Subject {
         peer: "dynibo".to_owned(),
         run: Box::new(move |out| {
             for (out, s) in std::iter::zip(out.chunks_exact_mut(outputs), &states) {
-                let done = match &*algorithm {
-                    "rnea" => robot.inverse_dynamics(&s.q, &s.qd, &s.qdd, &[], out),
-                    "gravity" => robot.gravity(&s.q, &[], out),
-                    "crba" => robot.mass_matrix(&s.q, &mut m),
-                    _ => robot.forward_dynamics(&s.q, &s.qd, &s.qdd, &[], out),
-                };
-                done.expect("finite inputs of the right size");
-                if matrix {
-                    let upper = (0..N).flat_map(|i| (i..N).map(move |j| i * N + j));
-                    for (out, at) in std::iter::zip(out, upper) {
-                        *out = m[at];
-                    }
-                }
+                run(&mut robot, s, out).expect("finite inputs of the right size");
             }
         }),
         outputs,
-        order: if matrix { triangle::<N>(&order) } else { order },
+        order: if is_square {
+            square(&order)
+        } else {
+            order.into_iter().map(Some).collect()
+        },
         timed: true,
-        gravity: if weighs { GRAVITY } else { 1.0 },
+        gravity,
     }))
 }
 
-/// Which entry of our upper triangle each of its own is, given which of our joints each of its own is.
-fn triangle<const N: usize>(order: &[usize]) -> Vec<usize> {
-    let place = |i: usize, j: usize| i * N - i * (i + 1) / 2 + j;
-    let ours = |i: usize, j: usize| place(order[i].min(order[j]), order[i].max(order[j]));
-    (0..N)
-        .flat_map(|i| (i..N).map(move |j| (i, j)))
-        .map(|(i, j)| ours(i, j))
-        .collect()
+type Compute<const N: usize> =
+    fn(&mut dynibo::Robot, &State<f64, N, N>, &mut [f64]) -> dynibo::Result<()>;
+
+/// Its function; in forward dynamics the torque stands in the place of q̈.
+fn compute<const N: usize>(algorithm: &str) -> Compute<N> {
+    match algorithm {
+        "rnea" => |robot, s, out| robot.inverse_dynamics(&s.q, &s.qd, &s.qdd, &[], out),
+        "gravity" => |robot, s, out| robot.gravity(&s.q, &[], out),
+        "crba" => |robot, s, out| robot.mass_matrix(&s.q, out),
+        _ => |robot, s, out| robot.forward_dynamics(&s.q, &s.qd, &s.qdd, &[], out),
+    }
 }

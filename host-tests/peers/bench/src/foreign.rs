@@ -10,7 +10,7 @@ use dynamics_core::state::State;
 use libloading::{Library, Symbol};
 use serde::Deserialize;
 
-use crate::subject::Subject;
+use crate::subject::{Subject, square};
 
 type Open = unsafe extern "C" fn(*const c_char, *const c_char) -> *mut c_void;
 type Run<R> = unsafe extern "C" fn(*mut c_void, *const R, usize, *mut R);
@@ -36,6 +36,8 @@ pub struct Foreign {
     cs: bool,
     /// Numbers that it writes for a state.
     outputs: usize,
+    /// Whether that is a square matrix by columns, of which the upper triangle counts.
+    square: bool,
     /// Whether it is timed, or only checked.
     timed: bool,
 }
@@ -71,7 +73,11 @@ impl Foreign {
         Ok(Subject {
             peer: self.peer.clone(),
             outputs,
-            order: (0..outputs).collect(),
+            order: if self.square {
+                square(&std::array::from_fn::<usize, N, _>(|i| i))
+            } else {
+                (0..outputs).map(Some).collect()
+            },
             timed: self.timed,
             gravity: 1.0,
             run: Box::new(move |out| {

@@ -11,7 +11,7 @@ mod subject;
 use std::error::Error;
 use std::path::PathBuf;
 
-use dynamics_core::robots::{A1, Iiwa14, Panda, Ur5e};
+use dynamics_core::robots::{A1, G1, Iiwa14, Panda, Ur5e};
 use serde::Deserialize;
 
 use foreign::Foreign;
@@ -33,5 +33,6 @@ fn main() -> Result<(), Box<dyn Error>> {
     robot::run::<Ur5e, 6, 6>(&manifest)?;
     robot::run::<Panda, 7, 7>(&manifest)?;
     robot::run::<Iiwa14, 7, 7>(&manifest)?;
-    robot::run::<A1, 16, 12>(&manifest)
+    robot::run_tree::<A1, 16, 12>(&manifest)?;
+    robot::run_large::<G1, 29, 29>(&manifest)
 }

@@ -13,34 +13,100 @@ use crate::{Manifest, dynibo, ours};
 /// States in a timed batch; the recording is gone through again until there are so many.
 const BATCH: usize = 256;
 
+/// Ours of a robot known while compiling, for an algorithm.
+type Known<R, const N: usize> = fn(&str, &[State<R, N, N>]) -> Vec<Subject<R>>;
+
 /// Checks, times and prints everything about a robot.
 pub fn run<T: Robot<B, N, N>, const B: usize, const N: usize>(
     manifest: &Manifest,
 ) -> Result<(), Box<dyn Error>> {
+    let known = (
+        ours::all::<T, f64, B, N> as _,
+        ours::all::<T, f32, B, N> as _,
+    );
+    run_with::<T, B, N>(manifest, known)
+}
+
+/// The same of a robot of which only inverse dynamics is specialised here.
+pub fn run_tree<T: Robot<B, N, N>, const B: usize, const N: usize>(
+    manifest: &Manifest,
+) -> Result<(), Box<dyn Error>> {
+    let known = (
+        ours::inverse::<T, f64, B, N> as _,
+        ours::inverse::<T, f32, B, N> as _,
+    );
+    run_with::<T, B, N>(manifest, known)
+}
+
+fn run_with<T: Robot<B, N, N>, const B: usize, const N: usize>(
+    manifest: &Manifest,
+    known: (Known<f64, N>, Known<f32, N>),
+) -> Result<(), Box<dyn Error>> {
     let recording = recordings::load(T::MODEL.name);
     for algorithm in ["rnea", "bias", "gravity", "crba", "aba"] {
-        let urdf = manifest.urdfs.join(format!("{}.urdf", recording.robot));
-        let extra =
-            |states: &_| dynibo::subject::<N>(algorithm, &urdf, &recording.model.bodies, states);
-        one::<T, f64, B, N>(manifest, &recording, algorithm, "f64", extra)?;
-        one::<T, f32, B, N>(manifest, &recording, algorithm, "f32", |_| Ok(None))?;
+        one(manifest, &recording, algorithm, "f64", |states| {
+            let mut subjects = known.0(algorithm, states);
+            subjects.extend(ours::run_time::<T, f64, B, N>(algorithm, states));
+            subjects.extend(of_dynibo(manifest, &recording, algorithm, states)?);
+            Ok(subjects)
+        })?;
+        one(manifest, &recording, algorithm, "f32", |states| {
+            let mut subjects = known.1(algorithm, states);
+            subjects.extend(ours::run_time::<T, f32, B, N>(algorithm, states));
+            Ok(subjects)
+        })?;
     }
     Ok(())
 }
 
-fn one<T, R, const B: usize, const N: usize>(
+/// The same of a robot that is too large to be specialised here: the core over a model of run time, in f64.
+pub fn run_large<T: Robot<B, N, N>, const B: usize, const N: usize>(
+    manifest: &Manifest,
+) -> Result<(), Box<dyn Error>> {
+    let recording = recordings::load(T::MODEL.name);
+    for algorithm in ["rnea", "crba", "aba"] {
+        one(manifest, &recording, algorithm, "f64", |states| {
+            let mut subjects = ours::run_time::<T, f64, B, N>(algorithm, states);
+            subjects.extend(of_dynibo(manifest, &recording, algorithm, states)?);
+            Ok(subjects)
+        })?;
+    }
+    Ok(())
+}
+
+fn of_dynibo<const N: usize>(
+    manifest: &Manifest,
+    recording: &Recording,
+    algorithm: &str,
+    states: &[State<f64, N, N>],
+) -> Result<Option<Subject<f64>>, Box<dyn Error>> {
+    let urdf = manifest.urdfs.join(format!("{}.urdf", recording.robot));
+    dynibo::subject::<N>(algorithm, &urdf, recording, states)
+}
+
+type Subjects<R> = Result<Vec<Subject<R>>, Box<dyn Error>>;
+
+fn one<R: Real, const N: usize>(
     manifest: &Manifest,
     recording: &Recording,
     algorithm: &str,
     precision: &str,
-    extra: impl Fn(&[State<R, N, N>]) -> Result<Option<Subject<R>>, Box<dyn Error>>,
-) -> Result<(), Box<dyn Error>>
-where
-    T: Robot<B, N, N>,
-    R: Real,
-{
-    let states = states(recording, algorithm, recording.q.len());
-    let mut checked = gather::<T, R, B, N>(manifest, algorithm, precision, &states, &extra)?;
+    own: impl Fn(&[State<R, N, N>]) -> Subjects<R>,
+) -> Result<(), Box<dyn Error>> {
+    // Ours first, and dynibo.
+    let gather = |states: &[State<R, N, N>]| -> Subjects<R> {
+        let mut subjects = own(states)?;
+        for foreign in &manifest.foreign {
+            let key = (&*foreign.robot, &*foreign.algorithm, &*foreign.precision);
+            if key == (&*recording.robot, algorithm, precision) {
+                subjects.push(foreign.load(states)?);
+            }
+        }
+        Ok(subjects)
+    };
+    let (expected_rows, _) = expected(recording, algorithm, 1.0);
+    let states = states(recording, algorithm, expected_rows.len());
+    let mut checked = gather(&states)?;
     let mut errors = Vec::new();
     for subject in &mut checked {
         let (expected, full_scale) = expected(recording, algorithm, subject.gravity);
@@ -49,7 +115,7 @@ where
         errors.push(error.map_err(|e| format!("{algorithm} of {}: {e}", recording.robot))?);
     }
     let states = self::states(recording, algorithm, BATCH);
-    let mut subjects = gather::<T, R, B, N>(manifest, algorithm, precision, &states, &extra)?;
+    let mut subjects = gather(&states)?;
     let mut timed: Vec<_> = subjects
         .iter_mut()
         .filter(|subject| subject.timed)
@@ -67,29 +133,6 @@ where
         println!("{}", serde_json::to_string(&row)?);
     }
     Ok(())
-}
-
-/// Every function for this robot, algorithm and precision, ours first.
-fn gather<T, R, const B: usize, const N: usize>(
-    manifest: &Manifest,
-    algorithm: &str,
-    precision: &str,
-    states: &[State<R, N, N>],
-    extra: &impl Fn(&[State<R, N, N>]) -> Result<Option<Subject<R>>, Box<dyn Error>>,
-) -> Result<Vec<Subject<R>>, Box<dyn Error>>
-where
-    T: Robot<B, N, N>,
-    R: Real,
-{
-    let mut subjects = ours::subjects::<T, R, B, N>(algorithm, states);
-    for foreign in &manifest.foreign {
-        let key = (&*foreign.robot, &*foreign.algorithm, &*foreign.precision);
-        if key == (T::MODEL.name, algorithm, precision) {
-            subjects.push(foreign.load(states)?);
-        }
-    }
-    subjects.extend(extra(states)?);
-    Ok(subjects)
 }
 
 /// So many recorded states; in forward dynamics the torque stands in the place of q̈.

@@ -1,0 +1,120 @@
+//! M, what solves with it, and the tip's Jacobian, form by form.
+
+use dynamics_core::algorithms::{NotPositiveDefinite, frame};
+use dynamics_core::effects::{Coriolis, Gravity, Inertia, RIGID_BODY};
+
+use dynamics_core::model::Robot;
+use dynamics_core::spatial::Motion;
+use dynamics_core::state::{Posture, State};
+use dynamics_core::{Core, MassMatrix};
+
+use super::costs::row::Row;
+use super::costs::{asks, done};
+
+pub type Scene = (Gravity, Inertia, Coriolis);
+pub type Solution<const N: usize> = Result<[f32; N], NotPositiveDefinite>;
+pub type Forward<const N: usize> = fn(&State<f32, N, N>, &[f32; N], &Scene) -> Solution<N>;
+pub type ForwardAt<const N: usize> =
+    fn(&Posture<f32, N>, &State<f32, N, N>, &[f32; N], &Scene) -> Solution<N>;
+
+/// The functions of core or engine; those that take a posture have sines and cosines at hand.
+pub struct Forms<const N: usize> {
+    pub name: &'static str,
+    pub crba: fn(&[f32; N], &Scene) -> MassMatrix<f32, N>,
+    pub crba_at: fn(&Posture<f32, N>, &Scene) -> MassMatrix<f32, N>,
+    pub factor_solve: fn(&MassMatrix<f32, N>, &[f32; N]) -> Solution<N>,
+    pub forward: Forward<N>,
+    pub forward_at: ForwardAt<N>,
+    pub aba: Forward<N>,
+    pub aba_at: ForwardAt<N>,
+    pub jacobian: fn(&[f32; N]) -> [Motion<f32>; N],
+    pub jacobian_at: fn(&Posture<f32, N>) -> [Motion<f32>; N],
+}
+
+impl<const N: usize> Forms<N> {
+    pub fn core<T: Robot<B, N, N>, const B: usize>() -> Self {
+        Self {
+            name: "core",
+            crba: Core::<T>::crba,
+            crba_at: Core::<T>::crba_at,
+            factor_solve: core_factor_solve::<T, B, N>,
+            forward: Core::<T>::forward,
+            forward_at: Core::<T>::forward_at,
+            aba: Core::<T>::aba,
+            aba_at: Core::<T>::aba_at,
+            jacobian: tip_jacobian::<T, B, N>,
+            jacobian_at: tip_jacobian_at::<T, B, N>,
+        }
+    }
+}
+
+#[inline(never)]
+fn core_factor_solve<T: Robot<B, N, N>, const B: usize, const N: usize>(
+    m: &MassMatrix<f32, N>,
+    tau: &[f32; N],
+) -> Solution<N> {
+    Ok(Core::<T>::solve(&Core::<T>::factor(m)?, tau))
+}
+
+/// The engine's: of the last body, along the axes of the base.
+#[inline(never)]
+fn tip_jacobian<T: Robot<B, N, N>, const B: usize, const N: usize>(
+    q: &[f32; N],
+) -> [Motion<f32>; N] {
+    Core::<T>::jacobian(q, const { B - 1 }, frame::Mixed)
+}
+
+#[inline(never)]
+fn tip_jacobian_at<T: Robot<B, N, N>, const B: usize, const N: usize>(
+    posture: &Posture<f32, N>,
+) -> [Motion<f32>; N] {
+    Core::<T>::jacobian_at(posture, const { B - 1 }, frame::Mixed)
+}
+
+/// Measures the rows of these forms and leaves the emulator. Torques are the states' accelerations: any
+/// will do, since the work does not depend on what they move.
+pub fn run<T: Robot<B, N, N>, const B: usize, const N: usize>(forms: &[Forms<N>]) -> ! {
+    let asks = &asks::<T, B, N>();
+    let scene = &RIGID_BODY;
+    let row = |form: &Forms<N>, algorithm, trig| Row {
+        robot: T::MODEL.name,
+        algorithm,
+        form: form.name,
+        inputs: "full",
+        trig,
+        joints: N,
+    };
+    for form in forms {
+        let (inside, at_hand) = (form.crba, form.crba_at);
+        row(form, "crba", true).measure(inside as usize, asks, |ask| inside(&ask.state.q, scene));
+        row(form, "crba", false)
+            .measure(at_hand as usize, asks, |ask| at_hand(&ask.posture, scene));
+    }
+    for form in forms {
+        let run = form.factor_solve;
+        let matrices = asks
+            .each_ref()
+            .map(|ask| Core::<T>::crba_at(&ask.posture, scene));
+        row(form, "factor_solve", false).measure(run as usize, &matrices, |m| run(m, &[1.0; N]));
+    }
+    let forward = forms
+        .iter()
+        .map(|form| (form, "forward", form.forward, form.forward_at));
+    let aba = forms
+        .iter()
+        .map(|form| (form, "aba", form.aba, form.aba_at));
+    for (form, algorithm, inside, at_hand) in forward.chain(aba) {
+        row(form, algorithm, true).measure(inside as usize, asks, |ask| {
+            inside(&ask.state, &ask.state.qdd, scene)
+        });
+        row(form, algorithm, false).measure(at_hand as usize, asks, |ask| {
+            at_hand(&ask.posture, &ask.state, &ask.state.qdd, scene)
+        });
+    }
+    for form in forms {
+        let (inside, at_hand) = (form.jacobian, form.jacobian_at);
+        row(form, "jacobian", true).measure(inside as usize, asks, |ask| inside(&ask.state.q));
+        row(form, "jacobian", false).measure(at_hand as usize, asks, |ask| at_hand(&ask.posture));
+    }
+    done()
+}

@@ -1,0 +1,48 @@
+//! Inverse dynamics, form by form, effect by effect.
+
+use dynamics_core::effects::{Coriolis, Effect, Gravity, Inertia, RIGID_BODY};
+use dynamics_core::model::Robot;
+use dynamics_core::state::{Posture, State};
+use dynamics_core::{Core, Engine};
+
+use super::costs::row::Row;
+use super::costs::{Ask, STATES, asks, done};
+
+type Inside<E, const N: usize> = fn(&State<f32, N, N>, &E) -> [f32; N];
+type AtHand<E, const N: usize> = fn(&Posture<f32, N>, &State<f32, N, N>, &E) -> [f32; N];
+
+/// Measures every row of the robot T and leaves the emulator.
+pub fn run<T: Robot<B, N, N>, const B: usize, const N: usize>() -> ! {
+    let asks = asks::<T, B, N>();
+    inverse::<T, _, B, N>("full", &asks, &RIGID_BODY);
+    inverse::<T, _, B, N>("bias", &asks, &(Gravity::EARTH, Coriolis));
+    inverse::<T, _, B, N>("gravity", &asks, &(Gravity::EARTH,));
+    inverse::<T, _, B, N>("no_coriolis", &asks, &(Gravity::EARTH, Inertia));
+    done()
+}
+
+/// Inverse dynamics in both forms, with sines and cosines inside and at hand.
+fn inverse<T: Robot<B, N, N>, E: Effect<f32, B, N>, const B: usize, const N: usize>(
+    inputs: &'static str,
+    asks: &[Ask<N>; STATES],
+    effects: &E,
+) {
+    let forms: [(&str, Inside<E, N>, AtHand<E, N>); 2] = [
+        ("core", Core::<T>::rnea, Core::<T>::rnea_at),
+        ("engine", Engine::<T>::rnea, Engine::<T>::rnea_at),
+    ];
+    for (form, inside, at_hand) in forms {
+        let row = |trig| Row {
+            robot: T::MODEL.name,
+            algorithm: "rnea",
+            form,
+            inputs,
+            trig,
+            joints: N,
+        };
+        row(true).measure(inside as usize, asks, |ask| inside(&ask.state, effects));
+        row(false).measure(at_hand as usize, asks, |ask| {
+            at_hand(&ask.posture, &ask.state, effects)
+        });
+    }
+}

@@ -1,0 +1,250 @@
+//! `cargo xtask growth`: how the core's algorithms grow with the length of a chain.
+
+mod picture;
+
+use std::process::ExitCode;
+
+use crate::bars::{self, Held, Ratios};
+use crate::budgets;
+use crate::costs::{self, Row};
+use crate::docs;
+use crate::error::{Error, Result};
+use crate::report::MODEL;
+use crate::setup::{self, Options, Tools};
+use crate::table::{Table, thousands};
+use crate::toolchain::RELEASE;
+use crate::workspace::{self, Workspace};
+
+const BIN: &str = "growth";
+const PAGE: &str = "docs/growth.md";
+const PICTURE: &str = "docs/growth.svg";
+const COMMAND: &str = "cargo xtask growth";
+
+/// In the order of the table's columns; `forward` is bias, M, its factors and their solution.
+const ALGORITHMS: [(&str, &str); 5] = [
+    ("rnea", "RNEA"),
+    ("crba", "CRBA"),
+    ("factor_solve", "factor + solve"),
+    ("forward", "bias + CRBA + factor + solve"),
+    ("aba", "ABA"),
+];
+
+/// The lengths whose instructions a body are held against each other.
+const ENDS: [usize; 2] = [8, 64];
+
+/// What was measured.
+pub struct Report {
+    /// A row for each algorithm and length.
+    rows: Vec<Row>,
+    ratios: Ratios,
+    rustc: String,
+}
+
+/// Measures, writes the page and the picture, and prints.
+pub fn run(options: Options, json: bool) -> Result<ExitCode> {
+    let workspace = Workspace::find()?;
+    let tools = setup::for_demo(options)?;
+    let report = measure(&workspace, &tools)?;
+    workspace::write(&workspace.root.join(PAGE), report.markdown())?;
+    picture::write(&report, &workspace.root.join(PICTURE))?;
+    if json {
+        let text = serde_json::to_string_pretty(&report.json())
+            .map_err(|e| Error::check(format!("cannot write the JSON: {e}")))?;
+        println!("{text}");
+    } else {
+        print!("{}\n{}\n", report.table().text(), report.verdict());
+        print!("{}", bars::table(&report.held()).text());
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Runs the firmware's bin under the meter.
+pub fn measure(workspace: &Workspace, tools: &Tools) -> Result<Report> {
+    let (_, ratios) = budgets::bars(workspace)?;
+    Ok(Report {
+        rows: costs::measure_bins(workspace, tools, RELEASE, &[BIN])?,
+        ratios,
+        rustc: tools.toolchain.rustc_version()?,
+    })
+}
+
+/// Fails unless the bars hold and the page is that of the report; else says what was seen.
+pub fn check(workspace: &Workspace, report: &Report) -> Result<String> {
+    let held = report.held();
+    let unmet: Vec<String> = held.iter().filter_map(Held::complaint).collect();
+    if held.is_empty() || !unmet.is_empty() {
+        let why = unmet.join("\nbar: ");
+        return Err(Error::check(format!("bar: {why}")));
+    }
+    let written = workspace::read(&workspace.root.join(PAGE))?;
+    docs::compare(PAGE, COMMAND, &written, &report.markdown(), &report.rustc)?;
+    let seen = held
+        .iter()
+        .map(|held| format!("{} {:.3}", held.what, held.taken));
+    Ok(seen.collect::<Vec<_>>().join(", "))
+}
+
+impl Report {
+    /// The lengths, each once.
+    fn lengths(&self) -> Vec<usize> {
+        let mut lengths: Vec<usize> = self.rows.iter().map(|row| row.joints).collect();
+        lengths.dedup();
+        lengths
+    }
+
+    fn row(&self, algorithm: &str, joints: usize) -> Option<&Row> {
+        self.rows
+            .iter()
+            .find(|row| (&*row.algorithm, row.joints) == (algorithm, joints))
+    }
+
+    /// Instructions of an algorithm's call by length.
+    fn instructions(&self, algorithm: &str) -> Vec<(usize, u64)> {
+        let of = self.rows.iter().filter(|row| row.algorithm == algorithm);
+        of.map(|row| (row.joints, row.instructions.max)).collect()
+    }
+
+    /// The first length at which articulated bodies take fewer instructions than M and its factors, and
+    /// the length where both take as many, between the lengths measured.
+    fn crossing(&self) -> Option<(usize, f64)> {
+        let pairs: Vec<(f64, f64)> =
+            std::iter::zip(self.instructions("aba"), self.instructions("forward"))
+                .map(|((n, aba), (_, forward))| (n as f64, aba as f64 - forward as f64))
+                .collect();
+        let pair = pairs.windows(2).find(|p| p[0].1 > 0.0 && p[1].1 <= 0.0)?;
+        let [(a, above), (b, below)] = [pair[0], pair[1]];
+        Some((b as usize, a + (b - a) * above / (above - below)))
+    }
+
+    /// Instructions a body of the longest chain against those of the shorter one, where there are bars.
+    fn held(&self) -> Vec<Held> {
+        let ratio = |algorithm: &str| {
+            let [short, long] = ENDS.map(|n| {
+                let row = self.row(algorithm, n)?;
+                Some(row.instructions.max as f64 / n as f64)
+            });
+            let key = format!("growth, {algorithm} a body, {} / {}", ENDS[1], ENDS[0]);
+            Held::ratio(&self.ratios, &key, "instructions", long? / short?)
+        };
+        ALGORITHMS
+            .iter()
+            .filter_map(|(name, _)| ratio(name))
+            .collect()
+    }
+
+    fn table(&self) -> Table {
+        let heads = ALGORITHMS
+            .iter()
+            .flat_map(|(_, name)| [format!("{name}: insn"), "cycles".into()]);
+        let heads: Vec<String> = std::iter::once("bodies".to_owned()).chain(heads).collect();
+        let mut table = Table::new(&heads.iter().map(String::as_str).collect::<Vec<_>>());
+        for n in self.lengths() {
+            let mut cells = vec![n.to_string()];
+            for (algorithm, _) in ALGORITHMS {
+                let costs = self
+                    .row(algorithm, n)
+                    .map(|row| [row.instructions.max, row.cycles.max]);
+                cells.extend(costs.unwrap_or_default().map(thousands));
+            }
+            table.row(cells);
+        }
+        table
+    }
+
+    /// Which way is the shorter.
+    fn verdict(&self) -> String {
+        match self.crossing() {
+            Some((first, at)) => format!(
+                "Of the lengths measured, ABA is the shorter way from n = {first} on: the two lines cross at \
+                 n = {at:.1}. The literature's figure, by counting flops, is 9."
+            ),
+            None => "ABA does not overtake within the lengths measured.".to_owned(),
+        }
+    }
+
+    fn markdown(&self) -> String {
+        format!(
+            "# Growth\n\n<!-- written by `{COMMAND}`: do not edit -->\n\n\
+             Chains of n rods on revolute joints; the core's loops over a model of run time, f32, sines and \
+             cosines at hand, all effects of a rigid body: {MODEL}. `factor + solve` \
+             begins with M at hand.\n\n![Instructions against the number of bodies](growth.svg)\n\n{}\n\
+             {}\n\nThe engine is another matter: it folds what a robot's constants leave to fold, of M more \
+             than of articulated inertias; `docs/costs.md` has both ways for arms of 6 and 7 joints. Where \
+             which is less accurate: `docs/eliminations.md`.\n\n\
+             ## Bars\n\nInstructions a body of the longest chain against those of one of {}, from \
+             `budgets.toml`.\n\n{}\nMeasured with {}.\n",
+            self.table().markdown(),
+            self.verdict(),
+            ENDS[0],
+            bars::table(&self.held()).markdown(),
+            self.rustc
+        )
+    }
+
+    /// What `--json` prints.
+    fn json(&self) -> Vec<serde_json::Value> {
+        let rows = self.rows.iter();
+        rows.map(|row| {
+            serde_json::json!({
+                "algorithm": row.algorithm,
+                "bodies": row.joints,
+                "instructions": row.instructions,
+                "cycles": row.cycles,
+                "flops": row.flops,
+                "stack_bytes": row.stack_bytes,
+            })
+        })
+        .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Report;
+    use crate::bars::{Ratio, Ratios};
+    use crate::costs::Row;
+    use crate::meter::Spread;
+
+    fn row(algorithm: &str, joints: usize, instructions: u64) -> Row {
+        let spread = Spread {
+            min: instructions,
+            median: instructions,
+            max: instructions,
+        };
+        Row {
+            robot: "chain".into(),
+            algorithm: algorithm.into(),
+            form: "core".into(),
+            inputs: "full".into(),
+            trig: false,
+            joints,
+            instructions: spread,
+            cycles: spread,
+            flops: 0,
+            code_bytes: 0,
+            stack_bytes: 0,
+        }
+    }
+
+    #[test]
+    fn the_crossing_is_between_the_lengths_around_it() {
+        let ratio = Ratio {
+            instructions: Some(1.1),
+            ..Ratio::default()
+        };
+        let report = Report {
+            rows: vec![
+                row("forward", 8, 700),
+                row("aba", 8, 800),
+                row("forward", 64, 6_900),
+                row("aba", 64, 6_800),
+            ],
+            ratios: Ratios::from([("growth, aba a body, 64 / 8".into(), ratio)]),
+            rustc: String::new(),
+        };
+        assert_eq!(report.crossing(), Some((64, 36.0)));
+        let held = report.held();
+        assert_eq!(held.len(), 1);
+        assert_eq!(held[0].taken, 1.0625);
+    }
+}

@@ -1,7 +1,7 @@
 //! The engine against Pinocchio, on every recorded state.
 
 use dynamics_core::Engine;
-use dynamics_core::effects::{Coriolis, Effect, Gravity, RIGID_BODY};
+use dynamics_core::effects::{Coriolis, Effect, Gravity, Inertia, RIGID_BODY};
 use dynamics_core::model::Robot;
 use dynamics_core::robots::{A1, Iiwa14, Panda, Ur5e};
 use dynamics_core::scalar::Real;
@@ -91,7 +91,7 @@ where
 {
     let mut error = 0.0_f64;
     for i in 0..r.mass_matrix.len() {
-        let m = Engine::<T>::crba(&state::<R, N>(r, i).q, &RIGID_BODY);
+        let m = Engine::<T>::crba(&state::<R, N>(r, i).q, &(Inertia,));
         for (i, wanted) in symmetric::<N>(&r.mass_matrix, i).iter().enumerate() {
             for (j, wanted) in wanted.iter().enumerate() {
                 let found = m.get(i, j).to_f64();
@@ -116,17 +116,15 @@ fn inverse_dynamics_agree_with_pinocchio_within_the_table() {
     robot::<A1, 16, 12>();
     let recording = load("ur5e");
     parts::<f32, Ur5e, 6, 6>(&recording);
-    parts::<f32, A1, 16, 12>(&load("a1"));
 }
 
 #[test]
 fn m_and_forward_dynamics_agree_with_pinocchio_within_the_table() {
     // Few of them: they take the compiler long.
     let recording = load("ur5e");
-    forward::<f64, Ur5e, 6, 6>(&recording);
     forward::<f32, Ur5e, 6, 6>(&recording);
     matrix::<f32, Ur5e, 6, 6>(&recording);
-    forward::<f32, Iiwa14, 7, 7>(&load("iiwa14"));
+    forward::<f64, Iiwa14, 7, 7>(&load("iiwa14"));
     matrix::<f64, Panda, 7, 7>(&load("panda"));
     matrix::<f64, A1, 16, 12>(&load("a1"));
 }
@@ -142,6 +140,5 @@ fn articulated_bodies_agree_with_pinocchio() {
         });
         check::<R>("ur5e", "engine aba", error);
     }
-    ur5e::<f64>();
     ur5e::<f32>();
 }

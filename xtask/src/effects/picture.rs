@@ -46,7 +46,11 @@ fn draw(prices: &[Price], svg: &mut String) -> Outcome {
     let heads = [
         ("cycles, core", CORE, CYCLES.0),
         ("cycles, engine (bars: √)", ENGINE, CYCLES.0 + 150),
-        ("torque on pick and place, N·m rms (bars: √)", TORQUE, TORQUES.0),
+        (
+            "torque on pick and place, N·m rms (bars: √)",
+            TORQUE,
+            TORQUES.0,
+        ),
     ];
     for (text, colour, x) in heads {
         bar(&root, (x, 54), 14, 12, colour)?;

@@ -1,6 +1,6 @@
 //! Ways that arms go, for scenes and for what is computed of them on a host.
 
-use core::f32::consts::FRAC_PI_2;
+use core::f32::consts::{FRAC_PI_2, FRAC_PI_4};
 
 use dynamics_core::control::WayPoint;
 
@@ -28,12 +28,34 @@ pub const PICK_AND_PLACE: [WayPoint<f32, 6>; 9] = [
     stop(HOME, 1400),
 ];
 
+/// Where the Panda's begins and ends, rad.
+pub const READY: [f32; 7] = [
+    0.0,
+    -FRAC_PI_4,
+    0.0,
+    -3.0 * FRAC_PI_4,
+    0.0,
+    FRAC_PI_2,
+    FRAC_PI_4,
+];
+
+/// The Panda's pick and place.
+pub const PANDA_PICK_AND_PLACE: [WayPoint<f32, 7>; 7] = [
+    stop(READY, 0),
+    stop([-0.70, -0.30, 0.10, -2.00, 0.05, 1.75, 0.10], 1200),
+    stop([-0.70, 0.05, 0.10, -2.00, 0.05, 2.10, 0.10], 700),
+    stop([-0.70, -0.30, 0.10, -2.00, 0.05, 1.75, 0.10], 700),
+    stop([0.80, -0.20, -0.10, -2.10, -0.05, 1.90, 1.50], 1600),
+    stop([0.80, 0.15, -0.10, -2.05, -0.05, 2.20, 1.50], 700),
+    stop(READY, 1600),
+];
+
 /// A way-point at rest.
-const fn stop(q: [f32; 6], ticks: u32) -> WayPoint<f32, 6> {
-    pass(q, [0.0; 6], ticks)
+const fn stop<const N: usize>(q: [f32; N], ticks: u32) -> WayPoint<f32, N> {
+    pass(q, [0.0; N], ticks)
 }
 
 /// A way-point that the arm passes at speed.
-const fn pass(q: [f32; 6], qd: [f32; 6], ticks: u32) -> WayPoint<f32, 6> {
+const fn pass<const N: usize>(q: [f32; N], qd: [f32; N], ticks: u32) -> WayPoint<f32, N> {
     WayPoint { q, qd, ticks }
 }

@@ -18,8 +18,14 @@ use crate::table::Table;
 use crate::workspace::{self, Workspace};
 
 const FEATURE: &str = "effects";
-/// Three, so that they build side by side.
-const BINS: [&str; 3] = ["effects_core", "effects_joints", "effects_bodies"];
+/// Several, so that they build side by side.
+const BINS: [&str; 5] = [
+    "effects_core",
+    "effects_joints_ur5e",
+    "effects_bodies_ur5e",
+    "effects_joints_panda",
+    "effects_bodies_panda",
+];
 const HOST_BIN: &str = "effects";
 const PAGE: &str = "docs/effects.md";
 const PICTURE: &str = "docs/effects.svg";
@@ -106,45 +112,47 @@ fn measure(workspace: &Workspace, tools: &Tools) -> Result<Vec<Price>> {
     priced(&rows, &held, &torques)
 }
 
-/// Form and scene, and the bytes of its effects, from a line `holds FORM NAME BYTES`.
-fn holds(line: &str) -> Option<((String, String), i64)> {
+/// Robot, form and scene, and the bytes of its effects, from a line `holds ROBOT FORM NAME BYTES`.
+fn holds(line: &str) -> Option<([String; 3], i64)> {
     let words: Vec<&str> = line.split(' ').collect();
-    let ["holds", form, name, bytes] = *words.as_slice() else {
+    let ["holds", robot, form, name, bytes] = *words.as_slice() else {
         return None;
     };
-    Some(((form.into(), name.into()), bytes.parse().ok()?))
+    Some(([robot, form, name].map(str::to_owned), bytes.parse().ok()?))
 }
 
-/// A scene and its torque from a line `effect NAME RMS`.
-fn torque(line: &str) -> Option<(String, f64)> {
+/// Robot and scene, and its torque, from a line `effect ROBOT NAME RMS`.
+fn torque(line: &str) -> Option<([String; 2], f64)> {
     let words: Vec<&str> = line.split(' ').collect();
-    let ["effect", name, rms] = *words.as_slice() else {
+    let ["effect", robot, name, rms] = *words.as_slice() else {
         return None;
     };
-    Some((name.into(), rms.parse().ok()?))
+    Some(([robot, name].map(str::to_owned), rms.parse().ok()?))
 }
 
 /// Every scene's difference to the rigid body.
 fn priced(
     rows: &[Row],
-    held: &BTreeMap<(String, String), i64>,
-    torques: &BTreeMap<String, f64>,
+    held: &BTreeMap<[String; 3], i64>,
+    torques: &BTreeMap<[String; 2], f64>,
 ) -> Result<Vec<Price>> {
     let mut prices = Vec::new();
     for row in rows.iter().filter(|row| row.inputs != RIGID) {
-        let missing =
-            |what| Error::check(format!("there is no {what} of {} {}", row.form, row.inputs));
-        let rigid = |other: &&Row| (&*other.inputs, &other.form) == (RIGID, &row.form);
+        let (robot, form, scene) = (&row.robot, &row.form, &row.inputs);
+        let missing = |what| Error::check(format!("there is no {what} of {robot} {form} {scene}"));
+        let rigid =
+            |other: &&Row| (&*other.inputs, &other.form, &other.robot) == (RIGID, form, robot);
         let rigid = rows.iter().find(rigid);
         let rigid = rigid.ok_or_else(|| missing("rigid body beside that"))?;
-        let bytes = |row: &Row| held.get(&(row.form.clone(), row.inputs.clone())).copied();
-        let bytes = bytes(row).zip(bytes(rigid));
+        let bytes = |scene: &str| held.get(&[robot, form, scene].map(str::to_owned));
+        let bytes = bytes(scene).zip(bytes(RIGID));
         let (own, of_rigid) = bytes.ok_or_else(|| missing("size"))?;
         // What a scene lacks is the rigid body's own.
         let (effect, sign) = match row.inputs.strip_prefix(LESS) {
             Some(term) => (term, -1),
             None => (&*row.inputs, 1),
         };
+        let torque = torques.get(&[robot.clone(), scene.clone()]);
         let added = |one: u64, other: u64| sign * (one.cast_signed() - other.cast_signed());
         prices.push(Price {
             effect: effect.into(),
@@ -154,7 +162,7 @@ fn priced(
             cycles: added(row.cycles.max, rigid.cycles.max),
             code_bytes: added(row.code_bytes, rigid.code_bytes),
             ram_bytes: sign * (own - of_rigid),
-            torque_rms_nm: *torques.get(&row.inputs).ok_or_else(|| missing("torque"))?,
+            torque_rms_nm: *torque.ok_or_else(|| missing("torque"))?,
         });
     }
     Ok(prices)
@@ -173,7 +181,11 @@ fn table(prices: &[Price]) -> Table {
         "RAM",
         "torque, N·m",
     ]);
-    for core in prices.iter().filter(|price| price.form == "core") {
+    let mut sorted: Vec<&Price> = prices.iter().filter(|p| p.form == "core").collect();
+    // Robots side by side, effects in the catalogue's order.
+    let place = |price: &Price| prices.iter().position(|p| p.effect == price.effect);
+    sorted.sort_by_key(|price| place(price));
+    for core in sorted {
         let engine = prices.iter().find(|price| {
             (&*price.form, &price.effect, &price.robot) == ("engine", &core.effect, &core.robot)
         });
@@ -228,13 +240,13 @@ mod tests {
             row("less_gravity", 80),
         ];
         let lines = [
-            "holds core viscous 40",
+            "holds ur5e core viscous 40",
             "config …",
-            "holds core rigid_body 16",
-            "holds core less_gravity 0",
+            "holds ur5e core rigid_body 16",
+            "holds ur5e core less_gravity 0",
         ];
         let held: BTreeMap<_, _> = lines.iter().filter_map(|line| holds(line)).collect();
-        let torques = ["effect viscous 3.5", "effect less_gravity 40"];
+        let torques = ["effect ur5e viscous 3.5", "effect ur5e less_gravity 40"];
         let torques = torques.iter().filter_map(|line| torque(line)).collect();
         let prices = priced(&rows, &held, &torques).expect("complete");
         let seen: Vec<_> = prices

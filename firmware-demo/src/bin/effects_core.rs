@@ -8,15 +8,22 @@ mod effects;
 
 use cortex_m_rt::entry;
 use dynamics_core::Core;
-use dynamics_core::robots::Ur5e;
+use dynamics_core::robots::{Panda, Ur5e};
 use firmware_demo::catalogue;
+
+use effects::Priced;
 
 #[entry]
 fn main() -> ! {
-    let mut priced = effects::Priced::<Core<Ur5e>>::new();
-    catalogue::rigid(&mut priced);
-    catalogue::joints(&mut priced);
-    catalogue::bodies(&mut priced);
-    catalogue::spinning(&mut priced);
+    let ur5e = &mut Priced::<Core<Ur5e>, 6>::new();
+    catalogue::rigid(ur5e);
+    catalogue::joints(ur5e);
+    catalogue::bodies(ur5e);
+    catalogue::spinning(ur5e);
+    let panda = &mut Priced::<Core<Panda>, 7>::new();
+    catalogue::rigid(panda);
+    catalogue::joints(panda);
+    catalogue::bodies(panda);
+    catalogue::spinning(panda);
     costs::done()
 }

@@ -1,31 +1,40 @@
-//! Prints the torque that each effect contributes on the UR5e's pick and place, as lines `effect NAME RMS`:
-//! `cargo xtask effects` puts them into docs/effects.md.
+//! Prints the torque that each effect contributes on an arm's pick and place, as lines
+//! `effect ROBOT NAME RMS`: `cargo xtask effects` puts them into docs/effects.md.
+
+use std::marker::PhantomData;
 
 use dynamics_core::Core;
-use dynamics_core::control::{Speed, Trajectory};
+use dynamics_core::control::{Speed, Trajectory, WayPoint};
 use dynamics_core::effects::{Effect, JointState, RIGID_BODY};
-use dynamics_core::robots::Ur5e;
+use dynamics_core::model::{Robot, model};
+use dynamics_core::robots::{Panda, Ur5e};
 use dynamics_core::state::State;
 use firmware_demo::catalogue::{self, RIGID, Visitor};
 use firmware_demo::scene::TICK;
-use firmware_demo::trajectories::PICK_AND_PLACE;
+use firmware_demo::trajectories::{PANDA_PICK_AND_PLACE, PICK_AND_PLACE};
 
-/// The states of the trajectory, tick by tick.
-struct Reference(Vec<State<f32, 6, 6>>);
+/// Greatest acceleration of each joint, rad/s², as in the scene `ur5e`.
+const ACCELERATION: f32 = 12.0;
 
-impl Visitor<6> for Reference {
+/// The states of an arm's trajectory, tick by tick.
+struct Reference<T, const N: usize> {
+    states: Vec<State<f32, N, N>>,
+    robot: PhantomData<T>,
+}
+
+impl<T: Robot<N, N, N>, const N: usize> Visitor<N> for Reference<T, N> {
     /// √(mean of |Δτ|²) over the ticks, |Δτ|² summed over the joints.
-    fn scene<E: Effect<f32, 6, 6>>(&mut self, name: &'static str, mut effects: E) {
+    fn scene<E: Effect<f32, N, N>>(&mut self, name: &'static str, mut effects: E) {
         if name == RIGID {
             return;
         }
         let mut sum = 0.0;
-        for state in &self.0 {
-            let with = Core::<Ur5e>::rnea(state, &effects);
-            let without = Core::<Ur5e>::rnea(state, &RIGID_BODY);
-            let squares = with.iter().zip(without);
-            sum += squares.map(|(a, b)| f64::from(a - b).powi(2)).sum::<f64>();
-            for joint in 0..6 {
+        for state in &self.states {
+            let with = Core::<T>::rnea(state, &effects);
+            let without = Core::<T>::rnea(state, &RIGID_BODY);
+            let pairs = with.iter().zip(without);
+            sum += pairs.map(|(a, b)| f64::from(a - b).powi(2)).sum::<f64>();
+            for joint in 0..N {
                 let at = JointState {
                     q: state.q[joint],
                     qd: state.qd[joint],
@@ -34,22 +43,30 @@ impl Visitor<6> for Reference {
                 effects.advance(joint, at, TICK);
             }
         }
-        println!("effect {name} {:.6}", (sum / self.0.len() as f64).sqrt());
+        let rms = (sum / self.states.len() as f64).sqrt();
+        println!("effect {} {name} {rms:.6}", T::MODEL.name);
     }
 }
 
 fn main() {
-    // Limits are the scene's to check.
-    let any = [Speed {
-        velocity: f32::MAX,
-        acceleration: f32::MAX,
-    }; 6];
-    let trajectory =
-        Trajectory::new(&PICK_AND_PLACE, TICK, &any).expect("nothing exceeds these limits");
+    every::<Ur5e, 6, 9>(&PICK_AND_PLACE);
+    every::<Panda, 7, 7>(&PANDA_PICK_AND_PLACE);
+}
+
+/// Prints a line for each effect, on the way through these points.
+fn every<T: Robot<N, N, N>, const N: usize, const W: usize>(points: &[WayPoint<f32, N>; W]) {
+    let limits = model::<f32, T, N, N, N>().links.map(|link| Speed {
+        velocity: link.limits.velocity,
+        acceleration: ACCELERATION,
+    });
+    let trajectory = Trajectory::new(points, TICK, &limits).expect("the arm can go there");
     let ticks = 0..=trajectory.ticks();
-    let mut reference = Reference(ticks.map(|tick| trajectory.at(tick)).collect());
-    catalogue::rigid(&mut reference);
-    catalogue::joints(&mut reference);
-    catalogue::bodies(&mut reference);
-    catalogue::spinning(&mut reference);
+    let reference = &mut Reference::<T, N> {
+        states: ticks.map(|tick| trajectory.at(tick)).collect(),
+        robot: PhantomData,
+    };
+    catalogue::rigid(reference);
+    catalogue::joints(reference);
+    catalogue::bodies(reference);
+    catalogue::spinning(reference);
 }

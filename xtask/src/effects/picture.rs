@@ -16,6 +16,9 @@ const CORE: RGBColor = RGBColor(150, 190, 225);
 const ENGINE: RGBColor = RGBColor(27, 80, 162);
 const TORQUE: RGBColor = RGBColor(230, 145, 0);
 
+/// The robot that is shown: the other's picture would look much the same.
+const ROBOT: &str = "ur5e";
+
 /// Where the effects' names end, and where cycles and torques begin, and how far they go.
 const NAMES: i32 = 190;
 const CYCLES: (i32, i32) = (200, 300);
@@ -36,7 +39,10 @@ pub fn write(prices: &[Price], path: &Path) -> Result<()> {
 }
 
 fn draw(prices: &[Price], svg: &mut String) -> Outcome {
-    let effects: Vec<&Price> = prices.iter().filter(|p| p.form == "core").collect();
+    let of_robot = prices.iter().filter(|price| price.robot == ROBOT);
+    let prices: Vec<&Price> = of_robot.collect();
+    let effects = prices.iter().copied().filter(|price| price.form == "core");
+    let effects: Vec<&Price> = effects.collect();
     let height = (TOP + STEP * effects.len() as i32 + 16).unsigned_abs();
     let root = SVGBackend::with_string(svg, (WIDTH, height)).into_drawing_area();
     root.fill(&WHITE)?;
@@ -56,7 +62,7 @@ fn draw(prices: &[Price], svg: &mut String) -> Outcome {
         bar(&root, (x, 54), 14, 12, colour)?;
         label(&root, text, (x + 20, 60), 15, HPos::Left)?;
     }
-    let most = |of: fn(&Price) -> f64| prices.iter().map(of).fold(1.0, f64::max);
+    let most = |of: fn(&Price) -> f64| prices.iter().map(|price| of(price)).fold(1.0, f64::max);
     // Roots, so that small ones are seen beside large ones; the numbers stand beside them.
     let length = |value: f64, most: f64, width: i32| {
         ((value.max(0.0) / most).sqrt() * f64::from(width)) as i32
@@ -67,6 +73,7 @@ fn draw(prices: &[Price], svg: &mut String) -> Outcome {
         label(&root, &core.effect, (NAMES, y + 11), 15, HPos::Right)?;
         let engine = prices
             .iter()
+            .copied()
             .find(|p| (&*p.form, &p.effect) == ("engine", &core.effect));
         let bars = [(Some(core), CORE, y), (engine, ENGINE, y + 12)];
         for (price, colour, y) in bars {

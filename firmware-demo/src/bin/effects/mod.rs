@@ -1,8 +1,8 @@
-//! What each effect of the catalogue costs in inverse dynamics on the UR5e, between the meter's markers.
+//! What each effect of the catalogue costs in inverse dynamics, between the meter's markers.
 //! `cargo xtask effects` reads the log: the rows of `costs`, and before each of them
 //!
 //! ```text
-//! holds FORM NAME BYTES
+//! holds ROBOT FORM NAME BYTES
 //! ```
 //!
 //! the bytes of the scene's effects: their numbers, and what they remember.
@@ -11,7 +11,6 @@ use core::marker::PhantomData;
 
 use dynamics_core::effects::Effect;
 use dynamics_core::model::Robot;
-use dynamics_core::robots::Ur5e;
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
 use firmware_demo::catalogue::Visitor;
@@ -19,37 +18,40 @@ use firmware_demo::catalogue::Visitor;
 use super::costs::row::Row;
 use super::costs::{Ask, STATES, asks};
 
-/// Inverse dynamics in one of its forms.
-pub trait Form {
+/// Inverse dynamics of an arm in one of its forms.
+pub trait Form<const N: usize> {
     const NAME: &'static str;
-    fn rnea<E: Effect<f32, 6, 6>>() -> Rnea<E>;
+    type Arm: Robot<N, N, N>;
+    fn rnea<E: Effect<f32, N, N>>() -> Rnea<E, N>;
 }
 
-type Rnea<E> = fn(&State<f32, 6, 6>, &E) -> [f32; 6];
+type Rnea<E, const N: usize> = fn(&State<f32, N, N>, &E) -> [f32; N];
 
-impl Form for Core<Ur5e> {
+impl<T: Robot<N, N, N>, const N: usize> Form<N> for Core<T> {
     const NAME: &'static str = "core";
-    fn rnea<E: Effect<f32, 6, 6>>() -> Rnea<E> {
+    type Arm = T;
+    fn rnea<E: Effect<f32, N, N>>() -> Rnea<E, N> {
         Self::rnea
     }
 }
 
-impl Form for Engine<Ur5e> {
+impl<T: Robot<N, N, N>, const N: usize> Form<N> for Engine<T> {
     const NAME: &'static str = "engine";
-    fn rnea<E: Effect<f32, 6, 6>>() -> Rnea<E> {
+    type Arm = T;
+    fn rnea<E: Effect<f32, N, N>>() -> Rnea<E, N> {
         Self::rnea
     }
 }
 
 /// Prices each scene that it visits.
-pub struct Priced<F> {
-    asks: [Ask<6>; STATES],
+pub struct Priced<F, const N: usize> {
+    asks: [Ask<N>; STATES],
     form: PhantomData<F>,
 }
 
-impl<F> Priced<F> {
+impl<F: Form<N>, const N: usize> Priced<F, N> {
     pub fn new() -> Self {
-        let asks = asks::<Ur5e, 6, 6>();
+        let asks = asks::<F::Arm, N, N>();
         Self {
             asks,
             form: PhantomData,
@@ -57,21 +59,24 @@ impl<F> Priced<F> {
     }
 }
 
-impl<F: Form> Visitor<6> for Priced<F> {
-    fn scene<E: Effect<f32, 6, 6>>(&mut self, name: &'static str, effects: E) {
+impl<F: Form<N>, const N: usize> Visitor<N> for Priced<F, N> {
+    fn scene<E: Effect<f32, N, N>>(&mut self, name: &'static str, effects: E) {
+        let robot = F::Arm::MODEL.name;
+        let bytes = size_of::<E>();
         defmt::println!(
-            "holds {=str} {=str} {=usize}",
+            "holds {=str} {=str} {=str} {=usize}",
+            robot,
             F::NAME,
             name,
-            size_of::<E>()
+            bytes
         );
         let row = Row {
-            robot: <Ur5e as Robot<6, 6, 6>>::MODEL.name,
+            robot,
             algorithm: "rnea",
             form: F::NAME,
             inputs: name,
             trig: true,
-            joints: 6,
+            joints: N,
         };
         let rnea = F::rnea::<E>();
         row.measure(rnea as usize, &self.asks, |ask| rnea(&ask.state, &effects));

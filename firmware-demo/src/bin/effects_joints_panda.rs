@@ -1,4 +1,4 @@
-//! What effects at joints cost in the engine's inverse dynamics.
+//! What effects at joints cost in the engine's inverse dynamics of the Panda.
 #![no_std]
 #![no_main]
 
@@ -8,12 +8,13 @@ mod effects;
 
 use cortex_m_rt::entry;
 use dynamics_core::Engine;
-use dynamics_core::robots::Ur5e;
+use dynamics_core::robots::Panda;
 use firmware_demo::catalogue;
+
+use effects::Priced;
 
 #[entry]
 fn main() -> ! {
-    let mut priced = effects::Priced::<Engine<Ur5e>>::new();
-    catalogue::joints(&mut priced);
+    catalogue::joints(&mut Priced::<Engine<Panda>, 7>::new());
     costs::done()
 }

@@ -1,4 +1,4 @@
-//! What effects on bodies, and a rigid body's own terms, cost in the engine's inverse dynamics.
+//! What effects at joints cost in the engine's inverse dynamics of the UR5e.
 #![no_std]
 #![no_main]
 
@@ -11,10 +11,10 @@ use dynamics_core::Engine;
 use dynamics_core::robots::Ur5e;
 use firmware_demo::catalogue;
 
+use effects::Priced;
+
 #[entry]
 fn main() -> ! {
-    let mut priced = effects::Priced::<Engine<Ur5e>>::new();
-    catalogue::rigid(&mut priced);
-    catalogue::bodies(&mut priced);
+    catalogue::joints(&mut Priced::<Engine<Ur5e>, 6>::new());
     costs::done()
 }

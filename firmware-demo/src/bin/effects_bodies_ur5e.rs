@@ -1,0 +1,23 @@
+//! What a rigid body's own terms, and effects on bodies, cost in the engine's inverse dynamics of the
+//! UR5e.
+#![no_std]
+#![no_main]
+
+#[expect(dead_code, reason = "postures are for what takes them at hand")]
+mod costs;
+mod effects;
+
+use cortex_m_rt::entry;
+use dynamics_core::Engine;
+use dynamics_core::robots::Ur5e;
+use firmware_demo::catalogue;
+
+use effects::Priced;
+
+#[entry]
+fn main() -> ! {
+    let priced = &mut Priced::<Engine<Ur5e>, 6>::new();
+    catalogue::rigid(priced);
+    catalogue::bodies(priced);
+    costs::done()
+}

@@ -8,7 +8,7 @@ use core::sync::atomic::{AtomicU16, AtomicU32, Ordering::Relaxed};
 
 use dynamics_core::algorithms::NotPositiveDefinite;
 use dynamics_core::effects::Effect;
-use dynamics_core::model::Model;
+use dynamics_core::model::{Calibrated, Robot};
 use dynamics_core::sim::semi_implicit;
 use dynamics_core::state::State;
 use embedded_hal::pwm::{self, SetDutyCycle};
@@ -141,19 +141,28 @@ impl SetDutyCycle for SimDrive {
 
 /// The simulated robot.
 #[derive(Debug)]
-pub struct Plant<E, const B: usize, const N: usize> {
-    model: Model<f32, B, N, N>,
+pub struct Plant<T, E, const B: usize, const N: usize> {
+    robot: Calibrated<T, f32, B, N, N>,
     effects: E,
     full_scale: [f32; N],
     /// Position, velocity and acceleration, beyond what the encoders tell.
     pub state: State<f32, N, N>,
 }
 
-impl<E: Effect<f32, B, N>, const B: usize, const N: usize> Plant<E, B, N> {
+impl<T, E, const B: usize, const N: usize> Plant<T, E, B, N>
+where
+    T: Robot<B, N, N>,
+    E: Effect<f32, B, N>,
+{
     /// A robot at rest at q, whose drives deliver `full_scale` at full duty.
-    pub fn new(model: Model<f32, B, N, N>, effects: E, full_scale: [f32; N], q: [f32; N]) -> Self {
+    pub fn new(
+        robot: Calibrated<T, f32, B, N, N>,
+        effects: E,
+        full_scale: [f32; N],
+        q: [f32; N],
+    ) -> Self {
         Self {
-            model,
+            robot,
             effects,
             full_scale,
             state: State::at(q),
@@ -183,7 +192,7 @@ impl<E: Effect<f32, B, N>, const B: usize, const N: usize> Plant<E, B, N> {
             *tau *= f32::from(duty.load(Relaxed)) * (2.0 / f32::from(MAX_DUTY)) - 1.0;
         }
         for _ in 0..steps {
-            semi_implicit(&self.model, &mut self.state, &tau, &self.effects, h)?;
+            semi_implicit(&self.robot, &mut self.state, &tau, &self.effects, h)?;
         }
         self.publish(wires);
         Ok(())

@@ -4,13 +4,13 @@
 use core::convert::Infallible;
 use core::marker::PhantomData;
 
-use dynamics_core::algorithms::rnea;
+use dynamics_core::Core;
 use dynamics_core::control::{
     Bounds, Gains, Observer, Rejoin, Speed, Status, Supervisor, Trajectory, TrajectoryError,
     WayPoint,
 };
 use dynamics_core::effects::Effect;
-use dynamics_core::model::{Model, Robot, model};
+use dynamics_core::model::{Calibrated, Robot, model};
 use dynamics_core::state::State;
 use embedded_hal::digital::{self, OutputPin};
 use heapless::spsc::Producer;
@@ -144,7 +144,7 @@ impl OutputPin for SimBrake {
 pub struct App<S: Scene<B, N, W>, const B: usize, const N: usize, const W: usize> {
     trajectory: Trajectory<f32, N, W>,
     wires: &'static Wires<N>,
-    plant: Plant<S::Effects, B, N>,
+    plant: Plant<S::Robot, S::Effects, B, N>,
     control: ControlLoop<SimEncoder, SimDrive, SimBrake, N>,
     records: Producer<'static, Record<N>>,
     run: usize,
@@ -247,22 +247,21 @@ fn start<S, const B: usize, const N: usize, const W: usize>(
     wires: &'static Wires<N>,
     run: usize,
 ) -> (
-    Plant<S::Effects, B, N>,
+    Plant<S::Robot, S::Effects, B, N>,
     ControlLoop<SimEncoder, SimDrive, SimBrake, N>,
 )
 where
     S: Scene<B, N, W>,
 {
-    let exact = model::<f32, S::Robot, B, N, N>();
-    let (model, effects) = if run < 3 {
-        (*exact, S::effects())
-    } else {
+    let (mut robot, mut effects) = (Calibrated::nominal(), S::effects());
+    if run >= 3 {
         let mut noise = Noise::seeded();
-        (disturbed(exact, &mut noise), S::disturbed(&mut noise))
-    };
+        disturb(&mut robot, &mut noise);
+        effects = S::disturbed(&mut noise);
+    }
     let limits = limits::<S, B, N, W>();
     let torque = limits.map(|l| l.torque);
-    let plant = Plant::new(model, effects, torque, S::WAY_POINTS[0].q);
+    let plant = Plant::new(robot, effects, torque, S::WAY_POINTS[0].q);
     plant.publish(wires);
     let bounds = Bounds {
         torque,
@@ -275,7 +274,11 @@ where
         core::array::from_fn(|j| Encoder::new(wires.encoder(j))),
         core::array::from_fn(|j| Drive::new(wires.drive(j), torque[j])),
         SimBrake,
-        Gains::from_inertia(&diagonal(exact, &S::effects(), S::GAIN_POSE), OMEGA_N, ZETA),
+        Gains::from_inertia(
+            &diagonal::<S::Robot, _, B, N>(&S::effects(), S::GAIN_POSE),
+            OMEGA_N,
+            ZETA,
+        ),
         Observer::new(OBSERVER, TICK),
         Supervisor::new(bounds, TICK, HOLD, REENTRY)
             .riding(RIDE)
@@ -287,32 +290,28 @@ where
 }
 
 /// Masses off by up to 3 %, each body's inertia with its mass.
-fn disturbed<const B: usize, const N: usize>(
-    exact: &Model<f32, B, N, N>,
+fn disturb<T, const B: usize, const N: usize>(
+    robot: &mut Calibrated<T, f32, B, N, N>,
     noise: &mut Noise,
-) -> Model<f32, B, N, N> {
-    let mut model = *exact;
-    for link in &mut model.links {
+) where
+    T: Robot<B, N, N>,
+{
+    for inertia in robot.inertias() {
         let factor = noise.factor(0.03);
-        link.inertia.mass *= factor;
-        link.inertia.moment *= factor;
-        link.inertia.inertia *= factor;
+        inertia.mass *= factor;
+        inertia.moment *= factor;
+        inertia.inertia *= factor;
     }
-    model
 }
 
-/// M's diagonal at q, column by column: M δ_j = ID(q, 0, δ_j) − ID(q, 0, 0).
-fn diagonal<E: Effect<f32, B, N>, const B: usize, const N: usize>(
-    model: &Model<f32, B, N, N>,
-    effects: &E,
-    q: [f32; N],
-) -> [f32; N] {
-    let rest = rnea(model, &State::at(q), effects);
-    core::array::from_fn(|j| {
-        let mut state = State::at(q);
-        state.qdd[j] = 1.0;
-        rnea(model, &state, effects)[j] - rest[j]
-    })
+/// M's diagonal at q.
+fn diagonal<T, E, const B: usize, const N: usize>(effects: &E, q: [f32; N]) -> [f32; N]
+where
+    T: Robot<B, N, N>,
+    E: Effect<f32, B, N>,
+{
+    let m = Core::<T>::crba(&q, effects);
+    core::array::from_fn(|j| m.get(j, j))
 }
 
 /// Tracking errors of one run, gathered outside the interrupt.

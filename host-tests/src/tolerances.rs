@@ -121,7 +121,7 @@ const TABLE: &[(&str, &str, f64, f64)] = &[
     ("panda", "engine jacobian", NONE, 8e-7),
     ("iiwa14", "engine jacobian", NONE, 8e-7),
     ("a1", "engine jacobian", 1.5e-15, NONE),
-    ("fork", "engine jacobian", 2e-15, NONE),
+    ("fork", "engine jacobian", 2e-14, NONE),
     ("fork", "engine aba of rnea", 1e-14, NONE),
     ("odd", "engine forward of rnea", 8e-15, NONE),
     ("odd", "engine columns of M", 4e-15, NONE),

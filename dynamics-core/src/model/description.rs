@@ -4,6 +4,7 @@ use core::marker::PhantomData;
 
 use super::{Kinds, Model, Node, Robot, model};
 use crate::scalar::Real;
+use crate::spatial::{SpatialInertia, Xform};
 
 /// A robot of B bodies, Q position and V velocity coordinates, with what is known of it while
 /// compiling: what its joints never do is not in the machine code.
@@ -112,5 +113,65 @@ where
     #[inline(always)]
     fn model(&self) -> &Model<R, B, Q, V> {
         model::<R, T, B, Q, V>()
+    }
+}
+
+/// A robot with the structure of `T`, known while compiling, and numbers of run time: identified masses and
+/// inertias, measured lengths.
+///
+/// As quick and as small as [`Of`], where a [`Model`] of run time asks every body what its joint is.
+///
+/// ```
+/// use dynamics_core::{algorithms::rnea, effects::RIGID_BODY, model::Calibrated, robots::Ur5e, state::State};
+/// let mut arm = Calibrated::<Ur5e, f64, 6, 6, 6>::nominal();
+/// let state = State::at([0.0, -1.2, 1.5, 0.3, 0.0, 0.0]);
+/// let before = rnea(&arm, &state, &RIGID_BODY);
+/// for inertia in arm.inertias() {
+///     *inertia = *inertia + *inertia; // all of it twice as heavy
+/// }
+/// assert_eq!(rnea(&arm, &state, &RIGID_BODY), before.map(|tau| 2.0 * tau));
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Calibrated<T, R: Real, const B: usize, const Q: usize, const V: usize> {
+    model: Model<R, B, Q, V>,
+    // A function's: no T is held.
+    robot: PhantomData<fn() -> T>,
+}
+
+impl<T, R: Real, const B: usize, const Q: usize, const V: usize> Calibrated<T, R, B, Q, V>
+where
+    T: Robot<B, Q, V>,
+{
+    /// The robot as it is described.
+    pub fn nominal() -> Self {
+        Self {
+            model: *model::<R, T, B, Q, V>(),
+            robot: PhantomData,
+        }
+    }
+
+    /// Its bodies' inertias, about the origins of their aligned frames and in their coordinates.
+    pub fn inertias(&mut self) -> impl Iterator<Item = &mut SpatialInertia<R>> {
+        self.model.links.iter_mut().map(|link| &mut link.inertia)
+    }
+
+    /// Where its joints stand at q = 0, from the parents' aligned frames.
+    pub fn placements(&mut self) -> impl Iterator<Item = &mut Xform<R>> {
+        self.model.links.iter_mut().map(|link| &mut link.placement)
+    }
+}
+
+impl<T, R: Real, const B: usize, const Q: usize, const V: usize> Description<R, B, Q, V>
+    for Calibrated<T, R, B, Q, V>
+where
+    T: Robot<B, Q, V>,
+{
+    const KINDS: Kinds = T::MODEL.kinds();
+    const CHAIN: bool = T::MODEL.is_chain();
+    const SINGLE: bool = T::MODEL.kinds().are_single() && B == Q && B == V;
+
+    #[inline(always)]
+    fn model(&self) -> &Model<R, B, Q, V> {
+        &self.model
     }
 }

@@ -71,7 +71,7 @@ mod turn;
 pub(crate) use axis::Axis;
 pub(crate) use body::moments_excess;
 pub use body::{BASE, Body, Limits};
-pub use description::{Description, Of, Revolutes};
+pub use description::{Calibrated, Description, Of, Revolutes};
 pub use error::{ModelError, Problem};
 pub use floating::on_root;
 pub use joint::{Joint, JointKind, Kinds};

@@ -11,7 +11,7 @@ use dynamics_core::control::{
     Bounds, Gains, Observer, Rejoin, Speed, Supervisor, Trajectory, WayPoint,
 };
 use dynamics_core::effects::{Coriolis, Coulomb, Gravity, Inertia, RotorInertia, Viscous};
-use dynamics_core::model::{Limits, model};
+use dynamics_core::model::{Calibrated, Limits, model};
 use dynamics_core::robots::Ur5e;
 use dynamics_core::state::State;
 use embedded_hal::digital::{self, OutputPin};
@@ -167,7 +167,7 @@ pub struct Arm {
     pub wires: &'static Wires<6>,
     pub bent: [Rc<Bent>; 6],
     pub brake: Brake,
-    pub plant: Plant<Effects, 6, 6>,
+    pub plant: Plant<Ur5e, Effects, 6, 6>,
     pub trajectory: Trajectory<f32, 6, 9>,
     pub control: ControlLoop<Spi, Pwm, Brake, 6>,
     pub limits: [Limits<f32>; 6],
@@ -183,7 +183,7 @@ impl Arm {
             velocity: l.velocity,
             acceleration: 12.0,
         });
-        let plant = Plant::new(*exact, EFFECTS, torque, HOME);
+        let plant = Plant::new(Calibrated::nominal(), EFFECTS, torque, HOME);
         plant.publish(wires);
         let bent: [Rc<Bent>; 6] = Default::default();
         let brake = Brake::default();

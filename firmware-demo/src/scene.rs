@@ -140,12 +140,19 @@ impl OutputPin for SimBrake {
     }
 }
 
+/// The robot of a scene, simulated.
+type ScenePlant<S, const B: usize, const N: usize, const W: usize> =
+    Plant<<S as Scene<B, N, W>>::Robot, <S as Scene<B, N, W>>::Effects, B, N>;
+
+/// The firmware on simulated devices.
+type SimLoop<const N: usize> = ControlLoop<SimEncoder, SimDrive, SimBrake, N>;
+
 /// The scene at work: what the interrupt calls.
 pub struct App<S: Scene<B, N, W>, const B: usize, const N: usize, const W: usize> {
     trajectory: Trajectory<f32, N, W>,
     wires: &'static Wires<N>,
-    plant: Plant<S::Robot, S::Effects, B, N>,
-    control: ControlLoop<SimEncoder, SimDrive, SimBrake, N>,
+    plant: ScenePlant<S, B, N, W>,
+    control: SimLoop<N>,
     records: Producer<'static, Record<N>>,
     run: usize,
     tick: u32,
@@ -246,10 +253,7 @@ where
 fn start<S, const B: usize, const N: usize, const W: usize>(
     wires: &'static Wires<N>,
     run: usize,
-) -> (
-    Plant<S::Robot, S::Effects, B, N>,
-    ControlLoop<SimEncoder, SimDrive, SimBrake, N>,
-)
+) -> (ScenePlant<S, B, N, W>, SimLoop<N>)
 where
     S: Scene<B, N, W>,
 {

@@ -17,11 +17,13 @@ pub fn within<const N: usize>(rng: &mut TestRng, bound: f64) -> [f64; N] {
     core::array::from_fn(|_| rng.random_range(-bound..bound))
 }
 
-/// `body` at a random place, with the inertia of six points: nothing that could not be a body's.
-pub fn random_body(rng: &mut TestRng, body: Body) -> Body {
+/// Mass, centre of mass and inertia about it of six points, each of a mass and at a place: nothing that could
+/// not be a body's.
+pub fn six_points(mut point: impl FnMut() -> (f64, [f64; 3])) -> (f64, [f64; 3], [f64; 6]) {
     let (mut mass, mut moment, mut second) = (0.0, DVec3::ZERO, DMat3::ZERO);
     for _ in 0..6 {
-        let (m, r) = (rng.random_range(0.1..0.5), DVec3::from(within(rng, 0.3)));
+        let (m, r) = point();
+        let r = DVec3::from(r);
         mass += m;
         moment += m * r;
         second += DMat3::from_cols(r * r.x, r * r.y, r * r.z) * m;
@@ -31,11 +33,17 @@ pub fn random_body(rng: &mut TestRng, body: Body) -> Body {
     let trace = second.x_axis.x + second.y_axis.y + second.z_axis.z;
     let about_com = DMat3::from_diagonal(DVec3::splat(trace)) - second;
     let [x, y, z] = about_com.to_cols_array_2d();
+    (mass, com.to_array(), [x[0], x[1], x[2], y[1], y[2], z[2]])
+}
+
+/// `body` at a random place, with the inertia of six points.
+pub fn random_body(rng: &mut TestRng, body: Body) -> Body {
+    let (mass, com, inertia) = six_points(|| (rng.random_range(0.1..0.5), within(rng, 0.3)));
     body.xyz(within(rng, 0.5))
         .rpy(within(rng, 3.0))
         .mass(mass)
-        .com(com.to_array())
-        .inertia([x[0], x[1], x[2], y[1], y[2], z[2]])
+        .com(com)
+        .inertia(inertia)
 }
 
 /// Bodies, position and velocity coordinates of [`mixed_tree`].

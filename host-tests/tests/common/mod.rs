@@ -6,7 +6,8 @@ use dynamics_core::model::{BASE, Body, Joint, JointKind, Model};
 use dynamics_core::scalar::{Real, Vector};
 use dynamics_core::spatial::{Force, Motion};
 use dynamics_core::state::State;
-use glam::{DMat3, DQuat, DVec3};
+use glam::{DQuat, DVec3};
+use host_tests::random::six_points;
 use host_tests::tolerances;
 
 /// Bodies, position and velocity coordinates of a tree that has each of the ten kinds of joint once.
@@ -82,7 +83,7 @@ pub fn random_tree(rng: &mut Rng, rooted: bool) -> Tree {
                 8 => Joint::free(),
                 _ => Joint::fixed(),
             };
-            let (mass, com, inertia) = six_points(rng);
+            let (mass, com, inertia) = six_points(|| (0.3 + rng.within(0.2), rng.vector(0.3)));
             Body::new(NAMES[i], parent, joint)
                 .xyz(rng.vector(0.5))
                 .rpy(rng.vector(3.0))
@@ -100,23 +101,6 @@ pub fn trees(rooted: bool) -> impl Iterator<Item = (Tree, State<f64, Q, V>)> {
         let tree = random_tree(&mut rng, rooted);
         (tree, random_state(&tree, &mut rng))
     })
-}
-
-/// The inertia of six points: nothing that could not be a body's.
-fn six_points(rng: &mut Rng) -> (f64, [f64; 3], [f64; 6]) {
-    let (mut mass, mut moment, mut second) = (0.0, DVec3::ZERO, DMat3::ZERO);
-    for _ in 0..6 {
-        let (m, r) = (0.3 + rng.within(0.2), DVec3::from(rng.vector(0.3)));
-        mass += m;
-        moment += m * r;
-        second += DMat3::from_cols(r * r.x, r * r.y, r * r.z) * m;
-    }
-    let com = moment / mass;
-    second -= DMat3::from_cols(com * com.x, com * com.y, com * com.z) * mass;
-    let trace = second.x_axis.x + second.y_axis.y + second.z_axis.z;
-    let about_com = DMat3::from_diagonal(DVec3::splat(trace)) - second;
-    let [x, y, z] = about_com.to_cols_array_2d();
-    (mass, com.to_array(), [x[0], x[1], x[2], y[1], y[2], z[2]])
 }
 
 /// A random state; quaternions at unit length.

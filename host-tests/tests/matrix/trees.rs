@@ -4,7 +4,8 @@ use dynamics_core::MassMatrix;
 use dynamics_core::model::{BASE, Body, Joint, JointKind, Model};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
-use glam::{DMat3, DVec3};
+use glam::DVec3;
+use host_tests::random::random_body;
 use proptest::prelude::RngExt;
 use proptest::test_runner::{RngAlgorithm, TestRng};
 
@@ -78,30 +79,9 @@ pub fn tree<const B: usize, const Q: usize, const V: usize>(
             Free => Joint::free(),
             _ => Joint::fixed(),
         };
-        random_body(rng, parent, joint)
+        random_body(rng, Body::new("body", parent, joint))
     });
     Model::new("mixed", bodies)
-}
-
-/// With the inertia of six points: nothing that could not be a body's.
-fn random_body(rng: &mut TestRng, parent: usize, joint: Joint<f64>) -> Body {
-    let (mut mass, mut moment, mut second) = (0.0, DVec3::ZERO, DMat3::ZERO);
-    for _ in 0..6 {
-        let (m, r) = (rng.random_range(0.1..0.5), DVec3::from(within(rng, 0.3)));
-        mass += m;
-        moment += m * r;
-        second += DMat3::from_cols(r * r.x, r * r.y, r * r.z) * m;
-    }
-    let com = moment / mass;
-    second -= DMat3::from_cols(com * com.x, com * com.y, com * com.z) * mass;
-    let trace = second.x_axis.x + second.y_axis.y + second.z_axis.z;
-    let [x, y, z] = (DMat3::from_diagonal(DVec3::splat(trace)) - second).to_cols_array_2d();
-    Body::new("body", parent, joint)
-        .xyz(within(rng, 0.5))
-        .rpy(within(rng, 3.0))
-        .mass(mass)
-        .com(com.to_array())
-        .inertia([x[0], x[1], x[2], y[1], y[2], z[2]])
 }
 
 /// Any state of a robot; quaternions at unit length.

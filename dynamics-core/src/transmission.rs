@@ -21,6 +21,13 @@ use crate::state::State;
 /// let gripper = Transmission { matrix: [[0.01], [-0.01]], offset: [0.0; 2] };
 /// assert_eq!(gripper.rate(&[3.0]), [0.03, -0.03]);
 /// ```
+///
+/// A transmission of another robot's size does not compile:
+///
+/// ```compile_fail,E0308
+/// use dynamics_core::transmission::Transmission;
+/// let wrist = Transmission { matrix: [[0.5, 0.5], [0.5, -0.5]], offset: [0.0; 3] };
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Transmission<R, const M: usize, const V: usize> {
     /// G, a row for each joint.

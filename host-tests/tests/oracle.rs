@@ -1,7 +1,7 @@
 //! The core against Pinocchio, in f64 and f32, on every recorded state. Its loops are over run-time models,
 //! which robots of one size share; `tests/engine` has those of robots known while compiling.
 
-use dynamics_core::algorithms::{aba, rnea};
+use dynamics_core::algorithms::{aba, crba, factor, inverse, rnea};
 use dynamics_core::configuration::{difference, integrate};
 use dynamics_core::effects::{BodyState, Coriolis, Effect, Gravity, RIGID_BODY, RotorInertia};
 use dynamics_core::model::{JointKind, Robot, model};
@@ -9,7 +9,7 @@ use dynamics_core::robots::{A1, A1Free, G1, G1Free, Gen3, Iiwa14, Panda, Ur5e, X
 use dynamics_core::scalar::{Real, Vector};
 use dynamics_core::spatial::{Force, Motion};
 use dynamics_core::state::State;
-use host_tests::recordings::{Recording, columns, full_scale, load, row};
+use host_tests::recordings::{Recording, columns, full_scale, load, row, symmetric};
 use host_tests::trees::{TreeA, TreeB};
 use host_tests::{export, tolerances};
 
@@ -215,6 +215,50 @@ fn surroundings<R: Real, T, const B: usize, const Q: usize, const V: usize>(
     }
 }
 
+/// M and M⁻¹ against the recording: M by the table, M⁻¹ within what its condition allows.
+fn matrices<R: Real, T, const B: usize, const Q: usize, const V: usize>(
+    recording: &Recording,
+    verdict: &mut Verdict,
+) where
+    T: Robot<B, Q, V>,
+{
+    let (r, robot) = (recording, model::<R, T, B, Q, V>());
+    let mut m_worst = Worst::new("crba", r.full_scale.mass_matrix);
+    let mut inverse_worst = Worst::new("M⁻¹", full_scale(&r.inverse_mass_matrix));
+    for i in 0..r.first_states() {
+        let m = crba(robot, &state::<R, Q, V>(r, i).q, &RIGID_BODY);
+        let inverted = inverse(robot, &factor(robot, &m).expect("M is positive"));
+        let wanted = symmetric::<V>(&r.mass_matrix, i);
+        let wanted_inverse = symmetric::<V>(&r.inverse_mass_matrix, i);
+        for k in 0..V {
+            m_worst.see::<R, V>(std::array::from_fn(|l| m.get(k, l)), wanted[k]);
+            inverse_worst.see::<R, V>(
+                std::array::from_fn(|l| inverted.get(k, l)),
+                wanted_inverse[k],
+            );
+        }
+    }
+    let (scalar, kappa) = (std::any::type_name::<R>(), r.condition);
+    verdict.check(&r.robot, m_worst.quantity, scalar, m_worst.error);
+    let (floor, epsilon) = (1e-11_f64, f64::EPSILON);
+    let (error, double) = (inverse_worst.error, scalar == "f64");
+    println!(
+        "{scalar} M⁻¹ of {}: {error:.1e}, κ(M) = {kappa:.1e}",
+        r.robot
+    );
+    let bound = if double {
+        floor.max(10.0 * kappa * epsilon)
+    } else {
+        10.0 * kappa * f64::from(f32::EPSILON)
+    };
+    if error.is_nan() || error > bound {
+        verdict.0.push(format!(
+            "{scalar} M⁻¹ of {}: {error:.1e} > {bound:.1e}",
+            r.robot
+        ));
+    }
+}
+
 /// The core against the recording, which is returned.
 fn core_of<T, const B: usize, const Q: usize, const V: usize>(verdict: &mut Verdict) -> Recording
 where
@@ -228,6 +272,8 @@ where
     );
     core::<f64, T, B, Q, V>(&recording, verdict);
     core::<f32, T, B, Q, V>(&recording, verdict);
+    matrices::<f64, T, B, Q, V>(&recording, verdict);
+    matrices::<f32, T, B, Q, V>(&recording, verdict);
     recording
 }
 

@@ -12,6 +12,13 @@ use crate::scalar::Real;
 /// let moving = State { qd: [2.0_f32; 6], ..State::at([0.0; 6]) };
 /// assert_eq!(Core::<Ur5e>::rnea(&moving, &(Viscous([0.5; 6]),)), [1.0; 6]);
 /// ```
+///
+/// Five values on six joints do not compile:
+///
+/// ```compile_fail,E0277
+/// use dynamics_core::{Core, effects::Viscous, robots::Ur5e, state::State};
+/// let _ = Core::<Ur5e>::rnea(&State::at([0.0_f32; 6]), &(Viscous([0.5_f32; 5]),));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Viscous<R, const V: usize>(pub [R; V]);
 

@@ -10,6 +10,7 @@ use dynamics_core::robots::{A1, Iiwa14, Panda, Ur5e};
 use dynamics_core::scalar::Real;
 use dynamics_core::spatial::Force;
 use dynamics_core::state::State;
+use dynamics_core::transmission::Transmission;
 use dynamics_core::{Core, Engine};
 use glam::{DMat3, DVec3};
 use host_tests::tolerances;
@@ -319,6 +320,45 @@ fn motors_supply_the_change_of_energy_and_what_friction_takes() {
         }
     }
     check_all::<Power>("power");
+}
+
+/// Motors on a differential of two joints, a mimicked pair, and gears: they feel Gᵀ M G, and their power is
+/// the joints'.
+#[test]
+fn motors_behind_a_transmission_feel_its_inertia_and_keep_its_power() {
+    let g = [
+        [0.01, 0.0, 0.0, 0.0],
+        [0.0, 0.5, 0.5, 0.0],
+        [0.0, 0.5, -0.5, 0.0],
+        [0.0, 0.0, 0.0, 0.02],
+        [0.0, 0.0, 0.0, -0.02],
+        [0.3, 0.1, 0.0, 0.0],
+    ];
+    let transmission = Transmission {
+        matrix: g,
+        offset: [0.1, -1.2, 1.5, 0.3, 0.0, 0.2],
+    };
+    let rng = &mut random_numbers();
+    for _ in 0..100 {
+        let motors = random_state::<4>(rng);
+        let state = transmission.state(&motors);
+        let m = Core::<Ur5e>::crba(&state.q, &RIGID_BODY);
+        let felt = transmission.inertia(&m);
+        // Row by row against inverse dynamics of one motor's acceleration.
+        for j in 0..4 {
+            let mut one = State::at(motors.q);
+            one.qdd[j] = 1.0;
+            let tau = Core::<Ur5e>::rnea(&transmission.state(&one), &(Inertia,));
+            for (i, tau) in transmission.torque(&tau).into_iter().enumerate() {
+                assert!((felt.get(i, j) - tau).abs() < 1e-14, "{i} {j}");
+            }
+        }
+        let tau = Core::<Ur5e>::rnea(&state, &RIGID_BODY);
+        let power =
+            |tau: &[f64], qd: &[f64]| -> f64 { tau.iter().zip(qd).map(|(t, v)| t * v).sum() };
+        let (joints, there) = (power(&tau, &state.qd), transmission.torque(&tau));
+        assert!((power(&there, &motors.qd) - joints).abs() < 1e-12);
+    }
 }
 
 #[test]

@@ -1,5 +1,5 @@
-//! Every effect once, with numbers of an arm of the UR5e's size: what effects are priced by, on the target
-//! and on the host.
+//! Every effect once, with numbers of an arm of the UR5e's size, the scene's where it has them: what effects
+//! are priced by, on the target and on the host.
 //!
 //! A scene is a rigid body on earth and one effect more; of a rigid body's own terms, the rigid body
 //! without it. Except for gravity all numbers are assumed, of the order that such arms have.
@@ -11,6 +11,8 @@ use dynamics_core::effects::{
 };
 use dynamics_core::spatial::{Force, Motion};
 use glam::Vec3;
+
+use crate::scenes::ur5e;
 
 /// The scene that all others are held against.
 pub const RIGID: &str = "rigid_body";
@@ -47,10 +49,9 @@ pub fn rigid<const N: usize>(visitor: &mut impl Visitor<N>) {
 
 /// What acts at a joint.
 pub fn joints<const N: usize>(visitor: &mut impl Visitor<N>) {
-    let sliding = first([8.0, 8.0, 6.0, 1.5, 1.5, 1.2, 1.2]);
-    let excess = sliding.map(|f| 0.4 * f);
-    let viscous = first([12.0, 12.0, 8.0, 2.0, 2.0, 1.5, 1.5]);
-    let (per_width, per_speed) = (20.0, 10.0);
+    let (.., Viscous(viscous), Coulomb { torque, per_width }, RotorInertia(rotors)) = ur5e::EFFECTS;
+    let [sliding, viscous, rotors] = [torque, viscous, rotors].map(spread);
+    let (excess, per_speed) = (sliding.map(|f| 0.4 * f), 10.0);
     visitor.scene("viscous", (RIGID_BODY, Viscous(viscous)));
     let coulomb = Coulomb {
         torque: sliding,
@@ -79,7 +80,6 @@ pub fn joints<const N: usize>(visitor: &mut impl Visitor<N>) {
         bristle: [0.0; N],
     };
     visitor.scene("lugre", (RIGID_BODY, lugre));
-    let rotors = first([0.9, 0.9, 0.9, 0.25, 0.25, 0.25, 0.25]);
     visitor.scene("rotor_inertia", (RIGID_BODY, RotorInertia(rotors)));
     let spring = Spring {
         stiffness: [5.0; N],
@@ -134,12 +134,12 @@ pub fn bodies<const N: usize>(visitor: &mut impl Visitor<N>) {
 /// Rotors as bodies that spin, which the engine does not have.
 pub fn spinning<const N: usize>(visitor: &mut impl Visitor<N>) {
     let ratio = [100.0; N];
-    let inertia = first([0.9, 0.9, 0.9, 0.25, 0.25, 0.25, 0.25]).map(|i| i * 1e-4);
+    let (.., RotorInertia(rotors)) = ur5e::EFFECTS;
+    let inertia = spread(rotors).map(|i| i * 1e-4);
     visitor.scene("rotors", (RIGID_BODY, Rotors { inertia, ratio }));
 }
 
-/// The first N of the numbers.
-fn first<const N: usize>(numbers: [f32; 7]) -> [f32; N] {
-    const { assert!(N <= 7, "there are numbers for seven joints") };
-    core::array::from_fn(|joint| numbers[joint])
+/// The numbers of the UR5e's joints for N joints: the last one's for those beyond.
+fn spread<const N: usize>(numbers: [f32; 6]) -> [f32; N] {
+    core::array::from_fn(|joint| numbers[joint.min(5)])
 }

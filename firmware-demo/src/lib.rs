@@ -9,6 +9,7 @@
 //! | [`marker`] | the measured regions | `dbg` is a no-op there |
 //! | [`plant`] | a simulated robot behind the same traits | left out |
 //! | [`scene`] | runs of one trajectory under several laws, with their tracking errors | left out |
+//! | [`scenes`] | the data sheet of each scene | left out |
 //! | [`catalogue`], [`trajectories`] | every effect with numbers, and a way to go: what effects are priced by | left out |
 //! | `target` | interrupt, log, panic handler of the emulated board | your board's |
 #![no_std]
@@ -21,6 +22,7 @@ pub mod encoder;
 pub mod marker;
 pub mod plant;
 pub mod scene;
+pub mod scenes;
 #[cfg(target_arch = "arm")]
 pub mod target;
 pub mod trajectories;

@@ -4,37 +4,22 @@
 use core::convert::Infallible;
 use core::marker::PhantomData;
 
-use dynamics_core::Core;
-use dynamics_core::control::{
-    Bounds, Gains, Observer, Rejoin, Speed, Status, Supervisor, Trajectory, TrajectoryError,
-    WayPoint,
-};
+use dynamics_core::control::{Status, Trajectory, TrajectoryError, WayPoint};
 use dynamics_core::effects::Effect;
-use dynamics_core::model::{Calibrated, Robot, model};
+use dynamics_core::model::{Calibrated, Robot};
 use dynamics_core::state::State;
 use embedded_hal::digital::{self, OutputPin};
 use heapless::spsc::Producer;
 
 use crate::control_loop::{ControlLoop, Law, Telemetry};
-use crate::drive::Drive;
-use crate::encoder::{Encoder, RESOLUTION};
 use crate::plant::{Plant, SimDrive, SimEncoder, Wires};
 
-/// A tick, s.
-pub const TICK: f32 = 1e-3;
+mod firmware;
+
+pub use firmware::{HOLD, OMEGA_N, REENTRY, RIDE, TICK, ZETA, control_loop, limits, trajectory};
+
 /// Steps of the simulated robot in a tick.
 const STEPS: u32 = 4;
-/// Natural frequency of the feedback on M's diagonal, rad/s.
-pub const OMEGA_N: f32 = core::f32::consts::TAU * 4.0;
-/// Damping ratio of the same.
-pub const ZETA: f32 = 1.0;
-/// Bandwidth of the observer, rad/s.
-const OBSERVER: f32 = core::f32::consts::TAU * 40.0;
-/// Ticks that a fault is ridden through, those of gravity compensation before it stops the arm, and
-/// those of the way back.
-const RIDE: u32 = 5;
-const HOLD: u32 = 100;
-const REENTRY: u32 = 200;
 /// Ticks that each run goes on after the trajectory's end.
 const SETTLE: u32 = 200;
 
@@ -170,15 +155,7 @@ impl<S: Scene<B, N, W>, const B: usize, const N: usize, const W: usize> App<S, B
         wires: &'static Wires<N>,
         records: Producer<'static, Record<N>>,
     ) -> Result<Self, TrajectoryError> {
-        let links = limits::<S, B, N, W>();
-        let mut speeds = links.map(|l| Speed {
-            velocity: l.velocity,
-            acceleration: 0.0,
-        });
-        for (speed, acceleration) in speeds.iter_mut().zip(S::ACCELERATION) {
-            speed.acceleration = acceleration;
-        }
-        let trajectory = Trajectory::new(&S::WAY_POINTS, TICK, &speeds)?;
+        let trajectory = trajectory::<S, B, N, W>()?;
         let (plant, control) = start::<S, B, N, W>(wires, 0);
         let scene = PhantomData;
         Ok(Self {
@@ -233,22 +210,6 @@ impl<S: Scene<B, N, W>, const B: usize, const N: usize, const W: usize> App<S, B
     }
 }
 
-/// The arm's limits, joint by joint.
-fn limits<S, const B: usize, const N: usize, const W: usize>()
--> [dynamics_core::model::Limits<f32>; N]
-where
-    S: Scene<B, N, W>,
-{
-    let model = model::<f32, S::Robot, B, N, N>();
-    let mut limits = [model.links[0].limits; N];
-    for link in &model.links {
-        if let Some(limit) = limits.get_mut(link.v_at) {
-            *limit = link.limits;
-        }
-    }
-    limits
-}
-
 /// A plant at rest on the first way-point and a loop that knows it so.
 fn start<S, const B: usize, const N: usize, const W: usize>(
     wires: &'static Wires<N>,
@@ -263,33 +224,12 @@ where
         disturb(&mut robot, &mut noise);
         effects = S::disturbed(&mut noise);
     }
-    let limits = limits::<S, B, N, W>();
-    let torque = limits.map(|l| l.torque);
+    let torque = limits::<S, B, N, W>().map(|l| l.torque);
     let plant = Plant::new(robot, effects, torque, S::WAY_POINTS[0].q);
     plant.publish(wires);
-    let bounds = Bounds {
-        torque,
-        rate: torque.map(|t| t * 0.5),
-        speed: limits.map(|l| l.velocity),
-        lower: limits.map(|l| l.lower),
-        upper: limits.map(|l| l.upper),
-    };
-    let control = ControlLoop::new(
-        core::array::from_fn(|j| Encoder::new(wires.encoder(j))),
-        core::array::from_fn(|j| Drive::new(wires.drive(j), torque[j])),
-        SimBrake,
-        Gains::from_inertia(
-            &diagonal::<S::Robot, _, B, N>(&S::effects(), S::GAIN_POSE),
-            OMEGA_N,
-            ZETA,
-        ),
-        Observer::new(OBSERVER, TICK),
-        Supervisor::new(bounds, TICK, HOLD, REENTRY)
-            .riding(RIDE)
-            .with_resolution(RESOLUTION),
-        // Half of what K_d does: at full speed the torques for more are not to be had.
-        Rejoin::new(TICK, ZETA * OMEGA_N, REENTRY),
-    );
+    let encoders = core::array::from_fn(|j| wires.encoder(j));
+    let drives = core::array::from_fn(|j| wires.drive(j));
+    let control = control_loop::<S, _, _, _, B, N, W>(encoders, drives, SimBrake);
     (plant, control)
 }
 
@@ -306,16 +246,6 @@ fn disturb<T, const B: usize, const N: usize>(
         inertia.moment *= factor;
         inertia.inertia *= factor;
     }
-}
-
-/// M's diagonal at q.
-fn diagonal<T, E, const B: usize, const N: usize>(effects: &E, q: [f32; N]) -> [f32; N]
-where
-    T: Robot<B, N, N>,
-    E: Effect<f32, B, N>,
-{
-    let m = Core::<T>::crba(&q, effects);
-    core::array::from_fn(|j| m.get(j, j))
 }
 
 /// Tracking errors of one run, gathered outside the interrupt.

@@ -5,51 +5,19 @@ pub mod outcome;
 use std::cell::Cell;
 use std::rc::Rc;
 
-use dynamics_core::Engine;
-use dynamics_core::algorithms::rnea;
-use dynamics_core::control::{
-    Bounds, Gains, Observer, Rejoin, Speed, Supervisor, Trajectory, WayPoint,
-};
-use dynamics_core::effects::{Coriolis, Coulomb, Gravity, Inertia, RotorInertia, Viscous};
-use dynamics_core::model::{Calibrated, Limits, model};
+use dynamics_core::control::Trajectory;
+use dynamics_core::model::{Calibrated, Limits};
 use dynamics_core::robots::Ur5e;
 use dynamics_core::state::State;
 use embedded_hal::digital::{self, OutputPin};
 use embedded_hal::pwm::{self, SetDutyCycle};
 use embedded_hal::spi::{self, Operation, SpiDevice};
 use firmware_demo::control_loop::{ControlLoop, Law, Telemetry};
-use firmware_demo::drive::Drive;
-use firmware_demo::encoder::{Encoder, RESOLUTION};
 use firmware_demo::plant::{MAX_DUTY, Plant, SimDrive, SimEncoder, Wires};
-
-pub const TICK: f32 = 1e-3;
-pub const RIDE: u32 = 5;
-pub const HOLD: u32 = 100;
-pub const REENTRY: u32 = 200;
-const OMEGA_N: f32 = core::f32::consts::TAU * 4.0;
-const H: f32 = core::f32::consts::FRAC_PI_2;
-const HOME: [f32; 6] = [0.0, -H, H, -H, -H, 0.0];
-
-type Effects = (
-    Gravity,
-    Inertia,
-    Coriolis,
-    Viscous<f32, 6>,
-    Coulomb<f32, 6>,
-    RotorInertia<f32, 6>,
-);
-
-const EFFECTS: Effects = (
-    Gravity::EARTH,
-    Inertia,
-    Coriolis,
-    Viscous([12.0, 12.0, 8.0, 2.0, 2.0, 1.5]),
-    Coulomb {
-        torque: [8.0, 8.0, 6.0, 1.5, 1.5, 1.2],
-        per_width: 20.0,
-    },
-    RotorInertia([0.9, 0.9, 0.9, 0.25, 0.25, 0.25]),
-);
+pub use firmware_demo::scene::{HOLD, REENTRY, RIDE};
+use firmware_demo::scene::{TICK, control_loop, limits, trajectory};
+use firmware_demo::scenes::ur5e::{self, EFFECTS, Effects, PickAndPlace};
+use firmware_demo::trajectories::HOME;
 
 /// The full model, which a test may make fail: on this thread, no number for a joint.
 pub struct FullModel;
@@ -61,7 +29,7 @@ thread_local! {
 
 impl Law<6> for FullModel {
     fn feedforward(reference: &State<f32, 6, 6>) -> [f32; 6] {
-        let mut tau = Engine::<Ur5e>::rnea(reference, &EFFECTS);
+        let mut tau = ur5e::FullModel::feedforward(reference);
         if let Some((joint, poison)) = POISON.get() {
             tau[joint] = poison;
         }
@@ -176,30 +144,21 @@ pub struct Arm {
 impl Arm {
     pub fn new() -> Self {
         let wires: &'static Wires<6> = Box::leak(Box::new(Wires::new()));
-        let exact = model::<f32, Ur5e, 6, 6, 6>();
-        let limits: [_; 6] = core::array::from_fn(|j| exact.links[j].limits);
+        let limits = limits::<PickAndPlace, 6, 6, 9>();
         let torque = limits.map(|l| l.torque);
-        let speeds = limits.map(|l| Speed {
-            velocity: l.velocity,
-            acceleration: 12.0,
-        });
         let plant = Plant::new(Calibrated::nominal(), EFFECTS, torque, HOME);
         plant.publish(wires);
         let bent: [Rc<Bent>; 6] = Default::default();
         let brake = Brake::default();
+        let encoders = core::array::from_fn(|j| Spi(wires.encoder(j), bent[j].clone()));
+        let drives = core::array::from_fn(|j| Pwm(wires.drive(j), bent[j].clone()));
         Self {
-            control: ControlLoop::new(
-                core::array::from_fn(|j| Encoder::new(Spi(wires.encoder(j), bent[j].clone()))),
-                core::array::from_fn(|j| {
-                    Drive::new(Pwm(wires.drive(j), bent[j].clone()), torque[j])
-                }),
+            control: control_loop::<PickAndPlace, _, _, _, 6, 6, 9>(
+                encoders,
+                drives,
                 brake.clone(),
-                Gains::from_inertia(&diagonal(), OMEGA_N, 1.0),
-                Observer::new(core::f32::consts::TAU * 40.0, TICK),
-                supervisor(&limits),
-                Rejoin::new(TICK, 1.0 * OMEGA_N, REENTRY),
             ),
-            trajectory: Trajectory::new(&way_points(), TICK, &speeds).unwrap(),
+            trajectory: trajectory::<PickAndPlace, 6, 6, 9>().unwrap(),
             wires,
             bent,
             brake,
@@ -237,52 +196,4 @@ impl Arm {
         let apart = |(r, q): (&f32, &f32)| (r - q).abs();
         reference.iter().zip(actual).map(apart).fold(0.0, f32::max)
     }
-}
-
-fn supervisor(limits: &[Limits<f32>; 6]) -> Supervisor<f32, 6> {
-    let bounds = Bounds {
-        torque: limits.map(|l| l.torque),
-        rate: limits.map(|l| l.torque * 0.5),
-        speed: limits.map(|l| l.velocity),
-        lower: limits.map(|l| l.lower),
-        upper: limits.map(|l| l.upper),
-    };
-    Supervisor::new(bounds, TICK, HOLD, REENTRY)
-        .riding(RIDE)
-        .with_resolution(RESOLUTION)
-}
-
-fn diagonal() -> [f32; 6] {
-    let exact = model::<f32, Ur5e, 6, 6, 6>();
-    let rest = rnea(exact, &State::at(HOME), &EFFECTS);
-    core::array::from_fn(|j| {
-        let mut state = State::at(HOME);
-        state.qdd[j] = 1.0;
-        rnea(exact, &state, &EFFECTS)[j] - rest[j]
-    })
-}
-
-fn way_points() -> [WayPoint<f32, 6>; 9] {
-    let pass = |q, qd, ticks| WayPoint { q, qd, ticks };
-    let stop = |q, ticks| pass(q, [0.0; 6], ticks);
-    let above = |pan, q: [f32; 3]| [pan, q[0], q[1], q[2], -H, pan];
-    [
-        stop(HOME, 0),
-        pass(
-            above(-0.7, [-1.35, 1.75, -1.97]),
-            [0.0, 0.35, 0.25, -0.6, 0.0, 0.0],
-            1000,
-        ),
-        stop(above(-0.7, [-1.05, 1.85, -2.37]), 600),
-        stop(above(-0.7, [-1.35, 1.75, -1.97]), 600),
-        pass(
-            above(0.3, [-1.45, 1.55, -1.67]),
-            [1.9, 0.0, 0.0, 0.0, 0.0, 1.9],
-            1000,
-        ),
-        stop(above(1.1, [-1.30, 1.70, -1.97]), 900),
-        stop(above(1.1, [-0.95, 1.80, -2.42]), 600),
-        stop(above(1.1, [-1.30, 1.70, -1.97]), 600),
-        stop(HOME, 1400),
-    ]
 }

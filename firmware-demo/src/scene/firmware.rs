@@ -1,0 +1,101 @@
+//! What a scene's data sheet makes of the control loop, whatever its devices are.
+
+use dynamics_core::Core;
+use dynamics_core::control::{
+    Bounds, Gains, Observer, Rejoin, Speed, Supervisor, Trajectory, TrajectoryError,
+};
+use dynamics_core::model::{Limits, model};
+use embedded_hal::digital::OutputPin;
+use embedded_hal::pwm::SetDutyCycle;
+use embedded_hal::spi::SpiDevice;
+
+use super::Scene;
+use crate::control_loop::ControlLoop;
+use crate::drive::Drive;
+use crate::encoder::{Encoder, RESOLUTION};
+
+/// A tick, s.
+pub const TICK: f32 = 1e-3;
+/// Natural frequency of the feedback on M's diagonal, rad/s.
+pub const OMEGA_N: f32 = core::f32::consts::TAU * 4.0;
+/// Damping ratio of the same.
+pub const ZETA: f32 = 1.0;
+/// Bandwidth of the observer, rad/s.
+const OBSERVER: f32 = core::f32::consts::TAU * 40.0;
+/// Ticks that a fault is ridden through.
+pub const RIDE: u32 = 5;
+/// Ticks of gravity compensation before a fault stops the arm.
+pub const HOLD: u32 = 100;
+/// Ticks of the way back after a fault.
+pub const REENTRY: u32 = 200;
+/// The arm's limits, joint by joint.
+pub fn limits<S, const B: usize, const N: usize, const W: usize>() -> [Limits<f32>; N]
+where
+    S: Scene<B, N, W>,
+{
+    let model = model::<f32, S::Robot, B, N, N>();
+    let mut limits = [model.links[0].limits; N];
+    for link in &model.links {
+        if let Some(limit) = limits.get_mut(link.v_at) {
+            *limit = link.limits;
+        }
+    }
+    limits
+}
+
+/// The scene's way.
+///
+/// # Errors
+/// Way-points that the arm's limits do not allow.
+pub fn trajectory<S, const B: usize, const N: usize, const W: usize>()
+-> Result<Trajectory<f32, N, W>, TrajectoryError>
+where
+    S: Scene<B, N, W>,
+{
+    let mut speeds = limits::<S, B, N, W>().map(|l| Speed {
+        velocity: l.velocity,
+        acceleration: 0.0,
+    });
+    for (speed, acceleration) in speeds.iter_mut().zip(S::ACCELERATION) {
+        speed.acceleration = acceleration;
+    }
+    Trajectory::new(&S::WAY_POINTS, TICK, &speeds)
+}
+
+/// The loop on these devices, for an arm that stands on the first way-point.
+pub fn control_loop<S, Spi, Pwm, Brake, const B: usize, const N: usize, const W: usize>(
+    encoders: [Spi; N],
+    drives: [Pwm; N],
+    brake: Brake,
+) -> ControlLoop<Spi, Pwm, Brake, N>
+where
+    S: Scene<B, N, W>,
+    Spi: SpiDevice,
+    Pwm: SetDutyCycle,
+    Brake: OutputPin,
+{
+    let limits = limits::<S, B, N, W>();
+    let torque = limits.map(|l| l.torque);
+    let bounds = Bounds {
+        torque,
+        rate: torque.map(|t| t * 0.5),
+        speed: limits.map(|l| l.velocity),
+        lower: limits.map(|l| l.lower),
+        upper: limits.map(|l| l.upper),
+    };
+    let m = Core::<S::Robot>::crba(&S::GAIN_POSE, &S::effects());
+    let diagonal = core::array::from_fn(|j| m.get(j, j));
+    let mut torques = torque.into_iter();
+    ControlLoop::new(
+        encoders.map(Encoder::new),
+        drives.map(|pwm| Drive::new(pwm, torques.next().unwrap_or_default())),
+        brake,
+        Gains::from_inertia(&diagonal, OMEGA_N, ZETA),
+        Observer::new(OBSERVER, TICK),
+        Supervisor::new(bounds, TICK, HOLD, REENTRY)
+            .riding(RIDE)
+            .with_resolution(RESOLUTION),
+        // Half of what K_d does: at full speed the torques for more are not to be had.
+        Rejoin::new(TICK, ZETA * OMEGA_N, REENTRY),
+    )
+}

@@ -7,12 +7,12 @@
 //! |---|---|
 //! | [`scalar`], [`trig`], [`exponential`] | f32 and f64 as one type parameter; sine, cosine and e⁻ˣ without f64 |
 //! | [`spatial`] | motion and force vectors, transforms, inertias |
-//! | [`model`], [`robots`] | a robot's description, checked while compiling; four real ones |
+//! | [`model`], [`robots`] | a robot's description, checked while compiling; eight real ones |
 //! | [`state`], [`configuration`] | q, q̇, q̈, the sines and cosines of one configuration; steps and differences of configurations |
 //! | [`transmission`] | joints that motors drive through a constant matrix |
 //! | [`effects`] | what acts on the robot: only what a scene names is computed |
-//! | [`algorithms`], [`Core`] | RNEA, ABA: the textbook, for every model and for robots known at compile time |
-//! | [`Engine`] | RNEA specialised by the compiler for a robot known at compile time |
+//! | [`algorithms`], [`Core`] | inverse and forward dynamics, M, kinematics, momenta, operational space: the textbook, for every model and for robots known at compile time |
+//! | [`Engine`] | inverse and forward dynamics, M and the tip's Jacobian, specialised by the compiler for a robot known at compile time |
 //! | [`control`] | trajectories, observer, control law, safety gate |
 //! | [`flexible`] | joints driven through springs: their plant and their inverse dynamics |
 //! | [`sim`] | time steps of a simulated robot, and its actuators |

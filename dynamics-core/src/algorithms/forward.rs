@@ -5,7 +5,7 @@
 //! the entry of M that it came from.
 
 use super::{NotPositiveDefinite, crba_at, factor, rnea_at, solve};
-use crate::effects::Effect;
+use crate::effects::{Bias, Effect};
 use crate::model::Description;
 use crate::scalar::Real;
 use crate::state::{Posture, State};
@@ -62,8 +62,7 @@ where
             "forward dynamics needs `Inertia` in the scene"
         )
     };
-    let qdd = [R::ZERO; V];
-    let bias = rnea_at(robot, posture, &State { qdd, ..*state }, effects);
+    let bias = rnea_at(robot, posture, state, &Bias(effects));
     let mut rest = *tau;
     for (rest, bias) in rest.iter_mut().zip(bias) {
         *rest -= bias;

@@ -10,13 +10,11 @@
 
 use core::ops::Mul;
 
-use heapless::Vec;
-
 use super::NotPositiveDefinite;
+use super::eliminate::{Eliminated, Handle, eliminate};
 use super::frame::{Frame, Pose};
-use crate::articulated::ArticulatedInertia;
-use crate::effects::{Effect, body_inertia};
-use crate::model::{Description, Turn};
+use crate::effects::Effect;
+use crate::model::Description;
 use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::{Force, Motion, Xform};
 use crate::state::{Posture, entry};
@@ -119,13 +117,6 @@ impl<R: Real> Mobility<R> {
     }
 }
 
-/// What a coordinate's elimination leaves: U and 1/D.
-#[derive(Clone, Copy, Default)]
-struct Handle<R: Real> {
-    u_hat: Force<R>,
-    per_d: R,
-}
-
 /// Λ⁻¹ of `body` in a [`Frame`]: J M⁻¹ Jᵀ without J or M.
 ///
 /// Inertias of joints and a payload that the effects name count. Zero for a body that there is not.
@@ -177,13 +168,13 @@ where
     E: Effect<R, B, V>,
 {
     let turns = &posture.turns;
-    let handles: [Handle<R>; V] = eliminate(robot, turns, effects)?;
+    let Eliminated { x, handles } = eliminate(robot, turns, effects)?;
     let carries: [bool; B] = path(robot, body);
     let (mut pose, mut mobility) = (Pose::IDENTITY, Mobility::ZERO);
-    for (node, _) in robot.nodes().zip(carries).filter(|(_, carries)| *carries) {
-        let x = node.xform(turns);
-        pose = pose.beyond(&x);
-        mobility = mobility.at(&x);
+    let bodies = robot.nodes().zip(&x).zip(carries);
+    for ((node, x), _) in bodies.filter(|(_, carries)| *carries) {
+        pose = pose.beyond(x);
+        mobility = mobility.at(x);
         for (k, coordinate) in node.coordinates().enumerate() {
             let handle = entry(&handles, coordinate);
             mobility = mobility.across(node.column(turns, k), &handle);
@@ -198,57 +189,6 @@ where
     };
     let told = F::from_body(&pose.described(&node.frame));
     Ok(mobility.at(&(told * own)))
-}
-
-/// Articulated-body inertias inwards, RBDA (2008), table 7.1: U and 1/D of every coordinate.
-#[inline(always)]
-fn eliminate<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
-    robot: &D,
-    turns: &[Turn<R>; Q],
-    effects: &E,
-) -> Result<[Handle<R>; V], NotPositiveDefinite>
-where
-    D: Description<R, B, Q, V>,
-    E: Effect<R, B, V>,
-{
-    const {
-        assert!(
-            !E::SPINNING,
-            "no rotors that spin as bodies here; name `RotorInertia`"
-        )
-    };
-    let mut bodies: Vec<ArticulatedInertia<R>, B> = Vec::new();
-    for (i, node) in robot.nodes().enumerate() {
-        let _ = bodies.push(body_inertia(effects, i, &node).into());
-    }
-    let mut handles = [Handle::default(); V];
-    let mut inner = bodies.as_mut_slice();
-    while let Some((body, rest)) = core::mem::take(&mut inner).split_last_mut() {
-        let Some(node) = robot.node(rest.len()) else {
-            break;
-        };
-        let mut ia = *body;
-        for (k, joint) in node.coordinates().enumerate().rev() {
-            let s = node.axis(turns, k);
-            let u_hat = ia.along(&s);
-            let mut d = s.dot(u_hat);
-            effects.inertia(joint, &mut d);
-            // One comparison that a NaN fails too.
-            if !(d > R::ZERO && d.is_finite()) {
-                return Err(NotPositiveDefinite { joint });
-            }
-            let per_d = R::ONE / d;
-            ia = ia.minus_outer(u_hat, per_d);
-            if let Some(handle) = handles.get_mut(joint) {
-                *handle = Handle { u_hat, per_d };
-            }
-        }
-        if let Some(parent) = rest.get_mut(node.parent) {
-            *parent += ia.at_parent(&node.xform(turns));
-        }
-        inner = rest;
-    }
-    Ok(handles)
 }
 
 /// Which bodies carry `body`, itself included.

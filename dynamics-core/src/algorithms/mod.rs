@@ -7,6 +7,7 @@ mod composite;
 mod crba;
 mod damped;
 mod eigen;
+mod eliminate;
 mod energy;
 mod error;
 mod factor;

@@ -5,15 +5,13 @@
 //! forces down as through rigid bodies, Ψ as through joints that give way. In the letters of RBDA's
 //! section 6.5 the first factor is Lᵀ: what elimination finds in M, the filter finds in the bodies.
 
-use heapless::Vec;
-
 use super::NotPositiveDefinite;
-use crate::articulated::ArticulatedInertia;
-use crate::effects::{Effect, body_inertia};
+use super::eliminate::{Eliminated, Handle, eliminate};
+use crate::effects::Effect;
 use crate::mass_matrix::{Factor, MassMatrix};
-use crate::model::{Description, Node};
+use crate::model::Description;
 use crate::scalar::Real;
-use crate::spatial::{Force, Xform};
+use crate::spatial::Force;
 use crate::state::{Posture, entry};
 
 /// The factors (1 + HΦK)ᵀ = L and D of M(q), without M: the same as [`factor`](super::factor()) finds.
@@ -80,13 +78,6 @@ where
     Ok(per_m)
 }
 
-/// What one pass leaves for the next.
-struct Body<'a, R: Real> {
-    node: Node<'a, R>,
-    x: Xform<R>,
-    ia: ArticulatedInertia<R>,
-}
-
 /// H (Φ or Ψ) K by rows of joints, and D⁻¹: K of each joint, felt at all that carry it; `pass` is what a
 /// joint hands on of a force, of which it feels a part, given its own K.
 #[inline(always)]
@@ -100,63 +91,32 @@ where
     D: Description<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    const {
-        assert!(
-            !E::SPINNING,
-            "no rotors that spin as bodies here; name `RotorInertia`"
-        )
-    };
     let turns = &Posture::of(robot, q).turns;
-    let mut bodies: Vec<Body<'_, R>, B> = Vec::new();
-    for (i, node) in robot.nodes().enumerate() {
-        let (x, ia) = (node.xform(turns), body_inertia(effects, i, &node).into());
-        let _ = bodies.push(Body { node, x, ia });
-    }
-    let (mut gains, mut per_d) = ([Force::ZERO; V], [R::ZERO; V]);
-    let mut inner = bodies.as_mut_slice();
-    while let Some((body, rest)) = core::mem::take(&mut inner).split_last_mut() {
-        let mut ia = body.ia;
-        for (k, joint) in body.node.coordinates().enumerate().rev() {
-            let s = body.node.axis(turns, k);
-            let u_hat = ia.along(&s);
-            let mut d = s.dot(u_hat);
-            effects.inertia(joint, &mut d);
-            if !(d > R::ZERO && d.is_finite()) {
-                return Err(NotPositiveDefinite { joint });
-            }
-            if let (Some(k), Some(per)) = (gains.get_mut(joint), per_d.get_mut(joint)) {
-                *per = R::ONE / d;
-                *k = u_hat * *per;
-                ia = ia.minus_outer(u_hat, *per);
-            }
-        }
-        if let Some(parent) = rest.get_mut(body.node.parent) {
-            parent.ia += ia.at_parent(&body.x);
-        }
-        inner = rest;
-    }
+    let Eliminated { x, handles } = eliminate(robot, turns, effects)?;
+    let gain = |joint| {
+        let handle: Handle<R> = entry(&handles, joint);
+        handle.u_hat * handle.per_d
+    };
 
     let mut rows = [[R::ZERO; V]; V];
-    for body in &bodies {
-        for joint in body.node.coordinates() {
-            let (mut f, mut at) = (entry(&gains, joint), body);
-            loop {
-                for (k, above) in at.node.coordinates().enumerate().rev() {
+    for (i, node) in robot.nodes().enumerate() {
+        for joint in node.coordinates() {
+            let (mut f, mut at) = (gain(joint), i);
+            while let (Some(node), Some(x)) = (robot.node(at), x.get(at)) {
+                for (k, above) in node.coordinates().enumerate().rev() {
                     if above >= joint {
                         continue; // itself, and what it carries on the same body
                     }
-                    let felt = at.node.axis(turns, k).dot(f);
-                    f = pass(f, felt, entry(&gains, above));
+                    let felt = node.axis(turns, k).dot(f);
+                    f = pass(f, felt, gain(above));
                     if let Some(entry) = rows.get_mut(joint).and_then(|row| row.get_mut(above)) {
                         *entry = felt;
                     }
                 }
-                let Some(carrier) = bodies.get(at.node.parent) else {
-                    break;
-                };
-                (f, at) = (at.x.transpose_mul(f), carrier);
+                (f, at) = (x.transpose_mul(f), node.parent);
             }
         }
     }
+    let per_d = handles.map(|handle| handle.per_d);
     Ok(Factor { rows, per_d })
 }

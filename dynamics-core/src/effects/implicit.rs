@@ -1,6 +1,7 @@
 //! Stiff effects at the end of the time step instead of at its beginning.
 
 use super::hooks::joint_state;
+use super::passed_on::passed_on;
 use super::{BodyState, Effect, JointState, Slopes};
 use crate::model::Description;
 use crate::scalar::Real;
@@ -64,41 +65,8 @@ impl<R: Real, E, const B: usize, const V: usize> Effect<R, B, V> for Implicit<'_
 where
     E: Effect<R, B, V>,
 {
-    const FIELD: bool = E::FIELD;
-    const FIELD_AXES: [bool; 3] = E::FIELD_AXES;
+    passed_on!(effects);
     const ACCELERATIONS: bool = E::ACCELERATIONS;
-    const VELOCITY_PRODUCTS: bool = E::VELOCITY_PRODUCTS;
-    const WRENCH: bool = E::WRENCH;
-    const BODY_VELOCITY: bool = E::BODY_VELOCITY;
-    const BODY_POSE: bool = E::BODY_POSE;
-    const BASE_MOTION: bool = E::BASE_MOTION;
-    const PAYLOAD: bool = E::PAYLOAD;
-    const SPINNING: bool = E::SPINNING;
-
-    #[inline(always)]
-    fn spin(&self, joint: usize, coupling: &mut R) {
-        self.effects.spin(joint, coupling);
-    }
-
-    #[inline(always)]
-    fn payload(&self, inertia: &mut SpatialInertia<R>) {
-        self.effects.payload(inertia);
-    }
-
-    #[inline(always)]
-    fn field(&self, g: &mut R::Vec3) {
-        self.effects.field(g);
-    }
-
-    #[inline(always)]
-    fn base(&self, velocity: &mut Motion<R>, acceleration: &mut Motion<R>) {
-        self.effects.base(velocity, acceleration);
-    }
-
-    #[inline(always)]
-    fn wrench(&self, body: usize, at: &BodyState<R>, fx: &mut Force<R>) {
-        self.effects.wrench(body, at, fx);
-    }
 
     #[inline(always)]
     fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R) {

@@ -51,6 +51,7 @@
 //! (f + fˣ = I a + v ×* I v), which the library subtracts.
 
 mod asymmetric;
+mod bias;
 mod cogging;
 mod contact;
 mod coulomb;
@@ -60,6 +61,7 @@ mod hooks;
 mod implicit;
 mod lugre;
 mod moving_base;
+mod passed_on;
 mod payload;
 mod ramp;
 mod rigid;
@@ -92,6 +94,7 @@ pub use stops::Stops;
 pub use stribeck::Stribeck;
 pub use viscous::Viscous;
 
+pub(crate) use bias::Bias;
 pub(crate) use hooks::{
     base_given, base_motion, body_inertia, body_wrench, gyroscopic, joint_loss, joint_state,
     joint_torques, rotor_force,

@@ -6,11 +6,10 @@
 use core::hint::black_box;
 
 use super::Engine;
-use super::bias::Bias;
 use super::crba::mass_matrix;
 use super::factor::{decompose, positive, substitute};
 use crate::algorithms::NotPositiveDefinite;
-use crate::effects::Effect;
+use crate::effects::{Bias, Effect};
 use crate::mass_matrix::MassMatrix;
 use crate::model::Robot;
 use crate::scalar::Real;

@@ -23,7 +23,6 @@ macro_rules! for_each_joint {
 mod aba;
 mod articulated;
 mod base;
-mod bias;
 mod crba;
 mod factor;
 mod field;
@@ -56,6 +55,15 @@ use rnea::{Task, stands, visit};
 /// let state = State { q: [0.1_f32; 6], qd: [0.5; 6], qdd: [1.0; 6] };
 /// let (a, b) = (Core::<Ur5e>::rnea(&state, &RIGID_BODY), Engine::<Ur5e>::rnea(&state, &RIGID_BODY));
 /// assert!(a.iter().zip(b).all(|(a, b)| (a - b).abs() < 4e-5));
+/// ```
+///
+/// A robot with another joint does not compile:
+///
+/// ```compile_fail,E0080
+/// use dynamics_core::{Engine, effects::RIGID_BODY, robots::A1Free, state::State};
+/// let standing = State { q: [0.0_f32; 19], qd: [0.0; 18], qdd: [0.0; 18] };
+/// let _ = Engine::<A1Free>::rnea(&standing, &RIGID_BODY);
+/// // error: the engine takes revolute, prismatic and fixed joints; use `Core`
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Engine<T>(PhantomData<T>);

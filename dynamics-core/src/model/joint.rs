@@ -37,6 +37,20 @@ pub enum JointKind {
 }
 
 impl JointKind {
+    /// Every kind.
+    pub const ALL: [Self; 10] = [
+        Self::Revolute,
+        Self::Continuous,
+        Self::Prismatic,
+        Self::Helical,
+        Self::Cylindrical,
+        Self::Universal,
+        Self::Spherical,
+        Self::Planar,
+        Self::Free,
+        Self::Fixed,
+    ];
+
     /// The numbers of position and velocity coordinates.
     ///
     /// ```
@@ -108,31 +122,24 @@ impl Kinds {
     #[inline(always)]
     pub(super) fn of(self, kind: JointKind) -> JointKind {
         use JointKind::*;
-        macro_rules! known {
-            ($($kind:ident)*) => {
-                match kind {
-                    $($kind if self.has($kind) => $kind,)*
-                    _ => self.first(),
-                }
-            };
+        match kind {
+            Revolute if self.has(Revolute) => Revolute,
+            Continuous if self.has(Continuous) => Continuous,
+            Prismatic if self.has(Prismatic) => Prismatic,
+            Helical if self.has(Helical) => Helical,
+            Cylindrical if self.has(Cylindrical) => Cylindrical,
+            Universal if self.has(Universal) => Universal,
+            Spherical if self.has(Spherical) => Spherical,
+            Planar if self.has(Planar) => Planar,
+            Free if self.has(Free) => Free,
+            Fixed if self.has(Fixed) => Fixed,
+            _ => self.first(),
         }
-        known!(Revolute Continuous Prismatic Helical Cylindrical Universal Spherical Planar Free Fixed)
     }
 
     #[inline(always)]
     const fn first(self) -> JointKind {
-        use JointKind::*;
-        let kinds = [
-            Revolute,
-            Continuous,
-            Prismatic,
-            Helical,
-            Cylindrical,
-            Universal,
-            Spherical,
-            Planar,
-            Free,
-        ];
+        let kinds = JointKind::ALL;
         let mut i = 0;
         while i < kinds.len() {
             if self.has(kinds[i]) {
@@ -140,7 +147,7 @@ impl Kinds {
             }
             i += 1;
         }
-        Fixed
+        JointKind::Fixed
     }
 }
 

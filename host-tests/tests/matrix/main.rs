@@ -251,7 +251,7 @@ fn hold<const B: usize, const Q: usize, const V: usize>(
     let rng = &mut random_numbers();
     for _ in 0..count {
         let model = make(rng);
-        let state = random_state(rng, &model);
+        let state = state_of(&model, rng);
         laws::<f64, B, Q, V>(&model, &state, rng, &mut worst[0]);
         laws::<f32, B, Q, V>(&model.to_f32(), &state, rng, &mut worst[1]);
     }

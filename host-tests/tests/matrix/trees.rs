@@ -6,32 +6,11 @@ use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
 use glam::DVec3;
 use host_tests::random::random_body;
+pub use host_tests::random::{random_numbers, state_of, within};
 use proptest::prelude::RngExt;
-use proptest::test_runner::{RngAlgorithm, TestRng};
+use proptest::test_runner::TestRng;
 
 use JointKind::*;
-
-/// All of them: 22 position and 20 velocity coordinates.
-pub const KINDS: [JointKind; 10] = [
-    Revolute,
-    Continuous,
-    Prismatic,
-    Helical,
-    Cylindrical,
-    Universal,
-    Spherical,
-    Planar,
-    Free,
-    Fixed,
-];
-
-pub fn random_numbers() -> TestRng {
-    TestRng::deterministic_rng(RngAlgorithm::ChaCha)
-}
-
-pub fn within<const N: usize>(rng: &mut TestRng, bound: f64) -> [f64; N] {
-    core::array::from_fn(|_| rng.random_range(-bound..bound))
-}
 
 /// As many bodies as it has room for: every kind of joint as often, revolute ones for the rest, in any
 /// order; any branches and several roots.
@@ -39,8 +18,8 @@ pub fn mixed<const B: usize, const Q: usize, const V: usize>(
     rng: &mut TestRng,
 ) -> Model<f64, B, Q, V> {
     let mut kinds = core::array::from_fn(|i| {
-        if i < B - B % KINDS.len() {
-            KINDS[i % KINDS.len()]
+        if i < B - B % JointKind::ALL.len() {
+            JointKind::ALL[i % JointKind::ALL.len()]
         } else {
             Revolute
         }
@@ -82,26 +61,6 @@ pub fn tree<const B: usize, const Q: usize, const V: usize>(
         random_body(rng, Body::new("body", parent, joint))
     });
     Model::new("mixed", bodies)
-}
-
-/// Any state of a robot; quaternions at unit length.
-pub fn random_state<const B: usize, const Q: usize, const V: usize>(
-    rng: &mut TestRng,
-    model: &Model<f64, B, Q, V>,
-) -> State<f64, Q, V> {
-    let mut q: [f64; Q] = within(rng, std::f64::consts::PI);
-    for link in &model.links {
-        if matches!(link.joint.kind, Spherical | Free) {
-            let p = &mut q[link.q_at..link.q_at + 4];
-            let length = p.iter().map(|x| x * x).sum::<f64>().sqrt();
-            p.iter_mut().for_each(|x| *x /= length);
-        }
-    }
-    State {
-        q,
-        qd: within(rng, 3.0),
-        qdd: within(rng, 10.0),
-    }
 }
 
 pub fn cast<R: Real, const Q: usize, const V: usize>(state: &State<f64, Q, V>) -> State<R, Q, V> {

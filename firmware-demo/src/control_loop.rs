@@ -9,7 +9,7 @@
 //! there onto the trajectory.
 
 use dynamics_core::control::{
-    Fault, Gains, Mode, Observer, Rejoin, Status, Supervisor, Trajectory, feedback,
+    Fault, Gains, Mode, Observer, Reference, Rejoin, Status, Supervisor, feedback,
 };
 use dynamics_core::state::State;
 use embedded_hal::digital::OutputPin;
@@ -39,14 +39,15 @@ pub mod region {
 /// How far a joint may be from its reference for [`ControlLoop::reset`], rad or m.
 pub const NEAR: f32 = 0.15;
 
-/// Where the torque that the feedback need not supply comes from.
-pub trait Law<const V: usize> {
+/// Where the torque that the feedback need not supply comes from; `X` is what it has to know beside the
+/// reference (what the hand holds, how the base moves).
+pub trait Law<const V: usize, X = ()> {
     /// Whether the feed-forward brings about the reference's acceleration. If so an arm that is held
     /// is slowed down by it, coupling and all; if not, by the feedback's K_d alone.
     const ACCELERATES: bool = true;
 
     /// The torque for the reference, N·m or N.
-    fn feedforward(reference: &State<f32, V, V>) -> [f32; V];
+    fn feedforward(reference: &State<f32, V, V>, around: &X) -> [f32; V];
 }
 
 /// Why a stopped arm does not start again.
@@ -135,15 +136,17 @@ where
 
     /// One tick under the law `L`.
     #[inline(never)]
-    pub fn tick<L: Law<V>, const W: usize>(
+    pub fn tick<L: Law<V, X>, T: Reference<f32, V>, X>(
         &mut self,
-        trajectory: &Trajectory<f32, V, W>,
+        trajectory: &T,
+        around: &X,
     ) -> Telemetry<V> {
         measured::<{ region::TICK }, _>(|| {
             measured::<{ region::READ }, _>(|| self.read());
             let reference =
                 measured::<{ region::REFERENCE }, _>(|| self.reference(trajectory, L::ACCELERATES));
-            let torque = measured::<{ region::DYNAMICS }, _>(|| self.torque::<L>(&reference));
+            let torque =
+                measured::<{ region::DYNAMICS }, _>(|| self.torque::<L, X>(&reference, around));
             let command = measured::<{ region::SAFETY }, _>(|| self.supervisor.pass(&torque));
             measured::<{ region::WRITE }, _>(|| self.write(&command.torque, command.brake));
             let telemetry = Telemetry {
@@ -165,10 +168,7 @@ where
     ///
     /// # Errors
     /// [`Refusal`]: nothing has changed then.
-    pub fn reset<const W: usize>(
-        &mut self,
-        trajectory: &Trajectory<f32, V, W>,
-    ) -> Result<(), Refusal> {
+    pub fn reset<T: Reference<f32, V>>(&mut self, trajectory: &T) -> Result<(), Refusal> {
         if !matches!(self.supervisor.mode(), Mode::Stopped) {
             return Err(Refusal::Running);
         }
@@ -235,9 +235,9 @@ where
 
     /// Where the joints should be.
     #[inline(never)]
-    fn reference<const W: usize>(
+    fn reference<T: Reference<f32, V>>(
         &mut self,
-        trajectory: &Trajectory<f32, V, W>,
+        trajectory: &T,
         accelerates: bool,
     ) -> State<f32, V, V> {
         let full = matches!(self.supervisor.mode(), Mode::Full);
@@ -263,9 +263,9 @@ where
     /// of gravity and damping. Then the way back.
     #[cold]
     #[inline(never)]
-    fn detour<const W: usize>(
+    fn detour<T: Reference<f32, V>>(
         &mut self,
-        trajectory: &Trajectory<f32, V, W>,
+        trajectory: &T,
         full: bool,
         accelerates: bool,
     ) -> State<f32, V, V> {
@@ -300,8 +300,8 @@ where
 
     /// τ = feed-forward + K_p (q_d − q) + K_d (q̇_d − q̇).
     #[inline(never)]
-    fn torque<L: Law<V>>(&self, reference: &State<f32, V, V>) -> [f32; V] {
-        let mut tau = L::feedforward(reference);
+    fn torque<L: Law<V, X>, X>(&self, reference: &State<f32, V, V>, around: &X) -> [f32; V] {
+        let mut tau = L::feedforward(reference, around);
         let estimate = self.observer.estimate();
         let pd = feedback(&self.gains, reference, &estimate.q, &estimate.qd);
         for (tau, pd) in tau.iter_mut().zip(pd) {

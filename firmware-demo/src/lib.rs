@@ -7,7 +7,7 @@
 //! | [`encoder`], [`drive`] | an AS5047P-type encoder on SPI, a current-controlled drive on PWM | as they are |
 //! | [`bits`] | digests of the dynamics' results on recorded states | as they are |
 //! | [`marker`] | the measured regions | `dbg` is a no-op there |
-//! | [`plant`] | a simulated robot behind the same traits | left out |
+//! | [`plant`], [`wires`] | a simulated robot behind the same traits | left out |
 //! | [`scene`] | runs of one trajectory under several laws, with their tracking errors | left out |
 //! | [`scenes`] | the data sheet of each scene | left out |
 //! | [`catalogue`], [`trajectories`] | every effect with numbers, and a way to go: what effects are priced by | left out |
@@ -26,3 +26,4 @@ pub mod scenes;
 #[cfg(target_arch = "arm")]
 pub mod target;
 pub mod trajectories;
+pub mod wires;

@@ -1,200 +1,133 @@
-//! A simulated robot behind the same `embedded-hal` traits as the real one.
-//!
-//! Forward dynamics under the scene's effects at a finer step than the tick: outside the measured
-//! regions. Encoders that quantise and drives that know only their duty: their transfers are inside.
-
-use core::convert::Infallible;
-use core::sync::atomic::{AtomicU16, AtomicU32, Ordering::Relaxed};
+//! Simulated robots on the wires: forward dynamics under the scene's effects at a finer step than the tick,
+//! outside the measured regions.
 
 use dynamics_core::algorithms::NotPositiveDefinite;
 use dynamics_core::effects::Effect;
 use dynamics_core::model::{Calibrated, Robot};
-use dynamics_core::sim::semi_implicit;
+use dynamics_core::sim::linearly_implicit;
 use dynamics_core::state::State;
-use embedded_hal::pwm::{self, SetDutyCycle};
-use embedded_hal::spi::{self, Operation, SpiDevice};
 
-use crate::encoder::{ERROR, READ_ANGLE, READ_ERRORS, encode, quantise, with_parity};
+use crate::wires::Wires;
 
-/// The duty that a simulated timer counts to: 20 kHz from 168 MHz.
-pub const MAX_DUTY: u16 = 8400;
+/// A simulated robot of which N joints are driven and have encoders; `X` is what goes on around it.
+pub trait Simulated<X, const N: usize> {
+    /// What the encoders see, rad or m.
+    fn seen(&self) -> [f32; N];
 
-/// The wires between firmware and robot: one encoder and one duty per joint.
-#[derive(Debug)]
-pub struct Wires<const N: usize> {
-    /// The answers that hold the angles of now, and above them [`FLAG`].
-    encoders: [AtomicU32; N],
-    duties: [AtomicU16; N],
-}
-
-impl<const N: usize> Wires<N> {
-    /// Encoders at zero, drives at zero torque.
-    pub const fn new() -> Self {
-        Self {
-            encoders: [const { AtomicU32::new(encode(0) as u32) }; N],
-            duties: [const { AtomicU16::new(MAX_DUTY / 2) }; N],
-        }
+    /// Where the driven joints truly are, rad or m; an encoder may sit on the other side of a spring.
+    fn actual(&self) -> [f32; N] {
+        self.seen()
     }
 
-    /// The SPI device of joint j's encoder.
-    pub fn encoder(&'static self, j: usize) -> SimEncoder {
-        SimEncoder {
-            wire: &self.encoders[j],
-            answer: GARBAGE,
-        }
-    }
-
-    /// Lets joint j's encoder find an error: its answers say so until it is asked which.
-    pub fn flag(&self, j: usize) {
-        let encoder = &self.encoders[j];
-        encoder.store(encoder.load(Relaxed) | FLAG, Relaxed);
-    }
-
-    /// The PWM channel of joint j's drive.
-    pub fn drive(&'static self, j: usize) -> SimDrive {
-        SimDrive(&self.duties[j])
-    }
-}
-
-impl<const N: usize> Default for Wires<N> {
-    fn default() -> Self {
-        Self::new()
-    }
-}
-
-/// What an encoder answers before it has been asked: an angle that is none.
-const GARBAGE: u16 = encode(0x2a5a);
-
-/// The encoder has found an error and not been asked for it.
-const FLAG: u32 = 1 << 31;
-
-/// A simulated encoder on SPI, which answers the frame before.
-#[derive(Clone, Debug)]
-pub struct SimEncoder {
-    wire: &'static AtomicU32,
-    /// What the next frame will carry.
-    answer: u16,
-}
-
-impl SimEncoder {
-    /// What is latched at the end of a frame with this command.
-    #[inline(always)]
-    fn latch(&self, command: u16) -> u16 {
-        let wire = self.wire.load(Relaxed);
-        if command == READ_ANGLE && wire & FLAG == 0 {
-            return wire as u16;
-        }
-        self.latch_rare(command, wire)
-    }
-
-    #[cold]
-    fn latch_rare(&self, command: u16, wire: u32) -> u16 {
-        let flagged = wire & FLAG != 0;
-        let error = if flagged { ERROR } else { 0 };
-        let (answer, flag) = match command {
-            READ_ANGLE => (wire as u16, wire & FLAG),
-            READ_ERRORS => (u16::from(flagged), 0),
-            _ => (0, FLAG),
-        };
-        self.wire.store(wire & !FLAG | flag, Relaxed);
-        with_parity(answer | error)
-    }
-}
-
-impl spi::ErrorType for SimEncoder {
-    type Error = Infallible;
-}
-
-impl SpiDevice for SimEncoder {
-    /// Frames are transfers in place of two bytes, which is all that the firmware sends.
-    #[inline(always)]
-    fn transaction(&mut self, operations: &mut [Operation<'_, u8>]) -> Result<(), Infallible> {
-        for operation in operations {
-            if let Operation::TransferInPlace([high, low]) = operation {
-                let command = u16::from_be_bytes([*high, *low]);
-                [*high, *low] = self.answer.to_be_bytes();
-                self.answer = self.latch(command);
-            }
-        }
-        Ok(())
-    }
-}
-
-/// A simulated PWM channel.
-#[derive(Clone, Copy, Debug)]
-pub struct SimDrive(&'static AtomicU16);
-
-impl pwm::ErrorType for SimDrive {
-    type Error = Infallible;
-}
-
-impl SetDutyCycle for SimDrive {
-    fn max_duty_cycle(&self) -> u16 {
-        MAX_DUTY
-    }
-
-    fn set_duty_cycle(&mut self, duty: u16) -> Result<(), Infallible> {
-        self.0.store(duty, Relaxed);
-        Ok(())
-    }
-}
-
-/// The simulated robot.
-#[derive(Debug)]
-pub struct Plant<T, E, const B: usize, const N: usize> {
-    robot: Calibrated<T, f32, B, N, N>,
-    effects: E,
-    full_scale: [f32; N],
-    /// Position, velocity and acceleration, beyond what the encoders tell.
-    pub state: State<f32, N, N>,
-}
-
-impl<T, E, const B: usize, const N: usize> Plant<T, E, B, N>
-where
-    T: Robot<B, N, N>,
-    E: Effect<f32, B, N>,
-{
-    /// A robot at rest at q, whose drives deliver `full_scale` at full duty.
-    pub fn new(
-        robot: Calibrated<T, f32, B, N, N>,
-        effects: E,
-        full_scale: [f32; N],
-        q: [f32; N],
-    ) -> Self {
-        Self {
-            robot,
-            effects,
-            full_scale,
-            state: State::at(q),
-        }
-    }
-
-    /// Shows the encoders the present positions.
-    pub fn publish(&self, wires: &Wires<N>) {
-        for (encoder, &q) in wires.encoders.iter().zip(&self.state.q) {
-            let flag = encoder.load(Relaxed) & FLAG;
-            encoder.store(u32::from(encode(quantise(q))) | flag, Relaxed);
-        }
-    }
-
-    /// Moves on by `steps` steps of `h` seconds under the duties of now, and publishes.
+    /// One step of `h` seconds under the drives' torques, N·m or N.
     ///
     /// # Errors
     /// As forward dynamics.
-    pub fn advance(
+    fn step(&mut self, torque: &[f32; N], around: &X, h: f32) -> Result<(), NotPositiveDefinite>;
+}
+
+/// A simulated robot and its drives, on wires.
+#[derive(Debug)]
+pub struct Rig<P, const N: usize> {
+    /// The robot.
+    pub plant: P,
+    full_scale: [f32; N],
+}
+
+impl<P, const N: usize> Rig<P, N> {
+    /// A robot whose drives deliver `full_scale` at full duty, seen by the encoders.
+    pub fn new<X>(plant: P, full_scale: [f32; N], wires: &Wires<N>) -> Self
+    where
+        P: Simulated<X, N>,
+    {
+        wires.publish(&plant.seen());
+        Self { plant, full_scale }
+    }
+
+    /// Moves on by `steps` steps of `h` seconds under the duties of now, and shows the encoders where the
+    /// robot is; `around` tells what goes on at a step.
+    ///
+    /// # Errors
+    /// As forward dynamics.
+    pub fn advance<X>(
         &mut self,
         wires: &Wires<N>,
         steps: u32,
         h: f32,
-    ) -> Result<(), NotPositiveDefinite> {
-        let mut tau = self.full_scale;
-        for (tau, duty) in tau.iter_mut().zip(&wires.duties) {
-            *tau *= f32::from(duty.load(Relaxed)) * (2.0 / f32::from(MAX_DUTY)) - 1.0;
+        around: impl Fn(u32) -> X,
+    ) -> Result<(), NotPositiveDefinite>
+    where
+        P: Simulated<X, N>,
+    {
+        let mut tau = wires.duties();
+        for (tau, full) in tau.iter_mut().zip(self.full_scale) {
+            *tau *= full;
         }
-        for _ in 0..steps {
-            semi_implicit(&self.robot, &mut self.state, &tau, &self.effects, h)?;
+        for step in 0..steps {
+            self.plant.step(&tau, &around(step), h)?;
         }
-        self.publish(wires);
+        wires.publish(&self.plant.seen());
         Ok(())
     }
+}
+
+/// A robot of rigid bodies; its last joints are the driven ones.
+#[derive(Debug)]
+pub struct Plant<T, E, X, const B: usize, const Q: usize, const V: usize> {
+    robot: Calibrated<T, f32, B, Q, V>,
+    effects: E,
+    /// Tells the effects what goes on around the robot.
+    surround: fn(&mut E, &X),
+    /// Position, velocity and acceleration, beyond what the encoders tell.
+    pub state: State<f32, Q, V>,
+}
+
+impl<T, E, X, const B: usize, const Q: usize, const V: usize> Plant<T, E, X, B, Q, V>
+where
+    T: Robot<B, Q, V>,
+    E: Effect<f32, B, V>,
+{
+    /// A robot at rest at q.
+    pub fn new(
+        robot: Calibrated<T, f32, B, Q, V>,
+        effects: E,
+        q: [f32; Q],
+        surround: fn(&mut E, &X),
+    ) -> Self {
+        Self {
+            robot,
+            effects,
+            surround,
+            state: State::at(q),
+        }
+    }
+}
+
+impl<T, E, X, const B: usize, const Q: usize, const V: usize, const N: usize> Simulated<X, N>
+    for Plant<T, E, X, B, Q, V>
+where
+    T: Robot<B, Q, V>,
+    E: Effect<f32, B, V>,
+{
+    fn seen(&self) -> [f32; N] {
+        last(&self.state.q)
+    }
+
+    fn step(&mut self, torque: &[f32; N], around: &X, h: f32) -> Result<(), NotPositiveDefinite> {
+        (self.surround)(&mut self.effects, around);
+        let mut tau = [0.0; V];
+        for (tau, &torque) in tau.iter_mut().rev().zip(torque.iter().rev()) {
+            *tau = torque;
+        }
+        linearly_implicit(&self.robot, &mut self.state, &tau, &mut self.effects, h)
+    }
+}
+
+/// The last N of some values: those of the driven joints.
+pub fn last<T: Copy + Default, const N: usize>(values: &[T]) -> [T; N] {
+    let mut last = [T::default(); N];
+    for (to, &from) in last.iter_mut().rev().zip(values.iter().rev()) {
+        *to = from;
+    }
+    last
 }

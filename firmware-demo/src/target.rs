@@ -8,12 +8,15 @@ use cortex_m_rt::{ExceptionFrame, exception};
 use cortex_m_semihosting::debug;
 use defmt_semihosting as _;
 use dynamics_core::control::Status;
-use heapless::spsc::Consumer;
+use heapless::spsc::{Consumer, Queue};
 
-use crate::scene::{App, Errors, OMEGA_N, RUNS, Record, Scene, TICK, ZETA};
+use crate::scene::{App, Effects, Errors, Name, OMEGA_N, QUEUE, Record, Scene, TICK, ZETA};
+use crate::wires::Wires;
 
 /// The core's clock, Hz.
 const CLOCK: u32 = 168_000_000;
+/// A tick, µs.
+const MICROSECONDS: u32 = (TICK * 1e6 + 0.5) as u32;
 /// Every so many ticks a sample goes to the log.
 const SAMPLE: u32 = 20;
 
@@ -26,8 +29,9 @@ pub trait Tick {
     fn tick(&mut self);
 }
 
-impl<S: Scene<B, N, W> + Send, const B: usize, const N: usize, const W: usize> Tick
-    for App<S, B, N, W>
+impl<S, const B: usize, const Q: usize, const V: usize, const N: usize> Tick for App<S, B, Q, V, N>
+where
+    S: Scene<B, Q, V, N>,
 {
     fn tick(&mut self) {
         App::tick(self);
@@ -45,44 +49,68 @@ fn SysTick() {
     });
 }
 
+/// Runs a scene on these wires to its end, its state and queue where `place` and the caller put them, and
+/// leaves the emulator.
+pub fn scene<S, const B: usize, const Q: usize, const V: usize, const N: usize>(
+    wires: &'static Wires<N>,
+    queue: Option<&'static mut Queue<Record<N>, QUEUE>>,
+    place: impl FnOnce(App<S, B, Q, V, N>) -> Option<&'static mut App<S, B, Q, V, N>>,
+) -> !
+where
+    S: Scene<B, Q, V, N>,
+    App<S, B, Q, V, N>: Send,
+{
+    let Some((records, log)) = queue.map(Queue::split) else {
+        fail("main ran twice");
+    };
+    let Ok(app) = App::new(wires, records) else {
+        fail("the way needs more than the arm's limits");
+    };
+    match place(app) {
+        Some(app) => run(app, log),
+        None => fail("main ran twice"),
+    }
+}
+
 /// Starts the interrupt, logs what it reports until the last run has ended, and leaves the emulator.
-pub fn run<S, const B: usize, const N: usize, const W: usize>(
-    app: &'static mut App<S, B, N, W>,
+fn run<S, const B: usize, const Q: usize, const V: usize, const N: usize>(
+    app: &'static mut App<S, B, Q, V, N>,
     mut records: Consumer<'static, Record<N>>,
 ) -> !
 where
-    S: Scene<B, N, W> + Send,
+    S: Scene<B, Q, V, N>,
+    App<S, B, Q, V, N>: Send,
 {
     let Some(mut peripherals) = cortex_m::Peripherals::take() else {
         fail("the peripherals are taken");
     };
     let ticks = app.ticks();
-    let us = (TICK * 1e6 + 0.5) as u32;
-    defmt::println!(
-        "scene {=str} joints {=usize} tick-us {=u32} ticks {=u32}",
-        S::NAME,
-        N,
-        us,
-        ticks
-    );
-    let pose = S::GAIN_POSE_NAME;
-    defmt::println!("gains {=f32} {=f32} {=str}", OMEGA_N, ZETA, pose);
+    head::<S, B, Q, V, N>(ticks);
     cortex_m::interrupt::free(|cs| TICKED.borrow(cs).replace(Some(app)));
     peripherals.SYST.set_clock_source(SystClkSource::Core);
-    peripherals.SYST.set_reload(CLOCK / 1_000_000 * us - 1);
+    peripherals
+        .SYST
+        .set_reload(CLOCK / 1_000_000 * MICROSECONDS - 1);
     peripherals.SYST.clear_current();
     peripherals.SYST.enable_counter();
     peripherals.SYST.enable_interrupt();
 
-    for (run, (plant, law)) in RUNS.iter().enumerate() {
-        defmt::println!("run {=str} {=str}", plant, law);
+    for (number, run) in App::<S, B, Q, V, N>::runs().enumerate() {
+        // The law's name, by its two parts.
+        let (less, law) = match run.law {
+            Name::Of(law) => ("", law),
+            Name::Without(effect) => ("without-", effect()),
+        };
+        let plant = run.plant.name();
+        let at = run.tick as usize as u32;
+        defmt::println!("run {=str} {=str}{=str} {=u32:#x}", plant, less, law, at);
         let mut errors = Errors::default();
         while errors.count() < ticks {
             let Some(record) = records.dequeue() else {
                 cortex_m::asm::wfi();
                 continue;
             };
-            if record.run != run || record.tick != errors.count() {
+            if record.run != number || record.tick != errors.count() {
                 fail("a record was lost: the queue is too short");
             }
             if record.broken {
@@ -95,9 +123,9 @@ where
                 defmt::println!("sample {=u32}{}{}", record.tick, reference, actual);
             }
         }
-        defmt::println!("rms {=str} {=str}{}", plant, law, Words(&errors.rms()));
-        defmt::println!("max {=str} {=str}{}", plant, law, Words(&errors.max));
-        defmt::println!("total {=str} {=str} {=f32}", plant, law, errors.total());
+        defmt::println!("rms{}", Words(&errors.rms()));
+        defmt::println!("max{}", Words(&errors.max));
+        defmt::println!("total {=f32}", errors.total());
         if let Some(Status {
             mode,
             fault,
@@ -106,9 +134,7 @@ where
         {
             let (mode, fault) = (defmt::Debug2Format(&mode), defmt::Debug2Format(&fault));
             defmt::println!(
-                "status {=str} {=str} mode {}, fault {}, limited {=bool}",
-                plant,
-                law,
+                "status mode {}, fault {}, limited {=bool}",
                 mode,
                 fault,
                 limited
@@ -118,6 +144,26 @@ where
     defmt::println!("stack {=usize}", stack_peak());
     defmt::println!("done");
     leave(debug::EXIT_SUCCESS)
+}
+
+/// What the log says of the scene before its runs.
+fn head<S, const B: usize, const Q: usize, const V: usize, const N: usize>(ticks: u32)
+where
+    S: Scene<B, Q, V, N>,
+{
+    defmt::println!(
+        "scene {=str} joints {=usize} tick-us {=u32} ticks {=u32} bound {=f32}",
+        S::NAME,
+        N,
+        MICROSECONDS,
+        ticks,
+        S::BOUND
+    );
+    let pose = S::GAIN_POSE_NAME;
+    defmt::println!("gains {=f32} {=f32} {=str}", OMEGA_N, ZETA, pose);
+    for effect in <S::Effects as Effects<S, B, Q, V, N>>::NAMED {
+        defmt::println!("effect {=str} {=usize}", (effect.name)(), effect.bytes);
+    }
 }
 
 /// Numbers, each after a space.

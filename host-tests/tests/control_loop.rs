@@ -92,7 +92,7 @@ fn a_bus_that_fails_for_a_moment_is_ridden_through() {
     }
     arm.bent[4].bus.set(false);
     for _ in 0..100 {
-        let actual = arm.plant.state.q;
+        let actual = arm.rig.plant.state.q;
         let telemetry = arm.tick();
         // The frame after the failure still carries the angle of before it.
         assert_eq!(telemetry.status.mode, Mode::Full);
@@ -128,7 +128,7 @@ fn a_moment_without_a_torque_does_not_jolt_the_arm() {
     arm.run(FAST);
     for tick in 0..300 {
         POISON.set((tick < RIDE).then_some((0, f32::NAN)));
-        let actual = arm.plant.state.q;
+        let actual = arm.rig.plant.state.q;
         let telemetry = arm.tick();
         assert!(Arm::error(&telemetry.reference, &actual) < 1e-3);
         assert_eq!(telemetry.status.mode, Mode::Full);
@@ -184,7 +184,7 @@ fn after_a_reset_the_arm_goes_back_to_its_trajectory() {
     arm.run(2000);
     assert_eq!(arm.control.reset(&arm.trajectory), Ok(()));
     for tick in 0..600 {
-        let actual = arm.plant.state.q;
+        let actual = arm.rig.plant.state.q;
         let telemetry = arm.tick();
         assert_eq!(
             (telemetry.status.mode, telemetry.status.fault),
@@ -197,7 +197,7 @@ fn after_a_reset_the_arm_goes_back_to_its_trajectory() {
             error < 5e-3 && (tick < 400 || error < 1e-3),
             "{tick}: {error}"
         );
-        assert!(arm.plant.state.qd.iter().all(|qd| qd.abs() < 2.5));
+        assert!(arm.rig.plant.state.qd.iter().all(|qd| qd.abs() < 2.5));
     }
     assert_eq!(arm.control.reset(&arm.trajectory), Err(Refusal::Running));
 }
@@ -206,16 +206,16 @@ fn after_a_reset_the_arm_goes_back_to_its_trajectory() {
 fn an_arm_far_from_its_reference_is_not_started_again() {
     let mut arm = stopped();
     arm.corrupt(0, 0);
-    arm.plant.state.q[4] += 0.2;
-    arm.plant.publish(arm.wires);
+    arm.rig.plant.state.q[4] += 0.2;
+    arm.wires.publish(&arm.rig.plant.state.q);
     arm.run(5);
     assert_eq!(
         arm.control.reset(&arm.trajectory),
         Err(Refusal::Far { joint: 4 })
     );
     assert_eq!(arm.tick().status.mode, Mode::Stopped);
-    arm.plant.state.q[4] -= 0.2;
-    arm.plant.publish(arm.wires);
+    arm.rig.plant.state.q[4] -= 0.2;
+    arm.wires.publish(&arm.rig.plant.state.q);
     arm.run(5);
     assert_eq!(arm.control.reset(&arm.trajectory), Ok(()));
 }
@@ -225,7 +225,7 @@ fn encoders_are_started_before_the_first_tick() {
     let mut arm = Arm::new();
     let telemetry = arm.tick();
     assert_eq!((telemetry.status.fault, telemetry.frame), (None, None));
-    assert!(Arm::error(&telemetry.estimate, &arm.plant.state.q) < 1e-3);
+    assert!(Arm::error(&telemetry.estimate, &arm.rig.plant.state.q) < 1e-3);
 }
 
 proptest! {

@@ -108,6 +108,11 @@ impl Function {
         instructions
     }
 
+    /// Whether one of its names is as asked.
+    pub fn is_named(&self, asked: impl Fn(&str) -> bool) -> bool {
+        self.names.iter().any(|name| asked(name))
+    }
+
     fn name(&self) -> &str {
         &self.names[0]
     }
@@ -121,19 +126,14 @@ pub struct Reach<'a> {
 }
 
 impl<'a> Reach<'a> {
-    /// Follows the direct calls and jumps from every function whose name is a root's.
+    /// Follows the direct calls and jumps from every function that is a root.
     ///
     /// # Errors
     /// There is no root, or something reached calls through a register or leaves the known
     /// functions, so that it cannot be told what else is reached.
-    pub fn of(image: &'a Image, is_root: impl Fn(&str) -> bool) -> Result<Self> {
+    pub fn of(image: &'a Image, is_root: impl Fn(&Function) -> bool) -> Result<Self> {
         let roots: Vec<usize> = (0..image.functions.len())
-            .filter(|index| {
-                image.functions[*index]
-                    .names
-                    .iter()
-                    .any(|name| is_root(name))
-            })
+            .filter(|index| is_root(&image.functions[*index]))
             .collect();
         if roots.is_empty() {
             return Err(Error::check("the firmware has no function to start from"));

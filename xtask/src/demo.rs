@@ -69,7 +69,7 @@ pub fn measure(
     let report = Report::new(
         &recording,
         &meter::read(&regions)?,
-        Image::read(elf)?.sizes,
+        &Image::read(elf)?,
         toolchain.rustc_version()?,
         tools.qemu.version.clone(),
     )?;

@@ -7,18 +7,19 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use crate::error::{Error, Result};
-use crate::protocol::{LAWS, PLANTS, Recording, Sample, Trajectory};
+use crate::protocol::{PLANTS, Recording, SOLD, Sample, Trajectory, WITHOUT, in_print};
 
 const SIZE: (u32, u32) = (1080, 820);
 const FONT: &str = "system-ui, Helvetica, Arial, sans-serif";
 const INK: RGBColor = RGBColor(45, 50, 58);
 const FAINT: RGBColor = RGBColor(228, 231, 235);
 
-/// One colour per law, in the order of [`LAWS`]; readable to the colour-blind.
-const LAW_COLOURS: [RGBColor; 3] = [
+/// One colour per law; readable to the colour-blind.
+const LAW_COLOURS: [RGBColor; 4] = [
     RGBColor(0, 128, 110),
     RGBColor(230, 145, 0),
     RGBColor(200, 50, 90),
+    RGBColor(86, 120, 190),
 ];
 
 /// One colour per joint, from the base; a longer arm starts over.
@@ -84,7 +85,7 @@ fn seconds(recording: &Recording, tick: u32) -> f64 {
 }
 
 fn references(recording: &Recording, area: &Area<'_>) -> Outcome {
-    let Some(run) = recording.trajectory(PLANTS[0], LAWS[0].0) else {
+    let Some(run) = recording.trajectory(PLANTS[0], SOLD) else {
         return Ok(());
     };
     let angles = || run.samples.iter().flat_map(|s| &s.reference).copied();
@@ -146,8 +147,9 @@ fn worst(sample: &Sample) -> f64 {
 fn error_range(recording: &Recording) -> (f64, f64) {
     let mut values: Vec<f64> = recording
         .runs
-        .values()
-        .flat_map(|run: &Trajectory| run.samples.iter().map(worst))
+        .iter()
+        .filter(|((_, law), _)| !law.starts_with(WITHOUT))
+        .flat_map(|(_, run): (_, &Trajectory)| run.samples.iter().map(worst))
         .filter(|error| *error > 0.0)
         .collect();
     values.sort_by(f64::total_cmp);
@@ -168,12 +170,15 @@ fn errors(
     (low, high): (f64, f64),
     area: &Area<'_>,
 ) -> Outcome {
-    let names = LAWS.map(|(law, name)| {
-        let rms = recording.trajectory(plant, law).and_then(|run| run.total);
-        rms.map_or(name.to_owned(), |rms| {
-            format!("{name} ({})", short(1e3 * rms))
+    let laws = recording.laws(plant);
+    let names: Vec<String> = laws
+        .iter()
+        .map(|law| {
+            let rms = recording.trajectory(plant, law).and_then(|run| run.total);
+            let name = in_print(law);
+            rms.map_or(name.clone(), |rms| format!("{name} ({})", short(1e3 * rms)))
         })
-    });
+        .collect();
     let entries = std::iter::zip(names.iter().map(String::as_str), LAW_COLOURS);
     panel_head(area, title, entries, (80, 40))?;
     let end = seconds(recording, recording.ticks);
@@ -200,7 +205,11 @@ fn errors(
         .y_label_formatter(&|y| format!("{y}"))
         .draw()?;
     // The worst first, so that the best is drawn on top.
-    for ((law, _), colour) in std::iter::zip(LAWS, LAW_COLOURS).rev() {
+    for (law, colour) in std::iter::zip(laws, LAW_COLOURS)
+        .collect::<Vec<_>>()
+        .into_iter()
+        .rev()
+    {
         let Some(run) = recording.trajectory(plant, law) else {
             continue;
         };

@@ -1,12 +1,13 @@
 //! The firmware's log lines, as one recording.
 //!
 //! ```text
-//! scene NAME joints N tick-us US ticks T
+//! scene NAME joints N tick-us US ticks T bound B
 //! gains OMEGA ZETA POSE
-//! run PLANT LAW
+//! effect NAME BYTES                  each that the scene names
+//! run PLANT LAW ADDRESS              of the function that is called each tick
 //! sample TICK qd1..qdN q1..qN
-//! rms PLANT LAW e1..eN        max PLANT LAW e1..eN
-//! total PLANT LAW RMS         status PLANT LAW WORD…
+//! rms e1..eN                         max e1..eN
+//! total RMS                          status WORD…
 //! stack BYTES
 //! done
 //! ```
@@ -18,12 +19,12 @@ use serde::{Deserialize, Serialize};
 use crate::error::{Error, Result};
 use crate::qemu::DONE;
 
-/// The laws, the one to sell first, with their names in print.
-pub const LAWS: [(&str, &str); 3] = [
-    ("feedforward", "feed-forward"),
-    ("gravity", "gravity"),
-    ("pd", "PD"),
-];
+/// The law to sell.
+pub const SOLD: &str = "feedforward";
+/// The law that it is held against.
+pub const PD: &str = "pd";
+/// What the name of a law begins with that is [`SOLD`] less an effect.
+pub const WITHOUT: &str = "without-";
 
 /// The plants, the one that the controller knows exactly first.
 pub const PLANTS: [&str; 2] = ["exact", "mismatched"];
@@ -41,6 +42,17 @@ pub struct Trajectory {
     pub total: Option<f64>,
     /// What the safety gate said.
     pub status: String,
+    /// Where the function is that was called each tick.
+    pub tick_at: u64,
+}
+
+/// An effect that the scene names.
+#[derive(Clone, Debug)]
+pub struct Named {
+    /// Its type.
+    pub name: String,
+    /// What its value takes in RAM, bytes.
+    pub bytes: u64,
 }
 
 /// A moment of a run.
@@ -76,6 +88,10 @@ pub struct Recording {
     pub tick_us: u32,
     /// Ticks of each run.
     pub ticks: u32,
+    /// The largest error of a joint that is promised, with the exact model, rad.
+    pub bound: f64,
+    /// The effects that the scene names.
+    pub effects: Vec<Named>,
     /// The feedback's gains, if the scene says.
     pub gains: Option<Gains>,
     /// Plant and law of each run, in the order in which they ran.
@@ -101,12 +117,19 @@ impl Recording {
                 tick_us,
                 "ticks",
                 ticks,
+                "bound",
+                bound,
             ] => {
                 self.scene = name.into();
                 self.joints = joints.parse().map_err(|_| bad())?;
                 self.tick_us = tick_us.parse().map_err(|_| bad())?;
                 self.ticks = ticks.parse().map_err(|_| bad())?;
+                self.bound = number(bound).ok_or_else(bad)?;
             }
+            ["effect", name, bytes] => self.effects.push(Named {
+                name: name.into(),
+                bytes: bytes.parse().map_err(|_| bad())?,
+            }),
             ["gains", omega_n, zeta, pose] => {
                 self.gains = Some(Gains {
                     omega_n: number(omega_n).ok_or_else(bad)?,
@@ -114,10 +137,16 @@ impl Recording {
                     pose: pose.into(),
                 });
             }
-            ["run", plant, law] => {
-                let key = known(plant, law).ok_or_else(bad)?;
+            ["run", plant, law, at] => {
+                let known = PLANTS.contains(&plant);
+                let tick_at = hexadecimal(at).filter(|_| known).ok_or_else(bad)?;
+                let key = (plant.to_owned(), law.to_owned());
+                let run = Trajectory {
+                    tick_at,
+                    ..Trajectory::default()
+                };
                 self.order.push(key.clone());
-                if self.runs.insert(key, Trajectory::default()).is_some() {
+                if self.runs.insert(key, run).is_some() {
                     return Err(bad());
                 }
             }
@@ -125,27 +154,26 @@ impl Recording {
                 let mut reference = self.numbers(angles, 2).ok_or_else(bad)?;
                 let angle = reference.split_off(self.joints);
                 let tick = tick.parse().map_err(|_| bad())?;
-                let run = self.order.last().and_then(|key| self.runs.get_mut(key));
-                run.ok_or_else(bad)?.samples.push(Sample {
+                self.run().ok_or_else(bad)?.samples.push(Sample {
                     tick,
                     reference,
                     angle,
                 });
             }
-            ["rms", plant, law, ref errors @ ..] => {
+            ["rms", ref errors @ ..] => {
                 let rms = self.numbers(errors, 1).ok_or_else(bad)?;
-                self.run(plant, law).ok_or_else(bad)?.rms = rms;
+                self.run().ok_or_else(bad)?.rms = rms;
             }
-            ["max", plant, law, ref errors @ ..] => {
+            ["max", ref errors @ ..] => {
                 let max = self.numbers(errors, 1).ok_or_else(bad)?;
-                self.run(plant, law).ok_or_else(bad)?.max = max;
+                self.run().ok_or_else(bad)?.max = max;
             }
-            ["total", plant, law, rms] => {
+            ["total", rms] => {
                 let rms = number(rms).ok_or_else(bad)?;
-                self.run(plant, law).ok_or_else(bad)?.total = Some(rms);
+                self.run().ok_or_else(bad)?.total = Some(rms);
             }
-            ["status", plant, law, ref said @ ..] => {
-                self.run(plant, law).ok_or_else(bad)?.status = said.join(" ");
+            ["status", ref said @ ..] => {
+                self.run().ok_or_else(bad)?.status = said.join(" ");
             }
             ["stack", bytes] => self.stack = Some(bytes.parse().map_err(|_| bad())?),
             [DONE] => {}
@@ -164,25 +192,25 @@ impl Recording {
             return lacks("its `stack`".into());
         }
         for plant in PLANTS {
-            for (law, _) in LAWS {
-                match self.trajectory(plant, law) {
-                    None => return lacks(format!("`run {plant} {law}`")),
-                    Some(run)
-                        if run.rms.is_empty() || run.max.is_empty() || run.total.is_none() =>
-                    {
-                        return lacks(format!("`rms`, `max` and `total` of {plant} {law}"));
-                    }
-                    Some(_) => {}
+            for law in [SOLD, PD] {
+                if self.trajectory(plant, law).is_none() {
+                    return lacks(format!("`run {plant} {law}`"));
                 }
+            }
+        }
+        for ((plant, law), run) in &self.runs {
+            if run.rms.is_empty() || run.max.is_empty() || run.total.is_none() {
+                return lacks(format!("`rms`, `max` and `total` of {plant} {law}"));
             }
         }
         Ok(())
     }
 
-    /// The first run whose status is not this one, with its status.
+    /// The first run of the law to sell whose status is not this one, with its status.
     pub fn unlike(&self, status: &str) -> Option<String> {
         let mut runs = self.runs.iter();
-        let ((plant, law), run) = runs.find(|(_, run)| run.status != status)?;
+        let ((plant, law), run) =
+            runs.find(|((_, law), run)| law == SOLD && run.status != status)?;
         Some(format!("{plant} {law}: {:?}", run.status))
     }
 
@@ -206,8 +234,20 @@ impl Recording {
         self.runs.get(&(plant.to_owned(), law.to_owned()))
     }
 
-    fn run(&mut self, plant: &str, law: &str) -> Option<&mut Trajectory> {
-        self.runs.get_mut(&(plant.to_owned(), law.to_owned()))
+    /// The laws on a plant in the order in which they ran, but for those that lack an effect; PD last.
+    pub fn laws(&self, plant: &str) -> Vec<&str> {
+        let laws = self.order.iter().filter(|(on, _)| on == plant);
+        let mut laws: Vec<&str> = laws
+            .map(|(_, law)| law.as_str())
+            .filter(|law| !law.starts_with(WITHOUT))
+            .collect();
+        laws.sort_by_key(|law| *law == PD);
+        laws
+    }
+
+    /// The present run.
+    fn run(&mut self) -> Option<&mut Trajectory> {
+        self.runs.get_mut(self.order.last()?)
     }
 
     /// So many numbers per joint, all of them finite.
@@ -225,9 +265,18 @@ fn number(word: &str) -> Option<f64> {
     digits.parse().ok().filter(|x: &f64| x.is_finite())
 }
 
-fn known(plant: &str, law: &str) -> Option<(String, String)> {
-    let known = PLANTS.contains(&plant) && LAWS.iter().any(|(name, _)| *name == law);
-    known.then(|| (plant.to_owned(), law.to_owned()))
+fn hexadecimal(word: &str) -> Option<u64> {
+    // The lowest bit of a function's address says Thumb.
+    Some(u64::from_str_radix(word.strip_prefix("0x")?, 16).ok()? & !1)
+}
+
+/// A law's name in print.
+pub fn in_print(law: &str) -> String {
+    match law {
+        SOLD => "feed-forward".into(),
+        PD => "PD".into(),
+        other => other.replace('-', " "),
+    }
 }
 
 #[cfg(test)]
@@ -238,12 +287,13 @@ mod tests {
     fn a_recording_takes_its_lines_and_leaves_the_others() {
         let mut recording = Recording::default();
         for line in [
-            "scene two joints 2 tick-us 1000 ticks 3",
+            "scene two joints 2 tick-us 1000 ticks 3 bound 1e-3",
             "gains 25.1 1 home",
-            "run exact pd",
+            "effect Viscous 24",
+            "run exact pd 0x8001",
             "sample 0 0.1 0.2 0.11 2e-1",
-            "rms exact pd 1e-3 2e-3",
-            "max exact pd [1e-3, 2e-3]",
+            "rms 1e-3 2e-3",
+            "max [1e-3, 2e-3]",
             "stack 512",
         ] {
             assert!(recording.line(line).is_ok_and(|taken| taken), "{line}");
@@ -251,10 +301,10 @@ mod tests {
         assert!(recording.line("hello there").is_ok_and(|taken| !taken));
         for line in [
             "sample 1 0.1",
-            "rms exact pd NaN 0",
+            "rms NaN 0",
             "gains fast 1 home",
-            "run exact magic",
-            "run exact pd",
+            "run magic pd 0x8001",
+            "run exact pd 0x8001",
         ] {
             assert!(recording.line(line).is_err(), "{line}");
         }

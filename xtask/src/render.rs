@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use crate::protocol::in_print;
 use crate::report::{Errors, MODEL, Report, Tracking};
 use crate::table::{Table, thousands};
 
@@ -18,6 +19,9 @@ impl Report {
         );
         for (what, tracking) in self.trackings() {
             text += &format!("\n{what}\n\n{}", errors_table(tracking).text());
+        }
+        if !self.effects.is_empty() {
+            text += &format!("\n{WORTH}\n\n{}", self.worth().text());
         }
         text += &format!("\n{}\n{}\n", self.memory(), self.provenance());
         text += &self.feedback();
@@ -43,7 +47,7 @@ impl Report {
         let (exact, off) = (&self.tracking, &self.tracking_mismatched);
         for ((law, errors), (_, errors_off)) in exact.laws().into_iter().zip(off.laws()) {
             table.row([
-                law.to_owned(),
+                in_print(law),
                 percent(errors, &exact.pd),
                 percent(errors_off, &off.pd),
             ]);
@@ -54,6 +58,45 @@ impl Report {
             table.markdown()
         );
         text + &format!("\n{}.\nMeasured with {}.\n", self.memory(), self.rustc)
+    }
+
+    /// A row per effect.
+    fn worth(&self) -> Table {
+        let mut table = Table::new(&[
+            "effect",
+            "saves cycles",
+            "flash B",
+            "RAM B",
+            "error RMS, mrad",
+            "max",
+            "RMS ×",
+            "safety gate",
+        ]);
+        let full = &self.tracking.feedforward;
+        let row = |name: &str, saved: [i64; 3], errors: &Errors| {
+            let saved = saved.map(|n| {
+                if n < 0 {
+                    format!("-{}", thousands(n.unsigned_abs()))
+                } else {
+                    thousands(n as u64)
+                }
+            });
+            std::iter::once(name.to_owned())
+                .chain(saved)
+                .chain([
+                    milli(errors.rms_rad),
+                    milli(errors.max_rad),
+                    format!("{:.1}", errors.rms_rad / full.rms_rad),
+                    gate(&errors.status),
+                ])
+                .collect::<Vec<_>>()
+        };
+        table.row(row("(none dropped)", [0; 3], full));
+        for worth in &self.effects {
+            let saved = [worth.cycles, worth.flash_bytes, worth.ram_bytes as i64];
+            table.row(row(&worth.effect, saved, &worth.without));
+        }
+        table
     }
 
     /// What the laws have in common.
@@ -72,15 +115,15 @@ impl Report {
 
     /// What the safety gate said: once, if it said the same of every run.
     fn gate(&self) -> String {
-        let said: Vec<(String, String)> = self
-            .trackings()
-            .into_iter()
-            .flat_map(|(what, tracking)| {
-                tracking
-                    .laws()
-                    .map(|(law, errors)| (format!("{what}, {law}"), words(&errors.status)))
-            })
-            .collect();
+        let said: Vec<(String, String)> =
+            self.trackings()
+                .into_iter()
+                .flat_map(|(what, tracking)| {
+                    tracking.laws().into_iter().map(move |(law, e)| {
+                        (format!("{what}, {}", in_print(law)), words(&e.status))
+                    })
+                })
+                .collect();
         match said.as_slice() {
             [(_, first), rest @ ..] if rest.iter().all(|(_, status)| status == first) => {
                 format!("Safety gate in every run: {first}\n")
@@ -176,13 +219,31 @@ fn errors_table(tracking: &Tracking) -> Table {
         for (law, errors) in tracking.laws() {
             let (all, each) = pick(errors);
             table.row(
-                std::iter::once(format!("{law} {kind}"))
+                std::iter::once(format!("{} {kind}", in_print(law)))
                     .chain(each.into_iter().map(milli))
                     .chain([milli(all), format!("{:.1} %", 100.0 * all / pd)]),
             );
         }
     }
     table
+}
+
+/// What the table of effects shows.
+const WORTH: &str = "What each effect is worth: saved in the longest tick, in the tick's code and in the plant's RAM \
+     by dropping it, and the error then, exact model";
+
+/// The safety gate's status in a word or two.
+fn gate(status: &str) -> String {
+    let said = words(status);
+    let changed = said
+        .split(", ")
+        .filter(|part| !["the full law", "no fault", "no limit reached"].contains(part));
+    let changed: Vec<&str> = changed.collect();
+    if changed.is_empty() {
+        "silent".into()
+    } else {
+        changed.join(", ")
+    }
 }
 
 /// The safety gate's status in words, from `mode Full, fault None, limited false`.

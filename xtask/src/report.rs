@@ -1,12 +1,15 @@
 //! What a scene's run amounts to; its fields are those of the JSON.
 
+use std::collections::BTreeMap;
+
 use cycle_meter::Sample;
 use serde::{Deserialize, Serialize};
 
-use crate::elf::Sizes;
+use crate::callgraph::Reach;
+use crate::elf::Image;
 use crate::error::{Error, Result};
 use crate::meter::{self, BETWEEN, Cost, REGIONS};
-use crate::protocol::{Gains, LAWS, PLANTS, Recording, Trajectory};
+use crate::protocol::{Gains, PD, PLANTS, Recording, SOLD, Trajectory, WITHOUT};
 
 /// What every cycle figure has to say of itself.
 pub const MODEL: &str = "modelled Cortex-M4F, zero-wait memory; instructions exact";
@@ -32,6 +35,10 @@ pub struct Report {
     pub tracking: Tracking,
     /// Errors with a plant that it does not know exactly.
     pub tracking_mismatched: Tracking,
+    /// The largest error of a joint that is promised, with the exact model, rad.
+    pub bound_rad: f64,
+    /// What each effect that the scene names is worth.
+    pub effects: Vec<Worth>,
     /// Code, constants and initial values.
     pub flash_bytes: u64,
     /// Variables.
@@ -68,10 +75,26 @@ pub struct Tick {
 pub struct Tracking {
     /// Full inverse dynamics along the reference, and PD.
     pub feedforward: Errors,
-    /// Gravity compensation, and PD.
-    pub gravity: Errors,
+    /// What the scene compares beside.
+    #[serde(flatten)]
+    pub beside: BTreeMap<String, Errors>,
     /// PD alone.
     pub pd: Errors,
+}
+
+/// What an effect costs, and what is lost without it.
+#[derive(Debug, Serialize, Deserialize)]
+pub struct Worth {
+    /// Its type.
+    pub effect: String,
+    /// Modelled cycles of the longest tick that dropping it saves.
+    pub cycles: i64,
+    /// Bytes of the tick's code that dropping it saves.
+    pub flash_bytes: i64,
+    /// Bytes of RAM where its value is kept there, as in the plant.
+    pub ram_bytes: u64,
+    /// The error when the feed-forward lacks it, with the exact model.
+    pub without: Errors,
 }
 
 /// The tracking error of a run.
@@ -112,14 +135,14 @@ impl Tick {
 }
 
 impl Tracking {
-    /// The laws with their printed names.
-    pub fn laws(&self) -> [(&'static str, &Errors); 3] {
-        let [feedforward, gravity, pd] = LAWS.map(|(_, printed)| printed);
-        [
-            (feedforward, &self.feedforward),
-            (gravity, &self.gravity),
-            (pd, &self.pd),
-        ]
+    /// The laws by their names, the one to sell first, PD last.
+    pub fn laws(&self) -> Vec<(&str, &Errors)> {
+        let beside = self
+            .beside
+            .iter()
+            .map(|(law, errors)| (law.as_str(), errors));
+        let sold = std::iter::once((SOLD, &self.feedforward));
+        sold.chain(beside).chain([(PD, &self.pd)]).collect()
     }
 
     /// The error with feed-forward as a share of PD's.
@@ -134,11 +157,49 @@ impl Tracking {
                 .and_then(errors)
                 .ok_or_else(|| Error::check(format!("there is no run of {law} on {plant}")))
         };
+        let mut beside = BTreeMap::new();
+        for law in recording.laws(plant) {
+            if ![SOLD, PD].contains(&law) {
+                beside.insert(law.to_owned(), errors(law)?);
+            }
+        }
         Ok(Self {
-            feedforward: errors("feedforward")?,
-            gravity: errors("gravity")?,
-            pd: errors("pd")?,
+            feedforward: errors(SOLD)?,
+            beside,
+            pd: errors(PD)?,
         })
+    }
+}
+
+impl Worth {
+    /// Of each effect that the scene runs without.
+    fn all(recording: &Recording, costs: &[Cost], image: &Image) -> Result<Vec<Self>> {
+        let (plant, bytes) = (PLANTS[0], |run: &Trajectory| {
+            let reach = Reach::of(image, |function| function.address == run.tick_at)?;
+            let sizes = reach.functions().map(|(function, _)| function.bytes.len());
+            Ok::<_, Error>(sizes.sum::<usize>() as i64)
+        });
+        let at = |law: &str| {
+            let mut order = recording.order.iter();
+            let place = order.position(|(on, name)| on == plant && name == law)?;
+            Some((recording.trajectory(plant, law)?, costs.get(place)?))
+        };
+        let none = || Error::check(format!("there is no run of {SOLD} on {plant}"));
+        let (full, full_cost) = at(SOLD).ok_or_else(none)?;
+        let mut all = Vec::new();
+        for effect in &recording.effects {
+            let Some((run, cost)) = at(&format!("{WITHOUT}{}", effect.name)) else {
+                continue;
+            };
+            all.push(Self {
+                effect: effect.name.clone(),
+                cycles: full_cost.cycles.max as i64 - cost.cycles.max as i64,
+                flash_bytes: bytes(full)? - bytes(run)?,
+                ram_bytes: effect.bytes,
+                without: errors(run).ok_or_else(none)?,
+            });
+        }
+        Ok(all)
     }
 }
 
@@ -158,7 +219,7 @@ impl Report {
     pub fn new(
         recording: &Recording,
         samples: &[Sample],
-        sizes: Sizes,
+        image: &Image,
         rustc: String,
         qemu: String,
     ) -> Result<Self> {
@@ -167,7 +228,7 @@ impl Report {
         // The other laws cost less: the figures are those of the law that we sell.
         let is_sold = |tick: usize| {
             let run = recording.order.get(tick / ticks.max(1));
-            run.is_some_and(|(_, law)| law == LAWS[0].0)
+            run.is_some_and(|(_, law)| law == SOLD)
         };
         let all = ticks * recording.order.len();
         let costs = meter::costs(samples, all, is_sold)?;
@@ -176,6 +237,12 @@ impl Report {
             let at = names.position(|region| *region == name);
             at.and_then(|at| costs.get(at).copied()).unwrap_or_default()
         };
+        let of_runs = (0..recording.order.len())
+            .map(|run| {
+                let costs = meter::costs(samples, all, |tick| tick / ticks.max(1) == run)?;
+                Ok(costs.first().copied().unwrap_or_default())
+            })
+            .collect::<Result<Vec<Cost>>>()?;
         Ok(Self {
             scene: recording.scene.clone(),
             model: MODEL.to_owned(),
@@ -194,8 +261,10 @@ impl Report {
             peak_speed: recording.peak_speed(),
             tracking: Tracking::of(recording, PLANTS[0])?,
             tracking_mismatched: Tracking::of(recording, PLANTS[1])?,
-            flash_bytes: sizes.flash,
-            ram_bytes: sizes.ram,
+            bound_rad: recording.bound,
+            effects: Worth::all(recording, &of_runs, image)?,
+            flash_bytes: image.sizes.flash,
+            ram_bytes: image.sizes.ram,
             stack_bytes: recording.stack.unwrap_or_default(),
             rustc,
             qemu,

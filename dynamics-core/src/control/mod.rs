@@ -4,6 +4,7 @@
 //! | item | what | memory |
 //! |---|---|---|
 //! | [`Trajectory`] | quintics through way-points, checked against speed and acceleration limits | none |
+//! | [`Reference`] | what a controller follows: a trajectory, or a motion of one's own | |
 //! | [`TurnCounter`] | an encoder's counts, turns included | counts |
 //! | [`Observer`] | velocity from positions | estimate |
 //! | [`Gains`], [`feedback`] | K_p (q_d − q) + K_d (q̇_d − q̇) | none |
@@ -77,6 +78,7 @@ mod fault;
 mod law;
 mod observer;
 mod operational;
+mod reference;
 mod rejoin;
 mod supervisor;
 mod trajectory;
@@ -87,6 +89,7 @@ pub use fault::Fault;
 pub use law::{Gains, feedback};
 pub use observer::{Estimate, Observer};
 pub use operational::{Aim, TaskFrame, motion_and_force, turn_to};
+pub use reference::Reference;
 pub use rejoin::Rejoin;
 pub use supervisor::Supervisor;
 pub use trajectory::{Speed, Trajectory, TrajectoryError, WayPoint};

@@ -10,7 +10,7 @@
 //!
 //! so that position, velocity and acceleration are those of a at the start and of q at the end.
 
-use super::{Estimate, Trajectory, real};
+use super::{Estimate, Reference, real};
 use crate::scalar::Real;
 use crate::state::State;
 
@@ -124,11 +124,7 @@ impl<R: Real, const V: usize> Rejoin<R, V> {
     /// [`Self::start`] with a share of zero stands at the start.
     #[cold]
     #[inline(never)]
-    pub fn at<const W: usize>(
-        &mut self,
-        trajectory: &Trajectory<R, V, W>,
-        share: R,
-    ) -> State<R, V, V> {
+    pub fn at<T: Reference<R, V>>(&mut self, trajectory: &T, share: R) -> State<R, V, V> {
         let [w, slope, bend] = self.weights(share);
         let goal = self.goal(trajectory, share, w, slope);
         self.settle(share);
@@ -154,9 +150,9 @@ impl<R: Real, const V: usize> Rejoin<R, V> {
     }
 
     /// The trajectory at σ, one tick on, under a time that passes at the rate w.
-    fn goal<const W: usize>(
+    fn goal<T: Reference<R, V>>(
         &mut self,
-        trajectory: &Trajectory<R, V, W>,
+        trajectory: &T,
         share: R,
         rate: R,
         slope: R,

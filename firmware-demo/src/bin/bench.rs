@@ -93,9 +93,9 @@ mod tick {
     use firmware_demo::control_loop::{ControlLoop, Law};
     use firmware_demo::drive::Drive;
     use firmware_demo::encoder::Encoder;
-    use firmware_demo::plant::{SimDrive, SimEncoder, Wires};
     use firmware_demo::scene::{SimBrake, TICK};
     use firmware_demo::target;
+    use firmware_demo::wires::{SimDrive, SimEncoder, Wires};
 
     const TICKS: usize = 1000;
     const TORQUE: [f32; 6] = [150.0, 150.0, 150.0, 28.0, 28.0, 28.0];
@@ -103,7 +103,7 @@ mod tick {
     struct RigidBody;
 
     impl Law<6> for RigidBody {
-        fn feedforward(reference: &State<f32, 6, 6>) -> [f32; 6] {
+        fn feedforward(reference: &State<f32, 6, 6>, (): &()) -> [f32; 6] {
             Engine::<Ur5e>::rnea(reference, &RIGID_BODY)
         }
     }
@@ -117,7 +117,7 @@ mod tick {
         let mut cycles = [0_u32; TICKS];
         for cycles in &mut cycles {
             let start = DWT::cycle_count();
-            let telemetry = control.tick::<RigidBody, 9>(&trajectory);
+            let telemetry = control.tick::<RigidBody, _, ()>(&trajectory, &());
             *cycles = DWT::cycle_count().wrapping_sub(start);
             if !matches!(telemetry.status.mode, Mode::Full) {
                 target::fail("the loop did not run as it should: nothing was measured");

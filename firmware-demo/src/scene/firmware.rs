@@ -1,10 +1,6 @@
 //! What a scene's data sheet makes of the control loop, whatever its devices are.
 
-use dynamics_core::Core;
-use dynamics_core::control::{
-    Bounds, Gains, Observer, Rejoin, Speed, Supervisor, Trajectory, TrajectoryError,
-};
-use dynamics_core::model::{Limits, model};
+use dynamics_core::control::{Bounds, Gains, Observer, Rejoin, Supervisor};
 use embedded_hal::digital::OutputPin;
 use embedded_hal::pwm::SetDutyCycle;
 use embedded_hal::spi::SpiDevice;
@@ -28,53 +24,30 @@ pub const RIDE: u32 = 5;
 pub const HOLD: u32 = 100;
 /// Ticks of the way back after a fault.
 pub const REENTRY: u32 = 200;
-/// The arm's limits, joint by joint.
-pub fn limits<S, const B: usize, const N: usize, const W: usize>() -> [Limits<f32>; N]
-where
-    S: Scene<B, N, W>,
-{
-    let model = model::<f32, S::Robot, B, N, N>();
-    let mut limits = [model.links[0].limits; N];
-    for link in &model.links {
-        if let Some(limit) = limits.get_mut(link.v_at) {
-            *limit = link.limits;
-        }
-    }
-    limits
-}
 
-/// The scene's way.
-///
-/// # Errors
-/// Way-points that the arm's limits do not allow.
-pub fn trajectory<S, const B: usize, const N: usize, const W: usize>()
--> Result<Trajectory<f32, N, W>, TrajectoryError>
-where
-    S: Scene<B, N, W>,
-{
-    let mut speeds = limits::<S, B, N, W>().map(|l| Speed {
-        velocity: l.velocity,
-        acceleration: 0.0,
-    });
-    for (speed, acceleration) in speeds.iter_mut().zip(S::ACCELERATION) {
-        speed.acceleration = acceleration;
-    }
-    Trajectory::new(&S::WAY_POINTS, TICK, &speeds)
-}
-
-/// The loop on these devices, for an arm that stands on the first way-point.
-pub fn control_loop<S, Spi, Pwm, Brake, const B: usize, const N: usize, const W: usize>(
+/// The loop on these devices, for an arm that stands at the start of its way.
+pub fn control_loop<
+    S,
+    Spi,
+    Pwm,
+    Brake,
+    const B: usize,
+    const Q: usize,
+    const V: usize,
+    const N: usize,
+>(
     encoders: [Spi; N],
     drives: [Pwm; N],
     brake: Brake,
+    around: &S::Around,
 ) -> ControlLoop<Spi, Pwm, Brake, N>
 where
-    S: Scene<B, N, W>,
+    S: Scene<B, Q, V, N>,
     Spi: SpiDevice,
     Pwm: SetDutyCycle,
     Brake: OutputPin,
 {
-    let limits = limits::<S, B, N, W>();
+    let limits = S::limits();
     let torque = limits.map(|l| l.torque);
     let bounds = Bounds {
         torque,
@@ -83,14 +56,12 @@ where
         lower: limits.map(|l| l.lower),
         upper: limits.map(|l| l.upper),
     };
-    let m = Core::<S::Robot>::crba(&S::GAIN_POSE, &S::effects());
-    let diagonal = core::array::from_fn(|j| m.get(j, j));
     let mut torques = torque.into_iter();
     ControlLoop::new(
         encoders.map(Encoder::new),
         drives.map(|pwm| Drive::new(pwm, torques.next().unwrap_or_default())),
         brake,
-        Gains::from_inertia(&diagonal, OMEGA_N, ZETA),
+        Gains::from_inertia(&S::inertia(around), OMEGA_N, ZETA),
         Observer::new(OBSERVER, TICK),
         Supervisor::new(bounds, TICK, HOLD, REENTRY)
             .riding(RIDE)

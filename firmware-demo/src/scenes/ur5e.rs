@@ -1,13 +1,14 @@
 //! Scene `ur5e`: pick and place, with the arm's full model as feed-forward.
 
 use dynamics_core::Engine;
-use dynamics_core::control::WayPoint;
-use dynamics_core::effects::{Coriolis, Coulomb, Gravity, Inertia, RotorInertia, Viscous};
+use dynamics_core::control::{Trajectory, TrajectoryError};
+use dynamics_core::effects::{Coriolis, Coulomb, Effect, Gravity, Inertia, RotorInertia, Viscous};
 use dynamics_core::robots::Ur5e;
 use dynamics_core::state::State;
 
 use crate::control_loop::Law;
-use crate::scene::{Noise, Scene};
+use crate::plant::Plant;
+use crate::scene::{Noise, Run, Scene, Truth, rigid, through};
 use crate::trajectories::{HOME, PICK_AND_PLACE};
 
 /// What acts on the arm.
@@ -38,36 +39,42 @@ pub const EFFECTS: Effects = (
 #[derive(Clone, Copy, Debug)]
 pub struct PickAndPlace;
 
-impl Scene<6, 6, 9> for PickAndPlace {
+impl Scene<6, 6, 6, 6> for PickAndPlace {
     type Robot = Ur5e;
     type Effects = Effects;
-    type FeedForward = FullModel;
-    type Gravity = GravityOnly;
+    type Reference = Trajectory<f32, 6, 9>;
+    type Around = ();
+    type Plant = Plant<Ur5e, Effects, (), 6, 6, 6>;
+
     const NAME: &'static str = "ur5e";
-    const ACCELERATION: [f32; 6] = [12.0; 6];
+    const BOUND: f32 = 1e-3;
+    const EFFECTS: Effects = EFFECTS;
     const GAIN_POSE: [f32; 6] = HOME;
     const GAIN_POSE_NAME: &'static str = "home";
-    const WAY_POINTS: [WayPoint<f32, 6>; 9] = PICK_AND_PLACE;
+    const BESIDE: &'static [Run<Self, 6, 6, 6, 6>] = &[
+        Run::of::<GravityOnly>(Truth::Exact, "gravity"),
+        Run::of::<GravityOnly>(Truth::Mismatched, "gravity"),
+    ];
 
-    fn effects() -> Effects {
-        EFFECTS
+    fn reference() -> Result<Self::Reference, TrajectoryError> {
+        through(&PICK_AND_PLACE, &Self::limits(), [12.0; 6])
     }
 
-    fn disturbed(noise: &mut Noise) -> Effects {
-        let mut effects = EFFECTS;
-        effects.3.0 = effects.3.0.map(|b| b * noise.factor(0.1));
-        effects.4.torque = effects.4.torque.map(|f| f * noise.factor(0.1));
-        effects
+    fn around(_: &Self::Reference, _: f32) {}
+
+    fn inverse<E: Effect<f32, 6, 6>>(
+        reference: &State<f32, 6, 6>,
+        (): &(),
+        effects: &E,
+    ) -> [f32; 6] {
+        Engine::<Ur5e>::rnea(reference, effects)
     }
-}
 
-/// Feed-forward by the arm's full model.
-#[derive(Clone, Copy, Debug)]
-pub struct FullModel;
-
-impl Law<6> for FullModel {
-    fn feedforward(reference: &State<f32, 6, 6>) -> [f32; 6] {
-        Engine::<Ur5e>::rnea(reference, &EFFECTS)
+    fn plant(noise: Option<&mut Noise>) -> Self::Plant {
+        rigid::<Self, 6, 6, 6, 6>(HOME, noise, |(.., viscous, coulomb, _), noise| {
+            noise.friction(&mut viscous.0);
+            noise.friction(&mut coulomb.torque);
+        })
     }
 }
 
@@ -78,7 +85,7 @@ pub struct GravityOnly;
 impl Law<6> for GravityOnly {
     const ACCELERATES: bool = false;
 
-    fn feedforward(reference: &State<f32, 6, 6>) -> [f32; 6] {
+    fn feedforward(reference: &State<f32, 6, 6>, (): &()) -> [f32; 6] {
         Engine::<Ur5e>::rnea(reference, &(Gravity::EARTH,))
     }
 }

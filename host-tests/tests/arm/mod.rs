@@ -6,18 +6,18 @@ use std::cell::Cell;
 use std::rc::Rc;
 
 use dynamics_core::control::Trajectory;
-use dynamics_core::model::{Calibrated, Limits};
+use dynamics_core::model::Limits;
 use dynamics_core::robots::Ur5e;
 use dynamics_core::state::State;
 use embedded_hal::digital::{self, OutputPin};
 use embedded_hal::pwm::{self, SetDutyCycle};
 use embedded_hal::spi::{self, Operation, SpiDevice};
 use firmware_demo::control_loop::{ControlLoop, Law, Telemetry};
-use firmware_demo::plant::{MAX_DUTY, Plant, SimDrive, SimEncoder, Wires};
+use firmware_demo::plant::{Plant, Rig};
+use firmware_demo::scene::{Full, STEPS, Scene, TICK, control_loop};
 pub use firmware_demo::scene::{HOLD, REENTRY, RIDE};
-use firmware_demo::scene::{TICK, control_loop, limits, trajectory};
-use firmware_demo::scenes::ur5e::{self, EFFECTS, Effects, PickAndPlace};
-use firmware_demo::trajectories::HOME;
+use firmware_demo::scenes::ur5e::{Effects, PickAndPlace};
+use firmware_demo::wires::{MAX_DUTY, SimDrive, SimEncoder, Wires};
 
 /// The full model, which a test may make fail: on this thread, no number for a joint.
 pub struct FullModel;
@@ -28,8 +28,8 @@ thread_local! {
 }
 
 impl Law<6> for FullModel {
-    fn feedforward(reference: &State<f32, 6, 6>) -> [f32; 6] {
-        let mut tau = ur5e::FullModel::feedforward(reference);
+    fn feedforward(reference: &State<f32, 6, 6>, (): &()) -> [f32; 6] {
+        let mut tau = Full::<PickAndPlace, 6, 6, 6>::feedforward(reference, &());
         if let Some((joint, poison)) = POISON.get() {
             tau[joint] = poison;
         }
@@ -135,7 +135,7 @@ pub struct Arm {
     pub wires: &'static Wires<6>,
     pub bent: [Rc<Bent>; 6],
     pub brake: Brake,
-    pub plant: Plant<Ur5e, Effects, 6, 6>,
+    pub rig: Rig<Plant<Ur5e, Effects, (), 6, 6, 6>, 6>,
     pub trajectory: Trajectory<f32, 6, 9>,
     pub control: ControlLoop<Spi, Pwm, Brake, 6>,
     pub limits: [Limits<f32>; 6],
@@ -144,37 +144,38 @@ pub struct Arm {
 impl Arm {
     pub fn new() -> Self {
         let wires: &'static Wires<6> = Box::leak(Box::new(Wires::new()));
-        let limits = limits::<PickAndPlace, 6, 6, 9>();
+        let limits = PickAndPlace::limits();
         let torque = limits.map(|l| l.torque);
-        let plant = Plant::new(Calibrated::nominal(), EFFECTS, torque, HOME);
-        plant.publish(wires);
+        let rig = Rig::new(PickAndPlace::plant(None), torque, wires);
         let bent: [Rc<Bent>; 6] = Default::default();
         let brake = Brake::default();
         let encoders = core::array::from_fn(|j| Spi(wires.encoder(j), bent[j].clone()));
         let drives = core::array::from_fn(|j| Pwm(wires.drive(j), bent[j].clone()));
         Self {
-            control: control_loop::<PickAndPlace, _, _, _, 6, 6, 9>(
+            control: control_loop::<PickAndPlace, _, _, _, 6, 6, 6, 6>(
                 encoders,
                 drives,
                 brake.clone(),
+                &(),
             ),
-            trajectory: trajectory::<PickAndPlace, 6, 6, 9>().unwrap(),
+            trajectory: PickAndPlace::reference().unwrap(),
             wires,
             bent,
             brake,
-            plant,
+            rig,
             limits,
         }
     }
 
     /// A tick of the firmware, then of the plant, which a brake holds at once.
     pub fn tick(&mut self) -> Telemetry<6> {
-        let telemetry = self.control.tick::<FullModel, 9>(&self.trajectory);
+        let telemetry = self.control.tick::<FullModel, _, ()>(&self.trajectory, &());
         if self.brake.0.0.get() {
-            self.plant.state.qd = [0.0; 6];
-            self.plant.publish(self.wires);
+            self.rig.plant.state.qd = [0.0; 6];
+            self.wires.publish(&self.rig.plant.state.q);
         } else {
-            self.plant.advance(self.wires, 4, TICK / 4.0).unwrap();
+            let step = TICK / STEPS as f32;
+            self.rig.advance(self.wires, STEPS, step, |_| ()).unwrap();
         }
         telemetry
     }

@@ -21,8 +21,8 @@ pub struct Outcome {
 pub fn bad_frames(at: u32, ticks: u32, mask: u16) -> Outcome {
     let mut arm = Arm::new();
     arm.run(at);
-    let direction = arm.plant.state.qd.map(f32::signum);
-    let fast = arm.plant.state.qd.map(|qd| qd.abs() > 0.3);
+    let direction = arm.rig.plant.state.qd.map(f32::signum);
+    let fast = arm.rig.plant.state.qd.map(|qd| qd.abs() > 0.3);
     let mut out = Outcome {
         worst: 0.0,
         reversal: 0.0,
@@ -32,7 +32,7 @@ pub fn bad_frames(at: u32, ticks: u32, mask: u16) -> Outcome {
     };
     for tick in 0..ticks + REENTRY + 200 {
         arm.corrupt(0, if tick < ticks { mask } else { 0 });
-        let actual = arm.plant.state.q;
+        let actual = arm.rig.plant.state.q;
         let telemetry = arm.tick();
         let error = Arm::error(&telemetry.reference, &actual);
         out.worst = out.worst.max(error);
@@ -41,7 +41,7 @@ pub fn bad_frames(at: u32, ticks: u32, mask: u16) -> Outcome {
             out.back = tick - ticks + 1;
         }
         for j in (0..6).filter(|&j| fast[j] && tick < ticks + REENTRY) {
-            out.reversal = out.reversal.max(-arm.plant.state.qd[j] * direction[j]);
+            out.reversal = out.reversal.max(-arm.rig.plant.state.qd[j] * direction[j]);
         }
         let frame = Fault::Encoder { joint: 0 };
         out.others

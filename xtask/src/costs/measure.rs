@@ -200,7 +200,7 @@ fn code_bytes(image: &Image, address: u64) -> Result<u64> {
     let function = functions.find(|function| function.address == address);
     let function = function
         .ok_or_else(|| Error::check(format!("the firmware has no function at {address:#x}")))?;
-    let reach = Reach::of(image, |name| name == function.names[0])?;
+    let reach = Reach::of(image, |f| f.address == function.address)?;
     let counted = reach
         .functions()
         .filter(|(function, _)| !function.names.iter().any(|name| name.contains("libm")));

@@ -227,7 +227,7 @@ fn code_bytes(image: &Image, address: u64) -> Result<u64> {
         .find(|function| function.address == address);
     let function = function
         .ok_or_else(|| Error::check(format!("the firmware has no function at {address:#x}")))?;
-    let reach = Reach::of(image, |name| name == function.names[0])?;
+    let reach = Reach::of(image, |f| f.address == function.address)?;
     Ok(reach
         .functions()
         .map(|(function, _)| function.bytes.len() as u64)

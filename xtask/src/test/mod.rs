@@ -111,7 +111,7 @@ const STEPS: &[Step] = &[
     },
     Step {
         name: "tracking",
-        title: "feed-forward tracks better than PD by what was promised",
+        title: "every scene tracks within its bound, the default one better than PD as promised",
         run: scene_steps::tracking,
     },
     Step {

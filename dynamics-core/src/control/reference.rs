@@ -1,0 +1,41 @@
+//! Where joints are to be, tick by tick.
+
+use super::Trajectory;
+use crate::scalar::Real;
+use crate::state::State;
+
+/// The motion that a controller follows: a state of V joints for each tick.
+///
+/// ```
+/// use dynamics_core::control::Reference;
+/// use dynamics_core::state::State;
+/// /// Two joints that stand still.
+/// struct Rest([f32; 2]);
+/// impl Reference<f32, 2> for Rest {
+///     fn at(&self, _: u32) -> State<f32, 2, 2> {
+///         State::at(self.0)
+///     }
+///     fn ticks(&self) -> u32 {
+///         0
+///     }
+/// }
+/// assert_eq!(Rest([0.1, 0.2]).at(7).q, [0.1, 0.2]);
+/// ```
+pub trait Reference<R, const V: usize> {
+    /// Position, velocity and acceleration at a tick, rad and s or m and s; after the end, those of the end.
+    fn at(&self, tick: u32) -> State<R, V, V>;
+
+    /// Ticks from start to end.
+    fn ticks(&self) -> u32;
+}
+
+impl<R: Real, const V: usize, const W: usize> Reference<R, V> for Trajectory<R, V, W> {
+    #[inline(always)]
+    fn at(&self, tick: u32) -> State<R, V, V> {
+        Trajectory::at(self, tick)
+    }
+
+    fn ticks(&self) -> u32 {
+        Trajectory::ticks(self)
+    }
+}

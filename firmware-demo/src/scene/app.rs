@@ -1,0 +1,161 @@
+//! The scene at work: the firmware on simulated devices, run after run.
+
+use core::convert::Infallible;
+
+use dynamics_core::control::{Reference, TrajectoryError};
+use embedded_hal::digital::{self, OutputPin};
+use heapless::spsc::Producer;
+
+use super::{Noise, Run, Scene, TICK, Truth, control_loop};
+use crate::control_loop::{ControlLoop, Telemetry};
+use crate::plant::{Rig, Simulated};
+use crate::wires::{SimDrive, SimEncoder, Wires};
+
+/// Steps of the simulated robot in a tick.
+pub const STEPS: u32 = 4;
+/// Ticks that each run goes on after the reference's end.
+const SETTLE: u32 = 200;
+/// Records that wait for the log at most.
+pub const QUEUE: usize = 32;
+
+/// A tick's telemetry with the truth that only a simulation knows.
+#[derive(Clone, Copy, Debug)]
+pub struct Record<const N: usize> {
+    /// The number of the run, from 0.
+    pub run: usize,
+    /// Ticks since the run's start.
+    pub tick: u32,
+    /// The loop's own words.
+    pub telemetry: Telemetry<N>,
+    /// Where the joints truly are.
+    pub actual: [f32; N],
+    /// The plant failed in this tick: its mass matrix is not positive definite, and no record
+    /// follows.
+    pub broken: bool,
+}
+
+/// A brake that only a simulation has.
+#[derive(Clone, Copy, Debug)]
+pub struct SimBrake;
+
+impl digital::ErrorType for SimBrake {
+    type Error = Infallible;
+}
+
+impl OutputPin for SimBrake {
+    fn set_low(&mut self) -> Result<(), Infallible> {
+        Ok(())
+    }
+    fn set_high(&mut self) -> Result<(), Infallible> {
+        Ok(())
+    }
+}
+
+/// The firmware on simulated devices.
+pub type SimLoop<const N: usize> = ControlLoop<SimEncoder, SimDrive, SimBrake, N>;
+
+/// The scene at work: what the interrupt calls.
+pub struct App<S: Scene<B, Q, V, N>, const B: usize, const Q: usize, const V: usize, const N: usize>
+{
+    reference: S::Reference,
+    wires: &'static Wires<N>,
+    rig: Rig<S::Plant, N>,
+    control: SimLoop<N>,
+    records: Producer<'static, Record<N>>,
+    run: usize,
+    tick: u32,
+    /// The plant has no forward dynamics in its present state.
+    broken: bool,
+}
+
+impl<S, const B: usize, const Q: usize, const V: usize, const N: usize> App<S, B, Q, V, N>
+where
+    S: Scene<B, Q, V, N>,
+{
+    /// The scene at the start of its first run.
+    ///
+    /// # Errors
+    /// A way that the arm's limits do not allow.
+    pub fn new(
+        wires: &'static Wires<N>,
+        records: Producer<'static, Record<N>>,
+    ) -> Result<Self, TrajectoryError> {
+        let reference = S::reference()?;
+        let (rig, control) = start::<S, B, Q, V, N>(&reference, wires, Truth::Exact);
+        Ok(Self {
+            reference,
+            wires,
+            rig,
+            control,
+            records,
+            run: 0,
+            tick: 0,
+            broken: false,
+        })
+    }
+
+    /// Ticks of one run.
+    pub fn ticks(&self) -> u32 {
+        self.reference.ticks() + SETTLE
+    }
+
+    /// The runs in their order.
+    pub fn runs() -> impl Iterator<Item = &'static Run<S, B, Q, V, N>> {
+        S::RUNS.iter().chain(S::BESIDE).chain(S::LESS)
+    }
+
+    /// One tick of the present run; nothing after the last, nor after a plant that failed.
+    pub fn tick(&mut self) {
+        let Some(run) = Self::runs().nth(self.run).filter(|_| !self.broken) else {
+            return;
+        };
+        let around = |ticks: f32| S::around(&self.reference, ticks);
+        let now = self.tick as f32;
+        let telemetry = (run.tick)(&mut self.control, &self.reference, &around(now));
+        let actual = self.rig.plant.actual();
+        let part = 1.0 / STEPS as f32;
+        let advanced = self.rig.advance(self.wires, STEPS, TICK * part, |step| {
+            around(now + part * step as f32)
+        });
+        self.broken = advanced.is_err();
+        let record = Record {
+            run: self.run,
+            tick: self.tick,
+            telemetry,
+            actual,
+            broken: self.broken,
+        };
+        // A full queue loses the record; the reader sees the gap in the ticks and says so.
+        let _ = self.records.enqueue(record);
+        if self.broken {
+            return;
+        }
+        self.tick += 1;
+        if self.tick == self.ticks() {
+            self.run += 1;
+            self.tick = 0;
+            let next = Self::runs().nth(self.run).map_or(Truth::Exact, |r| r.plant);
+            (self.rig, self.control) = start::<S, B, Q, V, N>(&self.reference, self.wires, next);
+        }
+    }
+}
+
+/// A plant at rest at the start of the way and a loop that knows it so.
+fn start<S, const B: usize, const Q: usize, const V: usize, const N: usize>(
+    reference: &S::Reference,
+    wires: &'static Wires<N>,
+    truth: Truth,
+) -> (Rig<S::Plant, N>, SimLoop<N>)
+where
+    S: Scene<B, Q, V, N>,
+{
+    let mut noise = Noise::seeded();
+    let noise = (truth == Truth::Mismatched).then_some(&mut noise);
+    let torque = S::limits().map(|l| l.torque);
+    let rig = Rig::new(S::plant(noise), torque, wires);
+    let encoders = core::array::from_fn(|j| wires.encoder(j));
+    let drives = core::array::from_fn(|j| wires.drive(j));
+    let around = S::around(reference, 0.0);
+    let control = control_loop::<S, _, _, _, B, Q, V, N>(encoders, drives, SimBrake, &around);
+    (rig, control)
+}

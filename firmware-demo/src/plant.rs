@@ -9,6 +9,10 @@ use dynamics_core::state::State;
 
 use crate::wires::Wires;
 
+mod flexible;
+
+pub use flexible::FlexiblePlant;
+
 /// A simulated robot of which N joints are driven and have encoders; `X` is what goes on around it.
 pub trait Simulated<X, const N: usize> {
     /// What the encoders see, rad or m.

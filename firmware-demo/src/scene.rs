@@ -21,7 +21,7 @@ pub use errors::Errors;
 pub use firmware::{HOLD, OMEGA_N, REENTRY, RIDE, TICK, ZETA, control_loop};
 pub use noise::Noise;
 pub use run::{Full, Less, Name, PdOnly, Run, Truth};
-pub use without::{Effects, Named, Without};
+pub use without::{Effects, Named, Without, name};
 
 /// The data sheet of a scene: a robot of B bodies, Q position and V velocity coordinates whose last N joints
 /// are driven.
@@ -140,12 +140,16 @@ pub fn through<const N: usize, const W: usize>(
     limits: &[Limits<f32>; N],
     acceleration: [f32; N],
 ) -> Result<Trajectory<f32, N, W>, TrajectoryError> {
-    let mut speeds = limits.map(|l| Speed {
-        velocity: l.velocity,
-        acceleration: 0.0,
-    });
-    for (speed, acceleration) in speeds.iter_mut().zip(acceleration) {
-        speed.acceleration = acceleration;
-    }
-    Trajectory::new(points, TICK, &speeds)
+    Trajectory::new(points, TICK, &speeds(limits, acceleration))
+}
+
+/// The speeds of some limits, with these accelerations, rad/s² or m/s².
+pub fn speeds<const N: usize>(
+    limits: &[Limits<f32>; N],
+    acceleration: [f32; N],
+) -> [Speed<f32>; N] {
+    core::array::from_fn(|j| Speed {
+        velocity: limits[j].velocity,
+        acceleration: acceleration[j],
+    })
 }

@@ -50,6 +50,17 @@ pub const PANDA_PICK_AND_PLACE: [WayPoint<f32, 7>; 7] = [
     stop(READY, 1600),
 ];
 
+/// Where the iiwa 14 swings from, rad.
+pub const UPRIGHT: [f32; 7] = [0.0, 0.4, 0.0, -1.2, 0.0, 0.8, 0.0];
+
+/// A swing of the iiwa 14 there and back.
+pub const SWING: [WayPoint<f32, 7>; 4] = [
+    stop(UPRIGHT, 0),
+    stop([0.7, 0.9, 0.3, -0.8, 0.5, 0.3, 0.6], 1300),
+    stop([-0.5, 0.7, -0.3, -1.5, -0.5, 1.0, -0.6], 2100),
+    stop(UPRIGHT, 1300),
+];
+
 /// A way-point at rest.
 const fn stop<const N: usize>(q: [f32; N], ticks: u32) -> WayPoint<f32, N> {
     pass(q, [0.0; N], ticks)

@@ -8,16 +8,20 @@ pub enum Scene {
     /// A UR5e picks and places, its encoders on SPI and its drives on PWM.
     #[default]
     Ur5e,
+    /// An iiwa 14 whose transmissions give way, told so or not.
+    #[value(name = "flexible_joint")]
+    FlexibleJoint,
 }
 
 impl Scene {
     /// All of them.
-    pub const ALL: &[Self] = &[Self::Ur5e];
+    pub const ALL: &[Self] = &[Self::Ur5e, Self::FlexibleJoint];
 
     /// The name on the command line, of the bin, and in every generated file.
     pub fn name(self) -> &'static str {
         match self {
             Self::Ur5e => "ur5e",
+            Self::FlexibleJoint => "flexible_joint",
         }
     }
 }

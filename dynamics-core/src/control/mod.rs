@@ -4,6 +4,7 @@
 //! | item | what | memory |
 //! |---|---|---|
 //! | [`Trajectory`] | quintics through way-points, checked against speed and acceleration limits | none |
+//! | [`Smooth`] | from stop to stop with four derivatives, for compliant joints | none |
 //! | [`Reference`] | what a controller follows: a trajectory, or a motion of one's own | |
 //! | [`TurnCounter`] | an encoder's counts, turns included | counts |
 //! | [`Observer`] | velocity from positions | estimate |
@@ -92,7 +93,7 @@ pub use operational::{Aim, TaskFrame, motion_and_force, turn_to};
 pub use reference::Reference;
 pub use rejoin::Rejoin;
 pub use supervisor::Supervisor;
-pub use trajectory::{Speed, Trajectory, TrajectoryError, WayPoint};
+pub use trajectory::{Smooth, Speed, Trajectory, TrajectoryError, WayPoint};
 pub use turns::TurnCounter;
 
 use crate::scalar::Real;

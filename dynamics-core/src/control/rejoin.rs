@@ -194,7 +194,7 @@ impl<R: Real, const V: usize> Rejoin<R, V> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Speed, WayPoint};
+    use super::super::{Speed, Trajectory, WayPoint};
     use super::*;
 
     const H: f64 = 1e-3;

@@ -20,11 +20,13 @@ use crate::state::{State, all_finite};
 
 mod error;
 mod segment;
+mod smooth;
 #[cfg(test)]
 mod tests;
 
 pub use error::TrajectoryError;
 use segment::Segment;
+pub use smooth::Smooth;
 
 /// A configuration to pass, with the velocity in passing, at zero acceleration.
 ///
@@ -84,39 +86,9 @@ impl<R: Real, const V: usize, const W: usize> Trajectory<R, V, W> {
         tick: R,
         limits: &[Speed<R>; V],
     ) -> Result<Self, TrajectoryError> {
-        const { assert!(W > 0, "a trajectory has at least one way-point") };
-        if !(tick.is_finite() && tick > R::ZERO) {
-            return Err(TrajectoryError::Tick);
-        }
-        for (point, p) in points.iter().enumerate() {
-            let end = point == 0 || point == W - 1;
-            for (joint, (&q, &qd)) in p.q.iter().zip(&p.qd).enumerate() {
-                if !all_finite(&[q, qd]) {
-                    return Err(TrajectoryError::NotFinite { point, joint });
-                }
-                if end && qd != R::ZERO {
-                    return Err(TrajectoryError::NotAtRest { point, joint });
-                }
-            }
-            if (point == 0) != (p.ticks == 0) {
-                return Err(TrajectoryError::Ticks { point });
-            }
-        }
-
-        let mut segments = points.map(|p| Segment::rest(p.q));
-        let mut ticks = 0_u32;
-        let pairs = points.iter().zip(points.iter().enumerate().skip(1));
-        for (segment, (from, (point, to))) in segments.iter_mut().zip(pairs) {
-            *segment = Segment::between(ticks, from, to, tick);
-            segment.check(point, limits)?;
-            ticks = match ticks.checked_add(to.ticks) {
-                Some(sum) => sum,
-                None => return Err(TrajectoryError::Ticks { point }),
-            };
-        }
-        if let Some(rest) = segments.last_mut() {
-            rest.start = ticks;
-        }
+        let (segments, ticks) = segments(points, tick, false, |point, segment| {
+            segment.check(point, limits)
+        })?;
         Ok(Self { segments, ticks })
     }
 
@@ -156,4 +128,48 @@ impl<R: Real, const V: usize, const W: usize> Trajectory<R, V, W> {
     pub fn ticks(&self) -> u32 {
         self.ticks
     }
+}
+
+/// The segments between way-points, the rest at the end last, and the ticks that they take; `stops` if every
+/// way-point has to be at rest.
+fn segments<R: Real, const V: usize, const W: usize>(
+    points: &[WayPoint<R, V>; W],
+    tick: R,
+    stops: bool,
+    check: impl Fn(usize, &Segment<R, V>) -> Result<(), TrajectoryError>,
+) -> Result<([Segment<R, V>; W], u32), TrajectoryError> {
+    const { assert!(W > 0, "a trajectory has at least one way-point") };
+    if !(tick.is_finite() && tick > R::ZERO) {
+        return Err(TrajectoryError::Tick);
+    }
+    for (point, p) in points.iter().enumerate() {
+        let end = stops || point == 0 || point == W - 1;
+        for (joint, (&q, &qd)) in p.q.iter().zip(&p.qd).enumerate() {
+            if !all_finite(&[q, qd]) {
+                return Err(TrajectoryError::NotFinite { point, joint });
+            }
+            if end && qd != R::ZERO {
+                return Err(TrajectoryError::NotAtRest { point, joint });
+            }
+        }
+        if (point == 0) != (p.ticks == 0) {
+            return Err(TrajectoryError::Ticks { point });
+        }
+    }
+
+    let mut segments = points.map(|p| Segment::rest(p.q));
+    let mut ticks = 0_u32;
+    let pairs = points.iter().zip(points.iter().enumerate().skip(1));
+    for (segment, (from, (point, to))) in segments.iter_mut().zip(pairs) {
+        *segment = Segment::between(ticks, from, to, tick);
+        check(point, segment)?;
+        ticks = match ticks.checked_add(to.ticks) {
+            Some(sum) => sum,
+            None => return Err(TrajectoryError::Ticks { point }),
+        };
+    }
+    if let Some(rest) = segments.last_mut() {
+        rest.start = ticks;
+    }
+    Ok((segments, ticks))
 }

@@ -40,7 +40,7 @@ where
 }
 
 /// The name of a type without its path and parameters.
-fn name<T>() -> &'static str {
+pub fn name<T>() -> &'static str {
     let path = type_name::<T>();
     let path = path.split('<').next().unwrap_or(path);
     path.rsplit("::").next().unwrap_or(path)

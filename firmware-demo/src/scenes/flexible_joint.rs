@@ -1,0 +1,118 @@
+//! Scene `flexible_joint`: an arm whose transmissions give way, told so or not. Its encoders sit on the motors,
+//! as those of most arms do; what counts is where the links are.
+
+use dynamics_core::Core;
+use dynamics_core::control::{Gains, Smooth, TrajectoryError, feedback};
+use dynamics_core::effects::{Coriolis, Effect, Gravity, Inertia, RotorInertia, Viscous};
+use dynamics_core::flexible::{Course, Flexible, flexible_rnea};
+use dynamics_core::model::{Calibrated, Of};
+use dynamics_core::robots::Iiwa14;
+use dynamics_core::state::State;
+
+use crate::control_loop::Law;
+use crate::plant::FlexiblePlant;
+use crate::scene::{Less, Noise, OMEGA_N, Run, Scene, TICK, Truth, ZETA, name, speeds};
+use crate::trajectories::{SWING, UPRIGHT};
+
+/// What acts on the links.
+pub type Effects = (Gravity, Inertia, Coriolis, Viscous<f32, 7>);
+
+/// Assumed, of the order of harmonic drives of this size: the maker publishes neither stiffness nor rotors.
+const JOINTS: Flexible<f32, 7> = Flexible {
+    stiffness: [1.6e4, 1.6e4, 1.2e4, 1.2e4, 9e3, 5e3, 5e3],
+    rotor: [3.0, 3.0, 2.5, 2.5, 1.2, 0.5, 0.5],
+    friction: [15.0, 15.0, 10.0, 10.0, 5.0, 2.0, 2.0],
+};
+
+/// What the gains are for: the motors with what hangs on them upright, kg·m².
+const INERTIA: [f32; 7] = [3.1, 7.5, 2.6, 4.0, 1.3, 0.6, 0.5];
+
+/// The scene.
+#[derive(Clone, Copy, Debug)]
+pub struct CompliantArm;
+
+impl Scene<7, 7, 7, 7> for CompliantArm {
+    type Robot = Iiwa14;
+    type Effects = Effects;
+    type Reference = Smooth<f32, 7, 4>;
+    /// The reference to its fourth derivative.
+    type Around = Course<f32, 7, 7>;
+    type Plant = FlexiblePlant<Iiwa14, Effects, 7>;
+
+    const NAME: &'static str = "flexible_joint";
+    const BOUND: f32 = 2e-3;
+    const EFFECTS: Effects = (
+        Gravity::EARTH,
+        Inertia,
+        Coriolis,
+        Viscous([2.0, 2.0, 1.5, 1.5, 1.0, 0.5, 0.5]),
+    );
+    const GAIN_POSE: [f32; 7] = UPRIGHT;
+    const GAIN_POSE_NAME: &'static str = "upright";
+    const BESIDE: &'static [Run<Self, 7, 7, 7, 7>] =
+        &[Run::of::<RigidJoints>(Truth::Exact, "rigid-joints")];
+    // Inverse dynamics of compliant joints needs `Inertia` and `Coriolis`.
+    const LESS: &'static [Run<Self, 7, 7, 7, 7>] = &[
+        Run::without::<Less<Self, 0, 7, 7, 7>>(name::<Gravity>),
+        Run::without::<Less<Self, 3, 7, 7, 7>>(name::<Viscous<f32, 7>>),
+    ];
+
+    fn reference() -> Result<Self::Reference, TrajectoryError> {
+        Smooth::new(&SWING, TICK, &speeds(&Self::limits(), [8.0; 7]))
+    }
+
+    fn around(reference: &Self::Reference, ticks: f32) -> Course<f32, 7, 7> {
+        reference.course(ticks as u32)
+    }
+
+    fn inverse<E: Effect<f32, 7, 7>>(
+        reference: &State<f32, 7, 7>,
+        course: &Course<f32, 7, 7>,
+        effects: &E,
+    ) -> [f32; 7] {
+        let course = Course {
+            state: *reference,
+            ..*course
+        };
+        let Ok(told) = flexible_rnea(&Of::<Iiwa14>::NEW, &JOINTS, &course, effects) else {
+            return [0.0; 7];
+        };
+        // The loop feeds back q_d − θ; the motors are to be at θ_d.
+        let gains = Gains::from_inertia(&INERTIA, OMEGA_N, ZETA);
+        let motors = State {
+            q: told.position,
+            qd: told.velocity,
+            qdd: [0.0; 7],
+        };
+        let wound = feedback(&gains, &motors, &reference.q, &reference.qd);
+        core::array::from_fn(|j| told.torque[j] + wound[j])
+    }
+
+    fn plant(noise: Option<&mut Noise>) -> Self::Plant {
+        let (mut robot, mut joints, mut effects) = (Calibrated::nominal(), JOINTS, Self::EFFECTS);
+        if let Some(noise) = noise {
+            noise.masses(&mut robot);
+            noise.friction(&mut joints.stiffness);
+            noise.friction(&mut joints.friction);
+            noise.friction(&mut effects.3.0);
+        }
+        let weight = Core::<Iiwa14>::rnea(&State::at(SWING[0].q), &(Gravity::EARTH,));
+        let wound = core::array::from_fn(|j| SWING[0].q[j] + weight[j] / JOINTS.stiffness[j]);
+        FlexiblePlant::new(robot, joints, effects, [SWING[0].q, wound])
+    }
+
+    fn inertia(_: &Course<f32, 7, 7>) -> [f32; 7] {
+        INERTIA
+    }
+}
+
+/// Feed-forward that takes the joints for rigid: links and rotors as one.
+#[derive(Clone, Copy, Debug)]
+pub struct RigidJoints;
+
+impl Law<7, Course<f32, 7, 7>> for RigidJoints {
+    fn feedforward(reference: &State<f32, 7, 7>, _: &Course<f32, 7, 7>) -> [f32; 7] {
+        let motors = (RotorInertia(JOINTS.rotor), Viscous(JOINTS.friction));
+        Core::<Iiwa14>::rnea(reference, &(CompliantArm::EFFECTS, motors))
+    }
+}

@@ -1,4 +1,4 @@
-//! What Pinocchio said: `host-tests/oracle/record.py` wrote it.
+//! What other codes said: what the scripts in `host-tests/oracle` wrote.
 
 use std::path::PathBuf;
 
@@ -135,6 +135,14 @@ pub struct FullScale {
 /// # Panics
 /// If there is none, or it cannot be read: a test without its oracle has failed.
 pub fn load(name: &str) -> Recording {
+    read(name)
+}
+
+/// What a script wrote under this name.
+///
+/// # Panics
+/// As [`load`].
+pub fn read<T: serde::de::DeserializeOwned>(name: &str) -> T {
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("recordings/{name}.json"));
     let text = std::fs::read_to_string(&path)
         .unwrap_or_else(|e| panic!("recording of `{name}` in host-tests/recordings: {e}"));

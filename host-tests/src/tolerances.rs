@@ -199,6 +199,7 @@ const TABLE: &[(&str, &str, f64, f64)] = &[
     ("cogging", "series", 1e-14, 4e-7),
     ("panda", "body wrenches", 9e-16, NONE),
     ("panda", "world wrenches", 8e-16, NONE),
+    ("ur5e", "passive joints", 1e-15, 5e-7),
     ("panda", "moving base", 7e-16, NONE),
     ("gimbal", "rolling base", 5e-16, NONE),
     ("weight", "depth on the ground", 1e-11, NONE),

@@ -5,7 +5,8 @@ use std::time::Instant;
 
 use serde::Serialize;
 
-use crate::error::{Error, Result};
+use crate::docs;
+use crate::error::Result;
 use crate::progress::Spinner;
 use crate::setup::{self, Options, Tools};
 use crate::shell;
@@ -51,9 +52,7 @@ pub fn run(options: Options, json: bool) -> Result<ExitCode> {
     );
     workspace::write(&workspace.root.join(PAGE), page)?;
     if json {
-        let text = serde_json::to_string_pretty(&rows)
-            .map_err(|e| Error::check(format!("cannot write the JSON: {e}")))?;
-        println!("{text}");
+        docs::print_json(&rows)?;
     } else {
         print!("{}", table.text());
     }

@@ -8,7 +8,8 @@ mod report;
 use std::process::ExitCode;
 
 use crate::budgets;
-use crate::error::{Error, Result};
+use crate::docs;
+use crate::error::Result;
 use crate::setup::{self, Options, Tools};
 use crate::workspace::{self, Workspace};
 
@@ -40,9 +41,7 @@ pub fn run(options: Options, wish: Wish) -> Result<ExitCode> {
         budgets::write_costs(&workspace, Budget::measured(&report))?;
     }
     if wish.json {
-        let text = serde_json::to_string_pretty(&report.rows)
-            .map_err(|e| Error::check(format!("cannot write the JSON: {e}")))?;
-        println!("{text}");
+        docs::print_json(&report.rows)?;
     } else {
         print!("{}", report.text());
     }
@@ -69,5 +68,5 @@ pub fn check_page(workspace: &Workspace, report: &Report) -> Result<()> {
     } else {
         String::new()
     };
-    crate::docs::compare(PAGE, COMMAND, &written, &report.markdown(), &report.rustc)
+    docs::compare(PAGE, COMMAND, &written, &report.markdown(), &report.rustc)
 }

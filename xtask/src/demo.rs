@@ -1,18 +1,24 @@
-//! `cargo xtask demo`: builds a scene, runs it in QEMU, reports.
+//! `cargo xtask demo`: builds scenes, runs them in QEMU, reports.
 
 use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
+use crate::budgets;
+use crate::docs;
 use crate::elf::Image;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::firmware;
 use crate::meter;
+use crate::plot;
 use crate::progress::Spinner;
 use crate::protocol::Recording;
 use crate::qemu::Run;
 use crate::report::Report;
 use crate::scene::Scene;
-use crate::setup::Tools;
-use crate::toolchain::Toolchain;
+use crate::scenes;
+use crate::setup::{self, Options, Tools};
+use crate::toolchain::{RELEASE, Toolchain};
 use crate::workspace::{self, Workspace};
 
 /// A run of a scene, in full.
@@ -27,14 +33,123 @@ pub struct Measured {
     pub raw: (Vec<u8>, String),
 }
 
-/// Builds a scene and the meter, and runs the one under the other.
-pub fn build_and_measure(workspace: &Workspace, tools: &Tools, scene: Scene) -> Result<Measured> {
-    let building = Spinner::start(&format!("building scene {}", scene.name()));
-    let elf = firmware::build(workspace, tools.toolchain, scene.name())?;
+/// What to run and what to do with it.
+pub struct Wish {
+    /// The scenes.
+    pub scenes: Vec<Scene>,
+    /// Whether these are all of them, to be shown in one table.
+    pub all: bool,
+    /// Print JSON.
+    pub json: bool,
+    /// Rewrite the pages.
+    pub write_docs: bool,
+    /// Rewrite the budgets.
+    pub write_budgets: bool,
+}
+
+/// Runs scenes, writes what is wished, and prints.
+pub fn run(options: Options, wish: Wish) -> Result<ExitCode> {
+    let workspace = Workspace::find()?;
+    let tools = setup::for_demo(options)?;
+    let measured = build_and_measure(&workspace, &tools, &wish.scenes)?;
+    let mut pictures = Vec::new();
+    for one in &measured {
+        let picture = workspace.output(&format!("{}.svg", one.report.scene))?;
+        plot::write(&one.recording, &picture)?;
+        pictures.push(picture);
+        if wish.write_budgets {
+            budgets::write(&workspace, &one.report)?;
+        }
+    }
+    let reports: Vec<&Report> = measured.iter().map(|one| &one.report).collect();
+    if wish.write_docs {
+        write_docs(&workspace, &measured)?;
+        if wish.all {
+            scenes::PAGE.write(&workspace, &scenes::markdown(&reports))?;
+        }
+    }
+    match (reports.as_slice(), wish.all) {
+        (all, true) if wish.json => docs::print_json(&all)?,
+        ([one], _) if wish.json => docs::print_json(one)?,
+        (all, true) => print!("{}", scenes::text(all)),
+        (all, _) => {
+            for (report, picture) in all.iter().zip(&pictures) {
+                print!("{}", report.text(workspace.relative(picture)));
+            }
+        }
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// The README's tables and picture, which are those of the default scene.
+fn write_docs(workspace: &Workspace, measured: &[Measured]) -> Result<()> {
+    let shown = Scene::default().name();
+    for one in measured.iter().filter(|one| one.report.scene == shown) {
+        docs::README.write(workspace, &one.report.markdown())?;
+        let picture = workspace.root.join(format!("docs/{shown}.svg"));
+        plot::write(&one.recording, &picture)?;
+    }
+    Ok(())
+}
+
+/// Builds scenes and the meter, and runs the ones under the other, two at a time.
+pub fn build_and_measure(
+    workspace: &Workspace,
+    tools: &Tools,
+    scenes: &[Scene],
+) -> Result<Vec<Measured>> {
+    let names: Vec<&str> = scenes.iter().map(|scene| scene.name()).collect();
+    let building = Spinner::start(&format!("building {}", names.join(", ")));
+    let elves = firmware::build_bins(workspace, tools.toolchain, RELEASE, &names)?;
     building.say("building the cycle meter".into());
     let meter = firmware::build_meter(workspace)?;
     drop(building);
-    measure(workspace, tools, scene, tools.toolchain, &elf, &meter)
+    let runs: Vec<(Scene, PathBuf)> = scenes.iter().copied().zip(elves).collect();
+    measure_all(workspace, tools, &meter, &runs)
+}
+
+/// Runs scenes under the meter, as many at a time as there are cores, and returns them in their order.
+pub fn measure_all(
+    workspace: &Workspace,
+    tools: &Tools,
+    meter: &Path,
+    runs: &[(Scene, PathBuf)],
+) -> Result<Vec<Measured>> {
+    let next = AtomicUsize::new(0);
+    let work = || {
+        let mut done = Vec::new();
+        while let Some((scene, elf)) = runs.get(next.fetch_add(1, Relaxed)) {
+            done.push(measure(
+                workspace,
+                tools,
+                *scene,
+                tools.toolchain,
+                elf,
+                meter,
+            )?);
+        }
+        Ok(done)
+    };
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let mut measured = std::thread::scope(|scope| {
+        let workers: Vec<_> = (0..cores.min(runs.len()))
+            .map(|_| scope.spawn(work))
+            .collect();
+        let done = workers.into_iter().map(|worker| {
+            let panicked = |_| Err(Error::check("a run of a scene panicked"));
+            worker.join().unwrap_or_else(panicked)
+        });
+        done.collect::<Result<Vec<Vec<Measured>>>>()
+    })?
+    .into_iter()
+    .flatten()
+    .collect::<Vec<_>>();
+    let place = |one: &Measured| {
+        runs.iter()
+            .position(|(scene, _)| scene.name() == one.report.scene)
+    };
+    measured.sort_by_key(place);
+    Ok(measured)
 }
 
 /// Runs a scene under the meter.

@@ -1,37 +1,83 @@
-//! The part of the README that a command writes.
+//! The parts of pages that commands write, and their JSON.
 
 use crate::budgets::OTHER_RUSTC;
 use crate::error::{Error, Result};
-use crate::report::Report;
 use crate::workspace::{self, Workspace};
 
-const BEGIN: &str = "<!-- demo:begin -->";
-const END: &str = "<!-- demo:end -->";
-const COMMAND: &str = "cargo xtask demo --write-docs";
-
-/// Puts the report's tables between the README's markers.
-pub fn write(workspace: &Workspace, report: &Report) -> Result<()> {
-    let path = workspace.root.join("README.md");
-    let text = workspace::read(&path)?;
-    let (before, _, after) = split(&text)?;
-    workspace::write(
-        &path,
-        format!("{before}{BEGIN}\n{}{END}{after}", generated(report)),
-    )
+/// The part of a page that a command writes: between `<!-- NAME:begin -->` and `<!-- NAME:end -->`.
+pub struct Page {
+    /// The file.
+    pub file: &'static str,
+    /// In the markers.
+    pub name: &'static str,
+    /// What writes it.
+    pub command: &'static str,
 }
 
-/// Fails unless the README's tables are those of the report, or close to them if they were
-/// written with another compiler.
-pub fn check(workspace: &Workspace, report: &Report) -> Result<()> {
-    let text = workspace::read(&workspace.root.join("README.md"))?;
-    let (_, written, _) = split(&text)?;
-    compare(
-        "README.md",
-        COMMAND,
-        written,
-        &generated(report),
-        &report.rustc,
-    )
+/// The README's tables.
+pub const README: Page = Page {
+    file: "README.md",
+    name: "demo",
+    command: "cargo xtask demo --write-docs",
+};
+
+impl Page {
+    /// Puts a text between the markers.
+    pub fn write(&self, workspace: &Workspace, text: &str) -> Result<()> {
+        let path = workspace.root.join(self.file);
+        let page = workspace::read(&path)?;
+        let (before, _, after) = self.split(&page)?;
+        let (begin, end) = self.markers();
+        let generated = self.generated(text);
+        workspace::write(&path, format!("{before}{begin}\n{generated}{end}{after}"))
+    }
+
+    /// Fails unless the text between the markers is this one; or close to it, if `rustc` is the compiler that
+    /// its figures depend on and another one wrote them.
+    pub fn check(&self, workspace: &Workspace, text: &str, rustc: Option<&str>) -> Result<()> {
+        let page = workspace::read(&workspace.root.join(self.file))?;
+        let (_, written, _) = self.split(&page)?;
+        // An empty name is in every text: nothing but the same will do.
+        let rustc = rustc.unwrap_or_default();
+        compare(
+            self.file,
+            self.command,
+            written,
+            &self.generated(text),
+            rustc,
+        )
+    }
+
+    fn markers(&self) -> (String, String) {
+        let marker = |which| format!("<!-- {}:{which} -->", self.name);
+        (marker("begin"), marker("end"))
+    }
+
+    fn generated(&self, text: &str) -> String {
+        format!(
+            "<!-- written by `{}`: do not edit -->\n\n{text}\n",
+            self.command
+        )
+    }
+
+    fn split<'a>(&self, page: &'a str) -> Result<(&'a str, &'a str, &'a str)> {
+        let (begin, end) = self.markers();
+        let parts = || {
+            let (before, rest) = page.split_once(&begin)?;
+            let (inside, after) = rest.split_once(&end)?;
+            Some((before, inside, after))
+        };
+        let lacks = || Error::check(format!("{} lacks the markers {begin} and {end}", self.file));
+        parts().ok_or_else(lacks)
+    }
+}
+
+/// Prints measurements as JSON.
+pub fn print_json(value: &impl serde::Serialize) -> Result<()> {
+    let text = serde_json::to_string_pretty(value)
+        .map_err(|e| Error::check(format!("cannot write the JSON: {e}")))?;
+    println!("{text}");
+    Ok(())
 }
 
 /// Fails unless what was written is what would be written now with the compiler `rustc`, or close to
@@ -52,22 +98,6 @@ pub fn compare(file: &str, command: &str, written: &str, fresh: &str, rustc: &st
     Err(Error::check(format!(
         "{file} is out of date: `{command}` rewrites it{differing}"
     )))
-}
-
-fn generated(report: &Report) -> String {
-    format!(
-        "<!-- written by `{COMMAND}`: do not edit -->\n\n{}\n",
-        report.markdown()
-    )
-}
-
-fn split(text: &str) -> Result<(&str, &str, &str)> {
-    let parts = || {
-        let (before, rest) = text.split_once(BEGIN)?;
-        let (inside, after) = rest.split_once(END)?;
-        Some((before, inside, after))
-    };
-    parts().ok_or_else(|| Error::check(format!("README.md lacks the markers {BEGIN} and {END}")))
 }
 
 /// Whether two texts are the same but for padding, the compiler and what another compiler may
@@ -97,7 +127,7 @@ fn close(old: f64, new: f64) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{alike, split};
+    use super::{README, alike};
 
     #[test]
     fn another_compiler_may_change_figures_but_not_words() {
@@ -112,8 +142,12 @@ mod tests {
 
     #[test]
     fn a_readme_without_markers_is_an_error() {
-        assert!(split("nothing").is_err());
+        assert!(README.split("nothing").is_err());
         let text = "a<!-- demo:begin -->b<!-- demo:end -->c";
-        assert!(split(text).is_ok_and(|parts| parts == ("a", "b", "c")));
+        assert!(
+            README
+                .split(text)
+                .is_ok_and(|parts| parts == ("a", "b", "c"))
+        );
     }
 }

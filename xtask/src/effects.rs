@@ -8,6 +8,7 @@ use std::process::ExitCode;
 use serde::Serialize;
 
 use crate::costs::{self, Row};
+use crate::docs::{self, Page};
 use crate::error::{Error, Result};
 use crate::firmware;
 use crate::progress::Spinner;
@@ -15,7 +16,7 @@ use crate::report::MODEL;
 use crate::setup::{self, Options, Tools};
 use crate::shell;
 use crate::table::Table;
-use crate::workspace::{self, Workspace};
+use crate::workspace::Workspace;
 
 const FEATURE: &str = "effects";
 /// Several, so that they build side by side.
@@ -27,11 +28,12 @@ const BINS: [&str; 5] = [
     "effects_bodies_panda",
 ];
 const HOST_BIN: &str = "effects";
-const PAGE: &str = "docs/effects.md";
+const PAGE: Page = Page {
+    file: "docs/effects.md",
+    name: "effects",
+    command: "cargo xtask effects",
+};
 const PICTURE: &str = "docs/effects.svg";
-const COMMAND: &str = "cargo xtask effects";
-const BEGIN: &str = "<!-- effects:begin -->";
-const END: &str = "<!-- effects:end -->";
 
 /// The scene that others are held against, and what the names of those begin with that lack a term of it.
 const RIGID: &str = "rigid_body";
@@ -62,35 +64,28 @@ pub struct Price {
 pub fn run(options: Options, json: bool) -> Result<ExitCode> {
     let workspace = Workspace::find()?;
     let tools = setup::for_demo(options)?;
-    let path = workspace.root.join(PAGE);
-    let text = workspace::read(&path)?;
-    let (before, after) = around(&text)?;
     let prices = measure(&workspace, &tools)?;
-    let table = table(&prices);
-    let rustc = tools.toolchain.rustc_version()?;
-    let generated = format!(
-        "<!-- written by `{COMMAND}`: do not edit -->\n\n{}\n{MODEL}. Measured with {rustc}.\n",
-        table.markdown()
-    );
-    workspace::write(&path, format!("{before}{BEGIN}\n{generated}{END}{after}"))?;
+    PAGE.write(&workspace, &generated(&tools, &prices)?)?;
     picture::write(&prices, &workspace.root.join(PICTURE))?;
     if json {
-        let text = serde_json::to_string_pretty(&prices)
-            .map_err(|e| Error::check(format!("cannot write the JSON: {e}")))?;
-        println!("{text}");
+        docs::print_json(&prices)?;
     } else {
-        print!("{}", table.text());
+        print!("{}", table(&prices).text());
     }
     Ok(ExitCode::SUCCESS)
 }
 
-/// What is around the page's generated part.
-fn around(text: &str) -> Result<(&str, &str)> {
-    let parts = || {
-        let (before, rest) = text.split_once(BEGIN)?;
-        Some((before, rest.split_once(END)?.1))
-    };
-    parts().ok_or_else(|| Error::check(format!("{PAGE} lacks the markers {BEGIN} and {END}")))
+/// Fails unless the page is what would be measured now; else says how many prices there are.
+pub fn check(workspace: &Workspace, tools: &Tools) -> Result<String> {
+    let prices = measure(workspace, tools)?;
+    let rustc = tools.toolchain.rustc_version()?;
+    PAGE.check(workspace, &generated(tools, &prices)?, Some(&rustc))?;
+    Ok(format!("{} prices", prices.len()))
+}
+
+fn generated(tools: &Tools, prices: &[Price]) -> Result<String> {
+    let (table, rustc) = (table(prices).markdown(), tools.toolchain.rustc_version()?);
+    Ok(format!("{table}\n{MODEL}. Measured with {rustc}."))
 }
 
 fn measure(workspace: &Workspace, tools: &Tools) -> Result<Vec<Price>> {

@@ -2,15 +2,17 @@
 
 use std::process::ExitCode;
 
-use crate::error::{Error, Result};
+use crate::docs::Page;
+use crate::error::Result;
 use crate::shell;
-use crate::workspace::{self, Workspace};
+use crate::workspace::Workspace;
 
-const PAGE: &str = "docs/eliminations.md";
-const COMMAND: &str = "cargo xtask eliminations";
+const PAGE: Page = Page {
+    file: "docs/eliminations.md",
+    name: "eliminations",
+    command: "cargo xtask eliminations",
+};
 const BIN: &str = "eliminations";
-const BEGIN: &str = "<!-- eliminations:begin -->";
-const END: &str = "<!-- eliminations:end -->";
 
 const HEAD: &str = "\
 | case | joints' coordinates | κ(M) | M, LᵀDL: median | worst | ABA: median | worst | worst, M / ABA | f64 |\n\
@@ -19,41 +21,22 @@ const HEAD: &str = "\
 /// Measures and rewrites the page's table.
 pub fn run() -> Result<ExitCode> {
     let workspace = Workspace::find()?;
-    let path = workspace.root.join(PAGE);
-    let text = workspace::read(&path)?;
-    let (before, _, after) = split(&text)?;
     let table = generated(&workspace)?;
-    print!("{table}");
-    workspace::write(&path, format!("{before}{BEGIN}\n{table}{END}{after}"))?;
+    println!("{table}");
+    PAGE.write(&workspace, &table)?;
     Ok(ExitCode::SUCCESS)
 }
 
 /// Fails unless the page's table is what would be measured now: f32 gives the same bits everywhere.
 pub fn check(workspace: &Workspace) -> Result<()> {
-    let text = workspace::read(&workspace.root.join(PAGE))?;
-    let (_, written, _) = split(&text)?;
-    if written.trim() == generated(workspace)?.trim() {
-        return Ok(());
-    }
-    Err(Error::check(format!(
-        "{PAGE} is out of date: `{COMMAND}` rewrites it"
-    )))
+    PAGE.check(workspace, &generated(workspace)?, None)
 }
 
 fn generated(workspace: &Workspace) -> Result<String> {
     let mut command = workspace.cargo("run");
     command.args(["--quiet", "--package", "host-tests", "--bin", BIN]);
-    let lines = shell::capture(&mut command)?;
     Ok(format!(
-        "<!-- written by `{COMMAND}`: do not edit -->\n\n{HEAD}{lines}\n"
+        "{HEAD}{}",
+        shell::capture(&mut command)?.trim_end()
     ))
-}
-
-fn split(text: &str) -> Result<(&str, &str, &str)> {
-    let parts = || {
-        let (before, rest) = text.split_once(BEGIN)?;
-        let (inside, after) = rest.split_once(END)?;
-        Some((before, inside, after))
-    };
-    parts().ok_or_else(|| Error::check(format!("{PAGE} lacks the markers {BEGIN} and {END}")))
 }

@@ -48,9 +48,7 @@ pub fn run(options: Options, json: bool) -> Result<ExitCode> {
     workspace::write(&workspace.root.join(PAGE), report.markdown())?;
     picture::write(&report, &workspace.root.join(PICTURE))?;
     if json {
-        let text = serde_json::to_string_pretty(&report.json())
-            .map_err(|e| Error::check(format!("cannot write the JSON: {e}")))?;
-        println!("{text}");
+        docs::print_json(&report.json())?;
     } else {
         print!("{}\n{}\n", report.table().text(), report.verdict());
         print!("{}", bars::table(&report.held()).text());

@@ -23,6 +23,7 @@ mod render;
 mod report;
 mod sameness;
 mod scene;
+mod scenes;
 mod setup;
 mod shell;
 mod system;
@@ -36,9 +37,8 @@ use std::process::ExitCode;
 use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser, Subcommand};
 
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::scene::Scene;
-use crate::workspace::Workspace;
 
 /// Set-up, demo, tests and reports of this workspace
 #[derive(Parser)]
@@ -57,13 +57,16 @@ enum Command {
         /// The scene
         #[arg(long, value_enum, default_value_t, value_name = "NAME")]
         scene: Scene,
+        /// Every scene, and one table of all
+        #[arg(long, conflicts_with = "scene")]
+        all: bool,
         /// The report as JSON on stdout; progress stays on stderr
         #[arg(long)]
         json: bool,
-        /// Rewrite the README's tables from this run
+        /// Rewrite the README's tables (with --all: docs/scenes.md too) from this run
         #[arg(long)]
         write_docs: bool,
-        /// Rewrite the scene's budgets from this run
+        /// Rewrite the scenes' budgets from this run
         #[arg(long)]
         write_budgets: bool,
     },
@@ -169,31 +172,23 @@ fn run(cli: Cli) -> Result<ExitCode> {
     match cli.command {
         Command::Demo {
             scene,
+            all,
             json,
             write_docs,
             write_budgets,
         } => {
-            let workspace = Workspace::find()?;
-            let tools = setup::for_demo(cli.setup)?;
-            let measured = demo::build_and_measure(&workspace, &tools, scene)?;
-            let picture = workspace.output(&format!("{}.svg", scene.name()))?;
-            plot::write(&measured.recording, &picture)?;
-            if write_docs {
-                docs::write(&workspace, &measured.report)?;
-                let shown = workspace.root.join(format!("docs/{}.svg", scene.name()));
-                plot::write(&measured.recording, &shown)?;
-            }
-            if write_budgets {
-                budgets::write(&workspace, &measured.report)?;
-            }
-            if json {
-                let text = serde_json::to_string_pretty(&measured.report)
-                    .map_err(|e| Error::check(format!("cannot write the JSON: {e}")))?;
-                println!("{text}");
-            } else {
-                print!("{}", measured.report.text(workspace.relative(&picture)));
-            }
-            Ok(ExitCode::SUCCESS)
+            let wish = demo::Wish {
+                scenes: if all {
+                    Scene::ALL.to_vec()
+                } else {
+                    vec![scene]
+                },
+                all,
+                json,
+                write_docs,
+                write_budgets,
+            };
+            demo::run(cli.setup, wish)
         }
         Command::Costs {
             json,

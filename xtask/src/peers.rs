@@ -15,6 +15,7 @@ use serde::Deserialize;
 
 use crate::bars::Held;
 use crate::budgets;
+use crate::docs;
 use crate::error::{Error, Result};
 use crate::peers::build::Workshop;
 use crate::peers::progress::Progress;
@@ -74,9 +75,7 @@ pub fn run(options: Options, json: bool) -> Result<ExitCode> {
     };
     workspace::write(&workspace.root.join("docs/peers.md"), report.markdown())?;
     if json {
-        let text = serde_json::to_string_pretty(&report.rows)
-            .map_err(|e| Error::check(format!("cannot write the JSON: {e}")))?;
-        println!("{text}");
+        docs::print_json(&report.rows)?;
     } else {
         print!("{}", report.text());
     }

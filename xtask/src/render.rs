@@ -184,8 +184,9 @@ impl Report {
 
     fn memory(&self) -> String {
         format!(
-            "Flash {} B, RAM {} B, peak stack {} B",
+            "Flash {} B (of which {} B are the tick's code), RAM {} B, peak stack {} B",
             thousands(self.flash_bytes),
+            thousands(self.tick_bytes),
             thousands(self.ram_bytes),
             thousands(self.stack_bytes)
         )
@@ -233,7 +234,7 @@ const WORTH: &str = "What each effect is worth: saved in the longest tick, in th
      by dropping it, and the error then, exact model";
 
 /// The safety gate's status in a word or two.
-fn gate(status: &str) -> String {
+pub fn gate(status: &str) -> String {
     let said = words(status);
     let changed = said
         .split(", ")
@@ -266,7 +267,7 @@ fn words(status: &str) -> String {
     text
 }
 
-fn milli(radians: f64) -> String {
+pub fn milli(radians: f64) -> String {
     format!("{:.3}", 1e3 * radians)
 }
 

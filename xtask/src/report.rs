@@ -37,8 +37,12 @@ pub struct Report {
     pub tracking_mismatched: Tracking,
     /// The largest error of a joint that is promised, with the exact model, rad.
     pub bound_rad: f64,
-    /// What each effect that the scene names is worth.
+    /// The effects that the scene names.
+    pub named: Vec<String>,
+    /// What each of them is worth that the scene runs without.
     pub effects: Vec<Worth>,
+    /// Code that the tick can reach, bytes: the rest of the flash simulates, compares and logs.
+    pub tick_bytes: u64,
     /// Code, constants and initial values.
     pub flash_bytes: u64,
     /// Variables.
@@ -174,11 +178,7 @@ impl Tracking {
 impl Worth {
     /// Of each effect that the scene runs without.
     fn all(recording: &Recording, costs: &[Cost], image: &Image) -> Result<Vec<Self>> {
-        let (plant, bytes) = (PLANTS[0], |run: &Trajectory| {
-            let reach = Reach::of(image, |function| function.address == run.tick_at)?;
-            let sizes = reach.functions().map(|(function, _)| function.bytes.len());
-            Ok::<_, Error>(sizes.sum::<usize>() as i64)
-        });
+        let plant = PLANTS[0];
         let at = |law: &str| {
             let mut order = recording.order.iter();
             let place = order.position(|(on, name)| on == plant && name == law)?;
@@ -194,13 +194,22 @@ impl Worth {
             all.push(Self {
                 effect: effect.name.clone(),
                 cycles: full_cost.cycles.max as i64 - cost.cycles.max as i64,
-                flash_bytes: bytes(full)? - bytes(run)?,
+                flash_bytes: code(image, full)? as i64 - code(image, run)? as i64,
                 ram_bytes: effect.bytes,
                 without: errors(run).ok_or_else(none)?,
             });
         }
         Ok(all)
     }
+}
+
+/// Bytes of the code that a run's tick can reach.
+fn code(image: &Image, run: &Trajectory) -> Result<u64> {
+    let reach = Reach::of(image, |function| function.address == run.tick_at)?;
+    Ok(reach
+        .functions()
+        .map(|(function, _)| function.bytes.len() as u64)
+        .sum())
 }
 
 fn errors(run: &Trajectory) -> Option<Errors> {
@@ -262,7 +271,15 @@ impl Report {
             tracking: Tracking::of(recording, PLANTS[0])?,
             tracking_mismatched: Tracking::of(recording, PLANTS[1])?,
             bound_rad: recording.bound,
+            named: recording
+                .effects
+                .iter()
+                .map(|effect| effect.name.clone())
+                .collect(),
             effects: Worth::all(recording, &of_runs, image)?,
+            tick_bytes: recording
+                .trajectory(PLANTS[0], SOLD)
+                .map_or(Ok(0), |run| code(image, run))?,
             flash_bytes: image.sizes.flash,
             ram_bytes: image.sizes.ram,
             stack_bytes: recording.stack.unwrap_or_default(),

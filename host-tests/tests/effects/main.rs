@@ -12,6 +12,7 @@ mod flexible;
 mod friction;
 mod lugre;
 mod own;
+mod passive;
 mod rotors;
 mod springs;
 mod surroundings;

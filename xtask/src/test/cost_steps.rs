@@ -5,6 +5,7 @@ use cycle_meter::Sample;
 use super::{Context, Outcome};
 use crate::budgets;
 use crate::costs;
+use crate::effects;
 use crate::error::{Error, Result};
 use crate::firmware;
 use crate::growth;
@@ -104,6 +105,10 @@ fn steady(kinds: &[Kind], samples: &[Sample]) -> Result<Vec<String>> {
         )));
     }
     Ok(seen)
+}
+
+pub fn effects(context: &Context) -> Result<Outcome> {
+    effects::check(&context.workspace, &context.tools).map(Outcome::Passed)
 }
 
 #[cfg(test)]

@@ -155,13 +155,18 @@ const STEPS: &[Step] = &[
         run: absent_steps::absent_effects_cost_nothing,
     },
     Step {
+        name: "effects",
+        title: "docs/effects.md has today's prices",
+        run: cost_steps::effects,
+    },
+    Step {
         name: "eliminations",
         title: "docs/eliminations.md has today's accuracies",
         run: host_steps::eliminations,
     },
     Step {
         name: "readme",
-        title: "the README's tables are those of this run",
+        title: "the tables of README.md and docs/scenes.md are those of this run",
         run: scene_steps::readme,
     },
     Step {
@@ -185,10 +190,7 @@ impl Context {
     /// One run of each scene, done once.
     fn measured(&self) -> Result<&[Measured]> {
         if self.measured.get().is_none() {
-            let all = Scene::ALL
-                .iter()
-                .map(|scene| demo::build_and_measure(&self.workspace, &self.tools, *scene))
-                .collect::<Result<Vec<_>>>()?;
+            let all = demo::build_and_measure(&self.workspace, &self.tools, Scene::ALL)?;
             let _ = self.measured.set(all);
         }
         Ok(self.measured.get_or_init(Vec::new))

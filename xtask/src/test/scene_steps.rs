@@ -9,6 +9,7 @@ use crate::firmware;
 use crate::plot;
 use crate::render::CLOCK_MHZ;
 use crate::scene::Scene;
+use crate::scenes;
 use crate::setup;
 use crate::system::{self, Privilege, System};
 use crate::toolchain::{self, DEBIAN_PACKAGES, Toolchain};
@@ -44,15 +45,14 @@ pub fn runs(context: &Context) -> Result<Outcome> {
 
 pub fn determinism(context: &Context) -> Result<Outcome> {
     let mut bytes = 0;
-    for (first, scene) in context.measured()?.iter().zip(Scene::ALL) {
-        let second = demo::measure(
-            &context.workspace,
-            &context.tools,
-            *scene,
-            context.tools.toolchain,
-            &first.elf,
-            context.meter()?,
-        )?;
+    let runs: Vec<_> = context
+        .measured()?
+        .iter()
+        .zip(Scene::ALL)
+        .map(|(first, scene)| (*scene, first.elf.clone()))
+        .collect();
+    let again = demo::measure_all(&context.workspace, &context.tools, context.meter()?, &runs)?;
+    for (first, second) in context.measured()?.iter().zip(&again) {
         if first.raw.0 != second.raw.0 {
             return Err(Error::check(
                 "two runs of the same ELF logged different bytes",
@@ -153,10 +153,15 @@ pub fn budgets(context: &Context) -> Result<Outcome> {
 }
 
 pub fn readme(context: &Context) -> Result<Outcome> {
-    // The README shows the default scene alone.
-    if let Some(first) = context.measured()?.first() {
-        docs::check(&context.workspace, &first.report)?;
+    let reports: Vec<_> = context.measured()?.iter().map(|one| &one.report).collect();
+    for report in &reports {
+        // The README shows the default scene alone.
+        if report.scene == Scene::default().name() {
+            docs::README.check(&context.workspace, &report.markdown(), Some(&report.rustc))?;
+        }
     }
+    let rustc = reports.first().map(|report| report.rustc.as_str());
+    scenes::PAGE.check(&context.workspace, &scenes::markdown(&reports), rustc)?;
     Outcome::PASSED
 }
 

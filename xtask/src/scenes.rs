@@ -1,0 +1,106 @@
+//! All scenes in one table: what a tick costs and how well it tracks, and what each effect is worth.
+
+use crate::docs::Page;
+use crate::render::{gate, milli};
+use crate::report::{MODEL, Report, Worth};
+use crate::table::{Table, thousands};
+
+/// Where the table stands.
+pub const PAGE: Page = Page {
+    file: "docs/scenes.md",
+    name: "scenes",
+    command: "cargo xtask demo --all --write-docs",
+};
+
+/// For a terminal.
+pub fn text(reports: &[&Report]) -> String {
+    format!("\n{}\n{}\n", table(reports).text(), foot(reports))
+}
+
+/// For the docs.
+pub fn markdown(reports: &[&Report]) -> String {
+    format!("{}\n{}", table(reports).markdown(), foot(reports))
+}
+
+fn foot(reports: &[&Report]) -> String {
+    let rustc = reports.first().map_or("", |report| &report.rustc);
+    format!("{MODEL}. Measured with {rustc}.")
+}
+
+/// A row per scene, and below it a row per effect: what is saved and lost without it.
+fn table(reports: &[&Report]) -> Table {
+    let mut table = Table::new(&[
+        "scene, less an effect",
+        "tick, cycles",
+        "of its period",
+        "tick's code, B",
+        "flash, B",
+        "RAM, B",
+        "error RMS, mrad",
+        "max",
+        "bound",
+        "of PD's",
+        "safety gate",
+    ]);
+    for report in reports {
+        table.row(whole(report));
+        for name in &report.named {
+            let worth = report.effects.iter().find(|worth| worth.effect == *name);
+            table.row(match worth {
+                Some(worth) => without(worth, report),
+                None => needed(name),
+            });
+        }
+    }
+    table
+}
+
+fn whole(report: &Report) -> Vec<String> {
+    let (errors, longest) = (&report.tracking.feedforward, report.tick.total.cycles.max);
+    let period = f64::from(report.period_us) * crate::render::CLOCK_MHZ;
+    vec![
+        format!("**{}**", report.scene),
+        thousands(longest),
+        format!("{:.1} %", 100.0 * longest as f64 / period),
+        thousands(report.tick_bytes),
+        thousands(report.flash_bytes),
+        thousands(report.ram_bytes),
+        milli(errors.rms_rad),
+        milli(errors.max_rad),
+        format!("{:.1}", 1e3 * report.bound_rad),
+        format!("{:.1} %", 100.0 * report.tracking.ratio()),
+        gate(&errors.status),
+    ]
+}
+
+fn without(worth: &Worth, report: &Report) -> Vec<String> {
+    let less = |saved: i64| match saved {
+        0 => "0".to_owned(),
+        1.. => format!("−{}", thousands(saved.unsigned_abs())),
+        _ => format!("+{}", thousands(saved.unsigned_abs())),
+    };
+    let (errors, dash) = (&worth.without, || "–".to_owned());
+    vec![
+        format!("− {}", worth.effect),
+        less(worth.cycles),
+        dash(),
+        less(worth.flash_bytes),
+        dash(),
+        less(worth.ram_bytes.cast_signed()),
+        milli(errors.rms_rad),
+        milli(errors.max_rad),
+        dash(),
+        format!(
+            "{:.1} %",
+            100.0 * errors.rms_rad / report.tracking.pd.rms_rad
+        ),
+        gate(&errors.status),
+    ]
+}
+
+/// An effect that the scene's law cannot do without.
+fn needed(name: &str) -> Vec<String> {
+    let mut row = vec![format!("− {name}"), "needed".to_owned()];
+    row.extend(std::iter::repeat_n("–".to_owned(), 9));
+    row
+}

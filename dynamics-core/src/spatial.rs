@@ -59,8 +59,9 @@ pub struct Xform<R: Real> {
 /// use glam::Vec3;
 /// let ball = SpatialInertia::<f32> { mass: 2.0, ..SpatialInertia::ZERO };
 /// assert_eq!((ball * Motion::new(Vec3::ZERO, Vec3::X)).lin, Vec3::X * 2.0); // momentum
+/// assert_eq!(SpatialInertia::<f32>::default(), SpatialInertia::ZERO);
 /// ```
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SpatialInertia<R: Real> {
     /// Mass m, kg.
     pub mass: R,
@@ -68,6 +69,13 @@ pub struct SpatialInertia<R: Real> {
     pub moment: R::Vec3,
     /// Rotational inertia about the frame's origin, kg·m².
     pub inertia: R::Mat3,
+}
+
+/// Nothing, where the default of glam's matrices would be 1 kg·m².
+impl<R: Real> Default for SpatialInertia<R> {
+    fn default() -> Self {
+        Self::ZERO
+    }
 }
 
 macro_rules! vector_space {

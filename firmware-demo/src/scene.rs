@@ -13,6 +13,7 @@ mod app;
 mod errors;
 mod firmware;
 mod noise;
+mod now;
 mod run;
 mod without;
 
@@ -20,6 +21,7 @@ pub use app::{App, QUEUE, Record, STEPS, SimBrake, SimLoop};
 pub use errors::Errors;
 pub use firmware::{HOLD, OMEGA_N, REENTRY, RIDE, TICK, ZETA, control_loop};
 pub use noise::Noise;
+pub use now::{Now, Told};
 pub use run::{Full, Less, Name, PdOnly, Run, Truth};
 pub use without::{Effects, Named, Without, name};
 

@@ -61,6 +61,47 @@ pub const SWING: [WayPoint<f32, 7>; 4] = [
     stop(UPRIGHT, 1300),
 ];
 
+/// The Panda carries a part from low to low, at rest there while the gripper moves: points 2 to 3 and 6 to 7.
+pub const PANDA_CARRY: [WayPoint<f32, 7>; 10] = [
+    stop(READY, 0),
+    stop([-0.70, -0.30, 0.10, -2.00, 0.05, 1.75, 0.10], 700),
+    stop([-0.70, 0.05, 0.10, -2.00, 0.05, 2.10, 0.10], 550),
+    stop([-0.70, 0.05, 0.10, -2.00, 0.05, 2.10, 0.10], 200),
+    stop([-0.70, -0.30, 0.10, -2.00, 0.05, 1.75, 0.10], 550),
+    stop([0.80, -0.20, -0.10, -2.10, -0.05, 1.90, 1.50], 1350),
+    stop([0.80, 0.15, -0.10, -2.05, -0.05, 2.20, 1.50], 550),
+    stop([0.80, 0.15, -0.10, -2.05, -0.05, 2.20, 1.50], 200),
+    stop([0.80, -0.20, -0.10, -2.10, -0.05, 1.90, 1.50], 550),
+    stop(READY, 800),
+];
+
+/// Where the SCARA's begins and ends, rad.
+pub const ASIDE: [f32; 3] = [-0.9, 1.6, -0.7];
+
+/// The SCARA serves a table: from a feeder to two places and back, at rest there for a grip.
+pub const SCARA_SERVES: [WayPoint<f32, 3>; 10] = [
+    stop(ASIDE, 0),
+    stop([-0.4, 0.7, 0.9], 360),
+    stop([-0.4, 0.7, 0.9], 80),
+    stop([0.5, 1.6, -0.9], 400),
+    stop([0.5, 1.6, -0.9], 80),
+    stop([-0.4, 0.7, 0.9], 400),
+    stop([-0.4, 0.7, 0.9], 80),
+    pass([0.2, -0.1, 0.3], [2.2, -3.0, -2.5], 240),
+    stop([0.6, -0.7, 0.0], 280),
+    stop(ASIDE, 640),
+];
+
+/// Ticks from the first way-point to this one.
+pub const fn arrival<const N: usize>(way: &[WayPoint<f32, N>], point: usize) -> u32 {
+    let (mut ticks, mut i) = (0, 0);
+    while i <= point {
+        ticks += way[i].ticks;
+        i += 1;
+    }
+    ticks
+}
+
 /// A way-point at rest.
 const fn stop<const N: usize>(q: [f32; N], ticks: u32) -> WayPoint<f32, N> {
     pass(q, [0.0; N], ticks)

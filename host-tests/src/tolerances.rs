@@ -149,6 +149,7 @@ const TABLE: &[(&str, &str, f64, f64)] = &[
     ("all", "sum of effects", 1e-15, NONE),
     ("pendulum", "closed form", 6e-16, NONE),
     ("two links", "closed form", 1e-15, NONE),
+    ("scara", "planar form", 1e-15, 5e-7),
     ("slide", "closed form", 5e-16, NONE),
     ("mixed tree", "velocity by difference", 1e-12, NONE),
     ("mixed tree", "J qd", 2e-15, NONE),

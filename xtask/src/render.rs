@@ -197,13 +197,13 @@ impl Report {
     }
 }
 
-/// A row per law: RMS and maximum of each joint and of all, and the ratio to PD.
+/// A row per law: RMS and maximum of each joint and of all, the ratio to PD, and the longest tick.
 fn errors_table(tracking: &Tracking) -> Table {
     let joints = tracking.pd.per_joint.len();
     let joint_names: Vec<String> = (1..=joints).map(|joint| format!("joint {joint}")).collect();
     let head: Vec<&str> = std::iter::once("mrad")
         .chain(joint_names.iter().map(String::as_str))
-        .chain(["all", "of PD"])
+        .chain(["all", "of PD", "tick cycles"])
         .collect();
     let mut table = Table::new(&head);
     type Pick = fn(&Errors) -> (f64, Vec<f64>);
@@ -222,7 +222,8 @@ fn errors_table(tracking: &Tracking) -> Table {
             table.row(
                 std::iter::once(format!("{} {kind}", in_print(law)))
                     .chain(each.into_iter().map(milli))
-                    .chain([milli(all), format!("{:.1} %", 100.0 * all / pd)]),
+                    .chain([milli(all), format!("{:.1} %", 100.0 * all / pd)])
+                    .chain([thousands(errors.tick_cycles)]),
             );
         }
     }

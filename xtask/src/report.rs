@@ -112,6 +112,8 @@ pub struct Errors {
     pub per_joint: Vec<JointError>,
     /// What the safety gate said.
     pub status: String,
+    /// Modelled cycles of the longest tick under this law.
+    pub tick_cycles: u64,
 }
 
 /// The tracking error of a joint.
@@ -154,11 +156,10 @@ impl Tracking {
         self.feedforward.rms_rad / self.pd.rms_rad
     }
 
-    fn of(recording: &Recording, plant: &str) -> Result<Self> {
+    fn of(recording: &Recording, costs: &[Cost], plant: &str) -> Result<Self> {
         let errors = |law: &str| {
-            recording
-                .trajectory(plant, law)
-                .and_then(errors)
+            run(recording, costs, plant, law)
+                .and_then(|(run, cost)| errors(run, cost))
                 .ok_or_else(|| Error::check(format!("there is no run of {law} on {plant}")))
         };
         let mut beside = BTreeMap::new();
@@ -179,11 +180,7 @@ impl Worth {
     /// Of each effect that the scene runs without.
     fn all(recording: &Recording, costs: &[Cost], image: &Image) -> Result<Vec<Self>> {
         let plant = PLANTS[0];
-        let at = |law: &str| {
-            let mut order = recording.order.iter();
-            let place = order.position(|(on, name)| on == plant && name == law)?;
-            Some((recording.trajectory(plant, law)?, costs.get(place)?))
-        };
+        let at = |law: &str| run(recording, costs, plant, law);
         let none = || Error::check(format!("there is no run of {SOLD} on {plant}"));
         let (full, full_cost) = at(SOLD).ok_or_else(none)?;
         let mut all = Vec::new();
@@ -196,7 +193,7 @@ impl Worth {
                 cycles: full_cost.cycles.max as i64 - cost.cycles.max as i64,
                 flash_bytes: code(image, full)? as i64 - code(image, run)? as i64,
                 ram_bytes: effect.bytes,
-                without: errors(run).ok_or_else(none)?,
+                without: errors(run, cost).ok_or_else(none)?,
             });
         }
         Ok(all)
@@ -212,7 +209,19 @@ fn code(image: &Image, run: &Trajectory) -> Result<u64> {
         .sum())
 }
 
-fn errors(run: &Trajectory) -> Option<Errors> {
+/// The run of a law on a plant, with the price of its tick; `costs` are in the order of the runs.
+fn run<'a>(
+    recording: &'a Recording,
+    costs: &'a [Cost],
+    plant: &str,
+    law: &str,
+) -> Option<(&'a Trajectory, &'a Cost)> {
+    let mut order = recording.order.iter();
+    let place = order.position(|(on, name)| on == plant && name == law)?;
+    Some((recording.trajectory(plant, law)?, costs.get(place)?))
+}
+
+fn errors(run: &Trajectory, cost: &Cost) -> Option<Errors> {
     Some(Errors {
         rms_rad: run.total?,
         max_rad: run.max.iter().copied().fold(0.0, f64::max),
@@ -220,6 +229,7 @@ fn errors(run: &Trajectory) -> Option<Errors> {
             .map(|(&rms_rad, &max_rad)| JointError { rms_rad, max_rad })
             .collect(),
         status: run.status.clone(),
+        tick_cycles: cost.cycles.max,
     })
 }
 
@@ -268,8 +278,8 @@ impl Report {
             },
             gains: recording.gains.clone(),
             peak_speed: recording.peak_speed(),
-            tracking: Tracking::of(recording, PLANTS[0])?,
-            tracking_mismatched: Tracking::of(recording, PLANTS[1])?,
+            tracking: Tracking::of(recording, &of_runs, PLANTS[0])?,
+            tracking_mismatched: Tracking::of(recording, &of_runs, PLANTS[1])?,
             bound_rad: recording.bound,
             named: recording
                 .effects

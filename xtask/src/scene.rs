@@ -8,6 +8,12 @@ pub enum Scene {
     /// A UR5e picks and places, its encoders on SPI and its drives on PWM.
     #[default]
     Ur5e,
+    /// A Panda carries a load that it picks up on the way, known or not.
+    #[value(name = "panda_payload")]
+    PandaPayload,
+    /// A SCARA serves a table: three vertical axes, on which gravity does no work.
+    #[value(name = "scara_table")]
+    ScaraTable,
     /// An iiwa 14 whose transmissions give way, told so or not.
     #[value(name = "flexible_joint")]
     FlexibleJoint,
@@ -15,12 +21,19 @@ pub enum Scene {
 
 impl Scene {
     /// All of them.
-    pub const ALL: &[Self] = &[Self::Ur5e, Self::FlexibleJoint];
+    pub const ALL: &[Self] = &[
+        Self::Ur5e,
+        Self::PandaPayload,
+        Self::ScaraTable,
+        Self::FlexibleJoint,
+    ];
 
     /// The name on the command line, of the bin, and in every generated file.
     pub fn name(self) -> &'static str {
         match self {
             Self::Ur5e => "ur5e",
+            Self::PandaPayload => "panda_payload",
+            Self::ScaraTable => "scara_table",
             Self::FlexibleJoint => "flexible_joint",
         }
     }

@@ -6,7 +6,7 @@ use dynamics_core::effects::Effect;
 use dynamics_core::state::State;
 
 use super::app::SimLoop;
-use super::{Scene, Without};
+use super::{Now, Scene, Told, Without};
 use crate::control_loop::{Law, Telemetry};
 
 /// How well the controller knows the plant.
@@ -94,9 +94,22 @@ where
         if S::STEADY {
             return S::inverse(reference, around, &S::EFFECTS);
         }
+        S::inverse(reference, around, &Now::<Self, _, N>::of(around))
+    }
+}
+
+impl<S, const B: usize, const Q: usize, const V: usize, const N: usize> Told<S::Around, B, V, N>
+    for Full<S, B, Q, V>
+where
+    S: Scene<B, Q, V, N>,
+{
+    type Effects = S::Effects;
+
+    #[inline(always)]
+    fn told(around: &S::Around) -> S::Effects {
         let mut effects = S::EFFECTS;
         S::surround(&mut effects, around);
-        S::inverse(reference, around, &effects)
+        effects
     }
 }
 
@@ -118,9 +131,21 @@ where
             let rest = <S::Effects as Without<S, I, B, Q, V, N>>::REST;
             return S::inverse(reference, around, &rest);
         }
-        let mut effects = S::EFFECTS;
-        S::surround(&mut effects, around);
-        S::inverse(reference, around, &effects.without())
+        S::inverse(reference, around, &Now::<Self, _, N>::of(around))
+    }
+}
+
+impl<S, const I: usize, const B: usize, const Q: usize, const V: usize, const N: usize>
+    Told<S::Around, B, V, N> for Less<S, I, B, Q, V>
+where
+    S: Scene<B, Q, V, N>,
+    S::Effects: Without<S, I, B, Q, V, N>,
+{
+    type Effects = <S::Effects as Without<S, I, B, Q, V, N>>::Rest;
+
+    #[inline(always)]
+    fn told(around: &S::Around) -> Self::Effects {
+        Full::<S, B, Q, V>::told(around).without()
     }
 }
 

@@ -1,0 +1,142 @@
+//! Scene `panda_payload`: a part is picked up and put down on the way. The gripper says what the hand holds; a
+//! feed-forward that does not ask carries an unknown load.
+
+use dynamics_core::Engine;
+use dynamics_core::control::{Reference, Trajectory, TrajectoryError};
+use dynamics_core::effects::{
+    Coriolis, Coulomb, Effect, Gravity, ImpossibleLoad, Inertia, Payload, RotorInertia, Viscous,
+};
+use dynamics_core::robots::Panda;
+use dynamics_core::spatial::SpatialInertia;
+use dynamics_core::state::State;
+
+use crate::plant::Plant;
+use crate::scene::{Less, Noise, Run, Scene, Truth, rigid, through};
+use crate::trajectories::{PANDA_CARRY, READY, arrival};
+
+/// What acts on the arm, the load last.
+pub type Effects = (
+    Gravity,
+    Inertia,
+    Coriolis,
+    Viscous<f32, 7>,
+    Coulomb<f32, 7>,
+    RotorInertia<f32, 7>,
+    Payload<f32>,
+);
+
+/// The number of the load among them.
+const LOAD: usize = 6;
+
+/// Friction and rotors are assumed, of the order that identifications of this arm find; the hand is empty.
+pub const EFFECTS: Effects = (
+    Gravity::EARTH,
+    Inertia,
+    Coriolis,
+    Viscous([1.0, 1.0, 1.0, 1.0, 0.5, 0.5, 0.5]),
+    Coulomb {
+        torque: [0.6, 0.9, 0.6, 1.2, 0.8, 0.4, 0.5],
+        per_width: 20.0,
+    },
+    RotorInertia([0.5, 0.5, 0.4, 0.4, 0.2, 0.2, 0.2]),
+    Payload(SpatialInertia::ZERO),
+);
+
+/// The part: 2 kg, a block of 80 × 60 × 120 mm, gripped beside its centre 0.19 m from the last link's origin.
+///
+/// # Errors
+/// If no body were like that.
+pub fn part() -> Result<Payload<f32>, ImpossibleLoad> {
+    let moments = [3.0e-3, 0.0, 0.0, 3.467e-3, 0.0, 1.667e-3];
+    Payload::checked(2.0, [0.01, -0.02, 0.19], moments, 1e-6)
+}
+
+/// The ticks at which the gripper begins to close and to open, and how many it takes for that.
+const CLOSES: u32 = arrival(&PANDA_CARRY, 2);
+const OPENS: u32 = arrival(&PANDA_CARRY, 6);
+const GRIP: f32 = 100.0;
+
+/// The way, and what is carried on it.
+#[derive(Clone, Copy, Debug)]
+pub struct Job {
+    way: Trajectory<f32, 7, 10>,
+    part: Payload<f32>,
+}
+
+impl Reference<f32, 7> for Job {
+    #[inline(always)]
+    fn at(&self, tick: u32) -> State<f32, 7, 7> {
+        self.way.at(tick)
+    }
+
+    fn ticks(&self) -> u32 {
+        self.way.ticks()
+    }
+}
+
+/// The scene.
+#[derive(Clone, Copy, Debug)]
+pub struct Carry;
+
+impl Scene<7, 7, 7, 7> for Carry {
+    type Robot = Panda;
+    type Effects = Effects;
+    type Reference = Job;
+    type Around = Payload<f32>;
+    type Plant = Plant<Panda, Effects, Payload<f32>, 7, 7, 7>;
+
+    const NAME: &'static str = "panda_payload";
+    const BOUND: f32 = 1e-3;
+    const EFFECTS: Effects = EFFECTS;
+    const GAIN_POSE: [f32; 7] = READY;
+    const GAIN_POSE_NAME: &'static str = "ready";
+    const BESIDE: &'static [Run<Self, 7, 7, 7, 7>] = &[
+        Run::of::<Less<Self, LOAD, 7, 7, 7>>(Truth::Exact, "unknown-load"),
+        Run::of::<Less<Self, LOAD, 7, 7, 7>>(Truth::Mismatched, "unknown-load"),
+    ];
+
+    fn reference() -> Result<Job, TrajectoryError> {
+        let accelerations = [15.0, 7.5, 10.0, 12.5, 15.0, 20.0, 20.0];
+        Ok(Job {
+            way: through(&PANDA_CARRY, &Self::limits(), accelerations)?,
+            // What no body is like is not picked up.
+            part: part().unwrap_or_default(),
+        })
+    }
+
+    /// What the hand bears of the part: at rest on the table it goes over from one to the other evenly.
+    fn around(job: &Job, ticks: f32) -> Payload<f32> {
+        let since = |start: u32| ((ticks - start as f32) / GRIP).clamp(0.0, 1.0);
+        let borne = since(CLOSES) - since(OPENS);
+        let Payload(SpatialInertia {
+            mass,
+            moment,
+            inertia,
+        }) = job.part;
+        Payload(SpatialInertia {
+            mass: mass * borne,
+            moment: moment * borne,
+            inertia: inertia * borne,
+        })
+    }
+
+    #[inline(always)]
+    fn surround((.., payload): &mut Effects, borne: &Payload<f32>) {
+        *payload = *borne;
+    }
+
+    fn inverse<E: Effect<f32, 7, 7>>(
+        reference: &State<f32, 7, 7>,
+        _: &Payload<f32>,
+        effects: &E,
+    ) -> [f32; 7] {
+        Engine::<Panda>::rnea(reference, effects)
+    }
+
+    fn plant(noise: Option<&mut Noise>) -> Self::Plant {
+        rigid::<Self, 7, 7, 7, 7>(READY, noise, |(.., viscous, coulomb, _, _), noise| {
+            noise.friction(&mut viscous.0);
+            noise.friction(&mut coulomb.torque);
+        })
+    }
+}

@@ -1,0 +1,102 @@
+//! Scene `scara_table`: three vertical axes serve a table at the speeds of a packing line. Gravity does no work
+//! there, so that the scene does not name it.
+
+use dynamics_core::Engine;
+use dynamics_core::control::{Trajectory, TrajectoryError};
+use dynamics_core::effects::{
+    Coriolis, Coulomb, Effect, Gravity, GravityAlong, Inertia, RotorInertia, Viscous,
+};
+use dynamics_core::state::State;
+use glam::Vec3;
+
+use crate::control_loop::Law;
+use crate::machines::Scara;
+use crate::plant::Plant;
+use crate::scene::{Noise, Run, Scene, Truth, rigid, through};
+use crate::trajectories::{ASIDE, SCARA_SERVES};
+
+/// What acts on the arm.
+pub type Effects = (
+    Inertia,
+    Coriolis,
+    Viscous<f32, 3>,
+    Coulomb<f32, 3>,
+    RotorInertia<f32, 3>,
+);
+
+/// Assumed, of the order of servo motors behind harmonic drives of 50 : 1 and a belt of 15 : 1.
+pub const EFFECTS: Effects = (
+    Inertia,
+    Coriolis,
+    Viscous([3.0, 1.5, 0.05]),
+    Coulomb {
+        torque: [8.0, 4.0, 0.4],
+        per_width: 20.0,
+    },
+    RotorInertia([0.25, 0.08, 0.002]),
+);
+
+/// The scene.
+#[derive(Clone, Copy, Debug)]
+pub struct Serve;
+
+impl Scene<3, 3, 3, 3> for Serve {
+    type Robot = Scara;
+    type Effects = Effects;
+    type Reference = Trajectory<f32, 3, 10>;
+    type Around = ();
+    type Plant = Plant<Scara, Effects, (), 3, 3, 3>;
+
+    const NAME: &'static str = "scara_table";
+    const BOUND: f32 = 2e-3;
+    const EFFECTS: Effects = EFFECTS;
+    const GAIN_POSE: [f32; 3] = ASIDE;
+    const GAIN_POSE_NAME: &'static str = "aside";
+    const BESIDE: &'static [Run<Self, 3, 3, 3, 3>] = &[
+        Run::of::<WithGravity>(Truth::Exact, "with-gravity"),
+        Run::of::<WithGravityAlong>(Truth::Exact, "with-gravity-of-run-time"),
+    ];
+
+    fn reference() -> Result<Self::Reference, TrajectoryError> {
+        through(&SCARA_SERVES, &Self::limits(), [60.0, 120.0, 250.0])
+    }
+
+    fn around(_: &Self::Reference, _: f32) {}
+
+    fn inverse<E: Effect<f32, 3, 3>>(
+        reference: &State<f32, 3, 3>,
+        (): &(),
+        effects: &E,
+    ) -> [f32; 3] {
+        Engine::<Scara>::rnea(reference, effects)
+    }
+
+    fn plant(noise: Option<&mut Noise>) -> Self::Plant {
+        rigid::<Self, 3, 3, 3, 3>(ASIDE, noise, |(.., viscous, coulomb, _), noise| {
+            noise.friction(&mut viscous.0);
+            noise.friction(&mut coulomb.torque);
+        })
+    }
+}
+
+/// Feed-forward by a scene that names gravity too: its type says along which axis, and the compiler finds that
+/// none of it reaches a torque. The code is the same.
+#[derive(Clone, Copy, Debug)]
+pub struct WithGravity;
+
+impl Law<3> for WithGravity {
+    fn feedforward(reference: &State<f32, 3, 3>, (): &()) -> [f32; 3] {
+        Engine::<Scara>::rnea(reference, &(Gravity::EARTH, EFFECTS))
+    }
+}
+
+/// The same of a direction known at run time only: computed each tick, to add nothing.
+#[derive(Clone, Copy, Debug)]
+pub struct WithGravityAlong;
+
+impl Law<3> for WithGravityAlong {
+    fn feedforward(reference: &State<f32, 3, 3>, (): &()) -> [f32; 3] {
+        let down = GravityAlong(core::hint::black_box(Vec3::NEG_Z * 9.81));
+        Engine::<Scara>::rnea(reference, &(down, EFFECTS))
+    }
+}

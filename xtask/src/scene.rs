@@ -11,17 +11,21 @@ pub enum Scene {
     /// An iiwa 14 whose transmissions give way, told so or not.
     #[value(name = "flexible_joint")]
     FlexibleJoint,
+    /// An arm of low gear ratios, whose motors' rotors are gyroscopes.
+    #[value(name = "direct_drive")]
+    DirectDrive,
 }
 
 impl Scene {
     /// All of them.
-    pub const ALL: &[Self] = &[Self::Ur5e, Self::FlexibleJoint];
+    pub const ALL: &[Self] = &[Self::Ur5e, Self::FlexibleJoint, Self::DirectDrive];
 
     /// The name on the command line, of the bin, and in every generated file.
     pub fn name(self) -> &'static str {
         match self {
             Self::Ur5e => "ur5e",
             Self::FlexibleJoint => "flexible_joint",
+            Self::DirectDrive => "direct_drive",
         }
     }
 }

@@ -11,6 +11,9 @@ pub enum Scene {
     /// An iiwa 14 whose transmissions give way, told so or not.
     #[value(name = "flexible_joint")]
     FlexibleJoint,
+    /// A leg of a quadruped hops on a vertical rail.
+    #[value(name = "leg_hop")]
+    LegHop,
     /// An arm of low gear ratios, whose motors' rotors are gyroscopes.
     #[value(name = "direct_drive")]
     DirectDrive,
@@ -18,13 +21,19 @@ pub enum Scene {
 
 impl Scene {
     /// All of them.
-    pub const ALL: &[Self] = &[Self::Ur5e, Self::FlexibleJoint, Self::DirectDrive];
+    pub const ALL: &[Self] = &[
+        Self::Ur5e,
+        Self::FlexibleJoint,
+        Self::LegHop,
+        Self::DirectDrive,
+    ];
 
     /// The name on the command line, of the bin, and in every generated file.
     pub fn name(self) -> &'static str {
         match self {
             Self::Ur5e => "ur5e",
             Self::FlexibleJoint => "flexible_joint",
+            Self::LegHop => "leg_hop",
             Self::DirectDrive => "direct_drive",
         }
     }

@@ -1,5 +1,7 @@
 //! Machines that no maker publishes, as constants: numbers of our own, of the size of real ones.
 
 mod direct_drive;
+mod leg;
 
 pub use direct_drive::DirectDrive;
+pub use leg::Leg;

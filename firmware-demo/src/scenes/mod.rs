@@ -3,4 +3,5 @@
 
 pub mod direct_drive;
 pub mod flexible_joint;
+pub mod leg_hop;
 pub mod ur5e;

@@ -12,6 +12,7 @@
 //! | [`scenes`] | the data sheet of each scene | left out |
 //! | [`machines`] | robots that no maker publishes, of common sizes | left out |
 //! | [`catalogue`], [`trajectories`] | every effect with numbers, and a way to go: what effects are priced by | left out |
+//! | [`machines`] | robots that no maker publishes | left out |
 //! | `target` | interrupt, log, panic handler of the emulated board | your board's |
 #![no_std]
 

@@ -4,6 +4,8 @@ use core::f32::consts::{FRAC_PI_2, FRAC_PI_4};
 
 use dynamics_core::control::WayPoint;
 
+pub mod hop;
+
 /// Where the UR5e's pick and place begins and ends, rad.
 pub const HOME: [f32; 6] = [0.0, -FRAC_PI_2, FRAC_PI_2, -FRAC_PI_2, -FRAC_PI_2, 0.0];
 

@@ -218,6 +218,11 @@ const TABLE: &[(&str, &str, f64, f64)] = &[
     ("actuator", "lag", 5e-16, 1.5e-7),
     ("actuator", "lag in fine steps", 4e-15, NONE),
     ("actuator", "run-up", 1e-5, NONE),
+    ("hop", "force on the rail", NONE, 2e-2),
+    ("hop", "velocity by difference", NONE, 1e-3),
+    ("hop", "acceleration by difference", NONE, 4e-2),
+    ("hop", "height of the carriage", NONE, 2e-2),
+    ("hop", "arc cosine", NONE, 4e-7),
     ("trig", "sin_cos", 3e-16, 1e-7),
     ("trig", "sin_cos_near", NONE, 1e-7),
 ];

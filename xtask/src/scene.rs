@@ -17,6 +17,12 @@ pub enum Scene {
     /// An iiwa 14 whose transmissions give way, told so or not.
     #[value(name = "flexible_joint")]
     FlexibleJoint,
+    /// A leg of a quadruped hops on a vertical rail.
+    #[value(name = "leg_hop")]
+    LegHop,
+    /// An arm of low gear ratios, whose motors' rotors are gyroscopes.
+    #[value(name = "direct_drive")]
+    DirectDrive,
 }
 
 impl Scene {
@@ -26,6 +32,8 @@ impl Scene {
         Self::PandaPayload,
         Self::ScaraTable,
         Self::FlexibleJoint,
+        Self::LegHop,
+        Self::DirectDrive,
     ];
 
     /// The name on the command line, of the bin, and in every generated file.
@@ -35,6 +43,8 @@ impl Scene {
             Self::PandaPayload => "panda_payload",
             Self::ScaraTable => "scara_table",
             Self::FlexibleJoint => "flexible_joint",
+            Self::LegHop => "leg_hop",
+            Self::DirectDrive => "direct_drive",
         }
     }
 }

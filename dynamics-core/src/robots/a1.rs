@@ -114,6 +114,20 @@ const LEGS: [Body; 16] = [
     foot("RL_foot", 14),
 ];
 
+impl A1 {
+    /// The front right leg alone, for machines that stand on one: hip, thigh, calf and foot, the hip where it
+    /// is on a trunk.
+    ///
+    /// ```
+    /// use dynamics_core::model::{BASE, Body, Joint, Model, on_root};
+    /// use dynamics_core::robots::A1;
+    /// const CARRIAGE: Body = Body::new("carriage", BASE, Joint::prismatic([0.0, 0.0, 1.0])).mass(1.5);
+    /// const HOPPER: Model<f64, 5, 4, 4> = Model::new("hopper", on_root(CARRIAGE, &A1::LEG));
+    /// assert_eq!(HOPPER.links[4].name, "FR_foot");
+    /// ```
+    pub const LEG: [Body; 4] = [LEGS[0], LEGS[1], LEGS[2], LEGS[3]];
+}
+
 impl Robot<16, 12, 12> for A1 {
     const MODEL: Model<f64, 16, 12, 12> = Model::new("a1", LEGS);
 }

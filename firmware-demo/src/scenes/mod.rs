@@ -1,7 +1,9 @@
 //! The data sheets of the scenes: robot, effects, trajectory and controller of each. The bin of the same
 //! name runs it, and tests run it on devices that can be bent.
 
+pub mod direct_drive;
 pub mod flexible_joint;
+pub mod leg_hop;
 pub mod panda_payload;
 pub mod scara_table;
 pub mod ur5e;

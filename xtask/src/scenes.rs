@@ -1,8 +1,9 @@
 //! All scenes in one table: what a tick costs and how well it tracks, and what each effect is worth.
 
 use crate::docs::Page;
+use crate::protocol::in_print;
 use crate::render::{gate, milli};
-use crate::report::{MODEL, Report, Worth};
+use crate::report::{Errors, MODEL, Report, Worth};
 use crate::table::{Table, thousands};
 
 /// Where the table stands.
@@ -14,12 +15,14 @@ pub const PAGE: Page = Page {
 
 /// For a terminal.
 pub fn text(reports: &[&Report]) -> String {
-    format!("\n{}\n{}\n", table(reports).text(), foot(reports))
+    let plain = |name: &str| name.to_uppercase();
+    format!("\n{}\n{}\n", table(reports, plain).text(), foot(reports))
 }
 
 /// For the docs.
 pub fn markdown(reports: &[&Report]) -> String {
-    format!("{}\n{}", table(reports).markdown(), foot(reports))
+    let bold = |name: &str| format!("**{name}**");
+    format!("{}\n{}", table(reports, bold).markdown(), foot(reports))
 }
 
 fn foot(reports: &[&Report]) -> String {
@@ -27,10 +30,11 @@ fn foot(reports: &[&Report]) -> String {
     format!("{MODEL}. Measured with {rustc}.")
 }
 
-/// A row per scene, and below it a row per effect: what is saved and lost without it.
-fn table(reports: &[&Report]) -> Table {
+/// A row per scene, set off from those below it: one per effect, with what is saved and lost without it, and one
+/// per other law that the scene compares.
+fn table(reports: &[&Report], set_off: impl Fn(&str) -> String) -> Table {
     let mut table = Table::new(&[
-        "scene, less an effect",
+        "scene, − effect, other law",
         "tick, cycles",
         "of its period",
         "tick's code, B",
@@ -43,7 +47,7 @@ fn table(reports: &[&Report]) -> Table {
         "safety gate",
     ]);
     for report in reports {
-        table.row(whole(report));
+        table.row(whole(report, set_off(&report.scene)));
         for name in &report.named {
             let worth = report.effects.iter().find(|worth| worth.effect == *name);
             table.row(match worth {
@@ -51,15 +55,18 @@ fn table(reports: &[&Report]) -> Table {
                 None => needed(name),
             });
         }
+        for (law, errors) in &report.tracking.beside {
+            table.row(other(law, errors, report));
+        }
     }
     table
 }
 
-fn whole(report: &Report) -> Vec<String> {
+fn whole(report: &Report, name: String) -> Vec<String> {
     let (errors, longest) = (&report.tracking.feedforward, report.tick.total.cycles.max);
     let period = f64::from(report.period_us) * crate::render::CLOCK_MHZ;
     vec![
-        format!("**{}**", report.scene),
+        name,
         thousands(longest),
         format!("{:.1} %", 100.0 * longest as f64 / period),
         thousands(report.tick_bytes),
@@ -74,11 +81,6 @@ fn whole(report: &Report) -> Vec<String> {
 }
 
 fn without(worth: &Worth, report: &Report) -> Vec<String> {
-    let less = |saved: i64| match saved {
-        0 => "0".to_owned(),
-        1.. => format!("−{}", thousands(saved.unsigned_abs())),
-        _ => format!("+{}", thousands(saved.unsigned_abs())),
-    };
     let (errors, dash) = (&worth.without, || "–".to_owned());
     vec![
         format!("− {}", worth.effect),
@@ -96,6 +98,37 @@ fn without(worth: &Worth, report: &Report) -> Vec<String> {
         ),
         gate(&errors.status),
     ]
+}
+
+/// Another law than the scene's feed-forward.
+fn other(law: &str, errors: &Errors, report: &Report) -> Vec<String> {
+    let dash = || "–".to_owned();
+    let saved = report.tick.total.cycles.max as i64 - errors.tick_cycles as i64;
+    vec![
+        in_print(law),
+        less(saved),
+        dash(),
+        dash(),
+        dash(),
+        dash(),
+        milli(errors.rms_rad),
+        milli(errors.max_rad),
+        dash(),
+        format!(
+            "{:.1} %",
+            100.0 * errors.rms_rad / report.tracking.pd.rms_rad
+        ),
+        gate(&errors.status),
+    ]
+}
+
+/// What is saved, as a change.
+fn less(saved: i64) -> String {
+    match saved {
+        0 => "0".to_owned(),
+        1.. => format!("−{}", thousands(saved.unsigned_abs())),
+        _ => format!("+{}", thousands(saved.unsigned_abs())),
+    }
 }
 
 /// An effect that the scene's law cannot do without.

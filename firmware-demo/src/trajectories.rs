@@ -61,6 +61,19 @@ pub const SWING: [WayPoint<f32, 7>; 4] = [
     stop(UPRIGHT, 1300),
 ];
 
+/// Where the space arm is folded away, rad.
+pub const STOWED: [f32; 6] = [0.0, -1.2, 2.4, -1.2, 0.0, 0.0];
+
+/// The space arm reaches out for something that drifts by, pulls it in, and folds.
+pub const REACH_OUT: [WayPoint<f32, 6>; 6] = [
+    stop(STOWED, 0),
+    stop([0.7, -0.9, 1.3, -0.4, 0.0, 0.8], 1800),
+    stop([1.0, -0.3, 0.7, -0.4, 0.4, 1.2], 1400),
+    stop([1.0, -0.9, 1.7, -0.8, 0.4, 1.2], 1400),
+    stop([-0.9, -1.0, 1.9, -0.9, -0.3, -0.6], 2600),
+    stop(STOWED, 2000),
+];
+
 /// A way-point at rest.
 const fn stop<const N: usize>(q: [f32; N], ticks: u32) -> WayPoint<f32, N> {
     pass(q, [0.0; N], ticks)

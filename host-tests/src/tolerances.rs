@@ -217,6 +217,13 @@ const TABLE: &[(&str, &str, f64, f64)] = &[
     ("actuator", "lag", 5e-16, 1.5e-7),
     ("actuator", "lag in fine steps", 4e-15, NONE),
     ("actuator", "run-up", 1e-5, NONE),
+    ("space arm", "momentum lost", 1e-15, 5e-7),
+    ("space arm", "momentum lost by plain steps", 4e-4, 6e-4),
+    ("ship", "velocity of the mast", 1e-10, NONE),
+    ("ship", "acceleration of the mast", 1e-10, NONE),
+    ("ship", "gravity", 1e-15, NONE),
+    ("watch", "attitude of the camera", 1e-15, NONE),
+    ("watch", "rates of the joints", 1e-10, NONE),
     ("trig", "sin_cos", 3e-16, 1e-7),
     ("trig", "sin_cos_near", NONE, 1e-7),
 ];

@@ -11,17 +11,30 @@ pub enum Scene {
     /// An iiwa 14 whose transmissions give way, told so or not.
     #[value(name = "flexible_joint")]
     FlexibleJoint,
+    /// An arm on a satellite that floats free, with the satellite's recoil in its feed-forward.
+    #[value(name = "space_arm")]
+    SpaceArm,
+    /// A gimbal on a rolling ship holds its camera level and sweeps the horizon.
+    #[value(name = "gimbal_ship")]
+    GimbalShip,
 }
 
 impl Scene {
     /// All of them.
-    pub const ALL: &[Self] = &[Self::Ur5e, Self::FlexibleJoint];
+    pub const ALL: &[Self] = &[
+        Self::Ur5e,
+        Self::FlexibleJoint,
+        Self::SpaceArm,
+        Self::GimbalShip,
+    ];
 
     /// The name on the command line, of the bin, and in every generated file.
     pub fn name(self) -> &'static str {
         match self {
             Self::Ur5e => "ur5e",
             Self::FlexibleJoint => "flexible_joint",
+            Self::SpaceArm => "space_arm",
+            Self::GimbalShip => "gimbal_ship",
         }
     }
 }

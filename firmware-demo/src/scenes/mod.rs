@@ -2,4 +2,6 @@
 //! name runs it, and tests run it on devices that can be bent.
 
 pub mod flexible_joint;
+pub mod gimbal_ship;
+pub mod space_arm;
 pub mod ur5e;

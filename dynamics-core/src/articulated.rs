@@ -54,6 +54,29 @@ impl<R: Real> CompositeInertia<R> {
         }
     }
 
+    /// m with Iᶜ m = f, RBDA (2.74): about the centre of mass turns and slides go apart. Nothing if there is no mass,
+    /// or no inertia about some axis. 130 flops.
+    #[inline(always)]
+    pub(crate) fn solve(&self, f: Force<R>) -> Option<Motion<R>> {
+        let per_mass = R::ONE / self.mass;
+        let c = self.moment * per_mass;
+        // Ī + c× h×: 1 h·c less, as c and h are parallel.
+        let mut about = self.inertia;
+        let hc = self.moment.dot(c);
+        (about.xx, about.yy, about.zz) = (about.xx - hc, about.yy - hc, about.zz - hc);
+        let [x, y, z] = about.minus_outer(-self.moment, c).columns();
+        let adjugate = [y.cross(z), z.cross(x), x.cross(y)];
+        let det = x.dot(adjugate[0]);
+        // One comparison that a NaN fails too.
+        if !(det > R::ZERO && det.is_finite() && self.mass > R::ZERO) {
+            return None;
+        }
+        let n = (f.ang - c.cross(f.lin)) * (R::ONE / det);
+        let [p, q, r] = adjugate.map(|row| row.dot(n));
+        let omega = R::Vec3::new(p, q, r);
+        Some(Motion::new(omega, f.lin * per_mass - omega.cross(c)))
+    }
+
     /// Xᵀ Iᶜ X: the same inertia at the parent's frame. RBDA (2.66). 107 flops.
     #[inline(always)]
     pub(crate) fn at_parent(&self, x: &Xform<R>) -> Self {

@@ -9,6 +9,7 @@
 //! | [`marker`] | the measured regions | `dbg` is a no-op there |
 //! | [`plant`], [`wires`] | a simulated robot behind the same traits | left out |
 //! | [`scene`] | runs of one trajectory under several laws, with their tracking errors | left out |
+//! | [`machines`] | robots that no maker publishes | left out |
 //! | [`scenes`] | the data sheet of each scene | left out |
 //! | [`machines`] | robots that no maker publishes, of common sizes | left out |
 //! | [`catalogue`], [`trajectories`] | every effect with numbers, and a way to go: what effects are priced by | left out |

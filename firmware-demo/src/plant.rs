@@ -4,7 +4,8 @@
 use dynamics_core::algorithms::NotPositiveDefinite;
 use dynamics_core::effects::Effect;
 use dynamics_core::model::{Calibrated, Robot};
-use dynamics_core::sim::linearly_implicit;
+use dynamics_core::sim::{conserving, linearly_implicit};
+use dynamics_core::spatial::Force;
 use dynamics_core::state::State;
 
 use crate::wires::Wires;
@@ -119,12 +120,50 @@ where
 
     fn step(&mut self, torque: &[f32; N], around: &X, h: f32) -> Result<(), NotPositiveDefinite> {
         (self.surround)(&mut self.effects, around);
-        let mut tau = [0.0; V];
-        for (tau, &torque) in tau.iter_mut().rev().zip(torque.iter().rev()) {
-            *tau = torque;
-        }
+        let tau = padded(torque);
         linearly_implicit(&self.robot, &mut self.state, &tau, &mut self.effects, h)
     }
+}
+
+/// A robot whose first body floats free and on which nothing acts from outside: started at rest, it keeps a
+/// momentum of zero.
+#[derive(Debug)]
+pub struct Floating<T, E, X, const B: usize, const Q: usize, const V: usize>(
+    pub Plant<T, E, X, B, Q, V>,
+);
+
+impl<T, E, X, const B: usize, const Q: usize, const V: usize, const N: usize> Simulated<X, N>
+    for Floating<T, E, X, B, Q, V>
+where
+    T: Robot<B, Q, V>,
+    E: Effect<f32, B, V>,
+{
+    fn seen(&self) -> [f32; N] {
+        last(&self.0.state.q)
+    }
+
+    fn step(&mut self, torque: &[f32; N], around: &X, h: f32) -> Result<(), NotPositiveDefinite> {
+        let plant = &mut self.0;
+        (plant.surround)(&mut plant.effects, around);
+        let (tau, rest) = (padded(torque), Force::ZERO);
+        conserving(
+            &plant.robot,
+            &mut plant.state,
+            &tau,
+            &mut plant.effects,
+            rest,
+            h,
+        )
+    }
+}
+
+/// The torques of all coordinates from those of the driven joints.
+fn padded<const N: usize, const V: usize>(torque: &[f32; N]) -> [f32; V] {
+    let mut tau = [0.0; V];
+    for (tau, &torque) in tau.iter_mut().rev().zip(torque.iter().rev()) {
+        *tau = torque;
+    }
+    tau
 }
 
 /// The last N of some values: those of the driven joints.

@@ -5,6 +5,7 @@ use core::f32::consts::{FRAC_PI_2, FRAC_PI_4};
 use dynamics_core::control::WayPoint;
 
 pub mod hop;
+pub mod watch;
 
 /// Where the UR5e's pick and place begins and ends, rad.
 pub const HOME: [f32; 6] = [0.0, -FRAC_PI_2, FRAC_PI_2, -FRAC_PI_2, -FRAC_PI_2, 0.0];
@@ -103,6 +104,19 @@ pub const fn arrival<const N: usize>(way: &[WayPoint<f32, N>], point: usize) -> 
     }
     ticks
 }
+
+/// Where the space arm is folded away, rad.
+pub const STOWED: [f32; 6] = [0.0, -1.2, 2.4, -1.2, 0.0, 0.0];
+
+/// The space arm reaches out for something that drifts by, pulls it in, and folds.
+pub const REACH_OUT: [WayPoint<f32, 6>; 6] = [
+    stop(STOWED, 0),
+    stop([0.7, -0.9, 1.3, -0.4, 0.0, 0.8], 1800),
+    stop([1.0, -0.3, 0.7, -0.4, 0.4, 1.2], 1400),
+    stop([1.0, -0.9, 1.7, -0.8, 0.4, 1.2], 1400),
+    stop([-0.9, -1.0, 1.9, -0.9, -0.3, -0.6], 2600),
+    stop(STOWED, 2000),
+];
 
 /// A way-point at rest.
 const fn stop<const N: usize>(q: [f32; N], ticks: u32) -> WayPoint<f32, N> {

@@ -223,6 +223,13 @@ const TABLE: &[(&str, &str, f64, f64)] = &[
     ("hop", "acceleration by difference", NONE, 4e-2),
     ("hop", "height of the carriage", NONE, 2e-2),
     ("hop", "arc cosine", NONE, 4e-7),
+    ("space arm", "momentum lost", 1e-15, 5e-7),
+    ("space arm", "momentum lost by plain steps", 4e-4, 6e-4),
+    ("ship", "velocity of the mast", 1e-10, NONE),
+    ("ship", "acceleration of the mast", 1e-10, NONE),
+    ("ship", "gravity", 1e-15, NONE),
+    ("watch", "attitude of the camera", 1e-15, NONE),
+    ("watch", "rates of the joints", 1e-10, NONE),
     ("trig", "sin_cos", 3e-16, 1e-7),
     ("trig", "sin_cos_near", NONE, 1e-7),
 ];

@@ -23,6 +23,12 @@ pub enum Scene {
     /// An arm of low gear ratios, whose motors' rotors are gyroscopes.
     #[value(name = "direct_drive")]
     DirectDrive,
+    /// An arm on a satellite that floats free, with the satellite's recoil in its feed-forward.
+    #[value(name = "space_arm")]
+    SpaceArm,
+    /// A gimbal on a rolling ship holds its camera level and sweeps the horizon.
+    #[value(name = "gimbal_ship")]
+    GimbalShip,
 }
 
 impl Scene {
@@ -34,6 +40,8 @@ impl Scene {
         Self::FlexibleJoint,
         Self::LegHop,
         Self::DirectDrive,
+        Self::SpaceArm,
+        Self::GimbalShip,
     ];
 
     /// The name on the command line, of the bin, and in every generated file.
@@ -45,6 +53,8 @@ impl Scene {
             Self::FlexibleJoint => "flexible_joint",
             Self::LegHop => "leg_hop",
             Self::DirectDrive => "direct_drive",
+            Self::SpaceArm => "space_arm",
+            Self::GimbalShip => "gimbal_ship",
         }
     }
 }

@@ -21,6 +21,7 @@ mod mobility;
 mod momentum;
 mod operational;
 mod operator;
+mod recoil;
 mod rnea;
 
 pub use aba::{aba, aba_at};
@@ -43,4 +44,5 @@ pub use mobility::{Mobility, mobility, mobility_at};
 pub use momentum::{MassCentre, mass_centre, mass_centre_at, momentum, momentum_at};
 pub use operational::{OperationalSpace, operational_space, operational_space_at, task_rows};
 pub use operator::{operator_factor, operator_inverse};
+pub use recoil::{with_momentum, with_momentum_at};
 pub use rnea::{rnea, rnea_at};

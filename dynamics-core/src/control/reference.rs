@@ -22,7 +22,8 @@ use crate::state::State;
 /// assert_eq!(Rest([0.1, 0.2]).at(7).q, [0.1, 0.2]);
 /// ```
 pub trait Reference<R, const V: usize> {
-    /// Position, velocity and acceleration at a tick, rad and s or m and s; after the end, those of the end.
+    /// Position, velocity and acceleration at a tick, rad and s or m and s; after the end, wherever the motion
+    /// is then (a trajectory rests).
     fn at(&self, tick: u32) -> State<R, V, V>;
 
     /// Ticks from start to end.

@@ -1,7 +1,7 @@
 //! Energy and momentum of a robot known at compile time.
 
 use super::Core;
-use crate::algorithms::{self, MassCentre};
+use crate::algorithms::{self, MassCentre, NotPositiveDefinite};
 use crate::effects::Effect;
 use crate::model::{Of, Robot};
 use crate::scalar::Real;
@@ -114,6 +114,41 @@ impl<T> Core<T> {
         E: Effect<R, B, V>,
     {
         algorithms::momentum_at(&Of::<T>::NEW, posture, state, effects)
+    }
+
+    /// q̇ with the first joint's rates of this momentum, see [`algorithms::with_momentum`].
+    ///
+    /// # Errors
+    /// As [`algorithms::with_momentum`].
+    #[inline(never)]
+    pub fn with_momentum<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+        state: &State<R, Q, V>,
+        h: Force<R>,
+        effects: &E,
+    ) -> Result<[R; V], NotPositiveDefinite>
+    where
+        T: Robot<B, Q, V>,
+        E: Effect<R, B, V>,
+    {
+        algorithms::with_momentum(&Of::<T>::NEW, state, h, effects)
+    }
+
+    /// As [`Core::with_momentum`], at a posture whose sines and cosines are at hand.
+    ///
+    /// # Errors
+    /// As [`Core::with_momentum`].
+    #[inline(never)]
+    pub fn with_momentum_at<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+        posture: &Posture<R, Q>,
+        state: &State<R, Q, V>,
+        h: Force<R>,
+        effects: &E,
+    ) -> Result<[R; V], NotPositiveDefinite>
+    where
+        T: Robot<B, Q, V>,
+        E: Effect<R, B, V>,
+    {
+        algorithms::with_momentum_at(&Of::<T>::NEW, posture, state, h, effects)
     }
 
     /// h_G, see [`algorithms::centroidal_momentum`].

@@ -1,9 +1,11 @@
 //! Time steps of a simulated robot, and its actuators.
 
 mod actuator;
+mod conserving;
 mod linearly_implicit;
 
 pub use actuator::Actuator;
+pub use conserving::conserving;
 pub use linearly_implicit::linearly_implicit;
 
 use crate::algorithms::{NotPositiveDefinite, aba};

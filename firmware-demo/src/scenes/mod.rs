@@ -3,7 +3,9 @@
 
 pub mod direct_drive;
 pub mod flexible_joint;
+pub mod gimbal_ship;
 pub mod leg_hop;
 pub mod panda_payload;
 pub mod scara_table;
+pub mod space_arm;
 pub mod ur5e;

@@ -1,0 +1,122 @@
+//! Scene `space_arm`: an arm on a satellite that floats free reaches out; what the satellite gives way is in
+//! the feed-forward. The plant's step conserves momentum, down to rounding: it does not drift.
+
+use dynamics_core::Core;
+use dynamics_core::algorithms::Given;
+use dynamics_core::control::{Trajectory, TrajectoryError};
+use dynamics_core::effects::{Coriolis, Coulomb, Effect, Inertia, RotorInertia, Viscous};
+use dynamics_core::spatial::Force;
+use dynamics_core::state::State;
+
+use crate::control_loop::Law;
+use crate::machines::SpaceArm;
+use crate::plant::{Floating, last};
+use crate::scene::{Less, Noise, Run, Scene, Truth, name, rigid, through};
+use crate::trajectories::{REACH_OUT, STOWED};
+
+/// What acts on the joints; nothing acts on the satellite.
+pub type Effects = (
+    Inertia,
+    Coriolis,
+    Viscous<f32, 12>,
+    Coulomb<f32, 12>,
+    RotorInertia<f32, 12>,
+);
+
+/// Friction and rotors of strain-wave gears in cold grease.
+pub const EFFECTS: Effects = (
+    Inertia,
+    Coriolis,
+    Viscous(SpaceArm::joints([9.0, 9.0, 7.0, 1.5, 1.5, 1.2])),
+    Coulomb {
+        torque: SpaceArm::joints([3.0, 3.0, 2.5, 0.8, 0.8, 0.6]),
+        per_width: 20.0,
+    },
+    RotorInertia(SpaceArm::joints([1.0, 1.0, 0.8, 0.15, 0.15, 0.12])),
+);
+
+/// The scene.
+#[derive(Clone, Copy, Debug)]
+pub struct ReachOut;
+
+impl Scene<7, 13, 12, 6> for ReachOut {
+    type Robot = SpaceArm;
+    type Effects = Effects;
+    type Reference = Trajectory<f32, 6, 6>;
+    type Around = ();
+    type Plant = Floating<SpaceArm, Effects, (), 7, 13, 12>;
+
+    const NAME: &'static str = "space_arm";
+    const BOUND: f32 = 5e-4;
+    const EFFECTS: Effects = EFFECTS;
+    const GAIN_POSE: [f32; 13] = SpaceArm::at(STOWED);
+    const GAIN_POSE_NAME: &'static str = "stowed";
+    const BESIDE: &'static [Run<Self, 7, 13, 12, 6>] = &[
+        Run::of::<FixedBase>(Truth::Exact, "fixed-base"),
+        Run::of::<FixedBase>(Truth::Mismatched, "fixed-base"),
+    ];
+    /// Nothing moves without `Inertia`.
+    const LESS: &'static [Run<Self, 7, 13, 12, 6>] = &[
+        Run::without::<Less<Self, 1, 7, 13, 12>>(name::<Coriolis>),
+        Run::without::<Less<Self, 2, 7, 13, 12>>(name::<Viscous<f32, 12>>),
+        Run::without::<Less<Self, 3, 7, 13, 12>>(name::<Coulomb<f32, 12>>),
+        Run::without::<Less<Self, 4, 7, 13, 12>>(name::<RotorInertia<f32, 12>>),
+    ];
+
+    fn reference() -> Result<Self::Reference, TrajectoryError> {
+        through(&REACH_OUT, &Self::limits(), [3.0; 6])
+    }
+
+    fn around(_: &Self::Reference, _: f32) {}
+
+    /// The satellite is left to itself: it recoils from the joints' rates, since all momentum is zero, and from
+    /// their accelerations, since nothing holds it.
+    fn inverse<E: Effect<f32, 7, 12>>(
+        reference: &State<f32, 6, 6>,
+        (): &(),
+        effects: &E,
+    ) -> [f32; 6] {
+        let state = SpaceArm::floating(reference);
+        let posture = Core::<SpaceArm>::posture(&state.q);
+        let mut given = [Given::Torque(0.0); 12];
+        for (given, &qdd) in given.iter_mut().zip(&state.qdd).skip(6) {
+            *given = Given::Acceleration(qdd);
+        }
+        let recoiling = if E::VELOCITY_PRODUCTS {
+            Core::<SpaceArm>::with_momentum_at(&posture, &state, Force::ZERO, &())
+        } else {
+            Ok(state.qd)
+        };
+        recoiling
+            .and_then(|qd| {
+                let state = State { qd, ..state };
+                Core::<SpaceArm>::hybrid_at(&posture, &state, &given, effects)
+            })
+            // Only what is not a number has no solution: the gate stops it.
+            .map_or([f32::NAN; 6], |response| last(&response.tau))
+    }
+
+    fn plant(noise: Option<&mut Noise>) -> Self::Plant {
+        Floating(rigid::<Self, 7, 13, 12, 6>(
+            SpaceArm::at(STOWED),
+            noise,
+            |(.., viscous, coulomb, _), noise| {
+                noise.friction(&mut viscous.0);
+                noise.friction(&mut coulomb.torque);
+            },
+        ))
+    }
+}
+
+/// Feed-forward that takes the satellite for a wall.
+#[derive(Clone, Copy, Debug)]
+pub struct FixedBase;
+
+impl Law<6> for FixedBase {
+    fn feedforward(reference: &State<f32, 6, 6>, (): &()) -> [f32; 6] {
+        last(&Core::<SpaceArm>::rnea(
+            &SpaceArm::floating(reference),
+            &EFFECTS,
+        ))
+    }
+}

@@ -37,11 +37,11 @@ impl Scene {
         Self::Ur5e,
         Self::PandaPayload,
         Self::ScaraTable,
-        Self::FlexibleJoint,
-        Self::LegHop,
-        Self::DirectDrive,
         Self::SpaceArm,
+        Self::LegHop,
+        Self::FlexibleJoint,
         Self::GimbalShip,
+        Self::DirectDrive,
     ];
 
     /// The name on the command line, of the bin, and in every generated file.

@@ -6,9 +6,9 @@ mod firmware_steps;
 mod host_steps;
 mod scene_steps;
 
-use std::cell::OnceCell;
 use std::path::PathBuf;
 use std::process::ExitCode;
+use std::sync::OnceLock;
 use std::time::Instant;
 
 use clap::builder::PossibleValuesParser;
@@ -27,7 +27,16 @@ struct Step {
     name: &'static str,
     /// What holds if it passes.
     title: &'static str,
+    lane: Lane,
     run: fn(&Context) -> Result<Outcome>,
+}
+
+/// Which of the two rows of steps that go on side by side: cargo builds for the host and for the target in
+/// different directories, and the one keeps no core busy while the other links or emulates.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Lane {
+    Host,
+    Target,
 }
 
 /// How a step ended that did not fail.
@@ -49,129 +58,153 @@ struct Context {
     /// Whether the step `debian` may install Debian's compiler.
     may_install_debian: bool,
     tools: Tools,
-    meter: OnceCell<PathBuf>,
-    measured: OnceCell<Vec<Measured>>,
+    meter: OnceLock<PathBuf>,
+    measured: OnceLock<Vec<Measured>>,
 }
 
 const STEPS: &[Step] = &[
     Step {
         name: "fmt",
         title: "rustfmt has nothing to change",
+        lane: Lane::Host,
         run: host_steps::fmt,
     },
     Step {
         name: "clippy",
         title: "clippy has nothing to say of the host crates",
+        lane: Lane::Host,
         run: host_steps::clippy,
     },
     Step {
         name: "clippy-firmware",
         title: "clippy has nothing to say of the firmware",
+        lane: Lane::Target,
         run: firmware_steps::clippy,
     },
     Step {
         name: "host",
         title: "the host tests pass",
+        lane: Lane::Host,
         run: host_steps::tests,
     },
     Step {
         name: "doctests",
         title: "the examples in the documentation run",
+        lane: Lane::Host,
         run: host_steps::doctests,
     },
     Step {
         name: "doc",
         title: "the documentation builds without a warning",
+        lane: Lane::Host,
         run: host_steps::doc,
     },
     Step {
         name: "firmware",
         title: "every bin of the firmware builds",
+        lane: Lane::Target,
         run: firmware_steps::build,
     },
     Step {
         name: "meter",
         title: "the cycle meter agrees with sequences counted by hand",
+        lane: Lane::Target,
         run: firmware_steps::meter,
     },
     Step {
         name: "bits",
         title: "the host and QEMU compute the same bits",
+        lane: Lane::Host,
         run: firmware_steps::bits,
     },
     Step {
         name: "scene",
         title: "every scene runs to its end",
+        lane: Lane::Target,
         run: scene_steps::runs,
     },
     Step {
         name: "determinism",
         title: "two runs of a scene give the same bytes",
+        lane: Lane::Target,
         run: scene_steps::determinism,
     },
     Step {
         name: "tracking",
         title: "every scene tracks within its bound, the default one better than PD as promised",
+        lane: Lane::Target,
         run: scene_steps::tracking,
     },
     Step {
         name: "cycles",
         title: "the longest tick is short enough",
+        lane: Lane::Target,
         run: scene_steps::cycles,
     },
     Step {
         name: "no-f64",
         title: "the tick reaches no f64 arithmetic, no libm trigonometry and no panic",
+        lane: Lane::Target,
         run: firmware_steps::no_f64,
     },
     Step {
         name: "opcodes",
         title: "the firmware has no instruction that a Cortex-M4F lacks",
+        lane: Lane::Target,
         run: firmware_steps::opcodes,
     },
     Step {
         name: "budgets",
         title: "every scene is within budgets.toml",
+        lane: Lane::Target,
         run: scene_steps::budgets,
     },
     Step {
         name: "constant",
         title: "the work costs the same whatever the data",
+        lane: Lane::Target,
         run: cost_steps::constant,
     },
     Step {
         name: "costs",
         title: "every function is within budgets.toml and its bar, and docs/costs.md says so",
+        lane: Lane::Target,
         run: cost_steps::costs,
     },
     Step {
         name: "growth",
         title: "inverse and forward dynamics grow in step with a chain, and docs/growth.md says so",
+        lane: Lane::Target,
         run: cost_steps::growth,
     },
     Step {
         name: "absent-effects",
         title: "an effect that a scene does not name costs it nothing",
+        lane: Lane::Target,
         run: absent_steps::absent_effects_cost_nothing,
     },
     Step {
         name: "effects",
         title: "docs/effects.md has today's prices",
+        lane: Lane::Target,
         run: cost_steps::effects,
     },
     Step {
         name: "eliminations",
         title: "docs/eliminations.md has today's accuracies",
+        lane: Lane::Host,
         run: host_steps::eliminations,
     },
     Step {
         name: "readme",
         title: "the tables of README.md and docs/scenes.md are those of this run",
+        lane: Lane::Target,
         run: scene_steps::readme,
     },
     Step {
         name: "debian",
         title: "Debian's own compiler builds a scene that runs",
+        lane: Lane::Target,
         run: scene_steps::debian,
     },
 ];
@@ -221,44 +254,64 @@ pub fn run(options: Options, only: &[String], debian: bool) -> Result<ExitCode> 
         options,
         // A CI machine is thrown away: what is installed there is in nobody's way.
         may_install_debian: debian || std::env::var_os("CI").is_some_and(|ci| ci == "true"),
-        meter: OnceCell::new(),
-        measured: OnceCell::new(),
+        meter: OnceLock::new(),
+        measured: OnceLock::new(),
     };
     let wanted = |step: &&Step| only.is_empty() || only.iter().any(|name| name == step.name);
-    let (mut passed, mut failed) = (0, 0);
-    for step in STEPS.iter().filter(wanted) {
-        let start = Instant::now();
-        let spinner = Spinner::start(step.title);
-        let result = (step.run)(&context);
-        drop(spinner);
-        let (mark, detail) = match &result {
-            Ok(Outcome::Passed(seen)) => ("ok  ", seen.clone()),
-            Ok(Outcome::Skipped(why)) => ("skip", why.clone()),
-            Err(_) => ("FAIL", String::new()),
-        };
-        let detail = if detail.is_empty() {
-            detail
-        } else {
-            format!(" ({detail})")
-        };
-        let seconds = start.elapsed().as_secs_f64();
-        println!(
-            "{mark} {seconds:6.1} s  {:16} {}{detail}",
-            step.name, step.title
-        );
-        match result {
-            Ok(Outcome::Passed(_)) => passed += 1,
-            Ok(Outcome::Skipped(_)) => {}
-            Err(error) => {
-                failed += 1;
-                println!("{error}\n");
-            }
-        }
-    }
+    let run = |lane| {
+        let steps = STEPS.iter().filter(|step| step.lane == lane).filter(wanted);
+        steps.map(|step| passes(step, &context)).collect::<Vec<_>>()
+    };
+    let outcomes = std::thread::scope(|scope| {
+        let lanes = [Lane::Host, Lane::Target].map(|lane| scope.spawn(move || run(lane)));
+        let panicked = |_| vec![Some(false)];
+        lanes.map(|lane| lane.join().unwrap_or_else(panicked))
+    });
+    let count = |what| {
+        outcomes
+            .iter()
+            .flatten()
+            .filter(|outcome| **outcome == what)
+            .count()
+    };
+    let (passed, failed) = (count(Some(true)), count(Some(false)));
     println!("{passed} passed, {failed} failed");
     Ok(if failed == 0 {
         ExitCode::SUCCESS
     } else {
         ExitCode::FAILURE
     })
+}
+
+/// Runs a step and says how it ended: whether it passed, if it applied here.
+fn passes(step: &Step, context: &Context) -> Option<bool> {
+    let start = Instant::now();
+    let spinner = Spinner::start(step.title);
+    let result = (step.run)(context);
+    drop(spinner);
+    let (mark, detail) = match &result {
+        Ok(Outcome::Passed(seen)) => ("ok  ", seen.clone()),
+        Ok(Outcome::Skipped(why)) => ("skip", why.clone()),
+        Err(_) => ("FAIL", String::new()),
+    };
+    let detail = match detail.as_str() {
+        "" => detail,
+        seen => format!(" ({seen})"),
+    };
+    let (name, title, seconds) = (step.name, step.title, start.elapsed().as_secs_f64());
+    let line = format!("{mark} {seconds:6.1} s  {name:16} {title}{detail}");
+    match result {
+        Ok(Outcome::Passed(_)) => {
+            println!("{line}");
+            Some(true)
+        }
+        Ok(Outcome::Skipped(_)) => {
+            println!("{line}");
+            None
+        }
+        Err(error) => {
+            println!("{line}\n{error}\n");
+            Some(false)
+        }
+    }
 }

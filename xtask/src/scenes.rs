@@ -81,31 +81,28 @@ fn whole(report: &Report, name: String) -> Vec<String> {
 }
 
 fn without(worth: &Worth, report: &Report) -> Vec<String> {
-    let (errors, dash) = (&worth.without, || "–".to_owned());
-    vec![
+    let mut row = lesser(
         format!("− {}", worth.effect),
-        less(worth.cycles),
-        dash(),
-        less(worth.flash_bytes),
-        dash(),
-        less(worth.ram_bytes.cast_signed()),
-        milli(errors.rms_rad),
-        milli(errors.max_rad),
-        dash(),
-        format!(
-            "{:.1} %",
-            100.0 * errors.rms_rad / report.tracking.pd.rms_rad
-        ),
-        gate(&errors.status),
-    ]
+        worth.cycles,
+        &worth.without,
+        report,
+    );
+    row[3] = less(worth.flash_bytes);
+    row[5] = less(worth.ram_bytes.cast_signed());
+    row
 }
 
 /// Another law than the scene's feed-forward.
 fn other(law: &str, errors: &Errors, report: &Report) -> Vec<String> {
-    let dash = || "–".to_owned();
     let saved = report.tick.total.cycles.max as i64 - errors.tick_cycles as i64;
+    lesser(in_print(law), saved, errors, report)
+}
+
+/// A law that is not the one to sell, by its name and the cycles that it saves.
+fn lesser(name: String, saved: i64, errors: &Errors, report: &Report) -> Vec<String> {
+    let dash = || "–".to_owned();
     vec![
-        in_print(law),
+        name,
         less(saved),
         dash(),
         dash(),

@@ -53,6 +53,40 @@ pub struct Speed<R> {
     /// Greatest |q̈|, rad/s² or m/s².
     pub acceleration: R,
 }
+
+impl<R: Real> Speed<R> {
+    /// Holds what a joint needs on the way to a point against its greatest speed; nothing admits a NaN.
+    fn admits_speed(&self, needed: R, point: usize, joint: usize) -> Result<(), TrajectoryError> {
+        if needed.is_finite() && needed <= self.velocity {
+            return Ok(());
+        }
+        Err(TrajectoryError::Velocity {
+            point,
+            joint,
+            needed: needed.to_f64(),
+            allowed: self.velocity.to_f64(),
+        })
+    }
+
+    /// The same of its greatest acceleration.
+    fn admits_acceleration(
+        &self,
+        needed: R,
+        point: usize,
+        joint: usize,
+    ) -> Result<(), TrajectoryError> {
+        if needed.is_finite() && needed <= self.acceleration {
+            return Ok(());
+        }
+        Err(TrajectoryError::Acceleration {
+            point,
+            joint,
+            needed: needed.to_f64(),
+            allowed: self.acceleration.to_f64(),
+        })
+    }
+}
+
 /// The motion of V joints through W way-points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trajectory<R, const V: usize, const W: usize> {

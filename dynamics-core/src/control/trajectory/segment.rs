@@ -109,25 +109,10 @@ impl<R: Real, const V: usize> Segment<R, V> {
             let needed = peak([R::ZERO, -a / b, R::ONE], |s| {
                 weigh(self.weights(s).qd, change)
             });
-            if !(all_finite(&[a, b, needed]) && needed <= limit.velocity) {
-                let (needed, allowed) = (needed.to_f64(), limit.velocity.to_f64());
-                return Err(TrajectoryError::Velocity {
-                    point,
-                    joint,
-                    needed,
-                    allowed,
-                });
-            }
+            let needed = if all_finite(&[a, b]) { needed } else { a + b };
+            limit.admits_speed(needed, point, joint)?;
             let needed = peak(jerk_roots(a, b), |s| weigh(self.weights(s).qdd, change));
-            if !(needed.is_finite() && needed <= limit.acceleration) {
-                let (needed, allowed) = (needed.to_f64(), limit.acceleration.to_f64());
-                return Err(TrajectoryError::Acceleration {
-                    point,
-                    joint,
-                    needed,
-                    allowed,
-                });
-            }
+            limit.admits_acceleration(needed, point, joint)?;
         }
         Ok(())
     }

@@ -141,26 +141,10 @@ fn check<R: Real, const V: usize>(
 ) -> Result<(), TrajectoryError> {
     let per_second = segment.per_second;
     for (joint, (&[_, step, ..], limit)) in segment.joints.iter().zip(limits).enumerate() {
-        let needed = R::from_f64(SPEED) * step.abs() * per_second;
-        if !(needed.is_finite() && needed <= limit.velocity) {
-            let (needed, allowed) = (needed.to_f64(), limit.velocity.to_f64());
-            return Err(TrajectoryError::Velocity {
-                point,
-                joint,
-                needed,
-                allowed,
-            });
-        }
-        let needed = R::from_f64(ACCELERATION) * step.abs() * per_second * per_second;
-        if !(needed.is_finite() && needed <= limit.acceleration) {
-            let (needed, allowed) = (needed.to_f64(), limit.acceleration.to_f64());
-            return Err(TrajectoryError::Acceleration {
-                point,
-                joint,
-                needed,
-                allowed,
-            });
-        }
+        let speed = R::from_f64(SPEED) * step.abs() * per_second;
+        limit.admits_speed(speed, point, joint)?;
+        let acceleration = R::from_f64(ACCELERATION) * step.abs() * per_second * per_second;
+        limit.admits_acceleration(acceleration, point, joint)?;
     }
     Ok(())
 }

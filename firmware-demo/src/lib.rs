@@ -6,6 +6,7 @@
 //! | [`control_loop`] | the tick: read, reference, dynamics, safety, write | as it is |
 //! | [`encoder`], [`drive`] | an AS5047P-type encoder on SPI, a current-controlled drive on PWM | as they are |
 //! | [`bits`] | digests of the dynamics' results on recorded states | as they are |
+//! | [`hard`] | hard cases that host and target share | left out |
 //! | [`marker`] | the measured regions | `dbg` is a no-op there |
 //! | [`plant`] | a simulated robot behind the same traits | left out |
 //! | [`scene`] | runs of one trajectory under several laws, with their tracking errors | left out |
@@ -19,6 +20,7 @@ pub mod catalogue;
 pub mod control_loop;
 pub mod drive;
 pub mod encoder;
+pub mod hard;
 pub mod marker;
 pub mod plant;
 pub mod scene;

@@ -6,6 +6,9 @@
 mod row;
 
 pub mod descriptions;
+pub mod measure;
+pub mod setup;
+pub mod setups;
 
 pub use row::{Row, Verdict};
 

@@ -22,6 +22,7 @@ mod momentum;
 mod operational;
 mod operator;
 mod rnea;
+mod taken;
 
 pub use aba::{aba, aba_at};
 pub use centroidal::{

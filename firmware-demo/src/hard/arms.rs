@@ -1,6 +1,6 @@
 //! The arms.
 
-use super::states::{COMMON, FAST, QUARTERS, REMAINDERS, ZIGZAG};
+use super::states::{COMMON, FAST, QUARTERS, QUICK, REMAINDERS, SLOW, ZIGZAG};
 use super::{Extras, N, Numbers, Problem};
 use dynamics_core::model::{Arm, BASE, Body, Joint, Link, Model, Robot};
 use dynamics_core::robots::Ur5e;
@@ -35,8 +35,8 @@ pub(super) static LIST: [Problem<Arm<f64, N>>; COUNT] = [
     plain(21, "parallel axes", RODS),
     plain(22, "triangle inequality broken", fat(UR5E)),
     plain(22, "point masses", POINTS),
-    plain(42, "tiny", sized(UR5E, 0.02, 8e-6)),
-    plain(42, "giant", sized(UR5E, 10.0, 4e3)),
+    asked(42, "tiny", sized(UR5E, 1.0 / 16.0, 1.0 / 1024.0), &QUICK),
+    asked(42, "giant", sized(UR5E, 16.0, 512.0), &SLOW),
     plain(44, "base turned, gravity not", turned_base(UR5E)),
     plain(45, "tree", TREE),
     plain(45, "tree, numbered otherwise", RENUMBERED),
@@ -146,13 +146,19 @@ const fn coincident(arm: Arm<f64, N>) -> Arm<f64, N> {
     arm
 }
 
-/// A last link whose largest moment exceeds the sum of the others by 0.087, as PUMA 560's third does.
+/// A last link whose largest moment exceeds the sum of the others by [`EXCESS`] of itself.
 const fn fat(mut arm: Arm<f64, N>) -> Arm<f64, N> {
-    let inertia = &mut arm.links[5].inertia.inertia;
-    let sum = inertia.x_axis.x + inertia.y_axis.y;
-    inertia.z_axis.z = sum / (1.0 - 0.087);
+    let inertia = &mut arm.links[5].inertia;
+    // The centre of mass is on z.
+    let across = inertia.moment.z * inertia.moment.z / inertia.mass;
+    let (x, y) = (inertia.inertia.x_axis.x, inertia.inertia.y_axis.y);
+    let z = (x + y - 2.0 * across) / (1.0 - EXCESS);
+    inertia.inertia = DMat3::from_cols(times(DVec3::X, x), times(DVec3::Y, y), times(DVec3::Z, z));
     arm
 }
+
+/// As of PUMA 560's third link.
+pub const EXCESS: f64 = 0.087;
 
 /// Rods of 1 m and 1 kg along x, on parallel axes.
 const RODS: Arm<f64, N> = {

@@ -7,7 +7,7 @@ mod arms;
 mod compute;
 mod states;
 
-pub use arms::{COUNT, RENUMBERING};
+pub use arms::{COUNT, EXCESS, RENUMBERING};
 pub use compute::{Answers, GRAVITY, Scene, answers, answers_to, scene};
 pub use states::{counts, remainder};
 

@@ -26,19 +26,41 @@ pub const COMMON: [Numbers; 4] = [
     ],
 ];
 
-/// As [`COMMON`], the joints turning at ±1000 rad/s.
+/// As [`COMMON`], the joints turning at ±1000 rad/s, accelerations as large as what that brings about.
 pub const FAST: [Numbers; 4] = {
     let (mut states, mut k) = (COMMON, 0);
     while k < states.len() {
         let mut i = 0;
         while i < super::N {
             states[k][1][i] = if states[k][1][i] < 0.0 { -1e3 } else { 1e3 };
+            states[k][2][i] *= 1e5;
             i += 1;
         }
         k += 1;
     }
     states
 };
+
+/// As [`COMMON`], for an arm 2⁻⁴ as long, whose pendulums swing 2² as fast.
+pub const QUICK: [Numbers; 4] = paced(4.0);
+
+/// As [`COMMON`], for an arm 2⁴ as long.
+pub const SLOW: [Numbers; 4] = paced(0.25);
+
+/// As [`COMMON`], so many times as fast.
+const fn paced(by: f32) -> [Numbers; 4] {
+    let (mut states, mut k) = (COMMON, 0);
+    while k < states.len() {
+        let mut i = 0;
+        while i < super::N {
+            states[k][1][i] *= by;
+            states[k][2][i] *= by * by;
+            i += 1;
+        }
+        k += 1;
+    }
+    states
+}
 
 /// As [`COMMON`], the joints at +75° and −75° by turns, and the other way round.
 pub const ZIGZAG: [Numbers; 2] = {
@@ -75,8 +97,7 @@ pub const QUARTERS: [Numbers; 6] = {
     states
 };
 
-/// As [`COMMON`], each joint at what remains of 10⁶ rad and more when whole turns are taken off in
-/// integers: of 2607436.. counts of a 14-bit encoder, the low 14 bits.
+/// As [`COMMON`], each joint at what remains of 10⁶ rad when whole turns are taken off in integers.
 pub const REMAINDERS: [Numbers; 4] = {
     let (mut states, mut k) = (COMMON, 0);
     while k < states.len() {
@@ -96,7 +117,8 @@ pub const fn counts(k: usize, i: usize) -> i32 {
     if i.is_multiple_of(2) { counts } else { -counts }
 }
 
-/// The angle within a turn of so many counts, 4096 a turn.
+/// The angle within ±π of so many counts, 4096 a turn.
 pub const fn remainder(counts: i32) -> f32 {
-    ((counts.rem_euclid(4096)) as f64 * (core::f64::consts::TAU / 4096.0)) as f32
+    const PER_COUNT: f32 = (core::f64::consts::TAU / 4096.0) as f32;
+    ((counts << 20) >> 20) as f32 * PER_COUNT
 }

@@ -3,12 +3,22 @@
 //! One file a family; a case runs itself and returns its rows, which `host-tests/tests/hard_cases` demands
 //! and `cargo xtask hard-cases` writes down.
 
+mod naive;
+mod roots;
 mod row;
 
+pub mod chains;
 pub mod descriptions;
+pub mod elbow;
+pub mod invariances;
+pub mod masses;
 pub mod measure;
+pub mod parallel;
+pub mod placements;
 pub mod setup;
 pub mod setups;
+pub mod slide;
+pub mod speeds;
 
 pub use row::{Row, Verdict};
 
@@ -45,7 +55,17 @@ impl Case {
 }
 
 /// All cases, a slice a family.
-pub const CASES: &[&[Case]] = &[descriptions::CASES];
+pub const CASES: &[&[Case]] = &[
+    masses::CASES,
+    chains::CASES,
+    placements::CASES,
+    slide::CASES,
+    speeds::CASES,
+    elbow::CASES,
+    parallel::CASES,
+    descriptions::CASES,
+    invariances::CASES,
+];
 
 /// Runs the case of this number.
 ///

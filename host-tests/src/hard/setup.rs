@@ -71,8 +71,8 @@ impl<const N: usize> Setup<N> {
     /// Everything of each state, forward dynamics under the oracle's torques, in f32 and in f64.
     pub fn answers(&self, truth: &Truth) -> Vec<(Answers<f32, N>, Answers<f64, N>)> {
         let (single, double) = (scene(&self.extras), scene(&self.extras));
-        let each = self.states.iter().zip(&truth.states).map(|(state, truth)| {
-            let tau: [f32; N] = std::array::from_fn(|i| number(&truth.tau[i]));
+        let each = self.states.iter().enumerate().map(|(k, state)| {
+            let tau = self.tau(truth, k);
             let (wide, wide_tau) = (widened(state), tau.map(f64::from));
             (
                 answers_to(&self.single, state, &tau, &single),
@@ -80,6 +80,11 @@ impl<const N: usize> Setup<N> {
             )
         });
         each.collect()
+    }
+
+    /// The torques of forward dynamics in state `k`.
+    pub fn tau(&self, truth: &Truth, k: usize) -> [f32; N] {
+        std::array::from_fn(|i| number(&truth.states[k].tau[i]))
     }
 
     /// What the oracle says of this setup.

@@ -1,6 +1,13 @@
 //! The hard cases hold: a file per family, a test per case.
 
+mod chains;
 mod descriptions;
+mod elbow;
+mod invariances;
+mod masses;
+mod parallel;
+mod placements;
+mod speeds;
 
 use host_tests::hard::CASES;
 

@@ -67,17 +67,7 @@ impl Answers<f32, 6> {
     }
 }
 
-/// Computes everything of one state.
-pub fn answers<R: Real, const N: usize>(
-    arm: &Arm<R, N>,
-    state: &State<R, N, N>,
-    scene: &Scene<R, N>,
-) -> Answers<R, N> {
-    let rnea = torques(arm, state, scene);
-    answers_to(arm, state, &rnea, scene)
-}
-
-/// The same with torques of one's own for forward dynamics.
+/// Computes everything of one state, and the accelerations of torques of one's own.
 pub fn answers_to<R: Real, const N: usize>(
     arm: &Arm<R, N>,
     state: &State<R, N, N>,

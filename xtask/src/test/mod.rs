@@ -160,6 +160,11 @@ const STEPS: &[Step] = &[
         run: host_steps::eliminations,
     },
     Step {
+        name: "hard-cases",
+        title: "every hard case holds, and docs/hard-cases.md has today's figures",
+        run: host_steps::hard_cases,
+    },
+    Step {
         name: "readme",
         title: "the README's tables are those of this run",
         run: scene_steps::readme,

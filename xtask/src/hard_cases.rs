@@ -1,0 +1,165 @@
+//! `cargo xtask hard-cases`: what breaks dynamics codes, measured on the host.
+
+use std::process::ExitCode;
+
+use serde::{Deserialize, Serialize};
+
+use crate::error::{Error, Result};
+use crate::shell;
+use crate::workspace::{self, Workspace};
+
+const PAGE: &str = "docs/hard-cases.md";
+const COMMAND: &str = "cargo xtask hard-cases";
+const BIN: &str = "hard_cases";
+const BEGIN: &str = "<!-- hard-cases:begin -->";
+const END: &str = "<!-- hard-cases:end -->";
+
+/// What the bin prints.
+#[derive(Deserialize)]
+struct Suite {
+    cases: Vec<Case>,
+    rows: Vec<Row>,
+}
+
+#[derive(Deserialize)]
+struct Case {
+    number: u32,
+    name: String,
+    parameters: String,
+    source: String,
+    oracle: String,
+    reason: String,
+}
+
+/// A measurement; what is not finite is none.
+#[derive(Deserialize, Serialize)]
+struct Row {
+    case: String,
+    number: u32,
+    quantity: String,
+    scalar: String,
+    error: Option<f64>,
+    bound: Option<f64>,
+    condition: Option<f64>,
+    verdict: String,
+}
+
+/// Measures and rewrites the page, or prints the measurements.
+pub fn run(json: bool) -> Result<ExitCode> {
+    let workspace = Workspace::find()?;
+    let suite = measured(&workspace)?;
+    if json {
+        let text = serde_json::to_string_pretty(&suite.rows)
+            .map_err(|e| Error::check(format!("cannot write the JSON: {e}")))?;
+        println!("{text}");
+    } else {
+        let path = workspace.root.join(PAGE);
+        let text = workspace::read(&path)?;
+        let (before, _, after) = split(&text)?;
+        let page = page(&suite);
+        workspace::write(&path, format!("{before}{BEGIN}\n{page}{END}{after}"))?;
+        println!("{}", summary(&suite));
+    }
+    let failed = suite.rows.iter().any(|row| row.verdict == "fail");
+    Ok(if failed {
+        ExitCode::FAILURE
+    } else {
+        ExitCode::SUCCESS
+    })
+}
+
+/// Fails unless every case holds and the page says what would be measured now.
+pub fn check(workspace: &Workspace) -> Result<String> {
+    let suite = measured(workspace)?;
+    if let Some(row) = suite.rows.iter().find(|row| row.verdict == "fail") {
+        let Row {
+            number, quantity, ..
+        } = row;
+        return Err(Error::check(format!("case {number} fails: {quantity}")));
+    }
+    let text = workspace::read(&workspace.root.join(PAGE))?;
+    let (_, written, _) = split(&text)?;
+    if written.trim() == page(&suite).trim() {
+        return Ok(summary(&suite));
+    }
+    Err(Error::check(format!(
+        "{PAGE} is out of date: `{COMMAND}` rewrites it"
+    )))
+}
+
+fn measured(workspace: &Workspace) -> Result<Suite> {
+    let mut command = workspace.cargo("run");
+    command.args(["--quiet", "--package", "host-tests", "--bin", BIN]);
+    let text = shell::capture(&mut command)?;
+    serde_json::from_str(&text)
+        .map_err(|e| Error::check(format!("`{BIN}` printed what is no suite: {e}")))
+}
+
+fn summary(suite: &Suite) -> String {
+    let count = |verdict: &str| suite.rows.iter().filter(|r| r.verdict == verdict).count();
+    format!(
+        "{} cases: {} figures within their bounds, {} beyond; {} failures of naive alternatives shown",
+        suite.cases.len(),
+        count("pass"),
+        count("fail"),
+        count("shown")
+    )
+}
+
+/// All that is between the markers.
+fn page(suite: &Suite) -> String {
+    let summary = summary(suite);
+    let mut text = format!("<!-- written by `{COMMAND}`: do not edit -->\n\n{summary}.\n");
+    for case in &suite.cases {
+        let rows: Vec<&Row> = (suite.rows.iter())
+            .filter(|row| row.number == case.number)
+            .collect();
+        let Case { number, name, .. } = case;
+        text += &format!("\n### {number}. {name}\n\n");
+        for (what, told) in [
+            ("Parameters", &case.parameters),
+            ("Source", &case.source),
+            ("Oracle", &case.oracle),
+            ("Bound", &case.reason),
+        ] {
+            text += &format!("- {what}: {told}.\n");
+        }
+        text += "\n| quantity | scalar | error | bound | κ | verdict |\n| --- | --- | ---: | ---: | ---: | --- |\n";
+        for row in rows {
+            text += &line(row);
+        }
+    }
+    text + "\n"
+}
+
+fn line(row: &Row) -> String {
+    let condition = row.condition.map_or(String::new(), |k| format!("{k:.1e}"));
+    let verdict = match &*row.verdict {
+        "shown" => "breaks, as shown",
+        other => other,
+    };
+    format!(
+        "| {} | {} | {} | {} | {condition} | {verdict} |\n",
+        row.quantity.replace('|', "\\|"),
+        row.scalar,
+        figure(row.error, "no number"),
+        figure(row.bound, "none")
+    )
+}
+
+fn figure(x: Option<f64>, none: &str) -> String {
+    match x {
+        None => none.into(),
+        Some(0.0) => "0".into(),
+        Some(x) => format!("{x:.1e}"),
+    }
+}
+
+fn split(text: &str) -> Result<(&str, &str, &str)> {
+    let parts = || {
+        let (before, rest) = text.split_once(BEGIN)?;
+        let (inside, after) = rest.split_once(END)?;
+        Some((before, inside, after))
+    };
+    parts().ok_or_else(|| Error::check(format!("{PAGE} lacks the markers {BEGIN} and {END}")))
+}

@@ -6,7 +6,7 @@ use dynamics_core::algorithms::{
     Damping, NotPositiveDefinite, aba, forward, frame, mobility, operational_space, rnea,
 };
 use dynamics_core::effects::{Coriolis, GravityAlong, Inertia, Payload, RotorInertia};
-use dynamics_core::model::Arm;
+use dynamics_core::model::Revolutes;
 use dynamics_core::scalar::{Real, Vector};
 use dynamics_core::spatial::Force;
 use dynamics_core::state::State;
@@ -19,6 +19,9 @@ pub type Scene<R, const N: usize> = (
     RotorInertia<R, N>,
     Payload<R>,
 );
+
+/// An arm of which it is known that every joint turns: half the code to compile.
+pub type Revolute<'a, R, const N: usize> = Revolutes<'a, R, N, N, N>;
 
 /// 9.8125 m/s² down: a number that f32 has.
 pub const GRAVITY: f64 = 9.8125;
@@ -69,7 +72,7 @@ impl Answers<f32, 6> {
 
 /// Computes everything of one state, and the accelerations of torques of one's own.
 pub fn answers_to<R: Real, const N: usize>(
-    arm: &Arm<R, N>,
+    arm: &Revolute<'_, R, N>,
     state: &State<R, N, N>,
     tau: &[R; N],
     scene: &Scene<R, N>,
@@ -92,7 +95,7 @@ fn axes<R: Real>() -> [Force<R>; 3] {
 
 #[inline(never)]
 fn torques<R: Real, const N: usize>(
-    arm: &Arm<R, N>,
+    arm: &Revolute<'_, R, N>,
     state: &State<R, N, N>,
     scene: &Scene<R, N>,
 ) -> [R; N] {
@@ -101,7 +104,7 @@ fn torques<R: Real, const N: usize>(
 
 #[inline(never)]
 fn by_matrix<R: Real, const N: usize>(
-    arm: &Arm<R, N>,
+    arm: &Revolute<'_, R, N>,
     state: &State<R, N, N>,
     tau: &[R; N],
     scene: &Scene<R, N>,
@@ -111,7 +114,7 @@ fn by_matrix<R: Real, const N: usize>(
 
 #[inline(never)]
 fn by_bodies<R: Real, const N: usize>(
-    arm: &Arm<R, N>,
+    arm: &Revolute<'_, R, N>,
     state: &State<R, N, N>,
     tau: &[R; N],
     scene: &Scene<R, N>,
@@ -121,7 +124,7 @@ fn by_bodies<R: Real, const N: usize>(
 
 #[inline(never)]
 fn mobility_by_bodies<R: Real, const N: usize>(
-    arm: &Arm<R, N>,
+    arm: &Revolute<'_, R, N>,
     q: &[R; N],
     scene: &Scene<R, N>,
 ) -> Result<[[R; 3]; 3], NotPositiveDefinite> {
@@ -130,7 +133,7 @@ fn mobility_by_bodies<R: Real, const N: usize>(
 
 #[inline(never)]
 fn mobility_by_matrix<R: Real, const N: usize>(
-    arm: &Arm<R, N>,
+    arm: &Revolute<'_, R, N>,
     q: &[R; N],
     scene: &Scene<R, N>,
 ) -> Result<[[R; 3]; 3], NotPositiveDefinite> {

@@ -8,11 +8,11 @@ mod compute;
 mod states;
 
 pub use arms::{COUNT, EXCESS, RENUMBERING};
-pub use compute::{Answers, GRAVITY, Scene, answers_to, scene};
+pub use compute::{Answers, GRAVITY, Revolute, Scene, answers_to, scene};
 pub use states::{counts, remainder};
 
 use crate::bits::Digest;
-use dynamics_core::model::Arm;
+use dynamics_core::model::{Arm, Description};
 use dynamics_core::state::State;
 
 /// Bodies of an arm.
@@ -101,9 +101,11 @@ pub fn digests(mut report: impl FnMut(u32, &'static str, Digest)) {
         let taus = given.map(|given| given.2).unwrap_or_default();
         let mut digest = Digest::EMPTY;
         let scene = scene(&problem.extras);
-        for (numbers, tau) in problem.states.iter().zip(taus) {
-            let tau = tau.map(f32::from_bits);
-            answers_to(&problem.arm, &state(numbers), &tau, &scene).digest(&mut digest);
+        if let Some(arm) = problem.arm.revolutes() {
+            for (numbers, tau) in problem.states.iter().zip(taus) {
+                let tau = tau.map(f32::from_bits);
+                answers_to(&arm, &state(numbers), &tau, &scene).digest(&mut digest);
+            }
         }
         report(problem.case, problem.name, digest);
     }

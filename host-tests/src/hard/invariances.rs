@@ -2,7 +2,7 @@
 
 use super::measure::{Bounds, against_oracle, by_joints};
 use super::placements::{apart, same};
-use super::setup::{Setup, literally_in_f64, widened};
+use super::setup::{Setup, literally_in_f64, turning, widened};
 use super::setups::arm;
 use super::{Case, Row};
 use dynamics_core::scalar::Real;
@@ -51,9 +51,9 @@ fn under(
     let each = setup.states.iter().enumerate().map(|(k, state)| {
         let tau = like.tau(&truth, k);
         (
-            answers_to(&setup.single, state, &tau, scenes.0),
+            answers_to(&turning(&setup.single), state, &tau, scenes.0),
             answers_to(
-                &setup.double,
+                &turning(&setup.double),
                 &widened(state),
                 &tau.map(f64::from),
                 scenes.1,
@@ -138,8 +138,8 @@ fn renumbered() -> Vec<Row> {
             let tau = permuted(one.tau(&truth, k));
             let wide = tau.map(f64::from);
             (
-                answers_to(&other.single, state, &tau, &single),
-                answers_to(&other.double, &widened(state), &wide, &double),
+                answers_to(&turning(&other.single), state, &tau, &single),
+                answers_to(&turning(&other.double), &widened(state), &wide, &double),
             )
         })
         .collect();

@@ -1,5 +1,6 @@
 //! What breaks: alternatives that other codes take.
 
+use super::setup::turning;
 use dynamics_core::algorithms::{crba, rnea};
 use dynamics_core::model::Arm;
 use dynamics_core::scalar::{Matrix, Real, Vector};
@@ -19,8 +20,9 @@ pub fn floored<R: Real, const N: usize>(
         qdd: [R::ZERO; N],
         ..*state
     };
-    let bias = rnea(arm, &still, scene);
-    let m = crba(arm, &state.q, scene);
+    let arm = turning(arm);
+    let bias = rnea(&arm, &still, scene);
+    let m = crba(&arm, &state.q, scene);
     let mut rows: [[R; N]; N] = std::array::from_fn(|i| std::array::from_fn(|j| m.get(i, j)));
     let mut x: [R; N] = std::array::from_fn(|i| tau[i] - bias[i]);
     let floor = R::from_f64(floor);

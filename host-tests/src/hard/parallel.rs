@@ -2,7 +2,7 @@
 
 use super::masses::refusals;
 use super::measure::{Bounds, against_oracle, by_joints, larger};
-use super::setup::widened;
+use super::setup::{turning, widened};
 use super::setups::arm;
 use super::{Case, Row};
 use crate::random::{random_numbers, within};
@@ -63,6 +63,7 @@ fn twofold(rng: &mut TestRng) -> Arm<f64, 4> {
 
 /// How many of LᵀDL, Cholesky's method and ABA do not name joint 1.
 fn unnamed<R: Real>(arm: &Arm<R, 4>, q: &[R; 4], seen: &mut [u32; 3]) {
+    let arm = &turning(arm);
     let m = crba(arm, q, &RIGID_BODY);
     let by_bodies = aba(arm, &State::at(*q), &[R::ONE; 4], &RIGID_BODY).err();
     let named = [factor(arm, &m).err(), cholesky(arm, &m).err(), by_bodies];
@@ -155,8 +156,8 @@ fn planar() -> Vec<Row> {
         let wide = widened(state);
         let truth = closed_form(&wide, about_centre);
         let (a, b) = (
-            rnea(&setup.single, state, &single),
-            rnea(&setup.double, &wide, &double),
+            rnea(&turning(&setup.single), state, &single),
+            rnea(&turning(&setup.double), &wide, &double),
         );
         for i in 0..N {
             full = full.max(truth[i].abs());

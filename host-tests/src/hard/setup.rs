@@ -2,9 +2,10 @@
 
 use std::path::PathBuf;
 
-use dynamics_core::model::{Arm, BASE, JointKind, Link};
+use dynamics_core::model::{Arm, BASE, Description, JointKind, Link};
+use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
-use firmware_demo::hard::{Answers, Extras, GRAVITY, answers_to, scene};
+use firmware_demo::hard::{Answers, Extras, GRAVITY, Revolute, answers_to, scene};
 use glam::{DMat3, Mat3, Vec3};
 use serde::{Deserialize, Serialize};
 
@@ -75,8 +76,8 @@ impl<const N: usize> Setup<N> {
             let tau = self.tau(truth, k);
             let (wide, wide_tau) = (widened(state), tau.map(f64::from));
             (
-                answers_to(&self.single, state, &tau, &single),
-                answers_to(&self.double, &wide, &wide_tau, &double),
+                answers_to(&turning(&self.single), state, &tau, &single),
+                answers_to(&turning(&self.double), &wide, &wide_tau, &double),
             )
         });
         each.collect()
@@ -132,6 +133,11 @@ impl<const N: usize> Setup<N> {
         exported.inputs = format!("{digest:016x}");
         exported
     }
+}
+
+/// An arm all of whose joints turn.
+pub fn turning<R: Real, const N: usize>(arm: &Arm<R, N>) -> Revolute<'_, R, N> {
+    arm.revolutes().expect("every joint turns")
 }
 
 /// The state in f64.

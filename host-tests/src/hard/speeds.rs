@@ -1,6 +1,7 @@
 //! Large speeds and angles.
 
 use super::measure::{Bounds, against_oracle, by_joints};
+use super::setup::turning;
 use super::setups::arm;
 use super::{Case, Row};
 use dynamics_core::algorithms::rnea;
@@ -74,7 +75,7 @@ fn million() -> Vec<Row> {
     let scene = scene(&setup.extras);
     let found = far.iter().zip(&setup.states).map(|(q, state)| {
         let state = State { q: *q, ..*state };
-        Ok(rnea(&setup.single, &state, &scene))
+        Ok(rnea(&turning(&setup.single), &state, &scene))
     });
     let error = by_joints(found, &truth.states, |t| Some(&t.rnea));
     let name = "naive: RNEA at the whole angle";

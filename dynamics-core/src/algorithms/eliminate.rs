@@ -25,7 +25,7 @@ pub(super) struct Eliminated<R: Real, const B: usize, const V: usize> {
     pub(super) handles: [Handle<R>; V],
 }
 
-/// Eliminates every coordinate, from the tips to the base. Some 360 flops a revolute joint.
+/// Eliminates every coordinate, from the tips to the base. Some 390 flops a revolute joint.
 #[inline(always)]
 pub(super) fn eliminate<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,

@@ -163,7 +163,7 @@ fn with_row_z<R: Real>(m: &R::Mat3, row: R::Vec3) -> R::Mat3 {
 /// Λ⁻¹ of `body` in a [`Frame`]: J M⁻¹ Jᵀ without J or M.
 ///
 /// Inertias of joints and a payload that the effects name count. Zero for a body that there is not.
-/// Cost: O(B); some 360 flops a revolute joint, and 580 more one that carries the body. Source: the
+/// Cost: O(B); some 390 flops a revolute joint, and 390 more one that carries the body. Source: the
 /// module's.
 ///
 /// ```

@@ -157,7 +157,7 @@ const fn fat(mut arm: Arm<f64, N>) -> Arm<f64, N> {
     arm
 }
 
-/// As of PUMA 560's third link.
+/// As of one of PUMA 560's links, as published.
 pub const EXCESS: f64 = 0.087;
 
 /// Rods of 1 m and 1 kg along x, on parallel axes.

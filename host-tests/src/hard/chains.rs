@@ -5,7 +5,7 @@ use super::setups::{Stance, arm, chain};
 use super::{Case, Row};
 
 const ORACLE: &str = "50 digits from the very f32 bits (oracle/hard.py)";
-const SOURCE: &str = "Featherstone, RBDA (2008), section 10.1 and \"An empirical study of the joint space inertia matrix\" (2004): κ grows as n⁴ in the worst case";
+const SOURCE: &str = "Featherstone, \"An empirical study of the joint-space inertia matrix\" (2004): κ grows as n⁴ in the worst case";
 const REASON: &str = "a backward stable elimination is off by some κ ε in the worst case; bounds are measured, and below that. Torques and mobilities do not feel κ";
 
 /// The family's cases.
@@ -50,7 +50,7 @@ pub const CASES: &[Case] = &[
         number: 11,
         name: "six links in a zigzag",
         parameters: "six rods of 1 kg and 1 m on parallel axes, joints at ±75° by turns, and mirrored",
-        source: "Featherstone (2004): folding a chain makes its M nearly singular, κ = 725",
+        source: "Featherstone (2004): how a chain is folded sets κ; here it is 725",
         oracle: ORACLE,
         reason: "κ ε = 9·10⁻⁵ in f32",
         run: || against_oracle(&arm(11, "zigzag ±75°"), &ZIGZAG),

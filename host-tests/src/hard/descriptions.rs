@@ -17,7 +17,7 @@ pub const CASES: &[Case] = &[
     Case {
         number: 22,
         name: "triangle inequality broken; point masses",
-        parameters: "UR5e, last link's I_zz above I_xx + I_yy by 0.087 of itself, as PUMA 560's third; six point masses of 1.5 kg off their axes",
+        parameters: "UR5e, last link's I_zz above I_xx + I_yy by 0.087 of itself, as one of PUMA 560; six point masses of 1.5 kg off their axes",
         source: "PUMA 560 as published; estimated inertias; URDF files of massy points",
         oracle: "50 digits from the very f32 bits; the stated excess",
         reason: "no algorithm needs the inequality: a check names the body and the amount, and all run as with any body",

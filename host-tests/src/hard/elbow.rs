@@ -17,7 +17,7 @@ pub const CASES: &[Case] = &[
         number: 18,
         name: "operational space at a stretched elbow",
         parameters: "two links of 1 m, 1 kg and 1/16 kg·m² in a plane; the elbow so far from straight that σ_min(J) = 0, 10⁻⁶, 10⁻³; damping from 10⁻³ of the trace of Λ⁻¹",
-        source: "Khatib (1987), section on singularities; Chiaverini (1997)",
+        source: "Khatib (1987); Chiaverini (1997)",
         oracle: "closed forms of M, J and torques in f64; the eigenvalues of Λ⁻¹ by its trace and its determinant sin²q₂/det M, which does not cancel",
         reason: "Λ⁻¹ is exact to ε of its trace; damping from ρ = 10⁻³ of it divides that by ρ: 4 ε/ρ of the largest inertia that damping allows, 1/(ρ tr Λ⁻¹)",
         run: poses,

@@ -106,7 +106,7 @@ fn turned() -> Vec<Row> {
     let f64s = apart(a.iter().map(|a| a.1.rnea), b.iter().map(|b| b.1.rnea));
     let name = "RNEA, turned anyhow with gravity";
     rows.push(Row::measured(name, "f32", f32s, TURNED));
-    rows.push(Row::measured(name, "f64 of f32's numbers", f64s, TURNED));
+    rows.push(Row::measured(name, "f64", f64s, TURNED));
     rows.extend(super::roots::rows());
     rows
 }

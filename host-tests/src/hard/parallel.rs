@@ -22,7 +22,7 @@ pub const CASES: &[Case] = &[
         number: 20,
         name: "coincident axes with nothing between them",
         parameters: "UR5e, wrist 2 massless and wrist 3 on its axis, four states; and 1000 chains of four with a massless link between two joints on one axis of any direction",
-        source: "a roll joint behind a continuous one with a dummy link between; Featherstone, RBDA (2008), section 10.1",
+        source: "a roll joint behind a continuous one with a dummy link between",
         oracle: ORACLE,
         reason: "RNEA has no inverse. A pivot that is not above eight roundings of M's own diagonal is what rounding left of zero: relative, for robots of any size",
         run: coincident,

@@ -147,7 +147,7 @@ fn frames() -> Vec<Row> {
     // Its f64 twin has f32's numbers: as far apart.
     rows.push(Row::stated(
         name,
-        "f64 of f32's numbers",
+        "f64",
         ulps(double, f32::EPSILON.into()),
         4.0,
     ));

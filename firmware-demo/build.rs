@@ -1,5 +1,5 @@
-//! Puts the workspace's memory.x where the linker looks for it, and the oracle's recorded states
-//! (inputs only) where `bits` includes them.
+//! Puts the workspace's memory.x where the linker looks for it, and the oracle's recorded states and
+//! torques (inputs only) where `bits` and `hard` include them.
 
 use std::fmt::Write;
 use std::{env, error::Error, fs, path::PathBuf};
@@ -38,5 +38,41 @@ fn main() -> Result<(), Box<dyn Error>> {
         writeln!(source, "];")?;
     }
     fs::write(out.join("states.rs"), source)?;
+    fs::write(out.join("torques.rs"), torques()?)?;
     Ok(())
+}
+
+/// The torques that the oracle gives to forward dynamics in the hard cases of six joints, as bits.
+fn torques() -> Result<String, Box<dyn Error>> {
+    const FOLDER: &str = "../host-tests/recordings/hard";
+    println!("cargo:rerun-if-changed={FOLDER}");
+    let mut files = fs::read_dir(FOLDER)?.collect::<Result<Vec<_>, _>>()?;
+    files.sort_by_key(fs::DirEntry::path);
+    let mut source = String::from("/// Case, name, and the bits of τ by states.\n");
+    writeln!(
+        source,
+        "pub static TORQUES: &[(u32, &str, &[[u32; 6]])] = &["
+    )?;
+    for path in files.iter().map(fs::DirEntry::path) {
+        println!("cargo:rerun-if-changed={}", path.display());
+        let stem = path.file_stem().and_then(|stem| stem.to_str());
+        let Some(case) = stem.and_then(|stem| stem.parse::<u32>().ok()) else {
+            continue; // of another kind
+        };
+        let setups: Vec<serde_json::Value> = serde_json::from_str(&fs::read_to_string(&path)?)?;
+        for setup in setups {
+            let states = setup["states"].as_array().cloned().unwrap_or_default();
+            let tau = states.into_iter().map(|state| {
+                let bits: Vec<String> = serde_json::from_value(state["tau"].clone())?;
+                let bits = bits.iter().map(|bits| u32::from_str_radix(bits, 16));
+                Ok(bits.collect::<Result<Vec<u32>, _>>()?)
+            });
+            let tau: Vec<Vec<u32>> = tau.collect::<Result<_, Box<dyn Error>>>()?;
+            if tau.iter().all(|tau| tau.len() == 6) {
+                writeln!(source, "({case}, {}, &{tau:?}),", setup["name"])?;
+            }
+        }
+    }
+    writeln!(source, "];")?;
+    Ok(source)
 }

@@ -71,6 +71,8 @@ pub trait Real:
     fn atan2(self, x: Self) -> Self;
     /// The distance from 1 to the next number.
     const EPSILON: Self;
+    /// The least normal number: what keeps 0/0 from being computed, at no scale of anybody's.
+    const TINY: Self;
     /// 1/√x of a positive normal number, within 2 ulp; no division, the same instructions for every x.
     fn per_sqrt(self) -> Self;
     /// |x|.
@@ -189,6 +191,7 @@ macro_rules! real {
                 $atan2(self, x)
             }
             const EPSILON: Self = <$r>::EPSILON;
+            const TINY: Self = <$r>::MIN_POSITIVE;
             #[inline(always)]
             fn per_sqrt(self) -> Self {
                 // Halves the exponent, then Newton's iteration for 1/y² = x. Of a NaN's bits anything may become.

@@ -19,9 +19,9 @@ mod states {
 pub struct Digest(pub u64);
 
 impl Digest {
-    const EMPTY: Self = Self(0xcbf2_9ce4_8422_2325);
+    pub(crate) const EMPTY: Self = Self(0xcbf2_9ce4_8422_2325);
 
-    fn add<const N: usize>(&mut self, values: [f32; N]) {
+    pub(crate) fn add<const N: usize>(&mut self, values: [f32; N]) {
         for byte in values.iter().flat_map(|x| x.to_bits().to_le_bytes()) {
             self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
         }

@@ -6,14 +6,13 @@
 //! | [`control_loop`] | the tick: read, reference, dynamics, safety, write | as it is |
 //! | [`encoder`], [`drive`] | an AS5047P-type encoder on SPI, a current-controlled drive on PWM | as they are |
 //! | [`bits`] | digests of the dynamics' results on recorded states | as they are |
+//! | [`hard`] | hard cases that host and target share | left out |
 //! | [`marker`] | the measured regions | `dbg` is a no-op there |
 //! | [`plant`], [`wires`] | a simulated robot behind the same traits | left out |
 //! | [`scene`] | runs of one trajectory under several laws, with their tracking errors | left out |
 //! | [`machines`] | robots that no maker publishes | left out |
 //! | [`scenes`] | the data sheet of each scene | left out |
-//! | [`machines`] | robots that no maker publishes, of common sizes | left out |
 //! | [`catalogue`], [`trajectories`] | every effect with numbers, and a way to go: what effects are priced by | left out |
-//! | [`machines`] | robots that no maker publishes | left out |
 //! | `target` | interrupt, log, panic handler of the emulated board | your board's |
 #![no_std]
 
@@ -22,6 +21,7 @@ pub mod catalogue;
 pub mod control_loop;
 pub mod drive;
 pub mod encoder;
+pub mod hard;
 pub mod machines;
 pub mod marker;
 pub mod plant;

@@ -13,6 +13,7 @@ mod eliminations;
 mod error;
 mod firmware;
 mod growth;
+mod hard_cases;
 mod meter;
 mod peers;
 mod plot;
@@ -94,6 +95,12 @@ enum Command {
     /// Measure on the host which of the two eliminations is less accurate where, rewrite
     /// docs/eliminations.md
     Eliminations,
+    /// Measure on the host what breaks dynamics codes, rewrite docs/hard-cases.md
+    HardCases {
+        /// The measurements as JSON on stdout
+        #[arg(long)]
+        json: bool,
+    },
     /// Measure other libraries and this one side by side, rewrite docs/peers.md: takes minutes
     Peers {
         /// The measurements as JSON on stdout; progress stays on stderr
@@ -203,6 +210,7 @@ fn run(cli: Cli) -> Result<ExitCode> {
         Command::Growth { json } => growth::run(cli.setup, json),
         Command::Effects { json } => effects::run(cli.setup, json),
         Command::Eliminations => eliminations::run(),
+        Command::HardCases { json } => hard_cases::run(json),
         Command::Peers { json } => peers::run(cli.setup, json),
         Command::BuildTime { json } => build_time::run(cli.setup, json),
         Command::Test { list: true, .. } => {

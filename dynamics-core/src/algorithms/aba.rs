@@ -7,6 +7,7 @@
 use heapless::Vec;
 
 use super::handed::Handed;
+use super::taken::Taken;
 use super::{Given, NotPositiveDefinite, Response};
 use crate::articulated::ArticulatedInertia;
 use crate::effects::{
@@ -19,7 +20,7 @@ use crate::state::{Posture, State, entry};
 
 /// q̈ = FD(q, q̇, τ): the acceleration of each joint, rad/s² or m/s², under the effects named.
 ///
-/// Shape: V. Cost: O(B); some 560 flops a revolute joint. `state.qdd` is not read. Source: Featherstone (1983; RBDA table 7.1).
+/// Shape: V. Cost: O(B); some 590 flops a revolute joint. `state.qdd` is not read. Source: Featherstone (1983; RBDA table 7.1).
 /// A scene without `Inertia` does not compile:
 ///
 /// ```compile_fail
@@ -28,8 +29,8 @@ use crate::state::{Posture, State, entry};
 /// ```
 ///
 /// # Errors
-/// [`NotPositiveDefinite`] names a joint that moves no inertia (a massless last link without rotor
-/// inertia), or whose inertia is not a number.
+/// [`NotPositiveDefinite`] names a joint that moves no inertia (a massless last link without rotor inertia, a
+/// joint on the axis of the next with nothing between them), or whose inertia is not a number.
 #[inline(always)]
 pub fn aba<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
@@ -144,6 +145,7 @@ where
     }
 
     let mut handles: Vec<Handle<R>, V> = Vec::new(); // a stack: the last one made is the first used
+    let mut taken = Taken::<R, V>::NONE;
     let mut inner = bodies.as_mut_slice();
     while let Some((body, rest)) = core::mem::take(&mut inner).split_last_mut() {
         let (mut ia, mut pa) = (body.ia, body.pa);
@@ -154,11 +156,11 @@ where
                 Given::Torque(tau) => {
                     let mut d = s.dot(u_hat);
                     effects.inertia(joint, &mut d);
-                    // One comparison that a NaN fails too.
-                    if !(d > R::ZERO && d.is_finite()) {
-                        return Err(NotPositiveDefinite { joint });
-                    }
+                    taken.check(d, joint)?;
                     let per_d = R::ONE / d;
+                    let parent = rest.get(body.node.parent);
+                    let parent = parent.map(|parent| (&parent.node, &body.x));
+                    taken.by((&body.node, k), parent, turns, (u_hat, per_d));
                     let u = tau - joint_loss(effects, &body.node, state, joint) - s.dot(pa);
                     if E::SPINNING {
                         // A rotor feels and bears q̈ on the parent's side of the joint. Written twice:

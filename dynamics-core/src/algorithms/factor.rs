@@ -9,7 +9,7 @@ use crate::model::{BASE, Description};
 use crate::scalar::Real;
 
 /// How many roundings of M_ii a pivot must exceed: less is what rounding leaves of zero.
-pub(super) const ROUNDINGS: f64 = 4.0;
+pub(super) const ROUNDINGS: f64 = 8.0;
 
 /// The factors L and D of M = Lᵀ D L, with the reciprocals of D, for [`solve`] and [`inverse`].
 ///
@@ -29,7 +29,7 @@ pub(super) const ROUNDINGS: f64 = 4.0;
 ///
 /// # Errors
 /// [`NotPositiveDefinite`] names the coordinate, outermost first, whose pivot is not a number or not
-/// above four roundings of M_ii: it moves no inertia once the coordinates that it carries give way.
+/// above eight roundings of M_ii: it moves no inertia once the coordinates that it carries give way.
 #[inline(always)]
 pub fn factor<R: Real, D, const B: usize, const Q: usize, const V: usize>(
     robot: &D,

@@ -23,6 +23,7 @@ mod operational;
 mod operator;
 mod recoil;
 mod rnea;
+mod taken;
 
 pub use aba::{aba, aba_at};
 pub use centroidal::{

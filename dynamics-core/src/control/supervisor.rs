@@ -27,6 +27,9 @@ mod tick;
 const JUMP: f64 = 2.0;
 /// Positions beyond this are as good as infinite, in f64 too.
 const FAR: f64 = f32::MAX as f64;
+/// Beyond this, rad, f32 has no sine to 10⁻⁷: whatever the limits, no position is accepted there. Joints that
+/// turn without end are told by what remains of whole turns, [`super::TurnCounter::within_turn`].
+const RANGE: f64 = 1e4;
 
 /// The safety gate: [`Self::admit`] starts a tick, [`Self::pass`] ends it.
 ///
@@ -100,8 +103,14 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         let allowed = |x| if x > R::ZERO { x } else { R::ZERO };
         let finite = |x: R| if x.is_finite() { allowed(x) } else { R::ZERO };
         // Finite ends, so that what lies between them is finite.
-        let far = R::from_f64(FAR);
-        let end = |x: R| if x.abs() > far { x.limit(-far, far) } else { x };
+        let (far, range) = (R::from_f64(FAR), R::from_f64(RANGE));
+        let end = |x: R| {
+            if x.abs() > range {
+                x.limit(-range, range)
+            } else {
+                x
+            }
+        };
         let (mut middle, mut half) = (bounds.lower, bounds.upper);
         for (lower, upper) in middle.iter_mut().zip(&mut half) {
             let [a, b] = [*lower, *upper].map(|x| R::from_f64(0.5) * end(x));
@@ -158,7 +167,8 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
     /// Starts a tick with the positions measured in it (rad, m), or why there are none, and returns
     /// what the arm does in it.
     ///
-    /// Accepted are finite positions within their bounds and within reach of the last good ones: up
+    /// Accepted are finite positions within their bounds (and within 10⁴ rad or m, beyond which f32 has no
+    /// accurate sine) and within reach of the last good ones: up
     /// to twice the greatest speed times the ticks since. Without any good position yet there is
     /// nothing to hold: a fault stops the arm at once.
     ///

@@ -69,7 +69,7 @@ impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Lugre<R, V> {
     fn slopes(&self, joint: usize, at: JointState<R>, slopes: &mut Slopes<R>) {
         let of = |values| entry::<R>(values, joint);
         // The sign of q̇ without a comparison; 0 at rest, where the bristles bend with the joint.
-        let sign = at.qd / (at.qd.abs() + R::EPSILON * R::EPSILON);
+        let sign = at.qd / (at.qd.abs() + R::TINY);
         // dz/dq = 1 − σ₀ z sgn(q̇) / g: 1 where they stick, 0 where they slide.
         let bends = R::ONE - sign * self.per_bend(joint, at.qd) * of(&self.bristle);
         slopes.q += of(&self.stiffness) * super::ramp(bends);

@@ -49,7 +49,7 @@ impl<R: Real, const V: usize> Stops<R, V> {
         let b = self.damping * smooth_sign(depth * self.per_depth);
         let force = ramp(self.stiffness * depth + b * rate);
         // 1 where it pushes, else 0, without a comparison.
-        let active = force / (force + R::EPSILON * R::EPSILON);
+        let active = force / (force + R::TINY);
         Push {
             force,
             slopes: Slopes {

@@ -151,6 +151,17 @@ const fn is_unit(v: DVec3) -> bool {
     (m::dot(v, v) - 1.0).abs() < 1e-9
 }
 
+/// By how much an inertia's matrix and its transpose differ, relative to its largest entry.
+pub(super) fn asymmetry<R: Real>(inertia: &SpatialInertia<R>) -> f64 {
+    use crate::scalar::{Matrix, Vector};
+    let a = inertia.inertia.cols().map(|c| c.array().map(R::to_f64));
+    let apart = [(0, 1), (0, 2), (1, 2)].map(|(i, j)| (a[i][j] - a[j][i]).abs());
+    let largest = |size: f64, x: f64| if x.abs() <= size { size } else { x.abs() };
+    let size = a.as_flattened().iter().copied().fold(0.0, largest);
+    let apart = apart.into_iter().fold(0.0, largest);
+    if apart == 0.0 { 0.0 } else { apart / size }
+}
+
 /// By how much the largest principal moment about the centre of mass exceeds the sum of the other
 /// two (or a moment is negative), relative to the largest; 0 if it does not.
 pub(super) fn triangle_excess<R: Real>(inertia: &SpatialInertia<R>) -> f64 {
@@ -158,6 +169,12 @@ pub(super) fn triangle_excess<R: Real>(inertia: &SpatialInertia<R>) -> f64 {
     let (mass, h) = (inertia.mass.to_f64(), inertia.moment.array().map(R::to_f64));
     let mut a = inertia.inertia.cols().map(|c| c.array().map(R::to_f64));
     let hh = h.iter().map(|x| x * x).sum::<f64>();
+    let largest = a
+        .as_flattened()
+        .iter()
+        .fold(0.0, |size: f64, x| size.max(x.abs()));
+    // What the numbers' own rounding leaves of them, once they are taken back to the centre of mass.
+    let noise = 8.0 * R::EPSILON.to_f64() * largest;
     if mass > 0.0 {
         for i in 0..3 {
             for j in 0..3 {
@@ -165,17 +182,21 @@ pub(super) fn triangle_excess<R: Real>(inertia: &SpatialInertia<R>) -> f64 {
             }
         }
     }
-    moments_excess(a)
+    excess_beyond(a, noise)
 }
 
 /// By how much the largest eigenvalue exceeds the sum of the other two (or one is negative), relative to
 /// the largest; 0 if it does not.
 pub(crate) fn moments_excess(about_com: [[f64; 3]; 3]) -> f64 {
+    excess_beyond(about_com, 0.0)
+}
+
+/// The same, but nothing for what does not exceed `noise`: a point mass has no moments but that.
+fn excess_beyond(about_com: [[f64; 3]; 3], noise: f64) -> f64 {
     let mut p = crate::symmetric::eigenvalues(about_com);
     p.sort_unstable_by(f64::total_cmp);
     let scale = p[2].abs().max(p[0].abs());
-    if scale == 0.0 {
-        return 0.0;
-    }
-    (-p[0]).max(p[2] - p[0] - p[1]).max(0.0) / scale
+    let excess = (-p[0]).max(p[2] - p[0] - p[1]);
+    // Written so that a NaN comes out as one.
+    if excess <= noise { 0.0 } else { excess / scale }
 }

@@ -2,7 +2,7 @@
 
 use core::marker::PhantomData;
 
-use super::{Kinds, Model, Node, Robot, model};
+use super::{Kinds, Model, ModelError, Node, Robot, model};
 use crate::scalar::Real;
 use crate::spatial::{SpatialInertia, Xform};
 
@@ -153,6 +153,15 @@ where
     /// Its bodies' inertias, about the origins of their aligned frames and in their coordinates.
     pub fn inertias(&mut self) -> impl Iterator<Item = &mut SpatialInertia<R>> {
         self.model.links.iter_mut().map(|link| &mut link.inertia)
+    }
+
+    /// Whether every inertia could be that of a body, see [`Model::check`]: of numbers that were identified, before
+    /// they are used.
+    ///
+    /// # Errors
+    /// As [`Model::check`].
+    pub fn check(&self, relative: f64) -> Result<(), ModelError> {
+        self.model.check(relative)
     }
 
     /// Where its joints stand at q = 0, from the parents' aligned frames.

@@ -30,6 +30,8 @@ pub enum Problem {
     Coordinates,
     /// The principal moments break the triangle inequality by this much, relative to the largest.
     Triangle(f64),
+    /// The inertia matrix is not symmetric by this much, relative to its largest entry.
+    Asymmetric(f64),
 }
 
 impl Problem {
@@ -46,6 +48,7 @@ impl Problem {
                 "the joints do not add up to Q position and V velocity coordinates"
             }
             Self::Triangle(_) => "its moments of inertia break the triangle inequality",
+            Self::Asymmetric(_) => "its inertia matrix is not symmetric",
         }
     }
 }
@@ -53,7 +56,7 @@ impl Problem {
 impl fmt::Display for ModelError {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(out, "body `{}`: {}", self.body, self.problem.text())?;
-        if let Problem::Triangle(excess) = self.problem {
+        if let Problem::Triangle(excess) | Problem::Asymmetric(excess) = self.problem {
             write!(out, " by {excess:.2e} of the largest")?;
         }
         Ok(())

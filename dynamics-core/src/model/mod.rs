@@ -244,24 +244,31 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
         };
         (placement, inertia)
     }
+}
 
-    /// Whether every inertia could be that of a body: principal moments (about the centre of
-    /// mass) that are not negative and obey the triangle inequality within `relative`.
+impl<R: Real, const B: usize, const Q: usize, const V: usize> Model<R, B, Q, V> {
+    /// Whether every inertia could be that of a body: symmetric, with principal moments (about the centre of
+    /// mass) that are not negative and obey the triangle inequality, all within `relative`.
     ///
     /// Published robots break it (PUMA 560) or pass by a hair (Panda), and have to run all the
-    /// same: hence a check, not a condition.
+    /// same: hence a check, not a condition. In f32 rounding alone takes some 10⁻⁶.
     ///
     /// # Errors
-    /// [`Problem::Triangle`] with the body's name and the amount by which the largest moment
-    /// exceeds the sum of the others, relative to that moment.
+    /// [`Problem::Asymmetric`] or [`Problem::Triangle`] with the body's name and the amount: by how much the
+    /// largest moment exceeds the sum of the others, relative to that moment.
     pub fn check(&self, relative: f64) -> Result<(), ModelError> {
         for link in &self.links {
+            let wrong = |problem| ModelError {
+                body: link.name,
+                problem,
+            };
+            let skew = body::asymmetry(&link.inertia);
+            if skew > relative || skew.is_nan() {
+                return Err(wrong(Problem::Asymmetric(skew)));
+            }
             let excess = body::triangle_excess(&link.inertia);
             if excess > relative || excess.is_nan() {
-                return Err(ModelError {
-                    body: link.name,
-                    problem: Problem::Triangle(excess),
-                });
+                return Err(wrong(Problem::Triangle(excess)));
             }
         }
         Ok(())

@@ -1,7 +1,8 @@
 //! Prints the digests of the dynamics' results, as the firmware's bin `bits` does.
 
-use firmware_demo::bits::digests;
+use firmware_demo::{bits, hard};
 
 fn main() {
-    digests(|robot, quantity, digest| println!("bits {robot} {quantity} {:016x}", digest.0));
+    bits::digests(|robot, quantity, digest| println!("bits {robot} {quantity} {:016x}", digest.0));
+    hard::digests(|case, name, digest| println!("bits hard {case} {name} {:016x}", digest.0));
 }

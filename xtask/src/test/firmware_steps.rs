@@ -9,6 +9,9 @@ use crate::meter;
 use crate::qemu::Run;
 use crate::shell;
 
+/// How many hard cases run in QEMU at least.
+const HARD_CASES: usize = 15;
+
 /// Whether a symbol is `ControlLoop::tick`, which is there once for each control law.
 fn is_tick(symbol: &str) -> bool {
     symbol.contains("ControlLoop") && symbol.contains("4tick")
@@ -74,7 +77,21 @@ pub fn bits(context: &Context) -> Result<Outcome> {
             on_host.len()
         )));
     }
-    Ok(Outcome::Passed(format!("{} digests", on_target.len())))
+    let mut cases: Vec<&str> = (on_host.iter())
+        .filter_map(|line| line.strip_prefix("bits hard ")?.split(' ').next())
+        .collect();
+    cases.dedup();
+    if cases.len() < HARD_CASES {
+        let seen = cases.len();
+        return Err(Error::check(format!(
+            "`bits` ran {seen} of at least {HARD_CASES} hard cases"
+        )));
+    }
+    Ok(Outcome::Passed(format!(
+        "{} digests, {} hard cases among them",
+        on_target.len(),
+        cases.len()
+    )))
 }
 
 pub fn no_f64(context: &Context) -> Result<Outcome> {

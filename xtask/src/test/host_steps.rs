@@ -3,6 +3,7 @@
 use super::{Context, Outcome};
 use crate::eliminations;
 use crate::error::Result;
+use crate::hard_cases;
 use crate::shell;
 use crate::workspace::FIRMWARE;
 
@@ -64,6 +65,10 @@ pub fn doc(context: &Context) -> Result<Outcome> {
 pub fn eliminations(context: &Context) -> Result<Outcome> {
     eliminations::check(&context.workspace)?;
     Outcome::PASSED
+}
+
+pub fn hard_cases(context: &Context) -> Result<Outcome> {
+    Ok(Outcome::Passed(hard_cases::check(&context.workspace)?))
 }
 
 /// The tests that passed, from `test result: ok. 12 passed; …`.

@@ -1,0 +1,143 @@
+//! The quantities of a hard case, by every algorithm.
+
+use super::Extras;
+use crate::bits::Digest;
+use dynamics_core::algorithms::{
+    Damping, NotPositiveDefinite, aba, forward, frame, mobility, operational_space, rnea,
+};
+use dynamics_core::effects::{Coriolis, GravityAlong, Inertia, Payload, RotorInertia};
+use dynamics_core::model::Revolutes;
+use dynamics_core::scalar::{Real, Vector};
+use dynamics_core::spatial::Force;
+use dynamics_core::state::State;
+
+/// What acts on every hard case.
+pub type Scene<R, const N: usize> = (
+    GravityAlong<R>,
+    Inertia,
+    Coriolis,
+    RotorInertia<R, N>,
+    Payload<R>,
+);
+
+/// An arm of which it is known that every joint turns: half the code to compile.
+pub type Revolute<'a, R, const N: usize> = Revolutes<'a, R, N, N, N>;
+
+/// 9.8125 m/s² down: a number that f32 has.
+pub const GRAVITY: f64 = 9.8125;
+
+/// The scene with these additions.
+pub fn scene<R: Real, const N: usize>(extras: &Extras<N>) -> Scene<R, N> {
+    let real = |x: f32| R::pick_value(f64::from(x), x);
+    let payload = Payload::new(
+        real(extras.payload),
+        extras.payload_at.map(real),
+        extras.payload_inertia.map(real),
+    );
+    let g = R::Vec3::new(R::ZERO, R::ZERO, R::from_f64(-GRAVITY));
+    let rotors = RotorInertia(extras.rotors.map(real));
+    (GravityAlong(g), Inertia, Coriolis, rotors, payload)
+}
+
+/// What is computed of one state of an arm.
+#[derive(Clone, Copy, Debug)]
+pub struct Answers<R, const N: usize> {
+    /// τ of the state's q̈.
+    pub rnea: [R; N],
+    /// q̈ of that τ by M = Lᵀ D L.
+    pub forward: Result<[R; N], NotPositiveDefinite>,
+    /// The same by articulated bodies.
+    pub aba: Result<[R; N], NotPositiveDefinite>,
+    /// Λ⁻¹ of the last body's origin in that body's axes, 1/kg, by articulated bodies.
+    pub mobility: Result<[[R; 3]; 3], NotPositiveDefinite>,
+    /// The same by J M⁻¹ Jᵀ.
+    pub by_matrix: Result<[[R; 3]; 3], NotPositiveDefinite>,
+}
+
+impl Answers<f32, 6> {
+    /// Adds all numbers to a digest; where there are none, the joint that is named.
+    pub(super) fn digest(&self, digest: &mut Digest) {
+        digest.add(self.rnea);
+        let named = |e: NotPositiveDefinite| [e.joint as f32; 6];
+        digest.add(self.forward.unwrap_or_else(named));
+        digest.add(self.aba.unwrap_or_else(named));
+        for matrix in [self.mobility, self.by_matrix] {
+            match matrix {
+                Ok(rows) => rows.into_iter().for_each(|row| digest.add(row)),
+                Err(e) => digest.add(named(e)),
+            }
+        }
+    }
+}
+
+/// Computes everything of one state, and the accelerations of torques of one's own.
+pub fn answers_to<R: Real, const N: usize>(
+    arm: &Revolute<'_, R, N>,
+    state: &State<R, N, N>,
+    tau: &[R; N],
+    scene: &Scene<R, N>,
+) -> Answers<R, N> {
+    Answers {
+        rnea: torques(arm, state, scene),
+        forward: by_matrix(arm, state, tau, scene),
+        aba: by_bodies(arm, state, tau, scene),
+        mobility: mobility_by_bodies(arm, &state.q, scene),
+        by_matrix: mobility_by_matrix(arm, &state.q, scene),
+    }
+}
+
+/// Forces along the three axes.
+fn axes<R: Real>() -> [Force<R>; 3] {
+    let (o, e) = (R::ZERO, R::ONE);
+    [[e, o, o], [o, e, o], [o, o, e]]
+        .map(|[x, y, z]| Force::new(R::Vec3::ZERO, R::Vec3::new(x, y, z)))
+}
+
+#[inline(never)]
+fn torques<R: Real, const N: usize>(
+    arm: &Revolute<'_, R, N>,
+    state: &State<R, N, N>,
+    scene: &Scene<R, N>,
+) -> [R; N] {
+    rnea(arm, state, scene)
+}
+
+#[inline(never)]
+fn by_matrix<R: Real, const N: usize>(
+    arm: &Revolute<'_, R, N>,
+    state: &State<R, N, N>,
+    tau: &[R; N],
+    scene: &Scene<R, N>,
+) -> Result<[R; N], NotPositiveDefinite> {
+    forward(arm, state, tau, scene)
+}
+
+#[inline(never)]
+fn by_bodies<R: Real, const N: usize>(
+    arm: &Revolute<'_, R, N>,
+    state: &State<R, N, N>,
+    tau: &[R; N],
+    scene: &Scene<R, N>,
+) -> Result<[R; N], NotPositiveDefinite> {
+    aba(arm, state, tau, scene)
+}
+
+#[inline(never)]
+fn mobility_by_bodies<R: Real, const N: usize>(
+    arm: &Revolute<'_, R, N>,
+    q: &[R; N],
+    scene: &Scene<R, N>,
+) -> Result<[[R; 3]; 3], NotPositiveDefinite> {
+    Ok(mobility(arm, q, N - 1, frame::Body, scene)?.along(&axes()))
+}
+
+#[inline(never)]
+fn mobility_by_matrix<R: Real, const N: usize>(
+    arm: &Revolute<'_, R, N>,
+    q: &[R; N],
+    scene: &Scene<R, N>,
+) -> Result<[[R; 3]; 3], NotPositiveDefinite> {
+    let damping = Damping::relative(R::ZERO);
+    let body = (N - 1, frame::Body);
+    Ok(operational_space(arm, q, body, &axes(), scene, damping)?.mobility)
+}

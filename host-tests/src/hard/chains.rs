@@ -1,0 +1,109 @@
+//! Long chains, and folded ones.
+
+use super::measure::{Bounds, against_oracle};
+use super::setups::{Stance, arm, chain};
+use super::{Case, Row};
+
+const ORACLE: &str = "50 digits from the very f32 bits (oracle/hard.py)";
+const SOURCE: &str = "Featherstone, \"An empirical study of the joint-space inertia matrix\" (2004): κ grows as n⁴ in the worst case";
+const REASON: &str = "a backward stable elimination is off by some κ ε in the worst case; bounds are measured, and below that. Torques and mobilities do not feel κ";
+
+/// The family's cases.
+pub const CASES: &[Case] = &[
+    Case {
+        number: 7,
+        name: "chain of 8 rods",
+        parameters: "8 rods of 1 kg and 0.25 m, straight on parallel axes, and anyhow on crossed ones; four states each",
+        source: SOURCE,
+        oracle: ORACLE,
+        reason: REASON,
+        run: || rods::<8>(7, &[STRAIGHT_8, RANDOM_8]),
+    },
+    Case {
+        number: 8,
+        name: "chain of 16 rods",
+        parameters: "as case 7, 16 rods",
+        source: SOURCE,
+        oracle: ORACLE,
+        reason: REASON,
+        run: || rods::<16>(8, &[STRAIGHT_16, RANDOM_16]),
+    },
+    Case {
+        number: 9,
+        name: "chain of 32 rods",
+        parameters: "as case 7, 32 rods",
+        source: SOURCE,
+        oracle: ORACLE,
+        reason: REASON,
+        run: || rods::<32>(9, &[STRAIGHT_32, RANDOM_32]),
+    },
+    Case {
+        number: 10,
+        name: "chain of 64 rods",
+        parameters: "as case 7, 64 rods",
+        source: SOURCE,
+        oracle: ORACLE,
+        reason: "f32 keeps two digits of the accelerations of such a chain anyhow, and none where it is straight: there κ ε = 8, LᵀDL is off by 1.1 and ABA by 0.1 of full scale. M's own rounding does it: refining with torques of RNEA in f32 gains nothing beyond ABA's error. Torques and mobilities do not feel κ",
+        run: || rods::<64>(10, &[STRAIGHT_64, RANDOM_64]),
+    },
+    Case {
+        number: 11,
+        name: "six links in a zigzag",
+        parameters: "six rods of 1 kg and 1 m on parallel axes, joints at ±75° by turns, and mirrored",
+        source: "Featherstone (2004): how a chain is folded sets κ; here it is 725",
+        oracle: ORACLE,
+        reason: "κ ε = 9·10⁻⁵ in f32",
+        run: || against_oracle(&arm(11, "zigzag ±75°"), &ZIGZAG),
+    },
+];
+
+fn rods<const K: usize>(case: u32, [straight, random]: &[Bounds; 2]) -> Vec<Row> {
+    let mut rows = against_oracle(&chain::<K>(case, Stance::Straight), straight);
+    rows.extend(against_oracle(&chain::<K>(case, Stance::Random), random));
+    rows
+}
+
+const STRAIGHT_8: Bounds = Bounds {
+    single: [3e-7, 3e-4, 2e-4, 1e-7, 3e-6],
+    double: [3e-16, 3e-13, 3e-13, 0.0, 2e-15],
+};
+
+const RANDOM_8: Bounds = Bounds {
+    single: [4e-7, 8e-6, 6e-6, 4e-7, 8e-7],
+    double: [2e-15, 8e-15, 1e-14, 1.5e-15, 8e-16],
+};
+
+const STRAIGHT_16: Bounds = Bounds {
+    single: [3e-7, 2e-2, 3e-3, 1.5e-7, 3e-6],
+    double: [5e-16, 3e-11, 3e-12, 5e-16, 2e-15],
+};
+
+const RANDOM_16: Bounds = Bounds {
+    single: [2e-6, 2e-4, 8e-5, 6e-7, 1e-6],
+    double: [3e-15, 6e-13, 1.5e-13, 1e-15, 8e-15],
+};
+
+const STRAIGHT_32: Bounds = Bounds {
+    single: [4e-7, 1.5e-1, 8e-3, 1.5e-7, 2e-6],
+    double: [5e-16, 3e-10, 5e-11, 5e-16, 3e-15],
+};
+
+const RANDOM_32: Bounds = Bounds {
+    single: [2e-6, 1e-3, 1e-3, 5e-7, 8e-7],
+    double: [4e-15, 4e-12, 1e-12, 8e-16, 2e-15],
+};
+
+const STRAIGHT_64: Bounds = Bounds {
+    single: [6e-7, 3e0, 3e-1, 8e-9, 3e-6],
+    double: [6e-16, 3e-9, 4e-10, 0.0, 4e-15],
+};
+
+const RANDOM_64: Bounds = Bounds {
+    single: [3e-6, 1.5e-2, 4e-3, 8e-7, 6e-7],
+    double: [1e-14, 3e-11, 1.5e-11, 8e-16, 2e-15],
+};
+
+const ZIGZAG: Bounds = Bounds {
+    single: [8e-7, 2e-5, 8e-6, 3e-7, 5e-7],
+    double: [2e-15, 3e-14, 2e-14, 1.5e-15, 1e-15],
+};

@@ -1,0 +1,88 @@
+//! Hard cases: what breaks dynamics codes, each with an independent oracle, a bound and its reason.
+//!
+//! One file a family; a case runs itself and returns its rows, which `host-tests/tests/hard_cases` demands
+//! and `cargo xtask hard-cases` writes down.
+
+mod naive;
+mod roots;
+mod row;
+
+pub mod chains;
+pub mod descriptions;
+pub mod elbow;
+pub mod invariances;
+pub mod masses;
+pub mod measure;
+pub mod parallel;
+pub mod placements;
+pub mod setup;
+pub mod setups;
+pub mod slide;
+pub mod speeds;
+
+pub use row::{Row, Verdict};
+
+/// One hard case.
+#[derive(Clone, Copy, Debug, serde::Serialize)]
+pub struct Case {
+    /// Its number in the suite.
+    pub number: u32,
+    /// What is hard about it, in a few words.
+    pub name: &'static str,
+    /// The numbers that make it hard.
+    pub parameters: &'static str,
+    /// Who met it, or where it comes from.
+    pub source: &'static str,
+    /// What knows the right answer.
+    pub oracle: &'static str,
+    /// Why the bounds are what they are.
+    pub reason: &'static str,
+    /// Measures everything.
+    #[serde(skip)]
+    pub run: fn() -> Vec<Row>,
+}
+
+impl Case {
+    /// Measures everything; each row knows its case.
+    pub fn rows(&self) -> Vec<Row> {
+        let mut rows = (self.run)();
+        for row in &mut rows {
+            row.case = self.name.into();
+            row.number = self.number;
+        }
+        rows
+    }
+}
+
+/// All cases, a slice a family.
+pub const CASES: &[&[Case]] = &[
+    masses::CASES,
+    chains::CASES,
+    placements::CASES,
+    slide::CASES,
+    speeds::CASES,
+    elbow::CASES,
+    parallel::CASES,
+    descriptions::CASES,
+    invariances::CASES,
+];
+
+/// Runs the case of this number.
+///
+/// # Errors
+/// There is none, or not every row is as demanded: says which.
+pub fn demand(number: u32) -> Result<(), String> {
+    let mut cases = CASES.iter().copied().flatten();
+    let case = cases
+        .find(|case| case.number == number)
+        .ok_or_else(|| format!("there is no case {number}"))?;
+    let rows = case.rows();
+    let wrong: Vec<String> = rows.iter().filter_map(|row| row.demand().err()).collect();
+    if rows.is_empty() {
+        return Err(format!("case {number} measures nothing"));
+    }
+    match wrong.is_empty() {
+        true => Ok(()),
+        false => Err(format!("case {number}:\n{}", wrong.join("\n"))),
+    }
+}

@@ -1,0 +1,121 @@
+//! Large speeds and angles.
+
+use super::measure::{Bounds, against_oracle, by_joints};
+use super::setup::turning;
+use super::setups::arm;
+use super::{Case, Row};
+use dynamics_core::algorithms::rnea;
+use dynamics_core::control::{Bounds as Limits, Fault, Supervisor, TurnCounter};
+use dynamics_core::scalar::Real;
+use dynamics_core::state::State;
+use firmware_demo::hard::{N, counts, scene};
+
+const ORACLE: &str = "50 digits from the very f32 bits (oracle/hard.py)";
+
+/// The family's cases.
+pub const CASES: &[Case] = &[
+    Case {
+        number: 15,
+        name: "1000 rad/s",
+        parameters: "UR5e, every joint at ±1000 rad/s, accelerations up to 10⁶ rad/s²",
+        source: "spindles and rotors as joints; a runaway in a simulation",
+        oracle: ORACLE,
+        reason: "velocity products are homogeneous of degree two: no size of q̇ loses digits, as long as nothing overflows",
+        run: || against_oracle(&arm(15, "1000 rad/s"), &FAST),
+    },
+    Case {
+        number: 16,
+        name: "a million rad",
+        parameters: "UR5e, every joint at ±10⁶ rad (6.5·10⁸ counts of a 12-bit encoder); f32's numbers there are 1/16 rad apart",
+        source: "a continuous joint that has turned for a day",
+        oracle: "50 digits at what remains of the counts without whole turns",
+        reason: "a gate without limits of its own refuses what f32 cannot reduce; whole turns taken off in integers cost no digit",
+        run: million,
+    },
+    Case {
+        number: 17,
+        name: "quarter turns ± 1 ulp",
+        parameters: "UR5e, joints at k π/2 rounded to f32 and a unit in the last place beside it, |k| ≤ 5",
+        source: "Cody & Waite (1980): argument reduction loses everything there if π/2 is short",
+        oracle: ORACLE,
+        reason: "sine and cosine are off by 10⁻⁷ of one at most: as at any other angle",
+        run: || against_oracle(&arm(17, "k π/2 ± 1 ulp"), &QUARTERS),
+    },
+];
+
+fn million() -> Vec<Row> {
+    let setup = arm(16, "remainder of 10⁶ rad");
+    let mut rows = against_oracle(&setup, &REMAINDERS);
+
+    let far: [[f32; N]; 4] =
+        std::array::from_fn(|k| std::array::from_fn(|i| counter(counts(k, i)).angle()));
+    let same = setup.states.iter().enumerate().all(|(k, state)| {
+        let joints = state.q.iter().enumerate();
+        joints
+            .into_iter()
+            .all(|(i, q)| counter(counts(k, i)).within_turn::<f32>() == *q)
+    });
+    rows.push(Row::claim(
+        "encoder: the remainder, to the bit",
+        "f32",
+        same,
+    ));
+    rows.push(Row::claim(
+        "gate without limits: out of range",
+        "f32",
+        refused(1e6_f32),
+    ));
+    rows.push(Row::claim(
+        "gate without limits: out of range",
+        "f64",
+        refused(1e6_f64),
+    ));
+
+    let truth = setup.truth();
+    let scene = scene(&setup.extras);
+    let found = far.iter().zip(&setup.states).map(|(q, state)| {
+        let state = State { q: *q, ..*state };
+        Ok(rnea(&turning(&setup.single), &state, &scene))
+    });
+    let error = by_joints(found, &truth.states, |t| Some(&t.rnea));
+    let name = "naive: RNEA at the whole angle";
+    rows.push(Row::naive(name, "f32", error, REMAINDERS.single[0]));
+    rows
+}
+
+/// An encoder that has counted so far.
+fn counter(counts: i32) -> TurnCounter<12> {
+    let mut counter = TurnCounter::near(counts >> 12);
+    counter.update((counts & 0xfff) as u16);
+    counter
+}
+
+/// Whether a gate of a joint without limits refuses a position as out of bounds.
+fn refused<R: Real>(q: R) -> bool {
+    let (far, some) = (R::ONE / R::ZERO, R::from_f64(100.0));
+    let limits = Limits {
+        torque: [some],
+        rate: [some],
+        speed: [some],
+        lower: [-far],
+        upper: [far],
+    };
+    let mut gate = Supervisor::new(limits, R::from_f64(1e-3), 1, 4);
+    gate.admit(Ok(&[q]));
+    gate.pass(&[R::ZERO]).status.fault == Some(Fault::Position { joint: 0 })
+}
+
+const FAST: Bounds = Bounds {
+    single: [5e-7, 3e-6, 5e-6, 6e-7, 4e-7],
+    double: [2e-15, 6e-15, 1e-14, 6e-16, 6e-16],
+};
+
+const REMAINDERS: Bounds = Bounds {
+    single: [5e-7, 5e-6, 4e-6, 5e-7, 4e-7],
+    double: [5e-16, 8e-15, 6e-15, 8e-16, 8e-16],
+};
+
+const QUARTERS: Bounds = Bounds {
+    single: [2e-7, 3e-6, 3e-6, 3e-7, 3e-7],
+    double: [8e-16, 4e-15, 3e-15, 5e-16, 8e-16],
+};

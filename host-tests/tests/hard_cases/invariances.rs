@@ -1,0 +1,18 @@
+//! What must not matter.
+
+use super::demand;
+
+#[test]
+fn frame_gravity_and_root_do_not_matter() {
+    demand(44);
+}
+
+#[test]
+fn numbering_does_not_matter() {
+    demand(45);
+}
+
+#[test]
+fn rounded_rotations_set_crba_and_aba_apart_by_no_more_than_kappa() {
+    demand(48);
+}

@@ -1,0 +1,24 @@
+//! The hard cases hold: a file per family, a test per case.
+
+mod chains;
+mod descriptions;
+mod elbow;
+mod invariances;
+mod masses;
+mod parallel;
+mod placements;
+mod speeds;
+
+use host_tests::hard::CASES;
+
+/// Runs a case and demands every row's verdict.
+fn demand(number: u32) {
+    host_tests::hard::demand(number).unwrap_or_else(|wrong| panic!("{wrong}"));
+}
+
+#[test]
+fn no_number_is_given_twice() {
+    let mut numbers: Vec<u32> = CASES.iter().copied().flatten().map(|c| c.number).collect();
+    numbers.sort_unstable();
+    assert!(numbers.windows(2).all(|pair| pair[0] < pair[1]));
+}

@@ -1,0 +1,167 @@
+//! `cargo xtask hard-cases`: what breaks dynamics codes, measured on the host.
+
+use std::process::ExitCode;
+
+use serde::{Deserialize, Serialize};
+
+use crate::docs::{self, Page};
+use crate::error::{Error, Result};
+use crate::shell;
+use crate::workspace::Workspace;
+
+const PAGE: Page = Page {
+    file: "docs/hard-cases.md",
+    name: "hard-cases",
+    command: "cargo xtask hard-cases",
+};
+const BIN: &str = "hard_cases";
+
+const HEAD: &str = "
+| quantity | κ | error, f32 | bound | error, f64 | bound | verdict |
+| --- | ---: | ---: | ---: | ---: | ---: | --- |
+";
+
+/// What the bin prints.
+#[derive(Deserialize)]
+struct Suite {
+    cases: Vec<Case>,
+    /// The numbers of those that the step `bits` runs in QEMU.
+    in_qemu: Vec<u32>,
+    rows: Vec<Row>,
+}
+
+#[derive(Deserialize)]
+struct Case {
+    number: u32,
+    name: String,
+    parameters: String,
+    source: String,
+    oracle: String,
+    reason: String,
+}
+
+/// A measurement; what is not finite is none.
+#[derive(Deserialize, Serialize)]
+struct Row {
+    case: String,
+    number: u32,
+    quantity: String,
+    scalar: String,
+    error: Option<f64>,
+    bound: Option<f64>,
+    condition: Option<f64>,
+    verdict: String,
+}
+
+/// Measures and rewrites the page, or prints the measurements.
+pub fn run(json: bool) -> Result<ExitCode> {
+    let workspace = Workspace::find()?;
+    let suite = measured(&workspace)?;
+    if json {
+        docs::print_json(&suite.rows)?;
+    } else {
+        PAGE.write(&workspace, &page(&suite))?;
+        println!("{}", summary(&suite));
+    }
+    let failed = suite.rows.iter().any(|row| row.verdict == "fail");
+    Ok(if failed {
+        ExitCode::FAILURE
+    } else {
+        ExitCode::SUCCESS
+    })
+}
+
+/// Fails unless every case holds and the page says what would be measured now.
+pub fn check(workspace: &Workspace) -> Result<String> {
+    let suite = measured(workspace)?;
+    if let Some(row) = suite.rows.iter().find(|row| row.verdict == "fail") {
+        let Row {
+            number, quantity, ..
+        } = row;
+        return Err(Error::check(format!("case {number} fails: {quantity}")));
+    }
+    PAGE.check(workspace, &page(&suite), None)?;
+    Ok(summary(&suite))
+}
+
+fn measured(workspace: &Workspace) -> Result<Suite> {
+    let mut command = workspace.cargo("run");
+    command.args(["--quiet", "--package", "host-tests", "--bin", BIN]);
+    let text = shell::capture(&mut command)?;
+    serde_json::from_str(&text)
+        .map_err(|e| Error::check(format!("`{BIN}` printed what is no suite: {e}")))
+}
+
+fn summary(suite: &Suite) -> String {
+    let count = |verdict: &str| suite.rows.iter().filter(|r| r.verdict == verdict).count();
+    format!(
+        "{} cases: {} figures within their bounds, {} beyond; {} failures of naive alternatives shown",
+        suite.cases.len(),
+        count("pass"),
+        count("fail"),
+        count("shown")
+    )
+}
+
+/// All that is between the markers.
+fn page(suite: &Suite) -> String {
+    let mut text = format!("{}.\n", summary(suite));
+    for case in &suite.cases {
+        let rows: Vec<&Row> = (suite.rows.iter())
+            .filter(|row| row.number == case.number)
+            .collect();
+        let Case { number, name, .. } = case;
+        text += &format!("\n### {number}. {name}\n\n");
+        for (what, told) in [
+            ("Parameters", &case.parameters),
+            ("Source", &case.source),
+            ("Oracle", &case.oracle),
+            ("Bound", &case.reason),
+        ] {
+            text += &format!("- {what}: {told}.\n");
+        }
+        if suite.in_qemu.contains(number) {
+            text += "- In QEMU: the same bits, in f32 and by every algorithm.\n";
+        }
+        text += HEAD;
+        let mut told: Vec<&str> = Vec::new();
+        for row in &rows {
+            if !told.contains(&&*row.quantity) {
+                told.push(&row.quantity);
+                text += &line(&rows, &row.quantity);
+            }
+        }
+    }
+    text.trim_end().to_owned()
+}
+
+/// What was measured of one quantity, in f32 and in f64.
+fn line(rows: &[&Row], quantity: &str) -> String {
+    let mine = || rows.iter().filter(|row| row.quantity == quantity);
+    let figures = |scalar: &str| match mine().find(|row| row.scalar == scalar) {
+        Some(row) => format!(
+            "{} | {}",
+            figure(row.error, "no number"),
+            figure(row.bound, "none")
+        ),
+        None => " | ".into(),
+    };
+    let condition = mine().find_map(|row| row.condition);
+    let condition = condition.map_or(String::new(), |k| format!("{k:.1e}"));
+    let said = |verdict: &str| mine().any(|row| row.verdict == verdict);
+    let verdict = match (said("fail"), said("shown")) {
+        (true, _) => "fails",
+        (false, true) => "breaks, as shown",
+        (false, false) => "pass",
+    };
+    let (single, double) = (figures("f32"), figures("f64"));
+    format!("| {quantity} | {condition} | {single} | {double} | {verdict} |\n")
+}
+
+fn figure(x: Option<f64>, none: &str) -> String {
+    match x {
+        None => none.into(),
+        Some(0.0) => "0".into(),
+        Some(x) => format!("{x:.1e}"),
+    }
+}

@@ -6,7 +6,7 @@
 
 use core::fmt;
 
-use crate::lie::{conjugate, exp, exp_rigid, log, log_rigid, product, squared, turned};
+use crate::lie::{carried, conjugate, log, log_rigid, product, squared, turned, turned_on};
 use crate::model::{Description, JointKind};
 use crate::scalar::{Real, Vector};
 use crate::state::entry;
@@ -56,7 +56,8 @@ where
 /// q ⊕ δ: the configuration after a unit of time at the constant velocity δ, rad and m.
 ///
 /// Exact for every joint: quaternions by the exponential of SO(3), free joints of SE(3), planar ones of
-/// SE(2); they come out at unit length but for rounding. `integrate(robot, q, q̇·h)` is a step of h seconds.
+/// SE(2); they come out at unit length within two units in the last place, after any number of steps.
+/// `integrate(robot, q, q̇·h)` is a step of h seconds.
 ///
 /// ```
 /// use dynamics_core::{configuration::{integrate, neutral}, model::{BASE, Body, Joint, Model}};
@@ -78,17 +79,17 @@ where
         let was = |k| entry(q, at + k);
         let omega = || R::Vec3::new(d(0), d(1), d(2));
         match node.kind() {
-            Spherical => put(&mut out, at, &product(quaternion(q, at), exp::<R>(omega()))),
+            Spherical => put(&mut out, at, &turned_on::<R>(quaternion(q, at), omega())),
             Free => {
                 let attitude = quaternion(q, at);
-                let (turn, place) = exp_rigid::<R>(omega(), R::Vec3::new(d(3), d(4), d(5)));
+                let place = carried::<R>(omega(), R::Vec3::new(d(3), d(4), d(5)));
                 let [x, y, z] = turned::<R>(attitude, place).array();
-                put(&mut out, at, &product(attitude, turn));
+                put(&mut out, at, &turned_on::<R>(attitude, omega()));
                 put(&mut out, at + 4, &[was(4) + x, was(5) + y, was(6) + z]);
             }
             Planar => {
                 let phi = R::Vec3::new(R::ZERO, R::ZERO, d(0));
-                let (_, place) = exp_rigid::<R>(phi, R::Vec3::new(d(1), d(2), R::ZERO));
+                let place = carried::<R>(phi, R::Vec3::new(d(1), d(2), R::ZERO));
                 let ([x, y, _], (sin, cos)) = (place.array(), was(0).sin_cos());
                 let (x, y) = (cos * x - sin * y, sin * x + cos * y);
                 put(&mut out, at, &[was(0) + d(0), was(1) + x, was(2) + y]);
@@ -160,7 +161,9 @@ where
     out
 }
 
-/// Brings every quaternion of q to unit length, within two units in the last place, however far it has drifted.
+/// Brings every quaternion of q to unit length, within two units in the last place, however far it has drifted,
+/// and every turn without end to the same place within ±π, where its last digits are worth most: a wheel that
+/// has turned sixty times has lost seven bits. What lies there already keeps its bits.
 ///
 /// # Errors
 /// [`NoAttitude`] names the first that is zero (or so small that its square is) or not a number; what
@@ -175,6 +178,12 @@ where
 /// normalise(&ball, &mut q)?;
 /// assert_eq!(q, [0.0, 0.0, 0.6, 0.8]);
 /// assert!(normalise(&ball, &mut [0.0; 4]).is_err());
+/// let wheel = Model::<f64, 1, 1, 1>::new("wheel", [
+///     Body::new("w", BASE, Joint::continuous([0.0, 0.0, 1.0])).mass(1.0),
+/// ]);
+/// let mut q = [-7.0];
+/// normalise(&wheel, &mut q)?;
+/// assert!((q[0] - (core::f64::consts::TAU - 7.0)).abs() < 1e-15);
 /// # Ok::<(), dynamics_core::configuration::NoAttitude>(())
 /// ```
 pub fn normalise<R: Real, D, const B: usize, const Q: usize, const V: usize>(
@@ -193,6 +202,9 @@ where
                 return Err(NoAttitude { at });
             }
             put(q, at, &p.map(|x| x / length));
+        } else if matches!(node.kind(), Continuous) {
+            let angle = within_half_a_turn(entry(q, at));
+            put(q, at, &[angle]);
         }
     }
     Ok(())
@@ -208,6 +220,19 @@ fn put<R: Real>(out: &mut [R], at: usize, values: &[R]) {
             *out = value;
         }
     }
+}
+
+/// The same angle within ±π (of a million turns at most), by less than a rounding of its turns off.
+fn within_half_a_turn<R: Real>(angle: R) -> R {
+    use core::f64::consts::{PI, TAU};
+    if angle.abs() <= R::from_f64(PI) {
+        return angle;
+    }
+    let half = R::from_f64(if angle > R::ZERO { 0.5 } else { -0.5 });
+    let turns = (angle * R::from_f64(1.0 / TAU) + half).saturate();
+    // 2π in two parts, the first with as few digits as leave its product exact.
+    let (whole, rest) = (201.0 / 32.0, TAU - 201.0 / 32.0);
+    (angle - turns * R::from_f64(whole)) - turns * R::from_f64(rest)
 }
 
 /// The same angle within ±π.

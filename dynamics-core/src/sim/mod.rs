@@ -3,10 +3,12 @@
 mod actuator;
 mod conserving;
 mod linearly_implicit;
+mod runge_kutta;
 
 pub use actuator::Actuator;
 pub use conserving::conserving;
 pub use linearly_implicit::linearly_implicit;
+pub use runge_kutta::runge_kutta;
 
 use crate::algorithms::{NotPositiveDefinite, aba};
 use crate::configuration::integrate;

@@ -7,18 +7,27 @@ mod naive;
 mod roots;
 mod row;
 
+pub mod attitude;
 pub mod chains;
+pub mod clock;
+pub mod controller;
 pub mod descriptions;
 pub mod elbow;
+pub mod energy;
+pub mod engine;
+pub mod friction;
+pub mod integrators;
 pub mod invariances;
 pub mod masses;
 pub mod measure;
 pub mod parallel;
 pub mod placements;
+pub mod poison;
 pub mod setup;
 pub mod setups;
 pub mod slide;
 pub mod speeds;
+pub mod stiff;
 
 pub use row::{Row, Verdict};
 
@@ -65,6 +74,13 @@ pub const CASES: &[&[Case]] = &[
     parallel::CASES,
     descriptions::CASES,
     invariances::CASES,
+    attitude::CASES,
+    energy::CASES,
+    stiff::CASES,
+    friction::CASES,
+    poison::CASES,
+    clock::CASES,
+    engine::CASES,
 ];
 
 /// Runs the case of this number.

@@ -1,13 +1,20 @@
 //! The hard cases hold: a file per family, a test per case.
 
+mod attitude;
 mod chains;
+mod clock;
 mod descriptions;
 mod elbow;
+mod energy;
+mod engine;
+mod friction;
 mod invariances;
 mod masses;
 mod parallel;
 mod placements;
+mod poison;
 mod speeds;
+mod stiff;
 
 use host_tests::hard::CASES;
 

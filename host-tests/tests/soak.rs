@@ -50,8 +50,8 @@ fn tick(arm: &mut Arm, last: &mut [f32; 6]) -> Mode {
     let numbers = [
         telemetry.reference,
         telemetry.estimate,
-        arm.plant.state.q,
-        arm.plant.state.qd,
+        arm.rig.plant.state.q,
+        arm.rig.plant.state.qd,
     ];
     assert!(
         numbers.iter().flatten().all(|x| x.is_finite()),

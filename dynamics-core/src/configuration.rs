@@ -6,7 +6,7 @@
 
 use core::fmt;
 
-use crate::lie::{conjugate, exp, exp_rigid, log, log_rigid, product, squared, turned};
+use crate::lie::{carried, conjugate, log, log_rigid, product, squared, turned, turned_on};
 use crate::model::{Description, JointKind};
 use crate::scalar::{Real, Vector};
 use crate::state::entry;
@@ -56,7 +56,8 @@ where
 /// q ⊕ δ: the configuration after a unit of time at the constant velocity δ, rad and m.
 ///
 /// Exact for every joint: quaternions by the exponential of SO(3), free joints of SE(3), planar ones of
-/// SE(2); they come out at unit length but for rounding. `integrate(robot, q, q̇·h)` is a step of h seconds.
+/// SE(2); they come out at unit length within two units in the last place, after any number of steps.
+/// `integrate(robot, q, q̇·h)` is a step of h seconds.
 ///
 /// ```
 /// use dynamics_core::{configuration::{integrate, neutral}, model::{BASE, Body, Joint, Model}};
@@ -78,17 +79,17 @@ where
         let was = |k| entry(q, at + k);
         let omega = || R::Vec3::new(d(0), d(1), d(2));
         match node.kind() {
-            Spherical => put(&mut out, at, &product(quaternion(q, at), exp::<R>(omega()))),
+            Spherical => put(&mut out, at, &turned_on::<R>(quaternion(q, at), omega())),
             Free => {
                 let attitude = quaternion(q, at);
-                let (turn, place) = exp_rigid::<R>(omega(), R::Vec3::new(d(3), d(4), d(5)));
+                let place = carried::<R>(omega(), R::Vec3::new(d(3), d(4), d(5)));
                 let [x, y, z] = turned::<R>(attitude, place).array();
-                put(&mut out, at, &product(attitude, turn));
+                put(&mut out, at, &turned_on::<R>(attitude, omega()));
                 put(&mut out, at + 4, &[was(4) + x, was(5) + y, was(6) + z]);
             }
             Planar => {
                 let phi = R::Vec3::new(R::ZERO, R::ZERO, d(0));
-                let (_, place) = exp_rigid::<R>(phi, R::Vec3::new(d(1), d(2), R::ZERO));
+                let place = carried::<R>(phi, R::Vec3::new(d(1), d(2), R::ZERO));
                 let ([x, y, _], (sin, cos)) = (place.array(), was(0).sin_cos());
                 let (x, y) = (cos * x - sin * y, sin * x + cos * y);
                 put(&mut out, at, &[was(0) + d(0), was(1) + x, was(2) + y]);

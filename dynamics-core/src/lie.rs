@@ -35,13 +35,25 @@ pub(crate) fn turned<R: Real>([x, y, z, w]: [R; 4], v: R::Vec3) -> R::Vec3 {
     v + t * w + u.cross(t)
 }
 
-/// The turn by the rotation vector φ: (φ sin(θ/2)/θ, cos(θ/2)), θ = |φ|.
-pub(crate) fn exp<R: Real>(phi: R::Vec3) -> [R; 4] {
-    let theta = phi.dot(phi).sqrt();
-    let half = theta * R::from_f64(0.5);
+/// The attitude p after a turn by the rotation vector φ in its own frame: p ⊗ (φ sin(θ/2)/θ, cos(θ/2)), θ = |φ|.
+///
+/// As p plus what the step adds, whose rounding is then that of one sum; what p's length lacks, (1 − |p|²)/2 of it,
+/// is added on the way. Of ten million steps in f32, products alone make a length of 0.78 and an attitude off
+/// by 0.04 rad.
+pub(crate) fn turned_on<R: Real>(p: [R; 4], phi: R::Vec3) -> [R; 4] {
+    let (one, half) = (R::ONE, phi.dot(phi).sqrt() * R::from_f64(0.5));
     let (sin, cos) = half.sin_cos();
-    let [x, y, z] = (phi * (sinc(half, sin) * R::from_f64(0.5))).array();
-    [x, y, z, cos]
+    let short = (one - squared(p)) * R::from_f64(0.5);
+    let [x, y, z] = (phi * (sinc(half, sin) * R::from_f64(0.5) * (one + short))).array();
+    // cos − 1 without cancellation.
+    let less = if cos > R::ZERO {
+        -(sin * sin / (one + cos))
+    } else {
+        cos - one
+    };
+    let mut out = product(p, [x, y, z, less + cos * short]);
+    out.iter_mut().zip(p).for_each(|(out, p)| *out += p);
+    out
 }
 
 /// The rotation vector of a unit quaternion, its length at most π.
@@ -59,9 +71,9 @@ pub(crate) fn log<R: Real>(p: [R; 4]) -> R::Vec3 {
     }
 }
 
-/// The rigid motion with the constant velocity (φ, ρ) in the body's frame for a unit of time: its turn,
-/// and where it takes the origin.
-pub(crate) fn exp_rigid<R: Real>(phi: R::Vec3, rho: R::Vec3) -> ([R; 4], R::Vec3) {
+/// Where the rigid motion with the constant velocity (φ, ρ) in the body's frame takes its origin in a unit
+/// of time.
+pub(crate) fn carried<R: Real>(phi: R::Vec3, rho: R::Vec3) -> R::Vec3 {
     let squared = phi.dot(phi);
     let theta = squared.sqrt();
     let half = theta * R::from_f64(0.5);
@@ -82,10 +94,10 @@ pub(crate) fn exp_rigid<R: Real>(phi: R::Vec3, rho: R::Vec3) -> ([R; 4], R::Vec3
         (theta - theta.sin_cos().0) / (squared * theta)
     };
     let across = phi.cross(rho);
-    (exp::<R>(phi), rho + across * a + phi.cross(across) * b)
+    rho + across * a + phi.cross(across) * b
 }
 
-/// The (φ, ρ) of which [`exp_rigid`] is this motion.
+/// The (φ, ρ) of the motion that turns so and takes the origin there.
 pub(crate) fn log_rigid<R: Real>(turn: [R; 4], place: R::Vec3) -> (R::Vec3, R::Vec3) {
     let phi = log::<R>(turn);
     let squared = phi.dot(phi);

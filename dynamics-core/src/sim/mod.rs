@@ -2,9 +2,11 @@
 
 mod actuator;
 mod linearly_implicit;
+mod runge_kutta;
 
 pub use actuator::Actuator;
 pub use linearly_implicit::linearly_implicit;
+pub use runge_kutta::runge_kutta;
 
 use crate::algorithms::{NotPositiveDefinite, aba};
 use crate::configuration::integrate;

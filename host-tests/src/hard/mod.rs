@@ -7,9 +7,11 @@ mod naive;
 mod roots;
 mod row;
 
+pub mod attitude;
 pub mod chains;
 pub mod descriptions;
 pub mod elbow;
+pub mod integrators;
 pub mod invariances;
 pub mod masses;
 pub mod measure;
@@ -65,6 +67,7 @@ pub const CASES: &[&[Case]] = &[
     parallel::CASES,
     descriptions::CASES,
     invariances::CASES,
+    attitude::CASES,
 ];
 
 /// Runs the case of this number.

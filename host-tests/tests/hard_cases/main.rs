@@ -1,5 +1,6 @@
 //! The hard cases hold: a file per family, a test per case.
 
+mod attitude;
 mod chains;
 mod descriptions;
 mod elbow;

@@ -1,0 +1,324 @@
+//! Attitudes that turn for long: a quaternion after ten million steps, the Dzhanibekov body, a heavy top.
+
+use super::{Case, Row};
+use crate::hard::integrators::{INTEGRATORS, Integrator};
+use dynamics_core::algorithms::{aba, forward, kinetic_energy, momentum, poses, rnea};
+use dynamics_core::configuration::{integrate, neutral};
+use dynamics_core::effects::{Coriolis, Gravity, Inertia, RIGID_BODY};
+use dynamics_core::model::{BASE, Body, Joint, Model};
+use dynamics_core::scalar::{Matrix, Real, Vector};
+use dynamics_core::state::State;
+use glam::{DQuat, DVec3};
+
+/// The family's cases.
+pub const CASES: &[Case] = &[
+    Case {
+        number: 25,
+        name: "quaternion after 1e7 steps",
+        parameters: "10⁷ steps of 7/2¹³ rad about (2, 3, 6)/7, by `integrate` alone",
+        source: "floating bases integrated for hours; quaternions that are normalised now and then or never",
+        oracle: "closed form: the angle 10⁷·7/2¹³ is exact in f64",
+        reason: "length: rounding of one step, since each step corrects the length of the one before. \
+                 Attitude: the rounding of the step is the same each time, so that up to ε/2 of 8545 rad add \
+                 up (5e-4 in f32, 9e-13 in f64), and that of 10⁷ sums walks as far",
+        run: quaternion,
+    },
+    Case {
+        number: 26,
+        name: "Dzhanibekov body (1, 2, 3)",
+        parameters: "moments 1, 2, 3 kg·m², 5 rad/s about the middle axis and 0.01 about another, 60 s of 1 ms",
+        source: "Poinsot (1834); Ashbaugh, Chicone & Cushman (1991); the flip that energy drift makes come early",
+        oracle: "conserved energy and momentum in space; the order of each integrator, by halving its step",
+        reason: "first order: the energy grows by h²/2 ω̇·Iω̇ a step, as that sum says, and momentum in \
+                 proportion to h. Fourth order in f64: measured; in f32 rounding, 6e4 steps of less than ε/2",
+        run: dzhanibekov,
+    },
+    Case {
+        number: 27,
+        name: "heavy symmetric top",
+        parameters: "2 kg, 0.25 m from its tip, moments 1/4 and 1/16 kg·m² about it, leaning 0.6 rad, 2 rad/s of \
+                     precession, 2 s, of 0.1 ms in first order, of 1 ms in fourth",
+        source: "Klein & Sommerfeld (1897-1910), steady precession; Goldstein, section 5.7",
+        oracle: "closed form: C s Ω = m g l + (A − C) Ω² cos θ; the axis turns about the vertical by Ω t",
+        reason: "one acceleration: 4 ε. Axis: first order in h, measured, its order seen by halving; fourth \
+                 order in f64 likewise, in f32 the rounding of 2000 steps",
+        run: top,
+    },
+];
+
+fn name<R>() -> &'static str {
+    std::any::type_name::<R>()
+}
+
+fn ball(mass: f64, com: f64, moments: [f64; 3]) -> Model<f64, 1, 4, 3> {
+    let [xx, yy, zz] = moments;
+    let body = Body::new("body", BASE, Joint::spherical()).mass(mass);
+    Model::new(
+        "ball",
+        [body
+            .com([0.0, 0.0, com])
+            .inertia([xx, 0.0, 0.0, yy, 0.0, zz])],
+    )
+}
+
+fn quaternion() -> Vec<Row> {
+    const STEPS: u32 = 10_000_000;
+    const STEP: [f64; 3] = [2.0 / 8192.0, 3.0 / 8192.0, 6.0 / 8192.0];
+    fn run<R: Real>(rows: &mut Vec<Row>, bounds: [f64; 2]) {
+        let model = ball(1.0, 0.0, [1.0; 3]);
+        let model = *R::pick(&model, &model.to_f32());
+        let (mut q, step) = (neutral(&model), STEP.map(R::from_f64));
+        let mut longest = 0.0_f64;
+        for i in 0..STEPS {
+            q = integrate(&model, &q, &step);
+            if i % 1000 == 0 {
+                longest = longest.max((length(&q) - 1.0).abs());
+            }
+        }
+        rows.push(Row::stated(
+            "length of the quaternion",
+            name::<R>(),
+            longest,
+            bounds[0],
+        ));
+        rows.push(Row::measured(
+            "attitude, rad",
+            name::<R>(),
+            off(&q),
+            bounds[1],
+        ));
+    }
+    /// From the turn that it should be.
+    fn off<R: Real>(q: &[R; 4]) -> f64 {
+        let axis = DVec3::new(2.0, 3.0, 6.0) / 7.0;
+        let half = f64::from(STEPS) * 7.0 / 16_384.0;
+        let want = DQuat::from_xyzw(
+            axis.x * half.sin(),
+            axis.y * half.sin(),
+            axis.z * half.sin(),
+            half.cos(),
+        );
+        let got = DQuat::from_array(q.map(R::to_f64)).normalize();
+        2.0 * (want.conjugate() * got).xyz().length()
+    }
+    fn length<R: Real>(q: &[R; 4]) -> f64 {
+        DQuat::from_array(q.map(R::to_f64)).length()
+    }
+    /// q += ½ q ω h, never normalised.
+    fn naive() -> [f32; 4] {
+        let [x, y, z] = STEP.map(|x| 0.5 * x as f32);
+        let mut q = [0.0_f32, 0.0, 0.0, 1.0];
+        for _ in 0..STEPS {
+            let [a, b, c, w] = q;
+            q[0] += w * x + b * z - c * y;
+            q[1] += w * y + c * x - a * z;
+            q[2] += w * z + a * y - b * x;
+            q[3] -= a * x + b * y + c * z;
+        }
+        q
+    }
+    let mut rows = Vec::new();
+    run::<f32>(&mut rows, [2.0 * f64::from(f32::EPSILON), 4e-3]);
+    run::<f64>(&mut rows, [2.0 * f64::EPSILON, 9e-13]);
+    let drifted = naive();
+    rows.push(Row::naive(
+        "length when q̇ = ½ q ω is added up",
+        "f32",
+        (length(&drifted) - 1.0).abs(),
+        1e-7,
+    ));
+    rows
+}
+
+/// What 60 s of free motion did: errors of energy and momentum relative to themselves, the sum that a first-order
+/// step adds to the energy by theory, and how often the middle axis turned over.
+struct Spun {
+    energy: f64,
+    momentum: f64,
+    theory: f64,
+    flips: u32,
+}
+
+fn spin<R: Real>(how: &Integrator, h: f64, seconds: f64) -> Spun {
+    const MOMENTS: [f64; 3] = [1.0, 2.0, 3.0];
+    let model = ball(1.0, 0.0, MOMENTS);
+    let model = *R::pick(&model, &model.to_f32());
+    let mut state = State::at(neutral(&model));
+    state.qd = [0.01, 5.0, 0.0].map(R::from_f64);
+    let energy = |s: &State<R, 4, 3>| kinetic_energy(&model, s, &()).to_f64();
+    let turning = |s: &State<R, 4, 3>| momentum(&model, s, &()).ang.array().map(R::to_f64);
+    let (e_0, l_0) = (energy(&state), DVec3::from(turning(&state)));
+    let (mut out, mut sign) = (
+        Spun {
+            energy: 0.0,
+            momentum: 0.0,
+            theory: 0.0,
+            flips: 0,
+        },
+        1.0,
+    );
+    for _ in 0..(seconds / h).round() as u32 {
+        how.step(
+            &model,
+            &mut state,
+            &[R::ZERO; 3],
+            &mut (Inertia, Coriolis),
+            R::from_f64(h),
+        );
+        let accelerated = MOMENTS.iter().zip(state.qdd);
+        out.theory += accelerated
+            .map(|(i, a)| 0.5 * h * h * i * a.to_f64() * a.to_f64())
+            .sum::<f64>()
+            / e_0;
+        out.energy = out.energy.max((energy(&state) - e_0).abs() / e_0);
+        let l = DVec3::from(turning(&state));
+        out.momentum = out.momentum.max((l - l_0).length() / l_0.length());
+        let now = state.qd[1].to_f64();
+        if now * sign < -1.0 {
+            (sign, out.flips) = (-sign, out.flips + 1);
+        }
+    }
+    out
+}
+
+fn dzhanibekov() -> Vec<Row> {
+    let mut rows = Vec::new();
+    // Energy and momentum in f32 and in f64.
+    let first = [1.5e-1, 1e-1, 1.5e-1, 1e-1];
+    for (how, bounds) in INTEGRATORS
+        .iter()
+        .zip([first, first, [1e-4, 5e-5, 1e-12, 1e-10]])
+    {
+        let (single, double) = (spin::<f32>(how, 1e-3, 60.0), spin::<f64>(how, 1e-3, 60.0));
+        let half = spin::<f64>(how, 5e-4, 60.0);
+        let what = |what: &str| format!("{}: {what}", how.name);
+        for (scalar, spun, at, sum) in [("f32", &single, 0, 1e-3), ("f64", &double, 2, 1e-12)] {
+            rows.push(Row::measured(
+                what("energy"),
+                scalar,
+                spun.energy,
+                bounds[at],
+            ));
+            rows.push(Row::measured(
+                what("momentum in space"),
+                scalar,
+                spun.momentum,
+                bounds[at + 1],
+            ));
+            rows.push(Row::claim(what("it turns over"), scalar, spun.flips >= 4));
+            if how.order == 1 {
+                let off = (spun.energy / spun.theory - 1.0).abs();
+                rows.push(Row::measured(
+                    what("its gain of energy, against h²/2 Σ ω̇·Iω̇"),
+                    scalar,
+                    off,
+                    sum,
+                ));
+            }
+        }
+        let order = (double.energy / half.energy).log2();
+        let off = (order - f64::from(how.order)).abs();
+        rows.push(Row::stated(
+            what("order of its energy, seen by halving the step"),
+            "f64",
+            off,
+            0.2,
+        ));
+    }
+    rows
+}
+
+fn top() -> Vec<Row> {
+    const LEAN: f64 = 0.6;
+    const TURN: f64 = 2.0;
+    let (mass, l, a, c, g) = (2.0, 0.25, 0.25, 0.0625, 9.81);
+    let spin = (mass * g * l + (a - c) * TURN * TURN * LEAN.cos()) / (c * TURN);
+    let model = ball(mass, l, [a - mass * l * l, a - mass * l * l, c]);
+    let start = State {
+        q: [(0.5 * LEAN).sin(), 0.0, 0.0, (0.5 * LEAN).cos()],
+        qd: [0.0, TURN * LEAN.sin(), TURN * LEAN.cos() + spin],
+        qdd: [spin * TURN * LEAN.sin(), 0.0, 0.0],
+    };
+    let weight = mass * g * l;
+    let mut rows = accelerations::<f32>(&model, &start, weight);
+    rows.extend(accelerations::<f64>(&model, &start, weight));
+    for (how, bounds) in INTEGRATORS.iter().zip([[5e-2; 2], [5e-2; 2], [1e-5, 1e-6]]) {
+        let h = if how.order == 1 { 1e-4 } else { 1e-3 };
+        let axis = |h| precession::<f64>(&model, &start, how, h, LEAN, TURN);
+        let (single, double) = (
+            precession::<f32>(&model, &start, how, h, LEAN, TURN),
+            axis(h),
+        );
+        let what = format!("{}: axis", how.name);
+        rows.push(Row::measured(what.as_str(), "f32", single, bounds[0]));
+        rows.push(Row::measured(what, "f64", double, bounds[1]));
+        let off = ((double / axis(0.5 * h)).log2() - f64::from(how.order)).abs();
+        rows.push(Row::stated(
+            format!("{}: its order", how.name),
+            "f64",
+            off,
+            0.2,
+        ));
+    }
+    rows
+}
+
+/// One acceleration and its torque against the closed form.
+fn accelerations<R: Real>(
+    model: &Model<f64, 1, 4, 3>,
+    start: &State<f64, 4, 3>,
+    weight: f64,
+) -> Vec<Row> {
+    let (model, start) = (*R::pick(model, &model.to_f32()), cast::<R>(start));
+    let far = |got: [R; 3], want: [R; 3]| {
+        let apart = |(a, b): (R, R)| (a.to_f64() - b.to_f64()).abs();
+        got.into_iter().zip(want).map(apart).fold(0.0, f64::max)
+    };
+    let (free, none) = ([R::ZERO; 3], [R::from_f64(f64::NAN); 3]);
+    let by_bodies = aba(&model, &start, &free, &RIGID_BODY).unwrap_or(none);
+    let by_matrix = forward(&model, &start, &free, &RIGID_BODY).unwrap_or(none);
+    let (most, bound) = (start.qdd[0].to_f64(), 4.0 * R::EPSILON.to_f64());
+    let errors = [
+        (
+            "rnea",
+            far(rnea(&model, &start, &RIGID_BODY), free) / weight,
+        ),
+        ("aba", far(by_bodies, start.qdd) / most),
+        ("crba + ltdl", far(by_matrix, start.qdd) / most),
+    ];
+    errors
+        .map(|(what, error)| Row::stated(what, name::<R>(), error, bound))
+        .into()
+}
+
+/// How far the axis is from its closed form at most, in 2 s.
+fn precession<R: Real>(
+    model: &Model<f64, 1, 4, 3>,
+    start: &State<f64, 4, 3>,
+    how: &Integrator,
+    h: f64,
+    lean: f64,
+    turn: f64,
+) -> f64 {
+    let (model, mut state, mut worst) =
+        (*R::pick(model, &model.to_f32()), cast::<R>(start), 0.0_f64);
+    for step in 1..=(2.0 / h).round() as u32 {
+        let scene = &mut (Gravity::EARTH, Inertia, Coriolis);
+        how.step(&model, &mut state, &[R::ZERO; 3], scene, R::from_f64(h));
+        let axis = poses(&model, &state.q)[0].rot.cols()[2]
+            .array()
+            .map(R::to_f64);
+        let (sin, cos) = (turn * h * f64::from(step)).sin_cos();
+        let want = DVec3::new(lean.sin() * sin, -lean.sin() * cos, lean.cos());
+        worst = worst.max((DVec3::from(axis) - want).length());
+    }
+    worst
+}
+
+fn cast<R: Real>(state: &State<f64, 4, 3>) -> State<R, 4, 3> {
+    State {
+        q: state.q.map(R::from_f64),
+        qd: state.qd.map(R::from_f64),
+        qdd: state.qdd.map(R::from_f64),
+    }
+}

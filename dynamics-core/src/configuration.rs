@@ -161,7 +161,9 @@ where
     out
 }
 
-/// Brings every quaternion of q to unit length, within two units in the last place, however far it has drifted.
+/// Brings every quaternion of q to unit length, within two units in the last place, however far it has drifted,
+/// and every turn without end to the same place within ±π, where its last digits are worth most: a wheel that
+/// has turned sixty times has lost seven bits. What lies there already keeps its bits.
 ///
 /// # Errors
 /// [`NoAttitude`] names the first that is zero (or so small that its square is) or not a number; what
@@ -176,6 +178,12 @@ where
 /// normalise(&ball, &mut q)?;
 /// assert_eq!(q, [0.0, 0.0, 0.6, 0.8]);
 /// assert!(normalise(&ball, &mut [0.0; 4]).is_err());
+/// let wheel = Model::<f64, 1, 1, 1>::new("wheel", [
+///     Body::new("w", BASE, Joint::continuous([0.0, 0.0, 1.0])).mass(1.0),
+/// ]);
+/// let mut q = [-7.0];
+/// normalise(&wheel, &mut q)?;
+/// assert!((q[0] - (core::f64::consts::TAU - 7.0)).abs() < 1e-15);
 /// # Ok::<(), dynamics_core::configuration::NoAttitude>(())
 /// ```
 pub fn normalise<R: Real, D, const B: usize, const Q: usize, const V: usize>(
@@ -194,6 +202,9 @@ where
                 return Err(NoAttitude { at });
             }
             put(q, at, &p.map(|x| x / length));
+        } else if matches!(node.kind(), Continuous) {
+            let angle = within_half_a_turn(entry(q, at));
+            put(q, at, &[angle]);
         }
     }
     Ok(())
@@ -209,6 +220,19 @@ fn put<R: Real>(out: &mut [R], at: usize, values: &[R]) {
             *out = value;
         }
     }
+}
+
+/// The same angle within ±π (of a million turns at most), by less than a rounding of its turns off.
+fn within_half_a_turn<R: Real>(angle: R) -> R {
+    use core::f64::consts::{PI, TAU};
+    if !(angle.abs() > R::from_f64(PI)) {
+        return angle;
+    }
+    let half = R::from_f64(if angle > R::ZERO { 0.5 } else { -0.5 });
+    let turns = (angle * R::from_f64(1.0 / TAU) + half).saturate();
+    // 2π in two parts, the first with as few digits as leave its product exact.
+    let (whole, rest) = (201.0 / 32.0, TAU - 201.0 / 32.0);
+    (angle - turns * R::from_f64(whole)) - turns * R::from_f64(rest)
 }
 
 /// The same angle within ±π.

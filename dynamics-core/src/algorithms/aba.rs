@@ -13,8 +13,8 @@ use crate::articulated::ArticulatedInertia;
 use crate::effects::{
     Effect, base_motion, body_inertia, body_wrench, gyroscopic, joint_loss, rotor_force,
 };
-use crate::model::{Description, Node};
-use crate::scalar::{Matrix, Real};
+use crate::model::{Description, JointKind, Node};
+use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::{Force, Motion, Xform};
 use crate::state::{Posture, State, entry};
 
@@ -200,7 +200,10 @@ where
     let mut response = Response::ZERO;
     let mut a = Handed::<_, B>::from(a_0);
     for body in &bodies {
-        let mut a_i = body.x * a.by(D::CHAIN, body.node.parent) + body.c;
+        let carried = body.x * a.by(D::CHAIN, body.node.parent) + body.c;
+        // What is free of its parent does not feel it: what falls with all its joints at rest stays so exactly.
+        let free = is_free(&body.node, effects, &given);
+        let mut a_i = if free { Motion::ZERO } else { carried };
         for (k, joint) in body.node.coordinates().enumerate() {
             let Some(Handle { u_hat, per_d, u }) = handles.pop() else {
                 break;
@@ -221,7 +224,31 @@ where
             a_i = s.raise(a_i, qdd);
             response.set(joint, tau, qdd);
         }
+        if free {
+            let [ang, lin] = [a_i.ang - carried.ang, a_i.lin - carried.lin].map(R::Vec3::array);
+            for (joint, &qdd) in body.node.coordinates().zip(ang.iter().chain(&lin)) {
+                response.set(joint, entry(&response.tau, joint), qdd);
+            }
+        }
         a.push(D::CHAIN, a_i);
     }
     Ok(response)
+}
+
+/// Whether nothing ties a body to its parent: no constraint, no prescribed motion, no inertia at the joint.
+#[inline(always)]
+fn is_free<R: Real, E, const B: usize, const V: usize>(
+    node: &Node<'_, R>,
+    effects: &E,
+    given: &impl Fn(usize) -> Given<R>,
+) -> bool
+where
+    E: Effect<R, B, V>,
+{
+    matches!(node.kind(), JointKind::Free)
+        && node.coordinates().all(|joint| {
+            let mut inertia = R::ZERO;
+            effects.inertia(joint, &mut inertia);
+            matches!(given(joint), Given::Torque(_)) & (inertia == R::ZERO)
+        })
 }

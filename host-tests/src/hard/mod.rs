@@ -11,6 +11,8 @@ pub mod attitude;
 pub mod chains;
 pub mod descriptions;
 pub mod elbow;
+pub mod energy;
+pub mod friction;
 pub mod integrators;
 pub mod invariances;
 pub mod masses;
@@ -21,6 +23,7 @@ pub mod setup;
 pub mod setups;
 pub mod slide;
 pub mod speeds;
+pub mod stiff;
 
 pub use row::{Row, Verdict};
 
@@ -68,6 +71,9 @@ pub const CASES: &[&[Case]] = &[
     descriptions::CASES,
     invariances::CASES,
     attitude::CASES,
+    energy::CASES,
+    stiff::CASES,
+    friction::CASES,
 ];
 
 /// Runs the case of this number.

@@ -1,12 +1,11 @@
-//! Dry friction: closed forms of a pendulum and a sledge, stick-slip on a belt, and no energy from nothing.
+//! Dry friction: closed forms of a pendulum and a sledge, stick-slip on a belt; more among the hard cases.
 
 use super::*;
 use dynamics_core::effects::{
-    AsymmetricCoulomb, Coulomb, Gravity, Inertia, RIGID_BODY, Spring, Stribeck, Viscous,
+    AsymmetricCoulomb, Coulomb, Gravity, Inertia, RIGID_BODY, Spring, Stribeck,
 };
 use dynamics_core::sim::linearly_implicit;
-use host_tests::random::random_numbers;
-use proptest::prelude::RngExt;
+use host_tests::hard::friction::{Belt, Cycle};
 
 /// Steps until the velocity changes sign `turns` times; where it does.
 fn turning_points<E: Effect<f64, 1, 1>>(
@@ -69,9 +68,8 @@ fn a_sledge_on_a_spring_stops_short_by_the_same_length_each_time() {
     worst.check::<f64>("sledge", "turning points");
 }
 
-/// In the belt's frame: the spring's end runs away with −v.
-const BELT: f64 = 0.1;
-const STIFFNESS: f64 = 300.0;
+const BELT: f64 = Belt::SPEED;
+const STIFFNESS: f64 = Belt::STIFFNESS;
 const SLIDING: f64 = 4.0;
 const EXCESS: f64 = 3.0;
 const SPEED: f64 = 0.05;
@@ -100,30 +98,6 @@ fn reference(t_end: f64, h: f64, mut see: impl FnMut(f64, f64)) {
     }
 }
 
-/// Peaks of the stretch that a run has after 5 s: their mean height and distance in time.
-#[derive(Default)]
-struct Cycle {
-    last: [f64; 2],
-    peaks: Vec<[f64; 2]>,
-}
-
-impl Cycle {
-    fn see(&mut self, t: f64, stretch: f64) {
-        let [before, now] = self.last;
-        if t > 5.0 && now > before && now >= stretch {
-            self.peaks.push([t, now]);
-        }
-        self.last = [now, stretch];
-    }
-
-    fn period_and_height(&self) -> [f64; 2] {
-        let (first, last) = (self.peaks[0], self.peaks[self.peaks.len() - 1]);
-        let count = self.peaks.len() as f64;
-        let height = self.peaks.iter().map(|p| p[1]).sum::<f64>() / count;
-        [(last[0] - first[0]) / (count - 1.0), height]
-    }
-}
-
 #[test]
 fn a_block_on_a_belt_sticks_and_slips_in_the_limit_cycle_of_a_fine_reference() {
     let mut fine = Cycle::default();
@@ -134,67 +108,19 @@ fn a_block_on_a_belt_sticks_and_slips_in_the_limit_cycle_of_a_fine_reference() {
         "{want:?}"
     );
 
-    let spring = Spring {
-        stiffness: [STIFFNESS],
-        rest: [0.0],
+    let belt = Belt {
+        sliding: SLIDING,
+        excess: EXCESS,
+        speed: SPEED,
+        width: WIDTH,
     };
-    let dry = Coulomb {
-        torque: [SLIDING],
-        per_width: 1.0 / WIDTH,
-    };
-    let stribeck = Stribeck {
-        excess: [EXCESS],
-        per_speed: 1.0 / SPEED,
-        per_width: 1.0 / WIDTH,
-    };
-    let (mut scene, h) = ((Inertia, dry, stribeck, spring), 5e-5);
-    let (mut state, mut cycle) = (State::at([0.0]), Cycle::default());
-    for i in 0..300_000 {
-        scene.3.rest = [-BELT * h * f64::from(i + 1)];
-        linearly_implicit(&SLEDGE, &mut state, &[0.0], &mut scene, h).unwrap();
-        cycle.see(h * f64::from(i + 1), state.q[0] - scene.3.rest[0]);
-    }
-    let got = cycle.period_and_height();
+    let got = belt.run::<f64>().period_and_height();
     let names = ["period of stick-slip", "stretch of stick-slip"];
     for ((got, want), name) in got.into_iter().zip(want).zip(names) {
         let mut worst = Worst::default();
         worst.see(got, want);
         worst.check::<f64>("block on a belt", name);
     }
-}
-
-#[test]
-fn friction_never_adds_energy() {
-    fn holds<R: Real>() {
-        let of = R::from_f64;
-        let coulomb = Coulomb {
-            torque: [of(4.0)],
-            per_width: of(50.0),
-        };
-        let stribeck = Stribeck {
-            excess: [of(2.0)],
-            per_speed: of(20.0),
-            per_width: of(50.0),
-        };
-        let rng = &mut random_numbers();
-        for i in 0..100_000 {
-            let qd = 10.0_f64.powi(i % 12 - 9) * rng.random_range(-1.0..1.0);
-            let one_way = AsymmetricCoulomb {
-                forward: [of(rng.random_range(0.0..5.0))],
-                backward: [of(if i % 5 == 0 { 0.0 } else { 3.0 })],
-                per_width: of(50.0),
-            };
-            assert!(torque::<R, _>(&Viscous([of(0.5)]), 0.0, qd) * qd >= 0.0);
-            assert!(torque::<R, _>(&coulomb, 0.0, qd) * qd >= 0.0);
-            assert!(torque::<R, _>(&stribeck, 0.0, qd) * qd >= 0.0);
-            assert!(
-                torque::<R, _>(&one_way, 0.0, qd) * qd >= 0.0,
-                "{one_way:?} {qd}"
-            );
-        }
-    }
-    holds::<f32>();
-    holds::<f64>();
 }
 
 #[test]

@@ -1,61 +1,9 @@
-//! LuGre friction: presliding, sliding and passivity.
+//! LuGre friction: sliding and passivity; presliding is a hard case.
 
 use super::*;
-use dynamics_core::effects::{Inertia, Lugre};
-use dynamics_core::sim::linearly_implicit;
+use host_tests::hard::friction::{STICTION, STIFFNESS, lugre as friction};
 use host_tests::random::random_numbers;
 use proptest::prelude::RngExt;
-
-const STICTION: f64 = 1.5;
-const STIFFNESS: f64 = 1e5;
-
-/// The numbers of Canudas de Wit et al. (1995), table 1.
-fn friction<R: Real>() -> Lugre<R, 1> {
-    Lugre {
-        stiffness: [R::from_f64(STIFFNESS)],
-        damping: [R::from_f64(316.0)],
-        viscous: [R::from_f64(0.4)],
-        sliding: [R::ONE],
-        excess: [R::from_f64(STICTION - 1.0)],
-        per_speed: R::from_f64(1000.0),
-        bristle: [R::ZERO],
-    }
-}
-
-/// As in the paper: 1 kg.
-const BLOCK: Arm<f64, 1> = Model::new(
-    "block",
-    [Body::new("block", BASE, Joint::prismatic([1.0, 0.0, 0.0])).mass(1.0)],
-);
-
-#[test]
-fn a_load_below_break_away_slides_by_the_models_own_presliding_and_then_holds() {
-    /// Where the block is at 1.2 s, when the swing that the ramp's end leaves has died away, and how far
-    /// it creeps in ten seconds more.
-    fn run<R: Real>(h: f64) -> [f64; 2] {
-        let mut scene = (Inertia, friction::<R>());
-        let mut block = State::at([R::ZERO]);
-        let model = *R::pick(&BLOCK, &BLOCK.to_f32());
-        let mut presliding = 0.0;
-        for i in 1..=(11.2 / h).round() as u32 {
-            let t = f64::from(i) * h;
-            let tau = [R::from_f64(0.9 * STICTION * t.min(1.0))];
-            linearly_implicit(&model, &mut block, &tau, &mut scene, R::from_f64(h)).unwrap();
-            if t <= 1.2 {
-                presliding = block.q[0].to_f64();
-            }
-        }
-        [presliding, block.q[0].to_f64() - presliding]
-    }
-    let unit = STICTION / STIFFNESS;
-    for [presliding, creep] in [run::<f64>(1e-4), run::<f64>(1e-3), run::<f32>(1e-3)] {
-        let [slid, crept] = [presliding / unit, creep.abs() / presliding];
-        println!("presliding {slid:.4} F_s/σ₀, then {:.4} %", 100.0 * crept);
-        assert!(slid <= 2.5 && crept < 0.01, "{slid} {crept}");
-        // −ln(1 − 0.9) without inertia; the swing adds 4 %.
-        assert!((slid + 0.1_f64.ln()).abs() < 0.06 * slid, "{slid}");
-    }
-}
 
 #[test]
 fn steady_sliding_has_the_stribeck_curve() {

@@ -4,11 +4,14 @@ mod attitude;
 mod chains;
 mod descriptions;
 mod elbow;
+mod energy;
+mod friction;
 mod invariances;
 mod masses;
 mod parallel;
 mod placements;
 mod speeds;
+mod stiff;
 
 use host_tests::hard::CASES;
 

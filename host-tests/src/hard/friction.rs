@@ -1,0 +1,354 @@
+//! Dry friction at rest, on a belt and through zero.
+
+use super::{Case, Row};
+use crate::random::random_numbers;
+use dynamics_core::effects::{
+    AsymmetricCoulomb, Coulomb, Effect, Inertia, JointState, Lugre, Spring, Stribeck, Viscous,
+};
+use dynamics_core::model::{Arm, BASE, Body, Joint, Model};
+use dynamics_core::scalar::Real;
+use dynamics_core::sim::linearly_implicit;
+use dynamics_core::state::State;
+use proptest::prelude::RngExt;
+
+/// The family's cases.
+pub const CASES: &[Case] = &[
+    Case {
+        number: 33,
+        name: "friction at rest under 0.9 of break-away",
+        parameters: "2 kg under 3.6 N against 4 N, widths 1e-2 … 1e-6 m/s, 2 s of 1 ms; LuGre of Canudas de Wit \
+                     (1995), loaded in 1 s, then 10 s",
+        source: "brakes and wrists that creep or chatter in simulators with a regularised sign",
+        oracle: "closed form: the sign u (3 − u²)/2 is 0.9 at u = 2 sin(asin(0.9)/3); LuGre bends by −ln(0.1) F_s/σ₀",
+        reason: "speed: rounding of the balance of two forces, 30 ε. No chatter: the speed never falls by more than \
+                 rounding. LuGre: 2.5 F_s/σ₀ and 1 % are what is asked",
+        run: rest,
+    },
+    Case {
+        number: 34,
+        name: "stick-slip period on a belt",
+        parameters: "2 kg on 300 N/m, belt of 0.1 m/s, 7 N stick and 4 N slide, Stribeck's speed 1e-4 m/s, width 2e-6 \
+                     m/s, steps of 50 µs",
+        source: "the textbook's stick-slip; Armstrong-Hélouvry (1991), chapter 2",
+        oracle: "closed form for friction that falls at once: 2A/V + (2/ω)(π − atan(A ω/V)), A = (F_s − F_c)/k; the \
+                 peak of the stretch F_c/k + √(A² + V²/ω²)",
+        reason: "friction falls within Stribeck's speed and not at once, 1e-3 of the belt's, and a step is 1e-4 of the \
+                 period: measured",
+        run: belt,
+    },
+    Case {
+        number: 35,
+        name: "friction through zero",
+        parameters: "every power of two in f32 and f64 with 16 mantissas, both signs",
+        source: "signs that jump at zero; friction that drives, from tables with an offset",
+        oracle: "τ(−v) = −τ(v) bit by bit, τ v ≥ 0",
+        reason: "a claim: no rounding depends on a sign",
+        run: through_zero,
+    },
+];
+
+fn name<R>() -> &'static str {
+    std::any::type_name::<R>()
+}
+
+fn sledge<R: Real>(mass: f64) -> Arm<R, 1> {
+    let body = Body::new("sledge", BASE, Joint::prismatic([1.0, 0.0, 0.0])).mass(mass);
+    let model: Arm<f64, 1> = Model::new("sledge", [body]);
+    *R::pick(&model, &model.to_f32())
+}
+
+/// The motor's torque at one joint that moves so.
+fn torque<R: Real, E: Effect<R, 1, 1>>(effect: &E, qd: R) -> R {
+    let (mut tau, q) = (R::ZERO, R::ZERO);
+    effect.torque(
+        0,
+        JointState {
+            q,
+            qd,
+            qdd: R::ZERO,
+        },
+        &mut tau,
+    );
+    tau
+}
+
+/// LuGre's friction with the numbers of Canudas de Wit et al. (1995), table 1.
+pub fn lugre<R: Real>() -> Lugre<R, 1> {
+    Lugre {
+        stiffness: [R::from_f64(STIFFNESS)],
+        damping: [R::from_f64(316.0)],
+        viscous: [R::from_f64(0.4)],
+        sliding: [R::ONE],
+        excess: [R::from_f64(STICTION - 1.0)],
+        per_speed: R::from_f64(1000.0),
+        bristle: [R::ZERO],
+    }
+}
+
+/// Stiction of [`lugre`], N.
+pub const STICTION: f64 = 1.5;
+/// Stiffness of its bristles, N/m.
+pub const STIFFNESS: f64 = 1e5;
+
+fn rest() -> Vec<Row> {
+    let mut rows = Vec::new();
+    for width in [1e-2, 1e-4, 1e-6] {
+        creep::<f32>(&mut rows, width);
+        creep::<f64>(&mut rows, width);
+    }
+    holds::<f64>(&mut rows, 1e-4);
+    holds::<f64>(&mut rows, 1e-3);
+    holds::<f32>(&mut rows, 1e-3);
+    rows
+}
+
+/// Smooth Coulomb friction creeps.
+fn creep<R: Real>(rows: &mut Vec<Row>, width: f64) {
+    let of = R::from_f64;
+    let dry = Coulomb {
+        torque: [of(4.0)],
+        per_width: of(1.0 / width),
+    };
+    let (mut state, mut back) = (State::at([R::ZERO]), 0.0_f64);
+    for _ in 0..2000 {
+        let before = state.qd[0].to_f64();
+        linearly_implicit(
+            &sledge(2.0),
+            &mut state,
+            &[of(3.6)],
+            &mut (Inertia, dry),
+            of(1e-3),
+        )
+        .expect("M is positive definite");
+        back = back.max(before - state.qd[0].to_f64());
+    }
+    let want = width * 2.0 * (0.9_f64.asin() / 3.0).sin();
+    let (error, bound) = (
+        state.qd[0].to_f64() / want - 1.0,
+        30.0 * R::EPSILON.to_f64(),
+    );
+    rows.push(Row::stated(
+        format!("width {width:.0e}: creep"),
+        name::<R>(),
+        error.abs(),
+        bound,
+    ));
+    rows.push(Row::stated(
+        format!("width {width:.0e}: chatter, of the creep"),
+        name::<R>(),
+        back / want,
+        bound,
+    ));
+}
+
+/// LuGre's friction presslides and holds.
+fn holds<R: Real>(rows: &mut Vec<Row>, h: f64) {
+    let (mut scene, block) = ((Inertia, lugre::<R>()), sledge(1.0));
+    let (mut state, mut presliding) = (State::at([R::ZERO]), 0.0);
+    for i in 1..=(11.2 / h).round() as u32 {
+        let t = f64::from(i) * h;
+        let tau = [R::from_f64(0.9 * STICTION * t.min(1.0))];
+        linearly_implicit(&block, &mut state, &tau, &mut scene, R::from_f64(h))
+            .expect("M is positive definite");
+        // The swing that the ramp's end leaves has died away.
+        if t <= 1.2 {
+            presliding = state.q[0].to_f64();
+        }
+    }
+    let slid = presliding * STIFFNESS / STICTION;
+    let crept = (state.q[0].to_f64() - presliding).abs() / presliding;
+    let what = |what: &str| format!("LuGre, h = {h:.0e}: {what}");
+    rows.push(Row::stated(
+        what("presliding, F_s/σ₀"),
+        name::<R>(),
+        slid,
+        2.5,
+    ));
+    // Without inertia; the swing adds 4 %.
+    let off = (slid + 0.1_f64.ln()).abs() / slid;
+    rows.push(Row::measured(
+        what("presliding against −ln 0.1"),
+        name::<R>(),
+        off,
+        0.06,
+    ));
+    rows.push(Row::stated(
+        what("creep in 10 s, of the presliding"),
+        name::<R>(),
+        crept,
+        0.01,
+    ));
+}
+
+/// Peaks of the stretch that a run has after 5 s: their mean height and distance in time.
+#[derive(Default)]
+pub struct Cycle {
+    last: [f64; 2],
+    /// Times and heights of the peaks.
+    pub peaks: Vec<[f64; 2]>,
+}
+
+impl Cycle {
+    /// The stretch of now.
+    pub fn see(&mut self, t: f64, stretch: f64) {
+        let [before, now] = self.last;
+        if t > 5.0 && now > before && now >= stretch {
+            self.peaks.push([t, now]);
+        }
+        self.last = [now, stretch];
+    }
+
+    /// Mean distance in time and mean height of the peaks.
+    pub fn period_and_height(&self) -> [f64; 2] {
+        let (first, last) = (self.peaks[0], self.peaks[self.peaks.len() - 1]);
+        let count = self.peaks.len() as f64;
+        let height = self.peaks.iter().map(|p| p[1]).sum::<f64>() / count;
+        [(last[0] - first[0]) / (count - 1.0), height]
+    }
+}
+
+/// A block of 2 kg on a spring of 300 N/m, on a belt of 0.1 m/s.
+#[derive(Clone, Copy, Debug)]
+pub struct Belt {
+    /// Friction when sliding, and what stiction has above it, N.
+    pub sliding: f64,
+    /// The same.
+    pub excess: f64,
+    /// Stribeck's speed, m/s.
+    pub speed: f64,
+    /// Width of the sign, m/s.
+    pub width: f64,
+}
+
+impl Belt {
+    /// Mass, stiffness, speed of the belt.
+    pub const MASS: f64 = 2.0;
+    /// N/m.
+    pub const STIFFNESS: f64 = 300.0;
+    /// m/s.
+    pub const SPEED: f64 = 0.1;
+
+    /// The limit cycle of 15 s in steps of 50 µs, seen from the belt: the spring's end runs away.
+    pub fn run<R: Real>(&self) -> Cycle {
+        let (of, h) = (R::from_f64, 5e-5);
+        let spring = Spring {
+            stiffness: [of(Self::STIFFNESS)],
+            rest: [R::ZERO],
+        };
+        let dry = Coulomb {
+            torque: [of(self.sliding)],
+            per_width: of(1.0 / self.width),
+        };
+        let stribeck = Stribeck {
+            excess: [of(self.excess)],
+            per_speed: of(1.0 / self.speed),
+            per_width: of(1.0 / self.width),
+        };
+        let (model, mut scene) = (sledge::<R>(Self::MASS), (Inertia, dry, stribeck, spring));
+        let (mut state, mut cycle) = (State::at([R::ZERO]), Cycle::default());
+        for i in 1..=300_000 {
+            let t = h * f64::from(i);
+            scene.3.rest = [of(-Self::SPEED * t)];
+            linearly_implicit(&model, &mut state, &[R::ZERO], &mut scene, of(h))
+                .expect("M is positive definite");
+            cycle.see(t, state.q[0].to_f64() + Self::SPEED * t);
+        }
+        cycle
+    }
+}
+
+fn belt() -> Vec<Row> {
+    let belt = Belt {
+        sliding: 4.0,
+        excess: 3.0,
+        speed: 1e-4,
+        width: 2e-6,
+    };
+    let omega = (Belt::STIFFNESS / Belt::MASS).sqrt();
+    let (a, v) = (belt.excess / Belt::STIFFNESS, Belt::SPEED);
+    let period = 2.0 * a / v + 2.0 / omega * (std::f64::consts::PI - (a * omega / v).atan());
+    let height = belt.sliding / Belt::STIFFNESS + a.hypot(v / omega);
+    let mut rows = Vec::new();
+    for (scalar, cycle) in [("f32", belt.run::<f32>()), ("f64", belt.run::<f64>())] {
+        let [time, stretch] = cycle.period_and_height();
+        rows.push(Row::measured(
+            "period",
+            scalar,
+            (time / period - 1.0).abs(),
+            1e-2,
+        ));
+        rows.push(Row::measured(
+            "greatest stretch",
+            scalar,
+            (stretch / height - 1.0).abs(),
+            1e-2,
+        ));
+    }
+    rows
+}
+
+fn through_zero() -> Vec<Row> {
+    fn run<R: Real>(rows: &mut Vec<Row>, powers: std::ops::Range<i32>) {
+        let of = R::from_f64;
+        let dry = Coulomb {
+            torque: [of(4.0)],
+            per_width: of(50.0),
+        };
+        let stribeck = Stribeck {
+            excess: [of(2.0)],
+            per_speed: of(20.0),
+            per_width: of(50.0),
+        };
+        let mut bent = lugre::<R>();
+        bent.bristle = [of(0.9 * STICTION / STIFFNESS)];
+        let mut other = bent;
+        other.bristle = bent.bristle.map(|z| -z);
+        let rng = &mut random_numbers();
+        let (mut odd, mut dissipative, mut continuous) = (true, true, true);
+        for (power, sixteenth) in powers.flat_map(|p| (16..32).map(move |m| (p, m))) {
+            let v = of(f64::from(sixteenth) / 16.0 * 2.0_f64.powi(power));
+            let viscous = Viscous([of(0.5)]);
+            let both = |v| [torque(&viscous, v), torque(&dry, v), torque(&stribeck, v)];
+            let (ahead, behind) = (both(v), both(-v));
+            odd &= ahead == behind.map(|tau| -tau) && torque(&bent, v) == -torque(&other, -v);
+            let one_way = AsymmetricCoulomb {
+                forward: [of(rng.random_range(0.0..5.0))],
+                backward: [of(if sixteenth % 5 == 0 { 0.0 } else { 3.0 })],
+                per_width: of(50.0),
+            };
+            let of_one_way = torque(&one_way, v) >= R::ZERO && torque(&one_way, -v) <= R::ZERO;
+            dissipative &= of_one_way && ahead.iter().all(|&tau| tau >= R::ZERO);
+            // 3/2 F/w is the steepest slope there is.
+            let steepest = [0.5, 4.0 * 75.0, 2.0 * 75.0]
+                .map(|slope| slope * v.to_f64() * (1.0 + 1e-6) + 1e-44);
+            continuous &= ahead
+                .iter()
+                .zip(steepest)
+                .all(|(tau, most)| tau.to_f64() <= most);
+        }
+        let still = [
+            torque(&dry, R::ZERO),
+            torque(&stribeck, R::ZERO),
+            torque(&lugre::<R>(), R::ZERO),
+        ];
+        rows.push(Row::claim(
+            "odd: viscous, Coulomb, Stribeck, LuGre",
+            name::<R>(),
+            odd,
+        ));
+        rows.push(Row::claim(
+            "dissipative: these and Coulomb of two directions",
+            name::<R>(),
+            dissipative,
+        ));
+        rows.push(Row::claim(
+            "continuous, and nothing at rest",
+            name::<R>(),
+            continuous && still == [R::ZERO; 3],
+        ));
+    }
+    let mut rows = Vec::new();
+    run::<f32>(&mut rows, -149..100);
+    run::<f64>(&mut rows, -1074..900);
+    rows
+}

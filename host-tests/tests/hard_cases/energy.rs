@@ -1,0 +1,16 @@
+use super::demand;
+
+#[test]
+fn a_double_pendulum_keeps_its_energy_for_an_hour() {
+    demand(28);
+}
+
+#[test]
+fn a_tree_that_falls_moves_none_of_its_joints() {
+    demand(29);
+}
+
+#[test]
+fn what_rests_without_gravity_stays_exactly_at_rest() {
+    demand(30);
+}

@@ -3,8 +3,8 @@
 
 use dynamics_core::Core;
 use dynamics_core::control::{
-    Bounds, Fault, Gains, Mode, Observer, Speed, Supervisor, Trajectory, TrajectoryError,
-    TurnCounter, WayPoint, feedback,
+    Bounds, Fault, Gains, Mode, Observer, Speed, Supervisor, Trajectory, TrajectoryError, WayPoint,
+    feedback,
 };
 use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::robots::Ur5e;
@@ -222,42 +222,6 @@ fn too_fast_way_points_name_joint_and_need() {
         "way-point 1, joint 3: needs an acceleration of 11.7827, 10.0000 allowed"
     );
 }
-
-#[test]
-fn an_encoder_wrap_is_no_velocity_spike() {
-    let counts_per_turn = 16_384.0;
-    for direction in [1.0_f32, -1.0] {
-        let mut counter = TurnCounter::<14>::new();
-        let mut observer = Observer::<f32, 1>::new(250.0, TICK);
-        let mut supervisor = Supervisor::new(
-            Bounds {
-                torque: [1.0],
-                rate: [1.0],
-                speed: [3.0],
-                lower: [-100.0],
-                upper: [100.0],
-            },
-            TICK,
-            HOLD,
-            REENTRY,
-        );
-        for tick in 0..10_000_u16 {
-            // 2 rad/s: three turns, each with a wrap
-            let turns = f32::from(tick) * (2.0 * TAU_INVERSE * TICK) * direction;
-            let raw = (turns * counts_per_turn).round() as i32 & 0x3fff;
-            counter.update(raw as u16);
-            let q = [counter.angle()];
-            assert_eq!(supervisor.admit(Ok(&q)), Mode::Full, "tick {tick}");
-            let qd = observer.update(&q, &[0.0]).qd[0];
-            supervisor.pass(&[0.0]);
-            let settled = tick < 200 || (qd - 2.0 * direction).abs() < 0.05;
-            assert!(settled, "tick {tick}: {qd} rad/s");
-        }
-        assert_eq!(counter.turns(), if direction > 0.0 { 3 } else { -4 });
-    }
-}
-
-const TAU_INVERSE: f32 = 1.0 / core::f32::consts::TAU;
 
 fn bits(x: &[f32; 6]) -> [u32; 6] {
     x.map(f32::to_bits)

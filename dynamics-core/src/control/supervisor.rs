@@ -193,6 +193,23 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         self.mode
     }
 
+    /// Says that so many ticks have passed without a call, as a timer has counted them: the joints may have moved on.
+    /// Before [`Self::admit`]; of [`super::Observer::predict`] as many calls bring the estimate up to date.
+    ///
+    /// ```
+    /// # use dynamics_core::control::{Bounds, Fault, Mode, Supervisor};
+    /// # let bounds = Bounds { torque: [10.0_f32], rate: [8.0], speed: [3.0], lower: [-1.0], upper: [1.0] };
+    /// let mut supervisor = Supervisor::new(bounds, 1e-3, 1, 4);
+    /// supervisor.admit(Ok(&[0.5]));
+    /// supervisor.missed(9); // 3 rad/s for 10 ms are no jump
+    /// assert_eq!(supervisor.admit(Ok(&[0.53])), Mode::Full);
+    /// assert_eq!(supervisor.admit(Ok(&[0.56])), Mode::Hold);
+    /// ```
+    #[cold]
+    pub fn missed(&mut self, ticks: u32) {
+        self.reach += real(ticks);
+    }
+
     /// Whether the positions of this tick were accepted.
     #[inline(always)]
     pub fn seen(&self) -> bool {

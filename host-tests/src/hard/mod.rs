@@ -9,6 +9,8 @@ mod row;
 
 pub mod attitude;
 pub mod chains;
+pub mod clock;
+pub mod controller;
 pub mod descriptions;
 pub mod elbow;
 pub mod energy;
@@ -19,6 +21,7 @@ pub mod masses;
 pub mod measure;
 pub mod parallel;
 pub mod placements;
+pub mod poison;
 pub mod setup;
 pub mod setups;
 pub mod slide;
@@ -74,6 +77,8 @@ pub const CASES: &[&[Case]] = &[
     energy::CASES,
     stiff::CASES,
     friction::CASES,
+    poison::CASES,
+    clock::CASES,
 ];
 
 /// Runs the case of this number.

@@ -2,6 +2,7 @@
 
 mod attitude;
 mod chains;
+mod clock;
 mod descriptions;
 mod elbow;
 mod energy;
@@ -10,6 +11,7 @@ mod invariances;
 mod masses;
 mod parallel;
 mod placements;
+mod poison;
 mod speeds;
 mod stiff;
 

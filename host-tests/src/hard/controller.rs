@@ -1,0 +1,264 @@
+//! An arm under the control parts of the library, put together as `dynamics_core::control` shows, so that a case may
+//! spoil any of their inputs, on a plant whose time need not be the controller's.
+
+use dynamics_core::algorithms::{crba, rnea};
+use dynamics_core::control::{
+    Bounds, Command, Fault, Gains, Mode, Observer, Rejoin, Speed, Supervisor, Trajectory, WayPoint,
+    feedback,
+};
+use dynamics_core::effects::{Coriolis, Gravity, Inertia, RotorInertia};
+use dynamics_core::model::{Arm, model};
+use dynamics_core::robots::Ur5e;
+use dynamics_core::scalar::Real;
+use dynamics_core::sim::semi_implicit;
+use dynamics_core::state::State;
+
+/// A tick, s.
+pub const TICK: f64 = 1e-3;
+/// Where the arm begins, rad.
+pub const HOME: [f64; 6] = [0.0, -1.57, 1.57, -1.57, -1.57, 0.0];
+/// Greatest torques, N·m; half of each a tick.
+pub const TORQUE: [f64; 6] = [150.0, 150.0, 150.0, 28.0, 28.0, 28.0];
+/// Ticks that a fault is ridden through, held, and that the way back takes.
+pub const RIDE: u32 = 5;
+/// The same.
+pub const HOLD: u32 = 100;
+/// The same.
+pub const REENTRY: u32 = 200;
+const OMEGA: f64 = 25.0;
+const LAMBDA: f64 = 2.0 * OMEGA;
+
+/// A number that should not be where it is.
+#[derive(Clone, Copy, Debug)]
+pub struct Poison<R> {
+    /// Where.
+    pub input: Input,
+    /// Of which joint.
+    pub joint: usize,
+    /// What.
+    pub value: R,
+}
+
+/// The inputs of a tick.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Input {
+    /// The measured position.
+    Position,
+    /// The reference that the law is given: position, velocity, acceleration.
+    Reference(usize),
+    /// The torque that the law asks for.
+    Torque,
+}
+
+/// All of them.
+pub const INPUTS: [Input; 5] = [
+    Input::Position,
+    Input::Reference(0),
+    Input::Reference(1),
+    Input::Reference(2),
+    Input::Torque,
+];
+
+/// With the rotors of scene `ur5e`, without which the wrist weighs next to nothing.
+type Scene<R> = (Gravity, Inertia, Coriolis, RotorInertia<R, 6>);
+
+/// The controller and its arm.
+#[derive(Clone, Copy)]
+pub struct Bench<R: Real> {
+    model: &'static Arm<R, 6>,
+    scene: Scene<R>,
+    trajectory: Trajectory<R, 6, 3>,
+    gains: Gains<R, 6>,
+    supervisor: Supervisor<R, 6>,
+    observer: Observer<R, 6>,
+    rejoin: Rejoin<R, 6>,
+    clock: u32,
+    expected: [R; 6],
+    /// What went to the drives.
+    pub command: [R; 6],
+    /// Whether the brake holds the arm.
+    pub brake: bool,
+    /// Where the arm should be.
+    pub aim: State<R, 6, 6>,
+    /// Where it is.
+    pub arm: State<R, 6, 6>,
+}
+
+impl<R: Real> Bench<R> {
+    /// An arm at home that is to move all its joints by `step` rad in `ticks`, to wait as long, and to come back.
+    pub fn new(step: f64, ticks: u32) -> Self {
+        let of = |x: [f64; 6]| x.map(R::from_f64);
+        let stop = |q, ticks| WayPoint {
+            q: of(q),
+            qd: of([0.0; 6]),
+            ticks,
+        };
+        let away = HOME.map(|q| q + step);
+        let limits = [Speed {
+            velocity: R::from_f64(3.0),
+            acceleration: R::from_f64(30.0),
+        }; 6];
+        let points = [stop(HOME, 0), stop(away, ticks), stop(HOME, ticks)];
+        let bounds = Bounds {
+            torque: of(TORQUE),
+            rate: of(TORQUE.map(|tau| 0.5 * tau)),
+            speed: of([3.2; 6]),
+            lower: of([-6.3; 6]),
+            upper: of([6.3; 6]),
+        };
+        let (model, tick) = (model::<R, Ur5e, 6, 6, 6>(), R::from_f64(TICK));
+        let rotors = RotorInertia(of([0.9, 0.9, 0.9, 0.25, 0.25, 0.25]));
+        let scene = (Gravity::EARTH, Inertia, Coriolis, rotors);
+        let m = crba(model, &of(HOME), &scene);
+        let diagonal = core::array::from_fn(|j| m.get(j, j));
+        Self {
+            model,
+            scene,
+            trajectory: Trajectory::new(&points, tick, &limits).expect("slow enough"),
+            gains: Gains::from_inertia(&diagonal, R::from_f64(OMEGA), R::ONE),
+            supervisor: Supervisor::new(bounds, tick, HOLD, REENTRY).riding(RIDE),
+            observer: Observer::new(R::from_f64(250.0), tick),
+            rejoin: Rejoin::new(tick, R::from_f64(LAMBDA), REENTRY),
+            clock: 0,
+            expected: of([0.0; 6]),
+            command: of([0.0; 6]),
+            brake: false,
+            aim: State::at(of(HOME)),
+            arm: State::at(of(HOME)),
+        }
+    }
+
+    /// A tick of the controller, with a number in it that should not be there.
+    pub fn tick(&mut self, poison: Option<Poison<R>>) -> Command<R, 6> {
+        let mut q = self.arm.q;
+        spoil(&mut q, poison, Input::Position);
+        self.tick_of(Ok(&q), poison)
+    }
+
+    /// A tick that comes after so many missed ones, which a timer has counted: time goes on, and what is expected.
+    pub fn late_tick(&mut self, missed: u32) -> Command<R, 6> {
+        let follows = self.supervisor.mode() == Mode::Full && !self.rejoin.active();
+        self.supervisor.missed(missed);
+        for _ in 0..missed {
+            self.observer.predict(&self.expected);
+            if follows {
+                self.clock += 1;
+                self.expected = self.trajectory.at(self.clock).qdd;
+            }
+        }
+        self.tick(None)
+    }
+
+    /// A tick with this measurement.
+    pub fn tick_of(
+        &mut self,
+        measured: Result<&[R; 6], Fault>,
+        poison: Option<Poison<R>>,
+    ) -> Command<R, 6> {
+        let Self {
+            supervisor,
+            observer,
+            rejoin,
+            trajectory,
+            ..
+        } = self;
+        supervisor.admit(measured);
+        let estimate = if supervisor.seen() {
+            observer.update(supervisor.last_good(), &self.expected)
+        } else {
+            observer.predict(&self.expected)
+        };
+        if supervisor.mode() == Mode::Stopped && supervisor.seen() {
+            observer.reset(supervisor.last_good()); // on the brake
+        }
+        let held = supervisor.watch(&estimate.qd) != Mode::Full;
+        let mut aim = if held {
+            rejoin.start(&estimate, self.clock);
+            State::at(estimate.q)
+        } else if rejoin.active() && supervisor.authority() < R::ONE {
+            rejoin.at(trajectory, supervisor.authority())
+        } else {
+            self.clock = if rejoin.active() {
+                rejoin.finish()
+            } else {
+                self.clock + 1
+            };
+            trajectory.at(self.clock)
+        };
+        let slower = estimate.qd.map(|qd| R::from_f64(-LAMBDA) * qd);
+        self.expected = if held { slower } else { aim.qdd };
+        self.aim = aim;
+        spoil(&mut aim.q, poison, Input::Reference(0));
+        spoil(&mut aim.qd, poison, Input::Reference(1));
+        spoil(&mut aim.qdd, poison, Input::Reference(2));
+        let mut tau = rnea(self.model, &aim, &self.scene);
+        for (tau, pd) in tau
+            .iter_mut()
+            .zip(feedback(&self.gains, &aim, &estimate.q, &estimate.qd))
+        {
+            *tau += pd;
+        }
+        spoil(&mut tau, poison, Input::Torque);
+        let command = supervisor.pass(&tau);
+        (self.command, self.brake) = (command.torque, command.brake);
+        command
+    }
+
+    /// What the arm does.
+    pub fn mode(&self) -> Mode {
+        self.supervisor.mode()
+    }
+
+    /// Starts a stopped arm again.
+    pub fn reset(&mut self) {
+        self.supervisor.reset();
+        self.rejoin.start(self.observer.estimate(), self.clock);
+        self.expected = [R::ZERO; 6];
+    }
+
+    /// The arm moves on by `seconds` under the last command, in steps of a quarter of a tick or less.
+    pub fn advance(&mut self, seconds: f64) {
+        if self.brake {
+            self.arm.qd = [R::ZERO; 6];
+            return;
+        }
+        let steps = (seconds / (0.25 * TICK)).ceil().max(1.0);
+        let h = R::from_f64(seconds / steps);
+        for _ in 0..steps as u32 {
+            semi_implicit(self.model, &mut self.arm, &self.command, &self.scene, h)
+                .expect("M is positive definite");
+        }
+    }
+
+    /// The largest |τ| of the last command relative to what is allowed; infinite if one is no number.
+    pub fn effort(&self) -> f64 {
+        let share = |(tau, most): (&R, f64)| tau.to_f64().abs() / most;
+        let shares = self.command.iter().zip(TORQUE).map(share);
+        shares.fold(0.0, |worst, share| {
+            if share <= worst {
+                worst
+            } else if share.is_finite() {
+                share
+            } else {
+                f64::INFINITY
+            }
+        })
+    }
+
+    /// How far a joint is from where it should be at most, rad.
+    pub fn error(&self) -> f64 {
+        apart(&self.aim.q, &self.arm.q)
+    }
+}
+
+/// The largest difference.
+pub fn apart<R: Real>(a: &[R; 6], b: &[R; 6]) -> f64 {
+    let apart = |(a, b): (&R, &R)| (a.to_f64() - b.to_f64()).abs();
+    a.iter().zip(b).map(apart).fold(0.0, f64::max)
+}
+
+fn spoil<R: Real>(values: &mut [R; 6], poison: Option<Poison<R>>, input: Input) {
+    if let Some(poison) = poison.filter(|poison| poison.input == input) {
+        values[poison.joint] = poison.value;
+    }
+}

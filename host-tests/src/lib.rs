@@ -2,6 +2,7 @@
 //! as those oracles are given them.
 
 pub mod export;
+pub mod fuzz;
 pub mod hard;
 pub mod odd;
 pub mod random;

@@ -184,15 +184,3 @@ pub fn symmetric<const N: usize>(rows: &[Vec<f64>], state: usize) -> [[f64; N]; 
 pub fn full_scale(rows: &[Vec<f64>]) -> f64 {
     rows.iter().flatten().fold(0.0, |most, x| most.max(x.abs()))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_triangle_by_rows_becomes_its_symmetric_matrix() {
-        let rows = [vec![0.0, 1.0, 2.0, 11.0, 12.0, 22.0]];
-        let want = [[0.0, 1.0, 2.0], [1.0, 11.0, 12.0], [2.0, 12.0, 22.0]];
-        assert_eq!(symmetric::<3>(&rows, 0), want);
-    }
-}

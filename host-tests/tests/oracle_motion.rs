@@ -191,3 +191,10 @@ fn motions_energies_momenta_and_mobilities_agree_with_pinocchio_within_the_table
     }
     verdict.speak();
 }
+
+#[test]
+fn a_recorded_triangle_by_rows_becomes_its_symmetric_matrix() {
+    let rows = [vec![0.0, 1.0, 2.0, 11.0, 12.0, 22.0]];
+    let want = [[0.0, 1.0, 2.0], [1.0, 11.0, 12.0], [2.0, 12.0, 22.0]];
+    assert_eq!(symmetric::<3>(&rows, 0), want);
+}

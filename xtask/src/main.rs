@@ -10,6 +10,7 @@ mod docs;
 mod effects;
 mod elf;
 mod eliminations;
+mod endurance;
 mod error;
 mod firmware;
 mod growth;
@@ -110,6 +111,20 @@ enum Command {
         #[arg(long)]
         json: bool,
     },
+    /// Feed descriptions, dynamics, controller and encoder frames random bytes; CI does so for a moment
+    Fuzz {
+        /// Seconds for each target
+        #[arg(long, default_value_t = 60, value_name = "N")]
+        seconds: u64,
+    },
+    /// Run the control loop under random faults; CI does so for 200,000 ticks
+    Soak {
+        /// Ticks
+        #[arg(long, default_value_t = 10_000_000, value_name = "N")]
+        ticks: u64,
+    },
+    /// Run the library's unit tests in Miri, where a nightly toolchain has it
+    Miri,
     /// Run everything that CI runs
     Test {
         /// Only these steps (see --list)
@@ -218,6 +233,9 @@ fn run(cli: Cli) -> Result<ExitCode> {
         Command::HardCases { json } => hard_cases::run(json),
         Command::Peers { json } => peers::run(cli.setup, json),
         Command::BuildTime { json } => build_time::run(cli.setup, json),
+        Command::Fuzz { seconds } => endurance::fuzz(seconds),
+        Command::Soak { ticks } => endurance::soak(ticks),
+        Command::Miri => endurance::miri(),
         Command::Test { list: true, .. } => {
             test::list();
             Ok(ExitCode::SUCCESS)

@@ -14,6 +14,7 @@ pub mod controller;
 pub mod descriptions;
 pub mod elbow;
 pub mod energy;
+pub mod engine;
 pub mod friction;
 pub mod integrators;
 pub mod invariances;
@@ -79,6 +80,7 @@ pub const CASES: &[&[Case]] = &[
     friction::CASES,
     poison::CASES,
     clock::CASES,
+    engine::CASES,
 ];
 
 /// Runs the case of this number.

@@ -6,6 +6,7 @@ mod clock;
 mod descriptions;
 mod elbow;
 mod energy;
+mod engine;
 mod friction;
 mod invariances;
 mod masses;

@@ -1,0 +1,25 @@
+//! What any bytes may be fed to: nothing here panics but to report a broken promise.
+//!
+//! `tests/fuzz.rs` runs each target on a fixed stream, `cargo xtask fuzz` for as long as one likes.
+
+mod bytes;
+mod controller;
+mod description;
+mod dynamics;
+mod frames;
+
+pub use controller::controller;
+pub use description::description;
+pub use dynamics::dynamics;
+pub use frames::frames;
+
+/// A target, by name.
+pub type Target = (&'static str, fn(&[u8]));
+
+/// All of them.
+pub const TARGETS: [Target; 4] = [
+    ("description", description),
+    ("dynamics", dynamics),
+    ("controller", controller),
+    ("frames", frames),
+];

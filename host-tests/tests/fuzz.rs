@@ -1,0 +1,34 @@
+//! The fuzz targets on a fixed stream of bytes: the bounded run of `cargo xtask fuzz`.
+
+use host_tests::fuzz::{controller, description, dynamics, frames};
+use host_tests::random::random_numbers;
+use proptest::prelude::RngExt;
+
+fn run(target: fn(&[u8]), inputs: usize) {
+    let rng = &mut random_numbers();
+    for _ in 0..inputs {
+        let length = rng.random_range(0..512);
+        let bytes: Vec<u8> = (0..length).map(|_| rng.random()).collect();
+        target(&bytes);
+    }
+}
+
+#[test]
+fn no_description_breaks_what_is_accepted() {
+    run(description, 20_000);
+}
+
+#[test]
+fn no_state_breaks_the_dynamics() {
+    run(dynamics, 10_000);
+}
+
+#[test]
+fn no_inputs_drive_the_controller_beyond_its_limits() {
+    run(controller, 300);
+}
+
+#[test]
+fn no_frame_is_taken_for_another() {
+    run(frames, 2_000);
+}

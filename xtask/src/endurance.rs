@@ -1,0 +1,86 @@
+//! `cargo xtask fuzz`, `cargo xtask soak`, `cargo xtask miri`: what takes longer than CI has time for.
+
+use std::process::{Command, ExitCode};
+
+use crate::error::Result;
+use crate::shell;
+use crate::workspace::Workspace;
+
+/// The crate of the fuzz targets, a workspace of its own.
+const FUZZ: &str = "host-tests/fuzz";
+
+/// Feeds every target random bytes for so many seconds.
+pub fn fuzz(seconds: u64) -> Result<ExitCode> {
+    let workspace = Workspace::find()?;
+    let mut command = workspace.cargo("test");
+    command.args([
+        "--test",
+        "targets",
+        "--",
+        "--test-threads",
+        "2",
+        "--nocapture",
+    ]);
+    command.current_dir(workspace.root.join(FUZZ));
+    command.env("CARGO_TARGET_DIR", workspace.target.join("fuzz"));
+    command.env("BOLERO_RANDOM_TEST_TIME_MS", (1000 * seconds).to_string());
+    eprintln!(
+        "each target for {seconds} s; a failure names its input and BOLERO_RANDOM_SEED, which repeats it"
+    );
+    shell::run(&mut command)?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Runs the control loop under random faults for so many ticks.
+pub fn soak(ticks: u64) -> Result<ExitCode> {
+    let workspace = Workspace::find()?;
+    let mut command = workspace.cargo("test");
+    command.args([
+        "--package",
+        "host-tests",
+        "--test",
+        "soak",
+        "--",
+        "--nocapture",
+    ]);
+    command.env("SOAK_TICKS", ticks.to_string());
+    shell::run(&mut command)?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Runs the library's unit tests in Miri, if a nightly toolchain has it.
+pub fn miri() -> Result<ExitCode> {
+    let workspace = Workspace::find()?;
+    let nightly = |arguments: &[&str]| {
+        let mut command = Command::new("rustup");
+        command
+            .args(["run", "nightly", "cargo", "miri"])
+            .args(arguments);
+        // Set by the cargo that started xtask.
+        for name in [
+            "CARGO",
+            "RUSTC",
+            "RUSTDOC",
+            "RUSTUP_TOOLCHAIN",
+            "RUST_RECURSION_COUNT",
+        ] {
+            command.env_remove(name);
+        }
+        command.current_dir(&workspace.root);
+        command.env("CARGO_TARGET_DIR", workspace.target.join("miri"));
+        command
+    };
+    if !shell::succeeds(&mut nightly(&["--version"])) {
+        println!(
+            "skipped: no nightly toolchain with Miri (rustup toolchain install nightly --component miri,rust-src)"
+        );
+        return Ok(ExitCode::SUCCESS);
+    }
+    shell::run(&mut nightly(&[
+        "test",
+        "--package",
+        "dynamics-core",
+        "--lib",
+    ]))?;
+    Ok(ExitCode::SUCCESS)
+}

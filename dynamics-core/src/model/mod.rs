@@ -180,6 +180,12 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
             }
             let (nq, nv) = body.joint.kind.coordinates();
             let mut link = aligned(body, &links);
+            if !is_finite(&link) {
+                return Err(ModelError {
+                    body: body.name,
+                    problem: Problem::NotFinite,
+                });
+            }
             link.q_at = if nq == 0 { BASE } else { q_at };
             link.v_at = if nv == 0 { BASE } else { v_at };
             links[i] = link;
@@ -321,6 +327,18 @@ const fn aligned<const B: usize>(body: &Body, links: &[Link<f64>; B]) -> Link<f6
         v_at: BASE,
         limits: body.limits,
     }
+}
+
+/// Whether what was computed of a description is finite: numbers of 10¹⁵⁴ have squares that are not.
+const fn is_finite(link: &Link<f64>) -> bool {
+    // x·0 is 0 for finite x and NaN otherwise; a sum of such products is 0 or NaN.
+    let (inertia, none) = (&link.inertia.inertia, DVec3::ZERO);
+    let sum = dot(link.placement.pos, none)
+        + dot(link.inertia.moment, none)
+        + dot(inertia.x_axis, none)
+        + dot(inertia.y_axis, none)
+        + dot(inertia.z_axis, none);
+    sum == 0.0
 }
 
 /// The last velocity coordinate of the nearest joint that has one, from body `at` to the base.

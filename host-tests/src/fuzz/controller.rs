@@ -2,7 +2,7 @@
 
 use super::bytes::Bytes;
 use crate::hard::controller::{Bench, INPUTS, Poison, TICK};
-use dynamics_core::control::{Fault, Mode};
+use dynamics_core::control::{Command, Fault, Mode};
 
 /// Ticks of an arm in motion, one or a few for every four bytes.
 ///
@@ -14,39 +14,36 @@ pub fn controller(bytes: &[u8]) {
     while from.any() {
         let (what, joint) = (from.byte(), from.below(6));
         match what % 16 {
-            0..4 => tick(&mut bench, |bench| drop(bench.tick(None))),
+            0..4 => tick(&mut bench, |bench| bench.tick(None)),
             4..10 => {
                 let poison = Poison {
                     input: INPUTS[usize::from(what) % INPUTS.len()],
                     joint,
                     value: from.number() as f32,
                 };
-                tick(&mut bench, |bench| drop(bench.tick(Some(poison))));
+                tick(&mut bench, |bench| bench.tick(Some(poison)));
             }
             10 => tick(&mut bench, |bench| {
-                drop(bench.tick_of(Err(Fault::Encoder { joint }), None))
+                bench.tick_of(Err(Fault::Encoder { joint }), None)
             }),
             11 => {
                 let missed = u32::from(from.byte());
                 bench.advance(TICK * f64::from(missed));
-                tick(&mut bench, |bench| drop(bench.late_tick(missed)));
+                tick(&mut bench, |bench| bench.late_tick(missed));
             }
             12 => {
                 let q = from.numbers().map(|x: f64| x as f32);
-                tick(&mut bench, |bench| drop(bench.tick_of(Ok(&q), None)));
+                tick(&mut bench, |bench| bench.tick_of(Ok(&q), None));
             }
             13 => bench.reset(),
-            _ => {
-                (0..from.byte() % 32).for_each(|_| tick(&mut bench, |bench| drop(bench.tick(None))))
-            }
+            _ => (0..from.byte() % 32).for_each(|_| tick(&mut bench, |bench| bench.tick(None))),
         }
     }
 }
 
-fn tick(bench: &mut Bench<f32>, call: impl FnOnce(&mut Bench<f32>)) {
-    call(bench);
+fn tick(bench: &mut Bench<f32>, call: impl FnOnce(&mut Bench<f32>) -> Command<f32, 6>) {
+    let stopped = call(bench).status.mode == Mode::Stopped;
     assert!(bench.effort() <= 1.0, "{:?}", bench.command);
-    let stopped = bench.mode() == Mode::Stopped;
     assert!(!stopped || bench.brake && bench.command == [0.0; 6]);
     bench.advance(TICK);
 }

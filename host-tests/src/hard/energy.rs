@@ -106,14 +106,11 @@ fn pendulum() -> Vec<Row> {
         swing::<f32>(LAST, 2e-3, 3600.0, true),
         swing::<f64>(LAST, 2e-3, 3600.0, true),
     ];
-    rows.push(Row::measured(what.as_str(), "f32", single, 2e-4));
+    rows.push(Row::measured(what.as_str(), "f32", single, 1e-4));
     rows.push(Row::measured(what.as_str(), "f64", double, 1e-5));
-    let turns = swing::<f32>(LAST, 2e-3, 1200.0, false);
-    let what = format!(
-        "{}: energy in 20 min, turns left in q",
-        INTEGRATORS[LAST].name
-    );
-    rows.push(Row::naive(what, "f32", turns, 2e-4));
+    let turns = swing::<f32>(LAST, 2e-3, 3600.0, false);
+    let what = format!("{}: energy in 1 h, turns left in q", INTEGRATORS[LAST].name);
+    rows.push(Row::naive(what, "f32", turns, 1e-4));
     rows
 }
 

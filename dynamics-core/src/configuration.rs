@@ -225,7 +225,7 @@ fn put<R: Real>(out: &mut [R], at: usize, values: &[R]) {
 /// The same angle within ±π (of a million turns at most), by less than a rounding of its turns off.
 fn within_half_a_turn<R: Real>(angle: R) -> R {
     use core::f64::consts::{PI, TAU};
-    if !(angle.abs() > R::from_f64(PI)) {
+    if angle.abs() <= R::from_f64(PI) {
         return angle;
     }
     let half = R::from_f64(if angle > R::ZERO { 0.5 } else { -0.5 });

@@ -77,7 +77,7 @@ fn body(from: &mut Bytes<'_>, index: usize) -> Body {
         _ => Joint::revolute(axis),
     };
     let body = Body::new("body", parent, joint).xyz(at).com(com);
-    let body = if from.byte() % 2 == 0 {
+    let body = if from.byte().is_multiple_of(2) {
         body.rpy(turn)
     } else {
         body.quarter_turns([turn[0] as i32, 1, -7])
@@ -91,7 +91,7 @@ fn body(from: &mut Bytes<'_>, index: usize) -> Body {
         products[2],
         moments[2],
     ]);
-    if from.byte() % 4 == 0 {
+    if from.byte().is_multiple_of(4) {
         body.limits(limits)
     } else {
         body

@@ -2,7 +2,7 @@
 //! gravity.
 
 use super::integrators::INTEGRATORS;
-use super::{Case, Row};
+use super::{Case, Row, name};
 use crate::random::{random_numbers, within};
 use dynamics_core::Core;
 use dynamics_core::algorithms::{aba, forward, rnea};
@@ -46,10 +46,6 @@ pub const CASES: &[Case] = &[
         run: rest,
     },
 ];
-
-fn name<R>() -> &'static str {
-    std::any::type_name::<R>()
-}
 
 const G: f64 = 9.81;
 

@@ -2,7 +2,7 @@
 
 use super::measure::larger;
 use super::setup::widened;
-use super::{Case, Row};
+use super::{Case, Row, name};
 use dynamics_core::model::{Arm, Robot};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
@@ -108,10 +108,6 @@ fn what(what: &str, problem: usize) -> String {
         "{what}, case {}, {}",
         SINGLE[problem].case, SINGLE[problem].name
     )
-}
-
-fn name<R>() -> &'static str {
-    std::any::type_name::<R>()
 }
 
 fn engine() -> Vec<Row> {

@@ -8,6 +8,7 @@ mod roots;
 mod row;
 
 pub mod attitude;
+pub mod belt;
 pub mod chains;
 pub mod clock;
 pub mod controller;
@@ -28,6 +29,8 @@ pub mod setups;
 pub mod slide;
 pub mod speeds;
 pub mod stiff;
+pub mod top;
+pub mod windup;
 
 pub use row::{Row, Verdict};
 
@@ -63,6 +66,11 @@ impl Case {
     }
 }
 
+/// The scalar's name.
+fn name<R>() -> &'static str {
+    std::any::type_name::<R>()
+}
+
 /// All cases, a slice a family.
 pub const CASES: &[&[Case]] = &[
     masses::CASES,
@@ -75,11 +83,14 @@ pub const CASES: &[&[Case]] = &[
     descriptions::CASES,
     invariances::CASES,
     attitude::CASES,
+    top::CASES,
     energy::CASES,
     stiff::CASES,
     friction::CASES,
+    belt::CASES,
     poison::CASES,
     clock::CASES,
+    windup::CASES,
     engine::CASES,
 ];
 

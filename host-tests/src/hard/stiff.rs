@@ -1,6 +1,6 @@
 //! Springs and dampers that are stiffer than the step is short: closed forms of backward Euler's method.
 
-use super::{Case, Row};
+use super::{Case, Row, name};
 use dynamics_core::algorithms::rnea;
 use dynamics_core::effects::{Inertia, RIGID_BODY, Spring, Viscous};
 use dynamics_core::flexible::{Course, Flexible, Motors, flexible_rnea, flexible_step};
@@ -42,10 +42,6 @@ pub const CASES: &[Case] = &[
         run: flexible,
     },
 ];
-
-fn name<R>() -> &'static str {
-    std::any::type_name::<R>()
-}
 
 /// Relative to what is wanted of it.
 fn relative(got: f64, want: f64) -> f64 {

@@ -37,6 +37,7 @@ fn roots_are_square_roots() {
 }
 
 #[test]
+#[cfg_attr(miri, ignore = "18 million samples")]
 fn peaks_are_those_of_dense_sampling() {
     let mut seed = 1;
     // Miri takes a minute for what is a second otherwise.

@@ -101,7 +101,7 @@ fn measure(workspace: &Workspace, tools: &Tools) -> Result<Vec<Price>> {
     }
     spinner.say("computing torques on the host".into());
     let mut command = workspace.cargo("run");
-    command.args(["--quiet", "--release", "--package", "host-tests"]);
+    command.args(["--quiet", "--package", "host-tests"]);
     let torques = shell::capture(command.args(["--bin", HOST_BIN]))?;
     let torques = torques.lines().filter_map(torque).collect();
     priced(&rows, &held, &torques)

@@ -202,7 +202,7 @@ where
     for body in &bodies {
         let carried = body.x * a.by(D::CHAIN, body.node.parent) + body.c;
         // What is free of its parent does not feel it: what falls with all its joints at rest stays so exactly.
-        let free = is_free(&body.node, effects, &given);
+        let free = D::KINDS.has(JointKind::Free) && is_free(&body.node, effects, &given);
         let mut a_i = if free { Motion::ZERO } else { carried };
         for (k, joint) in body.node.coordinates().enumerate() {
             let Some(Handle { u_hat, per_d, u }) = handles.pop() else {

@@ -114,7 +114,9 @@ impl Kinds {
         self.0 & !single.with(Helical).0 == 0
     }
 
-    const fn has(self, kind: JointKind) -> bool {
+    /// Whether this kind is one of them.
+    #[inline(always)]
+    pub(crate) const fn has(self, kind: JointKind) -> bool {
         self.0 & (1 << kind as u16) != 0
     }
 

@@ -62,7 +62,8 @@ impl Decoder for Plain {
     }
 }
 
-const PATIENCE: Duration = Duration::from_millis(400);
+/// Long enough for a script to start on a machine that is busy building.
+const PATIENCE: Duration = Duration::from_secs(3);
 
 /// What comes of a run of these lines of shell, within a few times [`PATIENCE`].
 fn outcome(lines: &str) -> Result<Vec<u8>, String> {
@@ -81,7 +82,7 @@ fn outcome(lines: &str) -> Result<Vec<u8>, String> {
         .stderr(Stdio::piped());
     let outcome = watch.run(&mut command, &mut |_| Ok(()));
     // A busy machine may start a script late, but not for ever.
-    assert!(start.elapsed() < Duration::from_secs(10), "{lines}");
+    assert!(start.elapsed() < Duration::from_secs(60), "{lines}");
     outcome.map_err(|error| error.to_string())
 }
 
@@ -117,7 +118,7 @@ fn a_crash_is_told_with_what_it_said() {
 fn a_hang_is_killed() {
     assert_fails(
         r"printf 'hello\0'; exec sleep 100",
-        &["no progress for 400ms, killed", "\"hello\""],
+        &["no progress for 3s, killed", "\"hello\""],
     );
 }
 
@@ -130,7 +131,7 @@ fn a_flood_of_junk_is_killed_by_its_size() {
 fn a_trickle_of_junk_is_killed_by_the_clock() {
     assert_fails(
         "while :; do printf junk; sleep 0.02; done",
-        &["no progress for 400ms"],
+        &["no progress for 3s"],
     );
 }
 
@@ -164,7 +165,7 @@ fn a_panic_is_told_at_once() {
 fn a_program_that_goes_on_without_output_is_killed() {
     assert_fails(
         r"printf 'done\0'; exec >&- 2>&-; exec sleep 100",
-        &["closed its output and went on for 400ms, killed"],
+        &["closed its output and went on for 3s, killed"],
     );
 }
 

@@ -206,11 +206,10 @@ impl Recording {
         Ok(())
     }
 
-    /// The first run of the law to sell whose status is not this one, with its status.
-    pub fn unlike(&self, status: &str) -> Option<String> {
+    /// The first run of these laws whose status is not this one, with its status.
+    pub fn unlike(&self, status: &str, laws: impl Fn(&str) -> bool) -> Option<String> {
         let mut runs = self.runs.iter();
-        let ((plant, law), run) =
-            runs.find(|((_, law), run)| law == SOLD && run.status != status)?;
+        let ((plant, law), run) = runs.find(|((_, law), run)| laws(law) && run.status != status)?;
         Some(format!("{plant} {law}: {:?}", run.status))
     }
 

@@ -7,6 +7,7 @@ use crate::docs;
 use crate::error::{Error, Result};
 use crate::firmware;
 use crate::plot;
+use crate::protocol::SOLD;
 use crate::render::CLOCK_MHZ;
 use crate::scene::Scene;
 use crate::scenes;
@@ -31,7 +32,9 @@ pub fn runs(context: &Context) -> Result<Outcome> {
     let mut ticks = 0;
     for measured in context.measured()? {
         let name = &measured.report.scene;
-        if let Some(run) = measured.recording.unlike(PLAIN) {
+        // Of the default scene no law needs the gate; elsewhere some are there to show that they do.
+        let held = |law: &str| law == SOLD || *name == Scene::default().name();
+        if let Some(run) = measured.recording.unlike(PLAIN, held) {
             return Err(Error::check(format!(
                 "{name}: the safety gate stepped in: {run}"
             )));

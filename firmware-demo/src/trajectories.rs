@@ -2,7 +2,10 @@
 
 use core::f32::consts::{FRAC_PI_2, FRAC_PI_4};
 
-use dynamics_core::control::WayPoint;
+use dynamics_core::control::{Speed, Trajectory, TrajectoryError, WayPoint};
+use dynamics_core::model::{Robot, model};
+
+use crate::scene::TICK;
 
 /// Where the UR5e's pick and place begins and ends, rad.
 pub const HOME: [f32; 6] = [0.0, -FRAC_PI_2, FRAC_PI_2, -FRAC_PI_2, -FRAC_PI_2, 0.0];
@@ -60,6 +63,28 @@ pub const SWING: [WayPoint<f32, 7>; 4] = [
     stop([-0.5, 0.7, -0.3, -1.5, -0.5, 1.0, -0.6], 2100),
     stop(UPRIGHT, 1300),
 ];
+
+/// Greatest acceleration of each joint, rad/s², as in the scene `ur5e`.
+const ACCELERATION: f32 = 12.0;
+
+/// The way of the robot T through these points, within its limits.
+///
+/// # Errors
+/// Way-points that the limits do not allow.
+pub fn reference<T: Robot<B, N, N>, const B: usize, const N: usize, const W: usize>(
+    points: &[WayPoint<f32, N>; W],
+) -> Result<Trajectory<f32, N, W>, TrajectoryError> {
+    let mut speeds = [Speed {
+        velocity: 0.0,
+        acceleration: ACCELERATION,
+    }; N];
+    for link in &model::<f32, T, B, N, N>().links {
+        if let Some(speed) = speeds.get_mut(link.v_at) {
+            speed.velocity = link.limits.velocity;
+        }
+    }
+    Trajectory::new(points, TICK, &speeds)
+}
 
 /// A way-point at rest.
 const fn stop<const N: usize>(q: [f32; N], ticks: u32) -> WayPoint<f32, N> {

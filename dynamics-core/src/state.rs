@@ -82,12 +82,8 @@ impl<R: Real, const Q: usize> Posture<R, Q> {
     {
         let mut turns = [Turn::default(); Q];
         match robot.revolutes() {
-            Some(robot) => robot
-                .nodes()
-                .for_each(|node| node.pose::<K>(q, &mut turns)),
-            None => robot
-                .nodes()
-                .for_each(|node| node.pose::<K>(q, &mut turns)),
+            Some(robot) => robot.nodes().for_each(|node| node.pose::<K>(q, &mut turns)),
+            None => robot.nodes().for_each(|node| node.pose::<K>(q, &mut turns)),
         }
         Self { turns }
     }

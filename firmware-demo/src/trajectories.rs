@@ -2,10 +2,7 @@
 
 use core::f32::consts::{FRAC_PI_2, FRAC_PI_4};
 
-use dynamics_core::control::{Speed, Trajectory, TrajectoryError, WayPoint};
-use dynamics_core::model::{Robot, model};
-
-use crate::scene::TICK;
+use dynamics_core::control::WayPoint;
 
 /// Where the UR5e's pick and place begins and ends, rad.
 pub const HOME: [f32; 6] = [0.0, -FRAC_PI_2, FRAC_PI_2, -FRAC_PI_2, -FRAC_PI_2, 0.0];
@@ -64,27 +61,35 @@ pub const SWING: [WayPoint<f32, 7>; 4] = [
     stop(UPRIGHT, 1300),
 ];
 
-/// Greatest acceleration of each joint, rad/s², as in the scene `ur5e`.
-const ACCELERATION: f32 = 12.0;
+/// A swing of the UR5e there and back.
+pub const UR5E_SWING: [WayPoint<f32, 6>; 4] = [
+    stop(HOME, 0),
+    stop([0.7, -1.2, 1.2, -1.2, -1.3, 0.6], 1300),
+    stop([-0.5, -1.8, 1.8, -1.8, -1.8, -0.6], 2100),
+    stop(HOME, 1300),
+];
 
-/// The way of the robot T through these points, within its limits.
-///
-/// # Errors
-/// Way-points that the limits do not allow.
-pub fn reference<T: Robot<B, N, N>, const B: usize, const N: usize, const W: usize>(
-    points: &[WayPoint<f32, N>; W],
-) -> Result<Trajectory<f32, N, W>, TrajectoryError> {
-    let mut speeds = [Speed {
-        velocity: 0.0,
-        acceleration: ACCELERATION,
-    }; N];
-    for link in &model::<f32, T, B, N, N>().links {
-        if let Some(speed) = speeds.get_mut(link.v_at) {
-            speed.velocity = link.limits.velocity;
-        }
-    }
-    Trajectory::new(points, TICK, &speeds)
-}
+/// A swing of the Panda there and back.
+pub const PANDA_SWING: [WayPoint<f32, 7>; 4] = [
+    stop(READY, 0),
+    stop([0.7, -0.4, 0.3, -2.0, 0.5, 1.9, 1.2], 1300),
+    stop([-0.5, -1.0, -0.3, -2.6, -0.5, 1.3, 0.2], 2100),
+    stop(READY, 1300),
+];
+
+/// How a quadruped's leg stands, rad.
+pub const STANDING: [f32; 3] = [0.0, 0.8, -1.6];
+
+/// Two steps of a quadruped's leg at a trot, one turned outwards: lifted, put ahead, drawn back under the body.
+pub const LEG_STEPS: [WayPoint<f32, 3>; 7] = [
+    stop(STANDING, 0),
+    pass([0.05, 0.95, -2.20], [0.0, -4.0, 0.0], 120),
+    stop([0.0, 0.55, -1.50], 120),
+    stop(STANDING, 240),
+    pass([0.25, 0.95, -2.20], [0.0, -4.0, 0.0], 120),
+    stop([0.20, 0.55, -1.50], 120),
+    stop(STANDING, 240),
+];
 
 /// A way-point at rest.
 const fn stop<const N: usize>(q: [f32; N], ticks: u32) -> WayPoint<f32, N> {

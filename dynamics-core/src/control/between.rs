@@ -130,12 +130,7 @@ impl<R: Real, const V: usize, const TICKS: usize> Linearised<R, V, TICKS> {
 
     /// In a tick that has computed torque and M at the acceleration q̈.
     #[inline(always)]
-    pub fn renew(
-        &mut self,
-        torque: [R; V],
-        mass_matrix: MassMatrix<R, V>,
-        qdd: &[R; V],
-    ) -> [R; V] {
+    pub fn renew(&mut self, torque: [R; V], mass_matrix: MassMatrix<R, V>, qdd: &[R; V]) -> [R; V] {
         let mut bias = torque;
         for (bias, &inertial) in bias.iter_mut().zip(&mass_matrix.mul_vec(qdd)) {
             *bias -= inertial;

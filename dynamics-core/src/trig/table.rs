@@ -64,10 +64,7 @@ impl<const N: usize, const ORDER: usize> Kernel<f32> for Table<N, ORDER> {
             2 => (r, r * r * -0.5),
             _ => {
                 let u = r * r;
-                (
-                    r + r * (u * (-1.0 / 6.0)),
-                    u * (-0.5 + u * (1.0 / 24.0)),
-                )
+                (r + r * (u * (-1.0 / 6.0)), u * (-0.5 + u * (1.0 / 24.0)))
             }
         };
         (s + (s * dc + c * ds), c + (c * dc - s * ds))

@@ -3,6 +3,7 @@
 use core::marker::PhantomData;
 
 use dynamics_core::Engine;
+use dynamics_core::flexible::Course;
 use dynamics_core::state::State;
 use dynamics_core::trig::Carried;
 
@@ -28,10 +29,6 @@ pub struct After<K, M, F, const B: usize>(PhantomData<(K, M, F)>);
 #[derive(Debug)]
 pub struct Following<M, F, const B: usize, const N: usize>(Carried<f32, N>, PhantomData<(M, F)>);
 
-/// In f64, which this processor computes in software.
-#[derive(Debug)]
-pub struct Double<M, F, const B: usize>(PhantomData<(M, F)>);
-
 /// Torques as they are compared.
 fn widened<const N: usize>(torque: &[f32; N]) -> [f64; N] {
     torque.map(f64::from)
@@ -54,8 +51,8 @@ where
     fn start(_: &State<f32, N, N>) -> Self {
         Self(PhantomData)
     }
-    fn input(state: &State<f32, N, N>) -> Self::Input {
-        *state
+    fn input(course: &Course<f32, N, N>) -> Self::Input {
+        course.state
     }
     #[inline(always)]
     fn tick(&mut self, state: &Self::Input) -> [f32; N] {
@@ -85,8 +82,8 @@ where
     fn start(_: &State<f32, N, N>) -> Self {
         Self(PhantomData)
     }
-    fn input(state: &State<f32, N, N>) -> Self::Input {
-        *state
+    fn input(course: &Course<f32, N, N>) -> Self::Input {
+        course.state
     }
     #[inline(always)]
     fn tick(&mut self, state: &Self::Input) -> [f32; N] {
@@ -113,8 +110,8 @@ where
     fn start(_: &State<f32, N, N>) -> Self {
         Self(PhantomData)
     }
-    fn input(state: &State<f32, N, N>) -> Self::Input {
-        *state
+    fn input(course: &Course<f32, N, N>) -> Self::Input {
+        course.state
     }
     #[inline(never)]
     fn tick(&mut self, state: &Self::Input) -> [f32; N] {
@@ -145,8 +142,8 @@ where
     fn start(first: &State<f32, N, N>) -> Self {
         Self(Carried::at(first.q), PhantomData)
     }
-    fn input(state: &State<f32, N, N>) -> Self::Input {
-        *state
+    fn input(course: &Course<f32, N, N>) -> Self::Input {
+        course.state
     }
     #[inline(never)]
     fn tick(&mut self, state: &Self::Input) -> [f32; N] {
@@ -157,40 +154,5 @@ where
     }
     fn address() -> usize {
         Self::tick as fn(&mut Self, &Self::Input) -> Self::Output as usize
-    }
-}
-
-impl<M, F, const B: usize, const N: usize> Inverse<N> for Double<M, F, B>
-where
-    M: Modelled<B, N>,
-    F: Form<M::Robot>,
-{
-    const KEY: Key = Key {
-        arith: "f64",
-        trig: Key::DEFAULT.trig,
-        ..Shipped::<M, F, B>::KEY
-    };
-    type Input = State<f64, N, N>;
-    type Output = [f64; N];
-
-    fn start(_: &State<f32, N, N>) -> Self {
-        Self(PhantomData)
-    }
-    fn input(state: &State<f32, N, N>) -> Self::Input {
-        State {
-            q: state.q.map(f64::from),
-            qd: state.qd.map(f64::from),
-            qdd: state.qdd.map(f64::from),
-        }
-    }
-    #[inline(always)]
-    fn tick(&mut self, state: &Self::Input) -> [f64; N] {
-        F::rnea()(state, &M::SCENE)
-    }
-    fn torque(output: &[f64; N]) -> [f64; N] {
-        *output
-    }
-    fn address() -> usize {
-        F::rnea::<f64, M::Scene, B, N>() as usize
     }
 }

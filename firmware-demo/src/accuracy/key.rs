@@ -54,16 +54,26 @@ impl Key {
 
 impl fmt::Display for Key {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let mut comma = "";
-        for ((axis, value), (_, usual)) in self.axes().into_iter().zip(Self::DEFAULT.axes()) {
-            if value != usual {
-                write!(out, "{comma}{axis}={value}")?;
-                comma = ",";
-            }
-        }
-        if comma.is_empty() {
-            out.write_str("default")?;
-        }
-        Ok(())
+        write(out, self.axes().into_iter().zip(Self::DEFAULT.axes()))
     }
+}
+
+type Axis = (&'static str, &'static str);
+
+/// The axes that differ from the default's.
+pub(super) fn write(
+    out: &mut fmt::Formatter<'_>,
+    axes: impl Iterator<Item = (Axis, Axis)>,
+) -> fmt::Result {
+    let mut comma = "";
+    for ((axis, value), (_, usual)) in axes {
+        if value != usual {
+            write!(out, "{comma}{axis}={value}")?;
+            comma = ",";
+        }
+    }
+    if comma.is_empty() {
+        out.write_str("default")?;
+    }
+    Ok(())
 }

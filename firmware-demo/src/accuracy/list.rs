@@ -2,13 +2,16 @@
 
 use dynamics_core::control::{Extrapolated, Held};
 use dynamics_core::model::Robot;
+use dynamics_core::scalar::Compensated;
 use dynamics_core::trig::{Minimax, Table};
 use dynamics_core::{Core, Engine};
 
+use super::compliant::{Compliant, Joints, Rigid};
 use super::form::Form;
-use super::inverse::{After, By, Double, Following, Shipped};
+use super::inverse::{After, By, Following, Shipped};
 use super::kernels::{Libm, Micromath};
-use super::model::{Full, GravityOnly, Modelled, NoCoriolis};
+use super::model::{Full, GravityOnly, Modelled, NoCoriolis, Parameters, Rounded};
+use super::numbers::{FixedPoint, In};
 use super::sparse::{Every, EveryLinearised};
 use super::{Inverse, Visitor};
 
@@ -20,6 +23,14 @@ where
     forms::<Full<T>, B, N>(visitor);
     forms::<NoCoriolis<T>, B, N>(visitor);
     forms::<GravityOnly<T>, B, N>(visitor);
+
+    visitor.way::<In<Compensated, Full<T>, Engine<T>, B>>();
+    others::<Full<T>, T, B, N>(visitor);
+    others::<NoCoriolis<T>, T, B, N>(visitor);
+    others::<GravityOnly<T>, T, B, N>(visitor);
+    rounded::<T, 6, B, N>(visitor);
+    rounded::<T, 8, B, N>(visitor);
+    rounded::<T, 11, B, N>(visitor);
 
     type Own<T, const B: usize> = Shipped<Full<T>, Engine<T>, B>;
     type Tabled<T, const B: usize> = By<Table<64, 4>, Full<T>, Engine<T>, B>;
@@ -56,7 +67,34 @@ where
     visitor.way::<Following<M, F, B, N>>();
     visitor.way::<After<Libm, M, F, B>>();
     visitor.way::<After<Micromath, M, F, B>>();
-    visitor.way::<Double<M, F, B>>();
+    visitor.way::<In<f64, M, F, B>>();
+}
+
+/// In other numbers, by the core.
+fn others<M, T, const B: usize, const N: usize>(visitor: &mut impl Visitor<N>)
+where
+    M: Modelled<B, N, Robot = T>,
+    T: Robot<B, N, N>,
+{
+    visitor.way::<In<Compensated, M, Core<T>, B>>();
+    visitor.way::<FixedPoint<T, M, B>>();
+}
+
+/// With parameters of a few bits.
+fn rounded<T, const BITS: u32, const B: usize, const N: usize>(visitor: &mut impl Visitor<N>)
+where
+    T: Robot<B, N, N>,
+{
+    visitor.way::<Shipped<Parameters<T, BITS>, Engine<Rounded<T, BITS>>, B>>();
+}
+
+/// Shows those of the same arm on joints that give way to `visitor`.
+pub fn compliant<T, const N: usize>(visitor: &mut impl Visitor<N>)
+where
+    T: Robot<N, N, N> + Joints<N>,
+{
+    visitor.way::<Compliant<T, N>>();
+    visitor.way::<Rigid<T, N>>();
 }
 
 /// Every few ticks, held and extrapolated.

@@ -5,17 +5,25 @@
 //! |---|---|
 //! | [`key`] | the name of a way, the same on target and host |
 //! | [`model`], [`form`], [`kernels`] | what is computed, by which form, with whose sines and cosines |
-//! | [`inverse`], [`sparse`] | the ways themselves: of every tick, and of every few ticks |
-//! | [`list`] | all of them |
+//! | [`inverse`], [`numbers`] | ways that compute in every tick, in f32 and in other numbers |
+//! | [`sparse`] | ways that compute in every few ticks |
+//! | [`compliant`] | ways to the motors of joints that give way |
+//! | [`simulation`] | ways to simulate |
+//! | [`list`], [`robots`] | all of them; whose they are |
 
+pub mod compliant;
 pub mod form;
 pub mod inverse;
 pub mod kernels;
 pub mod key;
 pub mod list;
 pub mod model;
+pub mod numbers;
+pub mod robots;
+pub mod simulation;
 pub mod sparse;
 
+use dynamics_core::flexible::Course;
 use dynamics_core::state::State;
 
 use key::Key;
@@ -33,8 +41,8 @@ pub trait Inverse<const N: usize> {
 
     /// Before the first tick, which will be that of this state.
     fn start(first: &State<f32, N, N>) -> Self;
-    /// The state in its own numbers: what a firmware of this kind would have got from its encoders.
-    fn input(state: &State<f32, N, N>) -> Self::Input;
+    /// Where the joints are to be, in its own numbers: what a firmware of this kind would have computed with so far.
+    fn input(course: &Course<f32, N, N>) -> Self::Input;
     /// One tick: what is measured.
     fn tick(&mut self, input: &Self::Input) -> Self::Output;
     /// Torques, N·m.

@@ -4,6 +4,7 @@ use core::marker::PhantomData;
 
 use dynamics_core::Engine;
 use dynamics_core::control::{Extrapolated, Held, Linearised};
+use dynamics_core::flexible::Course;
 use dynamics_core::state::State;
 
 use super::Inverse;
@@ -93,8 +94,8 @@ where
             wait: 0,
         }
     }
-    fn input(state: &State<f32, N, N>) -> Self::Input {
-        W::input(state)
+    fn input(course: &Course<f32, N, N>) -> Self::Input {
+        W::input(course)
     }
     #[inline(never)]
     fn tick(&mut self, input: &Self::Input) -> [f32; N] {
@@ -136,8 +137,8 @@ where
             names: PhantomData,
         }
     }
-    fn input(state: &State<f32, N, N>) -> Self::Input {
-        *state
+    fn input(course: &Course<f32, N, N>) -> Self::Input {
+        course.state
     }
     #[inline(never)]
     fn tick(&mut self, state: &Self::Input) -> [f32; N] {

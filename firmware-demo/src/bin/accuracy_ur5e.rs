@@ -3,12 +3,13 @@
 #![no_main]
 
 mod accuracy;
+#[path = "accuracy/arm.rs"]
+mod arm;
 
 use cortex_m_rt::entry;
 use dynamics_core::robots::Ur5e;
-use firmware_demo::trajectories::PICK_AND_PLACE;
 
 #[entry]
 fn main() -> ! {
-    accuracy::inverse::<Ur5e, 6, 6, 9>(&PICK_AND_PLACE)
+    arm::run::<Ur5e, 6, 9>()
 }

@@ -1,0 +1,31 @@
+//! Prints the errors of every way to compute a torque, one line of JSON each: `cargo xtask accuracy` joins them with
+//! what the ways cost on the target. f32 gives the same bits here and there.
+//!
+//! Kinds of line: `inverse`, `simulation` and `yardstick` (N·m), `oracle` (how far the f64 that they are held against is itself off).
+//! Arguments name the robots, and `simulation`; none names all.
+
+mod inverse;
+mod simulation;
+mod statistics;
+mod yardsticks;
+
+use dynamics_core::robots::{A1Leg, Panda, Ur5e};
+
+fn main() {
+    let asked: Vec<String> = std::env::args().skip(1).collect();
+    let wanted = |name: &str| asked.is_empty() || asked.iter().any(|robot| robot == name);
+    if wanted("ur5e") {
+        inverse::print::<Ur5e, 6, 6, 9>();
+        inverse::print_compliant::<Ur5e, 6, 9>();
+    }
+    if wanted("panda") {
+        inverse::print::<Panda, 7, 7, 7>();
+        inverse::print_compliant::<Panda, 7, 7>();
+    }
+    if wanted("a1_leg") {
+        inverse::print::<A1Leg, 4, 3, 7>();
+    }
+    if wanted("simulation") {
+        simulation::print();
+    }
+}

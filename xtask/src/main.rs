@@ -1,5 +1,6 @@
 //! `cargo xtask …`: set-up, demo, test and reports.
 
+mod accuracy;
 mod bars;
 mod budgets;
 mod build_time;
@@ -87,6 +88,18 @@ enum Command {
     },
     /// Measure what each effect costs and the torque it contributes, rewrite docs/effects.md
     Effects {
+        /// The measurements as JSON on stdout; progress stays on stderr
+        #[arg(long)]
+        json: bool,
+    },
+    /// Measure what accuracy costs in time, rewrite docs/accuracy.md and its plots; or choose a configuration
+    Accuracy {
+        /// Only this robot
+        #[arg(long, value_enum, value_name = "NAME")]
+        robot: Option<accuracy::Robot>,
+        /// A dozen configurations of each robot, at opt-level 3
+        #[arg(long)]
+        quick: bool,
         /// The measurements as JSON on stdout; progress stays on stderr
         #[arg(long)]
         json: bool,
@@ -202,6 +215,9 @@ fn run(cli: Cli) -> Result<ExitCode> {
         }
         Command::Growth { json } => growth::run(cli.setup, json),
         Command::Effects { json } => effects::run(cli.setup, json),
+        Command::Accuracy { robot, quick, json } => {
+            accuracy::run(cli.setup, accuracy::Wish { robot, quick, json })
+        }
         Command::Eliminations => eliminations::run(),
         Command::Peers { json } => peers::run(cli.setup, json),
         Command::BuildTime { json } => build_time::run(cli.setup, json),

@@ -9,11 +9,11 @@ use dynamics_core::state::State;
 use firmware_demo::accuracy::robots::{Compared, Swung, momentary};
 use firmware_demo::accuracy::{Inverse, Visitor, list};
 use host_tests::random::{random_numbers, within};
-use host_tests::recordings::{Recording, load};
+use host_tests::recordings::{Precise, Recording, load, read};
 use serde_json::{Value, json};
 
 use super::statistics::Errors;
-use super::yardsticks;
+use super::{speed, yardsticks};
 
 /// States beside those recorded, whose oracle is our f64.
 const MORE_STATES: usize = 2000;
@@ -83,6 +83,13 @@ pub fn print<T: Compared<B, N, W>, const B: usize, const N: usize, const W: usiz
         (Core::<T>::rnea(&state, &RIGID_BODY), asked.truth)
     }));
     let ours = ours.summary(full_scale);
+    let precise: Precise = read("precise");
+    let sample = precise.states.iter().zip(precise.rnea(T::RECORDED));
+    let sample = Errors::<N>::of(sample.map(|(&k, tau)| {
+        let state = widened(&recorded[k].course.state);
+        let truth = std::array::from_fn(|j| tau[j]);
+        (Core::<T>::rnea(&state, &RIGID_BODY), truth)
+    }));
     println!(
         "{}",
         json!({
@@ -91,6 +98,7 @@ pub fn print<T: Compared<B, N, W>, const B: usize, const N: usize, const W: usiz
             "pinocchio": recording.pinocchio,
             "full_scale": full_scale,
             "f64_against_recorded": ours,
+            "f64_against_50_digits": sample.summary(full_scale),
         })
     );
     let asked = |state| Asked {
@@ -100,6 +108,7 @@ pub fn print<T: Compared<B, N, W>, const B: usize, const N: usize, const W: usiz
     let way = T::way().expect("the robot can go there");
     let way: Vec<_> = (0..=way.ticks()).map(|tick| asked(way.at(tick))).collect();
     yardsticks::print::<T, B, N>(full_scale, &way);
+    speed::print::<T, B, N>(full_scale);
     let mut random = random_numbers();
     let more = (0..MORE_STATES).map(|_| {
         let mut numbers = |bound| within::<N>(&mut random, bound).map(|x| x as f32);

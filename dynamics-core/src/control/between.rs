@@ -76,10 +76,7 @@ impl<R: Real, const V: usize, const TICKS: usize> Extrapolated<R, V, TICKS> {
     #[inline(always)]
     pub fn renew(&mut self, torque: [R; V]) -> [R; V] {
         if self.known {
-            let per_tick = R::from_f64(const { 1.0 / TICKS as f64 });
-            for ((step, &now), &then) in self.step.iter_mut().zip(&torque).zip(&self.computed) {
-                *step = (now - then) * per_tick;
-            }
+            self.step = slope::<R, V, TICKS>(&torque, &self.computed);
         }
         self.known = true;
         self.computed = torque;
@@ -95,6 +92,65 @@ impl<R: Real, const V: usize, const TICKS: usize> Extrapolated<R, V, TICKS> {
         }
         self.torque
     }
+}
+
+/// The torque goes straight from one computation to the next, which is made ahead of its time.
+///
+/// For feed-forward, whose reference is known: `renew` is given the torque of `TICKS` ticks later.
+///
+/// ```
+/// use dynamics_core::control::Interpolated;
+/// let mut torque = Interpolated::<f32, 1, 2>::start([3.0]);
+/// assert_eq!(torque.renew([4.0]), [3.0]); // that of two ticks later
+/// assert_eq!(torque.next(), [3.5]);
+/// assert_eq!(torque.renew([6.0]), [4.0]);
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Interpolated<R, const V: usize, const TICKS: usize> {
+    ahead: [R; V],
+    torque: [R; V],
+    /// What a tick adds.
+    step: [R; V],
+}
+
+impl<R: Real, const V: usize, const TICKS: usize> Interpolated<R, V, TICKS> {
+    /// Before the first tick, with its torque.
+    pub fn start(torque: [R; V]) -> Self {
+        Self {
+            ahead: torque,
+            torque,
+            step: [R::ZERO; V],
+        }
+    }
+
+    /// In a tick that has computed the torque of `TICKS` ticks later; the torque of now.
+    #[inline(always)]
+    pub fn renew(&mut self, ahead: [R; V]) -> [R; V] {
+        self.torque = self.ahead;
+        self.step = slope::<R, V, TICKS>(&ahead, &self.torque);
+        self.ahead = ahead;
+        self.torque
+    }
+
+    /// In a tick that has not.
+    #[inline(always)]
+    pub fn next(&mut self) -> [R; V] {
+        for (torque, &step) in self.torque.iter_mut().zip(&self.step) {
+            *torque += step;
+        }
+        self.torque
+    }
+}
+
+/// (b − a)/`TICKS`.
+#[inline(always)]
+fn slope<R: Real, const V: usize, const TICKS: usize>(b: &[R; V], a: &[R; V]) -> [R; V] {
+    let per_tick = R::from_f64(const { 1.0 / TICKS as f64 });
+    let mut slope = *b;
+    for (slope, &a) in slope.iter_mut().zip(a) {
+        *slope = (*slope - a) * per_tick;
+    }
+    slope
 }
 
 /// τ = b + M q̈ with the M of the last computation and the q̈ of now; b, all that M q̈ is not, goes on as it went

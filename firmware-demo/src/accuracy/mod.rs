@@ -34,6 +34,8 @@ pub trait Inverse<const N: usize> {
     const KEY: Key;
     /// It remembers the ticks before: it has to be run along a way.
     const MEMORY: bool = false;
+    /// A tick is given where the joints are to be so many ticks later.
+    const AHEAD: usize = 0;
     /// What a tick is given: a state, in the numbers that it computes with.
     type Input;
     /// What a tick gives: torques in those numbers.

@@ -18,6 +18,10 @@ use super::{speed, yardsticks};
 /// States beside those recorded, whose oracle is our f64.
 const MORE_STATES: usize = 2000;
 
+/// Ticks that the robot rests before it goes, so that its way-points, where the torque bends, fall between the ticks
+/// that compute: elsewhere, what rates lose would look too small.
+const REST: u32 = 3;
+
 /// What every way of a robot is held against.
 struct Bench<const N: usize> {
     robot: &'static str,
@@ -41,8 +45,9 @@ impl<const N: usize> Visitor<N> for Bench<N> {
         let run = |asked: &[Asked<N>]| {
             let mut errors = Errors::<N>::new();
             let mut way = W::start(&asked[0].course.state);
-            for Asked { course, truth } in asked {
-                errors.add(&W::torque(&way.tick(&W::input(course))), truth);
+            for (k, Asked { truth, .. }) in asked.iter().enumerate() {
+                let given = &asked[(k + W::AHEAD).min(asked.len() - 1)];
+                errors.add(&W::torque(&way.tick(&W::input(&given.course))), truth);
             }
             errors.summary(self.full_scale)
         };
@@ -106,7 +111,10 @@ pub fn print<T: Compared<B, N, W>, const B: usize, const N: usize, const W: usiz
         truth: Core::<T>::rnea(&widened(&state), &RIGID_BODY),
     };
     let way = T::way().expect("the robot can go there");
-    let way: Vec<_> = (0..=way.ticks()).map(|tick| asked(way.at(tick))).collect();
+    let ticks = 0..=way.ticks() + REST;
+    let way: Vec<_> = ticks
+        .map(|tick| asked(way.at(tick.saturating_sub(REST))))
+        .collect();
     yardsticks::print::<T, B, N>(full_scale, &way);
     speed::print::<T, B, N>(full_scale);
     let mut random = random_numbers();

@@ -224,9 +224,9 @@ const TABLE: &[(&str, &str, f64, f64)] = &[
     ("trig", "table of 256, order 1", NONE, 1e-4),
     ("trig", "table of 256, order 2", NONE, 1e-6),
     ("trig", "table of 64, order 4", NONE, 4e-7),
-    ("trig", "carried for 10⁴ ticks", NONE, 5e-5),
+    ("trig", "carried for 10⁴ ticks", NONE, 2e-5),
     ("trig", "fixed point", NONE, 1e-8),
-    ("trig", "compensated", NONE, 1e-11),
+    ("trig", "compensated", NONE, 2e-12),
 ];
 
 /// Holds a measured error, relative to full scale, against the table.

@@ -234,12 +234,12 @@ fn torque_between_computations_is_exact_where_it_is_linear() {
             let m = Core::<Ur5e>::crba(&state.q, &RIGID_BODY);
             linearised.renew(computed, m, &state.qdd)
         } else {
-            linearised.next(&state.qdd)
+            linearised.coast(&state.qdd)
         };
         let goes_on = if tick % 4 == 0 {
             extrapolated.renew([line])
         } else {
-            extrapolated.next()
+            extrapolated.coast()
         };
         assert!(
             told.iter()

@@ -8,7 +8,7 @@
 //! | [`inverse`], [`numbers`] | ways that compute in every tick, in f32 and in other numbers |
 //! | [`sparse`] | ways that compute in every few ticks |
 //! | [`compliant`] | ways to the motors of joints that give way |
-//! | [`simulation`] | ways to simulate |
+//! | [`simulation`], [`let_go`] | ways to simulate, and what |
 //! | [`list`], [`robots`] | all of them; whose they are |
 
 pub mod compliant;
@@ -16,6 +16,7 @@ pub mod form;
 pub mod inverse;
 pub mod kernels;
 pub mod key;
+pub mod let_go;
 pub mod list;
 pub mod model;
 pub mod numbers;

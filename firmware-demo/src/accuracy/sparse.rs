@@ -58,7 +58,7 @@ macro_rules! between {
             }
             #[inline(always)]
             fn stale(&mut self) -> [f32; N] {
-                self.next()
+                self.coast()
             }
         }
     };
@@ -152,7 +152,7 @@ where
     fn tick(&mut self, state: &Self::Input) -> [f32; N] {
         if self.wait > 0 {
             self.wait -= 1;
-            return self.between.next(&state.qdd);
+            return self.between.coast(&state.qdd);
         }
         self.wait = TICKS - 1;
         let posture = Engine::<M::Robot>::posture_by::<K, f32, B, N, N>(&state.q);

@@ -1,7 +1,7 @@
 //! Torque between two computations of the dynamics, for loops that tick faster than they compute.
 //!
 //! A loop computes every `TICKS`-th tick and tells what it found by `renew`, which gives that tick's torque; in the
-//! ticks between it asks `next`. What that loses grows with `TICKS` and with how fast the arm moves:
+//! ticks between it asks `coast`. What that loses grows with `TICKS` and with how fast the arm moves:
 //! `docs/accuracy.md` in the repository has both, with what it saves.
 
 use crate::mass_matrix::MassMatrix;
@@ -13,7 +13,7 @@ use crate::scalar::Real;
 /// use dynamics_core::control::Held;
 /// let mut held = Held::start();
 /// held.renew([3.0_f32]);
-/// assert_eq!(held.next(), [3.0]);
+/// assert_eq!(held.coast(), [3.0]);
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Held<R, const V: usize> {
@@ -37,7 +37,7 @@ impl<R: Real, const V: usize> Held<R, V> {
 
     /// In a tick that has not.
     #[inline(always)]
-    pub fn next(&self) -> [R; V] {
+    pub fn coast(&self) -> [R; V] {
         self.torque
     }
 }
@@ -48,9 +48,9 @@ impl<R: Real, const V: usize> Held<R, V> {
 /// use dynamics_core::control::Extrapolated;
 /// let mut torque = Extrapolated::<f32, 1, 2>::start();
 /// torque.renew([3.0]);
-/// assert_eq!(torque.next(), [3.0]); // nothing is known yet
+/// assert_eq!(torque.coast(), [3.0]); // nothing is known yet
 /// torque.renew([4.0]);
-/// assert_eq!(torque.next(), [4.5]);
+/// assert_eq!(torque.coast(), [4.5]);
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Extrapolated<R, const V: usize, const TICKS: usize> {
@@ -76,10 +76,7 @@ impl<R: Real, const V: usize, const TICKS: usize> Extrapolated<R, V, TICKS> {
     #[inline(always)]
     pub fn renew(&mut self, torque: [R; V]) -> [R; V] {
         if self.known {
-            let per_tick = R::from_f64(const { 1.0 / TICKS as f64 });
-            for ((step, &now), &then) in self.step.iter_mut().zip(&torque).zip(&self.computed) {
-                *step = (now - then) * per_tick;
-            }
+            self.step = slope::<R, V, TICKS>(&torque, &self.computed);
         }
         self.known = true;
         self.computed = torque;
@@ -89,12 +86,71 @@ impl<R: Real, const V: usize, const TICKS: usize> Extrapolated<R, V, TICKS> {
 
     /// In a tick that has not.
     #[inline(always)]
-    pub fn next(&mut self) -> [R; V] {
+    pub fn coast(&mut self) -> [R; V] {
         for (torque, &step) in self.torque.iter_mut().zip(&self.step) {
             *torque += step;
         }
         self.torque
     }
+}
+
+/// The torque goes straight from one computation to the next, which is made ahead of its time.
+///
+/// For feed-forward, whose reference is known: `renew` is given the torque of `TICKS` ticks later.
+///
+/// ```
+/// use dynamics_core::control::Interpolated;
+/// let mut torque = Interpolated::<f32, 1, 2>::start([3.0]);
+/// assert_eq!(torque.renew([4.0]), [3.0]); // that of two ticks later
+/// assert_eq!(torque.coast(), [3.5]);
+/// assert_eq!(torque.renew([6.0]), [4.0]);
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Interpolated<R, const V: usize, const TICKS: usize> {
+    ahead: [R; V],
+    torque: [R; V],
+    /// What a tick adds.
+    step: [R; V],
+}
+
+impl<R: Real, const V: usize, const TICKS: usize> Interpolated<R, V, TICKS> {
+    /// Before the first tick, with its torque.
+    pub fn start(torque: [R; V]) -> Self {
+        Self {
+            ahead: torque,
+            torque,
+            step: [R::ZERO; V],
+        }
+    }
+
+    /// In a tick that has computed the torque of `TICKS` ticks later; the torque of now.
+    #[inline(always)]
+    pub fn renew(&mut self, ahead: [R; V]) -> [R; V] {
+        self.torque = self.ahead;
+        self.step = slope::<R, V, TICKS>(&ahead, &self.torque);
+        self.ahead = ahead;
+        self.torque
+    }
+
+    /// In a tick that has not.
+    #[inline(always)]
+    pub fn coast(&mut self) -> [R; V] {
+        for (torque, &step) in self.torque.iter_mut().zip(&self.step) {
+            *torque += step;
+        }
+        self.torque
+    }
+}
+
+/// (b − a)/`TICKS`.
+#[inline(always)]
+fn slope<R: Real, const V: usize, const TICKS: usize>(b: &[R; V], a: &[R; V]) -> [R; V] {
+    let per_tick = R::from_f64(const { 1.0 / TICKS as f64 });
+    let mut slope = *b;
+    for (slope, &a) in slope.iter_mut().zip(a) {
+        *slope = (*slope - a) * per_tick;
+    }
+    slope
 }
 
 /// τ = b + M q̈ with the M of the last computation and the q̈ of now; b, all that M q̈ is not, goes on as it went
@@ -110,7 +166,7 @@ impl<R: Real, const V: usize, const TICKS: usize> Extrapolated<R, V, TICKS> {
 /// let m = Engine::<Ur5e>::crba(&state.q, &RIGID_BODY);
 /// torque.renew(Engine::<Ur5e>::rnea(&state, &RIGID_BODY), m, &state.qdd);
 /// state.qdd = [2.0; 6]; // brakes off
-/// let (told, computed) = (torque.next(&state.qdd), Engine::<Ur5e>::rnea(&state, &RIGID_BODY));
+/// let (told, computed) = (torque.coast(&state.qdd), Engine::<Ur5e>::rnea(&state, &RIGID_BODY));
 /// assert!(told.iter().zip(computed).all(|(a, b)| (a - b).abs() < 1e-4));
 /// ```
 #[derive(Clone, Copy, Debug)]
@@ -142,8 +198,8 @@ impl<R: Real, const V: usize, const TICKS: usize> Linearised<R, V, TICKS> {
 
     /// In a tick that has not.
     #[inline(always)]
-    pub fn next(&mut self, qdd: &[R; V]) -> [R; V] {
-        let mut torque = self.bias.next();
+    pub fn coast(&mut self, qdd: &[R; V]) -> [R; V] {
+        let mut torque = self.bias.coast();
         for (torque, &inertial) in torque.iter_mut().zip(&self.mass_matrix.mul_vec(qdd)) {
             *torque += inertial;
         }

@@ -3,7 +3,7 @@
 use glam::{DMat3, DVec3, Mat3, Vec3};
 
 use super::{EMPTY, Joint, Limits, Link, Model};
-use crate::scalar::{Compensated, Fixed, PlainMat3, PlainVec3};
+use crate::scalar::{Compensated, Fixed, PlainMat3, PlainVec3, Real};
 use crate::spatial::{SpatialInertia, Xform};
 
 macro_rules! cast {
@@ -11,10 +11,50 @@ macro_rules! cast {
         impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
             $(#[$doc])*
             pub const fn $name(&self) -> Model<$r, B, Q, V> {
-                let mut links = [EMPTY.$name(); B];
+                type R = $r;
+                const fn number($x: f64) -> R {
+                    $cast
+                }
+                const fn vector(v: DVec3) -> <R as Real>::Vec3 {
+                    $vec(number(v.x), number(v.y), number(v.z))
+                }
+                const fn matrix(m: &DMat3) -> <R as Real>::Mat3 {
+                    $mat(vector(m.x_axis), vector(m.y_axis), vector(m.z_axis))
+                }
+                const fn cast(link: &Link<f64>) -> Link<R> {
+                    Link {
+                        name: link.name,
+                        parent: link.parent,
+                        joint: Joint {
+                            kind: link.joint.kind,
+                            axis: vector(link.joint.axis),
+                            first_axis: vector(link.joint.first_axis),
+                            pitch: number(link.joint.pitch),
+                        },
+                        frame: matrix(&link.frame),
+                        placement: Xform {
+                            rot: matrix(&link.placement.rot),
+                            pos: vector(link.placement.pos),
+                        },
+                        inertia: SpatialInertia {
+                            mass: number(link.inertia.mass),
+                            moment: vector(link.inertia.moment),
+                            inertia: matrix(&link.inertia.inertia),
+                        },
+                        q_at: link.q_at,
+                        v_at: link.v_at,
+                        limits: Limits {
+                            lower: number(link.limits.lower),
+                            upper: number(link.limits.upper),
+                            velocity: number(link.limits.velocity),
+                            torque: number(link.limits.torque),
+                        },
+                    }
+                }
+                let mut links = [cast(&EMPTY); B];
                 let mut i = 0;
                 while i < B {
-                    links[i] = self.links[i].$name();
+                    links[i] = cast(&self.links[i]);
                     i += 1;
                 }
                 Model {
@@ -22,49 +62,6 @@ macro_rules! cast {
                     links,
                     lambda: self.lambda,
                     kinds: self.kinds,
-                }
-            }
-        }
-
-        impl Link<f64> {
-            const fn $name(&self) -> Link<$r> {
-                type R = $r;
-                const fn number($x: f64) -> R {
-                    $cast
-                }
-                const fn vector(v: DVec3) -> <R as crate::scalar::Real>::Vec3 {
-                    $vec(number(v.x), number(v.y), number(v.z))
-                }
-                const fn matrix(m: &DMat3) -> <R as crate::scalar::Real>::Mat3 {
-                    $mat(vector(m.x_axis), vector(m.y_axis), vector(m.z_axis))
-                }
-                Link {
-                    name: self.name,
-                    parent: self.parent,
-                    joint: Joint {
-                        kind: self.joint.kind,
-                        axis: vector(self.joint.axis),
-                        first_axis: vector(self.joint.first_axis),
-                        pitch: number(self.joint.pitch),
-                    },
-                    frame: matrix(&self.frame),
-                    placement: Xform {
-                        rot: matrix(&self.placement.rot),
-                        pos: vector(self.placement.pos),
-                    },
-                    inertia: SpatialInertia {
-                        mass: number(self.inertia.mass),
-                        moment: vector(self.inertia.moment),
-                        inertia: matrix(&self.inertia.inertia),
-                    },
-                    q_at: self.q_at,
-                    v_at: self.v_at,
-                    limits: Limits {
-                        lower: number(self.limits.lower),
-                        upper: number(self.limits.upper),
-                        velocity: number(self.limits.velocity),
-                        torque: number(self.limits.torque),
-                    },
                 }
             }
         }

@@ -52,7 +52,7 @@ impl Div for Fixed {
     type Output = Self;
     #[inline(always)]
     fn div(self, o: Self) -> Self {
-        let dividend = i64::from(self.0) << FRACTION;
+        let dividend = i64::from(self.0) * (1 << FRACTION);
         // A divisor of 0 gives 0: there is nothing to wrap.
         Self(dividend.checked_div(i64::from(o.0)).unwrap_or(0) as i32)
     }

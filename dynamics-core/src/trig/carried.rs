@@ -8,7 +8,8 @@ use crate::state::Posture;
 ///
 /// From one tick to the next each is turned by Δ = q − q₋ with Taylor's polynomials of degree 3 and 2, and brought
 /// back to sin² + cos² = 1 by one step of Newton's iteration. Rounding turns the pair a little each tick, which
-/// nothing takes back: the angle drifts as a random walk of some 10⁻⁷ rad. [`Carried::at`] starts anew.
+/// nothing takes back: the angle drifts as a random walk, in f32 by some 10⁻⁵ rad in 10⁴ ticks. [`Carried::at`]
+/// starts anew.
 /// Angles: |Δ| < 0.02 rad, an error of 10⁻⁸ a tick. 21 flops a joint; the same instructions whatever the data.
 ///
 /// ```

@@ -55,8 +55,13 @@ impl<const N: usize, const ORDER: usize> Kernel<f32> for Table<N, ORDER> {
         const ROUND: f32 = 12_582_912.0;
         let t = x * const { (N as f64 / core::f64::consts::TAU) as f32 } + ROUND;
         let (k, at) = (t - ROUND, t.to_bits() as usize & (N - 1));
-        let [first, second] = Self::STEP;
-        let r = (x - k * first) - k * second;
+        let r = if ORDER == 1 {
+            // The table's own error is larger than that of one part.
+            x - k * const { (core::f64::consts::TAU / N as f64) as f32 }
+        } else {
+            let [first, second] = Self::STEP;
+            (x - k * first) - k * second
+        };
         let [s, c] = const { &Self::ENTRIES }[at];
         // sin r and cos r − 1.
         let (ds, dc) = match ORDER {

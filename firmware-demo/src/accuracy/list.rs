@@ -1,6 +1,6 @@
 //! Every way of a robot.
 
-use dynamics_core::control::{Extrapolated, Held};
+use dynamics_core::control::{Extrapolated, Held, Interpolated};
 use dynamics_core::model::Robot;
 use dynamics_core::scalar::Compensated;
 use dynamics_core::trig::{Minimax, Table};
@@ -34,12 +34,15 @@ where
 
     type Own<T, const B: usize> = Shipped<Full<T>, Engine<T>, B>;
     type Tabled<T, const B: usize> = By<Table<64, 4>, Full<T>, Engine<T>, B>;
+    type Coarse<T, const B: usize> = By<Table<256, 1>, Full<T>, Engine<T>, B>;
     type Weight<T, const B: usize> = Shipped<GravityOnly<T>, Engine<T>, B>;
     rates::<Own<T, B>, N>(visitor);
     rates::<Tabled<T, B>, N>(visitor);
+    rates::<Coarse<T, B>, N>(visitor);
     rates::<Weight<T, B>, N>(visitor);
     linearised::<Minimax<7, 2>, T, B, N>(visitor);
     linearised::<Table<64, 4>, T, B, N>(visitor);
+    linearised::<Table<256, 1>, T, B, N>(visitor);
 }
 
 /// By every kernel, by engine and core.
@@ -97,7 +100,7 @@ where
     visitor.way::<Rigid<T, N>>();
 }
 
-/// Every few ticks, held and extrapolated.
+/// Every few ticks, held, extrapolated and interpolated.
 fn rates<W: Inverse<N, Output = [f32; N]>, const N: usize>(visitor: &mut impl Visitor<N>) {
     rate::<W, N, 2>(visitor);
     rate::<W, N, 5>(visitor);
@@ -111,6 +114,7 @@ where
 {
     visitor.way::<Every<W, Held<f32, N>, TICKS>>();
     visitor.way::<Every<W, Extrapolated<f32, N, TICKS>, TICKS>>();
+    visitor.way::<Every<W, Interpolated<f32, N, TICKS>, TICKS>>();
 }
 
 /// Every few ticks, by M between.

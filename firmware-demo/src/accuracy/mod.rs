@@ -8,7 +8,7 @@
 //! | [`inverse`], [`numbers`] | ways that compute in every tick, in f32 and in other numbers |
 //! | [`sparse`] | ways that compute in every few ticks |
 //! | [`compliant`] | ways to the motors of joints that give way |
-//! | [`simulation`] | ways to simulate |
+//! | [`simulation`], [`let_go`] | ways to simulate, and what |
 //! | [`list`], [`robots`] | all of them; whose they are |
 
 pub mod compliant;
@@ -16,6 +16,7 @@ pub mod form;
 pub mod inverse;
 pub mod kernels;
 pub mod key;
+pub mod let_go;
 pub mod list;
 pub mod model;
 pub mod numbers;
@@ -34,6 +35,8 @@ pub trait Inverse<const N: usize> {
     const KEY: Key;
     /// It remembers the ticks before: it has to be run along a way.
     const MEMORY: bool = false;
+    /// A tick is given where the joints are to be so many ticks later.
+    const AHEAD: usize = 0;
     /// What a tick is given: a state, in the numbers that it computes with.
     type Input;
     /// What a tick gives: torques in those numbers.

@@ -3,7 +3,7 @@
 use core::marker::PhantomData;
 
 use dynamics_core::Engine;
-use dynamics_core::control::{Extrapolated, Held, Linearised};
+use dynamics_core::control::{Extrapolated, Held, Interpolated, Linearised};
 use dynamics_core::flexible::Course;
 use dynamics_core::state::State;
 
@@ -12,6 +12,7 @@ use super::inverse::By;
 use super::kernels::Named;
 use super::key::Key;
 use super::model::Modelled;
+use super::robots::momentary;
 
 /// The way W in every `TICKS`-th tick, and P in those between.
 #[derive(Debug)]
@@ -33,8 +34,10 @@ pub struct EveryLinearised<K, M, const B: usize, const N: usize, const TICKS: us
 pub trait Between<const N: usize> {
     /// On the axis `between`.
     const NAME: &'static str;
-    /// Before the first computation.
-    fn begin() -> Self;
+    /// It computes torques of the next computing tick.
+    const AHEAD: bool = false;
+    /// Before the first tick, which has this torque.
+    fn begin(first: [f32; N]) -> Self;
     /// In a tick that has computed the torque.
     fn fresh(&mut self, torque: [f32; N]) -> [f32; N];
     /// In a tick that has not.
@@ -42,11 +45,12 @@ pub trait Between<const N: usize> {
 }
 
 macro_rules! between {
-    ($between:ty, $name:literal $(, $ticks:ident)?) => {
+    ($between:ty, $name:literal, $ahead:literal, |$first:ident| $start:expr $(, $ticks:ident)?) => {
         impl<const N: usize $(, const $ticks: usize)?> Between<N> for $between {
             const NAME: &'static str = $name;
-            fn begin() -> Self {
-                Self::start()
+            const AHEAD: bool = $ahead;
+            fn begin($first: [f32; N]) -> Self {
+                $start
             }
             #[inline(always)]
             fn fresh(&mut self, torque: [f32; N]) -> [f32; N] {
@@ -54,13 +58,14 @@ macro_rules! between {
             }
             #[inline(always)]
             fn stale(&mut self) -> [f32; N] {
-                self.next()
+                self.coast()
             }
         }
     };
 }
-between!(Held<f32, N>, "held");
-between!(Extrapolated<f32, N, TICKS>, "extrapolated", TICKS);
+between!(Held<f32, N>, "held", false, |_first| Self::start());
+between!(Extrapolated<f32, N, TICKS>, "extrapolated", false, |_first| Self::start(), TICKS);
+between!(Interpolated<f32, N, TICKS>, "interpolated", true, |first| Self::start(first), TICKS);
 
 /// On the axis `rate`.
 const fn rate(ticks: usize) -> &'static str {
@@ -84,13 +89,16 @@ where
         ..W::KEY
     };
     const MEMORY: bool = true;
+    const AHEAD: usize = if P::AHEAD { TICKS } else { 0 };
     type Input = W::Input;
     type Output = [f32; N];
 
     fn start(first: &State<f32, N, N>) -> Self {
+        let mut way = W::start(first);
+        let torque = way.tick(&W::input(&momentary(*first)));
         Self {
-            way: W::start(first),
-            between: P::begin(),
+            way,
+            between: P::begin(torque),
             wait: 0,
         }
     }
@@ -144,7 +152,7 @@ where
     fn tick(&mut self, state: &Self::Input) -> [f32; N] {
         if self.wait > 0 {
             self.wait -= 1;
-            return self.between.next(&state.qdd);
+            return self.between.coast(&state.qdd);
         }
         self.wait = TICKS - 1;
         let posture = Engine::<M::Robot>::posture_by::<K, f32, B, N, N>(&state.q);

@@ -9,14 +9,18 @@ use dynamics_core::state::State;
 use firmware_demo::accuracy::robots::{Compared, Swung, momentary};
 use firmware_demo::accuracy::{Inverse, Visitor, list};
 use host_tests::random::{random_numbers, within};
-use host_tests::recordings::{Recording, load};
+use host_tests::recordings::{Precise, Recording, load, read};
 use serde_json::{Value, json};
 
 use super::statistics::Errors;
-use super::yardsticks;
+use super::{speed, yardsticks};
 
 /// States beside those recorded, whose oracle is our f64.
 const MORE_STATES: usize = 2000;
+
+/// Ticks that the robot rests before it goes, so that its way-points, where the torque bends, fall between the ticks
+/// that compute: elsewhere, what rates lose would look too small.
+const REST: u32 = 3;
 
 /// What every way of a robot is held against.
 struct Bench<const N: usize> {
@@ -41,8 +45,9 @@ impl<const N: usize> Visitor<N> for Bench<N> {
         let run = |asked: &[Asked<N>]| {
             let mut errors = Errors::<N>::new();
             let mut way = W::start(&asked[0].course.state);
-            for Asked { course, truth } in asked {
-                errors.add(&W::torque(&way.tick(&W::input(course))), truth);
+            for (k, Asked { truth, .. }) in asked.iter().enumerate() {
+                let given = &asked[(k + W::AHEAD).min(asked.len() - 1)];
+                errors.add(&W::torque(&way.tick(&W::input(&given.course))), truth);
             }
             errors.summary(self.full_scale)
         };
@@ -83,6 +88,13 @@ pub fn print<T: Compared<B, N, W>, const B: usize, const N: usize, const W: usiz
         (Core::<T>::rnea(&state, &RIGID_BODY), asked.truth)
     }));
     let ours = ours.summary(full_scale);
+    let precise: Precise = read("precise");
+    let sample = precise.states.iter().zip(precise.rnea(T::RECORDED));
+    let sample = Errors::<N>::of(sample.map(|(&k, tau)| {
+        let state = widened(&recorded[k].course.state);
+        let truth = std::array::from_fn(|j| tau[j]);
+        (Core::<T>::rnea(&state, &RIGID_BODY), truth)
+    }));
     println!(
         "{}",
         json!({
@@ -91,6 +103,7 @@ pub fn print<T: Compared<B, N, W>, const B: usize, const N: usize, const W: usiz
             "pinocchio": recording.pinocchio,
             "full_scale": full_scale,
             "f64_against_recorded": ours,
+            "f64_against_50_digits": sample.summary(full_scale),
         })
     );
     let asked = |state| Asked {
@@ -98,8 +111,12 @@ pub fn print<T: Compared<B, N, W>, const B: usize, const N: usize, const W: usiz
         truth: Core::<T>::rnea(&widened(&state), &RIGID_BODY),
     };
     let way = T::way().expect("the robot can go there");
-    let way: Vec<_> = (0..=way.ticks()).map(|tick| asked(way.at(tick))).collect();
+    let ticks = 0..=way.ticks() + REST;
+    let way: Vec<_> = ticks
+        .map(|tick| asked(way.at(tick.saturating_sub(REST))))
+        .collect();
     yardsticks::print::<T, B, N>(full_scale, &way);
+    speed::print::<T, B, N>(full_scale);
     let mut random = random_numbers();
     let more = (0..MORE_STATES).map(|_| {
         let mut numbers = |bound| within::<N>(&mut random, bound).map(|x| x as f32);

@@ -1,11 +1,19 @@
 //! Prints the errors of every way to compute a torque, one line of JSON each: `cargo xtask accuracy` joins them with
 //! what the ways cost on the target. f32 gives the same bits here and there.
 //!
-//! Kinds of line: `inverse`, `simulation` and `yardstick` (N·m), `oracle` (how far the f64 that they are held against is itself off).
+//! | kind of line | what |
+//! |---|---|
+//! | `inverse` | torque errors of a way along the robot's trajectory, and over states anywhere, N·m |
+//! | `yardstick` | torque errors that an encoder, parameters and friction leave, N·m |
+//! | `speed` | torque errors of a way that leaves out velocity products, by the joints' speed, N·m |
+//! | `simulation` | trajectory error in the first second, rad, and energy drift, J/s, of a way with a length of step, µs |
+//! | `oracle` | how far the f64 that all are held against is itself off |
+//!
 //! Arguments name the robots, and `simulation`; none names all.
 
 mod inverse;
 mod simulation;
+mod speed;
 mod statistics;
 mod yardsticks;
 

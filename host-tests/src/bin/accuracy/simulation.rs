@@ -152,7 +152,7 @@ impl<const N: usize> Bench<N> {
         let (errors, drift) = (errors.summary(angle), drift.summary(kinetic));
         let seconds = drift.answers as f64 / SECOND as f64;
         // What has left the robot's range has no error worth a number.
-        let diverged = failed || !(errors.error_max < 100.0) || !(drift.error_max < 1e3 * kinetic);
+        let diverged = failed || errors.error_max >= 100.0 || drift.error_max >= 1e3 * kinetic;
         let mut configuration: serde_json::Map<String, Value> = axes
             .iter()
             .map(|&(axis, value)| (axis.to_owned(), json!(value)))

@@ -103,6 +103,17 @@ enum Command {
         /// The measurements as JSON on stdout; progress stays on stderr
         #[arg(long)]
         json: bool,
+        /// Choose the cheapest configuration off by no more than this: 0.05Nm, 2mrad
+        #[arg(
+            long,
+            value_name = "ERROR",
+            requires = "robot",
+            conflicts_with = "cycles"
+        )]
+        error: Option<accuracy::Allowed>,
+        /// Choose the most accurate configuration whose worst tick takes no more cycles than this
+        #[arg(long, value_name = "CYCLES", requires = "robot")]
+        cycles: Option<u64>,
     },
     /// Measure on the host which of the two eliminations is less accurate where, rewrite
     /// docs/eliminations.md
@@ -215,8 +226,21 @@ fn run(cli: Cli) -> Result<ExitCode> {
         }
         Command::Growth { json } => growth::run(cli.setup, json),
         Command::Effects { json } => effects::run(cli.setup, json),
-        Command::Accuracy { robot, quick, json } => {
-            accuracy::run(cli.setup, accuracy::Wish { robot, quick, json })
+        Command::Accuracy {
+            robot,
+            quick,
+            json,
+            error,
+            cycles,
+        } => {
+            let budget = error.map(accuracy::Budget::Error);
+            let wish = accuracy::Wish {
+                robot,
+                quick,
+                json,
+                budget: budget.or(cycles.map(accuracy::Budget::Cycles)),
+            };
+            accuracy::run(cli.setup, wish)
         }
         Command::Eliminations => eliminations::run(),
         Command::Peers { json } => peers::run(cli.setup, json),

@@ -45,6 +45,28 @@ where
     linearised::<Table<256, 1>, T, B, N>(visitor);
 }
 
+/// Shows the default and what single changes make of it to `visitor`: few enough to be built in a minute.
+pub fn single<T, const B: usize, const N: usize>(visitor: &mut impl Visitor<N>)
+where
+    T: Robot<B, N, N>,
+{
+    type Own<M, T, const B: usize> = Shipped<M, Engine<T>, B>;
+    type Kernel<K, T, const B: usize> = By<K, Full<T>, Engine<T>, B>;
+    visitor.way::<Own<Full<T>, T, B>>();
+    visitor.way::<Kernel<Minimax<5, 2>, T, B>>();
+    visitor.way::<Kernel<Minimax<3, 2>, T, B>>();
+    visitor.way::<Kernel<Table<64, 4>, T, B>>();
+    visitor.way::<Kernel<Table<256, 1>, T, B>>();
+    visitor.way::<Following<Full<T>, Engine<T>, B, N>>();
+    visitor.way::<Own<NoCoriolis<T>, T, B>>();
+    visitor.way::<Own<GravityOnly<T>, T, B>>();
+    rounded::<T, 8, B, N>(visitor);
+    visitor.way::<Every<Own<Full<T>, T, B>, Held<f32, N>, 10>>();
+    visitor.way::<Every<Own<Full<T>, T, B>, Interpolated<f32, N, 10>, 10>>();
+    visitor.way::<EveryLinearised<Minimax<7, 2>, Full<T>, B, N, 10>>();
+    visitor.way::<Shipped<Full<T>, Core<T>, B>>();
+}
+
 /// By every kernel, by engine and core.
 fn forms<M: Modelled<B, N>, const B: usize, const N: usize>(visitor: &mut impl Visitor<N>) {
     type E<M, const B: usize, const N: usize> = Engine<<M as Modelled<B, N>>::Robot>;

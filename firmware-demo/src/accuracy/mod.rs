@@ -9,6 +9,7 @@
 //! | [`sparse`] | ways that compute in every few ticks |
 //! | [`compliant`] | ways to the motors of joints that give way |
 //! | [`simulation`], [`let_go`] | ways to simulate, and what |
+//! | [`pasted`] | what `cargo xtask accuracy` prints to be pasted |
 //! | [`list`], [`robots`] | all of them; whose they are |
 
 pub mod compliant;
@@ -20,6 +21,7 @@ pub mod let_go;
 pub mod list;
 pub mod model;
 pub mod numbers;
+pub mod pasted;
 pub mod robots;
 pub mod simulation;
 pub mod sparse;

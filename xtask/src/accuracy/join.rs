@@ -6,9 +6,12 @@ use serde::Deserialize;
 use serde_json::Value;
 
 use super::front;
-use super::point::{Errors, Kind, Point, Yardstick};
+use super::point::{Errors, Kind, Point, Speed, Yardstick};
 use crate::costs::Row;
 use crate::error::{Error, Result};
+
+/// What errors are held against is known to this share of full scale and no better: smaller ones count as that.
+const KNOWN: f64 = 1e-13;
 
 /// The axis that only the target has.
 const OPT: &str = "opt";
@@ -17,8 +20,12 @@ const OPT: &str = "opt";
 #[derive(Default)]
 pub struct Host {
     ways: Vec<Way>,
+    /// What is printed to be pasted.
+    pub pasted: Vec<Value>,
     /// Errors of other causes.
     pub yardsticks: Vec<Yardstick>,
+    /// What leaving out velocity products loses.
+    pub speeds: Vec<Speed>,
     /// How far what errors are held against is itself off, by robot.
     pub oracles: Vec<(String, Value)>,
 }
@@ -72,6 +79,7 @@ impl Host {
                 "inverse" | "simulation" => {
                     host.ways.push(serde_json::from_value(value).map_err(bad)?);
                 }
+                "pasted" => host.pasted.push(value),
                 "yardstick" => {
                     let yardstick = serde_json::from_value(value).map_err(bad)?;
                     host.yardsticks.push(yardstick);
@@ -80,8 +88,14 @@ impl Host {
                     let robot = value["robot"].as_str().unwrap_or_default().to_owned();
                     host.oracles.push((robot, value));
                 }
-                // What only the host's own report needs.
-                _ => {}
+                "speed" => host
+                    .speeds
+                    .push(serde_json::from_value(value).map_err(bad)?),
+                other => {
+                    return Err(Error::check(format!(
+                        "the host's line is of an unknown kind {other:?}"
+                    )));
+                }
             }
         }
         Ok(host)
@@ -130,6 +144,7 @@ fn point(way: &Way, row: &Row, opt: &str) -> Point {
     );
     // A simulation is as good as its steps are short: what counts is a simulated second.
     let calls = way.step.map_or(1, |step| 1_000_000 / step);
+    let stated = |error: Option<f64>| error.map(|error| error.max(KNOWN * way.full_scale));
     let each = way.trajectory.as_ref().map_or_else(Vec::new, |of| {
         std::iter::zip(&of.joint_max, std::iter::zip(&of.joint_rms, &of.joint_p99))
             .map(|(&max, (&rms, &p99))| Errors { max, rms, p99 })
@@ -141,11 +156,11 @@ fn point(way: &Way, row: &Row, opt: &str) -> Point {
         instructions: row.instructions.max * calls,
         cycles: row.cycles.max * calls,
         cycles_mean: row.cycles_mean * calls as f64,
-        error_max: way.error_max,
-        error_rms: way.error_rms,
-        error_p99: way.error_p99,
+        error_max: stated(way.error_max),
+        error_rms: stated(way.error_rms),
+        error_p99: stated(way.error_p99),
         unit: way.unit.clone(),
-        relative_max: way.relative_max,
+        relative_max: way.relative_max.map(|share| share.max(KNOWN)),
         front: false,
         fronts: [false; 2],
         key: key(&way.key, way.step, opt),

@@ -91,7 +91,7 @@ impl Canvas {
             let hits: f64 = self.taken.iter().map(|other| room.shared(*other)).sum();
             let touches: f64 = self.thin.iter().map(|other| area.shared(*other)).sum();
             let outside = area.size() - area.shared(self.bounds);
-            1e3 * (hits + outside) + 2.0 * touches + distance
+            1e3 * (hits + outside) + 1.0 * touches + distance
         };
         let best = places
             .map(|(distance, area)| (cost(distance, area), area))

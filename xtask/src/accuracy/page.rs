@@ -9,8 +9,8 @@ use crate::docs::Page;
 use crate::report::MODEL;
 use crate::table::{Table, thousands};
 
-const FILE: &str = "docs/accuracy.md";
-const COMMAND: &str = "cargo xtask accuracy";
+pub const FILE: &str = "docs/accuracy.md";
+pub const COMMAND: &str = "cargo xtask accuracy";
 
 /// A step of a front is at least so much more accurate than the one before it: others are there, but not worth a word.
 const STEP: f64 = 0.8;
@@ -29,13 +29,6 @@ pub fn page_of(robot: Robot) -> Page {
         command: COMMAND,
     }
 }
-
-/// The part that CI holds against a quick run.
-pub const SINGLE: Page = Page {
-    file: FILE,
-    name: "accuracy-single",
-    command: COMMAND,
-};
 
 /// The points of a front, from the cheapest on, each much more accurate than the one before; the default in any case.
 pub fn steps<'a>(points: &[&'a Point], cost: usize) -> Vec<&'a Point> {
@@ -77,13 +70,15 @@ pub fn text(measured: &Measured, robot: Robot) -> String {
         "### The mean over ticks: what each step costs and gives up",
     ];
     for (cost, head) in heads.into_iter().enumerate() {
-        text += &format!("{head}\n\n{}\n", steps_table(&rigid, cost).markdown());
-        for point in steps(&rigid, cost) {
-            text += &format!("- **{}** {}\n", name(point), sentence(point));
+        let shown = shown(&rigid, cost);
+        text += &format!("{head}\n\n{}\n", steps_table(&rigid, &shown).markdown());
+        for point in shown {
+            text += &format!("- **{}.** {}\n", name(point), sentence(point));
         }
         text.push('\n');
     }
     text += &joints(&rigid);
+    text += &speeds(measured, robot);
     text += &compliant(&ways(&measured.points, robot, "compliant"));
     let own = measured.host.yardsticks.iter();
     let own: Vec<_> = own.filter(|it| it.robot == robot.name()).collect();
@@ -93,6 +88,13 @@ pub fn text(measured: &Measured, robot: Robot) -> String {
     );
     text += &format!("\nMeasured with {}.\n", measured.rustc);
     text
+}
+
+/// The steps of a front; by the mean, those that are not on the other front already.
+fn shown<'a>(points: &[&'a Point], cost: usize) -> Vec<&'a Point> {
+    let mut shown = steps(points, cost);
+    shown.retain(|point| cost == 0 || !point.fronts[0] || point.is_default());
+    shown
 }
 
 /// Where the default stands.
@@ -116,8 +118,7 @@ fn on_default(rigid: &[&Point]) -> String {
         .filter(|p| p.cycles < default.cycles && p.error() <= 1.05 * default.error());
     text += &match better.min_by_key(|point| point.cycles) {
         Some(better) => format!(
-            "As accurate for less is *{}*, {} cycles, where a table in flash is at hand as fast as an instruction: \
-             this model has no wait states, and the default needs no table.\n\n",
+            "As accurate (to 5 %) for less is *{}*, {} cycles, on a memory without wait states, as modelled here.\n\n",
             name(better),
             thousands(better.cycles)
         ),
@@ -127,11 +128,16 @@ fn on_default(rigid: &[&Point]) -> String {
 }
 
 fn share(part: f64, whole: f64) -> String {
-    format!("{:.0} %", 100.0 * part / whole)
+    let ratio = part / whole;
+    if ratio < 9.95 {
+        format!("{:.0} %", 100.0 * ratio)
+    } else {
+        format!("{ratio:.0} ×")
+    }
 }
 
 /// Of each step the cost, its share of the default's, and errors.
-fn steps_table(points: &[&Point], cost: usize) -> Table {
+fn steps_table(points: &[&Point], shown: &[&Point]) -> Table {
     let mut table = Table::new(&[
         "configuration",
         "worst tick",
@@ -150,7 +156,7 @@ fn steps_table(points: &[&Point], cost: usize) -> Table {
             |default| share(point.costs()[of], default.costs()[of]),
         )
     };
-    for point in steps(points, cost) {
+    for point in shown {
         let error = |x: Option<f64>| x.map_or_else(|| "–".into(), digits);
         table.row([
             name(point),
@@ -218,6 +224,27 @@ fn compliant(points: &[&Point]) -> String {
         digits(fast.error()),
         thousands(slow.cycles),
         digits(slow.error())
+    )
+}
+
+/// What leaving out velocity products loses at which speeds.
+fn speeds(measured: &Measured, robot: Robot) -> String {
+    let own = measured
+        .host
+        .speeds
+        .iter()
+        .filter(|it| it.robot == robot.name());
+    let mut table = Table::new(&["joints as fast as, rad/s", "max, N·m", "of full scale"]);
+    for it in own {
+        table.row([
+            digits(it.speed),
+            digits(it.error_max),
+            digits(it.relative_max),
+        ]);
+    }
+    format!(
+        "### Without Coriolis: how slow is slow enough\n\n{}\n",
+        table.markdown()
     )
 }
 

@@ -20,6 +20,21 @@ const WORST: RGBColor = RGBColor(27, 80, 162);
 const MEAN: RGBColor = RGBColor(214, 110, 0);
 const MEASURE: RGBColor = RGBColor(150, 45, 95);
 
+const GREY: RGBColor = RGBColor(112, 120, 130);
+
+/// Ways that are named though others are cheaper: whoever looks for them finds them.
+const LANDMARKS: [&str; 9] = [
+    "default",
+    "form=core",
+    "trig=libm",
+    "trig=micromath",
+    "trig=minimax3",
+    "trig=minimax5",
+    "arith=q31,form=core",
+    "arith=f64",
+    "model=params8",
+];
+
 /// px: where the plot ends and what is written beside it begins.
 const RIGHT: u32 = 262;
 const LABEL: i32 = 14;
@@ -64,7 +79,7 @@ fn ranges(scene: &Scene<'_>) -> [[f64; 2]; 2] {
     let floor = default.map_or(1e-6 * most, |default| default.error());
     // Errors far below what f32 rounds off are drawn on the lower edge.
     [
-        [low * 0.75, high * 1.4],
+        [low * 0.25, high * 1.4],
         [10_f64.powf(floor.log10().floor() - 1.0), most * 3.0],
     ]
 }
@@ -74,10 +89,13 @@ fn draw(scene: &Scene<'_>, svg: &mut String) -> Outcome {
     root.fill(&WHITE)?;
     let head = format!("{}: what accuracy of inverse dynamics costs", scene.title);
     text(&root, &head, (28, 26), 23, &INK, HPos::Left)?;
+    let said = "Each dot is a way to compute all joint torques: further left is cheaper, further down more accurate. Dashed: \
+                errors that sensors and parameters bring anyway.";
+    text(&root, said, (28, 50), 15, &INK, HPos::Left)?;
     legend(&root)?;
     let [[left, right], [low, high]] = ranges(scene);
     let mut chart = ChartBuilder::on(&root)
-        .margin_top(92)
+        .margin_top(104)
         .margin_right(RIGHT)
         .margin_left(10)
         .margin_bottom(8)
@@ -119,7 +137,7 @@ fn draw(scene: &Scene<'_>, svg: &mut String) -> Outcome {
     )?;
     for point in &scene.points {
         let [x, y] = at(&chart, point.cycles as f64, point.error());
-        dot(&root, [x, y], 2, DOT.filled())?;
+        dot(&root, [x, y], 3, DOT.filled())?;
         canvas.spare(Area([x - 2.0, y - 2.0, x + 2.0, y + 2.0]));
     }
     let mut named: Vec<([f64; 2], String, RGBColor)> = Vec::new();
@@ -146,13 +164,19 @@ fn draw(scene: &Scene<'_>, svg: &mut String) -> Outcome {
             let place = at(&chart, point.costs()[cost], point.error());
             let deep = point.error() < low;
             let error = if deep {
-                format!(": {} N·m, below", digits(point.error()))
+                format!(", {} N·m", digits(point.error()))
             } else {
                 String::new()
             };
             named.push((place, format!("{}{error}", name(point)), colour));
         }
         for point in front {
+            let height = |error| at(&chart, point.costs()[cost], error);
+            whisker(&root, point, height, &colour)?;
+            canvas.line(
+                height(point.error()),
+                height(point.error_rms.unwrap_or(low)),
+            );
             let place = at(&chart, point.costs()[cost], point.error());
             if cost == 1 {
                 dot(&root, place, 4, WHITE.filled())?;
@@ -160,6 +184,20 @@ fn draw(scene: &Scene<'_>, svg: &mut String) -> Outcome {
             } else {
                 dot(&root, place, 4, colour.filled())?;
             }
+        }
+    }
+    for point in &scene.points {
+        if LANDMARKS.contains(&&*point.key)
+            && !named.iter().any(|(_, words, _)| *words == name(point))
+        {
+            named.insert(
+                0,
+                (
+                    at(&chart, point.cycles as f64, point.error()),
+                    name(point),
+                    GREY,
+                ),
+            );
         }
     }
     for (place, _, _) in &named {
@@ -170,6 +208,24 @@ fn draw(scene: &Scene<'_>, svg: &mut String) -> Outcome {
         label(&root, &mut canvas, place, &words, &colour)?;
     }
     root.present()?;
+    Ok(())
+}
+
+/// From the largest error down to the root mean square, with a tick at 99 %.
+fn whisker(
+    root: &Root<'_>,
+    point: &Point,
+    at: impl Fn(f64) -> [f64; 2],
+    colour: &RGBColor,
+) -> Outcome {
+    let (Some(p99), Some(rms)) = (point.error_p99, point.error_rms) else {
+        return Ok(());
+    };
+    let ([x, top], [_, middle], [_, bottom]) = (at(point.error()), at(p99), at(rms));
+    let down = vec![whole([x, top]), whole([x, bottom])];
+    root.draw(&PathElement::new(down, colour.mix(0.25).stroke_width(5)))?;
+    let tick = vec![whole([x - 5.0, middle]), whole([x + 5.0, middle])];
+    root.draw(&PathElement::new(tick, colour.stroke_width(1)))?;
     Ok(())
 }
 
@@ -261,42 +317,47 @@ fn label(
     words: &str,
     colour: &RGBColor,
 ) -> Outcome {
-    let wide = 0.53 * f64::from(LABEL) * words.chars().count() as f64;
-    let area = canvas.place(at, [wide, f64::from(LABEL)]);
+    let lines = lines(words);
+    let letters = lines.iter().map(|line| line.chars().count()).max();
+    let wide = 0.48 * f64::from(LABEL) * letters.unwrap_or(0) as f64;
+    let area = canvas.place(at, [wide, f64::from(LABEL) * lines.len() as f64]);
     let [left, top, right, bottom] = area.0;
     let nearest = [at[0].clamp(left, right), at[1].clamp(top, bottom)];
     if f64::hypot(nearest[0] - at[0], nearest[1] - at[1]) > 12.0 {
-        root.draw(&PathElement::new(
-            vec![whole(at), whole(nearest)],
-            colour.mix(0.5).stroke_width(1),
-        ))?;
+        let lead = vec![whole(at), whole(nearest)];
+        root.draw(&PathElement::new(lead, colour.mix(0.5).stroke_width(1)))?;
     }
     let corners = [whole([left, top]), whole([right, bottom])];
-    root.draw(&Rectangle::new(corners, WHITE.mix(0.8).filled()))?;
-    text(
-        root,
-        words,
-        whole([left, (top + bottom) / 2.0]),
-        LABEL,
-        colour,
-        HPos::Left,
-    )
+    root.draw(&Rectangle::new(corners, WHITE.mix(0.7).filled()))?;
+    // Towards the point.
+    let (side, x) = if at[0] > right {
+        (HPos::Right, right)
+    } else {
+        (HPos::Left, left)
+    };
+    for (i, line) in lines.into_iter().enumerate() {
+        let y = top + f64::from(LABEL) * (i as f64 + 0.5);
+        text(root, line, whole([x, y]), LABEL, colour, side)?;
+    }
+    Ok(())
+}
+
+/// A long name in two lines, parted at the comma nearest its middle.
+fn lines(words: &str) -> Vec<&str> {
+    let middle = words.len() / 2;
+    let commas = words.match_indices(", ").map(|(at, _)| at);
+    match commas.min_by_key(|at| at.abs_diff(middle)) {
+        Some(at) if words.len() > 20 => vec![&words[..=at], &words[at + 2..]],
+        _ => vec![words],
+    }
 }
 
 fn legend(root: &Root<'_>) -> Outcome {
-    let (mut x, y) = (40, 56);
+    let (mut x, y) = (40, 78);
     for (words, colour, hollow) in [
-        (
-            "nothing is as accurate for a shorter worst tick",
-            WORST,
-            false,
-        ),
-        (
-            "nothing is as accurate for fewer cycles in the mean over all ticks",
-            MEAN,
-            true,
-        ),
-        ("all other ways", DOT, false),
+        ("cheapest for its accuracy, by the worst tick", WORST, false),
+        ("by the mean over all ticks", MEAN, true),
+        ("others", DOT, false),
     ] {
         let fill = if hollow {
             colour.stroke_width(2)
@@ -305,9 +366,14 @@ fn legend(root: &Root<'_>) -> Outcome {
         };
         dot(root, [f64::from(x), f64::from(y)], 4, fill)?;
         text(root, words, (x + 12, y), 15, &INK, HPos::Left)?;
-        x += 36 + (7.4 * words.chars().count() as f64) as i32;
+        x += 40 + (6.9 * words.chars().count() as f64) as i32;
     }
-    Ok(())
+    let bar = vec![(x, y - 8), (x, y + 8)];
+    root.draw(&PathElement::new(bar, WORST.mix(0.25).stroke_width(5)))?;
+    let tick = vec![(x - 5, y), (x + 5, y)];
+    root.draw(&PathElement::new(tick, WORST.stroke_width(1)))?;
+    let words = "down to the root mean square, tick at 99 %";
+    text(root, words, (x + 12, y), 15, &INK, HPos::Left)
 }
 
 fn dashed(root: &Root<'_>, [from, to]: [f64; 2], y: f64) -> Outcome {

@@ -119,3 +119,16 @@ pub struct Yardstick {
     /// `error_max` as a share of full scale.
     pub relative_max: f64,
 }
+
+/// What leaving out velocity products loses at a speed of the joints.
+#[derive(Clone, Debug, Deserialize)]
+pub struct Speed {
+    /// The robot's name.
+    pub robot: String,
+    /// rad/s: no joint is faster.
+    pub speed: f64,
+    /// N·m.
+    pub error_max: f64,
+    /// `error_max` as a share of full scale.
+    pub relative_max: f64,
+}

@@ -15,21 +15,32 @@ const WORDS: &[(&str, &str, &str, &str)] = &[
     (
         "arith",
         "compensated",
-        "compensated",
+        "compensated f32",
         "carries the rounding errors of f32 along (two-sum, two-product)",
     ),
-    ("arith", "q31", "Q31", "computes in fixed point, Q31"),
+    (
+        "arith",
+        "q31",
+        "Q31",
+        "computes in fixed point, Q31, in units in which nothing exceeds ±2",
+    ),
     (
         "trig",
         "minimax3",
         "degree 3",
-        "takes sines and cosines from polynomials of the third degree, good to about 1e-4",
+        "takes sines and cosines from polynomials of the third degree and gives up four of f32's seven digits",
     ),
     (
         "trig",
         "minimax5",
         "degree 5",
-        "takes sines and cosines from polynomials of the fifth degree, good to about 1e-6",
+        "takes sines and cosines from polynomials of the fifth degree and gives up one of f32's seven digits",
+    ),
+    (
+        "trig",
+        "minimax7",
+        "degree 7",
+        "takes sines and cosines from polynomials of the seventh degree, angles reduced in two parts",
     ),
     (
         "trig",
@@ -40,26 +51,26 @@ const WORDS: &[(&str, &str, &str, &str)] = &[
     (
         "trig",
         "table",
-        "table, linear",
-        "interpolates sines and cosines linearly in a table of 256 entries, good to about 2e-5",
+        "linear table",
+        "interpolates sines and cosines linearly in a table (256 entries, 2 KB of flash), gives up three of f32's seven digits, and reads flash, which wait states make slower",
     ),
     (
         "trig",
         "table2",
-        "table, quadratic",
-        "interpolates sines and cosines by parabolas in a table of 256 entries",
+        "quadratic table",
+        "interpolates sines and cosines to second order in a table (256 entries, 2 KB of flash) and reads flash, which wait states make slower",
     ),
     (
         "trig",
         "table4",
-        "table",
-        "interpolates sines and cosines in a table of 64 entries, by polynomials of the fourth degree",
+        "quartic table",
+        "interpolates sines and cosines to fourth order in a table (64 entries, 512 bytes of flash) and reads flash, which wait states make slower",
     ),
     (
         "trig",
         "incremental",
-        "carried",
-        "carries sines and cosines on from tick to tick by small rotations: it relies on small steps between ticks",
+        "carried sines",
+        "carries sines and cosines on from tick to tick by small rotations, and gives up that a tick depends on its inputs alone",
     ),
     (
         "trig",
@@ -71,7 +82,7 @@ const WORDS: &[(&str, &str, &str, &str)] = &[
         "trig",
         "micromath",
         "micromath",
-        "takes sines and cosines from the crate micromath, good to about 1e-3",
+        "takes sines and cosines from the crate micromath and gives up four of f32's seven digits",
     ),
     (
         "model",
@@ -83,7 +94,7 @@ const WORDS: &[(&str, &str, &str, &str)] = &[
         "model",
         "gravity",
         "gravity only",
-        "holds the arm's weight only: neither inertia nor Coriolis and centrifugal torques",
+        "holds the weight only and leaves out inertia, Coriolis and centrifugal torques: right at rest",
     ),
     (
         "model",
@@ -121,8 +132,18 @@ const WORDS: &[(&str, &str, &str, &str)] = &[
         "core",
         "uses the core, whose code serves any robot",
     ),
-    ("opt", "s", "opt s", "is compiled with opt-level \"s\""),
-    ("opt", "z", "opt z", "is compiled with opt-level \"z\""),
+    (
+        "opt",
+        "s",
+        "opt s",
+        "is compiled for size (opt-level \"s\")",
+    ),
+    (
+        "opt",
+        "z",
+        "opt z",
+        "is compiled for the smallest size (opt-level \"z\")",
+    ),
     (
         "integrator",
         "euler",
@@ -132,31 +153,31 @@ const WORDS: &[(&str, &str, &str, &str)] = &[
     (
         "integrator",
         "semi_implicit",
-        "semi-implicit",
+        "semi-implicit Euler",
         "steps by semi-implicit Euler, of first order, whose energy stays bounded",
     ),
     (
         "integrator",
         "rk4",
         "RK4",
-        "steps by Runge and Kutta's rule of fourth order: four evaluations a step",
+        "steps by Runge and Kutta's rule of fourth order, four evaluations a step",
     ),
     (
         "integrator",
         "energy",
-        "energy kept",
-        "keeps the energy, step by step",
+        "energy-preserving",
+        "steps so that the energy stays what it was",
     ),
     (
         "integrator",
         "implicit_damping",
         "implicit damping",
-        "takes friction at the end of the step",
+        "takes friction as it will be at the end of the step",
     ),
     (
         "state",
         "compensated",
-        "compensated",
+        "compensated sums",
         "adds up angles and speeds with their rounding errors carried along",
     ),
 ];
@@ -180,7 +201,11 @@ pub fn name(point: &Point) -> String {
     for (axis, value) in changed(point) {
         match (axis, found(axis, value)) {
             ("integrator" | "step" | "scene" | "between", _) => {}
-            ("rate", _) => names.push(format!("every {value} ticks, {}", point.on("between"))),
+            ("rate", _) => names.push(format!(
+                "every {} tick, {}",
+                nth(value),
+                point.on("between")
+            )),
             (_, Some((name, _))) => names.push(name.to_owned()),
             (_, None) => names.push(format!("{axis} {value}")),
         }
@@ -227,13 +252,19 @@ pub fn sentence(point: &Point) -> String {
 
 fn every(ticks: &str, between: &str) -> String {
     let what = match between {
-        "held" => "holds the torque in between, late by up to that many",
+        "held" => "holds the torque in between, late by up to as many ticks",
         "extrapolated" => "goes on in between along the line of the last two torques",
-        _ => {
-            "adds M Δq̈ in between, with the M of then: only position and speed are taken as they were"
+        "interpolated" => {
+            "goes straight from one torque to the next, computed ahead: what is wanted then has to be known that early"
         }
+        _ => "adds M Δq̈ in between, with M, position and speed as they were then",
     };
-    format!("computes in every {ticks}th tick and {what}").replace("2th tick", "2nd tick")
+    format!("computes in every {} tick only and {what}", nth(ticks))
+}
+
+fn nth(ticks: &str) -> String {
+    let ending = if ticks == "2" { "nd" } else { "th" };
+    format!("{ticks}{ending}")
 }
 
 /// Three digits of an error, as people write it.
@@ -264,7 +295,7 @@ mod tests {
         assert_eq!(name(&plain), "default");
         assert!(sentence(&plain).starts_with("The default"));
         let both = point("trig=table,rate=10,between=linearised", 1.0, 1, 1.0);
-        assert_eq!(name(&both), "table, linear, every 10 ticks, linearised");
+        assert_eq!(name(&both), "linear table, every 10th tick, linearised");
         let told = sentence(&both);
         assert!(
             told.starts_with("It interpolates")

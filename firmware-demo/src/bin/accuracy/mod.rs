@@ -22,6 +22,8 @@ pub const TICKS: usize = 40;
 /// Measures each way that it visits.
 pub struct Priced<const N: usize> {
     robot: &'static str,
+    /// What the log calls them.
+    pub algorithm: &'static str,
     /// Anywhere, for ways that remember nothing.
     pub spread: [Course<f32, N, N>; TICKS],
     /// One after the other on the robot's way.
@@ -41,7 +43,7 @@ impl<const N: usize> Visitor<N> for Priced<N> {
         }
         let row = Row {
             robot: self.robot,
-            algorithm: "inverse",
+            algorithm: self.algorithm,
             form: W::KEY.form,
             inputs: &key,
             trig: true,
@@ -60,7 +62,15 @@ pub fn done() -> ! {
 }
 
 /// Measures every way of the robot T.
+#[allow(dead_code, reason = "not every bin measures all")]
 pub fn rigid<T: Compared<B, N, W>, const B: usize, const N: usize, const W: usize>() -> Priced<N> {
+    let mut priced = states::<T, B, N, W>();
+    T::rigid(&mut priced);
+    priced
+}
+
+/// The states of the robot T, for its ways to be measured.
+pub fn states<T: Compared<B, N, W>, const B: usize, const N: usize, const W: usize>() -> Priced<N> {
     let mut seed = 1_u32;
     let mut number = |bound: f32| {
         seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
@@ -81,11 +91,10 @@ pub fn rigid<T: Compared<B, N, W>, const B: usize, const N: usize, const W: usiz
         tick += 1;
         momentary(way.at(tick))
     });
-    let mut priced = Priced {
+    Priced {
         robot: T::MODEL.name,
+        algorithm: "inverse",
         spread,
         course,
-    };
-    T::rigid(&mut priced);
-    priced
+    }
 }

@@ -24,6 +24,8 @@ const REST: u32 = 3;
 
 /// What every way of a robot is held against.
 struct Bench<const N: usize> {
+    /// What the lines call them.
+    kind: &'static str,
     robot: &'static str,
     /// What its joints are: `rigid` or `compliant`.
     plant: &'static str,
@@ -59,7 +61,7 @@ impl<const N: usize> Visitor<N> for Bench<N> {
             .collect();
         let mut line = json!({
             "robot": self.robot,
-            "kind": "inverse",
+            "kind": self.kind,
             "plant": self.plant,
             "key": W::KEY.to_string(),
             "configuration": configuration,
@@ -126,14 +128,18 @@ pub fn print<T: Compared<B, N, W>, const B: usize, const N: usize, const W: usiz
             qdd: numbers(10.0),
         })
     });
-    T::rigid(&mut Bench {
+    let mut bench = Bench {
+        kind: "inverse",
         robot: T::MODEL.name,
         plant: "rigid",
         full_scale,
         floor: ours.error_max,
         states: recorded.into_iter().chain(more).collect(),
         way,
-    });
+    };
+    T::rigid(&mut bench);
+    bench.kind = "pasted";
+    T::pasted(&mut bench);
 }
 
 /// Prints a line for each way of the arm T on joints that give way.
@@ -156,6 +162,7 @@ where
         }
     };
     list::compliant::<T, N>(&mut Bench {
+        kind: "inverse",
         robot: T::MODEL.name,
         plant: "compliant",
         full_scale: full_scale(&recorded_states::<N>(&load(T::RECORDED))),

@@ -4,6 +4,7 @@
 //! | kind of line | what |
 //! |---|---|
 //! | `inverse` | torque errors of a way along the robot's trajectory, and over states anywhere, N·m |
+//! | `pasted` | the same of what `cargo xtask accuracy` prints to be pasted |
 //! | `yardstick` | torque errors that an encoder, parameters and friction leave, N·m |
 //! | `speed` | torque errors of a way that leaves out velocity products, by the joints' speed, N·m |
 //! | `simulation` | trajectory error in the first second, rad, and energy drift, J/s, of a way with a length of step, µs |

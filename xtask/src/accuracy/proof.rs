@@ -1,0 +1,75 @@
+//! What is printed to be pasted is built and measured beside the ways that it was chosen for: it must cost and err the
+//! same.
+
+use serde_json::Value;
+
+use super::join::Host;
+use super::measure::Measured;
+use super::point::{Kind, Point};
+use crate::costs::Row;
+use crate::error::{Error, Result};
+
+/// Fails unless all that is pasted reproduces its figures; else says how much that is.
+pub fn check(measured: &Measured) -> Result<usize> {
+    let Measured {
+        points,
+        host,
+        pasted,
+        ..
+    } = measured;
+    for row in pasted {
+        let point = promised(points, &row.robot, &row.inputs)?;
+        let seen = (row.instructions.max, row.cycles.max, row.cycles_mean);
+        let told = (point.instructions, point.cycles, point.cycles_mean);
+        if seen != told {
+            return Err(Error::check(format!(
+                "{} {}: instructions, cycles and their mean were promised as {told:?}, but what is pasted takes {seen:?}",
+                row.robot, row.inputs
+            )));
+        }
+        check_errors(host, row, point)?;
+    }
+    if pasted.is_empty() {
+        return Err(Error::check("nothing that is pasted was measured"));
+    }
+    Ok(pasted.len())
+}
+
+fn promised<'a>(points: &'a [Point], robot: &str, key: &str) -> Result<&'a Point> {
+    let of = |point: &&Point| {
+        (point.kind, &*point.robot, &*point.key) == (Kind::Inverse, robot, key)
+            && point.on("plant") == "rigid"
+    };
+    let lacks = || {
+        Error::check(format!(
+            "{robot} {key} is pasted, but not measured otherwise"
+        ))
+    };
+    points.iter().find(of).ok_or_else(lacks)
+}
+
+fn check_errors(host: &Host, row: &Row, point: &Point) -> Result<()> {
+    let of = |line: &&Value| line["robot"] == *row.robot && line["key"] == *row.inputs;
+    let line = host.pasted.iter().find(of);
+    let line = line.ok_or_else(|| {
+        Error::check(format!(
+            "the host did not paste {} {}",
+            row.robot, row.inputs
+        ))
+    })?;
+    let figures = [
+        ("error_max", point.error_max),
+        ("error_rms", point.error_rms),
+        ("error_p99", point.error_p99),
+    ];
+    for (name, told) in figures {
+        let seen = line[name].as_f64();
+        if seen != told {
+            return Err(Error::check(format!(
+                "{} {}: {name} was promised as {told:?}, but what is pasted has {seen:?}",
+                row.robot, row.inputs
+            )));
+        }
+    }
+    Ok(())
+}

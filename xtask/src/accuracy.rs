@@ -56,6 +56,11 @@ pub fn run(options: Options, wish: Wish) -> Result<ExitCode> {
         simulation: kind != Some(Kind::Inverse),
     };
     let measured = plan.run(&workspace, &tools)?;
+    let all = if wish.quick {
+        &measured.single
+    } else {
+        &measured.points
+    };
     if let (Some(budget), Some(kind)) = (wish.budget, kind) {
         let circumstances = if kind == Kind::Inverse {
             "rigid"
@@ -63,7 +68,7 @@ pub fn run(options: Options, wish: Wish) -> Result<ExitCode> {
             "free"
         };
         let of = |point: &&Point| point.group().1 == kind && point.group().2 == circumstances;
-        let points: Vec<&Point> = measured.points.iter().filter(of).collect();
+        let points: Vec<&Point> = all.iter().filter(of).collect();
         let answer = budget.answer(&points)?;
         if wish.json {
             docs::print_json(&budget.choose(&points)?)?;
@@ -76,9 +81,9 @@ pub fn run(options: Options, wish: Wish) -> Result<ExitCode> {
         write(&workspace, &measured, wish.robot)?;
     }
     if wish.json {
-        docs::print_json(&measured.points)?;
+        docs::print_json(all)?;
     } else {
-        print!("{}", table(&measured.points).text());
+        print!("{}", table(all).text());
     }
     Ok(ExitCode::SUCCESS)
 }
@@ -128,10 +133,10 @@ pub fn check(workspace: &Workspace, tools: &Tools) -> Result<String> {
         simulation: false,
     };
     let measured = plan.run(workspace, tools)?;
-    let text = single::text(&measured.points, &measured.rustc);
+    let text = single::text(&measured.single, &measured.rustc);
     single::PAGE.check(workspace, &text, Some(&measured.rustc))?;
     let pasted = proof::check(&measured)?;
-    let points = measured.points.len();
+    let points = measured.single.len();
     Ok(format!(
         "{points} configurations, {pasted} of them as printed"
     ))
@@ -161,7 +166,7 @@ fn write(workspace: &Workspace, measured: &Measured, only: Option<Robot>) -> Res
         files.push((picture("simulation"), movie::svg(&measured.points)?));
         let simulated = page::page_of(Robot::DoublePendulum);
         text = simulated.replaced(&text, &simulated::text(measured))?;
-        let single = single::text(&measured.points, &measured.rustc);
+        let single = single::text(&measured.single, &measured.rustc);
         text = single::PAGE.replaced(&text, &single)?;
     }
     files.push((file, text));

@@ -13,6 +13,7 @@ use crate::workspace::Workspace;
 
 pub const FEATURE: &str = "accuracy";
 const HOST_BIN: &str = "accuracy";
+const QUICK_HOST_BIN: &str = "accuracy_quick";
 
 /// The bin with a dozen ways of each robot.
 const QUICK_BIN: &str = "accuracy_quick";
@@ -85,8 +86,10 @@ pub struct Plan {
 
 /// What came out.
 pub struct Measured {
-    /// All configurations.
+    /// All configurations of a run that is not quick.
     pub points: Vec<Point>,
+    /// Those that differ from the default in one thing, measured in a program of their own.
+    pub single: Vec<Point>,
     /// What the host printed.
     pub host: Host,
     /// What that costs which is printed to be pasted.
@@ -127,6 +130,10 @@ impl Plan {
             profile,
             bins: bins.clone(),
         });
+        // In every run, so that what is written here is what the tests measure.
+        if !self.quick && self.inverse {
+            bins.push(QUICK_BIN);
+        }
         // Simulations are no code for a controller: their size is nobody's concern.
         bins.extend(self.simulates().then_some(SIMULATION_BIN));
         let first = Batch {
@@ -146,7 +153,7 @@ impl Plan {
         let bar = Progress::new(HOST + bins as f64 * (BUILD / 2.0 + RUN));
         bar.step("building the cycle meter", 0.0);
         let meter = firmware::build_meter(workspace)?;
-        let (mut measured, mut pasted) = (Vec::new(), Vec::new());
+        let (mut measured, mut single, mut pasted) = (Vec::new(), Vec::new(), Vec::new());
         for Batch { opt, profile, bins } in batches {
             bar.step(
                 &format!("building {} (opt-level {opt})", bins.join(", ")),
@@ -158,14 +165,19 @@ impl Plan {
                 bar.step(&format!("running {bin} (opt-level {opt}) in QEMU"), RUN);
                 let (mut rows, _) = costs::run_bin(tools, &meter, bin, &elf)?;
                 rows.retain(|row| self.covers(row));
-                pasted.extend(rows.extract_if(.., |row| row.algorithm == PASTED));
-                measured.push((opt, rows));
+                if bin == QUICK_BIN {
+                    pasted.extend(rows.extract_if(.., |row| row.algorithm == PASTED));
+                    single.push((opt, rows));
+                } else {
+                    measured.push((opt, rows));
+                }
             }
         }
         bar.step("computing errors on the host", HOST);
         let host = Host::read(&self.errors(workspace)?)?;
         Ok(Measured {
             points: join::join(&host, &measured)?,
+            single: join::join(&host, &single)?,
             host,
             pasted,
             rustc: tools.toolchain.rustc_version()?,
@@ -181,7 +193,8 @@ impl Plan {
         let mut command = workspace.cargo("run");
         // Not for speed: to build it with optimisation across crates takes longer than it runs.
         command.args(["--quiet", "--package", "host-tests"]);
-        command.args(["--features", FEATURE, "--bin", HOST_BIN, "--"]);
+        let bin = if self.quick { QUICK_HOST_BIN } else { HOST_BIN };
+        command.args(["--features", FEATURE, "--bin", bin, "--"]);
         let computed = self.robots.iter().filter(|robot| robot.bin().is_some());
         if self.inverse {
             command.args(computed.map(|robot| robot.name()));

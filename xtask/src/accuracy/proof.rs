@@ -12,7 +12,7 @@ use crate::error::{Error, Result};
 /// Fails unless all that is pasted reproduces its figures; else says how much that is.
 pub fn check(measured: &Measured) -> Result<usize> {
     let Measured {
-        points,
+        single: points,
         host,
         pasted,
         ..

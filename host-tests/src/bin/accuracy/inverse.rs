@@ -23,7 +23,7 @@ const MORE_STATES: usize = 2000;
 const REST: u32 = 3;
 
 /// What every way of a robot is held against.
-struct Bench<const N: usize> {
+pub struct Bench<const N: usize> {
     /// What the lines call them.
     kind: &'static str,
     robot: &'static str,
@@ -80,8 +80,10 @@ impl<const N: usize> Visitor<N> for Bench<N> {
     }
 }
 
-/// Prints a line for each way of the robot T.
-pub fn print<T: Compared<B, N, W>, const B: usize, const N: usize, const W: usize>() {
+/// Prints a line for each of these ways of the robot T, and for those that are printed to be pasted.
+pub fn print<T: Compared<B, N, W>, const B: usize, const N: usize, const W: usize>(
+    ways: fn(&mut Bench<N>),
+) {
     let recording = load(T::RECORDED);
     let recorded = recorded_states::<N>(&recording);
     let full_scale = full_scale(&recorded);
@@ -137,11 +139,12 @@ pub fn print<T: Compared<B, N, W>, const B: usize, const N: usize, const W: usiz
         states: recorded.into_iter().chain(more).collect(),
         way,
     };
-    T::rigid(&mut bench);
+    ways(&mut bench);
     bench.kind = "pasted";
     T::pasted(&mut bench);
 }
 
+#[allow(dead_code, reason = "the quick bin has no such joints")]
 /// Prints a line for each way of the arm T on joints that give way.
 pub fn print_compliant<T, const N: usize, const W: usize>()
 where

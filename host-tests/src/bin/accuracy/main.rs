@@ -19,20 +19,21 @@ mod statistics;
 mod yardsticks;
 
 use dynamics_core::robots::{A1Leg, Panda, Ur5e};
+use firmware_demo::accuracy::robots::Compared;
 
 fn main() {
     let asked: Vec<String> = std::env::args().skip(1).collect();
     let wanted = |name: &str| asked.is_empty() || asked.iter().any(|robot| robot == name);
     if wanted("ur5e") {
-        inverse::print::<Ur5e, 6, 6, 9>();
+        inverse::print::<Ur5e, 6, 6, 9>(Ur5e::rigid);
         inverse::print_compliant::<Ur5e, 6, 9>();
     }
     if wanted("panda") {
-        inverse::print::<Panda, 7, 7, 7>();
+        inverse::print::<Panda, 7, 7, 7>(Panda::rigid);
         inverse::print_compliant::<Panda, 7, 7>();
     }
     if wanted("a1_leg") {
-        inverse::print::<A1Leg, 4, 3, 7>();
+        inverse::print::<A1Leg, 4, 3, 7>(A1Leg::rigid);
     }
     if wanted("simulation") {
         simulation::print();

@@ -1,8 +1,8 @@
 //! Fixed point, for comparison: what processors without an FPU use.
 //!
 //! Products are summed in 64 bits (SMULL, SMLAL) and rounded once. Every quantity has the same scale, so units have to
-//! be chosen that keep all of them within ±2: [`Model::in_units`] makes a robot in such units. Lee, *Fixed-point
-//! arithmetic* in Yates (2009), section 5.
+//! be chosen that keep all of them within ±2: [`Model::in_units`] makes a robot in such units. Yates, *Fixed-Point
+//! Arithmetic: An Introduction* (2009).
 
 use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 

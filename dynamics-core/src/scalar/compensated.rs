@@ -214,6 +214,11 @@ impl Real for Compensated {
     fn saturate(self) -> Self {
         Self::from(self.value.saturate()) + Self::from(self.rest.saturate())
     }
+    fn cast<const B: usize, const Q: usize, const V: usize>(
+        model: &Model<f64, B, Q, V>,
+    ) -> Model<Self, B, Q, V> {
+        model.to_compensated()
+    }
     #[inline(always)]
     fn model<T, const B: usize, const Q: usize, const V: usize>() -> &'static Model<Self, B, Q, V>
     where

@@ -180,6 +180,11 @@ impl Real for Fixed {
     fn saturate(self) -> Self {
         Self(self.0 / Self::ONE.0 * Self::ONE.0)
     }
+    fn cast<const B: usize, const Q: usize, const V: usize>(
+        model: &Model<f64, B, Q, V>,
+    ) -> Model<Self, B, Q, V> {
+        model.to_fixed()
+    }
     #[inline(always)]
     fn model<T, const B: usize, const Q: usize, const V: usize>() -> &'static Model<Self, B, Q, V>
     where

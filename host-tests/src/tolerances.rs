@@ -240,6 +240,15 @@ const TABLE: &[(&str, &str, f64, f64)] = &[
     ("trig", "carried for 10⁴ ticks", NONE, 2e-5),
     ("trig", "fixed point", NONE, 1e-8),
     ("trig", "compensated", NONE, 2e-12),
+    ("ur5e", "rnea in compensated f32", NONE, 1e-12),
+    ("ur5e", "rnea in fixed point", NONE, 6e-6),
+    ("double pendulum", "energy kept for a second", 6e-14, 1e-5),
+    (
+        "double pendulum",
+        "compensated Runge-Kutta in fine steps",
+        NONE,
+        6e-7,
+    ),
 ];
 
 /// Holds a measured error, relative to full scale, against the table.

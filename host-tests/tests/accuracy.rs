@@ -12,7 +12,9 @@ use dynamics_core::state::State;
 use dynamics_core::trig::{Carried, Kernel, Minimax, Table};
 use dynamics_core::{Core, Engine};
 use firmware_demo::accuracy::key::Key;
-use firmware_demo::accuracy::robots::Compared;
+use firmware_demo::accuracy::model::Full;
+use firmware_demo::accuracy::numbers::{FixedPoint, In};
+use firmware_demo::accuracy::robots::{Compared, momentary};
 use firmware_demo::accuracy::simulation::{self, DoublePendulum};
 use firmware_demo::accuracy::{Inverse, Visitor};
 use host_tests::recordings::{Precise, load, read};
@@ -77,6 +79,14 @@ fn recorded<T: Robot<B, N, N>, const B: usize, const N: usize>(
     name: &str,
     run: impl Fn(&State<f32, N, N>) -> [f32; N],
 ) -> [f64; 2] {
+    widened::<T, B, N>(name, |state| run(state).map(f64::from))
+}
+
+/// The same of torques in other numbers.
+fn widened<T: Robot<B, N, N>, const B: usize, const N: usize>(
+    name: &str,
+    run: impl Fn(&State<f32, N, N>) -> [f64; N],
+) -> [f64; 2] {
     let recording = load(name);
     let (mut scale, mut worst) = (0.0_f64, [0.0_f64; 2]);
     for (k, truth) in recording.rnea.iter().enumerate() {
@@ -87,7 +97,7 @@ fn recorded<T: Robot<B, N, N>, const B: usize, const N: usize>(
         let single = run(&State { q, qd, qdd });
         for j in 0..N {
             scale = scale.max(truth[j].abs());
-            worst[0] = worst[0].max((f64::from(single[j]) - truth[j]).abs());
+            worst[0] = worst[0].max((single[j] - truth[j]).abs());
             worst[1] = worst[1].max((double[j] - truth[j]).abs());
         }
     }
@@ -133,6 +143,21 @@ fn f64_is_good_to_1e_13_by_50_digits() {
     ] {
         assert!(error <= 1e-13, "{error:.1e}");
     }
+}
+
+#[test]
+fn other_numbers_are_as_good_as_they_say() {
+    let course = |state| momentary(state);
+    let [compensated, _] = widened::<Ur5e, 6, 6>("ur5e", |state| {
+        type Way = In<Compensated, Full<Ur5e>, Core<Ur5e>, 6>;
+        Way::torque(&Way::start(state).tick(&Way::input(&course(*state))))
+    });
+    let [fixed, _] = widened::<Ur5e, 6, 6>("ur5e", |state| {
+        type Way = FixedPoint<Ur5e, Full<Ur5e>, 6>;
+        Way::torque(&Way::start(state).tick(&Way::input(&course(*state))))
+    });
+    check("ur5e", "rnea in compensated f32", "f32", compensated).unwrap();
+    check("ur5e", "rnea in fixed point", "f32", fixed).unwrap();
 }
 
 /// The largest error of a kernel over ±100 rad, or over two turns.

@@ -1,8 +1,9 @@
 //! Torque between two computations of the dynamics, for loops that tick faster than they compute.
 //!
 //! A loop computes every `TICKS`-th tick and tells what it found by `renew`, which gives that tick's torque; in the
-//! ticks between it asks `coast`. What that loses grows with `TICKS` and with how fast the arm moves:
-//! `docs/accuracy.md` in the repository has both, with what it saves.
+//! ticks between it asks `coast`. What that loses grows with `TICKS` and with how fast the arm moves, and most where
+//! the reference's jerk jumps, as at the way-points of [`Trajectory`](super::Trajectory), unless such ticks are among
+//! those that compute: `docs/accuracy.md` in the repository has it, with what it saves.
 
 use crate::mass_matrix::MassMatrix;
 use crate::scalar::Real;

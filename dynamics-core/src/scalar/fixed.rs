@@ -1,8 +1,8 @@
 //! Fixed point, for comparison: what processors without an FPU use.
 //!
 //! Products are summed in 64 bits (SMULL, SMLAL) and rounded once. Every quantity has the same scale, so units have to
-//! be chosen that keep all of them within ±2: [`Model::in_units`] makes a robot in such units. Lee, *Fixed-point
-//! arithmetic* in Yates (2009), section 5.
+//! be chosen that keep all of them within ±2: [`Model::in_units`] makes a robot in such units. Yates, *Fixed-Point
+//! Arithmetic: An Introduction* (2009).
 
 use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
@@ -179,6 +179,11 @@ impl Real for Fixed {
     #[inline(always)]
     fn saturate(self) -> Self {
         Self(self.0 / Self::ONE.0 * Self::ONE.0)
+    }
+    fn cast<const B: usize, const Q: usize, const V: usize>(
+        model: &Model<f64, B, Q, V>,
+    ) -> Model<Self, B, Q, V> {
+        model.to_fixed()
     }
     #[inline(always)]
     fn model<T, const B: usize, const Q: usize, const V: usize>() -> &'static Model<Self, B, Q, V>

@@ -94,6 +94,10 @@ pub trait Real:
     /// Cost: two conversions, which saturate on their own: neither a comparison nor its wait for
     /// the FPU's flags.
     fn saturate(self) -> Self;
+    /// A model cast to this type.
+    fn cast<const B: usize, const Q: usize, const V: usize>(
+        model: &Model<f64, B, Q, V>,
+    ) -> Model<Self, B, Q, V>;
     /// The model of a robot known at compile time, cast to this type.
     fn model<T, const B: usize, const Q: usize, const V: usize>() -> &'static Model<Self, B, Q, V>
     where
@@ -162,7 +166,7 @@ pub trait Matrix<R: Real>:
 }
 
 macro_rules! real {
-    ($r:ident, $whole:ident, $vec:path, $mat:path, $sin_cos:expr, $near:expr, $exp_neg:expr, $sqrt:expr, $atan2:expr, $magic:literal, $steps:literal, $model:ident, |$double:ident, $single:ident| $pick:ident) => {
+    ($r:ident, $whole:ident, $vec:path, $mat:path, $sin_cos:expr, $near:expr, $exp_neg:expr, $sqrt:expr, $atan2:expr, $magic:literal, $steps:literal, $model:ident, $cast:expr, |$double:ident, $single:ident| $pick:ident) => {
         impl Real for $r {
             type Vec3 = $vec;
             type Mat3 = $mat;
@@ -225,6 +229,11 @@ macro_rules! real {
             #[inline(always)]
             fn saturate(self) -> Self {
                 (self as $whole) as $r
+            }
+            fn cast<const B: usize, const Q: usize, const V: usize>(
+                model: &Model<f64, B, Q, V>,
+            ) -> Model<Self, B, Q, V> {
+                $cast(model)
             }
             #[inline(always)]
             fn model<T, const B: usize, const Q: usize, const V: usize>()
@@ -297,6 +306,7 @@ real!(
     0x5f37_59df,
     3,
     MODEL_F32,
+    Model::to_f32,
     |double, single| single
 );
 real!(
@@ -312,5 +322,6 @@ real!(
     0x5fe6_eb50_c7b5_37a9,
     4,
     MODEL,
+    Model::clone,
     |double, single| double
 );

@@ -1,6 +1,9 @@
 //! Ways to compute inverse dynamics, from the most accurate to the cheapest, each a type: what `cargo xtask accuracy`
 //! runs on the target for their cost and on the host for their error.
 //!
+//! The bins `accuracy_…` log a row of the algorithm `inverse` or `simulation` for each, its inputs the way's name; the
+//! host's bin `accuracy` prints a line of JSON for each under the same name. A call of a row is a tick or a step.
+//!
 //! | module | what |
 //! |---|---|
 //! | [`key`] | the name of a way, the same on target and host |

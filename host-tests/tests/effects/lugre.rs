@@ -35,7 +35,7 @@ fn a_load_below_break_away_slides_by_the_models_own_presliding_and_then_holds() 
     fn run<R: Real>(h: f64) -> [f64; 2] {
         let mut scene = (Inertia, friction::<R>());
         let mut block = State::at([R::ZERO]);
-        let model = *R::pick(&BLOCK, &BLOCK.to_f32());
+        let model = R::cast(&BLOCK);
         let mut presliding = 0.0;
         for i in 1..=(11.2 / h).round() as u32 {
             let t = f64::from(i) * h;

@@ -1,19 +1,23 @@
 //! `cargo xtask accuracy`: what accuracy costs in time, for every way to compute that the library offers.
 
 mod choice;
+mod drawing;
 mod front;
 mod join;
 mod labels;
 mod measure;
 mod movie;
 mod page;
+mod parts;
 mod paste;
 mod picture;
 mod point;
 mod progress;
 mod proof;
 mod simulated;
+mod simulator;
 mod single;
+mod vocabulary;
 mod words;
 
 use std::path::PathBuf;

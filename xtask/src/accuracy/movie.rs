@@ -3,9 +3,9 @@
 use plotters::prelude::*;
 use plotters::style::text_anchor::HPos;
 
+use super::drawing::{FAINT, FONT, INK, Outcome, Root, digits_of_axis, dot, text, whole};
 use super::labels::{Area, Canvas};
 use super::measure::Robot;
-use super::picture::{FAINT, FONT, INK, Outcome, Root, digits_of_axis, dot, text, whole};
 use super::point::{Kind, Point};
 use crate::error::{Error, Result};
 

@@ -1,9 +1,11 @@
 //! The picture of a robot: error against cycles of every way to compute its torques, both logarithmic.
 
-use plotters::coord::Shift;
 use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, Pos, VPos};
+use plotters::style::text_anchor::HPos;
 
+use super::drawing::{
+    FAINT, FONT, INK, Outcome, Root, dashed, digits_of_axis, dot, label, text, whisker, whole,
+};
 use super::front;
 use super::labels::{Area, Canvas, spread};
 use super::page::steps;
@@ -11,15 +13,11 @@ use super::point::{Point, Yardstick};
 use super::words::{cycles, digits, name};
 use crate::error::{Error, Result};
 
-pub const FONT: &str = "system-ui, Helvetica, Arial, sans-serif";
-pub const INK: RGBColor = RGBColor(45, 50, 58);
-pub const FAINT: RGBColor = RGBColor(228, 231, 235);
 const SIZE: (u32, u32) = (1200, 760);
 const DOT: RGBColor = RGBColor(178, 186, 196);
 const WORST: RGBColor = RGBColor(27, 80, 162);
 const MEAN: RGBColor = RGBColor(214, 110, 0);
 const MEASURE: RGBColor = RGBColor(150, 45, 95);
-
 const GREY: RGBColor = RGBColor(112, 120, 130);
 
 /// Ways that are named though others are cheaper: whoever looks for them finds them.
@@ -37,10 +35,7 @@ const LANDMARKS: [&str; 9] = [
 
 /// px: where the plot ends and what is written beside it begins.
 const RIGHT: u32 = 262;
-const LABEL: i32 = 14;
 
-pub type Outcome = std::result::Result<(), Box<dyn std::error::Error>>;
-pub type Root<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 type Chart<'a, 'b> = ChartContext<
     'a,
     SVGBackend<'b>,
@@ -211,24 +206,6 @@ fn draw(scene: &Scene<'_>, svg: &mut String) -> Outcome {
     Ok(())
 }
 
-/// From the largest error down to the root mean square, with a tick at 99 %.
-fn whisker(
-    root: &Root<'_>,
-    point: &Point,
-    at: impl Fn(f64) -> [f64; 2],
-    colour: &RGBColor,
-) -> Outcome {
-    let (Some(p99), Some(rms)) = (point.error_p99, point.error_rms) else {
-        return Ok(());
-    };
-    let ([x, top], [_, middle], [_, bottom]) = (at(point.error()), at(p99), at(rms));
-    let down = vec![whole([x, top]), whole([x, bottom])];
-    root.draw(&PathElement::new(down, colour.mix(0.25).stroke_width(5)))?;
-    let tick = vec![whole([x - 5.0, middle]), whole([x + 5.0, middle])];
-    root.draw(&PathElement::new(tick, colour.stroke_width(1)))?;
-    Ok(())
-}
-
 /// Where the plot lies, and what it shows.
 struct Seen {
     edges: [f64; 4],
@@ -274,7 +251,7 @@ fn yardsticks(
     let wished: Vec<f64> = lines.iter().map(|it| height(it.error_max)).collect();
     let heights = spread(&wished, 36.0, [y0 + 16.0, y1 - 16.0]);
     for ((line, from), to) in lines.into_iter().zip(wished).zip(heights) {
-        dashed(root, [x0, x1], from)?;
+        dashed(root, [x0, x1], from, MEASURE)?;
         canvas.line([x0, from], [x1, from]);
         let lead = vec![whole([x1 + 44.0, from]), whole([x1 + 56.0, to])];
         root.draw(&PathElement::new(lead, MEASURE.stroke_width(1)))?;
@@ -310,48 +287,6 @@ pub fn yardstick(line: &Yardstick) -> &str {
     }
 }
 
-fn label(
-    root: &Root<'_>,
-    canvas: &mut Canvas,
-    at: [f64; 2],
-    words: &str,
-    colour: &RGBColor,
-) -> Outcome {
-    let lines = lines(words);
-    let letters = lines.iter().map(|line| line.chars().count()).max();
-    let wide = 0.48 * f64::from(LABEL) * letters.unwrap_or(0) as f64;
-    let area = canvas.place(at, [wide, f64::from(LABEL) * lines.len() as f64]);
-    let [left, top, right, bottom] = area.0;
-    let nearest = [at[0].clamp(left, right), at[1].clamp(top, bottom)];
-    if f64::hypot(nearest[0] - at[0], nearest[1] - at[1]) > 12.0 {
-        let lead = vec![whole(at), whole(nearest)];
-        root.draw(&PathElement::new(lead, colour.mix(0.5).stroke_width(1)))?;
-    }
-    let corners = [whole([left, top]), whole([right, bottom])];
-    root.draw(&Rectangle::new(corners, WHITE.mix(0.7).filled()))?;
-    // Towards the point.
-    let (side, x) = if at[0] > right {
-        (HPos::Right, right)
-    } else {
-        (HPos::Left, left)
-    };
-    for (i, line) in lines.into_iter().enumerate() {
-        let y = top + f64::from(LABEL) * (i as f64 + 0.5);
-        text(root, line, whole([x, y]), LABEL, colour, side)?;
-    }
-    Ok(())
-}
-
-/// A long name in two lines, parted at the comma nearest its middle.
-fn lines(words: &str) -> Vec<&str> {
-    let middle = words.len() / 2;
-    let commas = words.match_indices(", ").map(|(at, _)| at);
-    match commas.min_by_key(|at| at.abs_diff(middle)) {
-        Some(at) if words.len() > 20 => vec![&words[..=at], &words[at + 2..]],
-        _ => vec![words],
-    }
-}
-
 fn legend(root: &Root<'_>) -> Outcome {
     let (mut x, y) = (40, 78);
     for (words, colour, hollow) in [
@@ -374,49 +309,4 @@ fn legend(root: &Root<'_>) -> Outcome {
     root.draw(&PathElement::new(tick, WORST.stroke_width(1)))?;
     let words = "down to the root mean square, tick at 99 %";
     text(root, words, (x + 12, y), 15, &INK, HPos::Left)
-}
-
-fn dashed(root: &Root<'_>, [from, to]: [f64; 2], y: f64) -> Outcome {
-    let mut x = from;
-    while x < to {
-        let dash = vec![whole([x, y]), whole([(x + 7.0).min(to), y])];
-        root.draw(&PathElement::new(dash, MEASURE.mix(0.7).stroke_width(1)))?;
-        x += 12.0;
-    }
-    Ok(())
-}
-
-/// `1e-5`, `0.01`, `10`.
-pub fn digits_of_axis(x: f64) -> String {
-    if (0.009..1e4).contains(&x) {
-        format!("{}", (x * 1e3).round() / 1e3)
-    } else {
-        format!("{x:.0e}")
-    }
-}
-
-pub fn whole(at: [f64; 2]) -> (i32, i32) {
-    (at[0].round() as i32, at[1].round() as i32)
-}
-
-pub fn dot(root: &Root<'_>, at: [f64; 2], radius: i32, style: ShapeStyle) -> Outcome {
-    root.draw(&Circle::new(whole(at), radius, style))?;
-    Ok(())
-}
-
-pub fn text(
-    root: &Root<'_>,
-    words: &str,
-    at: (i32, i32),
-    size: i32,
-    colour: &RGBColor,
-    side: HPos,
-) -> Outcome {
-    let font = (FONT, size).into_font().color(colour);
-    root.draw(&Text::new(
-        words.to_owned(),
-        at,
-        font.pos(Pos::new(side, VPos::Center)),
-    ))?;
-    Ok(())
 }

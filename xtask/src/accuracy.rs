@@ -1,5 +1,6 @@
 //! `cargo xtask accuracy`: what accuracy costs in time, for every way to compute that the library offers.
 
+mod bars;
 mod choice;
 mod drawing;
 mod front;
@@ -140,9 +141,10 @@ pub fn check(workspace: &Workspace, tools: &Tools) -> Result<String> {
     let text = single::text(&measured.single, &measured.rustc);
     single::PAGE.check(workspace, &text, Some(&measured.rustc))?;
     let pasted = proof::check(&measured)?;
+    let saved = bars::check(&page::ways(&measured.single, Robot::Ur5e, "rigid"))?;
     let points = measured.single.len();
     Ok(format!(
-        "{points} configurations, {pasted} of them as printed"
+        "{points} configurations, {pasted} of them as printed; {saved}"
     ))
 }
 

@@ -1,5 +1,6 @@
 //! docs/accuracy.md: fronts in words, what single choices cost, yardsticks.
 
+use super::bars;
 use super::front;
 use super::measure::{Measured, Robot};
 use super::picture::yardstick;
@@ -65,6 +66,7 @@ pub fn text(measured: &Measured, robot: Robot) -> String {
         digits(rigid.first().map_or(0.0, |point| point.full_scale)),
     );
     text += &on_default(&rigid);
+    text += &bars::told(&rigid);
     let heads = [
         "### The worst tick: what each step costs and gives up",
         "### The mean over ticks: what each step costs and gives up",

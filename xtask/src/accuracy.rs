@@ -1,11 +1,13 @@
 //! `cargo xtask accuracy`: what accuracy costs in time, for every way to compute that the library offers.
 
+mod asides;
 mod bars;
 mod choice;
 mod drawing;
 mod front;
 mod join;
 mod labels;
+mod margin;
 mod measure;
 mod movie;
 mod page;

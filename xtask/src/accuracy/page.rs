@@ -1,10 +1,10 @@
 //! docs/accuracy.md: fronts in words, what single choices cost, yardsticks.
 
+use super::asides::{compliant, joints, oracle, speeds, yardsticks};
 use super::bars;
 use super::front;
 use super::measure::{Measured, Robot};
-use super::picture::yardstick;
-use super::point::{Kind, Point, Yardstick};
+use super::point::{Kind, Point};
 use super::words::{cycles, digits, name, sentence};
 use crate::docs::Page;
 use crate::report::MODEL;
@@ -65,6 +65,7 @@ pub fn text(measured: &Measured, robot: Robot) -> String {
         rigid.iter().filter(|point| point.front).count(),
         digits(rigid.first().map_or(0.0, |point| point.full_scale)),
     );
+    text += &oracle(measured, robot);
     text += &on_default(&rigid);
     text += &bars::told(&rigid);
     let heads = [
@@ -93,7 +94,7 @@ pub fn text(measured: &Measured, robot: Robot) -> String {
 }
 
 /// The steps of a front; by the mean, those that are not on the other front already.
-fn shown<'a>(points: &[&'a Point], cost: usize) -> Vec<&'a Point> {
+pub fn shown<'a>(points: &[&'a Point], cost: usize) -> Vec<&'a Point> {
     let mut shown = steps(points, cost);
     shown.retain(|point| cost == 0 || !point.fronts[0] || point.is_default());
     shown
@@ -171,99 +172,6 @@ fn steps_table(points: &[&Point], shown: &[&Point]) -> Table {
             error(point.error_rms),
             error(point.relative_max),
         ]);
-    }
-    table
-}
-
-/// Errors joint by joint, folded away.
-fn joints(points: &[&Point]) -> String {
-    let count = points.first().map_or(0, |point| point.joints.len());
-    let heads: Vec<String> = (1..=count).map(|joint| format!("joint {joint}")).collect();
-    let heads: Vec<&str> = ["configuration"]
-        .into_iter()
-        .chain(heads.iter().map(String::as_str))
-        .collect();
-    let mut table = Table::new(&heads);
-    let mut shown = steps(points, 0);
-    shown.extend(
-        steps(points, 1)
-            .into_iter()
-            .filter(|point| !point.fronts[0]),
-    );
-    for point in shown {
-        let each = point.joints.iter().map(|joint| {
-            format!(
-                "{} / {} / {}",
-                digits(joint.max),
-                digits(joint.p99),
-                digits(joint.rms)
-            )
-        });
-        table.row([name(point)].into_iter().chain(each));
-    }
-    format!(
-        "<details><summary>Joint by joint: max / 99 % / RMS, N·m</summary>\n\n{}\n</details>\n\n",
-        table.markdown()
-    )
-}
-
-/// The ways to the motors of joints that give way.
-fn compliant(points: &[&Point]) -> String {
-    let slow = points
-        .iter()
-        .find(|point| point.on("model") == "compliant" && point.on("opt") == "3");
-    let fast = points
-        .iter()
-        .find(|point| point.on("model") == "rigid" && point.on("opt") == "3");
-    let (Some(slow), Some(fast)) = (slow, fast) else {
-        return String::new();
-    };
-    format!(
-        "### Joints that give way\n\nOn joints as springy as harmonic drives, along a smooth swing: taken for rigid, \
-         the motors' torques cost {} cycles and are off by up to {} N·m; computed with their springs, {} cycles \
-         and {} N·m.\n\n",
-        thousands(fast.cycles),
-        digits(fast.error()),
-        thousands(slow.cycles),
-        digits(slow.error())
-    )
-}
-
-/// What leaving out velocity products loses at which speeds.
-fn speeds(measured: &Measured, robot: Robot) -> String {
-    let own = measured
-        .host
-        .speeds
-        .iter()
-        .filter(|it| it.robot == robot.name());
-    let mut table = Table::new(&["joints as fast as, rad/s", "max, N·m", "of full scale"]);
-    for it in own {
-        table.row([
-            digits(it.speed),
-            digits(it.error_max),
-            digits(it.relative_max),
-        ]);
-    }
-    format!(
-        "### Without Coriolis: how slow is slow enough\n\n{}\n",
-        table.markdown()
-    )
-}
-
-fn yardsticks(own: &[&Yardstick]) -> Table {
-    let mut table = Table::new(&["what is off", "max, N·m", "99 %", "RMS", "of full scale"]);
-    for line in own {
-        let what = match &*line.what {
-            "" => yardstick(line).to_owned(),
-            what => what.to_owned(),
-        };
-        let errors = [
-            line.error_max,
-            line.error_p99,
-            line.error_rms,
-            line.relative_max,
-        ];
-        table.row([what].into_iter().chain(errors.map(digits)));
     }
     table
 }

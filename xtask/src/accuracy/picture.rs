@@ -3,21 +3,19 @@
 use plotters::prelude::*;
 use plotters::style::text_anchor::HPos;
 
-use super::drawing::{
-    FAINT, FONT, INK, Outcome, Root, dashed, digits_of_axis, dot, label, text, whisker, whole,
-};
+use super::drawing::{FAINT, FONT, INK, Outcome, digits_of_axis, dot, label, text, whisker, whole};
 use super::front;
-use super::labels::{Area, Canvas, spread};
+use super::labels::{Area, Canvas};
+use super::margin::{Seen, legend, yardsticks};
 use super::page::steps;
 use super::point::{Point, Yardstick};
 use super::words::{cycles, digits, name};
 use crate::error::{Error, Result};
 
 const SIZE: (u32, u32) = (1200, 760);
-const DOT: RGBColor = RGBColor(178, 186, 196);
-const WORST: RGBColor = RGBColor(27, 80, 162);
-const MEAN: RGBColor = RGBColor(214, 110, 0);
-const MEASURE: RGBColor = RGBColor(150, 45, 95);
+pub const DOT: RGBColor = RGBColor(178, 186, 196);
+pub const WORST: RGBColor = RGBColor(27, 80, 162);
+pub const MEAN: RGBColor = RGBColor(214, 110, 0);
 const GREY: RGBColor = RGBColor(112, 120, 130);
 
 /// Ways that are named though others are cheaper: whoever looks for them finds them.
@@ -204,109 +202,4 @@ fn draw(scene: &Scene<'_>, svg: &mut String) -> Outcome {
     }
     root.present()?;
     Ok(())
-}
-
-/// Where the plot lies, and what it shows.
-struct Seen {
-    edges: [f64; 4],
-    full_scale: f64,
-    low: f64,
-    high: f64,
-}
-
-/// Lines across, named beside the plot; and what share of full scale an error is.
-fn yardsticks(
-    root: &Root<'_>,
-    scene: &Scene<'_>,
-    seen: &Seen,
-    height: impl Fn(f64) -> f64,
-    canvas: &mut Canvas,
-) -> Outcome {
-    let [x0, y0, x1, y1] = seen.edges;
-    let exponents = (seen.low / seen.full_scale).log10().ceil() as i32
-        ..=(seen.high / seen.full_scale).log10().floor() as i32;
-    for exponent in exponents {
-        let y = height(seen.full_scale * 10_f64.powi(exponent));
-        let tick = vec![whole([x1, y]), whole([x1 + 5.0, y])];
-        root.draw(&PathElement::new(tick, INK.stroke_width(1)))?;
-        let share = match exponent {
-            -2..=0 => format!("{} %", 10_f64.powi(exponent + 2)),
-            _ => format!("1e{exponent}"),
-        };
-        text(root, &share, whole([x1 + 8.0, y]), 12, &INK, HPos::Left)?;
-    }
-    text(
-        root,
-        "of full scale",
-        whole([x1 + 8.0, y0 - 12.0]),
-        12,
-        &INK,
-        HPos::Left,
-    )?;
-    let lines: Vec<_> = scene
-        .yardsticks
-        .iter()
-        .filter(|it| it.error_max > seen.low)
-        .collect();
-    let wished: Vec<f64> = lines.iter().map(|it| height(it.error_max)).collect();
-    let heights = spread(&wished, 36.0, [y0 + 16.0, y1 - 16.0]);
-    for ((line, from), to) in lines.into_iter().zip(wished).zip(heights) {
-        dashed(root, [x0, x1], from, MEASURE)?;
-        canvas.line([x0, from], [x1, from]);
-        let lead = vec![whole([x1 + 44.0, from]), whole([x1 + 56.0, to])];
-        root.draw(&PathElement::new(lead, MEASURE.stroke_width(1)))?;
-        let error = format!("off by {} N·m", digits(line.error_max));
-        text(
-            root,
-            yardstick(line),
-            whole([x1 + 60.0, to - 8.0]),
-            14,
-            &MEASURE,
-            HPos::Left,
-        )?;
-        text(
-            root,
-            &error,
-            whole([x1 + 60.0, to + 8.0]),
-            13,
-            &MEASURE,
-            HPos::Left,
-        )?;
-    }
-    Ok(())
-}
-
-/// The cause of an error, for a plot.
-pub fn yardstick(line: &Yardstick) -> &str {
-    match &*line.key {
-        "encoder14" => "angles from a 14-bit encoder",
-        "inertial1" => "inertias known to 1 %",
-        "inertial5" => "inertias known to 5 %",
-        "friction10" => "friction known to 10 %",
-        other => other,
-    }
-}
-
-fn legend(root: &Root<'_>) -> Outcome {
-    let (mut x, y) = (40, 78);
-    for (words, colour, hollow) in [
-        ("cheapest for its accuracy, by the worst tick", WORST, false),
-        ("by the mean over all ticks", MEAN, true),
-        ("others", DOT, false),
-    ] {
-        let fill = if hollow {
-            colour.stroke_width(2)
-        } else {
-            colour.filled()
-        };
-        dot(root, [f64::from(x), f64::from(y)], 4, fill)?;
-        text(root, words, (x + 12, y), 15, &INK, HPos::Left)?;
-        x += 40 + (6.9 * words.chars().count() as f64) as i32;
-    }
-    let bar = vec![(x, y - 8), (x, y + 8)];
-    root.draw(&PathElement::new(bar, WORST.mix(0.25).stroke_width(5)))?;
-    let tick = vec![(x - 5, y), (x + 5, y)];
-    root.draw(&PathElement::new(tick, WORST.stroke_width(1)))?;
-    let words = "down to the root mean square, tick at 99 %";
-    text(root, words, (x + 12, y), 15, &INK, HPos::Left)
 }

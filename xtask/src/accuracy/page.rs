@@ -97,6 +97,11 @@ pub fn text(measured: &Measured, robot: Robot) -> String {
 pub fn shown<'a>(points: &[&'a Point], cost: usize) -> Vec<&'a Point> {
     let mut shown = steps(points, cost);
     shown.retain(|point| cost == 0 || !point.fronts[0] || point.is_default());
+    // The default is told even where a front passes it by.
+    if !shown.iter().any(|point| point.is_default()) {
+        shown.extend(points.iter().filter(|point| point.is_default()));
+        shown.sort_by(|a, b| a.costs()[cost].total_cmp(&b.costs()[cost]));
+    }
     shown
 }
 

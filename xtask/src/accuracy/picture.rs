@@ -183,14 +183,9 @@ fn draw(scene: &Scene<'_>, svg: &mut String) -> Outcome {
         if LANDMARKS.contains(&&*point.key)
             && !named.iter().any(|(_, words, _)| *words == name(point))
         {
-            named.insert(
-                0,
-                (
-                    at(&chart, point.cycles as f64, point.error()),
-                    name(point),
-                    GREY,
-                ),
-            );
+            let colour = if point.is_default() { INK } else { GREY };
+            let place = at(&chart, point.cycles as f64, point.error());
+            named.insert(0, (place, name(point), colour));
         }
     }
     for (place, _, _) in &named {

@@ -140,10 +140,10 @@ pub fn check(workspace: &Workspace, tools: &Tools) -> Result<String> {
         simulation: false,
     };
     let measured = plan.run(workspace, tools)?;
-    let text = single::text(&measured.single, &measured.rustc);
-    single::PAGE.check(workspace, &text, Some(&measured.rustc))?;
     let pasted = proof::check(&measured)?;
     let saved = bars::check(&page::ways(&measured.single, Robot::Ur5e, "rigid"))?;
+    let text = single::text(&measured.single, &measured.rustc);
+    single::PAGE.check(workspace, &text, Some(&measured.rustc))?;
     let points = measured.single.len();
     Ok(format!(
         "{points} configurations, {pasted} of them as printed; {saved}"

@@ -34,8 +34,8 @@ pub fn check(measured: &Measured) -> Result<usize> {
             point.cycles as f64,
             point.cycles_mean,
         ];
-        let close =
-            std::iter::zip(seen, told).all(|(seen, told)| (seen - told).abs() <= CLOSE * told);
+        let mut ratios = std::iter::zip(seen, told).map(|(seen, told)| seen / told);
+        let close = ratios.all(|ratio| CLOSE.contains(&ratio));
         if !close {
             unlike.push(format!(
                 "{} {}: instructions, cycles and their mean were promised as {told:?}, but what is pasted takes {seen:?}",

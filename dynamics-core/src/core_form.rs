@@ -13,6 +13,7 @@ use crate::model::{Of, Robot};
 use crate::scalar::Real;
 use crate::spatial::Motion;
 use crate::state::{Posture, State};
+use crate::trig::Kernel;
 
 /// The textbook loops over the model of the robot `T`.
 ///
@@ -49,6 +50,22 @@ impl<T> Core<T> {
         E: Effect<R, B, V>,
     {
         algorithms::rnea(&Of::<T>::NEW, state, effects)
+    }
+
+    /// As [`Core::rnea`], sines and cosines by the kernel K.
+    #[inline(never)]
+    pub fn rnea_by<K, R, E, const B: usize, const Q: usize, const V: usize>(
+        state: &State<R, Q, V>,
+        effects: &E,
+    ) -> [R; V]
+    where
+        K: Kernel<R>,
+        R: Real,
+        T: Robot<B, Q, V>,
+        E: Effect<R, B, V>,
+    {
+        let posture = Posture::by::<K, _, B, V>(&Of::<T>::NEW, &state.q);
+        algorithms::rnea_at(&Of::<T>::NEW, &posture, state, effects)
     }
 
     /// As [`Core::rnea`], at a posture whose sines and cosines are at hand.

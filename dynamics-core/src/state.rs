@@ -2,6 +2,7 @@
 
 use crate::model::{Description, Turn};
 use crate::scalar::Real;
+use crate::trig::{Kernel, Native};
 
 /// Positions q (rad, m), velocities q̇ and accelerations q̈ of all joints.
 ///
@@ -63,10 +64,26 @@ impl<R: Real, const Q: usize> Posture<R, Q> {
     where
         D: Description<R, B, Q, V>,
     {
+        Self::by::<Native, D, B, V>(robot, q)
+    }
+
+    /// As [`Posture::of`], sines and cosines by the kernel K.
+    ///
+    /// ```
+    /// use dynamics_core::{model::Robot, robots::Ur5e, state::Posture, trig::Table};
+    /// let coarse = Posture::by::<Table<256, 1>, _, _, _>(&Ur5e::MODEL_F32, &[0.5; 6]);
+    /// assert!((coarse.turns[3].sin - 0.5_f32.sin()).abs() < 1e-4);
+    /// ```
+    #[inline(always)]
+    pub fn by<K, D, const B: usize, const V: usize>(robot: &D, q: &[R; Q]) -> Self
+    where
+        K: Kernel<R>,
+        D: Description<R, B, Q, V>,
+    {
         let mut turns = [Turn::default(); Q];
         match robot.revolutes() {
-            Some(robot) => robot.nodes().for_each(|node| node.pose(q, &mut turns)),
-            None => robot.nodes().for_each(|node| node.pose(q, &mut turns)),
+            Some(robot) => robot.nodes().for_each(|node| node.pose::<K>(q, &mut turns)),
+            None => robot.nodes().for_each(|node| node.pose::<K>(q, &mut turns)),
         }
         Self { turns }
     }

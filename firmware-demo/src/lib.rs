@@ -13,9 +13,12 @@
 //! | [`machines`] | robots that no maker publishes | left out |
 //! | [`scenes`] | the data sheet of each scene | left out |
 //! | [`catalogue`], [`trajectories`] | every effect with numbers, and a way to go: what effects are priced by | left out |
+//! | `accuracy` (feature of that name) | the ways to compute a torque that `cargo xtask accuracy` compares | left out |
 //! | `target` | interrupt, log, panic handler of the emulated board | your board's |
 #![no_std]
 
+#[cfg(feature = "accuracy")]
+pub mod accuracy;
 pub mod bits;
 pub mod catalogue;
 pub mod control_loop;

@@ -138,6 +138,31 @@ pub fn load(name: &str) -> Recording {
     read(name)
 }
 
+/// Torques of some recorded states in 50 digits, rounded to f64: what `host-tests/oracle/precise.py` wrote.
+#[derive(Debug, Deserialize)]
+pub struct Precise {
+    /// Which states of the robots' recordings.
+    pub states: Vec<usize>,
+    ur5e: Vec<Vec<f64>>,
+    panda: Vec<Vec<f64>>,
+    a1: Vec<Vec<f64>>,
+}
+
+impl Precise {
+    /// ID(q, q̇, q̈) of the robot recorded as `name`.
+    ///
+    /// # Panics
+    /// If there is none.
+    pub fn rnea(&self, name: &str) -> &[Vec<f64>] {
+        match name {
+            "ur5e" => &self.ur5e,
+            "panda" => &self.panda,
+            "a1" => &self.a1,
+            _ => panic!("no torques of `{name}` in 50 digits"),
+        }
+    }
+}
+
 /// What a script wrote under this name.
 ///
 /// # Panics

@@ -232,6 +232,23 @@ const TABLE: &[(&str, &str, f64, f64)] = &[
     ("watch", "rates of the joints", 1e-10, NONE),
     ("trig", "sin_cos", 3e-16, 1e-7),
     ("trig", "sin_cos_near", NONE, 1e-7),
+    ("trig", "minimax of degree 3", NONE, 6e-4),
+    ("trig", "minimax of degree 5", NONE, 2e-6),
+    ("trig", "table of 256, order 1", NONE, 1e-4),
+    ("trig", "table of 256, order 2", NONE, 1e-6),
+    ("trig", "table of 64, order 4", NONE, 4e-7),
+    ("trig", "carried for 10⁴ ticks", NONE, 2e-5),
+    ("trig", "fixed point", NONE, 1e-8),
+    ("trig", "compensated", NONE, 2e-12),
+    ("ur5e", "rnea in compensated f32", NONE, 1e-12),
+    ("ur5e", "rnea in fixed point", NONE, 6e-6),
+    ("double pendulum", "energy kept for a second", 6e-14, 1e-5),
+    (
+        "double pendulum",
+        "compensated Runge-Kutta in fine steps",
+        NONE,
+        6e-7,
+    ),
 ];
 
 /// Holds a measured error, relative to full scale, against the table.

@@ -54,7 +54,7 @@ fn the_difference_of_a_step_is_the_step() {
 
 /// The model in the scalar R.
 fn cast<R: Real>(tree: &Mixed) -> Model<R, { MIXED.0 }, { MIXED.1 }, { MIXED.2 }> {
-    *R::pick(tree, &tree.to_f32())
+    R::cast(tree)
 }
 
 #[test]

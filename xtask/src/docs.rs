@@ -26,10 +26,15 @@ impl Page {
     pub fn write(&self, workspace: &Workspace, text: &str) -> Result<()> {
         let path = workspace.root.join(self.file);
         let page = workspace::read(&path)?;
-        let (before, _, after) = self.split(&page)?;
+        workspace::write(&path, self.replaced(&page, text)?)
+    }
+
+    /// The page with a text between the markers.
+    pub fn replaced(&self, page: &str, text: &str) -> Result<String> {
+        let (before, _, after) = self.split(page)?;
         let (begin, end) = self.markers();
         let generated = self.generated(text);
-        workspace::write(&path, format!("{before}{begin}\n{generated}{end}{after}"))
+        Ok(format!("{before}{begin}\n{generated}{end}{after}"))
     }
 
     /// Fails unless the text between the markers is this one; or close to it, if `rustc` is the compiler that

@@ -16,6 +16,7 @@ use crate::report::MODEL;
 use crate::setup::{self, Options, Tools};
 use crate::shell;
 use crate::table::Table;
+use crate::toolchain::RELEASE;
 use crate::workspace::Workspace;
 
 const FEATURE: &str = "effects";
@@ -90,7 +91,7 @@ fn generated(tools: &Tools, prices: &[Price]) -> Result<String> {
 
 fn measure(workspace: &Workspace, tools: &Tools) -> Result<Vec<Price>> {
     let spinner = Spinner::start(&format!("building {}", BINS.join(", ")));
-    let elves = firmware::build_featured(workspace, tools.toolchain, FEATURE, &BINS)?;
+    let elves = firmware::build_featured(workspace, tools.toolchain, RELEASE, FEATURE, &BINS)?;
     let meter = firmware::build_meter(workspace)?;
     let (mut rows, mut held) = (Vec::new(), BTreeMap::new());
     for (name, elf) in BINS.into_iter().zip(elves) {
@@ -220,6 +221,7 @@ mod tests {
             joints: 6,
             instructions: spread,
             cycles: spread,
+            cycles_mean: 0.0,
             flops: 0,
             code_bytes: cost,
             stack_bytes: 0,

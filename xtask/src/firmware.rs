@@ -33,21 +33,22 @@ pub fn build_bins(
         .collect()
 }
 
-/// Builds some bins side by side that are built for a feature only, and returns their ELFs.
+/// Builds some bins side by side in a profile that are built for a feature only, and returns their ELFs.
 pub fn build_featured(
     workspace: &Workspace,
     toolchain: Toolchain,
+    profile: &str,
     feature: &str,
     bins: &[&str],
 ) -> Result<Vec<PathBuf>> {
     let mut command = toolchain.firmware(workspace, "build");
-    command.args(["--release", "--features", feature]);
+    command.args(["--profile", profile, "--features", feature]);
     for bin in bins {
         command.args(["--bin", bin]);
     }
     shell::capture(&mut command)?;
     bins.iter()
-        .map(|bin| existing(toolchain.elf(workspace, RELEASE, bin)))
+        .map(|bin| existing(toolchain.elf(workspace, profile, bin)))
         .collect()
 }
 

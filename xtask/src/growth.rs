@@ -218,6 +218,7 @@ mod tests {
             joints,
             instructions: spread,
             cycles: spread,
+            cycles_mean: 0.0,
             flops: 0,
             code_bytes: 0,
             stack_bytes: 0,

@@ -1,5 +1,6 @@
 //! `cargo xtask …`: set-up, demo, test and reports.
 
+mod accuracy;
 mod bars;
 mod budgets;
 mod build_time;
@@ -92,6 +93,29 @@ enum Command {
         /// The measurements as JSON on stdout; progress stays on stderr
         #[arg(long)]
         json: bool,
+    },
+    /// Measure what accuracy costs in time, rewrite docs/accuracy.md and its plots; or choose a configuration
+    Accuracy {
+        /// Only this robot
+        #[arg(long, value_enum, value_name = "NAME")]
+        robot: Option<accuracy::Robot>,
+        /// A dozen configurations of each robot, at opt-level 3
+        #[arg(long)]
+        quick: bool,
+        /// The measurements as JSON on stdout; progress stays on stderr
+        #[arg(long)]
+        json: bool,
+        /// Choose the cheapest configuration off by no more than this: 0.05Nm, 2mrad
+        #[arg(
+            long,
+            value_name = "ERROR",
+            requires = "robot",
+            conflicts_with = "cycles"
+        )]
+        error: Option<accuracy::Allowed>,
+        /// Choose the most accurate configuration whose worst tick takes no more cycles than this
+        #[arg(long, value_name = "CYCLES", requires = "robot")]
+        cycles: Option<u64>,
     },
     /// Measure on the host which of the two eliminations is less accurate where, rewrite
     /// docs/eliminations.md
@@ -224,6 +248,22 @@ fn run(cli: Cli) -> Result<ExitCode> {
         }
         Command::Growth { json } => growth::run(cli.setup, json),
         Command::Effects { json } => effects::run(cli.setup, json),
+        Command::Accuracy {
+            robot,
+            quick,
+            json,
+            error,
+            cycles,
+        } => {
+            let budget = error.map(accuracy::Budget::Error);
+            let wish = accuracy::Wish {
+                robot,
+                quick,
+                json,
+                budget: budget.or(cycles.map(accuracy::Budget::Cycles)),
+            };
+            accuracy::run(cli.setup, wish)
+        }
         Command::Eliminations => eliminations::run(),
         Command::HardCases { json } => hard_cases::run(json),
         Command::Peers { json } => peers::run(cli.setup, json),

@@ -99,3 +99,15 @@ pub fn read(path: &Path) -> Result<String> {
 pub fn write(path: &Path, contents: impl AsRef<[u8]>) -> Result<()> {
     std::fs::write(path, contents).map_err(Error::file("write", path))
 }
+
+/// Writes files so that none is ever half-written: all beside their places first, then each is moved there.
+pub fn write_whole(files: &[(PathBuf, String)]) -> Result<()> {
+    let beside = |path: &Path| path.with_extension("part");
+    for (path, contents) in files {
+        write(&beside(path), contents)?;
+    }
+    for (path, _) in files {
+        std::fs::rename(beside(path), path).map_err(Error::file("write", path))?;
+    }
+    Ok(())
+}

@@ -10,6 +10,7 @@
 //! | [`Observer`] | velocity from positions | estimate |
 //! | [`Gains`], [`feedback`] | K_p (q_d − q) + K_d (q̇_d − q̇) | none |
 //! | [`motion_and_force`], [`Aim`] | motions and forces along a task's directions | none |
+//! | [`Held`], [`Extrapolated`], [`Interpolated`], [`Linearised`] | the torque of ticks that compute no dynamics | last torques |
 //! | [`Supervisor`] | limits, plausibility, what to do on a fault | last good values |
 //! | [`Rejoin`] | from where a fault left the arm back onto the trajectory | reference |
 //!
@@ -74,6 +75,7 @@
 //! # Ok::<(), TrajectoryError>(())
 //! ```
 
+mod between;
 mod command;
 mod fault;
 mod law;
@@ -85,6 +87,7 @@ mod supervisor;
 mod trajectory;
 mod turns;
 
+pub use between::{Extrapolated, Held, Interpolated, Linearised};
 pub use command::{Bounds, Command, Mode, Status};
 pub use fault::Fault;
 pub use law::{Gains, feedback};

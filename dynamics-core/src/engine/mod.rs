@@ -43,6 +43,7 @@ use crate::effects::Effect;
 use crate::model::{Robot, Turn};
 use crate::scalar::Real;
 use crate::state::{Posture, State};
+use crate::trig::Kernel;
 use base::base;
 use limb::{is_large, limb};
 use prepare::Prepared;
@@ -94,6 +95,29 @@ impl<T> Engine<T> {
         Posture { turns }
     }
 
+    /// As [`Engine::posture`], sines and cosines by the kernel K.
+    #[inline(always)]
+    pub fn posture_by<K, R, const B: usize, const Q: usize, const V: usize>(
+        q: &[R; Q],
+    ) -> Posture<R, Q>
+    where
+        K: Kernel<R>,
+        R: Real,
+        T: Robot<B, Q, V>,
+    {
+        let mut turns = [Turn::default(); Q];
+        for_each_joint!(J, {
+            if const { J < V } {
+                turns[J] = if const { Prepared::<T, B, Q, V>::joint(J).prismatic } {
+                    Turn::plain(q[J])
+                } else {
+                    Turn::by::<K>(q[J])
+                };
+            }
+        });
+        Posture { turns }
+    }
+
     /// τ = ID(q, q̇, q̈): the torque of each motor, N·m or N, as [`crate::algorithms::rnea`] has it.
     ///
     /// Sines and cosines that no named effect needs are not computed. Angles: those of joints whose
@@ -109,6 +133,30 @@ impl<T> Engine<T> {
         E: Effect<R, B, V>,
     {
         let posture = Self::posture(&state.q);
+        Self::run(&posture, &posture, state, effects)
+    }
+
+    /// As [`Engine::rnea`], sines and cosines by the kernel K: what accuracy costs in time is in
+    /// `docs/accuracy.md` in the repository.
+    ///
+    /// ```
+    /// use dynamics_core::{Engine, effects::RIGID_BODY, robots::Ur5e, state::State, trig::Table};
+    /// let state = State { q: [0.1_f32; 6], qd: [0.5; 6], qdd: [1.0; 6] };
+    /// let tau = Engine::<Ur5e>::rnea_by::<Table<256, 1>, _, _, _, _, _>(&state, &RIGID_BODY);
+    /// # assert!((tau[1] - Engine::<Ur5e>::rnea(&state, &RIGID_BODY)[1]).abs() < 0.02);
+    /// ```
+    #[inline(never)]
+    pub fn rnea_by<K, R, E, const B: usize, const Q: usize, const V: usize>(
+        state: &State<R, Q, V>,
+        effects: &E,
+    ) -> [R; V]
+    where
+        K: Kernel<R>,
+        R: Real,
+        T: Robot<B, Q, V>,
+        E: Effect<R, B, V>,
+    {
+        let posture = Self::posture_by::<K, R, B, Q, V>(&state.q);
         Self::run(&posture, &posture, state, effects)
     }
 

@@ -60,12 +60,13 @@
 
 mod axis;
 mod body;
+mod cast;
 mod description;
 mod error;
 mod floating;
 mod joint;
 mod node;
-mod single;
+mod scaled;
 mod turn;
 
 pub(crate) use axis::Axis;
@@ -144,7 +145,7 @@ pub fn model<R: Real, T, const B: usize, const Q: usize, const V: usize>()
 where
     T: Robot<B, Q, V>,
 {
-    R::pick(const { &T::MODEL }, const { &T::MODEL_F32 })
+    R::model::<T, B, Q, V>()
 }
 
 impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {

@@ -11,6 +11,7 @@ use super::turn::{Turn, near_unit, rotation};
 use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::{Force, Motion, Xform};
 use crate::state::entry;
+use crate::trig::Kernel;
 
 use JointKind::*;
 
@@ -91,7 +92,7 @@ impl<'a, R: Real> Node<'a, R> {
 
     /// Its entries of a posture: sines and cosines of its angles, its quaternion at unit length.
     #[inline(always)]
-    pub(crate) fn pose(&self, q: &[R], turns: &mut [Turn<R>]) {
+    pub(crate) fn pose<K: Kernel<R>>(&self, q: &[R], turns: &mut [Turn<R>]) {
         let (count, _) = self.kind.coordinates();
         let (angles, quaternion) = self.kind.angles();
         let unit = if quaternion > 0 {
@@ -103,7 +104,7 @@ impl<'a, R: Real> Node<'a, R> {
             let q = entry(q, self.q_at + k);
             if let Some(turn) = turns.get_mut(self.q_at + k) {
                 *turn = if k < angles {
-                    Turn::new(q)
+                    Turn::by::<K>(q)
                 } else if k < quaternion {
                     Turn::plain(entry(&unit, k))
                 } else {

@@ -2,6 +2,7 @@
 //! unit length.
 
 use crate::scalar::{Matrix, Real, Vector};
+use crate::trig::Kernel;
 
 /// A position coordinate as the algorithms use it: q itself, and of an angle its sine and cosine.
 ///
@@ -31,6 +32,13 @@ impl<R: Real> Turn<R> {
     #[inline(always)]
     pub fn near(q: R) -> Self {
         let (sin, cos) = q.sin_cos_near();
+        Self { q, sin, cos }
+    }
+
+    /// The turn by q rad, its sine and cosine by the kernel K.
+    #[inline(always)]
+    pub fn by<K: Kernel<R>>(q: R) -> Self {
+        let (sin, cos) = K::sin_cos(q);
         Self { q, sin, cos }
     }
 

@@ -132,6 +132,14 @@ impl Robot<16, 12, 12> for A1 {
     const MODEL: Model<f64, 16, 12, 12> = Model::new("a1", LEGS);
 }
 
+/// The front right leg of [`A1`] alone, its hip on the base: 3 revolute joints and a fixed foot.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct A1Leg;
+
+impl Robot<4, 3, 3> for A1Leg {
+    const MODEL: Model<f64, 4, 3, 3> = Model::new("a1_leg", A1::LEG);
+}
+
 /// Unitree A1 on a free joint: the trunk of 6 kg, then the legs of [`A1`]; 17 bodies, 18 degrees of freedom.
 ///
 /// Source and licence as [`A1`]; mujoco_menagerie gives the trunk 4.713 kg.

@@ -4,6 +4,7 @@
 //! - [`Panda`]: Franka Emika Panda without its hand, 7 revolute joints, dense inertias.
 //! - [`Iiwa14`]: KUKA LBR iiwa 14 R820, 7 revolute joints, diagonal inertias.
 //! - [`A1`]: Unitree A1 with its trunk held, a tree of four legs, 12 revolute joints and 4 fixed feet.
+//! - [`A1Leg`]: one leg of it, 3 revolute joints and a fixed foot.
 //! - [`A1Free`]: the same with its trunk free, 18 degrees of freedom.
 //! - [`Gen3`]: Kinova Gen3 with vision module, 7 joints, four of which turn without end.
 //! - [`XArm7`]: UFACTORY xArm7, 7 revolute joints, dense inertias.
@@ -25,7 +26,7 @@ mod ur5e;
 mod xarm7;
 mod z1;
 
-pub use a1::{A1, A1Free};
+pub use a1::{A1, A1Free, A1Leg};
 pub use g1::{G1, G1Free};
 pub use gen3::Gen3;
 pub use iiwa14::Iiwa14;

@@ -1,14 +1,24 @@
 //! Time steps of a simulated robot, and its actuators.
+//!
+//! [`semi_implicit`] and [`linearly_implicit`] step any robot; [`Integrator`]s those whose coordinates add up.
 
 mod actuator;
 mod conserving;
+mod integrators;
 mod linearly_implicit;
 mod runge_kutta;
+mod mechanics;
+mod summed;
 
 pub use actuator::Actuator;
 pub use conserving::conserving;
+pub use integrators::{
+    EnergyKept, Euler, ImplicitDamping, Increments, Integrator, RungeKutta, SemiImplicit,
+};
 pub use linearly_implicit::linearly_implicit;
 pub use runge_kutta::runge_kutta;
+pub use mechanics::{Described, Mechanics};
+pub use summed::Summed;
 
 use crate::algorithms::{NotPositiveDefinite, aba};
 use crate::configuration::integrate;

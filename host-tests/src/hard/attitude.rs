@@ -51,7 +51,7 @@ fn quaternion() -> Vec<Row> {
     const STEP: [f64; 3] = [2.0 / 8192.0, 3.0 / 8192.0, 6.0 / 8192.0];
     fn run<R: Real>(rows: &mut Vec<Row>, bounds: [f64; 2]) {
         let model = ball(1.0, 0.0, [1.0; 3]);
-        let model = *R::pick(&model, &model.to_f32());
+        let model = R::cast(&model);
         let (mut q, step) = (neutral(&model), STEP.map(R::from_f64));
         let mut longest = 0.0_f64;
         for i in 0..STEPS {
@@ -127,7 +127,7 @@ struct Spun {
 fn spin<R: Real>(how: &Integrator, h: f64, seconds: f64) -> Spun {
     const MOMENTS: [f64; 3] = [1.0, 2.0, 3.0];
     let model = ball(1.0, 0.0, MOMENTS);
-    let model = *R::pick(&model, &model.to_f32());
+    let model = R::cast(&model);
     let mut state = State::at(neutral(&model));
     state.qd = [0.01, 5.0, 0.0].map(R::from_f64);
     let energy = |s: &State<R, 4, 3>| kinetic_energy(&model, s, &()).to_f64();

@@ -68,7 +68,7 @@ fn energy([a, b]: [f64; 2], [u, w]: [f64; 2]) -> f64 {
 
 /// The largest error of the energy, relative to what there is between hanging and upright.
 fn swing<R: Real>(how: usize, h: f64, seconds: f64, wrapped: bool) -> f64 {
-    let model = *R::pick(&points(), &points().to_f32());
+    let model = R::cast(&points());
     let mut state = State::at([2.0, 2.5].map(R::from_f64));
     let now = |s: &State<R, 2, 2>| energy(s.q.map(R::to_f64), s.qd.map(R::to_f64));
     let (start, mut worst) = (now(&state), 0.0_f64);

@@ -38,7 +38,7 @@ pub const CASES: &[Case] = &[
 pub(super) fn sledge<R: Real>(mass: f64) -> Arm<R, 1> {
     let body = Body::new("sledge", BASE, Joint::prismatic([1.0, 0.0, 0.0])).mass(mass);
     let model: Arm<f64, 1> = Model::new("sledge", [body]);
-    *R::pick(&model, &model.to_f32())
+    R::cast(&model)
 }
 
 /// The motor's torque at one joint that moves so.

@@ -50,7 +50,7 @@ fn relative(got: f64, want: f64) -> f64 {
 
 fn model<R: Real>(body: Body) -> Arm<R, 1> {
     let model: Arm<f64, 1> = Model::new("one", [body]);
-    *R::pick(&model, &model.to_f32())
+    R::cast(&model)
 }
 
 fn sledge<R: Real>() -> Arm<R, 1> {

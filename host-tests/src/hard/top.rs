@@ -64,7 +64,7 @@ fn accelerations<R: Real>(
     start: &State<f64, 4, 3>,
     weight: f64,
 ) -> Vec<Row> {
-    let (model, start) = (*R::pick(model, &model.to_f32()), cast::<R>(start));
+    let (model, start) = (R::cast(model), cast::<R>(start));
     let far = |got: [R; 3], want: [R; 3]| {
         let apart = |(a, b): (R, R)| (a.to_f64() - b.to_f64()).abs();
         got.into_iter().zip(want).map(apart).fold(0.0, f64::max)
@@ -96,7 +96,7 @@ fn precession<R: Real>(
     turn: f64,
 ) -> f64 {
     let (model, mut state, mut worst) =
-        (*R::pick(model, &model.to_f32()), cast::<R>(start), 0.0_f64);
+        (R::cast(model), cast::<R>(start), 0.0_f64);
     for step in 1..=(2.0 / h).round() as u32 {
         let scene = &mut (Gravity::EARTH, Inertia, Coriolis);
         how.step(&model, &mut state, &[R::ZERO; 3], scene, R::from_f64(h));

@@ -48,6 +48,9 @@ pub struct Row {
     pub instructions: Spread,
     /// Modelled cycles of a call.
     pub cycles: Spread,
+    /// Their mean: what a call of those costs that take turns.
+    #[serde(skip)]
+    pub cycles_mean: f64,
     /// Floating-point operations of the longest call, exact.
     pub flops: u64,
     /// Instructions and literals of the function and of all that it calls, but for library
@@ -180,6 +183,7 @@ fn cut(
             joints: number(joints)? as usize,
             instructions,
             cycles,
+            cycles_mean: mean(mine),
             flops: mine.iter().map(|sample| sample.flops).max().unwrap_or(0),
             code_bytes: code_bytes(number(address)?)?,
             stack_bytes: number(stack)?,
@@ -192,6 +196,11 @@ fn cut(
         ));
     }
     Ok(rows)
+}
+
+fn mean(samples: &[Sample]) -> f64 {
+    let cycles: u64 = samples.iter().map(|sample| sample.cycles).sum();
+    cycles as f64 / samples.len() as f64
 }
 
 /// Instructions and literals of the function at an address and of all that it calls.

@@ -3,6 +3,7 @@
 use cycle_meter::Sample;
 
 use super::{Context, Outcome};
+use crate::accuracy;
 use crate::budgets;
 use crate::costs;
 use crate::effects;
@@ -109,6 +110,10 @@ fn steady(kinds: &[Kind], samples: &[Sample]) -> Result<Vec<String>> {
 
 pub fn effects(context: &Context) -> Result<Outcome> {
     effects::check(&context.workspace, &context.tools).map(Outcome::Passed)
+}
+
+pub fn accuracy(context: &Context) -> Result<Outcome> {
+    accuracy::check(&context.workspace, &context.tools).map(Outcome::Passed)
 }
 
 #[cfg(test)]

@@ -184,6 +184,12 @@ const STEPS: &[Step] = &[
         run: absent_steps::absent_effects_cost_nothing,
     },
     Step {
+        name: "accuracy",
+        title: "docs/accuracy.md has today's costs and errors of single changes; what is printed to be pasted keeps them",
+        lane: Lane::Target,
+        run: cost_steps::accuracy,
+    },
+    Step {
         name: "effects",
         title: "docs/effects.md has today's prices",
         lane: Lane::Target,

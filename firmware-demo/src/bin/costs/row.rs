@@ -18,20 +18,20 @@ const PAINT: u32 = 0x5eed_a51c;
 
 /// A row of the table, as the log names it.
 #[derive(Clone, Copy)]
-pub struct Row {
+pub struct Row<'a> {
     pub robot: &'static str,
     pub algorithm: &'static str,
     pub form: &'static str,
-    pub inputs: &'static str,
+    pub inputs: &'a str,
     pub trig: bool,
     pub joints: usize,
 }
 
-impl Row {
+impl Row<'_> {
     /// Logs the row, then runs the function of this address once for each ask in region 0. Taking the
     /// address also keeps the compiler from shaping the function to its calls.
     #[inline(always)]
-    pub fn measure<A, T>(self, address: usize, asks: &[A], run: impl Fn(&A) -> T) {
+    pub fn measure<A, T>(self, address: usize, asks: &[A], mut run: impl FnMut(&A) -> T) {
         let stack = asks
             .iter()
             .map(|ask| stack_of(|| run(black_box(ask))))

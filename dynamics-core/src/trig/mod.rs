@@ -6,6 +6,51 @@
 //! `libm::sinf` computes in f64, which the FPU of a Cortex-M4F does not have: 30 times the cost.
 //!
 //! For infinite or NaN input the result has no meaning: callers gate such angles before they get here.
+//!
+//! Less accurate and other ways are types, a [`Kernel`] each, which [`crate::Engine::rnea_by`] and
+//! [`crate::state::Posture::by`] take; what each costs and gives is in `docs/accuracy.md` in the repository.
+
+mod carried;
+mod minimax;
+mod table;
+
+pub use carried::Carried;
+pub use minimax::Minimax;
+pub use table::Table;
+
+use crate::scalar::Real;
+
+/// A way to sine and cosine, chosen by its type.
+///
+/// ```
+/// use dynamics_core::{Engine, effects::RIGID_BODY, robots::Ur5e, state::State, trig::{Kernel, Minimax}};
+/// /// A user's own.
+/// struct Coarse;
+/// impl Kernel<f32> for Coarse {
+///     fn sin_cos(x: f32) -> (f32, f32) {
+///         Minimax::<3, 2>::sin_cos(x)
+///     }
+/// }
+/// let state = State { q: [0.1_f32; 6], qd: [0.5; 6], qdd: [1.0; 6] };
+/// let tau = Engine::<Ur5e>::rnea_by::<Coarse, _, _, _, _, _>(&state, &RIGID_BODY);
+/// let all = Engine::<Ur5e>::rnea(&state, &RIGID_BODY);
+/// assert!(tau.iter().zip(all).all(|(a, b)| (a - b).abs() < 1e-3 * 100.0));
+/// ```
+pub trait Kernel<R> {
+    /// (sin x, cos x) of x in rad.
+    fn sin_cos(x: R) -> (R, R);
+}
+
+/// The scalar's own, [`Real::sin_cos`].
+#[derive(Clone, Copy, Debug)]
+pub struct Native;
+
+impl<R: Real> Kernel<R> for Native {
+    #[inline(always)]
+    fn sin_cos(x: R) -> (R, R) {
+        x.sin_cos()
+    }
+}
 
 /// (sin x, cos x) of x in rad, |x| ≤ 10⁴: absolute error below 10⁻⁷.
 ///
@@ -18,9 +63,7 @@
 /// ```
 #[inline(always)]
 pub fn sin_cos(x: f32) -> (f32, f32) {
-    let (k, quadrant) = quarter_turns(x);
-    let r = ((x - k * 1.570_312_5) - k * 4.837_513e-4) - k * 7.549_79e-8;
-    kernel(r, quadrant)
+    Minimax::<7, 3>::sin_cos(x)
 }
 
 /// (sin x, cos x) of x in rad for joints that stay within ±100 rad: absolute error below 10⁻⁷.
@@ -34,36 +77,7 @@ pub fn sin_cos(x: f32) -> (f32, f32) {
 /// ```
 #[inline(always)]
 pub fn sin_cos_near(x: f32) -> (f32, f32) {
-    let (k, quadrant) = quarter_turns(x);
-    let r = (x - k * 1.570_785_5) - k * 1.080_433_4e-5;
-    kernel(r, quadrant)
-}
-
-/// The nearest whole number of quarter turns, as a number and with its low bits.
-///
-/// Adding and subtracting 1.5·2²³ rounds an f32 below 2²² to the nearest integer and leaves that
-/// integer in the low bits of the sum.
-#[inline(always)]
-fn quarter_turns(x: f32) -> (f32, u32) {
-    const ROUND: f32 = 12_582_912.0;
-    let t = x * core::f32::consts::FRAC_2_PI + ROUND;
-    (t - ROUND, t.to_bits())
-}
-
-/// Sine and cosine of r + k π/2; the low two bits of `k` choose the quadrant.
-#[inline(always)]
-fn kernel(r: f32, k: u32) -> (f32, f32) {
-    const SIN: [f32; 3] = [-0.166_666_55, 0.008_332_174, -0.000_195_156_54];
-    const COS: [f32; 3] = [0.041_666_653, -0.001_388_761_9, 2.446_341_2e-5];
-    let u = r * r;
-    let s = r + r * u * (SIN[0] + u * (SIN[1] + u * SIN[2]));
-    let c = 1.0 + u * (-0.5 + u * (COS[0] + u * (COS[1] + u * COS[2])));
-    // Exchange and change signs in integer registers: no branch, no wait for the FPU's flags.
-    let (s, c) = (s.to_bits(), c.to_bits());
-    let exchanged = (s ^ c) & (k & 1).wrapping_neg();
-    let sine = s ^ exchanged ^ ((k & 2) << 30);
-    let cosine = c ^ exchanged ^ ((k.wrapping_add(1) & 2) << 30);
-    (f32::from_bits(sine), f32::from_bits(cosine))
+    Minimax::<7, 2>::sin_cos(x)
 }
 
 /// (sin x, cos x) in f64 of x in rad, |x| ≤ 10⁵: absolute error below 3·10⁻¹⁶.

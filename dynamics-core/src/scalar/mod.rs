@@ -1,15 +1,24 @@
 //! The scalar of a computation, f32 or f64, and the only place that names glam.
 //!
 //! Everything else is written against [`Real`] alone, so that one source serves the firmware
-//! (f32), the host tests (f64) and the reports that compare the two in one binary.
+//! (f32), the host tests (f64) and the reports that compare the two in one binary. [`Compensated`] and [`Fixed`]
+//! are there to be compared with them.
 
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
-use crate::model::Model;
+use crate::model::{Model, Robot};
+
+mod compensated;
+mod fixed;
+mod plain;
+
+pub use compensated::Compensated;
+pub use fixed::{Fixed, HalfTurns};
+pub(crate) use plain::{Mat3 as PlainMat3, Vec3 as PlainVec3};
 
 mod sealed {
-    /// Keeps [`super::Real`] to the two types whose bits we test.
+    /// Keeps [`super::Real`] to the types whose errors we test.
     pub trait Sealed {}
     impl Sealed for f32 {}
     impl Sealed for f64 {}
@@ -17,7 +26,8 @@ mod sealed {
 
 /// A real number: `f32` on the target, `f64` for oracles.
 ///
-/// Sealed: the tolerance table and the bit-identity tests cover these two.
+/// Sealed: the tolerance table and the bit-identity tests cover these two, `docs/accuracy.md` in the repository
+/// [`Compensated`] and [`Fixed`].
 pub trait Real:
     sealed::Sealed
     + Copy
@@ -86,11 +96,14 @@ pub trait Real:
     /// Cost: two conversions, which saturate on their own: neither a comparison nor its wait for
     /// the FPU's flags.
     fn saturate(self) -> Self;
-    /// Of the two casts of one model, that of this type.
-    fn pick<'a, const B: usize, const Q: usize, const V: usize>(
-        double: &'a Model<f64, B, Q, V>,
-        single: &'a Model<f32, B, Q, V>,
-    ) -> &'a Model<Self, B, Q, V>;
+    /// A model cast to this type.
+    fn cast<const B: usize, const Q: usize, const V: usize>(
+        model: &Model<f64, B, Q, V>,
+    ) -> Model<Self, B, Q, V>;
+    /// The model of a robot known at compile time, cast to this type.
+    fn model<T, const B: usize, const Q: usize, const V: usize>() -> &'static Model<Self, B, Q, V>
+    where
+        T: Robot<B, Q, V>;
     /// Of two values prepared for f64 and f32, that of this type.
     fn pick_value(double: f64, single: f32) -> Self;
 }
@@ -155,7 +168,7 @@ pub trait Matrix<R: Real>:
 }
 
 macro_rules! real {
-    ($r:ident, $whole:ident, $vec:path, $mat:path, $sin_cos:expr, $near:expr, $exp_neg:expr, $sqrt:expr, $atan2:expr, $magic:literal, $steps:literal, |$double:ident, $single:ident| $pick:ident) => {
+    ($r:ident, $whole:ident, $vec:path, $mat:path, $sin_cos:expr, $near:expr, $exp_neg:expr, $sqrt:expr, $atan2:expr, $magic:literal, $steps:literal, $model:ident, $cast:expr, |$double:ident, $single:ident| $pick:ident) => {
         impl Real for $r {
             type Vec3 = $vec;
             type Mat3 = $mat;
@@ -220,13 +233,18 @@ macro_rules! real {
             fn saturate(self) -> Self {
                 (self as $whole) as $r
             }
+            fn cast<const B: usize, const Q: usize, const V: usize>(
+                model: &Model<f64, B, Q, V>,
+            ) -> Model<Self, B, Q, V> {
+                $cast(model)
+            }
             #[inline(always)]
-            fn pick<'a, const B: usize, const Q: usize, const V: usize>(
-                $double: &'a Model<f64, B, Q, V>,
-                $single: &'a Model<f32, B, Q, V>,
-            ) -> &'a Model<Self, B, Q, V> {
-                let _ = ($double, $single);
-                $pick
+            fn model<T, const B: usize, const Q: usize, const V: usize>()
+            -> &'static Model<Self, B, Q, V>
+            where
+                T: Robot<B, Q, V>,
+            {
+                const { &T::$model }
             }
             #[inline(always)]
             fn pick_value($double: f64, $single: f32) -> Self {
@@ -290,6 +308,8 @@ real!(
     libm::atan2f,
     0x5f37_59df,
     3,
+    MODEL_F32,
+    Model::to_f32,
     |double, single| single
 );
 real!(
@@ -304,5 +324,7 @@ real!(
     libm::atan2,
     0x5fe6_eb50_c7b5_37a9,
     4,
+    MODEL,
+    Model::clone,
     |double, single| double
 );

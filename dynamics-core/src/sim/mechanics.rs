@@ -1,0 +1,77 @@
+//! What an integrator asks of a robot whose coordinates add up: joints of one degree of freedom.
+
+use crate::algorithms::{NotPositiveDefinite, aba_at, kinetic_energy_at, potential_energy_at};
+use crate::effects::{Effect, Implicit};
+use crate::model::Description;
+use crate::scalar::Real;
+use crate::state::{Posture, State};
+
+/// A robot under some torques and effects, as [`Integrator`](super::Integrator)s see it.
+pub trait Mechanics<R, const V: usize> {
+    /// q̈ of q and q̇.
+    ///
+    /// # Errors
+    /// As forward dynamics.
+    fn acceleration(&self, at: &State<R, V, V>) -> Result<[R; V], NotPositiveDefinite>;
+
+    /// q̈ that a step of h seconds takes which treats joint effects along their slopes: [`Implicit`].
+    ///
+    /// # Errors
+    /// As forward dynamics.
+    fn implicit_acceleration(
+        &self,
+        at: &State<R, V, V>,
+        h: R,
+    ) -> Result<[R; V], NotPositiveDefinite>;
+
+    /// Kinetic and potential energy, J.
+    fn energies(&self, at: &State<R, V, V>) -> (R, R);
+}
+
+/// A robot by its description, under constant torques.
+///
+/// ```
+/// use dynamics_core::{effects::RIGID_BODY, model::Robot, robots::Ur5e, state::State};
+/// use dynamics_core::sim::{Described, Mechanics};
+/// let arm = Described { robot: &Ur5e::MODEL, tau: [0.0; 6], effects: &RIGID_BODY };
+/// assert!(arm.acceleration(&State::at([0.0; 6]))?[1] > 1.0); // falls
+/// # Ok::<(), dynamics_core::algorithms::NotPositiveDefinite>(())
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Described<'a, D, E, R, const B: usize, const V: usize> {
+    /// The robot.
+    pub robot: &'a D,
+    /// Torques of its motors, N·m or N.
+    pub tau: [R; V],
+    /// What acts on it.
+    pub effects: &'a E,
+}
+
+impl<R: Real, D, E, const B: usize, const V: usize> Mechanics<R, V> for Described<'_, D, E, R, B, V>
+where
+    D: Description<R, B, V, V>,
+    E: Effect<R, B, V>,
+{
+    fn acceleration(&self, at: &State<R, V, V>) -> Result<[R; V], NotPositiveDefinite> {
+        let posture = Posture::of(self.robot, &at.q);
+        aba_at(self.robot, &posture, at, &self.tau, self.effects)
+    }
+
+    fn implicit_acceleration(
+        &self,
+        at: &State<R, V, V>,
+        h: R,
+    ) -> Result<[R; V], NotPositiveDefinite> {
+        let posture = Posture::of(self.robot, &at.q);
+        let effects = Implicit::new(self.robot, at, self.effects, h);
+        aba_at(self.robot, &posture, at, &self.tau, &effects)
+    }
+
+    fn energies(&self, at: &State<R, V, V>) -> (R, R) {
+        let posture = Posture::of(self.robot, &at.q);
+        (
+            kinetic_energy_at(self.robot, &posture, at, self.effects),
+            potential_energy_at(self.robot, &posture, self.effects),
+        )
+    }
+}

@@ -1,0 +1,66 @@
+//! Ways to compute inverse dynamics, from the most accurate to the cheapest, each a type: what `cargo xtask accuracy`
+//! runs on the target for their cost and on the host for their error.
+//!
+//! The bins `accuracy_…` log a row of the algorithm `inverse` or `simulation` for each, its inputs the way's name; the
+//! host's bin `accuracy` prints a line of JSON for each under the same name. A call of a row is a tick or a step.
+//!
+//! | module | what |
+//! |---|---|
+//! | [`key`] | the name of a way, the same on target and host |
+//! | [`model`], [`form`], [`kernels`] | what is computed, by which form, with whose sines and cosines |
+//! | [`inverse`], [`numbers`] | ways that compute in every tick, in f32 and in other numbers |
+//! | [`sparse`] | ways that compute in every few ticks |
+//! | [`compliant`] | ways to the motors of joints that give way |
+//! | [`simulation`], [`let_go`] | ways to simulate, and what |
+//! | [`pasted`] | what `cargo xtask accuracy` prints to be pasted |
+//! | [`list`], [`robots`] | all of them; whose they are |
+
+pub mod compliant;
+pub mod form;
+pub mod inverse;
+pub mod kernels;
+pub mod key;
+pub mod let_go;
+pub mod list;
+pub mod model;
+pub mod numbers;
+pub mod pasted;
+pub mod robots;
+pub mod simulation;
+pub mod sparse;
+
+use dynamics_core::flexible::Course;
+use dynamics_core::state::State;
+
+use key::Key;
+
+/// A way to compute the torques of N joints, tick by tick.
+pub trait Inverse<const N: usize> {
+    /// Its name.
+    const KEY: Key;
+    /// It remembers the ticks before: it has to be run along a way.
+    const MEMORY: bool = false;
+    /// A tick is given where the joints are to be so many ticks later.
+    const AHEAD: usize = 0;
+    /// What a tick is given: a state, in the numbers that it computes with.
+    type Input;
+    /// What a tick gives: torques in those numbers.
+    type Output;
+
+    /// Before the first tick, which will be that of this state.
+    fn start(first: &State<f32, N, N>) -> Self;
+    /// Where the joints are to be, in its own numbers: what a firmware of this kind would have computed with so far.
+    fn input(course: &Course<f32, N, N>) -> Self::Input;
+    /// One tick: what is measured.
+    fn tick(&mut self, input: &Self::Input) -> Self::Output;
+    /// Torques, N·m.
+    fn torque(output: &Self::Output) -> [f64; N];
+    /// The address of the function that a tick is, or calls.
+    fn address() -> usize;
+}
+
+/// What is done with each way.
+pub trait Visitor<const N: usize> {
+    /// Takes a way.
+    fn way<W: Inverse<N>>(&mut self);
+}

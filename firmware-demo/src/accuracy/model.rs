@@ -1,0 +1,150 @@
+//! What is computed: all of the rigid-body equation, or less, of the robot or of what it is taken for.
+
+use core::marker::PhantomData;
+
+use dynamics_core::effects::{Coriolis, Effect, Gravity, Inertia};
+use dynamics_core::model::{Model, Robot};
+use dynamics_core::scalar::{Compensated, Fixed};
+
+/// A robot as it is computed, and the effects that are.
+pub trait Modelled<const B: usize, const N: usize> {
+    /// On the axis `model`.
+    const NAME: &'static str;
+    /// The robot, or what it is taken for.
+    type Robot: Robot<B, N, N>;
+    /// The effects.
+    type Scene: Effect<f32, B, N>
+        + Effect<f64, B, N>
+        + Effect<Compensated, B, N>
+        + Effect<Fixed, B, N>;
+    /// Their numbers.
+    const SCENE: Self::Scene;
+    /// Their numbers in the [`Units`] of the robot.
+    const IN_UNITS: Self::Scene;
+}
+
+/// Free fall, m/s², as in [`Gravity::EARTH`].
+const FREE_FALL: f64 = 9.81;
+
+macro_rules! modelled {
+    ($($(#[$doc:meta])* $model:ident = $name:literal: $scene:ty = |$g:ident| $value:expr;)*) => {$(
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug)]
+        pub struct $model<T>(PhantomData<T>);
+
+        impl<T: Robot<B, N, N>, const B: usize, const N: usize> Modelled<B, N> for $model<T> {
+            const NAME: &'static str = $name;
+            type Robot = T;
+            type Scene = $scene;
+            const SCENE: $scene = {
+                let $g = Gravity::new(FREE_FALL);
+                $value
+            };
+            const IN_UNITS: $scene = {
+                let $g = Gravity::new(Units::of(&T::MODEL).acceleration(FREE_FALL));
+                $value
+            };
+        }
+    )*};
+}
+modelled! {
+    /// M q̈ + C q̇ + g.
+    Full = "full": (Gravity, Inertia, Coriolis) = |g| (g, Inertia, Coriolis);
+    /// M q̈ + g.
+    NoCoriolis = "no_coriolis": (Gravity, Inertia) = |g| (g, Inertia);
+    /// g.
+    GravityOnly = "gravity": (Gravity,) = |g| (g,);
+}
+
+/// All of it, of a robot whose lengths, masses and inertias are known to `BITS` bits: 8 are those of bf16, 11 of f16.
+#[derive(Clone, Copy, Debug)]
+pub struct Parameters<T, const BITS: u32>(PhantomData<T>);
+
+/// The robot with rounded parameters.
+#[derive(Clone, Copy, Debug)]
+pub struct Rounded<T, const BITS: u32>(PhantomData<T>);
+
+impl<T, const BITS: u32, const B: usize, const N: usize> Robot<B, N, N> for Rounded<T, BITS>
+where
+    T: Robot<B, N, N>,
+{
+    const MODEL: Model<f64, B, N, N> = T::MODEL.rounded(BITS);
+}
+
+impl<T, const BITS: u32, const B: usize, const N: usize> Modelled<B, N> for Parameters<T, BITS>
+where
+    T: Robot<B, N, N>,
+{
+    const NAME: &'static str = match BITS {
+        6 => "params6",
+        8 => "params8",
+        11 => "params11",
+        _ => panic!("no such number of bits"),
+    };
+    type Robot = Rounded<T, BITS>;
+    type Scene = (Gravity, Inertia, Coriolis);
+    const SCENE: Self::Scene = <Full<T> as Modelled<B, N>>::SCENE;
+    const IN_UNITS: Self::Scene = <Full<T> as Modelled<B, N>>::IN_UNITS;
+}
+
+/// Units in which everything that inverse dynamics meets stays within ±2.
+#[derive(Clone, Copy, Debug)]
+pub struct Units {
+    /// m: the reach, rounded up to a power of two.
+    pub length: f64,
+    /// kg: the mass of all bodies, likewise.
+    pub mass: f64,
+    /// s.
+    pub time: f64,
+}
+
+impl Units {
+    /// Those of a robot whose joints turn at 3 rad/s all at once, or one of them much faster.
+    pub const fn of<const B: usize, const N: usize>(model: &Model<f64, B, N, N>) -> Self {
+        let (mut reach, mut total, mut i) = (0.0, 0.0, 0);
+        while i < B {
+            let at = model.links[i].placement.pos;
+            reach += larger(at.x) + larger(at.y) + larger(at.z);
+            total += model.links[i].inertia.mass;
+            i += 1;
+        }
+        Self {
+            length: power_of_two(reach),
+            mass: power_of_two(total),
+            time: 1.0 / 16.0,
+        }
+    }
+
+    /// An acceleration of m/s² in these units.
+    pub const fn acceleration(&self, a: f64) -> f64 {
+        a * self.time * self.time / self.length
+    }
+
+    /// N·m of the unit of torque.
+    pub const fn torque(&self) -> f64 {
+        self.mass * self.length * self.length / (self.time * self.time)
+    }
+}
+
+const fn larger(x: f64) -> f64 {
+    if x < 0.0 { -x } else { x }
+}
+
+const fn power_of_two(least: f64) -> f64 {
+    let mut power = 1.0 / 64.0;
+    while power < least {
+        power *= 2.0;
+    }
+    power
+}
+
+/// The robot in its [`Units`].
+#[derive(Clone, Copy, Debug)]
+pub struct InUnits<T>(PhantomData<T>);
+
+impl<T: Robot<B, N, N>, const B: usize, const N: usize> Robot<B, N, N> for InUnits<T> {
+    const MODEL: Model<f64, B, N, N> = {
+        let units = Units::of(&T::MODEL);
+        T::MODEL.in_units(units.length, units.mass)
+    };
+}

@@ -1,0 +1,10 @@
+use dynamics_core::Core;
+use dynamics_core::effects::RIGID_BODY;
+use dynamics_core::robots::Ur5e;
+use dynamics_core::state::State;
+
+/// Torques of a motion, N·m.
+#[inline]
+pub fn torques(state: &State<f32, 6, 6>) -> [f32; 6] {
+    Core::<Ur5e>::rnea(state, &RIGID_BODY)
+}

@@ -1,0 +1,36 @@
+use dynamics_core::Engine;
+use dynamics_core::control::Linearised;
+use dynamics_core::effects::RIGID_BODY;
+use dynamics_core::robots::Ur5e;
+use dynamics_core::state::State;
+use dynamics_core::trig::Minimax;
+
+/// Torques of a motion, tick by tick.
+pub struct Torques {
+    between: Linearised<f32, 6, 10>,
+    wait: usize,
+}
+
+impl Torques {
+    /// Before the first tick, which will be that of this state.
+    pub fn start(_first: &State<f32, 6, 6>) -> Self {
+        Self {
+            between: Linearised::start(),
+            wait: 0,
+        }
+    }
+
+    /// Torques of this tick, N·m.
+    #[inline(never)]
+    pub fn tick(&mut self, state: &State<f32, 6, 6>) -> [f32; 6] {
+        if self.wait > 0 {
+            self.wait -= 1;
+            return self.between.coast(&state.qdd);
+        }
+        self.wait = 10 - 1;
+        let posture = Engine::<Ur5e>::posture_by::<Minimax<7, 2>, f32, 6, 6, 6>(&state.q);
+        let torque = Engine::<Ur5e>::rnea_at(&posture, state, &RIGID_BODY);
+        let mass_matrix = Engine::<Ur5e>::crba_at(&posture, &RIGID_BODY);
+        self.between.renew(torque, mass_matrix, &state.qdd)
+    }
+}

@@ -1,0 +1,141 @@
+//! The robots, each with a way to go.
+
+use dynamics_core::control::{Smooth, Speed, Trajectory, TrajectoryError, WayPoint};
+use dynamics_core::flexible::Course;
+use dynamics_core::model::{Robot, model};
+use dynamics_core::robots::{A1Leg, Panda, Ur5e};
+use dynamics_core::state::State;
+
+use super::compliant::Joints;
+use super::{Visitor, list, pasted};
+use crate::scene::TICK;
+use crate::trajectories::{
+    LEG_STEPS, PANDA_PICK_AND_PLACE, PANDA_SWING, PICK_AND_PLACE, UR5E_SWING,
+};
+
+/// A robot of N joints and B bodies, its way through W points, and all ways to compute its torques.
+pub trait Compared<const B: usize, const N: usize, const W: usize>: Robot<B, N, N> {
+    /// The name of the recording whose first coordinates are this robot's.
+    const RECORDED: &'static str;
+    /// Through these points.
+    const POINTS: [WayPoint<f32, N>; W];
+    /// Greatest acceleration, rad/s².
+    const ACCELERATION: f32;
+
+    /// Shows the ways to compute of rigid joints.
+    fn rigid(visitor: &mut impl Visitor<N>)
+    where
+        Self: Sized,
+    {
+        list::inverse::<Self, B, N>(visitor);
+    }
+
+    /// Shows ways as they are printed to be pasted, if there are any of this robot.
+    fn pasted(_: &mut impl Visitor<N>) {}
+
+    /// Where it goes, tick by tick.
+    ///
+    /// # Errors
+    /// Way-points that the limits do not allow.
+    fn way() -> Result<Trajectory<f32, N, W>, TrajectoryError>
+    where
+        Self: Sized,
+    {
+        Trajectory::new(
+            &Self::POINTS,
+            TICK,
+            &speeds::<Self, B, N>(Self::ACCELERATION),
+        )
+    }
+}
+
+/// An arm with joints that give way, and a swing of so many stops that leaves them time.
+pub trait Swung<const N: usize>: Robot<N, N, N> + Joints<N> {
+    /// From stop to stop.
+    const STOPS: [WayPoint<f32, N>; 4];
+
+    /// Where it goes, tick by tick.
+    ///
+    /// # Errors
+    /// Stops that the limits do not allow.
+    fn swing() -> Result<Smooth<f32, N, 4>, TrajectoryError>
+    where
+        Self: Sized,
+    {
+        Smooth::new(&Self::STOPS, TICK, &speeds::<Self, N, N>(8.0))
+    }
+}
+
+fn speeds<T: Robot<B, N, N>, const B: usize, const N: usize>(acceleration: f32) -> [Speed<f32>; N] {
+    let mut speeds = [Speed {
+        velocity: 0.0,
+        acceleration,
+    }; N];
+    for link in &model::<f32, T, B, N, N>().links {
+        if let Some(speed) = speeds.get_mut(link.v_at) {
+            speed.velocity = link.limits.velocity;
+        }
+    }
+    speeds
+}
+
+/// A state that nothing is known of beyond.
+pub fn momentary<const N: usize>(state: State<f32, N, N>) -> Course<f32, N, N> {
+    Course {
+        state,
+        jerk: [0.0; N],
+        snap: [0.0; N],
+    }
+}
+
+impl Compared<6, 6, 9> for Ur5e {
+    const RECORDED: &'static str = "ur5e";
+    const POINTS: [WayPoint<f32, 6>; 9] = PICK_AND_PLACE;
+    const ACCELERATION: f32 = 12.0;
+
+    fn pasted(visitor: &mut impl Visitor<6>) {
+        pasted::ur5e(visitor);
+    }
+}
+
+impl Compared<7, 7, 7> for Panda {
+    const RECORDED: &'static str = "panda";
+    const POINTS: [WayPoint<f32, 7>; 7] = PANDA_PICK_AND_PLACE;
+    const ACCELERATION: f32 = 12.0;
+}
+
+impl Compared<4, 3, 7> for A1Leg {
+    const RECORDED: &'static str = "a1";
+    const POINTS: [WayPoint<f32, 3>; 7] = LEG_STEPS;
+    const ACCELERATION: f32 = 300.0;
+
+    fn pasted(visitor: &mut impl Visitor<3>) {
+        pasted::a1_leg(visitor);
+    }
+}
+
+/// Assumed, of the order of harmonic drives of this size.
+impl Joints<6> for Ur5e {
+    const JOINTS: [[f64; 6]; 3] = [
+        [1.5e4, 1.5e4, 1e4, 4e3, 4e3, 4e3],
+        [0.9, 0.9, 0.9, 0.25, 0.25, 0.25],
+        [12.0, 12.0, 8.0, 2.0, 2.0, 1.5],
+    ];
+}
+
+impl Swung<6> for Ur5e {
+    const STOPS: [WayPoint<f32, 6>; 4] = UR5E_SWING;
+}
+
+/// Assumed, of the order of harmonic drives of this size.
+impl Joints<7> for Panda {
+    const JOINTS: [[f64; 7]; 3] = [
+        [1.4e4, 1.4e4, 1.4e4, 1.4e4, 9e3, 9e3, 9e3],
+        [0.6, 0.6, 0.5, 0.5, 0.2, 0.2, 0.2],
+        [5.0, 5.0, 5.0, 5.0, 2.0, 2.0, 2.0],
+    ];
+}
+
+impl Swung<7> for Panda {
+    const STOPS: [WayPoint<f32, 7>; 4] = PANDA_SWING;
+}

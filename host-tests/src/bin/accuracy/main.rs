@@ -1,0 +1,41 @@
+//! Prints the errors of every way to compute a torque, one line of JSON each: `cargo xtask accuracy` joins them with
+//! what the ways cost on the target. f32 gives the same bits here and there.
+//!
+//! | kind of line | what |
+//! |---|---|
+//! | `inverse` | torque errors of a way along the robot's trajectory, and over states anywhere, N·m |
+//! | `pasted` | the same of what `cargo xtask accuracy` prints to be pasted |
+//! | `yardstick` | torque errors that an encoder, parameters and friction leave, N·m |
+//! | `speed` | torque errors of a way that leaves out velocity products, by the joints' speed, N·m |
+//! | `simulation` | trajectory error in the first second, rad, and energy drift, J/s, of a way with a length of step, µs |
+//! | `oracle` | how far the f64 that all are held against is itself off |
+//!
+//! Arguments name the robots, and `simulation`; none names all.
+
+mod inverse;
+mod simulation;
+mod speed;
+mod statistics;
+mod yardsticks;
+
+use dynamics_core::robots::{A1Leg, Panda, Ur5e};
+use firmware_demo::accuracy::robots::Compared;
+
+fn main() {
+    let asked: Vec<String> = std::env::args().skip(1).collect();
+    let wanted = |name: &str| asked.is_empty() || asked.iter().any(|robot| robot == name);
+    if wanted("ur5e") {
+        inverse::print::<Ur5e, 6, 6, 9>(Ur5e::rigid);
+        inverse::print_compliant::<Ur5e, 6, 9>();
+    }
+    if wanted("panda") {
+        inverse::print::<Panda, 7, 7, 7>(Panda::rigid);
+        inverse::print_compliant::<Panda, 7, 7>();
+    }
+    if wanted("a1_leg") {
+        inverse::print::<A1Leg, 4, 3, 7>(A1Leg::rigid);
+    }
+    if wanted("simulation") {
+        simulation::print();
+    }
+}

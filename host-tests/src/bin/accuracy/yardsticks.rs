@@ -1,0 +1,119 @@
+//! What else is off: the torque errors that measuring and identifying leave, beside which those of computing are seen.
+//!
+//! Along the robot's way, in f64, so that nothing of the computation is in them.
+
+use std::f64::consts::TAU;
+
+use dynamics_core::Core;
+use dynamics_core::algorithms::rnea;
+use dynamics_core::effects::RIGID_BODY;
+use dynamics_core::model::{Calibrated, Robot, model};
+use host_tests::random::{random_numbers, within};
+use serde_json::json;
+
+use super::inverse::{Asked, widened};
+use super::statistics::Errors;
+
+/// Drawings of parameters that are off.
+const DRAWINGS: usize = 20;
+
+/// Share of a joint's greatest torque that friction takes at its greatest speed: assumed, of the order of harmonic
+/// drives.
+const FRICTION: f64 = 0.1;
+
+/// Prints a line for each of them.
+pub fn print<T: Robot<B, N, N>, const B: usize, const N: usize>(full_scale: f64, way: &[Asked<N>]) {
+    let line = |name: &str, how: &str, errors: &Errors<N>| {
+        let summary = errors.summary(full_scale);
+        println!(
+            "{}",
+            json!({
+                "robot": T::MODEL.name,
+                "kind": "yardstick",
+                "key": name,
+                "what": how,
+                "unit": "N·m",
+                "full_scale": full_scale,
+                "error_max": summary.error_max,
+                "error_rms": summary.error_rms,
+                "error_p99": summary.error_p99,
+                "relative_max": summary.relative_max,
+                "trajectory": summary,
+            })
+        );
+    };
+    line(
+        "encoder14",
+        "positions rounded to 14 bits of a turn",
+        &encoder::<T, B, N>(way, 14),
+    );
+    for percent in [1, 5] {
+        line(
+            &format!("inertial{percent}"),
+            &format!(
+                "masses, moments and inertias off by up to ±{percent} %, the worst of {DRAWINGS} drawings"
+            ),
+            &inertial::<T, B, N>(way, f64::from(percent) / 100.0),
+        );
+    }
+    line(
+        "friction10",
+        "10 % of a viscous friction that at full speed takes a tenth of the joint's torque",
+        &friction::<T, B, N>(way),
+    );
+}
+
+fn encoder<T: Robot<B, N, N>, const B: usize, const N: usize>(
+    way: &[Asked<N>],
+    bits: u32,
+) -> Errors<N> {
+    let step = TAU / f64::from(1_u32 << bits);
+    Errors::of(way.iter().map(|Asked { course, truth }| {
+        let mut state = widened(&course.state);
+        state.q = state.q.map(|q| (q / step).round() * step);
+        (Core::<T>::rnea(&state, &RIGID_BODY), *truth)
+    }))
+}
+
+/// Of the drawing with the largest RMS.
+fn inertial<T: Robot<B, N, N>, const B: usize, const N: usize>(
+    way: &[Asked<N>],
+    share: f64,
+) -> Errors<N> {
+    let mut random = random_numbers();
+    let drawings = (0..DRAWINGS).map(|_| {
+        let mut robot = Calibrated::<T, f64, B, N, N>::nominal();
+        for inertia in robot.inertias() {
+            let [mass, moment, second] = within::<3>(&mut random, share).map(|x| 1.0 + x);
+            inertia.mass *= mass;
+            inertia.moment *= moment;
+            inertia.inertia *= second;
+        }
+        Errors::of(way.iter().step_by(10).map(|Asked { course, truth }| {
+            (rnea(&robot, &widened(&course.state), &RIGID_BODY), *truth)
+        }))
+    });
+    drawings
+        .max_by(|a, b| {
+            a.summary(1.0)
+                .error_rms
+                .total_cmp(&b.summary(1.0).error_rms)
+        })
+        .expect("some drawings")
+}
+
+fn friction<T: Robot<B, N, N>, const B: usize, const N: usize>(way: &[Asked<N>]) -> Errors<N> {
+    let mut per_speed = [0.0; N];
+    for link in &model::<f64, T, B, N, N>().links {
+        if let Some(per_speed) = per_speed.get_mut(link.v_at) {
+            *per_speed = 0.1 * FRICTION * link.limits.torque / link.limits.velocity;
+        }
+    }
+    Errors::of(way.iter().map(|Asked { course, truth }| {
+        let qd = course.state.qd.map(f64::from);
+        (
+            std::array::from_fn(|j| truth[j] + per_speed[j] * qd[j]),
+            *truth,
+        )
+    }))
+}

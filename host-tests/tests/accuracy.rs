@@ -1,0 +1,276 @@
+//! The ways to compute that `cargo xtask accuracy` compares: that there are enough of them, each once, and that the
+//! default and its oracle are as good as the report says.
+
+use std::collections::BTreeSet;
+
+use dynamics_core::control::{Extrapolated, Linearised};
+use dynamics_core::effects::RIGID_BODY;
+use dynamics_core::model::Robot;
+use dynamics_core::robots::{A1Leg, Panda, Ur5e};
+use dynamics_core::scalar::{Compensated, Fixed, HalfTurns, Real};
+use dynamics_core::state::State;
+use dynamics_core::trig::{Carried, Kernel, Minimax, Table};
+use dynamics_core::{Core, Engine};
+use firmware_demo::accuracy::key::Key;
+use firmware_demo::accuracy::model::Full;
+use firmware_demo::accuracy::numbers::{FixedPoint, In};
+use firmware_demo::accuracy::robots::{Compared, momentary};
+use firmware_demo::accuracy::simulation::{self, DoublePendulum};
+use firmware_demo::accuracy::{Inverse, Visitor};
+use host_tests::recordings::{Precise, load, read};
+use host_tests::tolerances::check;
+
+/// The ways' names.
+#[derive(Default)]
+struct Names(Vec<String>);
+
+impl<const N: usize> Visitor<N> for Names {
+    fn way<W: Inverse<N>>(&mut self) {
+        self.0.push(W::KEY.to_string());
+    }
+}
+
+impl<const N: usize> simulation::Visitor<N> for Names {
+    fn simulation<S: simulation::Simulation<N>>(&mut self) {
+        self.0.push(S::KEY.to_string());
+    }
+}
+
+fn names<T: Compared<B, N, W>, const B: usize, const N: usize, const W: usize>() -> Vec<String> {
+    let mut names = Names::default();
+    T::rigid(&mut names);
+    names.0
+}
+
+fn distinct(names: &[String]) -> usize {
+    names.iter().collect::<BTreeSet<_>>().len()
+}
+
+#[test]
+fn every_robot_has_80_ways_and_more_the_default_first() {
+    for names in [
+        names::<Ur5e, 6, 6, 9>(),
+        names::<Panda, 7, 7, 7>(),
+        names::<A1Leg, 4, 3, 7>(),
+    ] {
+        assert!(names.len() >= 80, "{}", names.len());
+        assert_eq!(distinct(&names), names.len());
+        assert_eq!(names[0], Key::DEFAULT.to_string());
+        // One word, as the firmware's log has it.
+        assert!(
+            names
+                .iter()
+                .all(|name| !name.contains(' ') && name.len() <= 96)
+        );
+    }
+}
+
+#[test]
+fn every_way_to_simulate_is_there_once() {
+    let mut names = Names::default();
+    simulation::every::<DoublePendulum, 2>(&mut names);
+    assert_eq!(distinct(&names.0), names.0.len());
+    assert!(names.0.iter().any(|name| name == "default"));
+}
+
+/// Over the states recorded of a robot whose first coordinates are T's: the largest errors of `run` and of our f64,
+/// relative to full scale.
+fn recorded<T: Robot<B, N, N>, const B: usize, const N: usize>(
+    name: &str,
+    run: impl Fn(&State<f32, N, N>) -> [f32; N],
+) -> [f64; 2] {
+    widened::<T, B, N>(name, |state| run(state).map(f64::from))
+}
+
+/// The same of torques in other numbers.
+fn widened<T: Robot<B, N, N>, const B: usize, const N: usize>(
+    name: &str,
+    run: impl Fn(&State<f32, N, N>) -> [f64; N],
+) -> [f64; 2] {
+    let recording = load(name);
+    let (mut scale, mut worst) = (0.0_f64, [0.0_f64; 2]);
+    for (k, truth) in recording.rnea.iter().enumerate() {
+        let first = |rows: &[Vec<f64>]| -> [f64; N] { std::array::from_fn(|j| rows[k][j]) };
+        let [q, qd, qdd] = [&recording.q, &recording.qd, &recording.qdd].map(|rows| first(rows));
+        let double = Core::<T>::rnea(&State { q, qd, qdd }, &RIGID_BODY);
+        let [q, qd, qdd] = [q, qd, qdd].map(|numbers| numbers.map(|x| x as f32));
+        let single = run(&State { q, qd, qdd });
+        for j in 0..N {
+            scale = scale.max(truth[j].abs());
+            worst[0] = worst[0].max((single[j] - truth[j]).abs());
+            worst[1] = worst[1].max((double[j] - truth[j]).abs());
+        }
+    }
+    worst.map(|error| error / scale)
+}
+
+#[test]
+fn the_default_is_within_3e_7_of_full_scale_on_all_recorded_states() {
+    let errors = [
+        recorded::<Ur5e, 6, 6>("ur5e", |state| Engine::<Ur5e>::rnea(state, &RIGID_BODY)),
+        recorded::<Panda, 7, 7>("panda", |state| Engine::<Panda>::rnea(state, &RIGID_BODY)),
+        recorded::<A1Leg, 4, 3>("a1", |state| Engine::<A1Leg>::rnea(state, &RIGID_BODY)),
+    ];
+    for [single, double] in errors {
+        assert!(single <= 3e-7, "{single:.1e}");
+        assert!(double <= 1e-13, "{double:.1e}");
+    }
+}
+
+#[test]
+fn f64_is_good_to_1e_13_by_50_digits() {
+    fn worst<T: Robot<B, N, N>, const B: usize, const N: usize>(name: &str) -> f64 {
+        let (recording, precise) = (load(name), read::<Precise>("precise"));
+        let (mut worst, mut scale) = (0.0_f64, 0.0_f64);
+        for (&k, truth) in precise.states.iter().zip(precise.rnea(name)) {
+            let first = |rows: &[Vec<f64>]| -> [f64; N] { std::array::from_fn(|j| rows[k][j]) };
+            let state = State {
+                q: first(&recording.q),
+                qd: first(&recording.qd),
+                qdd: first(&recording.qdd),
+            };
+            for (told, truth) in Core::<T>::rnea(&state, &RIGID_BODY).iter().zip(truth) {
+                scale = scale.max(truth.abs());
+                worst = worst.max((told - truth).abs());
+            }
+        }
+        worst / scale
+    }
+    for error in [
+        worst::<Ur5e, 6, 6>("ur5e"),
+        worst::<Panda, 7, 7>("panda"),
+        worst::<A1Leg, 4, 3>("a1"),
+    ] {
+        assert!(error <= 1e-13, "{error:.1e}");
+    }
+}
+
+#[test]
+fn other_numbers_are_as_good_as_they_say() {
+    let course = |state| momentary(state);
+    let [compensated, _] = widened::<Ur5e, 6, 6>("ur5e", |state| {
+        type Way = In<Compensated, Full<Ur5e>, Core<Ur5e>, 6>;
+        Way::torque(&Way::start(state).tick(&Way::input(&course(*state))))
+    });
+    let [fixed, _] = widened::<Ur5e, 6, 6>("ur5e", |state| {
+        type Way = FixedPoint<Ur5e, Full<Ur5e>, 6>;
+        Way::torque(&Way::start(state).tick(&Way::input(&course(*state))))
+    });
+    check("ur5e", "rnea in compensated f32", "f32", compensated).unwrap();
+    check("ur5e", "rnea in fixed point", "f32", fixed).unwrap();
+}
+
+/// The largest error of a kernel over ±100 rad, or over two turns.
+fn worst_of<R: Real, K: Kernel<R>>(range: f64, radians: f64) -> f64 {
+    const POINTS: i32 = 200_000;
+    let at = |k: i32| {
+        let x = R::from_f64(f64::from(k) / f64::from(POINTS) * range);
+        let (s, c) = K::sin_cos(x);
+        let (sin, cos) = (x.to_f64() * radians).sin_cos();
+        (s.to_f64() - sin).abs().max((c.to_f64() - cos).abs())
+    };
+    (-POINTS..=POINTS).map(at).fold(0.0, f64::max)
+}
+
+#[test]
+fn kernels_are_as_good_as_they_say() {
+    let errors = [
+        (
+            "minimax of degree 3",
+            worst_of::<f32, Minimax<3, 2>>(100.0, 1.0),
+        ),
+        (
+            "minimax of degree 5",
+            worst_of::<f32, Minimax<5, 2>>(100.0, 1.0),
+        ),
+        (
+            "table of 256, order 1",
+            worst_of::<f32, Table<256, 1>>(100.0, 1.0),
+        ),
+        (
+            "table of 256, order 2",
+            worst_of::<f32, Table<256, 2>>(100.0, 1.0),
+        ),
+        (
+            "table of 64, order 4",
+            worst_of::<f32, Table<64, 4>>(100.0, 1.0),
+        ),
+        (
+            "fixed point",
+            worst_of::<Fixed, HalfTurns>(1.999, std::f64::consts::PI),
+        ),
+        (
+            "compensated",
+            worst_of::<Compensated, dynamics_core::trig::Native>(100.0, 1.0),
+        ),
+    ];
+    let results = errors.map(|(kernel, error)| check("trig", kernel, "f32", error));
+    let failed: Vec<_> = results.into_iter().filter_map(Result::err).collect();
+    assert!(failed.is_empty(), "{failed:#?}");
+}
+
+#[test]
+fn sines_that_are_carried_on_drift_slowly() {
+    let mut turns = Carried::at([0.0_f32]);
+    let mut worst = 0.0_f64;
+    for tick in 0..10_000 {
+        let q = (f64::from(tick) * 1e-3).sin() as f32 * 3.0;
+        let turn = turns.follow(&[q]).turns[0];
+        let (sin, cos) = f64::from(q).sin_cos();
+        worst = worst.max(
+            (f64::from(turn.sin) - sin)
+                .abs()
+                .max((f64::from(turn.cos) - cos).abs()),
+        );
+    }
+    check("trig", "carried for 10⁴ ticks", "f32", worst).unwrap();
+}
+
+#[test]
+fn compensated_numbers_have_46_bits() {
+    let mut x = 1.0_f64;
+    for k in 1..1000 {
+        let (a, b) = (x.fract() + 0.1, f64::from(k) * 0.37 - 200.0);
+        let [p, q] = [a, b].map(Compensated::from_f64);
+        let [a, b] = [p, q].map(Compensated::to_f64);
+        let scale = (a.abs() + b.abs()) * 2.0_f64.powi(-45);
+        assert!(((p + q).to_f64() - (a + b)).abs() <= scale);
+        assert!(((p - q).to_f64() - (a - b)).abs() <= scale);
+        assert!(((p * q).to_f64() - a * b).abs() <= (a * b).abs() * 2.0_f64.powi(-44));
+        assert!(((p / q).to_f64() - a / b).abs() <= (a / b).abs() * 2.0_f64.powi(-43));
+        assert!((p.per_sqrt().to_f64() - 1.0 / a.sqrt()).abs() <= 2.0_f64.powi(-41) / a.sqrt());
+        x = x * 1.618 + 0.3;
+        x = x.fract() + 0.01;
+    }
+}
+
+#[test]
+fn torque_between_computations_is_exact_where_it_is_linear() {
+    let mut extrapolated = Extrapolated::<f64, 1, 4>::start();
+    let mut linearised = Linearised::<f64, 6, 4>::start();
+    let at = |tick: usize| State {
+        qdd: [(tick % 7) as f64; 6], // jumps
+        ..State::at([0.3; 6])
+    };
+    for tick in 0..40 {
+        let (line, state) = (2.0 + 0.5 * tick as f64, at(tick));
+        let computed = Core::<Ur5e>::rnea(&state, &RIGID_BODY);
+        let told = if tick % 4 == 0 {
+            let m = Core::<Ur5e>::crba(&state.q, &RIGID_BODY);
+            linearised.renew(computed, m, &state.qdd)
+        } else {
+            linearised.coast(&state.qdd)
+        };
+        let goes_on = if tick % 4 == 0 {
+            extrapolated.renew([line])
+        } else {
+            extrapolated.coast()
+        };
+        assert!(
+            told.iter()
+                .zip(computed)
+                .all(|(a, b)| (a - b).abs() < 1e-12)
+        );
+        assert!(tick < 4 || (goes_on[0] - line).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,158 @@
+//! Integrators: their orders, what keeps energy, what damping cannot shake, and what compensated addition repairs.
+
+use dynamics_core::Core;
+use dynamics_core::effects::{Effect, RIGID_BODY, Viscous};
+use dynamics_core::model::Of;
+use dynamics_core::scalar::Real;
+use dynamics_core::sim::{
+    Described, EnergyKept, Euler, ImplicitDamping, Integrator, RungeKutta, SemiImplicit, Summed,
+};
+use dynamics_core::state::State;
+use firmware_demo::accuracy::simulation::{DoublePendulum, LetGo};
+use host_tests::tolerances::check;
+
+/// Where the double pendulum is after a second in so many steps, all of which `see` is shown; nothing if some
+/// acceleration has become none.
+fn watched<I, R, E, const COMPENSATED: bool>(
+    steps: u32,
+    effects: &E,
+    mut see: impl FnMut(&State<R, 2, 2>),
+) -> Option<State<R, 2, 2>>
+where
+    I: Integrator<R, 2>,
+    R: Real,
+    E: Effect<R, 2, 2>,
+{
+    let robot = Described {
+        robot: &Of::<DoublePendulum>::NEW,
+        tau: [R::ZERO; 2],
+        effects,
+    };
+    let [q, qd] = DoublePendulum::START.map(|numbers| numbers.map(R::from_f64));
+    let mut motion = Summed::<R, 2, COMPENSATED>::at(State {
+        q,
+        qd,
+        qdd: [R::ZERO; 2],
+    });
+    let integrator = I::start(&robot, &motion.state);
+    let h = R::from_f64(1.0 / f64::from(steps));
+    for _ in 0..steps {
+        motion.add(integrator.step(&robot, &motion.state, h).ok()?);
+        see(&motion.state);
+    }
+    Some(motion.state)
+}
+
+fn free<I: Integrator<R, 2>, R: Real, const COMPENSATED: bool>(steps: u32) -> State<R, 2, 2> {
+    watched::<I, R, _, COMPENSATED>(steps, &RIGID_BODY, |_| ()).expect("a pendulum has inertia")
+}
+
+/// The largest distance of q from where it is after many steps, rad.
+fn off<R: Real>(state: &State<R, 2, 2>) -> f64 {
+    let truth = free::<RungeKutta, f64, true>(20_000);
+    let pairs = state.q.iter().zip(truth.q);
+    pairs.fold(0.0, |most, (q, truth)| most.max((q.to_f64() - truth).abs()))
+}
+
+#[test]
+fn integrators_are_of_their_order() {
+    let order =
+        |coarse: State<f64, 2, 2>, fine: State<f64, 2, 2>| (off(&coarse) / off(&fine)).log2();
+    let orders = [
+        (
+            1.0,
+            order(
+                free::<Euler, f64, true>(8000),
+                free::<Euler, f64, true>(16_000),
+            ),
+        ),
+        (
+            1.0,
+            order(
+                free::<SemiImplicit, f64, true>(1000),
+                free::<SemiImplicit, f64, true>(2000),
+            ),
+        ),
+        (
+            1.0,
+            order(
+                free::<ImplicitDamping, f64, true>(1000),
+                free::<ImplicitDamping, f64, true>(2000),
+            ),
+        ),
+        (
+            4.0,
+            order(
+                free::<RungeKutta, f64, true>(250),
+                free::<RungeKutta, f64, true>(500),
+            ),
+        ),
+        (
+            4.0,
+            order(
+                free::<EnergyKept<f64>, f64, true>(250),
+                free::<EnergyKept<f64>, f64, true>(500),
+            ),
+        ),
+    ];
+    for (want, order) in orders {
+        assert!((order - want).abs() < 0.3, "{order} instead of {want}");
+    }
+}
+
+#[test]
+fn a_kept_energy_stays() {
+    fn lost<R: Real>(scalar: &str) -> Result<(), String>
+    where
+        EnergyKept<R>: Integrator<R, 2>,
+    {
+        let energy = |q: [f64; 2], qd: [f64; 2]| {
+            let state = State {
+                q,
+                qd,
+                qdd: [0.0; 2],
+            };
+            let kinetic = Core::<DoublePendulum>::kinetic_energy(&state, &RIGID_BODY);
+            kinetic + Core::<DoublePendulum>::potential_energy(&q, &RIGID_BODY)
+        };
+        let [q, qd] = DoublePendulum::START;
+        let start = energy(q, qd);
+        let mut error = 0.0_f64;
+        let see = |at: &State<R, 2, 2>| {
+            let now = energy(at.q.map(R::to_f64), at.qd.map(R::to_f64));
+            error = error.max((now / start - 1.0).abs());
+        };
+        watched::<EnergyKept<R>, R, _, false>(1000, &RIGID_BODY, see).ok_or("no acceleration")?;
+        check("double pendulum", "energy kept for a second", scalar, error)
+    }
+    lost::<f64>("f64").unwrap();
+    lost::<f32>("f32").unwrap();
+}
+
+#[test]
+fn compensated_addition_repairs_fine_steps() {
+    let coarse = off(&free::<RungeKutta, f32, false>(1000));
+    let plain = off(&free::<RungeKutta, f32, false>(50_000));
+    let compensated = off(&free::<RungeKutta, f32, true>(50_000));
+    assert!(
+        plain > 2.0 * coarse,
+        "finer steps are worse: {plain:.1e}, {coarse:.1e}"
+    );
+    assert!(
+        compensated < 0.1 * plain,
+        "{compensated:.1e} of {plain:.1e}"
+    );
+    let quantity = "compensated Runge-Kutta in fine steps";
+    check("double pendulum", quantity, "f32", compensated).unwrap();
+}
+
+#[test]
+fn no_damping_shakes_an_implicit_step() {
+    let stiff = (RIGID_BODY, Viscous([50.0, 50.0]));
+    let implicit = watched::<ImplicitDamping, f64, _, false>(50, &stiff, |_| ());
+    let truth = watched::<RungeKutta, f64, _, false>(20_000, &stiff, |_| ());
+    let explicit = watched::<RungeKutta, f64, _, false>(50, &stiff, |_| ());
+    let ended = |end: Option<State<f64, 2, 2>>| end.map_or(f64::NAN, |end| end.q[0]);
+    assert!((ended(implicit) - ended(truth)).abs() < 1e-2);
+    assert!(ended(explicit).is_nan() || ended(explicit).abs() > 100.0);
+}

@@ -1,0 +1,56 @@
+use dynamics_core::algorithms::NotPositiveDefinite;
+use dynamics_core::effects::RIGID_BODY;
+use dynamics_core::robots::Ur5e;
+use dynamics_core::sim::{Integrator, Mechanics, RungeKutta, Summed};
+use dynamics_core::state::State;
+use dynamics_core::{Core, Engine};
+
+/// The robot without torques.
+pub struct LetGo;
+
+impl Mechanics<f32, 6> for LetGo {
+    fn acceleration(&self, at: &State<f32, 6, 6>) -> Result<[f32; 6], NotPositiveDefinite> {
+        Engine::<Ur5e>::forward(at, &[0.0; 6], &RIGID_BODY)
+    }
+
+    fn implicit_acceleration(
+        &self,
+        at: &State<f32, 6, 6>,
+        _h: f32,
+    ) -> Result<[f32; 6], NotPositiveDefinite> {
+        self.acceleration(at) // no friction, no springs
+    }
+
+    fn energies(&self, at: &State<f32, 6, 6>) -> (f32, f32) {
+        (
+            Core::<Ur5e>::kinetic_energy(at, &RIGID_BODY),
+            Core::<Ur5e>::potential_energy(&at.q, &RIGID_BODY),
+        )
+    }
+}
+
+/// s.
+pub const STEP: f32 = 1000.0e-6;
+
+/// The robot's motion, step by step.
+pub struct Simulation {
+    integrator: RungeKutta,
+    motion: Summed<f32, 6, true>,
+}
+
+impl Simulation {
+    /// From this state on.
+    pub fn start(state: State<f32, 6, 6>) -> Self {
+        Self {
+            integrator: Integrator::start(&LetGo, &state),
+            motion: Summed::at(state),
+        }
+    }
+
+    /// One step; the state after it.
+    pub fn step(&mut self) -> Result<&State<f32, 6, 6>, NotPositiveDefinite> {
+        let increments = self.integrator.step(&LetGo, &self.motion.state, STEP)?;
+        self.motion.add(increments);
+        Ok(&self.motion.state)
+    }
+}

@@ -1,0 +1,213 @@
+//! `cargo xtask accuracy`: what accuracy costs in time, for every way to compute that the library offers.
+
+mod asides;
+mod bars;
+mod choice;
+mod drawing;
+mod front;
+mod join;
+mod labels;
+mod margin;
+mod measure;
+mod movie;
+mod page;
+mod parts;
+mod paste;
+mod picture;
+mod point;
+mod progress;
+mod proof;
+mod simulated;
+mod simulator;
+mod single;
+mod vocabulary;
+mod words;
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use crate::docs;
+use crate::error::{Error, Result};
+use crate::setup::{self, Options, Tools};
+use crate::table::{Table, thousands};
+use crate::workspace::{self, Workspace};
+
+pub use choice::{Allowed, Budget};
+pub use measure::Robot;
+use measure::{Measured, Plan};
+use point::{Kind, Point};
+
+/// What is wanted.
+pub struct Wish {
+    /// One robot only.
+    pub robot: Option<Robot>,
+    /// A dozen ways of each.
+    pub quick: bool,
+    /// JSON on stdout.
+    pub json: bool,
+    /// The choice of one way.
+    pub budget: Option<Budget>,
+}
+
+/// Measures, writes page and pictures, and prints; or chooses.
+pub fn run(options: Options, wish: Wish) -> Result<ExitCode> {
+    let kind = wish.kind()?;
+    let workspace = Workspace::find()?;
+    let tools = setup::for_demo(options)?;
+    let plan = Plan {
+        robots: wish
+            .robot
+            .map_or_else(|| Robot::ALL.to_vec(), |robot| vec![robot]),
+        quick: wish.quick,
+        inverse: kind != Some(Kind::Simulation),
+        simulation: kind != Some(Kind::Inverse),
+    };
+    let measured = plan.run(&workspace, &tools)?;
+    let all = if wish.quick {
+        &measured.single
+    } else {
+        &measured.points
+    };
+    if let (Some(budget), Some(kind)) = (wish.budget, kind) {
+        let circumstances = if kind == Kind::Inverse {
+            "rigid"
+        } else {
+            "free"
+        };
+        let of = |point: &&Point| point.group().1 == kind && point.group().2 == circumstances;
+        let points: Vec<&Point> = all.iter().filter(of).collect();
+        let answer = budget.answer(&points)?;
+        if wish.json {
+            docs::print_json(&budget.choose(&points)?)?;
+        } else {
+            print!("{answer}");
+        }
+        return Ok(ExitCode::SUCCESS);
+    }
+    if !wish.quick {
+        write(&workspace, &measured, wish.robot)?;
+    }
+    if wish.json {
+        docs::print_json(all)?;
+    } else {
+        print!("{}", table(all).text());
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+impl Wish {
+    /// What a budget chooses from, if there is one.
+    fn kind(&self) -> Result<Option<Kind>> {
+        let Some(budget) = self.budget else {
+            return Ok(None);
+        };
+        let robot = self.robot.unwrap_or(Robot::Ur5e);
+        let kind = match budget {
+            Budget::Cycles(_) if robot == Robot::DoublePendulum => Kind::Simulation,
+            _ => budget.kind(),
+        };
+        let among = match kind {
+            Kind::Inverse => &Robot::COMPUTED[..],
+            Kind::Simulation if self.quick => &[],
+            Kind::Simulation => &Robot::SIMULATED[..],
+        };
+        if among.contains(&robot) {
+            return Ok(Some(kind));
+        }
+        let names: Vec<&str> = among.iter().map(|robot| robot.name()).collect();
+        Err(Error::check(match (kind, names.as_slice()) {
+            (_, []) => "simulations are not part of --quick".into(),
+            (Kind::Inverse, names) => format!(
+                "torques are not computed of {}, but of {}; an error of its simulation is in rad",
+                robot.name(),
+                names.join(", ")
+            ),
+            (Kind::Simulation, names) => format!(
+                "{} is not simulated, but {}; an error of torques is in Nm",
+                robot.name(),
+                names.join(", ")
+            ),
+        }))
+    }
+}
+
+/// Fails unless what single changes cost and lose is what the page says; else says how many there are.
+pub fn check(workspace: &Workspace, tools: &Tools) -> Result<String> {
+    let plan = Plan {
+        robots: Robot::COMPUTED.to_vec(),
+        quick: true,
+        inverse: true,
+        simulation: false,
+    };
+    let measured = plan.run(workspace, tools)?;
+    let pasted = proof::check(&measured)?;
+    let saved = bars::check(&page::ways(&measured.single, Robot::Ur5e, "rigid"))?;
+    let text = single::text(&measured.single, &measured.rustc);
+    single::PAGE.check(workspace, &text, Some(&measured.rustc))?;
+    let points = measured.single.len();
+    Ok(format!(
+        "{points} configurations, {pasted} of them as printed; {saved}"
+    ))
+}
+
+/// Rewrites the page's parts that this run has all of, and their pictures; all of them or none.
+fn write(workspace: &Workspace, measured: &Measured, only: Option<Robot>) -> Result<()> {
+    let file = workspace.root.join(page::FILE);
+    let mut text = workspace::read(&file)?;
+    let mut files: Vec<(PathBuf, String)> = Vec::new();
+    let picture = |name: &str| workspace.root.join(format!("docs/accuracy-{name}.svg"));
+    for robot in Robot::COMPUTED {
+        let points = page::ways(&measured.points, robot, "rigid");
+        if points.is_empty() {
+            continue;
+        }
+        let all = measured.host.yardsticks.iter();
+        let scene = picture::Scene {
+            title: robot.title(),
+            points,
+            yardsticks: all.filter(|it| it.robot == robot.name()).collect(),
+        };
+        files.push((picture(robot.name()), picture::svg(&scene)?));
+        text = page::page_of(robot).replaced(&text, &page::text(measured, robot))?;
+    }
+    if only.is_none() {
+        files.push((picture("simulation"), movie::svg(&measured.points)?));
+        let simulated = page::page_of(Robot::DoublePendulum);
+        text = simulated.replaced(&text, &simulated::text(measured))?;
+        let single = single::text(&measured.single, &measured.rustc);
+        text = single::PAGE.replaced(&text, &single)?;
+    }
+    files.push((file, text));
+    workspace::write_whole(&files)
+}
+
+/// The fronts, for a terminal.
+fn table(points: &[Point]) -> Table {
+    let mut table = Table::new(&[
+        "configuration",
+        "insn",
+        "cycles",
+        "mean",
+        "max error",
+        "unit",
+        "of full scale",
+    ]);
+    for point in points.iter().filter(|point| point.front) {
+        let error = |x: Option<f64>| x.map_or_else(|| "–".into(), words::digits);
+        table.row([
+            format!(
+                "{} {}: {}",
+                point.robot,
+                point.group().2,
+                words::name(point)
+            ),
+            thousands(point.instructions),
+            thousands(point.cycles),
+            words::cycles(point.cycles_mean),
+            error(point.error_max),
+            point.unit.clone(),
+            error(point.relative_max),
+        ]);
+    }
+    table
+}

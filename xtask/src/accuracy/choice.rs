@@ -1,0 +1,218 @@
+//! The choice: the cheapest way within an error, the most accurate one within a time.
+
+use std::str::FromStr;
+
+use super::front;
+use super::paste;
+use super::point::{Kind, Point};
+use super::words::{cycles, digits, name, sentence};
+use crate::error::{Error, Result};
+use crate::table::thousands;
+
+/// What an error may be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Allowed {
+    /// In the unit of [`Allowed::kind`]: N·m or rad.
+    pub error: f64,
+    /// What is off by it.
+    pub kind: Kind,
+}
+
+/// What the choice goes by.
+#[derive(Clone, Copy, Debug)]
+pub enum Budget {
+    /// The cheapest within this error.
+    Error(Allowed),
+    /// The most accurate within this worst tick.
+    Cycles(u64),
+}
+
+/// Units by their names.
+const UNITS: [(&str, f64, Kind); 6] = [
+    ("mN·m", 1e-3, Kind::Inverse),
+    ("mNm", 1e-3, Kind::Inverse),
+    ("N·m", 1.0, Kind::Inverse),
+    ("Nm", 1.0, Kind::Inverse),
+    ("mrad", 1e-3, Kind::Simulation),
+    ("rad", 1.0, Kind::Simulation),
+];
+
+impl FromStr for Allowed {
+    type Err = String;
+
+    fn from_str(text: &str) -> std::result::Result<Self, String> {
+        let units =
+            "a torque in Nm or mNm (0.05Nm), for a simulation an angle in rad or mrad (2mrad)";
+        let known = UNITS.iter().find_map(|&(unit, scale, kind)| {
+            let number = text.trim().strip_suffix(unit)?;
+            Some((number.trim().parse::<f64>(), scale, kind))
+        });
+        let Some((number, scale, kind)) = known else {
+            return Err(match text.trim().parse::<f64>() {
+                Ok(_) => format!("{text} has no unit: an error is {units}"),
+                Err(_) => format!("an error is {units}"),
+            });
+        };
+        match number {
+            Ok(number) if number > 0.0 && number.is_finite() => Ok(Self {
+                error: number * scale,
+                kind,
+            }),
+            Ok(_) => Err(format!("{text}: an error is more than nothing")),
+            Err(_) => Err(format!(
+                "{text} does not begin with a number: an error is {units}"
+            )),
+        }
+    }
+}
+
+impl Budget {
+    /// What is chosen from.
+    pub fn kind(self) -> Kind {
+        match self {
+            Self::Error(allowed) => allowed.kind,
+            Self::Cycles(_) => Kind::Inverse,
+        }
+    }
+
+    /// The point of the front that this allows.
+    pub fn choose<'a>(self, points: &[&'a Point]) -> Result<&'a Point> {
+        let front = front::front(points, 0);
+        let ends = front.first().zip(front.last());
+        let (cheapest, best) =
+            ends.ok_or_else(|| Error::check("nothing was measured of this robot"))?;
+        let unit = &best.unit;
+        match self {
+            Self::Cycles(most) => {
+                let within = front.iter().rev().find(|point| point.cycles <= most);
+                within.copied().ok_or_else(|| {
+                    Error::check(format!(
+                        "nothing on the front is below {} cycles; the cheapest is {} ({}), off by up to {} {unit}",
+                        thousands(most),
+                        thousands(cheapest.cycles),
+                        name(cheapest),
+                        digits(cheapest.error()),
+                    ))
+                })
+            }
+            Self::Error(allowed) => {
+                let within = front.iter().find(|point| point.error() <= allowed.error);
+                within.copied().ok_or_else(|| {
+                    Error::check(format!(
+                        "nothing on the front is off by less than {} {unit}; the most accurate is off by up to {} \
+                         ({}, {} cycles)",
+                        digits(allowed.error),
+                        digits(best.error()),
+                        name(best),
+                        thousands(best.cycles),
+                    ))
+                })
+            }
+        }
+    }
+
+    /// The cheapest in the mean that is no less accurate, if that is another one.
+    fn in_the_mean<'a>(self, points: &[&'a Point], chosen: &Point) -> Option<&'a Point> {
+        let allowed = match self {
+            Self::Error(allowed) => allowed.error,
+            Self::Cycles(_) => chosen.error(),
+        };
+        let front = front::front(points, 1);
+        let point = front.into_iter().find(|point| point.error() <= allowed)?;
+        (point.cycles_mean < 0.95 * chosen.cycles_mean).then_some(point)
+    }
+
+    /// The choice in words, with the Rust to paste.
+    pub fn answer(self, points: &[&Point]) -> Result<String> {
+        let chosen = self.choose(points)?;
+        let mut text = format!("{}\n\n{}", told(chosen), paste::rust(chosen)?);
+        if let Some(other) = self.in_the_mean(points, chosen) {
+            text += &format!(
+                "\nIf the mean over ticks matters rather than the worst tick:\n\n{}\n\n{}",
+                told(other),
+                paste::rust(other)?
+            );
+        }
+        Ok(text)
+    }
+}
+
+/// A point's figures in words.
+fn told(point: &Point) -> String {
+    let of = match point.kind {
+        Kind::Inverse => "cycles in the worst tick",
+        Kind::Simulation => "cycles for a simulated second",
+    };
+    let share = point.relative_max.map_or_else(String::new, |share| {
+        format!(" ({} of full scale)", digits(share))
+    });
+    format!(
+        "{} {}: {} modelled {of}, {} in the mean; off by up to {} {}{share}\n{}",
+        point.robot,
+        name(point),
+        thousands(point.cycles),
+        cycles(point.cycles_mean),
+        digits(point.error()),
+        point.unit,
+        sentence(point)
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::front::{mark, tests::point};
+    use super::super::point::{Kind, Point};
+    use super::{Allowed, Budget};
+
+    #[test]
+    fn an_error_needs_a_number_and_a_unit() {
+        let torque = |error| {
+            Ok(Allowed {
+                error,
+                kind: Kind::Inverse,
+            })
+        };
+        assert_eq!("0.05Nm".parse(), torque(0.05));
+        assert_eq!("50 mN·m".parse(), torque(0.05));
+        assert_eq!(
+            "2mrad".parse(),
+            Ok(Allowed {
+                error: 2e-3,
+                kind: Kind::Simulation
+            })
+        );
+        for bad in ["0.05", "Nm", "-1Nm", "0Nm", "nanNm", "5kg", "infNm"] {
+            assert!(bad.parse::<Allowed>().is_err(), "{bad}");
+        }
+        let told = "0.05".parse::<Allowed>().expect_err("no unit");
+        assert!(told.contains("no unit"), "{told}");
+    }
+
+    #[test]
+    fn a_budget_picks_from_the_front_or_says_what_would_do() {
+        let mut points = [
+            point("default", 1e-5, 1000, 1000.0),
+            point("trig=table", 1e-3, 900, 900.0),
+            point("model=gravity", 10.0, 300, 300.0),
+        ];
+        mark(&mut points);
+        let all: Vec<&Point> = points.iter().collect();
+        let chosen = |budget: Budget| budget.choose(&all).map(|point| &*point.key);
+        let error = |error| {
+            Budget::Error(Allowed {
+                error,
+                kind: Kind::Inverse,
+            })
+        };
+        assert!(chosen(error(0.05)).is_ok_and(|key| key == "trig=table"));
+        assert!(chosen(Budget::Cycles(1500)).is_ok_and(|key| key == "default"));
+        let told = chosen(Budget::Cycles(10))
+            .expect_err("too little")
+            .to_string();
+        assert!(
+            told.starts_with("nothing on the front is below 10 cycles; the cheapest is 300"),
+            "{told}"
+        );
+        assert!(chosen(error(1e-9)).is_err());
+    }
+}

@@ -1,0 +1,109 @@
+//! The front: what nothing beats in error and cost at once.
+
+use super::point::Point;
+
+/// Marks in each group those that no other one is as accurate as for less, in the worst tick and in the mean.
+pub fn mark(points: &mut [Point]) {
+    let marks: Vec<[bool; 2]> = points
+        .iter()
+        .map(|point| [0, 1].map(|cost| point.error().is_finite() && !beaten(point, points, cost)))
+        .collect();
+    for (point, fronts) in points.iter_mut().zip(marks) {
+        point.fronts = fronts;
+        point.front = fronts.contains(&true);
+    }
+}
+
+/// Whether another one costs no more and errs no more, and does one of both less, or comes before it.
+fn beaten(point: &Point, all: &[Point], cost: usize) -> bool {
+    let of = |other: &Point| (other.costs()[cost], other.error());
+    let mine = of(point);
+    all.iter()
+        .filter(|other| other.group() == point.group())
+        .any(|other| {
+            let its = of(other);
+            let no_worse = its.0 <= mine.0 && its.1 <= mine.1;
+            // Of those that are the same, the one with fewer things changed is told.
+            let better = its != mine || rank(other) < rank(point);
+            no_worse && better
+        })
+}
+
+/// How far from the default.
+fn rank(point: &Point) -> (usize, &str) {
+    let changes = point.key.split(',').filter(|axis| axis.contains('='));
+    (changes.count(), &point.key)
+}
+
+/// The front of a group by a cost, from the cheapest on.
+pub fn front<'a>(points: &[&'a Point], cost: usize) -> Vec<&'a Point> {
+    let on = points.iter().copied().filter(|point| point.fronts[cost]);
+    let mut front: Vec<&Point> = on.collect();
+    front.sort_by(|a, b| a.costs()[cost].total_cmp(&b.costs()[cost]));
+    front
+}
+
+#[cfg(test)]
+pub mod tests {
+    use super::super::point::{Kind, Point};
+    use super::{front, mark};
+
+    /// A way of the robot `arm` with this key, error, and cost in the worst tick and in the mean.
+    pub fn point(key: &str, error: f64, cycles: u64, mean: f64) -> Point {
+        let changed = key.split(',').filter_map(|axis| axis.split_once('='));
+        let plant = [("plant", "rigid")].into_iter();
+        Point {
+            robot: "arm".into(),
+            kind: Kind::Inverse,
+            configuration: changed
+                .chain(plant)
+                .map(|(axis, value)| (axis.to_owned(), value.to_owned()))
+                .collect(),
+            instructions: cycles,
+            cycles,
+            cycles_mean: mean,
+            error_max: error.is_finite().then_some(error),
+            error_rms: None,
+            error_p99: None,
+            unit: "N·m".into(),
+            relative_max: None,
+            front: false,
+            fronts: [false; 2],
+            key: key.into(),
+            full_scale: 1.0,
+            joints: Vec::new(),
+            anywhere: None,
+            drift: None,
+        }
+    }
+
+    #[test]
+    fn only_what_nothing_beats_is_on_the_front() {
+        let mut points = [
+            point("default", 1e-5, 1000, 1000.0),
+            point("trig=a", 1e-3, 900, 900.0),
+            point("trig=b", 2e-3, 900, 900.0),
+            point("rate=10", 5e-2, 2000, 200.0),
+            point("model=gravity", 10.0, 300, 300.0),
+            point("arith=lost", f64::INFINITY, 1, 1.0),
+            point("form=twin,opt=s", 1e-5, 1000, 1000.0),
+        ];
+        mark(&mut points);
+        let all: Vec<_> = points.iter().collect();
+        let keys = |cost| -> Vec<_> { front(&all, cost).iter().map(|p| &*p.key).collect() };
+        assert_eq!(keys(0), ["model=gravity", "trig=a", "default"]);
+        assert_eq!(keys(1), ["rate=10", "trig=a", "default"]);
+        assert!(points[3].front && !points[2].front && !points[5].front && !points[6].front);
+    }
+
+    #[test]
+    fn robots_are_not_held_against_each_other() {
+        let mut points = [
+            point("default", 1.0, 10, 10.0),
+            point("default", 2.0, 20, 20.0),
+        ];
+        points[1].robot = "leg".into();
+        mark(&mut points);
+        assert!(points[0].front && points[1].front);
+    }
+}

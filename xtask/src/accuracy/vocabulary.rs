@@ -1,0 +1,186 @@
+//! The words for what a configuration is.
+
+/// What a value on an axis is, and what it gives up: names for a plot, phrases for a sentence. The default's values
+/// have none.
+const WORDS: &[(&str, &str, &str, &str)] = &[
+    (
+        "arith",
+        "f64",
+        "f64",
+        "computes in f64, which this processor does in software",
+    ),
+    (
+        "arith",
+        "compensated",
+        "compensated f32",
+        "carries the rounding errors of f32 along (two-sum, two-product)",
+    ),
+    (
+        "arith",
+        "q31",
+        "Q31",
+        "computes in fixed point, Q31, in units in which nothing exceeds ±2",
+    ),
+    (
+        "trig",
+        "minimax3",
+        "degree 3",
+        "takes sines and cosines from polynomials of the third degree and gives up four of f32's seven digits",
+    ),
+    (
+        "trig",
+        "minimax5",
+        "degree 5",
+        "takes sines and cosines from polynomials of the fifth degree and gives up one of f32's seven digits",
+    ),
+    (
+        "trig",
+        "minimax7",
+        "degree 7",
+        "takes sines and cosines from polynomials of the seventh degree, angles reduced in two parts",
+    ),
+    (
+        "trig",
+        "minimax7x3",
+        "3-part reduction",
+        "reduces angles by π/2 in three parts, for angles of very many turns",
+    ),
+    (
+        "trig",
+        "table",
+        "linear table",
+        "interpolates sines and cosines linearly in a table (256 entries, 2 KB of flash), gives up three of f32's seven digits, and reads flash, which wait states make slower",
+    ),
+    (
+        "trig",
+        "table2",
+        "quadratic table",
+        "interpolates sines and cosines to second order in a table (256 entries, 2 KB of flash) and reads flash, which wait states make slower",
+    ),
+    (
+        "trig",
+        "table4",
+        "quartic table",
+        "interpolates sines and cosines to fourth order in a table (64 entries, 512 bytes of flash) and reads flash, which wait states make slower",
+    ),
+    (
+        "trig",
+        "incremental",
+        "carried sines",
+        "carries sines and cosines on from tick to tick by small rotations, and gives up that a tick depends on its inputs alone",
+    ),
+    (
+        "trig",
+        "libm",
+        "libm",
+        "takes sines and cosines from the crate libm, which computes in f64 inside",
+    ),
+    (
+        "trig",
+        "micromath",
+        "micromath",
+        "takes sines and cosines from the crate micromath and gives up four of f32's seven digits",
+    ),
+    (
+        "model",
+        "no_coriolis",
+        "no Coriolis",
+        "leaves out Coriolis and centrifugal torques: right at rest, and worse with the square of the joints' speed",
+    ),
+    (
+        "model",
+        "gravity",
+        "gravity only",
+        "holds the weight only and leaves out inertia, Coriolis and centrifugal torques: right at rest",
+    ),
+    (
+        "model",
+        "rigid",
+        "taken for rigid",
+        "takes joints that give way for rigid ones",
+    ),
+    (
+        "model",
+        "compliant",
+        "compliant",
+        "computes motors and links of joints that give way",
+    ),
+    (
+        "model",
+        "params6",
+        "6-bit model",
+        "rounds lengths, masses and inertias to 6 bits",
+    ),
+    (
+        "model",
+        "params8",
+        "8-bit model",
+        "rounds lengths, masses and inertias to 8 bits, those of bf16",
+    ),
+    (
+        "model",
+        "params11",
+        "11-bit model",
+        "rounds lengths, masses and inertias to 11 bits, those of f16",
+    ),
+    (
+        "form",
+        "core",
+        "core",
+        "uses the core, whose code serves any robot",
+    ),
+    (
+        "opt",
+        "s",
+        "opt s",
+        "is compiled for size (opt-level \"s\")",
+    ),
+    (
+        "opt",
+        "z",
+        "opt z",
+        "is compiled for the smallest size (opt-level \"z\")",
+    ),
+    (
+        "integrator",
+        "euler",
+        "Euler",
+        "steps by explicit Euler, of first order, which gains energy",
+    ),
+    (
+        "integrator",
+        "semi_implicit",
+        "semi-implicit Euler",
+        "steps by semi-implicit Euler, of first order, whose energy stays bounded",
+    ),
+    (
+        "integrator",
+        "rk4",
+        "RK4",
+        "steps by Runge and Kutta's rule of fourth order, four evaluations a step",
+    ),
+    (
+        "integrator",
+        "energy",
+        "energy-preserving",
+        "steps so that the energy stays what it was",
+    ),
+    (
+        "integrator",
+        "implicit_damping",
+        "implicit damping",
+        "takes friction as it will be at the end of the step",
+    ),
+    (
+        "state",
+        "compensated",
+        "compensated sums",
+        "adds up angles and speeds with their rounding errors carried along",
+    ),
+];
+
+/// Name and phrase of a value, if it has them.
+pub fn found(axis: &str, value: &str) -> Option<(&'static str, &'static str)> {
+    let known = WORDS.iter().find(|word| (word.0, word.1) == (axis, value));
+    known.map(|word| (word.2, word.3))
+}

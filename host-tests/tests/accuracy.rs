@@ -184,6 +184,14 @@ fn kernels_are_as_good_as_they_say() {
             worst_of::<f32, Minimax<5, 2>>(100.0, 1.0),
         ),
         (
+            "minimax of degree 7",
+            worst_of::<f32, Minimax<7, 2>>(100.0, 1.0),
+        ),
+        (
+            "minimax of degree 7, 3 parts",
+            worst_of::<f32, Minimax<7, 3>>(1e4, 1.0),
+        ),
+        (
             "table of 256, order 1",
             worst_of::<f32, Table<256, 1>>(100.0, 1.0),
         ),

@@ -1,14 +1,15 @@
 //! Sine and cosine without a branch, and in f32 without f64.
 //!
-//! Cody and Waite, *Software Manual for the Elementary Functions* (1980): x = k π/2 + r with π/2
-//! in parts whose products with k are exact, then minimax polynomials on |r| ≤ π/4: of degree 7 and
-//! 8 in f32, of 13 and 14 in f64. The f32 coefficients are printed by `host-tests/oracle/minimax.py`.
-//! `libm::sinf` computes in f64, which the FPU of a Cortex-M4F does not have: 30 times the cost.
+//! Cody and Waite, *Software Manual for the Elementary Functions* (1980): x = k s + r with the step s in parts whose
+//! products with k are exact. In f32 s is a 128th of a turn, whose sine and cosine are in a [`Table`], and Taylor's
+//! polynomials of degree 3 and 2 go on from there; in f64 it is π/2, with minimax polynomials of degree 13 and 14 on
+//! |r| ≤ π/4. `libm::sinf` computes in f64, which the FPU of a Cortex-M4F does not have: 30 times the cost.
 //!
 //! For infinite or NaN input the result has no meaning: callers gate such angles before they get here.
 //!
 //! Less accurate and other ways are types, a [`Kernel`] each, which [`crate::Engine::rnea_by`] and
-//! [`crate::state::Posture::by`] take; what each costs and gives is in `docs/accuracy.md` in the repository.
+//! [`crate::state::Posture::by`] take; what each costs and gives is in `docs/accuracy.md` in the repository, and why
+//! the table is the default in `docs/decisions/0005-sines-from-a-table.md`.
 
 mod carried;
 mod minimax;
@@ -54,8 +55,8 @@ impl<R: Real> Kernel<R> for Native {
 
 /// (sin x, cos x) of x in rad, |x| ≤ 10⁴: absolute error below 10⁻⁷.
 ///
-/// Beyond 10⁴ rad accuracy is lost gradually; beyond 6·10⁶ rad the result has no meaning. Cost: the
-/// same instructions whatever x.
+/// Beyond 10⁴ rad accuracy is lost gradually; beyond 2·10⁵ rad the result has no meaning. Cost: the
+/// same instructions whatever x. Flash: 1 kB, once.
 ///
 /// ```
 /// let (s, c) = dynamics_core::trig::sin_cos(0.5);
@@ -63,12 +64,12 @@ impl<R: Real> Kernel<R> for Native {
 /// ```
 #[inline(always)]
 pub fn sin_cos(x: f32) -> (f32, f32) {
-    Minimax::<7, 3>::sin_cos(x)
+    Table::<128, 3, 4>::sin_cos(x)
 }
 
 /// (sin x, cos x) of x in rad for joints that stay within ±100 rad: absolute error below 10⁻⁷.
 ///
-/// A reduction in two parts instead of three. The engine takes it for joints whose limits lie within
+/// A reduction in two parts instead of four. The engine takes it for joints whose limits lie within
 /// ±4π. Cost: the same instructions whatever x.
 ///
 /// ```
@@ -77,7 +78,7 @@ pub fn sin_cos(x: f32) -> (f32, f32) {
 /// ```
 #[inline(always)]
 pub fn sin_cos_near(x: f32) -> (f32, f32) {
-    Minimax::<7, 2>::sin_cos(x)
+    Table::<128, 3, 2>::sin_cos(x)
 }
 
 /// (sin x, cos x) in f64 of x in rad, |x| ≤ 10⁵: absolute error below 3·10⁻¹⁶.

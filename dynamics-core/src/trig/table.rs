@@ -4,51 +4,80 @@ use super::Kernel;
 use crate::const_math;
 
 /// Sine and cosine of the nearest of `N` (a power of two) angles of a turn, turned on by the rest r, |r| ≤ π/N, by
-/// Taylor's polynomials up to the order `ORDER`: 1 (linear interpolation along the tangent), 2 or 4.
+/// Taylor's polynomials up to the order `ORDER`: 1 (linear interpolation along the tangent), 2, 3 or 4.
 ///
 /// | entries, order | flash | error |
 /// |---|---|---|
 /// | 256, 1 | 2 kB | 8·10⁻⁵ |
 /// | 256, 2 | 2 kB | 5·10⁻⁷ |
-/// | 64, 4 | 512 B | 2·10⁻⁷ |
+/// | 128, 3 | 1 kB | 8·10⁻⁸, of which 6·10⁻⁸ are rounding |
+/// | 64, 4 | 512 B | 7·10⁻⁸ |
 ///
-/// Holds to ±100 rad. Cost: the same instructions whatever x, two of them loads from flash, which wait states
-/// make longer. Source: Gal, "Computing elementary functions: a new approach for achieving high accuracy and good
-/// performance" (1986), with equidistant entries.
+/// The step of the table comes off x in `PARTS`: 2 hold to ±100 rad, 4 to 10⁴ for up to 128 entries. Cost: the same
+/// instructions whatever x, two of them loads of neighbours from flash, which wait states make longer. Source: Gal,
+/// "Computing elementary functions: a new approach for achieving high accuracy and good performance" (1986), with
+/// equidistant entries; parts as in [`crate::trig`].
 ///
 /// ```
 /// use dynamics_core::trig::{Kernel, Table};
 /// let (s, c) = Table::<256, 1>::sin_cos(-3.0_f32);
 /// assert!((s + 0.141_120_01).abs() < 1e-4 && (c + 0.989_992_5).abs() < 1e-4);
 /// ```
+///
+/// ```compile_fail,E0080
+/// use dynamics_core::trig::{Kernel, Table};
+/// let _ = Table::<100, 3>::sin_cos(0.5_f32); // not a power of two
+/// ```
 #[derive(Clone, Copy, Debug)]
-pub struct Table<const N: usize, const ORDER: usize>;
+pub struct Table<const N: usize, const ORDER: usize, const PARTS: usize = 2>;
 
-impl<const N: usize, const ORDER: usize> Table<N, ORDER> {
-    /// (sin, cos) of k 2π/N.
-    const ENTRIES: [[f32; 2]; N] = {
+/// (sin, cos), side by side in one line of a flash cache.
+#[repr(C, align(8))]
+#[derive(Clone, Copy)]
+struct Pair {
+    sin: f32,
+    cos: f32,
+}
+
+impl<const N: usize, const ORDER: usize, const PARTS: usize> Table<N, ORDER, PARTS> {
+    /// Those of k 2π/N.
+    const ENTRIES: [Pair; N] = {
         assert!(N.is_power_of_two() && N >= 16 && N <= 1024);
-        assert!(ORDER == 1 || ORDER == 2 || ORDER == 4);
-        let mut entries = [[0.0; 2]; N];
+        assert!(ORDER >= 1 && ORDER <= 4);
+        assert!(PARTS == 2 || PARTS == 4);
+        let mut entries = [Pair { sin: 0.0, cos: 1.0 }; N];
         let mut k = 0;
         while k < N {
             // Within half a turn, where the series of `const_math` ends early.
             let turns = k as f64 / N as f64 - if 2 * k > N { 1.0 } else { 0.0 };
             let (s, c) = const_math::sin_cos(turns * core::f64::consts::TAU);
-            entries[k] = [s as f32, c as f32];
+            entries[k] = Pair {
+                sin: s as f32,
+                cos: c as f32,
+            };
             k += 1;
         }
         entries
     };
-    /// 2π/N in two parts, the first of 11 bits: exact times |k| < 2¹³.
-    const STEP: [f32; 2] = {
-        let step = core::f64::consts::TAU / N as f64;
-        let first = f32::from_bits((step as f32).to_bits() & !0x1fff);
-        [first, (step - first as f64) as f32]
+
+    /// 2π/N in parts, all but the last so short that they are exact times k: 11 bits for |k| < 2¹³, 6 for 2¹⁸.
+    const STEP: [f32; PARTS] = {
+        let short = if PARTS == 2 { 0x1fff } else { 0x3_ffff };
+        let mut rest = core::f64::consts::TAU / N as f64;
+        let (mut step, mut i) = ([0.0; PARTS], 0);
+        while i + 1 < PARTS {
+            step[i] = f32::from_bits((rest as f32).to_bits() & !short);
+            rest -= step[i] as f64;
+            i += 1;
+        }
+        step[PARTS - 1] = rest as f32;
+        step
     };
 }
 
-impl<const N: usize, const ORDER: usize> Kernel<f32> for Table<N, ORDER> {
+impl<const N: usize, const ORDER: usize, const PARTS: usize> Kernel<f32>
+    for Table<N, ORDER, PARTS>
+{
     #[inline(always)]
     fn sin_cos(x: f32) -> (f32, f32) {
         // As in `minimax`: rounds, and leaves the integer in the low bits.
@@ -59,18 +88,21 @@ impl<const N: usize, const ORDER: usize> Kernel<f32> for Table<N, ORDER> {
             // The table's own error is larger than that of one part.
             x - k * const { (core::f64::consts::TAU / N as f64) as f32 }
         } else {
-            let [first, second] = Self::STEP;
-            (x - k * first) - k * second
+            let mut r = x;
+            for part in const { Self::STEP } {
+                r -= k * part;
+            }
+            r
         };
-        let [s, c] = const { &Self::ENTRIES }[at];
+        let Pair { sin: s, cos: c } = const { &Self::ENTRIES }[at];
+        let u = r * r;
+        let sixth = || r + r * (u * (-1.0 / 6.0));
         // sin r and cos r − 1.
         let (ds, dc) = match ORDER {
             1 => return (s + c * r, c - s * r),
-            2 => (r, r * r * -0.5),
-            _ => {
-                let u = r * r;
-                (r + r * (u * (-1.0 / 6.0)), u * (-0.5 + u * (1.0 / 24.0)))
-            }
+            2 => (r, u * -0.5),
+            3 => (sixth(), u * -0.5),
+            _ => (sixth(), u * (-0.5 + u * (1.0 / 24.0))),
         };
         (s + (s * dc + c * ds), c + (c * dc - s * ds))
     }

@@ -38,7 +38,7 @@ pub struct Rigid<T, const N: usize>(RotorInertia<f32, N>, Viscous<f32, N>, Phant
 
 impl<T: Robot<N, N, N> + Joints<N>, const N: usize> Inverse<N> for Compliant<T, N> {
     const KEY: Key = Key {
-        trig: "minimax7x3",
+        trig: "table3x4",
         model: "compliant",
         form: "core",
         ..Key::DEFAULT

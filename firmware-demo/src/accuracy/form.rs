@@ -66,5 +66,5 @@ macro_rules! form {
         }
     };
 }
-form!(Engine, "engine", "minimax7");
-form!(Core, "core", "minimax7x3");
+form!(Engine, "engine", "table3");
+form!(Core, "core", "table3x4");

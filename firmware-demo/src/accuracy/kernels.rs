@@ -46,6 +46,8 @@ named!(
     Table<256, 1> = "table",
     Table<256, 2> = "table2",
     Table<64, 4> = "table4",
+    Table<128, 3> = "table3",
+    Table<128, 3, 4> = "table3x4",
     Libm = "libm",
     Micromath = "micromath"
 );

@@ -16,7 +16,7 @@ use core::fmt;
 pub struct Key {
     /// Numbers: `f32`, `f64`, `compensated`, `q31`.
     pub arith: &'static str,
-    /// Sines and cosines: `minimax7` and others, see [`super::kernels`].
+    /// Sines and cosines: `table3` and others, see [`super::kernels`].
     pub trig: &'static str,
     /// What is computed: `full` and others, see [`super::model`].
     pub model: &'static str,
@@ -32,7 +32,7 @@ impl Key {
     /// The library's own choice.
     pub const DEFAULT: Self = Self {
         arith: "f32",
-        trig: "minimax7",
+        trig: "table3",
         model: "full",
         rate: "1",
         between: "held",

@@ -33,15 +33,12 @@ where
     rounded::<T, 11, B, N>(visitor);
 
     type Own<T, const B: usize> = Shipped<Full<T>, Engine<T>, B>;
-    type Tabled<T, const B: usize> = By<Table<64, 4>, Full<T>, Engine<T>, B>;
     type Coarse<T, const B: usize> = By<Table<256, 1>, Full<T>, Engine<T>, B>;
     type Weight<T, const B: usize> = Shipped<GravityOnly<T>, Engine<T>, B>;
     rates::<Own<T, B>, N>(visitor);
-    rates::<Tabled<T, B>, N>(visitor);
     rates::<Coarse<T, B>, N>(visitor);
     rates::<Weight<T, B>, N>(visitor);
-    linearised::<Minimax<7, 2>, T, B, N>(visitor);
-    linearised::<Table<64, 4>, T, B, N>(visitor);
+    linearised::<Table<128, 3>, T, B, N>(visitor);
     linearised::<Table<256, 1>, T, B, N>(visitor);
 }
 
@@ -55,7 +52,7 @@ where
     visitor.way::<Own<Full<T>, T, B>>();
     visitor.way::<Kernel<Minimax<5, 2>, T, B>>();
     visitor.way::<Kernel<Minimax<3, 2>, T, B>>();
-    visitor.way::<Kernel<Table<64, 4>, T, B>>();
+    visitor.way::<Kernel<Minimax<7, 2>, T, B>>();
     visitor.way::<Kernel<Table<256, 1>, T, B>>();
     visitor.way::<Following<Full<T>, Engine<T>, B, N>>();
     visitor.way::<Own<NoCoriolis<T>, T, B>>();
@@ -63,7 +60,7 @@ where
     rounded::<T, 8, B, N>(visitor);
     visitor.way::<Every<Own<Full<T>, T, B>, Held<f32, N>, 10>>();
     visitor.way::<Every<Own<Full<T>, T, B>, Interpolated<f32, N, 10>, 10>>();
-    visitor.way::<EveryLinearised<Minimax<7, 2>, Full<T>, B, N, 10>>();
+    visitor.way::<EveryLinearised<Table<128, 3>, Full<T>, B, N, 10>>();
     visitor.way::<Shipped<Full<T>, Core<T>, B>>();
 }
 
@@ -72,10 +69,10 @@ fn forms<M: Modelled<B, N>, const B: usize, const N: usize>(visitor: &mut impl V
     type E<M, const B: usize, const N: usize> = Engine<<M as Modelled<B, N>>::Robot>;
     type C<M, const B: usize, const N: usize> = Core<<M as Modelled<B, N>>::Robot>;
     visitor.way::<Shipped<M, E<M, B, N>, B>>();
-    visitor.way::<By<Minimax<7, 3>, M, E<M, B, N>, B>>();
+    visitor.way::<By<Table<128, 3, 4>, M, E<M, B, N>, B>>();
     kernels::<M, E<M, B, N>, B, N>(visitor);
     visitor.way::<Shipped<M, C<M, B, N>, B>>();
-    visitor.way::<By<Minimax<7, 2>, M, C<M, B, N>, B>>();
+    visitor.way::<By<Table<128, 3>, M, C<M, B, N>, B>>();
     kernels::<M, C<M, B, N>, B, N>(visitor);
 }
 
@@ -84,6 +81,8 @@ where
     M: Modelled<B, N>,
     F: Form<M::Robot>,
 {
+    visitor.way::<By<Minimax<7, 3>, M, F, B>>();
+    visitor.way::<By<Minimax<7, 2>, M, F, B>>();
     visitor.way::<By<Minimax<5, 2>, M, F, B>>();
     visitor.way::<By<Minimax<3, 2>, M, F, B>>();
     visitor.way::<By<Table<64, 4>, M, F, B>>();

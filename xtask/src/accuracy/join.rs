@@ -214,7 +214,7 @@ mod tests {
     }
 
     const LINES: &str = r#"
-{"kind":"inverse","robot":"arm","plant":"rigid","key":"default","configuration":{"trig":"minimax7"},"unit":"N·m","full_scale":10.0,"error_max":1e-5,"error_rms":1e-6,"error_p99":9e-6,"relative_max":1e-6}
+{"kind":"inverse","robot":"arm","plant":"rigid","key":"default","configuration":{"trig":"table3"},"unit":"N·m","full_scale":10.0,"error_max":1e-5,"error_rms":1e-6,"error_p99":9e-6,"relative_max":1e-6}
 {"kind":"simulation","robot":"arm","key":"default","step":1000,"configuration":{"step":"1000"},"unit":"rad","full_scale":1.0,"error_max":null,"error_rms":null,"error_p99":null,"relative_max":null}"#;
 
     #[test]

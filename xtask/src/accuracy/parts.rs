@@ -79,9 +79,9 @@ impl Parts<'_> {
             uses.push("scalar::Compensated");
         }
         let own = if form == "Core" {
-            "minimax7x3"
+            "table3x4"
         } else {
-            "minimax7"
+            "table3"
         };
         let (kernel, used) = match point.on("trig") {
             trig if trig == own || other => (None, None),
@@ -91,6 +91,8 @@ impl Parts<'_> {
             "minimax7x3" => (Some("Minimax<7, 3>"), Some("trig::Minimax")),
             "table" => (Some("Table<256, 1>"), Some("trig::Table")),
             "table2" => (Some("Table<256, 2>"), Some("trig::Table")),
+            "table3" => (Some("Table<128, 3>"), Some("trig::Table")),
+            "table3x4" => (Some("Table<128, 3, 4>"), Some("trig::Table")),
             "table4" => (Some("Table<64, 4>"), Some("trig::Table")),
             "incremental" => (None, Some("trig::Carried")),
             _ => return Err(lacks("trig")),

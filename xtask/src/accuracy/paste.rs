@@ -145,8 +145,8 @@ fn linearised(parts: &mut Parts<'_>, rate: &str) -> String {
     let kernel = match parts.kernel {
         Some(kernel) => kernel,
         None => {
-            parts.uses.push("trig::Minimax");
-            "Minimax<7, 2>"
+            parts.uses.push("trig::Table");
+            "Table<128, 3>"
         }
     };
     let fields = format!("    between: Linearised<f32, {joints}, {rate}>,\n    wait: usize,\n");
@@ -174,9 +174,9 @@ mod tests {
             (
                 "trig",
                 if key.contains("form=core") {
-                    "minimax7x3"
+                    "table3x4"
                 } else {
-                    "minimax7"
+                    "table3"
                 },
             ),
             ("model", "full"),
@@ -225,7 +225,7 @@ mod tests {
                 "rate=10,between=linearised",
                 file!("ur5e_linearised"),
             ),
-            ("a1_leg", "trig=table4", file!("a1_leg_table4")),
+            ("a1_leg", "trig=minimax7", file!("a1_leg_minimax7")),
         ];
         // Rustfmt may break lines where it likes, and then adds commas.
         let words = |text: &str| {

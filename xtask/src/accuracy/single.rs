@@ -18,7 +18,7 @@ pub const KEYS: [&str; 13] = [
     "default",
     "trig=minimax5",
     "trig=minimax3",
-    "trig=table4",
+    "trig=minimax7",
     "trig=table",
     "trig=incremental",
     "model=no_coriolis",

@@ -89,12 +89,12 @@ pasted! {
     ur5e_table: LinearTable plain 6, 0, trig "table";
     ur5e_no_coriolis: NoCoriolis plain 6, 0, model "no_coriolis";
     ur5e_params8: Rounded plain 6, 0, model "params8";
-    ur5e_core: Core plain 6, 0, form "core", trig "minimax7x3";
+    ur5e_core: Core plain 6, 0, form "core", trig "table3x4";
     ur5e_incremental: Carried ticking 6, 0, trig "incremental";
     ur5e_held: Held ticking 6, 0, rate "10";
     ur5e_interpolated: Interpolated ticking 6, 10, rate "10", between "interpolated";
     ur5e_linearised: Linearised ticking 6, 0, rate "10", between "linearised";
-    a1_leg_table4: LegQuarticTable plain 3, 0, trig "table4";
+    a1_leg_minimax7: LegMinimax plain 3, 0, trig "minimax7";
 }
 
 /// Shows those of the UR5e.
@@ -112,5 +112,5 @@ pub fn ur5e(visitor: &mut impl Visitor<6>) {
 
 /// Shows those of a quadruped's leg.
 pub fn a1_leg(visitor: &mut impl Visitor<3>) {
-    visitor.way::<LegQuarticTable>();
+    visitor.way::<LegMinimax>();
 }

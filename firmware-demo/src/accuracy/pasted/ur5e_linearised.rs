@@ -3,7 +3,7 @@ use dynamics_core::control::Linearised;
 use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::robots::Ur5e;
 use dynamics_core::state::State;
-use dynamics_core::trig::Minimax;
+use dynamics_core::trig::Table;
 
 /// Torques of a motion, tick by tick.
 pub struct Torques {
@@ -28,7 +28,7 @@ impl Torques {
             return self.between.coast(&state.qdd);
         }
         self.wait = 10 - 1;
-        let posture = Engine::<Ur5e>::posture_by::<Minimax<7, 2>, f32, 6, 6, 6>(&state.q);
+        let posture = Engine::<Ur5e>::posture_by::<Table<128, 3>, f32, 6, 6, 6>(&state.q);
         let torque = Engine::<Ur5e>::rnea_at(&posture, state, &RIGID_BODY);
         let mass_matrix = Engine::<Ur5e>::crba_at(&posture, &RIGID_BODY);
         self.between.renew(torque, mass_matrix, &state.qdd)

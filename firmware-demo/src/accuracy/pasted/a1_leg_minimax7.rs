@@ -2,10 +2,10 @@ use dynamics_core::Engine;
 use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::robots::A1Leg;
 use dynamics_core::state::State;
-use dynamics_core::trig::Table;
+use dynamics_core::trig::Minimax;
 
 /// Torques of a motion, N·m.
 #[inline]
 pub fn torques(state: &State<f32, 3, 3>) -> [f32; 3] {
-    Engine::<A1Leg>::rnea_by::<Table<64, 4>, f32, _, 4, 3, 3>(state, &RIGID_BODY)
+    Engine::<A1Leg>::rnea_by::<Minimax<7, 2>, f32, _, 4, 3, 3>(state, &RIGID_BODY)
 }

@@ -1,8 +1,7 @@
 //! A time step that keeps the energy of what nothing brakes or drives.
 
 use super::rates::ahead;
-use super::{Integrator, Mechanics, Rates, RungeKutta};
-use crate::algorithms::NotPositiveDefinite;
+use super::{Integrator, Mechanics, RungeKutta, Step};
 use crate::scalar::Real;
 use crate::state::State;
 
@@ -24,15 +23,10 @@ impl<R: Real, const Q: usize, const V: usize> Integrator<R, Q, V> for EnergyKept
         }
     }
 
-    fn step(
-        &self,
-        mechanics: &impl Mechanics<R, Q, V>,
-        at: &State<R, Q, V>,
-        h: R,
-    ) -> Result<Rates<R, V>, NotPositiveDefinite> {
-        let mut rates = RungeKutta.step(mechanics, at, h)?;
-        let end = rates.end(mechanics, at, h);
-        let (kinetic, potential) = mechanics.energies(&end);
+    fn step(&self, robot: &impl Mechanics<R, Q, V>, at: &State<R, Q, V>, h: R) -> Step<R, V> {
+        let mut rates = RungeKutta.step(robot, at, h)?;
+        let end = rates.end(robot, at, h);
+        let (kinetic, potential) = robot.energies(&end);
         // √(1 + 2x) − 1 of a small x to second order; near rest there is nothing to scale.
         let x = (self.energy - potential - kinetic) * R::from_f64(0.5) / kinetic;
         if x.abs() < R::from_f64(0.1) {

@@ -1,7 +1,7 @@
 //! Time steps of first order: one acceleration, that of the step's beginning.
 
 use super::rates::ahead;
-use super::{Described, Integrator, Mechanics, Rates};
+use super::{Described, Integrator, Mechanics, Rates, Step};
 use crate::algorithms::NotPositiveDefinite;
 use crate::effects::Effect;
 use crate::model::Description;
@@ -14,13 +14,8 @@ pub struct Euler;
 
 impl<R: Real, const Q: usize, const V: usize> Integrator<R, Q, V> for Euler {
     #[inline(always)]
-    fn step(
-        &self,
-        mechanics: &impl Mechanics<R, Q, V>,
-        at: &State<R, Q, V>,
-        _h: R,
-    ) -> Result<Rates<R, V>, NotPositiveDefinite> {
-        Ok(Rates::straight(at.qd, mechanics.acceleration(at)?))
+    fn step(&self, robot: &impl Mechanics<R, Q, V>, at: &State<R, Q, V>, _h: R) -> Step<R, V> {
+        Ok(Rates::straight(at.qd, robot.acceleration(at)?))
     }
 }
 
@@ -30,13 +25,8 @@ pub struct SemiImplicit;
 
 impl<R: Real, const Q: usize, const V: usize> Integrator<R, Q, V> for SemiImplicit {
     #[inline(always)]
-    fn step(
-        &self,
-        mechanics: &impl Mechanics<R, Q, V>,
-        at: &State<R, Q, V>,
-        h: R,
-    ) -> Result<Rates<R, V>, NotPositiveDefinite> {
-        let qdd = mechanics.acceleration(at)?;
+    fn step(&self, robot: &impl Mechanics<R, Q, V>, at: &State<R, Q, V>, h: R) -> Step<R, V> {
+        let qdd = robot.acceleration(at)?;
         Ok(Rates::straight(ahead(at.qd, h, &qdd), qdd))
     }
 }

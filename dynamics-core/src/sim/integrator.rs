@@ -7,6 +7,9 @@ use crate::algorithms::NotPositiveDefinite;
 use crate::scalar::Real;
 use crate::state::State;
 
+/// The mean rates of a step, or the joint that moves no inertia.
+pub type Step<R, const V: usize> = Result<Rates<R, V>, NotPositiveDefinite>;
+
 /// A way to step through time.
 ///
 /// ```
@@ -20,7 +23,7 @@ use crate::state::State;
 /// ```
 pub trait Integrator<R: Real, const Q: usize, const V: usize>: Default {
     /// For a motion from this state on.
-    fn start(_mechanics: &impl Mechanics<R, Q, V>, _at: &State<R, Q, V>) -> Self {
+    fn start(_robot: &impl Mechanics<R, Q, V>, _at: &State<R, Q, V>) -> Self {
         Self::default()
     }
 
@@ -28,12 +31,7 @@ pub trait Integrator<R: Real, const Q: usize, const V: usize>: Default {
     ///
     /// # Errors
     /// As forward dynamics.
-    fn step(
-        &self,
-        mechanics: &impl Mechanics<R, Q, V>,
-        at: &State<R, Q, V>,
-        h: R,
-    ) -> Result<Rates<R, V>, NotPositiveDefinite>;
+    fn step(&self, robot: &impl Mechanics<R, Q, V>, at: &State<R, Q, V>, h: R) -> Step<R, V>;
 
     /// Takes the step; `state.qdd` is left at the acceleration used.
     ///
@@ -41,11 +39,11 @@ pub trait Integrator<R: Real, const Q: usize, const V: usize>: Default {
     /// As forward dynamics; the state is then left as it was.
     fn advance(
         &self,
-        mechanics: &impl Mechanics<R, Q, V>,
+        robot: &impl Mechanics<R, Q, V>,
         state: &mut State<R, Q, V>,
         h: R,
     ) -> Result<(), NotPositiveDefinite> {
-        *state = self.step(mechanics, state, h)?.end(mechanics, state, h);
+        *state = self.step(robot, state, h)?.end(robot, state, h);
         Ok(())
     }
 }

@@ -1,7 +1,7 @@
 //! A time step that no spring, damper or bristle makes unstable.
 
 use super::rates::ahead;
-use super::{Described, Integrator, Mechanics, Rates};
+use super::{Described, Integrator, Mechanics, Rates, Step};
 use crate::algorithms::NotPositiveDefinite;
 use crate::effects::{Effect, joint_state};
 use crate::model::Description;
@@ -15,13 +15,8 @@ pub struct LinearlyImplicit;
 
 impl<R: Real, const Q: usize, const V: usize> Integrator<R, Q, V> for LinearlyImplicit {
     #[inline(always)]
-    fn step(
-        &self,
-        mechanics: &impl Mechanics<R, Q, V>,
-        at: &State<R, Q, V>,
-        h: R,
-    ) -> Result<Rates<R, V>, NotPositiveDefinite> {
-        let qdd = mechanics.implicit_acceleration(at, h)?;
+    fn step(&self, robot: &impl Mechanics<R, Q, V>, at: &State<R, Q, V>, h: R) -> Step<R, V> {
+        let qdd = robot.implicit_acceleration(at, h)?;
         Ok(Rates::straight(ahead(at.qd, h, &qdd), qdd))
     }
 }

@@ -19,7 +19,7 @@ pub use actuator::Actuator;
 pub use conserving::conserving;
 pub use energy_kept::EnergyKept;
 pub use euler::{Euler, SemiImplicit, semi_implicit};
-pub use integrator::Integrator;
+pub use integrator::{Integrator, Step};
 pub use linearly_implicit::{LinearlyImplicit, linearly_implicit};
 pub use mechanics::{Described, Mechanics};
 pub use rates::Rates;

@@ -11,7 +11,7 @@
 //! As two halves of a step, k + b and k − b: in Y₄ about k = k₃ with b = k₁ − k₃, in Y₊ about the mean k =
 //! (k₁ + 2 k₂ + 2 k₃ + k₄)/6 with b = (k₁ − k₄)/3. Joints of one axis do not see b: the classical method.
 
-use super::{Described, Integrator, Mechanics, Rates};
+use super::{Described, Integrator, Mechanics, Rates, Step};
 use crate::algorithms::NotPositiveDefinite;
 use crate::effects::Effect;
 use crate::model::Description;
@@ -24,17 +24,12 @@ pub struct RungeKutta;
 
 impl<R: Real, const Q: usize, const V: usize> Integrator<R, Q, V> for RungeKutta {
     #[inline(always)]
-    fn step(
-        &self,
-        mechanics: &impl Mechanics<R, Q, V>,
-        at: &State<R, Q, V>,
-        h: R,
-    ) -> Result<Rates<R, V>, NotPositiveDefinite> {
+    fn step(&self, robot: &impl Mechanics<R, Q, V>, at: &State<R, Q, V>, h: R) -> Step<R, V> {
         let rates = |at: &State<R, Q, V>| {
-            let qdd = mechanics.acceleration(at)?;
+            let qdd = robot.acceleration(at)?;
             Ok(Rates::straight(at.qd, qdd))
         };
-        let after = |k: &Rates<R, V>, h| rates(&k.end(mechanics, at, h));
+        let after = |k: &Rates<R, V>, h| rates(&k.end(robot, at, h));
         let half = h * R::from_f64(0.5);
         let first = rates(at)?;
         let second = after(&first, half)?;

@@ -5,7 +5,7 @@ use dynamics_core::effects::{Effect, RIGID_BODY, Viscous};
 use dynamics_core::model::Of;
 use dynamics_core::scalar::Real;
 use dynamics_core::sim::{
-    Described, EnergyKept, Euler, ImplicitDamping, Integrator, RungeKutta, SemiImplicit, Summed,
+    Described, EnergyKept, Euler, Integrator, LinearlyImplicit, RungeKutta, SemiImplicit, Summed,
 };
 use dynamics_core::state::State;
 use firmware_demo::accuracy::simulation::{DoublePendulum, LetGo};
@@ -19,7 +19,7 @@ fn watched<I, R, E, const COMPENSATED: bool>(
     mut see: impl FnMut(&State<R, 2, 2>),
 ) -> Option<State<R, 2, 2>>
 where
-    I: Integrator<R, 2>,
+    I: Integrator<R, 2, 2>,
     R: Real,
     E: Effect<R, 2, 2>,
 {
@@ -37,13 +37,13 @@ where
     let integrator = I::start(&robot, &motion.state);
     let h = R::from_f64(1.0 / f64::from(steps));
     for _ in 0..steps {
-        motion.add(integrator.step(&robot, &motion.state, h).ok()?);
+        motion.add(&integrator.step(&robot, &motion.state, h).ok()?, h);
         see(&motion.state);
     }
     Some(motion.state)
 }
 
-fn free<I: Integrator<R, 2>, R: Real, const COMPENSATED: bool>(steps: u32) -> State<R, 2, 2> {
+fn free<I: Integrator<R, 2, 2>, R: Real, const COMPENSATED: bool>(steps: u32) -> State<R, 2, 2> {
     watched::<I, R, _, COMPENSATED>(steps, &RIGID_BODY, |_| ()).expect("a pendulum has inertia")
 }
 
@@ -76,8 +76,8 @@ fn integrators_are_of_their_order() {
         (
             1.0,
             order(
-                free::<ImplicitDamping, f64, true>(1000),
-                free::<ImplicitDamping, f64, true>(2000),
+                free::<LinearlyImplicit, f64, true>(1000),
+                free::<LinearlyImplicit, f64, true>(2000),
             ),
         ),
         (
@@ -104,7 +104,7 @@ fn integrators_are_of_their_order() {
 fn a_kept_energy_stays() {
     fn lost<R: Real>(scalar: &str) -> Result<(), String>
     where
-        EnergyKept<R>: Integrator<R, 2>,
+        EnergyKept<R>: Integrator<R, 2, 2>,
     {
         let energy = |q: [f64; 2], qd: [f64; 2]| {
             let state = State {
@@ -149,7 +149,7 @@ fn compensated_addition_repairs_fine_steps() {
 #[test]
 fn no_damping_shakes_an_implicit_step() {
     let stiff = (RIGID_BODY, Viscous([50.0, 50.0]));
-    let implicit = watched::<ImplicitDamping, f64, _, false>(50, &stiff, |_| ());
+    let implicit = watched::<LinearlyImplicit, f64, _, false>(50, &stiff, |_| ());
     let truth = watched::<RungeKutta, f64, _, false>(20_000, &stiff, |_| ());
     let explicit = watched::<RungeKutta, f64, _, false>(50, &stiff, |_| ());
     let ended = |end: Option<State<f64, 2, 2>>| end.map_or(f64::NAN, |end| end.q[0]);

@@ -1,14 +1,28 @@
 //! A time step that no spring, damper or bristle makes unstable.
 
-use crate::algorithms::{NotPositiveDefinite, aba};
-use crate::configuration::integrate;
-use crate::effects::{Effect, Implicit, joint_state};
+use super::rates::ahead;
+use super::{Described, Integrator, Mechanics, Rates, Step};
+use crate::algorithms::NotPositiveDefinite;
+use crate::effects::{Effect, joint_state};
 use crate::model::Description;
 use crate::scalar::Real;
 use crate::state::State;
 
+/// Linearly implicit Euler: [`SemiImplicit`](super::SemiImplicit) with joint effects at the step's end along their
+/// slopes. First order. What effects remember stays as it is.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct LinearlyImplicit;
+
+impl<R: Real, const Q: usize, const V: usize> Integrator<R, Q, V> for LinearlyImplicit {
+    #[inline(always)]
+    fn step(&self, robot: &impl Mechanics<R, Q, V>, at: &State<R, Q, V>, h: R) -> Step<R, V> {
+        let qdd = robot.implicit_acceleration(at, h)?;
+        Ok(Rates::straight(ahead(at.qd, h, &qdd), qdd))
+    }
+}
+
 /// One step of `h` seconds by linearly implicit Euler: as [`semi_implicit`](super::semi_implicit), with
-/// joint effects taken at the step's end along their slopes ([`Implicit`]), which then move on what they
+/// joint effects taken at the step's end along their slopes ([`Implicit`](crate::effects::Implicit)), which then move on what they
 /// remember. First order in h; `state.qdd` is left at the acceleration used.
 ///
 /// Hairer & Wanner, *Solving Ordinary Differential Equations II* (1996), section IV.7; Baraff & Witkin
@@ -27,7 +41,7 @@ use crate::state::State;
 /// ```
 ///
 /// # Errors
-/// As [`aba`]; state and effects are then left as they were.
+/// As [`aba`](crate::algorithms::aba); state and effects are then left as they were.
 pub fn linearly_implicit<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     state: &mut State<R, Q, V>,
@@ -39,11 +53,13 @@ where
     D: Description<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    state.qdd = aba(robot, state, tau, &Implicit::new(robot, state, effects, h))?;
-    for (qd, &qdd) in state.qd.iter_mut().zip(&state.qdd) {
-        *qd += h * qdd;
-    }
-    state.q = integrate(robot, &state.q, &state.qd.map(|qd| h * qd));
+    let (tau, acting) = (*tau, &*effects);
+    let mechanics = Described {
+        robot,
+        tau,
+        effects: acting,
+    };
+    LinearlyImplicit.advance(&mechanics, state, h)?;
     for node in robot.nodes() {
         for k in node.coordinates() {
             effects.advance(k, joint_state(&node, state, k), h);

@@ -1,18 +1,19 @@
-//! What an integrator asks of a robot whose coordinates add up: joints of one degree of freedom.
+//! What an integrator asks of a robot.
 
-use crate::algorithms::{NotPositiveDefinite, aba_at, kinetic_energy_at, potential_energy_at};
+use super::Rates;
+use crate::algorithms::{NotPositiveDefinite, aba, kinetic_energy_at, potential_energy_at};
 use crate::effects::{Effect, Implicit};
 use crate::model::Description;
 use crate::scalar::Real;
 use crate::state::{Posture, State};
 
 /// A robot under some torques and effects, as [`Integrator`](super::Integrator)s see it.
-pub trait Mechanics<R, const V: usize> {
+pub trait Mechanics<R, const Q: usize, const V: usize> {
     /// q̈ of q and q̇.
     ///
     /// # Errors
     /// As forward dynamics.
-    fn acceleration(&self, at: &State<R, V, V>) -> Result<[R; V], NotPositiveDefinite>;
+    fn acceleration(&self, at: &State<R, Q, V>) -> Result<[R; V], NotPositiveDefinite>;
 
     /// q̈ that a step of h seconds takes which treats joint effects along their slopes: [`Implicit`].
     ///
@@ -20,12 +21,15 @@ pub trait Mechanics<R, const V: usize> {
     /// As forward dynamics.
     fn implicit_acceleration(
         &self,
-        at: &State<R, V, V>,
+        at: &State<R, Q, V>,
         h: R,
     ) -> Result<[R; V], NotPositiveDefinite>;
 
     /// Kinetic and potential energy, J.
-    fn energies(&self, at: &State<R, V, V>) -> (R, R);
+    fn energies(&self, at: &State<R, Q, V>) -> (R, R);
+
+    /// Where q is after h seconds at these rates: [`Rates::moved`].
+    fn moved(&self, q: &[R; Q], at: &Rates<R, V>, h: R) -> [R; Q];
 }
 
 /// A robot by its description, under constant torques.
@@ -47,31 +51,34 @@ pub struct Described<'a, D, E, R, const B: usize, const V: usize> {
     pub effects: &'a E,
 }
 
-impl<R: Real, D, E, const B: usize, const V: usize> Mechanics<R, V> for Described<'_, D, E, R, B, V>
+impl<R: Real, D, E, const B: usize, const Q: usize, const V: usize> Mechanics<R, Q, V>
+    for Described<'_, D, E, R, B, V>
 where
-    D: Description<R, B, V, V>,
+    D: Description<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    fn acceleration(&self, at: &State<R, V, V>) -> Result<[R; V], NotPositiveDefinite> {
-        let posture = Posture::of(self.robot, &at.q);
-        aba_at(self.robot, &posture, at, &self.tau, self.effects)
+    fn acceleration(&self, at: &State<R, Q, V>) -> Result<[R; V], NotPositiveDefinite> {
+        aba(self.robot, at, &self.tau, self.effects)
     }
 
     fn implicit_acceleration(
         &self,
-        at: &State<R, V, V>,
+        at: &State<R, Q, V>,
         h: R,
     ) -> Result<[R; V], NotPositiveDefinite> {
-        let posture = Posture::of(self.robot, &at.q);
         let effects = Implicit::new(self.robot, at, self.effects, h);
-        aba_at(self.robot, &posture, at, &self.tau, &effects)
+        aba(self.robot, at, &self.tau, &effects)
     }
 
-    fn energies(&self, at: &State<R, V, V>) -> (R, R) {
+    fn energies(&self, at: &State<R, Q, V>) -> (R, R) {
         let posture = Posture::of(self.robot, &at.q);
         (
             kinetic_energy_at(self.robot, &posture, at, self.effects),
             potential_energy_at(self.robot, &posture, self.effects),
         )
+    }
+
+    fn moved(&self, q: &[R; Q], at: &Rates<R, V>, h: R) -> [R; Q] {
+        at.moved(self.robot, q, h)
     }
 }

@@ -8,19 +8,57 @@
 //! Y₊ = Y ⊕ h/12 (3 k₁ + 2 k₂ + 2 k₃ − k₄) ⊕ h/12 (−k₁ + 2 k₂ + 2 k₃ + 3 k₄)
 //! ```
 //!
-//! For joints of one axis it is the classical method.
+//! As two halves of a step, k + b and k − b: in Y₄ about k = k₃ with b = k₁ − k₃, in Y₊ about the mean k =
+//! (k₁ + 2 k₂ + 2 k₃ + k₄)/6 with b = (k₁ − k₄)/3. Joints of one axis do not see b: the classical method.
 
-use crate::algorithms::{NotPositiveDefinite, aba};
-use crate::configuration::integrate;
+use super::{Described, Integrator, Mechanics, Rates, Step};
+use crate::algorithms::NotPositiveDefinite;
 use crate::effects::Effect;
 use crate::model::Description;
 use crate::scalar::Real;
 use crate::state::State;
 
+/// Runge and Kutta's method. Fourth order, four forward dynamics a step.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct RungeKutta;
+
+impl<R: Real, const Q: usize, const V: usize> Integrator<R, Q, V> for RungeKutta {
+    #[inline(always)]
+    fn step(&self, robot: &impl Mechanics<R, Q, V>, at: &State<R, Q, V>, h: R) -> Step<R, V> {
+        let rates = |at: &State<R, Q, V>| {
+            let qdd = robot.acceleration(at)?;
+            Ok(Rates::straight(at.qd, qdd))
+        };
+        let after = |k: &Rates<R, V>, h| rates(&k.end(robot, at, h));
+        let half = h * R::from_f64(0.5);
+        let first = rates(at)?;
+        let second = after(&first, half)?;
+        let mut third = after(&second, half)?;
+        third.bend = Some(core::array::from_fn(|j| first.qd[j] - third.qd[j]));
+        let last = after(&third, h)?;
+
+        let [third_of, sixth_of] = [1.0 / 3.0, 1.0 / 6.0].map(R::from_f64);
+        let mean = |of: fn(&Rates<R, V>) -> &[R; V]| {
+            let [first, second, third, last] = [&first, &second, &third, &last].map(of);
+            core::array::from_fn(|j| {
+                let inner = sixth_of * first[j] + third_of * second[j] + third_of * third[j];
+                inner + sixth_of * last[j]
+            })
+        };
+        Ok(Rates {
+            qd: mean(|k| &k.qd),
+            qdd: mean(|k| &k.qdd),
+            bend: Some(core::array::from_fn(|j| {
+                third_of * (first.qd[j] - last.qd[j])
+            })),
+        })
+    }
+}
+
 /// One step of `h` seconds of fourth order, explicit: for motion without stiff springs, dampers or dry
 /// friction. `state.qdd` is left at the mean acceleration; what effects remember stays as it is.
 ///
-/// Cost: four times that of [`aba`], and for quaternions five exponentials.
+/// Cost: four times that of [`aba`](crate::algorithms::aba), and for quaternions six exponentials.
 ///
 /// ```
 /// use dynamics_core::{effects::RIGID_BODY, model::Robot, robots::Ur5e, sim::runge_kutta, state::State};
@@ -38,7 +76,7 @@ use crate::state::State;
 /// ```
 ///
 /// # Errors
-/// As [`aba`]; the state is then left as it was.
+/// As [`aba`](crate::algorithms::aba); the state is then left as it was.
 pub fn runge_kutta<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     state: &mut State<R, Q, V>,
@@ -50,43 +88,14 @@ where
     D: Description<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    let of = R::from_f64;
-    let (half, zero) = (of(0.5) * h, [R::ZERO; V]);
-    // The state from q on by a step of positions, at q̇ and a step of velocities.
-    let stage = |from: &[R; Q], step: &[R; V], faster: &[R; V]| State {
-        q: integrate(robot, from, step),
-        qd: sum([(R::ONE, &state.qd), (R::ONE, faster)]),
-        qdd: zero,
-    };
-    let rate = |at: &State<R, Q, V>| aba(robot, at, tau, effects);
-
-    let (v_1, a_1) = (state.qd, rate(state)?);
-    let y = stage(&state.q, &sum([(half, &v_1)]), &sum([(half, &a_1)]));
-    let (second, v_2, a_2) = (y.q, y.qd, rate(&y)?);
-    let y = stage(&state.q, &sum([(half, &v_2)]), &sum([(half, &a_2)]));
-    let (v_3, a_3) = (y.qd, rate(&y)?);
-    let ahead = sum([(h, &v_3), (-half, &v_1)]);
-    let y = stage(&second, &ahead, &sum([(h, &a_3)]));
-    let (v_4, a_4) = (y.qd, rate(&y)?);
-
-    let w = h * of(1.0 / 12.0);
-    let (less, twice, more) = (-w, w + w, of(3.0) * w);
-    let first = sum([(more, &v_1), (twice, &v_2), (twice, &v_3), (less, &v_4)]);
-    let last = sum([(less, &v_1), (twice, &v_2), (twice, &v_3), (more, &v_4)]);
-    let (sixth, third) = (of(1.0 / 6.0), of(1.0 / 3.0));
-    state.qdd = sum([(sixth, &a_1), (third, &a_2), (third, &a_3), (sixth, &a_4)]);
-    state.qd = sum([(R::ONE, &state.qd), (h, &state.qdd)]);
-    state.q = integrate(robot, &integrate(robot, &state.q, &first), &last);
-    Ok(())
-}
-
-/// Σ w k.
-fn sum<R: Real, const V: usize, const N: usize>(terms: [(R, &[R; V]); N]) -> [R; V] {
-    let mut out = [R::ZERO; V];
-    for (weight, k) in terms {
-        for (out, &k) in out.iter_mut().zip(k) {
-            *out += weight * k;
-        }
-    }
-    out
+    let tau = *tau;
+    RungeKutta.advance(
+        &Described {
+            robot,
+            tau,
+            effects,
+        },
+        state,
+        h,
+    )
 }

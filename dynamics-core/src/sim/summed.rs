@@ -1,10 +1,10 @@
 //! Many small increments on a large number, with or without what rounding takes from each.
 
-use super::Increments;
+use super::Rates;
 use crate::scalar::Real;
 use crate::state::State;
 
-/// Position and velocity of V joints that increments are added to; `COMPENSATED`, what rounding took from an increment
+/// Position and velocity of V joints of one axis, to which steps are added; `COMPENSATED`, what rounding took from an increment
 /// is added with the next.
 ///
 /// Kahan, "Further remarks on reducing truncation errors" (1965). In f32 a step of 10 µs at 1 rad/s adds 10⁻⁵ rad, of
@@ -12,12 +12,13 @@ use crate::state::State;
 /// more a coordinate.
 ///
 /// ```
-/// use dynamics_core::{sim::Summed, state::State};
+/// use dynamics_core::{sim::{Rates, Summed}, state::State};
 /// let mut plain = Summed::<f32, 1, false>::at(State::at([3.0]));
 /// let mut compensated = Summed::<f32, 1, true>::at(State::at([3.0]));
+/// let slow = Rates::straight([1e-3], [0.0]);
 /// for _ in 0..10_000 {
-///     plain.add([[1e-7], [0.0]]);
-///     compensated.add([[1e-7], [0.0]]);
+///     plain.add(&slow, 1e-4);
+///     compensated.add(&slow, 1e-4);
 /// }
 /// assert_eq!(plain.state.q[0], 3.0); // lost, every one
 /// assert!((compensated.state.q[0] - 3.001).abs() < 3e-7);
@@ -26,7 +27,7 @@ use crate::state::State;
 pub struct Summed<R, const V: usize, const COMPENSATED: bool> {
     /// Position and velocity; the acceleration stays as it is.
     pub state: State<R, V, V>,
-    lost: Increments<R, V>,
+    lost: [[R; V]; 2],
 }
 
 impl<R: Real, const V: usize, const COMPENSATED: bool> Summed<R, V, COMPENSATED> {
@@ -38,23 +39,25 @@ impl<R: Real, const V: usize, const COMPENSATED: bool> Summed<R, V, COMPENSATED>
         }
     }
 
-    /// A step on.
-    pub fn add(&mut self, [q, qd]: Increments<R, V>) {
+    /// A step of h seconds on.
+    #[inline(always)]
+    pub fn add(&mut self, rates: &Rates<R, V>, h: R) {
         let [lost_q, lost_qd] = &mut self.lost;
-        add::<R, COMPENSATED>(&mut self.state.q, lost_q, &q);
-        add::<R, COMPENSATED>(&mut self.state.qd, lost_qd, &qd);
+        add::<R, COMPENSATED>(&mut self.state.q, lost_q, &rates.qd, h);
+        add::<R, COMPENSATED>(&mut self.state.qd, lost_qd, &rates.qdd, h);
     }
 }
 
-fn add<R: Real, const COMPENSATED: bool>(sums: &mut [R], lost: &mut [R], increments: &[R]) {
-    for ((sum, lost), &increment) in sums.iter_mut().zip(lost).zip(increments) {
+#[inline(always)]
+fn add<R: Real, const COMPENSATED: bool>(sums: &mut [R], lost: &mut [R], rates: &[R], h: R) {
+    for ((sum, lost), &rate) in sums.iter_mut().zip(lost).zip(rates) {
         if COMPENSATED {
-            let wanted = increment - *lost;
+            let wanted = h * rate - *lost;
             let new = *sum + wanted;
             *lost = (new - *sum) - wanted;
             *sum = new;
         } else {
-            *sum += increment;
+            *sum += h * rate;
         }
     }
 }

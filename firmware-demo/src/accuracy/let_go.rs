@@ -7,7 +7,7 @@ use dynamics_core::effects::{Coriolis, Effect, Gravity, Implicit, Inertia, RIGID
 use dynamics_core::model::{Arm, BASE, Body, Joint, Of, Robot};
 use dynamics_core::robots::Ur5e;
 use dynamics_core::scalar::Real;
-use dynamics_core::sim::Mechanics;
+use dynamics_core::sim::{Mechanics, Rates};
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
 
@@ -102,7 +102,7 @@ impl<T, E> Engined<T, E> {
     }
 }
 
-impl<T, E, R: Real, const N: usize> Mechanics<R, N> for Engined<T, E>
+impl<T, E, R: Real, const N: usize> Mechanics<R, N, N> for Engined<T, E>
 where
     T: Robot<N, N, N>,
     E: Effect<R, N, N>,
@@ -125,5 +125,9 @@ where
             Core::<T>::kinetic_energy(at, &self.effects),
             Core::<T>::potential_energy(&at.q, &self.effects),
         )
+    }
+
+    fn moved(&self, q: &[R; N], at: &Rates<R, N>, h: R) -> [R; N] {
+        at.moved(&Of::<T>::NEW, q, h)
     }
 }

@@ -5,7 +5,7 @@ use core::fmt;
 use dynamics_core::algorithms::NotPositiveDefinite;
 use dynamics_core::scalar::Real;
 use dynamics_core::sim::{
-    EnergyKept, Euler, ImplicitDamping, Integrator, RungeKutta, SemiImplicit, Summed,
+    EnergyKept, Euler, Integrator, LinearlyImplicit, RungeKutta, SemiImplicit, Summed,
 };
 use dynamics_core::state::State;
 
@@ -90,7 +90,7 @@ named!(
     Euler = "euler",
     SemiImplicit = "semi_implicit",
     RungeKutta = "rk4",
-    ImplicitDamping = "implicit_damping",
+    LinearlyImplicit = "implicit_damping",
     EnergyKept<f32> = "energy",
     EnergyKept<f64> = "energy"
 );
@@ -107,7 +107,7 @@ impl<T, S, I, R, const N: usize, const COMPENSATED: bool> Run<T, S, I, R, N, COM
 where
     T: LetGo<N>,
     S: Scene<T, R, N>,
-    I: Integrator<R, N>,
+    I: Integrator<R, N, N>,
     R: Real,
 {
     #[inline(never)]
@@ -115,7 +115,7 @@ where
         let step = self
             .integrator
             .step(&self.mechanics, &self.motion.state, h)?;
-        self.motion.add(step);
+        self.motion.add(&step, h);
         Ok(())
     }
 }
@@ -125,7 +125,7 @@ impl<T, S, I, R, const N: usize, const COMPENSATED: bool> Simulation<N>
 where
     T: LetGo<N>,
     S: Scene<T, R, N>,
-    I: Integrator<R, N> + Named,
+    I: Integrator<R, N, N> + Named,
     R: Real,
 {
     const KEY: Key = Key {
@@ -174,7 +174,7 @@ pub fn every<T: LetGo<N>, const N: usize>(visitor: &mut impl Visitor<N>) {
     visitor.simulation::<Run<T, Free, SemiImplicit, f64, N, false>>();
     visitor.simulation::<Run<T, Free, RungeKutta, f64, N, false>>();
     visitor.simulation::<Run<T, Free, EnergyKept<f64>, f64, N, false>>();
-    visitor.simulation::<Run<T, Damped, ImplicitDamping, f64, N, false>>();
+    visitor.simulation::<Run<T, Damped, LinearlyImplicit, f64, N, false>>();
 }
 
 fn scalar<T: LetGo<N>, R: Real, const N: usize, const COMPENSATED: bool>(
@@ -185,5 +185,5 @@ fn scalar<T: LetGo<N>, R: Real, const N: usize, const COMPENSATED: bool>(
     visitor.simulation::<Run<T, Free, RungeKutta, R, N, COMPENSATED>>();
     visitor.simulation::<Run<T, Damped, SemiImplicit, R, N, COMPENSATED>>();
     visitor.simulation::<Run<T, Damped, RungeKutta, R, N, COMPENSATED>>();
-    visitor.simulation::<Run<T, Damped, ImplicitDamping, R, N, COMPENSATED>>();
+    visitor.simulation::<Run<T, Damped, LinearlyImplicit, R, N, COMPENSATED>>();
 }

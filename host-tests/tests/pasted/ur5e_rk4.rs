@@ -1,14 +1,15 @@
 use dynamics_core::algorithms::NotPositiveDefinite;
 use dynamics_core::effects::RIGID_BODY;
+use dynamics_core::model::Of;
 use dynamics_core::robots::Ur5e;
-use dynamics_core::sim::{Integrator, Mechanics, RungeKutta, Summed};
+use dynamics_core::sim::{Integrator, Mechanics, Rates, RungeKutta, Summed};
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
 
 /// The robot without torques.
 pub struct LetGo;
 
-impl Mechanics<f32, 6> for LetGo {
+impl Mechanics<f32, 6, 6> for LetGo {
     fn acceleration(&self, at: &State<f32, 6, 6>) -> Result<[f32; 6], NotPositiveDefinite> {
         Engine::<Ur5e>::forward(at, &[0.0; 6], &RIGID_BODY)
     }
@@ -26,6 +27,10 @@ impl Mechanics<f32, 6> for LetGo {
             Core::<Ur5e>::kinetic_energy(at, &RIGID_BODY),
             Core::<Ur5e>::potential_energy(&at.q, &RIGID_BODY),
         )
+    }
+
+    fn moved(&self, q: &[f32; 6], at: &Rates<f32, 6>, h: f32) -> [f32; 6] {
+        at.moved(&Of::<Ur5e>::NEW, q, h)
     }
 }
 
@@ -49,8 +54,8 @@ impl Simulation {
 
     /// One step; the state after it.
     pub fn step(&mut self) -> Result<&State<f32, 6, 6>, NotPositiveDefinite> {
-        let increments = self.integrator.step(&LetGo, &self.motion.state, STEP)?;
-        self.motion.add(increments);
+        let rates = self.integrator.step(&LetGo, &self.motion.state, STEP)?;
+        self.motion.add(&rates, STEP);
         Ok(&self.motion.state)
     }
 }

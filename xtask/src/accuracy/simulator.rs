@@ -37,12 +37,13 @@ pub fn code(point: &Point) -> Result<String> {
     };
     let step: f64 = point.on("step").parse().map_err(|_| lacks("step"))?;
     let compensated = point.on("state") == "compensated";
-    let mut names = ["Integrator", "Mechanics", "Summed", integrator];
+    let mut names = ["Integrator", "Mechanics", "Rates", "Summed", integrator];
     names.sort_unstable();
     let sim = format!("dynamics_core::sim::{{{}}}", names.join(", "));
     let mut uses = [
         "dynamics_core::algorithms::NotPositiveDefinite",
         "dynamics_core::effects::RIGID_BODY",
+        "dynamics_core::model::Of",
         path,
         &sim,
         "dynamics_core::state::State",
@@ -57,7 +58,7 @@ pub fn code(point: &Point) -> Result<String> {
 /// The robot without torques.
 pub struct LetGo;
 
-impl Mechanics<{scalar}, {n}> for LetGo {{
+impl Mechanics<{scalar}, {n}, {n}> for LetGo {{
     fn acceleration(&self, at: &{state}) -> Result<[{scalar}; {n}], NotPositiveDefinite> {{
         Engine::<{robot}>::forward(at, &[0.0; {n}], &RIGID_BODY)
     }}
@@ -75,6 +76,10 @@ impl Mechanics<{scalar}, {n}> for LetGo {{
             Core::<{robot}>::kinetic_energy(at, &RIGID_BODY),
             Core::<{robot}>::potential_energy(&at.q, &RIGID_BODY),
         )
+    }}
+
+    fn moved(&self, q: &[{scalar}; {n}], at: &Rates<{scalar}, {n}>, h: {scalar}) -> [{scalar}; {n}] {{
+        at.moved(&Of::<{robot}>::NEW, q, h)
     }}
 }}
 
@@ -98,8 +103,8 @@ impl Simulation {{
 
     /// One step; the state after it.
     pub fn step(&mut self) -> Result<&{state}, NotPositiveDefinite> {{
-        let increments = self.integrator.step(&LetGo, &self.motion.state, STEP)?;
-        self.motion.add(increments);
+        let rates = self.integrator.step(&LetGo, &self.motion.state, STEP)?;
+        self.motion.add(&rates, STEP);
         Ok(&self.motion.state)
     }}
 }}

@@ -203,7 +203,7 @@ fn oracle<T: LetGo<N>, E: Effect<f64, N, N>, const N: usize>(
     let samples = (0..SECOND).map(|_| {
         for _ in 0..SAMPLE / step {
             let step = RungeKutta.step(&robot, &motion.state, h);
-            motion.add(step.expect("a robot with inertia"));
+            motion.add(&step.expect("a robot with inertia"), h);
         }
         [motion.state.q, motion.state.qd]
     });

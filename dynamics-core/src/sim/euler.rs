@@ -1,0 +1,71 @@
+//! Time steps of first order: one acceleration, that of the step's beginning.
+
+use super::rates::ahead;
+use super::{Described, Integrator, Mechanics, Rates, Step};
+use crate::algorithms::NotPositiveDefinite;
+use crate::effects::Effect;
+use crate::model::Description;
+use crate::scalar::Real;
+use crate::state::State;
+
+/// Explicit Euler: q̇ and q̈ of the step's beginning. First order; gains energy.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Euler;
+
+impl<R: Real, const Q: usize, const V: usize> Integrator<R, Q, V> for Euler {
+    #[inline(always)]
+    fn step(&self, robot: &impl Mechanics<R, Q, V>, at: &State<R, Q, V>, _h: R) -> Step<R, V> {
+        Ok(Rates::straight(at.qd, robot.acceleration(at)?))
+    }
+}
+
+/// Semi-implicit (symplectic) Euler: q moves with the new q̇. First order; energy swings, but does not drift.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct SemiImplicit;
+
+impl<R: Real, const Q: usize, const V: usize> Integrator<R, Q, V> for SemiImplicit {
+    #[inline(always)]
+    fn step(&self, robot: &impl Mechanics<R, Q, V>, at: &State<R, Q, V>, h: R) -> Step<R, V> {
+        let qdd = robot.acceleration(at)?;
+        Ok(Rates::straight(ahead(at.qd, h, &qdd), qdd))
+    }
+}
+
+/// One step of `h` seconds by semi-implicit (symplectic) Euler: q̇ ← q̇ + h FD(q, q̇, τ), then
+/// q ← q ⊕ h q̇ with the new q̇. First order in h; `state.qdd` is left at the acceleration used. What effects
+/// remember stays as it is: [`linearly_implicit`](super::linearly_implicit) moves it on.
+///
+/// Hairer, Lubich & Wanner, *Geometric Numerical Integration* (2006), section I.1.2.
+///
+/// ```
+/// use dynamics_core::{effects::RIGID_BODY, model::Robot, robots::Ur5e, sim::semi_implicit, state::State};
+/// let mut arm = State::at([0.0_f64, -1.5, 0.0, 0.0, 0.0, 0.0]);
+/// semi_implicit(&Ur5e::MODEL, &mut arm, &[0.0; 6], &RIGID_BODY, 1e-3)?;
+/// assert!(arm.qd[1] != 0.0);
+/// # Ok::<(), dynamics_core::algorithms::NotPositiveDefinite>(())
+/// ```
+///
+/// # Errors
+/// As [`aba`](crate::algorithms::aba); the state is then left as it was.
+pub fn semi_implicit<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
+    robot: &D,
+    state: &mut State<R, Q, V>,
+    tau: &[R; V],
+    effects: &E,
+    h: R,
+) -> Result<(), NotPositiveDefinite>
+where
+    D: Description<R, B, Q, V>,
+    E: Effect<R, B, V>,
+{
+    let tau = *tau;
+    SemiImplicit.advance(
+        &Described {
+            robot,
+            tau,
+            effects,
+        },
+        state,
+        h,
+    )
+}

@@ -66,7 +66,7 @@ fn both<E: Effect<f32, 6, 6>>(inputs: &'static str, asks: &[Ask<6>; STATES], eff
     }
 }
 
-fn row(form: &'static str, inputs: &'static str) -> Row {
+fn row(form: &'static str, inputs: &'static str) -> Row<'static> {
     Row {
         robot: <Ur5e as Robot<6, 6, 6>>::MODEL.name,
         algorithm: "rnea",

@@ -89,7 +89,7 @@ const STRAIGHT_32: Bounds = Bounds {
 };
 
 const RANDOM_32: Bounds = Bounds {
-    single: [2e-6, 1e-3, 1e-3, 5e-7, 8e-7],
+    single: [2e-6, 2.5e-3, 1e-3, 5e-7, 8e-7],
     double: [4e-15, 4e-12, 1e-12, 8e-16, 2e-15],
 };
 
@@ -99,7 +99,7 @@ const STRAIGHT_64: Bounds = Bounds {
 };
 
 const RANDOM_64: Bounds = Bounds {
-    single: [3e-6, 1.5e-2, 4e-3, 8e-7, 6e-7],
+    single: [7e-6, 3e-2, 8e-3, 8e-7, 6e-7],
     double: [1e-14, 3e-11, 1.5e-11, 8e-16, 2e-15],
 };
 

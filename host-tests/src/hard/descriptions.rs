@@ -195,6 +195,6 @@ const FAT: Bounds = Bounds {
 };
 
 const POINTS: Bounds = Bounds {
-    single: [4e-7, 2e-6, 5e-6, 3e-7, 8e-7],
+    single: [4e-7, 6e-6, 5e-6, 3e-7, 8e-7],
     double: [1e-15, 6e-15, 4e-15, 1.5e-15, 1.5e-15],
 };

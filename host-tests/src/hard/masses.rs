@@ -185,7 +185,7 @@ const BASE_HEAVY: Bounds = Bounds {
 };
 
 const WRIST: Bounds = Bounds {
-    single: [4e-7, 2e-5, 1e-5, 2e-6, 4e-7],
+    single: [4e-7, 2e-5, 1e-5, 2e-6, 1e-6],
     double: [8e-16, 2e-14, 4e-14, 4e-15, 2e-15],
 };
 
@@ -195,7 +195,7 @@ const ARMATURE: Bounds = Bounds {
 };
 
 const LIGHT_LINKS: Bounds = Bounds {
-    single: [6e-7, 3e-2, 5e-3, 3e-5, 8e-6],
+    single: [6e-7, 3e-2, 1.5e-2, 7e-5, 6e-5],
     double: [1e-15, 4e-11, 4e-11, 2e-13, 6e-14],
 };
 

@@ -174,6 +174,6 @@ fn planar() -> Vec<Row> {
 const CLOSED: [f64; 2] = [1.5e-7, 5e-16];
 
 const PARALLEL: Bounds = Bounds {
-    single: [5e-7, 6e-5, 1.5e-5, 8e-7, 2e-6],
+    single: [5e-7, 6e-5, 1.5e-5, 6e-6, 2e-6],
     double: [6e-16, 8e-14, 3e-14, 4e-15, 4e-15],
 };

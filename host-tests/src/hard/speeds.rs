@@ -106,7 +106,7 @@ fn refused<R: Real>(q: R) -> bool {
 }
 
 const FAST: Bounds = Bounds {
-    single: [5e-7, 3e-6, 5e-6, 6e-7, 4e-7],
+    single: [5e-7, 6e-6, 5e-6, 6e-7, 4e-7],
     double: [2e-15, 6e-15, 1e-14, 6e-16, 6e-16],
 };
 

@@ -7,8 +7,8 @@ use super::{Model, Robot};
 /// The robot T, of which [`crate::Engine`] leaves out the base parameters that take less than `PPM` millionths of its
 /// torque ([`Robot::NEGLIGIBLE`]), while [`crate::Core`] computes all of it.
 ///
-/// A third of an arm's base parameters can be a thousandth of its largest torque together: what they take in cycles and
-/// give in accuracy is in `docs/accuracy.md` in the repository.
+/// The torque that is lost grows with the joints' accelerations and the square of their speeds; that along a robot's way,
+/// and the cycles won, are in `docs/accuracy.md` in the repository. It pays for arms whose wrist is light beside the rest.
 ///
 /// ```
 /// use dynamics_core::{Core, Engine, effects::RIGID_BODY, model::Pruned, robots::Ur5e, state::State};

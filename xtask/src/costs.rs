@@ -15,7 +15,7 @@ use crate::workspace::{self, Workspace};
 
 pub use bars::{ADDED, Bars, TICK};
 pub use budget::Budget;
-pub use measure::{Row, measure as measure_bins, run as run_bin};
+pub use measure::{Row, measure as measure_bins, run as run_bin, run_for_time};
 pub use report::Report;
 
 /// The generated page.

@@ -33,6 +33,7 @@ mod limb;
 mod place;
 mod pose;
 mod prepare;
+mod prune;
 mod rnea;
 mod small;
 

@@ -8,11 +8,13 @@
 //!   h_z and Σ_zz go to the parent as a thin rod; Σ = ∫ r rᵀ dm is the second moment. Behind a
 //!   prismatic joint the whole Σ goes there. τ and M are unchanged; inner forces are not the
 //!   physical ones.
+//! - What takes less than the robot's negligible share of torque becomes zero: [`super::prune`].
 //! - The unit of length is a joint offset, so that this offset becomes 1, and the unit of mass
 //!   such that Σ keeps its numbers: p/L, h·L, m·L².
 
 use glam::{DMat3, DVec3};
 
+use super::prune::prune;
 use crate::const_math::{add, dot, mul, mul_vec, scale, transpose};
 use crate::model::{BASE, JointKind, Model, Robot};
 
@@ -59,7 +61,7 @@ pub(crate) struct Prepared<T, const B: usize, const Q: usize, const V: usize>(
 );
 
 impl<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize> Prepared<T, B, Q, V> {
-    pub(crate) const TREE: Tree<B, V> = prepare(&T::MODEL);
+    pub(crate) const TREE: Tree<B, V> = prepare(&T::MODEL, T::NEGLIGIBLE);
 
     /// λ of each joint, or [`BASE`].
     pub(crate) const PARENTS: [usize; V] = {
@@ -175,6 +177,7 @@ const ON_BASE: Place = Place {
 
 const fn prepare<const B: usize, const Q: usize, const V: usize>(
     model: &Model<f64, B, Q, V>,
+    negligible: f64,
 ) -> Tree<B, V> {
     let mut joints = [NO_JOINT; V];
     let mut places = [ON_BASE; B];
@@ -230,6 +233,7 @@ const fn prepare<const B: usize, const Q: usize, const V: usize>(
         i += 1;
     }
     regroup(&mut joints);
+    prune(&mut joints, negligible);
     let length = unit_of_length(&joints);
     i = 0;
     while i < V {

@@ -66,6 +66,7 @@ mod error;
 mod floating;
 mod joint;
 mod node;
+mod pruned;
 mod scaled;
 mod turn;
 
@@ -77,6 +78,7 @@ pub use error::{ModelError, Problem};
 pub use floating::on_root;
 pub use joint::{Joint, JointKind, Kinds};
 pub use node::Node;
+pub use pruned::Pruned;
 pub use turn::Turn;
 
 use crate::const_math::{add, dot, mul, mul_vec, scale, transpose, vec3};
@@ -131,6 +133,12 @@ pub trait Robot<const B: usize, const Q: usize, const V: usize> {
     const MODEL: Model<f64, B, Q, V>;
     /// The same, rounded to f32.
     const MODEL_F32: Model<f32, B, Q, V> = Self::MODEL.to_f32();
+    /// The share of the robot's torque below which [`crate::Engine`] leaves a base parameter out, from 0, which leaves
+    /// all in, to below 1; [`Pruned`] sets it.
+    ///
+    /// Torques are compared at 1 g and at the angular acceleration by which the largest second moment takes as much
+    /// torque as the largest first moment weighs.
+    const NEGLIGIBLE: f64 = 0.0;
 }
 
 /// The model of a robot known at compile time, in the scalar R.

@@ -1,7 +1,7 @@
 //! Every way of a robot.
 
 use dynamics_core::control::{Extrapolated, Held, Interpolated};
-use dynamics_core::model::Robot;
+use dynamics_core::model::{Pruned, Robot};
 use dynamics_core::scalar::Compensated;
 use dynamics_core::trig::{Minimax, Table};
 use dynamics_core::{Core, Engine};
@@ -10,7 +10,7 @@ use super::compliant::{Compliant, Joints, Rigid};
 use super::form::Form;
 use super::inverse::{After, By, Following, Shipped};
 use super::kernels::{Libm, Micromath};
-use super::model::{Full, GravityOnly, Modelled, NoCoriolis, Parameters, Rounded};
+use super::model::{Full, GravityOnly, Modelled, NoCoriolis, Parameters, Rounded, Without};
 use super::numbers::{FixedPoint, In};
 use super::sparse::{Every, EveryLinearised};
 use super::{Inverse, Visitor};
@@ -31,6 +31,7 @@ where
     rounded::<T, 6, B, N>(visitor);
     rounded::<T, 8, B, N>(visitor);
     rounded::<T, 11, B, N>(visitor);
+    pruned::<T, B, N>(visitor);
 
     type Own<T, const B: usize> = Shipped<Full<T>, Engine<T>, B>;
     type Coarse<T, const B: usize> = By<Table<256, 1>, Full<T>, Engine<T>, B>;
@@ -38,8 +39,8 @@ where
     rates::<Own<T, B>, N>(visitor);
     rates::<Coarse<T, B>, N>(visitor);
     rates::<Weight<T, B>, N>(visitor);
-    linearised::<Table<128, 3>, T, B, N>(visitor);
-    linearised::<Table<256, 1>, T, B, N>(visitor);
+    linearised::<Table<128, 3>, Full<T>, B, N>(visitor);
+    linearised::<Table<256, 1>, Full<T>, B, N>(visitor);
 }
 
 /// Shows the default and what single changes make of it to `visitor`: few enough to be built in a minute.
@@ -58,6 +59,7 @@ where
     visitor.way::<Own<NoCoriolis<T>, T, B>>();
     visitor.way::<Own<GravityOnly<T>, T, B>>();
     rounded::<T, 8, B, N>(visitor);
+    visitor.way::<Shipped<Without<T, 1000>, Engine<Pruned<T, 1000>>, B>>();
     visitor.way::<Every<Own<Full<T>, T, B>, Held<f32, N>, 10>>();
     visitor.way::<Every<Own<Full<T>, T, B>, Interpolated<f32, N, 10>, 10>>();
     visitor.way::<EveryLinearised<Table<128, 3>, Full<T>, B, N, 10>>();
@@ -112,6 +114,25 @@ where
     visitor.way::<Shipped<Parameters<T, BITS>, Engine<Rounded<T, BITS>>, B>>();
 }
 
+/// Without what takes little torque, each share by the kernels whose errors are as small.
+fn pruned<T, const B: usize, const N: usize>(visitor: &mut impl Visitor<N>)
+where
+    T: Robot<B, N, N>,
+{
+    type Own<T, const PPM: u32, const B: usize> =
+        Shipped<Without<T, PPM>, Engine<Pruned<T, PPM>>, B>;
+    type Kernel<K, T, const PPM: u32, const B: usize> =
+        By<K, Without<T, PPM>, Engine<Pruned<T, PPM>>, B>;
+    visitor.way::<Own<T, 1000, B>>();
+    visitor.way::<Own<T, 100, B>>();
+    visitor.way::<Kernel<Table<256, 1>, T, 1000, B>>();
+    visitor.way::<Kernel<Table<256, 1>, T, 3000, B>>();
+    visitor.way::<Kernel<Table<256, 1>, T, 10_000, B>>();
+    visitor.way::<Kernel<Table<256, 1>, T, 30_000, B>>();
+    rates::<Kernel<Table<256, 1>, T, 1000, B>, N>(visitor);
+    linearised::<Table<256, 1>, Without<T, 1000>, B, N>(visitor);
+}
+
 /// Shows those of the same arm on joints that give way to `visitor`.
 pub fn compliant<T, const N: usize>(visitor: &mut impl Visitor<N>)
 where
@@ -139,13 +160,13 @@ where
 }
 
 /// Every few ticks, by M between.
-fn linearised<K, T, const B: usize, const N: usize>(visitor: &mut impl Visitor<N>)
+fn linearised<K, M, const B: usize, const N: usize>(visitor: &mut impl Visitor<N>)
 where
     K: super::kernels::Named,
-    T: Robot<B, N, N>,
+    M: Modelled<B, N>,
 {
-    visitor.way::<EveryLinearised<K, Full<T>, B, N, 2>>();
-    visitor.way::<EveryLinearised<K, Full<T>, B, N, 5>>();
-    visitor.way::<EveryLinearised<K, Full<T>, B, N, 10>>();
-    visitor.way::<EveryLinearised<K, Full<T>, B, N, 20>>();
+    visitor.way::<EveryLinearised<K, M, B, N, 2>>();
+    visitor.way::<EveryLinearised<K, M, B, N, 5>>();
+    visitor.way::<EveryLinearised<K, M, B, N, 10>>();
+    visitor.way::<EveryLinearised<K, M, B, N, 20>>();
 }

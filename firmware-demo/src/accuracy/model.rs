@@ -3,7 +3,7 @@
 use core::marker::PhantomData;
 
 use dynamics_core::effects::{Coriolis, Effect, Gravity, Inertia};
-use dynamics_core::model::{Model, Robot};
+use dynamics_core::model::{Model, Pruned, Robot};
 use dynamics_core::scalar::{Compensated, Fixed};
 
 /// A robot as it is computed, and the effects that are.
@@ -82,6 +82,28 @@ where
         _ => panic!("no such number of bits"),
     };
     type Robot = Rounded<T, BITS>;
+    type Scene = (Gravity, Inertia, Coriolis);
+    const SCENE: Self::Scene = <Full<T> as Modelled<B, N>>::SCENE;
+    const IN_UNITS: Self::Scene = <Full<T> as Modelled<B, N>>::IN_UNITS;
+}
+
+/// All of it, but for the base parameters that take less than so many millionths of the robot's torque.
+#[derive(Clone, Copy, Debug)]
+pub struct Without<T, const PPM: u32>(PhantomData<T>);
+
+impl<T, const PPM: u32, const B: usize, const N: usize> Modelled<B, N> for Without<T, PPM>
+where
+    T: Robot<B, N, N>,
+{
+    const NAME: &'static str = match PPM {
+        100 => "pruned100",
+        1000 => "pruned1000",
+        3000 => "pruned3000",
+        10_000 => "pruned10000",
+        30_000 => "pruned30000",
+        _ => panic!("no such share"),
+    };
+    type Robot = Pruned<T, PPM>;
     type Scene = (Gravity, Inertia, Coriolis);
     const SCENE: Self::Scene = <Full<T> as Modelled<B, N>>::SCENE;
     const IN_UNITS: Self::Scene = <Full<T> as Modelled<B, N>>::IN_UNITS;

@@ -95,8 +95,7 @@ fn precession<R: Real>(
     lean: f64,
     turn: f64,
 ) -> f64 {
-    let (model, mut state, mut worst) =
-        (R::cast(model), cast::<R>(start), 0.0_f64);
+    let (model, mut state, mut worst) = (R::cast(model), cast::<R>(start), 0.0_f64);
     for step in 1..=(2.0 / h).round() as u32 {
         let scene = &mut (Gravity::EARTH, Inertia, Coriolis);
         how.step(&model, &mut state, &[R::ZERO; 3], scene, R::from_f64(h));

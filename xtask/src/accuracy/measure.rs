@@ -164,7 +164,7 @@ impl Plan {
                 firmware::build_featured(workspace, tools.toolchain, profile, FEATURE, &bins)?;
             for (bin, elf) in bins.into_iter().zip(elves) {
                 bar.step(&format!("running {bin} (opt-level {opt}) in QEMU"), RUN);
-                let (mut rows, _) = costs::run_bin(tools, &meter, bin, &elf)?;
+                let mut rows = costs::run_for_time(tools, &meter, bin, &elf)?;
                 rows.retain(|row| self.covers(row));
                 if bin == QUICK_BIN {
                     pasted.extend(rows.extract_if(.., |row| row.algorithm == PASTED));

@@ -17,7 +17,8 @@ pub fn robot(point: &Point) -> Result<(&'static str, usize, usize)> {
 
 /// Of what a piece of code is made.
 pub struct Parts<'a> {
-    pub robot: &'static str,
+    /// Its type.
+    pub robot: String,
     pub joints: usize,
     /// As const parameters: bodies, coordinates, speeds.
     pub shape: String,
@@ -41,7 +42,7 @@ impl Parts<'_> {
             ))
         };
         let mut uses = vec!["state::State"];
-        let mut items = String::new();
+        let (mut robot, mut items) = (name.to_owned(), String::new());
         let form = if point.on("form") == "core" {
             "Core"
         } else {
@@ -60,6 +61,13 @@ impl Parts<'_> {
                      const MODEL: Model<f64, {bodies}, {joints}, {joints}> = {name}::MODEL.rounded({bits});\n}}\n\n"
                 );
                 uses.push("model::{Model, Robot}");
+                robot = "Rounded".to_owned();
+                "RIGID_BODY"
+            }
+            model if model.starts_with("pruned") => {
+                let millionths = model.trim_start_matches("pruned");
+                uses.push("model::Pruned");
+                robot = format!("Pruned<{name}, {millionths}>");
                 "RIGID_BODY"
             }
             _ => return Err(lacks("model")),
@@ -78,11 +86,7 @@ impl Parts<'_> {
         if scalar == "Compensated" {
             uses.push("scalar::Compensated");
         }
-        let own = if form == "Core" {
-            "table3x4"
-        } else {
-            "table3"
-        };
+        let own = if form == "Core" { "table3x4" } else { "table3" };
         let (kernel, used) = match point.on("trig") {
             trig if trig == own || other => (None, None),
             "minimax3" => (Some("Minimax<3, 2>"), Some("trig::Minimax")),
@@ -99,7 +103,7 @@ impl Parts<'_> {
         };
         uses.extend(used);
         Ok(Self {
-            robot: if items.is_empty() { name } else { "Rounded" },
+            robot,
             joints,
             shape: format!("{bodies}, {joints}, {joints}"),
             scalar,

@@ -212,6 +212,7 @@ mod tests {
             ("ur5e", "trig=table", file!("ur5e_table")),
             ("ur5e", "model=no_coriolis", file!("ur5e_no_coriolis")),
             ("ur5e", "model=params8", file!("ur5e_params8")),
+            ("ur5e", "model=pruned1000", file!("ur5e_pruned")),
             ("ur5e", "form=core", file!("ur5e_core")),
             ("ur5e", "trig=incremental", file!("ur5e_incremental")),
             ("ur5e", "rate=10", file!("ur5e_held")),

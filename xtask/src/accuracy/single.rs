@@ -14,7 +14,7 @@ pub const PAGE: Page = Page {
 };
 
 /// What the bin `accuracy_quick` runs.
-pub const KEYS: [&str; 13] = [
+pub const KEYS: [&str; 14] = [
     "default",
     "trig=minimax5",
     "trig=minimax3",
@@ -24,6 +24,7 @@ pub const KEYS: [&str; 13] = [
     "model=no_coriolis",
     "model=gravity",
     "model=params8",
+    "model=pruned1000",
     "rate=10",
     "rate=10,between=interpolated",
     "rate=10,between=linearised",

@@ -136,6 +136,36 @@ const WORDS: &[(&str, &str, &str, &str)] = &[
         "rounds lengths, masses and inertias to 11 bits, those of f16",
     ),
     (
+        "model",
+        "pruned100",
+        "pruned at 0.01 %",
+        "leaves out base parameters that take less than 0.01 % of the robot's torque each",
+    ),
+    (
+        "model",
+        "pruned1000",
+        "pruned at 0.1 %",
+        "leaves out base parameters that take less than 0.1 % of the robot's torque each",
+    ),
+    (
+        "model",
+        "pruned3000",
+        "pruned at 0.3 %",
+        "leaves out base parameters that take less than 0.3 % of the robot's torque each",
+    ),
+    (
+        "model",
+        "pruned10000",
+        "pruned at 1 %",
+        "leaves out base parameters that take less than 1 % of the robot's torque each",
+    ),
+    (
+        "model",
+        "pruned30000",
+        "pruned at 3 %",
+        "leaves out base parameters that take less than 3 % of the robot's torque each",
+    ),
+    (
         "form",
         "core",
         "core",

@@ -112,6 +112,30 @@ pub fn run(
     name: &'static str,
     elf: &Path,
 ) -> Result<(Vec<Row>, Vec<String>)> {
+    let image = Image::read(elf)?;
+    let (lines, samples) = watch(tools, meter, name, elf)?;
+    let rows = cut(&lines, &samples, |address| code_bytes(&image, address))?;
+    Ok((rows, lines))
+}
+
+/// Runs a bin under the meter for what its rows take, not how long their code is: of code that calls through
+/// registers nobody knows.
+pub fn run_for_time(
+    tools: &Tools,
+    meter: &Path,
+    name: &'static str,
+    elf: &Path,
+) -> Result<Vec<Row>> {
+    let (lines, samples) = watch(tools, meter, name, elf)?;
+    cut(&lines, &samples, |_| Ok(0))
+}
+
+fn watch(
+    tools: &Tools,
+    meter: &Path,
+    name: &'static str,
+    elf: &Path,
+) -> Result<(Vec<String>, Vec<Sample>)> {
     let regions = elf.with_extension("regions");
     let run = Run {
         name,
@@ -124,11 +148,7 @@ pub fn run(
         lines.push(line.to_owned());
         Ok(())
     })?;
-    let image = Image::read(elf)?;
-    let rows = cut(&lines, &meter::read(&regions)?, |address| {
-        code_bytes(&image, address)
-    })?;
-    Ok((rows, lines))
+    Ok((lines, meter::read(&regions)?))
 }
 
 /// The rows that a log announces, each with its share of the samples.

@@ -89,6 +89,7 @@ pasted! {
     ur5e_table: LinearTable plain 6, 0, trig "table";
     ur5e_no_coriolis: NoCoriolis plain 6, 0, model "no_coriolis";
     ur5e_params8: Rounded plain 6, 0, model "params8";
+    ur5e_pruned: Pruned plain 6, 0, model "pruned1000";
     ur5e_core: Core plain 6, 0, form "core", trig "table3x4";
     ur5e_incremental: Carried ticking 6, 0, trig "incremental";
     ur5e_held: Held ticking 6, 0, rate "10";
@@ -103,6 +104,7 @@ pub fn ur5e(visitor: &mut impl Visitor<6>) {
     visitor.way::<LinearTable>();
     visitor.way::<NoCoriolis>();
     visitor.way::<Rounded>();
+    visitor.way::<Pruned>();
     visitor.way::<Core>();
     visitor.way::<Carried>();
     visitor.way::<Held>();

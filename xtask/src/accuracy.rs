@@ -17,6 +17,7 @@ mod picture;
 mod point;
 mod progress;
 mod proof;
+mod recorded;
 mod simulated;
 mod simulator;
 mod single;
@@ -47,12 +48,17 @@ pub struct Wish {
     pub json: bool,
     /// The choice of one way.
     pub budget: Option<Budget>,
+    /// From what is measured now, not from what is recorded.
+    pub measure: bool,
 }
 
 /// Measures, writes page and pictures, and prints; or chooses.
 pub fn run(options: Options, wish: Wish) -> Result<ExitCode> {
     let kind = wish.kind()?;
     let workspace = Workspace::find()?;
+    if let (Some(budget), Some(kind), false) = (wish.budget, kind, wish.measure | wish.quick) {
+        return wish.choose(&recorded::read(&workspace)?, budget, kind);
+    }
     let tools = setup::for_demo(options)?;
     let plan = Plan {
         robots: wish
@@ -69,20 +75,7 @@ pub fn run(options: Options, wish: Wish) -> Result<ExitCode> {
         &measured.points
     };
     if let (Some(budget), Some(kind)) = (wish.budget, kind) {
-        let circumstances = if kind == Kind::Inverse {
-            "rigid"
-        } else {
-            "free"
-        };
-        let of = |point: &&Point| point.group().1 == kind && point.group().2 == circumstances;
-        let points: Vec<&Point> = all.iter().filter(of).collect();
-        let answer = budget.answer(&points)?;
-        if wish.json {
-            docs::print_json(&budget.choose(&points)?)?;
-        } else {
-            print!("{answer}");
-        }
-        return Ok(ExitCode::SUCCESS);
+        return wish.choose(all, budget, kind);
     }
     if !wish.quick {
         write(&workspace, &measured, wish.robot)?;
@@ -96,6 +89,33 @@ pub fn run(options: Options, wish: Wish) -> Result<ExitCode> {
 }
 
 impl Wish {
+    /// Chooses from these, and prints.
+    fn choose(&self, all: &[Point], budget: Budget, kind: Kind) -> Result<ExitCode> {
+        let circumstances = match kind {
+            Kind::Inverse => "rigid",
+            Kind::Simulation => "free",
+        };
+        let robot = self.robot.map(Robot::name);
+        let of = |point: &&Point| {
+            let (of, what, how) = point.group();
+            (what, how) == (kind, circumstances) && robot.is_none_or(|robot| robot == of)
+        };
+        let points: Vec<&Point> = all.iter().filter(of).collect();
+        let answer = budget.answer(&points)?;
+        if self.json {
+            docs::print_json(&budget.choose(&points)?)?;
+            return Ok(ExitCode::SUCCESS);
+        }
+        print!("{answer}");
+        if !(self.measure | self.quick) {
+            eprintln!(
+                "\nFrom {}; --measure takes its figures on this machine, in minutes.",
+                recorded::FILE
+            );
+        }
+        Ok(ExitCode::SUCCESS)
+    }
+
     /// What a budget chooses from, if there is one.
     fn kind(&self) -> Result<Option<Kind>> {
         let Some(budget) = self.budget else {
@@ -144,6 +164,9 @@ pub fn check(workspace: &Workspace, tools: &Tools) -> Result<String> {
     let saved = bars::check(&page::ways(&measured.single, Robot::Ur5e, "rigid"))?;
     let text = single::text(&measured.single, &measured.rustc);
     single::PAGE.check(workspace, &text, Some(&measured.rustc))?;
+    let brief = single::brief(&measured.single, &measured.rustc);
+    single::README.check(workspace, &brief, Some(&measured.rustc))?;
+    recorded::check(&recorded::read(workspace)?, &measured.single)?;
     let points = measured.single.len();
     Ok(format!(
         "{points} configurations, {pasted} of them as printed; {saved}"
@@ -176,7 +199,12 @@ fn write(workspace: &Workspace, measured: &Measured, only: Option<Robot>) -> Res
         text = simulated.replaced(&text, &simulated::text(measured))?;
         let single = single::text(&measured.single, &measured.rustc);
         text = single::PAGE.replaced(&text, &single)?;
+        let readme = workspace.root.join(single::README.file);
+        let brief = single::brief(&measured.single, &measured.rustc);
+        let brief = single::README.replaced(&workspace::read(&readme)?, &brief)?;
+        files.push((readme, brief));
     }
+    files.push(recorded::replaced(workspace, &measured.points)?);
     files.push((file, text));
     workspace::write_whole(&files)
 }

@@ -116,6 +116,9 @@ enum Command {
         /// Choose the most accurate configuration whose worst tick takes no more cycles than this
         #[arg(long, value_name = "CYCLES", requires = "robot")]
         cycles: Option<u64>,
+        /// Choose from what is measured now, not from docs/accuracy.json
+        #[arg(long)]
+        measure: bool,
     },
     /// Measure on the host which of the two eliminations is less accurate where, rewrite
     /// docs/eliminations.md
@@ -254,6 +257,7 @@ fn run(cli: Cli) -> Result<ExitCode> {
             json,
             error,
             cycles,
+            measure,
         } => {
             let budget = error.map(accuracy::Budget::Error);
             let wish = accuracy::Wish {
@@ -261,6 +265,7 @@ fn run(cli: Cli) -> Result<ExitCode> {
                 quick,
                 json,
                 budget: budget.or(cycles.map(accuracy::Budget::Cycles)),
+                measure,
             };
             accuracy::run(cli.setup, wish)
         }

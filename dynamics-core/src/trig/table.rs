@@ -73,6 +73,11 @@ impl<const N: usize, const ORDER: usize, const PARTS: usize> Table<N, ORDER, PAR
         step[PARTS - 1] = rest as f32;
         step
     };
+
+    /// A part of it, or nothing beyond the last.
+    const fn part(i: usize) -> f32 {
+        if i < PARTS { Self::STEP[i] } else { 0.0 }
+    }
 }
 
 impl<const N: usize, const ORDER: usize, const PARTS: usize> Kernel<f32>
@@ -88,11 +93,13 @@ impl<const N: usize, const ORDER: usize, const PARTS: usize> Kernel<f32>
             // The table's own error is larger than that of one part.
             x - k * const { (core::f64::consts::TAU / N as f64) as f32 }
         } else {
-            let mut r = x;
-            for part in const { Self::STEP } {
-                r -= k * part;
+            // Not a loop: compilers that mind the code's size would leave it one.
+            let r = (x - k * const { Self::part(0) }) - k * const { Self::part(1) };
+            if PARTS == 2 {
+                r
+            } else {
+                (r - k * const { Self::part(2) }) - k * const { Self::part(3) }
             }
-            r
         };
         let Pair { sin: s, cos: c } = const { &Self::ENTRIES }[at];
         let u = r * r;

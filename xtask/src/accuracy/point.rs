@@ -23,7 +23,7 @@ pub struct Errors {
 }
 
 /// A configuration of a robot: one in the JSON that `--json` prints.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Point {
     /// The robot's name.
     pub robot: String,
@@ -53,7 +53,6 @@ pub struct Point {
     #[serde(skip)]
     pub fronts: [bool; 2],
     /// Axes that are not the default's, as one word.
-    #[serde(skip)]
     pub key: String,
     /// Of what errors are shares.
     #[serde(skip)]

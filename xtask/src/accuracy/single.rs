@@ -13,6 +13,23 @@ pub const PAGE: Page = Page {
     command: COMMAND,
 };
 
+/// The few of them that the README shows.
+pub const README: Page = Page {
+    file: "README.md",
+    name: "accuracy",
+    command: COMMAND,
+};
+
+/// Those, of the UR5e.
+const BRIEF: [&str; 6] = [
+    "default",
+    "trig=table",
+    "model=pruned1000",
+    "rate=10,between=linearised",
+    "model=no_coriolis",
+    "model=gravity",
+];
+
 /// What the bin `accuracy_quick` runs.
 pub const KEYS: [&str; 14] = [
     "default",
@@ -30,6 +47,33 @@ pub const KEYS: [&str; 14] = [
     "rate=10,between=linearised",
     "form=core",
 ];
+
+/// The README's text.
+pub fn brief(points: &[Point], rustc: &str) -> String {
+    let columns = [
+        "UR5e",
+        "worst tick, cycles",
+        "mean",
+        "off by up to, N·m",
+        "of full scale",
+    ];
+    let mut table = Table::new(&columns);
+    let few = |point: &&Point| {
+        let (robot, kind, plant) = point.group();
+        (robot, kind, plant) == ("ur5e", Kind::Inverse, "rigid") && BRIEF.contains(&&*point.key)
+    };
+    for point in points.iter().filter(few) {
+        let share = point.relative_max.map_or_else(|| "–".into(), digits);
+        table.row([
+            name(point),
+            thousands(point.cycles),
+            cycles(point.cycles_mean),
+            digits(point.error()),
+            share,
+        ]);
+    }
+    format!("{}\nMeasured with {rustc}.", table.markdown())
+}
 
 /// The text between the markers.
 pub fn text(points: &[Point], rustc: &str) -> String {

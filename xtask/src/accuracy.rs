@@ -161,12 +161,18 @@ pub fn check(workspace: &Workspace, tools: &Tools) -> Result<String> {
     };
     let measured = plan.run(workspace, tools)?;
     let pasted = proof::check(&measured)?;
-    let saved = bars::check(&page::ways(&measured.single, Robot::Ur5e, "rigid"))?;
     let text = single::text(&measured.single, &measured.rustc);
     single::PAGE.check(workspace, &text, Some(&measured.rustc))?;
     let brief = single::brief(&measured.single, &measured.rustc);
     single::README.check(workspace, &brief, Some(&measured.rustc))?;
-    recorded::check(&recorded::read(workspace)?, &measured.single)?;
+    let recorded = recorded::read(workspace)?;
+    recorded::check(&recorded, &measured.single)?;
+    // The leg's are missed: docs/decisions/0002-bars.md.
+    let saved = [Robot::Ur5e, Robot::Panda]
+        .map(|robot| bars::check(&page::ways(&recorded, robot, "rigid")))
+        .into_iter()
+        .collect::<Result<Vec<String>>>()?
+        .join("; ");
     let points = measured.single.len();
     Ok(format!(
         "{points} configurations, {pasted} of them as printed; {saved}"

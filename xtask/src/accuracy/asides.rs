@@ -1,10 +1,11 @@
 //! docs/accuracy.md: what stands beside the fronts.
 
+use super::front;
 use super::margin::yardstick;
 use super::measure::{Measured, Robot};
 use super::page::shown;
 use super::point::{Point, Yardstick};
-use super::words::{digits, name};
+use super::words::{cycles, digits, name};
 use crate::table::{Table, thousands};
 
 /// What errors are held against, and how good that is.
@@ -27,6 +28,40 @@ pub fn oracle(measured: &Measured, robot: Robot) -> String {
          digits.\n\n",
         told("f64_against_recorded"),
         told("f64_against_50_digits")
+    )
+}
+
+/// All that is on a front, with the numbers that the picture has, folded away.
+pub fn every(points: &[&Point]) -> String {
+    let columns = [
+        "no.",
+        "configuration",
+        "worst tick",
+        "mean",
+        "max, N·m",
+        "of full scale",
+        "front",
+    ];
+    let mut table = Table::new(&columns);
+    for (i, point) in front::numbered(points).into_iter().enumerate() {
+        table.row([
+            (i + 1).to_string(),
+            name(point),
+            thousands(point.cycles),
+            cycles(point.cycles_mean),
+            digits(point.error()),
+            point.relative_max.map_or_else(|| "–".into(), digits),
+            match point.fronts {
+                [true, true] => "both",
+                [true, false] => "worst tick",
+                _ => "mean",
+            }
+            .into(),
+        ]);
+    }
+    format!(
+        "<details><summary>Every point of the fronts, by its number in the picture</summary>\n\n{}\n</details>\n\n",
+        table.markdown()
     )
 }
 

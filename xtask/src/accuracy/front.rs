@@ -43,6 +43,13 @@ pub fn front<'a>(points: &[&'a Point], cost: usize) -> Vec<&'a Point> {
     front
 }
 
+/// All that are on a front, by what their worst tick costs: a point's number is its place here, from 1 on.
+pub fn numbered<'a>(points: &[&'a Point]) -> Vec<&'a Point> {
+    let mut all: Vec<&Point> = points.iter().copied().filter(|point| point.front).collect();
+    all.sort_by_key(|point| (point.cycles, &point.key));
+    all
+}
+
 #[cfg(test)]
 pub mod tests {
     use super::super::point::{Kind, Point};

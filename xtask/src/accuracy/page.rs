@@ -1,6 +1,6 @@
 //! docs/accuracy.md: fronts in words, what single choices cost, yardsticks.
 
-use super::asides::{compliant, joints, oracle, speeds, yardsticks};
+use super::asides::{compliant, every, joints, oracle, speeds, yardsticks};
 use super::bars;
 use super::front;
 use super::measure::{Measured, Robot};
@@ -80,6 +80,7 @@ pub fn text(measured: &Measured, robot: Robot) -> String {
         }
         text.push('\n');
     }
+    text += &every(&rigid);
     text += &joints(&rigid);
     text += &speeds(measured, robot);
     text += &compliant(&ways(&measured.points, robot, "compliant"));

@@ -3,7 +3,9 @@
 use plotters::prelude::*;
 use plotters::style::text_anchor::HPos;
 
-use super::drawing::{FAINT, FONT, INK, Outcome, digits_of_axis, dot, label, text, whisker, whole};
+use super::drawing::{
+    FAINT, FONT, INK, Outcome, Root, digits_of_axis, dot, label, text, whisker, whole,
+};
 use super::front;
 use super::labels::{Area, Canvas};
 use super::margin::{Seen, legend, yardsticks};
@@ -83,7 +85,7 @@ fn draw(scene: &Scene<'_>, svg: &mut String) -> Outcome {
     let head = format!("{}: what accuracy of inverse dynamics costs", scene.title);
     text(&root, &head, (28, 26), 23, &INK, HPos::Left)?;
     let said = "Each dot is a way to compute all joint torques: further left is cheaper, further down more accurate. Dashed: \
-                errors that sensors and parameters bring anyway.";
+                errors that sensors and parameters bring anyway. Small numbers: the page.";
     text(&root, said, (28, 50), 15, &INK, HPos::Left)?;
     legend(&root)?;
     let [[left, right], [low, high]] = ranges(scene);
@@ -195,6 +197,40 @@ fn draw(scene: &Scene<'_>, svg: &mut String) -> Outcome {
     for (place, words, colour) in named {
         label(&root, &mut canvas, place, &words, &colour)?;
     }
+    numbers(&root, &mut canvas, scene, |point, cost| {
+        at(&chart, point.costs()[cost], point.error())
+    })?;
     root.present()?;
     Ok(())
 }
+
+/// The rest of the fronts by number: the page has them all.
+fn numbers(
+    root: &Root<'_>,
+    canvas: &mut Canvas,
+    scene: &Scene<'_>,
+    at: impl Fn(&Point, usize) -> [f64; 2],
+) -> Outcome {
+    let named = [0, 1].map(|cost| steps(&scene.points, cost));
+    let is_named = |point: &Point| named.iter().flatten().any(|it| it.key == point.key);
+    for (i, point) in front::numbered(&scene.points).into_iter().enumerate() {
+        if is_named(point) {
+            continue;
+        }
+        let (cost, colour) = if point.fronts[0] {
+            (0, WORST)
+        } else {
+            (1, MEAN)
+        };
+        let place = at(point, cost);
+        let words = (i + 1).to_string();
+        let wide = 0.55 * f64::from(NUMBER) * words.len() as f64;
+        let [left, top, _, bottom] = canvas.place(place, [wide, f64::from(NUMBER)]).0;
+        let middle = whole([left, f64::midpoint(top, bottom)]);
+        text(root, &words, middle, NUMBER, &colour, HPos::Left)?;
+    }
+    Ok(())
+}
+
+/// px: how high numbers are.
+const NUMBER: i32 = 10;

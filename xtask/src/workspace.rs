@@ -102,7 +102,12 @@ pub fn write(path: &Path, contents: impl AsRef<[u8]>) -> Result<()> {
 
 /// Writes files so that none is ever half-written: all beside their places first, then each is moved there.
 pub fn write_whole(files: &[(PathBuf, String)]) -> Result<()> {
-    let beside = |path: &Path| path.with_extension("part");
+    // Behind the whole name: files of one stem may differ in their endings alone.
+    let beside = |path: &Path| {
+        let mut name = path.as_os_str().to_owned();
+        name.push(".part");
+        PathBuf::from(name)
+    };
     for (path, contents) in files {
         write(&beside(path), contents)?;
     }
@@ -110,4 +115,22 @@ pub fn write_whole(files: &[(PathBuf, String)]) -> Result<()> {
         std::fs::rename(beside(path), path).map_err(Error::file("write", path))?;
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{read, write_whole};
+
+    #[test]
+    fn files_of_one_stem_are_written_side_by_side() {
+        let folder = std::env::temp_dir().join(format!("written-whole-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).expect("a folder");
+        let files = ["page.md", "page.json"].map(|name| (folder.join(name), name.to_owned()));
+        write_whole(&files).expect("both");
+        for (path, contents) in &files {
+            assert_eq!(read(path).expect("there"), *contents);
+        }
+        assert_eq!(std::fs::read_dir(&folder).expect("the folder").count(), 2);
+        std::fs::remove_dir_all(&folder).expect("gone again");
+    }
 }

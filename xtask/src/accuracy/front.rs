@@ -1,5 +1,7 @@
 //! The front: what nothing beats in error and cost at once.
 
+use std::cmp::Ordering;
+
 use super::point::Point;
 
 /// Marks in each group those that no other one is as accurate as for less, in the worst tick and in the mean.
@@ -14,25 +16,30 @@ pub fn mark(points: &mut [Point]) {
     }
 }
 
-/// Whether another one costs no more and errs no more, and does one of both less, or comes before it.
+/// A cost or an error that is larger by no more is the same: not worth another change.
+const SAME: f64 = 1.01;
+
+/// Whether another one costs no more and errs no more, or hardly more with fewer things changed.
 fn beaten(point: &Point, all: &[Point], cost: usize) -> bool {
-    let of = |other: &Point| (other.costs()[cost], other.error());
-    let mine = of(point);
+    let no_worse = |one: &Point, than: &Point, slack: f64| {
+        one.costs()[cost] <= slack * than.costs()[cost] && one.error() <= slack * than.error()
+    };
     all.iter()
-        .filter(|other| other.group() == point.group())
-        .any(|other| {
-            let its = of(other);
-            let no_worse = its.0 <= mine.0 && its.1 <= mine.1;
-            // Of those that are the same, the one with fewer things changed is told.
-            let better = its != mine || rank(other) < rank(point);
-            no_worse && better
+        .filter(|other| other.group() == point.group() && other.key != point.key)
+        .any(|other| match changes(other).cmp(&changes(point)) {
+            Ordering::Less => no_worse(other, point, SAME),
+            Ordering::Equal => {
+                let alike = no_worse(point, other, 1.0);
+                no_worse(other, point, 1.0) && (!alike || other.key < point.key)
+            }
+            Ordering::Greater => no_worse(other, point, 1.0) && !no_worse(point, other, SAME),
         })
 }
 
-/// How far from the default.
-fn rank(point: &Point) -> (usize, &str) {
-    let changes = point.key.split(',').filter(|axis| axis.contains('='));
-    (changes.count(), &point.key)
+/// How many things are not as in the default.
+fn changes(point: &Point) -> usize {
+    let axes = point.key.split(',');
+    axes.filter(|axis| axis.contains('=')).count()
 }
 
 /// The front of a group by a cost, from the cheapest on.
@@ -101,6 +108,18 @@ pub mod tests {
         assert_eq!(keys(0), ["model=gravity", "trig=a", "default"]);
         assert_eq!(keys(1), ["rate=10", "trig=a", "default"]);
         assert!(points[3].front && !points[2].front && !points[5].front && !points[6].front);
+    }
+
+    #[test]
+    fn a_cycle_in_a_hundred_is_not_worth_a_change() {
+        let mut points = [
+            point("default", 1e-5, 1000, 1000.0),
+            point("opt=s", 1e-5, 995, 995.0),
+            point("trig=a", 1e-3, 900, 900.0),
+            point("trig=a,opt=s", 1e-3, 880, 880.0),
+        ];
+        mark(&mut points);
+        assert_eq!(points.map(|point| point.front), [true, false, false, true]);
     }
 
     #[test]

@@ -62,7 +62,9 @@ pub fn brief(points: &[Point], rustc: &str) -> String {
         let (robot, kind, plant) = point.group();
         (robot, kind, plant) == ("ur5e", Kind::Inverse, "rigid") && BRIEF.contains(&&*point.key)
     };
-    for point in points.iter().filter(few) {
+    let mut shown: Vec<&Point> = points.iter().filter(few).collect();
+    shown.sort_by(|a, b| a.error().total_cmp(&b.error()));
+    for point in shown {
         let share = point.relative_max.map_or_else(|| "–".into(), digits);
         table.row([
             name(point),

@@ -5,7 +5,7 @@ use super::bars;
 use super::front;
 use super::measure::{Measured, Robot};
 use super::point::{Kind, Point};
-use super::words::{cycles, digits, name, sentence};
+use super::words::{cycles, digits, glossary, name};
 use crate::docs::Page;
 use crate::report::MODEL;
 use crate::table::{Table, thousands};
@@ -75,10 +75,7 @@ pub fn text(measured: &Measured, robot: Robot) -> String {
     for (cost, head) in heads.into_iter().enumerate() {
         let shown = shown(&rigid, cost);
         text += &format!("{head}\n\n{}\n", steps_table(&rigid, &shown).markdown());
-        for point in shown {
-            text += &format!("- **{}.** {}\n", name(point), sentence(point));
-        }
-        text.push('\n');
+        text += &format!("{}\n", glossary(&shown));
     }
     text += &every(&rigid);
     text += &joints(&rigid);

@@ -8,25 +8,32 @@ fn changed(point: &Point) -> impl Iterator<Item = (&str, &str)> {
     point.key.split(',').filter_map(|axis| axis.split_once('='))
 }
 
-/// A short name, for a plot.
-pub fn name(point: &Point) -> String {
-    let mut names = Vec::new();
+/// What it is made of that the default is not: names, and what each does.
+fn parts(point: &Point) -> Vec<(String, String)> {
+    let mut parts = Vec::new();
+    let owned = |(name, phrase): (&str, &str)| (name.to_owned(), phrase.to_owned());
     if point.kind == Kind::Simulation {
-        names.extend(found("integrator", point.on("integrator")).map(|words| words.0.to_owned()));
-        names.push(step(point));
+        parts.extend(found("integrator", point.on("integrator")).map(owned));
+        parts.push((step(point), format!("takes steps of {}", step(point))));
     }
     for (axis, value) in changed(point) {
         match (axis, found(axis, value)) {
             ("integrator" | "step" | "scene" | "between", _) => {}
-            ("rate", _) => names.push(format!(
-                "every {} tick, {}",
-                nth(value),
-                point.on("between")
-            )),
-            (_, Some((name, _))) => names.push(name.to_owned()),
-            (_, None) => names.push(format!("{axis} {value}")),
+            ("rate", _) => {
+                let between = point.on("between");
+                let name = format!("every {} tick, {between}", nth(value));
+                parts.push((name, every(value, between)));
+            }
+            (_, Some(words)) => parts.push(owned(words)),
+            (_, None) => parts.push((format!("{axis} {value}"), format!("has {axis} {value}"))),
         }
     }
+    parts
+}
+
+/// A short name, for a plot.
+pub fn name(point: &Point) -> String {
+    let names: Vec<String> = parts(point).into_iter().map(|part| part.0).collect();
     if names.is_empty() {
         return "default".into();
     }
@@ -40,26 +47,32 @@ fn step(point: &Point) -> String {
     }
 }
 
-/// What it does that the default does not, as a sentence.
-pub fn sentence(point: &Point) -> String {
-    let mut phrases: Vec<String> = Vec::new();
-    if point.kind == Kind::Simulation {
-        phrases.extend(found("integrator", point.on("integrator")).map(|words| words.1.to_owned()));
-        phrases.push(format!("takes steps of {}", step(point)));
-    }
-    for (axis, value) in changed(point) {
-        match (axis, found(axis, value)) {
-            ("integrator" | "step" | "scene" | "between", _) => {}
-            ("rate", _) => phrases.push(every(value, point.on("between"))),
-            ("arith", Some((_, phrase))) if value != "f32" => phrases.push(phrase.to_owned()),
-            (_, Some((_, phrase))) => phrases.push(phrase.to_owned()),
-            (_, None) => phrases.push(format!("has {axis} {value}")),
+const DEFAULT: &str = "The default: the whole rigid-body equation in f32, by the engine, in every tick; it gives up \
+                       nothing but what f32 rounds off.";
+
+/// Of all that these are made of, what each does, once.
+pub fn glossary(points: &[&Point]) -> String {
+    let mut told: Vec<(String, String)> = Vec::new();
+    for part in points.iter().flat_map(|point| parts(point)) {
+        if !told.contains(&part) {
+            told.push(part);
         }
     }
+    let mut text: String = told
+        .into_iter()
+        .map(|(name, phrase)| format!("- **{name}** {phrase}.\n"))
+        .collect();
+    if points.iter().any(|point| point.is_default()) {
+        text += &format!("- {DEFAULT}\n");
+    }
+    text
+}
+
+/// What it does that the default does not, as a sentence.
+pub fn sentence(point: &Point) -> String {
+    let phrases: Vec<String> = parts(point).into_iter().map(|part| part.1).collect();
     match phrases.as_slice() {
-        [] => "The default: the whole rigid-body equation in f32, by the engine, in every tick; it gives up nothing \
-               but what f32 rounds off."
-            .into(),
+        [] => DEFAULT.into(),
         [phrases @ .., last] if !phrases.is_empty() => {
             format!("It {}; and {last}.", phrases.join("; "))
         }
@@ -104,7 +117,7 @@ pub fn cycles(x: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::super::front::tests::point;
-    use super::{digits, name, sentence};
+    use super::{digits, glossary, name, sentence};
 
     #[test]
     fn a_configuration_reads_as_a_sentence() {
@@ -117,6 +130,18 @@ mod tests {
         assert!(
             told.starts_with("It interpolates")
                 && told.contains("; and computes in every 10th tick"),
+            "{told}"
+        );
+    }
+
+    #[test]
+    fn a_glossary_tells_each_word_once() {
+        let one = point("trig=table", 1.0, 1, 1.0);
+        let both = point("trig=table,rate=10,between=linearised", 1.0, 1, 1.0);
+        let told = glossary(&[&one, &both]);
+        assert_eq!(told.matches("**linear table**").count(), 1);
+        assert!(
+            told.contains("- **every 10th tick, linearised** computes in every 10th tick"),
             "{told}"
         );
     }

@@ -4,7 +4,7 @@ use super::join::{self, Host};
 use super::point::Point;
 use super::progress::Progress;
 use crate::costs::{self, Row};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::firmware;
 use crate::setup::Tools;
 use crate::shell;
@@ -146,8 +146,24 @@ impl Plan {
         batches.filter(|batch| !batch.bins.is_empty()).collect()
     }
 
-    /// Builds and runs it all.
+    /// Builds and runs it all, for host and target side by side.
     pub fn run(&self, workspace: &Workspace, tools: &Tools) -> Result<Measured> {
+        std::thread::scope(|scope| {
+            let host = scope.spawn(|| self.errors(workspace));
+            self.costs(workspace, tools, || {
+                host.join()
+                    .unwrap_or_else(|_| Err(Error::check("the host's errors were not computed")))
+            })
+        })
+    }
+
+    /// Builds and runs bins on the target, and joins them with what the host says.
+    fn costs(
+        &self,
+        workspace: &Workspace,
+        tools: &Tools,
+        host_lines: impl FnOnce() -> Result<String>,
+    ) -> Result<Measured> {
         let batches = self.batches();
         let bins = batches.iter().map(|batch| batch.bins.len()).sum::<usize>();
         let host = if self.quick { HOST / 5.0 } else { HOST };
@@ -175,7 +191,7 @@ impl Plan {
             }
         }
         bar.step("computing errors on the host", host);
-        let host = Host::read(&self.errors(workspace)?)?;
+        let host = Host::read(&host_lines()?)?;
         Ok(Measured {
             points: join::join(&host, &measured)?,
             single: join::join(&host, &single)?,

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Minimax coefficients of the f32 sine and cosine kernels (dynamics-core/src/trig.rs).
+"""Minimax coefficients of the f32 sine and cosine kernels (dynamics-core/src/trig/minimax.rs).
 
 sin r = r + r^3 P(r^2), cos r = 1 - r^2/2 + r^4 Q(r^2) on |r| <= pi/4 plus the slack that a
 reduction by rounding in f32 leaves. Coefficients come from Remez exchange in 50 digits and

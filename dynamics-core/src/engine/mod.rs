@@ -84,10 +84,7 @@ impl<T> Engine<T> {
             if const { J < V } {
                 let joint = const { &Prepared::<T, B, Q, V>::joint(J) };
                 turns[J] = match (joint.prismatic, joint.near) {
-                    (true, _) => Turn {
-                        q: q[J],
-                        ..Turn::default()
-                    },
+                    (true, _) => Turn::plain(q[J]),
                     (false, true) => Turn::near(q[J]),
                     (false, false) => Turn::new(q[J]),
                 };

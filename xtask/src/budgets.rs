@@ -143,12 +143,20 @@ pub fn bars(workspace: &Workspace) -> Result<(Bars, Ratios)> {
     Ok((budgets.bars, budgets.ratios))
 }
 
-/// Fails if a row of the costs exceeds its budget or misses its bar; else says how many rows hold.
-pub fn check_costs(workspace: &Workspace, report: &costs::Report) -> Result<String> {
+/// Fails if a row of the costs exceeds its budget or misses its bar; else says how many rows hold. With a
+/// robot: the report has the rows of this one alone.
+pub fn check_costs(
+    workspace: &Workspace,
+    report: &costs::Report,
+    robot: Option<&str>,
+) -> Result<String> {
     let budgets = read(workspace)?;
-    let budget = budgets.costs.ok_or_else(|| {
+    let mut budget = budgets.costs.ok_or_else(|| {
         Error::check("budgets.toml has no [costs]: `cargo xtask costs --write-budgets`")
     })?;
+    if let Some(robot) = robot {
+        budget = budget.only(robot);
+    }
     let mut wrong = budget.exceeded_by(&costs::Budget::measured(report));
     wrong.extend(report.missed().iter().map(|bar| format!("bar: {bar}")));
     if !wrong.is_empty() {

@@ -60,6 +60,20 @@ pub fn measure(workspace: &Workspace, tools: &Tools) -> Result<Report> {
     })
 }
 
+/// Measures the rows of the first robot alone, with what is promised of them.
+pub fn measure_first(workspace: &Workspace, tools: &Tools) -> Result<Report> {
+    let (mut bars, ratios) = budgets::bars(workspace)?;
+    let rows = measure::first(workspace, tools)?;
+    bars.retain(|key, _| rows.iter().any(|row| key.starts_with(&*row.robot)));
+    Ok(Report {
+        rows,
+        small: measure::small(workspace, tools)?,
+        bars,
+        ratios,
+        rustc: tools.toolchain.rustc_version()?,
+    })
+}
+
 /// Fails unless the page is that of the report, or close to it if another compiler wrote it.
 pub fn check_page(workspace: &Workspace, report: &Report) -> Result<()> {
     let path = workspace.root.join(PAGE);

@@ -57,6 +57,15 @@ pub fn capture(command: &mut Command) -> Result<String> {
     })
 }
 
+/// Writes to stdout; a reader that is gone is no failure.
+pub fn print(text: &str) -> Result<()> {
+    use std::io::{ErrorKind, Write};
+    match std::io::stdout().lock().write_all(text.as_bytes()) {
+        Err(e) if e.kind() != ErrorKind::BrokenPipe => Err(Error::check(format!("stdout: {e}"))),
+        _ => Ok(()),
+    }
+}
+
 /// Whether the command can be started and succeeds, with nothing shown.
 pub fn succeeds(command: &mut Command) -> bool {
     command

@@ -54,6 +54,13 @@ impl Budget {
         }
     }
 
+    /// The part of one robot.
+    pub fn only(mut self, robot: &str) -> Self {
+        self.rows
+            .retain(|key, _| key.split(' ').next() == Some(robot));
+        self
+    }
+
     /// What exceeds this budget, in words; a row that has none, or is gone, is told as well.
     pub fn exceeded_by(&self, measured: &Self) -> Vec<String> {
         let more = 1.0 + slack(&self.rustc, &measured.rustc);
@@ -106,6 +113,20 @@ mod tests {
         let value: toml::Table = toml::from_str(&text).expect("TOML");
         let again: Budget = value["costs"].clone().try_into().expect("a budget");
         assert_eq!(again.toml(), text);
+    }
+
+    #[test]
+    fn the_budget_of_one_robot_misses_no_row_of_another() {
+        let both = budget("rustc 1", "ur5e rnea core full", 9).only("ur5e");
+        let measured = budget("rustc 1", "ur5e aba core full", 9);
+        let wrong = both.exceeded_by(&measured).join("; ");
+        assert!(
+            wrong.contains("ur5e rnea core full: is no longer measured"),
+            "{wrong}"
+        );
+        let other = budget("rustc 1", "ur5e10 rnea core full", 9).only("ur5e");
+        let wrong = other.exceeded_by(&measured);
+        assert_eq!(wrong, ["ur5e aba core full: has no budget"]);
     }
 
     #[test]

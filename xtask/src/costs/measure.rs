@@ -79,6 +79,11 @@ pub fn all(workspace: &Workspace, tools: &Tools) -> Result<Vec<Row>> {
     measure(workspace, tools, RELEASE, &BINS)
 }
 
+/// The rows of the first robot.
+pub fn first(workspace: &Workspace, tools: &Tools) -> Result<Vec<Row>> {
+    measure(workspace, tools, RELEASE, &BINS[..2])
+}
+
 /// The engine's rows of inverse dynamics of the first robot in a firmware that is built for size.
 pub fn small(workspace: &Workspace, tools: &Tools) -> Result<Vec<Row>> {
     let mut rows = measure(workspace, tools, SMALL, &BINS[..1])?;

@@ -12,6 +12,8 @@ const HOST: [&str; 3] = ["--workspace", "--exclude", FIRMWARE];
 /// The part of the firmware that runs anywhere.
 const FIRMWARE_LIB: [&str; 3] = ["--package", FIRMWARE, "--lib"];
 const DENY_WARNINGS: [&str; 3] = ["--", "-D", "warnings"];
+/// The tests that take the compiler long: further robots and scalars of claims that are tested without.
+const FULL: [&str; 2] = ["--features", "host-tests/full"];
 
 fn cargo(context: &Context, subcommand: &str, arguments: &[&[&str]]) -> Result<String> {
     let mut command = context.workspace.cargo(subcommand);
@@ -30,7 +32,7 @@ pub fn clippy(context: &Context) -> Result<Outcome> {
     cargo(
         context,
         "clippy",
-        &[&HOST, &["--all-targets"], &DENY_WARNINGS],
+        &[&HOST, &["--all-targets"], &FULL, &DENY_WARNINGS],
     )?;
     cargo(context, "clippy", &[&FIRMWARE_LIB, &DENY_WARNINGS])?;
     Outcome::PASSED
@@ -39,7 +41,8 @@ pub fn clippy(context: &Context) -> Result<Outcome> {
 pub fn tests(context: &Context) -> Result<Outcome> {
     // Not `--bins`, which builds those with `test = false` too: large ones that hold no tests.
     let kinds = ["--lib", "--tests"];
-    let host = cargo(context, "test", &[&HOST, &kinds])?;
+    let more: &[&str] = if context.full { &FULL } else { &[] };
+    let host = cargo(context, "test", &[&HOST, &kinds, more])?;
     let firmware = cargo(context, "test", &[&FIRMWARE_LIB])?;
     Ok(Outcome::Passed(format!(
         "{} tests",

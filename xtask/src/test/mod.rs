@@ -1,6 +1,8 @@
-//! `cargo xtask test`: everything that CI runs, as a table of steps.
+//! `cargo xtask test`: what guards correctness, as a table of steps; `--full` adds every robot, every scene,
+//! every report and the currency of the documents, which is what CI runs.
 
 mod absent_steps;
+mod claims;
 mod cost_steps;
 mod firmware_steps;
 mod host_steps;
@@ -19,6 +21,7 @@ use crate::firmware;
 use crate::progress::Spinner;
 use crate::scene::Scene;
 use crate::setup::{self, Options, Tools};
+use crate::shell;
 use crate::workspace::Workspace;
 
 /// One thing that is tested.
@@ -28,7 +31,17 @@ struct Step {
     /// What holds if it passes.
     title: &'static str,
     lane: Lane,
+    scope: Scope,
     run: fn(&Context) -> Result<Outcome>,
+}
+
+/// Which runs a step belongs to.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Scope {
+    /// Every run, on the cheapest witness of each claim; a full run adds the others.
+    Everyday,
+    /// A full run only, or by name.
+    Full,
 }
 
 /// Which of the two rows of steps that go on side by side: cargo builds for the host and for the target in
@@ -55,6 +68,8 @@ impl Outcome {
 struct Context {
     workspace: Workspace,
     options: Options,
+    /// Whether every robot, every scene and every report is tested, or the cheapest witness of each claim.
+    full: bool,
     /// Whether the step `debian` may install Debian's compiler.
     may_install_debian: bool,
     tools: Tools,
@@ -67,156 +82,182 @@ const STEPS: &[Step] = &[
         name: "fmt",
         title: "rustfmt has nothing to change",
         lane: Lane::Host,
+        scope: Scope::Everyday,
         run: host_steps::fmt,
     },
     Step {
         name: "clippy",
         title: "clippy has nothing to say of the host crates",
         lane: Lane::Host,
+        scope: Scope::Full,
         run: host_steps::clippy,
     },
     Step {
         name: "clippy-firmware",
         title: "clippy has nothing to say of the firmware",
         lane: Lane::Target,
+        scope: Scope::Full,
         run: firmware_steps::clippy,
     },
     Step {
         name: "host",
         title: "the host tests pass",
         lane: Lane::Host,
+        scope: Scope::Everyday,
         run: host_steps::tests,
     },
     Step {
         name: "doctests",
         title: "the examples in the documentation run",
         lane: Lane::Host,
+        scope: Scope::Everyday,
         run: host_steps::doctests,
     },
     Step {
         name: "doc",
         title: "the documentation builds without a warning",
         lane: Lane::Host,
+        scope: Scope::Full,
         run: host_steps::doc,
     },
     Step {
         name: "firmware",
         title: "every bin of the firmware builds",
         lane: Lane::Target,
+        scope: Scope::Full,
         run: firmware_steps::build,
     },
     Step {
         name: "meter",
         title: "the cycle meter agrees with sequences counted by hand",
         lane: Lane::Target,
+        scope: Scope::Everyday,
         run: firmware_steps::meter,
     },
     Step {
         name: "bits",
         title: "the host and QEMU compute the same bits",
         lane: Lane::Host,
+        scope: Scope::Everyday,
         run: firmware_steps::bits,
     },
     Step {
         name: "scene",
         title: "every scene runs to its end",
         lane: Lane::Target,
+        scope: Scope::Everyday,
         run: scene_steps::runs,
     },
     Step {
         name: "determinism",
         title: "two runs of a scene give the same bytes",
         lane: Lane::Target,
+        scope: Scope::Everyday,
         run: scene_steps::determinism,
     },
     Step {
         name: "tracking",
         title: "every scene tracks within its bound, the default one better than PD as promised",
         lane: Lane::Target,
+        scope: Scope::Everyday,
         run: scene_steps::tracking,
     },
     Step {
         name: "cycles",
         title: "the longest tick is short enough",
         lane: Lane::Target,
+        scope: Scope::Everyday,
         run: scene_steps::cycles,
     },
     Step {
         name: "no-f64",
         title: "the tick reaches no f64 arithmetic, no libm trigonometry and no panic",
         lane: Lane::Target,
+        scope: Scope::Everyday,
         run: firmware_steps::no_f64,
     },
     Step {
         name: "opcodes",
         title: "the firmware has no instruction that a Cortex-M4F lacks",
         lane: Lane::Target,
+        scope: Scope::Everyday,
         run: firmware_steps::opcodes,
     },
     Step {
         name: "budgets",
         title: "every scene is within budgets.toml",
         lane: Lane::Target,
+        scope: Scope::Everyday,
         run: scene_steps::budgets,
     },
     Step {
         name: "constant",
         title: "the work costs the same whatever the data",
         lane: Lane::Target,
+        scope: Scope::Everyday,
         run: cost_steps::constant,
     },
     Step {
         name: "costs",
         title: "every function is within budgets.toml and its bar, and docs/costs.md says so",
         lane: Lane::Target,
+        scope: Scope::Everyday,
         run: cost_steps::costs,
     },
     Step {
         name: "growth",
         title: "inverse and forward dynamics grow in step with a chain, and docs/growth.md says so",
         lane: Lane::Target,
+        scope: Scope::Full,
         run: cost_steps::growth,
     },
     Step {
         name: "absent-effects",
         title: "an effect that a scene does not name costs it nothing",
         lane: Lane::Target,
+        scope: Scope::Everyday,
         run: absent_steps::absent_effects_cost_nothing,
     },
     Step {
         name: "accuracy",
         title: "docs/accuracy.md has today's costs and errors of single changes; what is printed to be pasted keeps them",
         lane: Lane::Target,
+        scope: Scope::Full,
         run: cost_steps::accuracy,
     },
     Step {
         name: "effects",
         title: "docs/effects.md has today's prices",
         lane: Lane::Target,
+        scope: Scope::Full,
         run: cost_steps::effects,
     },
     Step {
         name: "eliminations",
         title: "docs/eliminations.md has today's accuracies",
         lane: Lane::Host,
+        scope: Scope::Full,
         run: host_steps::eliminations,
     },
     Step {
         name: "hard-cases",
         title: "every hard case holds, and docs/hard-cases.md has today's figures",
         lane: Lane::Host,
+        scope: Scope::Full,
         run: host_steps::hard_cases,
     },
     Step {
         name: "readme",
         title: "the tables of README.md and docs/scenes.md are those of this run",
         lane: Lane::Target,
+        scope: Scope::Everyday,
         run: scene_steps::readme,
     },
     Step {
         name: "debian",
         title: "Debian's own compiler builds a scene that runs",
         lane: Lane::Target,
+        scope: Scope::Full,
         run: scene_steps::debian,
     },
 ];
@@ -232,10 +273,19 @@ impl Context {
         Ok(self.meter.get_or_init(PathBuf::new))
     }
 
-    /// One run of each scene, done once.
+    /// The scenes under test: all of them in a full run, the default one else.
+    fn scenes(&self) -> &'static [Scene] {
+        if self.full {
+            Scene::ALL
+        } else {
+            &Scene::ALL[..1]
+        }
+    }
+
+    /// One run of each scene under test, done once.
     fn measured(&self) -> Result<&[Measured]> {
         if self.measured.get().is_none() {
-            let all = demo::build_and_measure(&self.workspace, &self.tools, Scene::ALL)?;
+            let all = demo::build_and_measure(&self.workspace, &self.tools, self.scenes())?;
             let _ = self.measured.set(all);
         }
         Ok(self.measured.get_or_init(Vec::new))
@@ -251,25 +301,53 @@ pub fn names() -> PossibleValuesParser {
         .into()
 }
 
-/// Prints the steps.
-pub fn list() {
-    for step in STEPS {
-        println!("{:16} {}", step.name, step.title);
+/// Prints the steps, with those last that only a full run takes, and the tests that it adds to the step `host`.
+pub fn list() -> Result<ExitCode> {
+    let workspace = Workspace::find()?;
+    let steps = |scope| STEPS.iter().filter(move |step| step.scope == scope);
+    let mut text = String::from("every run:\n");
+    for step in steps(Scope::Everyday) {
+        text += &format!("  {:16} {}\n", step.name, step.title);
     }
+    text += "\nonly with --full, or by name:\n";
+    for step in steps(Scope::Full) {
+        text += &format!("  {:16} {}\n", step.name, step.title);
+    }
+    text += "\ntests that only --full adds to the step `host`; every other step then takes all robots and scenes:\n";
+    for (program, test) in claims::full_only(&workspace.root.join("host-tests/tests"))? {
+        text += &format!("  {program:16} {}\n", test.replace('_', " "));
+    }
+    shell::print(&text)?;
+    Ok(ExitCode::SUCCESS)
 }
 
-/// Runs the steps of these names, or all of them.
-pub fn run(options: Options, only: &[String], debian: bool) -> Result<ExitCode> {
+/// Which steps to run, and how.
+pub struct Args {
+    /// The steps of these names; none: those of the run.
+    pub steps: Vec<String>,
+    /// Every step, every robot, every scene.
+    pub full: bool,
+    /// Whether the step `debian` may install Debian's compiler.
+    pub debian: bool,
+}
+
+/// Runs the steps of these names, or those of an everyday or a full run.
+pub fn run(options: Options, args: &Args) -> Result<ExitCode> {
+    let start = Instant::now();
     let context = Context {
         workspace: Workspace::find()?,
         tools: setup::for_test(options)?,
         options,
+        full: args.full,
         // A CI machine is thrown away: what is installed there is in nobody's way.
-        may_install_debian: debian || std::env::var_os("CI").is_some_and(|ci| ci == "true"),
+        may_install_debian: args.debian || std::env::var_os("CI").is_some_and(|ci| ci == "true"),
         meter: OnceLock::new(),
         measured: OnceLock::new(),
     };
-    let wanted = |step: &&Step| only.is_empty() || only.iter().any(|name| name == step.name);
+    let wanted = |step: &&Step| match args.steps.as_slice() {
+        [] => args.full || step.scope == Scope::Everyday,
+        names => names.iter().any(|name| name == step.name),
+    };
     let run = |lane| {
         let steps = STEPS.iter().filter(|step| step.lane == lane).filter(wanted);
         steps.map(|step| passes(step, &context)).collect::<Vec<_>>()
@@ -287,6 +365,13 @@ pub fn run(options: Options, only: &[String], debian: bool) -> Result<ExitCode> 
             .count()
     };
     let (passed, failed) = (count(Some(true)), count(Some(false)));
+    if args.steps.is_empty() && !args.full {
+        println!(
+            "every robot, scene, report and document: `cargo xtask test --full`; `--list` names what it adds"
+        );
+    }
+    let seconds = start.elapsed().as_secs();
+    println!("took {} min {:02} s", seconds / 60, seconds % 60);
     println!("{passed} passed, {failed} failed");
     Ok(if failed == 0 {
         ExitCode::SUCCESS

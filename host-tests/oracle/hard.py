@@ -1,6 +1,6 @@
 """Fifty-digit answers to the hard cases, from the very bits that the library computes with.
 
-    cargo run -p host-tests --bin hard_inputs | python host-tests/oracle/hard.py
+    cargo run -p host-reports --bin hard_inputs | python host-tests/oracle/hard.py
 
 writes host-tests/recordings/hard/CASE.json. Nothing here is the library's way: bodies are followed in base
 coordinates, torques are moments of Newton's and Euler's forces about each axis, M is a column per unit

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Records joint damping, springs, dry friction and rotor inertia of the UR5e in MuJoCo.
 
-    cargo run -p host-tests --bin export_robots | .venv/bin/python host-tests/oracle/passive.py
+    cargo run -p host-reports --bin export_robots | .venv/bin/python host-tests/oracle/passive.py
 
 Writes host-tests/recordings/passive_ur5e.json: `mj_inverse` of 50 states, which is the motors' torque with its
 `qfrc_passive` and its friction constraints in it. MuJoCo's dry friction is a constraint that slips at `frictionloss` and

@@ -2,7 +2,7 @@
 """Record what Pinocchio says about our robots: the oracle of the accuracy tests.
 
     python3 -m venv venv && venv/bin/pip install -r host-tests/oracle/requirements.txt
-    cargo run -p host-tests --bin export_robots | venv/bin/python host-tests/oracle/record.py
+    cargo run -p host-reports --bin export_robots | venv/bin/python host-tests/oracle/record.py
 
 reads the robots' constants as the Rust code has them, builds Pinocchio's models from those numbers (not
 from a URDF with rounded angles), and writes host-tests/recordings/<robot>.json. With --check it writes

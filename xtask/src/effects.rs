@@ -102,7 +102,7 @@ fn measure(workspace: &Workspace, tools: &Tools) -> Result<Vec<Price>> {
     }
     spinner.say("computing torques on the host".into());
     let mut command = workspace.cargo("run");
-    command.args(["--quiet", "--package", "host-tests"]);
+    command.args(["--quiet", "--package", "host-reports"]);
     let torques = shell::capture(command.args(["--bin", HOST_BIN]))?;
     let torques = torques.lines().filter_map(torque).collect();
     priced(&rows, &held, &torques)

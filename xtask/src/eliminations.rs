@@ -34,7 +34,7 @@ pub fn check(workspace: &Workspace) -> Result<()> {
 
 fn generated(workspace: &Workspace) -> Result<String> {
     let mut command = workspace.cargo("run");
-    command.args(["--quiet", "--package", "host-tests", "--bin", BIN]);
+    command.args(["--quiet", "--package", "host-reports", "--bin", BIN]);
     Ok(format!(
         "{HEAD}{}",
         shell::capture(&mut command)?.trim_end()

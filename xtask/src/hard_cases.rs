@@ -86,7 +86,7 @@ pub fn check(workspace: &Workspace) -> Result<String> {
 
 fn measured(workspace: &Workspace) -> Result<Suite> {
     let mut command = workspace.cargo("run");
-    command.args(["--quiet", "--package", "host-tests", "--bin", BIN]);
+    command.args(["--quiet", "--package", "host-reports", "--bin", BIN]);
     let text = shell::capture(&mut command)?;
     serde_json::from_str(&text)
         .map_err(|e| Error::check(format!("`{BIN}` printed what is no suite: {e}")))

@@ -209,7 +209,7 @@ impl Plan {
     fn errors(&self, workspace: &Workspace) -> Result<String> {
         let mut command = workspace.cargo("run");
         // Not for speed: to build it with optimisation across crates takes longer than it runs.
-        command.args(["--quiet", "--package", "host-tests"]);
+        command.args(["--quiet", "--package", "host-reports"]);
         let bin = if self.quick { QUICK_HOST_BIN } else { HOST_BIN };
         command.args(["--features", FEATURE, "--bin", bin, "--"]);
         let computed = self.robots.iter().filter(|robot| robot.bin().is_some());

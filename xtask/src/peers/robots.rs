@@ -49,7 +49,7 @@ pub fn export(workspace: &Workspace) -> Result<Vec<Robot>> {
     command.args([
         "--quiet",
         "--package",
-        "host-tests",
+        "host-reports",
         "--bin",
         "export_robots",
     ]);

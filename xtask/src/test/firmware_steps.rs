@@ -62,7 +62,7 @@ pub fn bits(context: &Context) -> Result<Outcome> {
         Ok(())
     })?;
     let mut cargo = context.workspace.cargo("run");
-    let host = shell::capture(cargo.args(["--quiet", "--package", "host-tests", "--bin", name]))?;
+    let host = shell::capture(cargo.args(["--quiet", "--package", "host-reports", "--bin", name]))?;
     let on_host: Vec<&str> = host.lines().collect();
     let differing = std::iter::zip(&on_target, &on_host).find(|(a, b)| a != b);
     if let Some((target, host)) = differing {

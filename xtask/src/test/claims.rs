@@ -40,22 +40,26 @@ fn sources(folder: &Path) -> Result<Vec<PathBuf>> {
     Ok(found)
 }
 
-/// The names of the tests in a source that stand behind the gate.
+/// The names of the tests in a source that stand behind the gate, and of those that go further behind it.
 fn gated(source: &str) -> Vec<String> {
-    let mut lines = source.lines().map(str::trim);
-    let mut names = Vec::new();
-    while let Some(line) = lines.next() {
-        if line != GATE {
-            continue;
-        }
-        let mut is_test = false;
-        for line in lines.by_ref().take(4) {
-            is_test |= line == "#[test]";
-            if let Some(rest) = line.strip_prefix("fn ") {
-                let name = rest.split(['(', '<']).next().unwrap_or_default();
-                names.extend(is_test.then(|| name.to_owned()));
-                break;
+    let (mut names, mut test, mut is_test, mut whole) = (Vec::new(), None, false, false);
+    for line in source.lines() {
+        match line.trim() {
+            "#[test]" => is_test = true,
+            // Outside every function: a test, or something that only such tests use.
+            GATE if line == GATE => whole = true,
+            GATE => names.extend(test.take().map(|name| format!("{name}: further robots"))),
+            code if code.starts_with("fn ") && line == code => {
+                let name = code["fn ".len()..]
+                    .split(['(', '<'])
+                    .next()
+                    .unwrap_or_default();
+                test = (is_test && !whole).then(|| name.to_owned());
+                names.extend((is_test && whole).then(|| name.to_owned()));
+                (is_test, whole) = (false, false);
             }
+            code if line == code && !code.starts_with('#') => (is_test, whole) = (false, false),
+            _ => {}
         }
     }
     names
@@ -68,8 +72,10 @@ mod tests {
     #[test]
     fn a_test_behind_the_gate_is_named_and_nothing_else() {
         let source = format!(
-            "#[test]\nfn always() {{}}\n\n{GATE}\n#[test]\nfn on_every_robot() {{\n}}\n{GATE}\nfn no_test() {{}}\n{GATE}\nuse x;\n"
+            "#[test]\nfn always() {{\n}}\n\n{GATE}\n#[test]\nfn on_every_robot() {{\n}}\n{GATE}\nfn no_test() {{\n}}\n\
+             {GATE}\nconst X: u8 = 1;\n#[test]\nfn in_part() {{\n    a();\n    {GATE}\n    {{\n        b();\n    }}\n}}\n"
         );
-        assert_eq!(gated(&source), ["on_every_robot"]);
+        let expected = ["on_every_robot", "in_part: further robots"];
+        assert_eq!(gated(&source), expected);
     }
 }

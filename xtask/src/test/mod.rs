@@ -4,6 +4,7 @@ mod absent_steps;
 mod cost_steps;
 mod firmware_steps;
 mod host_steps;
+mod other_machines;
 mod scene_steps;
 
 use std::path::PathBuf;
@@ -16,6 +17,7 @@ use clap::builder::PossibleValuesParser;
 use crate::demo::{self, Measured};
 use crate::error::Result;
 use crate::firmware;
+use crate::output;
 use crate::progress::Spinner;
 use crate::scene::Scene;
 use crate::setup::{self, Options, Tools};
@@ -219,6 +221,18 @@ const STEPS: &[Step] = &[
         lane: Lane::Target,
         run: scene_steps::debian,
     },
+    Step {
+        name: "qemu-10",
+        title: "QEMU 10 logs and measures what this machine's QEMU does, byte for byte",
+        lane: Lane::Target,
+        run: other_machines::qemu_10,
+    },
+    Step {
+        name: "compilers",
+        title: "the UR5e's demo and costs are within their budgets with rustup's other compilers",
+        lane: Lane::Target,
+        run: other_machines::compilers,
+    },
 ];
 
 impl Context {
@@ -252,10 +266,11 @@ pub fn names() -> PossibleValuesParser {
 }
 
 /// Prints the steps.
-pub fn list() {
+pub fn list() -> Result<()> {
     for step in STEPS {
-        println!("{:16} {}", step.name, step.title);
+        output::line(&format!("{:16} {}", step.name, step.title))?;
     }
+    Ok(())
 }
 
 /// Runs the steps of these names, or all of them.
@@ -272,13 +287,16 @@ pub fn run(options: Options, only: &[String], debian: bool) -> Result<ExitCode> 
     let wanted = |step: &&Step| only.is_empty() || only.iter().any(|name| name == step.name);
     let run = |lane| {
         let steps = STEPS.iter().filter(|step| step.lane == lane).filter(wanted);
-        steps.map(|step| passes(step, &context)).collect::<Vec<_>>()
+        steps
+            .map(|step| passes(step, &context))
+            .collect::<Result<Vec<_>>>()
     };
     let outcomes = std::thread::scope(|scope| {
         let lanes = [Lane::Host, Lane::Target].map(|lane| scope.spawn(move || run(lane)));
-        let panicked = |_| vec![Some(false)];
-        lanes.map(|lane| lane.join().unwrap_or_else(panicked))
-    });
+        let panicked = |_| Ok(vec![Some(false)]);
+        let ends = lanes.map(|lane| lane.join().unwrap_or_else(panicked));
+        ends.into_iter().collect::<Result<Vec<_>>>()
+    })?;
     let count = |what| {
         outcomes
             .iter()
@@ -287,7 +305,7 @@ pub fn run(options: Options, only: &[String], debian: bool) -> Result<ExitCode> 
             .count()
     };
     let (passed, failed) = (count(Some(true)), count(Some(false)));
-    println!("{passed} passed, {failed} failed");
+    output::line(&format!("{passed} passed, {failed} failed"))?;
     Ok(if failed == 0 {
         ExitCode::SUCCESS
     } else {
@@ -296,7 +314,7 @@ pub fn run(options: Options, only: &[String], debian: bool) -> Result<ExitCode> 
 }
 
 /// Runs a step and says how it ended: whether it passed, if it applied here.
-fn passes(step: &Step, context: &Context) -> Option<bool> {
+fn passes(step: &Step, context: &Context) -> Result<Option<bool>> {
     let start = Instant::now();
     let spinner = Spinner::start(step.title);
     let result = (step.run)(context);
@@ -314,16 +332,16 @@ fn passes(step: &Step, context: &Context) -> Option<bool> {
     let line = format!("{mark} {seconds:6.1} s  {name:16} {title}{detail}");
     match result {
         Ok(Outcome::Passed(_)) => {
-            println!("{line}");
-            Some(true)
+            output::line(&line)?;
+            Ok(Some(true))
         }
         Ok(Outcome::Skipped(_)) => {
-            println!("{line}");
-            None
+            output::line(&line)?;
+            Ok(None)
         }
         Err(error) => {
-            println!("{line}\n{error}\n");
-            Some(false)
+            output::line(&format!("{line}\n{error}\n"))?;
+            Ok(Some(false))
         }
     }
 }

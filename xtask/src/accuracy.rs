@@ -29,6 +29,7 @@ use std::process::ExitCode;
 
 use crate::docs;
 use crate::error::{Error, Result};
+use crate::output;
 use crate::setup::{self, Options, Tools};
 use crate::table::{Table, thousands};
 use crate::workspace::{self, Workspace};
@@ -59,6 +60,10 @@ pub fn run(options: Options, wish: Wish) -> Result<ExitCode> {
     if let (Some(budget), Some(kind), false) = (wish.budget, kind, wish.measure | wish.quick) {
         return wish.choose(&recorded::read(&workspace)?, budget, kind);
     }
+    let workspace = match wish.budget {
+        None if !wish.quick => Workspace::for_reports()?,
+        _ => workspace,
+    };
     let tools = setup::for_demo(options)?;
     let plan = Plan {
         robots: wish
@@ -83,7 +88,7 @@ pub fn run(options: Options, wish: Wish) -> Result<ExitCode> {
     if wish.json {
         docs::print_json(all)?;
     } else {
-        print!("{}", table(all).text());
+        output::print(&table(all).text())?;
     }
     Ok(ExitCode::SUCCESS)
 }
@@ -106,12 +111,12 @@ impl Wish {
             docs::print_json(&budget.choose(&points)?)?;
             return Ok(ExitCode::SUCCESS);
         }
-        print!("{answer}");
+        output::print(&answer)?;
         if !(self.measure | self.quick) {
-            eprintln!(
+            output::note(&format!(
                 "\nFrom {}; --measure takes its figures on this machine, in minutes.",
                 recorded::FILE
-            );
+            ));
         }
         Ok(ExitCode::SUCCESS)
     }
@@ -183,8 +188,9 @@ pub fn check(workspace: &Workspace, tools: &Tools) -> Result<String> {
 fn write(workspace: &Workspace, measured: &Measured, only: Option<Robot>) -> Result<()> {
     let file = workspace.root.join(page::FILE);
     let mut text = workspace::read(&file)?;
+    let file = workspace.report(page::FILE);
     let mut files: Vec<(PathBuf, String)> = Vec::new();
-    let picture = |name: &str| workspace.root.join(format!("docs/accuracy-{name}.svg"));
+    let picture = |name: &str| workspace.report(&format!("docs/accuracy-{name}.svg"));
     for robot in Robot::COMPUTED {
         let points = page::ways(&measured.points, robot, "rigid");
         if points.is_empty() {
@@ -208,7 +214,7 @@ fn write(workspace: &Workspace, measured: &Measured, only: Option<Robot>) -> Res
         let readme = workspace.root.join(single::README.file);
         let brief = single::brief(&measured.single, &measured.rustc);
         let brief = single::README.replaced(&workspace::read(&readme)?, &brief)?;
-        files.push((readme, brief));
+        files.push((workspace.report(single::README.file), brief));
     }
     files.push(recorded::replaced(workspace, &measured.points)?);
     files.push((file, text));

@@ -7,6 +7,7 @@ use serde::Serialize;
 
 use crate::docs;
 use crate::error::Result;
+use crate::output;
 use crate::progress::Spinner;
 use crate::setup::{self, Options, Tools};
 use crate::shell;
@@ -37,7 +38,7 @@ struct Row {
 
 /// Times the builds, writes the page and prints it.
 pub fn run(options: Options, json: bool) -> Result<ExitCode> {
-    let workspace = Workspace::find()?;
+    let workspace = Workspace::for_reports()?;
     let tools = setup::for_demo(options)?;
     let rows = measure(&workspace, &tools)?;
     let table = table(&rows);
@@ -50,11 +51,11 @@ pub fn run(options: Options, json: bool) -> Result<ExitCode> {
          {}\nMeasured with {rustc}.\n",
         table.markdown()
     );
-    workspace::write(&workspace.root.join(PAGE), page)?;
+    workspace::write(&workspace.report(PAGE), page)?;
     if json {
         docs::print_json(&rows)?;
     } else {
-        print!("{}", table.text());
+        output::print(&table.text())?;
     }
     Ok(ExitCode::SUCCESS)
 }

@@ -42,6 +42,11 @@ impl Instruction {
         to_register && (calls || !link_register)
     }
 
+    /// Whether it is `DBG`, which marks the regions that are measured.
+    pub fn is_marker(self) -> bool {
+        self.first == 0xf3af && self.second.is_some_and(|second| second & 0xfff0 == 0x80f0)
+    }
+
     /// Whether a Cortex-M4F lacks it: FPv5 (VSEL, VRINT, VMINNM …), f64 arithmetic, and what
     /// ARMv8-M and v8.1-M added (CSEL …, low-overhead loops, load-acquire and store-release).
     pub fn is_beyond_m4f(self) -> bool {

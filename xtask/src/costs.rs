@@ -10,6 +10,7 @@ use std::process::ExitCode;
 use crate::budgets;
 use crate::docs;
 use crate::error::Result;
+use crate::output;
 use crate::setup::{self, Options, Tools};
 use crate::workspace::{self, Workspace};
 
@@ -33,17 +34,17 @@ pub struct Wish {
 
 /// Measures, writes the page and prints it.
 pub fn run(options: Options, wish: Wish) -> Result<ExitCode> {
-    let workspace = Workspace::find()?;
+    let workspace = Workspace::for_reports()?;
     let tools = setup::for_demo(options)?;
     let report = measure(&workspace, &tools)?;
-    workspace::write(&workspace.root.join(PAGE), report.markdown())?;
+    workspace::write(&workspace.report(PAGE), report.markdown())?;
     if wish.write_budgets {
         budgets::write_costs(&workspace, Budget::measured(&report))?;
     }
     if wish.json {
         docs::print_json(&report.rows)?;
     } else {
-        print!("{}", report.text());
+        output::print(&report.text())?;
     }
     Ok(ExitCode::SUCCESS)
 }

@@ -1,5 +1,7 @@
 //! `cargo xtask demo`: builds scenes, runs them in QEMU, reports.
 
+mod tracking;
+
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
@@ -10,9 +12,10 @@ use crate::elf::Image;
 use crate::error::{Error, Result};
 use crate::firmware;
 use crate::meter;
+use crate::output;
 use crate::plot;
 use crate::progress::Spinner;
-use crate::protocol::Recording;
+use crate::protocol::{PD, Recording, SOLD};
 use crate::qemu::Run;
 use crate::report::Report;
 use crate::scene::Scene;
@@ -51,7 +54,15 @@ pub struct Wish {
 pub fn run(options: Options, wish: Wish) -> Result<ExitCode> {
     let workspace = Workspace::find()?;
     let tools = setup::for_demo(options)?;
-    let measured = build_and_measure(&workspace, &tools, &wish.scenes)?;
+    let built = Built::new(&workspace, &tools, &wish.scenes)?;
+    let measured = match built.measure(&workspace, &tools) {
+        Ok(measured) => measured,
+        Err(why) if wish.write_docs || wish.write_budgets => return Err(why),
+        Err(why) if built.lacks_the_meter(&tools, &why) => {
+            return tracking::run(&workspace, &tools, &built.runs, &why, wish.json);
+        }
+        Err(why) => return Err(why),
+    };
     let mut pictures = Vec::new();
     for one in &measured {
         let picture = workspace.output(&format!("{}.svg", one.report.scene))?;
@@ -71,10 +82,10 @@ pub fn run(options: Options, wish: Wish) -> Result<ExitCode> {
     match (reports.as_slice(), wish.all) {
         (all, true) if wish.json => docs::print_json(&all)?,
         ([one], _) if wish.json => docs::print_json(one)?,
-        (all, true) => print!("{}", scenes::text(all)),
+        (all, true) => output::print(&scenes::text(all))?,
         (all, _) => {
             for (report, picture) in all.iter().zip(&pictures) {
-                print!("{}", report.text(workspace.relative(picture)));
+                output::print(&report.text(workspace.relative(picture)))?;
             }
         }
     }
@@ -86,7 +97,7 @@ fn write_docs(workspace: &Workspace, measured: &[Measured]) -> Result<()> {
     let shown = Scene::default().name();
     for one in measured.iter().filter(|one| one.report.scene == shown) {
         docs::README.write(workspace, &one.report.markdown())?;
-        let picture = workspace.root.join(format!("docs/{shown}.svg"));
+        let picture = workspace.report(&format!("docs/{shown}.svg"));
         plot::write(&one.recording, &picture)?;
     }
     Ok(())
@@ -98,14 +109,38 @@ pub fn build_and_measure(
     tools: &Tools,
     scenes: &[Scene],
 ) -> Result<Vec<Measured>> {
-    let names: Vec<&str> = scenes.iter().map(|scene| scene.name()).collect();
-    let building = Spinner::start(&format!("building {}", names.join(", ")));
-    let elves = firmware::build_bins(workspace, tools.toolchain, RELEASE, &names)?;
-    building.say("building the cycle meter".into());
-    let meter = firmware::build_meter(workspace)?;
-    drop(building);
-    let runs: Vec<(Scene, PathBuf)> = scenes.iter().copied().zip(elves).collect();
-    measure_all(workspace, tools, &meter, &runs)
+    Built::new(workspace, tools, scenes)?.measure(workspace, tools)
+}
+
+/// Scenes and the meter, built.
+struct Built {
+    meter: PathBuf,
+    runs: Vec<(Scene, PathBuf)>,
+}
+
+impl Built {
+    fn new(workspace: &Workspace, tools: &Tools, scenes: &[Scene]) -> Result<Self> {
+        let names: Vec<&str> = scenes.iter().map(|scene| scene.name()).collect();
+        let building = Spinner::start(&format!("building {}", names.join(", ")));
+        let elves = firmware::build_bins(workspace, tools.toolchain, RELEASE, &names)?;
+        building.say("building the cycle meter".into());
+        let meter = firmware::build_meter(workspace)?;
+        drop(building);
+        let runs = scenes.iter().copied().zip(elves).collect();
+        Ok(Self { meter, runs })
+    }
+
+    fn measure(&self, workspace: &Workspace, tools: &Tools) -> Result<Vec<Measured>> {
+        tools.qemu.interface(&self.meter)?;
+        measure_all(workspace, tools, &self.meter, &self.runs)
+    }
+
+    /// Whether the runs failed because QEMU does not take the meter: it said so, or it is so new that
+    /// the meter may be what made it fail.
+    fn lacks_the_meter(&self, tools: &Tools, why: &Error) -> bool {
+        let refused = tools.qemu.interface(&self.meter).is_err();
+        refused || (matches!(why, Error::Qemu { .. }) && !tools.qemu.is_known())
+    }
 }
 
 /// Runs scenes under the meter, as many at a time as there are cores, and returns them in their order.
@@ -152,6 +187,18 @@ pub fn measure_all(
     Ok(measured)
 }
 
+/// What a run is, from the line that announces it: `run exact pd 0x800b789`.
+fn run_in_words(line: &str) -> Option<String> {
+    let mut words = line.strip_prefix("run ")?.split(' ');
+    let (plant, law) = (words.next()?, words.next()?);
+    let law = match law {
+        PD => "PD alone".to_owned(),
+        SOLD => "feed-forward and PD".to_owned(),
+        _ => law.replace('-', " "),
+    };
+    Some(format!("{law}, with the {plant} model"))
+}
+
 /// Runs a scene under the meter.
 pub fn measure(
     workspace: &Workspace,
@@ -174,8 +221,8 @@ pub fn measure(
     let raw = tools.qemu.run(&run, |line| {
         if !recording.line(line)? {
             spinner.line(&format!("[{name}] {line}"));
-        } else if line.starts_with("run ") {
-            spinner.say(format!("scene {name} in QEMU: {line}"));
+        } else if let Some(words) = run_in_words(line) {
+            spinner.say(format!("scene {name} in QEMU: {words}"));
         }
         Ok(())
     })?;
@@ -194,4 +241,19 @@ pub fn measure(
         elf: elf.to_owned(),
         raw: (raw, metered),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::run_in_words;
+
+    #[test]
+    fn a_run_is_said_in_words() {
+        let words = |line: &str| run_in_words(line);
+        let pd = words("run exact pd 0x800b789").expect("a run");
+        assert_eq!(pd, "PD alone, with the exact model");
+        let without = words("run mismatched without-Coulomb 0x1").expect("a run");
+        assert_eq!(without, "without Coulomb, with the mismatched model");
+        assert_eq!(words("tick 7"), None);
+    }
 }

@@ -2,6 +2,7 @@
 
 use crate::budgets::OTHER_RUSTC;
 use crate::error::{Error, Result};
+use crate::output;
 use crate::workspace::{self, Workspace};
 
 /// The part of a page that a command writes: between `<!-- NAME:begin -->` and `<!-- NAME:end -->`.
@@ -26,7 +27,7 @@ impl Page {
     pub fn write(&self, workspace: &Workspace, text: &str) -> Result<()> {
         let path = workspace.root.join(self.file);
         let page = workspace::read(&path)?;
-        workspace::write(&path, self.replaced(&page, text)?)
+        workspace::write(&workspace.report(self.file), self.replaced(&page, text)?)
     }
 
     /// The page with a text between the markers.
@@ -81,7 +82,7 @@ impl Page {
 pub fn print_json(value: &impl serde::Serialize) -> Result<()> {
     let text = serde_json::to_string_pretty(value)
         .map_err(|e| Error::check(format!("cannot write the JSON: {e}")))?;
-    println!("{text}");
+    output::line(&text)?;
     Ok(())
 }
 

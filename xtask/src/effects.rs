@@ -11,6 +11,7 @@ use crate::costs::{self, Row};
 use crate::docs::{self, Page};
 use crate::error::{Error, Result};
 use crate::firmware;
+use crate::output;
 use crate::progress::Spinner;
 use crate::report::MODEL;
 use crate::setup::{self, Options, Tools};
@@ -63,15 +64,15 @@ pub struct Price {
 
 /// Measures, writes page and picture, and prints.
 pub fn run(options: Options, json: bool) -> Result<ExitCode> {
-    let workspace = Workspace::find()?;
+    let workspace = Workspace::for_reports()?;
     let tools = setup::for_demo(options)?;
     let prices = measure(&workspace, &tools)?;
     PAGE.write(&workspace, &generated(&tools, &prices)?)?;
-    picture::write(&prices, &workspace.root.join(PICTURE))?;
+    picture::write(&prices, &workspace.report(PICTURE))?;
     if json {
         docs::print_json(&prices)?;
     } else {
-        print!("{}", table(&prices).text());
+        output::print(&table(&prices).text())?;
     }
     Ok(ExitCode::SUCCESS)
 }

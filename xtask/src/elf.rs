@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use object::{Object, ObjectSection, ObjectSymbol, SectionKind, SymbolKind};
+use object::{Architecture, Object, ObjectSection, ObjectSymbol, SectionKind, SymbolKind};
 
 use crate::error::{Error, Result};
 
@@ -34,6 +34,10 @@ pub struct Function {
 
 /// An image, read.
 pub struct Image {
+    /// Whether it is for a 32-bit ARM processor.
+    pub is_arm: bool,
+    /// Whether what it logs are defmt's frames.
+    pub has_defmt: bool,
     /// What it takes.
     pub sizes: Sizes,
     /// Its functions by address.
@@ -49,6 +53,8 @@ impl Image {
         let file = object::File::parse(&*bytes)
             .map_err(|e| Error::check(format!("{}: {e}", path.display())))?;
         Ok(Self {
+            is_arm: file.architecture() == Architecture::Arm,
+            has_defmt: file.section_by_name(".defmt").is_some(),
             sizes: sizes(&file),
             functions: functions(&file),
             words: words(&file),

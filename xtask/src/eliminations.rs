@@ -4,6 +4,7 @@ use std::process::ExitCode;
 
 use crate::docs::Page;
 use crate::error::Result;
+use crate::output;
 use crate::shell;
 use crate::workspace::Workspace;
 
@@ -20,9 +21,9 @@ const HEAD: &str = "\
 
 /// Measures and rewrites the page's table.
 pub fn run() -> Result<ExitCode> {
-    let workspace = Workspace::find()?;
+    let workspace = Workspace::for_reports()?;
     let table = generated(&workspace)?;
-    println!("{table}");
+    output::line(&table)?;
     PAGE.write(&workspace, &table)?;
     Ok(ExitCode::SUCCESS)
 }

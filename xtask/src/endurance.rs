@@ -3,6 +3,7 @@
 use std::process::{Command, ExitCode};
 
 use crate::error::Result;
+use crate::output;
 use crate::shell;
 use crate::workspace::Workspace;
 
@@ -24,9 +25,9 @@ pub fn fuzz(seconds: u64) -> Result<ExitCode> {
     command.current_dir(workspace.root.join(FUZZ));
     command.env("CARGO_TARGET_DIR", workspace.target.join("fuzz"));
     command.env("BOLERO_RANDOM_TEST_TIME_MS", (1000 * seconds).to_string());
-    eprintln!(
+    output::note(&format!(
         "each target for {seconds} s; a failure names its input and BOLERO_RANDOM_SEED, which repeats it"
-    );
+    ));
     shell::run(&mut command)?;
     Ok(ExitCode::SUCCESS)
 }
@@ -71,9 +72,9 @@ pub fn miri() -> Result<ExitCode> {
         command
     };
     if !shell::succeeds(&mut nightly(&["--version"])) {
-        println!(
-            "skipped: no nightly toolchain with Miri (rustup toolchain install nightly --component miri,rust-src)"
-        );
+        output::line(
+            "skipped: no nightly toolchain with Miri (rustup toolchain install nightly --component miri,rust-src)",
+        )?;
         return Ok(ExitCode::SUCCESS);
     }
     // libm takes instructions of the host that Miri does not know, unless it is told not to.

@@ -39,6 +39,9 @@ pub enum Error {
         /// What the system said.
         source: std::io::Error,
     },
+    /// Stdout could not be written.
+    #[error("cannot write to stdout: {0}")]
+    Output(std::io::Error),
     /// Something has to be installed that was not.
     #[error("something is missing; to install it:\n\n    {}\n", commands.join("\n    "))]
     Missing {
@@ -74,6 +77,11 @@ impl Error {
     ) -> impl FnOnce(std::io::Error) -> Self {
         let path = path.into();
         move |source| Self::File { verb, path, source }
+    }
+
+    /// Whether nobody reads what is printed any more, as behind `| head`.
+    pub fn is_closed_pipe(&self) -> bool {
+        matches!(self, Self::Output(source) if source.kind() == std::io::ErrorKind::BrokenPipe)
     }
 
     /// A check that did not hold, or data that cannot be made sense of.

@@ -7,11 +7,11 @@ use crate::shell;
 use crate::toolchain::{RELEASE, Toolchain};
 use crate::workspace::Workspace;
 
-/// Builds a bin of the firmware and returns its ELF. Here and below, what cargo says is shown
-/// only if it fails: rustc warns at each call of the target features that it hands to LLVM.
+/// Builds a bin of the firmware and returns its ELF. Here and below, of what cargo says
+/// its warnings are shown, and the rest only if it fails.
 pub fn build(workspace: &Workspace, toolchain: Toolchain, bin: &str) -> Result<PathBuf> {
     let mut command = toolchain.firmware(workspace, "build");
-    shell::capture(command.args(["--release", "--bin", bin]))?;
+    shell::cargo(command.args(["--release", "--bin", bin]))?;
     existing(toolchain.elf(workspace, RELEASE, bin))
 }
 
@@ -27,7 +27,7 @@ pub fn build_bins(
     for bin in bins {
         command.args(["--bin", bin]);
     }
-    shell::capture(&mut command)?;
+    shell::cargo(&mut command)?;
     bins.iter()
         .map(|bin| existing(toolchain.elf(workspace, profile, bin)))
         .collect()
@@ -46,7 +46,7 @@ pub fn build_featured(
     for bin in bins {
         command.args(["--bin", bin]);
     }
-    shell::capture(&mut command)?;
+    shell::cargo(&mut command)?;
     bins.iter()
         .map(|bin| existing(toolchain.elf(workspace, profile, bin)))
         .collect()
@@ -55,14 +55,14 @@ pub fn build_featured(
 /// Builds every bin of the firmware.
 pub fn build_all(workspace: &Workspace, toolchain: Toolchain) -> Result<()> {
     let mut command = toolchain.firmware(workspace, "build");
-    shell::capture(command.args(["--release", "--bins"]))?;
+    shell::cargo(command.args(["--release", "--bins"]))?;
     Ok(())
 }
 
 /// Builds the cycle meter and returns the shared library.
 pub fn build_meter(workspace: &Workspace) -> Result<PathBuf> {
     let mut command = workspace.cargo("build");
-    shell::capture(command.args(["--release", "--package", "cycle-meter"]))?;
+    shell::cargo(command.args(["--release", "--package", "cycle-meter"]))?;
     let library = format!(
         "{}cycle_meter{}",
         std::env::consts::DLL_PREFIX,

@@ -9,6 +9,7 @@ use crate::budgets;
 use crate::costs::{self, Row};
 use crate::docs;
 use crate::error::{Error, Result};
+use crate::output;
 use crate::report::MODEL;
 use crate::setup::{self, Options, Tools};
 use crate::table::{Table, thousands};
@@ -42,16 +43,20 @@ pub struct Report {
 
 /// Measures, writes the page and the picture, and prints.
 pub fn run(options: Options, json: bool) -> Result<ExitCode> {
-    let workspace = Workspace::find()?;
+    let workspace = Workspace::for_reports()?;
     let tools = setup::for_demo(options)?;
     let report = measure(&workspace, &tools)?;
-    workspace::write(&workspace.root.join(PAGE), report.markdown())?;
-    picture::write(&report, &workspace.root.join(PICTURE))?;
+    workspace::write(&workspace.report(PAGE), report.markdown())?;
+    picture::write(&report, &workspace.report(PICTURE))?;
     if json {
         docs::print_json(&report.json())?;
     } else {
-        print!("{}\n{}\n", report.table().text(), report.verdict());
-        print!("{}", bars::table(&report.held()).text());
+        output::print(&format!(
+            "{}\n{}\n",
+            report.table().text(),
+            report.verdict()
+        ))?;
+        output::print(&bars::table(&report.held()).text())?;
     }
     Ok(ExitCode::SUCCESS)
 }

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::docs::{self, Page};
 use crate::error::{Error, Result};
+use crate::output;
 use crate::shell;
 use crate::workspace::Workspace;
 
@@ -61,7 +62,7 @@ pub fn run(json: bool) -> Result<ExitCode> {
         docs::print_json(&suite.rows)?;
     } else {
         PAGE.write(&workspace, &page(&suite))?;
-        println!("{}", summary(&suite));
+        output::line(&summary(&suite))?;
     }
     let failed = suite.rows.iter().any(|row| row.verdict == "fail");
     Ok(if failed {

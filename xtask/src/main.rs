@@ -14,11 +14,14 @@ mod eliminations;
 mod endurance;
 mod error;
 mod firmware;
+mod flags;
 mod growth;
 mod hard_cases;
 mod meter;
+mod output;
 mod peers;
 mod plot;
+mod processes;
 mod progress;
 mod protocol;
 mod qemu;
@@ -33,14 +36,16 @@ mod system;
 mod table;
 mod test;
 mod toolchain;
+mod user_firmware;
 mod workspace;
 
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser, Subcommand};
 
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::scene::Scene;
 
 /// Set-up, demo, tests and reports of this workspace
@@ -51,6 +56,9 @@ struct Cli {
     command: Command,
     #[command(flatten)]
     setup: setup::Options,
+    /// Write reports and their pictures into this directory instead of docs/ (budgets stay where they are)
+    #[arg(long, global = true, value_name = "DIR")]
+    out: Option<PathBuf>,
 }
 
 #[derive(Subcommand)]
@@ -58,7 +66,13 @@ enum Command {
     /// Run a scene in QEMU, report what a tick costs and how well the arm tracks
     Demo {
         /// The scene
-        #[arg(long, value_enum, default_value_t, value_name = "NAME")]
+        #[arg(
+            long,
+            value_enum,
+            default_value_t,
+            value_name = "NAME",
+            ignore_case = true
+        )]
         scene: Scene,
         /// Every scene, and one table of all
         #[arg(long, conflicts_with = "scene")]
@@ -97,7 +111,7 @@ enum Command {
     /// Measure what accuracy costs in time, rewrite docs/accuracy.md and its plots; or choose a configuration
     Accuracy {
         /// Only this robot
-        #[arg(long, value_enum, value_name = "NAME")]
+        #[arg(long, value_enum, value_name = "NAME", ignore_case = true)]
         robot: Option<accuracy::Robot>,
         /// A dozen configurations of each robot, at opt-level 3
         #[arg(long)]
@@ -109,6 +123,7 @@ enum Command {
         #[arg(
             long,
             value_name = "ERROR",
+            allow_hyphen_values = true,
             requires = "robot",
             conflicts_with = "cycles"
         )]
@@ -119,6 +134,22 @@ enum Command {
         /// Choose from what is measured now, not from docs/accuracy.json
         #[arg(long)]
         measure: bool,
+    },
+    /// Measure a firmware of your own between its markers, and check its instructions
+    #[command(after_long_help = user_firmware::MARKERS)]
+    Meter {
+        /// The firmware, with its symbols
+        #[arg(value_name = "ELF")]
+        elf: PathBuf,
+        /// The board that QEMU emulates
+        #[arg(long, default_value = qemu::MACHINE, value_name = "NAME")]
+        machine: String,
+        /// Stop it after so many seconds
+        #[arg(long, default_value_t = 10, value_name = "N")]
+        seconds: u64,
+        /// The measurements as JSON on stdout; progress stays on stderr
+        #[arg(long)]
+        json: bool,
     },
     /// Measure on the host which of the two eliminations is less accurate where, rewrite
     /// docs/eliminations.md
@@ -177,16 +208,24 @@ fn main() -> ExitCode {
         // Clap lists the values that it would take, but not the commands and options.
         let valid = valid_words(error.kind());
         let code = error.exit_code();
-        let _ = error.print();
+        if let Err(error) = error.print() {
+            // Behind `| head` nobody minds.
+            if error.kind() != std::io::ErrorKind::BrokenPipe {
+                output::note(&format!("error: cannot print: {error}"));
+            }
+            std::process::exit(1);
+        }
         if let Some(valid) = valid {
-            eprintln!("\n{valid}");
+            output::note(&format!("\n{valid}"));
         }
         std::process::exit(code);
     });
     match run(cli) {
         Ok(code) => code,
+        // As if the signal of the closed pipe had ended it, which is what other programs do.
+        Err(error) if error.is_closed_pipe() => ExitCode::from(128 + 13),
         Err(error) => {
-            eprintln!("error: {error}");
+            output::note(&format!("error: {error}"));
             ExitCode::FAILURE
         }
     }
@@ -221,6 +260,10 @@ fn valid_words(kind: ErrorKind) -> Option<String> {
 }
 
 fn run(cli: Cli) -> Result<ExitCode> {
+    processes::end_with_us().map_err(|e| Error::check(format!("cannot handle signals: {e}")))?;
+    if let Some(dir) = cli.out {
+        workspace::write_reports_to(dir)?;
+    }
     match cli.command {
         Command::Demo {
             scene,
@@ -271,6 +314,20 @@ fn run(cli: Cli) -> Result<ExitCode> {
                 measure,
             };
             accuracy::run(cli.setup, wish)
+        }
+        Command::Meter {
+            elf,
+            machine,
+            seconds,
+            json,
+        } => {
+            let wish = user_firmware::Wish {
+                elf,
+                machine,
+                seconds,
+                json,
+            };
+            user_firmware::run(cli.setup, &wish)
         }
         Command::Eliminations => eliminations::run(),
         Command::HardCases { json } => hard_cases::run(json),

@@ -17,6 +17,7 @@ use crate::bars::Held;
 use crate::budgets;
 use crate::docs;
 use crate::error::{Error, Result};
+use crate::output;
 use crate::peers::build::Workshop;
 use crate::peers::progress::Progress;
 use crate::peers::report::Report;
@@ -48,7 +49,7 @@ fn outputs(algorithm: &str, joints: usize) -> usize {
 /// # Errors
 /// Among others, a bar is missed that `budgets.toml` does not record as missed.
 pub fn run(options: Options, json: bool) -> Result<ExitCode> {
-    let workspace = Workspace::find()?;
+    let workspace = Workspace::for_reports()?;
     let (tools, peers) = tools::set_up(&workspace, options)?;
     let robots = robots::export(&workspace)?;
     let steps = OTHER_STEPS + host::steps(&robots) + target::steps(&robots);
@@ -73,11 +74,11 @@ pub fn run(options: Options, json: bool) -> Result<ExitCode> {
         versions,
         date,
     };
-    workspace::write(&workspace.root.join("docs/peers.md"), report.markdown())?;
+    workspace::write(&workspace.report("docs/peers.md"), report.markdown())?;
     if json {
         docs::print_json(&report.rows)?;
     } else {
-        print!("{}", report.text());
+        output::print(&report.text())?;
     }
     if !unmet.is_empty() {
         return Err(Error::check(format!("bar: {}", unmet.join("\nbar: "))));

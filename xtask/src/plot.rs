@@ -8,6 +8,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use crate::error::{Error, Result};
 use crate::protocol::{PLANTS, Recording, SOLD, Sample, Trajectory, WITHOUT, in_print};
+use crate::workspace;
 
 const SIZE: (u32, u32) = (1080, 820);
 const FONT: &str = "system-ui, Helvetica, Arial, sans-serif";
@@ -42,7 +43,7 @@ pub fn write(recording: &Recording, path: &Path) -> Result<()> {
     let mut svg = String::new();
     draw(recording, &mut svg)
         .map_err(|e| Error::check(format!("cannot draw {}: {e}", path.display())))?;
-    std::fs::write(path, svg).map_err(Error::file("write", path))
+    workspace::write(path, svg)
 }
 
 fn draw(recording: &Recording, svg: &mut String) -> Outcome {

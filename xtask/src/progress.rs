@@ -3,10 +3,24 @@
 use std::sync::LazyLock;
 use std::time::Duration;
 
-use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
+use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+use crate::output;
 
 /// All that spin now: a step of the tests, and what it is doing.
-static SPINNERS: LazyLock<MultiProgress> = LazyLock::new(MultiProgress::new);
+static SPINNERS: LazyLock<MultiProgress> =
+    LazyLock::new(|| MultiProgress::with_draw_target(target()));
+
+/// Where spinners and bars are drawn: nowhere if the user wants plain text or the terminal can do no more.
+pub fn target() -> ProgressDrawTarget {
+    let is_set = |name: &str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
+    let is_dumb = std::env::var_os("TERM").is_some_and(|term| term == "dumb");
+    if is_set("NO_COLOR") || is_dumb {
+        ProgressDrawTarget::hidden()
+    } else {
+        ProgressDrawTarget::stderr()
+    }
+}
 
 /// What is going on, until dropped.
 pub struct Spinner(ProgressBar);
@@ -16,8 +30,8 @@ impl Spinner {
     pub fn start(what: &str) -> Self {
         let bar = ProgressBar::new_spinner();
         if SPINNERS.is_hidden() {
-            eprintln!("{what} …");
-            bar.set_draw_target(indicatif::ProgressDrawTarget::hidden());
+            output::note(&format!("{what} …"));
+            bar.set_draw_target(ProgressDrawTarget::hidden());
             return Self(bar);
         }
         let bar = SPINNERS.add(bar);
@@ -36,7 +50,7 @@ impl Spinner {
 
     /// Prints a line above the spinners.
     pub fn line(&self, line: &str) {
-        SPINNERS.suspend(|| eprintln!("{line}"));
+        SPINNERS.suspend(|| output::note(line));
     }
 }
 

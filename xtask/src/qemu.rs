@@ -4,18 +4,31 @@
 mod tests;
 mod watch;
 
-use std::path::Path;
+use std::io::{Read, Write};
+use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
-use std::time::Duration;
+use std::sync::OnceLock;
+use std::thread;
+use std::time::{Duration, Instant};
 
 use defmt_decoder::{DecodeError, StreamDecoder, Table};
 
 use crate::error::{Error, Result};
+use crate::processes;
 use crate::shell;
 use crate::toolchain::release;
 use watch::{Decoder, Line, Watch};
 
 const PROGRAM: &str = "qemu-system-arm";
+
+/// A board with a Cortex-M4F.
+pub const MACHINE: &str = "netduinoplus2";
+
+/// A file that keeps nothing.
+const NOWHERE: &str = "/dev/null";
+
+/// Bytes that are read of what QEMU says when it refuses the meter.
+const MOST_SAID: u64 = 1 << 16;
 
 /// The line a firmware ends with.
 pub const DONE: &str = "done";
@@ -23,14 +36,21 @@ pub const DONE: &str = "done";
 /// How long a firmware may stay silent.
 const PATIENCE: Duration = Duration::from_secs(60);
 
-/// The first and the last QEMU that take the cycle meter: 9.0 took away what version 1 of the plugin
-/// interface had, and refuses such plugins since.
-const TAKEN: [(u32, u32); 2] = [(4, 2), (8, 2)];
+/// The first QEMU that has plugins, and the first of which it is not known whether it takes the meter.
+const KNOWN: std::ops::Range<(u32, u32)> = (4, 2)..(11, 0);
 
-/// The QEMU of this machine.
+/// How long QEMU may take to load the meter and leave.
+const LOADING: Duration = Duration::from_secs(30);
+
+/// A QEMU.
 pub struct Qemu {
     /// What it says of itself.
     pub version: String,
+    /// How it is started.
+    program: PathBuf,
+    /// Whether it takes the meter, once that was tried: with which version of the plugin interface, if not
+    /// the one that the meter chooses; or why it does not.
+    interface: OnceLock<std::result::Result<Option<i32>, String>>,
 }
 
 /// A firmware in QEMU.
@@ -45,22 +65,12 @@ pub struct Run<'a> {
     pub logs: bool,
 }
 
-/// The versions that take the cycle meter, in words.
-pub fn versions() -> String {
-    let [(a, b), (c, d)] = TAKEN;
-    format!("{a}.{b} to {c}.{d}")
-}
-
-/// What to do where the system brings another version.
-pub fn another_version() -> String {
-    let [_, (major, minor)] = TAKEN;
-    format!(
-        "either work in a container of Debian 12 or Ubuntu 24.04, whose `qemu-system-arm` does: \
-         `docker run -it -v \"$PWD\":/work -w /work debian:12`; or build QEMU {major}.{minor} from \
-         https://download.qemu.org with `./configure --target-list=arm-softmmu --enable-plugins && \
-         make`, and put its build directory first on the PATH"
-    )
-}
+/// What to do where QEMU does not take the meter.
+pub const ANOTHER_QEMU: &str = "\
+    either work in a container of Debian 12 or 13, whose `qemu-system-arm` takes it: `docker run -it -v \
+    \"$PWD\":/work -w /work debian:12`, and in it `apt-get update && apt-get install -y cargo-web rustc-web`; or build \
+    QEMU 10.0 from https://download.qemu.org with `./configure --target-list=arm-softmmu --enable-plugins && \
+    make`, and put its build directory first on the PATH";
 
 impl Qemu {
     /// Whether there is one.
@@ -68,31 +78,107 @@ impl Qemu {
         shell::succeeds(Command::new(PROGRAM).arg("--version"))
     }
 
-    /// Asks QEMU for its version.
+    /// Asks the QEMU of this machine for its version.
     ///
     /// # Errors
-    /// It cannot be asked, or the cycle meter is not made for it.
+    /// It cannot be asked.
     pub fn find() -> Result<Self> {
-        let text = shell::capture(Command::new(PROGRAM).arg("--version"))?;
-        let version = text.lines().next().unwrap_or_default().trim().to_owned();
-        let qemu = Self { version };
-        qemu.takes_the_meter()?;
-        Ok(qemu)
+        Self::at(PROGRAM)
     }
 
-    /// Fails if this QEMU does not take the cycle meter.
-    fn takes_the_meter(&self) -> Result<()> {
-        let [oldest, newest] = TAKEN;
-        if (oldest..=newest).contains(&release(&self.version)) {
+    /// Asks a QEMU for its version.
+    ///
+    /// # Errors
+    /// It cannot be asked.
+    pub fn at(program: impl Into<PathBuf>) -> Result<Self> {
+        let program = program.into();
+        let text = shell::capture(Command::new(&program).arg("--version"))?;
+        let version = text.lines().next().unwrap_or_default().trim().to_owned();
+        Ok(Self {
+            version,
+            program,
+            interface: OnceLock::new(),
+        })
+    }
+
+    /// Whether QEMUs of this version are known to take the meter.
+    pub fn is_known(&self) -> bool {
+        KNOWN.contains(&release(&self.version))
+    }
+
+    /// With which version of the plugin interface it takes the meter, if not the one that the meter chooses.
+    /// It is tried, once: what QEMU says of itself tells too little.
+    ///
+    /// # Errors
+    /// It does not take the meter.
+    pub fn interface(&self, meter: &Path) -> Result<Option<i32>> {
+        let tried = self.interface.get_or_init(|| {
+            let Err(why) = self.load(meter, None) else {
+                return Ok(None);
+            };
+            // QEMU names the version next to the refused one that it would take.
+            match version_named(&why) {
+                Some(version) => self.load(meter, Some(version)).map(|()| Some(version)),
+                None => Err(why),
+            }
+        });
+        tried.clone().map_err(|why| {
+            Error::check(format!(
+                "{} does not take the cycle meter, which speaks versions 1 to {} of QEMU's plugin interface \
+                 ({why}); {ANOTHER_QEMU}",
+                self.version,
+                cycle_meter::NEWEST_INTERFACE
+            ))
+        })
+    }
+
+    /// Starts QEMU with the meter and without a machine, and leaves; or says why it would not start.
+    fn load(&self, meter: &Path, interface: Option<i32>) -> std::result::Result<(), String> {
+        let mut command = Command::new(&self.program);
+        command
+            .args(["-machine", "none", "-nodefaults", "-display", "none"])
+            .args(["-monitor", "stdio", "-plugin"])
+            .arg(format!("{},out={NOWHERE}", meter.display()))
+            .stdin(Stdio::piped())
+            .stdout(Stdio::null())
+            .stderr(Stdio::piped());
+        if let Some(version) = interface {
+            command.env(cycle_meter::INTERFACE, version.to_string());
+        }
+        let (mut child, _group) = shell::spawn(&mut command).map_err(|e| e.to_string())?;
+        if let Some(mut monitor) = child.stdin.take() {
+            // A QEMU that has refused and left already does not read it.
+            let _ = monitor.write_all(b"quit\n");
+        }
+        let start = Instant::now();
+        let status = loop {
+            match child.try_wait() {
+                Ok(Some(status)) => break status,
+                Ok(None) if start.elapsed() < LOADING => thread::sleep(Duration::from_millis(5)),
+                Ok(None) => {
+                    // It may have ended just now.
+                    let _ = child.kill();
+                    let _ = child.wait();
+                    return Err(format!("it did not end within {LOADING:?}"));
+                }
+                Err(error) => return Err(error.to_string()),
+            }
+        };
+        if status.success() {
             return Ok(());
         }
-        Err(Error::check(format!(
-            "{} does not take the cycle meter, which speaks version 1 of QEMU's plugin interface: \
-             that is QEMU {}; {}",
-            self.version,
-            versions(),
-            another_version()
-        )))
+        let mut said = String::new();
+        if let Some(stderr) = child.stderr.take() {
+            let _ = stderr.take(MOST_SAID).read_to_string(&mut said);
+        }
+        let said = said.trim();
+        // Behind the path of the plugin, which the user did not choose.
+        let why = said.rsplit_once(": ").map_or(said, |(_, why)| why);
+        Err(if why.is_empty() {
+            status.to_string()
+        } else {
+            why.to_owned()
+        })
     }
 
     /// Runs a firmware to its end and hands over its log line by line; returns the raw bytes
@@ -124,8 +210,87 @@ impl Qemu {
             patience: PATIENCE,
             decoder: table.map(|table| Box::new(Defmt(table.new_stream_decoder())) as _),
         };
-        watch.run(&mut command(run), &mut on_line)
+        watch.run(&mut self.command(MACHINE, run)?, &mut on_line)
     }
+
+    /// The command line of a run.
+    fn command(&self, machine: &str, run: &Run<'_>) -> Result<Command> {
+        let mut command = Command::new(&self.program);
+        command
+            .args(["-machine", machine, "-nographic"])
+            // Without it QEMU opens the sound of the machine that it runs on.
+            .args(["-audiodev", "none,id=silent"])
+            .args(["-monitor", "none", "-serial", "none"])
+            .args(["-icount", "shift=3,sleep=off"])
+            .args(["-semihosting-config", "enable=on,target=native"]);
+        if let Some((plugin, out)) = run.meter {
+            command
+                .arg("-plugin")
+                .arg(format!("{},out={}", plugin.display(), out.display()));
+            if let Some(version) = self.interface(plugin)? {
+                command.env(cycle_meter::INTERFACE, version.to_string());
+            }
+        }
+        command
+            .arg("-kernel")
+            .arg(run.elf)
+            .stdin(Stdio::null())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped());
+        Ok(command)
+    }
+
+    /// Runs a firmware of which nothing is known on a board for so long at most, and returns whether it
+    /// ended by itself; what it prints is shown if it is text.
+    ///
+    /// # Errors
+    /// QEMU cannot run it, or ends with another code than zero.
+    pub fn run_for(&self, machine: &str, run: &Run<'_>, limit: Duration) -> Result<bool> {
+        let mut command = self.command(machine, run)?;
+        command.stderr(Stdio::inherit());
+        if run.logs {
+            command.stdout(Stdio::null());
+        } else {
+            command.stdout(std::io::stderr());
+        }
+        let (mut child, _group) = shell::spawn(&mut command)?;
+        let start = Instant::now();
+        let mut told = false;
+        loop {
+            let status = child.try_wait().map_err(|e| Error::spawn(&command, e))?;
+            match status {
+                Some(_) if told => return Ok(false),
+                Some(status) if status.success() => return Ok(true),
+                Some(status) => {
+                    return Err(Error::Qemu {
+                        program: run.name.to_owned(),
+                        what: format!("it failed ({status})"),
+                    });
+                }
+                None if start.elapsed() >= limit + LOADING => {
+                    // It may have ended just now.
+                    let _ = child.kill();
+                    let _ = child.wait();
+                    return Ok(false);
+                }
+                None if start.elapsed() >= limit && !told => {
+                    // QEMU then writes what was measured, and ends.
+                    processes::tell_to_end(&child);
+                    told = true;
+                }
+                None => thread::sleep(Duration::from_millis(5)),
+            }
+        }
+    }
+}
+
+/// The version that QEMU would take, from why it refused another one.
+fn version_named(why: &str) -> Option<i32> {
+    let versions = ["minimum version of ", "only up to version "];
+    let after = |words: &&str| why.split_once(*words).map(|(_, rest)| rest);
+    let rest = versions.iter().find_map(after)?;
+    let digits: String = rest.chars().take_while(char::is_ascii_digit).collect();
+    digits.parse().ok()
 }
 
 /// defmt's frames as lines.
@@ -144,26 +309,4 @@ impl Decoder for Defmt<'_> {
             is_error,
         })
     }
-}
-
-/// The command line of a run.
-fn command(run: &Run<'_>) -> Command {
-    let mut command = Command::new(PROGRAM);
-    command
-        .args(["-machine", "netduinoplus2", "-nographic"])
-        .args(["-monitor", "none", "-serial", "none"])
-        .args(["-icount", "shift=3,sleep=off"])
-        .args(["-semihosting-config", "enable=on,target=native"]);
-    if let Some((plugin, out)) = run.meter {
-        command
-            .arg("-plugin")
-            .arg(format!("{},out={}", plugin.display(), out.display()));
-    }
-    command
-        .arg("-kernel")
-        .arg(run.elf)
-        .stdin(Stdio::null())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped());
-    command
 }

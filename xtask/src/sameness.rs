@@ -139,6 +139,8 @@ mod tests {
 
     fn image(functions: Vec<Function>) -> Image {
         Image {
+            is_arm: true,
+            has_defmt: false,
             sizes: Sizes { flash: 0, ram: 0 },
             functions,
             words: std::collections::BTreeSet::new(),

@@ -1,11 +1,13 @@
 //! Finds what is missing, says what it will install, installs it.
 
+use std::io::{IsTerminal, Write};
 use std::process::Command;
 
 use crate::error::{Error, Result};
+use crate::output;
 use crate::qemu::Qemu;
 use crate::shell;
-use crate::system::{self, System};
+use crate::system::{self, Privilege, System};
 use crate::toolchain::{self, Choice, DEBIAN_PACKAGES, TARGET, Toolchain};
 
 const DEBIAN_CLIPPY: &str = "rust-web-clippy";
@@ -16,6 +18,9 @@ pub struct Options {
     /// Install nothing: print the commands that would, and stop
     #[arg(long, global = true)]
     pub no_install: bool,
+    /// Install what is missing without asking, through sudo if need be (CI=true says so too)
+    #[arg(long, global = true, conflicts_with = "no_install")]
+    pub yes: bool,
     /// Which compiler builds the firmware
     #[arg(long, global = true, value_enum, default_value_t, hide = true)]
     pub toolchain: Choice,
@@ -61,15 +66,13 @@ impl Plan {
             return Ok(());
         }
         for reason in &self.reasons {
-            eprintln!("missing: {reason}");
+            output::note(&format!("missing: {reason}"));
         }
         if options.no_install || !self.manual.is_empty() {
             return Err(Error::Missing { commands });
         }
-        eprintln!("about to install it with:");
-        for command in &commands {
-            eprintln!("    {command}");
-        }
+        let packages = !self.apt.is_empty();
+        may_install(options, &commands, packages)?;
         for words in &self.rustup {
             shell::run(Command::new(words[0]).args(&words[1..]))?;
         }
@@ -78,6 +81,50 @@ impl Plan {
         }
         Ok(())
     }
+}
+
+/// Says what will be installed; packages through sudo only if the user says yes.
+///
+/// # Errors
+/// The user says no or cannot be asked, or may not install packages.
+pub fn may_install(options: Options, commands: &[String], packages: bool) -> Result<()> {
+    let missing = || Error::Missing {
+        commands: commands.to_vec(),
+    };
+    let agreed = options.yes || std::env::var_os("CI").is_some_and(|ci| ci == "true");
+    match Privilege::this() {
+        Privilege::None if packages => return Err(missing()),
+        Privilege::Sudo if packages && !agreed => {
+            let terminal = std::io::stdin().is_terminal() && std::io::stderr().is_terminal();
+            if !terminal {
+                output::note(
+                    "not installed: nobody can be asked here whether to use sudo; --yes agrees to it",
+                );
+                return Err(missing());
+            }
+            output::note("this would be installed with:");
+            for command in commands {
+                output::note(&format!("    {command}"));
+            }
+            let _ = write!(std::io::stderr(), "run it? [y/N] ");
+            let mut answer = String::new();
+            let read = std::io::stdin().read_line(&mut answer);
+            if read.is_err() || !is_yes(&answer) {
+                return Err(missing());
+            }
+        }
+        _ => {
+            output::note("about to install it with:");
+            for command in commands {
+                output::note(&format!("    {command}"));
+            }
+        }
+    }
+    Ok(())
+}
+
+fn is_yes(answer: &str) -> bool {
+    matches!(answer.trim().to_lowercase().as_str(), "y" | "yes")
 }
 
 /// Everything that the demo needs.
@@ -146,10 +193,10 @@ fn compiler(options: Options) -> Result<Toolchain> {
     }
     let may_fall_back = options.toolchain == Choice::Auto && system == System::Debian;
     if options.no_install && !plan.rustup.is_empty() && may_fall_back {
-        eprintln!(
+        output::note(&format!(
             "where rustup cannot fetch the target, Debian's own compiler does:\n    {}",
             system::apt_lines(DEBIAN_PACKAGES).join("\n    ")
-        );
+        ));
     }
     let outcome = plan.carry_out(options);
     let is_unfetched = !plan.rustup.is_empty() && !toolchain::native_has_target();
@@ -157,9 +204,9 @@ fn compiler(options: Options) -> Result<Toolchain> {
         Err(missing @ Error::Missing { .. }) => return Err(missing),
         outcome if is_unfetched && may_fall_back => {
             if let Err(error) = outcome {
-                eprintln!("{error}");
+                output::note(&error.to_string());
             }
-            eprintln!("rustup cannot fetch the target: falling back on Debian's compiler");
+            output::note("rustup cannot fetch the target: falling back on Debian's compiler");
             plan.rustup.clear();
             plan.apt.extend(DEBIAN_PACKAGES);
             plan.carry_out(options)?;
@@ -208,4 +255,19 @@ fn choose(choice: Choice, system: System, plan: &mut Plan) -> Result<Toolchain> 
         plan.add_apt(&format!("{core} ({why})"), DEBIAN_PACKAGES);
     }
     Ok(Toolchain::Debian)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::is_yes;
+
+    #[test]
+    fn only_a_yes_is_a_yes() {
+        for yes in ["y\n", "Yes\n", " YES "] {
+            assert!(is_yes(yes), "{yes:?}");
+        }
+        for no in ["", "\n", "n\n", "yy\n", "what?\n"] {
+            assert!(!is_yes(no), "{no:?}");
+        }
+    }
 }

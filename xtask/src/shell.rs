@@ -1,9 +1,13 @@
 //! Running other programs.
 
+use std::io::{BufRead, BufReader, Read};
 use std::path::PathBuf;
-use std::process::{Command, Stdio};
+use std::process::{Child, Command, ExitStatus, Stdio};
 
 use crate::error::{Error, Result};
+use crate::flags;
+use crate::output;
+use crate::processes::Group;
 
 /// The command as one would type it, without its environment.
 pub fn display(command: &Command) -> String {
@@ -21,14 +25,31 @@ pub fn display(command: &Command) -> String {
         .join(" ")
 }
 
+/// Starts a command whose processes end when xtask is told to end.
+pub fn spawn(command: &mut Command) -> Result<(Child, Group)> {
+    Group::spawn(command).map_err(|e| Error::spawn(command, e))
+}
+
 /// Runs a command whose output the user watches. All of it goes to stderr, since stdout is
 /// kept for `--json`.
 pub fn run(command: &mut Command) -> Result<()> {
+    command.stdin(Stdio::null()).stdout(std::io::stderr());
+    let (mut child, _group) = spawn(command)?;
+    let status = child.wait().map_err(|e| Error::spawn(command, e))?;
+    succeeded(command, status)
+}
+
+/// Runs a command that may ask for a password: it stays in the terminal's foreground group, whose
+/// programs alone may read from it and all get what is typed to interrupt.
+pub fn run_with_questions(command: &mut Command) -> Result<()> {
     let status = command
-        .stdin(Stdio::null())
         .stdout(std::io::stderr())
         .status()
         .map_err(|e| Error::spawn(command, e))?;
+    succeeded(command, status)
+}
+
+fn succeeded(command: &Command, status: ExitStatus) -> Result<()> {
     if status.success() {
         return Ok(());
     }
@@ -41,15 +62,37 @@ pub fn run(command: &mut Command) -> Result<()> {
 
 /// Runs a command and returns its stdout; what it printed is shown only if it fails.
 pub fn capture(command: &mut Command) -> Result<String> {
-    let out = command
+    Ok(output_of(command)?.0)
+}
+
+/// Runs cargo and returns its stdout. Its warnings are shown, except rustc's about target features that it
+/// forwards to LLVM, of which one sentence says that there are some.
+pub fn cargo(command: &mut Command) -> Result<String> {
+    let (stdout, stderr) = output_of(command)?;
+    let seen = flags::sifted(&stderr);
+    if let Some(sentence) = seen.sentence() {
+        output::note_once(&sentence);
+    }
+    for warning in &seen.others {
+        output::note(warning);
+    }
+    Ok(stdout)
+}
+
+fn output_of(command: &mut Command) -> Result<(String, String)> {
+    command
         .stdin(Stdio::null())
-        .output()
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped());
+    let (child, _group) = spawn(command)?;
+    let out = child
+        .wait_with_output()
         .map_err(|e| Error::spawn(command, e))?;
     let stdout = String::from_utf8_lossy(&out.stdout).into_owned();
+    let stderr = String::from_utf8_lossy(&out.stderr).into_owned();
     if out.status.success() {
-        return Ok(stdout);
+        return Ok((stdout, stderr));
     }
-    let stderr = String::from_utf8_lossy(&out.stderr);
     Err(Error::Failed {
         command: display(command),
         status: out.status,
@@ -57,13 +100,20 @@ pub fn capture(command: &mut Command) -> Result<String> {
     })
 }
 
-/// Writes to stdout; a reader that is gone is no failure.
-pub fn print(text: &str) -> Result<()> {
-    use std::io::{ErrorKind, Write};
-    match std::io::stdout().lock().write_all(text.as_bytes()) {
-        Err(e) if e.kind() != ErrorKind::BrokenPipe => Err(Error::check(format!("stdout: {e}"))),
-        _ => Ok(()),
+/// Runs a command and hands over its stdout line by line; its stderr is the user's.
+pub fn each_line(command: &mut Command, mut on_line: impl FnMut(&str) -> Result<()>) -> Result<()> {
+    command.stdin(Stdio::null()).stdout(Stdio::piped());
+    let (mut child, _group) = spawn(command)?;
+    let stdout: Box<dyn Read> = match child.stdout.take() {
+        Some(stdout) => Box::new(stdout),
+        None => Box::new(std::io::empty()),
+    };
+    for line in BufReader::new(stdout).lines() {
+        let line = line.map_err(|e| Error::spawn(command, e))?;
+        on_line(&line)?;
     }
+    let status = child.wait().map_err(|e| Error::spawn(command, e))?;
+    succeeded(command, status)
 }
 
 /// Whether the command can be started and succeeds, with nothing shown.

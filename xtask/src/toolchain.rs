@@ -126,15 +126,17 @@ fn debian(program: impl AsRef<OsStr>) -> Command {
 
 /// Whether the compiler that runs xtask has a core for the target.
 pub fn native_has_target() -> bool {
-    shell::capture(native_rustc().args(["--print", "target-libdir", "--target", TARGET])).is_ok_and(
-        |dir| {
-            std::fs::read_dir(dir.trim()).is_ok_and(|entries| {
-                entries
-                    .flatten()
-                    .any(|entry| entry.file_name().to_string_lossy().starts_with("libcore-"))
-            })
-        },
-    )
+    shell::capture(native_rustc().args(["--print", "target-libdir", "--target", TARGET]))
+        .is_ok_and(|dir| has_core(Path::new(dir.trim())))
+}
+
+/// Whether there is a precompiled core library in a directory.
+pub fn has_core(dir: &Path) -> bool {
+    std::fs::read_dir(dir).is_ok_and(|entries| {
+        entries
+            .flatten()
+            .any(|entry| entry.file_name().to_string_lossy().starts_with("libcore-"))
+    })
 }
 
 /// Why Debian's way does not work yet, if it does not.

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::OnceLock;
 
 use serde::Deserialize;
 
@@ -17,6 +18,8 @@ pub struct Workspace {
     pub root: PathBuf,
     /// Cargo's target directory, wherever `CARGO_TARGET_DIR` or a config put it.
     pub target: PathBuf,
+    /// Where reports are written instead of where they lie in the workspace.
+    pub reports: Option<PathBuf>,
     /// The firmware's bins that are built without a feature being asked for.
     pub bins: Vec<String>,
 }
@@ -42,7 +45,39 @@ struct Target {
     required_features: Vec<String>,
 }
 
+/// Set once from the command line.
+static REPORTS: OnceLock<PathBuf> = OnceLock::new();
+
+/// Reports are written into this directory from now on; it is made if it is not there.
+pub fn write_reports_to(dir: PathBuf) -> Result<()> {
+    std::fs::create_dir_all(&dir).map_err(Error::file("create", &dir))?;
+    let dir = std::path::absolute(&dir).map_err(Error::file("find", &dir))?;
+    // Set nowhere else.
+    let _ = REPORTS.set(dir);
+    Ok(())
+}
+
 impl Workspace {
+    /// As [`Workspace::find`], for a command that writes reports at its end.
+    ///
+    /// # Errors
+    /// They cannot be written: better now than after the minutes that the measurements take.
+    pub fn for_reports() -> Result<Self> {
+        let workspace = Self::find()?;
+        let probe = workspace.report("docs/.writable");
+        write(&probe, "")?;
+        std::fs::remove_file(&probe).map_err(Error::file("remove", &probe))?;
+        Ok(workspace)
+    }
+
+    /// Where a report is written, by its path in the workspace.
+    pub fn report(&self, file: &str) -> PathBuf {
+        match (&self.reports, Path::new(file).file_name()) {
+            (Some(dir), Some(name)) => dir.join(name),
+            _ => self.root.join(file),
+        }
+    }
+
     /// Asks cargo, from the current directory.
     pub fn find() -> Result<Self> {
         let mut command = host_cargo();
@@ -62,6 +97,7 @@ impl Workspace {
         Ok(Self {
             root: metadata.workspace_root,
             target: metadata.target_directory,
+            reports: REPORTS.get().cloned(),
             bins,
         })
     }
@@ -95,31 +131,56 @@ pub fn read(path: &Path) -> Result<String> {
     std::fs::read_to_string(path).map_err(Error::file("read", path))
 }
 
-/// Writes a file, with an error that names it.
+/// Writes a file so that it is never half-written, with an error that names it.
 pub fn write(path: &Path, contents: impl AsRef<[u8]>) -> Result<()> {
-    std::fs::write(path, contents).map_err(Error::file("write", path))
+    write_whole(&[(path.to_owned(), contents)])
 }
 
 /// Writes files so that none is ever half-written: all beside their places first, then each is moved there.
-pub fn write_whole(files: &[(PathBuf, String)]) -> Result<()> {
+pub fn write_whole<T: AsRef<[u8]>>(files: &[(PathBuf, T)]) -> Result<()> {
     // Behind the whole name: files of one stem may differ in their endings alone.
     let beside = |path: &Path| {
         let mut name = path.as_os_str().to_owned();
         name.push(".part");
         PathBuf::from(name)
     };
-    for (path, contents) in files {
-        write(&beside(path), contents)?;
+    let written = files.iter().try_for_each(|(path, contents)| {
+        // The message names the file that the user knows.
+        std::fs::write(beside(path), contents).map_err(Error::file("write", path))
+    });
+    let moved = written.and_then(|()| {
+        files.iter().try_for_each(|(path, _)| {
+            std::fs::rename(beside(path), path).map_err(Error::file("write", path))
+        })
+    });
+    if moved.is_err() {
+        for (path, _) in files {
+            // Those that were not written, or moved already, are not there.
+            let _ = std::fs::remove_file(beside(path));
+        }
     }
-    for (path, _) in files {
-        std::fs::rename(beside(path), path).map_err(Error::file("write", path))?;
-    }
-    Ok(())
+    moved
 }
 
 #[cfg(test)]
 mod tests {
     use super::{read, write_whole};
+
+    #[test]
+    fn a_file_that_cannot_be_written_leaves_the_old_one_and_no_part() {
+        let folder = std::env::temp_dir().join(format!("written-not-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).expect("a folder");
+        let [page, plot] = ["page.md", "plot.svg"].map(|name| folder.join(name));
+        std::fs::write(&page, "old").expect("the page of before");
+        // A directory in the way stands for a full disk: the second file cannot be written.
+        std::fs::create_dir_all(folder.join("plot.svg.part")).expect("in the way");
+        let error =
+            write_whole(&[(page.clone(), "new"), (plot.clone(), "new")]).expect_err("refused");
+        assert!(error.to_string().contains("plot.svg:"), "{error}");
+        assert_eq!(read(&page).expect("there"), "old");
+        assert!(!folder.join("page.md.part").exists());
+        std::fs::remove_dir_all(&folder).expect("gone again");
+    }
 
     #[test]
     fn files_of_one_stem_are_written_side_by_side() {

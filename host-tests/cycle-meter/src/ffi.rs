@@ -1,11 +1,50 @@
-//! QEMU's plugin interface, version 1, as far as it is used here: the declarations
+//! QEMU's plugin interface, versions 1 to 7, as far as it is used here: the declarations
 //! of `qemu-plugin.h`, looked up by name when the plugin is installed. Were they
 //! linked against, no ordinary program could contain this crate.
+//!
+//! | version | QEMU | what changed of what is used here |
+//! |---|---|---|
+//! | 1 | 4.2 to 8.2 | |
+//! | 2 | 9.0 | version 1 is refused |
+//! | 3 | 9.1 | `qemu_plugin_insn_data` copies into a buffer |
+//! | 4, 5, 6 | 9.2 and later, 10 | nothing |
+//! | 7 | later | the callbacks of translation and exit take a pointer of the plugin's own, not its number |
 
-use std::ffi::{CStr, c_char, c_int, c_uint, c_void};
+use std::ffi::{CStr, OsStr, c_char, c_int, c_uint, c_void};
 
-/// Version of the interface that the declarations below follow.
-pub const VERSION: c_int = 1;
+/// From this version on `qemu_plugin_insn_data` copies.
+pub const COPIES: c_int = 3;
+
+/// From this version on callbacks get a pointer of the plugin's own instead of its number.
+pub const USER_DATA: c_int = 7;
+
+/// The newest version whose declarations are known.
+pub const NEWEST: c_int = USER_DATA;
+
+/// The environment variable that sets the version to ask QEMU for, which is otherwise guessed.
+pub const ASKED: &str = "CYCLE_METER_INTERFACE";
+
+/// Functions that came with a version, the newest first.
+const CAME_WITH: [(c_int, &CStr); 4] = [
+    (6, c"qemu_plugin_set_pc"),
+    (5, c"qemu_plugin_translate_vaddr"),
+    (4, c"qemu_plugin_read_memory_vaddr"),
+    (2, c"qemu_plugin_scoreboard_new"),
+];
+
+/// The version to ask for: that of the variable [`ASKED`] if there is one, or the newest of which the
+/// program that loads the plugin has a function. QEMU takes the versions between a least one and its own.
+pub fn version_to_ask_for(asked: Option<&OsStr>, has: impl Fn(&CStr) -> bool) -> c_int {
+    let asked = asked.and_then(|text| text.to_str()?.parse().ok());
+    let guessed = || CAME_WITH.iter().find(|(_, name)| has(name));
+    asked.unwrap_or_else(|| guessed().map_or(1, |(version, _)| *version))
+}
+
+/// Whether the program that loaded the plugin has a function.
+pub fn host_has(name: &CStr) -> bool {
+    // SAFETY: the name ends in a zero.
+    !unsafe { dlsym(EVERYWHERE, name.as_ptr()) }.is_null()
+}
 
 /// Number by which QEMU knows a plugin.
 pub type PluginId = u64;
@@ -41,9 +80,6 @@ pub type ExecCallback = extern "C" fn(c_uint, *mut c_void);
 /// `QEMU_PLUGIN_CB_NO_REGS`: the callback does not look at registers.
 pub const NO_REGISTERS: c_int = 0;
 
-/// `QEMU_PLUGIN_INLINE_ADD_U64`.
-pub const ADD_U64: c_int = 0;
-
 unsafe extern "C" {
     fn dlsym(handle: *mut c_void, name: *const c_char) -> *mut c_void;
 }
@@ -72,8 +108,8 @@ macro_rules! functions {
                         if address.is_null() {
                             return Err($name);
                         }
-                        // SAFETY: QEMU defines the function of this name with these
-                        // types in every release that offers version 1.
+                        // SAFETY: QEMU defines the function of this name with these types,
+                        // those of two forms in the versions that the field's name says.
                         unsafe {
                             std::mem::transmute::<
                                 *mut c_void,
@@ -94,13 +130,41 @@ functions! {
         fn(*mut Tb, ExecCallback, c_int, *mut c_void);
     register_vcpu_insn_exec_cb = c"qemu_plugin_register_vcpu_insn_exec_cb":
         fn(*mut TbInsn, ExecCallback, c_int, *mut c_void);
-    register_vcpu_insn_exec_inline = c"qemu_plugin_register_vcpu_insn_exec_inline":
-        fn(*mut TbInsn, c_int, *mut c_void, u64);
     register_atexit_cb = c"qemu_plugin_register_atexit_cb":
         fn(PluginId, extern "C" fn(PluginId, *mut c_void), *mut c_void);
+    register_vcpu_tb_trans_cb_from_7 = c"qemu_plugin_register_vcpu_tb_trans_cb":
+        fn(PluginId, extern "C" fn(*mut Tb, *mut c_void), *mut c_void);
+    register_atexit_cb_from_7 = c"qemu_plugin_register_atexit_cb":
+        fn(PluginId, extern "C" fn(*mut c_void), *mut c_void);
     tb_n_insns = c"qemu_plugin_tb_n_insns": fn(*const Tb) -> usize;
     tb_vaddr = c"qemu_plugin_tb_vaddr": fn(*const Tb) -> u64;
     tb_get_insn = c"qemu_plugin_tb_get_insn": fn(*const Tb, usize) -> *mut TbInsn;
-    insn_data = c"qemu_plugin_insn_data": fn(*const TbInsn) -> *const u8;
+    insn_data_to_2 = c"qemu_plugin_insn_data": fn(*const TbInsn) -> *const u8;
+    insn_data_from_3 = c"qemu_plugin_insn_data":
+        fn(*const TbInsn, *mut c_void, usize) -> usize;
     insn_size = c"qemu_plugin_insn_size": fn(*const TbInsn) -> usize;
+}
+
+#[cfg(test)]
+mod tests {
+    use std::ffi::OsStr;
+
+    use super::version_to_ask_for;
+
+    #[test]
+    fn the_version_is_that_of_the_newest_function_of_the_host() {
+        let first = [c"qemu_plugin_insn_data"].as_slice();
+        let second = [c"qemu_plugin_scoreboard_new"].as_slice();
+        let fourth = [second[0], c"qemu_plugin_read_memory_vaddr"];
+        for (functions, version) in [(first, 1), (second, 2), (&fourth, 4)] {
+            let has = |name: &std::ffi::CStr| functions.contains(&name);
+            assert_eq!(version_to_ask_for(None, has), version);
+        }
+    }
+
+    #[test]
+    fn the_variable_decides_if_it_is_a_number() {
+        let version = |text: &str| version_to_ask_for(Some(OsStr::new(text)), |_| false);
+        assert_eq!((version("9"), version("nine")), (9, 1));
+    }
 }

@@ -10,9 +10,11 @@
 //! with `dbg #2k+1`, a hint that does nothing on silicon. Regions may nest and
 //! overlap. When QEMU exits, the plugin writes a line for each closed region (see
 //! [`parse_samples`]). As an ordinary library it reads that file. It must be the
-//! only plugin that runs, on a machine with one processor, under a QEMU that
-//! takes version 1 of the plugin interface (up to 8.2); newer ones refuse to load it.
-//! QEMU's functions are looked up when it is loaded, so the library links anywhere.
+//! only plugin that runs, on a machine with one processor, under QEMU 4.2 or later.
+//! It speaks versions 1 to [`NEWEST_INTERFACE`] of QEMU's plugin interface and looks at the QEMU
+//! that loads it to choose one; the environment variable [`INTERFACE`] sets another version, for
+//! a QEMU that refuses that one. QEMU's functions are looked up when the library is loaded, so it
+//! links anywhere.
 //!
 //! # What is exact
 //!
@@ -87,4 +89,11 @@ mod plugin;
 mod samples;
 
 pub use hand_counted::check_hand_counted;
+/// The newest version of QEMU's plugin interface that the plugin knows.
+#[cfg(unix)]
+pub const NEWEST_INTERFACE: i32 = ffi::NEWEST;
+/// The environment variable that sets the version of the interface which the plugin asks QEMU for.
+#[cfg(unix)]
+pub const INTERFACE: &str = ffi::ASKED;
+
 pub use samples::{Error, HEADER, Sample, Summary, parse_samples};

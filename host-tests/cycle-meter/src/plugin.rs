@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::ffi::{CStr, c_char, c_int, c_uint, c_void};
 use std::path::PathBuf;
 use std::ptr;
-use std::sync::atomic::{AtomicPtr, Ordering};
+use std::sync::atomic::{AtomicI32, AtomicPtr, Ordering};
 
 use crate::block::{Block, Mark};
 use crate::decode;
@@ -16,12 +16,14 @@ use crate::samples::format_samples;
 /// All that the plugin knows.
 struct Plugin {
     qemu: Qemu,
+    /// The version of the interface that QEMU speaks, whichever was asked for.
+    version: c_int,
     out: PathBuf,
     meter: Meter<'static>,
     /// Blocks by address and length, so that code translated again takes no new
     /// memory. They are never freed: QEMU may run them until it exits.
     blocks: HashMap<(u32, usize), Vec<&'static Block>>,
-    /// Checkpoints passed since the start; translated code adds to it.
+    /// Checkpoints passed since the start.
     checkpoints: u64,
     /// Its value when the current block was entered.
     checkpoints_at_entry: u64,
@@ -30,10 +32,27 @@ struct Plugin {
 /// Set once by `qemu_plugin_install`, before QEMU can call anything else.
 static PLUGIN: AtomicPtr<Plugin> = AtomicPtr::new(ptr::null_mut());
 
-/// Version of the interface that this plugin was made for.
+/// Version of the interface that is asked for. QEMU reads it when it has loaded the library, before
+/// it calls anything in it, and each QEMU refuses versions that the other one takes: so it is written
+/// while the library is loaded, by [`choose_version`].
 #[allow(non_upper_case_globals, reason = "QEMU looks for this name")]
 #[unsafe(no_mangle)]
-pub static qemu_plugin_version: c_int = ffi::VERSION;
+pub static qemu_plugin_version: AtomicI32 = AtomicI32::new(1);
+
+extern "C" fn choose_version() {
+    let asked = std::env::var_os(ffi::ASKED);
+    let version = ffi::version_to_ask_for(asked.as_deref(), ffi::host_has);
+    qemu_plugin_version.store(version, Ordering::Relaxed);
+}
+
+/// The loader calls what stands in this section.
+#[used]
+#[cfg_attr(
+    target_vendor = "apple",
+    unsafe(link_section = "__DATA,__mod_init_func")
+)]
+#[cfg_attr(not(target_vendor = "apple"), unsafe(link_section = ".init_array"))]
+static CHOOSE_VERSION: extern "C" fn() = choose_version;
 
 /// Installs the plugin; anything but 0 makes QEMU exit.
 ///
@@ -83,6 +102,7 @@ fn install(
     let qemu = Qemu::find().map_err(|name| format!("this QEMU does not offer {name:?}"))?;
     let plugin = Box::new(Plugin {
         qemu,
+        version: info.version_cur,
         out,
         meter: Meter::default(),
         blocks: HashMap::new(),
@@ -92,8 +112,13 @@ fn install(
     PLUGIN.store(Box::into_raw(plugin), Ordering::Release);
     // SAFETY: the callbacks are functions and live as long as the program.
     unsafe {
-        (qemu.register_vcpu_tb_trans_cb)(id, translated);
-        (qemu.register_atexit_cb)(id, exiting, ptr::null_mut());
+        if info.version_cur >= ffi::USER_DATA {
+            (qemu.register_vcpu_tb_trans_cb_from_7)(id, translated_from_7, ptr::null_mut());
+            (qemu.register_atexit_cb_from_7)(id, exiting_from_7, ptr::null_mut());
+        } else {
+            (qemu.register_vcpu_tb_trans_cb)(id, translated);
+            (qemu.register_atexit_cb)(id, exiting, ptr::null_mut());
+        }
     }
     Ok(())
 }
@@ -116,22 +141,29 @@ extern "C" fn translated(_: PluginId, tb: *mut Tb) {
     let plugin = unsafe { plugin() };
     let qemu = plugin.qemu;
     // SAFETY: the block is valid during this callback.
-    let (start, insns) = unsafe { ((qemu.tb_vaddr)(tb) as u32, read(&qemu, tb)) };
+    let (start, insns) = unsafe {
+        let insns = read(&qemu, plugin.version, tb);
+        ((qemu.tb_vaddr)(tb) as u32, insns)
+    };
     let block = plugin.intern(start, insns);
-    let counter = (&raw mut plugin.checkpoints).cast::<c_void>();
     // SAFETY: the block is valid during this callback and the indices lie within
     // it; what the callbacks get is never freed, and is only read by them.
     unsafe {
         (qemu.register_vcpu_tb_exec_cb)(tb, entered, ffi::NO_REGISTERS, user_data(block));
         for &index in block.checkpoints() {
             let insn = (qemu.tb_get_insn)(tb, index);
-            (qemu.register_vcpu_insn_exec_inline)(insn, ffi::ADD_U64, counter, 1);
+            (qemu.register_vcpu_insn_exec_cb)(insn, passed, ffi::NO_REGISTERS, ptr::null_mut());
         }
         for mark in block.marks() {
             let insn = (qemu.tb_get_insn)(tb, mark.index);
             (qemu.register_vcpu_insn_exec_cb)(insn, marked, ffi::NO_REGISTERS, user_data(mark));
         }
     }
+}
+
+/// QEMU has translated a block, and speaks version 7 or later.
+extern "C" fn translated_from_7(tb: *mut Tb, _: *mut c_void) {
+    translated(0, tb);
 }
 
 fn user_data<T>(data: &'static T) -> *mut c_void {
@@ -143,16 +175,26 @@ fn user_data<T>(data: &'static T) -> *mut c_void {
 /// # Safety
 ///
 /// `tb` must be a block that is being translated.
-unsafe fn read(qemu: &Qemu, tb: *const Tb) -> Vec<Insn> {
+unsafe fn read(qemu: &Qemu, version: c_int, tb: *const Tb) -> Vec<Insn> {
     // SAFETY: the caller's promise.
     let count = unsafe { (qemu.tb_n_insns)(tb) };
     (0..count)
         .map(|index| {
-            // SAFETY: the index is in range, and QEMU gives as many bytes as it says.
-            let code = unsafe {
+            let mut code = [0; 4];
+            // SAFETY: the index is in range; QEMU copies no more than there is room for, and in
+            // the versions before it did so it gives as many bytes as it says.
+            let size = unsafe {
                 let insn = (qemu.tb_get_insn)(tb, index);
-                std::slice::from_raw_parts((qemu.insn_data)(insn), (qemu.insn_size)(insn))
+                if version >= ffi::COPIES {
+                    (qemu.insn_data_from_3)(insn, code.as_mut_ptr().cast(), code.len())
+                } else {
+                    let size = (qemu.insn_size)(insn).min(code.len());
+                    let data = (qemu.insn_data_to_2)(insn);
+                    ptr::copy_nonoverlapping(data, code.as_mut_ptr(), size);
+                    size
+                }
             };
+            let code = &code[..size.min(code.len())];
             // QEMU 7.2 may give a halfword too many at the end of a page, never one too few.
             let halfword = |at| match code.get(at..at + 2) {
                 Some(&[low, high]) => u16::from_le_bytes([low, high]),
@@ -187,12 +229,24 @@ extern "C" fn entered(_: c_uint, block: *mut c_void) {
     plugin.meter.enter(block, passed as usize);
 }
 
+/// An instruction that tells how far a block came is executed.
+extern "C" fn passed(_: c_uint, _: *mut c_void) {
+    // SAFETY: the only call in this callback.
+    let plugin = unsafe { plugin() };
+    plugin.checkpoints += 1;
+}
+
 /// A marker is executed.
 extern "C" fn marked(_: c_uint, mark: *mut c_void) {
     // SAFETY: the only call in this callback.
     let plugin = unsafe { plugin() };
     // SAFETY: registered with a mark in a block that is never freed.
     plugin.meter.mark(unsafe { &*mark.cast::<Mark>() });
+}
+
+/// QEMU exits, and speaks version 7 or later.
+extern "C" fn exiting_from_7(_: *mut c_void) {
+    exiting(0, ptr::null_mut());
 }
 
 /// QEMU exits.

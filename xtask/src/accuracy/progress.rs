@@ -6,6 +6,8 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressState, ProgressStyle};
 
+use crate::output;
+
 /// Steps of very different lengths, of which it is known how they compare.
 pub struct Progress {
     bar: ProgressBar,
@@ -61,7 +63,7 @@ impl Progress {
             begun: now,
             step: now,
         }));
-        let bar = ProgressBar::new(1000);
+        let bar = ProgressBar::with_draw_target(Some(1000), crate::progress::target());
         let style = ProgressStyle::with_template("{share} {elapsed}, {left}  {wide_msg}");
         if let Ok(style) = style {
             let (of_share, of_left) = (Arc::clone(&pace), Arc::clone(&pace));
@@ -89,7 +91,7 @@ impl Progress {
         pace.current = seconds;
         pace.step = now;
         if self.bar.is_hidden() {
-            eprintln!("{what} … ({})", in_words(pace.left(now)));
+            output::note(&format!("{what} … ({})", in_words(pace.left(now))));
         }
         drop(pace);
         self.bar.set_message(what.to_owned());

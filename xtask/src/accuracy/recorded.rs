@@ -41,7 +41,10 @@ pub fn replaced(workspace: &Workspace, measured: &[Point]) -> Result<(PathBuf, S
     let lines: std::result::Result<Vec<String>, _> =
         points.iter().map(serde_json::to_string).collect();
     let lines = lines.map_err(|e| Error::check(format!("cannot write {FILE}: {e}")))?;
-    Ok((path, format!("[\n{}\n]\n", lines.join(",\n"))))
+    Ok((
+        workspace.report(FILE),
+        format!("[\n{}\n]\n", lines.join(",\n")),
+    ))
 }
 
 /// Fails unless these, measured now, are recorded as they are: errors to the bit, costs closely.

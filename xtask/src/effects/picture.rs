@@ -8,6 +8,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::Price;
 use crate::error::{Error, Result};
+use crate::workspace;
 
 const WIDTH: u32 = 960;
 const FONT: &str = "system-ui, Helvetica, Arial, sans-serif";
@@ -35,7 +36,7 @@ pub fn write(prices: &[Price], path: &Path) -> Result<()> {
     let mut svg = String::new();
     draw(prices, &mut svg)
         .map_err(|e| Error::check(format!("cannot draw {}: {e}", path.display())))?;
-    std::fs::write(path, svg).map_err(Error::file("write", path))
+    workspace::write(path, svg)
 }
 
 fn draw(prices: &[Price], svg: &mut String) -> Outcome {

@@ -8,6 +8,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::{ALGORITHMS, Report};
 use crate::error::{Error, Result};
+use crate::workspace;
 
 const SIZE: (u32, u32) = (960, 640);
 const FONT: &str = "system-ui, Helvetica, Arial, sans-serif";
@@ -33,7 +34,7 @@ pub fn write(report: &Report, path: &Path) -> Result<()> {
     let mut svg = String::new();
     draw(report, &mut svg)
         .map_err(|e| Error::check(format!("cannot draw {}: {e}", path.display())))?;
-    std::fs::write(path, svg).map_err(Error::file("write", path))
+    workspace::write(path, svg)
 }
 
 fn draw(report: &Report, svg: &mut String) -> Outcome {

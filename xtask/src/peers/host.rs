@@ -1,8 +1,7 @@
 //! The host's side: every peer in one process, their batches interleaved.
 
-use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::Command;
 
 use serde::{Deserialize, Serialize};
 
@@ -206,16 +205,10 @@ fn bench(workspace: &Workspace, shop: &Workshop<'_>) -> Result<PathBuf> {
 fn run(bench: &Path, manifest: &Path, shop: &Workshop<'_>) -> Result<Vec<Row>> {
     shop.progress.doing("timing on the host");
     let mut command = Command::new(bench);
-    command
-        .arg(manifest)
-        .stdin(Stdio::null())
-        .stdout(Stdio::piped());
-    let mut child = command.spawn().map_err(|e| Error::spawn(&command, e))?;
-    let stdout = child.stdout.take().expect("stdout is piped");
+    command.arg(manifest);
     let mut rows = Vec::new();
-    for line in BufReader::new(stdout).lines() {
-        let line = line.map_err(Error::file("read the output of", bench))?;
-        let line: Line = serde_json::from_str(&line)
+    shell::each_line(&mut command, |line| {
+        let line: Line = serde_json::from_str(line)
             .map_err(|e| Error::check(format!("peers-bench printed {line:?}: {e}")))?;
         shop.progress
             .doing_quietly(&format!("timing {} of {}", line.algorithm, line.robot));
@@ -230,14 +223,7 @@ fn run(bench: &Path, manifest: &Path, shop: &Workshop<'_>) -> Result<Vec<Row>> {
                 ..Row::default()
             });
         }
-    }
-    let status = child.wait().map_err(|e| Error::spawn(&command, e))?;
-    if !status.success() {
-        return Err(Error::Failed {
-            command: shell::display(&command),
-            status,
-            output: String::new(),
-        });
-    }
+        Ok(())
+    })?;
     Ok(rows)
 }

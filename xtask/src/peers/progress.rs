@@ -4,6 +4,8 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
 
+use crate::output;
+
 /// Steps done, of so many.
 pub struct Progress {
     bar: ProgressBar,
@@ -12,7 +14,7 @@ pub struct Progress {
 impl Progress {
     /// A bar of so many steps.
     pub fn new(steps: usize) -> Self {
-        let bar = ProgressBar::new(steps as u64);
+        let bar = ProgressBar::with_draw_target(Some(steps as u64), crate::progress::target());
         let style = "{bar:30} {pos}/{len} {elapsed} {wide_msg}";
         if let Ok(style) = ProgressStyle::with_template(style) {
             bar.set_style(style);
@@ -25,7 +27,7 @@ impl Progress {
     pub fn doing(&self, what: &str) {
         self.bar.set_message(what.to_owned());
         if self.bar.is_hidden() {
-            eprintln!("{what} …");
+            output::note(&format!("{what} …"));
         }
     }
 

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::error::{Error, Result};
+use crate::output;
 use crate::setup::{self, Options, Tools};
 use crate::shell;
 use crate::system::{self, System};
@@ -55,10 +56,10 @@ pub fn set_up(workspace: &Workspace, options: Options) -> Result<(Tools, Peers)>
     let packages = missing_packages();
     let mut commands = Vec::new();
     if !packages.is_empty() {
-        eprintln!(
+        output::note(&format!(
             "missing, of what the peers are built with: {}",
             packages.join(", ")
-        );
+        ));
         commands.extend(install_lines(&packages));
     }
     let pip = python_of(&venv);
@@ -68,7 +69,7 @@ pub fn set_up(workspace: &Workspace, options: Options) -> Result<(Tools, Peers)>
     fill.args(["-m", "pip", "install", "--requirement"])
         .arg(&requirements);
     if !is_installed {
-        eprintln!("missing: a Python environment with Pinocchio, CasADi and MuJoCo");
+        output::note("missing: a Python environment with Pinocchio, CasADi and MuJoCo");
         commands.extend([shell::display(&make), shell::display(&fill)]);
     }
 
@@ -87,10 +88,7 @@ pub fn set_up(workspace: &Workspace, options: Options) -> Result<(Tools, Peers)>
     }
     let tools = tools?;
     if !commands.is_empty() {
-        eprintln!("about to install it with:");
-        for command in &commands {
-            eprintln!("    {command}");
-        }
+        setup::may_install(options, &commands, !packages.is_empty())?;
     }
     if !packages.is_empty() {
         system::apt_install(&packages)?;

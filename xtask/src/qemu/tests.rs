@@ -1,14 +1,14 @@
 //! Programs that stand in for QEMU and misbehave.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::{Duration, Instant};
 
 use defmt_decoder::DecodeError;
 
+use super::Qemu;
 use super::watch::{Decoder, Line, Watch};
-use super::{Qemu, another_version};
 
 /// A script, gone with its directory.
 struct Script(PathBuf);
@@ -174,21 +174,62 @@ fn a_child_that_holds_the_pipe_of_stderr_keeps_nobody() {
     assert!(outcome(r"sleep 20 >/dev/null & printf 'done\0'").is_ok());
 }
 
+/// A QEMU that is a script.
+fn qemu(script: &Script) -> Qemu {
+    let program = script.0.join("qemu");
+    let mode = std::os::unix::fs::PermissionsExt::from_mode(0o755);
+    std::fs::set_permissions(&program, mode).expect("made executable");
+    Qemu::at(program).expect("a version")
+}
+
+/// What it says when it is asked for its version, and when it loads the meter.
+fn refusing(version: &str, why: &str) -> Script {
+    Script::new(&format!(
+        "#!/bin/sh\nif [ \"$1\" = --version ]; then echo 'QEMU emulator version {version}'; exit; fi\n{why}\n"
+    ))
+}
+
+const REFUSES: &str =
+    "qemu-system-arm: Could not load plugin /x/libcycle_meter.so: plugin requires API version";
+
 #[test]
-fn a_qemu_with_another_plugin_interface_is_named() {
-    let takes = |version: &str| {
-        Qemu {
-            version: format!("QEMU emulator version {version} (somewhere's)"),
-        }
-        .takes_the_meter()
-        .map_err(|error| error.to_string())
-    };
-    for version in ["4.2.0", "7.2.22", "8.2.0"] {
-        assert_eq!(takes(version), Ok(()), "{version}");
+fn a_qemu_that_loads_the_meter_takes_it_whatever_its_version() {
+    for version in ["7.2.22", "10.0.2", "99.1.0"] {
+        let script = refusing(version, "read quit; exit 0");
+        let taken = qemu(&script).interface(Path::new("meter.so"));
+        assert_eq!(taken.map_err(|e| e.to_string()), Ok(None), "{version}");
     }
-    for version in ["4.1.0", "9.0.1", "10.0.2"] {
-        let told = [version, "QEMU 4.2 to 8.2", &another_version()];
-        let refused = takes(version).expect_err(version);
-        assert!(told.iter().all(|part| refused.contains(part)), "{refused}");
+}
+
+#[test]
+fn the_version_that_a_newer_qemu_names_is_tried_before_it_is_refused() {
+    let script = refusing(
+        "99.1.0",
+        &format!(
+            "[ \"$CYCLE_METER_INTERFACE\" = 9 ] && exit 0\necho '{REFUSES} 6, but this QEMU supports only a \
+             minimum version of 9' >&2; exit 1"
+        ),
+    );
+    let qemu = qemu(&script);
+    let taken = qemu.interface(Path::new("meter.so"));
+    assert_eq!(taken.map_err(|e| e.to_string()), Ok(Some(9)));
+    assert!(!qemu.is_known());
+}
+
+#[test]
+fn a_qemu_that_takes_no_version_is_refused_with_what_it_said() {
+    let stubborn =
+        format!("echo '{REFUSES} 1, but this QEMU supports only up to version 0' >&2; exit 1");
+    let no_plugins = "echo 'qemu-system-arm: -plugin: invalid option' >&2; exit 1".to_owned();
+    for (lines, why) in [
+        (stubborn, "up to version 0"),
+        (no_plugins, "invalid option"),
+    ] {
+        let script = refusing("12.0.0", &lines);
+        let refused = qemu(&script).interface(Path::new("meter.so"));
+        let refused = refused.expect_err("refused").to_string();
+        for part in ["12.0.0", "cycle meter", why, super::ANOTHER_QEMU] {
+            assert!(refused.contains(part), "{refused}");
+        }
     }
 }

@@ -11,6 +11,9 @@ use defmt_decoder::DecodeError;
 
 use super::DONE;
 use crate::error::{Error, Result};
+use crate::output;
+use crate::processes::Group;
+use crate::shell;
 
 /// Bytes that may come without one whole message among them.
 const MOST_JUNK: usize = 1 << 20;
@@ -46,7 +49,10 @@ pub struct Watch<'a> {
 }
 
 /// Kills the program whichever way we leave.
-struct Guard(Child);
+struct Guard(
+    Child,
+    #[expect(dead_code, reason = "held until it is dropped")] Group,
+);
 
 impl Drop for Guard {
     fn drop(&mut self) {
@@ -79,7 +85,8 @@ impl Watch<'_> {
         command: &mut Command,
         on_line: &mut impl FnMut(&str) -> Result<()>,
     ) -> Result<Vec<u8>> {
-        let mut child = Guard(command.spawn().map_err(|e| Error::spawn(command, e))?);
+        let (child, group) = shell::spawn(command)?;
+        let mut child = Guard(child, group);
         let stdout = child.0.stdout.take().expect("stdout is piped");
         let said = Said::by(child.0.stderr.take().expect("stderr is piped"));
         let mut log = Log::default();
@@ -118,7 +125,7 @@ impl Watch<'_> {
             }
             (Ok(()), Some(_)) => {
                 if !said.is_empty() {
-                    eprintln!("{said}");
+                    output::note(&said);
                 }
                 Ok(log.raw)
             }

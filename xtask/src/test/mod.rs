@@ -6,6 +6,7 @@ mod claims;
 mod cost_steps;
 mod firmware_steps;
 mod host_steps;
+mod other_machines;
 mod scene_steps;
 
 use std::path::PathBuf;
@@ -18,10 +19,10 @@ use clap::builder::PossibleValuesParser;
 use crate::demo::{self, Measured};
 use crate::error::Result;
 use crate::firmware;
+use crate::output;
 use crate::progress::Spinner;
 use crate::scene::Scene;
 use crate::setup::{self, Options, Tools};
-use crate::shell;
 use crate::workspace::Workspace;
 
 /// One thing that is tested.
@@ -260,6 +261,20 @@ const STEPS: &[Step] = &[
         scope: Scope::Full,
         run: scene_steps::debian,
     },
+    Step {
+        name: "qemu-10",
+        title: "QEMU 10 logs and measures what this machine's QEMU does, byte for byte",
+        lane: Lane::Target,
+        scope: Scope::Full,
+        run: other_machines::qemu_10,
+    },
+    Step {
+        name: "compilers",
+        title: "the UR5e's demo and costs are within their budgets with rustup's other compilers",
+        lane: Lane::Target,
+        scope: Scope::Full,
+        run: other_machines::compilers,
+    },
 ];
 
 impl Context {
@@ -317,7 +332,7 @@ pub fn list() -> Result<ExitCode> {
     for (program, test) in claims::full_only(&workspace.root.join("host-tests/tests"))? {
         text += &format!("  {program:16} {}\n", test.replace('_', " "));
     }
-    shell::print(&text)?;
+    output::print(&text)?;
     Ok(ExitCode::SUCCESS)
 }
 
@@ -350,13 +365,16 @@ pub fn run(options: Options, args: &Args) -> Result<ExitCode> {
     };
     let run = |lane| {
         let steps = STEPS.iter().filter(|step| step.lane == lane).filter(wanted);
-        steps.map(|step| passes(step, &context)).collect::<Vec<_>>()
+        steps
+            .map(|step| passes(step, &context))
+            .collect::<Result<Vec<_>>>()
     };
     let outcomes = std::thread::scope(|scope| {
         let lanes = [Lane::Host, Lane::Target].map(|lane| scope.spawn(move || run(lane)));
-        let panicked = |_| vec![Some(false)];
-        lanes.map(|lane| lane.join().unwrap_or_else(panicked))
-    });
+        let panicked = |_| Ok(vec![Some(false)]);
+        let ends = lanes.map(|lane| lane.join().unwrap_or_else(panicked));
+        ends.into_iter().collect::<Result<Vec<_>>>()
+    })?;
     let count = |what| {
         outcomes
             .iter()
@@ -366,13 +384,13 @@ pub fn run(options: Options, args: &Args) -> Result<ExitCode> {
     };
     let (passed, failed) = (count(Some(true)), count(Some(false)));
     if args.steps.is_empty() && !args.full {
-        println!(
-            "every robot, scene, report and document: `cargo xtask test --full`; `--list` names what it adds"
-        );
+        output::line(
+            "every robot, scene, report and document: `cargo xtask test --full`; `--list` names what it adds",
+        )?;
     }
     let seconds = start.elapsed().as_secs();
-    println!("took {} min {:02} s", seconds / 60, seconds % 60);
-    println!("{passed} passed, {failed} failed");
+    output::line(&format!("took {} min {:02} s", seconds / 60, seconds % 60))?;
+    output::line(&format!("{passed} passed, {failed} failed"))?;
     Ok(if failed == 0 {
         ExitCode::SUCCESS
     } else {
@@ -381,7 +399,7 @@ pub fn run(options: Options, args: &Args) -> Result<ExitCode> {
 }
 
 /// Runs a step and says how it ended: whether it passed, if it applied here.
-fn passes(step: &Step, context: &Context) -> Option<bool> {
+fn passes(step: &Step, context: &Context) -> Result<Option<bool>> {
     let start = Instant::now();
     let spinner = Spinner::start(step.title);
     let result = (step.run)(context);
@@ -399,16 +417,16 @@ fn passes(step: &Step, context: &Context) -> Option<bool> {
     let line = format!("{mark} {seconds:6.1} s  {name:16} {title}{detail}");
     match result {
         Ok(Outcome::Passed(_)) => {
-            println!("{line}");
-            Some(true)
+            output::line(&line)?;
+            Ok(Some(true))
         }
         Ok(Outcome::Skipped(_)) => {
-            println!("{line}");
-            None
+            output::line(&line)?;
+            Ok(None)
         }
         Err(error) => {
-            println!("{line}\n{error}\n");
-            Some(false)
+            output::line(&format!("{line}\n{error}\n"))?;
+            Ok(Some(false))
         }
     }
 }

@@ -191,7 +191,7 @@ pub fn debian(context: &Context) -> Result<Outcome> {
                 "{lack}; `cargo xtask test --debian` installs it"
             )));
         }
-        let allowed = matches!(Privilege::this(), Privilege::Root | Privilege::Sudo);
+        let allowed = Privilege::this().needs_no_password();
         if context.options.no_install || !allowed {
             return Ok(Outcome::Skipped(format!("{lack}, and may not install it")));
         }
@@ -199,7 +199,12 @@ pub fn debian(context: &Context) -> Result<Outcome> {
             return Ok(Outcome::Skipped(format!("{lack}, and apt has none")));
         }
     }
-    let toolchain = setup::debian(context.options)?;
+    let options = setup::Options {
+        // Whoever may install it has been asked: by --debian.
+        yes: context.may_install_debian,
+        ..context.options
+    };
+    let toolchain = setup::debian(options)?;
     let scene = Scene::default();
     let elf = firmware::build(&context.workspace, toolchain, scene.name())?;
     let measured = demo::measure(

@@ -1,0 +1,80 @@
+//! The processes that xtask started: they end when it is told to end, and with it.
+//!
+//! A child runs in a process group of its own, because cargo starts compilers that outlive it: on
+//! SIGINT, SIGTERM and SIGHUP the whole group is told to end.
+
+use std::collections::BTreeSet;
+use std::io;
+use std::process::{Child, Command};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+/// The groups that run, by the number of their first process.
+static RUNNING: Mutex<BTreeSet<u32>> = Mutex::new(BTreeSet::new());
+
+/// What a shell reports of a program that SIGTERM ended.
+#[cfg(unix)]
+const INTERRUPTED: i32 = 128 + 15;
+#[cfg(not(unix))]
+const INTERRUPTED: i32 = 1;
+
+fn running() -> MutexGuard<'static, BTreeSet<u32>> {
+    RUNNING.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Ends everything that runs when xtask is told to end.
+pub fn end_with_us() -> Result<(), ctrlc::Error> {
+    ctrlc::set_handler(|| {
+        // Kept locked: nothing is started from now on.
+        let groups = running();
+        for group in groups.iter() {
+            end(*group);
+        }
+        std::process::exit(INTERRUPTED);
+    })
+}
+
+#[cfg(unix)]
+fn end(group: u32) {
+    use nix::sys::signal::{Signal, killpg};
+    use nix::unistd::Pid;
+    // It fails if all its processes have ended, which is what is wanted.
+    let _ = killpg(Pid::from_raw(group.cast_signed()), Signal::SIGTERM);
+}
+
+#[cfg(not(unix))]
+fn end(_: u32) {}
+
+/// Tells a process to end, which may still write what it has.
+#[cfg(unix)]
+pub fn tell_to_end(child: &Child) {
+    end(child.id());
+}
+
+/// Ends a process.
+#[cfg(not(unix))]
+pub fn tell_to_end(_: &Child) {}
+
+/// A process group that runs; when dropped, what is left of it is ended.
+#[derive(Debug)]
+pub struct Group(u32);
+
+impl Group {
+    /// Starts a command in a group of its own.
+    pub fn spawn(command: &mut Command) -> io::Result<(Child, Self)> {
+        #[cfg(unix)]
+        std::os::unix::process::CommandExt::process_group(command, 0);
+        // Locked across the start: there is no moment in which it runs and nobody knows.
+        let mut running = running();
+        let child = command.spawn()?;
+        running.insert(child.id());
+        let group = Self(child.id());
+        Ok((child, group))
+    }
+}
+
+impl Drop for Group {
+    fn drop(&mut self) {
+        running().remove(&self.0);
+        end(self.0);
+    }
+}

@@ -1,0 +1,351 @@
+//! The steps that run the default scene and its robot's costs on another QEMU and with other compilers.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use super::{Context, Outcome};
+use crate::budgets::{self, OTHER_RUSTC};
+use crate::costs;
+use crate::demo;
+use crate::error::{Error, Result};
+use crate::firmware;
+use crate::qemu::{Qemu, Run};
+use crate::scene::Scene;
+use crate::shell;
+use crate::toolchain::{self, RELEASE, TARGET, release};
+use crate::workspace::{self, FIRMWARE, Workspace};
+
+/// What is built: the default scene, and the costs of its robot.
+const SCENE: &str = "ur5e";
+const COSTS: &str = "costs_ur5e";
+
+/// The Debian whose backports have a newer QEMU.
+const SUITE: &str = "bookworm";
+const PACKAGE: &str = "qemu-system-arm";
+const KEYS: &str = "/usr/share/keyrings/debian-archive-keyring.gpg";
+
+pub fn qemu_10(context: &Context) -> Result<Outcome> {
+    let os = std::fs::read_to_string("/etc/os-release").unwrap_or_default();
+    if !os
+        .lines()
+        .any(|line| line == format!("VERSION_CODENAME={SUITE}"))
+    {
+        return Ok(Outcome::Skipped(format!(
+            "not on Debian 12, whose backports have it; here is {}",
+            context.tools.qemu.version
+        )));
+    }
+    let program = match unpacked(&context.workspace) {
+        Ok(program) => program,
+        Err(error) => {
+            return Ok(Outcome::Skipped(format!(
+                "cannot be had from Debian's backports: {error}"
+            )));
+        }
+    };
+    let newer = Qemu::at(program)?;
+    let meter = context.meter()?;
+    let names = [SCENE, COSTS];
+    let toolchain = context.tools.toolchain;
+    let elves = firmware::build_bins(&context.workspace, toolchain, RELEASE, &names)?;
+    let mut samples = 0;
+    for (name, elf) in std::iter::zip(names, &elves) {
+        let here = raw(context, &context.tools.qemu, meter, name, elf)?;
+        let there = raw(context, &newer, meter, name, elf)?;
+        samples += same(name, &here, &there)?;
+    }
+    Ok(Outcome::Passed(format!(
+        "{} and {}: {samples} samples",
+        context.tools.qemu.version, newer.version
+    )))
+}
+
+/// The log and the meter's file of a run.
+fn raw(
+    context: &Context,
+    qemu: &Qemu,
+    meter: &Path,
+    name: &str,
+    elf: &Path,
+) -> Result<(Vec<u8>, String)> {
+    let (major, _) = release(&qemu.version);
+    let out = context.workspace.output(&format!("{name}.qemu-{major}"))?;
+    let run = Run {
+        name,
+        elf,
+        meter: Some((meter, &out)),
+        logs: true,
+    };
+    Ok((qemu.run(&run, |_| Ok(()))?, workspace::read(&out)?))
+}
+
+/// How many samples two runs have in common, which are all.
+fn same(name: &str, here: &(Vec<u8>, String), there: &(Vec<u8>, String)) -> Result<usize> {
+    if here.0 != there.0 {
+        return Err(Error::check(format!(
+            "{name}: the two QEMUs logged different bytes"
+        )));
+    }
+    let mut lines = std::iter::zip(here.1.lines(), there.1.lines()).enumerate();
+    if let Some((at, (one, other))) = lines.find(|(_, (one, other))| one != other) {
+        return Err(Error::check(format!(
+            "{name}: line {} of the samples is `{one}` here and `{other}` there",
+            at + 1
+        )));
+    }
+    if here.1 != there.1 {
+        return Err(Error::check(format!(
+            "{name}: the two QEMUs gave different numbers of samples"
+        )));
+    }
+    Ok(here.1.lines().count().saturating_sub(1))
+}
+
+/// The newer QEMU, unpacked beside the one that is installed; it needs the same libraries.
+fn unpacked(workspace: &Workspace) -> Result<PathBuf> {
+    let dir = workspace.target.join("qemu-backports");
+    let program = dir.join("root/usr/bin").join(PACKAGE);
+    if shell::succeeds(Command::new(&program).arg("--version")) {
+        return Ok(program);
+    }
+    for part in ["lists/partial", "archives/partial"] {
+        let part = dir.join(part);
+        std::fs::create_dir_all(&part).map_err(Error::file("create", &part))?;
+    }
+    let sources = dir.join("sources.list");
+    let line =
+        format!("deb [signed-by={KEYS}] http://deb.debian.org/debian {SUITE}-backports main\n");
+    workspace::write(&sources, line)?;
+    let apt = |arguments: &[&str]| {
+        let mut command = Command::new("apt-get");
+        for (option, value) in [
+            ("Dir::Etc::sourcelist", sources.as_path()),
+            ("Dir::Etc::sourceparts", Path::new("-")),
+            ("Dir::State::lists", &dir.join("lists")),
+            ("Dir::Cache", &dir),
+            // It would be another user, who may not write here.
+            ("APT::Sandbox::User", Path::new("root")),
+        ] {
+            command
+                .arg("-o")
+                .arg(format!("{option}={}", value.display()));
+        }
+        command.args(arguments).current_dir(dir.join("archives"));
+        shell::capture(&mut command)
+    };
+    apt(&["update"])?;
+    apt(&["download", &format!("{PACKAGE}/{SUITE}-backports")])?;
+    let archives = dir.join("archives");
+    let files = std::fs::read_dir(&archives).map_err(Error::file("read", &archives))?;
+    for file in files.flatten().map(|entry| entry.path()) {
+        if file.extension().is_some_and(|ending| ending == "deb") {
+            shell::capture(
+                Command::new("dpkg")
+                    .arg("-x")
+                    .arg(&file)
+                    .arg(dir.join("root")),
+            )?;
+        }
+    }
+    // QEMU would otherwise load the modules of the installed one, and end.
+    let modules = dir
+        .join("root/usr/lib")
+        .join(format!("{}-linux-gnu/qemu", std::env::consts::ARCH));
+    std::fs::create_dir_all(&modules).map_err(Error::file("create", &modules))?;
+    Ok(program)
+}
+
+pub fn compilers(context: &Context) -> Result<Outcome> {
+    if shell::which("rustup").is_none() {
+        return Ok(Outcome::Skipped("there is no rustup".into()));
+    }
+    let own = context.tools.toolchain.rustc_version()?;
+    let list = shell::capture(Command::new("rustup").args(["toolchain", "list"]))?;
+    let oldest = env!("CARGO_PKG_RUST_VERSION");
+    let mut names: Vec<&str> = list
+        .lines()
+        .filter_map(|line| line.split(' ').next())
+        .collect();
+    // What should be there stands in the outcome if it is not.
+    let is_there = |wanted: &str| names.iter().any(|name| name.starts_with(wanted));
+    let mut seen: Vec<String> = [oldest, "stable"]
+        .into_iter()
+        .filter(|wanted| !is_there(wanted))
+        .map(|wanted| format!("{wanted} is not there: `rustup toolchain install {wanted}`"))
+        .collect();
+    names.sort_unstable();
+    let mut done = vec![own.clone()];
+    for name in names {
+        let compiler = match Compiler::find(name) {
+            Ok(compiler) => compiler,
+            Err(error) => {
+                seen.push(format!("{name}: {error}"));
+                continue;
+            }
+        };
+        if done.contains(&compiler.version) {
+            continue;
+        }
+        if release(&compiler.version) < release(oldest) {
+            seen.push(format!("{} is older than {oldest}", compiler.version));
+            continue;
+        }
+        done.push(compiler.version.clone());
+        seen.push(match compiler.lack() {
+            Some(lack) => format!("{}: {lack}", compiler.version),
+            None => compiler.run(context)?,
+        });
+    }
+    let seen = seen.join("; ");
+    Ok(if done.len() == 1 {
+        Outcome::Skipped(format!("all of this ran with {own}; {seen}"))
+    } else {
+        Outcome::Passed(seen)
+    })
+}
+
+/// A toolchain of rustup's.
+struct Compiler<'a> {
+    name: &'a str,
+    version: String,
+}
+
+impl<'a> Compiler<'a> {
+    fn find(name: &'a str) -> Result<Self> {
+        let version = shell::capture(rustup_run(name, "rustc").arg("--version"))?;
+        Ok(Self {
+            name,
+            version: version.trim().to_owned(),
+        })
+    }
+
+    /// Why it cannot build the firmware.
+    fn lack(&self) -> Option<String> {
+        let (precompiled, sources) = self.cores();
+        (!precompiled && !sources).then(|| {
+            format!(
+                "no core library for {TARGET}: `rustup target add --toolchain {} {TARGET}`",
+                self.name
+            )
+        })
+    }
+
+    /// Whether it has a core library for the target, and the sources of one.
+    fn cores(&self) -> (bool, bool) {
+        let printed = |what: &[&str]| {
+            let out = shell::capture(rustup_run(self.name, "rustc").arg("--print").args(what));
+            out.map(|out| PathBuf::from(out.trim())).unwrap_or_default()
+        };
+        let libraries = printed(&["target-libdir", "--target", TARGET]);
+        let sources = printed(&["sysroot"]).join("lib/rustlib/src/rust/library/core/Cargo.toml");
+        (toolchain::has_core(&libraries), sources.is_file())
+    }
+
+    /// Builds the scene and the costs, runs them, and says how far the costs are from the usual compiler's.
+    fn run(&self, context: &Context) -> Result<String> {
+        let target = context.workspace.target.join("compilers").join(self.name);
+        let mut command = rustup_run(self.name, "cargo");
+        command.args([
+            "build",
+            "--release",
+            "--package",
+            FIRMWARE,
+            "--target",
+            TARGET,
+        ]);
+        command.args(["--bin", SCENE, "--bin", COSTS, "--target-dir"]);
+        command.arg(&target).current_dir(&context.workspace.root);
+        if !self.cores().0 {
+            command.arg("-Zbuild-std=core").env("RUSTC_BOOTSTRAP", "1");
+        }
+        shell::cargo(&mut command)?;
+        let elf = |bin: &str| target.join(TARGET).join(RELEASE).join(bin);
+        let (tools, meter) = (&context.tools, context.meter()?);
+        let toolchain = tools.toolchain;
+        let scene = Scene::default();
+        let mut measured = demo::measure(
+            &context.workspace,
+            tools,
+            scene,
+            toolchain,
+            &elf(SCENE),
+            meter,
+        )?;
+        measured.report.rustc.clone_from(&self.version);
+        let spare = budgets::check(&context.workspace, &measured.report)?;
+        let usual = firmware::build(&context.workspace, toolchain, COSTS)?;
+        let (usual, _) = costs::run_bin(tools, meter, COSTS, &usual)?;
+        let (these, _) = costs::run_bin(tools, meter, COSTS, &elf(COSTS))?;
+        let rows = these.iter().map(|row| (row.key(), row.cycles.max));
+        let worst = apart(usual.iter().map(|row| (row.key(), row.cycles.max)), rows)?;
+        Ok(format!(
+            "{}: {spare}, costs at most {:.2} % apart",
+            self.version,
+            100.0 * worst
+        ))
+    }
+}
+
+/// The largest share by which a cost differs from the one of the same name.
+fn apart(
+    usual: impl Iterator<Item = (String, u64)>,
+    these: impl Iterator<Item = (String, u64)>,
+) -> Result<f64> {
+    let mut worst = 0.0;
+    for ((name, usual), (other, these)) in std::iter::zip(usual, these) {
+        let share = (these as f64 / usual as f64 - 1.0).abs();
+        if name != other || share.is_nan() || share > OTHER_RUSTC {
+            return Err(Error::check(format!(
+                "`{name}` takes {usual} cycles with the usual compiler, `{other}` {these} with this one"
+            )));
+        }
+        worst = f64::max(worst, share);
+    }
+    Ok(worst)
+}
+
+/// A program of a toolchain, rid of what the cargo that started xtask left in the environment.
+fn rustup_run(toolchain: &str, program: &str) -> Command {
+    let mut command = Command::new("rustup");
+    command.args(["run", toolchain, program]);
+    for name in [
+        "CARGO",
+        "LD_LIBRARY_PATH",
+        "RUSTC",
+        "RUSTDOC",
+        "RUSTUP_TOOLCHAIN",
+        "RUST_RECURSION_COUNT",
+    ] {
+        command.env_remove(name);
+    }
+    command
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{apart, same};
+
+    #[test]
+    fn one_sample_that_differs_is_found() {
+        let run = |log: &[u8], samples: &str| (log.to_vec(), samples.to_owned());
+        let here = run(b"log", "head\n0 1 2 3\n0 1 2 4\n");
+        assert_eq!(same("x", &here, &here).expect("the same"), 2);
+        for (there, why) in [
+            (run(b"lag", "head\n0 1 2 3\n0 1 2 4\n"), "different bytes"),
+            (run(b"log", "head\n0 1 2 3\n0 1 2 5\n"), "line 3"),
+            (run(b"log", "head\n0 1 2 3\n"), "different numbers"),
+        ] {
+            let error = same("x", &here, &there).expect_err(why).to_string();
+            assert!(error.contains(why), "{error}");
+        }
+    }
+
+    #[test]
+    fn a_cost_that_moved_too_far_is_found() {
+        let rows = |cycles: u64| [("rnea".to_owned(), 1000), ("crba".to_owned(), cycles)];
+        let far = |cycles| apart(rows(1000).into_iter(), rows(cycles).into_iter());
+        assert!((far(1004).expect("close") - 0.004).abs() < 1e-12);
+        let error = far(1100).expect_err("too far").to_string();
+        assert!(error.contains("`crba` takes 1000"), "{error}");
+    }
+}

@@ -1,0 +1,266 @@
+//! `cargo xtask meter ELF`: what a user's own firmware costs between its markers.
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::time::Duration;
+
+use cycle_meter::{Sample, Summary};
+use serde::Serialize;
+
+use crate::docs;
+use crate::elf::Image;
+use crate::error::{Error, Result};
+use crate::firmware;
+use crate::meter::{self, Spread};
+use crate::output;
+use crate::progress::Spinner;
+use crate::qemu::Run;
+use crate::report::MODEL;
+use crate::setup::{self, Options};
+use crate::table::{Table, thousands};
+use crate::workspace::Workspace;
+
+/// How a firmware is marked, in the help and where it is not.
+pub const MARKERS: &str = "\
+A region k, 0 to 7, begins with the instruction `dbg #2k` and ends with `dbg #2k+1`. They do nothing on the
+processor and may stay in the firmware. In Rust:
+
+    #[inline(always)]
+    fn start_0() { unsafe { core::arch::asm!(\"dbg #0\", options(nostack, preserves_flags)) } }
+    #[inline(always)]
+    fn stop_0() { unsafe { core::arch::asm!(\"dbg #1\", options(nostack, preserves_flags)) } }
+
+    start_0();
+    let tau = black_box(control_tick(black_box(&state)));   // #[inline(never)] fn control_tick
+    stop_0();
+
+In C: `__asm volatile(\"dbg #0\" ::: \"memory\")`. A marker keeps accesses to memory on their side, but not arithmetic
+on values in registers: measure the call of a function that is not inlined, with black_box around its arguments
+and its result. Regions may nest. The ELF is run on an emulated Netduino Plus 2 (STM32F405: flash at 0x08000000,
+RAM at 0x20000000); what else is on the board does not answer. It may end by semihosting (SYS_EXIT); one that
+never ends is stopped after --seconds, and what was measured until then is printed. Keep its symbols (no strip).";
+
+/// What to measure.
+pub struct Wish {
+    /// The firmware.
+    pub elf: PathBuf,
+    /// The board in QEMU.
+    pub machine: String,
+    /// How long it may run.
+    pub seconds: u64,
+    /// Print JSON.
+    pub json: bool,
+}
+
+/// What a region costs; the fields are those of the JSON.
+#[derive(Debug, PartialEq, Eq, Serialize)]
+struct Region {
+    region: u8,
+    calls: usize,
+    instructions: Spread,
+    cycles: Spread,
+    flops: Spread,
+}
+
+/// All that is printed.
+#[derive(Debug, Serialize)]
+struct Report {
+    model: &'static str,
+    /// Whether it ended by itself.
+    ended: bool,
+    regions: Vec<Region>,
+    /// Functions with an instruction that a Cortex-M4F lacks, and its address.
+    foreign: Vec<Foreign>,
+}
+
+/// An instruction that a Cortex-M4F lacks.
+#[derive(Debug, Serialize)]
+struct Foreign {
+    function: String,
+    address: String,
+}
+
+/// Measures and prints.
+pub fn run(options: Options, wish: &Wish) -> Result<ExitCode> {
+    let image = image(&wish.elf)?;
+    let workspace = Workspace::find()?;
+    let tools = setup::for_demo(options)?;
+    let name = wish.elf.file_name().unwrap_or(wish.elf.as_os_str());
+    let name = name.to_string_lossy();
+    let spinner = Spinner::start("building the cycle meter");
+    let plugin = firmware::build_meter(&workspace)?;
+    tools.qemu.interface(&plugin)?;
+    let out = workspace.output(&format!("{name}.{}.regions", std::process::id()))?;
+    let run = Run {
+        name: &name,
+        elf: &wish.elf,
+        meter: Some((&plugin, &out)),
+        logs: image.has_defmt,
+    };
+    spinner.say(format!("running {name} in QEMU"));
+    let limit = Duration::from_secs(wish.seconds);
+    let ended = tools.qemu.run_for(&wish.machine, &run, limit);
+    drop(spinner);
+    let samples = ended.and_then(|ended| Ok((ended, meter::read(&out)?)));
+    // Not there if QEMU did not start.
+    let _ = std::fs::remove_file(&out);
+    let (ended, samples) = samples?;
+    let report = Report {
+        model: MODEL,
+        ended,
+        regions: regions(&samples),
+        foreign: foreign(&image),
+    };
+    if report.regions.is_empty() {
+        return Err(Error::check(format!(
+            "{name} has markers, but closed no region {}: is it built for a board with flash at 0x08000000, does \
+             it wait for a device that QEMU lacks, or does it need more than --seconds {}?",
+            if ended {
+                "before it ended"
+            } else {
+                "in its time"
+            },
+            wish.seconds
+        )));
+    }
+    if wish.json {
+        docs::print_json(&report)?;
+    } else {
+        output::print(&report.text(&name, wish.seconds))?;
+    }
+    if let Some(first) = report.foreign.first() {
+        return Err(Error::check(format!(
+            "{} instructions are none of a Cortex-M4F, the first at {} in `{}`: build with \
+             --target thumbv7em-none-eabihf and the flags that README.md gives",
+            report.foreign.len(),
+            first.address,
+            first.function
+        )));
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// The ELF, if it is one that can be measured.
+fn image(elf: &Path) -> Result<Image> {
+    let wrong = |what: &str| Err(Error::check(format!("{}: {what}", elf.display())));
+    let bytes = std::fs::read(elf).map_err(Error::file("read", elf))?;
+    if !bytes.starts_with(b"\x7fELF") {
+        return wrong(
+            "this is no ELF file: give the one that cargo builds, target/thumbv7em-none-eabihf/release/NAME, \
+             not a .bin or .hex made of it",
+        );
+    }
+    let image = Image::read(elf)?;
+    if !image.is_arm {
+        return wrong(
+            "this is for another processor: build it with --target thumbv7em-none-eabihf",
+        );
+    }
+    if image.functions.is_empty() {
+        return wrong("it has no symbols of functions: build it without `strip`");
+    }
+    let instructions = image.functions.iter().flat_map(|f| f.instructions());
+    if !instructions.into_iter().any(|one| one.is_marker()) {
+        return wrong(&format!("it has no markers.\n\n{MARKERS}"));
+    }
+    Ok(image)
+}
+
+fn regions(samples: &[Sample]) -> Vec<Region> {
+    let of = |region: u8| {
+        let passages: Vec<&Sample> = samples.iter().filter(|one| one.region == region).collect();
+        let spread = |what: fn(&Sample) -> u64| {
+            let Summary { min, median, max } = Summary::of(passages.iter().map(|one| what(one)))?;
+            Some(Spread { min, median, max })
+        };
+        Some(Region {
+            region,
+            calls: passages.len(),
+            instructions: spread(|one| one.instructions)?,
+            cycles: spread(|one| one.cycles)?,
+            flops: spread(|one| one.flops)?,
+        })
+    };
+    (0..8).filter_map(of).collect()
+}
+
+fn foreign(image: &Image) -> Vec<Foreign> {
+    let mut foreign = Vec::new();
+    for function in &image.functions {
+        for instruction in function.instructions() {
+            if instruction.is_beyond_m4f() {
+                foreign.push(Foreign {
+                    function: function.names.join(" = "),
+                    address: format!("{:#x}", instruction.address),
+                });
+            }
+        }
+    }
+    foreign
+}
+
+impl Report {
+    fn text(&self, name: &str, seconds: u64) -> String {
+        let mut table = Table::new(&[
+            "region",
+            "calls",
+            "insn min",
+            "median",
+            "max",
+            "cycles min",
+            "median",
+            "max",
+            "flops max",
+        ]);
+        for region in &self.regions {
+            let (insn, cycles) = (region.instructions, region.cycles);
+            let figures = [
+                region.calls as u64,
+                insn.min,
+                insn.median,
+                insn.max,
+                cycles.min,
+                cycles.median,
+                cycles.max,
+                region.flops.max,
+            ];
+            let cells = figures.map(thousands);
+            table.row(std::iter::once(region.region.to_string()).chain(cells));
+        }
+        let end = if self.ended {
+            String::new()
+        } else {
+            format!(", stopped after {seconds} s")
+        };
+        let mut text = format!("{name}{end} ({})\n\n{}", self.model, table.text());
+        for one in &self.foreign {
+            text += &format!(
+                "\n  not of a Cortex-M4F: {} in `{}`",
+                one.address, one.function
+            );
+        }
+        text + "\n"
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use cycle_meter::Sample;
+
+    use super::regions;
+
+    #[test]
+    fn each_region_has_its_own_line() {
+        let sample = |region, cycles| Sample {
+            region,
+            instructions: 10,
+            cycles,
+            flops: 3,
+        };
+        let regions = regions(&[sample(0, 12), sample(3, 7), sample(0, 20), sample(0, 13)]);
+        assert_eq!(regions.len(), 2);
+        let cycles = regions[0].cycles;
+        assert_eq!((cycles.min, cycles.median, cycles.max), (12, 13, 20));
+        assert_eq!((regions[0].calls, regions[1].region), (3, 3));
+    }
+}

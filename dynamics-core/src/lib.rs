@@ -26,6 +26,8 @@ mod articulated;
 pub mod configuration;
 mod const_math;
 pub mod control;
+#[cfg(feature = "defmt")]
+mod defmt_form;
 pub mod effects;
 mod engine;
 pub mod exponential;
@@ -35,6 +37,8 @@ mod mass_matrix;
 pub mod model;
 pub mod robots;
 pub mod scalar;
+#[cfg(feature = "serde")]
+mod serde_form;
 pub mod sim;
 pub mod spatial;
 pub mod state;

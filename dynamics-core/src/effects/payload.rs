@@ -102,6 +102,7 @@ impl<R: Real> Payload<R> {
 
 /// Why no body has such a mass and inertia.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum ImpossibleLoad {
     /// A number is infinite or not a number.
     NotFinite,

@@ -4,6 +4,7 @@ use core::fmt;
 
 /// A robot's description that cannot be used, with the body concerned.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub struct ModelError {
     /// The body's name (the robot's, where the whole is concerned).
@@ -14,6 +15,7 @@ pub struct ModelError {
 
 /// What is wrong with a body's description.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum Problem {
     /// The parent is not listed before the body.

@@ -218,11 +218,7 @@ impl<'de, R: Real + Deserialize<'de>> Deserialize<'de> for SpatialInertia<R> {
         Ok(Self {
             mass: read.mass,
             moment: column(x, y, z),
-            inertia: R::Mat3::from_cols(
-                column(xx, xy, xz),
-                column(xy, yy, yz),
-                column(xz, yz, zz),
-            ),
+            inertia: R::Mat3::from_cols(column(xx, xy, xz), column(xy, yy, yz), column(xz, yz, zz)),
         })
     }
 }

@@ -4,6 +4,7 @@ mod absent_steps;
 mod cost_steps;
 mod firmware_steps;
 mod host_steps;
+mod package_steps;
 mod scene_steps;
 
 use std::path::PathBuf;
@@ -98,6 +99,30 @@ const STEPS: &[Step] = &[
         title: "the documentation builds without a warning",
         lane: Lane::Host,
         run: host_steps::doc,
+    },
+    Step {
+        name: "examples",
+        title: "the library's examples run",
+        lane: Lane::Host,
+        run: package_steps::examples,
+    },
+    Step {
+        name: "features",
+        title: "the library's features build for the target and change no number",
+        lane: Lane::Host,
+        run: package_steps::features,
+    },
+    Step {
+        name: "package",
+        title: "the crate packages, and builds vendored from git",
+        lane: Lane::Host,
+        run: package_steps::package,
+    },
+    Step {
+        name: "deny",
+        title: "dependencies, their licences and their sources are those that deny.toml allows",
+        lane: Lane::Host,
+        run: package_steps::deny,
     },
     Step {
         name: "firmware",

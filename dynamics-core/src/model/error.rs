@@ -70,20 +70,25 @@ impl core::error::Error for ModelError {}
 impl ModelError {
     /// Panics with the same words as `Display`, in a way that a `const` evaluation can print.
     pub(super) const fn panic(self) -> ! {
-        let parts = ["body `", self.body, "`: ", self.problem.text()];
-        let (mut text, mut at, mut part) = ([b' '; 160], 0, 0);
-        while part < parts.len() {
-            let (bytes, mut i) = (parts[part].as_bytes(), 0);
-            while i < bytes.len() && at < text.len() {
-                text[at] = bytes[i];
-                at += 1;
-                i += 1;
-            }
-            part += 1;
+        panic(&["body `", self.body, "`: ", self.problem.text()])
+    }
+}
+
+/// Panics with these parts of a sentence, of 160 bytes or less, in a way that a `const` evaluation can print.
+pub(super) const fn panic(parts: &[&str]) -> ! {
+    let (mut text, mut at, mut part) = ([b' '; 160], 0, 0);
+    while part < parts.len() {
+        let (bytes, mut i) = (parts[part].as_bytes(), 0);
+        while i < bytes.len() && at < text.len() {
+            text[at] = bytes[i];
+            at += 1;
+            i += 1;
         }
-        match core::str::from_utf8(text.split_at(at).0) {
-            Ok(text) => panic!("{}", text),
-            Err(_) => panic!("{}", self.problem.text()),
-        }
+        part += 1;
+    }
+    match core::str::from_utf8(text.split_at(at).0) {
+        Ok(text) => panic!("{}", text),
+        // A letter of several bytes was cut.
+        Err(_) => panic!("{}", parts[parts.len() - 1]),
     }
 }

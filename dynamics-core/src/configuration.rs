@@ -15,6 +15,7 @@ use JointKind::*;
 
 /// A quaternion of length zero, or not a number: no attitude.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub struct NoAttitude {
     /// Where the joint's coordinates begin in q.

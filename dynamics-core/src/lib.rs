@@ -17,7 +17,7 @@
 //! | [`flexible`] | joints driven through springs: their plant and their inverse dynamics |
 //! | [`sim`] | time steps of a simulated robot, and its actuators |
 //!
-#![doc = include_str!("../../NOTATION.md")]
+#![doc = include_str!("../NOTATION.md")]
 #![cfg_attr(not(test), no_std)]
 #![forbid(unsafe_code)]
 
@@ -26,6 +26,8 @@ mod articulated;
 pub mod configuration;
 mod const_math;
 pub mod control;
+#[cfg(feature = "defmt")]
+mod defmt_form;
 pub mod effects;
 mod engine;
 pub mod exponential;
@@ -35,6 +37,8 @@ mod mass_matrix;
 pub mod model;
 pub mod robots;
 pub mod scalar;
+#[cfg(feature = "serde")]
+mod serde_form;
 pub mod sim;
 pub mod spatial;
 pub mod state;
@@ -47,7 +51,13 @@ pub use core_form::Core;
 pub use engine::Engine;
 pub use mass_matrix::{Factor, MassMatrix};
 
-/// The README's example compiles.
-#[cfg(doctest)]
-#[doc = include_str!("../../README.md")]
-struct Readme;
+/// The vectors and matrices of the public API. Depend on them through this re-export: another minor version of glam
+/// has other types.
+///
+/// ```
+/// use dynamics_core::effects::GravityAlong;
+/// use dynamics_core::glam::Vec3;
+/// let on_a_wall = GravityAlong::<f32>(Vec3::new(9.81, 0.0, 0.0));
+/// assert_eq!(on_a_wall.0.length(), 9.81);
+/// ```
+pub use glam;

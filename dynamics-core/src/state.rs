@@ -12,6 +12,7 @@ use crate::trig::{Kernel, Native};
 /// assert_eq!(at_rest.qd, [0.0; 6]);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct State<R, const Q: usize, const V: usize> {
     /// Positions q, rad or m.
     pub q: [R; Q],

@@ -10,3 +10,8 @@ pub mod recordings;
 pub mod tolerances;
 pub mod trees;
 pub mod wide;
+
+/// The README's examples compile: here, since a packaged crate does not contain the repository's files.
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+struct Readme;

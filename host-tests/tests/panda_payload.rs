@@ -3,7 +3,7 @@
 use dynamics_core::control::Reference;
 use dynamics_core::effects::Payload;
 use firmware_demo::scene::Scene;
-use firmware_demo::scenes::panda_payload::{Carry, part};
+use firmware_demo::scenes::panda_payload::{Carry, HAND, part};
 
 /// An impossible one would be left on the table, and nothing be shown.
 #[test]
@@ -15,7 +15,7 @@ fn the_part_is_one_that_a_body_can_be_and_is_carried_between_the_grips() {
         let held = Carry::around(&job, tick as f32);
         assert!((0.0..=part.0.mass).contains(&held.0.mass));
         // It comes and goes while the arm stands.
-        let partly = held != part && held != Payload::default();
+        let partly = held != part && held != Payload::<_, HAND>::default();
         assert!(!partly || job.at(tick).qd == [0.0; 7], "{tick}");
         if rest.last().is_none_or(|&(_, mass)| mass != held.0.mass) && !partly {
             rest.push((tick, held.0.mass));

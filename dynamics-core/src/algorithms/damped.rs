@@ -42,6 +42,7 @@ impl<R: Real> Damping<R> {
 
 /// How near to singular a pose is for a task.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Conditioning<R> {
     /// Every direction of the task moves: Λ is exact.
     Regular,

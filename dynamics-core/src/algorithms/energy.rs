@@ -4,7 +4,7 @@
 
 use super::handed::Handed;
 use super::momentum::mass_and_moment;
-use crate::effects::{Effect, base_given, body_inertia, rotor_force};
+use crate::effects::{Effect, base_given, body_inertia, field, rotor_force};
 use crate::model::Description;
 use crate::scalar::{Real, Vector};
 use crate::state::{Posture, State, entry};
@@ -104,7 +104,5 @@ where
     D: Description<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    let mut g = R::Vec3::ZERO;
-    effects.field(&mut g);
-    -g.dot(mass_and_moment(robot, posture, effects).1)
+    -field(effects).dot(mass_and_moment(robot, posture, effects).1)
 }

@@ -4,6 +4,7 @@ use core::fmt;
 
 /// M(q) is not positive definite: the named joint moves no inertia.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub struct NotPositiveDefinite {
     /// The joint's index in q̇.

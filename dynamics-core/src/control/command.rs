@@ -4,6 +4,7 @@ use super::Fault;
 
 /// What the arm does, in the order in which faults take it down.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Mode {
     /// The full control law; while a fault is ridden through, on what the observer expects.
     Full,
@@ -15,6 +16,7 @@ pub enum Mode {
 
 /// What the supervisor did in a tick, and why.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Status {
     /// What the arm did.
     pub mode: Mode,
@@ -26,6 +28,7 @@ pub struct Status {
 
 /// What goes to the drives.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Command<R, const V: usize> {
     /// Torques, N·m or N: finite and within their limits.
     pub torque: [R; V],
@@ -37,6 +40,7 @@ pub struct Command<R, const V: usize> {
 
 /// The limits of each joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Bounds<R, const V: usize> {
     /// Greatest |τ|, N·m or N.
     pub torque: [R; V],

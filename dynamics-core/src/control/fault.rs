@@ -9,6 +9,7 @@ use core::fmt;
 /// assert_eq!(format!("{}", Fault::Jump { joint: 2 }), "joint 2: its position jumped");
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum Fault {
     /// The encoder reported an error, or its answer was damaged.

@@ -8,6 +8,7 @@ use crate::state::State;
 
 /// Gains of the feedback of each joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Gains<R, const V: usize> {
     /// K_p, N·m/rad or N/m.
     pub kp: [R; V],

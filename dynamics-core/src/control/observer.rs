@@ -15,6 +15,7 @@ use crate::state::all_finite;
 
 /// Where the joints are and how fast, as an [`Observer`] has it.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Estimate<R, const V: usize> {
     /// Positions q̂, rad or m.
     pub q: [R; V],

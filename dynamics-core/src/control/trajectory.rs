@@ -36,6 +36,7 @@ pub use smooth::Smooth;
 /// # let _ = stop;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct WayPoint<R, const V: usize> {
     /// Positions, rad or m.
     pub q: [R; V],
@@ -47,6 +48,7 @@ pub struct WayPoint<R, const V: usize> {
 
 /// How fast a joint may move.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Speed<R> {
     /// Greatest |q̇|, rad/s or m/s.
     pub velocity: R,

@@ -1,10 +1,28 @@
 //! How the textbook algorithms ask the effects: in the frames that the hooks speak of.
 
-use super::{BodyState, Effect, JointState};
+use super::{BodyState, Effect, JointState, field_axes, loads, one_gravity, only_load};
 use crate::model::Node;
 use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::{Force, Motion, SpatialInertia, Xform};
 use crate::state::{State, entry};
+
+/// The field g, in base coordinates.
+#[inline(always)]
+pub(crate) fn field<R: Real, E, const B: usize, const V: usize>(effects: &E) -> R::Vec3
+where
+    E: Effect<R, B, V>,
+{
+    one_gravity::<R, E, B, V>();
+    let [x, y, z] = const { field_axes::<R, E, B, V>() };
+    if !(x | y | z) {
+        return R::Vec3::ZERO;
+    }
+    let mut g = R::Vec3::ZERO;
+    effects.field(&mut g);
+    let g = g.array();
+    let only_if = |taken, g| if taken { g } else { R::ZERO };
+    R::Vec3::new(only_if(x, g[0]), only_if(y, g[1]), only_if(z, g[2]))
+}
 
 /// v₀ and a₀ of the base, a₀ less the field g: gravity is an acceleration of the base. RBDA (5.20).
 #[inline(always)]
@@ -14,8 +32,7 @@ pub(crate) fn base_motion<R: Real, E, const B: usize, const V: usize>(
 where
     E: Effect<R, B, V>,
 {
-    let mut g = R::Vec3::ZERO;
-    effects.field(&mut g);
+    let g = field(effects);
     if !E::BASE_MOTION {
         return (Motion::ZERO, Motion::new(R::Vec3::ZERO, -g));
     }
@@ -33,7 +50,9 @@ where
     E: Effect<R, B, V>,
 {
     let (mut v, mut a) = (Motion::ZERO, Motion::ZERO);
-    effects.base(&mut v, &mut a);
+    if E::BASE_MOTION {
+        effects.base(&mut v, &mut a);
+    }
     (v, a)
 }
 
@@ -47,17 +66,33 @@ pub(crate) fn body_inertia<R: Real, E, const B: usize, const V: usize>(
 where
     E: Effect<R, B, V>,
 {
-    if !E::PAYLOAD || i + 1 != B {
+    let (none, single) = const { (loads::<R, E, B, V>() == 0, loads::<R, E, B, V>() == 1) };
+    // The number of a single load is a constant, with which the hook's own comparison is folded.
+    let body = if single {
+        const { only_load::<R, E, B, V>() }
+    } else {
+        i
+    };
+    if none || body != i || !(single || is_loaded::<R, E, B, V>(i)) {
         return node.inertia;
     }
     let mut load = SpatialInertia::ZERO;
-    effects.payload(&mut load);
+    effects.payload(body, &mut load);
     node.inertia
         + SpatialInertia {
             mass: load.mass,
             moment: node.frame * load.moment,
             inertia: node.frame * load.inertia * node.frame.transpose(),
         }
+}
+
+/// Whether body `i` carries a payload.
+#[inline(always)]
+fn is_loaded<R: Real, E, const B: usize, const V: usize>(i: usize) -> bool
+where
+    E: Effect<R, B, V>,
+{
+    const { &E::PAYLOAD }.get(i) == Some(&true)
 }
 
 /// fˣ on body `i`, in its aligned frame; `pose` and `v` are that frame's.

@@ -46,6 +46,17 @@
 //! assert!(core[0] > Core::<Ur5e>::rnea(&swinging, &RIGID_BODY)[0]);
 //! ```
 //!
+//! Gravity that is named twice would act twice, so that such a scene does not compile:
+//!
+//! ```compile_fail,E0080
+//! use dynamics_core::effects::{GravityAlong, RIGID_BODY};
+//! use dynamics_core::{Engine, robots::Ur5e, state::State};
+//! let tilted = GravityAlong(glam::Vec3::new(0.0, 3.0, -9.3));
+//! let _ = Engine::<Ur5e>::rnea(&State::at([0.3_f32; 6]), &(RIGID_BODY, tilted));
+//! // error: the scene has several fields of gravity, whose sum would act: instead of (RIGID_BODY, GravityAlong(..)) write
+//! // (Inertia, Coriolis, GravityAlong(..))
+//! ```
+//!
 //! Signs are stated once, on M q̈ + C = τ: joint hooks add the torque that the motor must supply
 //! (left side); body hooks add the wrench fˣ that the environment exerts on the body
 //! (f + fˣ = I a + v ×* I v), which the library subtracts.
@@ -56,6 +67,7 @@ mod cogging;
 mod contact;
 mod coulomb;
 mod external;
+mod gates;
 mod gravity;
 mod hooks;
 mod implicit;
@@ -95,8 +107,9 @@ pub use stribeck::Stribeck;
 pub use viscous::Viscous;
 
 pub(crate) use bias::Bias;
+pub(crate) use gates::{field_axes, loads, one_gravity, only_load};
 pub(crate) use hooks::{
-    base_given, base_motion, body_inertia, body_wrench, gyroscopic, joint_loss, joint_state,
+    base_given, base_motion, body_inertia, body_wrench, field, gyroscopic, joint_loss, joint_state,
     joint_torques, rotor_force,
 };
 
@@ -108,7 +121,8 @@ use crate::spatial::{Force, Motion, SpatialInertia};
 /// Every hook defaults to nothing, and what is default costs nothing. Hooks *add* to what they
 /// are given: an effect that returned a zero would leave an addition behind (x + 0.0 is not x for
 /// IEEE's −0.0). Sizes are part of the type, so that five friction values on six joints do not
-/// compile.
+/// compile. A hook that stands under a constant (`FIELD`, `WRENCH`, `BASE_MOTION`, `PAYLOAD`, `SPINNING`) is
+/// not called unless its constant says so.
 ///
 /// ```
 /// use dynamics_core::effects::{Effect, JointState};
@@ -129,7 +143,7 @@ use crate::spatial::{Force, Motion, SpatialInertia};
     label = "not an effect of this size and scalar",
     note = "effects: Gravity, GravityAlong, Inertia, Coriolis, Viscous([R; V]), Coulomb {{ .. }}, \
             AsymmetricCoulomb {{ .. }}, Stribeck {{ .. }}, Lugre {{ .. }}, Spring {{ .. }}, Stops {{ .. }}, \
-            Cogging {{ .. }}, RotorInertia([R; V]), Rotors {{ .. }}, Payload, BodyWrench, WorldWrench, Contact, \
+            Cogging {{ .. }}, RotorInertia([R; V]), Rotors {{ .. }}, Payload::<_, BODY>, BodyWrench, WorldWrench, Contact, \
             MovingBase, tuples of up to 12 of them, and your own through `impl Effect`"
 )]
 pub trait Effect<R: Real, const B: usize, const V: usize> {
@@ -137,6 +151,9 @@ pub trait Effect<R: Real, const B: usize, const V: usize> {
     const FIELD: bool = false;
     /// Which base components of the field may differ from zero.
     const FIELD_AXES: [bool; 3] = [Self::FIELD; 3];
+    /// How many fields of gravity it adds; a scene of more than one does not compile. A field that is meant to act
+    /// beside gravity sets it to 0.
+    const GRAVITIES: usize = Self::FIELD as usize;
     /// It asks for the products M q̈ of accelerations.
     const ACCELERATIONS: bool = false;
     /// It asks for the velocity products C(q, q̇) q̇.
@@ -149,15 +166,15 @@ pub trait Effect<R: Real, const B: usize, const V: usize> {
     const BODY_POSE: bool = false;
     /// `base` adds something.
     const BASE_MOTION: bool = false;
-    /// `payload` adds something.
-    const PAYLOAD: bool = false;
+    /// The bodies to which `payload` adds something.
+    const PAYLOAD: [bool; B] = [false; B];
     /// `spin` adds something.
     const SPINNING: bool = false;
 
-    /// Adds to the inertia of the last body, about the origin of its frame and in its coordinates.
+    /// Adds to the inertia of `body`, about the origin of its frame and in its coordinates.
     #[inline(always)]
-    fn payload(&self, inertia: &mut SpatialInertia<R>) {
-        let _ = inertia;
+    fn payload(&self, body: usize, inertia: &mut SpatialInertia<R>) {
+        let _ = (body, inertia);
     }
 
     /// Adds to the acceleration g of free fall, in base coordinates, m/s².

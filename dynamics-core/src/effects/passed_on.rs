@@ -11,12 +11,13 @@ macro_rules! passed_on {
         const BODY_VELOCITY: bool = E::BODY_VELOCITY;
         const BODY_POSE: bool = E::BODY_POSE;
         const BASE_MOTION: bool = E::BASE_MOTION;
-        const PAYLOAD: bool = E::PAYLOAD;
+        const GRAVITIES: usize = E::GRAVITIES;
+        const PAYLOAD: [bool; B] = E::PAYLOAD;
         const SPINNING: bool = E::SPINNING;
 
         #[inline(always)]
-        fn payload(&self, inertia: &mut SpatialInertia<R>) {
-            self.$inner.payload(inertia);
+        fn payload(&self, body: usize, inertia: &mut SpatialInertia<R>) {
+            self.$inner.payload(body, inertia);
         }
 
         #[inline(always)]

@@ -4,6 +4,16 @@ use super::{BodyState, Effect, JointState, Slopes};
 use crate::scalar::Real;
 use crate::spatial::{Force, Motion, SpatialInertia};
 
+/// Which bodies any of the effects loads.
+const fn joined<const B: usize, const N: usize>(effects: &[[bool; B]; N]) -> [bool; B] {
+    let (mut any, mut i) = ([false; B], 0);
+    while i < N * B {
+        any[i % B] |= effects[i / B][i % B];
+        i += 1;
+    }
+    any
+}
+
 macro_rules! tuple {
     ($($name:ident $at:tt),*) => {
         impl<R: Real, const B: usize, const V: usize, $($name: Effect<R, B, V>),*> Effect<R, B, V>
@@ -21,13 +31,14 @@ macro_rules! tuple {
             const BODY_VELOCITY: bool = false $(| $name::BODY_VELOCITY)*;
             const BODY_POSE: bool = false $(| $name::BODY_POSE)*;
             const BASE_MOTION: bool = false $(| $name::BASE_MOTION)*;
-            const PAYLOAD: bool = false $(| $name::PAYLOAD)*;
+            const GRAVITIES: usize = 0 $(+ $name::GRAVITIES)*;
+            const PAYLOAD: [bool; B] = joined(&[$($name::PAYLOAD),*]);
             const SPINNING: bool = false $(| $name::SPINNING)*;
 
             #[inline(always)]
-            fn payload(&self, inertia: &mut SpatialInertia<R>) {
-                let _ = &inertia;
-                $(self.$at.payload(inertia);)*
+            fn payload(&self, body: usize, inertia: &mut SpatialInertia<R>) {
+                let _ = (body, &inertia);
+                $(self.$at.payload(body, inertia);)*
             }
 
             #[inline(always)]

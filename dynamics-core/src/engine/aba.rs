@@ -121,8 +121,8 @@ where
     let joint = const { &Prepared::<T, B, Q, V>::joint(I) };
     let per_length = Known::constant(const { 1.0 / Prepared::<T, B, Q, V>::TREE.length });
     let mut body = Inertia::of(joint);
-    if const { E::PAYLOAD && Prepared::<T, B, Q, V>::last_on(I) } {
-        body = loaded::<R, T, E, B, Q, V>(task.effects, body);
+    if const { Prepared::<T, B, Q, V>::loads(I, &E::PAYLOAD) > 0 } {
+        body = loaded::<R, T, E, B, Q, V, I>(task.effects, body);
     }
     let mut ia = Articulated::of(&body);
     let mut push = Wrench {

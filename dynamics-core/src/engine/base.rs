@@ -4,7 +4,7 @@ use super::field::Field;
 use super::known::Known;
 use super::pose::Pose;
 use super::small::{Mat3, Vec3};
-use crate::effects::Effect;
+use crate::effects::{Effect, field_axes, one_gravity};
 use crate::scalar::{Real, Vector};
 use crate::spatial::Motion;
 
@@ -29,9 +29,10 @@ where
     E: Effect<R, B, V>,
 {
     no_spinning::<R, E, B, V>();
+    one_gravity::<R, E, B, V>();
     let mut g = R::Vec3::ZERO;
     effects.field(&mut g);
-    let (g, [x, y, z]) = (g.array(), E::FIELD_AXES);
+    let (g, [x, y, z]) = (g.array(), const { field_axes::<R, E, B, V>() });
     let up = Known::constant(-1.0 / length);
     let weight = Vec3([
         Known::only_if(x, g[0]) * up,

@@ -101,8 +101,8 @@ where
 {
     let joint = const { &Prepared::<T, B, Q, V>::joint(I) };
     let mut body = Inertia::of(joint);
-    if const { E::PAYLOAD && Prepared::<T, B, Q, V>::last_on(I) } {
-        body = loaded::<R, T, E, B, Q, V>(task.effects, body);
+    if const { Prepared::<T, B, Q, V>::loads(I, &E::PAYLOAD) > 0 } {
+        body = loaded::<R, T, E, B, Q, V, I>(task.effects, body);
     }
     for_each_joint!(J, {
         if const { carries::<T, B, Q, V>(I, J) } {

@@ -13,7 +13,7 @@ use crate::spatial::Motion;
 use crate::state::Posture;
 
 impl<T> Engine<T> {
-    /// J with V = J q̇: the last body's velocity, by columns, one a joint.
+    /// J with V = J q̇: the velocity of the body of the number BODY, by columns, one a joint.
     ///
     /// ω in rad/s and the velocity in m/s of the origin of that body's frame, both along the axes of
     /// the base. τ = Jᵀ f for a force at that origin. Cost: `docs/costs.md` in the repository.
@@ -21,44 +21,72 @@ impl<T> Engine<T> {
     ///
     /// ```
     /// use dynamics_core::{Engine, robots::Ur5e};
-    /// let j = Engine::<Ur5e>::jacobian(&[0.0_f32, -1.2, 1.5, 0.3, 0.0, 0.0]);
+    /// use dynamics_core::model::Robot;
+    /// const WRIST: usize = Ur5e::MODEL.body("wrist_3");
+    /// let j = Engine::<Ur5e>::jacobian::<WRIST, _, _, _, _>(&[0.0_f32, -1.2, 1.5, 0.3, 0.0, 0.0]);
     /// assert_eq!(j[0].ang.to_array(), [0.0, 0.0, 1.0]); // the first axis is vertical
     /// ```
+    ///
+    /// A body that there is not does not compile:
+    ///
+    /// ```compile_fail,E0080
+    /// use dynamics_core::{Engine, robots::Ur5e};
+    /// let _ = Engine::<Ur5e>::jacobian::<6, _, _, _, _>(&[0.0_f32; 6]);
+    /// // error: the Jacobian is of a body that the robot does not have: bodies are numbered from 0
+    /// ```
     #[inline(never)]
-    pub fn jacobian<R: Real, const B: usize, const Q: usize, const V: usize>(
+    pub fn jacobian<
+        const BODY: usize,
+        R: Real,
+        const B: usize,
+        const Q: usize,
+        const V: usize,
+    >(
         q: &[R; Q],
     ) -> [Motion<R>; V]
     where
         T: Robot<B, Q, V>,
     {
-        columns::<R, T, B, Q, V>(&Self::posture(q).turns)
+        columns::<R, T, B, Q, V, BODY>(&Self::posture(q).turns)
     }
 
     /// As [`Engine::jacobian`], at a posture whose sines and cosines are at hand.
     #[inline(never)]
-    pub fn jacobian_at<R: Real, const B: usize, const Q: usize, const V: usize>(
+    pub fn jacobian_at<
+        const BODY: usize,
+        R: Real,
+        const B: usize,
+        const Q: usize,
+        const V: usize,
+    >(
         posture: &Posture<R, Q>,
     ) -> [Motion<R>; V]
     where
         T: Robot<B, Q, V>,
     {
-        columns::<R, T, B, Q, V>(&posture.turns)
+        columns::<R, T, B, Q, V, BODY>(&posture.turns)
     }
 }
 
-/// The columns of the joints that carry the last body; zero for others.
+/// The columns of the joints that carry the body; zero for others.
 #[inline(always)]
-fn columns<R: Real, T, const B: usize, const Q: usize, const V: usize>(
+fn columns<R: Real, T, const B: usize, const Q: usize, const V: usize, const BODY: usize>(
     turns: &[Turn<R>; Q],
 ) -> [Motion<R>; V]
 where
     T: Robot<B, Q, V>,
 {
+    const {
+        assert!(
+            BODY < B,
+            "the Jacobian is of a body that the robot does not have: bodies are numbered from 0"
+        );
+    }
     let mut columns = [Motion::ZERO; V];
     for_each_joint!(J, {
-        if const { leads::<T, B, Q, V>(BASE, J) } {
+        if const { leads::<T, B, Q, V, BODY>(BASE, J) } {
             let base = Mat3::constant(&glam::DMat3::IDENTITY);
-            let _ = reach::<R, T, B, Q, V, J>(turns, &base, &mut columns);
+            let _ = reach::<R, T, B, Q, V, BODY, J>(turns, &base, &mut columns);
         }
     });
     columns
@@ -67,7 +95,7 @@ where
 /// Writes the columns of joint I and of those beyond; returns the way to the body's origin from the
 /// parent's, in base coordinates, m. `parent` holds the axes of the parent's frame.
 #[inline(always)]
-fn reach<R: Real, T, const B: usize, const Q: usize, const V: usize, const I: usize>(
+fn reach<R: Real, T, const B: usize, const Q: usize, const V: usize, const BODY: usize, const I: usize>(
     turns: &[Turn<R>; Q],
     parent: &Mat3<R>,
     columns: &mut [Motion<R>; V],
@@ -89,13 +117,13 @@ where
         axes = Mat3([x.scale(cos) + y.scale(sin), y.scale(cos) - x.scale(sin), z]);
     }
     let mut way = Vec3::<R>::ZERO;
-    if const { Prepared::<T, B, Q, V>::last_on(I) } {
-        let place = const { &Prepared::<T, B, Q, V>::last() };
+    if const { Prepared::<T, B, Q, V>::place(BODY).joint == I } {
+        let place = const { &Prepared::<T, B, Q, V>::place(BODY) };
         way = axes.mul(Vec3::constant(place.pos * length));
     }
     for_each_joint!(J, {
-        if const { leads::<T, B, Q, V>(I, J) } {
-            way = reach::<R, T, B, Q, V, J>(turns, &axes, columns);
+        if const { leads::<T, B, Q, V, BODY>(I, J) } {
+            way = reach::<R, T, B, Q, V, BODY, J>(turns, &axes, columns);
         }
     });
     columns[I] = if joint.prismatic {
@@ -106,11 +134,14 @@ where
     offset + way
 }
 
-/// Whether joint `j` is the next after joint `i` on the way to the last body.
-const fn leads<T, const B: usize, const Q: usize, const V: usize>(i: usize, j: usize) -> bool
+/// Whether joint `j` is the next after joint `i` on the way to the body.
+const fn leads<T, const B: usize, const Q: usize, const V: usize, const BODY: usize>(
+    i: usize,
+    j: usize,
+) -> bool
 where
     T: Robot<B, Q, V>,
 {
     carries::<T, B, Q, V>(i, j)
-        && Prepared::<T, B, Q, V>::supports(j, Prepared::<T, B, Q, V>::last().joint)
+        && Prepared::<T, B, Q, V>::supports(j, Prepared::<T, B, Q, V>::place(BODY).joint)
 }

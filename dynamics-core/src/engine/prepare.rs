@@ -97,18 +97,40 @@ impl<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize> Prepared
         k != i && Self::supports(k, i)
     }
 
-    /// Where the last body of the description is found.
-    pub(crate) const fn last() -> Place {
-        if B == 0 {
-            ON_BASE
+    /// Where a body of the description is found; beyond the last one something harmless.
+    pub(crate) const fn place(body: usize) -> Place {
+        if body < B {
+            Self::TREE.places[body]
         } else {
-            Self::TREE.places[B - 1]
+            ON_BASE
         }
     }
 
-    /// Whether the last body moves with joint `i`.
-    pub(crate) const fn last_on(i: usize) -> bool {
-        Self::last().joint == i
+    /// How many of the bodies that are `loaded` move with joint `i`.
+    pub(crate) const fn loads(i: usize, loaded: &[bool; B]) -> usize {
+        let (mut count, mut body) = (0, 0);
+        while body < B {
+            if loaded[body] && Self::place(body).joint == i {
+                count += 1;
+            }
+            body += 1;
+        }
+        count
+    }
+
+    /// The `k`-th of them, or B.
+    pub(crate) const fn load(i: usize, k: usize, loaded: &[bool; B]) -> usize {
+        let (mut count, mut body) = (0, 0);
+        while body < B {
+            if loaded[body] && Self::place(body).joint == i {
+                if count == k {
+                    return body;
+                }
+                count += 1;
+            }
+            body += 1;
+        }
+        B
     }
 
     /// How many bodies move with joint `i` as one.

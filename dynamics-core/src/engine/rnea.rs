@@ -67,8 +67,8 @@ where
     } else {
         Inertia::of(joint)
     };
-    if const { E::PAYLOAD && Prepared::<T, B, Q, V>::last_on(I) } {
-        body = loaded::<R, T, E, B, Q, V>(task.effects, body);
+    if const { Prepared::<T, B, Q, V>::loads(I, &E::PAYLOAD) > 0 } {
+        body = loaded::<R, T, E, B, Q, V, I>(task.effects, body);
     }
     let mut total = field.wrench(&body);
     if E::WRENCH {
@@ -97,22 +97,54 @@ where
     total.handed_down::<T, B, Q, V, I>(turn, slide)
 }
 
-/// Adds the payload, which is given in the last body's own frame, to the inertia of its joint.
+/// Adds the payloads of the bodies on joint I, which are given in those bodies' own frames, to its inertia.
 #[inline(always)]
-pub(crate) fn loaded<R, T, E, const B: usize, const Q: usize, const V: usize>(
+pub(crate) fn loaded<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     effects: &E,
-    body: Inertia<R>,
+    mut body: Inertia<R>,
 ) -> Inertia<R>
 where
     R: Real,
     T: Robot<B, Q, V>,
     E: Effect<R, B, V>,
 {
-    let place = const { &Prepared::<T, B, Q, V>::last() };
+    const {
+        assert!(
+            Prepared::<T, B, Q, V>::loads(I, &E::PAYLOAD) <= 32,
+            "the engine takes up to 32 bodies with payloads on one joint; use `Core`"
+        )
+    };
+    for_each_joint!(K, {
+        if const { K < Prepared::<T, B, Q, V>::loads(I, &E::PAYLOAD) } {
+            let of = const { Prepared::<T, B, Q, V>::load(I, K, &E::PAYLOAD) };
+            let place = const {
+                let of = Prepared::<T, B, Q, V>::load(I, K, &E::PAYLOAD);
+                &Prepared::<T, B, Q, V>::place(of)
+            };
+            let length = const { Prepared::<T, B, Q, V>::TREE.length };
+            body = with_load(effects, of, place, length, body);
+        }
+    });
+    body
+}
+
+/// Adds the payload of one body, which is found at `place`.
+#[inline(always)]
+fn with_load<R, E, const B: usize, const V: usize>(
+    effects: &E,
+    of: usize,
+    place: &'static Place,
+    length: f64,
+    body: Inertia<R>,
+) -> Inertia<R>
+where
+    R: Real,
+    E: Effect<R, B, V>,
+{
     let (rot, d) = (Mat3::constant(&place.rot), Vec3::constant(place.pos));
-    let length = Known::constant(const { Prepared::<T, B, Q, V>::TREE.length });
+    let length = Known::constant(length);
     let mut load = SpatialInertia::ZERO;
-    effects.payload(&mut load);
+    effects.payload(of, &mut load);
     let mass = Known::any(load.mass) * length * length;
     let h = rot.mul(Vec3::any(load.moment)).scale(length);
     // Σ = ½ tr(Ī) 1 − Ī, turned and moved to the joint's frame.

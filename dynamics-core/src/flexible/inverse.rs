@@ -39,6 +39,7 @@ pub struct FlexibleCommand<R, const V: usize> {
 
 /// A joint that has several degrees of freedom, of which no transmission is known.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct NotSingle {
     /// The body that it carries.
     pub body: usize,

@@ -12,6 +12,7 @@ pub const BASE: usize = usize::MAX;
 
 /// The limits of a joint: what its drive and mechanics allow.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Limits<R> {
     /// Least position, rad or m.
     pub lower: R,

@@ -4,6 +4,7 @@ use core::fmt;
 
 /// A robot's description that cannot be used, with the body concerned.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub struct ModelError {
     /// The body's name (the robot's, where the whole is concerned).
@@ -14,6 +15,7 @@ pub struct ModelError {
 
 /// What is wrong with a body's description.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum Problem {
     /// The parent is not listed before the body.
@@ -68,20 +70,25 @@ impl core::error::Error for ModelError {}
 impl ModelError {
     /// Panics with the same words as `Display`, in a way that a `const` evaluation can print.
     pub(super) const fn panic(self) -> ! {
-        let parts = ["body `", self.body, "`: ", self.problem.text()];
-        let (mut text, mut at, mut part) = ([b' '; 160], 0, 0);
-        while part < parts.len() {
-            let (bytes, mut i) = (parts[part].as_bytes(), 0);
-            while i < bytes.len() && at < text.len() {
-                text[at] = bytes[i];
-                at += 1;
-                i += 1;
-            }
-            part += 1;
+        panic(&["body `", self.body, "`: ", self.problem.text()])
+    }
+}
+
+/// Panics with these parts of a sentence, of 160 bytes or less, in a way that a `const` evaluation can print.
+pub(super) const fn panic(parts: &[&str]) -> ! {
+    let (mut text, mut at, mut part) = ([b' '; 160], 0, 0);
+    while part < parts.len() {
+        let (bytes, mut i) = (parts[part].as_bytes(), 0);
+        while i < bytes.len() && at < text.len() {
+            text[at] = bytes[i];
+            at += 1;
+            i += 1;
         }
-        match core::str::from_utf8(text.split_at(at).0) {
-            Ok(text) => panic!("{}", text),
-            Err(_) => panic!("{}", self.problem.text()),
-        }
+        part += 1;
+    }
+    match core::str::from_utf8(text.split_at(at).0) {
+        Ok(text) => panic!("{}", text),
+        // A letter of several bytes was cut.
+        Err(_) => panic!("{}", parts[parts.len() - 1]),
     }
 }

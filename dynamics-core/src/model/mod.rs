@@ -262,6 +262,41 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
 }
 
 impl<R: Real, const B: usize, const Q: usize, const V: usize> Model<R, B, Q, V> {
+    /// The number of the body of this name, as [`crate::effects::Payload`] and [`crate::Engine::jacobian`] take it.
+    ///
+    /// ```
+    /// use dynamics_core::{model::Robot, robots::Panda};
+    /// const HAND: usize = Panda::MODEL.body("link7");
+    /// assert_eq!(HAND, 6);
+    /// ```
+    ///
+    /// A name that no body has does not compile:
+    ///
+    /// ```compile_fail,E0080
+    /// use dynamics_core::{model::Robot, robots::Panda};
+    /// const HAND: usize = Panda::MODEL.body("hnad"); // error: no body of the robot has the name `hnad`
+    /// # let _ = HAND;
+    /// ```
+    ///
+    /// # Panics
+    /// Unless exactly one body has the name. Meant for `const` items, where a panic is a compile error.
+    pub const fn body(&self, name: &str) -> usize {
+        let (mut found, mut i) = (BASE, 0);
+        while i < B {
+            if same(self.links[i].name, name) {
+                if found != BASE {
+                    error::panic(&["several bodies of the robot have the name `", name, "`"]);
+                }
+                found = i;
+            }
+            i += 1;
+        }
+        if found == BASE {
+            error::panic(&["no body of the robot has the name `", name, "`"]);
+        }
+        found
+    }
+
     /// Whether every inertia could be that of a body: symmetric, with principal moments (about the centre of
     /// mass) that are not negative and obey the triangle inequality, all within `relative`.
     ///
@@ -336,6 +371,16 @@ const fn aligned<const B: usize>(body: &Body, links: &[Link<f64>; B]) -> Link<f6
         v_at: BASE,
         limits: body.limits,
     }
+}
+
+/// Whether two names are the same.
+const fn same(a: &str, b: &str) -> bool {
+    let (a, b) = (a.as_bytes(), b.as_bytes());
+    let mut i = 0;
+    while i < a.len() && i < b.len() && a[i] == b[i] {
+        i += 1;
+    }
+    i == a.len() && i == b.len()
 }
 
 /// Whether what was computed of a description is finite: numbers of 10¹⁵⁴ have squares that are not.

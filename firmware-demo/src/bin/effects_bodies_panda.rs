@@ -18,6 +18,6 @@ use effects::Priced;
 fn main() -> ! {
     let priced = &mut Priced::<Engine<Panda>, 7>::new();
     catalogue::rigid(priced);
-    catalogue::bodies(priced);
+    catalogue::bodies::<7, 6>(priced);
     costs::done()
 }

@@ -18,6 +18,6 @@ use effects::Priced;
 fn main() -> ! {
     let priced = &mut Priced::<Engine<Ur5e>, 6>::new();
     catalogue::rigid(priced);
-    catalogue::bodies(priced);
+    catalogue::bodies::<6, 5>(priced);
     costs::done()
 }

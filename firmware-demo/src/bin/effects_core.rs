@@ -18,12 +18,12 @@ fn main() -> ! {
     let ur5e = &mut Priced::<Core<Ur5e>, 6>::new();
     catalogue::rigid(ur5e);
     catalogue::joints(ur5e);
-    catalogue::bodies(ur5e);
+    catalogue::bodies::<6, 5>(ur5e);
     catalogue::spinning(ur5e);
     let panda = &mut Priced::<Core<Panda>, 7>::new();
     catalogue::rigid(panda);
     catalogue::joints(panda);
-    catalogue::bodies(panda);
+    catalogue::bodies::<7, 6>(panda);
     catalogue::spinning(panda);
     costs::done()
 }

@@ -14,5 +14,5 @@ use forward::Forms;
 
 #[entry]
 fn main() -> ! {
-    forward::run::<Ur5e, 6, 6>(&[Forms::core::<Ur5e, 6>(), engine::engine::<Ur5e, 6, 6>()])
+    forward::run::<Ur5e, 6, 6>(&[Forms::core::<Ur5e, 6>(), engine::engine::<Ur5e, 6, 6, 5>()])
 }

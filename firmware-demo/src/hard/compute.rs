@@ -5,10 +5,10 @@ use crate::bits::Digest;
 use dynamics_core::algorithms::{
     Damping, NotPositiveDefinite, aba, forward, frame, mobility, operational_space, rnea,
 };
-use dynamics_core::effects::{Coriolis, GravityAlong, Inertia, Payload, RotorInertia};
+use dynamics_core::effects::{Coriolis, Effect, GravityAlong, Inertia, Payload, RotorInertia};
 use dynamics_core::model::Revolutes;
 use dynamics_core::scalar::{Real, Vector};
-use dynamics_core::spatial::Force;
+use dynamics_core::spatial::{Force, SpatialInertia};
 use dynamics_core::state::State;
 
 /// What acts on every hard case.
@@ -17,8 +17,34 @@ pub type Scene<R, const N: usize> = (
     Inertia,
     Coriolis,
     RotorInertia<R, N>,
-    Payload<R>,
+    OnLast<R>,
 );
+
+/// A payload of the last body of an arm of any length, where [`Payload`] names a body by its number.
+#[derive(Clone, Copy, Debug)]
+pub struct OnLast<R: Real>(SpatialInertia<R>);
+
+impl<R: Real> OnLast<R> {
+    /// As [`Payload::new`].
+    pub fn new(mass: R, com: [R; 3], inertia: [R; 6]) -> Self {
+        Self(Payload::<R, 0>::new(mass, com, inertia).0)
+    }
+}
+
+impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for OnLast<R> {
+    const PAYLOAD: [bool; B] = {
+        let mut last = [false; B];
+        last[B - 1] = true;
+        last
+    };
+
+    #[inline(always)]
+    fn payload(&self, body: usize, inertia: &mut SpatialInertia<R>) {
+        if body + 1 == B {
+            *inertia = *inertia + self.0;
+        }
+    }
+}
 
 /// An arm of which it is known that every joint turns: half the code to compile.
 pub type Revolute<'a, R, const N: usize> = Revolutes<'a, R, N, N, N>;
@@ -29,7 +55,7 @@ pub const GRAVITY: f64 = 9.8125;
 /// The scene with these additions.
 pub fn scene<R: Real, const N: usize>(extras: &Extras<N>) -> Scene<R, N> {
     let real = |x: f32| R::pick_value(f64::from(x), x);
-    let payload = Payload::new(
+    let payload = OnLast::new(
         real(extras.payload),
         extras.payload_at.map(real),
         extras.payload_inertia.map(real),

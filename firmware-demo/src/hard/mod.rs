@@ -8,7 +8,7 @@ mod compute;
 mod states;
 
 pub use arms::{COUNT, EXCESS, RENUMBERING};
-pub use compute::{Answers, GRAVITY, Revolute, Scene, answers_to, scene};
+pub use compute::{Answers, GRAVITY, OnLast, Revolute, Scene, answers_to, scene};
 pub use states::{counts, remainder};
 
 use crate::bits::Digest;

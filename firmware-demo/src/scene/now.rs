@@ -40,12 +40,13 @@ where
     const BODY_VELOCITY: bool = L::Effects::BODY_VELOCITY;
     const BODY_POSE: bool = L::Effects::BODY_POSE;
     const BASE_MOTION: bool = L::Effects::BASE_MOTION;
-    const PAYLOAD: bool = L::Effects::PAYLOAD;
+    const GRAVITIES: usize = L::Effects::GRAVITIES;
+    const PAYLOAD: [bool; B] = L::Effects::PAYLOAD;
     const SPINNING: bool = L::Effects::SPINNING;
 
     #[inline(always)]
-    fn payload(&self, inertia: &mut SpatialInertia<f32>) {
-        L::told(self.0).payload(inertia);
+    fn payload(&self, body: usize, inertia: &mut SpatialInertia<f32>) {
+        L::told(self.0).payload(body, inertia);
     }
 
     #[inline(always)]

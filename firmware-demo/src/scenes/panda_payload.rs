@@ -6,6 +6,7 @@ use dynamics_core::control::{Reference, Trajectory, TrajectoryError};
 use dynamics_core::effects::{
     Coriolis, Coulomb, Effect, Gravity, ImpossibleLoad, Inertia, Payload, RotorInertia, Viscous,
 };
+use dynamics_core::model::Robot;
 use dynamics_core::robots::Panda;
 use dynamics_core::spatial::SpatialInertia;
 use dynamics_core::state::State;
@@ -13,6 +14,12 @@ use dynamics_core::state::State;
 use crate::plant::Plant;
 use crate::scene::{Less, Noise, Run, Scene, Truth, rigid, through};
 use crate::trajectories::{PANDA_CARRY, READY, arrival};
+
+/// The body that carries the hand.
+pub const HAND: usize = Panda::MODEL.body("link7");
+
+/// What the hand holds.
+pub type Load = Payload<f32, HAND>;
 
 /// What acts on the arm, the load last.
 pub type Effects = (
@@ -22,7 +29,7 @@ pub type Effects = (
     Viscous<f32, 7>,
     Coulomb<f32, 7>,
     RotorInertia<f32, 7>,
-    Payload<f32>,
+    Load,
 );
 
 /// The number of the load among them.
@@ -46,7 +53,7 @@ pub const EFFECTS: Effects = (
 ///
 /// # Errors
 /// If no body were like that.
-pub fn part() -> Result<Payload<f32>, ImpossibleLoad> {
+pub fn part() -> Result<Load, ImpossibleLoad> {
     let moments = [3.0e-3, 0.0, 0.0, 3.467e-3, 0.0, 1.667e-3];
     Payload::checked(2.0, [0.01, -0.02, 0.19], moments, 1e-6)
 }
@@ -60,7 +67,7 @@ const GRIP: f32 = 100.0;
 #[derive(Clone, Copy, Debug)]
 pub struct Job {
     way: Trajectory<f32, 7, 10>,
-    part: Payload<f32>,
+    part: Load,
 }
 
 impl Reference<f32, 7> for Job {
@@ -82,8 +89,8 @@ impl Scene<7, 7, 7, 7> for Carry {
     type Robot = Panda;
     type Effects = Effects;
     type Reference = Job;
-    type Around = Payload<f32>;
-    type Plant = Plant<Panda, Effects, Payload<f32>, 7, 7, 7>;
+    type Around = Load;
+    type Plant = Plant<Panda, Effects, Load, 7, 7, 7>;
 
     const NAME: &'static str = "panda_payload";
     const BOUND: f32 = 1e-3;
@@ -105,7 +112,7 @@ impl Scene<7, 7, 7, 7> for Carry {
     }
 
     /// What the hand bears of the part: at rest on the table it goes over from one to the other evenly.
-    fn around(job: &Job, ticks: f32) -> Payload<f32> {
+    fn around(job: &Job, ticks: f32) -> Load {
         let since = |start: u32| ((ticks - start as f32) / GRIP).clamp(0.0, 1.0);
         let borne = since(CLOSES) - since(OPENS);
         let Payload(SpatialInertia {
@@ -121,13 +128,13 @@ impl Scene<7, 7, 7, 7> for Carry {
     }
 
     #[inline(always)]
-    fn surround((.., payload): &mut Effects, borne: &Payload<f32>) {
+    fn surround((.., payload): &mut Effects, borne: &Load) {
         *payload = *borne;
     }
 
     fn inverse<E: Effect<f32, 7, 7>>(
         reference: &State<f32, 7, 7>,
-        _: &Payload<f32>,
+        _: &Load,
         effects: &E,
     ) -> [f32; 7] {
         Engine::<Panda>::rnea(reference, effects)

@@ -68,7 +68,7 @@ fn engine_equals_core_on_a_large_tree_under_every_effect() {
         Push,
         Drag,
         wind,
-        payload::<f64>(),
+        payload::<f64, 17>(),
     );
     let worst = compare::<f64, Large, _, 18, 18>(&scene, 2_000);
     assert!(worst <= ULPS, "{worst:.2} ulp");

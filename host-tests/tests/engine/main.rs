@@ -153,7 +153,7 @@ fn engine_equals_core_on_an_odd_tree_under_every_effect() {
             RotorInertia([0.2, 0.1, 0.3, 0.05, 0.15, 0.4, 0.25].map(R::from_f64)),
             Push,
             Drag,
-            payload::<R>(),
+            payload::<R, 10>(),
         );
         compare::<R, Odd, _, 11, 7>(&scene, 10_000)
     }
@@ -162,17 +162,17 @@ fn engine_equals_core_on_an_odd_tree_under_every_effect() {
 }
 
 /// 2.5 kg off the axis, with dense inertia.
-fn payload<R: Real>() -> Payload<R> {
+fn payload<R: Real, const BODY: usize>() -> Payload<R, BODY> {
     let inertia = [0.03, -0.004, 0.002, 0.05, 0.006, 0.04].map(R::from_f64);
     Payload::new(R::from_f64(2.5), [0.1, -0.2, 0.3].map(R::from_f64), inertia)
 }
 
 #[test]
-fn a_payload_is_inertia_of_the_last_body() {
+fn a_payload_is_inertia_of_its_body() {
     let mut rng = TestRng::deterministic_rng(RngAlgorithm::ChaCha);
     let mut loaded = Panda::MODEL;
-    loaded.links[6].inertia = loaded.links[6].inertia + payload::<f64>().0;
-    let scene = (Gravity::EARTH, Inertia, Coriolis, payload::<f64>());
+    loaded.links[6].inertia = loaded.links[6].inertia + payload::<f64, 6>().0;
+    let scene = (Gravity::EARTH, Inertia, Coriolis, payload::<f64, 6>());
     for _ in 0..100 {
         let mut random = |bound: f64| [0.0; 7].map(|_: f64| rng.random_range(-bound..bound));
         let state = State {

@@ -13,12 +13,13 @@ use dynamics_core::algorithms::{
     operator_inverse, rnea, solve,
 };
 use dynamics_core::effects::{
-    BodyState, Coriolis, Effect, Gravity, Inertia, Payload, RIGID_BODY, RotorInertia, Viscous,
+    BodyState, Coriolis, Effect, Gravity, Inertia, RIGID_BODY, RotorInertia, Viscous,
 };
 use dynamics_core::model::{JointKind, Model};
 use dynamics_core::scalar::{Real, Vector};
 use dynamics_core::spatial::{Force, Motion};
 use dynamics_core::state::State;
+use firmware_demo::hard::OnLast;
 use host_tests::tolerances;
 use proptest::prelude::RngExt;
 use proptest::test_runner::TestRng;
@@ -112,7 +113,7 @@ fn matrix<R: Real, const B: usize, const Q: usize, const V: usize>(
 ) {
     let scene = (
         RotorInertia(core::array::from_fn(|i| R::from_f64(0.01 * i as f64))),
-        Payload::new(R::from_f64(0.7), [R::from_f64(0.1); 3], [R::ZERO; 6]),
+        OnLast::new(R::from_f64(0.7), [R::from_f64(0.1); 3], [R::ZERO; 6]),
         Inertia,
     );
     let m = crba(model, &state.q, &scene);
@@ -202,7 +203,7 @@ fn dynamics<R: Real, const B: usize, const Q: usize, const V: usize>(
         Coriolis,
         Viscous([R::from_f64(0.5); V]),
         RotorInertia([R::from_f64(0.02); V]),
-        Payload::new(R::from_f64(0.7), [R::from_f64(0.1); 3], [R::ZERO; 6]),
+        OnLast::new(R::from_f64(0.7), [R::from_f64(0.1); 3], [R::ZERO; 6]),
     );
     let kappa = condition(&crba(model, &state.q, &scene));
     let tau = rnea(model, state, &scene);

@@ -7,6 +7,7 @@ mod cost_steps;
 mod firmware_steps;
 mod host_steps;
 mod other_machines;
+mod package_steps;
 mod scene_steps;
 
 use std::path::PathBuf;
@@ -120,6 +121,34 @@ const STEPS: &[Step] = &[
         lane: Lane::Host,
         scope: Scope::Full,
         run: host_steps::doc,
+    },
+    Step {
+        name: "examples",
+        title: "the library's examples run",
+        lane: Lane::Host,
+        scope: Scope::Everyday,
+        run: package_steps::examples,
+    },
+    Step {
+        name: "features",
+        title: "the library's features build for the target and change no number",
+        lane: Lane::Host,
+        scope: Scope::Full,
+        run: package_steps::features,
+    },
+    Step {
+        name: "package",
+        title: "the crate packages, and builds vendored from git",
+        lane: Lane::Host,
+        scope: Scope::Full,
+        run: package_steps::package,
+    },
+    Step {
+        name: "deny",
+        title: "dependencies, their licences and their sources are those that deny.toml allows",
+        lane: Lane::Host,
+        scope: Scope::Full,
+        run: package_steps::deny,
     },
     Step {
         name: "firmware",

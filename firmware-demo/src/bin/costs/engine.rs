@@ -6,7 +6,7 @@ use dynamics_core::{Engine, MassMatrix};
 use super::forward::{Forms, Solution};
 
 /// In the order of the table.
-pub fn engine<T: Robot<B, N, N>, const B: usize, const N: usize>() -> Forms<N> {
+pub fn engine<T: Robot<B, N, N>, const B: usize, const N: usize, const TIP: usize>() -> Forms<N> {
     Forms {
         name: "engine",
         crba: Engine::<T>::crba,
@@ -16,8 +16,8 @@ pub fn engine<T: Robot<B, N, N>, const B: usize, const N: usize>() -> Forms<N> {
         forward_at: Engine::<T>::forward_at,
         aba: Engine::<T>::aba,
         aba_at: Engine::<T>::aba_at,
-        jacobian: Engine::<T>::jacobian,
-        jacobian_at: Engine::<T>::jacobian_at,
+        jacobian: Engine::<T>::jacobian::<TIP, _, _, _, _>,
+        jacobian_at: Engine::<T>::jacobian_at::<TIP, _, _, _, _>,
     }
 }
 

@@ -49,12 +49,14 @@ impl<T: Robot<N, N, N>, const N: usize> Visitor<N> for Reference<T, N> {
 }
 
 fn main() {
-    every::<Ur5e, 6, 9>(&PICK_AND_PLACE);
-    every::<Panda, 7, 7>(&PANDA_PICK_AND_PLACE);
+    every::<Ur5e, 6, 9, 5>(&PICK_AND_PLACE);
+    every::<Panda, 7, 7, 6>(&PANDA_PICK_AND_PLACE);
 }
 
 /// Prints a line for each effect, on the way through these points.
-fn every<T: Robot<N, N, N>, const N: usize, const W: usize>(points: &[WayPoint<f32, N>; W]) {
+fn every<T: Robot<N, N, N>, const N: usize, const W: usize, const TIP: usize>(
+    points: &[WayPoint<f32, N>; W],
+) {
     let limits = model::<f32, T, N, N, N>().links.map(|link| Speed {
         velocity: link.limits.velocity,
         acceleration: ACCELERATION,
@@ -67,6 +69,6 @@ fn every<T: Robot<N, N, N>, const N: usize, const W: usize>(points: &[WayPoint<f
     };
     catalogue::rigid(reference);
     catalogue::joints(reference);
-    catalogue::bodies(reference);
+    catalogue::bodies::<N, TIP>(reference);
     catalogue::spinning(reference);
 }

@@ -1,0 +1,59 @@
+//! What the constants of an effect permit: core and engine take a hook under the same conditions.
+
+use super::Effect;
+use crate::model::BASE;
+use crate::scalar::Real;
+
+/// The base components of the field that are not left out.
+pub(crate) const fn field_axes<R: Real, E, const B: usize, const V: usize>() -> [bool; 3]
+where
+    E: Effect<R, B, V>,
+{
+    let [x, y, z] = E::FIELD_AXES;
+    [E::FIELD & x, E::FIELD & y, E::FIELD & z]
+}
+
+/// Two fields of gravity would both act.
+#[inline(always)]
+pub(crate) const fn one_gravity<R: Real, E, const B: usize, const V: usize>()
+where
+    E: Effect<R, B, V>,
+{
+    const {
+        assert!(
+            E::GRAVITIES <= 1,
+            "the scene has several fields of gravity, whose sum would act: instead of (RIGID_BODY, GravityAlong(..)) \
+             write (Inertia, Coriolis, GravityAlong(..))"
+        )
+    };
+}
+
+/// How many bodies carry a payload.
+pub(crate) const fn loads<R: Real, E, const B: usize, const V: usize>() -> usize
+where
+    E: Effect<R, B, V>,
+{
+    let (mut count, mut body) = (0, 0);
+    while body < B {
+        if E::PAYLOAD[body] {
+            count += 1;
+        }
+        body += 1;
+    }
+    count
+}
+
+/// The only body that carries a payload, or [`BASE`].
+pub(crate) const fn only_load<R: Real, E, const B: usize, const V: usize>() -> usize
+where
+    E: Effect<R, B, V>,
+{
+    let mut body = 0;
+    while body < B {
+        if E::PAYLOAD[body] && loads::<R, E, B, V>() == 1 {
+            return body;
+        }
+        body += 1;
+    }
+    BASE
+}

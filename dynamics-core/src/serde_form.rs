@@ -1,0 +1,224 @@
+//! serde's traits for what firmware keeps in flash, for the feature `serde`.
+//!
+//! A field at a time, under its name, arrays as tuples of their length. Only types whose fields are public, so that
+//! nothing is read which could not be written in code. What a constructor checks (models, trajectories, supervisors,
+//! payloads) is built from these by that constructor, and has no `Deserialize` that would go round it.
+
+use crate::effects::{RotorInertia, Viscous};
+use crate::scalar::{Matrix, Real, Vector};
+use crate::spatial::SpatialInertia;
+use core::fmt;
+use core::marker::PhantomData;
+use heapless::Vec;
+use serde::de::{Error, SeqAccess, Visitor};
+use serde::ser::SerializeTuple;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+/// An array of any length: serde implements its traits only up to 32.
+struct Array<T, const N: usize>([T; N]);
+
+impl<T: Serialize, const N: usize> Serialize for Array<T, N> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut tuple = serializer.serialize_tuple(N)?;
+        for value in &self.0 {
+            tuple.serialize_element(value)?;
+        }
+        tuple.end()
+    }
+}
+
+impl<'de, T: Deserialize<'de>, const N: usize> Deserialize<'de> for Array<T, N> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_tuple(N, Elements(PhantomData))
+    }
+}
+
+struct Elements<T, const N: usize>(PhantomData<T>);
+
+impl<'de, T: Deserialize<'de>, const N: usize> Visitor<'de> for Elements<T, N> {
+    type Value = Array<T, N>;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "an array of {N} values")
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<Self::Value, A::Error> {
+        let mut values = Vec::<T, N>::new();
+        while let Some(value) = seq.next_element()? {
+            if values.push(value).is_err() {
+                return Err(A::Error::invalid_length(N + 1, &self));
+            }
+        }
+        let found = values.len();
+        let array = values.into_array();
+        array
+            .map(Array)
+            .map_err(|_| A::Error::invalid_length(found, &self))
+    }
+}
+
+/// A field's value in the form that serde takes, and back.
+trait Form<F>: Copy {
+    fn form(self) -> F;
+    fn of(form: F) -> Self;
+}
+
+impl<R: Real> Form<Self> for R {
+    fn form(self) -> Self {
+        self
+    }
+    fn of(form: Self) -> Self {
+        form
+    }
+}
+
+impl Form<Self> for u32 {
+    fn form(self) -> Self {
+        self
+    }
+    fn of(form: Self) -> Self {
+        form
+    }
+}
+
+impl<R: Real, const N: usize> Form<Array<R, N>> for [R; N] {
+    fn form(self) -> Array<R, N> {
+        Array(self)
+    }
+    fn of(form: Array<R, N>) -> Self {
+        form.0
+    }
+}
+
+impl<R: Real, const H: usize, const N: usize> Form<Array<Array<R, H>, N>> for [[R; H]; N] {
+    fn form(self) -> Array<Array<R, H>, N> {
+        Array(self.map(Array))
+    }
+    fn of(form: Array<Array<R, H>, N>) -> Self {
+        form.0.map(|row| row.0)
+    }
+}
+
+/// The traits of a struct, by a twin whose arrays are [`Array`]s. A field that is missing here does not compile.
+macro_rules! record {
+    ($module:ident::$name:ident<R $(, $n:ident)*> { $($field:ident: $form:ty),+ $(,)? }) => {
+        const _: () = {
+            #[derive(Serialize, Deserialize)]
+            #[serde(deny_unknown_fields)]
+            struct $name<R $(, const $n: usize)*> {
+                $($field: $form),+
+            }
+
+            impl<R: Real + Serialize $(, const $n: usize)*> Serialize for crate::$module::$name<R $(, $n)*> {
+                fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                    $name { $($field: self.$field.form()),+ }.serialize(serializer)
+                }
+            }
+
+            impl<'de, R: Real + Deserialize<'de> $(, const $n: usize)*> Deserialize<'de>
+                for crate::$module::$name<R $(, $n)*>
+            {
+                fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+                    let read = $name::deserialize(deserializer)?;
+                    Ok(Self { $($field: Form::of(read.$field)),+ })
+                }
+            }
+        };
+    };
+}
+
+record!(control::Bounds<R, V> {
+    torque: Array<R, V>,
+    rate: Array<R, V>,
+    speed: Array<R, V>,
+    lower: Array<R, V>,
+    upper: Array<R, V>,
+});
+record!(control::Gains<R, V> { kp: Array<R, V>, kd: Array<R, V> });
+record!(control::Speed<R> { velocity: R, acceleration: R });
+record!(control::WayPoint<R, V> { q: Array<R, V>, qd: Array<R, V>, ticks: u32 });
+record!(state::State<R, Q, V> { q: Array<R, Q>, qd: Array<R, V>, qdd: Array<R, V> });
+record!(model::Limits<R> { lower: R, upper: R, velocity: R, torque: R });
+
+record!(effects::Coulomb<R, V> { torque: Array<R, V>, per_width: R });
+record!(effects::AsymmetricCoulomb<R, V> {
+    forward: Array<R, V>,
+    backward: Array<R, V>,
+    per_width: R,
+});
+record!(effects::Stribeck<R, V> { excess: Array<R, V>, per_speed: R, per_width: R });
+record!(effects::Lugre<R, V> {
+    stiffness: Array<R, V>,
+    damping: Array<R, V>,
+    viscous: Array<R, V>,
+    sliding: Array<R, V>,
+    excess: Array<R, V>,
+    per_speed: R,
+    bristle: Array<R, V>,
+});
+record!(effects::Cogging<R, H, V> {
+    per_turn: Array<R, V>,
+    cos: Array<Array<R, H>, V>,
+    sin: Array<Array<R, H>, V>,
+});
+record!(effects::Spring<R, V> { stiffness: Array<R, V>, rest: Array<R, V> });
+record!(effects::Stops<R, V> {
+    lower: Array<R, V>,
+    upper: Array<R, V>,
+    stiffness: R,
+    damping: R,
+    per_depth: R,
+});
+
+/// The traits of a number per joint: those of the array.
+macro_rules! per_joint {
+    ($($name:ident),+) => {$(
+        impl<R: Real + Serialize, const V: usize> Serialize for $name<R, V> {
+            fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                Array(self.0).serialize(serializer)
+            }
+        }
+
+        impl<'de, R: Real + Deserialize<'de>, const V: usize> Deserialize<'de> for $name<R, V> {
+            fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+                Array::deserialize(deserializer).map(|values| Self(values.0))
+            }
+        }
+    )+};
+}
+
+per_joint!(Viscous, RotorInertia);
+
+/// Ten numbers, so that what is read is symmetric: the rotational inertia is xx, xy, xz, yy, yz, zz.
+#[derive(Serialize, Deserialize)]
+#[serde(rename = "SpatialInertia", deny_unknown_fields)]
+struct TenNumbers<R> {
+    mass: R,
+    moment: Array<R, 3>,
+    inertia: Array<R, 6>,
+}
+
+impl<R: Real + Serialize> Serialize for SpatialInertia<R> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let [[xx, xy, xz], [_, yy, yz], [_, _, zz]] = self.inertia.cols().map(R::Vec3::array);
+        let form = TenNumbers {
+            mass: self.mass,
+            moment: Array(self.moment.array()),
+            inertia: Array([xx, xy, xz, yy, yz, zz]),
+        };
+        form.serialize(serializer)
+    }
+}
+
+impl<'de, R: Real + Deserialize<'de>> Deserialize<'de> for SpatialInertia<R> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let read = TenNumbers::<R>::deserialize(deserializer)?;
+        let ([x, y, z], [xx, xy, xz, yy, yz, zz]) = (read.moment.0, read.inertia.0);
+        let column = R::Vec3::new;
+        Ok(Self {
+            mass: read.mass,
+            moment: column(x, y, z),
+            inertia: R::Mat3::from_cols(column(xx, xy, xz), column(xy, yy, yz), column(xz, yz, zz)),
+        })
+    }
+}

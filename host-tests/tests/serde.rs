@@ -1,0 +1,142 @@
+//! What firmware keeps in flash comes back as it was, and nothing else is read.
+
+use dynamics_core::control::{Bounds, Gains, Speed, WayPoint};
+use dynamics_core::effects::{
+    AsymmetricCoulomb, Cogging, Coulomb, Lugre, Payload, RotorInertia, Spring, Stops, Stribeck,
+    Viscous,
+};
+use dynamics_core::glam::Mat3;
+use dynamics_core::model::Limits;
+use dynamics_core::spatial::SpatialInertia;
+use dynamics_core::state::State;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+/// Writes a value and reads it again.
+fn comes_back<T: Serialize + DeserializeOwned + PartialEq + std::fmt::Debug>(value: T) {
+    let text = serde_json::to_string(&value).expect("a value that JSON has");
+    let read: T = serde_json::from_str(&text).expect("what was written");
+    assert_eq!(read, value, "{text}");
+}
+
+/// Why a text is not read as a T.
+fn refusal<T: DeserializeOwned + std::fmt::Debug>(text: &str) -> String {
+    serde_json::from_str::<T>(text)
+        .expect_err("not a T")
+        .to_string()
+}
+
+const THIRDS: [f32; 2] = [1.0 / 3.0, -2.0 / 3.0];
+
+fn inertia() -> SpatialInertia<f32> {
+    Payload::new(1.7, [0.1, -0.2, 0.3], [0.4, 0.01, 0.02, 0.5, 0.03, 0.6]).0
+}
+
+#[test]
+fn what_the_controller_is_configured_with_comes_back_to_the_bit() {
+    let [a, b] = [THIRDS, [1e-30, 3.4e38]];
+    comes_back(Bounds {
+        torque: a,
+        rate: b,
+        speed: a,
+        lower: b,
+        upper: a,
+    });
+    comes_back(Gains { kp: a, kd: b });
+    comes_back(Speed {
+        velocity: a[0],
+        acceleration: b[1],
+    });
+    comes_back(WayPoint {
+        q: a,
+        qd: b,
+        ticks: u32::MAX,
+    });
+    comes_back(State {
+        q: [0.1_f64, 0.2, 0.3],
+        qd: [0.4, 0.5],
+        qdd: [0.6, 0.7],
+    });
+    comes_back(Limits {
+        lower: a[0],
+        upper: a[1],
+        velocity: b[0],
+        torque: b[1],
+    });
+}
+
+#[test]
+fn what_is_identified_comes_back_to_the_bit() {
+    let [a, b] = [THIRDS, [0.25, 1e-7]];
+    comes_back(inertia());
+    comes_back(Viscous(a));
+    comes_back(RotorInertia(b));
+    comes_back(Coulomb {
+        torque: a,
+        per_width: 20.0,
+    });
+    comes_back(AsymmetricCoulomb {
+        forward: a,
+        backward: b,
+        per_width: 20.0,
+    });
+    comes_back(Stribeck {
+        excess: a,
+        per_speed: 10.0,
+        per_width: 100.0,
+    });
+    comes_back(Lugre {
+        stiffness: a,
+        damping: b,
+        viscous: a,
+        sliding: b,
+        excess: a,
+        per_speed: 10.0,
+        bristle: b,
+    });
+    comes_back(Cogging {
+        per_turn: a,
+        cos: [[0.1, 0.2, 0.3]; 2],
+        sin: [[0.4, 0.5, 0.6]; 2],
+    });
+    comes_back(Spring {
+        stiffness: a,
+        rest: b,
+    });
+    comes_back(Stops {
+        lower: a,
+        upper: b,
+        stiffness: 1e4,
+        damping: 10.0,
+        per_depth: 500.0,
+    });
+}
+
+#[test]
+fn a_humanoid_has_more_joints_than_serde_has_arrays() {
+    let values: [f32; 40] = std::array::from_fn(|i| i as f32);
+    comes_back(Viscous(values));
+}
+
+#[test]
+fn numbers_of_another_robot_are_refused() {
+    let text = serde_json::to_string(&Viscous([1.0_f32, 2.0])).expect("two numbers");
+    assert!(refusal::<Viscous<f32, 3>>(&text).contains("invalid length 2"));
+    assert!(refusal::<Viscous<f32, 1>>(&text).contains("invalid length 2"));
+}
+
+#[test]
+fn a_field_that_is_missing_or_unknown_is_refused() {
+    assert!(refusal::<Gains<f32, 1>>(r#"{"kp": [1.0]}"#).contains("missing field `kd`"));
+    let unknown = r#"{"kp": [1.0], "kd": [1.0], "ki": [1.0]}"#;
+    assert!(refusal::<Gains<f32, 1>>(unknown).contains("unknown field `ki`"));
+}
+
+#[test]
+fn a_rotational_inertia_is_six_numbers_and_thus_symmetric() {
+    let text = serde_json::to_string(&inertia()).expect("an inertia");
+    let read: SpatialInertia<f32> = serde_json::from_str(&text).expect("the same");
+    assert_eq!(read.inertia, Mat3::transpose(&read.inertia));
+    let nine = r#"{"mass": 1.0, "moment": [0, 0, 0], "inertia": [1, 0, 0, 0, 1, 0, 0, 0, 1]}"#;
+    refusal::<SpatialInertia<f32>>(nine);
+}

@@ -123,9 +123,18 @@ fn hooks_whose_constants_are_not_set_are_not_called() {
     idle::<ALONG_X>();
     let (none, robot) = (All::<{ ALONG_X }>, Of::<TwoHands>::NEW);
     assert_eq!(potential_energy(&robot, &MOVING.q, &none), 0.0);
-    let joints: f64 = (0..3).map(|i| (0.1 + i as f64) * MOVING.qd[i].powi(2) / 2.0).sum();
-    assert!((kinetic_energy(&robot, &MOVING, &()) + joints - kinetic_energy(&robot, &MOVING, &none)).abs() < 1e-14);
-    assert_eq!(momentum(&robot, &MOVING, &none), momentum(&robot, &MOVING, &()));
+    let joints: f64 = (0..3)
+        .map(|i| (0.1 + i as f64) * MOVING.qd[i].powi(2) / 2.0)
+        .sum();
+    assert!(
+        (kinetic_energy(&robot, &MOVING, &()) + joints - kinetic_energy(&robot, &MOVING, &none))
+            .abs()
+            < 1e-14
+    );
+    assert_eq!(
+        momentum(&robot, &MOVING, &none),
+        momentum(&robot, &MOVING, &())
+    );
     let base = kinematics(&robot, &MOVING, &none);
     let rest = kinematics(&robot, &MOVING, &());
     assert_eq!(base.velocities, rest.velocities);
@@ -191,7 +200,11 @@ fn seen<R: Real, E: Effect<R, 6, 3>>(scene: &E) -> Vec<f64> {
     ];
     let mut seen = vec![of::<R>(E::GRAVITIES as f64)];
     let flags = [&flags[..], &E::FIELD_AXES, &E::PAYLOAD].concat();
-    seen.extend(flags.into_iter().map(|flag| of::<R>(f64::from(u8::from(flag)))));
+    seen.extend(
+        flags
+            .into_iter()
+            .map(|flag| of::<R>(f64::from(u8::from(flag)))),
+    );
     let mut load = SpatialInertia::ZERO;
     scene.payload(2, &mut load);
     seen.push(load.mass);
@@ -207,7 +220,11 @@ fn seen<R: Real, E: Effect<R, 6, 3>>(scene: &E) -> Vec<f64> {
         velocity: v,
     };
     scene.wrench(2, &at, &mut fx);
-    seen.extend([v.ang, v.lin, a.ang, a.lin, fx.ang, fx.lin].map(Vector::array).as_flattened());
+    seen.extend(
+        [v.ang, v.lin, a.ang, a.lin, fx.ang, fx.lin]
+            .map(Vector::array)
+            .as_flattened(),
+    );
     let at = JointState {
         q: of(0.3),
         qd: of(-0.7),
@@ -243,7 +260,10 @@ fn whatever_passes_effects_on_passes_on_every_hook() {
     let none = seen::<f32, _>(&());
     let same = direct.iter().zip(&none).filter(|(a, b)| a == b).count();
     assert_eq!(same, 4, "{direct:?}"); // the entries of the inertia that are zero
-    assert_eq!(seen::<f32, _>(&((), (All::<{ ENGINE | SPINNING }>,))), direct);
+    assert_eq!(
+        seen::<f32, _>(&((), (All::<{ ENGINE | SPINNING }>,))),
+        direct
+    );
     assert_eq!(seen::<f32, _>(&Now::<Law, (), 3>::of(&())), direct);
 
     // A step of no length changes nothing, and gives no slopes of its own away.
@@ -286,20 +306,36 @@ fn declared(source: &str) -> Vec<&str> {
 #[test]
 fn a_hook_or_constant_that_is_added_is_passed_on_everywhere() {
     let effects = include_str!("../../../dynamics-core/src/effects/mod.rs");
-    let (_, the_trait) = effects.split_once("pub trait Effect<").expect("the trait is there");
+    let (_, the_trait) = effects
+        .split_once("pub trait Effect<")
+        .expect("the trait is there");
     let all = declared(the_trait);
     assert!(all.len() >= 20, "{all:?}");
     let missing = |source: &str| -> Vec<&str> {
         let found = declared(source);
-        all.iter().copied().filter(|name| !found.contains(name)).collect()
+        all.iter()
+            .copied()
+            .filter(|name| !found.contains(name))
+            .collect()
     };
     let none: [&str; 0] = [];
-    assert_eq!(missing(include_str!("../../../dynamics-core/src/effects/tuple.rs")), none);
+    assert_eq!(
+        missing(include_str!("../../../dynamics-core/src/effects/tuple.rs")),
+        none
+    );
     // What a wrapper is there to change, and what belongs to the effects themselves.
     let own = ["ACCELERATIONS", "advance", "inertia", "slopes", "torque"];
-    assert_eq!(missing(include_str!("../../../dynamics-core/src/effects/passed_on.rs")), own);
+    assert_eq!(
+        missing(include_str!(
+            "../../../dynamics-core/src/effects/passed_on.rs"
+        )),
+        own
+    );
     // Effects that are made anew each time remember nothing.
-    assert_eq!(missing(include_str!("../../../firmware-demo/src/scene/now.rs")), ["advance"]);
+    assert_eq!(
+        missing(include_str!("../../../firmware-demo/src/scene/now.rs")),
+        ["advance"]
+    );
     // The effect of this test; `GRAVITIES` follows from `FIELD`.
     assert_eq!(missing(include_str!("hooks.rs")), ["GRAVITIES"]);
     assert_eq!(missing("const FIELD: bool = true;").len(), all.len() - 1);

@@ -8,11 +8,19 @@ use dynamics_core::{Core, Engine};
 use glam::DMat3;
 
 fn cup<const BODY: usize>() -> Payload<f64, BODY> {
-    Payload::new(0.7, [0.02, -0.05, 0.1], [0.003, 0.0002, 0.0, 0.004, -0.0001, 0.002])
+    Payload::new(
+        0.7,
+        [0.02, -0.05, 0.1],
+        [0.003, 0.0002, 0.0, 0.004, -0.0001, 0.002],
+    )
 }
 
 fn plate<const BODY: usize>() -> Payload<f64, BODY> {
-    Payload::new(1.9, [-0.04, 0.03, 0.2], [0.02, 0.001, 0.002, 0.03, 0.0, 0.025])
+    Payload::new(
+        1.9,
+        [-0.04, 0.03, 0.2],
+        [0.02, 0.001, 0.002, 0.03, 0.0, 0.025],
+    )
 }
 
 /// The robot's description with these loads as part of its bodies.
@@ -57,7 +65,10 @@ fn acts_as<E: Effect<f64, 6, 3>>(scene: &E, loads: &[(usize, SpatialInertia<f64>
 #[test]
 fn two_hands_carry_a_payload_each_and_the_frame_that_is_listed_last_carries_none() {
     let (cup, plate) = (cup::<LEFT>(), plate::<RIGHT>());
-    acts_as(&(RIGID_BODY, cup, plate), &[(LEFT, cup.0), (RIGHT, plate.0)]);
+    acts_as(
+        &(RIGID_BODY, cup, plate),
+        &[(LEFT, cup.0), (RIGHT, plate.0)],
+    );
     let empty = Core::<TwoHands>::rnea(&MOVING, &RIGID_BODY);
     let laden = Core::<TwoHands>::rnea(&MOVING, &(RIGID_BODY, cup));
     assert!((laden[1] - empty[1]).abs() > 1.0);
@@ -84,7 +95,10 @@ impl<const V: usize> Effect<f64, 6, V> for Ice {
 #[test]
 fn an_effect_of_ones_own_loads_the_bodies_that_it_says_and_no_others() {
     let ice = cup::<0>().0;
-    let on = |body: usize| SpatialInertia { mass: ice.mass + body as f64, ..ice };
+    let on = |body: usize| SpatialInertia {
+        mass: ice.mass + body as f64,
+        ..ice
+    };
     let loads = [0, 1, 3].map(|body| (body, on(body)));
     acts_as(&(RIGID_BODY, Ice(ice)), &loads);
 }
@@ -95,7 +109,10 @@ fn jacobian<const BODY: usize>() {
     let engine = Engine::<TwoHands>::jacobian::<BODY, _, _, _, _>(&MOVING.q);
     let core = Core::<TwoHands>::jacobian(&MOVING.q, BODY, frame::Mixed);
     let flat = |j: [dynamics_core::spatial::Motion<f64>; 3]| {
-        j.map(|s| [s.ang.to_array(), s.lin.to_array()]).as_flattened().as_flattened().to_vec()
+        j.map(|s| [s.ang.to_array(), s.lin.to_array()])
+            .as_flattened()
+            .as_flattened()
+            .to_vec()
     };
     close(&flat(engine), &flat(core), 1e-15);
 }

@@ -1,4 +1,5 @@
 //! A robot of more joints than the engine takes in one function: limbs and branches apart.
+#![cfg(feature = "full")]
 
 use dynamics_core::effects::{Coriolis, Gravity, Inertia, MovingBase, WorldWrench};
 use dynamics_core::model::{BASE, Body, Joint, Model, Robot};

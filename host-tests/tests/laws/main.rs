@@ -6,7 +6,7 @@ use dynamics_core::effects::{
     Viscous, smooth_sign,
 };
 use dynamics_core::model::{Arm, BASE, Body, Joint, JointKind, Model, Robot, model};
-use dynamics_core::robots::{A1, Iiwa14, Panda, Ur5e};
+use dynamics_core::robots::{Panda, Ur5e};
 use dynamics_core::scalar::Real;
 use dynamics_core::spatial::Force;
 use dynamics_core::state::State;
@@ -64,8 +64,12 @@ fn aba_inverts_rnea() {
     }
     robot::<Ur5e, 6, 6>();
     robot::<Panda, 7, 7>();
-    robot::<Iiwa14, 7, 7>();
-    robot::<A1, 16, 12>();
+    #[cfg(feature = "full")]
+    {
+        use dynamics_core::robots::{A1, Iiwa14};
+        robot::<Iiwa14, 7, 7>();
+        robot::<A1, 16, 12>();
+    }
     let (mut double, mut single) = (Worst::default(), Worst::default());
     let rng = &mut random_numbers();
     for _ in 0..100 {
@@ -134,8 +138,10 @@ fn worst_of_all<L: Law>() -> f64 {
     [
         robot::<L, Ur5e, 6, 6>(),
         robot::<L, Panda, 7, 7>(),
-        robot::<L, Iiwa14, 7, 7>(),
-        robot::<L, A1, 16, 12>(),
+        #[cfg(feature = "full")]
+        robot::<L, dynamics_core::robots::Iiwa14, 7, 7>(),
+        #[cfg(feature = "full")]
+        robot::<L, dynamics_core::robots::A1, 16, 12>(),
         worst.relative(),
     ]
     .into_iter()

@@ -270,6 +270,7 @@ fn every_way_to_m_and_through_it_agrees_on_trees_of_every_joint() {
         hold::<1, 0, 0>(1, &mut worst, |rng| tree(rng, [Fixed]));
         hold::<5, 5, 5>(50, &mut worst, mixed);
         hold::<10, 22, 20>(100, &mut worst, mixed);
+        #[cfg(feature = "full")]
         hold::<64, 136, 124>(2, &mut worst, mixed);
         let complaints = [worst[0].report::<f64>(), worst[1].report::<f32>()].concat();
         assert!(complaints.is_empty(), "\n{}", complaints.join("\n"));

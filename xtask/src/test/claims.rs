@@ -7,6 +7,8 @@ use crate::workspace;
 
 /// What stands before such a test.
 const GATE: &str = "#[cfg(feature = \"full\")]";
+/// What stands at the top of a file of such tests.
+const FILE_GATE: &str = "#![cfg(feature = \"full\")]";
 
 /// The test programs under a folder with the tests of theirs that only a full run takes, in alphabetical order.
 pub fn full_only(folder: &Path) -> Result<Vec<(String, String)>> {
@@ -43,9 +45,10 @@ fn sources(folder: &Path) -> Result<Vec<PathBuf>> {
 /// The names of the tests in a source that stand behind the gate, and of those that go further behind it.
 fn gated(source: &str) -> Vec<String> {
     let (mut names, mut test, mut is_test, mut whole) = (Vec::new(), None, false, false);
+    let all = source.lines().any(|line| line == FILE_GATE);
     for line in source.lines() {
         match line.trim() {
-            "#[test]" => is_test = true,
+            "#[test]" => (is_test, whole) = (true, whole | all),
             // Outside every function: a test, or something that only such tests use.
             GATE if line == GATE => whole = true,
             GATE => names.extend(test.take().map(|name| format!("{name}: further robots"))),
@@ -67,7 +70,7 @@ fn gated(source: &str) -> Vec<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::{GATE, gated};
+    use super::{FILE_GATE, GATE, gated};
 
     #[test]
     fn a_test_behind_the_gate_is_named_and_nothing_else() {
@@ -77,5 +80,7 @@ mod tests {
         );
         let expected = ["on_every_robot", "in_part: further robots"];
         assert_eq!(gated(&source), expected);
+        let file = format!("{FILE_GATE}\n#[test]\nfn one() {{\n}}\n#[test]\nfn two() {{\n}}\n");
+        assert_eq!(gated(&file), ["one", "two"]);
     }
 }

@@ -7,7 +7,7 @@
 use heapless::Vec;
 
 use super::handed::Handed;
-use super::taken::Taken;
+use super::taken::{Magnitude, Pivots};
 use super::{Given, NotPositiveDefinite, Response};
 use crate::articulated::ArticulatedInertia;
 use crate::effects::{
@@ -75,6 +75,7 @@ struct Body<'a, R: Real> {
     x: Xform<R>,
     c: Motion<R>,
     ia: ArticulatedInertia<R>,
+    carried: Magnitude<R>,
     pa: Force<R>,
 }
 
@@ -140,15 +141,22 @@ where
             parent.pa.ang += x.rot.transpose_mul(couple);
         }
         v.push(D::CHAIN, v_i);
-        let ia = inertia.into();
-        let _ = bodies.push(Body { node, x, c, ia, pa });
+        let (ia, carried) = (inertia.into(), Magnitude::from(&inertia));
+        let _ = bodies.push(Body {
+            node,
+            x,
+            c,
+            ia,
+            carried,
+            pa,
+        });
     }
 
     let mut handles: Vec<Handle<R>, V> = Vec::new(); // a stack: the last one made is the first used
-    let mut taken = Taken::<R, V>::NONE;
     let mut inner = bodies.as_mut_slice();
     while let Some((body, rest)) = core::mem::take(&mut inner).split_last_mut() {
         let (mut ia, mut pa) = (body.ia, body.pa);
+        let mut pivots = Pivots::of(body.carried);
         for (k, joint) in body.node.coordinates().enumerate().rev() {
             let s = body.node.axis(turns, k);
             let u_hat = ia.along(&s);
@@ -156,11 +164,8 @@ where
                 Given::Torque(tau) => {
                     let mut d = s.dot(u_hat);
                     effects.inertia(joint, &mut d);
-                    taken.check(d, joint)?;
+                    pivots.check((&body.node, k), turns, (u_hat, d), joint)?;
                     let per_d = R::ONE / d;
-                    let parent = rest.get(body.node.parent);
-                    let parent = parent.map(|parent| (&parent.node, &body.x));
-                    taken.by((&body.node, k), parent, turns, (u_hat, per_d));
                     let u = tau - joint_loss(effects, &body.node, state, joint) - s.dot(pa);
                     if E::SPINNING {
                         // A rotor feels and bears q̈ on the parent's side of the joint. Written twice:
@@ -192,6 +197,7 @@ where
         if let Some(parent) = rest.get_mut(body.node.parent) {
             pa += ia.times(body.c);
             parent.ia += ia.at_parent(&body.x);
+            parent.carried += body.carried.at_parent(body.x.pos);
             parent.pa += body.x.transpose_mul(pa);
         }
         inner = rest;

@@ -132,7 +132,10 @@ fn named<R: Real, T, E, const N: usize>(
     }
     let what = format!("{}, {}", T::MODEL.name, std::any::type_name::<R>());
     println!("{what}: {refused:?}");
-    assert_eq!(refused, [[1000; 2]; 5], "{what}: engine forward, aba, factor; core forward, aba");
+    assert_eq!(
+        refused, [[1000; 2]; 5],
+        "{what}: engine forward, aba, factor; core forward, aba"
+    );
 }
 
 #[test]

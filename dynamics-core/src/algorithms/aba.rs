@@ -29,8 +29,11 @@ use crate::state::{Posture, State, entry};
 /// ```
 ///
 /// # Errors
-/// [`NotPositiveDefinite`] names a joint that moves no inertia (a massless last link without rotor inertia, a
-/// joint on the axis of the next with nothing between them), or whose inertia is not a number.
+/// [`NotPositiveDefinite`] names the outermost coordinate that moves no inertia once those that it carries give way
+/// (a massless last link without rotor inertia, a joint on the axis of another with no inertia between them, a
+/// wrist without mass in gimbal lock), or whose inertia is not a number: its pivot is not above eight roundings of
+/// the largest inertia that all that it carries, stretched out, could have about it. Of four joints or more without
+/// inertia whose axes meet in one point rounding may leave more.
 #[inline(always)]
 pub fn aba<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,

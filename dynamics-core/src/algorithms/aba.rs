@@ -7,7 +7,7 @@
 use heapless::Vec;
 
 use super::handed::Handed;
-use super::taken::Taken;
+use super::taken::{Magnitude, Pivots};
 use super::{Given, NotPositiveDefinite, Response};
 use crate::articulated::ArticulatedInertia;
 use crate::effects::{
@@ -29,8 +29,11 @@ use crate::state::{Posture, State, entry};
 /// ```
 ///
 /// # Errors
-/// [`NotPositiveDefinite`] names a joint that moves no inertia (a massless last link without rotor inertia, a
-/// joint on the axis of the next with nothing between them), or whose inertia is not a number.
+/// [`NotPositiveDefinite`] names the outermost coordinate that moves no inertia once those that it carries give way
+/// (a massless last link without rotor inertia, a joint on the axis of another with no inertia between them, a
+/// wrist without mass in gimbal lock), or whose inertia is not a number: its pivot is not above eight roundings of
+/// the largest inertia that all that it carries, stretched out, could have about it. Of four joints or more without
+/// inertia whose axes meet in one point rounding may leave more.
 #[inline(always)]
 pub fn aba<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
@@ -75,6 +78,7 @@ struct Body<'a, R: Real> {
     x: Xform<R>,
     c: Motion<R>,
     ia: ArticulatedInertia<R>,
+    carried: Magnitude<R>,
     pa: Force<R>,
 }
 
@@ -140,15 +144,22 @@ where
             parent.pa.ang += x.rot.transpose_mul(couple);
         }
         v.push(D::CHAIN, v_i);
-        let ia = inertia.into();
-        let _ = bodies.push(Body { node, x, c, ia, pa });
+        let (ia, carried) = (inertia.into(), Magnitude::from(&inertia));
+        let _ = bodies.push(Body {
+            node,
+            x,
+            c,
+            ia,
+            carried,
+            pa,
+        });
     }
 
     let mut handles: Vec<Handle<R>, V> = Vec::new(); // a stack: the last one made is the first used
-    let mut taken = Taken::<R, V>::NONE;
     let mut inner = bodies.as_mut_slice();
     while let Some((body, rest)) = core::mem::take(&mut inner).split_last_mut() {
         let (mut ia, mut pa) = (body.ia, body.pa);
+        let mut pivots = Pivots::of(body.carried);
         for (k, joint) in body.node.coordinates().enumerate().rev() {
             let s = body.node.axis(turns, k);
             let u_hat = ia.along(&s);
@@ -156,11 +167,8 @@ where
                 Given::Torque(tau) => {
                     let mut d = s.dot(u_hat);
                     effects.inertia(joint, &mut d);
-                    taken.check(d, joint)?;
+                    pivots.check((&body.node, k), turns, (u_hat, d), joint)?;
                     let per_d = R::ONE / d;
-                    let parent = rest.get(body.node.parent);
-                    let parent = parent.map(|parent| (&parent.node, &body.x));
-                    taken.by((&body.node, k), parent, turns, (u_hat, per_d));
                     let u = tau - joint_loss(effects, &body.node, state, joint) - s.dot(pa);
                     if E::SPINNING {
                         // A rotor feels and bears q̈ on the parent's side of the joint. Written twice:
@@ -192,6 +200,7 @@ where
         if let Some(parent) = rest.get_mut(body.node.parent) {
             pa += ia.times(body.c);
             parent.ia += ia.at_parent(&body.x);
+            parent.carried += body.carried.at_parent(body.x.pos);
             parent.pa += body.x.transpose_mul(pa);
         }
         inner = rest;

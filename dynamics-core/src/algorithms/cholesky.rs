@@ -4,7 +4,7 @@
 //! without roots, and is the one to prefer; this one has what Lᵀ D L lacks, a root of M: M⁻¹ = L⁻¹ L⁻ᵀ.
 
 use super::NotPositiveDefinite;
-use super::factor::{check, parent};
+use super::factor::{Sizes, check, parent};
 use crate::mass_matrix::MassMatrix;
 use crate::model::Description;
 use crate::scalar::Real;
@@ -44,17 +44,21 @@ where
 {
     let lambda = &robot.model().lambda;
     let (mut rows, mut per_l) = (m.rows, [R::ZERO; V]);
+    let mut sizes = Sizes::of(robot, m);
     for k in (0..V).rev() {
         let (above, at) = rows.split_at_mut(k);
         let (Some(row), Some(per_l)) = (at.first_mut(), per_l.get_mut(k)) else {
             break;
         };
         let pivot = row.get(k).copied().unwrap_or_default();
-        check(pivot, m.get(k, k), k)?;
+        check(pivot, sizes.noise(k), k)?;
         *per_l = pivot.per_sqrt();
         let mut i = parent(lambda, k);
         while let Some(l_ki) = row.get_mut(i) {
             *l_ki *= *per_l;
+            if !D::SINGLE {
+                sizes.hand_on(k, i, *l_ki * *per_l);
+            }
             i = parent(lambda, i);
         }
         i = parent(lambda, k);

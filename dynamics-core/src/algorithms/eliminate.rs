@@ -3,7 +3,7 @@
 use heapless::Vec;
 
 use super::NotPositiveDefinite;
-use super::taken::Taken;
+use super::taken::{Magnitude, Pivots};
 use crate::articulated::ArticulatedInertia;
 use crate::effects::{Effect, body_inertia};
 use crate::model::{Description, Turn};
@@ -42,39 +42,37 @@ where
             "no rotors that spin as bodies here; name `RotorInertia`"
         )
     };
-    let mut bodies: Vec<ArticulatedInertia<R>, B> = Vec::new();
+    let mut bodies: Vec<(ArticulatedInertia<R>, Magnitude<R>), B> = Vec::new();
     let mut x = Vec::new();
     for (i, node) in robot.nodes().enumerate() {
-        let _ = bodies.push(body_inertia(effects, i, &node).into());
+        let inertia = body_inertia(effects, i, &node);
+        let _ = bodies.push((inertia.into(), Magnitude::from(&inertia)));
         let _ = x.push(node.xform(turns));
     }
     let mut handles = [Handle::default(); V];
-    let mut taken = Taken::<R, V>::NONE;
     let mut inner = bodies.as_mut_slice();
-    while let Some((body, rest)) = core::mem::take(&mut inner).split_last_mut() {
+    while let Some((&mut (body, carried), rest)) = core::mem::take(&mut inner).split_last_mut() {
         let (Some(node), Some(x_i)) = (robot.node(rest.len()), x.get(rest.len())) else {
             break;
         };
-        let mut ia = *body;
+        let (mut ia, mut pivots) = (body, Pivots::of(carried));
         for (k, joint) in node.coordinates().enumerate().rev() {
             let s = node.axis(turns, k);
             let u_hat = ia.along(&s);
             let bodies = s.dot(u_hat);
             let mut d = bodies;
             effects.inertia(joint, &mut d);
-            taken.check(d, joint)?;
+            pivots.check((&node, k), turns, (u_hat, d), joint)?;
             let per_d = R::ONE / d;
-            let parent = robot.node(node.parent);
-            let parent = parent.as_ref().map(|parent| (parent, x_i));
-            taken.by((&node, k), parent, turns, (u_hat, per_d));
             let held = (d - bodies) * per_d;
             ia = ia.minus_outer(u_hat, per_d);
             if let Some(handle) = handles.get_mut(joint) {
                 *handle = Handle { u_hat, per_d, held };
             }
         }
-        if let Some(parent) = rest.get_mut(node.parent) {
+        if let Some((parent, carries)) = rest.get_mut(node.parent) {
             *parent += ia.at_parent(x_i);
+            *carries += carried.at_parent(x_i.pos);
         }
         inner = rest;
     }

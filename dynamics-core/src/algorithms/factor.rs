@@ -7,9 +7,11 @@ use super::NotPositiveDefinite;
 use crate::mass_matrix::{Factor, MassMatrix};
 use crate::model::{BASE, Description};
 use crate::scalar::Real;
+use crate::state::entry;
 
-/// How many roundings of M_ii a pivot must exceed: less is what rounding leaves of zero.
-pub(super) const ROUNDINGS: f64 = 8.0;
+/// How many roundings of M_ii a pivot must exceed: less is what rounding leaves of zero. Up to 30 were seen of
+/// singular M; a straight chain of 64 rods, in f32, has 61.
+pub(crate) const MATRIX_ROUNDINGS: f64 = 32.0;
 
 /// The factors L and D of M = Lᵀ D L, with the reciprocals of D, for [`solve`] and [`inverse`].
 ///
@@ -29,7 +31,11 @@ pub(super) const ROUNDINGS: f64 = 8.0;
 ///
 /// # Errors
 /// [`NotPositiveDefinite`] names the coordinate, outermost first, whose pivot is not a number or not
-/// above eight roundings of M_ii: it moves no inertia once the coordinates that it carries give way.
+/// above 32 roundings of M_ii: it moves no inertia once the coordinates that it carries give way. Within a
+/// joint of several coordinates the rounding errors of each count for those before it as they are
+/// multiplied on the way. M does not show how far away the frames of bodies are in which it was computed: where
+/// they are much farther than what moves, a singular M may leave more than that; the articulated bodies of
+/// [`aba`](super::aba()) and [`operator_factor`](super::operator_factor()) refuse it.
 #[inline(always)]
 pub fn factor<R: Real, D, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
@@ -40,17 +46,21 @@ where
 {
     let lambda = &robot.model().lambda;
     let (mut rows, mut per_d) = (m.rows, [R::ZERO; V]);
+    let mut sizes = Sizes::of(robot, m);
     for k in (0..V).rev() {
         let (above, at) = rows.split_at_mut(k);
         let (Some(row), Some(per_d)) = (at.first_mut(), per_d.get_mut(k)) else {
             break;
         };
         let pivot = row.get(k).copied().unwrap_or_default();
-        check(pivot, m.get(k, k), k)?;
+        check(pivot, sizes.noise(k), k)?;
         *per_d = R::ONE / pivot;
         let mut i = parent(lambda, k);
         while let Some(row_i) = above.get_mut(i) {
             let l = row.get(i).copied().unwrap_or_default() * *per_d;
+            if !D::SINGLE {
+                sizes.hand_on(k, i, l);
+            }
             let mut j = i;
             while let (Some(m_ij), Some(&m_kj)) = (row_i.get_mut(j), row.get(j)) {
                 *m_ij -= l * m_kj;
@@ -135,14 +145,53 @@ where
     per_m
 }
 
+/// What the pivots of M are held against.
+pub(super) struct Sizes<R, const V: usize> {
+    /// M_ii, and within a joint what the coordinates after it hand on.
+    sizes: [R; V],
+    /// The first coordinate of the joint that each one belongs to.
+    firsts: [usize; V],
+}
+
+impl<R: Real, const V: usize> Sizes<R, V> {
+    #[inline(always)]
+    pub(super) fn of<D, const B: usize, const Q: usize>(robot: &D, m: &MassMatrix<R, V>) -> Self
+    where
+        D: Description<R, B, Q, V>,
+    {
+        let mut firsts = [0; V];
+        if !D::SINGLE {
+            for node in robot.nodes() {
+                let joint = node.coordinates();
+                let own = firsts.get_mut(joint.clone()).unwrap_or_default();
+                own.fill(joint.start);
+            }
+        }
+        let sizes = core::array::from_fn(|k| m.get(k, k));
+        Self { sizes, firsts }
+    }
+
+    /// What rounding leaves of pivot `k`.
+    #[inline(always)]
+    pub(super) fn noise(&self, k: usize) -> R {
+        entry(&self.sizes, k) * (R::EPSILON * R::from_f64(MATRIX_ROUNDINGS))
+    }
+
+    /// Row `k`, taken `l` times off row `i`, brings its rounding errors if both are of one joint.
+    #[inline(always)]
+    pub(super) fn hand_on(&mut self, k: usize, i: usize, l: R) {
+        let size = entry(&self.sizes, k);
+        if i >= entry(&self.firsts, k)
+            && let Some(handed_on) = self.sizes.get_mut(i)
+        {
+            *handed_on += l * l * size;
+        }
+    }
+}
+
 /// Whether a pivot is a number and more than rounding leaves of zero.
 #[inline(always)]
-pub(super) fn check<R: Real>(
-    pivot: R,
-    diagonal: R,
-    joint: usize,
-) -> Result<(), NotPositiveDefinite> {
-    let noise = diagonal * (R::EPSILON * R::from_f64(ROUNDINGS));
+pub(super) fn check<R: Real>(pivot: R, noise: R, joint: usize) -> Result<(), NotPositiveDefinite> {
     // Comparisons that a NaN fails too, and that zero on zero does.
     if pivot > noise && pivot > R::ZERO && pivot.is_finite() {
         return Ok(());

@@ -1,8 +1,7 @@
 //! Forward dynamics: M q̈ = τ − C(q, q̇) by bias, M, its factors and their solution.
 //!
 //! Walker & Orin (1982), method 3; Featherstone, RBDA (2008), section 6.1. The articulated-body algorithm
-//! gives the same without M; [`NotPositiveDefinite`] is more certain here, since a pivot is held against
-//! the entry of M that it came from.
+//! gives the same without M.
 
 use super::{NotPositiveDefinite, crba_at, factor, rnea_at, solve};
 use crate::effects::{Bias, Effect};

@@ -65,7 +65,8 @@ impl<R: Real, const V: usize> Response<R, V> {
 /// ```
 ///
 /// # Errors
-/// [`NotPositiveDefinite`] names a joint whose torque is given but that moves no inertia.
+/// [`NotPositiveDefinite`] names a coordinate whose torque is given but that moves no inertia, as
+/// [`aba`](super::aba()) does.
 #[inline(always)]
 pub fn hybrid<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,

@@ -178,7 +178,8 @@ fn with_row_z<R: Real>(m: &R::Mat3, row: R::Vec3) -> R::Mat3 {
 /// ```
 ///
 /// # Errors
-/// [`NotPositiveDefinite`] names a joint that moves no inertia, or whose inertia is not a number.
+/// [`NotPositiveDefinite`] names a coordinate that moves no inertia, or whose inertia is not a number, as
+/// [`aba`](super::aba()) does.
 #[inline(always)]
 pub fn mobility<R: Real, D, E, F: Frame, const B: usize, const Q: usize, const V: usize>(
     robot: &D,

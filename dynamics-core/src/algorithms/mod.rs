@@ -35,6 +35,7 @@ pub use crba::{crba, crba_at};
 pub use damped::{Conditioning, Damping, damped_inverse};
 pub use energy::{kinetic_energy, kinetic_energy_at, potential_energy, potential_energy_at};
 pub use error::NotPositiveDefinite;
+pub(crate) use factor::MATRIX_ROUNDINGS;
 pub use factor::{factor, inverse, solve};
 pub use forward::{forward, forward_at};
 pub use frame::{Frame, Pose, classical};
@@ -47,3 +48,4 @@ pub use operational::{OperationalSpace, operational_space, operational_space_at,
 pub use operator::{operator_factor, operator_inverse};
 pub use recoil::{with_momentum, with_momentum_at};
 pub use rnea::{rnea, rnea_at};
+pub(crate) use taken::BODY_ROUNDINGS;

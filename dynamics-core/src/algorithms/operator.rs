@@ -30,7 +30,7 @@ use crate::state::{Posture, entry};
 /// ```
 ///
 /// # Errors
-/// [`NotPositiveDefinite`] names a joint that moves no inertia.
+/// [`NotPositiveDefinite`] names a coordinate that moves no inertia, as [`aba`](super::aba()) does.
 #[inline(always)]
 pub fn operator_factor<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,

@@ -13,6 +13,7 @@ use super::field::{Inertia, Wrench, enter};
 use super::known::Known;
 use super::prepare::Prepared;
 use super::rnea::{carries, loaded, stands};
+use super::size::noise;
 use super::small::{Mat3, Vec3};
 use crate::algorithms::NotPositiveDefinite;
 use crate::effects::Effect;
@@ -99,7 +100,10 @@ where
             let _ = gather::<R, T, E, B, Q, V, J>(&mut task);
         }
     });
-    positive(task.per_d)?;
+    positive(
+        task.per_d,
+        &noise::<R, T, E, B, Q, V>(&posture.turns, effects),
+    )?;
     for_each_joint!(J, {
         if const { stands::<T, B, Q, V>(J) } {
             swing::<R, T, E, B, Q, V, J>(&mut task, [R::Vec3::ZERO; 2]);

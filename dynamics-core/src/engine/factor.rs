@@ -5,7 +5,7 @@
 
 use super::Engine;
 use super::prepare::Prepared;
-use crate::algorithms::NotPositiveDefinite;
+use crate::algorithms::{MATRIX_ROUNDINGS, NotPositiveDefinite};
 use crate::mass_matrix::{Factor, MassMatrix};
 use crate::model::Robot;
 use crate::scalar::Real;
@@ -26,7 +26,9 @@ impl<T> Engine<T> {
     /// ```
     ///
     /// # Errors
-    /// [`NotPositiveDefinite`] names a joint that moves no inertia, or whose inertia is not a number.
+    /// [`NotPositiveDefinite`] names the outermost joint whose pivot is not a number or not above 32 roundings of
+    /// M_ii, as [`factor`](crate::algorithms::factor()) does: it moves no inertia once the joints that it carries
+    /// give way.
     #[inline(never)]
     pub fn factor<R: Real, const B: usize, const Q: usize, const V: usize>(
         m: &MassMatrix<R, V>,
@@ -36,7 +38,13 @@ impl<T> Engine<T> {
     {
         let mut rows = m.rows;
         let per_d = decompose::<R, T, B, Q, V>(&mut rows);
-        positive(&per_d)?;
+        let mut noise = [R::ZERO; V];
+        for_each_joint!(J, {
+            if const { J < V } {
+                noise[J] = m.rows[J][J] * (R::EPSILON * R::from_f64(MATRIX_ROUNDINGS));
+            }
+        });
+        positive(&per_d, &noise)?;
         Ok(Factor { rows, per_d })
     }
 
@@ -170,31 +178,39 @@ fn gather<R: Real, T, const B: usize, const Q: usize, const V: usize, const I: u
     });
 }
 
-/// Whether the reciprocals of all pivots are positive and finite; the same instructions if they are.
+/// Whether all pivots are numbers and more than `noise`, given their reciprocals; the same instructions if they are.
 #[inline(always)]
-pub(crate) fn positive<R: Real, const V: usize>(per_d: &[R; V]) -> Result<(), NotPositiveDefinite> {
-    // Products of finite numbers with zero add up to zero, others to NaN, which nothing exceeds.
-    let mut zero = R::ZERO;
-    for_each_joint!(J, {
-        if const { J < V } {
-            zero += per_d[J] * R::ZERO;
-        }
-    });
+pub(crate) fn positive<R: Real, const V: usize>(
+    per_d: &[R; V],
+    noise: &[R; V],
+) -> Result<(), NotPositiveDefinite> {
     let mut all = true;
     for_each_joint!(J, {
         if const { J < V } {
-            all &= per_d[J] > zero;
+            all &= is_pivot(per_d[J], noise[J]);
         }
     });
-    if all { Ok(()) } else { Err(culprit(per_d)) }
+    if all {
+        Ok(())
+    } else {
+        Err(culprit(per_d, noise))
+    }
 }
 
-/// The first joint from the tips to the base whose pivot is not positive and finite.
+/// Whether 0 < 1/d < ∞ and noise/d < 1, in one comparison: of zero, infinities and NaN it is false too.
+#[inline(always)]
+fn is_pivot<R: Real>(per_d: R, noise: R) -> bool {
+    per_d > per_d * (per_d * noise)
+}
+
+/// The first joint from the tips to the base whose pivot is none.
 #[cold]
 #[inline(never)]
-fn culprit<R: Real>(per_d: &[R]) -> NotPositiveDefinite {
-    let good = |&per_d: &R| per_d > R::ZERO && per_d.is_finite();
+fn culprit<R: Real>(per_d: &[R], noise: &[R]) -> NotPositiveDefinite {
+    let mut pivots = per_d.iter().zip(noise);
     NotPositiveDefinite {
-        joint: per_d.iter().rposition(|p| !good(p)).unwrap_or_default(),
+        joint: pivots
+            .rposition(|(&per_d, &noise)| !is_pivot(per_d, noise))
+            .unwrap_or_default(),
     }
 }

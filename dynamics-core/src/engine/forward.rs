@@ -8,6 +8,7 @@ use core::hint::black_box;
 use super::Engine;
 use super::crba::mass_matrix;
 use super::factor::{decompose, positive, substitute};
+use super::size::noise;
 use crate::algorithms::NotPositiveDefinite;
 use crate::effects::{Bias, Effect};
 use crate::mass_matrix::MassMatrix;
@@ -27,8 +28,10 @@ impl<T> Engine<T> {
     /// ```
     ///
     /// # Errors
-    /// [`NotPositiveDefinite`] names a joint that moves no inertia (a massless last link without
-    /// rotor inertia), or whose inertia is not a number.
+    /// [`NotPositiveDefinite`] names the outermost joint that moves no inertia once the joints that it carries give
+    /// way (a massless last link without rotor inertia; a joint on the axis of another with no inertia between
+    /// them), or whose inertia is not a number: its pivot is not above eight roundings of the largest inertia that
+    /// all that it carries, stretched out, could have about it.
     #[inline(never)]
     pub fn forward<R: Real, E, const B: usize, const Q: usize, const V: usize>(
         state: &State<R, Q, V>,
@@ -108,7 +111,7 @@ where
     mass_matrix::<R, T, E, B, Q, V>(&posture.turns, effects, &mut m);
     black_box(&mut m);
     let per_d = decompose::<R, T, B, Q, V>(&mut m.rows);
-    positive(&per_d)?;
+    positive(&per_d, &noise::<R, T, E, B, Q, V>(&posture.turns, effects))?;
     substitute::<R, T, B, Q, V>(&m.rows, &per_d, &mut x);
     Ok(x)
 }

@@ -35,6 +35,7 @@ mod pose;
 mod prepare;
 mod prune;
 mod rnea;
+mod size;
 mod small;
 
 use core::hint::black_box;

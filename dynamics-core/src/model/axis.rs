@@ -2,8 +2,8 @@
 
 use super::node::raised;
 use super::{JointKind, Node, Turn};
-use crate::scalar::{Matrix, Real, Vector};
-use crate::spatial::{Force, Motion, Xform};
+use crate::scalar::{Real, Vector};
+use crate::spatial::{Force, Motion};
 
 /// The velocity across a joint at unit rate of one of its coordinates.
 #[derive(Clone, Copy, Debug)]
@@ -24,17 +24,6 @@ impl<R: Real> Axis<R> {
             Self::Turn => f.ang.array()[2],
             Self::Slide => f.lin.array()[2],
             Self::Any(s) => s.dot(f),
-        }
-    }
-
-    /// The same axis beyond a transform: X s.
-    #[inline(always)]
-    pub(crate) fn beyond(&self, x: &Xform<R>) -> Motion<R> {
-        let ([ex, ey, ez], [rx, ry, _]) = (x.rot.cols(), x.pos.array());
-        match self {
-            Self::Turn => Motion::new(ez, ey * rx - ex * ry), // E (z − r × z)
-            Self::Slide => Motion::new(R::Vec3::ZERO, ez),
-            Self::Any(s) => *x * *s,
         }
     }
 

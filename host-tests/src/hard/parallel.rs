@@ -24,7 +24,7 @@ pub const CASES: &[Case] = &[
         parameters: "UR5e, wrist 2 massless and wrist 3 on its axis, four states; and 1000 chains of four with a massless link between two joints on one axis of any direction",
         source: "a roll joint behind a continuous one with a dummy link between",
         oracle: ORACLE,
-        reason: "RNEA has no inverse. A pivot that is not above eight roundings of M's own diagonal is what rounding left of zero: relative, for robots of any size",
+        reason: "RNEA has no inverse. A pivot that is not above 32 roundings of M's own diagonal, or eight of the largest inertia that its joint could move, is what rounding left of zero: relative, for robots of any size",
         run: coincident,
     },
     Case {

@@ -1,0 +1,187 @@
+//! Robots whose M is singular across bodies without inertia are refused by the engine as by the core.
+
+use core::f64::consts::FRAC_PI_2;
+
+use dynamics_core::effects::{Effect, Payload, RIGID_BODY};
+use dynamics_core::model::{BASE, Body, Joint, Model, Robot};
+use dynamics_core::scalar::Real;
+use dynamics_core::state::State;
+use dynamics_core::{Core, Engine};
+use host_tests::random::{random_numbers, within};
+
+const ARM: Body = Body::new("arm", BASE, Joint::revolute([0.1, 0.9, -0.3]))
+    .xyz([0.1, 0.2, 0.3])
+    .rpy([0.3, 0.2, 0.1])
+    .mass(2.0)
+    .com([0.1, 0.03, -0.1])
+    .inertia([0.1, 0.01, 0.02, 0.12, 0.03, 0.11]);
+
+/// An oblique axis, and where its joint stands on the arm.
+const AXIS: [f64; 3] = [0.3, -0.2, 1.0];
+
+const fn on_arm(joint: Joint<f64>) -> Body {
+    Body::new("carrier", 0, joint)
+        .xyz([0.3, 0.1, 0.2])
+        .rpy([0.7, -0.4, 0.9])
+}
+
+const fn solid(body: Body) -> Body {
+    body.mass(1.0)
+        .com([0.1, 0.0, 0.2])
+        .inertia([0.1, 0.0, 0.01, 0.12, 0.0, 0.1])
+}
+
+/// Two turns on one axis, and a plate without mass between them.
+struct Far;
+impl Robot<4, 3, 3> for Far {
+    const MODEL: Model<f64, 4, 3, 3> = Model::new(
+        "far",
+        [
+            ARM,
+            on_arm(Joint::revolute(AXIS)),
+            Body::new("plate", 1, Joint::fixed()).xyz([0.03, -0.02, 0.1]),
+            solid(Body::new("hand", 2, Joint::revolute(AXIS))),
+        ],
+    );
+}
+
+/// The same with a slide along the axis instead of the plate.
+struct Telescope;
+impl Robot<4, 4, 4> for Telescope {
+    const MODEL: Model<f64, 4, 4, 4> = Model::new(
+        "telescope",
+        [
+            ARM,
+            on_arm(Joint::revolute(AXIS)),
+            Body::new("tube", 1, Joint::prismatic(AXIS)),
+            solid(Body::new("hand", 2, Joint::revolute(AXIS))),
+        ],
+    );
+}
+
+/// A turn between two slides on one axis.
+struct Slides;
+impl Robot<4, 4, 4> for Slides {
+    const MODEL: Model<f64, 4, 4, 4> = Model::new(
+        "slides",
+        [
+            ARM,
+            on_arm(Joint::prismatic(AXIS)),
+            Body::new("turn", 1, Joint::revolute(AXIS)),
+            solid(Body::new("quill", 2, Joint::prismatic(AXIS))),
+        ],
+    );
+}
+
+/// A wrist without mass about z, y and x, which is in gimbal lock where its second joint is at ±π/2.
+struct Wrist;
+impl Robot<4, 4, 4> for Wrist {
+    const MODEL: Model<f64, 4, 4, 4> = Model::new(
+        "wrist",
+        [
+            ARM,
+            on_arm(Joint::revolute([0.0, 0.0, 1.0])),
+            Body::new("pitch", 1, Joint::revolute([0.0, 1.0, 0.0])),
+            solid(Body::new("roll", 2, Joint::revolute([1.0, 0.0, 0.0]))),
+        ],
+    );
+}
+
+/// As [`Far`], but all that the motors move is the payload.
+struct Bare;
+impl Robot<4, 3, 3> for Bare {
+    const MODEL: Model<f64, 4, 3, 3> = Model::new(
+        "bare",
+        [
+            ARM,
+            on_arm(Joint::revolute(AXIS)),
+            Body::new("plate", 1, Joint::fixed()).xyz([0.03, -0.02, 0.1]),
+            Body::new("hand", 2, Joint::revolute(AXIS)),
+        ],
+    );
+}
+
+/// In 1,000 states every way names coordinate `joint`.
+fn named<R: Real, T, E, const N: usize>(
+    scene: &E,
+    joint: usize,
+    pose: impl Fn([f64; N]) -> [f64; N],
+) where
+    T: Robot<4, N, N>,
+    E: Effect<R, 4, N>,
+{
+    let (rng, mut refused) = (&mut random_numbers(), [[0; 2]; 5]);
+    for _ in 0..1000 {
+        let state = State {
+            qd: within(rng, 3.0).map(R::from_f64),
+            ..State::at(pose(within(rng, 3.0)).map(R::from_f64))
+        };
+        let tau = within(rng, 10.0).map(R::from_f64);
+        let m = Engine::<T>::crba(&state.q, scene);
+        let verdicts = [
+            Engine::<T>::forward(&state, &tau, scene).err(),
+            Engine::<T>::aba(&state, &tau, scene).err(),
+            Engine::<T>::factor(&m).err(),
+            Core::<T>::forward(&state, &tau, scene).err(),
+            Core::<T>::aba(&state, &tau, scene).err(),
+        ];
+        for (refused, verdict) in refused.iter_mut().zip(verdicts) {
+            refused[0] += usize::from(verdict.is_some());
+            refused[1] += usize::from(verdict.is_some_and(|error| error.joint == joint));
+        }
+    }
+    let what = format!("{}, {}", T::MODEL.name, std::any::type_name::<R>());
+    println!("{what}: {refused:?}");
+    assert_eq!(
+        refused, [[1000; 2]; 5],
+        "{what}: engine forward, aba, factor; core forward, aba"
+    );
+}
+
+#[test]
+fn the_engine_refuses_two_turns_on_one_axis_across_a_fixed_body() {
+    named::<f64, Far, _, 3>(&RIGID_BODY, 1, |q| q);
+    named::<f32, Far, _, 3>(&RIGID_BODY, 1, |q| q);
+}
+
+#[test]
+fn the_engine_refuses_two_turns_on_one_axis_across_a_slide_however_far_it_is_out() {
+    let far = |q: [f64; 4]| [q[0], q[1], 5.0 * q[2], q[3]];
+    named::<f64, Telescope, _, 4>(&RIGID_BODY, 1, far);
+    named::<f32, Telescope, _, 4>(&RIGID_BODY, 1, far);
+}
+
+#[test]
+fn the_engine_refuses_a_turn_between_two_slides_on_one_axis() {
+    named::<f64, Slides, _, 4>(&RIGID_BODY, 1, |q| q);
+    named::<f32, Slides, _, 4>(&RIGID_BODY, 1, |q| q);
+}
+
+#[test]
+fn the_engine_refuses_a_wrist_in_gimbal_lock() {
+    let locked = |q: [f64; 4]| [q[0], q[1], FRAC_PI_2.copysign(q[2]), q[3]];
+    named::<f64, Wrist, _, 4>(&RIGID_BODY, 1, locked);
+    named::<f32, Wrist, _, 4>(&RIGID_BODY, 1, locked);
+}
+
+#[test]
+fn the_engine_refuses_two_turns_on_one_axis_that_move_nothing_but_a_payload() {
+    let load = Payload::new(1.5_f64, [0.1, 0.0, 0.2], [0.1, 0.0, 0.01, 0.12, 0.0, 0.1]);
+    named::<f64, Bare, _, 3>(&(RIGID_BODY, load), 1, |q| q);
+}
+
+/// Every pose but the lock itself is regular: the wrist is refused only as near to it as rounding errors are.
+#[test]
+fn a_wrist_out_of_gimbal_lock_is_regular() {
+    fn regular<R: Real>(off: f64) {
+        let q = [0.3, -0.4, FRAC_PI_2 - off, 0.5].map(R::from_f64);
+        let (state, tau) = (State::at(q), [R::ONE; 4]);
+        assert!(Engine::<Wrist>::forward(&state, &tau, &RIGID_BODY).is_ok());
+        assert!(Engine::<Wrist>::aba(&state, &tau, &RIGID_BODY).is_ok());
+        assert!(Engine::<Wrist>::factor(&Engine::<Wrist>::crba(&q, &RIGID_BODY)).is_ok());
+        assert!(Core::<Wrist>::forward(&state, &tau, &RIGID_BODY).is_ok());
+        assert!(Core::<Wrist>::aba(&state, &tau, &RIGID_BODY).is_ok());
+    }
+    regular::<f64>(3e-7);
+    regular::<f32>(1e-2);
+}

@@ -84,8 +84,10 @@ impl<const V: usize> Effect<f64, 6, V> for Ice {
 #[test]
 fn an_effect_of_ones_own_loads_the_bodies_that_it_says_and_no_others() {
     let ice = cup::<0>().0;
-    let on = |body: usize| SpatialInertia { mass: ice.mass + body as f64, ..ice };
-    let loads = [0, 1, 3].map(|body| (body, on(body)));
+    let mut loads = [(0, ice), (1, ice), (3, ice)];
+    for (body, ice) in &mut loads {
+        ice.mass += *body as f64;
+    }
     acts_as(&(RIGID_BODY, Ice(ice)), &loads);
 }
 

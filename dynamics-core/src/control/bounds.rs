@@ -120,9 +120,9 @@ impl BoundsError {
     /// The joint.
     pub const fn joint(&self) -> usize {
         match *self {
-            Self::NotFinite { joint, .. } | Self::Negative { joint, .. } | Self::Empty { joint } => {
-                joint
-            }
+            Self::NotFinite { joint, .. }
+            | Self::Negative { joint, .. }
+            | Self::Empty { joint } => joint,
         }
     }
 }
@@ -131,13 +131,19 @@ impl fmt::Display for BoundsError {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
             Self::NotFinite { joint, of } => {
-                write!(out, "joint {joint}: its limit of {of} is not a finite number")
+                write!(
+                    out,
+                    "joint {joint}: its limit of {of} is not a finite number"
+                )
             }
             Self::Negative { joint, of } => {
                 write!(out, "joint {joint}: its limit of {of} is negative")
             }
             Self::Empty { joint } => {
-                write!(out, "joint {joint}: its least position is above its greatest")
+                write!(
+                    out,
+                    "joint {joint}: its least position is above its greatest"
+                )
             }
         }
     }
@@ -198,7 +204,12 @@ mod tests {
 
     #[test]
     fn an_arm_with_such_limits_is_stopped_and_says_why_instead_of_going_limp() {
-        for of in [Limited::Torque, Limited::Rate, Limited::Speed, Limited::Position] {
+        for of in [
+            Limited::Torque,
+            Limited::Rate,
+            Limited::Speed,
+            Limited::Position,
+        ] {
             let bounds = with(of, f32::NAN);
             let error = Supervisor::try_new(bounds, 0.01, 3, 4).unwrap_err();
             assert_eq!(error.joint(), 1);
@@ -211,7 +222,8 @@ mod tests {
                 supervisor.reset();
             }
         }
-        let mut supervisor = Supervisor::try_new(GOOD, 0.01, 3, 4).expect("limits that allow something");
+        let mut supervisor =
+            Supervisor::try_new(GOOD, 0.01, 3, 4).expect("limits that allow something");
         assert_eq!(supervisor.admit(Ok(&[0.0; 2])), Mode::Full);
     }
 }

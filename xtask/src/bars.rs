@@ -111,7 +111,7 @@ pub fn table(held: &[Held]) -> Table {
 
 #[cfg(test)]
 mod tests {
-    use super::{Held, Ratio, Ratios};
+    use super::{Held, Ratio, Ratios, table};
 
     #[test]
     fn a_bar_is_met_or_recorded() {
@@ -128,9 +128,34 @@ mod tests {
             complaint("cycles", 0.48).unwrap(),
             "a / b: cycles 0.480× > 0.470×"
         );
+        // One in a thousand is too much already.
+        assert!(complaint("cycles", 0.470_5).is_some());
+        assert!(complaint("cycles", f64::NAN).is_some());
         assert_eq!(complaint("ns", 0.16), None);
         assert!(complaint("ns", 0.14).unwrap().contains("met now"));
         assert!(Held::ratio(&ratios, "a / b", "code_bytes", 1.0).is_none());
         assert!(Held::ratio(&ratios, "a / c", "cycles", 1.0).is_none());
+    }
+
+    #[test]
+    fn one_cycle_beyond_a_bar_is_a_miss() {
+        let held = |taken, recorded| Held {
+            what: "rnea: cycles".into(),
+            taken,
+            most: 640.0,
+            recorded,
+            ratio: false,
+        };
+        assert_eq!(held(640.0, false).complaint(), None);
+        assert_eq!(
+            held(641.0, false).complaint().unwrap(),
+            "rnea: cycles 641 > 640"
+        );
+        assert_eq!(held(641.0, true).complaint(), None);
+        assert!(held(640.0, true).complaint().is_some());
+        let words = table(&[held(640.0, false), held(641.0, true), held(641.0, false)]).text();
+        for word in ["met", "missed, see", "MISSED"] {
+            assert!(words.contains(word), "{word}: {words}");
+        }
     }
 }

@@ -46,7 +46,7 @@ pub fn run(options: Options, json: bool) -> Result<ExitCode> {
     let tools = setup::for_demo(options)?;
     let report = measure(&workspace, &tools)?;
     workspace::write(&workspace.root.join(PAGE), report.markdown())?;
-    picture::write(&report, &workspace.root.join(PICTURE))?;
+    workspace::write(&workspace.root.join(PICTURE), picture::svg(&report)?)?;
     if json {
         docs::print_json(&report.json())?;
     } else {
@@ -76,6 +76,9 @@ pub fn check(workspace: &Workspace, report: &Report) -> Result<String> {
     }
     let written = workspace::read(&workspace.root.join(PAGE))?;
     docs::compare(PAGE, COMMAND, &written, &report.markdown(), &report.rustc)?;
+    let same_figures = docs::rustc_of(&written) == Some(&report.rustc);
+    let picture = picture::svg(report)?;
+    docs::compare_picture(workspace, PICTURE, COMMAND, &picture, same_figures)?;
     let seen = held
         .iter()
         .map(|held| format!("{} {:.3}", held.what, held.taken));

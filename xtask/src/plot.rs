@@ -8,6 +8,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use crate::error::{Error, Result};
 use crate::protocol::{PLANTS, Recording, SOLD, Sample, Trajectory, WITHOUT, in_print};
+use crate::workspace;
 
 const SIZE: (u32, u32) = (1080, 820);
 const FONT: &str = "system-ui, Helvetica, Arial, sans-serif";
@@ -38,11 +39,16 @@ type Outcome = std::result::Result<(), Box<dyn std::error::Error>>;
 
 /// Writes the plot as an SVG.
 pub fn write(recording: &Recording, path: &Path) -> Result<()> {
+    workspace::write(path, svg(recording)?)
+}
+
+/// The plot as an SVG.
+pub fn svg(recording: &Recording) -> Result<String> {
     // In memory first: the backend swallows errors when it writes to a file on drop.
     let mut svg = String::new();
     draw(recording, &mut svg)
-        .map_err(|e| Error::check(format!("cannot draw {}: {e}", path.display())))?;
-    std::fs::write(path, svg).map_err(Error::file("write", path))
+        .map_err(|e| Error::check(format!("cannot draw {}: {e}", recording.scene)))?;
+    Ok(svg)
 }
 
 fn draw(recording: &Recording, svg: &mut String) -> Outcome {

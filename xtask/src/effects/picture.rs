@@ -1,7 +1,5 @@
 //! The picture of the effects: for each of them its cycles, and beside those the torque that they buy.
 
-use std::path::Path;
-
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
@@ -30,12 +28,11 @@ const STEP: i32 = 30;
 type Outcome = std::result::Result<(), Box<dyn std::error::Error>>;
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
-/// Writes the plot as an SVG.
-pub fn write(prices: &[Price], path: &Path) -> Result<()> {
+/// The plot as an SVG.
+pub fn svg(prices: &[Price]) -> Result<String> {
     let mut svg = String::new();
-    draw(prices, &mut svg)
-        .map_err(|e| Error::check(format!("cannot draw {}: {e}", path.display())))?;
-    std::fs::write(path, svg).map_err(Error::file("write", path))
+    draw(prices, &mut svg).map_err(|e| Error::check(format!("cannot draw the effects: {e}")))?;
+    Ok(svg)
 }
 
 fn draw(prices: &[Price], svg: &mut String) -> Outcome {

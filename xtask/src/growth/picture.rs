@@ -1,7 +1,5 @@
 //! The picture of the growth: instructions against bodies, both logarithmic.
 
-use std::path::Path;
-
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
@@ -28,12 +26,11 @@ const LITERATURE: f64 = 9.0;
 
 type Outcome = std::result::Result<(), Box<dyn std::error::Error>>;
 
-/// Writes the plot as an SVG.
-pub fn write(report: &Report, path: &Path) -> Result<()> {
+/// The plot as an SVG.
+pub fn svg(report: &Report) -> Result<String> {
     let mut svg = String::new();
-    draw(report, &mut svg)
-        .map_err(|e| Error::check(format!("cannot draw {}: {e}", path.display())))?;
-    std::fs::write(path, svg).map_err(Error::file("write", path))
+    draw(report, &mut svg).map_err(|e| Error::check(format!("cannot draw the growth: {e}")))?;
+    Ok(svg)
 }
 
 fn draw(report: &Report, svg: &mut String) -> Outcome {

@@ -3,11 +3,13 @@
 mod columns;
 mod generated;
 #[cfg(test)]
-mod peers;
-#[cfg(test)]
-mod tests;
+pub mod tests;
+
+use std::process::Command;
+use std::time::{SystemTime, UNIX_EPOCH};
 
 use crate::error::{Error, Result};
+use crate::shell;
 use crate::workspace::{self, Workspace};
 
 /// The part of a page that a command writes: between `<!-- NAME:begin -->` and `<!-- NAME:end -->`.
@@ -69,7 +71,8 @@ impl Page {
         (marker("begin"), marker("end"))
     }
 
-    fn generated(&self, text: &str) -> String {
+    /// What is written between the markers for a text.
+    pub fn generated(&self, text: &str) -> String {
         format!(
             "<!-- written by `{}`: do not edit -->\n\n{text}\n",
             self.command
@@ -86,6 +89,35 @@ impl Page {
         let lacks = || Error::check(format!("{} lacks the markers {begin} and {end}", self.file));
         parts().ok_or_else(lacks)
     }
+}
+
+/// Today and the commit that is checked out, for figures that no step measures anew.
+pub fn today_and_commit(workspace: &Workspace) -> String {
+    let seconds = SystemTime::now().duration_since(UNIX_EPOCH);
+    let today = date(seconds.map_or(0, |since| since.as_secs() / 86_400));
+    let mut git = Command::new("git");
+    git.current_dir(&workspace.root);
+    match shell::capture(git.args(["describe", "--always", "--dirty"])) {
+        Ok(commit) => format!("{today} at commit {}", commit.trim()),
+        // An archive of the sources is no repository.
+        Err(_) => format!("{today} at an unknown commit"),
+    }
+}
+
+/// The day so many days after 1970-01-01, by the Gregorian calendar.
+fn date(days: u64) -> String {
+    // Years begin in March, so that a leap day is the last of its year: 400 of them have 146,097 days.
+    let shifted = days + 719_468;
+    let (era, day) = (shifted / 146_097, shifted % 146_097);
+    let year = (day - day / 1_460 + day / 36_524 - day / 146_096) / 365;
+    let day = day - (365 * year + year / 4 - year / 100);
+    let month = (5 * day + 2) / 153;
+    let day = day - (153 * month + 2) / 5 + 1;
+    let (year, month) = match month {
+        0..=9 => (400 * era + year, month + 3),
+        _ => (400 * era + year + 1, month - 9),
+    };
+    format!("{year:04}-{month:02}-{day:02}")
 }
 
 /// Prints measurements as JSON.

@@ -127,7 +127,7 @@ fn lines(text: &str) -> impl Iterator<Item = &str> {
 }
 
 /// The cells of a line of a table.
-fn cells(line: &str) -> Option<Vec<&str>> {
+pub fn cells(line: &str) -> Option<Vec<&str>> {
     let inside = line.strip_prefix('|')?.strip_suffix('|')?;
     Some(inside.split('|').map(str::trim).collect())
 }

@@ -309,8 +309,39 @@ fn a_readme_without_markers_is_an_error() {
     );
 }
 
+#[test]
+fn days_are_those_of_the_calendar() {
+    for (days, date) in [
+        (0, "1970-01-01"),
+        (11_016, "2000-02-29"),
+        (11_017, "2000-03-01"),
+        (19_723, "2024-01-01"),
+        (20_088, "2024-12-31"),
+        (20_777, "2026-11-20"),
+        (47_540, "2100-02-28"),
+        (47_541, "2100-03-01"),
+    ] {
+        assert_eq!(super::date(days), date);
+    }
+}
+
+/// The rows of the tables in a page, without their headings.
+pub fn rows_of(page: &str) -> Vec<Vec<&str>> {
+    let cells = |line| super::columns::cells(line);
+    let (mut rows, mut inside) = (Vec::new(), false);
+    for line in page.lines() {
+        match cells(line) {
+            Some(cells) if cells[0].starts_with("---") => inside = true,
+            Some(cells) if inside => rows.push(cells),
+            Some(_) => {}
+            None => inside = false,
+        }
+    }
+    rows
+}
+
 /// The repository's root.
-fn root() -> PathBuf {
+pub fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 

@@ -94,6 +94,11 @@ impl Held {
     }
 }
 
+/// The largest of some figures: the one that is not a number, if there is one, which `f64::max` would drop; 0 of none.
+pub fn largest(figures: impl Iterator<Item = f64>) -> f64 {
+    figures.fold(0.0, |a, b| if b > a || b.is_nan() { b } else { a })
+}
+
 /// All of them in print.
 pub fn table(held: &[Held]) -> Table {
     let mut table = Table::new(&["bar", "at most", "now", ""]);
@@ -111,7 +116,7 @@ pub fn table(held: &[Held]) -> Table {
 
 #[cfg(test)]
 mod tests {
-    use super::{Held, Ratio, Ratios, table};
+    use super::{Held, Ratio, Ratios, largest, table};
 
     #[test]
     fn a_bar_is_met_or_recorded() {
@@ -135,6 +140,15 @@ mod tests {
         assert!(complaint("ns", 0.14).unwrap().contains("met now"));
         assert!(Held::ratio(&ratios, "a / b", "code_bytes", 1.0).is_none());
         assert!(Held::ratio(&ratios, "a / c", "cycles", 1.0).is_none());
+    }
+
+    #[test]
+    fn a_figure_that_is_not_a_number_is_the_largest() {
+        assert_eq!(largest([1.0, 3.0, 2.0].into_iter()), 3.0);
+        for figures in [[f64::NAN, 1.0], [1.0, f64::NAN]] {
+            assert!(largest(figures.into_iter()).is_nan());
+        }
+        assert_eq!(largest(std::iter::empty()), 0.0);
     }
 
     #[test]

@@ -18,7 +18,7 @@ mod run;
 mod without;
 
 pub use app::{App, QUEUE, Record, STEPS, SimBrake, SimLoop};
-pub use errors::Errors;
+pub use errors::{Errors, larger};
 pub use firmware::{HOLD, OMEGA_N, REENTRY, RIDE, TICK, ZETA, control_loop};
 pub use noise::Noise;
 pub use now::{Now, Told};

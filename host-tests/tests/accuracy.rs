@@ -17,6 +17,7 @@ use firmware_demo::accuracy::numbers::{FixedPoint, In};
 use firmware_demo::accuracy::robots::{Compared, momentary};
 use firmware_demo::accuracy::simulation::{self, DoublePendulum};
 use firmware_demo::accuracy::{Inverse, Visitor};
+use host_tests::measured::largest;
 use host_tests::recordings::{Precise, load, read};
 use host_tests::tolerances::check;
 
@@ -97,8 +98,8 @@ fn widened<T: Robot<B, N, N>, const B: usize, const N: usize>(
         let single = run(&State { q, qd, qdd });
         for j in 0..N {
             scale = scale.max(truth[j].abs());
-            worst[0] = worst[0].max((single[j] - truth[j]).abs());
-            worst[1] = worst[1].max((double[j] - truth[j]).abs());
+            worst[0] = largest([worst[0], (single[j] - truth[j]).abs()]);
+            worst[1] = largest([worst[1], (double[j] - truth[j]).abs()]);
         }
     }
     worst.map(|error| error / scale)
@@ -131,7 +132,7 @@ fn f64_is_good_to_1e_13_by_50_digits() {
             };
             for (told, truth) in Core::<T>::rnea(&state, &RIGID_BODY).iter().zip(truth) {
                 scale = scale.max(truth.abs());
-                worst = worst.max((told - truth).abs());
+                worst = largest([worst, (told - truth).abs()]);
             }
         }
         worst / scale
@@ -167,9 +168,9 @@ fn worst_of<R: Real, K: Kernel<R>>(range: f64, radians: f64) -> f64 {
         let x = R::from_f64(f64::from(k) / f64::from(POINTS) * range);
         let (s, c) = K::sin_cos(x);
         let (sin, cos) = (x.to_f64() * radians).sin_cos();
-        (s.to_f64() - sin).abs().max((c.to_f64() - cos).abs())
+        largest([s.to_f64() - sin, c.to_f64() - cos].map(f64::abs))
     };
-    (-POINTS..=POINTS).map(at).fold(0.0, f64::max)
+    largest((-POINTS..=POINTS).map(at))
 }
 
 #[test]
@@ -225,11 +226,8 @@ fn sines_that_are_carried_on_drift_slowly() {
         let q = (f64::from(tick) * 1e-3).sin() as f32 * 3.0;
         let turn = turns.follow(&[q]).turns[0];
         let (sin, cos) = f64::from(q).sin_cos();
-        worst = worst.max(
-            (f64::from(turn.sin) - sin)
-                .abs()
-                .max((f64::from(turn.cos) - cos).abs()),
-        );
+        let off = [f64::from(turn.sin) - sin, f64::from(turn.cos) - cos];
+        worst = largest(off.map(f64::abs).into_iter().chain([worst]));
     }
     check("trig", "carried for 10⁴ ticks", "f32", worst).unwrap();
 }

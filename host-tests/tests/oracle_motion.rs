@@ -13,6 +13,7 @@ use dynamics_core::robots::{A1, Gen3, Iiwa14, Panda, Ur5e, XArm7, Z1};
 use dynamics_core::scalar::{Matrix, Real, Vector};
 use dynamics_core::spatial::Force;
 use dynamics_core::state::State;
+use host_tests::measured::largest;
 use host_tests::recordings::{Recording, columns, full_scale, load, row, symmetric};
 use host_tests::trees::{TreeA, TreeB};
 
@@ -34,7 +35,7 @@ impl Most {
             .0
             .entry((quantity, core::any::type_name::<R>()))
             .or_default();
-        *most = most.max(worst.error / worst.full_scale);
+        *most = largest([*most, worst.error / worst.full_scale]);
     }
 }
 

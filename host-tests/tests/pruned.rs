@@ -5,6 +5,7 @@ use dynamics_core::model::{Pruned, Robot};
 use dynamics_core::robots::{A1Leg, Panda, Ur5e};
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
+use host_tests::measured::largest;
 use host_tests::odd::Odd;
 use host_tests::random::{random_numbers, within};
 use host_tests::recordings::load;
@@ -66,7 +67,7 @@ where
         let whole = Core::<T>::rnea(&state, &RIGID_BODY);
         let pruned = Engine::<T>::rnea(&state, &RIGID_BODY);
         for (whole, pruned) in whole.iter().zip(pruned) {
-            worst = worst.max((whole - pruned).abs());
+            worst = largest([worst, (whole - pruned).abs()]);
             scale = scale.max(whole.abs());
         }
     }

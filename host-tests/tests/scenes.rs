@@ -18,6 +18,7 @@ use firmware_demo::scenes::space_arm::{EFFECTS, ReachOut};
 use firmware_demo::trajectories::STOWED;
 use firmware_demo::trajectories::watch::Watch;
 use glam::{DMat3, DVec3};
+use host_tests::measured::largest;
 
 type Floating<R> = State<R, 13, 12>;
 
@@ -76,10 +77,10 @@ fn drift<R: Real>(steps: u32, mut step: impl FnMut(&[f32; 6], R) -> Floating<R>)
         let mut held = state;
         held.qd[..6].fill(R::ZERO);
         for (most, now) in [(&mut lost, size(&state)), (&mut full, size(&held))] {
-            *most = core::array::from_fn(|k| most[k].max(now[k]));
+            *most = core::array::from_fn(|k| largest([most[k], now[k]]));
         }
     }
-    (lost[0] / full[0]).max(lost[1] / full[1])
+    largest([lost[0] / full[0], lost[1] / full[1]])
 }
 
 /// The drift of the plain step.

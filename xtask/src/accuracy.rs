@@ -6,6 +6,7 @@ mod choice;
 mod drawing;
 mod front;
 mod join;
+mod kept;
 mod labels;
 mod margin;
 mod measure;
@@ -172,6 +173,7 @@ pub fn check(workspace: &Workspace, tools: &Tools) -> Result<String> {
     single::README.check(workspace, &brief, Some(&measured.rustc))?;
     let recorded = recorded::read(workspace)?;
     recorded::check(&recorded, &measured.single)?;
+    let kept = kept::check(workspace, &measured, &recorded)?;
     // The leg's are missed: docs/decisions/0002-bars.md.
     let saved = [Robot::Ur5e, Robot::Panda]
         .map(|robot| bars::check(&page::ways(&recorded, robot, "rigid")))
@@ -180,7 +182,7 @@ pub fn check(workspace: &Workspace, tools: &Tools) -> Result<String> {
         .join("; ");
     let points = measured.single.len();
     Ok(format!(
-        "{points} configurations, {pasted} of them as printed; {saved}"
+        "{points} configurations, {pasted} of them as printed; {kept}; {saved}"
     ))
 }
 
@@ -190,25 +192,22 @@ fn write(workspace: &Workspace, measured: &Measured, only: Option<Robot>) -> Res
     let mut text = workspace::read(&file)?;
     let file = workspace.report(page::FILE);
     let mut files: Vec<(PathBuf, String)> = Vec::new();
-    let picture = |name: &str| workspace.report(&format!("docs/accuracy-{name}.svg"));
+    let (points, host, rustc) = (&measured.points, &measured.host, &measured.rustc);
     for robot in Robot::COMPUTED {
-        let points = page::ways(&measured.points, robot, "rigid");
-        if points.is_empty() {
+        if page::ways(points, robot, "rigid").is_empty() {
             continue;
         }
-        let all = measured.host.yardsticks.iter();
-        let scene = picture::Scene {
-            title: robot.title(),
-            points,
-            yardsticks: all.filter(|it| it.robot == robot.name()).collect(),
-        };
-        files.push((picture(robot.name()), picture::svg(&scene)?));
-        text = page::page_of(robot).replaced(&text, &page::text(measured, robot))?;
+        let picture = workspace.report(&page::picture(robot));
+        files.push((picture, page::drawn(points, host, robot)?));
+        let part = page::text(points, host, robot, rustc);
+        text = page::page_of(robot).replaced(&text, &part)?;
     }
     if only.is_none() {
-        files.push((picture("simulation"), movie::svg(&measured.points)?));
-        let simulated = page::page_of(Robot::DoublePendulum);
-        text = simulated.replaced(&text, &simulated::text(measured))?;
+        let simulated = Robot::DoublePendulum;
+        let picture = workspace.report(&page::picture(simulated));
+        files.push((picture, movie::svg(points)?));
+        let part = simulated::text(points, rustc);
+        text = page::page_of(simulated).replaced(&text, &part)?;
         let single = single::text(&measured.single, &measured.rustc);
         text = single::PAGE.replaced(&text, &single)?;
         let readme = workspace.root.join(single::README.file);

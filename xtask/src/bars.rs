@@ -94,6 +94,11 @@ impl Held {
     }
 }
 
+/// The largest of some figures: the one that is not a number, if there is one, which `f64::max` would drop; 0 of none.
+pub fn largest(figures: impl Iterator<Item = f64>) -> f64 {
+    figures.fold(0.0, |a, b| if b > a || b.is_nan() { b } else { a })
+}
+
 /// All of them in print.
 pub fn table(held: &[Held]) -> Table {
     let mut table = Table::new(&["bar", "at most", "now", ""]);
@@ -111,7 +116,7 @@ pub fn table(held: &[Held]) -> Table {
 
 #[cfg(test)]
 mod tests {
-    use super::{Held, Ratio, Ratios};
+    use super::{Held, Ratio, Ratios, largest, table};
 
     #[test]
     fn a_bar_is_met_or_recorded() {
@@ -128,9 +133,43 @@ mod tests {
             complaint("cycles", 0.48).unwrap(),
             "a / b: cycles 0.480× > 0.470×"
         );
+        // One in a thousand is too much already.
+        assert!(complaint("cycles", 0.470_5).is_some());
+        assert!(complaint("cycles", f64::NAN).is_some());
         assert_eq!(complaint("ns", 0.16), None);
         assert!(complaint("ns", 0.14).unwrap().contains("met now"));
         assert!(Held::ratio(&ratios, "a / b", "code_bytes", 1.0).is_none());
         assert!(Held::ratio(&ratios, "a / c", "cycles", 1.0).is_none());
+    }
+
+    #[test]
+    fn a_figure_that_is_not_a_number_is_the_largest() {
+        assert_eq!(largest([1.0, 3.0, 2.0].into_iter()), 3.0);
+        for figures in [[f64::NAN, 1.0], [1.0, f64::NAN]] {
+            assert!(largest(figures.into_iter()).is_nan());
+        }
+        assert_eq!(largest(std::iter::empty()), 0.0);
+    }
+
+    #[test]
+    fn one_cycle_beyond_a_bar_is_a_miss() {
+        let held = |taken, recorded| Held {
+            what: "rnea: cycles".into(),
+            taken,
+            most: 640.0,
+            recorded,
+            ratio: false,
+        };
+        assert_eq!(held(640.0, false).complaint(), None);
+        assert_eq!(
+            held(641.0, false).complaint().unwrap(),
+            "rnea: cycles 641 > 640"
+        );
+        assert_eq!(held(641.0, true).complaint(), None);
+        assert!(held(640.0, true).complaint().is_some());
+        let words = table(&[held(640.0, false), held(641.0, true), held(641.0, false)]).text();
+        for word in ["met", "missed, see", "MISSED"] {
+            assert!(words.contains(word), "{word}: {words}");
+        }
     }
 }

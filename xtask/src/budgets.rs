@@ -150,13 +150,17 @@ pub fn check_costs(
     report: &costs::Report,
     robot: Option<&str>,
 ) -> Result<String> {
-    let budgets = read(workspace)?;
-    let mut budget = budgets.costs.ok_or_else(|| {
+    let mut budgets = read(workspace)?;
+    if let Some(robot) = robot {
+        budgets.costs = budgets.costs.map(|costs| costs.only(robot));
+    }
+    hold_costs(&budgets, report)
+}
+
+fn hold_costs(budgets: &Budgets, report: &costs::Report) -> Result<String> {
+    let budget = budgets.costs.as_ref().ok_or_else(|| {
         Error::check("budgets.toml has no [costs]: `cargo xtask costs --write-budgets`")
     })?;
-    if let Some(robot) = robot {
-        budget = budget.only(robot);
-    }
     let mut wrong = budget.exceeded_by(&costs::Budget::measured(report));
     wrong.extend(report.missed().iter().map(|bar| format!("bar: {bar}")));
     if !wrong.is_empty() {
@@ -191,16 +195,17 @@ impl Budgets {
 
 /// Fails if the report exceeds its scene's budget; else says what there is to spare.
 pub fn check(workspace: &Workspace, report: &Report) -> Result<String> {
-    let budgets = read(workspace)?;
-    let budget = budgets.scenes.get(&report.scene).ok_or_else(|| {
+    hold_scene(&read(workspace)?, &report.scene, &Budget::measured(report))
+}
+
+fn hold_scene(budgets: &Budgets, scene: &str, measured: &Budget) -> Result<String> {
+    let budget = budgets.scenes.get(scene).ok_or_else(|| {
         Error::check(format!(
-            "budgets.toml has no [{0}]: `cargo xtask demo --scene {0} --write-budgets`",
-            report.scene
+            "budgets.toml has no [{scene}]: `cargo xtask demo --scene {scene} --write-budgets`"
         ))
     })?;
-    let measured = Budget::measured(report);
-    let mut exceeded = budget.exceeded_by(&measured);
-    let key = format!("{}{TICK}", report.scene);
+    let mut exceeded = budget.exceeded_by(measured);
+    let key = format!("{scene}{TICK}");
     if let Some(bar) = budgets.bars.get(&key)
         && let Some(most) = bar.cycles
     {
@@ -228,28 +233,4 @@ pub fn check(workspace: &Workspace, report: &Report) -> Result<String> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::Budget;
-
-    fn budget(rustc: &str, cost: u64) -> Budget {
-        Budget {
-            rustc: rustc.into(),
-            tick_instructions: cost,
-            tick_cycles: cost,
-            dynamics_instructions: cost,
-            dynamics_cycles: cost,
-            flash_bytes: cost,
-            ram_bytes: cost,
-            stack_bytes: cost,
-        }
-    }
-
-    #[test]
-    fn another_compiler_gets_three_per_cent_and_no_more() {
-        let ours = budget("rustc 1", 1000);
-        assert!(ours.exceeded_by(&budget("rustc 1", 1000)).is_empty());
-        assert_eq!(ours.exceeded_by(&budget("rustc 1", 1001)).len(), 7);
-        assert!(ours.exceeded_by(&budget("rustc 2", 1030)).is_empty());
-        assert_eq!(ours.exceeded_by(&budget("rustc 2", 1031)).len(), 7);
-    }
-}
+mod tests;

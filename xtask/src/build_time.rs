@@ -41,23 +41,26 @@ pub fn run(options: Options, json: bool) -> Result<ExitCode> {
     let workspace = Workspace::for_reports()?;
     let tools = setup::for_demo(options)?;
     let rows = measure(&workspace, &tools)?;
-    let table = table(&rows);
     let rustc = tools.toolchain.rustc_version()?;
-    let page = format!(
-        "# Build time\n\n<!-- written by `cargo xtask build-time`: do not edit -->\n\n\
-         Seconds that a release build of a firmware takes whose libraries are built already: with one \
-         inverse dynamics by the engine, and without. The faster of {BUILDS}; other machines take other \
-         times. The humanoid is made up: two legs of six joints, a waist of three, two arms of seven.\n\n\
-         {}\nMeasured with {rustc}.\n",
-        table.markdown()
-    );
+    let page = page(&rows, &docs::today_and_commit(&workspace), &rustc);
     workspace::write(&workspace.report(PAGE), page)?;
     if json {
         docs::print_json(&rows)?;
     } else {
-        output::print(&table.text())?;
+        output::print(&table(&rows).text())?;
     }
     Ok(ExitCode::SUCCESS)
+}
+
+fn page(rows: &[Row], when: &str, rustc: &str) -> String {
+    format!(
+        "# Build time\n\n<!-- written by `cargo xtask build-time`: do not edit -->\n\n\
+         Seconds that a release build of a firmware takes whose libraries are built already: with one \
+         inverse dynamics by the engine, and without. The faster of {BUILDS}, on {when}; other machines take other \
+         times. The humanoid is made up: two legs of six joints, a waist of three, two arms of seven.\n\n\
+         {}\nMeasured with {rustc}.\n",
+        table(rows).markdown()
+    )
 }
 
 fn measure(workspace: &Workspace, tools: &Tools) -> Result<Vec<Row>> {
@@ -109,4 +112,51 @@ fn table(rows: &[Row]) -> Table {
         table.row(cells);
     }
     table
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{PAGE, ROBOTS, Row, page, table};
+    use crate::docs::tests::{root, rows_of};
+
+    /// The rows of a page, whose difference is off by no more than rounding.
+    fn read(page: &str) -> Vec<Row> {
+        let rows = rows_of(page).into_iter().zip(ROBOTS);
+        let row = |(cells, (robot, joints, at_most_seconds)): (Vec<&str>, _)| {
+            let seconds = |cell: usize| cells[cell].parse::<f64>().expect("seconds");
+            let [with, without, more] = [2, 3, 4].map(seconds);
+            assert!((with - without - more).abs() < 0.11, "{robot}: {more}");
+            Row {
+                robot,
+                joints,
+                seconds: with,
+                without_seconds: without,
+                more_seconds: more,
+                at_most_seconds,
+            }
+        };
+        rows.map(row).collect()
+    }
+
+    #[test]
+    fn the_page_has_the_robots_and_bars_of_today_and_says_whether_they_are_met() {
+        let page = std::fs::read_to_string(root().join(PAGE)).expect("a page");
+        let rows = read(&page);
+        assert_eq!(rows.len(), ROBOTS.len());
+        assert!(
+            page.contains(&table(&rows).markdown()),
+            "{PAGE} is out of date"
+        );
+        for more in [5.01, f64::NAN] {
+            let mut missed = read(&page);
+            missed[0].more_seconds = more;
+            assert!(table(&missed).text().contains("missed"));
+        }
+    }
+
+    #[test]
+    fn a_page_says_when_and_of_what_it_was_measured() {
+        let page = page(&[], "2026-01-02 at commit 0123abc", "rustc 1");
+        assert!(page.contains("on 2026-01-02 at commit 0123abc; ") && page.contains("rustc 1."));
+    }
 }

@@ -227,6 +227,23 @@ mod tests {
     }
 
     #[test]
+    fn a_call_through_any_register_is_indirect_and_a_return_is_not() {
+        let indirect = |first| {
+            let instruction = Instruction {
+                address: 0,
+                first,
+                second: None,
+            };
+            instruction.is_indirect()
+        };
+        assert!(indirect(0x4798)); // blx r3
+        assert!(indirect(0x47f0)); // blx lr
+        assert!(indirect(0x4718)); // bx r3
+        assert!(!indirect(0x4770)); // bx lr
+        assert!(!indirect(0x4618)); // mov r0, r3
+    }
+
+    #[test]
     fn opcodes_beyond_an_m4f_are_told_from_its_own() {
         let beyond = |first, second| {
             Instruction {
@@ -237,6 +254,9 @@ mod tests {
             .is_beyond_m4f()
         };
         assert!(beyond(0xfe00, 0x0a00)); // vseleq.f32 s0, s0, s0
+        assert!(beyond(0xfe00, 0x0b00)); // vseleq.f64 d0, d0, d0
+        assert!(beyond(0xfe80, 0x0b00)); // vmaxnm.f64 d0, d0, d0
+        assert!(beyond(0xfeb8, 0x0a40)); // vrinta.f32 s0, s0
         assert!(beyond(0xee30, 0x0b00)); // vadd.f64 d0, d0, d0
         assert!(beyond(0xea51, 0x8002)); // csel r0, r1, r2, eq
         assert!(beyond(0xf040, 0xe001)); // dls lr, r0

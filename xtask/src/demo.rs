@@ -24,6 +24,9 @@ use crate::setup::{self, Options, Tools};
 use crate::toolchain::{RELEASE, Toolchain};
 use crate::workspace::{self, Workspace};
 
+/// The README's picture, of the default scene.
+pub const PICTURE: &str = "docs/ur5e.svg";
+
 /// A run of a scene, in full.
 pub struct Measured {
     /// What it amounts to.
@@ -97,8 +100,7 @@ fn write_docs(workspace: &Workspace, measured: &[Measured]) -> Result<()> {
     let shown = Scene::default().name();
     for one in measured.iter().filter(|one| one.report.scene == shown) {
         docs::README.write(workspace, &one.report.markdown())?;
-        let picture = workspace.report(&format!("docs/{shown}.svg"));
-        plot::write(&one.recording, &picture)?;
+        plot::write(&one.recording, &workspace.report(PICTURE))?;
     }
     Ok(())
 }

@@ -1,8 +1,16 @@
-//! The parts of pages that commands write, and their JSON.
+//! The parts of pages that commands write, their pictures, and their JSON.
 
-use crate::budgets::OTHER_RUSTC;
+mod columns;
+mod generated;
+#[cfg(test)]
+pub mod tests;
+
+use std::process::Command;
+use std::time::{SystemTime, UNIX_EPOCH};
+
 use crate::error::{Error, Result};
 use crate::output;
+use crate::shell;
 use crate::workspace::{self, Workspace};
 
 /// The part of a page that a command writes: between `<!-- NAME:begin -->` and `<!-- NAME:end -->`.
@@ -42,7 +50,7 @@ impl Page {
     /// its figures depend on and another one wrote them.
     pub fn check(&self, workspace: &Workspace, text: &str, rustc: Option<&str>) -> Result<()> {
         let page = workspace::read(&workspace.root.join(self.file))?;
-        let (_, written, _) = self.split(&page)?;
+        let written = self.written(&page)?;
         // An empty name is in every text: nothing but the same will do.
         let rustc = rustc.unwrap_or_default();
         compare(
@@ -54,12 +62,18 @@ impl Page {
         )
     }
 
+    /// What stands between the markers of this page.
+    pub fn written<'a>(&self, page: &'a str) -> Result<&'a str> {
+        self.split(page).map(|(_, written, _)| written)
+    }
+
     fn markers(&self) -> (String, String) {
         let marker = |which| format!("<!-- {}:{which} -->", self.name);
         (marker("begin"), marker("end"))
     }
 
-    fn generated(&self, text: &str) -> String {
+    /// What is written between the markers for a text.
+    pub fn generated(&self, text: &str) -> String {
         format!(
             "<!-- written by `{}`: do not edit -->\n\n{text}\n",
             self.command
@@ -78,6 +92,35 @@ impl Page {
     }
 }
 
+/// Today and the commit that is checked out, for figures that no step measures anew.
+pub fn today_and_commit(workspace: &Workspace) -> String {
+    let seconds = SystemTime::now().duration_since(UNIX_EPOCH);
+    let today = date(seconds.map_or(0, |since| since.as_secs() / 86_400));
+    let mut git = Command::new("git");
+    git.current_dir(&workspace.root);
+    match shell::capture(git.args(["describe", "--always", "--dirty"])) {
+        Ok(commit) => format!("{today} at commit {}", commit.trim()),
+        // An archive of the sources is no repository.
+        Err(_) => format!("{today} at an unknown commit"),
+    }
+}
+
+/// The day so many days after 1970-01-01, by the Gregorian calendar.
+fn date(days: u64) -> String {
+    // Years begin in March, so that a leap day is the last of its year: 400 of them have 146,097 days.
+    let shifted = days + 719_468;
+    let (era, day) = (shifted / 146_097, shifted % 146_097);
+    let year = (day - day / 1_460 + day / 36_524 - day / 146_096) / 365;
+    let day = day - (365 * year + year / 4 - year / 100);
+    let month = (5 * day + 2) / 153;
+    let day = day - (153 * month + 2) / 5 + 1;
+    let (year, month) = match month {
+        0..=9 => (400 * era + year, month + 3),
+        _ => (400 * era + year + 1, month - 9),
+    };
+    format!("{year:04}-{month:02}-{day:02}")
+}
+
 /// Prints measurements as JSON.
 pub fn print_json(value: &impl serde::Serialize) -> Result<()> {
     let text = serde_json::to_string_pretty(value)
@@ -86,74 +129,81 @@ pub fn print_json(value: &impl serde::Serialize) -> Result<()> {
     Ok(())
 }
 
+/// What stands before the name of the compiler in every page whose figures depend on one.
+const MEASURED: &str = "Measured with ";
+
+/// The compiler that a page's figures were measured with, if it names one.
+pub fn rustc_of(page: &str) -> Option<&str> {
+    let (_, after) = page.split_once(MEASURED)?;
+    after.lines().next()?.trim_end().strip_suffix('.')
+}
+
 /// Fails unless what was written is what would be written now with the compiler `rustc`, or close to
-/// it if it was written with another one.
+/// it if it was written with another one. An empty `rustc` allows nothing but the same.
 pub fn compare(file: &str, command: &str, written: &str, fresh: &str, rustc: &str) -> Result<()> {
-    let same = if written.contains(rustc) {
-        written.trim() == fresh.trim()
+    generated::listed(file)?;
+    let (old, new) = (written.trim(), fresh.trim());
+    let differing = if rustc.is_empty() || rustc_of(written) == Some(rustc) {
+        first_difference(old, new)
     } else {
-        alike(written, fresh)
+        columns::first_difference(old, new)
+    };
+    match differing {
+        None => Ok(()),
+        Some((old, new)) => Err(Error::check(format!(
+            "{file} is out of date: `{command}` rewrites it\n  there: {old}\n  now:   {new}"
+        ))),
+    }
+}
+
+/// What is printed in the place of a line that is not there.
+const NO_LINE: &str = "(nothing)";
+
+/// The first lines that are not the same.
+fn first_difference<'a>(old: &'a str, new: &'a str) -> Option<(&'a str, &'a str)> {
+    let (mut old, mut new) = (old.lines(), new.lines());
+    loop {
+        match (old.next(), new.next()) {
+            (None, None) => return None,
+            (a, b) if a == b => {}
+            (a, b) => return Some((a.unwrap_or(NO_LINE), b.unwrap_or(NO_LINE))),
+        }
+    }
+}
+
+/// Fails unless a picture is what would be drawn now. If its figures were measured with another compiler
+/// (`same_figures` is false), its numbers may be others, but neither its words nor the shapes that it is made of.
+pub fn compare_picture(
+    workspace: &Workspace,
+    file: &str,
+    command: &str,
+    fresh: &str,
+    same_figures: bool,
+) -> Result<()> {
+    generated::listed(file)?;
+    let written = workspace::read(&workspace.root.join(file))?;
+    let same = if same_figures {
+        written == fresh
+    } else {
+        without_numbers(&written) == without_numbers(fresh)
     };
     if same {
         return Ok(());
     }
-    let differing = std::iter::zip(written.trim().lines(), fresh.trim().lines())
-        .find(|(old, new)| old != new)
-        .map(|(old, new)| format!("\n  there: {old}\n  now:   {new}"))
-        .unwrap_or_default();
     Err(Error::check(format!(
-        "{file} is out of date: `{command}` rewrites it{differing}"
+        "{file} is not the picture of today's figures: `{command}` draws it anew"
     )))
 }
 
-/// Whether two texts are the same but for padding, the compiler and what another compiler may
-/// change in the figures.
-fn alike(old: &str, new: &str) -> bool {
-    let words = |text: &str| -> Vec<String> {
-        text.lines()
-            .filter(|line| !line.starts_with("Measured with "))
-            .flat_map(str::split_whitespace)
-            // The rule under a table's heading is as long as the figures are wide.
-            .filter(|word| !word.contains("--") || word.contains('!'))
-            .map(|word| word.trim_matches(['(', ')', ',', '.']).replace(',', ""))
-            .collect()
-    };
-    let (old, new) = (words(old), words(new));
-    old.len() == new.len()
-        && std::iter::zip(old, new).all(|(old, new)| match (old.parse(), new.parse()) {
-            (Ok(old), Ok(new)) => close(old, new),
-            _ => old == new,
-        })
-}
-
-fn close(old: f64, new: f64) -> bool {
-    // A share of the tick, printed to a tenth of a per cent, moves by more than itself.
-    (old - new).abs() <= f64::max(OTHER_RUSTC * old.abs(), 0.5)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{README, alike};
-
-    #[test]
-    fn another_compiler_may_change_figures_but_not_words() {
-        let old = "| total | 1,000 |\n| ---- | ---: |\nMeasured with rustc 1.";
-        assert!(alike(
-            old,
-            "| total | 1,020 |\n| --- | --: |\nMeasured with rustc 2."
-        ));
-        assert!(!alike(old, "| total | 1,040 |\n| ---- | ---: |\n"));
-        assert!(!alike(old, "| read | 1,000 |\n| ---- | ---: |\n"));
+/// A picture with each number in it replaced by the same sign.
+fn without_numbers(svg: &str) -> String {
+    let mut text = String::new();
+    for letter in svg.chars() {
+        match letter {
+            '0'..='9' | '.' | ',' | '-' | '−' if text.ends_with('#') => {}
+            '0'..='9' | '-' | '−' => text.push('#'),
+            other => text.push(other),
+        }
     }
-
-    #[test]
-    fn a_readme_without_markers_is_an_error() {
-        assert!(README.split("nothing").is_err());
-        let text = "a<!-- demo:begin -->b<!-- demo:end -->c";
-        assert!(
-            README
-                .split(text)
-                .is_ok_and(|parts| parts == ("a", "b", "c"))
-        );
-    }
+    text
 }

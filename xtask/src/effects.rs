@@ -18,7 +18,7 @@ use crate::setup::{self, Options, Tools};
 use crate::shell;
 use crate::table::Table;
 use crate::toolchain::RELEASE;
-use crate::workspace::Workspace;
+use crate::workspace::{self, Workspace};
 
 const FEATURE: &str = "effects";
 /// Several, so that they build side by side.
@@ -68,7 +68,7 @@ pub fn run(options: Options, json: bool) -> Result<ExitCode> {
     let tools = setup::for_demo(options)?;
     let prices = measure(&workspace, &tools)?;
     PAGE.write(&workspace, &generated(&tools, &prices)?)?;
-    picture::write(&prices, &workspace.report(PICTURE))?;
+    workspace::write(&workspace.report(PICTURE), picture::svg(&prices)?)?;
     if json {
         docs::print_json(&prices)?;
     } else {
@@ -82,6 +82,10 @@ pub fn check(workspace: &Workspace, tools: &Tools) -> Result<String> {
     let prices = measure(workspace, tools)?;
     let rustc = tools.toolchain.rustc_version()?;
     PAGE.check(workspace, &generated(tools, &prices)?, Some(&rustc))?;
+    let page = workspace::read(&workspace.root.join(PAGE.file))?;
+    let same_figures = docs::rustc_of(PAGE.written(&page)?) == Some(&rustc);
+    let picture = picture::svg(&prices)?;
+    docs::compare_picture(workspace, PICTURE, PAGE.command, &picture, same_figures)?;
     Ok(format!("{} prices", prices.len()))
 }
 

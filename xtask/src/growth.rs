@@ -47,7 +47,7 @@ pub fn run(options: Options, json: bool) -> Result<ExitCode> {
     let tools = setup::for_demo(options)?;
     let report = measure(&workspace, &tools)?;
     workspace::write(&workspace.report(PAGE), report.markdown())?;
-    picture::write(&report, &workspace.report(PICTURE))?;
+    workspace::write(&workspace.report(PICTURE), picture::svg(&report)?)?;
     if json {
         docs::print_json(&report.json())?;
     } else {
@@ -81,6 +81,9 @@ pub fn check(workspace: &Workspace, report: &Report) -> Result<String> {
     }
     let written = workspace::read(&workspace.root.join(PAGE))?;
     docs::compare(PAGE, COMMAND, &written, &report.markdown(), &report.rustc)?;
+    let same_figures = docs::rustc_of(&written) == Some(&report.rustc);
+    let picture = picture::svg(report)?;
+    docs::compare_picture(workspace, PICTURE, COMMAND, &picture, same_figures)?;
     let seen = held
         .iter()
         .map(|held| format!("{} {:.3}", held.what, held.taken));

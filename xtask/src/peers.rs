@@ -7,6 +7,8 @@ mod progress;
 mod report;
 mod robots;
 mod target;
+#[cfg(test)]
+mod tests;
 mod tools;
 
 use std::process::{Command, ExitCode};
@@ -59,7 +61,7 @@ pub fn run(options: Options, json: bool) -> Result<ExitCode> {
     let mut rows = target::measure(&workspace, &shop, &tools, &robots)?;
     rows.extend(host::measure(&workspace, &shop, &robots)?);
     drop(progress);
-    let (date, versions) = versions(&workspace, &tools, &peers)?;
+    let versions = versions(&workspace, &tools, &peers)?;
     let (_, ratios) = budgets::bars(&workspace)?;
     let held = bars::held(&ratios, &rows);
     // Times on a host vary: one that happens to meet its bar is no reason to fail.
@@ -72,7 +74,7 @@ pub fn run(options: Options, json: bool) -> Result<ExitCode> {
         rows,
         held,
         versions,
-        date,
+        date: docs::today_and_commit(&workspace),
     };
     workspace::write(&workspace.report("docs/peers.md"), report.markdown())?;
     if json {
@@ -86,21 +88,18 @@ pub fn run(options: Options, json: bool) -> Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Today, and the versions of all that was measured or measured with.
-fn versions(workspace: &Workspace, tools: &Tools, peers: &Peers) -> Result<(String, Vec<String>)> {
-    let script = "import datetime; from importlib.metadata import version\n\
-                  print(datetime.date.today())\n\
+/// The versions of all that was measured or measured with.
+fn versions(workspace: &Workspace, tools: &Tools, peers: &Peers) -> Result<Vec<String>> {
+    let script = "from importlib.metadata import version\n\
                   for p in ('pin', 'casadi', 'mujoco'): print(p, version(p))";
     let said = shell::capture(Command::new(&peers.python).args(["-c", script]))?;
-    let mut lines = said.lines().map(str::to_owned);
-    let date = lines.next().unwrap_or_default();
-    let mut versions: Vec<String> = lines.collect();
+    let mut versions: Vec<String> = said.lines().map(str::to_owned).collect();
     versions.push(format!("dynibo {}", locked(workspace, "dynibo")?));
     versions.extend(target::compilers());
     versions.push(tools.toolchain.rustc_version()?);
     versions.push(tools.qemu.version.clone());
     versions.extend(processor().map(|name| format!("host: {name}")));
-    Ok((date, versions))
+    Ok(versions)
 }
 
 #[derive(Deserialize)]

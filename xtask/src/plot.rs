@@ -39,11 +39,16 @@ type Outcome = std::result::Result<(), Box<dyn std::error::Error>>;
 
 /// Writes the plot as an SVG.
 pub fn write(recording: &Recording, path: &Path) -> Result<()> {
+    workspace::write(path, svg(recording)?)
+}
+
+/// The plot as an SVG.
+pub fn svg(recording: &Recording) -> Result<String> {
     // In memory first: the backend swallows errors when it writes to a file on drop.
     let mut svg = String::new();
     draw(recording, &mut svg)
-        .map_err(|e| Error::check(format!("cannot draw {}: {e}", path.display())))?;
-    workspace::write(path, svg)
+        .map_err(|e| Error::check(format!("cannot draw {}: {e}", recording.scene)))?;
+    Ok(svg)
 }
 
 fn draw(recording: &Recording, svg: &mut String) -> Outcome {

@@ -16,6 +16,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
+use crate::bars::largest;
 use crate::error::{Error, Result};
 use crate::qemu::DONE;
 
@@ -225,7 +226,7 @@ impl Recording {
             let turns = pair[1].reference.iter().zip(&pair[0].reference);
             turns.map(move |(to, from)| (to - from).abs() / seconds)
         });
-        speeds.fold(0.0, f64::max)
+        largest(speeds)
     }
 
     /// The run of a law on a plant.

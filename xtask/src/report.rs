@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use cycle_meter::Sample;
 use serde::{Deserialize, Serialize};
 
+use crate::bars::largest;
 use crate::callgraph::Reach;
 use crate::elf::Image;
 use crate::error::{Error, Result};
@@ -224,7 +225,7 @@ fn run<'a>(
 fn errors(run: &Trajectory, cost: &Cost) -> Option<Errors> {
     Some(Errors {
         rms_rad: run.total?,
-        max_rad: run.max.iter().copied().fold(0.0, f64::max),
+        max_rad: largest(run.max.iter().copied()),
         per_joint: std::iter::zip(&run.rms, &run.max)
             .map(|(&rms_rad, &max_rad)| JointError { rms_rad, max_rad })
             .collect(),

@@ -13,7 +13,7 @@ use dynamics_core::model::{Robot, Turn};
 use dynamics_core::robots::{A1, Iiwa14, Panda, Ur5e};
 use dynamics_core::state::{Posture, State};
 use dynamics_core::{Core, Engine, MassMatrix};
-use firmware_demo::{marker::measured, target};
+use firmware_demo::{marker::measured, scene::larger, target};
 
 /// What CasADi's C takes: cosines, sines, and two vectors of which an algorithm may need none.
 type C = unsafe extern "C" fn(*const f32, *const f32, *const f32, *const f32, *mut f32);
@@ -168,7 +168,7 @@ fn compare<T: Robot<B, N, N>, F: Copy, O, const B: usize, const N: usize>(
             // Made opaque outside, as the peers' arguments are.
             let asked = black_box(state);
             let found = numbers(black_box(measured::<0, _>(|| call(run, &posture, asked))));
-            error = f32::max(error, worst(found.all(), expected.all()));
+            error = larger(error, worst(found.all(), expected.all()));
         }
         report(name, algorithm, form, address(run), error / scale);
     }
@@ -179,7 +179,7 @@ fn compare<T: Robot<B, N, N>, F: Copy, O, const B: usize, const N: usize>(
         let mut error = 0.0;
         for (state, expected) in core::iter::zip(&states, &expected) {
             let out = casadi(peer, state);
-            error = f32::max(error, worst(&out, expected.all()));
+            error = larger(error, worst(&out, expected.all()));
         }
         report(
             name,
@@ -222,10 +222,7 @@ fn report(robot: &str, algorithm: &str, peer: &str, address: usize, error: f32) 
 
 /// NaN counts as wrong.
 fn worst(found: &[f32], expected: &[f32]) -> f32 {
-    core::iter::zip(found, expected).fold(0.0, |worst, (a, b)| {
-        let error = (a - b).abs();
-        if error <= worst { worst } else { error }
-    })
+    core::iter::zip(found, expected).fold(0.0, |worst, (a, b)| larger(worst, (a - b).abs()))
 }
 
 /// Some states within the joints' usual ranges.

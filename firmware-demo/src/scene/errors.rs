@@ -33,7 +33,7 @@ impl<const N: usize> Errors<N> {
         for j in 0..N {
             let error = record.actual[j] - record.telemetry.reference[j];
             self.squares[j] += f64::from(error) * f64::from(error);
-            self.max[j] = self.max[j].max(error.abs());
+            self.max[j] = larger(self.max[j], error.abs());
         }
         let plain = |s: &Status| s.fault.is_none() && !s.limited;
         if self.status.is_none_or(|s| plain(&s)) {
@@ -59,4 +59,9 @@ impl<const N: usize> Errors<N> {
     fn root(&self, squares: f64) -> f32 {
         libm::sqrt(squares / f64::from(self.count.max(1))) as f32
     }
+}
+
+/// The larger one, or the one that is not a number: an error that is none may not pass for small.
+pub fn larger(a: f32, b: f32) -> f32 {
+    if b > a || b.is_nan() { b } else { a }
 }

@@ -151,6 +151,16 @@ mod tests {
     }
 
     #[test]
+    fn an_interrupt_empties_the_pipe() {
+        // A load that follows a load overlaps with it, unless something else came between.
+        let [loads, after, elsewhere] = [4, 6, 0x40].map(|start| block(start, &[LDR_R0_R1]));
+        let straight = run(&[&loads, &after]);
+        let interrupted = run(&[&loads, &elsewhere]);
+        assert_eq!(straight, [sample(0, 2, 3)]);
+        assert_eq!(interrupted, [sample(0, 2, 4)]);
+    }
+
+    #[test]
     fn where_a_block_is_cut_does_not_matter() {
         let codes = [LDR_R0_R1, LDR_R0_R1, 0x6801, LDR_R0_R1, NOP];
         let whole = run(&[&block(4, &codes)]);

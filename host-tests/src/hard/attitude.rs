@@ -1,5 +1,6 @@
 //! Attitudes that turn for long: a quaternion after ten million steps, the Dzhanibekov body.
 
+use super::measure::larger;
 use super::{Case, Row, name};
 use crate::hard::integrators::{INTEGRATORS, Integrator};
 use dynamics_core::algorithms::{kinetic_energy, momentum};
@@ -57,7 +58,7 @@ fn quaternion() -> Vec<Row> {
         for i in 0..STEPS {
             q = integrate(&model, &q, &step);
             if i % 1000 == 0 {
-                longest = longest.max((length(&q) - 1.0).abs());
+                longest = larger(longest, (length(&q) - 1.0).abs());
             }
         }
         rows.push(Row::stated(
@@ -155,9 +156,9 @@ fn spin<R: Real>(how: &Integrator, h: f64, seconds: f64) -> Spun {
             .map(|(i, a)| 0.5 * h * h * i * a.to_f64() * a.to_f64())
             .sum::<f64>()
             / e_0;
-        out.energy = out.energy.max((energy(&state) - e_0).abs() / e_0);
+        out.energy = larger(out.energy, (energy(&state) - e_0).abs() / e_0);
         let l = DVec3::from(turning(&state));
-        out.momentum = out.momentum.max((l - l_0).length() / l_0.length());
+        out.momentum = larger(out.momentum, (l - l_0).length() / l_0.length());
         let now = state.qd[1].to_f64();
         if now * sign < -1.0 {
             (sign, out.flips) = (-sign, out.flips + 1);

@@ -1,6 +1,7 @@
 //! Time: encoders that wrap, ticks that come late or not at all, a day of ticks, a drive at its limit.
 
 use super::controller::{Bench, TICK};
+use super::measure::larger;
 use super::{Case, Row, name};
 use dynamics_core::control::{
     Bounds, Mode, Observer, Speed, Supervisor, Trajectory, TurnCounter, WayPoint,
@@ -65,8 +66,8 @@ fn wrap() -> Vec<Row> {
             supervisor.pass(&[R::ZERO]);
             let angle = f64::from(raw) / COUNTS * std::f64::consts::TAU;
             if tick >= 200 {
-                worst = worst.max((qd[0].to_f64() - 2.0 * direction).abs());
-                naive = naive.max(((angle - last) / TICK).abs());
+                worst = larger(worst, (qd[0].to_f64() - 2.0 * direction).abs());
+                naive = larger(naive, ((angle - last) / TICK).abs());
             }
             last = angle;
         }
@@ -113,7 +114,11 @@ fn disturbed<R: Real>(
         bench.advance(TICK);
     }
     wrong(&mut bench, &mut |bench| {
-        seen = [seen[0].max(bench.effort()), seen[1].max(bench.error()), 0.0];
+        seen = [
+            larger(seen[0], bench.effort()),
+            larger(seen[1], bench.error()),
+            0.0,
+        ];
     });
     if bench.mode() == Mode::Stopped {
         bench.tick(None);
@@ -122,7 +127,11 @@ fn disturbed<R: Real>(
     for tick in 0..1000 {
         bench.tick(None);
         let error = bench.error();
-        seen = [seen[0].max(bench.effort()), seen[1].max(error), seen[2]];
+        seen = [
+            larger(seen[0], bench.effort()),
+            larger(seen[1], error),
+            seen[2],
+        ];
         if error > settled || bench.arm.q.iter().any(|q| !q.is_finite()) {
             seen[2] = f64::from(tick + 1);
         }

@@ -1,6 +1,7 @@
 //! An arm under the control parts of the library, put together as `dynamics_core::control` shows, so that a case may
 //! spoil any of their inputs, on a plant whose time need not be the controller's.
 
+use super::measure::larger;
 use dynamics_core::algorithms::{crba, rnea};
 use dynamics_core::control::{
     Bounds, Command, Fault, Gains, Mode, Observer, Rejoin, Speed, Supervisor, Trajectory, WayPoint,
@@ -254,7 +255,7 @@ impl<R: Real> Bench<R> {
 /// The largest difference.
 pub fn apart<R: Real>(a: &[R; 6], b: &[R; 6]) -> f64 {
     let apart = |(a, b): (&R, &R)| (a.to_f64() - b.to_f64()).abs();
-    a.iter().zip(b).map(apart).fold(0.0, f64::max)
+    a.iter().zip(b).map(apart).fold(0.0, larger)
 }
 
 fn spoil<R: Real>(values: &mut [R; 6], poison: Option<Poison<R>>, input: Input) {

@@ -2,6 +2,7 @@
 //! gravity.
 
 use super::integrators::INTEGRATORS;
+use super::measure::larger;
 use super::{Case, Row, name};
 use crate::random::{random_numbers, within};
 use dynamics_core::Core;
@@ -79,7 +80,7 @@ fn swing<R: Real>(how: usize, h: f64, seconds: f64, wrapped: bool) -> f64 {
             normalise(&model, &mut state.q).expect("there is no quaternion");
         }
         if i % 16 == 15 {
-            worst = worst.max((now(&state) - start).abs());
+            worst = larger(worst, (now(&state) - start).abs());
         }
     }
     worst / (6.0 * G)
@@ -133,7 +134,7 @@ where
         let free = [R::ZERO; V];
         let far = |got: [R; V], want: &[R; V]| {
             let apart = |(a, b): (&R, &R)| (a.to_f64() - b.to_f64()).abs();
-            got.iter().zip(want).map(apart).fold(0.0, f64::max)
+            got.iter().zip(want).map(apart).fold(0.0, larger)
         };
         let none = [R::from_f64(f64::NAN); V];
         let torque = far(rnea(model, &state, &RIGID_BODY), &free) / (mass * G);
@@ -163,7 +164,7 @@ where
     let speed = state.qd[6..]
         .iter()
         .map(|qd| qd.to_f64().abs())
-        .fold(0.0, f64::max);
+        .fold(0.0, larger);
     let what = |what: &str| format!("{}: {what}", T::MODEL.name);
     let rows = [
         Row::stated(what("rnea"), name::<R>(), worst[0], R::EPSILON.to_f64()),

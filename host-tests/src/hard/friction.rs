@@ -1,5 +1,6 @@
 //! Dry friction at rest and through zero.
 
+use super::measure::larger;
 use super::{Case, Row, name};
 use crate::random::random_numbers;
 use dynamics_core::effects::{
@@ -104,7 +105,7 @@ fn creep<R: Real>(rows: &mut Vec<Row>, width: f64) {
             of(1e-3),
         )
         .expect("M is positive definite");
-        back = back.max(before - state.qd[0].to_f64());
+        back = larger(back, before - state.qd[0].to_f64());
     }
     let want = width * 2.0 * (0.9_f64.asin() / 3.0).sin();
     let (error, bound) = (

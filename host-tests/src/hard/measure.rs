@@ -2,6 +2,7 @@
 
 use super::Row;
 use super::setup::{Setup, TrueState};
+use crate::measured::largest;
 use dynamics_core::algorithms::NotPositiveDefinite;
 use dynamics_core::scalar::Real;
 use firmware_demo::hard::Answers;
@@ -117,5 +118,5 @@ fn of_matrices<R: Real>(
 
 /// The larger one, or the one that is not a number.
 pub fn larger(a: f64, b: f64) -> f64 {
-    if b > a || b.is_nan() { b } else { a }
+    largest([a, b])
 }

@@ -1,6 +1,7 @@
 //! Numbers that should not be where they are: NaN, infinities, huge and subnormal ones, in each input in turn.
 
 use super::controller::{Bench, INPUTS, Input, Poison, TICK, apart};
+use super::measure::larger;
 use super::{Case, Row};
 use dynamics_core::algorithms::{aba, crba, forward, rnea};
 use dynamics_core::control::{Fault, Mode};
@@ -81,7 +82,7 @@ fn functions<R: Real>(rows: &mut Vec<Row>, scalar: &'static str) {
                 arrays.into_iter().nth(input / 6).expect("of four")[input % 6] = R::ZERO;
                 let want = outputs(&state, &torque);
                 for (got, want) in after.iter().zip(want) {
-                    small = small.max((f64::from_bits(*got) - f64::from_bits(want)).abs());
+                    small = larger(small, (f64::from_bits(*got) - f64::from_bits(want)).abs());
                 }
             }
             same &= outputs(&clean, &tau) == before;
@@ -145,7 +146,7 @@ fn controller<R: Real>(rows: &mut Vec<Row>, scalar: &'static str) {
             );
             for (tick, (torque, q)) in whole.iter().enumerate() {
                 let command = step(&mut bench, poison.filter(|_| tick == 0));
-                effort = effort.max(bench.effort());
+                effort = larger(effort, bench.effort());
                 full &= command.status.mode == Mode::Full;
                 let fault = command.status.fault;
                 named &= match (input, tick) {
@@ -157,7 +158,7 @@ fn controller<R: Real>(rows: &mut Vec<Row>, scalar: &'static str) {
                     _ => true,
                 };
                 let away = apart(&bench.arm.q, q);
-                off[kind] = off[kind].max(away);
+                off[kind] = larger(off[kind], away);
                 if away > 1e-4 || apart(&bench.command, torque) > 1.0 {
                     late[kind] = late[kind].max(tick);
                 }

@@ -1,5 +1,6 @@
 //! Springs and dampers that are stiffer than the step is short: closed forms of backward Euler's method.
 
+use super::measure::larger;
 use super::{Case, Row, name};
 use dynamics_core::algorithms::rnea;
 use dynamics_core::effects::{Inertia, RIGID_BODY, Spring, Viscous};
@@ -85,7 +86,7 @@ fn spring() -> Vec<Row> {
             step(&mut state, 0.0);
             let amplitude = start * (1.0 + per_step * per_step).powf(-0.5 * f64::from(n));
             let want = amplitude * (f64::from(n) * per_step.atan()).cos();
-            worst = worst.max((state.q[0].to_f64() - want).abs() / amplitude);
+            worst = larger(worst, (state.q[0].to_f64() - want).abs() / amplitude);
         }
         rows.push(Row::stated(
             "let go",
@@ -145,7 +146,7 @@ fn damper() -> Vec<Row> {
             step.expect("M is positive definite");
             semi_implicit(&sledge, &mut naive, &[R::ZERO], &scene, h)
                 .expect("M is positive definite");
-            worst = worst.max(relative(state.qd[0].to_f64(), (1.0 + x_r).powi(-n)));
+            worst = larger(worst, relative(state.qd[0].to_f64(), (1.0 + x_r).powi(-n)));
             // What is left of it after that time, and a first-order step may miss all of.
             blown = (naive.qd[0].to_f64() - (-x * f64::from(n)).exp()).abs();
         }
@@ -266,9 +267,9 @@ fn held(rows: &mut Vec<Row>, k: f32) {
     let most = weight.iter().fold(0.0_f64, |most, tau| most.max(tau.abs()));
     let (mut torque, mut ahead) = (0.0_f64, 0.0_f64);
     for (i, weight) in weight.into_iter().enumerate() {
-        torque = torque.max((f64::from(told.torque[i]) - weight).abs() / most);
+        torque = larger(torque, (f64::from(told.torque[i]) - weight).abs() / most);
         let angle = f64::from(told.position[i]) - f64::from(q[i]);
-        ahead = ahead.max((angle - weight / f64::from(k)).abs());
+        ahead = larger(ahead, (angle - weight / f64::from(k)).abs());
     }
     let epsilon = f64::from(f32::EPSILON);
     let what = |what: &str| format!("k = {k:.0e}: UR5e at rest, {what}");

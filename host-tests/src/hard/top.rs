@@ -2,6 +2,7 @@
 
 use super::attitude::ball;
 use super::integrators::{INTEGRATORS, Integrator};
+use super::measure::larger;
 use super::{Case, Row, name};
 use dynamics_core::algorithms::{aba, forward, poses, rnea};
 use dynamics_core::effects::{Coriolis, Gravity, Inertia, RIGID_BODY};
@@ -67,7 +68,7 @@ fn accelerations<R: Real>(
     let (model, start) = (R::cast(model), cast::<R>(start));
     let far = |got: [R; 3], want: [R; 3]| {
         let apart = |(a, b): (R, R)| (a.to_f64() - b.to_f64()).abs();
-        got.into_iter().zip(want).map(apart).fold(0.0, f64::max)
+        got.into_iter().zip(want).map(apart).fold(0.0, larger)
     };
     let (free, none) = ([R::ZERO; 3], [R::from_f64(f64::NAN); 3]);
     let by_bodies = aba(&model, &start, &free, &RIGID_BODY).unwrap_or(none);
@@ -104,7 +105,7 @@ fn precession<R: Real>(
             .map(R::to_f64);
         let (sin, cos) = (turn * h * f64::from(step)).sin_cos();
         let want = DVec3::new(lean.sin() * sin, -lean.sin() * cos, lean.cos());
-        worst = worst.max((DVec3::from(axis) - want).length());
+        worst = larger(worst, (DVec3::from(axis) - want).length());
     }
     worst
 }

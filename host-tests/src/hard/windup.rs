@@ -1,6 +1,7 @@
 //! A drive at its limit: nothing winds up.
 
 use super::controller::{Bench, TICK};
+use super::measure::larger;
 use super::{Case, Row, name};
 use dynamics_core::scalar::Real;
 
@@ -27,7 +28,7 @@ fn recover<R: Real>(held: u32) -> ([f64; 3], [R; 6]) {
     let (fast, mut seen) = (bench.arm, [0.0_f64; 3]);
     for _ in 0..held {
         bench.tick(None);
-        seen[0] = seen[0].max(bench.effort());
+        seen[0] = larger(seen[0], bench.effort());
         bench.arm = fast;
     }
     for tick in 1..=1000 {
@@ -43,7 +44,7 @@ fn recover<R: Real>(held: u32) -> ([f64; 3], [R; 6]) {
             .iter()
             .zip(&bench.arm.q)
             .map(beyond)
-            .fold(seen[2], f64::max);
+            .fold(seen[2], larger);
     }
     (seen, bench.arm.q)
 }
@@ -58,7 +59,7 @@ fn wound_up(held: u32) -> f64 {
             qd += TICK * tau;
             q += TICK * qd;
         }
-        beyond = beyond.max(-q / HELD_OFF);
+        beyond = larger(beyond, -q / HELD_OFF);
     }
     beyond
 }

@@ -7,6 +7,7 @@ use dynamics_core::flexible::{Course, Flexible, Motors, flexible_rnea, flexible_
 use dynamics_core::model::Robot;
 use dynamics_core::robots::{Panda, Ur5e};
 use dynamics_core::sim::linearly_implicit;
+use host_tests::measured::largest;
 use host_tests::random::{random_body, random_numbers, within};
 use proptest::prelude::RngExt;
 use proptest::test_runner::TestRng;
@@ -157,7 +158,7 @@ fn stiffer_joints_come_to_the_rigid_robot_with_one_over_k() {
         };
         let got = flexible_rnea(&Ur5e::MODEL, &joints, &course, &RIGID_BODY).unwrap();
         let off = |i: usize| (got.torque[i] - want[i]).abs();
-        (0..6).map(off).fold(0.0, f64::max)
+        largest((0..6).map(off))
     };
     for k in [1e3, 1e4, 1e5, 1e6] {
         let order = (error(k) / error(10.0 * k)).log10();
@@ -193,9 +194,7 @@ fn stiffer_joints_come_to_the_rigid_robot_with_one_over_k() {
             1e-3,
         )
         .unwrap();
-        (0..6)
-            .map(|i| (links.qd[i] - rigid.qd[i]).abs())
-            .fold(0.0, f64::max)
+        largest((0..6).map(|i| (links.qd[i] - rigid.qd[i]).abs()))
     };
     for k in [1e8, 1e9] {
         let order = (error(k) / error(10.0 * k)).log10();
@@ -232,7 +231,7 @@ fn a_motor_and_a_sledge_on_a_spring_swing_in_closed_form() {
         .unwrap();
         let t = h * f64::from(i);
         worst.see(motors.position[0] - links.q[0], 0.02 * (omega * t).cos());
-        centre = centre.max((j * motors.velocity[0] + 2.0 * links.qd[0]).abs());
+        centre = largest([centre, (j * motors.velocity[0] + 2.0 * links.qd[0]).abs()]);
     }
     assert!(centre < 1e-11, "momentum {centre:e}");
     worst.check::<f64>("motor and sledge", "stretch");
@@ -269,7 +268,7 @@ fn the_plant_is_stable_and_first_order_at_a_stiffness_of_1e7() {
         }
         links.q.map(R::to_f64)
     }
-    let far = |a: [f64; 6], b: [f64; 6]| (0..6).map(|i| (a[i] - b[i]).abs()).fold(0.0, f64::max);
+    let far = |a: [f64; 6], b: [f64; 6]| largest((0..6).map(|i| (a[i] - b[i]).abs()));
     let fine = ends::<f64>(2.5e-5, 20_000);
     let [coarse, half] = [(1e-3, 500), (5e-4, 1000)].map(|(h, n)| far(ends::<f64>(h, n), fine));
     assert!((coarse / half - 2.0).abs() < 0.15, "{coarse} {half}");
@@ -340,9 +339,8 @@ fn fed_forward_through_the_springs_a_compliant_arm_follows_its_course() {
             )
             .unwrap();
             let want = course(f64::from(i + 1) * h).state.q;
-            off = (0..6)
-                .map(|i| (links.q[i] - want[i]).abs())
-                .fold(off, f64::max);
+            let now = (0..6).map(|i| (links.q[i] - want[i]).abs());
+            off = largest(now.chain([off]));
         }
         off
     };

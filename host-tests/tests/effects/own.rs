@@ -13,6 +13,7 @@ use dynamics_core::sim::linearly_implicit;
 use dynamics_core::spatial::{Force, Motion};
 use dynamics_core::{Core, Engine};
 use glam::DVec3;
+use host_tests::measured::largest;
 use host_tests::odd::Odd;
 use host_tests::random::{random_numbers, within};
 
@@ -146,7 +147,7 @@ fn engine_equals_core_under_the_other_effects_and_a_users_own() {
             let core = Core::<Ur5e>::rnea(&state, &scene);
             let engine = Engine::<Ur5e>::rnea(&state, &scene);
             for (core, engine) in core.into_iter().zip(engine) {
-                worst = worst.max((core - engine).to_f64().abs());
+                worst = largest([worst, (core - engine).to_f64().abs()]);
                 full_scale = full_scale.max(core.to_f64().abs());
             }
         }
@@ -156,7 +157,10 @@ fn engine_equals_core_under_the_other_effects_and_a_users_own() {
         ulps::<f32>(f64::from(f32::EPSILON)),
         ulps::<f64>(f64::EPSILON),
     );
-    assert!(single.max(double) <= 4.0, "{single:.2}, {double:.2} ulp");
+    assert!(
+        largest([single, double]) <= 4.0,
+        "{single:.2}, {double:.2} ulp"
+    );
 }
 
 /// A base that moves, and what asks where bodies stand, on a tree with slides, welds and two roots.
@@ -204,7 +208,7 @@ fn engine_equals_core_on_a_moving_base_and_where_poses_are_asked() {
             ];
             for k in 0..2 {
                 for (core, engine) in core[k].into_iter().zip(engine[k]) {
-                    worst[k] = worst[k].max((core - engine).to_f64().abs());
+                    worst[k] = largest([worst[k], (core - engine).to_f64().abs()]);
                     full_scale[k] = full_scale[k].max(core.to_f64().abs());
                 }
             }

@@ -9,6 +9,7 @@ use dynamics_core::effects::{MovingBase, RIGID_BODY, Rotors};
 use dynamics_core::spatial::Motion;
 use dynamics_core::transmission::Transmission;
 use glam::DVec3;
+use host_tests::measured::largest;
 use host_tests::random::{random_numbers, within};
 
 /// Mass, place of the centre on the axis, transverse and axial inertia of a rotor.
@@ -200,9 +201,7 @@ fn at_high_ratios_the_diagonal_is_what_remains() {
         };
         let full = rnea(&compact, &state, &(RIGID_BODY, full));
         let less = rnea(&compact, &state, &(RIGID_BODY, RotorInertia([0.05; 4])));
-        (0..4)
-            .map(|i| (full[i] - less[i]).abs())
-            .fold(0.0, f64::max)
+        largest((0..4).map(|i| (full[i] - less[i]).abs()))
     };
     for ratio in [10.0, 100.0] {
         let halved = error(ratio) / error(2.0 * ratio);

@@ -11,6 +11,7 @@ use dynamics_core::scalar::{Real, Vector};
 use dynamics_core::spatial::Force;
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
+use host_tests::measured::largest;
 use host_tests::odd::Odd;
 use proptest::prelude::RngExt;
 use proptest::test_runner::{RngAlgorithm, TestRng};
@@ -86,7 +87,7 @@ where
         for (core, engine) in core.iter().zip(engine) {
             let (core, engine) = (core.to_f64(), engine.to_f64());
             assert!(core.is_finite() && engine.is_finite());
-            worst = worst.max((core - engine).abs());
+            worst = largest([worst, (core - engine).abs()]);
             full_scale = full_scale.max(core.abs());
         }
     }

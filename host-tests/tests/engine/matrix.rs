@@ -10,6 +10,7 @@ use dynamics_core::robots::Ur5e;
 use dynamics_core::scalar::{Real, Vector};
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
+use host_tests::measured::largest;
 use host_tests::odd::Odd;
 use host_tests::tolerances;
 use proptest::prelude::RngExt;
@@ -64,7 +65,7 @@ where
             state.qdd[j] = 1.0;
             let column = Core::<T>::rnea(&state, scene);
             for (i, column) in column.into_iter().enumerate() {
-                worst = worst.max((m.get(i, j) - column).abs());
+                worst = largest([worst, (m.get(i, j) - column).abs()]);
                 scale = scale.max(column.abs());
                 assert_eq!(m.get(i, j), m.get(j, i));
             }
@@ -101,7 +102,7 @@ fn inverted<R: Real, T, E, const B: usize, const N: usize>(
         let tau = Core::<T>::rnea(&state, scene);
         let found = invert(&state, &tau, scene).expect("M is positive");
         for (found, want) in found.iter().zip(state.qdd) {
-            worst = worst.max((found.to_f64() - want.to_f64()).abs() / 10.0);
+            worst = largest([worst, (found.to_f64() - want.to_f64()).abs() / 10.0]);
         }
     }
     check(T::MODEL.name, quantity, std::any::type_name::<R>(), worst);
@@ -170,7 +171,7 @@ fn solve_inverts_m() {
         let factor = Engine::<Odd>::factor(&m).expect("M is positive");
         let found: [f64; 7] = Engine::<Odd>::solve(&factor, &tau);
         for (found, x) in found.iter().zip(x) {
-            worst = worst.max((found - x).abs());
+            worst = largest([worst, (found - x).abs()]);
         }
     }
     check("odd", "engine solve", "f64", worst);
@@ -189,7 +190,7 @@ where
         for (found, want) in found.iter().zip(want) {
             for (found, want) in [(found.ang, want.ang), (found.lin, want.lin)] {
                 for (found, want) in found.array().iter().zip(want.to_array()) {
-                    worst = worst.max((found.to_f64() - want).abs());
+                    worst = largest([worst, (found.to_f64() - want).abs()]);
                 }
             }
         }

@@ -13,6 +13,7 @@ use dynamics_core::state::State;
 use dynamics_core::transmission::Transmission;
 use dynamics_core::{Core, Engine};
 use glam::{DMat3, DVec3};
+use host_tests::measured::largest;
 use host_tests::tolerances;
 use proptest::prelude::RngExt;
 use proptest::test_runner::TestRng;
@@ -135,7 +136,7 @@ fn worst_of_all<L: Law>() -> f64 {
         let tree = random_tree(rng);
         L::hold(&tree, &random_state(rng), &mut worst);
     }
-    [
+    largest([
         robot::<L, Ur5e, 6, 6>(),
         robot::<L, Panda, 7, 7>(),
         #[cfg(feature = "full")]
@@ -143,9 +144,7 @@ fn worst_of_all<L: Law>() -> f64 {
         #[cfg(feature = "full")]
         robot::<L, dynamics_core::robots::A1, 16, 12>(),
         worst.relative(),
-    ]
-    .into_iter()
-    .fold(0.0, f64::max)
+    ])
 }
 
 fn check_all<L: Law>(law: &str) {

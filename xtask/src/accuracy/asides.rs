@@ -1,16 +1,17 @@
 //! docs/accuracy.md: what stands beside the fronts.
 
 use super::front;
+use super::join::Host;
 use super::margin::yardstick;
-use super::measure::{Measured, Robot};
+use super::measure::Robot;
 use super::page::shown;
 use super::point::{Point, Yardstick};
 use super::words::{cycles, digits, name};
 use crate::table::{Table, thousands};
 
 /// What errors are held against, and how good that is.
-pub fn oracle(measured: &Measured, robot: Robot) -> String {
-    let mut lines = measured.host.oracles.iter();
+pub fn oracle(host: &Host, robot: Robot) -> String {
+    let mut lines = host.oracles.iter();
     let line = lines.find(|(name, line)| name == robot.name() && line["pinocchio"].is_string());
     let Some((_, line)) = line else {
         return String::new();
@@ -67,7 +68,8 @@ pub fn every(points: &[&Point]) -> String {
 
 /// Errors joint by joint, folded away.
 pub fn joints(points: &[&Point]) -> String {
-    let count = points.first().map_or(0, |point| point.joints.len());
+    let counts = points.iter().map(|point| point.joints.len());
+    let count = counts.max().unwrap_or_default();
     let heads: Vec<String> = (1..=count).map(|joint| format!("joint {joint}")).collect();
     let heads: Vec<&str> = ["configuration"]
         .into_iter()
@@ -120,12 +122,8 @@ pub fn compliant(points: &[&Point]) -> String {
 }
 
 /// What leaving out velocity products loses at which speeds.
-pub fn speeds(measured: &Measured, robot: Robot) -> String {
-    let own = measured
-        .host
-        .speeds
-        .iter()
-        .filter(|it| it.robot == robot.name());
+pub fn speeds(host: &Host, robot: Robot) -> String {
+    let own = host.speeds.iter().filter(|it| it.robot == robot.name());
     let mut table = Table::new(&["joints as fast as, rad/s", "max, N·m", "of full scale"]);
     for it in own {
         table.row([

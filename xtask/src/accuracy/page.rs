@@ -3,10 +3,13 @@
 use super::asides::{compliant, every, joints, oracle, speeds, yardsticks};
 use super::bars;
 use super::front;
-use super::measure::{Measured, Robot};
+use super::join::Host;
+use super::measure::Robot;
+use super::picture::{Scene, svg};
 use super::point::{Kind, Point};
 use super::words::{cycles, digits, glossary, name};
 use crate::docs::Page;
+use crate::error::Result;
 use crate::report::MODEL;
 use crate::table::{Table, thousands};
 
@@ -53,9 +56,24 @@ pub fn ways<'a>(points: &'a [Point], robot: Robot, plant: &str) -> Vec<&'a Point
     points.iter().filter(of).collect()
 }
 
+/// The file of the picture of a robot's torques, or of the simulations.
+pub fn picture(robot: Robot) -> String {
+    format!("docs/{}.svg", page_of(robot).name)
+}
+
+/// The picture of a robot's torques.
+pub fn drawn(points: &[Point], host: &Host, robot: Robot) -> Result<String> {
+    let all = host.yardsticks.iter();
+    svg(&Scene {
+        title: robot.title(),
+        points: ways(points, robot, "rigid"),
+        yardsticks: all.filter(|it| it.robot == robot.name()).collect(),
+    })
+}
+
 /// The text about a robot's torques.
-pub fn text(measured: &Measured, robot: Robot) -> String {
-    let rigid = ways(&measured.points, robot, "rigid");
+pub fn text(points: &[Point], host: &Host, robot: Robot, rustc: &str) -> String {
+    let rigid = ways(points, robot, "rigid");
     let mut text = format!(
         "![Error against cycles of every way to compute torques of the {}](accuracy-{}.svg)\n\n\
          {} configurations, of which {} are on the front; full scale is {} N·m. {MODEL}.\n\n",
@@ -65,7 +83,7 @@ pub fn text(measured: &Measured, robot: Robot) -> String {
         rigid.iter().filter(|point| point.front).count(),
         digits(rigid.first().map_or(0.0, |point| point.full_scale)),
     );
-    text += &oracle(measured, robot);
+    text += &oracle(host, robot);
     text += &on_default(&rigid);
     text += &bars::told(&rigid);
     let heads = [
@@ -79,15 +97,15 @@ pub fn text(measured: &Measured, robot: Robot) -> String {
     }
     text += &every(&rigid);
     text += &joints(&rigid);
-    text += &speeds(measured, robot);
-    text += &compliant(&ways(&measured.points, robot, "compliant"));
-    let own = measured.host.yardsticks.iter();
+    text += &speeds(host, robot);
+    text += &compliant(&ways(points, robot, "compliant"));
+    let own = host.yardsticks.iter();
     let own: Vec<_> = own.filter(|it| it.robot == robot.name()).collect();
     text += &format!(
         "### Where accuracy stops mattering\n\n{}",
         yardsticks(&own).markdown()
     );
-    text += &format!("\nMeasured with {}.\n", measured.rustc);
+    text += &format!("\nMeasured with {}.\n", rustc);
     text
 }
 

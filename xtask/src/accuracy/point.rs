@@ -15,7 +15,7 @@ pub enum Kind {
 }
 
 /// Largest, root mean square and 99th percentile of |error|, over all joints or of one.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct Errors {
     pub max: f64,
     pub rms: f64,
@@ -57,14 +57,14 @@ pub struct Point {
     /// Of what errors are shares.
     #[serde(skip)]
     pub full_scale: f64,
-    /// Joint by joint.
-    #[serde(skip)]
+    /// Joint by joint; of what is recorded, only where a page shows it.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub joints: Vec<Errors>,
     /// Largest error over states anywhere, as a share of full scale.
     #[serde(skip)]
     pub anywhere: Option<f64>,
     /// Largest change of the energy in a simulated second, as a share of the largest kinetic energy.
-    #[serde(skip)]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub drift: Option<f64>,
 }
 

@@ -38,6 +38,11 @@ pub fn replaced(workspace: &Workspace, measured: &[Point]) -> Result<(PathBuf, S
     points.retain(|old| !measured.iter().any(|new| new.group() == old.group()));
     points.extend_from_slice(measured);
     points.sort_by(|a, b| a.group().cmp(&b.group()));
+    for point in &mut points {
+        if !point.front && !point.is_default() {
+            point.joints.clear();
+        }
+    }
     let lines: std::result::Result<Vec<String>, _> =
         points.iter().map(serde_json::to_string).collect();
     let lines = lines.map_err(|e| Error::check(format!("cannot write {FILE}: {e}")))?;

@@ -1,6 +1,6 @@
 //! docs/accuracy.md: the simulations.
 
-use super::measure::{Measured, Robot};
+use super::measure::Robot;
 use super::page::steps;
 use super::point::{Kind, Point};
 use super::words::{cycles, digits, name, sentence};
@@ -20,15 +20,14 @@ const PARTS: [(Robot, &str, &str); 4] = [
 ];
 
 /// The text about simulations.
-pub fn text(measured: &Measured) -> String {
+pub fn text(points: &[Point], rustc: &str) -> String {
     let mut text = format!(
         "![Errors against cycles of integrators over their lengths of step](accuracy-simulation.svg)\n\n\
          Cycles are those of as many steps as make a simulated second; trajectory errors are over its first second, \
          energy drift over five, a second, as a share of the largest kinetic energy. {MODEL}.\n\n"
     );
     for (robot, scene, title) in PARTS {
-        let points: Vec<&Point> = measured
-            .points
+        let points: Vec<&Point> = points
             .iter()
             .filter(|point| point.group() == (robot.name(), Kind::Simulation, scene))
             .collect();
@@ -42,7 +41,7 @@ pub fn text(measured: &Measured) -> String {
         }
         text.push('\n');
     }
-    text += &format!("Measured with {}.\n", measured.rustc);
+    text += &format!("Measured with {}.\n", rustc);
     text
 }
 

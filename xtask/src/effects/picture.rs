@@ -1,14 +1,11 @@
 //! The picture of the effects: for each of them its cycles, and beside those the torque that they buy.
 
-use std::path::Path;
-
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::Price;
 use crate::error::{Error, Result};
-use crate::workspace;
 
 const WIDTH: u32 = 960;
 const FONT: &str = "system-ui, Helvetica, Arial, sans-serif";
@@ -31,12 +28,11 @@ const STEP: i32 = 30;
 type Outcome = std::result::Result<(), Box<dyn std::error::Error>>;
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
-/// Writes the plot as an SVG.
-pub fn write(prices: &[Price], path: &Path) -> Result<()> {
+/// The plot as an SVG.
+pub fn svg(prices: &[Price]) -> Result<String> {
     let mut svg = String::new();
-    draw(prices, &mut svg)
-        .map_err(|e| Error::check(format!("cannot draw {}: {e}", path.display())))?;
-    workspace::write(path, svg)
+    draw(prices, &mut svg).map_err(|e| Error::check(format!("cannot draw the effects: {e}")))?;
+    Ok(svg)
 }
 
 fn draw(prices: &[Price], svg: &mut String) -> Outcome {

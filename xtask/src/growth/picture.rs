@@ -1,14 +1,11 @@
 //! The picture of the growth: instructions against bodies, both logarithmic.
 
-use std::path::Path;
-
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::{ALGORITHMS, Report};
 use crate::error::{Error, Result};
-use crate::workspace;
 
 const SIZE: (u32, u32) = (960, 640);
 const FONT: &str = "system-ui, Helvetica, Arial, sans-serif";
@@ -29,12 +26,11 @@ const LITERATURE: f64 = 9.0;
 
 type Outcome = std::result::Result<(), Box<dyn std::error::Error>>;
 
-/// Writes the plot as an SVG.
-pub fn write(report: &Report, path: &Path) -> Result<()> {
+/// The plot as an SVG.
+pub fn svg(report: &Report) -> Result<String> {
     let mut svg = String::new();
-    draw(report, &mut svg)
-        .map_err(|e| Error::check(format!("cannot draw {}: {e}", path.display())))?;
-    workspace::write(path, svg)
+    draw(report, &mut svg).map_err(|e| Error::check(format!("cannot draw the growth: {e}")))?;
+    Ok(svg)
 }
 
 fn draw(report: &Report, svg: &mut String) -> Outcome {

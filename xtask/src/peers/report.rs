@@ -48,7 +48,7 @@ pub struct Report {
     pub held: Vec<Held>,
     /// What was measured with what.
     pub versions: Vec<String>,
-    /// The day of the run.
+    /// The day of the run, and the commit.
     pub date: String,
 }
 

@@ -2,7 +2,7 @@
 
 use super::{Context, Outcome};
 use crate::budgets;
-use crate::demo;
+use crate::demo::{self, Measured};
 use crate::docs;
 use crate::error::{Error, Result};
 use crate::firmware;
@@ -163,18 +163,31 @@ pub fn budgets(context: &Context) -> Result<Outcome> {
 }
 
 pub fn readme(context: &Context) -> Result<Outcome> {
-    let reports: Vec<_> = context.measured()?.iter().map(|one| &one.report).collect();
-    for report in &reports {
+    let workspace = &context.workspace;
+    for Measured {
+        report, recording, ..
+    } in context.measured()?
+    {
         // The README shows the default scene alone.
         if report.scene == Scene::default().name() {
-            docs::README.check(&context.workspace, &report.markdown(), Some(&report.rustc))?;
+            docs::README.check(workspace, &report.markdown(), Some(&report.rustc))?;
+            // What the scene does is the same to the bit, whatever compiled it.
+            let picture = plot::svg(recording)?;
+            docs::compare_picture(
+                workspace,
+                demo::PICTURE,
+                docs::README.command,
+                &picture,
+                true,
+            )?;
         }
     }
     if !context.full {
         return Ok(Outcome::Passed("README.md alone".into()));
     }
+    let reports: Vec<_> = context.measured()?.iter().map(|one| &one.report).collect();
     let rustc = reports.first().map(|report| report.rustc.as_str());
-    scenes::PAGE.check(&context.workspace, &scenes::markdown(&reports), rustc)?;
+    scenes::PAGE.check(workspace, &scenes::markdown(&reports), rustc)?;
     Outcome::PASSED
 }
 

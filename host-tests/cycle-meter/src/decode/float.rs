@@ -153,6 +153,10 @@ mod tests {
             (0xEEB5, 0x0A40, Class::FloatConversion, 1, 0),               // vcmp.f32 s0, #0
             (0xEEBD, 0x0AE0, Class::FloatConversion, 1 << 1, 1),          // vcvt.s32.f32 s0, s1
             (0xEEB8, 0x0AE0, Class::FloatConversion, 1 << 1, 1),          // vcvt.f32.s32 s0, s1
+            (0xEEFA, 0x0ACC, Class::FloatConversion, 1 << 1, 1 << 1),     // vcvt.f32.s32 s1, s1, #8
+            (0xEEFE, 0x0ACC, Class::FloatConversion, 1 << 1, 1 << 1),     // vcvt.s32.f32 s1, s1, #8
+            (0xEEFB, 0x0ACC, Class::FloatConversion, 1 << 1, 1 << 1),     // vcvt.f32.u32 s1, s1, #8
+            (0xEEFF, 0x0ACC, Class::FloatConversion, 1 << 1, 1 << 1),     // vcvt.u32.f32 s1, s1, #8
         ];
         for (first, second, class, reads, writes) in cases {
             let insn = decode(first, second);

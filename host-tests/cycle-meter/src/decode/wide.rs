@@ -166,6 +166,9 @@ mod tests {
             (0xE9D1, 0x0300, Class::Words(2), 1 << 1, 9), // ldrd r0, r3, [r1]
             (0xE851, 0x0F00, Class::Load, 1 << 1, 1),     // ldrex r0, [r1]
             (0xE841, 0x2000, Class::Load, 1 << 1, 1),     // strex r0, r2, [r1]
+            (0xE8D1, 0x2F4F, Class::Load, 1 << 1, 1 << 2), // ldrexb r2, [r1]
+            (0xE8C1, 0x2F43, Class::Load, 1 << 1, 1 << 3), // strexb r3, r2, [r1]
+            (0xE8C1, 0x2F53, Class::Load, 1 << 1, 1 << 3), // strexh r3, r2, [r1]
             (0xF3EF, 0x8010, Class::System, 0, 1),        // mrs r0, primask
             (0xF380, 0x8810, Class::System, 0, 0),        // msr primask, r0
             (0xF3BF, 0x8F4F, Class::Integer, 0, 0),       // dsb sy

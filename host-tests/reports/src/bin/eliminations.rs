@@ -8,6 +8,7 @@ use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::model::{Arm, BASE, Body, Joint, Model, Robot, on_root};
 use dynamics_core::robots::{G1, G1Free};
 use dynamics_core::state::State;
+use host_tests::measured::largest;
 use host_tests::random::{random_numbers, within};
 use host_tests::wide::widened;
 use proptest::test_runner::TestRng;
@@ -160,16 +161,16 @@ fn one<const B: usize, const Q: usize, const V: usize>(
         truth = std::array::from_fn(|i| truth[i] + more[i]);
     }
     let by_bodies = aba(double, &wide, &wide_tau, &RIGID_BODY).expect("M > 0");
-    seen.f64s = seen.f64s.max(error(&by_bodies, &truth));
+    seen.f64s = largest([seen.f64s, error(&by_bodies, &truth)]);
     let matrix = forward(single, &state, &tau, &RIGID_BODY).map(|x| x.map(f64::from));
     let bodies = aba(single, &state, &tau, &RIGID_BODY).map(|x| x.map(f64::from));
     seen.matrix
         .push(matrix.map_or(f64::INFINITY, |x| error(&x, &truth)));
     seen.bodies
         .push(bodies.map_or(f64::INFINITY, |x| error(&x, &truth)));
-    let most = largest(|x| m.mul_vec(x));
-    let least = largest(|x| solved(double, &factors, x));
-    seen.condition = seen.condition.max(most * least);
+    let most = eigenvalue(|x| m.mul_vec(x));
+    let least = eigenvalue(|x| solved(double, &factors, x));
+    seen.condition = largest([seen.condition, most * least]);
 }
 
 #[inline(never)]
@@ -192,11 +193,11 @@ fn solved<const B: usize, const Q: usize, const V: usize>(
 fn error<const V: usize>(found: &[f64; V], truth: &[f64; V]) -> f64 {
     let size = truth.iter().fold(0.0, |size, x| f64::max(size, x.abs()));
     let off = std::iter::zip(found, truth).map(|(a, b)| (a - b).abs());
-    off.fold(0.0, f64::max) / size
+    largest(off) / size
 }
 
 /// The largest eigenvalue of a positive definite matrix, by power iteration.
-fn largest<const V: usize>(apply: impl Fn(&[f64; V]) -> [f64; V]) -> f64 {
+fn eigenvalue<const V: usize>(apply: impl Fn(&[f64; V]) -> [f64; V]) -> f64 {
     let mut x: [f64; V] = std::array::from_fn(|i| 1.0 + 0.1 * (i % 7) as f64);
     let mut size = 1.0;
     for _ in 0..STEPS {

@@ -8,6 +8,7 @@ use dynamics_core::model::Of;
 use dynamics_core::state::State;
 use firmware_demo::accuracy::robots::{Compared, Swung, momentary};
 use firmware_demo::accuracy::{Inverse, Visitor, list};
+use host_tests::measured::largest;
 use host_tests::random::{random_numbers, within};
 use host_tests::recordings::{Precise, Recording, load, read};
 use serde_json::{Value, json};
@@ -67,10 +68,10 @@ impl<const N: usize> Visitor<N> for Bench<N> {
             "configuration": configuration,
             "unit": "N·m",
             "full_scale": self.full_scale,
-            "error_max": along.error_max.max(self.floor),
-            "error_rms": along.error_rms.max(self.floor),
-            "error_p99": along.error_p99.max(self.floor),
-            "relative_max": along.relative_max.max(self.floor / self.full_scale),
+            "error_max": largest([along.error_max, self.floor]),
+            "error_rms": largest([along.error_rms, self.floor]),
+            "error_p99": largest([along.error_p99, self.floor]),
+            "relative_max": largest([along.relative_max, self.floor / self.full_scale]),
             "trajectory": along,
         });
         if !W::MEMORY && !self.states.is_empty() {

@@ -1,5 +1,6 @@
 //! Errors of many answers, joint by joint.
 
+use host_tests::measured::largest;
 use serde::Serialize;
 
 /// |error| of N joints, answer by answer.
@@ -55,7 +56,7 @@ impl<const N: usize> Errors<N> {
 }
 
 fn max(errors: &[f64]) -> f64 {
-    errors.iter().copied().fold(0.0, f64::max)
+    largest(errors.iter().copied())
 }
 
 fn rms(errors: &[f64]) -> f64 {

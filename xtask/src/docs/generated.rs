@@ -1,0 +1,57 @@
+//! Every file that a command writes into the repository, and what holds it against today's figures.
+
+use crate::error::{Error, Result};
+
+/// What notices that a file is out of date.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Checked {
+    /// A step of `cargo xtask test`, of this name.
+    Step(&'static str),
+    /// Nothing that runs in every test measures it anew, for this reason; what it says of bars is held against
+    /// `budgets.toml` by a test of this crate.
+    Bars(&'static str),
+}
+
+/// The files: a test holds them against what is there.
+pub const FILES: [(&str, Checked); 18] = [
+    ("README.md", Checked::Step("readme")),
+    ("docs/accuracy-a1_leg.svg", Checked::Step("accuracy")),
+    ("docs/accuracy-panda.svg", Checked::Step("accuracy")),
+    ("docs/accuracy-simulation.svg", Checked::Step("accuracy")),
+    ("docs/accuracy-ur5e.svg", Checked::Step("accuracy")),
+    ("docs/accuracy.json", Checked::Step("accuracy")),
+    ("docs/accuracy.md", Checked::Step("accuracy")),
+    (
+        "docs/build-time.md",
+        Checked::Bars("seconds are those of one machine and of what else it does"),
+    ),
+    ("docs/costs.md", Checked::Step("costs")),
+    ("docs/effects.md", Checked::Step("effects")),
+    ("docs/effects.svg", Checked::Step("effects")),
+    ("docs/eliminations.md", Checked::Step("eliminations")),
+    ("docs/growth.md", Checked::Step("growth")),
+    ("docs/growth.svg", Checked::Step("growth")),
+    ("docs/hard-cases.md", Checked::Step("hard-cases")),
+    (
+        "docs/peers.md",
+        Checked::Bars(
+            "the other libraries are not installed for a test, and times are those of one machine",
+        ),
+    ),
+    ("docs/scenes.md", Checked::Step("readme")),
+    ("docs/ur5e.svg", Checked::Step("readme")),
+];
+
+/// Fails if a file that is compared is none of those that commands write.
+pub fn listed(file: &str) -> Result<()> {
+    let known = |(name, checked): &(&str, Checked)| match checked {
+        Checked::Step(_) => *name == file,
+        Checked::Bars(_) => false,
+    };
+    if FILES.iter().any(known) {
+        return Ok(());
+    }
+    Err(Error::check(format!(
+        "{file} is not listed among the files that commands write and steps compare: xtask/src/docs/generated.rs"
+    )))
+}

@@ -17,15 +17,12 @@ struct Size {
     mass: f64,
     moment: f64,
     second: f64,
-    /// The longest way to the origin of the last body, m, if the joint carries it.
-    tip: f64,
 }
 
 const NOTHING: Size = Size {
     mass: 0.0,
     moment: 0.0,
     second: 0.0,
-    tip: 0.0,
 };
 
 /// Carries the constants of a robot.
@@ -44,8 +41,7 @@ const fn sizes<const B: usize, const Q: usize, const V: usize>(
     model: &Model<f64, B, Q, V>,
 ) -> [Size; V] {
     let (mut bodies, mut joints) = ([NOTHING; B], [NOTHING; V]);
-    // The body nearest to the base so far of those that lead to the last one.
-    let (mut i, mut to_tip) = (B, B.saturating_sub(1));
+    let mut i = B;
     while i > 0 {
         i -= 1;
         let link = &model.links[i];
@@ -63,13 +59,51 @@ const fn sizes<const B: usize, const Q: usize, const V: usize>(
             parent.mass += size.mass;
             parent.moment += moment;
             parent.second += size.second + r * (size.moment + moment);
-            if i == to_tip {
-                parent.tip = size.tip + r;
-                to_tip = link.parent;
-            }
         }
     }
     joints
+}
+
+/// The longest distance of the origin of `body` from that of the body on joint `i`, which carries it, m.
+const fn reach<const B: usize, const Q: usize, const V: usize>(
+    model: &Model<f64, B, Q, V>,
+    i: usize,
+    mut body: usize,
+) -> f64 {
+    let mut sum = 0.0;
+    while body < B {
+        let link = &model.links[body];
+        if link.v_at == i && !matches!(link.joint.kind, JointKind::Fixed) {
+            break;
+        }
+        sum += length(link.placement.pos);
+        body = link.parent;
+    }
+    sum
+}
+
+/// The `k`-th of the bodies with a payload that joint `i` carries, or B.
+const fn load<T, const B: usize, const Q: usize, const V: usize>(
+    i: usize,
+    k: usize,
+    loaded: &[bool; B],
+) -> usize
+where
+    T: Robot<B, Q, V>,
+{
+    let (mut count, mut body) = (0, 0);
+    while body < B {
+        if loaded[body]
+            && Prepared::<T, B, Q, V>::supports(i, Prepared::<T, B, Q, V>::place(body).joint)
+        {
+            if count == k {
+                return body;
+            }
+            count += 1;
+        }
+        body += 1;
+    }
+    B
 }
 
 const fn length(v: DVec3) -> f64 {
@@ -110,38 +144,48 @@ where
 {
     let own = const { Sizes::<T, B, Q, V>::of(I) };
     let prismatic = const { Prepared::<T, B, Q, V>::joint(I).prismatic };
-    let loaded = const {
-        E::PAYLOAD && Prepared::<T, B, Q, V>::supports(I, Prepared::<T, B, Q, V>::last().joint)
+    let mut size = R::from_f64(if prismatic { own.mass } else { own.second });
+    let mut slides = R::ZERO;
+    if !prismatic {
+        for_each_joint!(K, {
+            if const { Prepared::<T, B, Q, V>::above(I, K) && Prepared::<T, B, Q, V>::joint(K).prismatic }
+            {
+                slides += turns[K].q.abs();
+            }
+        });
+        if const { slides_beyond::<T, B, Q, V>(I) } {
+            size += slides * (R::from_f64(2.0 * own.moment) + slides * R::from_f64(own.mass));
+        }
+    }
+    const {
+        assert!(
+            load::<T, B, Q, V>(I, 32, &E::PAYLOAD) == B,
+            "the engine takes up to 32 bodies with payloads; use `Core`"
+        )
     };
-    let mut load = SpatialInertia::ZERO;
-    if loaded {
-        effects.payload(&mut load);
-    }
-    if prismatic {
-        let mass = R::from_f64(own.mass);
-        return if loaded { mass + load.mass } else { mass };
-    }
-    let (mut size, mut slides) = (R::from_f64(own.second), R::ZERO);
     for_each_joint!(K, {
-        if const { Prepared::<T, B, Q, V>::above(I, K) && Prepared::<T, B, Q, V>::joint(K).prismatic }
-        {
-            slides += turns[K].q.abs();
+        let body = const { load::<T, B, Q, V>(I, K, &E::PAYLOAD) };
+        if body < B {
+            let mut payload = SpatialInertia::ZERO;
+            effects.payload(body, &mut payload);
+            size += if prismatic {
+                payload.mass
+            } else {
+                let reach = const { reach(&T::MODEL, I, load::<T, B, Q, V>(I, K, &E::PAYLOAD)) };
+                of_load(&payload, slides + R::from_f64(reach))
+            };
         }
     });
-    if const { slides_beyond::<T, B, Q, V>(I) } {
-        size += slides * (R::from_f64(2.0 * own.moment) + slides * R::from_f64(own.mass));
-    }
-    if loaded {
-        let [x, y, z] = load.inertia.cols().map(Vector::array);
-        let [hx, hy, hz] = load.moment.array();
-        let (moment, tip) = (
-            hx.abs() + hy.abs() + hz.abs(),
-            slides + R::from_f64(own.tip),
-        );
-        size += (x[0] + y[1] + z[2]) * R::from_f64(0.5);
-        size += tip * (moment + moment + tip * load.mass);
-    }
     size
+}
+
+/// The largest inertia of a payload about an axis that is no further than `reach` from its body's origin.
+#[inline(always)]
+fn of_load<R: Real>(load: &SpatialInertia<R>, reach: R) -> R {
+    let [x, y, z] = load.inertia.cols().map(Vector::array);
+    let [hx, hy, hz] = load.moment.array();
+    let moment = hx.abs() + hy.abs() + hz.abs();
+    (x[0] + y[1] + z[2]) * R::from_f64(0.5) + reach * (moment + moment + reach * load.mass)
 }
 
 /// Whether joint `i` carries a joint that slides.

@@ -6,6 +6,7 @@ use std::io::Write;
 use std::sync::{Mutex, PoisonError};
 
 use crate::error::{Error, Result};
+use crate::progress;
 
 /// Writes a text to stdout.
 ///
@@ -20,15 +21,17 @@ pub fn print(text: &str) -> Result<()> {
 /// Writes a line to stdout.
 ///
 /// # Errors
-/// As [`print`].
+/// As [`print()`].
 pub fn line(text: &str) -> Result<()> {
     print(&format!("{text}\n"))
 }
 
 /// Writes a line to stderr.
 pub fn note(text: &str) {
-    // There is nowhere to say that it failed.
-    let _ = writeln!(std::io::stderr().lock(), "{text}");
+    progress::above(|| {
+        // There is nowhere to say that it failed.
+        let _ = writeln!(std::io::stderr().lock(), "{text}");
+    });
 }
 
 /// Writes a line to stderr if it has not been written there before.

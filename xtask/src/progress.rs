@@ -22,6 +22,11 @@ pub fn target() -> ProgressDrawTarget {
     }
 }
 
+/// Writes to stderr while no spinner does.
+pub fn above(write: impl FnOnce()) {
+    SPINNERS.suspend(write);
+}
+
 /// What is going on, until dropped.
 pub struct Spinner(ProgressBar);
 
@@ -50,7 +55,7 @@ impl Spinner {
 
     /// Prints a line above the spinners.
     pub fn line(&self, line: &str) {
-        SPINNERS.suspend(|| output::note(line));
+        output::note(line);
     }
 }
 

@@ -66,7 +66,7 @@ impl System {
             Self::Arch => "sudo pacman -S --needed qemu-system-arm".into(),
             Self::MacOs => "brew install qemu".into(),
             Self::Windows => {
-                "winget install SoftwareFreedomConservancy.QEMU    # and put it on the PATH".into()
+                "winget install SoftwareFreedomConservancy.QEMU    # and put qemu-system-arm on the PATH".into()
             }
             Self::Other => {
                 "# install QEMU's `qemu-system-arm` with your system's package manager".into()

@@ -235,11 +235,11 @@ impl Report {
         let mut text = format!("{name}{end} ({})\n\n{}", self.model, table.text());
         for one in &self.foreign {
             text += &format!(
-                "\n  not of a Cortex-M4F: {} in `{}`",
+                "  not of a Cortex-M4F: {} in `{}`\n",
                 one.address, one.function
             );
         }
-        text + "\n"
+        text
     }
 }
 

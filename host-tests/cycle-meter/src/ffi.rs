@@ -18,12 +18,6 @@ pub const COPIES: c_int = 3;
 /// From this version on callbacks get a pointer of the plugin's own instead of its number.
 pub const USER_DATA: c_int = 7;
 
-/// The newest version whose declarations are known.
-pub const NEWEST: c_int = USER_DATA;
-
-/// The environment variable that sets the version to ask QEMU for, which is otherwise guessed.
-pub const ASKED: &str = "CYCLE_METER_INTERFACE";
-
 /// Functions that came with a version, the newest first.
 const CAME_WITH: [(c_int, &CStr); 4] = [
     (6, c"qemu_plugin_set_pc"),
@@ -32,7 +26,7 @@ const CAME_WITH: [(c_int, &CStr); 4] = [
     (2, c"qemu_plugin_scoreboard_new"),
 ];
 
-/// The version to ask for: that of the variable [`ASKED`] if there is one, or the newest of which the
+/// The version to ask for: the one that is asked for if it is a number, or the newest of which the
 /// program that loads the plugin has a function. QEMU takes the versions between a least one and its own.
 pub fn version_to_ask_for(asked: Option<&OsStr>, has: impl Fn(&CStr) -> bool) -> c_int {
     let asked = asked.and_then(|text| text.to_str()?.parse().ok());

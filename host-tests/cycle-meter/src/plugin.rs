@@ -40,7 +40,7 @@ static PLUGIN: AtomicPtr<Plugin> = AtomicPtr::new(ptr::null_mut());
 pub static qemu_plugin_version: AtomicI32 = AtomicI32::new(1);
 
 extern "C" fn choose_version() {
-    let asked = std::env::var_os(ffi::ASKED);
+    let asked = std::env::var_os(crate::INTERFACE);
     let version = ffi::version_to_ask_for(asked.as_deref(), ffi::host_has);
     qemu_plugin_version.store(version, Ordering::Relaxed);
 }

@@ -1,0 +1,222 @@
+//! What xtask does where it is interrupted, may not install, or cannot write.
+
+#![cfg(unix)]
+
+mod support;
+
+use std::fs::File;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+use support::{Dir, EXIT, cargo, outcome, three_passages, xtask};
+
+#[test]
+fn a_closed_pipe_ends_it_without_a_panic() {
+    for arguments in [["test", "--list"].as_slice(), &["--help"]] {
+        let (reader, writer) = std::io::pipe().expect("a pipe");
+        drop(reader);
+        let mut command = xtask(arguments);
+        let child = command.stdout(writer).stderr(Stdio::piped()).spawn();
+        let out = child.expect("started").wait_with_output().expect("ended");
+        let said = String::from_utf8_lossy(&out.stderr);
+        assert_eq!(said, "", "{arguments:?}");
+        assert!(!out.status.success(), "{arguments:?}");
+    }
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_full_disk_is_an_error_and_no_panic() {
+    for arguments in [["test", "--list"].as_slice(), &["--help"]] {
+        let full = File::options()
+            .write(true)
+            .open("/dev/full")
+            .expect("there");
+        let mut command = xtask(arguments);
+        let child = command.stdout(full).stderr(Stdio::piped()).spawn();
+        let out = child.expect("started").wait_with_output().expect("ended");
+        let said = String::from_utf8_lossy(&out.stderr);
+        assert!(said.contains("No space left"), "{said}");
+        assert!(!said.contains("panicked"), "{said}");
+        assert_eq!(out.status.code(), Some(1), "{arguments:?}");
+    }
+}
+
+/// A user who is not root, may use sudo, and has neither QEMU nor anything else.
+fn poor_user(dir: &Dir, with_sudo: bool) -> Command {
+    dir.program("id", "echo 1000");
+    if with_sudo {
+        let ran = dir.0.join("sudo-ran");
+        dir.program("sudo", &format!("echo \"$@\" >> {}", ran.display()));
+    }
+    let mut command = xtask(&["demo"]);
+    command.env("PATH", &dir.0).env("RUSTC", rustc());
+    command
+}
+
+/// The compiler itself: rustup's stand-in for it needs a PATH.
+fn rustc() -> PathBuf {
+    let sysroot = Command::new(std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into()))
+        .args(["--print", "sysroot"])
+        .output()
+        .expect("a compiler");
+    let sysroot = String::from_utf8_lossy(&sysroot.stdout).trim().to_owned();
+    Path::new(&sysroot).join("bin/rustc")
+}
+
+fn on_debian() -> bool {
+    std::fs::read_to_string("/etc/os-release").is_ok_and(|text| text.contains("debian"))
+}
+
+#[test]
+fn sudo_does_not_run_where_nobody_can_be_asked() {
+    let dir = Dir::new();
+    let (code, _, said) = outcome(&mut poor_user(&dir, true));
+    assert!(!dir.0.join("sudo-ran").exists(), "{said}");
+    assert_eq!(code, Some(1), "{said}");
+    assert!(said.contains("qemu-system-arm"), "{said}");
+    if on_debian() {
+        assert!(said.contains("    sudo apt-get install"), "{said}");
+        assert!(said.contains("--yes"), "{said}");
+    }
+}
+
+#[test]
+fn yes_and_ci_let_it_run_sudo() {
+    if !on_debian() {
+        return;
+    }
+    for (argument, ci) in [("--yes", "false"), ("--scene=ur5e", "true")] {
+        let dir = Dir::new();
+        let mut command = poor_user(&dir, true);
+        command.arg(argument).env("CI", ci);
+        let (code, _, said) = outcome(&mut command);
+        let ran = std::fs::read_to_string(dir.0.join("sudo-ran")).expect("sudo ran");
+        assert!(ran.contains("apt-get install"), "{ran}");
+        // This sudo installs nothing, so QEMU is still not there.
+        assert_eq!(code, Some(1), "{said}");
+    }
+}
+
+#[test]
+fn without_sudo_the_command_is_printed_and_nothing_is_run() {
+    let dir = Dir::new();
+    dir.program("apt-get", &format!("touch {}/apt-ran", dir.0.display()));
+    let (code, _, said) = outcome(poor_user(&dir, false).arg("--yes"));
+    assert!(!dir.0.join("apt-ran").exists(), "{said}");
+    assert_eq!(code, Some(1), "{said}");
+    if on_debian() {
+        assert!(said.contains("as root"), "{said}");
+        assert!(said.contains("    apt-get install"), "{said}");
+    }
+}
+
+/// Cargo, with another program for one of its commands.
+fn cargo_but(dir: &Dir, command: &str, lines: &str) -> PathBuf {
+    let cargo = cargo();
+    dir.program(
+        "cargo",
+        &format!(
+            "if [ \"$1\" = {command} ]; then\n{lines}\nelse exec {} \"$@\"; fi",
+            cargo.display()
+        ),
+    )
+}
+
+fn is_alive(process: &str) -> bool {
+    let stat = std::fs::read_to_string(format!("/proc/{process}/stat"));
+    // One that has ended and that nobody has asked for yet is a zombie.
+    stat.is_ok_and(|stat| !stat.contains(") Z "))
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn no_process_is_left_behind_when_it_is_told_to_end() {
+    for signal in ["TERM", "INT", "HUP"] {
+        let dir = Dir::new();
+        let processes = dir.0.join("processes");
+        let lines = format!(
+            "sleep 300 & echo $$ $! > {0}.part; mv {0}.part {0}; wait",
+            processes.display()
+        );
+        let mut command = xtask(&["meter"]);
+        let mut child = command
+            .arg(dir.file("firmware", &three_passages(EXIT)))
+            .env("CARGO", cargo_but(&dir, "build", &lines))
+            .stderr(Stdio::null())
+            .spawn()
+            .expect("xtask");
+        let start = Instant::now();
+        while !processes.exists() {
+            assert!(
+                start.elapsed() < Duration::from_secs(60),
+                "it builds nothing"
+            );
+            std::thread::sleep(Duration::from_millis(20));
+        }
+        let text = std::fs::read_to_string(&processes).expect("their numbers");
+        let processes: Vec<&str> = text.split_whitespace().collect();
+        assert!(processes.iter().all(|process| is_alive(process)), "{text}");
+        let kill = format!("kill -{signal} {}", child.id());
+        assert!(
+            Command::new("sh")
+                .args(["-c", &kill])
+                .status()
+                .expect("sent")
+                .success()
+        );
+        assert!(!child.wait().expect("ended").success());
+        let start = Instant::now();
+        while processes.iter().any(|process| is_alive(process)) {
+            assert!(
+                start.elapsed() < Duration::from_secs(10),
+                "{signal}: {text}"
+            );
+            std::thread::sleep(Duration::from_millis(20));
+        }
+    }
+}
+
+const FIGURES: &str = "echo '| a figure | 1 |'";
+
+#[test]
+fn reports_are_written_elsewhere_and_the_workspace_stays_as_it_is() {
+    let dir = Dir::new();
+    let out = dir.0.join("new/reports");
+    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/eliminations.md");
+    let before = std::fs::read(&page).expect("a page");
+    let mut command = xtask(&["eliminations", "--out"]);
+    command
+        .arg(&out)
+        .env("CARGO", cargo_but(&dir, "run", FIGURES));
+    let (code, _, said) = outcome(&mut command);
+    assert_eq!(code, Some(0), "{said}");
+    let written = std::fs::read_to_string(out.join("eliminations.md")).expect("the report");
+    assert!(written.contains("| a figure | 1 |"), "{written}");
+    assert_eq!(std::fs::read_dir(&out).expect("its directory").count(), 1);
+    assert_eq!(std::fs::read(&page).expect("the page"), before);
+}
+
+#[test]
+fn a_directory_that_cannot_be_written_is_named_before_anything_is_measured() {
+    let dir = Dir::new();
+    let file = dir.file("file", b"in the way");
+    let measured = dir.0.join("measured");
+    let touch = format!("touch {}", measured.display());
+    let mut command = xtask(&["eliminations", "--out"]);
+    command
+        .arg(file.join("reports"))
+        .env("CARGO", cargo_but(&dir, "run", &touch));
+    let (code, _, said) = outcome(&mut command);
+    assert_eq!(code, Some(1), "{said}");
+    assert!(said.contains("cannot create"), "{said}");
+    assert!(!measured.exists(), "{said}");
+}
+
+#[test]
+fn a_scene_is_known_in_capitals_too() {
+    let dir = Dir::new();
+    let (_, _, said) = outcome(poor_user(&dir, true).args(["--scene", "UR5e", "--no-install"]));
+    assert!(said.contains("something is missing"), "{said}");
+}

@@ -48,4 +48,3 @@ pub use operational::{OperationalSpace, operational_space, operational_space_at,
 pub use operator::{operator_factor, operator_inverse};
 pub use recoil::{with_momentum, with_momentum_at};
 pub use rnea::{rnea, rnea_at};
-pub(crate) use taken::BODY_ROUNDINGS;

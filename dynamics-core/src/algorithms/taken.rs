@@ -18,9 +18,9 @@ use crate::model::{Axis, Node, Turn};
 use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::{Force, SpatialInertia};
 
-/// How many roundings a pivot must exceed: up to 3.1 were seen of singular M, and no fewer than 59 of regular ones (a
-/// straight chain of 64 rods, in f32).
-pub(crate) const BODY_ROUNDINGS: f64 = 8.0;
+/// How many roundings a pivot must exceed: up to 3.1 were seen of singular M, and no fewer than 51 of regular ones (a
+/// rope of ten light rods with a weight at its end, in f32).
+const ROUNDINGS: f64 = 8.0;
 
 /// The coordinates of a free joint.
 const MOST: usize = 6;
@@ -112,7 +112,7 @@ impl<R: Real> Pivots<R> {
     ) -> Result<(), NotPositiveDefinite> {
         let handed_on = self.handed_on.get(k).copied().unwrap_or_default();
         let size = self.carried.along(&node.axis(turns, k)) + handed_on;
-        check(d, size * (R::EPSILON * R::from_f64(BODY_ROUNDINGS)), joint)?;
+        check(d, size * (R::EPSILON * R::from_f64(ROUNDINGS)), joint)?;
         for (l, handed_on) in self.handed_on.iter_mut().enumerate().take(k) {
             let multiplier = node.axis(turns, l).dot(u_hat) / d;
             *handed_on += multiplier * multiplier * size;

@@ -30,7 +30,7 @@ impl<T> Engine<T> {
     /// # Errors
     /// [`NotPositiveDefinite`] names the outermost joint that moves no inertia once the joints that it carries give
     /// way (a massless last link without rotor inertia; a joint on the axis of another with no inertia between
-    /// them), or whose inertia is not a number: its pivot is not above eight roundings of the largest inertia that
+    /// them), or whose inertia is not a number: its pivot is not above 16 roundings of the largest inertia that
     /// all that it carries, stretched out, could have about it.
     #[inline(never)]
     pub fn forward<R: Real, E, const B: usize, const Q: usize, const V: usize>(

@@ -105,7 +105,8 @@ pub fn joints<const N: usize>(visitor: &mut impl Visitor<N>) {
 /// What acts on a body: the one of the number BODY, or the base.
 pub fn bodies<const N: usize, const BODY: usize>(visitor: &mut impl Visitor<N>) {
     let body = BODY;
-    let payload = Payload::<_, BODY>::new(2.0, [0.0, 0.02, 0.08], [0.01, 0.0, 0.0, 0.01, 0.0, 0.005]);
+    let payload =
+        Payload::<_, BODY>::new(2.0, [0.0, 0.02, 0.08], [0.01, 0.0, 0.0, 0.01, 0.0, 0.005]);
     visitor.scene("payload", (RIGID_BODY, payload));
     let wrench = Force::new(Vec3::new(0.5, 0.0, 1.0), Vec3::new(0.0, 5.0, 20.0));
     visitor.scene("body_wrench", (RIGID_BODY, BodyWrench { body, wrench }));

@@ -18,7 +18,8 @@ const DAMPING: f64 = 1e-3;
 
 fn both_ways<F: frame::Frame>(frame: F, worst: &mut Worst) {
     let mut rng = Rng::new(7);
-    let load = Payload::<_, { B - 1 }>::new(1.5, [0.1, -0.2, 0.05], [0.01, 0.0, 0.0, 0.02, 0.0, 0.015]);
+    let load =
+        Payload::<_, { B - 1 }>::new(1.5, [0.1, -0.2, 0.05], [0.01, 0.0, 0.0, 0.02, 0.0, 0.015]);
     let scene = (Inertia, RotorInertia([0.3; V]), load);
     for _ in 0..50 {
         let tree = random_tree(&mut rng, false);

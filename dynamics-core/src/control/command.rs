@@ -37,19 +37,3 @@ pub struct Command<R, const V: usize> {
     /// Why so.
     pub status: Status,
 }
-
-/// The limits of each joint.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Bounds<R, const V: usize> {
-    /// Greatest |τ|, N·m or N.
-    pub torque: [R; V],
-    /// Greatest change of τ from one tick to the next, N·m or N.
-    pub rate: [R; V],
-    /// Greatest |q̇|, rad/s or m/s.
-    pub speed: [R; V],
-    /// Least position, rad or m.
-    pub lower: [R; V],
-    /// Greatest position, rad or m.
-    pub upper: [R; V],
-}

@@ -49,6 +49,11 @@ pub enum Fault {
         /// The joint.
         joint: usize,
     },
+    /// A limit of the joint allows nothing: [`super::Bounds::check`] says which.
+    Bounds {
+        /// The joint.
+        joint: usize,
+    },
     /// The brake did not take its order.
     Brake,
 }
@@ -64,6 +69,7 @@ impl fmt::Display for Fault {
             Self::Jump { joint } => (joint, "its position jumped"),
             Self::Speed { joint } => (joint, "it is faster than it may be"),
             Self::Torque { joint } => (joint, "the torque asked for is not finite"),
+            Self::Bounds { joint } => (joint, "a limit of it allows nothing"),
             Self::Drive { joint } => (joint, "its drive did not take its torque"),
         };
         write!(out, "joint {joint}: {text}")

@@ -76,6 +76,7 @@
 //! ```
 
 mod between;
+mod bounds;
 mod command;
 mod fault;
 mod law;
@@ -88,7 +89,8 @@ mod trajectory;
 mod turns;
 
 pub use between::{Extrapolated, Held, Interpolated, Linearised};
-pub use command::{Bounds, Command, Mode, Status};
+pub use bounds::{Bounds, BoundsError, Limited};
+pub use command::{Command, Mode, Status};
 pub use fault::Fault;
 pub use law::{Gains, feedback};
 pub use observer::{Estimate, Observer};

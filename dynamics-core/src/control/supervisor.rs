@@ -10,11 +10,10 @@
 //! ```
 //!
 //! Ticks with a fault are counted until `reentry_ticks` in a row had none. What is kept from tick to
-//! tick (last good positions, last torques, counters) takes in only what was accepted. Useless limits
-//! fail on the safe side: a torque limit that is not finite allows no torque, a rate of NaN no
-//! change, any other limit of NaN is a fault at once.
+//! tick (last good positions, last torques, counters) takes in only what was accepted. With limits that allow
+//! nothing (NaN, negative, an empty range) there is no supervisor, or one that keeps the arm stopped.
 
-use super::{Bounds, Command, Fault, Mode, Status, real};
+use super::{Bounds, BoundsError, Command, Fault, Mode, Status, real};
 use crate::scalar::Real;
 
 mod reentry;
@@ -90,6 +89,8 @@ pub struct Supervisor<R, const V: usize> {
     hold_next: bool,
     /// The brake waits for the torque to be there after a reset.
     braked: bool,
+    /// The limits allow nothing: the arm stays stopped.
+    unusable: Option<Fault>,
 }
 
 impl<R: Real, const V: usize> Supervisor<R, V> {
@@ -98,7 +99,13 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
     ///
     /// `tick` is the nominal length of a tick in s. A fault that lasts for more than `hold_ticks`
     /// ticks, or comes back so often without `reentry_ticks` good ticks in between, stops the arm.
+    ///
+    /// With limits that allow nothing ([`Bounds::check`]) the arm is stopped by [`Fault::Bounds`], and no reset
+    /// starts it: [`Self::try_new`] tells them while they are set.
     pub fn new(bounds: Bounds<R, V>, tick: R, hold_ticks: u32, reentry_ticks: u32) -> Self {
+        let unusable = bounds.check().err().map(|error| Fault::Bounds {
+            joint: error.joint(),
+        });
         // Comparisons with NaN are false, so that a limit of NaN allows nothing.
         let allowed = |x| if x > R::ZERO { x } else { R::ZERO };
         let finite = |x: R| if x.is_finite() { allowed(x) } else { R::ZERO };
@@ -137,13 +144,37 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
             faults: 0,
             quiet: reentry_ticks,
             ramp: reentry_ticks,
-            mode: Mode::Full,
-            fault: None,
+            mode: match unusable {
+                None => Mode::Full,
+                Some(_) => Mode::Stopped,
+            },
+            fault: unusable,
             faulted: false,
             fresh: false,
             hold_next: false,
             braked: false,
+            unusable,
         }
+    }
+
+    /// As [`Self::new`], of limits that allow something.
+    ///
+    /// ```
+    /// use dynamics_core::control::{Bounds, BoundsError, Supervisor};
+    /// let bounds = Bounds { torque: [10.0_f32], rate: [8.0], speed: [3.0], lower: [1.0], upper: [-1.0] };
+    /// assert_eq!(Supervisor::try_new(bounds, 1e-3, 1, 4), Err(BoundsError::Empty { joint: 0 }));
+    /// ```
+    ///
+    /// # Errors
+    /// [`BoundsError`] names the joint and the limit.
+    pub fn try_new(
+        bounds: Bounds<R, V>,
+        tick: R,
+        hold_ticks: u32,
+        reentry_ticks: u32,
+    ) -> Result<Self, BoundsError> {
+        bounds.check()?;
+        Ok(Self::new(bounds, tick, hold_ticks, reentry_ticks))
     }
 
     /// The same, which stays in [`Mode::Full`] for the first `ticks` ticks with a fault: for

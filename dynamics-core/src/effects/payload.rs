@@ -1,8 +1,8 @@
 //! A payload held by a body, known at run time only.
 
 use super::Effect;
-use crate::model::moments_excess;
-use crate::scalar::{Matrix, Real, Vector};
+use crate::model::{BodyInertia, Problem};
+use crate::scalar::Real;
 use crate::spatial::SpatialInertia;
 use core::fmt;
 
@@ -41,30 +41,8 @@ impl<R: Real, const BODY: usize> Payload<R, BODY> {
     /// From mass (kg), centre of mass (m) and rotational inertia about it (xx, xy, xz, yy, yz, zz,
     /// kg·m²), in the body's frame. RBDA (2.63).
     pub fn new(mass: R, com: [R; 3], inertia: [R; 6]) -> Self {
-        let [xx, xy, xz, yy, yz, zz] = inertia;
-        let [x, y, z] = com;
-        let column = |a, b, c| R::Vec3::new(a, b, c);
-        Self(SpatialInertia {
-            mass,
-            moment: column(x, y, z) * mass,
-            inertia: R::Mat3::from_cols(
-                column(
-                    xx + mass * (y * y + z * z),
-                    xy - mass * x * y,
-                    xz - mass * x * z,
-                ),
-                column(
-                    xy - mass * x * y,
-                    yy + mass * (x * x + z * z),
-                    yz - mass * y * z,
-                ),
-                column(
-                    xz - mass * x * z,
-                    yz - mass * y * z,
-                    zz + mass * (x * x + y * y),
-                ),
-            ),
-        })
+        let body = BodyInertia { mass, com, inertia };
+        Self(body.about_origin())
     }
 }
 
@@ -92,24 +70,14 @@ impl<R: Real, const BODY: usize> Payload<R, BODY> {
         inertia: [R; 6],
         relative: f64,
     ) -> Result<Self, ImpossibleLoad> {
-        let load = Self::new(mass, com, inertia);
-        let finite = |v: &R::Vec3| v.array().iter().all(|x| x.is_finite());
-        if !(mass.is_finite() && finite(&load.0.moment) && load.0.inertia.cols().iter().all(finite))
-        {
-            return Err(ImpossibleLoad::NotFinite);
+        let body = BodyInertia { mass, com, inertia };
+        match body.problem(relative) {
+            None => Ok(Self(body.about_origin())),
+            Some(Problem::Mass) => Err(ImpossibleLoad::Mass),
+            Some(Problem::Massless) => Err(ImpossibleLoad::Massless),
+            Some(Problem::Triangle(excess)) => Err(ImpossibleLoad::Triangle(excess)),
+            Some(_) => Err(ImpossibleLoad::NotFinite),
         }
-        if mass < R::ZERO {
-            return Err(ImpossibleLoad::Mass);
-        }
-        if mass == R::ZERO && inertia.iter().any(|&x| x != R::ZERO) {
-            return Err(ImpossibleLoad::Massless);
-        }
-        let [xx, xy, xz, yy, yz, zz] = inertia.map(R::to_f64);
-        let excess = moments_excess([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]);
-        if excess > relative {
-            return Err(ImpossibleLoad::Triangle(excess));
-        }
-        Ok(load)
     }
 }
 

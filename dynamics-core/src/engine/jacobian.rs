@@ -35,13 +35,7 @@ impl<T> Engine<T> {
     /// // error: the Jacobian is of a body that the robot does not have: bodies are numbered from 0
     /// ```
     #[inline(never)]
-    pub fn jacobian<
-        const BODY: usize,
-        R: Real,
-        const B: usize,
-        const Q: usize,
-        const V: usize,
-    >(
+    pub fn jacobian<const BODY: usize, R: Real, const B: usize, const Q: usize, const V: usize>(
         q: &[R; Q],
     ) -> [Motion<R>; V]
     where
@@ -52,13 +46,7 @@ impl<T> Engine<T> {
 
     /// As [`Engine::jacobian`], at a posture whose sines and cosines are at hand.
     #[inline(never)]
-    pub fn jacobian_at<
-        const BODY: usize,
-        R: Real,
-        const B: usize,
-        const Q: usize,
-        const V: usize,
-    >(
+    pub fn jacobian_at<const BODY: usize, R: Real, const B: usize, const Q: usize, const V: usize>(
         posture: &Posture<R, Q>,
     ) -> [Motion<R>; V]
     where
@@ -95,7 +83,15 @@ where
 /// Writes the columns of joint I and of those beyond; returns the way to the body's origin from the
 /// parent's, in base coordinates, m. `parent` holds the axes of the parent's frame.
 #[inline(always)]
-fn reach<R: Real, T, const B: usize, const Q: usize, const V: usize, const BODY: usize, const I: usize>(
+fn reach<
+    R: Real,
+    T,
+    const B: usize,
+    const Q: usize,
+    const V: usize,
+    const BODY: usize,
+    const I: usize,
+>(
     turns: &[Turn<R>; Q],
     parent: &Mat3<R>,
     columns: &mut [Motion<R>; V],

@@ -194,10 +194,11 @@ pub(crate) fn moments_excess(about_com: [[f64; 3]; 3]) -> f64 {
 
 /// The same, but nothing for what does not exceed `noise`: a point mass has no moments but that.
 fn excess_beyond(about_com: [[f64; 3]; 3], noise: f64) -> f64 {
-    let mut p = crate::symmetric::eigenvalues(about_com);
-    p.sort_unstable_by(f64::total_cmp);
-    let scale = p[2].abs().max(p[0].abs());
-    let excess = (-p[0]).max(p[2] - p[0] - p[1]);
+    let [a, b, c] = crate::symmetric::eigenvalues(about_com);
+    let (least, most) = (a.min(b).min(c), a.max(b).max(c));
+    let middle = a.min(b).max(a.max(b).min(c));
+    let scale = most.abs().max(least.abs());
+    let excess = (-least).max(most - least - middle);
     // Written so that a NaN comes out as one.
     if excess <= noise { 0.0 } else { excess / scale }
 }

@@ -133,7 +133,7 @@ where
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Calibrated<T, R: Real, const B: usize, const Q: usize, const V: usize> {
-    model: Model<R, B, Q, V>,
+    pub(super) model: Model<R, B, Q, V>,
     // A function's: no T is held.
     robot: PhantomData<fn() -> T>,
 }
@@ -150,7 +150,8 @@ where
         }
     }
 
-    /// Its bodies' inertias, about the origins of their aligned frames and in their coordinates.
+    /// Its bodies' inertias, about the origins of their aligned frames and in their coordinates. Numbers in the frames of
+    /// the description go through [`Calibrated::set_inertia`].
     pub fn inertias(&mut self) -> impl Iterator<Item = &mut SpatialInertia<R>> {
         self.model.links.iter_mut().map(|link| &mut link.inertia)
     }

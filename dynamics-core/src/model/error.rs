@@ -28,6 +28,10 @@ pub enum Problem {
     NotFinite,
     /// A limit is NaN, the lower one exceeds the upper, or that of speed or torque is negative.
     Limits,
+    /// There is inertia about the centre of mass without mass.
+    Massless,
+    /// The robot has no body of this number.
+    NoBody(usize),
     /// The joints do not add up to Q position and V velocity coordinates.
     Coordinates,
     /// The principal moments break the triangle inequality by this much, relative to the largest.
@@ -46,6 +50,8 @@ impl Problem {
             Self::Limits => {
                 "a limit is not a number, lower exceeds upper, or a speed or torque limit is negative"
             }
+            Self::Massless => "it has inertia but no mass",
+            Self::NoBody(_) => "the robot has no body of this number",
             Self::Coordinates => {
                 "the joints do not add up to Q position and V velocity coordinates"
             }
@@ -58,6 +64,9 @@ impl Problem {
 impl fmt::Display for ModelError {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(out, "body `{}`: {}", self.body, self.problem.text())?;
+        if let Problem::NoBody(number) = self.problem {
+            write!(out, ": {number}")?;
+        }
         if let Problem::Triangle(excess) | Problem::Asymmetric(excess) = self.problem {
             write!(out, " by {excess:.2e} of the largest")?;
         }

@@ -14,5 +14,8 @@ use forward::Forms;
 
 #[entry]
 fn main() -> ! {
-    forward::run::<Panda, 7, 7>(&[Forms::core::<Panda, 7>(), engine::engine::<Panda, 7, 7, 6>()])
+    forward::run::<Panda, 7, 7>(&[
+        Forms::core::<Panda, 7>(),
+        engine::engine::<Panda, 7, 7, 6>(),
+    ])
 }

@@ -109,7 +109,13 @@ fn inverted<R: Real, T, E, const B: usize, const N: usize>(
 #[test]
 fn forward_inverts_rnea_on_an_odd_tree_with_rotors_and_payload() {
     let quantity = "engine forward of rnea";
-    let scene = (Gravity::EARTH, Inertia, Coriolis, ROTORS, payload::<_, 10>());
+    let scene = (
+        Gravity::EARTH,
+        Inertia,
+        Coriolis,
+        ROTORS,
+        payload::<_, 10>(),
+    );
     inverted::<f64, Odd, _, 11, 7>(&scene, quantity, Engine::<Odd>::forward);
 }
 

@@ -58,5 +58,8 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         self.fresh = false;
         self.hold_next = false;
         self.braked = true;
+        if let Some(fault) = self.unusable {
+            self.stop(fault);
+        }
     }
 }

@@ -1,0 +1,168 @@
+//! The inertia of a body as it is described: about its centre of mass, in the frame of its description.
+
+use super::{Calibrated, ModelError, Problem, Robot, moments_excess};
+use crate::scalar::{Matrix, Real, Vector};
+use crate::spatial::SpatialInertia;
+
+/// Mass, centre of mass and inertia of a body in the frame of its description, as [`super::Body`] has them.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct BodyInertia<R> {
+    /// Mass, kg.
+    pub mass: R,
+    /// Centre of mass, m; zero for a body without mass.
+    pub com: [R; 3],
+    /// Rotational inertia about the centre of mass: xx, xy, xz, yy, yz, zz in kg·m².
+    pub inertia: [R; 6],
+}
+
+impl<R: Real> BodyInertia<R> {
+    /// What no body has: numbers that are not finite, a negative mass, inertia without mass, or principal moments that
+    /// break the triangle inequality by more than `relative` of the largest.
+    pub(crate) fn problem(&self, relative: f64) -> Option<Problem> {
+        let about = self.about_origin();
+        let finite = |v: &R::Vec3| v.array().iter().all(|x| x.is_finite());
+        let columns = about.inertia.cols();
+        if !(finite(&about.moment) && columns.iter().all(finite)) {
+            return Some(Problem::NotFinite);
+        }
+        if !(self.mass.is_finite() && self.mass >= R::ZERO) {
+            return Some(Problem::Mass);
+        }
+        if self.mass == R::ZERO && self.inertia.iter().any(|&x| x != R::ZERO) {
+            return Some(Problem::Massless);
+        }
+        let [xx, xy, xz, yy, yz, zz] = self.inertia.map(R::to_f64);
+        let excess = moments_excess([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]);
+        // Written so that a NaN is a problem too.
+        if excess <= relative {
+            None
+        } else {
+            Some(Problem::Triangle(excess))
+        }
+    }
+
+    /// The same about the origin. RBDA (2.63).
+    pub(crate) fn about_origin(&self) -> SpatialInertia<R> {
+        let ([xx, xy, xz, yy, yz, zz], [x, y, z]) = (self.inertia, self.com);
+        let (mass, column) = (self.mass, |a, b, c| R::Vec3::new(a, b, c));
+        SpatialInertia {
+            mass,
+            moment: column(x, y, z) * mass,
+            inertia: R::Mat3::from_cols(
+                column(
+                    xx + mass * (y * y + z * z),
+                    xy - mass * x * y,
+                    xz - mass * x * z,
+                ),
+                column(
+                    xy - mass * x * y,
+                    yy + mass * (x * x + z * z),
+                    yz - mass * y * z,
+                ),
+                column(
+                    xz - mass * x * z,
+                    yz - mass * y * z,
+                    zz + mass * (x * x + y * y),
+                ),
+            ),
+        }
+    }
+
+    /// From the inertia about the origin.
+    fn about_com(about: &SpatialInertia<R>) -> Self {
+        let mass = about.mass;
+        let per = if mass == R::ZERO {
+            R::ZERO
+        } else {
+            R::ONE / mass
+        };
+        let com = (about.moment * per).array();
+        let [x, y, z] = com;
+        let [cx, cy, cz] = about.inertia.cols().map(Vector::array);
+        let ([xx, xy, xz], [_, yy, yz], [_, _, zz]) = (cx, cy, cz);
+        Self {
+            mass,
+            com,
+            inertia: [
+                xx - mass * (y * y + z * z),
+                xy + mass * x * y,
+                xz + mass * x * z,
+                yy - mass * (x * x + z * z),
+                yz + mass * y * z,
+                zz - mass * (x * x + y * y),
+            ],
+        }
+    }
+}
+
+impl<T, R: Real, const B: usize, const Q: usize, const V: usize> Calibrated<T, R, B, Q, V>
+where
+    T: Robot<B, Q, V>,
+{
+    /// Sets the inertia of the body of this number, in the frame of its description: what an identification in URDF's
+    /// conventions gives. [`super::Model::body`] looks a number up.
+    ///
+    /// Principal moments may break the triangle inequality by `relative` of the largest: some 10⁻⁶ for what f32 has
+    /// rounded, `f64::INFINITY` for numbers that have to be taken as they are. Not for the tick: it computes principal
+    /// moments in f64. The algorithms of [`crate::Core`] take the robot by `&`, the engine's numbers are constants.
+    ///
+    /// ```
+    /// use dynamics_core::model::{BodyInertia, Calibrated, Problem, Robot};
+    /// use dynamics_core::{algorithms::rnea, effects::RIGID_BODY, robots::Ur5e, state::State};
+    /// const UPPER_ARM: usize = Ur5e::MODEL.body("upper_arm");
+    /// let mut arm = Calibrated::<Ur5e, f32, 6, 6, 6>::nominal();
+    /// let at = State::at([0.0, -1.2, 1.5, 0.3, 0.0, 0.0]);
+    /// let before = rnea(&arm, &at, &RIGID_BODY);
+    ///
+    /// let described = arm.inertia(UPPER_ARM).expect("the robot has this body");
+    /// let identified = BodyInertia { mass: described.mass + 0.4, ..described };
+    /// arm.set_inertia(UPPER_ARM, identified, 1e-6)?;
+    /// assert!(rnea(&arm, &at, &RIGID_BODY)[1].abs() > before[1].abs() + 0.1);
+    ///
+    /// let error = arm.set_inertia(UPPER_ARM, BodyInertia { mass: -1.0, ..identified }, 1e-6).unwrap_err();
+    /// assert_eq!((error.body, error.problem), ("upper_arm", Problem::Mass));
+    /// # Ok::<(), dynamics_core::model::ModelError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`ModelError`] names the body and what no body has, with its amount ([`Problem::NotFinite`], [`Problem::Mass`],
+    /// [`Problem::Massless`], [`Problem::Triangle`]), or the robot and a number that no body has ([`Problem::NoBody`]).
+    /// The robot is then as it was.
+    pub fn set_inertia(
+        &mut self,
+        body: usize,
+        inertia: BodyInertia<R>,
+        relative: f64,
+    ) -> Result<(), ModelError> {
+        let none = ModelError {
+            body: self.model.name,
+            problem: Problem::NoBody(body),
+        };
+        let link = self.model.links.get_mut(body).ok_or(none)?;
+        if let Some(problem) = inertia.problem(relative) {
+            return Err(ModelError {
+                body: link.name,
+                problem,
+            });
+        }
+        let (about, frame) = (inertia.about_origin(), link.frame);
+        link.inertia = SpatialInertia {
+            mass: about.mass,
+            moment: frame * about.moment,
+            inertia: frame * about.inertia * frame.transpose(),
+        };
+        Ok(())
+    }
+
+    /// The inertia of the body of this number, in the frame of its description; none for a number that no body has.
+    pub fn inertia(&self, body: usize) -> Option<BodyInertia<R>> {
+        let link = self.model.links.get(body)?;
+        let (about, back) = (&link.inertia, link.frame.transpose());
+        Some(BodyInertia::about_com(&SpatialInertia {
+            mass: about.mass,
+            moment: back * about.moment,
+            inertia: back * about.inertia * link.frame,
+        }))
+    }
+}

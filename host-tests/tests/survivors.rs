@@ -1,0 +1,244 @@
+//! Terms whose loss no other test noticed: slopes that implicit steps use, momenta with a payload or on a moving base,
+//! the tolerance of a payload's check, what brings carried sines back to the unit circle.
+
+use dynamics_core::algorithms::{centroidal_matrix, centroidal_momentum, momentum, with_momentum};
+use dynamics_core::configuration::{integrate, neutral};
+use dynamics_core::effects::{
+    Coriolis, Effect, ImpossibleLoad, Inertia, JointState, Lugre, MovingBase, Payload, Slopes,
+    Spring, Stops, Stribeck,
+};
+use dynamics_core::flexible::{Course, Flexible, flexible_rnea};
+use dynamics_core::model::{Arm, BASE, Body, Joint, Model};
+use dynamics_core::spatial::{Force, Motion};
+use dynamics_core::state::State;
+use dynamics_core::trig::Carried;
+use glam::DVec3;
+
+fn at(q: f64, qd: f64) -> JointState<f64> {
+    JointState { q, qd, qdd: 0.0 }
+}
+
+/// ∂τ/∂q and ∂τ/∂q̇ as the effect has them.
+fn slopes<E: Effect<f64, 1, 1>>(effect: &E, at: JointState<f64>) -> [f64; 2] {
+    let mut slopes = Slopes::default();
+    effect.slopes(0, at, &mut slopes);
+    [slopes.q, slopes.qd]
+}
+
+/// The same by central differences of its torque.
+fn differences<E: Effect<f64, 1, 1>>(
+    effect: &E,
+    JointState { q, qd, .. }: JointState<f64>,
+) -> [f64; 2] {
+    const H: f64 = 1e-7;
+    let torque = |q, qd| {
+        let mut tau = 0.0;
+        effect.torque(0, at(q, qd), &mut tau);
+        tau
+    };
+    [
+        (torque(q + H, qd) - torque(q - H, qd)) / (2.0 * H),
+        (torque(q, qd + H) - torque(q, qd - H)) / (2.0 * H),
+    ]
+}
+
+#[track_caller]
+fn near(got: [f64; 2], want: [f64; 2], relative: f64) {
+    let size = want[0].abs().max(want[1].abs());
+    for (a, b) in got.into_iter().zip(want) {
+        assert!((a - b).abs() <= relative * size, "{got:?} for {want:?}");
+    }
+}
+
+#[test]
+fn stribecks_slope_at_rest_is_that_of_its_torque() {
+    let stribeck = Stribeck {
+        excess: [2.0],
+        per_speed: 10.0,
+        per_width: 100.0,
+    };
+    near(
+        slopes(&stribeck, at(0.0, 0.0)),
+        differences(&stribeck, at(0.0, 0.0)),
+        1e-8,
+    );
+    assert!(slopes(&stribeck, at(0.0, 0.0))[1] > 100.0);
+}
+
+#[test]
+fn lugres_bristles_are_springs_while_they_stick_and_none_while_they_slide() {
+    let mut friction = Lugre {
+        stiffness: [1e5],
+        damping: [300.0],
+        viscous: [0.4],
+        sliding: [1.0],
+        excess: [0.5],
+        per_speed: 1.0 / 0.01,
+        bristle: [0.0],
+    };
+    near(slopes(&friction, at(0.0, 0.0)), [1e5, 300.4], 1e-12);
+    let sliding = at(0.0, 0.5);
+    for _ in 0..1000 {
+        Effect::<f64, 1, 1>::advance(&mut friction, 0, sliding, 0.01);
+    }
+    let [q, qd] = slopes(&friction, sliding);
+    assert!(q.abs() < 1e-5 && (qd - 0.4).abs() < 1e-7, "{q} {qd}");
+}
+
+#[test]
+fn slopes_of_the_stops_are_those_of_their_torque() {
+    let stops = Stops {
+        lower: [-1.0],
+        upper: [1.0],
+        stiffness: 1e4,
+        damping: 50.0,
+        per_depth: 1e3,
+    };
+    // Deep enough that the damping no longer grows with the depth; within, at both ends, and pulled out of one so
+    // fast that the stop has let go.
+    for state in [
+        at(0.0, 2.0),
+        at(1.5, 0.3),
+        at(1.5, -0.3),
+        at(-1.5, 0.3),
+        at(1.5, -200.0),
+    ] {
+        near(slopes(&stops, state), differences(&stops, state), 1e-5);
+    }
+    assert_eq!(slopes(&stops, at(1.5, -200.0)), [0.0; 2]);
+}
+
+/// A payload whose principal moments exceed what a body has by 0.2 of the largest.
+fn checked(relative: f64) -> Result<Payload<f64, 0>, ImpossibleLoad> {
+    Payload::checked(
+        2.0,
+        [0.0, 0.0, 0.1],
+        [0.05, 0.0, 0.0, 0.02, 0.0, 0.02],
+        relative,
+    )
+}
+
+#[test]
+fn a_payload_is_refused_just_beyond_its_tolerance() {
+    assert!(checked(0.2 + 1e-9).is_ok());
+    assert!(matches!(
+        checked(0.2 - 1e-9),
+        Err(ImpossibleLoad::Triangle(_))
+    ));
+    assert!(matches!(
+        checked(f64::NAN),
+        Err(ImpossibleLoad::Triangle(_))
+    ));
+}
+
+/// A trunk that floats, with an arm.
+const FLOATING: Model<f64, 2, 8, 7> = Model::new(
+    "floating",
+    [
+        Body::new("trunk", BASE, Joint::free())
+            .mass(5.0)
+            .com([0.05, -0.02, 0.1])
+            .inertia([0.3, 0.01, -0.02, 0.25, 0.03, 0.2]),
+        Body::new("arm", 0, Joint::revolute([0.2, 1.0, -0.3]))
+            .xyz([0.1, 0.2, 0.3])
+            .mass(1.5)
+            .com([0.2, 0.0, 0.1])
+            .inertia([0.01, 0.0, 0.002, 0.03, 0.0, 0.03]),
+    ],
+);
+
+fn floating() -> State<f64, 8, 7> {
+    let step = [0.3, -0.2, 0.5, 0.1, 0.4, -0.3, 0.7];
+    let q = integrate(&FLOATING, &neutral(&FLOATING), &step);
+    State {
+        q,
+        qd: [0.4, -0.3, 0.8, 0.5, 0.2, -0.6, 1.3],
+        qdd: [0.0; 7],
+    }
+}
+
+#[track_caller]
+fn same(got: Force<f64>, want: Force<f64>) {
+    let apart = (got.ang - want.ang).length() + (got.lin - want.lin).length();
+    assert!(apart < 2e-14, "{got:?} for {want:?}");
+}
+
+#[test]
+fn the_centroidal_matrix_has_the_payload() {
+    let state = floating();
+    let load = Payload::<_, 0>::new(2.0, [0.3, -0.1, 0.2], [0.02, 0.0, 0.0, 0.01, 0.0, 0.02]);
+    let columns = centroidal_matrix(&FLOATING, &state.q, &load);
+    let mut h = Force::ZERO;
+    for (column, qd) in columns.into_iter().zip(state.qd) {
+        h += column * qd;
+    }
+    same(h, centroidal_momentum(&FLOATING, &state, &load));
+    let empty = centroidal_momentum(&FLOATING, &state, &());
+    assert!((h.lin - empty.lin).length() > 0.5);
+}
+
+#[test]
+fn a_momentum_is_reached_on_a_base_that_moves() {
+    let ship = MovingBase {
+        velocity: Motion::new(DVec3::new(0.2, -0.4, 0.1), DVec3::new(1.0, 0.5, -0.3)),
+        acceleration: Motion::ZERO,
+    };
+    let wanted = Force::new(DVec3::new(0.5, -1.0, 2.0), DVec3::new(3.0, 1.0, -2.0));
+    let mut state = floating();
+    state.qd = with_momentum(&FLOATING, &state, wanted, &ship).expect("the trunk has mass");
+    same(momentum(&FLOATING, &state, &ship), wanted);
+    assert!((momentum(&FLOATING, &state, &()).lin - wanted.lin).length() > 0.5);
+}
+
+#[test]
+fn sines_that_are_carried_on_stay_on_the_unit_circle() {
+    let (mut turns, mut q) = (Carried::at([0.3_f64]), 0.3);
+    for _ in 0..100_000 {
+        q += 0.01;
+        turns.follow(&[q]);
+    }
+    let turn = turns.follow(&[q]).turns[0];
+    let off = turn.sin * turn.sin + turn.cos * turn.cos - 1.0;
+    assert!(off.abs() < 1e-15, "{off:e}");
+}
+
+const WHEEL: Arm<f64, 1> = Model::new(
+    "wheel",
+    [Body::new("w", BASE, Joint::revolute([0.0, 0.0, 1.0]))
+        .mass(1.0)
+        .inertia([0.0, 0.0, 0.0, 0.0, 0.0, 2.0])],
+);
+
+#[test]
+fn a_spring_at_a_compliant_joint_adds_its_rate_to_that_of_the_torque() {
+    let joints = Flexible {
+        stiffness: [100.0],
+        rotor: [0.5],
+        friction: [0.0],
+    };
+    let course = Course {
+        state: State {
+            q: [0.7],
+            qd: [0.3],
+            qdd: [-0.4],
+        },
+        jerk: [1.1],
+        snap: [-2.0],
+    };
+    let spring = Spring {
+        stiffness: [30.0],
+        rest: [0.2],
+    };
+    let told =
+        flexible_rnea(&WHEEL, &joints, &course, &(Inertia, Coriolis, spring)).expect("one joint");
+    // τ = I q̈ + k (q − q₀) with its derivatives; θ = q + τ/K; τ_m = J θ̈ + τ.
+    let [tau, rate, accel] = [
+        2.0 * -0.4 + 30.0 * 0.5,
+        2.0 * 1.1 + 30.0 * 0.3,
+        2.0 * -2.0 + 30.0 * -0.4,
+    ];
+    let close = |got: f64, want: f64| assert!((got - want).abs() < 1e-14, "{got} for {want}");
+    close(told.position[0], 0.7 + tau / 100.0);
+    close(told.velocity[0], 0.3 + rate / 100.0);
+    close(told.torque[0], 0.5 * (-0.4 + accel / 100.0) + tau);
+}

@@ -1,4 +1,34 @@
-//! A payload that is known only at run time.
+//! A payload that is known only at run time: what a gripper holds, on the body that the type names.
 //!
 //! `cargo run -p dynamics-core --example payload`
-fn main() {}
+
+use dynamics_core::effects::{ImpossibleLoad, Payload, RIGID_BODY};
+use dynamics_core::{Engine, model::Robot, robots::Ur5e, state::State};
+
+/// Its mass, centre of mass and inertia are in the wrist's frame. A name that no body has does not compile.
+type OnWrist = Payload<f32, { Ur5e::MODEL.body("wrist_3") }>;
+
+fn main() -> Result<(), ImpossibleLoad> {
+    // Of numbers that come from outside: those that no body has are refused.
+    let checked = |mass| OnWrist::checked(mass, [0.0, 0.0, 0.1], [0.0; 6], 1e-6);
+    assert_eq!(checked(-1.0), Err(ImpossibleLoad::Mass));
+    assert_eq!(checked(f32::NAN), Err(ImpossibleLoad::NotFinite));
+
+    // The gripper is always there. The load adds to it, and with no mass it is no load.
+    let gripper = OnWrist::new(0.9, [0.0, 0.0, 0.06], [1e-3, 0.0, 0.0, 1e-3, 0.0, 5e-4]);
+    let arm = State {
+        qdd: [0.5; 6],
+        ..State::at([0.0_f32, -0.8, 0.9, 0.1, 0.2, 0.3])
+    };
+    let bare = Engine::<Ur5e>::rnea(&arm, &(RIGID_BODY, gripper));
+    println!("load, kg | shoulder  elbow, N·m");
+    let mut last = bare[1];
+    for mass in [0.0, 0.5, 2.0, 5.0] {
+        let tau = Engine::<Ur5e>::rnea(&arm, &(RIGID_BODY, gripper, checked(mass)?));
+        println!("{mass:8.1} | {:8.2} {:6.2}", tau[1], tau[2]);
+        assert!(mass > 0.0 || (tau[1] - bare[1]).abs() < 1e-4);
+        assert!(mass == 0.0 || tau[1].abs() > last.abs() + 1.0);
+        last = tau[1];
+    }
+    Ok(())
+}

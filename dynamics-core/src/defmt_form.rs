@@ -34,8 +34,8 @@ impl<R: Real + Format> Format for SpatialInertia<R> {
     }
 }
 
-impl<R: Real + Format> Format for Payload<R> {
+impl<R: Real + Format, const BODY: usize> Format for Payload<R, BODY> {
     fn format(&self, f: Formatter<'_>) {
-        write!(f, "Payload({})", self.0);
+        write!(f, "Payload of body {}: {}", BODY, self.0);
     }
 }

@@ -1,8 +1,8 @@
 //! serde's traits for what firmware keeps in flash, for the feature `serde`.
 //!
 //! A field at a time, under its name, arrays as tuples of their length. Only types whose fields are public, so that
-//! nothing is read which could not be written in code. What a constructor checks (models, trajectories, supervisors,
-//! payloads) is built from these by that constructor, and has no `Deserialize` that would go round it.
+//! nothing is read which could not be written in code; bounds that their check refuses are not read. What a constructor
+//! checks (models, trajectories, supervisors, payloads) has no `Deserialize`: that constructor builds it from these.
 
 use crate::effects::{RotorInertia, Viscous};
 use crate::scalar::{Matrix, Real, Vector};
@@ -99,9 +99,10 @@ impl<R: Real, const H: usize, const N: usize> Form<Array<Array<R, H>, N>> for [[
     }
 }
 
-/// The traits of a struct, by a twin whose arrays are [`Array`]s. A field that is missing here does not compile.
+/// The traits of a struct, by a twin whose arrays are [`Array`]s. A field that is missing here does not compile. What
+/// its `check` refuses is not read.
 macro_rules! record {
-    ($module:ident::$name:ident<R $(, $n:ident)*> { $($field:ident: $form:ty),+ $(,)? }) => {
+    ($module:ident::$name:ident<R $(, $n:ident)*> { $($field:ident: $form:ty),+ $(,)? } $($check:ident)?) => {
         const _: () = {
             #[derive(Serialize, Deserialize)]
             #[serde(deny_unknown_fields)]
@@ -120,7 +121,9 @@ macro_rules! record {
             {
                 fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
                     let read = $name::deserialize(deserializer)?;
-                    Ok(Self { $($field: Form::of(read.$field)),+ })
+                    let value = Self { $($field: Form::of(read.$field)),+ };
+                    $(value.$check().map_err(D::Error::custom)?;)?
+                    Ok(value)
                 }
             }
         };
@@ -133,12 +136,13 @@ record!(control::Bounds<R, V> {
     speed: Array<R, V>,
     lower: Array<R, V>,
     upper: Array<R, V>,
-});
+} check);
 record!(control::Gains<R, V> { kp: Array<R, V>, kd: Array<R, V> });
 record!(control::Speed<R> { velocity: R, acceleration: R });
 record!(control::WayPoint<R, V> { q: Array<R, V>, qd: Array<R, V>, ticks: u32 });
 record!(state::State<R, Q, V> { q: Array<R, Q>, qd: Array<R, V>, qdd: Array<R, V> });
 record!(model::Limits<R> { lower: R, upper: R, velocity: R, torque: R });
+record!(model::BodyInertia<R> { mass: R, com: Array<R, 3>, inertia: Array<R, 6> });
 
 record!(effects::Coulomb<R, V> { torque: Array<R, V>, per_width: R });
 record!(effects::AsymmetricCoulomb<R, V> {

@@ -6,7 +6,7 @@ use dynamics_core::effects::{
     Viscous,
 };
 use dynamics_core::glam::Mat3;
-use dynamics_core::model::Limits;
+use dynamics_core::model::{BodyInertia, Limits};
 use dynamics_core::spatial::SpatialInertia;
 use dynamics_core::state::State;
 use serde::Serialize;
@@ -26,22 +26,23 @@ fn refusal<T: DeserializeOwned + std::fmt::Debug>(text: &str) -> String {
         .to_string()
 }
 
+const BOUNDS: Bounds<f32, 2> = Bounds {
+    torque: [10.1, 20.2],
+    rate: [1.0, 3.4e38],
+    speed: [3.3, 1e-30],
+    lower: [-1.1, -2.2],
+    upper: [1.1, 2.2],
+};
 const THIRDS: [f32; 2] = [1.0 / 3.0, -2.0 / 3.0];
 
 fn inertia() -> SpatialInertia<f32> {
-    Payload::new(1.7, [0.1, -0.2, 0.3], [0.4, 0.01, 0.02, 0.5, 0.03, 0.6]).0
+    Payload::<f32, 0>::new(1.7, [0.1, -0.2, 0.3], [0.4, 0.01, 0.02, 0.5, 0.03, 0.6]).0
 }
 
 #[test]
 fn what_the_controller_is_configured_with_comes_back_to_the_bit() {
     let [a, b] = [THIRDS, [1e-30, 3.4e38]];
-    comes_back(Bounds {
-        torque: a,
-        rate: b,
-        speed: a,
-        lower: b,
-        upper: a,
-    });
+    comes_back(BOUNDS);
     comes_back(Gains { kp: a, kd: b });
     comes_back(Speed {
         velocity: a[0],
@@ -69,6 +70,11 @@ fn what_the_controller_is_configured_with_comes_back_to_the_bit() {
 fn what_is_identified_comes_back_to_the_bit() {
     let [a, b] = [THIRDS, [0.25, 1e-7]];
     comes_back(inertia());
+    comes_back(BodyInertia {
+        mass: 1.7_f32,
+        com: [0.1, -0.2, 0.3],
+        inertia: [0.4, 0.01, 0.02, 0.5, 0.03, 0.6],
+    });
     comes_back(Viscous(a));
     comes_back(RotorInertia(b));
     comes_back(Coulomb {
@@ -130,6 +136,16 @@ fn a_field_that_is_missing_or_unknown_is_refused() {
     assert!(refusal::<Gains<f32, 1>>(r#"{"kp": [1.0]}"#).contains("missing field `kd`"));
     let unknown = r#"{"kp": [1.0], "kd": [1.0], "ki": [1.0]}"#;
     assert!(refusal::<Gains<f32, 1>>(unknown).contains("unknown field `ki`"));
+}
+
+#[test]
+fn bounds_that_allow_nothing_are_refused_as_they_are_read() {
+    let negative = Bounds {
+        torque: [10.0, -10.0],
+        ..BOUNDS
+    };
+    let text = serde_json::to_string(&negative).expect("bounds");
+    assert!(refusal::<Bounds<f32, 2>>(&text).contains("joint 1: its limit of torque is negative"));
 }
 
 #[test]

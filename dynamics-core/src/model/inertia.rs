@@ -6,6 +6,7 @@ use crate::spatial::SpatialInertia;
 
 /// Mass, centre of mass and inertia of a body in the frame of its description, as [`super::Body`] has them.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct BodyInertia<R> {
     /// Mass, kg.
     pub mass: R,

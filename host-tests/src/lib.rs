@@ -4,6 +4,7 @@
 pub mod export;
 pub mod fuzz;
 pub mod hard;
+pub mod measured;
 pub mod odd;
 pub mod random;
 pub mod recordings;

@@ -1,0 +1,31 @@
+//! Measured values held against bounds that neither NaN nor slack can pass.
+
+/// How many times its measured value a bound may be.
+const SLACK: f64 = 10.0;
+
+/// The largest of some values: NaN as soon as one of them is NaN, which `f64::max` would drop, and −∞ of none.
+pub fn largest<T: Into<f64>>(values: impl IntoIterator<Item = T>) -> f64 {
+    let larger = |largest: f64, value: f64| match largest.is_nan() | (value <= largest) {
+        true => largest,
+        false => value,
+    };
+    values
+        .into_iter()
+        .map(Into::into)
+        .fold(f64::NEG_INFINITY, larger)
+}
+
+/// Holds a measured value against its bound; a bound of 0 stands for exactly 0.
+///
+/// # Panics
+/// Names the value if it is NaN or beyond its bound, or if the bound is more than ten times the value.
+#[track_caller]
+pub fn within(what: &str, measured: impl Into<f64>, bound: f64) {
+    let measured = measured.into();
+    let place = format!("{what}: {measured:.3e}, bound {bound:.1e}");
+    assert!(measured <= bound, "{place}: exceeded");
+    assert!(
+        SLACK * measured >= bound,
+        "{place}: slack by more than ten times, lower it"
+    );
+}

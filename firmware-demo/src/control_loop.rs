@@ -4,12 +4,12 @@
 //! else from tick to tick but its clock, observer, supervisor and way back.
 //!
 //! A measurement that is lost now and then is ridden through: the arm goes on as the observer
-//! expects. When more are lost, the clock stands still and the arm is damped to rest, as the
-//! observer expects it to be, under the torque of gravity; on the way back a reference leads from
+//! expects. When more are lost, the clock stands still and the arm is brought to rest, from where the
+//! observer expects it to be, by inverse dynamics of a speed that decays; on the way back a reference leads from
 //! there onto the trajectory.
 
 use dynamics_core::control::{
-    Fault, Gains, Mode, Observer, Reference, Rejoin, Status, Supervisor, feedback,
+    Fault, Gains, Mode, Observer, Reference, Rejoin, Status, Supervisor, feedback, hold,
 };
 use dynamics_core::state::State;
 use embedded_hal::digital::OutputPin;
@@ -259,8 +259,8 @@ where
         arrived
     }
 
-    /// While the arm is held: where it is, its speed decaying, so that the same law yields the torque
-    /// of gravity and damping. Then the way back.
+    /// While the arm is held: where it is, its speed decaying, so that the same law brings all joints to
+    /// rest together. Then the way back.
     #[cold]
     #[inline(never)]
     fn detour<T: Reference<f32, V>>(
@@ -289,13 +289,12 @@ where
         }
         let estimate = *self.observer.estimate();
         self.rejoin.start(&estimate, self.clock);
-        let decay = self.rejoin.decay();
-        State {
-            q: estimate.q,
-            // Zero leaves the slowing down to K_d.
-            qd: estimate.qd.map(|qd| if accelerates { qd } else { 0.0 }),
-            qdd: estimate.qd.map(|qd| -(decay * qd)),
+        let mut reference = hold(&estimate, self.rejoin.decay());
+        if !accelerates {
+            // K_d slows the joints down.
+            reference.qd = [0.0; V];
         }
+        reference
     }
 
     /// τ = feed-forward + K_p (q_d − q) + K_d (q̇_d − q̇).

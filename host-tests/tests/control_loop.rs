@@ -7,6 +7,8 @@ use arm::{Arm, HOLD, POISON, RIDE};
 use dynamics_core::control::{Fault, Mode};
 use firmware_demo::control_loop::Refusal;
 use firmware_demo::encoder::FrameError;
+use firmware_demo::scenes::ur5e::GravityOnly;
+use host_tests::measured::{largest, within};
 use proptest::prelude::*;
 
 /// The fastest moment of the way: 1.9 rad/s.
@@ -16,36 +18,69 @@ const SLOW: u32 = 1600;
 
 #[test]
 fn a_bad_frame_does_not_jolt_the_arm() {
+    let mut more = vec![];
     for at in [SLOW, FAST, 5000] {
         let whole = bad_frames(at, 0, 0).worst;
         for mask in [1, 0x8000] {
             for ticks in 1..=RIDE {
                 let ridden = bad_frames(at, ticks, mask);
-                assert!(
-                    ridden.worst - whole < 1e-4,
-                    "{at} {ticks}: {}",
-                    ridden.worst
-                );
+                more.push(ridden.worst - whole);
                 assert!(ridden.modes.iter().all(|&mode| mode == Mode::Full));
                 assert_eq!((ridden.others, ridden.back), (vec![], 0));
             }
         }
     }
+    within("error of bad frames, rad", largest(more), 5e-5);
 }
 
 #[test]
 fn a_longer_fault_ends_on_the_trajectory_without_a_turn_back() {
+    let (mut reversals, mut errors, mut back) = (vec![], vec![], vec![]);
     for at in [SLOW, FAST, 5000] {
         for ticks in [RIDE + 1, 20, 50, 100, RIDE + HOLD] {
             let held = bad_frames(at, ticks, 1);
-            assert!(held.reversal < 0.02, "{at} {ticks}: {}", held.reversal);
-            assert!(held.worst < 4e-3, "{at} {ticks}: {}", held.worst);
-            assert!(held.back <= 120, "{at} {ticks}: {}", held.back);
+            reversals.push(held.reversal);
+            errors.push(held.worst);
+            back.push(held.back);
             assert_eq!(held.others, vec![]);
             let of = |mode| held.modes.iter().filter(|&&m| m == mode).count() as u32;
             assert_eq!((of(Mode::Hold), of(Mode::Stopped)), (ticks - RIDE, 0));
         }
     }
+    let reversal = largest(reversals);
+    assert!(reversal <= 0.0, "{reversal} rad/s");
+    within("error, rad", largest(errors), 4e-3);
+    within("ticks until back", largest(back), 120.0);
+}
+
+#[test]
+fn what_is_seen_again_after_a_hold_is_believed_at_once() {
+    let mut arm = Arm::new();
+    arm.run(FAST);
+    arm.corrupt(0, 1);
+    arm.run(50);
+    // Something has pushed the arm while nobody looked.
+    arm.rig.plant.state.q[0] += 0.01;
+    arm.wires.publish(&arm.rig.plant.state.q);
+    arm.run(2);
+    arm.corrupt(0, 0);
+    let actual = arm.rig.plant.state.q;
+    let telemetry = arm.tick();
+    assert_eq!(telemetry.status.fault, None);
+    let error = Arm::error(&telemetry.estimate, &actual);
+    within("error of the estimate, rad", error, 1e-3);
+}
+
+/// Such a law cannot bring a deceleration about.
+#[test]
+fn k_d_slows_an_arm_down_whose_law_knows_no_inertia() {
+    let mut arm = Arm::new();
+    (0..FAST).for_each(|_| _ = arm.tick_under::<GravityOnly>());
+    arm.corrupt(0, 1);
+    let speed = |arm: &Arm| largest(arm.rig.plant.state.qd.map(f32::abs));
+    let fast = speed(&arm);
+    (0..RIDE + 50).for_each(|_| _ = arm.tick_under::<GravityOnly>());
+    within("speed left", speed(&arm) / fast, 0.6);
 }
 
 #[test]
@@ -91,13 +126,14 @@ fn a_bus_that_fails_for_a_moment_is_ridden_through() {
         assert_eq!(telemetry.status.mode, Mode::Full);
     }
     arm.bent[4].bus.set(false);
-    for _ in 0..100 {
+    let errors = [(); 100].map(|()| {
         let actual = arm.rig.plant.state.q;
         let telemetry = arm.tick();
         // The frame after the failure still carries the angle of before it.
         assert_eq!(telemetry.status.mode, Mode::Full);
-        assert!(Arm::error(&telemetry.reference, &actual) < 1e-3);
-    }
+        Arm::error(&telemetry.reference, &actual)
+    });
+    within("error, rad", largest(errors), 3e-4);
 }
 
 #[test]
@@ -126,13 +162,15 @@ fn nan_from_the_law_never_reaches_a_drive() {
 fn a_moment_without_a_torque_does_not_jolt_the_arm() {
     let mut arm = Arm::new();
     arm.run(FAST);
+    let mut errors = vec![];
     for tick in 0..300 {
         POISON.set((tick < RIDE).then_some((0, f32::NAN)));
         let actual = arm.rig.plant.state.q;
         let telemetry = arm.tick();
-        assert!(Arm::error(&telemetry.reference, &actual) < 1e-3);
+        errors.push(Arm::error(&telemetry.reference, &actual));
         assert_eq!(telemetry.status.mode, Mode::Full);
     }
+    within("error, rad", largest(errors), 3e-4);
 }
 
 #[test]
@@ -183,6 +221,7 @@ fn after_a_reset_the_arm_goes_back_to_its_trajectory() {
     arm.corrupt(0, 0);
     arm.run(2000);
     assert_eq!(arm.control.reset(&arm.trajectory), Ok(()));
+    let (mut errors, mut speeds) = (vec![], vec![]);
     for tick in 0..600 {
         let actual = arm.rig.plant.state.q;
         let telemetry = arm.tick();
@@ -192,13 +231,20 @@ fn after_a_reset_the_arm_goes_back_to_its_trajectory() {
         );
         // The brake opens no sooner than the torque is there.
         assert!(tick > 0 || arm.brake.0.0.get() == telemetry.status.limited);
-        let error = Arm::error(&telemetry.reference, &actual);
-        assert!(
-            error < 5e-3 && (tick < 400 || error < 1e-3),
-            "{tick}: {error}"
-        );
-        assert!(arm.rig.plant.state.qd.iter().all(|qd| qd.abs() < 2.5));
+        errors.push(Arm::error(&telemetry.reference, &actual));
+        speeds.extend(arm.rig.plant.state.qd.map(f32::abs));
     }
+    within(
+        "error on the way back, rad",
+        largest(errors.iter().copied()),
+        1e-3,
+    );
+    within(
+        "error on the trajectory, rad",
+        largest(errors.split_off(400)),
+        5e-4,
+    );
+    within("speed, rad/s", largest(speeds), 2.5);
     assert_eq!(arm.control.reset(&arm.trajectory), Err(Refusal::Running));
 }
 
@@ -225,7 +271,8 @@ fn encoders_are_started_before_the_first_tick() {
     let mut arm = Arm::new();
     let telemetry = arm.tick();
     assert_eq!((telemetry.status.fault, telemetry.frame), (None, None));
-    assert!(Arm::error(&telemetry.estimate, &arm.rig.plant.state.q) < 1e-3);
+    let error = Arm::error(&telemetry.estimate, &arm.rig.plant.state.q);
+    within("error of the estimate, rad", error, 2e-9);
 }
 
 proptest! {

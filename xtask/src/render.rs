@@ -253,7 +253,7 @@ fn words(status: &str) -> String {
     let mut text = status.to_owned();
     for (logged, plain) in [
         ("mode Full", "the full law"),
-        ("mode Hold", "holding on gravity compensation"),
+        ("mode Hold", "brought to rest"),
         ("mode Stopped", "stopped on the brake"),
         ("fault None", "no fault"),
         ("limited false", "no limit reached"),
@@ -285,11 +285,15 @@ mod tests {
             ),
             (
                 "mode Hold, fault Some(Encoder { joint: 2 }), limited true",
-                "holding on gravity compensation, fault: Encoder of joint 2, torque or its rate limited",
+                "brought to rest, fault: Encoder of joint 2, torque or its rate limited",
             ),
             (
                 "mode Stopped, fault Some(Stale), limited false",
                 "stopped on the brake, fault: Stale, no limit reached",
+            ),
+            (
+                "mode Stopped, fault Some(External), limited false",
+                "stopped on the brake, fault: External, no limit reached",
             ),
         ] {
             assert_eq!(words(logged), told);

@@ -8,7 +8,7 @@ use super::Fault;
 pub enum Mode {
     /// The full control law; while a fault is ridden through, on what the observer expects.
     Full,
-    /// Gravity compensation and damping where the arm is.
+    /// Brought to rest where the observer has the arm: inverse dynamics of q̈ = −λ q̇, see [`super::hold`].
     Hold,
     /// Zero torque and the brake, until [`super::Supervisor::reset`].
     Stopped,

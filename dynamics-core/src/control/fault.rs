@@ -56,6 +56,9 @@ pub enum Fault {
     },
     /// The brake did not take its order.
     Brake,
+    /// A stop from outside the loop: an emergency stop's contact, a safety controller, an operator. For
+    /// [`Supervisor::stop`](super::Supervisor::stop).
+    External,
 }
 
 impl fmt::Display for Fault {
@@ -63,6 +66,7 @@ impl fmt::Display for Fault {
         let (joint, text) = match *self {
             Self::Stale => return write!(out, "no measurement of this tick"),
             Self::Brake => return write!(out, "the brake did not take its order"),
+            Self::External => return write!(out, "a stop from outside"),
             Self::Encoder { joint } => (joint, "its encoder reports an error"),
             Self::NotFinite { joint } => (joint, "its measured position is not finite"),
             Self::Position { joint } => (joint, "its position is outside its bounds"),

@@ -319,7 +319,20 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         self.end(torque, off != R::ZERO)
     }
 
-    /// Stops the arm from the next tick on, for a reason found outside, as a drive that fails.
+    /// Stops the arm for a reason found outside, as a drive that fails or an emergency stop: before [`Self::pass`] in
+    /// the same tick, after it from the next one on. Latched until [`Self::reset`]; the first reason stays. A stop that
+    /// is still demanded after a reset is to be called again, every tick.
+    ///
+    /// ```
+    /// # use dynamics_core::control::{Bounds, Fault, Mode, Supervisor};
+    /// # let bounds = Bounds { torque: [10.0_f32], rate: [8.0], speed: [3.0], lower: [-1.0], upper: [1.0] };
+    /// # let mut supervisor = Supervisor::new(bounds, 1e-3, 2, 4).riding(5);
+    /// supervisor.admit(Ok(&[0.5]));
+    /// supervisor.stop(Fault::External);
+    /// let command = supervisor.pass(&[7.0]);
+    /// assert_eq!((command.torque, command.brake), ([0.0], true));
+    /// assert_eq!(command.status.fault, Some(Fault::External));
+    /// ```
     #[cold]
     pub fn stop(&mut self, fault: Fault) {
         if !matches!(self.mode, Mode::Stopped) {

@@ -18,6 +18,7 @@ use firmware_demo::scene::{Full, STEPS, Scene, TICK, control_loop};
 pub use firmware_demo::scene::{HOLD, REENTRY, RIDE};
 use firmware_demo::scenes::ur5e::{Effects, PickAndPlace};
 use firmware_demo::wires::{MAX_DUTY, SimDrive, SimEncoder, Wires};
+use host_tests::measured::largest;
 
 /// The full model, which a test may make fail: on this thread, no number for a joint.
 pub struct FullModel;
@@ -169,7 +170,12 @@ impl Arm {
 
     /// A tick of the firmware, then of the plant, which a brake holds at once.
     pub fn tick(&mut self) -> Telemetry<6> {
-        let telemetry = self.control.tick::<FullModel, _, ()>(&self.trajectory, &());
+        self.tick_under::<FullModel>()
+    }
+
+    /// The same under another law.
+    pub fn tick_under<L: Law<6>>(&mut self) -> Telemetry<6> {
+        let telemetry = self.control.tick::<L, _, ()>(&self.trajectory, &());
         if self.brake.0.0.get() {
             self.rig.plant.state.qd = [0.0; 6];
             self.wires.publish(&self.rig.plant.state.q);
@@ -192,9 +198,9 @@ impl Arm {
         self.bent[joint].mask.set(mask);
     }
 
-    /// Largest error of a joint, by what was true when the telemetry was made.
-    pub fn error(reference: &[f32; 6], actual: &[f32; 6]) -> f32 {
+    /// Largest error of a joint, by what was true when the telemetry was made; NaN if one is.
+    pub fn error(reference: &[f32; 6], actual: &[f32; 6]) -> f64 {
         let apart = |(r, q): (&f32, &f32)| (r - q).abs();
-        reference.iter().zip(actual).map(apart).fold(0.0, f32::max)
+        largest(reference.iter().zip(actual).map(apart))
     }
 }

@@ -139,6 +139,29 @@ fn a_failure_from_outside_stops_the_arm_in_the_next_tick() {
 }
 
 #[test]
+fn an_external_stop_acts_in_its_tick_and_stays_until_a_reset() {
+    let mut supervisor = supervisor().riding(5);
+    good(&mut supervisor, [3.0; 2]);
+    bad(&mut supervisor, [3.0; 2]);
+    supervisor.admit(Err(Fault::Encoder { joint: 1 }));
+    supervisor.stop(Fault::External);
+    let command = supervisor.pass(&[3.0; 2]);
+    assert_eq!((command.torque, command.brake), ([0.0; 2], true));
+    for _ in 0..10 {
+        let command = good(&mut supervisor, [3.0; 2]);
+        assert_eq!((command.torque, command.brake), ([0.0; 2], true));
+        assert_eq!(command.status.mode, Mode::Stopped);
+        assert_eq!(command.status.fault, Some(Fault::External));
+    }
+    assert_eq!(Fault::External.to_string(), "a stop from outside");
+    supervisor.reset();
+    assert_eq!(good(&mut supervisor, [3.0; 2]).status.fault, None);
+    // Still demanded.
+    supervisor.stop(Fault::External);
+    assert!(good(&mut supervisor, [3.0; 2]).brake);
+}
+
+#[test]
 fn without_a_torque_the_last_ones_stand_then_a_hold_then_the_brake() {
     let mut supervisor = supervisor().riding(2);
     good(&mut supervisor, [4.0; 2]);

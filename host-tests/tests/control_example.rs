@@ -1,0 +1,115 @@
+//! The control loop in the documentation of `dynamics_core::control`, on a simulated arm: it keeps what the firmware's
+//! loop promises.
+
+use dynamics_core::control::{Bounds, Fault, Mode};
+use dynamics_core::model::Of;
+use dynamics_core::robots::Ur5e;
+use dynamics_core::sim::linearly_implicit;
+use dynamics_core::state::State;
+use firmware_demo::scene::Scene;
+use firmware_demo::scenes::ur5e::PickAndPlace;
+use host_tests::measured::{largest, within};
+
+#[path = "../../dynamics-core/src/control/example.rs"]
+mod example;
+
+use example::{EFFECTS, HOLD, Loop, OMEGA_N, REENTRY, RIDE, TICK};
+
+/// The fastest moment of the way: 1.9 rad/s.
+const FAST: u32 = 3200;
+const STEPS: u32 = 4;
+
+/// What some ticks without measurements did to the arm.
+struct Outcome {
+    /// The largest error of a joint against the reference, rad.
+    error: f64,
+    /// The most that a joint that moved one way moved back, rad/s.
+    reversal: f64,
+    /// Ticks until the error stays below 1 mrad on the trajectory.
+    back: u32,
+    /// The largest speed of a joint at the fault's begin and end, rad/s.
+    speeds: [f64; 2],
+}
+
+/// The arm on its way, without measurements for `lost` ticks from the tick `at` on.
+fn lost_frames(at: u32, lost: u32) -> Outcome {
+    let limits = PickAndPlace::limits();
+    let torque = limits.map(|limit| limit.torque);
+    let bounds = Bounds {
+        torque,
+        rate: torque.map(|torque| 0.5 * torque),
+        speed: limits.map(|limit| limit.velocity),
+        lower: limits.map(|limit| limit.lower),
+        upper: limits.map(|limit| limit.upper),
+    };
+    let way = PickAndPlace::reference().unwrap();
+    let mut arm = State::at(way.at(0).q);
+    let mut control = Loop::new(bounds, arm.q);
+    let mut before = arm.q;
+    let mut step = |arm: &mut State<f32, 6, 6>, measured: bool| {
+        let fault = Fault::Encoder { joint: 0 };
+        let measured = if measured { Ok(&before) } else { Err(fault) };
+        let command = control.tick(&way, measured);
+        before = arm.q;
+        let apart = |(r, q): (&f32, &f32)| (r - q).abs();
+        let error = largest(control.reference.q.iter().zip(&arm.q).map(apart));
+        for _ in 0..STEPS {
+            let h = TICK / STEPS as f32;
+            linearly_implicit(&Of::<Ur5e>::NEW, arm, &command.torque, &mut { EFFECTS }, h).unwrap();
+        }
+        (error, command)
+    };
+    for _ in 0..at {
+        let (error, command) = step(&mut arm, true);
+        assert!(error < 1e-3 && command.status.fault.is_none());
+    }
+    let moving: Vec<_> = (0..6).filter(|&j| arm.qd[j].abs() > 0.3).collect();
+    let direction = arm.qd.map(f32::signum);
+    let (mut errors, mut reversals, mut back) = (vec![], vec![], 0);
+    let mut speeds = [largest(arm.qd.map(f32::abs)), f64::NAN];
+    for tick in 0..lost + REENTRY + 200 {
+        let (error, command) = step(&mut arm, tick >= lost);
+        let mode = match tick {
+            _ if tick < RIDE.min(lost) => Mode::Full,
+            _ if tick < lost => Mode::Hold,
+            _ => Mode::Full,
+        };
+        assert_eq!(command.status.mode, mode, "{tick}: {:?}", command.status);
+        errors.push(error);
+        if tick < lost + REENTRY {
+            reversals.extend(moving.iter().map(|&j| -arm.qd[j] * direction[j]));
+        }
+        if tick + 1 == lost {
+            speeds[1] = largest(arm.qd.map(f32::abs));
+        }
+        if tick >= lost && error > 1e-3 {
+            back = tick - lost + 1;
+        }
+    }
+    Outcome {
+        error: largest(errors),
+        reversal: largest(reversals),
+        back,
+        speeds,
+    }
+}
+
+#[test]
+fn the_documented_loop_brings_a_fast_arm_to_rest_without_a_turn_back_and_onto_its_way() {
+    let mut back = vec![];
+    for (lost, bound) in [(20, 1e-3), (50, 2e-3), (100, 4e-3), (RIDE + HOLD, 4e-3)] {
+        let held = lost_frames(FAST, lost);
+        within(&format!("error after {lost}, rad"), held.error, bound);
+        assert!(held.reversal < 0.0, "{lost}: {} rad/s", held.reversal);
+        // q̈ = −λ q̇ from the tick on that is not ridden through.
+        let decay = (-f64::from((lost - RIDE) as f32 * OMEGA_N * TICK)).exp();
+        let [fast, slow] = held.speeds;
+        within(
+            &format!("speed after {lost}, rad/s"),
+            slow,
+            1.1 * fast * decay,
+        );
+        back.push(held.back);
+    }
+    within("ticks until back", largest(back), 100.0);
+}

@@ -42,7 +42,7 @@ where
     };
     let turn = task.turns[I];
     let per_length = Known::constant(1.0 / tree.length);
-    let slide = Known::any(at.q) * per_length;
+    let slide = Known::any(turn.q) * per_length;
     let unit = if joint.prismatic {
         per_length
     } else {

@@ -60,3 +60,22 @@ fn slides_come_from_the_posture_in_core_and_engine_alike() {
     let articulated = Engine::<Quill>::aba_at(&posture, &elsewhere, &tau, &RIGID_BODY).unwrap();
     assert!(same(forward, there.qdd) && same(articulated, there.qdd));
 }
+
+/// A turn with as many bodies welded to it as a cable tray has brackets.
+struct Tray;
+
+impl Robot<40, 1, 1> for Tray {
+    const MODEL: Model<f64, 40, 1, 1> = {
+        let mut bodies = [link("bracket", 0, Joint::fixed()); 40];
+        bodies[0] = link("tray", BASE, Joint::revolute(Y));
+        Model::new("tray", bodies)
+    };
+}
+
+#[test]
+fn any_number_of_bodies_may_move_with_one_joint_where_no_wrench_acts() {
+    let state = State { qd: [0.5], qdd: [1.0], ..State::at([0.3_f64]) };
+    let [engine] = Engine::<Tray>::rnea(&state, &RIGID_BODY);
+    let [core] = Core::<Tray>::rnea(&state, &RIGID_BODY);
+    assert!((engine - core).abs() < 1e-12 * core.abs());
+}

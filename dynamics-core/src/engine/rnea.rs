@@ -153,7 +153,13 @@ where
     T: Robot<B, Q, V>,
     E: Effect<R, B, V>,
 {
-    const { assert!(Prepared::<T, B, Q, V>::riders(I) <= 32) };
+    // Evaluated in scenes without wrenches, too, where their number does not matter.
+    const {
+        assert!(
+            !E::WRENCH || Prepared::<T, B, Q, V>::riders(I) <= 32,
+            "the engine takes wrenches on up to 32 bodies that move with one joint; use `Core`"
+        )
+    };
     // Body by body: in a loop their places would be no constants, and nothing would fold.
     for_each_joint!(K, {
         if const { K < Prepared::<T, B, Q, V>::riders(I) } {

@@ -62,7 +62,10 @@ pub(crate) struct Prepared<T, const B: usize, const Q: usize, const V: usize>(
 
 impl<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize> Prepared<T, B, Q, V> {
     pub(crate) const TREE: Tree<B, V> = {
-        assert!(V <= 32, "the engine takes up to 32 moving bodies; use `Core`");
+        assert!(
+            V <= 32,
+            "the engine takes up to 32 moving bodies; use `Core`"
+        );
         prepare(&T::MODEL, T::NEGLIGIBLE)
     };
 

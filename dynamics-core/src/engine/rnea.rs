@@ -193,7 +193,13 @@ where
     let mut at = BodyState {
         pose: Xform::IDENTITY,
         velocity: Motion::ZERO,
+        base: None,
     };
+    if E::BASE_MOTION && E::BODY_VELOCITY {
+        let (mut base, mut acceleration) = (Motion::ZERO, Motion::ZERO);
+        effects.base(&mut base, &mut acceleration);
+        at.base = Some(base);
+    }
     if E::BODY_VELOCITY {
         let v = field.v + field.omega.cross(pos);
         at.velocity = Motion::new(

@@ -109,7 +109,10 @@ fn friction_is_that_of_the_deck_on_a_base_that_moves() {
     let state = State::at([0.3_f64, 0.5, 0.7]);
     let still = Core::<Quill>::rnea(&state, &(Gravity::EARTH, floor(2)));
     let weight = Core::<Quill>::rnea(&state, &(Gravity::EARTH,));
-    assert!(std::iter::zip(still, weight).all(|(a, b)| (a - b).abs() > 1.0), "{still:?} {weight:?}");
+    assert!(
+        std::iter::zip(still, weight).all(|(a, b)| (a - b).abs() > 1.0),
+        "{still:?} {weight:?}"
+    );
     // Friction alone: a turning base would add centrifugal forces with `Coriolis`, which is not in the scene.
     let velocity = Motion::new(DVec3::new(0.3, -0.2, 0.5), DVec3::new(5.0, 1.0, -2.0));
     let base = MovingBase {

@@ -166,7 +166,8 @@ const fn is_unit(v: DVec3) -> bool {
 pub(super) fn asymmetry<R: Real>(inertia: &SpatialInertia<R>) -> f64 {
     use crate::scalar::{Matrix, Vector};
     let a = inertia.inertia.cols().map(|c| c.array().map(R::to_f64));
-    let apart = [(0, 1), (0, 2), (1, 2)].map(|(i, j)| (a[i][j] - a[j][i]).abs());
+    let [[_, xy, xz], [yx, _, yz], [zx, zy, _]] = a;
+    let apart = [xy - yx, xz - zx, yz - zy].map(f64::abs);
     let largest = |size: f64, x: f64| if x.abs() <= size { size } else { x.abs() };
     let size = a.as_flattened().iter().copied().fold(0.0, largest);
     let apart = apart.into_iter().fold(0.0, largest);
@@ -194,9 +195,9 @@ pub(super) fn triangle_excess<R: Real>(inertia: &SpatialInertia<R>) -> f64 {
     // What the numbers' own rounding leaves of them, once they are taken back to the centre of mass.
     let noise = 8.0 * R::EPSILON.to_f64() * largest;
     if mass > 0.0 {
-        for i in 0..3 {
-            for j in 0..3 {
-                a[i][j] -= (if i == j { hh } else { 0.0 } - h[i] * h[j]) / mass;
+        for (i, (row, hi)) in a.iter_mut().zip(h).enumerate() {
+            for (j, (entry, hj)) in row.iter_mut().zip(h).enumerate() {
+                *entry -= (if i == j { hh } else { 0.0 } - hi * hj) / mass;
             }
         }
     }

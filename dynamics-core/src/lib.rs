@@ -1,7 +1,7 @@
 //! Robot dynamics on a microcontroller: inverse and forward dynamics of any tree of bodies, every
 //! control tick, in f32 or f64, with no heap, no panic and no `unsafe`.
 //!
-//! The layers, each written on those above it:
+//! The modules, from numbers to control; what a robot is and its scalar know of each other:
 //!
 //! | module | what |
 //! |---|---|

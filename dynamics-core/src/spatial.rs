@@ -138,6 +138,14 @@ vector_space!(Motion, "motion");
 vector_space!(Force, "force");
 
 impl<R: Real> Motion<R> {
+    /// Not a number, six times: the motion of a body that there is not.
+    #[inline(always)]
+    pub(crate) fn nan() -> Self {
+        let none = R::from_f64(f64::NAN);
+        let none = R::Vec3::new(none, none, none);
+        Self::new(none, none)
+    }
+
     /// Power m · f in W if `self` is a velocity. RBDA 2.1. 11 flops.
     ///
     /// ```

@@ -58,8 +58,9 @@ impl<R: Real, const Q: usize> Posture<R, Q> {
     /// The posture of `robot` at q: a sine and a cosine per angle, quaternions brought to unit length.
     ///
     /// Sines and cosines in f32: absolute error below 1.2·10⁻⁷ while |q| ≤ 10⁴ rad. A quaternion whose
-    /// square is 1 + ε comes to unit length within 3ε²/8; those that have drifted further first go
-    /// through [`crate::configuration::normalise`].
+    /// square is 1 + ε, |ε| < 1/8, comes to unit length within 3ε²/8, any other within rounding; those whose direction
+    /// matters first go through [`crate::configuration::normalise`]. The quaternion zero, which has no direction, is taken
+    /// as no turn, so that [`State::at`] of zeros is a robot in place.
     #[inline(always)]
     pub fn of<D, const B: usize, const V: usize>(robot: &D, q: &[R; Q]) -> Self
     where

@@ -177,24 +177,29 @@ impl<R: Real> AddAssign for Symmetric<R> {
 /// The eigenvalues by cyclic Jacobi rotations, in no order.
 pub(crate) fn eigenvalues(mut a: [[f64; 3]; 3]) -> [f64; 3] {
     for _ in 0..12 {
-        for (p, q) in [(0, 1), (0, 2), (1, 2)] {
-            if a[p][q] == 0.0 {
-                continue;
-            }
-            let theta = (a[q][q] - a[p][p]) / (2.0 * a[p][q]);
-            let t = theta.signum() / (theta.abs() + libm::sqrt(theta * theta + 1.0));
-            let c = 1.0 / libm::sqrt(t * t + 1.0);
-            let s = t * c;
-            for row in &mut a {
-                (row[p], row[q]) = (c * row[p] - s * row[q], s * row[p] + c * row[q]);
-            }
-            let (rp, rq) = (a[p], a[q]);
-            for k in 0..3 {
-                (a[p][k], a[q][k]) = (c * rp[k] - s * rq[k], s * rp[k] + c * rq[k]);
-            }
-        }
+        rotate::<0, 1>(&mut a);
+        rotate::<0, 2>(&mut a);
+        rotate::<1, 2>(&mut a);
     }
     [a[0][0], a[1][1], a[2][2]]
+}
+
+/// The rotation in the plane of axes P and Q that makes the entry there zero; its indices are constants, so that no check of
+/// bounds is left.
+fn rotate<const P: usize, const Q: usize>(a: &mut [[f64; 3]; 3]) {
+    if a[P][Q] == 0.0 {
+        return;
+    }
+    let theta = (a[Q][Q] - a[P][P]) / (2.0 * a[P][Q]);
+    let t = theta.signum() / (theta.abs() + libm::sqrt(theta * theta + 1.0));
+    let c = 1.0 / libm::sqrt(t * t + 1.0);
+    let s = t * c;
+    for row in a.iter_mut() {
+        (row[P], row[Q]) = (c * row[P] - s * row[Q], s * row[P] + c * row[Q]);
+    }
+    let ([px, py, pz], [qx, qy, qz]) = (a[P], a[Q]);
+    a[P] = [c * px - s * qx, c * py - s * qy, c * pz - s * qz];
+    a[Q] = [s * px + c * qx, s * py + c * qy, s * pz + c * qz];
 }
 
 #[cfg(test)]

@@ -88,7 +88,7 @@ fn limits_that_exclude_each_other_are_named() {
 }
 
 #[test]
-#[should_panic(expected = "body `arm`: the joints do not add up to Q position and V velocity")]
+#[should_panic(expected = "robot `arm`: its joints make Q = 1 and V = 1, not Q = 2 and V = 2")]
 fn coordinates_that_do_not_add_up_are_laid_to_the_robot() {
     arm(Body::new("tip", 0, Joint::fixed()));
 }
@@ -127,7 +127,7 @@ fn angles_too_large_to_be_an_attitude_are_refused() {
         for huge in [1e20, -1e100, 1e300] {
             let mut rpy = [0.1; 3];
             rpy[i] = huge;
-            assert_eq!(problem(tip().rpy(rpy)), Some(Problem::NotFinite), "{rpy:?}");
+            assert_eq!(problem(tip().rpy(rpy)), Some(Problem::Angle), "{rpy:?}");
         }
     }
 }
@@ -182,11 +182,14 @@ fn limits_that_are_not_numbers_or_negative_are_refused() {
 
 #[test]
 fn the_message_of_a_const_is_that_of_the_error() {
-    let bodies = [root(), tip().mass(-1.0)];
-    let error = Model::<f64, 2, 2, 2>::try_new("arm", bodies).unwrap_err();
-    let panic = std::panic::catch_unwind(|| Model::<f64, 2, 2, 2>::new("arm", bodies)).unwrap_err();
-    let said = panic.downcast_ref::<String>().expect("a formatted message");
-    assert_eq!(said.trim_end(), error.to_string());
+    let free = Body::new("tip", 0, Joint::free());
+    for bodies in [[root(), tip().mass(-1.0)], [root(), free]] {
+        let error = Model::<f64, 2, 2, 2>::try_new("arm", bodies).unwrap_err();
+        let panic =
+            std::panic::catch_unwind(|| Model::<f64, 2, 2, 2>::new("arm", bodies)).unwrap_err();
+        let said = panic.downcast_ref::<String>().expect("a formatted message");
+        assert_eq!(said.trim_end(), error.to_string());
+    }
 }
 
 #[test]
@@ -217,4 +220,69 @@ fn the_robots_of_the_library_have_possible_inertias() {
     Panda::MODEL.check(1e-9).unwrap();
     Iiwa14::MODEL.check(1e-9).unwrap();
     A1::MODEL.check(1e-9).unwrap();
+}
+
+#[test]
+fn wrong_axes_and_pitches_have_messages_of_their_own() {
+    let said = |joint| {
+        let bodies = [Body::new("tip", BASE, joint)];
+        let error = Model::<f64, 1, 2, 2>::try_new("arm", bodies).unwrap_err();
+        error.to_string()
+    };
+    assert_eq!(
+        said(Joint::universal(Y, [0.0, 1e-8, 1.0])),
+        "body `tip`: the two axes of its joint are not at right angles"
+    );
+    assert_eq!(
+        said(Joint::helical(Y, f64::INFINITY)),
+        "body `tip`: the pitch of its joint is not finite"
+    );
+    assert_eq!(
+        said(Joint::universal(Y, [0.0; 3])),
+        "body `tip`: its joint axis is zero or not finite"
+    );
+}
+
+#[test]
+fn degrees_are_refused_and_a_whole_turn_is_not() {
+    use std::f64::consts::TAU;
+    assert_eq!(problem(tip().rpy([0.0, -90.0, 0.0])), Some(Problem::Angle));
+    assert_eq!(problem(tip().rpy([-TAU, TAU, 6.2832])), None);
+    // The last attitude named is the one that counts.
+    assert_eq!(problem(tip().rpy([90.0; 3]).quarter_turns([1, 0, 0])), None);
+}
+
+#[test]
+fn a_check_names_inertia_without_mass_and_a_name_that_comes_twice() {
+    let ghost = arm(tip().mass(0.0)).check(1e-6).unwrap_err();
+    assert_eq!((ghost.body, ghost.problem), ("tip", Problem::Massless));
+    let twin = Body::new("root", 0, Joint::revolute(Y)).mass(1.0);
+    let twins = arm(twin).check(1e-6).unwrap_err();
+    assert_eq!((twins.body, twins.problem), ("root", Problem::Name));
+}
+
+#[test]
+fn the_tolerance_of_a_check_is_the_amount_itself() {
+    // Moments 1, 1 and 2.25: the largest exceeds the sum of the others by a ninth of itself.
+    let broken = arm(tip().inertia([1.0, 0.0, 0.0, 1.0, 0.0, 2.25]).com([0.0; 3]));
+    assert!(broken.check(1.001 / 9.0).is_ok());
+    let error = broken.check(0.999 / 9.0).unwrap_err();
+    assert!(matches!(error.problem, Problem::Triangle(_)), "{error}");
+    // xy and yx differ by 0.1 of the largest entry, 2.
+    let mut skewed = arm(tip().inertia([2.0, 0.3, 0.0, 2.0, 0.0, 2.0]).com([0.0; 3]));
+    let inertia = &mut skewed.links[1].inertia.inertia;
+    let size = inertia
+        .to_cols_array()
+        .iter()
+        .fold(0.0, |size: f64, x| size.max(x.abs()));
+    inertia.x_axis.y += 0.1 * size;
+    let skew = (inertia.x_axis.y - inertia.y_axis.x).abs()
+        / inertia
+            .to_cols_array()
+            .iter()
+            .fold(0.0, |size: f64, x| size.max(x.abs()));
+    assert!(skew > 0.09);
+    assert!(skewed.check(1.001 * skew).is_ok());
+    let error = skewed.check(0.999 * skew).unwrap_err();
+    assert!(matches!(error.problem, Problem::Asymmetric(_)), "{error}");
 }

@@ -20,7 +20,8 @@ use crate::state::Posture;
 /// M(q), and the Jacobian of one body: column k is the velocity of that body at unit rate of
 /// coordinate k, at the body's origin and in its own axes.
 ///
-/// Shape: V × V and 6 × V; for a body that the robot does not have the Jacobian is zero. Cost: as
+/// Shape: V × V and 6 × V; the Jacobian of the base is zero, that of a body that the robot does not
+/// have NaN. Cost: as
 /// [`crba`](super::crba()), of which the Jacobian is a by-product. Source: Lilly & Orin (1991).
 ///
 /// ```
@@ -112,6 +113,9 @@ where
             wanted = jacobian.map(|column| Motion::new(turned(column.ang), turned(column.lin)));
         }
         jacobians.push(D::CHAIN, (last, jacobian));
+    }
+    if body >= B && body != BASE {
+        wanted = [Motion::nan(); V];
     }
     (m, wanted)
 }

@@ -6,7 +6,7 @@
 use super::frame::{Frame, Pose};
 use super::handed::Handed;
 use super::kinematics::described;
-use crate::model::Description;
+use crate::model::{BASE, Description};
 use crate::scalar::{Matrix, Real};
 use crate::spatial::{Motion, Xform};
 use crate::state::{Posture, State};
@@ -14,7 +14,7 @@ use crate::state::{Posture, State};
 /// J with v = J q̇: the velocity of `body` in a [`Frame`], by columns, one a coordinate.
 ///
 /// ω in rad/s and velocity in m/s per rad/s or m/s. τ = Jᵀ f for a force on the body in the same frame.
-/// All zero for a body that there is not. Cost: 81 flops a revolute joint that carries the body and 39
+/// All zero for the base; NaN for a body that the robot does not have. Cost: 81 flops a revolute joint that carries the body and 39
 /// (`Body`), 69 (`Mixed`) or 81 (`World`) a coordinate; O(depth). Errors: none. Source: RBDA (2008), section 4.1.
 ///
 /// ```
@@ -72,13 +72,16 @@ where
     for column in &mut columns {
         *column = F::tell(&pose, *column);
     }
+    if body >= B && body != BASE {
+        columns = [Motion::nan(); V];
+    }
     columns
 }
 
 /// J̇ q̇: the acceleration of `body` at q̈ = 0, in a [`Frame`], rad/s² and m/s².
 ///
 /// The derivative of J q̇ in that frame's coordinates: in `Mixed` ω̇ and p̈, in the others the spatial
-/// acceleration. `state.qdd` is not read. Zero for a body that there is not. Cost: O(B); some 170 flops a
+/// acceleration. `state.qdd` is not read. Zero for the base; NaN for a body that the robot does not have. Cost: O(B); some 170 flops a
 /// revolute joint. Errors: none. Source: RBDA (2008), (4) of Featherstone & Orin (2000) at q̈ = 0.
 ///
 /// ```
@@ -127,5 +130,9 @@ where
         }
         moving.push(D::CHAIN, (pose, v, a));
     }
-    Motion::ZERO
+    if body == BASE {
+        Motion::ZERO
+    } else {
+        Motion::nan()
+    }
 }

@@ -22,29 +22,29 @@ pub struct Kinematics<R: Real, const B: usize> {
 }
 
 impl<R: Real, const B: usize> Kinematics<R, B> {
-    /// The velocity of `body`, rad/s and m/s, in a [`Frame`]; zero for a body that there is not.
+    /// The velocity of `body`, rad/s and m/s, in a [`Frame`]; NaN for what is no body of the robot.
     #[inline(always)]
     pub fn velocity<F: Frame>(&self, body: usize, frame: F) -> Motion<R> {
         let _ = frame;
         match (self.poses.get(body), self.velocities.get(body)) {
             (Some(pose), Some(&v)) => F::tell(pose, v),
-            _ => Motion::ZERO,
+            _ => Motion::nan(),
         }
     }
 
-    /// The spatial acceleration of `body`, rad/s² and m/s², in a [`Frame`]; zero for a body that there
-    /// is not.
+    /// The spatial acceleration of `body`, rad/s² and m/s², in a [`Frame`]; NaN for what is no
+    /// body of the robot.
     #[inline(always)]
     pub fn acceleration<F: Frame>(&self, body: usize, frame: F) -> Motion<R> {
         let _ = frame;
         match (self.poses.get(body), self.accelerations.get(body)) {
             (Some(pose), Some(&a)) => F::tell(pose, a),
-            _ => Motion::ZERO,
+            _ => Motion::nan(),
         }
     }
 
-    /// ω̇ and p̈ of the origin of `body`, rad/s² and m/s²: what an accelerometer there would show in
-    /// free fall, along the axes of a [`Frame`] at the point that it refers to.
+    /// ω̇ and p̈ of the origin of `body`, rad/s² and m/s²: what an accelerometer there would show
+    /// if there were no gravity, along the axes of a [`Frame`] at the point that it refers to.
     #[inline(always)]
     pub fn classical<F: Frame>(&self, body: usize, frame: F) -> Motion<R> {
         classical(self.acceleration(body, frame), self.velocity(body, frame))

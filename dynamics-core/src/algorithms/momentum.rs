@@ -104,7 +104,8 @@ where
 
 /// The momentum of all bodies together: about the base's origin and along its axes, N·m·s and N·s.
 ///
-/// Rotors behind gears are not in it. Cost: O(B); some 150 flops a revolute joint. Errors: none. Source:
+/// Rotors behind gears are in it if the effects name them as bodies that spin, [`crate::effects::Rotors`]; what
+/// [`crate::effects::RotorInertia`] adds to the diagonal of M is not. Cost: O(B); some 150 flops a revolute joint. Errors: none. Source:
 /// RBDA (2008), (2.60).
 ///
 /// ```

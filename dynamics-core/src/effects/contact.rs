@@ -5,6 +5,7 @@
 //! friction never leaves its cone, |f_t| ≤ μ f_n, and creeps below the speed w instead of sticking. Hunt &
 //! Crossley (1975); Haessig & Friedland, "On the modeling and simulation of friction" (1991).
 
+use super::external::absent;
 use super::{BodyState, Effect, ramp, smooth_sign};
 use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::Force;
@@ -19,6 +20,9 @@ pub struct Foot<R: Real> {
 }
 
 /// Contact of P points with a plane of the base: all is free above it.
+///
+/// The plane is fixed to the base and moves with it: on a [`MovingBase`](super::MovingBase) speeds are those relative to the
+/// deck. A foot on a body that the robot does not have makes every torque NaN.
 ///
 /// Explicit: a step of h seconds is stable while k < M/h² and b < M/h, M the mass that a point feels. Cost:
 /// pose and velocity of the bodies, and some 110 flops a point, the same instructions on the ground and
@@ -83,9 +87,14 @@ impl<R: Real, const P: usize, const B: usize, const V: usize> Effect<R, B, V> fo
         for foot in &self.feet {
             if foot.body == body {
                 let place = at.pose.pos + rot.transpose_mul(foot.point);
-                let velocity = rot.transpose_mul(v.lin + v.ang.cross(foot.point));
+                let mut velocity = rot.transpose_mul(v.lin + v.ang.cross(foot.point));
+                if let Some(base) = at.base {
+                    velocity -= base.lin + base.ang.cross(place);
+                }
                 let f = rot * self.force(place, velocity);
                 *fx += Force::new(foot.point.cross(f), f);
+            } else if foot.body >= B {
+                *fx += absent();
             }
         }
     }

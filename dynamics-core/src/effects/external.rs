@@ -1,8 +1,16 @@
 //! A wrench from outside on one body: f + fˣ = I a + v ×* I v. Featherstone & Orin (2000), (5).
 
 use super::{BodyState, Effect};
-use crate::scalar::Real;
+use crate::scalar::{Real, Vector};
 use crate::spatial::Force;
+
+/// What acts where an effect names a body that the robot does not have: not a number, so that the torques show it.
+#[inline(always)]
+pub(super) fn absent<R: Real>() -> Force<R> {
+    let none = R::from_f64(f64::NAN);
+    let none = R::Vec3::new(none, none, none);
+    Force::new(none, none)
+}
 
 /// A wrench on `body`, about the origin of the body's frame and in its coordinates, N·m and N.
 ///
@@ -18,7 +26,7 @@ use crate::spatial::Force;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BodyWrench<R: Real> {
-    /// The body's place in the model's list.
+    /// The body's place in the model's list; that of a body which the robot does not have makes every torque NaN.
     pub body: usize,
     /// What the environment exerts on it.
     pub wrench: Force<R>,
@@ -31,6 +39,8 @@ impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for BodyWrench<R> 
     fn wrench(&self, body: usize, _: &BodyState<R>, fx: &mut Force<R>) {
         if body == self.body {
             *fx += self.wrench;
+        } else if self.body >= B {
+            *fx += absent();
         }
     }
 }
@@ -51,7 +61,7 @@ impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for BodyWrench<R> 
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WorldWrench<R: Real> {
-    /// The body's place in the model's list.
+    /// The body's place in the model's list; that of a body which the robot does not have makes every torque NaN.
     pub body: usize,
     /// What the environment exerts on it, in base axes.
     pub wrench: Force<R>,
@@ -66,6 +76,8 @@ impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for WorldWrench<R>
         if body == self.body {
             let turn = at.pose.rot;
             *fx += Force::new(turn * self.wrench.ang, turn * self.wrench.lin);
+        } else if self.body >= B {
+            *fx += absent();
         }
     }
 }

@@ -9,7 +9,7 @@ use crate::scalar::{Real, Vector};
 
 /// A direction in base coordinates, known to the compiler.
 pub trait Direction {
-    /// The unit vector.
+    /// The unit vector; one of another length does not compile.
     const UNIT: [f64; 3];
 }
 
@@ -46,7 +46,24 @@ impl<D: Direction> Gravity<D> {
     /// use dynamics_core::effects::{Down, Gravity};
     /// const MARS: Gravity<Down> = Gravity::new(3.72);
     /// ```
+    ///
+    /// ```compile_fail,E0080
+    /// use dynamics_core::effects::{Direction, Gravity};
+    /// struct Aslant;
+    /// impl Direction for Aslant {
+    ///     const UNIT: [f64; 3] = [0.0, 1.0, -1.0];
+    /// }
+    /// const TILTED: Gravity<Aslant> = Gravity::new(9.81); // error: a direction is a vector of length 1
+    /// ```
     pub const fn new(g: f64) -> Self {
+        const {
+            let [x, y, z] = D::UNIT;
+            let squared = x * x + y * y + z * z;
+            assert!(
+                squared > 1.0 - 1e-9 && squared < 1.0 + 1e-9,
+                "a direction is a vector of length 1"
+            );
+        }
         Self {
             double: g,
             single: g as f32,

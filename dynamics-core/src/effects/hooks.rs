@@ -111,7 +111,11 @@ where
     let mut at = BodyState {
         pose: Xform::IDENTITY,
         velocity: Motion::ZERO,
+        base: None,
     };
+    if E::BASE_MOTION && E::BODY_VELOCITY {
+        at.base = Some(base_given(effects).0);
+    }
     if E::BODY_POSE {
         at.pose = Xform {
             rot: frame.transpose() * pose.rot,

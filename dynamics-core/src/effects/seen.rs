@@ -18,10 +18,15 @@ pub struct JointState<R> {
 /// in place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BodyState<R: Real> {
-    /// Pose: the coordinate transform from the base to the body's frame, its origin in base coordinates, m.
+    /// Pose relative to the base: the coordinate transform from the base to the body's frame, its origin in base
+    /// coordinates, m.
     pub pose: Xform<R>,
-    /// Velocity, about the origin of the body's frame and in its coordinates.
+    /// Velocity in an inertial frame, the motion of the base included, about the origin of the body's frame and in its
+    /// coordinates.
     pub velocity: Motion<R>,
+    /// Velocity of the base in the same inertial frame, about the base's origin and in its coordinates; nothing where no
+    /// effect of the scene moves the base.
+    pub base: Option<Motion<R>>,
 }
 
 /// How a torque of the motor grows with its joint's state.

@@ -15,8 +15,7 @@ use crate::state::entry;
 /// The parent's own inertia counts the whole rotor, as if it were locked; so do data sheets that give
 /// a link's mass with its motor. For joints of one degree of freedom (a slide's rotor spins about its
 /// direction). Cost: 25 flops a joint. Matters at low ratios: relative to the diagonal the coupling is 1/ρ.
-/// Served by `rnea`, `aba`, `hybrid`, `crba`, `forward`, `crba_jacobian` of the core; elsewhere it does not
-/// compile:
+/// Served by the core: dynamics, M and its factors, energies, momenta, the centre of mass. In the engine it does not compile:
 ///
 /// ```compile_fail,E0080
 /// use dynamics_core::effects::{Gravity, Inertia, Rotors};

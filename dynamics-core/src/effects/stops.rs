@@ -12,7 +12,9 @@ use crate::state::entry;
 ///
 /// The motor supplies the torque that holds against them. Stiff: let the plant treat them implicitly
 /// ([`crate::sim::linearly_implicit`]); in the step in which a joint leaves a stop, that step's line may
-/// then hold it back. Cost: 30 flops a joint, no comparison.
+/// then hold it back. Such steps take k alone for
+/// ∂τ/∂q: b c′(p) q̇, by which the damping grows with the depth, is left out, since it is negative while a joint leaves.
+/// Cost: 30 flops a joint, no comparison.
 ///
 /// ```
 /// use dynamics_core::effects::Stops;

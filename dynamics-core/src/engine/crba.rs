@@ -78,7 +78,6 @@ pub(crate) fn mass_matrix<R, T, E, const B: usize, const Q: usize, const V: usiz
     T: Robot<B, Q, V>,
     E: Effect<R, B, V>,
 {
-    const { assert!(V <= 32, "the engine takes up to 32 moving bodies") };
     no_spinning::<R, E, B, V>();
     let mut task = Task { turns, effects, m };
     for_each_joint!(J, {

@@ -53,6 +53,10 @@ use rnea::{Task, stands, visit};
 
 /// The specialised form of the robot `T`.
 ///
+/// Robots: trees of up to 32 moving bodies on revolute, continuous, prismatic and fixed joints. Of the bodies that move
+/// with one joint, welded to its body, there may be any number, but up to 32 in a scene with wrenches ([`crate::effects::Contact`],
+/// [`crate::effects::BodyWrench`] and others that act on a body). Others do not compile; [`crate::Core`] takes them.
+///
 /// ```
 /// use dynamics_core::{Core, Engine, effects::RIGID_BODY, robots::Ur5e, state::State};
 /// let state = State { q: [0.1_f32; 6], qd: [0.5; 6], qdd: [1.0; 6] };
@@ -67,6 +71,18 @@ use rnea::{Task, stands, visit};
 /// let standing = State { q: [0.0_f32; 19], qd: [0.0; 18], qdd: [0.0; 18] };
 /// let _ = Engine::<A1Free>::rnea(&standing, &RIGID_BODY);
 /// // error: the engine takes revolute, prismatic and fixed joints; use `Core`
+/// ```
+///
+/// nor does one of more joints:
+///
+/// ```compile_fail,E0080
+/// use dynamics_core::{Engine, model::{Arm, BASE, Body, Joint, Model, Robot}};
+/// struct Comb;
+/// impl Robot<33, 33, 33> for Comb {
+///     const MODEL: Arm<f64, 33> = Model::new("comb", [Body::new("tooth", BASE, Joint::prismatic([1.0, 0.0, 0.0])); 33]);
+/// }
+/// let _ = Engine::<Comb>::posture(&[0.1_f32; 33]);
+/// // error: the engine takes up to 32 moving bodies; use `Core`
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Engine<T>(PhantomData<T>);
@@ -190,7 +206,6 @@ impl<T> Engine<T> {
         T: Robot<B, Q, V>,
         E: Effect<R, B, V>,
     {
-        const { assert!(V <= 32, "the engine takes up to 32 moving bodies") };
         let length = const { Prepared::<T, B, Q, V>::TREE.length };
         let base = base::<R, E, B, V>(effects, length);
         let mut tau = [R::ZERO; V];

@@ -61,7 +61,13 @@ pub(crate) struct Prepared<T, const B: usize, const Q: usize, const V: usize>(
 );
 
 impl<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize> Prepared<T, B, Q, V> {
-    pub(crate) const TREE: Tree<B, V> = prepare(&T::MODEL, T::NEGLIGIBLE);
+    pub(crate) const TREE: Tree<B, V> = {
+        assert!(
+            V <= 32,
+            "the engine takes up to 32 moving bodies; use `Core`"
+        );
+        prepare(&T::MODEL, T::NEGLIGIBLE)
+    };
 
     /// λ of each joint, or [`BASE`].
     pub(crate) const PARENTS: [usize; V] = {

@@ -42,7 +42,7 @@ where
     };
     let turn = task.turns[I];
     let per_length = Known::constant(1.0 / tree.length);
-    let slide = Known::any(at.q) * per_length;
+    let slide = Known::any(turn.q) * per_length;
     let unit = if joint.prismatic {
         per_length
     } else {
@@ -185,7 +185,13 @@ where
     T: Robot<B, Q, V>,
     E: Effect<R, B, V>,
 {
-    const { assert!(Prepared::<T, B, Q, V>::riders(I) <= 32) };
+    // Evaluated in scenes without wrenches, too, where their number does not matter.
+    const {
+        assert!(
+            !E::WRENCH || Prepared::<T, B, Q, V>::riders(I) <= 32,
+            "the engine takes wrenches on up to 32 bodies that move with one joint; use `Core`"
+        )
+    };
     // Body by body: in a loop their places would be no constants, and nothing would fold.
     for_each_joint!(K, {
         if const { K < Prepared::<T, B, Q, V>::riders(I) } {
@@ -219,7 +225,13 @@ where
     let mut at = BodyState {
         pose: Xform::IDENTITY,
         velocity: Motion::ZERO,
+        base: None,
     };
+    if E::BASE_MOTION && E::BODY_VELOCITY {
+        let (mut base, mut acceleration) = (Motion::ZERO, Motion::ZERO);
+        effects.base(&mut base, &mut acceleration);
+        at.base = Some(base);
+    }
     if E::BODY_VELOCITY {
         let v = field.v + field.omega.cross(pos);
         at.velocity = Motion::new(

@@ -42,6 +42,8 @@ pub struct Body {
     pub(super) joint: Joint<f64>,
     pub(super) position: [f64; 3],
     pub(super) rotation: DMat3,
+    /// The largest of roll, pitch and yaw, rad.
+    pub(super) largest_angle: f64,
     pub(super) mass: f64,
     pub(super) com: [f64; 3],
     pub(super) inertia: [f64; 6],
@@ -58,6 +60,7 @@ impl Body {
             joint,
             position: [0.0; 3],
             rotation: DMat3::IDENTITY,
+            largest_angle: 0.0,
             mass: 0.0,
             com: [0.0; 3],
             inertia: [0.0; 6],
@@ -72,14 +75,16 @@ impl Body {
     }
 
     /// Attitude of the body's frame in the parent's at q = 0: roll, pitch, yaw about the parent's
-    /// fixed axes, rad.
+    /// fixed axes, rad; within ±2π each, so that most angles in degrees are refused.
     pub const fn rpy(mut self, rpy: [f64; 3]) -> Self {
+        self.largest_angle = rpy[0].abs().max(rpy[1].abs()).max(rpy[2].abs());
         self.rotation = m::rotation(m::sin_cos(rpy[0]), m::sin_cos(rpy[1]), m::sin_cos(rpy[2]));
         self
     }
 
     /// As [`Body::rpy`], in quarter turns: exact zeros and ones, which the engine exploits.
     pub const fn quarter_turns(mut self, rpy: [i32; 3]) -> Self {
+        self.largest_angle = 0.0;
         self.rotation = m::rotation(m::quarter(rpy[0]), m::quarter(rpy[1]), m::quarter(rpy[2]));
         self
     }
@@ -113,8 +118,8 @@ impl Body {
         if self.parent != BASE && self.parent >= index {
             return Some(Problem::Parent);
         }
-        if !self.joint.is_sound() {
-            return Some(Problem::Axis);
+        if let Some(problem) = self.joint.problem() {
+            return Some(problem);
         }
         if !(self.mass >= 0.0 && self.mass.is_finite()) {
             return Some(Problem::Mass);
@@ -129,6 +134,9 @@ impl Body {
             }
             i += 1;
         }
+        if self.largest_angle.is_finite() && self.largest_angle > WHOLE_TURN {
+            return Some(Problem::Angle);
+        }
         let com = m::vec3(self.com);
         if !(self.mass * m::dot(com, com)).is_finite() || !is_rotation(&self.rotation) {
             return Some(Problem::NotFinite);
@@ -141,6 +149,9 @@ impl Body {
         None
     }
 }
+
+/// 2π as anybody may have rounded it.
+const WHOLE_TURN: f64 = 6.284;
 
 /// Whether the columns have unit length: an angle that is not finite, or beyond all reduction,
 /// makes an attitude that is not a rotation.
@@ -156,11 +167,19 @@ const fn is_unit(v: DVec3) -> bool {
 pub(super) fn asymmetry<R: Real>(inertia: &SpatialInertia<R>) -> f64 {
     use crate::scalar::{Matrix, Vector};
     let a = inertia.inertia.cols().map(|c| c.array().map(R::to_f64));
-    let apart = [(0, 1), (0, 2), (1, 2)].map(|(i, j)| (a[i][j] - a[j][i]).abs());
+    let [[_, xy, xz], [yx, _, yz], [zx, zy, _]] = a;
+    let apart = [xy - yx, xz - zx, yz - zy].map(f64::abs);
     let largest = |size: f64, x: f64| if x.abs() <= size { size } else { x.abs() };
     let size = a.as_flattened().iter().copied().fold(0.0, largest);
     let apart = apart.into_iter().fold(0.0, largest);
     if apart == 0.0 { 0.0 } else { apart / size }
+}
+
+/// Whether there is inertia without mass.
+pub(super) fn is_massless<R: Real>(inertia: &SpatialInertia<R>) -> bool {
+    use crate::scalar::{Matrix, Vector};
+    let some = |v: &R::Vec3| v.array().iter().any(|&x| x != R::ZERO);
+    inertia.mass == R::ZERO && (some(&inertia.moment) || inertia.inertia.cols().iter().any(some))
 }
 
 /// By how much the largest principal moment about the centre of mass exceeds the sum of the other
@@ -177,9 +196,9 @@ pub(super) fn triangle_excess<R: Real>(inertia: &SpatialInertia<R>) -> f64 {
     // What the numbers' own rounding leaves of them, once they are taken back to the centre of mass.
     let noise = 8.0 * R::EPSILON.to_f64() * largest;
     if mass > 0.0 {
-        for i in 0..3 {
-            for j in 0..3 {
-                a[i][j] -= (if i == j { hh } else { 0.0 } - h[i] * h[j]) / mass;
+        for (i, (row, hi)) in a.iter_mut().zip(h).enumerate() {
+            for (j, (entry, hj)) in row.iter_mut().zip(h).enumerate() {
+                *entry -= (if i == j { hh } else { 0.0 } - hi * hj) / mass;
             }
         }
     }
@@ -192,13 +211,25 @@ pub(crate) fn moments_excess(about_com: [[f64; 3]; 3]) -> f64 {
     excess_beyond(about_com, 0.0)
 }
 
+/// The lesser of two; NaN if either is.
+fn lesser(a: f64, b: f64) -> f64 {
+    if a < b || a.is_nan() { a } else { b }
+}
+
+/// The greater of two; NaN if either is.
+fn greater(a: f64, b: f64) -> f64 {
+    if a > b || a.is_nan() { a } else { b }
+}
+
 /// The same, but nothing for what does not exceed `noise`: a point mass has no moments but that.
 fn excess_beyond(about_com: [[f64; 3]; 3], noise: f64) -> f64 {
+    // Ascending, but for NaN, without the panics of a sort.
     let [a, b, c] = crate::symmetric::eigenvalues(about_com);
-    let (least, most) = (a.min(b).min(c), a.max(b).max(c));
-    let middle = a.min(b).max(a.max(b).min(c));
-    let scale = most.abs().max(least.abs());
-    let excess = (-least).max(most - least - middle);
+    let (a, b) = (lesser(a, b), greater(a, b));
+    let (b, c) = (lesser(b, c), greater(b, c));
+    let (a, b) = (lesser(a, b), greater(a, b));
+    let scale = greater(c.abs(), a.abs());
+    let excess = greater(-a, c - a - b);
     // Written so that a NaN comes out as one.
     if excess <= noise { 0.0 } else { excess / scale }
 }

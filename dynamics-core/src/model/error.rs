@@ -22,18 +22,31 @@ pub enum Problem {
     Parent,
     /// The joint's axis is zero or not finite.
     Axis,
+    /// The axes of a universal joint are not at right angles.
+    RightAngles,
+    /// The pitch of a helical joint is not finite.
+    Pitch,
+    /// Roll, pitch or yaw is beyond a whole turn, 2π rad: most often degrees.
+    Angle,
     /// The mass is negative or not finite.
     Mass,
     /// A length, an angle or an inertia is not finite, or so large that what follows from it is not.
     NotFinite,
     /// A limit is NaN, the lower one exceeds the upper, or that of speed or torque is negative.
     Limits,
-    /// There is inertia about the centre of mass without mass.
-    Massless,
     /// The robot has no body of this number.
     NoBody(usize),
-    /// The joints do not add up to Q position and V velocity coordinates.
-    Coordinates,
+    /// The joints do not add up to the model's Q position and V velocity coordinates.
+    Coordinates {
+        /// How many position and velocity coordinates the joints have: what Q and V have to be.
+        expected: [usize; 2],
+        /// The model's Q and V.
+        given: [usize; 2],
+    },
+    /// There is inertia without mass.
+    Massless,
+    /// A body before it has the same name, by [`super::Model::check`].
+    Name,
     /// The principal moments break the triangle inequality by this much, relative to the largest.
     Triangle(f64),
     /// The inertia matrix is not symmetric by this much, relative to its largest entry.
@@ -50,11 +63,13 @@ impl Problem {
             Self::Limits => {
                 "a limit is not a number, lower exceeds upper, or a speed or torque limit is negative"
             }
-            Self::Massless => "it has inertia but no mass",
             Self::NoBody(_) => "the robot has no body of this number",
-            Self::Coordinates => {
-                "the joints do not add up to Q position and V velocity coordinates"
-            }
+            Self::RightAngles => "the two axes of its joint are not at right angles",
+            Self::Pitch => "the pitch of its joint is not finite",
+            Self::Angle => "its roll, pitch or yaw is beyond 2 pi: angles are in rad",
+            Self::Coordinates { .. } => "its joints have other numbers of coordinates",
+            Self::Massless => "it has inertia but no mass",
+            Self::Name => "a body before it has the same name",
             Self::Triangle(_) => "its moments of inertia break the triangle inequality",
             Self::Asymmetric(_) => "its inertia matrix is not symmetric",
         }
@@ -63,6 +78,14 @@ impl Problem {
 
 impl fmt::Display for ModelError {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Problem::Coordinates { expected, given } = self.problem {
+            let ([q, v], [given_q, given_v]) = (expected, given);
+            let name = self.body;
+            return write!(
+                out,
+                "robot `{name}`: its joints make Q = {q} and V = {v}, not Q = {given_q} and V = {given_v}"
+            );
+        }
         write!(out, "body `{}`: {}", self.body, self.problem.text())?;
         if let Problem::NoBody(number) = self.problem {
             write!(out, ": {number}")?;
@@ -79,25 +102,70 @@ impl core::error::Error for ModelError {}
 impl ModelError {
     /// Panics with the same words as `Display`, in a way that a `const` evaluation can print.
     pub(super) const fn panic(self) -> ! {
-        panic(&["body `", self.body, "`: ", self.problem.text()])
+        let text = match self.problem {
+            Problem::Coordinates { expected, given } => Text::EMPTY
+                .with("robot `")
+                .with(self.body)
+                .with("`: its joints make Q = ")
+                .number(expected[0])
+                .with(" and V = ")
+                .number(expected[1])
+                .with(", not Q = ")
+                .number(given[0])
+                .with(" and V = ")
+                .number(given[1]),
+            problem => Text::EMPTY
+                .with("body `")
+                .with(self.body)
+                .with("`: ")
+                .with(problem.text()),
+        };
+        text.panic()
     }
 }
 
-/// Panics with these parts of a sentence, of 160 bytes or less, in a way that a `const` evaluation can print.
+/// Panics with these parts of a sentence, in a way that a `const` evaluation can print.
 pub(super) const fn panic(parts: &[&str]) -> ! {
-    let (mut text, mut at, mut part) = ([b' '; 160], 0, 0);
+    let (mut text, mut part) = (Text::EMPTY, 0);
     while part < parts.len() {
-        let (bytes, mut i) = (parts[part].as_bytes(), 0);
-        while i < bytes.len() && at < text.len() {
-            text[at] = bytes[i];
-            at += 1;
-            i += 1;
-        }
+        text = text.with(parts[part]);
         part += 1;
     }
-    match core::str::from_utf8(text.split_at(at).0) {
-        Ok(text) => panic!("{}", text),
-        // A letter of several bytes was cut.
-        Err(_) => panic!("{}", parts[parts.len() - 1]),
+    text.panic()
+}
+
+/// A message that is put together while compiling, where there is no `format!`.
+struct Text {
+    bytes: [u8; 160],
+    length: usize,
+}
+
+impl Text {
+    const EMPTY: Self = Self {
+        bytes: [b' '; 160],
+        length: 0,
+    };
+
+    const fn with(mut self, text: &str) -> Self {
+        let (bytes, mut i) = (text.as_bytes(), 0);
+        while i < bytes.len() && self.length < self.bytes.len() {
+            self.bytes[self.length] = bytes[i];
+            self.length += 1;
+            i += 1;
+        }
+        self
+    }
+
+    const fn number(self, x: usize) -> Self {
+        let digits = ["0", "1", "2", "3", "4", "5", "6", "7", "8", "9"];
+        let text = if x > 9 { self.number(x / 10) } else { self };
+        text.with(digits[x % 10])
+    }
+
+    const fn panic(self) -> ! {
+        match core::str::from_utf8(self.bytes.split_at(self.length).0) {
+            Ok(text) => panic!("{}", text),
+            Err(_) => panic!("a letter of the message was cut"),
+        }
     }
 }

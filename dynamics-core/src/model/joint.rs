@@ -1,5 +1,6 @@
 //! What a joint lets its body do: kinds, axes, coordinates. RBDA (2008), table 4.1.
 
+use super::error::Problem;
 use crate::const_math as m;
 use crate::scalar::Real;
 use glam::{DMat3, DVec3};
@@ -210,7 +211,8 @@ impl Joint<f64> {
     }
 
     /// A rotation about `first`, which stands still on the parent side, then one about `second`, which
-    /// moves with the body; perpendicular, both given in the body's frame at q = 0.
+    /// moves with the body; perpendicular within 10⁻⁹ rad (the model makes them so exactly), both given in
+    /// the body's frame at q = 0.
     pub const fn universal(first: [f64; 3], second: [f64; 3]) -> Self {
         let mut joint = Self::new(JointKind::Universal, second);
         joint.first_axis = m::vec3(first);
@@ -237,27 +239,41 @@ impl Joint<f64> {
         Self::new(JointKind::Fixed, [0.0; 3])
     }
 
-    /// Whether it has the axes that its kind needs, at right angles if there are two, and a finite
-    /// pitch.
-    pub(super) const fn is_sound(&self) -> bool {
+    /// What it lacks of the axes that its kind needs, at right angles within 10⁻⁹ rad if there are two, and
+    /// of a finite pitch.
+    pub(super) const fn problem(&self) -> Option<Problem> {
         use JointKind::*;
         match self.kind {
-            Spherical | Planar | Free | Fixed => true,
+            Spherical | Planar | Free | Fixed => None,
             Universal => {
                 let (a, b) = (self.first_axis, self.axis);
-                let product = m::dot(a, a) * m::dot(b, b);
-                let skew = m::dot(a, b);
-                is_axis(a) && is_axis(b) && skew * skew <= 1e-18 * product
+                if !(is_axis(a) && is_axis(b)) {
+                    return Some(Problem::Axis);
+                }
+                let skew = m::dot(unit(a), unit(b));
+                if skew.abs() <= 1e-9 {
+                    None
+                } else {
+                    Some(Problem::RightAngles)
+                }
             }
-            _ => is_axis(self.axis) && self.pitch.is_finite(),
+            _ if !is_axis(self.axis) => Some(Problem::Axis),
+            _ if !self.pitch.is_finite() => Some(Problem::Pitch),
+            _ => None,
         }
     }
 
     pub(super) const fn normalised(self) -> Self {
+        let (axis, mut first_axis) = (unit(self.axis), unit(self.first_axis));
+        // At right angles but for rounding: what its description leaves is taken off the first axis.
+        let skew = m::dot(first_axis, axis);
+        if skew.abs() > 4.0 * f64::EPSILON {
+            first_axis = unit(m::add(first_axis, m::scale(axis, -skew)));
+        }
         Self {
             kind: self.kind,
-            axis: unit(self.axis),
-            first_axis: unit(self.first_axis),
+            axis,
+            first_axis,
             pitch: self.pitch,
         }
     }

@@ -14,10 +14,13 @@
 //!         Body::new("rod", BASE, Joint::revolute([0.0, 1.0, 0.0])).mass(2.0).com([0.0, 0.0, -0.5]),
 //!     ]);
 //! }
+//! const _: Arm<f64, 1> = Pendulum::MODEL; // checked by `cargo check`, too
 //! assert_eq!(Pendulum::MODEL.links[0].inertia.mass, 2.0);
 //! ```
 //!
-//! A description that cannot be does not compile; the message names the body. This one can be,
+//! A description that cannot be does not compile; the message names the body. A trait's constant is not evaluated
+//! before some code that is compiled uses it: `cargo check` and clippy compile none, and a library need not use its
+//! robot. The line `const _` above evaluates it at once; every robot should have one. This description can be,
 //!
 //! ```
 //! use dynamics_core::model::{Arm, BASE, Body, Joint, Model};
@@ -174,9 +177,10 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
     /// A model from its bodies.
     ///
     /// # Errors
-    /// [`ModelError`] names the body: parent not listed before it, zero or non-finite axis,
-    /// negative or non-finite mass, other non-finite numbers, limits that are NaN or exclude each
-    /// other, or Q or V that the joints do not add up to.
+    /// [`ModelError`] names the body: parent not listed before it, zero or non-finite axis, axes of a universal joint
+    /// that are not at right angles, a pitch that is not finite, negative or non-finite mass, other non-finite numbers,
+    /// roll, pitch or yaw beyond a whole turn, limits that are NaN or exclude each other; or the robot, with the Q and V
+    /// that its joints make.
     pub const fn try_new(name: &'static str, bodies: [Body; B]) -> Result<Self, ModelError> {
         let mut links = [EMPTY; B];
         let (mut lambda, mut kinds) = ([BASE; V], Kinds::NONE);
@@ -214,7 +218,10 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
         if q_at != Q || v_at != V {
             return Err(ModelError {
                 body: name,
-                problem: Problem::Coordinates,
+                problem: Problem::Coordinates {
+                    expected: [q_at, v_at],
+                    given: [Q, V],
+                },
             });
         }
         Ok(Self {
@@ -299,21 +306,26 @@ impl<R: Real, const B: usize, const Q: usize, const V: usize> Model<R, B, Q, V> 
         found
     }
 
-    /// Whether every inertia could be that of a body: symmetric, with principal moments (about the centre of
-    /// mass) that are not negative and obey the triangle inequality, all within `relative`.
+    /// Whether every inertia could be that of a body: none without mass, symmetric, with principal moments (about the
+    /// centre of mass) that are not negative and obey the triangle inequality, all within `relative`; and whether
+    /// every body has a name of its own.
     ///
     /// Published robots break it (PUMA 560) or pass by a hair (Panda), and have to run all the
     /// same: hence a check, not a condition. In f32 rounding alone takes some 10⁻⁶.
     ///
     /// # Errors
     /// [`Problem::Asymmetric`] or [`Problem::Triangle`] with the body's name and the amount: by how much the
-    /// largest moment exceeds the sum of the others, relative to that moment.
+    /// largest moment exceeds the sum of the others, relative to that moment; [`Problem::Massless`],
+    /// [`Problem::Name`].
     pub fn check(&self, relative: f64) -> Result<(), ModelError> {
         for link in &self.links {
             let wrong = |problem| ModelError {
                 body: link.name,
                 problem,
             };
+            if body::is_massless(&link.inertia) {
+                return Err(wrong(Problem::Massless));
+            }
             let skew = body::asymmetry(&link.inertia);
             if skew > relative || skew.is_nan() {
                 return Err(wrong(Problem::Asymmetric(skew)));
@@ -321,6 +333,19 @@ impl<R: Real, const B: usize, const Q: usize, const V: usize> Model<R, B, Q, V> 
             let excess = body::triangle_excess(&link.inertia);
             if excess > relative || excess.is_nan() {
                 return Err(wrong(Problem::Triangle(excess)));
+            }
+        }
+        for (i, link) in self.links.iter().enumerate() {
+            if self
+                .links
+                .iter()
+                .take(i)
+                .any(|other| other.name == link.name)
+            {
+                return Err(ModelError {
+                    body: link.name,
+                    problem: Problem::Name,
+                });
             }
         }
         Ok(())

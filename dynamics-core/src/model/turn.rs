@@ -90,12 +90,15 @@ pub(crate) fn rotation<R: Real>([x, y, z, w]: [R; 4]) -> R::Mat3 {
     )
 }
 
-/// A quaternion that has drifted from unit length, brought back by one step of Newton's iteration
-/// for 1/|p|: no root, no division. With |p|² = 1 + ε the length is 1 to 3ε²/8. 11 flops.
+/// A quaternion at unit length. One that has drifted, |p|² = 1 + ε with |ε| < 1/8, by one step of Newton's iteration
+/// for 1/|p|: no root, no division; its length is then 1 to 3ε²/8. Any other by its length; of zero nothing can be made, and
+/// [`rotation`] takes it as no turn. 29 flops.
 #[inline(always)]
 pub(crate) fn near_unit<R: Real>(p: [R; 4]) -> [R; 4] {
     let [x, y, z, w] = p;
     let squared = (x * x + y * y) + (z * z + w * w);
-    let scale = R::from_f64(1.5) - R::from_f64(0.5) * squared;
+    let near = R::from_f64(1.5) - R::from_f64(0.5) * squared;
+    let drifted = (squared - R::ONE).abs() < R::from_f64(0.125);
+    let scale = core::hint::select_unpredictable(drifted, near, squared.per_sqrt());
     p.map(|x| x * scale)
 }

@@ -132,6 +132,8 @@ impl Robot<16, 12, 12> for A1 {
     const MODEL: Model<f64, 16, 12, 12> = Model::new("a1", LEGS);
 }
 
+const _: Model<f64, 16, 12, 12> = A1::MODEL;
+
 /// The front right leg of [`A1`] alone, its hip on the base: 3 revolute joints and a fixed foot.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct A1Leg;
@@ -139,6 +141,8 @@ pub struct A1Leg;
 impl Robot<4, 3, 3> for A1Leg {
     const MODEL: Model<f64, 4, 3, 3> = Model::new("a1_leg", A1::LEG);
 }
+
+const _: Model<f64, 4, 3, 3> = A1Leg::MODEL;
 
 /// Unitree A1 on a free joint: the trunk of 6 kg, then the legs of [`A1`]; 17 bodies, 18 degrees of freedom.
 ///
@@ -156,3 +160,5 @@ const TRUNK: Body = Body::new("trunk", BASE, Joint::free())
 impl Robot<17, 19, 18> for A1Free {
     const MODEL: Model<f64, 17, 19, 18> = Model::new("a1_free", on_root(TRUNK, &LEGS));
 }
+
+const _: Model<f64, 17, 19, 18> = A1Free::MODEL;

@@ -99,3 +99,5 @@ impl Robot<7, 7, 7> for Gen3 {
         ],
     );
 }
+
+const _: Arm<f64, 7> = Gen3::MODEL;

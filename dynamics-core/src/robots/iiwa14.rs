@@ -90,3 +90,5 @@ impl Robot<7, 7, 7> for Iiwa14 {
         ],
     );
 }
+
+const _: Arm<f64, 7> = Iiwa14::MODEL;

@@ -113,3 +113,5 @@ impl Robot<7, 7, 7> for Panda {
         ],
     );
 }
+
+const _: Arm<f64, 7> = Panda::MODEL;

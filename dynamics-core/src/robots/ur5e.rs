@@ -111,3 +111,5 @@ impl Robot<6, 6, 6> for Ur5e {
         ],
     );
 }
+
+const _: Arm<f64, 6> = Ur5e::MODEL;

@@ -119,3 +119,5 @@ impl Robot<7, 7, 7> for XArm7 {
         ],
     );
 }
+
+const _: Arm<f64, 7> = XArm7::MODEL;

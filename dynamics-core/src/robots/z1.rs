@@ -108,3 +108,5 @@ impl Robot<7, 7, 7> for Z1 {
         ],
     );
 }
+
+const _: Arm<f64, 7> = Z1::MODEL;

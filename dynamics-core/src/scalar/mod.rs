@@ -1,4 +1,4 @@
-//! The scalar of a computation, f32 or f64, and the only place that names glam.
+//! The scalar of a computation, f32 or f64, with its vectors and matrices, which are glam's.
 //!
 //! Everything else is written against [`Real`] alone, so that one source serves the firmware
 //! (f32), the host tests (f64) and the reports that compare the two in one binary. [`Compensated`] and [`Fixed`]

@@ -1,5 +1,7 @@
 //! Sines and cosines turned on from tick to tick.
 
+use core::hint::select_unpredictable;
+
 use crate::model::Turn;
 use crate::scalar::Real;
 use crate::state::Posture;
@@ -10,7 +12,9 @@ use crate::state::Posture;
 /// back to sin² + cos² = 1 by one step of Newton's iteration. Rounding turns the pair a little each tick, which
 /// nothing takes back: the angle drifts as a random walk, in f32 by some 10⁻⁵ rad in 10⁴ ticks. [`Carried::at`]
 /// starts anew.
-/// Angles: |Δ| < 0.02 rad, an error of 10⁻⁸ a tick. 21 flops a joint; the same instructions whatever the data.
+/// Angles: |Δ| < 0.02 rad, an error of 10⁻⁸ a tick. A joint that seems to jump by 0.5 rad or more, or to something that
+/// is not a number, stays where it was: the posture's `q` is the angle that the sine and cosine belong to, and a single
+/// wrong reading leaves no trace. One that did jump needs [`Carried::at`]. 21 flops a joint; the same instructions whatever the data.
 ///
 /// ```
 /// use dynamics_core::trig::Carried;
@@ -36,9 +40,12 @@ impl<R: Real, const N: usize> Carried<R, N> {
     /// The same joints a tick later, at q.
     #[inline(always)]
     pub fn follow(&mut self, q: &[R; N]) -> &Posture<R, N> {
-        let [half, sixth, three_halves] = [0.5, 1.0 / 6.0, 1.5].map(R::from_f64);
+        let [quarter, half, sixth, three_halves] = [0.25, 0.5, 1.0 / 6.0, 1.5].map(R::from_f64);
         for (turn, &q) in self.posture.turns.iter_mut().zip(q) {
             let d = q - turn.q;
+            // False of a NaN, too.
+            let near = d * d < quarter;
+            let (d, q) = select_unpredictable(near, (d, q), (R::ZERO, turn.q));
             let u = d * d;
             let (ds, dc) = (d - d * (u * sixth), R::ONE - u * half);
             let (s, c) = (turn.sin * dc + turn.cos * ds, turn.cos * dc - turn.sin * ds);

@@ -1,6 +1,6 @@
 //! Minimax polynomials of several degrees on |r| ≤ π/4, behind a reduction in two or three parts.
 
-use super::Kernel;
+use super::{Kernel, bounded};
 
 /// Sine by a polynomial of degree `DEGREE` (3, 5 or 7), cosine by one of a degree more, of x − k π/2 with π/2 in
 /// `PARTS` (2 or 3) parts.
@@ -11,7 +11,7 @@ use super::Kernel;
 /// | 5 | 10⁻⁶ |
 /// | 7 | 3·10⁻⁹, below rounding |
 ///
-/// Two parts hold to ±100 rad, three to 10⁴. Cost: the same instructions whatever x. Source: as [`crate::trig`];
+/// Two parts hold to ±100 rad, three to 10⁴; of other x the results stay within ±1, as [`crate::trig`] says. Cost: the same instructions whatever x. Source: as [`crate::trig`];
 /// the coefficients are printed by `host-tests/oracle/minimax.py`.
 ///
 /// ```
@@ -43,7 +43,9 @@ impl<const DEGREE: usize, const PARTS: usize> Kernel<f32> for Minimax<DEGREE, PA
         } else {
             (x - k * 1.570_785_5) - k * 1.080_433_4e-5
         };
-        in_quadrant(polynomials::<DEGREE>(r), quadrant)
+        // Within 2¹⁸ quarter turns k is right and |r| < 0.9.
+        let inside = quadrant.wrapping_sub(0x4b3c_0000) < 1 << 19;
+        in_quadrant(polynomials::<DEGREE>(bounded(r, inside, x)), quadrant)
     }
 }
 

@@ -5,7 +5,9 @@
 //! polynomials of degree 3 and 2 go on from there; in f64 it is π/2, with minimax polynomials of degree 13 and 14 on
 //! |r| ≤ π/4. `libm::sinf` computes in f64, which the FPU of a Cortex-M4F does not have: 30 times the cost.
 //!
-//! For infinite or NaN input the result has no meaning: callers gate such angles before they get here.
+//! Of a finite angle beyond the range of a kernel the sine and cosine have no meaning, but stay within ±1: a wrong reading
+//! of an encoder makes a wrong torque, not one a million times too large. Of an angle that is infinite or NaN both are NaN,
+//! so that what is computed from them shows it; the control loop's gate refuses such measurements before.
 //!
 //! Less accurate and other ways are types, a [`Kernel`] each, which [`crate::Engine::rnea_by`] and
 //! [`crate::state::Posture::by`] take; what each costs and gives is in `docs/accuracy.md` in the repository, and why
@@ -42,6 +44,14 @@ pub trait Kernel<R> {
     fn sin_cos(x: R) -> (R, R);
 }
 
+/// The rest r of a reduction, or nothing if that was not `inside` its range: 0 of a finite x, NaN of others.
+///
+/// Without a branch: the compiler would make one of an `if`.
+#[inline(always)]
+fn bounded(r: f32, inside: bool, x: f32) -> f32 {
+    core::hint::select_unpredictable(inside, r, x - x)
+}
+
 /// The scalar's own, [`Real::sin_cos`].
 #[derive(Clone, Copy, Debug)]
 pub struct Native;
@@ -55,7 +65,8 @@ impl<R: Real> Kernel<R> for Native {
 
 /// (sin x, cos x) of x in rad, |x| ≤ 10⁴: absolute error below 10⁻⁷.
 ///
-/// Beyond 10⁴ rad accuracy is lost gradually; beyond 2·10⁵ rad the result has no meaning. Cost: the
+/// Beyond 10⁴ rad accuracy is lost gradually; beyond 2·10⁵ rad the result has no meaning, but stays within ±1. NaN of
+/// an infinite x and of NaN. Cost: the
 /// same instructions whatever x. Flash: 1 kB, once.
 ///
 /// ```
@@ -69,8 +80,8 @@ pub fn sin_cos(x: f32) -> (f32, f32) {
 
 /// (sin x, cos x) of x in rad for joints that stay within ±100 rad: absolute error below 10⁻⁷.
 ///
-/// A reduction in two parts instead of four. The engine takes it for joints whose limits lie within
-/// ±4π. Cost: the same instructions whatever x.
+/// A reduction in two parts instead of four; beyond, as [`sin_cos`]. The engine takes it for joints whose limits lie
+/// within ±4π. Cost: the same instructions whatever x.
 ///
 /// ```
 /// let (s, c) = dynamics_core::trig::sin_cos_near(-3.0);
@@ -82,6 +93,9 @@ pub fn sin_cos_near(x: f32) -> (f32, f32) {
 }
 
 /// (sin x, cos x) in f64 of x in rad, |x| ≤ 10⁵: absolute error below 3·10⁻¹⁶.
+///
+/// Beyond 10⁵ rad accuracy is lost gradually; beyond 3·10⁹ rad the result has no meaning, but stays within ±1. NaN of an
+/// infinite x and of NaN.
 ///
 /// The coefficients are those of fdlibm's kernels (Sun Microsystems, 1993); unlike fdlibm and its
 /// descendants it has no branch, so that compilers can do several joints at once.
@@ -113,6 +127,7 @@ pub fn sin_cos_f64(x: f64) -> (f64, f64) {
     let (k, quadrant) = (t - ROUND, t.to_bits());
     let r = ((x - k * 1.570_796_326_734_125_6) - k * 6.077_100_506_303_966e-11)
         - k * 2.022_266_248_795_950_6e-21;
+    let r = core::hint::select_unpredictable(k.abs() < 2e9, r, x - x);
     let u = r * r;
     let s = SIN[1] + u * (SIN[2] + u * (SIN[3] + u * (SIN[4] + u * SIN[5])));
     let s = r + r * u * (SIN[0] + u * s);

@@ -1,6 +1,6 @@
 //! A table of one turn, and Taylor's polynomials from its nearest entry.
 
-use super::Kernel;
+use super::{Kernel, bounded};
 use crate::const_math;
 
 /// Sine and cosine of the nearest of `N` (a power of two) angles of a turn, turned on by the rest r, |r| ≤ π/N, by
@@ -13,7 +13,8 @@ use crate::const_math;
 /// | 128, 3 | 1 kB | 8·10⁻⁸, of which 6·10⁻⁸ are rounding |
 /// | 64, 4 | 512 B | 7·10⁻⁸ |
 ///
-/// The step of the table comes off x in `PARTS`: 2 hold to ±100 rad, 4 to 10⁴ for up to 128 entries. Cost: the same
+/// The step of the table comes off x in `PARTS`: 2 hold to ±100 rad, 4 to 10⁴ for up to 128 entries. Of other x the
+/// results stay within ±1 (for orders 1 and 2 within ±1.05), as [`crate::trig`] says. Cost: the same
 /// instructions whatever x, two of them loads of neighbours from flash, which wait states make longer. Source: Gal,
 /// "Computing elementary functions: a new approach for achieving high accuracy and good performance" (1986), with
 /// equidistant entries; parts as in [`crate::trig`].
@@ -87,6 +88,9 @@ impl<const N: usize, const ORDER: usize, const PARTS: usize> Kernel<f32>
     fn sin_cos(x: f32) -> (f32, f32) {
         // As in `minimax`: rounds, and leaves the integer in the low bits.
         const ROUND: f32 = 12_582_912.0;
+        // None of these bits is set while t is between 2²³ and 2²⁴, some are once it is beyond 2²⁵ or negative; what
+        // lies between leaves |r| < 1/4.
+        const OUTSIDE: u32 = 0xb400_0000;
         let t = x * const { (N as f64 / core::f64::consts::TAU) as f32 } + ROUND;
         let (k, at) = (t - ROUND, t.to_bits() as usize & (N - 1));
         let r = if ORDER == 1 {
@@ -101,6 +105,7 @@ impl<const N: usize, const ORDER: usize, const PARTS: usize> Kernel<f32>
                 (r - k * const { Self::part(2) }) - k * const { Self::part(3) }
             }
         };
+        let r = bounded(r, t.to_bits() & OUTSIDE == 0, x);
         let Pair { sin: s, cos: c } = const { &Self::ENTRIES }[at];
         let u = r * r;
         let sixth = || r + r * (u * (-1.0 / 6.0));

@@ -46,3 +46,5 @@ impl Robot<3, 3, 3> for DirectDrive {
         ],
     );
 }
+
+const _: Arm<f64, 3> = DirectDrive::MODEL;

@@ -47,3 +47,5 @@ impl Robot<3, 3, 3> for Gimbal {
         ],
     );
 }
+
+const _: Arm<f64, 3> = Gimbal::MODEL;

@@ -25,3 +25,5 @@ const CARRIAGE: Body = Body::new("carriage", BASE, Joint::prismatic([0.0, 0.0, 1
 impl Robot<5, 4, 4> for Leg {
     const MODEL: Model<f64, 5, 4, 4> = Model::new("leg", on_root(CARRIAGE, &A1::LEG));
 }
+
+const _: Model<f64, 5, 4, 4> = Leg::MODEL;

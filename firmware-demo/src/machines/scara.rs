@@ -49,3 +49,5 @@ impl Robot<3, 3, 3> for Scara {
         ],
     );
 }
+
+const _: Arm<f64, 3> = Scara::MODEL;

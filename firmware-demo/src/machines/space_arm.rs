@@ -77,6 +77,8 @@ impl Robot<7, 13, 12> for SpaceArm {
     );
 }
 
+const _: Model<f64, 7, 13, 12> = SpaceArm::MODEL;
+
 impl SpaceArm {
     /// The configuration with the satellite at the origin, level.
     pub const fn at(joints: [f32; 6]) -> [f32; 13] {

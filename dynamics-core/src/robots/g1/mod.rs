@@ -85,6 +85,8 @@ impl Robot<29, 29, 29> for G1 {
     const MODEL: Arm<f64, 29> = Model::new("g1", LIMBS);
 }
 
+const _: Arm<f64, 29> = G1::MODEL;
+
 /// Unitree G1 on a free joint: the pelvis of 3.8 kg, then the limbs of [`G1`]; 30 bodies, 35 degrees of
 /// freedom, 33.3 kg. Source and licence as [`G1`].
 #[derive(Clone, Copy, Debug, Default)]
@@ -98,3 +100,5 @@ const PELVIS: Body = Body::new("pelvis", BASE, Joint::free())
 impl Robot<30, 36, 35> for G1Free {
     const MODEL: Model<f64, 30, 36, 35> = Model::new("g1_free", on_root(PELVIS, &LIMBS));
 }
+
+const _: Model<f64, 30, 36, 35> = G1Free::MODEL;

@@ -4,6 +4,7 @@ mod absent_steps;
 mod cost_steps;
 mod firmware_steps;
 mod host_steps;
+mod other_compilers;
 mod other_machines;
 mod scene_steps;
 
@@ -231,7 +232,7 @@ const STEPS: &[Step] = &[
         name: "compilers",
         title: "the UR5e's demo and costs are within their budgets with rustup's other compilers",
         lane: Lane::Target,
-        run: other_machines::compilers,
+        run: other_compilers::compilers,
     },
 ];
 

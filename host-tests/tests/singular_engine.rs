@@ -143,7 +143,7 @@ fn the_engine_refuses_a_wrist_in_gimbal_lock() {
 
 #[test]
 fn the_engine_refuses_two_turns_on_one_axis_with_a_heavy_payload() {
-    let load = Payload::new(
+    let load = Payload::<_, 3>::new(
         1000.0_f32,
         [0.1, 0.0, 0.2],
         [90.0, 0.0, 9.0, 80.0, 0.0, 70.0],

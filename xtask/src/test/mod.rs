@@ -6,6 +6,7 @@ mod claims;
 mod cost_steps;
 mod firmware_steps;
 mod host_steps;
+mod other_compilers;
 mod other_machines;
 mod package_steps;
 mod scene_steps;
@@ -302,7 +303,7 @@ const STEPS: &[Step] = &[
         title: "the UR5e's demo and costs are within their budgets with rustup's other compilers",
         lane: Lane::Target,
         scope: Scope::Full,
-        run: other_machines::compilers,
+        run: other_compilers::compilers,
     },
 ];
 

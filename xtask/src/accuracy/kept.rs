@@ -132,7 +132,7 @@ mod tests {
         COMMAND, FILE, Later, Point, Robot, Workspace, completed, docs, page_of, part, simulated,
         text,
     };
-    use crate::docs::tests::root;
+    use crate::docs::repository::root;
 
     /// The lines of a text, without what a table pads them with.
     fn lines(text: &str) -> Vec<String> {

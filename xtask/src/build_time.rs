@@ -117,7 +117,7 @@ fn table(rows: &[Row]) -> Table {
 #[cfg(test)]
 mod tests {
     use super::{PAGE, ROBOTS, Row, page, table};
-    use crate::docs::tests::{root, rows_of};
+    use crate::docs::repository::{root, rows_of};
 
     /// The rows of a page, whose difference is off by no more than rounding.
     fn read(page: &str) -> Vec<Row> {

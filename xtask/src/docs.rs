@@ -3,7 +3,9 @@
 mod columns;
 mod generated;
 #[cfg(test)]
-pub mod tests;
+pub mod repository;
+#[cfg(test)]
+mod tests;
 
 use std::process::Command;
 use std::time::{SystemTime, UNIX_EPOCH};

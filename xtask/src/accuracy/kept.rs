@@ -123,10 +123,68 @@ fn completed(recorded: &[Point], single: &[Point]) -> Vec<Point> {
 
 #[cfg(test)]
 mod tests {
+    use std::path::PathBuf;
+
     use super::super::front::tests::point;
-    use super::super::measure::Robot;
-    use super::super::page::page_of;
-    use super::{Later, completed, part};
+    use super::super::join::Host;
+    use super::super::recorded;
+    use super::{
+        COMMAND, FILE, Later, Point, Robot, Workspace, completed, docs, page_of, part, simulated,
+        text,
+    };
+    use crate::docs::repository::root;
+
+    /// The lines of a text, without what a table pads them with.
+    fn lines(text: &str) -> Vec<String> {
+        let words = text
+            .lines()
+            .map(|line| line.split_whitespace().collect::<Vec<_>>().join(" "));
+        let says = |line: &String| !line.is_empty() && !line.starts_with("| --");
+        words.filter(says).collect()
+    }
+
+    /// The lines that recorded points make, without the host's errors, and that a page lacks.
+    fn lacking(page: &str, points: &[Point]) -> Vec<String> {
+        let mut lacking = Vec::new();
+        for robot in Robot::ALL {
+            let written = page_of(robot).written(page).expect("markers");
+            let rustc = docs::rustc_of(written).expect("a compiler");
+            let (fresh, later) = match robot {
+                Robot::DoublePendulum => (simulated::text(points, rustc), Later::Drift),
+                _ => (text(points, &Host::default(), robot, rustc), Later::Joints),
+            };
+            let written = lines(&later.cut(written));
+            // How far it is off anywhere is not recorded.
+            let told = |line: &String| !line.starts_with("The default takes");
+            let fresh = lines(&later.cut(&fresh)).into_iter().filter(told);
+            lacking.extend(fresh.filter(|line| !written.contains(line)));
+        }
+        lacking
+    }
+
+    #[test]
+    fn the_page_has_every_line_that_is_recorded() {
+        let page = std::fs::read_to_string(root().join(FILE)).expect("a page");
+        let workspace = Workspace {
+            root: root(),
+            target: PathBuf::new(),
+            bins: Vec::new(),
+        };
+        let mut points = recorded::read(&workspace).expect("a record");
+        for point in &mut points {
+            let scale = |share| point.error() / share;
+            point.full_scale = point.relative_max.map_or(0.0, scale);
+        }
+        let nothing: [String; 0] = [];
+        assert_eq!(
+            lacking(&page, &points),
+            nothing,
+            "`{COMMAND}` rewrites {FILE}"
+        );
+        let default = points.iter_mut().find(|point| point.is_default());
+        default.expect("a default").cycles += 1;
+        assert!(!lacking(&page, &points).is_empty());
+    }
 
     #[test]
     fn a_part_that_is_not_what_is_recorded_is_refused() {

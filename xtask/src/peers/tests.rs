@@ -4,7 +4,7 @@ use super::bars::held;
 use super::report::{HOST, M4F, Report, Row};
 use super::{ALGORITHMS, PRECISIONS};
 use crate::bars::{self, Held, Ratios};
-use crate::docs::tests::{root, rows_of};
+use crate::docs::repository::{root, rows_of};
 
 /// What a ratio of figures may be off by that are printed in three digits or more.
 const ROUNDING: f64 = 0.005;

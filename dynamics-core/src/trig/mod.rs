@@ -47,6 +47,10 @@ pub trait Kernel<R> {
 /// The rest r of a reduction, or nothing if that was not `inside` its range: 0 of a finite x, NaN of others.
 ///
 /// Without a branch: the compiler would make one of an `if`.
+#[allow(
+    clippy::eq_op,
+    reason = "x − x is 0 of a finite x and NaN of any other"
+)]
 #[inline(always)]
 fn bounded(r: f32, inside: bool, x: f32) -> f32 {
     core::hint::select_unpredictable(inside, r, x - x)
@@ -104,6 +108,10 @@ pub fn sin_cos_near(x: f32) -> (f32, f32) {
 /// let (s, c) = dynamics_core::trig::sin_cos_f64(2.0);
 /// assert!((s - 0.909_297_426_825_681_7).abs() < 3e-16 && (c + 0.416_146_836_547_142_4).abs() < 3e-16);
 /// ```
+#[allow(
+    clippy::eq_op,
+    reason = "x − x is 0 of a finite x and NaN of any other"
+)]
 #[inline(always)]
 pub fn sin_cos_f64(x: f64) -> (f64, f64) {
     const ROUND: f64 = 6_755_399_441_055_744.0;

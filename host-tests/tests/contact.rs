@@ -14,6 +14,7 @@ use dynamics_core::sim::semi_implicit;
 use dynamics_core::spatial::Force;
 use dynamics_core::state::{Posture, State};
 use glam::{DMat3, DVec3};
+use host_tests::measured::largest;
 
 const HAND: usize = 6;
 const TICK: f64 = 1e-3;
@@ -116,13 +117,11 @@ fn run(posture: f64) -> Errors {
         }
 
         if t > 2.0 {
-            errors.force = errors.force.max((pressed - PRESS).abs());
-            errors.path = errors.path.max((seen - place).y.hypot((seen - place).z));
-            errors.turn = errors.turn.max(off.length());
+            errors.force = largest([errors.force, (pressed - PRESS).abs()]);
+            errors.path = largest([errors.path, (seen - place).y.hypot((seen - place).z)]);
+            errors.turn = largest([errors.turn, off.length()]);
             let free = task.unseen(&arm.qd);
-            errors.swing = errors
-                .swing
-                .max(free.iter().map(|x| x.abs()).fold(0.0, f64::max));
+            errors.swing = largest(free.map(f64::abs).into_iter().chain([errors.swing]));
         }
         let scene = (Gravity::EARTH, Inertia, Coriolis, wall);
         for _ in 0..PARTS {

@@ -20,7 +20,7 @@ pub const ZETA: f32 = 1.0;
 const OBSERVER: f32 = core::f32::consts::TAU * 40.0;
 /// Ticks that a fault is ridden through.
 pub const RIDE: u32 = 5;
-/// Ticks of gravity compensation before a fault stops the arm.
+/// Ticks of bringing the arm to rest before a fault stops it.
 pub const HOLD: u32 = 100;
 /// Ticks of the way back after a fault.
 pub const REENTRY: u32 = 200;

@@ -40,7 +40,7 @@ pub fn bad_frames(at: u32, ticks: u32, mask: u16) -> Outcome {
         let error = Arm::error(&telemetry.reference, &actual);
         errors.push(error);
         let late = tick >= ticks;
-        if late && (!(error <= 1e-3) || telemetry.status.fault.is_some()) {
+        if late && (error > 1e-3 || telemetry.status.fault.is_some()) {
             out.back = tick - ticks + 1;
         }
         for j in (0..6).filter(|&j| fast[j] && tick < ticks + REENTRY) {

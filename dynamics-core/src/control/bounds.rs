@@ -58,7 +58,9 @@ impl<R: Real, const V: usize> Bounds<R, V> {
             if lower > upper {
                 return Err(BoundsError::Empty { joint });
             }
-            if !(lower <= upper) {
+            // A NaN compares with nothing.
+            let is_range = lower <= upper;
+            if !is_range {
                 let of = Limited::Position;
                 return Err(BoundsError::NotFinite { joint, of });
             }

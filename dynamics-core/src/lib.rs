@@ -17,6 +17,21 @@
 //! | [`flexible`] | joints driven through springs: their plant and their inverse dynamics |
 //! | [`sim`] | time steps of a simulated robot, and its actuators |
 //!
+//! ```
+//! use dynamics_core::{Engine, effects::RIGID_BODY, robots::Ur5e, state::State};
+//! let reference = State { q: [0.0_f32, -1.2, 1.5, 0.3, 0.7, 0.0], qd: [0.5; 6], qdd: [1.0; 6] };
+//! let tau = Engine::<Ur5e>::rnea(&reference, &RIGID_BODY); // N·m for each motor
+//! assert!(tau.iter().all(|tau| tau.is_finite()));
+//! ```
+//!
+//! Cargo features, off by default, neither of which changes a number:
+//!
+//! - `defmt`: `defmt::Format` for what firmware logs: faults, modes, status, commands, errors, states, forces.
+//! - `serde`: `Serialize` and `Deserialize` for what firmware keeps in flash: bounds, gains, limits, way-points, states,
+//!   inertias, friction. Types that a constructor checks are built from these by that constructor.
+//!
+//! `examples/` in the crate has a file for each use.
+//!
 #![doc = include_str!("../NOTATION.md")]
 #![cfg_attr(not(test), no_std)]
 #![forbid(unsafe_code)]

@@ -225,6 +225,7 @@ fn seen<R: Real, E: Effect<R, 6, 3>>(scene: &E) -> Vec<f64> {
     let at = BodyState {
         pose: Xform::IDENTITY,
         velocity: v,
+        base: Some(v),
     };
     scene.wrench(2, &at, &mut fx);
     seen.extend(

@@ -169,6 +169,7 @@ mod tests {
             root: root(),
             target: PathBuf::new(),
             bins: Vec::new(),
+            reports: None,
         };
         let mut points = recorded::read(&workspace).expect("a record");
         for point in &mut points {

@@ -177,24 +177,30 @@ impl<R: Real> AddAssign for Symmetric<R> {
 /// The eigenvalues by cyclic Jacobi rotations, in no order.
 pub(crate) fn eigenvalues(mut a: [[f64; 3]; 3]) -> [f64; 3] {
     for _ in 0..12 {
-        for (p, q) in [(0, 1), (0, 2), (1, 2)] {
-            if a[p][q] == 0.0 {
-                continue;
-            }
-            let theta = (a[q][q] - a[p][p]) / (2.0 * a[p][q]);
-            let t = theta.signum() / (theta.abs() + libm::sqrt(theta * theta + 1.0));
-            let c = 1.0 / libm::sqrt(t * t + 1.0);
-            let s = t * c;
-            for row in &mut a {
-                (row[p], row[q]) = (c * row[p] - s * row[q], s * row[p] + c * row[q]);
-            }
-            let (rp, rq) = (a[p], a[q]);
-            for k in 0..3 {
-                (a[p][k], a[q][k]) = (c * rp[k] - s * rq[k], s * rp[k] + c * rq[k]);
-            }
-        }
+        annihilate::<0, 1>(&mut a);
+        annihilate::<0, 2>(&mut a);
+        annihilate::<1, 2>(&mut a);
     }
     [a[0][0], a[1][1], a[2][2]]
+}
+
+/// One rotation of Jacobi's method; indices are constants, so that none of them is checked at run time.
+#[inline(always)]
+fn annihilate<const P: usize, const Q: usize>(a: &mut [[f64; 3]; 3]) {
+    if a[P][Q] == 0.0 {
+        return;
+    }
+    let theta = (a[Q][Q] - a[P][P]) / (2.0 * a[P][Q]);
+    let t = theta.signum() / (theta.abs() + libm::sqrt(theta * theta + 1.0));
+    let c = 1.0 / libm::sqrt(t * t + 1.0);
+    let s = t * c;
+    for row in a.iter_mut() {
+        (row[P], row[Q]) = (c * row[P] - s * row[Q], s * row[P] + c * row[Q]);
+    }
+    let (rp, rq) = (a[P], a[Q]);
+    for k in 0..3 {
+        (a[P][k], a[Q][k]) = (c * rp[k] - s * rq[k], s * rp[k] + c * rq[k]);
+    }
 }
 
 #[cfg(test)]

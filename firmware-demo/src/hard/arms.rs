@@ -182,7 +182,8 @@ const POINTS: Arm<f64, N> = {
     let mut i = 0;
     while i < N {
         let parent = if i == 0 { BASE } else { i - 1 };
-        bodies[i] = Body::new("point", parent, Joint::revolute([0.0, 0.0, 1.0]))
+        let names = ["first", "second", "third", "fourth", "fifth", "sixth"];
+        bodies[i] = Body::new(names[i], parent, Joint::revolute([0.0, 0.0, 1.0]))
             .xyz([0.1, 0.0, 0.2])
             .quarter_turns([1, 0, 0])
             .mass(1.5)

@@ -220,10 +220,10 @@ fn engine_equals_core_on_a_moving_base_and_where_poses_are_asked() {
         ulps::<f64>(f64::EPSILON),
     );
     println!("{single:.2?} {double:.2?} ulp");
-    assert!(
-        single.into_iter().chain(double).all(|ulps| ulps <= 4.0),
-        "{single:.2?} {double:.2?} ulp"
-    );
+    // Friction of the ground is of the difference of two velocities, a body's and the base's, both larger than it.
+    for (ulps, most) in single.into_iter().chain(double).zip([6.0, 4.0, 6.0, 4.0]) {
+        assert!(ulps <= most, "{single:.2?} {double:.2?} ulp");
+    }
 }
 
 #[test]

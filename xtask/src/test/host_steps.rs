@@ -13,7 +13,7 @@ const HOST: [&str; 3] = ["--workspace", "--exclude", FIRMWARE];
 const FIRMWARE_LIB: [&str; 3] = ["--package", FIRMWARE, "--lib"];
 const DENY_WARNINGS: [&str; 3] = ["--", "-D", "warnings"];
 /// The tests that take the compiler long: further robots and scalars of claims that are tested without.
-const FULL: [&str; 2] = ["--features", "host-tests/full"];
+const FULL: [&str; 2] = ["--features", "host-tests/full,unoptimised-tests/full"];
 
 fn cargo(context: &Context, subcommand: &str, arguments: &[&[&str]]) -> Result<String> {
     let mut command = context.workspace.cargo(subcommand);

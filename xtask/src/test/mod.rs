@@ -359,7 +359,9 @@ pub fn list() -> Result<ExitCode> {
         text += &format!("  {:16} {}\n", step.name, step.title);
     }
     text += "\ntests that only --full adds to the step `host`; every other step then takes all robots and scenes:\n";
-    for (program, test) in claims::full_only(&workspace.root.join("host-tests/tests"))? {
+    let folders = ["host-tests/tests", "host-tests/unoptimised/tests"];
+    let claims = folders.map(|folder| claims::full_only(&workspace.root.join(folder)));
+    for (program, test) in claims.into_iter().collect::<Result<Vec<_>>>()?.concat() {
         text += &format!("  {program:16} {}\n", test.replace('_', " "));
     }
     output::print(&text)?;

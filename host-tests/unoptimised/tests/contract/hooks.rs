@@ -313,7 +313,7 @@ fn declared(source: &str) -> Vec<&str> {
 
 #[test]
 fn a_hook_or_constant_that_is_added_is_passed_on_everywhere() {
-    let effects = include_str!("../../../dynamics-core/src/effects/mod.rs");
+    let effects = include_str!("../../../../dynamics-core/src/effects/mod.rs");
     let (_, the_trait) = effects
         .split_once("pub trait Effect<")
         .expect("the trait is there");
@@ -328,20 +328,22 @@ fn a_hook_or_constant_that_is_added_is_passed_on_everywhere() {
     };
     let none: [&str; 0] = [];
     assert_eq!(
-        missing(include_str!("../../../dynamics-core/src/effects/tuple.rs")),
+        missing(include_str!(
+            "../../../../dynamics-core/src/effects/tuple.rs"
+        )),
         none
     );
     // What a wrapper is there to change, and what belongs to the effects themselves.
     let own = ["ACCELERATIONS", "advance", "inertia", "slopes", "torque"];
     assert_eq!(
         missing(include_str!(
-            "../../../dynamics-core/src/effects/passed_on.rs"
+            "../../../../dynamics-core/src/effects/passed_on.rs"
         )),
         own
     );
     // Effects that are made anew each time remember nothing.
     assert_eq!(
-        missing(include_str!("../../../firmware-demo/src/scene/now.rs")),
+        missing(include_str!("../../../../firmware-demo/src/scene/now.rs")),
         ["advance"]
     );
     // The effect of this test; `GRAVITIES` follows from `FIELD`.

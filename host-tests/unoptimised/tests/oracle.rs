@@ -1,5 +1,5 @@
 //! The core against Pinocchio, in f64 and f32, on every recorded state. Its loops are over run-time models,
-//! which robots of one size share; `tests/engine` has those of robots known while compiling.
+//! which robots of one size share; `engine` has those of robots known while compiling.
 
 use dynamics_core::algorithms::{aba, crba, factor, inverse, rnea};
 use dynamics_core::configuration::{difference, integrate};

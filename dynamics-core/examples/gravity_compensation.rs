@@ -4,13 +4,13 @@
 
 use dynamics_core::Engine;
 use dynamics_core::effects::Gravity;
-use dynamics_core::model::{Arm, BASE, Body, Joint, Model, Robot};
+use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model, Robot};
 use dynamics_core::state::State;
 
 /// A shoulder and an elbow that turn about y; at q = 0 both links hang down.
 struct TwoLinks;
 impl Robot<2, 2, 2> for TwoLinks {
-    const MODEL: Arm<f64, 2> = Model::new(
+    const MODEL: ArmModel<f64, 2> = Model::new(
         "two links",
         [
             Body::new("upper arm", BASE, Joint::revolute([0.0, 1.0, 0.0]))
@@ -23,7 +23,7 @@ impl Robot<2, 2, 2> for TwoLinks {
         ],
     );
 }
-const _: Arm<f64, 2> = TwoLinks::MODEL; // `cargo check` now reports a description that is wrong
+const _: ArmModel<f64, 2> = TwoLinks::MODEL; // `cargo check` now reports a description that is wrong
 
 /// What firmware computes every tick: the torques at the measured positions, N·m.
 fn compensation(q: [f32; 2]) -> [f32; 2] {

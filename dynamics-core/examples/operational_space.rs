@@ -5,7 +5,7 @@
 use dynamics_core::algorithms::{
     Conditioning, Damping, NotPositiveDefinite, frame, operational_space,
 };
-use dynamics_core::control::{Aim, TaskFrame, motion_and_force};
+use dynamics_core::control::{TaskCommand, TaskFrame, hybrid_motion_force};
 use dynamics_core::effects::{Coriolis, Gravity, RIGID_BODY};
 use dynamics_core::model::Robot;
 use dynamics_core::{Core, robots::Ur5e, state::State};
@@ -17,22 +17,22 @@ fn control(arm: &State<f32, 6, 6>) -> Result<[f32; 6], NotPositiveDefinite> {
     let directions = TaskFrame::BASE.place(); // x, y and z of the hand's origin, in the base's axes
     // Close to a singular configuration the task's inertia is damped; it stays finite everywhere.
     let damping = Damping::relative(1e-3);
-    let (arm_model, hand) = (&Ur5e::MODEL_F32, (HAND, frame::Mixed));
+    let (arm_model, hand) = (&Ur5e::MODEL_F32, (HAND, frame::LocalWorldAligned));
     let task = operational_space(arm_model, &arm.q, hand, &directions, &RIGID_BODY, damping)?;
     assert_eq!(task.conditioning, Conditioning::Regular);
 
-    let still = Aim::Motion { acceleration: 0.0 };
-    let press = Aim::Force {
+    let still = TaskCommand::Motion { acceleration: 0.0 };
+    let press = TaskCommand::Force {
         force: -20.0,
         acceleration: 0.0,
     };
-    let drift = Core::<Ur5e>::drift(arm, HAND, frame::Mixed); // J̇ q̇
+    let drift = Core::<Ur5e>::bias_acceleration(arm, HAND, frame::LocalWorldAligned); // J̇ q̇
     let drift = directions.map(|direction| drift.dot(direction));
     let bias = Core::<Ur5e>::rnea(arm, &(Gravity::EARTH, Coriolis));
-    let mut tau = motion_and_force(&task, &[still, still, press], &drift, &bias);
+    let mut tau = hybrid_motion_force(&task, &[still, still, press], &drift, &bias);
 
     // Damping of the joints that does not disturb the task.
-    let rest = task.unseen(&arm.qd.map(|qd| -2.0 * qd));
+    let rest = task.null_space_torque(&arm.qd.map(|qd| -2.0 * qd));
     for (tau, rest) in tau.iter_mut().zip(rest) {
         *tau += rest;
     }
@@ -48,7 +48,7 @@ fn main() -> Result<(), NotPositiveDefinite> {
 
         // Without gravity's share, the torques push with 20 N downwards: τ = g + Jᵀ F.
         let gravity = Core::<Ur5e>::rnea(&arm, &(Gravity::EARTH,));
-        let jacobian = Core::<Ur5e>::jacobian(&arm.q, HAND, frame::Mixed);
+        let jacobian = Core::<Ur5e>::jacobian(&arm.q, HAND, frame::LocalWorldAligned);
         for (joint, column) in jacobian.iter().enumerate() {
             assert!((tau[joint] - gravity[joint] + 20.0 * column.lin.z).abs() < 1e-3);
         }

@@ -2,7 +2,7 @@
 //!
 //! `cargo run -p dynamics-core --example own_effect`
 
-use dynamics_core::effects::{Effect, JointState, RIGID_BODY, Slopes};
+use dynamics_core::effects::{Effect, JointState, RIGID_BODY, TorqueDerivatives};
 use dynamics_core::scalar::Real;
 use dynamics_core::{Core, Engine, robots::Ur5e, state::State};
 
@@ -28,9 +28,9 @@ impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for GasSpring<R> {
 
     /// ∂τ/∂q, for simulations and linearised torques; an effect in a controller does without.
     #[inline(always)]
-    fn slopes(&self, joint: usize, at: JointState<R>, slopes: &mut Slopes<R>) {
+    fn derivatives(&self, joint: usize, at: JointState<R>, derivatives: &mut TorqueDerivatives<R>) {
         if joint == SHOULDER {
-            slopes.q += self.force * self.crank * at.q.sin_cos().0;
+            derivatives.dq += self.force * self.crank * at.q.sin_cos().0;
         }
     }
 }

@@ -3,7 +3,7 @@
 //! `cargo run -p dynamics-core --example own_robot`
 
 use dynamics_core::effects::RIGID_BODY;
-use dynamics_core::model::{Arm, BASE, Body, Joint, Model, Robot};
+use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model, Robot};
 use dynamics_core::{Core, Engine, state::State};
 
 /// A column that rises, a shoulder and an elbow that turn about the vertical, as a SCARA has them.
@@ -12,9 +12,9 @@ use dynamics_core::{Core, Engine, state::State};
 /// robots with spherical or free joints, whose attitude is a quaternion.
 struct Scara;
 impl Robot<3, 3, 3> for Scara {
-    const MODEL: Arm<f64, 3> = Model::new("scara", [COLUMN, UPPER_ARM, FOREARM]);
+    const MODEL: ArmModel<f64, 3> = Model::new("scara", [COLUMN, UPPER_ARM, FOREARM]);
 }
-const _: Arm<f64, 3> = Scara::MODEL; // `cargo check` now reports a description that is wrong
+const _: ArmModel<f64, 3> = Scara::MODEL; // `cargo check` now reports a description that is wrong
 
 const Z: [f64; 3] = [0.0, 0.0, 1.0];
 const COLUMN: Body = Body::new("column", BASE, Joint::prismatic(Z)).mass(4.0);

@@ -2,17 +2,17 @@
 //!
 //! `cargo run -p dynamics-core --example payload`
 
-use dynamics_core::effects::{ImpossibleLoad, Payload, RIGID_BODY};
+use dynamics_core::effects::{InvalidPayload, Payload, RIGID_BODY};
 use dynamics_core::{Engine, model::Robot, robots::Ur5e, state::State};
 
 /// Its mass, centre of mass and inertia are in the wrist's frame. A name that no body has does not compile.
 type OnWrist = Payload<f32, { Ur5e::MODEL.body("wrist_3") }>;
 
-fn main() -> Result<(), ImpossibleLoad> {
+fn main() -> Result<(), InvalidPayload> {
     // Of numbers that come from outside: those that no body has are refused.
     let checked = |mass| OnWrist::checked(mass, [0.0, 0.0, 0.1], [0.0; 6], 1e-6);
-    assert_eq!(checked(-1.0), Err(ImpossibleLoad::Mass));
-    assert_eq!(checked(f32::NAN), Err(ImpossibleLoad::NotFinite));
+    assert_eq!(checked(-1.0), Err(InvalidPayload::Mass));
+    assert_eq!(checked(f32::NAN), Err(InvalidPayload::NotFinite));
 
     // The gripper is always there. The load adds to it, and with no mass it is no load.
     let gripper = OnWrist::new(0.9, [0.0, 0.0, 0.06], [1e-3, 0.0, 0.0, 1e-3, 0.0, 5e-4]);

@@ -26,9 +26,9 @@ impl<R: Real + Format> Format for SpatialInertia<R> {
         let columns = self.inertia.cols().map(R::Vec3::array);
         write!(
             f,
-            "SpatialInertia {{ mass: {}, moment: {}, inertia: {} }}",
+            "SpatialInertia {{ mass: {}, first_moment: {}, inertia: {} }}",
             self.mass,
-            self.moment.array(),
+            self.first_moment.array(),
             columns
         );
     }

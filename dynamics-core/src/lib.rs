@@ -37,18 +37,13 @@
 #![forbid(unsafe_code)]
 
 pub mod algorithms;
-mod articulated;
-pub mod configuration;
-mod const_math;
 pub mod control;
 #[cfg(feature = "defmt")]
 mod defmt_form;
+pub mod drivetrain;
 pub mod effects;
 mod engine;
-pub mod exponential;
-pub mod flexible;
-mod lie;
-mod mass_matrix;
+mod math;
 pub mod model;
 pub mod robots;
 pub mod scalar;
@@ -57,22 +52,20 @@ mod serde_form;
 pub mod sim;
 pub mod spatial;
 pub mod state;
-mod symmetric;
-pub mod transmission;
 pub mod trig;
 
-mod core_form;
-pub use core_form::Core;
+mod textbook;
+pub use algorithms::{Ltdl, MassMatrix};
 pub use engine::Engine;
-pub use mass_matrix::{Factor, MassMatrix};
+pub use textbook::Core;
 
 /// The vectors and matrices of the public API. Depend on them through this re-export: another minor version of glam
 /// has other types.
 ///
 /// ```
-/// use dynamics_core::effects::GravityAlong;
+/// use dynamics_core::effects::GravityVector;
 /// use dynamics_core::glam::Vec3;
-/// let on_a_wall = GravityAlong::<f32>(Vec3::new(9.81, 0.0, 0.0));
+/// let on_a_wall = GravityVector::<f32>(Vec3::new(9.81, 0.0, 0.0));
 /// assert_eq!(on_a_wall.0.length(), 9.81);
 /// ```
 pub use glam;

@@ -4,7 +4,7 @@
 //! nothing is read which could not be written in code; bounds that their check refuses are not read. What a constructor
 //! checks (models, trajectories, supervisors, payloads) has no `Deserialize`: that constructor builds it from these.
 
-use crate::effects::{RotorInertia, Viscous};
+use crate::effects::{Armature, Viscous};
 use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::SpatialInertia;
 use core::fmt;
@@ -130,7 +130,7 @@ macro_rules! record {
     };
 }
 
-record!(control::Bounds<R, V> {
+record!(control::SafetyLimits<R, V> {
     torque: Array<R, V>,
     rate: Array<R, V>,
     speed: Array<R, V>,
@@ -138,10 +138,10 @@ record!(control::Bounds<R, V> {
     upper: Array<R, V>,
 } check);
 record!(control::Gains<R, V> { kp: Array<R, V>, kd: Array<R, V> });
-record!(control::Speed<R> { velocity: R, acceleration: R });
+record!(control::MotionLimits<R> { velocity: R, acceleration: R });
 record!(control::WayPoint<R, V> { q: Array<R, V>, qd: Array<R, V>, ticks: u32 });
 record!(state::State<R, Q, V> { q: Array<R, Q>, qd: Array<R, V>, qdd: Array<R, V> });
-record!(model::Limits<R> { lower: R, upper: R, velocity: R, torque: R });
+record!(model::JointLimits<R> { lower: R, upper: R, velocity: R, torque: R });
 record!(model::BodyInertia<R> { mass: R, com: Array<R, 3>, inertia: Array<R, 6> });
 
 record!(effects::Coulomb<R, V> { torque: Array<R, V>, per_width: R });
@@ -166,7 +166,7 @@ record!(effects::Cogging<R, H, V> {
     sin: Array<Array<R, H>, V>,
 });
 record!(effects::Spring<R, V> { stiffness: Array<R, V>, rest: Array<R, V> });
-record!(effects::Stops<R, V> {
+record!(effects::EndStops<R, V> {
     lower: Array<R, V>,
     upper: Array<R, V>,
     stiffness: R,
@@ -191,14 +191,14 @@ macro_rules! per_joint {
     )+};
 }
 
-per_joint!(Viscous, RotorInertia);
+per_joint!(Viscous, Armature);
 
 /// Ten numbers, so that what is read is symmetric: the rotational inertia is xx, xy, xz, yy, yz, zz.
 #[derive(Serialize, Deserialize)]
 #[serde(rename = "SpatialInertia", deny_unknown_fields)]
 struct TenNumbers<R> {
     mass: R,
-    moment: Array<R, 3>,
+    first_moment: Array<R, 3>,
     inertia: Array<R, 6>,
 }
 
@@ -207,7 +207,7 @@ impl<R: Real + Serialize> Serialize for SpatialInertia<R> {
         let [[xx, xy, xz], [_, yy, yz], [_, _, zz]] = self.inertia.cols().map(R::Vec3::array);
         let form = TenNumbers {
             mass: self.mass,
-            moment: Array(self.moment.array()),
+            first_moment: Array(self.first_moment.array()),
             inertia: Array([xx, xy, xz, yy, yz, zz]),
         };
         form.serialize(serializer)
@@ -217,11 +217,11 @@ impl<R: Real + Serialize> Serialize for SpatialInertia<R> {
 impl<'de, R: Real + Deserialize<'de>> Deserialize<'de> for SpatialInertia<R> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let read = TenNumbers::<R>::deserialize(deserializer)?;
-        let ([x, y, z], [xx, xy, xz, yy, yz, zz]) = (read.moment.0, read.inertia.0);
+        let ([x, y, z], [xx, xy, xz, yy, yz, zz]) = (read.first_moment.0, read.inertia.0);
         let column = R::Vec3::new;
         Ok(Self {
             mass: read.mass,
-            moment: column(x, y, z),
+            first_moment: column(x, y, z),
             inertia: R::Mat3::from_cols(column(xx, xy, xz), column(xy, yy, yz), column(xz, yz, zz)),
         })
     }

@@ -5,9 +5,9 @@
 //! without it. Except for gravity all numbers are assumed, of the order that such arms have.
 
 use dynamics_core::effects::{
-    AsymmetricCoulomb, BodyWrench, Cogging, Contact, Coriolis, Coulomb, Effect, Foot, Gravity,
-    Inertia, Lugre, MovingBase, Payload, RIGID_BODY, RotorInertia, Rotors, Spring, Stops, Stribeck,
-    Viscous, WorldWrench,
+    Armature, AsymmetricCoulomb, BodyWrench, Cogging, Contact, ContactPoint, Coriolis, Coulomb,
+    Effect, EndStops, Gravity, GyroscopicRotors, Inertia, Lugre, MovingBase, Payload, RIGID_BODY,
+    Spring, Stribeck, Viscous, WorldWrench,
 };
 use dynamics_core::spatial::{Force, Motion};
 use glam::Vec3;
@@ -49,7 +49,7 @@ pub fn rigid<const N: usize>(visitor: &mut impl Visitor<N>) {
 
 /// What acts at a joint.
 pub fn joints<const N: usize>(visitor: &mut impl Visitor<N>) {
-    let (.., Viscous(viscous), Coulomb { torque, per_width }, RotorInertia(rotors)) = ur5e::EFFECTS;
+    let (.., Viscous(viscous), Coulomb { torque, per_width }, Armature(rotors)) = ur5e::EFFECTS;
     let [sliding, viscous, rotors] = [torque, viscous, rotors].map(spread);
     let (excess, per_speed) = (sliding.map(|f| 0.4 * f), 10.0);
     visitor.scene("viscous", (RIGID_BODY, Viscous(viscous)));
@@ -80,13 +80,13 @@ pub fn joints<const N: usize>(visitor: &mut impl Visitor<N>) {
         bristle: [0.0; N],
     };
     visitor.scene("lugre", (RIGID_BODY, lugre));
-    visitor.scene("rotor_inertia", (RIGID_BODY, RotorInertia(rotors)));
+    visitor.scene("rotor_inertia", (RIGID_BODY, Armature(rotors)));
     let spring = Spring {
         stiffness: [5.0; N],
         rest: [0.0; N],
     };
     visitor.scene("spring", (RIGID_BODY, spring));
-    let stops = Stops {
+    let stops = EndStops {
         lower: [-6.0; N],
         upper: [6.0; N],
         stiffness: 1e4,
@@ -112,7 +112,7 @@ pub fn bodies<const N: usize, const BODY: usize>(visitor: &mut impl Visitor<N>) 
     visitor.scene("body_wrench", (RIGID_BODY, BodyWrench { body, wrench }));
     visitor.scene("world_wrench", (RIGID_BODY, WorldWrench { body, wrench }));
     let floor = Contact {
-        feet: [Foot {
+        feet: [ContactPoint {
             body,
             point: Vec3::new(0.0, 0.0, 0.1),
         }],
@@ -122,7 +122,7 @@ pub fn bodies<const N: usize, const BODY: usize>(visitor: &mut impl Visitor<N>) 
         damping: 100.0,
         per_depth: 1e3,
         friction: 0.5,
-        creep: 1e-3,
+        slip_tolerance: 1e-3,
     };
     visitor.scene("contact", (RIGID_BODY, floor));
     let ship = MovingBase {
@@ -135,9 +135,9 @@ pub fn bodies<const N: usize, const BODY: usize>(visitor: &mut impl Visitor<N>) 
 /// Rotors as bodies that spin, which the engine does not have.
 pub fn spinning<const N: usize>(visitor: &mut impl Visitor<N>) {
     let ratio = [100.0; N];
-    let (.., RotorInertia(rotors)) = ur5e::EFFECTS;
+    let (.., Armature(rotors)) = ur5e::EFFECTS;
     let inertia = spread(rotors).map(|i| i * 1e-4);
-    visitor.scene("rotors", (RIGID_BODY, Rotors { inertia, ratio }));
+    visitor.scene("rotors", (RIGID_BODY, GyroscopicRotors { inertia, ratio }));
 }
 
 /// The numbers of the UR5e's joints for N joints: the last one's for those beyond.

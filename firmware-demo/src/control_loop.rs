@@ -30,7 +30,7 @@ pub mod region {
     pub const REFERENCE: u8 = 2;
     /// Feed-forward and feedback torque.
     pub const DYNAMICS: u8 = 3;
-    /// Limits and state machine.
+    /// JointLimits and state machine.
     pub const SAFETY: u8 = 4;
     /// Drives and brake.
     pub const WRITE: u8 = 5;

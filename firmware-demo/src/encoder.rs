@@ -10,7 +10,7 @@
 
 use core::f32::consts::TAU;
 
-use dynamics_core::control::TurnCounter;
+use dynamics_core::control::MultiTurnEncoder;
 use embedded_hal::spi::SpiDevice;
 
 /// Counts per turn.
@@ -43,7 +43,7 @@ pub enum FrameError {
 #[derive(Debug)]
 pub struct Encoder<Spi> {
     spi: Spi,
-    turns: TurnCounter<BITS>,
+    turns: MultiTurnEncoder<BITS>,
 }
 
 impl<Spi: SpiDevice> Encoder<Spi> {
@@ -51,7 +51,7 @@ impl<Spi: SpiDevice> Encoder<Spi> {
     pub fn new(spi: Spi) -> Self {
         Self {
             spi,
-            turns: TurnCounter::new(),
+            turns: MultiTurnEncoder::new(),
         }
     }
 

@@ -4,7 +4,7 @@
 use dynamics_core::algorithms::NotPositiveDefinite;
 use dynamics_core::effects::Effect;
 use dynamics_core::model::{Calibrated, Robot};
-use dynamics_core::sim::{conserving, linearly_implicit};
+use dynamics_core::sim::{linearly_implicit, momentum_preserving};
 use dynamics_core::spatial::Force;
 use dynamics_core::state::State;
 
@@ -146,7 +146,7 @@ where
         let plant = &mut self.0;
         (plant.surround)(&mut plant.effects, around);
         let (tau, rest) = (padded(torque), Force::ZERO);
-        conserving(
+        momentum_preserving(
             &plant.robot,
             &mut plant.state,
             &tau,

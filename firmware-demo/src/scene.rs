@@ -2,9 +2,9 @@
 //! does not, with the tracking errors of each, and then without each of its effects in turn.
 
 use dynamics_core::Core;
-use dynamics_core::control::{Reference, Speed, Trajectory, TrajectoryError, WayPoint};
+use dynamics_core::control::{MotionLimits, Reference, Trajectory, TrajectoryError, WayPoint};
 use dynamics_core::effects::Effect;
-use dynamics_core::model::{Calibrated, Limits, Robot, model};
+use dynamics_core::model::{Calibrated, JointLimits, Robot, model};
 use dynamics_core::state::State;
 
 use crate::plant::{Plant, Simulated, last};
@@ -90,11 +90,11 @@ pub trait Scene<const B: usize, const Q: usize, const V: usize, const N: usize>:
     fn plant(noise: Option<&mut Noise>) -> Self::Plant;
 
     /// The driven joints' limits.
-    fn limits() -> [Limits<f32>; N] {
+    fn limits() -> [JointLimits<f32>; N] {
         let model = model::<f32, Self::Robot, B, Q, V>();
         let mut limits = [model.links[0].limits; V];
         for link in &model.links {
-            if let Some(limit) = limits.get_mut(link.v_at) {
+            if let Some(limit) = limits.get_mut(link.idx_v) {
                 *limit = link.limits;
             }
         }
@@ -139,7 +139,7 @@ where
 /// Way-points that the limits do not allow.
 pub fn through<const N: usize, const W: usize>(
     points: &[WayPoint<f32, N>; W],
-    limits: &[Limits<f32>; N],
+    limits: &[JointLimits<f32>; N],
     acceleration: [f32; N],
 ) -> Result<Trajectory<f32, N, W>, TrajectoryError> {
     Trajectory::new(points, TICK, &speeds(limits, acceleration))
@@ -147,10 +147,10 @@ pub fn through<const N: usize, const W: usize>(
 
 /// The speeds of some limits, with these accelerations, rad/s² or m/s².
 pub fn speeds<const N: usize>(
-    limits: &[Limits<f32>; N],
+    limits: &[JointLimits<f32>; N],
     acceleration: [f32; N],
-) -> [Speed<f32>; N] {
-    core::array::from_fn(|j| Speed {
+) -> [MotionLimits<f32>; N] {
+    core::array::from_fn(|j| MotionLimits {
         velocity: limits[j].velocity,
         acceleration: acceleration[j],
     })

@@ -55,7 +55,7 @@ pub fn robot<const B: usize, const Q: usize, const V: usize>(model: &Model<f64, 
     Robot {
         name: model.name.into(),
         bodies: (0..B)
-            .map(|i| body(&model.links[i], model.described(i)))
+            .map(|i| body(&model.links[i], model.in_link_frame(i)))
             .collect(),
     }
 }
@@ -64,9 +64,9 @@ fn body(link: &Link<f64>, (placement, inertia): (Xform<f64>, SpatialInertia<f64>
     let (joint, kind) = (&link.joint, link.joint.kind);
     let universal = kind == JointKind::Universal;
     let com = if inertia.mass > 0.0 {
-        inertia.moment / inertia.mass
+        inertia.first_moment / inertia.mass
     } else {
-        inertia.moment
+        inertia.first_moment
     };
     let about_origin = inertia.inertia.to_cols_array_2d();
     let c = com.to_array().map(|x| x + 0.0); // no negative zero

@@ -1,8 +1,8 @@
 //! Random bodies, trees and states, from fixed seeds.
 
-use dynamics_core::configuration::normalise;
-use dynamics_core::model::{BASE, Body, Description, Joint, Model};
+use dynamics_core::model::{BASE, Body, Joint, Model, RobotModel};
 use dynamics_core::state::State;
+use dynamics_core::state::manifold::normalise;
 use glam::{DMat3, DVec3};
 use proptest::prelude::RngExt;
 use proptest::test_runner::{RngAlgorithm, TestRng};
@@ -49,10 +49,10 @@ pub fn random_body(rng: &mut TestRng, body: Body) -> Body {
 /// Bodies, position and velocity coordinates of [`mixed_tree`].
 pub const MIXED: (usize, usize, usize) = (20, 44, 40);
 /// The robot of [`mixed_tree`].
-pub type Mixed = Model<f64, { MIXED.0 }, { MIXED.1 }, { MIXED.2 }>;
+pub type LocalWorldAligned = Model<f64, { MIXED.0 }, { MIXED.1 }, { MIXED.2 }>;
 
 /// A tree with every kind of joint twice, in random order, on random axes and placements.
-pub fn mixed_tree(rng: &mut TestRng) -> Mixed {
+pub fn mixed_tree(rng: &mut TestRng) -> LocalWorldAligned {
     const NAMES: [&str; MIXED.0] = [
         "a", "b", "c", "d", "e", "f", "g", "h", "i", "j", "k", "l", "m", "n", "o", "p", "q", "r",
         "s", "t",
@@ -100,7 +100,7 @@ pub fn state_of<D, const B: usize, const Q: usize, const V: usize>(
     rng: &mut TestRng,
 ) -> State<f64, Q, V>
 where
-    D: Description<f64, B, Q, V>,
+    D: RobotModel<f64, B, Q, V>,
 {
     let mut q = within(rng, core::f64::consts::PI);
     normalise(robot, &mut q).expect("no random quaternion is zero");

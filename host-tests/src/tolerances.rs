@@ -205,7 +205,7 @@ const TABLE: &[(&str, &str, f64, f64)] = &[
     ("gimbal", "rolling base", 5e-16, NONE),
     ("weight", "depth on the ground", 1e-11, NONE),
     ("slab", "sliding down a slope", 1.5e-6, NONE),
-    ("slab", "creep on a slope", 3e-15, NONE),
+    ("slab", "slip_tolerance on a slope", 3e-15, NONE),
     ("spinning rotors", "rnea", 7e-16, 3e-7),
     ("spinning rotors", "crba", 4e-16, NONE),
     ("spinning rotors", "aba", 2e-14, NONE),

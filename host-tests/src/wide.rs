@@ -24,7 +24,7 @@ fn widen(link: &mut Link<f64>, rounded: &Link<f32>) {
     link.placement.rot = rotation(&rounded.placement.rot);
     link.placement.pos = rounded.placement.pos.as_dvec3();
     link.inertia.mass = rounded.inertia.mass.into();
-    link.inertia.moment = rounded.inertia.moment.as_dvec3();
+    link.inertia.first_moment = rounded.inertia.first_moment.as_dvec3();
     link.inertia.inertia = rounded.inertia.inertia.as_dmat3();
 }
 

@@ -3,7 +3,7 @@
 use dynamics_core::algorithms::rnea;
 use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::model::{
-    BASE, Body, BodyInertia, Calibrated, Description, Joint, Model, ModelError, Problem, Robot,
+    BASE, Body, BodyInertia, Calibrated, Joint, Model, ModelError, Problem, Robot, RobotModel,
 };
 use dynamics_core::robots::{Panda, Ur5e};
 use dynamics_core::state::State;
@@ -64,7 +64,7 @@ fn apart<const B: usize, const Q: usize, const V: usize>(
         let numbers = |link: &dynamics_core::model::Link<f64>| {
             let i = link.inertia;
             let mut numbers = i.inertia.to_cols_array().to_vec();
-            numbers.extend(i.moment.to_array());
+            numbers.extend(i.first_moment.to_array());
             numbers.push(i.mass);
             numbers
         };

@@ -4,15 +4,15 @@ mod common;
 
 use common::{Verdict, Worst};
 use dynamics_core::algorithms::{
-    Damping, drift_at, frame, kinematics_at, operational_space_at, rnea_at,
+    Damping, bias_acceleration_at, frame, kinematics_at, operational_space_at, rnea_at,
 };
-use dynamics_core::control::{Aim, TaskFrame, motion_and_force, turn_to};
+use dynamics_core::control::{TaskCommand, TaskFrame, hybrid_motion_force, orientation_error};
 use dynamics_core::effects::{BodyState, Coriolis, Effect, Gravity, Inertia, RIGID_BODY};
 use dynamics_core::model::Robot;
 use dynamics_core::robots::Panda;
 use dynamics_core::sim::semi_implicit;
 use dynamics_core::spatial::Force;
-use dynamics_core::state::{Posture, State};
+use dynamics_core::state::{JointTrig, State};
 use glam::{DMat3, DVec3};
 use host_tests::measured::largest;
 
@@ -67,7 +67,7 @@ struct Errors {
 fn run(posture: f64) -> Errors {
     let robot = &Panda::MODEL;
     let mut arm = State::at([0.3, -0.4, 0.2, -2.0, 0.3, 1.9, 0.5]);
-    let start = kinematics_at(robot, &Posture::of(robot, &arm.q), &arm, &()).poses[HAND];
+    let start = kinematics_at(robot, &JointTrig::of(robot, &arm.q), &arm, &()).poses[HAND];
     let axes = DMat3::from_rotation_z(0.5) * DMat3::from_rotation_y(0.3); // normal: x
     let wall = Wall {
         origin: start.pos + axes.x_axis * 0.005,
@@ -86,33 +86,34 @@ fn run(posture: f64) -> Errors {
         let [y, z] = [swing(w), swing(2.0 * w)];
         let [place, rate, feed] = [0, 1, 2].map(|k| DVec3::new(0.0, y[k], z[k]));
 
-        let at = Posture::of(robot, &arm.q);
+        let at = JointTrig::of(robot, &arm.q);
         let k = kinematics_at(robot, &at, &arm, &());
-        let (pose, v) = (k.poses[HAND], k.velocity(HAND, frame::Mixed));
+        let (pose, v) = (k.poses[HAND], k.velocity(HAND, frame::LocalWorldAligned));
         let seen = axes.transpose() * (pose.pos - start.pos);
         let [speed, spin] = [axes.transpose() * v.lin, axes.transpose() * v.ang];
-        let off = axes.transpose() * turn_to::<f64>(&pose.rot, &start.rot);
+        let off = axes.transpose() * orientation_error::<f64>(&pose.rot, &start.rot);
         let pressed = wall.pressed(pose.pos, v.lin);
 
         let task = operational_space_at(
             robot,
             &at,
-            (HAND, frame::Mixed),
+            (HAND, frame::LocalWorldAligned),
             &directions,
             &RIGID_BODY,
             Damping::relative(1e-4),
         )
         .unwrap();
-        let still = |k: usize| Aim::follow([off[k], 0.0], [0.0, spin[k]], 0.0, 40.0, 1.0);
-        let along =
-            |k: usize| Aim::follow([place[k], rate[k]], [seen[k], speed[k]], feed[k], 40.0, 1.0);
-        let push = Aim::press(PRESS, pressed, 1.0, speed.x, 150.0);
+        let still = |k: usize| TaskCommand::motion([off[k], 0.0], [0.0, spin[k]], 0.0, 40.0, 1.0);
+        let along = |k: usize| {
+            TaskCommand::motion([place[k], rate[k]], [seen[k], speed[k]], feed[k], 40.0, 1.0)
+        };
+        let push = TaskCommand::force(PRESS, pressed, 1.0, speed.x, 150.0);
         let aims = [still(0), still(1), still(2), push, along(1), along(2)];
-        let drift = drift_at(robot, &at, &arm, HAND, frame::Mixed);
+        let drift = bias_acceleration_at(robot, &at, &arm, HAND, frame::LocalWorldAligned);
         let bias = rnea_at(robot, &at, &arm, &(Gravity::EARTH, Coriolis));
-        let mut tau = motion_and_force(&task, &aims, &directions.map(|d| drift.dot(d)), &bias);
+        let mut tau = hybrid_motion_force(&task, &aims, &directions.map(|d| drift.dot(d)), &bias);
         let free = arm.qd.map(|qd| posture - 2.0 * qd);
-        for (tau, free) in tau.iter_mut().zip(task.unseen(&free)) {
+        for (tau, free) in tau.iter_mut().zip(task.null_space_torque(&free)) {
             *tau += free;
         }
 
@@ -120,7 +121,7 @@ fn run(posture: f64) -> Errors {
             errors.force = largest([errors.force, (pressed - PRESS).abs()]);
             errors.path = largest([errors.path, (seen - place).y.hypot((seen - place).z)]);
             errors.turn = largest([errors.turn, off.length()]);
-            let free = task.unseen(&arm.qd);
+            let free = task.null_space_torque(&arm.qd);
             errors.swing = largest(free.map(f64::abs).into_iter().chain([errors.swing]));
         }
         let scene = (Gravity::EARTH, Inertia, Coriolis, wall);

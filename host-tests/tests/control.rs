@@ -3,8 +3,8 @@
 
 use dynamics_core::Core;
 use dynamics_core::control::{
-    Bounds, Fault, Gains, Mode, Observer, Speed, Supervisor, Trajectory, TrajectoryError, WayPoint,
-    feedback,
+    Fault, Gains, Mode, MotionLimits, Observer, SafetyLimits, Supervisor, Trajectory,
+    TrajectoryError, WayPoint, feedback,
 };
 use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::robots::Ur5e;
@@ -15,7 +15,7 @@ const TICK: f32 = 1e-3;
 const HOLD: u32 = 20;
 const REENTRY: u32 = 50;
 const HOME: [f32; 6] = [0.0, -1.57, 1.57, -1.57, -1.57, 0.0];
-const BOUNDS: Bounds<f32, 6> = Bounds {
+const BOUNDS: SafetyLimits<f32, 6> = SafetyLimits {
     torque: [150.0, 150.0, 150.0, 28.0, 28.0, 28.0],
     rate: [75.0, 75.0, 75.0, 14.0, 14.0, 14.0],
     speed: [3.2; 6],
@@ -75,7 +75,7 @@ proptest! {
     ) {
         let [torque, rate, speed, upper] = bounds.map(|x| [x; 6]);
         let lower = upper.map(|x| -x);
-        let bounds = if wild { Bounds { torque, rate, speed, lower, upper } } else { BOUNDS };
+        let bounds = if wild { SafetyLimits { torque, rate, speed, lower, upper } } else { BOUNDS };
         let mut supervisor = Supervisor::new(bounds, TICK, HOLD, REENTRY);
         let mut last = [0.0; 6];
         for tau in ticks {
@@ -178,7 +178,7 @@ fn too_fast_way_points_name_joint_and_need() {
         qd: [0.0; 6],
         ticks,
     };
-    let limits = [Speed {
+    let limits = [MotionLimits {
         velocity: 3.0_f32,
         acceleration: 20.0,
     }; 6];
@@ -202,7 +202,7 @@ fn too_fast_way_points_name_joint_and_need() {
         }) => assert!((needed - 1.875 / 0.6).abs() < 1e-5 && allowed == 3.0),
         other => panic!("{other:?}"),
     }
-    let slow = [Speed {
+    let slow = [MotionLimits {
         acceleration: 10.0,
         ..limits[0]
     }; 6];

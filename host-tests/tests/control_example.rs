@@ -1,8 +1,8 @@
 //! The control loop in the documentation of `dynamics_core::control`, on a simulated arm: it keeps what the firmware's
 //! loop promises.
 
-use dynamics_core::control::{Bounds, Fault, Mode};
-use dynamics_core::model::Of;
+use dynamics_core::control::{Fault, Mode, SafetyLimits};
+use dynamics_core::model::Static;
 use dynamics_core::robots::Ur5e;
 use dynamics_core::sim::linearly_implicit;
 use dynamics_core::state::State;
@@ -35,7 +35,7 @@ struct Outcome {
 fn lost_frames(at: u32, lost: u32) -> Outcome {
     let limits = PickAndPlace::limits();
     let torque = limits.map(|limit| limit.torque);
-    let bounds = Bounds {
+    let bounds = SafetyLimits {
         torque,
         rate: torque.map(|torque| 0.5 * torque),
         speed: limits.map(|limit| limit.velocity),
@@ -55,7 +55,14 @@ fn lost_frames(at: u32, lost: u32) -> Outcome {
         let error = largest(control.reference.q.iter().zip(&arm.q).map(apart));
         for _ in 0..STEPS {
             let h = TICK / STEPS as f32;
-            linearly_implicit(&Of::<Ur5e>::NEW, arm, &command.torque, &mut { EFFECTS }, h).unwrap();
+            linearly_implicit(
+                &Static::<Ur5e>::NEW,
+                arm,
+                &command.torque,
+                &mut { EFFECTS },
+                h,
+            )
+            .unwrap();
         }
         (error, command)
     };

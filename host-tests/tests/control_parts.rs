@@ -2,8 +2,8 @@
 
 use dynamics_core::Core;
 use dynamics_core::control::{
-    Bounds, Estimate, Fault, Linearised, Mode, Observer, Reference, Rejoin, Smooth, Speed,
-    Supervisor, TrajectoryError, WayPoint,
+    Estimate, Fault, InertiaUpdate, Mode, MotionLimits, Observer, Reference, Rejoin, RestToRest,
+    SafetyLimits, Supervisor, TrajectoryError, WayPoint,
 };
 use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::robots::Ur5e;
@@ -15,7 +15,7 @@ const RIDE: u32 = 2;
 const HOLD: u32 = 3;
 
 fn supervisor() -> Supervisor<f64, 1> {
-    let bounds = Bounds {
+    let bounds = SafetyLimits {
         torque: [10.0],
         rate: [4.0],
         speed: [2.0],
@@ -123,11 +123,11 @@ fn a_smooth_motion_is_admitted_up_to_its_own_peaks_and_no_further() {
     };
     let points = [stop(0.0, 0), stop(1.7, 800)];
     let motion = |velocity, acceleration| {
-        let limits = Speed {
+        let limits = MotionLimits {
             velocity,
             acceleration,
         };
-        Smooth::<f64, 1, 2>::new(&points, H, &[limits])
+        RestToRest::<f64, 1, 2>::new(&points, H, &[limits])
     };
     let free = motion(100.0, 1000.0).unwrap();
     let peak = |of: fn(State<f64, 1, 1>) -> f64| {
@@ -151,11 +151,11 @@ fn a_smooth_motion_is_admitted_up_to_its_own_peaks_and_no_further() {
 fn between_computations_the_bias_goes_on_as_it_went_and_m_acts_on_the_acceleration_of_now() {
     let m = Core::<Ur5e>::crba(&[0.0_f64, -1.2, 1.5, 0.3, 0.1, 0.0], &RIGID_BODY);
     let torque = |bias: f64, qdd: f64| m.mul_vec(&[qdd; 6]).map(|inertial| bias + inertial);
-    let mut between = Linearised::<f64, 6, 4>::start();
-    between.renew(torque(3.0, 1.0), m, &[1.0; 6]);
-    between.renew(torque(5.0, -2.0), m, &[-2.0; 6]);
+    let mut between = InertiaUpdate::<f64, 6, 4>::start();
+    between.update(torque(3.0, 1.0), m, &[1.0; 6]);
+    between.update(torque(5.0, -2.0), m, &[-2.0; 6]);
     for (bias, qdd) in [(5.5, 0.5), (6.0, 7.0), (6.5, 0.0)] {
-        let told = between.coast(&[qdd; 6]);
+        let told = between.hold(&[qdd; 6]);
         let error = largest(
             told.iter()
                 .zip(torque(bias, qdd))

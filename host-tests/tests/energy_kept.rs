@@ -1,14 +1,14 @@
 //! The step that keeps the energy, from a state that has lost some.
 
 use dynamics_core::algorithms::NotPositiveDefinite;
-use dynamics_core::sim::{EnergyKept, Integrator, Mechanics, Rates};
+use dynamics_core::sim::{Dynamics, EnergyProjected, Integrator, StepIncrement};
 use dynamics_core::state::State;
 use host_tests::measured::within;
 
 /// A mass of 1 kg that nothing acts on.
 struct Mass;
 
-impl Mechanics<f64, 1, 1> for Mass {
+impl Dynamics<f64, 1, 1> for Mass {
     fn acceleration(&self, _: &State<f64, 1, 1>) -> Result<[f64; 1], NotPositiveDefinite> {
         Ok([0.0])
     }
@@ -22,7 +22,7 @@ impl Mechanics<f64, 1, 1> for Mass {
     fn energies(&self, at: &State<f64, 1, 1>) -> (f64, f64) {
         (0.5 * at.qd[0] * at.qd[0], 0.0)
     }
-    fn moved(&self, q: &[f64; 1], at: &Rates<f64, 1>, h: f64) -> [f64; 1] {
+    fn moved(&self, q: &[f64; 1], at: &StepIncrement<f64, 1>, h: f64) -> [f64; 1] {
         [q[0] + h * at.qd[0]]
     }
 }
@@ -37,7 +37,7 @@ fn a_step_brings_lost_energy_back_to_third_order() {
     };
     for x in [-0.05, -0.01, 0.01, 0.05] {
         let mut state = at(1.0);
-        let integrator = EnergyKept::start(&Mass, &at(1.0 + 2.0 * x));
+        let integrator = EnergyProjected::start(&Mass, &at(1.0 + 2.0 * x));
         integrator.advance(&Mass, &mut state, 1e-3).unwrap();
         let (energy, _) = Mass.energies(&state);
         let error = (energy - 1.0 - 2.0 * x).abs();

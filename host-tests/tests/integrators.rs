@@ -2,10 +2,11 @@
 
 use dynamics_core::Core;
 use dynamics_core::effects::{Effect, RIGID_BODY, Viscous};
-use dynamics_core::model::Of;
+use dynamics_core::model::Static;
 use dynamics_core::scalar::Real;
 use dynamics_core::sim::{
-    Described, EnergyKept, Euler, Integrator, LinearlyImplicit, RungeKutta, SemiImplicit, Summed,
+    EnergyProjected, Euler, Integrator, KahanState, LinearlyImplicit, ModelDynamics, RungeKutta,
+    SemiImplicit,
 };
 use dynamics_core::state::State;
 use firmware_demo::accuracy::simulation::{DoublePendulum, LetGo};
@@ -24,13 +25,13 @@ where
     R: Real,
     E: Effect<R, 2, 2>,
 {
-    let robot = Described {
-        robot: &Of::<DoublePendulum>::NEW,
+    let robot = ModelDynamics {
+        robot: &Static::<DoublePendulum>::NEW,
         tau: [R::ZERO; 2],
         effects,
     };
     let [q, qd] = DoublePendulum::START.map(|numbers| numbers.map(R::from_f64));
-    let mut motion = Summed::<R, 2, COMPENSATED>::at(State {
+    let mut motion = KahanState::<R, 2, COMPENSATED>::at(State {
         q,
         qd,
         qdd: [R::ZERO; 2],
@@ -91,8 +92,8 @@ fn integrators_are_of_their_order() {
         (
             4.0,
             order(
-                free::<EnergyKept<f64>, f64, true>(250),
-                free::<EnergyKept<f64>, f64, true>(500),
+                free::<EnergyProjected<f64>, f64, true>(250),
+                free::<EnergyProjected<f64>, f64, true>(500),
             ),
         ),
     ];
@@ -106,7 +107,7 @@ fn integrators_are_of_their_order() {
 fn a_kept_energy_stays() {
     fn lost<R: Real>(scalar: &str) -> Result<(), String>
     where
-        EnergyKept<R>: Integrator<R, 2, 2>,
+        EnergyProjected<R>: Integrator<R, 2, 2>,
     {
         let energy = |q: [f64; 2], qd: [f64; 2]| {
             let state = State {
@@ -124,7 +125,8 @@ fn a_kept_energy_stays() {
             let now = energy(at.q.map(R::to_f64), at.qd.map(R::to_f64));
             errors.push((now / start - 1.0).abs());
         };
-        watched::<EnergyKept<R>, R, _, false>(1000, &RIGID_BODY, see).ok_or("no acceleration")?;
+        watched::<EnergyProjected<R>, R, _, false>(1000, &RIGID_BODY, see)
+            .ok_or("no acceleration")?;
         let error = largest(errors);
         check("double pendulum", "energy kept for a second", scalar, error)
     }

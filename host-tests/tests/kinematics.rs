@@ -5,18 +5,18 @@ mod common;
 
 use common::*;
 use dynamics_core::algorithms::{
-    centroidal_matrix, classical, drift, frame, jacobian, kinematics, kinetic_energy, mass_centre,
-    momentum, poses, potential_energy,
+    bias_acceleration, center_of_mass, centroidal_matrix, classical, frame, jacobian, kinematics,
+    kinetic_energy, momentum, poses, potential_energy,
 };
 use dynamics_core::effects::{Effect, Gravity};
-use dynamics_core::model::{Arm, BASE, Body, Joint, Model};
+use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model};
 use dynamics_core::scalar::Real;
 use dynamics_core::spatial::{Force, Motion};
 use dynamics_core::state::State;
 use glam::{DMat3, DVec3};
 
 /// Two links of 1 m and 0.5 m that turn about y.
-const TWO: Arm<f64, 3> = Model::new(
+const TWO: ArmModel<f64, 3> = Model::new(
     "two links",
     [
         Body::new("upper", BASE, Joint::revolute([0.0, 1.0, 0.0]))
@@ -51,13 +51,16 @@ fn two_links_are_where_trigonometry_says() {
     let near = |x: DVec3, y: DVec3| assert!((x - y).length() < 1e-15, "{x} {y}");
     near(k.poses[2].pos, p);
     near(k.poses[2].rot.x_axis, DVec3::new(b.cos(), 0.0, -b.sin()));
-    near(k.velocity(2, frame::Mixed).lin, v);
+    near(k.velocity(2, frame::LocalWorldAligned).lin, v);
     near(
         k.velocity(2, frame::World).lin,
-        v - k.velocity(2, frame::Mixed).ang.cross(p),
+        v - k.velocity(2, frame::LocalWorldAligned).ang.cross(p),
     );
-    near(k.classical(2, frame::Mixed).lin, at_rest);
-    near(drift(&TWO, &state, 2, frame::Mixed).lin, at_rest);
+    near(k.classical(2, frame::LocalWorldAligned).lin, at_rest);
+    near(
+        bias_acceleration(&TWO, &state, 2, frame::LocalWorldAligned).lin,
+        at_rest,
+    );
     let height = -2.0 * 0.5 * a.sin() + (-a.sin() - 0.25 * b.sin());
     let energy = potential_energy(&TWO, &q, &(Gravity::EARTH,));
     assert!((energy - 9.81 * height).abs() < 1e-14);
@@ -76,7 +79,7 @@ fn velocities_are_rates_of_poses() {
             let turning = turning * pose(0.0).rot.transpose(); // [ω]×
             let omega = DVec3::new(turning.y_axis.z, turning.z_axis.x, turning.x_axis.y);
             worst.see(
-                six(k.velocity(body, frame::Mixed)),
+                six(k.velocity(body, frame::LocalWorldAligned)),
                 six::<f64>(Motion::new(omega, v)),
             );
         }
@@ -116,7 +119,7 @@ fn jacobian_laws<F: frame::Frame>(
             let rate = slope(|t| by_jacobian(&tree, &later(&tree, &state, t), body, f));
             worst[1].see(six(extra(a, v)), rate);
             let bias = extra(still.acceleration(body, f), v);
-            worst[2].see(six(drift(&tree, &state, body, f)), six(bias));
+            worst[2].see(six(bias_acceleration(&tree, &state, body, f)), six(bias));
         }
     }
 }
@@ -126,7 +129,7 @@ fn jacobians_give_velocities_and_their_rates_accelerations_in_every_frame() {
     let mut worst = [(); 3].map(|()| Worst::default());
     jacobian_laws(frame::Body, &mut worst, |a, _| a);
     jacobian_laws(frame::World, &mut worst, |a, _| a);
-    jacobian_laws(frame::Mixed, &mut worst, classical);
+    jacobian_laws(frame::LocalWorldAligned, &mut worst, classical);
     let mut verdict = Verdict::default();
     for (law, worst) in ["J qd", "acceleration by difference"].iter().zip(&worst) {
         verdict.see("mixed tree", law, "f64", worst);
@@ -142,13 +145,16 @@ fn the_base_has_no_jacobian_and_what_is_no_body_not_a_number() {
         jacobian(&tree, &state.q, BASE, frame::World),
         [Motion::ZERO; V]
     );
-    assert_eq!(drift(&tree, &state, BASE, frame::Mixed), Motion::ZERO);
+    assert_eq!(
+        bias_acceleration(&tree, &state, BASE, frame::LocalWorldAligned),
+        Motion::ZERO
+    );
     let columns = jacobian(&tree, &state.q, B, frame::World);
     let kinematics = kinematics(&tree, &state, &());
     let others = [
-        drift(&tree, &state, B, frame::Mixed),
+        bias_acceleration(&tree, &state, B, frame::LocalWorldAligned),
         kinematics.velocity(B, frame::Body),
-        kinematics.acceleration(B, frame::Mixed),
+        kinematics.acceleration(B, frame::LocalWorldAligned),
     ];
     for motion in columns.iter().chain(&others) {
         assert!(motion.ang.is_nan() && motion.lin.is_nan());
@@ -215,11 +221,11 @@ fn a_base_of_given_motion_is_a_body_on_a_free_joint() {
         }
         let (h, c) = (
             momentum(&carried, &arm, &base),
-            mass_centre(&carried, &arm, &base),
+            center_of_mass(&carried, &arm, &base),
         );
         let (h_free, c_free) = (
             momentum(&free, &whole, &()),
-            mass_centre(&free, &whole, &()),
+            center_of_mass(&free, &whole, &()),
         );
         worst.see(
             flat::<f64>(h.ang, h.lin),
@@ -259,12 +265,12 @@ fn single_precision_is_near_double() {
                 k.poses[body].pos.to_array(),
             );
             worst[1].see(
-                six(s.velocity(body, frame::Mixed)),
-                six(k.velocity(body, frame::Mixed)),
+                six(s.velocity(body, frame::LocalWorldAligned)),
+                six(k.velocity(body, frame::LocalWorldAligned)),
             );
             worst[2].see(
-                six(s.acceleration(body, frame::Mixed)),
-                six(k.acceleration(body, frame::Mixed)),
+                six(s.acceleration(body, frame::LocalWorldAligned)),
+                six(k.acceleration(body, frame::LocalWorldAligned)),
             );
         }
         worst[3].see(

@@ -1,12 +1,12 @@
 //! Steps and differences on the configuration manifold, for every kind of joint.
 
 use dynamics_core::algorithms::rnea;
-use dynamics_core::configuration::{difference, integrate, neutral, normalise};
 use dynamics_core::effects::{Inertia, RIGID_BODY};
 use dynamics_core::model::{BASE, Body, Joint, JointKind, Model};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
-use host_tests::random::{MIXED, Mixed, mixed_tree, random_numbers, state_of, within};
+use dynamics_core::state::manifold::{difference, integrate, neutral, normalise};
+use host_tests::random::{LocalWorldAligned, MIXED, mixed_tree, random_numbers, state_of, within};
 use host_tests::{measured, tolerances};
 
 const TREES: usize = 200;
@@ -22,10 +22,10 @@ fn largest(errors: impl IntoIterator<Item = f64>) -> f64 {
 }
 
 /// Whether the coordinates at `k` belong to a joint of this kind.
-fn kind_at(tree: &Mixed, k: usize) -> JointKind {
+fn kind_at(tree: &LocalWorldAligned, k: usize) -> JointKind {
     let link = tree.links.iter().find(|link| {
         let (count, _) = link.joint.kind.coordinates();
-        count > 0 && (link.q_at..link.q_at + count).contains(&k)
+        count > 0 && (link.idx_q..link.idx_q + count).contains(&k)
     });
     link.expect("every coordinate is some joint's").joint.kind
 }
@@ -52,7 +52,7 @@ fn the_difference_of_a_step_is_the_step() {
 }
 
 /// The model in the scalar R.
-fn cast<R: Real>(tree: &Mixed) -> Model<R, { MIXED.0 }, { MIXED.1 }, { MIXED.2 }> {
+fn cast<R: Real>(tree: &LocalWorldAligned) -> Model<R, { MIXED.0 }, { MIXED.1 }, { MIXED.2 }> {
     R::cast(tree)
 }
 
@@ -67,11 +67,11 @@ fn a_step_along_the_difference_arrives() {
             match link.joint.kind {
                 // A turn without end arrives at the same place, a quaternion at itself or its negative.
                 JointKind::Continuous | JointKind::Planar => {
-                    let turn = (there[link.q_at] - to[link.q_at]) / core::f64::consts::TAU;
-                    there[link.q_at] -= turn.round() * core::f64::consts::TAU;
+                    let turn = (there[link.idx_q] - to[link.idx_q]) / core::f64::consts::TAU;
+                    there[link.idx_q] -= turn.round() * core::f64::consts::TAU;
                 }
                 JointKind::Spherical | JointKind::Free => {
-                    let (p, at) = (&mut there, link.q_at);
+                    let (p, at) = (&mut there, link.idx_q);
                     if (0..4).map(|k| p[at + k] * to[at + k]).sum::<f64>() < 0.0 {
                         (0..4).for_each(|k| p[at + k] = -p[at + k]);
                     }

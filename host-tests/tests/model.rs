@@ -1,6 +1,8 @@
 //! What is wrong with a robot's description is said with the body's name.
 
-use dynamics_core::model::{Arm, BASE, Body, Joint, Limits, Model, ModelError, Problem, Robot};
+use dynamics_core::model::{
+    ArmModel, BASE, Body, Joint, JointLimits, Model, ModelError, Problem, Robot,
+};
 use dynamics_core::robots::{A1, Iiwa14, Panda, Ur5e};
 
 const Y: [f64; 3] = [0.0, 1.0, 0.0];
@@ -16,7 +18,7 @@ fn tip() -> Body {
         .limits(LIMITS)
 }
 
-const LIMITS: Limits<f64> = Limits {
+const LIMITS: JointLimits<f64> = JointLimits {
     lower: -1.0,
     upper: 1.0,
     velocity: 3.0,
@@ -27,7 +29,7 @@ fn root() -> Body {
     Body::new("root", BASE, Joint::prismatic(Y)).mass(1.0)
 }
 
-fn arm(tip: Body) -> Arm<f64, 2> {
+fn arm(tip: Body) -> ArmModel<f64, 2> {
     Model::new("arm", [root(), tip])
 }
 
@@ -44,7 +46,7 @@ fn problem(tip: Body) -> Option<Problem> {
 #[test]
 fn a_sound_description_is_taken() {
     assert_eq!(arm(tip()).links[1].name, "tip");
-    assert_eq!(problem(tip().limits(Limits::NONE)), None);
+    assert_eq!(problem(tip().limits(JointLimits::NONE)), None);
     // A weld has no axis, a massless body is one that only carries others.
     let weld = Body::new("tip", 0, Joint::fixed());
     assert!(Model::<f64, 2, 1, 1>::try_new("arm", [root(), weld]).is_ok());
@@ -80,7 +82,7 @@ fn a_length_that_is_not_finite_is_named() {
                            or torque limit is negative"
 )]
 fn limits_that_exclude_each_other_are_named() {
-    arm(tip().limits(Limits {
+    arm(tip().limits(JointLimits {
         lower: 1.0,
         upper: -1.0,
         ..LIMITS
@@ -142,31 +144,31 @@ fn a_moment_of_inertia_that_overflows_is_refused() {
 fn limits_that_are_not_numbers_or_negative_are_refused() {
     let nan = f64::NAN;
     for limits in [
-        Limits {
+        JointLimits {
             lower: nan,
             ..LIMITS
         },
-        Limits {
+        JointLimits {
             upper: nan,
             ..LIMITS
         },
-        Limits {
+        JointLimits {
             velocity: nan,
             ..LIMITS
         },
-        Limits {
+        JointLimits {
             torque: nan,
             ..LIMITS
         },
-        Limits {
+        JointLimits {
             velocity: -3.0,
             ..LIMITS
         },
-        Limits {
+        JointLimits {
             torque: -100.0,
             ..LIMITS
         },
-        Limits {
+        JointLimits {
             lower: 1.0,
             upper: -1.0,
             ..LIMITS

@@ -4,10 +4,10 @@ mod common;
 
 use common::*;
 use dynamics_core::algorithms::{
-    aba, centroidal_matrix, centroidal_momentum, kinetic_energy, mass_centre, momentum,
+    aba, center_of_mass, centroidal_matrix, centroidal_momentum, kinetic_energy, momentum,
     potential_energy, rnea,
 };
-use dynamics_core::effects::{Coriolis, Gravity, Inertia, Payload, RIGID_BODY, RotorInertia};
+use dynamics_core::effects::{Armature, Coriolis, Gravity, Inertia, Payload, RIGID_BODY};
 use dynamics_core::spatial::Force;
 use dynamics_core::state::State;
 use glam::DVec3;
@@ -21,7 +21,7 @@ fn kinetic_energy_is_half_qd_m_qd_with_rotors_and_a_payload() {
             [0.1, -0.2, 0.05],
             [0.01, 0.0, 0.0, 0.02, 0.0, 0.015],
         );
-        let scene = (Inertia, RotorInertia([0.3; V]), load);
+        let scene = (Inertia, Armature([0.3; V]), load);
         // M q̇ is the torque of q̈ = q̇ at rest.
         let at_rest = State {
             qd: [0.0; V],
@@ -60,11 +60,12 @@ fn momentum_is_mass_times_velocity_of_the_centre_and_the_matrix_times_qd() {
     for (tree, state) in trees(false) {
         let (h, c) = (
             momentum(&tree, &state, &()),
-            mass_centre(&tree, &state, &()),
+            center_of_mass(&tree, &state, &()),
         );
         let mass: f64 = tree.links.iter().map(|link| link.inertia.mass).sum();
         assert!((c.mass - mass).abs() < 1e-14 * mass);
-        let centre = |t| mass_centre(&tree, &State::at(moved(&tree, &state.q, &state.qd, t)), &());
+        let centre =
+            |t| center_of_mass(&tree, &State::at(moved(&tree, &state.q, &state.qd, t)), &());
         worst[0].see(
             c.velocity.to_array(),
             slope(|t| centre(t).position.to_array()),
@@ -105,14 +106,14 @@ fn only_weight_changes_the_momentum_of_what_falls_freely() {
     let mut worst = Worst::default();
     for (tree, mut state) in trees(true) {
         let mut tau = state.qdd; // any torques, but none on the free joint
-        let at = tree.links[0].v_at;
+        let at = tree.links[0].idx_v;
         tau[at..at + 6].fill(0.0);
         state.qdd = aba(&tree, &state, &tau, &(Gravity::EARTH, Inertia, Coriolis)).unwrap();
         let rate = slope(|t| {
             let h = momentum(&tree, &later(&tree, &state, t), &());
             flat::<f64>(h.ang, h.lin)
         });
-        let c = mass_centre(&tree, &state, &());
+        let c = center_of_mass(&tree, &state, &());
         let weight = DVec3::new(0.0, 0.0, -9.81 * c.mass);
         worst.see(rate, flat::<f64>(c.position.cross(weight), weight));
         let rate = slope(|t| {

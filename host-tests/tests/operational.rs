@@ -5,11 +5,11 @@ mod common;
 
 use common::*;
 use dynamics_core::algorithms::{
-    Conditioning, Damping, OperationalSpace, frame, mobility, operational_space,
+    Conditioning, Damping, OperationalSpace, frame, operational_space, osim_inverse,
 };
 use dynamics_core::control::TaskFrame;
-use dynamics_core::effects::{Inertia, Payload, RIGID_BODY, RotorInertia};
-use dynamics_core::model::{Arm, BASE, Body, Joint, Model, Robot};
+use dynamics_core::effects::{Armature, Inertia, Payload, RIGID_BODY};
+use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model, Robot};
 use dynamics_core::robots::{Panda, Ur5e};
 use dynamics_core::spatial::Force;
 use glam::DMat3;
@@ -20,7 +20,7 @@ fn both_ways<F: frame::Frame>(frame: F, worst: &mut Worst) {
     let mut rng = Rng::new(7);
     let load =
         Payload::<_, { B - 1 }>::new(1.5, [0.1, -0.2, 0.05], [0.01, 0.0, 0.0, 0.02, 0.0, 0.015]);
-    let scene = (Inertia, RotorInertia([0.3; V]), load);
+    let scene = (Inertia, Armature([0.3; V]), load);
     for _ in 0..50 {
         let tree = random_tree(&mut rng, false);
         let q = random_state(&tree, &mut rng).q;
@@ -28,7 +28,7 @@ fn both_ways<F: frame::Frame>(frame: F, worst: &mut Worst) {
             let damping = Damping::relative(DAMPING);
             let task =
                 operational_space(&tree, &q, (body, frame), &unit(), &scene, damping).unwrap();
-            let recursion = mobility(&tree, &q, body, frame, &scene)
+            let recursion = osim_inverse(&tree, &q, body, frame, &scene)
                 .unwrap()
                 .along(&unit());
             for (got, want) in recursion.into_iter().zip(task.mobility) {
@@ -43,18 +43,18 @@ fn mobility_by_recursion_is_that_by_factors_in_every_frame() {
     let mut worst = Worst::default();
     both_ways(frame::Body, &mut worst);
     both_ways(frame::World, &mut worst);
-    both_ways(frame::Mixed, &mut worst);
+    both_ways(frame::LocalWorldAligned, &mut worst);
     let mut verdict = Verdict::default();
     verdict.see("mixed tree", "mobility both ways", "f64", &worst);
     verdict.speak();
     let tree = random_tree(&mut Rng::new(1), false);
-    let nobody = mobility(&tree, &[0.1; Q], B, frame::Body, &RIGID_BODY).unwrap();
+    let nobody = osim_inverse(&tree, &[0.1; Q], B, frame::Body, &RIGID_BODY).unwrap();
     assert_eq!(nobody.along(&unit()), [[0.0; 6]; 6]);
 }
 
 #[test]
 fn a_joint_that_moves_no_inertia_is_named() {
-    let empty: Arm<f64, 2> = Model::new(
+    let empty: ArmModel<f64, 2> = Model::new(
         "empty hand",
         [
             Body::new("arm", BASE, Joint::revolute([0.0, 1.0, 0.0]))
@@ -63,7 +63,7 @@ fn a_joint_that_moves_no_inertia_is_named() {
             Body::new("hand", 0, Joint::revolute([0.0, 1.0, 0.0])).xyz([0.6, 0.0, 0.0]),
         ],
     );
-    let error = mobility(&empty, &[0.1, 0.2], 1, frame::Body, &RIGID_BODY).unwrap_err();
+    let error = osim_inverse(&empty, &[0.1, 0.2], 1, frame::Body, &RIGID_BODY).unwrap_err();
     assert_eq!(error.joint, 1);
     let damping = Damping::relative(DAMPING);
     let task = operational_space(
@@ -88,7 +88,7 @@ fn regular_tasks<T: Robot<N, N, N>, const N: usize, const M: usize>(
         operational_space(
             &T::MODEL,
             q,
-            (N - 1, frame::Mixed),
+            (N - 1, frame::LocalWorldAligned),
             directions,
             &RIGID_BODY,
             damping,
@@ -124,7 +124,7 @@ fn inverses<T: Robot<N, N, N>, const N: usize, const M: usize>(
         let all = felt(&tau)
             .into_iter()
             .fold(0.0, |most: f64, x| most.max(x.abs()));
-        let unseen = felt(&task.unseen(&tau)).map(|x| x / all);
+        let unseen = felt(&task.null_space_torque(&tau)).map(|x| x / all);
         worst[2].full_scale = 1.0;
         worst[2].see(unseen, [0.0; M]);
     }
@@ -156,7 +156,7 @@ fn a_task_frame_turns_the_inertia_with_it() {
         let task = operational_space(
             &Ur5e::MODEL,
             &q,
-            (5, frame::Mixed),
+            (5, frame::LocalWorldAligned),
             &place,
             &RIGID_BODY,
             damping,

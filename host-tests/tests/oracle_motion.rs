@@ -87,7 +87,7 @@ fn motions<R: Real, T, const B: usize, const Q: usize, const V: usize>(
         let jacobians = [
             Core::<T>::jacobian(&state.q, tip, frame::Body),
             Core::<T>::jacobian(&state.q, tip, frame::World),
-            Core::<T>::jacobian(&state.q, tip, frame::Mixed),
+            Core::<T>::jacobian(&state.q, tip, frame::LocalWorldAligned),
         ];
         for (k, jacobian) in jacobians.into_iter().enumerate() {
             let want = columns::<V>(quantities[3 + k].1, i);
@@ -96,15 +96,19 @@ fn motions<R: Real, T, const B: usize, const Q: usize, const V: usize>(
             }
         }
         seen[6].compare(
-            six(Core::<T>::drift(&state, tip, frame::Body)),
+            six(Core::<T>::bias_acceleration(&state, tip, frame::Body)),
             row(&r.drift_local, i),
         );
         seen[7].compare(
-            six(Core::<T>::drift(&state, tip, frame::World)),
+            six(Core::<T>::bias_acceleration(&state, tip, frame::World)),
             row(&r.drift_world, i),
         );
         seen[8].compare(
-            six(Core::<T>::drift(&state, tip, frame::Mixed)),
+            six(Core::<T>::bias_acceleration(
+                &state,
+                tip,
+                frame::LocalWorldAligned,
+            )),
             row(&r.drift_mixed, i),
         );
         let [kinetic, potential] = [
@@ -113,7 +117,7 @@ fn motions<R: Real, T, const B: usize, const Q: usize, const V: usize>(
         ];
         seen[9].compare([kinetic.to_f64()], row(&r.kinetic_energy, i));
         seen[10].compare([potential.to_f64()], row(&r.potential_energy, i));
-        let centre = Core::<T>::mass_centre(&state, &()).position;
+        let centre = Core::<T>::center_of_mass(&state, &()).position;
         seen[11].compare(centre.array().map(R::to_f64), row(&r.centre_of_mass, i));
         let all = |f: Force<R>| flat::<R>(f.ang, f.lin);
         seen[12].compare(all(Core::<T>::momentum(&state, &())), row(&r.momentum, i));
@@ -142,7 +146,7 @@ fn mobilities<R: Real, T, const B: usize, const Q: usize, const V: usize>(
     let mut seen = worst(&r.operational_inverse);
     for i in 0..r.first_states() {
         let q = row::<Q>(&r.q, i).map(R::from_f64);
-        let mobility = Core::<T>::mobility(&q, B - 1, frame::Body, &()).expect("M is positive");
+        let mobility = Core::<T>::osim_inverse(&q, B - 1, frame::Body, &()).expect("M is positive");
         let got = mobility.along(&unit()).map(|row| row.map(R::to_f64));
         for (got, want) in got
             .into_iter()

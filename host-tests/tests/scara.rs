@@ -1,7 +1,7 @@
 //! The scene `scara_table`'s machine: three vertical axes have a closed planar form, and gravity does no work
 //! on them.
 
-use dynamics_core::effects::{Coriolis, Gravity, GravityAlong, Inertia, RIGID_BODY};
+use dynamics_core::effects::{Coriolis, Gravity, GravityVector, Inertia, RIGID_BODY};
 use dynamics_core::model::Robot;
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
@@ -29,9 +29,9 @@ fn random_states<R: Real>() -> impl Iterator<Item = State<R, 3, 3>> {
 fn planar(s: &State<f64, 3, 3>) -> [f64; 3] {
     // The centres of arm and forearm lie on their links: ψ is then as q for them.
     let [arm, forearm, quill] = &Scara::MODEL.links;
-    assert!([arm, forearm].map(|link| link.inertia.moment.y) == [0.0; 2]);
+    assert!([arm, forearm].map(|link| link.inertia.first_moment.y) == [0.0; 2]);
     let [l1, l2] = [forearm, quill].map(|link| link.placement.pos.x);
-    let h = [arm, forearm, quill].map(|link| link.inertia.moment.truncate());
+    let h = [arm, forearm, quill].map(|link| link.inertia.first_moment.truncate());
     let izz = [arm, forearm, quill].map(|link| link.inertia.inertia.z_axis.z);
     let [m2, m3] = [forearm, quill].map(|link| link.inertia.mass);
     let d12 = l1 * (h[1].x + m3 * l2);
@@ -95,7 +95,7 @@ fn gravity_adds_nothing_to_vertical_axes() {
     holds::<f32>();
     for state in random_states::<f32>() {
         let without = Engine::<Scara>::rnea(&state, &EFFECTS);
-        let along = GravityAlong(Vec3::NEG_Z * 9.81);
+        let along = GravityVector(Vec3::NEG_Z * 9.81);
         assert_eq!(
             Engine::<Scara>::rnea(&state, &(Gravity::EARTH, EFFECTS)),
             without

@@ -4,10 +4,10 @@ mod common;
 
 use common::*;
 use dynamics_core::algorithms::{momentum, poses};
-use dynamics_core::effects::{Coriolis, Coulomb, Inertia, RotorInertia, Viscous};
-use dynamics_core::model::{Of, Robot};
+use dynamics_core::effects::{Armature, Coriolis, Coulomb, Inertia, Viscous};
+use dynamics_core::model::{Robot, Static};
 use dynamics_core::scalar::{Real, Vector};
-use dynamics_core::sim::{conserving, linearly_implicit};
+use dynamics_core::sim::{linearly_implicit, momentum_preserving};
 use dynamics_core::spatial::Force;
 use dynamics_core::state::State;
 use firmware_demo::machines::ship::Swing;
@@ -28,7 +28,7 @@ fn acting<R: Real>() -> (
     Coriolis,
     Viscous<R, 12>,
     Coulomb<R, 12>,
-    RotorInertia<R, 12>,
+    Armature<R, 12>,
 ) {
     let (inertia, coriolis, viscous, coulomb, rotors) = EFFECTS;
     let cast = |x: f32| R::from_f64(f64::from(x));
@@ -41,7 +41,7 @@ fn acting<R: Real>() -> (
         coriolis,
         Viscous(viscous.0.map(cast)),
         coulomb,
-        RotorInertia(rotors.0.map(cast)),
+        Armature(rotors.0.map(cast)),
     )
 }
 
@@ -52,7 +52,7 @@ fn drift<R: Real>(steps: u32, mut step: impl FnMut(&[f32; 6], R) -> Floating<R>)
     let (way, inertia) = (ReachOut::reference().unwrap(), ReachOut::inertia(&()));
     let h = R::from_f64(f64::from(TICK) / f64::from(steps));
     let size = |state: &Floating<R>| {
-        let Force { ang, lin } = momentum(&Of::<SpaceArm>::NEW, state, &());
+        let Force { ang, lin } = momentum(&Static::<SpaceArm>::NEW, state, &());
         [ang, lin].map(|v| DVec3::from(v.array().map(R::to_f64)).length())
     };
     let (mut lost, mut full) = ([0.0_f64; 2], [0.0_f64; 2]);
@@ -88,7 +88,7 @@ fn plain<R: Real>(steps: u32) -> f64 {
     let (mut effects, mut state) = (acting::<R>(), start::<R>());
     drift::<R>(steps, |tau, h| {
         linearly_implicit(
-            &Of::<SpaceArm>::NEW,
+            &Static::<SpaceArm>::NEW,
             &mut state,
             &wide(tau),
             &mut effects,
@@ -141,8 +141,9 @@ fn steps_that_conserve_lose_no_momentum_however_long_they_are() {
     for steps in [1, 4] {
         let (mut effects, mut state) = (acting::<f64>(), start::<f64>());
         let lost = drift::<f64>(steps, |tau, h| {
-            let arm = Of::<SpaceArm>::NEW;
-            conserving(&arm, &mut state, &wide(tau), &mut effects, Force::ZERO, h).unwrap();
+            let arm = Static::<SpaceArm>::NEW;
+            momentum_preserving(&arm, &mut state, &wide(tau), &mut effects, Force::ZERO, h)
+                .unwrap();
             state
         });
         verdict.see("space arm", "momentum lost", "f64", &share(lost));

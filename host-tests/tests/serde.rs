@@ -1,12 +1,12 @@
 //! What firmware keeps in flash comes back as it was, and nothing else is read.
 
-use dynamics_core::control::{Bounds, Gains, Speed, WayPoint};
+use dynamics_core::control::{Gains, MotionLimits, SafetyLimits, WayPoint};
 use dynamics_core::effects::{
-    AsymmetricCoulomb, Cogging, Coulomb, Lugre, Payload, RotorInertia, Spring, Stops, Stribeck,
+    Armature, AsymmetricCoulomb, Cogging, Coulomb, EndStops, Lugre, Payload, Spring, Stribeck,
     Viscous,
 };
 use dynamics_core::glam::Mat3;
-use dynamics_core::model::{BodyInertia, Limits};
+use dynamics_core::model::{BodyInertia, JointLimits};
 use dynamics_core::spatial::SpatialInertia;
 use dynamics_core::state::State;
 use serde::Serialize;
@@ -26,7 +26,7 @@ fn refusal<T: DeserializeOwned + std::fmt::Debug>(text: &str) -> String {
         .to_string()
 }
 
-const BOUNDS: Bounds<f32, 2> = Bounds {
+const BOUNDS: SafetyLimits<f32, 2> = SafetyLimits {
     torque: [10.1, 20.2],
     rate: [1.0, 3.4e38],
     speed: [3.3, 1e-30],
@@ -44,7 +44,7 @@ fn what_the_controller_is_configured_with_comes_back_to_the_bit() {
     let [a, b] = [THIRDS, [1e-30, 3.4e38]];
     comes_back(BOUNDS);
     comes_back(Gains { kp: a, kd: b });
-    comes_back(Speed {
+    comes_back(MotionLimits {
         velocity: a[0],
         acceleration: b[1],
     });
@@ -58,7 +58,7 @@ fn what_the_controller_is_configured_with_comes_back_to_the_bit() {
         qd: [0.4, 0.5],
         qdd: [0.6, 0.7],
     });
-    comes_back(Limits {
+    comes_back(JointLimits {
         lower: a[0],
         upper: a[1],
         velocity: b[0],
@@ -76,7 +76,7 @@ fn what_is_identified_comes_back_to_the_bit() {
         inertia: [0.4, 0.01, 0.02, 0.5, 0.03, 0.6],
     });
     comes_back(Viscous(a));
-    comes_back(RotorInertia(b));
+    comes_back(Armature(b));
     comes_back(Coulomb {
         torque: a,
         per_width: 20.0,
@@ -109,7 +109,7 @@ fn what_is_identified_comes_back_to_the_bit() {
         stiffness: a,
         rest: b,
     });
-    comes_back(Stops {
+    comes_back(EndStops {
         lower: a,
         upper: b,
         stiffness: 1e4,
@@ -140,12 +140,14 @@ fn a_field_that_is_missing_or_unknown_is_refused() {
 
 #[test]
 fn bounds_that_allow_nothing_are_refused_as_they_are_read() {
-    let negative = Bounds {
+    let negative = SafetyLimits {
         torque: [10.0, -10.0],
         ..BOUNDS
     };
     let text = serde_json::to_string(&negative).expect("bounds");
-    assert!(refusal::<Bounds<f32, 2>>(&text).contains("joint 1: its limit of torque is negative"));
+    assert!(
+        refusal::<SafetyLimits<f32, 2>>(&text).contains("joint 1: its limit of torque is negative")
+    );
 }
 
 #[test]

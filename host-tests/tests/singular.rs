@@ -7,8 +7,8 @@ use dynamics_core::algorithms::{
     Conditioning, Damping, OperationalSpace, damped_inverse, frame, operational_space,
 };
 use dynamics_core::control::TaskFrame;
-use dynamics_core::effects::{Inertia, RIGID_BODY, RotorInertia};
-use dynamics_core::model::{Arm, BASE, Body, Joint, Model, Robot};
+use dynamics_core::effects::{Armature, Inertia, RIGID_BODY};
+use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model, Robot};
 use dynamics_core::robots::{Panda, Ur5e};
 use dynamics_core::scalar::Real;
 
@@ -132,7 +132,7 @@ fn is_smooth<const M: usize, const N: usize>(
 }
 
 /// Two links of 1 m and 0.7 m that turn about y.
-const TWO: Arm<f64, 3> = Model::new(
+const TWO: ArmModel<f64, 3> = Model::new(
     "two links",
     [
         Body::new("upper", BASE, Joint::revolute([0.0, 1.0, 0.0]))
@@ -156,9 +156,18 @@ fn nothing_jumps_in_value_or_slope_on_the_way_through_a_singularity() {
     let elbow = |s: f64| [0.0, -1.2, 0.4 * s, 0.3, 0.7, 0.0];
     let wrist = |s: f64| [0.3, -1.2, 1.5, 0.3, 0.6 * s, 0.2];
     let all = TaskFrame::BASE.turn_and_place(0.3);
-    let geared = (Inertia, RotorInertia([0.9, 0.9, 0.9, 0.25, 0.25, 0.25]));
-    let arm =
-        |q| operational_space(&Ur5e::MODEL, &q, (5, frame::Mixed), &all, &geared, damping).unwrap();
+    let geared = (Inertia, Armature([0.9, 0.9, 0.9, 0.25, 0.25, 0.25]));
+    let arm = |q| {
+        operational_space(
+            &Ur5e::MODEL,
+            &q,
+            (5, frame::LocalWorldAligned),
+            &all,
+            &geared,
+            damping,
+        )
+        .unwrap()
+    };
     is_smooth("elbow", |s| arm(elbow(s)));
     is_smooth("wrist", |s| arm(wrist(s)));
     // Two stretched links; and a task of one direction, which has no other to compare with.
@@ -168,7 +177,7 @@ fn nothing_jumps_in_value_or_slope_on_the_way_through_a_singularity() {
         operational_space(
             &TWO,
             &two(s),
-            (2, frame::Mixed),
+            (2, frame::LocalWorldAligned),
             &[x, z],
             &RIGID_BODY,
             damping,
@@ -176,9 +185,18 @@ fn nothing_jumps_in_value_or_slope_on_the_way_through_a_singularity() {
         .unwrap()
     };
     is_smooth("two links", plane);
-    let heavy = Damping::relative(0.0).heaviest(500.0);
-    let line =
-        |s| operational_space(&TWO, &two(s), (2, frame::Mixed), &[x], &RIGID_BODY, heavy).unwrap();
+    let heavy = Damping::relative(0.0).with_max_inertia(500.0);
+    let line = |s| {
+        operational_space(
+            &TWO,
+            &two(s),
+            (2, frame::LocalWorldAligned),
+            &[x],
+            &RIGID_BODY,
+            heavy,
+        )
+        .unwrap()
+    };
     is_smooth("along two links", line);
 }
 
@@ -191,7 +209,7 @@ fn at_singular_poses_all_is_finite_and_said_so() {
         let task = operational_space(
             model,
             &q,
-            (N - 1, frame::Mixed),
+            (N - 1, frame::LocalWorldAligned),
             &unit(),
             &RIGID_BODY,
             damping,

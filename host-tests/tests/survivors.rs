@@ -1,16 +1,18 @@
 //! Terms whose loss no other test noticed: slopes that implicit steps use, momenta with a payload or on a moving base,
 //! the tolerance of a payload's check, what brings carried sines back to the unit circle.
 
-use dynamics_core::algorithms::{centroidal_matrix, centroidal_momentum, momentum, with_momentum};
-use dynamics_core::configuration::{integrate, neutral};
-use dynamics_core::effects::{
-    Coriolis, Effect, ImpossibleLoad, Inertia, JointState, Lugre, MovingBase, Payload, Slopes,
-    Spring, Stops, Stribeck,
+use dynamics_core::algorithms::{
+    base_velocity_from_momentum, centroidal_matrix, centroidal_momentum, momentum,
 };
-use dynamics_core::flexible::{Course, Flexible, flexible_rnea};
-use dynamics_core::model::{Arm, BASE, Body, Joint, Model};
+use dynamics_core::drivetrain::{ElasticJoints, ElasticReference, elastic_inverse_dynamics};
+use dynamics_core::effects::{
+    Coriolis, Effect, EndStops, Inertia, InvalidPayload, JointState, Lugre, MovingBase, Payload,
+    Spring, Stribeck, TorqueDerivatives,
+};
+use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model};
 use dynamics_core::spatial::{Force, Motion};
 use dynamics_core::state::State;
+use dynamics_core::state::manifold::{integrate, neutral};
 use dynamics_core::trig::Carried;
 use glam::DVec3;
 
@@ -19,10 +21,10 @@ fn at(q: f64, qd: f64) -> JointState<f64> {
 }
 
 /// ∂τ/∂q and ∂τ/∂q̇ as the effect has them.
-fn slopes<E: Effect<f64, 1, 1>>(effect: &E, at: JointState<f64>) -> [f64; 2] {
-    let mut slopes = Slopes::default();
-    effect.slopes(0, at, &mut slopes);
-    [slopes.q, slopes.qd]
+fn derivatives<E: Effect<f64, 1, 1>>(effect: &E, at: JointState<f64>) -> [f64; 2] {
+    let mut slopes = TorqueDerivatives::default();
+    effect.derivatives(0, at, &mut slopes);
+    [derivatives.dq, derivatives.dqd]
 }
 
 /// The same by central differences of its torque.
@@ -87,7 +89,7 @@ fn lugres_bristles_are_springs_while_they_stick_and_none_while_they_slide() {
 
 #[test]
 fn slopes_of_the_stops_are_those_of_their_torque() {
-    let stops = Stops {
+    let stops = EndStops {
         lower: [-1.0],
         upper: [1.0],
         stiffness: 1e4,
@@ -109,7 +111,7 @@ fn slopes_of_the_stops_are_those_of_their_torque() {
 }
 
 /// A payload whose principal moments exceed what a body has by 0.2 of the largest.
-fn checked(relative: f64) -> Result<Payload<f64, 0>, ImpossibleLoad> {
+fn checked(relative: f64) -> Result<Payload<f64, 0>, InvalidPayload> {
     Payload::checked(
         2.0,
         [0.0, 0.0, 0.1],
@@ -123,11 +125,11 @@ fn a_payload_is_refused_just_beyond_its_tolerance() {
     assert!(checked(0.2 + 1e-9).is_ok());
     assert!(matches!(
         checked(0.2 - 1e-9),
-        Err(ImpossibleLoad::Triangle(_))
+        Err(InvalidPayload::Triangle(_))
     ));
     assert!(matches!(
         checked(f64::NAN),
-        Err(ImpossibleLoad::Triangle(_))
+        Err(InvalidPayload::Triangle(_))
     ));
 }
 
@@ -185,7 +187,8 @@ fn a_momentum_is_reached_on_a_base_that_moves() {
     };
     let wanted = Force::new(DVec3::new(0.5, -1.0, 2.0), DVec3::new(3.0, 1.0, -2.0));
     let mut state = floating();
-    state.qd = with_momentum(&FLOATING, &state, wanted, &ship).expect("the trunk has mass");
+    state.qd =
+        base_velocity_from_momentum(&FLOATING, &state, wanted, &ship).expect("the trunk has mass");
     same(momentum(&FLOATING, &state, &ship), wanted);
     assert!((momentum(&FLOATING, &state, &()).lin - wanted.lin).length() > 0.5);
 }
@@ -202,7 +205,7 @@ fn sines_that_are_carried_on_stay_on_the_unit_circle() {
     assert!(off.abs() < 1e-15, "{off:e}");
 }
 
-const WHEEL: Arm<f64, 1> = Model::new(
+const WHEEL: ArmModel<f64, 1> = Model::new(
     "wheel",
     [Body::new("w", BASE, Joint::revolute([0.0, 0.0, 1.0]))
         .mass(1.0)
@@ -211,12 +214,12 @@ const WHEEL: Arm<f64, 1> = Model::new(
 
 #[test]
 fn a_spring_at_a_compliant_joint_adds_its_rate_to_that_of_the_torque() {
-    let joints = Flexible {
+    let joints = ElasticJoints {
         stiffness: [100.0],
         rotor: [0.5],
         friction: [0.0],
     };
-    let course = Course {
+    let course = ElasticReference {
         state: State {
             q: [0.7],
             qd: [0.3],
@@ -229,8 +232,8 @@ fn a_spring_at_a_compliant_joint_adds_its_rate_to_that_of_the_torque() {
         stiffness: [30.0],
         rest: [0.2],
     };
-    let told =
-        flexible_rnea(&WHEEL, &joints, &course, &(Inertia, Coriolis, spring)).expect("one joint");
+    let told = elastic_inverse_dynamics(&WHEEL, &joints, &course, &(Inertia, Coriolis, spring))
+        .expect("one joint");
     // τ = I q̈ + k (q − q₀) with its derivatives; θ = q + τ/K; τ_m = J θ̈ + τ.
     let [tau, rate, accel] = [
         2.0 * -0.4 + 30.0 * 0.5,

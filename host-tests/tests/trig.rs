@@ -2,10 +2,10 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
+use dynamics_core::scalar::Native;
 use dynamics_core::scalar::Real;
-use dynamics_core::trig::{
-    Carried, Kernel, Minimax, Native, Table, sin_cos, sin_cos_f64, sin_cos_near,
-};
+use dynamics_core::state::Carried;
+use dynamics_core::trig::{Kernel, Minimax, Table, sin_cos, sin_cos_f64, sin_cos_near};
 use host_tests::tolerances::check;
 
 /// Points of a sweep: dense against the 50 or so intervals of a reduction, not against all of f32.

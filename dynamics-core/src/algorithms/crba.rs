@@ -6,13 +6,13 @@
 
 use heapless::Vec;
 
-use crate::articulated::CompositeInertia;
+use crate::algorithms::MassMatrix;
 use crate::effects::{Effect, body_inertia, rotor_force};
-use crate::mass_matrix::MassMatrix;
-use crate::model::{Description, Node};
+use crate::model::{LinkView, RobotModel};
 use crate::scalar::Real;
 use crate::spatial::Xform;
-use crate::state::Posture;
+use crate::spatial::inertia::CompositeInertia;
+use crate::state::JointTrig;
 
 /// M(q), kg·m² between revolute joints, kg between prismatic ones, kg·m mixed; with rotors and payload
 /// if the scene has them, whatever else it names.
@@ -34,24 +34,24 @@ pub fn crba<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     effects: &E,
 ) -> MassMatrix<R, V>
 where
-    D: Description<R, B, Q, V>,
+    D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    crba_at(robot, &Posture::of(robot, q), effects)
+    crba_at(robot, &JointTrig::of(robot, q), effects)
 }
 
 /// As [`crba`], at a posture whose sines and cosines are at hand.
 #[inline(always)]
 pub fn crba_at<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
-    posture: &Posture<R, Q>,
+    posture: &JointTrig<R, Q>,
     effects: &E,
 ) -> MassMatrix<R, V>
 where
-    D: Description<R, B, Q, V>,
+    D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    match robot.revolutes() {
+    match robot.as_all_revolute() {
         Some(robot) => sweep(&robot, posture, effects),
         None => sweep(robot, posture, effects),
     }
@@ -59,7 +59,7 @@ where
 
 /// What one pass leaves for the next.
 struct Body<'a, R: Real> {
-    node: Node<'a, R>,
+    link: LinkView<'a, R>,
     x: Xform<R>,
     ic: CompositeInertia<R>,
 }
@@ -68,46 +68,46 @@ struct Body<'a, R: Real> {
 #[inline(always)]
 fn sweep<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
-    posture: &Posture<R, Q>,
+    posture: &JointTrig<R, Q>,
     effects: &E,
 ) -> MassMatrix<R, V>
 where
-    D: Description<R, B, Q, V>,
+    D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
     let turns = &posture.turns;
     let mut bodies: Vec<Body<'_, R>, B> = Vec::new();
     for i in 0..B {
-        let Some(node) = robot.node(i) else {
+        let Some(link) = robot.link(i) else {
             break;
         };
-        let ic = body_inertia(effects, i, &node).into();
-        let x = node.xform(turns);
-        let _ = bodies.push(Body { node, x, ic });
+        let ic = body_inertia(effects, i, &link).into();
+        let x = link.xform(turns);
+        let _ = bodies.push(Body { link, x, ic });
     }
 
     let mut m = MassMatrix::ZERO;
     let mut inner = bodies.as_mut_slice();
     while let Some((body, rest)) = core::mem::take(&mut inner).split_last_mut() {
-        if let Some(parent) = rest.get_mut(body.node.parent) {
+        if let Some(parent) = rest.get_mut(body.link.parent) {
             parent.ic += body.ic.at_parent(&body.x);
         }
-        for (k, joint) in body.node.coordinates().enumerate() {
-            let mut f = body.ic.along(&body.node.axis(turns, k));
-            for (l, above) in body.node.coordinates().enumerate().take(k + 1) {
-                m.set(joint, above, body.node.axis(turns, l).dot(f));
+        for (k, joint) in body.link.coordinates().enumerate() {
+            let mut f = body.ic.along(&body.link.subspace(turns, k));
+            for (l, above) in body.link.coordinates().enumerate().take(k + 1) {
+                m.set(joint, above, body.link.subspace(turns, l).dot(f));
             }
             if let Some(diagonal) = m.diagonal_mut(joint) {
                 effects.inertia(joint, diagonal);
             }
-            if E::SPINNING {
-                f += rotor_force(effects, &body.node);
+            if E::GYROSCOPIC_ROTORS {
+                f += rotor_force(effects, &body.link);
             }
             let mut below = &*body;
-            while let Some(carrier) = rest.get(below.node.parent) {
+            while let Some(carrier) = rest.get(below.link.parent) {
                 f = below.x.transpose_mul(f);
-                for (l, above) in carrier.node.coordinates().enumerate() {
-                    m.set(joint, above, carrier.node.axis(turns, l).dot(f));
+                for (l, above) in carrier.link.coordinates().enumerate() {
+                    m.set(joint, above, carrier.link.subspace(turns, l).dot(f));
                 }
                 below = carrier;
             }

@@ -2,12 +2,12 @@
 //!
 //! Featherstone, RBDA (2008), (2.67): T = Σ ½ v·I v; U = −Σ m g·c in a uniform field g.
 
-use super::handed::Handed;
-use super::momentum::mass_and_moment;
+use super::momentum::mass_and_first_moment;
+use super::tree_pass::PerBody;
 use crate::effects::{Effect, base_given, body_inertia, field, rotor_force};
-use crate::model::Description;
+use crate::model::RobotModel;
 use crate::scalar::{Real, Vector};
-use crate::state::{Posture, State, entry};
+use crate::state::{JointTrig, State, entry};
 
 /// The kinetic energy T = Σ ½ v·I v, J.
 ///
@@ -29,37 +29,37 @@ pub fn kinetic_energy<R: Real, D, E, const B: usize, const Q: usize, const V: us
     effects: &E,
 ) -> R
 where
-    D: Description<R, B, Q, V>,
+    D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    kinetic_energy_at(robot, &Posture::of(robot, &state.q), state, effects)
+    kinetic_energy_at(robot, &JointTrig::of(robot, &state.q), state, effects)
 }
 
 /// As [`kinetic_energy`], at a posture whose sines and cosines are at hand; `state.q` is not read.
 #[inline(always)]
 pub fn kinetic_energy_at<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
-    posture: &Posture<R, Q>,
+    posture: &JointTrig<R, Q>,
     state: &State<R, Q, V>,
     effects: &E,
 ) -> R
 where
-    D: Description<R, B, Q, V>,
+    D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
     let turns = &posture.turns;
     let mut twice = R::ZERO;
-    let mut v = Handed::<_, B>::from(base_given(effects).0);
-    for (i, node) in robot.nodes().enumerate() {
-        let v_i = node.xform(turns) * v.by(D::CHAIN, node.parent);
-        if E::SPINNING {
+    let mut v = PerBody::<_, B>::from(base_given(effects).0);
+    for (i, link) in robot.links().enumerate() {
+        let v_i = link.xform(turns) * v.parent(D::CHAIN, link.parent);
+        if E::GYROSCOPIC_ROTORS {
             // I (ω_z + ρ q̇)² − I ω_z², less the square of ρ q̇, which `inertia` has.
-            let rotor = rotor_force(effects, &node) * entry(&state.qd, node.velocity_at());
+            let rotor = rotor_force(effects, &link) * entry(&state.qd, link.idx_v());
             twice += v_i.dot(rotor + rotor);
         }
-        let v_i = node.plus_motion(v_i, turns, &state.qd);
-        twice += v_i.dot(body_inertia(effects, i, &node) * v_i);
-        for k in node.coordinates() {
+        let v_i = link.plus_motion(v_i, turns, &state.qd);
+        twice += v_i.dot(body_inertia(effects, i, &link) * v_i);
+        for k in link.coordinates() {
             let (mut rotor, qd) = (R::ZERO, entry(&state.qd, k));
             effects.inertia(k, &mut rotor);
             twice += rotor * qd * qd;
@@ -87,22 +87,22 @@ pub fn potential_energy<R: Real, D, E, const B: usize, const Q: usize, const V: 
     effects: &E,
 ) -> R
 where
-    D: Description<R, B, Q, V>,
+    D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    potential_energy_at(robot, &Posture::of(robot, q), effects)
+    potential_energy_at(robot, &JointTrig::of(robot, q), effects)
 }
 
 /// As [`potential_energy`], at a posture whose sines and cosines are at hand.
 #[inline(always)]
 pub fn potential_energy_at<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
-    posture: &Posture<R, Q>,
+    posture: &JointTrig<R, Q>,
     effects: &E,
 ) -> R
 where
-    D: Description<R, B, Q, V>,
+    D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    -field(effects).dot(mass_and_moment(robot, posture, effects).1)
+    -field(effects).dot(mass_and_first_moment(robot, posture, effects).1)
 }

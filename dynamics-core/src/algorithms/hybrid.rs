@@ -6,20 +6,20 @@
 use super::NotPositiveDefinite;
 use super::aba::sweep;
 use crate::effects::Effect;
-use crate::model::Description;
+use crate::model::RobotModel;
 use crate::scalar::Real;
-use crate::state::{Posture, State, entry};
+use crate::state::{JointTrig, State, entry};
 
 /// What is known of a coordinate; hybrid dynamics finds the other.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Given<R> {
+pub enum Prescribed<R> {
     /// The motor's torque or force, N·m or N.
     Torque(R),
     /// The acceleration, rad/s² or m/s²: a motor follows a prescribed motion.
     Acceleration(R),
 }
 
-impl<R: Real> Default for Given<R> {
+impl<R: Real> Default for Prescribed<R> {
     fn default() -> Self {
         Self::Torque(R::ZERO)
     }
@@ -27,14 +27,14 @@ impl<R: Real> Default for Given<R> {
 
 /// Torques and accelerations of all coordinates: what was given and what follows from it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Response<R, const V: usize> {
+pub struct JointResult<R, const V: usize> {
     /// Torque of each motor, N·m or N.
     pub tau: [R; V],
     /// Acceleration of each joint, rad/s² or m/s².
     pub qdd: [R; V],
 }
 
-impl<R: Real, const V: usize> Response<R, V> {
+impl<R: Real, const V: usize> JointResult<R, V> {
     pub(super) const ZERO: Self = Self {
         tau: [R::ZERO; V],
         qdd: [R::ZERO; V],
@@ -54,12 +54,12 @@ impl<R: Real, const V: usize> Response<R, V> {
 /// RBDA (2008), section 9.2.
 ///
 /// ```
-/// use dynamics_core::algorithms::{Given::*, hybrid};
+/// use dynamics_core::algorithms::{Prescribed::*, hybrid_dynamics};
 /// use dynamics_core::{effects::RIGID_BODY, model::Robot, robots::Ur5e, state::State};
 /// let state = State::at([0.0_f64, -1.2, 1.5, 0.3, 0.0, 0.0]);
 /// // The base is held; the other joints are let go.
 /// let given = [Acceleration(0.0), Torque(0.0), Torque(0.0), Torque(0.0), Torque(0.0), Torque(0.0)];
-/// let response = hybrid(&Ur5e::MODEL, &state, &given, &RIGID_BODY)?;
+/// let response = hybrid_dynamics(&Ur5e::MODEL, &state, &given, &RIGID_BODY)?;
 /// assert!(response.qdd[0] == 0.0 && response.tau[1] == 0.0 && response.qdd[1] > 5.0);
 /// # Ok::<(), dynamics_core::algorithms::NotPositiveDefinite>(())
 /// ```
@@ -68,33 +68,39 @@ impl<R: Real, const V: usize> Response<R, V> {
 /// [`NotPositiveDefinite`] names a coordinate whose torque is given but that moves no inertia, as
 /// [`aba`](super::aba()) does.
 #[inline(always)]
-pub fn hybrid<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
+pub fn hybrid_dynamics<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     state: &State<R, Q, V>,
-    given: &[Given<R>; V],
+    given: &[Prescribed<R>; V],
     effects: &E,
-) -> Result<Response<R, V>, NotPositiveDefinite>
+) -> Result<JointResult<R, V>, NotPositiveDefinite>
 where
-    D: Description<R, B, Q, V>,
+    D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    hybrid_at(robot, &Posture::of(robot, &state.q), state, given, effects)
+    hybrid_dynamics_at(
+        robot,
+        &JointTrig::of(robot, &state.q),
+        state,
+        given,
+        effects,
+    )
 }
 
-/// As [`hybrid`], at a posture whose sines and cosines are at hand.
+/// As [`hybrid_dynamics`], at a posture whose sines and cosines are at hand.
 ///
 /// # Errors
-/// As [`hybrid`].
+/// As [`hybrid_dynamics`].
 #[inline(always)]
-pub fn hybrid_at<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
+pub fn hybrid_dynamics_at<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
-    posture: &Posture<R, Q>,
+    posture: &JointTrig<R, Q>,
     state: &State<R, Q, V>,
-    given: &[Given<R>; V],
+    given: &[Prescribed<R>; V],
     effects: &E,
-) -> Result<Response<R, V>, NotPositiveDefinite>
+) -> Result<JointResult<R, V>, NotPositiveDefinite>
 where
-    D: Description<R, B, Q, V>,
+    D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
     sweep(robot, posture, state, effects, |joint| entry(given, joint))

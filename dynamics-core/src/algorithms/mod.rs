@@ -1,50 +1,44 @@
 //! The algorithms, one a file, for every tree and joint.
 
 mod aba;
-mod centroidal;
-mod cholesky;
-mod composite;
+mod articulated_pass;
 mod crba;
-mod damped;
-mod eigen;
-mod eliminate;
+mod crba_jacobian;
 mod energy;
 mod error;
-mod factor;
-mod forward;
-pub mod frame;
-mod handed;
+mod forward_dynamics;
 mod hybrid;
-mod jacobian;
-mod kinematics;
-mod mobility;
+pub mod kinematics;
+mod mass_matrix;
 mod momentum;
-mod operational;
-mod operator;
-mod recoil;
+mod operational_space;
+mod pivot_check;
 mod rnea;
-mod taken;
+mod tree_pass;
 
 pub use aba::{aba, aba_at};
-pub use centroidal::{
-    centroidal_matrix, centroidal_matrix_at, centroidal_momentum, centroidal_momentum_at,
-};
-pub use cholesky::{Cholesky, cholesky};
-pub use composite::{crba_jacobian, crba_jacobian_at};
 pub use crba::{crba, crba_at};
-pub use damped::{Conditioning, Damping, damped_inverse};
+pub use crba_jacobian::{crba_jacobian, crba_jacobian_at};
 pub use energy::{kinetic_energy, kinetic_energy_at, potential_energy, potential_energy_at};
 pub use error::NotPositiveDefinite;
-pub(crate) use factor::MATRIX_ROUNDINGS;
-pub use factor::{factor, inverse, solve};
-pub use forward::{forward, forward_at};
-pub use frame::{Frame, Pose, classical};
-pub use hybrid::{Given, Response, hybrid, hybrid_at};
-pub use jacobian::{drift, drift_at, jacobian, jacobian_at};
-pub use kinematics::{Kinematics, kinematics, kinematics_at, poses, poses_at};
-pub use mobility::{Mobility, mobility, mobility_at};
-pub use momentum::{MassCentre, mass_centre, mass_centre_at, momentum, momentum_at};
-pub use operational::{OperationalSpace, operational_space, operational_space_at, task_rows};
-pub use operator::{operator_factor, operator_inverse};
-pub use recoil::{with_momentum, with_momentum_at};
+pub use forward_dynamics::{forward_dynamics, forward_dynamics_at};
+pub use hybrid::{JointResult, Prescribed, hybrid_dynamics, hybrid_dynamics_at};
+pub use kinematics::{
+    Frame, Kinematics, Pose, bias_acceleration, bias_acceleration_at, classical, frame, jacobian,
+    jacobian_at, kinematics, kinematics_at, poses, poses_at,
+};
+pub(crate) use mass_matrix::MATRIX_ROUNDINGS;
+pub use mass_matrix::{
+    Cholesky, Ltdl, MassMatrix, cholesky, inverse, ltdl, solve, spatial_operator_inverse,
+    spatial_operator_ltdl,
+};
+pub use momentum::{
+    CenterOfMass, base_velocity_from_momentum, base_velocity_from_momentum_at, center_of_mass,
+    center_of_mass_at, centroidal_matrix, centroidal_matrix_at, centroidal_momentum,
+    centroidal_momentum_at, momentum, momentum_at,
+};
+pub use operational_space::{
+    Conditioning, Damping, OperationalSpace, OsimInverse, damped_inverse, operational_space,
+    operational_space_at, osim_inverse, osim_inverse_at, task_jacobian,
+};
 pub use rnea::{rnea, rnea_at};

@@ -5,14 +5,14 @@
 
 use heapless::Vec;
 
-use super::handed::Handed;
+use super::tree_pass::PerBody;
 use crate::effects::{
     Effect, base_motion, body_inertia, body_wrench, gyroscopic, joint_torques, rotor_force,
 };
-use crate::model::Description;
+use crate::model::RobotModel;
 use crate::scalar::{Matrix, Real};
 use crate::spatial::{Force, Motion, Xform};
-use crate::state::{Posture, State, entry};
+use crate::state::{JointTrig, State, entry};
 
 /// τ = ID(q, q̇, q̈): the torque of each motor, N·m or N, under the effects named.
 ///
@@ -32,25 +32,25 @@ pub fn rnea<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     effects: &E,
 ) -> [R; V]
 where
-    D: Description<R, B, Q, V>,
+    D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    rnea_at(robot, &Posture::of(robot, &state.q), state, effects)
+    rnea_at(robot, &JointTrig::of(robot, &state.q), state, effects)
 }
 
 /// As [`rnea`], at a posture whose sines and cosines are at hand. `state.q` reaches joint effects.
 #[inline(always)]
 pub fn rnea_at<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
-    posture: &Posture<R, Q>,
+    posture: &JointTrig<R, Q>,
     state: &State<R, Q, V>,
     effects: &E,
 ) -> [R; V]
 where
-    D: Description<R, B, Q, V>,
+    D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    match robot.revolutes() {
+    match robot.as_all_revolute() {
         Some(robot) => sweep(&robot, posture, state, effects),
         None => sweep(robot, posture, state, effects),
     }
@@ -67,50 +67,50 @@ struct Body<R: Real> {
 #[inline(always)]
 fn sweep<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
-    posture: &Posture<R, Q>,
+    posture: &JointTrig<R, Q>,
     state: &State<R, Q, V>,
     effects: &E,
 ) -> [R; V]
 where
-    D: Description<R, B, Q, V>,
+    D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
     let moving = const { E::VELOCITY_PRODUCTS | E::BODY_VELOCITY };
     let accelerated = const { E::FIELD | E::BASE_MOTION | E::ACCELERATIONS | E::VELOCITY_PRODUCTS };
     let (v_0, a_0) = base_motion(effects);
-    let mut v = Handed::<_, B>::from(v_0);
-    let mut poses = Handed::<_, B>::from(Xform::IDENTITY);
-    let mut a = Handed::<_, B>::from(a_0);
+    let mut v = PerBody::<_, B>::from(v_0);
+    let mut poses = PerBody::<_, B>::from(Xform::IDENTITY);
+    let mut a = PerBody::<_, B>::from(a_0);
     let turns = &posture.turns;
 
     let mut bodies: Vec<Body<R>, B> = Vec::new();
     let mut turned_along = [R::ZERO; V]; // ρ I z·α_λ of the rotors
     for i in 0..B {
-        let Some(node) = robot.node(i) else {
+        let Some(link) = robot.link(i) else {
             break;
         };
-        let x = node.xform(turns);
+        let x = link.xform(turns);
         let mut v_i = Motion::ZERO;
         let mut f_i = Force::ZERO;
         if moving {
-            v_i = node.plus_motion(x * v.by(D::CHAIN, node.parent), turns, &state.qd); // (3)
+            v_i = link.plus_motion(x * v.parent(D::CHAIN, link.parent), turns, &state.qd); // (3)
             v.push(D::CHAIN, v_i);
         }
         if accelerated {
-            let mut a_i = x * a.by(D::CHAIN, node.parent); // (4)
-            if E::SPINNING
-                && let Some(tau) = turned_along.get_mut(node.velocity_at())
+            let mut a_i = x * a.parent(D::CHAIN, link.parent); // (4)
+            if E::GYROSCOPIC_ROTORS
+                && let Some(tau) = turned_along.get_mut(link.idx_v())
             {
-                *tau = a_i.dot(rotor_force(effects, &node));
+                *tau = a_i.dot(rotor_force(effects, &link));
             }
             if E::ACCELERATIONS {
-                a_i = node.plus_motion(a_i, turns, &state.qdd);
+                a_i = link.plus_motion(a_i, turns, &state.qdd);
             }
             if E::VELOCITY_PRODUCTS {
-                a_i = node.plus_velocity_product(a_i, turns, &state.qd, v_i);
+                a_i = link.plus_velocity_product(a_i, turns, &state.qd, v_i);
             }
             a.push(D::CHAIN, a_i);
-            let inertia = body_inertia(effects, i, &node);
+            let inertia = body_inertia(effects, i, &link);
             f_i = if E::VELOCITY_PRODUCTS {
                 inertia.force(a_i, v_i) // (5)
             } else {
@@ -120,15 +120,15 @@ where
         if E::WRENCH {
             let mut pose = Xform::IDENTITY;
             if E::BODY_POSE {
-                pose = x * poses.by(D::CHAIN, node.parent);
+                pose = x * poses.parent(D::CHAIN, link.parent);
                 poses.push(D::CHAIN, pose);
             }
-            f_i -= body_wrench(effects, i, &node, &pose, v_i); // (6)
+            f_i -= body_wrench(effects, i, &link, &pose, v_i); // (6)
         }
-        if E::SPINNING
-            && let Some(parent) = bodies.get_mut(node.parent)
+        if E::GYROSCOPIC_ROTORS
+            && let Some(parent) = bodies.get_mut(link.parent)
         {
-            let at = node.velocity_at();
+            let at = link.idx_v();
             let rate = if E::VELOCITY_PRODUCTS {
                 entry(&state.qd, at)
             } else {
@@ -139,7 +139,7 @@ where
             } else {
                 R::ZERO
             };
-            let couple = gyroscopic(effects, &node, v_i.ang, rate, accel);
+            let couple = gyroscopic(effects, &link, v_i.ang, rate, accel);
             parent.f.ang += x.rot.transpose_mul(couple);
         }
         let _ = bodies.push(Body { rot: x.rot, f: f_i });
@@ -149,25 +149,25 @@ where
     let mut below = Force::ZERO; // what the one body above asks of a chain
     let mut inner = bodies.as_mut_slice();
     while let Some((body, rest)) = inner.split_last_mut() {
-        let Some(node) = robot.node(rest.len()) else {
+        let Some(link) = robot.link(rest.len()) else {
             break;
         };
         let f_i = if D::CHAIN { body.f + below } else { body.f };
-        node.project(turns, f_i, &mut tau); // (8)
-        joint_torques(effects, &node, state, &mut tau);
-        if E::SPINNING
-            && let Some(tau) = tau.get_mut(node.velocity_at())
+        link.project(turns, f_i, &mut tau); // (8)
+        joint_torques(effects, &link, state, &mut tau);
+        if E::GYROSCOPIC_ROTORS
+            && let Some(tau) = tau.get_mut(link.idx_v())
         {
-            *tau += entry(&turned_along, node.velocity_at());
+            *tau += entry(&turned_along, link.idx_v());
         }
         if rest.is_empty() {
             break; // the first body stands on the base
         }
-        let (rot, pos) = (body.rot, node.origin(turns));
+        let (rot, pos) = (body.rot, link.origin(turns));
         let f_parent = Xform { rot, pos }.transpose_mul(f_i); // (7)
         if D::CHAIN {
             below = f_parent;
-        } else if let Some(parent) = rest.get_mut(node.parent) {
+        } else if let Some(parent) = rest.get_mut(link.parent) {
             parent.f += f_parent;
         }
         inner = rest;

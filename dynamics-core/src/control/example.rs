@@ -1,13 +1,13 @@
 use dynamics_core::control::*;
-use dynamics_core::effects::{Coriolis, Gravity, Inertia, RotorInertia};
+use dynamics_core::effects::{Armature, Coriolis, Gravity, Inertia};
 use dynamics_core::{Core, robots::Ur5e, state::State};
 
-pub type Effects = (Gravity, Inertia, Coriolis, RotorInertia<f32, 6>);
+pub type Effects = (Gravity, Inertia, Coriolis, Armature<f32, 6>);
 pub const EFFECTS: Effects = (
     Gravity::EARTH,
     Inertia,
     Coriolis,
-    RotorInertia([0.9, 0.9, 0.9, 0.25, 0.25, 0.25]),
+    Armature([0.9, 0.9, 0.9, 0.25, 0.25, 0.25]),
 );
 pub const TICK: f32 = 1e-3; // s
 pub const RIDE: u32 = 5; // ticks of a fault that the observer bridges
@@ -28,7 +28,7 @@ pub struct Loop {
 
 impl Loop {
     /// The loop of an arm at rest at the start of its trajectory.
-    pub fn new(bounds: Bounds<f32, 6>, start: [f32; 6]) -> Self {
+    pub fn new(bounds: SafetyLimits<f32, 6>, start: [f32; 6]) -> Self {
         let m = Core::<Ur5e>::crba(&start, &EFFECTS);
         let diagonal = core::array::from_fn(|j| m.get(j, j));
         Self {

@@ -4,14 +4,14 @@
 //! | item | what | memory |
 //! |---|---|---|
 //! | [`Trajectory`] | quintics through way-points, checked against speed and acceleration limits | none |
-//! | [`Smooth`] | from stop to stop with four derivatives, for compliant joints | none |
+//! | [`RestToRest`] | from stop to stop with four derivatives, for compliant joints | none |
 //! | [`Reference`] | what a controller follows: a trajectory, or a motion of one's own | |
-//! | [`TurnCounter`] | an encoder's counts, turns included | counts |
+//! | [`MultiTurnEncoder`] | an encoder's counts, turns included | counts |
 //! | [`Observer`] | velocity from positions | estimate |
 //! | [`Gains`], [`feedback`] | K_p (q_d − q) + K_d (q̇_d − q̇) | none |
 //! | [`hold`] | what a held arm is to follow: q̈ = −λ q̇ | none |
-//! | [`motion_and_force`], [`Aim`] | motions and forces along a task's directions | none |
-//! | [`Held`], [`Extrapolated`], [`Interpolated`], [`Linearised`] | the torque of ticks that compute no dynamics | last torques |
+//! | [`hybrid_motion_force`], [`TaskCommand`] | motions and forces along a task's directions | none |
+//! | [`ZeroOrderHold`], [`FirstOrderHold`], [`Interpolator`], [`InertiaUpdate`] | the torque of ticks that compute no dynamics | last torques |
 //! | [`Supervisor`] | limits, plausibility, what to do on a fault | last good values |
 //! | [`Rejoin`] | from where a fault left the arm back onto the trajectory | reference |
 //!
@@ -26,9 +26,9 @@
 //!
 //! let stop = |q, ticks| WayPoint { q, qd: [0.0; 6], ticks };
 //! let (home, away) = ([0.0, -1.57, 1.57, -1.57, -1.57, 0.0], [1.0, -1.2, 1.4, -1.57, -1.57, 0.0]);
-//! let limits = [Speed { velocity: 3.0, acceleration: 10.0 }; 6];
+//! let limits = [MotionLimits { velocity: 3.0, acceleration: 10.0 }; 6];
 //! let trajectory = Trajectory::new(&[stop(home, 0), stop(away, 1000)], TICK, &limits)?;
-//! let bounds = Bounds {
+//! let bounds = SafetyLimits {
 //!     torque: [150.0, 150.0, 150.0, 28.0, 28.0, 28.0],
 //!     rate: [75.0, 75.0, 75.0, 14.0, 14.0, 14.0],
 //!     speed: [3.2; 6],
@@ -43,33 +43,33 @@
 //! # Ok::<(), TrajectoryError>(())
 //! ```
 
-mod between;
-mod bounds;
 mod command;
 mod fault;
+mod feedback;
 mod hold;
-mod law;
+mod hybrid_force;
+mod multi_turn;
+mod multirate;
 mod observer;
-mod operational;
 mod reference;
-mod rejoin;
+mod resume;
+mod safety_limits;
 mod supervisor;
 mod trajectory;
-mod turns;
 
-pub use between::{Extrapolated, Held, Interpolated, Linearised};
-pub use bounds::{Bounds, BoundsError, Limited};
 pub use command::{Command, Mode, Status};
 pub use fault::Fault;
+pub use feedback::{Gains, feedback};
 pub use hold::hold;
-pub use law::{Gains, feedback};
+pub use hybrid_force::{TaskCommand, TaskFrame, hybrid_motion_force, orientation_error};
+pub use multi_turn::MultiTurnEncoder;
+pub use multirate::{FirstOrderHold, InertiaUpdate, Interpolator, ZeroOrderHold};
 pub use observer::{Estimate, Observer};
-pub use operational::{Aim, TaskFrame, motion_and_force, turn_to};
 pub use reference::Reference;
-pub use rejoin::Rejoin;
+pub use resume::Rejoin;
+pub use safety_limits::{LimitKind, SafetyLimits, SafetyLimitsError};
 pub use supervisor::Supervisor;
-pub use trajectory::{Smooth, Speed, Trajectory, TrajectoryError, WayPoint};
-pub use turns::TurnCounter;
+pub use trajectory::{MotionLimits, RestToRest, Trajectory, TrajectoryError, WayPoint};
 
 use crate::scalar::Real;
 
@@ -77,5 +77,5 @@ use crate::scalar::Real;
 #[inline(always)]
 fn real<R: Real>(ticks: u32) -> R {
     // One VCVT in f32: the other conversion, a call into software there, is dead code.
-    R::pick_value(f64::from(ticks), ticks as f32)
+    R::select(f64::from(ticks), ticks as f32)
 }

@@ -63,7 +63,7 @@ impl<R: Real, const V: usize> Observer<R, V> {
         } else {
             (R::ZERO, R::ZERO)
         };
-        let x = x.limit(R::ZERO, R::from_f64(16.0));
+        let x = x.clamped(R::ZERO, R::from_f64(16.0));
         // exp(x) − 1 to x⁵/120, and from it 1 − β without cancellation.
         let mut series = R::ONE;
         for n in [5.0, 4.0, 3.0, 2.0] {

@@ -13,7 +13,7 @@
 //! tick (last good positions, last torques, counters) takes in only what was accepted. With limits that allow
 //! nothing (NaN, negative, an empty range) there is no supervisor, or one that keeps the arm stopped.
 
-use super::{Bounds, BoundsError, Command, Fault, Mode, Status, real};
+use super::{Command, Fault, Mode, SafetyLimits, SafetyLimitsError, Status, real};
 use crate::scalar::Real;
 
 mod reentry;
@@ -27,14 +27,14 @@ const JUMP: f64 = 2.0;
 /// Positions beyond this are as good as infinite, in f64 too.
 const FAR: f64 = f32::MAX as f64;
 /// Beyond this, rad, f32 has no sine to 10⁻⁷: whatever the limits, no position is accepted there. Joints that
-/// turn without end are told by what remains of whole turns, [`super::TurnCounter::within_turn`].
+/// turn without end are told by what remains of whole turns, [`super::MultiTurnEncoder::within_turn`].
 const RANGE: f64 = 1e4;
 
 /// The safety gate: [`Self::admit`] starts a tick, [`Self::pass`] ends it.
 ///
 /// ```
-/// use dynamics_core::control::{Bounds, Fault, Mode, Supervisor};
-/// let bounds = Bounds { torque: [10.0_f32], rate: [8.0], speed: [3.0], lower: [-1.0], upper: [1.0] };
+/// use dynamics_core::control::{SafetyLimits, Fault, Mode, Supervisor};
+/// let bounds = SafetyLimits { torque: [10.0_f32], rate: [8.0], speed: [3.0], lower: [-1.0], upper: [1.0] };
 /// let mut supervisor = Supervisor::new(bounds, 1e-3, 1, 4).riding(1);
 ///
 /// assert_eq!(supervisor.admit(Ok(&[0.5])), Mode::Full);
@@ -53,7 +53,7 @@ const RANGE: f64 = 1e4;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Supervisor<R, const V: usize> {
-    bounds: Bounds<R, V>,
+    bounds: SafetyLimits<R, V>,
     /// Middle and half width of the range of positions.
     middle: [R; V],
     half: [R; V],
@@ -64,7 +64,7 @@ pub struct Supervisor<R, const V: usize> {
     ride_ticks: u32,
     hold_ticks: u32,
     reentry_ticks: u32,
-    per_reentry: R,
+    reentry_inv: R,
 
     last_good: [R; V],
     /// The positions of this tick were accepted.
@@ -100,10 +100,10 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
     /// `tick` is the nominal length of a tick in s. A fault that lasts for more than `hold_ticks`
     /// ticks, or comes back so often without `reentry_ticks` good ticks in between, stops the arm.
     ///
-    /// With limits that allow nothing ([`Bounds::check`]) the arm is stopped by [`Fault::Bounds`], and no reset
+    /// With limits that allow nothing ([`SafetyLimits::check`]) the arm is stopped by [`Fault::SafetyLimits`], and no reset
     /// starts it: [`Self::try_new`] tells them while they are set.
-    pub fn new(bounds: Bounds<R, V>, tick: R, hold_ticks: u32, reentry_ticks: u32) -> Self {
-        let unusable = bounds.check().err().map(|error| Fault::Bounds {
+    pub fn new(bounds: SafetyLimits<R, V>, tick: R, hold_ticks: u32, reentry_ticks: u32) -> Self {
+        let unusable = bounds.check().err().map(|error| Fault::SafetyLimits {
             joint: error.joint(),
         });
         // Comparisons with NaN are false, so that a limit of NaN allows nothing.
@@ -113,7 +113,7 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         let (far, range) = (R::from_f64(FAR), R::from_f64(RANGE));
         let end = |x: R| {
             if x.abs() > range {
-                x.limit(-range, range)
+                x.clamped(-range, range)
             } else {
                 x
             }
@@ -124,7 +124,7 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
             (*lower, *upper) = (a + b, b - a);
         }
         Self {
-            bounds: Bounds {
+            bounds: SafetyLimits {
                 torque: bounds.torque.map(finite),
                 rate: bounds.rate.map(allowed),
                 ..bounds
@@ -136,7 +136,7 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
             ride_ticks: 0,
             hold_ticks,
             reentry_ticks,
-            per_reentry: R::ONE / real(reentry_ticks.max(1)),
+            reentry_inv: R::ONE / real(reentry_ticks.max(1)),
             last_good: [R::ZERO; V],
             seen: false,
             known: false,
@@ -160,19 +160,19 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
     /// As [`Self::new`], of limits that allow something.
     ///
     /// ```
-    /// use dynamics_core::control::{Bounds, BoundsError, Supervisor};
-    /// let bounds = Bounds { torque: [10.0_f32], rate: [8.0], speed: [3.0], lower: [1.0], upper: [-1.0] };
-    /// assert_eq!(Supervisor::try_new(bounds, 1e-3, 1, 4), Err(BoundsError::Empty { joint: 0 }));
+    /// use dynamics_core::control::{SafetyLimits, SafetyLimitsError, Supervisor};
+    /// let bounds = SafetyLimits { torque: [10.0_f32], rate: [8.0], speed: [3.0], lower: [1.0], upper: [-1.0] };
+    /// assert_eq!(Supervisor::try_new(bounds, 1e-3, 1, 4), Err(SafetyLimitsError::Empty { joint: 0 }));
     /// ```
     ///
     /// # Errors
-    /// [`BoundsError`] names the joint and the limit.
+    /// [`SafetyLimitsError`] names the joint and the limit.
     pub fn try_new(
-        bounds: Bounds<R, V>,
+        bounds: SafetyLimits<R, V>,
         tick: R,
         hold_ticks: u32,
         reentry_ticks: u32,
-    ) -> Result<Self, BoundsError> {
+    ) -> Result<Self, SafetyLimitsError> {
         bounds.check()?;
         Ok(Self::new(bounds, tick, hold_ticks, reentry_ticks))
     }
@@ -228,8 +228,8 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
     /// Before [`Self::admit`]; of [`super::Observer::predict`] as many calls bring the estimate up to date.
     ///
     /// ```
-    /// # use dynamics_core::control::{Bounds, Fault, Mode, Supervisor};
-    /// # let bounds = Bounds { torque: [10.0_f32], rate: [8.0], speed: [3.0], lower: [-1.0], upper: [1.0] };
+    /// # use dynamics_core::control::{SafetyLimits, Fault, Mode, Supervisor};
+    /// # let bounds = SafetyLimits { torque: [10.0_f32], rate: [8.0], speed: [3.0], lower: [-1.0], upper: [1.0] };
     /// let mut supervisor = Supervisor::new(bounds, 1e-3, 1, 4);
     /// supervisor.admit(Ok(&[0.5]));
     /// supervisor.missed(9); // 3 rad/s for 10 ms are no jump
@@ -251,8 +251,8 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
     /// does in this tick. Between [`Self::admit`] and [`Self::pass`].
     ///
     /// ```
-    /// # use dynamics_core::control::{Bounds, Mode, Supervisor};
-    /// # let bounds = Bounds { torque: [10.0_f32], rate: [8.0], speed: [3.0], lower: [-1.0], upper: [1.0] };
+    /// # use dynamics_core::control::{SafetyLimits, Mode, Supervisor};
+    /// # let bounds = SafetyLimits { torque: [10.0_f32], rate: [8.0], speed: [3.0], lower: [-1.0], upper: [1.0] };
     /// # let mut supervisor = Supervisor::new(bounds, 1e-3, 2, 4).riding(5);
     /// assert_eq!(supervisor.admit(Ok(&[0.5])), Mode::Full);
     /// assert_eq!(supervisor.watch(&[-3.1]), Mode::Hold);
@@ -265,7 +265,7 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
             let joint = joints().position(|joint| !slow(joint)).unwrap_or(V);
             self.faults = self.faults.max(self.ride_ticks);
             self.faulted = false;
-            self.raise(Fault::Speed { joint });
+            self.raise(Fault::MotionLimits { joint });
         }
         self.mode
     }
@@ -281,8 +281,8 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
     /// a fault.
     ///
     /// ```
-    /// # use dynamics_core::control::{Bounds, Fault, Mode, Supervisor};
-    /// # let bounds = Bounds { torque: [10.0_f32], rate: [8.0], speed: [3.0], lower: [-1.0], upper: [1.0] };
+    /// # use dynamics_core::control::{SafetyLimits, Fault, Mode, Supervisor};
+    /// # let bounds = SafetyLimits { torque: [10.0_f32], rate: [8.0], speed: [3.0], lower: [-1.0], upper: [1.0] };
     /// # let mut supervisor = Supervisor::new(bounds, 1e-3, 2, 4).riding(5);
     /// supervisor.admit(Ok(&[0.5]));
     /// supervisor.pass(&[7.0]);
@@ -303,7 +303,7 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         let asked = tau.iter().zip(&self.torque);
         let bounds = self.bounds.torque.iter().zip(&self.bounds.rate);
         for ((out, (&tau, &last)), (&most, &rate)) in torque.iter_mut().zip(asked).zip(bounds) {
-            let next = tau.limit(-most, most).limit(last - rate, last + rate);
+            let next = tau.clamped(-most, most).clamped(last - rate, last + rate);
             // Zero within the limits; not finite if a torque is not, and otherwise no sum of so many.
             off += (next - tau).abs() * R::from_f64(1.0 / 64.0);
             *out = next;
@@ -324,8 +324,8 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
     /// is still demanded after a reset is to be called again, every tick.
     ///
     /// ```
-    /// # use dynamics_core::control::{Bounds, Fault, Mode, Supervisor};
-    /// # let bounds = Bounds { torque: [10.0_f32], rate: [8.0], speed: [3.0], lower: [-1.0], upper: [1.0] };
+    /// # use dynamics_core::control::{SafetyLimits, Fault, Mode, Supervisor};
+    /// # let bounds = SafetyLimits { torque: [10.0_f32], rate: [8.0], speed: [3.0], lower: [-1.0], upper: [1.0] };
     /// # let mut supervisor = Supervisor::new(bounds, 1e-3, 2, 4).riding(5);
     /// supervisor.admit(Ok(&[0.5]));
     /// supervisor.stop(Fault::External);

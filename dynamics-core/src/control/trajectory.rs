@@ -26,7 +26,7 @@ mod tests;
 
 pub use error::TrajectoryError;
 use segment::Segment;
-pub use smooth::Smooth;
+pub use smooth::RestToRest;
 
 /// A configuration to pass, with the velocity in passing, at zero acceleration.
 ///
@@ -49,14 +49,14 @@ pub struct WayPoint<R, const V: usize> {
 /// How fast a joint may move.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Speed<R> {
+pub struct MotionLimits<R> {
     /// Greatest |q̇|, rad/s or m/s.
     pub velocity: R,
     /// Greatest |q̈|, rad/s² or m/s².
     pub acceleration: R,
 }
 
-impl<R: Real> Speed<R> {
+impl<R: Real> MotionLimits<R> {
     /// Holds what a joint needs on the way to a point against its greatest speed; nothing admits a NaN.
     fn admits_speed(&self, needed: R, point: usize, joint: usize) -> Result<(), TrajectoryError> {
         if needed.is_finite() && needed <= self.velocity {
@@ -108,19 +108,19 @@ impl<R: Real, const V: usize, const W: usize> Trajectory<R, V, W> {
     /// [`TrajectoryError`] names the way-point, the joint, and what was needed and allowed.
     ///
     /// ```
-    /// use dynamics_core::control::{Speed, Trajectory, TrajectoryError, WayPoint};
+    /// use dynamics_core::control::{MotionLimits, Trajectory, TrajectoryError, WayPoint};
     /// let points = [
     ///     WayPoint { q: [0.0_f32], qd: [0.0], ticks: 0 },
     ///     WayPoint { q: [1.0], qd: [0.0], ticks: 1000 },
     /// ];
-    /// let slow = [Speed { velocity: 1.0, acceleration: 10.0 }];
+    /// let slow = [MotionLimits { velocity: 1.0, acceleration: 10.0 }];
     /// let error = Trajectory::new(&points, 1e-3, &slow).unwrap_err();
     /// assert_eq!(error, TrajectoryError::Velocity { point: 1, joint: 0, needed: 1.875, allowed: 1.0 });
     /// ```
     pub fn new(
         points: &[WayPoint<R, V>; W],
         tick: R,
-        limits: &[Speed<R>; V],
+        limits: &[MotionLimits<R>; V],
     ) -> Result<Self, TrajectoryError> {
         let (segments, ticks) = segments(points, tick, false, |point, segment| {
             segment.check(point, limits)
@@ -136,12 +136,12 @@ impl<R: Real, const V: usize, const W: usize> Trajectory<R, V, W> {
     /// way-point to find the segment; the same instructions whatever the tick.
     ///
     /// ```
-    /// use dynamics_core::control::{Speed, Trajectory, WayPoint};
+    /// use dynamics_core::control::{MotionLimits, Trajectory, WayPoint};
     /// let points = [
     ///     WayPoint { q: [0.0_f32], qd: [0.0], ticks: 0 },
     ///     WayPoint { q: [1.0], qd: [0.0], ticks: 1000 },
     /// ];
-    /// let quick = [Speed { velocity: 2.0, acceleration: 10.0 }];
+    /// let quick = [MotionLimits { velocity: 2.0, acceleration: 10.0 }];
     /// let trajectory = Trajectory::new(&points, 1e-3, &quick)?;
     /// assert_eq!((trajectory.at(500).q, trajectory.at(500).qd), ([0.5], [1.875]));
     /// assert_eq!((trajectory.at(u32::MAX).q, trajectory.at(u32::MAX).qd), ([1.0], [0.0]));

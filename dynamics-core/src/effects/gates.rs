@@ -22,8 +22,8 @@ where
     const {
         assert!(
             E::GRAVITIES <= 1,
-            "the scene has several fields of gravity, whose sum would act: instead of (RIGID_BODY, GravityAlong(..)) \
-             write (Inertia, Coriolis, GravityAlong(..))"
+            "the scene has several fields of gravity, whose sum would act: instead of (RIGID_BODY, GravityVector(..)) \
+             write (Inertia, Coriolis, GravityVector(..))"
         )
     };
 }

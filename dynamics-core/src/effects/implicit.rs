@@ -1,14 +1,14 @@
 //! Stiff effects at the end of the time step instead of at its beginning.
 
-use super::hooks::joint_state;
-use super::passed_on::passed_on;
-use super::{BodyState, Effect, JointState, Slopes};
-use crate::model::Description;
+use super::delegate::passed_on;
+use super::query::joint_state;
+use super::{BodyState, Effect, JointState, TorqueDerivatives};
+use crate::model::RobotModel;
 use crate::scalar::Real;
 use crate::spatial::{Force, Motion, SpatialInertia};
 use crate::state::{State, entry};
 
-/// The same effects as a step of `h` seconds treats them: torques taken at its end, along their slopes.
+/// The same effects as a step of `h` seconds treats them: torques taken at its end, along their derivatives.
 ///
 /// τ(q + h q̇₊, q̇₊) ≈ τ + ∂τ/∂q h (q̇ + h q̈) + ∂τ/∂q̇ h q̈: what goes with q̈ adds to M's diagonal, h ∂τ/∂q̇ +
 /// h² ∂τ/∂q, the rest to τ. Forward dynamics under these effects is the linearly implicit Euler step; no
@@ -18,9 +18,9 @@ use crate::state::{State, entry};
 /// ```
 /// use dynamics_core::algorithms::aba;
 /// use dynamics_core::effects::{Implicit, Inertia, Viscous};
-/// use dynamics_core::model::{Arm, BASE, Body, Joint, Model};
+/// use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model};
 /// use dynamics_core::state::State;
-/// let wheel: Arm<f64, 1> = Model::new("wheel", [
+/// let wheel: ArmModel<f64, 1> = Model::new("wheel", [
 ///     Body::new("w", BASE, Joint::revolute([0.0, 0.0, 1.0])).mass(1.0).inertia([0.0, 0.0, 0.0, 0.0, 0.0, 2.0]),
 /// ]);
 /// let turning = State { q: [0.0], qd: [1.0], qdd: [0.0] };
@@ -33,7 +33,7 @@ use crate::state::{State, entry};
 pub struct Implicit<'a, E, R, const V: usize> {
     effects: &'a E,
     h: R,
-    slopes: [Slopes<R>; V],
+    derivatives: [TorqueDerivatives<R>; V],
 }
 
 impl<'a, E, R: Real, const V: usize> Implicit<'a, E, R, V> {
@@ -46,18 +46,22 @@ impl<'a, E, R: Real, const V: usize> Implicit<'a, E, R, V> {
         h: R,
     ) -> Self
     where
-        D: Description<R, B, Q, V>,
+        D: RobotModel<R, B, Q, V>,
         E: Effect<R, B, V>,
     {
-        let mut slopes = [Slopes::default(); V];
-        for node in robot.nodes() {
-            for k in node.coordinates() {
-                if let Some(slopes) = slopes.get_mut(k) {
-                    effects.slopes(k, joint_state(&node, state, k), slopes);
+        let mut derivatives = [TorqueDerivatives::default(); V];
+        for link in robot.links() {
+            for k in link.coordinates() {
+                if let Some(derivatives) = derivatives.get_mut(k) {
+                    effects.derivatives(k, joint_state(&link, state, k), derivatives);
                 }
             }
         }
-        Self { effects, h, slopes }
+        Self {
+            effects,
+            h,
+            derivatives,
+        }
     }
 }
 
@@ -71,15 +75,15 @@ where
     #[inline(always)]
     fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R) {
         self.effects.torque(joint, at, tau);
-        let slopes = entry(&self.slopes, joint);
+        let derivatives = entry(&self.derivatives, joint);
         let ahead = at.qd + self.h * at.qdd;
-        *tau += self.h * (slopes.q * ahead + slopes.qd * at.qdd);
+        *tau += self.h * (derivatives.dq * ahead + derivatives.dqd * at.qdd);
     }
 
     #[inline(always)]
     fn inertia(&self, joint: usize, diagonal: &mut R) {
         self.effects.inertia(joint, diagonal);
-        let slopes = entry(&self.slopes, joint);
-        *diagonal += self.h * (slopes.qd + self.h * slopes.q);
+        let derivatives = entry(&self.derivatives, joint);
+        *diagonal += self.h * (derivatives.dqd + self.h * derivatives.dq);
     }
 }

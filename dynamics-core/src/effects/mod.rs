@@ -13,11 +13,11 @@
 //!
 //! | where | effects |
 //! |---|---|
-//! | all bodies | [`Gravity`], [`GravityAlong`]; [`Inertia`], [`Coriolis`]; [`MovingBase`] |
+//! | all bodies | [`Gravity`], [`GravityVector`]; [`Inertia`], [`Coriolis`]; [`MovingBase`] |
 //! | a body | [`BodyWrench`], [`WorldWrench`], [`Contact`]; [`Payload`] |
 //! | a joint: friction | [`Viscous`], [`Coulomb`], [`AsymmetricCoulomb`], [`Stribeck`], [`Lugre`] |
-//! | a joint: position | [`Spring`], [`Stops`], [`Cogging`] |
-//! | a motor | [`RotorInertia`], [`Rotors`]; [`crate::sim::Actuator`] and [`crate::flexible`] stand between command and joint |
+//! | a joint: position | [`Spring`], [`EndStops`], [`Cogging`] |
+//! | a motor | [`Armature`], [`GyroscopicRotors`]; [`crate::sim::Actuator`] and [`crate::drivetrain`] stand between command and joint |
 //!
 //! What none of them is, a user adds by an `impl` of the same trait, for core, engine and plant alike:
 //!
@@ -49,69 +49,46 @@
 //! Gravity that is named twice would act twice, so that such a scene does not compile:
 //!
 //! ```compile_fail,E0080
-//! use dynamics_core::effects::{GravityAlong, RIGID_BODY};
+//! use dynamics_core::effects::{GravityVector, RIGID_BODY};
 //! use dynamics_core::{Engine, robots::Ur5e, state::State};
-//! let tilted = GravityAlong(glam::Vec3::new(0.0, 3.0, -9.3));
+//! let tilted = GravityVector(glam::Vec3::new(0.0, 3.0, -9.3));
 //! let _ = Engine::<Ur5e>::rnea(&State::at([0.3_f32; 6]), &(RIGID_BODY, tilted));
-//! // error: the scene has several fields of gravity, whose sum would act: instead of (RIGID_BODY, GravityAlong(..)) write
-//! // (Inertia, Coriolis, GravityAlong(..))
+//! // error: the scene has several fields of gravity, whose sum would act: instead of (RIGID_BODY, GravityVector(..)) write
+//! // (Inertia, Coriolis, GravityVector(..))
 //! ```
 //!
 //! Signs are stated once, on M q̈ + C = τ: joint hooks add the torque that the motor must supply
 //! (left side); body hooks add the wrench fˣ that the environment exerts on the body
 //! (f + fˣ = I a + v ×* I v), which the library subtracts.
 
-mod asymmetric;
-mod bias;
-mod cogging;
-mod contact;
-mod coulomb;
-mod external;
+mod body;
+mod delegate;
+mod friction;
 mod gates;
-mod gravity;
-mod hooks;
+mod hook_args;
 mod implicit;
-mod lugre;
-mod moving_base;
-mod passed_on;
-mod payload;
-mod ramp;
-mod rigid;
-mod rotor;
-mod seen;
-mod spinning;
-mod spring;
-mod stops;
-mod stribeck;
+mod joint;
+mod query;
+mod rigid_body;
 mod tuple;
-mod viscous;
 
-pub use asymmetric::AsymmetricCoulomb;
-pub use cogging::Cogging;
-pub use contact::{Contact, Foot};
-pub use coulomb::{Coulomb, smooth_sign, smooth_sign_slope};
-pub use external::{BodyWrench, WorldWrench};
-pub use gravity::{Direction, Down, Gravity};
-pub use implicit::Implicit;
-pub use lugre::Lugre;
-pub use moving_base::{GravityAlong, MovingBase};
-pub use payload::{ImpossibleLoad, Payload};
-pub use ramp::ramp;
-pub use rigid::{Coriolis, Inertia, RIGID_BODY};
-pub use rotor::RotorInertia;
-pub use seen::{BodyState, JointState, Slopes};
-pub use spinning::Rotors;
-pub use spring::Spring;
-pub use stops::Stops;
-pub use stribeck::Stribeck;
-pub use viscous::Viscous;
-
-pub(crate) use bias::Bias;
-pub(crate) use gates::{field_axes, loads, one_gravity, only_load};
-pub(crate) use hooks::{
-    base_given, base_motion, body_inertia, body_wrench, field, gyroscopic, joint_loss, joint_state,
-    joint_torques, rotor_force,
+pub use body::{BodyWrench, Contact, ContactPoint, InvalidPayload, Payload, WorldWrench};
+pub use friction::{
+    AsymmetricCoulomb, Coulomb, Lugre, Stribeck, Viscous, smooth_sign, smooth_sign_slope,
 };
+pub use hook_args::{BodyState, JointState, TorqueDerivatives};
+pub use implicit::Implicit;
+pub use joint::{Armature, Cogging, EndStops, GyroscopicRotors, Spring};
+pub use rigid_body::{
+    Coriolis, Direction, Down, Gravity, GravityVector, Inertia, MovingBase, RIGID_BODY,
+};
+
+pub(crate) use gates::{field_axes, loads, one_gravity, only_load};
+pub(crate) use query::{
+    base_given, base_motion, body_inertia, body_wrench, field, gyroscopic, joint_state,
+    joint_torque, joint_torques, rotor_force,
+};
+pub(crate) use rigid_body::Bias;
 
 use crate::scalar::Real;
 use crate::spatial::{Force, Motion, SpatialInertia};
@@ -121,7 +98,7 @@ use crate::spatial::{Force, Motion, SpatialInertia};
 /// Every hook defaults to nothing, and what is default costs nothing. Hooks *add* to what they
 /// are given: an effect that returned a zero would leave an addition behind (x + 0.0 is not x for
 /// IEEE's −0.0). Sizes are part of the type, so that five friction values on six joints do not
-/// compile. A hook that stands under a constant (`FIELD`, `WRENCH`, `BASE_MOTION`, `PAYLOAD`, `SPINNING`) is
+/// compile. A hook that stands under a constant (`FIELD`, `WRENCH`, `BASE_MOTION`, `PAYLOAD`, `GYROSCOPIC_ROTORS`) is
 /// not called unless its constant says so.
 ///
 /// ```
@@ -141,9 +118,9 @@ use crate::spatial::{Force, Motion, SpatialInertia};
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not an effect on a robot of {B} bodies and {V} joints in `{R}`",
     label = "not an effect of this size and scalar",
-    note = "effects: Gravity, GravityAlong, Inertia, Coriolis, Viscous([R; V]), Coulomb {{ .. }}, \
-            AsymmetricCoulomb {{ .. }}, Stribeck {{ .. }}, Lugre {{ .. }}, Spring {{ .. }}, Stops {{ .. }}, \
-            Cogging {{ .. }}, RotorInertia([R; V]), Rotors {{ .. }}, Payload::<_, BODY>, BodyWrench, WorldWrench, Contact, \
+    note = "effects: Gravity, GravityVector, Inertia, Coriolis, Viscous([R; V]), Coulomb {{ .. }}, \
+            AsymmetricCoulomb {{ .. }}, Stribeck {{ .. }}, Lugre {{ .. }}, Spring {{ .. }}, EndStops {{ .. }}, \
+            Cogging {{ .. }}, Armature([R; V]), GyroscopicRotors {{ .. }}, Payload::<_, BODY>, BodyWrench, WorldWrench, Contact, \
             MovingBase, tuples of up to 12 of them, and your own through `impl Effect`"
 )]
 pub trait Effect<R: Real, const B: usize, const V: usize> {
@@ -169,7 +146,7 @@ pub trait Effect<R: Real, const B: usize, const V: usize> {
     /// The bodies to which `payload` adds something.
     const PAYLOAD: [bool; B] = [false; B];
     /// `spin` adds something.
-    const SPINNING: bool = false;
+    const GYROSCOPIC_ROTORS: bool = false;
 
     /// Adds to the inertia of `body`, about the origin of its frame and in its coordinates.
     #[inline(always)]
@@ -203,11 +180,11 @@ pub trait Effect<R: Real, const B: usize, const V: usize> {
         let _ = (joint, at, tau);
     }
 
-    /// Adds to the slopes ∂τ/∂q and ∂τ/∂q̇ of what `torque` adds, where a plant is to treat it
+    /// Adds to the derivatives ∂τ/∂q and ∂τ/∂q̇ of what `torque` adds, where a plant is to treat it
     /// implicitly: see [`Implicit`].
     #[inline(always)]
-    fn slopes(&self, joint: usize, at: JointState<R>, slopes: &mut Slopes<R>) {
-        let _ = (joint, at, slopes);
+    fn derivatives(&self, joint: usize, at: JointState<R>, derivatives: &mut TorqueDerivatives<R>) {
+        let _ = (joint, at, derivatives);
     }
 
     /// Moves what the effect remembers of `joint` (bristles, a motor's current) on by h seconds.
@@ -224,7 +201,7 @@ pub trait Effect<R: Real, const B: usize, const V: usize> {
     }
 
     /// Adds to ρ I, the coupling of the rotor that spins on the parent link of `joint` with what carries
-    /// it, kg·m² or kg·m; `torque` and `inertia` add its ρ² I. See [`Rotors`].
+    /// it, kg·m² or kg·m; `torque` and `inertia` add its ρ² I. See [`GyroscopicRotors`].
     #[inline(always)]
     fn spin(&self, joint: usize, coupling: &mut R) {
         let _ = (joint, coupling);

@@ -1,6 +1,6 @@
 //! Tuples of effects: constants are joined, hooks run in the order of the tuple.
 
-use super::{BodyState, Effect, JointState, Slopes};
+use super::{BodyState, Effect, JointState, TorqueDerivatives};
 use crate::scalar::Real;
 use crate::spatial::{Force, Motion, SpatialInertia};
 
@@ -33,7 +33,7 @@ macro_rules! tuple {
             const BASE_MOTION: bool = false $(| $name::BASE_MOTION)*;
             const GRAVITIES: usize = 0 $(+ $name::GRAVITIES)*;
             const PAYLOAD: [bool; B] = joined(&[$($name::PAYLOAD),*]);
-            const SPINNING: bool = false $(| $name::SPINNING)*;
+            const GYROSCOPIC_ROTORS: bool = false $(| $name::GYROSCOPIC_ROTORS)*;
 
             #[inline(always)]
             fn payload(&self, body: usize, inertia: &mut SpatialInertia<R>) {
@@ -62,9 +62,9 @@ macro_rules! tuple {
                 $(self.$at.torque(joint, at, tau);)*
             }
             #[inline(always)]
-            fn slopes(&self, joint: usize, at: JointState<R>, slopes: &mut Slopes<R>) {
-                let _ = (joint, at, &slopes);
-                $(self.$at.slopes(joint, at, slopes);)*
+            fn derivatives(&self, joint: usize, at: JointState<R>, derivatives: &mut TorqueDerivatives<R>) {
+                let _ = (joint, at, &derivatives);
+                $(self.$at.derivatives(joint, at, derivatives);)*
             }
             #[inline(always)]
             fn advance(&mut self, joint: usize, at: JointState<R>, h: R) {

@@ -7,28 +7,28 @@
 use core::hint::black_box;
 
 use super::Engine;
-use super::articulated::Articulated;
-use super::factor::positive;
-use super::field::{Inertia, Wrench, enter};
-use super::known::Known;
-use super::prepare::Prepared;
-use super::rnea::{carries, loaded, stands};
-use super::size::noise;
-use super::small::{Mat3, Vec3};
+use super::acceleration_field::{Inertia, Wrench, enter};
+use super::articulated_inertia::Articulated;
+use super::compile::CompiledRobot;
+use super::folding::Folded;
+use super::folding::{Mat3, Vec3};
+use super::ltdl::positive;
+use super::pivot_noise::noise;
+use super::rnea::{is_on_base, is_parent, loaded};
 use crate::algorithms::NotPositiveDefinite;
 use crate::effects::Effect;
-use crate::model::{BASE, Robot, Turn};
+use crate::model::{BASE, JointCoordinate, Robot};
 use crate::scalar::{Real, Vector};
-use crate::state::{Posture, State};
+use crate::state::{JointTrig, State};
 
 impl<T> Engine<T> {
-    /// q̈ = FD(q, q̇, τ) as [`Engine::forward`] has it, by articulated bodies.
+    /// q̈ = FD(q, q̇, τ) as [`Engine::forward_dynamics`] has it, by articulated bodies.
     ///
     /// Cost: O(V), but more than that of `forward` on short chains: `docs/costs.md` in the repository.
     /// `state.qdd` is not read. Source: Featherstone (1983; RBDA table 7.1).
     ///
     /// # Errors
-    /// As [`Engine::forward`].
+    /// As [`Engine::forward_dynamics`].
     #[inline(never)]
     pub fn aba<R: Real, E, const B: usize, const Q: usize, const V: usize>(
         state: &State<R, Q, V>,
@@ -45,10 +45,10 @@ impl<T> Engine<T> {
     /// As [`Engine::aba`], at a posture whose sines and cosines are at hand.
     ///
     /// # Errors
-    /// As [`Engine::forward`].
+    /// As [`Engine::forward_dynamics`].
     #[inline(never)]
     pub fn aba_at<R: Real, E, const B: usize, const Q: usize, const V: usize>(
-        posture: &Posture<R, Q>,
+        posture: &JointTrig<R, Q>,
         state: &State<R, Q, V>,
         tau: &[R; V],
         effects: &E,
@@ -63,18 +63,18 @@ impl<T> Engine<T> {
 
 /// What the pass to the base leaves for the pass to the tips.
 struct Task<'a, R, E, const Q: usize, const V: usize> {
-    turns: &'a [Turn<R>; Q],
+    turns: &'a [JointCoordinate<R>; Q],
     effects: &'a E,
     /// U = Iᴬ S: couple and force.
     u: &'a mut [[R; 6]; V],
-    per_d: &'a mut [R; V],
+    d_inv: &'a mut [R; V],
     /// The torques, less what the bodies beyond push with; then the accelerations.
     x: &'a mut [R; V],
 }
 
 #[inline(always)]
 fn accelerate<R, T, E, const B: usize, const Q: usize, const V: usize>(
-    posture: &Posture<R, Q>,
+    posture: &JointTrig<R, Q>,
     state: &State<R, Q, V>,
     tau: &[R; V],
     effects: &E,
@@ -87,26 +87,26 @@ where
     // One phase after the other: as one block they would need more registers than there are.
     let mut x = Engine::<T>::remaining(posture, state, tau, effects);
     black_box(&mut x);
-    let (mut u, mut per_d) = ([[R::ZERO; 6]; V], [R::ZERO; V]);
+    let (mut u, mut d_inv) = ([[R::ZERO; 6]; V], [R::ZERO; V]);
     let mut task = Task {
         turns: &posture.turns,
         effects,
         u: &mut u,
-        per_d: &mut per_d,
+        d_inv: &mut d_inv,
         x: &mut x,
     };
     for_each_joint!(J, {
-        if const { stands::<T, B, Q, V>(J) } {
-            let _ = gather::<R, T, E, B, Q, V, J>(&mut task);
+        if const { is_on_base::<T, B, Q, V>(J) } {
+            let _ = inward::<R, T, E, B, Q, V, J>(&mut task);
         }
     });
     positive(
-        task.per_d,
+        task.d_inv,
         &noise::<R, T, E, B, Q, V>(&posture.turns, effects),
     )?;
     for_each_joint!(J, {
-        if const { stands::<T, B, Q, V>(J) } {
-            swing::<R, T, E, B, Q, V, J>(&mut task, [R::Vec3::ZERO; 2]);
+        if const { is_on_base::<T, B, Q, V>(J) } {
+            outward::<R, T, E, B, Q, V, J>(&mut task, [R::Vec3::ZERO; 2]);
         }
     });
     Ok(x)
@@ -114,7 +114,7 @@ where
 
 /// To the base: the articulated inertia of joint I and what it pushes with, in the parent's frame.
 #[inline(always)]
-fn gather<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
+fn inward<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     task: &mut Task<'_, R, E, Q, V>,
 ) -> (Articulated<R>, Wrench<R>)
 where
@@ -122,10 +122,10 @@ where
     T: Robot<B, Q, V>,
     E: Effect<R, B, V>,
 {
-    let joint = const { &Prepared::<T, B, Q, V>::joint(I) };
-    let per_length = Known::constant(const { 1.0 / Prepared::<T, B, Q, V>::TREE.length });
+    let joint = const { &CompiledRobot::<T, B, Q, V>::joint(I) };
+    let length_inv = Folded::constant(const { 1.0 / CompiledRobot::<T, B, Q, V>::TREE.length });
     let mut body = Inertia::of(joint);
-    if const { Prepared::<T, B, Q, V>::loads(I, &E::PAYLOAD) > 0 } {
+    if const { CompiledRobot::<T, B, Q, V>::loads(I, &E::PAYLOAD) > 0 } {
         body = loaded::<R, T, E, B, Q, V, I>(task.effects, body);
     }
     let mut ia = Articulated::of(&body);
@@ -134,8 +134,8 @@ where
         n: Vec3::ZERO,
     };
     for_each_joint!(J, {
-        if const { carries::<T, B, Q, V>(I, J) } {
-            let (inertia, wrench) = gather::<R, T, E, B, Q, V, J>(task);
+        if const { is_parent::<T, B, Q, V>(I, J) } {
+            let (inertia, wrench) = inward::<R, T, E, B, Q, V, J>(task);
             ia = ia + inertia;
             push = Wrench {
                 f: push.f + wrench.f,
@@ -146,38 +146,38 @@ where
     let (n, f) = if joint.prismatic {
         let [_, _, n] = ia.mixed.0;
         let [_, _, f] = ia.moving.columns();
-        (n.scale(per_length), f.scale(per_length))
+        (n.scale(length_inv), f.scale(length_inv))
     } else {
         let [_, _, n] = ia.turning.columns();
         let [_, _, f] = ia.mixed.rows();
         (n, f)
     };
-    let mut d = Wrench { f, n }.along(joint.prismatic, per_length).get();
+    let mut d = Wrench { f, n }.along(joint.prismatic, length_inv).get();
     task.effects.inertia(I, &mut d);
-    let per_d = R::ONE / d;
-    let rest = Known::any(task.x[I]) - push.along(joint.prismatic, per_length);
+    let d_inv = R::ONE / d;
+    let rest = Folded::runtime(task.x[I]) - push.along(joint.prismatic, length_inv);
     let ([nx, ny, nz], [fx, fy, fz]) = (n.0, f.0);
     task.u[I] = [nx.get(), ny.get(), nz.get(), fx.get(), fy.get(), fz.get()];
-    task.per_d[I] = per_d;
+    task.d_inv[I] = d_inv;
     task.x[I] = rest.get();
 
-    let gain = rest * Known::any(per_d);
+    let gain = rest * Folded::runtime(d_inv);
     push = Wrench {
         f: push.f + f.scale(gain),
         n: push.n + n.scale(gain),
     };
     let turn = task.turns[I];
-    let slide = Known::any(turn.q) * per_length;
+    let slide = Folded::runtime(turn.q) * length_inv;
     (
-        ia.yielding(n, f, Known::any(per_d))
-            .handed_down::<T, B, Q, V, I>(turn, slide),
-        push.handed_down::<T, B, Q, V, I>(turn, slide),
+        ia.minus_joint(n, f, Folded::runtime(d_inv))
+            .to_parent::<T, B, Q, V, I>(turn, slide),
+        push.to_parent::<T, B, Q, V, I>(turn, slide),
     )
 }
 
 /// To the tips: the acceleration of joint I, from its parent's α and a.
 #[inline(always)]
-fn swing<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
+fn outward<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     task: &mut Task<'_, R, E, Q, V>,
     [alpha, a]: [R::Vec3; 2],
 ) where
@@ -185,18 +185,18 @@ fn swing<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usize
     T: Robot<B, Q, V>,
     E: Effect<R, B, V>,
 {
-    let joint = const { &Prepared::<T, B, Q, V>::joint(I) };
-    let per_length = Known::constant(const { 1.0 / Prepared::<T, B, Q, V>::TREE.length });
+    let joint = const { &CompiledRobot::<T, B, Q, V>::joint(I) };
+    let length_inv = Folded::constant(const { 1.0 / CompiledRobot::<T, B, Q, V>::TREE.length });
     let (rot, p) = (Mat3::constant(&joint.rot), Vec3::constant(joint.pos));
     let turn = task.turns[I];
     // Plain numbers: what is known of them ends with the first joints, which are at rest.
     let (mut alpha, mut a) = if joint.parent == BASE {
         (Vec3::ZERO, Vec3::ZERO)
     } else {
-        (Vec3::any(alpha), Vec3::any(a))
+        (Vec3::runtime(alpha), Vec3::runtime(a))
     };
     (alpha, a) = if joint.prismatic {
-        let p = p + rot.0[2].scale(Known::any(turn.q) * per_length);
+        let p = p + rot.0[2].scale(Folded::runtime(turn.q) * length_inv);
         (
             rot.transpose_mul(alpha),
             rot.transpose_mul(a + alpha.cross(p)),
@@ -207,18 +207,18 @@ fn swing<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usize
             enter(&rot, turn, a + alpha.cross(p)),
         )
     };
-    let [nx, ny, nz, fx, fy, fz] = task.u[I].map(Known::any);
+    let [nx, ny, nz, fx, fy, fz] = task.u[I].map(Folded::runtime);
     let lost = Vec3([nx, ny, nz]).dot(alpha) + Vec3([fx, fy, fz]).dot(a);
-    let qdd = (Known::any(task.x[I]) - lost) * Known::any(task.per_d[I]);
+    let qdd = (Folded::runtime(task.x[I]) - lost) * Folded::runtime(task.d_inv[I]);
     task.x[I] = qdd.get();
     if joint.prismatic {
-        a.0[2] = a.0[2] + qdd * per_length;
+        a.0[2] = a.0[2] + qdd * length_inv;
     } else {
         alpha.0[2] = alpha.0[2] + qdd;
     }
     for_each_joint!(J, {
-        if const { carries::<T, B, Q, V>(I, J) } {
-            swing::<R, T, E, B, Q, V, J>(task, [alpha.get(), a.get()]);
+        if const { is_parent::<T, B, Q, V>(I, J) } {
+            outward::<R, T, E, B, Q, V, J>(task, [alpha.get(), a.get()]);
         }
     });
 }

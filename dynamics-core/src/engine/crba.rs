@@ -4,17 +4,17 @@
 //! composite bodies are known zeros behind revolute joints, and h travels as R h.
 
 use super::Engine;
-use super::base::no_spinning;
-use super::field::{Inertia, Wrench, along_z};
-use super::known::Known;
-use super::prepare::Prepared;
-use super::rnea::{carries, loaded, stands};
-use super::small::Vec3;
+use super::acceleration_field::{Inertia, Wrench, along_z};
+use super::base::no_gyroscopic_rotors;
+use super::compile::CompiledRobot;
+use super::folding::Folded;
+use super::folding::Vec3;
+use super::rnea::{is_on_base, is_parent, loaded};
+use crate::algorithms::MassMatrix;
 use crate::effects::Effect;
-use crate::mass_matrix::MassMatrix;
-use crate::model::{BASE, Robot, Turn};
+use crate::model::{BASE, JointCoordinate, Robot};
 use crate::scalar::Real;
-use crate::state::Posture;
+use crate::state::JointTrig;
 
 impl<T> Engine<T> {
     /// M(q), kg·m², kg and kg·m, with the rotors and the payload that the effects name.
@@ -24,9 +24,9 @@ impl<T> Engine<T> {
     /// whatever the data. Source: Walker & Orin (1982); Featherstone, RBDA (2008), table 6.2.
     ///
     /// ```
-    /// use dynamics_core::{Engine, effects::{RIGID_BODY, RotorInertia}, robots::Ur5e};
+    /// use dynamics_core::{Engine, effects::{RIGID_BODY, Armature}, robots::Ur5e};
     /// let q = [0.0_f32, -1.2, 1.5, 0.3, 0.0, 0.0];
-    /// let (bare, geared) = (Engine::<Ur5e>::crba(&q, &RIGID_BODY), RotorInertia([0.5; 6]));
+    /// let (bare, geared) = (Engine::<Ur5e>::crba(&q, &RIGID_BODY), Armature([0.5; 6]));
     /// let driven = Engine::<Ur5e>::crba(&q, &(RIGID_BODY, geared));
     /// assert_eq!(driven.get(2, 2), bare.get(2, 2) + 0.5);
     /// ```
@@ -47,7 +47,7 @@ impl<T> Engine<T> {
     /// As [`Engine::crba`], at a posture whose sines and cosines are at hand.
     #[inline(never)]
     pub fn crba_at<R: Real, E, const B: usize, const Q: usize, const V: usize>(
-        posture: &Posture<R, Q>,
+        posture: &JointTrig<R, Q>,
         effects: &E,
     ) -> MassMatrix<R, V>
     where
@@ -62,7 +62,7 @@ impl<T> Engine<T> {
 
 /// What all bodies share.
 struct Task<'a, R, E, const Q: usize, const V: usize> {
-    turns: &'a [Turn<R>; Q],
+    turns: &'a [JointCoordinate<R>; Q],
     effects: &'a E,
     m: &'a mut MassMatrix<R, V>,
 }
@@ -70,7 +70,7 @@ struct Task<'a, R, E, const Q: usize, const V: usize> {
 /// Writes M(q), both triangles; what is zero by the tree's branches stays as it is.
 #[inline(always)]
 pub(crate) fn mass_matrix<R, T, E, const B: usize, const Q: usize, const V: usize>(
-    turns: &[Turn<R>; Q],
+    turns: &[JointCoordinate<R>; Q],
     effects: &E,
     m: &mut MassMatrix<R, V>,
 ) where
@@ -78,10 +78,10 @@ pub(crate) fn mass_matrix<R, T, E, const B: usize, const Q: usize, const V: usiz
     T: Robot<B, Q, V>,
     E: Effect<R, B, V>,
 {
-    no_spinning::<R, E, B, V>();
+    no_gyroscopic_rotors::<R, E, B, V>();
     let mut task = Task { turns, effects, m };
     for_each_joint!(J, {
-        if const { stands::<T, B, Q, V>(J) } {
+        if const { is_on_base::<T, B, Q, V>(J) } {
             let _ = composite::<R, T, E, B, Q, V, J>(&mut task);
         }
     });
@@ -98,20 +98,20 @@ where
     T: Robot<B, Q, V>,
     E: Effect<R, B, V>,
 {
-    let joint = const { &Prepared::<T, B, Q, V>::joint(I) };
+    let joint = const { &CompiledRobot::<T, B, Q, V>::joint(I) };
     let mut body = Inertia::of(joint);
-    if const { Prepared::<T, B, Q, V>::loads(I, &E::PAYLOAD) > 0 } {
+    if const { CompiledRobot::<T, B, Q, V>::loads(I, &E::PAYLOAD) > 0 } {
         body = loaded::<R, T, E, B, Q, V, I>(task.effects, body);
     }
     for_each_joint!(J, {
-        if const { carries::<T, B, Q, V>(I, J) } {
+        if const { is_parent::<T, B, Q, V>(I, J) } {
             body = body + composite::<R, T, E, B, Q, V, J>(task);
         }
     });
     column::<R, T, E, B, Q, V, I>(task, &body);
-    let per_length = Known::constant(const { 1.0 / Prepared::<T, B, Q, V>::TREE.length });
+    let length_inv = Folded::constant(const { 1.0 / CompiledRobot::<T, B, Q, V>::TREE.length });
     let turn = task.turns[I];
-    body.handed_down::<T, B, Q, V, I>(turn, Known::any(turn.q) * per_length)
+    body.to_parent::<T, B, Q, V, I>(turn, Folded::runtime(turn.q) * length_inv)
 }
 
 /// Column I of M: the wrench of joint I's unit acceleration, felt at each joint down to the base.
@@ -124,33 +124,34 @@ fn column<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usiz
     T: Robot<B, Q, V>,
     E: Effect<R, B, V>,
 {
-    let joint = const { &Prepared::<T, B, Q, V>::joint(I) };
-    let per_length = Known::constant(const { 1.0 / Prepared::<T, B, Q, V>::TREE.length });
+    let joint = const { &CompiledRobot::<T, B, Q, V>::joint(I) };
+    let length_inv = Folded::constant(const { 1.0 / CompiledRobot::<T, B, Q, V>::TREE.length });
     let ([hx, hy, _], s) = (body.moment.0, &body.second);
     let mut wrench = if joint.prismatic {
         Wrench {
-            f: along_z(body.mass * per_length),
-            n: Vec3([hy, -hx, Known::ZERO]).scale(per_length),
+            f: along_z(body.mass * length_inv),
+            n: Vec3([hy, -hx, Folded::ZERO]).scale(length_inv),
         }
     } else {
         Wrench {
-            f: Vec3([-hy, hx, Known::ZERO]),
+            f: Vec3([-hy, hx, Folded::ZERO]),
             n: Vec3([-s.xz, -s.yz, s.xx + s.yy]),
         }
     };
-    let mut diagonal = wrench.along(joint.prismatic, per_length).get();
+    let mut diagonal = wrench.along(joint.prismatic, length_inv).get();
     task.effects.inertia(I, &mut diagonal);
     task.m.rows[I][I] = diagonal;
     // From joint I to the base: parents come before their children.
     for_each_joint!(N, {
         const K: usize = 31 - N;
-        if const { Prepared::<T, B, Q, V>::supports(K, I) } {
-            let joint = const { &Prepared::<T, B, Q, V>::joint(K) };
+        if const { CompiledRobot::<T, B, Q, V>::supports(K, I) } {
+            let joint = const { &CompiledRobot::<T, B, Q, V>::joint(K) };
             if joint.parent != BASE {
                 let turn = task.turns[K];
-                wrench = wrench.handed_down::<T, B, Q, V, K>(turn, Known::any(turn.q) * per_length);
-                let above = const { &Prepared::<T, B, Q, V>::parent_of(K) };
-                let entry = wrench.along(above.prismatic, per_length).get();
+                wrench =
+                    wrench.to_parent::<T, B, Q, V, K>(turn, Folded::runtime(turn.q) * length_inv);
+                let above = const { &CompiledRobot::<T, B, Q, V>::parent_of(K) };
+                let entry = wrench.along(above.prismatic, length_inv).get();
                 task.m.rows[I][joint.parent] = entry;
                 task.m.rows[joint.parent][I] = entry;
             }

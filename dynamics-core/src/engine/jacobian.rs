@@ -3,14 +3,14 @@
 //! Featherstone, RBDA (2008), section 4.1; axes and arms in base coordinates: z_j, z_j × (p − p_j).
 
 use super::Engine;
-use super::known::Known;
-use super::prepare::Prepared;
-use super::rnea::carries;
-use super::small::{Mat3, Vec3};
-use crate::model::{BASE, Robot, Turn};
+use super::compile::CompiledRobot;
+use super::folding::Folded;
+use super::folding::{Mat3, Vec3};
+use super::rnea::is_parent;
+use crate::model::{BASE, JointCoordinate, Robot};
 use crate::scalar::{Real, Vector};
 use crate::spatial::Motion;
-use crate::state::Posture;
+use crate::state::JointTrig;
 
 impl<T> Engine<T> {
     /// J with V = J q̇: the velocity of the body of the number BODY, by columns, one a joint.
@@ -47,7 +47,7 @@ impl<T> Engine<T> {
     /// As [`Engine::jacobian`], at a posture whose sines and cosines are at hand.
     #[inline(never)]
     pub fn jacobian_at<const BODY: usize, R: Real, const B: usize, const Q: usize, const V: usize>(
-        posture: &Posture<R, Q>,
+        posture: &JointTrig<R, Q>,
     ) -> [Motion<R>; V]
     where
         T: Robot<B, Q, V>,
@@ -59,7 +59,7 @@ impl<T> Engine<T> {
 /// The columns of the joints that carry the body; zero for others.
 #[inline(always)]
 fn columns<R: Real, T, const B: usize, const Q: usize, const V: usize, const BODY: usize>(
-    turns: &[Turn<R>; Q],
+    turns: &[JointCoordinate<R>; Q],
 ) -> [Motion<R>; V]
 where
     T: Robot<B, Q, V>,
@@ -72,7 +72,7 @@ where
     }
     let mut columns = [Motion::ZERO; V];
     for_each_joint!(J, {
-        if const { leads::<T, B, Q, V, BODY>(BASE, J) } {
+        if const { is_supporting::<T, B, Q, V, BODY>(BASE, J) } {
             let base = Mat3::constant(&glam::DMat3::IDENTITY);
             let _ = reach::<R, T, B, Q, V, BODY, J>(turns, &base, &mut columns);
         }
@@ -92,33 +92,33 @@ fn reach<
     const BODY: usize,
     const I: usize,
 >(
-    turns: &[Turn<R>; Q],
+    turns: &[JointCoordinate<R>; Q],
     parent: &Mat3<R>,
     columns: &mut [Motion<R>; V],
 ) -> Vec3<R>
 where
     T: Robot<B, Q, V>,
 {
-    let joint = const { &Prepared::<T, B, Q, V>::joint(I) };
-    let length = const { Prepared::<T, B, Q, V>::TREE.length };
+    let joint = const { &CompiledRobot::<T, B, Q, V>::joint(I) };
+    let length = const { CompiledRobot::<T, B, Q, V>::TREE.length };
     let rot = Mat3::constant(&joint.rot);
     let [x, y, z] = rot.0;
     let (x, y, z) = (parent.mul(x), parent.mul(y), parent.mul(z));
     let mut offset = parent.mul(Vec3::constant(joint.pos * length));
     let mut axes = Mat3([x, y, z]);
     if joint.prismatic {
-        offset = offset + z.scale(Known::any(turns[I].q));
+        offset = offset + z.scale(Folded::runtime(turns[I].q));
     } else {
-        let (sin, cos) = (Known::any(turns[I].sin), Known::any(turns[I].cos));
+        let (sin, cos) = (Folded::runtime(turns[I].sin), Folded::runtime(turns[I].cos));
         axes = Mat3([x.scale(cos) + y.scale(sin), y.scale(cos) - x.scale(sin), z]);
     }
     let mut way = Vec3::<R>::ZERO;
-    if const { Prepared::<T, B, Q, V>::place(BODY).joint == I } {
-        let place = const { &Prepared::<T, B, Q, V>::place(BODY) };
+    if const { CompiledRobot::<T, B, Q, V>::place(BODY).joint == I } {
+        let place = const { &CompiledRobot::<T, B, Q, V>::place(BODY) };
         way = axes.mul(Vec3::constant(place.pos * length));
     }
     for_each_joint!(J, {
-        if const { leads::<T, B, Q, V, BODY>(I, J) } {
+        if const { is_supporting::<T, B, Q, V, BODY>(I, J) } {
             way = reach::<R, T, B, Q, V, BODY, J>(turns, &axes, columns);
         }
     });
@@ -131,13 +131,13 @@ where
 }
 
 /// Whether joint `j` is the next after joint `i` on the way to the body.
-const fn leads<T, const B: usize, const Q: usize, const V: usize, const BODY: usize>(
+const fn is_supporting<T, const B: usize, const Q: usize, const V: usize, const BODY: usize>(
     i: usize,
     j: usize,
 ) -> bool
 where
     T: Robot<B, Q, V>,
 {
-    carries::<T, B, Q, V>(i, j)
-        && Prepared::<T, B, Q, V>::supports(j, Prepared::<T, B, Q, V>::place(BODY).joint)
+    is_parent::<T, B, Q, V>(i, j)
+        && CompiledRobot::<T, B, Q, V>::supports(j, CompiledRobot::<T, B, Q, V>::place(BODY).joint)
 }

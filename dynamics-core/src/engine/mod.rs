@@ -21,35 +21,32 @@ macro_rules! for_each_joint {
 }
 
 mod aba;
-mod articulated;
+mod acceleration_field;
+mod articulated_inertia;
 mod base;
+mod compile;
 mod crba;
-mod factor;
-mod field;
-mod forward;
+mod folding;
+mod forward_dynamics;
 mod jacobian;
-mod known;
-mod limb;
-mod place;
+mod ltdl;
+mod pivot_noise;
 mod pose;
-mod prepare;
-mod prune;
 mod rnea;
-mod size;
-mod small;
+mod subtree;
 
 use core::hint::black_box;
 use core::marker::PhantomData;
 
 use crate::effects::Effect;
-use crate::model::{Robot, Turn};
+use crate::model::{JointCoordinate, Robot};
 use crate::scalar::Real;
-use crate::state::{Posture, State};
+use crate::state::{JointTrig, State};
 use crate::trig::Kernel;
 use base::base;
-use limb::{is_large, limb};
-use prepare::Prepared;
-use rnea::{Task, stands, visit};
+use compile::CompiledRobot;
+use rnea::{Task, is_on_base, visit};
+use subtree::{has_subtree_functions, root_subtree};
 
 /// The specialised form of the robot `T`.
 ///
@@ -76,10 +73,10 @@ use rnea::{Task, stands, visit};
 /// nor does one of more joints:
 ///
 /// ```compile_fail,E0080
-/// use dynamics_core::{Engine, model::{Arm, BASE, Body, Joint, Model, Robot}};
+/// use dynamics_core::{Engine, model::{ArmModel, BASE, Body, Joint, Model, Robot}};
 /// struct Comb;
 /// impl Robot<33, 33, 33> for Comb {
-///     const MODEL: Arm<f64, 33> = Model::new("comb", [Body::new("tooth", BASE, Joint::prismatic([1.0, 0.0, 0.0])); 33]);
+///     const MODEL: ArmModel<f64, 33> = Model::new("comb", [Body::new("tooth", BASE, Joint::prismatic([1.0, 0.0, 0.0])); 33]);
 /// }
 /// let _ = Engine::<Comb>::posture(&[0.1_f32; 33]);
 /// // error: the engine takes up to 32 moving bodies; use `Core`
@@ -92,45 +89,45 @@ impl<T> Engine<T> {
     #[inline(always)]
     pub fn posture<R: Real, const B: usize, const Q: usize, const V: usize>(
         q: &[R; Q],
-    ) -> Posture<R, Q>
+    ) -> JointTrig<R, Q>
     where
         T: Robot<B, Q, V>,
     {
-        let mut turns = [Turn::default(); Q];
+        let mut turns = [JointCoordinate::default(); Q];
         for_each_joint!(J, {
             if const { J < V } {
-                let joint = const { &Prepared::<T, B, Q, V>::joint(J) };
+                let joint = const { &CompiledRobot::<T, B, Q, V>::joint(J) };
                 turns[J] = match (joint.prismatic, joint.near) {
-                    (true, _) => Turn::plain(q[J]),
-                    (false, true) => Turn::near(q[J]),
-                    (false, false) => Turn::new(q[J]),
+                    (true, _) => JointCoordinate::linear(q[J]),
+                    (false, true) => JointCoordinate::revolute_bounded(q[J]),
+                    (false, false) => JointCoordinate::revolute(q[J]),
                 };
             }
         });
-        Posture { turns }
+        JointTrig { turns }
     }
 
     /// As [`Engine::posture`], sines and cosines by the kernel K.
     #[inline(always)]
     pub fn posture_by<K, R, const B: usize, const Q: usize, const V: usize>(
         q: &[R; Q],
-    ) -> Posture<R, Q>
+    ) -> JointTrig<R, Q>
     where
         K: Kernel<R>,
         R: Real,
         T: Robot<B, Q, V>,
     {
-        let mut turns = [Turn::default(); Q];
+        let mut turns = [JointCoordinate::default(); Q];
         for_each_joint!(J, {
             if const { J < V } {
-                turns[J] = if const { Prepared::<T, B, Q, V>::joint(J).prismatic } {
-                    Turn::plain(q[J])
+                turns[J] = if const { CompiledRobot::<T, B, Q, V>::joint(J).prismatic } {
+                    JointCoordinate::linear(q[J])
                 } else {
-                    Turn::by::<K>(q[J])
+                    JointCoordinate::with_kernel::<K>(q[J])
                 };
             }
         });
-        Posture { turns }
+        JointTrig { turns }
     }
 
     /// τ = ID(q, q̇, q̈): the torque of each motor, N·m or N, as [`crate::algorithms::rnea`] has it.
@@ -178,7 +175,7 @@ impl<T> Engine<T> {
     /// As [`Engine::rnea`], at a posture whose sines and cosines are at hand.
     #[inline(never)]
     pub fn rnea_at<R: Real, E, const B: usize, const Q: usize, const V: usize>(
-        posture: &Posture<R, Q>,
+        posture: &JointTrig<R, Q>,
         state: &State<R, Q, V>,
         effects: &E,
     ) -> [R; V]
@@ -197,8 +194,8 @@ impl<T> Engine<T> {
 
     #[inline(always)]
     pub(crate) fn run<R: Real, E, const B: usize, const Q: usize, const V: usize>(
-        posture: &Posture<R, Q>,
-        back: &Posture<R, Q>,
+        posture: &JointTrig<R, Q>,
+        back: &JointTrig<R, Q>,
         state: &State<R, Q, V>,
         effects: &E,
     ) -> [R; V]
@@ -206,7 +203,7 @@ impl<T> Engine<T> {
         T: Robot<B, Q, V>,
         E: Effect<R, B, V>,
     {
-        let length = const { Prepared::<T, B, Q, V>::TREE.length };
+        let length = const { CompiledRobot::<T, B, Q, V>::TREE.length };
         let base = base::<R, E, B, V>(effects, length);
         let mut tau = [R::ZERO; V];
         let mut task = Task {
@@ -217,9 +214,9 @@ impl<T> Engine<T> {
             tau: &mut tau,
         };
         for_each_joint!(J, {
-            if const { stands::<T, B, Q, V>(J) } {
-                if const { is_large(V) } {
-                    limb::<R, T, E, B, Q, V, J>(&mut task);
+            if const { is_on_base::<T, B, Q, V>(J) } {
+                if const { has_subtree_functions(V) } {
+                    root_subtree::<R, T, E, B, Q, V, J>(&mut task);
                 } else {
                     visit::<R, T, E, B, Q, V, J>(&mut task, &base);
                 }

@@ -1,9 +1,9 @@
 //! Where a body stands in the base, for effects that ask.
 
-use super::known::Known;
-use super::prepare::{Joint, Place};
-use super::small::{Mat3, Vec3};
-use crate::model::Turn;
+use super::compile::{BodyPlacement, Joint};
+use super::folding::Folded;
+use super::folding::{Mat3, Vec3};
+use crate::model::JointCoordinate;
 use crate::scalar::{Matrix, Real};
 use crate::spatial::Xform;
 
@@ -23,7 +23,7 @@ impl<R: Real> Pose<R> {
 
     /// The base itself.
     pub(crate) const BASE: Self = {
-        let (one, zero) = (Known::ONE, Known::ZERO);
+        let (one, zero) = (Folded::ONE, Folded::ZERO);
         Self {
             axes: Mat3([
                 Vec3([one, zero, zero]),
@@ -36,7 +36,12 @@ impl<R: Real> Pose<R> {
 
     /// The pose of a child behind `joint`.
     #[inline(always)]
-    pub(crate) fn beyond(&self, joint: &Joint, turn: Turn<R>, slide: Known<R>) -> Self {
+    pub(crate) fn transformed_by(
+        &self,
+        joint: &Joint,
+        turn: JointCoordinate<R>,
+        slide: Folded<R>,
+    ) -> Self {
         let rot = Mat3::constant(&joint.rot);
         let [x, y, z] = rot.0;
         let [x, y, z] = [self.axes.mul(x), self.axes.mul(y), self.axes.mul(z)];
@@ -47,7 +52,7 @@ impl<R: Real> Pose<R> {
                 origin: origin + z.scale(slide),
             };
         }
-        let (sin, cos) = (Known::any(turn.sin), Known::any(turn.cos));
+        let (sin, cos) = (Folded::runtime(turn.sin), Folded::runtime(turn.cos));
         Self {
             axes: Mat3([x.scale(cos) + y.scale(sin), y.scale(cos) - x.scale(sin), z]),
             origin,
@@ -56,7 +61,7 @@ impl<R: Real> Pose<R> {
 
     /// ᵘX₀ of a body of the description: from the base to its own frame.
     #[inline(always)]
-    pub(crate) fn of(&self, place: &Place, length: Known<R>) -> Xform<R> {
+    pub(crate) fn of(&self, place: &BodyPlacement, length: Folded<R>) -> Xform<R> {
         let [x, y, z] = Mat3::constant(&place.rot).0;
         let axes = [self.axes.mul(x), self.axes.mul(y), self.axes.mul(z)];
         let [x, y, z] = axes.map(Vec3::get);

@@ -1,22 +1,22 @@
 //! Inverse dynamics by one recursion over the bodies: out on the way down, back on the way up, so
 //! that what lies between stays in registers.
 
-use super::field::{Field, Inertia, Rates, Wrench};
-use super::known::Known;
-use super::limb::carried;
-use super::prepare::{Place, Prepared, Tree};
-use super::small::{Mat3, Sym3, Vec3};
+use super::acceleration_field::{AccelerationField, Inertia, Rates, Wrench};
+use super::compile::{BodyPlacement, CompiledRobot, CompiledTree};
+use super::folding::Folded;
+use super::folding::{Mat3, Sym3, Vec3};
+use super::subtree::visit_child;
 use crate::effects::{BodyState, Effect, JointState};
-use crate::model::{BASE, Robot, Turn};
+use crate::model::{BASE, JointCoordinate, Robot};
 use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::{Force, Motion, SpatialInertia, Xform};
 use crate::state::State;
 
 /// What all bodies share.
 pub(crate) struct Task<'a, R: Real, E, const Q: usize, const V: usize> {
-    pub(crate) turns: &'a [Turn<R>; Q],
+    pub(crate) turns: &'a [JointCoordinate<R>; Q],
     /// The same, to be loaded anew on the way up where registers are short.
-    pub(crate) back: &'a [Turn<R>; Q],
+    pub(crate) back: &'a [JointCoordinate<R>; Q],
     pub(crate) state: &'a State<R, Q, V>,
     pub(crate) effects: &'a E,
     pub(crate) tau: &'a mut [R; V],
@@ -26,32 +26,32 @@ pub(crate) struct Task<'a, R: Real, E, const Q: usize, const V: usize> {
 #[inline(always)]
 pub(crate) fn visit<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     task: &mut Task<'_, R, E, Q, V>,
-    parent: &Field<R>,
+    parent: &AccelerationField<R>,
 ) -> Wrench<R>
 where
     R: Real,
     T: Robot<B, Q, V>,
     E: Effect<R, B, V>,
 {
-    let tree: &'static Tree<B, V> = const { &Prepared::<T, B, Q, V>::TREE };
-    let joint = const { &Prepared::<T, B, Q, V>::joint(I) };
+    let tree: &'static CompiledTree<B, V> = const { &CompiledRobot::<T, B, Q, V>::TREE };
+    let joint = const { &CompiledRobot::<T, B, Q, V>::joint(I) };
     let at = JointState {
         q: task.state.q[I],
         qd: task.state.qd[I],
         qdd: task.state.qdd[I],
     };
     let turn = task.turns[I];
-    let per_length = Known::constant(1.0 / tree.length);
-    let slide = Known::any(turn.q) * per_length;
+    let length_inv = Folded::constant(1.0 / tree.length);
+    let slide = Folded::runtime(turn.q) * length_inv;
     let unit = if joint.prismatic {
-        per_length
+        length_inv
     } else {
-        Known::constant(1.0)
+        Folded::constant(1.0)
     };
     let rates = Rates {
-        velocity: Known::only_if(E::BODY_VELOCITY, at.qd) * unit,
-        spin: Known::only_if(E::VELOCITY_PRODUCTS, at.qd) * unit,
-        accel: Known::only_if(E::ACCELERATIONS, at.qdd) * unit,
+        velocity: Folded::runtime_if(E::BODY_VELOCITY, at.qd) * unit,
+        spin: Folded::runtime_if(E::VELOCITY_PRODUCTS, at.qd) * unit,
+        accel: Folded::runtime_if(E::ACCELERATIONS, at.qdd) * unit,
     };
 
     let mut field = if joint.prismatic {
@@ -60,14 +60,14 @@ where
         parent.turned(joint, turn, rates)
     };
     if E::BODY_POSE {
-        field.pose = parent.pose.beyond(joint, turn, slide);
+        field.pose = parent.pose.transformed_by(joint, turn, slide);
     }
     let mut body = if E::BASE_MOTION {
-        Inertia::rocked(joint)
+        Inertia::second_moment_only(joint)
     } else {
         Inertia::of(joint)
     };
-    if const { Prepared::<T, B, Q, V>::loads(I, &E::PAYLOAD) > 0 } {
+    if const { CompiledRobot::<T, B, Q, V>::loads(I, &E::PAYLOAD) > 0 } {
         body = loaded::<R, T, E, B, Q, V, I>(task.effects, body);
     }
     let mut total = field.wrench(&body);
@@ -76,8 +76,8 @@ where
     }
 
     for_each_joint!(J, {
-        if const { carries::<T, B, Q, V>(I, J) } {
-            let child = carried::<R, T, E, B, Q, V, I, J>(task, &field);
+        if const { is_parent::<T, B, Q, V>(I, J) } {
+            let child = visit_child::<R, T, E, B, Q, V, I, J>(task, &field);
             total = Wrench {
                 f: total.f + child.f,
                 n: total.n + child.n,
@@ -85,16 +85,16 @@ where
         }
     });
 
-    let mut tau = total.along(joint.prismatic, per_length).get();
+    let mut tau = total.along(joint.prismatic, length_inv).get();
     task.effects.torque(I, at, &mut tau);
     task.tau[I] = tau;
 
-    let turn = if const { long::<T, B, Q, V>() } {
+    let turn = if const { reload_sines::<T, B, Q, V>() } {
         task.back[I]
     } else {
         turn
     };
-    total.handed_down::<T, B, Q, V, I>(turn, slide)
+    total.to_parent::<T, B, Q, V, I>(turn, slide)
 }
 
 /// Adds the payloads of the bodies on joint I, which are given in those bodies' own frames, to its inertia.
@@ -110,18 +110,18 @@ where
 {
     const {
         assert!(
-            Prepared::<T, B, Q, V>::loads(I, &E::PAYLOAD) <= 32,
+            CompiledRobot::<T, B, Q, V>::loads(I, &E::PAYLOAD) <= 32,
             "the engine takes up to 32 bodies with payloads on one joint; use `Core`"
         )
     };
     for_each_joint!(K, {
-        if const { K < Prepared::<T, B, Q, V>::loads(I, &E::PAYLOAD) } {
-            let of = const { Prepared::<T, B, Q, V>::load(I, K, &E::PAYLOAD) };
+        if const { K < CompiledRobot::<T, B, Q, V>::loads(I, &E::PAYLOAD) } {
+            let of = const { CompiledRobot::<T, B, Q, V>::load(I, K, &E::PAYLOAD) };
             let place = const {
-                let of = Prepared::<T, B, Q, V>::load(I, K, &E::PAYLOAD);
-                &Prepared::<T, B, Q, V>::place(of)
+                let of = CompiledRobot::<T, B, Q, V>::load(I, K, &E::PAYLOAD);
+                &CompiledRobot::<T, B, Q, V>::place(of)
             };
-            let length = const { Prepared::<T, B, Q, V>::TREE.length };
+            let length = const { CompiledRobot::<T, B, Q, V>::TREE.length };
             body = with_load(effects, of, place, length, body);
         }
     });
@@ -133,7 +133,7 @@ where
 fn with_load<R, E, const B: usize, const V: usize>(
     effects: &E,
     of: usize,
-    place: &'static Place,
+    place: &'static BodyPlacement,
     length: f64,
     body: Inertia<R>,
 ) -> Inertia<R>
@@ -142,20 +142,20 @@ where
     E: Effect<R, B, V>,
 {
     let (rot, d) = (Mat3::constant(&place.rot), Vec3::constant(place.pos));
-    let length = Known::constant(length);
+    let length = Folded::constant(length);
     let mut load = SpatialInertia::ZERO;
     effects.payload(of, &mut load);
-    let mass = Known::any(load.mass) * length * length;
-    let h = rot.mul(Vec3::any(load.moment)).scale(length);
+    let mass = Folded::runtime(load.mass) * length * length;
+    let h = rot.mul(Vec3::runtime(load.first_moment)).scale(length);
     // Σ = ½ tr(Ī) 1 − Ī, turned and moved to the joint's frame.
     let [x, y, z] = load.inertia.cols();
     let trace = x.array()[0] + y.array()[1] + z.array()[2];
-    let half = Known::any(trace * R::from_f64(0.5));
-    let zero = Known::ZERO;
+    let half = Folded::runtime(trace * R::from_f64(0.5));
+    let zero = Folded::ZERO;
     let sigma = Mat3([
-        rot.mul(Vec3([half, zero, zero]) - Vec3::any(x)),
-        rot.mul(Vec3([zero, half, zero]) - Vec3::any(y)),
-        rot.mul(Vec3([zero, zero, half]) - Vec3::any(z)),
+        rot.mul(Vec3([half, zero, zero]) - Vec3::runtime(x)),
+        rot.mul(Vec3([zero, half, zero]) - Vec3::runtime(y)),
+        rot.mul(Vec3([zero, zero, half]) - Vec3::runtime(z)),
     ]);
     let moved = h + d.scale(mass);
     let [dx, dy, dz] = d.0;
@@ -177,7 +177,7 @@ where
 #[inline(always)]
 fn environment<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     effects: &E,
-    field: &Field<R>,
+    field: &AccelerationField<R>,
     mut total: Wrench<R>,
 ) -> Wrench<R>
 where
@@ -188,15 +188,15 @@ where
     // Evaluated in scenes without wrenches, too, where their number does not matter.
     const {
         assert!(
-            !E::WRENCH || Prepared::<T, B, Q, V>::riders(I) <= 32,
+            !E::WRENCH || CompiledRobot::<T, B, Q, V>::bodies_on(I) <= 32,
             "the engine takes wrenches on up to 32 bodies that move with one joint; use `Core`"
         )
     };
     // Body by body: in a loop their places would be no constants, and nothing would fold.
     for_each_joint!(K, {
-        if const { K < Prepared::<T, B, Q, V>::riders(I) } {
-            let (body, place) = const { &Prepared::<T, B, Q, V>::rider(I, K) };
-            let length = const { Prepared::<T, B, Q, V>::TREE.length };
+        if const { K < CompiledRobot::<T, B, Q, V>::bodies_on(I) } {
+            let (body, place) = const { &CompiledRobot::<T, B, Q, V>::body_on(I, K) };
+            let length = const { CompiledRobot::<T, B, Q, V>::TREE.length };
             let fx = exerted(effects, *body, place, length, field);
             total = Wrench {
                 f: total.f - fx.f,
@@ -212,15 +212,15 @@ where
 fn exerted<R, E, const B: usize, const V: usize>(
     effects: &E,
     body: usize,
-    place: &'static Place,
+    place: &'static BodyPlacement,
     length: f64,
-    field: &Field<R>,
+    field: &AccelerationField<R>,
 ) -> Wrench<R>
 where
     R: Real,
     E: Effect<R, B, V>,
 {
-    let length = Known::constant(length);
+    let length = Folded::constant(length);
     let (rot, pos) = (Mat3::constant(&place.rot), Vec3::constant(place.pos));
     let mut at = BodyState {
         pose: Xform::IDENTITY,
@@ -244,29 +244,29 @@ where
     }
     let mut fx = Force::ZERO;
     effects.wrench(body, &at, &mut fx);
-    let f = rot.mul(Vec3::any(fx.lin)).scale(length);
-    let n = rot.mul(Vec3::any(fx.ang)) + pos.cross(f);
+    let f = rot.mul(Vec3::runtime(fx.lin)).scale(length);
+    let n = rot.mul(Vec3::runtime(fx.ang)) + pos.cross(f);
     Wrench { f, n }
 }
 
 /// Whether joint `i` carries joint `j`.
-pub(crate) const fn carries<T, const B: usize, const Q: usize, const V: usize>(
+pub(crate) const fn is_parent<T, const B: usize, const Q: usize, const V: usize>(
     i: usize,
     j: usize,
 ) -> bool
 where
     T: Robot<B, Q, V>,
 {
-    j < V && Prepared::<T, B, Q, V>::PARENTS[j] == i
+    j < V && CompiledRobot::<T, B, Q, V>::PARENTS[j] == i
 }
 
 /// Whether some chain of joints is too long for its sines and cosines to stay in registers: measured
 /// on chains of 3 (slower by 1 % if they are loaded anew), 6 and 7 (faster by 1 %).
-const fn long<T, const B: usize, const Q: usize, const V: usize>() -> bool
+const fn reload_sines<T, const B: usize, const Q: usize, const V: usize>() -> bool
 where
     T: Robot<B, Q, V>,
 {
-    let tree = &Prepared::<T, B, Q, V>::TREE;
+    let tree = &CompiledRobot::<T, B, Q, V>::TREE;
     let mut j = 0;
     while j < V {
         let (mut depth, mut i) = (1, j);
@@ -283,9 +283,9 @@ where
 }
 
 /// Whether joint `j` stands on the base.
-pub(crate) const fn stands<T, const B: usize, const Q: usize, const V: usize>(j: usize) -> bool
+pub(crate) const fn is_on_base<T, const B: usize, const Q: usize, const V: usize>(j: usize) -> bool
 where
     T: Robot<B, Q, V>,
 {
-    carries::<T, B, Q, V>(BASE, j)
+    is_parent::<T, B, Q, V>(BASE, j)
 }

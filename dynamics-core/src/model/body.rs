@@ -2,7 +2,7 @@
 
 use super::error::Problem;
 use super::joint::Joint;
-use crate::const_math as m;
+use crate::math::const_eval as m;
 use crate::scalar::Real;
 use crate::spatial::SpatialInertia;
 use glam::{DMat3, DVec3};
@@ -13,7 +13,7 @@ pub const BASE: usize = usize::MAX;
 /// The limits of a joint: what its drive and mechanics allow.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Limits<R> {
+pub struct JointLimits<R> {
     /// Least position, rad or m.
     pub lower: R,
     /// Greatest position, rad or m.
@@ -24,7 +24,7 @@ pub struct Limits<R> {
     pub torque: R,
 }
 
-impl Limits<f64> {
+impl JointLimits<f64> {
     /// No limits.
     pub const NONE: Self = Self {
         lower: f64::NEG_INFINITY,
@@ -47,7 +47,7 @@ pub struct Body {
     pub(super) mass: f64,
     pub(super) com: [f64; 3],
     pub(super) inertia: [f64; 6],
-    pub(super) limits: Limits<f64>,
+    pub(super) limits: JointLimits<f64>,
 }
 
 impl Body {
@@ -64,7 +64,7 @@ impl Body {
             mass: 0.0,
             com: [0.0; 3],
             inertia: [0.0; 6],
-            limits: Limits::NONE,
+            limits: JointLimits::NONE,
         }
     }
 
@@ -109,7 +109,7 @@ impl Body {
     }
 
     /// The joint's limits.
-    pub const fn limits(mut self, limits: Limits<f64>) -> Self {
+    pub const fn limits(mut self, limits: JointLimits<f64>) -> Self {
         self.limits = limits;
         self
     }
@@ -179,14 +179,18 @@ pub(super) fn asymmetry<R: Real>(inertia: &SpatialInertia<R>) -> f64 {
 pub(super) fn is_massless<R: Real>(inertia: &SpatialInertia<R>) -> bool {
     use crate::scalar::{Matrix, Vector};
     let some = |v: &R::Vec3| v.array().iter().any(|&x| x != R::ZERO);
-    inertia.mass == R::ZERO && (some(&inertia.moment) || inertia.inertia.cols().iter().any(some))
+    inertia.mass == R::ZERO
+        && (some(&inertia.first_moment) || inertia.inertia.cols().iter().any(some))
 }
 
 /// By how much the largest principal moment about the centre of mass exceeds the sum of the other
 /// two (or a moment is negative), relative to the largest; 0 if it does not.
 pub(super) fn triangle_excess<R: Real>(inertia: &SpatialInertia<R>) -> f64 {
     use crate::scalar::{Matrix, Vector};
-    let (mass, h) = (inertia.mass.to_f64(), inertia.moment.array().map(R::to_f64));
+    let (mass, h) = (
+        inertia.mass.to_f64(),
+        inertia.first_moment.array().map(R::to_f64),
+    );
     let mut a = inertia.inertia.cols().map(|c| c.array().map(R::to_f64));
     let hh = h.iter().map(|x| x * x).sum::<f64>();
     let largest = a
@@ -224,7 +228,7 @@ fn greater(a: f64, b: f64) -> f64 {
 /// The same, but nothing for what does not exceed `noise`: a point mass has no moments but that.
 fn excess_beyond(about_com: [[f64; 3]; 3], noise: f64) -> f64 {
     // Ascending, but for NaN, without the panics of a sort.
-    let [a, b, c] = crate::symmetric::eigenvalues(about_com);
+    let [a, b, c] = crate::spatial::symmetric::eigenvalues(about_com);
     let (a, b) = (lesser(a, b), greater(a, b));
     let (b, c) = (lesser(b, c), greater(b, c));
     let (a, b) = (lesser(a, b), greater(a, b));

@@ -2,7 +2,7 @@
 
 use glam::{DMat3, DVec3, Mat3, Vec3};
 
-use super::{EMPTY, Joint, Limits, Link, Model};
+use super::{EMPTY, Joint, JointLimits, Link, Model};
 use crate::scalar::{Compensated, Fixed, PlainMat3, PlainVec3, Real};
 use crate::spatial::{SpatialInertia, Xform};
 
@@ -38,12 +38,12 @@ macro_rules! cast {
                         },
                         inertia: SpatialInertia {
                             mass: number(link.inertia.mass),
-                            moment: vector(link.inertia.moment),
+                            first_moment: vector(link.inertia.first_moment),
                             inertia: matrix(&link.inertia.inertia),
                         },
-                        q_at: link.q_at,
-                        v_at: link.v_at,
-                        limits: Limits {
+                        idx_q: link.idx_q,
+                        idx_v: link.idx_v,
+                        limits: JointLimits {
                             lower: number(link.limits.lower),
                             upper: number(link.limits.upper),
                             velocity: number(link.limits.velocity),

@@ -9,10 +9,10 @@ use super::{BASE, Body};
 /// nothing is listed twice.
 ///
 /// ```
-/// use dynamics_core::model::{Arm, BASE, Body, Joint, Model, on_root};
+/// use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model, on_root};
 /// const ARM: [Body; 1] = [Body::new("arm", BASE, Joint::revolute([0.0, 1.0, 0.0])).mass(1.0)];
 /// let cart = Body::new("cart", BASE, Joint::prismatic([1.0, 0.0, 0.0])).mass(2.0);
-/// let model: Arm<f64, 2> = Model::new("cart and arm", on_root(cart, &ARM));
+/// let model: ArmModel<f64, 2> = Model::new("cart and arm", on_root(cart, &ARM));
 /// assert_eq!(model.links[1].parent, 0);
 /// ```
 ///

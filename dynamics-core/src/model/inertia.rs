@@ -23,7 +23,7 @@ impl<R: Real> BodyInertia<R> {
         let about = self.about_origin();
         let finite = |v: &R::Vec3| v.array().iter().all(|x| x.is_finite());
         let columns = about.inertia.cols();
-        if !(finite(&about.moment) && columns.iter().all(finite)) {
+        if !(finite(&about.first_moment) && columns.iter().all(finite)) {
             return Some(Problem::NotFinite);
         }
         if !(self.mass.is_finite() && self.mass >= R::ZERO) {
@@ -48,7 +48,7 @@ impl<R: Real> BodyInertia<R> {
         let (mass, column) = (self.mass, |a, b, c| R::Vec3::new(a, b, c));
         SpatialInertia {
             mass,
-            moment: column(x, y, z) * mass,
+            first_moment: column(x, y, z) * mass,
             inertia: R::Mat3::from_cols(
                 column(
                     xx + mass * (y * y + z * z),
@@ -77,7 +77,7 @@ impl<R: Real> BodyInertia<R> {
         } else {
             R::ONE / mass
         };
-        let com = (about.moment * per).array();
+        let com = (about.first_moment * per).array();
         let [x, y, z] = com;
         let [cx, cy, cz] = about.inertia.cols().map(Vector::array);
         let ([xx, xy, xz], [_, yy, yz], [_, _, zz]) = (cx, cy, cz);
@@ -149,7 +149,7 @@ where
         let (about, frame) = (inertia.about_origin(), link.frame);
         link.inertia = SpatialInertia {
             mass: about.mass,
-            moment: frame * about.moment,
+            first_moment: frame * about.first_moment,
             inertia: frame * about.inertia * frame.transpose(),
         };
         Ok(())
@@ -161,7 +161,7 @@ where
         let (about, back) = (&link.inertia, link.frame.transpose());
         Some(BodyInertia::about_com(&SpatialInertia {
             mass: about.mass,
-            moment: back * about.moment,
+            first_moment: back * about.first_moment,
             inertia: back * about.inertia * link.frame,
         }))
     }

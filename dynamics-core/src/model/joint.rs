@@ -1,7 +1,7 @@
 //! What a joint lets its body do: kinds, axes, coordinates. RBDA (2008), table 4.1.
 
 use super::error::Problem;
-use crate::const_math as m;
+use crate::math::const_eval as m;
 use crate::scalar::Real;
 use glam::{DMat3, DVec3};
 
@@ -83,9 +83,9 @@ impl JointKind {
 
 /// The kinds of joint that a robot has: what others would do is not in its machine code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Kinds(u16);
+pub struct JointKinds(u16);
 
-impl Kinds {
+impl JointKinds {
     /// Every kind: a robot known only at run time.
     pub const ALL: Self = Self(u16::MAX);
 

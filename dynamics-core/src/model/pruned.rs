@@ -23,7 +23,7 @@ use super::{Model, Robot};
 ///
 /// ```
 /// use dynamics_core::{Engine, effects::RIGID_BODY, model::Pruned, robots::Ur5e, state::State};
-/// let refused = Engine::<Pruned<Ur5e, 1000>>::forward(&State::at([0.1_f32; 6]), &[0.0; 6], &RIGID_BODY);
+/// let refused = Engine::<Pruned<Ur5e, 1000>>::forward_dynamics(&State::at([0.1_f32; 6]), &[0.0; 6], &RIGID_BODY);
 /// assert_eq!(refused.unwrap_err().joint, 5);
 /// ```
 ///

@@ -3,7 +3,7 @@
 use glam::{DMat3, DVec3};
 
 use super::{Link, Model};
-use crate::const_math::scale;
+use crate::math::const_eval::scale;
 use crate::spatial::{SpatialInertia, Xform};
 
 impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
@@ -30,7 +30,7 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
             let inertia = self.links[i].inertia;
             self.links[i].inertia = SpatialInertia {
                 mass: inertia.mass / mass,
-                moment: scale(inertia.moment, 1.0 / (mass * length)),
+                first_moment: scale(inertia.first_moment, 1.0 / (mass * length)),
                 inertia: scaled(&inertia.inertia, 1.0 / (mass * length * length)),
             };
             i += 1;
@@ -62,7 +62,7 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
             let columns = [m.x_axis, m.y_axis, m.z_axis];
             self.links[i].inertia = SpatialInertia {
                 mass: number(inertia.mass, bits),
-                moment: vector(inertia.moment, bits),
+                first_moment: vector(inertia.first_moment, bits),
                 inertia: DMat3::from_cols(
                     vector(columns[0], bits),
                     vector(columns[1], bits),

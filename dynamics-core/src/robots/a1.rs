@@ -2,7 +2,7 @@
 
 use core::f64::consts::PI;
 
-use crate::model::{BASE, Body, Joint, Limits, Model, Robot, on_root};
+use crate::model::{BASE, Body, Joint, JointLimits, Model, Robot, on_root};
 
 /// Unitree A1 quadruped with its trunk welded to the base: a tree of four equal legs, 12 revolute joints.
 ///
@@ -29,8 +29,8 @@ use crate::model::{BASE, Body, Joint, Limits, Model, Robot, on_root};
 pub struct A1;
 
 /// From `lower` to `upper` degrees; all motors are the same.
-const fn limits(lower: f64, upper: f64) -> Limits<f64> {
-    Limits {
+const fn limits(lower: f64, upper: f64) -> JointLimits<f64> {
+    JointLimits {
         lower: lower * PI / 180.0,
         upper: upper * PI / 180.0,
         velocity: 21.0,

@@ -1,6 +1,6 @@
 //! Kinova Gen3.
 
-use crate::model::{Arm, BASE, Body, Joint, Limits, Model, Robot};
+use crate::model::{ArmModel, BASE, Body, Joint, JointLimits, Model, Robot};
 
 /// Kinova Gen3 with 7 joints and vision module, no gripper: joints 1, 3, 5 and 7 turn without end; 6.5 kg
 /// of moving mass.
@@ -22,8 +22,8 @@ pub struct Gen3;
 
 const Z: [f64; 3] = [0.0, 0.0, 1.0];
 
-const fn limits(position: f64, velocity: f64, torque: f64) -> Limits<f64> {
-    Limits {
+const fn limits(position: f64, velocity: f64, torque: f64) -> JointLimits<f64> {
+    JointLimits {
         lower: -position,
         upper: position,
         velocity,
@@ -32,19 +32,19 @@ const fn limits(position: f64, velocity: f64, torque: f64) -> Limits<f64> {
 }
 
 /// A large joint's limits.
-const fn large(position: f64) -> Limits<f64> {
+const fn large(position: f64) -> JointLimits<f64> {
     limits(position, 1.3963, 39.0)
 }
 
 /// A wrist joint's limits.
-const fn small(position: f64) -> Limits<f64> {
+const fn small(position: f64) -> JointLimits<f64> {
     limits(position, 1.2218, 9.0)
 }
 
 const ENDLESS: f64 = f64::INFINITY;
 
 impl Robot<7, 7, 7> for Gen3 {
-    const MODEL: Arm<f64, 7> = Model::new(
+    const MODEL: ArmModel<f64, 7> = Model::new(
         "gen3",
         [
             Body::new("shoulder", BASE, Joint::continuous(Z))
@@ -100,4 +100,4 @@ impl Robot<7, 7, 7> for Gen3 {
     );
 }
 
-const _: Arm<f64, 7> = Gen3::MODEL;
+const _: ArmModel<f64, 7> = Gen3::MODEL;

@@ -2,7 +2,7 @@
 
 use core::f64::consts::PI;
 
-use crate::model::{Arm, BASE, Body, Joint, Limits, Model, Robot};
+use crate::model::{ArmModel, BASE, Body, Joint, JointLimits, Model, Robot};
 
 /// KUKA LBR iiwa 14 R820: 7 revolute joints, 25.6 kg of moving mass, diagonal inertias.
 ///
@@ -26,8 +26,8 @@ pub struct Iiwa14;
 const Z: [f64; 3] = [0.0, 0.0, 1.0];
 
 /// ± `position` degrees, `speed` in degrees per second, N m.
-const fn limits(position: f64, speed: f64, torque: f64) -> Limits<f64> {
-    Limits {
+const fn limits(position: f64, speed: f64, torque: f64) -> JointLimits<f64> {
+    JointLimits {
         lower: -position * PI / 180.0,
         upper: position * PI / 180.0,
         velocity: speed * PI / 180.0,
@@ -36,7 +36,7 @@ const fn limits(position: f64, speed: f64, torque: f64) -> Limits<f64> {
 }
 
 impl Robot<7, 7, 7> for Iiwa14 {
-    const MODEL: Arm<f64, 7> = Model::new(
+    const MODEL: ArmModel<f64, 7> = Model::new(
         "iiwa14",
         [
             Body::new("link_1", BASE, Joint::revolute(Z))
@@ -91,4 +91,4 @@ impl Robot<7, 7, 7> for Iiwa14 {
     );
 }
 
-const _: Arm<f64, 7> = Iiwa14::MODEL;
+const _: ArmModel<f64, 7> = Iiwa14::MODEL;

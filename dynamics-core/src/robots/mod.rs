@@ -21,8 +21,8 @@ mod g1;
 mod gen3;
 mod iiwa14;
 mod panda;
-mod part;
 mod ur5e;
+mod welded_part;
 mod xarm7;
 mod z1;
 

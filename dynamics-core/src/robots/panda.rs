@@ -1,6 +1,6 @@
 //! Franka Emika Panda.
 
-use crate::model::{Arm, BASE, Body, Joint, Limits, Model, Robot};
+use crate::model::{ArmModel, BASE, Body, Joint, JointLimits, Model, Robot};
 
 /// Franka Emika Panda without its hand: 7 revolute joints, every inertia dense.
 ///
@@ -27,14 +27,14 @@ use crate::model::{Arm, BASE, Body, Joint, Limits, Model, Robot};
 pub struct Panda;
 
 /// Joints 1, 3: ±166°.
-const SHOULDER: Limits<f64> = Limits {
+const SHOULDER: JointLimits<f64> = JointLimits {
     lower: -2.8973,
     upper: 2.8973,
     velocity: 2.175,
     torque: 87.0,
 };
 /// Joints 5, 7.
-const WRIST: Limits<f64> = Limits {
+const WRIST: JointLimits<f64> = JointLimits {
     lower: -2.8973,
     upper: 2.8973,
     velocity: 2.61,
@@ -44,7 +44,7 @@ const WRIST: Limits<f64> = Limits {
 const Z: [f64; 3] = [0.0, 0.0, 1.0];
 
 impl Robot<7, 7, 7> for Panda {
-    const MODEL: Arm<f64, 7> = Model::new(
+    const MODEL: ArmModel<f64, 7> = Model::new(
         "panda",
         [
             Body::new("link1", BASE, Joint::revolute(Z))
@@ -58,7 +58,7 @@ impl Robot<7, 7, 7> for Panda {
                 .mass(0.646926)
                 .com([-0.003141, -0.02872, 0.003495])
                 .inertia([0.007962, -0.003925, 0.010254, 0.02811, 0.000704, 0.025995])
-                .limits(Limits {
+                .limits(JointLimits {
                     lower: -1.7628,
                     upper: 1.7628,
                     velocity: 2.175,
@@ -77,7 +77,7 @@ impl Robot<7, 7, 7> for Panda {
                 .mass(3.587895)
                 .com([-0.05317, 0.104419, 0.027454])
                 .inertia([0.025853, 0.007796, -0.001332, 0.019552, 0.008641, 0.028323])
-                .limits(Limits {
+                .limits(JointLimits {
                     lower: -3.0718,
                     upper: -0.0698,
                     velocity: 2.175,
@@ -95,7 +95,7 @@ impl Robot<7, 7, 7> for Panda {
                 .mass(1.666555)
                 .com([0.060149, -0.014117, -0.010517])
                 .inertia([0.001964, 0.000109, -0.001158, 0.004354, 0.000341, 0.005433])
-                .limits(Limits {
+                .limits(JointLimits {
                     lower: -0.0175,
                     upper: 3.7525,
                     velocity: 2.61,
@@ -114,4 +114,4 @@ impl Robot<7, 7, 7> for Panda {
     );
 }
 
-const _: Arm<f64, 7> = Panda::MODEL;
+const _: ArmModel<f64, 7> = Panda::MODEL;

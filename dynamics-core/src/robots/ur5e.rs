@@ -2,7 +2,7 @@
 
 use core::f64::consts::{PI, TAU};
 
-use crate::model::{Arm, BASE, Body, Joint, Limits, Model, Robot};
+use crate::model::{ArmModel, BASE, Body, Joint, JointLimits, Model, Robot};
 
 /// Universal Robots UR5e: 6 revolute joints, 17.7 kg of moving mass, 0.85 m reach, no tool.
 ///
@@ -18,7 +18,7 @@ use crate::model::{Arm, BASE, Body, Joint, Limits, Model, Robot};
 ///   ros-industrial/universal_robot at 82632f5e hold the same numbers). Licence: BSD-3-Clause.
 /// - Masses, centres of mass and link lengths agree with the table of Denavit-Hartenberg parameters
 ///   that Universal Robots publishes. For the inertia matrices no second, independent source was found.
-/// - Limits: `config/ur5e/joint_limits.yaml` of the same package (user manual 5.8 and the maker's page
+/// - JointLimits: `config/ur5e/joint_limits.yaml` of the same package (user manual 5.8 and the maker's page
 ///   on joint torques).
 ///
 /// # Changed
@@ -34,20 +34,20 @@ use crate::model::{Arm, BASE, Body, Joint, Limits, Model, Robot};
 pub struct Ur5e;
 
 /// Joints 1 to 3, the large ones; the elbow turns half as far.
-const LARGE: Limits<f64> = Limits {
+const LARGE: JointLimits<f64> = JointLimits {
     lower: -TAU,
     upper: TAU,
     velocity: PI,
     torque: 150.0,
 };
-const ELBOW: Limits<f64> = Limits {
+const ELBOW: JointLimits<f64> = JointLimits {
     lower: -PI,
     upper: PI,
     velocity: PI,
     torque: 150.0,
 };
 /// Joints 4 to 6, the wrist.
-const SMALL: Limits<f64> = Limits {
+const SMALL: JointLimits<f64> = JointLimits {
     lower: -TAU,
     upper: TAU,
     velocity: PI,
@@ -57,7 +57,7 @@ const SMALL: Limits<f64> = Limits {
 const Z: [f64; 3] = [0.0, 0.0, 1.0];
 
 impl Robot<6, 6, 6> for Ur5e {
-    const MODEL: Arm<f64, 6> = Model::new(
+    const MODEL: ArmModel<f64, 6> = Model::new(
         "ur5e",
         [
             Body::new("shoulder", BASE, Joint::revolute(Z))
@@ -112,4 +112,4 @@ impl Robot<6, 6, 6> for Ur5e {
     );
 }
 
-const _: Arm<f64, 6> = Ur5e::MODEL;
+const _: ArmModel<f64, 6> = Ur5e::MODEL;

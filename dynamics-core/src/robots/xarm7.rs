@@ -2,7 +2,7 @@
 
 use core::f64::consts::{PI, TAU};
 
-use crate::model::{Arm, BASE, Body, Joint, Limits, Model, Robot};
+use crate::model::{ArmModel, BASE, Body, Joint, JointLimits, Model, Robot};
 
 /// UFACTORY xArm7: 7 revolute joints, 10.4 kg of moving mass, every inertia dense but the last.
 ///
@@ -20,8 +20,8 @@ pub struct XArm7;
 
 const Z: [f64; 3] = [0.0, 0.0, 1.0];
 
-const fn limits(lower: f64, upper: f64, torque: f64) -> Limits<f64> {
-    Limits {
+const fn limits(lower: f64, upper: f64, torque: f64) -> JointLimits<f64> {
+    JointLimits {
         lower,
         upper,
         velocity: PI,
@@ -30,7 +30,7 @@ const fn limits(lower: f64, upper: f64, torque: f64) -> Limits<f64> {
 }
 
 impl Robot<7, 7, 7> for XArm7 {
-    const MODEL: Arm<f64, 7> = Model::new(
+    const MODEL: ArmModel<f64, 7> = Model::new(
         "xarm7",
         [
             Body::new("link1", BASE, Joint::revolute(Z))
@@ -120,4 +120,4 @@ impl Robot<7, 7, 7> for XArm7 {
     );
 }
 
-const _: Arm<f64, 7> = XArm7::MODEL;
+const _: ArmModel<f64, 7> = XArm7::MODEL;

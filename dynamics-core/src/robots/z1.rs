@@ -2,8 +2,8 @@
 
 use core::f64::consts::PI;
 
-use super::part::Part;
-use crate::model::{Arm, BASE, Body, Joint, Limits, Model, Robot};
+use super::welded_part::Part;
+use crate::model::{ArmModel, BASE, Body, Joint, JointLimits, Model, Robot};
 
 /// Unitree Z1 with its gripper: 6 revolute joints of the arm and the gripper's jaw, about x, y and z;
 /// 4.7 kg of moving mass.
@@ -15,7 +15,7 @@ use crate::model::{Arm, BASE, Body, Joint, Limits, Model, Robot};
 ///
 /// # Changed
 ///
-/// The gripper's fixed half is welded to link 6, the base link omitted since it does not move. Limits are
+/// The gripper's fixed half is welded to link 6, the base link omitted since it does not move. JointLimits are
 /// the degrees that the source prints as radians, 180°/s where it has 3.1415 rad/s.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Z1;
@@ -25,8 +25,8 @@ const Y: [f64; 3] = [0.0, 1.0, 0.0];
 const Z: [f64; 3] = [0.0, 0.0, 1.0];
 
 /// From `lower` to `upper` degrees.
-const fn limits(lower: f64, upper: f64, torque: f64) -> Limits<f64> {
-    Limits {
+const fn limits(lower: f64, upper: f64, torque: f64) -> JointLimits<f64> {
+    JointLimits {
         lower: lower * PI / 180.0,
         upper: upper * PI / 180.0,
         velocity: PI,
@@ -48,7 +48,7 @@ const GRIPPER: Part = Part {
 };
 
 impl Robot<7, 7, 7> for Z1 {
-    const MODEL: Arm<f64, 7> = Model::new(
+    const MODEL: ArmModel<f64, 7> = Model::new(
         "z1",
         [
             Body::new("link1", BASE, Joint::revolute(Z))
@@ -109,4 +109,4 @@ impl Robot<7, 7, 7> for Z1 {
     );
 }
 
-const _: Arm<f64, 7> = Z1::MODEL;
+const _: ArmModel<f64, 7> = Z1::MODEL;

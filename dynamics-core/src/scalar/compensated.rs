@@ -138,9 +138,9 @@ impl Real for Compensated {
     type Mat3 = Mat3<Self>;
     const ZERO: Self = Self::new(0.0);
     const ONE: Self = Self::new(1.0);
-    const FULL: f64 = <f32 as Real>::FULL;
+    const MAX_TRUNC: f64 = <f32 as Real>::MAX_TRUNC;
     const EPSILON: Self = Self::new(1.0 / (1_u64 << 46) as f64);
-    const TINY: Self = Self::new(f32::MIN_POSITIVE as f64);
+    const MIN_POSITIVE: Self = Self::new(f32::MIN_POSITIVE as f64);
 
     #[inline(always)]
     fn from_f64(x: f64) -> Self {
@@ -193,9 +193,9 @@ impl Real for Compensated {
         Self::new(self.to_f64().atan2(x.to_f64()))
     }
     #[inline(always)]
-    fn per_sqrt(self) -> Self {
+    fn rsqrt(self) -> Self {
         // One more step of Newton's iteration doubles the digits of f32's.
-        let y = Self::from(self.value.per_sqrt());
+        let y = Self::from(self.value.rsqrt());
         y + y * (const { Self::new(0.5) } - const { Self::new(0.5) } * self * y * y)
     }
     #[inline(always)]
@@ -207,13 +207,13 @@ impl Real for Compensated {
         self.value.is_finite() && self.rest.is_finite()
     }
     #[inline(always)]
-    fn limit(self, lo: Self, hi: Self) -> Self {
+    fn clamped(self, lo: Self, hi: Self) -> Self {
         let x = if self > lo { self } else { lo };
         if x < hi { x } else { hi }
     }
     #[inline(always)]
-    fn saturate(self) -> Self {
-        Self::from(self.value.saturate()) + Self::from(self.rest.saturate())
+    fn trunc_saturating(self) -> Self {
+        Self::from(self.value.trunc_saturating()) + Self::from(self.rest.trunc_saturating())
     }
     fn cast<const B: usize, const Q: usize, const V: usize>(
         model: &Model<f64, B, Q, V>,
@@ -228,7 +228,7 @@ impl Real for Compensated {
         const { &T::MODEL.to_compensated() }
     }
     #[inline(always)]
-    fn pick_value(double: f64, _: f32) -> Self {
+    fn select(double: f64, _: f32) -> Self {
         Self::new(double)
     }
 }

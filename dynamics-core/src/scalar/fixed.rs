@@ -132,9 +132,9 @@ impl Real for Fixed {
     type Mat3 = Mat3<Self>;
     const ZERO: Self = Self(0);
     const ONE: Self = Self(1 << FRACTION);
-    const FULL: f64 = 2.0;
+    const MAX_TRUNC: f64 = 2.0;
     const EPSILON: Self = Self(1);
-    const TINY: Self = Self(1);
+    const MIN_POSITIVE: Self = Self(1);
 
     #[inline(always)]
     fn from_f64(x: f64) -> Self {
@@ -161,8 +161,8 @@ impl Real for Fixed {
     fn atan2(self, x: Self) -> Self {
         Self::new(self.to_f64().atan2(x.to_f64()))
     }
-    fn per_sqrt(self) -> Self {
-        Self::new(self.to_f64().per_sqrt())
+    fn rsqrt(self) -> Self {
+        Self::new(self.to_f64().rsqrt())
     }
     #[inline(always)]
     fn abs(self) -> Self {
@@ -173,12 +173,12 @@ impl Real for Fixed {
         true
     }
     #[inline(always)]
-    fn limit(self, lo: Self, hi: Self) -> Self {
+    fn clamped(self, lo: Self, hi: Self) -> Self {
         let x = if self > lo { self } else { lo };
         if x < hi { x } else { hi }
     }
     #[inline(always)]
-    fn saturate(self) -> Self {
+    fn trunc_saturating(self) -> Self {
         Self(self.0 / Self::ONE.0 * Self::ONE.0)
     }
     fn cast<const B: usize, const Q: usize, const V: usize>(
@@ -194,7 +194,7 @@ impl Real for Fixed {
         const { &T::MODEL.to_fixed() }
     }
     #[inline(always)]
-    fn pick_value(double: f64, _: f32) -> Self {
+    fn select(double: f64, _: f32) -> Self {
         Self::new(double)
     }
 }

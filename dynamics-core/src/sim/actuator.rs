@@ -17,7 +17,7 @@ use crate::scalar::Real;
 ///     drive.advance(1e3, 0.0, 1e-3);
 /// }
 /// assert!((drive.torque() - 20.0).abs() < 1e-12); // the current limit
-/// assert!(drive.reachable(1e3, 18.0) == 20.0 && drive.reachable(1e3, 24.0) == 0.0); // the torque-speed curve
+/// assert!(drive.saturated_torque(1e3, 18.0) == 20.0 && drive.saturated_torque(1e3, 24.0) == 0.0); // the torque-speed curve
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Actuator<R> {
@@ -45,13 +45,13 @@ impl<R: Real> Actuator<R> {
     /// What a command comes to in the long run at the joint's speed, N·m: within the current limit and below
     /// the torque-speed curve k (U − k ω)/R; beyond the speed without load the back-EMF brakes.
     #[inline(always)]
-    pub fn reachable(&self, command: R, speed: R) -> R {
+    pub fn saturated_torque(&self, command: R, speed: R) -> R {
         let k = self.torque_constant;
-        let wanted = (command / k).limit(-self.current_limit, self.current_limit);
+        let wanted = (command / k).clamped(-self.current_limit, self.current_limit);
         let emf = k * speed;
         let least = (-self.voltage - emf) / self.resistance;
         let most = (self.voltage - emf) / self.resistance;
-        k * wanted.limit(least, most)
+        k * wanted.clamped(least, most)
     }
 
     /// Moves the current on by h seconds at a constant command (N·m) and speed (rad/s): exactly.
@@ -59,7 +59,7 @@ impl<R: Real> Actuator<R> {
     /// A command that is not a number counts as the greatest backward one: gate commands first.
     #[inline(always)]
     pub fn advance(&mut self, command: R, speed: R, h: R) {
-        let goal = self.reachable(command, speed) / self.torque_constant;
+        let goal = self.saturated_torque(command, speed) / self.torque_constant;
         self.current = goal + (self.current - goal) * (h / self.lag).exp_neg();
     }
 }

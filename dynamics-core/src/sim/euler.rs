@@ -1,10 +1,10 @@
 //! Time steps of first order: one acceleration, that of the step's beginning.
 
-use super::rates::ahead;
-use super::{Described, Integrator, Mechanics, Rates, Step};
+use super::step_increment::ahead;
+use super::{Dynamics, Integrator, ModelDynamics, Step, StepIncrement};
 use crate::algorithms::NotPositiveDefinite;
 use crate::effects::Effect;
-use crate::model::Description;
+use crate::model::RobotModel;
 use crate::scalar::Real;
 use crate::state::State;
 
@@ -14,8 +14,8 @@ pub struct Euler;
 
 impl<R: Real, const Q: usize, const V: usize> Integrator<R, Q, V> for Euler {
     #[inline(always)]
-    fn step(&self, robot: &impl Mechanics<R, Q, V>, at: &State<R, Q, V>, _h: R) -> Step<R, V> {
-        Ok(Rates::straight(at.qd, robot.acceleration(at)?))
+    fn step(&self, robot: &impl Dynamics<R, Q, V>, at: &State<R, Q, V>, _h: R) -> Step<R, V> {
+        Ok(StepIncrement::straight(at.qd, robot.acceleration(at)?))
     }
 }
 
@@ -25,9 +25,9 @@ pub struct SemiImplicit;
 
 impl<R: Real, const Q: usize, const V: usize> Integrator<R, Q, V> for SemiImplicit {
     #[inline(always)]
-    fn step(&self, robot: &impl Mechanics<R, Q, V>, at: &State<R, Q, V>, h: R) -> Step<R, V> {
+    fn step(&self, robot: &impl Dynamics<R, Q, V>, at: &State<R, Q, V>, h: R) -> Step<R, V> {
         let qdd = robot.acceleration(at)?;
-        Ok(Rates::straight(ahead(at.qd, h, &qdd), qdd))
+        Ok(StepIncrement::straight(ahead(at.qd, h, &qdd), qdd))
     }
 }
 
@@ -55,12 +55,12 @@ pub fn semi_implicit<R: Real, D, E, const B: usize, const Q: usize, const V: usi
     h: R,
 ) -> Result<(), NotPositiveDefinite>
 where
-    D: Description<R, B, Q, V>,
+    D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
     let tau = *tau;
     SemiImplicit.advance(
-        &Described {
+        &ModelDynamics {
             robot,
             tau,
             effects,

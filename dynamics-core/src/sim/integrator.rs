@@ -2,20 +2,20 @@
 //!
 //! What each costs and loses is in `docs/accuracy.md` in the repository.
 
-use super::{Mechanics, Rates};
+use super::{Dynamics, StepIncrement};
 use crate::algorithms::NotPositiveDefinite;
 use crate::scalar::Real;
 use crate::state::State;
 
 /// The mean rates of a step, or the joint that moves no inertia.
-pub type Step<R, const V: usize> = Result<Rates<R, V>, NotPositiveDefinite>;
+pub type Step<R, const V: usize> = Result<StepIncrement<R, V>, NotPositiveDefinite>;
 
 /// A way to step through time.
 ///
 /// ```
 /// use dynamics_core::{effects::RIGID_BODY, model::Robot, robots::Ur5e, state::State};
-/// use dynamics_core::sim::{Described, Euler, Integrator};
-/// let arm = Described { robot: &Ur5e::MODEL, tau: [0.0; 6], effects: &RIGID_BODY };
+/// use dynamics_core::sim::{ModelDynamics, Euler, Integrator};
+/// let arm = ModelDynamics { robot: &Ur5e::MODEL, tau: [0.0; 6], effects: &RIGID_BODY };
 /// let mut falling = State::at([0.0, -1.5, 0.0, 0.0, 0.0, 0.0]);
 /// Euler::start(&arm, &falling).advance(&arm, &mut falling, 1e-3)?;
 /// assert!(falling.qd[1] != 0.0);
@@ -23,7 +23,7 @@ pub type Step<R, const V: usize> = Result<Rates<R, V>, NotPositiveDefinite>;
 /// ```
 pub trait Integrator<R: Real, const Q: usize, const V: usize>: Default {
     /// For a motion from this state on.
-    fn start(_robot: &impl Mechanics<R, Q, V>, _at: &State<R, Q, V>) -> Self {
+    fn start(_robot: &impl Dynamics<R, Q, V>, _at: &State<R, Q, V>) -> Self {
         Self::default()
     }
 
@@ -31,7 +31,7 @@ pub trait Integrator<R: Real, const Q: usize, const V: usize>: Default {
     ///
     /// # Errors
     /// As forward dynamics.
-    fn step(&self, robot: &impl Mechanics<R, Q, V>, at: &State<R, Q, V>, h: R) -> Step<R, V>;
+    fn step(&self, robot: &impl Dynamics<R, Q, V>, at: &State<R, Q, V>, h: R) -> Step<R, V>;
 
     /// Takes the step; `state.qdd` is left at the acceleration used.
     ///
@@ -39,7 +39,7 @@ pub trait Integrator<R: Real, const Q: usize, const V: usize>: Default {
     /// As forward dynamics; the state is then left as it was.
     fn advance(
         &self,
-        robot: &impl Mechanics<R, Q, V>,
+        robot: &impl Dynamics<R, Q, V>,
         state: &mut State<R, Q, V>,
         h: R,
     ) -> Result<(), NotPositiveDefinite> {

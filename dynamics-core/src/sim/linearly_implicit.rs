@@ -1,10 +1,10 @@
 //! A time step that no spring, damper or bristle makes unstable.
 
-use super::rates::ahead;
-use super::{Described, Integrator, Mechanics, Rates, Step};
+use super::step_increment::ahead;
+use super::{Dynamics, Integrator, ModelDynamics, Step, StepIncrement};
 use crate::algorithms::NotPositiveDefinite;
 use crate::effects::{Effect, joint_state};
-use crate::model::Description;
+use crate::model::RobotModel;
 use crate::scalar::Real;
 use crate::state::State;
 
@@ -15,9 +15,9 @@ pub struct LinearlyImplicit;
 
 impl<R: Real, const Q: usize, const V: usize> Integrator<R, Q, V> for LinearlyImplicit {
     #[inline(always)]
-    fn step(&self, robot: &impl Mechanics<R, Q, V>, at: &State<R, Q, V>, h: R) -> Step<R, V> {
+    fn step(&self, robot: &impl Dynamics<R, Q, V>, at: &State<R, Q, V>, h: R) -> Step<R, V> {
         let qdd = robot.implicit_acceleration(at, h)?;
-        Ok(Rates::straight(ahead(at.qd, h, &qdd), qdd))
+        Ok(StepIncrement::straight(ahead(at.qd, h, &qdd), qdd))
     }
 }
 
@@ -50,19 +50,19 @@ pub fn linearly_implicit<R: Real, D, E, const B: usize, const Q: usize, const V:
     h: R,
 ) -> Result<(), NotPositiveDefinite>
 where
-    D: Description<R, B, Q, V>,
+    D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
     let (tau, acting) = (*tau, &*effects);
-    let mechanics = Described {
+    let mechanics = ModelDynamics {
         robot,
         tau,
         effects: acting,
     };
     LinearlyImplicit.advance(&mechanics, state, h)?;
-    for node in robot.nodes() {
-        for k in node.coordinates() {
-            effects.advance(k, joint_state(&node, state, k), h);
+    for link in robot.links() {
+        for k in link.coordinates() {
+            effects.advance(k, joint_state(&link, state, k), h);
         }
     }
     Ok(())

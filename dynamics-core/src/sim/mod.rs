@@ -1,27 +1,27 @@
 //! Time steps of a simulated robot, and its actuators.
 //!
 //! A robot by its description takes a step of [`semi_implicit`], [`linearly_implicit`], [`runge_kutta`] or
-//! [`conserving`]: each is a door to the [`Integrator`] of its name, which steps whatever [`Mechanics`] are at hand, the
-//! engine's for one, on joints of any kind. Coordinates that add up may be [`Summed`] without loss.
+//! [`momentum_preserving`]: each is a door to the [`Integrator`] of its name, which steps whatever [`Dynamics`] are at hand, the
+//! engine's for one, on joints of any kind. Coordinates that add up may be [`KahanState`] without loss.
 
 mod actuator;
-mod conserving;
-mod energy_kept;
+mod dynamics;
+mod energy_projected;
 mod euler;
 mod integrator;
+mod kahan_state;
 mod linearly_implicit;
-mod mechanics;
-mod rates;
+mod momentum_preserving;
 mod runge_kutta;
-mod summed;
+mod step_increment;
 
 pub use actuator::Actuator;
-pub use conserving::conserving;
-pub use energy_kept::EnergyKept;
+pub use dynamics::{Dynamics, ModelDynamics};
+pub use energy_projected::EnergyProjected;
 pub use euler::{Euler, SemiImplicit, semi_implicit};
 pub use integrator::{Integrator, Step};
+pub use kahan_state::KahanState;
 pub use linearly_implicit::{LinearlyImplicit, linearly_implicit};
-pub use mechanics::{Described, Mechanics};
-pub use rates::Rates;
+pub use momentum_preserving::momentum_preserving;
 pub use runge_kutta::{RungeKutta, runge_kutta};
-pub use summed::Summed;
+pub use step_increment::StepIncrement;

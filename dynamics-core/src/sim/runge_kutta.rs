@@ -11,10 +11,10 @@
 //! As two halves of a step, k + b and k − b: in Y₄ about k = k₃ with b = k₁ − k₃, in Y₊ about the mean k =
 //! (k₁ + 2 k₂ + 2 k₃ + k₄)/6 with b = (k₁ − k₄)/3. Joints of one axis do not see b: the classical method.
 
-use super::{Described, Integrator, Mechanics, Rates, Step};
+use super::{Dynamics, Integrator, ModelDynamics, Step, StepIncrement};
 use crate::algorithms::NotPositiveDefinite;
 use crate::effects::Effect;
-use crate::model::Description;
+use crate::model::RobotModel;
 use crate::scalar::Real;
 use crate::state::State;
 
@@ -24,12 +24,12 @@ pub struct RungeKutta;
 
 impl<R: Real, const Q: usize, const V: usize> Integrator<R, Q, V> for RungeKutta {
     #[inline(always)]
-    fn step(&self, robot: &impl Mechanics<R, Q, V>, at: &State<R, Q, V>, h: R) -> Step<R, V> {
+    fn step(&self, robot: &impl Dynamics<R, Q, V>, at: &State<R, Q, V>, h: R) -> Step<R, V> {
         let rates = |at: &State<R, Q, V>| {
             let qdd = robot.acceleration(at)?;
-            Ok(Rates::straight(at.qd, qdd))
+            Ok(StepIncrement::straight(at.qd, qdd))
         };
-        let after = |k: &Rates<R, V>, h| rates(&k.end(robot, at, h));
+        let after = |k: &StepIncrement<R, V>, h| rates(&k.end(robot, at, h));
         let half = h * R::from_f64(0.5);
         let first = rates(at)?;
         let second = after(&first, half)?;
@@ -38,14 +38,14 @@ impl<R: Real, const Q: usize, const V: usize> Integrator<R, Q, V> for RungeKutta
         let last = after(&third, h)?;
 
         let [third_of, sixth_of] = [1.0 / 3.0, 1.0 / 6.0].map(R::from_f64);
-        let mean = |of: fn(&Rates<R, V>) -> &[R; V]| {
+        let mean = |of: fn(&StepIncrement<R, V>) -> &[R; V]| {
             let [first, second, third, last] = [&first, &second, &third, &last].map(of);
             core::array::from_fn(|j| {
                 let inner = sixth_of * first[j] + third_of * second[j] + third_of * third[j];
                 inner + sixth_of * last[j]
             })
         };
-        Ok(Rates {
+        Ok(StepIncrement {
             qd: mean(|k| &k.qd),
             qdd: mean(|k| &k.qdd),
             bend: Some(core::array::from_fn(|j| {
@@ -85,12 +85,12 @@ pub fn runge_kutta<R: Real, D, E, const B: usize, const Q: usize, const V: usize
     h: R,
 ) -> Result<(), NotPositiveDefinite>
 where
-    D: Description<R, B, Q, V>,
+    D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
     let tau = *tau;
     RungeKutta.advance(
-        &Described {
+        &ModelDynamics {
             robot,
             tau,
             effects,

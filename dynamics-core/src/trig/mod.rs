@@ -10,18 +10,14 @@
 //! so that what is computed from them shows it; the control loop's gate refuses such measurements before.
 //!
 //! Less accurate and other ways are types, a [`Kernel`] each, which [`crate::Engine::rnea_by`] and
-//! [`crate::state::Posture::by`] take; what each costs and gives is in `docs/accuracy.md` in the repository, and why
+//! [`crate::state::JointTrig::by`] take; what each costs and gives is in `docs/accuracy.md` in the repository, and why
 //! the table is the default in `docs/decisions/0005-sines-from-a-table.md`.
 
-mod carried;
 mod minimax;
 mod table;
 
-pub use carried::Carried;
 pub use minimax::Minimax;
 pub use table::Table;
-
-use crate::scalar::Real;
 
 /// A way to sine and cosine, chosen by its type.
 ///
@@ -54,17 +50,6 @@ pub trait Kernel<R> {
 #[inline(always)]
 fn bounded(r: f32, inside: bool, x: f32) -> f32 {
     core::hint::select_unpredictable(inside, r, x - x)
-}
-
-/// The scalar's own, [`Real::sin_cos`].
-#[derive(Clone, Copy, Debug)]
-pub struct Native;
-
-impl<R: Real> Kernel<R> for Native {
-    #[inline(always)]
-    fn sin_cos(x: R) -> (R, R) {
-        x.sin_cos()
-    }
 }
 
 /// (sin x, cos x) of x in rad, |x| ≤ 10⁴: absolute error below 10⁻⁷.

@@ -1,7 +1,7 @@
 //! A table of one turn, and Taylor's polynomials from its nearest entry.
 
 use super::{Kernel, bounded};
-use crate::const_math;
+use crate::math::const_eval;
 
 /// Sine and cosine of the nearest of `N` (a power of two) angles of a turn, turned on by the rest r, |r| ≤ π/N, by
 /// Taylor's polynomials up to the order `ORDER`: 1 (linear interpolation along the tangent), 2, 3 or 4.
@@ -51,7 +51,7 @@ impl<const N: usize, const ORDER: usize, const PARTS: usize> Table<N, ORDER, PAR
         while k < N {
             // Within half a turn, where the series of `const_math` ends early.
             let turns = k as f64 / N as f64 - if 2 * k > N { 1.0 } else { 0.0 };
-            let (s, c) = const_math::sin_cos(turns * core::f64::consts::TAU);
+            let (s, c) = const_eval::sin_cos(turns * core::f64::consts::TAU);
             entries[k] = Pair {
                 sin: s as f32,
                 cos: c as f32,

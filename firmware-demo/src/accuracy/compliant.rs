@@ -3,9 +3,9 @@
 use core::marker::PhantomData;
 
 use dynamics_core::Engine;
-use dynamics_core::effects::{RIGID_BODY, RotorInertia, Viscous};
-use dynamics_core::flexible::{Course, Flexible, flexible_rnea};
-use dynamics_core::model::{Of, Robot};
+use dynamics_core::drivetrain::{ElasticJoints, ElasticReference, elastic_inverse_dynamics};
+use dynamics_core::effects::{Armature, RIGID_BODY, Viscous};
+use dynamics_core::model::{Robot, Static};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
 
@@ -18,9 +18,9 @@ pub trait Joints<const N: usize> {
     const JOINTS: [[f64; N]; 3];
 
     /// The same in a scalar.
-    fn joints<R: Real>() -> Flexible<R, N> {
+    fn joints<R: Real>() -> ElasticJoints<R, N> {
         let [stiffness, rotor, friction] = Self::JOINTS.map(|numbers| numbers.map(R::from_f64));
-        Flexible {
+        ElasticJoints {
             stiffness,
             rotor,
             friction,
@@ -30,11 +30,11 @@ pub trait Joints<const N: usize> {
 
 /// The motors' torques through springs.
 #[derive(Debug)]
-pub struct Compliant<T, const N: usize>(Flexible<f32, N>, PhantomData<T>);
+pub struct Compliant<T, const N: usize>(ElasticJoints<f32, N>, PhantomData<T>);
 
 /// The motors' torques if the springs were rigid.
 #[derive(Debug)]
-pub struct Rigid<T, const N: usize>(RotorInertia<f32, N>, Viscous<f32, N>, PhantomData<T>);
+pub struct Rigid<T, const N: usize>(Armature<f32, N>, Viscous<f32, N>, PhantomData<T>);
 
 impl<T: Robot<N, N, N> + Joints<N>, const N: usize> Inverse<N> for Compliant<T, N> {
     const KEY: Key = Key {
@@ -43,18 +43,18 @@ impl<T: Robot<N, N, N> + Joints<N>, const N: usize> Inverse<N> for Compliant<T, 
         form: "core",
         ..Key::DEFAULT
     };
-    type Input = Course<f32, N, N>;
+    type Input = ElasticReference<f32, N, N>;
     type Output = [f32; N];
 
     fn start(_: &State<f32, N, N>) -> Self {
         Self(T::joints(), PhantomData)
     }
-    fn input(course: &Course<f32, N, N>) -> Self::Input {
+    fn input(course: &ElasticReference<f32, N, N>) -> Self::Input {
         *course
     }
     #[inline(never)]
     fn tick(&mut self, course: &Self::Input) -> [f32; N] {
-        match flexible_rnea(&Of::<T>::NEW, &self.0, course, &RIGID_BODY) {
+        match elastic_inverse_dynamics(&Static::<T>::NEW, &self.0, course, &RIGID_BODY) {
             Ok(told) => told.torque,
             Err(_) => [f32::NAN; N],
         }
@@ -78,12 +78,12 @@ impl<T: Robot<N, N, N> + Joints<N>, const N: usize> Inverse<N> for Rigid<T, N> {
     fn start(_: &State<f32, N, N>) -> Self {
         let joints = T::joints();
         Self(
-            RotorInertia(joints.rotor),
+            Armature(joints.rotor),
             Viscous(joints.friction),
             PhantomData,
         )
     }
-    fn input(course: &Course<f32, N, N>) -> Self::Input {
+    fn input(course: &ElasticReference<f32, N, N>) -> Self::Input {
         course.state
     }
     #[inline(never)]

@@ -3,7 +3,7 @@
 use dynamics_core::effects::Effect;
 use dynamics_core::model::Robot;
 use dynamics_core::scalar::Real;
-use dynamics_core::state::{Posture, State};
+use dynamics_core::state::{JointTrig, State};
 use dynamics_core::trig::Kernel;
 use dynamics_core::{Core, Engine};
 
@@ -26,7 +26,7 @@ pub trait Form<T> {
         T: Robot<B, N, N>;
     /// The same with sines and cosines at hand.
     fn rnea_at<E: Effect<f32, B, N>, const B: usize, const N: usize>()
-    -> fn(&Posture<f32, N>, &State<f32, N, N>, &E) -> [f32; N]
+    -> fn(&JointTrig<f32, N>, &State<f32, N, N>, &E) -> [f32; N]
     where
         T: Robot<B, N, N>;
 }
@@ -57,7 +57,7 @@ macro_rules! form {
 
             #[inline(always)]
             fn rnea_at<E: Effect<f32, B, N>, const B: usize, const N: usize>()
-            -> fn(&Posture<f32, N>, &State<f32, N, N>, &E) -> [f32; N]
+            -> fn(&JointTrig<f32, N>, &State<f32, N, N>, &E) -> [f32; N]
             where
                 T: Robot<B, N, N>,
             {

@@ -3,9 +3,9 @@
 use core::marker::PhantomData;
 
 use dynamics_core::Engine;
-use dynamics_core::flexible::Course;
+use dynamics_core::drivetrain::ElasticReference;
+use dynamics_core::state::Carried;
 use dynamics_core::state::State;
-use dynamics_core::trig::Carried;
 
 use super::Inverse;
 use super::form::Form;
@@ -51,7 +51,7 @@ where
     fn start(_: &State<f32, N, N>) -> Self {
         Self(PhantomData)
     }
-    fn input(course: &Course<f32, N, N>) -> Self::Input {
+    fn input(course: &ElasticReference<f32, N, N>) -> Self::Input {
         course.state
     }
     #[inline(always)]
@@ -82,7 +82,7 @@ where
     fn start(_: &State<f32, N, N>) -> Self {
         Self(PhantomData)
     }
-    fn input(course: &Course<f32, N, N>) -> Self::Input {
+    fn input(course: &ElasticReference<f32, N, N>) -> Self::Input {
         course.state
     }
     #[inline(always)]
@@ -110,7 +110,7 @@ where
     fn start(_: &State<f32, N, N>) -> Self {
         Self(PhantomData)
     }
-    fn input(course: &Course<f32, N, N>) -> Self::Input {
+    fn input(course: &ElasticReference<f32, N, N>) -> Self::Input {
         course.state
     }
     #[inline(never)]
@@ -142,7 +142,7 @@ where
     fn start(first: &State<f32, N, N>) -> Self {
         Self(Carried::at(first.q), PhantomData)
     }
-    fn input(course: &Course<f32, N, N>) -> Self::Input {
+    fn input(course: &ElasticReference<f32, N, N>) -> Self::Input {
         course.state
     }
     #[inline(never)]

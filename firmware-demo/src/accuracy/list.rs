@@ -1,6 +1,6 @@
 //! Every way of a robot.
 
-use dynamics_core::control::{Extrapolated, Held, Interpolated};
+use dynamics_core::control::{FirstOrderHold, Interpolator, ZeroOrderHold};
 use dynamics_core::model::{Pruned, Robot};
 use dynamics_core::scalar::Compensated;
 use dynamics_core::trig::{Minimax, Table};
@@ -60,8 +60,8 @@ where
     visitor.way::<Own<GravityOnly<T>, T, B>>();
     rounded::<T, 8, B, N>(visitor);
     visitor.way::<Shipped<Without<T, 1000>, Engine<Pruned<T, 1000>>, B>>();
-    visitor.way::<Every<Own<Full<T>, T, B>, Held<f32, N>, 10>>();
-    visitor.way::<Every<Own<Full<T>, T, B>, Interpolated<f32, N, 10>, 10>>();
+    visitor.way::<Every<Own<Full<T>, T, B>, ZeroOrderHold<f32, N>, 10>>();
+    visitor.way::<Every<Own<Full<T>, T, B>, Interpolator<f32, N, 10>, 10>>();
     visitor.way::<EveryLinearised<Table<128, 3>, Full<T>, B, N, 10>>();
     visitor.way::<Shipped<Full<T>, Core<T>, B>>();
 }
@@ -154,9 +154,9 @@ fn rate<W, const N: usize, const TICKS: usize>(visitor: &mut impl Visitor<N>)
 where
     W: Inverse<N, Output = [f32; N]>,
 {
-    visitor.way::<Every<W, Held<f32, N>, TICKS>>();
-    visitor.way::<Every<W, Extrapolated<f32, N, TICKS>, TICKS>>();
-    visitor.way::<Every<W, Interpolated<f32, N, TICKS>, TICKS>>();
+    visitor.way::<Every<W, ZeroOrderHold<f32, N>, TICKS>>();
+    visitor.way::<Every<W, FirstOrderHold<f32, N, TICKS>, TICKS>>();
+    visitor.way::<Every<W, Interpolator<f32, N, TICKS>, TICKS>>();
 }
 
 /// Every few ticks, by M between.

@@ -2,10 +2,10 @@
 
 use core::marker::PhantomData;
 
+use dynamics_core::drivetrain::ElasticReference;
 use dynamics_core::effects::Effect;
-use dynamics_core::flexible::Course;
 use dynamics_core::scalar::{Compensated, Fixed, HalfTurns, Real};
-use dynamics_core::state::{Posture, State};
+use dynamics_core::state::{JointTrig, State};
 use dynamics_core::{Core, Engine};
 
 use super::Inverse;
@@ -59,7 +59,7 @@ where
     fn start(_: &State<f32, N, N>) -> Self {
         Self(PhantomData)
     }
-    fn input(course: &Course<f32, N, N>) -> Self::Input {
+    fn input(course: &ElasticReference<f32, N, N>) -> Self::Input {
         let State { q, qd, qdd } = course.state;
         State {
             q: q.map(R::of),
@@ -101,7 +101,7 @@ where
     fn start(_: &State<f32, N, N>) -> Self {
         Self(PhantomData)
     }
-    fn input(course: &Course<f32, N, N>) -> Self::Input {
+    fn input(course: &ElasticReference<f32, N, N>) -> Self::Input {
         let State { q, qd, qdd } = course.state;
         let time = const { Units::of(&T::MODEL).time };
         State {
@@ -117,7 +117,7 @@ where
     }
     #[inline(never)]
     fn tick(&mut self, state: &Self::Input) -> [Fixed; N] {
-        let posture: Posture<Fixed, N> =
+        let posture: JointTrig<Fixed, N> =
             Engine::<InUnits<T>>::posture_by::<HalfTurns, Fixed, B, N, N>(&state.q);
         Core::<InUnits<T>>::rnea_at(&posture, state, &M::IN_UNITS)
     }

@@ -5,7 +5,7 @@ use core::fmt;
 use dynamics_core::algorithms::NotPositiveDefinite;
 use dynamics_core::scalar::Real;
 use dynamics_core::sim::{
-    EnergyKept, Euler, Integrator, LinearlyImplicit, RungeKutta, SemiImplicit, Summed,
+    EnergyProjected, Euler, Integrator, KahanState, LinearlyImplicit, RungeKutta, SemiImplicit,
 };
 use dynamics_core::state::State;
 
@@ -91,8 +91,8 @@ named!(
     SemiImplicit = "semi_implicit",
     RungeKutta = "rk4",
     LinearlyImplicit = "implicit_damping",
-    EnergyKept<f32> = "energy",
-    EnergyKept<f64> = "energy"
+    EnergyProjected<f32> = "energy",
+    EnergyProjected<f64> = "energy"
 );
 
 /// The robot T by the integrator I in the scalar R.
@@ -100,7 +100,7 @@ named!(
 pub struct Run<T, S: Scene<T, R, N>, I, R: Real, const N: usize, const COMPENSATED: bool> {
     mechanics: Engined<T, S::Effects>,
     integrator: I,
-    motion: Summed<R, N, COMPENSATED>,
+    motion: KahanState<R, N, COMPENSATED>,
 }
 
 impl<T, S, I, R, const N: usize, const COMPENSATED: bool> Run<T, S, I, R, N, COMPENSATED>
@@ -146,7 +146,7 @@ where
         Self {
             integrator: I::start(&mechanics, &state),
             mechanics,
-            motion: Summed::at(state),
+            motion: KahanState::at(state),
         }
     }
 
@@ -169,11 +169,11 @@ where
 pub fn every<T: LetGo<N>, const N: usize>(visitor: &mut impl Visitor<N>) {
     scalar::<T, f32, N, false>(visitor);
     scalar::<T, f32, N, true>(visitor);
-    visitor.simulation::<Run<T, Free, EnergyKept<f32>, f32, N, false>>();
-    visitor.simulation::<Run<T, Free, EnergyKept<f32>, f32, N, true>>();
+    visitor.simulation::<Run<T, Free, EnergyProjected<f32>, f32, N, false>>();
+    visitor.simulation::<Run<T, Free, EnergyProjected<f32>, f32, N, true>>();
     visitor.simulation::<Run<T, Free, SemiImplicit, f64, N, false>>();
     visitor.simulation::<Run<T, Free, RungeKutta, f64, N, false>>();
-    visitor.simulation::<Run<T, Free, EnergyKept<f64>, f64, N, false>>();
+    visitor.simulation::<Run<T, Free, EnergyProjected<f64>, f64, N, false>>();
     visitor.simulation::<Run<T, Damped, LinearlyImplicit, f64, N, false>>();
 }
 

@@ -3,8 +3,8 @@
 use core::marker::PhantomData;
 
 use dynamics_core::Engine;
-use dynamics_core::control::{Extrapolated, Held, Interpolated, Linearised};
-use dynamics_core::flexible::Course;
+use dynamics_core::control::{FirstOrderHold, InertiaUpdate, Interpolator, ZeroOrderHold};
+use dynamics_core::drivetrain::ElasticReference;
 use dynamics_core::state::State;
 
 use super::Inverse;
@@ -25,7 +25,7 @@ pub struct Every<W, P, const TICKS: usize> {
 /// The engine's torque and M in every `TICKS`-th tick, and between them what M makes of the accelerations.
 #[derive(Debug)]
 pub struct EveryLinearised<K, M, const B: usize, const N: usize, const TICKS: usize> {
-    between: Linearised<f32, N, TICKS>,
+    between: InertiaUpdate<f32, N, TICKS>,
     wait: usize,
     names: PhantomData<(K, M)>,
 }
@@ -54,18 +54,18 @@ macro_rules! between {
             }
             #[inline(always)]
             fn fresh(&mut self, torque: [f32; N]) -> [f32; N] {
-                self.renew(torque)
+                self.update(torque)
             }
             #[inline(always)]
             fn stale(&mut self) -> [f32; N] {
-                self.coast()
+                self.hold()
             }
         }
     };
 }
-between!(Held<f32, N>, "held", false, |_first| Self::start());
-between!(Extrapolated<f32, N, TICKS>, "extrapolated", false, |_first| Self::start(), TICKS);
-between!(Interpolated<f32, N, TICKS>, "interpolated", true, |first| Self::start(first), TICKS);
+between!(ZeroOrderHold<f32, N>, "held", false, |_first| Self::start());
+between!(FirstOrderHold<f32, N, TICKS>, "extrapolated", false, |_first| Self::start(), TICKS);
+between!(Interpolator<f32, N, TICKS>, "interpolated", true, |first| Self::start(first), TICKS);
 
 /// On the axis `rate`.
 const fn rate(ticks: usize) -> &'static str {
@@ -102,7 +102,7 @@ where
             wait: 0,
         }
     }
-    fn input(course: &Course<f32, N, N>) -> Self::Input {
+    fn input(course: &ElasticReference<f32, N, N>) -> Self::Input {
         W::input(course)
     }
     #[inline(never)]
@@ -140,25 +140,25 @@ where
 
     fn start(_: &State<f32, N, N>) -> Self {
         Self {
-            between: Linearised::start(),
+            between: InertiaUpdate::start(),
             wait: 0,
             names: PhantomData,
         }
     }
-    fn input(course: &Course<f32, N, N>) -> Self::Input {
+    fn input(course: &ElasticReference<f32, N, N>) -> Self::Input {
         course.state
     }
     #[inline(never)]
     fn tick(&mut self, state: &Self::Input) -> [f32; N] {
         if self.wait > 0 {
             self.wait -= 1;
-            return self.between.coast(&state.qdd);
+            return self.between.hold(&state.qdd);
         }
         self.wait = TICKS - 1;
         let posture = Engine::<M::Robot>::posture_by::<K, f32, B, N, N>(&state.q);
         let torque = Engine::<M::Robot>::rnea_at(&posture, state, &M::SCENE);
         let mass_matrix = Engine::<M::Robot>::crba_at(&posture, &M::SCENE);
-        self.between.renew(torque, mass_matrix, &state.qdd)
+        self.between.update(torque, mass_matrix, &state.qdd)
     }
     fn torque(output: &[f32; N]) -> [f64; N] {
         output.map(f64::from)

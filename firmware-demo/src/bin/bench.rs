@@ -85,7 +85,7 @@ mod tick {
     use cortex_m::peripheral::DWT;
     use dynamics_core::Engine;
     use dynamics_core::control::{
-        Bounds, Gains, Mode, Observer, Rejoin, Speed, Supervisor, Trajectory, WayPoint,
+        Gains, Mode, MotionLimits, Observer, Rejoin, SafetyLimits, Supervisor, Trajectory, WayPoint,
     };
     use dynamics_core::effects::RIGID_BODY;
     use dynamics_core::robots::Ur5e;
@@ -140,7 +140,7 @@ mod tick {
             qd: [0.0; 6],
             ticks: if i == 0 { 0 } else { 120 },
         });
-        let limit = Speed {
+        let limit = MotionLimits {
             velocity: 3.0,
             acceleration: 30.0,
         };
@@ -148,7 +148,7 @@ mod tick {
     }
 
     fn control(wires: &'static Wires<6>) -> ControlLoop<SimEncoder, SimDrive, SimBrake, 6> {
-        let bounds = Bounds {
+        let bounds = SafetyLimits {
             torque: TORQUE,
             rate: TORQUE,
             speed: [3.1; 6],

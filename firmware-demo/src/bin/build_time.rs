@@ -10,7 +10,7 @@ use cortex_m_rt::entry;
 use cortex_m_semihosting::debug;
 use dynamics_core::Engine;
 use dynamics_core::effects::RIGID_BODY;
-use dynamics_core::model::{BASE, Body, Joint, Limits, Model, Robot};
+use dynamics_core::model::{BASE, Body, Joint, JointLimits, Model, Robot};
 use dynamics_core::robots::Panda;
 use dynamics_core::state::State;
 use firmware_demo::target;
@@ -32,20 +32,20 @@ const Z: [f64; 3] = [0.0, 0.0, 1.0];
 /// A link of `mass` kg along its own `length`, in m.
 const fn link(parent: usize, axis: [f64; 3], at: [f64; 3], mass: f64, length: [f64; 3]) -> Body {
     let [x, y, z] = length;
-    let per_axis = mass / 12.0;
+    let axis_inv = mass / 12.0;
     Body::new("link", parent, Joint::revolute(axis))
         .xyz(at)
         .mass(mass)
         .com([0.5 * x + 0.003, 0.5 * y - 0.002, 0.5 * z + 0.001])
         .inertia([
-            per_axis * (y * y + z * z + 0.01),
+            axis_inv * (y * y + z * z + 0.01),
             1e-5 * mass,
             -2e-5 * mass,
-            per_axis * (x * x + z * z + 0.01),
+            axis_inv * (x * x + z * z + 0.01),
             3e-5 * mass,
-            per_axis * (x * x + y * y + 0.01),
+            axis_inv * (x * x + y * y + 0.01),
         ])
-        .limits(Limits {
+        .limits(JointLimits {
             lower: -FRAC_PI_2,
             upper: FRAC_PI_2,
             velocity: 20.0,

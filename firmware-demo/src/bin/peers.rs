@@ -9,9 +9,9 @@ use cortex_m_rt::entry;
 use cortex_m_semihosting::debug;
 use dynamics_core::algorithms::NotPositiveDefinite;
 use dynamics_core::effects::{Coriolis, Effect, Gravity, Inertia, RIGID_BODY};
-use dynamics_core::model::{Robot, Turn};
+use dynamics_core::model::{JointCoordinate, Robot};
 use dynamics_core::robots::{A1, Iiwa14, Panda, Ur5e};
-use dynamics_core::state::{Posture, State};
+use dynamics_core::state::{JointTrig, State};
 use dynamics_core::{Core, Engine, MassMatrix};
 use firmware_demo::{marker::measured, scene::larger, target};
 
@@ -19,10 +19,10 @@ use firmware_demo::{marker::measured, scene::larger, target};
 type C = unsafe extern "C" fn(*const f32, *const f32, *const f32, *const f32, *mut f32);
 type Scene = (Gravity, Inertia, Coriolis);
 /// What ours take.
-type Inverse<E, const N: usize> = fn(&Posture<f32, N>, &State<f32, N, N>, &E) -> [f32; N];
-type Matrix<const N: usize> = fn(&Posture<f32, N>, &Scene) -> MassMatrix<f32, N>;
+type Inverse<E, const N: usize> = fn(&JointTrig<f32, N>, &State<f32, N, N>, &E) -> [f32; N];
+type Matrix<const N: usize> = fn(&JointTrig<f32, N>, &Scene) -> MassMatrix<f32, N>;
 type Forward<const N: usize> =
-    fn(&Posture<f32, N>, &State<f32, N, N>, &[f32; N], &Scene) -> Solution<N>;
+    fn(&JointTrig<f32, N>, &State<f32, N, N>, &[f32; N], &Scene) -> Solution<N>;
 type Solution<const N: usize> = Result<[f32; N], NotPositiveDefinite>;
 /// A form's name and function.
 type Form<F> = (&'static str, F);
@@ -62,7 +62,7 @@ fn robot<T: Robot<B, N, N>, const B: usize, const N: usize>() {
     ]);
     forward::<T, B, N>(&[
         ("core", Core::<T>::aba_at),
-        ("engine", Engine::<T>::forward_at),
+        ("engine", Engine::<T>::forward_dynamics_at),
     ]);
 }
 
@@ -142,7 +142,7 @@ fn compare<T: Robot<B, N, N>, F: Copy, O, const B: usize, const N: usize>(
     algorithm: &'static str,
     forms: &[Form<F>],
     address: impl Fn(F) -> usize,
-    call: impl Fn(F, &Posture<f32, N>, &State<f32, N, N>) -> O,
+    call: impl Fn(F, &JointTrig<f32, N>, &State<f32, N, N>) -> O,
     flat: impl Fn(O, &mut [f32; MOST]) -> usize,
 ) {
     let name = T::MODEL.name;
@@ -193,8 +193,8 @@ fn compare<T: Robot<B, N, N>, F: Copy, O, const B: usize, const N: usize>(
 
 /// What a function of the C says of a state.
 fn casadi<const N: usize>(peer: &Peer, state: &State<f32, N, N>) -> [f32; MOST] {
-    let cos = black_box(state.q.map(|q| Turn::new(q).cos));
-    let sin = black_box(state.q.map(|q| Turn::new(q).sin));
+    let cos = black_box(state.q.map(|q| JointCoordinate::revolute(q).cos));
+    let sin = black_box(state.q.map(|q| JointCoordinate::revolute(q).sin));
     let (cos, sin, state) = (cos.as_ptr(), sin.as_ptr(), black_box(state));
     let (qd, qdd) = (state.qd.as_ptr(), state.qdd.as_ptr());
     let mut out = [0.0; MOST];

@@ -2,17 +2,17 @@
 
 use super::states::{COMMON, FAST, QUARTERS, QUICK, REMAINDERS, SLOW, ZIGZAG};
 use super::{Extras, N, Numbers, Problem};
-use dynamics_core::model::{Arm, BASE, Body, Joint, Link, Model, Robot};
+use dynamics_core::model::{ArmModel, BASE, Body, Joint, Link, Model, Robot};
 use dynamics_core::robots::Ur5e;
 use glam::{DMat3, DVec3};
 
-const UR5E: Arm<f64, N> = Ur5e::MODEL;
+const UR5E: ArmModel<f64, N> = Ur5e::MODEL;
 
 /// How many problems there are.
 pub const COUNT: usize = 28;
 
 /// The problems.
-pub(super) static LIST: [Problem<Arm<f64, N>>; COUNT] = [
+pub(super) static LIST: [Problem<ArmModel<f64, N>>; COUNT] = [
     plain(1, "tip × 10⁶", scaled(UR5E, 5, 1e6)),
     plain(2, "tip × 10⁻⁶", scaled(UR5E, 5, 1e-6)),
     plain(3, "base link × 10⁶", scaled(UR5E, 0, 1e6)),
@@ -50,9 +50,9 @@ pub(super) static LIST: [Problem<Arm<f64, N>>; COUNT] = [
 const fn asked(
     case: u32,
     name: &'static str,
-    arm: Arm<f64, N>,
+    arm: ArmModel<f64, N>,
     states: &'static [Numbers],
-) -> Problem<Arm<f64, N>> {
+) -> Problem<ArmModel<f64, N>> {
     let extras = Extras::NONE;
     Problem {
         case,
@@ -63,18 +63,18 @@ const fn asked(
     }
 }
 
-const fn plain(case: u32, name: &'static str, arm: Arm<f64, N>) -> Problem<Arm<f64, N>> {
+const fn plain(case: u32, name: &'static str, arm: ArmModel<f64, N>) -> Problem<ArmModel<f64, N>> {
     asked(case, name, arm, &COMMON)
 }
 
 /// A massless last link whose rotor has inertia.
-const fn armature(name: &'static str, inertia: f32) -> Problem<Arm<f64, N>> {
+const fn armature(name: &'static str, inertia: f32) -> Problem<ArmModel<f64, N>> {
     let mut problem = plain(6, name, scaled(UR5E, 5, 0.0));
     problem.extras.rotors[5] = inertia;
     problem
 }
 
-const fn payload(name: &'static str, mass: f32) -> Problem<Arm<f64, N>> {
+const fn payload(name: &'static str, mass: f32) -> Problem<ArmModel<f64, N>> {
     let mut problem = plain(46, name, UR5E);
     problem.extras.payload = mass;
     problem.extras.payload_at = [0.02, -0.01, 0.08];
@@ -88,7 +88,7 @@ const fn times(v: DVec3, by: f64) -> DVec3 {
 }
 
 /// A link's mass and inertia times a number.
-const fn scaled(mut arm: Arm<f64, N>, link: usize, by: f64) -> Arm<f64, N> {
+const fn scaled(mut arm: ArmModel<f64, N>, link: usize, by: f64) -> ArmModel<f64, N> {
     arm.links[link] = heavier(arm.links[link], by);
     arm
 }
@@ -96,7 +96,7 @@ const fn scaled(mut arm: Arm<f64, N>, link: usize, by: f64) -> Arm<f64, N> {
 const fn heavier(mut link: Link<f64>, by: f64) -> Link<f64> {
     let inertia = &mut link.inertia;
     inertia.mass *= by;
-    inertia.moment = times(inertia.moment, by);
+    inertia.first_moment = times(inertia.first_moment, by);
     let i = inertia.inertia;
     inertia.inertia = DMat3::from_cols(
         times(i.x_axis, by),
@@ -107,12 +107,12 @@ const fn heavier(mut link: Link<f64>, by: f64) -> Link<f64> {
 }
 
 /// All lengths and all masses times a number.
-const fn sized(mut arm: Arm<f64, N>, length: f64, mass: f64) -> Arm<f64, N> {
+const fn sized(mut arm: ArmModel<f64, N>, length: f64, mass: f64) -> ArmModel<f64, N> {
     let mut k = 0;
     while k < N {
         let mut link = heavier(arm.links[k], mass);
         link.placement.pos = times(link.placement.pos, length);
-        link.inertia.moment = times(link.inertia.moment, length);
+        link.inertia.first_moment = times(link.inertia.first_moment, length);
         let (i, by) = (link.inertia.inertia, length * length);
         link.inertia.inertia = DMat3::from_cols(
             times(i.x_axis, by),
@@ -126,20 +126,20 @@ const fn sized(mut arm: Arm<f64, N>, length: f64, mass: f64) -> Arm<f64, N> {
 }
 
 /// The base elsewhere.
-const fn moved(mut arm: Arm<f64, N>, by: [f64; 3]) -> Arm<f64, N> {
+const fn moved(mut arm: ArmModel<f64, N>, by: [f64; 3]) -> ArmModel<f64, N> {
     let p = arm.links[0].placement.pos;
     arm.links[0].placement.pos = DVec3::new(p.x + by[0], p.y + by[1], p.z + by[2]);
     arm
 }
 
 /// A quarter turn about x before the first joint: the arm stands on a wall.
-const fn turned_base(mut arm: Arm<f64, N>) -> Arm<f64, N> {
+const fn turned_base(mut arm: ArmModel<f64, N>) -> ArmModel<f64, N> {
     arm.links[0].placement.rot = DMat3::from_cols(DVec3::X, DVec3::new(0.0, 0.0, -1.0), DVec3::Y);
     arm
 }
 
 /// The last joint on the axis of the one before, of which nothing else hangs.
-const fn coincident(arm: Arm<f64, N>) -> Arm<f64, N> {
+const fn coincident(arm: ArmModel<f64, N>) -> ArmModel<f64, N> {
     let mut arm = scaled(arm, 4, 0.0);
     arm.links[5].placement.rot = DMat3::IDENTITY;
     arm.links[5].placement.pos = DVec3::new(0.0, 0.0, 0.25);
@@ -147,10 +147,10 @@ const fn coincident(arm: Arm<f64, N>) -> Arm<f64, N> {
 }
 
 /// A last link whose largest moment exceeds the sum of the others by [`EXCESS`] of itself.
-const fn fat(mut arm: Arm<f64, N>) -> Arm<f64, N> {
+const fn fat(mut arm: ArmModel<f64, N>) -> ArmModel<f64, N> {
     let inertia = &mut arm.links[5].inertia;
     // The centre of mass is on z.
-    let across = inertia.moment.z * inertia.moment.z / inertia.mass;
+    let across = inertia.first_moment.z * inertia.first_moment.z / inertia.mass;
     let (x, y) = (inertia.inertia.x_axis.x, inertia.inertia.y_axis.y);
     let z = (x + y - 2.0 * across) / (1.0 - EXCESS);
     inertia.inertia = DMat3::from_cols(times(DVec3::X, x), times(DVec3::Y, y), times(DVec3::Z, z));
@@ -161,7 +161,7 @@ const fn fat(mut arm: Arm<f64, N>) -> Arm<f64, N> {
 pub const EXCESS: f64 = 0.087;
 
 /// Rods of 1 m and 1 kg along x, on parallel axes.
-const RODS: Arm<f64, N> = {
+const RODS: ArmModel<f64, N> = {
     let mut bodies = [Body::new("rod", BASE, Joint::revolute([0.0, 1.0, 0.0])); N];
     let mut i = 0;
     while i < N {
@@ -177,7 +177,7 @@ const RODS: Arm<f64, N> = {
 };
 
 /// Point masses away from the axes, which turn by quarters.
-const POINTS: Arm<f64, N> = {
+const POINTS: ArmModel<f64, N> = {
     let mut bodies = [Body::new("point", BASE, Joint::revolute([0.0, 0.0, 1.0])); N];
     let mut i = 0;
     while i < N {
@@ -206,7 +206,7 @@ const Y: [f64; 3] = [0.0, 1.0, 0.0];
 const Z: [f64; 3] = [0.0, 0.0, 1.0];
 
 /// A trunk with two limbs, one of which forks.
-const TREE: Arm<f64, N> = Model::new(
+const TREE: ArmModel<f64, N> = Model::new(
     "tree",
     [
         limb(BASE, Z, [0.0, 0.0, 0.3]),
@@ -219,7 +219,7 @@ const TREE: Arm<f64, N> = Model::new(
 );
 
 /// The same, its bodies in the order [`RENUMBERING`].
-const RENUMBERED: Arm<f64, N> = Model::new(
+const RENUMBERED: ArmModel<f64, N> = Model::new(
     "tree",
     [
         limb(BASE, Z, [0.0, 0.0, 0.3]),
@@ -235,7 +235,7 @@ const RENUMBERED: Arm<f64, N> = Model::new(
 pub const RENUMBERING: [usize; N] = [0, 2, 1, 4, 5, 3];
 
 /// Axes, placements and inertias without a zero.
-const GENERAL: Arm<f64, N> = {
+const GENERAL: ArmModel<f64, N> = {
     let mut bodies = [Body::new("link", BASE, Joint::revolute(Z)); N];
     let mut i = 0;
     while i < N {

@@ -3,20 +3,21 @@
 use super::Extras;
 use crate::bits::Digest;
 use dynamics_core::algorithms::{
-    Damping, NotPositiveDefinite, aba, forward, frame, mobility, operational_space, rnea,
+    Damping, NotPositiveDefinite, aba, forward_dynamics, frame, operational_space, osim_inverse,
+    rnea,
 };
-use dynamics_core::effects::{Coriolis, Effect, GravityAlong, Inertia, Payload, RotorInertia};
-use dynamics_core::model::Revolutes;
+use dynamics_core::effects::{Armature, Coriolis, Effect, GravityVector, Inertia, Payload};
+use dynamics_core::model::AllRevolute;
 use dynamics_core::scalar::{Real, Vector};
 use dynamics_core::spatial::{Force, SpatialInertia};
 use dynamics_core::state::State;
 
 /// What acts on every hard case.
 pub type Scene<R, const N: usize> = (
-    GravityAlong<R>,
+    GravityVector<R>,
     Inertia,
     Coriolis,
-    RotorInertia<R, N>,
+    Armature<R, N>,
     OnLast<R>,
 );
 
@@ -47,22 +48,22 @@ impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for OnLast<R> {
 }
 
 /// An arm of which it is known that every joint turns: half the code to compile.
-pub type Revolute<'a, R, const N: usize> = Revolutes<'a, R, N, N, N>;
+pub type Revolute<'a, R, const N: usize> = AllRevolute<'a, R, N, N, N>;
 
 /// 9.8125 m/s² down: a number that f32 has.
 pub const GRAVITY: f64 = 9.8125;
 
 /// The scene with these additions.
 pub fn scene<R: Real, const N: usize>(extras: &Extras<N>) -> Scene<R, N> {
-    let real = |x: f32| R::pick_value(f64::from(x), x);
+    let real = |x: f32| R::select(f64::from(x), x);
     let payload = OnLast::new(
         real(extras.payload),
         extras.payload_at.map(real),
         extras.payload_inertia.map(real),
     );
     let g = R::Vec3::new(R::ZERO, R::ZERO, R::from_f64(-GRAVITY));
-    let rotors = RotorInertia(extras.rotors.map(real));
-    (GravityAlong(g), Inertia, Coriolis, rotors, payload)
+    let rotors = Armature(extras.rotors.map(real));
+    (GravityVector(g), Inertia, Coriolis, rotors, payload)
 }
 
 /// What is computed of one state of an arm.
@@ -135,7 +136,7 @@ fn by_matrix<R: Real, const N: usize>(
     tau: &[R; N],
     scene: &Scene<R, N>,
 ) -> Result<[R; N], NotPositiveDefinite> {
-    forward(arm, state, tau, scene)
+    forward_dynamics(arm, state, tau, scene)
 }
 
 #[inline(never)]
@@ -154,7 +155,7 @@ fn mobility_by_bodies<R: Real, const N: usize>(
     q: &[R; N],
     scene: &Scene<R, N>,
 ) -> Result<[[R; 3]; 3], NotPositiveDefinite> {
-    Ok(mobility(arm, q, N - 1, frame::Body, scene)?.along(&axes()))
+    Ok(osim_inverse(arm, q, N - 1, frame::Body, scene)?.along(&axes()))
 }
 
 #[inline(never)]

@@ -12,7 +12,7 @@ pub use compute::{Answers, GRAVITY, OnLast, Revolute, Scene, answers_to, scene};
 pub use states::{counts, remainder};
 
 use crate::bits::Digest;
-use dynamics_core::model::{Arm, Description};
+use dynamics_core::model::{ArmModel, RobotModel};
 use dynamics_core::state::State;
 
 /// Bodies of an arm.
@@ -60,10 +60,10 @@ pub struct Problem<A> {
 }
 
 /// The problems as they are described, in f64.
-pub static DOUBLE: &[Problem<Arm<f64, N>>; COUNT] = &arms::LIST;
+pub static DOUBLE: &[Problem<ArmModel<f64, N>>; COUNT] = &arms::LIST;
 
 /// The same in f32: what is computed with.
-pub static SINGLE: [Problem<Arm<f32, N>>; COUNT] = {
+pub static SINGLE: [Problem<ArmModel<f32, N>>; COUNT] = {
     let first = single_of(&arms::LIST[0]);
     let (mut all, mut i) = ([first; COUNT], 1);
     while i < COUNT {
@@ -73,7 +73,7 @@ pub static SINGLE: [Problem<Arm<f32, N>>; COUNT] = {
     all
 };
 
-const fn single_of(problem: &Problem<Arm<f64, N>>) -> Problem<Arm<f32, N>> {
+const fn single_of(problem: &Problem<ArmModel<f64, N>>) -> Problem<ArmModel<f32, N>> {
     Problem {
         case: problem.case,
         name: problem.name,
@@ -101,7 +101,7 @@ pub fn digests(mut report: impl FnMut(u32, &'static str, Digest)) {
         let taus = given.map(|given| given.2).unwrap_or_default();
         let mut digest = Digest::EMPTY;
         let scene = scene(&problem.extras);
-        if let Some(arm) = problem.arm.revolutes() {
+        if let Some(arm) = problem.arm.as_all_revolute() {
             for (numbers, tau) in problem.states.iter().zip(taus) {
                 let tau = tau.map(f32::from_bits);
                 answers_to(&arm, &state(numbers), &tau, &scene).digest(&mut digest);

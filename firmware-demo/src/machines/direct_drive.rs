@@ -2,7 +2,7 @@
 
 use core::f64::consts::PI;
 
-use dynamics_core::model::{Arm, BASE, Body, Joint, Limits, Model, Robot};
+use dynamics_core::model::{ArmModel, BASE, Body, Joint, JointLimits, Model, Robot};
 
 /// Three joints: a turret about z, a shoulder about y, and the roll of a cranked forearm about the upper arm;
 /// 7.2 kg, 0.5 m reach. All numbers are assumed, of the size of direct-drive and quasi-direct-drive arms.
@@ -12,8 +12,8 @@ use dynamics_core::model::{Arm, BASE, Body, Joint, Limits, Model, Robot};
 #[derive(Clone, Copy, Debug, Default)]
 pub struct DirectDrive;
 
-const fn limits(reach: f64, velocity: f64, torque: f64) -> Limits<f64> {
-    Limits {
+const fn limits(reach: f64, velocity: f64, torque: f64) -> JointLimits<f64> {
+    JointLimits {
         lower: -reach,
         upper: reach,
         velocity,
@@ -22,7 +22,7 @@ const fn limits(reach: f64, velocity: f64, torque: f64) -> Limits<f64> {
 }
 
 impl Robot<3, 3, 3> for DirectDrive {
-    const MODEL: Arm<f64, 3> = Model::new(
+    const MODEL: ArmModel<f64, 3> = Model::new(
         "direct_drive",
         [
             Body::new("turret", BASE, Joint::revolute([0.0, 0.0, 1.0]))
@@ -47,4 +47,4 @@ impl Robot<3, 3, 3> for DirectDrive {
     );
 }
 
-const _: Arm<f64, 3> = DirectDrive::MODEL;
+const _: ArmModel<f64, 3> = DirectDrive::MODEL;

@@ -2,7 +2,7 @@
 
 use core::f64::consts::PI;
 
-use dynamics_core::model::{Arm, BASE, Body, Joint, Limits, Model, Robot};
+use dynamics_core::model::{ArmModel, BASE, Body, Joint, JointLimits, Model, Robot};
 
 /// A camera of 22 kg that pans on a table, which a roll and a pitch axis keep level: 40 kg of moving mass.
 ///
@@ -15,8 +15,8 @@ pub struct Gimbal;
 /// Either way from level.
 const TILT: f64 = 35.0 * PI / 180.0;
 
-const fn limits(range: f64, torque: f64) -> Limits<f64> {
-    Limits {
+const fn limits(range: f64, torque: f64) -> JointLimits<f64> {
+    JointLimits {
         lower: -range,
         upper: range,
         velocity: 2.0,
@@ -25,7 +25,7 @@ const fn limits(range: f64, torque: f64) -> Limits<f64> {
 }
 
 impl Robot<3, 3, 3> for Gimbal {
-    const MODEL: Arm<f64, 3> = Model::new(
+    const MODEL: ArmModel<f64, 3> = Model::new(
         "gimbal",
         [
             Body::new("yoke", BASE, Joint::revolute([1.0, 0.0, 0.0]))
@@ -48,4 +48,4 @@ impl Robot<3, 3, 3> for Gimbal {
     );
 }
 
-const _: Arm<f64, 3> = Gimbal::MODEL;
+const _: ArmModel<f64, 3> = Gimbal::MODEL;

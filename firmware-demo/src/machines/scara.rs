@@ -2,7 +2,7 @@
 
 use core::f64::consts::{PI, TAU};
 
-use dynamics_core::model::{Arm, BASE, Body, Joint, Limits, Model, Robot};
+use dynamics_core::model::{ArmModel, BASE, Body, Joint, JointLimits, Model, Robot};
 
 /// A SCARA that serves a table: three vertical revolute axes, 325 mm + 275 mm, its quill locked at half
 /// its stroke with 2 kg of hand and part, held off the axis.
@@ -15,8 +15,8 @@ pub struct Scara;
 const Z: [f64; 3] = [0.0, 0.0, 1.0];
 
 /// ± `position`, rad.
-const fn limits(position: f64, velocity: f64, torque: f64) -> Limits<f64> {
-    Limits {
+const fn limits(position: f64, velocity: f64, torque: f64) -> JointLimits<f64> {
+    JointLimits {
         lower: -position,
         upper: position,
         velocity,
@@ -25,7 +25,7 @@ const fn limits(position: f64, velocity: f64, torque: f64) -> Limits<f64> {
 }
 
 impl Robot<3, 3, 3> for Scara {
-    const MODEL: Arm<f64, 3> = Model::new(
+    const MODEL: ArmModel<f64, 3> = Model::new(
         "scara",
         [
             Body::new("arm", BASE, Joint::revolute(Z))
@@ -50,4 +50,4 @@ impl Robot<3, 3, 3> for Scara {
     );
 }
 
-const _: Arm<f64, 3> = Scara::MODEL;
+const _: ArmModel<f64, 3> = Scara::MODEL;

@@ -1,6 +1,6 @@
 //! A ship in a seaway.
 
-use dynamics_core::effects::{GravityAlong, MovingBase};
+use dynamics_core::effects::{GravityVector, MovingBase};
 use dynamics_core::scalar::{Real, Vector};
 
 /// An oscillation a cos ω t.
@@ -42,7 +42,7 @@ pub struct Ship<R: Real> {
     pub yaw: Swing<R>,
     /// Upwards, m.
     pub heave: Swing<R>,
-    /// Foot of the gimbal, in the ship, m.
+    /// ContactPoint of the gimbal, in the ship, m.
     pub mast: R::Vec3,
 }
 
@@ -62,7 +62,7 @@ impl<R: Real> Ship<R> {
     /// ship's coordinates.
     ///
     /// RBDA (2008), (2.42) in its angular part, from axis to axis: ω' = E ω + e q̇, ω̇' = E ω̇ + e q̈ + E ω × e q̇.
-    pub fn seen(&self, t: R) -> (GravityAlong<R>, MovingBase<R>) {
+    pub fn seen(&self, t: R) -> (GravityVector<R>, MovingBase<R>) {
         let zero = R::ZERO;
         let (roll, pitch, yaw) = (self.roll.at(t), self.pitch.at(t), self.yaw.at(t));
         let [_, climb, lift] = self.heave.at(t);
@@ -87,7 +87,7 @@ impl<R: Real> Ship<R> {
         let acceleration = up * lift + alpha.cross(self.mast) + omega.cross(lever);
         let g = up * R::from_f64(-9.81);
         let base = MovingBase::of_point(omega, alpha, velocity, acceleration);
-        (GravityAlong(g), base)
+        (GravityVector(g), base)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use core::f64::consts::PI;
 
-use dynamics_core::model::{BASE, Body, Joint, Limits, Model, Robot};
+use dynamics_core::model::{BASE, Body, Joint, JointLimits, Model, Robot};
 use dynamics_core::state::State;
 
 /// A satellite of 140 kg that floats free and carries an arm of 6 joints: 2 m of reach, 23 kg with its hand.
@@ -13,12 +13,12 @@ use dynamics_core::state::State;
 pub struct SpaceArm;
 
 /// Joints 1 to 3.
-const LARGE: Limits<f64> = limits(80.0);
+const LARGE: JointLimits<f64> = limits(80.0);
 /// Joints 4 to 6, the wrist.
-const SMALL: Limits<f64> = limits(16.0);
+const SMALL: JointLimits<f64> = limits(16.0);
 
-const fn limits(torque: f64) -> Limits<f64> {
-    Limits {
+const fn limits(torque: f64) -> JointLimits<f64> {
+    JointLimits {
         lower: -PI,
         upper: PI,
         velocity: 1.5,

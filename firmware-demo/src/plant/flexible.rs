@@ -1,8 +1,8 @@
 //! A simulated robot whose transmissions give way: its encoders sit on the motors.
 
 use dynamics_core::algorithms::NotPositiveDefinite;
+use dynamics_core::drivetrain::{ElasticJoints, MotorState, elastic_step};
 use dynamics_core::effects::Effect;
-use dynamics_core::flexible::{Flexible, Motors, flexible_step};
 use dynamics_core::model::{Calibrated, Robot};
 use dynamics_core::state::State;
 
@@ -12,11 +12,11 @@ use super::Simulated;
 #[derive(Debug)]
 pub struct FlexiblePlant<T, E, const B: usize> {
     robot: Calibrated<T, f32, B, B, B>,
-    joints: Flexible<f32, B>,
+    joints: ElasticJoints<f32, B>,
     effects: E,
     /// The links, beyond what the encoders tell.
     pub links: State<f32, B, B>,
-    motors: Motors<f32, B>,
+    motors: MotorState<f32, B>,
 }
 
 impl<T, E, const B: usize> FlexiblePlant<T, E, B>
@@ -27,7 +27,7 @@ where
     /// A robot at rest: links and motors at these positions.
     pub fn new(
         robot: Calibrated<T, f32, B, B, B>,
-        joints: Flexible<f32, B>,
+        joints: ElasticJoints<f32, B>,
         effects: E,
         [links, motors]: [[f32; B]; 2],
     ) -> Self {
@@ -36,7 +36,7 @@ where
             joints,
             effects,
             links: State::at(links),
-            motors: Motors {
+            motors: MotorState {
                 position: motors,
                 velocity: [0.0; B],
             },
@@ -58,7 +58,7 @@ where
     }
 
     fn step(&mut self, torque: &[f32; B], _: &X, h: f32) -> Result<(), NotPositiveDefinite> {
-        flexible_step(
+        elastic_step(
             &self.robot,
             &self.joints,
             &mut self.links,

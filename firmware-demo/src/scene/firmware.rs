@@ -1,6 +1,6 @@
 //! What a scene's data sheet makes of the control loop, whatever its devices are.
 
-use dynamics_core::control::{Bounds, Gains, Observer, Rejoin, Supervisor};
+use dynamics_core::control::{Gains, Observer, Rejoin, SafetyLimits, Supervisor};
 use embedded_hal::digital::OutputPin;
 use embedded_hal::pwm::SetDutyCycle;
 use embedded_hal::spi::SpiDevice;
@@ -49,7 +49,7 @@ where
 {
     let limits = S::limits();
     let torque = limits.map(|l| l.torque);
-    let bounds = Bounds {
+    let bounds = SafetyLimits {
         torque,
         rate: torque.map(|t| t * 0.5),
         speed: limits.map(|l| l.velocity),

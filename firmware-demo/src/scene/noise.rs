@@ -37,7 +37,7 @@ impl Noise {
         for inertia in robot.inertias() {
             let factor = self.factor(0.03);
             inertia.mass *= factor;
-            inertia.moment *= factor;
+            inertia.first_moment *= factor;
             inertia.inertia *= factor;
         }
     }

@@ -2,7 +2,7 @@
 
 use core::marker::PhantomData;
 
-use dynamics_core::effects::{BodyState, Effect, JointState, Slopes};
+use dynamics_core::effects::{BodyState, Effect, JointState, TorqueDerivatives};
 use dynamics_core::spatial::{Force, Motion, SpatialInertia};
 use glam::Vec3;
 
@@ -42,7 +42,7 @@ where
     const BASE_MOTION: bool = L::Effects::BASE_MOTION;
     const GRAVITIES: usize = L::Effects::GRAVITIES;
     const PAYLOAD: [bool; B] = L::Effects::PAYLOAD;
-    const SPINNING: bool = L::Effects::SPINNING;
+    const GYROSCOPIC_ROTORS: bool = L::Effects::GYROSCOPIC_ROTORS;
 
     #[inline(always)]
     fn payload(&self, body: usize, inertia: &mut SpatialInertia<f32>) {
@@ -70,8 +70,13 @@ where
     }
 
     #[inline(always)]
-    fn slopes(&self, joint: usize, at: JointState<f32>, slopes: &mut Slopes<f32>) {
-        L::told(self.0).slopes(joint, at, slopes);
+    fn derivatives(
+        &self,
+        joint: usize,
+        at: JointState<f32>,
+        derivatives: &mut TorqueDerivatives<f32>,
+    ) {
+        L::told(self.0).derivatives(joint, at, derivatives);
     }
 
     #[inline(always)]

@@ -3,7 +3,9 @@
 use core::f32::consts::FRAC_PI_4;
 
 use dynamics_core::control::{Trajectory, TrajectoryError, WayPoint};
-use dynamics_core::effects::{Coriolis, Effect, Gravity, Inertia, RotorInertia, Rotors, Viscous};
+use dynamics_core::effects::{
+    Armature, Coriolis, Effect, Gravity, GyroscopicRotors, Inertia, Viscous,
+};
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
 
@@ -13,10 +15,16 @@ use crate::plant::Plant;
 use crate::scene::{Noise, Run, Scene, Truth, rigid, through};
 
 /// What acts on the arm.
-pub type Effects = (Gravity, Inertia, Coriolis, Viscous<f32, 3>, Rotors<f32, 3>);
+pub type Effects = (
+    Gravity,
+    Inertia,
+    Coriolis,
+    Viscous<f32, 3>,
+    GyroscopicRotors<f32, 3>,
+);
 
 /// A ring motor drives the turret directly, pancake motors the others.
-const ROTORS: Rotors<f32, 3> = Rotors {
+const ROTORS: GyroscopicRotors<f32, 3> = GyroscopicRotors {
     inertia: [12e-3, 2.5e-3, 8e-4],
     ratio: [1.0, 3.0, 6.0],
 };
@@ -35,19 +43,19 @@ const DIAGONAL: (
     Inertia,
     Coriolis,
     Viscous<f32, 3>,
-    RotorInertia<f32, 3>,
+    Armature<f32, 3>,
 ) = {
     let (
         gravity,
         inertia,
         coriolis,
         viscous,
-        Rotors {
+        GyroscopicRotors {
             inertia: i,
             ratio: r,
         },
     ) = EFFECTS;
-    let seen = RotorInertia([i[0] * r[0] * r[0], i[1] * r[1] * r[1], i[2] * r[2] * r[2]]);
+    let seen = Armature([i[0] * r[0] * r[0], i[1] * r[1] * r[1], i[2] * r[2] * r[2]]);
     (gravity, inertia, coriolis, viscous, seen)
 };
 

@@ -2,10 +2,10 @@
 //! as those of most arms do; what counts is where the links are.
 
 use dynamics_core::Core;
-use dynamics_core::control::{Gains, Smooth, TrajectoryError, feedback};
-use dynamics_core::effects::{Coriolis, Effect, Gravity, Inertia, RotorInertia, Viscous};
-use dynamics_core::flexible::{Course, Flexible, flexible_rnea};
-use dynamics_core::model::{Calibrated, Of};
+use dynamics_core::control::{Gains, RestToRest, TrajectoryError, feedback};
+use dynamics_core::drivetrain::{ElasticJoints, ElasticReference, elastic_inverse_dynamics};
+use dynamics_core::effects::{Armature, Coriolis, Effect, Gravity, Inertia, Viscous};
+use dynamics_core::model::{Calibrated, Static};
 use dynamics_core::robots::Iiwa14;
 use dynamics_core::state::State;
 
@@ -18,7 +18,7 @@ use crate::trajectories::{SWING, UPRIGHT};
 pub type Effects = (Gravity, Inertia, Coriolis, Viscous<f32, 7>);
 
 /// Assumed, of the order of harmonic drives of this size: the maker publishes neither stiffness nor rotors.
-const JOINTS: Flexible<f32, 7> = Flexible {
+const JOINTS: ElasticJoints<f32, 7> = ElasticJoints {
     stiffness: [1.6e4, 1.6e4, 1.2e4, 1.2e4, 9e3, 5e3, 5e3],
     rotor: [3.0, 3.0, 2.5, 2.5, 1.2, 0.5, 0.5],
     friction: [15.0, 15.0, 10.0, 10.0, 5.0, 2.0, 2.0],
@@ -34,9 +34,9 @@ pub struct CompliantArm;
 impl Scene<7, 7, 7, 7> for CompliantArm {
     type Robot = Iiwa14;
     type Effects = Effects;
-    type Reference = Smooth<f32, 7, 4>;
+    type Reference = RestToRest<f32, 7, 4>;
     /// The reference to its fourth derivative.
-    type Around = Course<f32, 7, 7>;
+    type Around = ElasticReference<f32, 7, 7>;
     type Plant = FlexiblePlant<Iiwa14, Effects, 7>;
 
     const NAME: &'static str = "flexible_joint";
@@ -58,23 +58,24 @@ impl Scene<7, 7, 7, 7> for CompliantArm {
     ];
 
     fn reference() -> Result<Self::Reference, TrajectoryError> {
-        Smooth::new(&SWING, TICK, &speeds(&Self::limits(), [8.0; 7]))
+        RestToRest::new(&SWING, TICK, &speeds(&Self::limits(), [8.0; 7]))
     }
 
-    fn around(reference: &Self::Reference, ticks: f32) -> Course<f32, 7, 7> {
+    fn around(reference: &Self::Reference, ticks: f32) -> ElasticReference<f32, 7, 7> {
         reference.course(ticks as u32)
     }
 
     fn inverse<E: Effect<f32, 7, 7>>(
         reference: &State<f32, 7, 7>,
-        course: &Course<f32, 7, 7>,
+        course: &ElasticReference<f32, 7, 7>,
         effects: &E,
     ) -> [f32; 7] {
-        let course = Course {
+        let course = ElasticReference {
             state: *reference,
             ..*course
         };
-        let Ok(told) = flexible_rnea(&Of::<Iiwa14>::NEW, &JOINTS, &course, effects) else {
+        let Ok(told) = elastic_inverse_dynamics(&Static::<Iiwa14>::NEW, &JOINTS, &course, effects)
+        else {
             return [0.0; 7];
         };
         // The loop feeds back q_d − θ; the motors are to be at θ_d.
@@ -101,7 +102,7 @@ impl Scene<7, 7, 7, 7> for CompliantArm {
         FlexiblePlant::new(robot, joints, effects, [SWING[0].q, wound])
     }
 
-    fn inertia(_: &Course<f32, 7, 7>) -> [f32; 7] {
+    fn inertia(_: &ElasticReference<f32, 7, 7>) -> [f32; 7] {
         INERTIA
     }
 }
@@ -110,9 +111,9 @@ impl Scene<7, 7, 7, 7> for CompliantArm {
 #[derive(Clone, Copy, Debug)]
 pub struct RigidJoints;
 
-impl Law<7, Course<f32, 7, 7>> for RigidJoints {
-    fn feedforward(reference: &State<f32, 7, 7>, _: &Course<f32, 7, 7>) -> [f32; 7] {
-        let motors = (RotorInertia(JOINTS.rotor), Viscous(JOINTS.friction));
+impl Law<7, ElasticReference<f32, 7, 7>> for RigidJoints {
+    fn feedforward(reference: &State<f32, 7, 7>, _: &ElasticReference<f32, 7, 7>) -> [f32; 7] {
+        let motors = (Armature(JOINTS.rotor), Viscous(JOINTS.friction));
         Core::<Iiwa14>::rnea(reference, &(CompliantArm::EFFECTS, motors))
     }
 }

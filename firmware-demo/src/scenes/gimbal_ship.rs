@@ -3,7 +3,7 @@
 use dynamics_core::Engine;
 use dynamics_core::control::TrajectoryError;
 use dynamics_core::effects::{
-    Coriolis, Coulomb, Effect, GravityAlong, Inertia, MovingBase, Viscous,
+    Coriolis, Coulomb, Effect, GravityVector, Inertia, MovingBase, Viscous,
 };
 use dynamics_core::spatial::Motion;
 use dynamics_core::state::State;
@@ -17,7 +17,7 @@ use crate::trajectories::watch::Watch;
 
 /// What acts on the gimbal; gravity and the base's motion are set by what the ship's inertial unit tells.
 pub type Effects = (
-    GravityAlong<f32>,
+    GravityVector<f32>,
     MovingBase<f32>,
     Inertia,
     Coriolis,
@@ -27,7 +27,7 @@ pub type Effects = (
 
 /// On a ship at rest; friction is that of bearings and seals of this size.
 pub const EFFECTS: Effects = (
-    GravityAlong(Vec3::new(0.0, 0.0, -9.81)),
+    GravityVector(Vec3::new(0.0, 0.0, -9.81)),
     MovingBase {
         velocity: Motion {
             ang: Vec3::ZERO,
@@ -55,7 +55,7 @@ impl Scene<3, 3, 3, 3> for OnWatch {
     type Robot = Gimbal;
     type Effects = Effects;
     type Reference = Watch<f32>;
-    type Around = (GravityAlong<f32>, MovingBase<f32>);
+    type Around = (GravityVector<f32>, MovingBase<f32>);
     type Plant = Plant<Gimbal, Effects, Self::Around, 3, 3, 3>;
 
     const NAME: &'static str = "gimbal_ship";

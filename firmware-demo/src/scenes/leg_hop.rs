@@ -3,7 +3,7 @@
 use dynamics_core::Engine;
 use dynamics_core::control::TrajectoryError;
 use dynamics_core::effects::{
-    Contact, Coriolis, Effect, Foot, Gravity, Inertia, RotorInertia, Viscous,
+    Armature, Contact, ContactPoint, Coriolis, Effect, Gravity, Inertia, Viscous,
 };
 use dynamics_core::state::State;
 use glam::Vec3;
@@ -11,7 +11,7 @@ use glam::Vec3;
 use crate::machines::Leg;
 use crate::plant::{Plant, last};
 use crate::scene::{Noise, Scene, rigid};
-use crate::trajectories::hop::{Course, Hop};
+use crate::trajectories::hop::{ElasticReference, Hop};
 
 /// What acts on the leg.
 pub type Effects = (
@@ -19,13 +19,13 @@ pub type Effects = (
     Inertia,
     Coriolis,
     Viscous<f32, 4>,
-    RotorInertia<f32, 4>,
+    Armature<f32, 4>,
     Contact<f32, 1>,
 );
 
 /// A rubber mat; its numbers are assumed. The ball's centre comes as near as its radius.
 pub const GROUND: Contact<f32, 1> = Contact {
-    feet: [Foot {
+    feet: [ContactPoint {
         body: Leg::FOOT,
         point: Vec3::ZERO,
     }],
@@ -35,7 +35,7 @@ pub const GROUND: Contact<f32, 1> = Contact {
     damping: 100.0,
     per_depth: 1e4,
     friction: 0.6,
-    creep: 0.2,
+    slip_tolerance: 0.2,
 };
 
 /// Friction and rotors are assumed, of the order of quasi-direct drives of this size; the rail has neither.
@@ -44,12 +44,12 @@ const EFFECTS: Effects = (
     Inertia,
     Coriolis,
     Viscous([0.0, 0.1, 0.1, 0.1]),
-    RotorInertia([0.0, 0.01, 0.01, 0.01]),
+    Armature([0.0, 0.01, 0.01, 0.01]),
     GROUND,
 );
 
 /// Four hops of 77 mm.
-pub const COURSE: Course = Course {
+pub const COURSE: ElasticReference = ElasticReference {
     rise: 140,
     flight: 250,
     stance: 250,

@@ -4,7 +4,7 @@
 use dynamics_core::Engine;
 use dynamics_core::control::{Reference, Trajectory, TrajectoryError};
 use dynamics_core::effects::{
-    Coriolis, Coulomb, Effect, Gravity, ImpossibleLoad, Inertia, Payload, RotorInertia, Viscous,
+    Armature, Coriolis, Coulomb, Effect, Gravity, Inertia, InvalidPayload, Payload, Viscous,
 };
 use dynamics_core::model::Robot;
 use dynamics_core::robots::Panda;
@@ -28,7 +28,7 @@ pub type Effects = (
     Coriolis,
     Viscous<f32, 7>,
     Coulomb<f32, 7>,
-    RotorInertia<f32, 7>,
+    Armature<f32, 7>,
     Load,
 );
 
@@ -45,7 +45,7 @@ pub const EFFECTS: Effects = (
         torque: [0.6, 0.9, 0.6, 1.2, 0.8, 0.4, 0.5],
         per_width: 20.0,
     },
-    RotorInertia([0.5, 0.5, 0.4, 0.4, 0.2, 0.2, 0.2]),
+    Armature([0.5, 0.5, 0.4, 0.4, 0.2, 0.2, 0.2]),
     Payload(SpatialInertia::ZERO),
 );
 
@@ -53,7 +53,7 @@ pub const EFFECTS: Effects = (
 ///
 /// # Errors
 /// If no body were like that.
-pub fn part() -> Result<Load, ImpossibleLoad> {
+pub fn part() -> Result<Load, InvalidPayload> {
     let moments = [3.0e-3, 0.0, 0.0, 3.467e-3, 0.0, 1.667e-3];
     Payload::checked(2.0, [0.01, -0.02, 0.19], moments, 1e-6)
 }
@@ -117,12 +117,12 @@ impl Scene<7, 7, 7, 7> for Carry {
         let borne = since(CLOSES) - since(OPENS);
         let Payload(SpatialInertia {
             mass,
-            moment,
+            first_moment: moment,
             inertia,
         }) = job.part;
         Payload(SpatialInertia {
             mass: mass * borne,
-            moment: moment * borne,
+            first_moment: moment * borne,
             inertia: inertia * borne,
         })
     }

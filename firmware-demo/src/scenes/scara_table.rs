@@ -4,7 +4,7 @@
 use dynamics_core::Engine;
 use dynamics_core::control::{Trajectory, TrajectoryError};
 use dynamics_core::effects::{
-    Coriolis, Coulomb, Effect, Gravity, GravityAlong, Inertia, RotorInertia, Viscous,
+    Armature, Coriolis, Coulomb, Effect, Gravity, GravityVector, Inertia, Viscous,
 };
 use dynamics_core::state::State;
 use glam::Vec3;
@@ -21,7 +21,7 @@ pub type Effects = (
     Coriolis,
     Viscous<f32, 3>,
     Coulomb<f32, 3>,
-    RotorInertia<f32, 3>,
+    Armature<f32, 3>,
 );
 
 /// Assumed, of the order of servo motors behind harmonic drives of 50 : 1 and a belt of 15 : 1.
@@ -33,7 +33,7 @@ pub const EFFECTS: Effects = (
         torque: [8.0, 4.0, 0.4],
         per_width: 20.0,
     },
-    RotorInertia([0.25, 0.08, 0.002]),
+    Armature([0.25, 0.08, 0.002]),
 );
 
 /// The scene.
@@ -96,7 +96,7 @@ pub struct WithGravityAlong;
 
 impl Law<3> for WithGravityAlong {
     fn feedforward(reference: &State<f32, 3, 3>, (): &()) -> [f32; 3] {
-        let down = GravityAlong(core::hint::black_box(Vec3::NEG_Z * 9.81));
+        let down = GravityVector(core::hint::black_box(Vec3::NEG_Z * 9.81));
         Engine::<Scara>::rnea(reference, &(down, EFFECTS))
     }
 }

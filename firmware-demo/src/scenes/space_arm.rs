@@ -2,9 +2,9 @@
 //! the feed-forward. The plant's step conserves momentum, down to rounding: it does not drift.
 
 use dynamics_core::Core;
-use dynamics_core::algorithms::Given;
+use dynamics_core::algorithms::Prescribed;
 use dynamics_core::control::{Trajectory, TrajectoryError};
-use dynamics_core::effects::{Coriolis, Coulomb, Effect, Inertia, RotorInertia, Viscous};
+use dynamics_core::effects::{Armature, Coriolis, Coulomb, Effect, Inertia, Viscous};
 use dynamics_core::spatial::Force;
 use dynamics_core::state::State;
 
@@ -20,7 +20,7 @@ pub type Effects = (
     Coriolis,
     Viscous<f32, 12>,
     Coulomb<f32, 12>,
-    RotorInertia<f32, 12>,
+    Armature<f32, 12>,
 );
 
 /// Friction and rotors of strain-wave gears in cold grease.
@@ -32,7 +32,7 @@ pub const EFFECTS: Effects = (
         torque: SpaceArm::joints([3.0, 3.0, 2.5, 0.8, 0.8, 0.6]),
         per_width: 20.0,
     },
-    RotorInertia(SpaceArm::joints([1.0, 1.0, 0.8, 0.15, 0.15, 0.12])),
+    Armature(SpaceArm::joints([1.0, 1.0, 0.8, 0.15, 0.15, 0.12])),
 );
 
 /// The scene.
@@ -60,7 +60,7 @@ impl Scene<7, 13, 12, 6> for ReachOut {
         Run::without::<Less<Self, 1, 7, 13, 12>>(name::<Coriolis>),
         Run::without::<Less<Self, 2, 7, 13, 12>>(name::<Viscous<f32, 12>>),
         Run::without::<Less<Self, 3, 7, 13, 12>>(name::<Coulomb<f32, 12>>),
-        Run::without::<Less<Self, 4, 7, 13, 12>>(name::<RotorInertia<f32, 12>>),
+        Run::without::<Less<Self, 4, 7, 13, 12>>(name::<Armature<f32, 12>>),
     ];
 
     fn reference() -> Result<Self::Reference, TrajectoryError> {
@@ -78,19 +78,19 @@ impl Scene<7, 13, 12, 6> for ReachOut {
     ) -> [f32; 6] {
         let state = SpaceArm::floating(reference);
         let posture = Core::<SpaceArm>::posture(&state.q);
-        let mut given = [Given::Torque(0.0); 12];
+        let mut given = [Prescribed::Torque(0.0); 12];
         for (given, &qdd) in given.iter_mut().zip(&state.qdd).skip(6) {
-            *given = Given::Acceleration(qdd);
+            *given = Prescribed::Acceleration(qdd);
         }
         let recoiling = if E::VELOCITY_PRODUCTS {
-            Core::<SpaceArm>::with_momentum_at(&posture, &state, Force::ZERO, &())
+            Core::<SpaceArm>::base_velocity_from_momentum_at(&posture, &state, Force::ZERO, &())
         } else {
             Ok(state.qd)
         };
         recoiling
             .and_then(|qd| {
                 let state = State { qd, ..state };
-                Core::<SpaceArm>::hybrid_at(&posture, &state, &given, effects)
+                Core::<SpaceArm>::hybrid_dynamics_at(&posture, &state, &given, effects)
             })
             // Only what is not a number has no solution: the gate stops it.
             .map_or([f32::NAN; 6], |response| last(&response.tau))

@@ -2,7 +2,7 @@
 
 use dynamics_core::Engine;
 use dynamics_core::control::{Trajectory, TrajectoryError};
-use dynamics_core::effects::{Coriolis, Coulomb, Effect, Gravity, Inertia, RotorInertia, Viscous};
+use dynamics_core::effects::{Armature, Coriolis, Coulomb, Effect, Gravity, Inertia, Viscous};
 use dynamics_core::robots::Ur5e;
 use dynamics_core::state::State;
 
@@ -18,7 +18,7 @@ pub type Effects = (
     Coriolis,
     Viscous<f32, 6>,
     Coulomb<f32, 6>,
-    RotorInertia<f32, 6>,
+    Armature<f32, 6>,
 );
 
 /// Friction and rotors are assumed, of the order that identifications of this arm's size find: the
@@ -32,7 +32,7 @@ pub const EFFECTS: Effects = (
         torque: [8.0, 8.0, 6.0, 1.5, 1.5, 1.2],
         per_width: 20.0,
     },
-    RotorInertia([0.9, 0.9, 0.9, 0.25, 0.25, 0.25]),
+    Armature([0.9, 0.9, 0.9, 0.25, 0.25, 0.25]),
 );
 
 /// The scene.

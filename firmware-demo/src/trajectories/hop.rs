@@ -41,7 +41,7 @@ pub use phase::arc_cosine;
 /// assert_eq!(hop.at(7).q, hop.whole(7).q[1..]);
 /// ```
 #[derive(Clone, Copy, Debug)]
-pub struct Course {
+pub struct ElasticReference {
     /// Ticks from rest to the first take-off, and from the last landing to rest.
     pub rise: u32,
     /// Ticks of each flight.
@@ -67,7 +67,7 @@ pub struct Hop {
     gravity: f32,
     /// c, 1/r and φ of the leg.
     offset: f32,
-    per_radius: f32,
+    radius_inv: f32,
     lean: f32,
     /// Height of the foot that just touches.
     ground: f32,
@@ -78,10 +78,11 @@ pub struct Hop {
 
 impl Hop {
     /// The hops of this course on this ground.
-    pub fn new(course: &Course, ground: &Contact<f32, 1>, gravity: f32) -> Self {
+    pub fn new(course: &ElasticReference, ground: &Contact<f32, 1>, gravity: f32) -> Self {
         // The centre above the foot with the leg straight down and straight ahead tells the rest.
         let above_foot = |alpha: f32| {
-            let centre = Core::<Leg>::mass_centre(&State::at([0.0, 0.0, alpha, -2.0 * alpha]), &());
+            let centre =
+                Core::<Leg>::center_of_mass(&State::at([0.0, 0.0, alpha, -2.0 * alpha]), &());
             let (_, cos) = sin_cos_near(alpha);
             (centre.mass, centre.position.z + 2.0 * Leg::LIMB * cos)
         };
@@ -90,13 +91,13 @@ impl Hop {
         let (_, ahead) = above_foot(core::f32::consts::FRAC_PI_2);
         let offset = 0.5 * (down + up);
         let (along, across) = (down - offset, ahead - offset);
-        let per_radius = (along * along + across * across).per_sqrt();
+        let radius_inv = (along * along + across * across).rsqrt();
         let mut hop = Self {
             phases: [Phase::default(); PHASES],
             ticks: 0,
             gravity,
             offset,
-            per_radius,
+            radius_inv,
             lean: across.atan2(along),
             ground: ground.height,
             give: mass / ground.stiffness,
@@ -108,7 +109,7 @@ impl Hop {
     }
 
     /// The phases, `touching` being the centre's height at take-off and landing.
-    fn plan(&mut self, course: &Course, touching: f32) {
+    fn plan(&mut self, course: &ElasticReference, touching: f32) {
         let g = self.gravity;
         let [rise, flight, stance] =
             [course.rise, course.flight, course.stance].map(|ticks| ticks as f32 * TICK);
@@ -175,14 +176,14 @@ impl Hop {
         let foot = [self.ground + lift - depth, climb - sink, heave - sag];
 
         // cos θ = x, θ = α − φ.
-        let x = (centre[0] - foot[0] - self.offset) * self.per_radius;
-        let x = x.limit(0.0, 0.99);
-        let xd = (centre[1] - foot[1]) * self.per_radius;
-        let xdd = (centre[2] - foot[2]) * self.per_radius;
+        let x = (centre[0] - foot[0] - self.offset) * self.radius_inv;
+        let x = x.clamped(0.0, 0.99);
+        let xd = (centre[1] - foot[1]) * self.radius_inv;
+        let xdd = (centre[2] - foot[2]) * self.radius_inv;
         let alpha = arc_cosine(x) + self.lean;
-        let per_sine = -(1.0 - x * x).per_sqrt();
-        let rate = xd * per_sine;
-        let accel = (xdd + x * rate * rate) * per_sine;
+        let sine_inv = -(1.0 - x * x).rsqrt();
+        let rate = xd * sine_inv;
+        let accel = (xdd + x * rate * rate) * sine_inv;
 
         let (sin, cos) = sin_cos_near(alpha);
         let length = 2.0 * Leg::LIMB;

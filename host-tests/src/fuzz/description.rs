@@ -3,7 +3,7 @@
 use super::bytes::Bytes;
 use dynamics_core::algorithms::{aba, crba, rnea};
 use dynamics_core::effects::RIGID_BODY;
-use dynamics_core::model::{Arm, BASE, Body, Joint, Limits, Model};
+use dynamics_core::model::{ArmModel, BASE, Body, Joint, JointLimits, Model};
 use dynamics_core::scalar::{Matrix, Vector};
 use dynamics_core::state::State;
 
@@ -19,7 +19,7 @@ pub fn description(bytes: &[u8]) {
     let Ok(model) = Model::try_new("fuzzed", bodies) else {
         return;
     };
-    let model: Arm<f64, BODIES> = model;
+    let model: ArmModel<f64, BODIES> = model;
     for (i, link) in model.links.iter().enumerate() {
         let (placement, inertia) = (&link.placement, &link.inertia);
         let vectors = placement
@@ -27,13 +27,13 @@ pub fn description(bytes: &[u8]) {
             .cols()
             .into_iter()
             .chain(inertia.inertia.cols());
-        let mut vectors = vectors.chain([placement.pos, inertia.moment, link.joint.axis]);
+        let mut vectors = vectors.chain([placement.pos, inertia.first_moment, link.joint.axis]);
         assert!(
             vectors.all(|v| v.array().iter().all(|x| x.is_finite())),
             "{i}: {link:?}"
         );
         assert!(link.parent == BASE || link.parent < i);
-        let _ = model.described(i);
+        let _ = model.in_link_frame(i);
     }
     let _ = model.check(1e-9);
     let state = State {
@@ -61,11 +61,11 @@ fn body(from: &mut Bytes<'_>, index: usize) -> Body {
     let (axis, at, turn, com) = (three(), three(), three(), three());
     let [moments, products, other] = [three(), three(), three()];
     let [mass, pitch, speed] = other;
-    let limits = Limits {
+    let limits = JointLimits {
         lower: other[1].min(other[2]),
         upper: other[1].max(other[2]),
         velocity: speed,
-        ..Limits::NONE
+        ..JointLimits::NONE
     };
     let joint = match from.below(16) {
         0 => Joint::fixed(),

@@ -2,13 +2,13 @@
 
 use super::bytes::Bytes;
 use crate::trees::TreeB;
-use dynamics_core::algorithms::{aba, crba, forward, rnea};
-use dynamics_core::configuration::{difference, integrate, normalise};
+use dynamics_core::algorithms::{aba, crba, forward_dynamics, rnea};
 use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::model::{Robot, model};
 use dynamics_core::robots::Ur5e;
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
+use dynamics_core::state::manifold::{difference, integrate, normalise};
 
 /// A state of the UR5e in f32, or of a tree with every kind of joint in f64.
 ///
@@ -49,7 +49,7 @@ where
     let m = crba(model, &q, &RIGID_BODY);
     let [by_bodies, by_matrix] = [
         aba(model, &state, &tau, &RIGID_BODY),
-        forward(model, &state, &tau, &RIGID_BODY),
+        forward_dynamics(model, &state, &tau, &RIGID_BODY),
     ];
     let there = integrate(model, &q, &qd);
     let back = difference(model, &q, &there);

@@ -1,7 +1,7 @@
 //! Frames of an encoder: what passes its checks is an angle, and no bit that falls over passes them.
 
 use super::bytes::Bytes;
-use dynamics_core::control::TurnCounter;
+use dynamics_core::control::MultiTurnEncoder;
 use firmware_demo::encoder::{COUNTS, decode, encode};
 
 /// Frames of two bytes each.
@@ -9,7 +9,7 @@ use firmware_demo::encoder::{COUNTS, decode, encode};
 /// # Panics
 /// If one is taken for another angle than its own, a wrong bit passes, or a count goes further than half a turn.
 pub fn frames(bytes: &[u8]) {
-    let (from, mut counter) = (&mut Bytes(bytes), TurnCounter::<14>::new());
+    let (from, mut counter) = (&mut Bytes(bytes), MultiTurnEncoder::<14>::new());
     while from.any() {
         let frame = u16::from_le_bytes([from.byte(), from.byte()]);
         let before = counter.counts();

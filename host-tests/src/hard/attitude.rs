@@ -4,11 +4,11 @@ use super::measure::larger;
 use super::{Case, Row, name};
 use crate::hard::integrators::{INTEGRATORS, Integrator};
 use dynamics_core::algorithms::{kinetic_energy, momentum};
-use dynamics_core::configuration::{integrate, neutral};
 use dynamics_core::effects::{Coriolis, Inertia};
 use dynamics_core::model::{BASE, Body, Joint, Model};
 use dynamics_core::scalar::{Real, Vector};
 use dynamics_core::state::State;
+use dynamics_core::state::manifold::{integrate, neutral};
 use glam::{DQuat, DVec3};
 
 /// The family's cases.

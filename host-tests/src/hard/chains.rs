@@ -1,6 +1,6 @@
 //! Long chains, and folded ones.
 
-use super::measure::{Bounds, against_oracle};
+use super::measure::{ErrorBounds, against_oracle};
 use super::setups::{Stance, arm, chain};
 use super::{Case, Row};
 
@@ -57,53 +57,53 @@ pub const CASES: &[Case] = &[
     },
 ];
 
-fn rods<const K: usize>(case: u32, [straight, random]: &[Bounds; 2]) -> Vec<Row> {
+fn rods<const K: usize>(case: u32, [straight, random]: &[ErrorBounds; 2]) -> Vec<Row> {
     let mut rows = against_oracle(&chain::<K>(case, Stance::Straight), straight);
     rows.extend(against_oracle(&chain::<K>(case, Stance::Random), random));
     rows
 }
 
-const STRAIGHT_8: Bounds = Bounds {
+const STRAIGHT_8: ErrorBounds = ErrorBounds {
     single: [3e-7, 3e-4, 2e-4, 1e-7, 3e-6],
     double: [3e-16, 3e-13, 3e-13, 0.0, 2e-15],
 };
 
-const RANDOM_8: Bounds = Bounds {
+const RANDOM_8: ErrorBounds = ErrorBounds {
     single: [4e-7, 8e-6, 6e-6, 4e-7, 8e-7],
     double: [2e-15, 8e-15, 1e-14, 1.5e-15, 8e-16],
 };
 
-const STRAIGHT_16: Bounds = Bounds {
+const STRAIGHT_16: ErrorBounds = ErrorBounds {
     single: [3e-7, 2e-2, 3e-3, 1.5e-7, 3e-6],
     double: [5e-16, 3e-11, 3e-12, 5e-16, 2e-15],
 };
 
-const RANDOM_16: Bounds = Bounds {
+const RANDOM_16: ErrorBounds = ErrorBounds {
     single: [2e-6, 2e-4, 8e-5, 6e-7, 1e-6],
     double: [3e-15, 6e-13, 1.5e-13, 1e-15, 8e-15],
 };
 
-const STRAIGHT_32: Bounds = Bounds {
+const STRAIGHT_32: ErrorBounds = ErrorBounds {
     single: [4e-7, 1.5e-1, 8e-3, 1.5e-7, 2e-6],
     double: [5e-16, 3e-10, 5e-11, 5e-16, 3e-15],
 };
 
-const RANDOM_32: Bounds = Bounds {
+const RANDOM_32: ErrorBounds = ErrorBounds {
     single: [2e-6, 2.5e-3, 1e-3, 5e-7, 8e-7],
     double: [4e-15, 4e-12, 1e-12, 8e-16, 2e-15],
 };
 
-const STRAIGHT_64: Bounds = Bounds {
+const STRAIGHT_64: ErrorBounds = ErrorBounds {
     single: [6e-7, 3e0, 3e-1, 8e-9, 3e-6],
     double: [6e-16, 3e-9, 4e-10, 0.0, 4e-15],
 };
 
-const RANDOM_64: Bounds = Bounds {
+const RANDOM_64: ErrorBounds = ErrorBounds {
     single: [7e-6, 3e-2, 8e-3, 8e-7, 6e-7],
     double: [1e-14, 3e-11, 1.5e-11, 8e-16, 2e-15],
 };
 
-const ZIGZAG: Bounds = Bounds {
+const ZIGZAG: ErrorBounds = ErrorBounds {
     single: [8e-7, 2e-5, 8e-6, 3e-7, 5e-7],
     double: [2e-15, 3e-14, 2e-14, 1.5e-15, 1e-15],
 };

@@ -4,7 +4,7 @@ use super::controller::{Bench, TICK};
 use super::measure::larger;
 use super::{Case, Row, name};
 use dynamics_core::control::{
-    Bounds, Mode, Observer, Speed, Supervisor, Trajectory, TurnCounter, WayPoint,
+    Mode, MotionLimits, MultiTurnEncoder, Observer, SafetyLimits, Supervisor, Trajectory, WayPoint,
 };
 use dynamics_core::scalar::Real;
 
@@ -44,9 +44,9 @@ pub const CASES: &[Case] = &[
 fn wrap() -> Vec<Row> {
     const COUNTS: f64 = 16_384.0;
     fn run<R: Real>(rows: &mut Vec<Row>, direction: f64) {
-        let (mut counter, of) = (TurnCounter::<14>::new(), R::from_f64);
+        let (mut counter, of) = (MultiTurnEncoder::<14>::new(), R::from_f64);
         let mut observer = Observer::<R, 1>::new(of(250.0), of(TICK));
-        let bounds = Bounds {
+        let bounds = SafetyLimits {
             torque: [R::ONE],
             rate: [R::ONE],
             speed: [of(3.0)],
@@ -226,7 +226,7 @@ fn day() -> Vec<Row> {
             qd: [R::ZERO],
             ticks,
         };
-        let limits = [Speed {
+        let limits = [MotionLimits {
             velocity: of(3.0),
             acceleration: of(30.0),
         }];

@@ -4,11 +4,11 @@
 use super::measure::larger;
 use dynamics_core::algorithms::{crba, rnea};
 use dynamics_core::control::{
-    Bounds, Command, Fault, Gains, Mode, Observer, Rejoin, Speed, Supervisor, Trajectory, WayPoint,
-    feedback,
+    Command, Fault, Gains, Mode, MotionLimits, Observer, Rejoin, SafetyLimits, Supervisor,
+    Trajectory, WayPoint, feedback,
 };
-use dynamics_core::effects::{Coriolis, Gravity, Inertia, RotorInertia};
-use dynamics_core::model::{Arm, model};
+use dynamics_core::effects::{Armature, Coriolis, Gravity, Inertia};
+use dynamics_core::model::{ArmModel, model};
 use dynamics_core::robots::Ur5e;
 use dynamics_core::scalar::Real;
 use dynamics_core::sim::semi_implicit;
@@ -61,12 +61,12 @@ pub const INPUTS: [Input; 5] = [
 ];
 
 /// With the rotors of scene `ur5e`, without which the wrist weighs next to nothing.
-type Scene<R> = (Gravity, Inertia, Coriolis, RotorInertia<R, 6>);
+type Scene<R> = (Gravity, Inertia, Coriolis, Armature<R, 6>);
 
 /// The controller and its arm.
 #[derive(Clone, Copy)]
 pub struct Bench<R: Real> {
-    model: &'static Arm<R, 6>,
+    model: &'static ArmModel<R, 6>,
     scene: Scene<R>,
     trajectory: Trajectory<R, 6, 3>,
     gains: Gains<R, 6>,
@@ -95,12 +95,12 @@ impl<R: Real> Bench<R> {
             ticks,
         };
         let away = HOME.map(|q| q + step);
-        let limits = [Speed {
+        let limits = [MotionLimits {
             velocity: R::from_f64(3.0),
             acceleration: R::from_f64(30.0),
         }; 6];
         let points = [stop(HOME, 0), stop(away, ticks), stop(HOME, ticks)];
-        let bounds = Bounds {
+        let bounds = SafetyLimits {
             torque: of(TORQUE),
             rate: of(TORQUE.map(|tau| 0.5 * tau)),
             speed: of([3.2; 6]),
@@ -108,7 +108,7 @@ impl<R: Real> Bench<R> {
             upper: of([6.3; 6]),
         };
         let (model, tick) = (model::<R, Ur5e, 6, 6, 6>(), R::from_f64(TICK));
-        let rotors = RotorInertia(of([0.9, 0.9, 0.9, 0.25, 0.25, 0.25]));
+        let rotors = Armature(of([0.9, 0.9, 0.9, 0.25, 0.25, 0.25]));
         let scene = (Gravity::EARTH, Inertia, Coriolis, rotors);
         let m = crba(model, &of(HOME), &scene);
         let diagonal = core::array::from_fn(|j| m.get(j, j));

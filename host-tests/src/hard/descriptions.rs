@@ -1,12 +1,12 @@
 //! Descriptions that no body can have, and those that only look so.
 
-use super::measure::{Bounds, against_oracle};
+use super::measure::{ErrorBounds, against_oracle};
 use super::setups::arm;
 use super::{Case, Row};
-use dynamics_core::algorithms::{aba, crba, factor, rnea};
+use dynamics_core::algorithms::{aba, crba, ltdl, rnea};
 use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::model::{
-    Arm, BASE, Body, Calibrated, Description, Joint, Model, ModelError, Problem, Robot,
+    ArmModel, BASE, Body, Calibrated, Joint, Model, ModelError, Problem, Robot, RobotModel,
 };
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
@@ -78,7 +78,7 @@ fn impossible() -> Vec<Row> {
 }
 
 /// The arm as it is described, in f64.
-fn described(case: u32, name: &str) -> &'static Arm<f64, N> {
+fn described(case: u32, name: &str) -> &'static ArmModel<f64, N> {
     let mut arms = DOUBLE.iter();
     let found = arms.find(|problem| problem.case == case && problem.name == name);
     &found.expect("the arm is there").arm
@@ -88,7 +88,7 @@ fn described(case: u32, name: &str) -> &'static Arm<f64, N> {
 struct Rod;
 
 impl Robot<1, 1, 1> for Rod {
-    const MODEL: Arm<f64, 1> = Model::new(
+    const MODEL: ArmModel<f64, 1> = Model::new(
         "rod",
         [Body::new("rod", BASE, Joint::revolute([0.0, 1.0, 0.0]))
             .mass(2.0)
@@ -104,7 +104,7 @@ fn unsound() -> Vec<Row> {
     let negative = Body::new("rod", BASE, Joint::revolute([0.0, 0.0, 1.0]))
         .mass(1.0)
         .inertia([0.02, 0.0, 0.0, 0.02, 0.0, -0.01]);
-    let arm: Arm<f64, 1> = Model::new("rod", [negative]);
+    let arm: ArmModel<f64, 1> = Model::new("rod", [negative]);
     let named = |problem: Result<(), ModelError>| matches!(problem, Err(ModelError { body: "rod", problem: Problem::Triangle(by), .. }) if by >= 0.5);
     refuses(&arm, named(arm.check(1e-6)), "f64", &mut rows);
     let single = arm.to_f32();
@@ -113,10 +113,10 @@ fn unsound() -> Vec<Row> {
 }
 
 /// What is said of an inertia that is not positive.
-fn refuses<R: Real>(arm: &Arm<R, 1>, named: bool, scalar: &'static str, rows: &mut Vec<Row>) {
+fn refuses<R: Real>(arm: &ArmModel<R, 1>, named: bool, scalar: &'static str, rows: &mut Vec<Row>) {
     rows.push(Row::claim("check: indefinite, named", scalar, named));
     let (at, one) = (State::at([R::from_f64(0.4)]), [R::ONE]);
-    let matrix = factor(arm, &crba(arm, &at.q, &RIGID_BODY)).is_err_and(|e| e.joint == 0);
+    let matrix = ltdl(arm, &crba(arm, &at.q, &RIGID_BODY)).is_err_and(|e| e.joint == 0);
     rows.push(Row::claim("CRBA + LᵀDL: indefinite, named", scalar, matrix));
     let bodies = aba(arm, &at, &one, &RIGID_BODY).is_err_and(|e| e.joint == 0);
     rows.push(Row::claim("ABA: indefinite, named", scalar, bodies));
@@ -153,7 +153,7 @@ fn of_scalar<R: Real>(scalar: &'static str, rows: &mut Vec<Row>) {
     ));
 }
 
-fn arm_about(axis: [f64; 3]) -> Result<Arm<f64, 1>, ModelError> {
+fn arm_about(axis: [f64; 3]) -> Result<ArmModel<f64, 1>, ModelError> {
     let body = Body::new("rod", BASE, Joint::revolute(axis)).mass(2.0);
     Model::try_new("rod", [body.com([0.3, 0.2, 0.1])])
 }
@@ -189,12 +189,12 @@ fn axes() -> Vec<Row> {
     rows
 }
 
-const FAT: Bounds = Bounds {
+const FAT: ErrorBounds = ErrorBounds {
     single: [5e-7, 5e-6, 4e-6, 4e-7, 3e-7],
     double: [8e-16, 1.5e-14, 6e-15, 8e-16, 8e-16],
 };
 
-const POINTS: Bounds = Bounds {
+const POINTS: ErrorBounds = ErrorBounds {
     single: [4e-7, 6e-6, 5e-6, 3e-7, 8e-7],
     double: [1e-15, 6e-15, 4e-15, 1.5e-15, 1.5e-15],
 };

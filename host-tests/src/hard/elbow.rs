@@ -3,7 +3,7 @@
 use super::measure::larger;
 use super::{Case, Row};
 use dynamics_core::algorithms::{
-    Damping, OperationalSpace, aba, forward, frame, mobility, operational_space, rnea,
+    Damping, OperationalSpace, aba, forward_dynamics, frame, operational_space, osim_inverse, rnea,
 };
 use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::model::{BASE, Body, Joint, Model};
@@ -107,13 +107,13 @@ fn across<R: Real>() -> [Force<R>; 2] {
 
 fn task<R: Real>(arm: &Elbow<R>, q: &[R; 2], damping: f64) -> OperationalSpace<R, 2, 2> {
     let damping = Damping::relative(R::from_f64(damping));
-    let body = (2, frame::Mixed);
+    let body = (2, frame::LocalWorldAligned);
     operational_space(arm, q, body, &across(), &RIGID_BODY, damping).expect("M > 0")
 }
 
 /// Errors of RNEA, LᵀDL, ABA, Λ⁻¹ by bodies and by M, and Λ, at an elbow's angle.
 fn errors<R: Real>(arm: &Elbow<R>, q: f32) -> [f64; 6] {
-    let real = |x: f32| R::pick_value(f64::from(x), x);
+    let real = |x: f32| R::select(f64::from(x), x);
     let given = State {
         q: [0.4, q],
         qd: [1.5, -2.25],
@@ -145,12 +145,13 @@ fn errors<R: Real>(arm: &Elbow<R>, q: f32) -> [f64; 6] {
     let light = [xx, xy, xy, yy];
     let ([xx, xy, yy], cap) = inertia(wide.q);
     let heavy = [xx, xy, xy, yy];
-    let bodies = mobility(arm, &state.q, 2, frame::Mixed, &RIGID_BODY).expect("M > 0");
+    let bodies =
+        osim_inverse(arm, &state.q, 2, frame::LocalWorldAligned, &RIGID_BODY).expect("M > 0");
     let task = task(arm, &state.q, DAMPING);
     [
         worst(&rnea(arm, &state, &RIGID_BODY), &truth, full(&truth)),
         worst(
-            &forward(arm, &state, &tau, &RIGID_BODY).expect("M > 0"),
+            &forward_dynamics(arm, &state, &tau, &RIGID_BODY).expect("M > 0"),
             &qdd,
             full(&qdd),
         ),

@@ -6,14 +6,14 @@ use super::measure::larger;
 use super::{Case, Row, name};
 use crate::random::{random_numbers, within};
 use dynamics_core::Core;
-use dynamics_core::algorithms::{aba, forward, rnea};
-use dynamics_core::configuration::{neutral, normalise};
+use dynamics_core::algorithms::{aba, forward_dynamics, rnea};
 use dynamics_core::effects::{Coriolis, Gravity, Inertia, RIGID_BODY};
-use dynamics_core::model::{Arm, BASE, Body, Joint, Model, Robot};
+use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model, Robot};
 use dynamics_core::robots::{A1Free, G1, G1Free, Panda, Ur5e};
 use dynamics_core::scalar::{Matrix, Real, Vector};
 use dynamics_core::sim::semi_implicit;
 use dynamics_core::state::State;
+use dynamics_core::state::manifold::{neutral, normalise};
 
 /// The family's cases.
 pub const CASES: &[Case] = &[
@@ -50,7 +50,7 @@ pub const CASES: &[Case] = &[
 
 const G: f64 = 9.81;
 
-fn points() -> Arm<f64, 2> {
+fn points() -> ArmModel<f64, 2> {
     let point = |name, parent, at| {
         let body = Body::new(name, parent, Joint::continuous([0.0, -1.0, 0.0]));
         body.xyz([0.0, 0.0, at]).mass(1.0).com([0.0, 0.0, -1.0])
@@ -143,7 +143,7 @@ where
             &state.qdd,
         ) / G;
         let by_matrix = far(
-            forward(model, &state, &free, &RIGID_BODY).unwrap_or(none),
+            forward_dynamics(model, &state, &free, &RIGID_BODY).unwrap_or(none),
             &state.qdd,
         ) / G;
         for (worst, error) in worst.iter_mut().zip([torque, by_bodies, by_matrix]) {
@@ -212,7 +212,7 @@ where
             Core::<T>::rnea(&state, &weightless),
             Core::<T>::aba(&state, &nothing, &empty).unwrap_or(none),
             Core::<T>::aba(&state, &nothing, &weightless).unwrap_or(none),
-            Core::<T>::forward(&state, &nothing, &empty).unwrap_or(none),
+            Core::<T>::forward_dynamics(&state, &nothing, &empty).unwrap_or(none),
         ];
         for x in all.iter().flatten() {
             let x = x.to_f64().abs();

@@ -3,7 +3,7 @@
 use super::measure::larger;
 use super::setup::widened;
 use super::{Case, Row, name};
-use dynamics_core::model::{Arm, Robot};
+use dynamics_core::model::{ArmModel, Robot};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
@@ -26,7 +26,7 @@ pub const CASES: &[Case] = &[Case {
 struct Hard<const K: usize>;
 
 impl<const K: usize> Robot<N, N, N> for Hard<K> {
-    const MODEL: Arm<f64, N> = DOUBLE[K].arm;
+    const MODEL: ArmModel<f64, N> = DOUBLE[K].arm;
 }
 
 /// The states of a problem in R.
@@ -86,8 +86,8 @@ fn forward<const K: usize>(rows: &mut Vec<Row>, problems: &[(usize, f64)]) {
         let mut refused = (true, false);
         for state in states::<f32>(problem) {
             let tau = Core::<Hard<K>>::rnea(&state, &scene);
-            let core = Core::<Hard<K>>::forward(&state, &tau, &scene);
-            let engine = Engine::<Hard<K>>::forward(&state, &tau, &scene);
+            let core = Core::<Hard<K>>::forward_dynamics(&state, &tau, &scene);
+            let engine = Engine::<Hard<K>>::forward_dynamics(&state, &tau, &scene);
             refused = (refused.0 && core == engine, refused.1 || engine.is_err());
             pairs.extend(core.ok().zip(engine.ok()));
         }

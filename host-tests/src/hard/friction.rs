@@ -6,7 +6,7 @@ use crate::random::random_numbers;
 use dynamics_core::effects::{
     AsymmetricCoulomb, Coulomb, Effect, Inertia, JointState, Lugre, Stribeck, Viscous,
 };
-use dynamics_core::model::{Arm, BASE, Body, Joint, Model};
+use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model};
 use dynamics_core::scalar::Real;
 use dynamics_core::sim::linearly_implicit;
 use dynamics_core::state::State;
@@ -19,7 +19,7 @@ pub const CASES: &[Case] = &[
         name: "friction at rest under 0.9 of break-away",
         parameters: "2 kg under 3.6 N against 4 N, widths 1e-2 … 1e-6 m/s, 2 s of 1 ms; LuGre of Canudas de Wit \
                      (1995), loaded in 1 s, then 10 s",
-        source: "brakes and wrists that creep or chatter in simulators with a regularised sign",
+        source: "brakes and wrists that slip_tolerance or chatter in simulators with a regularised sign",
         oracle: "closed form: the sign u (3 − u²)/2 is 0.9 at u = 2 sin(asin(0.9)/3); LuGre bends by −ln(0.1) F_s/σ₀",
         reason: "speed: rounding of the balance of two forces, 30 ε. No chatter: the speed never falls by more than \
                  rounding. LuGre: 2.5 F_s/σ₀ and 1 % are what is asked",
@@ -36,9 +36,9 @@ pub const CASES: &[Case] = &[
     },
 ];
 
-pub(super) fn sledge<R: Real>(mass: f64) -> Arm<R, 1> {
+pub(super) fn sledge<R: Real>(mass: f64) -> ArmModel<R, 1> {
     let body = Body::new("sledge", BASE, Joint::prismatic([1.0, 0.0, 0.0])).mass(mass);
-    let model: Arm<f64, 1> = Model::new("sledge", [body]);
+    let model: ArmModel<f64, 1> = Model::new("sledge", [body]);
     R::cast(&model)
 }
 
@@ -78,8 +78,8 @@ pub const STIFFNESS: f64 = 1e5;
 fn rest() -> Vec<Row> {
     let mut rows = Vec::new();
     for width in [1e-2, 1e-4, 1e-6] {
-        creep::<f32>(&mut rows, width);
-        creep::<f64>(&mut rows, width);
+        slip_tolerance::<f32>(&mut rows, width);
+        slip_tolerance::<f64>(&mut rows, width);
     }
     holds::<f64>(&mut rows, 1e-4);
     holds::<f64>(&mut rows, 1e-3);
@@ -87,8 +87,8 @@ fn rest() -> Vec<Row> {
     rows
 }
 
-/// Smooth Coulomb friction creeps.
-fn creep<R: Real>(rows: &mut Vec<Row>, width: f64) {
+/// RestToRest Coulomb friction creeps.
+fn slip_tolerance<R: Real>(rows: &mut Vec<Row>, width: f64) {
     let of = R::from_f64;
     let dry = Coulomb {
         torque: [of(4.0)],
@@ -113,13 +113,13 @@ fn creep<R: Real>(rows: &mut Vec<Row>, width: f64) {
         30.0 * R::EPSILON.to_f64(),
     );
     rows.push(Row::stated(
-        format!("width {width:.0e}: creep"),
+        format!("width {width:.0e}: slip_tolerance"),
         name::<R>(),
         error.abs(),
         bound,
     ));
     rows.push(Row::stated(
-        format!("width {width:.0e}: chatter, of the creep"),
+        format!("width {width:.0e}: chatter, of the slip_tolerance"),
         name::<R>(),
         back / want,
         bound,
@@ -158,7 +158,7 @@ fn holds<R: Real>(rows: &mut Vec<Row>, h: f64) {
         0.06,
     ));
     rows.push(Row::stated(
-        what("creep in 10 s, of the presliding"),
+        what("slip_tolerance in 10 s, of the presliding"),
         name::<R>(),
         crept,
         0.01,

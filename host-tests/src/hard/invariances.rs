@@ -1,6 +1,6 @@
 //! What must not matter: where one starts, how one counts, which way is up, and that rotations are rounded.
 
-use super::measure::{Bounds, against_oracle, by_joints};
+use super::measure::{ErrorBounds, against_oracle, by_joints};
 use super::placements::{apart, same};
 use super::setup::{Setup, literally_in_f64, turning, widened};
 use super::setups::arm;
@@ -232,22 +232,22 @@ const ORTHONORMAL: f64 = 5e-14;
 /// RNEA, LᵀDL and ABA, one numbering against the other.
 const EITHER: [[f64; 2]; 3] = [[2.5e-7, 0.0], [3e-7, 8e-16], [5e-7, 4e-16]];
 
-const WALL: Bounds = Bounds {
+const WALL: ErrorBounds = ErrorBounds {
     single: [4e-7, 4e-6, 4e-6, 6e-7, 4e-7],
     double: [1.5e-15, 6e-15, 1.5e-14, 6e-16, 6e-16],
 };
 
-const TREE: Bounds = Bounds {
+const TREE: ErrorBounds = ErrorBounds {
     single: [4e-7, 1.5e-6, 8e-7, 2e-7, 3e-7],
     double: [8e-16, 1.5e-15, 8e-16, 1.5e-15, 5e-16],
 };
 
-const RENUMBERED: Bounds = Bounds {
+const RENUMBERED: ErrorBounds = ErrorBounds {
     single: [3e-7, 5e-7, 8e-7, 3e-7, 5e-7],
     double: [8e-16, 1.5e-15, 2e-15, 1.5e-15, 6e-16],
 };
 
-const ROTATIONS: Bounds = Bounds {
+const ROTATIONS: ErrorBounds = ErrorBounds {
     single: [6e-7, 1.5e-5, 1e-5, 1.5e-6, 6e-7],
     double: [1e-15, 3e-14, 3e-14, 1.5e-15, 1.5e-15],
 };

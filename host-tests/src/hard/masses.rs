@@ -1,6 +1,6 @@
 //! Masses and inertias of very different sizes.
 
-use super::measure::{Bounds, against_oracle, by_joints};
+use super::measure::{ErrorBounds, against_oracle, by_joints};
 use super::naive::floored;
 use super::setups::{arm, light_links};
 use super::{Case, Row};
@@ -162,59 +162,59 @@ fn payload() -> Vec<Row> {
     rows
 }
 
-const PAYLOADS: [(&str, &Bounds); 4] = [
+const PAYLOADS: [(&str, &ErrorBounds); 4] = [
     ("payload 0", &PAYLOAD_NONE),
     ("payload 0.1 × the arm", &PAYLOAD_TENTH),
     ("payload 1 × the arm", &PAYLOAD_ONE),
     ("payload 10 × the arm", &PAYLOAD_TEN),
 ];
 
-const TIP_HEAVY: Bounds = Bounds {
+const TIP_HEAVY: ErrorBounds = ErrorBounds {
     single: [6e-7, 1e-3, 8e-4, 6e-5, 3e-6],
     double: [1.5e-15, 2e-12, 2e-12, 2e-13, 8e-15],
 };
 
-const TIP_LIGHT: Bounds = Bounds {
+const TIP_LIGHT: ErrorBounds = ErrorBounds {
     single: [5e-7, 5e-6, 6e-6, 4e-7, 6e-7],
     double: [1e-15, 8e-15, 1e-14, 1.5e-15, 8e-16],
 };
 
-const BASE_HEAVY: Bounds = Bounds {
+const BASE_HEAVY: ErrorBounds = ErrorBounds {
     single: [4e-7, 5e-6, 5e-6, 3e-7, 3e-7],
     double: [8e-16, 1e-14, 8e-15, 1.5e-15, 6e-16],
 };
 
-const WRIST: Bounds = Bounds {
+const WRIST: ErrorBounds = ErrorBounds {
     single: [4e-7, 2e-5, 1e-5, 2e-6, 1e-6],
     double: [8e-16, 2e-14, 4e-14, 4e-15, 2e-15],
 };
 
-const ARMATURE: Bounds = Bounds {
+const ARMATURE: ErrorBounds = ErrorBounds {
     single: [5e-7, 3e-6, 8e-6, 5e-7, 4e-7],
     double: [8e-16, 6e-15, 1e-14, 1.5e-15, 8e-16],
 };
 
-const LIGHT_LINKS: Bounds = Bounds {
+const LIGHT_LINKS: ErrorBounds = ErrorBounds {
     single: [6e-7, 3e-2, 1.5e-2, 7e-5, 6e-5],
     double: [1e-15, 4e-11, 4e-11, 2e-13, 6e-14],
 };
 
-const PAYLOAD_NONE: Bounds = Bounds {
+const PAYLOAD_NONE: ErrorBounds = ErrorBounds {
     single: [4e-7, 6e-6, 5e-6, 6e-7, 4e-7],
     double: [8e-16, 1e-14, 1.5e-14, 6e-16, 6e-16],
 };
 
-const PAYLOAD_TENTH: Bounds = Bounds {
+const PAYLOAD_TENTH: ErrorBounds = ErrorBounds {
     single: [4e-7, 4e-6, 3e-6, 4e-7, 3e-7],
     double: [1.5e-15, 8e-15, 8e-15, 1.5e-15, 1e-15],
 };
 
-const PAYLOAD_ONE: Bounds = Bounds {
+const PAYLOAD_ONE: ErrorBounds = ErrorBounds {
     single: [5e-7, 6e-6, 2e-5, 1.5e-6, 8e-7],
     double: [1e-15, 2e-14, 1.5e-14, 1.5e-15, 4e-15],
 };
 
-const PAYLOAD_TEN: Bounds = Bounds {
+const PAYLOAD_TEN: ErrorBounds = ErrorBounds {
     single: [8e-7, 3e-5, 8e-5, 8e-6, 8e-6],
     double: [1e-15, 4e-14, 1e-13, 8e-15, 1.5e-14],
 };

@@ -7,7 +7,7 @@ use dynamics_core::algorithms::NotPositiveDefinite;
 use dynamics_core::scalar::Real;
 use firmware_demo::hard::Answers;
 
-/// The quantities, in the order of [`Bounds`].
+/// The quantities, in the order of [`ErrorBounds`].
 const QUANTITIES: [&str; 5] = [
     "RNEA",
     "CRBA + LᵀDL",
@@ -18,7 +18,7 @@ const QUANTITIES: [&str; 5] = [
 
 /// The bounds of RNEA, CRBA + LᵀDL, ABA, and the inverse of the operational-space inertia by bodies and by M.
 #[derive(Clone, Copy, Debug)]
-pub struct Bounds {
+pub struct ErrorBounds {
     /// In f32.
     pub single: [f64; 5],
     /// In f64.
@@ -29,7 +29,7 @@ pub struct Bounds {
 ///
 /// A torque or acceleration is relative to its own joint's largest over the states, a mobility to its largest
 /// entry.
-pub fn against_oracle<const N: usize>(setup: &Setup<N>, bounds: &Bounds) -> Vec<Row> {
+pub fn against_oracle<const N: usize>(setup: &Setup<N>, bounds: &ErrorBounds) -> Vec<Row> {
     let truth = setup.truth();
     let answers = setup.answers(&truth);
     let single = errors(answers.iter().map(|(single, _)| single), &truth.states);

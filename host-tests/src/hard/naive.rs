@@ -2,15 +2,15 @@
 
 use super::setup::turning;
 use dynamics_core::algorithms::{crba, rnea};
-use dynamics_core::model::Arm;
+use dynamics_core::model::ArmModel;
 use dynamics_core::scalar::{Matrix, Real, Vector};
 use dynamics_core::spatial::{Force, Motion, SpatialInertia, Xform};
-use dynamics_core::state::{Posture, State};
+use dynamics_core::state::{JointTrig, State};
 use firmware_demo::hard::Scene;
 
 /// Forward dynamics whose pivots are lifted to an absolute floor.
 pub fn floored<R: Real, const N: usize>(
-    arm: &Arm<R, N>,
+    arm: &ArmModel<R, N>,
     state: &State<R, N, N>,
     tau: &[R; N],
     scene: &Scene<R, N>,
@@ -52,17 +52,17 @@ pub fn floored<R: Real, const N: usize>(
 
 /// Inverse dynamics with all motions, inertias and forces about the base's origin, in base coordinates.
 pub fn absolute<R: Real, const N: usize>(
-    arm: &Arm<R, N>,
+    arm: &ArmModel<R, N>,
     state: &State<R, N, N>,
     g: R::Vec3,
 ) -> [R; N] {
-    let posture = Posture::of(arm, &state.q);
+    let posture = JointTrig::of(arm, &state.q);
     let (mut v, mut a) = (Motion::ZERO, Motion::new(R::Vec3::ZERO, -g));
     let mut x = Xform::IDENTITY;
     let (mut axes, mut forces) = ([Motion::ZERO; N], [Force::ZERO; N]);
     for i in 0..N {
-        let node = dynamics_core::model::Description::node(arm, i).expect("a chain");
-        x = node.xform(&posture.turns) * x;
+        let link = dynamics_core::model::RobotModel::link(arm, i).expect("a chain");
+        x = link.xform(&posture.turns) * x;
         let along = x.rot.transpose_mul(R::Vec3::new(R::ZERO, R::ZERO, R::ONE));
         let axis = Motion::new(along, x.pos.cross(along));
         v += axis * state.qd[i];
@@ -82,14 +82,14 @@ pub fn absolute<R: Real, const N: usize>(
 /// An inertia about the base's origin. RBDA (2.66).
 fn about_origin<R: Real>(inertia: &SpatialInertia<R>, x: &Xform<R>) -> SpatialInertia<R> {
     let (e, p) = (x.rot, x.pos);
-    let h = e.transpose_mul(inertia.moment);
+    let h = e.transpose_mul(inertia.first_moment);
     let moment = h + p * inertia.mass;
     let turned = e.transpose() * inertia.inertia * e;
     let inertia_there =
         turned - crossed::<R>(p) * crossed::<R>(h) - crossed::<R>(moment) * crossed::<R>(p);
     SpatialInertia {
         mass: inertia.mass,
-        moment,
+        first_moment: moment,
         inertia: inertia_there,
     }
 }

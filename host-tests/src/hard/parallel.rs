@@ -1,14 +1,14 @@
 //! Axes that coincide, and axes that are parallel.
 
 use super::masses::refusals;
-use super::measure::{Bounds, against_oracle, by_joints, larger};
+use super::measure::{ErrorBounds, against_oracle, by_joints, larger};
 use super::setup::{turning, widened};
 use super::setups::arm;
 use super::{Case, Row};
 use crate::random::{random_numbers, within};
-use dynamics_core::algorithms::{aba, cholesky, crba, factor, rnea};
+use dynamics_core::algorithms::{aba, cholesky, crba, ltdl, rnea};
 use dynamics_core::effects::RIGID_BODY;
-use dynamics_core::model::{Arm, BASE, Body, Joint, Model};
+use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
 use firmware_demo::hard::{GRAVITY, N, scene};
@@ -39,7 +39,7 @@ pub const CASES: &[Case] = &[
 ];
 
 /// A chain of four whose joints 1 and 2 lie on one axis, with nothing on the first of them.
-fn twofold(rng: &mut TestRng) -> Arm<f64, 4> {
+fn twofold(rng: &mut TestRng) -> ArmModel<f64, 4> {
     let (axis, place): ([f64; 3], [f64; 3]) = (within(rng, 1.0), within(rng, 0.5));
     let [along] = within(rng, 1.0);
     let body = |parent, axis| {
@@ -62,11 +62,11 @@ fn twofold(rng: &mut TestRng) -> Arm<f64, 4> {
 }
 
 /// How many of LᵀDL, Cholesky's method and ABA do not name joint 1.
-fn unnamed<R: Real>(arm: &Arm<R, 4>, q: &[R; 4], seen: &mut [u32; 3]) {
+fn unnamed<R: Real>(arm: &ArmModel<R, 4>, q: &[R; 4], seen: &mut [u32; 3]) {
     let arm = &turning(arm);
     let m = crba(arm, q, &RIGID_BODY);
     let by_bodies = aba(arm, &State::at(*q), &[R::ONE; 4], &RIGID_BODY).err();
-    let named = [factor(arm, &m).err(), cholesky(arm, &m).err(), by_bodies];
+    let named = [ltdl(arm, &m).err(), cholesky(arm, &m).err(), by_bodies];
     for (seen, error) in seen.iter_mut().zip(named) {
         *seen += u32::from(error.is_none_or(|error| error.joint != 1));
     }
@@ -173,7 +173,7 @@ fn planar() -> Vec<Row> {
 
 const CLOSED: [f64; 2] = [1.5e-7, 5e-16];
 
-const PARALLEL: Bounds = Bounds {
+const PARALLEL: ErrorBounds = ErrorBounds {
     single: [5e-7, 6e-5, 1.5e-5, 6e-6, 2e-6],
     double: [6e-16, 8e-14, 3e-14, 4e-15, 4e-15],
 };

@@ -1,6 +1,6 @@
 //! Far away, tiny, giant, and in other frames.
 
-use super::measure::{Bounds, against_oracle, by_joints, larger};
+use super::measure::{ErrorBounds, against_oracle, by_joints, larger};
 use super::naive::{absolute, floored};
 use super::setup::{Setup, widened};
 use super::setups::{arm, reframed};
@@ -177,17 +177,17 @@ pub(super) fn apart<R: Real>(
 /// RNEA in absolute coordinates about a near origin.
 const NEAR: f64 = 3e-4;
 
-const FAR: Bounds = Bounds {
+const FAR: ErrorBounds = ErrorBounds {
     single: [4e-7, 6e-6, 5e-6, 6e-7, 4e-7],
     double: [8e-16, 1e-14, 1.5e-14, 6e-16, 6e-16],
 };
 
-const SCALED: Bounds = Bounds {
+const SCALED: ErrorBounds = ErrorBounds {
     single: [4e-7, 6e-6, 5e-6, 6e-7, 4e-7],
     double: [8e-16, 1e-14, 1.5e-14, 6e-16, 6e-16],
 };
 
-const GENERAL: Bounds = Bounds {
+const GENERAL: ErrorBounds = ErrorBounds {
     single: [5e-7, 2e-6, 8e-6, 5e-7, 6e-7],
     double: [1e-15, 1.5e-14, 5e-15, 1.5e-15, 1.5e-15],
 };

@@ -3,7 +3,7 @@
 use super::controller::{Bench, INPUTS, Input, Poison, TICK, apart};
 use super::measure::larger;
 use super::{Case, Row};
-use dynamics_core::algorithms::{aba, crba, forward, rnea};
+use dynamics_core::algorithms::{aba, crba, forward_dynamics, rnea};
 use dynamics_core::control::{Fault, Mode};
 use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::robots::Ur5e;
@@ -25,7 +25,7 @@ pub const CASES: &[Case] = &[Case {
 }];
 
 fn values<R: Real>() -> [R; 6] {
-    let subnormal = R::pick_value(1e-310, 1e-40);
+    let subnormal = R::select(1e-310, 1e-40);
     [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e38, -1e38]
         .map(R::from_f64)
         .into_iter()
@@ -51,7 +51,7 @@ fn outputs<R: Real>(state: &State<R, 6, 6>, tau: &[R; 6]) -> Vec<u64> {
     let refused = [R::from_f64(f64::INFINITY); 6];
     let mut all = rnea(model, state, &RIGID_BODY).to_vec();
     all.extend(aba(model, state, tau, &RIGID_BODY).unwrap_or(refused));
-    all.extend(forward(model, state, tau, &RIGID_BODY).unwrap_or(refused));
+    all.extend(forward_dynamics(model, state, tau, &RIGID_BODY).unwrap_or(refused));
     all.extend((0..36).map(|k| m.get(k / 6, k % 6)));
     all.into_iter().map(|x| x.to_f64().to_bits()).collect()
 }

@@ -2,7 +2,7 @@
 
 use super::Row;
 use super::measure::larger;
-use dynamics_core::algorithms::{aba, forward};
+use dynamics_core::algorithms::{aba, forward_dynamics};
 use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::model::{BASE, Body, Joint, Model};
 use dynamics_core::scalar::Real;
@@ -145,7 +145,7 @@ fn accelerations<R: Real>(
         };
         let mut all = [R::ZERO; 8];
         (all[6], all[7]) = (R::from_f64(tau[0]), R::from_f64(tau[1]));
-        let matrix = forward(chains[k], &state, &all, &RIGID_BODY).expect("M > 0");
+        let matrix = forward_dynamics(chains[k], &state, &all, &RIGID_BODY).expect("M > 0");
         let bodies = aba(chains[k], &state, &all, &RIGID_BODY).expect("M > 0");
         [matrix, bodies].map(|q| [q[6].to_f64(), q[7].to_f64()])
     };

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use dynamics_core::model::{Arm, BASE, Description, JointKind, Link};
+use dynamics_core::model::{ArmModel, BASE, JointKind, Link, RobotModel};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
 use firmware_demo::hard::{Answers, Extras, GRAVITY, Revolute, answers_to, scene};
@@ -17,9 +17,9 @@ pub struct Setup<const N: usize> {
     /// Its name within the case.
     pub name: String,
     /// In f32.
-    pub single: Arm<f32, N>,
+    pub single: ArmModel<f32, N>,
     /// The same numbers in f64, see [`same_in_f64`].
-    pub double: Arm<f64, N>,
+    pub double: ArmModel<f64, N>,
     /// What it carries.
     pub extras: Extras<N>,
     /// What it is asked.
@@ -54,7 +54,7 @@ impl<const N: usize> Setup<N> {
     pub fn new(
         case: u32,
         name: impl Into<String>,
-        arm: &Arm<f64, N>,
+        arm: &ArmModel<f64, N>,
         extras: Extras<N>,
         states: Vec<State<f32, N, N>>,
     ) -> Self {
@@ -136,8 +136,8 @@ impl<const N: usize> Setup<N> {
 }
 
 /// An arm all of whose joints turn.
-pub fn turning<R: Real, const N: usize>(arm: &Arm<R, N>) -> Revolute<'_, R, N> {
-    arm.revolutes().expect("every joint turns")
+pub fn turning<R: Real, const N: usize>(arm: &ArmModel<R, N>) -> Revolute<'_, R, N> {
+    arm.as_all_revolute().expect("every joint turns")
 }
 
 /// The state in f64.
@@ -151,7 +151,10 @@ pub fn widened<const Q: usize, const V: usize>(state: &State<f32, Q, V>) -> Stat
 
 /// The f32 numbers in f64, but for rotations, of which the nearest orthonormal ones are taken: what
 /// rounding leaves of a general rotation is none, and no truth can be said of it.
-pub fn same_in_f64<const N: usize>(arm: &Arm<f64, N>, single: &Arm<f32, N>) -> Arm<f64, N> {
+pub fn same_in_f64<const N: usize>(
+    arm: &ArmModel<f64, N>,
+    single: &ArmModel<f32, N>,
+) -> ArmModel<f64, N> {
     let mut wide = literally_in_f64(arm, single);
     for link in &mut wide.links {
         link.placement.rot = nearest_rotation(link.placement.rot);
@@ -161,14 +164,17 @@ pub fn same_in_f64<const N: usize>(arm: &Arm<f64, N>, single: &Arm<f32, N>) -> A
 }
 
 /// The f32 numbers in f64, rotations too.
-pub fn literally_in_f64<const N: usize>(arm: &Arm<f64, N>, single: &Arm<f32, N>) -> Arm<f64, N> {
+pub fn literally_in_f64<const N: usize>(
+    arm: &ArmModel<f64, N>,
+    single: &ArmModel<f32, N>,
+) -> ArmModel<f64, N> {
     let mut wide = *arm;
     for (link, rounded) in std::iter::zip(&mut wide.links, &single.links) {
         link.frame = rounded.frame.as_dmat3();
         link.placement.rot = rounded.placement.rot.as_dmat3();
         link.placement.pos = rounded.placement.pos.as_dvec3();
         link.inertia.mass = rounded.inertia.mass.into();
-        link.inertia.moment = rounded.inertia.moment.as_dvec3();
+        link.inertia.first_moment = rounded.inertia.first_moment.as_dvec3();
         link.inertia.inertia = rounded.inertia.inertia.as_dmat3();
     }
     wide
@@ -205,7 +211,7 @@ struct ExportedLink {
     rot: Vec<String>,
     pos: Vec<String>,
     mass: String,
-    moment: Vec<String>,
+    first_moment: Vec<String>,
     inertia: Vec<String>,
 }
 
@@ -234,7 +240,7 @@ fn exported_link(link: &Link<f32>) -> ExportedLink {
         rot: matrix(&link.placement.rot),
         pos: vector(link.placement.pos),
         mass: bits(&[link.inertia.mass]).remove(0),
-        moment: vector(link.inertia.moment),
+        first_moment: vector(link.inertia.first_moment),
         inertia: matrix(&link.inertia.inertia),
     }
 }

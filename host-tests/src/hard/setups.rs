@@ -1,7 +1,7 @@
 //! The setups that the oracle answers.
 
 use super::setup::{Exported, Setup};
-use dynamics_core::model::{Arm, BASE, Body, Joint, Model};
+use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model};
 use dynamics_core::state::State;
 use firmware_demo::hard::{DOUBLE, Extras, N, SINGLE, state};
 use glam::DMat3;
@@ -70,7 +70,7 @@ impl Stance {
 pub fn chain<const K: usize>(case: u32, stance: Stance) -> Setup<K> {
     let random = stance == Stance::Random;
     let bodies = std::array::from_fn(|i| rod(i, 1.0, 0.25, random));
-    let arm = Arm::new("rods", bodies);
+    let arm = ArmModel::new("rods", bodies);
     let mut rng = random_numbers();
     let states = (0..4).map(|_| {
         let mut state = drawn::<K>(&mut rng);
@@ -88,7 +88,7 @@ pub fn light_links() -> Setup<11> {
     let bodies = std::array::from_fn(|i| rod(i, if i < 10 { 1e-3 } else { 1.0 }, 0.1, true));
     let mut rng = random_numbers();
     let states = (0..4).map(|_| drawn(&mut rng)).collect();
-    let arm: Arm<f64, 11> = Model::new("light links", bodies);
+    let arm: ArmModel<f64, 11> = Model::new("light links", bodies);
     Setup::new(12, "1 kg on ten links of 1 g", &arm, Extras::NONE, states)
 }
 
@@ -126,7 +126,7 @@ pub fn reframed() -> Setup<N> {
         let own = DMat3::from_rotation_z(0.4 + 0.7 * k as f64);
         link.placement.rot = own * link.placement.rot * before.transpose();
         link.placement.pos = before * link.placement.pos;
-        link.inertia.moment = own * link.inertia.moment;
+        link.inertia.first_moment = own * link.inertia.first_moment;
         link.inertia.inertia = own * link.inertia.inertia * own.transpose();
         link.frame = own * link.frame;
         before = own;

@@ -3,9 +3,11 @@
 use super::measure::larger;
 use super::{Case, Row};
 use dynamics_core::algorithms::Damping;
-use dynamics_core::algorithms::{aba, forward, frame, mobility, operational_space, rnea};
+use dynamics_core::algorithms::{
+    aba, forward_dynamics, frame, operational_space, osim_inverse, rnea,
+};
 use dynamics_core::effects::{RIGID_BODY, Spring};
-use dynamics_core::model::{Arm, BASE, Body, Joint, Model};
+use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model};
 use dynamics_core::scalar::{Real, Vector};
 use dynamics_core::spatial::Force;
 use dynamics_core::state::State;
@@ -30,7 +32,7 @@ const MASS: f64 = 0.5;
 const STIFFNESS: f64 = 1e6;
 
 /// The turntable and the slide, whose q begins `from` m short of the placement.
-fn table(from: f64) -> Arm<f64, 2> {
+fn table(from: f64) -> ArmModel<f64, 2> {
     let z = [0.0, 0.0, 1.0];
     Model::new(
         "table",
@@ -71,8 +73,8 @@ fn closed_form(state: &State<f64, 2, 2>) -> [f64; 2] {
 }
 
 /// Errors of RNEA, LᵀDL, ABA, and mobilities by bodies and by M; `offset` m are in q.
-fn errors<R: Real>(arm: &Arm<R, 2>, offset: f64) -> [f64; 5] {
-    let real = |x: f32| R::pick_value(f64::from(x), x);
+fn errors<R: Real>(arm: &ArmModel<R, 2>, offset: f64) -> [f64; 5] {
+    let real = |x: f32| R::select(f64::from(x), x);
     let [k, at] = [STIFFNESS, offset].map(R::from_f64);
     let spring = Spring {
         stiffness: [R::ZERO, k],
@@ -100,7 +102,7 @@ fn errors<R: Real>(arm: &Arm<R, 2>, offset: f64) -> [f64; 5] {
         let inertia = [J + MASS * r * r, MASS];
         let qdd: [f64; 2] =
             std::array::from_fn(|i| wide.qdd[i] + (tau[i].to_f64() - truth[i]) / inertia[i]);
-        let by_matrix = forward(arm, &state, &tau, &scene).expect("M > 0");
+        let by_matrix = forward_dynamics(arm, &state, &tau, &scene).expect("M > 0");
         let by_bodies = aba(arm, &state, &tau, &scene).expect("M > 0");
         // Full scale of an acceleration: what the largest force gives.
         let largest = [truth[0], 4e-3 * STIFFNESS];
@@ -111,7 +113,7 @@ fn errors<R: Real>(arm: &Arm<R, 2>, offset: f64) -> [f64; 5] {
             worst[2] = larger(worst[2], off(by_bodies[i], qdd[i], largest[i] / inertia[i]));
         }
         let truth = [[1.0 / MASS, 0.0], [0.0, r * r / inertia[0]]];
-        let bodies = mobility(arm, &state.q, 1, frame::Body, &scene).expect("M > 0");
+        let bodies = osim_inverse(arm, &state.q, 1, frame::Body, &scene).expect("M > 0");
         let damping = Damping::relative(R::ZERO);
         let task = operational_space(arm, &state.q, (1, frame::Body), &across, &scene, damping);
         for (k, found) in [bodies.along(&across), task.expect("M > 0").mobility]

@@ -1,11 +1,11 @@
 //! Large speeds and angles.
 
-use super::measure::{Bounds, against_oracle, by_joints};
+use super::measure::{ErrorBounds, against_oracle, by_joints};
 use super::setup::turning;
 use super::setups::arm;
 use super::{Case, Row};
 use dynamics_core::algorithms::rnea;
-use dynamics_core::control::{Bounds as Limits, Fault, Supervisor, TurnCounter};
+use dynamics_core::control::{Fault, MultiTurnEncoder, SafetyLimits, Supervisor};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
 use firmware_demo::hard::{N, counts, scene};
@@ -84,8 +84,8 @@ fn million() -> Vec<Row> {
 }
 
 /// An encoder that has counted so far.
-fn counter(counts: i32) -> TurnCounter<12> {
-    let mut counter = TurnCounter::near(counts >> 12);
+fn counter(counts: i32) -> MultiTurnEncoder<12> {
+    let mut counter = MultiTurnEncoder::near(counts >> 12);
     counter.update((counts & 0xfff) as u16);
     counter
 }
@@ -93,7 +93,7 @@ fn counter(counts: i32) -> TurnCounter<12> {
 /// Whether a gate of a joint without limits refuses a position as out of bounds.
 fn refused<R: Real>(q: R) -> bool {
     let (far, some) = (R::ONE / R::ZERO, R::from_f64(100.0));
-    let limits = Limits {
+    let limits = SafetyLimits {
         torque: [some],
         rate: [some],
         speed: [some],
@@ -105,17 +105,17 @@ fn refused<R: Real>(q: R) -> bool {
     gate.pass(&[R::ZERO]).status.fault == Some(Fault::Position { joint: 0 })
 }
 
-const FAST: Bounds = Bounds {
+const FAST: ErrorBounds = ErrorBounds {
     single: [5e-7, 6e-6, 5e-6, 6e-7, 4e-7],
     double: [2e-15, 6e-15, 1e-14, 6e-16, 6e-16],
 };
 
-const REMAINDERS: Bounds = Bounds {
+const REMAINDERS: ErrorBounds = ErrorBounds {
     single: [5e-7, 5e-6, 4e-6, 5e-7, 4e-7],
     double: [5e-16, 8e-15, 6e-15, 8e-16, 8e-16],
 };
 
-const QUARTERS: Bounds = Bounds {
+const QUARTERS: ErrorBounds = ErrorBounds {
     single: [2e-7, 3e-6, 3e-6, 3e-7, 3e-7],
     double: [8e-16, 4e-15, 3e-15, 5e-16, 8e-16],
 };

@@ -3,9 +3,11 @@
 use super::measure::larger;
 use super::{Case, Row, name};
 use dynamics_core::algorithms::rnea;
+use dynamics_core::drivetrain::{
+    ElasticJoints, ElasticReference, MotorState, elastic_inverse_dynamics, elastic_step,
+};
 use dynamics_core::effects::{Inertia, RIGID_BODY, Spring, Viscous};
-use dynamics_core::flexible::{Course, Flexible, Motors, flexible_rnea, flexible_step};
-use dynamics_core::model::{Arm, BASE, Body, Joint, Model, Robot};
+use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model, Robot};
 use dynamics_core::robots::Ur5e;
 use dynamics_core::scalar::Real;
 use dynamics_core::sim::{linearly_implicit, semi_implicit};
@@ -49,12 +51,12 @@ fn relative(got: f64, want: f64) -> f64 {
     ((got - want) / want).abs()
 }
 
-fn model<R: Real>(body: Body) -> Arm<R, 1> {
-    let model: Arm<f64, 1> = Model::new("one", [body]);
+fn model<R: Real>(body: Body) -> ArmModel<R, 1> {
+    let model: ArmModel<f64, 1> = Model::new("one", [body]);
     R::cast(&model)
 }
 
-fn sledge<R: Real>() -> Arm<R, 1> {
+fn sledge<R: Real>() -> ArmModel<R, 1> {
     model(Body::new("sledge", BASE, Joint::prismatic([1.0, 0.0, 0.0])).mass(2.0))
 }
 
@@ -71,7 +73,7 @@ fn spring() -> Vec<Row> {
             rest: [R::ZERO],
         };
         let (mut state, mut worst) = (State::at([R::from_f64(0.1)]), 0.0_f64);
-        let (start, per_step) = (state.q[0].to_f64(), H * (STIFFNESS / INERTIA).sqrt());
+        let (start, step_inv) = (state.q[0].to_f64(), H * (STIFFNESS / INERTIA).sqrt());
         let step = |state: &mut State<R, 1, 1>, tau: f64| {
             linearly_implicit(
                 &wheel,
@@ -84,15 +86,15 @@ fn spring() -> Vec<Row> {
         };
         for n in 1..=8 {
             step(&mut state, 0.0);
-            let amplitude = start * (1.0 + per_step * per_step).powf(-0.5 * f64::from(n));
-            let want = amplitude * (f64::from(n) * per_step.atan()).cos();
+            let amplitude = start * (1.0 + step_inv * step_inv).powf(-0.5 * f64::from(n));
+            let want = amplitude * (f64::from(n) * step_inv.atan()).cos();
             worst = larger(worst, (state.q[0].to_f64() - want).abs() / amplitude);
         }
         rows.push(Row::stated(
             "let go",
             name::<R>(),
             worst,
-            8.0 * (1.0 + per_step * per_step) * epsilon,
+            8.0 * (1.0 + step_inv * step_inv) * epsilon,
         ));
         for _ in 0..100 {
             step(&mut state, 1.0);
@@ -202,21 +204,21 @@ fn flexible() -> Vec<Row> {
 /// A motor that drives a sledge through the joint.
 fn driven<R: Real>(rows: &mut Vec<Row>, k: f64) {
     let of = R::from_f64;
-    let joints = Flexible {
+    let joints = ElasticJoints {
         stiffness: [of(k)],
         rotor: [of(ROTOR)],
         friction: [R::ZERO],
     };
     let (mut link, mut motor) = (
         State::at([R::ZERO]),
-        Motors {
+        MotorState {
             position: [R::ZERO],
             velocity: [R::ZERO],
         },
     );
     let (sledge, h) = (sledge::<R>(), of(H));
     for _ in 0..1000 {
-        flexible_step(
+        elastic_step(
             &sledge,
             &joints,
             &mut link,
@@ -250,18 +252,18 @@ fn driven<R: Real>(rows: &mut Vec<Row>, k: f64) {
 
 /// What the motors of an arm at rest are told in f32: its weight, and angles ahead by weight over stiffness.
 fn held(rows: &mut Vec<Row>, k: f32) {
-    let joints = Flexible {
+    let joints = ElasticJoints {
         stiffness: [k; 6],
         rotor: [0.5; 6],
         friction: [0.0; 6],
     };
     let q = [0.3, -1.2, 1.5, 0.3, 0.5, 0.1];
-    let rest = Course {
+    let rest = ElasticReference {
         state: State::at(q),
         jerk: [0.0; 6],
         snap: [0.0; 6],
     };
-    let told = flexible_rnea(&Ur5e::MODEL_F32, &joints, &rest, &RIGID_BODY)
+    let told = elastic_inverse_dynamics(&Ur5e::MODEL_F32, &joints, &rest, &RIGID_BODY)
         .expect("every joint is single");
     let weight = rnea(&Ur5e::MODEL, &State::at(q.map(f64::from)), &RIGID_BODY);
     let most = weight.iter().fold(0.0_f64, |most, tau| most.max(tau.abs()));

@@ -4,7 +4,7 @@ use super::attitude::ball;
 use super::integrators::{INTEGRATORS, Integrator};
 use super::measure::larger;
 use super::{Case, Row, name};
-use dynamics_core::algorithms::{aba, forward, poses, rnea};
+use dynamics_core::algorithms::{aba, forward_dynamics, poses, rnea};
 use dynamics_core::effects::{Coriolis, Gravity, Inertia, RIGID_BODY};
 use dynamics_core::model::Model;
 use dynamics_core::scalar::{Matrix, Real, Vector};
@@ -72,7 +72,7 @@ fn accelerations<R: Real>(
     };
     let (free, none) = ([R::ZERO; 3], [R::from_f64(f64::NAN); 3]);
     let by_bodies = aba(&model, &start, &free, &RIGID_BODY).unwrap_or(none);
-    let by_matrix = forward(&model, &start, &free, &RIGID_BODY).unwrap_or(none);
+    let by_matrix = forward_dynamics(&model, &start, &free, &RIGID_BODY).unwrap_or(none);
     let (most, bound) = (start.qdd[0].to_f64(), 4.0 * R::EPSILON.to_f64());
     let errors = [
         (

@@ -6,7 +6,7 @@ use std::cell::Cell;
 use std::rc::Rc;
 
 use dynamics_core::control::Trajectory;
-use dynamics_core::model::Limits;
+use dynamics_core::model::JointLimits;
 use dynamics_core::robots::Ur5e;
 use dynamics_core::state::State;
 use embedded_hal::digital::{self, OutputPin};
@@ -139,7 +139,7 @@ pub struct Arm {
     pub rig: Rig<Plant<Ur5e, Effects, (), 6, 6, 6>, 6>,
     pub trajectory: Trajectory<f32, 6, 9>,
     pub control: ControlLoop<Spi, Pwm, Brake, 6>,
-    pub limits: [Limits<f32>; 6],
+    pub limits: [JointLimits<f32>; 6],
 }
 
 impl Arm {

@@ -111,7 +111,7 @@ pub fn random_state<const B: usize, const Q: usize, const V: usize>(
     let mut q = rng.vector(3.0);
     for link in &model.links {
         if matches!(link.joint.kind, JointKind::Spherical | JointKind::Free) {
-            let place = &mut q[link.q_at..link.q_at + 4];
+            let place = &mut q[link.idx_q..link.idx_q + 4];
             let unit = DQuat::from_slice(place).normalize();
             place.copy_from_slice(&unit.to_array());
         }
@@ -133,7 +133,7 @@ pub fn moved<const B: usize, const Q: usize, const V: usize>(
     use JointKind::*;
     let mut next = *q;
     for link in &model.links {
-        let (kind, at, rate) = (link.joint.kind, link.q_at, link.v_at);
+        let (kind, at, rate) = (link.joint.kind, link.idx_q, link.idx_v);
         match kind {
             Spherical | Free => {
                 let attitude = DQuat::from_slice(&q[at..at + 4]);

@@ -39,7 +39,7 @@ fn torque_falls_with_speed_along_the_back_emf_and_within_the_current_limit() {
         let line = |sign: f64| 2.0 * (sign * 48.0 - 2.0 * speed) / 1.2;
         for command in [-1e3, -15.0, 0.0, 3.0, 1e3] {
             let want = f64::clamp(command, -20.0, 20.0).clamp(line(-1.0), line(1.0));
-            assert!((drive.reachable(command, speed) - want).abs() < 1e-12);
+            assert!((drive.saturated_torque(command, speed) - want).abs() < 1e-12);
         }
     }
 }

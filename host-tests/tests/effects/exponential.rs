@@ -1,7 +1,7 @@
 //! e⁻ˣ against the host's f64 library.
 
 use super::*;
-use dynamics_core::exponential::exp_neg;
+use dynamics_core::scalar::exp_neg;
 use host_tests::measured::largest;
 
 #[test]

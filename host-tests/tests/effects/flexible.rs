@@ -2,8 +2,10 @@
 
 use super::*;
 use dynamics_core::algorithms::rnea;
-use dynamics_core::effects::{Inertia, RIGID_BODY, RotorInertia, Viscous};
-use dynamics_core::flexible::{Course, Flexible, Motors, flexible_rnea, flexible_step};
+use dynamics_core::drivetrain::{
+    ElasticJoints, ElasticReference, MotorState, elastic_inverse_dynamics, elastic_step,
+};
+use dynamics_core::effects::{Armature, Inertia, RIGID_BODY, Viscous};
 use dynamics_core::model::Robot;
 use dynamics_core::robots::{Panda, Ur5e};
 use dynamics_core::sim::linearly_implicit;
@@ -13,7 +15,7 @@ use proptest::prelude::RngExt;
 use proptest::test_runner::TestRng;
 
 /// Σ c_k t^k / k! and its first four derivatives, six coefficients a joint.
-fn along<const N: usize>(c: &[[f64; 7]; N], t: f64) -> Course<f64, N, N> {
+fn along<const N: usize>(c: &[[f64; 7]; N], t: f64) -> ElasticReference<f64, N, N> {
     let derivative = |n: usize| {
         core::array::from_fn(|i| {
             let (mut sum, mut term) = (0.0, 1.0);
@@ -24,7 +26,7 @@ fn along<const N: usize>(c: &[[f64; 7]; N], t: f64) -> Course<f64, N, N> {
             sum
         })
     };
-    Course {
+    ElasticReference {
         state: State {
             q: derivative(0),
             qd: derivative(1),
@@ -42,7 +44,7 @@ fn coefficients<const N: usize>(rng: &mut TestRng) -> [[f64; 7]; N] {
 }
 
 /// A tree of one-axis joints of all four kinds.
-fn tree(rng: &mut TestRng) -> Arm<f64, 8> {
+fn tree(rng: &mut TestRng) -> ArmModel<f64, 8> {
     const NAMES: [&str; 8] = ["a", "b", "c", "d", "e", "f", "g", "h"];
     let bodies = core::array::from_fn(|i| {
         let axis = within(rng, 1.0);
@@ -60,11 +62,11 @@ fn tree(rng: &mut TestRng) -> Arm<f64, 8> {
 
 /// θ, θ̇ and τ_m by differences of rnea along the course: of sixth order.
 fn by_differences<const N: usize>(
-    model: &Arm<f64, N>,
-    joints: &Flexible<f64, N>,
+    model: &ArmModel<f64, N>,
+    joints: &ElasticJoints<f64, N>,
     c: &[[f64; 7]; N],
 ) -> [[f64; N]; 3] {
-    let scene = (RIGID_BODY, Viscous([0.7; N]), RotorInertia([0.2; N]));
+    let scene = (RIGID_BODY, Viscous([0.7; N]), Armature([0.2; N]));
     let h = 2e-3;
     let tau: [[f64; N]; 7] =
         core::array::from_fn(|k| rnea(model, &along(c, h * (k as f64 - 3.0)).state, &scene));
@@ -85,15 +87,15 @@ fn by_differences<const N: usize>(
 
 #[test]
 fn motor_torques_of_a_course_are_those_of_its_differences() {
-    fn see<const N: usize>(model: &Arm<f64, N>, rng: &mut TestRng, worst: &mut [Worst; 3]) {
-        let joints = Flexible {
+    fn see<const N: usize>(model: &ArmModel<f64, N>, rng: &mut TestRng, worst: &mut [Worst; 3]) {
+        let joints = ElasticJoints {
             stiffness: [100.0; N],
             rotor: [0.5; N],
             friction: [2.0; N],
         };
         let c = coefficients::<N>(rng);
-        let scene = (RIGID_BODY, Viscous([0.7; N]), RotorInertia([0.2; N]));
-        let got = flexible_rnea(model, &joints, &along(&c, 0.0), &scene).unwrap();
+        let scene = (RIGID_BODY, Viscous([0.7; N]), Armature([0.2; N]));
+        let got = elastic_inverse_dynamics(model, &joints, &along(&c, 0.0), &scene).unwrap();
         let got = [got.position, got.velocity, got.torque];
         let want = by_differences(model, &joints, &c);
         for ((worst, got), want) in worst.iter_mut().zip(got).zip(want) {
@@ -117,24 +119,25 @@ fn motor_torques_of_a_course_are_those_of_its_differences() {
 fn motor_torques_in_f32_are_those_in_f64() {
     let (rng, mut worst) = (&mut random_numbers(), Worst::default());
     for _ in 0..200 {
-        let joints = Flexible {
+        let joints = ElasticJoints {
             stiffness: [4096.0; 6],
             rotor: [0.5; 6],
             friction: [2.0; 6],
         };
         let double = along(&coefficients::<6>(rng), 0.0);
-        let want = flexible_rnea(&Ur5e::MODEL, &joints, &double, &RIGID_BODY).unwrap();
-        let single = Course {
+        let want = elastic_inverse_dynamics(&Ur5e::MODEL, &joints, &double, &RIGID_BODY).unwrap();
+        let single = ElasticReference {
             state: cast::<f32, 6>(&double.state),
             jerk: double.jerk.map(|x| x as f32),
             snap: double.snap.map(|x| x as f32),
         };
-        let joints = Flexible {
+        let joints = ElasticJoints {
             stiffness: [4096.0_f32; 6],
             rotor: [0.5; 6],
             friction: [2.0; 6],
         };
-        let got = flexible_rnea(&Ur5e::MODEL_F32, &joints, &single, &RIGID_BODY).unwrap();
+        let got =
+            elastic_inverse_dynamics(&Ur5e::MODEL_F32, &joints, &single, &RIGID_BODY).unwrap();
         worst.see_all(&got.torque, &want.torque);
     }
     worst.check::<f32>("compliant joints", "motor torque");
@@ -148,15 +151,15 @@ fn stiffer_joints_come_to_the_rigid_robot_with_one_over_k() {
     let want = rnea(
         &Ur5e::MODEL,
         &course.state,
-        &(RIGID_BODY, RotorInertia([rotor; 6])),
+        &(RIGID_BODY, Armature([rotor; 6])),
     );
     let error = |k: f64| {
-        let joints = Flexible {
+        let joints = ElasticJoints {
             stiffness: [k; 6],
             rotor: [rotor; 6],
             friction: [0.0; 6],
         };
-        let got = flexible_rnea(&Ur5e::MODEL, &joints, &course, &RIGID_BODY).unwrap();
+        let got = elastic_inverse_dynamics(&Ur5e::MODEL, &joints, &course, &RIGID_BODY).unwrap();
         let off = |i: usize| (got.torque[i] - want[i]).abs();
         largest((0..6).map(off))
     };
@@ -171,20 +174,20 @@ fn stiffer_joints_come_to_the_rigid_robot_with_one_over_k() {
         ..course.state
     };
     let mut rigid = start;
-    let mut scene = (RIGID_BODY, RotorInertia([rotor; 6]));
+    let mut scene = (RIGID_BODY, Armature([rotor; 6]));
     linearly_implicit(&Ur5e::MODEL, &mut rigid, &tau, &mut scene, 1e-3).unwrap();
     let error = |k: f64| {
-        let joints = Flexible {
+        let joints = ElasticJoints {
             stiffness: [k; 6],
             rotor: [rotor; 6],
             friction: [0.0; 6],
         };
         let mut links = start;
-        let mut motors = Motors {
+        let mut motors = MotorState {
             position: start.q,
             velocity: start.qd,
         };
-        flexible_step(
+        elastic_step(
             &Ur5e::MODEL,
             &joints,
             &mut links,
@@ -206,20 +209,20 @@ fn stiffer_joints_come_to_the_rigid_robot_with_one_over_k() {
 #[test]
 fn a_motor_and_a_sledge_on_a_spring_swing_in_closed_form() {
     let (k, j, h) = (500.0, 0.5, 1e-6);
-    let joints = Flexible {
+    let joints = ElasticJoints {
         stiffness: [k],
         rotor: [j],
         friction: [0.0],
     };
     let mut links = State::at([0.0]);
-    let mut motors = Motors {
+    let mut motors = MotorState {
         position: [0.02],
         velocity: [0.0],
     };
     let omega = (k * (1.0 / 2.0 + 1.0 / j)).sqrt();
     let (mut worst, mut centre) = (Worst::default(), 0.0_f64);
     for i in 1..=400_000 {
-        flexible_step(
+        elastic_step(
             &SLEDGE,
             &joints,
             &mut links,
@@ -241,19 +244,19 @@ fn a_motor_and_a_sledge_on_a_spring_swing_in_closed_form() {
 fn the_plant_is_stable_and_first_order_at_a_stiffness_of_1e7() {
     fn ends<R: Real>(h: f64, steps: usize) -> [f64; 6] {
         let model = dynamics_core::model::model::<R, Ur5e, 6, 6, 6>();
-        let joints = Flexible {
+        let joints = ElasticJoints {
             stiffness: [R::from_f64(1e7); 6],
             rotor: [R::from_f64(0.5); 6],
             friction: [R::from_f64(20.0); 6],
         };
         let mut links = State::at([0.0, -1.5, 0.5, 0.3, 0.2, 0.1].map(R::from_f64));
-        let mut motors = Motors {
+        let mut motors = MotorState {
             position: links.q,
             velocity: [R::ZERO; 6],
         };
         let mut scene = RIGID_BODY;
         for _ in 0..steps {
-            flexible_step(
+            elastic_step(
                 model,
                 &joints,
                 &mut links,
@@ -279,7 +282,7 @@ fn the_plant_is_stable_and_first_order_at_a_stiffness_of_1e7() {
 #[test]
 fn fed_forward_through_the_springs_a_compliant_arm_follows_its_course() {
     // A fifth-order rest-to-rest course in closed form, and a soft arm.
-    let joints = Flexible {
+    let joints = ElasticJoints {
         stiffness: [800.0; 6],
         rotor: [0.3; 6],
         friction: [3.0; 6],
@@ -299,7 +302,7 @@ fn fed_forward_through_the_springs_a_compliant_arm_follows_its_course() {
         ];
         let of = |n: usize| by.map(|by| by * s[n]);
         let q = core::array::from_fn(|i| from[i] + by[i] * s[0]);
-        Course {
+        ElasticReference {
             state: State {
                 q,
                 qd: of(1),
@@ -310,25 +313,23 @@ fn fed_forward_through_the_springs_a_compliant_arm_follows_its_course() {
         }
     };
     let run = |h: f64, stiff: bool| {
-        let start = flexible_rnea(&Ur5e::MODEL, &joints, &course(0.0), &RIGID_BODY).unwrap();
+        let start =
+            elastic_inverse_dynamics(&Ur5e::MODEL, &joints, &course(0.0), &RIGID_BODY).unwrap();
         let mut links = State::at(from);
-        let mut motors = Motors {
+        let mut motors = MotorState {
             position: start.position,
             velocity: [0.0; 6],
         };
         let (mut off, mut scene) = (0.0_f64, RIGID_BODY);
         for i in 0..(0.5 / h) as u32 {
             let now = course((f64::from(i) + 0.5) * h);
-            let mut told = flexible_rnea(&Ur5e::MODEL, &joints, &now, &RIGID_BODY).unwrap();
+            let mut told =
+                elastic_inverse_dynamics(&Ur5e::MODEL, &joints, &now, &RIGID_BODY).unwrap();
             if stiff {
-                let rigid = (
-                    RIGID_BODY,
-                    RotorInertia(joints.rotor),
-                    Viscous(joints.friction),
-                );
+                let rigid = (RIGID_BODY, Armature(joints.rotor), Viscous(joints.friction));
                 told.torque = rnea(&Ur5e::MODEL, &now.state, &rigid);
             }
-            flexible_step(
+            elastic_step(
                 &Ur5e::MODEL,
                 &joints,
                 &mut links,
@@ -362,16 +363,16 @@ fn joints_of_several_degrees_of_freedom_are_refused_by_name() {
         "ball",
         [Body::new("ball", BASE, Joint::spherical()).mass(1.0)],
     );
-    let joints = Flexible {
+    let joints = ElasticJoints {
         stiffness: [1.0; 3],
         rotor: [1.0; 3],
         friction: [0.0; 3],
     };
-    let course = Course {
+    let course = ElasticReference {
         state: State::at([0.0, 0.0, 0.0, 1.0]),
         jerk: [0.0; 3],
         snap: [0.0; 3],
     };
-    let told = flexible_rnea(&ball, &joints, &course, &RIGID_BODY);
+    let told = elastic_inverse_dynamics(&ball, &joints, &course, &RIGID_BODY);
     assert_eq!(told.unwrap_err().body, 0);
 }

@@ -9,7 +9,7 @@ use host_tests::hard::belt::{Belt, Cycle};
 
 /// Steps until the velocity changes sign `turns` times; where it does.
 fn turning_points<E: Effect<f64, 1, 1>>(
-    model: &Arm<f64, 1>,
+    model: &ArmModel<f64, 1>,
     start: f64,
     scene: &mut E,
     h: f64,
@@ -29,7 +29,7 @@ fn turning_points<E: Effect<f64, 1, 1>>(
 #[test]
 fn a_pendulum_loses_to_friction_what_friction_takes() {
     // m g l (cos θ₁ − cos θ₀) = F (θ₀ + θ₁) between turning points θ₀ and −θ₁, however far it swings.
-    const PENDULUM: Arm<f64, 1> = Model::new(
+    const PENDULUM: ArmModel<f64, 1> = Model::new(
         "pendulum",
         [Body::new("rod", BASE, Joint::revolute([0.0, 1.0, 0.0]))
             .mass(2.0)
@@ -169,7 +169,7 @@ fn stribeck_friction_has_its_formula() {
 
 #[test]
 fn gravity_of_any_direction_is_the_same_whether_its_direction_is_a_type_or_a_number() {
-    use dynamics_core::effects::{Direction, GravityAlong};
+    use dynamics_core::effects::{Direction, GravityVector};
     use dynamics_core::{Core, robots::Panda};
     struct Aslant;
     impl Direction for Aslant {
@@ -177,7 +177,7 @@ fn gravity_of_any_direction_is_the_same_whether_its_direction_is_a_type_or_a_num
     }
     let at = State::at([0.3, -0.4, 0.2, -2.0, 0.3, 1.9, 0.5]);
     let g = glam::DVec3::from(Aslant::UNIT) * 9.81;
-    let number = Core::<Panda>::rnea(&at, &(GravityAlong::<f64>(g),));
+    let number = Core::<Panda>::rnea(&at, &(GravityVector::<f64>(g),));
     assert_eq!(
         number,
         Core::<Panda>::rnea(&at, &(Gravity::<Aslant>::new(9.81),))

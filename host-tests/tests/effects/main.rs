@@ -1,7 +1,7 @@
 //! Each effect against an oracle that does not share its code: closed forms, Pinocchio, expanded models.
 
-use dynamics_core::effects::{Effect, JointState, Slopes};
-use dynamics_core::model::{Arm, BASE, Body, Joint, Model};
+use dynamics_core::effects::{Effect, JointState, TorqueDerivatives};
+use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
 use host_tests::tolerances;
@@ -18,7 +18,7 @@ mod springs;
 mod surroundings;
 
 /// 2 kg on a level rail along x.
-const SLEDGE: Arm<f64, 1> = Model::new(
+const SLEDGE: ArmModel<f64, 1> = Model::new(
     "sledge",
     [Body::new("sledge", BASE, Joint::prismatic([1.0, 0.0, 0.0])).mass(2.0)],
 );
@@ -38,10 +38,10 @@ fn joint<R: Real>(q: f64, qd: f64) -> JointState<R> {
     }
 }
 
-fn slopes<E: Effect<f64, 1, 1>>(effect: &E, q: f64, qd: f64) -> [f64; 2] {
-    let mut slopes = Slopes::default();
-    effect.slopes(0, joint(q, qd), &mut slopes);
-    [slopes.q, slopes.qd]
+fn derivatives<E: Effect<f64, 1, 1>>(effect: &E, q: f64, qd: f64) -> [f64; 2] {
+    let mut derivatives = TorqueDerivatives::default();
+    effect.derivatives(0, joint(q, qd), &mut derivatives);
+    [derivatives.dq, derivatives.dqd]
 }
 
 fn cast<R: Real, const N: usize>(state: &State<f64, N, N>) -> State<R, N, N> {

@@ -3,8 +3,8 @@
 use super::*;
 use dynamics_core::algorithms::kinetic_energy;
 use dynamics_core::effects::{
-    AsymmetricCoulomb, BodyState, BodyWrench, Cogging, Contact, Coriolis, Foot, GravityAlong,
-    Inertia, Lugre, MovingBase, RIGID_BODY, Spring, Stops, Stribeck, WorldWrench,
+    AsymmetricCoulomb, BodyState, BodyWrench, Cogging, Contact, ContactPoint, Coriolis, EndStops,
+    GravityVector, Inertia, Lugre, MovingBase, RIGID_BODY, Spring, Stribeck, WorldWrench,
 };
 use dynamics_core::model::Robot;
 use dynamics_core::robots::Ur5e;
@@ -91,7 +91,7 @@ fn engine_equals_core_under_the_other_effects_and_a_users_own() {
         let of = R::from_f64;
         let scene = (
             (
-                GravityAlong(R::Vec3::new(of(1.0), of(-2.0), of(-9.5))),
+                GravityVector(R::Vec3::new(of(1.0), of(-2.0), of(-9.5))),
                 Inertia,
                 Coriolis,
             ),
@@ -118,7 +118,7 @@ fn engine_equals_core_under_the_other_effects_and_a_users_own() {
                 stiffness: [of(5.0); 6],
                 rest: [of(0.5); 6],
             },
-            Stops {
+            EndStops {
                 lower: [of(-2.5); 6],
                 upper: [of(2.5); 6],
                 stiffness: of(40.0),
@@ -173,7 +173,7 @@ fn engine_equals_core_on_a_moving_base_and_where_poses_are_asked() {
             velocity: Motion::new(vec(0.5, -0.3, 0.8), vec(0.2, 0.4, -0.6)),
             acceleration: Motion::new(vec(-1.0, 2.0, 0.7), vec(1.5, -2.0, 0.9)),
         };
-        let foot = |body, x| Foot {
+        let foot = |body, x| ContactPoint {
             body,
             point: vec(x, -0.1, 0.2),
         };
@@ -185,7 +185,7 @@ fn engine_equals_core_on_a_moving_base_and_where_poses_are_asked() {
             damping: of(5.0),
             per_depth: of(3.0),
             friction: of(0.4),
-            creep: of(0.5),
+            slip_tolerance: of(0.5),
         };
         let wind = WorldWrench {
             body: 5,

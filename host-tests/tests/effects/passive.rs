@@ -2,7 +2,7 @@
 
 use super::*;
 use dynamics_core::Core;
-use dynamics_core::effects::{Coulomb, RIGID_BODY, RotorInertia, Spring, Viscous};
+use dynamics_core::effects::{Armature, Coulomb, RIGID_BODY, Spring, Viscous};
 use dynamics_core::robots::Ur5e;
 use host_tests::recordings::{read, row};
 
@@ -34,7 +34,7 @@ fn agree<R: Real>(r: &Passive) {
             stiffness: cast(&r.stiffness),
             rest: cast(&r.rest),
         },
-        RotorInertia(cast(&r.armature)),
+        Armature(cast(&r.armature)),
     );
     let mut worst = Worst::default();
     for i in 0..r.q.len() {

@@ -1,13 +1,14 @@
-//! Rotors that spin as bodies, against the tree in which they are bodies.
+//! GyroscopicRotors that spin as bodies, against the tree in which they are bodies.
 
 use super::*;
 use dynamics_core::MassMatrix;
 use dynamics_core::algorithms::{
-    Given, aba, crba, crba_jacobian, forward, hybrid, kinetic_energy, momentum, rnea,
+    Prescribed, aba, crba, crba_jacobian, forward_dynamics, hybrid_dynamics, kinetic_energy,
+    momentum, rnea,
 };
-use dynamics_core::effects::{MovingBase, RIGID_BODY, Rotors};
+use dynamics_core::drivetrain::Transmission;
+use dynamics_core::effects::{GyroscopicRotors, MovingBase, RIGID_BODY};
 use dynamics_core::spatial::Motion;
-use dynamics_core::transmission::Transmission;
 use glam::DVec3;
 use host_tests::measured::largest;
 use host_tests::random::{random_numbers, within};
@@ -108,7 +109,7 @@ fn gears() -> Transmission<f64, 4, 8> {
     }
 }
 
-const SPINNING: Rotors<f64, 4> = Rotors {
+const GYROSCOPIC_ROTORS: GyroscopicRotors<f64, 4> = GyroscopicRotors {
     inertia: [ROTORS[0][3], ROTORS[1][3], ROTORS[2][3], ROTORS[3][3]],
     ratio: RATIOS,
 };
@@ -129,16 +130,16 @@ fn rotors_that_spin_as_bodies_have_the_dynamics_of_the_expanded_tree() {
         let state = State { q, qd, qdd };
         let base = if i % 2 == 0 { still } else { base };
         let rigid = (RIGID_BODY, base);
-        let scene = (RIGID_BODY, SPINNING, base);
+        let scene = (RIGID_BODY, GYROSCOPIC_ROTORS, base);
 
         let tau = rnea(&compact, &state, &scene);
         let all = gears.state(&state);
         let want = gears.torque(&rnea(&expanded, &all, &rigid));
         worst[0].see_all(&tau, &want);
         if i % 2 == 0 {
-            let rotors = Rotors {
-                inertia: SPINNING.inertia.map(|x| x as f32),
-                ratio: SPINNING.ratio.map(|x| x as f32),
+            let rotors = GyroscopicRotors {
+                inertia: GYROSCOPIC_ROTORS.inertia.map(|x| x as f32),
+                ratio: GYROSCOPIC_ROTORS.ratio.map(|x| x as f32),
             };
             let got = rnea(
                 &compact.to_f32(),
@@ -158,11 +159,14 @@ fn rotors_that_spin_as_bodies_have_the_dynamics_of_the_expanded_tree() {
         }
 
         worst[2].see_all(&aba(&compact, &state, &tau, &scene).unwrap(), &qdd);
-        worst[2].see_all(&forward(&compact, &state, &tau, &scene).unwrap(), &qdd);
-        let mut given = tau.map(Given::Torque);
-        given[1] = Given::Acceleration(qdd[1]);
-        given[3] = Given::Acceleration(qdd[3]);
-        let response = hybrid(&compact, &state, &given, &scene).unwrap();
+        worst[2].see_all(
+            &forward_dynamics(&compact, &state, &tau, &scene).unwrap(),
+            &qdd,
+        );
+        let mut given = tau.map(Prescribed::Torque);
+        given[1] = Prescribed::Acceleration(qdd[1]);
+        given[3] = Prescribed::Acceleration(qdd[3]);
+        let response = hybrid_dynamics(&compact, &state, &given, &scene).unwrap();
         worst[2].see_all(&response.qdd, &qdd);
         worst[0].see_all(&response.tau, &tau);
 
@@ -188,19 +192,19 @@ fn rotors_that_spin_as_bodies_have_the_dynamics_of_the_expanded_tree() {
 
 #[test]
 fn at_high_ratios_the_diagonal_is_what_remains() {
-    use dynamics_core::effects::RotorInertia;
+    use dynamics_core::effects::Armature;
     let (compact, rng) = (robot::<4>(true), &mut random_numbers());
     let [q, qd, qdd] = [3.0, 3.0, 10.0].map(|bound| within::<4>(rng, bound));
     let state = State { q, qd, qdd };
     let error = |ratio: f64| {
         // The reflected inertia stays the same, the coupling ρ I falls with 1/ρ.
         let inertia = [0.05; 4].map(|reflected| reflected / (ratio * ratio));
-        let full = Rotors {
+        let full = GyroscopicRotors {
             inertia,
             ratio: [ratio; 4],
         };
         let full = rnea(&compact, &state, &(RIGID_BODY, full));
-        let less = rnea(&compact, &state, &(RIGID_BODY, RotorInertia([0.05; 4])));
+        let less = rnea(&compact, &state, &(RIGID_BODY, Armature([0.05; 4])));
         largest((0..4).map(|i| (full[i] - less[i]).abs()))
     };
     for ratio in [10.0, 100.0] {

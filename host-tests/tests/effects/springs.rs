@@ -1,15 +1,15 @@
-//! Springs, stops and cogging; and that slopes are slopes.
+//! Springs, stops and cogging; and that derivatives are derivatives.
 
 use super::*;
 use dynamics_core::effects::{
-    AsymmetricCoulomb, Cogging, Coulomb, Implicit, Inertia, Spring, Stops, Viscous,
+    AsymmetricCoulomb, Cogging, Coulomb, EndStops, Implicit, Inertia, Spring, Viscous,
 };
 use dynamics_core::sim::{linearly_implicit, semi_implicit};
 use host_tests::measured::largest;
 use host_tests::random::random_numbers;
 use proptest::prelude::RngExt;
 
-const STOPS: Stops<f64, 1> = Stops {
+const STOPS: EndStops<f64, 1> = EndStops {
     lower: [-1.0],
     upper: [1.5],
     stiffness: 1e4,
@@ -20,7 +20,7 @@ const STOPS: Stops<f64, 1> = Stops {
 #[test]
 fn two_masses_on_a_spring_swing_in_closed_form() {
     // One sledge on another: the spring sees the reduced mass, their centre moves on.
-    const PAIR: Arm<f64, 2> = Model::new(
+    const PAIR: ArmModel<f64, 2> = Model::new(
         "pair",
         [
             Body::new("one", BASE, Joint::prismatic([1.0, 0.0, 0.0])).mass(2.0),
@@ -85,7 +85,7 @@ fn stops_push_inwards_only_and_never_add_energy() {
 fn stops_of_any_stiffness_are_stable_in_long_steps() {
     let mut scene = (
         Inertia,
-        Stops {
+        EndStops {
             stiffness: 1e9,
             damping: 1e3,
             ..STOPS
@@ -140,7 +140,7 @@ fn slopes_are_the_slopes_of_the_torques() {
             (f(h) - f(-h)) / (2.0 * h)
         };
         let want = [along(1.0, 0.0), along(0.0, 1.0)];
-        for (got, want) in slopes(effect, q, qd).into_iter().zip(want) {
+        for (got, want) in derivatives(effect, q, qd).into_iter().zip(want) {
             assert!(
                 (got - want.max(0.0)).abs() < 1e-4 * (1.0 + want.abs()),
                 "{got} {want} at {q} {qd}"

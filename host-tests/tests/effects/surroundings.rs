@@ -3,7 +3,8 @@
 use super::*;
 use dynamics_core::algorithms::{frame, kinematics};
 use dynamics_core::effects::{
-    BodyWrench, Contact, Foot, Gravity, GravityAlong, Inertia, MovingBase, RIGID_BODY, WorldWrench,
+    BodyWrench, Contact, ContactPoint, Gravity, GravityVector, Inertia, MovingBase, RIGID_BODY,
+    WorldWrench,
 };
 use dynamics_core::model::Robot;
 use dynamics_core::robots::Panda;
@@ -91,8 +92,8 @@ fn a_base_that_rolls_is_a_joint_that_is_made_to() {
     };
     let [yoke, camera] = arm(0);
     let deck = Body::new("deck", BASE, Joint::revolute([1.0, 0.0, 0.0]));
-    let ship: Arm<f64, 3> = Model::new("ship", [deck, yoke, camera]);
-    let gimbal: Arm<f64, 2> = Model::new("gimbal", arm(BASE));
+    let ship: ArmModel<f64, 3> = Model::new("ship", [deck, yoke, camera]);
+    let gimbal: ArmModel<f64, 2> = Model::new("gimbal", arm(BASE));
     let (rng, mut worst) = (&mut random_numbers(), Worst::default());
     for _ in 0..200 {
         let [q, qd, qdd] = [2.0, 3.0, 5.0].map(|bound| within::<3>(rng, bound));
@@ -109,7 +110,7 @@ fn a_base_that_rolls_is_a_joint_that_is_made_to() {
             acceleration: roll(qdd[0]),
         };
         let tilt = DMat3::from_rotation_x(q[0]);
-        let gravity = GravityAlong::<f64>::tilted(tilt, DVec3::NEG_Z * 9.81);
+        let gravity = GravityVector::<f64>::tilted(tilt, DVec3::NEG_Z * 9.81);
         let (_, inertia, coriolis) = RIGID_BODY;
         let got = rnea(&gimbal, &above, &(gravity, inertia, coriolis, base));
         worst.see_all(&got, &[want[1], want[2]]);
@@ -121,7 +122,7 @@ fn a_base_that_rolls_is_a_joint_that_is_made_to() {
 fn ground<R: Real>(foot: [f64; 3]) -> Contact<R, 1> {
     let of = R::from_f64;
     Contact {
-        feet: [Foot {
+        feet: [ContactPoint {
             body: 0,
             point: R::Vec3::new(of(foot[0]), of(foot[1]), of(foot[2])),
         }],
@@ -131,7 +132,7 @@ fn ground<R: Real>(foot: [f64; 3]) -> Contact<R, 1> {
         damping: of(200.0),
         per_depth: of(1e3),
         friction: of(0.5),
-        creep: of(1e-3),
+        slip_tolerance: of(1e-3),
     }
 }
 
@@ -162,7 +163,7 @@ fn the_ground_never_pulls_and_its_friction_stays_in_the_cone_and_opposes_slip() 
 
 #[test]
 fn a_weight_on_the_ground_rests_at_its_weight_over_the_stiffness() {
-    let weight: Arm<f64, 1> = Model::new(
+    let weight: ArmModel<f64, 1> = Model::new(
         "weight",
         [Body::new("weight", BASE, Joint::prismatic([0.0, 0.0, 1.0])).mass(3.0)],
     );
@@ -178,7 +179,7 @@ fn a_weight_on_the_ground_rests_at_its_weight_over_the_stiffness() {
 
 #[test]
 fn a_box_on_a_slope_slides_as_coulomb_says() {
-    // A free body on two turned planes: 0.3 rad slides at g (sin − μ cos), 0.2 rad holds but for creep.
+    // A free body on two turned planes: 0.3 rad slides at g (sin − μ cos), 0.2 rad holds but for slip_tolerance.
     let slab: Model<f64, 1, 7, 6> = Model::new(
         "slab",
         [Body::new("slab", BASE, Joint::free())
@@ -187,7 +188,7 @@ fn a_box_on_a_slope_slides_as_coulomb_says() {
     );
     let run = |slope: f64, friction: f64| {
         let flat = ground::<f64>([0.0; 3]);
-        let corner = |x: f64, y: f64| Foot {
+        let corner = |x: f64, y: f64| ContactPoint {
             body: 0,
             point: DVec3::new(x, y, -0.02),
         };
@@ -204,10 +205,10 @@ fn a_box_on_a_slope_slides_as_coulomb_says() {
             damping: flat.damping,
             per_depth: flat.per_depth,
             friction,
-            creep: flat.creep,
+            slip_tolerance: flat.slip_tolerance,
         };
         // The slope is level, gravity is not.
-        let gravity = GravityAlong::<f64>(DVec3::new(slope.sin(), 0.0, -slope.cos()) * 9.81);
+        let gravity = GravityVector::<f64>(DVec3::new(slope.sin(), 0.0, -slope.cos()) * 9.81);
         let scene = (gravity, RIGID_BODY.1, RIGID_BODY.2, ground);
         let mut state = State::at([0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.02]);
         let mut speed = [0.0; 2];
@@ -215,13 +216,13 @@ fn a_box_on_a_slope_slides_as_coulomb_says() {
             semi_implicit(&slab, &mut state, &[0.0; 6], &scene, 5e-5).unwrap();
             if i == 19_999 {
                 speed[0] = kinematics(&slab, &state, &())
-                    .velocity(0, frame::Mixed)
+                    .velocity(0, frame::LocalWorldAligned)
                     .lin
                     .x;
             }
         }
         speed[1] = kinematics(&slab, &state, &())
-            .velocity(0, frame::Mixed)
+            .velocity(0, frame::LocalWorldAligned)
             .lin
             .x;
         speed
@@ -234,5 +235,5 @@ fn a_box_on_a_slope_slides_as_coulomb_says() {
     let tan = 0.2_f64.tan();
     let mut worst = Worst::default();
     worst.see(run(0.2, 0.5)[1], 1e-3 * tan / (0.25 - tan * tan).sqrt());
-    worst.check::<f64>("slab", "creep on a slope");
+    worst.check::<f64>("slab", "slip_tolerance on a slope");
 }

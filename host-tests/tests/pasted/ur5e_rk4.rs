@@ -1,17 +1,17 @@
 use dynamics_core::algorithms::NotPositiveDefinite;
 use dynamics_core::effects::RIGID_BODY;
-use dynamics_core::model::Of;
+use dynamics_core::model::Static;
 use dynamics_core::robots::Ur5e;
-use dynamics_core::sim::{Integrator, Mechanics, Rates, RungeKutta, Summed};
+use dynamics_core::sim::{Dynamics, Integrator, KahanState, RungeKutta, StepIncrement};
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
 
 /// The robot without torques.
 pub struct LetGo;
 
-impl Mechanics<f32, 6, 6> for LetGo {
+impl Dynamics<f32, 6, 6> for LetGo {
     fn acceleration(&self, at: &State<f32, 6, 6>) -> Result<[f32; 6], NotPositiveDefinite> {
-        Engine::<Ur5e>::forward(at, &[0.0; 6], &RIGID_BODY)
+        Engine::<Ur5e>::forward_dynamics(at, &[0.0; 6], &RIGID_BODY)
     }
 
     fn implicit_acceleration(
@@ -29,8 +29,8 @@ impl Mechanics<f32, 6, 6> for LetGo {
         )
     }
 
-    fn moved(&self, q: &[f32; 6], at: &Rates<f32, 6>, h: f32) -> [f32; 6] {
-        at.moved(&Of::<Ur5e>::NEW, q, h)
+    fn moved(&self, q: &[f32; 6], at: &StepIncrement<f32, 6>, h: f32) -> [f32; 6] {
+        at.moved(&Static::<Ur5e>::NEW, q, h)
     }
 }
 
@@ -40,7 +40,7 @@ pub const STEP: f32 = 1000.0e-6;
 /// The robot's motion, step by step.
 pub struct Simulation {
     integrator: RungeKutta,
-    motion: Summed<f32, 6, true>,
+    motion: KahanState<f32, 6, true>,
 }
 
 impl Simulation {
@@ -48,7 +48,7 @@ impl Simulation {
     pub fn start(state: State<f32, 6, 6>) -> Self {
         Self {
             integrator: Integrator::start(&LetGo, &state),
-            motion: Summed::at(state),
+            motion: KahanState::at(state),
         }
     }
 

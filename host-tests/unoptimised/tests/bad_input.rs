@@ -2,9 +2,9 @@
 
 use dynamics_core::algorithms::{crba_jacobian, jacobian, rnea};
 use dynamics_core::effects::{
-    BodyWrench, Contact, Effect, Foot, Gravity, MovingBase, RIGID_BODY, WorldWrench,
+    BodyWrench, Contact, ContactPoint, Effect, Gravity, MovingBase, RIGID_BODY, WorldWrench,
 };
-use dynamics_core::model::{Arm, BASE, Body, Joint, Model, Robot};
+use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model, Robot};
 use dynamics_core::spatial::{Force, Motion};
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
@@ -16,7 +16,7 @@ const Y: [f64; 3] = [0.0, 1.0, 0.0];
 struct Quill;
 
 impl Robot<3, 3, 3> for Quill {
-    const MODEL: Arm<f64, 3> = Model::new(
+    const MODEL: ArmModel<f64, 3> = Model::new(
         "quill",
         [
             link("arm", BASE, Joint::revolute([0.3, 0.2, 0.9])),
@@ -61,7 +61,8 @@ fn slides_come_from_the_posture_in_core_and_engine_alike() {
         Engine::<Quill>::rnea_at(&posture, &elsewhere, &RIGID_BODY),
         tau
     ));
-    let forward = Engine::<Quill>::forward_at(&posture, &elsewhere, &tau, &RIGID_BODY).unwrap();
+    let forward =
+        Engine::<Quill>::forward_dynamics_at(&posture, &elsewhere, &tau, &RIGID_BODY).unwrap();
     let articulated = Engine::<Quill>::aba_at(&posture, &elsewhere, &tau, &RIGID_BODY).unwrap();
     assert!(same(forward, there.qdd) && same(articulated, there.qdd));
 }
@@ -93,14 +94,14 @@ fn any_number_of_bodies_may_move_with_one_joint_where_no_wrench_acts() {
 fn floor(body: usize) -> Contact<f64, 1> {
     let point = DVec3::new(0.1, 0.2, -0.3);
     Contact {
-        feet: [Foot { body, point }],
+        feet: [ContactPoint { body, point }],
         normal: DVec3::Z,
         height: 3.0,
         stiffness: 1e3,
         damping: 30.0,
         per_depth: 1e3,
         friction: 0.8,
-        creep: 1e-3,
+        slip_tolerance: 1e-3,
     }
 }
 
@@ -147,18 +148,21 @@ fn a_wrench_on_a_body_that_there_is_not_makes_no_torque_that_passes_for_one() {
 
 #[test]
 fn the_jacobian_of_a_body_that_there_is_not_is_not_a_number() {
-    use dynamics_core::algorithms::frame::Mixed;
+    use dynamics_core::algorithms::frame::LocalWorldAligned;
     let q = [0.3, 0.5, 0.7];
     for body in [3, 17] {
         let (_, by_crba) = crba_jacobian(&Quill::MODEL, &q, body, &RIGID_BODY);
-        for column in jacobian(&Quill::MODEL, &q, body, Mixed)
+        for column in jacobian(&Quill::MODEL, &q, body, LocalWorldAligned)
             .iter()
             .chain(&by_crba)
         {
             assert!(column.ang.is_nan() && column.lin.is_nan());
         }
     }
-    assert_eq!(jacobian(&Quill::MODEL, &q, BASE, Mixed), [Motion::ZERO; 3]);
+    assert_eq!(
+        jacobian(&Quill::MODEL, &q, BASE, LocalWorldAligned),
+        [Motion::ZERO; 3]
+    );
 }
 
 #[test]
@@ -190,6 +194,6 @@ fn the_axes_of_a_universal_joint_are_made_orthogonal() {
 #[test]
 fn a_configuration_that_is_not_a_number_is_not_laid_to_the_inertia_of_a_joint_alone() {
     let state = State::at([0.3, f64::NAN, 0.7]);
-    let error = Core::<Quill>::forward(&state, &[0.0; 3], &RIGID_BODY).unwrap_err();
+    let error = Core::<Quill>::forward_dynamics(&state, &[0.0; 3], &RIGID_BODY).unwrap_err();
     assert!(error.to_string().contains("is not a number"), "{error}");
 }

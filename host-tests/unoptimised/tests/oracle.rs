@@ -1,14 +1,14 @@
 //! The core against Pinocchio, in f64 and f32, on every recorded state. Its loops are over run-time models,
 //! which robots of one size share; `engine` has those of robots known while compiling.
 
-use dynamics_core::algorithms::{aba, crba, factor, inverse, rnea};
-use dynamics_core::configuration::{difference, integrate};
-use dynamics_core::effects::{BodyState, Coriolis, Effect, Gravity, RIGID_BODY, RotorInertia};
+use dynamics_core::algorithms::{aba, crba, inverse, ltdl, rnea};
+use dynamics_core::effects::{Armature, BodyState, Coriolis, Effect, Gravity, RIGID_BODY};
 use dynamics_core::model::{JointKind, Robot, model};
 use dynamics_core::robots::{A1, Gen3, Iiwa14, Panda, Ur5e, XArm7, Z1};
 use dynamics_core::scalar::{Real, Vector};
 use dynamics_core::spatial::{Force, Motion};
 use dynamics_core::state::State;
+use dynamics_core::state::manifold::{difference, integrate};
 use host_tests::recordings::{Recording, columns, full_scale, load, row, symmetric};
 use host_tests::trees::{TreeA, TreeB};
 use host_tests::{export, tolerances};
@@ -130,7 +130,7 @@ fn manifold<T, const B: usize, const Q: usize, const V: usize>(
         for link in &T::MODEL.links {
             // A quaternion and its negative are the same attitude.
             if matches!(link.joint.kind, JointKind::Spherical | JointKind::Free) {
-                let at = link.q_at..link.q_at + 4;
+                let at = link.idx_q..link.idx_q + 4;
                 let dot = at.clone().map(|k| got[k] * want[k]).sum::<f64>();
                 at.for_each(|k| got[k] *= dot.signum());
             }
@@ -190,7 +190,7 @@ fn surroundings<R: Real, T, const B: usize, const Q: usize, const V: usize>(
     let mut worst = answers.map(|(name, rows)| Worst::new(name, full_scale(rows)));
     let (gravity, inertia, coriolis) = RIGID_BODY;
     let rotors = std::array::from_fn(|k| R::from_f64(r.armature[k]));
-    let rotors = (gravity, inertia, coriolis, RotorInertia(rotors));
+    let rotors = (gravity, inertia, coriolis, Armature(rotors));
     for i in 0..r.first_states() {
         let (state, tau) = (state::<R, Q, V>(r, i), row::<V>(&r.tau, i).map(R::from_f64));
         let fx = columns::<B>(&r.wrenches, i).map(|f| f.map(R::from_f64));
@@ -227,7 +227,7 @@ fn matrices<R: Real, T, const B: usize, const Q: usize, const V: usize>(
     let mut inverse_worst = Worst::new("M⁻¹", full_scale(&r.inverse_mass_matrix));
     for i in 0..r.first_states() {
         let m = crba(robot, &state::<R, Q, V>(r, i).q, &RIGID_BODY);
-        let inverted = inverse(robot, &factor(robot, &m).expect("M is positive"));
+        let inverted = inverse(robot, &ltdl(robot, &m).expect("M is positive"));
         let wanted = symmetric::<V>(&r.mass_matrix, i);
         let wanted_inverse = symmetric::<V>(&r.inverse_mass_matrix, i);
         for k in 0..V {

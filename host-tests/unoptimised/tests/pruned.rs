@@ -1,6 +1,6 @@
 //! A robot without its negligible parameters: nothing else changes, and it errs by little.
 
-use dynamics_core::effects::{Coriolis, Gravity, Inertia, RIGID_BODY, RotorInertia};
+use dynamics_core::effects::{Armature, Coriolis, Gravity, Inertia, RIGID_BODY};
 use dynamics_core::model::{Pruned, Robot};
 use dynamics_core::robots::{A1Leg, Panda, Ur5e};
 use dynamics_core::state::State;
@@ -91,12 +91,12 @@ fn a_joint_without_inertia_is_refused_by_name() {
     type Light = Pruned<Ur5e, 1000>;
     let state = State::at([0.3_f32; 6]);
     for refused in [
-        Engine::<Light>::forward(&state, &[1.0; 6], &RIGID_BODY),
+        Engine::<Light>::forward_dynamics(&state, &[1.0; 6], &RIGID_BODY),
         Engine::<Light>::aba(&state, &[1.0; 6], &RIGID_BODY),
     ] {
         assert_eq!(refused.map_err(|error| error.joint), Err(5));
     }
-    let rotors = (Gravity::EARTH, Inertia, Coriolis, RotorInertia([0.1; 6]));
-    let moves = Engine::<Light>::forward(&state, &[1.0; 6], &rotors);
+    let rotors = (Gravity::EARTH, Inertia, Coriolis, Armature([0.1; 6]));
+    let moves = Engine::<Light>::forward_dynamics(&state, &[1.0; 6], &rotors);
     assert!(moves.is_ok_and(|qdd| qdd.iter().all(|x| x.is_finite())));
 }

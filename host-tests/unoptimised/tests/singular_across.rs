@@ -4,8 +4,8 @@
 use core::f64::consts::FRAC_PI_2;
 
 use dynamics_core::algorithms::{
-    Given, NotPositiveDefinite, aba, crba, factor, forward, frame, hybrid, mobility,
-    operator_factor, operator_inverse,
+    NotPositiveDefinite, Prescribed, aba, crba, forward_dynamics, frame, hybrid_dynamics, ltdl,
+    osim_inverse, spatial_operator_inverse, spatial_operator_ltdl,
 };
 use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::model::{BASE, Body, Joint, Model};
@@ -21,8 +21,8 @@ const WAYS: [&str; 7] = [
     "aba",
     "hybrid",
     "mobility",
-    "operator_factor",
-    "operator_inverse",
+    "spatial_operator_ltdl",
+    "spatial_operator_inverse",
     "forward",
     "factor",
 ];
@@ -34,12 +34,12 @@ fn verdicts<R: Real, const B: usize, const Q: usize, const V: usize>(
     let (tau, scene) = ([R::ONE; V], &RIGID_BODY);
     [
         aba(model, state, &tau, scene).err(),
-        hybrid(model, state, &tau.map(Given::Torque), scene).err(),
-        mobility(model, &state.q, B - 1, frame::Mixed, scene).err(),
-        operator_factor(model, &state.q, scene).err(),
-        operator_inverse(model, &state.q, scene).err(),
-        forward(model, state, &tau, scene).err(),
-        factor(model, &crba(model, &state.q, scene)).err(),
+        hybrid_dynamics(model, state, &tau.map(Prescribed::Torque), scene).err(),
+        osim_inverse(model, &state.q, B - 1, frame::LocalWorldAligned, scene).err(),
+        spatial_operator_ltdl(model, &state.q, scene).err(),
+        spatial_operator_inverse(model, &state.q, scene).err(),
+        forward_dynamics(model, state, &tau, scene).err(),
+        ltdl(model, &crba(model, &state.q, scene)).err(),
     ]
 }
 
@@ -87,8 +87,8 @@ fn refused_by_bodies<const B: usize, const Q: usize, const V: usize>(
     count: usize,
     draw: impl FnMut(&mut TestRng) -> (Model<f64, B, Q, V>, State<f64, Q, V>),
 ) {
-    for [aba, hybrid, mobility, factor, inverse, ..] in refused(count, draw) {
-        let refused = [aba, hybrid, mobility, factor, inverse];
+    for [aba, hybrid_dynamics, osim_inverse, factor, inverse, ..] in refused(count, draw) {
+        let refused = [aba, hybrid_dynamics, osim_inverse, factor, inverse];
         assert_eq!(refused, [count; 5], "{what}, {WAYS:?}");
     }
 }

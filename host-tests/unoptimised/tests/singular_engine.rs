@@ -104,9 +104,9 @@ fn named<R: Real, T, E, const N: usize>(
         };
         let tau = within(rng, 10.0).map(R::from_f64);
         let verdicts = [
-            Engine::<T>::forward(&state, &tau, scene).err(),
+            Engine::<T>::forward_dynamics(&state, &tau, scene).err(),
             Engine::<T>::aba(&state, &tau, scene).err(),
-            Engine::<T>::factor(&Engine::<T>::crba(&state.q, scene)).err(),
+            Engine::<T>::ltdl(&Engine::<T>::crba(&state.q, scene)).err(),
         ];
         for (named, verdict) in named.iter_mut().zip(verdicts) {
             *named += usize::from(verdict.is_some_and(|error| error.joint == joint));
@@ -114,7 +114,7 @@ fn named<R: Real, T, E, const N: usize>(
     }
     let what = format!("{}, {}", T::MODEL.name, std::any::type_name::<R>());
     println!("{what}: {named:?}");
-    assert_eq!(named, [1000; 3], "{what}: forward, aba, factor");
+    assert_eq!(named, [1000; 3], "{what}: forward_dynamics, aba, factor");
 }
 
 #[test]
@@ -157,9 +157,9 @@ fn a_wrist_out_of_gimbal_lock_is_regular() {
     fn regular<R: Real>(off: f64) {
         let q = [0.3, -0.4, FRAC_PI_2 - off, 0.5].map(R::from_f64);
         let (state, tau) = (State::at(q), [R::ONE; 4]);
-        assert!(Engine::<Wrist>::forward(&state, &tau, &RIGID_BODY).is_ok());
+        assert!(Engine::<Wrist>::forward_dynamics(&state, &tau, &RIGID_BODY).is_ok());
         assert!(Engine::<Wrist>::aba(&state, &tau, &RIGID_BODY).is_ok());
-        assert!(Engine::<Wrist>::factor(&Engine::<Wrist>::crba(&q, &RIGID_BODY)).is_ok());
+        assert!(Engine::<Wrist>::ltdl(&Engine::<Wrist>::crba(&q, &RIGID_BODY)).is_ok());
     }
     regular::<f64>(1e-6);
     regular::<f32>(1e-2);

@@ -29,7 +29,7 @@ pub fn code(point: &Point) -> Result<String> {
             ));
         }
         (rate, _) if point.on("between") == "linearised" => {
-            parts.uses.push("control::Linearised");
+            parts.uses.push("control::InertiaUpdate");
             linearised(&mut parts, rate)
         }
         (rate, _) => between(&mut parts, rate, point.on("between")),
@@ -94,7 +94,7 @@ fn carried(parts: &Parts<'_>) -> String {
     )
 }
 
-const WAIT: &str = "        if self.wait > 0 {\n            self.wait -= 1;\n            return self.between.coast(";
+const WAIT: &str = "        if self.wait > 0 {\n            self.wait -= 1;\n            return self.between.hold(";
 
 fn between(parts: &mut Parts<'_>, rate: &str, between: &str) -> String {
     let n = parts.joints;
@@ -105,14 +105,14 @@ fn between(parts: &mut Parts<'_>, rate: &str, between: &str) -> String {
             "Held::start()".to_owned(),
         ),
         "extrapolated" => (
-            "control::Extrapolated",
-            format!("Extrapolated<f32, {n}, {rate}>"),
-            "Extrapolated::start()".to_owned(),
+            "control::FirstOrderHold",
+            format!("FirstOrderHold<f32, {n}, {rate}>"),
+            "FirstOrderHold::start()".to_owned(),
         ),
         _ => (
-            "control::Interpolated",
-            format!("Interpolated<f32, {n}, {rate}>"),
-            format!("Interpolated::start({})", parts.call("first")),
+            "control::Interpolator",
+            format!("Interpolator<f32, {n}, {rate}>"),
+            format!("Interpolator::start({})", parts.call("first")),
         ),
     };
     parts.uses.push(used);
@@ -128,7 +128,7 @@ fn between(parts: &mut Parts<'_>, rate: &str, between: &str) -> String {
         &format!("            between: {start},\n            wait: 0,\n"),
         &format!(
             "{ahead}{WAIT});\n        }}\n        self.wait = {rate} - 1;\n        \
-             self.between.renew({})\n",
+             self.between.update({})\n",
             parts.call("state")
         ),
     )
@@ -149,15 +149,15 @@ fn linearised(parts: &mut Parts<'_>, rate: &str) -> String {
             "Table<128, 3>"
         }
     };
-    let fields = format!("    between: Linearised<f32, {joints}, {rate}>,\n    wait: usize,\n");
+    let fields = format!("    between: InertiaUpdate<f32, {joints}, {rate}>,\n    wait: usize,\n");
     let tick = format!(
         "{WAIT}&state.qdd);\n        }}\n        self.wait = {rate} - 1;\n        \
          let posture = Engine::<{robot}>::posture_by::<{kernel}, f32, {shape}>(&state.q);\n        \
          let torque = Engine::<{robot}>::rnea_at(&posture, state, &{effects});\n        \
          let mass_matrix = Engine::<{robot}>::crba_at(&posture, &{effects});\n        \
-         self.between.renew(torque, mass_matrix, &state.qdd)\n"
+         self.between.update(torque, mass_matrix, &state.qdd)\n"
     );
-    let start = "            between: Linearised::start(),\n            wait: 0,\n";
+    let start = "            between: InertiaUpdate::start(),\n            wait: 0,\n";
     ticking(parts, &fields, start, &tick)
 }
 

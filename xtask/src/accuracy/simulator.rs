@@ -32,18 +32,18 @@ pub fn code(point: &Point) -> Result<String> {
         "euler" => ("Euler", "Euler".to_owned()),
         "semi_implicit" => ("SemiImplicit", "SemiImplicit".to_owned()),
         "rk4" => ("RungeKutta", "RungeKutta".to_owned()),
-        "energy" => ("EnergyKept", format!("EnergyKept<{scalar}>")),
+        "energy" => ("EnergyProjected", format!("EnergyProjected<{scalar}>")),
         _ => return Err(lacks("integrator")),
     };
     let step: f64 = point.on("step").parse().map_err(|_| lacks("step"))?;
     let compensated = point.on("state") == "compensated";
-    let mut names = ["Integrator", "Mechanics", "Rates", "Summed", integrator];
+    let mut names = ["Integrator", "Dynamics", "Rates", "KahanState", integrator];
     names.sort_unstable();
     let sim = format!("dynamics_core::sim::{{{}}}", names.join(", "));
     let mut uses = [
         "dynamics_core::algorithms::NotPositiveDefinite",
         "dynamics_core::effects::RIGID_BODY",
-        "dynamics_core::model::Of",
+        "dynamics_core::model::Static",
         path,
         &sim,
         "dynamics_core::state::State",
@@ -58,7 +58,7 @@ pub fn code(point: &Point) -> Result<String> {
 /// The robot without torques.
 pub struct LetGo;
 
-impl Mechanics<{scalar}, {n}, {n}> for LetGo {{
+impl Dynamics<{scalar}, {n}, {n}> for LetGo {{
     fn acceleration(&self, at: &{state}) -> Result<[{scalar}; {n}], NotPositiveDefinite> {{
         Engine::<{robot}>::forward(at, &[0.0; {n}], &RIGID_BODY)
     }}
@@ -79,7 +79,7 @@ impl Mechanics<{scalar}, {n}, {n}> for LetGo {{
     }}
 
     fn moved(&self, q: &[{scalar}; {n}], at: &Rates<{scalar}, {n}>, h: {scalar}) -> [{scalar}; {n}] {{
-        at.moved(&Of::<{robot}>::NEW, q, h)
+        at.moved(&Static::<{robot}>::NEW, q, h)
     }}
 }}
 
@@ -89,7 +89,7 @@ pub const STEP: {scalar} = {step:?}e-6;
 /// The robot's motion, step by step.
 pub struct Simulation {{
     integrator: {kind},
-    motion: Summed<{scalar}, {n}, {compensated}>,
+    motion: KahanState<{scalar}, {n}, {compensated}>,
 }}
 
 impl Simulation {{
@@ -97,7 +97,7 @@ impl Simulation {{
     pub fn start(state: {state}) -> Self {{
         Self {{
             integrator: Integrator::start(&LetGo, &state),
-            motion: Summed::at(state),
+            motion: KahanState::at(state),
         }}
     }}
 

@@ -60,7 +60,7 @@ struct Line {
 pub fn steps(robots: &[Robot]) -> usize {
     let casadi = robots.iter().map(|robot| {
         let (algorithms, precisions) = compared(robot);
-        let cs = usize::from(!robot.is_large());
+        let cs = usize::from(!robot.has_subtree_functions());
         algorithms.len() * precisions.len() * (C_COMPILERS.len() + cs)
     });
     casadi.sum::<usize>() + CPP_COMPILERS.len() + 1
@@ -68,7 +68,7 @@ pub fn steps(robots: &[Robot]) -> usize {
 
 /// Algorithms and precisions of a robot.
 fn compared(robot: &Robot) -> (&'static [&'static str], &'static [&'static str]) {
-    if robot.is_large() {
+    if robot.has_subtree_functions() {
         (&LARGE, &PRECISIONS[1..])
     } else {
         (&ALGORITHMS, &PRECISIONS)
@@ -131,7 +131,11 @@ fn build(shop: &Workshop<'_>, robots: &[Robot]) -> Result<Vec<Foreign>> {
                 let sizes = [robot.joints(), outputs(algorithm, robot.joints())];
                 let all = [("q", &C_COMPILERS[..]), ("cs", &C_COMPILERS[..1])];
                 // What takes cosines is for the target.
-                let wanted = if robot.is_large() { &all[..1] } else { &all };
+                let wanted = if robot.has_subtree_functions() {
+                    &all[..1]
+                } else {
+                    &all
+                };
                 for &(inputs, compilers) in wanted {
                     let name = format!("{}_{algorithm}_{inputs}_{precision}", robot.name);
                     for compiler in compilers {

@@ -78,7 +78,10 @@ const OVERLAP: [(&str, &str); 2] = [("", ""), ("restrict", "_r")];
 
 /// Objects that [`measure`] makes.
 pub fn steps(robots: &[Robot]) -> usize {
-    let small = robots.iter().filter(|robot| !robot.is_large()).count();
+    let small = robots
+        .iter()
+        .filter(|robot| !robot.has_subtree_functions())
+        .count();
     small * ALGORITHMS.len() * BUILDS.len() * OVERLAP.len()
 }
 
@@ -123,7 +126,7 @@ pub fn measure(
 /// Objects, and the table of their functions for the firmware.
 fn compile(shop: &Workshop<'_>, robots: &[Robot]) -> Result<(Vec<PathBuf>, PathBuf)> {
     let (mut objects, mut externs, mut table) = (Vec::new(), String::new(), String::new());
-    for robot in robots.iter().filter(|robot| !robot.is_large()) {
+    for robot in robots.iter().filter(|robot| !robot.has_subtree_functions()) {
         for algorithm in ALGORITHMS {
             let name = format!("{}_{algorithm}_cs_f32", robot.name);
             let builds = BUILDS

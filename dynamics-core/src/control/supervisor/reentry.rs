@@ -8,8 +8,8 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
     /// follow (see [`super::super::Rejoin`]). Zero while the arm is held and while the brake waits.
     ///
     /// ```
-    /// # use dynamics_core::control::{Bounds, Fault, Supervisor};
-    /// # let bounds = Bounds { torque: [10.0_f32], rate: [8.0], speed: [3.0], lower: [-1.0], upper: [1.0] };
+    /// # use dynamics_core::control::{SafetyLimits, Fault, Supervisor};
+    /// # let bounds = SafetyLimits { torque: [10.0_f32], rate: [8.0], speed: [3.0], lower: [-1.0], upper: [1.0] };
     /// let mut supervisor = Supervisor::new(bounds, 1e-3, 2, 4);
     /// for (measured, share) in [(Ok(&[0.5]), 1.0), (Err(Fault::Stale), 0.0), (Ok(&[0.5]), 0.25)] {
     ///     supervisor.admit(measured);
@@ -24,7 +24,7 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         } else if self.next_ramp() >= self.reentry_ticks {
             R::ONE
         } else {
-            real::<R>(self.next_ramp()) * self.per_reentry
+            real::<R>(self.next_ramp()) * self.reentry_inv
         }
     }
 
@@ -33,8 +33,8 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
     /// [`Self::authority`] rises.
     ///
     /// ```
-    /// # use dynamics_core::control::{Bounds, Fault, Mode, Supervisor};
-    /// # let bounds = Bounds { torque: [10.0_f32], rate: [2.0], speed: [3.0], lower: [-1.0], upper: [1.0] };
+    /// # use dynamics_core::control::{SafetyLimits, Fault, Mode, Supervisor};
+    /// # let bounds = SafetyLimits { torque: [10.0_f32], rate: [2.0], speed: [3.0], lower: [-1.0], upper: [1.0] };
     /// let mut supervisor = Supervisor::new(bounds, 1e-3, 0, 2);
     /// assert_eq!(supervisor.admit(Err(Fault::Stale)), Mode::Stopped);
     /// supervisor.reset();

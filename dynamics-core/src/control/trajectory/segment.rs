@@ -97,7 +97,7 @@ impl<R: Real, const V: usize> Segment<R, V> {
     pub(super) fn check(
         &self,
         point: usize,
-        limits: &[Speed<R>; V],
+        limits: &[MotionLimits<R>; V],
     ) -> Result<(), TrajectoryError> {
         for (joint, (&[_, step, v_0, v_1], limit)) in self.joints.iter().zip(limits).enumerate() {
             // q̈ = s r (a + b s) / T²

@@ -11,9 +11,9 @@
 //!
 //! The regularised incomplete beta function I_s(5, 5) and its derivatives.
 
-use super::{Segment, Speed, TrajectoryError, WayPoint, real, segments};
+use super::{MotionLimits, Segment, TrajectoryError, WayPoint, real, segments};
 use crate::control::Reference;
-use crate::flexible::Course;
+use crate::drivetrain::ElasticReference;
 use crate::scalar::Real;
 use crate::state::State;
 
@@ -24,30 +24,30 @@ const ACCELERATION: f64 = 2520.0 * 27.0 / 2744.0 * 0.377_964_473_009_227_2;
 
 /// The motion of V joints from stop to stop, W of them, smooth to the fourth derivative.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Smooth<R, const V: usize, const W: usize> {
+pub struct RestToRest<R, const V: usize, const W: usize> {
     /// The last one is the rest at the end.
     segments: [Segment<R, V>; W],
     ticks: u32,
 }
 
-impl<R: Real, const V: usize, const W: usize> Smooth<R, V, W> {
+impl<R: Real, const V: usize, const W: usize> RestToRest<R, V, W> {
     /// The motion that stops in each of `points`, with ticks of `tick` seconds.
     ///
     /// # Errors
     /// As [`Trajectory::new`](super::Trajectory::new); no way-point may pass at speed.
     ///
     /// ```
-    /// use dynamics_core::control::{Smooth, Speed, TrajectoryError, WayPoint};
+    /// use dynamics_core::control::{RestToRest, MotionLimits, TrajectoryError, WayPoint};
     /// let stop = |q, ticks| WayPoint { q: [q], qd: [0.0_f32], ticks };
     /// let points = [stop(0.0, 0), stop(1.0, 1000)];
-    /// let slow = [Speed { velocity: 2.0, acceleration: 20.0 }];
-    /// let error = Smooth::new(&points, 1e-3, &slow).unwrap_err();
+    /// let slow = [MotionLimits { velocity: 2.0, acceleration: 20.0 }];
+    /// let error = RestToRest::new(&points, 1e-3, &slow).unwrap_err();
     /// assert_eq!(error, TrajectoryError::Velocity { point: 1, joint: 0, needed: 2.4609375, allowed: 2.0 });
     /// ```
     pub fn new(
         points: &[WayPoint<R, V>; W],
         tick: R,
-        limits: &[Speed<R>; V],
+        limits: &[MotionLimits<R>; V],
     ) -> Result<Self, TrajectoryError> {
         let (segments, ticks) = segments(points, tick, true, |point, segment| {
             check(point, segment, limits)
@@ -60,19 +60,19 @@ impl<R: Real, const V: usize, const W: usize> Smooth<R, V, W> {
     /// Cost: about 40 flops for the segment and 9 a joint, no division.
     ///
     /// ```
-    /// use dynamics_core::control::{Smooth, Speed, WayPoint};
+    /// use dynamics_core::control::{RestToRest, MotionLimits, WayPoint};
     /// # use dynamics_core::control::TrajectoryError;
     /// let stop = |q, ticks| WayPoint { q: [q], qd: [0.0_f32], ticks };
-    /// let quick = [Speed { velocity: 3.0, acceleration: 20.0 }];
-    /// let smooth = Smooth::new(&[stop(0.0, 0), stop(1.0, 1000)], 1e-3, &quick)?;
+    /// let quick = [MotionLimits { velocity: 3.0, acceleration: 20.0 }];
+    /// let smooth = RestToRest::new(&[stop(0.0, 0), stop(1.0, 1000)], 1e-3, &quick)?;
     /// let middle = smooth.course(500);
     /// assert_eq!((middle.state.q, middle.jerk, middle.snap), ([0.5], [-78.75], [0.0]));
     /// assert_eq!(smooth.course(1000).state.q, [1.0]);
     /// # Ok::<(), TrajectoryError>(())
     /// ```
-    pub fn course(&self, tick: u32) -> Course<R, V, V> {
+    pub fn course(&self, tick: u32) -> ElasticReference<R, V, V> {
         let zero = [R::ZERO; V];
-        let mut course = Course {
+        let mut course = ElasticReference {
             state: State::at(zero),
             jerk: zero,
             snap: zero,
@@ -105,7 +105,7 @@ impl<R: Real, const V: usize, const W: usize> Smooth<R, V, W> {
     }
 }
 
-impl<R: Real, const V: usize, const W: usize> Reference<R, V> for Smooth<R, V, W> {
+impl<R: Real, const V: usize, const W: usize> Reference<R, V> for RestToRest<R, V, W> {
     fn at(&self, tick: u32) -> State<R, V, V> {
         self.course(tick).state
     }
@@ -120,16 +120,16 @@ fn weights<R: Real, const V: usize>(segment: &Segment<R, V>, tick: u32) -> [R; 5
     let number = R::from_f64;
     let s = real::<R>(tick.wrapping_sub(segment.start)) * segment.per_tick;
     let (u, w) = (s * (R::ONE - s), R::ONE - number(2.0) * s);
-    let (uu, per_t) = (u * u, segment.per_second);
-    let per_tt = per_t * per_t;
+    let (uu, t_inv) = (u * u, segment.per_second);
+    let tt_inv = t_inv * t_inv;
     let inner = [-315.0, 540.0, -420.0, 126.0].map(number);
     let horner = inner.into_iter().fold(number(70.0), |sum, c| sum * s + c);
     [
         s * s * s * s * s * horner,
-        per_t * (number(630.0) * uu * uu),
-        per_tt * (number(2520.0) * uu * u * w),
-        per_tt * per_t * (number(2520.0) * uu * (number(3.0) - number(14.0) * u)),
-        per_tt * per_tt * (number(15120.0) * u * w * (R::ONE - number(7.0) * u)),
+        t_inv * (number(630.0) * uu * uu),
+        tt_inv * (number(2520.0) * uu * u * w),
+        tt_inv * t_inv * (number(2520.0) * uu * (number(3.0) - number(14.0) * u)),
+        tt_inv * tt_inv * (number(15120.0) * u * w * (R::ONE - number(7.0) * u)),
     ]
 }
 
@@ -137,7 +137,7 @@ fn weights<R: Real, const V: usize>(segment: &Segment<R, V>, tick: u32) -> [R; 5
 fn check<R: Real, const V: usize>(
     point: usize,
     segment: &Segment<R, V>,
-    limits: &[Speed<R>; V],
+    limits: &[MotionLimits<R>; V],
 ) -> Result<(), TrajectoryError> {
     let per_second = segment.per_second;
     for (joint, (&[_, step, ..], limit)) in segment.joints.iter().zip(limits).enumerate() {
@@ -155,17 +155,17 @@ mod tests {
 
     const TICK: f64 = 1e-3;
 
-    fn swing() -> Smooth<f64, 1, 2> {
+    fn swing() -> RestToRest<f64, 1, 2> {
         let stop = |q, ticks| WayPoint {
             q: [q],
             qd: [0.0],
             ticks,
         };
-        let quick = Speed {
+        let quick = MotionLimits {
             velocity: 10.0,
             acceleration: 100.0,
         };
-        Smooth::new(&[stop(-0.4, 0), stop(1.3, 800)], TICK, &[quick]).unwrap()
+        RestToRest::new(&[stop(-0.4, 0), stop(1.3, 800)], TICK, &[quick]).unwrap()
     }
 
     /// Central differences of one derivative are the next one, up to h²/6 of the third from there: of the
@@ -191,7 +191,7 @@ mod tests {
     #[test]
     fn the_peaks_that_are_checked_are_those_of_the_motion() {
         let smooth = swing();
-        let peak = |of: fn(&Course<f64, 1, 1>) -> f64| {
+        let peak = |of: fn(&ElasticReference<f64, 1, 1>) -> f64| {
             let all = (0..=800).map(|tick| of(&smooth.course(tick)).abs());
             all.fold(0.0, f64::max)
         };
@@ -213,12 +213,12 @@ mod tests {
             ticks,
         };
         let points = [point(0.0, 0), point(0.1, 100), point(0.0, 100)];
-        let quick = Speed {
+        let quick = MotionLimits {
             velocity: 10.0,
             acceleration: 100.0,
         };
         assert_eq!(
-            Smooth::new(&points, 1e-3, &[quick]),
+            RestToRest::new(&points, 1e-3, &[quick]),
             Err(TrajectoryError::NotAtRest { point: 1, joint: 0 })
         );
     }

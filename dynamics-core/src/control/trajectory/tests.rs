@@ -3,7 +3,7 @@
 use super::segment::sqrt;
 use super::*;
 
-const FREE: Speed<f64> = Speed {
+const FREE: MotionLimits<f64> = MotionLimits {
     velocity: 1e9,
     acceleration: 1e9,
 };
@@ -59,7 +59,7 @@ fn peaks_are_those_of_dense_sampling() {
             let limit = |velocity, acceleration| {
                 segment.check(
                     point,
-                    &[Speed {
+                    &[MotionLimits {
                         velocity,
                         acceleration,
                     }],
@@ -138,7 +138,7 @@ fn a_move_of_a_day_is_as_exact_at_its_end_as_at_its_start() {
         WayPoint { ticks: day, ..end },
         WayPoint { q: [2.0], ..end },
     ];
-    let limits = [Speed {
+    let limits = [MotionLimits {
         velocity: 2.0,
         acceleration: 10.0,
     }];
@@ -197,7 +197,7 @@ fn unusable_way_points_are_named() {
 
 #[test]
 fn what_overflows_is_an_error_and_so_is_a_limit_that_is_not_a_number() {
-    let unlimited = Speed {
+    let unlimited = MotionLimits {
         velocity: f64::INFINITY,
         acceleration: f64::INFINITY,
     };
@@ -210,7 +210,7 @@ fn what_overflows_is_an_error_and_so_is_a_limit_that_is_not_a_number() {
     }
     let points = [stop(0.0, 0), stop(0.0, 10)];
     assert!(Trajectory::new(&points, 1e-3, &[unlimited]).is_ok());
-    let unclear = Speed {
+    let unclear = MotionLimits {
         acceleration: f64::NAN,
         ..unlimited
     };

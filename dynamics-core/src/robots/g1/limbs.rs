@@ -2,8 +2,8 @@
 
 use core::f64::consts::PI;
 
-use crate::model::{BASE, Body, Joint, Limits};
-use crate::robots::part::Part;
+use crate::model::{BASE, Body, Joint, JointLimits};
+use crate::robots::welded_part::Part;
 
 const X: [f64; 3] = [1.0, 0.0, 0.0];
 const Y: [f64; 3] = [0.0, 1.0, 0.0];
@@ -13,8 +13,8 @@ const Z: [f64; 3] = [0.0, 0.0, 1.0];
 const WAIST: f64 = 0.52 * 180.0 / PI;
 
 /// From `lower` to `upper` degrees.
-const fn limits(lower: f64, upper: f64, torque: f64, velocity: f64) -> Limits<f64> {
-    Limits {
+const fn limits(lower: f64, upper: f64, torque: f64, velocity: f64) -> JointLimits<f64> {
+    JointLimits {
         lower: lower * PI / 180.0,
         upper: upper * PI / 180.0,
         velocity,
@@ -28,7 +28,7 @@ const fn sideways(
     inner: f64,
     outer: f64,
     (torque, velocity): (f64, f64),
-) -> Limits<f64> {
+) -> JointLimits<f64> {
     if left > 0.0 {
         limits(-inner, outer, torque, velocity)
     } else {

@@ -2,7 +2,7 @@
 
 mod limbs;
 
-use crate::model::{Arm, BASE, Body, Joint, Model, Robot, on_root};
+use crate::model::{ArmModel, BASE, Body, Joint, Model, Robot, on_root};
 use limbs::{arm, leg, waist};
 
 /// Unitree G1 humanoid with its pelvis welded to the base: 29 revolute joints (6 a leg, 3 in the waist,
@@ -82,10 +82,10 @@ const LIMBS: [Body; 29] = {
 };
 
 impl Robot<29, 29, 29> for G1 {
-    const MODEL: Arm<f64, 29> = Model::new("g1", LIMBS);
+    const MODEL: ArmModel<f64, 29> = Model::new("g1", LIMBS);
 }
 
-const _: Arm<f64, 29> = G1::MODEL;
+const _: ArmModel<f64, 29> = G1::MODEL;
 
 /// Unitree G1 on a free joint: the pelvis of 3.8 kg, then the limbs of [`G1`]; 30 bodies, 35 degrees of
 /// freedom, 33.3 kg. Source and licence as [`G1`].

@@ -1,7 +1,7 @@
 //! What `cargo xtask accuracy --error …` prints to be pasted, as it is printed; `cargo xtask test accuracy` holds its
 //! figures against those that were promised.
 
-use dynamics_core::flexible::Course;
+use dynamics_core::drivetrain::ElasticReference;
 use dynamics_core::state::State;
 
 use super::key::Key;
@@ -25,7 +25,7 @@ macro_rules! pasted {
             fn start(first: &State<f32, $n, $n>) -> Self {
                 Self(start!($made $module first))
             }
-            fn input(course: &Course<f32, $n, $n>) -> Self::Input {
+            fn input(course: &ElasticReference<f32, $n, $n>) -> Self::Input {
                 course.state
             }
             #[inline(always)]
@@ -92,9 +92,9 @@ pasted! {
     ur5e_pruned: Pruned plain 6, 0, model "pruned1000";
     ur5e_core: Core plain 6, 0, form "core", trig "table3x4";
     ur5e_incremental: Carried ticking 6, 0, trig "incremental";
-    ur5e_held: Held ticking 6, 0, rate "10";
-    ur5e_interpolated: Interpolated ticking 6, 10, rate "10", between "interpolated";
-    ur5e_linearised: Linearised ticking 6, 0, rate "10", between "linearised";
+    ur5e_held: ZeroOrderHold ticking 6, 0, rate "10";
+    ur5e_interpolated: Interpolator ticking 6, 10, rate "10", between "interpolated";
+    ur5e_linearised: InertiaUpdate ticking 6, 0, rate "10", between "linearised";
     a1_leg_minimax7: LegMinimax plain 3, 0, trig "minimax7";
 }
 
@@ -107,9 +107,9 @@ pub fn ur5e(visitor: &mut impl Visitor<6>) {
     visitor.way::<Pruned>();
     visitor.way::<Core>();
     visitor.way::<Carried>();
-    visitor.way::<Held>();
-    visitor.way::<Interpolated>();
-    visitor.way::<Linearised>();
+    visitor.way::<ZeroOrderHold>();
+    visitor.way::<Interpolator>();
+    visitor.way::<InertiaUpdate>();
 }
 
 /// Shows those of a quadruped's leg.

@@ -1,12 +1,12 @@
 use dynamics_core::Engine;
-use dynamics_core::control::Held;
+use dynamics_core::control::ZeroOrderHold;
 use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::robots::Ur5e;
 use dynamics_core::state::State;
 
 /// Torques of a motion, tick by tick.
 pub struct Torques {
-    between: Held<f32, 6>,
+    between: ZeroOrderHold<f32, 6>,
     wait: usize,
 }
 
@@ -14,7 +14,7 @@ impl Torques {
     /// Before the first tick, which will be that of this state.
     pub fn start(_first: &State<f32, 6, 6>) -> Self {
         Self {
-            between: Held::start(),
+            between: ZeroOrderHold::start(),
             wait: 0,
         }
     }
@@ -24,9 +24,9 @@ impl Torques {
     pub fn tick(&mut self, state: &State<f32, 6, 6>) -> [f32; 6] {
         if self.wait > 0 {
             self.wait -= 1;
-            return self.between.coast();
+            return self.between.hold();
         }
         self.wait = 10 - 1;
-        self.between.renew(Engine::<Ur5e>::rnea(state, &RIGID_BODY))
+        self.between.update(Engine::<Ur5e>::rnea(state, &RIGID_BODY))
     }
 }

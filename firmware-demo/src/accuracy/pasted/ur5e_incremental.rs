@@ -2,7 +2,7 @@ use dynamics_core::Engine;
 use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::robots::Ur5e;
 use dynamics_core::state::State;
-use dynamics_core::trig::Carried;
+use dynamics_core::state::Carried;
 
 /// Torques of a motion, tick by tick.
 pub struct Torques {

@@ -1,12 +1,12 @@
 use dynamics_core::Engine;
-use dynamics_core::control::Interpolated;
+use dynamics_core::control::Interpolator;
 use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::robots::Ur5e;
 use dynamics_core::state::State;
 
 /// Torques of a motion, tick by tick.
 pub struct Torques {
-    between: Interpolated<f32, 6, 10>,
+    between: Interpolator<f32, 6, 10>,
     wait: usize,
 }
 
@@ -14,7 +14,7 @@ impl Torques {
     /// Before the first tick, which will be that of this state.
     pub fn start(first: &State<f32, 6, 6>) -> Self {
         Self {
-            between: Interpolated::start(Engine::<Ur5e>::rnea(first, &RIGID_BODY)),
+            between: Interpolator::start(Engine::<Ur5e>::rnea(first, &RIGID_BODY)),
             wait: 0,
         }
     }
@@ -25,9 +25,9 @@ impl Torques {
         // In a tick that computes, `state` is to be that of 10 ticks later.
         if self.wait > 0 {
             self.wait -= 1;
-            return self.between.coast();
+            return self.between.hold();
         }
         self.wait = 10 - 1;
-        self.between.renew(Engine::<Ur5e>::rnea(state, &RIGID_BODY))
+        self.between.update(Engine::<Ur5e>::rnea(state, &RIGID_BODY))
     }
 }

@@ -1,5 +1,5 @@
 use dynamics_core::Engine;
-use dynamics_core::control::Linearised;
+use dynamics_core::control::InertiaUpdate;
 use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::robots::Ur5e;
 use dynamics_core::state::State;
@@ -7,7 +7,7 @@ use dynamics_core::trig::Table;
 
 /// Torques of a motion, tick by tick.
 pub struct Torques {
-    between: Linearised<f32, 6, 10>,
+    between: InertiaUpdate<f32, 6, 10>,
     wait: usize,
 }
 
@@ -15,7 +15,7 @@ impl Torques {
     /// Before the first tick, which will be that of this state.
     pub fn start(_first: &State<f32, 6, 6>) -> Self {
         Self {
-            between: Linearised::start(),
+            between: InertiaUpdate::start(),
             wait: 0,
         }
     }
@@ -25,12 +25,12 @@ impl Torques {
     pub fn tick(&mut self, state: &State<f32, 6, 6>) -> [f32; 6] {
         if self.wait > 0 {
             self.wait -= 1;
-            return self.between.coast(&state.qdd);
+            return self.between.hold(&state.qdd);
         }
         self.wait = 10 - 1;
         let posture = Engine::<Ur5e>::posture_by::<Table<128, 3>, f32, 6, 6, 6>(&state.q);
         let torque = Engine::<Ur5e>::rnea_at(&posture, state, &RIGID_BODY);
         let mass_matrix = Engine::<Ur5e>::crba_at(&posture, &RIGID_BODY);
-        self.between.renew(torque, mass_matrix, &state.qdd)
+        self.between.update(torque, mass_matrix, &state.qdd)
     }
 }

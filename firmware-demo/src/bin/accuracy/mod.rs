@@ -7,7 +7,7 @@ mod row;
 use core::fmt::Write;
 
 use cortex_m_semihosting::debug;
-use dynamics_core::flexible::Course;
+use dynamics_core::drivetrain::ElasticReference;
 use dynamics_core::state::State;
 use firmware_demo::accuracy::robots::{Compared, momentary};
 use firmware_demo::accuracy::{Inverse, Visitor};
@@ -25,9 +25,9 @@ pub struct Priced<const N: usize> {
     /// What the log calls them.
     pub algorithm: &'static str,
     /// Anywhere, for ways that remember nothing.
-    pub spread: [Course<f32, N, N>; TICKS],
+    pub spread: [ElasticReference<f32, N, N>; TICKS],
     /// One after the other on the robot's way.
-    pub course: [Course<f32, N, N>; TICKS],
+    pub course: [ElasticReference<f32, N, N>; TICKS],
 }
 
 impl<const N: usize> Visitor<N> for Priced<N> {

@@ -3,7 +3,7 @@
 use dynamics_core::model::Robot;
 use dynamics_core::{Engine, MassMatrix};
 
-use super::forward::{Forms, Solution};
+use super::forward_dynamics::{Forms, Solution};
 
 /// In the order of the table.
 pub fn engine<T: Robot<B, N, N>, const B: usize, const N: usize, const TIP: usize>() -> Forms<N> {
@@ -26,5 +26,5 @@ fn engine_factor_solve<T: Robot<B, N, N>, const B: usize, const N: usize>(
     m: &MassMatrix<f32, N>,
     tau: &[f32; N],
 ) -> Solution<N> {
-    Ok(Engine::<T>::solve(&Engine::<T>::factor(m)?, tau))
+    Ok(Engine::<T>::solve(&Engine::<T>::ltdl(m)?, tau))
 }

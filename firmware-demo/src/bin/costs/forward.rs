@@ -5,7 +5,7 @@ use dynamics_core::effects::{Coriolis, Gravity, Inertia, RIGID_BODY};
 
 use dynamics_core::model::Robot;
 use dynamics_core::spatial::Motion;
-use dynamics_core::state::{Posture, State};
+use dynamics_core::state::{JointTrig, State};
 use dynamics_core::{Core, MassMatrix};
 
 use super::costs::row::Row;
@@ -15,20 +15,20 @@ pub type Scene = (Gravity, Inertia, Coriolis);
 pub type Solution<const N: usize> = Result<[f32; N], NotPositiveDefinite>;
 pub type Forward<const N: usize> = fn(&State<f32, N, N>, &[f32; N], &Scene) -> Solution<N>;
 pub type ForwardAt<const N: usize> =
-    fn(&Posture<f32, N>, &State<f32, N, N>, &[f32; N], &Scene) -> Solution<N>;
+    fn(&JointTrig<f32, N>, &State<f32, N, N>, &[f32; N], &Scene) -> Solution<N>;
 
 /// The functions of core or engine; those that take a posture have sines and cosines at hand.
 pub struct Forms<const N: usize> {
     pub name: &'static str,
     pub crba: fn(&[f32; N], &Scene) -> MassMatrix<f32, N>,
-    pub crba_at: fn(&Posture<f32, N>, &Scene) -> MassMatrix<f32, N>,
+    pub crba_at: fn(&JointTrig<f32, N>, &Scene) -> MassMatrix<f32, N>,
     pub factor_solve: fn(&MassMatrix<f32, N>, &[f32; N]) -> Solution<N>,
     pub forward: Forward<N>,
     pub forward_at: ForwardAt<N>,
     pub aba: Forward<N>,
     pub aba_at: ForwardAt<N>,
     pub jacobian: fn(&[f32; N]) -> [Motion<f32>; N],
-    pub jacobian_at: fn(&Posture<f32, N>) -> [Motion<f32>; N],
+    pub jacobian_at: fn(&JointTrig<f32, N>) -> [Motion<f32>; N],
 }
 
 impl<const N: usize> Forms<N> {
@@ -38,8 +38,8 @@ impl<const N: usize> Forms<N> {
             crba: Core::<T>::crba,
             crba_at: Core::<T>::crba_at,
             factor_solve: core_factor_solve::<T, B, N>,
-            forward: Core::<T>::forward,
-            forward_at: Core::<T>::forward_at,
+            forward: Core::<T>::forward_dynamics,
+            forward_at: Core::<T>::forward_dynamics_at,
             aba: Core::<T>::aba,
             aba_at: Core::<T>::aba_at,
             jacobian: tip_jacobian::<T, B, N>,
@@ -53,7 +53,7 @@ fn core_factor_solve<T: Robot<B, N, N>, const B: usize, const N: usize>(
     m: &MassMatrix<f32, N>,
     tau: &[f32; N],
 ) -> Solution<N> {
-    Ok(Core::<T>::solve(&Core::<T>::factor(m)?, tau))
+    Ok(Core::<T>::solve(&Core::<T>::ltdl(m)?, tau))
 }
 
 /// The engine's: of the last body, along the axes of the base.
@@ -61,14 +61,14 @@ fn core_factor_solve<T: Robot<B, N, N>, const B: usize, const N: usize>(
 fn tip_jacobian<T: Robot<B, N, N>, const B: usize, const N: usize>(
     q: &[f32; N],
 ) -> [Motion<f32>; N] {
-    Core::<T>::jacobian(q, const { B - 1 }, frame::Mixed)
+    Core::<T>::jacobian(q, const { B - 1 }, frame::LocalWorldAligned)
 }
 
 #[inline(never)]
 fn tip_jacobian_at<T: Robot<B, N, N>, const B: usize, const N: usize>(
-    posture: &Posture<f32, N>,
+    posture: &JointTrig<f32, N>,
 ) -> [Motion<f32>; N] {
-    Core::<T>::jacobian_at(posture, const { B - 1 }, frame::Mixed)
+    Core::<T>::jacobian_at(posture, const { B - 1 }, frame::LocalWorldAligned)
 }
 
 /// Measures the rows of these forms and leaves the emulator. Torques are the states' accelerations: any

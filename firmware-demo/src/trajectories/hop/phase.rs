@@ -111,5 +111,5 @@ pub fn arc_cosine(x: f32) -> f32 {
     ];
     let polynomial = A.iter().rev().fold(0.0, |sum, a| sum * x + a);
     let rest = 1.0 - x;
-    rest * rest.per_sqrt() * polynomial
+    rest * rest.rsqrt() * polynomial
 }

@@ -103,7 +103,8 @@ where
             }),
             rows::<R, N>("engine", move |out| {
                 for (qdd, state) in std::iter::zip(out, &of_engine) {
-                    *qdd = Engine::<T>::forward(state, &state.qdd, &RIGID_BODY).expect("M > 0");
+                    *qdd = Engine::<T>::forward_dynamics(state, &state.qdd, &RIGID_BODY)
+                        .expect("M > 0");
                 }
             }),
         ],

@@ -4,7 +4,7 @@
 use std::marker::PhantomData;
 
 use dynamics_core::Core;
-use dynamics_core::control::{Speed, Trajectory, WayPoint};
+use dynamics_core::control::{MotionLimits, Trajectory, WayPoint};
 use dynamics_core::effects::{Effect, JointState, RIGID_BODY};
 use dynamics_core::model::{Robot, model};
 use dynamics_core::robots::{Panda, Ur5e};
@@ -57,7 +57,7 @@ fn main() {
 fn every<T: Robot<N, N, N>, const N: usize, const W: usize, const TIP: usize>(
     points: &[WayPoint<f32, N>; W],
 ) {
-    let limits = model::<f32, T, N, N, N>().links.map(|link| Speed {
+    let limits = model::<f32, T, N, N, N>().links.map(|link| MotionLimits {
         velocity: link.limits.velocity,
         acceleration: ACCELERATION,
     });

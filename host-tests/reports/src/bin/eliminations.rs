@@ -1,13 +1,13 @@
 //! Prints how accurate forward dynamics is in f32 by its two eliminations, as lines of a table:
 //! `cargo xtask eliminations` puts them into docs/eliminations.md.
 
-use dynamics_core::Factor;
-use dynamics_core::algorithms::{aba, crba, factor, forward, rnea, solve};
-use dynamics_core::configuration::normalise;
+use dynamics_core::Ltdl;
+use dynamics_core::algorithms::{aba, crba, forward_dynamics, ltdl, rnea, solve};
 use dynamics_core::effects::RIGID_BODY;
-use dynamics_core::model::{Arm, BASE, Body, Joint, Model, Robot, on_root};
+use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model, Robot, on_root};
 use dynamics_core::robots::{G1, G1Free};
 use dynamics_core::state::State;
+use dynamics_core::state::manifold::normalise;
 use host_tests::measured::largest;
 use host_tests::random::{random_numbers, within};
 use host_tests::wide::widened;
@@ -69,7 +69,7 @@ fn lengths<const N: usize>() {
     );
 }
 
-fn rods<const N: usize>(factor: f64, in_space: bool) -> Arm<f64, N> {
+fn rods<const N: usize>(factor: f64, in_space: bool) -> ArmModel<f64, N> {
     Model::new("rods", bodies(factor, in_space))
 }
 
@@ -151,8 +151,8 @@ fn one<const B: usize, const Q: usize, const V: usize>(
     let tau = inverse(double, &wide).map(|x| x as f32);
     let wide_tau = tau.map(f64::from);
     let m = crba(double, &wide.q, &RIGID_BODY);
-    let factors = factor(double, &m).expect("M > 0");
-    let mut truth = forward(double, &wide, &wide_tau, &RIGID_BODY).expect("M > 0");
+    let factors = ltdl(double, &m).expect("M > 0");
+    let mut truth = forward_dynamics(double, &wide, &wide_tau, &RIGID_BODY).expect("M > 0");
     for _ in 0..2 {
         // Iterative refinement: what the torques of this acceleration lack.
         let now = inverse(double, &State { qdd: truth, ..wide });
@@ -162,7 +162,7 @@ fn one<const B: usize, const Q: usize, const V: usize>(
     }
     let by_bodies = aba(double, &wide, &wide_tau, &RIGID_BODY).expect("M > 0");
     seen.f64s = largest([seen.f64s, error(&by_bodies, &truth)]);
-    let matrix = forward(single, &state, &tau, &RIGID_BODY).map(|x| x.map(f64::from));
+    let matrix = forward_dynamics(single, &state, &tau, &RIGID_BODY).map(|x| x.map(f64::from));
     let bodies = aba(single, &state, &tau, &RIGID_BODY).map(|x| x.map(f64::from));
     seen.matrix
         .push(matrix.map_or(f64::INFINITY, |x| error(&x, &truth)));
@@ -184,7 +184,7 @@ fn inverse<const B: usize, const Q: usize, const V: usize>(
 #[inline(never)]
 fn solved<const B: usize, const Q: usize, const V: usize>(
     model: &Model<f64, B, Q, V>,
-    factors: &Factor<f64, V>,
+    factors: &Ltdl<f64, V>,
     tau: &[f64; V],
 ) -> [f64; V] {
     solve(model, factors, tau)

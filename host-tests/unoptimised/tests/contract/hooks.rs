@@ -3,8 +3,8 @@
 
 use super::*;
 use dynamics_core::algorithms::{kinematics, kinetic_energy, momentum, potential_energy};
-use dynamics_core::effects::{BodyState, Effect, Implicit, JointState, Slopes};
-use dynamics_core::model::Of;
+use dynamics_core::effects::{BodyState, Effect, Implicit, JointState, TorqueDerivatives};
+use dynamics_core::model::Static;
 use dynamics_core::scalar::{Matrix, Real, Vector};
 use dynamics_core::spatial::{Force, Motion, SpatialInertia, Xform};
 use dynamics_core::{Core, Engine};
@@ -18,7 +18,7 @@ const BODY_VELOCITY: u32 = 16;
 const BODY_POSE: u32 = 32;
 const BASE_MOTION: u32 = 64;
 const PAYLOAD: u32 = 128;
-const SPINNING: u32 = 256;
+const GYROSCOPIC_ROTORS: u32 = 256;
 /// Of the field the x axis alone.
 const ALONG_X: u32 = 512;
 
@@ -43,11 +43,11 @@ impl<R: Real, const FLAGS: u32, const B: usize, const V: usize> Effect<R, B, V> 
     const BODY_POSE: bool = has(FLAGS, BODY_POSE);
     const BASE_MOTION: bool = has(FLAGS, BASE_MOTION);
     const PAYLOAD: [bool; B] = [has(FLAGS, PAYLOAD); B];
-    const SPINNING: bool = has(FLAGS, SPINNING);
+    const GYROSCOPIC_ROTORS: bool = has(FLAGS, GYROSCOPIC_ROTORS);
 
     fn payload(&self, body: usize, inertia: &mut SpatialInertia<R>) {
         inertia.mass += of(0.5 + body as f64);
-        inertia.moment += vec3::<R>(0.1, 0.2, -0.3);
+        inertia.first_moment += vec3::<R>(0.1, 0.2, -0.3);
         let (x, y) = (vec3::<R>(0.5, 0.1, 0.0), vec3::<R>(0.1, 0.6, 0.0));
         inertia.inertia += R::Mat3::from_cols(x, y, vec3::<R>(0.0, 0.0, 0.7));
     }
@@ -65,9 +65,9 @@ impl<R: Real, const FLAGS: u32, const B: usize, const V: usize> Effect<R, B, V> 
     fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R) {
         *tau += of::<R>(2.0) * at.q + of::<R>(0.3) * at.qd + of::<R>(0.1 + joint as f64) * at.qdd;
     }
-    fn slopes(&self, joint: usize, _: JointState<R>, slopes: &mut Slopes<R>) {
-        slopes.q += of(2.0 + joint as f64);
-        slopes.qd += of(0.3);
+    fn derivatives(&self, joint: usize, _: JointState<R>, slopes: &mut TorqueDerivatives<R>) {
+        derivatives.dq += of(2.0 + joint as f64);
+        derivatives.dqd += of(0.3);
     }
     fn advance(&mut self, _: usize, _: JointState<R>, _: R) {}
     fn inertia(&self, joint: usize, diagonal: &mut R) {
@@ -127,7 +127,7 @@ fn acting<const FLAGS: u32>() -> [f64; 3] {
 fn hooks_whose_constants_are_not_set_are_not_called() {
     idle::<0>();
     idle::<ALONG_X>();
-    let (none, robot) = (All::<{ ALONG_X }>, Of::<TwoHands>::NEW);
+    let (none, robot) = (All::<{ ALONG_X }>, Static::<TwoHands>::NEW);
     assert_eq!(potential_energy(&robot, &MOVING.q, &none), 0.0);
     let joints: f64 = (0..3)
         .map(|i| (0.1 + i as f64) * MOVING.qd[i].powi(2) / 2.0)
@@ -188,8 +188,8 @@ fn under_all_constants_every_one_of_them_counts() {
     for less in less {
         assert!((less[0] - all[0]).abs() > 0.01, "{less:?} and {all:?}");
     }
-    // Rotors that spin are the core's alone.
-    let spinning = core::<{ ENGINE | SPINNING }>();
+    // GyroscopicRotors that spin are the core's alone.
+    let spinning = core::<{ ENGINE | GYROSCOPIC_ROTORS }>();
     assert!((spinning[0] - all[0]).abs() > 0.01);
 }
 
@@ -203,7 +203,7 @@ fn seen<R: Real, E: Effect<R, 6, 3>>(scene: &E) -> Vec<f64> {
         E::BODY_VELOCITY,
         E::BODY_POSE,
         E::BASE_MOTION,
-        E::SPINNING,
+        E::GYROSCOPIC_ROTORS,
     ];
     let mut seen = vec![of::<R>(E::GRAVITIES as f64)];
     let flags = [&flags[..], &E::FIELD_AXES, &E::PAYLOAD].concat();
@@ -215,7 +215,7 @@ fn seen<R: Real, E: Effect<R, 6, 3>>(scene: &E) -> Vec<f64> {
     let mut load = SpatialInertia::ZERO;
     scene.payload(2, &mut load);
     seen.push(load.mass);
-    seen.extend(load.moment.array());
+    seen.extend(load.first_moment.array());
     seen.extend(load.inertia.cols().map(Vector::array).as_flattened());
     let mut g = R::Vec3::ZERO;
     scene.field(&mut g);
@@ -238,17 +238,17 @@ fn seen<R: Real, E: Effect<R, 6, 3>>(scene: &E) -> Vec<f64> {
         qd: of(-0.7),
         qdd: of(0.0),
     };
-    let (mut tau, mut slopes) = (R::ZERO, Slopes::default());
+    let (mut tau, mut slopes) = (R::ZERO, TorqueDerivatives::default());
     let (mut diagonal, mut coupling) = (R::ZERO, R::ZERO);
     scene.torque(1, at, &mut tau);
-    scene.slopes(1, at, &mut slopes);
+    scene.derivatives(1, at, &mut slopes);
     scene.inertia(1, &mut diagonal);
     scene.spin(1, &mut coupling);
-    seen.extend([tau, slopes.q, slopes.qd, diagonal, coupling]);
+    seen.extend([tau, derivatives.dq, derivatives.dqd, diagonal, coupling]);
     seen.into_iter().map(R::to_f64).collect()
 }
 
-type Every = All<{ ENGINE | SPINNING }>;
+type Every = All<{ ENGINE | GYROSCOPIC_ROTORS }>;
 
 /// A law of the demo whose effects have every hook.
 struct Law;
@@ -263,19 +263,22 @@ impl Told<(), 6, 3, 3> for Law {
 
 #[test]
 fn whatever_passes_effects_on_passes_on_every_hook() {
-    let direct = seen::<f32, _>(&All::<{ ENGINE | SPINNING }>);
+    let direct = seen::<f32, _>(&All::<{ ENGINE | GYROSCOPIC_ROTORS }>);
     // All numbers differ from what is there without the effect.
     let none = seen::<f32, _>(&());
     let same = direct.iter().zip(&none).filter(|(a, b)| a == b).count();
     assert_eq!(same, 4, "{direct:?}"); // the entries of the inertia that are zero
     assert_eq!(
-        seen::<f32, _>(&((), (All::<{ ENGINE | SPINNING }>,))),
+        seen::<f32, _>(&((), (All::<{ ENGINE | GYROSCOPIC_ROTORS }>,))),
         direct
     );
     assert_eq!(seen::<f32, _>(&Now::<Law, (), 3>::of(&())), direct);
 
     // A step of no length changes nothing, and gives no slopes of its own away.
-    let (robot, all) = (Of::<TwoHands>::NEW, All::<{ ENGINE | SPINNING }>);
+    let (robot, all) = (
+        Static::<TwoHands>::NEW,
+        All::<{ ENGINE | GYROSCOPIC_ROTORS }>,
+    );
     let mut implicit = seen::<f64, _>(&Implicit::new(&robot, &MOVING, &all, 0.0));
     let mut direct = seen::<f64, _>(&all);
     for slopes in [&mut implicit, &mut direct] {
@@ -287,8 +290,8 @@ fn whatever_passes_effects_on_passes_on_every_hook() {
     // Forward dynamics takes the bias of all of them.
     let tau = Core::<TwoHands>::rnea(&MOVING, &All::<ENGINE>);
     let [core, engine] = [
-        Core::<TwoHands>::forward(&MOVING, &tau, &All::<ENGINE>),
-        Engine::<TwoHands>::forward(&MOVING, &tau, &All::<ENGINE>),
+        Core::<TwoHands>::forward_dynamics(&MOVING, &tau, &All::<ENGINE>),
+        Engine::<TwoHands>::forward_dynamics(&MOVING, &tau, &All::<ENGINE>),
     ];
     close(&core.expect("M is positive"), &MOVING.qdd, 1e-14);
     close(&engine.expect("M is positive"), &MOVING.qdd, 1e-14);

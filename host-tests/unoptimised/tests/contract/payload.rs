@@ -31,7 +31,7 @@ fn carrying(loads: &[(usize, SpatialInertia<f64>)]) -> Model<f64, 6, 3, 3> {
         let frame: DMat3 = link.frame;
         let turned = SpatialInertia {
             mass: load.mass,
-            moment: frame * load.moment,
+            first_moment: frame * load.first_moment,
             inertia: frame * load.inertia * frame.transpose(),
         };
         link.inertia = link.inertia + turned;
@@ -107,7 +107,7 @@ fn an_effect_of_ones_own_loads_the_bodies_that_it_says_and_no_others() {
 #[track_caller]
 fn jacobian<const BODY: usize>() {
     let engine = Engine::<TwoHands>::jacobian::<BODY, _, _, _, _>(&MOVING.q);
-    let core = Core::<TwoHands>::jacobian(&MOVING.q, BODY, frame::Mixed);
+    let core = Core::<TwoHands>::jacobian(&MOVING.q, BODY, frame::LocalWorldAligned);
     let flat = |j: [dynamics_core::spatial::Motion<f64>; 3]| {
         j.map(|s| [s.ang.to_array(), s.lin.to_array()])
             .as_flattened()

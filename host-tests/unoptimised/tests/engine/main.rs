@@ -2,8 +2,8 @@
 
 use dynamics_core::algorithms::rnea;
 use dynamics_core::effects::{
-    BodyState, Coriolis, Coulomb, Direction, Effect, Gravity, Inertia, Payload, RIGID_BODY,
-    RotorInertia, Viscous,
+    Armature, BodyState, Coriolis, Coulomb, Direction, Effect, Gravity, Inertia, Payload,
+    RIGID_BODY, Viscous,
 };
 use dynamics_core::model::Robot;
 use dynamics_core::robots::{Panda, Ur5e};
@@ -142,7 +142,7 @@ fn odd_tree<R: Real>() {
             torque: [0.5, 0.2, 0.8, 0.1, 0.3, 0.4, 0.7].map(R::from_f64),
             per_width: R::from_f64(2.0),
         },
-        RotorInertia([0.2, 0.1, 0.3, 0.05, 0.15, 0.4, 0.25].map(R::from_f64)),
+        Armature([0.2, 0.1, 0.3, 0.05, 0.15, 0.4, 0.25].map(R::from_f64)),
         Push,
         Drag,
         payload::<R, 10>(),

@@ -1,10 +1,8 @@
 //! What the engine does with M(q) and J(q), on trees, with prismatic joints, rotors and payloads.
 
 use dynamics_core::algorithms::NotPositiveDefinite;
-use dynamics_core::algorithms::frame::Mixed;
-use dynamics_core::effects::{
-    Coriolis, Effect, Gravity, Inertia, Payload, RIGID_BODY, RotorInertia,
-};
+use dynamics_core::algorithms::frame::LocalWorldAligned;
+use dynamics_core::effects::{Armature, Coriolis, Effect, Gravity, Inertia, Payload, RIGID_BODY};
 use dynamics_core::model::{BASE, Body, Joint, Model, Robot};
 use dynamics_core::robots::Ur5e;
 use dynamics_core::scalar::{Real, Vector};
@@ -16,7 +14,7 @@ use host_tests::tolerances;
 use proptest::prelude::RngExt;
 use proptest::test_runner::{RngAlgorithm, TestRng};
 
-const ROTORS: RotorInertia<f64, 7> = RotorInertia([0.2, 0.1, 0.3, 0.05, 0.15, 0.4, 0.25]);
+const ROTORS: Armature<f64, 7> = Armature([0.2, 0.1, 0.3, 0.05, 0.15, 0.4, 0.25]);
 
 /// A number from −1 to 1, times what it is asked for.
 struct Random(TestRng);
@@ -118,7 +116,7 @@ fn forward_inverts_rnea_on_an_odd_tree_with_rotors_and_payload() {
         ROTORS,
         payload::<_, 10>(),
     );
-    inverted::<f64, Odd, _, 11, 7>(&scene, quantity, Engine::<Odd>::forward);
+    inverted::<f64, Odd, _, 11, 7>(&scene, quantity, Engine::<Odd>::forward_dynamics);
 }
 
 /// A smaller odd tree, since articulated bodies take the compiler long.
@@ -156,7 +154,7 @@ impl Robot<4, 4, 4> for Fork {
 
 #[test]
 fn aba_inverts_rnea_on_an_odd_tree_with_rotors_and_payload() {
-    let rotors = RotorInertia([0.2, 0.1, 0.3, 0.05]);
+    let rotors = Armature([0.2, 0.1, 0.3, 0.05]);
     let scene = (Gravity::EARTH, Inertia, Coriolis, rotors, payload::<_, 3>());
     inverted::<f64, Fork, _, 4, 4>(&scene, "engine aba of rnea", Engine::<Fork>::aba);
 }
@@ -168,7 +166,7 @@ fn solve_inverts_m() {
         let m = Engine::<Odd>::crba(&random.array(3.0), &RIGID_BODY);
         let x: [f64; 7] = random.array(1.0);
         let tau = core::array::from_fn(|i| (0..7).map(|j| m.get(i, j) * x[j]).sum());
-        let factor = Engine::<Odd>::factor(&m).expect("M is positive");
+        let factor = Engine::<Odd>::ltdl(&m).expect("M is positive");
         let found: [f64; 7] = Engine::<Odd>::solve(&factor, &tau);
         for (found, x) in found.iter().zip(x) {
             worst = largest([worst, (found - x).abs()]);
@@ -186,7 +184,7 @@ where
     for _ in 0..200 {
         let q: [R; N] = random.array(3.0);
         let found = Engine::<T>::jacobian::<BODY, _, _, _, _>(&q);
-        let want = Core::<T>::jacobian(&q.map(R::to_f64), BODY, Mixed);
+        let want = Core::<T>::jacobian(&q.map(R::to_f64), BODY, LocalWorldAligned);
         for (found, want) in found.iter().zip(want) {
             for (found, want) in [(found.ang, want.ang), (found.lin, want.lin)] {
                 for (found, want) in found.array().iter().zip(want.to_array()) {
@@ -233,23 +231,27 @@ fn a_joint_that_moves_no_inertia_is_named() {
     let (state, tau) = (State::at([0.1, 0.2, 0.3]), [1.0; 3]);
     let error = |qdd: Result<[f64; 3], _>| qdd.expect_err("a massless tip");
     // The arm's own joint moves what the tip does not: a point on its axis would be no inertia.
-    let forward = error(Engine::<Massless>::forward(&state, &tau, &RIGID_BODY));
+    let forward = error(Engine::<Massless>::forward_dynamics(
+        &state,
+        &tau,
+        &RIGID_BODY,
+    ));
     assert_eq!(
-        forward,
+        forward_dynamics,
         error(Engine::<Massless>::aba(&state, &tau, &RIGID_BODY))
     );
     assert_eq!(
-        forward,
+        forward_dynamics,
         error(Core::<Massless>::aba(&state, &tau, &RIGID_BODY))
     );
     assert_eq!(forward.joint, 2);
     let m = Engine::<Massless>::crba(&state.q, &RIGID_BODY);
-    assert_eq!(Engine::<Massless>::factor(&m).map(|_| ()), Err(forward));
+    assert_eq!(Engine::<Massless>::ltdl(&m).map(|_| ()), Err(forward));
     // A rotor is inertia enough, and a payload that is not a number is not.
-    let rotors = (Inertia, RotorInertia([0.0, 0.0, 0.1]));
-    assert!(Engine::<Massless>::forward(&state, &tau, &rotors).is_ok());
+    let rotors = (Inertia, Armature([0.0, 0.0, 0.1]));
+    assert!(Engine::<Massless>::forward_dynamics(&state, &tau, &rotors).is_ok());
     assert!(Engine::<Massless>::aba(&state, &tau, &rotors).is_ok());
     let broken = (Inertia, Payload::<_, 2>::new(f64::NAN, [0.0; 3], [0.1; 6]));
-    assert!(Engine::<Massless>::forward(&state, &tau, &broken).is_err());
+    assert!(Engine::<Massless>::forward_dynamics(&state, &tau, &broken).is_err());
     assert!(Engine::<Massless>::aba(&state, &tau, &broken).is_err());
 }

@@ -81,7 +81,7 @@ where
 {
     let error = worst(&r.aba, r.full_scale.aba, |i| {
         let tau = row::<N>(&r.tau, i).map(R::from_f64);
-        let qdd = Engine::<T>::forward(&state::<R, N>(r, i), &tau, &RIGID_BODY);
+        let qdd = Engine::<T>::forward_dynamics(&state::<R, N>(r, i), &tau, &RIGID_BODY);
         qdd.expect("M is positive")
     });
     check::<R>(T::MODEL.name, "engine forward", error);

@@ -6,7 +6,7 @@ use super::*;
 struct Pendulum;
 
 impl Robot<1, 1, 1> for Pendulum {
-    const MODEL: Arm<f64, 1> = Model::new(
+    const MODEL: ArmModel<f64, 1> = Model::new(
         "pendulum",
         [Body::new("rod", BASE, Joint::revolute([0.0, -1.0, 0.0]))
             .mass(2.0)
@@ -37,7 +37,7 @@ const MASS: [f64; 2] = [3.0, 1.7];
 const ABOUT_COM: [f64; 2] = [0.11, 0.04];
 
 impl Robot<2, 2, 2> for TwoLinks {
-    const MODEL: Arm<f64, 2> = {
+    const MODEL: ArmModel<f64, 2> = {
         const UP: Joint<f64> = Joint::revolute([0.0, -1.0, 0.0]);
         Model::new(
             "two links",
@@ -97,7 +97,7 @@ fn a_two_link_arm_has_its_textbook_form() {
 struct Slide;
 
 impl Robot<1, 1, 1> for Slide {
-    const MODEL: Arm<f64, 1> = Model::new(
+    const MODEL: ArmModel<f64, 1> = Model::new(
         "slide",
         [Body::new(
             "sledge",

@@ -75,7 +75,7 @@ fn rotor_inertia_adds_exactly_its_inertia_times_acceleration() {
         for _ in 0..1000 {
             let state = cast::<R, 6>(&random_state(rng));
             let without = rnea(model, &state, &RIGID_BODY);
-            let with = rnea(model, &state, &(RIGID_BODY, RotorInertia(rotors)));
+            let with = rnea(model, &state, &(RIGID_BODY, Armature(rotors)));
             for i in 0..6 {
                 assert_eq!(with[i], without[i] + rotors[i] * state.qdd[i]);
             }

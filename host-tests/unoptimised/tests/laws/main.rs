@@ -1,16 +1,16 @@
 //! Laws that hold for every robot, and closed forms for a few: oracles that need no recording.
 
 use dynamics_core::algorithms::{aba, rnea};
+use dynamics_core::drivetrain::Transmission;
 use dynamics_core::effects::{
-    BodyState, Coriolis, Coulomb, Effect, Gravity, Inertia, JointState, RIGID_BODY, RotorInertia,
+    Armature, BodyState, Coriolis, Coulomb, Effect, Gravity, Inertia, JointState, RIGID_BODY,
     Viscous, smooth_sign,
 };
-use dynamics_core::model::{Arm, BASE, Body, Joint, JointKind, Model, Robot, model};
+use dynamics_core::model::{ArmModel, BASE, Body, Joint, JointKind, Model, Robot, model};
 use dynamics_core::robots::{Panda, Ur5e};
 use dynamics_core::scalar::Real;
 use dynamics_core::spatial::Force;
 use dynamics_core::state::State;
-use dynamics_core::transmission::Transmission;
 use dynamics_core::{Core, Engine};
 use glam::{DMat3, DVec3};
 use host_tests::measured::largest;
@@ -40,7 +40,7 @@ fn invert<R: Real, const B: usize, const N: usize>(
             torque: [R::ONE; N],
             per_width: R::from_f64(10.0),
         },
-        RotorInertia([R::from_f64(0.1); N]),
+        Armature([R::from_f64(0.1); N]),
         Drag,
     );
     for _ in 0..states {
@@ -230,13 +230,13 @@ fn energies<const B: usize, const N: usize>(
         let mut along = DVec3::ZERO;
         match link.joint.kind {
             JointKind::Revolute => {
-                rot *= DMat3::from_axis_angle(DVec3::Z, q[link.q_at]);
+                rot *= DMat3::from_axis_angle(DVec3::Z, q[link.idx_q]);
                 v += omega.cross(step);
-                omega += rot * DVec3::Z * qd[link.v_at];
+                omega += rot * DVec3::Z * qd[link.idx_v];
             }
             JointKind::Prismatic => {
-                step += rot * DVec3::Z * q[link.q_at];
-                along = rot * DVec3::Z * qd[link.v_at];
+                step += rot * DVec3::Z * q[link.idx_q];
+                along = rot * DVec3::Z * qd[link.idx_v];
                 v += omega.cross(step);
             }
             _ => v += omega.cross(step),
@@ -245,7 +245,7 @@ fn energies<const B: usize, const N: usize>(
         v += along;
         poses[i] = (rot, p, omega, v);
         let inertia = &link.inertia;
-        let (h, body_omega) = (rot * inertia.moment, rot.transpose() * omega);
+        let (h, body_omega) = (rot * inertia.first_moment, rot.transpose() * omega);
         sums[0] += 0.5 * inertia.mass * v.dot(v)
             + v.dot(omega.cross(h))
             + 0.5 * body_omega.dot(inertia.inertia * body_omega);
@@ -327,7 +327,7 @@ fn motors_supply_the_change_of_energy_and_what_friction_takes() {
     check_all::<Power>("power");
 }
 
-/// Motors on a differential of two joints, a mimicked pair, and gears: they feel Gᵀ M G, and their power is
+/// MotorState on a differential of two joints, a mimicked pair, and gears: they feel Gᵀ M G, and their power is
 /// the joints'.
 #[test]
 fn motors_behind_a_transmission_feel_its_inertia_and_keep_its_power() {

@@ -9,11 +9,11 @@ use std::cell::Cell;
 
 use dynamics_core::MassMatrix;
 use dynamics_core::algorithms::{
-    Given, aba, cholesky, crba, crba_jacobian, factor, forward, hybrid, inverse, operator_factor,
-    operator_inverse, rnea, solve,
+    Prescribed, aba, cholesky, crba, crba_jacobian, forward_dynamics, hybrid_dynamics, inverse,
+    ltdl, rnea, solve, spatial_operator_inverse, spatial_operator_ltdl,
 };
 use dynamics_core::effects::{
-    BodyState, Coriolis, Effect, Gravity, Inertia, RIGID_BODY, RotorInertia, Viscous,
+    Armature, BodyState, Coriolis, Effect, Gravity, Inertia, RIGID_BODY, Viscous,
 };
 use dynamics_core::model::{JointKind, Model};
 use dynamics_core::scalar::{Real, Vector};
@@ -112,7 +112,7 @@ fn matrix<R: Real, const B: usize, const Q: usize, const V: usize>(
     worst: &mut Worst,
 ) {
     let scene = (
-        RotorInertia(core::array::from_fn(|i| R::from_f64(0.01 * i as f64))),
+        Armature(core::array::from_fn(|i| R::from_f64(0.01 * i as f64))),
         OnLast::new(R::from_f64(0.7), [R::from_f64(0.1); 3], [R::ZERO; 6]),
         Inertia,
     );
@@ -162,31 +162,33 @@ fn solutions<R: Real, const B: usize, const Q: usize, const V: usize>(
     let m = crba(model, &state.q, &RIGID_BODY);
     let kappa = condition(&m);
     let (x, tau) = (state.qdd, m.mul_vec(&state.qdd));
-    let factors = factor(model, &m).expect("M is positive definite");
+    let factors = ltdl(model, &m).expect("M is positive definite");
     worst.solved("solve", kappa, &solve(model, &factors, &tau), &x);
     let root = cholesky(model, &m).expect("M is positive definite");
     worst.solved("root of M", kappa, &root.solve(model, &tau), &x);
-    let of_bodies = operator_factor(model, &state.q, &RIGID_BODY).expect("M is positive definite");
+    let of_bodies =
+        spatial_operator_ltdl(model, &state.q, &RIGID_BODY).expect("M is positive definite");
     worst.solved("operators", kappa, &solve(model, &of_bodies, &tau), &x);
-    worst.solved("D", kappa, of_bodies.per_d(), factors.per_d());
-    let l = |f: &dynamics_core::Factor<R, V>| -> Vec<R> {
+    worst.solved("D", kappa, of_bodies.d_inv(), factors.d_inv());
+    let l = |f: &dynamics_core::Ltdl<R, V>| -> Vec<R> {
         (0..V * V).map(|k| f.get(k / V, k % V)).collect()
     };
     worst.solved("L", kappa, &l(&of_bodies), &l(&factors));
-    let per_m = inverse(model, &factors);
+    let m_inv = inverse(model, &factors);
     let one: Vec<R> = (0..V)
-        .flat_map(|i| m.mul_vec(per_m.row(i).expect("a row")))
+        .flat_map(|i| m.mul_vec(m_inv.row(i).expect("a row")))
         .collect();
     let identity: Vec<R> = (0..V * V)
         .map(|k| R::from_f64(f64::from(u8::from(k / V == k % V))))
         .collect();
     worst.solved("M times its inverse", kappa, &one, &identity);
-    let of_bodies = operator_inverse(model, &state.q, &RIGID_BODY).expect("M is positive definite");
+    let of_bodies =
+        spatial_operator_inverse(model, &state.q, &RIGID_BODY).expect("M is positive definite");
     worst.solved(
         "inverse by operators",
         kappa,
         &entries(&of_bodies),
-        &entries(&per_m),
+        &entries(&m_inv),
     );
 }
 
@@ -202,31 +204,31 @@ fn dynamics<R: Real, const B: usize, const Q: usize, const V: usize>(
         Inertia,
         Coriolis,
         Viscous([R::from_f64(0.5); V]),
-        RotorInertia([R::from_f64(0.02); V]),
+        Armature([R::from_f64(0.02); V]),
         OnLast::new(R::from_f64(0.7), [R::from_f64(0.1); 3], [R::ZERO; 6]),
     );
     let kappa = condition(&crba(model, &state.q, &scene));
     let tau = rnea(model, state, &scene);
     let by_bodies = aba(model, state, &tau, &scene).expect("M is positive definite");
     worst.solved("aba", kappa, &by_bodies, &state.qdd);
-    let by_matrix = forward(model, state, &tau, &scene).expect("M is positive definite");
+    let by_matrix = forward_dynamics(model, state, &tau, &scene).expect("M is positive definite");
     worst.solved("forward", kappa, &by_matrix, &state.qdd);
 
-    let all = tau.map(Given::Torque);
-    let response = hybrid(model, state, &all, &scene).expect("M is positive definite");
+    let all = tau.map(Prescribed::Torque);
+    let response = hybrid_dynamics(model, state, &all, &scene).expect("M is positive definite");
     assert_eq!((response.qdd, response.tau), (by_bodies, tau));
-    let all = state.qdd.map(Given::Acceleration);
-    let response = hybrid(model, state, &all, &scene).expect("nothing is solved for");
+    let all = state.qdd.map(Prescribed::Acceleration);
+    let response = hybrid_dynamics(model, state, &all, &scene).expect("nothing is solved for");
     assert_eq!(response.qdd, state.qdd);
     worst.plain("hybrid as inverse", &response.tau, &tau);
     let some = core::array::from_fn(|i| {
         if rng.random_range(0..2) == 0 {
-            Given::Torque(tau[i])
+            Prescribed::Torque(tau[i])
         } else {
-            Given::Acceleration(state.qdd[i])
+            Prescribed::Acceleration(state.qdd[i])
         }
     });
-    let response = hybrid(model, state, &some, &scene).expect("M is positive definite");
+    let response = hybrid_dynamics(model, state, &some, &scene).expect("M is positive definite");
     worst.solved("hybrid", kappa, &response.qdd, &state.qdd);
     worst.plain("torques of hybrid", &response.tau, &tau);
 }

@@ -1,7 +1,7 @@
 //! M and forward dynamics by it against Pinocchio, on every recorded state.
 
 use dynamics_core::Core;
-use dynamics_core::algorithms::{crba, forward};
+use dynamics_core::algorithms::{crba, forward_dynamics};
 use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::model::{Robot, model};
 use dynamics_core::robots::{Panda, Ur5e};
@@ -43,8 +43,9 @@ where
             qdd: [R::ZERO; N],
         };
         let tau = cast(&recording.tau);
-        let qdd = Core::<T>::forward(&state, &tau, &RIGID_BODY).expect("M is positive definite");
-        let of_model = forward(model::<R, T, B, N, N>(), &state, &tau, &RIGID_BODY);
+        let qdd =
+            Core::<T>::forward_dynamics(&state, &tau, &RIGID_BODY).expect("M is positive definite");
+        let of_model = forward_dynamics(model::<R, T, B, N, N>(), &state, &tau, &RIGID_BODY);
         assert_eq!(of_model, Ok(qdd), "run-time model");
         for (got, want) in qdd.into_iter().zip(row::<N>(&recording.aba, i)) {
             see(&mut errors[1], got, want, scale.aba);

@@ -1,11 +1,11 @@
 //! An M that is not positive definite is refused by name, and never a NaN.
 
 use dynamics_core::algorithms::{
-    Given, NotPositiveDefinite, aba, cholesky, crba, factor, forward, hybrid, operator_factor,
-    operator_inverse, solve,
+    NotPositiveDefinite, Prescribed, aba, cholesky, crba, forward_dynamics, hybrid_dynamics, ltdl,
+    solve, spatial_operator_inverse, spatial_operator_ltdl,
 };
-use dynamics_core::effects::{Coriolis, Effect, Gravity, Inertia, RIGID_BODY, RotorInertia};
-use dynamics_core::model::{Arm, BASE, Body, Joint, Model};
+use dynamics_core::effects::{Armature, Coriolis, Effect, Gravity, Inertia, RIGID_BODY};
+use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
 use proptest::prelude::RngExt;
@@ -13,7 +13,7 @@ use proptest::prelude::RngExt;
 use crate::trees::random_numbers;
 
 /// A link of mass, one of none, and a fork: another of mass.
-fn massless_tip() -> Arm<f64, 3> {
+fn massless_tip() -> ArmModel<f64, 3> {
     let link = Body::new("link", BASE, Joint::revolute([0.0, 1.0, 0.0]))
         .mass(1.0)
         .com([0.2, 0.0, 0.0])
@@ -31,7 +31,7 @@ fn massless_tip() -> Arm<f64, 3> {
 
 /// What each algorithm says of the robot under a scene.
 fn verdicts<R: Real, E: Effect<R, N, N>, const N: usize>(
-    model: &Arm<R, N>,
+    model: &ArmModel<R, N>,
     scene: &E,
 ) -> [Option<NotPositiveDefinite>; 7] {
     let state = State {
@@ -44,25 +44,27 @@ fn verdicts<R: Real, E: Effect<R, N, N>, const N: usize>(
     }
     [
         aba(model, &state, &tau, scene).map(finite).err(),
-        forward(model, &state, &tau, scene).map(finite).err(),
-        hybrid(model, &state, &tau.map(Given::Torque), scene)
+        forward_dynamics(model, &state, &tau, scene)
+            .map(finite)
+            .err(),
+        hybrid_dynamics(model, &state, &tau.map(Prescribed::Torque), scene)
             .map(|r| finite(r.qdd))
             .err(),
-        factor(model, &m)
+        ltdl(model, &m)
             .map(|f| finite(solve(model, &f, &tau)))
             .err(),
         cholesky(model, &m)
             .map(|f| finite(f.solve(model, &tau)))
             .err(),
-        operator_factor(model, &state.q, scene).err(),
-        operator_inverse(model, &state.q, scene).err(),
+        spatial_operator_ltdl(model, &state.q, scene).err(),
+        spatial_operator_inverse(model, &state.q, scene).err(),
     ]
 }
 
-fn names_the_massless_tip<R: Real>(model: &Arm<R, 3>) {
+fn names_the_massless_tip<R: Real>(model: &ArmModel<R, 3>) {
     let named = verdicts(model, &RIGID_BODY).map(|error| error.map(|error| error.joint));
     assert_eq!(named, [Some(1); 7]);
-    let rotor = RotorInertia([R::ZERO, R::from_f64(1e-4), R::ZERO]);
+    let rotor = Armature([R::ZERO, R::from_f64(1e-4), R::ZERO]);
     let scene = (Gravity::EARTH, Inertia, Coriolis, rotor);
     assert_eq!(verdicts(model, &scene), [None; 7]);
 }
@@ -77,9 +79,10 @@ fn a_massless_last_link_is_named_and_its_rotor_makes_m_definite() {
 fn an_inertia_that_is_not_a_number_is_named_and_prescribed_motion_needs_none() {
     let mut model = massless_tip();
     let state = State::at([0.1; 3]);
-    let mut given = [Given::Torque(0.0); 3];
-    given[1] = Given::Acceleration(2.0);
-    let response = hybrid(&model, &state, &given, &RIGID_BODY).expect("joint 1 is not solved for");
+    let mut given = [Prescribed::Torque(0.0); 3];
+    given[1] = Prescribed::Acceleration(2.0);
+    let response =
+        hybrid_dynamics(&model, &state, &given, &RIGID_BODY).expect("joint 1 is not solved for");
     assert!(
         response
             .qdd
@@ -95,9 +98,9 @@ fn an_inertia_that_is_not_a_number_is_named_and_prescribed_motion_needs_none() {
 /// What elimination leaves of a singular M is rounding, of either sign.
 #[test]
 fn a_pivot_of_rounding_errors_is_refused_whatever_its_size() {
-    fn refuse<R: Real>(model: &Arm<R, 2>) {
+    fn refuse<R: Real>(model: &ArmModel<R, 2>) {
         let m = crba(model, &[R::from_f64(0.3); 2], &RIGID_BODY);
-        assert_eq!(factor(model, &m).map_err(|e| e.joint).err(), Some(0));
+        assert_eq!(ltdl(model, &m).map_err(|e| e.joint).err(), Some(0));
         assert_eq!(cholesky(model, &m).map_err(|e| e.joint).err(), Some(0));
     }
     let rng = &mut random_numbers();

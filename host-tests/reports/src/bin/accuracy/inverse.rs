@@ -2,9 +2,9 @@
 
 use dynamics_core::Core;
 use dynamics_core::control::Reference;
+use dynamics_core::drivetrain::{ElasticReference, elastic_inverse_dynamics};
 use dynamics_core::effects::RIGID_BODY;
-use dynamics_core::flexible::{Course, flexible_rnea};
-use dynamics_core::model::Of;
+use dynamics_core::model::Static;
 use dynamics_core::state::State;
 use firmware_demo::accuracy::robots::{Compared, Swung, momentary};
 use firmware_demo::accuracy::{Inverse, Visitor, list};
@@ -39,7 +39,7 @@ pub struct Bench<const N: usize> {
 
 /// Where the joints are to be, and the torques of it.
 pub struct Asked<const N: usize> {
-    pub course: Course<f32, N, N>,
+    pub course: ElasticReference<f32, N, N>,
     pub truth: [f64; N],
 }
 
@@ -154,12 +154,12 @@ where
     let swing = T::swing().expect("the arm can swing there");
     let asked = |tick| {
         let course = swing.course(tick);
-        let double = Course {
+        let double = ElasticReference {
             state: widened(&course.state),
             jerk: course.jerk.map(f64::from),
             snap: course.snap.map(f64::from),
         };
-        let told = flexible_rnea(&Of::<T>::NEW, &T::joints(), &double, &RIGID_BODY);
+        let told = elastic_inverse_dynamics(&Static::<T>::NEW, &T::joints(), &double, &RIGID_BODY);
         Asked {
             course,
             truth: told.expect("joints of one freedom").torque,

@@ -6,9 +6,9 @@
 
 use dynamics_core::Core;
 use dynamics_core::effects::{Effect, RIGID_BODY};
-use dynamics_core::model::Of;
+use dynamics_core::model::Static;
 use dynamics_core::robots::Ur5e;
-use dynamics_core::sim::{Described, Integrator, RungeKutta, Summed};
+use dynamics_core::sim::{Integrator, KahanState, ModelDynamics, RungeKutta};
 use dynamics_core::state::State;
 use firmware_demo::accuracy::simulation::{
     Damped, DoublePendulum, LetGo, Scene, Simulation, Visitor, every,
@@ -188,13 +188,13 @@ fn oracle<T: LetGo<N>, E: Effect<f64, N, N>, const N: usize>(
     effects: &E,
     step: u32,
 ) -> Vec<[[f64; N]; 2]> {
-    let robot = Described {
-        robot: &Of::<T>::NEW,
+    let robot = ModelDynamics {
+        robot: &Static::<T>::NEW,
         tau: [0.0; N],
         effects,
     };
     let [q, qd] = T::START;
-    let mut motion = Summed::<f64, N, true>::at(State {
+    let mut motion = KahanState::<f64, N, true>::at(State {
         q,
         qd,
         qdd: [0.0; N],

@@ -1,0 +1,80 @@
+//! Articulated bodies without forces: the inward pass of RBDA (2008), table 7.1, for what needs no more.
+
+use heapless::Vec;
+
+use super::NotPositiveDefinite;
+use super::pivot_check::{Magnitude, PivotCheck};
+use crate::effects::{Effect, body_inertia};
+use crate::model::{JointCoordinate, RobotModel};
+use crate::scalar::Real;
+use crate::spatial::inertia::ArticulatedInertia;
+use crate::spatial::{Force, Xform};
+
+/// What a coordinate's elimination leaves: U and 1/D.
+#[derive(Clone, Copy, Default)]
+pub(super) struct JointFactor<R: Real> {
+    pub(super) u_a: Force<R>,
+    pub(super) d_inv: R,
+    /// 1 − sᵀU/D: what of the joint's inertia is not the bodies', but a rotor's.
+    pub(super) held: R,
+}
+
+/// What the pass leaves: ⁱX_λ(i) of every body, and the handle of every coordinate.
+pub(super) struct ArticulatedPass<R: Real, const B: usize, const V: usize> {
+    pub(super) x: Vec<Xform<R>, B>,
+    pub(super) handles: [JointFactor<R>; V],
+}
+
+/// Eliminates every coordinate, from the tips to the base. Some 390 flops a revolute joint.
+#[inline(always)]
+pub(super) fn eliminate<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
+    robot: &D,
+    turns: &[JointCoordinate<R>; Q],
+    effects: &E,
+) -> Result<ArticulatedPass<R, B, V>, NotPositiveDefinite>
+where
+    D: RobotModel<R, B, Q, V>,
+    E: Effect<R, B, V>,
+{
+    const {
+        assert!(
+            !E::GYROSCOPIC_ROTORS,
+            "no rotors that spin as bodies here; name `Armature`"
+        )
+    };
+    let mut bodies: Vec<(ArticulatedInertia<R>, Magnitude<R>), B> = Vec::new();
+    let mut x = Vec::new();
+    for (i, link) in robot.links().enumerate() {
+        let inertia = body_inertia(effects, i, &link);
+        let _ = bodies.push((inertia.into(), Magnitude::from(&inertia)));
+        let _ = x.push(link.xform(turns));
+    }
+    let mut handles = [JointFactor::default(); V];
+    let mut inner = bodies.as_mut_slice();
+    while let Some((&mut (body, carried), rest)) = core::mem::take(&mut inner).split_last_mut() {
+        let (Some(link), Some(x_i)) = (robot.link(rest.len()), x.get(rest.len())) else {
+            break;
+        };
+        let (mut ia, mut pivots) = (body, PivotCheck::of(carried));
+        for (k, joint) in link.coordinates().enumerate().rev() {
+            let s = link.subspace(turns, k);
+            let u_a = ia.along(&s);
+            let bodies = s.dot(u_a);
+            let mut d = bodies;
+            effects.inertia(joint, &mut d);
+            pivots.check((&link, k), turns, (u_a, d), joint)?;
+            let d_inv = R::ONE / d;
+            let held = (d - bodies) * d_inv;
+            ia = ia.minus_outer(u_a, d_inv);
+            if let Some(handle) = handles.get_mut(joint) {
+                *handle = JointFactor { u_a, d_inv, held };
+            }
+        }
+        if let Some((parent, carries)) = rest.get_mut(link.parent) {
+            *parent += ia.at_parent(x_i);
+            *carries += carried.at_parent(x_i.pos);
+        }
+        inner = rest;
+    }
+    Ok(ArticulatedPass { x, handles })
+}

@@ -1,0 +1,71 @@
+//! Forward dynamics: M q̈ = τ − C(q, q̇) by bias, M, its factors and their solution.
+//!
+//! Walker & Orin (1982), method 3; Featherstone, RBDA (2008), section 6.1. The articulated-body algorithm
+//! gives the same without M.
+
+use super::{NotPositiveDefinite, crba_at, ltdl, rnea_at, solve};
+use crate::effects::{Bias, Effect};
+use crate::model::RobotModel;
+use crate::scalar::Real;
+use crate::state::{JointTrig, State};
+
+/// q̈ = FD(q, q̇, τ): the acceleration of each joint, rad/s² or m/s², under the effects named.
+///
+/// Shape: V. Cost: [`rnea`](super::rnea()), [`crba`](super::crba()), [`ltdl`] and [`solve`]; on a
+/// chain O(V³), of a small factor. `state.qdd` is not read. Source: Walker & Orin (1982).
+///
+/// ```
+/// use dynamics_core::{algorithms::{aba, forward_dynamics}, effects::RIGID_BODY, model::Robot, robots::Ur5e, state::State};
+/// let state = State::at([0.0_f64, -1.2, 1.5, 0.3, 0.0, 0.0]);
+/// let by_matrix = forward_dynamics(&Ur5e::MODEL, &state, &[0.0; 6], &RIGID_BODY)?;
+/// let by_bodies = aba(&Ur5e::MODEL, &state, &[0.0; 6], &RIGID_BODY)?;
+/// assert!(by_matrix.iter().zip(by_bodies).all(|(a, b)| (a - b).abs() < 1e-9));
+/// # Ok::<(), dynamics_core::algorithms::NotPositiveDefinite>(())
+/// ```
+///
+/// # Errors
+/// As [`ltdl`].
+#[inline(always)]
+pub fn forward_dynamics<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
+    robot: &D,
+    state: &State<R, Q, V>,
+    tau: &[R; V],
+    effects: &E,
+) -> Result<[R; V], NotPositiveDefinite>
+where
+    D: RobotModel<R, B, Q, V>,
+    E: Effect<R, B, V>,
+{
+    forward_dynamics_at(robot, &JointTrig::of(robot, &state.q), state, tau, effects)
+}
+
+/// As [`forward_dynamics`], at a posture whose sines and cosines are at hand.
+///
+/// # Errors
+/// As [`forward_dynamics`].
+#[inline(always)]
+pub fn forward_dynamics_at<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
+    robot: &D,
+    posture: &JointTrig<R, Q>,
+    state: &State<R, Q, V>,
+    tau: &[R; V],
+    effects: &E,
+) -> Result<[R; V], NotPositiveDefinite>
+where
+    D: RobotModel<R, B, Q, V>,
+    E: Effect<R, B, V>,
+{
+    const {
+        assert!(
+            E::ACCELERATIONS,
+            "forward dynamics needs `Inertia` in the scene"
+        )
+    };
+    let bias = rnea_at(robot, posture, state, &Bias(effects));
+    let mut rest = *tau;
+    for (rest, bias) in rest.iter_mut().zip(bias) {
+        *rest -= bias;
+    }
+    let factors = ltdl(robot, &crba_at(robot, posture, effects))?;
+    Ok(solve(robot, &factors, &rest))
+}

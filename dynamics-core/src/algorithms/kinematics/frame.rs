@@ -1,0 +1,169 @@
+//! Where a body is, and the frames in which its motion may be told.
+
+use crate::scalar::{Matrix, Real, Vector};
+use crate::spatial::{Motion, Xform};
+
+/// The pose of a body's own frame in the base's.
+///
+/// ```
+/// use dynamics_core::{Core, robots::Ur5e};
+/// let [.., hand] = Core::<Ur5e>::poses(&[0.0_f32; 6]);
+/// assert!(hand.pos.x < -0.8); // stretched out along −x
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pose<R: Real> {
+    /// Rotation of coordinates from the body's frame to the base's; its columns are the body's axes.
+    pub rot: R::Mat3,
+    /// The origin of the body's frame, in base coordinates, m.
+    pub pos: R::Vec3,
+}
+
+impl<R: Real> Default for Pose<R> {
+    fn default() -> Self {
+        Self::IDENTITY
+    }
+}
+
+impl<R: Real> Pose<R> {
+    /// The base's own.
+    pub const IDENTITY: Self = Self {
+        rot: R::Mat3::IDENTITY,
+        pos: R::Vec3::ZERO,
+    };
+
+    /// A point given in the body's frame, in base coordinates, m. 18 flops.
+    #[inline(always)]
+    pub fn point(&self, p: R::Vec3) -> R::Vec3 {
+        self.rot * p + self.pos
+    }
+
+    /// ⁱX₀: motions from the base's frame to the body's.
+    #[inline(always)]
+    pub fn xform(&self) -> Xform<R> {
+        Xform {
+            rot: self.rot.transpose(),
+            pos: self.pos,
+        }
+    }
+
+    /// The pose of a frame that X takes coordinates to from this one's. 63 flops.
+    #[inline(always)]
+    pub(in crate::algorithms) fn transformed_by(&self, x: &Xform<R>) -> Self {
+        Self {
+            rot: self.rot * x.rot.transpose(),
+            pos: self.point(x.pos),
+        }
+    }
+
+    /// The same origin; axes that `frame` turns into this one's.
+    #[inline(always)]
+    pub(in crate::algorithms) fn in_link_frame(&self, frame: &R::Mat3) -> Self {
+        Self {
+            rot: self.rot * *frame,
+            pos: self.pos,
+        }
+    }
+}
+
+mod sealed {
+    /// Keeps [`super::Frame`] to the three frames that there are names for.
+    pub trait Sealed {}
+    impl Sealed for super::Body {}
+    impl Sealed for super::World {}
+    impl Sealed for super::LocalWorldAligned {}
+}
+
+/// A frame in which the motion of a body is told: [`Body`], [`World`] or [`LocalWorldAligned`].
+///
+/// A type, not a flag: a velocity in the wrong one is another function. Of a body that turns by ω and
+/// whose origin p moves:
+///
+/// | frame | axes | reference point | drift J̇ q̇ |
+/// |---|---|---|---|
+/// | `Body` | the body's | its origin | spatial acceleration at q̈ = 0 |
+/// | `World` | the base's | the base's origin | spatial acceleration at q̈ = 0 |
+/// | `LocalWorldAligned` | the base's | the body's origin | ω̇ and p̈ at q̈ = 0 |
+pub trait Frame: sealed::Sealed + Copy {
+    /// A motion of the body at `pose` from its own frame to this one.
+    fn express<R: Real>(pose: &Pose<R>, m: Motion<R>) -> Motion<R>;
+    /// The transform that [`Frame::express`] applies.
+    fn from_body<R: Real>(pose: &Pose<R>) -> Xform<R>;
+    /// What an acceleration has here beyond the spatial one, v being the velocity in this frame.
+    #[inline(always)]
+    fn classical_term<R: Real>(v: Motion<R>) -> Motion<R> {
+        let _ = v;
+        Motion::ZERO
+    }
+}
+
+/// The body's own frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Body;
+
+/// The base's frame: the velocity is that of the point of the body which is at the base's origin.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct World;
+
+/// The base's axes at the body's origin: ω and ṗ.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LocalWorldAligned;
+
+impl Frame for Body {
+    #[inline(always)]
+    fn express<R: Real>(_: &Pose<R>, m: Motion<R>) -> Motion<R> {
+        m
+    }
+    #[inline(always)]
+    fn from_body<R: Real>(_: &Pose<R>) -> Xform<R> {
+        Xform::IDENTITY
+    }
+}
+
+impl Frame for World {
+    #[inline(always)]
+    fn express<R: Real>(pose: &Pose<R>, m: Motion<R>) -> Motion<R> {
+        let m = LocalWorldAligned::express(pose, m);
+        Motion::new(m.ang, m.lin + pose.pos.cross(m.ang))
+    }
+    #[inline(always)]
+    fn from_body<R: Real>(pose: &Pose<R>) -> Xform<R> {
+        Xform {
+            rot: pose.rot,
+            pos: -pose.rot.transpose_mul(pose.pos),
+        }
+    }
+}
+
+impl Frame for LocalWorldAligned {
+    #[inline(always)]
+    fn express<R: Real>(pose: &Pose<R>, m: Motion<R>) -> Motion<R> {
+        Motion::new(pose.rot * m.ang, pose.rot * m.lin)
+    }
+    #[inline(always)]
+    fn from_body<R: Real>(pose: &Pose<R>) -> Xform<R> {
+        Xform {
+            rot: pose.rot,
+            pos: R::Vec3::ZERO,
+        }
+    }
+    #[inline(always)]
+    fn classical_term<R: Real>(v: Motion<R>) -> Motion<R> {
+        classical(Motion::ZERO, v)
+    }
+}
+
+/// ω̇ and p̈ of the body's origin p from the spatial acceleration a and velocity v, in the same frame.
+///
+/// Units rad/s² and m/s². Cost: 12 flops. Source: Featherstone, RBDA (2008), (2.47): p̈ = a + ω × v.
+///
+/// ```
+/// use dynamics_core::{algorithms::classical, spatial::Motion};
+/// use glam::Vec3;
+/// // On a circle of 2 m at 3 rad/s the spatial acceleration is zero, the centripetal one is not.
+/// let v = Motion::<f32>::new(Vec3::Z * 3.0, Vec3::Y * 6.0);
+/// assert_eq!(classical(Motion::ZERO, v).lin, Vec3::X * -18.0);
+/// ```
+#[inline(always)]
+pub fn classical<R: Real>(a: Motion<R>, v: Motion<R>) -> Motion<R> {
+    Motion::new(a.ang, a.lin + v.ang.cross(v.lin))
+}

@@ -1,0 +1,122 @@
+//! M and M⁻¹ by the spatial operators of articulated bodies, neither by way of the other.
+//!
+//! Rodriguez, Jain & Kreutz-Delgado (1991, 1992): M = (1 + HΦK) D (1 + HΦK)ᵀ and
+//! M⁻¹ = (1 − HΨK)ᵀ D⁻¹ (1 − HΨK). H projects on the joints; K = U/D of a joint, at its carrier; Φ hands
+//! forces down as through rigid bodies, Ψ as through joints that give way. In the letters of RBDA's
+//! section 6.5 the first factor is Lᵀ: what elimination finds in M, the filter finds in the bodies.
+
+use crate::algorithms::NotPositiveDefinite;
+use crate::algorithms::articulated_pass::{ArticulatedPass, JointFactor, eliminate};
+use crate::algorithms::{Ltdl, MassMatrix};
+use crate::effects::Effect;
+use crate::model::RobotModel;
+use crate::scalar::Real;
+use crate::spatial::Force;
+use crate::state::{JointTrig, entry};
+
+/// The factors (1 + HΦK)ᵀ = L and D of M(q), without M: the same as [`ltdl`](crate::algorithms::factor()) finds.
+///
+/// Cost: the inertias of the articulated-body algorithm, and 40 flops for each joint that carries another.
+/// Source: Rodriguez, Jain & Kreutz-Delgado (1991).
+///
+/// ```
+/// use dynamics_core::algorithms::{crba, spatial_operator_ltdl, solve};
+/// use dynamics_core::{effects::RIGID_BODY, model::Robot, robots::Ur5e};
+/// let q = [0.0, -1.2, 1.5, 0.3, 0.0, 0.0];
+/// let x = solve(&Ur5e::MODEL, &spatial_operator_ltdl(&Ur5e::MODEL, &q, &RIGID_BODY)?, &[1.0; 6]);
+/// let tau = crba(&Ur5e::MODEL, &q, &RIGID_BODY).mul_vec(&x);
+/// assert!(tau.iter().all(|tau| (tau - 1.0).abs() < 1e-12));
+/// # Ok::<(), dynamics_core::algorithms::NotPositiveDefinite>(())
+/// ```
+///
+/// # Errors
+/// [`NotPositiveDefinite`] names a coordinate that moves no inertia, as [`aba`](crate::algorithms::aba()) does.
+#[inline(always)]
+pub fn spatial_operator_ltdl<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
+    robot: &D,
+    q: &[R; Q],
+    effects: &E,
+) -> Result<Ltdl<R, V>, NotPositiveDefinite>
+where
+    D: RobotModel<R, B, Q, V>,
+    E: Effect<R, B, V>,
+{
+    columns(robot, q, effects, |f, _, _| f)
+}
+
+/// M⁻¹ = (1 − HΨK)ᵀ D⁻¹ (1 − HΨK), without M and without elimination.
+///
+/// Cost: that of [`spatial_operator_ltdl`], and O(V³) for the product. Source: Rodriguez, Jain &
+/// Kreutz-Delgado (1992).
+///
+/// # Errors
+/// As [`spatial_operator_ltdl`].
+#[inline(always)]
+pub fn spatial_operator_inverse<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
+    robot: &D,
+    q: &[R; Q],
+    effects: &E,
+) -> Result<MassMatrix<R, V>, NotPositiveDefinite>
+where
+    D: RobotModel<R, B, Q, V>,
+    E: Effect<R, B, V>,
+{
+    // A joint that gives way takes off its part: ψ = φ − K H φ.
+    let factor = columns(robot, q, effects, |f, felt, k| f - k * felt)?;
+    let w = |a: usize, i: usize| match factor.rows.get(a).and_then(|row| row.get(i)) {
+        _ if a == i => R::ONE,
+        Some(&hpk) if i < a => -hpk,
+        _ => R::ZERO,
+    };
+    let mut m_inv = MassMatrix::ZERO;
+    for a in 0..V {
+        for b in 0..=a {
+            let terms = (0..=b).map(|i| w(a, i) * w(b, i) * entry(&factor.d_inv, i));
+            m_inv.set(a, b, terms.fold(R::ZERO, |sum, term| sum + term));
+        }
+    }
+    Ok(m_inv)
+}
+
+/// H (Φ or Ψ) K by rows of joints, and D⁻¹: K of each joint, felt at all that carry it; `pass` is what a
+/// joint hands on of a force, of which it feels a part, given its own K.
+#[inline(always)]
+fn columns<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
+    robot: &D,
+    q: &[R; Q],
+    effects: &E,
+    pass: impl Fn(Force<R>, R, Force<R>) -> Force<R>,
+) -> Result<Ltdl<R, V>, NotPositiveDefinite>
+where
+    D: RobotModel<R, B, Q, V>,
+    E: Effect<R, B, V>,
+{
+    let turns = &JointTrig::of(robot, q).turns;
+    let ArticulatedPass { x, handles } = eliminate(robot, turns, effects)?;
+    let gain = |joint| {
+        let handle: JointFactor<R> = entry(&handles, joint);
+        handle.u_a * handle.d_inv
+    };
+
+    let mut rows = [[R::ZERO; V]; V];
+    for (i, link) in robot.links().enumerate() {
+        for joint in link.coordinates() {
+            let (mut f, mut at) = (gain(joint), i);
+            while let (Some(link), Some(x)) = (robot.link(at), x.get(at)) {
+                for (k, above) in link.coordinates().enumerate().rev() {
+                    if above >= joint {
+                        continue; // itself, and what it carries on the same body
+                    }
+                    let felt = link.subspace(turns, k).dot(f);
+                    f = pass(f, felt, gain(above));
+                    if let Some(entry) = rows.get_mut(joint).and_then(|row| row.get_mut(above)) {
+                        *entry = felt;
+                    }
+                }
+                (f, at) = (x.transpose_mul(f), link.parent);
+            }
+        }
+    }
+    let d_inv = handles.map(|handle| handle.d_inv);
+    Ok(Ltdl { rows, d_inv })
+}

@@ -1,0 +1,131 @@
+//! How a free base recoils: its velocity from the momentum of all bodies.
+//!
+//! Umetani & Yoshida, "Resolved motion rate control of space manipulators with generalized Jacobian matrix"
+//! (1989): M_b v_b + M_bj q̇_j = h. On what floats free h stays as it is, and v_b follows from the joints'
+//! rates. M_b is the composite inertia of all bodies at the first, a rigid body's, whose inverse is closed.
+
+use heapless::Vec;
+
+use crate::algorithms::NotPositiveDefinite;
+use crate::algorithms::tree_pass::PerBody;
+use crate::effects::{Effect, base_given, body_inertia, rotor_force};
+use crate::model::{JointKind, RobotModel};
+use crate::scalar::{Real, Vector};
+use crate::spatial::inertia::CompositeInertia;
+use crate::spatial::{Force, Xform};
+use crate::state::{JointTrig, State, entry};
+
+/// q̇ with other rates of the first body, which stands on a free joint: those at which all bodies together have the
+/// momentum h, about the base's origin and along its axes, N·m·s and N·s.
+///
+/// A robot whose first joint is not free is left as it is. Of the effects those count that
+/// [`momentum`](crate::algorithms::momentum()) asks. Cost: O(B); some 260 flops a revolute joint and 150. Source: Umetani &
+/// Yoshida (1989), section II; RBDA (2008), (2.63) and (2.66).
+///
+/// ```
+/// use dynamics_core::algorithms::{momentum, base_velocity_from_momentum};
+/// use dynamics_core::model::{BASE, Body, Joint, Model};
+/// use dynamics_core::{state::manifold::neutral, spatial::Force, state::State};
+/// let wheel = |name, parent, joint| Body::new(name, parent, joint).mass(1.0).inertia([1.0, 0.0, 0.0, 1.0, 0.0, 2.0]);
+/// let pair: Model<f64, 2, 8, 7> = Model::new("pair", [
+///     wheel("satellite", BASE, Joint::free()), wheel("wheel", 0, Joint::revolute([0.0, 0.0, 1.0])),
+/// ]);
+/// let spun = State { qd: [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 3.0], ..State::at(neutral(&pair)) };
+/// let qd = base_velocity_from_momentum(&pair, &spun, Force::ZERO, &())?;
+/// assert_eq!(qd, [0.0, 0.0, -1.5, 0.0, 0.0, 0.0, 3.0]); // the satellite turns the other way
+/// assert_eq!(momentum(&pair, &State { qd, ..spun }, &()), Force::ZERO);
+/// # Ok::<(), dynamics_core::algorithms::NotPositiveDefinite>(())
+/// ```
+///
+/// # Errors
+/// [`NotPositiveDefinite`] names the first coordinate if the bodies have no mass, or no inertia about some axis.
+#[inline(always)]
+pub fn base_velocity_from_momentum<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
+    robot: &D,
+    state: &State<R, Q, V>,
+    h: Force<R>,
+    effects: &E,
+) -> Result<[R; V], NotPositiveDefinite>
+where
+    D: RobotModel<R, B, Q, V>,
+    E: Effect<R, B, V>,
+{
+    base_velocity_from_momentum_at(robot, &JointTrig::of(robot, &state.q), state, h, effects)
+}
+
+/// What one pass leaves for the next.
+struct Body<R: Real> {
+    x: Xform<R>,
+    parent: usize,
+    h: Force<R>,
+    ic: CompositeInertia<R>,
+}
+
+/// As [`base_velocity_from_momentum`], at a posture whose sines and cosines are at hand.
+///
+/// # Errors
+/// As [`base_velocity_from_momentum`].
+#[inline(always)]
+pub fn base_velocity_from_momentum_at<
+    R: Real,
+    D,
+    E,
+    const B: usize,
+    const Q: usize,
+    const V: usize,
+>(
+    robot: &D,
+    posture: &JointTrig<R, Q>,
+    state: &State<R, Q, V>,
+    h: Force<R>,
+    effects: &E,
+) -> Result<[R; V], NotPositiveDefinite>
+where
+    D: RobotModel<R, B, Q, V>,
+    E: Effect<R, B, V>,
+{
+    let turns = &posture.turns;
+    let mut v = PerBody::<_, B>::from(base_given(effects).0);
+    let mut bodies: Vec<Body<R>, B> = Vec::new();
+    for (i, link) in robot.links().enumerate() {
+        let (x, parent) = (link.xform(turns), link.parent);
+        let v_i = link.plus_motion(x * v.parent(D::CHAIN, parent), turns, &state.qd);
+        let inertia = body_inertia(effects, i, &link);
+        let (mut h, ic) = (inertia * v_i, inertia.into());
+        if E::GYROSCOPIC_ROTORS {
+            h += rotor_force(effects, &link) * entry(&state.qd, link.idx_v());
+        }
+        let _ = bodies.push(Body { x, parent, h, ic });
+        v.push(D::CHAIN, v_i);
+    }
+
+    let mut lacking = h;
+    let mut inner = bodies.as_mut_slice();
+    while let Some((body, rest)) = core::mem::take(&mut inner).split_last_mut() {
+        let h = body.x.transpose_mul(body.h);
+        match rest.get_mut(body.parent) {
+            Some(carrier) => {
+                carrier.h += h;
+                carrier.ic += body.ic.at_parent(&body.x);
+            }
+            None => lacking -= h,
+        }
+        inner = rest;
+    }
+
+    let (mut qd, first) = (state.qd, bodies.first().zip(robot.link(0)));
+    let Some((first, link)) = first.filter(|(_, link)| link.kind() == JointKind::Free) else {
+        return Ok(qd);
+    };
+    let Xform { rot, pos } = first.x;
+    let couple = lacking.ang - pos.cross(lacking.lin);
+    let (at, lacking) = (link.idx_v(), Force::new(rot * couple, rot * lacking.lin));
+    let Some(step) = first.ic.solve(lacking) else {
+        return Err(NotPositiveDefinite { joint: at });
+    };
+    let steps = step.ang.array().into_iter().chain(step.lin.array());
+    for (qd, step) in qd.iter_mut().skip(at).zip(steps) {
+        *qd += step;
+    }
+    Ok(qd)
+}

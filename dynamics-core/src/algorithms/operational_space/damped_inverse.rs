@@ -1,0 +1,170 @@
+//! The inverse of a symmetric matrix that may be singular, damped where it is.
+//!
+//! Damping that begins smoothly (after Nakamura & Hanafusa, 1986, and Chiaverini, 1997): an eigenvalue λ above
+//! the threshold ε counts with 1/λ, one below with λ/(λ² + (ε − λ)²), which has the same value and slope at ε
+//! and goes to zero with λ. The threshold follows the sum of the eigenvalues, which, unlike the largest, is
+//! smooth. Whether there is an eigenvalue below it is seen without them: A − ε 1 then has a pivot below zero
+//! (Sylvester's law of inertia).
+
+use super::eigen::eigen;
+use crate::scalar::Real;
+use crate::state::all_finite;
+
+/// From where on a direction that hardly moves is damped.
+///
+/// ```
+/// use dynamics_core::algorithms::Damping;
+/// let several = Damping::relative(1e-3_f32);
+/// let only_one = Damping::relative(0.0).with_max_inertia(1000.0_f32); // a task of one direction
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Damping<R> {
+    relative: R,
+    least: R,
+}
+
+impl<R: Real> Damping<R> {
+    /// A threshold ε in eigenvalues of Λ⁻¹, relative to their sum; 10⁻³ suits f32.
+    ///
+    /// A task of one direction is its own sum: it needs [`Damping::heaviest`].
+    pub fn relative(relative: R) -> Self {
+        let least = R::ZERO;
+        Self { relative, least }
+    }
+
+    /// Adds to ε what damps inertias beyond `inertia`, kg: directions that nearly stand still although
+    /// the task has no other to compare them with.
+    pub fn with_max_inertia(mut self, inertia: R) -> Self {
+        self.least = R::ONE / inertia;
+        self
+    }
+}
+
+/// How near to singular a pose is for a task.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Conditioning<R> {
+    /// Every direction of the task moves: Λ is exact.
+    Regular,
+    /// A direction hardly moves: Λ is damped along it.
+    Damped {
+        /// The least eigenvalue of Λ⁻¹ over the threshold: one where damping begins, zero at the
+        /// singularity.
+        smallest: R,
+    },
+}
+
+/// A⁻¹, and whether it had to be damped: A symmetric with no negative eigenvalue.
+///
+/// What stands along the eigenvector of an eigenvalue below the threshold goes to zero with it, without a
+/// jump in value or slope. Cost: 4 M³ + M² flops and 2 M divisions where nothing is damped; else
+/// 3 M (M − 1) (18 M + 50) + 2 M³ flops more, with 3 M (M − 1) divisions, in f64 a sixth above that. Errors: none;
+/// numbers that are not finite give such numbers, and are not `Regular`. Source: the module's.
+///
+/// ```
+/// use dynamics_core::algorithms::{Conditioning, Damping, damped_inverse};
+/// let damping = Damping::relative(1e-3_f32);
+/// let (inverse, how) = damped_inverse(&[[2.0, 0.0], [0.0, 4.0]], damping);
+/// assert_eq!((inverse, how), ([[0.5, 0.0], [0.0, 0.25]], Conditioning::Regular));
+/// let (inverse, how) = damped_inverse(&[[2.0, 0.0], [0.0, 0.0]], damping);
+/// assert_eq!((inverse, how), ([[0.5, 0.0], [0.0, 0.0]], Conditioning::Damped { smallest: 0.0 }));
+/// ```
+#[inline(always)]
+pub fn damped_inverse<R: Real, const M: usize>(
+    a: &[[R; M]; M],
+    damping: Damping<R>,
+) -> ([[R; M]; M], Conditioning<R>) {
+    let mut sum = R::ZERO;
+    for (i, row) in a.iter().enumerate() {
+        sum += row[i];
+    }
+    let threshold = damping.relative * sum + damping.least;
+    if let (Some(_), Some(pivots)) = (eliminate(a, threshold), eliminate(a, R::ZERO)) {
+        return (pivots.inverse(), Conditioning::Regular);
+    }
+
+    let (values, vectors) = eigen(*a);
+    let mut smallest = sum;
+    let mut inverse = [[R::ZERO; M]; M];
+    for (&value, vector) in values.iter().zip(&vectors) {
+        // Rounding may leave a zero below zero.
+        let value = if value < R::ZERO { R::ZERO } else { value };
+        smallest = if value < smallest { value } else { smallest };
+        add(&mut inverse, reciprocal(value, threshold), vector);
+    }
+    let regular = smallest >= threshold && smallest > R::ZERO;
+    let conditioning = if regular && all_finite(&values) {
+        Conditioning::Regular
+    } else {
+        let smallest = reciprocal(threshold, R::ZERO) * smallest;
+        Conditioning::Damped { smallest }
+    };
+    (inverse, conditioning)
+}
+
+/// A = L D Lᵀ as L⁻¹ and D⁻¹.
+struct Pivots<R, const M: usize> {
+    l_inv: [[R; M]; M],
+    d_inv: [R; M],
+}
+
+/// The pivots of A − shift 1, if all are positive.
+#[inline(always)]
+fn eliminate<R: Real, const M: usize>(a: &[[R; M]; M], shift: R) -> Option<Pivots<R, M>> {
+    let (mut a, mut l_inv, mut d_inv) = (*a, [[R::ZERO; M]; M], [R::ZERO; M]);
+    for (k, (row, one)) in a.iter_mut().zip(&mut l_inv).enumerate() {
+        (row[k], one[k]) = (row[k] - shift, R::ONE);
+    }
+    for k in 0..M {
+        let (pivot_row, done) = (a[k], l_inv[k]);
+        if !(pivot_row[k] > R::ZERO && pivot_row[k].is_finite()) {
+            return None;
+        }
+        d_inv[k] = R::ONE / pivot_row[k];
+        for (row, l_inv) in a.iter_mut().zip(&mut l_inv).skip(k + 1) {
+            let l = row[k] * d_inv[k];
+            for j in k + 1..M {
+                row[j] -= l * pivot_row[j];
+            }
+            for j in 0..=k {
+                l_inv[j] -= l * done[j];
+            }
+        }
+    }
+    Some(Pivots { l_inv, d_inv })
+}
+
+impl<R: Real, const M: usize> Pivots<R, M> {
+    /// A⁻¹ = L⁻ᵀ D⁻¹ L⁻¹.
+    #[inline(always)]
+    fn inverse(&self) -> [[R; M]; M] {
+        let mut inverse = [[R::ZERO; M]; M];
+        for (row, &d_inv) in self.l_inv.iter().zip(&self.d_inv) {
+            add(&mut inverse, d_inv, row);
+        }
+        inverse
+    }
+}
+
+/// A += w v vᵀ.
+#[inline(always)]
+fn add<R: Real, const M: usize>(a: &mut [[R; M]; M], weight: R, vector: &[R; M]) {
+    for (row, &x) in a.iter_mut().zip(vector) {
+        for (entry, &y) in row.iter_mut().zip(vector) {
+            *entry += weight * (x * y);
+        }
+    }
+}
+
+/// 1/λ, damped below ε.
+#[inline(always)]
+fn reciprocal<R: Real>(value: R, threshold: R) -> R {
+    let short = threshold - value;
+    let short = if short > R::ZERO { short } else { R::ZERO };
+    let squares = value * value + short * short;
+    if squares == R::ZERO {
+        R::ZERO // λ = ε = 0
+    } else {
+        value / squares
+    }
+}

@@ -1,0 +1,235 @@
+//! Operational space: the inertia that a task feels, and torques that leave it alone.
+//!
+//! Khatib, "A unified approach for motion and force control of robot manipulators: the operational
+//! space formulation" (1987): Λ = (J M⁻¹ Jᵀ)⁻¹, J̄ = M⁻¹ Jᵀ Λ, τ = Jᵀ F + (1 − Jᵀ J̄ᵀ) τ₀.
+
+mod damped_inverse;
+mod eigen;
+mod osim_inverse;
+
+pub use damped_inverse::{Conditioning, Damping, damped_inverse};
+pub use osim_inverse::{OsimInverse, osim_inverse, osim_inverse_at};
+
+use crate::algorithms::{Frame, NotPositiveDefinite, crba_at, jacobian_at, ltdl, solve};
+use crate::effects::Effect;
+use crate::model::RobotModel;
+use crate::scalar::Real;
+use crate::spatial::{Force, Motion};
+use crate::state::JointTrig;
+
+/// The rows of a task's Jacobian: the rates of M directions of a body, given as forces, from the columns of
+/// that body's [`super::jacobian`] in the same frame.
+///
+/// A direction is the force that a unit of the task's coordinate pushes with; its rate is their power
+/// v·f. Unit forces along the axes give velocities in m/s, unit couples rates in rad/s; a couple of
+/// 1/l gives the velocity at the radius l, which makes turns comparable to lengths. 11 M flops a
+/// coordinate.
+///
+/// ```
+/// use dynamics_core::{Core, algorithms::{frame, task_jacobian}, robots::Ur5e, spatial::Force};
+/// use glam::Vec3;
+/// let j = Core::<Ur5e>::jacobian(&[0.1_f32; 6], 5, frame::LocalWorldAligned);
+/// let [height] = task_jacobian(&j, &[Force::new(Vec3::ZERO, Vec3::Z)]);
+/// assert!(height[0].abs() < 1e-7); // a turn about the vertical lifts nothing
+/// ```
+#[inline(always)]
+pub fn task_jacobian<R: Real, const M: usize, const V: usize>(
+    jacobian: &[Motion<R>; V],
+    directions: &[Force<R>; M],
+) -> [[R; V]; M] {
+    directions.map(|direction| jacobian.map(|column| column.dot(direction)))
+}
+
+/// A task on `body` along some directions, told in a [`Frame`]: by J, M and its factors.
+///
+/// Rotors and a payload that the effects name count in M. Cost: [`super::crba`], [`super::ltdl()`],
+/// [`super::jacobian`], M solutions of 2 V² flops, 2 M² V flops and [`damped_inverse`]. Source: Khatib (1987).
+///
+/// ```
+/// use dynamics_core::algorithms::{Damping, frame, operational_space};
+/// use dynamics_core::{control::TaskFrame, effects::RIGID_BODY, model::Robot, robots::Ur5e};
+/// let (q, place) = ([0.0_f64, -1.2, 1.5, 0.3, 0.7, 0.0], TaskFrame::BASE.place());
+/// let damping = Damping::relative(1e-3);
+/// let task = operational_space(&Ur5e::MODEL, &q, (5, frame::LocalWorldAligned), &place, &RIGID_BODY, damping)?;
+/// assert!(task.inertia[2][2] > 1.0); // kg that the hand feels vertically
+/// # Ok::<(), dynamics_core::algorithms::NotPositiveDefinite>(())
+/// ```
+///
+/// # Errors
+/// [`NotPositiveDefinite`] names a joint that moves no inertia. A singular pose is none: all is finite,
+/// and [`OperationalSpace::conditioning`] says so.
+#[inline(always)]
+pub fn operational_space<
+    R: Real,
+    D,
+    E,
+    F,
+    const M: usize,
+    const B: usize,
+    const Q: usize,
+    const V: usize,
+>(
+    robot: &D,
+    q: &[R; Q],
+    body: (usize, F),
+    directions: &[Force<R>; M],
+    effects: &E,
+    damping: Damping<R>,
+) -> Result<OperationalSpace<R, M, V>, NotPositiveDefinite>
+where
+    D: RobotModel<R, B, Q, V>,
+    E: Effect<R, B, V>,
+    F: Frame,
+{
+    let posture = JointTrig::of(robot, q);
+    operational_space_at(robot, &posture, body, directions, effects, damping)
+}
+
+/// As [`operational_space`], at a posture whose sines and cosines are at hand.
+///
+/// # Errors
+/// As [`operational_space`].
+#[inline(always)]
+pub fn operational_space_at<
+    R: Real,
+    D,
+    E,
+    F,
+    const M: usize,
+    const B: usize,
+    const Q: usize,
+    const V: usize,
+>(
+    robot: &D,
+    posture: &JointTrig<R, Q>,
+    (body, frame): (usize, F),
+    directions: &[Force<R>; M],
+    effects: &E,
+    damping: Damping<R>,
+) -> Result<OperationalSpace<R, M, V>, NotPositiveDefinite>
+where
+    D: RobotModel<R, B, Q, V>,
+    E: Effect<R, B, V>,
+    F: Frame,
+{
+    let factors = ltdl(robot, &crba_at(robot, posture, effects))?;
+    let rows = task_jacobian(&jacobian_at(robot, posture, body, frame), directions);
+    let solve = |tau: &_| solve(robot, &factors, tau);
+    Ok(OperationalSpace::new(rows, solve, damping))
+}
+
+/// A task of M coordinates on a robot of V, at one configuration.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OperationalSpace<R, const M: usize, const V: usize> {
+    /// J by rows: ẋ = J q̇.
+    pub jacobian: [[R; V]; M],
+    /// M⁻¹ Jᵀ by columns: the accelerations q̈ that a unit of each task force gives.
+    pub response: [[R; V]; M],
+    /// Λ⁻¹ = J M⁻¹ Jᵀ.
+    pub mobility: [[R; M]; M],
+    /// Λ, damped near singularities: the task force F = Λ ẍ.
+    pub inertia: [[R; M]; M],
+    /// Whether it had to be damped.
+    pub conditioning: Conditioning<R>,
+}
+
+impl<R: Real, const M: usize, const V: usize> OperationalSpace<R, M, V> {
+    /// From the task's Jacobian, by rows, and M⁻¹, as whatever solves M x = τ: the factors of core or
+    /// engine.
+    ///
+    /// Cost: M solutions, 2 M² V flops, and the inverse. Errors:
+    /// none; at a singular pose all is finite, and `conditioning` says so. Source: Khatib (1987), (18).
+    ///
+    /// ```
+    /// use dynamics_core::{Core, Engine, effects::RIGID_BODY, robots::Ur5e, spatial::Force};
+    /// use dynamics_core::algorithms::{Conditioning, Damping, OperationalSpace, frame, task_jacobian};
+    /// use glam::Vec3;
+    /// let q = [0.0_f32, -1.2, 1.5, 0.3, 0.7, 0.0];
+    /// let factor = Engine::<Ur5e>::ltdl(&Engine::<Ur5e>::crba(&q, &RIGID_BODY))?;
+    /// let place = [Vec3::X, Vec3::Y, Vec3::Z].map(|axis| Force::new(Vec3::ZERO, axis));
+    /// let rows = task_jacobian(&Core::<Ur5e>::jacobian(&q, 5, frame::LocalWorldAligned), &place);
+    /// let solve = |tau: &_| Engine::<Ur5e>::solve(&factor, tau);
+    /// let task = OperationalSpace::new(rows, solve, Damping::relative(1e-3));
+    /// assert_eq!(task.conditioning, Conditioning::Regular);
+    /// assert!(task.inertia[2][2] > 1.0); // kg that the hand feels vertically
+    /// # Ok::<(), dynamics_core::algorithms::NotPositiveDefinite>(())
+    /// ```
+    #[inline(always)]
+    pub fn new(
+        jacobian: [[R; V]; M],
+        solve: impl Fn(&[R; V]) -> [R; V],
+        damping: Damping<R>,
+    ) -> Self {
+        let mut response = [[R::ZERO; V]; M];
+        for (response, row) in response.iter_mut().zip(&jacobian) {
+            *response = solve(row);
+        }
+        let mut mobility = [[R::ZERO; M]; M];
+        for (i, response) in response.iter().enumerate() {
+            // The lower triangle, and with it the upper one: the inverse is then symmetric to the last bit.
+            for (j, row) in jacobian.iter().enumerate().take(i + 1) {
+                let x = dot(row, response);
+                mobility[i][j] = x;
+                mobility[j][i] = x;
+            }
+        }
+        let (inertia, conditioning) = damped_inverse(&mobility, damping);
+        Self {
+            jacobian,
+            response,
+            mobility,
+            inertia,
+            conditioning,
+        }
+    }
+
+    /// F = Λ ẍ: the task force of a task acceleration. 2 M² flops.
+    #[inline(always)]
+    pub fn force(&self, acceleration: &[R; M]) -> [R; M] {
+        self.inertia.map(|row| dot(&row, acceleration))
+    }
+
+    /// τ = Jᵀ F: the torques of a task force, N·m or N. 2 M V flops.
+    #[inline(always)]
+    pub fn torque(&self, force: &[R; M]) -> [R; V] {
+        combine(&self.jacobian, force)
+    }
+
+    /// J̄ = M⁻¹ Jᵀ Λ by columns: the dynamically consistent inverse of J, whose q̇ = J̄ ẋ has the least
+    /// kinetic energy. 2 M² V flops. Khatib (1987), (37).
+    #[inline(always)]
+    pub fn consistent_inverse(&self) -> [[R; V]; M] {
+        self.inertia.map(|row| combine(&self.response, &row))
+    }
+
+    /// (1 − Jᵀ J̄ᵀ) τ₀: of some torques the part that does not accelerate the task. Khatib (1987), (53).
+    ///
+    /// Where Λ is damped, some acceleration along the damped direction remains. 4 M V + 2 M² flops.
+    #[inline(always)]
+    pub fn null_space_torque(&self, tau: &[R; V]) -> [R; V] {
+        let seen = self.force(&self.response.map(|response| dot(&response, tau)));
+        let mut unseen = self.torque(&seen);
+        for (unseen, &tau) in unseen.iter_mut().zip(tau) {
+            *unseen = tau - *unseen;
+        }
+        unseen
+    }
+}
+
+#[inline(always)]
+fn dot<R: Real, const N: usize>(a: &[R; N], b: &[R; N]) -> R {
+    let products = a.iter().zip(b).map(|(&a, &b)| a * b);
+    products.fold(R::ZERO, |sum, product| sum + product)
+}
+
+/// Σ rows × weights.
+#[inline(always)]
+fn combine<R: Real, const M: usize, const V: usize>(rows: &[[R; V]; M], by: &[R; M]) -> [R; V] {
+    let mut sum = [R::ZERO; V];
+    for (row, &by) in rows.iter().zip(by) {
+        for (sum, &x) in sum.iter_mut().zip(row) {
+            *sum += x * by;
+        }
+    }
+    sum
+}

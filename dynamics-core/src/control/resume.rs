@@ -1,0 +1,259 @@
+//! The way back onto a trajectory that stood still while a fault lasted.
+//!
+//! Two references that both have finite accelerations: one that comes to rest from where the arm is
+//! and how fast, a(t) with ȧ' = −λ ȧ, and the trajectory q(σ) whose time starts from a standstill.
+//! With x the share of the way from 0 to 1 over T and w = x³ (10 − 15 x + 6 x²),
+//!
+//! ```text
+//! r = a + w (q(σ) − a)        σ' = w
+//! ```
+//!
+//! so that position, velocity and acceleration are those of a at the start and of q at the end.
+
+use super::{Estimate, Reference, real};
+use crate::scalar::Real;
+use crate::state::State;
+
+/// A reference that leads from where the arm is to a trajectory that waits for it.
+///
+/// ```
+/// use dynamics_core::control::{Estimate, Rejoin, MotionLimits, Trajectory, WayPoint};
+/// # use dynamics_core::control::TrajectoryError;
+/// let points = [
+///     WayPoint { q: [0.0_f32], qd: [0.0], ticks: 0 },
+///     WayPoint { q: [1.0], qd: [0.0], ticks: 1000 },
+/// ];
+/// let trajectory = Trajectory::new(&points, 1e-3, &[MotionLimits { velocity: 2.0, acceleration: 10.0 }])?;
+/// let mut rejoin = Rejoin::new(1e-3, 40.0, 200);
+/// rejoin.start(&Estimate { q: [0.02], qd: [0.0] }, 300);
+/// assert_eq!(rejoin.at(&trajectory, 0.0).q, [0.02]);
+/// for tick in 1..200 {
+///     rejoin.at(&trajectory, tick as f32 / 200.0);
+/// }
+/// assert_eq!(rejoin.finish(), 400); // the trajectory lost half of the 200 ticks
+/// # Ok::<(), TrajectoryError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rejoin<R, const V: usize> {
+    tick: R,
+    /// λ.
+    decay: R,
+    /// The ticks that the trajectory advances on the way.
+    half: u32,
+    /// 1 / λ in ticks.
+    lead: u32,
+    /// Share of the way in a tick, and share in a second.
+    per_tick: R,
+    per_second: R,
+    /// a.
+    rest: State<R, V, V>,
+    /// σ: whole ticks, and the fraction of the next one.
+    clock: u32,
+    advanced: u32,
+    fraction: R,
+    active: bool,
+}
+
+impl<R: Real, const V: usize> Rejoin<R, V> {
+    /// A way back of `ticks` ticks (an even number; an odd one counts as one more) of `tick`
+    /// seconds, on which the arm's own velocity decays with `decay` (λ, 1/s).
+    pub fn new(tick: R, decay: R, ticks: u32) -> Self {
+        let half = ticks.div_ceil(2).max(1);
+        let per_tick = R::from_f64(0.5) / real(half);
+        Self {
+            tick,
+            decay,
+            half,
+            // What is not a number of ticks becomes none or very many: the end of the trajectory.
+            lead: (R::ONE / (decay * tick)).to_f64() as u32,
+            per_tick,
+            per_second: per_tick / tick,
+            rest: State::at([R::ZERO; V]),
+            clock: 0,
+            advanced: 0,
+            fraction: R::ZERO,
+            active: false,
+        }
+    }
+
+    /// λ, 1/s.
+    #[inline(always)]
+    pub fn decay(&self) -> R {
+        self.decay
+    }
+
+    /// Whether a way back has been started and not been finished.
+    #[inline(always)]
+    pub fn active(&self) -> bool {
+        self.active
+    }
+
+    /// Starts from where the arm is, the trajectory waiting at the tick `clock`.
+    pub fn start(&mut self, estimate: &Estimate<R, V>, clock: u32) {
+        self.rest.q = estimate.q;
+        self.rest.qd = estimate.qd;
+        self.rest.qdd = estimate.qd.map(|qd| -(self.decay * qd));
+        self.clock = clock;
+        self.advanced = 0;
+        self.fraction = R::ZERO;
+        self.active = true;
+    }
+
+    /// The tick at which a trajectory should wait for an arm that leaves it at the tick `clock` with
+    /// a speed that decays: 1 / λ later it is about where the arm comes to rest, so that the way back
+    /// is none backwards.
+    pub fn meet(&self, clock: u32) -> u32 {
+        clock.saturating_add(self.lead)
+    }
+
+    /// Ends the way at its end; the trajectory's tick there.
+    pub fn finish(&mut self) -> u32 {
+        self.active = false;
+        self.clock.saturating_add(self.half)
+    }
+
+    /// Ends the way where it is; the trajectory's tick there.
+    pub fn abandon(&mut self) -> u32 {
+        self.active = false;
+        self.clock.saturating_add(self.advanced)
+    }
+
+    /// One tick on: the reference at `share` of the way, 0 to 1.
+    ///
+    /// Cost: that of the trajectory and about 40 flops a joint. A reference after
+    /// [`Self::start`] with a share of zero stands at the start.
+    #[cold]
+    #[inline(never)]
+    pub fn at<T: Reference<R, V>>(&mut self, trajectory: &T, share: R) -> State<R, V, V> {
+        let [w, slope, bend] = self.weights(share);
+        let goal = self.goal(trajectory, share, w, slope);
+        self.settle(share);
+        let mut next = self.rest;
+        let rates = next.qd.iter_mut().zip(&mut next.qdd);
+        let goals = goal.q.iter().zip(goal.qd.iter().zip(&goal.qdd));
+        for ((q, (qd, qdd)), (&q_d, (&qd_d, &qdd_d))) in next.q.iter_mut().zip(rates).zip(goals) {
+            let (gap, gap_d, gap_dd) = (q_d - *q, qd_d - *qd, qdd_d - *qdd);
+            *q += w * gap;
+            *qd += w * gap_d + slope * gap;
+            *qdd += w * gap_dd + (slope + slope) * gap_d + bend * gap;
+        }
+        next
+    }
+
+    /// w and its derivatives by the time.
+    fn weights(&self, x: R) -> [R; 3] {
+        let [six, ten, fifteen, thirty] = [6.0, 10.0, 15.0, 30.0].map(R::from_f64);
+        let (xx, r) = (x * x, R::ONE - x);
+        let slope = thirty * xx * r * r * self.per_second;
+        let bend = (thirty + thirty) * x * r * (r - x) * self.per_second * self.per_second;
+        [xx * x * (ten - fifteen * x + six * xx), slope, bend]
+    }
+
+    /// The trajectory at σ, one tick on, under a time that passes at the rate w.
+    fn goal<T: Reference<R, V>>(
+        &mut self,
+        trajectory: &T,
+        share: R,
+        rate: R,
+        slope: R,
+    ) -> State<R, V, V> {
+        // Rates of the middles of ticks: their sum over the whole way is exactly half its ticks.
+        let middle = share - R::from_f64(0.5) * self.per_tick;
+        let [passed, ..] = self.weights(middle.clamped(R::ZERO, R::ONE));
+        self.fraction += passed;
+        if self.fraction >= R::ONE {
+            self.fraction -= R::ONE;
+            self.advanced = self.advanced.saturating_add(1);
+        }
+        let mut goal = trajectory.at(self.clock.saturating_add(self.advanced));
+        let ahead = self.fraction * self.tick;
+        let rates = goal.qd.iter_mut().zip(&mut goal.qdd);
+        for (q, (qd, qdd)) in goal.q.iter_mut().zip(rates) {
+            *q += ahead * (*qd + R::from_f64(0.5) * ahead * *qdd);
+            *qd += ahead * *qdd;
+            *qdd = rate * rate * *qdd + slope * *qd;
+            *qd = rate * *qd;
+        }
+        goal
+    }
+
+    /// a, one tick on, from the second tick on.
+    fn settle(&mut self, share: R) {
+        let moving = share > R::ZERO;
+        let h = if moving { self.tick } else { R::ZERO };
+        let keep = (R::ONE - h * self.decay).clamped(R::ZERO, R::ONE);
+        let rates = self.rest.qd.iter_mut().zip(&mut self.rest.qdd);
+        for (q, (qd, qdd)) in self.rest.q.iter_mut().zip(rates) {
+            let before = *qd;
+            *qd = before * keep;
+            *q += R::from_f64(0.5) * h * (before + *qd);
+            *qdd = -(self.decay * *qd);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{MotionLimits, Trajectory, WayPoint};
+    use super::*;
+
+    const H: f64 = 1e-3;
+    const TICKS: u32 = 200;
+
+    fn trajectory() -> Trajectory<f64, 1, 2> {
+        let limits = [MotionLimits {
+            velocity: 3.0,
+            acceleration: 20.0,
+        }];
+        let point = |q, ticks| WayPoint {
+            q: [q],
+            qd: [0.0],
+            ticks,
+        };
+        Trajectory::new(&[point(0.0, 0), point(1.5, 1000)], H, &limits).unwrap()
+    }
+
+    #[test]
+    fn the_way_back_leads_onto_the_trajectory_without_a_jump() {
+        let trajectory = trajectory();
+        let start = Estimate {
+            q: [trajectory.at(400).q[0] + 0.03],
+            qd: [1.0],
+        };
+        let mut rejoin = Rejoin::new(H, 40.0, TICKS);
+        rejoin.start(&start, 400);
+        let mut way: Vec<_> = (0..TICKS)
+            .map(|tick| rejoin.at(&trajectory, f64::from(tick) / f64::from(TICKS)))
+            .collect();
+        let end = rejoin.finish();
+        assert_eq!(end, 400 + TICKS / 2);
+        way.extend((0..10).map(|tick| trajectory.at(end + tick)));
+        assert_eq!((way[0].q, way[0].qd), (start.q, start.qd));
+        for pair in way.windows(2) {
+            let (a, b) = (pair[0], pair[1]);
+            let mean = 0.5 * (a.qd[0] + b.qd[0]);
+            assert!((b.q[0] - a.q[0] - H * mean).abs() < 4e-6, "{a:?} {b:?}");
+            let mean = 0.5 * (a.qdd[0] + b.qdd[0]);
+            assert!((b.qd[0] - a.qd[0] - H * mean).abs() < 2e-3, "{a:?} {b:?}");
+            assert!(b.qd[0].abs() < 3.0);
+        }
+    }
+
+    #[test]
+    fn a_way_that_is_left_early_keeps_the_trajectorys_progress() {
+        let trajectory = trajectory();
+        let mut rejoin = Rejoin::new(H, 40.0, TICKS);
+        let start = Estimate {
+            q: [0.5],
+            qd: [0.0],
+        };
+        rejoin.start(&start, 400);
+        for tick in 0..=TICKS / 2 {
+            rejoin.at(&trajectory, f64::from(tick) / f64::from(TICKS));
+        }
+        assert!(rejoin.active());
+        // ∫w over the first half is 0.078 of the whole way.
+        assert_eq!(rejoin.abandon(), 415);
+        assert!(!rejoin.active());
+    }
+}

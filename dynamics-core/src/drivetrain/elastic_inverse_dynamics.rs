@@ -1,0 +1,238 @@
+//! Inverse dynamics with compliant joints: the motors' torques for a course of the links, through its snap.
+//!
+//! The springs have to carry τ = ID(q, q̇, q̈), hence θ = q + τ/k and τ_m = J θ̈ + b θ̇ + τ, which needs τ̇ and τ̈:
+//! De Luca & Lucibello, "A general algorithm for dynamic feedback linearization of robots with elastic joints"
+//! (1998); Buondonno & De Luca, "A recursive Newton-Euler algorithm for robots with elastic joints" (2015).
+//! All in link coordinates and by components there: with W_j = S q^(j+1) the transform obeys
+//! d(X m) = X ṁ − W₀ × X m and d(Xᵀ f) = Xᵀ(ḟ + W₀ ×* f), the rest is Leibniz' rule.
+
+use heapless::Vec;
+
+use super::ElasticJoints;
+use crate::effects::{Effect, TorqueDerivatives, base_motion, body_inertia, joint_state};
+use crate::model::{LinkView, RobotModel};
+use crate::scalar::Real;
+use crate::spatial::{Force, Motion, SpatialInertia, Xform};
+use crate::state::{JointTrig, State, entry};
+
+/// Where the links are to be, with four derivatives.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ElasticReference<R, const Q: usize, const V: usize> {
+    /// q, q̇ and q̈.
+    pub state: State<R, Q, V>,
+    /// The third derivative, rad/s³ or m/s³.
+    pub jerk: [R; V],
+    /// The fourth derivative, rad/s⁴ or m/s⁴.
+    pub snap: [R; V],
+}
+
+/// What a drive is told.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ElasticCommand<R, const V: usize> {
+    /// Torque τ_m of each motor, N·m or N.
+    pub torque: [R; V],
+    /// Angle θ of each motor, seen at the joint, rad or m.
+    pub position: [R; V],
+    /// Its rate θ̇, rad/s or m/s.
+    pub velocity: [R; V],
+}
+
+/// A joint that has several degrees of freedom, of which no transmission is known.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct MultiDofJoint {
+    /// The body that it carries.
+    pub body: usize,
+}
+
+/// τ_m, θ and θ̇ of the motors for a course of the links.
+///
+/// Effects act on the links. Those of joints are differentiated along their derivatives, taken as constant: exact
+/// for springs and viscous friction, and for Coulomb friction away from its width. Effects that push bodies
+/// or move the base have no known derivatives and do not compile. Cost: some 1000 flops a joint, O(B).
+///
+/// ```
+/// use dynamics_core::effects::RIGID_BODY;
+/// use dynamics_core::drivetrain::{ElasticReference, ElasticJoints, elastic_inverse_dynamics};
+/// use dynamics_core::{algorithms::rnea, model::Robot, robots::Ur5e, state::State};
+/// let joints = ElasticJoints { stiffness: [1e4_f64; 6], rotor: [1.0; 6], friction: [0.0; 6] };
+/// let rest = ElasticReference { state: State::at([0.3; 6]), jerk: [0.0; 6], snap: [0.0; 6] };
+/// let told = elastic_inverse_dynamics(&Ur5e::MODEL, &joints, &rest, &RIGID_BODY)?;
+/// let weight = rnea(&Ur5e::MODEL, &rest.state, &RIGID_BODY);
+/// assert!((told.torque[1] - weight[1]).abs() < 1e-12);
+/// assert!((told.position[1] - 0.3 - weight[1] / 1e4).abs() < 1e-15); // the spring is wound up
+/// # Ok::<(), dynamics_core::drivetrain::MultiDofJoint>(())
+/// ```
+///
+/// ```compile_fail,E0080
+/// use dynamics_core::effects::{BodyWrench, RIGID_BODY};
+/// use dynamics_core::drivetrain::{ElasticReference, ElasticJoints, elastic_inverse_dynamics};
+/// use dynamics_core::{model::Robot, robots::Ur5e, spatial::Force, state::State};
+/// let joints = ElasticJoints { stiffness: [1e4_f64; 6], rotor: [1.0; 6], friction: [0.0; 6] };
+/// let rest = ElasticReference { state: State::at([0.3; 6]), jerk: [0.0; 6], snap: [0.0; 6] };
+/// let pushed = (RIGID_BODY, BodyWrench { body: 5, wrench: Force::<f64>::ZERO });
+/// let _ = elastic_inverse_dynamics(&Ur5e::MODEL, &joints, &rest, &pushed);
+/// // error: inverse dynamics of compliant joints takes no wrenches on bodies, moving base or `GyroscopicRotors`
+/// ```
+///
+/// # Errors
+/// [`MultiDofJoint`] names a body on a joint of several degrees of freedom.
+pub fn elastic_inverse_dynamics<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
+    robot: &D,
+    joints: &ElasticJoints<R, V>,
+    course: &ElasticReference<R, Q, V>,
+    effects: &E,
+) -> Result<ElasticCommand<R, V>, MultiDofJoint>
+where
+    D: RobotModel<R, B, Q, V>,
+    E: Effect<R, B, V>,
+{
+    let tau = torque_rates(robot, course, effects)?;
+    let State { q, qd, qdd } = &course.state;
+    let mut told = ElasticCommand {
+        torque: [R::ZERO; V],
+        position: [R::ZERO; V],
+        velocity: [R::ZERO; V],
+    };
+    for link in robot.links() {
+        for i in link.coordinates() {
+            let k_inv = R::ONE / entry(&joints.stiffness, i);
+            let [t, rate, accel] = tau.map(|tau| entry(&tau, i));
+            let velocity = entry(qd, i) + rate * k_inv;
+            let inertial = entry(&joints.rotor, i) * (entry(qdd, i) + accel * k_inv);
+            let torque = inertial + entry(&joints.friction, i) * velocity + t;
+            let values = [torque, link.position(q, i) + t * k_inv, velocity];
+            let places = [&mut told.torque, &mut told.position, &mut told.velocity];
+            for (place, value) in places.into_iter().zip(values) {
+                if let Some(place) = place.get_mut(i) {
+                    *place = value;
+                }
+            }
+        }
+    }
+    Ok(told)
+}
+
+/// Velocity of a body and its derivatives by components; the first is its spatial acceleration.
+type Rates<R> = [Motion<R>; 4];
+
+/// What the way out leaves for the way back: f, ḟ, f̈ and W₀, W₁.
+struct Link<'a, R: Real> {
+    link: LinkView<'a, R>,
+    x: Xform<R>,
+    w: [Motion<R>; 4],
+    f: [Force<R>; 3],
+}
+
+/// τ, τ̇ and τ̈ of the springs.
+fn torque_rates<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
+    robot: &D,
+    course: &ElasticReference<R, Q, V>,
+    effects: &E,
+) -> Result<[[R; V]; 3], MultiDofJoint>
+where
+    D: RobotModel<R, B, Q, V>,
+    E: Effect<R, B, V>,
+{
+    const {
+        assert!(
+            E::ACCELERATIONS && E::VELOCITY_PRODUCTS,
+            "inverse dynamics of compliant joints needs `Inertia` and `Coriolis` in the scene"
+        );
+        assert!(
+            !(E::WRENCH | E::BASE_MOTION | E::GYROSCOPIC_ROTORS),
+            "inverse dynamics of compliant joints takes no wrenches on bodies, moving base or `GyroscopicRotors`"
+        );
+    };
+    let (state, turns) = (&course.state, JointTrig::of(robot, &course.state.q).turns);
+    let rates = [&state.qd, &state.qdd, &course.jerk, &course.snap];
+    // A base that accelerates by −g for ever stands for gravity.
+    let (v_0, a_0) = base_motion(effects);
+    let base = [v_0, a_0, Motion::ZERO, Motion::ZERO];
+    let mut all: Vec<Rates<R>, B> = Vec::new();
+    let mut links: Vec<Link<'_, R>, B> = Vec::new();
+    for (i, link) in robot.links().enumerate() {
+        if link.coordinates().len() > 1 {
+            return Err(MultiDofJoint { body: i });
+        }
+        let (x, w) = (
+            link.xform(&turns),
+            rates.map(|rate| link.motion(&turns, rate)),
+        );
+        let carried = transformed(&x, &w, all.get(link.parent).unwrap_or(&base));
+        let v = [0, 1, 2, 3].map(|n| carried[n] + w[n]);
+        let f = forces(&body_inertia(effects, i, &link), &v);
+        let _ = all.push(v);
+        let _ = links.push(Link { link, x, w, f });
+    }
+
+    let mut tau = [[R::ZERO; V]; 3];
+    let mut inner = links.as_mut_slice();
+    while let Some((link, rest)) = core::mem::take(&mut inner).split_last_mut() {
+        for (tau, f) in tau.iter_mut().zip(link.f) {
+            link.link.project(&turns, f, tau);
+        }
+        for k in link.link.coordinates() {
+            let at = joint_state(&link.link, state, k);
+            let (mut own, mut inertia, mut derivatives) =
+                (R::ZERO, R::ZERO, TorqueDerivatives::default());
+            effects.torque(k, at, &mut own);
+            effects.inertia(k, &mut inertia);
+            effects.derivatives(k, at, &mut derivatives);
+            let (jerk, snap) = (entry(&course.jerk, k), entry(&course.snap, k));
+            let added = [
+                own,
+                derivatives.dq * at.qd + derivatives.dqd * at.qdd + inertia * jerk,
+                derivatives.dq * at.qdd + derivatives.dqd * jerk + inertia * snap,
+            ];
+            for (tau, added) in tau.iter_mut().zip(added) {
+                if let Some(tau) = tau.get_mut(k) {
+                    *tau += added;
+                }
+            }
+        }
+        if let Some(parent) = rest.get_mut(link.link.parent) {
+            for (sum, f) in parent.f.iter_mut().zip(force_at_parent(link)) {
+                *sum += f;
+            }
+        }
+        inner = rest;
+    }
+    Ok(tau)
+}
+
+/// X m and its derivatives, from those of m in the parent's coordinates.
+///
+/// y(k, n), the n-th derivative of X m^(k), is y(k+1, n−1) − Σ_j C(n−1, j) W_j × y(k, n−1−j).
+fn transformed<R: Real>(x: &Xform<R>, w: &[Motion<R>; 4], m: &Rates<R>) -> Rates<R> {
+    let [w0, w1, w2, _] = *w;
+    let two = R::from_f64(2.0);
+    let [a0, b0, c0, d0] = m.map(|m| *x * m);
+    let [a1, b1, c1] = [b0 - w0.cross(a0), c0 - w0.cross(b0), d0 - w0.cross(c0)];
+    let [a2, b2] = [
+        b1 - w0.cross(a1) - w1.cross(a0),
+        c1 - w0.cross(b1) - w1.cross(b0),
+    ];
+    let a3 = b2 - w0.cross(a2) - w1.cross(a1) * two - w2.cross(a0);
+    [a0, a1, a2, a3]
+}
+
+/// f = I a + v ×* I v with its first two derivatives.
+fn forces<R: Real>(inertia: &SpatialInertia<R>, v: &Rates<R>) -> [Force<R>; 3] {
+    let [v0, v1, v2, _] = *v;
+    let [p0, p1, p2, p3] = v.map(|v| *inertia * v);
+    let twice = v1.cross_force(p1) * R::from_f64(2.0);
+    [
+        p1 + v0.cross_force(p0),
+        p2 + v1.cross_force(p0) + v0.cross_force(p1),
+        p3 + v2.cross_force(p0) + twice + v0.cross_force(p2),
+    ]
+}
+
+/// Xᵀ f with its first two derivatives.
+fn force_at_parent<R: Real>(link: &Link<'_, R>) -> [Force<R>; 3] {
+    let ([w0, w1, ..], [f0, f1, f2]) = (link.w, link.f);
+    let once = f1 + w0.cross_force(f0);
+    let twice = f2 + w1.cross_force(f0) + w0.cross_force(f1 + once);
+    [f0, once, twice].map(|f| link.x.transpose_mul(f))
+}

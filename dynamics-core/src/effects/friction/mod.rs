@@ -1,0 +1,13 @@
+//! Friction of joints.
+
+mod asymmetric;
+mod coulomb;
+mod lugre;
+mod stribeck;
+mod viscous;
+
+pub use asymmetric::AsymmetricCoulomb;
+pub use coulomb::{Coulomb, smooth_sign, smooth_sign_slope};
+pub use lugre::Lugre;
+pub use stribeck::Stribeck;
+pub use viscous::Viscous;

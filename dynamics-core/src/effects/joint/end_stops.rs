@@ -1,0 +1,89 @@
+//! Joint stops: springs and dampers beyond the limits.
+//!
+//! At depth p = max(0, q − q_max) the stop pushes back with max(0, k p + b c q̇), c growing from 0 to 1 with
+//! the depth: continuous at first touch, and it never pulls. The lower stop is its mirror image. Hunt &
+//! Crossley, "Coefficient of restitution interpreted as damping in vibroimpact" (1975).
+
+use crate::effects::{Effect, JointState, TorqueDerivatives, smooth_sign};
+use crate::scalar::Real;
+use crate::scalar::positive_part;
+use crate::state::entry;
+
+/// End stops of each joint at the ends of its travel.
+///
+/// The motor supplies the torque that holds against them. Stiff: let the plant treat them implicitly
+/// ([`crate::sim::linearly_implicit`]); in the step in which a joint leaves a stop, that step's line may
+/// then hold it back. Such steps take k alone for
+/// ∂τ/∂q: b c′(p) q̇, by which the damping grows with the depth, is left out, since it is negative while a joint leaves.
+/// Cost: 30 flops a joint, no comparison.
+///
+/// ```
+/// use dynamics_core::effects::EndStops;
+/// use dynamics_core::{Core, robots::Ur5e, state::State};
+/// let stops = EndStops { lower: [-2.0_f32; 6], upper: [2.0; 6], stiffness: 1e4, damping: 50.0, per_depth: 1e3 };
+/// let tau = Core::<Ur5e>::rnea(&State::at([0.0, 2.5, -2.5, 2.0, -2.0, 1.0]), &(stops,));
+/// assert_eq!(tau, [0.0, 5e3, -5e3, 0.0, 0.0, 0.0]);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EndStops<R, const V: usize> {
+    /// Least position, rad or m.
+    pub lower: [R; V],
+    /// Greatest position, rad or m.
+    pub upper: [R; V],
+    /// Stiffness k of a stop, N·m/rad or N/m.
+    pub stiffness: R,
+    /// Damping b of a stop, N·m·s/rad or N·s/m.
+    pub damping: R,
+    /// The reciprocal of the depth at which the damping is all there, 1/rad or 1/m.
+    pub per_depth: R,
+}
+
+/// One stop: what it pushes back with, and how that grows with depth and its rate.
+struct Push<R> {
+    force: R,
+    derivatives: TorqueDerivatives<R>,
+}
+
+impl<R: Real, const V: usize> EndStops<R, V> {
+    /// The stop `beyond` which a joint moves outwards with `rate`.
+    #[inline(always)]
+    fn push(&self, beyond: R, rate: R) -> Push<R> {
+        let depth = positive_part(beyond);
+        let b = self.damping * smooth_sign(depth * self.per_depth);
+        let force = positive_part(self.stiffness * depth + b * rate);
+        // 1 where it pushes, else 0, without a comparison.
+        let active = force / (force + R::MIN_POSITIVE);
+        Push {
+            force,
+            derivatives: TorqueDerivatives {
+                dq: self.stiffness * active,
+                dqd: b * active,
+            },
+        }
+    }
+
+    /// The stops at the upper and at the lower end.
+    #[inline(always)]
+    fn ends(&self, joint: usize, at: JointState<R>) -> [Push<R>; 2] {
+        [
+            self.push(at.q - entry(&self.upper, joint), at.qd),
+            self.push(entry(&self.lower, joint) - at.q, -at.qd),
+        ]
+    }
+}
+
+impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for EndStops<R, V> {
+    #[inline(always)]
+    fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R) {
+        let [upper, lower] = self.ends(joint, at);
+        *tau += upper.force - lower.force;
+    }
+
+    #[inline(always)]
+    fn derivatives(&self, joint: usize, at: JointState<R>, derivatives: &mut TorqueDerivatives<R>) {
+        for push in self.ends(joint, at) {
+            derivatives.dq += push.derivatives.dq;
+            derivatives.dqd += push.derivatives.dqd;
+        }
+    }
+}

@@ -1,0 +1,13 @@
+//! What acts at a joint or its motor, apart from friction.
+
+mod armature;
+mod cogging;
+mod end_stops;
+mod gyroscopic_rotors;
+mod spring;
+
+pub use armature::Armature;
+pub use cogging::Cogging;
+pub use end_stops::EndStops;
+pub use gyroscopic_rotors::GyroscopicRotors;
+pub use spring::Spring;

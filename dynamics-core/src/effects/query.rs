@@ -1,0 +1,214 @@
+//! How the textbook algorithms ask the effects: in the frames that the hooks speak of.
+
+use super::{BodyState, Effect, JointState, field_axes, loads, one_gravity, only_load};
+use crate::model::LinkView;
+use crate::scalar::{Matrix, Real, Vector};
+use crate::spatial::{Force, Motion, SpatialInertia, Xform};
+use crate::state::{State, entry};
+
+/// The field g, in base coordinates.
+#[inline(always)]
+pub(crate) fn field<R: Real, E, const B: usize, const V: usize>(effects: &E) -> R::Vec3
+where
+    E: Effect<R, B, V>,
+{
+    one_gravity::<R, E, B, V>();
+    let [x, y, z] = const { field_axes::<R, E, B, V>() };
+    if !(x | y | z) {
+        return R::Vec3::ZERO;
+    }
+    let mut g = R::Vec3::ZERO;
+    effects.field(&mut g);
+    let g = g.array();
+    let only_if = |taken, g| if taken { g } else { R::ZERO };
+    R::Vec3::new(only_if(x, g[0]), only_if(y, g[1]), only_if(z, g[2]))
+}
+
+/// v₀ and a₀ of the base, a₀ less the field g: gravity is an acceleration of the base. RBDA (5.20).
+#[inline(always)]
+pub(crate) fn base_motion<R: Real, E, const B: usize, const V: usize>(
+    effects: &E,
+) -> (Motion<R>, Motion<R>)
+where
+    E: Effect<R, B, V>,
+{
+    let g = field(effects);
+    if !E::BASE_MOTION {
+        return (Motion::ZERO, Motion::new(R::Vec3::ZERO, -g));
+    }
+    let (v, mut a) = base_given(effects);
+    a.lin -= g;
+    (v, a)
+}
+
+/// v₀ and a₀ of the base.
+#[inline(always)]
+pub(crate) fn base_given<R: Real, E, const B: usize, const V: usize>(
+    effects: &E,
+) -> (Motion<R>, Motion<R>)
+where
+    E: Effect<R, B, V>,
+{
+    let (mut v, mut a) = (Motion::ZERO, Motion::ZERO);
+    if E::BASE_MOTION {
+        effects.base(&mut v, &mut a);
+    }
+    (v, a)
+}
+
+/// The inertia of body `i` with what the effects add to it, in its aligned frame.
+#[inline(always)]
+pub(crate) fn body_inertia<R: Real, E, const B: usize, const V: usize>(
+    effects: &E,
+    i: usize,
+    link: &LinkView<'_, R>,
+) -> SpatialInertia<R>
+where
+    E: Effect<R, B, V>,
+{
+    let (none, single) = const { (loads::<R, E, B, V>() == 0, loads::<R, E, B, V>() == 1) };
+    // The number of a single load is a constant, with which the hook's own comparison is folded.
+    let body = if single {
+        const { only_load::<R, E, B, V>() }
+    } else {
+        i
+    };
+    if none || body != i || !(single || is_loaded::<R, E, B, V>(i)) {
+        return link.inertia;
+    }
+    let mut load = SpatialInertia::ZERO;
+    effects.payload(body, &mut load);
+    link.inertia
+        + SpatialInertia {
+            mass: load.mass,
+            first_moment: link.frame * load.first_moment,
+            inertia: link.frame * load.inertia * link.frame.transpose(),
+        }
+}
+
+/// Whether body `i` carries a payload.
+#[inline(always)]
+fn is_loaded<R: Real, E, const B: usize, const V: usize>(i: usize) -> bool
+where
+    E: Effect<R, B, V>,
+{
+    const { &E::PAYLOAD }.get(i) == Some(&true)
+}
+
+/// fˣ on body `i`, in its aligned frame; `pose` and `v` are that frame's.
+#[inline(always)]
+pub(crate) fn body_wrench<R: Real, E, const B: usize, const V: usize>(
+    effects: &E,
+    i: usize,
+    link: &LinkView<'_, R>,
+    pose: &Xform<R>,
+    v: Motion<R>,
+) -> Force<R>
+where
+    E: Effect<R, B, V>,
+{
+    let (frame, mut fx) = (&link.frame, Force::ZERO);
+    let mut at = BodyState {
+        pose: Xform::IDENTITY,
+        velocity: Motion::ZERO,
+        base: None,
+    };
+    if E::BASE_MOTION && E::BODY_VELOCITY {
+        at.base = Some(base_given(effects).0);
+    }
+    if E::BODY_POSE {
+        at.pose = Xform {
+            rot: frame.transpose() * pose.rot,
+            pos: pose.pos,
+        };
+    }
+    if E::BODY_VELOCITY {
+        at.velocity = Motion::new(frame.transpose_mul(v.ang), frame.transpose_mul(v.lin));
+    }
+    effects.wrench(i, &at, &mut fx);
+    Force::new(*frame * fx.ang, *frame * fx.lin)
+}
+
+/// What joint hooks see of velocity coordinate k.
+#[inline(always)]
+pub(crate) fn joint_state<R: Real, const Q: usize, const V: usize>(
+    link: &LinkView<'_, R>,
+    state: &State<R, Q, V>,
+    k: usize,
+) -> JointState<R> {
+    JointState {
+        q: link.position(&state.q, k),
+        qd: entry(&state.qd, k),
+        qdd: entry(&state.qdd, k),
+    }
+}
+
+/// Adds to the torques of one joint's coordinates what the effects ask of its motors.
+#[inline(always)]
+pub(crate) fn joint_torques<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+    effects: &E,
+    link: &LinkView<'_, R>,
+    state: &State<R, Q, V>,
+    tau: &mut [R; V],
+) where
+    E: Effect<R, B, V>,
+{
+    for k in link.coordinates() {
+        if let Some(tau) = tau.get_mut(k) {
+            effects.torque(k, joint_state(link, state, k), tau);
+        }
+    }
+}
+
+/// What the effects ask of the motor of one joint's coordinate at q̈ = 0.
+#[inline(always)]
+pub(crate) fn joint_torque<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+    effects: &E,
+    link: &LinkView<'_, R>,
+    state: &State<R, Q, V>,
+    joint: usize,
+) -> R
+where
+    E: Effect<R, B, V>,
+{
+    let at = JointState {
+        q: link.position(&state.q, joint),
+        qd: entry(&state.qd, joint),
+        qdd: R::ZERO,
+    };
+    let mut loss = R::ZERO;
+    effects.torque(joint, at, &mut loss);
+    loss
+}
+
+/// ρ I z of the rotor that spins about the axis of this joint's only coordinate.
+#[inline(always)]
+pub(crate) fn rotor_force<R: Real, E, const B: usize, const V: usize>(
+    effects: &E,
+    link: &LinkView<'_, R>,
+) -> Force<R>
+where
+    E: Effect<R, B, V>,
+{
+    let (mut coupling, coordinates) = (R::ZERO, link.coordinates());
+    if coordinates.len() == 1 {
+        effects.spin(coordinates.start, &mut coupling);
+    }
+    Force::new(R::Vec3::new(R::ZERO, R::ZERO, coupling), R::Vec3::ZERO)
+}
+
+/// ρ I (q̈ z + q̇ ω × z): the couple that such a rotor asks of the parent link, in the body's aligned frame.
+#[inline(always)]
+pub(crate) fn gyroscopic<R: Real, E, const B: usize, const V: usize>(
+    effects: &E,
+    link: &LinkView<'_, R>,
+    omega: R::Vec3,
+    rate: R,
+    accel: R,
+) -> R::Vec3
+where
+    E: Effect<R, B, V>,
+{
+    let axis = rotor_force(effects, link).ang;
+    axis * accel + omega.cross(axis) * rate
+}

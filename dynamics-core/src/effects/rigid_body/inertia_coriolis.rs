@@ -1,0 +1,23 @@
+//! The terms of the rigid-body equation M q̈ + C(q, q̇) q̇ + g = τ, as effects like any other.
+
+use crate::effects::{Effect, Gravity};
+use crate::scalar::Real;
+
+/// M(q) q̈: the torque that accelerates the bodies. Forward dynamics does not compile without it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Inertia;
+
+/// C(q, q̇) q̇: Coriolis and centrifugal torque.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Coriolis;
+
+/// A rigid body on earth: what most scenes begin with, so that nobody forgets M q̈.
+pub const RIGID_BODY: (Gravity, Inertia, Coriolis) = (Gravity::EARTH, Inertia, Coriolis);
+
+impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Inertia {
+    const ACCELERATIONS: bool = true;
+}
+
+impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Coriolis {
+    const VELOCITY_PRODUCTS: bool = true;
+}

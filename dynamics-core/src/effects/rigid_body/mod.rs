@@ -1,0 +1,11 @@
+//! Effects on all bodies: gravity, M q̈, the velocity products, a base that moves.
+
+mod bias;
+mod gravity;
+mod inertia_coriolis;
+mod moving_base;
+
+pub(crate) use bias::Bias;
+pub use gravity::{Direction, Down, Gravity};
+pub use inertia_coriolis::{Coriolis, Inertia, RIGID_BODY};
+pub use moving_base::{GravityVector, MovingBase};

@@ -1,0 +1,254 @@
+//! How the points of a body accelerate, handed from parent to child, and what its inertia takes.
+//!
+//! The field form of Newton-Euler: a body's points accelerate as a(r) = a + U r with
+//! U = [α]× + [ω]×[ω]×, and with Σ = ∫ r rᵀ dm the body takes f = m a + U h and
+//! n = h × a + axial(U Σ − Σ Uᵀ). Balafoutis & Patel, *Dynamic Analysis of Robot Manipulators*
+//! (1991), use U likewise.
+
+use core::ops::Add;
+
+use super::compile::{CompiledRobot, Joint};
+use super::folding::Folded;
+use super::folding::{Mat3, Sym3, Vec3};
+use super::folding::{offset_cross, rotate_symmetric_to_parent, rotate_to_parent};
+use super::pose::Pose;
+use crate::model::{JointCoordinate, Robot};
+use crate::scalar::Real;
+
+/// How the points of a body move, in its frame.
+#[derive(Clone, Copy)]
+pub(crate) struct AccelerationField<R> {
+    /// ω, for effects that read the body's velocity.
+    pub(crate) omega: Vec3<R>,
+    /// ω as its products see it: zero unless an effect asks for velocity products.
+    pub(crate) spin: Vec3<R>,
+    /// α.
+    pub(crate) alpha: Vec3<R>,
+    /// U = [α]× + [ω]×[ω]×.
+    pub(crate) u: Mat3<R>,
+    /// Acceleration of the origin, in units of length.
+    pub(crate) a: Vec3<R>,
+    /// Velocity of the origin, in units of length; zero unless an effect reads it.
+    pub(crate) v: Vec3<R>,
+    /// Where the body stands; unknown unless an effect reads it.
+    pub(crate) pose: Pose<R>,
+}
+
+/// How a joint moves, in units of length; zero where no effect asks.
+#[derive(Clone, Copy)]
+pub(crate) struct Rates<R> {
+    pub(crate) velocity: Folded<R>,
+    /// The velocity as its products see it.
+    pub(crate) spin: Folded<R>,
+    pub(crate) accel: Folded<R>,
+}
+
+/// The inertia left to a body, or to a body and all that it carries: m, h and Σ, in units of length.
+#[derive(Clone, Copy)]
+pub(crate) struct Inertia<R> {
+    pub(crate) mass: Folded<R>,
+    pub(crate) moment: Vec3<R>,
+    pub(crate) second: Sym3<R>,
+}
+
+/// A force f at the origin and a couple n.
+#[derive(Clone, Copy)]
+pub(crate) struct Wrench<R> {
+    pub(crate) f: Vec3<R>,
+    pub(crate) n: Vec3<R>,
+}
+
+impl<R: Real> Wrench<R> {
+    /// What a joint at the origin feels of it: N·m about z, or N along z.
+    #[inline(always)]
+    pub(crate) fn along(&self, prismatic: bool, length_inv: Folded<R>) -> Folded<R> {
+        if prismatic {
+            self.f.0[2] * length_inv
+        } else {
+            self.n.0[2]
+        }
+    }
+
+    /// The same in the frame of joint I's parent and about its origin.
+    #[inline(always)]
+    pub(crate) fn to_parent<T, const B: usize, const Q: usize, const V: usize, const I: usize>(
+        self,
+        turn: JointCoordinate<R>,
+        slide: Folded<R>,
+    ) -> Self
+    where
+        T: Robot<B, Q, V>,
+    {
+        let (mut f, mut n) = (self.f, self.n);
+        if const { !CompiledRobot::<T, B, Q, V>::joint(I).prismatic } {
+            let (sin, cos) = (Folded::runtime(turn.sin), Folded::runtime(turn.cos));
+            (f, n) = (f.turn(sin, cos), n.turn(sin, cos));
+        }
+        let f = rotate_to_parent::<R, T, B, Q, V, I>(f);
+        Self {
+            f,
+            n: rotate_to_parent::<R, T, B, Q, V, I>(n) + offset_cross::<R, T, B, Q, V, I>(f, slide),
+        }
+    }
+}
+
+impl<R: Real> Inertia<R> {
+    /// The inertia left to a body.
+    #[inline(always)]
+    pub(crate) fn of(joint: &Joint) -> Self {
+        Self {
+            mass: Folded::constant(joint.mass),
+            moment: Vec3::constant(joint.moment),
+            second: Sym3::of(&Mat3::constant(&joint.second)),
+        }
+    }
+
+    /// The inertia left to a body on a base that may move.
+    #[inline(always)]
+    pub(crate) fn second_moment_only(joint: &Joint) -> Self {
+        Self {
+            second: Sym3::of(&Mat3::constant(&joint.second_moment_only)),
+            ..Self::of(joint)
+        }
+    }
+
+    /// The same in the frame of joint I's parent and about its origin.
+    #[inline(always)]
+    pub(crate) fn to_parent<T, const B: usize, const Q: usize, const V: usize, const I: usize>(
+        self,
+        turn: JointCoordinate<R>,
+        slide: Folded<R>,
+    ) -> Self
+    where
+        T: Robot<B, Q, V>,
+    {
+        let joint = const { &CompiledRobot::<T, B, Q, V>::joint(I) };
+        let mut p = Vec3::constant(joint.pos);
+        let (mut h, mut second) = (self.moment, self.second);
+        if const { CompiledRobot::<T, B, Q, V>::joint(I).prismatic } {
+            p = p + Vec3::constant(joint.rot.z_axis).scale(slide);
+        } else {
+            let (sin, cos) = (Folded::runtime(turn.sin), Folded::runtime(turn.cos));
+            (h, second) = (h.turn(sin, cos), second.turn(sin, cos));
+        }
+        let h = rotate_to_parent::<R, T, B, Q, V, I>(h);
+        let second = rotate_symmetric_to_parent::<R, T, B, Q, V, I>(second);
+        Self {
+            mass: self.mass,
+            moment: h + p.scale(self.mass),
+            second: second + Sym3::both(h, p) + Sym3::square(p, self.mass),
+        }
+    }
+}
+
+impl<R: Real> Add for Inertia<R> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, o: Self) -> Self {
+        Self {
+            mass: self.mass + o.mass,
+            moment: self.moment + o.moment,
+            second: self.second + o.second,
+        }
+    }
+}
+
+impl<R: Real> AccelerationField<R> {
+    /// The field of a child behind a revolute joint.
+    #[inline(always)]
+    pub(crate) fn turned(&self, joint: &Joint, turn: JointCoordinate<R>, rates: Rates<R>) -> Self {
+        let (rot, p) = (Mat3::constant(&joint.rot), Vec3::constant(joint.pos));
+        let spin = enter(&rot, turn, self.spin) + along_z(rates.spin);
+        let az = rot.transpose_mul(self.alpha).0[2] + rates.accel;
+        // Points on the joint's axis move with both links: U's column along it is the parent's.
+        let along = enter(&rot, turn, self.u.mul(rot.0[2]));
+        let a = enter(&rot, turn, self.a + self.u.mul(p));
+        let (ax, ay, u) = complete(spin, az, along);
+        Self {
+            omega: enter(&rot, turn, self.omega) + along_z(rates.velocity),
+            spin,
+            alpha: Vec3([ax, ay, az]),
+            u,
+            a,
+            v: enter(&rot, turn, self.v + self.omega.cross(p)),
+            pose: Pose::UNKNOWN,
+        }
+    }
+
+    /// The field of a child behind a prismatic joint at q, in units of length.
+    #[inline(always)]
+    pub(crate) fn slid(&self, joint: &Joint, q: Folded<R>, rates: Rates<R>) -> Self {
+        let rot = Mat3::constant(&joint.rot);
+        let p = Vec3::constant(joint.pos) + rot.0[2].scale(q);
+        let spin = rot.transpose_mul(self.spin);
+        let a = rot.transpose_mul(self.a + self.u.mul(p));
+        let v = rot.transpose_mul(self.v + self.omega.cross(p));
+        let u = Mat3([
+            rot.transpose_mul(self.u.mul(rot.0[0])),
+            rot.transpose_mul(self.u.mul(rot.0[1])),
+            rot.transpose_mul(self.u.mul(rot.0[2])),
+        ]);
+        Self {
+            omega: rot.transpose_mul(self.omega),
+            spin,
+            alpha: rot.transpose_mul(self.alpha),
+            u,
+            a: a + spin.cross(along_z(rates.spin + rates.spin)) + along_z(rates.accel),
+            v: v + along_z(rates.velocity),
+            pose: Pose::UNKNOWN,
+        }
+    }
+
+    /// What the body's inertia takes: f = m a + U h, n = h × a + axial(U Σ − Σ Uᵀ).
+    #[inline(always)]
+    pub(crate) fn wrench(&self, body: &Inertia<R>) -> Wrench<R> {
+        let (mass, h) = (body.mass, body.moment);
+        let ([x, y, z], [wx, wy, wz]) = (self.u.0, self.spin.0);
+        let (sxx, sxy, sxz) = (body.second.xx, body.second.xy, body.second.xz);
+        let (syy, syz, szz) = (body.second.yy, body.second.yz, body.second.zz);
+        let (xx, yy, zz) = (wx * wx, wy * wy, wz * wz);
+        let (zy, xz, yx) = (zz - yy, xx - zz, yy - xx);
+        let n = Vec3([zy * syz, xz * sxz, yx * sxy])
+            + Vec3([x.0[2] * sxy, y.0[0] * syz, z.0[1] * sxz])
+            + Vec3([y.0[2] * syy, z.0[0] * szz, x.0[1] * sxx])
+            - Vec3([x.0[1] * sxz, y.0[2] * sxy, z.0[0] * syz])
+            - Vec3([z.0[1] * szz, x.0[2] * sxx, y.0[0] * syy]);
+        Wrench {
+            f: self.a.scale(mass) + self.u.mul(h),
+            n: h.cross(self.a) + n,
+        }
+    }
+}
+
+/// α_x, α_y and U from ω, α_z and U's z column.
+#[inline(always)]
+fn complete<R: Real>(
+    omega: Vec3<R>,
+    az: Folded<R>,
+    along: Vec3<R>,
+) -> (Folded<R>, Folded<R>, Mat3<R>) {
+    let ([wx, wy, wz], [uxz, uyz, uzz]) = (omega.0, along.0);
+    let (xz, yz, xy) = (wx * wz, wy * wz, wx * wy);
+    let (xx, yy, zz) = (wx * wx, wy * wy, wz * wz);
+    let (ax, ay) = (yz - uyz, uxz - xz);
+    let u = Mat3([
+        Vec3([-(yy + zz), xy + az, xz - ay]),
+        Vec3([xy - az, -(xx + zz), yz + ax]),
+        Vec3([uxz, uyz, uzz]),
+    ]);
+    (ax, ay, u)
+}
+
+/// Rz(q)ᵀ Rᵀ v: from the parent's frame into the body's. A function, not a closure: closures are
+/// inlined too late for the tags to fold.
+#[inline(always)]
+pub(crate) fn enter<R: Real>(rot: &Mat3<R>, turn: JointCoordinate<R>, v: Vec3<R>) -> Vec3<R> {
+    rot.transpose_mul(v)
+        .turn_back(Folded::runtime(turn.sin), Folded::runtime(turn.cos))
+}
+
+/// A vector along the joint's axis.
+#[inline(always)]
+pub(crate) fn along_z<R: Real>(z: Folded<R>) -> Vec3<R> {
+    Vec3([Folded::ZERO, Folded::ZERO, z])
+}

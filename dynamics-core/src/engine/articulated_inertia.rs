@@ -1,0 +1,116 @@
+//! Articulated-body inertia: what a joint must move when the joints beyond it are free.
+//!
+//! Featherstone, RBDA (2008), section 7.1, in blocks over units of length:
+//! n = I α + H a, f = Hᵀ α + A a.
+
+use core::ops::Add;
+
+use super::acceleration_field::Inertia;
+use super::compile::CompiledRobot;
+use super::folding::Folded;
+use super::folding::{Mat3, Sym3, Vec3};
+use super::folding::{cross_offset, rotate_matrix_to_parent, rotate_symmetric_to_parent};
+use crate::model::{JointCoordinate, Robot};
+use crate::scalar::Real;
+
+/// The three blocks.
+#[derive(Clone, Copy)]
+pub(crate) struct Articulated<R> {
+    pub(crate) turning: Sym3<R>,
+    pub(crate) mixed: Mat3<R>,
+    pub(crate) moving: Sym3<R>,
+}
+
+impl<R: Real> Articulated<R> {
+    /// A rigid body's: I = tr Σ 1 − Σ, H = [h]×, A = m 1.
+    #[inline(always)]
+    pub(crate) fn of(body: &Inertia<R>) -> Self {
+        let (s, m, zero) = (body.second, body.mass, Folded::ZERO);
+        let [x, y, z] = body.moment.0;
+        Self {
+            turning: Sym3 {
+                xx: s.yy + s.zz,
+                xy: -s.xy,
+                xz: -s.xz,
+                yy: s.xx + s.zz,
+                yz: -s.yz,
+                zz: s.xx + s.yy,
+            },
+            mixed: Mat3([
+                Vec3([zero, z, -y]),
+                Vec3([-z, zero, x]),
+                Vec3([y, -x, zero]),
+            ]),
+            moving: Sym3 {
+                xx: m,
+                yy: m,
+                zz: m,
+                ..Sym3::ZERO
+            },
+        }
+    }
+
+    /// What is left when a joint yields: less U Uᵀ/d.
+    #[inline(always)]
+    pub(crate) fn minus_joint(self, n: Vec3<R>, f: Vec3<R>, d_inv: Folded<R>) -> Self {
+        let ([fx, fy, fz], minus) = (f.scale(d_inv).0, -d_inv);
+        let [hx, hy, hz] = self.mixed.0;
+        Self {
+            turning: self.turning + Sym3::square(n, minus),
+            mixed: Mat3([hx - n.scale(fx), hy - n.scale(fy), hz - n.scale(fz)]),
+            moving: self.moving + Sym3::square(f, minus),
+        }
+    }
+
+    /// The same in the frame of joint I's parent and about its origin; RBDA (2.66).
+    #[inline(always)]
+    pub(crate) fn to_parent<T, const B: usize, const Q: usize, const V: usize, const I: usize>(
+        self,
+        turn: JointCoordinate<R>,
+        slide: Folded<R>,
+    ) -> Self
+    where
+        T: Robot<B, Q, V>,
+    {
+        let mut at = self;
+        if const { !CompiledRobot::<T, B, Q, V>::joint(I).prismatic } {
+            let (sin, cos) = (Folded::runtime(turn.sin), Folded::runtime(turn.cos));
+            at = Self {
+                turning: at.turning.turn(sin, cos),
+                mixed: at.mixed.turned(sin, cos),
+                moving: at.moving.turn(sin, cos),
+            };
+        }
+        let moving = rotate_symmetric_to_parent::<R, T, B, Q, V, I>(at.moving);
+        let here = rotate_matrix_to_parent::<R, T, B, Q, V, I>(&at.mixed);
+        // H′ = H + [p]× A; I′ = I + [p]× Hᵀ + ([p]× H′ᵀ)ᵀ.
+        let mixed = here + cross_offset::<R, T, B, Q, V, I>(Mat3(moving.columns()), slide);
+        let Mat3([lx, ly, lz]) = cross_offset::<R, T, B, Q, V, I>(Mat3(here.rows()), slide);
+        let Mat3([rx, ry, rz]) = cross_offset::<R, T, B, Q, V, I>(Mat3(mixed.rows()), slide);
+        let shift = Sym3 {
+            xx: lx.0[0] + rx.0[0],
+            xy: ly.0[0] + rx.0[1],
+            xz: lz.0[0] + rx.0[2],
+            yy: ly.0[1] + ry.0[1],
+            yz: lz.0[1] + ry.0[2],
+            zz: lz.0[2] + rz.0[2],
+        };
+        Self {
+            turning: rotate_symmetric_to_parent::<R, T, B, Q, V, I>(at.turning) + shift,
+            mixed,
+            moving,
+        }
+    }
+}
+
+impl<R: Real> Add for Articulated<R> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, o: Self) -> Self {
+        Self {
+            turning: self.turning + o.turning,
+            mixed: self.mixed + o.mixed,
+            moving: self.moving + o.moving,
+        }
+    }
+}

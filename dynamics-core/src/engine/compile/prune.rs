@@ -1,0 +1,77 @@
+//! Base parameters whose torque is negligible, left out: where a zero is known, the engine has no instructions.
+//!
+//! Each parameter is held against the robot's largest ones by the torque that it takes while all is at 1 g and turns at
+//! α = g ĥ/Σ̂, by which the largest second moment Σ̂ takes the torque ĥ g that the largest first moment ĥ weighs. A second
+//! moment Σ then takes Σ α, the share Σ/Σ̂; a first moment h at the end of a reach R takes h (g + α R), the share
+//! h/ĥ + h R/Σ̂.
+
+use glam::{DMat3, DVec3};
+
+use crate::engine::compile::Joint;
+use crate::math::const_eval::{dot, sqrt};
+use crate::model::BASE;
+
+/// Sets to zero what takes less than `share`; a share of nothing leaves every bit as it was.
+///
+/// Masses stay: behind a prismatic joint they are the joint's own inertia, elsewhere none is left.
+pub(crate) const fn prune<const V: usize>(joints: &mut [Joint; V], share: f64) {
+    assert!(
+        share >= 0.0 && share < 1.0,
+        "what is negligible is a share of the whole: not negative, and less than 1"
+    );
+    let (mut moment, mut second, mut i) = (0.0, 0.0, 0);
+    while i < V {
+        moment = largest(joints[i].moment, moment);
+        second = largest_of(&joints[i].second_moment_only, second);
+        i += 1;
+    }
+    // Where there is none of a kind, this is zero or NaN: then nothing is left out.
+    let moment = share / (1.0 / moment + reach(joints) / second);
+    let second = share * second;
+    i = 0;
+    while i < V {
+        let joint = &mut joints[i];
+        joint.moment = above(joint.moment, moment);
+        joint.second = all_above(&joint.second, second);
+        joint.second_moment_only = all_above(&joint.second_moment_only, second);
+        i += 1;
+    }
+}
+
+/// From the first joint of the longest branch to its last, m, strokes not counted.
+const fn reach<const V: usize>(joints: &[Joint; V]) -> f64 {
+    let (mut reaches, mut longest, mut i) = ([0.0; V], 0.0_f64, 0);
+    while i < V {
+        let Joint { parent, pos, .. } = joints[i];
+        if parent != BASE {
+            reaches[i] = reaches[parent] + sqrt(dot(pos, pos));
+            longest = longest.max(reaches[i]);
+        }
+        i += 1;
+    }
+    longest
+}
+
+const fn largest(v: DVec3, other: f64) -> f64 {
+    other.max(v.x.abs()).max(v.y.abs()).max(v.z.abs())
+}
+
+const fn largest_of(m: &DMat3, other: f64) -> f64 {
+    largest(m.x_axis, largest(m.y_axis, largest(m.z_axis, other)))
+}
+
+const fn above(v: DVec3, limit: f64) -> DVec3 {
+    DVec3::new(kept(v.x, limit), kept(v.y, limit), kept(v.z, limit))
+}
+
+const fn all_above(m: &DMat3, limit: f64) -> DMat3 {
+    DMat3::from_cols(
+        above(m.x_axis, limit),
+        above(m.y_axis, limit),
+        above(m.z_axis, limit),
+    )
+}
+
+const fn kept(x: f64, limit: f64) -> f64 {
+    if x.abs() < limit { 0.0 } else { x }
+}

@@ -1,0 +1,12 @@
+//! Arithmetic that folds what is known while compiling: scalars, vectors and matrices, and products with a joint's constants.
+
+mod folded;
+mod joint_products;
+mod linalg;
+
+pub(crate) use folded::Folded;
+pub(crate) use joint_products::{
+    cross_offset, offset_cross, rotate_matrix_to_parent, rotate_symmetric_to_parent,
+    rotate_to_parent,
+};
+pub(crate) use linalg::{Mat3, Sym3, Vec3};

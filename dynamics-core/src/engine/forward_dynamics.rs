@@ -1,0 +1,117 @@
+//! Forward dynamics: M q̈ = τ − C(q, q̇) by bias, M, its factors and their solution.
+//!
+//! For short chains and for trees of short branches cheaper than the articulated-body algorithm
+//! ([`Engine::aba`]); Featherstone, RBDA (2008), section 6.1.
+
+use core::hint::black_box;
+
+use super::Engine;
+use super::crba::mass_matrix;
+use super::ltdl::{decompose, positive, substitute};
+use super::pivot_noise::noise;
+use crate::algorithms::MassMatrix;
+use crate::algorithms::NotPositiveDefinite;
+use crate::effects::{Bias, Effect};
+use crate::model::Robot;
+use crate::scalar::Real;
+use crate::state::{JointTrig, State};
+
+impl<T> Engine<T> {
+    /// q̈ = FD(q, q̇, τ): the acceleration of each joint, rad/s² or m/s², under the effects named.
+    ///
+    /// By the inertia matrix and its factors; [`Engine::aba`] gives the same without them.
+    /// `state.qdd` is not read. A scene without `Inertia` does not compile:
+    ///
+    /// ```compile_fail
+    /// use dynamics_core::{Engine, effects::Gravity, robots::Ur5e, state::State};
+    /// let _ = Engine::<Ur5e>::forward_dynamics(&State::at([0.0_f32; 6]), &[0.0; 6], &(Gravity::EARTH,));
+    /// ```
+    ///
+    /// # Errors
+    /// [`NotPositiveDefinite`] names the outermost joint that moves no inertia once the joints that it carries give
+    /// way (a massless last link without rotor inertia; a joint on the axis of another with no inertia between
+    /// them), or whose inertia is not a number: its pivot is not above 16 roundings of the largest inertia that
+    /// all that it carries, stretched out, could have about it.
+    #[inline(never)]
+    pub fn forward_dynamics<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+        state: &State<R, Q, V>,
+        tau: &[R; V],
+        effects: &E,
+    ) -> Result<[R; V], NotPositiveDefinite>
+    where
+        T: Robot<B, Q, V>,
+        E: Effect<R, B, V>,
+    {
+        accelerate::<R, T, E, B, Q, V>(&Self::posture(&state.q), state, tau, effects)
+    }
+
+    /// As [`Engine::forward_dynamics`], at a posture whose sines and cosines are at hand.
+    ///
+    /// # Errors
+    /// As [`Engine::forward_dynamics`].
+    #[inline(never)]
+    pub fn forward_dynamics_at<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+        posture: &JointTrig<R, Q>,
+        state: &State<R, Q, V>,
+        tau: &[R; V],
+        effects: &E,
+    ) -> Result<[R; V], NotPositiveDefinite>
+    where
+        T: Robot<B, Q, V>,
+        E: Effect<R, B, V>,
+    {
+        accelerate::<R, T, E, B, Q, V>(posture, state, tau, effects)
+    }
+
+    /// τ − C(q, q̇), the torque that is left to accelerate.
+    #[inline(always)]
+    pub(crate) fn remaining<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+        posture: &JointTrig<R, Q>,
+        state: &State<R, Q, V>,
+        tau: &[R; V],
+        effects: &E,
+    ) -> [R; V]
+    where
+        T: Robot<B, Q, V>,
+        E: Effect<R, B, V>,
+    {
+        const {
+            assert!(
+                E::ACCELERATIONS,
+                "forward dynamics needs `Inertia` in the scene"
+            )
+        };
+        let bias = Self::run(posture, posture, state, &Bias(effects));
+        let mut rest = *tau;
+        for_each_joint!(J, {
+            if const { J < V } {
+                rest[J] -= bias[J];
+            }
+        });
+        rest
+    }
+}
+
+#[inline(always)]
+fn accelerate<R, T, E, const B: usize, const Q: usize, const V: usize>(
+    posture: &JointTrig<R, Q>,
+    state: &State<R, Q, V>,
+    tau: &[R; V],
+    effects: &E,
+) -> Result<[R; V], NotPositiveDefinite>
+where
+    R: Real,
+    T: Robot<B, Q, V>,
+    E: Effect<R, B, V>,
+{
+    // One phase after the other: as one block they would need more registers than there are.
+    let mut x = Engine::<T>::remaining(posture, state, tau, effects);
+    black_box(&mut x);
+    let mut m = MassMatrix::ZERO;
+    mass_matrix::<R, T, E, B, Q, V>(&posture.turns, effects, &mut m);
+    black_box(&mut m);
+    let d_inv = decompose::<R, T, B, Q, V>(&mut m.rows);
+    positive(&d_inv, &noise::<R, T, E, B, Q, V>(&posture.turns, effects))?;
+    substitute::<R, T, B, Q, V>(&m.rows, &d_inv, &mut x);
+    Ok(x)
+}

@@ -1,0 +1,216 @@
+//! M = Lᵀ D L and M x = τ, without the entries that the tree's branches leave zero.
+//!
+//! Featherstone, RBDA (2008), section 6.5, tables 6.3 and 6.4: from the tips to the base, so that
+//! no zero is ever filled. All sums run over the joints above a joint, λ(i), λ(λ(i)) …
+
+use super::Engine;
+use super::compile::CompiledRobot;
+use crate::algorithms::{Ltdl, MassMatrix};
+use crate::algorithms::{MATRIX_ROUNDINGS, NotPositiveDefinite};
+use crate::model::Robot;
+use crate::scalar::Real;
+
+impl<T> Engine<T> {
+    /// The factors of M = Lᵀ D L, for [`Engine::solve`].
+    ///
+    /// Cost: one division a joint, and for a chain of n joints n (n² − 1)/3 + n (n − 1)/2 flops, less
+    /// on a tree; the same instructions whatever the data. Source: Featherstone, RBDA (2008), table 6.3.
+    ///
+    /// ```
+    /// use dynamics_core::{Engine, effects::RIGID_BODY, robots::Ur5e};
+    /// let m = Engine::<Ur5e>::crba(&[0.0_f32, -1.2, 1.5, 0.3, 0.0, 0.0], &RIGID_BODY);
+    /// let x = Engine::<Ur5e>::solve(&Engine::<Ur5e>::ltdl(&m)?, &[1.0; 6]);
+    /// let first: f32 = (0..6).map(|j| m.get(0, j) * x[j]).sum();
+    /// assert!((first - 1.0).abs() < 1e-4);
+    /// # Ok::<(), dynamics_core::algorithms::NotPositiveDefinite>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`NotPositiveDefinite`] names the outermost joint whose pivot is not a number or not above 32 roundings of
+    /// M_ii, as [`ltdl`](crate::algorithms::ltdl()) does: it moves no inertia once the joints that it carries
+    /// give way.
+    #[inline(never)]
+    pub fn ltdl<R: Real, const B: usize, const Q: usize, const V: usize>(
+        m: &MassMatrix<R, V>,
+    ) -> Result<Ltdl<R, V>, NotPositiveDefinite>
+    where
+        T: Robot<B, Q, V>,
+    {
+        let mut rows = m.rows;
+        let d_inv = decompose::<R, T, B, Q, V>(&mut rows);
+        let mut noise = [R::ZERO; V];
+        for_each_joint!(J, {
+            if const { J < V } {
+                noise[J] = m.rows[J][J] * (R::EPSILON * R::from_f64(MATRIX_ROUNDINGS));
+            }
+        });
+        positive(&d_inv, &noise)?;
+        Ok(Ltdl { rows, d_inv })
+    }
+
+    /// x with M x = τ: accelerations of torques, rad/s² or m/s² of N·m or N.
+    ///
+    /// Cost: 2 n² − n flops for a chain of n joints, less on a tree. Source: RBDA, table 6.4.
+    #[inline(never)]
+    pub fn solve<R: Real, const B: usize, const Q: usize, const V: usize>(
+        factor: &Ltdl<R, V>,
+        tau: &[R; V],
+    ) -> [R; V]
+    where
+        T: Robot<B, Q, V>,
+    {
+        let mut x = *tau;
+        substitute::<R, T, B, Q, V>(&factor.rows, &factor.d_inv, &mut x);
+        x
+    }
+}
+
+/// M's lower triangle becomes L; returns the reciprocals of D.
+#[inline(always)]
+pub(crate) fn decompose<R: Real, T, const B: usize, const Q: usize, const V: usize>(
+    m: &mut [[R; V]; V],
+) -> [R; V]
+where
+    T: Robot<B, Q, V>,
+{
+    let mut d_inv = [R::ZERO; V];
+    for_each_joint!(N, {
+        const K: usize = 31 - N;
+        if const { K < V } {
+            d_inv[K] = R::ONE / m[K][K];
+            eliminate::<R, T, B, Q, V, K>(m, d_inv[K]);
+        }
+    });
+    d_inv
+}
+
+/// Row K of L, and what it takes from the rows above it.
+#[inline(always)]
+fn eliminate<R: Real, T, const B: usize, const Q: usize, const V: usize, const K: usize>(
+    m: &mut [[R; V]; V],
+    d_inv: R,
+) where
+    T: Robot<B, Q, V>,
+{
+    for_each_joint!(N, {
+        const I: usize = 31 - N;
+        if const { CompiledRobot::<T, B, Q, V>::above(I, K) } {
+            let l = m[K][I] * d_inv;
+            subtract::<R, T, B, Q, V, K, I>(m, l);
+            m[K][I] = l;
+        }
+    });
+}
+
+/// Row I less `l` times row K.
+#[inline(always)]
+fn subtract<
+    R: Real,
+    T,
+    const B: usize,
+    const Q: usize,
+    const V: usize,
+    const K: usize,
+    const I: usize,
+>(
+    m: &mut [[R; V]; V],
+    l: R,
+) where
+    T: Robot<B, Q, V>,
+{
+    for_each_joint!(J, {
+        if const { CompiledRobot::<T, B, Q, V>::supports(J, I) } {
+            m[I][J] -= l * m[K][J];
+        }
+    });
+}
+
+/// Lᵀ y = τ, D z = y, L x = z, in place.
+#[inline(always)]
+pub(crate) fn substitute<R: Real, T, const B: usize, const Q: usize, const V: usize>(
+    l: &[[R; V]; V],
+    d_inv: &[R; V],
+    x: &mut [R; V],
+) where
+    T: Robot<B, Q, V>,
+{
+    for_each_joint!(N, {
+        const I: usize = 31 - N;
+        if const { I < V } {
+            scatter::<R, T, B, Q, V, I>(l, x);
+        }
+    });
+    for_each_joint!(I, {
+        if const { I < V } {
+            x[I] *= d_inv[I];
+            gather::<R, T, B, Q, V, I>(l, x);
+        }
+    });
+}
+
+/// What x_I takes from the entries of the joints above.
+#[inline(always)]
+fn scatter<R: Real, T, const B: usize, const Q: usize, const V: usize, const I: usize>(
+    l: &[[R; V]; V],
+    x: &mut [R; V],
+) where
+    T: Robot<B, Q, V>,
+{
+    for_each_joint!(J, {
+        if const { CompiledRobot::<T, B, Q, V>::above(J, I) } {
+            x[J] -= l[I][J] * x[I];
+        }
+    });
+}
+
+/// What the entries of the joints above take from x_I.
+#[inline(always)]
+fn gather<R: Real, T, const B: usize, const Q: usize, const V: usize, const I: usize>(
+    l: &[[R; V]; V],
+    x: &mut [R; V],
+) where
+    T: Robot<B, Q, V>,
+{
+    for_each_joint!(J, {
+        if const { CompiledRobot::<T, B, Q, V>::above(J, I) } {
+            x[I] -= l[I][J] * x[J];
+        }
+    });
+}
+
+/// Whether all pivots are numbers and more than `noise`, given their reciprocals; the same instructions if they are.
+#[inline(always)]
+pub(crate) fn positive<R: Real, const V: usize>(
+    d_inv: &[R; V],
+    noise: &[R; V],
+) -> Result<(), NotPositiveDefinite> {
+    let mut all = true;
+    for_each_joint!(J, {
+        if const { J < V } {
+            all &= is_pivot(d_inv[J], noise[J]);
+        }
+    });
+    if all {
+        Ok(())
+    } else {
+        Err(first_bad_pivot(d_inv, noise))
+    }
+}
+
+/// Whether 0 < 1/d < ∞ and noise/d < 1, in one comparison: of zero, infinities and NaN it is false too.
+#[inline(always)]
+fn is_pivot<R: Real>(d_inv: R, noise: R) -> bool {
+    d_inv > d_inv * (d_inv * noise)
+}
+
+/// The first joint from the tips to the base whose pivot is none.
+#[cold]
+#[inline(never)]
+fn first_bad_pivot<R: Real>(d_inv: &[R], noise: &[R]) -> NotPositiveDefinite {
+    let mut pivots = d_inv.iter().zip(noise);
+    NotPositiveDefinite {
+        joint: pivots
+            .rposition(|(&d_inv, &noise)| !is_pivot(d_inv, noise))
+            .unwrap_or_default(),
+    }
+}

@@ -1,0 +1,151 @@
+//! Large robots as a function a limb: what stands on the base, and what branches off.
+//!
+//! The compiler's time grows with the square of a function's length and more: a humanoid of 29 joints in
+//! one function takes it minutes. Between functions numbers are plain; what no effect asks for is a
+//! known zero again on the other side.
+
+use super::acceleration_field::{AccelerationField, Wrench};
+use super::base::base;
+use super::compile::CompiledRobot;
+use super::folding::Folded;
+use super::folding::{Mat3, Vec3};
+use super::pose::Pose;
+use super::rnea::{Task, is_parent, visit};
+use crate::effects::Effect;
+use crate::model::Robot;
+use crate::scalar::{Real, Vector};
+
+/// Robots of up to so many joints are one function.
+const WHOLE: usize = 16;
+
+/// Whether a robot of so many joints is taken apart.
+pub(crate) const fn has_subtree_functions(joints: usize) -> bool {
+    joints > WHOLE
+}
+
+/// Whether joint `i` of a large robot carries several others.
+const fn is_subtree_root<T, const B: usize, const Q: usize, const V: usize>(i: usize) -> bool
+where
+    T: Robot<B, Q, V>,
+{
+    let (mut children, mut j) = (0, 0);
+    while j < V {
+        if is_parent::<T, B, Q, V>(i, j) {
+            children += 1;
+        }
+        j += 1;
+    }
+    has_subtree_functions(V) && children > 1
+}
+
+/// Joint I on the base and all that it carries.
+#[inline(never)]
+pub(crate) fn root_subtree<
+    R,
+    T,
+    E,
+    const B: usize,
+    const Q: usize,
+    const V: usize,
+    const I: usize,
+>(
+    task: &mut Task<'_, R, E, Q, V>,
+) where
+    R: Real,
+    T: Robot<B, Q, V>,
+    E: Effect<R, B, V>,
+{
+    let length = const { CompiledRobot::<T, B, Q, V>::TREE.length };
+    let base = base::<R, E, B, V>(task.effects, length);
+    visit::<R, T, E, B, Q, V, I>(task, &base);
+}
+
+/// Visits joint J on joint I, whose field is `parent`.
+#[inline(always)]
+pub(crate) fn visit_child<
+    R,
+    T,
+    E,
+    const B: usize,
+    const Q: usize,
+    const V: usize,
+    const I: usize,
+    const J: usize,
+>(
+    task: &mut Task<'_, R, E, Q, V>,
+    parent: &AccelerationField<R>,
+) -> Wrench<R>
+where
+    R: Real,
+    T: Robot<B, Q, V>,
+    E: Effect<R, B, V>,
+{
+    if const { !is_subtree_root::<T, B, Q, V>(I) } {
+        return visit::<R, T, E, B, Q, V, J>(task, parent);
+    }
+    let ([ux, uy, uz], [x, y, z]) = (parent.u.0, parent.pose.axes.0);
+    let field = SpilledField {
+        rates: [parent.omega, parent.spin, parent.alpha].map(Vec3::get),
+        u: [ux, uy, uz].map(Vec3::get),
+        origin: [parent.a, parent.v].map(Vec3::get),
+        pose: [x, y, z, parent.pose.origin].map(Vec3::get),
+    };
+    let [f, n] = child_subtree::<R, T, E, B, Q, V, J>(task, &field);
+    Wrench {
+        f: Vec3::runtime(f),
+        n: Vec3::runtime(n),
+    }
+}
+
+/// A field in memory: ω, ω as its products see it, α; U's columns; a and v of the origin; axes and origin.
+struct SpilledField<R: Real> {
+    rates: [R::Vec3; 3],
+    u: [R::Vec3; 3],
+    origin: [R::Vec3; 2],
+    pose: [R::Vec3; 4],
+}
+
+#[inline(never)]
+fn child_subtree<R, T, E, const B: usize, const Q: usize, const V: usize, const J: usize>(
+    task: &mut Task<'_, R, E, Q, V>,
+    parent: &SpilledField<R>,
+) -> [R::Vec3; 2]
+where
+    R: Real,
+    T: Robot<B, Q, V>,
+    E: Effect<R, B, V>,
+{
+    let ([omega, spin, alpha], [ux, uy, uz]) = (parent.rates, parent.u);
+    let [a, v] = parent.origin;
+    let [x, y, z, origin] = parent.pose.map(|v| runtime_if(E::BODY_POSE, v));
+    let moves = E::VELOCITY_PRODUCTS | E::ACCELERATIONS | E::BASE_MOTION;
+    let field = AccelerationField {
+        omega: runtime_if(E::BODY_VELOCITY, omega),
+        spin: runtime_if(E::VELOCITY_PRODUCTS, spin),
+        alpha: runtime_if(moves, alpha),
+        u: Mat3([
+            runtime_if(moves, ux),
+            runtime_if(moves, uy),
+            runtime_if(moves, uz),
+        ]),
+        a: runtime_if(moves | E::FIELD, a),
+        v: runtime_if(E::BODY_VELOCITY, v),
+        pose: Pose {
+            axes: Mat3([x, y, z]),
+            origin,
+        },
+    };
+    let wrench = visit::<R, T, E, B, Q, V, J>(task, &field);
+    [wrench.f.get(), wrench.n.get()]
+}
+
+/// A vector that is zero unless an effect asks for it.
+#[inline(always)]
+fn runtime_if<R: Real>(asked: bool, v: R::Vec3) -> Vec3<R> {
+    let [x, y, z] = v.array();
+    Vec3([
+        Folded::runtime_if(asked, x),
+        Folded::runtime_if(asked, y),
+        Folded::runtime_if(asked, z),
+    ])
+}

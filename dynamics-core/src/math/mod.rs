@@ -1,0 +1,6 @@
+//! Functions of plain numbers: what is evaluated while compiling, and e⁻ˣ.
+
+pub(crate) mod const_eval;
+mod exp_neg;
+
+pub(crate) use exp_neg::exp_neg;

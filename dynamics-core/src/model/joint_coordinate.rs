@@ -1,0 +1,104 @@
+//! A configuration as the algorithms use it: angles with their sines and cosines, quaternions at
+//! unit length.
+
+use crate::scalar::{Matrix, Real, Vector};
+use crate::trig::Kernel;
+
+/// A position coordinate as the algorithms use it: q itself, and of an angle its sine and cosine.
+///
+/// ```
+/// use dynamics_core::model::JointCoordinate;
+/// assert_eq!(JointCoordinate::revolute(0.0_f32), JointCoordinate { q: 0.0, sin: 0.0, cos: 1.0 });
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct JointCoordinate<R> {
+    /// Position, rad or m; of a quaternion a component of it at unit length.
+    pub q: R,
+    /// sin q of an angle.
+    pub sin: R,
+    /// cos q of an angle.
+    pub cos: R,
+}
+
+impl<R: Real> JointCoordinate<R> {
+    /// The turn by q rad.
+    #[inline(always)]
+    pub fn revolute(q: R) -> Self {
+        let (sin, cos) = q.sin_cos();
+        Self { q, sin, cos }
+    }
+
+    /// The turn by q rad, |q| ≤ 100.
+    #[inline(always)]
+    pub fn revolute_bounded(q: R) -> Self {
+        let (sin, cos) = q.sin_cos_near();
+        Self { q, sin, cos }
+    }
+
+    /// The turn by q rad, its sine and cosine by the kernel K.
+    #[inline(always)]
+    pub fn with_kernel<K: Kernel<R>>(q: R) -> Self {
+        let (sin, cos) = K::sin_cos(q);
+        Self { q, sin, cos }
+    }
+
+    /// A coordinate that is not an angle.
+    #[inline(always)]
+    pub fn linear(q: R) -> Self {
+        Self {
+            q,
+            ..Self::default()
+        }
+    }
+
+    /// Rz(q)ᵀ E for every column of E: from the frame before the turn into the one after. 18 flops.
+    #[inline(always)]
+    pub(super) fn about_z(self, e: &R::Mat3) -> R::Mat3 {
+        let [x, y, z] = e.cols().map(|column| {
+            let [x, y, z] = column.array();
+            let (s, c) = (self.sin, self.cos);
+            R::Vec3::new(c * x + s * y, c * y - s * x, z)
+        });
+        R::Mat3::from_cols(x, y, z)
+    }
+
+    /// The same about x. 18 flops.
+    #[inline(always)]
+    pub(super) fn about_x(self, e: &R::Mat3) -> R::Mat3 {
+        let [x, y, z] = e.cols().map(|column| {
+            let [x, y, z] = column.array();
+            let (s, c) = (self.sin, self.cos);
+            R::Vec3::new(x, c * y + s * z, c * z - s * y)
+        });
+        R::Mat3::from_cols(x, y, z)
+    }
+}
+
+/// The rotation of coordinates into a body whose attitude is the unit quaternion (x, y, z, w).
+/// RBDA (4.12). 30 flops.
+#[inline(always)]
+pub(crate) fn rotation<R: Real>([x, y, z, w]: [R; 4]) -> R::Mat3 {
+    let (x2, y2, z2) = (x + x, y + y, z + z);
+    let (xx, yy, zz) = (x * x2, y * y2, z * z2);
+    let (xy, xz, yz) = (x * y2, x * z2, y * z2);
+    let (wx, wy, wz) = (w * x2, w * y2, w * z2);
+    let one = R::ONE;
+    R::Mat3::from_cols(
+        R::Vec3::new(one - (yy + zz), xy - wz, xz + wy),
+        R::Vec3::new(xy + wz, one - (xx + zz), yz - wx),
+        R::Vec3::new(xz - wy, yz + wx, one - (xx + yy)),
+    )
+}
+
+/// A quaternion at unit length. One that has drifted, |p|² = 1 + ε with |ε| < 1/8, by one step of Newton's iteration
+/// for 1/|p|: no root, no division; its length is then 1 to 3ε²/8. Any other by its length; of zero nothing can be made, and
+/// [`rotation`] takes it as no turn. 29 flops.
+#[inline(always)]
+pub(crate) fn near_unit<R: Real>(p: [R; 4]) -> [R; 4] {
+    let [x, y, z, w] = p;
+    let squared = (x * x + y * y) + (z * z + w * w);
+    let near = R::from_f64(1.5) - R::from_f64(0.5) * squared;
+    let drifted = (squared - R::ONE).abs() < R::from_f64(0.125);
+    let scale = core::hint::select_unpredictable(drifted, near, squared.rsqrt());
+    p.map(|x| x * scale)
+}

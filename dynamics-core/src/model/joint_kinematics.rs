@@ -1,0 +1,302 @@
+//! A joint at work: ⁱX_λ(i), S q̇, S̊ q̇, Sᵀ f. RBDA (2008), table 4.1.
+//!
+//! In a link's aligned frame every axis is z, so that S is made of unit vectors, and only a
+//! universal joint's first column depends on q.
+
+use core::ops::Deref;
+
+use super::Link;
+use super::joint::{JointKind, JointKinds};
+use super::joint_coordinate::{JointCoordinate, near_unit, rotation};
+use crate::scalar::{Matrix, Real, Vector};
+use crate::spatial::{Force, Motion, MotionSubspace, Xform, raised};
+use crate::state::entry;
+use crate::trig::Kernel;
+
+use JointKind::*;
+
+/// A link, with what the compiler knows of its joint.
+#[derive(Clone, Copy, Debug)]
+pub struct LinkView<'a, R: Real> {
+    link: &'a Link<R>,
+    pub(super) kind: JointKind,
+    idx_q: usize,
+    idx_v: usize,
+}
+
+impl<R: Real> Deref for LinkView<'_, R> {
+    type Target = Link<R>;
+    #[inline(always)]
+    fn deref(&self) -> &Link<R> {
+        self.link
+    }
+}
+
+impl<'a, R: Real> LinkView<'a, R> {
+    /// Link `i`, its joint one of `kinds`; `single`: every body has one coordinate.
+    #[inline(always)]
+    pub(super) fn new(i: usize, link: &'a Link<R>, kinds: JointKinds, single: bool) -> Self {
+        let (idx_q, idx_v) = if single {
+            (i, i)
+        } else {
+            (link.idx_q, link.idx_v)
+        };
+        Self {
+            link,
+            kind: kinds.of(link.joint.kind),
+            idx_q,
+            idx_v,
+        }
+    }
+
+    /// The kind of its joint.
+    #[inline(always)]
+    pub fn kind(&self) -> JointKind {
+        self.kind
+    }
+
+    /// Where its position stands in q.
+    #[inline(always)]
+    pub(crate) fn idx_q(&self) -> usize {
+        self.idx_q
+    }
+
+    /// Where its velocity stands in q̇.
+    #[inline(always)]
+    pub(crate) fn idx_v(&self) -> usize {
+        self.idx_v
+    }
+
+    /// Its velocity coordinates, as indices of q̇.
+    #[inline(always)]
+    pub fn coordinates(&self) -> core::ops::Range<usize> {
+        let (_, count) = self.kind.coordinates();
+        if count == 0 {
+            return 0..0;
+        }
+        self.idx_v..self.idx_v + count
+    }
+
+    /// The position that belongs to the velocity coordinate k; zero where none does, as with the ω of
+    /// a quaternion.
+    #[inline(always)]
+    pub(crate) fn position(&self, q: &[R], k: usize) -> R {
+        let (_, quaternion) = self.kind.angles();
+        let place = k - self.idx_v;
+        match quaternion {
+            0 => entry(q, self.idx_q + place),
+            _ if place < 3 => R::ZERO,
+            _ => entry(q, self.idx_q + place + 1),
+        }
+    }
+
+    /// Its entries of a posture: sines and cosines of its angles, its quaternion at unit length.
+    #[inline(always)]
+    pub(crate) fn pose<K: Kernel<R>>(&self, q: &[R], turns: &mut [JointCoordinate<R>]) {
+        let (count, _) = self.kind.coordinates();
+        let (angles, quaternion) = self.kind.angles();
+        let unit = if quaternion > 0 {
+            near_unit([0, 1, 2, 3].map(|k| entry(q, self.idx_q + k)))
+        } else {
+            [R::ZERO; 4]
+        };
+        for k in 0..count {
+            let q = entry(q, self.idx_q + k);
+            if let Some(turn) = turns.get_mut(self.idx_q + k) {
+                *turn = if k < angles {
+                    JointCoordinate::with_kernel::<K>(q)
+                } else if k < quaternion {
+                    JointCoordinate::linear(entry(&unit, k))
+                } else {
+                    JointCoordinate::linear(q)
+                };
+            }
+        }
+    }
+
+    /// ⁱX_λ(i) = X_J ᵀX: from the parent's aligned frame to the body's, at the configuration `turns`.
+    #[inline(always)]
+    pub fn xform(&self, turns: &[JointCoordinate<R>]) -> Xform<R> {
+        let e = &self.placement.rot;
+        let q = |k| entry(turns, self.idx_q + k);
+        let rot = match self.kind {
+            Revolute | Continuous | Helical | Cylindrical | Planar => q(0).about_z(e),
+            Universal => q(1).about_z(&q(0).about_x(e)),
+            Spherical | Free => rotation([q(0).q, q(1).q, q(2).q, q(3).q]) * *e,
+            Prismatic | Fixed => *e,
+        };
+        let pos = self.origin(turns);
+        Xform { rot, pos }
+    }
+
+    /// The origin of the body in its parent's aligned frame, m.
+    #[inline(always)]
+    pub fn origin(&self, turns: &[JointCoordinate<R>]) -> R::Vec3 {
+        let (e, r) = (&self.placement.rot, self.placement.pos);
+        let q = |k| entry(turns, self.idx_q + k).q;
+        match self.kind {
+            Revolute | Continuous | Universal | Spherical | Fixed => r,
+            Prismatic => r + row_z::<R>(e) * q(0),
+            Helical => r + row_z::<R>(e) * (self.joint.pitch * q(0)),
+            Cylindrical => r + row_z::<R>(e) * q(1),
+            Planar => r + e.transpose_mul(R::Vec3::new(q(1), q(2), R::ZERO)),
+            Free => r + e.transpose_mul(R::Vec3::new(q(4), q(5), q(6))),
+        }
+    }
+
+    /// S q̇: the velocity across the joint, `rates` being all of q̇ (or S q̈ of all of q̈).
+    #[inline(always)]
+    pub fn motion(&self, turns: &[JointCoordinate<R>], rates: &[R]) -> Motion<R> {
+        let zero = R::Vec3::ZERO;
+        let rate = |k| entry(rates, self.idx_v + k);
+        let three = |k| R::Vec3::new(rate(k), rate(k + 1), rate(k + 2));
+        match self.kind {
+            Revolute | Continuous => Motion::new(z(rate(0)), zero),
+            Prismatic => Motion::new(zero, z(rate(0))),
+            Helical => Motion::new(z(rate(0)), z(self.joint.pitch * rate(0))),
+            Cylindrical => Motion::new(z(rate(0)), z(rate(1))),
+            Universal => {
+                let turn = entry(turns, self.idx_q + 1);
+                let x_y = [turn.cos * rate(0), -(turn.sin * rate(0))];
+                Motion::new(R::Vec3::new(x_y[0], x_y[1], rate(1)), zero)
+            }
+            Spherical => Motion::new(three(0), zero),
+            Planar => Motion::new(z(rate(0)), R::Vec3::new(rate(1), rate(2), R::ZERO)),
+            Free => Motion::new(three(0), three(3)),
+            Fixed => Motion::ZERO,
+        }
+    }
+
+    /// m + S q̇, without the additions of zeros that S is mostly made of.
+    #[inline(always)]
+    pub fn plus_motion(
+        &self,
+        m: Motion<R>,
+        turns: &[JointCoordinate<R>],
+        rates: &[R],
+    ) -> Motion<R> {
+        let rate = entry(rates, self.idx_v);
+        match self.kind {
+            Revolute | Continuous => Motion::new(raised(m.ang, rate), m.lin),
+            Prismatic => Motion::new(m.ang, raised(m.lin, rate)),
+            Fixed => m,
+            _ => m + self.motion(turns, rates),
+        }
+    }
+
+    /// a + S̊ q̇ + v × S q̇: what a body's velocity v and its joint's add to an acceleration.
+    #[inline(always)]
+    pub fn plus_velocity_product(
+        &self,
+        a: Motion<R>,
+        turns: &[JointCoordinate<R>],
+        rates: &[R],
+        v: Motion<R>,
+    ) -> Motion<R> {
+        let rate = entry(rates, self.idx_v);
+        match self.kind {
+            Revolute | Continuous => Motion::new(
+                plus_cross_z(a.ang, v.ang, rate),
+                plus_cross_z(a.lin, v.lin, rate),
+            ),
+            Prismatic => Motion::new(a.ang, plus_cross_z(a.lin, v.ang, rate)),
+            Fixed => a,
+            Universal => {
+                let (turn, second) = (entry(turns, self.idx_q + 1), entry(rates, self.idx_v + 1));
+                let k = -(rate * second);
+                let apparent = R::Vec3::new(k * turn.sin, k * turn.cos, R::ZERO);
+                a + v.cross(self.motion(turns, rates)) + Motion::new(apparent, R::Vec3::ZERO)
+            }
+            _ => a + v.cross(self.motion(turns, rates)),
+        }
+    }
+
+    /// Column k of S: the velocity across the joint at unit rate of its coordinate k.
+    #[inline(always)]
+    pub fn column(&self, turns: &[JointCoordinate<R>], k: usize) -> Motion<R> {
+        let zero = R::Vec3::ZERO;
+        match self.kind {
+            Revolute | Continuous => Motion::new(z(R::ONE), zero),
+            Prismatic => Motion::new(zero, z(R::ONE)),
+            Helical => Motion::new(z(R::ONE), z(self.joint.pitch)),
+            Cylindrical => unit(2 + 3 * k),
+            Universal if k == 0 => {
+                let turn = entry(turns, self.idx_q + 1);
+                Motion::new(R::Vec3::new(turn.cos, -turn.sin, R::ZERO), zero)
+            }
+            Universal => unit(2),
+            Planar => unit(2 + k),
+            Spherical | Free => unit(k),
+            Fixed => Motion::ZERO,
+        }
+    }
+
+    /// Sᵀ f: the parts of a force that the joint's motors carry, put into their places of `tau`.
+    #[inline(always)]
+    pub fn project(&self, turns: &[JointCoordinate<R>], f: Force<R>, tau: &mut [R]) {
+        let ([nx, ny, nz], [fx, fy, fz]) = (f.ang.array(), f.lin.array());
+        let mut put = |values: &[R]| {
+            for (k, &value) in values.iter().enumerate() {
+                if let Some(tau) = tau.get_mut(self.idx_v + k) {
+                    *tau = value;
+                }
+            }
+        };
+        match self.kind {
+            Revolute | Continuous => put(&[nz]),
+            Prismatic => put(&[fz]),
+            Helical => put(&[nz + self.joint.pitch * fz]),
+            Cylindrical => put(&[nz, fz]),
+            Universal => {
+                let turn = entry(turns, self.idx_q + 1);
+                put(&[turn.cos * nx - turn.sin * ny, nz]);
+            }
+            Spherical => put(&[nx, ny, nz]),
+            Planar => put(&[nz, fx, fy]),
+            Free => put(&[nx, ny, nz, fx, fy, fz]),
+            Fixed => {}
+        }
+    }
+}
+
+/// A vector along z.
+#[inline(always)]
+fn z<R: Real>(z: R) -> R::Vec3 {
+    R::Vec3::new(R::ZERO, R::ZERO, z)
+}
+
+/// a + v × z r.
+#[inline(always)]
+fn plus_cross_z<R: Real>(a: R::Vec3, v: R::Vec3, r: R) -> R::Vec3 {
+    let ([x, y, z], [vx, vy, _]) = (a.array(), v.array());
+    R::Vec3::new(x + vy * r, y - vx * r, z)
+}
+
+/// The last row of a matrix: z of the turned frame.
+#[inline(always)]
+fn row_z<R: Real>(m: &R::Mat3) -> R::Vec3 {
+    let [x, y, z] = m.cols().map(|column| column.array()[2]);
+    R::Vec3::new(x, y, z)
+}
+
+/// The k-th unit vector of M⁶.
+#[inline(always)]
+fn unit<R: Real>(k: usize) -> Motion<R> {
+    let at = |i| if i == k { R::ONE } else { R::ZERO };
+    Motion::new(
+        R::Vec3::new(at(0), at(1), at(2)),
+        R::Vec3::new(at(3), at(4), at(5)),
+    )
+}
+
+impl<R: Real> LinkView<'_, R> {
+    /// Column k of S.
+    #[inline(always)]
+    pub(crate) fn subspace(&self, turns: &[JointCoordinate<R>], k: usize) -> MotionSubspace<R> {
+        match self.kind {
+            JointKind::Revolute | JointKind::Continuous => MotionSubspace::RevoluteZ,
+            JointKind::Prismatic => MotionSubspace::PrismaticZ,
+            _ => MotionSubspace::General(self.column(turns, k)),
+        }
+    }
+}

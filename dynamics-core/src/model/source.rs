@@ -1,0 +1,187 @@
+//! A robot as the algorithms take it: known at run time, or while compiling.
+
+use core::marker::PhantomData;
+
+use super::{JointKinds, LinkView, Model, ModelError, Robot, model};
+use crate::scalar::Real;
+use crate::spatial::{SpatialInertia, Xform};
+
+/// A robot of B bodies, Q position and V velocity coordinates, with what is known of it while
+/// compiling: what its joints never do is not in the machine code.
+///
+/// A [`Model`] is one of which nothing is known; [`Static`] is a [`Robot`] of which all is.
+pub trait RobotModel<R: Real, const B: usize, const Q: usize, const V: usize> {
+    /// The kinds of joint that occur.
+    const KINDS: JointKinds = JointKinds::ALL;
+    /// Every body is known to hang on the one before it.
+    const CHAIN: bool = false;
+    /// Every body is known to have one coordinate.
+    const SINGLE: bool = false;
+
+    /// The robot's numbers.
+    fn model(&self) -> &Model<R, B, Q, V>;
+
+    /// The same robot as one of revolute joints only, if that is what a model turns out to be: for
+    /// algorithms that are worth compiling twice for it. Nothing if it is known while compiling.
+    #[inline(always)]
+    fn as_all_revolute(&self) -> Option<AllRevolute<'_, R, B, Q, V>> {
+        None
+    }
+
+    /// The links, parents first, each with what is known of its joint.
+    #[inline(always)]
+    fn links<'a>(&'a self) -> impl DoubleEndedIterator<Item = LinkView<'a, R>> + ExactSizeIterator
+    where
+        R: 'a,
+    {
+        let links = self.model().links.iter().enumerate();
+        links.map(|(i, link)| LinkView::new(i, link, Self::KINDS, Self::SINGLE))
+    }
+
+    /// Link `i`.
+    #[inline(always)]
+    fn link<'a>(&'a self, i: usize) -> Option<LinkView<'a, R>>
+    where
+        R: 'a,
+    {
+        let link = self.model().links.get(i)?;
+        Some(LinkView::new(i, link, Self::KINDS, Self::SINGLE))
+    }
+}
+
+impl<R: Real, const B: usize, const Q: usize, const V: usize> RobotModel<R, B, Q, V>
+    for Model<R, B, Q, V>
+{
+    #[inline(always)]
+    fn model(&self) -> &Self {
+        self
+    }
+
+    #[inline(always)]
+    fn as_all_revolute(&self) -> Option<AllRevolute<'_, R, B, Q, V>> {
+        let only = B == Q && B == V && self.kinds.are_revolute();
+        only.then_some(AllRevolute(self))
+    }
+}
+
+/// A [`Model`] of which one thing is known: every body turns on a revolute joint of its own.
+///
+/// [`RobotModel::as_all_revolute`] makes it. A loop over it asks no body what its joint is, which on a host
+/// takes a fifth off inverse dynamics.
+#[derive(Clone, Copy, Debug)]
+pub struct AllRevolute<'a, R: Real, const B: usize, const Q: usize, const V: usize>(
+    &'a Model<R, B, Q, V>,
+);
+
+impl<R: Real, const B: usize, const Q: usize, const V: usize> RobotModel<R, B, Q, V>
+    for AllRevolute<'_, R, B, Q, V>
+{
+    const KINDS: JointKinds = JointKinds::REVOLUTE;
+    const SINGLE: bool = true;
+
+    #[inline(always)]
+    fn model(&self) -> &Model<R, B, Q, V> {
+        self.0
+    }
+}
+
+/// The robot `T`, known while compiling, as a [`RobotModel`].
+///
+/// ```
+/// use dynamics_core::{algorithms::rnea, effects::RIGID_BODY, model::{Static, Robot}, robots::Ur5e, state::State};
+/// let state = State::at([0.3_f64; 6]);
+/// let known = rnea(&Static::<Ur5e>::NEW, &state, &RIGID_BODY);
+/// assert_eq!(known, rnea(&Ur5e::MODEL, &state, &RIGID_BODY));
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Static<T>(PhantomData<T>);
+
+impl<T> Static<T> {
+    /// The only one there is.
+    pub const NEW: Self = Self(PhantomData);
+}
+
+impl<R, T, const B: usize, const Q: usize, const V: usize> RobotModel<R, B, Q, V> for Static<T>
+where
+    R: Real,
+    T: Robot<B, Q, V>,
+{
+    const KINDS: JointKinds = T::MODEL.kinds();
+    const CHAIN: bool = T::MODEL.is_chain();
+    const SINGLE: bool = T::MODEL.kinds().are_single() && B == Q && B == V;
+
+    #[inline(always)]
+    fn model(&self) -> &Model<R, B, Q, V> {
+        model::<R, T, B, Q, V>()
+    }
+}
+
+/// A robot with the structure of `T`, known while compiling, and numbers of run time: identified masses and
+/// inertias, measured lengths.
+///
+/// As quick and as small as [`Static`], where a [`Model`] of run time asks every body what its joint is.
+///
+/// ```
+/// use dynamics_core::{algorithms::rnea, effects::RIGID_BODY, model::Calibrated, robots::Ur5e, state::State};
+/// let mut arm = Calibrated::<Ur5e, f64, 6, 6, 6>::nominal();
+/// let state = State::at([0.0, -1.2, 1.5, 0.3, 0.0, 0.0]);
+/// let before = rnea(&arm, &state, &RIGID_BODY);
+/// for inertia in arm.inertias() {
+///     *inertia = *inertia + *inertia; // all of it twice as heavy
+/// }
+/// assert_eq!(rnea(&arm, &state, &RIGID_BODY), before.map(|tau| 2.0 * tau));
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Calibrated<T, R: Real, const B: usize, const Q: usize, const V: usize> {
+    pub(super) model: Model<R, B, Q, V>,
+    // A function's: no T is held.
+    robot: PhantomData<fn() -> T>,
+}
+
+impl<T, R: Real, const B: usize, const Q: usize, const V: usize> Calibrated<T, R, B, Q, V>
+where
+    T: Robot<B, Q, V>,
+{
+    /// The robot as it is described.
+    pub fn nominal() -> Self {
+        Self {
+            model: *model::<R, T, B, Q, V>(),
+            robot: PhantomData,
+        }
+    }
+
+    /// Its bodies' inertias, about the origins of their aligned frames and in their coordinates. Numbers in the frames of
+    /// the description go through [`Calibrated::set_inertia`].
+    pub fn inertias(&mut self) -> impl Iterator<Item = &mut SpatialInertia<R>> {
+        self.model.links.iter_mut().map(|link| &mut link.inertia)
+    }
+
+    /// Whether every inertia could be that of a body, see [`Model::check`]: of numbers that were identified, before
+    /// they are used.
+    ///
+    /// # Errors
+    /// As [`Model::check`].
+    pub fn check(&self, relative: f64) -> Result<(), ModelError> {
+        self.model.check(relative)
+    }
+
+    /// Where its joints stand at q = 0, from the parents' aligned frames.
+    pub fn placements(&mut self) -> impl Iterator<Item = &mut Xform<R>> {
+        self.model.links.iter_mut().map(|link| &mut link.placement)
+    }
+}
+
+impl<T, R: Real, const B: usize, const Q: usize, const V: usize> RobotModel<R, B, Q, V>
+    for Calibrated<T, R, B, Q, V>
+where
+    T: Robot<B, Q, V>,
+{
+    const KINDS: JointKinds = T::MODEL.kinds();
+    const CHAIN: bool = T::MODEL.is_chain();
+    const SINGLE: bool = T::MODEL.kinds().are_single() && B == Q && B == V;
+
+    #[inline(always)]
+    fn model(&self) -> &Model<R, B, Q, V> {
+        &self.model
+    }
+}

@@ -1,0 +1,14 @@
+//! max(0, x) without a comparison.
+
+use crate::scalar::Real;
+
+/// max(0, x) = (x + |x|) / 2, exact: what touches pushes and never pulls.
+///
+/// ```
+/// use dynamics_core::effects::positive_part;
+/// assert_eq!((positive_part(3.0_f32), positive_part(-3.0_f32)), (3.0, 0.0));
+/// ```
+#[inline(always)]
+pub fn positive_part<R: Real>(x: R) -> R {
+    R::from_f64(0.5) * (x + x.abs())
+}

@@ -1,0 +1,84 @@
+//! What an integrator asks of a robot.
+
+use super::StepIncrement;
+use crate::algorithms::{NotPositiveDefinite, aba, kinetic_energy_at, potential_energy_at};
+use crate::effects::{Effect, Implicit};
+use crate::model::RobotModel;
+use crate::scalar::Real;
+use crate::state::{JointTrig, State};
+
+/// A robot under some torques and effects, as [`Integrator`](super::Integrator)s see it.
+pub trait Dynamics<R, const Q: usize, const V: usize> {
+    /// q̈ of q and q̇.
+    ///
+    /// # Errors
+    /// As forward dynamics.
+    fn acceleration(&self, at: &State<R, Q, V>) -> Result<[R; V], NotPositiveDefinite>;
+
+    /// q̈ that a step of h seconds takes which treats joint effects along their slopes: [`Implicit`].
+    ///
+    /// # Errors
+    /// As forward dynamics.
+    fn implicit_acceleration(
+        &self,
+        at: &State<R, Q, V>,
+        h: R,
+    ) -> Result<[R; V], NotPositiveDefinite>;
+
+    /// Kinetic and potential energy, J.
+    fn energies(&self, at: &State<R, Q, V>) -> (R, R);
+
+    /// Where q is after h seconds at these rates: [`StepIncrement::moved`].
+    fn moved(&self, q: &[R; Q], at: &StepIncrement<R, V>, h: R) -> [R; Q];
+}
+
+/// A robot by its description, under constant torques.
+///
+/// ```
+/// use dynamics_core::{effects::RIGID_BODY, model::Robot, robots::Ur5e, state::State};
+/// use dynamics_core::sim::{ModelDynamics, Dynamics};
+/// let arm = ModelDynamics { robot: &Ur5e::MODEL, tau: [0.0; 6], effects: &RIGID_BODY };
+/// assert!(arm.acceleration(&State::at([0.0; 6]))?[1] > 1.0); // falls
+/// # Ok::<(), dynamics_core::algorithms::NotPositiveDefinite>(())
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct ModelDynamics<'a, D, E, R, const B: usize, const V: usize> {
+    /// The robot.
+    pub robot: &'a D,
+    /// Torques of its motors, N·m or N.
+    pub tau: [R; V],
+    /// What acts on it.
+    pub effects: &'a E,
+}
+
+impl<R: Real, D, E, const B: usize, const Q: usize, const V: usize> Dynamics<R, Q, V>
+    for ModelDynamics<'_, D, E, R, B, V>
+where
+    D: RobotModel<R, B, Q, V>,
+    E: Effect<R, B, V>,
+{
+    fn acceleration(&self, at: &State<R, Q, V>) -> Result<[R; V], NotPositiveDefinite> {
+        aba(self.robot, at, &self.tau, self.effects)
+    }
+
+    fn implicit_acceleration(
+        &self,
+        at: &State<R, Q, V>,
+        h: R,
+    ) -> Result<[R; V], NotPositiveDefinite> {
+        let effects = Implicit::new(self.robot, at, self.effects, h);
+        aba(self.robot, at, &self.tau, &effects)
+    }
+
+    fn energies(&self, at: &State<R, Q, V>) -> (R, R) {
+        let posture = JointTrig::of(self.robot, &at.q);
+        (
+            kinetic_energy_at(self.robot, &posture, at, self.effects),
+            potential_energy_at(self.robot, &posture, self.effects),
+        )
+    }
+
+    fn moved(&self, q: &[R; Q], at: &StepIncrement<R, V>, h: R) -> [R; Q] {
+        at.moved(self.robot, q, h)
+    }
+}

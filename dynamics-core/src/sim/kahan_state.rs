@@ -1,0 +1,63 @@
+//! Many small increments on a large number, with or without what rounding takes from each.
+
+use super::StepIncrement;
+use crate::scalar::Real;
+use crate::state::State;
+
+/// Position and velocity of V joints of one axis, to which steps are added; `COMPENSATED`, what rounding took from an increment
+/// is added with the next.
+///
+/// Kahan, "Further remarks on reducing truncation errors" (1965). In f32 a step of 10 µs at 1 rad/s adds 10⁻⁵ rad, of
+/// which rounding at 3 rad takes up to one part in a hundred: without compensation finer steps are worse. 3 flops
+/// more a coordinate.
+///
+/// ```
+/// use dynamics_core::{sim::{StepIncrement, KahanState}, state::State};
+/// let mut plain = KahanState::<f32, 1, false>::at(State::at([3.0]));
+/// let mut compensated = KahanState::<f32, 1, true>::at(State::at([3.0]));
+/// let slow = StepIncrement::straight([1e-3], [0.0]);
+/// for _ in 0..10_000 {
+///     plain.add(&slow, 1e-4);
+///     compensated.add(&slow, 1e-4);
+/// }
+/// assert_eq!(plain.state.q[0], 3.0); // lost, every one
+/// assert!((compensated.state.q[0] - 3.001).abs() < 3e-7);
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct KahanState<R, const V: usize, const COMPENSATED: bool> {
+    /// Position and velocity; the acceleration stays as it is.
+    pub state: State<R, V, V>,
+    lost: [[R; V]; 2],
+}
+
+impl<R: Real, const V: usize, const COMPENSATED: bool> KahanState<R, V, COMPENSATED> {
+    /// At a state that is exact.
+    pub fn at(state: State<R, V, V>) -> Self {
+        Self {
+            state,
+            lost: [[R::ZERO; V]; 2],
+        }
+    }
+
+    /// A step of h seconds on.
+    #[inline(always)]
+    pub fn add(&mut self, rates: &StepIncrement<R, V>, h: R) {
+        let [lost_q, lost_qd] = &mut self.lost;
+        add::<R, COMPENSATED>(&mut self.state.q, lost_q, &rates.qd, h);
+        add::<R, COMPENSATED>(&mut self.state.qd, lost_qd, &rates.qdd, h);
+    }
+}
+
+#[inline(always)]
+fn add<R: Real, const COMPENSATED: bool>(sums: &mut [R], lost: &mut [R], rates: &[R], h: R) {
+    for ((sum, lost), &rate) in sums.iter_mut().zip(lost).zip(rates) {
+        if COMPENSATED {
+            let wanted = h * rate - *lost;
+            let new = *sum + wanted;
+            *lost = (new - *sum) - wanted;
+            *sum = new;
+        } else {
+            *sum += h * rate;
+        }
+    }
+}

@@ -35,7 +35,7 @@ pub enum Fault {
         joint: usize,
     },
     /// The joint is faster than it may be.
-    MotionLimits {
+    Speed {
         /// The joint.
         joint: usize,
     },
@@ -50,7 +50,7 @@ pub enum Fault {
         joint: usize,
     },
     /// A limit of the joint allows nothing: [`super::SafetyLimits::check`] says which.
-    SafetyLimits {
+    Limits {
         /// The joint.
         joint: usize,
     },
@@ -73,7 +73,7 @@ impl fmt::Display for Fault {
             Self::Jump { joint } => (joint, "its position jumped"),
             Self::Speed { joint } => (joint, "it is faster than it may be"),
             Self::Torque { joint } => (joint, "the torque asked for is not finite"),
-            Self::SafetyLimits { joint } => (joint, "a limit of it allows nothing"),
+            Self::Limits { joint } => (joint, "a limit of it allows nothing"),
             Self::Drive { joint } => (joint, "its drive did not take its torque"),
         };
         write!(out, "joint {joint}: {text}")

@@ -223,7 +223,7 @@ mod tests {
                 assert_eq!(supervisor.admit(Ok(&[0.0; 2])), Mode::Stopped);
                 let command = supervisor.pass(&[1.0, 0.0]);
                 assert_eq!((command.torque, command.brake), ([0.0; 2], true));
-                assert_eq!(command.status.fault, Some(Fault::SafetyLimits { joint: 1 }));
+                assert_eq!(command.status.fault, Some(Fault::Limits { joint: 1 }));
                 supervisor.reset();
             }
         }

@@ -100,10 +100,10 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
     /// `tick` is the nominal length of a tick in s. A fault that lasts for more than `hold_ticks`
     /// ticks, or comes back so often without `reentry_ticks` good ticks in between, stops the arm.
     ///
-    /// With limits that allow nothing ([`SafetyLimits::check`]) the arm is stopped by [`Fault::SafetyLimits`], and no reset
+    /// With limits that allow nothing ([`SafetyLimits::check`]) the arm is stopped by [`Fault::Limits`], and no reset
     /// starts it: [`Self::try_new`] tells them while they are set.
     pub fn new(bounds: SafetyLimits<R, V>, tick: R, hold_ticks: u32, reentry_ticks: u32) -> Self {
-        let unusable = bounds.check().err().map(|error| Fault::SafetyLimits {
+        let unusable = bounds.check().err().map(|error| Fault::Limits {
             joint: error.joint(),
         });
         // Comparisons with NaN are false, so that a limit of NaN allows nothing.
@@ -265,7 +265,7 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
             let joint = joints().position(|joint| !slow(joint)).unwrap_or(V);
             self.faults = self.faults.max(self.ride_ticks);
             self.faulted = false;
-            self.raise(Fault::MotionLimits { joint });
+            self.raise(Fault::Speed { joint });
         }
         self.mode
     }

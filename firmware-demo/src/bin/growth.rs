@@ -12,10 +12,10 @@ use cortex_m_rt::entry;
 use cortex_m_semihosting::debug;
 use dynamics_core::MassMatrix;
 use dynamics_core::algorithms::{
-    NotPositiveDefinite, aba_at, crba_at, factor, forward_at, rnea_at, solve,
+    NotPositiveDefinite, aba_at, crba_at, forward_dynamics_at, ltdl, rnea_at, solve,
 };
 use dynamics_core::effects::RIGID_BODY;
-use dynamics_core::model::{Arm, BASE, Body, Joint, Robot};
+use dynamics_core::model::{ArmModel, BASE, Body, Joint, Robot};
 use dynamics_core::state::{JointTrig, State};
 use firmware_demo::target;
 use row::Row;
@@ -76,7 +76,7 @@ fn factor_solve<const N: usize>(
     m: &MassMatrix<f32, N>,
     tau: &[f32; N],
 ) -> Solution<N> {
-    Ok(solve(model, &factor(model, m)?, tau))
+    Ok(solve(model, &ltdl(model, m)?, tau))
 }
 
 #[inline(never)]

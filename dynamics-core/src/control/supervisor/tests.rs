@@ -71,12 +71,12 @@ fn each_fault_names_its_joint() {
     assert_eq!(supervisor.watch(&[2.0, -2.01]), Mode::Hold);
     assert_eq!(
         supervisor.pass(&[0.0; 2]).status.fault,
-        Some(Fault::MotionLimits { joint })
+        Some(Fault::Speed { joint })
     );
     supervisor.admit(Ok(&[0.0; 2]));
     assert_eq!(supervisor.watch(&[f32::NAN, 0.0]), Mode::Hold);
     let status = supervisor.pass(&[0.0; 2]).status;
-    assert_eq!(status.fault, Some(Fault::MotionLimits { joint: 0 }));
+    assert_eq!(status.fault, Some(Fault::Speed { joint: 0 }));
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use dynamics_core::model::Robot;
 use dynamics_core::{Engine, MassMatrix};
 
-use super::forward_dynamics::{Forms, Solution};
+use super::forward::{Forms, Solution};
 
 /// In the order of the table.
 pub fn engine<T: Robot<B, N, N>, const B: usize, const N: usize, const TIP: usize>() -> Forms<N> {
@@ -12,8 +12,8 @@ pub fn engine<T: Robot<B, N, N>, const B: usize, const N: usize, const TIP: usiz
         crba: Engine::<T>::crba,
         crba_at: Engine::<T>::crba_at,
         factor_solve: engine_factor_solve::<T, B, N>,
-        forward: Engine::<T>::forward,
-        forward_at: Engine::<T>::forward_at,
+        forward: Engine::<T>::forward_dynamics,
+        forward_at: Engine::<T>::forward_dynamics_at,
         aba: Engine::<T>::aba,
         aba_at: Engine::<T>::aba_at,
         jacobian: Engine::<T>::jacobian::<TIP, _, _, _, _>,

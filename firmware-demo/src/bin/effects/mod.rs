@@ -21,7 +21,7 @@ use super::costs::{Ask, STATES, asks};
 /// Inverse dynamics of an arm in one of its forms.
 pub trait Form<const N: usize> {
     const NAME: &'static str;
-    type ArmModel: Robot<N, N, N>;
+    type Arm: Robot<N, N, N>;
     fn rnea<E: Effect<f32, N, N>>() -> Rnea<E, N>;
 }
 
@@ -29,7 +29,7 @@ type Rnea<E, const N: usize> = fn(&State<f32, N, N>, &E) -> [f32; N];
 
 impl<T: Robot<N, N, N>, const N: usize> Form<N> for Core<T> {
     const NAME: &'static str = "core";
-    type ArmModel = T;
+    type Arm = T;
     fn rnea<E: Effect<f32, N, N>>() -> Rnea<E, N> {
         Self::rnea
     }
@@ -37,7 +37,7 @@ impl<T: Robot<N, N, N>, const N: usize> Form<N> for Core<T> {
 
 impl<T: Robot<N, N, N>, const N: usize> Form<N> for Engine<T> {
     const NAME: &'static str = "engine";
-    type ArmModel = T;
+    type Arm = T;
     fn rnea<E: Effect<f32, N, N>>() -> Rnea<E, N> {
         Self::rnea
     }

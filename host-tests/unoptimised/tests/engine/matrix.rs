@@ -237,11 +237,11 @@ fn a_joint_that_moves_no_inertia_is_named() {
         &RIGID_BODY,
     ));
     assert_eq!(
-        forward_dynamics,
+        forward,
         error(Engine::<Massless>::aba(&state, &tau, &RIGID_BODY))
     );
     assert_eq!(
-        forward_dynamics,
+        forward,
         error(Core::<Massless>::aba(&state, &tau, &RIGID_BODY))
     );
     assert_eq!(forward.joint, 2);

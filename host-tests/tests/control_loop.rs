@@ -3,7 +3,7 @@
 mod arm;
 
 use arm::outcome::bad_frames;
-use arm::{ArmModel, HOLD, POISON, RIDE};
+use arm::{Arm, HOLD, POISON, RIDE};
 use dynamics_core::control::{Fault, Mode};
 use firmware_demo::control_loop::Refusal;
 use firmware_demo::encoder::FrameError;
@@ -55,7 +55,7 @@ fn a_longer_fault_ends_on_the_trajectory_without_a_turn_back() {
 
 #[test]
 fn what_is_seen_again_after_a_hold_is_believed_at_once() {
-    let mut arm = ArmModel::new();
+    let mut arm = Arm::new();
     arm.run(FAST);
     arm.corrupt(0, 1);
     arm.run(50);
@@ -74,7 +74,7 @@ fn what_is_seen_again_after_a_hold_is_believed_at_once() {
 /// Such a law cannot bring a deceleration about.
 #[test]
 fn k_d_slows_an_arm_down_whose_law_knows_no_inertia() {
-    let mut arm = ArmModel::new();
+    let mut arm = Arm::new();
     (0..FAST).for_each(|_| _ = arm.tick_under::<GravityOnly>());
     arm.corrupt(0, 1);
     let speed = |arm: &Arm| largest(arm.rig.plant.state.qd.map(f32::abs));
@@ -85,7 +85,7 @@ fn k_d_slows_an_arm_down_whose_law_knows_no_inertia() {
 
 #[test]
 fn a_fault_that_lasts_brakes_the_arm_and_names_frame_and_joint() {
-    let mut arm = ArmModel::new();
+    let mut arm = Arm::new();
     arm.run(SLOW);
     arm.corrupt(3, 1);
     arm.corrupt(5, 1);
@@ -102,7 +102,7 @@ fn a_fault_that_lasts_brakes_the_arm_and_names_frame_and_joint() {
 
 #[test]
 fn an_error_flag_costs_one_angle_and_is_asked_for() {
-    let mut arm = ArmModel::new();
+    let mut arm = Arm::new();
     arm.run(FAST);
     arm.wires.flag(2);
     // The answer of this tick was latched before.
@@ -117,7 +117,7 @@ fn an_error_flag_costs_one_angle_and_is_asked_for() {
 
 #[test]
 fn a_bus_that_fails_for_a_moment_is_ridden_through() {
-    let mut arm = ArmModel::new();
+    let mut arm = Arm::new();
     arm.run(FAST);
     arm.bent[4].bus.set(true);
     for _ in 0..RIDE {
@@ -139,7 +139,7 @@ fn a_bus_that_fails_for_a_moment_is_ridden_through() {
 #[test]
 fn nan_from_the_law_never_reaches_a_drive() {
     for poison in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
-        let mut arm = ArmModel::new();
+        let mut arm = Arm::new();
         let before = arm.run(SLOW).torque;
         let fault = Some(Fault::Torque { joint: 1 });
         POISON.set(Some((1, poison)));
@@ -160,7 +160,7 @@ fn nan_from_the_law_never_reaches_a_drive() {
 
 #[test]
 fn a_moment_without_a_torque_does_not_jolt_the_arm() {
-    let mut arm = ArmModel::new();
+    let mut arm = Arm::new();
     arm.run(FAST);
     let mut errors = vec![];
     for tick in 0..300 {
@@ -175,7 +175,7 @@ fn a_moment_without_a_torque_does_not_jolt_the_arm() {
 
 #[test]
 fn a_drive_that_refuses_brakes_the_arm_at_once_and_is_named() {
-    let mut arm = ArmModel::new();
+    let mut arm = Arm::new();
     arm.run(SLOW);
     arm.bent[2].drive.set(true);
     arm.bent[4].drive.set(true);
@@ -194,7 +194,7 @@ fn a_drive_that_refuses_brakes_the_arm_at_once_and_is_named() {
 
 #[test]
 fn a_brake_that_refuses_stops_the_arm() {
-    let mut arm = ArmModel::new();
+    let mut arm = Arm::new();
     arm.run(SLOW);
     arm.brake.0.1.set(true);
     arm.tick();
@@ -207,7 +207,7 @@ fn a_brake_that_refuses_stops_the_arm() {
 
 /// An arm that a lasting fault at full speed has stopped.
 fn stopped() -> Arm {
-    let mut arm = ArmModel::new();
+    let mut arm = Arm::new();
     arm.run(FAST);
     arm.corrupt(0, 1);
     arm.run(RIDE + HOLD + 20);
@@ -268,7 +268,7 @@ fn an_arm_far_from_its_reference_is_not_started_again() {
 
 #[test]
 fn encoders_are_started_before_the_first_tick() {
-    let mut arm = ArmModel::new();
+    let mut arm = Arm::new();
     let telemetry = arm.tick();
     assert_eq!((telemetry.status.fault, telemetry.frame), (None, None));
     let error = Arm::error(&telemetry.estimate, &arm.rig.plant.state.q);
@@ -287,7 +287,7 @@ proptest! {
         at in 0..6000_u32,
         wrongs in prop::collection::vec((0..6_usize, 0..6_u8, any::<u16>(), 1..150_u32), 1..6),
     ) {
-        let mut arm = ArmModel::new();
+        let mut arm = Arm::new();
         arm.run(at + 1);
         for (joint, kind, bits, ticks) in wrongs {
             match kind {

@@ -8,7 +8,7 @@
 )]
 mod arm;
 
-use arm::{ArmModel, POISON};
+use arm::{Arm, POISON};
 use dynamics_core::control::Mode;
 use host_tests::random::random_numbers;
 use proptest::prelude::RngExt;
@@ -39,7 +39,7 @@ fn mend(arm: &Arm) {
 }
 
 /// Demands that a tick kept every limit.
-fn tick(arm: &mut ArmModel, last: &mut [f32; 6]) -> Mode {
+fn tick(arm: &mut Arm, last: &mut [f32; 6]) -> Mode {
     let telemetry = arm.tick();
     for ((&tau, last), limit) in telemetry.torque.iter().zip(last).zip(&arm.limits) {
         assert!(tau.abs() <= limit.torque, "{telemetry:?}");
@@ -70,7 +70,7 @@ fn whatever_fails_for_however_long_no_limit_is_exceeded() {
     let (ticks, rng) = (ticks.unwrap_or(200_000_u64), &mut random_numbers());
     let (mut done, mut stops, mut held) = (0_u64, 0_u64, 0_u64);
     while done < ticks {
-        let (mut arm, mut last) = (ArmModel::new(), [0.0; 6]);
+        let (mut arm, mut last) = (Arm::new(), [0.0; 6]);
         let mut wrong = 0;
         for _ in 0..ROUND {
             if wrong == 0 && rng.random_range(0..200) == 0 {

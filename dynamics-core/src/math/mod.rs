@@ -3,4 +3,4 @@
 pub(crate) mod const_eval;
 mod exp_neg;
 
-pub(crate) use exp_neg::exp_neg;
+pub use exp_neg::exp_neg;

@@ -7,6 +7,7 @@
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
+pub use crate::math::exp_neg;
 pub use positive_part::positive_part;
 
 use crate::model::{Model, Robot};
@@ -307,7 +308,7 @@ real!(
     glam::Mat3,
     crate::trig::sin_cos,
     crate::trig::sin_cos_near,
-    crate::math::exp_neg,
+    exp_neg,
     libm::sqrtf,
     libm::atan2f,
     0x5f37_59df,

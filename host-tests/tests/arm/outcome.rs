@@ -4,7 +4,7 @@ use dynamics_core::control::{Fault, Mode};
 
 use host_tests::measured::largest;
 
-use super::{ArmModel, REENTRY};
+use super::{Arm, REENTRY};
 
 /// What an interval of bad frames of joint 0 did to the arm.
 pub struct Outcome {
@@ -21,7 +21,7 @@ pub struct Outcome {
 
 /// The arm on its way, with so many bad frames of joint 0 from the tick `at` on.
 pub fn bad_frames(at: u32, ticks: u32, mask: u16) -> Outcome {
-    let mut arm = ArmModel::new();
+    let mut arm = Arm::new();
     arm.run(at);
     let direction = arm.rig.plant.state.qd.map(f32::signum);
     let fast = arm.rig.plant.state.qd.map(|qd| qd.abs() > 0.3);

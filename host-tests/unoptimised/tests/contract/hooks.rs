@@ -65,7 +65,7 @@ impl<R: Real, const FLAGS: u32, const B: usize, const V: usize> Effect<R, B, V> 
     fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R) {
         *tau += of::<R>(2.0) * at.q + of::<R>(0.3) * at.qd + of::<R>(0.1 + joint as f64) * at.qdd;
     }
-    fn derivatives(&self, joint: usize, _: JointState<R>, slopes: &mut TorqueDerivatives<R>) {
+    fn derivatives(&self, joint: usize, _: JointState<R>, derivatives: &mut TorqueDerivatives<R>) {
         derivatives.dq += of(2.0 + joint as f64);
         derivatives.dqd += of(0.3);
     }
@@ -238,10 +238,10 @@ fn seen<R: Real, E: Effect<R, 6, 3>>(scene: &E) -> Vec<f64> {
         qd: of(-0.7),
         qdd: of(0.0),
     };
-    let (mut tau, mut slopes) = (R::ZERO, TorqueDerivatives::default());
+    let (mut tau, mut derivatives) = (R::ZERO, TorqueDerivatives::default());
     let (mut diagonal, mut coupling) = (R::ZERO, R::ZERO);
     scene.torque(1, at, &mut tau);
-    scene.derivatives(1, at, &mut slopes);
+    scene.derivatives(1, at, &mut derivatives);
     scene.inertia(1, &mut diagonal);
     scene.spin(1, &mut coupling);
     seen.extend([tau, derivatives.dq, derivatives.dqd, diagonal, coupling]);
@@ -274,16 +274,16 @@ fn whatever_passes_effects_on_passes_on_every_hook() {
     );
     assert_eq!(seen::<f32, _>(&Now::<Law, (), 3>::of(&())), direct);
 
-    // A step of no length changes nothing, and gives no slopes of its own away.
+    // A step of no length changes nothing, and gives no derivatives of its own away.
     let (robot, all) = (
         Static::<TwoHands>::NEW,
         All::<{ ENGINE | GYROSCOPIC_ROTORS }>,
     );
     let mut implicit = seen::<f64, _>(&Implicit::new(&robot, &MOVING, &all, 0.0));
     let mut direct = seen::<f64, _>(&all);
-    for slopes in [&mut implicit, &mut direct] {
-        let at = slopes.len() - 4;
-        slopes[at..at + 2].fill(0.0);
+    for derivatives in [&mut implicit, &mut direct] {
+        let at = derivatives.len() - 4;
+        derivatives[at..at + 2].fill(0.0);
     }
     assert_eq!(implicit, direct);
 
@@ -337,10 +337,16 @@ fn a_hook_or_constant_that_is_added_is_passed_on_everywhere() {
         none
     );
     // What a wrapper is there to change, and what belongs to the effects themselves.
-    let own = ["ACCELERATIONS", "advance", "inertia", "slopes", "torque"];
+    let own = [
+        "ACCELERATIONS",
+        "advance",
+        "inertia",
+        "derivatives",
+        "torque",
+    ];
     assert_eq!(
         missing(include_str!(
-            "../../../../dynamics-core/src/effects/passed_on.rs"
+            "../../../../dynamics-core/src/effects/delegate.rs"
         )),
         own
     );

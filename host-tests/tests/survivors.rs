@@ -13,7 +13,7 @@ use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model};
 use dynamics_core::spatial::{Force, Motion};
 use dynamics_core::state::State;
 use dynamics_core::state::manifold::{integrate, neutral};
-use dynamics_core::trig::Carried;
+use dynamics_core::state::Carried;
 use glam::DVec3;
 
 fn at(q: f64, qd: f64) -> JointState<f64> {
@@ -24,7 +24,7 @@ fn at(q: f64, qd: f64) -> JointState<f64> {
 fn derivatives<E: Effect<f64, 1, 1>>(effect: &E, at: JointState<f64>) -> [f64; 2] {
     let mut slopes = TorqueDerivatives::default();
     effect.derivatives(0, at, &mut slopes);
-    [derivatives.dq, derivatives.dqd]
+    [slopes.dq, slopes.dqd]
 }
 
 /// The same by central differences of its torque.
@@ -60,11 +60,11 @@ fn stribecks_slope_at_rest_is_that_of_its_torque() {
         per_width: 100.0,
     };
     near(
-        slopes(&stribeck, at(0.0, 0.0)),
+        derivatives(&stribeck, at(0.0, 0.0)),
         differences(&stribeck, at(0.0, 0.0)),
         1e-8,
     );
-    assert!(slopes(&stribeck, at(0.0, 0.0))[1] > 100.0);
+    assert!(derivatives(&stribeck, at(0.0, 0.0))[1] > 100.0);
 }
 
 #[test]
@@ -78,12 +78,12 @@ fn lugres_bristles_are_springs_while_they_stick_and_none_while_they_slide() {
         per_speed: 1.0 / 0.01,
         bristle: [0.0],
     };
-    near(slopes(&friction, at(0.0, 0.0)), [1e5, 300.4], 1e-12);
+    near(derivatives(&friction, at(0.0, 0.0)), [1e5, 300.4], 1e-12);
     let sliding = at(0.0, 0.5);
     for _ in 0..1000 {
         Effect::<f64, 1, 1>::advance(&mut friction, 0, sliding, 0.01);
     }
-    let [q, qd] = slopes(&friction, sliding);
+    let [q, qd] = derivatives(&friction, sliding);
     assert!(q.abs() < 1e-5 && (qd - 0.4).abs() < 1e-7, "{q} {qd}");
 }
 
@@ -105,9 +105,9 @@ fn slopes_of_the_stops_are_those_of_their_torque() {
         at(-1.5, 0.3),
         at(1.5, -200.0),
     ] {
-        near(slopes(&stops, state), differences(&stops, state), 1e-5);
+        near(derivatives(&stops, state), differences(&stops, state), 1e-5);
     }
-    assert_eq!(slopes(&stops, at(1.5, -200.0)), [0.0; 2]);
+    assert_eq!(derivatives(&stops, at(1.5, -200.0)), [0.0; 2]);
 }
 
 /// A payload whose principal moments exceed what a body has by 0.2 of the largest.

@@ -11,9 +11,9 @@ use dynamics_core::effects::{
 };
 use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model};
 use dynamics_core::spatial::{Force, Motion};
+use dynamics_core::state::Carried;
 use dynamics_core::state::State;
 use dynamics_core::state::manifold::{integrate, neutral};
-use dynamics_core::state::Carried;
 use glam::DVec3;
 
 fn at(q: f64, qd: f64) -> JointState<f64> {

@@ -94,7 +94,7 @@ fn eliminate<R: Real, T, const B: usize, const Q: usize, const V: usize, const K
 {
     for_each_joint!(N, {
         const I: usize = 31 - N;
-        if const { CompiledRobot::<T, B, Q, V>::above(I, K) } {
+        if const { CompiledRobot::<T, B, Q, V>::is_ancestor(I, K) } {
             let l = m[K][I] * d_inv;
             subtract::<R, T, B, Q, V, K, I>(m, l);
             m[K][I] = l;
@@ -157,7 +157,7 @@ fn scatter<R: Real, T, const B: usize, const Q: usize, const V: usize, const I: 
     T: Robot<B, Q, V>,
 {
     for_each_joint!(J, {
-        if const { CompiledRobot::<T, B, Q, V>::above(J, I) } {
+        if const { CompiledRobot::<T, B, Q, V>::is_ancestor(J, I) } {
             x[J] -= l[I][J] * x[I];
         }
     });
@@ -172,7 +172,7 @@ fn gather<R: Real, T, const B: usize, const Q: usize, const V: usize, const I: u
     T: Robot<B, Q, V>,
 {
     for_each_joint!(J, {
-        if const { CompiledRobot::<T, B, Q, V>::above(J, I) } {
+        if const { CompiledRobot::<T, B, Q, V>::is_ancestor(J, I) } {
             x[I] -= l[I][J] * x[J];
         }
     });

@@ -155,7 +155,7 @@ where
     if !prismatic {
         for_each_joint!(K, {
             if const {
-                CompiledRobot::<T, B, Q, V>::above(I, K)
+                CompiledRobot::<T, B, Q, V>::is_ancestor(I, K)
                     && CompiledRobot::<T, B, Q, V>::joint(K).prismatic
             } {
                 slides += turns[K].q.abs();
@@ -202,7 +202,7 @@ const fn slides_beyond<T: Robot<B, Q, V>, const B: usize, const Q: usize, const 
 ) -> bool {
     let mut k = 0;
     while k < V {
-        if CompiledRobot::<T, B, Q, V>::above(i, k)
+        if CompiledRobot::<T, B, Q, V>::is_ancestor(i, k)
             && CompiledRobot::<T, B, Q, V>::joint(k).prismatic
         {
             return true;

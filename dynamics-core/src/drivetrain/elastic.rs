@@ -1,11 +1,11 @@
 //! Joint compliance: motors that drive their links through springs.
 //!
-//! M(q) q̈ + C(q, q̇) = k (θ − q), J θ̈ + b θ̇ + k (θ − q) = τ_m, with the motors' angles θ seen at the
+//! M(q) q̈ + C(q, q̇) = k (θ − q), J θ̈ + b θ̇ + k (θ − q) = τ_m, with the motors' angles θ reflected to the
 //! joints: Spong, "Modeling and control of elastic joint robots" (1987), equations (12), (13). The rotors
 //! count as spinning about their own axes only (his assumption of high gear ratios). For joints of one
 //! degree of freedom.
 
-/// The transmissions and motors of V joints, all seen at the joint.
+/// The transmissions and motors of V joints, reflected to the joint.
 ///
 /// ```
 /// use dynamics_core::drivetrain::ElasticJoints;
@@ -23,7 +23,7 @@ pub struct ElasticJoints<R, const V: usize> {
     pub friction: [R; V],
 }
 
-/// Angles of the motors, seen at the joints.
+/// Angles of the motors, reflected to the joints.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MotorState<R, const V: usize> {
     /// θ, rad or m.

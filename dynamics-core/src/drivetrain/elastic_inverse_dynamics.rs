@@ -26,12 +26,12 @@ pub struct ElasticReference<R, const Q: usize, const V: usize> {
     pub snap: [R; V],
 }
 
-/// What a drive is told.
+/// The command to the drives of elastic joints.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ElasticCommand<R, const V: usize> {
     /// Torque τ_m of each motor, N·m or N.
     pub torque: [R; V],
-    /// Angle θ of each motor, seen at the joint, rad or m.
+    /// Angle θ of each motor, reflected to the joint, rad or m.
     pub position: [R; V],
     /// Its rate θ̇, rad/s or m/s.
     pub velocity: [R; V],
@@ -41,13 +41,13 @@ pub struct ElasticCommand<R, const V: usize> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct MultiDofJoint {
-    /// The body that it carries.
+    /// The body on that joint.
     pub body: usize,
 }
 
 /// τ_m, θ and θ̇ of the motors for a course of the links.
 ///
-/// Effects act on the links. Those of joints are differentiated along their derivatives, taken as constant: exact
+/// Effects act on the links. Those of joints are differentiated along their derivatives, assumed constant: exact
 /// for springs and viscous friction, and for Coulomb friction away from its width. Effects that push bodies
 /// or move the base have no known derivatives and do not compile. Cost: some 1000 flops a joint, O(B).
 ///
@@ -57,10 +57,10 @@ pub struct MultiDofJoint {
 /// use dynamics_core::{algorithms::rnea, model::Robot, robots::Ur5e, state::State};
 /// let joints = ElasticJoints { stiffness: [1e4_f64; 6], rotor: [1.0; 6], friction: [0.0; 6] };
 /// let rest = ElasticReference { state: State::at([0.3; 6]), jerk: [0.0; 6], snap: [0.0; 6] };
-/// let told = elastic_inverse_dynamics(&Ur5e::MODEL, &joints, &rest, &RIGID_BODY)?;
+/// let command = elastic_inverse_dynamics(&Ur5e::MODEL, &joints, &rest, &RIGID_BODY)?;
 /// let weight = rnea(&Ur5e::MODEL, &rest.state, &RIGID_BODY);
-/// assert!((told.torque[1] - weight[1]).abs() < 1e-12);
-/// assert!((told.position[1] - 0.3 - weight[1] / 1e4).abs() < 1e-15); // the spring is wound up
+/// assert!((command.torque[1] - weight[1]).abs() < 1e-12);
+/// assert!((command.position[1] - 0.3 - weight[1] / 1e4).abs() < 1e-15); // the spring is wound up
 /// # Ok::<(), dynamics_core::drivetrain::MultiDofJoint>(())
 /// ```
 ///
@@ -72,7 +72,7 @@ pub struct MultiDofJoint {
 /// let rest = ElasticReference { state: State::at([0.3; 6]), jerk: [0.0; 6], snap: [0.0; 6] };
 /// let pushed = (RIGID_BODY, BodyWrench { body: 5, wrench: Force::<f64>::ZERO });
 /// let _ = elastic_inverse_dynamics(&Ur5e::MODEL, &joints, &rest, &pushed);
-/// // error: inverse dynamics of compliant joints takes no wrenches on bodies, moving base or `GyroscopicRotors`
+/// // error: inverse dynamics of compliant joints allows no wrenches on bodies, moving base or `GyroscopicRotors`
 /// ```
 ///
 /// # Errors
@@ -89,7 +89,7 @@ where
 {
     let tau = torque_rates(robot, course, effects)?;
     let State { q, qd, qdd } = &course.state;
-    let mut told = ElasticCommand {
+    let mut command = ElasticCommand {
         torque: [R::ZERO; V],
         position: [R::ZERO; V],
         velocity: [R::ZERO; V],
@@ -102,7 +102,11 @@ where
             let inertial = entry(&joints.rotor, i) * (entry(qdd, i) + accel * k_inv);
             let torque = inertial + entry(&joints.friction, i) * velocity + t;
             let values = [torque, link.position(q, i) + t * k_inv, velocity];
-            let places = [&mut told.torque, &mut told.position, &mut told.velocity];
+            let places = [
+                &mut command.torque,
+                &mut command.position,
+                &mut command.velocity,
+            ];
             for (place, value) in places.into_iter().zip(values) {
                 if let Some(place) = place.get_mut(i) {
                     *place = value;
@@ -110,13 +114,13 @@ where
             }
         }
     }
-    Ok(told)
+    Ok(command)
 }
 
 /// Velocity of a body and its derivatives by components; the first is its spatial acceleration.
 type Rates<R> = [Motion<R>; 4];
 
-/// What the way out leaves for the way back: f, ḟ, f̈ and W₀, W₁.
+/// What the outward pass leaves for the inward pass: f, ḟ, f̈ and W₀, W₁.
 struct Link<'a, R: Real> {
     link: LinkView<'a, R>,
     x: Xform<R>,
@@ -141,12 +145,12 @@ where
         );
         assert!(
             !(E::WRENCH | E::BASE_MOTION | E::GYROSCOPIC_ROTORS),
-            "inverse dynamics of compliant joints takes no wrenches on bodies, moving base or `GyroscopicRotors`"
+            "inverse dynamics of compliant joints allows no wrenches on bodies, moving base or `GyroscopicRotors`"
         );
     };
     let (state, turns) = (&course.state, JointTrig::of(robot, &course.state.q).turns);
     let rates = [&state.qd, &state.qdd, &course.jerk, &course.snap];
-    // A base that accelerates by −g for ever stands for gravity.
+    // A base that accelerates by −g for ever is gravity.
     let (v_0, a_0) = base_motion(effects);
     let base = [v_0, a_0, Motion::ZERO, Motion::ZERO];
     let mut all: Vec<Rates<R>, B> = Vec::new();

@@ -7,7 +7,7 @@ use crate::state::State;
 /// q = G u + q₀: V joints driven by M motors; u in rad or m at the motors.
 ///
 /// A mimic joint (a gripper's second finger) is a row that repeats another; a differential wrist is a block
-/// of sums and differences. Power is kept: τ_u = Gᵀ τ, and the inertia that the motors feel is Gᵀ M G
+/// of sums and differences. Power is kept: τ_u = Gᵀ τ, and the inertia reflected to the motors is Gᵀ M G
 /// (Featherstone, RBDA, section 3.5: G is the implicit constraint's null space). For joints of one
 /// degree of freedom. Cost: 2 M V flops a vector.
 ///
@@ -68,7 +68,7 @@ impl<R: Real, const M: usize, const V: usize> Transmission<R, M, V> {
         }
     }
 
-    /// Gᵀ M G: the inertia that the motors feel, without their own.
+    /// Gᵀ M G: the inertia reflected to the motors, without their own.
     pub fn inertia(&self, m: &MassMatrix<R, V>) -> MassMatrix<R, M> {
         let columns: [[R; V]; M] = core::array::from_fn(|j| {
             let column = self.matrix.map(|row| row[j]);

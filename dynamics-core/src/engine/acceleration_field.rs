@@ -1,7 +1,7 @@
-//! How the points of a body accelerate, handed from parent to child, and what its inertia takes.
+//! How the points of a body accelerate, from parent to child, and the wrench that its inertia then needs.
 //!
 //! The field form of Newton-Euler: a body's points accelerate as a(r) = a + U r with
-//! U = [α]× + [ω]×[ω]×, and with Σ = ∫ r rᵀ dm the body takes f = m a + U h and
+//! U = [α]× + [ω]×[ω]×, and with Σ = ∫ r rᵀ dm the body needs f = m a + U h and
 //! n = h × a + axial(U Σ − Σ Uᵀ). Balafoutis & Patel, *Dynamic Analysis of Robot Manipulators*
 //! (1991), use U likewise.
 
@@ -20,7 +20,7 @@ use crate::scalar::Real;
 pub(crate) struct AccelerationField<R> {
     /// ω, for effects that read the body's velocity.
     pub(crate) omega: Vec3<R>,
-    /// ω as its products see it: zero unless an effect asks for velocity products.
+    /// ω in the velocity products: zero unless an effect needs them.
     pub(crate) spin: Vec3<R>,
     /// α.
     pub(crate) alpha: Vec3<R>,
@@ -30,20 +30,20 @@ pub(crate) struct AccelerationField<R> {
     pub(crate) a: Vec3<R>,
     /// Velocity of the origin, in units of length; zero unless an effect reads it.
     pub(crate) v: Vec3<R>,
-    /// Where the body stands; unknown unless an effect reads it.
+    /// Pose of the body; unknown unless an effect reads it.
     pub(crate) pose: Pose<R>,
 }
 
-/// How a joint moves, in units of length; zero where no effect asks.
+/// Rates of a joint, in units of length; zero where no effect needs them.
 #[derive(Clone, Copy)]
 pub(crate) struct Rates<R> {
     pub(crate) velocity: Folded<R>,
-    /// The velocity as its products see it.
+    /// The velocity in the velocity products.
     pub(crate) spin: Folded<R>,
     pub(crate) accel: Folded<R>,
 }
 
-/// The inertia left to a body, or to a body and all that it carries: m, h and Σ, in units of length.
+/// The base parameters of a body, or of a body and its descendants: m, h and Σ, in units of length.
 #[derive(Clone, Copy)]
 pub(crate) struct Inertia<R> {
     pub(crate) mass: Folded<R>,
@@ -59,7 +59,7 @@ pub(crate) struct Wrench<R> {
 }
 
 impl<R: Real> Wrench<R> {
-    /// What a joint at the origin feels of it: N·m about z, or N along z.
+    /// The component along a joint at the origin: N·m about z, or N along z.
     #[inline(always)]
     pub(crate) fn along(&self, prismatic: bool, length_inv: Folded<R>) -> Folded<R> {
         if prismatic {
@@ -199,7 +199,7 @@ impl<R: Real> AccelerationField<R> {
         }
     }
 
-    /// What the body's inertia takes: f = m a + U h, n = h × a + axial(U Σ − Σ Uᵀ).
+    /// The wrench that accelerates the body's inertia: f = m a + U h, n = h × a + axial(U Σ − Σ Uᵀ).
     #[inline(always)]
     pub(crate) fn wrench(&self, body: &Inertia<R>) -> Wrench<R> {
         let (mass, h) = (body.mass, body.moment);

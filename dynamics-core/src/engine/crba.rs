@@ -1,4 +1,4 @@
-//! M(q) by composite bodies: what a joint moves, as one rigid body, and the wrench that it takes.
+//! M(q) by composite bodies: all that a joint moves, as one rigid body, and the wrench of its unit acceleration.
 //!
 //! Walker & Orin (1982); Featherstone, RBDA (2008), table 6.2, over base parameters: the masses of
 //! composite bodies are known zeros behind revolute joints, and h travels as R h.
@@ -87,7 +87,7 @@ pub(crate) fn mass_matrix<R, T, E, const B: usize, const Q: usize, const V: usiz
     });
 }
 
-/// Writes the columns of joint I and of all that it carries; returns their inertia in the parent's
+/// Writes the columns of joint I and of its descendants; returns their inertia in the parent's
 /// frame.
 #[inline(always)]
 fn composite<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
@@ -114,7 +114,7 @@ where
     body.to_parent::<T, B, Q, V, I>(turn, Folded::runtime(turn.q) * length_inv)
 }
 
-/// Column I of M: the wrench of joint I's unit acceleration, felt at each joint down to the base.
+/// Column I of M: the wrench of joint I's unit acceleration, projected on each ancestor.
 #[inline(always)]
 fn column<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     task: &mut Task<'_, R, E, Q, V>,

@@ -28,10 +28,10 @@ impl<T> Engine<T> {
     /// ```
     ///
     /// # Errors
-    /// [`NotPositiveDefinite`] names the outermost joint that moves no inertia once the joints that it carries give
-    /// way (a massless last link without rotor inertia; a joint on the axis of another with no inertia between
-    /// them), or whose inertia is not a number: its pivot is not above 16 roundings of the largest inertia that
-    /// all that it carries, stretched out, could have about it.
+    /// [`NotPositiveDefinite`] names the outermost joint that moves no inertia once its descendants
+    /// yield (a massless last link without rotor inertia; a joint on the axis of another with no inertia between
+    /// them), or whose inertia is not a number: its pivot does not exceed 16 roundings of the largest inertia that
+    /// all its descendants, stretched out, could have about it.
     #[inline(never)]
     pub fn forward_dynamics<R: Real, E, const B: usize, const Q: usize, const V: usize>(
         state: &State<R, Q, V>,

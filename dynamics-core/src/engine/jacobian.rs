@@ -80,7 +80,7 @@ where
     columns
 }
 
-/// Writes the columns of joint I and of those beyond; returns the way to the body's origin from the
+/// Writes the columns of joint I and of its descendants; returns the offset of the body's origin from the
 /// parent's, in base coordinates, m. `parent` holds the axes of the parent's frame.
 #[inline(always)]
 fn reach<
@@ -130,7 +130,7 @@ where
     offset + way
 }
 
-/// Whether joint `j` is the next after joint `i` on the way to the body.
+/// Whether joint `j` is the child of joint `i` that supports the body.
 const fn is_supporting<T, const B: usize, const Q: usize, const V: usize, const BODY: usize>(
     i: usize,
     j: usize,

@@ -1,7 +1,7 @@
 //! M = Lᵀ D L and M x = τ, without the entries that the tree's branches leave zero.
 //!
 //! Featherstone, RBDA (2008), section 6.5, tables 6.3 and 6.4: from the tips to the base, so that
-//! no zero is ever filled. All sums run over the joints above a joint, λ(i), λ(λ(i)) …
+//! no zero is ever filled. All sums run over the ancestors of a joint, λ(i), λ(λ(i)) …
 
 use super::Engine;
 use super::compile::CompiledRobot;
@@ -26,9 +26,9 @@ impl<T> Engine<T> {
     /// ```
     ///
     /// # Errors
-    /// [`NotPositiveDefinite`] names the outermost joint whose pivot is not a number or not above 32 roundings of
-    /// M_ii, as [`ltdl`](crate::algorithms::ltdl()) does: it moves no inertia once the joints that it carries
-    /// give way.
+    /// [`NotPositiveDefinite`] names the outermost joint whose pivot is not a number or does not exceed 32 roundings of
+    /// M_ii, as [`ltdl`](crate::algorithms::ltdl()) does: it moves no inertia once its descendants
+    /// yield.
     #[inline(never)]
     pub fn ltdl<R: Real, const B: usize, const Q: usize, const V: usize>(
         m: &MassMatrix<R, V>,
@@ -84,7 +84,7 @@ where
     d_inv
 }
 
-/// Row K of L, and what it takes from the rows above it.
+/// Row K of L, and its share of the rows of its ancestors.
 #[inline(always)]
 fn eliminate<R: Real, T, const B: usize, const Q: usize, const V: usize, const K: usize>(
     m: &mut [[R; V]; V],
@@ -148,7 +148,7 @@ pub(crate) fn substitute<R: Real, T, const B: usize, const Q: usize, const V: us
     });
 }
 
-/// What x_I takes from the entries of the joints above.
+/// Subtracts from x_I the products with the entries of its ancestors.
 #[inline(always)]
 fn scatter<R: Real, T, const B: usize, const Q: usize, const V: usize, const I: usize>(
     l: &[[R; V]; V],
@@ -163,7 +163,7 @@ fn scatter<R: Real, T, const B: usize, const Q: usize, const V: usize, const I: 
     });
 }
 
-/// What the entries of the joints above take from x_I.
+/// Subtracts the products with x_I from the entries of its ancestors.
 #[inline(always)]
 fn gather<R: Real, T, const B: usize, const Q: usize, const V: usize, const I: usize>(
     l: &[[R; V]; V],

@@ -1,6 +1,6 @@
-//! What the pivots of forward dynamics are held against: the largest inertia that each joint could move.
+//! The rounding error of the pivots of forward dynamics: relative to the largest inertia that each joint could move.
 //!
-//! As in [`crate::algorithms`], m, |h| and ∫ r² dm of all that a joint carries, as if it stood in one line away from
+//! As in [`crate::algorithms`], m, |h| and ∫ r² dm of a joint and its descendants, as if they lay in one line away from
 //! it. Turns do not change them, so that they are constants of the robot; slides and a payload add to them.
 
 use super::compile::CompiledRobot;
@@ -10,11 +10,11 @@ use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::SpatialInertia;
 use glam::DVec3;
 
-/// How many roundings of it a pivot must exceed: up to 3.1 were seen of articulated bodies and 12 of LᵀDL where M is
+/// How many roundings of it a pivot must exceed: up to 3.1 were measured for articulated bodies and 12 of LᵀDL where M is
 /// singular, and no fewer than 51 where it is regular (a rope of ten light rods with a weight at its end, in f32).
 const ROUNDINGS: f64 = 16.0;
 
-/// Mass, kg, largest first moment, kg·m, and largest ∫ r² dm, kg·m², of what a joint carries, about its origin.
+/// Mass, kg, largest first moment, kg·m, and largest ∫ r² dm, kg·m², of a joint and its descendants, about its origin.
 #[derive(Clone, Copy)]
 struct Size {
     mass: f64,
@@ -34,7 +34,7 @@ struct Sizes<T, const B: usize, const Q: usize, const V: usize>(core::marker::Ph
 impl<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize> Sizes<T, B, Q, V> {
     const ALL: [Size; V] = sizes(&T::MODEL);
 
-    /// That of joint `i`; beyond the last one something harmless.
+    /// That of joint `i`; beyond the last one, zero.
     const fn of(i: usize) -> Size {
         if i < V { Self::ALL[i] } else { NOTHING }
     }
@@ -67,7 +67,7 @@ const fn sizes<const B: usize, const Q: usize, const V: usize>(
     joints
 }
 
-/// The longest distance of the origin of `body` from that of the body on joint `i`, which carries it, m.
+/// The longest distance of the origin of `body` from that of the body on joint `i`, an ancestor, m.
 const fn reach<const B: usize, const Q: usize, const V: usize>(
     model: &Model<f64, B, Q, V>,
     i: usize,
@@ -85,7 +85,7 @@ const fn reach<const B: usize, const Q: usize, const V: usize>(
     sum
 }
 
-/// The `k`-th of the bodies with a payload that joint `i` carries, or B.
+/// The `k`-th of the bodies with a payload that joint `i` or a descendant moves, or B.
 const fn load<T, const B: usize, const Q: usize, const V: usize>(
     i: usize,
     k: usize,
@@ -196,7 +196,7 @@ fn of_load<R: Real>(load: &SpatialInertia<R>, reach: R) -> R {
     (x[0] + y[1] + z[2]) * R::from_f64(0.5) + reach * (moment + moment + reach * load.mass)
 }
 
-/// Whether joint `i` carries a joint that slides.
+/// Whether joint `i` has a prismatic descendant.
 const fn slides_beyond<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>(
     i: usize,
 ) -> bool {

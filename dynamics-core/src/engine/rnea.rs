@@ -1,5 +1,5 @@
-//! Inverse dynamics by one recursion over the bodies: out on the way down, back on the way up, so
-//! that what lies between stays in registers.
+//! Inverse dynamics by one recursion over the bodies: the outward pass on entering a joint, the inward pass on returning from
+//! its children, so that intermediate values stay in registers.
 
 use super::acceleration_field::{AccelerationField, Inertia, Rates, Wrench};
 use super::compile::{BodyPlacement, CompiledRobot, CompiledTree};
@@ -15,14 +15,14 @@ use crate::state::State;
 /// What all bodies share.
 pub(crate) struct Task<'a, R: Real, E, const Q: usize, const V: usize> {
     pub(crate) turns: &'a [JointCoordinate<R>; Q],
-    /// The same, to be loaded anew on the way up where registers are short.
+    /// The same, loaded again in the inward pass where registers are short.
     pub(crate) back: &'a [JointCoordinate<R>; Q],
     pub(crate) state: &'a State<R, Q, V>,
     pub(crate) effects: &'a E,
     pub(crate) tau: &'a mut [R; V],
 }
 
-/// Visits joint I and all that it carries; returns what they ask of the parent, in its frame.
+/// Visits joint I and its descendants; returns the wrench that they need from the parent, in its frame.
 #[inline(always)]
 pub(crate) fn visit<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     task: &mut Task<'_, R, E, Q, V>,
@@ -128,7 +128,7 @@ where
     body
 }
 
-/// Adds the payload of one body, which is found at `place`.
+/// Adds the payload of one body, at `place`.
 #[inline(always)]
 fn with_load<R, E, const B: usize, const V: usize>(
     effects: &E,
@@ -249,7 +249,7 @@ where
     Wrench { f, n }
 }
 
-/// Whether joint `i` carries joint `j`.
+/// Whether joint `i` is the parent of joint `j`.
 pub(crate) const fn is_parent<T, const B: usize, const Q: usize, const V: usize>(
     i: usize,
     j: usize,
@@ -282,7 +282,7 @@ where
     false
 }
 
-/// Whether joint `j` stands on the base.
+/// Whether joint `j` is a child of the base.
 pub(crate) const fn is_on_base<T, const B: usize, const Q: usize, const V: usize>(j: usize) -> bool
 where
     T: Robot<B, Q, V>,

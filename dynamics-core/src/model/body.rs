@@ -34,7 +34,7 @@ impl JointLimits<f64> {
     };
 }
 
-/// A body and the joint that carries it, in URDF's conventions, SI units and f64.
+/// A body and the joint to its parent, in URDF's conventions, SI units and f64.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Body {
     pub(super) name: &'static str,
@@ -150,7 +150,7 @@ impl Body {
     }
 }
 
-/// 2π as anybody may have rounded it.
+/// 2π, rounded up to four digits.
 const WHOLE_TURN: f64 = 6.284;
 
 /// Whether the columns have unit length: an angle that is not finite, or beyond all reduction,
@@ -197,7 +197,7 @@ pub(super) fn triangle_excess<R: Real>(inertia: &SpatialInertia<R>) -> f64 {
         .as_flattened()
         .iter()
         .fold(0.0, |size: f64, x| size.max(x.abs()));
-    // What the numbers' own rounding leaves of them, once they are taken back to the centre of mass.
+    // The rounding error of the moments about the centre of mass.
     let noise = 8.0 * R::EPSILON.to_f64() * largest;
     if mass > 0.0 {
         for (i, (row, hi)) in a.iter_mut().zip(h).enumerate() {

@@ -100,7 +100,7 @@ impl fmt::Display for ModelError {
 impl core::error::Error for ModelError {}
 
 impl ModelError {
-    /// Panics with the same words as `Display`, in a way that a `const` evaluation can print.
+    /// Panics with the text of `Display`, in a form that a `const` evaluation can print.
     pub(super) const fn panic(self) -> ! {
         let text = match self.problem {
             Problem::Coordinates { expected, given } => Text::EMPTY
@@ -124,7 +124,7 @@ impl ModelError {
     }
 }
 
-/// Panics with these parts of a sentence, in a way that a `const` evaluation can print.
+/// Panics with these parts of a sentence, in a form that a `const` evaluation can print.
 pub(super) const fn panic(parts: &[&str]) -> ! {
     let (mut text, mut part) = (Text::EMPTY, 0);
     while part < parts.len() {

@@ -104,8 +104,8 @@ where
     /// conventions gives. [`super::Model::body`] looks a number up.
     ///
     /// Principal moments may break the triangle inequality by `relative` of the largest: some 10⁻⁶ for what f32 has
-    /// rounded, `f64::INFINITY` for numbers that have to be taken as they are. Not for the tick: it computes principal
-    /// moments in f64. The algorithms of [`crate::Core`] take the robot by `&`, the engine's numbers are constants.
+    /// rounded, `f64::INFINITY` for numbers that have to be accepted as they are. Not for the tick: it computes principal
+    /// moments in f64. The algorithms of [`crate::algorithms`] take the robot by `&`, the engine's numbers are constants.
     ///
     /// ```
     /// use dynamics_core::model::{BodyInertia, Calibrated, Problem, Robot};

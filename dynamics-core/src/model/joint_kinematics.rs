@@ -55,13 +55,13 @@ impl<'a, R: Real> LinkView<'a, R> {
         self.kind
     }
 
-    /// Where its position stands in q.
+    /// Index of its first position in q.
     #[inline(always)]
     pub(crate) fn idx_q(&self) -> usize {
         self.idx_q
     }
 
-    /// Where its velocity stands in q̇.
+    /// Index of its first velocity in q̇.
     #[inline(always)]
     pub(crate) fn idx_v(&self) -> usize {
         self.idx_v

@@ -1,4 +1,4 @@
-//! A robot: a tree of rigid bodies, each carried by one joint.
+//! A robot: a tree of rigid bodies, each on one joint.
 //!
 //! Bodies are listed so that a parent comes before its children; link frames, joint axes and
 //! placements follow URDF. A robot is written once, as a `const` in f64, checked while compiling,
@@ -89,7 +89,7 @@ use crate::scalar::Real;
 use crate::spatial::{SpatialInertia, Xform};
 use glam::{DMat3, DVec3};
 
-/// One body with the joint that carries it, as the algorithms use it: in an aligned frame, which has
+/// One body with the joint to its parent, as the algorithms use it: in an aligned frame, which has
 /// the origin of the body's own frame, but whose z is the joint's axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Link<R: Real> {
@@ -105,9 +105,9 @@ pub struct Link<R: Real> {
     pub placement: Xform<R>,
     /// The body's inertia at the origin, in the aligned frame.
     pub inertia: SpatialInertia<R>,
-    /// Where the joint's position stands in q; [`BASE`] if it has none.
+    /// Index of the joint's first position in q; [`BASE`] if it has none.
     pub idx_q: usize,
-    /// Where the joint's velocity stands in q̇; [`BASE`] if it has none.
+    /// Index of the joint's first velocity in q̇; [`BASE`] if it has none.
     pub idx_v: usize,
     /// The limits of the joint's coordinates.
     pub limits: JointLimits<R>,
@@ -121,7 +121,7 @@ pub struct Model<R: Real, const B: usize, const Q: usize, const V: usize> {
     /// The bodies, parents first.
     pub links: [Link<R>; B],
     /// λ of every velocity coordinate: the one before it, on its own joint or on the nearest joint
-    /// that carries it; [`BASE`] for the first of a branch. RBDA (2008), section 6.5.
+    /// that supports it; [`BASE`] for the first of a branch. RBDA (2008), section 6.5.
     pub lambda: [usize; V],
     /// The kinds of its joints.
     kinds: JointKinds,
@@ -139,7 +139,7 @@ pub trait Robot<const B: usize, const Q: usize, const V: usize> {
     /// The share of the robot's torque below which [`crate::Engine`] leaves a base parameter out, from 0, which leaves
     /// all in, to below 1; [`Pruned`] sets it.
     ///
-    /// Torques are compared at 1 g and at the angular acceleration by which the largest second moment takes as much
+    /// Torques are compared at 1 g and at the angular acceleration at which the largest second moment needs as much
     /// torque as the largest first moment weighs.
     const NEGLIGIBLE: f64 = 0.0;
 }
@@ -269,7 +269,7 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
 }
 
 impl<R: Real, const B: usize, const Q: usize, const V: usize> Model<R, B, Q, V> {
-    /// The number of the body of this name, as [`crate::effects::Payload`] and [`crate::Engine::jacobian`] take it.
+    /// The number of the body of this name, for [`crate::effects::Payload`] and [`crate::Engine::jacobian`].
     ///
     /// ```
     /// use dynamics_core::{model::Robot, robots::Panda};
@@ -309,7 +309,7 @@ impl<R: Real, const B: usize, const Q: usize, const V: usize> Model<R, B, Q, V> 
     /// every body has a name of its own.
     ///
     /// Published robots break it (PUMA 560) or pass by a hair (Panda), and have to run all the
-    /// same: hence a check, not a condition. In f32 rounding alone takes some 10⁻⁶.
+    /// same: hence a check, not a condition. In f32 rounding alone exceeds it by some 10⁻⁶.
     ///
     /// # Errors
     /// [`Problem::Asymmetric`] or [`Problem::Triangle`] with the body's name and the amount: by how much the

@@ -1,13 +1,13 @@
-//! A robot without what it hardly feels.
+//! A robot whose negligible base parameters are dropped.
 
 use core::marker::PhantomData;
 
 use super::{Model, Robot};
 
-/// The robot T, of which [`crate::Engine`] leaves out the base parameters that take less than `PPM` millionths of its
+/// The robot T, of which [`crate::Engine`] leaves out the base parameters that need less than `PPM` millionths of its
 /// torque ([`Robot::NEGLIGIBLE`]), while [`crate::Core`] computes all of it.
 ///
-/// The torque that is lost grows with the joints' accelerations and the square of their speeds; that along a robot's way,
+/// The torque that is lost grows with the joints' accelerations and the square of their speeds; that along a robot's trajectory,
 /// and the cycles won, are in `docs/accuracy.md` in the repository. It pays for arms whose wrist is light beside the rest.
 ///
 /// ```

@@ -1,4 +1,4 @@
-//! A robot as the algorithms take it: known at run time, or while compiling.
+//! The robots that the algorithms accept: known at run time, or while compiling.
 
 use core::marker::PhantomData;
 
@@ -66,8 +66,8 @@ impl<R: Real, const B: usize, const Q: usize, const V: usize> RobotModel<R, B, Q
 
 /// A [`Model`] of which one thing is known: every body turns on a revolute joint of its own.
 ///
-/// [`RobotModel::as_all_revolute`] makes it. A loop over it asks no body what its joint is, which on a host
-/// takes a fifth off inverse dynamics.
+/// [`RobotModel::as_all_revolute`] makes it. A loop over it has no branch on the kind of joint, which saves a fifth of inverse dynamics
+/// on a host.
 #[derive(Clone, Copy, Debug)]
 pub struct AllRevolute<'a, R: Real, const B: usize, const Q: usize, const V: usize>(
     &'a Model<R, B, Q, V>,
@@ -119,7 +119,7 @@ where
 /// A robot with the structure of `T`, known while compiling, and numbers of run time: identified masses and
 /// inertias, measured lengths.
 ///
-/// As quick and as small as [`Static`], where a [`Model`] of run time asks every body what its joint is.
+/// As quick and as small as [`Static`], where a [`Model`] of run time has a branch on the kind of each joint.
 ///
 /// ```
 /// use dynamics_core::{algorithms::rnea, effects::RIGID_BODY, model::Calibrated, robots::Ur5e, state::State};
@@ -134,7 +134,7 @@ where
 #[derive(Clone, Copy, Debug)]
 pub struct Calibrated<T, R: Real, const B: usize, const Q: usize, const V: usize> {
     pub(super) model: Model<R, B, Q, V>,
-    // A function's: no T is held.
+    // Of a function: the type contains no T.
     robot: PhantomData<fn() -> T>,
 }
 

@@ -94,7 +94,7 @@ const fn foot(name: &'static str, parent: usize) -> Body {
         .inertia([0.0000096, 0.0, 0.0, 0.0000096, 0.0, 0.0000096])
 }
 
-/// What the trunk carries.
+/// The legs on the trunk.
 const LEGS: [Body; 16] = [
     hip("FR_hip", 1.0, -1.0),
     thigh("FR_thigh", 0, -1.0),

@@ -7,7 +7,7 @@ use crate::model::{ArmModel, BASE, Body, Joint, JointLimits, Model, Robot};
 /// The parameters were identified from motion (Gaz, Cognetti, Oliva, Robuffo Giordano, De Luca, "Dynamic
 /// Identification of the Franka Emika Panda Robot With Retrieval of Feasible Parameters Using
 /// Penalty-Based Optimization", IEEE Robotics and Automation Letters 4(4), 2019). Such a fit fixes only
-/// the combinations that the torques can feel, so a single link's numbers need not look like that link:
+/// the combinations that the torques depend on, so a single link's numbers need not look like that link:
 /// 0.70 kg m² for link 1 is not its real inertia. Link 2 satisfies the triangle inequality of its
 /// principal moments by 1.7e-6 kg m², which is 5.5e-5 of the largest of them.
 ///

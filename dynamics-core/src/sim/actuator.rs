@@ -7,7 +7,7 @@
 
 use crate::scalar::Real;
 
-/// One joint's actuator, all seen at the joint: behind a gear of ρ, k is ρ times the motor's.
+/// One joint's actuator, all quantities reflected to the joint: behind a gear of ρ, k is ρ times the motor's.
 ///
 /// ```
 /// use dynamics_core::sim::Actuator;
@@ -23,7 +23,7 @@ use crate::scalar::Real;
 pub struct Actuator<R> {
     /// Torque constant k at the joint, N·m/A, which is its back-EMF constant, V·s/rad.
     pub torque_constant: R,
-    /// Greatest current I that the controller asks for, A.
+    /// Greatest current I that the controller commands, A.
     pub current_limit: R,
     /// Supply voltage U, V.
     pub voltage: R,
@@ -42,7 +42,7 @@ impl<R: Real> Actuator<R> {
         self.torque_constant * self.current
     }
 
-    /// What a command comes to in the long run at the joint's speed, N·m: within the current limit and below
+    /// The torque that a command settles at, at the joint's speed, N·m: within the current limit and below
     /// the torque-speed curve k (U − k ω)/R; beyond the speed without load the back-EMF brakes.
     #[inline(always)]
     pub fn saturated_torque(&self, command: R, speed: R) -> R {

@@ -1,4 +1,4 @@
-//! What an integrator asks of a robot.
+//! What an integrator needs to know of a robot.
 
 use super::StepIncrement;
 use crate::algorithms::{NotPositiveDefinite, aba, kinetic_energy_at, potential_energy_at};

@@ -10,7 +10,7 @@ use crate::state::State;
 /// The mean rates of a step, or the joint that moves no inertia.
 pub type Step<R, const V: usize> = Result<StepIncrement<R, V>, NotPositiveDefinite>;
 
-/// A way to step through time.
+/// A method of integration in time.
 ///
 /// ```
 /// use dynamics_core::{effects::RIGID_BODY, model::Robot, robots::Ur5e, state::State};

@@ -1,4 +1,4 @@
-//! Many small increments on a large number, with or without what rounding takes from each.
+//! Many small increments on a large number, with or without compensation of rounding.
 
 use super::StepIncrement;
 use crate::scalar::Real;

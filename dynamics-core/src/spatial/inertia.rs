@@ -1,4 +1,4 @@
-//! Inertias that bodies hand to their parents: of rigid composites and of articulated bodies.
+//! Inertias that are summed inward: of composite rigid bodies and of articulated bodies.
 
 use core::ops::AddAssign;
 

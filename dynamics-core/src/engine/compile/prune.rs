@@ -1,8 +1,8 @@
 //! Base parameters whose torque is negligible, left out: where a zero is known, the engine has no instructions.
 //!
-//! Each parameter is held against the robot's largest ones by the torque that it takes while all is at 1 g and turns at
-//! α = g ĥ/Σ̂, by which the largest second moment Σ̂ takes the torque ĥ g that the largest first moment ĥ weighs. A second
-//! moment Σ then takes Σ α, the share Σ/Σ̂; a first moment h at the end of a reach R takes h (g + α R), the share
+//! Each parameter is compared with the robot's largest ones by the torque that it needs while all is at 1 g and turns at
+//! α = g ĥ/Σ̂, by which the largest second moment Σ̂ needs the torque ĥ g that the largest first moment ĥ weighs. A second
+//! moment Σ then needs Σ α, the share Σ/Σ̂; a first moment h at the end of a reach R needs h (g + α R), the share
 //! h/ĥ + h R/Σ̂.
 
 use glam::{DMat3, DVec3};
@@ -11,7 +11,7 @@ use crate::engine::compile::Joint;
 use crate::math::const_eval::{dot, sqrt};
 use crate::model::BASE;
 
-/// Sets to zero what takes less than `share`; a share of nothing leaves every bit as it was.
+/// Sets the parameters below `share` to zero; a share of zero leaves every bit as it was.
 ///
 /// Masses stay: behind a prismatic joint they are the joint's own inertia, elsewhere none is left.
 pub(crate) const fn prune<const V: usize>(joints: &mut [Joint; V], share: f64) {

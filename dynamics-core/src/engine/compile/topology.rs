@@ -1,4 +1,4 @@
-//! Which joint supports which, and which bodies move with a joint: questions that the compiler answers.
+//! Which joint supports which, and which bodies move with a joint: evaluated while compiling.
 
 use super::compile;
 use super::tree::{AT_BASE, BodyPlacement, CompiledTree, Joint, PADDING_JOINT};
@@ -52,7 +52,7 @@ impl<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize> Compiled
         k != i && Self::supports(k, i)
     }
 
-    /// Where a body of the description is found; beyond the last one, the base.
+    /// The placement of a body of the description; beyond the last one, the base.
     pub(crate) const fn place(body: usize) -> BodyPlacement {
         if body < B {
             Self::TREE.places[body]
@@ -101,7 +101,7 @@ impl<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize> Compiled
         count
     }
 
-    /// The `k`-th body that moves with joint `i`, and where it is found; beyond the last one, the base.
+    /// The `k`-th body that moves with joint `i`, and its placement; beyond the last one, the base.
     pub(crate) const fn body_on(i: usize, k: usize) -> (usize, BodyPlacement) {
         let places = const { &Self::TREE.places };
         let (mut count, mut body) = (0, 0);

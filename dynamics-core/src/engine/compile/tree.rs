@@ -23,7 +23,7 @@ pub(crate) struct Joint {
     pub(crate) second_moment_only: DMat3,
 }
 
-/// Where a body of the description is found: x_engine = rot x_user + pos on `joint`.
+/// The placement of a body of the description: x_engine = rot x_user + pos on `joint`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BodyPlacement {
     pub(crate) joint: usize,
@@ -41,7 +41,7 @@ pub(crate) struct CompiledTree<const B: usize, const V: usize> {
     pub(crate) length: f64,
 }
 
-/// Stands in the constants of branches that are not taken, which the compiler evaluates too.
+/// Fills the constants of branches that are not compiled in, which the compiler evaluates all the same.
 pub(super) const PADDING_JOINT: Joint = Joint {
     parent: BASE,
     prismatic: false,

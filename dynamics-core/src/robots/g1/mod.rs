@@ -36,7 +36,7 @@ const fn put<const N: usize>(all: &mut [Body; 29], first: usize, bodies: [Body; 
     }
 }
 
-/// What the pelvis carries.
+/// The bodies on the pelvis.
 const LIMBS: [Body; 29] = {
     let mut all = [Body::new("", BASE, Joint::fixed()); 29];
     let left = [

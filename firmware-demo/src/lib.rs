@@ -19,18 +19,18 @@
 
 #[cfg(feature = "accuracy")]
 pub mod accuracy;
-pub mod bits;
-pub mod catalogue;
 pub mod control_loop;
+pub mod digest;
 pub mod drive;
+pub mod effect_presets;
 pub mod encoder;
 pub mod hard;
-pub mod machines;
 pub mod marker;
 pub mod plant;
+pub mod robots;
 pub mod scene;
 pub mod scenes;
+pub mod sim_io;
 #[cfg(target_arch = "arm")]
 pub mod target;
 pub mod trajectories;
-pub mod wires;

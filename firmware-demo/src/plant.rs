@@ -8,7 +8,7 @@ use dynamics_core::sim::{linearly_implicit, momentum_preserving};
 use dynamics_core::spatial::Force;
 use dynamics_core::state::State;
 
-use crate::wires::Wires;
+use crate::sim_io::Wires;
 
 mod flexible;
 

@@ -11,7 +11,7 @@ use dynamics_core::control::Status;
 use heapless::spsc::{Consumer, Queue};
 
 use crate::scene::{App, Effects, Errors, Name, OMEGA_N, QUEUE, Record, Scene, TICK, ZETA};
-use crate::wires::Wires;
+use crate::sim_io::Wires;
 
 /// The core's clock, Hz.
 const CLOCK: u32 = 168_000_000;

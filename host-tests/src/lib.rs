@@ -5,12 +5,12 @@ pub mod export;
 pub mod fuzz;
 pub mod hard;
 pub mod measured;
-pub mod odd;
 pub mod random;
 pub mod recordings;
+pub mod stress_robot;
 pub mod tolerances;
 pub mod trees;
-pub mod wide;
+pub mod widen;
 
 /// The README's examples compile: here, since a packaged crate does not contain the repository's files.
 #[cfg(doctest)]

@@ -47,12 +47,12 @@ const IDENTIFIED: BodyInertia<f64> = BodyInertia {
     inertia: [0.02, -0.003, 0.001, 0.03, 0.002, 0.025],
 };
 
-struct Odd;
-impl Robot<4, 2, 2> for Odd {
+struct StressRobot;
+impl Robot<4, 2, 2> for StressRobot {
     const MODEL: Model<f64, 4, 2, 2> = odd(DESCRIBED);
 }
 
-const FOREARM: usize = Odd::MODEL.body("forearm");
+const FOREARM: usize = StressRobot::MODEL.body("forearm");
 
 /// The largest difference of the bodies' inertias, relative to the largest number of each.
 fn apart<const B: usize, const Q: usize, const V: usize>(
@@ -105,8 +105,8 @@ where
 fn the_numbers_of_the_description_give_the_model_again() {
     assert!(described_again::<Ur5e, 6, 6, 6>() < 1e-15);
     assert!(described_again::<Panda, 7, 7, 7>() < 1e-15);
-    assert!(described_again::<Odd, 4, 2, 2>() < 2e-15);
-    let inertia = Calibrated::<Odd, f64, 4, 2, 2>::nominal()
+    assert!(described_again::<StressRobot, 4, 2, 2>() < 2e-15);
+    let inertia = Calibrated::<StressRobot, f64, 4, 2, 2>::nominal()
         .inertia(FOREARM)
         .expect("a body");
     let pairs = [(inertia.com, DESCRIBED.com)].map(|(a, b)| (a.to_vec(), b.to_vec()));
@@ -121,7 +121,7 @@ fn the_numbers_of_the_description_give_the_model_again() {
 
 #[test]
 fn a_calibrated_robot_moves_as_one_that_is_described_with_the_same_numbers() {
-    let mut arm = Calibrated::<Odd, f64, 4, 2, 2>::nominal();
+    let mut arm = Calibrated::<StressRobot, f64, 4, 2, 2>::nominal();
     arm.set_inertia(FOREARM, IDENTIFIED, 0.0)
         .expect("a body can be like that");
     let state = State {
@@ -131,7 +131,7 @@ fn a_calibrated_robot_moves_as_one_that_is_described_with_the_same_numbers() {
     };
     let got = rnea(&arm, &state, &RIGID_BODY);
     let want = rnea(&odd(IDENTIFIED), &state, &RIGID_BODY);
-    let before = rnea(&Odd::MODEL, &state, &RIGID_BODY);
+    let before = rnea(&StressRobot::MODEL, &state, &RIGID_BODY);
     for (i, (got, want)) in got.into_iter().zip(want).enumerate() {
         assert!((got - want).abs() < 2e-14, "{got} for {want}");
         assert!((want - before[i]).abs() > 0.1);
@@ -140,7 +140,7 @@ fn a_calibrated_robot_moves_as_one_that_is_described_with_the_same_numbers() {
 
 #[test]
 fn what_no_body_has_is_named_and_changes_nothing() {
-    let mut arm = Calibrated::<Odd, f64, 4, 2, 2>::nominal();
+    let mut arm = Calibrated::<StressRobot, f64, 4, 2, 2>::nominal();
     arm.set_inertia(FOREARM, IDENTIFIED, 0.0)
         .expect("a body can be like that");
     let good = *arm.model();

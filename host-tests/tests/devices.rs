@@ -4,7 +4,7 @@ use dynamics_core::algorithms::NotPositiveDefinite;
 use firmware_demo::drive::Scale;
 use firmware_demo::encoder::{COUNTS, Encoder, RESOLUTION, quantise};
 use firmware_demo::plant::{Rig, Simulated};
-use firmware_demo::wires::Wires;
+use firmware_demo::sim_io::Wires;
 
 #[test]
 fn a_duty_is_the_nearest_one() {

@@ -7,12 +7,12 @@ use dynamics_core::control::Reference;
 use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
-use firmware_demo::machines::Leg;
 use firmware_demo::plant::Rig;
+use firmware_demo::robots::Leg;
 use firmware_demo::scene::{Full, STEPS, Scene, SimBrake, SimLoop, TICK, control_loop};
 use firmware_demo::scenes::leg_hop::{GROUND, Hopping};
+use firmware_demo::sim_io::Wires;
 use firmware_demo::trajectories::hop::{Hop, arc_cosine};
-use firmware_demo::wires::Wires;
 use host_tests::measured::largest;
 
 fn ways() -> (Hop, Vec<State<f32, 4, 4>>) {

@@ -6,7 +6,7 @@ use dynamics_core::model::Robot;
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
-use firmware_demo::machines::Scara;
+use firmware_demo::robots::Scara;
 use firmware_demo::scenes::scara_table::EFFECTS;
 use glam::Vec3;
 use host_tests::measured::largest;

@@ -142,16 +142,15 @@ fn column<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usiz
     task.effects.inertia(I, &mut diagonal);
     task.m.rows[I][I] = diagonal;
     // From joint I to the base: parents come before their children.
-    for_each_joint!(N, {
-        const K: usize = 31 - N;
+    for_each_joint_reversed!(K, {
         if const { CompiledRobot::<T, B, Q, V>::supports(K, I) } {
             let joint = const { &CompiledRobot::<T, B, Q, V>::joint(K) };
             if joint.parent != BASE {
                 let turn = task.turns[K];
                 wrench =
                     wrench.to_parent::<T, B, Q, V, K>(turn, Folded::runtime(turn.q) * length_inv);
-                let above = const { &CompiledRobot::<T, B, Q, V>::parent_of(K) };
-                let entry = wrench.along(above.prismatic, length_inv).get();
+                let parent = const { &CompiledRobot::<T, B, Q, V>::parent_of(K) };
+                let entry = wrench.along(parent.prismatic, length_inv).get();
                 task.m.rows[I][joint.parent] = entry;
                 task.m.rows[joint.parent][I] = entry;
             }

@@ -74,8 +74,7 @@ where
     T: Robot<B, Q, V>,
 {
     let mut d_inv = [R::ZERO; V];
-    for_each_joint!(N, {
-        const K: usize = 31 - N;
+    for_each_joint_reversed!(K, {
         if const { K < V } {
             d_inv[K] = R::ONE / m[K][K];
             eliminate::<R, T, B, Q, V, K>(m, d_inv[K]);
@@ -92,8 +91,7 @@ fn eliminate<R: Real, T, const B: usize, const Q: usize, const V: usize, const K
 ) where
     T: Robot<B, Q, V>,
 {
-    for_each_joint!(N, {
-        const I: usize = 31 - N;
+    for_each_joint_reversed!(I, {
         if const { CompiledRobot::<T, B, Q, V>::is_ancestor(I, K) } {
             let l = m[K][I] * d_inv;
             subtract::<R, T, B, Q, V, K, I>(m, l);
@@ -134,8 +132,7 @@ pub(crate) fn substitute<R: Real, T, const B: usize, const Q: usize, const V: us
 ) where
     T: Robot<B, Q, V>,
 {
-    for_each_joint!(N, {
-        const I: usize = 31 - N;
+    for_each_joint_reversed!(I, {
         if const { I < V } {
             scatter::<R, T, B, Q, V, I>(l, x);
         }

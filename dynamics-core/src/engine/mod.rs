@@ -20,6 +20,16 @@ macro_rules! for_each_joint {
     })*};
 }
 
+/// [`for_each_joint`] from the last joint to the first.
+macro_rules! for_each_joint_reversed {
+    ($j:ident, $body:block) => {
+        for_each_joint!(N, {
+            const $j: usize = 31 - N;
+            $body
+        })
+    };
+}
+
 mod aba;
 mod acceleration_field;
 mod articulated_inertia;

@@ -64,7 +64,7 @@
 mod body;
 mod cast;
 mod error;
-mod floating;
+mod floating_base;
 mod inertia;
 mod joint;
 mod joint_coordinate;
@@ -76,7 +76,7 @@ mod source;
 pub(crate) use body::moments_excess;
 pub use body::{BASE, Body, JointLimits};
 pub use error::{ModelError, Problem};
-pub use floating::on_root;
+pub use floating_base::attach_to;
 pub use inertia::BodyInertia;
 pub use joint::{Joint, JointKind, JointKinds};
 pub use joint_coordinate::JointCoordinate;

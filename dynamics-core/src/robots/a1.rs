@@ -2,7 +2,7 @@
 
 use core::f64::consts::PI;
 
-use crate::model::{BASE, Body, Joint, JointLimits, Model, Robot, on_root};
+use crate::model::{BASE, Body, Joint, JointLimits, Model, Robot, attach_to};
 
 /// Unitree A1 quadruped with its trunk welded to the base: a tree of four equal legs, 12 revolute joints.
 ///
@@ -119,10 +119,10 @@ impl A1 {
     /// is on a trunk.
     ///
     /// ```
-    /// use dynamics_core::model::{BASE, Body, Joint, Model, on_root};
+    /// use dynamics_core::model::{BASE, Body, Joint, Model, attach_to};
     /// use dynamics_core::robots::A1;
     /// const CARRIAGE: Body = Body::new("carriage", BASE, Joint::prismatic([0.0, 0.0, 1.0])).mass(1.5);
-    /// const HOPPER: Model<f64, 5, 4, 4> = Model::new("hopper", on_root(CARRIAGE, &A1::LEG));
+    /// const HOPPER: Model<f64, 5, 4, 4> = Model::new("hopper", attach_to(CARRIAGE, &A1::LEG));
     /// assert_eq!(HOPPER.links[4].name, "FR_foot");
     /// ```
     pub const LEG: [Body; 4] = [LEGS[0], LEGS[1], LEGS[2], LEGS[3]];
@@ -158,7 +158,7 @@ const TRUNK: Body = Body::new("trunk", BASE, Joint::free())
     ]);
 
 impl Robot<17, 19, 18> for A1Free {
-    const MODEL: Model<f64, 17, 19, 18> = Model::new("a1_free", on_root(TRUNK, &LEGS));
+    const MODEL: Model<f64, 17, 19, 18> = Model::new("a1_free", attach_to(TRUNK, &LEGS));
 }
 
 const _: Model<f64, 17, 19, 18> = A1Free::MODEL;

@@ -94,8 +94,8 @@ mod tick {
     use firmware_demo::drive::Drive;
     use firmware_demo::encoder::Encoder;
     use firmware_demo::scene::{SimBrake, TICK};
+    use firmware_demo::sim_io::{SimDrive, SimEncoder, Wires};
     use firmware_demo::target;
-    use firmware_demo::wires::{SimDrive, SimEncoder, Wires};
 
     const TICKS: usize = 1000;
     const TORQUE: [f32; 6] = [150.0, 150.0, 150.0, 28.0, 28.0, 28.0];

@@ -10,14 +10,14 @@ mod effects;
 use cortex_m_rt::entry;
 use dynamics_core::Engine;
 use dynamics_core::robots::Panda;
-use firmware_demo::catalogue;
+use firmware_demo::effect_presets;
 
 use effects::Priced;
 
 #[entry]
 fn main() -> ! {
     let priced = &mut Priced::<Engine<Panda>, 7>::new();
-    catalogue::rigid(priced);
-    catalogue::bodies::<7, 6>(priced);
+    effect_presets::rigid(priced);
+    effect_presets::bodies::<7, 6>(priced);
     costs::done()
 }

@@ -10,14 +10,14 @@ mod effects;
 use cortex_m_rt::entry;
 use dynamics_core::Engine;
 use dynamics_core::robots::Ur5e;
-use firmware_demo::catalogue;
+use firmware_demo::effect_presets;
 
 use effects::Priced;
 
 #[entry]
 fn main() -> ! {
     let priced = &mut Priced::<Engine<Ur5e>, 6>::new();
-    catalogue::rigid(priced);
-    catalogue::bodies::<6, 5>(priced);
+    effect_presets::rigid(priced);
+    effect_presets::bodies::<6, 5>(priced);
     costs::done()
 }

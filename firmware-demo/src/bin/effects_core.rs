@@ -9,21 +9,21 @@ mod effects;
 use cortex_m_rt::entry;
 use dynamics_core::Core;
 use dynamics_core::robots::{Panda, Ur5e};
-use firmware_demo::catalogue;
+use firmware_demo::effect_presets;
 
 use effects::Priced;
 
 #[entry]
 fn main() -> ! {
     let ur5e = &mut Priced::<Core<Ur5e>, 6>::new();
-    catalogue::rigid(ur5e);
-    catalogue::joints(ur5e);
-    catalogue::bodies::<6, 5>(ur5e);
-    catalogue::spinning(ur5e);
+    effect_presets::rigid(ur5e);
+    effect_presets::joints(ur5e);
+    effect_presets::bodies::<6, 5>(ur5e);
+    effect_presets::spinning(ur5e);
     let panda = &mut Priced::<Core<Panda>, 7>::new();
-    catalogue::rigid(panda);
-    catalogue::joints(panda);
-    catalogue::bodies::<7, 6>(panda);
-    catalogue::spinning(panda);
+    effect_presets::rigid(panda);
+    effect_presets::joints(panda);
+    effect_presets::bodies::<7, 6>(panda);
+    effect_presets::spinning(panda);
     costs::done()
 }

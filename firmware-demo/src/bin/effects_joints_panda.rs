@@ -9,12 +9,12 @@ mod effects;
 use cortex_m_rt::entry;
 use dynamics_core::Engine;
 use dynamics_core::robots::Panda;
-use firmware_demo::catalogue;
+use firmware_demo::effect_presets;
 
 use effects::Priced;
 
 #[entry]
 fn main() -> ! {
-    catalogue::joints(&mut Priced::<Engine<Panda>, 7>::new());
+    effect_presets::joints(&mut Priced::<Engine<Panda>, 7>::new());
     costs::done()
 }

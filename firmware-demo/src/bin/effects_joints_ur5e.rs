@@ -9,12 +9,12 @@ mod effects;
 use cortex_m_rt::entry;
 use dynamics_core::Engine;
 use dynamics_core::robots::Ur5e;
-use firmware_demo::catalogue;
+use firmware_demo::effect_presets;
 
 use effects::Priced;
 
 #[entry]
 fn main() -> ! {
-    catalogue::joints(&mut Priced::<Engine<Ur5e>, 6>::new());
+    effect_presets::joints(&mut Priced::<Engine<Ur5e>, 6>::new());
     costs::done()
 }

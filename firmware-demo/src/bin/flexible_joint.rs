@@ -6,7 +6,7 @@ use cortex_m::singleton;
 use cortex_m_rt::entry;
 use firmware_demo::scene::{App, QUEUE, Record};
 use firmware_demo::scenes::flexible_joint::CompliantArm;
-use firmware_demo::{target, wires::Wires};
+use firmware_demo::{sim_io::Wires, target};
 use heapless::spsc::Queue;
 
 #[entry]

@@ -1,7 +1,7 @@
 //! The quantities of a hard case, by every algorithm.
 
 use super::Extras;
-use crate::bits::Digest;
+use crate::digest::Digest;
 use dynamics_core::algorithms::{
     Damping, NotPositiveDefinite, aba, forward_dynamics, frame, operational_space, osim_inverse,
     rnea,

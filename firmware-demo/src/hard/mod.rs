@@ -11,7 +11,7 @@ pub use arms::{COUNT, EXCESS, RENUMBERING};
 pub use compute::{Answers, GRAVITY, OnLast, Revolute, Scene, answers_to, scene};
 pub use states::{counts, remainder};
 
-use crate::bits::Digest;
+use crate::digest::Digest;
 use dynamics_core::model::{ArmModel, RobotModel};
 use dynamics_core::state::State;
 

@@ -9,7 +9,7 @@ use heapless::spsc::Producer;
 use super::{Noise, Run, Scene, TICK, Truth, control_loop};
 use crate::control_loop::{ControlLoop, Telemetry};
 use crate::plant::{Rig, Simulated};
-use crate::wires::{SimDrive, SimEncoder, Wires};
+use crate::sim_io::{SimDrive, SimEncoder, Wires};
 
 /// Steps of the simulated robot in a tick.
 pub const STEPS: u32 = 4;

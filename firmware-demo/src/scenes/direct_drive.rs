@@ -10,8 +10,8 @@ use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
 
 use crate::control_loop::Law;
-use crate::machines::DirectDrive;
 use crate::plant::Plant;
+use crate::robots::DirectDrive;
 use crate::scene::{Noise, Run, Scene, Truth, rigid, through};
 
 /// What acts on the arm.

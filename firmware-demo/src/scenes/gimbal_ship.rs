@@ -9,9 +9,9 @@ use dynamics_core::spatial::Motion;
 use dynamics_core::state::State;
 use glam::Vec3;
 
-use crate::machines::ship::Swing;
-use crate::machines::{Gimbal, Ship};
 use crate::plant::Plant;
+use crate::robots::ship::Swing;
+use crate::robots::{Gimbal, Ship};
 use crate::scene::{Noise, Scene, TICK, rigid};
 use crate::trajectories::watch::Watch;
 

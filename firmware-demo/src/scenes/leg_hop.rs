@@ -8,8 +8,8 @@ use dynamics_core::effects::{
 use dynamics_core::state::State;
 use glam::Vec3;
 
-use crate::machines::Leg;
 use crate::plant::{Plant, last};
+use crate::robots::Leg;
 use crate::scene::{Noise, Scene, rigid};
 use crate::trajectories::hop::{ElasticReference, Hop};
 

@@ -10,8 +10,8 @@ use dynamics_core::state::State;
 use glam::Vec3;
 
 use crate::control_loop::Law;
-use crate::machines::Scara;
 use crate::plant::Plant;
+use crate::robots::Scara;
 use crate::scene::{Noise, Run, Scene, Truth, rigid, through};
 use crate::trajectories::{ASIDE, SCARA_SERVES};
 

@@ -9,8 +9,8 @@ use dynamics_core::spatial::Force;
 use dynamics_core::state::State;
 
 use crate::control_loop::Law;
-use crate::machines::SpaceArm;
 use crate::plant::{Floating, last};
+use crate::robots::SpaceArm;
 use crate::scene::{Less, Noise, Run, Scene, Truth, name, rigid, through};
 use crate::trajectories::{REACH_OUT, STOWED};
 

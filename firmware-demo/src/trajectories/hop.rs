@@ -19,8 +19,8 @@ use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
 use dynamics_core::trig::sin_cos_near;
 
-use crate::machines::Leg;
 use crate::plant::last;
+use crate::robots::Leg;
 use crate::scene::TICK;
 
 mod phase;

@@ -4,8 +4,8 @@ use dynamics_core::control::Reference;
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
 
-use crate::machines::Ship;
-use crate::machines::ship::Swing;
+use crate::robots::Ship;
+use crate::robots::ship::Swing;
 use crate::scene::TICK;
 
 /// A camera on a roll, a pitch and a pan axis that stays level on a ship and sweeps a sector of the horizon.

@@ -1,7 +1,7 @@
 //! Long chains, and folded ones.
 
 use super::measure::{ErrorBounds, against_oracle};
-use super::setups::{Stance, arm, chain};
+use super::setup::list::{Stance, arm, chain};
 use super::{Case, Row};
 
 const ORACLE: &str = "50 digits from the very f32 bits (oracle/hard.py)";

@@ -1,7 +1,7 @@
 //! Descriptions that no body can have, and those that only look so.
 
 use super::measure::{ErrorBounds, against_oracle};
-use super::setups::arm;
+use super::setup::list::arm;
 use super::{Case, Row};
 use dynamics_core::algorithms::{aba, crba, ltdl, rnea};
 use dynamics_core::effects::RIGID_BODY;

@@ -2,8 +2,8 @@
 
 use super::measure::{ErrorBounds, against_oracle, by_joints};
 use super::placements::{apart, same};
+use super::setup::list::arm;
 use super::setup::{Setup, literally_in_f64, turning, widened};
-use super::setups::arm;
 use super::{Case, Row};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
@@ -107,7 +107,7 @@ fn turned() -> Vec<Row> {
     let name = "RNEA, turned anyhow with gravity";
     rows.push(Row::measured(name, "f32", f32s, TURNED));
     rows.push(Row::measured(name, "f64", f64s, TURNED));
-    rows.extend(super::roots::rows());
+    rows.extend(super::rerooted_chain::rows());
     rows
 }
 

@@ -2,7 +2,7 @@
 
 use super::measure::{ErrorBounds, against_oracle, by_joints};
 use super::naive::floored;
-use super::setups::{arm, light_links};
+use super::setup::list::{arm, light_links};
 use super::{Case, Row};
 use dynamics_core::algorithms::NotPositiveDefinite;
 use firmware_demo::hard::{N, Scene, scene};

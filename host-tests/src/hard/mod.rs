@@ -4,33 +4,32 @@
 //! and `cargo xtask hard-cases` writes down.
 
 mod naive;
-mod roots;
+mod rerooted_chain;
 mod row;
 
 pub mod attitude;
-pub mod belt;
 pub mod chains;
 pub mod clock;
+pub mod continuous_turns;
 pub mod controller;
 pub mod descriptions;
 pub mod elbow;
 pub mod energy;
 pub mod engine;
+pub mod far_slide;
 pub mod friction;
 pub mod integrators;
 pub mod invariances;
 pub mod masses;
 pub mod measure;
+pub mod nan_injection;
 pub mod parallel;
 pub mod placements;
-pub mod poison;
 pub mod setup;
-pub mod setups;
-pub mod slide;
 pub mod speeds;
+pub mod stick_slip;
 pub mod stiff;
 pub mod top;
-pub mod windup;
 
 pub use row::{Row, Verdict};
 
@@ -76,7 +75,7 @@ pub const CASES: &[&[Case]] = &[
     masses::CASES,
     chains::CASES,
     placements::CASES,
-    slide::CASES,
+    far_slide::CASES,
     speeds::CASES,
     elbow::CASES,
     parallel::CASES,
@@ -87,10 +86,10 @@ pub const CASES: &[&[Case]] = &[
     energy::CASES,
     stiff::CASES,
     friction::CASES,
-    belt::CASES,
-    poison::CASES,
+    stick_slip::CASES,
+    nan_injection::CASES,
     clock::CASES,
-    windup::CASES,
+    continuous_turns::CASES,
     engine::CASES,
 ];
 

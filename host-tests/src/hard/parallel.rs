@@ -2,8 +2,8 @@
 
 use super::masses::refusals;
 use super::measure::{ErrorBounds, against_oracle, by_joints, larger};
+use super::setup::list::arm;
 use super::setup::{turning, widened};
-use super::setups::arm;
 use super::{Case, Row};
 use crate::random::{random_numbers, within};
 use dynamics_core::algorithms::{aba, cholesky, crba, ltdl, rnea};

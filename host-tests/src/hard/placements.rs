@@ -2,8 +2,8 @@
 
 use super::measure::{ErrorBounds, against_oracle, by_joints, larger};
 use super::naive::{absolute, floored};
+use super::setup::list::{arm, reframed};
 use super::setup::{Setup, widened};
-use super::setups::{arm, reframed};
 use super::{Case, Row};
 use dynamics_core::scalar::Real;
 use firmware_demo::hard::{Answers, GRAVITY, N, scene};

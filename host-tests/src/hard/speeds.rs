@@ -1,8 +1,8 @@
 //! Large speeds and angles.
 
 use super::measure::{ErrorBounds, against_oracle, by_joints};
+use super::setup::list::arm;
 use super::setup::turning;
-use super::setups::arm;
 use super::{Case, Row};
 use dynamics_core::algorithms::rnea;
 use dynamics_core::control::{Fault, MultiTurnEncoder, SafetyLimits, Supervisor};

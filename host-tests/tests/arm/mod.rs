@@ -17,7 +17,7 @@ use firmware_demo::plant::{Plant, Rig};
 use firmware_demo::scene::{Full, STEPS, Scene, TICK, control_loop};
 pub use firmware_demo::scene::{HOLD, REENTRY, RIDE};
 use firmware_demo::scenes::ur5e::{Effects, PickAndPlace};
-use firmware_demo::wires::{MAX_DUTY, SimDrive, SimEncoder, Wires};
+use firmware_demo::sim_io::{MAX_DUTY, SimDrive, SimEncoder, Wires};
 use host_tests::measured::largest;
 
 /// The full model, which a test may make fail: on this thread, no number for a joint.

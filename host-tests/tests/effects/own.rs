@@ -14,8 +14,8 @@ use dynamics_core::spatial::{Force, Motion};
 use dynamics_core::{Core, Engine};
 use glam::DVec3;
 use host_tests::measured::largest;
-use host_tests::odd::Odd;
 use host_tests::random::{random_numbers, within};
+use host_tests::stress_robot::StressRobot;
 
 /// A cable pack tied to one point of a link and dragged along behind it: fˣ = −c v of that point.
 #[derive(Clone, Copy, Debug)]
@@ -199,12 +199,12 @@ fn engine_equals_core_on_a_moving_base_and_where_poses_are_asked() {
             let [q, qd, qdd] = [3.1, 3.0, 10.0].map(|bound| within::<7>(rng, bound));
             let state = cast::<R, 7>(&State { q, qd, qdd });
             let core = [
-                Core::<Odd>::rnea(&state, &all),
-                Core::<Odd>::rnea(&state, &slow),
+                Core::<StressRobot>::rnea(&state, &all),
+                Core::<StressRobot>::rnea(&state, &slow),
             ];
             let engine = [
-                Engine::<Odd>::rnea(&state, &all),
-                Engine::<Odd>::rnea(&state, &slow),
+                Engine::<StressRobot>::rnea(&state, &all),
+                Engine::<StressRobot>::rnea(&state, &slow),
             ];
             for k in 0..2 {
                 for (core, engine) in core[k].into_iter().zip(engine[k]) {

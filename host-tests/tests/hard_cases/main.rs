@@ -10,9 +10,9 @@ mod engine;
 mod friction;
 mod invariances;
 mod masses;
+mod nan_injection;
 mod parallel;
 mod placements;
-mod poison;
 mod speeds;
 mod stiff;
 

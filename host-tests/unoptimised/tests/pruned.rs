@@ -6,9 +6,9 @@ use dynamics_core::robots::{A1Leg, Panda, Ur5e};
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
 use host_tests::measured::largest;
-use host_tests::odd::Odd;
 use host_tests::random::{random_numbers, within};
 use host_tests::recordings::load;
+use host_tests::stress_robot::StressRobot;
 use host_tests::tolerances::check;
 
 /// The states recorded of a robot whose first coordinates are T's, and as many at random.
@@ -51,7 +51,7 @@ fn a_share_of_nothing_changes_no_bit() {
     nothing_left_out::<Ur5e, 6, 6>("ur5e");
     nothing_left_out::<Panda, 7, 7>("panda");
     nothing_left_out::<A1Leg, 4, 3>("a1");
-    nothing_left_out::<Odd, 11, 7>("panda");
+    nothing_left_out::<StressRobot, 11, 7>("panda");
 }
 
 /// What is left out, relative to the largest torque of the states.
@@ -80,7 +80,7 @@ fn what_is_left_out_is_as_little_as_it_says() {
         left_out::<Pruned<Ur5e, 1000>, 6, 6>(("ur5e", "left out at 0.1 %"), "ur5e"),
         left_out::<Pruned<Panda, 1000>, 7, 7>(("panda", "left out at 0.1 %"), "panda"),
         left_out::<Pruned<A1Leg, 1000>, 4, 3>(("a1_leg", "left out at 0.1 %"), "a1"),
-        left_out::<Pruned<Odd, 50_000>, 11, 7>(("odd", "left out at 5 %"), "panda"),
+        left_out::<Pruned<StressRobot, 50_000>, 11, 7>(("odd", "left out at 5 %"), "panda"),
     ];
     let failed: Vec<_> = results.into_iter().filter_map(Result::err).collect();
     assert!(failed.is_empty(), "{failed:#?}");

@@ -2,7 +2,7 @@
 
 mod limbs;
 
-use crate::model::{ArmModel, BASE, Body, Joint, Model, Robot, on_root};
+use crate::model::{ArmModel, BASE, Body, Joint, Model, Robot, attach_to};
 use limbs::{arm, leg, waist};
 
 /// Unitree G1 humanoid with its pelvis welded to the base: 29 revolute joints (6 a leg, 3 in the waist,
@@ -98,7 +98,7 @@ const PELVIS: Body = Body::new("pelvis", BASE, Joint::free())
     .inertia([0.010549, 0.0, 2.1e-6, 0.0093089, 0.0, 0.0079184]);
 
 impl Robot<30, 36, 35> for G1Free {
-    const MODEL: Model<f64, 30, 36, 35> = Model::new("g1_free", on_root(PELVIS, &LIMBS));
+    const MODEL: Model<f64, 30, 36, 35> = Model::new("g1_free", attach_to(PELVIS, &LIMBS));
 }
 
 const _: Model<f64, 30, 36, 35> = G1Free::MODEL;

@@ -13,7 +13,7 @@ use dynamics_core::effects::Effect;
 use dynamics_core::model::Robot;
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
-use firmware_demo::catalogue::Visitor;
+use firmware_demo::effect_presets::Visitor;
 
 use super::costs::row::Row;
 use super::costs::{Ask, STATES, asks};

@@ -1,8 +1,10 @@
 //! Prints the digests of the dynamics' results, as the firmware's bin `bits` does.
 
-use firmware_demo::{bits, hard};
+use firmware_demo::{digest, hard};
 
 fn main() {
-    bits::digests(|robot, quantity, digest| println!("bits {robot} {quantity} {:016x}", digest.0));
+    digest::digests(|robot, quantity, digest| {
+        println!("bits {robot} {quantity} {:016x}", digest.0)
+    });
     hard::digests(|case, name, digest| println!("bits hard {case} {name} {:016x}", digest.0));
 }

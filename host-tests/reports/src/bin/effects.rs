@@ -9,7 +9,7 @@ use dynamics_core::effects::{Effect, JointState, RIGID_BODY};
 use dynamics_core::model::{Robot, model};
 use dynamics_core::robots::{Panda, Ur5e};
 use dynamics_core::state::State;
-use firmware_demo::catalogue::{self, RIGID, Visitor};
+use firmware_demo::effect_presets::{self, RIGID, Visitor};
 use firmware_demo::scene::TICK;
 use firmware_demo::trajectories::{PANDA_PICK_AND_PLACE, PICK_AND_PLACE};
 
@@ -67,8 +67,8 @@ fn every<T: Robot<N, N, N>, const N: usize, const W: usize, const TIP: usize>(
         states: ticks.map(|tick| trajectory.at(tick)).collect(),
         robot: PhantomData,
     };
-    catalogue::rigid(reference);
-    catalogue::joints(reference);
-    catalogue::bodies::<N, TIP>(reference);
-    catalogue::spinning(reference);
+    effect_presets::rigid(reference);
+    effect_presets::joints(reference);
+    effect_presets::bodies::<N, TIP>(reference);
+    effect_presets::spinning(reference);
 }

@@ -4,13 +4,13 @@
 use dynamics_core::Ltdl;
 use dynamics_core::algorithms::{aba, crba, forward_dynamics, ltdl, rnea, solve};
 use dynamics_core::effects::RIGID_BODY;
-use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model, Robot, on_root};
+use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model, Robot, attach_to};
 use dynamics_core::robots::{G1, G1Free};
 use dynamics_core::state::State;
 use dynamics_core::state::manifold::normalise;
 use host_tests::measured::largest;
 use host_tests::random::{random_numbers, within};
-use host_tests::wide::widened;
+use host_tests::widen::widened;
 use proptest::test_runner::TestRng;
 
 /// States of each case.
@@ -52,7 +52,7 @@ fn main() {
         .mass(1.0)
         .inertia([0.01, 0.0, 0.0, 0.01, 0.0, 0.01]);
     let floating: Model<f64, 17, 23, 22> =
-        Model::new("floating", on_root(base, &bodies::<16>(1.0, true)));
+        Model::new("floating", attach_to(base, &bodies::<16>(1.0, true)));
     case("16 rods on a free base", &floating, Stance::Random);
     case("G1, pelvis held", &G1::MODEL, Stance::Random);
     case("G1, pelvis free", &G1Free::MODEL, Stance::Random);

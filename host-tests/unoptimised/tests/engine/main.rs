@@ -12,7 +12,7 @@ use dynamics_core::spatial::Force;
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
 use host_tests::measured::largest;
-use host_tests::odd::Odd;
+use host_tests::stress_robot::StressRobot;
 use proptest::prelude::RngExt;
 use proptest::test_runner::{RngAlgorithm, TestRng};
 
@@ -147,7 +147,7 @@ fn odd_tree<R: Real>() {
         Drag,
         payload::<R, 10>(),
     );
-    let ulps = compare::<R, Odd, _, 11, 7>(&scene, 10_000);
+    let ulps = compare::<R, StressRobot, _, 11, 7>(&scene, 10_000);
     assert!(ulps <= ULPS, "{ulps:.2} ulp");
 }
 
@@ -160,8 +160,10 @@ fn engine_equals_core_on_an_odd_tree_under_every_effect() {
 #[test]
 fn engine_equals_core_on_an_odd_tree_under_every_effect_in_f64() {
     odd_tree::<f64>();
-    let ulps =
-        compare::<f64, Odd, _, 11, 7>(&(Gravity::<Aslant>::new(9.81), Inertia, Drag), 10_000);
+    let ulps = compare::<f64, StressRobot, _, 11, 7>(
+        &(Gravity::<Aslant>::new(9.81), Inertia, Drag),
+        10_000,
+    );
     assert!(ulps <= ULPS, "{ulps:.2} ulp");
 }
 
@@ -201,7 +203,7 @@ fn a_payload_is_inertia_of_its_body() {
 #[test]
 fn an_effect_that_reads_velocities_does_not_switch_coriolis_on() {
     let scene = (Gravity::<Aslant>::new(9.81), Inertia, Drag);
-    let ulps = compare::<f32, Odd, _, 11, 7>(&scene, 10_000);
+    let ulps = compare::<f32, StressRobot, _, 11, 7>(&scene, 10_000);
     assert!(ulps <= ULPS, "{ulps:.2} ulp");
     // The core itself: what drag adds does not depend on what else is there.
     let state = State {
@@ -209,9 +211,9 @@ fn an_effect_that_reads_velocities_does_not_switch_coriolis_on() {
         qd: [1.0, -2.0, 3.0, 1.5, -1.0, 2.0, 0.5],
         qdd: [0.0; 7],
     };
-    let drag = Core::<Odd>::rnea(&state, &(Drag,));
-    let with = Core::<Odd>::rnea(&state, &(Coriolis, Drag));
-    let without = Core::<Odd>::rnea(&state, &(Coriolis,));
+    let drag = Core::<StressRobot>::rnea(&state, &(Drag,));
+    let with = Core::<StressRobot>::rnea(&state, &(Coriolis, Drag));
+    let without = Core::<StressRobot>::rnea(&state, &(Coriolis,));
     for ((drag, with), without) in drag.iter().zip(with).zip(without) {
         assert!(
             (with - without - drag).abs() < 1e-12,
@@ -222,6 +224,6 @@ fn an_effect_that_reads_velocities_does_not_switch_coriolis_on() {
 
 #[test]
 fn engine_equals_core_where_nothing_moves() {
-    let ulps = compare::<f32, Odd, _, 11, 7>(&(Gravity::<Aslant>::new(9.81), Push), 10_000);
+    let ulps = compare::<f32, StressRobot, _, 11, 7>(&(Gravity::<Aslant>::new(9.81), Push), 10_000);
     assert!(ulps <= ULPS, "{ulps:.2} ulp");
 }

@@ -9,7 +9,7 @@ use dynamics_core::scalar::{Real, Vector};
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
 use host_tests::measured::largest;
-use host_tests::odd::Odd;
+use host_tests::stress_robot::StressRobot;
 use host_tests::tolerances;
 use proptest::prelude::RngExt;
 use proptest::test_runner::{RngAlgorithm, TestRng};
@@ -74,7 +74,7 @@ where
 
 #[test]
 fn m_is_what_inverse_dynamics_asks_for_each_acceleration() {
-    columns::<Odd, _, 11, 7>(&(Inertia,), "engine columns of M");
+    columns::<StressRobot, _, 11, 7>(&(Inertia,), "engine columns of M");
     #[cfg(feature = "full")]
     columns::<dynamics_core::robots::A1, _, 16, 12>(&(Inertia,), "engine columns of M");
 }
@@ -82,7 +82,7 @@ fn m_is_what_inverse_dynamics_asks_for_each_acceleration() {
 #[test]
 fn rotors_and_payload_belong_to_m() {
     let scene = (Inertia, ROTORS, payload::<_, 10>());
-    columns::<Odd, _, 11, 7>(&scene, "engine loaded M");
+    columns::<StressRobot, _, 11, 7>(&scene, "engine loaded M");
 }
 
 /// The largest error of `invert` on what the core's inverse dynamics gives.
@@ -116,7 +116,11 @@ fn forward_inverts_rnea_on_an_odd_tree_with_rotors_and_payload() {
         ROTORS,
         payload::<_, 10>(),
     );
-    inverted::<f64, Odd, _, 11, 7>(&scene, quantity, Engine::<Odd>::forward_dynamics);
+    inverted::<f64, StressRobot, _, 11, 7>(
+        &scene,
+        quantity,
+        Engine::<StressRobot>::forward_dynamics,
+    );
 }
 
 /// A smaller odd tree, since articulated bodies take the compiler long.
@@ -163,11 +167,11 @@ fn aba_inverts_rnea_on_an_odd_tree_with_rotors_and_payload() {
 fn solve_inverts_m() {
     let (mut random, mut worst) = (Random::new(), 0.0_f64);
     for _ in 0..200 {
-        let m = Engine::<Odd>::crba(&random.array(3.0), &RIGID_BODY);
+        let m = Engine::<StressRobot>::crba(&random.array(3.0), &RIGID_BODY);
         let x: [f64; 7] = random.array(1.0);
         let tau = core::array::from_fn(|i| (0..7).map(|j| m.get(i, j) * x[j]).sum());
-        let factor = Engine::<Odd>::ltdl(&m).expect("M is positive");
-        let found: [f64; 7] = Engine::<Odd>::solve(&factor, &tau);
+        let factor = Engine::<StressRobot>::ltdl(&m).expect("M is positive");
+        let found: [f64; 7] = Engine::<StressRobot>::solve(&factor, &tau);
         for (found, x) in found.iter().zip(x) {
             worst = largest([worst, (found - x).abs()]);
         }

@@ -5,9 +5,9 @@ use dynamics_core::model::{BASE, Body, Joint, Model, Robot};
 /// All that the four robots lack: prismatic joints, oblique axes of both kinds, welds on the
 /// base, in mid-tree (a branch among them) and at a tip, two roots.
 #[derive(Clone, Copy, Debug)]
-pub struct Odd;
+pub struct StressRobot;
 
-impl Robot<11, 7, 7> for Odd {
+impl Robot<11, 7, 7> for StressRobot {
     const MODEL: Model<f64, 11, 7, 7> = Model::new(
         "odd",
         [

@@ -1,5 +1,7 @@
 //! A robot in states: the very same numbers in f32, in f64 and in the oracle's fifty digits.
 
+pub mod list;
+
 use std::path::PathBuf;
 
 use dynamics_core::model::{ArmModel, BASE, JointKind, Link, RobotModel};

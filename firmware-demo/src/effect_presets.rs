@@ -29,7 +29,7 @@ pub trait Visitor<const N: usize> {
 ///
 /// ```
 /// use dynamics_core::effects::Effect;
-/// use firmware_demo::catalogue::{RIGID, Visitor, rigid};
+/// use firmware_demo::effect_presets::{RIGID, Visitor, rigid};
 /// struct Names(Vec<&'static str>);
 /// impl Visitor<6> for Names {
 ///     fn scene<E: Effect<f32, 6, 6>>(&mut self, name: &'static str, _: E) {

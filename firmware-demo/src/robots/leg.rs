@@ -1,6 +1,6 @@
 //! A leg on a vertical rail.
 
-use dynamics_core::model::{BASE, Body, Joint, Model, Robot, on_root};
+use dynamics_core::model::{BASE, Body, Joint, Model, Robot, attach_to};
 use dynamics_core::robots::A1;
 
 /// The front right leg of a Unitree A1 on a carriage that glides up and down a rail: a slide without a drive,
@@ -23,7 +23,7 @@ impl Leg {
 const CARRIAGE: Body = Body::new("carriage", BASE, Joint::prismatic([0.0, 0.0, 1.0])).mass(1.5);
 
 impl Robot<5, 4, 4> for Leg {
-    const MODEL: Model<f64, 5, 4, 4> = Model::new("leg", on_root(CARRIAGE, &A1::LEG));
+    const MODEL: Model<f64, 5, 4, 4> = Model::new("leg", attach_to(CARRIAGE, &A1::LEG));
 }
 
 const _: Model<f64, 5, 4, 4> = Leg::MODEL;

@@ -1,6 +1,6 @@
 //! The setups that the oracle answers.
 
-use super::setup::{Exported, Setup};
+use super::{Exported, Setup};
 use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model};
 use dynamics_core::state::State;
 use firmware_demo::hard::{DOUBLE, Extras, N, SINGLE, state};

@@ -1,0 +1,23 @@
+//! The pages of the guide as documentation: `cargo test --doc -p guide` compiles and runs the code on them.
+
+/// The README's first call.
+#[doc = include_str!("../../README.md")]
+pub mod readme {}
+
+macro_rules! pages {
+    ($($name:ident $file:literal),* $(,)?) => {$(
+        #[doc = include_str!(concat!("src/", $file))]
+        pub mod $name {}
+    )*};
+}
+
+pages! {
+    first_torque "first-torque.md",
+    effects "effects.md",
+    accuracy "accuracy.md",
+    firmware "firmware.md",
+    tuning "tuning.md",
+    faults "faults.md",
+    porting "porting.md",
+    engine "engine.md",
+}

@@ -1,20 +1,22 @@
 //! Robot dynamics on a microcontroller: inverse and forward dynamics of any tree of bodies, every
 //! control tick, in f32 or f64, with no heap, no panic and no `unsafe`.
 //!
-//! The modules, from numbers to control; what a robot is and its scalar know of each other:
+//! The modules, in layers: each uses only those in the rows before it.
 //!
-//! | module | what |
+//! | module | contents |
 //! |---|---|
-//! | [`scalar`], [`trig`], [`exponential`] | f32 and f64 as one type parameter; sine, cosine and e⁻ˣ without f64 |
-//! | [`spatial`] | motion and force vectors, transforms, inertias |
-//! | [`model`], [`robots`] | a robot's description, checked while compiling; eight real ones |
-//! | [`state`], [`configuration`] | q, q̇, q̈, the sines and cosines of one configuration; steps and differences of configurations |
-//! | [`transmission`] | joints that motors drive through a constant matrix |
+//! | `math`, [`trig`] | functions of plain numbers: sine, cosine and e⁻ˣ without f64; what is evaluated while compiling |
+//! | [`scalar`] | f32 and f64 as one type parameter |
+//! | [`spatial`] | motion and force vectors, transforms, inertias, rotations |
+//! | [`model`] | a robot's description, checked while compiling |
+//! | [`robots`] | real robots, from a four-legged walker's leg to a humanoid |
+//! | [`state`] | q, q̇, q̈; sines and cosines of one configuration; steps and differences of configurations |
 //! | [`effects`] | what acts on the robot: only what a scene names is computed |
-//! | [`algorithms`], [`Core`] | inverse and forward dynamics, M, kinematics, momenta, operational space: the textbook, for every model and for robots known at compile time |
-//! | [`Engine`] | inverse and forward dynamics, M and the tip's Jacobian, specialised by the compiler for a robot known at compile time |
+//! | [`algorithms`] | inverse and forward dynamics, M and its factors, kinematics, momenta, operational space: the textbook, for every model |
+//! | `textbook`: [`Core`] | the same for a robot known at compile time |
+//! | `engine`: [`Engine`] | inverse and forward dynamics, M and Jacobians, specialised by the compiler for a robot known at compile time |
+//! | [`drivetrain`] | between motors and joints: a constant matrix that couples them, or springs |
 //! | [`control`] | trajectories, observer, control law, safety gate |
-//! | [`flexible`] | joints driven through springs: their plant and their inverse dynamics |
 //! | [`sim`] | time steps of a simulated robot, and its actuators |
 //!
 //! ```

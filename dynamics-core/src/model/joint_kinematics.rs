@@ -8,9 +8,9 @@ use core::ops::Deref;
 use super::Link;
 use super::joint::{JointKind, JointKinds};
 use super::joint_coordinate::{JointCoordinate, near_unit, rotation};
+use crate::math::entry;
 use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::{Force, Motion, MotionSubspace, Xform, raised};
-use crate::state::entry;
 use crate::trig::Kernel;
 
 use JointKind::*;

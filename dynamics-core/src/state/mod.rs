@@ -3,6 +3,7 @@
 mod incremental;
 pub mod manifold;
 
+pub(crate) use crate::math::entry;
 pub use incremental::Carried;
 
 use crate::model::{JointCoordinate, RobotModel};
@@ -95,10 +96,4 @@ impl<R: Real, const Q: usize> JointTrig<R, Q> {
         }
         Self { turns }
     }
-}
-
-/// The entry of a joint's coordinate, or zero for a joint that has none.
-#[inline(always)]
-pub(crate) fn entry<T: Copy + Default>(values: &[T], at: usize) -> T {
-    values.get(at).copied().unwrap_or_default()
 }

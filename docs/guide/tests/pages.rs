@@ -1,0 +1,61 @@
+//! What the pages show of the programs for microcontrollers is what is compiled.
+
+const PAGE: &str = include_str!("../src/firmware.md");
+
+/// The part of a program between its marks, without the indentation and the gate that a page does not need.
+fn shown(program: &str) -> String {
+    let (_, rest) = program.split_once("// page: begin\n").expect("a begin");
+    let (part, _) = rest.split_once("// page: end").expect("an end");
+    let lines: Vec<&str> = part
+        .lines()
+        .filter(|line| !line.contains("cfg(target_arch"))
+        .collect();
+    let indented = |line: &&str| line.len() - line.trim_start().len();
+    let margin = lines
+        .iter()
+        .filter(|line| !line.trim().is_empty())
+        .map(indented)
+        .min();
+    let cut = |line: &&str| line.get(margin.unwrap_or(0)..).unwrap_or("").to_owned();
+    lines
+        .iter()
+        .map(cut)
+        .collect::<Vec<_>>()
+        .join("\n")
+        .trim_end()
+        .to_owned()
+}
+
+/// Words without layout, documentation and lints.
+fn words(code: &str) -> String {
+    let plain = |line: &&str| !line.trim_start().starts_with(["/", "#"]);
+    let code: String = code.lines().filter(plain).collect();
+    code.split_whitespace()
+        .collect::<String>()
+        .replace(",}", "}")
+        .replace(",)", ")")
+        .replace(",]", "]")
+}
+
+#[test]
+fn the_programs_on_the_page_are_those_that_are_compiled() {
+    for program in [
+        include_str!("../firmware/src/bin/bare.rs"),
+        include_str!("../firmware/src/bin/rtic_app.rs"),
+        include_str!("../firmware/src/bin/embassy_app.rs"),
+    ] {
+        let shown = shown(program);
+        assert!(PAGE.contains(&shown), "the page lacks:\n{shown}");
+        assert!(!PAGE.contains(&shown.replace("arm.tick", "arm.tock")));
+    }
+}
+
+#[test]
+fn the_controller_on_the_page_is_the_one_of_the_programs() {
+    let library = include_str!("../firmware/src/lib.rs");
+    let (_, controller) = library.split_once("const TICK").expect("the constants");
+    let (controller, _) = controller
+        .split_once("/// Stands for encoders")
+        .expect("the board");
+    assert!(words(PAGE).contains(&words(controller)));
+}

@@ -4,6 +4,8 @@
 //! degrees of freedom is eliminated a coordinate at a time, which is the same as by its block D. Where
 //! [`hybrid_dynamics`](super::hybrid_dynamics()) prescribes a coordinate's motion, RBDA section 9.2, nothing is eliminated.
 
+use core::borrow::Borrow;
+
 use heapless::Vec;
 
 use super::pivot_check::{Magnitude, PivotCheck};
@@ -16,7 +18,7 @@ use crate::model::{JointKind, LinkView, RobotModel};
 use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::inertia::ArticulatedInertia;
 use crate::spatial::{Force, Motion, Xform};
-use crate::state::{JointTrig, State, entry};
+use crate::state::{Configuration, JointTrig, RobotState, State, entry};
 
 /// q̈ = FD(q, q̇, τ): the acceleration of each joint, rad/s² or m/s², under the effects named.
 ///
@@ -37,7 +39,7 @@ use crate::state::{JointTrig, State, entry};
 #[inline(always)]
 pub fn aba<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
-    state: &State<R, Q, V>,
+    state: impl RobotState<R, Q, V>,
     tau: &[R; V],
     effects: &E,
 ) -> Result<[R; V], NotPositiveDefinite>
@@ -45,29 +47,12 @@ where
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    aba_at(robot, &JointTrig::of(robot, &state.q), state, tau, effects)
-}
-
-/// As [`aba`], at a posture whose sines and cosines are at hand.
-///
-/// # Errors
-/// As [`aba`].
-#[inline(always)]
-pub fn aba_at<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
-    robot: &D,
-    posture: &JointTrig<R, Q>,
-    state: &State<R, Q, V>,
-    tau: &[R; V],
-    effects: &E,
-) -> Result<[R; V], NotPositiveDefinite>
-where
-    D: RobotModel<R, B, Q, V>,
-    E: Effect<R, B, V>,
-{
+    let trig = state.configuration().trig_of(robot);
+    let (trig, state) = (trig.borrow(), state.state());
     let given = |joint| Prescribed::Torque(entry(tau, joint));
     let response = match robot.as_all_revolute() {
-        Some(robot) => sweep(&robot, posture, state, effects, given)?,
-        None => sweep(robot, posture, state, effects, given)?,
+        Some(robot) => sweep(&robot, trig, state, effects, given)?,
+        None => sweep(robot, trig, state, effects, given)?,
     };
     Ok(response.qdd)
 }
@@ -94,7 +79,7 @@ struct JointFactor<R: Real> {
 #[inline(always)]
 pub(super) fn sweep<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
-    posture: &JointTrig<R, Q>,
+    trig: &JointTrig<R, Q>,
     state: &State<R, Q, V>,
     effects: &E,
     given: impl Fn(usize) -> Prescribed<R>,
@@ -110,7 +95,7 @@ where
         )
     };
     let (v_0, a_0) = base_motion(effects);
-    let turns = &posture.turns;
+    let turns = &trig.turns;
 
     let mut v = PerBody::<_, B>::from(v_0);
     let mut poses = PerBody::<_, B>::from(Xform::IDENTITY);

@@ -4,6 +4,8 @@
 //! inertias grow from the tips to the base; column j of M is the force that accelerates the composite
 //! of joint j alone by one, felt at every joint on its way to the base.
 
+use core::borrow::Borrow;
+
 use heapless::Vec;
 
 use crate::algorithms::MassMatrix;
@@ -12,7 +14,7 @@ use crate::model::{LinkView, RobotModel};
 use crate::scalar::Real;
 use crate::spatial::Xform;
 use crate::spatial::inertia::CompositeInertia;
-use crate::state::JointTrig;
+use crate::state::{Configuration, JointTrig};
 
 /// M(q), kg·m² between revolute joints, kg between prismatic ones, kg·m mixed; with rotors and payload
 /// if the scene has them, whatever else it names.
@@ -30,30 +32,18 @@ use crate::state::JointTrig;
 #[inline(always)]
 pub fn crba<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
-    q: &[R; Q],
+    q: &impl Configuration<R, Q>,
     effects: &E,
 ) -> MassMatrix<R, V>
 where
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    crba_at(robot, &JointTrig::of(robot, q), effects)
-}
-
-/// As [`crba`], at a posture whose sines and cosines are at hand.
-#[inline(always)]
-pub fn crba_at<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
-    robot: &D,
-    posture: &JointTrig<R, Q>,
-    effects: &E,
-) -> MassMatrix<R, V>
-where
-    D: RobotModel<R, B, Q, V>,
-    E: Effect<R, B, V>,
-{
+    let trig = q.trig_of(robot);
+    let trig = trig.borrow();
     match robot.as_all_revolute() {
-        Some(robot) => sweep(&robot, posture, effects),
-        None => sweep(robot, posture, effects),
+        Some(robot) => sweep(&robot, trig, effects),
+        None => sweep(robot, trig, effects),
     }
 }
 
@@ -68,14 +58,14 @@ struct Body<'a, R: Real> {
 #[inline(always)]
 fn sweep<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
-    posture: &JointTrig<R, Q>,
+    trig: &JointTrig<R, Q>,
     effects: &E,
 ) -> MassMatrix<R, V>
 where
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    let turns = &posture.turns;
+    let turns = &trig.turns;
     let mut bodies: Vec<Body<'_, R>, B> = Vec::new();
     for i in 0..B {
         let Some(link) = robot.link(i) else {

@@ -5,6 +5,8 @@
 //! handed out to the tips: what stands in a body's frame is its Jacobian, and M_jk is its column k times
 //! the force that accelerates the composite of joint j.
 
+use core::borrow::Borrow;
+
 use heapless::Vec;
 
 use super::mass_matrix::parent;
@@ -15,7 +17,14 @@ use crate::model::{BASE, LinkView, RobotModel};
 use crate::scalar::{Matrix, Real};
 use crate::spatial::inertia::CompositeInertia;
 use crate::spatial::{Motion, Xform};
-use crate::state::JointTrig;
+use crate::state::Configuration;
+
+/// What one pass leaves for the next.
+struct Body<'a, R: Real> {
+    link: LinkView<'a, R>,
+    x: Xform<R>,
+    ic: CompositeInertia<R>,
+}
 
 /// M(q), and the Jacobian of one body: column k is the velocity of that body at unit rate of
 /// coordinate k, at the body's origin and in its own axes.
@@ -35,7 +44,7 @@ use crate::state::JointTrig;
 #[inline(always)]
 pub fn crba_jacobian<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
-    q: &[R; Q],
+    q: &impl Configuration<R, Q>,
     body: usize,
     effects: &E,
 ) -> (MassMatrix<R, V>, [Motion<R>; V])
@@ -43,29 +52,9 @@ where
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    crba_jacobian_at(robot, &JointTrig::of(robot, q), body, effects)
-}
-
-/// What one pass leaves for the next.
-struct Body<'a, R: Real> {
-    link: LinkView<'a, R>,
-    x: Xform<R>,
-    ic: CompositeInertia<R>,
-}
-
-/// As [`crba_jacobian`], at a posture whose sines and cosines are at hand.
-#[inline(always)]
-pub fn crba_jacobian_at<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
-    robot: &D,
-    posture: &JointTrig<R, Q>,
-    body: usize,
-    effects: &E,
-) -> (MassMatrix<R, V>, [Motion<R>; V])
-where
-    D: RobotModel<R, B, Q, V>,
-    E: Effect<R, B, V>,
-{
-    let (turns, lambda) = (&posture.turns, &robot.model().lambda);
+    let trig = q.trig_of(robot);
+    let trig = trig.borrow();
+    let (turns, lambda) = (&trig.turns, &robot.model().lambda);
     let mut bodies: Vec<Body<'_, R>, B> = Vec::new();
     for (i, link) in robot.links().enumerate() {
         let ic = body_inertia(effects, i, &link).into();

@@ -2,12 +2,14 @@
 //!
 //! Featherstone, RBDA (2008), (2.67): T = Σ ½ v·I v; U = −Σ m g·c in a uniform field g.
 
+use core::borrow::Borrow;
+
 use super::momentum::mass_and_first_moment;
 use super::tree_pass::PerBody;
 use crate::effects::{Effect, base_given, body_inertia, field, rotor_force};
 use crate::model::RobotModel;
 use crate::scalar::{Real, Vector};
-use crate::state::{JointTrig, State, entry};
+use crate::state::{Configuration, RobotState, entry};
 
 /// The kinetic energy T = Σ ½ v·I v, J.
 ///
@@ -25,29 +27,16 @@ use crate::state::{JointTrig, State, entry};
 #[inline(always)]
 pub fn kinetic_energy<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
-    state: &State<R, Q, V>,
+    state: impl RobotState<R, Q, V>,
     effects: &E,
 ) -> R
 where
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    kinetic_energy_at(robot, &JointTrig::of(robot, &state.q), state, effects)
-}
-
-/// As [`kinetic_energy`], at a posture whose sines and cosines are at hand; `state.q` is not read.
-#[inline(always)]
-pub fn kinetic_energy_at<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
-    robot: &D,
-    posture: &JointTrig<R, Q>,
-    state: &State<R, Q, V>,
-    effects: &E,
-) -> R
-where
-    D: RobotModel<R, B, Q, V>,
-    E: Effect<R, B, V>,
-{
-    let turns = &posture.turns;
+    let trig = state.configuration().trig_of(robot);
+    let (trig, state) = (trig.borrow(), state.state());
+    let turns = &trig.turns;
     let mut twice = R::ZERO;
     let mut v = PerBody::<_, B>::from(base_given(effects).0);
     for (i, link) in robot.links().enumerate() {
@@ -83,26 +72,14 @@ where
 #[inline(always)]
 pub fn potential_energy<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
-    q: &[R; Q],
+    q: &impl Configuration<R, Q>,
     effects: &E,
 ) -> R
 where
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    potential_energy_at(robot, &JointTrig::of(robot, q), effects)
-}
-
-/// As [`potential_energy`], at a posture whose sines and cosines are at hand.
-#[inline(always)]
-pub fn potential_energy_at<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
-    robot: &D,
-    posture: &JointTrig<R, Q>,
-    effects: &E,
-) -> R
-where
-    D: RobotModel<R, B, Q, V>,
-    E: Effect<R, B, V>,
-{
-    -field(effects).dot(mass_and_first_moment(robot, posture, effects).1)
+    let trig = q.trig_of(robot);
+    let trig = trig.borrow();
+    -field(effects).dot(mass_and_first_moment(robot, trig, effects).1)
 }

@@ -3,12 +3,14 @@
 //! Featherstone, RBDA (2008), section 9.2: the articulated-body algorithm, in which a coordinate whose
 //! motion is prescribed is as stiff as a weld. Inverse and forward dynamics are its two ends.
 
+use core::borrow::Borrow;
+
 use super::NotPositiveDefinite;
 use super::aba::sweep;
 use crate::effects::Effect;
 use crate::model::RobotModel;
 use crate::scalar::Real;
-use crate::state::{JointTrig, State, entry};
+use crate::state::{Configuration, RobotState, entry};
 
 /// What is known of a coordinate; hybrid dynamics finds the other.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -70,7 +72,7 @@ impl<R: Real, const V: usize> JointResult<R, V> {
 #[inline(always)]
 pub fn hybrid_dynamics<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
-    state: &State<R, Q, V>,
+    state: impl RobotState<R, Q, V>,
     given: &[Prescribed<R>; V],
     effects: &E,
 ) -> Result<JointResult<R, V>, NotPositiveDefinite>
@@ -78,30 +80,7 @@ where
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    hybrid_dynamics_at(
-        robot,
-        &JointTrig::of(robot, &state.q),
-        state,
-        given,
-        effects,
-    )
-}
-
-/// As [`hybrid_dynamics`], at a posture whose sines and cosines are at hand.
-///
-/// # Errors
-/// As [`hybrid_dynamics`].
-#[inline(always)]
-pub fn hybrid_dynamics_at<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
-    robot: &D,
-    posture: &JointTrig<R, Q>,
-    state: &State<R, Q, V>,
-    given: &[Prescribed<R>; V],
-    effects: &E,
-) -> Result<JointResult<R, V>, NotPositiveDefinite>
-where
-    D: RobotModel<R, B, Q, V>,
-    E: Effect<R, B, V>,
-{
-    sweep(robot, posture, state, effects, |joint| entry(given, joint))
+    let trig = state.configuration().trig_of(robot);
+    let (trig, state) = (trig.borrow(), state.state());
+    sweep(robot, trig, state, effects, |joint| entry(given, joint))
 }

@@ -3,6 +3,8 @@
 //! Featherstone & Orin (2000), equations (3) to (8); RBDA (2008), table 5.1. Bias, gravity and
 //! full torque are this one function under different effects.
 
+use core::borrow::Borrow;
+
 use heapless::Vec;
 
 use super::tree_pass::PerBody;
@@ -12,7 +14,7 @@ use crate::effects::{
 use crate::model::RobotModel;
 use crate::scalar::{Matrix, Real};
 use crate::spatial::{Force, Motion, Xform};
-use crate::state::{JointTrig, State, entry};
+use crate::state::{Configuration, JointTrig, RobotState, State, entry};
 
 /// τ = ID(q, q̇, q̈): the torque of each motor, N·m or N, under the effects named.
 ///
@@ -28,31 +30,18 @@ use crate::state::{JointTrig, State, entry};
 #[inline(always)]
 pub fn rnea<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
-    state: &State<R, Q, V>,
+    state: impl RobotState<R, Q, V>,
     effects: &E,
 ) -> [R; V]
 where
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    rnea_at(robot, &JointTrig::of(robot, &state.q), state, effects)
-}
-
-/// As [`rnea`], at a posture whose sines and cosines are at hand. `state.q` reaches joint effects.
-#[inline(always)]
-pub fn rnea_at<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
-    robot: &D,
-    posture: &JointTrig<R, Q>,
-    state: &State<R, Q, V>,
-    effects: &E,
-) -> [R; V]
-where
-    D: RobotModel<R, B, Q, V>,
-    E: Effect<R, B, V>,
-{
+    let trig = state.configuration().trig_of(robot);
+    let (trig, state) = (trig.borrow(), state.state());
     match robot.as_all_revolute() {
-        Some(robot) => sweep(&robot, posture, state, effects),
-        None => sweep(robot, posture, state, effects),
+        Some(robot) => sweep(&robot, trig, state, effects),
+        None => sweep(robot, trig, state, effects),
     }
 }
 
@@ -67,7 +56,7 @@ struct Body<R: Real> {
 #[inline(always)]
 fn sweep<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
-    posture: &JointTrig<R, Q>,
+    trig: &JointTrig<R, Q>,
     state: &State<R, Q, V>,
     effects: &E,
 ) -> [R; V]
@@ -81,7 +70,7 @@ where
     let mut v = PerBody::<_, B>::from(v_0);
     let mut poses = PerBody::<_, B>::from(Xform::IDENTITY);
     let mut a = PerBody::<_, B>::from(a_0);
-    let turns = &posture.turns;
+    let turns = &trig.turns;
 
     let mut bodies: Vec<Body<R>, B> = Vec::new();
     let mut turned_along = [R::ZERO; V]; // ρ I z·α_λ of the rotors

@@ -144,7 +144,7 @@ where
             "inverse dynamics of compliant joints takes no wrenches on bodies, moving base or `GyroscopicRotors`"
         );
     };
-    let (state, turns) = (&course.state, JointTrig::of(robot, &course.state.q).turns);
+    let (state, turns) = (&course.state, JointTrig::new(robot, &course.state.q).turns);
     let rates = [&state.qd, &state.qdd, &course.jerk, &course.snap];
     // A base that accelerates by −g for ever stands for gravity.
     let (v_0, a_0) = base_motion(effects);

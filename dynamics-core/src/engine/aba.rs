@@ -4,6 +4,7 @@
 //! the bias from the torques, and what is left moves a robot at rest without gravity, so that the
 //! articulated bodies need neither velocities nor velocity products.
 
+use core::borrow::Borrow;
 use core::hint::black_box;
 
 use super::Engine;
@@ -19,9 +20,10 @@ use crate::algorithms::NotPositiveDefinite;
 use crate::effects::Effect;
 use crate::model::{BASE, JointCoordinate, Robot};
 use crate::scalar::{Real, Vector};
-use crate::state::{JointTrig, State};
+use crate::state::{Configuration, JointTrig, RobotState, State};
+use crate::trig::Kernel;
 
-impl<T> Engine<T> {
+impl<T, K> Engine<T, K> {
     /// q̈ = FD(q, q̇, τ) as [`Engine::forward_dynamics`] has it, by articulated bodies.
     ///
     /// Cost: O(V), but more than that of `forward` on short chains: `docs/costs.md` in the repository.
@@ -29,35 +31,21 @@ impl<T> Engine<T> {
     ///
     /// # Errors
     /// As [`Engine::forward_dynamics`].
+    #[doc(alias = "FD")]
     #[inline(never)]
-    pub fn aba<R: Real, E, const B: usize, const Q: usize, const V: usize>(
-        state: &State<R, Q, V>,
+    pub fn aba<R: Real, S, E, const B: usize, const Q: usize, const V: usize>(
+        state: S,
         tau: &[R; V],
         effects: &E,
     ) -> Result<[R; V], NotPositiveDefinite>
     where
         T: Robot<B, Q, V>,
+        K: Kernel<R>,
+        S: RobotState<R, Q, V>,
         E: Effect<R, B, V>,
     {
-        accelerate::<R, T, E, B, Q, V>(&Self::posture(&state.q), state, tau, effects)
-    }
-
-    /// As [`Engine::aba`], at a posture whose sines and cosines are at hand.
-    ///
-    /// # Errors
-    /// As [`Engine::forward_dynamics`].
-    #[inline(never)]
-    pub fn aba_at<R: Real, E, const B: usize, const Q: usize, const V: usize>(
-        posture: &JointTrig<R, Q>,
-        state: &State<R, Q, V>,
-        tau: &[R; V],
-        effects: &E,
-    ) -> Result<[R; V], NotPositiveDefinite>
-    where
-        T: Robot<B, Q, V>,
-        E: Effect<R, B, V>,
-    {
-        accelerate::<R, T, E, B, Q, V>(posture, state, tau, effects)
+        let trig = state.configuration().trig_or(Self::joint_trig);
+        accelerate::<R, T, E, B, Q, V>(trig.borrow(), state.state(), tau, effects)
     }
 }
 
@@ -74,7 +62,7 @@ struct Task<'a, R, E, const Q: usize, const V: usize> {
 
 #[inline(always)]
 fn accelerate<R, T, E, const B: usize, const Q: usize, const V: usize>(
-    posture: &JointTrig<R, Q>,
+    trig: &JointTrig<R, Q>,
     state: &State<R, Q, V>,
     tau: &[R; V],
     effects: &E,
@@ -85,11 +73,11 @@ where
     E: Effect<R, B, V>,
 {
     // One phase after the other: as one block they would need more registers than there are.
-    let mut x = Engine::<T>::remaining(posture, state, tau, effects);
+    let mut x = Engine::<T>::remaining(trig, state, tau, effects);
     black_box(&mut x);
     let (mut u, mut d_inv) = ([[R::ZERO; 6]; V], [R::ZERO; V]);
     let mut task = Task {
-        turns: &posture.turns,
+        turns: &trig.turns,
         effects,
         u: &mut u,
         d_inv: &mut d_inv,
@@ -100,10 +88,7 @@ where
             let _ = inward::<R, T, E, B, Q, V, J>(&mut task);
         }
     });
-    positive(
-        task.d_inv,
-        &noise::<R, T, E, B, Q, V>(&posture.turns, effects),
-    )?;
+    positive(task.d_inv, &noise::<R, T, E, B, Q, V>(&trig.turns, effects))?;
     for_each_joint!(J, {
         if const { is_on_base::<T, B, Q, V>(J) } {
             outward::<R, T, E, B, Q, V, J>(&mut task, [R::Vec3::ZERO; 2]);

@@ -3,6 +3,8 @@
 //! Walker & Orin (1982); Featherstone, RBDA (2008), table 6.2, over base parameters: the masses of
 //! composite bodies are known zeros behind revolute joints, and h travels as R h.
 
+use core::borrow::Borrow;
+
 use super::Engine;
 use super::acceleration_field::{Inertia, Wrench, along_z};
 use super::base::no_gyroscopic_rotors;
@@ -14,9 +16,10 @@ use crate::algorithms::MassMatrix;
 use crate::effects::Effect;
 use crate::model::{BASE, JointCoordinate, Robot};
 use crate::scalar::Real;
-use crate::state::JointTrig;
+use crate::state::Configuration;
+use crate::trig::Kernel;
 
-impl<T> Engine<T> {
+impl<T, K> Engine<T, K> {
     /// M(q), kg·m², kg and kg·m, with the rotors and the payload that the effects name.
     ///
     /// Other effects do not matter: [`crate::effects::RIGID_BODY`] gives the robot's own M. Angles
@@ -30,32 +33,20 @@ impl<T> Engine<T> {
     /// let driven = Engine::<Ur5e>::crba(&q, &(RIGID_BODY, geared));
     /// assert_eq!(driven.get(2, 2), bare.get(2, 2) + 0.5);
     /// ```
+    #[doc(alias = "mass matrix")]
     #[inline(never)]
     pub fn crba<R: Real, E, const B: usize, const Q: usize, const V: usize>(
-        q: &[R; Q],
+        q: &impl Configuration<R, Q>,
         effects: &E,
     ) -> MassMatrix<R, V>
     where
         T: Robot<B, Q, V>,
+        K: Kernel<R>,
         E: Effect<R, B, V>,
     {
+        let trig = q.trig_or(Self::joint_trig);
         let mut m = MassMatrix::ZERO;
-        mass_matrix::<R, T, E, B, Q, V>(&Self::posture(q).turns, effects, &mut m);
-        m
-    }
-
-    /// As [`Engine::crba`], at a posture whose sines and cosines are at hand.
-    #[inline(never)]
-    pub fn crba_at<R: Real, E, const B: usize, const Q: usize, const V: usize>(
-        posture: &JointTrig<R, Q>,
-        effects: &E,
-    ) -> MassMatrix<R, V>
-    where
-        T: Robot<B, Q, V>,
-        E: Effect<R, B, V>,
-    {
-        let mut m = MassMatrix::ZERO;
-        mass_matrix::<R, T, E, B, Q, V>(&posture.turns, effects, &mut m);
+        mass_matrix::<R, T, E, B, Q, V>(&trig.borrow().turns, effects, &mut m);
         m
     }
 }

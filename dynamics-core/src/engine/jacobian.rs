@@ -2,6 +2,8 @@
 //!
 //! Featherstone, RBDA (2008), section 4.1; axes and arms in base coordinates: z_j, z_j × (p − p_j).
 
+use core::borrow::Borrow;
+
 use super::Engine;
 use super::compile::CompiledRobot;
 use super::folding::Folded;
@@ -10,9 +12,10 @@ use super::rnea::is_parent;
 use crate::model::{BASE, JointCoordinate, Robot};
 use crate::scalar::{Real, Vector};
 use crate::spatial::Motion;
-use crate::state::JointTrig;
+use crate::state::Configuration;
+use crate::trig::Kernel;
 
-impl<T> Engine<T> {
+impl<T, K> Engine<T, K> {
     /// J with V = J q̇: the velocity of the body of the number BODY, by columns, one a joint.
     ///
     /// ω in rad/s and the velocity in m/s of the origin of that body's frame, both along the axes of
@@ -36,23 +39,14 @@ impl<T> Engine<T> {
     /// ```
     #[inline(never)]
     pub fn jacobian<const BODY: usize, R: Real, const B: usize, const Q: usize, const V: usize>(
-        q: &[R; Q],
+        q: &impl Configuration<R, Q>,
     ) -> [Motion<R>; V]
     where
         T: Robot<B, Q, V>,
+        K: Kernel<R>,
     {
-        columns::<R, T, B, Q, V, BODY>(&Self::posture(q).turns)
-    }
-
-    /// As [`Engine::jacobian`], at a posture whose sines and cosines are at hand.
-    #[inline(never)]
-    pub fn jacobian_at<const BODY: usize, R: Real, const B: usize, const Q: usize, const V: usize>(
-        posture: &JointTrig<R, Q>,
-    ) -> [Motion<R>; V]
-    where
-        T: Robot<B, Q, V>,
-    {
-        columns::<R, T, B, Q, V, BODY>(&posture.turns)
+        let trig = q.trig_or(Self::joint_trig);
+        columns::<R, T, B, Q, V, BODY>(&trig.borrow().turns)
     }
 }
 

@@ -10,7 +10,7 @@ use crate::algorithms::{MATRIX_ROUNDINGS, NotPositiveDefinite};
 use crate::model::Robot;
 use crate::scalar::Real;
 
-impl<T> Engine<T> {
+impl<T, K> Engine<T, K> {
     /// The factors of M = Lᵀ D L, for [`Engine::solve`].
     ///
     /// Cost: one division a joint, and for a chain of n joints n (n² − 1)/3 + n (n − 1)/2 flops, less

@@ -3,13 +3,15 @@
 //! Featherstone, RBDA (2008), section 4.1: v = J q̇, the column of a coordinate being that of S at its
 //! joint, taken to the body; zero for joints that do not carry the body.
 
+use core::borrow::Borrow;
+
 use crate::algorithms::kinematics::frame::{Frame, Pose};
 use crate::algorithms::kinematics::in_link_frame;
 use crate::algorithms::tree_pass::PerBody;
 use crate::model::{BASE, RobotModel};
 use crate::scalar::{Matrix, Real};
 use crate::spatial::{Motion, Xform};
-use crate::state::{JointTrig, State};
+use crate::state::{Configuration, RobotState};
 
 /// J with v = J q̇: the velocity of `body` in a [`Frame`], by columns, one a coordinate.
 ///
@@ -25,28 +27,16 @@ use crate::state::{JointTrig, State};
 #[inline(always)]
 pub fn jacobian<R: Real, D, F: Frame, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
-    q: &[R; Q],
-    body: usize,
-    frame: F,
-) -> [Motion<R>; V]
-where
-    D: RobotModel<R, B, Q, V>,
-{
-    jacobian_at(robot, &JointTrig::of(robot, q), body, frame)
-}
-
-/// As [`jacobian`], at a posture whose sines and cosines are at hand.
-#[inline(always)]
-pub fn jacobian_at<R: Real, D, F: Frame, const B: usize, const Q: usize, const V: usize>(
-    robot: &D,
-    posture: &JointTrig<R, Q>,
+    q: &impl Configuration<R, Q>,
     body: usize,
     _: F,
 ) -> [Motion<R>; V]
 where
     D: RobotModel<R, B, Q, V>,
 {
-    let turns = &posture.turns;
+    let trig = q.trig_of(robot);
+    let trig = trig.borrow();
+    let turns = &trig.turns;
     let mut columns = [Motion::ZERO; V];
     let mut x = Xform::IDENTITY; // from the body reached to the one asked for
     let mut reached = body;
@@ -93,29 +83,16 @@ where
 #[inline(always)]
 pub fn bias_acceleration<R: Real, D, F: Frame, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
-    state: &State<R, Q, V>,
-    body: usize,
-    frame: F,
-) -> Motion<R>
-where
-    D: RobotModel<R, B, Q, V>,
-{
-    bias_acceleration_at(robot, &JointTrig::of(robot, &state.q), state, body, frame)
-}
-
-/// As [`bias_acceleration`], at a posture whose sines and cosines are at hand; `state.q` is not read.
-#[inline(always)]
-pub fn bias_acceleration_at<R: Real, D, F: Frame, const B: usize, const Q: usize, const V: usize>(
-    robot: &D,
-    posture: &JointTrig<R, Q>,
-    state: &State<R, Q, V>,
+    state: impl RobotState<R, Q, V>,
     body: usize,
     _: F,
 ) -> Motion<R>
 where
     D: RobotModel<R, B, Q, V>,
 {
-    let turns = &posture.turns;
+    let trig = state.configuration().trig_of(robot);
+    let (trig, state) = (trig.borrow(), state.state());
+    let turns = &trig.turns;
     let mut moving = PerBody::<_, B>::from((Pose::IDENTITY, Motion::ZERO, Motion::ZERO));
     for (i, link) in robot.links().enumerate() {
         let (pose, v, a) = moving.parent(D::CHAIN, link.parent);

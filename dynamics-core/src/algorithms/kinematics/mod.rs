@@ -6,14 +6,16 @@ pub mod frame;
 mod jacobian;
 
 pub use frame::{Frame, Pose, classical};
-pub use jacobian::{bias_acceleration, bias_acceleration_at, jacobian, jacobian_at};
+pub use jacobian::{bias_acceleration, jacobian};
+
+use core::borrow::Borrow;
 
 use crate::algorithms::tree_pass::PerBody;
 use crate::effects::{Effect, base_given};
 use crate::model::{LinkView, RobotModel};
 use crate::scalar::{Matrix, Real};
 use crate::spatial::Motion;
-use crate::state::{JointTrig, State};
+use crate::state::{Configuration, RobotState};
 
 /// Poses, velocities and accelerations of all bodies.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -68,28 +70,18 @@ impl<R: Real, const B: usize> Kinematics<R, B> {
 #[inline(always)]
 pub fn poses<R: Real, D, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
-    q: &[R; Q],
+    q: &impl Configuration<R, Q>,
 ) -> [Pose<R>; B]
 where
     D: RobotModel<R, B, Q, V>,
 {
-    poses_at(robot, &JointTrig::of(robot, q))
-}
-
-/// As [`poses`], at a posture whose sines and cosines are at hand.
-#[inline(always)]
-pub fn poses_at<R: Real, D, const B: usize, const Q: usize, const V: usize>(
-    robot: &D,
-    posture: &JointTrig<R, Q>,
-) -> [Pose<R>; B]
-where
-    D: RobotModel<R, B, Q, V>,
-{
+    let trig = q.trig_of(robot);
+    let trig = trig.borrow();
     let mut poses = [Pose::IDENTITY; B];
     let mut at = PerBody::<_, B>::from(Pose::IDENTITY);
     for (link, pose) in robot.links().zip(&mut poses) {
         let here = at.parent(D::CHAIN, link.parent);
-        let here = here.transformed_by(&link.xform(&posture.turns));
+        let here = here.transformed_by(&link.xform(&trig.turns));
         *pose = here.in_link_frame(&link.frame);
         at.push(D::CHAIN, here);
     }
@@ -112,29 +104,16 @@ where
 #[inline(always)]
 pub fn kinematics<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
-    state: &State<R, Q, V>,
+    state: impl RobotState<R, Q, V>,
     effects: &E,
 ) -> Kinematics<R, B>
 where
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    kinematics_at(robot, &JointTrig::of(robot, &state.q), state, effects)
-}
-
-/// As [`kinematics`], at a posture whose sines and cosines are at hand; `state.q` is not read.
-#[inline(always)]
-pub fn kinematics_at<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
-    robot: &D,
-    posture: &JointTrig<R, Q>,
-    state: &State<R, Q, V>,
-    effects: &E,
-) -> Kinematics<R, B>
-where
-    D: RobotModel<R, B, Q, V>,
-    E: Effect<R, B, V>,
-{
-    let (turns, (v_0, a_0)) = (&posture.turns, base_given(effects));
+    let trig = state.configuration().trig_of(robot);
+    let (trig, state) = (trig.borrow(), state.state());
+    let (turns, (v_0, a_0)) = (&trig.turns, base_given(effects));
     let mut v = PerBody::<_, B>::from(v_0);
     let mut a = PerBody::<_, B>::from(a_0);
     let (mut velocities, mut accelerations) = ([Motion::ZERO; B], [Motion::ZERO; B]);
@@ -149,7 +128,7 @@ where
         a.push(D::CHAIN, a_i);
     }
     Kinematics {
-        poses: poses_at(robot, posture),
+        poses: poses(robot, trig),
         velocities,
         accelerations,
     }

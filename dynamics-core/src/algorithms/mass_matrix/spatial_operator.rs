@@ -5,6 +5,8 @@
 //! forces down as through rigid bodies, Ψ as through joints that give way. In the letters of RBDA's
 //! section 6.5 the first factor is Lᵀ: what elimination finds in M, the filter finds in the bodies.
 
+use core::borrow::Borrow;
+
 use crate::algorithms::NotPositiveDefinite;
 use crate::algorithms::articulated_pass::{ArticulatedPass, JointFactor, eliminate};
 use crate::algorithms::{Ltdl, MassMatrix};
@@ -12,7 +14,7 @@ use crate::effects::Effect;
 use crate::model::RobotModel;
 use crate::scalar::Real;
 use crate::spatial::Force;
-use crate::state::{JointTrig, entry};
+use crate::state::{Configuration, entry};
 
 /// The factors (1 + HΦK)ᵀ = L and D of M(q), without M: the same as [`ltdl`](crate::algorithms::factor()) finds.
 ///
@@ -34,7 +36,7 @@ use crate::state::{JointTrig, entry};
 #[inline(always)]
 pub fn spatial_operator_ltdl<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
-    q: &[R; Q],
+    q: &impl Configuration<R, Q>,
     effects: &E,
 ) -> Result<Ltdl<R, V>, NotPositiveDefinite>
 where
@@ -54,7 +56,7 @@ where
 #[inline(always)]
 pub fn spatial_operator_inverse<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
-    q: &[R; Q],
+    q: &impl Configuration<R, Q>,
     effects: &E,
 ) -> Result<MassMatrix<R, V>, NotPositiveDefinite>
 where
@@ -83,7 +85,7 @@ where
 #[inline(always)]
 fn columns<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
-    q: &[R; Q],
+    q: &impl Configuration<R, Q>,
     effects: &E,
     pass: impl Fn(Force<R>, R, Force<R>) -> Force<R>,
 ) -> Result<Ltdl<R, V>, NotPositiveDefinite>
@@ -91,7 +93,8 @@ where
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    let turns = &JointTrig::of(robot, q).turns;
+    let trig = q.trig_of(robot);
+    let turns = &trig.borrow().turns;
     let ArticulatedPass { x, handles } = eliminate(robot, turns, effects)?;
     let gain = |joint| {
         let handle: JointFactor<R> = entry(&handles, joint);

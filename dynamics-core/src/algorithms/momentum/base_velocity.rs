@@ -4,6 +4,8 @@
 //! (1989): M_b v_b + M_bj q̇_j = h. On what floats free h stays as it is, and v_b follows from the joints'
 //! rates. M_b is the composite inertia of all bodies at the first, a rigid body's, whose inverse is closed.
 
+use core::borrow::Borrow;
+
 use heapless::Vec;
 
 use crate::algorithms::NotPositiveDefinite;
@@ -13,7 +15,15 @@ use crate::model::{JointKind, RobotModel};
 use crate::scalar::{Real, Vector};
 use crate::spatial::inertia::CompositeInertia;
 use crate::spatial::{Force, Xform};
-use crate::state::{JointTrig, State, entry};
+use crate::state::{Configuration, RobotState, entry};
+
+/// What one pass leaves for the next.
+struct Body<R: Real> {
+    x: Xform<R>,
+    parent: usize,
+    h: Force<R>,
+    ic: CompositeInertia<R>,
+}
 
 /// q̇ with other rates of the first body, which stands on a free joint: those at which all bodies together have the
 /// momentum h, about the base's origin and along its axes, N·m·s and N·s.
@@ -42,7 +52,7 @@ use crate::state::{JointTrig, State, entry};
 #[inline(always)]
 pub fn base_velocity_from_momentum<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
-    state: &State<R, Q, V>,
+    state: impl RobotState<R, Q, V>,
     h: Force<R>,
     effects: &E,
 ) -> Result<[R; V], NotPositiveDefinite>
@@ -50,41 +60,9 @@ where
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    base_velocity_from_momentum_at(robot, &JointTrig::of(robot, &state.q), state, h, effects)
-}
-
-/// What one pass leaves for the next.
-struct Body<R: Real> {
-    x: Xform<R>,
-    parent: usize,
-    h: Force<R>,
-    ic: CompositeInertia<R>,
-}
-
-/// As [`base_velocity_from_momentum`], at a posture whose sines and cosines are at hand.
-///
-/// # Errors
-/// As [`base_velocity_from_momentum`].
-#[inline(always)]
-pub fn base_velocity_from_momentum_at<
-    R: Real,
-    D,
-    E,
-    const B: usize,
-    const Q: usize,
-    const V: usize,
->(
-    robot: &D,
-    posture: &JointTrig<R, Q>,
-    state: &State<R, Q, V>,
-    h: Force<R>,
-    effects: &E,
-) -> Result<[R; V], NotPositiveDefinite>
-where
-    D: RobotModel<R, B, Q, V>,
-    E: Effect<R, B, V>,
-{
-    let turns = &posture.turns;
+    let trig = state.configuration().trig_of(robot);
+    let (trig, state) = (trig.borrow(), state.state());
+    let turns = &trig.turns;
     let mut v = PerBody::<_, B>::from(base_given(effects).0);
     let mut bodies: Vec<Body<R>, B> = Vec::new();
     for (i, link) in robot.links().enumerate() {

@@ -4,17 +4,19 @@
 //! the composite body beyond a joint has of momentum when that coordinate alone moves, so that the
 //! composite inertias of the CRBA give all of it in O(n) (their section 5; Wensing & Orin, 2016).
 
+use core::borrow::Borrow;
+
 use heapless::Vec;
 
 use crate::algorithms::kinematics::frame::Pose;
-use crate::algorithms::momentum::{mass_and_first_moment, momentum_at, per};
+use crate::algorithms::momentum::{mass_and_first_moment, momentum, per};
 use crate::algorithms::tree_pass::PerBody;
 use crate::effects::{Effect, body_inertia};
 use crate::model::RobotModel;
 use crate::scalar::{Real, Vector};
 use crate::spatial::inertia::CompositeInertia;
 use crate::spatial::{Force, Xform};
-use crate::state::{JointTrig, State};
+use crate::state::{Configuration, RobotState};
 
 /// The momentum h_G about the centre of mass, along the base's axes, N·m·s and N·s.
 ///
@@ -28,30 +30,17 @@ use crate::state::{JointTrig, State};
 #[inline(always)]
 pub fn centroidal_momentum<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
-    state: &State<R, Q, V>,
+    state: impl RobotState<R, Q, V>,
     effects: &E,
 ) -> Force<R>
 where
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    centroidal_momentum_at(robot, &JointTrig::of(robot, &state.q), state, effects)
-}
-
-/// As [`centroidal_momentum`], at a posture whose sines and cosines are at hand; `state.q` is not read.
-#[inline(always)]
-pub fn centroidal_momentum_at<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
-    robot: &D,
-    posture: &JointTrig<R, Q>,
-    state: &State<R, Q, V>,
-    effects: &E,
-) -> Force<R>
-where
-    D: RobotModel<R, B, Q, V>,
-    E: Effect<R, B, V>,
-{
-    let (mass, moment) = mass_and_first_moment(robot, posture, effects);
-    let h = momentum_at(robot, posture, state, effects);
+    let trig = state.configuration().trig_of(robot);
+    let (trig, state) = (trig.borrow(), state.state());
+    let (mass, moment) = mass_and_first_moment(robot, trig, effects);
+    let h = momentum(robot, trig.with(state), effects);
     Force::new(h.ang - (moment * per(mass)).cross(h.lin), h.lin)
 }
 
@@ -70,35 +59,23 @@ where
 #[inline(always)]
 pub fn centroidal_matrix<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
-    q: &[R; Q],
+    q: &impl Configuration<R, Q>,
     effects: &E,
 ) -> [Force<R>; V]
 where
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    centroidal_matrix_at(robot, &JointTrig::of(robot, q), effects)
-}
-
-/// As [`centroidal_matrix`], at a posture whose sines and cosines are at hand.
-#[inline(always)]
-pub fn centroidal_matrix_at<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
-    robot: &D,
-    posture: &JointTrig<R, Q>,
-    effects: &E,
-) -> [Force<R>; V]
-where
-    D: RobotModel<R, B, Q, V>,
-    E: Effect<R, B, V>,
-{
+    let trig = q.trig_of(robot);
+    let trig = trig.borrow();
     const {
         assert!(
             !E::GYROSCOPIC_ROTORS,
             "no rotors that spin as bodies here; name `Armature`"
         )
     };
-    let turns = &posture.turns;
-    let (mass, moment) = mass_and_first_moment(robot, posture, effects);
+    let turns = &trig.turns;
+    let (mass, moment) = mass_and_first_moment(robot, trig, effects);
     let centre = moment * per(mass);
 
     let mut at = PerBody::<_, B>::from(Pose::IDENTITY);

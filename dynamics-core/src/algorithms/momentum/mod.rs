@@ -6,10 +6,10 @@
 mod base_velocity;
 mod centroidal;
 
-pub use base_velocity::{base_velocity_from_momentum, base_velocity_from_momentum_at};
-pub use centroidal::{
-    centroidal_matrix, centroidal_matrix_at, centroidal_momentum, centroidal_momentum_at,
-};
+pub use base_velocity::base_velocity_from_momentum;
+pub use centroidal::{centroidal_matrix, centroidal_momentum};
+
+use core::borrow::Borrow;
 
 use heapless::Vec;
 
@@ -19,7 +19,7 @@ use crate::effects::{Effect, base_given, body_inertia, rotor_force};
 use crate::model::RobotModel;
 use crate::scalar::{Real, Vector};
 use crate::spatial::{Force, Xform};
-use crate::state::{JointTrig, State, entry};
+use crate::state::{Configuration, JointTrig, RobotState, entry};
 
 /// Mass, centre of mass and its velocity.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,7 +43,7 @@ pub(in crate::algorithms) fn mass_and_first_moment<
     const V: usize,
 >(
     robot: &D,
-    posture: &JointTrig<R, Q>,
+    trig: &JointTrig<R, Q>,
     effects: &E,
 ) -> (R, R::Vec3)
 where
@@ -54,7 +54,7 @@ where
     let mut at = PerBody::<_, B>::from(Pose::IDENTITY);
     for (i, link) in robot.links().enumerate() {
         let here = at.parent(D::CHAIN, link.parent);
-        let here = here.transformed_by(&link.xform(&posture.turns));
+        let here = here.transformed_by(&link.xform(&trig.turns));
         let inertia = body_inertia(effects, i, &link);
         mass += inertia.mass;
         moment += here.pos * inertia.mass + here.rot * inertia.first_moment;
@@ -86,34 +86,21 @@ pub(in crate::algorithms) fn per<R: Real>(mass: R) -> R {
 #[inline(always)]
 pub fn center_of_mass<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
-    state: &State<R, Q, V>,
+    state: impl RobotState<R, Q, V>,
     effects: &E,
 ) -> CenterOfMass<R>
 where
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    center_of_mass_at(robot, &JointTrig::of(robot, &state.q), state, effects)
-}
-
-/// As [`center_of_mass`], at a posture whose sines and cosines are at hand; `state.q` is not read.
-#[inline(always)]
-pub fn center_of_mass_at<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
-    robot: &D,
-    posture: &JointTrig<R, Q>,
-    state: &State<R, Q, V>,
-    effects: &E,
-) -> CenterOfMass<R>
-where
-    D: RobotModel<R, B, Q, V>,
-    E: Effect<R, B, V>,
-{
-    let (mass, moment) = mass_and_first_moment(robot, posture, effects);
+    let trig = state.configuration().trig_of(robot);
+    let (trig, state) = (trig.borrow(), state.state());
+    let (mass, moment) = mass_and_first_moment(robot, trig, effects);
     let mass_inv = per(mass);
     CenterOfMass {
         mass,
         position: moment * mass_inv,
-        velocity: momentum_at(robot, posture, state, effects).lin * mass_inv,
+        velocity: momentum(robot, trig.with(state), effects).lin * mass_inv,
     }
 }
 
@@ -132,29 +119,16 @@ where
 #[inline(always)]
 pub fn momentum<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
-    state: &State<R, Q, V>,
+    state: impl RobotState<R, Q, V>,
     effects: &E,
 ) -> Force<R>
 where
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    momentum_at(robot, &JointTrig::of(robot, &state.q), state, effects)
-}
-
-/// As [`momentum`], at a posture whose sines and cosines are at hand; `state.q` is not read.
-#[inline(always)]
-pub fn momentum_at<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
-    robot: &D,
-    posture: &JointTrig<R, Q>,
-    state: &State<R, Q, V>,
-    effects: &E,
-) -> Force<R>
-where
-    D: RobotModel<R, B, Q, V>,
-    E: Effect<R, B, V>,
-{
-    let turns = &posture.turns;
+    let trig = state.configuration().trig_of(robot);
+    let (trig, state) = (trig.borrow(), state.state());
+    let turns = &trig.turns;
     let mut v = PerBody::<_, B>::from(base_given(effects).0);
     let mut bodies: Vec<(Xform<R>, usize, Force<R>), B> = Vec::new();
     for (i, link) in robot.links().enumerate() {

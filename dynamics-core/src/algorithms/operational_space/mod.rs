@@ -8,14 +8,16 @@ mod eigen;
 mod osim_inverse;
 
 pub use damped_inverse::{Conditioning, Damping, damped_inverse};
-pub use osim_inverse::{OsimInverse, osim_inverse, osim_inverse_at};
+pub use osim_inverse::{OsimInverse, osim_inverse};
 
-use crate::algorithms::{Frame, NotPositiveDefinite, crba_at, jacobian_at, ltdl, solve};
+use core::borrow::Borrow;
+
+use crate::algorithms::{Frame, NotPositiveDefinite, crba, jacobian, ltdl, solve};
 use crate::effects::Effect;
 use crate::model::RobotModel;
 use crate::scalar::Real;
 use crate::spatial::{Force, Motion};
-use crate::state::JointTrig;
+use crate::state::Configuration;
 
 /// The rows of a task's Jacobian: the rates of M directions of a body, given as forces, from the columns of
 /// that body's [`super::jacobian`] in the same frame.
@@ -70,38 +72,7 @@ pub fn operational_space<
     const V: usize,
 >(
     robot: &D,
-    q: &[R; Q],
-    body: (usize, F),
-    directions: &[Force<R>; M],
-    effects: &E,
-    damping: Damping<R>,
-) -> Result<OperationalSpace<R, M, V>, NotPositiveDefinite>
-where
-    D: RobotModel<R, B, Q, V>,
-    E: Effect<R, B, V>,
-    F: Frame,
-{
-    let posture = JointTrig::of(robot, q);
-    operational_space_at(robot, &posture, body, directions, effects, damping)
-}
-
-/// As [`operational_space`], at a posture whose sines and cosines are at hand.
-///
-/// # Errors
-/// As [`operational_space`].
-#[inline(always)]
-pub fn operational_space_at<
-    R: Real,
-    D,
-    E,
-    F,
-    const M: usize,
-    const B: usize,
-    const Q: usize,
-    const V: usize,
->(
-    robot: &D,
-    posture: &JointTrig<R, Q>,
+    q: &impl Configuration<R, Q>,
     (body, frame): (usize, F),
     directions: &[Force<R>; M],
     effects: &E,
@@ -112,8 +83,10 @@ where
     E: Effect<R, B, V>,
     F: Frame,
 {
-    let factors = ltdl(robot, &crba_at(robot, posture, effects))?;
-    let rows = task_jacobian(&jacobian_at(robot, posture, body, frame), directions);
+    let trig = q.trig_of(robot);
+    let trig = trig.borrow();
+    let factors = ltdl(robot, &crba(robot, trig, effects))?;
+    let rows = task_jacobian(&jacobian(robot, trig, body, frame), directions);
     let solve = |tau: &_| solve(robot, &factors, tau);
     Ok(OperationalSpace::new(rows, solve, damping))
 }

@@ -8,6 +8,8 @@
 //!
 //! Λ⁻¹ ← P X Λ⁻¹ Xᵀ Pᵀ + s D⁻¹ sᵀ.
 
+use core::borrow::Borrow;
+
 use core::ops::Mul;
 
 use crate::algorithms::NotPositiveDefinite;
@@ -19,7 +21,7 @@ use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::MotionSubspace;
 use crate::spatial::symmetric::{Symmetric, turned_back};
 use crate::spatial::{Force, Motion, Xform};
-use crate::state::{JointTrig, entry};
+use crate::state::{Configuration, entry};
 
 /// Λ⁻¹: what acceleration a force on a body gives that body, all joints being free to move.
 ///
@@ -184,26 +186,7 @@ fn with_row_z<R: Real>(m: &R::Mat3, row: R::Vec3) -> R::Mat3 {
 #[inline(always)]
 pub fn osim_inverse<R: Real, D, E, F: Frame, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
-    q: &[R; Q],
-    body: usize,
-    frame: F,
-    effects: &E,
-) -> Result<OsimInverse<R>, NotPositiveDefinite>
-where
-    D: RobotModel<R, B, Q, V>,
-    E: Effect<R, B, V>,
-{
-    osim_inverse_at(robot, &JointTrig::of(robot, q), body, frame, effects)
-}
-
-/// As [`osim_inverse`], at a posture whose sines and cosines are at hand.
-///
-/// # Errors
-/// As [`osim_inverse`].
-#[inline(always)]
-pub fn osim_inverse_at<R: Real, D, E, F: Frame, const B: usize, const Q: usize, const V: usize>(
-    robot: &D,
-    posture: &JointTrig<R, Q>,
+    q: &impl Configuration<R, Q>,
     body: usize,
     _: F,
     effects: &E,
@@ -212,7 +195,9 @@ where
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    let turns = &posture.turns;
+    let trig = q.trig_of(robot);
+    let trig = trig.borrow();
+    let turns = &trig.turns;
     let ArticulatedPass { x, handles } = eliminate(robot, turns, effects)?;
     let carries: [bool; B] = path(robot, body);
     let (mut pose, mut mobility) = (Pose::IDENTITY, OsimInverse::ZERO);

@@ -81,13 +81,13 @@ fn motions<R: Real, T, const B: usize, const Q: usize, const V: usize>(
         let got: [f64; 12] =
             core::array::from_fn(|k| if k < 9 { flat_rot(k) } else { place[k - 9] });
         seen[0].compare(got, row(&r.tip_pose, i));
-        seen[1].compare(six(k.velocity(tip, frame::Body)), row(&r.tip_velocity, i));
+        seen[1].compare(six(k.velocity(tip, frame::Local)), row(&r.tip_velocity, i));
         seen[2].compare(
-            six(k.acceleration(tip, frame::Body)),
+            six(k.acceleration(tip, frame::Local)),
             row(&r.tip_acceleration, i),
         );
         let jacobians = [
-            Core::<T>::jacobian(&state.q, tip, frame::Body),
+            Core::<T>::jacobian(&state.q, tip, frame::Local),
             Core::<T>::jacobian(&state.q, tip, frame::World),
             Core::<T>::jacobian(&state.q, tip, frame::LocalWorldAligned),
         ];
@@ -98,7 +98,7 @@ fn motions<R: Real, T, const B: usize, const Q: usize, const V: usize>(
             }
         }
         seen[6].compare(
-            six(Core::<T>::bias_acceleration(&state, tip, frame::Body)),
+            six(Core::<T>::bias_acceleration(&state, tip, frame::Local)),
             row(&r.drift_local, i),
         );
         seen[7].compare(
@@ -151,7 +151,8 @@ fn mobilities<R: Real, T, const B: usize, const Q: usize, const V: usize>(
     let mut seen = worst(&r.operational_inverse);
     for i in 0..r.first_states() {
         let q = row::<Q>(&r.q, i).map(R::from_f64);
-        let mobility = Core::<T>::osim_inverse(&q, B - 1, frame::Body, &()).expect("M is positive");
+        let mobility =
+            Core::<T>::osim_inverse(&q, B - 1, frame::Local, &()).expect("M is positive");
         let got = mobility.along(&unit()).map(|row| row.map(R::to_f64));
         for (got, want) in got
             .into_iter()

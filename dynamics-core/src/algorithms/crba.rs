@@ -2,12 +2,13 @@
 //!
 //! Walker & Orin (1982); Featherstone & Orin (2000), section 3.3; RBDA (2008), table 6.2. Composite
 //! inertias grow from the tips to the base; column j of M is the force that accelerates the composite
-//! of joint j alone by one, felt at every joint on its way to the base.
+//! of joint j alone by one, projected on every joint between it and the base.
 
 use core::borrow::Borrow;
 
 use heapless::Vec;
 
+use super::tree_pass::inward;
 use crate::algorithms::MassMatrix;
 use crate::effects::{Effect, body_inertia, rotor_force};
 use crate::model::{LinkView, RobotModel};
@@ -47,7 +48,7 @@ where
     }
 }
 
-/// What one pass leaves for the next.
+/// What the outward pass leaves for the inward one.
 struct Body<'a, R: Real> {
     link: LinkView<'a, R>,
     x: Xform<R>,
@@ -77,15 +78,15 @@ where
     }
 
     let mut m = MassMatrix::ZERO;
-    let mut inner = bodies.as_mut_slice();
-    while let Some((body, rest)) = core::mem::take(&mut inner).split_last_mut() {
-        if let Some(parent) = rest.get_mut(body.link.parent) {
+    let mut pass = inward(&mut bodies);
+    while let Some((body, inner)) = pass.next() {
+        if let Some(parent) = inner.get_mut(body.link.parent) {
             parent.ic += body.ic.at_parent(&body.x);
         }
         for (k, joint) in body.link.coordinates().enumerate() {
             let mut f = body.ic.along(&body.link.subspace(turns, k));
-            for (l, above) in body.link.coordinates().enumerate().take(k + 1) {
-                m.set(joint, above, body.link.subspace(turns, l).dot(f));
+            for (l, earlier) in body.link.coordinates().enumerate().take(k + 1) {
+                m.set(joint, earlier, body.link.subspace(turns, l).dot(f));
             }
             if let Some(diagonal) = m.diagonal_mut(joint) {
                 effects.inertia(joint, diagonal);
@@ -93,16 +94,15 @@ where
             if E::GYROSCOPIC_ROTORS {
                 f += rotor_force(effects, &body.link);
             }
-            let mut below = &*body;
-            while let Some(carrier) = rest.get(below.link.parent) {
-                f = below.x.transpose_mul(f);
-                for (l, above) in carrier.link.coordinates().enumerate() {
-                    m.set(joint, above, carrier.link.subspace(turns, l).dot(f));
+            let mut child = &*body;
+            while let Some(parent) = inner.get(child.link.parent) {
+                f = child.x.transpose_mul(f);
+                for (l, ancestor) in parent.link.coordinates().enumerate() {
+                    m.set(joint, ancestor, parent.link.subspace(turns, l).dot(f));
                 }
-                below = carrier;
+                child = parent;
             }
         }
-        inner = rest;
     }
     m
 }

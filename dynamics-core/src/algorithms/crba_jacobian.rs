@@ -1,8 +1,8 @@
 //! M and a Jacobian in one: the modified composite-rigid-body method.
 //!
 //! Lilly & Orin, "Alternate formulations for the manipulator inertia matrix" (1991). As
-//! [`crba`](super::crba()), but instead of a force that climbs down to the base, the joints' axes are
-//! handed out to the tips: what stands in a body's frame is its Jacobian, and M_jk is its column k times
+//! [`crba`](super::crba()), but instead of a force that is transformed inward to the base, the joints' axes are
+//! transformed outward to the tips: what stands in a body's frame is its Jacobian, and M_jk is its column k times
 //! the force that accelerates the composite of joint j.
 
 use core::borrow::Borrow;
@@ -10,7 +10,7 @@ use core::borrow::Borrow;
 use heapless::Vec;
 
 use super::mass_matrix::parent;
-use super::tree_pass::PerBody;
+use super::tree_pass::{inward, per_body};
 use crate::algorithms::MassMatrix;
 use crate::effects::{Effect, body_inertia, rotor_force};
 use crate::model::{BASE, LinkView, RobotModel};
@@ -19,7 +19,7 @@ use crate::spatial::inertia::CompositeInertia;
 use crate::spatial::{Motion, Xform};
 use crate::state::Configuration;
 
-/// What one pass leaves for the next.
+/// What the outward pass leaves for the others.
 struct Body<'a, R: Real> {
     link: LinkView<'a, R>,
     x: Xform<R>,
@@ -61,19 +61,18 @@ where
         let x = link.xform(turns);
         let _ = bodies.push(Body { link, x, ic });
     }
-    let mut inner = bodies.as_mut_slice();
-    while let Some((body, rest)) = core::mem::take(&mut inner).split_last_mut() {
-        if let Some(parent) = rest.get_mut(body.link.parent) {
+    let mut pass = inward(&mut bodies);
+    while let Some((body, inner)) = pass.next() {
+        if let Some(parent) = inner.get_mut(body.link.parent) {
             parent.ic += body.ic.at_parent(&body.x);
         }
-        inner = rest;
     }
 
     let (mut m, mut wanted) = (MassMatrix::ZERO, [Motion::ZERO; V]);
     // Of each body: the last coordinate that moves it, and its Jacobian.
-    let mut jacobians = PerBody::<_, B>::from((BASE, [Motion::ZERO; V]));
+    let mut jacobians = per_body(robot, (BASE, [Motion::ZERO; V]));
     for (i, Body { link, x, ic }) in bodies.iter().enumerate() {
-        let (mut last, mut jacobian) = jacobians.parent(D::CHAIN, link.parent);
+        let (mut last, mut jacobian) = jacobians.parent(link);
         let mut k = last;
         while let Some(column) = jacobian.get_mut(k) {
             *column = *x * *column;
@@ -84,13 +83,13 @@ where
                 *column = link.column(turns, k);
             }
             let mut f = ic.along(&link.subspace(turns, k));
-            let mut above = joint;
-            while let Some(column) = jacobian.get(above) {
-                m.set(joint, above, column.dot(f));
-                if E::GYROSCOPIC_ROTORS && above == joint {
+            let mut ancestor = joint;
+            while let Some(column) = jacobian.get(ancestor) {
+                m.set(joint, ancestor, column.dot(f));
+                if E::GYROSCOPIC_ROTORS && ancestor == joint {
                     f += rotor_force(effects, link);
                 }
-                above = parent(lambda, above);
+                ancestor = parent(lambda, ancestor);
             }
             if let Some(diagonal) = m.diagonal_mut(joint) {
                 effects.inertia(joint, diagonal);
@@ -101,7 +100,7 @@ where
             let turned = |v| link.frame.transpose_mul(v);
             wanted = jacobian.map(|column| Motion::new(turned(column.ang), turned(column.lin)));
         }
-        jacobians.push(D::CHAIN, (last, jacobian));
+        jacobians.push((last, jacobian));
     }
     if body >= B && body != BASE {
         wanted = [Motion::nan(); V];

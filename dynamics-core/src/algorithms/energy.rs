@@ -5,7 +5,7 @@
 use core::borrow::Borrow;
 
 use super::momentum::mass_and_first_moment;
-use super::tree_pass::PerBody;
+use super::tree_pass::per_body;
 use crate::effects::{Effect, base_given, body_inertia, field, rotor_force};
 use crate::model::RobotModel;
 use crate::scalar::{Real, Vector};
@@ -38,9 +38,9 @@ where
     let (trig, state) = (trig.borrow(), state.state());
     let turns = &trig.turns;
     let mut twice = R::ZERO;
-    let mut v = PerBody::<_, B>::from(base_given(effects).0);
+    let mut v = per_body(robot, base_given(effects).0);
     for (i, link) in robot.links().enumerate() {
-        let v_i = link.xform(turns) * v.parent(D::CHAIN, link.parent);
+        let v_i = link.xform(turns) * v.parent(&link);
         if E::GYROSCOPIC_ROTORS {
             // I (ω_z + ρ q̇)² − I ω_z², less the square of ρ q̇, which `inertia` has.
             let rotor = rotor_force(effects, &link) * entry(&state.qd, link.idx_v());
@@ -53,7 +53,7 @@ where
             effects.inertia(k, &mut rotor);
             twice += rotor * qd * qd;
         }
-        v.push(D::CHAIN, v_i);
+        v.push(v_i);
     }
     twice * R::from_f64(0.5)
 }

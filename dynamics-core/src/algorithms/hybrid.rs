@@ -8,8 +8,9 @@ use core::borrow::Borrow;
 use super::NotPositiveDefinite;
 use super::aba::sweep;
 use crate::effects::Effect;
-use crate::model::RobotModel;
-use crate::scalar::Real;
+use crate::model::{LinkView, RobotModel};
+use crate::scalar::{Real, Vector};
+use crate::spatial::Motion;
 use crate::state::{Configuration, RobotState, entry};
 
 /// What is known of a coordinate; hybrid dynamics finds the other.
@@ -46,6 +47,15 @@ impl<R: Real, const V: usize> JointResult<R, V> {
     pub(super) fn set(&mut self, joint: usize, tau: R, qdd: R) {
         if let (Some(t), Some(a)) = (self.tau.get_mut(joint), self.qdd.get_mut(joint)) {
             (*t, *a) = (tau, qdd);
+        }
+    }
+
+    /// Sets the accelerations of a free joint: those of the body relative to its parent's.
+    #[inline(always)]
+    pub(super) fn set_relative(&mut self, link: &LinkView<'_, R>, a: Motion<R>, parent: Motion<R>) {
+        let [ang, lin] = [a.ang - parent.ang, a.lin - parent.lin].map(R::Vec3::array);
+        for (joint, &qdd) in link.coordinates().zip(ang.iter().chain(&lin)) {
+            self.set(joint, entry(&self.tau, joint), qdd);
         }
     }
 }

@@ -40,3 +40,4 @@ pub use operational_space::{
     osim_inverse, task_jacobian,
 };
 pub use rnea::rnea;
+pub(crate) use tree_pass::inward;

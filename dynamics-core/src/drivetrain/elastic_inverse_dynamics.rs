@@ -9,6 +9,7 @@
 use heapless::Vec;
 
 use super::ElasticJoints;
+use crate::algorithms::inward;
 use crate::effects::{Effect, TorqueDerivatives, base_motion, body_inertia, joint_state};
 use crate::model::{LinkView, RobotModel};
 use crate::scalar::Real;
@@ -167,8 +168,8 @@ where
     }
 
     let mut tau = [[R::ZERO; V]; 3];
-    let mut inner = links.as_mut_slice();
-    while let Some((link, rest)) = core::mem::take(&mut inner).split_last_mut() {
+    let mut pass = inward(&mut links);
+    while let Some((link, inner)) = pass.next() {
         for (tau, f) in tau.iter_mut().zip(link.f) {
             link.link.project(&turns, f, tau);
         }
@@ -191,12 +192,11 @@ where
                 }
             }
         }
-        if let Some(parent) = rest.get_mut(link.link.parent) {
+        if let Some(parent) = inner.get_mut(link.link.parent) {
             for (sum, f) in parent.f.iter_mut().zip(force_at_parent(link)) {
                 *sum += f;
             }
         }
-        inner = rest;
     }
     Ok(tau)
 }

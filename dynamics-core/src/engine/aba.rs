@@ -6,8 +6,8 @@
 
 use core::borrow::Borrow;
 use core::hint::black_box;
+use core::marker::PhantomData;
 
-use super::Engine;
 use super::acceleration_field::{Inertia, Wrench, enter};
 use super::articulated_inertia::Articulated;
 use super::compile::CompiledRobot;
@@ -16,6 +16,7 @@ use super::folding::{Mat3, Vec3};
 use super::ltdl::positive;
 use super::pivot_noise::noise;
 use super::rnea::{is_on_base, is_parent, loaded};
+use super::{Engine, Specialised};
 use crate::algorithms::NotPositiveDefinite;
 use crate::effects::Effect;
 use crate::model::{BASE, JointCoordinate, Robot};
@@ -44,7 +45,9 @@ impl<T, K> Engine<T, K> {
         S: RobotState<R, Q, V>,
         E: Effect<R, B, V>,
     {
-        let trig = state.configuration().trig_or(Self::joint_trig);
+        let trig = state
+            .configuration()
+            .trig_or(Specialised::<T, K, B, V>(PhantomData));
         accelerate::<R, T, E, B, Q, V>(trig.borrow(), state.state(), tau, effects)
     }
 }

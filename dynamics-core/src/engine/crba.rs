@@ -4,14 +4,15 @@
 //! composite bodies are known zeros behind revolute joints, and h travels as R h.
 
 use core::borrow::Borrow;
+use core::marker::PhantomData;
 
-use super::Engine;
 use super::acceleration_field::{Inertia, Wrench, along_z};
 use super::base::no_gyroscopic_rotors;
 use super::compile::CompiledRobot;
 use super::folding::Folded;
 use super::folding::Vec3;
 use super::rnea::{is_on_base, is_parent, loaded};
+use super::{Engine, Specialised};
 use crate::algorithms::MassMatrix;
 use crate::effects::Effect;
 use crate::model::{BASE, JointCoordinate, Robot};
@@ -44,7 +45,7 @@ impl<T, K> Engine<T, K> {
         K: Kernel<R>,
         E: Effect<R, B, V>,
     {
-        let trig = q.trig_or(Self::joint_trig);
+        let trig = q.trig_or(Specialised::<T, K, B, V>(PhantomData));
         let mut m = MassMatrix::ZERO;
         mass_matrix::<R, T, E, B, Q, V>(&trig.borrow().turns, effects, &mut m);
         m

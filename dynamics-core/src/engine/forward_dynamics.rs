@@ -5,11 +5,12 @@
 
 use core::borrow::Borrow;
 use core::hint::black_box;
+use core::marker::PhantomData;
 
-use super::Engine;
 use super::crba::mass_matrix;
 use super::ltdl::{decompose, positive, substitute};
 use super::pivot_noise::noise;
+use super::{Engine, Specialised};
 use crate::algorithms::MassMatrix;
 use crate::algorithms::NotPositiveDefinite;
 use crate::effects::{Bias, Effect};
@@ -47,7 +48,9 @@ impl<T, K> Engine<T, K> {
         S: RobotState<R, Q, V>,
         E: Effect<R, B, V>,
     {
-        let trig = state.configuration().trig_or(Self::joint_trig);
+        let trig = state
+            .configuration()
+            .trig_or(Specialised::<T, K, B, V>(PhantomData));
         accelerate::<R, T, E, B, Q, V>(trig.borrow(), state.state(), tau, effects)
     }
 }

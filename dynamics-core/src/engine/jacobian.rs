@@ -3,12 +3,13 @@
 //! Featherstone, RBDA (2008), section 4.1; axes and arms in base coordinates: z_j, z_j × (p − p_j).
 
 use core::borrow::Borrow;
+use core::marker::PhantomData;
 
-use super::Engine;
 use super::compile::CompiledRobot;
 use super::folding::Folded;
 use super::folding::{Mat3, Vec3};
 use super::rnea::is_parent;
+use super::{Engine, Specialised};
 use crate::model::{BASE, JointCoordinate, Robot};
 use crate::scalar::{Real, Vector};
 use crate::spatial::Motion;
@@ -45,7 +46,7 @@ impl<T, K> Engine<T, K> {
         T: Robot<B, Q, V>,
         K: Kernel<R>,
     {
-        let trig = q.trig_or(Self::joint_trig);
+        let trig = q.trig_or(Specialised::<T, K, B, V>(PhantomData));
         columns::<R, T, B, Q, V, BODY>(&trig.borrow().turns)
     }
 }

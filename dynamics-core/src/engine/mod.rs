@@ -42,7 +42,7 @@ use core::marker::PhantomData;
 use crate::effects::Effect;
 use crate::model::{JointCoordinate, Robot};
 use crate::scalar::{Native, Real};
-use crate::state::{Configuration, JointTrig, RobotState, State};
+use crate::state::{Configuration, JointTrig, RobotState, State, TrigSource};
 use crate::trig::Kernel;
 use base::base;
 use compile::CompiledRobot;
@@ -141,7 +141,9 @@ impl<T, K> Engine<T, K> {
         S: RobotState<R, Q, V>,
         E: Effect<R, B, V>,
     {
-        let trig = state.configuration().trig_or(Self::joint_trig);
+        let trig = state
+            .configuration()
+            .trig_or(Specialised::<T, K, B, V>(PhantomData));
         let trig = trig.borrow();
         // Sines and cosines that come from memory are loaded again on the inward pass: `black_box` hides that it is the
         // same place, since the compiler would spill them to the stack. Gravity alone needs no spills.
@@ -152,6 +154,21 @@ impl<T, K> Engine<T, K> {
             trig
         };
         Engine::<T>::run(trig, back, state.state(), effects)
+    }
+}
+
+/// [`Engine::joint_trig`] of a robot of B bodies and V velocity coordinates.
+struct Specialised<T, K, const B: usize, const V: usize>(PhantomData<(T, K)>);
+
+impl<R: Real, T, K, const B: usize, const Q: usize, const V: usize> TrigSource<R, Q>
+    for Specialised<T, K, B, V>
+where
+    T: Robot<B, Q, V>,
+    K: Kernel<R>,
+{
+    #[inline(always)]
+    fn compute(&self, q: &[R; Q]) -> JointTrig<R, Q> {
+        Engine::<T, K>::joint_trig(q)
     }
 }
 

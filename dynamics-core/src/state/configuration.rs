@@ -30,11 +30,8 @@ pub trait Configuration<R, const Q: usize>: sealed::Sealed {
     /// Whether the sines and cosines are computed already.
     const PRECOMPUTED: bool;
 
-    /// The sines and cosines: its own, or those that `compute` makes of q.
-    fn trig_or(
-        &self,
-        compute: impl FnOnce(&[R; Q]) -> JointTrig<R, Q>,
-    ) -> impl Borrow<JointTrig<R, Q>>;
+    /// The sines and cosines: its own, or those that `source` computes.
+    fn trig_or(&self, source: impl TrigSource<R, Q>) -> impl Borrow<JointTrig<R, Q>>;
 
     /// The sines and cosines: its own, or those of [`JointTrig::new`] for `robot`.
     #[inline(always)]
@@ -43,7 +40,7 @@ pub trait Configuration<R, const Q: usize>: sealed::Sealed {
         R: Real,
         D: RobotModel<R, B, Q, V>,
     {
-        self.trig_or(|q| JointTrig::new(robot, q))
+        self.trig_or(Textbook::<D, B, V>(robot))
     }
 }
 
@@ -51,11 +48,8 @@ impl<R, const Q: usize> Configuration<R, Q> for [R; Q] {
     const PRECOMPUTED: bool = false;
 
     #[inline(always)]
-    fn trig_or(
-        &self,
-        compute: impl FnOnce(&[R; Q]) -> JointTrig<R, Q>,
-    ) -> impl Borrow<JointTrig<R, Q>> {
-        compute(self)
+    fn trig_or(&self, source: impl TrigSource<R, Q>) -> impl Borrow<JointTrig<R, Q>> {
+        source.compute(self)
     }
 }
 
@@ -63,8 +57,28 @@ impl<R, const Q: usize> Configuration<R, Q> for JointTrig<R, Q> {
     const PRECOMPUTED: bool = true;
 
     #[inline(always)]
-    fn trig_or(&self, _: impl FnOnce(&[R; Q]) -> JointTrig<R, Q>) -> impl Borrow<JointTrig<R, Q>> {
+    fn trig_or(&self, _: impl TrigSource<R, Q>) -> impl Borrow<JointTrig<R, Q>> {
         self
+    }
+}
+
+/// What computes the sines and cosines of a configuration. A trait, since a closure would not be inlined everywhere.
+pub trait TrigSource<R, const Q: usize> {
+    /// The sines and cosines at q.
+    fn compute(&self, q: &[R; Q]) -> JointTrig<R, Q>;
+}
+
+/// [`JointTrig::new`] of a robot.
+struct Textbook<'a, D, const B: usize, const V: usize>(&'a D);
+
+impl<R: Real, D, const B: usize, const Q: usize, const V: usize> TrigSource<R, Q>
+    for Textbook<'_, D, B, V>
+where
+    D: RobotModel<R, B, Q, V>,
+{
+    #[inline(always)]
+    fn compute(&self, q: &[R; Q]) -> JointTrig<R, Q> {
+        JointTrig::new(self.0, q)
     }
 }
 

@@ -4,7 +4,7 @@ mod configuration;
 mod incremental;
 pub mod manifold;
 
-pub use configuration::{Configuration, RobotState, StateWithTrig};
+pub use configuration::{Configuration, RobotState, StateWithTrig, TrigSource};
 pub use incremental::Carried;
 
 use crate::model::{JointCoordinate, RobotModel};

@@ -7,7 +7,7 @@ use core::borrow::Borrow;
 
 use crate::algorithms::kinematics::frame::{Frame, Pose};
 use crate::algorithms::kinematics::in_link_frame;
-use crate::algorithms::tree_pass::PerBody;
+use crate::algorithms::tree_pass::per_body;
 use crate::model::{BASE, RobotModel};
 use crate::scalar::{Matrix, Real};
 use crate::spatial::{Motion, Xform};
@@ -17,7 +17,7 @@ use crate::state::{Configuration, RobotState};
 ///
 /// ω in rad/s and velocity in m/s per rad/s or m/s. τ = Jᵀ f for a force on the body in the same frame.
 /// All zero for the base; NaN for a body that the robot does not have. Cost: 81 flops a revolute joint that carries the body and 39
-/// (`Body`), 69 (`LocalWorldAligned`) or 81 (`World`) a coordinate; O(depth). Errors: none. Source: RBDA (2008), section 4.1.
+/// (`Local`), 69 (`LocalWorldAligned`) or 81 (`World`) a coordinate; O(depth). Errors: none. Source: RBDA (2008), section 4.1.
 ///
 /// ```
 /// use dynamics_core::{algorithms::{frame, jacobian}, model::Robot, robots::Ur5e};
@@ -93,9 +93,9 @@ where
     let trig = state.configuration().trig_of(robot);
     let (trig, state) = (trig.borrow(), state.state());
     let turns = &trig.turns;
-    let mut moving = PerBody::<_, B>::from((Pose::IDENTITY, Motion::ZERO, Motion::ZERO));
+    let mut moving = per_body(robot, (Pose::IDENTITY, Motion::ZERO, Motion::ZERO));
     for (i, link) in robot.links().enumerate() {
-        let (pose, v, a) = moving.parent(D::CHAIN, link.parent);
+        let (pose, v, a) = moving.parent(&link);
         let x = link.xform(turns);
         let pose = pose.transformed_by(&x);
         let v = link.plus_motion(x * v, turns, &state.qd);
@@ -105,7 +105,7 @@ where
             let tell = |m| F::express(&pose, in_link_frame(&link, m));
             return tell(a) + F::classical_term(tell(v));
         }
-        moving.push(D::CHAIN, (pose, v, a));
+        moving.push((pose, v, a));
     }
     if body == BASE {
         Motion::ZERO

@@ -10,7 +10,7 @@ pub use jacobian::{bias_acceleration, jacobian};
 
 use core::borrow::Borrow;
 
-use crate::algorithms::tree_pass::PerBody;
+use crate::algorithms::tree_pass::per_body;
 use crate::effects::{Effect, base_given};
 use crate::model::{LinkView, RobotModel};
 use crate::scalar::{Matrix, Real};
@@ -78,12 +78,12 @@ where
     let trig = q.trig_of(robot);
     let trig = trig.borrow();
     let mut poses = [Pose::IDENTITY; B];
-    let mut at = PerBody::<_, B>::from(Pose::IDENTITY);
+    let mut at = per_body(robot, Pose::IDENTITY);
     for (link, pose) in robot.links().zip(&mut poses) {
-        let here = at.parent(D::CHAIN, link.parent);
+        let here = at.parent(&link);
         let here = here.transformed_by(&link.xform(&trig.turns));
         *pose = here.in_link_frame(&link.frame);
-        at.push(D::CHAIN, here);
+        at.push(here);
     }
     poses
 }
@@ -114,18 +114,18 @@ where
     let trig = state.configuration().trig_of(robot);
     let (trig, state) = (trig.borrow(), state.state());
     let (turns, (v_0, a_0)) = (&trig.turns, base_given(effects));
-    let mut v = PerBody::<_, B>::from(v_0);
-    let mut a = PerBody::<_, B>::from(a_0);
+    let mut v = per_body(robot, v_0);
+    let mut a = per_body(robot, a_0);
     let (mut velocities, mut accelerations) = ([Motion::ZERO; B], [Motion::ZERO; B]);
-    let told = velocities.iter_mut().zip(&mut accelerations);
-    for (link, (velocity, acceleration)) in robot.links().zip(told) {
+    let moving = velocities.iter_mut().zip(&mut accelerations);
+    for (link, (velocity, acceleration)) in robot.links().zip(moving) {
         let x = link.xform(turns);
-        let v_i = link.plus_motion(x * v.parent(D::CHAIN, link.parent), turns, &state.qd); // (3)
-        let a_i = link.plus_motion(x * a.parent(D::CHAIN, link.parent), turns, &state.qdd); // (4)
+        let v_i = link.plus_motion(x * v.parent(&link), turns, &state.qd); // (3)
+        let a_i = link.plus_motion(x * a.parent(&link), turns, &state.qdd); // (4)
         let a_i = link.plus_velocity_product(a_i, turns, &state.qd, v_i);
         (*velocity, *acceleration) = (in_link_frame(&link, v_i), in_link_frame(&link, a_i));
-        v.push(D::CHAIN, v_i);
-        a.push(D::CHAIN, a_i);
+        v.push(v_i);
+        a.push(a_i);
     }
     Kinematics {
         poses: poses(robot, trig),

@@ -48,7 +48,7 @@ where
     let (mut rows, mut d_inv) = (m.rows, [R::ZERO; V]);
     let mut sizes = Sizes::of(robot, m);
     for k in (0..V).rev() {
-        let (above, at) = rows.split_at_mut(k);
+        let (ancestors, at) = rows.split_at_mut(k);
         let (Some(row), Some(d_inv)) = (at.first_mut(), d_inv.get_mut(k)) else {
             break;
         };
@@ -56,10 +56,10 @@ where
         check(pivot, sizes.noise(k), k)?;
         *d_inv = R::ONE / pivot;
         let mut i = parent(lambda, k);
-        while let Some(row_i) = above.get_mut(i) {
+        while let Some(row_i) = ancestors.get_mut(i) {
             let l = row.get(i).copied().unwrap_or_default() * *d_inv;
             if !D::SINGLE {
-                sizes.hand_on(k, i, l);
+                sizes.add_error_of(k, i, l);
             }
             let mut j = i;
             while let (Some(m_ij), Some(&m_kj)) = (row_i.get_mut(j), row.get(j)) {
@@ -90,23 +90,23 @@ where
     let (lambda, mut x) = (&robot.model().lambda, *tau);
     // Lᵀ y = τ
     for (i, row) in factor.rows.iter().enumerate().rev() {
-        let (above, at) = x.split_at_mut(i);
+        let (ancestors, at) = x.split_at_mut(i);
         let x_i = at.first().copied().unwrap_or_default();
         let mut j = parent(lambda, i);
-        while let (Some(x_j), Some(&l)) = (above.get_mut(j), row.get(j)) {
+        while let (Some(x_j), Some(&l)) = (ancestors.get_mut(j), row.get(j)) {
             *x_j -= l * x_i;
             j = parent(lambda, j);
         }
     }
     // D z = y and L x = z
     for (i, (row, &d_inv)) in factor.rows.iter().zip(&factor.d_inv).enumerate() {
-        let (above, at) = x.split_at_mut(i);
+        let (ancestors, at) = x.split_at_mut(i);
         let Some(x_i) = at.first_mut() else {
             break;
         };
         *x_i *= d_inv;
         let mut j = parent(lambda, i);
-        while let (Some(&x_j), Some(&l)) = (above.get(j), row.get(j)) {
+        while let (Some(&x_j), Some(&l)) = (ancestors.get(j), row.get(j)) {
             *x_i -= l * x_j;
             j = parent(lambda, j);
         }
@@ -182,12 +182,12 @@ impl<R: Real, const V: usize> Sizes<R, V> {
 
     /// Row `k`, taken `l` times off row `i`, brings its rounding errors if both are of one joint.
     #[inline(always)]
-    pub(in crate::algorithms) fn hand_on(&mut self, k: usize, i: usize, l: R) {
+    pub(in crate::algorithms) fn add_error_of(&mut self, k: usize, i: usize, l: R) {
         let size = entry(&self.sizes, k);
         if i >= entry(&self.firsts, k)
-            && let Some(handed_on) = self.sizes.get_mut(i)
+            && let Some(inherited) = self.sizes.get_mut(i)
         {
-            *handed_on += l * l * size;
+            *inherited += l * l * size;
         }
     }
 }

@@ -64,7 +64,7 @@ where
     E: Effect<R, B, V>,
 {
     // A joint that gives way takes off its part: ψ = φ − K H φ.
-    let factor = columns(robot, q, effects, |f, felt, k| f - k * felt)?;
+    let factor = columns(robot, q, effects, |f, projected, k| f - k * projected)?;
     let w = |a: usize, i: usize| match factor.rows.get(a).and_then(|row| row.get(i)) {
         _ if a == i => R::ONE,
         Some(&hpk) if i < a => -hpk,
@@ -80,8 +80,8 @@ where
     Ok(m_inv)
 }
 
-/// H (Φ or Ψ) K by rows of joints, and D⁻¹: K of each joint, felt at all that carry it; `pass` is what a
-/// joint hands on of a force, of which it feels a part, given its own K.
+/// H (Φ or Ψ) K by rows of joints, and D⁻¹: K of each joint, projected on its ancestors; `pass` is what a
+/// joint transmits inward of a force, given the force's projection on the joint and its own K.
 #[inline(always)]
 fn columns<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
@@ -95,10 +95,10 @@ where
 {
     let trig = q.trig_of(robot);
     let turns = &trig.borrow().turns;
-    let ArticulatedPass { x, handles } = eliminate(robot, turns, effects)?;
+    let ArticulatedPass { x, factors } = eliminate(robot, turns, effects)?;
     let gain = |joint| {
-        let handle: JointFactor<R> = entry(&handles, joint);
-        handle.u_a * handle.d_inv
+        let factor: JointFactor<R> = entry(&factors, joint);
+        factor.u_a * factor.d_inv
     };
 
     let mut rows = [[R::ZERO; V]; V];
@@ -106,20 +106,20 @@ where
         for joint in link.coordinates() {
             let (mut f, mut at) = (gain(joint), i);
             while let (Some(link), Some(x)) = (robot.link(at), x.get(at)) {
-                for (k, above) in link.coordinates().enumerate().rev() {
-                    if above >= joint {
+                for (k, ancestor) in link.coordinates().enumerate().rev() {
+                    if ancestor >= joint {
                         continue; // itself, and what it carries on the same body
                     }
-                    let felt = link.subspace(turns, k).dot(f);
-                    f = pass(f, felt, gain(above));
-                    if let Some(entry) = rows.get_mut(joint).and_then(|row| row.get_mut(above)) {
-                        *entry = felt;
+                    let projected = link.subspace(turns, k).dot(f);
+                    f = pass(f, projected, gain(ancestor));
+                    if let Some(entry) = rows.get_mut(joint).and_then(|row| row.get_mut(ancestor)) {
+                        *entry = projected;
                     }
                 }
                 (f, at) = (x.transpose_mul(f), link.parent);
             }
         }
     }
-    let d_inv = handles.map(|handle| handle.d_inv);
+    let d_inv = factors.map(|factor| factor.d_inv);
     Ok(Ltdl { rows, d_inv })
 }

@@ -9,7 +9,7 @@ use core::borrow::Borrow;
 use heapless::Vec;
 
 use crate::algorithms::NotPositiveDefinite;
-use crate::algorithms::tree_pass::PerBody;
+use crate::algorithms::tree_pass::{inward, per_body};
 use crate::effects::{Effect, base_given, body_inertia, rotor_force};
 use crate::model::{JointKind, RobotModel};
 use crate::scalar::{Real, Vector};
@@ -63,32 +63,31 @@ where
     let trig = state.configuration().trig_of(robot);
     let (trig, state) = (trig.borrow(), state.state());
     let turns = &trig.turns;
-    let mut v = PerBody::<_, B>::from(base_given(effects).0);
+    let mut v = per_body(robot, base_given(effects).0);
     let mut bodies: Vec<Body<R>, B> = Vec::new();
     for (i, link) in robot.links().enumerate() {
         let (x, parent) = (link.xform(turns), link.parent);
-        let v_i = link.plus_motion(x * v.parent(D::CHAIN, parent), turns, &state.qd);
+        let v_i = link.plus_motion(x * v.parent(&link), turns, &state.qd);
         let inertia = body_inertia(effects, i, &link);
         let (mut h, ic) = (inertia * v_i, inertia.into());
         if E::GYROSCOPIC_ROTORS {
             h += rotor_force(effects, &link) * entry(&state.qd, link.idx_v());
         }
         let _ = bodies.push(Body { x, parent, h, ic });
-        v.push(D::CHAIN, v_i);
+        v.push(v_i);
     }
 
     let mut lacking = h;
-    let mut inner = bodies.as_mut_slice();
-    while let Some((body, rest)) = core::mem::take(&mut inner).split_last_mut() {
+    let mut pass = inward(&mut bodies);
+    while let Some((body, inner)) = pass.next() {
         let h = body.x.transpose_mul(body.h);
-        match rest.get_mut(body.parent) {
-            Some(carrier) => {
-                carrier.h += h;
-                carrier.ic += body.ic.at_parent(&body.x);
+        match inner.get_mut(body.parent) {
+            Some(parent) => {
+                parent.h += h;
+                parent.ic += body.ic.at_parent(&body.x);
             }
             None => lacking -= h,
         }
-        inner = rest;
     }
 
     let (mut qd, first) = (state.qd, bodies.first().zip(robot.link(0)));

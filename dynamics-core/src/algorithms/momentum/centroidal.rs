@@ -9,8 +9,8 @@ use core::borrow::Borrow;
 use heapless::Vec;
 
 use crate::algorithms::kinematics::frame::Pose;
-use crate::algorithms::momentum::{mass_and_first_moment, momentum, per};
-use crate::algorithms::tree_pass::PerBody;
+use crate::algorithms::momentum::{mass_and_first_moment, momentum, reciprocal};
+use crate::algorithms::tree_pass::{inward, per_body};
 use crate::effects::{Effect, body_inertia};
 use crate::model::RobotModel;
 use crate::scalar::{Real, Vector};
@@ -41,10 +41,10 @@ where
     let (trig, state) = (trig.borrow(), state.state());
     let (mass, moment) = mass_and_first_moment(robot, trig, effects);
     let h = momentum(robot, trig.with(state), effects);
-    Force::new(h.ang - (moment * per(mass)).cross(h.lin), h.lin)
+    Force::new(h.ang - (moment * reciprocal(mass)).cross(h.lin), h.lin)
 }
 
-/// The centroidal momentum matrix A_G with h_G = A_G q̇, by columns, one a coordinate; for a base at rest.
+/// The centroidal momentum matrix A_G with h_G = A_G q̇, by columns, one a coordinate; for a base at inner.
 ///
 /// Along the base's axes and about the centre of mass; N·m·s and N·s per rad/s (or m/s). Cost: O(B); some
 /// 350 flops a revolute joint. Errors: none. Source: Orin, Goswami & Lee (2013), section 5.
@@ -76,21 +76,21 @@ where
     };
     let turns = &trig.turns;
     let (mass, moment) = mass_and_first_moment(robot, trig, effects);
-    let centre = moment * per(mass);
+    let centre = moment * reciprocal(mass);
 
-    let mut at = PerBody::<_, B>::from(Pose::IDENTITY);
+    let mut at = per_body(robot, Pose::IDENTITY);
     let mut bodies: Vec<(Pose<R>, Xform<R>, CompositeInertia<R>), B> = Vec::new();
     for (i, link) in robot.links().enumerate() {
         let x = link.xform(turns);
-        let pose = at.parent(D::CHAIN, link.parent).transformed_by(&x);
+        let pose = at.parent(&link).transformed_by(&x);
         let _ = bodies.push((pose, x, body_inertia(effects, i, &link).into()));
-        at.push(D::CHAIN, pose);
+        at.push(pose);
     }
 
     let mut columns = [Force::ZERO; V];
-    let mut inner = bodies.as_mut_slice();
-    while let Some(((pose, x, composite), rest)) = core::mem::take(&mut inner).split_last_mut() {
-        let Some(link) = robot.link(rest.len()) else {
+    let mut pass = inward(&mut bodies);
+    while let Some(((pose, x, composite), inner)) = pass.next() {
+        let Some(link) = robot.link(inner.len()) else {
             break;
         };
         for (k, coordinate) in link.coordinates().enumerate() {
@@ -100,10 +100,9 @@ where
                 *column = Force::new(ang + (pose.pos - centre).cross(lin), lin);
             }
         }
-        if let Some(parent) = rest.get_mut(link.parent) {
+        if let Some(parent) = inner.get_mut(link.parent) {
             parent.2 += composite.at_parent(x);
         }
-        inner = rest;
     }
     columns
 }

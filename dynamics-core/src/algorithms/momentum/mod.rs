@@ -14,7 +14,7 @@ use core::borrow::Borrow;
 use heapless::Vec;
 
 use crate::algorithms::kinematics::frame::Pose;
-use crate::algorithms::tree_pass::PerBody;
+use crate::algorithms::tree_pass::{inward, per_body};
 use crate::effects::{Effect, base_given, body_inertia, rotor_force};
 use crate::model::RobotModel;
 use crate::scalar::{Real, Vector};
@@ -51,21 +51,21 @@ where
     E: Effect<R, B, V>,
 {
     let (mut mass, mut moment) = (R::ZERO, R::Vec3::ZERO);
-    let mut at = PerBody::<_, B>::from(Pose::IDENTITY);
+    let mut at = per_body(robot, Pose::IDENTITY);
     for (i, link) in robot.links().enumerate() {
-        let here = at.parent(D::CHAIN, link.parent);
+        let here = at.parent(&link);
         let here = here.transformed_by(&link.xform(&trig.turns));
         let inertia = body_inertia(effects, i, &link);
         mass += inertia.mass;
         moment += here.pos * inertia.mass + here.rot * inertia.first_moment;
-        at.push(D::CHAIN, here);
+        at.push(here);
     }
     (mass, moment)
 }
 
 /// 1/m; zero if there is no mass.
 #[inline(always)]
-pub(in crate::algorithms) fn per<R: Real>(mass: R) -> R {
+pub(in crate::algorithms) fn reciprocal<R: Real>(mass: R) -> R {
     if mass > R::ZERO {
         R::ONE / mass
     } else {
@@ -96,7 +96,7 @@ where
     let trig = state.configuration().trig_of(robot);
     let (trig, state) = (trig.borrow(), state.state());
     let (mass, moment) = mass_and_first_moment(robot, trig, effects);
-    let mass_inv = per(mass);
+    let mass_inv = reciprocal(mass);
     CenterOfMass {
         mass,
         position: moment * mass_inv,
@@ -129,27 +129,26 @@ where
     let trig = state.configuration().trig_of(robot);
     let (trig, state) = (trig.borrow(), state.state());
     let turns = &trig.turns;
-    let mut v = PerBody::<_, B>::from(base_given(effects).0);
+    let mut v = per_body(robot, base_given(effects).0);
     let mut bodies: Vec<(Xform<R>, usize, Force<R>), B> = Vec::new();
     for (i, link) in robot.links().enumerate() {
         let x = link.xform(turns);
-        let v_i = link.plus_motion(x * v.parent(D::CHAIN, link.parent), turns, &state.qd);
+        let v_i = link.plus_motion(x * v.parent(&link), turns, &state.qd);
         let mut h_i = body_inertia(effects, i, &link) * v_i;
         if E::GYROSCOPIC_ROTORS {
             h_i += rotor_force(effects, &link) * entry(&state.qd, link.idx_v());
         }
         let _ = bodies.push((x, link.parent, h_i));
-        v.push(D::CHAIN, v_i);
+        v.push(v_i);
     }
     let mut total = Force::ZERO;
-    let mut inner = bodies.as_mut_slice();
-    while let Some((&mut (x, parent, h), rest)) = core::mem::take(&mut inner).split_last_mut() {
+    let mut pass = inward(&mut bodies);
+    while let Some((&mut (x, parent, h), inner)) = pass.next() {
         let h = x.transpose_mul(h);
-        match rest.get_mut(parent) {
-            Some(carrier) => carrier.2 += h,
+        match inner.get_mut(parent) {
+            Some(parent) => parent.2 += h,
             None => total += h,
         }
-        inner = rest;
     }
     total
 }

@@ -109,7 +109,7 @@ impl<R: Real> OsimInverse<R> {
         match s {
             MotionSubspace::RevoluteZ => {
                 let [x, y, _] = k.ang.array();
-                let p = Force::new(R::Vec3::new(-x, -y, joint.held), -k.lin);
+                let p = Force::new(R::Vec3::new(-x, -y, joint.armature_share), -k.lin);
                 let w = *self * p;
                 let [xz, yz, _] = w.ang.array();
                 (next.ang.xz, next.ang.yz, next.ang.zz) = (xz, yz, w.dot(p) + joint.d_inv);
@@ -117,7 +117,7 @@ impl<R: Real> OsimInverse<R> {
             }
             MotionSubspace::PrismaticZ => {
                 let [x, y, _] = k.lin.array();
-                let p = Force::new(-k.ang, R::Vec3::new(-x, -y, joint.held));
+                let p = Force::new(-k.ang, R::Vec3::new(-x, -y, joint.armature_share));
                 let w = *self * p;
                 let [xz, yz, _] = w.lin.array();
                 (next.lin.xz, next.lin.yz, next.lin.zz) = (xz, yz, w.dot(p) + joint.d_inv);
@@ -198,7 +198,7 @@ where
     let trig = q.trig_of(robot);
     let trig = trig.borrow();
     let turns = &trig.turns;
-    let ArticulatedPass { x, handles } = eliminate(robot, turns, effects)?;
+    let ArticulatedPass { x, factors } = eliminate(robot, turns, effects)?;
     let carries: [bool; B] = path(robot, body);
     let (mut pose, mut mobility) = (Pose::IDENTITY, OsimInverse::ZERO);
     let bodies = robot.links().zip(&x).zip(carries);
@@ -206,8 +206,8 @@ where
         pose = pose.transformed_by(x);
         mobility = mobility.at(x);
         for (k, coordinate) in link.coordinates().enumerate() {
-            let handle = entry(&handles, coordinate);
-            mobility = mobility.across(&link.subspace(turns, k), &handle);
+            let factor = entry(&factors, coordinate);
+            mobility = mobility.across(&link.subspace(turns, k), &factor);
         }
     }
     let Some(link) = robot.link(body) else {
@@ -217,8 +217,8 @@ where
         rot: link.frame.transpose(),
         pos: R::Vec3::ZERO,
     };
-    let told = F::from_body(&pose.in_link_frame(&link.frame));
-    Ok(mobility.at(&(told * own)))
+    let expressed = F::from_body(&pose.in_link_frame(&link.frame));
+    Ok(mobility.at(&(expressed * own)))
 }
 
 /// Which bodies carry `body`, itself included.

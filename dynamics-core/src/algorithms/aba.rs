@@ -20,9 +20,19 @@ use crate::spatial::inertia::ArticulatedInertia;
 use crate::spatial::{Force, Motion, Xform};
 use crate::state::{Configuration, JointTrig, RobotState, State, entry};
 
-/// q̈ = FD(q, q̇, τ): the acceleration of each joint, rad/s² or m/s², under the effects named.
+/// The acceleration of each joint, q̈ = FD(q, q̇, τ), rad/s² or m/s², under the effects of the scene.
 ///
-/// Shape: V. Cost: O(B); some 590 flops a revolute joint. `state.qdd` is not read. Source: Featherstone (1983; RBDA table 7.1).
+/// `state.qdd` is not read.
+///
+/// # Shape
+/// V.
+///
+/// # Cost
+/// O(B): some 590 flops for each revolute joint.
+///
+/// # Source
+/// Featherstone (1983); RBDA (2008), table 7.1.
+///
 /// A scene without `Inertia` does not compile:
 ///
 /// ```compile_fail
@@ -36,6 +46,11 @@ use crate::state::{Configuration, JointTrig, RobotState, State, entry};
 /// wrist without mass in gimbal lock), or whose inertia is not a number: its pivot is not above eight roundings of
 /// the largest inertia that all that it carries, stretched out, could have about it. Of four joints or more without
 /// inertia whose axes meet in one point rounding may leave more.
+#[doc(alias = "articulated-body inertia")]
+#[doc(alias = "ABI")]
+#[doc(alias = "forward dynamics")]
+#[doc(alias = "FDab")]
+#[doc(alias = "FD")]
 #[inline(always)]
 pub fn aba<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,

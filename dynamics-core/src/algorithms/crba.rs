@@ -17,20 +17,31 @@ use crate::spatial::Xform;
 use crate::spatial::inertia::CompositeInertia;
 use crate::state::{Configuration, JointTrig};
 
-/// M(q), kg·m² between revolute joints, kg between prismatic ones, kg·m mixed; with rotors and payload
-/// if the scene has them, whatever else it names.
+/// The joint-space inertia matrix M(q), kg·m² between revolute joints, kg between prismatic ones, kg·m mixed.
 ///
-/// Shape: V × V, symmetric; an entry between joints of which neither carries the other is exactly zero.
-/// Cost: for B revolute joints some 190 B flops and 40 for each joint that carries another; B² / 2 of
-/// these on a chain. Errors: none; a non-finite input gives a non-finite output. Source: Walker & Orin
-/// (1982); RBDA, table 6.2.
+/// Of the effects, armatures, rotors and payloads are part of M. A non-finite input gives a non-finite output.
 ///
+/// # Shape
+/// V × V, symmetric; an entry between joints of which neither is an ancestor of the other is exactly zero.
+///
+/// # Cost
+/// For B revolute joints some 190 B flops, and 40 for each pair of a joint and its ancestor: B² / 2 pairs on a chain.
+///
+/// # Source
+/// Walker & Orin (1982); RBDA (2008), table 6.2.
+///
+/// # Example
 /// ```
 /// use dynamics_core::{algorithms::crba, effects::RIGID_BODY, model::Robot, robots::Ur5e};
 /// let m = crba(&Ur5e::MODEL, &[0.0, -1.2, 1.5, 0.3, 0.0, 0.0], &RIGID_BODY);
 /// assert!(m.get(1, 1) > m.get(5, 5) && m.get(0, 3) == m.get(3, 0));
 /// ```
+#[doc(alias = "HandC")]
+#[doc(alias = "JSIM")]
+#[doc(alias = "inertia matrix")]
+#[doc(alias = "mass matrix")]
 #[inline(always)]
+#[must_use]
 pub fn crba<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     q: &impl Configuration<R, Q>,

@@ -26,13 +26,20 @@ struct Body<'a, R: Real> {
     ic: CompositeInertia<R>,
 }
 
-/// M(q), and the Jacobian of one body: column k is the velocity of that body at unit rate of
-/// coordinate k, at the body's origin and in its own axes.
+/// The inertia matrix M(q), and the Jacobian of one body at its origin and along its own axes.
 ///
-/// Shape: V × V and 6 × V; the Jacobian of the base is zero, that of a body that the robot does not
-/// have NaN. Cost: as
-/// [`crba`](super::crba()), of which the Jacobian is a by-product. Source: Lilly & Orin (1991).
+/// Column k of the Jacobian is the velocity of the body at unit rate of coordinate k.
 ///
+/// # Shape
+/// V × V and 6 × V. The Jacobian of the base is zero, that of a body that the robot does not have NaN.
+///
+/// # Cost
+/// That of [`crba`](super::crba()), of which the Jacobian is a by-product.
+///
+/// # Source
+/// Lilly & Orin (1991).
+///
+/// # Example
 /// ```
 /// use dynamics_core::algorithms::{crba, crba_jacobian};
 /// use dynamics_core::{effects::RIGID_BODY, model::Robot, robots::Ur5e};
@@ -41,7 +48,9 @@ struct Body<'a, R: Real> {
 /// assert!((m.get(0, 1) - crba(&Ur5e::MODEL, &q, &RIGID_BODY).get(0, 1)).abs() < 1e-15);
 /// assert_eq!(jacobian[5].lin.length(), 0.0); // the last joint does not move its own origin
 /// ```
+#[doc(alias = "modified composite-rigid-body method")]
 #[inline(always)]
+#[must_use]
 pub fn crba_jacobian<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     q: &impl Configuration<R, Q>,

@@ -13,10 +13,16 @@ use crate::state::{Configuration, RobotState, entry};
 
 /// The kinetic energy T = Σ ½ v·I v, J.
 ///
-/// Of the bodies, with a payload if the effects name one, and of rotors by their inertia at the joints:
-/// ½ q̇ᵀ M q̇ on a base at rest, M under the same effects. On a base of given motion that of the moving
-/// bodies. Cost: O(B); some 115 flops a revolute joint. Errors: none. Source: RBDA (2008), (2.67).
+/// It counts the bodies, a payload of the scene, and rotors by their inertia at the joints: ½ q̇ᵀ M q̇ on a base at
+/// rest, M under the same effects. On a base of given motion it is that of the moving bodies.
 ///
+/// # Cost
+/// O(B): some 115 flops for each revolute joint.
+///
+/// # Source
+/// RBDA (2008), (2.67).
+///
+/// # Example
 /// ```
 /// use dynamics_core::{algorithms::kinetic_energy, model::Robot, robots::Ur5e, state::State};
 /// let turning = State { qd: [1.0, 0.0, 0.0, 0.0, 0.0, 0.0], ..State::at([0.0_f64; 6]) };
@@ -25,6 +31,7 @@ use crate::state::{Configuration, RobotState, entry};
 /// assert_eq!(energy(&twice), 4.0 * energy(&turning));
 /// ```
 #[inline(always)]
+#[must_use]
 pub fn kinetic_energy<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     state: impl RobotState<R, Q, V>,
@@ -58,18 +65,24 @@ where
     twice * R::from_f64(0.5)
 }
 
-/// The potential energy U = −Σ m g·c in the field of the effects, J; zero at the height of the base's
-/// origin.
+/// The potential energy U = −Σ m g·c in the field of the effects, J; zero at the height of the base's origin.
 ///
-/// Of the bodies and a payload; springs that are effects of joints are not counted. Cost: O(B); some 110
-/// flops a revolute joint. Errors: none. Source: RBDA (2008), section 5.3 (a uniform field).
+/// It counts the bodies and a payload. Springs that are effects of joints are not counted.
 ///
+/// # Cost
+/// O(B): some 110 flops for each revolute joint.
+///
+/// # Source
+/// RBDA (2008), section 5.3, for a uniform field.
+///
+/// # Example
 /// ```
 /// use dynamics_core::{algorithms::potential_energy, effects::Gravity, model::Robot, robots::Ur5e};
 /// let energy = |lift| potential_energy(&Ur5e::MODEL, &[0.0, lift, 0.0, 0.0, 0.0, 0.0], &(Gravity::EARTH,));
 /// assert!(energy(-1.57_f64) > energy(0.0) + 50.0); // upright
 /// ```
 #[inline(always)]
+#[must_use]
 pub fn potential_energy<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     q: &impl Configuration<R, Q>,

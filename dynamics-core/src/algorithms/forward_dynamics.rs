@@ -11,11 +11,21 @@ use crate::model::RobotModel;
 use crate::scalar::Real;
 use crate::state::{Configuration, RobotState};
 
-/// q̈ = FD(q, q̇, τ): the acceleration of each joint, rad/s² or m/s², under the effects named.
+/// The acceleration of each joint, q̈ = FD(q, q̇, τ), rad/s² or m/s², by M and its factors.
 ///
-/// Shape: V. Cost: [`rnea`](super::rnea()), [`crba`](super::crba()), [`ltdl`] and [`solve`]; on a
-/// chain O(V³), of a small factor. `state.qdd` is not read. Source: Walker & Orin (1982).
+/// [`aba`](super::aba()) gives the same without M. `state.qdd` is not read.
 ///
+/// # Shape
+/// V.
+///
+/// # Cost
+/// That of [`rnea`](super::rnea()), [`crba`](super::crba()), [`ltdl`] and [`solve`]: O(V³) on a chain, of a small
+/// factor.
+///
+/// # Source
+/// Walker & Orin (1982), method 3.
+///
+/// # Example
 /// ```
 /// use dynamics_core::{algorithms::{aba, forward_dynamics}, effects::RIGID_BODY, model::Robot, robots::Ur5e, state::State};
 /// let state = State::at([0.0_f64, -1.2, 1.5, 0.3, 0.0, 0.0]);
@@ -27,6 +37,8 @@ use crate::state::{Configuration, RobotState};
 ///
 /// # Errors
 /// As [`ltdl`].
+#[doc(alias = "forward_dynamics_crba")]
+#[doc(alias = "FDcrb")]
 #[inline(always)]
 pub fn forward_dynamics<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,

@@ -60,11 +60,20 @@ impl<R: Real, const V: usize> JointResult<R, V> {
     }
 }
 
-/// Torques and accelerations of all coordinates, of each of which one is given.
+/// Torques and accelerations of all coordinates, of which one is prescribed for each coordinate.
 ///
-/// Cost: O(B), at most that of [`aba`](super::aba()). `state.qdd` is not read. Source: Featherstone,
-/// RBDA (2008), section 9.2.
+/// `state.qdd` is not read.
 ///
+/// # Shape
+/// V and V.
+///
+/// # Cost
+/// O(B), at most that of [`aba`](super::aba()).
+///
+/// # Source
+/// Featherstone, RBDA (2008), section 9.2.
+///
+/// # Example
 /// ```
 /// use dynamics_core::algorithms::{Prescribed::*, hybrid_dynamics};
 /// use dynamics_core::{effects::RIGID_BODY, model::Robot, robots::Ur5e, state::State};
@@ -79,6 +88,7 @@ impl<R: Real, const V: usize> JointResult<R, V> {
 /// # Errors
 /// [`NotPositiveDefinite`] names a coordinate whose torque is given but that moves no inertia, as
 /// [`aba`](super::aba()) does.
+#[doc(alias = "HD")]
 #[inline(always)]
 pub fn hybrid_dynamics<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,

@@ -16,18 +16,30 @@ use crate::scalar::{Matrix, Real};
 use crate::spatial::{Force, Motion, Xform};
 use crate::state::{Configuration, JointTrig, RobotState, State, entry};
 
-/// τ = ID(q, q̇, q̈): the torque of each motor, N·m or N, under the effects named.
+/// The torque of each motor, τ = ID(q, q̇, q̈), N·m or N, under the effects of the scene.
 ///
-/// Shape: V. Cost: O(B); 250 flops a revolute joint, less what no effect asks for. Errors: none; a
-/// non-finite input gives a non-finite output, which [`crate::control`] gates. Source: Featherstone &
-/// Orin (2000); Luh, Walker & Paul (1980).
+/// A non-finite input gives a non-finite output, which [`crate::control`] rejects.
 ///
+/// # Shape
+/// V.
+///
+/// # Cost
+/// O(B): 250 flops for each revolute joint, less what no effect needs.
+///
+/// # Source
+/// Featherstone & Orin (2000); Luh, Walker & Paul (1980).
+///
+/// # Example
 /// ```
 /// use dynamics_core::{algorithms::rnea, effects::RIGID_BODY, model::Robot, robots::Ur5e, state::State};
 /// let tau = rnea(&Ur5e::MODEL, &State::at([0.0; 6]), &RIGID_BODY);
 /// assert!(tau[1] < -50.0 && tau[0] == 0.0); // the arm stretched out; gravity does not turn its base
 /// ```
+#[doc(alias = "computed torque")]
+#[doc(alias = "inverse dynamics")]
+#[doc(alias = "ID")]
 #[inline(always)]
+#[must_use]
 pub fn rnea<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     state: impl RobotState<R, Q, V>,

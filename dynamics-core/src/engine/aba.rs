@@ -25,13 +25,20 @@ use crate::state::{Configuration, JointTrig, RobotState, State};
 use crate::trig::Kernel;
 
 impl<T, K> Engine<T, K> {
-    /// q̈ = FD(q, q̇, τ) as [`Engine::forward_dynamics`] has it, by articulated bodies.
+    /// The acceleration of each joint, q̈ = FD(q, q̇, τ), as [`Engine::forward_dynamics`] has it, by articulated
+    /// bodies.
     ///
-    /// Cost: O(V), but more than that of `forward` on short chains: `docs/costs.md` in the repository.
-    /// `state.qdd` is not read. Source: Featherstone (1983; RBDA table 7.1).
+    /// `state.qdd` is not read.
+    ///
+    /// # Cost
+    /// O(V), but more than that of `forward_dynamics` on short chains: `docs/costs.md` in the repository.
+    ///
+    /// # Source
+    /// Featherstone (1983); RBDA (2008), table 7.1.
     ///
     /// # Errors
     /// As [`Engine::forward_dynamics`].
+    #[doc(alias = "ABI")]
     #[doc(alias = "FD")]
     #[inline(never)]
     pub fn aba<R: Real, S, E, const B: usize, const Q: usize, const V: usize>(

@@ -21,12 +21,18 @@ use crate::state::Configuration;
 use crate::trig::Kernel;
 
 impl<T, K> Engine<T, K> {
-    /// M(q), kg·m², kg and kg·m, with the rotors and the payload that the effects name.
+    /// The joint-space inertia matrix M(q), kg·m², kg and kg·m, with the armatures and the payload of the scene.
     ///
-    /// Other effects do not matter: [`crate::effects::RIGID_BODY`] gives the robot's own M. Angles
-    /// as in [`Engine::rnea`]. Cost: `docs/costs.md` in the repository; the same instructions
-    /// whatever the data. Source: Walker & Orin (1982); Featherstone, RBDA (2008), table 6.2.
+    /// Other effects do not matter: [`crate::effects::RIGID_BODY`] gives the robot's own M. Angles as in
+    /// [`Engine::rnea`].
     ///
+    /// # Cost
+    /// `docs/costs.md` in the repository; the same instructions whatever the data.
+    ///
+    /// # Source
+    /// Walker & Orin (1982); Featherstone, RBDA (2008), table 6.2.
+    ///
+    /// # Example
     /// ```
     /// use dynamics_core::{Engine, effects::{RIGID_BODY, Armature}, robots::Ur5e};
     /// let q = [0.0_f32, -1.2, 1.5, 0.3, 0.0, 0.0];
@@ -34,8 +40,10 @@ impl<T, K> Engine<T, K> {
     /// let driven = Engine::<Ur5e>::crba(&q, &(RIGID_BODY, geared));
     /// assert_eq!(driven.get(2, 2), bare.get(2, 2) + 0.5);
     /// ```
+    #[doc(alias = "inertia matrix")]
     #[doc(alias = "mass matrix")]
     #[inline(never)]
+    #[must_use]
     pub fn crba<R: Real, E, const B: usize, const Q: usize, const V: usize>(
         q: &impl Configuration<R, Q>,
         effects: &E,

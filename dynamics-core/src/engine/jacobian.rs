@@ -17,12 +17,18 @@ use crate::state::Configuration;
 use crate::trig::Kernel;
 
 impl<T, K> Engine<T, K> {
-    /// J with V = J q̇: the velocity of the body of the number BODY, by columns, one a joint.
+    /// The Jacobian J of the body of the number BODY with v = J q̇, by columns, one for each joint.
     ///
-    /// ω in rad/s and the velocity in m/s of the origin of that body's frame, both along the axes of
-    /// the base. τ = Jᵀ f for a force at that origin. Cost: `docs/costs.md` in the repository.
-    /// Source: Featherstone, RBDA (2008), section 4.1.
+    /// ω in rad/s and the velocity in m/s of the origin of that body's frame, both along the axes of the base. τ = Jᵀ f
+    /// for a force at that origin.
     ///
+    /// # Cost
+    /// `docs/costs.md` in the repository.
+    ///
+    /// # Source
+    /// Featherstone, RBDA (2008), section 4.1.
+    ///
+    /// # Example
     /// ```
     /// use dynamics_core::{Engine, robots::Ur5e};
     /// use dynamics_core::model::Robot;
@@ -38,7 +44,9 @@ impl<T, K> Engine<T, K> {
     /// let _ = Engine::<Ur5e>::jacobian::<6, _, _, _, _>(&[0.0_f32; 6]);
     /// // error: the Jacobian is of a body that the robot does not have: bodies are numbered from 0
     /// ```
+    #[doc(alias = "end effector")]
     #[inline(never)]
+    #[must_use]
     pub fn jacobian<const BODY: usize, R: Real, const B: usize, const Q: usize, const V: usize>(
         q: &impl Configuration<R, Q>,
     ) -> [Motion<R>; V]

@@ -153,10 +153,18 @@ impl Frame for LocalWorldAligned {
     }
 }
 
-/// ω̇ and p̈ of the body's origin p from the spatial acceleration a and velocity v, in the same frame.
+/// The classical acceleration, ω̇ and p̈ of the body's origin p, from the spatial acceleration a and the velocity v in
+/// the same frame.
 ///
-/// Units rad/s² and m/s². Cost: 12 flops. Source: Featherstone, RBDA (2008), (2.47): p̈ = a + ω × v.
+/// rad/s² and m/s².
 ///
+/// # Cost
+/// 12 flops.
+///
+/// # Source
+/// Featherstone, RBDA (2008), (2.47): p̈ = a + ω × v.
+///
+/// # Example
 /// ```
 /// use dynamics_core::{algorithms::classical, spatial::Motion};
 /// use glam::Vec3;
@@ -165,6 +173,7 @@ impl Frame for LocalWorldAligned {
 /// assert_eq!(classical(Motion::ZERO, v).lin, Vec3::X * -18.0);
 /// ```
 #[inline(always)]
+#[must_use]
 pub fn classical<R: Real>(a: Motion<R>, v: Motion<R>) -> Motion<R> {
     Motion::new(a.ang, a.lin + v.ang.cross(v.lin))
 }

@@ -13,18 +13,30 @@ use crate::scalar::{Matrix, Real};
 use crate::spatial::{Motion, Xform};
 use crate::state::{Configuration, RobotState};
 
-/// J with v = J q̇: the velocity of `body` in a [`Frame`], by columns, one a coordinate.
+/// The geometric Jacobian J of `body` in a [`Frame`] with v = J q̇, by columns, one for each coordinate.
 ///
 /// ω in rad/s and velocity in m/s per rad/s or m/s. τ = Jᵀ f for a force on the body in the same frame.
-/// All zero for the base; NaN for a body that the robot does not have. Cost: 81 flops a revolute joint that carries the body and 39
-/// (`Local`), 69 (`LocalWorldAligned`) or 81 (`World`) a coordinate; O(depth). Errors: none. Source: RBDA (2008), section 4.1.
 ///
+/// # Shape
+/// 6 × V; zero for the base, NaN for a body that the robot does not have.
+///
+/// # Cost
+/// O(depth): 81 flops for each revolute joint between body and base, and 39 (`Local`), 69 (`LocalWorldAligned`) or 81
+/// (`World`) for each coordinate.
+///
+/// # Source
+/// RBDA (2008), section 4.1.
+///
+/// # Example
 /// ```
 /// use dynamics_core::{algorithms::{frame, jacobian}, model::Robot, robots::Ur5e};
 /// let j = jacobian(&Ur5e::MODEL, &[0.0, -1.2, 1.5, 0.3, 0.0, 0.0], 5, frame::LocalWorldAligned);
 /// assert!((j[0].ang.z - 1.0).abs() < 1e-12); // the first axis is vertical
 /// ```
+#[doc(alias = "geometric Jacobian")]
+#[doc(alias = "end effector")]
 #[inline(always)]
+#[must_use]
 pub fn jacobian<R: Real, D, F: Frame, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     q: &impl Configuration<R, Q>,
@@ -68,19 +80,31 @@ where
     columns
 }
 
-/// J̇ q̇: the acceleration of `body` at q̈ = 0, in a [`Frame`], rad/s² and m/s².
+/// The acceleration J̇ q̇ of `body` at q̈ = 0, in a [`Frame`], rad/s² and m/s².
 ///
-/// The derivative of J q̇ in that frame's coordinates: in `LocalWorldAligned` ω̇ and p̈, in the others the spatial
-/// acceleration. `state.qdd` is not read. Zero for the base; NaN for a body that the robot does not have. Cost: O(B); some 170 flops a
-/// revolute joint. Errors: none. Source: RBDA (2008), (4) of Featherstone & Orin (2000) at q̈ = 0.
+/// It is the derivative of J q̇ in that frame's coordinates: in `LocalWorldAligned` ω̇ and p̈, in the others the
+/// spatial acceleration. `state.qdd` is not read.
 ///
+/// # Shape
+/// 6; zero for the base, NaN for a body that the robot does not have.
+///
+/// # Cost
+/// O(B): some 170 flops for each revolute joint.
+///
+/// # Source
+/// Featherstone & Orin (2000), (4) at q̈ = 0; RBDA (2008), section 4.1.
+///
+/// # Example
 /// ```
 /// use dynamics_core::{algorithms::{bias_acceleration, frame}, model::Robot, robots::Ur5e, state::State};
 /// let turning = State { qd: [2.0, 0.0, 0.0, 0.0, 0.0, 0.0], ..State::at([0.0_f64; 6]) };
 /// let a = bias_acceleration(&Ur5e::MODEL, &turning, 5, frame::LocalWorldAligned);
 /// assert!(a.lin.x > 3.0); // towards the axis
 /// ```
+#[doc(alias = "drift")]
+#[doc(alias = "Jdot")]
 #[inline(always)]
+#[must_use]
 pub fn bias_acceleration<R: Real, D, F: Frame, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     state: impl RobotState<R, Q, V>,

@@ -60,14 +60,25 @@ impl<R: Real, const B: usize> Kinematics<R, B> {
 
 /// The pose of every body's own frame in the base's: rotation, and position in m.
 ///
-/// Shape: B. Cost: O(B); some 130 flops a revolute joint. Errors: none. Source: RBDA (2008), table 2.6.
+/// # Shape
+/// B.
 ///
+/// # Cost
+/// O(B): some 130 flops for each revolute joint.
+///
+/// # Source
+/// RBDA (2008), table 2.6.
+///
+/// # Example
 /// ```
 /// use dynamics_core::{algorithms::poses, model::Robot, robots::Ur5e};
 /// let [.., elbow, _, _, _] = poses(&Ur5e::MODEL, &[0.0, -1.57, 0.0, 0.0, 0.0, 0.0]);
 /// assert!(elbow.pos.z > 0.5); // the upper arm points upwards
 /// ```
+#[doc(alias = "end effector")]
+#[doc(alias = "forward kinematics")]
 #[inline(always)]
+#[must_use]
 pub fn poses<R: Real, D, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     q: &impl Configuration<R, Q>,
@@ -88,12 +99,21 @@ where
     poses
 }
 
-/// Pose, velocity and acceleration of every body, on a base that moves as the effects say.
+/// Pose, velocity and acceleration of every body, on a base that moves as the effects specify.
 ///
-/// `state.qdd` counts; gravity and other effects do not, but for a given motion of the base, whose
-/// v₀ and a₀ all bodies share; everything is told along the base's axes at this moment. Cost: O(B);
-/// some 290 flops a revolute joint. Errors: none. Source: Featherstone & Orin (2000), (3) and (4).
+/// `state.qdd` counts. Of the effects only a given motion of the base does, not gravity: all bodies share its v₀ and
+/// a₀. The results are along the base's axes at this moment.
 ///
+/// # Shape
+/// B.
+///
+/// # Cost
+/// O(B): some 290 flops for each revolute joint.
+///
+/// # Source
+/// Featherstone & Orin (2000), (3) and (4).
+///
+/// # Example
 /// ```
 /// use dynamics_core::{algorithms::{kinematics, frame}, model::Robot, robots::Ur5e, state::State};
 /// let turning = State { qd: [1.0, 0.0, 0.0, 0.0, 0.0, 0.0], ..State::at([0.0_f64; 6]) };
@@ -101,7 +121,9 @@ where
 /// let (hand, p) = (k.velocity(5, frame::LocalWorldAligned), k.poses[5].pos);
 /// assert!((hand.lin.x + p.y).abs() < 1e-12 && (hand.lin.y - p.x).abs() < 1e-12);
 /// ```
+#[doc(alias = "forward kinematics")]
 #[inline(always)]
+#[must_use]
 pub fn kinematics<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     state: impl RobotState<R, Q, V>,

@@ -20,9 +20,16 @@ pub struct Cholesky<R, const V: usize> {
 
 /// The factor L of M = Lᵀ L, with the reciprocals of its diagonal, for [`Cholesky::solve`].
 ///
-/// Cost: V roots and, on a chain, V (V² − 1)/3 + V (V − 1)/2 other flops, less on a tree. Source:
+/// # Shape
+/// V × V and V.
+///
+/// # Cost
+/// V roots and, on a chain, V (V² − 1)/3 + V (V − 1)/2 other flops, less on a tree.
+///
+/// # Source
 /// Featherstone, RBDA (2008), table 6.4.
 ///
+/// # Example
 /// ```
 /// use dynamics_core::algorithms::{cholesky, crba};
 /// use dynamics_core::{effects::RIGID_BODY, model::Robot, robots::Ur5e};
@@ -34,6 +41,7 @@ pub struct Cholesky<R, const V: usize> {
 ///
 /// # Errors
 /// As [`ltdl`](crate::algorithms::factor()).
+#[doc(alias = "LTL")]
 #[inline(always)]
 pub fn cholesky<R: Real, D, const B: usize, const Q: usize, const V: usize>(
     robot: &D,

@@ -15,11 +15,19 @@ pub(crate) const MATRIX_ROUNDINGS: f64 = 32.0;
 
 /// The factors L and D of M = Lᵀ D L, with the reciprocals of D, for [`solve`] and [`inverse`].
 ///
-/// L is zero where M is zero. An implicit joint damping is a sum on M's diagonal,
-/// [`MassMatrix::plus_diagonal`].
-/// Cost: V divisions and, on a chain, V (V² − 1)/3 + V (V − 1)/2 other flops; on a tree of branches of
-/// depth d at most V d² + V d. Source: Featherstone, RBDA (2008), table 6.3.
+/// L is zero where M is zero. An implicit joint damping is a sum on M's diagonal, [`MassMatrix::plus_diagonal`].
 ///
+/// # Shape
+/// V × V and V.
+///
+/// # Cost
+/// V divisions and, on a chain, V (V² − 1)/3 + V (V − 1)/2 other flops; on a tree of branches of depth d at most V d² +
+/// V d.
+///
+/// # Source
+/// Featherstone, RBDA (2008), table 6.3.
+///
+/// # Example
 /// ```
 /// use dynamics_core::algorithms::{crba, factor, solve};
 /// use dynamics_core::{effects::RIGID_BODY, model::Robot, robots::Ur5e};
@@ -36,6 +44,8 @@ pub(crate) const MATRIX_ROUNDINGS: f64 = 32.0;
 /// multiplied on the way. M does not show how far away the frames of bodies are in which it was computed: where
 /// they are much farther than what moves, a singular M may leave more than that; the articulated bodies of
 /// [`aba`](crate::algorithms::aba()) and [`spatial_operator_ltdl`](crate::algorithms::spatial_operator_ltdl()) refuse it.
+#[doc(alias = "LTL")]
+#[doc(alias = "factor")]
 #[inline(always)]
 pub fn ltdl<R: Real, D, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
@@ -75,10 +85,18 @@ where
     Ok(Ltdl { rows, d_inv })
 }
 
-/// x with M x = τ: accelerations of torques, rad/s² or m/s² of N·m or N.
+/// The solution x of M x = τ: accelerations of torques, rad/s² or m/s² of N·m or N.
 ///
-/// Cost: 2 V² − V flops on a chain, less on a tree. Source: Featherstone, RBDA (2008), table 6.5.
+/// # Shape
+/// V.
+///
+/// # Cost
+/// 2 V² − V flops on a chain, less on a tree.
+///
+/// # Source
+/// Featherstone, RBDA (2008), table 6.5.
 #[inline(always)]
+#[must_use]
 pub fn solve<R: Real, D, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     factor: &Ltdl<R, V>,
@@ -114,10 +132,17 @@ where
     x
 }
 
-/// M⁻¹, a column at a time: accelerations of unit torques.
+/// The inverse M⁻¹, a column at a time: accelerations of unit torques.
 ///
-/// Cost: V solutions, 2 V³ flops on a chain. Unlike M it has no zeros but between separate roots.
+/// Unlike M it has no zeros but between separate roots.
 ///
+/// # Shape
+/// V × V.
+///
+/// # Cost
+/// V solutions: 2 V³ flops on a chain.
+///
+/// # Example
 /// ```
 /// use dynamics_core::algorithms::{crba, factor, inverse};
 /// use dynamics_core::{effects::RIGID_BODY, model::Robot, robots::Ur5e};
@@ -127,6 +152,7 @@ where
 /// # Ok::<(), dynamics_core::algorithms::NotPositiveDefinite>(())
 /// ```
 #[inline(always)]
+#[must_use]
 pub fn inverse<R: Real, D, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     factor: &Ltdl<R, V>,

@@ -16,11 +16,18 @@ use crate::scalar::Real;
 use crate::spatial::Force;
 use crate::state::{Configuration, entry};
 
-/// The factors (1 + HΦK)ᵀ = L and D of M(q), without M: the same as [`ltdl`](crate::algorithms::factor()) finds.
+/// The factors L = (1 + HΦK)ᵀ and D of M(q), without M: the same as those of [`ltdl`](crate::algorithms::ltdl()).
 ///
-/// Cost: the inertias of the articulated-body algorithm, and 40 flops for each joint that carries another.
-/// Source: Rodriguez, Jain & Kreutz-Delgado (1991).
+/// # Shape
+/// V × V and V.
 ///
+/// # Cost
+/// The inertias of the articulated-body algorithm, and 40 flops for each pair of a joint and its ancestor.
+///
+/// # Source
+/// Rodriguez, Jain & Kreutz-Delgado (1991).
+///
+/// # Example
 /// ```
 /// use dynamics_core::algorithms::{crba, spatial_operator_ltdl, solve};
 /// use dynamics_core::{effects::RIGID_BODY, model::Robot, robots::Ur5e};
@@ -33,6 +40,7 @@ use crate::state::{Configuration, entry};
 ///
 /// # Errors
 /// [`NotPositiveDefinite`] names a coordinate that moves no inertia, as [`aba`](crate::algorithms::aba()) does.
+#[doc(alias = "innovations factorisation")]
 #[inline(always)]
 pub fn spatial_operator_ltdl<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
@@ -46,10 +54,16 @@ where
     columns(robot, q, effects, |f, _, _| f)
 }
 
-/// M⁻¹ = (1 − HΨK)ᵀ D⁻¹ (1 − HΨK), without M and without elimination.
+/// The inverse M⁻¹ = (1 − HΨK)ᵀ D⁻¹ (1 − HΨK), without M and without its elimination.
 ///
-/// Cost: that of [`spatial_operator_ltdl`], and O(V³) for the product. Source: Rodriguez, Jain &
-/// Kreutz-Delgado (1992).
+/// # Shape
+/// V × V.
+///
+/// # Cost
+/// That of [`spatial_operator_ltdl`], and O(V³) for the product.
+///
+/// # Source
+/// Rodriguez, Jain & Kreutz-Delgado (1992).
 ///
 /// # Errors
 /// As [`spatial_operator_ltdl`].

@@ -25,13 +25,22 @@ struct Body<R: Real> {
     ic: CompositeInertia<R>,
 }
 
-/// q̇ with other rates of the first body, which stands on a free joint: those at which all bodies together have the
-/// momentum h, about the base's origin and along its axes, N·m·s and N·s.
+/// The velocity q̇ of a floating robot whose bodies together have the momentum h.
 ///
-/// A robot whose first joint is not free is left as it is. Of the effects those count that
-/// [`momentum`](crate::algorithms::momentum()) asks. Cost: O(B); some 260 flops a revolute joint and 150. Source: Umetani &
-/// Yoshida (1989), section II; RBDA (2008), (2.63) and (2.66).
+/// The rates of the first body, which stands on a free joint, are replaced; h is about the base's origin and along its
+/// axes, N·m·s and N·s. A robot whose first joint is not free is left as it is. Of the effects those count that count
+/// in [`momentum`](crate::algorithms::momentum()).
 ///
+/// # Shape
+/// V.
+///
+/// # Cost
+/// O(B): some 260 flops for each revolute joint, and 150.
+///
+/// # Source
+/// Umetani & Yoshida (1989), section II; RBDA (2008), (2.63) and (2.66).
+///
+/// # Example
 /// ```
 /// use dynamics_core::algorithms::{momentum, base_velocity_from_momentum};
 /// use dynamics_core::model::{BASE, Body, Joint, Model};
@@ -49,6 +58,7 @@ struct Body<R: Real> {
 ///
 /// # Errors
 /// [`NotPositiveDefinite`] names the first coordinate if the bodies have no mass, or no inertia about some axis.
+#[doc(alias = "recoil")]
 #[inline(always)]
 pub fn base_velocity_from_momentum<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,

@@ -18,16 +18,25 @@ use crate::spatial::inertia::CompositeInertia;
 use crate::spatial::{Force, Xform};
 use crate::state::{Configuration, RobotState};
 
-/// The momentum h_G about the centre of mass, along the base's axes, N·m·s and N·s.
+/// The centroidal momentum h_G: about the centre of mass and along the base's axes, N·m·s and N·s.
 ///
-/// Cost: O(B); some 250 flops a revolute joint. Errors: none. Source: Orin, Goswami & Lee (2013).
+/// # Shape
+/// 6.
 ///
+/// # Cost
+/// O(B): some 250 flops for each revolute joint.
+///
+/// # Source
+/// Orin, Goswami & Lee (2013).
+///
+/// # Example
 /// ```
 /// use dynamics_core::{algorithms::centroidal_momentum, model::Robot, robots::Ur5e, state::State};
 /// let state = State { qd: [1.0, 0.0, 0.0, 0.0, 0.0, 0.0], ..State::at([0.0_f64; 6]) };
 /// assert!(centroidal_momentum(&Ur5e::MODEL, &state, &()).ang.z > 0.0);
 /// ```
 #[inline(always)]
+#[must_use]
 pub fn centroidal_momentum<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     state: impl RobotState<R, Q, V>,
@@ -44,11 +53,20 @@ where
     Force::new(h.ang - (moment * reciprocal(mass)).cross(h.lin), h.lin)
 }
 
-/// The centroidal momentum matrix A_G with h_G = A_G q̇, by columns, one a coordinate; for a base at inner.
+/// The centroidal momentum matrix A_G with h_G = A_G q̇, by columns, one for each coordinate; for a base at rest.
 ///
-/// Along the base's axes and about the centre of mass; N·m·s and N·s per rad/s (or m/s). Cost: O(B); some
-/// 350 flops a revolute joint. Errors: none. Source: Orin, Goswami & Lee (2013), section 5.
+/// About the centre of mass and along the base's axes, N·m·s and N·s per rad/s or m/s.
 ///
+/// # Shape
+/// 6 × V.
+///
+/// # Cost
+/// O(B): some 350 flops for each revolute joint.
+///
+/// # Source
+/// Orin, Goswami & Lee (2013), section 5.
+///
+/// # Example
 /// ```
 /// use dynamics_core::{algorithms::{centroidal_matrix, centroidal_momentum}, model::Robot, robots::Ur5e, state::State};
 /// let state = State { qd: [0.0, 2.0, 0.0, 0.0, 0.0, 0.0], ..State::at([0.3_f64; 6]) };
@@ -56,7 +74,9 @@ where
 /// let h = centroidal_momentum(&Ur5e::MODEL, &state, &());
 /// assert!((h.ang - column.ang * 2.0).length() < 1e-12);
 /// ```
+#[doc(alias = "CMM")]
 #[inline(always)]
+#[must_use]
 pub fn centroidal_matrix<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     q: &impl Configuration<R, Q>,

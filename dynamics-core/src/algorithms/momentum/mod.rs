@@ -73,17 +73,27 @@ pub(in crate::algorithms) fn reciprocal<R: Real>(mass: R) -> R {
     }
 }
 
-/// The centre of mass of all bodies (and a payload), its velocity, and their mass.
+/// The centre of mass of all bodies and a payload, m, its velocity, m/s, and their mass, kg.
 ///
-/// Base coordinates; m, m/s, kg. On a base of given motion the velocity has a part of it. Cost: O(B);
-/// some 250 flops a revolute joint. Errors: none. Source: Orin, Goswami & Lee (2013), section 2.
+/// Along the base's axes. On a base of given motion the velocity includes that motion.
 ///
+/// # Cost
+/// O(B): some 250 flops for each revolute joint.
+///
+/// # Source
+/// Orin, Goswami & Lee (2013), section 2.
+///
+/// # Example
 /// ```
 /// use dynamics_core::{algorithms::center_of_mass, model::Robot, robots::Ur5e, state::State};
 /// let arm = center_of_mass(&Ur5e::MODEL, &State::at([0.0_f64, -1.57, 0.0, 0.0, 0.0, 0.0]), &());
 /// assert!(arm.mass > 16.0 && arm.position.z > 0.3);
 /// ```
+#[doc(alias = "mass_centre")]
+#[doc(alias = "CoM")]
+#[doc(alias = "COM")]
 #[inline(always)]
+#[must_use]
 pub fn center_of_mass<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     state: impl RobotState<R, Q, V>,
@@ -104,12 +114,21 @@ where
     }
 }
 
-/// The momentum of all bodies together: about the base's origin and along its axes, N·m·s and N·s.
+/// The momentum of all bodies together, about the base's origin and along its axes, N·m·s and N·s.
 ///
-/// Rotors behind gears are in it if the effects name them as bodies that spin, [`crate::effects::GyroscopicRotors`]; what
-/// [`crate::effects::Armature`] adds to the diagonal of M is not. Cost: O(B); some 150 flops a revolute joint. Errors: none. Source:
+/// Rotors behind gears are part of it if the scene has them as [`crate::effects::GyroscopicRotors`]; what
+/// [`crate::effects::Armature`] adds to the diagonal of M is not.
+///
+/// # Shape
+/// 6.
+///
+/// # Cost
+/// O(B): some 150 flops for each revolute joint.
+///
+/// # Source
 /// RBDA (2008), (2.60).
 ///
+/// # Example
 /// ```
 /// use dynamics_core::{algorithms::{center_of_mass, momentum}, model::Robot, robots::Ur5e, state::State};
 /// let state = State { qd: [1.0; 6], ..State::at([0.3_f64; 6]) };
@@ -117,6 +136,7 @@ where
 /// assert!((h.lin - c.velocity * c.mass).length() < 1e-12);
 /// ```
 #[inline(always)]
+#[must_use]
 pub fn momentum<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     state: impl RobotState<R, Q, V>,

@@ -163,12 +163,20 @@ fn with_row_z<R: Real>(m: &R::Mat3, row: R::Vec3) -> R::Mat3 {
     )
 }
 
-/// Λ⁻¹ of `body` in a [`Frame`]: J M⁻¹ Jᵀ without J or M.
+/// The inverse operational-space inertia Λ⁻¹ = J M⁻¹ Jᵀ of `body` in a [`Frame`], without J or M.
 ///
-/// Inertias of joints and a payload that the effects name count. Zero for a body that there is not.
-/// Cost: O(B); some 390 flops a revolute joint, and 390 more one that carries the body. Source: the
-/// module's.
+/// Inertias of joints and a payload of the scene count.
 ///
+/// # Shape
+/// 6 × 6; zero for a body that the robot does not have.
+///
+/// # Cost
+/// O(B): some 390 flops for each revolute joint, and 390 more for one between body and base.
+///
+/// # Source
+/// Chang & Khatib (2000); Lilly & Orin (1993).
+///
+/// # Example
 /// ```
 /// use dynamics_core::{algorithms::{frame, osim_inverse}, effects::RIGID_BODY, model::Robot, robots::Ur5e};
 /// use dynamics_core::spatial::Force;
@@ -183,6 +191,9 @@ fn with_row_z<R: Real>(m: &R::Mat3, row: R::Vec3) -> R::Mat3 {
 /// # Errors
 /// [`NotPositiveDefinite`] names a coordinate that moves no inertia, or whose inertia is not a number, as
 /// [`aba`](crate::algorithms::aba()) does.
+#[doc(alias = "end effector")]
+#[doc(alias = "mobility")]
+#[doc(alias = "OSIM")]
 #[inline(always)]
 pub fn osim_inverse<R: Real, D, E, F: Frame, const B: usize, const Q: usize, const V: usize>(
     robot: &D,

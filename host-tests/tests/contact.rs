@@ -4,7 +4,7 @@ mod common;
 
 use common::{Verdict, Worst};
 use dynamics_core::algorithms::{
-    Damping, bias_acceleration_at, frame, kinematics_at, operational_space_at, rnea_at,
+    Damping, bias_acceleration, frame, kinematics, operational_space, rnea,
 };
 use dynamics_core::control::{TaskCommand, TaskFrame, hybrid_motion_force, orientation_error};
 use dynamics_core::effects::{BodyState, Coriolis, Effect, Gravity, Inertia, RIGID_BODY};
@@ -67,7 +67,7 @@ struct Errors {
 fn run(posture: f64) -> Errors {
     let robot = &Panda::MODEL;
     let mut arm = State::at([0.3, -0.4, 0.2, -2.0, 0.3, 1.9, 0.5]);
-    let start = kinematics_at(robot, &JointTrig::of(robot, &arm.q), &arm, &()).poses[HAND];
+    let start = kinematics(robot, &arm, &()).poses[HAND];
     let axes = DMat3::from_rotation_z(0.5) * DMat3::from_rotation_y(0.3); // normal: x
     let wall = Wall {
         origin: start.pos + axes.x_axis * 0.005,
@@ -86,15 +86,15 @@ fn run(posture: f64) -> Errors {
         let [y, z] = [swing(w), swing(2.0 * w)];
         let [place, rate, feed] = [0, 1, 2].map(|k| DVec3::new(0.0, y[k], z[k]));
 
-        let at = JointTrig::of(robot, &arm.q);
-        let k = kinematics_at(robot, &at, &arm, &());
+        let at = JointTrig::new(robot, &arm.q);
+        let k = kinematics(robot, at.with(&arm), &());
         let (pose, v) = (k.poses[HAND], k.velocity(HAND, frame::LocalWorldAligned));
         let seen = axes.transpose() * (pose.pos - start.pos);
         let [speed, spin] = [axes.transpose() * v.lin, axes.transpose() * v.ang];
         let off = axes.transpose() * orientation_error::<f64>(&pose.rot, &start.rot);
         let pressed = wall.pressed(pose.pos, v.lin);
 
-        let task = operational_space_at(
+        let task = operational_space(
             robot,
             &at,
             (HAND, frame::LocalWorldAligned),
@@ -109,8 +109,8 @@ fn run(posture: f64) -> Errors {
         };
         let push = TaskCommand::force(PRESS, pressed, 1.0, speed.x, 150.0);
         let aims = [still(0), still(1), still(2), push, along(1), along(2)];
-        let drift = bias_acceleration_at(robot, &at, &arm, HAND, frame::LocalWorldAligned);
-        let bias = rnea_at(robot, &at, &arm, &(Gravity::EARTH, Coriolis));
+        let drift = bias_acceleration(robot, at.with(&arm), HAND, frame::LocalWorldAligned);
+        let bias = rnea(robot, at.with(&arm), &(Gravity::EARTH, Coriolis));
         let mut tau = hybrid_motion_force(&task, &aims, &directions.map(|d| drift.dot(d)), &bias);
         let free = arm.qd.map(|qd| posture - 2.0 * qd);
         for (tau, free) in tau.iter_mut().zip(task.null_space_torque(&free)) {

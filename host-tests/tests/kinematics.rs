@@ -127,7 +127,7 @@ fn jacobian_laws<F: frame::Frame>(
 #[test]
 fn jacobians_give_velocities_and_their_rates_accelerations_in_every_frame() {
     let mut worst = [(); 3].map(|()| Worst::default());
-    jacobian_laws(frame::Body, &mut worst, |a, _| a);
+    jacobian_laws(frame::Local, &mut worst, |a, _| a);
     jacobian_laws(frame::World, &mut worst, |a, _| a);
     jacobian_laws(frame::LocalWorldAligned, &mut worst, classical);
     let mut verdict = Verdict::default();
@@ -153,7 +153,7 @@ fn the_base_has_no_jacobian_and_what_is_no_body_not_a_number() {
     let kinematics = kinematics(&tree, &state, &());
     let others = [
         bias_acceleration(&tree, &state, B, frame::LocalWorldAligned),
-        kinematics.velocity(B, frame::Body),
+        kinematics.velocity(B, frame::Local),
         kinematics.acceleration(B, frame::LocalWorldAligned),
     ];
     for motion in columns.iter().chain(&others) {
@@ -215,8 +215,8 @@ fn a_base_of_given_motion_is_a_body_on_a_free_joint() {
                 six(b.velocity(body + 1, frame::World)),
             );
             worst.see(
-                six(a.acceleration(body, frame::Body)),
-                six(b.acceleration(body + 1, frame::Body)),
+                six(a.acceleration(body, frame::Local)),
+                six(b.acceleration(body + 1, frame::Local)),
             );
         }
         let (h, c) = (

@@ -41,14 +41,14 @@ fn both_ways<F: frame::Frame>(frame: F, worst: &mut Worst) {
 #[test]
 fn mobility_by_recursion_is_that_by_factors_in_every_frame() {
     let mut worst = Worst::default();
-    both_ways(frame::Body, &mut worst);
+    both_ways(frame::Local, &mut worst);
     both_ways(frame::World, &mut worst);
     both_ways(frame::LocalWorldAligned, &mut worst);
     let mut verdict = Verdict::default();
     verdict.see("mixed tree", "mobility both ways", "f64", &worst);
     verdict.speak();
     let tree = random_tree(&mut Rng::new(1), false);
-    let nobody = osim_inverse(&tree, &[0.1; Q], B, frame::Body, &RIGID_BODY).unwrap();
+    let nobody = osim_inverse(&tree, &[0.1; Q], B, frame::Local, &RIGID_BODY).unwrap();
     assert_eq!(nobody.along(&unit()), [[0.0; 6]; 6]);
 }
 
@@ -63,13 +63,13 @@ fn a_joint_that_moves_no_inertia_is_named() {
             Body::new("hand", 0, Joint::revolute([0.0, 1.0, 0.0])).xyz([0.6, 0.0, 0.0]),
         ],
     );
-    let error = osim_inverse(&empty, &[0.1, 0.2], 1, frame::Body, &RIGID_BODY).unwrap_err();
+    let error = osim_inverse(&empty, &[0.1, 0.2], 1, frame::Local, &RIGID_BODY).unwrap_err();
     assert_eq!(error.joint, 1);
     let damping = Damping::relative(DAMPING);
     let task = operational_space(
         &empty,
         &[0.1, 0.2],
-        (1, frame::Body),
+        (1, frame::Local),
         &unit(),
         &RIGID_BODY,
         damping,

@@ -6,9 +6,11 @@ use std::collections::BTreeMap;
 
 use common::{Verdict, Worst, flat, six, unit};
 use dynamics_core::Core;
-use dynamics_core::algorithms::frame;
+use dynamics_core::algorithms::{
+    center_of_mass, centroidal_matrix, centroidal_momentum, frame, momentum,
+};
 use dynamics_core::effects::RIGID_BODY;
-use dynamics_core::model::Robot;
+use dynamics_core::model::{Robot, Static};
 use dynamics_core::robots::{A1, Gen3, Iiwa14, Panda, Ur5e, XArm7, Z1};
 use dynamics_core::scalar::{Matrix, Real, Vector};
 use dynamics_core::spatial::Force;
@@ -79,13 +81,13 @@ fn motions<R: Real, T, const B: usize, const Q: usize, const V: usize>(
         let got: [f64; 12] =
             core::array::from_fn(|k| if k < 9 { flat_rot(k) } else { place[k - 9] });
         seen[0].compare(got, row(&r.tip_pose, i));
-        seen[1].compare(six(k.velocity(tip, frame::Body)), row(&r.tip_velocity, i));
+        seen[1].compare(six(k.velocity(tip, frame::Local)), row(&r.tip_velocity, i));
         seen[2].compare(
-            six(k.acceleration(tip, frame::Body)),
+            six(k.acceleration(tip, frame::Local)),
             row(&r.tip_acceleration, i),
         );
         let jacobians = [
-            Core::<T>::jacobian(&state.q, tip, frame::Body),
+            Core::<T>::jacobian(&state.q, tip, frame::Local),
             Core::<T>::jacobian(&state.q, tip, frame::World),
             Core::<T>::jacobian(&state.q, tip, frame::LocalWorldAligned),
         ];
@@ -96,7 +98,7 @@ fn motions<R: Real, T, const B: usize, const Q: usize, const V: usize>(
             }
         }
         seen[6].compare(
-            six(Core::<T>::bias_acceleration(&state, tip, frame::Body)),
+            six(Core::<T>::bias_acceleration(&state, tip, frame::Local)),
             row(&r.drift_local, i),
         );
         seen[7].compare(
@@ -117,13 +119,16 @@ fn motions<R: Real, T, const B: usize, const Q: usize, const V: usize>(
         ];
         seen[9].compare([kinetic.to_f64()], row(&r.kinetic_energy, i));
         seen[10].compare([potential.to_f64()], row(&r.potential_energy, i));
-        let centre = Core::<T>::center_of_mass(&state, &()).position;
+        let centre = center_of_mass(&Static::<T>::NEW, &state, &()).position;
         seen[11].compare(centre.array().map(R::to_f64), row(&r.centre_of_mass, i));
         let all = |f: Force<R>| flat::<R>(f.ang, f.lin);
-        seen[12].compare(all(Core::<T>::momentum(&state, &())), row(&r.momentum, i));
-        let h = Core::<T>::centroidal_momentum(&state, &());
+        seen[12].compare(
+            all(momentum(&Static::<T>::NEW, &state, &())),
+            row(&r.momentum, i),
+        );
+        let h = centroidal_momentum(&Static::<T>::NEW, &state, &());
         seen[13].compare(all(h), row(&r.centroidal_momentum, i));
-        let matrix = Core::<T>::centroidal_matrix(&state.q, &());
+        let matrix = centroidal_matrix(&Static::<T>::NEW, &state.q, &());
         for (got, want) in matrix
             .into_iter()
             .zip(columns::<V>(&r.centroidal_matrix, i))
@@ -146,7 +151,8 @@ fn mobilities<R: Real, T, const B: usize, const Q: usize, const V: usize>(
     let mut seen = worst(&r.operational_inverse);
     for i in 0..r.first_states() {
         let q = row::<Q>(&r.q, i).map(R::from_f64);
-        let mobility = Core::<T>::osim_inverse(&q, B - 1, frame::Body, &()).expect("M is positive");
+        let mobility =
+            Core::<T>::osim_inverse(&q, B - 1, frame::Local, &()).expect("M is positive");
         let got = mobility.along(&unit()).map(|row| row.map(R::to_f64));
         for (got, want) in got
             .into_iter()

@@ -4,23 +4,35 @@
 //! degrees of freedom is eliminated a coordinate at a time, which is the same as by its block D. Where
 //! [`hybrid_dynamics`](super::hybrid_dynamics()) prescribes a coordinate's motion, RBDA section 9.2, nothing is eliminated.
 
+use core::borrow::Borrow;
+
 use heapless::Vec;
 
 use super::pivot_check::{Magnitude, PivotCheck};
-use super::tree_pass::PerBody;
+use super::tree_pass::{inward, per_body};
 use super::{JointResult, NotPositiveDefinite, Prescribed};
 use crate::effects::{
     Effect, base_motion, body_inertia, body_wrench, gyroscopic, joint_torque, rotor_force,
 };
 use crate::model::{JointKind, LinkView, RobotModel};
-use crate::scalar::{Matrix, Real, Vector};
+use crate::scalar::{Matrix, Real};
 use crate::spatial::inertia::ArticulatedInertia;
 use crate::spatial::{Force, Motion, Xform};
-use crate::state::{JointTrig, State, entry};
+use crate::state::{Configuration, JointTrig, RobotState, State, entry};
 
-/// q̈ = FD(q, q̇, τ): the acceleration of each joint, rad/s² or m/s², under the effects named.
+/// The acceleration of each joint, q̈ = FD(q, q̇, τ), rad/s² or m/s², under the effects of the scene.
 ///
-/// Shape: V. Cost: O(B); some 590 flops a revolute joint. `state.qdd` is not read. Source: Featherstone (1983; RBDA table 7.1).
+/// `state.qdd` is not read.
+///
+/// # Shape
+/// V.
+///
+/// # Cost
+/// O(B): some 590 flops for each revolute joint.
+///
+/// # Source
+/// Featherstone (1983); RBDA (2008), table 7.1.
+///
 /// A scene without `Inertia` does not compile:
 ///
 /// ```compile_fail
@@ -34,10 +46,15 @@ use crate::state::{JointTrig, State, entry};
 /// wrist without mass in gimbal lock), or whose inertia is not a number: its pivot is not above eight roundings of
 /// the largest inertia that all that it carries, stretched out, could have about it. Of four joints or more without
 /// inertia whose axes meet in one point rounding may leave more.
+#[doc(alias = "articulated-body inertia")]
+#[doc(alias = "ABI")]
+#[doc(alias = "forward dynamics")]
+#[doc(alias = "FDab")]
+#[doc(alias = "FD")]
 #[inline(always)]
 pub fn aba<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
-    state: &State<R, Q, V>,
+    state: impl RobotState<R, Q, V>,
     tau: &[R; V],
     effects: &E,
 ) -> Result<[R; V], NotPositiveDefinite>
@@ -45,44 +62,27 @@ where
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    aba_at(robot, &JointTrig::of(robot, &state.q), state, tau, effects)
-}
-
-/// As [`aba`], at a posture whose sines and cosines are at hand.
-///
-/// # Errors
-/// As [`aba`].
-#[inline(always)]
-pub fn aba_at<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
-    robot: &D,
-    posture: &JointTrig<R, Q>,
-    state: &State<R, Q, V>,
-    tau: &[R; V],
-    effects: &E,
-) -> Result<[R; V], NotPositiveDefinite>
-where
-    D: RobotModel<R, B, Q, V>,
-    E: Effect<R, B, V>,
-{
+    let trig = state.configuration().trig_of(robot);
+    let (trig, state) = (trig.borrow(), state.state());
     let given = |joint| Prescribed::Torque(entry(tau, joint));
     let response = match robot.as_all_revolute() {
-        Some(robot) => sweep(&robot, posture, state, effects, given)?,
-        None => sweep(robot, posture, state, effects, given)?,
+        Some(robot) => sweep(&robot, trig, state, effects, given)?,
+        None => sweep(robot, trig, state, effects, given)?,
     };
     Ok(response.qdd)
 }
 
-/// What one pass leaves for the next.
+/// What the outward passes and the inward one share of a body.
 struct Body<'a, R: Real> {
     link: LinkView<'a, R>,
     x: Xform<R>,
     c: Motion<R>,
     ia: ArticulatedInertia<R>,
-    carried: Magnitude<R>,
+    magnitude: Magnitude<R>,
     pa: Force<R>,
 }
 
-/// A coordinate on its own: U, 1/D and u; where its motion is prescribed, only U and sᵀ pᴬ.
+/// What the inward pass leaves of a coordinate: U, 1/D and u; where its motion is prescribed, only U and sᵀ pᴬ.
 #[derive(Clone, Copy)]
 struct JointFactor<R: Real> {
     u_a: Force<R>,
@@ -90,11 +90,11 @@ struct JointFactor<R: Real> {
     u: R,
 }
 
-/// The three passes; each coordinate's torque or its acceleration is `given`.
+/// The three passes of table 7.1; each coordinate's torque or its acceleration is `given`.
 #[inline(always)]
 pub(super) fn sweep<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
-    posture: &JointTrig<R, Q>,
+    trig: &JointTrig<R, Q>,
     state: &State<R, Q, V>,
     effects: &E,
     given: impl Fn(usize) -> Prescribed<R>,
@@ -110,28 +110,45 @@ where
         )
     };
     let (v_0, a_0) = base_motion(effects);
-    let turns = &posture.turns;
+    let (mut bodies, mut factors) = (Vec::new(), Vec::new());
+    outward_velocities(robot, trig, state, effects, v_0, &mut bodies);
+    inward_inertias(&mut bodies, trig, state, effects, &given, &mut factors)?;
+    let joints = outward_accelerations(robot, &bodies, trig, state, effects, &given, a_0, factors);
+    Ok(joints)
+}
 
-    let mut v = PerBody::<_, B>::from(v_0);
-    let mut poses = PerBody::<_, B>::from(Xform::IDENTITY);
-    let mut bodies: Vec<Body<'_, R>, B> = Vec::new();
+/// Pass 1: vᵢ, cᵢ = v × S q̇ + S̊ q̇, and, of each body alone, Iᴬ = I and pᴬ = v ×* I v − fˣ.
+#[inline(always)]
+fn outward_velocities<'a, R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
+    robot: &'a D,
+    trig: &JointTrig<R, Q>,
+    state: &State<R, Q, V>,
+    effects: &E,
+    v_0: Motion<R>,
+    bodies: &mut Vec<Body<'a, R>, B>,
+) where
+    D: RobotModel<R, B, Q, V>,
+    E: Effect<R, B, V>,
+{
+    let turns = &trig.turns;
+    let (mut v, mut poses) = (per_body(robot, v_0), per_body(robot, Xform::IDENTITY));
     for i in 0..B {
         let Some(link) = robot.link(i) else {
             break;
         };
         let x = link.xform(turns);
-        let v_i = link.plus_motion(x * v.parent(D::CHAIN, link.parent), turns, &state.qd);
+        let v_i = link.plus_motion(x * v.parent(&link), turns, &state.qd);
         let inertia = body_inertia(effects, i, &link);
         let (mut c, mut pa) = (Motion::ZERO, Force::ZERO);
         if E::VELOCITY_PRODUCTS {
             c = link.plus_velocity_product(Motion::ZERO, turns, &state.qd, v_i);
-            pa = inertia.force(Motion::ZERO, v_i); // v ×* I v
+            pa = inertia.bias_force(v_i);
         }
         if E::WRENCH {
             let mut pose = Xform::IDENTITY;
             if E::BODY_POSE {
-                pose = x * poses.parent(D::CHAIN, link.parent);
-                poses.push(D::CHAIN, pose);
+                pose = x * poses.parent(&link);
+                poses.push(pose);
             }
             pa -= body_wrench(effects, i, &link, &pose, v_i);
         }
@@ -143,108 +160,151 @@ where
             let couple = gyroscopic(effects, &link, v_i.ang, rate, R::ZERO);
             parent.pa.ang += x.rot.transpose_mul(couple);
         }
-        v.push(D::CHAIN, v_i);
-        let (ia, carried) = (inertia.into(), Magnitude::from(&inertia));
+        v.push(v_i);
         let _ = bodies.push(Body {
             link,
             x,
             c,
-            ia,
-            carried,
+            ia: inertia.into(),
+            magnitude: Magnitude::from(&inertia),
             pa,
         });
     }
+}
 
-    let mut handles: Vec<JointFactor<R>, V> = Vec::new(); // a stack: the last one made is the first used
-    let mut inner = bodies.as_mut_slice();
-    while let Some((body, rest)) = core::mem::take(&mut inner).split_last_mut() {
+/// Pass 2: Iᴬ and pᴬ of every articulated body, and U, D and u of every coordinate.
+#[inline(always)]
+fn inward_inertias<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+    bodies: &mut [Body<'_, R>],
+    trig: &JointTrig<R, Q>,
+    state: &State<R, Q, V>,
+    effects: &E,
+    given: &impl Fn(usize) -> Prescribed<R>,
+    factors: &mut Vec<JointFactor<R>, V>,
+) -> Result<(), NotPositiveDefinite>
+where
+    E: Effect<R, B, V>,
+{
+    let turns = &trig.turns;
+    let mut bodies = inward(bodies);
+    while let Some((body, inner)) = bodies.next() {
         let (mut ia, mut pa) = (body.ia, body.pa);
-        let mut pivots = PivotCheck::of(body.carried);
+        let mut pivots = PivotCheck::of(body.magnitude);
         for (k, joint) in body.link.coordinates().enumerate().rev() {
             let s = body.link.subspace(turns, k);
             let u_a = ia.along(&s);
-            let handle = match given(joint) {
+            let factor = match given(joint) {
                 Prescribed::Torque(tau) => {
                     let mut d = s.dot(u_a);
                     effects.inertia(joint, &mut d);
                     pivots.check((&body.link, k), turns, (u_a, d), joint)?;
                     let d_inv = R::ONE / d;
                     let u = tau - joint_torque(effects, &body.link, state, joint) - s.dot(pa);
-                    if E::GYROSCOPIC_ROTORS {
-                        // A rotor feels and bears q̈ on the parent's side of the joint. Written twice:
-                        // a sum that may be made or not costs scenes without rotors 18 instructions.
-                        let u_a = u_a + rotor_force(effects, &body.link);
-                        ia = ia.minus_outer(u_a, d_inv);
-                        pa += u_a * (u * d_inv);
+                    at_parent_side(effects, &body.link, u_a, |u_a| {
+                        ia = ia.minus_outer(u_a, d_inv); // Iᵃ = Iᴬ − U D⁻¹ Uᵀ
+                        pa += u_a * (u * d_inv); // pᴬ + U D⁻¹ u
                         JointFactor { u_a, d_inv, u }
-                    } else {
-                        ia = ia.minus_outer(u_a, d_inv);
-                        pa += u_a * (u * d_inv);
-                        JointFactor { u_a, d_inv, u }
-                    }
+                    })
                 }
                 Prescribed::Acceleration(qdd) => {
                     let (d_inv, u) = (R::ZERO, s.dot(pa));
-                    if E::GYROSCOPIC_ROTORS {
-                        let u_a = u_a + rotor_force(effects, &body.link);
+                    at_parent_side(effects, &body.link, u_a, |u_a| {
                         pa += u_a * qdd;
                         JointFactor { u_a, d_inv, u }
-                    } else {
-                        pa += u_a * qdd;
-                        JointFactor { u_a, d_inv, u }
-                    }
+                    })
                 }
             };
-            let _ = handles.push(handle);
+            let _ = factors.push(factor);
         }
-        if let Some(parent) = rest.get_mut(body.link.parent) {
-            pa += ia.times(body.c);
+        if let Some(parent) = inner.get_mut(body.link.parent) {
+            pa += ia.times(body.c); // Iᵃ c, after the update of `ia`: pᵃ = pᴬ + Iᵃ c + U D⁻¹ u
             parent.ia += ia.at_parent(&body.x);
-            parent.carried += body.carried.at_parent(body.x.pos);
+            parent.magnitude += body.magnitude.at_parent(body.x.pos);
             parent.pa += body.x.transpose_mul(pa);
         }
-        inner = rest;
     }
+    Ok(())
+}
 
-    let mut response = JointResult::ZERO;
-    let mut a = PerBody::<_, B>::from(a_0);
-    for body in &bodies {
-        let carried = body.x * a.parent(D::CHAIN, body.link.parent) + body.c;
-        // What is free of its parent does not feel it: what falls with all its joints at rest stays so exactly.
-        let free = D::KINDS.has(JointKind::Free) && is_free(&body.link, effects, &given);
-        let mut a_i = if free { Motion::ZERO } else { carried };
+/// Pass 3: q̈ᵢ = D⁻¹ (u − Uᵀ a′) with a′ = X a_λ + c, and aᵢ = a′ + S q̈. The last factor made is the first used.
+#[inline(always)]
+#[allow(
+    clippy::too_many_arguments,
+    reason = "what the other two passes have left, and what they had"
+)]
+fn outward_accelerations<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
+    robot: &D,
+    bodies: &[Body<'_, R>],
+    trig: &JointTrig<R, Q>,
+    state: &State<R, Q, V>,
+    effects: &E,
+    given: &impl Fn(usize) -> Prescribed<R>,
+    a_0: Motion<R>,
+    mut factors: Vec<JointFactor<R>, V>,
+) -> JointResult<R, V>
+where
+    D: RobotModel<R, B, Q, V>,
+    E: Effect<R, B, V>,
+{
+    let turns = &trig.turns;
+    let mut joints = JointResult::ZERO;
+    let mut a = per_body(robot, a_0);
+    for body in bodies {
+        let a_parent = body.x * a.parent(&body.link) + body.c;
+        let free = D::KINDS.has(JointKind::Free) && is_free(&body.link, effects, given);
+        let mut a_i = if free { Motion::ZERO } else { a_parent };
         for (k, joint) in body.link.coordinates().enumerate() {
-            let Some(JointFactor { u_a, d_inv, u }) = handles.pop() else {
+            let Some(JointFactor { u_a, d_inv, u }) = factors.pop() else {
                 break;
             };
             let s = body.link.subspace(turns, k);
             let (tau, qdd) = match given(joint) {
                 Prescribed::Torque(tau) => (tau, (u - a_i.dot(u_a)) * d_inv),
                 Prescribed::Acceleration(qdd) => {
-                    let (mut tau, mut rotor) = (a_i.dot(u_a) + s.dot(u_a) * qdd + u, R::ZERO);
+                    let (mut tau, mut armature) = (a_i.dot(u_a) + s.dot(u_a) * qdd + u, R::ZERO);
                     if E::GYROSCOPIC_ROTORS {
                         tau -= s.dot(rotor_force(effects, &body.link)) * qdd;
                     }
-                    effects.inertia(joint, &mut rotor);
-                    tau += rotor * qdd + joint_torque(effects, &body.link, state, joint);
+                    effects.inertia(joint, &mut armature);
+                    tau += armature * qdd + joint_torque(effects, &body.link, state, joint);
                     (tau, qdd)
                 }
             };
             a_i = s.add_scaled_to(a_i, qdd);
-            response.set(joint, tau, qdd);
+            joints.set(joint, tau, qdd);
         }
         if free {
-            let [ang, lin] = [a_i.ang - carried.ang, a_i.lin - carried.lin].map(R::Vec3::array);
-            for (joint, &qdd) in body.link.coordinates().zip(ang.iter().chain(&lin)) {
-                response.set(joint, entry(&response.tau, joint), qdd);
-            }
+            joints.set_relative(&body.link, a_i, a_parent);
         }
-        a.push(D::CHAIN, a_i);
+        a.push(a_i);
     }
-    Ok(response)
+    joints
+}
+
+/// `update` of a joint's U: with the rotor's part if the scene has rotors that spin, since such a rotor stands on the
+/// parent's side of the joint and takes part in its q̈.
+///
+/// `update` is compiled in two places: a sum that may be made or not costs scenes without rotors 18 instructions.
+#[inline(always)]
+fn at_parent_side<R: Real, E, O, const B: usize, const V: usize>(
+    effects: &E,
+    link: &LinkView<'_, R>,
+    u_a: Force<R>,
+    update: impl FnOnce(Force<R>) -> O,
+) -> O
+where
+    E: Effect<R, B, V>,
+{
+    if E::GYROSCOPIC_ROTORS {
+        update(u_a + rotor_force(effects, link))
+    } else {
+        update(u_a)
+    }
 }
 
 /// Whether nothing ties a body to its parent: no constraint, no prescribed motion, no inertia at the joint.
+///
+/// The parent's acceleration then does not matter to the body's; without it a free fall comes out exactly.
 #[inline(always)]
 fn is_free<R: Real, E, const B: usize, const V: usize>(
     link: &LinkView<'_, R>,

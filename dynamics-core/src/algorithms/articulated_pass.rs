@@ -4,6 +4,7 @@ use heapless::Vec;
 
 use super::NotPositiveDefinite;
 use super::pivot_check::{Magnitude, PivotCheck};
+use super::tree_pass::inward;
 use crate::effects::{Effect, body_inertia};
 use crate::model::{JointCoordinate, RobotModel};
 use crate::scalar::Real;
@@ -16,13 +17,13 @@ pub(super) struct JointFactor<R: Real> {
     pub(super) u_a: Force<R>,
     pub(super) d_inv: R,
     /// 1 − sᵀU/D: what of the joint's inertia is not the bodies', but a rotor's.
-    pub(super) held: R,
+    pub(super) armature_share: R,
 }
 
-/// What the pass leaves: ⁱX_λ(i) of every body, and the handle of every coordinate.
+/// What the pass leaves: ⁱX_λ(i) of every body, and the factor of every coordinate.
 pub(super) struct ArticulatedPass<R: Real, const B: usize, const V: usize> {
     pub(super) x: Vec<Xform<R>, B>,
-    pub(super) handles: [JointFactor<R>; V],
+    pub(super) factors: [JointFactor<R>; V],
 }
 
 /// Eliminates every coordinate, from the tips to the base. Some 390 flops a revolute joint.
@@ -49,13 +50,13 @@ where
         let _ = bodies.push((inertia.into(), Magnitude::from(&inertia)));
         let _ = x.push(link.xform(turns));
     }
-    let mut handles = [JointFactor::default(); V];
-    let mut inner = bodies.as_mut_slice();
-    while let Some((&mut (body, carried), rest)) = core::mem::take(&mut inner).split_last_mut() {
-        let (Some(link), Some(x_i)) = (robot.link(rest.len()), x.get(rest.len())) else {
+    let mut factors = [JointFactor::default(); V];
+    let mut pass = inward(&mut bodies);
+    while let Some((&mut (body, magnitude), inner)) = pass.next() {
+        let (Some(link), Some(x_i)) = (robot.link(inner.len()), x.get(inner.len())) else {
             break;
         };
-        let (mut ia, mut pivots) = (body, PivotCheck::of(carried));
+        let (mut ia, mut pivots) = (body, PivotCheck::of(magnitude));
         for (k, joint) in link.coordinates().enumerate().rev() {
             let s = link.subspace(turns, k);
             let u_a = ia.along(&s);
@@ -64,17 +65,20 @@ where
             effects.inertia(joint, &mut d);
             pivots.check((&link, k), turns, (u_a, d), joint)?;
             let d_inv = R::ONE / d;
-            let held = (d - bodies) * d_inv;
+            let armature_share = (d - bodies) * d_inv;
             ia = ia.minus_outer(u_a, d_inv);
-            if let Some(handle) = handles.get_mut(joint) {
-                *handle = JointFactor { u_a, d_inv, held };
+            if let Some(factor) = factors.get_mut(joint) {
+                *factor = JointFactor {
+                    u_a,
+                    d_inv,
+                    armature_share,
+                };
             }
         }
-        if let Some((parent, carries)) = rest.get_mut(link.parent) {
+        if let Some((parent, parent_magnitude)) = inner.get_mut(link.parent) {
             *parent += ia.at_parent(x_i);
-            *carries += carried.at_parent(x_i.pos);
+            *parent_magnitude += magnitude.at_parent(x_i.pos);
         }
-        inner = rest;
     }
-    Ok(ArticulatedPass { x, handles })
+    Ok(ArticulatedPass { x, factors })
 }

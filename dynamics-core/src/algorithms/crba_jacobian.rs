@@ -1,29 +1,45 @@
 //! M and a Jacobian in one: the modified composite-rigid-body method.
 //!
 //! Lilly & Orin, "Alternate formulations for the manipulator inertia matrix" (1991). As
-//! [`crba`](super::crba()), but instead of a force that climbs down to the base, the joints' axes are
-//! handed out to the tips: what stands in a body's frame is its Jacobian, and M_jk is its column k times
+//! [`crba`](super::crba()), but instead of a force that is transformed inward to the base, the joints' axes are
+//! transformed outward to the tips: what stands in a body's frame is its Jacobian, and M_jk is its column k times
 //! the force that accelerates the composite of joint j.
+
+use core::borrow::Borrow;
 
 use heapless::Vec;
 
 use super::mass_matrix::parent;
-use super::tree_pass::PerBody;
+use super::tree_pass::{inward, per_body};
 use crate::algorithms::MassMatrix;
 use crate::effects::{Effect, body_inertia, rotor_force};
 use crate::model::{BASE, LinkView, RobotModel};
 use crate::scalar::{Matrix, Real};
 use crate::spatial::inertia::CompositeInertia;
 use crate::spatial::{Motion, Xform};
-use crate::state::JointTrig;
+use crate::state::Configuration;
 
-/// M(q), and the Jacobian of one body: column k is the velocity of that body at unit rate of
-/// coordinate k, at the body's origin and in its own axes.
+/// What the outward pass leaves for the others.
+struct Body<'a, R: Real> {
+    link: LinkView<'a, R>,
+    x: Xform<R>,
+    ic: CompositeInertia<R>,
+}
+
+/// The inertia matrix M(q), and the Jacobian of one body at its origin and along its own axes.
 ///
-/// Shape: V × V and 6 × V; the Jacobian of the base is zero, that of a body that the robot does not
-/// have NaN. Cost: as
-/// [`crba`](super::crba()), of which the Jacobian is a by-product. Source: Lilly & Orin (1991).
+/// Column k of the Jacobian is the velocity of the body at unit rate of coordinate k.
 ///
+/// # Shape
+/// V × V and 6 × V. The Jacobian of the base is zero, that of a body that the robot does not have NaN.
+///
+/// # Cost
+/// That of [`crba`](super::crba()), of which the Jacobian is a by-product.
+///
+/// # Source
+/// Lilly & Orin (1991).
+///
+/// # Example
 /// ```
 /// use dynamics_core::algorithms::{crba, crba_jacobian};
 /// use dynamics_core::{effects::RIGID_BODY, model::Robot, robots::Ur5e};
@@ -32,10 +48,12 @@ use crate::state::JointTrig;
 /// assert!((m.get(0, 1) - crba(&Ur5e::MODEL, &q, &RIGID_BODY).get(0, 1)).abs() < 1e-15);
 /// assert_eq!(jacobian[5].lin.length(), 0.0); // the last joint does not move its own origin
 /// ```
+#[doc(alias = "modified composite-rigid-body method")]
 #[inline(always)]
+#[must_use]
 pub fn crba_jacobian<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
-    q: &[R; Q],
+    q: &impl Configuration<R, Q>,
     body: usize,
     effects: &E,
 ) -> (MassMatrix<R, V>, [Motion<R>; V])
@@ -43,48 +61,27 @@ where
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    crba_jacobian_at(robot, &JointTrig::of(robot, q), body, effects)
-}
-
-/// What one pass leaves for the next.
-struct Body<'a, R: Real> {
-    link: LinkView<'a, R>,
-    x: Xform<R>,
-    ic: CompositeInertia<R>,
-}
-
-/// As [`crba_jacobian`], at a posture whose sines and cosines are at hand.
-#[inline(always)]
-pub fn crba_jacobian_at<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
-    robot: &D,
-    posture: &JointTrig<R, Q>,
-    body: usize,
-    effects: &E,
-) -> (MassMatrix<R, V>, [Motion<R>; V])
-where
-    D: RobotModel<R, B, Q, V>,
-    E: Effect<R, B, V>,
-{
-    let (turns, lambda) = (&posture.turns, &robot.model().lambda);
+    let trig = q.trig_of(robot);
+    let trig = trig.borrow();
+    let (turns, lambda) = (&trig.turns, &robot.model().lambda);
     let mut bodies: Vec<Body<'_, R>, B> = Vec::new();
     for (i, link) in robot.links().enumerate() {
         let ic = body_inertia(effects, i, &link).into();
         let x = link.xform(turns);
         let _ = bodies.push(Body { link, x, ic });
     }
-    let mut inner = bodies.as_mut_slice();
-    while let Some((body, rest)) = core::mem::take(&mut inner).split_last_mut() {
-        if let Some(parent) = rest.get_mut(body.link.parent) {
+    let mut pass = inward(&mut bodies);
+    while let Some((body, inner)) = pass.next() {
+        if let Some(parent) = inner.get_mut(body.link.parent) {
             parent.ic += body.ic.at_parent(&body.x);
         }
-        inner = rest;
     }
 
     let (mut m, mut wanted) = (MassMatrix::ZERO, [Motion::ZERO; V]);
     // Of each body: the last coordinate that moves it, and its Jacobian.
-    let mut jacobians = PerBody::<_, B>::from((BASE, [Motion::ZERO; V]));
+    let mut jacobians = per_body(robot, (BASE, [Motion::ZERO; V]));
     for (i, Body { link, x, ic }) in bodies.iter().enumerate() {
-        let (mut last, mut jacobian) = jacobians.parent(D::CHAIN, link.parent);
+        let (mut last, mut jacobian) = jacobians.parent(link);
         let mut k = last;
         while let Some(column) = jacobian.get_mut(k) {
             *column = *x * *column;
@@ -95,13 +92,13 @@ where
                 *column = link.column(turns, k);
             }
             let mut f = ic.along(&link.subspace(turns, k));
-            let mut above = joint;
-            while let Some(column) = jacobian.get(above) {
-                m.set(joint, above, column.dot(f));
-                if E::GYROSCOPIC_ROTORS && above == joint {
+            let mut ancestor = joint;
+            while let Some(column) = jacobian.get(ancestor) {
+                m.set(joint, ancestor, column.dot(f));
+                if E::GYROSCOPIC_ROTORS && ancestor == joint {
                     f += rotor_force(effects, link);
                 }
-                above = parent(lambda, above);
+                ancestor = parent(lambda, ancestor);
             }
             if let Some(diagonal) = m.diagonal_mut(joint) {
                 effects.inertia(joint, diagonal);
@@ -112,7 +109,7 @@ where
             let turned = |v| link.frame.transpose_mul(v);
             wanted = jacobian.map(|column| Motion::new(turned(column.ang), turned(column.lin)));
         }
-        jacobians.push(D::CHAIN, (last, jacobian));
+        jacobians.push((last, jacobian));
     }
     if body >= B && body != BASE {
         wanted = [Motion::nan(); V];

@@ -2,19 +2,27 @@
 //!
 //! Featherstone, RBDA (2008), (2.67): T = Σ ½ v·I v; U = −Σ m g·c in a uniform field g.
 
+use core::borrow::Borrow;
+
 use super::momentum::mass_and_first_moment;
-use super::tree_pass::PerBody;
+use super::tree_pass::per_body;
 use crate::effects::{Effect, base_given, body_inertia, field, rotor_force};
 use crate::model::RobotModel;
 use crate::scalar::{Real, Vector};
-use crate::state::{JointTrig, State, entry};
+use crate::state::{Configuration, RobotState, entry};
 
 /// The kinetic energy T = Σ ½ v·I v, J.
 ///
-/// Of the bodies, with a payload if the effects name one, and of rotors by their inertia at the joints:
-/// ½ q̇ᵀ M q̇ on a base at rest, M under the same effects. On a base of given motion that of the moving
-/// bodies. Cost: O(B); some 115 flops a revolute joint. Errors: none. Source: RBDA (2008), (2.67).
+/// It counts the bodies, a payload of the scene, and rotors by their inertia at the joints: ½ q̇ᵀ M q̇ on a base at
+/// rest, M under the same effects. On a base of given motion it is that of the moving bodies.
 ///
+/// # Cost
+/// O(B): some 115 flops for each revolute joint.
+///
+/// # Source
+/// RBDA (2008), (2.67).
+///
+/// # Example
 /// ```
 /// use dynamics_core::{algorithms::kinetic_energy, model::Robot, robots::Ur5e, state::State};
 /// let turning = State { qd: [1.0, 0.0, 0.0, 0.0, 0.0, 0.0], ..State::at([0.0_f64; 6]) };
@@ -23,35 +31,23 @@ use crate::state::{JointTrig, State, entry};
 /// assert_eq!(energy(&twice), 4.0 * energy(&turning));
 /// ```
 #[inline(always)]
+#[must_use]
 pub fn kinetic_energy<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
-    state: &State<R, Q, V>,
+    state: impl RobotState<R, Q, V>,
     effects: &E,
 ) -> R
 where
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    kinetic_energy_at(robot, &JointTrig::of(robot, &state.q), state, effects)
-}
-
-/// As [`kinetic_energy`], at a posture whose sines and cosines are at hand; `state.q` is not read.
-#[inline(always)]
-pub fn kinetic_energy_at<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
-    robot: &D,
-    posture: &JointTrig<R, Q>,
-    state: &State<R, Q, V>,
-    effects: &E,
-) -> R
-where
-    D: RobotModel<R, B, Q, V>,
-    E: Effect<R, B, V>,
-{
-    let turns = &posture.turns;
+    let trig = state.configuration().trig_of(robot);
+    let (trig, state) = (trig.borrow(), state.state());
+    let turns = &trig.turns;
     let mut twice = R::ZERO;
-    let mut v = PerBody::<_, B>::from(base_given(effects).0);
+    let mut v = per_body(robot, base_given(effects).0);
     for (i, link) in robot.links().enumerate() {
-        let v_i = link.xform(turns) * v.parent(D::CHAIN, link.parent);
+        let v_i = link.xform(turns) * v.parent(&link);
         if E::GYROSCOPIC_ROTORS {
             // I (ω_z + ρ q̇)² − I ω_z², less the square of ρ q̇, which `inertia` has.
             let rotor = rotor_force(effects, &link) * entry(&state.qd, link.idx_v());
@@ -64,45 +60,39 @@ where
             effects.inertia(k, &mut rotor);
             twice += rotor * qd * qd;
         }
-        v.push(D::CHAIN, v_i);
+        v.push(v_i);
     }
     twice * R::from_f64(0.5)
 }
 
-/// The potential energy U = −Σ m g·c in the field of the effects, J; zero at the height of the base's
-/// origin.
+/// The potential energy U = −Σ m g·c in the field of the effects, J; zero at the height of the base's origin.
 ///
-/// Of the bodies and a payload; springs that are effects of joints are not counted. Cost: O(B); some 110
-/// flops a revolute joint. Errors: none. Source: RBDA (2008), section 5.3 (a uniform field).
+/// It counts the bodies and a payload. Springs that are effects of joints are not counted.
 ///
+/// # Cost
+/// O(B): some 110 flops for each revolute joint.
+///
+/// # Source
+/// RBDA (2008), section 5.3, for a uniform field.
+///
+/// # Example
 /// ```
 /// use dynamics_core::{algorithms::potential_energy, effects::Gravity, model::Robot, robots::Ur5e};
 /// let energy = |lift| potential_energy(&Ur5e::MODEL, &[0.0, lift, 0.0, 0.0, 0.0, 0.0], &(Gravity::EARTH,));
 /// assert!(energy(-1.57_f64) > energy(0.0) + 50.0); // upright
 /// ```
 #[inline(always)]
+#[must_use]
 pub fn potential_energy<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
-    q: &[R; Q],
+    q: &impl Configuration<R, Q>,
     effects: &E,
 ) -> R
 where
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    potential_energy_at(robot, &JointTrig::of(robot, q), effects)
-}
-
-/// As [`potential_energy`], at a posture whose sines and cosines are at hand.
-#[inline(always)]
-pub fn potential_energy_at<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
-    robot: &D,
-    posture: &JointTrig<R, Q>,
-    effects: &E,
-) -> R
-where
-    D: RobotModel<R, B, Q, V>,
-    E: Effect<R, B, V>,
-{
-    -field(effects).dot(mass_and_first_moment(robot, posture, effects).1)
+    let trig = q.trig_of(robot);
+    let trig = trig.borrow();
+    -field(effects).dot(mass_and_first_moment(robot, trig, effects).1)
 }

@@ -3,17 +3,29 @@
 //! Walker & Orin (1982), method 3; Featherstone, RBDA (2008), section 6.1. The articulated-body algorithm
 //! gives the same without M.
 
-use super::{NotPositiveDefinite, crba_at, ltdl, rnea_at, solve};
+use core::borrow::Borrow;
+
+use super::{NotPositiveDefinite, crba, ltdl, rnea, solve};
 use crate::effects::{Bias, Effect};
 use crate::model::RobotModel;
 use crate::scalar::Real;
-use crate::state::{JointTrig, State};
+use crate::state::{Configuration, RobotState};
 
-/// q̈ = FD(q, q̇, τ): the acceleration of each joint, rad/s² or m/s², under the effects named.
+/// The acceleration of each joint, q̈ = FD(q, q̇, τ), rad/s² or m/s², by M and its factors.
 ///
-/// Shape: V. Cost: [`rnea`](super::rnea()), [`crba`](super::crba()), [`ltdl`] and [`solve`]; on a
-/// chain O(V³), of a small factor. `state.qdd` is not read. Source: Walker & Orin (1982).
+/// [`aba`](super::aba()) gives the same without M. `state.qdd` is not read.
 ///
+/// # Shape
+/// V.
+///
+/// # Cost
+/// That of [`rnea`](super::rnea()), [`crba`](super::crba()), [`ltdl`] and [`solve`]: O(V³) on a chain, of a small
+/// factor.
+///
+/// # Source
+/// Walker & Orin (1982), method 3.
+///
+/// # Example
 /// ```
 /// use dynamics_core::{algorithms::{aba, forward_dynamics}, effects::RIGID_BODY, model::Robot, robots::Ur5e, state::State};
 /// let state = State::at([0.0_f64, -1.2, 1.5, 0.3, 0.0, 0.0]);
@@ -25,10 +37,12 @@ use crate::state::{JointTrig, State};
 ///
 /// # Errors
 /// As [`ltdl`].
+#[doc(alias = "forward_dynamics_crba")]
+#[doc(alias = "FDcrb")]
 #[inline(always)]
 pub fn forward_dynamics<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
-    state: &State<R, Q, V>,
+    state: impl RobotState<R, Q, V>,
     tau: &[R; V],
     effects: &E,
 ) -> Result<[R; V], NotPositiveDefinite>
@@ -36,36 +50,19 @@ where
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    forward_dynamics_at(robot, &JointTrig::of(robot, &state.q), state, tau, effects)
-}
-
-/// As [`forward_dynamics`], at a posture whose sines and cosines are at hand.
-///
-/// # Errors
-/// As [`forward_dynamics`].
-#[inline(always)]
-pub fn forward_dynamics_at<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
-    robot: &D,
-    posture: &JointTrig<R, Q>,
-    state: &State<R, Q, V>,
-    tau: &[R; V],
-    effects: &E,
-) -> Result<[R; V], NotPositiveDefinite>
-where
-    D: RobotModel<R, B, Q, V>,
-    E: Effect<R, B, V>,
-{
+    let trig = state.configuration().trig_of(robot);
+    let (trig, state) = (trig.borrow(), state.state());
     const {
         assert!(
             E::ACCELERATIONS,
             "forward dynamics needs `Inertia` in the scene"
         )
     };
-    let bias = rnea_at(robot, posture, state, &Bias(effects));
+    let bias = rnea(robot, trig.with(state), &Bias(effects));
     let mut rest = *tau;
     for (rest, bias) in rest.iter_mut().zip(bias) {
         *rest -= bias;
     }
-    let factors = ltdl(robot, &crba_at(robot, posture, effects))?;
+    let factors = ltdl(robot, &crba(robot, trig, effects))?;
     Ok(solve(robot, &factors, &rest))
 }

@@ -3,12 +3,15 @@
 //! Featherstone, RBDA (2008), section 9.2: the articulated-body algorithm, in which a coordinate whose
 //! motion is prescribed is as stiff as a weld. Inverse and forward dynamics are its two ends.
 
+use core::borrow::Borrow;
+
 use super::NotPositiveDefinite;
 use super::aba::sweep;
 use crate::effects::Effect;
-use crate::model::RobotModel;
-use crate::scalar::Real;
-use crate::state::{JointTrig, State, entry};
+use crate::model::{LinkView, RobotModel};
+use crate::scalar::{Real, Vector};
+use crate::spatial::Motion;
+use crate::state::{Configuration, RobotState, entry};
 
 /// What is known of a coordinate; hybrid dynamics finds the other.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,13 +49,31 @@ impl<R: Real, const V: usize> JointResult<R, V> {
             (*t, *a) = (tau, qdd);
         }
     }
+
+    /// Sets the accelerations of a free joint: those of the body relative to its parent's.
+    #[inline(always)]
+    pub(super) fn set_relative(&mut self, link: &LinkView<'_, R>, a: Motion<R>, parent: Motion<R>) {
+        let [ang, lin] = [a.ang - parent.ang, a.lin - parent.lin].map(R::Vec3::array);
+        for (joint, &qdd) in link.coordinates().zip(ang.iter().chain(&lin)) {
+            self.set(joint, entry(&self.tau, joint), qdd);
+        }
+    }
 }
 
-/// Torques and accelerations of all coordinates, of each of which one is given.
+/// Torques and accelerations of all coordinates, of which one is prescribed for each coordinate.
 ///
-/// Cost: O(B), at most that of [`aba`](super::aba()). `state.qdd` is not read. Source: Featherstone,
-/// RBDA (2008), section 9.2.
+/// `state.qdd` is not read.
 ///
+/// # Shape
+/// V and V.
+///
+/// # Cost
+/// O(B), at most that of [`aba`](super::aba()).
+///
+/// # Source
+/// Featherstone, RBDA (2008), section 9.2.
+///
+/// # Example
 /// ```
 /// use dynamics_core::algorithms::{Prescribed::*, hybrid_dynamics};
 /// use dynamics_core::{effects::RIGID_BODY, model::Robot, robots::Ur5e, state::State};
@@ -67,10 +88,11 @@ impl<R: Real, const V: usize> JointResult<R, V> {
 /// # Errors
 /// [`NotPositiveDefinite`] names a coordinate whose torque is given but that moves no inertia, as
 /// [`aba`](super::aba()) does.
+#[doc(alias = "HD")]
 #[inline(always)]
 pub fn hybrid_dynamics<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
-    state: &State<R, Q, V>,
+    state: impl RobotState<R, Q, V>,
     given: &[Prescribed<R>; V],
     effects: &E,
 ) -> Result<JointResult<R, V>, NotPositiveDefinite>
@@ -78,30 +100,7 @@ where
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    hybrid_dynamics_at(
-        robot,
-        &JointTrig::of(robot, &state.q),
-        state,
-        given,
-        effects,
-    )
-}
-
-/// As [`hybrid_dynamics`], at a posture whose sines and cosines are at hand.
-///
-/// # Errors
-/// As [`hybrid_dynamics`].
-#[inline(always)]
-pub fn hybrid_dynamics_at<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
-    robot: &D,
-    posture: &JointTrig<R, Q>,
-    state: &State<R, Q, V>,
-    given: &[Prescribed<R>; V],
-    effects: &E,
-) -> Result<JointResult<R, V>, NotPositiveDefinite>
-where
-    D: RobotModel<R, B, Q, V>,
-    E: Effect<R, B, V>,
-{
-    sweep(robot, posture, state, effects, |joint| entry(given, joint))
+    let trig = state.configuration().trig_of(robot);
+    let (trig, state) = (trig.borrow(), state.state());
+    sweep(robot, trig, state, effects, |joint| entry(given, joint))
 }

@@ -16,16 +16,15 @@ mod pivot_check;
 mod rnea;
 mod tree_pass;
 
-pub use aba::{aba, aba_at};
-pub use crba::{crba, crba_at};
-pub use crba_jacobian::{crba_jacobian, crba_jacobian_at};
-pub use energy::{kinetic_energy, kinetic_energy_at, potential_energy, potential_energy_at};
+pub use aba::aba;
+pub use crba::crba;
+pub use crba_jacobian::crba_jacobian;
+pub use energy::{kinetic_energy, potential_energy};
 pub use error::NotPositiveDefinite;
-pub use forward_dynamics::{forward_dynamics, forward_dynamics_at};
-pub use hybrid::{JointResult, Prescribed, hybrid_dynamics, hybrid_dynamics_at};
+pub use forward_dynamics::forward_dynamics;
+pub use hybrid::{JointResult, Prescribed, hybrid_dynamics};
 pub use kinematics::{
-    Frame, Kinematics, Pose, bias_acceleration, bias_acceleration_at, classical, frame, jacobian,
-    jacobian_at, kinematics, kinematics_at, poses, poses_at,
+    Frame, Kinematics, Pose, bias_acceleration, classical, frame, jacobian, kinematics, poses,
 };
 pub(crate) use mass_matrix::MATRIX_ROUNDINGS;
 pub use mass_matrix::{
@@ -33,12 +32,12 @@ pub use mass_matrix::{
     spatial_operator_ltdl,
 };
 pub use momentum::{
-    CenterOfMass, base_velocity_from_momentum, base_velocity_from_momentum_at, center_of_mass,
-    center_of_mass_at, centroidal_matrix, centroidal_matrix_at, centroidal_momentum,
-    centroidal_momentum_at, momentum, momentum_at,
+    CenterOfMass, base_velocity_from_momentum, center_of_mass, centroidal_matrix,
+    centroidal_momentum, momentum,
 };
 pub use operational_space::{
     Conditioning, Damping, OperationalSpace, OsimInverse, damped_inverse, operational_space,
-    operational_space_at, osim_inverse, osim_inverse_at, task_jacobian,
+    osim_inverse, task_jacobian,
 };
-pub use rnea::{rnea, rnea_at};
+pub use rnea::rnea;
+pub(crate) use tree_pass::inward;

@@ -90,17 +90,20 @@ fn length<R: Real>(v: R::Vec3) -> R {
 
 /// What the pivots of one joint are held against, from its last coordinate to its first.
 pub(super) struct PivotCheck<R> {
-    carried: Magnitude<R>,
+    magnitude: Magnitude<R>,
     /// What coordinates that gave way hand on to those before them.
-    handed_on: [R; MOST],
+    inherited: [R; MOST],
 }
 
 impl<R: Real> PivotCheck<R> {
     /// Of a joint that carries `carried`.
     #[inline(always)]
-    pub(super) fn of(carried: Magnitude<R>) -> Self {
-        let handed_on = [R::ZERO; MOST];
-        Self { carried, handed_on }
+    pub(super) fn of(magnitude: Magnitude<R>) -> Self {
+        let inherited = [R::ZERO; MOST];
+        Self {
+            magnitude,
+            inherited,
+        }
     }
 
     /// Whether `d`, the pivot of coordinate `k` of the joint, which is coordinate `joint` of the robot, is a number
@@ -113,12 +116,12 @@ impl<R: Real> PivotCheck<R> {
         (u_a, d): (Force<R>, R),
         joint: usize,
     ) -> Result<(), NotPositiveDefinite> {
-        let handed_on = self.handed_on.get(k).copied().unwrap_or_default();
-        let size = self.carried.along(&link.subspace(turns, k)) + handed_on;
+        let inherited = self.inherited.get(k).copied().unwrap_or_default();
+        let size = self.magnitude.along(&link.subspace(turns, k)) + inherited;
         check(d, size * (R::EPSILON * R::from_f64(ROUNDINGS)), joint)?;
-        for (l, handed_on) in self.handed_on.iter_mut().enumerate().take(k) {
+        for (l, inherited) in self.inherited.iter_mut().enumerate().take(k) {
             let multiplier = link.subspace(turns, l).dot(u_a) / d;
-            *handed_on += multiplier * multiplier * size;
+            *inherited += multiplier * multiplier * size;
         }
         Ok(())
     }

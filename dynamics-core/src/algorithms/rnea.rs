@@ -3,60 +3,61 @@
 //! Featherstone & Orin (2000), equations (3) to (8); RBDA (2008), table 5.1. Bias, gravity and
 //! full torque are this one function under different effects.
 
+use core::borrow::Borrow;
+
 use heapless::Vec;
 
-use super::tree_pass::PerBody;
+use super::tree_pass::{inward, per_body};
 use crate::effects::{
     Effect, base_motion, body_inertia, body_wrench, gyroscopic, joint_torques, rotor_force,
 };
-use crate::model::RobotModel;
+use crate::model::{JointCoordinate, LinkView, RobotModel};
 use crate::scalar::{Matrix, Real};
 use crate::spatial::{Force, Motion, Xform};
-use crate::state::{JointTrig, State, entry};
+use crate::state::{Configuration, JointTrig, RobotState, State, entry};
 
-/// τ = ID(q, q̇, q̈): the torque of each motor, N·m or N, under the effects named.
+/// The torque of each motor, τ = ID(q, q̇, q̈), N·m or N, under the effects of the scene.
 ///
-/// Shape: V. Cost: O(B); 250 flops a revolute joint, less what no effect asks for. Errors: none; a
-/// non-finite input gives a non-finite output, which [`crate::control`] gates. Source: Featherstone &
-/// Orin (2000); Luh, Walker & Paul (1980).
+/// A non-finite input gives a non-finite output, which [`crate::control`] rejects.
 ///
+/// # Shape
+/// V.
+///
+/// # Cost
+/// O(B): 250 flops for each revolute joint, less what no effect needs.
+///
+/// # Source
+/// Featherstone & Orin (2000); Luh, Walker & Paul (1980).
+///
+/// # Example
 /// ```
 /// use dynamics_core::{algorithms::rnea, effects::RIGID_BODY, model::Robot, robots::Ur5e, state::State};
 /// let tau = rnea(&Ur5e::MODEL, &State::at([0.0; 6]), &RIGID_BODY);
 /// assert!(tau[1] < -50.0 && tau[0] == 0.0); // the arm stretched out; gravity does not turn its base
 /// ```
+#[doc(alias = "computed torque")]
+#[doc(alias = "inverse dynamics")]
+#[doc(alias = "ID")]
 #[inline(always)]
+#[must_use]
 pub fn rnea<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
-    state: &State<R, Q, V>,
+    state: impl RobotState<R, Q, V>,
     effects: &E,
 ) -> [R; V]
 where
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    rnea_at(robot, &JointTrig::of(robot, &state.q), state, effects)
-}
-
-/// As [`rnea`], at a posture whose sines and cosines are at hand. `state.q` reaches joint effects.
-#[inline(always)]
-pub fn rnea_at<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
-    robot: &D,
-    posture: &JointTrig<R, Q>,
-    state: &State<R, Q, V>,
-    effects: &E,
-) -> [R; V]
-where
-    D: RobotModel<R, B, Q, V>,
-    E: Effect<R, B, V>,
-{
+    let trig = state.configuration().trig_of(robot);
+    let (trig, state) = (trig.borrow(), state.state());
     match robot.as_all_revolute() {
-        Some(robot) => sweep(&robot, posture, state, effects),
-        None => sweep(robot, posture, state, effects),
+        Some(robot) => sweep(&robot, trig, state, effects),
+        None => sweep(robot, trig, state, effects),
     }
 }
 
-/// What the way out leaves for the way back.
+/// What the outward pass leaves for the inward one.
 #[derive(Clone, Copy)]
 struct Body<R: Real> {
     rot: R::Mat3,
@@ -67,7 +68,7 @@ struct Body<R: Real> {
 #[inline(always)]
 fn sweep<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
-    posture: &JointTrig<R, Q>,
+    trig: &JointTrig<R, Q>,
     state: &State<R, Q, V>,
     effects: &E,
 ) -> [R; V]
@@ -75,102 +76,160 @@ where
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    let moving = const { E::VELOCITY_PRODUCTS | E::BODY_VELOCITY };
-    let accelerated = const { E::FIELD | E::BASE_MOTION | E::ACCELERATIONS | E::VELOCITY_PRODUCTS };
+    let turns = &trig.turns;
     let (v_0, a_0) = base_motion(effects);
-    let mut v = PerBody::<_, B>::from(v_0);
-    let mut poses = PerBody::<_, B>::from(Xform::IDENTITY);
-    let mut a = PerBody::<_, B>::from(a_0);
-    let turns = &posture.turns;
-
+    let (mut v, mut a) = (per_body(robot, v_0), per_body(robot, a_0));
+    let mut poses = per_body(robot, Xform::IDENTITY);
     let mut bodies: Vec<Body<R>, B> = Vec::new();
-    let mut turned_along = [R::ZERO; V]; // ρ I z·α_λ of the rotors
+    let mut rotor_tau = [R::ZERO; V];
     for i in 0..B {
         let Some(link) = robot.link(i) else {
             break;
         };
         let x = link.xform(turns);
-        let mut v_i = Motion::ZERO;
-        let mut f_i = Force::ZERO;
-        if moving {
-            v_i = link.plus_motion(x * v.parent(D::CHAIN, link.parent), turns, &state.qd); // (3)
-            v.push(D::CHAIN, v_i);
-        }
-        if accelerated {
-            let mut a_i = x * a.parent(D::CHAIN, link.parent); // (4)
-            if E::GYROSCOPIC_ROTORS
-                && let Some(tau) = turned_along.get_mut(link.idx_v())
-            {
-                *tau = a_i.dot(rotor_force(effects, &link));
-            }
-            if E::ACCELERATIONS {
-                a_i = link.plus_motion(a_i, turns, &state.qdd);
-            }
-            if E::VELOCITY_PRODUCTS {
-                a_i = link.plus_velocity_product(a_i, turns, &state.qd, v_i);
-            }
-            a.push(D::CHAIN, a_i);
-            let inertia = body_inertia(effects, i, &link);
-            f_i = if E::VELOCITY_PRODUCTS {
-                inertia.force(a_i, v_i) // (5)
-            } else {
-                inertia * a_i
-            };
-        }
+        let v_i = velocity(effects, &link, x * v.parent(&link), turns, state); // (3)
+        let a_parent = x * a.parent(&link);
+        let a_i = acceleration(effects, &link, a_parent, v_i, turns, state); // (4)
+        let mut f_i = net_force(effects, i, &link, a_i, v_i); // (5)
         if E::WRENCH {
             let mut pose = Xform::IDENTITY;
             if E::BODY_POSE {
-                pose = x * poses.parent(D::CHAIN, link.parent);
-                poses.push(D::CHAIN, pose);
+                pose = x * poses.parent(&link);
+                poses.push(pose);
             }
             f_i -= body_wrench(effects, i, &link, &pose, v_i); // (6)
         }
-        if E::GYROSCOPIC_ROTORS
-            && let Some(parent) = bodies.get_mut(link.parent)
-        {
-            let at = link.idx_v();
-            let rate = if E::VELOCITY_PRODUCTS {
-                entry(&state.qd, at)
-            } else {
-                R::ZERO
-            };
-            let accel = if E::ACCELERATIONS {
-                entry(&state.qdd, at)
-            } else {
-                R::ZERO
-            };
-            let couple = gyroscopic(effects, &link, v_i.ang, rate, accel);
-            parent.f.ang += x.rot.transpose_mul(couple);
+        if E::GYROSCOPIC_ROTORS {
+            let (couple, tau) = rotor(effects, &link, a_parent, v_i, state);
+            if let Some(parent) = bodies.get_mut(link.parent) {
+                parent.f.ang += x.rot.transpose_mul(couple);
+            }
+            if let Some(rotor_tau) = rotor_tau.get_mut(link.idx_v()) {
+                *rotor_tau = tau;
+            }
         }
+        v.push(v_i);
+        a.push(a_i);
         let _ = bodies.push(Body { rot: x.rot, f: f_i });
     }
 
     let mut tau = [R::ZERO; V];
-    let mut below = Force::ZERO; // what the one body above asks of a chain
-    let mut inner = bodies.as_mut_slice();
-    while let Some((body, rest)) = inner.split_last_mut() {
-        let Some(link) = robot.link(rest.len()) else {
+    let mut f_child = Force::ZERO; // of a chain, where a body has one child at most
+    let mut bodies = inward(&mut bodies);
+    while let Some((body, inner)) = bodies.next() {
+        let Some(link) = robot.link(inner.len()) else {
             break;
         };
-        let f_i = if D::CHAIN { body.f + below } else { body.f };
+        let f_i = if D::CHAIN { body.f + f_child } else { body.f };
         link.project(turns, f_i, &mut tau); // (8)
         joint_torques(effects, &link, state, &mut tau);
         if E::GYROSCOPIC_ROTORS
             && let Some(tau) = tau.get_mut(link.idx_v())
         {
-            *tau += entry(&turned_along, link.idx_v());
+            *tau += entry(&rotor_tau, link.idx_v());
         }
-        if rest.is_empty() {
+        if inner.is_empty() {
             break; // the first body stands on the base
         }
+        // The origin is a constant of most joints: it is not worth keeping.
         let (rot, pos) = (body.rot, link.origin(turns));
         let f_parent = Xform { rot, pos }.transpose_mul(f_i); // (7)
         if D::CHAIN {
-            below = f_parent;
-        } else if let Some(parent) = rest.get_mut(link.parent) {
+            f_child = f_parent;
+        } else if let Some(parent) = inner.get_mut(link.parent) {
             parent.f += f_parent;
         }
-        inner = rest;
     }
     tau
+}
+
+/// vᵢ from X v_λ; zero if no effect needs velocities. Featherstone & Orin (3).
+#[inline(always)]
+fn velocity<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+    _: &E,
+    link: &LinkView<'_, R>,
+    v: Motion<R>,
+    turns: &[JointCoordinate<R>],
+    state: &State<R, Q, V>,
+) -> Motion<R>
+where
+    E: Effect<R, B, V>,
+{
+    if const { E::VELOCITY_PRODUCTS | E::BODY_VELOCITY } {
+        link.plus_motion(v, turns, &state.qd)
+    } else {
+        Motion::ZERO
+    }
+}
+
+/// aᵢ from X a_parent: S q̈ with [`crate::effects::Inertia`], S̊ q̇ + v × S q̇ with [`crate::effects::Coriolis`].
+/// Featherstone & Orin (4).
+#[inline(always)]
+fn acceleration<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+    _: &E,
+    link: &LinkView<'_, R>,
+    mut a: Motion<R>,
+    v_i: Motion<R>,
+    turns: &[JointCoordinate<R>],
+    state: &State<R, Q, V>,
+) -> Motion<R>
+where
+    E: Effect<R, B, V>,
+{
+    if E::ACCELERATIONS {
+        a = link.plus_motion(a, turns, &state.qdd);
+    }
+    if E::VELOCITY_PRODUCTS {
+        a = link.plus_velocity_product(a, turns, &state.qd, v_i);
+    }
+    a
+}
+
+/// Iᵢ aᵢ + vᵢ ×* Iᵢ vᵢ, as far as the effects need it. Featherstone & Orin (5).
+#[inline(always)]
+fn net_force<R: Real, E, const B: usize, const V: usize>(
+    effects: &E,
+    i: usize,
+    link: &LinkView<'_, R>,
+    a_i: Motion<R>,
+    v_i: Motion<R>,
+) -> Force<R>
+where
+    E: Effect<R, B, V>,
+{
+    if !const { E::FIELD | E::BASE_MOTION | E::ACCELERATIONS | E::VELOCITY_PRODUCTS } {
+        return Force::ZERO;
+    }
+    let inertia = body_inertia(effects, i, link);
+    if E::VELOCITY_PRODUCTS {
+        inertia.force(a_i, v_i)
+    } else {
+        inertia * a_i
+    }
+}
+
+/// The couple that the rotor of a joint exerts on the parent link, in the body's frame, and the torque that the
+/// parent's acceleration takes at the rotor, ρ I z·α_λ.
+#[inline(always)]
+fn rotor<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+    effects: &E,
+    link: &LinkView<'_, R>,
+    a_parent: Motion<R>,
+    v_i: Motion<R>,
+    state: &State<R, Q, V>,
+) -> (R::Vec3, R)
+where
+    E: Effect<R, B, V>,
+{
+    let rate = |used, rates| {
+        if used {
+            entry(rates, link.idx_v())
+        } else {
+            R::ZERO
+        }
+    };
+    let qd = rate(E::VELOCITY_PRODUCTS, &state.qd);
+    let qdd = rate(E::ACCELERATIONS, &state.qdd);
+    let couple = gyroscopic(effects, link, v_i.ang, qd, qdd);
+    (couple, a_parent.dot(rotor_force(effects, link)))
 }

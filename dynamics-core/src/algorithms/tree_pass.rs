@@ -1,43 +1,91 @@
-//! What bodies hand to the bodies that they carry.
+//! The two passes over a tree: outward, from the base to the tips, and inward.
+
+use core::marker::PhantomData;
 
 use heapless::Vec;
 
-/// A quantity of each body so far, and of the base. On a chain, where every body hangs on the one
-/// before it, only the last one is kept: `chain` is a constant at every call, and the rest vanishes.
-pub(super) struct PerBody<T, const B: usize> {
-    base: T,
-    last: T,
-    all: Vec<T, B>,
+use crate::model::{LinkView, RobotModel};
+use crate::scalar::Real;
+
+/// Whether every body is known to stand on the one before it.
+pub(super) trait Topology {
+    const CHAIN: bool;
 }
 
-impl<T: Copy, const B: usize> PerBody<T, B> {
-    /// That of the base.
-    #[inline(always)]
-    pub(super) fn from(base: T) -> Self {
-        Self {
-            base,
-            last: base,
-            all: Vec::new(),
-        }
-    }
+/// The topology of the robot D.
+pub(super) struct Tree<D, R, const B: usize, const Q: usize, const V: usize>(PhantomData<(D, R)>);
 
-    /// That of the body `parent`.
+impl<D, R: Real, const B: usize, const Q: usize, const V: usize> Topology for Tree<D, R, B, Q, V>
+where
+    D: RobotModel<R, B, Q, V>,
+{
+    const CHAIN: bool = D::CHAIN;
+}
+
+/// A quantity of the base and of each body so far, from which the next body takes its parent's.
+///
+/// Of a chain only the last one is kept: `T::CHAIN` is a constant, and the other form is not in the machine code.
+pub(super) struct PerBody<A, T, const B: usize> {
+    base: A,
+    last: A,
+    all: Vec<A, B>,
+    topology: PhantomData<T>,
+}
+
+/// The base's quantity, for the bodies of `robot` to follow.
+#[inline(always)]
+pub(super) fn per_body<A: Copy, D, R: Real, const B: usize, const Q: usize, const V: usize>(
+    _: &D,
+    base: A,
+) -> PerBody<A, Tree<D, R, B, Q, V>, B>
+where
+    D: RobotModel<R, B, Q, V>,
+{
+    PerBody {
+        base,
+        last: base,
+        all: Vec::new(),
+        topology: PhantomData,
+    }
+}
+
+impl<A: Copy, T: Topology, const B: usize> PerBody<A, T, B> {
+    /// That of the parent of `link`.
     #[inline(always)]
-    pub(super) fn parent(&self, chain: bool, parent: usize) -> T {
-        if chain {
+    pub(super) fn parent<R: Real>(&self, link: &LinkView<'_, R>) -> A {
+        if T::CHAIN {
             self.last
         } else {
-            *self.all.get(parent).unwrap_or(&self.base)
+            *self.all.get(link.parent).unwrap_or(&self.base)
         }
     }
 
     /// Adds that of the next body.
     #[inline(always)]
-    pub(super) fn push(&mut self, chain: bool, value: T) {
-        if chain {
+    pub(super) fn push(&mut self, value: A) {
+        if T::CHAIN {
             self.last = value;
         } else {
             let _ = self.all.push(value);
         }
+    }
+}
+
+/// The inward pass over what the outward one has left of each body.
+pub(crate) struct Inward<'a, A>(&'a mut [A]);
+
+/// From the last body to the first.
+#[inline(always)]
+pub(crate) fn inward<A>(bodies: &mut [A]) -> Inward<'_, A> {
+    Inward(bodies)
+}
+
+impl<'a, A> Inward<'a, A> {
+    /// The next body, and those before it, among which is its parent: their count is the body's number.
+    #[inline(always)]
+    pub(crate) fn next(&mut self) -> Option<(&'a mut A, &mut [A])> {
+        let (body, before) = core::mem::take(&mut self.0).split_last_mut()?;
+        self.0 = before;
+        Some((body, self.0))
     }
 }

@@ -9,6 +9,7 @@
 use heapless::Vec;
 
 use super::ElasticJoints;
+use crate::algorithms::inward;
 use crate::effects::{Effect, TorqueDerivatives, base_motion, body_inertia, joint_state};
 use crate::model::{LinkView, RobotModel};
 use crate::scalar::Real;
@@ -148,7 +149,7 @@ where
             "inverse dynamics of compliant joints allows no wrenches on bodies, moving base or `GyroscopicRotors`"
         );
     };
-    let (state, turns) = (&course.state, JointTrig::of(robot, &course.state.q).turns);
+    let (state, turns) = (&course.state, JointTrig::new(robot, &course.state.q).turns);
     let rates = [&state.qd, &state.qdd, &course.jerk, &course.snap];
     // A base that accelerates by −g for ever is gravity.
     let (v_0, a_0) = base_motion(effects);
@@ -171,8 +172,8 @@ where
     }
 
     let mut tau = [[R::ZERO; V]; 3];
-    let mut inner = links.as_mut_slice();
-    while let Some((link, rest)) = core::mem::take(&mut inner).split_last_mut() {
+    let mut pass = inward(&mut links);
+    while let Some((link, inner)) = pass.next() {
         for (tau, f) in tau.iter_mut().zip(link.f) {
             link.link.project(&turns, f, tau);
         }
@@ -195,12 +196,11 @@ where
                 }
             }
         }
-        if let Some(parent) = rest.get_mut(link.link.parent) {
+        if let Some(parent) = inner.get_mut(link.link.parent) {
             for (sum, f) in parent.f.iter_mut().zip(force_at_parent(link)) {
                 *sum += f;
             }
         }
-        inner = rest;
     }
     Ok(tau)
 }

@@ -72,7 +72,7 @@ where
         }
     }
     let implicit = Implicit::new(robot, links, effects, h);
-    links.qdd = aba(robot, links, &spring, &(implicit, Armature(diagonal)))?;
+    links.qdd = aba(robot, &*links, &spring, &(implicit, Armature(diagonal)))?;
     for (qd, &qdd) in links.qd.iter_mut().zip(&links.qdd) {
         *qd += h * qdd;
     }

@@ -4,9 +4,10 @@
 //! the bias from the torques, and what is left moves a robot at rest without gravity, so that the
 //! articulated bodies need neither velocities nor velocity products.
 
+use core::borrow::Borrow;
 use core::hint::black_box;
+use core::marker::PhantomData;
 
-use super::Engine;
 use super::acceleration_field::{Inertia, Wrench, enter};
 use super::articulated_inertia::Articulated;
 use super::compile::CompiledRobot;
@@ -15,49 +16,46 @@ use super::folding::{Mat3, Vec3};
 use super::ltdl::positive;
 use super::pivot_noise::noise;
 use super::rnea::{is_on_base, is_parent, loaded};
+use super::{Engine, Specialised};
 use crate::algorithms::NotPositiveDefinite;
 use crate::effects::Effect;
 use crate::model::{BASE, JointCoordinate, Robot};
 use crate::scalar::{Real, Vector};
-use crate::state::{JointTrig, State};
+use crate::state::{Configuration, JointTrig, RobotState, State};
+use crate::trig::Kernel;
 
-impl<T> Engine<T> {
-    /// q̈ = FD(q, q̇, τ) as [`Engine::forward_dynamics`] has it, by articulated bodies.
+impl<T, K> Engine<T, K> {
+    /// The acceleration of each joint, q̈ = FD(q, q̇, τ), as [`Engine::forward_dynamics`] has it, by articulated
+    /// bodies.
     ///
-    /// Cost: O(V), but more than that of `forward` on short chains: `docs/costs.md` in the repository.
-    /// `state.qdd` is not read. Source: Featherstone (1983; RBDA table 7.1).
+    /// `state.qdd` is not read.
+    ///
+    /// # Cost
+    /// O(V), but more than that of `forward_dynamics` on short chains: `docs/costs.md` in the repository.
+    ///
+    /// # Source
+    /// Featherstone (1983); RBDA (2008), table 7.1.
     ///
     /// # Errors
     /// As [`Engine::forward_dynamics`].
+    #[doc(alias = "ABI")]
+    #[doc(alias = "FD")]
     #[inline(never)]
-    pub fn aba<R: Real, E, const B: usize, const Q: usize, const V: usize>(
-        state: &State<R, Q, V>,
+    pub fn aba<R: Real, S, E, const B: usize, const Q: usize, const V: usize>(
+        state: S,
         tau: &[R; V],
         effects: &E,
     ) -> Result<[R; V], NotPositiveDefinite>
     where
         T: Robot<B, Q, V>,
+        K: Kernel<R>,
+        S: RobotState<R, Q, V>,
         E: Effect<R, B, V>,
     {
-        accelerate::<R, T, E, B, Q, V>(&Self::posture(&state.q), state, tau, effects)
-    }
-
-    /// As [`Engine::aba`], at a posture whose sines and cosines are at hand.
-    ///
-    /// # Errors
-    /// As [`Engine::forward_dynamics`].
-    #[inline(never)]
-    pub fn aba_at<R: Real, E, const B: usize, const Q: usize, const V: usize>(
-        posture: &JointTrig<R, Q>,
-        state: &State<R, Q, V>,
-        tau: &[R; V],
-        effects: &E,
-    ) -> Result<[R; V], NotPositiveDefinite>
-    where
-        T: Robot<B, Q, V>,
-        E: Effect<R, B, V>,
-    {
-        accelerate::<R, T, E, B, Q, V>(posture, state, tau, effects)
+        let trig = state
+            .configuration()
+            .trig_or(Specialised::<T, K, B, V>(PhantomData));
+        accelerate::<R, T, E, B, Q, V>(trig.borrow(), state.state(), tau, effects)
     }
 }
 
@@ -74,7 +72,7 @@ struct Task<'a, R, E, const Q: usize, const V: usize> {
 
 #[inline(always)]
 fn accelerate<R, T, E, const B: usize, const Q: usize, const V: usize>(
-    posture: &JointTrig<R, Q>,
+    trig: &JointTrig<R, Q>,
     state: &State<R, Q, V>,
     tau: &[R; V],
     effects: &E,
@@ -85,11 +83,11 @@ where
     E: Effect<R, B, V>,
 {
     // One phase after the other: as one block they would need more registers than there are.
-    let mut x = Engine::<T>::remaining(posture, state, tau, effects);
+    let mut x = Engine::<T>::remaining(trig, state, tau, effects);
     black_box(&mut x);
     let (mut u, mut d_inv) = ([[R::ZERO; 6]; V], [R::ZERO; V]);
     let mut task = Task {
-        turns: &posture.turns,
+        turns: &trig.turns,
         effects,
         u: &mut u,
         d_inv: &mut d_inv,
@@ -100,10 +98,7 @@ where
             let _ = inward::<R, T, E, B, Q, V, J>(&mut task);
         }
     });
-    positive(
-        task.d_inv,
-        &noise::<R, T, E, B, Q, V>(&posture.turns, effects),
-    )?;
+    positive(task.d_inv, &noise::<R, T, E, B, Q, V>(&trig.turns, effects))?;
     for_each_joint!(J, {
         if const { is_on_base::<T, B, Q, V>(J) } {
             outward::<R, T, E, B, Q, V, J>(&mut task, [R::Vec3::ZERO; 2]);

@@ -3,26 +3,36 @@
 //! Walker & Orin (1982); Featherstone, RBDA (2008), table 6.2, over base parameters: the masses of
 //! composite bodies are known zeros behind revolute joints, and h travels as R h.
 
-use super::Engine;
+use core::borrow::Borrow;
+use core::marker::PhantomData;
+
 use super::acceleration_field::{Inertia, Wrench, along_z};
 use super::base::no_gyroscopic_rotors;
 use super::compile::CompiledRobot;
 use super::folding::Folded;
 use super::folding::Vec3;
 use super::rnea::{is_on_base, is_parent, loaded};
+use super::{Engine, Specialised};
 use crate::algorithms::MassMatrix;
 use crate::effects::Effect;
 use crate::model::{BASE, JointCoordinate, Robot};
 use crate::scalar::Real;
-use crate::state::JointTrig;
+use crate::state::Configuration;
+use crate::trig::Kernel;
 
-impl<T> Engine<T> {
-    /// M(q), kg·m², kg and kg·m, with the rotors and the payload that the effects name.
+impl<T, K> Engine<T, K> {
+    /// The joint-space inertia matrix M(q), kg·m², kg and kg·m, with the armatures and the payload of the scene.
     ///
-    /// Other effects do not matter: [`crate::effects::RIGID_BODY`] gives the robot's own M. Angles
-    /// as in [`Engine::rnea`]. Cost: `docs/costs.md` in the repository; the same instructions
-    /// whatever the data. Source: Walker & Orin (1982); Featherstone, RBDA (2008), table 6.2.
+    /// Other effects do not matter: [`crate::effects::RIGID_BODY`] gives the robot's own M. Angles as in
+    /// [`Engine::rnea`].
     ///
+    /// # Cost
+    /// `docs/costs.md` in the repository; the same instructions whatever the data.
+    ///
+    /// # Source
+    /// Walker & Orin (1982); Featherstone, RBDA (2008), table 6.2.
+    ///
+    /// # Example
     /// ```
     /// use dynamics_core::{Engine, effects::{RIGID_BODY, Armature}, robots::Ur5e};
     /// let q = [0.0_f32, -1.2, 1.5, 0.3, 0.0, 0.0];
@@ -30,32 +40,22 @@ impl<T> Engine<T> {
     /// let driven = Engine::<Ur5e>::crba(&q, &(RIGID_BODY, geared));
     /// assert_eq!(driven.get(2, 2), bare.get(2, 2) + 0.5);
     /// ```
+    #[doc(alias = "inertia matrix")]
+    #[doc(alias = "mass matrix")]
     #[inline(never)]
+    #[must_use]
     pub fn crba<R: Real, E, const B: usize, const Q: usize, const V: usize>(
-        q: &[R; Q],
+        q: &impl Configuration<R, Q>,
         effects: &E,
     ) -> MassMatrix<R, V>
     where
         T: Robot<B, Q, V>,
+        K: Kernel<R>,
         E: Effect<R, B, V>,
     {
+        let trig = q.trig_or(Specialised::<T, K, B, V>(PhantomData));
         let mut m = MassMatrix::ZERO;
-        mass_matrix::<R, T, E, B, Q, V>(&Self::posture(q).turns, effects, &mut m);
-        m
-    }
-
-    /// As [`Engine::crba`], at a posture whose sines and cosines are at hand.
-    #[inline(never)]
-    pub fn crba_at<R: Real, E, const B: usize, const Q: usize, const V: usize>(
-        posture: &JointTrig<R, Q>,
-        effects: &E,
-    ) -> MassMatrix<R, V>
-    where
-        T: Robot<B, Q, V>,
-        E: Effect<R, B, V>,
-    {
-        let mut m = MassMatrix::ZERO;
-        mass_matrix::<R, T, E, B, Q, V>(&posture.turns, effects, &mut m);
+        mass_matrix::<R, T, E, B, Q, V>(&trig.borrow().turns, effects, &mut m);
         m
     }
 }

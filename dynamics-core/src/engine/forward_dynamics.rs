@@ -3,20 +3,23 @@
 //! For short chains and for trees of short branches cheaper than the articulated-body algorithm
 //! ([`Engine::aba`]); Featherstone, RBDA (2008), section 6.1.
 
+use core::borrow::Borrow;
 use core::hint::black_box;
+use core::marker::PhantomData;
 
-use super::Engine;
 use super::crba::mass_matrix;
 use super::ltdl::{decompose, positive, substitute};
 use super::pivot_noise::noise;
+use super::{Engine, Specialised};
 use crate::algorithms::MassMatrix;
 use crate::algorithms::NotPositiveDefinite;
 use crate::effects::{Bias, Effect};
 use crate::model::Robot;
 use crate::scalar::Real;
-use crate::state::{JointTrig, State};
+use crate::state::{Configuration, JointTrig, RobotState, State};
+use crate::trig::Kernel;
 
-impl<T> Engine<T> {
+impl<T, K> Engine<T, K> {
     /// q̈ = FD(q, q̇, τ): the acceleration of each joint, rad/s² or m/s², under the effects named.
     ///
     /// By the inertia matrix and its factors; [`Engine::aba`] gives the same without them.
@@ -32,41 +35,31 @@ impl<T> Engine<T> {
     /// yield (a massless last link without rotor inertia; a joint on the axis of another with no inertia between
     /// them), or whose inertia is not a number: its pivot does not exceed 16 roundings of the largest inertia that
     /// all its descendants, stretched out, could have about it.
+    #[doc(alias = "FD")]
     #[inline(never)]
-    pub fn forward_dynamics<R: Real, E, const B: usize, const Q: usize, const V: usize>(
-        state: &State<R, Q, V>,
+    pub fn forward_dynamics<R: Real, S, E, const B: usize, const Q: usize, const V: usize>(
+        state: S,
         tau: &[R; V],
         effects: &E,
     ) -> Result<[R; V], NotPositiveDefinite>
     where
         T: Robot<B, Q, V>,
+        K: Kernel<R>,
+        S: RobotState<R, Q, V>,
         E: Effect<R, B, V>,
     {
-        accelerate::<R, T, E, B, Q, V>(&Self::posture(&state.q), state, tau, effects)
+        let trig = state
+            .configuration()
+            .trig_or(Specialised::<T, K, B, V>(PhantomData));
+        accelerate::<R, T, E, B, Q, V>(trig.borrow(), state.state(), tau, effects)
     }
+}
 
-    /// As [`Engine::forward_dynamics`], at a posture whose sines and cosines are at hand.
-    ///
-    /// # Errors
-    /// As [`Engine::forward_dynamics`].
-    #[inline(never)]
-    pub fn forward_dynamics_at<R: Real, E, const B: usize, const Q: usize, const V: usize>(
-        posture: &JointTrig<R, Q>,
-        state: &State<R, Q, V>,
-        tau: &[R; V],
-        effects: &E,
-    ) -> Result<[R; V], NotPositiveDefinite>
-    where
-        T: Robot<B, Q, V>,
-        E: Effect<R, B, V>,
-    {
-        accelerate::<R, T, E, B, Q, V>(posture, state, tau, effects)
-    }
-
+impl<T> Engine<T> {
     /// τ − C(q, q̇), the torque that is left to accelerate.
     #[inline(always)]
     pub(crate) fn remaining<R: Real, E, const B: usize, const Q: usize, const V: usize>(
-        posture: &JointTrig<R, Q>,
+        trig: &JointTrig<R, Q>,
         state: &State<R, Q, V>,
         tau: &[R; V],
         effects: &E,
@@ -81,7 +74,7 @@ impl<T> Engine<T> {
                 "forward dynamics needs `Inertia` in the scene"
             )
         };
-        let bias = Self::run(posture, posture, state, &Bias(effects));
+        let bias = Self::run(trig, trig, state, &Bias(effects));
         let mut rest = *tau;
         for_each_joint!(J, {
             if const { J < V } {
@@ -94,7 +87,7 @@ impl<T> Engine<T> {
 
 #[inline(always)]
 fn accelerate<R, T, E, const B: usize, const Q: usize, const V: usize>(
-    posture: &JointTrig<R, Q>,
+    trig: &JointTrig<R, Q>,
     state: &State<R, Q, V>,
     tau: &[R; V],
     effects: &E,
@@ -105,13 +98,13 @@ where
     E: Effect<R, B, V>,
 {
     // One phase after the other: as one block they would need more registers than there are.
-    let mut x = Engine::<T>::remaining(posture, state, tau, effects);
+    let mut x = Engine::<T>::remaining(trig, state, tau, effects);
     black_box(&mut x);
     let mut m = MassMatrix::ZERO;
-    mass_matrix::<R, T, E, B, Q, V>(&posture.turns, effects, &mut m);
+    mass_matrix::<R, T, E, B, Q, V>(&trig.turns, effects, &mut m);
     black_box(&mut m);
     let d_inv = decompose::<R, T, B, Q, V>(&mut m.rows);
-    positive(&d_inv, &noise::<R, T, E, B, Q, V>(&posture.turns, effects))?;
+    positive(&d_inv, &noise::<R, T, E, B, Q, V>(&trig.turns, effects))?;
     substitute::<R, T, B, Q, V>(&m.rows, &d_inv, &mut x);
     Ok(x)
 }

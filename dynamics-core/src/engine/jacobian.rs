@@ -2,23 +2,33 @@
 //!
 //! Featherstone, RBDA (2008), section 4.1; axes and arms in base coordinates: z_j, z_j × (p − p_j).
 
-use super::Engine;
+use core::borrow::Borrow;
+use core::marker::PhantomData;
+
 use super::compile::CompiledRobot;
 use super::folding::Folded;
 use super::folding::{Mat3, Vec3};
 use super::rnea::is_parent;
+use super::{Engine, Specialised};
 use crate::model::{BASE, JointCoordinate, Robot};
 use crate::scalar::{Real, Vector};
 use crate::spatial::Motion;
-use crate::state::JointTrig;
+use crate::state::Configuration;
+use crate::trig::Kernel;
 
-impl<T> Engine<T> {
-    /// J with V = J q̇: the velocity of the body of the number BODY, by columns, one a joint.
+impl<T, K> Engine<T, K> {
+    /// The Jacobian J of the body of the number BODY with v = J q̇, by columns, one for each joint.
     ///
-    /// ω in rad/s and the velocity in m/s of the origin of that body's frame, both along the axes of
-    /// the base. τ = Jᵀ f for a force at that origin. Cost: `docs/costs.md` in the repository.
-    /// Source: Featherstone, RBDA (2008), section 4.1.
+    /// ω in rad/s and the velocity in m/s of the origin of that body's frame, both along the axes of the base. τ = Jᵀ f
+    /// for a force at that origin.
     ///
+    /// # Cost
+    /// `docs/costs.md` in the repository.
+    ///
+    /// # Source
+    /// Featherstone, RBDA (2008), section 4.1.
+    ///
+    /// # Example
     /// ```
     /// use dynamics_core::{Engine, robots::Ur5e};
     /// use dynamics_core::model::Robot;
@@ -34,25 +44,18 @@ impl<T> Engine<T> {
     /// let _ = Engine::<Ur5e>::jacobian::<6, _, _, _, _>(&[0.0_f32; 6]);
     /// // error: the Jacobian is of a body that the robot does not have: bodies are numbered from 0
     /// ```
+    #[doc(alias = "end effector")]
     #[inline(never)]
+    #[must_use]
     pub fn jacobian<const BODY: usize, R: Real, const B: usize, const Q: usize, const V: usize>(
-        q: &[R; Q],
+        q: &impl Configuration<R, Q>,
     ) -> [Motion<R>; V]
     where
         T: Robot<B, Q, V>,
+        K: Kernel<R>,
     {
-        columns::<R, T, B, Q, V, BODY>(&Self::posture(q).turns)
-    }
-
-    /// As [`Engine::jacobian`], at a posture whose sines and cosines are at hand.
-    #[inline(never)]
-    pub fn jacobian_at<const BODY: usize, R: Real, const B: usize, const Q: usize, const V: usize>(
-        posture: &JointTrig<R, Q>,
-    ) -> [Motion<R>; V]
-    where
-        T: Robot<B, Q, V>,
-    {
-        columns::<R, T, B, Q, V, BODY>(&posture.turns)
+        let trig = q.trig_or(Specialised::<T, K, B, V>(PhantomData));
+        columns::<R, T, B, Q, V, BODY>(&trig.borrow().turns)
     }
 }
 

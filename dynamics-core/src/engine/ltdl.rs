@@ -10,12 +10,17 @@ use crate::algorithms::{MATRIX_ROUNDINGS, NotPositiveDefinite};
 use crate::model::Robot;
 use crate::scalar::Real;
 
-impl<T> Engine<T> {
+impl<T, K> Engine<T, K> {
     /// The factors of M = Lᵀ D L, for [`Engine::solve`].
     ///
-    /// Cost: one division a joint, and for a chain of n joints n (n² − 1)/3 + n (n − 1)/2 flops, less
-    /// on a tree; the same instructions whatever the data. Source: Featherstone, RBDA (2008), table 6.3.
+    /// # Cost
+    /// One division for each joint, and n (n² − 1)/3 + n (n − 1)/2 flops for a chain of n joints, less on a tree; the
+    /// same instructions whatever the data.
     ///
+    /// # Source
+    /// Featherstone, RBDA (2008), table 6.3.
+    ///
+    /// # Example
     /// ```
     /// use dynamics_core::{Engine, effects::RIGID_BODY, robots::Ur5e};
     /// let m = Engine::<Ur5e>::crba(&[0.0_f32, -1.2, 1.5, 0.3, 0.0, 0.0], &RIGID_BODY);
@@ -48,10 +53,15 @@ impl<T> Engine<T> {
         Ok(Ltdl { rows, d_inv })
     }
 
-    /// x with M x = τ: accelerations of torques, rad/s² or m/s² of N·m or N.
+    /// The solution x of M x = τ: accelerations of torques, rad/s² or m/s² of N·m or N.
     ///
-    /// Cost: 2 n² − n flops for a chain of n joints, less on a tree. Source: RBDA, table 6.4.
+    /// # Cost
+    /// 2 n² − n flops for a chain of n joints, less on a tree.
+    ///
+    /// # Source
+    /// RBDA (2008), table 6.4.
     #[inline(never)]
+    #[must_use]
     pub fn solve<R: Real, const B: usize, const Q: usize, const V: usize>(
         factor: &Ltdl<R, V>,
         tau: &[R; V],

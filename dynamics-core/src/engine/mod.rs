@@ -45,20 +45,21 @@ mod pose;
 mod rnea;
 mod subtree;
 
+use core::borrow::Borrow;
 use core::hint::black_box;
 use core::marker::PhantomData;
 
 use crate::effects::Effect;
 use crate::model::{JointCoordinate, Robot};
-use crate::scalar::Real;
-use crate::state::{JointTrig, State};
+use crate::scalar::{Native, Real};
+use crate::state::{Configuration, JointTrig, RobotState, State, TrigSource};
 use crate::trig::Kernel;
 use base::base;
 use compile::CompiledRobot;
 use rnea::{Task, is_on_base, visit};
 use subtree::{has_subtree_functions, root_subtree};
 
-/// The specialised form of the robot `T`.
+/// The algorithms specialised at compile time for the robot `T`; sines and cosines by the kernel `K`.
 ///
 /// Robots: trees of up to 32 moving bodies on revolute, continuous, prismatic and fixed joints. Of the bodies that move
 /// with one joint, welded to its body, there may be any number, but up to 32 in a scene with wrenches ([`crate::effects::Contact`],
@@ -88,20 +89,22 @@ use subtree::{has_subtree_functions, root_subtree};
 /// impl Robot<33, 33, 33> for Comb {
 ///     const MODEL: ArmModel<f64, 33> = Model::new("comb", [Body::new("tooth", BASE, Joint::prismatic([1.0, 0.0, 0.0])); 33]);
 /// }
-/// let _ = Engine::<Comb>::posture(&[0.1_f32; 33]);
+/// let _ = Engine::<Comb>::joint_trig(&[0.1_f32; 33]);
 /// // error: the engine takes up to 32 moving bodies; use `Core`
 /// ```
 #[derive(Clone, Copy, Debug)]
-pub struct Engine<T>(PhantomData<T>);
+pub struct Engine<T, K = Native>(PhantomData<(T, K)>);
 
-impl<T> Engine<T> {
+impl<T, K> Engine<T, K> {
     /// The sines and cosines of the configuration q, for every algorithm of a tick.
     #[inline(always)]
-    pub fn posture<R: Real, const B: usize, const Q: usize, const V: usize>(
+    #[must_use]
+    pub fn joint_trig<R: Real, const B: usize, const Q: usize, const V: usize>(
         q: &[R; Q],
     ) -> JointTrig<R, Q>
     where
         T: Robot<B, Q, V>,
+        K: Kernel<R>,
     {
         let mut turns = [JointCoordinate::default(); Q];
         for_each_joint!(J, {
@@ -109,102 +112,81 @@ impl<T> Engine<T> {
                 let joint = const { &CompiledRobot::<T, B, Q, V>::joint(J) };
                 turns[J] = match (joint.prismatic, joint.near) {
                     (true, _) => JointCoordinate::linear(q[J]),
-                    (false, true) => JointCoordinate::revolute_bounded(q[J]),
-                    (false, false) => JointCoordinate::revolute(q[J]),
+                    (false, true) => JointCoordinate::revolute_bounded::<K>(q[J]),
+                    (false, false) => JointCoordinate::with_kernel::<K>(q[J]),
                 };
             }
         });
         JointTrig { turns }
     }
 
-    /// As [`Engine::posture`], sines and cosines by the kernel K.
-    #[inline(always)]
-    pub fn posture_by<K, R, const B: usize, const Q: usize, const V: usize>(
-        q: &[R; Q],
-    ) -> JointTrig<R, Q>
-    where
-        K: Kernel<R>,
-        R: Real,
-        T: Robot<B, Q, V>,
-    {
-        let mut turns = [JointCoordinate::default(); Q];
-        for_each_joint!(J, {
-            if const { J < V } {
-                turns[J] = if const { CompiledRobot::<T, B, Q, V>::joint(J).prismatic } {
-                    JointCoordinate::linear(q[J])
-                } else {
-                    JointCoordinate::with_kernel::<K>(q[J])
-                };
-            }
-        });
-        JointTrig { turns }
-    }
-
-    /// τ = ID(q, q̇, q̈): the torque of each motor, N·m or N, as [`crate::algorithms::rnea`] has it.
+    /// τ = ID(q, q̇, q̈): the torque of each motor, N·m or N, as [`crate::algorithms::rnea`] computes it.
     ///
-    /// Sines and cosines that no named effect needs are not computed. Angles: those of joints whose
-    /// limits lie within ±4π may go to ±100 rad, others to ±10⁴ rad. Cost: `docs/costs.md` in the
-    /// repository; the same instructions whatever the data. Source: the module's documentation.
-    #[inline(never)]
-    pub fn rnea<R: Real, E, const B: usize, const Q: usize, const V: usize>(
-        state: &State<R, Q, V>,
-        effects: &E,
-    ) -> [R; V]
-    where
-        T: Robot<B, Q, V>,
-        E: Effect<R, B, V>,
-    {
-        let posture = Self::posture(&state.q);
-        Self::run(&posture, &posture, state, effects)
-    }
-
-    /// As [`Engine::rnea`], sines and cosines by the kernel K: what accuracy costs in time is in
-    /// `docs/accuracy.md` in the repository.
+    /// Sines and cosines that no effect in the scene needs are not computed. Angles: those of joints whose
+    /// limits lie within ±4π may go to ±100 rad, others to ±10⁴ rad.
+    ///
+    /// # Cost
+    /// `docs/costs.md` in the repository; the same instructions whatever the data. What a less accurate kernel saves is
+    /// in `docs/accuracy.md`:
     ///
     /// ```
     /// use dynamics_core::{Engine, effects::RIGID_BODY, robots::Ur5e, state::State, trig::Table};
     /// let state = State { q: [0.1_f32; 6], qd: [0.5; 6], qdd: [1.0; 6] };
-    /// let tau = Engine::<Ur5e>::rnea_by::<Table<256, 1>, _, _, _, _, _>(&state, &RIGID_BODY);
+    /// let tau = Engine::<Ur5e, Table<256, 1>>::rnea(&state, &RIGID_BODY);
     /// # assert!((tau[1] - Engine::<Ur5e>::rnea(&state, &RIGID_BODY)[1]).abs() < 0.02);
     /// ```
+    ///
+    /// # Source
+    /// Featherstone & Orin (2000), (3) to (8), over base parameters; the module's documentation.
+    #[doc(alias = "ID")]
+    #[doc(alias = "inverse dynamics")]
     #[inline(never)]
-    pub fn rnea_by<K, R, E, const B: usize, const Q: usize, const V: usize>(
-        state: &State<R, Q, V>,
+    pub fn rnea<R: Real, S, E, const B: usize, const Q: usize, const V: usize>(
+        state: S,
         effects: &E,
     ) -> [R; V]
     where
+        T: Robot<B, Q, V>,
         K: Kernel<R>,
-        R: Real,
-        T: Robot<B, Q, V>,
+        S: RobotState<R, Q, V>,
         E: Effect<R, B, V>,
     {
-        let posture = Self::posture_by::<K, R, B, Q, V>(&state.q);
-        Self::run(&posture, &posture, state, effects)
-    }
-
-    /// As [`Engine::rnea`], at a posture whose sines and cosines are at hand.
-    #[inline(never)]
-    pub fn rnea_at<R: Real, E, const B: usize, const Q: usize, const V: usize>(
-        posture: &JointTrig<R, Q>,
-        state: &State<R, Q, V>,
-        effects: &E,
-    ) -> [R; V]
-    where
-        T: Robot<B, Q, V>,
-        E: Effect<R, B, V>,
-    {
-        // Unknown to the compiler, which else spills what it has loaded; gravity alone needs no spills.
-        let back = if const { E::VELOCITY_PRODUCTS | E::ACCELERATIONS } {
-            black_box(posture)
+        let trig = state
+            .configuration()
+            .trig_or(Specialised::<T, K, B, V>(PhantomData));
+        let trig = trig.borrow();
+        // Sines and cosines that come from memory are loaded again on the inward pass: `black_box` hides that it is the
+        // same place, since the compiler would spill them to the stack. Gravity alone needs no spills.
+        let back = if const { S::Configuration::PRECOMPUTED && E::VELOCITY_PRODUCTS | E::ACCELERATIONS }
+        {
+            black_box(trig)
         } else {
-            posture
+            trig
         };
-        Self::run(posture, back, state, effects)
+        Engine::<T>::run(trig, back, state.state(), effects)
     }
+}
 
+/// [`Engine::joint_trig`] of a robot of B bodies and V velocity coordinates.
+struct Specialised<T, K, const B: usize, const V: usize>(PhantomData<(T, K)>);
+
+impl<R: Real, T, K, const B: usize, const Q: usize, const V: usize> TrigSource<R, Q>
+    for Specialised<T, K, B, V>
+where
+    T: Robot<B, Q, V>,
+    K: Kernel<R>,
+{
+    #[inline(always)]
+    fn compute(&self, q: &[R; Q]) -> JointTrig<R, Q> {
+        Engine::<T, K>::joint_trig(q)
+    }
+}
+
+impl<T> Engine<T> {
+    /// The recursion of [`rnea`]; `back` is `trig` as the inward pass loads it.
     #[inline(always)]
     pub(crate) fn run<R: Real, E, const B: usize, const Q: usize, const V: usize>(
-        posture: &JointTrig<R, Q>,
+        trig: &JointTrig<R, Q>,
         back: &JointTrig<R, Q>,
         state: &State<R, Q, V>,
         effects: &E,
@@ -217,7 +199,7 @@ impl<T> Engine<T> {
         let base = base::<R, E, B, V>(effects, length);
         let mut tau = [R::ZERO; V];
         let mut task = Task {
-            turns: &posture.turns,
+            turns: &trig.turns,
             back: &back.turns,
             state,
             effects,

@@ -21,24 +21,24 @@ pub struct JointCoordinate<R> {
 }
 
 impl<R: Real> JointCoordinate<R> {
-    /// The turn by q rad.
+    /// A rotation by q rad.
     #[inline(always)]
     pub fn revolute(q: R) -> Self {
         let (sin, cos) = q.sin_cos();
         Self { q, sin, cos }
     }
 
-    /// The turn by q rad, |q| ≤ 100.
-    #[inline(always)]
-    pub fn revolute_bounded(q: R) -> Self {
-        let (sin, cos) = q.sin_cos_near();
-        Self { q, sin, cos }
-    }
-
-    /// The turn by q rad, its sine and cosine by the kernel K.
+    /// A rotation by q rad, its sine and cosine by the kernel K.
     #[inline(always)]
     pub fn with_kernel<K: Kernel<R>>(q: R) -> Self {
         let (sin, cos) = K::sin_cos(q);
+        Self { q, sin, cos }
+    }
+
+    /// A rotation by q rad, |q| ≤ 100, its sine and cosine by the kernel K.
+    #[inline(always)]
+    pub fn revolute_bounded<K: Kernel<R>>(q: R) -> Self {
+        let (sin, cos) = K::sin_cos_near(q);
         Self { q, sin, cos }
     }
 

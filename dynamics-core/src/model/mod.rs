@@ -144,6 +144,19 @@ pub trait Robot<const B: usize, const Q: usize, const V: usize> {
     const NEGLIGIBLE: f64 = 0.0;
 }
 
+/// A [`Robot`] of N joints of one degree of freedom, one body each: the bound of a function for ordinary arms.
+///
+/// ```
+/// use dynamics_core::{Engine, effects::RIGID_BODY, model::Arm, robots::Ur5e, state::ArmState};
+/// fn torque<T: Arm<N>, const N: usize>(state: &ArmState<f32, N>) -> [f32; N] {
+///     Engine::<T>::rnea(state, &RIGID_BODY)
+/// }
+/// assert!(torque::<Ur5e, 6>(&ArmState::at([0.0; 6]))[1] < -50.0); // N·m
+/// ```
+pub trait Arm<const N: usize>: Robot<N, N, N> {}
+
+impl<T: Robot<N, N, N>, const N: usize> Arm<N> for T {}
+
 /// The model of a robot known at compile time, in the scalar R.
 ///
 /// ```

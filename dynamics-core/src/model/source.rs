@@ -3,14 +3,17 @@
 use core::marker::PhantomData;
 
 use super::{JointKinds, LinkView, Model, ModelError, Robot, model};
-use crate::scalar::Real;
+use crate::scalar::{Native, Real};
 use crate::spatial::{SpatialInertia, Xform};
+use crate::trig::Kernel;
 
 /// A robot of B bodies, Q position and V velocity coordinates, with what is known of it while
 /// compiling: what its joints never do is not in the machine code.
 ///
 /// A [`Model`] is one of which nothing is known; [`Static`] is a [`Robot`] of which all is.
 pub trait RobotModel<R: Real, const B: usize, const Q: usize, const V: usize> {
+    /// What computes its sines and cosines.
+    type Kernel: Kernel<R>;
     /// The kinds of joint that occur.
     const KINDS: JointKinds = JointKinds::ALL;
     /// Every body is known to hang on the one before it.
@@ -52,6 +55,8 @@ pub trait RobotModel<R: Real, const B: usize, const Q: usize, const V: usize> {
 impl<R: Real, const B: usize, const Q: usize, const V: usize> RobotModel<R, B, Q, V>
     for Model<R, B, Q, V>
 {
+    type Kernel = Native;
+
     #[inline(always)]
     fn model(&self) -> &Self {
         self
@@ -76,6 +81,7 @@ pub struct AllRevolute<'a, R: Real, const B: usize, const Q: usize, const V: usi
 impl<R: Real, const B: usize, const Q: usize, const V: usize> RobotModel<R, B, Q, V>
     for AllRevolute<'_, R, B, Q, V>
 {
+    type Kernel = Native;
     const KINDS: JointKinds = JointKinds::REVOLUTE;
     const SINGLE: bool = true;
 
@@ -85,7 +91,7 @@ impl<R: Real, const B: usize, const Q: usize, const V: usize> RobotModel<R, B, Q
     }
 }
 
-/// The robot `T`, known while compiling, as a [`RobotModel`].
+/// The robot `T`, known while compiling, as a [`RobotModel`]; sines and cosines by the kernel `K`.
 ///
 /// ```
 /// use dynamics_core::{algorithms::rnea, effects::RIGID_BODY, model::{Static, Robot}, robots::Ur5e, state::State};
@@ -94,18 +100,21 @@ impl<R: Real, const B: usize, const Q: usize, const V: usize> RobotModel<R, B, Q
 /// assert_eq!(known, rnea(&Ur5e::MODEL, &state, &RIGID_BODY));
 /// ```
 #[derive(Clone, Copy, Debug)]
-pub struct Static<T>(PhantomData<T>);
+pub struct Static<T, K = Native>(PhantomData<(T, K)>);
 
-impl<T> Static<T> {
-    /// The only one there is.
+impl<T, K> Static<T, K> {
+    /// The only value.
     pub const NEW: Self = Self(PhantomData);
 }
 
-impl<R, T, const B: usize, const Q: usize, const V: usize> RobotModel<R, B, Q, V> for Static<T>
+impl<R, T, K, const B: usize, const Q: usize, const V: usize> RobotModel<R, B, Q, V>
+    for Static<T, K>
 where
     R: Real,
     T: Robot<B, Q, V>,
+    K: Kernel<R>,
 {
+    type Kernel = K;
     const KINDS: JointKinds = T::MODEL.kinds();
     const CHAIN: bool = T::MODEL.is_chain();
     const SINGLE: bool = T::MODEL.kinds().are_single() && B == Q && B == V;
@@ -176,6 +185,7 @@ impl<T, R: Real, const B: usize, const Q: usize, const V: usize> RobotModel<R, B
 where
     T: Robot<B, Q, V>,
 {
+    type Kernel = Native;
     const KINDS: JointKinds = T::MODEL.kinds();
     const CHAIN: bool = T::MODEL.is_chain();
     const SINGLE: bool = T::MODEL.kinds().are_single() && B == Q && B == V;

@@ -334,7 +334,7 @@ real!(
     |double, single| double
 );
 
-/// The scalar's own, [`Real::sin_cos`].
+/// The scalar's own kernel, [`Real::sin_cos`]: the default.
 #[derive(Clone, Copy, Debug)]
 pub struct Native;
 
@@ -342,5 +342,9 @@ impl<R: Real> Kernel<R> for Native {
     #[inline(always)]
     fn sin_cos(x: R) -> (R, R) {
         x.sin_cos()
+    }
+    #[inline(always)]
+    fn sin_cos_near(x: R) -> (R, R) {
+        x.sin_cos_near()
     }
 }

@@ -1,7 +1,7 @@
 //! What an integrator needs to know of a robot.
 
 use super::StepIncrement;
-use crate::algorithms::{NotPositiveDefinite, aba, kinetic_energy_at, potential_energy_at};
+use crate::algorithms::{NotPositiveDefinite, aba, kinetic_energy, potential_energy};
 use crate::effects::{Effect, Implicit};
 use crate::model::RobotModel;
 use crate::scalar::Real;
@@ -71,10 +71,10 @@ where
     }
 
     fn energies(&self, at: &State<R, Q, V>) -> (R, R) {
-        let posture = JointTrig::of(self.robot, &at.q);
+        let trig = JointTrig::new(self.robot, &at.q);
         (
-            kinetic_energy_at(self.robot, &posture, at, self.effects),
-            potential_energy_at(self.robot, &posture, self.effects),
+            kinetic_energy(self.robot, trig.with(at), self.effects),
+            potential_energy(self.robot, &trig, self.effects),
         )
     }
 

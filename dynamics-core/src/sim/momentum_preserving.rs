@@ -49,6 +49,6 @@ where
     E: Effect<R, B, V>,
 {
     linearly_implicit(robot, state, tau, effects, h)?;
-    state.qd = base_velocity_from_momentum(robot, state, momentum, effects)?;
+    state.qd = base_velocity_from_momentum(robot, &*state, momentum, effects)?;
     Ok(())
 }

@@ -236,6 +236,12 @@ impl<R: Real> SpatialInertia<R> {
         )
     }
 
+    /// v ×* I v: the force that keeps a body moving with v without acceleration. 102 flops with what is not folded.
+    #[inline(always)]
+    pub fn bias_force(&self, v: Motion<R>) -> Force<R> {
+        self.force(Motion::ZERO, v)
+    }
+
     /// Ī w, reading the upper triangle of Ī. 15 flops.
     #[inline(always)]
     fn turn(&self, w: R::Vec3) -> R::Vec3 {

@@ -1,13 +1,14 @@
 //! The state of a robot, and the sines and cosines of one configuration.
 
+mod configuration;
 mod incremental;
 pub mod manifold;
 
 pub(crate) use crate::math::entry;
+pub use configuration::{Configuration, RobotState, StateWithTrig, TrigSource};
 pub use incremental::Carried;
 
 use crate::model::{JointCoordinate, RobotModel};
-use crate::scalar::Native;
 use crate::scalar::Real;
 use crate::trig::Kernel;
 
@@ -28,6 +29,9 @@ pub struct State<R, const Q: usize, const V: usize> {
     /// Accelerations q̈, rad/s² or m/s².
     pub qdd: [R; V],
 }
+
+/// The state of an arm of N joints of one degree of freedom each.
+pub type ArmState<R, const N: usize> = State<R, N, N>;
 
 impl<R: Real, const Q: usize, const V: usize> State<R, Q, V> {
     /// The state of rest at q.
@@ -54,7 +58,7 @@ pub fn all_finite<R: Real>(values: &[R]) -> bool {
     sum == R::ZERO
 }
 
-/// The configuration of all joints with its sines and cosines: made once a tick, for all users.
+/// The coordinates of all joints with their sines and cosines: computed once a tick, for all algorithms.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JointTrig<R, const Q: usize> {
     /// One entry per position coordinate.
@@ -62,29 +66,31 @@ pub struct JointTrig<R, const Q: usize> {
 }
 
 impl<R: Real, const Q: usize> JointTrig<R, Q> {
-    /// The posture of `robot` at q: a sine and a cosine per angle, quaternions brought to unit length.
+    /// The sines and cosines of `robot` at q, by the robot's kernel; quaternions at unit length.
     ///
-    /// Sines and cosines in f32: absolute error below 1.2·10⁻⁷ while |q| ≤ 10⁴ rad. A quaternion whose
+    /// With the default kernel, in f32: absolute error below 1.2·10⁻⁷ while |q| ≤ 10⁴ rad. A quaternion whose
     /// square is 1 + ε, |ε| < 1/8, comes to unit length within 3ε²/8, any other within rounding; those whose direction
-    /// matters first go through [`crate::state::manifold::normalise`]. The quaternion zero, which has no direction, is taken
-    /// as no turn, so that [`State::at`] of zeros is a robot in place.
+    /// matters first go through [`crate::state::manifold::normalise`]. The quaternion zero, which has no direction, is
+    /// replaced by no rotation, so that [`State::at`] of zeros is a valid state.
     #[inline(always)]
-    pub fn of<D, const B: usize, const V: usize>(robot: &D, q: &[R; Q]) -> Self
+    #[must_use]
+    pub fn new<D, const B: usize, const V: usize>(robot: &D, q: &[R; Q]) -> Self
     where
         D: RobotModel<R, B, Q, V>,
     {
-        Self::by::<Native, D, B, V>(robot, q)
+        Self::with_kernel::<D::Kernel, D, B, V>(robot, q)
     }
 
-    /// As [`JointTrig::of`], sines and cosines by the kernel K.
+    /// The same by the kernel K in place of the robot's own: of a model of run time.
     ///
     /// ```
     /// use dynamics_core::{model::Robot, robots::Ur5e, state::JointTrig, trig::Table};
-    /// let coarse = JointTrig::by::<Table<256, 1>, _, _, _>(&Ur5e::MODEL_F32, &[0.5; 6]);
+    /// let coarse = JointTrig::with_kernel::<Table<256, 1>, _, _, _>(&Ur5e::MODEL_F32, &[0.5; 6]);
     /// assert!((coarse.turns[3].sin - 0.5_f32.sin()).abs() < 1e-4);
     /// ```
     #[inline(always)]
-    pub fn by<K, D, const B: usize, const V: usize>(robot: &D, q: &[R; Q]) -> Self
+    #[must_use]
+    pub fn with_kernel<K, D, const B: usize, const V: usize>(robot: &D, q: &[R; Q]) -> Self
     where
         K: Kernel<R>,
         D: RobotModel<R, B, Q, V>,

@@ -9,8 +9,8 @@
 //! of an encoder makes a wrong torque, not one a million times too large. Of an angle that is infinite or NaN both are NaN,
 //! so that what is computed from them shows it; the control loop's gate refuses such measurements before.
 //!
-//! Less accurate and other ways are types, a [`Kernel`] each, which [`crate::Engine::rnea_by`] and
-//! [`crate::state::JointTrig::by`] take; what each costs and gives is in `docs/accuracy.md` in the repository, and why
+//! Less accurate and other approximations are types, a [`Kernel`] each, and a parameter of [`crate::Engine`] and
+//! [`crate::Core`]: `Engine::<Ur5e, Table<256, 1>>`; what each costs and gives is in `docs/accuracy.md` in the repository, and why
 //! the table is the default in `docs/decisions/0005-sines-from-a-table.md`.
 
 mod minimax;
@@ -31,13 +31,19 @@ pub use table::Table;
 ///     }
 /// }
 /// let state = State { q: [0.1_f32; 6], qd: [0.5; 6], qdd: [1.0; 6] };
-/// let tau = Engine::<Ur5e>::rnea_by::<Coarse, _, _, _, _, _>(&state, &RIGID_BODY);
+/// let tau = Engine::<Ur5e, Coarse>::rnea(&state, &RIGID_BODY);
 /// let all = Engine::<Ur5e>::rnea(&state, &RIGID_BODY);
 /// assert!(tau.iter().zip(all).all(|(a, b)| (a - b).abs() < 1e-3 * 100.0));
 /// ```
 pub trait Kernel<R> {
     /// (sin x, cos x) of x in rad.
     fn sin_cos(x: R) -> (R, R);
+
+    /// (sin x, cos x) of x in rad, |x| ≤ 100: [`crate::Engine`] takes it for joints whose limits lie within ±4π.
+    #[inline(always)]
+    fn sin_cos_near(x: R) -> (R, R) {
+        Self::sin_cos(x)
+    }
 }
 
 /// The rest r of a reduction, or nothing if that was not `inside` its range: 0 of a finite x, NaN of others.

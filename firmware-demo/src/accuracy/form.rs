@@ -3,7 +3,7 @@
 use dynamics_core::effects::Effect;
 use dynamics_core::model::Robot;
 use dynamics_core::scalar::Real;
-use dynamics_core::state::{JointTrig, State};
+use dynamics_core::state::{RobotState, State};
 use dynamics_core::trig::Kernel;
 use dynamics_core::{Core, Engine};
 
@@ -14,19 +14,22 @@ pub trait Form<T> {
     /// The name of its own kernel in f32.
     const TRIG: &'static str;
 
-    /// ID(q, q̇, q̈) as the library ships it.
-    fn rnea<R: Real, E: Effect<R, B, N>, const B: usize, const N: usize>()
-    -> fn(&State<R, N, N>, &E) -> [R; N]
+    /// The address of ID(q, q̇, q̈) by a kernel of the scalar.
+    fn address<K: Kernel<R>, R: Real, E: Effect<R, B, N>, const B: usize, const N: usize>() -> usize
     where
         T: Robot<B, N, N>;
-    /// The same by a kernel.
-    fn rnea_by<K: Kernel<f32>, E: Effect<f32, B, N>, const B: usize, const N: usize>()
-    -> fn(&State<f32, N, N>, &E) -> [f32; N]
-    where
-        T: Robot<B, N, N>;
-    /// The same with sines and cosines at hand.
-    fn rnea_at<E: Effect<f32, B, N>, const B: usize, const N: usize>()
-    -> fn(&JointTrig<f32, N>, &State<f32, N, N>, &E) -> [f32; N]
+    /// ID(q, q̇, q̈) by a kernel.
+    fn rnea<
+        K: Kernel<R>,
+        R: Real,
+        E: Effect<R, B, N>,
+        S: RobotState<R, N, N>,
+        const B: usize,
+        const N: usize,
+    >(
+        state: S,
+        effects: &E,
+    ) -> [R; N]
     where
         T: Robot<B, N, N>;
 }
@@ -37,31 +40,30 @@ macro_rules! form {
             const NAME: &'static str = $name;
             const TRIG: &'static str = $trig;
 
-            #[inline(always)]
-            fn rnea<R: Real, E: Effect<R, B, N>, const B: usize, const N: usize>()
-            -> fn(&State<R, N, N>, &E) -> [R; N]
+            fn address<K: Kernel<R>, R: Real, E: Effect<R, B, N>, const B: usize, const N: usize>()
+            -> usize
             where
                 T: Robot<B, N, N>,
             {
-                Self::rnea
+                $form::<T, K>::rnea as fn(&'static State<R, N, N>, &E) -> [R; N] as usize
             }
 
             #[inline(always)]
-            fn rnea_by<K: Kernel<f32>, E: Effect<f32, B, N>, const B: usize, const N: usize>()
-            -> fn(&State<f32, N, N>, &E) -> [f32; N]
+            fn rnea<
+                K: Kernel<R>,
+                R: Real,
+                E: Effect<R, B, N>,
+                S: RobotState<R, N, N>,
+                const B: usize,
+                const N: usize,
+            >(
+                state: S,
+                effects: &E,
+            ) -> [R; N]
             where
                 T: Robot<B, N, N>,
             {
-                Self::rnea_by::<K, f32, E, B, N, N>
-            }
-
-            #[inline(always)]
-            fn rnea_at<E: Effect<f32, B, N>, const B: usize, const N: usize>()
-            -> fn(&JointTrig<f32, N>, &State<f32, N, N>, &E) -> [f32; N]
-            where
-                T: Robot<B, N, N>,
-            {
-                Self::rnea_at
+                $form::<T, K>::rnea(state, effects)
             }
         }
     };

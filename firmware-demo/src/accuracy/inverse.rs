@@ -4,6 +4,7 @@ use core::marker::PhantomData;
 
 use dynamics_core::Engine;
 use dynamics_core::drivetrain::ElasticReference;
+use dynamics_core::scalar::Native;
 use dynamics_core::state::Carried;
 use dynamics_core::state::State;
 
@@ -56,13 +57,13 @@ where
     }
     #[inline(always)]
     fn tick(&mut self, state: &Self::Input) -> [f32; N] {
-        F::rnea()(state, &M::SCENE)
+        F::rnea::<Native, _, _, _, _, _>(state, &M::SCENE)
     }
     fn torque(output: &[f32; N]) -> [f64; N] {
         widened(output)
     }
     fn address() -> usize {
-        F::rnea::<f32, M::Scene, B, N>() as usize
+        F::address::<Native, f32, M::Scene, B, N>()
     }
 }
 
@@ -87,13 +88,13 @@ where
     }
     #[inline(always)]
     fn tick(&mut self, state: &Self::Input) -> [f32; N] {
-        F::rnea_by::<K, M::Scene, B, N>()(state, &M::SCENE)
+        F::rnea::<K, _, _, _, _, _>(state, &M::SCENE)
     }
     fn torque(output: &[f32; N]) -> [f64; N] {
         widened(output)
     }
     fn address() -> usize {
-        F::rnea_by::<K, M::Scene, B, N>() as usize
+        F::address::<K, f32, M::Scene, B, N>()
     }
 }
 
@@ -115,8 +116,8 @@ where
     }
     #[inline(never)]
     fn tick(&mut self, state: &Self::Input) -> [f32; N] {
-        let posture = Engine::<M::Robot>::posture_by::<K, f32, B, N, N>(&state.q);
-        F::rnea_at()(&posture, state, &M::SCENE)
+        let trig = Engine::<M::Robot, K>::joint_trig(&state.q);
+        F::rnea::<Native, _, _, _, _, _>(trig.with(state), &M::SCENE)
     }
     fn torque(output: &[f32; N]) -> [f64; N] {
         widened(output)
@@ -147,7 +148,7 @@ where
     }
     #[inline(never)]
     fn tick(&mut self, state: &Self::Input) -> [f32; N] {
-        F::rnea_at()(self.0.follow(&state.q), state, &M::SCENE)
+        F::rnea::<Native, _, _, _, _, _>(self.0.follow(&state.q).with(state), &M::SCENE)
     }
     fn torque(output: &[f32; N]) -> [f64; N] {
         widened(output)

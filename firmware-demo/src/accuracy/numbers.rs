@@ -4,7 +4,7 @@ use core::marker::PhantomData;
 
 use dynamics_core::drivetrain::ElasticReference;
 use dynamics_core::effects::Effect;
-use dynamics_core::scalar::{Compensated, Fixed, HalfTurns, Real};
+use dynamics_core::scalar::{Compensated, Fixed, HalfTurns, Native, Real};
 use dynamics_core::state::{JointTrig, State};
 use dynamics_core::{Core, Engine};
 
@@ -69,13 +69,13 @@ where
     }
     #[inline(always)]
     fn tick(&mut self, state: &Self::Input) -> [R; N] {
-        F::rnea()(state, &M::SCENE)
+        F::rnea::<Native, _, _, _, _, _>(state, &M::SCENE)
     }
     fn torque(output: &[R; N]) -> [f64; N] {
         output.map(R::to_f64)
     }
     fn address() -> usize {
-        F::rnea::<R, M::Scene, B, N>() as usize
+        F::address::<Native, R, M::Scene, B, N>()
     }
 }
 
@@ -117,9 +117,8 @@ where
     }
     #[inline(never)]
     fn tick(&mut self, state: &Self::Input) -> [Fixed; N] {
-        let posture: JointTrig<Fixed, N> =
-            Engine::<InUnits<T>>::posture_by::<HalfTurns, Fixed, B, N, N>(&state.q);
-        Core::<InUnits<T>>::rnea_at(&posture, state, &M::IN_UNITS)
+        let trig: JointTrig<Fixed, N> = Engine::<InUnits<T>, HalfTurns>::joint_trig(&state.q);
+        Core::<InUnits<T>>::rnea(trig.with(state), &M::IN_UNITS)
     }
     fn torque(output: &[Fixed; N]) -> [f64; N] {
         let unit = const { Units::of(&T::MODEL).torque() };

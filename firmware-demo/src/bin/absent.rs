@@ -29,7 +29,7 @@ const COULOMB: Coulomb<f32, 6> = Coulomb {
 };
 const ROTORS: Armature<f32, 6> = Armature([0.9, 0.9, 0.9, 0.25, 0.25, 0.25]);
 
-type Rnea<E> = fn(&State<f32, 6, 6>, &E) -> [f32; 6];
+type Rnea<'a, E> = fn(&'a State<f32, 6, 6>, &E) -> [f32; 6];
 
 #[entry]
 fn main() -> ! {
@@ -57,7 +57,7 @@ fn friction(state: &State<f32, 6, 6>) -> [f32; 6] {
 
 /// Measures inverse dynamics in both forms, effects at an address.
 fn both<E: Effect<f32, 6, 6>>(inputs: &'static str, asks: &[Ask<6>; STATES], effects: &E) {
-    let forms: [(&str, Rnea<E>); 2] = [
+    let forms: [(&str, Rnea<'_, E>); 2] = [
         ("core", Core::<Ur5e>::rnea),
         ("engine", Engine::<Ur5e>::rnea),
     ];

@@ -12,5 +12,5 @@ use forward::Forms;
 
 #[entry]
 fn main() -> ! {
-    forward::run::<A1, 16, 12>(&[Forms::core::<A1, 16>()])
+    forward::run::<A1, 16, 12>(&costs::asks::<A1, 16, 12>(), &[Forms::core::<A1, 16>()])
 }

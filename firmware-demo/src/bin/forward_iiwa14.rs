@@ -14,8 +14,11 @@ use forward::Forms;
 
 #[entry]
 fn main() -> ! {
-    forward::run::<Iiwa14, 7, 7>(&[
-        Forms::core::<Iiwa14, 7>(),
-        engine::engine::<Iiwa14, 7, 7, 6>(),
-    ])
+    forward::run::<Iiwa14, 7, 7>(
+        &costs::asks::<Iiwa14, 7, 7>(),
+        &[
+            Forms::core::<Iiwa14, 7>(),
+            engine::engine::<Iiwa14, 7, 7, 6>(),
+        ],
+    )
 }

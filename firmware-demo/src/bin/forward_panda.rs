@@ -14,8 +14,11 @@ use forward::Forms;
 
 #[entry]
 fn main() -> ! {
-    forward::run::<Panda, 7, 7>(&[
-        Forms::core::<Panda, 7>(),
-        engine::engine::<Panda, 7, 7, 6>(),
-    ])
+    forward::run::<Panda, 7, 7>(
+        &costs::asks::<Panda, 7, 7>(),
+        &[
+            Forms::core::<Panda, 7>(),
+            engine::engine::<Panda, 7, 7, 6>(),
+        ],
+    )
 }

@@ -14,5 +14,8 @@ use forward::Forms;
 
 #[entry]
 fn main() -> ! {
-    forward::run::<Ur5e, 6, 6>(&[Forms::core::<Ur5e, 6>(), engine::engine::<Ur5e, 6, 6, 5>()])
+    forward::run::<Ur5e, 6, 6>(
+        &costs::asks::<Ur5e, 6, 6>(),
+        &[Forms::core::<Ur5e, 6>(), engine::engine::<Ur5e, 6, 6, 5>()],
+    )
 }

@@ -11,9 +11,7 @@ use core::hint::black_box;
 use cortex_m_rt::entry;
 use cortex_m_semihosting::debug;
 use dynamics_core::MassMatrix;
-use dynamics_core::algorithms::{
-    NotPositiveDefinite, aba_at, crba_at, forward_dynamics_at, ltdl, rnea_at, solve,
-};
+use dynamics_core::algorithms::{self, NotPositiveDefinite, ltdl, solve};
 use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::model::{ArmModel, BASE, Body, Joint, Robot};
 use dynamics_core::state::{JointTrig, State};
@@ -59,15 +57,15 @@ type Solution<const N: usize> = Result<[f32; N], NotPositiveDefinite>;
 #[inline(never)]
 fn rnea<const N: usize>(
     model: Known<N>,
-    posture: &JointTrig<f32, N>,
+    trig: &JointTrig<f32, N>,
     state: &State<f32, N, N>,
 ) -> [f32; N] {
-    rnea_at(model, posture, state, &RIGID_BODY)
+    algorithms::rnea(model, trig.with(state), &RIGID_BODY)
 }
 
 #[inline(never)]
-fn crba<const N: usize>(model: Known<N>, posture: &JointTrig<f32, N>) -> MassMatrix<f32, N> {
-    crba_at(model, posture, &RIGID_BODY)
+fn crba<const N: usize>(model: Known<N>, trig: &JointTrig<f32, N>) -> MassMatrix<f32, N> {
+    algorithms::crba(model, trig, &RIGID_BODY)
 }
 
 #[inline(never)]
@@ -82,19 +80,19 @@ fn factor_solve<const N: usize>(
 #[inline(never)]
 fn forward<const N: usize>(
     model: Known<N>,
-    posture: &JointTrig<f32, N>,
+    trig: &JointTrig<f32, N>,
     state: &State<f32, N, N>,
 ) -> Solution<N> {
-    forward_dynamics_at(model, posture, state, &state.qdd, &RIGID_BODY)
+    algorithms::forward_dynamics(model, trig.with(state), &state.qdd, &RIGID_BODY)
 }
 
 #[inline(never)]
 fn aba<const N: usize>(
     model: Known<N>,
-    posture: &JointTrig<f32, N>,
+    trig: &JointTrig<f32, N>,
     state: &State<f32, N, N>,
 ) -> Solution<N> {
-    aba_at(model, posture, state, &state.qdd, &RIGID_BODY)
+    algorithms::aba(model, trig.with(state), &state.qdd, &RIGID_BODY)
 }
 
 /// Measures every algorithm on a chain of N.
@@ -117,19 +115,17 @@ fn chain<const N: usize>() {
             qd: [0.4 * angle; N],
             qdd: [1.0; N],
         };
-        (JointTrig::of(model, &q), state)
+        (JointTrig::new(model, &q), state)
     });
     let asks: &[_; STATES] = &asks;
     row("rnea").measure(
         rnea::<N> as fn(_, &_, &_) -> _ as usize,
         asks,
-        |(posture, state)| rnea(model, posture, state),
+        |(trig, state)| rnea(model, trig, state),
     );
-    row("crba").measure(
-        crba::<N> as fn(_, &_) -> _ as usize,
-        asks,
-        |(posture, _)| crba(model, posture),
-    );
+    row("crba").measure(crba::<N> as fn(_, &_) -> _ as usize, asks, |(trig, _)| {
+        crba(model, trig)
+    });
     let m = [crba(model, &asks[0].0)];
     row("factor_solve").measure(factor_solve::<N> as fn(_, &_, &_) -> _ as usize, &m, |m| {
         factor_solve(model, m, &[1.0; N])
@@ -137,12 +133,12 @@ fn chain<const N: usize>() {
     row("forward").measure(
         forward::<N> as fn(_, &_, &_) -> _ as usize,
         asks,
-        |(posture, state)| forward(model, posture, state),
+        |(trig, state)| forward(model, trig, state),
     );
     row("aba").measure(
         aba::<N> as fn(_, &_, &_) -> _ as usize,
         asks,
-        |(posture, state)| aba(model, posture, state),
+        |(trig, state)| aba(model, trig, state),
     );
 }
 

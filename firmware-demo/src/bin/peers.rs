@@ -11,7 +11,7 @@ use dynamics_core::algorithms::NotPositiveDefinite;
 use dynamics_core::effects::{Coriolis, Effect, Gravity, Inertia, RIGID_BODY};
 use dynamics_core::model::{JointCoordinate, Robot};
 use dynamics_core::robots::{A1, Iiwa14, Panda, Ur5e};
-use dynamics_core::state::{JointTrig, State};
+use dynamics_core::state::{JointTrig, State, StateWithTrig};
 use dynamics_core::{Core, Engine, MassMatrix};
 use firmware_demo::{marker::measured, scene::larger, target};
 
@@ -19,10 +19,10 @@ use firmware_demo::{marker::measured, scene::larger, target};
 type C = unsafe extern "C" fn(*const f32, *const f32, *const f32, *const f32, *mut f32);
 type Scene = (Gravity, Inertia, Coriolis);
 /// What ours take.
-type Inverse<E, const N: usize> = fn(&JointTrig<f32, N>, &State<f32, N, N>, &E) -> [f32; N];
+type Inverse<'a, E, const N: usize> = fn(StateWithTrig<'a, f32, N, N>, &E) -> [f32; N];
 type Matrix<const N: usize> = fn(&JointTrig<f32, N>, &Scene) -> MassMatrix<f32, N>;
-type Forward<const N: usize> =
-    fn(&JointTrig<f32, N>, &State<f32, N, N>, &[f32; N], &Scene) -> Solution<N>;
+type Forward<'a, const N: usize> =
+    fn(StateWithTrig<'a, f32, N, N>, &[f32; N], &Scene) -> Solution<N>;
 type Solution<const N: usize> = Result<[f32; N], NotPositiveDefinite>;
 /// A form's name and function.
 type Form<F> = (&'static str, F);
@@ -55,32 +55,40 @@ fn main() -> ! {
 
 /// Everything of a robot.
 fn robot<T: Robot<B, N, N>, const B: usize, const N: usize>() {
-    inverse::<T, B, N>();
-    crba::<T, B, N>(&[
-        ("core", Core::<T>::crba_at),
-        ("engine", Engine::<T>::crba_at),
-    ]);
-    forward::<T, B, N>(&[
-        ("core", Core::<T>::aba_at),
-        ("engine", Engine::<T>::forward_dynamics_at),
-    ]);
+    let asks = &asks::<T, B, N>();
+    inverse::<T, B, N>(asks);
+    crba::<T, B, N>(
+        asks,
+        &[("core", Core::<T>::crba), ("engine", Engine::<T>::crba)],
+    );
+    forward::<T, B, N>(
+        asks,
+        &[
+            ("core", Core::<T>::aba),
+            ("engine", Engine::<T>::forward_dynamics),
+        ],
+    );
 }
 
 /// The same of a robot of which only inverse dynamics is specialised here.
 fn tree<T: Robot<B, N, N>, const B: usize, const N: usize>() {
-    inverse::<T, B, N>();
-    crba::<T, B, N>(&[("core", Core::<T>::crba_at)]);
-    forward::<T, B, N>(&[("core", Core::<T>::aba_at)]);
+    let asks = &asks::<T, B, N>();
+    inverse::<T, B, N>(asks);
+    crba::<T, B, N>(asks, &[("core", Core::<T>::crba)]);
+    forward::<T, B, N>(asks, &[("core", Core::<T>::aba)]);
 }
 
-fn inverse<T: Robot<B, N, N>, const B: usize, const N: usize>() {
-    under::<T, _, B, N>("rnea", &RIGID_BODY);
-    under::<T, _, B, N>("bias", &(Gravity::EARTH, Coriolis));
-    under::<T, _, B, N>("gravity", &(Gravity::EARTH,));
+fn inverse<T: Robot<B, N, N>, const B: usize, const N: usize>(asks: &Asks<N>) {
+    under::<T, _, B, N>(asks, "rnea", &RIGID_BODY);
+    under::<T, _, B, N>(asks, "bias", &(Gravity::EARTH, Coriolis));
+    under::<T, _, B, N>(asks, "gravity", &(Gravity::EARTH,));
 }
 
-fn crba<T: Robot<B, N, N>, const B: usize, const N: usize>(forms: &[Form<Matrix<N>>]) {
-    let run = |run: Matrix<N>, posture: &_, _: &_| run(posture, &RIGID_BODY);
+fn crba<T: Robot<B, N, N>, const B: usize, const N: usize>(
+    asks: &Asks<N>,
+    forms: &[Form<Matrix<N>>],
+) {
+    let run = |run: Matrix<N>, trig: &_, _: &_| run(trig, &RIGID_BODY);
     let triangle = |m: MassMatrix<f32, N>, out: &mut [f32; MOST]| {
         let entries = (0..N).flat_map(|i| (i..N).map(move |j| (i, j)));
         for (out, (i, j)) in core::iter::zip(out, entries) {
@@ -88,29 +96,34 @@ fn crba<T: Robot<B, N, N>, const B: usize, const N: usize>(forms: &[Form<Matrix<
         }
         N * (N + 1) / 2
     };
-    compare::<T, _, _, B, N>("crba", forms, |run| run as usize, run, triangle);
+    compare::<T, _, _, B, N>(asks, "crba", forms, |run| run as usize, run, triangle);
 }
 
 /// Forward dynamics; the torque stands in the place of q̈.
-fn forward<T: Robot<B, N, N>, const B: usize, const N: usize>(forms: &[Form<Forward<N>>]) {
-    let run = |run: Forward<N>, posture: &_, state: &State<f32, N, N>| {
-        run(posture, state, &state.qdd, &RIGID_BODY)
+fn forward<'a, T: Robot<B, N, N>, const B: usize, const N: usize>(
+    asks: &'a Asks<N>,
+    forms: &[Form<Forward<'a, N>>],
+) {
+    let run = |run: Forward<'a, N>, trig: &'a JointTrig<f32, N>, state: &'a State<f32, N, N>| {
+        run(trig.with(state), &state.qdd, &RIGID_BODY)
     };
     let flat = |qdd: Solution<N>, out: &mut _| write(&qdd.unwrap_or([f32::NAN; N]), out);
-    compare::<T, _, _, B, N>("aba", forms, |run| run as usize, run, flat);
+    compare::<T, _, _, B, N>(asks, "aba", forms, |run| run as usize, run, flat);
 }
 
 /// Inverse dynamics under `effects`.
-fn under<T: Robot<B, N, N>, E: Effect<f32, B, N>, const B: usize, const N: usize>(
+fn under<'a, T: Robot<B, N, N>, E: Effect<f32, B, N>, const B: usize, const N: usize>(
+    asks: &'a Asks<N>,
     algorithm: &'static str,
     effects: &E,
 ) {
-    let forms: [Form<Inverse<E, N>>; 2] = [
-        ("core", Core::<T>::rnea_at),
-        ("engine", Engine::<T>::rnea_at),
-    ];
-    let run = |run: Inverse<E, N>, posture: &_, state: &_| run(posture, state, effects);
+    let forms: [Form<Inverse<'a, E, N>>; 2] =
+        [("core", Core::<T>::rnea), ("engine", Engine::<T>::rnea)];
+    let run = |run: Inverse<'a, E, N>, trig: &'a JointTrig<f32, N>, state: &'a State<f32, N, N>| {
+        run(trig.with(state), effects)
+    };
     compare::<T, _, _, B, N>(
+        asks,
         algorithm,
         &forms,
         |run| run as usize,
@@ -138,15 +151,15 @@ fn write(numbers: &[f32], out: &mut [f32; MOST]) -> usize {
 
 /// An algorithm: ours in their forms, the first of which is what the others are held against, then each
 /// build of the C.
-fn compare<T: Robot<B, N, N>, F: Copy, O, const B: usize, const N: usize>(
+fn compare<'a, T: Robot<B, N, N>, F: Copy, O, const B: usize, const N: usize>(
+    asks: &'a Asks<N>,
     algorithm: &'static str,
     forms: &[Form<F>],
     address: impl Fn(F) -> usize,
-    call: impl Fn(F, &JointTrig<f32, N>, &State<f32, N, N>) -> O,
+    call: impl Fn(F, &'a JointTrig<f32, N>, &'a State<f32, N, N>) -> O,
     flat: impl Fn(O, &mut [f32; MOST]) -> usize,
 ) {
     let name = T::MODEL.name;
-    let states = states::<N>();
     let numbers = |found| {
         let mut out = [0.0; MOST];
         let count = flat(found, &mut out);
@@ -155,19 +168,17 @@ fn compare<T: Robot<B, N, N>, F: Copy, O, const B: usize, const N: usize>(
     let Some(&(_, textbook)) = forms.first() else {
         return;
     };
-    let expected = states.each_ref().map(|state| {
-        let posture = Core::<T>::posture(&state.q);
-        numbers(call(textbook, &posture, state))
-    });
+    let expected = asks
+        .each_ref()
+        .map(|(trig, state)| numbers(call(textbook, trig, state)));
     let scale = expected.iter().flat_map(Numbers::all);
     let scale = scale.fold(0.0, |scale, x| f32::max(scale, x.abs()));
     for &(form, run) in forms {
         let mut error = 0.0;
-        for (state, expected) in core::iter::zip(&states, &expected) {
-            let posture = black_box(Core::<T>::posture(&state.q));
+        for (asked, expected) in core::iter::zip(asks, &expected) {
             // Made opaque outside, as the peers' arguments are.
-            let asked = black_box(state);
-            let found = numbers(black_box(measured::<0, _>(|| call(run, &posture, asked))));
+            let (trig, state) = black_box(asked);
+            let found = numbers(black_box(measured::<0, _>(|| call(run, trig, state))));
             error = larger(error, worst(found.all(), expected.all()));
         }
         report(name, algorithm, form, address(run), error / scale);
@@ -177,7 +188,7 @@ fn compare<T: Robot<B, N, N>, F: Copy, O, const B: usize, const N: usize>(
         .filter(|peer| (peer.robot, peer.algorithm) == (name, algorithm))
     {
         let mut error = 0.0;
-        for (state, expected) in core::iter::zip(&states, &expected) {
+        for ((_, state), expected) in core::iter::zip(asks, &expected) {
             let out = casadi(peer, state);
             error = larger(error, worst(&out, expected.all()));
         }
@@ -225,16 +236,22 @@ fn worst(found: &[f32], expected: &[f32]) -> f32 {
     core::iter::zip(found, expected).fold(0.0, |worst, (a, b)| larger(worst, (a - b).abs()))
 }
 
+/// States, each with its sines and cosines.
+type Asks<const N: usize> = [(JointTrig<f32, N>, State<f32, N, N>); STATES];
+
 /// Some states within the joints' usual ranges.
-fn states<const N: usize>() -> [State<f32, N, N>; STATES] {
+fn asks<T: Robot<B, N, N>, const B: usize, const N: usize>() -> Asks<N> {
     let mut seed = 1_u32;
     let mut number = |bound: f32| {
         seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
         (seed >> 8) as f32 * (2.0 * bound / 16_777_216.0) - bound
     };
-    [(); STATES].map(|()| State {
-        q: [(); N].map(|()| number(3.0)),
-        qd: [(); N].map(|()| number(3.0)),
-        qdd: [(); N].map(|()| number(10.0)),
+    [(); STATES].map(|()| {
+        let state = State {
+            q: [(); N].map(|()| number(3.0)),
+            qd: [(); N].map(|()| number(3.0)),
+            qdd: [(); N].map(|()| number(10.0)),
+        };
+        (Core::<T>::joint_trig(&state.q), state)
     })
 }

@@ -155,7 +155,7 @@ fn mobility_by_bodies<R: Real, const N: usize>(
     q: &[R; N],
     scene: &Scene<R, N>,
 ) -> Result<[[R; 3]; 3], NotPositiveDefinite> {
-    Ok(osim_inverse(arm, q, N - 1, frame::Body, scene)?.along(&axes()))
+    Ok(osim_inverse(arm, q, N - 1, frame::Local, scene)?.along(&axes()))
 }
 
 #[inline(never)]
@@ -165,6 +165,6 @@ fn mobility_by_matrix<R: Real, const N: usize>(
     scene: &Scene<R, N>,
 ) -> Result<[[R; 3]; 3], NotPositiveDefinite> {
     let damping = Damping::relative(R::ZERO);
-    let body = (N - 1, frame::Body);
+    let body = (N - 1, frame::Local);
     Ok(operational_space(arm, q, body, &axes(), scene, damping)?.mobility)
 }

@@ -77,20 +77,20 @@ impl Scene<7, 13, 12, 6> for ReachOut {
         effects: &E,
     ) -> [f32; 6] {
         let state = SpaceArm::floating(reference);
-        let posture = Core::<SpaceArm>::posture(&state.q);
+        let trig = Core::<SpaceArm>::joint_trig(&state.q);
         let mut given = [Prescribed::Torque(0.0); 12];
         for (given, &qdd) in given.iter_mut().zip(&state.qdd).skip(6) {
             *given = Prescribed::Acceleration(qdd);
         }
-        let recoiling = if E::VELOCITY_PRODUCTS {
-            Core::<SpaceArm>::base_velocity_from_momentum_at(&posture, &state, Force::ZERO, &())
+        let rates = if E::VELOCITY_PRODUCTS {
+            Core::<SpaceArm>::base_velocity_from_momentum(trig.with(&state), Force::ZERO, &())
         } else {
             Ok(state.qd)
         };
-        recoiling
+        rates
             .and_then(|qd| {
                 let state = State { qd, ..state };
-                Core::<SpaceArm>::hybrid_dynamics_at(&posture, &state, &given, effects)
+                Core::<SpaceArm>::hybrid_dynamics(trig.with(&state), &given, effects)
             })
             // Only what is not a number has no solution: the gate stops it.
             .map_or([f32::NAN; 6], |response| last(&response.tau))

@@ -12,9 +12,10 @@
 //! clearance. Thigh (at α) and calf (at −α) are equally long, so that the foot stays below the hip, and the centre
 //! is above it by c + r cos(α − φ): the inverse kinematics is an arc cosine.
 
-use dynamics_core::Core;
+use dynamics_core::algorithms::center_of_mass;
 use dynamics_core::control::Reference;
 use dynamics_core::effects::Contact;
+use dynamics_core::model::Static;
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
 use dynamics_core::trig::sin_cos_near;
@@ -81,8 +82,11 @@ impl Hop {
     pub fn new(course: &ElasticReference, ground: &Contact<f32, 1>, gravity: f32) -> Self {
         // The centre above the foot with the leg straight down and straight ahead tells the rest.
         let above_foot = |alpha: f32| {
-            let centre =
-                Core::<Leg>::center_of_mass(&State::at([0.0, 0.0, alpha, -2.0 * alpha]), &());
+            let centre = center_of_mass(
+                &Static::<Leg>::NEW,
+                &State::at([0.0, 0.0, alpha, -2.0 * alpha]),
+                &(),
+            );
             let (_, cos) = sin_cos_near(alpha);
             (centre.mass, centre.position.z + 2.0 * Leg::LIMB * cos)
         };

@@ -113,9 +113,9 @@ fn errors<R: Real>(arm: &ArmModel<R, 2>, offset: f64) -> [f64; 5] {
             worst[2] = larger(worst[2], off(by_bodies[i], qdd[i], largest[i] / inertia[i]));
         }
         let truth = [[1.0 / MASS, 0.0], [0.0, r * r / inertia[0]]];
-        let bodies = osim_inverse(arm, &state.q, 1, frame::Body, &scene).expect("M > 0");
+        let bodies = osim_inverse(arm, &state.q, 1, frame::Local, &scene).expect("M > 0");
         let damping = Damping::relative(R::ZERO);
-        let task = operational_space(arm, &state.q, (1, frame::Body), &across, &scene, damping);
+        let task = operational_space(arm, &state.q, (1, frame::Local), &across, &scene, damping);
         for (k, found) in [bodies.along(&across), task.expect("M > 0").mobility]
             .iter()
             .enumerate()

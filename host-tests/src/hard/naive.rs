@@ -56,13 +56,13 @@ pub fn absolute<R: Real, const N: usize>(
     state: &State<R, N, N>,
     g: R::Vec3,
 ) -> [R; N] {
-    let posture = JointTrig::of(arm, &state.q);
+    let trig = JointTrig::new(arm, &state.q);
     let (mut v, mut a) = (Motion::ZERO, Motion::new(R::Vec3::ZERO, -g));
     let mut x = Xform::IDENTITY;
     let (mut axes, mut forces) = ([Motion::ZERO; N], [Force::ZERO; N]);
     for i in 0..N {
         let link = dynamics_core::model::RobotModel::link(arm, i).expect("a chain");
-        x = link.xform(&posture.turns) * x;
+        x = link.xform(&trig.turns) * x;
         let along = x.rot.transpose_mul(R::Vec3::new(R::ZERO, R::ZERO, R::ONE));
         let axis = Motion::new(along, x.pos.cross(along));
         v += axis * state.qd[i];

@@ -54,7 +54,7 @@ fn a_cable_drags_in_the_core_as_a_wrench_of_the_same_size() {
     for _ in 0..100 {
         let [q, qd, qdd] = [3.0, 3.0, 10.0].map(|bound| within::<6>(rng, bound));
         let state = State { q, qd, qdd };
-        let v = kinematics(&Ur5e::MODEL, &state, &()).velocity(3, frame::Body);
+        let v = kinematics(&Ur5e::MODEL, &state, &()).velocity(3, frame::Local);
         let f = (v.lin + v.ang.cross(cable.point)) * -7.0;
         let same = BodyWrench {
             body: 3,

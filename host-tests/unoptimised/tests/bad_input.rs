@@ -51,19 +51,19 @@ fn slides_come_from_the_posture_in_core_and_engine_alike() {
         q: [0.0; 3],
         ..there
     };
-    let posture = Engine::<Quill>::posture(&there.q);
+    let trig = Engine::<Quill>::joint_trig(&there.q);
     let tau = Core::<Quill>::rnea(&there, &RIGID_BODY);
     assert!(same(
-        Core::<Quill>::rnea_at(&posture, &elsewhere, &RIGID_BODY),
+        Core::<Quill>::rnea(trig.with(&elsewhere), &RIGID_BODY),
         tau
     ));
     assert!(same(
-        Engine::<Quill>::rnea_at(&posture, &elsewhere, &RIGID_BODY),
+        Engine::<Quill>::rnea(trig.with(&elsewhere), &RIGID_BODY),
         tau
     ));
     let forward =
-        Engine::<Quill>::forward_dynamics_at(&posture, &elsewhere, &tau, &RIGID_BODY).unwrap();
-    let articulated = Engine::<Quill>::aba_at(&posture, &elsewhere, &tau, &RIGID_BODY).unwrap();
+        Engine::<Quill>::forward_dynamics(trig.with(&elsewhere), &tau, &RIGID_BODY).unwrap();
+    let articulated = Engine::<Quill>::aba(trig.with(&elsewhere), &tau, &RIGID_BODY).unwrap();
     assert!(same(forward, there.qdd) && same(articulated, there.qdd));
 }
 

@@ -20,8 +20,6 @@ pub struct Parts<'a> {
     /// Its type.
     pub robot: String,
     pub joints: usize,
-    /// As const parameters: bodies, coordinates, speeds.
-    pub shape: String,
     pub scalar: &'static str,
     /// `Engine` or `Core`.
     pub form: &'static str,
@@ -105,7 +103,6 @@ impl Parts<'_> {
         Ok(Self {
             robot,
             joints,
-            shape: format!("{bodies}, {joints}, {joints}"),
             scalar,
             form,
             effects,
@@ -130,14 +127,11 @@ impl Parts<'_> {
             robot,
             form,
             effects,
-            shape,
             ..
         } = self;
         match self.kernel {
             None => format!("{form}::<{robot}>::rnea({state}, &{effects})"),
-            Some(kernel) => format!(
-                "{form}::<{robot}>::rnea_by::<{kernel}, f32, _, {shape}>({state}, &{effects})"
-            ),
+            Some(kernel) => format!("{form}::<{robot}, {kernel}>::rnea({state}, &{effects})"),
         }
     }
 }

@@ -89,7 +89,7 @@ fn carried(parts: &Parts<'_>) -> String {
         &format!("    carried: Carried<f32, {joints}>,\n"),
         "            carried: Carried::at(first.q),\n",
         &format!(
-            "        {form}::<{robot}>::rnea_at(self.carried.follow(&state.q), state, &{effects})\n"
+            "        {form}::<{robot}>::rnea(self.carried.follow(&state.q).with(state), &{effects})\n"
         ),
     )
 }
@@ -139,7 +139,6 @@ fn linearised(parts: &mut Parts<'_>, rate: &str) -> String {
         robot,
         effects,
         joints,
-        shape,
         ..
     } = parts;
     let kernel = match parts.kernel {
@@ -152,9 +151,9 @@ fn linearised(parts: &mut Parts<'_>, rate: &str) -> String {
     let fields = format!("    between: InertiaUpdate<f32, {joints}, {rate}>,\n    wait: usize,\n");
     let tick = format!(
         "{WAIT}&state.qdd);\n        }}\n        self.wait = {rate} - 1;\n        \
-         let posture = Engine::<{robot}>::posture_by::<{kernel}, f32, {shape}>(&state.q);\n        \
-         let torque = Engine::<{robot}>::rnea_at(&posture, state, &{effects});\n        \
-         let mass_matrix = Engine::<{robot}>::crba_at(&posture, &{effects});\n        \
+         let trig = Engine::<{robot}, {kernel}>::joint_trig(&state.q);\n        \
+         let torque = Engine::<{robot}>::rnea(trig.with(state), &{effects});\n        \
+         let mass_matrix = Engine::<{robot}>::crba(&trig, &{effects});\n        \
          self.between.update(torque, mass_matrix, &state.qdd)\n"
     );
     let start = "            between: InertiaUpdate::start(),\n            wait: 0,\n";

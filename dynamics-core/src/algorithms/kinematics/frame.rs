@@ -1,4 +1,4 @@
-//! Where a body is, and the frames in which its motion may be told.
+//! The pose of a body, and the frames in which its motion is expressed.
 
 use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::{Motion, Xform};
@@ -68,19 +68,19 @@ impl<R: Real> Pose<R> {
 mod sealed {
     /// Keeps [`super::Frame`] to the three frames that there are names for.
     pub trait Sealed {}
-    impl Sealed for super::Body {}
+    impl Sealed for super::Local {}
     impl Sealed for super::World {}
     impl Sealed for super::LocalWorldAligned {}
 }
 
-/// A frame in which the motion of a body is told: [`Body`], [`World`] or [`LocalWorldAligned`].
+/// A frame in which the motion of a body is expressed: [`Local`], [`World`] or [`LocalWorldAligned`].
 ///
 /// A type, not a flag: a velocity in the wrong one is another function. Of a body that turns by ω and
 /// whose origin p moves:
 ///
 /// | frame | axes | reference point | drift J̇ q̇ |
 /// |---|---|---|---|
-/// | `Body` | the body's | its origin | spatial acceleration at q̈ = 0 |
+/// | `Local` | the body's | its origin | spatial acceleration at q̈ = 0 |
 /// | `World` | the base's | the base's origin | spatial acceleration at q̈ = 0 |
 /// | `LocalWorldAligned` | the base's | the body's origin | ω̇ and p̈ at q̈ = 0 |
 pub trait Frame: sealed::Sealed + Copy {
@@ -97,8 +97,9 @@ pub trait Frame: sealed::Sealed + Copy {
 }
 
 /// The body's own frame.
+#[doc(alias = "body frame")]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Body;
+pub struct Local;
 
 /// The base's frame: the velocity is that of the point of the body which is at the base's origin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -108,7 +109,7 @@ pub struct World;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LocalWorldAligned;
 
-impl Frame for Body {
+impl Frame for Local {
     #[inline(always)]
     fn express<R: Real>(_: &Pose<R>, m: Motion<R>) -> Motion<R> {
         m
@@ -152,10 +153,18 @@ impl Frame for LocalWorldAligned {
     }
 }
 
-/// ω̇ and p̈ of the body's origin p from the spatial acceleration a and velocity v, in the same frame.
+/// The classical acceleration, ω̇ and p̈ of the body's origin p, from the spatial acceleration a and the velocity v in
+/// the same frame.
 ///
-/// Units rad/s² and m/s². Cost: 12 flops. Source: Featherstone, RBDA (2008), (2.47): p̈ = a + ω × v.
+/// rad/s² and m/s².
 ///
+/// # Cost
+/// 12 flops.
+///
+/// # Source
+/// Featherstone, RBDA (2008), (2.47): p̈ = a + ω × v.
+///
+/// # Example
 /// ```
 /// use dynamics_core::{algorithms::classical, spatial::Motion};
 /// use glam::Vec3;
@@ -164,6 +173,7 @@ impl Frame for LocalWorldAligned {
 /// assert_eq!(classical(Motion::ZERO, v).lin, Vec3::X * -18.0);
 /// ```
 #[inline(always)]
+#[must_use]
 pub fn classical<R: Real>(a: Motion<R>, v: Motion<R>) -> Motion<R> {
     Motion::new(a.ang, a.lin + v.ang.cross(v.lin))
 }

@@ -3,50 +3,52 @@
 //! Featherstone, RBDA (2008), section 4.1: v = J q̇, the column of a coordinate being that of S at its
 //! joint, taken to the body; zero for joints that do not carry the body.
 
+use core::borrow::Borrow;
+
 use crate::algorithms::kinematics::frame::{Frame, Pose};
 use crate::algorithms::kinematics::in_link_frame;
-use crate::algorithms::tree_pass::PerBody;
+use crate::algorithms::tree_pass::per_body;
 use crate::model::{BASE, RobotModel};
 use crate::scalar::{Matrix, Real};
 use crate::spatial::{Motion, Xform};
-use crate::state::{JointTrig, State};
+use crate::state::{Configuration, RobotState};
 
-/// J with v = J q̇: the velocity of `body` in a [`Frame`], by columns, one a coordinate.
+/// The geometric Jacobian J of `body` in a [`Frame`] with v = J q̇, by columns, one for each coordinate.
 ///
 /// ω in rad/s and velocity in m/s per rad/s or m/s. τ = Jᵀ f for a force on the body in the same frame.
-/// All zero for the base; NaN for a body that the robot does not have. Cost: 81 flops a revolute joint that carries the body and 39
-/// (`Body`), 69 (`LocalWorldAligned`) or 81 (`World`) a coordinate; O(depth). Errors: none. Source: RBDA (2008), section 4.1.
 ///
+/// # Shape
+/// 6 × V; zero for the base, NaN for a body that the robot does not have.
+///
+/// # Cost
+/// O(depth): 81 flops for each revolute joint between body and base, and 39 (`Local`), 69 (`LocalWorldAligned`) or 81
+/// (`World`) for each coordinate.
+///
+/// # Source
+/// RBDA (2008), section 4.1.
+///
+/// # Example
 /// ```
 /// use dynamics_core::{algorithms::{frame, jacobian}, model::Robot, robots::Ur5e};
 /// let j = jacobian(&Ur5e::MODEL, &[0.0, -1.2, 1.5, 0.3, 0.0, 0.0], 5, frame::LocalWorldAligned);
 /// assert!((j[0].ang.z - 1.0).abs() < 1e-12); // the first axis is vertical
 /// ```
+#[doc(alias = "geometric Jacobian")]
+#[doc(alias = "end effector")]
 #[inline(always)]
+#[must_use]
 pub fn jacobian<R: Real, D, F: Frame, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
-    q: &[R; Q],
-    body: usize,
-    frame: F,
-) -> [Motion<R>; V]
-where
-    D: RobotModel<R, B, Q, V>,
-{
-    jacobian_at(robot, &JointTrig::of(robot, q), body, frame)
-}
-
-/// As [`jacobian`], at a posture whose sines and cosines are at hand.
-#[inline(always)]
-pub fn jacobian_at<R: Real, D, F: Frame, const B: usize, const Q: usize, const V: usize>(
-    robot: &D,
-    posture: &JointTrig<R, Q>,
+    q: &impl Configuration<R, Q>,
     body: usize,
     _: F,
 ) -> [Motion<R>; V]
 where
     D: RobotModel<R, B, Q, V>,
 {
-    let turns = &posture.turns;
+    let trig = q.trig_of(robot);
+    let trig = trig.borrow();
+    let turns = &trig.turns;
     let mut columns = [Motion::ZERO; V];
     let mut x = Xform::IDENTITY; // from the body reached to the one asked for
     let mut reached = body;
@@ -78,47 +80,46 @@ where
     columns
 }
 
-/// J̇ q̇: the acceleration of `body` at q̈ = 0, in a [`Frame`], rad/s² and m/s².
+/// The acceleration J̇ q̇ of `body` at q̈ = 0, in a [`Frame`], rad/s² and m/s².
 ///
-/// The derivative of J q̇ in that frame's coordinates: in `LocalWorldAligned` ω̇ and p̈, in the others the spatial
-/// acceleration. `state.qdd` is not read. Zero for the base; NaN for a body that the robot does not have. Cost: O(B); some 170 flops a
-/// revolute joint. Errors: none. Source: RBDA (2008), (4) of Featherstone & Orin (2000) at q̈ = 0.
+/// It is the derivative of J q̇ in that frame's coordinates: in `LocalWorldAligned` ω̇ and p̈, in the others the
+/// spatial acceleration. `state.qdd` is not read.
 ///
+/// # Shape
+/// 6; zero for the base, NaN for a body that the robot does not have.
+///
+/// # Cost
+/// O(B): some 170 flops for each revolute joint.
+///
+/// # Source
+/// Featherstone & Orin (2000), (4) at q̈ = 0; RBDA (2008), section 4.1.
+///
+/// # Example
 /// ```
 /// use dynamics_core::{algorithms::{bias_acceleration, frame}, model::Robot, robots::Ur5e, state::State};
 /// let turning = State { qd: [2.0, 0.0, 0.0, 0.0, 0.0, 0.0], ..State::at([0.0_f64; 6]) };
 /// let a = bias_acceleration(&Ur5e::MODEL, &turning, 5, frame::LocalWorldAligned);
 /// assert!(a.lin.x > 3.0); // towards the axis
 /// ```
+#[doc(alias = "drift")]
+#[doc(alias = "Jdot")]
 #[inline(always)]
+#[must_use]
 pub fn bias_acceleration<R: Real, D, F: Frame, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
-    state: &State<R, Q, V>,
-    body: usize,
-    frame: F,
-) -> Motion<R>
-where
-    D: RobotModel<R, B, Q, V>,
-{
-    bias_acceleration_at(robot, &JointTrig::of(robot, &state.q), state, body, frame)
-}
-
-/// As [`bias_acceleration`], at a posture whose sines and cosines are at hand; `state.q` is not read.
-#[inline(always)]
-pub fn bias_acceleration_at<R: Real, D, F: Frame, const B: usize, const Q: usize, const V: usize>(
-    robot: &D,
-    posture: &JointTrig<R, Q>,
-    state: &State<R, Q, V>,
+    state: impl RobotState<R, Q, V>,
     body: usize,
     _: F,
 ) -> Motion<R>
 where
     D: RobotModel<R, B, Q, V>,
 {
-    let turns = &posture.turns;
-    let mut moving = PerBody::<_, B>::from((Pose::IDENTITY, Motion::ZERO, Motion::ZERO));
+    let trig = state.configuration().trig_of(robot);
+    let (trig, state) = (trig.borrow(), state.state());
+    let turns = &trig.turns;
+    let mut moving = per_body(robot, (Pose::IDENTITY, Motion::ZERO, Motion::ZERO));
     for (i, link) in robot.links().enumerate() {
-        let (pose, v, a) = moving.parent(D::CHAIN, link.parent);
+        let (pose, v, a) = moving.parent(&link);
         let x = link.xform(turns);
         let pose = pose.transformed_by(&x);
         let v = link.plus_motion(x * v, turns, &state.qd);
@@ -128,7 +129,7 @@ where
             let tell = |m| F::express(&pose, in_link_frame(&link, m));
             return tell(a) + F::classical_term(tell(v));
         }
-        moving.push(D::CHAIN, (pose, v, a));
+        moving.push((pose, v, a));
     }
     if body == BASE {
         Motion::ZERO

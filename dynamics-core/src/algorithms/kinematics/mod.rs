@@ -6,14 +6,16 @@ pub mod frame;
 mod jacobian;
 
 pub use frame::{Frame, Pose, classical};
-pub use jacobian::{bias_acceleration, bias_acceleration_at, jacobian, jacobian_at};
+pub use jacobian::{bias_acceleration, jacobian};
 
-use crate::algorithms::tree_pass::PerBody;
+use core::borrow::Borrow;
+
+use crate::algorithms::tree_pass::per_body;
 use crate::effects::{Effect, base_given};
 use crate::model::{LinkView, RobotModel};
 use crate::scalar::{Matrix, Real};
 use crate::spatial::Motion;
-use crate::state::{JointTrig, State};
+use crate::state::{Configuration, RobotState};
 
 /// Poses, velocities and accelerations of all bodies.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,50 +60,60 @@ impl<R: Real, const B: usize> Kinematics<R, B> {
 
 /// The pose of every body's own frame in the base's: rotation, and position in m.
 ///
-/// Shape: B. Cost: O(B); some 130 flops a revolute joint. Errors: none. Source: RBDA (2008), table 2.6.
+/// # Shape
+/// B.
 ///
+/// # Cost
+/// O(B): some 130 flops for each revolute joint.
+///
+/// # Source
+/// RBDA (2008), table 2.6.
+///
+/// # Example
 /// ```
 /// use dynamics_core::{algorithms::poses, model::Robot, robots::Ur5e};
 /// let [.., elbow, _, _, _] = poses(&Ur5e::MODEL, &[0.0, -1.57, 0.0, 0.0, 0.0, 0.0]);
 /// assert!(elbow.pos.z > 0.5); // the upper arm points upwards
 /// ```
+#[doc(alias = "end effector")]
+#[doc(alias = "forward kinematics")]
 #[inline(always)]
+#[must_use]
 pub fn poses<R: Real, D, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
-    q: &[R; Q],
+    q: &impl Configuration<R, Q>,
 ) -> [Pose<R>; B]
 where
     D: RobotModel<R, B, Q, V>,
 {
-    poses_at(robot, &JointTrig::of(robot, q))
-}
-
-/// As [`poses`], at a posture whose sines and cosines are at hand.
-#[inline(always)]
-pub fn poses_at<R: Real, D, const B: usize, const Q: usize, const V: usize>(
-    robot: &D,
-    posture: &JointTrig<R, Q>,
-) -> [Pose<R>; B]
-where
-    D: RobotModel<R, B, Q, V>,
-{
+    let trig = q.trig_of(robot);
+    let trig = trig.borrow();
     let mut poses = [Pose::IDENTITY; B];
-    let mut at = PerBody::<_, B>::from(Pose::IDENTITY);
+    let mut at = per_body(robot, Pose::IDENTITY);
     for (link, pose) in robot.links().zip(&mut poses) {
-        let here = at.parent(D::CHAIN, link.parent);
-        let here = here.transformed_by(&link.xform(&posture.turns));
+        let here = at.parent(&link);
+        let here = here.transformed_by(&link.xform(&trig.turns));
         *pose = here.in_link_frame(&link.frame);
-        at.push(D::CHAIN, here);
+        at.push(here);
     }
     poses
 }
 
-/// Pose, velocity and acceleration of every body, on a base that moves as the effects say.
+/// Pose, velocity and acceleration of every body, on a base that moves as the effects specify.
 ///
-/// `state.qdd` counts; gravity and other effects do not, but for a given motion of the base, whose
-/// v₀ and a₀ all bodies share; everything is told along the base's axes at this moment. Cost: O(B);
-/// some 290 flops a revolute joint. Errors: none. Source: Featherstone & Orin (2000), (3) and (4).
+/// `state.qdd` counts. Of the effects only a given motion of the base does, not gravity: all bodies share its v₀ and
+/// a₀. The results are along the base's axes at this moment.
 ///
+/// # Shape
+/// B.
+///
+/// # Cost
+/// O(B): some 290 flops for each revolute joint.
+///
+/// # Source
+/// Featherstone & Orin (2000), (3) and (4).
+///
+/// # Example
 /// ```
 /// use dynamics_core::{algorithms::{kinematics, frame}, model::Robot, robots::Ur5e, state::State};
 /// let turning = State { qd: [1.0, 0.0, 0.0, 0.0, 0.0, 0.0], ..State::at([0.0_f64; 6]) };
@@ -109,47 +121,36 @@ where
 /// let (hand, p) = (k.velocity(5, frame::LocalWorldAligned), k.poses[5].pos);
 /// assert!((hand.lin.x + p.y).abs() < 1e-12 && (hand.lin.y - p.x).abs() < 1e-12);
 /// ```
+#[doc(alias = "forward kinematics")]
 #[inline(always)]
+#[must_use]
 pub fn kinematics<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
-    state: &State<R, Q, V>,
+    state: impl RobotState<R, Q, V>,
     effects: &E,
 ) -> Kinematics<R, B>
 where
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    kinematics_at(robot, &JointTrig::of(robot, &state.q), state, effects)
-}
-
-/// As [`kinematics`], at a posture whose sines and cosines are at hand; `state.q` is not read.
-#[inline(always)]
-pub fn kinematics_at<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
-    robot: &D,
-    posture: &JointTrig<R, Q>,
-    state: &State<R, Q, V>,
-    effects: &E,
-) -> Kinematics<R, B>
-where
-    D: RobotModel<R, B, Q, V>,
-    E: Effect<R, B, V>,
-{
-    let (turns, (v_0, a_0)) = (&posture.turns, base_given(effects));
-    let mut v = PerBody::<_, B>::from(v_0);
-    let mut a = PerBody::<_, B>::from(a_0);
+    let trig = state.configuration().trig_of(robot);
+    let (trig, state) = (trig.borrow(), state.state());
+    let (turns, (v_0, a_0)) = (&trig.turns, base_given(effects));
+    let mut v = per_body(robot, v_0);
+    let mut a = per_body(robot, a_0);
     let (mut velocities, mut accelerations) = ([Motion::ZERO; B], [Motion::ZERO; B]);
-    let told = velocities.iter_mut().zip(&mut accelerations);
-    for (link, (velocity, acceleration)) in robot.links().zip(told) {
+    let moving = velocities.iter_mut().zip(&mut accelerations);
+    for (link, (velocity, acceleration)) in robot.links().zip(moving) {
         let x = link.xform(turns);
-        let v_i = link.plus_motion(x * v.parent(D::CHAIN, link.parent), turns, &state.qd); // (3)
-        let a_i = link.plus_motion(x * a.parent(D::CHAIN, link.parent), turns, &state.qdd); // (4)
+        let v_i = link.plus_motion(x * v.parent(&link), turns, &state.qd); // (3)
+        let a_i = link.plus_motion(x * a.parent(&link), turns, &state.qdd); // (4)
         let a_i = link.plus_velocity_product(a_i, turns, &state.qd, v_i);
         (*velocity, *acceleration) = (in_link_frame(&link, v_i), in_link_frame(&link, a_i));
-        v.push(D::CHAIN, v_i);
-        a.push(D::CHAIN, a_i);
+        v.push(v_i);
+        a.push(a_i);
     }
     Kinematics {
-        poses: poses_at(robot, posture),
+        poses: poses(robot, trig),
         velocities,
         accelerations,
     }

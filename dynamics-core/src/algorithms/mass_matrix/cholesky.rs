@@ -20,9 +20,16 @@ pub struct Cholesky<R, const V: usize> {
 
 /// The factor L of M = Lᵀ L, with the reciprocals of its diagonal, for [`Cholesky::solve`].
 ///
-/// Cost: V roots and, on a chain, V (V² − 1)/3 + V (V − 1)/2 other flops, less on a tree. Source:
+/// # Shape
+/// V × V and V.
+///
+/// # Cost
+/// V roots and, on a chain, V (V² − 1)/3 + V (V − 1)/2 other flops, less on a tree.
+///
+/// # Source
 /// Featherstone, RBDA (2008), table 6.4.
 ///
+/// # Example
 /// ```
 /// use dynamics_core::algorithms::{cholesky, crba};
 /// use dynamics_core::{effects::RIGID_BODY, model::Robot, robots::Ur5e};
@@ -34,6 +41,7 @@ pub struct Cholesky<R, const V: usize> {
 ///
 /// # Errors
 /// As [`ltdl`](crate::algorithms::factor()).
+#[doc(alias = "LTL")]
 #[inline(always)]
 pub fn cholesky<R: Real, D, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
@@ -46,7 +54,7 @@ where
     let (mut rows, mut l_inv) = (m.rows, [R::ZERO; V]);
     let mut sizes = Sizes::of(robot, m);
     for k in (0..V).rev() {
-        let (above, at) = rows.split_at_mut(k);
+        let (ancestors, at) = rows.split_at_mut(k);
         let (Some(row), Some(l_inv)) = (at.first_mut(), l_inv.get_mut(k)) else {
             break;
         };
@@ -57,12 +65,12 @@ where
         while let Some(l_ki) = row.get_mut(i) {
             *l_ki *= *l_inv;
             if !D::SINGLE {
-                sizes.hand_on(k, i, *l_ki * *l_inv);
+                sizes.add_error_of(k, i, *l_ki * *l_inv);
             }
             i = parent(lambda, i);
         }
         i = parent(lambda, k);
-        while let (Some(row_i), Some(&l_ki)) = (above.get_mut(i), row.get(i)) {
+        while let (Some(row_i), Some(&l_ki)) = (ancestors.get_mut(i), row.get(i)) {
             let mut j = i;
             while let (Some(m_ij), Some(&l_kj)) = (row_i.get_mut(j), row.get(j)) {
                 *m_ij -= l_ki * l_kj;
@@ -83,24 +91,24 @@ impl<R: Real, const V: usize> Cholesky<R, V> {
     {
         let (lambda, mut x) = (&robot.model().lambda, *tau);
         for (i, (row, &l_inv)) in self.rows.iter().zip(&self.l_inv).enumerate().rev() {
-            let (above, at) = x.split_at_mut(i);
+            let (ancestors, at) = x.split_at_mut(i);
             let Some(x_i) = at.first_mut() else {
                 break;
             };
             *x_i *= l_inv;
             let mut j = parent(lambda, i);
-            while let (Some(x_j), Some(&l)) = (above.get_mut(j), row.get(j)) {
+            while let (Some(x_j), Some(&l)) = (ancestors.get_mut(j), row.get(j)) {
                 *x_j -= l * *x_i;
                 j = parent(lambda, j);
             }
         }
         for (i, (row, &l_inv)) in self.rows.iter().zip(&self.l_inv).enumerate() {
-            let (above, at) = x.split_at_mut(i);
+            let (ancestors, at) = x.split_at_mut(i);
             let Some(x_i) = at.first_mut() else {
                 break;
             };
             let mut j = parent(lambda, i);
-            while let (Some(&x_j), Some(&l)) = (above.get(j), row.get(j)) {
+            while let (Some(&x_j), Some(&l)) = (ancestors.get(j), row.get(j)) {
                 *x_i -= l * x_j;
                 j = parent(lambda, j);
             }

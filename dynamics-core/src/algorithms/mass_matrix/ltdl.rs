@@ -15,11 +15,19 @@ pub(crate) const MATRIX_ROUNDINGS: f64 = 32.0;
 
 /// The factors L and D of M = Lᵀ D L, with the reciprocals of D, for [`solve`] and [`inverse`].
 ///
-/// L is zero where M is zero. An implicit joint damping is a sum on M's diagonal,
-/// [`MassMatrix::plus_diagonal`].
-/// Cost: V divisions and, on a chain, V (V² − 1)/3 + V (V − 1)/2 other flops; on a tree of branches of
-/// depth d at most V d² + V d. Source: Featherstone, RBDA (2008), table 6.3.
+/// L is zero where M is zero. An implicit joint damping is a sum on M's diagonal, [`MassMatrix::plus_diagonal`].
 ///
+/// # Shape
+/// V × V and V.
+///
+/// # Cost
+/// V divisions and, on a chain, V (V² − 1)/3 + V (V − 1)/2 other flops; on a tree of branches of depth d at most V d² +
+/// V d.
+///
+/// # Source
+/// Featherstone, RBDA (2008), table 6.3.
+///
+/// # Example
 /// ```
 /// use dynamics_core::algorithms::{crba, factor, solve};
 /// use dynamics_core::{effects::RIGID_BODY, model::Robot, robots::Ur5e};
@@ -36,6 +44,8 @@ pub(crate) const MATRIX_ROUNDINGS: f64 = 32.0;
 /// multiplied on the way. M does not show how far away the frames of bodies are in which it was computed: where
 /// they are much farther than what moves, a singular M may leave more than that; the articulated bodies of
 /// [`aba`](crate::algorithms::aba()) and [`spatial_operator_ltdl`](crate::algorithms::spatial_operator_ltdl()) refuse it.
+#[doc(alias = "LTL")]
+#[doc(alias = "factor")]
 #[inline(always)]
 pub fn ltdl<R: Real, D, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
@@ -48,7 +58,7 @@ where
     let (mut rows, mut d_inv) = (m.rows, [R::ZERO; V]);
     let mut sizes = Sizes::of(robot, m);
     for k in (0..V).rev() {
-        let (above, at) = rows.split_at_mut(k);
+        let (ancestors, at) = rows.split_at_mut(k);
         let (Some(row), Some(d_inv)) = (at.first_mut(), d_inv.get_mut(k)) else {
             break;
         };
@@ -56,10 +66,10 @@ where
         check(pivot, sizes.noise(k), k)?;
         *d_inv = R::ONE / pivot;
         let mut i = parent(lambda, k);
-        while let Some(row_i) = above.get_mut(i) {
+        while let Some(row_i) = ancestors.get_mut(i) {
             let l = row.get(i).copied().unwrap_or_default() * *d_inv;
             if !D::SINGLE {
-                sizes.hand_on(k, i, l);
+                sizes.add_error_of(k, i, l);
             }
             let mut j = i;
             while let (Some(m_ij), Some(&m_kj)) = (row_i.get_mut(j), row.get(j)) {
@@ -75,10 +85,18 @@ where
     Ok(Ltdl { rows, d_inv })
 }
 
-/// x with M x = τ: accelerations of torques, rad/s² or m/s² of N·m or N.
+/// The solution x of M x = τ: accelerations of torques, rad/s² or m/s² of N·m or N.
 ///
-/// Cost: 2 V² − V flops on a chain, less on a tree. Source: Featherstone, RBDA (2008), table 6.5.
+/// # Shape
+/// V.
+///
+/// # Cost
+/// 2 V² − V flops on a chain, less on a tree.
+///
+/// # Source
+/// Featherstone, RBDA (2008), table 6.5.
 #[inline(always)]
+#[must_use]
 pub fn solve<R: Real, D, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     factor: &Ltdl<R, V>,
@@ -90,23 +108,23 @@ where
     let (lambda, mut x) = (&robot.model().lambda, *tau);
     // Lᵀ y = τ
     for (i, row) in factor.rows.iter().enumerate().rev() {
-        let (above, at) = x.split_at_mut(i);
+        let (ancestors, at) = x.split_at_mut(i);
         let x_i = at.first().copied().unwrap_or_default();
         let mut j = parent(lambda, i);
-        while let (Some(x_j), Some(&l)) = (above.get_mut(j), row.get(j)) {
+        while let (Some(x_j), Some(&l)) = (ancestors.get_mut(j), row.get(j)) {
             *x_j -= l * x_i;
             j = parent(lambda, j);
         }
     }
     // D z = y and L x = z
     for (i, (row, &d_inv)) in factor.rows.iter().zip(&factor.d_inv).enumerate() {
-        let (above, at) = x.split_at_mut(i);
+        let (ancestors, at) = x.split_at_mut(i);
         let Some(x_i) = at.first_mut() else {
             break;
         };
         *x_i *= d_inv;
         let mut j = parent(lambda, i);
-        while let (Some(&x_j), Some(&l)) = (above.get(j), row.get(j)) {
+        while let (Some(&x_j), Some(&l)) = (ancestors.get(j), row.get(j)) {
             *x_i -= l * x_j;
             j = parent(lambda, j);
         }
@@ -114,10 +132,17 @@ where
     x
 }
 
-/// M⁻¹, a column at a time: accelerations of unit torques.
+/// The inverse M⁻¹, a column at a time: accelerations of unit torques.
 ///
-/// Cost: V solutions, 2 V³ flops on a chain. Unlike M it has no zeros but between separate roots.
+/// Unlike M it has no zeros but between separate roots.
 ///
+/// # Shape
+/// V × V.
+///
+/// # Cost
+/// V solutions: 2 V³ flops on a chain.
+///
+/// # Example
 /// ```
 /// use dynamics_core::algorithms::{crba, factor, inverse};
 /// use dynamics_core::{effects::RIGID_BODY, model::Robot, robots::Ur5e};
@@ -127,6 +152,7 @@ where
 /// # Ok::<(), dynamics_core::algorithms::NotPositiveDefinite>(())
 /// ```
 #[inline(always)]
+#[must_use]
 pub fn inverse<R: Real, D, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     factor: &Ltdl<R, V>,
@@ -182,12 +208,12 @@ impl<R: Real, const V: usize> Sizes<R, V> {
 
     /// Row `k`, taken `l` times off row `i`, brings its rounding errors if both are of one joint.
     #[inline(always)]
-    pub(in crate::algorithms) fn hand_on(&mut self, k: usize, i: usize, l: R) {
+    pub(in crate::algorithms) fn add_error_of(&mut self, k: usize, i: usize, l: R) {
         let size = entry(&self.sizes, k);
         if i >= entry(&self.firsts, k)
-            && let Some(handed_on) = self.sizes.get_mut(i)
+            && let Some(inherited) = self.sizes.get_mut(i)
         {
-            *handed_on += l * l * size;
+            *inherited += l * l * size;
         }
     }
 }

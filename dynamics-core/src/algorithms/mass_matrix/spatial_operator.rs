@@ -5,6 +5,8 @@
 //! forces down as through rigid bodies, Ψ as through joints that give way. In the letters of RBDA's
 //! section 6.5 the first factor is Lᵀ: what elimination finds in M, the filter finds in the bodies.
 
+use core::borrow::Borrow;
+
 use crate::algorithms::NotPositiveDefinite;
 use crate::algorithms::articulated_pass::{ArticulatedPass, JointFactor, eliminate};
 use crate::algorithms::{Ltdl, MassMatrix};
@@ -12,13 +14,20 @@ use crate::effects::Effect;
 use crate::model::RobotModel;
 use crate::scalar::Real;
 use crate::spatial::Force;
-use crate::state::{JointTrig, entry};
+use crate::state::{Configuration, entry};
 
-/// The factors (1 + HΦK)ᵀ = L and D of M(q), without M: the same as [`ltdl`](crate::algorithms::factor()) finds.
+/// The factors L = (1 + HΦK)ᵀ and D of M(q), without M: the same as those of [`ltdl`](crate::algorithms::ltdl()).
 ///
-/// Cost: the inertias of the articulated-body algorithm, and 40 flops for each joint that carries another.
-/// Source: Rodriguez, Jain & Kreutz-Delgado (1991).
+/// # Shape
+/// V × V and V.
 ///
+/// # Cost
+/// The inertias of the articulated-body algorithm, and 40 flops for each pair of a joint and its ancestor.
+///
+/// # Source
+/// Rodriguez, Jain & Kreutz-Delgado (1991).
+///
+/// # Example
 /// ```
 /// use dynamics_core::algorithms::{crba, spatial_operator_ltdl, solve};
 /// use dynamics_core::{effects::RIGID_BODY, model::Robot, robots::Ur5e};
@@ -31,10 +40,11 @@ use crate::state::{JointTrig, entry};
 ///
 /// # Errors
 /// [`NotPositiveDefinite`] names a coordinate that moves no inertia, as [`aba`](crate::algorithms::aba()) does.
+#[doc(alias = "innovations factorisation")]
 #[inline(always)]
 pub fn spatial_operator_ltdl<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
-    q: &[R; Q],
+    q: &impl Configuration<R, Q>,
     effects: &E,
 ) -> Result<Ltdl<R, V>, NotPositiveDefinite>
 where
@@ -44,17 +54,23 @@ where
     columns(robot, q, effects, |f, _, _| f)
 }
 
-/// M⁻¹ = (1 − HΨK)ᵀ D⁻¹ (1 − HΨK), without M and without elimination.
+/// The inverse M⁻¹ = (1 − HΨK)ᵀ D⁻¹ (1 − HΨK), without M and without its elimination.
 ///
-/// Cost: that of [`spatial_operator_ltdl`], and O(V³) for the product. Source: Rodriguez, Jain &
-/// Kreutz-Delgado (1992).
+/// # Shape
+/// V × V.
+///
+/// # Cost
+/// That of [`spatial_operator_ltdl`], and O(V³) for the product.
+///
+/// # Source
+/// Rodriguez, Jain & Kreutz-Delgado (1992).
 ///
 /// # Errors
 /// As [`spatial_operator_ltdl`].
 #[inline(always)]
 pub fn spatial_operator_inverse<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
-    q: &[R; Q],
+    q: &impl Configuration<R, Q>,
     effects: &E,
 ) -> Result<MassMatrix<R, V>, NotPositiveDefinite>
 where
@@ -62,7 +78,7 @@ where
     E: Effect<R, B, V>,
 {
     // A joint that gives way takes off its part: ψ = φ − K H φ.
-    let factor = columns(robot, q, effects, |f, felt, k| f - k * felt)?;
+    let factor = columns(robot, q, effects, |f, projected, k| f - k * projected)?;
     let w = |a: usize, i: usize| match factor.rows.get(a).and_then(|row| row.get(i)) {
         _ if a == i => R::ONE,
         Some(&hpk) if i < a => -hpk,
@@ -78,12 +94,12 @@ where
     Ok(m_inv)
 }
 
-/// H (Φ or Ψ) K by rows of joints, and D⁻¹: K of each joint, felt at all that carry it; `pass` is what a
-/// joint hands on of a force, of which it feels a part, given its own K.
+/// H (Φ or Ψ) K by rows of joints, and D⁻¹: K of each joint, projected on its ancestors; `pass` is what a
+/// joint transmits inward of a force, given the force's projection on the joint and its own K.
 #[inline(always)]
 fn columns<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
-    q: &[R; Q],
+    q: &impl Configuration<R, Q>,
     effects: &E,
     pass: impl Fn(Force<R>, R, Force<R>) -> Force<R>,
 ) -> Result<Ltdl<R, V>, NotPositiveDefinite>
@@ -91,11 +107,12 @@ where
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    let turns = &JointTrig::of(robot, q).turns;
-    let ArticulatedPass { x, handles } = eliminate(robot, turns, effects)?;
+    let trig = q.trig_of(robot);
+    let turns = &trig.borrow().turns;
+    let ArticulatedPass { x, factors } = eliminate(robot, turns, effects)?;
     let gain = |joint| {
-        let handle: JointFactor<R> = entry(&handles, joint);
-        handle.u_a * handle.d_inv
+        let factor: JointFactor<R> = entry(&factors, joint);
+        factor.u_a * factor.d_inv
     };
 
     let mut rows = [[R::ZERO; V]; V];
@@ -103,20 +120,20 @@ where
         for joint in link.coordinates() {
             let (mut f, mut at) = (gain(joint), i);
             while let (Some(link), Some(x)) = (robot.link(at), x.get(at)) {
-                for (k, above) in link.coordinates().enumerate().rev() {
-                    if above >= joint {
+                for (k, ancestor) in link.coordinates().enumerate().rev() {
+                    if ancestor >= joint {
                         continue; // itself, and what it carries on the same body
                     }
-                    let felt = link.subspace(turns, k).dot(f);
-                    f = pass(f, felt, gain(above));
-                    if let Some(entry) = rows.get_mut(joint).and_then(|row| row.get_mut(above)) {
-                        *entry = felt;
+                    let projected = link.subspace(turns, k).dot(f);
+                    f = pass(f, projected, gain(ancestor));
+                    if let Some(entry) = rows.get_mut(joint).and_then(|row| row.get_mut(ancestor)) {
+                        *entry = projected;
                     }
                 }
                 (f, at) = (x.transpose_mul(f), link.parent);
             }
         }
     }
-    let d_inv = handles.map(|handle| handle.d_inv);
+    let d_inv = factors.map(|factor| factor.d_inv);
     Ok(Ltdl { rows, d_inv })
 }

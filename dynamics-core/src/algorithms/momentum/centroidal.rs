@@ -4,62 +4,69 @@
 //! the composite body beyond a joint has of momentum when that coordinate alone moves, so that the
 //! composite inertias of the CRBA give all of it in O(n) (their section 5; Wensing & Orin, 2016).
 
+use core::borrow::Borrow;
+
 use heapless::Vec;
 
 use crate::algorithms::kinematics::frame::Pose;
-use crate::algorithms::momentum::{mass_and_first_moment, momentum_at, per};
-use crate::algorithms::tree_pass::PerBody;
+use crate::algorithms::momentum::{mass_and_first_moment, momentum, reciprocal};
+use crate::algorithms::tree_pass::{inward, per_body};
 use crate::effects::{Effect, body_inertia};
 use crate::model::RobotModel;
 use crate::scalar::{Real, Vector};
 use crate::spatial::inertia::CompositeInertia;
 use crate::spatial::{Force, Xform};
-use crate::state::{JointTrig, State};
+use crate::state::{Configuration, RobotState};
 
-/// The momentum h_G about the centre of mass, along the base's axes, N·m·s and N·s.
+/// The centroidal momentum h_G: about the centre of mass and along the base's axes, N·m·s and N·s.
 ///
-/// Cost: O(B); some 250 flops a revolute joint. Errors: none. Source: Orin, Goswami & Lee (2013).
+/// # Shape
+/// 6.
 ///
+/// # Cost
+/// O(B): some 250 flops for each revolute joint.
+///
+/// # Source
+/// Orin, Goswami & Lee (2013).
+///
+/// # Example
 /// ```
 /// use dynamics_core::{algorithms::centroidal_momentum, model::Robot, robots::Ur5e, state::State};
 /// let state = State { qd: [1.0, 0.0, 0.0, 0.0, 0.0, 0.0], ..State::at([0.0_f64; 6]) };
 /// assert!(centroidal_momentum(&Ur5e::MODEL, &state, &()).ang.z > 0.0);
 /// ```
 #[inline(always)]
+#[must_use]
 pub fn centroidal_momentum<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
-    state: &State<R, Q, V>,
+    state: impl RobotState<R, Q, V>,
     effects: &E,
 ) -> Force<R>
 where
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    centroidal_momentum_at(robot, &JointTrig::of(robot, &state.q), state, effects)
+    let trig = state.configuration().trig_of(robot);
+    let (trig, state) = (trig.borrow(), state.state());
+    let (mass, moment) = mass_and_first_moment(robot, trig, effects);
+    let h = momentum(robot, trig.with(state), effects);
+    Force::new(h.ang - (moment * reciprocal(mass)).cross(h.lin), h.lin)
 }
 
-/// As [`centroidal_momentum`], at a posture whose sines and cosines are at hand; `state.q` is not read.
-#[inline(always)]
-pub fn centroidal_momentum_at<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
-    robot: &D,
-    posture: &JointTrig<R, Q>,
-    state: &State<R, Q, V>,
-    effects: &E,
-) -> Force<R>
-where
-    D: RobotModel<R, B, Q, V>,
-    E: Effect<R, B, V>,
-{
-    let (mass, moment) = mass_and_first_moment(robot, posture, effects);
-    let h = momentum_at(robot, posture, state, effects);
-    Force::new(h.ang - (moment * per(mass)).cross(h.lin), h.lin)
-}
-
-/// The centroidal momentum matrix A_G with h_G = A_G q̇, by columns, one a coordinate; for a base at rest.
+/// The centroidal momentum matrix A_G with h_G = A_G q̇, by columns, one for each coordinate; for a base at rest.
 ///
-/// Along the base's axes and about the centre of mass; N·m·s and N·s per rad/s (or m/s). Cost: O(B); some
-/// 350 flops a revolute joint. Errors: none. Source: Orin, Goswami & Lee (2013), section 5.
+/// About the centre of mass and along the base's axes, N·m·s and N·s per rad/s or m/s.
 ///
+/// # Shape
+/// 6 × V.
+///
+/// # Cost
+/// O(B): some 350 flops for each revolute joint.
+///
+/// # Source
+/// Orin, Goswami & Lee (2013), section 5.
+///
+/// # Example
 /// ```
 /// use dynamics_core::{algorithms::{centroidal_matrix, centroidal_momentum}, model::Robot, robots::Ur5e, state::State};
 /// let state = State { qd: [0.0, 2.0, 0.0, 0.0, 0.0, 0.0], ..State::at([0.3_f64; 6]) };
@@ -67,53 +74,43 @@ where
 /// let h = centroidal_momentum(&Ur5e::MODEL, &state, &());
 /// assert!((h.ang - column.ang * 2.0).length() < 1e-12);
 /// ```
+#[doc(alias = "CMM")]
 #[inline(always)]
+#[must_use]
 pub fn centroidal_matrix<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
-    q: &[R; Q],
+    q: &impl Configuration<R, Q>,
     effects: &E,
 ) -> [Force<R>; V]
 where
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    centroidal_matrix_at(robot, &JointTrig::of(robot, q), effects)
-}
-
-/// As [`centroidal_matrix`], at a posture whose sines and cosines are at hand.
-#[inline(always)]
-pub fn centroidal_matrix_at<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
-    robot: &D,
-    posture: &JointTrig<R, Q>,
-    effects: &E,
-) -> [Force<R>; V]
-where
-    D: RobotModel<R, B, Q, V>,
-    E: Effect<R, B, V>,
-{
+    let trig = q.trig_of(robot);
+    let trig = trig.borrow();
     const {
         assert!(
             !E::GYROSCOPIC_ROTORS,
             "no rotors that spin as bodies here; name `Armature`"
         )
     };
-    let turns = &posture.turns;
-    let (mass, moment) = mass_and_first_moment(robot, posture, effects);
-    let centre = moment * per(mass);
+    let turns = &trig.turns;
+    let (mass, moment) = mass_and_first_moment(robot, trig, effects);
+    let centre = moment * reciprocal(mass);
 
-    let mut at = PerBody::<_, B>::from(Pose::IDENTITY);
+    let mut at = per_body(robot, Pose::IDENTITY);
     let mut bodies: Vec<(Pose<R>, Xform<R>, CompositeInertia<R>), B> = Vec::new();
     for (i, link) in robot.links().enumerate() {
         let x = link.xform(turns);
-        let pose = at.parent(D::CHAIN, link.parent).transformed_by(&x);
+        let pose = at.parent(&link).transformed_by(&x);
         let _ = bodies.push((pose, x, body_inertia(effects, i, &link).into()));
-        at.push(D::CHAIN, pose);
+        at.push(pose);
     }
 
     let mut columns = [Force::ZERO; V];
-    let mut inner = bodies.as_mut_slice();
-    while let Some(((pose, x, composite), rest)) = core::mem::take(&mut inner).split_last_mut() {
-        let Some(link) = robot.link(rest.len()) else {
+    let mut pass = inward(&mut bodies);
+    while let Some(((pose, x, composite), inner)) = pass.next() {
+        let Some(link) = robot.link(inner.len()) else {
             break;
         };
         for (k, coordinate) in link.coordinates().enumerate() {
@@ -123,10 +120,9 @@ where
                 *column = Force::new(ang + (pose.pos - centre).cross(lin), lin);
             }
         }
-        if let Some(parent) = rest.get_mut(link.parent) {
+        if let Some(parent) = inner.get_mut(link.parent) {
             parent.2 += composite.at_parent(x);
         }
-        inner = rest;
     }
     columns
 }

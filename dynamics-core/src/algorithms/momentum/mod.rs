@@ -6,20 +6,20 @@
 mod base_velocity;
 mod centroidal;
 
-pub use base_velocity::{base_velocity_from_momentum, base_velocity_from_momentum_at};
-pub use centroidal::{
-    centroidal_matrix, centroidal_matrix_at, centroidal_momentum, centroidal_momentum_at,
-};
+pub use base_velocity::base_velocity_from_momentum;
+pub use centroidal::{centroidal_matrix, centroidal_momentum};
+
+use core::borrow::Borrow;
 
 use heapless::Vec;
 
 use crate::algorithms::kinematics::frame::Pose;
-use crate::algorithms::tree_pass::PerBody;
+use crate::algorithms::tree_pass::{inward, per_body};
 use crate::effects::{Effect, base_given, body_inertia, rotor_force};
 use crate::model::RobotModel;
 use crate::scalar::{Real, Vector};
 use crate::spatial::{Force, Xform};
-use crate::state::{JointTrig, State, entry};
+use crate::state::{Configuration, JointTrig, RobotState, entry};
 
 /// Mass, centre of mass and its velocity.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,7 +43,7 @@ pub(in crate::algorithms) fn mass_and_first_moment<
     const V: usize,
 >(
     robot: &D,
-    posture: &JointTrig<R, Q>,
+    trig: &JointTrig<R, Q>,
     effects: &E,
 ) -> (R, R::Vec3)
 where
@@ -51,21 +51,21 @@ where
     E: Effect<R, B, V>,
 {
     let (mut mass, mut moment) = (R::ZERO, R::Vec3::ZERO);
-    let mut at = PerBody::<_, B>::from(Pose::IDENTITY);
+    let mut at = per_body(robot, Pose::IDENTITY);
     for (i, link) in robot.links().enumerate() {
-        let here = at.parent(D::CHAIN, link.parent);
-        let here = here.transformed_by(&link.xform(&posture.turns));
+        let here = at.parent(&link);
+        let here = here.transformed_by(&link.xform(&trig.turns));
         let inertia = body_inertia(effects, i, &link);
         mass += inertia.mass;
         moment += here.pos * inertia.mass + here.rot * inertia.first_moment;
-        at.push(D::CHAIN, here);
+        at.push(here);
     }
     (mass, moment)
 }
 
 /// 1/m; zero if there is no mass.
 #[inline(always)]
-pub(in crate::algorithms) fn per<R: Real>(mass: R) -> R {
+pub(in crate::algorithms) fn reciprocal<R: Real>(mass: R) -> R {
     if mass > R::ZERO {
         R::ONE / mass
     } else {
@@ -73,56 +73,62 @@ pub(in crate::algorithms) fn per<R: Real>(mass: R) -> R {
     }
 }
 
-/// The centre of mass of all bodies (and a payload), its velocity, and their mass.
+/// The centre of mass of all bodies and a payload, m, its velocity, m/s, and their mass, kg.
 ///
-/// Base coordinates; m, m/s, kg. On a base of given motion the velocity has a part of it. Cost: O(B);
-/// some 250 flops a revolute joint. Errors: none. Source: Orin, Goswami & Lee (2013), section 2.
+/// Along the base's axes. On a base of given motion the velocity includes that motion.
 ///
+/// # Cost
+/// O(B): some 250 flops for each revolute joint.
+///
+/// # Source
+/// Orin, Goswami & Lee (2013), section 2.
+///
+/// # Example
 /// ```
 /// use dynamics_core::{algorithms::center_of_mass, model::Robot, robots::Ur5e, state::State};
 /// let arm = center_of_mass(&Ur5e::MODEL, &State::at([0.0_f64, -1.57, 0.0, 0.0, 0.0, 0.0]), &());
 /// assert!(arm.mass > 16.0 && arm.position.z > 0.3);
 /// ```
+#[doc(alias = "mass_centre")]
+#[doc(alias = "CoM")]
+#[doc(alias = "COM")]
 #[inline(always)]
+#[must_use]
 pub fn center_of_mass<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
-    state: &State<R, Q, V>,
+    state: impl RobotState<R, Q, V>,
     effects: &E,
 ) -> CenterOfMass<R>
 where
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    center_of_mass_at(robot, &JointTrig::of(robot, &state.q), state, effects)
-}
-
-/// As [`center_of_mass`], at a posture whose sines and cosines are at hand; `state.q` is not read.
-#[inline(always)]
-pub fn center_of_mass_at<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
-    robot: &D,
-    posture: &JointTrig<R, Q>,
-    state: &State<R, Q, V>,
-    effects: &E,
-) -> CenterOfMass<R>
-where
-    D: RobotModel<R, B, Q, V>,
-    E: Effect<R, B, V>,
-{
-    let (mass, moment) = mass_and_first_moment(robot, posture, effects);
-    let mass_inv = per(mass);
+    let trig = state.configuration().trig_of(robot);
+    let (trig, state) = (trig.borrow(), state.state());
+    let (mass, moment) = mass_and_first_moment(robot, trig, effects);
+    let mass_inv = reciprocal(mass);
     CenterOfMass {
         mass,
         position: moment * mass_inv,
-        velocity: momentum_at(robot, posture, state, effects).lin * mass_inv,
+        velocity: momentum(robot, trig.with(state), effects).lin * mass_inv,
     }
 }
 
-/// The momentum of all bodies together: about the base's origin and along its axes, N·m·s and N·s.
+/// The momentum of all bodies together, about the base's origin and along its axes, N·m·s and N·s.
 ///
-/// Rotors behind gears are in it if the effects name them as bodies that spin, [`crate::effects::GyroscopicRotors`]; what
-/// [`crate::effects::Armature`] adds to the diagonal of M is not. Cost: O(B); some 150 flops a revolute joint. Errors: none. Source:
+/// Rotors behind gears are part of it if the scene has them as [`crate::effects::GyroscopicRotors`]; what
+/// [`crate::effects::Armature`] adds to the diagonal of M is not.
+///
+/// # Shape
+/// 6.
+///
+/// # Cost
+/// O(B): some 150 flops for each revolute joint.
+///
+/// # Source
 /// RBDA (2008), (2.60).
 ///
+/// # Example
 /// ```
 /// use dynamics_core::{algorithms::{center_of_mass, momentum}, model::Robot, robots::Ur5e, state::State};
 /// let state = State { qd: [1.0; 6], ..State::at([0.3_f64; 6]) };
@@ -130,52 +136,39 @@ where
 /// assert!((h.lin - c.velocity * c.mass).length() < 1e-12);
 /// ```
 #[inline(always)]
+#[must_use]
 pub fn momentum<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
-    state: &State<R, Q, V>,
+    state: impl RobotState<R, Q, V>,
     effects: &E,
 ) -> Force<R>
 where
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    momentum_at(robot, &JointTrig::of(robot, &state.q), state, effects)
-}
-
-/// As [`momentum`], at a posture whose sines and cosines are at hand; `state.q` is not read.
-#[inline(always)]
-pub fn momentum_at<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
-    robot: &D,
-    posture: &JointTrig<R, Q>,
-    state: &State<R, Q, V>,
-    effects: &E,
-) -> Force<R>
-where
-    D: RobotModel<R, B, Q, V>,
-    E: Effect<R, B, V>,
-{
-    let turns = &posture.turns;
-    let mut v = PerBody::<_, B>::from(base_given(effects).0);
+    let trig = state.configuration().trig_of(robot);
+    let (trig, state) = (trig.borrow(), state.state());
+    let turns = &trig.turns;
+    let mut v = per_body(robot, base_given(effects).0);
     let mut bodies: Vec<(Xform<R>, usize, Force<R>), B> = Vec::new();
     for (i, link) in robot.links().enumerate() {
         let x = link.xform(turns);
-        let v_i = link.plus_motion(x * v.parent(D::CHAIN, link.parent), turns, &state.qd);
+        let v_i = link.plus_motion(x * v.parent(&link), turns, &state.qd);
         let mut h_i = body_inertia(effects, i, &link) * v_i;
         if E::GYROSCOPIC_ROTORS {
             h_i += rotor_force(effects, &link) * entry(&state.qd, link.idx_v());
         }
         let _ = bodies.push((x, link.parent, h_i));
-        v.push(D::CHAIN, v_i);
+        v.push(v_i);
     }
     let mut total = Force::ZERO;
-    let mut inner = bodies.as_mut_slice();
-    while let Some((&mut (x, parent, h), rest)) = core::mem::take(&mut inner).split_last_mut() {
+    let mut pass = inward(&mut bodies);
+    while let Some((&mut (x, parent, h), inner)) = pass.next() {
         let h = x.transpose_mul(h);
-        match rest.get_mut(parent) {
-            Some(carrier) => carrier.2 += h,
+        match inner.get_mut(parent) {
+            Some(parent) => parent.2 += h,
             None => total += h,
         }
-        inner = rest;
     }
     total
 }

@@ -54,13 +54,22 @@ pub enum Conditioning<R> {
     },
 }
 
-/// A⁻¹, and whether it had to be damped: A symmetric with no negative eigenvalue.
+/// The inverse of a symmetric matrix A with no negative eigenvalue, and whether it had to be damped.
 ///
-/// What stands along the eigenvector of an eigenvalue below the threshold goes to zero with it, without a
-/// jump in value or slope. Cost: 4 M³ + M² flops and 2 M divisions where nothing is damped; else
-/// 3 M (M − 1) (18 M + 50) + 2 M³ flops more, with 3 M (M − 1) divisions, in f64 a sixth above that. Errors: none;
-/// numbers that are not finite give such numbers, and are not `Regular`. Source: the module's.
+/// What belongs to an eigenvalue smaller than the threshold goes to zero with it, without a jump in value or slope.
+/// Numbers that are not finite give such numbers, and are not `Regular`.
 ///
+/// # Shape
+/// M × M.
+///
+/// # Cost
+/// 4 M³ + M² flops and 2 M divisions where nothing is damped; else 3 M (M − 1) (18 M + 50) + 2 M³ flops more, with 3 M
+/// (M − 1) divisions, in f64 a sixth more.
+///
+/// # Source
+/// The module's documentation.
+///
+/// # Example
 /// ```
 /// use dynamics_core::algorithms::{Conditioning, Damping, damped_inverse};
 /// let damping = Damping::relative(1e-3_f32);
@@ -69,7 +78,9 @@ pub enum Conditioning<R> {
 /// let (inverse, how) = damped_inverse(&[[2.0, 0.0], [0.0, 0.0]], damping);
 /// assert_eq!((inverse, how), ([[0.5, 0.0], [0.0, 0.0]], Conditioning::Damped { smallest: 0.0 }));
 /// ```
+#[doc(alias = "damped least squares")]
 #[inline(always)]
+#[must_use]
 pub fn damped_inverse<R: Real, const M: usize>(
     a: &[[R; M]; M],
     damping: Damping<R>,

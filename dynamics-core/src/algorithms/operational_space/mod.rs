@@ -8,23 +8,31 @@ mod eigen;
 mod osim_inverse;
 
 pub use damped_inverse::{Conditioning, Damping, damped_inverse};
-pub use osim_inverse::{OsimInverse, osim_inverse, osim_inverse_at};
+pub use osim_inverse::{OsimInverse, osim_inverse};
 
-use crate::algorithms::{Frame, NotPositiveDefinite, crba_at, jacobian_at, ltdl, solve};
+use core::borrow::Borrow;
+
+use crate::algorithms::{Frame, NotPositiveDefinite, crba, jacobian, ltdl, solve};
 use crate::effects::Effect;
 use crate::model::RobotModel;
 use crate::scalar::Real;
 use crate::spatial::{Force, Motion};
-use crate::state::JointTrig;
+use crate::state::Configuration;
 
-/// The rows of a task's Jacobian: the rates of M directions of a body, given as forces, from the columns of
-/// that body's [`super::jacobian`] in the same frame.
+/// The rows of a task's Jacobian: the rates of M directions of a body, given as forces, by its [`super::jacobian`] in
+/// the same frame.
 ///
-/// A direction is the force that a unit of the task's coordinate pushes with; its rate is their power
-/// v·f. Unit forces along the axes give velocities in m/s, unit couples rates in rad/s; a couple of
-/// 1/l gives the velocity at the radius l, which makes turns comparable to lengths. 11 M flops a
-/// coordinate.
+/// A direction is the force that corresponds to a unit of the task's coordinate; the rate of that coordinate is the
+/// power v·f. Unit forces along the axes give velocities in m/s, unit couples rates in rad/s; a couple of 1/l gives the
+/// velocity at the radius l, which makes rotations comparable to lengths.
 ///
+/// # Shape
+/// M × V.
+///
+/// # Cost
+/// 11 M flops for each coordinate.
+///
+/// # Example
 /// ```
 /// use dynamics_core::{Core, algorithms::{frame, task_jacobian}, robots::Ur5e, spatial::Force};
 /// use glam::Vec3;
@@ -32,7 +40,10 @@ use crate::state::JointTrig;
 /// let [height] = task_jacobian(&j, &[Force::new(Vec3::ZERO, Vec3::Z)]);
 /// assert!(height[0].abs() < 1e-7); // a turn about the vertical lifts nothing
 /// ```
+#[doc(alias = "task_rows")]
+#[doc(alias = "selection matrix")]
 #[inline(always)]
+#[must_use]
 pub fn task_jacobian<R: Real, const M: usize, const V: usize>(
     jacobian: &[Motion<R>; V],
     directions: &[Force<R>; M],
@@ -40,11 +51,19 @@ pub fn task_jacobian<R: Real, const M: usize, const V: usize>(
     directions.map(|direction| jacobian.map(|column| column.dot(direction)))
 }
 
-/// A task on `body` along some directions, told in a [`Frame`]: by J, M and its factors.
+/// The operational-space inertia of a task on `body` along some directions, expressed in a [`Frame`], by J, M and its
+/// factors.
 ///
-/// Rotors and a payload that the effects name count in M. Cost: [`super::crba`], [`super::ltdl()`],
-/// [`super::jacobian`], M solutions of 2 V² flops, 2 M² V flops and [`damped_inverse`]. Source: Khatib (1987).
+/// Of the effects, armatures and payloads are part of M.
 ///
+/// # Cost
+/// That of [`super::crba`], [`super::ltdl()`] and [`super::jacobian`], M solutions of 2 V² flops, 2 M² V flops and
+/// [`damped_inverse`].
+///
+/// # Source
+/// Khatib (1987).
+///
+/// # Example
 /// ```
 /// use dynamics_core::algorithms::{Damping, frame, operational_space};
 /// use dynamics_core::{control::TaskFrame, effects::RIGID_BODY, model::Robot, robots::Ur5e};
@@ -58,6 +77,8 @@ pub fn task_jacobian<R: Real, const M: usize, const V: usize>(
 /// # Errors
 /// [`NotPositiveDefinite`] names a joint that moves no inertia. A singular pose is none: all is finite,
 /// and [`OperationalSpace::conditioning`] says so.
+#[doc(alias = "end effector")]
+#[doc(alias = "OSIM")]
 #[inline(always)]
 pub fn operational_space<
     R: Real,
@@ -70,38 +91,7 @@ pub fn operational_space<
     const V: usize,
 >(
     robot: &D,
-    q: &[R; Q],
-    body: (usize, F),
-    directions: &[Force<R>; M],
-    effects: &E,
-    damping: Damping<R>,
-) -> Result<OperationalSpace<R, M, V>, NotPositiveDefinite>
-where
-    D: RobotModel<R, B, Q, V>,
-    E: Effect<R, B, V>,
-    F: Frame,
-{
-    let posture = JointTrig::of(robot, q);
-    operational_space_at(robot, &posture, body, directions, effects, damping)
-}
-
-/// As [`operational_space`], at a posture whose sines and cosines are at hand.
-///
-/// # Errors
-/// As [`operational_space`].
-#[inline(always)]
-pub fn operational_space_at<
-    R: Real,
-    D,
-    E,
-    F,
-    const M: usize,
-    const B: usize,
-    const Q: usize,
-    const V: usize,
->(
-    robot: &D,
-    posture: &JointTrig<R, Q>,
+    q: &impl Configuration<R, Q>,
     (body, frame): (usize, F),
     directions: &[Force<R>; M],
     effects: &E,
@@ -112,8 +102,10 @@ where
     E: Effect<R, B, V>,
     F: Frame,
 {
-    let factors = ltdl(robot, &crba_at(robot, posture, effects))?;
-    let rows = task_jacobian(&jacobian_at(robot, posture, body, frame), directions);
+    let trig = q.trig_of(robot);
+    let trig = trig.borrow();
+    let factors = ltdl(robot, &crba(robot, trig, effects))?;
+    let rows = task_jacobian(&jacobian(robot, trig, body, frame), directions);
     let solve = |tau: &_| solve(robot, &factors, tau);
     Ok(OperationalSpace::new(rows, solve, damping))
 }

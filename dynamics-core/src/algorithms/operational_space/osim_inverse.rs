@@ -8,6 +8,8 @@
 //!
 //! Λ⁻¹ ← P X Λ⁻¹ Xᵀ Pᵀ + s D⁻¹ sᵀ.
 
+use core::borrow::Borrow;
+
 use core::ops::Mul;
 
 use crate::algorithms::NotPositiveDefinite;
@@ -19,7 +21,7 @@ use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::MotionSubspace;
 use crate::spatial::symmetric::{Symmetric, turned_back};
 use crate::spatial::{Force, Motion, Xform};
-use crate::state::{JointTrig, entry};
+use crate::state::{Configuration, entry};
 
 /// Λ⁻¹: what acceleration a force on a body gives that body, all joints being free to move.
 ///
@@ -107,7 +109,7 @@ impl<R: Real> OsimInverse<R> {
         match s {
             MotionSubspace::RevoluteZ => {
                 let [x, y, _] = k.ang.array();
-                let p = Force::new(R::Vec3::new(-x, -y, joint.held), -k.lin);
+                let p = Force::new(R::Vec3::new(-x, -y, joint.armature_share), -k.lin);
                 let w = *self * p;
                 let [xz, yz, _] = w.ang.array();
                 (next.ang.xz, next.ang.yz, next.ang.zz) = (xz, yz, w.dot(p) + joint.d_inv);
@@ -115,7 +117,7 @@ impl<R: Real> OsimInverse<R> {
             }
             MotionSubspace::PrismaticZ => {
                 let [x, y, _] = k.lin.array();
-                let p = Force::new(-k.ang, R::Vec3::new(-x, -y, joint.held));
+                let p = Force::new(-k.ang, R::Vec3::new(-x, -y, joint.armature_share));
                 let w = *self * p;
                 let [xz, yz, _] = w.lin.array();
                 (next.lin.xz, next.lin.yz, next.lin.zz) = (xz, yz, w.dot(p) + joint.d_inv);
@@ -161,12 +163,20 @@ fn with_row_z<R: Real>(m: &R::Mat3, row: R::Vec3) -> R::Mat3 {
     )
 }
 
-/// Λ⁻¹ of `body` in a [`Frame`]: J M⁻¹ Jᵀ without J or M.
+/// The inverse operational-space inertia Λ⁻¹ = J M⁻¹ Jᵀ of `body` in a [`Frame`], without J or M.
 ///
-/// Inertias of joints and a payload that the effects name count. Zero for a body that there is not.
-/// Cost: O(B); some 390 flops a revolute joint, and 390 more one that carries the body. Source: the
-/// module's.
+/// Inertias of joints and a payload of the scene count.
 ///
+/// # Shape
+/// 6 × 6; zero for a body that the robot does not have.
+///
+/// # Cost
+/// O(B): some 390 flops for each revolute joint, and 390 more for one between body and base.
+///
+/// # Source
+/// Chang & Khatib (2000); Lilly & Orin (1993).
+///
+/// # Example
 /// ```
 /// use dynamics_core::{algorithms::{frame, osim_inverse}, effects::RIGID_BODY, model::Robot, robots::Ur5e};
 /// use dynamics_core::spatial::Force;
@@ -181,29 +191,13 @@ fn with_row_z<R: Real>(m: &R::Mat3, row: R::Vec3) -> R::Mat3 {
 /// # Errors
 /// [`NotPositiveDefinite`] names a coordinate that moves no inertia, or whose inertia is not a number, as
 /// [`aba`](crate::algorithms::aba()) does.
+#[doc(alias = "end effector")]
+#[doc(alias = "mobility")]
+#[doc(alias = "OSIM")]
 #[inline(always)]
 pub fn osim_inverse<R: Real, D, E, F: Frame, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
-    q: &[R; Q],
-    body: usize,
-    frame: F,
-    effects: &E,
-) -> Result<OsimInverse<R>, NotPositiveDefinite>
-where
-    D: RobotModel<R, B, Q, V>,
-    E: Effect<R, B, V>,
-{
-    osim_inverse_at(robot, &JointTrig::of(robot, q), body, frame, effects)
-}
-
-/// As [`osim_inverse`], at a posture whose sines and cosines are at hand.
-///
-/// # Errors
-/// As [`osim_inverse`].
-#[inline(always)]
-pub fn osim_inverse_at<R: Real, D, E, F: Frame, const B: usize, const Q: usize, const V: usize>(
-    robot: &D,
-    posture: &JointTrig<R, Q>,
+    q: &impl Configuration<R, Q>,
     body: usize,
     _: F,
     effects: &E,
@@ -212,8 +206,10 @@ where
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    let turns = &posture.turns;
-    let ArticulatedPass { x, handles } = eliminate(robot, turns, effects)?;
+    let trig = q.trig_of(robot);
+    let trig = trig.borrow();
+    let turns = &trig.turns;
+    let ArticulatedPass { x, factors } = eliminate(robot, turns, effects)?;
     let carries: [bool; B] = path(robot, body);
     let (mut pose, mut mobility) = (Pose::IDENTITY, OsimInverse::ZERO);
     let bodies = robot.links().zip(&x).zip(carries);
@@ -221,8 +217,8 @@ where
         pose = pose.transformed_by(x);
         mobility = mobility.at(x);
         for (k, coordinate) in link.coordinates().enumerate() {
-            let handle = entry(&handles, coordinate);
-            mobility = mobility.across(&link.subspace(turns, k), &handle);
+            let factor = entry(&factors, coordinate);
+            mobility = mobility.across(&link.subspace(turns, k), &factor);
         }
     }
     let Some(link) = robot.link(body) else {
@@ -232,8 +228,8 @@ where
         rot: link.frame.transpose(),
         pos: R::Vec3::ZERO,
     };
-    let told = F::from_body(&pose.in_link_frame(&link.frame));
-    Ok(mobility.at(&(told * own)))
+    let expressed = F::from_body(&pose.in_link_frame(&link.frame));
+    Ok(mobility.at(&(expressed * own)))
 }
 
 /// Which bodies carry `body`, itself included.

@@ -7,5 +7,5 @@ use dynamics_core::trig::Minimax;
 /// Torques of a motion, N·m.
 #[inline]
 pub fn torques(state: &State<f32, 3, 3>) -> [f32; 3] {
-    Engine::<A1Leg>::rnea_by::<Minimax<7, 2>, f32, _, 4, 3, 3>(state, &RIGID_BODY)
+    Engine::<A1Leg, Minimax<7, 2>>::rnea(state, &RIGID_BODY)
 }

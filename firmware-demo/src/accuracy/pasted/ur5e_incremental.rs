@@ -20,6 +20,6 @@ impl Torques {
     /// Torques of this tick, N·m.
     #[inline(never)]
     pub fn tick(&mut self, state: &State<f32, 6, 6>) -> [f32; 6] {
-        Engine::<Ur5e>::rnea_at(self.carried.follow(&state.q), state, &RIGID_BODY)
+        Engine::<Ur5e>::rnea(self.carried.follow(&state.q).with(state), &RIGID_BODY)
     }
 }

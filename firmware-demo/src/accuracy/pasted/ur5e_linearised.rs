@@ -28,9 +28,9 @@ impl Torques {
             return self.between.hold(&state.qdd);
         }
         self.wait = 10 - 1;
-        let posture = Engine::<Ur5e>::posture_by::<Table<128, 3>, f32, 6, 6, 6>(&state.q);
-        let torque = Engine::<Ur5e>::rnea_at(&posture, state, &RIGID_BODY);
-        let mass_matrix = Engine::<Ur5e>::crba_at(&posture, &RIGID_BODY);
+        let trig = Engine::<Ur5e, Table<128, 3>>::joint_trig(&state.q);
+        let torque = Engine::<Ur5e>::rnea(trig.with(state), &RIGID_BODY);
+        let mass_matrix = Engine::<Ur5e>::crba(&trig, &RIGID_BODY);
         self.between.update(torque, mass_matrix, &state.qdd)
     }
 }

@@ -7,5 +7,5 @@ use dynamics_core::trig::Table;
 /// Torques of a motion, N·m.
 #[inline]
 pub fn torques(state: &State<f32, 6, 6>) -> [f32; 6] {
-    Engine::<Ur5e>::rnea_by::<Table<256, 1>, f32, _, 6, 6, 6>(state, &RIGID_BODY)
+    Engine::<Ur5e, Table<256, 1>>::rnea(state, &RIGID_BODY)
 }

@@ -6,18 +6,19 @@ use dynamics_core::{Engine, MassMatrix};
 use super::forward::{Forms, Solution};
 
 /// In the order of the table.
-pub fn engine<T: Robot<B, N, N>, const B: usize, const N: usize, const TIP: usize>() -> Forms<N> {
+pub fn engine<'a, T: Robot<B, N, N>, const B: usize, const N: usize, const TIP: usize>()
+-> Forms<'a, N> {
     Forms {
         name: "engine",
         crba: Engine::<T>::crba,
-        crba_at: Engine::<T>::crba_at,
+        crba_at: Engine::<T>::crba,
         factor_solve: engine_factor_solve::<T, B, N>,
         forward: Engine::<T>::forward_dynamics,
-        forward_at: Engine::<T>::forward_dynamics_at,
+        forward_at: Engine::<T>::forward_dynamics,
         aba: Engine::<T>::aba,
-        aba_at: Engine::<T>::aba_at,
+        aba_at: Engine::<T>::aba,
         jacobian: Engine::<T>::jacobian::<TIP, _, _, _, _>,
-        jacobian_at: Engine::<T>::jacobian_at::<TIP, _, _, _, _>,
+        jacobian_at: Engine::<T>::jacobian::<TIP, _, _, _, _>,
     }
 }
 

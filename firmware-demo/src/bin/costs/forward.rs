@@ -5,43 +5,43 @@ use dynamics_core::effects::{Coriolis, Gravity, Inertia, RIGID_BODY};
 
 use dynamics_core::model::Robot;
 use dynamics_core::spatial::Motion;
-use dynamics_core::state::{JointTrig, State};
+use dynamics_core::state::{JointTrig, State, StateWithTrig};
 use dynamics_core::{Core, MassMatrix};
 
 use super::costs::row::Row;
-use super::costs::{asks, done};
+use super::costs::{Ask, STATES, done};
 
 pub type Scene = (Gravity, Inertia, Coriolis);
 pub type Solution<const N: usize> = Result<[f32; N], NotPositiveDefinite>;
-pub type Forward<const N: usize> = fn(&State<f32, N, N>, &[f32; N], &Scene) -> Solution<N>;
-pub type ForwardAt<const N: usize> =
-    fn(&JointTrig<f32, N>, &State<f32, N, N>, &[f32; N], &Scene) -> Solution<N>;
+pub type Forward<'a, const N: usize> = fn(&'a State<f32, N, N>, &[f32; N], &Scene) -> Solution<N>;
+pub type Precomputed<'a, const N: usize> =
+    fn(StateWithTrig<'a, f32, N, N>, &[f32; N], &Scene) -> Solution<N>;
 
-/// The functions of core or engine; those that take a posture have sines and cosines at hand.
-pub struct Forms<const N: usize> {
+/// The functions of core or engine, each with sines and cosines computed inside and before.
+pub struct Forms<'a, const N: usize> {
     pub name: &'static str,
     pub crba: fn(&[f32; N], &Scene) -> MassMatrix<f32, N>,
     pub crba_at: fn(&JointTrig<f32, N>, &Scene) -> MassMatrix<f32, N>,
     pub factor_solve: fn(&MassMatrix<f32, N>, &[f32; N]) -> Solution<N>,
-    pub forward: Forward<N>,
-    pub forward_at: ForwardAt<N>,
-    pub aba: Forward<N>,
-    pub aba_at: ForwardAt<N>,
+    pub forward: Forward<'a, N>,
+    pub forward_at: Precomputed<'a, N>,
+    pub aba: Forward<'a, N>,
+    pub aba_at: Precomputed<'a, N>,
     pub jacobian: fn(&[f32; N]) -> [Motion<f32>; N],
     pub jacobian_at: fn(&JointTrig<f32, N>) -> [Motion<f32>; N],
 }
 
-impl<const N: usize> Forms<N> {
+impl<const N: usize> Forms<'_, N> {
     pub fn core<T: Robot<B, N, N>, const B: usize>() -> Self {
         Self {
             name: "core",
             crba: Core::<T>::crba,
-            crba_at: Core::<T>::crba_at,
+            crba_at: Core::<T>::crba,
             factor_solve: core_factor_solve::<T, B, N>,
             forward: Core::<T>::forward_dynamics,
-            forward_at: Core::<T>::forward_dynamics_at,
+            forward_at: Core::<T>::forward_dynamics,
             aba: Core::<T>::aba,
-            aba_at: Core::<T>::aba_at,
+            aba_at: Core::<T>::aba,
             jacobian: tip_jacobian::<T, B, N>,
             jacobian_at: tip_jacobian_at::<T, B, N>,
         }
@@ -66,17 +66,19 @@ fn tip_jacobian<T: Robot<B, N, N>, const B: usize, const N: usize>(
 
 #[inline(never)]
 fn tip_jacobian_at<T: Robot<B, N, N>, const B: usize, const N: usize>(
-    posture: &JointTrig<f32, N>,
+    trig: &JointTrig<f32, N>,
 ) -> [Motion<f32>; N] {
-    Core::<T>::jacobian_at(posture, const { B - 1 }, frame::LocalWorldAligned)
+    Core::<T>::jacobian(trig, const { B - 1 }, frame::LocalWorldAligned)
 }
 
 /// Measures the rows of these forms and leaves the emulator. Torques are the states' accelerations: any
 /// will do, since the work does not depend on what they move.
-pub fn run<T: Robot<B, N, N>, const B: usize, const N: usize>(forms: &[Forms<N>]) -> ! {
-    let asks = &asks::<T, B, N>();
+pub fn run<'a, T: Robot<B, N, N>, const B: usize, const N: usize>(
+    asks: &'a [Ask<N>; STATES],
+    forms: &[Forms<'a, N>],
+) -> ! {
     let scene = &RIGID_BODY;
-    let row = |form: &Forms<N>, algorithm, trig| Row {
+    let row = |form: &Forms<'_, N>, algorithm, trig| Row {
         robot: T::MODEL.name,
         algorithm,
         form: form.name,
@@ -85,16 +87,15 @@ pub fn run<T: Robot<B, N, N>, const B: usize, const N: usize>(forms: &[Forms<N>]
         joints: N,
     };
     for form in forms {
-        let (inside, at_hand) = (form.crba, form.crba_at);
+        let (inside, precomputed) = (form.crba, form.crba_at);
         row(form, "crba", true).measure(inside as usize, asks, |ask| inside(&ask.state.q, scene));
-        row(form, "crba", false)
-            .measure(at_hand as usize, asks, |ask| at_hand(&ask.posture, scene));
+        row(form, "crba", false).measure(precomputed as usize, asks, |ask| {
+            precomputed(&ask.trig, scene)
+        });
     }
     for form in forms {
         let run = form.factor_solve;
-        let matrices = asks
-            .each_ref()
-            .map(|ask| Core::<T>::crba_at(&ask.posture, scene));
+        let matrices = asks.each_ref().map(|ask| Core::<T>::crba(&ask.trig, scene));
         row(form, "factor_solve", false).measure(run as usize, &matrices, |m| run(m, &[1.0; N]));
     }
     let forward = forms
@@ -103,18 +104,19 @@ pub fn run<T: Robot<B, N, N>, const B: usize, const N: usize>(forms: &[Forms<N>]
     let aba = forms
         .iter()
         .map(|form| (form, "aba", form.aba, form.aba_at));
-    for (form, algorithm, inside, at_hand) in forward.chain(aba) {
+    for (form, algorithm, inside, precomputed) in forward.chain(aba) {
         row(form, algorithm, true).measure(inside as usize, asks, |ask| {
             inside(&ask.state, &ask.state.qdd, scene)
         });
-        row(form, algorithm, false).measure(at_hand as usize, asks, |ask| {
-            at_hand(&ask.posture, &ask.state, &ask.state.qdd, scene)
+        row(form, algorithm, false).measure(precomputed as usize, asks, |ask| {
+            precomputed(ask.trig.with(&ask.state), &ask.state.qdd, scene)
         });
     }
     for form in forms {
-        let (inside, at_hand) = (form.jacobian, form.jacobian_at);
+        let (inside, precomputed) = (form.jacobian, form.jacobian_at);
         row(form, "jacobian", true).measure(inside as usize, asks, |ask| inside(&ask.state.q));
-        row(form, "jacobian", false).measure(at_hand as usize, asks, |ask| at_hand(&ask.posture));
+        row(form, "jacobian", false)
+            .measure(precomputed as usize, asks, |ask| precomputed(&ask.trig));
     }
     done()
 }

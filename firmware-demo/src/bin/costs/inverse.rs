@@ -2,14 +2,14 @@
 
 use dynamics_core::effects::{Coriolis, Effect, Gravity, Inertia, RIGID_BODY};
 use dynamics_core::model::Robot;
-use dynamics_core::state::{JointTrig, State};
+use dynamics_core::state::{State, StateWithTrig};
 use dynamics_core::{Core, Engine};
 
 use super::costs::row::Row;
 use super::costs::{Ask, STATES, asks, done};
 
-type Inside<E, const N: usize> = fn(&State<f32, N, N>, &E) -> [f32; N];
-type AtHand<E, const N: usize> = fn(&JointTrig<f32, N>, &State<f32, N, N>, &E) -> [f32; N];
+type Inside<'a, E, const N: usize> = fn(&'a State<f32, N, N>, &E) -> [f32; N];
+type Precomputed<'a, E, const N: usize> = fn(StateWithTrig<'a, f32, N, N>, &E) -> [f32; N];
 
 /// Measures every row of the robot T and leaves the emulator.
 pub fn run<T: Robot<B, N, N>, const B: usize, const N: usize>() -> ! {
@@ -21,17 +21,17 @@ pub fn run<T: Robot<B, N, N>, const B: usize, const N: usize>() -> ! {
     done()
 }
 
-/// Inverse dynamics in both forms, with sines and cosines inside and at hand.
+/// Inverse dynamics in both forms, with sines and cosines computed inside and before.
 fn inverse<T: Robot<B, N, N>, E: Effect<f32, B, N>, const B: usize, const N: usize>(
     inputs: &'static str,
     asks: &[Ask<N>; STATES],
     effects: &E,
 ) {
-    let forms: [(&str, Inside<E, N>, AtHand<E, N>); 2] = [
-        ("core", Core::<T>::rnea, Core::<T>::rnea_at),
-        ("engine", Engine::<T>::rnea, Engine::<T>::rnea_at),
+    let forms: [(&str, Inside<'_, E, N>, Precomputed<'_, E, N>); 2] = [
+        ("core", Core::<T>::rnea, Core::<T>::rnea),
+        ("engine", Engine::<T>::rnea, Engine::<T>::rnea),
     ];
-    for (form, inside, at_hand) in forms {
+    for (form, inside, precomputed) in forms {
         let row = |trig| Row {
             robot: T::MODEL.name,
             algorithm: "rnea",
@@ -41,8 +41,8 @@ fn inverse<T: Robot<B, N, N>, E: Effect<f32, B, N>, const B: usize, const N: usi
             joints: N,
         };
         row(true).measure(inside as usize, asks, |ask| inside(&ask.state, effects));
-        row(false).measure(at_hand as usize, asks, |ask| {
-            at_hand(&ask.posture, &ask.state, effects)
+        row(false).measure(precomputed as usize, asks, |ask| {
+            precomputed(ask.trig.with(&ask.state), effects)
         });
     }
 }

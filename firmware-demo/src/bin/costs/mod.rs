@@ -16,7 +16,7 @@ pub const STATES: usize = 32;
 /// What a function may be asked for.
 pub struct Ask<const N: usize> {
     pub state: State<f32, N, N>,
-    pub posture: JointTrig<f32, N>,
+    pub trig: JointTrig<f32, N>,
 }
 
 /// Some states within the joints' usual ranges, from a fixed seed.
@@ -32,8 +32,8 @@ pub fn asks<T: Robot<B, N, N>, const B: usize, const N: usize>() -> [Ask<N>; STA
             qd: [(); N].map(|()| number(3.0)),
             qdd: [(); N].map(|()| number(10.0)),
         };
-        let posture = Core::<T>::posture(&state.q);
-        Ask { state, posture }
+        let trig = Core::<T>::joint_trig(&state.q);
+        Ask { state, trig }
     })
 }
 

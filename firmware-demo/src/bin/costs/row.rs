@@ -31,7 +31,7 @@ impl Row<'_> {
     /// Logs the row, then runs the function of this address once for each ask in region 0. Taking the
     /// address also keeps the compiler from shaping the function to its calls.
     #[inline(always)]
-    pub fn measure<A, T>(self, address: usize, asks: &[A], mut run: impl FnMut(&A) -> T) {
+    pub fn measure<'a, A, T>(self, address: usize, asks: &'a [A], mut run: impl FnMut(&'a A) -> T) {
         let stack = asks
             .iter()
             .map(|ask| stack_of(|| run(black_box(ask))))

@@ -22,15 +22,15 @@ use super::costs::{Ask, STATES, asks};
 pub trait Form<const N: usize> {
     const NAME: &'static str;
     type Arm: Robot<N, N, N>;
-    fn rnea<E: Effect<f32, N, N>>() -> Rnea<E, N>;
+    fn rnea<'a, E: Effect<f32, N, N>>() -> Rnea<'a, E, N>;
 }
 
-type Rnea<E, const N: usize> = fn(&State<f32, N, N>, &E) -> [f32; N];
+type Rnea<'a, E, const N: usize> = fn(&'a State<f32, N, N>, &E) -> [f32; N];
 
 impl<T: Robot<N, N, N>, const N: usize> Form<N> for Core<T> {
     const NAME: &'static str = "core";
     type Arm = T;
-    fn rnea<E: Effect<f32, N, N>>() -> Rnea<E, N> {
+    fn rnea<'a, E: Effect<f32, N, N>>() -> Rnea<'a, E, N> {
         Self::rnea
     }
 }
@@ -38,7 +38,7 @@ impl<T: Robot<N, N, N>, const N: usize> Form<N> for Core<T> {
 impl<T: Robot<N, N, N>, const N: usize> Form<N> for Engine<T> {
     const NAME: &'static str = "engine";
     type Arm = T;
-    fn rnea<E: Effect<f32, N, N>>() -> Rnea<E, N> {
+    fn rnea<'a, E: Effect<f32, N, N>>() -> Rnea<'a, E, N> {
         Self::rnea
     }
 }

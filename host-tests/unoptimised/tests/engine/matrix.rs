@@ -116,11 +116,9 @@ fn forward_inverts_rnea_on_an_odd_tree_with_rotors_and_payload() {
         ROTORS,
         payload::<_, 10>(),
     );
-    inverted::<f64, StressRobot, _, 11, 7>(
-        &scene,
-        quantity,
-        Engine::<StressRobot>::forward_dynamics,
-    );
+    inverted::<f64, StressRobot, _, 11, 7>(&scene, quantity, |state, tau, scene| {
+        Engine::<StressRobot>::forward_dynamics(state, tau, scene)
+    });
 }
 
 /// A smaller odd tree, since articulated bodies take the compiler long.
@@ -160,7 +158,9 @@ impl Robot<4, 4, 4> for Fork {
 fn aba_inverts_rnea_on_an_odd_tree_with_rotors_and_payload() {
     let rotors = Armature([0.2, 0.1, 0.3, 0.05]);
     let scene = (Gravity::EARTH, Inertia, Coriolis, rotors, payload::<_, 3>());
-    inverted::<f64, Fork, _, 4, 4>(&scene, "engine aba of rnea", Engine::<Fork>::aba);
+    inverted::<f64, Fork, _, 4, 4>(&scene, "engine aba of rnea", |state, tau, scene| {
+        Engine::<Fork>::aba(state, tau, scene)
+    });
 }
 
 #[test]

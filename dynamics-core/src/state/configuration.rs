@@ -1,0 +1,160 @@
+//! What the algorithms accept as a configuration, and as a state: plain numbers, or with precomputed sines and cosines.
+
+use core::borrow::Borrow;
+
+use super::{JointTrig, State};
+use crate::model::RobotModel;
+use crate::scalar::Real;
+
+mod sealed {
+    /// Keeps the two traits to the types of this module: the engine relies on what they do.
+    pub trait Sealed {}
+    impl<R, const Q: usize> Sealed for [R; Q] {}
+    impl<R, const Q: usize> Sealed for super::JointTrig<R, Q> {}
+    impl<R, const Q: usize, const V: usize> Sealed for &super::State<R, Q, V> {}
+    impl<R, const Q: usize, const V: usize> Sealed for super::StateWithTrig<'_, R, Q, V> {}
+}
+
+/// A configuration q: an array `[R; Q]`, whose sines and cosines are computed by the callee, or a [`JointTrig`], which
+/// has them.
+///
+/// Several algorithms at one configuration share a [`JointTrig`]:
+///
+/// ```
+/// use dynamics_core::{Engine, effects::RIGID_BODY, robots::Ur5e};
+/// let q = [0.0_f32, -1.2, 1.5, 0.3, 0.0, 0.0];
+/// let trig = Engine::<Ur5e>::joint_trig(&q); // once a tick
+/// assert_eq!(Engine::<Ur5e>::crba(&trig, &RIGID_BODY), Engine::<Ur5e>::crba(&q, &RIGID_BODY));
+/// ```
+pub trait Configuration<R, const Q: usize>: sealed::Sealed {
+    /// Whether the sines and cosines are computed already.
+    const PRECOMPUTED: bool;
+
+    /// The sines and cosines: its own, or those that `source` computes.
+    fn trig_or(&self, source: impl TrigSource<R, Q>) -> impl Borrow<JointTrig<R, Q>>;
+
+    /// The sines and cosines: its own, or those of [`JointTrig::new`] for `robot`.
+    #[inline(always)]
+    fn trig_of<D, const B: usize, const V: usize>(&self, robot: &D) -> impl Borrow<JointTrig<R, Q>>
+    where
+        R: Real,
+        D: RobotModel<R, B, Q, V>,
+    {
+        self.trig_or(Textbook::<D, B, V>(robot))
+    }
+}
+
+impl<R, const Q: usize> Configuration<R, Q> for [R; Q] {
+    const PRECOMPUTED: bool = false;
+
+    #[inline(always)]
+    fn trig_or(&self, source: impl TrigSource<R, Q>) -> impl Borrow<JointTrig<R, Q>> {
+        source.compute(self)
+    }
+}
+
+impl<R, const Q: usize> Configuration<R, Q> for JointTrig<R, Q> {
+    const PRECOMPUTED: bool = true;
+
+    #[inline(always)]
+    fn trig_or(&self, _: impl TrigSource<R, Q>) -> impl Borrow<JointTrig<R, Q>> {
+        self
+    }
+}
+
+/// What computes the sines and cosines of a configuration. A trait, since a closure would not be inlined everywhere.
+pub trait TrigSource<R, const Q: usize> {
+    /// The sines and cosines at q.
+    fn compute(&self, q: &[R; Q]) -> JointTrig<R, Q>;
+}
+
+/// [`JointTrig::new`] of a robot.
+struct Textbook<'a, D, const B: usize, const V: usize>(&'a D);
+
+impl<R: Real, D, const B: usize, const Q: usize, const V: usize> TrigSource<R, Q>
+    for Textbook<'_, D, B, V>
+where
+    D: RobotModel<R, B, Q, V>,
+{
+    #[inline(always)]
+    fn compute(&self, q: &[R; Q]) -> JointTrig<R, Q> {
+        JointTrig::new(self.0, q)
+    }
+}
+
+/// A state q, q̇, q̈: a reference to a [`State`], whose sines and cosines are computed by the callee, or
+/// [`JointTrig::with`], which has them.
+///
+/// ```
+/// use dynamics_core::{Engine, effects::{Coriolis, Gravity}, robots::Ur5e, state::State};
+/// let state = State { q: [0.1_f32; 6], qd: [0.5; 6], qdd: [1.0; 6] };
+/// let bias = (Gravity::EARTH, Coriolis);
+/// let trig = Engine::<Ur5e>::joint_trig(&state.q);
+/// assert_eq!(Engine::<Ur5e>::rnea(trig.with(&state), &bias), Engine::<Ur5e>::rnea(&state, &bias));
+/// ```
+pub trait RobotState<R, const Q: usize, const V: usize>: Copy + sealed::Sealed {
+    /// What it has for a configuration.
+    type Configuration: Configuration<R, Q>;
+
+    /// The configuration.
+    fn configuration(&self) -> &Self::Configuration;
+
+    /// q, q̇ and q̈.
+    fn state(&self) -> &State<R, Q, V>;
+}
+
+impl<R, const Q: usize, const V: usize> RobotState<R, Q, V> for &State<R, Q, V> {
+    type Configuration = [R; Q];
+
+    #[inline(always)]
+    fn configuration(&self) -> &[R; Q] {
+        &self.q
+    }
+
+    #[inline(always)]
+    fn state(&self) -> &State<R, Q, V> {
+        self
+    }
+}
+
+/// A state with the sines and cosines of its configuration, by reference: [`JointTrig::with`].
+#[derive(Debug)]
+pub struct StateWithTrig<'a, R, const Q: usize, const V: usize> {
+    trig: &'a JointTrig<R, Q>,
+    state: &'a State<R, Q, V>,
+}
+
+impl<R, const Q: usize, const V: usize> Clone for StateWithTrig<'_, R, Q, V> {
+    #[inline(always)]
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<R, const Q: usize, const V: usize> Copy for StateWithTrig<'_, R, Q, V> {}
+
+impl<R, const Q: usize, const V: usize> RobotState<R, Q, V> for StateWithTrig<'_, R, Q, V> {
+    type Configuration = JointTrig<R, Q>;
+
+    #[inline(always)]
+    fn configuration(&self) -> &JointTrig<R, Q> {
+        self.trig
+    }
+
+    #[inline(always)]
+    fn state(&self) -> &State<R, Q, V> {
+        self.state
+    }
+}
+
+impl<R, const Q: usize> JointTrig<R, Q> {
+    /// The state with these sines and cosines as its configuration's. `state.q` reaches the effects of joints only.
+    #[inline(always)]
+    #[must_use]
+    pub fn with<'a, const V: usize>(
+        &'a self,
+        state: &'a State<R, Q, V>,
+    ) -> StateWithTrig<'a, R, Q, V> {
+        StateWithTrig { trig: self, state }
+    }
+}

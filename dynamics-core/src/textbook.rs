@@ -1,0 +1,245 @@
+//! [`Core`]: the reference implementation of the algorithms, for a robot known at compile time.
+
+use core::marker::PhantomData;
+
+use crate::algorithms::{self, Frame, JointResult, Kinematics, Ltdl, MassMatrix};
+use crate::algorithms::{NotPositiveDefinite, OsimInverse, Pose, Prescribed};
+use crate::effects::Effect;
+use crate::model::{RobotModel, Static};
+use crate::scalar::{Native, Real};
+use crate::spatial::{Force, Motion};
+use crate::state::{Configuration, JointTrig, RobotState};
+
+/// The textbook algorithms for the robot `T`; sines and cosines by the kernel `K`.
+///
+/// Each function is that of [`crate::algorithms`] for [`Static<T, K>`](Static), compiled once and never inlined; those that
+/// are not listed here take `&Static::<T>::NEW` in its place.
+///
+/// ```
+/// use dynamics_core::{Core, algorithms, effects::RIGID_BODY, model::Static, robots::Ur5e, state::State};
+/// let state = State { q: [0.1_f32; 6], qd: [0.5; 6], qdd: [1.0; 6] };
+/// let tau = Core::<Ur5e>::rnea(&state, &RIGID_BODY);
+/// let qdd = Core::<Ur5e>::aba(&state, &tau, &RIGID_BODY)?;
+/// assert!(qdd.iter().all(|a| (a - 1.0).abs() < 1e-3));
+/// assert!(algorithms::center_of_mass(&Static::<Ur5e>::NEW, &state, &()).mass > 16.0); // kg
+/// # Ok::<(), dynamics_core::algorithms::NotPositiveDefinite>(())
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Core<T, K = Native>(PhantomData<(T, K)>);
+
+impl<T, K> Core<T, K> {
+    /// The sines and cosines of the configuration q, for every algorithm of a tick.
+    #[must_use]
+    pub fn joint_trig<R: Real, const B: usize, const Q: usize, const V: usize>(
+        q: &[R; Q],
+    ) -> JointTrig<R, Q>
+    where
+        Static<T, K>: RobotModel<R, B, Q, V>,
+    {
+        JointTrig::new(&Static::<T, K>::NEW, q)
+    }
+
+    /// τ = ID(q, q̇, q̈): the torque of each motor, see [`algorithms::rnea`].
+    #[inline(never)]
+    pub fn rnea<R: Real, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        effects: &impl Effect<R, B, V>,
+    ) -> [R; V]
+    where
+        Static<T, K>: RobotModel<R, B, Q, V>,
+    {
+        algorithms::rnea(&Static::<T, K>::NEW, state, effects)
+    }
+
+    /// q̈ = FD(q, q̇, τ): the acceleration of each joint, see [`algorithms::aba`].
+    ///
+    /// # Errors
+    /// [`NotPositiveDefinite`] names a joint that moves no inertia.
+    #[inline(never)]
+    pub fn aba<R: Real, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        tau: &[R; V],
+        effects: &impl Effect<R, B, V>,
+    ) -> Result<[R; V], NotPositiveDefinite>
+    where
+        Static<T, K>: RobotModel<R, B, Q, V>,
+    {
+        algorithms::aba(&Static::<T, K>::NEW, state, tau, effects)
+    }
+
+    /// q̈ = FD(q, q̇, τ) by M and its factors, see [`algorithms::forward_dynamics`].
+    ///
+    /// # Errors
+    /// [`NotPositiveDefinite`] names a joint that moves no inertia.
+    #[inline(never)]
+    pub fn forward_dynamics<R: Real, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        tau: &[R; V],
+        effects: &impl Effect<R, B, V>,
+    ) -> Result<[R; V], NotPositiveDefinite>
+    where
+        Static<T, K>: RobotModel<R, B, Q, V>,
+    {
+        algorithms::forward_dynamics(&Static::<T, K>::NEW, state, tau, effects)
+    }
+
+    /// Torques and accelerations, one of them given for each joint, see [`algorithms::hybrid_dynamics`].
+    ///
+    /// # Errors
+    /// [`NotPositiveDefinite`] names a joint of given torque that moves no inertia.
+    #[inline(never)]
+    pub fn hybrid_dynamics<R: Real, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        given: &[Prescribed<R>; V],
+        effects: &impl Effect<R, B, V>,
+    ) -> Result<JointResult<R, V>, NotPositiveDefinite>
+    where
+        Static<T, K>: RobotModel<R, B, Q, V>,
+    {
+        algorithms::hybrid_dynamics(&Static::<T, K>::NEW, state, given, effects)
+    }
+
+    /// M(q): the joint-space inertia matrix, see [`algorithms::crba`].
+    #[inline(never)]
+    pub fn crba<R: Real, const B: usize, const Q: usize, const V: usize>(
+        q: &impl Configuration<R, Q>,
+        effects: &impl Effect<R, B, V>,
+    ) -> MassMatrix<R, V>
+    where
+        Static<T, K>: RobotModel<R, B, Q, V>,
+    {
+        algorithms::crba(&Static::<T, K>::NEW, q, effects)
+    }
+
+    /// The factors of M = Lᵀ D L, see [`algorithms::ltdl`].
+    ///
+    /// # Errors
+    /// [`NotPositiveDefinite`] names a joint that moves no inertia.
+    #[inline(never)]
+    pub fn ltdl<R: Real, const B: usize, const Q: usize, const V: usize>(
+        m: &MassMatrix<R, V>,
+    ) -> Result<Ltdl<R, V>, NotPositiveDefinite>
+    where
+        Static<T, K>: RobotModel<R, B, Q, V>,
+    {
+        algorithms::ltdl(&Static::<T, K>::NEW, m)
+    }
+
+    /// x with M x = τ, see [`algorithms::solve`].
+    #[inline(never)]
+    pub fn solve<R: Real, const B: usize, const Q: usize, const V: usize>(
+        factor: &Ltdl<R, V>,
+        tau: &[R; V],
+    ) -> [R; V]
+    where
+        Static<T, K>: RobotModel<R, B, Q, V>,
+    {
+        algorithms::solve(&Static::<T, K>::NEW, factor, tau)
+    }
+
+    /// The pose of every body's own frame, see [`algorithms::poses`].
+    #[inline(never)]
+    pub fn poses<R: Real, const B: usize, const Q: usize, const V: usize>(
+        q: &impl Configuration<R, Q>,
+    ) -> [Pose<R>; B]
+    where
+        Static<T, K>: RobotModel<R, B, Q, V>,
+    {
+        algorithms::poses(&Static::<T, K>::NEW, q)
+    }
+
+    /// Pose, velocity and acceleration of every body, see [`algorithms::kinematics`].
+    #[inline(never)]
+    pub fn kinematics<R: Real, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        effects: &impl Effect<R, B, V>,
+    ) -> Kinematics<R, B>
+    where
+        Static<T, K>: RobotModel<R, B, Q, V>,
+    {
+        algorithms::kinematics(&Static::<T, K>::NEW, state, effects)
+    }
+
+    /// J of a body with v = J q̇, by columns, see [`algorithms::jacobian`].
+    #[inline(never)]
+    pub fn jacobian<R: Real, F: Frame, const B: usize, const Q: usize, const V: usize>(
+        q: &impl Configuration<R, Q>,
+        body: usize,
+        frame: F,
+    ) -> [Motion<R>; V]
+    where
+        Static<T, K>: RobotModel<R, B, Q, V>,
+    {
+        algorithms::jacobian(&Static::<T, K>::NEW, q, body, frame)
+    }
+
+    /// J̇ q̇ of a body, see [`algorithms::bias_acceleration`].
+    #[inline(never)]
+    pub fn bias_acceleration<R: Real, F: Frame, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        body: usize,
+        frame: F,
+    ) -> Motion<R>
+    where
+        Static<T, K>: RobotModel<R, B, Q, V>,
+    {
+        algorithms::bias_acceleration(&Static::<T, K>::NEW, state, body, frame)
+    }
+
+    /// Λ⁻¹ of a body, see [`algorithms::osim_inverse`].
+    ///
+    /// # Errors
+    /// [`NotPositiveDefinite`] names a joint that moves no inertia.
+    #[inline(never)]
+    pub fn osim_inverse<R: Real, F: Frame, const B: usize, const Q: usize, const V: usize>(
+        q: &impl Configuration<R, Q>,
+        body: usize,
+        frame: F,
+        effects: &impl Effect<R, B, V>,
+    ) -> Result<OsimInverse<R>, NotPositiveDefinite>
+    where
+        Static<T, K>: RobotModel<R, B, Q, V>,
+    {
+        algorithms::osim_inverse(&Static::<T, K>::NEW, q, body, frame, effects)
+    }
+
+    /// q̇ with the base's rates that give all bodies the momentum h, see [`algorithms::base_velocity_from_momentum`].
+    ///
+    /// # Errors
+    /// [`NotPositiveDefinite`] names the first coordinate of bodies without mass or inertia.
+    #[inline(never)]
+    pub fn base_velocity_from_momentum<R: Real, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        h: Force<R>,
+        effects: &impl Effect<R, B, V>,
+    ) -> Result<[R; V], NotPositiveDefinite>
+    where
+        Static<T, K>: RobotModel<R, B, Q, V>,
+    {
+        algorithms::base_velocity_from_momentum(&Static::<T, K>::NEW, state, h, effects)
+    }
+
+    /// The kinetic energy T, J, see [`algorithms::kinetic_energy`].
+    #[inline(never)]
+    pub fn kinetic_energy<R: Real, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        effects: &impl Effect<R, B, V>,
+    ) -> R
+    where
+        Static<T, K>: RobotModel<R, B, Q, V>,
+    {
+        algorithms::kinetic_energy(&Static::<T, K>::NEW, state, effects)
+    }
+
+    /// The potential energy U, J, see [`algorithms::potential_energy`].
+    #[inline(never)]
+    pub fn potential_energy<R: Real, const B: usize, const Q: usize, const V: usize>(
+        q: &impl Configuration<R, Q>,
+        effects: &impl Effect<R, B, V>,
+    ) -> R
+    where
+        Static<T, K>: RobotModel<R, B, Q, V>,
+    {
+        algorithms::potential_energy(&Static::<T, K>::NEW, q, effects)
+    }
+}

@@ -1,0 +1,124 @@
+//! One name per algorithm: how many public algorithms there are, and that none is a variant of another by its name.
+//!
+//! Counted are the public functions of `algorithms`, the public methods of `Core` and `Engine`, the methods of public
+//! traits in these rooms, and the public methods of other types there that take a robot. Accessors of results are not.
+
+use std::fs;
+use std::path::Path;
+
+/// At most so many in all.
+const MOST: usize = 62;
+
+/// Endings of names for variants that a type of the argument or a parameter of `Core` and `Engine` replaces: sines and
+/// cosines computed before, another kernel.
+const VARIANTS: [&str; 2] = ["_at", "_by"];
+
+/// What an item at the left margin contains.
+#[derive(Clone, Copy, PartialEq)]
+enum Block {
+    /// The methods of `Core` or `Engine`.
+    Marker,
+    /// The methods of a public trait.
+    Trait,
+    /// The methods of another type.
+    Other,
+}
+
+/// The name that a line defines behind `prefix`.
+fn name<'a>(line: &'a str, prefix: &str) -> Option<&'a str> {
+    let rest = line.strip_prefix(prefix)?;
+    let end = rest.find(|c: char| !c.is_alphanumeric() && c != '_');
+    Some(&rest[..end.unwrap_or(rest.len())])
+}
+
+/// The algorithms that a formatted source makes public.
+fn algorithms(source: &str) -> Vec<String> {
+    let (mut found, mut block) = (Vec::new(), Block::Other);
+    let mut lines = source.lines().peekable();
+    while let Some(line) = lines.next() {
+        if line.starts_with("#[cfg(test)]") {
+            break; // tests stand at the end
+        }
+        if line.starts_with("pub trait") {
+            block = Block::Trait;
+        } else if line.starts_with("impl") {
+            let inherent = !line.contains(" for ");
+            let marker = line.contains(" Core<") || line.contains(" Engine<");
+            block = if inherent && marker {
+                Block::Marker
+            } else {
+                Block::Other
+            };
+        }
+        if let Some(name) = name(line, "pub fn ") {
+            found.push(name.to_owned());
+        } else if let (Block::Trait, Some(name)) = (block, name(line, "    fn ")) {
+            found.push(name.to_owned());
+        } else if let Some(name) = name(line, "    pub fn ") {
+            let mut signature = line.to_owned();
+            while !signature.contains(['{', ';']) {
+                signature += lines.next().unwrap_or("{");
+            }
+            if block == Block::Marker || signature.contains("robot: &") {
+                found.push(name.to_owned());
+            }
+        }
+    }
+    found
+}
+
+/// What speaks against these names.
+fn objections(names: &[String]) -> Vec<String> {
+    let mut objections: Vec<_> = names
+        .iter()
+        .filter(|name| VARIANTS.iter().any(|ending| name.ends_with(ending)))
+        .map(|name| format!("`{name}` is named as a variant of another algorithm"))
+        .collect();
+    if names.len() > MOST {
+        objections.push(format!("{} algorithms, more than {MOST}", names.len()));
+    }
+    objections
+}
+
+/// The algorithms of all sources at a path.
+fn of(path: &Path) -> Vec<String> {
+    if path.is_file() {
+        return algorithms(&fs::read_to_string(path).expect("a source"));
+    }
+    let entries = fs::read_dir(path).expect("a directory of sources");
+    entries
+        .flat_map(|entry| of(&entry.expect("an entry").path()))
+        .collect()
+}
+
+#[test]
+fn there_is_one_name_per_algorithm_and_few_of_them() {
+    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let [free, core, engine] =
+        ["algorithms", "textbook.rs", "engine"].map(|room| of(&src.join(room)));
+    let counts = [&free, &core, &engine].map(Vec::len);
+    println!("algorithms, Core, Engine: {counts:?}\n{free:?}\n{core:?}\n{engine:?}");
+    // The parser sees something: what every user calls.
+    for (room, name) in [(&free, "crba"), (&core, "rnea"), (&engine, "rnea")] {
+        assert!(room.iter().any(|found| found == name), "no `{name}`");
+    }
+    let all = [free, core, engine].concat();
+    assert_eq!(objections(&all), Vec::<String>::new());
+}
+
+#[test]
+fn a_variant_and_one_too_many_are_objected_to() {
+    let source = "pub fn crba<R>(robot: &D) {}\n\
+                  pub(crate) fn inside() {}\n\
+                  impl<T, K> Engine<T, K> {\n    pub fn rnea_at<R>(\n        trig: &T,\n    ) {\n    }\n\
+                  \x20   fn private() {}\n}\n\
+                  impl<R> Cholesky<R> {\n    pub fn get(&self) -> R {}\n    pub fn solve(&self, robot: &D) {}\n}\n\
+                  pub trait Forms {\n    fn rnea_by(&self);\n}\n";
+    let names = algorithms(source);
+    assert_eq!(names, ["crba", "rnea_at", "solve", "rnea_by"]);
+    assert_eq!(objections(&names).len(), 2);
+
+    let many: Vec<_> = (0..=MOST).map(|i| format!("algorithm_{i}")).collect();
+    assert_eq!(objections(&many), ["63 algorithms, more than 62"]);
+    assert_eq!(objections(&many[1..]), Vec::<String>::new());
+}

@@ -104,7 +104,7 @@ where
                 above = parent(lambda, above);
             }
             if let Some(diagonal) = m.diagonal_mut(joint) {
-                effects.inertia(joint, diagonal);
+                effects.add_inertia(joint, diagonal);
             }
             last = joint;
         }

@@ -6,7 +6,7 @@
 //! Crossley (1975); Haessig & Friedland, "On the modeling and simulation of friction" (1991).
 
 use super::wrench::absent;
-use crate::effects::{BodyState, Effect, smooth_sign};
+use crate::effects::{BodyState, Effect, hook, smooth_sign};
 use crate::scalar::positive_part;
 use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::Force;
@@ -39,9 +39,9 @@ pub struct ContactPoint<R: Real> {
 ///     stiffness: 1e4, damping: 100.0, per_depth: 1e3, friction: 0.5, slip_tolerance: 1e-3,
 /// };
 /// let reaching = State::at([0.0_f64; 6]);
-/// assert_eq!(Core::<Ur5e>::rnea(&reaching, &(table,)), [0.0; 6]); // above it
+/// assert_eq!(Core::<Ur5e>::rnea(&reaching, &table), [0.0; 6]); // above it
 /// table.height = 0.2;
-/// assert!(Core::<Ur5e>::rnea(&reaching, &(table,))[1] > 100.0); // the motor presses the tip into the table
+/// assert!(Core::<Ur5e>::rnea(&reaching, &table)[1] > 100.0); // the motor presses the tip into the table
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contact<R: Real, const P: usize> {
@@ -78,12 +78,13 @@ impl<R: Real, const P: usize> Contact<R, P> {
 }
 
 impl<R: Real, const P: usize, const B: usize, const V: usize> Effect<R, B, V> for Contact<R, P> {
-    const WRENCH: bool = true;
-    const BODY_POSE: bool = true;
-    const BODY_VELOCITY: bool = true;
+    const EXTERNAL_WRENCH: hook::Wrench<Self, R> = hook::Wrench::of_state(Self::add_to::<B>);
+}
 
+impl<R: Real, const P: usize> Contact<R, P> {
+    /// Adds fˣ on `body` of a robot of B bodies.
     #[inline(always)]
-    fn wrench(&self, body: usize, at: &BodyState<R>, fx: &mut Force<R>) {
+    fn add_to<const B: usize>(&self, body: usize, at: &BodyState<R>, fx: &mut Force<R>) {
         let (rot, v) = (at.pose.rot, at.velocity);
         for foot in &self.feet {
             if foot.body == body {

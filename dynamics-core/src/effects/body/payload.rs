@@ -1,6 +1,6 @@
 //! A payload held by a body, known at run time only.
 
-use crate::effects::Effect;
+use crate::effects::{Effect, hook};
 use crate::model::{BodyInertia, Problem};
 use crate::scalar::Real;
 use crate::spatial::SpatialInertia;
@@ -19,7 +19,7 @@ use core::fmt;
 /// type OnWrist = Payload<f32, { Ur5e::MODEL.body("wrist_3") }>;
 /// let arm = State::at([0.0_f32, -0.8, 0.9, 0.1, 0.2, 0.3]);
 /// let scene = (Gravity::EARTH, OnWrist::new(2.0, [0.0, 0.0, 0.1], [0.0; 6]));
-/// let empty = Core::<Ur5e>::rnea(&arm, &(Gravity::EARTH,));
+/// let empty = Core::<Ur5e>::rnea(&arm, &Gravity::EARTH);
 /// let loaded = Engine::<Ur5e>::rnea(&arm, &scene);
 /// assert!((loaded[1] - empty[1]).abs() > 5.0);
 /// assert!((loaded[1] - Core::<Ur5e>::rnea(&arm, &scene)[1]).abs() < 1e-4);
@@ -114,18 +114,21 @@ impl core::error::Error for InvalidPayload {}
 impl<R: Real, const BODY: usize, const B: usize, const V: usize> Effect<R, B, V>
     for Payload<R, BODY>
 {
-    const PAYLOAD: [bool; B] = {
+    const ADDED_INERTIA: hook::Inertia<Self, R, B> = {
         assert!(
             BODY < B,
             "a payload is on a body that the robot does not have: bodies are numbered from 0"
         );
         let mut bodies = [false; B];
         bodies[BODY] = true;
-        bodies
+        hook::Inertia::on(bodies, Self::add_to)
     };
+}
 
+impl<R: Real, const BODY: usize> Payload<R, BODY> {
+    /// Adds the load to the inertia of `body`.
     #[inline(always)]
-    fn payload(&self, body: usize, inertia: &mut SpatialInertia<R>) {
+    fn add_to(&self, body: usize, inertia: &mut SpatialInertia<R>) {
         if body == BODY {
             *inertia = *inertia + self.0;
         }

@@ -21,7 +21,7 @@ use crate::state::entry;
 ///     stiffness: [1e5_f64], damping: [300.0], viscous: [0.4],
 ///     sliding: [1.0], excess: [0.5], per_speed: 1.0 / 0.01, bristle: [0.0],
 /// };
-/// let creeping = JointState { q: 0.0, qd: 1e-6, qdd: 0.0 };
+/// let creeping = JointState::new(0.0, 1e-6);
 /// Effect::<f64, 1, 1>::advance(&mut friction, 0, creeping, 1.0);
 /// assert!((friction.bristle[0] - 1e-6).abs() < 1e-7); // bends with the joint
 /// for _ in 0..100 {

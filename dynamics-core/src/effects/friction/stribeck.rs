@@ -16,7 +16,7 @@ use crate::state::entry;
 /// use dynamics_core::effects::{Effect, JointState, Stribeck};
 /// let stribeck = Stribeck { excess: [2.0_f64], per_speed: 10.0, per_width: 1e4 };
 /// let mut tau = 0.0;
-/// Effect::<f64, 1, 1>::torque(&stribeck, 0, JointState { q: 0.0, qd: 0.1, qdd: 0.0 }, &mut tau);
+/// Effect::<f64, 1, 1>::torque(&stribeck, 0, JointState::new(0.0, 0.1), &mut tau);
 /// assert!((tau - 2.0 / 1.0_f64.exp()).abs() < 1e-15);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]

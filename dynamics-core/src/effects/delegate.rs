@@ -37,8 +37,9 @@ pub fn sum<R: Real>(a: Option<R>, b: Option<R>) -> Option<R> {
 }
 
 /// Implements [`Effect`](crate::effects::Effect) by forwarding every hook to other effects, in their order: those of the type
-/// on the left of each arrow, found at the place on its right. With `, advance` their memory is advanced, too; without it, for
-/// effects that are borrowed or made anew each time, it stays.
+/// on the left of each arrow, found at the place on its right. Bounds of the impl stand in `where [..]` after the type. With `, advance` their memory is advanced, too; without it, for
+/// effects that are borrowed or made anew each time, it stays. After `if` and a constant nothing is forwarded where that is
+/// false.
 ///
 /// ```
 /// use dynamics_core::delegate_effect;
@@ -63,24 +64,38 @@ pub fn sum<R: Real>(a: Option<R>, b: Option<R>) -> Option<R> {
 #[macro_export]
 macro_rules! delegate_effect {
     (
-        impl[$($generics:tt)*] Effect<$R:ty, $B:tt, $V:tt> for $type:ty,
+        impl[$($generics:tt)*] Effect<$R:ty, $B:tt, $V:tt> for $type:ty $(where [$($bounds:tt)*])?,
         |$this:ident| { $($inner:ty => $to:expr),* $(,)? } $(, $advance:ident)?
     ) => {
         $crate::delegate_effect! {
-            @accelerations(true)
-            impl[$($generics)*] Effect<$R, $B, $V> for $type,
+            @if [true, true]
+            impl[$($generics)*] Effect<$R, $B, $V> for $type $(where [$($bounds)*])?,
             |$this| { $($inner => $to),* } $(, $advance)?
         }
     };
     (
-        @accelerations($accelerations:literal)
-        impl[$($generics:tt)*] Effect<$R:ty, $B:tt, $V:tt> for $type:ty,
+        if $on:expr,
+        impl[$($generics:tt)*] Effect<$R:ty, $B:tt, $V:tt> for $type:ty $(where [$($bounds:tt)*])?,
+        |$this:ident| { $($inner:ty => $to:expr),* $(,)? } $(, $advance:ident)?
+    ) => {
+        $crate::delegate_effect! {
+            @if [$on, true]
+            impl[$($generics)*] Effect<$R, $B, $V> for $type $(where [$($bounds)*])?,
+            |$this| { $($inner => $to),* } $(, $advance)?
+        }
+    };
+    // All hooks, where `on` is true; those that go with q̈, where `accelerations` is true.
+    (
+        @if [$on:expr, $accelerations:expr]
+        impl[$($generics:tt)*] Effect<$R:ty, $B:tt, $V:tt> for $type:ty $(where [$($bounds:tt)*])?,
         |$this:ident| { $($inner:ty => $to:expr),* } $(, $advance:ident)?
     ) => {
-        impl<$($generics)*> $crate::effects::Effect<$R, $B, $V> for $type {
+        impl<$($generics)*> $crate::effects::Effect<$R, $B, $V> for $type
+        $(where $($bounds)*)?
+        {
             const GRAVITY_FIELD: $crate::effects::hook::Field<Self, $R> =
                 $crate::effects::hook::Field::forwarded(
-                    false $(| <$inner as $crate::effects::Declared<$R, $B, $V>>::FIELD)*,
+                    ($on) & (false $(| <$inner as $crate::effects::Declared<$R, $B, $V>>::FIELD)*),
                     [
                         false $(| <$inner as $crate::effects::Declared<$R, $B, $V>>::FIELD_AXES[0])*,
                         false $(| <$inner as $crate::effects::Declared<$R, $B, $V>>::FIELD_AXES[1])*,
@@ -91,18 +106,19 @@ macro_rules! delegate_effect {
                 );
             const BASE: $crate::effects::hook::Base<Self, $R> =
                 $crate::effects::hook::Base::forwarded(
-                    false $(| <$inner as $crate::effects::Declared<$R, $B, $V>>::BASE_MOTION)*,
+                    ($on) & (false $(| <$inner as $crate::effects::Declared<$R, $B, $V>>::BASE_MOTION)*),
                     <Self as $crate::effects::Forwarder<$R, $B, $V>>::forward_base,
                 );
             const EXTERNAL_WRENCH: $crate::effects::hook::Wrench<Self, $R> =
                 $crate::effects::hook::Wrench::forwarded(
-                    false $(| <$inner as $crate::effects::Declared<$R, $B, $V>>::WRENCH)*,
+                    ($on) & (false $(| <$inner as $crate::effects::Declared<$R, $B, $V>>::WRENCH)*),
                     false $(| <$inner as $crate::effects::Declared<$R, $B, $V>>::BODY_POSE)*,
                     false $(| <$inner as $crate::effects::Declared<$R, $B, $V>>::BODY_VELOCITY)*,
                     <Self as $crate::effects::Forwarder<$R, $B, $V>>::forward_wrench,
                 );
             const ADDED_INERTIA: $crate::effects::hook::Inertia<Self, $R, $B> =
-                $crate::effects::hook::Inertia::on(
+                $crate::effects::hook::Inertia::forwarded(
+                    $on,
                     $crate::effects::any_of(&[
                         $(<$inner as $crate::effects::Declared<$R, $B, $V>>::PAYLOAD),*
                     ]),
@@ -110,18 +126,20 @@ macro_rules! delegate_effect {
                 );
             const ROTOR: $crate::effects::hook::Rotor<Self, $R> =
                 $crate::effects::hook::Rotor::forwarded(
-                    false $(| <$inner as $crate::effects::Declared<$R, $B, $V>>::GYROSCOPIC_ROTORS)*,
+                    ($on) & (false $(| <$inner as $crate::effects::Declared<$R, $B, $V>>::GYROSCOPIC_ROTORS)*),
                     <Self as $crate::effects::Forwarder<$R, $B, $V>>::forward_spin,
                 );
-            const ACCELERATIONS: bool = $accelerations
+            const ACCELERATIONS: bool = ($on) & ($accelerations)
                 & (false $(| <$inner as $crate::effects::Effect<$R, $B, $V>>::ACCELERATIONS)*);
-            const VELOCITY_PRODUCTS: bool =
-                false $(| <$inner as $crate::effects::Effect<$R, $B, $V>>::VELOCITY_PRODUCTS)*;
+            const VELOCITY_PRODUCTS: bool = ($on)
+                & (false $(| <$inner as $crate::effects::Effect<$R, $B, $V>>::VELOCITY_PRODUCTS)*);
 
             #[inline(always)]
             fn torque(&self, joint: usize, at: $crate::effects::JointState<$R>, tau: &mut $R) {
                 let $this = self;
-                $(<$inner as $crate::effects::Effect<$R, $B, $V>>::torque(&$to, joint, at, tau);)*
+                if const { $on } {
+                    $(<$inner as $crate::effects::Effect<$R, $B, $V>>::torque(&$to, joint, at, tau);)*
+                }
             }
 
             #[inline(always)]
@@ -132,14 +150,16 @@ macro_rules! delegate_effect {
                 derivatives: &mut $crate::effects::TorqueDerivatives<$R>,
             ) {
                 let $this = self;
-                $(<$inner as $crate::effects::Effect<$R, $B, $V>>::derivatives(&$to, joint, at, derivatives);)*
+                if const { $on } {
+                    $(<$inner as $crate::effects::Effect<$R, $B, $V>>::derivatives(&$to, joint, at, derivatives);)*
+                }
             }
 
             #[inline(always)]
             fn inertia(&self, joint: usize) -> Option<$R> {
                 let $this = self;
                 let sum = None;
-                if $accelerations {
+                if const { ($on) & ($accelerations) } {
                     $(let sum = $crate::effects::sum(
                         sum,
                         <$inner as $crate::effects::Effect<$R, $B, $V>>::inertia(&$to, joint),
@@ -149,10 +169,12 @@ macro_rules! delegate_effect {
                 sum
             }
 
-            $crate::delegate_effect!(@advance [$($advance)?] [$R, $B, $V] |$this| { $($inner => $to),* });
+            $crate::delegate_effect!(@advance [$($advance)?] $on, [$R, $B, $V] |$this| { $($inner => $to),* });
         }
 
-        impl<$($generics)*> $crate::effects::Forwarder<$R, $B, $V> for $type {
+        impl<$($generics)*> $crate::effects::Forwarder<$R, $B, $V> for $type
+        $(where $($bounds)*)?
+        {
             #[inline(always)]
             fn forward_field(&self, g: &mut <$R as $crate::scalar::Real>::Vec3) {
                 let $this = self;
@@ -193,12 +215,14 @@ macro_rules! delegate_effect {
             }
         }
     };
-    (@advance [] [$R:ty, $B:tt, $V:tt] |$this:ident| $rest:tt) => {};
-    (@advance [advance] [$R:ty, $B:tt, $V:tt] |$this:ident| { $($inner:ty => $to:expr),* }) => {
+    (@advance [] $on:expr, [$R:ty, $B:tt, $V:tt] |$this:ident| $rest:tt) => {};
+    (@advance [advance] $on:expr, [$R:ty, $B:tt, $V:tt] |$this:ident| { $($inner:ty => $to:expr),* }) => {
         #[inline(always)]
         fn advance(&mut self, joint: usize, at: $crate::effects::JointState<$R>, h: $R) {
             let $this = self;
-            $(<$inner as $crate::effects::Effect<$R, $B, $V>>::advance(&mut $to, joint, at, h);)*
+            if const { $on } {
+                $(<$inner as $crate::effects::Effect<$R, $B, $V>>::advance(&mut $to, joint, at, h);)*
+            }
         }
     };
 }

@@ -154,10 +154,14 @@ impl<E, R: Real> Field<E, R> {
         gravities: usize,
         add: fn(&E, &mut R::Vec3),
     ) -> Self {
-        Self {
-            add: if any { Some(add) } else { None },
-            axes,
-            gravities,
+        if any {
+            Self {
+                add: Some(add),
+                axes,
+                gravities,
+            }
+        } else {
+            Self::NONE
         }
     }
 }
@@ -256,11 +260,15 @@ impl<E, R: Real> Wrench<E, R> {
         reads_velocity: bool,
         add: fn(&E, usize, &BodyState<R>, &mut Force<R>),
     ) -> Self {
-        Self {
-            of_state: if any { Some(add) } else { None },
-            reads_pose,
-            reads_velocity,
-            ..Self::NONE
+        if any {
+            Self {
+                of_state: Some(add),
+                reads_pose,
+                reads_velocity,
+                ..Self::NONE
+            }
+        } else {
+            Self::NONE
         }
     }
 
@@ -293,6 +301,20 @@ impl<E, R: Real, const B: usize> Inertia<E, R, B> {
         Self {
             add: Some(add),
             bodies,
+        }
+    }
+
+    /// That of a forwarder.
+    #[doc(hidden)]
+    pub const fn forwarded(
+        on: bool,
+        bodies: [bool; B],
+        add: fn(&E, usize, &mut SpatialInertia<R>),
+    ) -> Self {
+        if on {
+            Self::on(bodies, add)
+        } else {
+            Self::NONE
         }
     }
 }

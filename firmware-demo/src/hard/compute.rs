@@ -6,7 +6,7 @@ use dynamics_core::algorithms::{
     Damping, NotPositiveDefinite, aba, forward_dynamics, frame, operational_space, osim_inverse,
     rnea,
 };
-use dynamics_core::effects::{Armature, Coriolis, Effect, GravityVector, Inertia, Payload};
+use dynamics_core::effects::{Armature, Coriolis, Effect, GravityVector, Inertia, Payload, hook};
 use dynamics_core::model::AllRevolute;
 use dynamics_core::scalar::{Real, Vector};
 use dynamics_core::spatial::{Force, SpatialInertia};
@@ -33,14 +33,17 @@ impl<R: Real> OnLast<R> {
 }
 
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for OnLast<R> {
-    const PAYLOAD: [bool; B] = {
+    const ADDED_INERTIA: hook::Inertia<Self, R, B> = {
         let mut last = [false; B];
         last[B - 1] = true;
-        last
+        hook::Inertia::on(last, Self::add_to::<B>)
     };
+}
 
+impl<R: Real> OnLast<R> {
+    /// Adds the load to the inertia of `body` of a robot of B bodies.
     #[inline(always)]
-    fn payload(&self, body: usize, inertia: &mut SpatialInertia<R>) {
+    fn add_to<const B: usize>(&self, body: usize, inertia: &mut SpatialInertia<R>) {
         if body + 1 == B {
             *inertia = *inertia + self.0;
         }

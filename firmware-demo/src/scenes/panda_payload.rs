@@ -89,7 +89,7 @@ impl Scene<7, 7, 7, 7> for Carry {
     type Robot = Panda;
     type Effects = Effects;
     type Reference = Job;
-    type Around = Load;
+    type Environment = Load;
     type Plant = Plant<Panda, Effects, Load, 7, 7, 7>;
 
     const NAME: &'static str = "panda_payload";
@@ -97,7 +97,7 @@ impl Scene<7, 7, 7, 7> for Carry {
     const EFFECTS: Effects = EFFECTS;
     const GAIN_POSE: [f32; 7] = READY;
     const GAIN_POSE_NAME: &'static str = "ready";
-    const BESIDE: &'static [Run<Self, 7, 7, 7, 7>] = &[
+    const BASELINES: &'static [Run<Self, 7, 7, 7, 7>] = &[
         Run::of::<Less<Self, LOAD, 7, 7, 7>>(Truth::Exact, "unknown-load"),
         Run::of::<Less<Self, LOAD, 7, 7, 7>>(Truth::Mismatched, "unknown-load"),
     ];
@@ -112,7 +112,7 @@ impl Scene<7, 7, 7, 7> for Carry {
     }
 
     /// What the hand bears of the part: at rest on the table it goes over from one to the other evenly.
-    fn around(job: &Job, ticks: f32) -> Load {
+    fn environment(job: &Job, ticks: f32) -> Load {
         let since = |start: u32| ((ticks - start as f32) / GRIP).clamp(0.0, 1.0);
         let borne = since(CLOSES) - since(OPENS);
         let Payload(SpatialInertia {
@@ -128,7 +128,7 @@ impl Scene<7, 7, 7, 7> for Carry {
     }
 
     #[inline(always)]
-    fn surround((.., payload): &mut Effects, borne: &Load) {
+    fn apply((.., payload): &mut Effects, borne: &Load) {
         *payload = *borne;
     }
 

@@ -43,7 +43,7 @@ impl Scene<6, 6, 6, 6> for PickAndPlace {
     type Robot = Ur5e;
     type Effects = Effects;
     type Reference = Trajectory<f32, 6, 9>;
-    type Around = ();
+    type Environment = ();
     type Plant = Plant<Ur5e, Effects, (), 6, 6, 6>;
 
     const NAME: &'static str = "ur5e";
@@ -51,7 +51,7 @@ impl Scene<6, 6, 6, 6> for PickAndPlace {
     const EFFECTS: Effects = EFFECTS;
     const GAIN_POSE: [f32; 6] = HOME;
     const GAIN_POSE_NAME: &'static str = "home";
-    const BESIDE: &'static [Run<Self, 6, 6, 6, 6>] = &[
+    const BASELINES: &'static [Run<Self, 6, 6, 6, 6>] = &[
         Run::of::<GravityOnly>(Truth::Exact, "gravity"),
         Run::of::<GravityOnly>(Truth::Mismatched, "gravity"),
     ];
@@ -60,7 +60,7 @@ impl Scene<6, 6, 6, 6> for PickAndPlace {
         through(&PICK_AND_PLACE, &Self::limits(), [12.0; 6])
     }
 
-    fn around(_: &Self::Reference, _: f32) {}
+    fn environment(_: &Self::Reference, _: f32) {}
 
     fn inverse<E: Effect<f32, 6, 6>>(
         reference: &State<f32, 6, 6>,

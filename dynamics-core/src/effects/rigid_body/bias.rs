@@ -8,7 +8,7 @@ use crate::scalar::Real;
 pub(crate) struct Bias<'a, E>(pub(crate) &'a E);
 
 delegate_effect! {
-    @accelerations(false)
+    @if [true, false]
     impl[R: Real, E: Effect<R, B, V>, const B: usize, const V: usize] Effect<R, B, V> for Bias<'_, E>,
     |this| { E => *this.0 }
 }

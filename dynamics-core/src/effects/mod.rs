@@ -70,6 +70,7 @@ mod joint;
 mod query;
 mod rigid_body;
 mod tuple;
+mod width;
 
 pub use body::{BodyWrench, Contact, ContactPoint, InvalidPayload, Payload, WorldWrench};
 pub use declared::Declared;
@@ -84,6 +85,7 @@ pub use joint::{Armature, Cogging, EndStops, GyroscopicRotors, Spring};
 pub use rigid_body::{
     Coriolis, Direction, Down, Gravity, GravityVector, Inertia, MovingBase, RIGID_BODY,
 };
+pub use width::Width;
 
 pub(crate) use gates::{field_axes, loads, one_gravity, only_load};
 pub(crate) use query::{

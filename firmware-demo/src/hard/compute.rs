@@ -7,7 +7,7 @@ use dynamics_core::algorithms::{
     rnea,
 };
 use dynamics_core::effects::{Armature, Coriolis, Effect, GravityVector, Inertia, Payload, hook};
-use dynamics_core::model::AllRevolute;
+use dynamics_core::model::{AllRevolute, BodyInertia};
 use dynamics_core::scalar::{Real, Vector};
 use dynamics_core::spatial::{Force, SpatialInertia};
 use dynamics_core::state::State;
@@ -26,9 +26,10 @@ pub type Scene<R, const N: usize> = (
 pub struct OnLast<R: Real>(SpatialInertia<R>);
 
 impl<R: Real> OnLast<R> {
-    /// As [`Payload::new`].
+    /// As [`Payload::from_inertia`].
     pub fn new(mass: R, com: [R; 3], inertia: [R; 6]) -> Self {
-        Self(Payload::<R, 0>::new(mass, com, inertia).0)
+        let inertia = BodyInertia { mass, com, inertia };
+        Self(Payload::<R, 0>::from_inertia(inertia).0)
     }
 }
 

@@ -3,7 +3,7 @@
 use dynamics_core::Engine;
 use dynamics_core::control::TrajectoryError;
 use dynamics_core::effects::{
-    Coriolis, Coulomb, Effect, GravityVector, Inertia, MovingBase, Viscous,
+    Coriolis, Coulomb, Effect, GravityVector, Inertia, MovingBase, Viscous, Width,
 };
 use dynamics_core::spatial::Motion;
 use dynamics_core::state::State;
@@ -43,7 +43,7 @@ pub const EFFECTS: Effects = (
     Viscous([1.2, 1.2, 0.6]),
     Coulomb {
         torque: [0.8, 0.8, 0.5],
-        per_width: 20.0,
+        width: Width::f32(0.05),
     },
 );
 

@@ -3,7 +3,7 @@
 use dynamics_core::Engine;
 use dynamics_core::control::TrajectoryError;
 use dynamics_core::effects::{
-    Armature, Contact, ContactPoint, Coriolis, Effect, Gravity, Inertia, Viscous,
+    Armature, Contact, ContactPoint, Coriolis, Effect, Gravity, Inertia, Viscous, Width,
 };
 use dynamics_core::state::State;
 use glam::Vec3;
@@ -33,7 +33,7 @@ pub const GROUND: Contact<f32, 1> = Contact {
     height: Leg::FOOT_RADIUS,
     stiffness: 3e4,
     damping: 100.0,
-    per_depth: 1e4,
+    damping_depth: Width::f32(1e-4),
     friction: 0.6,
     slip_tolerance: 0.2,
 };

@@ -4,9 +4,9 @@
 use dynamics_core::Engine;
 use dynamics_core::control::{Reference, Trajectory, TrajectoryError};
 use dynamics_core::effects::{
-    Armature, Coriolis, Coulomb, Effect, Gravity, Inertia, InvalidPayload, Payload, Viscous,
+    Armature, Coriolis, Coulomb, Effect, Gravity, Inertia, InvalidPayload, Payload, Viscous, Width,
 };
-use dynamics_core::model::Robot;
+use dynamics_core::model::{BodyInertia, Robot};
 use dynamics_core::robots::Panda;
 use dynamics_core::spatial::SpatialInertia;
 use dynamics_core::state::State;
@@ -43,7 +43,7 @@ pub const EFFECTS: Effects = (
     Viscous([1.0, 1.0, 1.0, 1.0, 0.5, 0.5, 0.5]),
     Coulomb {
         torque: [0.6, 0.9, 0.6, 1.2, 0.8, 0.4, 0.5],
-        per_width: 20.0,
+        width: Width::f32(0.05),
     },
     Armature([0.5, 0.5, 0.4, 0.4, 0.2, 0.2, 0.2]),
     Payload(SpatialInertia::ZERO),
@@ -55,7 +55,12 @@ pub const EFFECTS: Effects = (
 /// If no body were like that.
 pub fn part() -> Result<Load, InvalidPayload> {
     let moments = [3.0e-3, 0.0, 0.0, 3.467e-3, 0.0, 1.667e-3];
-    Payload::checked(2.0, [0.01, -0.02, 0.19], moments, 1e-6)
+    let part = BodyInertia {
+        mass: 2.0,
+        com: [0.01, -0.02, 0.19],
+        inertia: moments,
+    };
+    Payload::try_new(part, 1e-6)
 }
 
 /// The ticks at which the gripper begins to close and to open, and how many it takes for that.

@@ -4,7 +4,7 @@
 use dynamics_core::Engine;
 use dynamics_core::control::{Trajectory, TrajectoryError};
 use dynamics_core::effects::{
-    Armature, Coriolis, Coulomb, Effect, Gravity, GravityVector, Inertia, Viscous,
+    Armature, Coriolis, Coulomb, Effect, Gravity, GravityVector, Inertia, Viscous, Width,
 };
 use dynamics_core::state::State;
 use glam::Vec3;
@@ -31,7 +31,7 @@ pub const EFFECTS: Effects = (
     Viscous([3.0, 1.5, 0.05]),
     Coulomb {
         torque: [8.0, 4.0, 0.4],
-        per_width: 20.0,
+        width: Width::f32(0.05),
     },
     Armature([0.25, 0.08, 0.002]),
 );

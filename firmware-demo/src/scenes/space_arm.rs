@@ -4,7 +4,7 @@
 use dynamics_core::Core;
 use dynamics_core::algorithms::Prescribed;
 use dynamics_core::control::{Trajectory, TrajectoryError};
-use dynamics_core::effects::{Armature, Coriolis, Coulomb, Effect, Inertia, Viscous};
+use dynamics_core::effects::{Armature, Coriolis, Coulomb, Effect, Inertia, Viscous, Width};
 use dynamics_core::spatial::Force;
 use dynamics_core::state::State;
 
@@ -30,7 +30,7 @@ pub const EFFECTS: Effects = (
     Viscous(SpaceArm::joints([9.0, 9.0, 7.0, 1.5, 1.5, 1.2])),
     Coulomb {
         torque: SpaceArm::joints([3.0, 3.0, 2.5, 0.8, 0.8, 0.6]),
-        per_width: 20.0,
+        width: Width::f32(0.05),
     },
     Armature(SpaceArm::joints([1.0, 1.0, 0.8, 0.15, 0.15, 0.12])),
 );

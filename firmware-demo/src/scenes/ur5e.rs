@@ -2,7 +2,9 @@
 
 use dynamics_core::Engine;
 use dynamics_core::control::{Trajectory, TrajectoryError};
-use dynamics_core::effects::{Armature, Coriolis, Coulomb, Effect, Gravity, Inertia, Viscous};
+use dynamics_core::effects::{
+    Armature, Coriolis, Coulomb, Effect, Gravity, Inertia, Viscous, Width,
+};
 use dynamics_core::robots::Ur5e;
 use dynamics_core::state::State;
 
@@ -30,7 +32,7 @@ pub const EFFECTS: Effects = (
     Viscous([12.0, 12.0, 8.0, 2.0, 2.0, 1.5]),
     Coulomb {
         torque: [8.0, 8.0, 6.0, 1.5, 1.5, 1.2],
-        per_width: 20.0,
+        width: Width::f32(0.05),
     },
     Armature([0.9, 0.9, 0.9, 0.25, 0.25, 0.25]),
 );

@@ -3,19 +3,28 @@
 //! `cargo run -p dynamics-core --example payload`
 
 use dynamics_core::effects::{InvalidPayload, Payload, RIGID_BODY};
-use dynamics_core::{Engine, model::Robot, robots::Ur5e, state::State};
+use dynamics_core::model::{BodyInertia, Problem, Robot};
+use dynamics_core::{Engine, robots::Ur5e, state::State};
 
 /// Its mass, centre of mass and inertia are in the wrist's frame. A name that no body has does not compile.
 type OnWrist = Payload<f32, { Ur5e::MODEL.body("wrist_3") }>;
 
 fn main() -> Result<(), InvalidPayload> {
-    // Of numbers that come from outside: those that no body has are refused.
-    let checked = |mass| OnWrist::checked(mass, [0.0, 0.0, 0.1], [0.0; 6], 1e-6);
-    assert_eq!(checked(-1.0), Err(InvalidPayload::Mass));
-    assert_eq!(checked(f32::NAN), Err(InvalidPayload::NotFinite));
+    // Numbers that come from outside are checked: those that no body has give an error that names the body.
+    let load = |mass| {
+        let (com, inertia) = ([0.0, 0.0, 0.1], [0.0; 6]);
+        OnWrist::try_new(BodyInertia { mass, com, inertia }, 1e-6)
+    };
+    let problem = |mass| load(mass).map_err(|error| error.problem);
+    assert_eq!(problem(-1.0), Err(Problem::Mass));
+    assert_eq!(problem(f32::NAN), Err(Problem::NotFinite));
 
     // The gripper is always there. The load adds to it, and with no mass it is no load.
-    let gripper = OnWrist::new(0.9, [0.0, 0.0, 0.06], [1e-3, 0.0, 0.0, 1e-3, 0.0, 5e-4]);
+    let gripper = OnWrist::from_inertia(BodyInertia {
+        mass: 0.9,
+        com: [0.0, 0.0, 0.06],
+        inertia: [1e-3, 0.0, 0.0, 1e-3, 0.0, 5e-4],
+    });
     let arm = State {
         qdd: [0.5; 6],
         ..State::at([0.0_f32, -0.8, 0.9, 0.1, 0.2, 0.3])
@@ -24,7 +33,7 @@ fn main() -> Result<(), InvalidPayload> {
     println!("load, kg | shoulder  elbow, N·m");
     let mut last = bare[1];
     for mass in [0.0, 0.5, 2.0, 5.0] {
-        let tau = Engine::<Ur5e>::rnea(&arm, &(RIGID_BODY, gripper, checked(mass)?));
+        let tau = Engine::<Ur5e>::rnea(&arm, &(RIGID_BODY, gripper, load(mass)?));
         println!("{mass:8.1} | {:8.2} {:6.2}", tau[1], tau[2]);
         assert!(mass > 0.0 || (tau[1] - bare[1]).abs() < 1e-4);
         assert!(mass == 0.0 || tau[1].abs() > last.abs() + 1.0);

@@ -4,7 +4,7 @@
 //! nothing is read which could not be written in code; bounds that their check refuses are not read. What a constructor
 //! checks (models, trajectories, supervisors, payloads) has no `Deserialize`: that constructor builds it from these.
 
-use crate::effects::{Armature, Viscous};
+use crate::effects::{Armature, Viscous, Width};
 use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::SpatialInertia;
 use core::fmt;
@@ -81,6 +81,16 @@ impl Form<Self> for u32 {
     }
 }
 
+/// The width, not its reciprocal: 1/(1/(1/w)) is 1/w to the bit.
+impl<R: Real> Form<R> for Width<R> {
+    fn form(self) -> R {
+        self.get()
+    }
+    fn of(form: R) -> Self {
+        Self::new(form)
+    }
+}
+
 impl<R: Real, const N: usize> Form<Array<R, N>> for [R; N] {
     fn form(self) -> Array<R, N> {
         Array(self)
@@ -144,20 +154,20 @@ record!(state::State<R, Q, V> { q: Array<R, Q>, qd: Array<R, V>, qdd: Array<R, V
 record!(model::JointLimits<R> { lower: R, upper: R, velocity: R, torque: R });
 record!(model::BodyInertia<R> { mass: R, com: Array<R, 3>, inertia: Array<R, 6> });
 
-record!(effects::Coulomb<R, V> { torque: Array<R, V>, per_width: R });
+record!(effects::Coulomb<R, V> { torque: Array<R, V>, width: R });
 record!(effects::AsymmetricCoulomb<R, V> {
     forward: Array<R, V>,
     backward: Array<R, V>,
-    per_width: R,
+    width: R,
 });
-record!(effects::Stribeck<R, V> { excess: Array<R, V>, per_speed: R, per_width: R });
+record!(effects::Stribeck<R, V> { excess: Array<R, V>, stribeck_speed: R, width: R });
 record!(effects::Lugre<R, V> {
     stiffness: Array<R, V>,
     damping: Array<R, V>,
     viscous: Array<R, V>,
     sliding: Array<R, V>,
     excess: Array<R, V>,
-    per_speed: R,
+    stribeck_speed: R,
     bristle: Array<R, V>,
 });
 record!(effects::Cogging<R, H, V> {
@@ -171,7 +181,7 @@ record!(effects::EndStops<R, V> {
     upper: Array<R, V>,
     stiffness: R,
     damping: R,
-    per_depth: R,
+    damping_depth: R,
 });
 
 /// The traits of a number per joint: those of the array.

@@ -7,8 +7,9 @@
 use dynamics_core::effects::{
     Armature, AsymmetricCoulomb, BodyWrench, Cogging, Contact, ContactPoint, Coriolis, Coulomb,
     Effect, EndStops, Gravity, GyroscopicRotors, Inertia, Lugre, MovingBase, Payload, RIGID_BODY,
-    Spring, Stribeck, Viscous, WorldWrench,
+    Spring, Stribeck, Viscous, Width, WorldWrench,
 };
+use dynamics_core::model::BodyInertia;
 use dynamics_core::spatial::{Force, Motion};
 use glam::Vec3;
 
@@ -49,25 +50,25 @@ pub fn rigid<const N: usize>(visitor: &mut impl Visitor<N>) {
 
 /// What acts at a joint.
 pub fn joints<const N: usize>(visitor: &mut impl Visitor<N>) {
-    let (.., Viscous(viscous), Coulomb { torque, per_width }, Armature(rotors)) = ur5e::EFFECTS;
+    let (.., Viscous(viscous), Coulomb { torque, width }, Armature(rotors)) = ur5e::EFFECTS;
     let [sliding, viscous, rotors] = [torque, viscous, rotors].map(spread);
-    let (excess, per_speed) = (sliding.map(|f| 0.4 * f), 10.0);
+    let (excess, stribeck_speed) = (sliding.map(|f| 0.4 * f), Width::f32(0.1));
     visitor.scene("viscous", (RIGID_BODY, Viscous(viscous)));
     let coulomb = Coulomb {
         torque: sliding,
-        per_width,
+        width,
     };
     visitor.scene("coulomb", (RIGID_BODY, coulomb));
     let asymmetric = AsymmetricCoulomb {
         forward: sliding,
         backward: sliding.map(|f| 0.8 * f),
-        per_width,
+        width,
     };
     visitor.scene("asymmetric_coulomb", (RIGID_BODY, asymmetric));
     let stribeck = Stribeck {
         excess,
-        per_speed,
-        per_width: 100.0,
+        stribeck_speed,
+        width: Width::f32(0.01),
     };
     visitor.scene("stribeck", (RIGID_BODY, stribeck));
     let lugre = Lugre {
@@ -76,7 +77,7 @@ pub fn joints<const N: usize>(visitor: &mut impl Visitor<N>) {
         viscous,
         sliding,
         excess,
-        per_speed,
+        stribeck_speed,
         bristle: [0.0; N],
     };
     visitor.scene("lugre", (RIGID_BODY, lugre));
@@ -91,7 +92,7 @@ pub fn joints<const N: usize>(visitor: &mut impl Visitor<N>) {
         upper: [6.0; N],
         stiffness: 1e4,
         damping: 50.0,
-        per_depth: 1e3,
+        damping_depth: Width::f32(1e-3),
     };
     visitor.scene("stops", (RIGID_BODY, stops));
     let cogging = Cogging {
@@ -105,8 +106,11 @@ pub fn joints<const N: usize>(visitor: &mut impl Visitor<N>) {
 /// What acts on a body: the one of the number BODY, or the base.
 pub fn bodies<const N: usize, const BODY: usize>(visitor: &mut impl Visitor<N>) {
     let body = BODY;
-    let payload =
-        Payload::<_, BODY>::new(2.0, [0.0, 0.02, 0.08], [0.01, 0.0, 0.0, 0.01, 0.0, 0.005]);
+    let payload = Payload::<_, BODY>::from_inertia(BodyInertia {
+        mass: 2.0,
+        com: [0.0, 0.02, 0.08],
+        inertia: [0.01, 0.0, 0.0, 0.01, 0.0, 0.005],
+    });
     visitor.scene("payload", (RIGID_BODY, payload));
     let wrench = Force::new(Vec3::new(0.5, 0.0, 1.0), Vec3::new(0.0, 5.0, 20.0));
     visitor.scene("body_wrench", (RIGID_BODY, BodyWrench { body, wrench }));
@@ -120,7 +124,7 @@ pub fn bodies<const N: usize, const BODY: usize>(visitor: &mut impl Visitor<N>) 
         height: -1.0,
         stiffness: 1e4,
         damping: 100.0,
-        per_depth: 1e3,
+        damping_depth: Width::f32(1e-3),
         friction: 0.5,
         slip_tolerance: 1e-3,
     };

@@ -9,21 +9,19 @@ use dynamics_core::state::State;
 
 use crate::plant::{Plant, Simulated, last};
 
+mod ablation;
 mod app;
 mod errors;
 mod firmware;
 mod noise;
-mod now;
 mod run;
-mod without;
 
+pub use ablation::{Current, CurrentWithout, Effects, Named, Without, name};
 pub use app::{App, QUEUE, Record, STEPS, SimBrake, SimLoop};
 pub use errors::{Errors, larger};
 pub use firmware::{HOLD, OMEGA_N, REENTRY, RIDE, TICK, ZETA, control_loop};
 pub use noise::Noise;
-pub use now::{Now, Told};
 pub use run::{Full, Less, Name, PdOnly, Run, Truth};
-pub use without::{Effects, Named, Without, name};
 
 /// The data sheet of a scene: a robot of B bodies, Q position and V velocity coordinates whose last N joints
 /// are driven.
@@ -36,10 +34,10 @@ pub trait Scene<const B: usize, const Q: usize, const V: usize, const N: usize>:
     type Effects: Effects<Self, B, Q, V, N>;
     /// Where the driven joints are to be.
     type Reference: Reference<f32, N> + Send;
-    /// What goes on around the robot: known to the controller by other sensors than the encoders.
-    type Around;
+    /// What acts on the robot from outside, known to the controller by other sensors than the encoders.
+    type Environment;
     /// The simulated robot.
-    type Plant: Simulated<Self::Around, N> + Send;
+    type Plant: Simulated<Self::Environment, N> + Send;
 
     /// The name on the command line.
     const NAME: &'static str;
@@ -47,8 +45,8 @@ pub trait Scene<const B: usize, const Q: usize, const V: usize, const N: usize>:
     const BOUND: f32;
     /// The effects at the start.
     const EFFECTS: Self::Effects;
-    /// Whether the effects stay as they are, whatever goes on: their numbers are then known while compiling.
-    const STEADY: bool = size_of::<Self::Around>() == 0;
+    /// Whether the environment leaves the effects as they are: their numbers are then known while compiling.
+    const CONSTANT_EFFECTS: bool = size_of::<Self::Environment>() == 0;
     /// The pose whose M sets the gains.
     const GAIN_POSE: [f32; Q];
     /// What that pose is called.
@@ -62,10 +60,10 @@ pub trait Scene<const B: usize, const Q: usize, const V: usize, const N: usize>:
         Run::of::<PdOnly>(Truth::Mismatched, "pd"),
     ];
     /// Other laws that it compares.
-    const BESIDE: &'static [Run<Self, B, Q, V, N>] = &[];
+    const BASELINES: &'static [Run<Self, B, Q, V, N>] = &[];
     /// Feed-forward less an effect.
-    const LESS: &'static [Run<Self, B, Q, V, N>] =
-        <Self::Effects as Effects<Self, B, Q, V, N>>::LESS;
+    const ABLATIONS: &'static [Run<Self, B, Q, V, N>] =
+        <Self::Effects as Effects<Self, B, Q, V, N>>::ABLATIONS;
 
     /// The way.
     ///
@@ -73,16 +71,24 @@ pub trait Scene<const B: usize, const Q: usize, const V: usize, const N: usize>:
     /// A way that the arm's limits do not allow.
     fn reference() -> Result<Self::Reference, TrajectoryError>;
 
-    /// What goes on `ticks` after the start.
-    fn around(reference: &Self::Reference, ticks: f32) -> Self::Around;
+    /// The environment `ticks` after the start.
+    fn environment(reference: &Self::Reference, ticks: f32) -> Self::Environment;
 
-    /// Tells the effects what goes on.
-    fn surround(_: &mut Self::Effects, _: &Self::Around) {}
+    /// Sets the effects to what they are in an environment.
+    fn apply(_: &mut Self::Effects, _: &Self::Environment) {}
+
+    /// The effects as they are in an environment.
+    #[inline(always)]
+    fn current(environment: &Self::Environment) -> Self::Effects {
+        let mut effects = Self::EFFECTS;
+        Self::apply(&mut effects, environment);
+        effects
+    }
 
     /// The torques that bring the reference about under some effects.
     fn inverse<E: Effect<f32, B, V>>(
         reference: &State<f32, N, N>,
-        around: &Self::Around,
+        environment: &Self::Environment,
         effects: &E,
     ) -> [f32; N];
 
@@ -106,9 +112,8 @@ pub trait Scene<const B: usize, const Q: usize, const V: usize, const N: usize>:
     }
 
     /// The inertia that each driven joint's gains are for, kg·m² or kg: M's diagonal.
-    fn inertia(around: &Self::Around) -> [f32; N] {
-        let mut effects = Self::EFFECTS;
-        Self::surround(&mut effects, around);
+    fn inertia(environment: &Self::Environment) -> [f32; N] {
+        let effects = Self::current(environment);
         let m = Core::<Self::Robot>::crba(&Self::GAIN_POSE, &effects);
         last(&core::array::from_fn::<f32, V, _>(|j| m.get(j, j)))
     }
@@ -120,7 +125,7 @@ pub fn rigid<S, const B: usize, const Q: usize, const V: usize, const N: usize>(
     q: [f32; Q],
     noise: Option<&mut Noise>,
     disturb: fn(&mut S::Effects, &mut Noise),
-) -> Plant<S::Robot, S::Effects, S::Around, B, Q, V>
+) -> Plant<S::Robot, S::Effects, S::Environment, B, Q, V>
 where
     S: Scene<B, Q, V, N>,
 {
@@ -130,7 +135,7 @@ where
         noise.masses(&mut robot);
         disturb(&mut effects, noise);
     }
-    Plant::new(robot, effects, q, S::surround)
+    Plant::new(robot, effects, q, S::apply)
 }
 
 /// A way through way-points within the limits' speeds and these accelerations, rad/s² or m/s².

@@ -7,7 +7,7 @@ use dynamics_core::algorithms::{
     Damping, bias_acceleration, frame, kinematics, operational_space, rnea,
 };
 use dynamics_core::control::{TaskCommand, TaskFrame, hybrid_motion_force, orientation_error};
-use dynamics_core::effects::{BodyState, Coriolis, Effect, Gravity, Inertia, RIGID_BODY};
+use dynamics_core::effects::{Coriolis, Effect, Gravity, Inertia, RIGID_BODY, hook};
 use dynamics_core::model::Robot;
 use dynamics_core::robots::Panda;
 use dynamics_core::sim::semi_implicit;
@@ -41,17 +41,14 @@ impl Wall {
 }
 
 impl<const B: usize, const V: usize> Effect<f64, B, V> for Wall {
-    const WRENCH: bool = true;
-    const BODY_POSE: bool = true;
-    const BODY_VELOCITY: bool = true;
-
-    fn wrench(&self, body: usize, at: &BodyState<f64>, fx: &mut Force<f64>) {
-        if body == HAND {
-            let velocity = at.pose.rot.transpose() * at.velocity.lin;
-            let back = -self.pressed(at.pose.pos, velocity);
-            fx.lin += at.pose.rot * (self.normal * back);
-        }
-    }
+    const EXTERNAL_WRENCH: hook::Wrench<Self, f64> =
+        hook::Wrench::of_state(|wall, body, at, fx| {
+            if body == HAND {
+                let velocity = at.pose.rot.transpose() * at.velocity.lin;
+                let back = -wall.pressed(at.pose.pos, velocity);
+                fx.lin += at.pose.rot * (wall.normal * back);
+            }
+        });
 }
 
 /// What went wrong at most in the last second.

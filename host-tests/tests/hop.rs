@@ -78,13 +78,13 @@ fn the_leg_flies_as_often_as_it_is_to_and_at_least_five_centimetres_high() {
     let mut rig = Rig::new(Hopping::plant(None), torque, wires);
     let encoders = core::array::from_fn(|j| wires.encoder(j));
     let drives = core::array::from_fn(|j| wires.drive(j));
-    let around = |tick: u32| Hopping::around(&hop, tick as f32);
+    let environment = |tick: u32| Hopping::environment(&hop, tick as f32);
     let mut control: SimLoop<3> =
-        control_loop::<Hopping, _, _, _, 5, 4, 4, 3>(encoders, drives, SimBrake, &around(0));
+        control_loop::<Hopping, _, _, _, 5, 4, 4, 3>(encoders, drives, SimBrake, &environment(0));
     let mut flights = Vec::new();
     let mut off = Worst::default();
     for tick in 0..hop.ticks() + 20 {
-        control.tick::<Full<Hopping, 5, 4, 4>, _, _>(&hop, &around(tick));
+        control.tick::<Full<Hopping, 5, 4, 4>, _, _>(&hop, &environment(tick));
         let q = rig.plant.state.q;
         off.see([q[0].into()], [hop.whole(tick).q[0].into()]);
         let high = clearance(&q);
@@ -95,7 +95,8 @@ fn the_leg_flies_as_often_as_it_is_to_and_at_least_five_centimetres_high() {
             None => {}
         }
         let step = TICK / STEPS as f32;
-        rig.advance(wires, STEPS, step, |_| around(tick)).unwrap();
+        rig.advance(wires, STEPS, step, |_| environment(tick))
+            .unwrap();
     }
     assert_eq!(flights.len(), 4, "{flights:?}");
     assert!(flights.iter().all(|&(peak, _)| peak > 0.05), "{flights:?}");

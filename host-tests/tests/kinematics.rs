@@ -8,7 +8,7 @@ use dynamics_core::algorithms::{
     bias_acceleration, center_of_mass, centroidal_matrix, classical, frame, jacobian, kinematics,
     kinetic_energy, momentum, poses, potential_energy,
 };
-use dynamics_core::effects::{Effect, Gravity};
+use dynamics_core::effects::{Effect, Gravity, hook};
 use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model};
 use dynamics_core::scalar::Real;
 use dynamics_core::spatial::{Force, Motion};
@@ -165,11 +165,10 @@ fn the_base_has_no_jacobian_and_what_is_no_body_not_a_number() {
 struct Carried(Motion<f64>, Motion<f64>);
 
 impl<const B: usize, const V: usize> Effect<f64, B, V> for Carried {
-    const BASE_MOTION: bool = true;
-    fn base(&self, velocity: &mut Motion<f64>, acceleration: &mut Motion<f64>) {
-        *velocity += self.0;
-        *acceleration += self.1;
-    }
+    const BASE: hook::Base<Self, f64> = hook::Base::moving(|given, velocity, acceleration| {
+        *velocity += given.0;
+        *acceleration += given.1;
+    });
 }
 
 #[test]

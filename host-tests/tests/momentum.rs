@@ -8,6 +8,7 @@ use dynamics_core::algorithms::{
     potential_energy, rnea,
 };
 use dynamics_core::effects::{Armature, Coriolis, Gravity, Inertia, Payload, RIGID_BODY};
+use dynamics_core::model::BodyInertia;
 use dynamics_core::spatial::Force;
 use dynamics_core::state::State;
 use glam::DVec3;
@@ -16,11 +17,11 @@ use glam::DVec3;
 fn kinetic_energy_is_half_qd_m_qd_with_rotors_and_a_payload() {
     let mut worst = Worst::default();
     for (tree, state) in trees(false) {
-        let load = Payload::<_, { B - 1 }>::new(
-            1.5,
-            [0.1, -0.2, 0.05],
-            [0.01, 0.0, 0.0, 0.02, 0.0, 0.015],
-        );
+        let load = Payload::<_, { B - 1 }>::from_inertia(BodyInertia {
+            mass: 1.5,
+            com: [0.1, -0.2, 0.05],
+            inertia: [0.01, 0.0, 0.0, 0.02, 0.0, 0.015],
+        });
         let scene = (Inertia, Armature([0.3; V]), load);
         // M q̇ is the torque of q̈ = q̇ at rest.
         let at_rest = State {

@@ -9,7 +9,7 @@ use dynamics_core::algorithms::{
 };
 use dynamics_core::control::TaskFrame;
 use dynamics_core::effects::{Armature, Inertia, Payload, RIGID_BODY};
-use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model, Robot};
+use dynamics_core::model::{ArmModel, BASE, Body, BodyInertia, Joint, Model, Robot};
 use dynamics_core::robots::{Panda, Ur5e};
 use dynamics_core::spatial::Force;
 use glam::DMat3;
@@ -18,8 +18,11 @@ const DAMPING: f64 = 1e-3;
 
 fn both_ways<F: frame::Frame>(frame: F, worst: &mut Worst) {
     let mut rng = Rng::new(7);
-    let load =
-        Payload::<_, { B - 1 }>::new(1.5, [0.1, -0.2, 0.05], [0.01, 0.0, 0.0, 0.02, 0.0, 0.015]);
+    let load = Payload::<_, { B - 1 }>::from_inertia(BodyInertia {
+        mass: 1.5,
+        com: [0.1, -0.2, 0.05],
+        inertia: [0.01, 0.0, 0.0, 0.02, 0.0, 0.015],
+    });
     let scene = (Inertia, Armature([0.3; V]), load);
     for _ in 0..50 {
         let tree = random_tree(&mut rng, false);

@@ -12,7 +12,7 @@ fn the_part_is_one_that_a_body_can_be_and_is_carried_between_the_grips() {
     let job = Carry::reference().expect("within the limits");
     let mut rest: Vec<(u32, f32)> = Vec::new();
     for tick in 0..=job.ticks() {
-        let held = Carry::around(&job, tick as f32);
+        let held = Carry::environment(&job, tick as f32);
         assert!((0.0..=part.0.mass).contains(&held.0.mass));
         // It comes and goes while the arm stands.
         let partly = held != part && held != Payload::<_, HAND>::default();

@@ -4,7 +4,7 @@ mod common;
 
 use common::*;
 use dynamics_core::algorithms::{momentum, poses};
-use dynamics_core::effects::{Armature, Coriolis, Coulomb, Inertia, Viscous};
+use dynamics_core::effects::{Armature, Coriolis, Coulomb, Inertia, Viscous, Width};
 use dynamics_core::model::{Robot, Static};
 use dynamics_core::scalar::{Real, Vector};
 use dynamics_core::sim::{linearly_implicit, momentum_preserving};
@@ -34,7 +34,7 @@ fn acting<R: Real>() -> (
     let cast = |x: f32| R::from_f64(f64::from(x));
     let coulomb = Coulomb {
         torque: coulomb.torque.map(cast),
-        per_width: cast(coulomb.per_width),
+        width: Width::new(cast(coulomb.width.get())),
     };
     (
         inertia,

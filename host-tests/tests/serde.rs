@@ -3,7 +3,7 @@
 use dynamics_core::control::{Gains, MotionLimits, SafetyLimits, WayPoint};
 use dynamics_core::effects::{
     Armature, AsymmetricCoulomb, Cogging, Coulomb, EndStops, Lugre, Payload, Spring, Stribeck,
-    Viscous,
+    Viscous, Width,
 };
 use dynamics_core::glam::Mat3;
 use dynamics_core::model::{BodyInertia, JointLimits};
@@ -36,7 +36,12 @@ const BOUNDS: SafetyLimits<f32, 2> = SafetyLimits {
 const THIRDS: [f32; 2] = [1.0 / 3.0, -2.0 / 3.0];
 
 fn inertia() -> SpatialInertia<f32> {
-    Payload::<f32, 0>::new(1.7, [0.1, -0.2, 0.3], [0.4, 0.01, 0.02, 0.5, 0.03, 0.6]).0
+    Payload::<f32, 0>::from_inertia(BodyInertia {
+        mass: 1.7,
+        com: [0.1, -0.2, 0.3],
+        inertia: [0.4, 0.01, 0.02, 0.5, 0.03, 0.6],
+    })
+    .0
 }
 
 #[test]
@@ -79,17 +84,17 @@ fn what_is_identified_comes_back_to_the_bit() {
     comes_back(Armature(b));
     comes_back(Coulomb {
         torque: a,
-        per_width: 20.0,
+        width: Width::new(0.05),
     });
     comes_back(AsymmetricCoulomb {
         forward: a,
         backward: b,
-        per_width: 20.0,
+        width: Width::new(0.05),
     });
     comes_back(Stribeck {
         excess: a,
-        per_speed: 10.0,
-        per_width: 100.0,
+        stribeck_speed: Width::new(0.1),
+        width: Width::new(0.007),
     });
     comes_back(Lugre {
         stiffness: a,
@@ -97,7 +102,7 @@ fn what_is_identified_comes_back_to_the_bit() {
         viscous: a,
         sliding: b,
         excess: a,
-        per_speed: 10.0,
+        stribeck_speed: Width::new(0.1),
         bristle: b,
     });
     comes_back(Cogging {
@@ -114,7 +119,7 @@ fn what_is_identified_comes_back_to_the_bit() {
         upper: b,
         stiffness: 1e4,
         damping: 10.0,
-        per_depth: 500.0,
+        damping_depth: Width::new(3e-3),
     });
 }
 

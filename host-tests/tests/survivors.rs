@@ -7,9 +7,9 @@ use dynamics_core::algorithms::{
 use dynamics_core::drivetrain::{ElasticJoints, ElasticReference, elastic_inverse_dynamics};
 use dynamics_core::effects::{
     Coriolis, Effect, EndStops, Inertia, InvalidPayload, JointState, Lugre, MovingBase, Payload,
-    Spring, Stribeck, TorqueDerivatives,
+    Spring, Stribeck, TorqueDerivatives, Width,
 };
-use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model};
+use dynamics_core::model::{ArmModel, BASE, Body, BodyInertia, Joint, Model, Problem};
 use dynamics_core::spatial::{Force, Motion};
 use dynamics_core::state::Carried;
 use dynamics_core::state::State;
@@ -17,7 +17,7 @@ use dynamics_core::state::manifold::{integrate, neutral};
 use glam::DVec3;
 
 fn at(q: f64, qd: f64) -> JointState<f64> {
-    JointState { q, qd, qdd: 0.0 }
+    JointState::new(q, qd)
 }
 
 /// ∂τ/∂q and ∂τ/∂q̇ as the effect has them.
@@ -56,8 +56,8 @@ fn near(got: [f64; 2], want: [f64; 2], relative: f64) {
 fn stribecks_slope_at_rest_is_that_of_its_torque() {
     let stribeck = Stribeck {
         excess: [2.0],
-        per_speed: 10.0,
-        per_width: 100.0,
+        stribeck_speed: Width::f64(0.1),
+        width: Width::f64(0.01),
     };
     near(
         derivatives(&stribeck, at(0.0, 0.0)),
@@ -75,7 +75,7 @@ fn lugres_bristles_are_springs_while_they_stick_and_none_while_they_slide() {
         viscous: [0.4],
         sliding: [1.0],
         excess: [0.5],
-        per_speed: 1.0 / 0.01,
+        stribeck_speed: Width::f64(0.01),
         bristle: [0.0],
     };
     near(derivatives(&friction, at(0.0, 0.0)), [1e5, 300.4], 1e-12);
@@ -94,7 +94,7 @@ fn slopes_of_the_stops_are_those_of_their_torque() {
         upper: [1.0],
         stiffness: 1e4,
         damping: 50.0,
-        per_depth: 1e3,
+        damping_depth: Width::f64(1e-3),
     };
     // Deep enough that the damping no longer grows with the depth; within, at both ends, and pulled out of one so
     // fast that the stop has let go.
@@ -112,25 +112,22 @@ fn slopes_of_the_stops_are_those_of_their_torque() {
 
 /// A payload whose principal moments exceed what a body has by 0.2 of the largest.
 fn checked(relative: f64) -> Result<Payload<f64, 0>, InvalidPayload> {
-    Payload::checked(
-        2.0,
-        [0.0, 0.0, 0.1],
-        [0.05, 0.0, 0.0, 0.02, 0.0, 0.02],
-        relative,
-    )
+    let load = BodyInertia {
+        mass: 2.0,
+        com: [0.0, 0.0, 0.1],
+        inertia: [0.05, 0.0, 0.0, 0.02, 0.0, 0.02],
+    };
+    Payload::try_new(load, relative)
 }
 
 #[test]
 fn a_payload_is_refused_just_beyond_its_tolerance() {
     assert!(checked(0.2 + 1e-9).is_ok());
-    assert!(matches!(
-        checked(0.2 - 1e-9),
-        Err(InvalidPayload::Triangle(_))
-    ));
-    assert!(matches!(
-        checked(f64::NAN),
-        Err(InvalidPayload::Triangle(_))
-    ));
+    for relative in [0.2 - 1e-9, f64::NAN] {
+        let error = checked(relative).expect_err("no body is like that");
+        assert!(matches!(error.problem, Problem::Triangle(_)));
+        assert_eq!(error.body, 0);
+    }
 }
 
 /// A trunk that floats, with an arm.
@@ -168,7 +165,11 @@ fn same(got: Force<f64>, want: Force<f64>) {
 #[test]
 fn the_centroidal_matrix_has_the_payload() {
     let state = floating();
-    let load = Payload::<_, 0>::new(2.0, [0.3, -0.1, 0.2], [0.02, 0.0, 0.0, 0.01, 0.0, 0.02]);
+    let load = Payload::<_, 0>::from_inertia(BodyInertia {
+        mass: 2.0,
+        com: [0.3, -0.1, 0.2],
+        inertia: [0.02, 0.0, 0.0, 0.01, 0.0, 0.02],
+    });
     let columns = centroidal_matrix(&FLOATING, &state.q, &load);
     let mut h = Force::ZERO;
     for (column, qd) in columns.into_iter().zip(state.qd) {

@@ -196,7 +196,7 @@ where
             let factor = match given(joint) {
                 Prescribed::Torque(tau) => {
                     let mut d = s.dot(u_a);
-                    effects.inertia(joint, &mut d);
+                    effects.add_inertia(joint, &mut d);
                     pivots.check((&body.link, k), turns, (u_a, d), joint)?;
                     let d_inv = R::ONE / d;
                     let u = tau - joint_torque(effects, &body.link, state, joint) - s.dot(pa);
@@ -265,7 +265,7 @@ where
                     if E::GYROSCOPIC_ROTORS {
                         tau -= s.dot(rotor_force(effects, &body.link)) * qdd;
                     }
-                    effects.inertia(joint, &mut armature);
+                    effects.add_inertia(joint, &mut armature);
                     tau += armature * qdd + joint_torque(effects, &body.link, state, joint);
                     (tau, qdd)
                 }
@@ -317,7 +317,7 @@ where
     matches!(link.kind(), JointKind::Free)
         && link.coordinates().all(|joint| {
             let mut inertia = R::ZERO;
-            effects.inertia(joint, &mut inertia);
+            effects.add_inertia(joint, &mut inertia);
             matches!(given(joint), Prescribed::Torque(_)) & (inertia == R::ZERO)
         })
 }

@@ -62,7 +62,7 @@ where
             let u_a = ia.along(&s);
             let bodies = s.dot(u_a);
             let mut d = bodies;
-            effects.inertia(joint, &mut d);
+            effects.add_inertia(joint, &mut d);
             pivots.check((&link, k), turns, (u_a, d), joint)?;
             let d_inv = R::ONE / d;
             let armature_share = (d - bodies) * d_inv;

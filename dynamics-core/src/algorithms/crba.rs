@@ -100,7 +100,7 @@ where
                 m.set(joint, earlier, body.link.subspace(turns, l).dot(f));
             }
             if let Some(diagonal) = m.diagonal_mut(joint) {
-                effects.inertia(joint, diagonal);
+                effects.add_inertia(joint, diagonal);
             }
             if E::GYROSCOPIC_ROTORS {
                 f += rotor_force(effects, &body.link);

@@ -101,7 +101,7 @@ where
                 ancestor = parent(lambda, ancestor);
             }
             if let Some(diagonal) = m.diagonal_mut(joint) {
-                effects.inertia(joint, diagonal);
+                effects.add_inertia(joint, diagonal);
             }
             last = joint;
         }

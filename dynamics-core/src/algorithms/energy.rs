@@ -57,7 +57,7 @@ where
         twice += v_i.dot(body_inertia(effects, i, &link) * v_i);
         for k in link.coordinates() {
             let (mut rotor, qd) = (R::ZERO, entry(&state.qd, k));
-            effects.inertia(k, &mut rotor);
+            effects.add_inertia(k, &mut rotor);
             twice += rotor * qd * qd;
         }
         v.push(v_i);

@@ -178,17 +178,17 @@ where
             link.link.project(&turns, f, tau);
         }
         for k in link.link.coordinates() {
-            let at = joint_state(&link.link, state, k);
+            let (at, qdd) = (joint_state(&link.link, state, k), entry(&state.qdd, k));
             let (mut own, mut inertia, mut derivatives) =
                 (R::ZERO, R::ZERO, TorqueDerivatives::default());
             effects.torque(k, at, &mut own);
-            effects.inertia(k, &mut inertia);
+            effects.add_inertia(k, &mut inertia);
             effects.derivatives(k, at, &mut derivatives);
             let (jerk, snap) = (entry(&course.jerk, k), entry(&course.snap, k));
             let added = [
-                own,
-                derivatives.dq * at.qd + derivatives.dqd * at.qdd + inertia * jerk,
-                derivatives.dq * at.qdd + derivatives.dqd * jerk + inertia * snap,
+                own + inertia * qdd,
+                derivatives.dq * at.qd + derivatives.dqd * qdd + inertia * jerk,
+                derivatives.dq * qdd + derivatives.dqd * jerk + inertia * snap,
             ];
             for (tau, added) in tau.iter_mut().zip(added) {
                 if let Some(tau) = tau.get_mut(k) {

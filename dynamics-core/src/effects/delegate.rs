@@ -1,45 +1,228 @@
-//! What an effect that wraps another passes on as it is.
+//! The one place where effects are forwarded: tuples, what wraps an effect, and wrappers of a user.
 
-/// All of an `impl Effect` but `ACCELERATIONS`, `torque` and `inertia`, which a wrapper is there to change,
-/// and `derivatives` and `advance`, which belong to the effects themselves: `$inner` is the field that holds them.
-macro_rules! passed_on {
-    ($inner:tt) => {
-        const FIELD: bool = E::FIELD;
-        const FIELD_AXES: [bool; 3] = E::FIELD_AXES;
-        const VELOCITY_PRODUCTS: bool = E::VELOCITY_PRODUCTS;
-        const WRENCH: bool = E::WRENCH;
-        const BODY_VELOCITY: bool = E::BODY_VELOCITY;
-        const BODY_POSE: bool = E::BODY_POSE;
-        const BASE_MOTION: bool = E::BASE_MOTION;
-        const GRAVITIES: usize = E::GRAVITIES;
-        const PAYLOAD: [bool; B] = E::PAYLOAD;
-        const GYROSCOPIC_ROTORS: bool = E::GYROSCOPIC_ROTORS;
+use super::BodyState;
+use crate::scalar::Real;
+use crate::spatial::{Force, Motion, SpatialInertia};
 
-        #[inline(always)]
-        fn payload(&self, body: usize, inertia: &mut SpatialInertia<R>) {
-            self.$inner.payload(body, inertia);
+/// The functions of a forwarder's hooks. `delegate_effect!` implements it; without default bodies, so that none is left out.
+#[doc(hidden)]
+pub trait Forwarder<R: Real, const B: usize, const V: usize> {
+    fn forward_field(&self, g: &mut R::Vec3);
+    fn forward_base(&self, velocity: &mut Motion<R>, acceleration: &mut Motion<R>);
+    fn forward_wrench(&self, body: usize, at: &BodyState<R>, fx: &mut Force<R>);
+    fn forward_payload(&self, body: usize, inertia: &mut SpatialInertia<R>);
+    fn forward_spin(&self, joint: usize, coupling: &mut R);
+}
+
+/// Which bodies any of N effects marks.
+#[doc(hidden)]
+pub const fn any_of<const B: usize, const N: usize>(effects: &[[bool; B]; N]) -> [bool; B] {
+    let (mut any, mut i) = ([false; B], 0);
+    while i < N * B {
+        any[i % B] |= effects[i / B][i % B];
+        i += 1;
+    }
+    any
+}
+
+/// The sum of what there is.
+#[doc(hidden)]
+#[inline(always)]
+pub fn sum<R: Real>(a: Option<R>, b: Option<R>) -> Option<R> {
+    match (a, b) {
+        (Some(a), Some(b)) => Some(a + b),
+        (a, None) => a,
+        (None, b) => b,
+    }
+}
+
+/// Implements [`Effect`](crate::effects::Effect) by forwarding every hook to other effects, in their order: those of the type
+/// on the left of each arrow, found at the place on its right. Bounds of the impl stand in `where [..]` after the type. With `, advance` their memory is advanced, too; without it, for
+/// effects that are borrowed or made anew each time, it stays. After `if` and a constant nothing is forwarded where that is
+/// false.
+///
+/// ```
+/// use dynamics_core::delegate_effect;
+/// use dynamics_core::effects::{Effect, RIGID_BODY, Viscous};
+/// use dynamics_core::{Core, robots::Ur5e, scalar::Real, state::State};
+///
+/// /// What a robot always has, and what a scene adds.
+/// struct Cell<E> {
+///     friction: Viscous<f32, 6>,
+///     scene: E,
+/// }
+/// delegate_effect! {
+///     impl[E: Effect<f32, B, 6>, const B: usize] Effect<f32, B, 6> for Cell<E>,
+///     |this| { Viscous<f32, 6> => this.friction, E => this.scene }, advance
+/// }
+///
+/// let cell = Cell { friction: Viscous([0.5; 6]), scene: RIGID_BODY };
+/// let moving = State { qd: [1.0; 6], ..State::at([0.3; 6]) };
+/// let direct = Core::<Ur5e>::rnea(&moving, &(Viscous([0.5; 6]), RIGID_BODY));
+/// assert_eq!(Core::<Ur5e>::rnea(&moving, &cell), direct);
+/// ```
+#[macro_export]
+macro_rules! delegate_effect {
+    (
+        impl[$($generics:tt)*] Effect<$R:ty, $B:tt, $V:tt> for $type:ty $(where [$($bounds:tt)*])?,
+        |$this:ident| { $($inner:ty => $to:expr),* $(,)? } $(, $advance:ident)?
+    ) => {
+        $crate::delegate_effect! {
+            @if [true, true]
+            impl[$($generics)*] Effect<$R, $B, $V> for $type $(where [$($bounds)*])?,
+            |$this| { $($inner => $to),* } $(, $advance)?
+        }
+    };
+    (
+        if $on:expr,
+        impl[$($generics:tt)*] Effect<$R:ty, $B:tt, $V:tt> for $type:ty $(where [$($bounds:tt)*])?,
+        |$this:ident| { $($inner:ty => $to:expr),* $(,)? } $(, $advance:ident)?
+    ) => {
+        $crate::delegate_effect! {
+            @if [$on, true]
+            impl[$($generics)*] Effect<$R, $B, $V> for $type $(where [$($bounds)*])?,
+            |$this| { $($inner => $to),* } $(, $advance)?
+        }
+    };
+    // All hooks, where `on` is true; those that go with q̈, where `accelerations` is true.
+    (
+        @if [$on:expr, $accelerations:expr]
+        impl[$($generics:tt)*] Effect<$R:ty, $B:tt, $V:tt> for $type:ty $(where [$($bounds:tt)*])?,
+        |$this:ident| { $($inner:ty => $to:expr),* } $(, $advance:ident)?
+    ) => {
+        impl<$($generics)*> $crate::effects::Effect<$R, $B, $V> for $type
+        $(where $($bounds)*)?
+        {
+            const GRAVITY_FIELD: $crate::effects::hook::Field<Self, $R> =
+                $crate::effects::hook::Field::forwarded(
+                    ($on) & (false $(| <$inner as $crate::effects::Declared<$R, $B, $V>>::FIELD)*),
+                    [
+                        false $(| <$inner as $crate::effects::Declared<$R, $B, $V>>::FIELD_AXES[0])*,
+                        false $(| <$inner as $crate::effects::Declared<$R, $B, $V>>::FIELD_AXES[1])*,
+                        false $(| <$inner as $crate::effects::Declared<$R, $B, $V>>::FIELD_AXES[2])*,
+                    ],
+                    0 $(+ <$inner as $crate::effects::Declared<$R, $B, $V>>::GRAVITIES)*,
+                    <Self as $crate::effects::Forwarder<$R, $B, $V>>::forward_field,
+                );
+            const BASE: $crate::effects::hook::Base<Self, $R> =
+                $crate::effects::hook::Base::forwarded(
+                    ($on) & (false $(| <$inner as $crate::effects::Declared<$R, $B, $V>>::BASE_MOTION)*),
+                    <Self as $crate::effects::Forwarder<$R, $B, $V>>::forward_base,
+                );
+            const EXTERNAL_WRENCH: $crate::effects::hook::Wrench<Self, $R> =
+                $crate::effects::hook::Wrench::forwarded(
+                    ($on) & (false $(| <$inner as $crate::effects::Declared<$R, $B, $V>>::WRENCH)*),
+                    false $(| <$inner as $crate::effects::Declared<$R, $B, $V>>::BODY_POSE)*,
+                    false $(| <$inner as $crate::effects::Declared<$R, $B, $V>>::BODY_VELOCITY)*,
+                    <Self as $crate::effects::Forwarder<$R, $B, $V>>::forward_wrench,
+                );
+            const ADDED_INERTIA: $crate::effects::hook::Inertia<Self, $R, $B> =
+                $crate::effects::hook::Inertia::forwarded(
+                    $on,
+                    $crate::effects::any_of(&[
+                        $(<$inner as $crate::effects::Declared<$R, $B, $V>>::PAYLOAD),*
+                    ]),
+                    <Self as $crate::effects::Forwarder<$R, $B, $V>>::forward_payload,
+                );
+            const ROTOR: $crate::effects::hook::Rotor<Self, $R> =
+                $crate::effects::hook::Rotor::forwarded(
+                    ($on) & (false $(| <$inner as $crate::effects::Declared<$R, $B, $V>>::GYROSCOPIC_ROTORS)*),
+                    <Self as $crate::effects::Forwarder<$R, $B, $V>>::forward_spin,
+                );
+            const ACCELERATIONS: bool = ($on) & ($accelerations)
+                & (false $(| <$inner as $crate::effects::Effect<$R, $B, $V>>::ACCELERATIONS)*);
+            const VELOCITY_PRODUCTS: bool = ($on)
+                & (false $(| <$inner as $crate::effects::Effect<$R, $B, $V>>::VELOCITY_PRODUCTS)*);
+
+            #[inline(always)]
+            fn torque(&self, joint: usize, at: $crate::effects::JointState<$R>, tau: &mut $R) {
+                let $this = self;
+                if const { $on } {
+                    $(<$inner as $crate::effects::Effect<$R, $B, $V>>::torque(&$to, joint, at, tau);)*
+                }
+            }
+
+            #[inline(always)]
+            fn derivatives(
+                &self,
+                joint: usize,
+                at: $crate::effects::JointState<$R>,
+                derivatives: &mut $crate::effects::TorqueDerivatives<$R>,
+            ) {
+                let $this = self;
+                if const { $on } {
+                    $(<$inner as $crate::effects::Effect<$R, $B, $V>>::derivatives(&$to, joint, at, derivatives);)*
+                }
+            }
+
+            #[inline(always)]
+            fn inertia(&self, joint: usize) -> Option<$R> {
+                let $this = self;
+                let sum = None;
+                if const { ($on) & ($accelerations) } {
+                    $(let sum = $crate::effects::sum(
+                        sum,
+                        <$inner as $crate::effects::Effect<$R, $B, $V>>::inertia(&$to, joint),
+                    );)*
+                    return sum;
+                }
+                sum
+            }
+
+            $crate::delegate_effect!(@advance [$($advance)?] $on, [$R, $B, $V] |$this| { $($inner => $to),* });
         }
 
-        #[inline(always)]
-        fn field(&self, g: &mut R::Vec3) {
-            self.$inner.field(g);
-        }
+        impl<$($generics)*> $crate::effects::Forwarder<$R, $B, $V> for $type
+        $(where $($bounds)*)?
+        {
+            #[inline(always)]
+            fn forward_field(&self, g: &mut <$R as $crate::scalar::Real>::Vec3) {
+                let $this = self;
+                $(<$inner as $crate::effects::Declared<$R, $B, $V>>::field(&$to, g);)*
+            }
 
-        #[inline(always)]
-        fn base(&self, velocity: &mut Motion<R>, acceleration: &mut Motion<R>) {
-            self.$inner.base(velocity, acceleration);
-        }
+            #[inline(always)]
+            fn forward_base(
+                &self,
+                velocity: &mut $crate::spatial::Motion<$R>,
+                acceleration: &mut $crate::spatial::Motion<$R>,
+            ) {
+                let $this = self;
+                $(<$inner as $crate::effects::Declared<$R, $B, $V>>::base(&$to, velocity, acceleration);)*
+            }
 
-        #[inline(always)]
-        fn wrench(&self, body: usize, at: &BodyState<R>, fx: &mut Force<R>) {
-            self.$inner.wrench(body, at, fx);
-        }
+            #[inline(always)]
+            fn forward_wrench(
+                &self,
+                body: usize,
+                at: &$crate::effects::BodyState<$R>,
+                fx: &mut $crate::spatial::Force<$R>,
+            ) {
+                let $this = self;
+                $(<$inner as $crate::effects::Declared<$R, $B, $V>>::wrench(&$to, body, at, fx);)*
+            }
 
+            #[inline(always)]
+            fn forward_payload(&self, body: usize, inertia: &mut $crate::spatial::SpatialInertia<$R>) {
+                let $this = self;
+                $(<$inner as $crate::effects::Declared<$R, $B, $V>>::payload(&$to, body, inertia);)*
+            }
+
+            #[inline(always)]
+            fn forward_spin(&self, joint: usize, coupling: &mut $R) {
+                let $this = self;
+                $(<$inner as $crate::effects::Declared<$R, $B, $V>>::spin(&$to, joint, coupling);)*
+            }
+        }
+    };
+    (@advance [] $on:expr, [$R:ty, $B:tt, $V:tt] |$this:ident| $rest:tt) => {};
+    (@advance [advance] $on:expr, [$R:ty, $B:tt, $V:tt] |$this:ident| { $($inner:ty => $to:expr),* }) => {
         #[inline(always)]
-        fn spin(&self, joint: usize, coupling: &mut R) {
-            self.$inner.spin(joint, coupling);
+        fn advance(&mut self, joint: usize, at: $crate::effects::JointState<$R>, h: $R) {
+            let $this = self;
+            if const { $on } {
+                $(<$inner as $crate::effects::Effect<$R, $B, $V>>::advance(&mut $to, joint, at, h);)*
+            }
         }
     };
 }
-
-pub(super) use passed_on;

@@ -1,22 +1,45 @@
-//! What hooks see.
+//! What hooks read.
 
 use crate::scalar::Real;
 use crate::spatial::{Motion, Xform};
 
-/// The state of one joint, as joint hooks see it.
+/// The state of one joint, which joint hooks read. Inertia goes with [`Effect::inertia`](super::Effect::inertia), so that no
+/// hook reads q̈.
+///
+/// The library fills it in, and a field may be added (a transmitted load, for friction that depends on it): build it by
+/// [`JointState::new`], as in a test of an effect of one's own.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct JointState<R> {
     /// Position, rad or m; zero for a velocity that no position belongs to (ω beside a quaternion).
     pub q: R,
     /// Velocity, rad/s or m/s.
     pub qd: R,
-    /// Acceleration, rad/s² or m/s²; zero where forward dynamics asks.
-    pub qdd: R,
 }
 
-/// The state of one body, as `wrench` sees it; what no effect asks for by its constants is at rest and
-/// in place.
+impl<R> JointState<R> {
+    /// At the position q, rad or m, and the velocity q̇, rad/s or m/s.
+    #[inline(always)]
+    pub const fn new(q: R, qd: R) -> Self {
+        Self { q, qd }
+    }
+}
+
+/// The velocity of one body, which a wrench of [`hook::Wrench::of_velocity`](super::hook::Wrench::of_velocity) reads.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct BodyVelocity<R: Real> {
+    /// Velocity in an inertial frame, the motion of the base included, about the origin of the body's frame and in its
+    /// coordinates.
+    pub velocity: Motion<R>,
+    /// Velocity of the base in the same inertial frame, about the base's origin and in its coordinates; nothing where no
+    /// effect of the scene moves the base.
+    pub base: Option<Motion<R>>,
+}
+
+/// The state of one body, which a wrench of [`hook::Wrench::of_state`](super::hook::Wrench::of_state) reads.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct BodyState<R: Real> {
     /// Pose relative to the base: the coordinate transform from the base to the body's frame, its origin in base
     /// coordinates, m.
@@ -29,7 +52,16 @@ pub struct BodyState<R: Real> {
     pub base: Option<Motion<R>>,
 }
 
-/// How a torque of the motor grows with its joint's state.
+impl<R: Real> BodyState<R> {
+    /// In place and at rest, on a base that no effect moves.
+    pub const REST: Self = Self {
+        pose: Xform::IDENTITY,
+        velocity: Motion::ZERO,
+        base: None,
+    };
+}
+
+/// Derivatives of a motor's torque with respect to its joint's state.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct TorqueDerivatives<R> {
     /// ∂τ/∂q, N·m/rad or N/m: that of a spring is its stiffness.

@@ -1,11 +1,10 @@
 //! Stiff effects at the end of the time step instead of at its beginning.
 
-use super::delegate::passed_on;
 use super::query::joint_state;
-use super::{BodyState, Effect, JointState, TorqueDerivatives};
+use super::{Effect, JointState, TorqueDerivatives};
+use crate::delegate_effect;
 use crate::model::RobotModel;
 use crate::scalar::Real;
-use crate::spatial::{Force, Motion, SpatialInertia};
 use crate::state::{State, entry};
 
 /// The same effects as a step of `h` seconds treats them: torques taken at its end, along their derivatives.
@@ -32,8 +31,7 @@ use crate::state::{State, entry};
 #[derive(Clone, Copy, Debug)]
 pub struct Implicit<'a, E, R, const V: usize> {
     effects: &'a E,
-    h: R,
-    derivatives: [TorqueDerivatives<R>; V],
+    end: AtEndOfStep<R, V>,
 }
 
 impl<'a, E, R: Real, const V: usize> Implicit<'a, E, R, V> {
@@ -57,33 +55,33 @@ impl<'a, E, R: Real, const V: usize> Implicit<'a, E, R, V> {
                 }
             }
         }
-        Self {
-            effects,
-            h,
-            derivatives,
-        }
+        let end = AtEndOfStep { h, derivatives };
+        Self { effects, end }
     }
 }
 
-impl<R: Real, E, const B: usize, const V: usize> Effect<R, B, V> for Implicit<'_, E, R, V>
-where
-    E: Effect<R, B, V>,
-{
-    passed_on!(effects);
-    const ACCELERATIONS: bool = E::ACCELERATIONS;
+/// What goes with q̈ and what with q̇, of the derivatives of each joint's torque.
+#[derive(Clone, Copy, Debug)]
+struct AtEndOfStep<R, const V: usize> {
+    h: R,
+    derivatives: [TorqueDerivatives<R>; V],
+}
 
+impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for AtEndOfStep<R, V> {
     #[inline(always)]
     fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R) {
-        self.effects.torque(joint, at, tau);
-        let derivatives = entry(&self.derivatives, joint);
-        let ahead = at.qd + self.h * at.qdd;
-        *tau += self.h * (derivatives.dq * ahead + derivatives.dqd * at.qdd);
+        *tau += self.h * (entry(&self.derivatives, joint).dq * at.qd);
     }
 
     #[inline(always)]
-    fn inertia(&self, joint: usize, diagonal: &mut R) {
-        self.effects.inertia(joint, diagonal);
+    fn inertia(&self, joint: usize) -> Option<R> {
         let derivatives = entry(&self.derivatives, joint);
-        *diagonal += self.h * (derivatives.dqd + self.h * derivatives.dq);
+        Some(self.h * (derivatives.dqd + self.h * derivatives.dq))
     }
+}
+
+delegate_effect! {
+    impl[R: Real, E: Effect<R, B, V>, const B: usize, const V: usize]
+    Effect<R, B, V> for Implicit<'_, E, R, V>,
+    |this| { E => *this.effects, AtEndOfStep<R, V> => this.end }
 }

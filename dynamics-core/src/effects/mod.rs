@@ -7,7 +7,7 @@
 //! let scene = (Gravity::EARTH, Inertia, Coriolis, Viscous([0.5_f32; 6]));
 //! let state = State::at([0.0, -1.2, 1.5, 0.3, 0.0, 0.0]);
 //! let full = Core::<Ur5e>::rnea(&state, &scene);
-//! let gravity = Core::<Ur5e>::rnea(&state, &(Gravity::EARTH,));
+//! let gravity = Core::<Ur5e>::rnea(&state, &Gravity::EARTH);
 //! assert_eq!(full, gravity); // at rest nothing else acts
 //! ```
 //!
@@ -22,21 +22,18 @@
 //! What none of them is, a user adds by an `impl` of the same trait, for core, engine and plant alike:
 //!
 //! ```
-//! use dynamics_core::effects::{BodyState, Effect, RIGID_BODY};
-//! use dynamics_core::{Core, Engine, robots::Ur5e, scalar::Real, spatial::Force, state::State};
+//! use dynamics_core::effects::{Effect, RIGID_BODY, hook};
+//! use dynamics_core::{Core, Engine, robots::Ur5e, scalar::Real, state::State};
 //!
 //! /// A cable pack dragged along behind the forearm: fˣ = −c v.
 //! struct CableDrag<R>(R);
 //!
 //! impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for CableDrag<R> {
-//!     const WRENCH: bool = true;
-//!     const BODY_VELOCITY: bool = true;
-//!
-//!     fn wrench(&self, body: usize, at: &BodyState<R>, fx: &mut Force<R>) {
+//!     const EXTERNAL_WRENCH: hook::Wrench<Self, R> = hook::Wrench::of_velocity(|drag, body, at, fx| {
 //!         if body == 3 {
-//!             fx.lin -= at.velocity.lin * self.0;
+//!             fx.lin -= at.velocity.lin * drag.0;
 //!         }
-//!     }
+//!     });
 //! }
 //!
 //! let swinging = State { qd: [0.5; 6], ..State::at([0.0_f64, -1.2, 1.5, 0.3, 0.0, 0.0]) };
@@ -62,26 +59,33 @@
 //! (f + fˣ = I a + v ×* I v), which the library subtracts.
 
 mod body;
+mod declared;
 mod delegate;
 mod friction;
 mod gates;
+pub mod hook;
 mod hook_args;
 mod implicit;
 mod joint;
 mod query;
 mod rigid_body;
 mod tuple;
+mod width;
 
 pub use body::{BodyWrench, Contact, ContactPoint, InvalidPayload, Payload, WorldWrench};
+pub use declared::Declared;
+#[doc(hidden)]
+pub use delegate::{Forwarder, any_of, sum};
 pub use friction::{
     AsymmetricCoulomb, Coulomb, Lugre, Stribeck, Viscous, smooth_sign, smooth_sign_slope,
 };
-pub use hook_args::{BodyState, JointState, TorqueDerivatives};
+pub use hook_args::{BodyState, BodyVelocity, JointState, TorqueDerivatives};
 pub use implicit::Implicit;
 pub use joint::{Armature, Cogging, EndStops, GyroscopicRotors, Spring};
 pub use rigid_body::{
     Coriolis, Direction, Down, Gravity, GravityVector, Inertia, MovingBase, RIGID_BODY,
 };
+pub use width::Width;
 
 pub(crate) use gates::{field_axes, loads, one_gravity, only_load};
 pub(crate) use query::{
@@ -91,15 +95,14 @@ pub(crate) use query::{
 pub(crate) use rigid_body::Bias;
 
 use crate::scalar::Real;
-use crate::spatial::{Force, Motion, SpatialInertia};
 
 /// A physical effect, or a tuple of them, on a robot of B bodies and V velocity coordinates.
 ///
-/// Every hook defaults to nothing, and what is default costs nothing. Hooks *add* to what they
-/// are given: an effect that returned a zero would leave an addition behind (x + 0.0 is not x for
+/// Every hook defaults to nothing, and what is default costs nothing. Hooks *add* to their last
+/// argument: an effect that returned a zero would leave an addition behind (x + 0.0 is not x for
 /// IEEE's −0.0). Sizes are part of the type, so that five friction values on six joints do not
-/// compile. A hook that stands under a constant (`FIELD`, `WRENCH`, `BASE_MOTION`, `PAYLOAD`, `GYROSCOPIC_ROTORS`) is
-/// not called unless its constant says so.
+/// compile. Hooks at joints are functions; those that switch a part of the algorithms on are constants that name
+/// their function and what it reads ([`hook`]), so that none is declared without being there, or the other way round.
 ///
 /// ```
 /// use dynamics_core::effects::{Effect, JointState};
@@ -123,58 +126,23 @@ use crate::spatial::{Force, Motion, SpatialInertia};
             Cogging {{ .. }}, Armature([R; V]), GyroscopicRotors {{ .. }}, Payload::<_, BODY>, BodyWrench, WorldWrench, Contact, \
             MovingBase, tuples of up to 12 of them, and your own through `impl Effect`"
 )]
-pub trait Effect<R: Real, const B: usize, const V: usize> {
-    /// It is a field that accelerates every body: `field` adds something.
-    const FIELD: bool = false;
-    /// Which base components of the field may differ from zero.
-    const FIELD_AXES: [bool; 3] = [Self::FIELD; 3];
-    /// How many fields of gravity it adds; a scene of more than one does not compile. A field that is meant to act
-    /// beside gravity sets it to 0.
-    const GRAVITIES: usize = Self::FIELD as usize;
-    /// It asks for the products M q̈ of accelerations.
+pub trait Effect<R: Real, const B: usize, const V: usize>: Declared<R, B, V> {
+    /// A field that accelerates every body.
+    const GRAVITY_FIELD: hook::Field<Self, R> = hook::Field::NONE;
+    /// A motion that the base is made to follow.
+    const BASE: hook::Base<Self, R> = hook::Base::NONE;
+    /// A wrench fˣ that the environment exerts on a body.
+    const EXTERNAL_WRENCH: hook::Wrench<Self, R> = hook::Wrench::NONE;
+    /// Inertia that is fixed to bodies.
+    const ADDED_INERTIA: hook::Inertia<Self, R, B> = hook::Inertia::NONE;
+    /// The coupling of rotors that spin on parent links.
+    const ROTOR: hook::Rotor<Self, R> = hook::Rotor::NONE;
+    /// The scene has the products M q̈ of accelerations.
     const ACCELERATIONS: bool = false;
-    /// It asks for the velocity products C(q, q̇) q̇.
+    /// The scene has the velocity products C(q, q̇) q̇.
     const VELOCITY_PRODUCTS: bool = false;
-    /// `wrench` adds something.
-    const WRENCH: bool = false;
-    /// `wrench` reads the body's velocity (which does not switch the velocity products on).
-    const BODY_VELOCITY: bool = false;
-    /// `wrench` reads the body's pose.
-    const BODY_POSE: bool = false;
-    /// `base` adds something.
-    const BASE_MOTION: bool = false;
-    /// The bodies to which `payload` adds something.
-    const PAYLOAD: [bool; B] = [false; B];
-    /// `spin` adds something.
-    const GYROSCOPIC_ROTORS: bool = false;
 
-    /// Adds to the inertia of `body`, about the origin of its frame and in its coordinates.
-    #[inline(always)]
-    fn payload(&self, body: usize, inertia: &mut SpatialInertia<R>) {
-        let _ = (body, inertia);
-    }
-
-    /// Adds to the acceleration g of free fall, in base coordinates, m/s².
-    #[inline(always)]
-    fn field(&self, g: &mut R::Vec3) {
-        let _ = g;
-    }
-
-    /// Adds to the spatial velocity v₀ and acceleration a₀ of the base, at its origin and in its
-    /// coordinates.
-    #[inline(always)]
-    fn base(&self, velocity: &mut Motion<R>, acceleration: &mut Motion<R>) {
-        let _ = (velocity, acceleration);
-    }
-
-    /// Adds to the wrench fˣ that the environment exerts on `body`, about the origin of the
-    /// body's frame and in its coordinates, N·m and N.
-    #[inline(always)]
-    fn wrench(&self, body: usize, at: &BodyState<R>, fx: &mut Force<R>) {
-        let _ = (body, at, fx);
-    }
-
-    /// Adds to the torque τ that the motor of `joint` must supply, N·m or N.
+    /// Adds to the torque τ that the motor of `joint` must supply whatever its acceleration, N·m or N.
     #[inline(always)]
     fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R) {
         let _ = (joint, at, tau);
@@ -187,23 +155,16 @@ pub trait Effect<R: Real, const B: usize, const V: usize> {
         let _ = (joint, at, derivatives);
     }
 
-    /// Moves what the effect remembers of `joint` (bristles, a motor's current) on by h seconds.
+    /// The inertia at `joint`, kg·m² or kg, which the library adds to M's diagonal and, times q̈, to the torque.
+    #[inline(always)]
+    fn inertia(&self, joint: usize) -> Option<R> {
+        let _ = joint;
+        None
+    }
+
+    /// Advances what the effect remembers of `joint` (bristles, a motor's current) by h seconds.
     #[inline(always)]
     fn advance(&mut self, joint: usize, at: JointState<R>, h: R) {
         let _ = (joint, at, h);
-    }
-
-    /// Adds to the inertia at `joint`, that is to M's diagonal, kg·m² or kg; `torque` adds the
-    /// same times q̈.
-    #[inline(always)]
-    fn inertia(&self, joint: usize, diagonal: &mut R) {
-        let _ = (joint, diagonal);
-    }
-
-    /// Adds to ρ I, the coupling of the rotor that spins on the parent link of `joint` with what carries
-    /// it, kg·m² or kg·m; `torque` and `inertia` add its ρ² I. See [`GyroscopicRotors`].
-    #[inline(always)]
-    fn spin(&self, joint: usize, coupling: &mut R) {
-        let _ = (joint, coupling);
     }
 }

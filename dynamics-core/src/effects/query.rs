@@ -139,7 +139,6 @@ pub(crate) fn joint_state<R: Real, const Q: usize, const V: usize>(
     JointState {
         q: link.position(&state.q, k),
         qd: entry(&state.qd, k),
-        qdd: entry(&state.qdd, k),
     }
 }
 
@@ -156,6 +155,9 @@ pub(crate) fn joint_torques<R: Real, E, const B: usize, const Q: usize, const V:
     for k in link.coordinates() {
         if let Some(tau) = tau.get_mut(k) {
             effects.torque(k, joint_state(link, state, k), tau);
+            if let Some(inertia) = effects.inertia(k) {
+                *tau += inertia * entry(&state.qdd, k);
+            }
         }
     }
 }
@@ -171,13 +173,8 @@ pub(crate) fn joint_torque<R: Real, E, const B: usize, const Q: usize, const V: 
 where
     E: Effect<R, B, V>,
 {
-    let at = JointState {
-        q: link.position(&state.q, joint),
-        qd: entry(&state.qd, joint),
-        qdd: R::ZERO,
-    };
     let mut loss = R::ZERO;
-    effects.torque(joint, at, &mut loss);
+    effects.torque(joint, joint_state(link, state, joint), &mut loss);
     loss
 }
 

@@ -148,7 +148,7 @@ where
         (n, f)
     };
     let mut d = Wrench { f, n }.along(joint.prismatic, length_inv).get();
-    task.effects.inertia(I, &mut d);
+    task.effects.add_inertia(I, &mut d);
     let d_inv = R::ONE / d;
     let rest = Folded::runtime(task.x[I]) - push.along(joint.prismatic, length_inv);
     let ([nx, ny, nz], [fx, fy, fz]) = (n.0, f.0);

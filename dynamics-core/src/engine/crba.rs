@@ -139,7 +139,7 @@ fn column<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usiz
         }
     };
     let mut diagonal = wrench.along(joint.prismatic, length_inv).get();
-    task.effects.inertia(I, &mut diagonal);
+    task.effects.add_inertia(I, &mut diagonal);
     task.m.rows[I][I] = diagonal;
     // From joint I to the base: parents come before their children.
     for_each_joint_reversed!(K, {

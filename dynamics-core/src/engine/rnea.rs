@@ -35,11 +35,10 @@ where
 {
     let tree: &'static CompiledTree<B, V> = const { &CompiledRobot::<T, B, Q, V>::TREE };
     let joint = const { &CompiledRobot::<T, B, Q, V>::joint(I) };
-    let at = JointState {
-        q: task.state.q[I],
-        qd: task.state.qd[I],
-        qdd: task.state.qdd[I],
-    };
+    let (at, qdd) = (
+        JointState::new(task.state.q[I], task.state.qd[I]),
+        task.state.qdd[I],
+    );
     let turn = task.turns[I];
     let length_inv = Folded::constant(1.0 / tree.length);
     let slide = Folded::runtime(turn.q) * length_inv;
@@ -51,7 +50,7 @@ where
     let rates = Rates {
         velocity: Folded::runtime_if(E::BODY_VELOCITY, at.qd) * unit,
         spin: Folded::runtime_if(E::VELOCITY_PRODUCTS, at.qd) * unit,
-        accel: Folded::runtime_if(E::ACCELERATIONS, at.qdd) * unit,
+        accel: Folded::runtime_if(E::ACCELERATIONS, qdd) * unit,
     };
 
     let mut field = if joint.prismatic {
@@ -87,6 +86,9 @@ where
 
     let mut tau = total.along(joint.prismatic, length_inv).get();
     task.effects.torque(I, at, &mut tau);
+    if let Some(inertia) = task.effects.inertia(I) {
+        tau += inertia * qdd;
+    }
     task.tau[I] = tau;
 
     let turn = if const { reload_sines::<T, B, Q, V>() } {

@@ -54,7 +54,7 @@ pub enum Problem {
 }
 
 impl Problem {
-    const fn text(self) -> &'static str {
+    pub(crate) const fn text(self) -> &'static str {
         match self {
             Self::Parent => "its parent is not listed before it",
             Self::Axis => "its joint axis is zero or not finite",

@@ -7,7 +7,7 @@
 mod costs;
 
 use cortex_m_rt::entry;
-use dynamics_core::effects::{Armature, Coulomb, Effect, RIGID_BODY, Viscous};
+use dynamics_core::effects::{Armature, Coulomb, Effect, RIGID_BODY, Viscous, Width};
 use dynamics_core::model::Robot;
 use dynamics_core::robots::Ur5e;
 use dynamics_core::scalar::Real;
@@ -25,7 +25,7 @@ impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Nothing {}
 const VISCOUS: Viscous<f32, 6> = Viscous([12.0, 12.0, 8.0, 2.0, 2.0, 1.5]);
 const COULOMB: Coulomb<f32, 6> = Coulomb {
     torque: [8.0, 8.0, 6.0, 1.5, 1.5, 1.2],
-    per_width: 20.0,
+    width: Width::f32(0.05),
 };
 const ROTORS: Armature<f32, 6> = Armature([0.9, 0.9, 0.9, 0.25, 0.25, 0.25]);
 

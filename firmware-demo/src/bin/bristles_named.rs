@@ -6,7 +6,7 @@ mod bristles;
 
 use cortex_m::singleton;
 use cortex_m_rt::entry;
-use dynamics_core::effects::{Coriolis, Gravity, Inertia, Lugre};
+use dynamics_core::effects::{Coriolis, Gravity, Inertia, Lugre, Width};
 
 type Effects = (Gravity, Inertia, Coriolis, Lugre<f32, 6>);
 
@@ -20,7 +20,7 @@ const EFFECTS: Effects = (
         viscous: [12.0, 12.0, 8.0, 2.0, 2.0, 1.5],
         sliding: [8.0, 8.0, 6.0, 1.5, 1.5, 1.2],
         excess: [3.0, 3.0, 2.0, 0.5, 0.5, 0.4],
-        per_speed: 20.0,
+        stribeck_speed: Width::f32(0.05),
         bristle: [0.0; 6],
     },
 );

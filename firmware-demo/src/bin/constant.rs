@@ -18,7 +18,7 @@ use core::hint::black_box;
 use cortex_m_rt::entry;
 use cortex_m_semihosting::debug;
 use dynamics_core::control::{Command, Gains, Mode, SafetyLimits, Supervisor, feedback};
-use dynamics_core::effects::{Armature, Coulomb, RIGID_BODY, Viscous};
+use dynamics_core::effects::{Armature, Coulomb, RIGID_BODY, Viscous, Width};
 use dynamics_core::robots::Ur5e;
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine, trig};
@@ -105,7 +105,7 @@ const EFFECTS: (Viscous<f32, N>, Coulomb<f32, N>, Armature<f32, N>) = (
     Viscous([12.0, 12.0, 8.0, 2.0, 2.0, 1.5]),
     Coulomb {
         torque: [8.0, 8.0, 6.0, 1.5, 1.5, 1.2],
-        per_width: 20.0,
+        width: Width::f32(0.05),
     },
     Armature([0.9, 0.9, 0.9, 0.25, 0.25, 0.25]),
 );

@@ -6,8 +6,8 @@ use dynamics_core::algorithms::{
     Damping, NotPositiveDefinite, aba, forward_dynamics, frame, operational_space, osim_inverse,
     rnea,
 };
-use dynamics_core::effects::{Armature, Coriolis, Effect, GravityVector, Inertia, Payload};
-use dynamics_core::model::AllRevolute;
+use dynamics_core::effects::{Armature, Coriolis, Effect, GravityVector, Inertia, Payload, hook};
+use dynamics_core::model::{AllRevolute, BodyInertia};
 use dynamics_core::scalar::{Real, Vector};
 use dynamics_core::spatial::{Force, SpatialInertia};
 use dynamics_core::state::State;
@@ -26,21 +26,25 @@ pub type Scene<R, const N: usize> = (
 pub struct OnLast<R: Real>(SpatialInertia<R>);
 
 impl<R: Real> OnLast<R> {
-    /// As [`Payload::new`].
+    /// As [`Payload::from_inertia`].
     pub fn new(mass: R, com: [R; 3], inertia: [R; 6]) -> Self {
-        Self(Payload::<R, 0>::new(mass, com, inertia).0)
+        let inertia = BodyInertia { mass, com, inertia };
+        Self(Payload::<R, 0>::from_inertia(inertia).0)
     }
 }
 
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for OnLast<R> {
-    const PAYLOAD: [bool; B] = {
+    const ADDED_INERTIA: hook::Inertia<Self, R, B> = {
         let mut last = [false; B];
         last[B - 1] = true;
-        last
+        hook::Inertia::on(last, Self::add_to::<B>)
     };
+}
 
+impl<R: Real> OnLast<R> {
+    /// Adds the load to the inertia of `body` of a robot of B bodies.
     #[inline(always)]
-    fn payload(&self, body: usize, inertia: &mut SpatialInertia<R>) {
+    fn add_to<const B: usize>(&self, body: usize, inertia: &mut SpatialInertia<R>) {
         if body + 1 == B {
             *inertia = *inertia + self.0;
         }

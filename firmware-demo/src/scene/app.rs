@@ -101,7 +101,7 @@ where
 
     /// The runs in their order.
     pub fn runs() -> impl Iterator<Item = &'static Run<S, B, Q, V, N>> {
-        S::RUNS.iter().chain(S::BESIDE).chain(S::LESS)
+        S::RUNS.iter().chain(S::BASELINES).chain(S::ABLATIONS)
     }
 
     /// One tick of the present run; nothing after the last, nor after a plant that failed.
@@ -109,13 +109,13 @@ where
         let Some(run) = Self::runs().nth(self.run).filter(|_| !self.broken) else {
             return;
         };
-        let around = |ticks: f32| S::around(&self.reference, ticks);
+        let environment = |ticks: f32| S::environment(&self.reference, ticks);
         let now = self.tick as f32;
-        let telemetry = (run.tick)(&mut self.control, &self.reference, &around(now));
+        let telemetry = (run.tick)(&mut self.control, &self.reference, &environment(now));
         let actual = self.rig.plant.actual();
         let part = 1.0 / STEPS as f32;
         let advanced = self.rig.advance(self.wires, STEPS, TICK * part, |step| {
-            around(now + part * step as f32)
+            environment(now + part * step as f32)
         });
         self.broken = advanced.is_err();
         let record = Record {
@@ -155,7 +155,7 @@ where
     let rig = Rig::new(S::plant(noise), torque, wires);
     let encoders = core::array::from_fn(|j| wires.encoder(j));
     let drives = core::array::from_fn(|j| wires.drive(j));
-    let around = S::around(reference, 0.0);
-    let control = control_loop::<S, _, _, _, B, Q, V, N>(encoders, drives, SimBrake, &around);
+    let environment = S::environment(reference, 0.0);
+    let control = control_loop::<S, _, _, _, B, Q, V, N>(encoders, drives, SimBrake, &environment);
     (rig, control)
 }

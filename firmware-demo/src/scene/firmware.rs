@@ -39,7 +39,7 @@ pub fn control_loop<
     encoders: [Spi; N],
     drives: [Pwm; N],
     brake: Brake,
-    around: &S::Around,
+    environment: &S::Environment,
 ) -> ControlLoop<Spi, Pwm, Brake, N>
 where
     S: Scene<B, Q, V, N>,
@@ -61,7 +61,7 @@ where
         encoders.map(Encoder::new),
         drives.map(|pwm| Drive::new(pwm, torques.next().unwrap_or_default())),
         brake,
-        Gains::from_inertia(&S::inertia(around), OMEGA_N, ZETA),
+        Gains::from_inertia(&S::inertia(environment), OMEGA_N, ZETA),
         Observer::new(OBSERVER, TICK),
         Supervisor::new(bounds, TICK, HOLD, REENTRY)
             .riding(RIDE)

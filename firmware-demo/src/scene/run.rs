@@ -6,7 +6,7 @@ use dynamics_core::effects::Effect;
 use dynamics_core::state::State;
 
 use super::app::SimLoop;
-use super::{Now, Scene, Told, Without};
+use super::{Current, CurrentWithout, Scene, Without};
 use crate::control_loop::{Law, Telemetry};
 
 /// How well the controller knows the plant.
@@ -41,7 +41,7 @@ pub enum Name {
 type Ticked<S, const B: usize, const Q: usize, const V: usize, const N: usize> = fn(
     &mut SimLoop<N>,
     &<S as Scene<B, Q, V, N>>::Reference,
-    &<S as Scene<B, Q, V, N>>::Around,
+    &<S as Scene<B, Q, V, N>>::Environment,
 )
     -> Telemetry<N>;
 
@@ -61,20 +61,20 @@ where
     S: Scene<B, Q, V, N>,
 {
     /// Of the law `L`.
-    pub const fn of<L: Law<N, S::Around>>(plant: Truth, name: &'static str) -> Self {
+    pub const fn of<L: Law<N, S::Environment>>(plant: Truth, name: &'static str) -> Self {
         Self {
             plant,
             law: Name::Of(name),
-            tick: SimLoop::<N>::tick::<L, S::Reference, S::Around>,
+            tick: SimLoop::<N>::tick::<L, S::Reference, S::Environment>,
         }
     }
 
     /// Of the law `L`, which lacks an effect of this name, on the exact plant.
-    pub const fn without<L: Law<N, S::Around>>(name: fn() -> &'static str) -> Self {
+    pub const fn without<L: Law<N, S::Environment>>(name: fn() -> &'static str) -> Self {
         Self {
             plant: Truth::Exact,
             law: Name::Without(name),
-            tick: SimLoop::<N>::tick::<L, S::Reference, S::Around>,
+            tick: SimLoop::<N>::tick::<L, S::Reference, S::Environment>,
         }
     }
 }
@@ -82,7 +82,7 @@ where
 /// Feed-forward by all of the scene's effects.
 pub struct Full<S, const B: usize, const Q: usize, const V: usize>(PhantomData<S>);
 
-impl<S, const B: usize, const Q: usize, const V: usize, const N: usize> Law<N, S::Around>
+impl<S, const B: usize, const Q: usize, const V: usize, const N: usize> Law<N, S::Environment>
     for Full<S, B, Q, V>
 where
     S: Scene<B, Q, V, N>,
@@ -90,26 +90,15 @@ where
     const ACCELERATES: bool = <S::Effects as Effect<f32, B, V>>::ACCELERATIONS;
 
     #[inline(always)]
-    fn feedforward(reference: &State<f32, N, N>, around: &S::Around) -> [f32; N] {
-        if S::STEADY {
-            return S::inverse(reference, around, &S::EFFECTS);
+    fn feedforward(reference: &State<f32, N, N>, environment: &S::Environment) -> [f32; N] {
+        if S::CONSTANT_EFFECTS {
+            return S::inverse(reference, environment, &S::EFFECTS);
         }
-        S::inverse(reference, around, &Now::<Self, _, N>::of(around))
-    }
-}
-
-impl<S, const B: usize, const Q: usize, const V: usize, const N: usize> Told<S::Around, B, V, N>
-    for Full<S, B, Q, V>
-where
-    S: Scene<B, Q, V, N>,
-{
-    type Effects = S::Effects;
-
-    #[inline(always)]
-    fn told(around: &S::Around) -> S::Effects {
-        let mut effects = S::EFFECTS;
-        S::surround(&mut effects, around);
-        effects
+        S::inverse(
+            reference,
+            environment,
+            &Current::<S, B, Q, V, N>(environment),
+        )
     }
 }
 
@@ -117,35 +106,24 @@ where
 pub struct Less<S, const I: usize, const B: usize, const Q: usize, const V: usize>(PhantomData<S>);
 
 impl<S, const I: usize, const B: usize, const Q: usize, const V: usize, const N: usize>
-    Law<N, S::Around> for Less<S, I, B, Q, V>
+    Law<N, S::Environment> for Less<S, I, B, Q, V>
 where
     S: Scene<B, Q, V, N>,
-    S::Effects: Without<S, I, B, Q, V, N>,
+    Without<S::Effects, I>: Effect<f32, B, V>,
 {
-    const ACCELERATES: bool =
-        <<S::Effects as Without<S, I, B, Q, V, N>>::Rest as Effect<f32, B, V>>::ACCELERATIONS;
+    const ACCELERATES: bool = <Without<S::Effects, I> as Effect<f32, B, V>>::ACCELERATIONS;
 
     #[inline(always)]
-    fn feedforward(reference: &State<f32, N, N>, around: &S::Around) -> [f32; N] {
-        if S::STEADY {
-            let rest = <S::Effects as Without<S, I, B, Q, V, N>>::REST;
-            return S::inverse(reference, around, &rest);
+    fn feedforward(reference: &State<f32, N, N>, environment: &S::Environment) -> [f32; N] {
+        if S::CONSTANT_EFFECTS {
+            let effects = const { Without::<_, I>(S::EFFECTS) };
+            return S::inverse(reference, environment, &effects);
         }
-        S::inverse(reference, around, &Now::<Self, _, N>::of(around))
-    }
-}
-
-impl<S, const I: usize, const B: usize, const Q: usize, const V: usize, const N: usize>
-    Told<S::Around, B, V, N> for Less<S, I, B, Q, V>
-where
-    S: Scene<B, Q, V, N>,
-    S::Effects: Without<S, I, B, Q, V, N>,
-{
-    type Effects = <S::Effects as Without<S, I, B, Q, V, N>>::Rest;
-
-    #[inline(always)]
-    fn told(around: &S::Around) -> Self::Effects {
-        Full::<S, B, Q, V>::told(around).without()
+        S::inverse(
+            reference,
+            environment,
+            &CurrentWithout::<S, I, B, Q, V, N>(environment),
+        )
     }
 }
 

@@ -86,7 +86,7 @@ impl Scene<3, 3, 3, 3> for FastArm {
     type Robot = DirectDrive;
     type Effects = Effects;
     type Reference = Trajectory<f32, 3, 8>;
-    type Around = ();
+    type Environment = ();
     type Plant = Plant<DirectDrive, Effects, (), 3, 3, 3>;
 
     const NAME: &'static str = "direct_drive";
@@ -94,7 +94,7 @@ impl Scene<3, 3, 3, 3> for FastArm {
     const EFFECTS: Effects = EFFECTS;
     const GAIN_POSE: [f32; 3] = START;
     const GAIN_POSE_NAME: &'static str = "start";
-    const BESIDE: &'static [Run<Self, 3, 3, 3, 3>] = &[
+    const BASELINES: &'static [Run<Self, 3, 3, 3, 3>] = &[
         Run::of::<Diagonal>(Truth::Exact, "diagonal"),
         Run::of::<DiagonalEngine>(Truth::Exact, "diagonal-engine"),
         Run::of::<Diagonal>(Truth::Mismatched, "diagonal"),
@@ -104,7 +104,7 @@ impl Scene<3, 3, 3, 3> for FastArm {
         through(&WAY, &Self::limits(), [150.0; 3])
     }
 
-    fn around(_: &Self::Reference, _: f32) {}
+    fn environment(_: &Self::Reference, _: f32) {}
 
     fn inverse<E: Effect<f32, 3, 3>>(
         reference: &State<f32, 3, 3>,

@@ -36,7 +36,7 @@ impl Scene<7, 7, 7, 7> for CompliantArm {
     type Effects = Effects;
     type Reference = RestToRest<f32, 7, 4>;
     /// The reference to its fourth derivative.
-    type Around = ElasticReference<f32, 7, 7>;
+    type Environment = ElasticReference<f32, 7, 7>;
     type Plant = FlexiblePlant<Iiwa14, Effects, 7>;
 
     const NAME: &'static str = "flexible_joint";
@@ -49,10 +49,10 @@ impl Scene<7, 7, 7, 7> for CompliantArm {
     );
     const GAIN_POSE: [f32; 7] = UPRIGHT;
     const GAIN_POSE_NAME: &'static str = "upright";
-    const BESIDE: &'static [Run<Self, 7, 7, 7, 7>] =
+    const BASELINES: &'static [Run<Self, 7, 7, 7, 7>] =
         &[Run::of::<RigidJoints>(Truth::Exact, "rigid-joints")];
     // Inverse dynamics of compliant joints needs `Inertia` and `Coriolis`.
-    const LESS: &'static [Run<Self, 7, 7, 7, 7>] = &[
+    const ABLATIONS: &'static [Run<Self, 7, 7, 7, 7>] = &[
         Run::without::<Less<Self, 0, 7, 7, 7>>(name::<Gravity>),
         Run::without::<Less<Self, 3, 7, 7, 7>>(name::<Viscous<f32, 7>>),
     ];
@@ -61,7 +61,7 @@ impl Scene<7, 7, 7, 7> for CompliantArm {
         RestToRest::new(&SWING, TICK, &speeds(&Self::limits(), [8.0; 7]))
     }
 
-    fn around(reference: &Self::Reference, ticks: f32) -> ElasticReference<f32, 7, 7> {
+    fn environment(reference: &Self::Reference, ticks: f32) -> ElasticReference<f32, 7, 7> {
         reference.course(ticks as u32)
     }
 

@@ -3,7 +3,7 @@
 use dynamics_core::Engine;
 use dynamics_core::control::TrajectoryError;
 use dynamics_core::effects::{
-    Coriolis, Coulomb, Effect, GravityVector, Inertia, MovingBase, Viscous,
+    Coriolis, Coulomb, Effect, GravityVector, Inertia, MovingBase, Viscous, Width,
 };
 use dynamics_core::spatial::Motion;
 use dynamics_core::state::State;
@@ -43,7 +43,7 @@ pub const EFFECTS: Effects = (
     Viscous([1.2, 1.2, 0.6]),
     Coulomb {
         torque: [0.8, 0.8, 0.5],
-        per_width: 20.0,
+        width: Width::f32(0.05),
     },
 );
 
@@ -55,8 +55,8 @@ impl Scene<3, 3, 3, 3> for OnWatch {
     type Robot = Gimbal;
     type Effects = Effects;
     type Reference = Watch<f32>;
-    type Around = (GravityVector<f32>, MovingBase<f32>);
-    type Plant = Plant<Gimbal, Effects, Self::Around, 3, 3, 3>;
+    type Environment = (GravityVector<f32>, MovingBase<f32>);
+    type Plant = Plant<Gimbal, Effects, Self::Environment, 3, 3, 3>;
 
     const NAME: &'static str = "gimbal_ship";
     const BOUND: f32 = 5e-4;
@@ -72,18 +72,18 @@ impl Scene<3, 3, 3, 3> for OnWatch {
         })
     }
 
-    fn around(watch: &Self::Reference, ticks: f32) -> Self::Around {
+    fn environment(watch: &Self::Reference, ticks: f32) -> Self::Environment {
         watch.ship.seen(ticks * TICK)
     }
 
-    fn surround(effects: &mut Effects, &(gravity, base): &Self::Around) {
+    fn apply(effects: &mut Effects, &(gravity, base): &Self::Environment) {
         effects.0 = gravity;
         effects.1 = base;
     }
 
     fn inverse<E: Effect<f32, 3, 3>>(
         reference: &State<f32, 3, 3>,
-        _: &Self::Around,
+        _: &Self::Environment,
         effects: &E,
     ) -> [f32; 3] {
         Engine::<Gimbal>::rnea(reference, effects)

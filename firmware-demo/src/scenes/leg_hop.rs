@@ -3,7 +3,7 @@
 use dynamics_core::Engine;
 use dynamics_core::control::TrajectoryError;
 use dynamics_core::effects::{
-    Armature, Contact, ContactPoint, Coriolis, Effect, Gravity, Inertia, Viscous,
+    Armature, Contact, ContactPoint, Coriolis, Effect, Gravity, Inertia, Viscous, Width,
 };
 use dynamics_core::state::State;
 use glam::Vec3;
@@ -33,7 +33,7 @@ pub const GROUND: Contact<f32, 1> = Contact {
     height: Leg::FOOT_RADIUS,
     stiffness: 3e4,
     damping: 100.0,
-    per_depth: 1e4,
+    damping_depth: Width::f32(1e-4),
     friction: 0.6,
     slip_tolerance: 0.2,
 };
@@ -71,8 +71,8 @@ impl Scene<5, 4, 4, 3> for Hopping {
     type Effects = Effects;
     type Reference = Hop;
     /// Where the carriage is to be, m, m/s and m/s².
-    type Around = State<f32, 1, 1>;
-    type Plant = Plant<Leg, Effects, Self::Around, 5, 4, 4>;
+    type Environment = State<f32, 1, 1>;
+    type Plant = Plant<Leg, Effects, Self::Environment, 5, 4, 4>;
 
     const NAME: &'static str = "leg_hop";
     const BOUND: f32 = 0.02;
@@ -84,7 +84,7 @@ impl Scene<5, 4, 4, 3> for Hopping {
         Ok(hop())
     }
 
-    fn around(reference: &Hop, ticks: f32) -> Self::Around {
+    fn environment(reference: &Hop, ticks: f32) -> Self::Environment {
         let whole = reference.whole(ticks as u32);
         State {
             q: [whole.q[0]],
@@ -95,7 +95,7 @@ impl Scene<5, 4, 4, 3> for Hopping {
 
     fn inverse<E: Effect<f32, 5, 4>>(
         leg: &State<f32, 3, 3>,
-        rail: &Self::Around,
+        rail: &Self::Environment,
         effects: &E,
     ) -> [f32; 3] {
         let on = |[rail]: [f32; 1], [hip, thigh, calf]: [f32; 3]| [rail, hip, thigh, calf];

@@ -4,9 +4,9 @@
 use dynamics_core::Engine;
 use dynamics_core::control::{Reference, Trajectory, TrajectoryError};
 use dynamics_core::effects::{
-    Armature, Coriolis, Coulomb, Effect, Gravity, Inertia, InvalidPayload, Payload, Viscous,
+    Armature, Coriolis, Coulomb, Effect, Gravity, Inertia, InvalidPayload, Payload, Viscous, Width,
 };
-use dynamics_core::model::Robot;
+use dynamics_core::model::{BodyInertia, Robot};
 use dynamics_core::robots::Panda;
 use dynamics_core::spatial::SpatialInertia;
 use dynamics_core::state::State;
@@ -43,7 +43,7 @@ pub const EFFECTS: Effects = (
     Viscous([1.0, 1.0, 1.0, 1.0, 0.5, 0.5, 0.5]),
     Coulomb {
         torque: [0.6, 0.9, 0.6, 1.2, 0.8, 0.4, 0.5],
-        per_width: 20.0,
+        width: Width::f32(0.05),
     },
     Armature([0.5, 0.5, 0.4, 0.4, 0.2, 0.2, 0.2]),
     Payload(SpatialInertia::ZERO),
@@ -55,7 +55,12 @@ pub const EFFECTS: Effects = (
 /// If no body were like that.
 pub fn part() -> Result<Load, InvalidPayload> {
     let moments = [3.0e-3, 0.0, 0.0, 3.467e-3, 0.0, 1.667e-3];
-    Payload::checked(2.0, [0.01, -0.02, 0.19], moments, 1e-6)
+    let part = BodyInertia {
+        mass: 2.0,
+        com: [0.01, -0.02, 0.19],
+        inertia: moments,
+    };
+    Payload::try_new(part, 1e-6)
 }
 
 /// The ticks at which the gripper begins to close and to open, and how many it takes for that.
@@ -89,7 +94,7 @@ impl Scene<7, 7, 7, 7> for Carry {
     type Robot = Panda;
     type Effects = Effects;
     type Reference = Job;
-    type Around = Load;
+    type Environment = Load;
     type Plant = Plant<Panda, Effects, Load, 7, 7, 7>;
 
     const NAME: &'static str = "panda_payload";
@@ -97,7 +102,7 @@ impl Scene<7, 7, 7, 7> for Carry {
     const EFFECTS: Effects = EFFECTS;
     const GAIN_POSE: [f32; 7] = READY;
     const GAIN_POSE_NAME: &'static str = "ready";
-    const BESIDE: &'static [Run<Self, 7, 7, 7, 7>] = &[
+    const BASELINES: &'static [Run<Self, 7, 7, 7, 7>] = &[
         Run::of::<Less<Self, LOAD, 7, 7, 7>>(Truth::Exact, "unknown-load"),
         Run::of::<Less<Self, LOAD, 7, 7, 7>>(Truth::Mismatched, "unknown-load"),
     ];
@@ -112,7 +117,7 @@ impl Scene<7, 7, 7, 7> for Carry {
     }
 
     /// What the hand bears of the part: at rest on the table it goes over from one to the other evenly.
-    fn around(job: &Job, ticks: f32) -> Load {
+    fn environment(job: &Job, ticks: f32) -> Load {
         let since = |start: u32| ((ticks - start as f32) / GRIP).clamp(0.0, 1.0);
         let borne = since(CLOSES) - since(OPENS);
         let Payload(SpatialInertia {
@@ -128,7 +133,7 @@ impl Scene<7, 7, 7, 7> for Carry {
     }
 
     #[inline(always)]
-    fn surround((.., payload): &mut Effects, borne: &Load) {
+    fn apply((.., payload): &mut Effects, borne: &Load) {
         *payload = *borne;
     }
 

@@ -4,7 +4,7 @@
 use dynamics_core::Engine;
 use dynamics_core::control::{Trajectory, TrajectoryError};
 use dynamics_core::effects::{
-    Armature, Coriolis, Coulomb, Effect, Gravity, GravityVector, Inertia, Viscous,
+    Armature, Coriolis, Coulomb, Effect, Gravity, GravityVector, Inertia, Viscous, Width,
 };
 use dynamics_core::state::State;
 use glam::Vec3;
@@ -31,7 +31,7 @@ pub const EFFECTS: Effects = (
     Viscous([3.0, 1.5, 0.05]),
     Coulomb {
         torque: [8.0, 4.0, 0.4],
-        per_width: 20.0,
+        width: Width::f32(0.05),
     },
     Armature([0.25, 0.08, 0.002]),
 );
@@ -44,7 +44,7 @@ impl Scene<3, 3, 3, 3> for Serve {
     type Robot = Scara;
     type Effects = Effects;
     type Reference = Trajectory<f32, 3, 10>;
-    type Around = ();
+    type Environment = ();
     type Plant = Plant<Scara, Effects, (), 3, 3, 3>;
 
     const NAME: &'static str = "scara_table";
@@ -52,7 +52,7 @@ impl Scene<3, 3, 3, 3> for Serve {
     const EFFECTS: Effects = EFFECTS;
     const GAIN_POSE: [f32; 3] = ASIDE;
     const GAIN_POSE_NAME: &'static str = "aside";
-    const BESIDE: &'static [Run<Self, 3, 3, 3, 3>] = &[
+    const BASELINES: &'static [Run<Self, 3, 3, 3, 3>] = &[
         Run::of::<WithGravity>(Truth::Exact, "with-gravity"),
         Run::of::<WithGravityAlong>(Truth::Exact, "with-gravity-of-run-time"),
     ];
@@ -61,7 +61,7 @@ impl Scene<3, 3, 3, 3> for Serve {
         through(&SCARA_SERVES, &Self::limits(), [60.0, 120.0, 250.0])
     }
 
-    fn around(_: &Self::Reference, _: f32) {}
+    fn environment(_: &Self::Reference, _: f32) {}
 
     fn inverse<E: Effect<f32, 3, 3>>(
         reference: &State<f32, 3, 3>,

@@ -4,7 +4,7 @@
 use dynamics_core::Core;
 use dynamics_core::algorithms::Prescribed;
 use dynamics_core::control::{Trajectory, TrajectoryError};
-use dynamics_core::effects::{Armature, Coriolis, Coulomb, Effect, Inertia, Viscous};
+use dynamics_core::effects::{Armature, Coriolis, Coulomb, Effect, Inertia, Viscous, Width};
 use dynamics_core::spatial::Force;
 use dynamics_core::state::State;
 
@@ -30,7 +30,7 @@ pub const EFFECTS: Effects = (
     Viscous(SpaceArm::joints([9.0, 9.0, 7.0, 1.5, 1.5, 1.2])),
     Coulomb {
         torque: SpaceArm::joints([3.0, 3.0, 2.5, 0.8, 0.8, 0.6]),
-        per_width: 20.0,
+        width: Width::f32(0.05),
     },
     Armature(SpaceArm::joints([1.0, 1.0, 0.8, 0.15, 0.15, 0.12])),
 );
@@ -43,7 +43,7 @@ impl Scene<7, 13, 12, 6> for ReachOut {
     type Robot = SpaceArm;
     type Effects = Effects;
     type Reference = Trajectory<f32, 6, 6>;
-    type Around = ();
+    type Environment = ();
     type Plant = Floating<SpaceArm, Effects, (), 7, 13, 12>;
 
     const NAME: &'static str = "space_arm";
@@ -51,12 +51,12 @@ impl Scene<7, 13, 12, 6> for ReachOut {
     const EFFECTS: Effects = EFFECTS;
     const GAIN_POSE: [f32; 13] = SpaceArm::at(STOWED);
     const GAIN_POSE_NAME: &'static str = "stowed";
-    const BESIDE: &'static [Run<Self, 7, 13, 12, 6>] = &[
+    const BASELINES: &'static [Run<Self, 7, 13, 12, 6>] = &[
         Run::of::<FixedBase>(Truth::Exact, "fixed-base"),
         Run::of::<FixedBase>(Truth::Mismatched, "fixed-base"),
     ];
     /// Nothing moves without `Inertia`.
-    const LESS: &'static [Run<Self, 7, 13, 12, 6>] = &[
+    const ABLATIONS: &'static [Run<Self, 7, 13, 12, 6>] = &[
         Run::without::<Less<Self, 1, 7, 13, 12>>(name::<Coriolis>),
         Run::without::<Less<Self, 2, 7, 13, 12>>(name::<Viscous<f32, 12>>),
         Run::without::<Less<Self, 3, 7, 13, 12>>(name::<Coulomb<f32, 12>>),
@@ -67,7 +67,7 @@ impl Scene<7, 13, 12, 6> for ReachOut {
         through(&REACH_OUT, &Self::limits(), [3.0; 6])
     }
 
-    fn around(_: &Self::Reference, _: f32) {}
+    fn environment(_: &Self::Reference, _: f32) {}
 
     /// The satellite is left to itself: it recoils from the joints' rates, since all momentum is zero, and from
     /// their accelerations, since nothing holds it.

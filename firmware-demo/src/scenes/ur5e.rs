@@ -2,7 +2,9 @@
 
 use dynamics_core::Engine;
 use dynamics_core::control::{Trajectory, TrajectoryError};
-use dynamics_core::effects::{Armature, Coriolis, Coulomb, Effect, Gravity, Inertia, Viscous};
+use dynamics_core::effects::{
+    Armature, Coriolis, Coulomb, Effect, Gravity, Inertia, Viscous, Width,
+};
 use dynamics_core::robots::Ur5e;
 use dynamics_core::state::State;
 
@@ -30,7 +32,7 @@ pub const EFFECTS: Effects = (
     Viscous([12.0, 12.0, 8.0, 2.0, 2.0, 1.5]),
     Coulomb {
         torque: [8.0, 8.0, 6.0, 1.5, 1.5, 1.2],
-        per_width: 20.0,
+        width: Width::f32(0.05),
     },
     Armature([0.9, 0.9, 0.9, 0.25, 0.25, 0.25]),
 );
@@ -43,7 +45,7 @@ impl Scene<6, 6, 6, 6> for PickAndPlace {
     type Robot = Ur5e;
     type Effects = Effects;
     type Reference = Trajectory<f32, 6, 9>;
-    type Around = ();
+    type Environment = ();
     type Plant = Plant<Ur5e, Effects, (), 6, 6, 6>;
 
     const NAME: &'static str = "ur5e";
@@ -51,7 +53,7 @@ impl Scene<6, 6, 6, 6> for PickAndPlace {
     const EFFECTS: Effects = EFFECTS;
     const GAIN_POSE: [f32; 6] = HOME;
     const GAIN_POSE_NAME: &'static str = "home";
-    const BESIDE: &'static [Run<Self, 6, 6, 6, 6>] = &[
+    const BASELINES: &'static [Run<Self, 6, 6, 6, 6>] = &[
         Run::of::<GravityOnly>(Truth::Exact, "gravity"),
         Run::of::<GravityOnly>(Truth::Mismatched, "gravity"),
     ];
@@ -60,7 +62,7 @@ impl Scene<6, 6, 6, 6> for PickAndPlace {
         through(&PICK_AND_PLACE, &Self::limits(), [12.0; 6])
     }
 
-    fn around(_: &Self::Reference, _: f32) {}
+    fn environment(_: &Self::Reference, _: f32) {}
 
     fn inverse<E: Effect<f32, 6, 6>>(
         reference: &State<f32, 6, 6>,

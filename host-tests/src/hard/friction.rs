@@ -4,7 +4,7 @@ use super::measure::larger;
 use super::{Case, Row, name};
 use crate::random::random_numbers;
 use dynamics_core::effects::{
-    AsymmetricCoulomb, Coulomb, Effect, Inertia, JointState, Lugre, Stribeck, Viscous,
+    AsymmetricCoulomb, Coulomb, Effect, Inertia, JointState, Lugre, Stribeck, Viscous, Width,
 };
 use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model};
 use dynamics_core::scalar::Real;
@@ -45,15 +45,7 @@ pub(super) fn sledge<R: Real>(mass: f64) -> ArmModel<R, 1> {
 /// The motor's torque at one joint that moves so.
 fn torque<R: Real, E: Effect<R, 1, 1>>(effect: &E, qd: R) -> R {
     let (mut tau, q) = (R::ZERO, R::ZERO);
-    effect.torque(
-        0,
-        JointState {
-            q,
-            qd,
-            qdd: R::ZERO,
-        },
-        &mut tau,
-    );
+    effect.torque(0, JointState::new(q, qd), &mut tau);
     tau
 }
 
@@ -65,7 +57,7 @@ pub fn lugre<R: Real>() -> Lugre<R, 1> {
         viscous: [R::from_f64(0.4)],
         sliding: [R::ONE],
         excess: [R::from_f64(STICTION - 1.0)],
-        per_speed: R::from_f64(1000.0),
+        stribeck_speed: Width::new(R::from_f64(1e-3)),
         bristle: [R::ZERO],
     }
 }
@@ -92,7 +84,7 @@ fn slip_tolerance<R: Real>(rows: &mut Vec<Row>, width: f64) {
     let of = R::from_f64;
     let dry = Coulomb {
         torque: [of(4.0)],
-        per_width: of(1.0 / width),
+        width: Width::new(of(width)),
     };
     let (mut state, mut back) = (State::at([R::ZERO]), 0.0_f64);
     for _ in 0..2000 {
@@ -170,12 +162,12 @@ fn through_zero() -> Vec<Row> {
         let of = R::from_f64;
         let dry = Coulomb {
             torque: [of(4.0)],
-            per_width: of(50.0),
+            width: Width::new(of(0.02)),
         };
         let stribeck = Stribeck {
             excess: [of(2.0)],
-            per_speed: of(20.0),
-            per_width: of(50.0),
+            stribeck_speed: Width::new(of(0.05)),
+            width: Width::new(of(0.02)),
         };
         let mut bent = lugre::<R>();
         bent.bristle = [of(0.9 * STICTION / STIFFNESS)];
@@ -192,7 +184,7 @@ fn through_zero() -> Vec<Row> {
             let one_way = AsymmetricCoulomb {
                 forward: [of(rng.random_range(0.0..5.0))],
                 backward: [of(if sixteenth % 5 == 0 { 0.0 } else { 3.0 })],
-                per_width: of(50.0),
+                width: Width::new(of(0.02)),
             };
             let of_one_way = torque(&one_way, v) >= R::ZERO && torque(&one_way, -v) <= R::ZERO;
             dissipative &= of_one_way && ahead.iter().all(|&tau| tau >= R::ZERO);

@@ -2,7 +2,7 @@
 
 use super::friction::sledge;
 use super::{Case, Row};
-use dynamics_core::effects::{Coulomb, Inertia, Spring, Stribeck};
+use dynamics_core::effects::{Coulomb, Inertia, Spring, Stribeck, Width};
 use dynamics_core::scalar::Real;
 use dynamics_core::sim::linearly_implicit;
 use dynamics_core::state::State;
@@ -78,12 +78,12 @@ impl Belt {
         };
         let dry = Coulomb {
             torque: [of(self.sliding)],
-            per_width: of(1.0 / self.width),
+            width: Width::new(of(self.width)),
         };
         let stribeck = Stribeck {
             excess: [of(self.excess)],
-            per_speed: of(1.0 / self.speed),
-            per_width: of(1.0 / self.width),
+            stribeck_speed: Width::new(of(self.speed)),
+            width: Width::new(of(self.width)),
         };
         let (model, mut scene) = (sledge::<R>(Self::MASS), (Inertia, dry, stribeck, spring));
         let (mut state, mut cycle) = (State::at([R::ZERO]), Cycle::default());

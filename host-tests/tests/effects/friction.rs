@@ -2,7 +2,7 @@
 
 use super::*;
 use dynamics_core::effects::{
-    AsymmetricCoulomb, Coulomb, Gravity, Inertia, RIGID_BODY, Spring, Stribeck,
+    AsymmetricCoulomb, Coulomb, Gravity, Inertia, RIGID_BODY, Spring, Stribeck, Width,
 };
 use dynamics_core::sim::linearly_implicit;
 use host_tests::hard::stick_slip::{Belt, Cycle};
@@ -38,7 +38,7 @@ fn a_pendulum_loses_to_friction_what_friction_takes() {
     let (weight, friction) = (2.0 * 9.81 * 0.5, 0.4);
     let dry = Coulomb {
         torque: [friction],
-        per_width: 1e4,
+        width: Width::new(1e-4),
     };
     let mut scene = (RIGID_BODY, dry);
     let points = turning_points(&PENDULUM, 2.5, &mut scene, 2e-5, 8);
@@ -54,7 +54,7 @@ fn a_pendulum_loses_to_friction_what_friction_takes() {
 fn a_sledge_on_a_spring_stops_short_by_the_same_length_each_time() {
     let dry = Coulomb {
         torque: [3.0],
-        per_width: 1e5,
+        width: Width::new(1e-5),
     };
     let spring = Spring {
         stiffness: [200.0],
@@ -128,11 +128,11 @@ fn asymmetric_friction_has_both_its_ends_and_is_coulombs_between_equals() {
     let dry = |forward: f64, backward: f64| AsymmetricCoulomb {
         forward: [forward],
         backward: [backward],
-        per_width: 50.0,
+        width: Width::new(0.02),
     };
     let coulomb = Coulomb {
         torque: [4.0],
-        per_width: 50.0,
+        width: Width::new(0.02),
     };
     for i in -100..=100 {
         let qd = f64::from(i) * 3e-4;
@@ -151,8 +151,8 @@ fn stribeck_friction_has_its_formula() {
     fn worst<R: Real>() -> Worst {
         let stribeck = Stribeck {
             excess: [R::from_f64(2.5)],
-            per_speed: R::from_f64(16.0),
-            per_width: R::from_f64(1024.0),
+            stribeck_speed: Width::new(R::from_f64(0.0625)),
+            width: Width::new(R::from_f64(1.0 / 1024.0)),
         };
         let mut worst = Worst::default();
         for i in -4000..4000 {

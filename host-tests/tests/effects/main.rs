@@ -31,11 +31,7 @@ fn torque<R: Real, E: Effect<R, 1, 1>>(effect: &E, q: f64, qd: f64) -> f64 {
 }
 
 fn joint<R: Real>(q: f64, qd: f64) -> JointState<R> {
-    JointState {
-        q: R::from_f64(q),
-        qd: R::from_f64(qd),
-        qdd: R::ZERO,
-    }
+    JointState::new(R::from_f64(q), R::from_f64(qd))
 }
 
 fn derivatives<E: Effect<f64, 1, 1>>(effect: &E, q: f64, qd: f64) -> [f64; 2] {

@@ -3,8 +3,9 @@
 use super::*;
 use dynamics_core::algorithms::kinetic_energy;
 use dynamics_core::effects::{
-    AsymmetricCoulomb, BodyState, BodyWrench, Cogging, Contact, ContactPoint, Coriolis, EndStops,
-    GravityVector, Inertia, Lugre, MovingBase, RIGID_BODY, Spring, Stribeck, WorldWrench,
+    AsymmetricCoulomb, BodyWrench, Cogging, Contact, ContactPoint, Coriolis, EndStops,
+    GravityVector, Inertia, Lugre, MovingBase, RIGID_BODY, Spring, Stribeck, Width, WorldWrench,
+    hook,
 };
 use dynamics_core::model::Robot;
 use dynamics_core::robots::Ur5e;
@@ -26,16 +27,14 @@ struct CableDrag<R: Real> {
 }
 
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for CableDrag<R> {
-    const WRENCH: bool = true;
-    const BODY_VELOCITY: bool = true;
-
-    fn wrench(&self, body: usize, at: &BodyState<R>, fx: &mut Force<R>) {
-        if body == self.body {
-            let v = at.velocity.lin + at.velocity.ang.cross(self.point);
-            let f = v * -self.drag;
-            *fx += Force::new(self.point.cross(f), f);
-        }
-    }
+    const EXTERNAL_WRENCH: hook::Wrench<Self, R> =
+        hook::Wrench::of_velocity(|cable, body, at, fx| {
+            if body == cable.body {
+                let v = at.velocity.lin + at.velocity.ang.cross(cable.point);
+                let f = v * -cable.drag;
+                *fx += Force::new(cable.point.cross(f), f);
+            }
+        });
 }
 
 fn cable<R: Real>() -> CableDrag<R> {
@@ -98,12 +97,12 @@ fn engine_equals_core_under_the_other_effects_and_a_users_own() {
             AsymmetricCoulomb {
                 forward: [of(4.0); 6],
                 backward: [of(3.0); 6],
-                per_width: of(2.0),
+                width: Width::new(of(0.5)),
             },
             Stribeck {
                 excess: [of(1.5); 6],
-                per_speed: of(0.7),
-                per_width: of(2.0),
+                stribeck_speed: Width::new(of(1.4)),
+                width: Width::new(of(0.5)),
             },
             Lugre {
                 stiffness: [of(300.0); 6],
@@ -111,7 +110,7 @@ fn engine_equals_core_under_the_other_effects_and_a_users_own() {
                 viscous: [of(0.4); 6],
                 sliding: [of(2.0); 6],
                 excess: [of(1.0); 6],
-                per_speed: of(0.5),
+                stribeck_speed: Width::new(of(2.0)),
                 bristle: [of(0.003); 6],
             },
             Spring {
@@ -123,7 +122,7 @@ fn engine_equals_core_under_the_other_effects_and_a_users_own() {
                 upper: [of(2.5); 6],
                 stiffness: of(40.0),
                 damping: of(3.0),
-                per_depth: of(10.0),
+                damping_depth: Width::new(of(0.1)),
             },
             Cogging {
                 per_turn: [of(6.0); 6],
@@ -183,7 +182,7 @@ fn engine_equals_core_on_a_moving_base_and_where_poses_are_asked() {
             height: of(0.5),
             stiffness: of(60.0),
             damping: of(5.0),
-            per_depth: of(3.0),
+            damping_depth: Width::new(of(0.3)),
             friction: of(0.4),
             slip_tolerance: of(0.5),
         };

@@ -2,7 +2,7 @@
 
 use super::*;
 use dynamics_core::Core;
-use dynamics_core::effects::{Armature, Coulomb, RIGID_BODY, Spring, Viscous};
+use dynamics_core::effects::{Armature, Coulomb, RIGID_BODY, Spring, Viscous, Width};
 use dynamics_core::robots::Ur5e;
 use host_tests::recordings::{read, row};
 
@@ -28,7 +28,7 @@ fn agree<R: Real>(r: &Passive) {
         // MuJoCo's joints slip at 0.5 rad/s and more: beyond the width of the smooth sign.
         Coulomb {
             torque: cast(&r.friction),
-            per_width: R::from_f64(100.0),
+            width: Width::new(R::from_f64(0.01)),
         },
         Spring {
             stiffness: cast(&r.stiffness),

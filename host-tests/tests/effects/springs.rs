@@ -2,7 +2,7 @@
 
 use super::*;
 use dynamics_core::effects::{
-    AsymmetricCoulomb, Cogging, Coulomb, EndStops, Implicit, Inertia, Spring, Viscous,
+    AsymmetricCoulomb, Cogging, Coulomb, EndStops, Implicit, Inertia, Spring, Viscous, Width,
 };
 use dynamics_core::sim::{linearly_implicit, semi_implicit};
 use host_tests::measured::largest;
@@ -14,7 +14,7 @@ const STOPS: EndStops<f64, 1> = EndStops {
     upper: [1.5],
     stiffness: 1e4,
     damping: 80.0,
-    per_depth: 1e3,
+    damping_depth: Width::f64(1e-3),
 };
 
 #[test]
@@ -150,12 +150,12 @@ fn slopes_are_the_slopes_of_the_torques() {
     let rng = &mut random_numbers();
     let dry = Coulomb {
         torque: [4.0],
-        per_width: 2.0,
+        width: Width::new(0.5),
     };
     let one_way = AsymmetricCoulomb {
         forward: [4.0],
         backward: [1.0],
-        per_width: 2.0,
+        width: Width::new(0.5),
     };
     let spring = Spring {
         stiffness: [50.0],

@@ -4,7 +4,7 @@ use super::*;
 use dynamics_core::algorithms::{frame, kinematics};
 use dynamics_core::effects::{
     BodyWrench, Contact, ContactPoint, Gravity, GravityVector, Inertia, MovingBase, RIGID_BODY,
-    WorldWrench,
+    Width, WorldWrench,
 };
 use dynamics_core::model::Robot;
 use dynamics_core::robots::Panda;
@@ -130,7 +130,7 @@ fn ground<R: Real>(foot: [f64; 3]) -> Contact<R, 1> {
         height: R::ZERO,
         stiffness: of(2e4),
         damping: of(200.0),
-        per_depth: of(1e3),
+        damping_depth: Width::new(of(1e-3)),
         friction: of(0.5),
         slip_tolerance: of(1e-3),
     }
@@ -203,7 +203,7 @@ fn a_box_on_a_slope_slides_as_coulomb_says() {
             height: 0.0,
             stiffness: flat.stiffness,
             damping: flat.damping,
-            per_depth: flat.per_depth,
+            damping_depth: flat.damping_depth,
             friction,
             slip_tolerance: flat.slip_tolerance,
         };

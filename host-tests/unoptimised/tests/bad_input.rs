@@ -2,7 +2,7 @@
 
 use dynamics_core::algorithms::{crba_jacobian, jacobian, rnea};
 use dynamics_core::effects::{
-    BodyWrench, Contact, ContactPoint, Effect, Gravity, MovingBase, RIGID_BODY, WorldWrench,
+    BodyWrench, Contact, ContactPoint, Effect, Gravity, MovingBase, RIGID_BODY, Width, WorldWrench,
 };
 use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model, Robot};
 use dynamics_core::spatial::{Force, Motion};
@@ -99,7 +99,7 @@ fn floor(body: usize) -> Contact<f64, 1> {
         height: 3.0,
         stiffness: 1e3,
         damping: 30.0,
-        per_depth: 1e3,
+        damping_depth: Width::f64(1e-3),
         friction: 0.8,
         slip_tolerance: 1e-3,
     }

@@ -2,7 +2,7 @@
 //! which robots of one size share; `engine` has those of robots known while compiling.
 
 use dynamics_core::algorithms::{aba, crba, inverse, ltdl, rnea};
-use dynamics_core::effects::{Armature, BodyState, Coriolis, Effect, Gravity, RIGID_BODY};
+use dynamics_core::effects::{Armature, Coriolis, Effect, Gravity, RIGID_BODY, hook};
 use dynamics_core::model::{JointKind, Robot, model};
 use dynamics_core::robots::{A1, Gen3, Iiwa14, Panda, Ur5e, XArm7, Z1};
 use dynamics_core::scalar::{Real, Vector};
@@ -148,24 +148,22 @@ fn manifold<T, const B: usize, const Q: usize, const V: usize>(
 struct Wrenches<R, const B: usize>([[R; 6]; B]);
 
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Wrenches<R, B> {
-    const WRENCH: bool = true;
-    fn wrench(&self, body: usize, _: &BodyState<R>, fx: &mut Force<R>) {
-        let (ang, lin) = halves(self.0[body]);
+    const EXTERNAL_WRENCH: hook::Wrench<Self, R> = hook::Wrench::constant(|recorded, body, fx| {
+        let (ang, lin) = halves(recorded.0[body]);
         *fx = Force::new(fx.ang + ang, fx.lin + lin);
-    }
+    });
 }
 
 /// A recorded motion of the base.
 struct BaseMotion<R>([R; 6], [R; 6]);
 
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for BaseMotion<R> {
-    const BASE_MOTION: bool = true;
-    fn base(&self, velocity: &mut Motion<R>, acceleration: &mut Motion<R>) {
-        for (at, add) in [(velocity, self.0), (acceleration, self.1)] {
+    const BASE: hook::Base<Self, R> = hook::Base::moving(|recorded, velocity, acceleration| {
+        for (at, add) in [(velocity, recorded.0), (acceleration, recorded.1)] {
             let (ang, lin) = halves(add);
             *at = Motion::new(at.ang + ang, at.lin + lin);
         }
-    }
+    });
 }
 
 fn halves<R: Real>([a, b, c, d, e, f]: [R; 6]) -> (R::Vec3, R::Vec3) {

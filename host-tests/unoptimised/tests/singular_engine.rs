@@ -4,7 +4,7 @@ use core::f64::consts::FRAC_PI_2;
 
 use dynamics_core::Engine;
 use dynamics_core::effects::{Effect, Payload, RIGID_BODY};
-use dynamics_core::model::{BASE, Body, Joint, Model, Robot};
+use dynamics_core::model::{BASE, Body, BodyInertia, Joint, Model, Robot};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
 use host_tests::random::{random_numbers, within};
@@ -143,11 +143,11 @@ fn the_engine_refuses_a_wrist_in_gimbal_lock() {
 
 #[test]
 fn the_engine_refuses_two_turns_on_one_axis_with_a_heavy_payload() {
-    let load = Payload::<_, 3>::new(
-        1000.0_f32,
-        [0.1, 0.0, 0.2],
-        [90.0, 0.0, 9.0, 80.0, 0.0, 70.0],
-    );
+    let load = Payload::<_, 3>::from_inertia(BodyInertia {
+        mass: 1000.0_f32,
+        com: [0.1, 0.0, 0.2],
+        inertia: [90.0, 0.0, 9.0, 80.0, 0.0, 70.0],
+    });
     named::<f32, Far, _, 3>(&(RIGID_BODY, load), 1, |q| q);
 }
 

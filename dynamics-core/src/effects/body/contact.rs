@@ -6,7 +6,7 @@
 //! Crossley (1975); Haessig & Friedland, "On the modeling and simulation of friction" (1991).
 
 use super::wrench::absent;
-use crate::effects::{BodyState, Effect, smooth_sign};
+use crate::effects::{BodyState, Effect, Width, hook, smooth_sign};
 use crate::scalar::positive_part;
 use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::Force;
@@ -30,18 +30,18 @@ pub struct ContactPoint<R: Real> {
 /// in the air.
 ///
 /// ```
-/// use dynamics_core::effects::{Contact, ContactPoint};
+/// use dynamics_core::effects::{Contact, ContactPoint, Width};
 /// use dynamics_core::{Core, robots::Ur5e, state::State};
 /// use glam::DVec3;
 /// let tip = ContactPoint { body: 5, point: DVec3::ZERO };
 /// let mut table = Contact {
 ///     feet: [tip], normal: DVec3::Z, height: -1.0,
-///     stiffness: 1e4, damping: 100.0, per_depth: 1e3, friction: 0.5, slip_tolerance: 1e-3,
+///     stiffness: 1e4, damping: 100.0, damping_depth: Width::new(1e-3), friction: 0.5, slip_tolerance: 1e-3,
 /// };
 /// let reaching = State::at([0.0_f64; 6]);
-/// assert_eq!(Core::<Ur5e>::rnea(&reaching, &(table,)), [0.0; 6]); // above it
+/// assert_eq!(Core::<Ur5e>::rnea(&reaching, &table), [0.0; 6]); // above it
 /// table.height = 0.2;
-/// assert!(Core::<Ur5e>::rnea(&reaching, &(table,))[1] > 100.0); // the motor presses the tip into the table
+/// assert!(Core::<Ur5e>::rnea(&reaching, &table)[1] > 100.0); // the motor presses the tip into the table
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contact<R: Real, const P: usize> {
@@ -55,8 +55,8 @@ pub struct Contact<R: Real, const P: usize> {
     pub stiffness: R,
     /// Damping b along the normal, N·s/m.
     pub damping: R,
-    /// The reciprocal of the depth at which the damping is all there, 1/m.
-    pub per_depth: R,
+    /// The depth at which the damping is all there, m.
+    pub damping_depth: Width<R>,
     /// Coefficient of friction μ.
     pub friction: R,
     /// Speed w below which friction fades, m/s; not 0.
@@ -69,7 +69,7 @@ impl<R: Real, const P: usize> Contact<R, P> {
     pub fn force(&self, place: R::Vec3, velocity: R::Vec3) -> R::Vec3 {
         let n = self.normal;
         let (depth, out) = (positive_part(self.height - n.dot(place)), n.dot(velocity));
-        let b = self.damping * smooth_sign(depth * self.per_depth);
+        let b = self.damping * smooth_sign(depth * self.damping_depth.inverse());
         let press = positive_part(self.stiffness * depth - b * out);
         let slip = velocity - n * out;
         let per_speed = (slip.dot(slip) + self.slip_tolerance * self.slip_tolerance).rsqrt();
@@ -78,12 +78,13 @@ impl<R: Real, const P: usize> Contact<R, P> {
 }
 
 impl<R: Real, const P: usize, const B: usize, const V: usize> Effect<R, B, V> for Contact<R, P> {
-    const WRENCH: bool = true;
-    const BODY_POSE: bool = true;
-    const BODY_VELOCITY: bool = true;
+    const EXTERNAL_WRENCH: hook::Wrench<Self, R> = hook::Wrench::of_state(Self::add_to::<B>);
+}
 
+impl<R: Real, const P: usize> Contact<R, P> {
+    /// Adds fˣ on `body` of a robot of B bodies.
     #[inline(always)]
-    fn wrench(&self, body: usize, at: &BodyState<R>, fx: &mut Force<R>) {
+    fn add_to<const B: usize>(&self, body: usize, at: &BodyState<R>, fx: &mut Force<R>) {
         let (rot, v) = (at.pose.rot, at.velocity);
         for foot in &self.feet {
             if foot.body == body {

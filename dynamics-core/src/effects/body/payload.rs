@@ -1,28 +1,31 @@
-//! A payload held by a body, known at run time only.
+//! A payload on a body, known at run time only.
 
-use crate::effects::Effect;
+use crate::effects::{Effect, hook};
 use crate::model::{BodyInertia, Problem};
 use crate::scalar::Real;
 use crate::spatial::SpatialInertia;
 use core::fmt;
 
-/// A rigid payload fixed to the body of the number BODY in the description.
+/// A rigid payload fixed to the body of the number BODY in the description: its inertia about the origin of that body's
+/// frame.
 ///
-/// Frame: that body's, about its origin. It acts through whatever else the scene names: its weight
+/// It acts through whatever else the scene names: its weight
 /// with `Gravity`, its M q̈ with `Inertia`. Payloads of several bodies stand side by side in a scene, and those of
 /// one body add up.
 ///
 /// ```
 /// use dynamics_core::effects::{Gravity, Payload};
-/// use dynamics_core::model::Robot;
+/// use dynamics_core::model::{BodyInertia, Robot};
 /// use dynamics_core::{Core, Engine, robots::Ur5e, state::State};
 /// type OnWrist = Payload<f32, { Ur5e::MODEL.body("wrist_3") }>;
 /// let arm = State::at([0.0_f32, -0.8, 0.9, 0.1, 0.2, 0.3]);
-/// let scene = (Gravity::EARTH, OnWrist::new(2.0, [0.0, 0.0, 0.1], [0.0; 6]));
-/// let empty = Core::<Ur5e>::rnea(&arm, &(Gravity::EARTH,));
+/// let held = OnWrist::try_new(BodyInertia { mass: 2.0, com: [0.0, 0.0, 0.1], inertia: [0.0; 6] }, 1e-6)?;
+/// let scene = (Gravity::EARTH, held);
+/// let empty = Core::<Ur5e>::rnea(&arm, &Gravity::EARTH);
 /// let loaded = Engine::<Ur5e>::rnea(&arm, &scene);
 /// assert!((loaded[1] - empty[1]).abs() > 5.0);
 /// assert!((loaded[1] - Core::<Ur5e>::rnea(&arm, &scene)[1]).abs() < 1e-4);
+/// # Ok::<(), dynamics_core::effects::InvalidPayload>(())
 /// ```
 ///
 /// A payload of a body that there is not does not compile:
@@ -30,7 +33,7 @@ use core::fmt;
 /// ```compile_fail,E0080
 /// use dynamics_core::effects::{Payload, RIGID_BODY};
 /// use dynamics_core::{Core, robots::Ur5e, state::State};
-/// let scene = (RIGID_BODY, Payload::<f32, 6>::new(2.0, [0.0; 3], [0.0; 6]));
+/// let scene = (RIGID_BODY, Payload::<f32, 6>::default());
 /// let _ = Core::<Ur5e>::rnea(&State::at([0.3; 6]), &scene);
 /// // error: a payload is on a body that the robot does not have: bodies are numbered from 0
 /// ```
@@ -38,74 +41,64 @@ use core::fmt;
 pub struct Payload<R: Real, const BODY: usize>(pub SpatialInertia<R>);
 
 impl<R: Real, const BODY: usize> Payload<R, BODY> {
-    /// From mass (kg), centre of mass (m) and rotational inertia about it (xx, xy, xz, yy, yz, zz,
-    /// kg·m²), in the body's frame. RBDA (2.63).
-    pub fn new(mass: R, com: [R; 3], inertia: [R; 6]) -> Self {
-        let body = BodyInertia { mass, com, inertia };
-        Self(body.about_origin())
+    /// Of mass, centre of mass and inertia in the body's frame, taken as they are. RBDA (2.63).
+    pub fn from_inertia(inertia: BodyInertia<R>) -> Self {
+        Self(inertia.about_origin())
     }
-}
 
-impl<R: Real, const BODY: usize> Payload<R, BODY> {
-    /// As [`Payload::new`], of numbers that a body could have: no negative mass, principal moments that are
-    /// not negative and obey the triangle inequality within `relative` of the largest (f32 rounds to 1e-6).
+    /// Of mass, centre of mass and inertia in the body's frame, if a body could have them: no negative mass, principal
+    /// moments that are not negative and obey the triangle inequality within `relative` of the largest (f32 rounds to 1e-6).
     ///
     /// Not for the tick: it computes principal moments in f64.
     ///
     /// ```
-    /// use dynamics_core::effects::{InvalidPayload, Payload};
-    /// let checked = |mass, xx| Payload::<_, 5>::checked(mass, [0.0, 0.0, 0.1], [xx, 0.0, 0.0, 0.02, 0.0, 0.02], 1e-6);
-    /// assert!(checked(2.0_f64, 0.01).is_ok());
-    /// assert_eq!(checked(-2.0, 0.01), Err(InvalidPayload::Mass));
-    /// assert!(matches!(checked(2.0, 0.05), Err(InvalidPayload::Triangle(by)) if (by - 0.2).abs() < 1e-9));
-    /// assert_eq!(checked(0.0, 0.01), Err(InvalidPayload::Massless));
-    /// assert_eq!(checked(f64::NAN, 0.01), Err(InvalidPayload::NotFinite));
+    /// use dynamics_core::effects::Payload;
+    /// use dynamics_core::model::{BodyInertia, Problem};
+    /// let load = |mass, xx| BodyInertia { mass, com: [0.0, 0.0, 0.1], inertia: [xx, 0.0, 0.0, 0.02, 0.0, 0.02] };
+    /// let problem = |mass, xx| Payload::<f64, 5>::try_new(load(mass, xx), 1e-6).map_err(|error| error.problem);
+    /// assert!(problem(2.0, 0.01).is_ok());
+    /// assert_eq!(problem(-2.0, 0.01), Err(Problem::Mass));
+    /// assert_eq!(problem(0.0, 0.01), Err(Problem::Massless));
+    /// assert_eq!(problem(f64::NAN, 0.01), Err(Problem::NotFinite));
+    ///
+    /// let error = Payload::<f64, 5>::try_new(load(2.0, 0.05), 1e-6).unwrap_err();
+    /// assert_eq!(error.body, 5);
+    /// assert!(matches!(error.problem, Problem::Triangle(by) if (by - 0.2).abs() < 1e-9));
+    /// let text = "payload of body 5: its moments of inertia break the triangle inequality by 2.00e-1 of the largest";
+    /// assert_eq!(error.to_string(), text);
     /// ```
     ///
     /// # Errors
-    /// [`InvalidPayload`] says what no body has.
-    pub fn checked(
-        mass: R,
-        com: [R; 3],
-        inertia: [R; 6],
-        relative: f64,
-    ) -> Result<Self, InvalidPayload> {
-        let body = BodyInertia { mass, com, inertia };
-        match body.problem(relative) {
-            None => Ok(Self(body.about_origin())),
-            Some(Problem::Mass) => Err(InvalidPayload::Mass),
-            Some(Problem::Massless) => Err(InvalidPayload::Massless),
-            Some(Problem::Triangle(excess)) => Err(InvalidPayload::Triangle(excess)),
-            Some(_) => Err(InvalidPayload::NotFinite),
+    /// [`InvalidPayload`] names the body and what no body has, with its amount.
+    pub fn try_new(inertia: BodyInertia<R>, relative: f64) -> Result<Self, InvalidPayload> {
+        match inertia.problem(relative) {
+            None => Ok(Self::from_inertia(inertia)),
+            Some(problem) => Err(InvalidPayload {
+                body: BODY,
+                problem,
+            }),
         }
     }
 }
 
-/// Why no body has such a mass and inertia.
+/// A payload with a mass or an inertia that no body has.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum InvalidPayload {
-    /// A number is infinite or not a number.
-    NotFinite,
-    /// The mass is negative.
-    Mass,
-    /// There is inertia about the centre of mass without mass.
-    Massless,
-    /// A principal moment is negative or exceeds the sum of the others, by this much of the largest.
-    Triangle(f64),
+#[non_exhaustive]
+pub struct InvalidPayload {
+    /// The number of the body that was to carry it.
+    pub body: usize,
+    /// What no body has: [`Problem::NotFinite`], [`Problem::Mass`], [`Problem::Massless`] or [`Problem::Triangle`].
+    pub problem: Problem,
 }
 
 impl fmt::Display for InvalidPayload {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NotFinite => f.write_str("payload: a number is not finite"),
-            Self::Mass => f.write_str("payload: its mass is negative"),
-            Self::Massless => f.write_str("payload: it has inertia but no mass"),
-            Self::Triangle(by) => write!(
-                f,
-                "payload: no body has these principal moments (off by {by:.2e} of the largest)"
-            ),
+        write!(f, "payload of body {}: {}", self.body, self.problem.text())?;
+        if let Problem::Triangle(excess) = self.problem {
+            write!(f, " by {excess:.2e} of the largest")?;
         }
+        Ok(())
     }
 }
 
@@ -114,18 +107,21 @@ impl core::error::Error for InvalidPayload {}
 impl<R: Real, const BODY: usize, const B: usize, const V: usize> Effect<R, B, V>
     for Payload<R, BODY>
 {
-    const PAYLOAD: [bool; B] = {
+    const ADDED_INERTIA: hook::Inertia<Self, R, B> = {
         assert!(
             BODY < B,
             "a payload is on a body that the robot does not have: bodies are numbered from 0"
         );
         let mut bodies = [false; B];
         bodies[BODY] = true;
-        bodies
+        hook::Inertia::on(bodies, Self::add_to)
     };
+}
 
+impl<R: Real, const BODY: usize> Payload<R, BODY> {
+    /// Adds the load to the inertia of `body`.
     #[inline(always)]
-    fn payload(&self, body: usize, inertia: &mut SpatialInertia<R>) {
+    fn add_to(&self, body: usize, inertia: &mut SpatialInertia<R>) {
         if body == BODY {
             *inertia = *inertia + self.0;
         }

@@ -1,8 +1,8 @@
 //! A wrench from outside on one body: f + fˣ = I a + v ×* I v. Featherstone & Orin (2000), (5).
 
-use crate::effects::{BodyState, Effect};
+use crate::effects::{Effect, hook};
 use crate::scalar::{Real, Vector};
-use crate::spatial::Force;
+use crate::spatial::{Force, Xform};
 
 /// What acts where an effect names a body that the robot does not have: not a number, so that the torques show it.
 #[inline(always)]
@@ -22,7 +22,7 @@ pub(super) fn absent<R: Real>() -> Force<R> {
 /// use glam::DVec3;
 /// // The last motor holds against a couple about its axis.
 /// let twist = BodyWrench { body: 5, wrench: Force::new(DVec3::Z * 2.0, DVec3::ZERO) };
-/// assert!((Core::<Ur5e>::rnea(&State::at([0.3_f64; 6]), &(twist,))[5] + 2.0).abs() < 1e-15);
+/// assert!((Core::<Ur5e>::rnea(&State::at([0.3_f64; 6]), &twist)[5] + 2.0).abs() < 1e-15);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BodyWrench<R: Real> {
@@ -33,10 +33,13 @@ pub struct BodyWrench<R: Real> {
 }
 
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for BodyWrench<R> {
-    const WRENCH: bool = true;
+    const EXTERNAL_WRENCH: hook::Wrench<Self, R> = hook::Wrench::constant(Self::add_to::<B>);
+}
 
+impl<R: Real> BodyWrench<R> {
+    /// Adds fˣ on `body` of a robot of B bodies.
     #[inline(always)]
-    fn wrench(&self, body: usize, _: &BodyState<R>, fx: &mut Force<R>) {
+    fn add_to<const B: usize>(&self, body: usize, fx: &mut Force<R>) {
         if body == self.body {
             *fx += self.wrench;
         } else if self.body >= B {
@@ -56,7 +59,7 @@ impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for BodyWrench<R> 
 /// // A balloon at the wrist takes load off the shoulder.
 /// let lift = WorldWrench { body: 5, wrench: Force::new(DVec3::ZERO, DVec3::Z * 20.0) };
 /// let at = State::at([0.3_f64; 6]);
-/// let [with, without] = [Core::<Ur5e>::rnea(&at, &(Gravity::EARTH, lift)), Core::<Ur5e>::rnea(&at, &(Gravity::EARTH,))];
+/// let [with, without] = [Core::<Ur5e>::rnea(&at, &(Gravity::EARTH, lift)), Core::<Ur5e>::rnea(&at, &Gravity::EARTH)];
 /// assert!(with[1].abs() < without[1].abs() - 10.0 && (with[0] - without[0]).abs() < 1e-14);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -68,14 +71,15 @@ pub struct WorldWrench<R: Real> {
 }
 
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for WorldWrench<R> {
-    const WRENCH: bool = true;
-    const BODY_POSE: bool = true;
+    const EXTERNAL_WRENCH: hook::Wrench<Self, R> = hook::Wrench::of_pose(Self::add_to::<B>);
+}
 
+impl<R: Real> WorldWrench<R> {
+    /// Adds fˣ on `body` of a robot of B bodies.
     #[inline(always)]
-    fn wrench(&self, body: usize, at: &BodyState<R>, fx: &mut Force<R>) {
+    fn add_to<const B: usize>(&self, body: usize, pose: &Xform<R>, fx: &mut Force<R>) {
         if body == self.body {
-            let turn = at.pose.rot;
-            *fx += Force::new(turn * self.wrench.ang, turn * self.wrench.lin);
+            *fx += Force::new(pose.rot * self.wrench.ang, pose.rot * self.wrench.lin);
         } else if self.body >= B {
             *fx += absent();
         }

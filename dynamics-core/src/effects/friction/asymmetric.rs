@@ -4,7 +4,9 @@
 //! and since |F₊ − F₋| ≤ F₊ + F₋ never of the sign of a drive. Gears load their flanks differently:
 //! Armstrong-Hélouvry, *Control of Machines with Friction* (1991), chapter 4.
 
-use crate::effects::{Effect, JointState, TorqueDerivatives, smooth_sign, smooth_sign_slope};
+use crate::effects::{
+    Effect, JointState, TorqueDerivatives, Width, smooth_sign, smooth_sign_slope,
+};
 use crate::scalar::Real;
 use crate::state::entry;
 
@@ -13,11 +15,11 @@ use crate::state::entry;
 /// Cost: four flops a joint more than [`Coulomb`](crate::effects::Coulomb).
 ///
 /// ```
-/// use dynamics_core::effects::AsymmetricCoulomb;
+/// use dynamics_core::effects::{AsymmetricCoulomb, Width};
 /// use dynamics_core::{Core, robots::Ur5e, state::State};
-/// let dry = AsymmetricCoulomb { forward: [5.0_f32; 6], backward: [3.0; 6], per_width: 50.0 };
+/// let dry = AsymmetricCoulomb { forward: [5.0_f32; 6], backward: [3.0; 6], width: Width::new(0.02) };
 /// let moving = State { qd: [1.0, -1.0, 0.0, 0.0, 0.0, 0.0], ..State::at([0.0; 6]) };
-/// let tau = Core::<Ur5e>::rnea(&moving, &(dry,));
+/// let tau = Core::<Ur5e>::rnea(&moving, &dry);
 /// assert_eq!(tau[..3], [5.0, -3.0, 0.0]);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,8 +28,8 @@ pub struct AsymmetricCoulomb<R, const V: usize> {
     pub forward: [R; V],
     /// Sliding friction F₋ at q̇ < 0, N·m or N; positive.
     pub backward: [R; V],
-    /// 1/w: the reciprocal of the speed below which friction fades, s/rad or s/m.
-    pub per_width: R,
+    /// The speed w below which friction fades, rad/s or m/s.
+    pub width: Width<R>,
 }
 
 impl<R: Real, const V: usize> AsymmetricCoulomb<R, V> {
@@ -43,16 +45,19 @@ impl<R: Real, const V: usize> AsymmetricCoulomb<R, V> {
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for AsymmetricCoulomb<R, V> {
     #[inline(always)]
     fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R) {
-        let ((even, odd), s) = (self.halves(joint), smooth_sign(at.qd * self.per_width));
+        let ((even, odd), s) = (
+            self.halves(joint),
+            smooth_sign(at.qd * self.width.inverse()),
+        );
         *tau += s * (even + odd * s);
     }
 
     #[inline(always)]
     fn derivatives(&self, joint: usize, at: JointState<R>, derivatives: &mut TorqueDerivatives<R>) {
-        let ((even, odd), u) = (self.halves(joint), at.qd * self.per_width);
+        let ((even, odd), u) = (self.halves(joint), at.qd * self.width.inverse());
         let rise = even + (odd + odd) * smooth_sign(u);
         // Where friction falls with speed an implicit step would not be the stabler one.
         derivatives.dqd +=
-            crate::scalar::positive_part(rise) * smooth_sign_slope(u) * self.per_width;
+            crate::scalar::positive_part(rise) * smooth_sign_slope(u) * self.width.inverse();
     }
 }

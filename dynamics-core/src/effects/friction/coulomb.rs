@@ -3,22 +3,22 @@
 //! s is the cubic u (3 − u²) / 2 on |u| ≤ 1 and the sign beyond: continuous with its slope, ±F to
 //! a rounding outside the width, and neither a comparison nor a division.
 
-use crate::effects::{Effect, JointState, TorqueDerivatives};
+use crate::effects::{Effect, JointState, TorqueDerivatives, Width};
 use crate::scalar::Real;
 
 /// Coulomb friction of each joint.
 ///
 /// ```
-/// use dynamics_core::effects::Coulomb;
+/// use dynamics_core::effects::{Coulomb, Width};
 /// // 4 N·m, full beyond 0.02 rad/s
-/// let dry: Coulomb<f32, 1> = Coulomb { torque: [4.0], per_width: 1.0 / 0.02 };
+/// const DRY: Coulomb<f32, 1> = Coulomb { torque: [4.0], width: Width::f32(0.02) };
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coulomb<R, const V: usize> {
     /// Sliding friction F of each joint, N·m or N.
     pub torque: [R; V],
-    /// 1/w: the reciprocal of the speed below which friction fades, s/rad or s/m.
-    pub per_width: R,
+    /// The speed w below which friction fades, rad/s or m/s.
+    pub width: Width<R>,
 }
 
 /// u (3 − u²) / 2 with u limited to ±1: the sign of u with a smooth passage through zero. A NaN
@@ -62,14 +62,18 @@ impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Coulomb<R, V> 
     fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R) {
         if let Some(&torque) = self.torque.get(joint) {
             // The factors that constants leave constant stand first.
-            *tau += sliding(torque, at.qd * (self.per_width * R::from_f64(R::MAX_TRUNC)));
+            *tau += sliding(
+                torque,
+                at.qd * (self.width.inverse() * R::from_f64(R::MAX_TRUNC)),
+            );
         }
     }
 
     #[inline(always)]
     fn derivatives(&self, joint: usize, at: JointState<R>, derivatives: &mut TorqueDerivatives<R>) {
         if let Some(&torque) = self.torque.get(joint) {
-            derivatives.dqd += torque * self.per_width * smooth_sign_slope(at.qd * self.per_width);
+            let w_inv = self.width.inverse();
+            derivatives.dqd += torque * w_inv * smooth_sign_slope(at.qd * w_inv);
         }
     }
 }

@@ -4,7 +4,7 @@
 //! Wit, Olsson, Åström & Lischinsky, "A new model for control of systems with friction" (1995),
 //! equations (1) to (4). One bristle a joint: z is in rad or m.
 
-use crate::effects::{Effect, JointState, TorqueDerivatives};
+use crate::effects::{Effect, JointState, TorqueDerivatives, Width};
 use crate::scalar::Real;
 use crate::state::entry;
 
@@ -16,12 +16,12 @@ use crate::state::entry;
 /// Cost: an exponential, a division and some 20 flops a joint.
 ///
 /// ```
-/// use dynamics_core::effects::{Effect, JointState, Lugre};
+/// use dynamics_core::effects::{Effect, JointState, Lugre, Width};
 /// let mut friction = Lugre {
 ///     stiffness: [1e5_f64], damping: [300.0], viscous: [0.4],
-///     sliding: [1.0], excess: [0.5], per_speed: 1.0 / 0.01, bristle: [0.0],
+///     sliding: [1.0], excess: [0.5], stribeck_speed: Width::new(0.01), bristle: [0.0],
 /// };
-/// let creeping = JointState { q: 0.0, qd: 1e-6, qdd: 0.0 };
+/// let creeping = JointState::new(0.0, 1e-6);
 /// Effect::<f64, 1, 1>::advance(&mut friction, 0, creeping, 1.0);
 /// assert!((friction.bristle[0] - 1e-6).abs() < 1e-7); // bends with the joint
 /// for _ in 0..100 {
@@ -41,8 +41,8 @@ pub struct Lugre<R, const V: usize> {
     pub sliding: [R; V],
     /// Stiction less sliding friction F_s − F_c, N·m or N.
     pub excess: [R; V],
-    /// 1/v_s: the reciprocal of Stribeck's speed, s/rad or s/m.
-    pub per_speed: R,
+    /// Stribeck's speed v_s, rad/s or m/s.
+    pub stribeck_speed: Width<R>,
     /// Bend z of the bristles, rad or m; zero when relaxed.
     pub bristle: [R; V],
 }
@@ -51,7 +51,10 @@ impl<R: Real, const V: usize> Lugre<R, V> {
     /// σ₀ / g(q̇): the reciprocal of the bend at which bristles slide.
     #[inline(always)]
     fn per_bend(&self, joint: usize, qd: R) -> R {
-        let (at, u) = (|values| entry::<R>(values, joint), qd * self.per_speed);
+        let (at, u) = (
+            |values| entry::<R>(values, joint),
+            qd * self.stribeck_speed.inverse(),
+        );
         at(&self.stiffness) / (at(&self.sliding) + at(&self.excess) * (u * u).exp_neg())
     }
 }

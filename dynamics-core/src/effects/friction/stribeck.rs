@@ -3,7 +3,9 @@
 //! Bo & Pavelescu (1982); Armstrong-Hélouvry (1991), chapter 2. It stands beside
 //! [`Coulomb`](crate::effects::Coulomb), which has F_c, and takes the same smooth sign s.
 
-use crate::effects::{Effect, JointState, TorqueDerivatives, smooth_sign, smooth_sign_slope};
+use crate::effects::{
+    Effect, JointState, TorqueDerivatives, Width, smooth_sign, smooth_sign_slope,
+};
 use crate::scalar::Real;
 use crate::state::entry;
 
@@ -13,27 +15,27 @@ use crate::state::entry;
 /// step treats implicitly only where it rises.
 ///
 /// ```
-/// use dynamics_core::effects::{Effect, JointState, Stribeck};
-/// let stribeck = Stribeck { excess: [2.0_f64], per_speed: 10.0, per_width: 1e4 };
+/// use dynamics_core::effects::{Effect, JointState, Stribeck, Width};
+/// let stribeck = Stribeck { excess: [2.0_f64], stribeck_speed: Width::new(0.1), width: Width::new(1e-4) };
 /// let mut tau = 0.0;
-/// Effect::<f64, 1, 1>::torque(&stribeck, 0, JointState { q: 0.0, qd: 0.1, qdd: 0.0 }, &mut tau);
+/// Effect::<f64, 1, 1>::torque(&stribeck, 0, JointState::new(0.0, 0.1), &mut tau);
 /// assert!((tau - 2.0 / 1.0_f64.exp()).abs() < 1e-15);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stribeck<R, const V: usize> {
     /// Stiction less sliding friction F_s − F_c of each joint, N·m or N.
     pub excess: [R; V],
-    /// 1/v_s: the reciprocal of the speed at which 1/e of it is left, s/rad or s/m.
-    pub per_speed: R,
-    /// 1/w: the reciprocal of the speed below which friction fades, s/rad or s/m; w well below v_s.
-    pub per_width: R,
+    /// The speed v_s at which 1/e of it is left, rad/s or m/s.
+    pub stribeck_speed: Width<R>,
+    /// The speed w below which friction fades, rad/s or m/s; well below v_s.
+    pub width: Width<R>,
 }
 
 impl<R: Real, const V: usize> Stribeck<R, V> {
     /// (F_s − F_c) e^{−(q̇/v_s)²}.
     #[inline(always)]
     fn left(&self, joint: usize, qd: R) -> R {
-        let u = qd * self.per_speed;
+        let u = qd * self.stribeck_speed.inverse();
         entry(&self.excess, joint) * (u * u).exp_neg()
     }
 }
@@ -41,12 +43,12 @@ impl<R: Real, const V: usize> Stribeck<R, V> {
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Stribeck<R, V> {
     #[inline(always)]
     fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R) {
-        *tau += self.left(joint, at.qd) * smooth_sign(at.qd * self.per_width);
+        *tau += self.left(joint, at.qd) * smooth_sign(at.qd * self.width.inverse());
     }
 
     #[inline(always)]
     fn derivatives(&self, joint: usize, at: JointState<R>, derivatives: &mut TorqueDerivatives<R>) {
-        let rise = self.per_width * smooth_sign_slope(at.qd * self.per_width);
+        let rise = self.width.inverse() * smooth_sign_slope(at.qd * self.width.inverse());
         derivatives.dqd += self.left(joint, at.qd) * rise;
     }
 }

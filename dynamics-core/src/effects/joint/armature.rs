@@ -1,6 +1,6 @@
 //! Rotors behind gears, as inertia at the joints: τ = ρ² I_r q̈, without their gyroscopic torque.
 
-use crate::effects::{Effect, JointState};
+use crate::effects::Effect;
 use crate::scalar::Real;
 
 /// Rotor inertia reflected to each joint, ρ² I_r in kg·m² (ρ the gear ratio).
@@ -18,16 +18,7 @@ pub struct Armature<R, const V: usize>(pub [R; V]);
 
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Armature<R, V> {
     #[inline(always)]
-    fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R) {
-        if let Some(&inertia) = self.0.get(joint) {
-            *tau += inertia * at.qdd;
-        }
-    }
-
-    #[inline(always)]
-    fn inertia(&self, joint: usize, diagonal: &mut R) {
-        if let Some(&inertia) = self.0.get(joint) {
-            *diagonal += inertia;
-        }
+    fn inertia(&self, joint: usize) -> Option<R> {
+        self.0.get(joint).copied()
     }
 }

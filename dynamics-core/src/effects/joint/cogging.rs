@@ -19,7 +19,7 @@ use crate::state::entry;
 /// // 0.2 N·m at the joint, 12 slots behind a gear of 50, and a third of it twice as often
 /// let cogging = Cogging { per_turn: [600.0_f64], cos: [[0.0, 0.0]], sin: [[0.2, 0.07]] };
 /// let (mut tau, q) = (0.0, 0.002_f64);
-/// Effect::<f64, 1, 1>::torque(&cogging, 0, JointState { q, qd: 0.0, qdd: 0.0 }, &mut tau);
+/// Effect::<f64, 1, 1>::torque(&cogging, 0, JointState::new(q, 0.0), &mut tau);
 /// assert!((tau - 0.2 * (600.0 * q).sin() - 0.07 * (1200.0 * q).sin()).abs() < 1e-14);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -4,7 +4,7 @@
 //! the depth: continuous at first touch, and it never pulls. The lower stop is its mirror image. Hunt &
 //! Crossley, "Coefficient of restitution interpreted as damping in vibroimpact" (1975).
 
-use crate::effects::{Effect, JointState, TorqueDerivatives, smooth_sign};
+use crate::effects::{Effect, JointState, TorqueDerivatives, Width, smooth_sign};
 use crate::scalar::Real;
 use crate::scalar::positive_part;
 use crate::state::entry;
@@ -18,10 +18,12 @@ use crate::state::entry;
 /// Cost: 30 flops a joint, no comparison.
 ///
 /// ```
-/// use dynamics_core::effects::EndStops;
+/// use dynamics_core::effects::{EndStops, Width};
 /// use dynamics_core::{Core, robots::Ur5e, state::State};
-/// let stops = EndStops { lower: [-2.0_f32; 6], upper: [2.0; 6], stiffness: 1e4, damping: 50.0, per_depth: 1e3 };
-/// let tau = Core::<Ur5e>::rnea(&State::at([0.0, 2.5, -2.5, 2.0, -2.0, 1.0]), &(stops,));
+/// let stops = EndStops {
+///     lower: [-2.0_f32; 6], upper: [2.0; 6], stiffness: 1e4, damping: 50.0, damping_depth: Width::new(1e-3),
+/// };
+/// let tau = Core::<Ur5e>::rnea(&State::at([0.0, 2.5, -2.5, 2.0, -2.0, 1.0]), &stops);
 /// assert_eq!(tau, [0.0, 5e3, -5e3, 0.0, 0.0, 0.0]);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,8 +36,8 @@ pub struct EndStops<R, const V: usize> {
     pub stiffness: R,
     /// Damping b of a stop, N·m·s/rad or N·s/m.
     pub damping: R,
-    /// The reciprocal of the depth at which the damping is all there, 1/rad or 1/m.
-    pub per_depth: R,
+    /// The depth at which the damping is all there, rad or m.
+    pub damping_depth: Width<R>,
 }
 
 /// One stop: what it pushes back with, and how that grows with depth and its rate.
@@ -49,7 +51,7 @@ impl<R: Real, const V: usize> EndStops<R, V> {
     #[inline(always)]
     fn push(&self, beyond: R, rate: R) -> Push<R> {
         let depth = positive_part(beyond);
-        let b = self.damping * smooth_sign(depth * self.per_depth);
+        let b = self.damping * smooth_sign(depth * self.damping_depth.inverse());
         let force = positive_part(self.stiffness * depth + b * rate);
         // 1 where it pushes, else 0, without a comparison.
         let active = force / (force + R::MIN_POSITIVE);

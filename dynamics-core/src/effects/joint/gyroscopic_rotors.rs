@@ -6,7 +6,7 @@
 //! with the parent: ρ I (ρ q̈ + z·α_λ) at the joint. Featherstone, RBDA (2008), section 9.6; Chen, "The
 //! effects of gear reduction on robot dynamics" (1989).
 
-use crate::effects::{Effect, JointState};
+use crate::effects::{Effect, hook};
 use crate::scalar::Real;
 use crate::state::entry;
 
@@ -52,20 +52,12 @@ impl<R: Real, const V: usize> GyroscopicRotors<R, V> {
 }
 
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for GyroscopicRotors<R, V> {
-    const GYROSCOPIC_ROTORS: bool = true;
+    const ROTOR: hook::Rotor<Self, R> = hook::Rotor::coupling(|rotors, joint, coupling| {
+        *coupling += rotors.once(joint);
+    });
 
     #[inline(always)]
-    fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R) {
-        *tau += self.once(joint) * entry(&self.ratio, joint) * at.qdd;
-    }
-
-    #[inline(always)]
-    fn inertia(&self, joint: usize, diagonal: &mut R) {
-        *diagonal += self.once(joint) * entry(&self.ratio, joint);
-    }
-
-    #[inline(always)]
-    fn spin(&self, joint: usize, coupling: &mut R) {
-        *coupling += self.once(joint);
+    fn inertia(&self, joint: usize) -> Option<R> {
+        Some(self.once(joint) * entry(&self.ratio, joint))
     }
 }

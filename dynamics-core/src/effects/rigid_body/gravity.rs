@@ -4,7 +4,7 @@
 
 use core::marker::PhantomData;
 
-use crate::effects::Effect;
+use crate::effects::{Effect, hook};
 use crate::scalar::{Real, Vector};
 
 /// A direction in base coordinates, known to the compiler.
@@ -73,11 +73,17 @@ impl<D: Direction> Gravity<D> {
 }
 
 impl<R: Real, D: Direction, const B: usize, const V: usize> Effect<R, B, V> for Gravity<D> {
-    const FIELD: bool = true;
-    const FIELD_AXES: [bool; 3] = [D::UNIT[0] != 0.0, D::UNIT[1] != 0.0, D::UNIT[2] != 0.0];
+    const GRAVITY_FIELD: hook::Field<Self, R> = hook::Field::gravity(Self::field::<R>).along([
+        D::UNIT[0] != 0.0,
+        D::UNIT[1] != 0.0,
+        D::UNIT[2] != 0.0,
+    ]);
+}
 
+impl<D: Direction> Gravity<D> {
+    /// Adds the field.
     #[inline(always)]
-    fn field(&self, g: &mut R::Vec3) {
+    fn field<R: Real>(&self, g: &mut R::Vec3) {
         // Component by component: a loop would convert from f64 at run time at opt-level s.
         let x = R::from_f64(D::UNIT[0]);
         let y = R::from_f64(D::UNIT[1]);

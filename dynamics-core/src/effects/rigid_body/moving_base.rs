@@ -2,7 +2,7 @@
 //!
 //! v₀ and a₀ of RBDA (2008), section 5.3, are then not zero.
 
-use crate::effects::Effect;
+use crate::effects::{Effect, hook};
 use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::Motion;
 
@@ -20,7 +20,7 @@ use crate::spatial::Motion;
 /// // A lift that starts upwards at 9.81 m/s² weighs like gravity.
 /// let lift = MovingBase { velocity: Motion::ZERO, acceleration: Motion::new(DVec3::ZERO, DVec3::Z * 9.81) };
 /// let at = State::at([0.3; 6]);
-/// let weight = Core::<Ur5e>::rnea(&at, &(dynamics_core::effects::Gravity::EARTH,));
+/// let weight = Core::<Ur5e>::rnea(&at, &dynamics_core::effects::Gravity::EARTH);
 /// assert_eq!(Core::<Ur5e>::rnea(&at, &(Inertia, Coriolis, lift)), weight);
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -42,10 +42,13 @@ impl<R: Real> MovingBase<R> {
 }
 
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for MovingBase<R> {
-    const BASE_MOTION: bool = true;
+    const BASE: hook::Base<Self, R> = hook::Base::moving(Self::add_to);
+}
 
+impl<R: Real> MovingBase<R> {
+    /// Adds the motion.
     #[inline(always)]
-    fn base(&self, velocity: &mut Motion<R>, acceleration: &mut Motion<R>) {
+    fn add_to(&self, velocity: &mut Motion<R>, acceleration: &mut Motion<R>) {
         *velocity += self.velocity;
         *acceleration += self.acceleration;
     }
@@ -61,10 +64,10 @@ impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for MovingBase<R> 
 /// use glam::{DMat3, DVec3};
 /// let at = State::at([0.3; 6]);
 /// let level = GravityVector::<f64>::tilted(DMat3::IDENTITY, DVec3::NEG_Z * 9.81);
-/// assert_eq!(Core::<Ur5e>::rnea(&at, &(level,)), Core::<Ur5e>::rnea(&at, &(Gravity::EARTH,)));
+/// assert_eq!(Core::<Ur5e>::rnea(&at, &level), Core::<Ur5e>::rnea(&at, &Gravity::EARTH));
 /// // On a ship that rolls the first motor has to hold, too.
 /// let rolled = GravityVector::<f64>::tilted(DMat3::from_rotation_x(0.2), DVec3::NEG_Z * 9.81);
-/// assert!(Engine::<Ur5e>::rnea(&at, &(rolled,))[0].abs() > 1.0);
+/// assert!(Engine::<Ur5e>::rnea(&at, &rolled)[0].abs() > 1.0);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GravityVector<R: Real>(pub R::Vec3);
@@ -78,10 +81,13 @@ impl<R: Real> GravityVector<R> {
 }
 
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for GravityVector<R> {
-    const FIELD: bool = true;
+    const GRAVITY_FIELD: hook::Field<Self, R> = hook::Field::gravity(Self::add_to);
+}
 
+impl<R: Real> GravityVector<R> {
+    /// Adds the field.
     #[inline(always)]
-    fn field(&self, g: &mut R::Vec3) {
+    fn add_to(&self, g: &mut R::Vec3) {
         *g += self.0;
     }
 }

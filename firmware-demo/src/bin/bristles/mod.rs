@@ -25,11 +25,7 @@ pub fn run<E: Effect<f32, 6, 6>>(effects: Option<&'static mut E>) -> ! {
         });
         black_box(Engine::<Ur5e>::rnea(&state, effects));
         for joint in 0..6 {
-            let at = JointState {
-                q: state.q[joint],
-                qd: state.qd[joint],
-                qdd: state.qdd[joint],
-            };
+            let at = JointState::new(state.q[joint], state.qd[joint]);
             effects.advance(joint, at, 1e-3);
         }
     }

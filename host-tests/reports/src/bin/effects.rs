@@ -35,11 +35,7 @@ impl<T: Robot<N, N, N>, const N: usize> Visitor<N> for Reference<T, N> {
             let pairs = with.iter().zip(without);
             sum += pairs.map(|(a, b)| f64::from(a - b).powi(2)).sum::<f64>();
             for joint in 0..N {
-                let at = JointState {
-                    q: state.q[joint],
-                    qd: state.qd[joint],
-                    qdd: state.qdd[joint],
-                };
+                let at = JointState::new(state.q[joint], state.qd[joint]);
                 effects.advance(joint, at, TICK);
             }
         }

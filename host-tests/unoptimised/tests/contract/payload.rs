@@ -2,25 +2,26 @@
 
 use super::*;
 use dynamics_core::algorithms::{crba, frame, rnea};
-use dynamics_core::effects::{Effect, Payload, RIGID_BODY};
+use dynamics_core::effects::{Effect, Payload, RIGID_BODY, hook};
+use dynamics_core::model::BodyInertia;
 use dynamics_core::spatial::SpatialInertia;
 use dynamics_core::{Core, Engine, MassMatrix};
 use glam::DMat3;
 
 fn cup<const BODY: usize>() -> Payload<f64, BODY> {
-    Payload::new(
-        0.7,
-        [0.02, -0.05, 0.1],
-        [0.003, 0.0002, 0.0, 0.004, -0.0001, 0.002],
-    )
+    Payload::from_inertia(BodyInertia {
+        mass: 0.7,
+        com: [0.02, -0.05, 0.1],
+        inertia: [0.003, 0.0002, 0.0, 0.004, -0.0001, 0.002],
+    })
 }
 
 fn plate<const BODY: usize>() -> Payload<f64, BODY> {
-    Payload::new(
-        1.9,
-        [-0.04, 0.03, 0.2],
-        [0.02, 0.001, 0.002, 0.03, 0.0, 0.025],
-    )
+    Payload::from_inertia(BodyInertia {
+        mass: 1.9,
+        com: [-0.04, 0.03, 0.2],
+        inertia: [0.02, 0.001, 0.002, 0.03, 0.0, 0.025],
+    })
 }
 
 /// The robot's description with these loads as part of its bodies.
@@ -85,12 +86,13 @@ fn payloads_of_the_same_body_add_up() {
 struct Ice(SpatialInertia<f64>);
 
 impl<const V: usize> Effect<f64, 6, V> for Ice {
-    const PAYLOAD: [bool; 6] = [true, true, false, true, false, false];
-
-    fn payload(&self, body: usize, inertia: &mut SpatialInertia<f64>) {
-        *inertia = *inertia + self.0;
-        inertia.mass += body as f64;
-    }
+    const ADDED_INERTIA: hook::Inertia<Self, f64, 6> = hook::Inertia::on(
+        [true, true, false, true, false, false],
+        |ice, body, inertia| {
+            *inertia = *inertia + ice.0;
+            inertia.mass += body as f64;
+        },
+    );
 }
 
 #[test]

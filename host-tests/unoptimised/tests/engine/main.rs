@@ -2,10 +2,10 @@
 
 use dynamics_core::algorithms::rnea;
 use dynamics_core::effects::{
-    Armature, BodyState, Coriolis, Coulomb, Direction, Effect, Gravity, Inertia, Payload,
-    RIGID_BODY, Viscous,
+    Armature, Coriolis, Coulomb, Direction, Effect, Gravity, Inertia, Payload, RIGID_BODY, Viscous,
+    Width, hook,
 };
-use dynamics_core::model::Robot;
+use dynamics_core::model::{BodyInertia, Robot};
 use dynamics_core::robots::{Panda, Ur5e};
 use dynamics_core::scalar::{Real, Vector};
 use dynamics_core::spatial::Force;
@@ -24,9 +24,7 @@ mod recorded;
 struct Push;
 
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Push {
-    const WRENCH: bool = true;
-
-    fn wrench(&self, body: usize, _: &BodyState<R>, fx: &mut Force<R>) {
+    const EXTERNAL_WRENCH: hook::Wrench<Self, R> = hook::Wrench::constant(|_, body, fx| {
         if matches!(body, 0 | 1 | 3 | 6 | 8) {
             let k = R::from_f64(2.0 + body as f64);
             *fx += Force::new(
@@ -34,20 +32,17 @@ impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Push {
                 R::Vec3::new(R::ONE, k, k + R::ONE),
             );
         }
-    }
+    });
 }
 
 /// A drag on every body, against its own velocity.
 struct Drag;
 
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Drag {
-    const WRENCH: bool = true;
-    const BODY_VELOCITY: bool = true;
-
-    fn wrench(&self, body: usize, at: &BodyState<R>, fx: &mut Force<R>) {
+    const EXTERNAL_WRENCH: hook::Wrench<Self, R> = hook::Wrench::of_velocity(|_, body, at, fx| {
         let k = R::from_f64(0.3 + 0.1 * body as f64);
         *fx -= Force::new(at.velocity.ang * k, at.velocity.lin * k);
-    }
+    });
 }
 
 /// Down a slope that no axis of the base frame lies on.
@@ -140,7 +135,7 @@ fn odd_tree<R: Real>() {
         Viscous([0.7, 0.3, 0.9, 0.2, 0.4, 0.1, 0.6].map(R::from_f64)),
         Coulomb {
             torque: [0.5, 0.2, 0.8, 0.1, 0.3, 0.4, 0.7].map(R::from_f64),
-            per_width: R::from_f64(2.0),
+            width: Width::new(R::from_f64(0.5)),
         },
         Armature([0.2, 0.1, 0.3, 0.05, 0.15, 0.4, 0.25].map(R::from_f64)),
         Push,
@@ -170,7 +165,11 @@ fn engine_equals_core_on_an_odd_tree_under_every_effect_in_f64() {
 /// 2.5 kg off the axis, with dense inertia.
 fn payload<R: Real, const BODY: usize>() -> Payload<R, BODY> {
     let inertia = [0.03, -0.004, 0.002, 0.05, 0.006, 0.04].map(R::from_f64);
-    Payload::new(R::from_f64(2.5), [0.1, -0.2, 0.3].map(R::from_f64), inertia)
+    Payload::from_inertia(BodyInertia {
+        mass: R::from_f64(2.5),
+        com: [0.1, -0.2, 0.3].map(R::from_f64),
+        inertia,
+    })
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use dynamics_core::algorithms::NotPositiveDefinite;
 use dynamics_core::algorithms::frame::LocalWorldAligned;
 use dynamics_core::effects::{Armature, Coriolis, Effect, Gravity, Inertia, Payload, RIGID_BODY};
-use dynamics_core::model::{BASE, Body, Joint, Model, Robot};
+use dynamics_core::model::{BASE, Body, BodyInertia, Joint, Model, Robot};
 use dynamics_core::robots::Ur5e;
 use dynamics_core::scalar::{Real, Vector};
 use dynamics_core::state::State;
@@ -39,7 +39,11 @@ impl Random {
 
 fn payload<R: Real, const BODY: usize>() -> Payload<R, BODY> {
     let inertia = [0.03, -0.004, 0.002, 0.05, 0.006, 0.04].map(R::from_f64);
-    Payload::new(R::from_f64(2.5), [0.1, -0.2, 0.3].map(R::from_f64), inertia)
+    Payload::from_inertia(BodyInertia {
+        mass: R::from_f64(2.5),
+        com: [0.1, -0.2, 0.3].map(R::from_f64),
+        inertia,
+    })
 }
 
 fn check(robot: &str, quantity: &str, scalar: &str, error: f64) {
@@ -255,7 +259,14 @@ fn a_joint_that_moves_no_inertia_is_named() {
     let rotors = (Inertia, Armature([0.0, 0.0, 0.1]));
     assert!(Engine::<Massless>::forward_dynamics(&state, &tau, &rotors).is_ok());
     assert!(Engine::<Massless>::aba(&state, &tau, &rotors).is_ok());
-    let broken = (Inertia, Payload::<_, 2>::new(f64::NAN, [0.0; 3], [0.1; 6]));
+    let broken = (
+        Inertia,
+        Payload::<_, 2>::from_inertia(BodyInertia {
+            mass: f64::NAN,
+            com: [0.0; 3],
+            inertia: [0.1; 6],
+        }),
+    );
     assert!(Engine::<Massless>::forward_dynamics(&state, &tau, &broken).is_err());
     assert!(Engine::<Massless>::aba(&state, &tau, &broken).is_err());
 }

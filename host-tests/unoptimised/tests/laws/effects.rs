@@ -90,13 +90,9 @@ fn coulomb_friction_is_odd_rises_and_saturates_at_its_torque() {
     fn friction<R: Real>(qd: R) -> R {
         let dry = Coulomb {
             torque: [R::from_f64(4.0)],
-            per_width: R::from_f64(50.0),
+            width: Width::new(R::from_f64(0.02)),
         };
-        let at = JointState {
-            q: R::ZERO,
-            qd,
-            qdd: R::ZERO,
-        };
+        let at = JointState::new(R::ZERO, qd);
         let mut tau = R::ZERO;
         Effect::<R, 1, 1>::torque(&dry, 0, at, &mut tau);
         tau

@@ -3,8 +3,8 @@
 use dynamics_core::algorithms::{aba, rnea};
 use dynamics_core::drivetrain::Transmission;
 use dynamics_core::effects::{
-    Armature, BodyState, Coriolis, Coulomb, Effect, Gravity, Inertia, JointState, RIGID_BODY,
-    Viscous, smooth_sign,
+    Armature, Coriolis, Coulomb, Effect, Gravity, Inertia, JointState, RIGID_BODY, Viscous, Width,
+    hook, smooth_sign,
 };
 use dynamics_core::model::{ArmModel, BASE, Body, Joint, JointKind, Model, Robot, model};
 use dynamics_core::robots::{Panda, Ur5e};
@@ -38,7 +38,7 @@ fn invert<R: Real, const B: usize, const N: usize>(
         Viscous([R::from_f64(0.5); N]),
         Coulomb {
             torque: [R::ONE; N],
-            per_width: R::from_f64(10.0),
+            width: Width::new(R::from_f64(0.1)),
         },
         Armature([R::from_f64(0.1); N]),
         Drag,
@@ -201,13 +201,10 @@ fn columns_of_the_mass_matrix_are_differences_of_inverse_dynamics() {
 struct Drag;
 
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Drag {
-    const WRENCH: bool = true;
-    const BODY_VELOCITY: bool = true;
-
-    fn wrench(&self, _: usize, at: &BodyState<R>, fx: &mut Force<R>) {
+    const EXTERNAL_WRENCH: hook::Wrench<Self, R> = hook::Wrench::of_velocity(|_, _, at, fx| {
         let k = R::from_f64(0.2);
         *fx -= Force::new(at.velocity.ang * k, at.velocity.lin * k);
-    }
+    });
 }
 
 /// What positions and velocities in base coordinates say: kinetic energy, potential energy and

@@ -13,7 +13,7 @@ use dynamics_core::algorithms::{
     ltdl, rnea, solve, spatial_operator_inverse, spatial_operator_ltdl,
 };
 use dynamics_core::effects::{
-    Armature, BodyState, Coriolis, Effect, Gravity, Inertia, RIGID_BODY, Viscous,
+    Armature, Coriolis, Effect, Gravity, Inertia, RIGID_BODY, Viscous, hook,
 };
 use dynamics_core::model::{JointKind, Model};
 use dynamics_core::scalar::{Real, Vector};
@@ -93,14 +93,12 @@ struct Witness<R: Real> {
 }
 
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Witness<R> {
-    const WRENCH: bool = true;
-    const BODY_VELOCITY: bool = true;
-
-    fn wrench(&self, body: usize, at: &BodyState<R>, _: &mut Force<R>) {
-        if body == self.body {
-            self.seen.set(at.velocity);
-        }
-    }
+    const EXTERNAL_WRENCH: hook::Wrench<Self, R> =
+        hook::Wrench::of_velocity(|witness, body, at, _| {
+            if body == witness.body {
+                witness.seen.set(at.velocity);
+            }
+        });
 }
 
 /// M: its columns are differences of inverse dynamics, exactly symmetric, exactly zero between branches;

@@ -1,0 +1,110 @@
+//! What an effect declares by its hooks, in the form in which core, engine and plant use it.
+
+use super::hook_args::BodyVelocity;
+use super::{BodyState, Effect};
+use crate::scalar::Real;
+use crate::spatial::{Force, Motion, SpatialInertia};
+
+/// Which hooks an effect has and what they read, and their calls. Every [`Effect`] has it, from its hooks; nobody implements it.
+///
+/// A hook that an effect does not have adds nothing.
+pub trait Declared<R: Real, const B: usize, const V: usize>: Sized {
+    /// A field accelerates every body.
+    const FIELD: bool;
+    /// Which base components of the field may differ from zero.
+    const FIELD_AXES: [bool; 3];
+    /// How many fields of gravity there are.
+    const GRAVITIES: usize;
+    /// The environment exerts a wrench on some body.
+    const WRENCH: bool;
+    /// A wrench reads the body's velocity.
+    const BODY_VELOCITY: bool;
+    /// A wrench reads the body's pose.
+    const BODY_POSE: bool;
+    /// The base moves.
+    const BASE_MOTION: bool;
+    /// The bodies to whose inertia something is added.
+    const PAYLOAD: [bool; B];
+    /// Rotors spin as bodies.
+    const GYROSCOPIC_ROTORS: bool;
+
+    /// Adds to the acceleration g of free fall, in base coordinates, m/s², along [`Self::FIELD_AXES`] only.
+    fn field(&self, g: &mut R::Vec3);
+    /// Adds to the spatial velocity v₀ and acceleration a₀ of the base.
+    fn base(&self, velocity: &mut Motion<R>, acceleration: &mut Motion<R>);
+    /// Adds to the wrench fˣ on `body`.
+    fn wrench(&self, body: usize, at: &BodyState<R>, fx: &mut Force<R>);
+    /// Adds to the inertia of `body`.
+    fn payload(&self, body: usize, inertia: &mut SpatialInertia<R>);
+    /// Adds to ρ I of the rotor of `joint`.
+    fn spin(&self, joint: usize, coupling: &mut R);
+    /// Adds what stands at `joint` to an entry of M's diagonal.
+    fn add_inertia(&self, joint: usize, diagonal: &mut R);
+}
+
+impl<R: Real, E, const B: usize, const V: usize> Declared<R, B, V> for E
+where
+    E: Effect<R, B, V>,
+{
+    const FIELD: bool = E::GRAVITY_FIELD.add.is_some();
+    const FIELD_AXES: [bool; 3] = E::GRAVITY_FIELD.axes;
+    const GRAVITIES: usize = E::GRAVITY_FIELD.gravities;
+    const WRENCH: bool = E::EXTERNAL_WRENCH.is_some();
+    const BODY_VELOCITY: bool = E::EXTERNAL_WRENCH.reads_velocity;
+    const BODY_POSE: bool = E::EXTERNAL_WRENCH.reads_pose;
+    const BASE_MOTION: bool = E::BASE.add.is_some();
+    const PAYLOAD: [bool; B] = E::ADDED_INERTIA.bodies;
+    const GYROSCOPIC_ROTORS: bool = E::ROTOR.add.is_some();
+
+    #[inline(always)]
+    fn field(&self, g: &mut R::Vec3) {
+        if let Some(add) = const { E::GRAVITY_FIELD.add } {
+            add(self, g);
+        }
+    }
+
+    #[inline(always)]
+    fn base(&self, velocity: &mut Motion<R>, acceleration: &mut Motion<R>) {
+        if let Some(add) = const { E::BASE.add } {
+            add(self, velocity, acceleration);
+        }
+    }
+
+    #[inline(always)]
+    fn wrench(&self, body: usize, at: &BodyState<R>, fx: &mut Force<R>) {
+        if let Some(add) = const { E::EXTERNAL_WRENCH.constant } {
+            add(self, body, fx);
+        }
+        if let Some(add) = const { E::EXTERNAL_WRENCH.of_pose } {
+            add(self, body, &at.pose, fx);
+        }
+        if let Some(add) = const { E::EXTERNAL_WRENCH.of_velocity } {
+            let &BodyState { velocity, base, .. } = at;
+            add(self, body, &BodyVelocity { velocity, base }, fx);
+        }
+        if let Some(add) = const { E::EXTERNAL_WRENCH.of_state } {
+            add(self, body, at, fx);
+        }
+    }
+
+    #[inline(always)]
+    fn payload(&self, body: usize, inertia: &mut SpatialInertia<R>) {
+        if let Some(add) = const { E::ADDED_INERTIA.add } {
+            add(self, body, inertia);
+        }
+    }
+
+    #[inline(always)]
+    fn spin(&self, joint: usize, coupling: &mut R) {
+        if let Some(add) = const { E::ROTOR.add } {
+            add(self, joint, coupling);
+        }
+    }
+
+    #[inline(always)]
+    fn add_inertia(&self, joint: usize, diagonal: &mut R) {
+        if let Some(inertia) = self.inertia(joint) {
+            *diagonal += inertia;
+        }
+    }
+}

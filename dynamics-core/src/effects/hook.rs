@@ -1,0 +1,345 @@
+//! Hooks that an effect has or has not, as values: what a hook reads is the type of its argument.
+//!
+//! An effect names such a hook by a constant of [`Effect`](super::Effect). Naming it is the only way to have it, and its
+//! constructor says what it reads, so that no hook is left uncalled and none reads what was not computed:
+//!
+//! ```
+//! use dynamics_core::effects::{Effect, hook};
+//! use dynamics_core::scalar::Real;
+//!
+//! /// A cable pack dragged along behind the forearm: fˣ = −c v.
+//! struct CableDrag<R>(R);
+//! impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for CableDrag<R> {
+//!     const EXTERNAL_WRENCH: hook::Wrench<Self, R> = hook::Wrench::of_velocity(|drag, body, at, fx| {
+//!         if body == 3 {
+//!             fx.lin -= at.velocity.lin * drag.0;
+//!         }
+//!     });
+//! }
+//! ```
+//!
+//! A hook that reads what it does not declare does not compile, here the pose:
+//!
+//! ```compile_fail,E0609
+//! # use dynamics_core::{effects::{Effect, hook}, scalar::Real};
+//! struct Buoy;
+//! impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Buoy {
+//!     const EXTERNAL_WRENCH: hook::Wrench<Self, R> = hook::Wrench::of_velocity(|_, _, at, fx| {
+//!         fx.lin -= at.pose.pos; // error: no field `pose` on type `&BodyVelocity<R>`
+//!     });
+//! }
+//! ```
+//!
+//! nor does one that reads the velocity under `of_pose`:
+//!
+//! ```compile_fail,E0609
+//! # use dynamics_core::{effects::{Effect, hook}, scalar::Real};
+//! struct Drag;
+//! impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Drag {
+//!     const EXTERNAL_WRENCH: hook::Wrench<Self, R> = hook::Wrench::of_pose(|_, _, pose, fx| {
+//!         fx.lin -= pose.velocity.lin; // error: no field `velocity` on type `&Xform<R>`
+//!     });
+//! }
+//! ```
+//!
+//! A function beside the constants is not a hook (the same for `field`, `base`, `payload` and `spin`):
+//!
+//! ```compile_fail,E0407
+//! # use dynamics_core::{effects::{BodyState, Effect}, scalar::Real, spatial::Force};
+//! struct Drag;
+//! impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Drag {
+//!     fn wrench(&self, body: usize, at: &BodyState<R>, fx: &mut Force<R>) {} // error: not a member of trait `Effect`
+//! }
+//! ```
+//!
+//! ```compile_fail,E0407
+//! # use dynamics_core::{effects::Effect, scalar::Real};
+//! struct Magnet;
+//! impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Magnet {
+//!     fn field(&self, g: &mut R::Vec3) {} // error: not a member of trait `Effect`
+//! }
+//! ```
+//!
+//! ```compile_fail,E0407
+//! # use dynamics_core::{effects::Effect, scalar::Real, spatial::Motion};
+//! struct Lift;
+//! impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Lift {
+//!     fn base(&self, velocity: &mut Motion<R>, acceleration: &mut Motion<R>) {} // error: not a member of trait `Effect`
+//! }
+//! ```
+//!
+//! ```compile_fail,E0407
+//! # use dynamics_core::{effects::Effect, scalar::Real, spatial::SpatialInertia};
+//! struct Ice;
+//! impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Ice {
+//!     fn payload(&self, body: usize, inertia: &mut SpatialInertia<R>) {} // error: not a member of trait `Effect`
+//! }
+//! ```
+//!
+//! ```compile_fail,E0407
+//! # use dynamics_core::{effects::Effect, scalar::Real};
+//! struct Flywheel;
+//! impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Flywheel {
+//!     fn spin(&self, joint: usize, coupling: &mut R) {} // error: not a member of trait `Effect`
+//! }
+//! ```
+//!
+//! A flag cannot be set without its hook either:
+//!
+//! ```compile_fail,E0438
+//! # use dynamics_core::{effects::Effect, scalar::Real};
+//! struct Drag;
+//! impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Drag {
+//!     const WRENCH: bool = true; // error: not a member of trait `Effect`
+//! }
+//! ```
+//!
+//! Machine code: a hook is a constant, so that its call is a direct one; a function with `#[inline(always)]` in place
+//! of a closure is inlined at every level of optimisation.
+
+use super::hook_args::{BodyState, BodyVelocity};
+use crate::scalar::Real;
+use crate::spatial::{Force, Motion, SpatialInertia, Xform};
+
+/// A field that accelerates every body.
+#[derive(Debug)]
+pub struct Field<E, R: Real> {
+    pub(super) add: Option<fn(&E, &mut R::Vec3)>,
+    pub(super) axes: [bool; 3],
+    pub(super) gravities: usize,
+}
+
+impl<E, R: Real> Field<E, R> {
+    /// No field.
+    pub const NONE: Self = Self {
+        add: None,
+        axes: [false; 3],
+        gravities: 0,
+    };
+
+    /// A field of gravity, which adds to the acceleration g of free fall, in base coordinates, m/s². A scene of several
+    /// does not compile.
+    pub const fn gravity(add: fn(&E, &mut R::Vec3)) -> Self {
+        Self {
+            add: Some(add),
+            axes: [true; 3],
+            gravities: 1,
+        }
+    }
+
+    /// A field that acts beside gravity.
+    pub const fn beside_gravity(add: fn(&E, &mut R::Vec3)) -> Self {
+        Self {
+            gravities: 0,
+            ..Self::gravity(add)
+        }
+    }
+
+    /// The same field, of which only these base components may differ from zero; what the hook adds to others is left out.
+    #[must_use]
+    pub const fn along(self, axes: [bool; 3]) -> Self {
+        let [x, y, z] = self.axes;
+        Self {
+            add: self.add,
+            axes: [x & axes[0], y & axes[1], z & axes[2]],
+            gravities: self.gravities,
+        }
+    }
+
+    /// That of a forwarder.
+    #[doc(hidden)]
+    pub const fn forwarded(
+        any: bool,
+        axes: [bool; 3],
+        gravities: usize,
+        add: fn(&E, &mut R::Vec3),
+    ) -> Self {
+        if any {
+            Self {
+                add: Some(add),
+                axes,
+                gravities,
+            }
+        } else {
+            Self::NONE
+        }
+    }
+}
+
+/// A motion that the base is made to follow.
+#[derive(Debug)]
+pub struct Base<E, R: Real> {
+    pub(super) add: Option<fn(&E, &mut Motion<R>, &mut Motion<R>)>,
+}
+
+impl<E, R: Real> Base<E, R> {
+    /// A base that no effect moves.
+    pub const NONE: Self = Self { add: None };
+
+    /// Adds to the spatial velocity v₀ and acceleration a₀ of the base, at its origin and in its coordinates.
+    pub const fn moving(add: fn(&E, &mut Motion<R>, &mut Motion<R>)) -> Self {
+        Self { add: Some(add) }
+    }
+
+    /// That of a forwarder.
+    #[doc(hidden)]
+    pub const fn forwarded(any: bool, add: fn(&E, &mut Motion<R>, &mut Motion<R>)) -> Self {
+        Self {
+            add: if any { Some(add) } else { None },
+        }
+    }
+}
+
+/// A wrench fˣ that the environment exerts on a body.
+///
+/// The hook is called for each body by its place in the model's list, and adds to fˣ, about the origin of the body's
+/// frame and in its coordinates, N·m and N.
+#[derive(Debug)]
+pub struct Wrench<E, R: Real> {
+    pub(super) constant: Option<fn(&E, usize, &mut Force<R>)>,
+    pub(super) of_pose: Option<fn(&E, usize, &Xform<R>, &mut Force<R>)>,
+    pub(super) of_velocity: Option<fn(&E, usize, &BodyVelocity<R>, &mut Force<R>)>,
+    pub(super) of_state: Option<fn(&E, usize, &BodyState<R>, &mut Force<R>)>,
+    pub(super) reads_pose: bool,
+    pub(super) reads_velocity: bool,
+}
+
+impl<E, R: Real> Wrench<E, R> {
+    /// No wrench.
+    pub const NONE: Self = Self {
+        constant: None,
+        of_pose: None,
+        of_velocity: None,
+        of_state: None,
+        reads_pose: false,
+        reads_velocity: false,
+    };
+
+    /// A wrench that depends on nothing but the effect.
+    pub const fn constant(add: fn(&E, usize, &mut Force<R>)) -> Self {
+        Self {
+            constant: Some(add),
+            ..Self::NONE
+        }
+    }
+
+    /// A wrench that depends on the body's pose relative to the base: the coordinate transform from the base to the
+    /// body's frame, its origin in base coordinates, m.
+    pub const fn of_pose(add: fn(&E, usize, &Xform<R>, &mut Force<R>)) -> Self {
+        Self {
+            of_pose: Some(add),
+            reads_pose: true,
+            ..Self::NONE
+        }
+    }
+
+    /// A wrench that depends on the body's velocity (which does not switch the velocity products on).
+    pub const fn of_velocity(add: fn(&E, usize, &BodyVelocity<R>, &mut Force<R>)) -> Self {
+        Self {
+            of_velocity: Some(add),
+            reads_velocity: true,
+            ..Self::NONE
+        }
+    }
+
+    /// A wrench that depends on the body's pose and velocity.
+    pub const fn of_state(add: fn(&E, usize, &BodyState<R>, &mut Force<R>)) -> Self {
+        Self {
+            of_state: Some(add),
+            reads_pose: true,
+            reads_velocity: true,
+            ..Self::NONE
+        }
+    }
+
+    /// That of a forwarder.
+    #[doc(hidden)]
+    pub const fn forwarded(
+        any: bool,
+        reads_pose: bool,
+        reads_velocity: bool,
+        add: fn(&E, usize, &BodyState<R>, &mut Force<R>),
+    ) -> Self {
+        if any {
+            Self {
+                of_state: Some(add),
+                reads_pose,
+                reads_velocity,
+                ..Self::NONE
+            }
+        } else {
+            Self::NONE
+        }
+    }
+
+    /// Whether there is any.
+    pub(super) const fn is_some(&self) -> bool {
+        self.constant.is_some()
+            | self.of_pose.is_some()
+            | self.of_velocity.is_some()
+            | self.of_state.is_some()
+    }
+}
+
+/// Inertia that is fixed to bodies.
+#[derive(Debug)]
+pub struct Inertia<E, R: Real, const B: usize> {
+    pub(super) add: Option<fn(&E, usize, &mut SpatialInertia<R>)>,
+    pub(super) bodies: [bool; B],
+}
+
+impl<E, R: Real, const B: usize> Inertia<E, R, B> {
+    /// None.
+    pub const NONE: Self = Self {
+        add: None,
+        bodies: [false; B],
+    };
+
+    /// Adds to the inertia of the bodies that are marked, about the origin of a body's frame and in its coordinates;
+    /// for others the hook is not called.
+    pub const fn on(bodies: [bool; B], add: fn(&E, usize, &mut SpatialInertia<R>)) -> Self {
+        Self {
+            add: Some(add),
+            bodies,
+        }
+    }
+
+    /// That of a forwarder.
+    #[doc(hidden)]
+    pub const fn forwarded(
+        on: bool,
+        bodies: [bool; B],
+        add: fn(&E, usize, &mut SpatialInertia<R>),
+    ) -> Self {
+        if on {
+            Self::on(bodies, add)
+        } else {
+            Self::NONE
+        }
+    }
+}
+
+/// The coupling of rotors that spin on parent links.
+#[derive(Debug)]
+pub struct Rotor<E, R> {
+    pub(super) add: Option<fn(&E, usize, &mut R)>,
+}
+
+impl<E, R> Rotor<E, R> {
+    /// No rotor that spins as a body.
+    pub const NONE: Self = Self { add: None };
+
+    /// Adds to ρ I, the coupling of the rotor that spins on the parent link of a joint with what carries it, kg·m² or kg·m;
+    /// [`inertia`](super::Effect::inertia) has its ρ² I. See [`GyroscopicRotors`](super::GyroscopicRotors).
+    pub const fn coupling(add: fn(&E, usize, &mut R)) -> Self {
+        Self { add: Some(add) }
+    }
+
+    /// That of a forwarder.
+    #[doc(hidden)]
+    pub const fn forwarded(any: bool, add: fn(&E, usize, &mut R)) -> Self {
+        Self {
+            add: if any { Some(add) } else { None },
+        }
+    }
+}

@@ -1,0 +1,59 @@
+//! The speed or depth by which an effect has come to its full size.
+
+use crate::scalar::Real;
+
+/// A speed, rad/s or m/s, or a depth, rad or m, over which an effect fades in. The sign does not matter.
+///
+/// Kept as its reciprocal, so that no tick divides by it. For a scene in a `const` or `static` [`Width::f32`] and
+/// [`Width::f64`] are evaluated by the compiler.
+///
+/// ```
+/// use dynamics_core::effects::{Coulomb, Width};
+/// // 4 N·m, full beyond 0.02 rad/s
+/// static DRY: Coulomb<f32, 1> = Coulomb { torque: [4.0], width: Width::f32(0.02) };
+/// assert_eq!(DRY.width, Width::new(0.02));
+/// assert_eq!(DRY.width.get(), 0.02);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Width<R> {
+    inverse: R,
+}
+
+impl<R: Real> Width<R> {
+    /// Of a speed or depth.
+    #[inline(always)]
+    pub fn new(width: R) -> Self {
+        Self {
+            inverse: R::ONE / width.abs(),
+        }
+    }
+
+    /// The speed or depth, to a rounding.
+    pub fn get(self) -> R {
+        R::ONE / self.inverse
+    }
+
+    /// Its reciprocal.
+    #[inline(always)]
+    pub(crate) fn inverse(self) -> R {
+        self.inverse
+    }
+}
+
+impl Width<f32> {
+    /// Of a speed or depth that the compiler knows.
+    pub const fn f32(width: f32) -> Self {
+        Self {
+            inverse: 1.0 / width.abs(),
+        }
+    }
+}
+
+impl Width<f64> {
+    /// Of a speed or depth that the compiler knows.
+    pub const fn f64(width: f64) -> Self {
+        Self {
+            inverse: 1.0 / width.abs(),
+        }
+    }
+}

@@ -17,7 +17,7 @@ use dynamics_core::effects::{
 };
 use dynamics_core::model::{JointKind, Model};
 use dynamics_core::scalar::{Real, Vector};
-use dynamics_core::spatial::{Force, Motion};
+use dynamics_core::spatial::Motion;
 use dynamics_core::state::State;
 use firmware_demo::hard::OnLast;
 use host_tests::tolerances;
@@ -145,7 +145,7 @@ fn matrix<R: Real, const B: usize, const Q: usize, const V: usize>(
     }
     let seen = Cell::new(Motion::ZERO);
     let witness = (Witness { body, seen },);
-    rnea(model, state, &witness);
+    let _ = rnea(model, state, &witness);
     let numbers = |m: Motion<R>| [m.ang.array(), m.lin.array()].concat();
     let want = numbers(witness.0.seen.get());
     worst.plain("Jacobian", &numbers(velocity), &want);

@@ -5,7 +5,7 @@ use crate::scalar::Real;
 /// max(0, x) = (x + |x|) / 2, exact: what touches pushes and never pulls.
 ///
 /// ```
-/// use dynamics_core::effects::positive_part;
+/// use dynamics_core::scalar::positive_part;
 /// assert_eq!((positive_part(3.0_f32), positive_part(-3.0_f32)), (3.0, 0.0));
 /// ```
 #[inline(always)]

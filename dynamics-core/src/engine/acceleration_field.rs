@@ -1,4 +1,4 @@
-//! How the points of a body accelerate, handed from parent to child, and what its inertia takes.
+//! The accelerations of a body's points, transformed from parent to child, and the wrench of its inertia.
 //!
 //! The field form of Newton-Euler: a body's points accelerate as a(r) = a + U r with
 //! U = [α]× + [ω]×[ω]×, and with Σ = ∫ r rᵀ dm the body takes f = m a + U h and
@@ -20,7 +20,7 @@ use crate::scalar::Real;
 pub(crate) struct AccelerationField<R> {
     /// ω, for effects that read the body's velocity.
     pub(crate) omega: Vec3<R>,
-    /// ω as its products see it: zero unless an effect asks for velocity products.
+    /// ω in its products: zero unless an effect needs velocity products.
     pub(crate) spin: Vec3<R>,
     /// α.
     pub(crate) alpha: Vec3<R>,
@@ -34,7 +34,7 @@ pub(crate) struct AccelerationField<R> {
     pub(crate) pose: Pose<R>,
 }
 
-/// How a joint moves, in units of length; zero where no effect asks.
+/// How a joint moves, in units of length; zero where no effect needs it.
 #[derive(Clone, Copy)]
 pub(crate) struct Rates<R> {
     pub(crate) velocity: Folded<R>,
@@ -59,7 +59,7 @@ pub(crate) struct Wrench<R> {
 }
 
 impl<R: Real> Wrench<R> {
-    /// What a joint at the origin feels of it: N·m about z, or N along z.
+    /// Its part along a joint's axis at the origin: N·m about z, or N along z.
     #[inline(always)]
     pub(crate) fn along(&self, prismatic: bool, length_inv: Folded<R>) -> Folded<R> {
         if prismatic {

@@ -114,7 +114,7 @@ where
     body.to_parent::<T, B, Q, V, I>(turn, Folded::runtime(turn.q) * length_inv)
 }
 
-/// Column I of M: the wrench of joint I's unit acceleration, felt at each joint down to the base.
+/// Column I of M: the wrench of joint I's unit acceleration, projected on each joint between it and the base.
 #[inline(always)]
 fn column<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     task: &mut Task<'_, R, E, Q, V>,
@@ -150,8 +150,8 @@ fn column<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usiz
                 let turn = task.turns[K];
                 wrench =
                     wrench.to_parent::<T, B, Q, V, K>(turn, Folded::runtime(turn.q) * length_inv);
-                let above = const { &CompiledRobot::<T, B, Q, V>::parent_of(K) };
-                let entry = wrench.along(above.prismatic, length_inv).get();
+                let parent = const { &CompiledRobot::<T, B, Q, V>::parent_of(K) };
+                let entry = wrench.along(parent.prismatic, length_inv).get();
                 task.m.rows[I][joint.parent] = entry;
                 task.m.rows[joint.parent][I] = entry;
             }

@@ -1,7 +1,7 @@
 //! M = Lᵀ D L and M x = τ, without the entries that the tree's branches leave zero.
 //!
 //! Featherstone, RBDA (2008), section 6.5, tables 6.3 and 6.4: from the tips to the base, so that
-//! no zero is ever filled. All sums run over the joints above a joint, λ(i), λ(λ(i)) …
+//! no zero is ever filled. All sums run over the ancestors of a joint, λ(i), λ(λ(i)) …
 
 use super::Engine;
 use super::compile::CompiledRobot;
@@ -94,7 +94,7 @@ where
     d_inv
 }
 
-/// Row K of L, and what it takes from the rows above it.
+/// Row K of L, and its elimination from the rows of its ancestors.
 #[inline(always)]
 fn eliminate<R: Real, T, const B: usize, const Q: usize, const V: usize, const K: usize>(
     m: &mut [[R; V]; V],
@@ -104,7 +104,7 @@ fn eliminate<R: Real, T, const B: usize, const Q: usize, const V: usize, const K
 {
     for_each_joint!(N, {
         const I: usize = 31 - N;
-        if const { CompiledRobot::<T, B, Q, V>::above(I, K) } {
+        if const { CompiledRobot::<T, B, Q, V>::is_ancestor(I, K) } {
             let l = m[K][I] * d_inv;
             subtract::<R, T, B, Q, V, K, I>(m, l);
             m[K][I] = l;
@@ -158,7 +158,7 @@ pub(crate) fn substitute<R: Real, T, const B: usize, const Q: usize, const V: us
     });
 }
 
-/// What x_I takes from the entries of the joints above.
+/// Subtracts x_I's part from the entries of its ancestors.
 #[inline(always)]
 fn scatter<R: Real, T, const B: usize, const Q: usize, const V: usize, const I: usize>(
     l: &[[R; V]; V],
@@ -167,13 +167,13 @@ fn scatter<R: Real, T, const B: usize, const Q: usize, const V: usize, const I: 
     T: Robot<B, Q, V>,
 {
     for_each_joint!(J, {
-        if const { CompiledRobot::<T, B, Q, V>::above(J, I) } {
+        if const { CompiledRobot::<T, B, Q, V>::is_ancestor(J, I) } {
             x[J] -= l[I][J] * x[I];
         }
     });
 }
 
-/// What the entries of the joints above take from x_I.
+/// Subtracts the parts of its ancestors' entries from x_I.
 #[inline(always)]
 fn gather<R: Real, T, const B: usize, const Q: usize, const V: usize, const I: usize>(
     l: &[[R; V]; V],
@@ -182,7 +182,7 @@ fn gather<R: Real, T, const B: usize, const Q: usize, const V: usize, const I: u
     T: Robot<B, Q, V>,
 {
     for_each_joint!(J, {
-        if const { CompiledRobot::<T, B, Q, V>::above(J, I) } {
+        if const { CompiledRobot::<T, B, Q, V>::is_ancestor(J, I) } {
             x[I] -= l[I][J] * x[J];
         }
     });

@@ -1,4 +1,4 @@
-//! What the pivots of forward dynamics are held against: the largest inertia that each joint could move.
+//! What the pivots of forward dynamics are compared with: the largest inertia that each joint could move.
 //!
 //! As in [`crate::algorithms`], m, |h| and ∫ r² dm of all that a joint carries, as if it stood in one line away from
 //! it. Turns do not change them, so that they are constants of the robot; slides and a payload add to them.
@@ -10,7 +10,7 @@ use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::SpatialInertia;
 use glam::DVec3;
 
-/// How many roundings of it a pivot must exceed: up to 3.1 were seen of articulated bodies and 12 of LᵀDL where M is
+/// How many roundings of it a pivot must exceed: up to 3.1 were measured for articulated bodies and 12 for LᵀDL where M is
 /// singular, and no fewer than 51 where it is regular (a rope of ten light rods with a weight at its end, in f32).
 const ROUNDINGS: f64 = 16.0;
 
@@ -34,7 +34,7 @@ struct Sizes<T, const B: usize, const Q: usize, const V: usize>(core::marker::Ph
 impl<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize> Sizes<T, B, Q, V> {
     const ALL: [Size; V] = sizes(&T::MODEL);
 
-    /// That of joint `i`; beyond the last one something harmless.
+    /// That of joint `i`; padding beyond the last one.
     const fn of(i: usize) -> Size {
         if i < V { Self::ALL[i] } else { NOTHING }
     }
@@ -155,7 +155,7 @@ where
     if !prismatic {
         for_each_joint!(K, {
             if const {
-                CompiledRobot::<T, B, Q, V>::above(I, K)
+                CompiledRobot::<T, B, Q, V>::is_ancestor(I, K)
                     && CompiledRobot::<T, B, Q, V>::joint(K).prismatic
             } {
                 slides += turns[K].q.abs();
@@ -202,7 +202,7 @@ const fn slides_beyond<T: Robot<B, Q, V>, const B: usize, const Q: usize, const 
 ) -> bool {
     let mut k = 0;
     while k < V {
-        if CompiledRobot::<T, B, Q, V>::above(i, k)
+        if CompiledRobot::<T, B, Q, V>::is_ancestor(i, k)
             && CompiledRobot::<T, B, Q, V>::joint(k).prismatic
         {
             return true;

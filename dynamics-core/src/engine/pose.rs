@@ -1,4 +1,4 @@
-//! Where a body stands in the base, for effects that ask.
+//! The pose of a body in the base's frame, for effects that read it.
 
 use super::compile::{BodyPlacement, Joint};
 use super::folding::Folded;
@@ -15,7 +15,7 @@ pub(crate) struct Pose<R> {
 }
 
 impl<R: Real> Pose<R> {
-    /// Where no effect asks.
+    /// That of scenes in which no effect reads it.
     pub(crate) const UNKNOWN: Self = Self {
         axes: Mat3::ZERO,
         origin: Vec3::ZERO,

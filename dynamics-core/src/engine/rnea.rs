@@ -1,4 +1,4 @@
-//! Inverse dynamics by one recursion over the bodies: out on the way down, back on the way up, so
+//! Inverse dynamics by one recursion over the bodies: outward on entry of a call, inward on its return, so
 //! that what lies between stays in registers.
 
 use super::acceleration_field::{AccelerationField, Inertia, Rates, Wrench};
@@ -15,14 +15,14 @@ use crate::state::State;
 /// What all bodies share.
 pub(crate) struct Task<'a, R: Real, E, const Q: usize, const V: usize> {
     pub(crate) turns: &'a [JointCoordinate<R>; Q],
-    /// The same, to be loaded anew on the way up where registers are short.
+    /// The same, to be loaded again in the inward pass where registers are short.
     pub(crate) back: &'a [JointCoordinate<R>; Q],
     pub(crate) state: &'a State<R, Q, V>,
     pub(crate) effects: &'a E,
     pub(crate) tau: &'a mut [R; V],
 }
 
-/// Visits joint I and all that it carries; returns what they ask of the parent, in its frame.
+/// Visits joint I and its descendants; returns the wrench that they exert on the parent, in its frame.
 #[inline(always)]
 pub(crate) fn visit<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     task: &mut Task<'_, R, E, Q, V>,

@@ -1,7 +1,7 @@
-//! Large robots as a function a limb: what stands on the base, and what branches off.
+//! Robots of more than 16 joints as one function for each subtree, to bound the time of compilation.
 //!
 //! The compiler's time grows with the square of a function's length and more: a humanoid of 29 joints in
-//! one function takes it minutes. Between functions numbers are plain; what no effect asks for is a
+//! one function takes it minutes. Between functions numbers are plain; what no effect needs is a
 //! known zero again on the other side.
 
 use super::acceleration_field::{AccelerationField, Wrench};
@@ -18,7 +18,7 @@ use crate::scalar::{Real, Vector};
 /// Robots of up to so many joints are one function.
 const WHOLE: usize = 16;
 
-/// Whether a robot of so many joints is taken apart.
+/// Whether a robot of so many joints is split into functions.
 pub(crate) const fn has_subtree_functions(joints: usize) -> bool {
     joints > WHOLE
 }
@@ -139,13 +139,13 @@ where
     [wrench.f.get(), wrench.n.get()]
 }
 
-/// A vector that is zero unless an effect asks for it.
+/// A vector that is zero unless an effect needs it.
 #[inline(always)]
-fn runtime_if<R: Real>(asked: bool, v: R::Vec3) -> Vec3<R> {
+fn runtime_if<R: Real>(needed: bool, v: R::Vec3) -> Vec3<R> {
     let [x, y, z] = v.array();
     Vec3([
-        Folded::runtime_if(asked, x),
-        Folded::runtime_if(asked, y),
-        Folded::runtime_if(asked, z),
+        Folded::runtime_if(needed, x),
+        Folded::runtime_if(needed, y),
+        Folded::runtime_if(needed, z),
     ])
 }

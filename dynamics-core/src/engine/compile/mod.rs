@@ -4,7 +4,7 @@
 //! - Each frame is turned until the joint's axis is z, and slid along it until the offset p from
 //!   the parent is perpendicular to it.
 //! - Regrouping to base parameters (Khalil & Dombre, *Modeling, Identification and Control of
-//!   Robots*, 2002, chapter 9): a rotation about z cannot feel what lies on z, so that mass m,
+//!   Robots*, 2002, chapter 9): a rotation about z is not affected by what lies on z, so that mass m,
 //!   h_z and Σ_zz go to the parent as a thin rod; Σ = ∫ r rᵀ dm is the second moment. Behind a
 //!   prismatic joint the whole Σ goes there. τ and M are unchanged; inner forces are not the
 //!   physical ones.
@@ -35,7 +35,7 @@ pub(crate) struct Joint {
     pub(crate) mass: f64,
     pub(crate) moment: DVec3,
     pub(crate) second: DMat3,
-    /// Σ as a base that moves feels it.
+    /// Σ for a base that moves.
     pub(crate) second_moment_only: DMat3,
 }
 
@@ -101,7 +101,7 @@ impl<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize> Compiled
     }
 
     /// Whether joint `k` supports joint `i`.
-    pub(crate) const fn above(k: usize, i: usize) -> bool {
+    pub(crate) const fn is_ancestor(k: usize, i: usize) -> bool {
         k != i && Self::supports(k, i)
     }
 
@@ -214,16 +214,16 @@ const fn prepare<const B: usize, const Q: usize, const V: usize>(
     let mut i = 0;
     while i < B {
         let link = &model.links[i];
-        let carrier = if link.parent == BASE {
+        let parent = if link.parent == BASE {
             AT_BASE
         } else {
             places[link.parent]
         };
-        let rot = mul(&carrier.rot, &transpose(&link.placement.rot));
-        let pos = add(mul_vec(&carrier.rot, link.placement.pos), carrier.pos);
+        let rot = mul(&parent.rot, &transpose(&link.placement.rot));
+        let pos = add(mul_vec(&parent.rot, link.placement.pos), parent.pos);
         if matches!(link.joint.kind, JointKind::Fixed) {
             places[i] = BodyPlacement {
-                joint: carrier.joint,
+                joint: parent.joint,
                 rot,
                 pos,
             };
@@ -236,7 +236,7 @@ const fn prepare<const B: usize, const Q: usize, const V: usize>(
             };
             let slide = -dot(pos, rot.z_axis);
             let joint = &mut joints[link.idx_v];
-            joint.parent = carrier.joint;
+            joint.parent = parent.joint;
             joint.prismatic = prismatic;
             joint.near = link.limits.lower >= -FOUR_PI && link.limits.upper <= FOUR_PI;
             joint.rot = rot;
@@ -287,7 +287,7 @@ const fn prepare<const B: usize, const Q: usize, const V: usize>(
     }
 }
 
-/// From the last joint to the first, what a joint's motion cannot feel goes to its parent.
+/// From the last joint to the first, what does not affect a joint's motion goes to its parent.
 const fn regroup<const V: usize>(joints: &mut [Joint; V]) {
     let mut i = V;
     while i > 0 {
@@ -319,7 +319,7 @@ const fn regroup<const V: usize>(joints: &mut [Joint; V]) {
             parent.moment = add(parent.moment, add(scale(p, mass), h));
             parent.mass += mass;
         } else if !child.prismatic {
-            // A base at rest leaves one rotation, about z, which feels Σ_xx + Σ_yy alone.
+            // A base at rest leaves one rotation, about z, which depends on Σ_xx + Σ_yy alone.
             let sum = child.second.x_axis.x + child.second.y_axis.y;
             let x = DVec3::new(sum, 0.0, 0.0);
             joints[i].second = DMat3::from_cols(x, DVec3::ZERO, DVec3::ZERO);

@@ -49,10 +49,10 @@ impl<R: Real> Folded<R> {
         }
     }
 
-    /// A number known at run time if `asked`, else zero.
+    /// A number known at run time if `needed`, else zero.
     #[inline(always)]
-    pub(crate) fn runtime_if(asked: bool, value: R) -> Self {
-        if asked {
+    pub(crate) fn runtime_if(needed: bool, value: R) -> Self {
+        if needed {
             Self::runtime(value)
         } else {
             Self::ZERO

@@ -30,7 +30,7 @@ where
     product::<R, T, B, Q, V, ROT, I>(v)
 }
 
-/// p × v, p the way from the origin of joint I's parent to its own.
+/// p × v, p the offset from the origin of joint I's parent to its own.
 #[inline(always)]
 pub(crate) fn offset_cross<
     R: Real,

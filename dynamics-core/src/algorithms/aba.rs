@@ -113,8 +113,16 @@ where
     let (mut bodies, mut factors) = (Vec::new(), Vec::new());
     outward_velocities(robot, trig, state, effects, v_0, &mut bodies);
     inward_inertias(&mut bodies, trig, state, effects, &given, &mut factors)?;
-    let joints = outward_accelerations(robot, &bodies, trig, state, effects, &given, a_0, factors);
-    Ok(joints)
+    Ok(outward_accelerations(
+        robot,
+        &bodies,
+        trig,
+        state,
+        effects,
+        &given,
+        a_0,
+        &mut factors,
+    ))
 }
 
 /// Pass 1: vᵢ, cᵢ = v × S q̇ + S̊ q̇, and, of each body alone, Iᴬ = I and pᴬ = v ×* I v − fˣ.
@@ -240,7 +248,7 @@ fn outward_accelerations<R: Real, D, E, const B: usize, const Q: usize, const V:
     effects: &E,
     given: &impl Fn(usize) -> Prescribed<R>,
     a_0: Motion<R>,
-    mut factors: Vec<JointFactor<R>, V>,
+    factors: &mut Vec<JointFactor<R>, V>,
 ) -> JointResult<R, V>
 where
     D: RobotModel<R, B, Q, V>,

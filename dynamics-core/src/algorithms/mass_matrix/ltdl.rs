@@ -29,10 +29,10 @@ pub(crate) const MATRIX_ROUNDINGS: f64 = 32.0;
 ///
 /// # Example
 /// ```
-/// use dynamics_core::algorithms::{crba, factor, solve};
+/// use dynamics_core::algorithms::{crba, ltdl, solve};
 /// use dynamics_core::{effects::RIGID_BODY, model::Robot, robots::Ur5e};
 /// let m = crba(&Ur5e::MODEL, &[0.0, -1.2, 1.5, 0.3, 0.0, 0.0], &RIGID_BODY);
-/// let x = solve(&Ur5e::MODEL, &factor(&Ur5e::MODEL, &m)?, &[1.0; 6]);
+/// let x = solve(&Ur5e::MODEL, &ltdl(&Ur5e::MODEL, &m)?, &[1.0; 6]);
 /// assert!(m.mul_vec(&x).iter().all(|tau| (tau - 1.0).abs() < 1e-12));
 /// # Ok::<(), dynamics_core::algorithms::NotPositiveDefinite>(())
 /// ```
@@ -144,10 +144,10 @@ where
 ///
 /// # Example
 /// ```
-/// use dynamics_core::algorithms::{crba, factor, inverse};
+/// use dynamics_core::algorithms::{crba, inverse, ltdl};
 /// use dynamics_core::{effects::RIGID_BODY, model::Robot, robots::Ur5e};
 /// let m = crba(&Ur5e::MODEL, &[0.0, -1.2, 1.5, 0.3, 0.0, 0.0], &RIGID_BODY);
-/// let m_inv = inverse(&Ur5e::MODEL, &factor(&Ur5e::MODEL, &m)?);
+/// let m_inv = inverse(&Ur5e::MODEL, &ltdl(&Ur5e::MODEL, &m)?);
 /// assert!(m_inv.get(5, 5) * m.get(5, 5) > 1.0); // the other joints give way
 /// # Ok::<(), dynamics_core::algorithms::NotPositiveDefinite>(())
 /// ```

@@ -58,7 +58,7 @@ impl<R: Real, const V: usize> MassMatrix<R, V> {
     /// M + diag(d): with d = h b, what an implicit step of h s solves with under a damping of b.
     ///
     /// ```
-    /// use dynamics_core::algorithms::{factor, forward, rnea, solve};
+    /// use dynamics_core::algorithms::{forward_dynamics, ltdl, rnea, solve};
     /// use dynamics_core::effects::{Coriolis, Gravity, Inertia, Viscous};
     /// use dynamics_core::{Core, model::Robot, robots::Ur5e, state::State};
     ///
@@ -74,7 +74,7 @@ impl<R: Real, const V: usize> MassMatrix<R, V> {
     /// let bias = rnea(&Ur5e::MODEL, &state, &scene); // its q̈ is zero
     /// let m = Core::<Ur5e>::crba(&state.q, &scene).plus_diagonal(&b.map(|b| h * b));
     /// let rest = core::array::from_fn(|i| tau[i] - bias[i]);
-    /// let implicit = solve(&Ur5e::MODEL, &factor(&Ur5e::MODEL, &m)?, &rest);
+    /// let implicit = solve(&Ur5e::MODEL, &ltdl(&Ur5e::MODEL, &m)?, &rest);
     /// assert!((state.qd[5] + h * implicit[5]).abs() < 0.1);
     /// # Ok::<(), dynamics_core::algorithms::NotPositiveDefinite>(())
     /// ```

@@ -57,8 +57,8 @@ pub fn task_jacobian<R: Real, const M: usize, const V: usize>(
 /// Of the effects, armatures and payloads are part of M.
 ///
 /// # Cost
-/// That of [`super::crba`], [`super::ltdl()`] and [`super::jacobian`], M solutions of 2 V² flops, 2 M² V flops and
-/// [`damped_inverse`].
+/// That of [`super::crba()`], [`super::ltdl()`] and [`super::jacobian`], M solutions of 2 V² flops, 2 M² V flops and
+/// [`damped_inverse()`].
 ///
 /// # Source
 /// Khatib (1987).

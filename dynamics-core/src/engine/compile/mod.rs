@@ -8,7 +8,7 @@
 //!   h_z and Σ_zz go to the parent as a thin rod; Σ = ∫ r rᵀ dm is the second moment. Behind a
 //!   prismatic joint the whole Σ goes there. τ and M are unchanged; inner forces are not the
 //!   physical ones.
-//! - What takes less than the robot's negligible share of torque becomes zero: [`super::prune`].
+//! - What takes less than the robot's negligible share of torque becomes zero: [`mod@prune`].
 //! - The unit of length is a joint offset, so that this offset becomes 1, and the unit of mass
 //!   such that Σ keeps its numbers: p/L, h·L, m·L².
 

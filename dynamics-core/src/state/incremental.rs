@@ -17,7 +17,7 @@ use crate::state::JointTrig;
 /// wrong reading leaves no trace. One that did jump needs [`Carried::at`]. 21 flops a joint; the same instructions whatever the data.
 ///
 /// ```
-/// use dynamics_core::trig::Carried;
+/// use dynamics_core::state::Carried;
 /// let mut joints = Carried::at([0.3_f32]);
 /// let trig = joints.follow(&[0.301]);
 /// assert!((trig.turns[0].sin - 0.301_f32.sin()).abs() < 2e-7);

@@ -148,7 +148,7 @@ impl<T, K> Core<T, K> {
         algorithms::poses(&Static::<T, K>::NEW, q)
     }
 
-    /// Pose, velocity and acceleration of every body, see [`algorithms::kinematics`].
+    /// Pose, velocity and acceleration of every body, see [`algorithms::kinematics()`].
     #[inline(never)]
     pub fn kinematics<R: Real, const B: usize, const Q: usize, const V: usize>(
         state: impl RobotState<R, Q, V>,

@@ -9,11 +9,11 @@ use core::borrow::Borrow;
 use heapless::Vec;
 
 use super::pivot_check::{Magnitude, PivotCheck};
+use super::rnea::external_force;
+use super::rotors::at_parent_side;
 use super::tree_pass::{inward, per_body};
 use super::{JointResult, NotPositiveDefinite, Prescribed};
-use crate::effects::{
-    Effect, base_motion, body_inertia, body_wrench, gyroscopic, joint_torque, rotor_force,
-};
+use crate::effects::{Effect, base_motion, body_inertia, gyroscopic, joint_torque, rotor_force};
 use crate::model::{JointKind, LinkView, RobotModel};
 use crate::scalar::{Matrix, Real};
 use crate::spatial::inertia::ArticulatedInertia;
@@ -113,8 +113,16 @@ where
     let (mut bodies, mut factors) = (Vec::new(), Vec::new());
     outward_velocities(robot, trig, state, effects, v_0, &mut bodies);
     inward_inertias(&mut bodies, trig, state, effects, &given, &mut factors)?;
-    let joints = outward_accelerations(robot, &bodies, trig, state, effects, &given, a_0, factors);
-    Ok(joints)
+    Ok(outward_accelerations(
+        robot,
+        &bodies,
+        trig,
+        state,
+        effects,
+        &given,
+        a_0,
+        &mut factors,
+    ))
 }
 
 /// Pass 1: vᵢ, cᵢ = v × S q̇ + S̊ q̇, and, of each body alone, Iᴬ = I and pᴬ = v ×* I v − fˣ.
@@ -144,14 +152,7 @@ fn outward_velocities<'a, R: Real, D, E, const B: usize, const Q: usize, const V
             c = link.plus_velocity_product(Motion::ZERO, turns, &state.qd, v_i);
             pa = inertia.bias_force(v_i);
         }
-        if E::WRENCH {
-            let mut pose = Xform::IDENTITY;
-            if E::BODY_POSE {
-                pose = x * poses.parent(&link);
-                poses.push(pose);
-            }
-            pa -= body_wrench(effects, i, &link, &pose, v_i);
-        }
+        pa -= external_force(effects, i, &link, &x, &mut poses, v_i);
         if E::GYROSCOPIC_ROTORS
             && E::VELOCITY_PRODUCTS
             && let Some(parent) = bodies.get_mut(link.parent)
@@ -240,7 +241,7 @@ fn outward_accelerations<R: Real, D, E, const B: usize, const Q: usize, const V:
     effects: &E,
     given: &impl Fn(usize) -> Prescribed<R>,
     a_0: Motion<R>,
-    mut factors: Vec<JointFactor<R>, V>,
+    factors: &mut Vec<JointFactor<R>, V>,
 ) -> JointResult<R, V>
 where
     D: RobotModel<R, B, Q, V>,
@@ -279,27 +280,6 @@ where
         a.push(a_i);
     }
     joints
-}
-
-/// `update` of a joint's U: with the rotor's part if the scene has rotors that spin, since such a rotor stands on the
-/// parent's side of the joint and takes part in its q̈.
-///
-/// `update` is compiled in two places: a sum that may be made or not costs scenes without rotors 18 instructions.
-#[inline(always)]
-fn at_parent_side<R: Real, E, O, const B: usize, const V: usize>(
-    effects: &E,
-    link: &LinkView<'_, R>,
-    u_a: Force<R>,
-    update: impl FnOnce(Force<R>) -> O,
-) -> O
-where
-    E: Effect<R, B, V>,
-{
-    if E::GYROSCOPIC_ROTORS {
-        update(u_a + rotor_force(effects, link))
-    } else {
-        update(u_a)
-    }
 }
 
 /// Whether nothing ties a body to its parent: no constraint, no prescribed motion, no inertia at the joint.

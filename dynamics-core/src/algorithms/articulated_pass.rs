@@ -1,4 +1,4 @@
-//! Articulated bodies without forces: the inward pass of RBDA (2008), table 7.1, for what needs no more.
+//! Articulated-body inertias without forces: pass 2 of RBDA (2008), table 7.1, for algorithms that need no more.
 
 use heapless::Vec;
 

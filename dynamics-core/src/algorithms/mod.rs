@@ -14,6 +14,7 @@ mod momentum;
 mod operational_space;
 mod pivot_check;
 mod rnea;
+mod rotors;
 mod tree_pass;
 
 pub use aba::aba;

@@ -1,4 +1,4 @@
-//! Whether a pivot of articulated bodies is more than rounding errors.
+//! Detects pivots of articulated bodies that are only rounding errors, that is, a singular mass matrix.
 //!
 //! D = sᵀ Iᴬ s is what the inertia along s was before the coordinates that it carries gave way, less what each of
 //! them took. Where nothing is left, D is the rounding error of the numbers that went into it, of either sign, and
@@ -7,7 +7,7 @@
 //! be more than some roundings of that.
 //!
 //! The coordinates of one joint are one block, which is eliminated a coordinate at a time. A coordinate that is left
-//! with little before the last one multiplies its rounding errors: each hands on its own, times the square of its
+//! with little before the last one multiplies its rounding errors: the next ones inherit its own, times the square of its
 //! multiplier.
 
 use core::ops::AddAssign;
@@ -19,7 +19,7 @@ use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::MotionSubspace;
 use crate::spatial::{Force, SpatialInertia};
 
-/// How many roundings a pivot must exceed: up to 3.1 were seen of singular M, and no fewer than 51 of regular ones (a
+/// How many roundings a pivot must exceed: up to 3.1 were measured for singular M, and no fewer than 51 for regular ones (a
 /// rope of ten light rods with a weight at its end, in f32).
 const ROUNDINGS: f64 = 8.0;
 
@@ -88,15 +88,15 @@ fn length<R: Real>(v: R::Vec3) -> R {
     x.abs() + y.abs() + z.abs()
 }
 
-/// What the pivots of one joint are held against, from its last coordinate to its first.
+/// What the pivots of one joint are compared with, from its last coordinate to its first.
 pub(super) struct PivotCheck<R> {
     magnitude: Magnitude<R>,
-    /// What coordinates that gave way hand on to those before them.
+    /// The errors that coordinates inherit from those eliminated before them.
     inherited: [R; MOST],
 }
 
 impl<R: Real> PivotCheck<R> {
-    /// Of a joint that carries `carried`.
+    /// Of a joint that moves bodies of `magnitude`.
     #[inline(always)]
     pub(super) fn of(magnitude: Magnitude<R>) -> Self {
         let inherited = [R::ZERO; MOST];

@@ -7,10 +7,9 @@ use core::borrow::Borrow;
 
 use heapless::Vec;
 
-use super::tree_pass::{inward, per_body};
-use crate::effects::{
-    Effect, base_motion, body_inertia, body_wrench, gyroscopic, joint_torques, rotor_force,
-};
+use super::rotors::rotor;
+use super::tree_pass::{PerBody, Topology, inward, per_body};
+use crate::effects::{Effect, base_motion, body_inertia, body_wrench, joint_torques};
 use crate::model::{JointCoordinate, LinkView, RobotModel};
 use crate::scalar::{Matrix, Real};
 use crate::spatial::{Force, Motion, Xform};
@@ -91,14 +90,7 @@ where
         let a_parent = x * a.parent(&link);
         let a_i = acceleration(effects, &link, a_parent, v_i, turns, state); // (4)
         let mut f_i = net_force(effects, i, &link, a_i, v_i); // (5)
-        if E::WRENCH {
-            let mut pose = Xform::IDENTITY;
-            if E::BODY_POSE {
-                pose = x * poses.parent(&link);
-                poses.push(pose);
-            }
-            f_i -= body_wrench(effects, i, &link, &pose, v_i); // (6)
-        }
+        f_i -= external_force(effects, i, &link, &x, &mut poses, v_i); // (6)
         if E::GYROSCOPIC_ROTORS {
             let (couple, tau) = rotor(effects, &link, a_parent, v_i, state);
             if let Some(parent) = bodies.get_mut(link.parent) {
@@ -208,28 +200,26 @@ where
     }
 }
 
-/// The couple that the rotor of a joint exerts on the parent link, in the body's frame, and the torque that the
-/// parent's acceleration takes at the rotor, ρ I z·α_λ.
+/// fˣ, the wrench of the environment on body `i`; zero if no effect has one. Featherstone & Orin (6).
 #[inline(always)]
-fn rotor<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+pub(super) fn external_force<R: Real, E, T: Topology, const B: usize, const V: usize>(
     effects: &E,
+    i: usize,
     link: &LinkView<'_, R>,
-    a_parent: Motion<R>,
+    x: &Xform<R>,
+    poses: &mut PerBody<Xform<R>, T, B>,
     v_i: Motion<R>,
-    state: &State<R, Q, V>,
-) -> (R::Vec3, R)
+) -> Force<R>
 where
     E: Effect<R, B, V>,
 {
-    let rate = |used, rates| {
-        if used {
-            entry(rates, link.idx_v())
-        } else {
-            R::ZERO
-        }
-    };
-    let qd = rate(E::VELOCITY_PRODUCTS, &state.qd);
-    let qdd = rate(E::ACCELERATIONS, &state.qdd);
-    let couple = gyroscopic(effects, link, v_i.ang, qd, qdd);
-    (couple, a_parent.dot(rotor_force(effects, link)))
+    if !E::WRENCH {
+        return Force::ZERO;
+    }
+    let mut pose = Xform::IDENTITY;
+    if E::BODY_POSE {
+        pose = *x * poses.parent(link);
+        poses.push(pose);
+    }
+    body_wrench(effects, i, link, &pose, v_i)
 }

@@ -6,6 +6,8 @@
 //! All in link coordinates and by components there: with W_j = S q^(j+1) the transform obeys
 //! d(X m) = X ṁ − W₀ × X m and d(Xᵀ f) = Xᵀ(ḟ + W₀ ×* f), the rest is Leibniz' rule.
 
+use core::fmt;
+
 use heapless::Vec;
 
 use super::ElasticJoints;
@@ -41,10 +43,23 @@ pub struct ElasticCommand<R, const V: usize> {
 /// A joint that has several degrees of freedom, of which no transmission is known.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
 pub struct MultiDofJoint {
     /// The body on that joint.
     pub body: usize,
 }
+
+impl fmt::Display for MultiDofJoint {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            out,
+            "the joint of body {} has several degrees of freedom: no transmission of it is known",
+            self.body
+        )
+    }
+}
+
+impl core::error::Error for MultiDofJoint {}
 
 /// τ_m, θ and θ̇ of the motors for a course of the links.
 ///

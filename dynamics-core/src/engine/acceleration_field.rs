@@ -1,7 +1,7 @@
 //! How the points of a body accelerate, from parent to child, and the wrench that its inertia then needs.
 //!
 //! The field form of Newton-Euler: a body's points accelerate as a(r) = a + U r with
-//! U = [α]× + [ω]×[ω]×, and with Σ = ∫ r rᵀ dm the body needs f = m a + U h and
+//! U = \[α\]× + \[ω\]×\[ω\]×, and with Σ = ∫ r rᵀ dm the body needs f = m a + U h and
 //! n = h × a + axial(U Σ − Σ Uᵀ). Balafoutis & Patel, *Dynamic Analysis of Robot Manipulators*
 //! (1991), use U likewise.
 
@@ -24,7 +24,7 @@ pub(crate) struct AccelerationField<R> {
     pub(crate) spin: Vec3<R>,
     /// α.
     pub(crate) alpha: Vec3<R>,
-    /// U = [α]× + [ω]×[ω]×.
+    /// U = \[α\]× + \[ω\]×\[ω\]×.
     pub(crate) u: Mat3<R>,
     /// Acceleration of the origin, in units of length.
     pub(crate) a: Vec3<R>,

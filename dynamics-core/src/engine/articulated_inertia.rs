@@ -22,7 +22,7 @@ pub(crate) struct Articulated<R> {
 }
 
 impl<R: Real> Articulated<R> {
-    /// A rigid body's: I = tr Σ 1 − Σ, H = [h]×, A = m 1.
+    /// A rigid body's: I = tr Σ 1 − Σ, H = \[h\]×, A = m 1.
     #[inline(always)]
     pub(crate) fn of(body: &Inertia<R>) -> Self {
         let (s, m, zero) = (body.second, body.mass, Folded::ZERO);

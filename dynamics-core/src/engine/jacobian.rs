@@ -115,22 +115,22 @@ where
         let (sin, cos) = (Folded::runtime(turns[I].sin), Folded::runtime(turns[I].cos));
         axes = Mat3([x.scale(cos) + y.scale(sin), y.scale(cos) - x.scale(sin), z]);
     }
-    let mut way = Vec3::<R>::ZERO;
+    let mut beyond = Vec3::<R>::ZERO;
     if const { CompiledRobot::<T, B, Q, V>::place(BODY).joint == I } {
         let place = const { &CompiledRobot::<T, B, Q, V>::place(BODY) };
-        way = axes.mul(Vec3::constant(place.pos * length));
+        beyond = axes.mul(Vec3::constant(place.pos * length));
     }
     for_each_joint!(J, {
         if const { is_supporting::<T, B, Q, V, BODY>(I, J) } {
-            way = reach::<R, T, B, Q, V, BODY, J>(turns, &axes, columns);
+            beyond = reach::<R, T, B, Q, V, BODY, J>(turns, &axes, columns);
         }
     });
     columns[I] = if joint.prismatic {
         Motion::new(R::Vec3::ZERO, z.get())
     } else {
-        Motion::new(z.get(), z.cross(way).get())
+        Motion::new(z.get(), z.cross(beyond).get())
     };
-    offset + way
+    offset + beyond
 }
 
 /// Whether joint `j` is the child of joint `i` that supports the body.

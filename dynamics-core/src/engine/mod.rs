@@ -1,8 +1,8 @@
 //! The engine: the algorithms of a robot known at compile time, specialised by the compiler.
 //!
 //! The same robot, state and effects as [`crate::Core`], under the same names: a user switches by
-//! changing one word. No code generator, no nightly: [`known`] folds what the robot's constants
-//! leave to fold, [`prepare`] regroups its inertias to base parameters while compiling, and one
+//! changing one word. No code generator, no nightly: [`folding`] removes what the robot's constants
+//! make known, [`compile`] regroups its inertias to base parameters while compiling, and one
 //! recursion over its bodies keeps what it can in registers.
 //!
 //! Joints: revolute, prismatic and fixed, on trees of up to 32 moving bodies.

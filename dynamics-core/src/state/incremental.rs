@@ -1,4 +1,4 @@
-//! Sines and cosines turned on from tick to tick.
+//! Sines and cosines updated incrementally from tick to tick.
 
 use core::hint::select_unpredictable;
 
@@ -13,7 +13,7 @@ use crate::state::JointTrig;
 /// nothing takes back: the angle drifts as a random walk, in f32 by some 10⁻⁵ rad in 10⁴ ticks. [`Carried::at`]
 /// starts anew.
 /// Angles: |Δ| < 0.02 rad, an error of 10⁻⁸ a tick. A joint that seems to jump by 0.5 rad or more, or to something that
-/// is not a number, stays where it was: the posture's `q` is the angle that the sine and cosine belong to, and a single
+/// is not a number, stays where it was: `q` of its entry is the angle that the sine and cosine belong to, and a single
 /// wrong reading leaves no trace. One that did jump needs [`Carried::at`]. 21 flops a joint; the same instructions whatever the data.
 ///
 /// ```
@@ -24,14 +24,14 @@ use crate::state::JointTrig;
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Carried<R, const N: usize> {
-    posture: JointTrig<R, N>,
+    trig: JointTrig<R, N>,
 }
 
 impl<R: Real, const N: usize> Carried<R, N> {
     /// Joints that stand at q, rad.
     pub fn at(q: [R; N]) -> Self {
         Self {
-            posture: JointTrig {
+            trig: JointTrig {
                 turns: q.map(JointCoordinate::revolute),
             },
         }
@@ -41,7 +41,7 @@ impl<R: Real, const N: usize> Carried<R, N> {
     #[inline(always)]
     pub fn follow(&mut self, q: &[R; N]) -> &JointTrig<R, N> {
         let [quarter, half, sixth, three_halves] = [0.25, 0.5, 1.0 / 6.0, 1.5].map(R::from_f64);
-        for (turn, &q) in self.posture.turns.iter_mut().zip(q) {
+        for (turn, &q) in self.trig.turns.iter_mut().zip(q) {
             let d = q - turn.q;
             // False of a NaN, too.
             let near = d * d < quarter;
@@ -56,6 +56,6 @@ impl<R: Real, const N: usize> Carried<R, N> {
                 cos: c * to_unit,
             };
         }
-        &self.posture
+        &self.trig
     }
 }

@@ -3,7 +3,10 @@
 #![no_std]
 #![no_main]
 
-#[expect(dead_code, reason = "postures are for what takes them at hand")]
+#[expect(
+    dead_code,
+    reason = "sines and cosines are for functions that take them"
+)]
 mod costs;
 
 use cortex_m_rt::entry;

@@ -1,5 +1,5 @@
 //! What the core's algorithms cost over models of run time as chains grow, between the meter's markers, with
-//! sines and cosines at hand. `cargo xtask growth` reads the log, which ends with `done`.
+//! precomputed sines and cosines. `cargo xtask growth` reads the log, which ends with `done`.
 #![no_std]
 #![no_main]
 

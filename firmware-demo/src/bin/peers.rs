@@ -1,5 +1,5 @@
 //! Our dynamics and the C that CasADi generates for the same robots, between the meter's markers,
-//! with sines and cosines at hand. `cargo xtask peers` compiles the C and links it to this.
+//! with precomputed sines and cosines. `cargo xtask peers` compiles the C and links it to this.
 #![no_std]
 #![no_main]
 

@@ -1,7 +1,7 @@
 //! The geometric Jacobian of a body, and its drift J̇ q̇.
 //!
 //! Featherstone, RBDA (2008), section 4.1: v = J q̇, the column of a coordinate being that of S at its
-//! joint, taken to the body; zero for joints that do not carry the body.
+//! joint, transformed to the body; zero for joints that do not move the body.
 
 use core::borrow::Borrow;
 
@@ -50,7 +50,7 @@ where
     let trig = trig.borrow();
     let turns = &trig.turns;
     let mut columns = [Motion::ZERO; V];
-    let mut x = Xform::IDENTITY; // from the body reached to the one asked for
+    let mut x = Xform::IDENTITY; // from the body reached to `body`
     let mut reached = body;
     for _ in 0..B {
         let Some(link) = robot.link(reached) else {
@@ -126,8 +126,8 @@ where
         let a = link.plus_velocity_product(x * a, turns, &state.qd, v);
         if i == body {
             let pose = pose.in_link_frame(&link.frame);
-            let tell = |m| F::express(&pose, in_link_frame(&link, m));
-            return tell(a) + F::classical_term(tell(v));
+            let express = |m| F::express(&pose, in_link_frame(&link, m));
+            return express(a) + F::classical_term(express(v));
         }
         moving.push((pose, v, a));
     }

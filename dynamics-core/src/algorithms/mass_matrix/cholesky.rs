@@ -1,6 +1,6 @@
 //! M = Lᵀ L, without the entries that the tree's branches leave zero.
 //!
-//! Featherstone, RBDA (2008), section 6.5, table 6.4. [`ltdl`](crate::algorithms::factor()) does the same
+//! Featherstone, RBDA (2008), section 6.5, table 6.4. [`ltdl`](crate::algorithms::ltdl()) does the same
 //! without roots, and is the one to prefer; this one has what Lᵀ D L lacks, a root of M: M⁻¹ = L⁻¹ L⁻ᵀ.
 
 use crate::algorithms::MassMatrix;
@@ -40,7 +40,7 @@ pub struct Cholesky<R, const V: usize> {
 /// ```
 ///
 /// # Errors
-/// As [`ltdl`](crate::algorithms::factor()).
+/// As [`ltdl`](crate::algorithms::ltdl()).
 #[doc(alias = "LTL")]
 #[inline(always)]
 pub fn cholesky<R: Real, D, const B: usize, const Q: usize, const V: usize>(

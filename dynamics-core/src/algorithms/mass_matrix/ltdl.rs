@@ -9,7 +9,7 @@ use crate::model::{BASE, RobotModel};
 use crate::scalar::Real;
 use crate::state::entry;
 
-/// How many roundings of M_ii a pivot must exceed: less is what rounding leaves of zero. Up to 30 were seen of
+/// How many roundings of M_ii a pivot must exceed: less is a rounding error of zero. Up to 30 were measured for
 /// singular M; a straight chain of 64 rods, in f32, has 61.
 pub(crate) const MATRIX_ROUNDINGS: f64 = 32.0;
 
@@ -41,7 +41,7 @@ pub(crate) const MATRIX_ROUNDINGS: f64 = 32.0;
 /// [`NotPositiveDefinite`] names the coordinate, outermost first, whose pivot is not a number or not
 /// above 32 roundings of M_ii: it moves no inertia once the coordinates that it carries give way. Within a
 /// joint of several coordinates the rounding errors of each count for those before it as they are
-/// multiplied on the way. M does not show how far away the frames of bodies are in which it was computed: where
+/// multiplied there. M does not show how far away the frames of bodies are in which it was computed: where
 /// they are much farther than what moves, a singular M may leave more than that; the articulated bodies of
 /// [`aba`](crate::algorithms::aba()) and [`spatial_operator_ltdl`](crate::algorithms::spatial_operator_ltdl()) refuse it.
 #[doc(alias = "LTL")]
@@ -171,9 +171,9 @@ where
     m_inv
 }
 
-/// What the pivots of M are held against.
+/// What the pivots of M are compared with.
 pub(in crate::algorithms) struct Sizes<R, const V: usize> {
-    /// M_ii, and within a joint what the coordinates after it hand on.
+    /// M_ii, and within a joint the errors inherited from the coordinates after it.
     sizes: [R; V],
     /// The first coordinate of the joint that each one belongs to.
     firsts: [usize; V],
@@ -200,13 +200,13 @@ impl<R: Real, const V: usize> Sizes<R, V> {
         Self { sizes, firsts }
     }
 
-    /// What rounding leaves of pivot `k`.
+    /// The rounding error of pivot `k`.
     #[inline(always)]
     pub(in crate::algorithms) fn noise(&self, k: usize) -> R {
         entry(&self.sizes, k) * (R::EPSILON * R::from_f64(MATRIX_ROUNDINGS))
     }
 
-    /// Row `k`, taken `l` times off row `i`, brings its rounding errors if both are of one joint.
+    /// Row `k`, subtracted `l` times from row `i`, adds its rounding errors if both are of one joint.
     #[inline(always)]
     pub(in crate::algorithms) fn add_error_of(&mut self, k: usize, i: usize, l: R) {
         let size = entry(&self.sizes, k);
@@ -218,7 +218,7 @@ impl<R: Real, const V: usize> Sizes<R, V> {
     }
 }
 
-/// Whether a pivot is a number and more than rounding leaves of zero.
+/// Whether a pivot is a number and more than a rounding error.
 #[inline(always)]
 pub(in crate::algorithms) fn check<R: Real>(
     pivot: R,

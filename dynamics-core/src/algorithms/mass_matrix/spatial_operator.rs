@@ -1,8 +1,8 @@
-//! M and M⁻¹ by the spatial operators of articulated bodies, neither by way of the other.
+//! M⁻¹ and the factors of M by the spatial operators of articulated bodies, each without the other.
 //!
 //! Rodriguez, Jain & Kreutz-Delgado (1991, 1992): M = (1 + HΦK) D (1 + HΦK)ᵀ and
-//! M⁻¹ = (1 − HΨK)ᵀ D⁻¹ (1 − HΨK). H projects on the joints; K = U/D of a joint, at its carrier; Φ hands
-//! forces down as through rigid bodies, Ψ as through joints that give way. In the letters of RBDA's
+//! M⁻¹ = (1 − HΨK)ᵀ D⁻¹ (1 − HΨK). H projects on the joints; K = U/D of a joint, at its parent; Φ transmits
+//! forces inward as through rigid bodies, Ψ as through joints that move freely. In the letters of RBDA's
 //! section 6.5 the first factor is Lᵀ: what elimination finds in M, the filter finds in the bodies.
 
 use core::borrow::Borrow;
@@ -77,7 +77,7 @@ where
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    // A joint that gives way takes off its part: ψ = φ − K H φ.
+    // A joint that moves freely removes its part: ψ = φ − K H φ.
     let factor = columns(robot, q, effects, |f, projected, k| f - k * projected)?;
     let w = |a: usize, i: usize| match factor.rows.get(a).and_then(|row| row.get(i)) {
         _ if a == i => R::ONE,

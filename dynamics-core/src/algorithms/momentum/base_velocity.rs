@@ -1,4 +1,4 @@
-//! How a free base recoils: its velocity from the momentum of all bodies.
+//! The velocity of a free base from the momentum of all bodies: how it recoils.
 //!
 //! Umetani & Yoshida, "Resolved motion rate control of space manipulators with generalized Jacobian matrix"
 //! (1989): M_b v_b + M_bj q̇_j = h. On what floats free h stays as it is, and v_b follows from the joints'
@@ -17,7 +17,7 @@ use crate::spatial::inertia::CompositeInertia;
 use crate::spatial::{Force, Xform};
 use crate::state::{Configuration, RobotState, entry};
 
-/// What one pass leaves for the next.
+/// What the outward pass leaves for the inward one.
 struct Body<R: Real> {
     x: Xform<R>,
     parent: usize,

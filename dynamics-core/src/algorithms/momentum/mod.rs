@@ -1,4 +1,4 @@
-//! Mass centre and momentum of all bodies together.
+//! Centre of mass and momentum of all bodies together.
 //!
 //! Featherstone, RBDA (2008), (2.60); Orin, Goswami & Lee, "Centroidal dynamics of a humanoid robot"
 //! (2013).

@@ -3,14 +3,14 @@
 //! Damping that begins smoothly (after Nakamura & Hanafusa, 1986, and Chiaverini, 1997): an eigenvalue λ above
 //! the threshold ε counts with 1/λ, one below with λ/(λ² + (ε − λ)²), which has the same value and slope at ε
 //! and goes to zero with λ. The threshold follows the sum of the eigenvalues, which, unlike the largest, is
-//! smooth. Whether there is an eigenvalue below it is seen without them: A − ε 1 then has a pivot below zero
+//! smooth. Whether an eigenvalue is smaller than it is decided without them: A − ε 1 then has a negative pivot
 //! (Sylvester's law of inertia).
 
 use super::eigen::eigen;
 use crate::scalar::Real;
 use crate::state::all_finite;
 
-/// From where on a direction that hardly moves is damped.
+/// The threshold from which on a direction of little mobility is damped.
 ///
 /// ```
 /// use dynamics_core::algorithms::Damping;
@@ -26,7 +26,7 @@ pub struct Damping<R> {
 impl<R: Real> Damping<R> {
     /// A threshold ε in eigenvalues of Λ⁻¹, relative to their sum; 10⁻³ suits f32.
     ///
-    /// A task of one direction is its own sum: it needs [`Damping::heaviest`].
+    /// A task of one direction is its own sum: it needs [`Damping::with_max_inertia`].
     pub fn relative(relative: R) -> Self {
         let least = R::ZERO;
         Self { relative, least }
@@ -40,7 +40,7 @@ impl<R: Real> Damping<R> {
     }
 }
 
-/// How near to singular a pose is for a task.
+/// How close a configuration is to a singularity of a task.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Conditioning<R> {
@@ -98,7 +98,7 @@ pub fn damped_inverse<R: Real, const M: usize>(
     let mut smallest = sum;
     let mut inverse = [[R::ZERO; M]; M];
     for (&value, vector) in values.iter().zip(&vectors) {
-        // Rounding may leave a zero below zero.
+        // Rounding may make a zero negative.
         let value = if value < R::ZERO { R::ZERO } else { value };
         smallest = if value < smallest { value } else { smallest };
         add(&mut inverse, reciprocal(value, threshold), vector);

@@ -1,4 +1,4 @@
-//! Operational space: the inertia that a task feels, and torques that leave it alone.
+//! Operational space: the inertia of a task, and the torques that do not accelerate it.
 //!
 //! Khatib, "A unified approach for motion and force control of robot manipulators: the operational
 //! space formulation" (1987): Λ = (J M⁻¹ Jᵀ)⁻¹, J̄ = M⁻¹ Jᵀ Λ, τ = Jᵀ F + (1 − Jᵀ J̄ᵀ) τ₀.
@@ -57,8 +57,8 @@ pub fn task_jacobian<R: Real, const M: usize, const V: usize>(
 /// Of the effects, armatures and payloads are part of M.
 ///
 /// # Cost
-/// That of [`super::crba`], [`super::ltdl()`] and [`super::jacobian`], M solutions of 2 V² flops, 2 M² V flops and
-/// [`damped_inverse`].
+/// That of [`super::crba()`], [`super::ltdl()`] and [`super::jacobian`], M solutions of 2 V² flops, 2 M² V flops and
+/// [`damped_inverse()`].
 ///
 /// # Source
 /// Khatib (1987).
@@ -70,7 +70,7 @@ pub fn task_jacobian<R: Real, const M: usize, const V: usize>(
 /// let (q, place) = ([0.0_f64, -1.2, 1.5, 0.3, 0.7, 0.0], TaskFrame::BASE.place());
 /// let damping = Damping::relative(1e-3);
 /// let task = operational_space(&Ur5e::MODEL, &q, (5, frame::LocalWorldAligned), &place, &RIGID_BODY, damping)?;
-/// assert!(task.inertia[2][2] > 1.0); // kg that the hand feels vertically
+/// assert!(task.inertia[2][2] > 1.0); // kg, vertically
 /// # Ok::<(), dynamics_core::algorithms::NotPositiveDefinite>(())
 /// ```
 ///
@@ -143,7 +143,7 @@ impl<R: Real, const M: usize, const V: usize> OperationalSpace<R, M, V> {
     /// let solve = |tau: &_| Engine::<Ur5e>::solve(&factor, tau);
     /// let task = OperationalSpace::new(rows, solve, Damping::relative(1e-3));
     /// assert_eq!(task.conditioning, Conditioning::Regular);
-    /// assert!(task.inertia[2][2] > 1.0); // kg that the hand feels vertically
+    /// assert!(task.inertia[2][2] > 1.0); // kg, vertically
     /// # Ok::<(), dynamics_core::algorithms::NotPositiveDefinite>(())
     /// ```
     #[inline(always)]
@@ -198,13 +198,15 @@ impl<R: Real, const M: usize, const V: usize> OperationalSpace<R, M, V> {
     ///
     /// Where Λ is damped, some acceleration along the damped direction remains. 4 M V + 2 M² flops.
     #[inline(always)]
+    #[doc(alias = "null space")]
+    #[doc(alias = "nullspace")]
     pub fn null_space_torque(&self, tau: &[R; V]) -> [R; V] {
-        let seen = self.force(&self.response.map(|response| dot(&response, tau)));
-        let mut unseen = self.torque(&seen);
-        for (unseen, &tau) in unseen.iter_mut().zip(tau) {
-            *unseen = tau - *unseen;
+        let task_force = self.force(&self.response.map(|response| dot(&response, tau)));
+        let mut rest = self.torque(&task_force);
+        for (rest, &tau) in rest.iter_mut().zip(tau) {
+            *rest = tau - *rest;
         }
-        unseen
+        rest
     }
 }
 

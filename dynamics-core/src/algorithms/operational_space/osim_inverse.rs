@@ -100,8 +100,8 @@ impl<R: Real> OsimInverse<R> {
     /// P Λ⁻¹ Pᵀ + s D⁻¹ sᵀ.
     ///
     /// Of a turn about z or a slide along it P is 1 but for one row, p = e_z − U D⁻¹: the row and column of
-    /// z become Λ⁻¹ p, and their common entry pᵀ Λ⁻¹ p + D⁻¹. What the joint takes off the motion is so
-    /// taken off in p, before it is multiplied by what may be much larger than the rest. 80 flops.
+    /// z become Λ⁻¹ p, and their common entry pᵀ Λ⁻¹ p + D⁻¹. What the joint removes from the motion is so
+    /// removed in p, before it is multiplied by what may be much larger than the rest. 80 flops.
     #[inline(always)]
     fn across(&self, s: &MotionSubspace<R>, joint: &JointFactor<R>) -> Self {
         let k = joint.u_a * joint.d_inv;

@@ -31,9 +31,9 @@ pub(crate) const fn prune<const V: usize>(joints: &mut [Joint; V], share: f64) {
     i = 0;
     while i < V {
         let joint = &mut joints[i];
-        joint.moment = above(joint.moment, moment);
-        joint.second = all_above(&joint.second, second);
-        joint.second_moment_only = all_above(&joint.second_moment_only, second);
+        joint.moment = larger_than(joint.moment, moment);
+        joint.second = all_larger_than(&joint.second, second);
+        joint.second_moment_only = all_larger_than(&joint.second_moment_only, second);
         i += 1;
     }
 }
@@ -60,15 +60,15 @@ const fn largest_of(m: &DMat3, other: f64) -> f64 {
     largest(m.x_axis, largest(m.y_axis, largest(m.z_axis, other)))
 }
 
-const fn above(v: DVec3, limit: f64) -> DVec3 {
+const fn larger_than(v: DVec3, limit: f64) -> DVec3 {
     DVec3::new(kept(v.x, limit), kept(v.y, limit), kept(v.z, limit))
 }
 
-const fn all_above(m: &DMat3, limit: f64) -> DMat3 {
+const fn all_larger_than(m: &DMat3, limit: f64) -> DMat3 {
     DMat3::from_cols(
-        above(m.x_axis, limit),
-        above(m.y_axis, limit),
-        above(m.z_axis, limit),
+        larger_than(m.x_axis, limit),
+        larger_than(m.y_axis, limit),
+        larger_than(m.z_axis, limit),
     )
 }
 

@@ -9,7 +9,7 @@ use crate::scalar::Real;
 
 /// The rotation of a joint's frame.
 const ROT: usize = 0;
-/// [p]×.
+/// \[p\]×.
 const CROSS: usize = 1;
 
 /// R v of joint I.

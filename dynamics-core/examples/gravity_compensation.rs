@@ -28,7 +28,7 @@ const _: ArmModel<f64, 2> = TwoLinks::MODEL; // `cargo check` now reports a desc
 /// What firmware computes every tick: the torques at the measured positions, N·m.
 fn compensation(q: [f32; 2]) -> [f32; 2] {
     // Gravity is the only effect, so that no other term is in the machine code.
-    Engine::<TwoLinks>::rnea(&State::at(q), &(Gravity::EARTH,))
+    Engine::<TwoLinks>::rnea(&State::at(q), &Gravity::EARTH)
 }
 
 fn main() {

@@ -47,7 +47,7 @@ fn main() -> Result<(), NotPositiveDefinite> {
         println!("{elbow:10.1} | {tau:7.2?}");
 
         // Without gravity's share, the torques push with 20 N downwards: τ = g + Jᵀ F.
-        let gravity = Core::<Ur5e>::rnea(&arm, &(Gravity::EARTH,));
+        let gravity = Core::<Ur5e>::rnea(&arm, &Gravity::EARTH);
         let jacobian = Core::<Ur5e>::jacobian(&arm.q, HAND, frame::LocalWorldAligned);
         for (joint, column) in jacobian.iter().enumerate() {
             assert!((tau[joint] - gravity[joint] + 20.0 * column.lin.z).abs() < 1e-3);

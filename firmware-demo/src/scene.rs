@@ -1,4 +1,4 @@
-//! A scene: one way run under several laws, on a plant that the controller knows exactly and on one that it
+//! A scene: one trajectory run under several laws, on a plant that the controller knows exactly and on one that it
 //! does not, with the tracking errors of each, and then without each of its effects in turn.
 
 use dynamics_core::Core;
@@ -65,10 +65,10 @@ pub trait Scene<const B: usize, const Q: usize, const V: usize, const N: usize>:
     const ABLATIONS: &'static [Run<Self, B, Q, V, N>] =
         <Self::Effects as Effects<Self, B, Q, V, N>>::ABLATIONS;
 
-    /// The way.
+    /// The reference trajectory.
     ///
     /// # Errors
-    /// A way that the arm's limits do not allow.
+    /// A trajectory that the arm's limits do not allow.
     fn reference() -> Result<Self::Reference, TrajectoryError>;
 
     /// The environment `ticks` after the start.
@@ -138,7 +138,7 @@ where
     Plant::new(robot, effects, q, S::apply)
 }
 
-/// A way through way-points within the limits' speeds and these accelerations, rad/s² or m/s².
+/// A trajectory through way-points within the limits' speeds and these accelerations, rad/s² or m/s².
 ///
 /// # Errors
 /// Way-points that the limits do not allow.

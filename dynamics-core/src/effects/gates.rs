@@ -1,4 +1,4 @@
-//! What the constants of an effect permit: core and engine take a hook under the same conditions.
+//! What follows from the hooks of a scene: core and engine use them under the same conditions.
 
 use super::Effect;
 use crate::model::BASE;

@@ -3,11 +3,21 @@
 use crate::scalar::Real;
 use crate::spatial::{Motion, Xform};
 
-/// The state of one joint, which joint hooks read. Inertia goes with [`Effect::inertia`](super::Effect::inertia), so that no
-/// hook reads q̈.
+/// The state of one joint, which joint hooks read.
 ///
 /// The library fills it in, and a field may be added (a transmitted load, for friction that depends on it): build it by
-/// [`JointState::new`], as in a test of an effect of one's own.
+/// [`JointState::new`], as in a test of an effect of one's own. It has no q̈: inertia belongs in
+/// [`Effect::inertia`](super::Effect::inertia), from which the library makes the torque and M's diagonal alike.
+///
+/// ```compile_fail,E0609
+/// # use dynamics_core::{effects::{Effect, JointState}, scalar::Real};
+/// struct Flywheel;
+/// impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Flywheel {
+///     fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R) {
+///         *tau += at.qdd; // error: no field `qdd` on type `JointState<R>`
+///     }
+/// }
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct JointState<R> {

@@ -1,4 +1,4 @@
-//! Stiff effects at the end of the time step instead of at its beginning.
+//! Stiff effects evaluated at the end of a time step instead of at its beginning.
 
 use super::query::joint_state;
 use super::{Effect, JointState, TorqueDerivatives};
@@ -7,7 +7,7 @@ use crate::model::RobotModel;
 use crate::scalar::Real;
 use crate::state::{State, entry};
 
-/// The same effects as a step of `h` seconds treats them: torques taken at its end, along their derivatives.
+/// The effects of a scene for a step of `h` seconds, with torques at its end, extrapolated along their derivatives.
 ///
 /// τ(q + h q̇₊, q̇₊) ≈ τ + ∂τ/∂q h (q̇ + h q̈) + ∂τ/∂q̇ h q̈: what goes with q̈ adds to M's diagonal, h ∂τ/∂q̇ +
 /// h² ∂τ/∂q, the rest to τ. Forward dynamics under these effects is the linearly implicit Euler step; no
@@ -28,6 +28,8 @@ use crate::state::{State, entry};
 /// assert!((1.0 + h * qdd - 1.0 / (1.0 + h * 50.0 / 2.0)).abs() < 1e-15); // slows down, never turns back
 /// # Ok::<(), dynamics_core::algorithms::NotPositiveDefinite>(())
 /// ```
+#[doc(alias = "linearly implicit")]
+#[doc(alias = "backward Euler")]
 #[derive(Clone, Copy, Debug)]
 pub struct Implicit<'a, E, R, const V: usize> {
     effects: &'a E,

@@ -102,7 +102,8 @@ use crate::scalar::Real;
 /// argument: an effect that returned a zero would leave an addition behind (x + 0.0 is not x for
 /// IEEE's −0.0). Sizes are part of the type, so that five friction values on six joints do not
 /// compile. Hooks at joints are functions; those that switch a part of the algorithms on are constants that name
-/// their function and what it reads ([`hook`]), so that none is declared without being there, or the other way round.
+/// their function and what it reads ([`hook`]), so that no hook is declared that is not there, and none is there that
+/// is not declared.
 ///
 /// ```
 /// use dynamics_core::effects::{Effect, JointState};

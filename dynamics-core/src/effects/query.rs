@@ -1,4 +1,4 @@
-//! How the textbook algorithms ask the effects: in the frames that the hooks speak of.
+//! How the textbook algorithms call the hooks of effects: in the frames that hooks are defined in.
 
 use super::{BodyState, Effect, JointState, field_axes, loads, one_gravity, only_load};
 use crate::model::LinkView;
@@ -20,7 +20,7 @@ where
     let mut g = R::Vec3::ZERO;
     effects.field(&mut g);
     let g = g.array();
-    let only_if = |taken, g| if taken { g } else { R::ZERO };
+    let only_if = |declared, g| if declared { g } else { R::ZERO };
     R::Vec3::new(only_if(x, g[0]), only_if(y, g[1]), only_if(z, g[2]))
 }
 
@@ -129,7 +129,7 @@ where
     Force::new(*frame * fx.ang, *frame * fx.lin)
 }
 
-/// What joint hooks see of velocity coordinate k.
+/// The state that joint hooks read of velocity coordinate k.
 #[inline(always)]
 pub(crate) fn joint_state<R: Real, const Q: usize, const V: usize>(
     link: &LinkView<'_, R>,
@@ -142,7 +142,7 @@ pub(crate) fn joint_state<R: Real, const Q: usize, const V: usize>(
     }
 }
 
-/// Adds to the torques of one joint's coordinates what the effects ask of its motors.
+/// Adds to the torques of one joint's coordinates those of the effects, inertia times q̈ included.
 #[inline(always)]
 pub(crate) fn joint_torques<R: Real, E, const B: usize, const Q: usize, const V: usize>(
     effects: &E,
@@ -162,7 +162,7 @@ pub(crate) fn joint_torques<R: Real, E, const B: usize, const Q: usize, const V:
     }
 }
 
-/// What the effects ask of the motor of one joint's coordinate at q̈ = 0.
+/// The torque of the effects at one joint's coordinate at q̈ = 0.
 #[inline(always)]
 pub(crate) fn joint_torque<R: Real, E, const B: usize, const Q: usize, const V: usize>(
     effects: &E,
@@ -194,7 +194,7 @@ where
     Force::new(R::Vec3::new(R::ZERO, R::ZERO, coupling), R::Vec3::ZERO)
 }
 
-/// ρ I (q̈ z + q̇ ω × z): the couple that such a rotor asks of the parent link, in the body's aligned frame.
+/// ρ I (q̈ z + q̇ ω × z): the couple that the parent link exerts on such a rotor, in the body's aligned frame.
 #[inline(always)]
 pub(crate) fn gyroscopic<R: Real, E, const B: usize, const V: usize>(
     effects: &E,

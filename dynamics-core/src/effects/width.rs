@@ -14,6 +14,8 @@ use crate::scalar::Real;
 /// assert_eq!(DRY.width, Width::new(0.02));
 /// assert_eq!(DRY.width.get(), 0.02);
 /// ```
+#[doc(alias = "regularization")]
+#[doc(alias = "stiction tolerance")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Width<R> {
     inverse: R,

@@ -75,7 +75,7 @@ where
     /// The scene at the start of its first run.
     ///
     /// # Errors
-    /// A way that the arm's limits do not allow.
+    /// A trajectory that the arm's limits do not allow.
     pub fn new(
         wires: &'static Wires<N>,
         records: Producer<'static, Record<N>>,
@@ -140,7 +140,7 @@ where
     }
 }
 
-/// A plant at rest at the start of the way and a loop that knows it so.
+/// A plant at rest at the start of the trajectory, and a loop whose observer starts there.
 fn start<S, const B: usize, const Q: usize, const V: usize, const N: usize>(
     reference: &S::Reference,
     wires: &'static Wires<N>,

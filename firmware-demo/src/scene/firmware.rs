@@ -22,10 +22,10 @@ const OBSERVER: f32 = core::f32::consts::TAU * 40.0;
 pub const RIDE: u32 = 5;
 /// Ticks of bringing the arm to rest before a fault stops it.
 pub const HOLD: u32 = 100;
-/// Ticks of the way back after a fault.
+/// Ticks of the return to the trajectory after a fault.
 pub const REENTRY: u32 = 200;
 
-/// The loop on these devices, for an arm that stands at the start of its way.
+/// The loop on these devices, for an arm at rest at the start of its trajectory.
 pub fn control_loop<
     S,
     Spi,

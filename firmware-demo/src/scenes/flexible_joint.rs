@@ -1,5 +1,5 @@
-//! Scene `flexible_joint`: an arm whose transmissions give way, told so or not. Its encoders sit on the motors,
-//! as those of most arms do; what counts is where the links are.
+//! Scene `flexible_joint`: an arm with elastic transmissions, under a controller that models them and under one that
+//! does not. Its encoders sit on the motors, as those of most arms do; what counts is where the links are.
 
 use dynamics_core::Core;
 use dynamics_core::control::{Gains, RestToRest, TrajectoryError, feedback};
@@ -74,19 +74,20 @@ impl Scene<7, 7, 7, 7> for CompliantArm {
             state: *reference,
             ..*course
         };
-        let Ok(told) = elastic_inverse_dynamics(&Static::<Iiwa14>::NEW, &JOINTS, &course, effects)
+        let Ok(wanted) =
+            elastic_inverse_dynamics(&Static::<Iiwa14>::NEW, &JOINTS, &course, effects)
         else {
             return [0.0; 7];
         };
         // The loop feeds back q_d − θ; the motors are to be at θ_d.
         let gains = Gains::from_inertia(&INERTIA, OMEGA_N, ZETA);
         let motors = State {
-            q: told.position,
-            qd: told.velocity,
+            q: wanted.position,
+            qd: wanted.velocity,
             qdd: [0.0; 7],
         };
         let wound = feedback(&gains, &motors, &reference.q, &reference.qd);
-        core::array::from_fn(|j| told.torque[j] + wound[j])
+        core::array::from_fn(|j| wanted.torque[j] + wound[j])
     }
 
     fn plant(noise: Option<&mut Noise>) -> Self::Plant {
@@ -97,7 +98,7 @@ impl Scene<7, 7, 7, 7> for CompliantArm {
             noise.friction(&mut joints.friction);
             noise.friction(&mut effects.3.0);
         }
-        let weight = Core::<Iiwa14>::rnea(&State::at(SWING[0].q), &(Gravity::EARTH,));
+        let weight = Core::<Iiwa14>::rnea(&State::at(SWING[0].q), &Gravity::EARTH);
         let wound = core::array::from_fn(|j| SWING[0].q[j] + weight[j] / JOINTS.stiffness[j]);
         FlexiblePlant::new(robot, joints, effects, [SWING[0].q, wound])
     }

@@ -15,7 +15,7 @@ use crate::robots::{Gimbal, Ship};
 use crate::scene::{Noise, Scene, TICK, rigid};
 use crate::trajectories::watch::Watch;
 
-/// What acts on the gimbal; gravity and the base's motion are set by what the ship's inertial unit tells.
+/// The effects on the gimbal; gravity and the base's motion come from the ship's inertial unit.
 pub type Effects = (
     GravityVector<f32>,
     MovingBase<f32>,

@@ -57,7 +57,7 @@ pub const COURSE: ElasticReference = ElasticReference {
     clearance: 0.09,
 };
 
-/// The way.
+/// The trajectory.
 fn hop() -> Hop {
     Hop::new(&COURSE, &GROUND, 9.81)
 }

@@ -1,5 +1,5 @@
-//! Scene `panda_payload`: a part is picked up and put down on the way. The gripper says what the hand holds; a
-//! feed-forward that does not ask carries an unknown load.
+//! Scene `panda_payload`: a part is picked up and put down. The gripper reports what the hand holds; a
+//! feed-forward that does not read that signal carries an unknown load.
 
 use dynamics_core::Engine;
 use dynamics_core::control::{Reference, Trajectory, TrajectoryError};
@@ -68,21 +68,21 @@ const CLOSES: u32 = arrival(&PANDA_CARRY, 2);
 const OPENS: u32 = arrival(&PANDA_CARRY, 6);
 const GRIP: f32 = 100.0;
 
-/// The way, and what is carried on it.
+/// The trajectory, and the part that is carried.
 #[derive(Clone, Copy, Debug)]
 pub struct Job {
-    way: Trajectory<f32, 7, 10>,
+    trajectory: Trajectory<f32, 7, 10>,
     part: Load,
 }
 
 impl Reference<f32, 7> for Job {
     #[inline(always)]
     fn at(&self, tick: u32) -> State<f32, 7, 7> {
-        self.way.at(tick)
+        self.trajectory.at(tick)
     }
 
     fn ticks(&self) -> u32 {
-        self.way.ticks()
+        self.trajectory.ticks()
     }
 }
 
@@ -110,7 +110,7 @@ impl Scene<7, 7, 7, 7> for Carry {
     fn reference() -> Result<Job, TrajectoryError> {
         let accelerations = [15.0, 7.5, 10.0, 12.5, 15.0, 20.0, 20.0];
         Ok(Job {
-            way: through(&PANDA_CARRY, &Self::limits(), accelerations)?,
+            trajectory: through(&PANDA_CARRY, &Self::limits(), accelerations)?,
             // What no body is like is not picked up.
             part: part().unwrap_or_default(),
         })

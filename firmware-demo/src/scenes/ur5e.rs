@@ -88,6 +88,6 @@ impl Law<6> for GravityOnly {
     const ACCELERATES: bool = false;
 
     fn feedforward(reference: &State<f32, 6, 6>, (): &()) -> [f32; 6] {
-        Engine::<Ur5e>::rnea(reference, &(Gravity::EARTH,))
+        Engine::<Ur5e>::rnea(reference, &Gravity::EARTH)
     }
 }

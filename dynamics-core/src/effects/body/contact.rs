@@ -12,6 +12,7 @@ use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::Force;
 
 /// A point of a body that may touch the plane.
+#[doc(alias = "foot")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactPoint<R: Real> {
     /// The body's place in the model's list.
@@ -25,7 +26,7 @@ pub struct ContactPoint<R: Real> {
 /// The plane is fixed to the base and moves with it: on a [`MovingBase`](crate::effects::MovingBase) speeds are those relative to the
 /// deck. A foot on a body that the robot does not have makes every torque NaN.
 ///
-/// Explicit: a step of h seconds is stable while k < M/h² and b < M/h, M the mass that a point feels. Cost:
+/// Explicit: a step of h seconds is stable while k < M/h² and b < M/h, M the effective mass at a point. Cost:
 /// pose and velocity of the bodies, and some 110 flops a point, the same instructions on the ground and
 /// in the air.
 ///
@@ -43,6 +44,9 @@ pub struct ContactPoint<R: Real> {
 /// table.height = 0.2;
 /// assert!(Core::<Ur5e>::rnea(&reaching, &table)[1] > 100.0); // the motor presses the tip into the table
 /// ```
+#[doc(alias = "ground")]
+#[doc(alias = "penalty contact")]
+#[doc(alias = "friction cone")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contact<R: Real, const P: usize> {
     /// The points.

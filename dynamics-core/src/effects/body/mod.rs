@@ -1,4 +1,4 @@
-//! What acts on single bodies: wrenches, contact, payloads.
+//! Effects on single bodies: wrenches, contact, payloads.
 
 mod contact;
 mod payload;

@@ -37,6 +37,8 @@ use core::fmt;
 /// let _ = Core::<Ur5e>::rnea(&State::at([0.3; 6]), &scene);
 /// // error: a payload is on a body that the robot does not have: bodies are numbered from 0
 /// ```
+#[doc(alias = "load")]
+#[doc(alias = "tool")]
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Payload<R: Real, const BODY: usize>(pub SpatialInertia<R>);
 

@@ -4,7 +4,7 @@ use crate::effects::{Effect, hook};
 use crate::scalar::{Real, Vector};
 use crate::spatial::{Force, Xform};
 
-/// What acts where an effect names a body that the robot does not have: not a number, so that the torques show it.
+/// The wrench of an effect on a body that the robot does not have: not a number, so that the torques show it.
 #[inline(always)]
 pub(super) fn absent<R: Real>() -> Force<R> {
     let none = R::from_f64(f64::NAN);
@@ -24,6 +24,8 @@ pub(super) fn absent<R: Real>() -> Force<R> {
 /// let twist = BodyWrench { body: 5, wrench: Force::new(DVec3::Z * 2.0, DVec3::ZERO) };
 /// assert!((Core::<Ur5e>::rnea(&State::at([0.3_f64; 6]), &twist)[5] + 2.0).abs() < 1e-15);
 /// ```
+#[doc(alias = "external force")]
+#[doc(alias = "fext")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BodyWrench<R: Real> {
     /// The body's place in the model's list; that of a body which the robot does not have makes every torque NaN.

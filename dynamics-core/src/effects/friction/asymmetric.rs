@@ -22,6 +22,7 @@ use crate::state::entry;
 /// let tau = Core::<Ur5e>::rnea(&moving, &dry);
 /// assert_eq!(tau[..3], [5.0, -3.0, 0.0]);
 /// ```
+#[doc(alias = "direction-dependent friction")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AsymmetricCoulomb<R, const V: usize> {
     /// Sliding friction F₊ at q̇ > 0, N·m or N.

@@ -13,6 +13,9 @@ use crate::scalar::Real;
 /// // 4 N·m, full beyond 0.02 rad/s
 /// const DRY: Coulomb<f32, 1> = Coulomb { torque: [4.0], width: Width::f32(0.02) };
 /// ```
+#[doc(alias = "dry friction")]
+#[doc(alias = "kinetic friction")]
+#[doc(alias = "sliding friction")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coulomb<R, const V: usize> {
     /// Sliding friction F of each joint, N·m or N.

@@ -29,6 +29,10 @@ use crate::state::entry;
 /// }
 /// assert!((friction.bristle[0] - 1.5 / 1e5).abs() < 1e-7); // slides at g = F_s
 /// ```
+#[doc(alias = "stick-slip")]
+#[doc(alias = "presliding")]
+#[doc(alias = "bristle")]
+#[doc(alias = "LuGre")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lugre<R, const V: usize> {
     /// Stiffness σ₀ of the bristles, N·m/rad or N/m.

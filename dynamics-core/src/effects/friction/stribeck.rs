@@ -21,6 +21,9 @@ use crate::state::entry;
 /// Effect::<f64, 1, 1>::torque(&stribeck, 0, JointState::new(0.0, 0.1), &mut tau);
 /// assert!((tau - 2.0 / 1.0_f64.exp()).abs() < 1e-15);
 /// ```
+#[doc(alias = "stiction")]
+#[doc(alias = "static friction")]
+#[doc(alias = "stick-slip")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stribeck<R, const V: usize> {
     /// Stiction less sliding friction F_s − F_c of each joint, N·m or N.

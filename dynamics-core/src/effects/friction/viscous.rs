@@ -19,6 +19,8 @@ use crate::scalar::Real;
 /// use dynamics_core::{Core, effects::Viscous, robots::Ur5e, state::State};
 /// let _ = Core::<Ur5e>::rnea(&State::at([0.0_f32; 6]), &(Viscous([0.5_f32; 5]),));
 /// ```
+#[doc(alias = "damping")]
+#[doc(alias = "damper")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Viscous<R, const V: usize>(pub [R; V]);
 

@@ -13,6 +13,9 @@ use crate::scalar::Real;
 /// let starting = State { qdd: [4.0_f32; 6], ..State::at([0.0; 6]) };
 /// assert_eq!(Core::<Ur5e>::rnea(&starting, &(Armature([0.25; 6]),)), [1.0; 6]);
 /// ```
+#[doc(alias = "rotor inertia")]
+#[doc(alias = "reflected inertia")]
+#[doc(alias = "motor inertia")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Armature<R, const V: usize>(pub [R; V]);
 

@@ -22,6 +22,8 @@ use crate::state::entry;
 /// Effect::<f64, 1, 1>::torque(&cogging, 0, JointState::new(q, 0.0), &mut tau);
 /// assert!((tau - 0.2 * (600.0 * q).sin() - 0.07 * (1200.0 * q).sin()).abs() < 1e-14);
 /// ```
+#[doc(alias = "detent torque")]
+#[doc(alias = "torque ripple")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cogging<R, const H: usize, const V: usize> {
     /// Periods n per turn of the joint: gear ratio times the least common multiple of poles and slots.

@@ -26,6 +26,8 @@ use crate::state::entry;
 /// let tau = Core::<Ur5e>::rnea(&State::at([0.0, 2.5, -2.5, 2.0, -2.0, 1.0]), &stops);
 /// assert_eq!(tau, [0.0, 5e3, -5e3, 0.0, 0.0, 0.0]);
 /// ```
+#[doc(alias = "joint limit")]
+#[doc(alias = "hard stop")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EndStops<R, const V: usize> {
     /// Least position, rad or m.

@@ -35,11 +35,13 @@ use crate::state::entry;
 /// let [full, less] = [Core::<Ur5e>::rnea(&state, &(Inertia, rotors)), Core::<Ur5e>::rnea(&state, &(Inertia, diagonal))];
 /// assert!((full[1] - less[1] - 1e-4 * 5.0 * 10.0).abs() < 1e-14 && full[2] == less[2]);
 /// ```
+#[doc(alias = "rotor")]
+#[doc(alias = "gyroscope")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GyroscopicRotors<R, const V: usize> {
     /// Moment of inertia I of each rotor about its axis, kg·m².
     pub inertia: [R; V],
-    /// Ratio ρ of each gear, rad of the rotor per rad or m of the joint; negative if it turns the other way.
+    /// Ratio ρ of each gear, rad of the rotor per rad or m of the joint; negative for the opposite sense.
     pub ratio: [R; V],
 }
 

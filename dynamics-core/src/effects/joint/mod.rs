@@ -1,4 +1,4 @@
-//! What acts at a joint or its motor, apart from friction.
+//! Effects at a joint or its motor, apart from friction.
 
 mod armature;
 mod cogging;

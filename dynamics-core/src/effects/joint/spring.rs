@@ -14,6 +14,7 @@ use crate::state::entry;
 /// let springs = Spring { stiffness: [10.0_f32; 6], rest: [0.5; 6] };
 /// assert_eq!(Core::<Ur5e>::rnea(&State::at([1.5; 6]), &(springs,)), [10.0; 6]);
 /// ```
+#[doc(alias = "joint stiffness")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spring<R, const V: usize> {
     /// Stiffness k, N·m/rad or N/m.

@@ -8,6 +8,8 @@ use crate::scalar::Real;
 pub struct Inertia;
 
 /// C(q, q̇) q̇: Coriolis and centrifugal torque.
+#[doc(alias = "centrifugal")]
+#[doc(alias = "gyroscopic")]
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Coriolis;
 

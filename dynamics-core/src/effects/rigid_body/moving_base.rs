@@ -23,6 +23,8 @@ use crate::spatial::Motion;
 /// let weight = Core::<Ur5e>::rnea(&at, &dynamics_core::effects::Gravity::EARTH);
 /// assert_eq!(Core::<Ur5e>::rnea(&at, &(Inertia, Coriolis, lift)), weight);
 /// ```
+#[doc(alias = "base acceleration")]
+#[doc(alias = "prescribed base motion")]
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct MovingBase<R: Real> {
     /// Spatial velocity v₀, rad/s and m/s.

@@ -80,7 +80,7 @@ mod block;
 mod decode;
 #[cfg(unix)]
 mod ffi;
-pub mod hand_counted;
+mod hand_counted;
 mod insn;
 mod meter;
 mod model;
@@ -88,7 +88,9 @@ mod model;
 mod plugin;
 mod samples;
 
+pub use decode::{Relative, decode, relative, size};
 pub use hand_counted::check_hand_counted;
+pub use insn::{Class, Insn, Marker};
 /// The newest version of QEMU's plugin interface that the plugin knows.
 pub const NEWEST_INTERFACE: i32 = 7;
 /// The environment variable that sets the version of the interface which the plugin asks QEMU for.

@@ -3,6 +3,8 @@
 use super::{PC, float, register};
 use crate::insn::{Class, Insn, Marker};
 
+const SP_NUMBER: u16 = 13;
+
 pub(super) fn decode(first: u16, second: u16) -> Insn {
     let integer = Insn::new(Class::Integer, 4);
     let result = register(second, 8, 4);
@@ -12,6 +14,8 @@ pub(super) fn decode(first: u16, second: u16) -> Insn {
     match first >> 9 & 0x7F {
         0x74 if first & 0x40 == 0 => load_store_multiple(first, second),
         0x74 => double_exclusive_table(first, second),
+        // CSEL and its kin.
+        0x75 if first & 0x1F0 == 0x50 && second & 0x8000 != 0 => Insn::new(Class::Unknown, 4),
         0x75 => data_processing(second),
         // Immediate operands and branches share their first halfwords.
         0x78..=0x7B if second & 0x8000 != 0 => branches_and_control(first, second),
@@ -42,7 +46,8 @@ fn load_store_multiple(first: u16, second: u16) -> Insn {
     let insn =
         Insn::new(Class::Words(second.count_ones() as u8), 4).addressed_by(register(first, 0, 4));
     if first & 0x10 != 0 {
-        insn.writing(second)
+        let is_pop = first & 0xF == SP_NUMBER;
+        insn.writing(second).returning_if(is_pop)
     } else {
         insn
     }
@@ -61,6 +66,10 @@ fn double_exclusive_table(first: u16, second: u16) -> Insn {
             insn
         };
     }
+    // Load-acquire and store-release.
+    if first & 0x80 != 0 && matches!(second >> 4 & 0xF, 0x8 | 0x9 | 0xA | 0xC | 0xD | 0xE) {
+        return Insn::new(Class::Unknown, 4);
+    }
     // STREX is timed like LDREX, and that like LDR (TRM 3.3.3).
     let exclusive = Insn::new(Class::Load, 4).addressed_by(base);
     match (first & 0x80 != 0, loads) {
@@ -78,6 +87,10 @@ fn double_exclusive_table(first: u16, second: u16) -> Insn {
 fn branches_and_control(first: u16, second: u16) -> Insn {
     let integer = Insn::new(Class::Integer, 4);
     let system = Insn::new(Class::System, 4);
+    // Low-overhead loops.
+    if second & 0x5000 == 0x4000 {
+        return Insn::new(Class::Unknown, 4);
+    }
     // B, BL; the link register forms no address before the callee spills it.
     if second & 0x5000 != 0 || first & 0x0380 != 0x0380 {
         return integer.branching();
@@ -123,6 +136,7 @@ fn load_store_single(first: u16, second: u16) -> Insn {
     Insn::new(Class::Load, 4)
         .addressed_by(address)
         .writing(data)
+        .returning_if(first & 0xF == SP_NUMBER)
 }
 
 #[cfg(test)]

@@ -59,6 +59,9 @@ pub enum Error {
     /// A check did not hold.
     #[error("{0}")]
     Check(String),
+    /// A check does not apply here, and why.
+    #[error("skipped: {0}")]
+    Skipped(String),
 }
 
 impl Error {

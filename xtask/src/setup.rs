@@ -45,9 +45,24 @@ struct Plan {
 }
 
 impl Plan {
-    fn add_apt(&mut self, reason: &str, packages: &[&'static str]) {
+    /// Debian's packages, or what the user has to do on another system.
+    fn add(
+        &mut self,
+        reason: &str,
+        packages: &[&'static str],
+        elsewhere: impl FnOnce(System) -> String,
+    ) {
         self.reasons.push(reason.to_owned());
-        self.apt.extend(packages);
+        match System::this() {
+            System::Debian => self.apt.extend(packages),
+            system => self.manual.push(elsewhere(system)),
+        }
+    }
+
+    /// What rustup has to do.
+    fn add_rustup(&mut self, reason: &str, words: &[&'static str]) {
+        self.reasons.push(reason.to_owned());
+        self.rustup.push([&["rustup"], words].concat());
     }
 
     fn commands(&self) -> Vec<String> {
@@ -76,11 +91,17 @@ impl Plan {
         for words in &self.rustup {
             shell::run(Command::new(words[0]).args(&words[1..]))?;
         }
-        if !self.apt.is_empty() {
-            system::apt_install(&self.apt)?;
+        if packages {
+            system::apt_install(&self.apt)
+        } else {
+            Ok(())
         }
-        Ok(())
     }
+}
+
+/// Whether this is a CI machine, which is thrown away.
+pub fn is_ci() -> bool {
+    std::env::var_os("CI").is_some_and(|ci| ci == "true")
 }
 
 /// Says what will be installed; packages through sudo only if the user says yes.
@@ -88,39 +109,35 @@ impl Plan {
 /// # Errors
 /// The user says no or cannot be asked, or may not install packages.
 pub fn may_install(options: Options, commands: &[String], packages: bool) -> Result<()> {
-    let missing = || Error::Missing {
-        commands: commands.to_vec(),
+    let missing = || {
+        Err(Error::Missing {
+            commands: commands.to_vec(),
+        })
     };
-    let agreed = options.yes || std::env::var_os("CI").is_some_and(|ci| ci == "true");
+    let say = |what: &str| output::note(&format!("{what}:\n    {}", commands.join("\n    ")));
     match Privilege::this() {
-        Privilege::None if packages => return Err(missing()),
-        Privilege::Sudo if packages && !agreed => {
-            let terminal = std::io::stdin().is_terminal() && std::io::stderr().is_terminal();
-            if !terminal {
-                output::note(
-                    "not installed: nobody can be asked here whether to use sudo; --yes agrees to it",
-                );
-                return Err(missing());
+        Privilege::None if packages => missing(),
+        Privilege::Sudo if packages && !options.yes && !is_ci() => {
+            if !std::io::stdin().is_terminal() || !std::io::stderr().is_terminal() {
+                let why = "nobody can be asked here whether to use sudo; --yes agrees to it";
+                output::note(&format!("not installed: {why}"));
+                return missing();
             }
-            output::note("this would be installed with:");
-            for command in commands {
-                output::note(&format!("    {command}"));
-            }
+            say("this would be installed with");
             let _ = write!(std::io::stderr(), "run it? [y/N] ");
             let mut answer = String::new();
             let read = std::io::stdin().read_line(&mut answer);
-            if read.is_err() || !is_yes(&answer) {
-                return Err(missing());
+            if read.is_ok() && is_yes(&answer) {
+                Ok(())
+            } else {
+                missing()
             }
         }
         _ => {
-            output::note("about to install it with:");
-            for command in commands {
-                output::note(&format!("    {command}"));
-            }
+            say("about to install it with");
+            Ok(())
         }
     }
-    Ok(())
 }
 
 fn is_yes(answer: &str) -> bool {
@@ -145,22 +162,23 @@ pub fn for_test(options: Options) -> Result<Tools> {
         ("clippy", "clippy", DEBIAN_CLIPPY),
     ] {
         let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-        let native = shell::succeeds(Command::new(cargo).args([subcommand, "--version"]));
-        if !native && shell::which("rustup").is_some() {
-            plan.reasons.push(format!("`cargo {subcommand}`"));
-            plan.rustup
-                .push(vec!["rustup", "component", "add", component]);
-        } else if !native && System::this() == System::Debian {
-            plan.add_apt(&format!("`cargo {subcommand}`"), &[package]);
-        } else if !native {
-            plan.reasons.push(format!("`cargo {subcommand}`"));
-            plan.manual
-                .push(format!("install Rust's `{component}` component"));
+        if shell::succeeds(Command::new(cargo).args([subcommand, "--version"])) {
+            continue;
+        }
+        let reason = format!("`cargo {subcommand}`");
+        if shell::which("rustup").is_some() {
+            plan.add_rustup(&reason, &["component", "add", component]);
+        } else {
+            plan.add(&reason, &[package], |_| {
+                format!("install Rust's `{component}` component")
+            });
         }
     }
     let is_debian = tools.toolchain == Toolchain::Debian;
     if is_debian && !toolchain::has_debian_clippy() && !plan.apt.contains(&DEBIAN_CLIPPY) {
-        plan.add_apt("the clippy of Debian's compiler", &[DEBIAN_CLIPPY]);
+        plan.add("the clippy of Debian's compiler", &[DEBIAN_CLIPPY], |_| {
+            String::new()
+        });
     }
     plan.carry_out(options)?;
     Ok(tools)
@@ -170,7 +188,11 @@ pub fn for_test(options: Options) -> Result<Tools> {
 pub fn debian(options: Options) -> Result<Toolchain> {
     if let Some(why) = toolchain::debian_lacks() {
         let mut plan = Plan::default();
-        plan.add_apt(&format!("Debian's own compiler: {why}"), DEBIAN_PACKAGES);
+        plan.add(
+            &format!("Debian's own compiler: {why}"),
+            DEBIAN_PACKAGES,
+            |_| String::new(),
+        );
         plan.carry_out(options)?;
         toolchain::require_debian()?;
     }
@@ -179,19 +201,13 @@ pub fn debian(options: Options) -> Result<Toolchain> {
 
 /// The compiler and QEMU in one plan, so that the user is told everything at once.
 fn compiler(options: Options) -> Result<Toolchain> {
-    let system = System::this();
     let mut plan = Plan::default();
-    let mut chosen = choose(options.toolchain, system, &mut plan)?;
+    let mut chosen = choose(options.toolchain, &mut plan)?;
     if !Qemu::is_installed() {
         let reason = "`qemu-system-arm`, the emulator that runs the firmware";
-        if system == System::Debian {
-            plan.add_apt(reason, &["qemu-system-arm"]);
-        } else {
-            plan.reasons.push(reason.into());
-            plan.manual.push(system.qemu_command());
-        }
+        plan.add(reason, &[system::QEMU], System::qemu_command);
     }
-    let may_fall_back = options.toolchain == Choice::Auto && system == System::Debian;
+    let may_fall_back = options.toolchain == Choice::Auto && System::this() == System::Debian;
     if options.no_install && !plan.rustup.is_empty() && may_fall_back {
         output::note(&format!(
             "where rustup cannot fetch the target, Debian's own compiler does:\n    {}",
@@ -228,31 +244,32 @@ fn compiler(options: Options) -> Result<Toolchain> {
 }
 
 /// Which compiler it will be, and what it lacks.
-fn choose(choice: Choice, system: System, plan: &mut Plan) -> Result<Toolchain> {
+fn choose(choice: Choice, plan: &mut Plan) -> Result<Toolchain> {
     let core = format!("a Rust core library for {TARGET}");
+    let is_debian = System::this() == System::Debian;
     if choice != Choice::Debian {
         if toolchain::native_has_target() {
             return Ok(Toolchain::Native);
         }
         // A machine that once fell back on Debian's compiler need not ask rustup again.
-        let debian_is_there = system == System::Debian && toolchain::debian_lacks().is_none();
-        if choice == Choice::Auto && debian_is_there {
+        if choice == Choice::Auto && is_debian && toolchain::debian_lacks().is_none() {
             return Ok(Toolchain::Debian);
         }
         if shell::which("rustup").is_some() {
-            plan.reasons.push(core);
-            plan.rustup.push(vec!["rustup", "target", "add", TARGET]);
+            plan.add_rustup(&core, &["target", "add", TARGET]);
             return Ok(Toolchain::Native);
         }
     }
-    if choice == Choice::Rustup || system != System::Debian {
+    if choice == Choice::Rustup || !is_debian {
         return Err(Error::check(format!(
             "the Rust compiler here has no core library for {TARGET}, and there is no rustup to \
              add it: install Rust through rustup, or the target with what installed Rust"
         )));
     }
     if let Some(why) = toolchain::debian_lacks() {
-        plan.add_apt(&format!("{core} ({why})"), DEBIAN_PACKAGES);
+        plan.add(&format!("{core} ({why})"), DEBIAN_PACKAGES, |_| {
+            String::new()
+        });
     }
     Ok(Toolchain::Debian)
 }

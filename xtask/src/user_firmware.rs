@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Duration;
 
-use cycle_meter::{Sample, Summary};
+use cycle_meter::Sample;
 use serde::Serialize;
 
 use crate::docs;
@@ -14,7 +14,7 @@ use crate::firmware;
 use crate::meter::{self, Spread};
 use crate::output;
 use crate::progress::Spinner;
-use crate::qemu::Run;
+use crate::qemu::{MACHINE, Run};
 use crate::report::MODEL;
 use crate::setup::{self, Options};
 use crate::table::{Table, thousands};
@@ -41,15 +41,20 @@ RAM at 0x20000000); what else is on the board does not answer. It may end by sem
 never ends is stopped after --seconds, and what was measured until then is printed. Keep its symbols (no strip).";
 
 /// What to measure.
+#[derive(clap::Args)]
 pub struct Wish {
-    /// The firmware.
-    pub elf: PathBuf,
-    /// The board in QEMU.
-    pub machine: String,
-    /// How long it may run.
-    pub seconds: u64,
-    /// Print JSON.
-    pub json: bool,
+    /// The firmware, with its symbols
+    #[arg(value_name = "ELF")]
+    elf: PathBuf,
+    /// The board that QEMU emulates
+    #[arg(long, default_value = MACHINE, value_name = "NAME")]
+    machine: String,
+    /// Stop it after so many seconds
+    #[arg(long, default_value_t = 10, value_name = "N")]
+    seconds: u64,
+    /// The measurements as JSON on stdout; progress stays on stderr
+    #[arg(long)]
+    json: bool,
 }
 
 /// What a region costs; the fields are those of the JSON.
@@ -168,14 +173,10 @@ fn image(elf: &Path) -> Result<Image> {
 
 fn regions(samples: &[Sample]) -> Vec<Region> {
     let of = |region: u8| {
-        let passages: Vec<&Sample> = samples.iter().filter(|one| one.region == region).collect();
-        let spread = |what: fn(&Sample) -> u64| {
-            let Summary { min, median, max } = Summary::of(passages.iter().map(|one| what(one)))?;
-            Some(Spread { min, median, max })
-        };
+        let spread = |what| Spread::of_region(samples, region, what);
         Some(Region {
             region,
-            calls: passages.len(),
+            calls: samples.iter().filter(|one| one.region == region).count(),
             instructions: spread(|one| one.instructions)?,
             cycles: spread(|one| one.cycles)?,
             flops: spread(|one| one.flops)?,
@@ -185,59 +186,37 @@ fn regions(samples: &[Sample]) -> Vec<Region> {
 }
 
 fn foreign(image: &Image) -> Vec<Foreign> {
-    let mut foreign = Vec::new();
-    for function in &image.functions {
-        for instruction in function.instructions() {
-            if instruction.is_beyond_m4f() {
-                foreign.push(Foreign {
-                    function: function.names.join(" = "),
-                    address: format!("{:#x}", instruction.address),
-                });
-            }
-        }
-    }
-    foreign
+    let all = image.functions.iter().flat_map(|function| {
+        let foreign = function
+            .instructions()
+            .into_iter()
+            .filter(|one| one.is_beyond_m4f());
+        foreign.map(|one| Foreign {
+            function: function.names.join(" = "),
+            address: format!("{:#x}", one.address),
+        })
+    });
+    all.collect()
 }
 
 impl Report {
     fn text(&self, name: &str, seconds: u64) -> String {
-        let mut table = Table::new(&[
-            "region",
-            "calls",
-            "insn min",
-            "median",
-            "max",
-            "cycles min",
-            "median",
-            "max",
-            "flops max",
-        ]);
+        let head = "region,calls,insn min,median,max,cycles min,median,max,flops max";
+        let mut table = Table::new(&head.split(',').collect::<Vec<_>>());
         for region in &self.regions {
-            let (insn, cycles) = (region.instructions, region.cycles);
-            let figures = [
-                region.calls as u64,
-                insn.min,
-                insn.median,
-                insn.max,
-                cycles.min,
-                cycles.median,
-                cycles.max,
-                region.flops.max,
-            ];
-            let cells = figures.map(thousands);
+            let mut figures = vec![region.calls as u64];
+            for spread in [region.instructions, region.cycles] {
+                figures.extend([spread.min, spread.median, spread.max]);
+            }
+            figures.push(region.flops.max);
+            let cells = figures.into_iter().map(thousands);
             table.row(std::iter::once(region.region.to_string()).chain(cells));
         }
-        let end = if self.ended {
-            String::new()
-        } else {
-            format!(", stopped after {seconds} s")
-        };
+        let stopped = format!(", stopped after {seconds} s");
+        let end = if self.ended { "" } else { &stopped };
         let mut text = format!("{name}{end} ({})\n\n{}", self.model, table.text());
-        for one in &self.foreign {
-            text += &format!(
-                "  not of a Cortex-M4F: {} in `{}`\n",
-                one.address, one.function
-            );
+        for Foreign { function, address } in &self.foreign {
+            text += &format!("  not of a Cortex-M4F: {address} in `{function}`\n");
         }
         text
     }

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use super::{Context, Outcome};
+use super::Context;
 use crate::error::{Error, Result};
 use crate::shell;
 use crate::toolchain::{TARGET, Toolchain};
@@ -18,14 +18,13 @@ const COPIES: [&str; 2] = ["LICENSE-APACHE", "LICENSE-MIT"];
 /// The example whose numbers are compared with and without features: it prints all digits of a simulation's end.
 const COMPARED: &str = "computed_torque";
 
-pub fn package(context: &Context) -> Result<Outcome> {
+pub fn package(context: &Context) -> Result<String> {
     let root = &context.workspace.root;
     copies_are_equal(root, &root.join(LIBRARY))?;
-    let mut cargo = context.workspace.cargo("package");
-    shell::capture(cargo.args(["--package", LIBRARY, "--allow-dirty"]))?;
+    context.cargo(&["package --package dynamics-core --allow-dirty"])?;
     let folder = Folder::new("vendored")?;
     vendored_builds(context, &folder.0)?;
-    Outcome::PASSED
+    Ok(String::new())
 }
 
 /// Compares what stands in the workspace's root with the crate's copies.
@@ -49,31 +48,27 @@ fn vendored_builds(context: &Context, folder: &Path) -> Result<()> {
     );
     let program = "use dynamics_core::glam::Vec3;\n\nfn main() {\n    \
                    let _ = dynamics_core::effects::GravityAlong::<f32>(Vec3::X);\n}\n";
-    let files = [("Cargo.toml", manifest.as_str()), ("src/main.rs", program)];
-    for (name, text) in files {
-        create_parent(&project.join(name))?;
-        write(&project.join(name), text)?;
-    }
     // The versions that the workspace's other steps have been tested with.
     let lock = read(&context.workspace.root.join("Cargo.lock"))?;
-    write(&project.join("Cargo.lock"), lock)?;
+    let put = |name: &str, text: &str| {
+        let path = project.join(name);
+        create_parent(&path)?;
+        write(&path, text)
+    };
+    put("Cargo.toml", &manifest)?;
+    put("src/main.rs", program)?;
+    put("Cargo.lock", &lock)?;
     let cargo = |subcommand| {
         let mut command = context.workspace.cargo(subcommand);
         command.current_dir(&project);
         command
     };
-    let config = shell::capture(&mut cargo("vendor"))?;
-    let path = project.join(".cargo/config.toml");
-    create_parent(&path)?;
-    write(&path, config)?;
-    let target = project.join("target");
+    put(".cargo/config.toml", &shell::capture(&mut cargo("vendor"))?)?;
     let mut check = cargo("check");
-    shell::capture(
-        check
-            .args(["--offline", "--locked", "--target-dir"])
-            .arg(target),
-    )?;
-    Ok(())
+    check
+        .args(["--offline", "--locked", "--target-dir"])
+        .arg(project.join("target"));
+    shell::capture(&mut check).map(drop)
 }
 
 /// Commits the work tree as it is, without what git ignores, into a new repository, and returns its URL.
@@ -83,63 +78,49 @@ fn commit_work_tree(root: &Path, repository: &Path) -> Result<String> {
             .args(["init", "--quiet"])
             .arg(repository),
     )?;
-    let git = |arguments: &[&str]| {
-        let mut command = Command::new("git");
-        command.arg("--git-dir").arg(repository.join(".git"));
-        command.arg("--work-tree").arg(root).current_dir(root);
-        command.args(["-c", "user.name=test", "-c", "user.email=test@localhost"]);
-        shell::capture(command.args(arguments)).map(drop)
-    };
-    git(&["add", "--all"])?;
-    git(&[
-        "commit",
-        "--quiet",
-        "--no-gpg-sign",
-        "--no-verify",
-        "--message",
-        "work tree",
-    ])?;
+    for arguments in [
+        "add --all",
+        "commit --quiet --no-gpg-sign --no-verify --message work-tree",
+    ] {
+        let mut git = Command::new("git");
+        git.arg("--git-dir").arg(repository.join(".git"));
+        git.arg("--work-tree").arg(root).current_dir(root);
+        git.args(["-c", "user.name=test", "-c", "user.email=test@localhost"]);
+        shell::capture(git.args(arguments.split(' ')))?;
+    }
     let path = repository.to_string_lossy().replace('\\', "/");
     Ok(format!("file:///{}", path.trim_start_matches('/')))
 }
 
-pub fn features(context: &Context) -> Result<Outcome> {
+pub fn features(context: &Context) -> Result<String> {
     if context.tools.toolchain == Toolchain::Native {
-        let mut cargo = context.workspace.cargo("check");
-        cargo.args([
-            "--package",
-            LIBRARY,
-            "--features",
-            FEATURES,
-            "--target",
-            TARGET,
-        ]);
-        shell::capture(&mut cargo)?;
+        context.cargo(&[&format!(
+            "check --package {LIBRARY} --features {FEATURES} --target {TARGET}"
+        )])?;
     }
-    let plain = run_example(context, COMPARED, &[])?;
-    let with_features = run_example(context, COMPARED, &["--features", FEATURES])?;
+    let plain = run_example(context, COMPARED, "")?;
+    let with_features = run_example(context, COMPARED, &format!("--features {FEATURES}"))?;
     if plain != with_features {
         return Err(Error::check(format!(
             "the features `{FEATURES}` change the numbers of the example `{COMPARED}`:\n{plain}\n{with_features}"
         )));
     }
-    Ok(Outcome::Passed(FEATURES.to_owned()))
+    Ok(FEATURES.to_owned())
 }
 
-pub fn examples(context: &Context) -> Result<Outcome> {
+pub fn examples(context: &Context) -> Result<String> {
     let names = example_names(&context.workspace.root)?;
-    let mut cargo = context.workspace.cargo("build");
-    shell::capture(cargo.args(["--package", LIBRARY, "--examples"]))?;
+    context.cargo(&["build --package dynamics-core --examples"])?;
     for name in &names {
-        run_example(context, name, &[])?;
+        run_example(context, name, "")?;
     }
-    Ok(Outcome::Passed(names.join(", ")))
+    Ok(names.join(", "))
 }
 
-fn run_example(context: &Context, name: &str, arguments: &[&str]) -> Result<String> {
-    let mut cargo = context.workspace.cargo("run");
-    cargo.args(["--quiet", "--package", LIBRARY, "--example", name]);
-    shell::capture(cargo.args(arguments))
+fn run_example(context: &Context, name: &str, more: &str) -> Result<String> {
+    context.cargo(&[&format!(
+        "run --quiet --package {LIBRARY} --example {name} {more}"
+    )])
 }
 
 /// The names of the library's examples, which must be some.
@@ -157,18 +138,18 @@ fn example_names(root: &Path) -> Result<Vec<String>> {
     Ok(names)
 }
 
-pub fn deny(context: &Context) -> Result<Outcome> {
-    const INSTALL: &str = "cargo install cargo-deny --locked";
+pub fn deny(context: &Context) -> Result<String> {
     if shell::which("cargo-deny").is_none() {
         if !context.may_install_debian {
-            return Ok(Outcome::Skipped(format!("to have it run: {INSTALL}")));
+            return Err(Error::Skipped(
+                "to have it run: cargo install cargo-deny --locked".into(),
+            ));
         }
-        let mut cargo = context.workspace.cargo("install");
-        shell::capture(cargo.args(["cargo-deny", "--locked"]))?;
+        context.cargo(&["install cargo-deny --locked"])?;
     }
-    let mut cargo = context.workspace.cargo("deny");
-    shell::capture(cargo.args(["check", "bans", "licenses", "sources"]))?;
-    Outcome::PASSED
+    context
+        .cargo(&["deny check bans licenses sources"])
+        .map(|_| String::new())
 }
 
 /// A folder outside the workspace, whose configuration would otherwise apply; removed when dropped.

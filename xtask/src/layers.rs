@@ -1,0 +1,246 @@
+//! The library's modules in one-way layers: `lib.rs` lists them in order, and none uses a later one.
+
+use std::path::Path;
+
+use crate::error::{Error, Result};
+use crate::lines::{code, sources};
+use crate::workspace;
+
+/// What stands before the list in `lib.rs`: comment lines of names, the lowest first, up to the first other line.
+const LIST: &str = "// Layers, ";
+
+/// The library's modules, in order, and what it exports under a name of its own.
+struct Order {
+    modules: Vec<String>,
+    /// An item's name at the crate's root, and its module.
+    exports: Vec<(String, String)>,
+}
+
+/// Fails with every place where a module of the library uses a later one; modules within a module count as it.
+pub fn check(root: &Path) -> Result<String> {
+    let library = root.join("dynamics-core/src");
+    let order = Order::read(&workspace::read(&library.join("lib.rs"))?)?;
+    let (mut uses, mut wrong) = (0, Vec::new());
+    for path in sources(&library)? {
+        let inside = path
+            .strip_prefix(&library)
+            .unwrap_or(&path)
+            .with_extension("");
+        let mut names: Vec<_> = inside.iter().map(|name| name.to_string_lossy()).collect();
+        names.retain(|name| name != "mod");
+        let user = &*names[0];
+        if user == "lib" || names.iter().any(|name| name == "tests") {
+            continue;
+        }
+        let file = path.strip_prefix(root).unwrap_or(&path).display();
+        for (line, used) in used(&workspace::read(&path)?, names.len()) {
+            uses += 1;
+            if let Some(complaint) = order.complaint(user, &used) {
+                wrong.push(format!("{file}:{line}: `{user}` {complaint}"));
+            }
+        }
+    }
+    if wrong.is_empty() {
+        return Ok(format!("{} modules, {uses} uses", order.modules.len()));
+    }
+    Err(Error::check(wrong.join("\n")))
+}
+
+impl Order {
+    /// From the source of `lib.rs`.
+    fn read(source: &str) -> Result<Self> {
+        let after = source
+            .lines()
+            .skip_while(|line| !line.starts_with(LIST))
+            .skip(1);
+        let listed = after.map_while(|line| line.strip_prefix("//"));
+        let modules: Vec<String> = listed
+            .flat_map(str::split_whitespace)
+            .map(str::to_owned)
+            .collect();
+        let mut exports = Vec::new();
+        let mut declared = Vec::new();
+        for (_, line) in code(source) {
+            let words = line.trim_start_matches("pub ").trim_end_matches(';');
+            if let Some(name) = words.strip_prefix("mod ") {
+                declared.push(name.to_owned());
+            } else if let Some((module, items)) = words
+                .strip_prefix("use ")
+                .and_then(|path| path.split_once("::"))
+            {
+                let items = items.trim_matches(['{', '}']).split(", ");
+                exports.extend(items.map(|item| (item.to_owned(), module.to_owned())));
+            }
+        }
+        let unlisted = declared.iter().find(|name| !modules.contains(name));
+        let gone = modules.iter().find(|name| !declared.contains(name));
+        match (unlisted, gone) {
+            (Some(name), _) => Err(Error::check(format!(
+                "lib.rs lists no layer of `{name}` behind `{LIST}…`"
+            ))),
+            (_, Some(name)) => Err(Error::check(format!(
+                "lib.rs lists the layer of `{name}`, which is no module"
+            ))),
+            (None, None) => Ok(Self { modules, exports }),
+        }
+    }
+
+    /// What is wrong with a module that uses a name of the crate's root.
+    fn complaint(&self, user: &str, used: &str) -> Option<String> {
+        let export = self.exports.iter().find(|(item, _)| item == used);
+        let module = export.map_or(used, |(_, module)| module);
+        let place = |name: &str| self.modules.iter().position(|module| module == name);
+        match (place(user), place(module)) {
+            _ if module == "glam" => None,
+            (Some(above), Some(below)) if below <= above => None,
+            (Some(_), Some(_)) => Some(format!("uses `{module}`, which comes after it")),
+            (_, None) => Some(format!("uses `{module}`, which is no module")),
+            (None, _) => Some("has no layer".into()),
+        }
+    }
+}
+
+/// The names of the crate's root that a source at this depth of modules uses outside its tests, each with its line.
+fn used(source: &str, depth: usize) -> Vec<(usize, String)> {
+    // Behind the code of a line stands no comment for this, and a list of paths may go over several lines.
+    let lines: Vec<(usize, &str)> = code(source).collect();
+    let text: String = lines
+        .iter()
+        .map(|(_, line)| line.split(" // ").next().unwrap_or(line).to_owned() + "\n")
+        .collect();
+    let line_at = |at: usize| lines[text[..at].matches('\n').count()].0;
+    let mut found = Vec::new();
+    for root in ["crate::".to_owned(), "super::".repeat(depth)] {
+        for (at, _) in text.match_indices(&root) {
+            let is_part = |before: char| before.is_alphanumeric() || "_:".contains(before);
+            if text[..at].ends_with(is_part) {
+                continue;
+            }
+            let path = at + root.len();
+            found.extend(
+                names_at(&text, path)
+                    .into_iter()
+                    .map(|(at, name)| (line_at(at), name)),
+            );
+        }
+    }
+    found
+}
+
+/// The first names of a path, or of each path of a list in braces, with their places; none of a macro's.
+fn names_at(text: &str, from: usize) -> Vec<(usize, String)> {
+    let mut names = Vec::new();
+    let (mut depth, mut expects, mut at) = (0, true, from);
+    while let Some(letter) = text[at..].chars().next() {
+        let is_name = |c: &char| c.is_alphanumeric() || "_*".contains(*c);
+        match letter {
+            '{' => depth += 1,
+            '}' => depth -= 1,
+            ',' if depth == 1 => expects = true,
+            _ if expects && is_name(&letter) => {
+                let name: String = text[at..].chars().take_while(is_name).collect();
+                let end = at + name.len();
+                if !text[end..].starts_with('!') {
+                    names.push((at, name));
+                }
+                (expects, at) = (false, end - 1);
+            }
+            _ => {}
+        }
+        if depth == 0 && !expects || letter == ';' {
+            break;
+        }
+        at += text[at..].chars().next().map_or(1, char::len_utf8);
+    }
+    names
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::{check, used};
+
+    /// A library of three layers, the middle one of two files, with this text in one of them.
+    fn tree(name: &str, file: &str, text: &str) -> Result<String, String> {
+        let root = std::env::temp_dir().join(format!("layers-{name}-{}", std::process::id()));
+        let source = root.join("dynamics-core/src");
+        let put = |file: &str, text: &str| {
+            let path = source.join(file);
+            std::fs::create_dir_all(path.parent().unwrap_or(Path::new("."))).expect("a folder");
+            std::fs::write(path, text).expect("a file");
+        };
+        let lib = "//! A library.\n\n// Layers, the lowest first:\n//     scalar\n//     model control\n\npub mod \
+                   control;\npub mod model;\nmod scalar;\npub use control::{Law, Gate};\npub use glam;\n";
+        put("lib.rs", lib);
+        put("scalar.rs", "use crate::glam::Vec3;\n");
+        put("model/mod.rs", "use crate::scalar::Real;\n");
+        put(
+            "model/tree.rs",
+            "use super::Joint;\nuse super::super::scalar;\n",
+        );
+        put(
+            "control.rs",
+            "use crate::{model, scalar::Real};\nuse super::model::Body;\n",
+        );
+        put(file, text);
+        let outcome = check(&root).map_err(|error| error.to_string());
+        std::fs::remove_dir_all(&root).expect("gone again");
+        outcome
+    }
+
+    #[test]
+    fn modules_that_use_lower_ones_pass() {
+        let seen = tree("good", "notes.txt", "").expect("in order");
+        assert_eq!(seen, "3 modules, 6 uses");
+        let tests = "use crate::scalar;\n// crate::control is above.\n#[cfg(test)]\nmod tests {\n    use crate::control::Law;\n}\n";
+        assert!(tree("tests", "model/tree.rs", tests).is_ok());
+    }
+
+    #[test]
+    fn a_module_that_uses_a_later_one_is_named_with_its_file_and_line() {
+        let cases = [
+            ("use std::fmt;\nuse crate::control::Gate;\n", 2),
+            (
+                "use crate::{\n    scalar,\n    control::{Law, Gate},\n};\n",
+                3,
+            ),
+            ("fn f() -> u8 {\n    crate::Law::new()\n}\n", 2),
+            ("use super::super::control;\n", 1),
+        ];
+        for (text, line) in cases {
+            let error = tree("bad", "model/tree.rs", text).expect_err(text);
+            let place = Path::new("dynamics-core/src/model/tree.rs")
+                .display()
+                .to_string();
+            assert_eq!(
+                error,
+                format!("{place}:{line}: `model` uses `control`, which comes after it")
+            );
+        }
+    }
+
+    #[test]
+    fn modules_and_list_have_the_same_names() {
+        let error = tree(
+            "more",
+            "lib.rs",
+            "// Layers, all:\n// scalar model control\nmod scalar;\n",
+        )
+        .expect_err("more");
+        assert!(error.contains("`model`, which is no module"), "{error}");
+        let error = tree("less", "lib.rs", "mod scalar;\n").expect_err("less");
+        assert!(error.contains("no layer of `scalar`"), "{error}");
+        let error = tree("all", "control.rs", "use crate::*;\n").expect_err("all of it");
+        assert!(error.contains("`control` uses `*`"), "{error}");
+    }
+
+    #[test]
+    fn macros_and_longer_paths_are_no_modules() {
+        assert_eq!(
+            used("crate::each!(1);\nmy_crate::x();\na::super::b();\n", 1),
+            []
+        );
+        assert_eq!(used("$crate::a::b();\n", 2), [(1, "a".to_owned())]);
+    }
+}

@@ -32,11 +32,6 @@ impl Instruction {
         Some(branch.target.into())
     }
 
-    /// Whether it is `DBG`, which marks the regions that are measured.
-    pub fn is_marker(self) -> bool {
-        self.insn.is_marker()
-    }
-
     /// Whether a Cortex-M4F lacks it.
     pub fn is_beyond_m4f(self) -> bool {
         self.insn.class == Class::Unknown

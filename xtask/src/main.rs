@@ -68,13 +68,8 @@ enum Command {
     /// Run a scene in QEMU, report what a tick costs and how well the arm tracks
     Demo {
         /// The scene
-        #[arg(
-            long,
-            value_enum,
-            default_value_t,
-            value_name = "NAME",
-            ignore_case = true
-        )]
+        #[arg(long, value_enum, default_value_t)]
+        #[arg(value_name = "NAME", ignore_case = true)]
         scene: Scene,
         /// Every scene, and one table of all
         #[arg(long, conflicts_with = "scene")]
@@ -114,13 +109,8 @@ enum Command {
         #[arg(long)]
         json: bool,
         /// Choose the cheapest configuration off by no more than this: 0.05Nm, 2mrad
-        #[arg(
-            long,
-            value_name = "ERROR",
-            allow_hyphen_values = true,
-            requires = "robot",
-            conflicts_with = "cycles"
-        )]
+        #[arg(long, value_name = "ERROR", allow_hyphen_values = true)]
+        #[arg(requires = "robot", conflicts_with = "cycles")]
         error: Option<accuracy::Allowed>,
         /// Choose the most accurate configuration whose worst tick takes no more cycles than this
         #[arg(long, value_name = "CYCLES", requires = "robot")]

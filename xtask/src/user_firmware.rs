@@ -21,24 +21,7 @@ use crate::table::{Table, thousands};
 use crate::workspace::Workspace;
 
 /// How a firmware is marked, in the help and where it is not.
-pub const MARKERS: &str = "\
-A region k, 0 to 7, begins with the instruction `dbg #2k` and ends with `dbg #2k+1`. They do nothing on the
-processor and may stay in the firmware. In Rust:
-
-    #[inline(always)]
-    fn start_0() { unsafe { core::arch::asm!(\"dbg #0\", options(nostack, preserves_flags)) } }
-    #[inline(always)]
-    fn stop_0() { unsafe { core::arch::asm!(\"dbg #1\", options(nostack, preserves_flags)) } }
-
-    start_0();
-    let tau = black_box(control_tick(black_box(&state)));   // #[inline(never)] fn control_tick
-    stop_0();
-
-In C: `__asm volatile(\"dbg #0\" ::: \"memory\")`. A marker keeps accesses to memory on their side, but not arithmetic
-on values in registers: measure the call of a function that is not inlined, with black_box around its arguments
-and its result. Regions may nest. The ELF is run on an emulated Netduino Plus 2 (STM32F405: flash at 0x08000000,
-RAM at 0x20000000); what else is on the board does not answer. It may end by semihosting (SYS_EXIT); one that
-never ends is stopped after --seconds, and what was measured until then is printed. Keep its symbols (no strip).";
+pub const MARKERS: &str = include_str!("markers.txt");
 
 /// What to measure.
 #[derive(clap::Args)]
@@ -96,53 +79,56 @@ pub fn run(options: Options, wish: &Wish) -> Result<ExitCode> {
     let plugin = firmware::build_meter(&workspace)?;
     tools.qemu.interface(&plugin)?;
     let out = workspace.output(&format!("{name}.{}.regions", std::process::id()))?;
-    let run = Run {
-        name: &name,
-        elf: &wish.elf,
-        meter: Some((&plugin, &out)),
-        logs: image.has_defmt,
-    };
+    let meter = Some((plugin.as_path(), out.as_path()));
+    let (elf, logs) = (wish.elf.as_path(), image.has_defmt);
     spinner.say(format!("running {name} in QEMU"));
     let limit = Duration::from_secs(wish.seconds);
+    let run = Run {
+        name: &name,
+        elf,
+        meter,
+        logs,
+    };
     let ended = tools.qemu.run_for(&wish.machine, &run, limit);
     drop(spinner);
     let samples = ended.and_then(|ended| Ok((ended, meter::read(&out)?)));
     // Not there if QEMU did not start.
     let _ = std::fs::remove_file(&out);
     let (ended, samples) = samples?;
-    let report = Report {
-        model: MODEL,
-        ended,
-        regions: regions(&samples),
-        foreign: foreign(&image),
-    };
-    if report.regions.is_empty() {
-        return Err(Error::check(format!(
-            "{name} has markers, but closed no region {}: is it built for a board with flash at 0x08000000, does \
-             it wait for a device that QEMU lacks, or does it need more than --seconds {}?",
+    let (regions, foreign) = (regions(&samples), foreign(&image));
+    if regions.is_empty() {
+        let (when, seconds) = (
             if ended {
                 "before it ended"
             } else {
                 "in its time"
             },
-            wish.seconds
+            wish.seconds,
+        );
+        return Err(Error::check(format!(
+            "{name} has markers, but closed no region {when}: is it built for a board with flash at 0x08000000, does \
+             it wait for a device that QEMU lacks, or does it need more than --seconds {seconds}?"
         )));
     }
+    let report = Report {
+        model: MODEL,
+        ended,
+        regions,
+        foreign,
+    };
     if wish.json {
         docs::print_json(&report)?;
     } else {
         output::print(&report.text(&name, wish.seconds))?;
     }
-    if let Some(first) = report.foreign.first() {
-        return Err(Error::check(format!(
-            "{} instructions are none of a Cortex-M4F, the first at {} in `{}`: build with \
-             --target thumbv7em-none-eabihf and the flags that README.md gives",
-            report.foreign.len(),
-            first.address,
-            first.function
-        )));
+    let number = report.foreign.len();
+    match report.foreign.first() {
+        None => Ok(ExitCode::SUCCESS),
+        Some(Foreign { function, address }) => Err(Error::check(format!(
+            "{number} instructions are none of a Cortex-M4F, the first at {address} in `{function}`: build with \
+             --target thumbv7em-none-eabihf and the flags that README.md gives"
+        ))),
     }
-    Ok(ExitCode::SUCCESS)
 }
 
 /// The ELF, if it is one that can be measured.
@@ -156,19 +142,17 @@ fn image(elf: &Path) -> Result<Image> {
         );
     }
     let image = Image::read(elf)?;
+    let mut instructions = image.functions.iter().flat_map(|f| f.instructions());
     if !image.is_arm {
-        return wrong(
-            "this is for another processor: build it with --target thumbv7em-none-eabihf",
-        );
+        wrong("this is for another processor: build it with --target thumbv7em-none-eabihf")
+    } else if image.functions.is_empty() {
+        wrong("it has no symbols of functions: build it without `strip`")
+    } else if !instructions.any(|one| one.insn.is_marker()) {
+        wrong(&format!("it has no markers.\n\n{MARKERS}"))
+    } else {
+        drop(instructions);
+        Ok(image)
     }
-    if image.functions.is_empty() {
-        return wrong("it has no symbols of functions: build it without `strip`");
-    }
-    let instructions = image.functions.iter().flat_map(|f| f.instructions());
-    if !instructions.into_iter().any(|one| one.is_marker()) {
-        return wrong(&format!("it has no markers.\n\n{MARKERS}"));
-    }
-    Ok(image)
 }
 
 fn regions(samples: &[Sample]) -> Vec<Region> {

@@ -82,6 +82,12 @@ impl Error {
         move |source| Self::File { verb, path, source }
     }
 
+    /// A firmware in QEMU misbehaved.
+    pub fn qemu(program: &str, what: impl Into<String>) -> Self {
+        let (program, what) = (program.to_owned(), what.into());
+        Self::Qemu { program, what }
+    }
+
     /// Whether nobody reads what is printed any more, as behind `| head`.
     pub fn is_closed_pipe(&self) -> bool {
         matches!(self, Self::Output(source) if source.kind() == std::io::ErrorKind::BrokenPipe)

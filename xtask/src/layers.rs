@@ -140,7 +140,8 @@ fn names_at(text: &str, from: usize) -> Vec<(usize, String)> {
             _ if expects && is_name(&letter) => {
                 let name: String = text[at..].chars().take_while(is_name).collect();
                 let end = at + name.len();
-                if !text[end..].starts_with('!') {
+                // A macro's name, or what it is called with.
+                if !text[end..].starts_with('!') && !text[..at].ends_with('$') {
                     names.push((at, name));
                 }
                 (expects, at) = (false, end - 1);
@@ -241,6 +242,7 @@ mod tests {
             used("crate::each!(1);\nmy_crate::x();\na::super::b();\n", 1),
             []
         );
+        assert_eq!(used("crate::$module::x();\n", 1), []);
         assert_eq!(used("$crate::a::b();\n", 2), [(1, "a".to_owned())]);
     }
 }

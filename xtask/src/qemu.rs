@@ -61,6 +61,19 @@ pub struct Run<'a> {
     pub logs: bool,
 }
 
+impl<'a> Run<'a> {
+    /// A firmware that logs, and is measured if there is a meter.
+    pub fn logging(name: &'a str, elf: &'a Path, meter: Option<(&'a Path, &'a Path)>) -> Self {
+        let logs = true;
+        Self {
+            name,
+            elf,
+            meter,
+            logs,
+        }
+    }
+}
+
 /// What to do where QEMU does not take the meter.
 pub const ANOTHER_QEMU: &str = "\
     either work in a container of Debian 12 or 13, whose `qemu-system-arm` takes it: `docker run -it -v \

@@ -80,15 +80,10 @@ pub fn run(options: Options, wish: &Wish) -> Result<ExitCode> {
     tools.qemu.interface(&plugin)?;
     let out = workspace.output(&format!("{name}.{}.regions", std::process::id()))?;
     let meter = Some((plugin.as_path(), out.as_path()));
-    let (elf, logs) = (wish.elf.as_path(), image.has_defmt);
     spinner.say(format!("running {name} in QEMU"));
     let limit = Duration::from_secs(wish.seconds);
-    let run = Run {
-        name: &name,
-        elf,
-        meter,
-        logs,
-    };
+    let mut run = Run::logging(&name, &wish.elf, meter);
+    run.logs = image.has_defmt;
     let ended = tools.qemu.run_for(&wish.machine, &run, limit);
     drop(spinner);
     let samples = ended.and_then(|ended| Ok((ended, meter::read(&out)?)));

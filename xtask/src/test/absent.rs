@@ -9,6 +9,7 @@ use crate::costs::{self, ADDED, Row};
 use crate::elf::Image;
 use crate::error::{Error, Result};
 use crate::firmware;
+use crate::qemu::Run;
 use crate::sameness;
 use crate::toolchain::RELEASE;
 
@@ -116,7 +117,7 @@ fn added(context: &Context, full: &Row, friction: &Row) -> Result<String> {
 
 /// The bytes of a scene's effects, as it says itself.
 fn effects_bytes(context: &Context, name: &str, elf: &Path) -> Result<u64> {
-    let lines = context.logged(name, elf)?;
+    let lines = context.lines(&Run::logging(name, elf, None))?;
     let mut said = lines
         .iter()
         .filter_map(|line| line.strip_prefix("effects ")?.parse().ok());

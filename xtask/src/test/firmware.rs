@@ -10,6 +10,7 @@ use crate::elf::Image;
 use crate::error::{Error, Result};
 use crate::firmware;
 use crate::meter::Cost;
+use crate::qemu::Run;
 use crate::shell;
 
 /// How many hard cases run in QEMU at least.
@@ -44,7 +45,7 @@ pub fn meter(context: &Context) -> Result<String> {
 pub fn bits(context: &Context) -> Result<String> {
     let name = "bits";
     let elf = firmware::build(&context.workspace, context.tools.toolchain, name)?;
-    let mut on_target = context.logged(name, &elf)?;
+    let mut on_target = context.lines(&Run::logging(name, &elf, None))?;
     on_target.retain(|line| line.starts_with("bits "));
     let host = context.cargo(&["run --quiet --package host-reports --bin bits"])?;
     let on_host: Vec<&str> = host.lines().collect();

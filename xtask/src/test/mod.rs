@@ -30,17 +30,15 @@ use crate::{accuracy, effects, eliminations, growth, hard_cases, layers, lines, 
 use Lane::{Host, Target};
 use Scope::{Everyday, Full};
 
-/// One thing that is tested.
-struct Step {
-    /// Its name on the command line.
-    name: &'static str,
-    lane: Lane,
-    scope: Scope,
-    /// What holds if it passes.
-    title: &'static str,
-    /// Says what was seen, if there is something to see.
-    run: fn(&Context) -> Result<String>,
-}
+/// One thing that is tested: its name on the command line, its lane, which runs it belongs to, what holds if it
+/// passes, and what tests it and says what was seen, if there is something to see.
+type Step = (
+    &'static str,
+    Lane,
+    Scope,
+    &'static str,
+    fn(&Context) -> Result<String>,
+);
 
 /// Which runs a step belongs to.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -72,61 +70,45 @@ struct Context {
     measured: OnceLock<Vec<Measured>>,
 }
 
-const fn step(
-    name: &'static str,
-    lane: Lane,
-    scope: Scope,
-    title: &'static str,
-    run: fn(&Context) -> Result<String>,
-) -> Step {
-    Step {
-        name,
-        lane,
-        scope,
-        title,
-        run,
-    }
-}
-
 #[rustfmt::skip]
 const STEPS: &[Step] = &[
-    step("fmt", Host, Everyday, "rustfmt has nothing to change", |c| c.cargo(&["fmt --all --check"])),
-    step("clippy", Host, Full, "clippy has nothing to say of the host crates", host::clippy),
-    step("clippy-firmware", Target, Full, "clippy has nothing to say of the firmware", firmware::clippy),
-    step("host", Host, Everyday, "the host tests pass", host::tests),
-    step("doctests", Host, Everyday, "the examples in the documentation run", host::doctests),
-    step("doc", Host, Full, "the documentation builds without a warning, that of private items too", host::doc),
-    step("layers", Host, Full, "each module of the library uses those above it alone", |c| layers::check(&c.workspace.root)),
-    step("lines", Host, Full, "the tooling has fewer lines of code than the library, and no more than its bound", |c| lines::check(&c.workspace.root)),
-    step("examples", Host, Everyday, "the library's examples run", package::examples),
-    step("features", Host, Full, "the library's features build for the target and change no number", package::features),
-    step("package", Host, Full, "the crate packages, and builds vendored from git", package::package),
-    step("deny", Host, Full, "dependencies, their licences and their sources are those that deny.toml allows", package::deny),
-    step("firmware", Target, Full, "every bin of the firmware builds", firmware::build),
-    step("meter", Target, Everyday, "the cycle meter agrees with sequences counted by hand", firmware::meter),
-    step("bits", Host, Everyday, "the host and QEMU compute the same bits", firmware::bits),
-    step("scene", Target, Everyday, "every scene runs to its end", scenes::runs),
-    step("determinism", Target, Everyday, "two runs of a scene give the same bytes", scenes::determinism),
-    step("tracking", Target, Everyday, "every scene tracks within its bound, the default one better than PD as promised", scenes::tracking),
-    step("cycles", Target, Everyday, "the longest tick is short enough", scenes::cycles),
-    step("no-f64", Target, Everyday, "the tick reaches no f64 arithmetic, no libm trigonometry and no panic", firmware::no_f64),
-    step("opcodes", Target, Everyday, "the firmware has no instruction that a Cortex-M4F lacks", firmware::opcodes),
-    step("budgets", Target, Everyday, "every scene is within budgets.toml", scenes::budgets),
-    step("constant", Target, Everyday, "the work costs the same whatever the data", firmware::constant),
-    step("costs", Target, Everyday, "every function is within budgets.toml and its bar, and docs/costs.md says so", firmware::costs),
-    step("growth", Target, Full, "inverse and forward dynamics grow in step with a chain, and docs/growth.md says so",
+    ("fmt", Host, Everyday, "rustfmt has nothing to change", |c| c.cargo(&["fmt --all --check"])),
+    ("clippy", Host, Full, "clippy has nothing to say of the host crates", host::clippy),
+    ("clippy-firmware", Target, Full, "clippy has nothing to say of the firmware", firmware::clippy),
+    ("host", Host, Everyday, "the host tests pass", host::tests),
+    ("doctests", Host, Everyday, "the examples in the documentation run", host::doctests),
+    ("doc", Host, Full, "the documentation builds without a warning, that of private items too", host::doc),
+    ("layers", Host, Full, "each module of the library uses those above it alone", |c| layers::check(&c.workspace.root)),
+    ("lines", Host, Full, "the tooling has fewer lines of code than the library, and no more than its bound", |c| lines::check(&c.workspace.root)),
+    ("examples", Host, Everyday, "the library's examples run", package::examples),
+    ("features", Host, Full, "the library's features build for the target and change no number", package::features),
+    ("package", Host, Full, "the crate packages, and builds vendored from git", package::package),
+    ("deny", Host, Full, "dependencies, their licences and their sources are those that deny.toml allows", package::deny),
+    ("firmware", Target, Full, "every bin of the firmware builds", firmware::build),
+    ("meter", Target, Everyday, "the cycle meter agrees with sequences counted by hand", firmware::meter),
+    ("bits", Host, Everyday, "the host and QEMU compute the same bits", firmware::bits),
+    ("scene", Target, Everyday, "every scene runs to its end", scenes::runs),
+    ("determinism", Target, Everyday, "two runs of a scene give the same bytes", scenes::determinism),
+    ("tracking", Target, Everyday, "every scene tracks within its bound, the default one better than PD as promised", scenes::tracking),
+    ("cycles", Target, Everyday, "the longest tick is short enough", scenes::cycles),
+    ("no-f64", Target, Everyday, "the tick reaches no f64 arithmetic, no libm trigonometry and no panic", firmware::no_f64),
+    ("opcodes", Target, Everyday, "the firmware has no instruction that a Cortex-M4F lacks", firmware::opcodes),
+    ("budgets", Target, Everyday, "every scene is within budgets.toml", scenes::budgets),
+    ("constant", Target, Everyday, "the work costs the same whatever the data", firmware::constant),
+    ("costs", Target, Everyday, "every function is within budgets.toml and its bar, and docs/costs.md says so", firmware::costs),
+    ("growth", Target, Full, "inverse and forward dynamics grow in step with a chain, and docs/growth.md says so",
         |c| growth::check(&c.workspace, &growth::measure(&c.workspace, &c.tools)?)),
-    step("absent-effects", Target, Everyday, "an effect that a scene does not name costs it nothing", absent::absent_effects_cost_nothing),
-    step("accuracy", Target, Full, "docs/accuracy.md has today's costs and errors of single changes; what is printed to be pasted keeps them",
+    ("absent-effects", Target, Everyday, "an effect that a scene does not name costs it nothing", absent::absent_effects_cost_nothing),
+    ("accuracy", Target, Full, "docs/accuracy.md has today's costs and errors of single changes; what is printed to be pasted keeps them",
         |c| accuracy::check(&c.workspace, &c.tools)),
-    step("effects", Target, Full, "docs/effects.md has today's prices", |c| effects::check(&c.workspace, &c.tools)),
-    step("eliminations", Host, Full, "docs/eliminations.md has today's accuracies",
+    ("effects", Target, Full, "docs/effects.md has today's prices", |c| effects::check(&c.workspace, &c.tools)),
+    ("eliminations", Host, Full, "docs/eliminations.md has today's accuracies",
         |c| eliminations::check(&c.workspace).map(|()| String::new())),
-    step("hard-cases", Host, Full, "every hard case holds, and docs/hard-cases.md has today's figures", |c| hard_cases::check(&c.workspace)),
-    step("readme", Target, Everyday, "the tables of README.md and docs/scenes.md are those of this run", scenes::readme),
-    step("debian", Target, Full, "Debian's own compiler builds a scene that runs", others::debian),
-    step("qemu-10", Target, Full, "QEMU 10 logs and measures what this machine's QEMU does, byte for byte", others::qemu_10),
-    step("compilers", Target, Full, "the UR5e's demo and costs are within their budgets with rustup's other compilers", others::compilers),
+    ("hard-cases", Host, Full, "every hard case holds, and docs/hard-cases.md has today's figures", |c| hard_cases::check(&c.workspace)),
+    ("readme", Target, Everyday, "the tables of README.md and docs/scenes.md are those of this run", scenes::readme),
+    ("debian", Target, Full, "Debian's own compiler builds a scene that runs", others::debian),
+    ("qemu-10", Target, Full, "QEMU 10 logs and measures what this machine's QEMU does, byte for byte", others::qemu_10),
+    ("compilers", Target, Full, "the UR5e's demo and costs are within their budgets with rustup's other compilers", others::compilers),
 ];
 
 impl Context {
@@ -165,65 +147,48 @@ impl Context {
         Ok(printed)
     }
 
-    /// The lines that a firmware logs.
-    fn logged(&self, name: &str, elf: &Path) -> Result<Vec<String>> {
-        let run = Run {
-            name,
-            elf,
-            meter: None,
-            logs: true,
-        };
-        self.lines(&run)
-    }
-
     /// The lines that a firmware logs, and what it cost between its markers.
     fn metered(&self, name: &str, elf: &Path, logs: bool) -> Result<(Vec<String>, Vec<Sample>)> {
         let regions = self.workspace.output(&format!("{name}.regions"))?;
         let meter = Some((self.meter()?.as_path(), regions.as_path()));
-        let lines = self.lines(&Run {
-            name,
-            elf,
-            meter,
-            logs,
-        })?;
-        Ok((lines, meter::read(&regions)?))
+        let mut run = Run::logging(name, elf, meter);
+        run.logs = logs;
+        Ok((self.lines(&run)?, meter::read(&regions)?))
     }
 
+    /// The lines that a firmware logs.
     fn lines(&self, run: &Run<'_>) -> Result<Vec<String>> {
         let mut lines = Vec::new();
-        self.tools.qemu.run(run, |line| {
+        let keep = |line: &str| {
             lines.push(line.to_owned());
             Ok(())
-        })?;
+        };
+        self.tools.qemu.run(run, keep)?;
         Ok(lines)
     }
 }
 
 /// What is made at the first call and kept.
 fn once<T>(kept: &OnceLock<T>, make: impl FnOnce() -> Result<T>) -> Result<&T> {
-    match kept.get() {
-        Some(made) => Ok(made),
-        None => {
-            let made = make()?;
-            Ok(kept.get_or_init(|| made))
-        }
+    if let Some(made) = kept.get() {
+        return Ok(made);
     }
+    let made = make()?;
+    Ok(kept.get_or_init(|| made))
 }
 
 /// The steps' names, for the command line.
 pub fn names() -> PossibleValuesParser {
-    let names = STEPS.iter().map(|step| step.name);
-    names.collect::<Vec<_>>().into()
+    STEPS.iter().map(|step| step.0).collect::<Vec<_>>().into()
 }
 
 /// Prints the steps, with those last that only a full run takes, and the tests that it adds to the step `host`.
 pub fn list() -> Result<ExitCode> {
     let workspace = Workspace::find()?;
     let steps = |scope| -> String {
-        let steps = STEPS.iter().filter(|step| step.scope == scope);
-        steps
-            .map(|step| format!("  {:16} {}\n", step.name, step.title))
-            .collect()
+        let steps = STEPS.iter().filter(|step| step.2 == scope);
+        let lines = steps.map(|(name, _, _, title, _)| format!("  {name:16} {title}\n"));
+        lines.collect()
     };
     let mut text = format!(
         "every run:\n{}\nonly with --full, or by name:\n{}\n\
@@ -273,15 +238,14 @@ pub fn run(options: Options, args: &Args) -> Result<ExitCode> {
         meter: OnceLock::new(),
         measured: OnceLock::new(),
     };
-    let wanted = |step: &&Step| match args.steps.as_slice() {
-        [] => args.full || step.scope == Everyday,
-        names => names.iter().any(|name| name == step.name),
+    let wanted = |(name, _, scope, _, _): &&Step| match args.steps.as_slice() {
+        [] => args.full || *scope == Everyday,
+        names => names.iter().any(|wanted| wanted == name),
     };
     let run = |lane| {
-        let steps = STEPS.iter().filter(|step| step.lane == lane).filter(wanted);
-        steps
-            .map(|step| passes(step, &context))
-            .collect::<Result<Vec<_>>>()
+        let steps = STEPS.iter().filter(|step| step.1 == lane).filter(wanted);
+        let outcomes = steps.map(|step| passes(step, &context));
+        outcomes.collect::<Result<Vec<_>>>()
     };
     let outcomes = std::thread::scope(|scope| {
         let lanes = [Host, Target].map(|lane| scope.spawn(move || run(lane)));
@@ -299,32 +263,23 @@ pub fn run(options: Options, args: &Args) -> Result<ExitCode> {
     let seconds = start.elapsed().as_secs();
     output::line(&format!("took {} min {:02} s", seconds / 60, seconds % 60))?;
     output::line(&format!("{passed} passed, {failed} failed"))?;
-    Ok(if failed == 0 {
-        ExitCode::SUCCESS
-    } else {
-        ExitCode::FAILURE
-    })
+    Ok(ExitCode::from(u8::from(failed > 0)))
 }
 
 /// Runs a step and says how it ended: whether it passed, if it applied here.
-fn passes(step: &Step, context: &Context) -> Result<Option<bool>> {
+fn passes((name, _, _, title, run): &Step, context: &Context) -> Result<Option<bool>> {
     let start = Instant::now();
-    let spinner = Spinner::start(step.title);
-    let result = (step.run)(context);
+    let spinner = Spinner::start(title);
+    let result = run(context);
     drop(spinner);
-    let in_brackets = |text: String| {
-        if text.is_empty() {
-            text
-        } else {
-            format!(" ({text})")
-        }
-    };
+    let in_brackets = |text: &str| format!(" ({text})");
     let (mark, detail, passed) = match result {
-        Ok(seen) => ("ok  ", in_brackets(seen), Some(true)),
-        Err(Error::Skipped(why)) => ("skip", in_brackets(why), None),
+        Ok(seen) if seen.is_empty() => ("ok  ", seen, Some(true)),
+        Ok(seen) => ("ok  ", in_brackets(&seen), Some(true)),
+        Err(Error::Skipped(why)) => ("skip", in_brackets(&why), None),
         Err(error) => ("FAIL", format!("\n{error}\n"), Some(false)),
     };
-    let (name, title, seconds) = (step.name, step.title, start.elapsed().as_secs_f64());
+    let seconds = start.elapsed().as_secs_f64();
     output::line(&format!(
         "{mark} {seconds:6.1} s  {name:16} {title}{detail}"
     ))?;

@@ -231,15 +231,7 @@ fn raw(context: &Context, qemu: &Qemu, name: &str, elf: &Path) -> Result<(Vec<u8
     let (major, _) = release(&qemu.version);
     let out = context.workspace.output(&format!("{name}.qemu-{major}"))?;
     let meter = Some((context.meter()?.as_path(), out.as_path()));
-    let log = qemu.run(
-        &Run {
-            name,
-            elf,
-            meter,
-            logs: true,
-        },
-        |_| Ok(()),
-    )?;
+    let log = qemu.run(&Run::logging(name, elf, meter), |_| Ok(()))?;
     Ok((log, workspace::read(&out)?))
 }
 

@@ -67,9 +67,17 @@ pub enum Error {
 impl Error {
     /// `command` could not be started.
     pub fn spawn(command: &Command, source: std::io::Error) -> Self {
-        Self::Spawn {
-            command: shell::display(command),
-            source,
+        let command = shell::display(command);
+        Self::Spawn { command, source }
+    }
+
+    /// `command` ran and failed.
+    pub fn failed(command: &Command, status: ExitStatus, output: String) -> Self {
+        let command = shell::display(command);
+        Self::Failed {
+            command,
+            status,
+            output,
         }
     }
 

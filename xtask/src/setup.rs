@@ -10,7 +10,7 @@ use crate::shell;
 use crate::system::{self, Privilege, System};
 use crate::toolchain::{self, Choice, DEBIAN_PACKAGES, TARGET, Toolchain};
 
-const DEBIAN_CLIPPY: &str = "rust-web-clippy";
+const CLIPPY: &str = "rust-web-clippy";
 
 /// How the user wants the set-up done.
 #[derive(Clone, Copy, Debug, clap::Args)]
@@ -38,7 +38,7 @@ pub struct Tools {
 #[derive(Default)]
 struct Plan {
     reasons: Vec<String>,
-    rustup: Vec<Vec<&'static str>>,
+    rustup: Vec<String>,
     apt: Vec<&'static str>,
     /// For systems where the user has to do it.
     manual: Vec<String>,
@@ -46,31 +46,27 @@ struct Plan {
 
 impl Plan {
     /// Debian's packages, or what the user has to do on another system.
-    fn add(
-        &mut self,
-        reason: &str,
-        packages: &[&'static str],
-        elsewhere: impl FnOnce(System) -> String,
-    ) {
-        self.reasons.push(reason.to_owned());
-        match System::this() {
-            System::Debian => self.apt.extend(packages),
-            system => self.manual.push(elsewhere(system)),
+    fn add(&mut self, reason: String, packages: &[&'static str], elsewhere: &str) {
+        self.reasons.push(reason);
+        if System::this() == System::Debian {
+            self.apt.extend(packages);
+        } else {
+            self.manual.push(elsewhere.to_owned());
         }
     }
 
     /// What rustup has to do.
-    fn add_rustup(&mut self, reason: &str, words: &[&'static str]) {
-        self.reasons.push(reason.to_owned());
-        self.rustup.push([&["rustup"], words].concat());
+    fn add_rustup(&mut self, reason: String, line: String) {
+        self.reasons.push(reason);
+        self.rustup.push(line);
     }
 
     fn commands(&self) -> Vec<String> {
-        let mut lines: Vec<String> = self.rustup.iter().map(|words| words.join(" ")).collect();
+        let mut lines = self.rustup.clone();
         if !self.apt.is_empty() {
             lines.extend(system::apt_lines(&self.apt));
         }
-        lines.extend(self.manual.iter().cloned());
+        lines.extend_from_slice(&self.manual);
         lines
     }
 
@@ -88,14 +84,11 @@ impl Plan {
         }
         let packages = !self.apt.is_empty();
         may_install(options, &commands, packages)?;
-        for words in &self.rustup {
-            shell::run(Command::new(words[0]).args(&words[1..]))?;
+        for line in &self.rustup {
+            shell::run(Command::new("rustup").args(line.split(' ').skip(1)))?;
         }
-        if packages {
-            system::apt_install(&self.apt)
-        } else {
-            Ok(())
-        }
+        let install = packages.then(|| system::apt_install(&self.apt));
+        install.unwrap_or(Ok(()))
     }
 }
 
@@ -109,35 +102,30 @@ pub fn is_ci() -> bool {
 /// # Errors
 /// The user says no or cannot be asked, or may not install packages.
 pub fn may_install(options: Options, commands: &[String], packages: bool) -> Result<()> {
-    let missing = || {
-        Err(Error::Missing {
-            commands: commands.to_vec(),
-        })
-    };
     let say = |what: &str| output::note(&format!("{what}:\n    {}", commands.join("\n    ")));
-    match Privilege::this() {
-        Privilege::None if packages => missing(),
-        Privilege::Sudo if packages && !options.yes && !is_ci() => {
-            if !std::io::stdin().is_terminal() || !std::io::stderr().is_terminal() {
-                let why = "nobody can be asked here whether to use sudo; --yes agrees to it";
-                output::note(&format!("not installed: {why}"));
-                return missing();
-            }
+    let privilege = Privilege::this();
+    let asks = packages && privilege == Privilege::Sudo && !options.yes && !is_ci();
+    let is_watched = std::io::stdin().is_terminal() && std::io::stderr().is_terminal();
+    let may = match (asks, is_watched) {
+        (true, true) => {
             say("this would be installed with");
             let _ = write!(std::io::stderr(), "run it? [y/N] ");
             let mut answer = String::new();
-            let read = std::io::stdin().read_line(&mut answer);
-            if read.is_ok() && is_yes(&answer) {
-                Ok(())
-            } else {
-                missing()
-            }
+            std::io::stdin().read_line(&mut answer).is_ok() && is_yes(&answer)
         }
-        _ => {
+        (true, false) => {
+            let why = "nobody can be asked here whether to use sudo; --yes agrees to it";
+            output::note(&format!("not installed: {why}"));
+            false
+        }
+        (false, _) if packages && privilege == Privilege::None => false,
+        (false, _) => {
             say("about to install it with");
-            Ok(())
+            true
         }
-    }
+    };
+    let commands = commands.to_vec();
+    may.then_some(()).ok_or(Error::Missing { commands })
 }
 
 fn is_yes(answer: &str) -> bool {
@@ -146,39 +134,34 @@ fn is_yes(answer: &str) -> bool {
 
 /// Everything that the demo needs.
 pub fn for_demo(options: Options) -> Result<Tools> {
-    let toolchain = compiler(options)?;
-    Ok(Tools {
-        toolchain,
-        qemu: Qemu::find()?,
-    })
+    let (toolchain, qemu) = (compiler(options)?, Qemu::find()?);
+    Ok(Tools { toolchain, qemu })
 }
 
 /// Everything that the tests need: what the demo needs, rustfmt and clippy.
 pub fn for_test(options: Options) -> Result<Tools> {
     let tools = for_demo(options)?;
     let mut plan = Plan::default();
-    for (subcommand, component, package) in [
+    let components = [
         ("fmt", "rustfmt", "rustfmt-web"),
-        ("clippy", "clippy", DEBIAN_CLIPPY),
-    ] {
+        ("clippy", "clippy", CLIPPY),
+    ];
+    for (subcommand, component, package) in components {
         let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
         if shell::succeeds(Command::new(cargo).args([subcommand, "--version"])) {
             continue;
         }
         let reason = format!("`cargo {subcommand}`");
         if shell::which("rustup").is_some() {
-            plan.add_rustup(&reason, &["component", "add", component]);
+            plan.add_rustup(reason, format!("rustup component add {component}"));
         } else {
-            plan.add(&reason, &[package], |_| {
-                format!("install Rust's `{component}` component")
-            });
+            let elsewhere = format!("install Rust's `{component}` component");
+            plan.add(reason, &[package], &elsewhere);
         }
     }
     let is_debian = tools.toolchain == Toolchain::Debian;
-    if is_debian && !toolchain::has_debian_clippy() && !plan.apt.contains(&DEBIAN_CLIPPY) {
-        plan.add("the clippy of Debian's compiler", &[DEBIAN_CLIPPY], |_| {
-            String::new()
-        });
+    if is_debian && !toolchain::has_debian_clippy() && !plan.apt.contains(&CLIPPY) {
+        plan.add("the clippy of Debian's compiler".into(), &[CLIPPY], "");
     }
     plan.carry_out(options)?;
     Ok(tools)
@@ -188,11 +171,8 @@ pub fn for_test(options: Options) -> Result<Tools> {
 pub fn debian(options: Options) -> Result<Toolchain> {
     if let Some(why) = toolchain::debian_lacks() {
         let mut plan = Plan::default();
-        plan.add(
-            &format!("Debian's own compiler: {why}"),
-            DEBIAN_PACKAGES,
-            |_| String::new(),
-        );
+        let reason = format!("Debian's own compiler: {why}");
+        plan.add(reason, DEBIAN_PACKAGES, "");
         plan.carry_out(options)?;
         toolchain::require_debian()?;
     }
@@ -205,7 +185,11 @@ fn compiler(options: Options) -> Result<Toolchain> {
     let mut chosen = choose(options.toolchain, &mut plan)?;
     if !Qemu::is_installed() {
         let reason = "`qemu-system-arm`, the emulator that runs the firmware";
-        plan.add(reason, &[system::QEMU], System::qemu_command);
+        plan.add(
+            reason.into(),
+            &[system::QEMU],
+            System::this().qemu_command(),
+        );
     }
     let may_fall_back = options.toolchain == Choice::Auto && System::this() == System::Debian;
     if options.no_install && !plan.rustup.is_empty() && may_fall_back {
@@ -256,7 +240,7 @@ fn choose(choice: Choice, plan: &mut Plan) -> Result<Toolchain> {
             return Ok(Toolchain::Debian);
         }
         if shell::which("rustup").is_some() {
-            plan.add_rustup(&core, &["target", "add", TARGET]);
+            plan.add_rustup(core, format!("rustup target add {TARGET}"));
             return Ok(Toolchain::Native);
         }
     }
@@ -267,9 +251,7 @@ fn choose(choice: Choice, plan: &mut Plan) -> Result<Toolchain> {
         )));
     }
     if let Some(why) = toolchain::debian_lacks() {
-        plan.add(&format!("{core} ({why})"), DEBIAN_PACKAGES, |_| {
-            String::new()
-        });
+        plan.add(format!("{core} ({why})"), DEBIAN_PACKAGES, "");
     }
     Ok(Toolchain::Debian)
 }

@@ -65,11 +65,11 @@ impl System {
     }
 
     /// What the user has to do to get a QEMU, where xtask does not install it itself.
-    pub fn qemu_command(self) -> String {
-        let row = SYSTEMS
+    pub fn qemu_command(self) -> &'static str {
+        SYSTEMS
             .iter()
-            .find(|row| row.0 == self && !row.2.is_empty());
-        row.map_or_else(|| apt_lines(&[QEMU]).join(" && "), |row| row.2.to_owned())
+            .find(|row| row.0 == self)
+            .map_or("", |row| row.2)
     }
 }
 
@@ -105,14 +105,10 @@ impl Privilege {
     }
 
     fn apt_get(self) -> Command {
-        let mut command = Command::new(if self == Self::Sudo {
-            "sudo"
-        } else {
-            "apt-get"
-        });
-        if self == Self::Sudo {
-            command.arg("apt-get");
-        }
+        let through: &[&str] = if self == Self::Sudo { &["sudo"] } else { &[] };
+        let words = [through, &["apt-get"]].concat();
+        let mut command = Command::new(words[0]);
+        command.args(&words[1..]);
         command
     }
 }

@@ -54,12 +54,8 @@ impl Toolchain {
             Self::Native => workspace.cargo(subcommand),
             Self::Debian => {
                 // Cargo would find rustup's `cargo-clippy` first.
-                let is_clippy = subcommand == "clippy";
-                let mut command = debian(if is_clippy {
-                    DEBIAN_CLIPPY
-                } else {
-                    DEBIAN_CARGO
-                });
+                let programs = [DEBIAN_CARGO, DEBIAN_CLIPPY];
+                let mut command = debian(programs[usize::from(subcommand == "clippy")]);
                 command
                     .args([subcommand, "-Zbuild-std=core"])
                     .env("CARGO", DEBIAN_CARGO)
@@ -144,9 +140,8 @@ pub fn native_has_target() -> bool {
 
 /// Whether there is a precompiled core library in a directory.
 pub fn has_core(dir: &Path) -> bool {
-    let is_core =
-        |entry: std::fs::DirEntry| entry.file_name().to_string_lossy().starts_with("libcore-");
-    std::fs::read_dir(dir).is_ok_and(|entries| entries.flatten().any(is_core))
+    let mut files = std::fs::read_dir(dir).into_iter().flatten().flatten();
+    files.any(|file| file.file_name().to_string_lossy().starts_with("libcore-"))
 }
 
 /// The sources of the core library, below a compiler's root.
@@ -168,11 +163,8 @@ pub fn debian_lacks() -> Option<String> {
         (Ok(version), Ok(sysroot)) => (version, sysroot),
         (Err(error), _) | (_, Err(error)) => return Some(error.to_string()),
     };
-    let (version, sysroot, oldest) = (
-        version.trim(),
-        sysroot.trim(),
-        env!("CARGO_PKG_RUST_VERSION"),
-    );
+    let (version, sysroot) = (version.trim(), sysroot.trim());
+    let oldest = env!("CARGO_PKG_RUST_VERSION");
     if release(version) < release(oldest) {
         return Some(format!("{DEBIAN_RUSTC} is {version}, older than {oldest}"));
     }

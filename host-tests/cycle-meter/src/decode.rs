@@ -36,14 +36,10 @@ const LR: u16 = 14;
 /// 16-bit encodings (A5.2).
 fn narrow(code: u16) -> Insn {
     let integer = Insn::new(Class::Integer, 2);
-    let transfer = |loads: bool, data: u16| {
-        if loads {
-            Insn::new(Class::Load, 2).writing(data)
-        } else {
-            Insn::new(Class::Store, 2)
-        }
+    let transfer = |loads: bool, data: u16| match loads {
+        true => Insn::new(Class::Load, 2).writing(data),
+        false => Insn::new(Class::Store, 2),
     };
-    let multiple = |registers: u16| Insn::new(Class::Words(registers.count_ones() as u8), 2);
     let low = register(code, 0, 3);
     let high = register(code, 8, 3);
     let loads = code & 0x0800 != 0;
@@ -74,13 +70,16 @@ fn narrow(code: u16) -> Insn {
         0b10010 | 0b10011 => transfer(loads, high).addressed_by(SP),
         0b10100 | 0b10101 => integer.writing(high), // ADR, ADD from SP
         0b10110 | 0b10111 => miscellaneous(code),
-        0b11000 => multiple(code & 0xFF).addressed_by(high),
-        0b11001 => multiple(code & 0xFF)
-            .writing(code & 0xFF)
-            .addressed_by(high),
+        0b11000 => several(code & 0xFF).addressed_by(high),
+        0b11001 => several(code & 0xFF).writing(code & 0xFF).addressed_by(high),
         0b11010..=0b11100 => integer.branching(), // B, SVC, UDF
         _ => Insn::new(Class::Unknown, 2),
     }
+}
+
+/// A transfer of these registers.
+fn several(registers: u16) -> Insn {
+    Insn::new(Class::Words(registers.count_ones() as u8), 2)
 }
 
 /// 16-bit miscellaneous encodings (A5.2.5).
@@ -90,17 +89,12 @@ fn miscellaneous(code: u16) -> Insn {
         0 => integer.writing(SP),
         1 | 3 | 9 | 11 => integer.branching(), // CBZ, CBNZ
         2 | 10 => integer.writing(register(code, 0, 3)),
-        4 | 5 => {
-            let registers = code & 0xFF | (code & 0x100) << 6;
-            Insn::new(Class::Words(registers.count_ones() as u8), 2).addressed_by(SP)
-        }
+        4 | 5 => several(code & 0xFF | (code & 0x100) << 6).addressed_by(SP),
         6 => Insn::new(Class::System, 2), // CPS
         12 | 13 => {
             let registers = code & 0xFF | (code & 0x100) << 7;
-            Insn::new(Class::Words(registers.count_ones() as u8), 2)
-                .writing(registers)
-                .returning_if(true)
-                .addressed_by(SP)
+            let pop = several(registers).writing(registers);
+            pop.returning_if(true).addressed_by(SP)
         }
         14 => integer.branching(), // BKPT
         15 => integer,             // IT and hints

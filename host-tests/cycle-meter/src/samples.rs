@@ -110,9 +110,14 @@ pub(crate) fn sample(line: &str, number: usize) -> Result<Sample, Error> {
 pub fn format_samples(samples: &[Sample], unmatched: u64) -> String {
     let mut text = format!("{HEADER}\n");
     // Writing to a string does not fail.
-    for one in samples {
-        let (instructions, cycles) = (one.instructions, one.cycles);
-        let _ = writeln!(text, "{} {instructions} {cycles} {}", one.region, one.flops);
+    for Sample {
+        region,
+        instructions,
+        cycles,
+        flops,
+    } in samples
+    {
+        let _ = writeln!(text, "{region} {instructions} {cycles} {flops}");
     }
     if unmatched > 0 {
         let _ = writeln!(text, "unmatched {unmatched}");

@@ -43,13 +43,11 @@ fn data_processing(second: u16) -> Insn {
 
 /// LDM, STM, PUSH, POP (A5.3.5).
 fn load_store_multiple(first: u16, second: u16) -> Insn {
-    let insn =
-        Insn::new(Class::Words(second.count_ones() as u8), 4).addressed_by(register(first, 0, 4));
-    if first & 0x10 != 0 {
-        let is_pop = first & 0xF == SP_NUMBER;
-        insn.writing(second).returning_if(is_pop)
-    } else {
-        insn
+    let words = Class::Words(second.count_ones() as u8);
+    let insn = Insn::new(words, 4).addressed_by(register(first, 0, 4));
+    match first & 0x10 {
+        0 => insn,
+        _ => insn.writing(second).returning_if(first & 0xF == SP_NUMBER),
     }
 }
 
@@ -59,12 +57,14 @@ fn double_exclusive_table(first: u16, second: u16) -> Insn {
     let loads = first & 0x10 != 0;
     let data = register(second, 12, 4);
     if first & 0x120 != 0 {
-        let insn = Insn::new(Class::Words(2), 4).addressed_by(base);
-        return if loads {
-            insn.writing(data | register(second, 8, 4))
+        let written = if loads {
+            data | register(second, 8, 4)
         } else {
-            insn
+            0
         };
+        return Insn::new(Class::Words(2), 4)
+            .addressed_by(base)
+            .writing(written);
     }
     // Load-acquire and store-release.
     if first & 0x80 != 0 && matches!(second >> 4 & 0xF, 0x8 | 0x9 | 0xA | 0xC | 0xD | 0xE) {
@@ -97,14 +97,8 @@ fn branches_and_control(first: u16, second: u16) -> Insn {
     }
     match first {
         0xF3AF if second & 0xFFF0 == 0x80F0 => {
-            let option = second as u8 & 0xF;
-            Insn::new(
-                Class::Marker(Marker {
-                    region: option >> 1,
-                    opens: option & 1 == 0,
-                }),
-                4,
-            )
+            let (region, opens) = ((second as u8 & 0xF) >> 1, second & 1 == 0);
+            Insn::new(Class::Marker(Marker { region, opens }), 4)
         }
         0xF3AF => integer,
         0xF3BF if second & 0xF0 == 0x60 => Insn::new(Class::InstructionBarrier, 4),
@@ -121,11 +115,12 @@ fn load_store_single(first: u16, second: u16) -> Insn {
     let base = register(first, 0, 4);
     let data = register(second, 12, 4);
     let by_register = first & 0x80 == 0 && second & 0xFC0 == 0 && base != PC;
-    let address = if by_register {
-        base | register(second, 0, 4)
+    let index = if by_register {
+        register(second, 0, 4)
     } else {
-        base
+        0
     };
+    let address = base | index;
     if first & 0x10 == 0 {
         return Insn::new(Class::Store, 4).addressed_by(address);
     }

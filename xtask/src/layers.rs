@@ -22,10 +22,8 @@ pub fn check(root: &Path) -> Result<String> {
     let order = Order::read(&workspace::read(&library.join("lib.rs"))?)?;
     let (mut uses, mut wrong) = (0, Vec::new());
     for path in sources(&library)? {
-        let inside = path
-            .strip_prefix(&library)
-            .unwrap_or(&path)
-            .with_extension("");
+        let inside = path.strip_prefix(&library).unwrap_or(&path);
+        let inside = inside.with_extension("");
         let mut names: Vec<_> = inside.iter().map(|name| name.to_string_lossy()).collect();
         names.retain(|name| name != "mod");
         let user = &*names[0];
@@ -49,26 +47,28 @@ pub fn check(root: &Path) -> Result<String> {
 impl Order {
     /// From the source of `lib.rs`.
     fn read(source: &str) -> Result<Self> {
-        let after = source
-            .lines()
-            .skip_while(|line| !line.starts_with(LIST))
-            .skip(1);
-        let listed = after.map_while(|line| line.strip_prefix("//"));
-        let modules: Vec<String> = listed
-            .flat_map(str::split_whitespace)
-            .map(str::to_owned)
+        let after = source.lines().skip_while(|line| !line.starts_with(LIST));
+        let listed = after.skip(1).map_while(|line| line.strip_prefix("//"));
+        let names = listed.flat_map(str::split_whitespace);
+        let modules: Vec<String> = names.map(str::to_owned).collect();
+        let (mut exports, mut declared) = (Vec::new(), Vec::new());
+        let text: String = code(source)
+            .map(|(_, line)| line.to_owned() + " ")
             .collect();
-        let mut exports = Vec::new();
-        let mut declared = Vec::new();
-        for (_, line) in code(source) {
-            let words = line.trim_start_matches("pub ").trim_end_matches(';');
+        for statement in text.split(';') {
+            // Behind its attributes and its visibility.
+            let words = statement.rsplit(']').next().unwrap_or_default().trim();
+            let words = words
+                .trim_start_matches("pub(crate) ")
+                .trim_start_matches("pub ");
             if let Some(name) = words.strip_prefix("mod ") {
                 declared.push(name.to_owned());
-            } else if let Some((module, items)) = words
+            }
+            let path = words
                 .strip_prefix("use ")
-                .and_then(|path| path.split_once("::"))
-            {
-                let items = items.trim_matches(['{', '}']).split(", ");
+                .and_then(|path| path.split_once("::"));
+            for (module, items) in path {
+                let items = items.split(['{', '}', ',']).map(str::trim);
                 exports.extend(items.map(|item| (item.to_owned(), module.to_owned())));
             }
         }
@@ -104,10 +104,8 @@ impl Order {
 fn used(source: &str, depth: usize) -> Vec<(usize, String)> {
     // Behind the code of a line stands no comment for this, and a list of paths may go over several lines.
     let lines: Vec<(usize, &str)> = code(source).collect();
-    let text: String = lines
-        .iter()
-        .map(|(_, line)| line.split(" // ").next().unwrap_or(line).to_owned() + "\n")
-        .collect();
+    let bare = |line: &str| line.split(" // ").next().unwrap_or(line).to_owned() + "\n";
+    let text: String = lines.iter().map(|(_, line)| bare(line)).collect();
     let line_at = |at: usize| lines[text[..at].matches('\n').count()].0;
     let mut found = Vec::new();
     for root in ["crate::".to_owned(), "super::".repeat(depth)] {
@@ -116,12 +114,8 @@ fn used(source: &str, depth: usize) -> Vec<(usize, String)> {
             if text[..at].ends_with(is_part) {
                 continue;
             }
-            let path = at + root.len();
-            found.extend(
-                names_at(&text, path)
-                    .into_iter()
-                    .map(|(at, name)| (line_at(at), name)),
-            );
+            let names = names_at(&text, at + root.len()).into_iter();
+            found.extend(names.map(|(at, name)| (line_at(at), name)));
         }
     }
     found

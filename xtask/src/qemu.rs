@@ -16,7 +16,7 @@ use crate::error::{Error, Result};
 use crate::processes;
 use crate::shell;
 use crate::toolchain::release;
-use watch::{Decoder, Line, Said, Watch};
+use watch::{Decoder, Line, Watch, bytes_of, said};
 
 const PROGRAM: &str = "qemu-system-arm";
 
@@ -156,7 +156,7 @@ impl Qemu {
             // A QEMU that has refused and left already does not read it.
             let _ = monitor.write_all(b"quit\n");
         }
-        let said = child.stderr.take().map(Said::by);
+        let stderr = child.stderr.take().map(bytes_of);
         let status = processes::within(&mut child, LOADING).map_err(|e| e.to_string())?;
         let Some(status) = status else {
             processes::kill(&mut child);
@@ -165,7 +165,7 @@ impl Qemu {
         if status.success() {
             return Ok(());
         }
-        let said = said.map_or_else(String::new, |said| said.text());
+        let said = stderr.as_ref().map_or_else(String::new, said);
         // Behind the path of the plugin, which the user did not choose.
         let why = said.rsplit_once(": ").map_or(&*said, |(_, why)| why);
         let says_nothing = why.is_empty().then(|| status.to_string());

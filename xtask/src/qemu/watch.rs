@@ -3,7 +3,6 @@
 use std::io::Read;
 use std::process::{Child, Command, ExitStatus};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
-use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -21,7 +20,7 @@ const MOST_JUNK: usize = 1 << 20;
 const MOST_LOG: usize = 64 << 20;
 /// Bytes of stderr that are kept.
 const MOST_SAID: usize = 1 << 16;
-/// Chunks that wait for the decoder: beyond it the program has to.
+/// Chunks of a pipe that wait for who reads them: beyond it the program has to.
 const CHUNKS: usize = 64;
 /// How long stderr may stay open after the program's end: a child of its may hold it for ever.
 const GRACE: Duration = Duration::from_secs(1);
@@ -78,7 +77,7 @@ impl Watch<'_> {
         let (child, group) = shell::spawn(command)?;
         let mut child = Guard(child, group);
         let stdout = child.0.stdout.take().expect("stdout is piped");
-        let said = Said::by(child.0.stderr.take().expect("stderr is piped"));
+        let stderr = bytes_of(child.0.stderr.take().expect("stderr is piped"));
         let mut log = Log::default();
         let mut outcome = self.listen(&mut log, &bytes_of(stdout), on_line);
         if outcome.is_ok() {
@@ -87,7 +86,7 @@ impl Watch<'_> {
             outcome = self.verdict(status, &log);
         }
         drop(child);
-        match (outcome, said.text()) {
+        match (outcome, said(&stderr)) {
             (outcome, said) if said.is_empty() => outcome?,
             (Err(Error::Qemu { program, what }), said) => {
                 return Err(Error::qemu(&program, format!("{what}\nQEMU said: {said}")));
@@ -186,11 +185,11 @@ impl Log {
 }
 
 /// Reads in a thread of its own, since a read cannot be given a deadline.
-fn bytes_of(mut stdout: impl Read + Send + 'static) -> Receiver<Vec<u8>> {
+pub fn bytes_of(mut pipe: impl Read + Send + 'static) -> Receiver<Vec<u8>> {
     let (sender, receiver) = mpsc::sync_channel(CHUNKS);
     thread::spawn(move || {
         let mut buffer = [0; 4096];
-        while let Ok(n @ 1..) = stdout.read(&mut buffer) {
+        while let Ok(n @ 1..) = pipe.read(&mut buffer) {
             if sender.send(buffer[..n].to_vec()).is_err() {
                 break;
             }
@@ -199,35 +198,15 @@ fn bytes_of(mut stdout: impl Read + Send + 'static) -> Receiver<Vec<u8>> {
     receiver
 }
 
-/// What came on stderr: decoration of an error message, so nothing waits for it for long.
-pub struct Said {
-    text: Arc<Mutex<Vec<u8>>>,
-    ended: Receiver<()>,
-}
-
-impl Said {
-    pub fn by(mut stderr: impl Read + Send + 'static) -> Self {
-        let text = Arc::new(Mutex::new(Vec::new()));
-        let (sender, ended) = mpsc::channel();
-        let kept = Arc::clone(&text);
-        thread::spawn(move || {
-            let mut buffer = [0; 4096];
-            // What is not kept is read all the same: a full pipe would stop the program.
-            while let Ok(n @ 1..) = stderr.read(&mut buffer) {
-                if let Ok(mut kept) = kept.lock() {
-                    let room = n.min(MOST_SAID - kept.len());
-                    kept.extend(&buffer[..room]);
-                }
-            }
-            let _ = sender.send(());
-        });
-        Self { text, ended }
+/// What came on stderr, or what there is when patience ends: decoration of an error message, so nothing waits for it
+/// for long.
+pub fn said(stderr: &Receiver<Vec<u8>>) -> String {
+    let end = Instant::now() + GRACE;
+    let mut text = Vec::new();
+    while text.len() < MOST_SAID
+        && let Ok(chunk) = stderr.recv_timeout(end.saturating_duration_since(Instant::now()))
+    {
+        text.extend(chunk);
     }
-
-    /// All of it, or what there is when patience ends.
-    pub fn text(&self) -> String {
-        let _ = self.ended.recv_timeout(GRACE);
-        let text = self.text.lock().unwrap_or_else(PoisonError::into_inner);
-        String::from_utf8_lossy(&text).trim().to_owned()
-    }
+    String::from_utf8_lossy(&text).trim().to_owned()
 }

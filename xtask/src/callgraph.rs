@@ -38,15 +38,23 @@ impl Instruction {
     }
 }
 
-impl Function {
-    /// The address after it.
-    pub fn end(&self) -> u64 {
-        self.address + self.bytes.len() as u64
+impl Image {
+    /// The instructions of all its functions.
+    pub fn instructions(&self) -> impl Iterator<Item = (&Function, Instruction)> {
+        let of = |function| {
+            Function::instructions(function)
+                .into_iter()
+                .map(move |one| (function, one))
+        };
+        self.functions.iter().flat_map(of)
     }
+}
 
+impl Function {
     /// Whether an address lies in it.
     pub fn contains(&self, address: u64) -> bool {
-        (self.address..self.end()).contains(&address)
+        let end = self.address + self.bytes.len() as u64;
+        (self.address..end).contains(&address)
     }
 
     /// Its instructions, without the literal pools.

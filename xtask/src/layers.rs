@@ -67,7 +67,7 @@ impl Order {
             let path = words
                 .strip_prefix("use ")
                 .and_then(|path| path.split_once("::"));
-            for (module, items) in path {
+            if let Some((module, items)) = path {
                 let items = items.split(['{', '}', ',']).map(str::trim);
                 exports.extend(items.map(|item| (item.to_owned(), module.to_owned())));
             }

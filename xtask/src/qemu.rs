@@ -209,17 +209,14 @@ impl Qemu {
                      -semihosting-config enable=on,target=native";
         command.args(fixed.split(' '));
         if let Some((plugin, out)) = run.meter {
-            command
-                .arg("-plugin")
-                .arg(format!("{},out={}", plugin.display(), out.display()));
+            let plugged = format!("{},out={}", plugin.display(), out.display());
+            command.args(["-plugin", &plugged]);
             let version = self.interface(plugin)?;
             command.envs(version.map(|version| (cycle_meter::INTERFACE, version.to_string())));
         }
         command.arg("-kernel").arg(run.elf);
-        command
-            .stdin(Stdio::null())
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped());
+        command.stdin(Stdio::null()).stdout(Stdio::piped());
+        command.stderr(Stdio::piped());
         Ok(command)
     }
 

@@ -90,27 +90,20 @@ pub fn run(options: Options, wish: &Wish) -> Result<ExitCode> {
     // Not there if QEMU did not start.
     let _ = std::fs::remove_file(&out);
     let (ended, samples) = samples?;
-    let (regions, foreign) = (regions(&samples), foreign(&image));
-    if regions.is_empty() {
-        let (when, seconds) = (
-            if ended {
-                "before it ended"
-            } else {
-                "in its time"
-            },
-            wish.seconds,
-        );
+    let report = Report {
+        model: MODEL,
+        ended,
+        regions: regions(&samples),
+        foreign: foreign(&image),
+    };
+    if report.regions.is_empty() {
+        let when = ["in its time", "before it ended"][usize::from(ended)];
+        let seconds = wish.seconds;
         return Err(Error::check(format!(
             "{name} has markers, but closed no region {when}: is it built for a board with flash at 0x08000000, does \
              it wait for a device that QEMU lacks, or does it need more than --seconds {seconds}?"
         )));
     }
-    let report = Report {
-        model: MODEL,
-        ended,
-        regions,
-        foreign,
-    };
     if wish.json {
         docs::print_json(&report)?;
     } else {
@@ -137,17 +130,18 @@ fn image(elf: &Path) -> Result<Image> {
         );
     }
     let image = Image::read(elf)?;
-    let mut instructions = image.functions.iter().flat_map(|f| f.instructions());
     if !image.is_arm {
-        wrong("this is for another processor: build it with --target thumbv7em-none-eabihf")
-    } else if image.functions.is_empty() {
-        wrong("it has no symbols of functions: build it without `strip`")
-    } else if !instructions.any(|one| one.insn.is_marker()) {
-        wrong(&format!("it has no markers.\n\n{MARKERS}"))
-    } else {
-        drop(instructions);
-        Ok(image)
+        return wrong(
+            "this is for another processor: build it with --target thumbv7em-none-eabihf",
+        );
     }
+    if image.functions.is_empty() {
+        return wrong("it has no symbols of functions: build it without `strip`");
+    }
+    if !image.instructions().any(|(_, one)| one.insn.is_marker()) {
+        return wrong(&format!("it has no markers.\n\n{MARKERS}"));
+    }
+    Ok(image)
 }
 
 fn regions(samples: &[Sample]) -> Vec<Region> {
@@ -165,17 +159,12 @@ fn regions(samples: &[Sample]) -> Vec<Region> {
 }
 
 fn foreign(image: &Image) -> Vec<Foreign> {
-    let all = image.functions.iter().flat_map(|function| {
-        let foreign = function
-            .instructions()
-            .into_iter()
-            .filter(|one| one.is_beyond_m4f());
-        foreign.map(|one| Foreign {
-            function: function.names.join(" = "),
-            address: format!("{:#x}", one.address),
-        })
+    let foreign = image.instructions().filter(|(_, one)| one.is_beyond_m4f());
+    let named = foreign.map(|(function, one)| Foreign {
+        function: function.names.join(" = "),
+        address: format!("{:#x}", one.address),
     });
-    all.collect()
+    named.collect()
 }
 
 impl Report {

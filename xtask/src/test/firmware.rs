@@ -116,13 +116,11 @@ fn is_panic(symbol: &str) -> bool {
 pub fn opcodes(context: &Context) -> Result<String> {
     let mut seen = 0;
     for measured in context.measured()? {
-        for function in Image::read(&measured.elf)?.functions {
-            for one in function.instructions() {
-                seen += 1;
-                if one.is_beyond_m4f() {
-                    let (name, code, at) = (&function.names[0], one.code, one.address);
-                    return Err(Error::check(format!("`{name}` has {code:x?} at {at:#x}")));
-                }
+        for (function, one) in Image::read(&measured.elf)?.instructions() {
+            seen += 1;
+            if one.is_beyond_m4f() {
+                let (name, code, at) = (&function.names[0], one.code, one.address);
+                return Err(Error::check(format!("`{name}` has {code:x?} at {at:#x}")));
             }
         }
     }

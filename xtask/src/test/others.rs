@@ -50,33 +50,22 @@ pub fn debian(context: &Context) -> Result<String> {
         }
     }
     // Whoever may install it has been asked: by --debian.
-    let yes = context.may_install_debian;
-    let toolchain = setup::debian(setup::Options {
-        yes,
-        ..context.options
-    })?;
+    let mut options = context.options;
+    options.yes = context.may_install_debian;
+    let toolchain = setup::debian(options)?;
     let elf = firmware::build(&context.workspace, toolchain, SCENE)?;
     let version = toolchain.rustc_version()?;
-    Ok(format!(
-        "{version}: {}",
-        budgets_kept(context, &elf, &version)?
-    ))
+    let spare = budgets_kept(context, &elf, &version)?;
+    Ok(format!("{version}: {spare}"))
 }
 
 /// Runs the default scene and says how far it is within its budgets, as what a compiler made.
 fn budgets_kept(context: &Context, elf: &Path, rustc: &str) -> Result<String> {
-    let (tools, scene) = (&context.tools, Scene::default());
-    let meter = context.meter()?;
-    let mut measured = demo::measure(
-        &context.workspace,
-        tools,
-        scene,
-        tools.toolchain,
-        elf,
-        meter,
-    )?;
+    let (workspace, tools, meter) = (&context.workspace, &context.tools, context.meter()?);
+    let (scene, toolchain) = (Scene::default(), tools.toolchain);
+    let mut measured = demo::measure(workspace, tools, scene, toolchain, elf, meter)?;
     measured.report.rustc = rustc.to_owned();
-    budgets::check(&context.workspace, &measured.report)
+    budgets::check(workspace, &measured.report)
 }
 
 pub fn compilers(context: &Context) -> Result<String> {
@@ -86,10 +75,8 @@ pub fn compilers(context: &Context) -> Result<String> {
     let own = context.tools.toolchain.rustc_version()?;
     let list = shell::capture(Command::new("rustup").args(["toolchain", "list"]))?;
     let oldest = env!("CARGO_PKG_RUST_VERSION");
-    let mut names: Vec<&str> = list
-        .lines()
-        .filter_map(|line| line.split(' ').next())
-        .collect();
+    let firsts = list.lines().filter_map(|line| line.split(' ').next());
+    let mut names: Vec<&str> = firsts.collect();
     names.sort_unstable();
     // What should be there stands in the outcome if it is not.
     let mut wanted = vec![oldest, "stable"];
@@ -115,9 +102,8 @@ pub fn compilers(context: &Context) -> Result<String> {
         }
         let verdict = match cores(name) {
             (false, false) => {
-                format!(
-                    "no core library for {TARGET}: `rustup target add --toolchain {name} {TARGET}`"
-                )
+                let add = format!("rustup target add --toolchain {name} {TARGET}");
+                format!("no core library for {TARGET}: `{add}`")
             }
             (precompiled, _) => {
                 ran = true;
@@ -143,24 +129,16 @@ fn cores(name: &str) -> (bool, bool) {
         out.map(|out| PathBuf::from(out.trim())).unwrap_or_default()
     };
     let libraries = printed(&format!("target-libdir --target {TARGET}"));
-    (
-        toolchain::has_core(&libraries),
-        toolchain::has_sources(&printed("sysroot")),
-    )
+    let has_sources = toolchain::has_sources(&printed("sysroot"));
+    (toolchain::has_core(&libraries), has_sources)
 }
 
 /// Builds the scene and the costs, runs them, and says how far the costs are from the usual compiler's.
 fn built_by(context: &Context, name: &str, version: &str, precompiled: bool) -> Result<String> {
     let target = context.workspace.target.join("compilers").join(name);
     let mut command = toolchain::rustup(name, "cargo");
-    command.args([
-        "build",
-        "--release",
-        "--package",
-        FIRMWARE,
-        "--target",
-        TARGET,
-    ]);
+    let line = format!("build --release --package {FIRMWARE} --target {TARGET}");
+    command.args(line.split(' '));
     command.args(["--bin", SCENE, "--bin", COSTS, "--target-dir"]);
     command.arg(&target).current_dir(&context.workspace.root);
     if !precompiled {
@@ -175,10 +153,8 @@ fn built_by(context: &Context, name: &str, version: &str, precompiled: bool) -> 
         Ok(rows.iter().map(|row| (row.key(), row.cycles.max)).collect())
     });
     let worst = apart(usual?.into_iter(), these?.into_iter())?;
-    Ok(format!(
-        "{spare}, costs at most {:.2} % apart",
-        100.0 * worst
-    ))
+    let percent = 100.0 * worst;
+    Ok(format!("{spare}, costs at most {percent:.2} % apart"))
 }
 
 /// The largest share by which a cost differs from the one of the same name.
@@ -202,14 +178,10 @@ fn apart(
 pub fn qemu_10(context: &Context) -> Result<String> {
     let own = &context.tools.qemu;
     let os = std::fs::read_to_string("/etc/os-release").unwrap_or_default();
-    if !os
-        .lines()
-        .any(|line| line == format!("VERSION_CODENAME={SUITE}"))
-    {
-        let version = &own.version;
-        return skip(format!(
-            "not on Debian 12, whose backports have it; here is {version}"
-        ));
+    let suite = format!("VERSION_CODENAME={SUITE}");
+    if !os.lines().any(|line| line == suite) {
+        let here = format!("here is {}", own.version);
+        return skip(format!("not on Debian 12, whose backports have it; {here}"));
     }
     let cannot = |error| Error::Skipped(format!("cannot be had from Debian's backports: {error}"));
     let newer = Qemu::at(unpacked(&context.workspace).map_err(cannot)?)?;
@@ -220,10 +192,8 @@ pub fn qemu_10(context: &Context) -> Result<String> {
         let here = raw(context, own, name, elf)?;
         samples += same(name, &here, &raw(context, &newer, name, elf)?)?;
     }
-    Ok(format!(
-        "{} and {}: {samples} samples",
-        own.version, newer.version
-    ))
+    let (old, new) = (&own.version, &newer.version);
+    Ok(format!("{old} and {new}: {samples} samples"))
 }
 
 /// The log and the meter's file of a run.
@@ -243,9 +213,8 @@ fn same(name: &str, here: &(Vec<u8>, String), there: &(Vec<u8>, String)) -> Resu
     }
     let mut lines = std::iter::zip(here.1.lines(), there.1.lines()).zip(1..);
     if let Some(((one, other), at)) = lines.find(|((one, other), _)| one != other) {
-        return unlike(&format!(
-            "line {at} of the samples is `{one}` here and `{other}` there"
-        ));
+        let both = format!("`{one}` here and `{other}` there");
+        return unlike(&format!("line {at} of the samples is {both}"));
     }
     if here.1 != there.1 {
         return unlike("the two QEMUs gave different numbers of samples");

@@ -1,5 +1,6 @@
 //! The steps about the library as a dependency: what cargo packages and vendors, its features and its examples.
 
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -65,23 +66,16 @@ fn vendored_builds(context: &Context, folder: &Path) -> Result<()> {
     };
     put(".cargo/config.toml", &shell::capture(&mut cargo("vendor"))?)?;
     let mut check = cargo("check");
-    check
-        .args(["--offline", "--locked", "--target-dir"])
-        .arg(project.join("target"));
+    check.args(["--offline", "--locked", "--target-dir", "target"]);
     shell::capture(&mut check).map(drop)
 }
 
 /// Commits the work tree as it is, without what git ignores, into a new repository, and returns its URL.
 fn commit_work_tree(root: &Path, repository: &Path) -> Result<String> {
-    shell::capture(
-        Command::new("git")
-            .args(["init", "--quiet"])
-            .arg(repository),
-    )?;
-    for arguments in [
-        "add --all",
-        "commit --quiet --no-gpg-sign --no-verify --message work-tree",
-    ] {
+    let mut init = Command::new("git");
+    shell::capture(init.args(["init", "--quiet"]).arg(repository))?;
+    let commit = "commit --quiet --no-gpg-sign --no-verify --message work-tree";
+    for arguments in ["add --all", commit] {
         let mut git = Command::new("git");
         git.arg("--git-dir").arg(repository.join(".git"));
         git.arg("--work-tree").arg(root).current_dir(root);
@@ -94,9 +88,8 @@ fn commit_work_tree(root: &Path, repository: &Path) -> Result<String> {
 
 pub fn features(context: &Context) -> Result<String> {
     if context.tools.toolchain == Toolchain::Native {
-        context.cargo(&[&format!(
-            "check --package {LIBRARY} --features {FEATURES} --target {TARGET}"
-        )])?;
+        let check = format!("check --package {LIBRARY} --features {FEATURES}");
+        context.cargo(&[&format!("{check} --target {TARGET}")])?;
     }
     let plain = run_example(context, COMPARED, "")?;
     let with_features = run_example(context, COMPARED, &format!("--features {FEATURES}"))?;
@@ -118,19 +111,17 @@ pub fn examples(context: &Context) -> Result<String> {
 }
 
 fn run_example(context: &Context, name: &str, more: &str) -> Result<String> {
-    context.cargo(&[&format!(
-        "run --quiet --package {LIBRARY} --example {name} {more}"
-    )])
+    let run = format!("run --quiet --package {LIBRARY}");
+    context.cargo(&[&format!("{run} --example {name} {more}")])
 }
 
 /// The names of the library's examples, which must be some.
 fn example_names(root: &Path) -> Result<Vec<String>> {
     let folder = root.join(LIBRARY).join("examples");
     let entries = std::fs::read_dir(&folder).map_err(Error::file("read", &folder))?;
-    let mut names: Vec<String> = entries
-        .flatten()
-        .filter_map(|entry| Some(entry.file_name().to_str()?.strip_suffix(".rs")?.to_owned()))
-        .collect();
+    let files = entries.flatten().map(|entry| entry.file_name());
+    let stem = |file: OsString| Some(file.to_str()?.strip_suffix(".rs")?.to_owned());
+    let mut names: Vec<String> = files.filter_map(stem).collect();
     names.sort();
     if names.is_empty() {
         return Err(Error::check(format!("{} is empty", folder.display())));
@@ -141,15 +132,12 @@ fn example_names(root: &Path) -> Result<Vec<String>> {
 pub fn deny(context: &Context) -> Result<String> {
     if shell::which("cargo-deny").is_none() {
         if !context.may_install_debian {
-            return Err(Error::Skipped(
-                "to have it run: cargo install cargo-deny --locked".into(),
-            ));
+            let why = "to have it run: cargo install cargo-deny --locked";
+            return Err(Error::Skipped(why.into()));
         }
         context.cargo(&["install cargo-deny --locked"])?;
     }
-    context
-        .cargo(&["deny check bans licenses sources"])
-        .map(|_| String::new())
+    context.cargo(&["deny check bans licenses sources"])
 }
 
 /// A folder outside the workspace, whose configuration would otherwise apply; removed when dropped.

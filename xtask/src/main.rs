@@ -48,7 +48,6 @@ use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser, Subcommand};
 
 use crate::error::{Error, Result};
-use crate::scene::Scene;
 
 /// Set-up, demo, tests and reports of this workspace
 #[derive(Parser)]
@@ -66,33 +65,9 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     /// Run a scene in QEMU, report what a tick costs and how well the arm tracks
-    Demo {
-        /// The scene
-        #[arg(long, value_enum, default_value_t)]
-        #[arg(value_name = "NAME", ignore_case = true)]
-        scene: Scene,
-        /// Every scene, and one table of all
-        #[arg(long, conflicts_with = "scene")]
-        all: bool,
-        /// The report as JSON on stdout; progress stays on stderr
-        #[arg(long)]
-        json: bool,
-        /// Rewrite the README's tables (with --all: docs/scenes.md too) from this run
-        #[arg(long)]
-        write_docs: bool,
-        /// Rewrite the scenes' budgets from this run
-        #[arg(long)]
-        write_budgets: bool,
-    },
+    Demo(demo::Wish),
     /// Measure what each algorithm costs on each robot, rewrite docs/costs.md
-    Costs {
-        /// The measurements as JSON on stdout; progress stays on stderr
-        #[arg(long)]
-        json: bool,
-        /// Rewrite the budgets from this run
-        #[arg(long)]
-        write_budgets: bool,
-    },
+    Costs(costs::Wish),
     /// Measure how the core's algorithms grow with a chain's length, rewrite docs/growth.md
     Growth(Json),
     /// Measure what each effect costs and the torque it contributes, rewrite docs/effects.md
@@ -222,39 +197,8 @@ fn run(cli: Cli) -> Result<ExitCode> {
     }
     let setup = cli.setup;
     match cli.command {
-        Command::Demo {
-            scene,
-            all,
-            json,
-            write_docs,
-            write_budgets,
-        } => {
-            let scenes = if all {
-                Scene::ALL.to_vec()
-            } else {
-                vec![scene]
-            };
-            demo::run(
-                setup,
-                demo::Wish {
-                    scenes,
-                    all,
-                    json,
-                    write_docs,
-                    write_budgets,
-                },
-            )
-        }
-        Command::Costs {
-            json,
-            write_budgets,
-        } => costs::run(
-            setup,
-            costs::Wish {
-                json,
-                write_budgets,
-            },
-        ),
+        Command::Demo(wish) => demo::run(setup, wish),
+        Command::Costs(wish) => costs::run(setup, wish),
         Command::Growth(Json { json }) => growth::run(setup, json),
         Command::Effects(Json { json }) => effects::run(setup, json),
         Command::Accuracy {

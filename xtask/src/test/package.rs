@@ -137,7 +137,8 @@ pub fn deny(context: &Context) -> Result<String> {
         }
         context.cargo(&["install cargo-deny --locked"])?;
     }
-    context.cargo(&["deny check bans licenses sources"])
+    context.cargo(&["deny check bans licenses sources"])?;
+    Ok(String::new())
 }
 
 /// A folder outside the workspace, whose configuration would otherwise apply; removed when dropped.

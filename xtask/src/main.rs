@@ -73,27 +73,7 @@ enum Command {
     /// Measure what each effect costs and the torque it contributes, rewrite docs/effects.md
     Effects(Json),
     /// Measure what accuracy costs in time, rewrite docs/accuracy.md and its plots; or choose a configuration
-    Accuracy {
-        /// Only this robot
-        #[arg(long, value_enum, value_name = "NAME", ignore_case = true)]
-        robot: Option<accuracy::Robot>,
-        /// A dozen configurations of each robot, at opt-level 3
-        #[arg(long)]
-        quick: bool,
-        /// The measurements as JSON on stdout; progress stays on stderr
-        #[arg(long)]
-        json: bool,
-        /// Choose the cheapest configuration off by no more than this: 0.05Nm, 2mrad
-        #[arg(long, value_name = "ERROR", allow_hyphen_values = true)]
-        #[arg(requires = "robot", conflicts_with = "cycles")]
-        error: Option<accuracy::Allowed>,
-        /// Choose the most accurate configuration whose worst tick takes no more cycles than this
-        #[arg(long, value_name = "CYCLES", requires = "robot")]
-        cycles: Option<u64>,
-        /// Choose from what is measured now, not from docs/accuracy.json
-        #[arg(long)]
-        measure: bool,
-    },
+    Accuracy(accuracy::Wish),
     /// Measure a firmware of your own between its markers, and check its instructions
     #[command(after_long_help = user_firmware::MARKERS)]
     Meter(user_firmware::Wish),
@@ -201,27 +181,7 @@ fn run(cli: Cli) -> Result<ExitCode> {
         Command::Costs(wish) => costs::run(setup, wish),
         Command::Growth(Json { json }) => growth::run(setup, json),
         Command::Effects(Json { json }) => effects::run(setup, json),
-        Command::Accuracy {
-            robot,
-            quick,
-            json,
-            error,
-            cycles,
-            measure,
-        } => {
-            let error = error.map(accuracy::Budget::Error);
-            let budget = error.or(cycles.map(accuracy::Budget::Cycles));
-            accuracy::run(
-                setup,
-                accuracy::Wish {
-                    robot,
-                    quick,
-                    json,
-                    budget,
-                    measure,
-                },
-            )
-        }
+        Command::Accuracy(wish) => accuracy::run(setup, wish),
         Command::Meter(wish) => user_firmware::run(setup, &wish),
         Command::Eliminations => eliminations::run(),
         Command::HardCases(Json { json }) => hard_cases::run(json),

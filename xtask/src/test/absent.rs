@@ -110,9 +110,10 @@ fn added(context: &Context, full: &Row, friction: &Row) -> Result<String> {
         recorded: bar.missed.iter().any(|figure| figure == "cycles"),
         ratio: false,
     };
-    let met = format!("friction and rotors {taken} of {most} cycles");
-    held.complaint()
-        .map_or(Ok(met), |complaint| Err(Error::check(complaint)))
+    match held.complaint() {
+        Some(complaint) => Err(Error::check(complaint)),
+        None => Ok(format!("friction and rotors {taken} of {most} cycles")),
+    }
 }
 
 /// The bytes of a scene's effects, as it says itself.

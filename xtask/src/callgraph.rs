@@ -7,7 +7,7 @@ use std::collections::btree_map::{BTreeMap, Entry};
 use cycle_meter::{Class, Insn, Relative};
 
 use crate::elf::{Function, Image};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, refuse};
 
 /// An instruction.
 #[derive(Clone, Copy, Debug)]
@@ -41,12 +41,10 @@ impl Instruction {
 impl Image {
     /// The instructions of all its functions.
     pub fn instructions(&self) -> impl Iterator<Item = (&Function, Instruction)> {
-        let of = |function| {
-            Function::instructions(function)
-                .into_iter()
-                .map(move |one| (function, one))
-        };
-        self.functions.iter().flat_map(of)
+        self.functions.iter().flat_map(|function| {
+            let instructions = function.instructions().into_iter();
+            instructions.map(move |one| (function, one))
+        })
     }
 }
 
@@ -108,9 +106,8 @@ impl<'a> Reach<'a> {
     /// There is no root, or something reached calls through a register or leaves the known
     /// functions, so that it cannot be told what else is reached.
     pub fn of(image: &'a Image, is_root: impl Fn(&Function) -> bool) -> Result<Self> {
-        let roots: Vec<usize> = (0..image.functions.len())
-            .filter(|index| is_root(&image.functions[*index]))
-            .collect();
+        let is_root = |index: &usize| is_root(&image.functions[*index]);
+        let roots: Vec<usize> = (0..image.functions.len()).filter(is_root).collect();
         if roots.is_empty() {
             return Err(Error::check("the firmware has no function to start from"));
         }
@@ -122,22 +119,19 @@ impl<'a> Reach<'a> {
         while let Some(index) = queue.pop_front() {
             let function = &image.functions[index];
             for one in function.instructions() {
-                if one.insn.indirect {
-                    return Err(Error::check(format!(
-                        "{} calls through a register at {:#x}: what it reaches cannot be told",
-                        reach.path(index),
-                        one.address
-                    )));
-                }
+                refuse(one.insn.indirect, || {
+                    let (path, at) = (reach.path(index), one.address);
+                    format!(
+                        "{path} calls through a register at {at:#x}: what it reaches cannot be told"
+                    )
+                })?;
                 let Some(target) = one.target().filter(|to| !function.contains(*to)) else {
                     continue;
                 };
                 let callee = image.functions.iter().position(|f| f.contains(target));
                 let callee = callee.ok_or_else(|| {
-                    let path = reach.path(index);
-                    Error::check(format!(
-                        "{path} jumps to {target:#x}, which is in no function"
-                    ))
+                    let jumps = format!("{} jumps to {target:#x}", reach.path(index));
+                    Error::check(format!("{jumps}, which is in no function"))
                 })?;
                 if let Entry::Vacant(new) = reach.from.entry(callee) {
                     new.insert(Some(index));
@@ -150,9 +144,8 @@ impl<'a> Reach<'a> {
 
     /// The functions, with the way to each of them in words.
     pub fn functions(&self) -> impl Iterator<Item = (&'a Function, String)> + '_ {
-        self.from
-            .keys()
-            .map(|index| (&self.image.functions[*index], self.path(*index)))
+        let found = self.from.keys();
+        found.map(|index| (&self.image.functions[*index], self.path(*index)))
     }
 
     fn path(&self, index: usize) -> String {

@@ -64,6 +64,12 @@ pub enum Error {
     Skipped(String),
 }
 
+/// Fails with what is wrong, if it is.
+pub fn refuse(is_wrong: bool, what: impl FnOnce() -> String) -> Result<()> {
+    let wrong = is_wrong.then(|| Err(Error::check(what())));
+    wrong.unwrap_or(Ok(()))
+}
+
 impl Error {
     /// `command` could not be started.
     pub fn spawn(command: &Command, source: std::io::Error) -> Self {

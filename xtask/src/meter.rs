@@ -6,7 +6,7 @@ use cycle_meter::Sample;
 pub use cycle_meter::Summary as Spread;
 use serde::{Deserialize, Serialize};
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, refuse};
 use crate::workspace;
 
 /// The regions' names by their number; 0 is the whole tick.
@@ -41,23 +41,17 @@ pub fn costs(
     counts: impl Fn(usize) -> bool,
 ) -> Result<Vec<Cost>> {
     let of = |(number, name): (usize, &&str)| {
-        let mine = samples
-            .iter()
-            .filter(|one| usize::from(one.region) == number);
+        let is_mine = |one: &&Sample| usize::from(one.region) == number;
+        let mine = samples.iter().filter(is_mine);
         let mine: Vec<[u64; 2]> = mine.map(|one| [one.instructions, one.cycles]).collect();
-        if mine.len() == ticks {
-            return Ok(mine);
-        }
         let seen = mine.len();
-        let what =
-            format!("the cycle meter saw region {number} ({name}) {seen} times in {ticks} ticks");
-        Err(Error::check(what))
+        refuse(seen != ticks, || {
+            format!("the cycle meter saw region {number} ({name}) {seen} times in {ticks} ticks")
+        })?;
+        Ok(mine)
     };
-    let mut regions = REGIONS
-        .iter()
-        .enumerate()
-        .map(of)
-        .collect::<Result<Vec<_>>>()?;
+    let regions = REGIONS.iter().enumerate().map(of);
+    let mut regions = regions.collect::<Result<Vec<_>>>()?;
     let between = (0..ticks).map(|tick| {
         [0, 1].map(|which| {
             let phases: u64 = regions[1..].iter().map(|phase| phase[tick][which]).sum();
@@ -66,11 +60,8 @@ pub fn costs(
     });
     regions.push(between.collect());
     let cost = |region: &Vec<[u64; 2]>| {
-        let chosen = |which: usize| {
-            (0..ticks)
-                .filter(|at| counts(*at))
-                .map(move |at| region[at][which])
-        };
+        let ticks = || (0..ticks).filter(|tick| counts(*tick));
+        let chosen = |which: usize| ticks().map(move |tick| region[tick][which]);
         Cost::of(chosen(0), chosen(1))
     };
     regions.iter().map(cost).collect()

@@ -3,7 +3,7 @@
 
 use crate::callgraph::Instruction;
 use crate::elf::{Function, Image};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, refuse};
 
 /// An instruction, with what it reaches instead of how far away that is.
 #[derive(Debug, PartialEq, Eq)]
@@ -28,22 +28,19 @@ pub fn same(image: &Image, one: u64, other: u64) -> Result<usize> {
             a[at], b[at]
         )));
     }
-    if a.len() != b.len() {
-        return Err(Error::check(format!(
-            "{one:#x} has {} instructions, {other:#x} {}",
-            a.len(),
-            b.len()
-        )));
-    }
-    Ok(a.len())
+    let [many, others] = [a.len(), b.len()];
+    refuse(many != others, || {
+        format!("{one:#x} has {many} instructions, {other:#x} {others}")
+    })?;
+    Ok(many)
 }
 
 /// The function at an address, or that which it does nothing but jump to: the compiler makes such
 /// jumps where it finds two functions the same.
 fn function(image: &Image, address: u64) -> Result<&Function> {
     let at = |address: u64| image.functions.iter().find(|f| f.address == address);
-    let found =
-        at(address).ok_or_else(|| Error::check(format!("there is no function at {address:#x}")))?;
+    let nothing = || Error::check(format!("there is no function at {address:#x}"));
+    let found = at(address).ok_or_else(nothing)?;
     let instructions = found.instructions();
     let jump = instructions.first().filter(|_| instructions.len() == 1);
     let target = jump.and_then(|jump| jump.target()).and_then(at);

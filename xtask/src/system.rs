@@ -58,18 +58,14 @@ impl System {
         let values = text.lines().filter_map(value);
         let ids = values.flat_map(|value| value.trim_matches(['"', '\'']).split_whitespace());
         let known = |id: &str| SYSTEMS.iter().find(|(_, ids, _)| ids.contains(&id));
-        ids.filter_map(known)
-            .map(|row| row.0)
-            .next()
-            .unwrap_or(Self::Other)
+        let mut systems = ids.filter_map(known).map(|row| row.0);
+        systems.next().unwrap_or(Self::Other)
     }
 
     /// What the user has to do to get a QEMU, where xtask does not install it itself.
     pub fn qemu_command(self) -> &'static str {
-        SYSTEMS
-            .iter()
-            .find(|row| row.0 == self)
-            .map_or("", |row| row.2)
+        let mut rows = SYSTEMS.iter();
+        rows.find(|row| row.0 == self).map_or("", |row| row.2)
     }
 }
 
@@ -116,9 +112,8 @@ impl Privilege {
 fn apt_commands(privilege: Privilege, packages: &[&str]) -> [Command; 2] {
     let (mut update, mut install) = (privilege.apt_get(), privilege.apt_get());
     update.arg("update");
-    install
-        .args(["install", "--no-install-recommends", "-y"])
-        .args(packages);
+    install.args(["install", "--no-install-recommends", "-y"]);
+    install.args(packages);
     install.env("DEBIAN_FRONTEND", "noninteractive");
     [update, install]
 }
@@ -129,8 +124,8 @@ pub fn apt_lines(packages: &[&str]) -> Vec<String> {
     let commands = apt_commands(privilege, packages);
     let lines = commands.iter().map(shell::display);
     // Without root and sudo the reader has to become root in a way of their own.
-    let hint =
-        (privilege == Privilege::None).then(|| "# as root: there is no sudo here".to_owned());
+    let is_lost = privilege == Privilege::None;
+    let hint = is_lost.then(|| "# as root: there is no sudo here".to_owned());
     hint.into_iter().chain(lines).collect()
 }
 

@@ -68,19 +68,17 @@ impl Workspace {
         let list = |value: &Value| value.as_array().cloned().unwrap_or_default();
         let packages = list(&metadata["packages"]).into_iter();
         let targets = packages.filter(|package| package["name"] == FIRMWARE);
-        let bins = targets
-            .flat_map(|package| list(&package["targets"]))
-            .filter(|target| {
-                let is_bin = list(&target["kind"]).iter().any(|kind| kind == "bin");
-                is_bin && list(&target["required-features"]).is_empty()
-            });
+        let targets = targets.flat_map(|package| list(&package["targets"]));
+        let bins = targets.filter(|target| {
+            let is_bin = list(&target["kind"]).iter().any(|kind| kind == "bin");
+            is_bin && list(&target["required-features"]).is_empty()
+        });
+        let names = bins.filter_map(|bin| bin["name"].as_str().map(str::to_owned));
         Ok(Self {
             root: path("workspace_root").ok_or_else(lacks)?,
             target: path("target_directory").ok_or_else(lacks)?,
             reports: REPORTS.get().cloned(),
-            bins: bins
-                .filter_map(|bin| bin["name"].as_str().map(str::to_owned))
-                .collect(),
+            bins: names.collect(),
         })
     }
 
@@ -126,15 +124,15 @@ pub fn write_whole<T: AsRef<[u8]>>(files: &[(PathBuf, T)]) -> Result<()> {
         name.push(".part");
         PathBuf::from(name)
     };
-    let written = files.iter().try_for_each(|(path, contents)| {
+    let write = |(path, contents): &(PathBuf, T)| {
         // The message names the file that the user knows.
         std::fs::write(beside(path), contents).map_err(Error::file("write", path))
-    });
-    let moved = written.and_then(|()| {
-        files.iter().try_for_each(|(path, _)| {
-            std::fs::rename(beside(path), path).map_err(Error::file("write", path))
-        })
-    });
+    };
+    let place = |(path, _): &(PathBuf, T)| {
+        std::fs::rename(beside(path), path).map_err(Error::file("write", path))
+    };
+    let written = files.iter().try_for_each(write);
+    let moved = written.and_then(|()| files.iter().try_for_each(place));
     if moved.is_err() {
         for (path, _) in files {
             // Those that were not written, or moved already, are not there.

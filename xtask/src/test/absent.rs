@@ -7,7 +7,7 @@ use crate::bars::Held;
 use crate::budgets;
 use crate::costs::{self, ADDED, Row};
 use crate::elf::Image;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, refuse};
 use crate::firmware;
 use crate::qemu::Run;
 use crate::sameness;
@@ -33,11 +33,10 @@ pub fn absent_effects_cost_nothing(context: &Context) -> Result<String> {
         let address = |inputs| row(&rows, form, inputs).map(|row| row.address);
         let (full, idle) = (address("full")?, address("idle")?);
         let instructions = sameness::same(&image, full, idle)?;
-        if sameness::same(&image, full, address("friction")?).is_ok() {
-            return Err(Error::check(
-                "friction changes no instruction: the comparison sees nothing",
-            ));
-        }
+        let friction = sameness::same(&image, full, address("friction")?);
+        refuse(friction.is_ok(), || {
+            "friction changes no instruction: the comparison sees nothing".into()
+        })?;
         let folded = if full == idle {
             ", folded into one function"
         } else {
@@ -75,11 +74,9 @@ fn dropped(context: &Context, elves: [&PathBuf; 2]) -> Result<String> {
     };
     for number in LUGRE_NUMBERS {
         let there = [&named, &dropped].map(|image| image.words.contains(&number.to_bits()));
-        if there != [true, false] {
-            return Err(Error::check(format!(
-                "{number} should be with LuGre friction and not without, but is: {there:?}"
-            )));
-        }
+        refuse(there != [true, false], || {
+            format!("{number} should be with LuGre friction and not without, but is: {there:?}")
+        })?;
     }
     let mut names = dropped.functions.iter().flat_map(|f| &f.names);
     if let Some(name) = names.find(|name| name.contains("exp_neg") || name.contains("ugre")) {

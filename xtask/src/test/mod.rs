@@ -3,13 +3,13 @@
 
 mod absent;
 mod claims;
-mod firmware;
+mod functions;
 mod host;
 mod others;
 mod package;
 mod scenes;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::OnceLock;
 use std::time::Instant;
@@ -19,7 +19,7 @@ use cycle_meter::Sample;
 
 use crate::demo::{self, Measured};
 use crate::error::{Error, Result};
-use crate::firmware::build_meter;
+use crate::firmware;
 use crate::output;
 use crate::progress::Spinner;
 use crate::qemu::Run;
@@ -74,7 +74,7 @@ struct Context {
 const STEPS: &[Step] = &[
     ("fmt", Host, Everyday, "rustfmt has nothing to change", |c| c.cargo(&["fmt --all --check"])),
     ("clippy", Host, Full, "clippy has nothing to say of the host crates", host::clippy),
-    ("clippy-firmware", Target, Full, "clippy has nothing to say of the firmware", firmware::clippy),
+    ("clippy-firmware", Target, Full, "clippy has nothing to say of the firmware", functions::clippy),
     ("host", Host, Everyday, "the host tests pass", host::tests),
     ("doctests", Host, Everyday, "the examples in the documentation run", host::doctests),
     ("doc", Host, Full, "the documentation builds without a warning, that of private items too", host::doc),
@@ -84,18 +84,18 @@ const STEPS: &[Step] = &[
     ("features", Host, Full, "the library's features build for the target and change no number", package::features),
     ("package", Host, Full, "the crate packages, and builds vendored from git", package::package),
     ("deny", Host, Full, "dependencies, their licences and their sources are those that deny.toml allows", package::deny),
-    ("firmware", Target, Full, "every bin of the firmware builds", firmware::build),
-    ("meter", Target, Everyday, "the cycle meter agrees with sequences counted by hand", firmware::meter),
-    ("bits", Host, Everyday, "the host and QEMU compute the same bits", firmware::bits),
+    ("firmware", Target, Full, "every bin of the firmware builds", functions::build),
+    ("meter", Target, Everyday, "the cycle meter agrees with sequences counted by hand", functions::meter),
+    ("bits", Host, Everyday, "the host and QEMU compute the same bits", functions::bits),
     ("scene", Target, Everyday, "every scene runs to its end", scenes::runs),
     ("determinism", Target, Everyday, "two runs of a scene give the same bytes", scenes::determinism),
     ("tracking", Target, Everyday, "every scene tracks within its bound, the default one better than PD as promised", scenes::tracking),
     ("cycles", Target, Everyday, "the longest tick is short enough", scenes::cycles),
-    ("no-f64", Target, Everyday, "the tick reaches no f64 arithmetic, no libm trigonometry and no panic", firmware::no_f64),
-    ("opcodes", Target, Everyday, "the firmware has no instruction that a Cortex-M4F lacks", firmware::opcodes),
+    ("no-f64", Target, Everyday, "the tick reaches no f64 arithmetic, no libm trigonometry and no panic", functions::no_f64),
+    ("opcodes", Target, Everyday, "the firmware has no instruction that a Cortex-M4F lacks", functions::opcodes),
     ("budgets", Target, Everyday, "every scene is within budgets.toml", scenes::budgets),
-    ("constant", Target, Everyday, "the work costs the same whatever the data", firmware::constant),
-    ("costs", Target, Everyday, "every function is within budgets.toml and its bar, and docs/costs.md says so", firmware::costs),
+    ("constant", Target, Everyday, "the work costs the same whatever the data", functions::constant),
+    ("costs", Target, Everyday, "every function is within budgets.toml and its bar, and docs/costs.md says so", functions::costs),
     ("growth", Target, Full, "inverse and forward dynamics grow in step with a chain, and docs/growth.md says so",
         |c| growth::check(&c.workspace, &growth::measure(&c.workspace, &c.tools)?)),
     ("absent-effects", Target, Everyday, "an effect that a scene does not name costs it nothing", absent::absent_effects_cost_nothing),
@@ -114,7 +114,7 @@ const STEPS: &[Step] = &[
 impl Context {
     /// The cycle meter, built once.
     fn meter(&self) -> Result<&PathBuf> {
-        once(&self.meter, || build_meter(&self.workspace))
+        once(&self.meter, || firmware::build_meter(&self.workspace))
     }
 
     /// The scenes under test: all of them in a full run, the default one else.
@@ -147,11 +147,17 @@ impl Context {
         Ok(printed)
     }
 
-    /// The lines that a firmware logs, and what it cost between its markers.
-    fn metered(&self, name: &str, elf: &Path, logs: bool) -> Result<(Vec<String>, Vec<Sample>)> {
+    /// A bin of the firmware, built.
+    fn built(&self, name: &str) -> Result<PathBuf> {
+        firmware::build(&self.workspace, self.tools.toolchain, name)
+    }
+
+    /// The lines that a bin of the firmware logs, and what it cost between its markers.
+    fn metered(&self, name: &str, logs: bool) -> Result<(Vec<String>, Vec<Sample>)> {
+        let elf = self.built(name)?;
         let regions = self.workspace.output(&format!("{name}.regions"))?;
         let meter = Some((self.meter()?.as_path(), regions.as_path()));
-        let mut run = Run::logging(name, elf, meter);
+        let mut run = Run::logging(name, &elf, meter);
         run.logs = logs;
         Ok((self.lines(&run)?, meter::read(&regions)?))
     }

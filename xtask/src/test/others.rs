@@ -8,7 +8,7 @@ use super::Context;
 use crate::budgets::{self, OTHER_RUSTC};
 use crate::costs;
 use crate::demo;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, refuse};
 use crate::firmware;
 use crate::qemu::{Qemu, Run};
 use crate::scene::Scene;
@@ -147,11 +147,11 @@ fn built_by(context: &Context, name: &str, version: &str, precompiled: bool) -> 
     shell::cargo(&mut command)?;
     let elf = |bin: &str| target.join(TARGET).join(RELEASE).join(bin);
     let spare = budgets_kept(context, &elf(SCENE), version)?;
-    let usual = firmware::build(&context.workspace, context.tools.toolchain, COSTS)?;
-    let [usual, these] = [usual, elf(COSTS)].map(|elf| -> Result<Vec<(String, u64)>> {
-        let (rows, _) = costs::run_bin(&context.tools, context.meter()?, COSTS, &elf)?;
-        Ok(rows.iter().map(|row| (row.key(), row.cycles.max)).collect())
-    });
+    let [usual, these] =
+        [context.built(COSTS)?, elf(COSTS)].map(|elf| -> Result<Vec<(String, u64)>> {
+            let (rows, _) = costs::run_bin(&context.tools, context.meter()?, COSTS, &elf)?;
+            Ok(rows.iter().map(|row| (row.key(), row.cycles.max)).collect())
+        });
     let worst = apart(usual?.into_iter(), these?.into_iter())?;
     let percent = 100.0 * worst;
     Ok(format!("{spare}, costs at most {percent:.2} % apart"))
@@ -165,11 +165,12 @@ fn apart(
     let mut worst = 0.0;
     for ((name, usual), (other, these)) in std::iter::zip(usual, these) {
         let share = (these as f64 / usual as f64 - 1.0).abs();
-        if name != other || share.is_nan() || share > OTHER_RUSTC {
-            return Err(Error::check(format!(
+        let is_apart = name != other || share.is_nan() || share > OTHER_RUSTC;
+        refuse(is_apart, || {
+            format!(
                 "`{name}` takes {usual} cycles with the usual compiler, `{other}` {these} with this one"
-            )));
-        }
+            )
+        })?;
         worst = f64::max(worst, share);
     }
     Ok(worst)

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use super::Context;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, refuse};
 use crate::shell;
 use crate::toolchain::{TARGET, Toolchain};
 use crate::workspace::{read, write};
@@ -31,10 +31,10 @@ pub fn package(context: &Context) -> Result<String> {
 /// Compares what stands in the workspace's root with the crate's copies.
 fn copies_are_equal(root: &Path, library: &Path) -> Result<()> {
     for name in COPIES {
-        if read(&root.join(name))? != read(&library.join(name))? {
-            let what = format!("{LIBRARY}/{name} is not a copy of {name}");
-            return Err(Error::check(what));
-        }
+        let is_other = read(&root.join(name))? != read(&library.join(name))?;
+        refuse(is_other, || {
+            format!("{LIBRARY}/{name} is not a copy of {name}")
+        })?;
     }
     Ok(())
 }
@@ -93,11 +93,11 @@ pub fn features(context: &Context) -> Result<String> {
     }
     let plain = run_example(context, COMPARED, "")?;
     let with_features = run_example(context, COMPARED, &format!("--features {FEATURES}"))?;
-    if plain != with_features {
-        return Err(Error::check(format!(
-            "the features `{FEATURES}` change the numbers of the example `{COMPARED}`:\n{plain}\n{with_features}"
-        )));
-    }
+    refuse(plain != with_features, || {
+        format!(
+            "the features `{FEATURES}` change the numbers of `{COMPARED}`:\n{plain}\n{with_features}"
+        )
+    })?;
     Ok(FEATURES.to_owned())
 }
 
@@ -123,9 +123,9 @@ fn example_names(root: &Path) -> Result<Vec<String>> {
     let stem = |file: OsString| Some(file.to_str()?.strip_suffix(".rs")?.to_owned());
     let mut names: Vec<String> = files.filter_map(stem).collect();
     names.sort();
-    if names.is_empty() {
-        return Err(Error::check(format!("{} is empty", folder.display())));
-    }
+    refuse(names.is_empty(), || {
+        format!("{} is empty", folder.display())
+    })?;
     Ok(names)
 }
 

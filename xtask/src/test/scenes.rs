@@ -2,9 +2,9 @@
 
 use super::Context;
 use crate::budgets;
-use crate::demo;
+use crate::demo::{self, Measured};
 use crate::docs;
-use crate::error::{Error, Result};
+use crate::error::{Result, refuse};
 use crate::plot;
 use crate::protocol::SOLD;
 use crate::render::CLOCK_MHZ;
@@ -30,26 +30,17 @@ const LEAST_PEAK_SPEED: f64 = 1.5;
 /// The scenes that run twice: one on the engine, one on the core.
 const TWICE: [Scene; 2] = [Scene::Ur5e, Scene::SpaceArm];
 
-/// Fails with what is wrong with a scene, if it is.
-fn refuse(is_wrong: bool, what: impl FnOnce() -> String) -> Result<()> {
-    if is_wrong {
-        Err(Error::check(what()))
-    } else {
-        Ok(())
-    }
-}
-
 pub fn runs(context: &Context) -> Result<String> {
     let mut ticks = 0;
     for measured in context.measured()? {
         let name = &measured.report.scene;
         // Of the default scene no law needs the gate; elsewhere some are there to show that they do.
         let held = |law: &str| law == SOLD || *name == Scene::default().name();
-        if let Some(run) = measured.recording.unlike(PLAIN, held) {
-            return Err(Error::check(format!(
-                "{name}: the safety gate stepped in: {run}"
-            )));
-        }
+        let unlike = measured.recording.unlike(PLAIN, held);
+        let run = unlike.as_deref().unwrap_or_default();
+        refuse(!run.is_empty(), || {
+            format!("{name}: the safety gate stepped in: {run}")
+        })?;
         let picture = context.workspace.output(&format!("{name}.svg"))?;
         plot::write(&measured.recording, &picture)?;
         ticks += measured.recording.ticks as usize * measured.recording.order.len();
@@ -60,21 +51,16 @@ pub fn runs(context: &Context) -> Result<String> {
 pub fn determinism(context: &Context) -> Result<String> {
     let scenes = context.measured()?.iter().zip(context.scenes());
     let firsts: Vec<_> = scenes.filter(|(_, scene)| TWICE.contains(scene)).collect();
-    let runs: Vec<_> = firsts
-        .iter()
-        .map(|(first, scene)| (**scene, first.elf.clone()))
-        .collect();
+    let run = |(first, scene): &(&Measured, &Scene)| (**scene, first.elf.clone());
+    let runs: Vec<_> = firsts.iter().map(run).collect();
     let again = demo::measure_all(&context.workspace, &context.tools, context.meter()?, &runs)?;
     let mut bytes = 0;
     for ((first, _), second) in firsts.iter().zip(&again) {
-        let is_unlike = [first.raw.0 != second.raw.0, first.raw.1 != second.raw.1];
-        refuse(is_unlike[0], || {
-            "two runs of the same ELF logged different bytes".into()
-        })?;
-        refuse(is_unlike[1], || {
-            "two runs of the same ELF cost differently".into()
-        })?;
-        bytes += first.raw.0.len() + first.raw.1.len();
+        let [one, other] = [first, second].map(|run| &run.raw);
+        let two = |what: &str| format!("two runs of the same ELF {what}");
+        refuse(one.0 != other.0, || two("logged different bytes"))?;
+        refuse(one.1 != other.1, || two("cost differently"))?;
+        bytes += one.0.len() + one.1.len();
     }
     Ok(format!("{bytes} bytes"))
 }
@@ -83,11 +69,8 @@ pub fn tracking(context: &Context) -> Result<String> {
     let mut seen = Vec::new();
     for measured in context.measured()? {
         let report = &measured.report;
-        let (name, max, bound) = (
-            &report.scene,
-            report.tracking.feedforward.max_rad,
-            report.bound_rad,
-        );
+        let (name, tracking) = (&report.scene, &report.tracking);
+        let (max, bound) = (tracking.feedforward.max_rad, report.bound_rad);
         refuse(max.is_nan() || max > bound, || {
             format!(
                 "{name}, exact plant: feed-forward's largest error is {max:.2e} rad, more than the scene's bound \
@@ -99,18 +82,13 @@ pub fn tracking(context: &Context) -> Result<String> {
                 "{name}: its bound of {bound:.2e} rad has become slack: the largest error is {max:.2e}"
             )
         })?;
-        seen.push(format!(
-            "{name} {:.2} of {:.2} mrad",
-            1e3 * max,
-            1e3 * bound
-        ));
+        let mrad = [max, bound].map(|rad| format!("{:.2}", 1e3 * rad));
+        seen.push(format!("{name} {} mrad", mrad.join(" of ")));
         if name != Scene::default().name() {
             continue;
         }
-        let plants = [
-            ("exact", &report.tracking),
-            ("mismatched", &report.tracking_mismatched),
-        ];
+        let mismatched = &report.tracking_mismatched;
+        let plants = [("exact", tracking), ("mismatched", mismatched)];
         for ((plant, tracking), largest) in plants.into_iter().zip(LARGEST_RATIO) {
             let ratio = tracking.ratio();
             // A ratio that is not a number fails as well.
@@ -158,11 +136,8 @@ pub fn readme(context: &Context) -> Result<String> {
     for measured in context.measured()? {
         // The README shows the default scene alone.
         if measured.report.scene == Scene::default().name() {
-            docs::README.check(
-                workspace,
-                &measured.report.markdown(),
-                Some(&measured.report.rustc),
-            )?;
+            let (text, rustc) = (measured.report.markdown(), &measured.report.rustc);
+            docs::README.check(workspace, &text, Some(rustc))?;
             // What the scene does is the same to the bit, whatever compiled it.
             let (picture, command) = (plot::svg(&measured.recording)?, docs::README.command);
             docs::compare_picture(workspace, demo::PICTURE, command, &picture, true)?;

@@ -7,7 +7,7 @@ use crate::budgets;
 use crate::callgraph::Reach;
 use crate::costs;
 use crate::elf::Image;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, refuse};
 use crate::firmware;
 use crate::meter::Cost;
 use crate::qemu::Run;
@@ -22,10 +22,8 @@ fn is_tick(symbol: &str) -> bool {
 }
 
 pub fn clippy(context: &Context) -> Result<String> {
-    let mut command = context
-        .tools
-        .toolchain
-        .firmware(&context.workspace, "clippy");
+    let toolchain = context.tools.toolchain;
+    let mut command = toolchain.firmware(&context.workspace, "clippy");
     shell::capture(command.args(["--lib", "--bins", "--", "-D", "warnings"]))
 }
 
@@ -35,45 +33,37 @@ pub fn build(context: &Context) -> Result<String> {
 }
 
 pub fn meter(context: &Context) -> Result<String> {
-    let name = "meter_check";
-    let elf = firmware::build(&context.workspace, context.tools.toolchain, name)?;
-    let (_, samples) = context.metered(name, &elf, false)?;
+    let (_, samples) = context.metered("meter_check", false)?;
     let agreeing = cycle_meter::check_hand_counted(&samples).map_err(Error::check)?;
     Ok(format!("{agreeing} sequences"))
 }
 
 pub fn bits(context: &Context) -> Result<String> {
     let name = "bits";
-    let elf = firmware::build(&context.workspace, context.tools.toolchain, name)?;
+    let elf = context.built(name)?;
     let mut on_target = context.lines(&Run::logging(name, &elf, None))?;
     on_target.retain(|line| line.starts_with("bits "));
     let host = context.cargo(&["run --quiet --package host-reports --bin bits"])?;
     let on_host: Vec<&str> = host.lines().collect();
     if let Some((target, host)) = std::iter::zip(&on_target, &on_host).find(|(a, b)| a != b) {
+        let both = format!("  QEMU: {target}\n  host: {host}");
         return Err(Error::check(format!(
-            "the same states give other bits:\n  QEMU: {target}\n  host: {host}"
+            "the same states give other bits:\n{both}"
         )));
     }
     let (there, here) = (on_target.len(), on_host.len());
-    if there == 0 || there != here {
-        let what = format!("`bits` printed {there} digests in QEMU and {here} on the host");
-        return Err(Error::check(what));
-    }
-    let case = |line: &&'_ str| {
-        Some(
-            line.strip_prefix("bits hard ")?
-                .split(' ')
-                .next()?
-                .to_owned(),
-        )
-    };
-    let mut cases: Vec<String> = on_host.iter().filter_map(case).collect();
+    refuse(there == 0 || there != here, || {
+        format!("`bits` printed {there} digests in QEMU and {here} on the host")
+    })?;
+    let hard = on_host
+        .iter()
+        .filter_map(|line| line.strip_prefix("bits hard "));
+    let mut cases: Vec<_> = hard.map(|case| case.split(' ').next()).collect();
     cases.dedup();
     let seen = cases.len();
-    if seen < HARD_CASES {
-        let what = format!("`bits` ran {seen} of at least {HARD_CASES} hard cases");
-        return Err(Error::check(what));
-    }
+    refuse(seen < HARD_CASES, || {
+        format!("`bits` ran {seen} of at least {HARD_CASES} hard cases")
+    })?;
     Ok(format!("{there} digests, {seen} hard cases among them"))
 }
 
@@ -144,16 +134,12 @@ pub fn costs(context: &Context) -> Result<String> {
 }
 
 pub fn constant(context: &Context) -> Result<String> {
-    let name = "constant";
-    let elf = firmware::build(&context.workspace, context.tools.toolchain, name)?;
-    let (lines, samples) = context.metered(name, &elf, true)?;
+    let (lines, samples) = context.metered("constant", true)?;
     let mut kinds = Vec::new();
     for line in &lines {
-        if let [word @ ("constant" | "bounded"), name, states] =
-            *line.split(' ').collect::<Vec<_>>()
-        {
-            let bad =
-                |_| Error::check(format!("the firmware's line {line:?} cannot be understood"));
+        let words: Vec<&str> = line.split(' ').collect();
+        if let [word @ ("constant" | "bounded"), name, states] = *words {
+            let bad = |_| Error::check(format!("the line {line:?} cannot be understood"));
             kinds.push(Kind {
                 name: name.to_owned(),
                 states: states.parse().map_err(bad)?,
@@ -189,17 +175,12 @@ fn steady(kinds: &[Kind], mut samples: &[Sample]) -> Result<Vec<String>> {
             false => format!("{name} {least} to {most}"),
         });
     }
-    if kinds.is_empty() || !samples.is_empty() {
-        return Err(Error::check(
-            "the cycle meter saw more calls than were made",
-        ));
-    }
-    if unsteady {
-        let seen = seen.join(", ");
-        return Err(Error::check(format!(
-            "the instructions depend on the data: {seen}"
-        )));
-    }
+    refuse(kinds.is_empty() || !samples.is_empty(), || {
+        "the cycle meter saw more calls than were made".into()
+    })?;
+    refuse(unsteady, || {
+        format!("the instructions depend on the data: {}", seen.join(", "))
+    })?;
     Ok(seen)
 }
 

@@ -98,9 +98,10 @@ fn functions(file: &object::File<'_>) -> Vec<Function> {
     };
     let mut marks: Vec<(u64, bool)> = file.symbols().filter_map(mark).collect();
     marks.sort_unstable();
-    let is_function =
-        |symbol: &object::Symbol<'_, '_>| symbol.kind() == SymbolKind::Text && symbol.size() > 0;
-    let mut symbols: Vec<_> = file.symbols().filter(is_function).collect();
+    let code = file
+        .symbols()
+        .filter(|symbol| symbol.kind() == SymbolKind::Text);
+    let mut symbols: Vec<_> = code.filter(|symbol| symbol.size() > 0).collect();
     symbols.sort_by_key(ObjectSymbol::address);
     let mut functions: Vec<Function> = Vec::new();
     for symbol in symbols {
@@ -111,9 +112,8 @@ fn functions(file: &object::File<'_>) -> Vec<Function> {
             last.names.push(name);
             continue;
         }
-        let section = symbol
-            .section_index()
-            .and_then(|at| file.section_by_index(at).ok());
+        let section = symbol.section_index();
+        let section = section.and_then(|at| file.section_by_index(at).ok());
         let bytes = section.and_then(|section| section.data_range(address, symbol.size()).ok()?);
         let mut function = Function {
             names: vec![name],

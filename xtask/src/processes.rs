@@ -46,15 +46,10 @@ fn end(group: u32) {
 #[cfg(not(unix))]
 fn end(_: u32) {}
 
-/// Tells a process to end, which may still write what it has.
-#[cfg(unix)]
+/// Tells a process to end, where there are signals; it may still write what it has.
 pub fn tell_to_end(child: &Child) {
     end(child.id());
 }
-
-/// Ends a process.
-#[cfg(not(unix))]
-pub fn tell_to_end(_: &Child) {}
 
 /// How a process ended, if it does within so long.
 pub fn within(child: &mut Child, limit: Duration) -> io::Result<Option<ExitStatus>> {

@@ -215,8 +215,7 @@ impl Qemu {
             command.envs(version.map(|version| (cycle_meter::INTERFACE, version.to_string())));
         }
         command.arg("-kernel").arg(run.elf);
-        command.stdin(Stdio::null()).stdout(Stdio::piped());
-        command.stderr(Stdio::piped());
+        shell::heard_by(&mut command, Stdio::piped);
         Ok(command)
     }
 

@@ -67,37 +67,25 @@ pub fn cargo(command: &mut Command) -> Result<String> {
 }
 
 fn output_of(command: &mut Command) -> Result<(String, String)> {
-    command
-        .stdin(Stdio::null())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped());
-    let (child, _group) = spawn(command)?;
-    let out = child
-        .wait_with_output()
-        .map_err(|e| Error::spawn(command, e))?;
+    let (child, _group) = spawn(heard_by(command, Stdio::piped))?;
+    let out = child.wait_with_output();
+    let out = out.map_err(|e| Error::spawn(command, e))?;
     let [stdout, stderr] =
         [out.stdout, out.stderr].map(|text| String::from_utf8_lossy(&text).into_owned());
     if out.status.success() {
         return Ok((stdout, stderr));
     }
     let output = format!("\n{stdout}{stderr}");
-    Err(Error::failed(
-        command,
-        out.status,
-        output.trim_end().to_owned(),
-    ))
+    let output = output.trim_end().to_owned();
+    Err(Error::failed(command, out.status, output))
 }
 
 /// Runs a command and hands over its stdout line by line; its stderr is the user's.
 pub fn each_line(command: &mut Command, mut on_line: impl FnMut(&str) -> Result<()>) -> Result<()> {
     command.stdin(Stdio::null()).stdout(Stdio::piped());
     let (mut child, _group) = spawn(command)?;
-    for line in child
-        .stdout
-        .take()
-        .into_iter()
-        .flat_map(|out| BufReader::new(out).lines())
-    {
+    let stdout = child.stdout.take().into_iter();
+    for line in stdout.flat_map(|out| BufReader::new(out).lines()) {
         on_line(&line.map_err(|e| Error::spawn(command, e))?)?;
     }
     let status = child.wait().map_err(|e| Error::spawn(command, e))?;
@@ -106,11 +94,13 @@ pub fn each_line(command: &mut Command, mut on_line: impl FnMut(&str) -> Result<
 
 /// Whether the command can be started and succeeds, with nothing shown.
 pub fn succeeds(command: &mut Command) -> bool {
-    command
-        .stdin(Stdio::null())
-        .stdout(Stdio::null())
-        .stderr(Stdio::null());
-    command.status().is_ok_and(|status| status.success())
+    let status = heard_by(command, Stdio::null).status();
+    status.is_ok_and(|status| status.success())
+}
+
+/// A command that reads nothing, and whose output goes there.
+pub fn heard_by(command: &mut Command, place: fn() -> Stdio) -> &mut Command {
+    command.stdin(Stdio::null()).stdout(place()).stderr(place())
 }
 
 /// Where `program` is on the PATH.

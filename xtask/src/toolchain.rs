@@ -6,7 +6,7 @@ use std::process::Command;
 
 use clap::ValueEnum;
 
-use crate::error::{Error, Result};
+use crate::error::{Result, refuse};
 use crate::shell;
 use crate::workspace::{FIRMWARE, Workspace};
 
@@ -134,8 +134,9 @@ fn clear(command: &mut Command) {
 
 /// Whether the compiler that runs xtask has a core for the target.
 pub fn native_has_target() -> bool {
-    shell::capture(native_rustc().args(["--print", "target-libdir", "--target", TARGET]))
-        .is_ok_and(|dir| has_core(Path::new(dir.trim())))
+    let mut rustc = native_rustc();
+    let dir = shell::capture(rustc.args(["--print", "target-libdir", "--target", TARGET]));
+    dir.is_ok_and(|dir| has_core(Path::new(dir.trim())))
 }
 
 /// Whether there is a precompiled core library in a directory.
@@ -178,23 +179,23 @@ pub fn has_debian_clippy() -> bool {
 
 /// Fails with the reason if Debian's way does not work.
 pub fn require_debian() -> Result<()> {
-    let Some(why) = debian_lacks() else {
-        return Ok(());
-    };
-    let packages = DEBIAN_PACKAGES.join(" ");
-    Err(Error::check(format!(
-        "Debian's packages {packages} are not enough: {why}"
-    )))
+    let why = debian_lacks();
+    let (why, packages) = (
+        why.as_deref().unwrap_or_default(),
+        DEBIAN_PACKAGES.join(" "),
+    );
+    refuse(!why.is_empty(), || {
+        format!("Debian's packages {packages} are not enough: {why}")
+    })
 }
 
 /// Major and minor of the first version number in the text.
 pub fn release(text: &str) -> (u32, u32) {
-    let number = text
-        .split_whitespace()
-        .find(|word| word.starts_with(|c: char| c.is_ascii_digit()))
-        .unwrap_or_default();
-    let mut parts = number.split('.').map(|part| part.parse().unwrap_or(0));
-    (parts.next().unwrap_or(0), parts.next().unwrap_or(0))
+    let is_number = |word: &&str| word.starts_with(|c: char| c.is_ascii_digit());
+    let number = text.split_whitespace().find(is_number);
+    let mut parts = number.unwrap_or_default().split('.').map(str::parse);
+    let mut part = || parts.next().and_then(|part| part.ok()).unwrap_or(0);
+    (part(), part())
 }
 
 #[cfg(test)]

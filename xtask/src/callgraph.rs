@@ -111,10 +111,8 @@ impl<'a> Reach<'a> {
         if roots.is_empty() {
             return Err(Error::check("the firmware has no function to start from"));
         }
-        let mut reach = Self {
-            from: roots.iter().map(|root| (*root, None)).collect(),
-            image,
-        };
+        let from = roots.iter().map(|root| (*root, None)).collect();
+        let mut reach = Self { from, image };
         let mut queue = VecDeque::from(roots);
         while let Some(index) = queue.pop_front() {
             let function = &image.functions[index];

@@ -52,11 +52,8 @@ pub fn build_meter(workspace: &Workspace) -> Result<PathBuf> {
     let mut command = workspace.cargo("build");
     shell::cargo(command.args(["--release", "--package", "cycle-meter"]))?;
     use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
-    existing(
-        workspace
-            .target
-            .join(format!("release/{DLL_PREFIX}cycle_meter{DLL_SUFFIX}")),
-    )
+    let library = format!("release/{DLL_PREFIX}cycle_meter{DLL_SUFFIX}");
+    existing(workspace.target.join(library))
 }
 
 fn existing(path: PathBuf) -> Result<PathBuf> {

@@ -11,6 +11,9 @@ use crate::system::{self, Privilege, System};
 use crate::toolchain::{self, Choice, DEBIAN_PACKAGES, TARGET, Toolchain};
 
 const CLIPPY: &str = "rust-web-clippy";
+/// What of cargo the tests need, rustup's component that has it, and Debian's package.
+#[rustfmt::skip]
+const COMPONENTS: [(&str, &str, &str); 2] = [("fmt", "rustfmt", "rustfmt-web"), ("clippy", "clippy", CLIPPY)];
 
 /// How the user wants the set-up done.
 #[derive(Clone, Copy, Debug, clap::Args)]
@@ -142,11 +145,7 @@ pub fn for_demo(options: Options) -> Result<Tools> {
 pub fn for_test(options: Options) -> Result<Tools> {
     let tools = for_demo(options)?;
     let mut plan = Plan::default();
-    let components = [
-        ("fmt", "rustfmt", "rustfmt-web"),
-        ("clippy", "clippy", CLIPPY),
-    ];
-    for (subcommand, component, package) in components {
+    for (subcommand, component, package) in COMPONENTS {
         let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
         if shell::succeeds(Command::new(cargo).args([subcommand, "--version"])) {
             continue;
@@ -185,11 +184,8 @@ fn compiler(options: Options) -> Result<Toolchain> {
     let mut chosen = choose(options.toolchain, &mut plan)?;
     if !Qemu::is_installed() {
         let reason = "`qemu-system-arm`, the emulator that runs the firmware";
-        plan.add(
-            reason.into(),
-            &[system::QEMU],
-            System::this().qemu_command(),
-        );
+        let elsewhere = System::this().qemu_command();
+        plan.add(reason.into(), &[system::QEMU], elsewhere);
     }
     let may_fall_back = options.toolchain == Choice::Auto && System::this() == System::Debian;
     if options.no_install && !plan.rustup.is_empty() && may_fall_back {

@@ -179,11 +179,8 @@ pub fn has_debian_clippy() -> bool {
 
 /// Fails with the reason if Debian's way does not work.
 pub fn require_debian() -> Result<()> {
-    let why = debian_lacks();
-    let (why, packages) = (
-        why.as_deref().unwrap_or_default(),
-        DEBIAN_PACKAGES.join(" "),
-    );
+    let why = debian_lacks().unwrap_or_default();
+    let packages = DEBIAN_PACKAGES.join(" ");
     refuse(!why.is_empty(), || {
         format!("Debian's packages {packages} are not enough: {why}")
     })

@@ -47,11 +47,8 @@ pub fn absent_effects_cost_nothing(context: &Context) -> Result<String> {
         ));
     }
     let known = |inputs| row(&rows, "engine", inputs);
-    seen.push(added(
-        context,
-        known("full_known")?,
-        known("friction_known")?,
-    )?);
+    let (full, friction) = (known("full_known")?, known("friction_known")?);
+    seen.push(added(context, full, friction)?);
     seen.push(dropped(context, [&elves[1], &elves[2]])?);
     Ok(seen.join(", "))
 }

@@ -25,13 +25,7 @@ pub fn relative(address: u32, first: u16, second: u16) -> Option<Relative> {
             bits,
         })
     };
-    let way = |distance: u32| {
-        if first & 0x80 == 0 {
-            -(distance as i32)
-        } else {
-            distance as i32
-        }
-    };
+    let sign = if first & 0x80 == 0 { -1 } else { 1 };
     match first >> 11 {
         0b11100 => reached(0, [0x7FF, 0], extend(one << 1, 12)),
         0b11010 | 0b11011 if first >> 9 & 7 != 7 => reached(0, [0xFF, 0], extend(one << 1, 9)),
@@ -51,10 +45,12 @@ pub fn relative(address: u32, first: u16, second: u16) -> Option<Relative> {
             let offset = high | (one & 0x3F) << 12 | (two & 0x7FF) << 1;
             reached(0, [0x43F, 0x2FFF], extend(offset, 21))
         }
-        _ if first & 0xFF7F == 0xF85F => reached(1, [0x80, 0xFFF], way(two & 0xFFF)),
-        _ if first & 0xFF3F == 0xED1F && second & 0xE00 == 0xA00 => {
-            reached(1 + (two >> 8 & 1), [0x80, 0xFF], way(4 * (two & 0xFF)))
-        }
+        _ if first & 0xFF7F == 0xF85F => reached(1, [0x80, 0xFFF], sign * (two & 0xFFF) as i32),
+        _ if first & 0xFF3F == 0xED1F && second & 0xE00 == 0xA00 => reached(
+            1 + (two >> 8 & 1),
+            [0x80, 0xFF],
+            sign * 4 * (two & 0xFF) as i32,
+        ),
         _ => None,
     }
 }

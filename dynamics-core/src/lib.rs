@@ -36,14 +36,6 @@
 #![cfg_attr(not(test), no_std)]
 #![forbid(unsafe_code)]
 
-// Layers, the lowest first: a module uses those before it alone, which `cargo xtask test layers` holds.
-//     const_math exponential
-//     trig scalar symmetric lie spatial articulated
-//     model robots state configuration mass_matrix transmission
-//     effects algorithms core_form engine
-//     flexible control sim
-//     serde_form defmt_form
-
 pub mod algorithms;
 mod articulated;
 pub mod configuration;

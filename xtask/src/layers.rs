@@ -1,17 +1,19 @@
-//! The library's modules in one-way layers: `lib.rs` lists them in order, and none uses a later one.
+//! The library's modules in one-way layers: the table at the top of `lib.rs` lists them in order, and none uses a
+//! later one. A module that is not in it, such as the forms for a feature, stands above all.
 
 use std::path::Path;
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, refuse};
 use crate::lines::{code, sources};
 use crate::workspace;
 
-/// What stands before the list in `lib.rs`: comment lines of names, the lowest first, up to the first other line.
-const LIST: &str = "// Layers, ";
+/// What a row of the table begins with; the names of its modules stand in backticks up to the next column.
+const ROW: &str = "//! | ";
 
 /// The library's modules, in order, and what it exports under a name of its own.
 struct Order {
-    modules: Vec<String>,
+    listed: Vec<String>,
+    declared: Vec<String>,
     /// An item's name at the crate's root, and its module.
     exports: Vec<(String, String)>,
 }
@@ -39,7 +41,7 @@ pub fn check(root: &Path) -> Result<String> {
         }
     }
     if wrong.is_empty() {
-        return Ok(format!("{} modules, {uses} uses", order.modules.len()));
+        return Ok(format!("{} modules, {uses} uses", order.declared.len()));
     }
     Err(Error::check(wrong.join("\n")))
 }
@@ -47,10 +49,14 @@ pub fn check(root: &Path) -> Result<String> {
 impl Order {
     /// From the source of `lib.rs`.
     fn read(source: &str) -> Result<Self> {
-        let after = source.lines().skip_while(|line| !line.starts_with(LIST));
-        let listed = after.skip(1).map_while(|line| line.strip_prefix("//"));
-        let names = listed.flat_map(str::split_whitespace);
-        let modules: Vec<String> = names.map(str::to_owned).collect();
+        let rows = source.lines().filter_map(|line| line.strip_prefix(ROW));
+        let names = rows.flat_map(|row| {
+            let cell = row.split(" | ").next().unwrap_or_default();
+            cell.split('`').skip(1).step_by(2)
+        });
+        // Types of the crate's root, which have capitals, are exports of a module.
+        let modules = names.filter(|name| name.starts_with(char::is_lowercase));
+        let listed: Vec<String> = modules.map(str::to_owned).collect();
         let (mut exports, mut declared) = (Vec::new(), Vec::new());
         let text: String = code(source)
             .map(|(_, line)| line.to_owned() + " ")
@@ -72,31 +78,37 @@ impl Order {
                 exports.extend(items.map(|item| (item.to_owned(), module.to_owned())));
             }
         }
-        let unlisted = declared.iter().find(|name| !modules.contains(name));
-        let gone = modules.iter().find(|name| !declared.contains(name));
-        match (unlisted, gone) {
-            (Some(name), _) => Err(Error::check(format!(
-                "lib.rs lists no layer of `{name}` behind `{LIST}…`"
-            ))),
-            (_, Some(name)) => Err(Error::check(format!(
-                "lib.rs lists the layer of `{name}`, which is no module"
-            ))),
-            (None, None) => Ok(Self { modules, exports }),
-        }
+        refuse(listed.is_empty(), || {
+            "lib.rs has no table of its modules".into()
+        })?;
+        let gone = listed.iter().find(|name| !declared.contains(name));
+        let gone = gone.map_or("", String::as_str);
+        refuse(!gone.is_empty(), || {
+            format!("the table in lib.rs lists `{gone}`, which is no module")
+        })?;
+        Ok(Self {
+            listed,
+            declared,
+            exports,
+        })
     }
 
     /// What is wrong with a module that uses a name of the crate's root.
     fn complaint(&self, user: &str, used: &str) -> Option<String> {
         let export = self.exports.iter().find(|(item, _)| item == used);
         let module = export.map_or(used, |(_, module)| module);
-        let place = |name: &str| self.modules.iter().position(|module| module == name);
-        match (place(user), place(module)) {
-            _ if module == "glam" => None,
-            (Some(above), Some(below)) if below <= above => None,
-            (Some(_), Some(_)) => Some(format!("uses `{module}`, which comes after it")),
-            (_, None) => Some(format!("uses `{module}`, which is no module")),
-            (None, _) => Some("has no layer".into()),
+        let place = |name: &str| self.listed.iter().position(|module| module == name);
+        let place = |name: &str| place(name).unwrap_or(usize::MAX);
+        if module == "glam" || module == user || place(module) < place(user) {
+            return None;
         }
+        let is_module = self.declared.iter().any(|name| name == module);
+        let why = if is_module {
+            "comes after it"
+        } else {
+            "is no module"
+        };
+        Some(format!("uses `{module}`, which {why}"))
     }
 }
 
@@ -165,10 +177,13 @@ mod tests {
             std::fs::create_dir_all(path.parent().unwrap_or(Path::new("."))).expect("a folder");
             std::fs::write(path, text).expect("a file");
         };
-        let lib = "//! A library.\n\n// Layers, the lowest first:\n//     scalar\n//     model control\n\npub mod \
-                   control;\npub mod model;\nmod scalar;\npub use control::{Law, Gate};\npub use glam;\n";
+        let lib = "//! A library.\n//!\n//! | module | contents |\n//! |---|---|\n//! | `scalar` | numbers |\n//! | \
+                   [`model`], `control`: [`Law`] | the rest, not `scalar` |\n\n#[cfg(feature = \"form\")]\nmod \
+                   form;\npub mod control;\npub mod model;\nmod scalar;\npub use control::{Law, \
+                   Gate};\npub use glam;\n";
         put("lib.rs", lib);
         put("scalar.rs", "use crate::glam::Vec3;\n");
+        put("form.rs", "use crate::control::Law;\n");
         put("model/mod.rs", "use crate::scalar::Real;\n");
         put(
             "model/tree.rs",
@@ -187,7 +202,7 @@ mod tests {
     #[test]
     fn modules_that_use_lower_ones_pass() {
         let seen = tree("good", "notes.txt", "").expect("in order");
-        assert_eq!(seen, "3 modules, 6 uses");
+        assert_eq!(seen, "4 modules, 7 uses");
         let tests = "use crate::scalar;\n// crate::control is above.\n#[cfg(test)]\nmod tests {\n    use crate::control::Law;\n}\n";
         assert!(tree("tests", "model/tree.rs", tests).is_ok());
     }
@@ -216,18 +231,26 @@ mod tests {
     }
 
     #[test]
-    fn modules_and_list_have_the_same_names() {
-        let error = tree(
-            "more",
+    fn what_is_no_module_is_refused() {
+        let refused = |name, file, text| tree(name, file, text).expect_err(name);
+        let gone = refused(
+            "gone",
             "lib.rs",
-            "// Layers, all:\n// scalar model control\nmod scalar;\n",
-        )
-        .expect_err("more");
-        assert!(error.contains("`model`, which is no module"), "{error}");
-        let error = tree("less", "lib.rs", "mod scalar;\n").expect_err("less");
-        assert!(error.contains("no layer of `scalar`"), "{error}");
-        let error = tree("all", "control.rs", "use crate::*;\n").expect_err("all of it");
-        assert!(error.contains("`control` uses `*`"), "{error}");
+            "//! | `scalar`, `model` | all |\nmod scalar;\n",
+        );
+        assert!(gone.contains("`model`, which is no module"), "{gone}");
+        let none = refused("none", "lib.rs", "mod scalar;\n");
+        assert!(none.contains("no table"), "{none}");
+        let all = refused("all", "control.rs", "use crate::*;\n");
+        assert!(
+            all.contains("`control` uses `*`, which is no module"),
+            "{all}"
+        );
+        let form = refused("form", "control.rs", "use crate::form;\n");
+        assert!(
+            form.contains("`control` uses `form`, which comes after it"),
+            "{form}"
+        );
     }
 
     #[test]

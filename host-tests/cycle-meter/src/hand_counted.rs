@@ -1,7 +1,7 @@
 //! Sequences counted by hand, against which the meter is checked.
 //!
-//! They are executed by the firmware's bin `meter_check`, where each figure is derived next to its
-//! sequence. The sums were made from the table in this crate's
+//! They are executed by `firmware-demo/src/bin/meter_check.rs`, where each figure is derived
+//! next to its sequence. The sums were made from the table in this crate's
 //! documentation, not from what the meter said.
 
 use crate::samples::{Sample, sample};

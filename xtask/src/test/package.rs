@@ -43,21 +43,23 @@ fn copies_are_equal(root: &Path, library: &Path) -> Result<()> {
 fn vendored_builds(context: &Context, folder: &Path) -> Result<()> {
     let git_url = commit_work_tree(&context.workspace.root, &folder.join("repository"))?;
     let project = folder.join("project");
+    let put = |name: &str, text: &str| {
+        let path = project.join(name);
+        create_parent(&path)?;
+        write(&path, text)
+    };
     let manifest = format!(
         "[package]\nname = \"vendored\"\nversion = \"0.1.0\"\nedition = \"2024\"\n\n[workspace]\n\n\
          [dependencies]\n{LIBRARY} = {{ git = \"{git_url}\", features = [\"serde\"] }}\n"
     );
     let program = "use dynamics_core::glam::Vec3;\n\nfn main() {\n    \
                    let _ = dynamics_core::effects::GravityAlong::<f32>(Vec3::X);\n}\n";
+    let files = [("Cargo.toml", manifest.as_str()), ("src/main.rs", program)];
+    for (name, text) in files {
+        put(name, text)?;
+    }
     // The versions that the workspace's other steps have been tested with.
     let lock = read(&context.workspace.root.join("Cargo.lock"))?;
-    let put = |name: &str, text: &str| {
-        let path = project.join(name);
-        create_parent(&path)?;
-        write(&path, text)
-    };
-    put("Cargo.toml", &manifest)?;
-    put("src/main.rs", program)?;
     put("Cargo.lock", &lock)?;
     let cargo = |subcommand| {
         let mut command = context.workspace.cargo(subcommand);

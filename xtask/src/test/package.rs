@@ -53,7 +53,7 @@ fn vendored_builds(context: &Context, folder: &Path) -> Result<()> {
          [dependencies]\n{LIBRARY} = {{ git = \"{git_url}\", features = [\"serde\"] }}\n"
     );
     let program = "use dynamics_core::glam::Vec3;\n\nfn main() {\n    \
-                   let _ = dynamics_core::effects::GravityAlong::<f32>(Vec3::X);\n}\n";
+                   let _ = dynamics_core::effects::GravityVector::<f32>(Vec3::X);\n}\n";
     let files = [("Cargo.toml", manifest.as_str()), ("src/main.rs", program)];
     for (name, text) in files {
         put(name, text)?;

@@ -41,27 +41,37 @@ use measure::{Measured, Plan};
 use point::{Kind, Point};
 
 /// What is wanted.
+#[derive(clap::Args)]
 pub struct Wish {
-    /// One robot only.
-    pub robot: Option<Robot>,
-    /// A dozen ways of each.
-    pub quick: bool,
-    /// JSON on stdout.
-    pub json: bool,
-    /// The choice of one way.
-    pub budget: Option<Budget>,
-    /// From what is measured now, not from what is recorded.
-    pub measure: bool,
+    /// Only this robot
+    #[arg(long, value_enum, value_name = "NAME", ignore_case = true)]
+    robot: Option<Robot>,
+    /// A dozen configurations of each robot, at opt-level 3
+    #[arg(long)]
+    quick: bool,
+    /// The measurements as JSON on stdout; progress stays on stderr
+    #[arg(long)]
+    json: bool,
+    /// Choose the cheapest configuration off by no more than this: 0.05Nm, 2mrad
+    #[arg(long, value_name = "ERROR", allow_hyphen_values = true)]
+    #[arg(requires = "robot", conflicts_with = "cycles")]
+    error: Option<Allowed>,
+    /// Choose the most accurate configuration whose worst tick takes no more cycles than this
+    #[arg(long, value_name = "CYCLES", requires = "robot")]
+    cycles: Option<u64>,
+    /// Choose from what is measured now, not from docs/accuracy.json
+    #[arg(long)]
+    measure: bool,
 }
 
 /// Measures, writes page and pictures, and prints; or chooses.
 pub fn run(options: Options, wish: Wish) -> Result<ExitCode> {
     let kind = wish.kind()?;
     let workspace = Workspace::find()?;
-    if let (Some(budget), Some(kind), false) = (wish.budget, kind, wish.measure | wish.quick) {
+    if let (Some(budget), Some(kind), false) = (wish.budget(), kind, wish.measure | wish.quick) {
         return wish.choose(&recorded::read(&workspace)?, budget, kind);
     }
-    let workspace = match wish.budget {
+    let workspace = match wish.budget() {
         None if !wish.quick => Workspace::for_reports()?,
         _ => workspace,
     };
@@ -80,7 +90,7 @@ pub fn run(options: Options, wish: Wish) -> Result<ExitCode> {
     } else {
         &measured.points
     };
-    if let (Some(budget), Some(kind)) = (wish.budget, kind) {
+    if let (Some(budget), Some(kind)) = (wish.budget(), kind) {
         return wish.choose(all, budget, kind);
     }
     if !wish.quick {
@@ -95,6 +105,12 @@ pub fn run(options: Options, wish: Wish) -> Result<ExitCode> {
 }
 
 impl Wish {
+    /// What a configuration is chosen by, if one is.
+    fn budget(&self) -> Option<Budget> {
+        let error = self.error.map(Budget::Error);
+        error.or(self.cycles.map(Budget::Cycles))
+    }
+
     /// Chooses from these, and prints.
     fn choose(&self, all: &[Point], budget: Budget, kind: Kind) -> Result<ExitCode> {
         let circumstances = match kind {
@@ -124,7 +140,7 @@ impl Wish {
 
     /// What a budget chooses from, if there is one.
     fn kind(&self) -> Result<Option<Kind>> {
-        let Some(budget) = self.budget else {
+        let Some(budget) = self.budget() else {
             return Ok(None);
         };
         let robot = self.robot.unwrap_or(Robot::Ur5e);

@@ -1,96 +1,65 @@
 //! Which functions a function can reach, read from the machine code: what the sources say is
 //! one thing, what the linker kept is another.
 
-use std::collections::{BTreeMap, VecDeque};
+use std::collections::VecDeque;
+use std::collections::btree_map::{BTreeMap, Entry};
+
+use cycle_meter::{Class, Insn, Relative};
 
 use crate::elf::{Function, Image};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, refuse};
 
-/// An instruction, by its one or two halfwords.
+/// An instruction.
 #[derive(Clone, Copy, Debug)]
 pub struct Instruction {
     /// Where it lies.
     pub address: u64,
-    /// Its first halfword.
-    pub first: u32,
-    /// Its second one.
-    pub second: Option<u32>,
+    /// Its halfwords; the second is zero if it has one.
+    pub code: [u16; 2],
+    /// What it is.
+    pub insn: Insn,
 }
 
 impl Instruction {
+    /// What it reaches by a distance from itself.
+    pub fn relative(self) -> Option<Relative> {
+        cycle_meter::relative(self.address as u32, self.code[0], self.code[1])
+    }
+
     /// Where a direct call or jump goes.
     pub fn target(self) -> Option<u64> {
-        let offset = match self.second {
-            None if self.first >> 11 == 0b11100 => extend(u64::from(self.first & 0x7ff) << 1, 12),
-            None if self.first >> 12 == 0b1101 && (self.first >> 9) & 7 != 7 => {
-                extend(u64::from(self.first & 0xff) << 1, 9)
-            }
-            Some(second) if self.first >> 11 == 0b11110 && second >> 15 == 1 => {
-                wide_offset(self.first, second)?
-            }
-            _ => return None,
-        };
-        // The program counter reads as four bytes ahead.
-        Some((self.address + 4).wrapping_add_signed(offset))
+        let branch = self.relative().filter(|reached| reached.words == 0)?;
+        Some(branch.target.into())
     }
 
-    /// Whether it calls or jumps to an address in a register, other than to return.
-    fn is_indirect(self) -> bool {
-        let to_register = self.second.is_none() && self.first >> 8 == 0b0100_0111;
-        let calls = self.first & 0x80 != 0;
-        let link_register = (self.first >> 3) & 0xf == 14;
-        to_register && (calls || !link_register)
-    }
-
-    /// Whether it is `DBG`, which marks the regions that are measured.
-    pub fn is_marker(self) -> bool {
-        self.first == 0xf3af && self.second.is_some_and(|second| second & 0xfff0 == 0x80f0)
-    }
-
-    /// Whether a Cortex-M4F lacks it: FPv5 (VSEL, VRINT, VMINNM …), f64 arithmetic, and what
-    /// ARMv8-M and v8.1-M added (CSEL …, low-overhead loops, load-acquire and store-release).
+    /// Whether a Cortex-M4F lacks it.
     pub fn is_beyond_m4f(self) -> bool {
-        let Some(second) = self.second else {
-            return false;
-        };
-        let coprocessor = (second >> 8) & 0xf;
-        let fpv5 = self.first >> 8 == 0xfe && matches!(coprocessor, 10 | 11);
-        let f64_arithmetic = self.first >> 8 == 0xee && coprocessor == 11 && second & 0x10 == 0;
-        let conditional_select = self.first >> 4 == 0xea5 && second >> 15 == 1;
-        let low_overhead_loop = self.first >> 11 == 0b11110 && second & 0xd000 == 0xc000;
-        let ordered = matches!(self.first >> 4, 0xe8c | 0xe8d)
-            && matches!((second >> 4) & 0xf, 0x8 | 0x9 | 0xa | 0xc | 0xd | 0xe);
-        fpv5 || f64_arithmetic || conditional_select || low_overhead_loop || ordered
+        self.insn.class == Class::Unknown
     }
 }
 
-/// BL, B.W and the conditional B.W (ARMv7-M manual, A7.7.12 and A7.7.18).
-fn wide_offset(first: u32, second: u32) -> Option<i64> {
-    let bit = |word: u32, n: u32| u64::from((word >> n) & 1);
-    let low = u64::from(second & 0x7ff) << 1;
-    if second & (1 << 12) != 0 {
-        let sign = bit(first, 10);
-        let i1 = 1 ^ bit(second, 13) ^ sign;
-        let i2 = 1 ^ bit(second, 11) ^ sign;
-        let high = u64::from(first & 0x3ff) << 12;
-        return Some(extend(sign << 24 | i1 << 23 | i2 << 22 | high | low, 25));
+impl Image {
+    /// The instructions of all its functions.
+    pub fn instructions(&self) -> impl Iterator<Item = (&Function, Instruction)> {
+        self.functions.iter().flat_map(|function| {
+            let instructions = function.instructions().into_iter();
+            instructions.map(move |one| (function, one))
+        })
     }
-    let is_branch = second & (1 << 14) == 0 && (first >> 7) & 7 != 7;
-    let high = u64::from(first & 0x3f) << 12;
-    let offset = bit(first, 10) << 20 | bit(second, 11) << 19 | bit(second, 13) << 18 | high | low;
-    is_branch.then(|| extend(offset, 21))
-}
-
-fn extend(value: u64, bits: u32) -> i64 {
-    (value << (64 - bits)).cast_signed() >> (64 - bits)
 }
 
 impl Function {
+    /// Whether an address lies in it.
+    pub fn contains(&self, address: u64) -> bool {
+        let end = self.address + self.bytes.len() as u64;
+        (self.address..end).contains(&address)
+    }
+
     /// Its instructions, without the literal pools.
     pub fn instructions(&self) -> Vec<Instruction> {
         let halfword = |at: usize| {
             let pair = self.bytes.get(at..at + 2)?;
-            Some(u32::from(u16::from_le_bytes([pair[0], pair[1]])))
+            Some(u16::from_le_bytes([pair[0], pair[1]]))
         };
         let mut instructions = Vec::new();
         let mut at = 0;
@@ -101,14 +70,14 @@ impl Function {
                 at += 2;
                 continue;
             }
-            let wide = first >> 11 >= 0b11101;
-            let second = if wide { halfword(at + 2) } else { None };
+            let size = usize::from(cycle_meter::size(first));
+            let second = halfword(at + 2).filter(|_| size == 4).unwrap_or_default();
             instructions.push(Instruction {
                 address,
-                first,
-                second,
+                code: [first, second],
+                insn: cycle_meter::decode(first, second),
             });
-            at += if wide { 4 } else { 2 };
+            at += size;
         }
         instructions
     }
@@ -137,42 +106,32 @@ impl<'a> Reach<'a> {
     /// There is no root, or something reached calls through a register or leaves the known
     /// functions, so that it cannot be told what else is reached.
     pub fn of(image: &'a Image, is_root: impl Fn(&Function) -> bool) -> Result<Self> {
-        let roots: Vec<usize> = (0..image.functions.len())
-            .filter(|index| is_root(&image.functions[*index]))
-            .collect();
+        let is_root = |index: &usize| is_root(&image.functions[*index]);
+        let roots: Vec<usize> = (0..image.functions.len()).filter(is_root).collect();
         if roots.is_empty() {
             return Err(Error::check("the firmware has no function to start from"));
         }
-        let mut reach = Self {
-            from: roots.iter().map(|root| (*root, None)).collect(),
-            image,
-        };
+        let from = roots.iter().map(|root| (*root, None)).collect();
+        let mut reach = Self { from, image };
         let mut queue = VecDeque::from(roots);
         while let Some(index) = queue.pop_front() {
             let function = &image.functions[index];
-            let own = function.address..function.address + function.bytes.len() as u64;
-            for instruction in function.instructions() {
-                if instruction.is_indirect() {
-                    return Err(Error::check(format!(
-                        "{} calls through a register at {:#x}: what it reaches cannot be told",
-                        reach.path(index),
-                        instruction.address
-                    )));
-                }
-                let Some(target) = instruction.target().filter(|to| !own.contains(to)) else {
+            for one in function.instructions() {
+                refuse(one.insn.indirect, || {
+                    let (path, at) = (reach.path(index), one.address);
+                    format!(
+                        "{path} calls through a register at {at:#x}: what it reaches cannot be told"
+                    )
+                })?;
+                let Some(target) = one.target().filter(|to| !function.contains(*to)) else {
                     continue;
                 };
-                let Some(callee) = image
-                    .functions
-                    .iter()
-                    .position(|f| (f.address..f.address + f.bytes.len() as u64).contains(&target))
-                else {
-                    return Err(Error::check(format!(
-                        "{} jumps to {target:#x}, which is in no function",
-                        reach.path(index)
-                    )));
-                };
-                if let std::collections::btree_map::Entry::Vacant(new) = reach.from.entry(callee) {
+                let callee = image.functions.iter().position(|f| f.contains(target));
+                let callee = callee.ok_or_else(|| {
+                    let jumps = format!("{} jumps to {target:#x}", reach.path(index));
+                    Error::check(format!("{jumps}, which is in no function"))
+                })?;
+                if let Entry::Vacant(new) = reach.from.entry(callee) {
                     new.insert(Some(index));
                     queue.push_back(callee);
                 }
@@ -183,9 +142,8 @@ impl<'a> Reach<'a> {
 
     /// The functions, with the way to each of them in words.
     pub fn functions(&self) -> impl Iterator<Item = (&'a Function, String)> + '_ {
-        self.from
-            .keys()
-            .map(|index| (&self.image.functions[*index], self.path(*index)))
+        let found = self.from.keys();
+        found.map(|index| (&self.image.functions[*index], self.path(*index)))
     }
 
     fn path(&self, index: usize) -> String {
@@ -202,70 +160,39 @@ impl<'a> Reach<'a> {
 
 #[cfg(test)]
 mod tests {
-    use super::Instruction;
+    use std::collections::BTreeSet;
 
-    fn target(first: u32, second: Option<u32>) -> Option<u64> {
-        Instruction {
-            address: 0x1000,
-            first,
-            second,
-        }
-        .target()
-    }
+    use super::Reach;
+    use crate::elf::{Function, Image, Sizes};
 
     #[test]
-    fn branches_go_where_the_manual_says() {
-        // Assembled and disassembled by LLVM at 0x1000.
-        assert_eq!(target(0xf000, Some(0xf87e)), Some(0x1100)); // bl
-        assert_eq!(target(0xf7ff, Some(0xff7e)), Some(0x0f00)); // bl, backwards
-        assert_eq!(target(0xf000, Some(0xb87e)), Some(0x1100)); // b.w
-        assert_eq!(target(0xf43f, Some(0xaf7e)), Some(0x0f00)); // beq.w, backwards
-        assert_eq!(target(0xe07e, None), Some(0x1100)); // b
-        assert_eq!(target(0xd07e, None), Some(0x1100)); // beq
-        assert_eq!(target(0xf3bf, Some(0x8f5f)), None); // dmb
-        assert_eq!(target(0xdf00, None), None); // svc
-    }
-
-    #[test]
-    fn a_call_through_any_register_is_indirect_and_a_return_is_not() {
-        let indirect = |first| {
-            let instruction = Instruction {
-                address: 0,
-                first,
-                second: None,
-            };
-            instruction.is_indirect()
+    fn a_function_that_jumps_through_a_register_is_refused_by_its_path() {
+        let function = |name: &str, address, code: [u16; 3]| Function {
+            names: vec![name.into()],
+            address,
+            bytes: code.iter().flat_map(|half| half.to_le_bytes()).collect(),
+            data: Vec::new(),
         };
-        assert!(indirect(0x4798)); // blx r3
-        assert!(indirect(0x47f0)); // blx lr
-        assert!(indirect(0x4718)); // bx r3
-        assert!(!indirect(0x4770)); // bx lr
-        assert!(!indirect(0x4618)); // mov r0, r3
-    }
-
-    #[test]
-    fn opcodes_beyond_an_m4f_are_told_from_its_own() {
-        let beyond = |first, second| {
-            Instruction {
-                address: 0,
-                first,
-                second: Some(second),
-            }
-            .is_beyond_m4f()
+        // bl 0x1010; bx lr
+        let caller = function("tick", 0x1000, [0xf000, 0xf806, 0x4770]);
+        let image = |code| Image {
+            is_arm: true,
+            has_defmt: false,
+            sizes: Sizes { flash: 0, ram: 0 },
+            functions: vec![caller.clone(), function("callee", 0x1010, code)],
+            words: BTreeSet::new(),
         };
-        assert!(beyond(0xfe00, 0x0a00)); // vseleq.f32 s0, s0, s0
-        assert!(beyond(0xfe00, 0x0b00)); // vseleq.f64 d0, d0, d0
-        assert!(beyond(0xfe80, 0x0b00)); // vmaxnm.f64 d0, d0, d0
-        assert!(beyond(0xfeb8, 0x0a40)); // vrinta.f32 s0, s0
-        assert!(beyond(0xee30, 0x0b00)); // vadd.f64 d0, d0, d0
-        assert!(beyond(0xea51, 0x8002)); // csel r0, r1, r2, eq
-        assert!(beyond(0xf040, 0xe001)); // dls lr, r0
-        assert!(beyond(0xe8d0, 0x1faf)); // lda r1, [r0]
-        assert!(!beyond(0xea51, 0x0002)); // orrs.w r0, r1, r2
-        assert!(!beyond(0xf7ff, 0xff7e)); // bl
-        assert!(!beyond(0xe8d0, 0x1f4f)); // ldrexb r1, [r0]
-        assert!(!beyond(0xee30, 0x0a00)); // vadd.f32 s0, s0, s0
-        assert!(!beyond(0xed2d, 0x8b02)); // vpush {d8}
-        assert!(!beyond(0xee00, 0x0b10)); // vmov.32 d0[0], r0
+        let returns = image([0xbf00, 0xbf00, 0x4770]);
+        let reach = Reach::of(&returns, |f| f.is_named(|name| name == "tick")).expect("no jump");
+        let paths: Vec<String> = reach.functions().map(|(_, path)| path).collect();
+        assert_eq!(paths, ["tick", "tick → callee"]);
+        let jumps = image([0xbf00, 0x469f, 0x4770]); // mov pc, r3
+        let error = Reach::of(&jumps, |f| f.is_named(|name| name == "tick")).err();
+        let error = error.expect("refused").to_string();
+        assert!(
+            error.contains("tick → callee calls through a register at 0x1012"),
+            "{error}"
+        );
+        assert!(Reach::of(&jumps, |_| false).is_err());
     }
 }

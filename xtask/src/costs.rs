@@ -24,11 +24,13 @@ const PAGE: &str = "docs/costs.md";
 const COMMAND: &str = "cargo xtask costs";
 
 /// What to do with the measurements.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, clap::Args)]
 pub struct Wish {
-    /// Print JSON.
+    /// The measurements as JSON on stdout; progress stays on stderr
+    #[arg(long)]
     pub json: bool,
-    /// Rewrite the budgets.
+    /// Rewrite the budgets from this run
+    #[arg(long)]
     pub write_budgets: bool,
 }
 

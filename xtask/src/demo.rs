@@ -40,24 +40,33 @@ pub struct Measured {
 }
 
 /// What to run and what to do with it.
+#[derive(clap::Args)]
 pub struct Wish {
-    /// The scenes.
-    pub scenes: Vec<Scene>,
-    /// Whether these are all of them, to be shown in one table.
-    pub all: bool,
-    /// Print JSON.
-    pub json: bool,
-    /// Rewrite the pages.
-    pub write_docs: bool,
-    /// Rewrite the budgets.
-    pub write_budgets: bool,
+    /// The scene
+    #[arg(long, value_enum, default_value_t)]
+    #[arg(value_name = "NAME", ignore_case = true)]
+    scene: Scene,
+    /// Every scene, and one table of all
+    #[arg(long, conflicts_with = "scene")]
+    all: bool,
+    /// The report as JSON on stdout; progress stays on stderr
+    #[arg(long)]
+    json: bool,
+    /// Rewrite the README's tables (with --all: docs/scenes.md too) from this run
+    #[arg(long)]
+    write_docs: bool,
+    /// Rewrite the scenes' budgets from this run
+    #[arg(long)]
+    write_budgets: bool,
 }
 
 /// Runs scenes, writes what is wished, and prints.
 pub fn run(options: Options, wish: Wish) -> Result<ExitCode> {
     let workspace = Workspace::find()?;
     let tools = setup::for_demo(options)?;
-    let built = Built::new(&workspace, &tools, &wish.scenes)?;
+    let one = [wish.scene];
+    let scenes = if wish.all { Scene::ALL } else { &one };
+    let built = Built::new(&workspace, &tools, scenes)?;
     let measured = match built.measure(&workspace, &tools) {
         Ok(measured) => measured,
         Err(why) if wish.write_docs || wish.write_budgets => return Err(why),

@@ -62,57 +62,48 @@ impl Image {
     }
 }
 
+/// What of a section lies in flash: initial values do, and are copied to RAM at start-up.
+fn is_in_flash(section: &object::Section<'_, '_>) -> bool {
+    use SectionKind::{Data, ReadOnlyData, Text};
+    matches!(section.kind(), Text | ReadOnlyData | Data)
+}
+
 fn sizes(file: &object::File<'_>) -> Sizes {
-    let mut sizes = Sizes { flash: 0, ram: 0 };
-    for section in file.sections() {
-        let in_ram = section.address() >= RAM;
-        match section.kind() {
-            SectionKind::Text | SectionKind::ReadOnlyData => sizes.flash += section.size(),
-            // Initial values lie in flash and are copied to RAM at start-up.
-            SectionKind::Data => {
-                sizes.flash += section.size();
-                sizes.ram += if in_ram { section.size() } else { 0 };
-            }
-            SectionKind::UninitializedData => sizes.ram += section.size(),
-            _ => {}
-        }
+    let sum = |counts: &dyn Fn(&object::Section<'_, '_>) -> bool| {
+        let counted = file.sections().filter(|section| counts(section));
+        counted.map(|section| section.size()).sum()
+    };
+    Sizes {
+        flash: sum(&is_in_flash),
+        ram: sum(&|section| match section.kind() {
+            SectionKind::Data => section.address() >= RAM,
+            kind => kind == SectionKind::UninitializedData,
+        }),
     }
-    sizes
 }
 
 fn words(file: &object::File<'_>) -> BTreeSet<u32> {
-    let in_flash = |kind| {
-        matches!(
-            kind,
-            SectionKind::Text | SectionKind::ReadOnlyData | SectionKind::Data
-        )
-    };
-    let sections = file.sections().filter(|section| in_flash(section.kind()));
-    sections
-        .filter_map(|section| section.data().ok())
-        .flat_map(|data| data.chunks_exact(4))
-        .map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]]))
-        .collect()
+    let sections = file.sections().filter(is_in_flash);
+    let data = sections.filter_map(|section| section.data().ok());
+    let words = data.flat_map(|data| data.as_chunks().0.iter().copied());
+    words.map(u32::from_le_bytes).collect()
 }
 
 fn functions(file: &object::File<'_>) -> Vec<Function> {
     // The ARM ABI marks where code and literal pools begin by symbols `$t` and `$d`.
-    let mut marks: Vec<(u64, bool)> = file
-        .symbols()
-        .filter_map(|symbol| match symbol.name().ok()?.get(..2)? {
-            "$t" => Some((symbol.address(), false)),
-            "$d" => Some((symbol.address(), true)),
-            _ => None,
-        })
-        .collect();
+    let mark = |symbol: object::Symbol<'_, '_>| match symbol.name().ok()?.get(..2)? {
+        "$t" => Some((symbol.address(), false)),
+        "$d" => Some((symbol.address(), true)),
+        _ => None,
+    };
+    let mut marks: Vec<(u64, bool)> = file.symbols().filter_map(mark).collect();
     marks.sort_unstable();
-
-    let mut functions: Vec<Function> = Vec::new();
-    let mut symbols: Vec<_> = file
+    let code = file
         .symbols()
-        .filter(|symbol| symbol.kind() == SymbolKind::Text && symbol.size() > 0)
-        .collect();
+        .filter(|symbol| symbol.kind() == SymbolKind::Text);
+    let mut symbols: Vec<_> = code.filter(|symbol| symbol.size() > 0).collect();
     symbols.sort_by_key(ObjectSymbol::address);
+    let mut functions: Vec<Function> = Vec::new();
     for symbol in symbols {
         // The lowest bit says Thumb and is no part of the address.
         let address = symbol.address() & !1;
@@ -121,21 +112,18 @@ fn functions(file: &object::File<'_>) -> Vec<Function> {
             last.names.push(name);
             continue;
         }
-        let end = address + symbol.size();
-        let bytes = symbol
-            .section_index()
-            .and_then(|index| file.section_by_index(index).ok())
-            .and_then(|section| section.data_range(address, symbol.size()).ok().flatten());
-        functions.push(Function {
+        let section = symbol.section_index();
+        let section = section.and_then(|at| file.section_by_index(at).ok());
+        let bytes = section.and_then(|section| section.data_range(address, symbol.size()).ok()?);
+        let mut function = Function {
             names: vec![name],
             address,
             bytes: bytes.unwrap_or_default().to_vec(),
-            data: marks
-                .iter()
-                .copied()
-                .filter(|(at, _)| (address..end).contains(at))
-                .collect(),
-        });
+            data: Vec::new(),
+        };
+        let mine = marks.iter().filter(|(at, _)| function.contains(*at));
+        function.data = mine.copied().collect();
+        functions.push(function);
     }
     functions
 }

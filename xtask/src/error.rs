@@ -59,14 +59,31 @@ pub enum Error {
     /// A check did not hold.
     #[error("{0}")]
     Check(String),
+    /// A check does not apply here, and why.
+    #[error("skipped: {0}")]
+    Skipped(String),
+}
+
+/// Fails with what is wrong, if it is.
+pub fn refuse(is_wrong: bool, what: impl FnOnce() -> String) -> Result<()> {
+    let wrong = is_wrong.then(|| Err(Error::check(what())));
+    wrong.unwrap_or(Ok(()))
 }
 
 impl Error {
     /// `command` could not be started.
     pub fn spawn(command: &Command, source: std::io::Error) -> Self {
-        Self::Spawn {
-            command: shell::display(command),
-            source,
+        let command = shell::display(command);
+        Self::Spawn { command, source }
+    }
+
+    /// `command` ran and failed.
+    pub fn failed(command: &Command, status: ExitStatus, output: String) -> Self {
+        let command = shell::display(command);
+        Self::Failed {
+            command,
+            status,
+            output,
         }
     }
 
@@ -77,6 +94,12 @@ impl Error {
     ) -> impl FnOnce(std::io::Error) -> Self {
         let path = path.into();
         move |source| Self::File { verb, path, source }
+    }
+
+    /// A firmware in QEMU misbehaved.
+    pub fn qemu(program: &str, what: impl Into<String>) -> Self {
+        let (program, what) = (program.to_owned(), what.into());
+        Self::Qemu { program, what }
     }
 
     /// Whether nobody reads what is printed any more, as behind `| head`.

@@ -10,9 +10,7 @@ use crate::workspace::Workspace;
 /// Builds a bin of the firmware and returns its ELF. Here and below, of what cargo says
 /// its warnings are shown, and the rest only if it fails.
 pub fn build(workspace: &Workspace, toolchain: Toolchain, bin: &str) -> Result<PathBuf> {
-    let mut command = toolchain.firmware(workspace, "build");
-    shell::cargo(command.args(["--release", "--bin", bin]))?;
-    existing(toolchain.elf(workspace, RELEASE, bin))
+    build_bins(workspace, toolchain, RELEASE, &[bin]).map(|mut elves| elves.remove(0))
 }
 
 /// Builds some bins side by side in a profile and returns their ELFs.
@@ -22,15 +20,7 @@ pub fn build_bins(
     profile: &str,
     bins: &[&str],
 ) -> Result<Vec<PathBuf>> {
-    let mut command = toolchain.firmware(workspace, "build");
-    command.args(["--profile", profile]);
-    for bin in bins {
-        command.args(["--bin", bin]);
-    }
-    shell::cargo(&mut command)?;
-    bins.iter()
-        .map(|bin| existing(toolchain.elf(workspace, profile, bin)))
-        .collect()
+    build_featured(workspace, toolchain, profile, "", bins)
 }
 
 /// Builds some bins side by side in a profile that are built for a feature only, and returns their ELFs.
@@ -43,9 +33,7 @@ pub fn build_featured(
 ) -> Result<Vec<PathBuf>> {
     let mut command = toolchain.firmware(workspace, "build");
     command.args(["--profile", profile, "--features", feature]);
-    for bin in bins {
-        command.args(["--bin", bin]);
-    }
+    command.args(bins.iter().flat_map(|bin| ["--bin", bin]));
     shell::cargo(&mut command)?;
     bins.iter()
         .map(|bin| existing(toolchain.elf(workspace, profile, bin)))
@@ -63,17 +51,12 @@ pub fn build_all(workspace: &Workspace, toolchain: Toolchain) -> Result<()> {
 pub fn build_meter(workspace: &Workspace) -> Result<PathBuf> {
     let mut command = workspace.cargo("build");
     shell::cargo(command.args(["--release", "--package", "cycle-meter"]))?;
-    let library = format!(
-        "{}cycle_meter{}",
-        std::env::consts::DLL_PREFIX,
-        std::env::consts::DLL_SUFFIX
-    );
-    existing(workspace.target.join("release").join(library))
+    use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
+    let library = format!("release/{DLL_PREFIX}cycle_meter{DLL_SUFFIX}");
+    existing(workspace.target.join(library))
 }
 
 fn existing(path: PathBuf) -> Result<PathBuf> {
-    match std::fs::metadata(&path) {
-        Ok(_) => Ok(path),
-        Err(e) => Err(Error::file("find", path)(e)),
-    }
+    std::fs::metadata(&path).map_err(Error::file("find", &path))?;
+    Ok(path)
 }

@@ -52,11 +52,9 @@ pub fn sifted(stderr: &str) -> Sifted {
 /// The feature that a warning's first line names, if it is such a warning.
 fn feature(line: &str) -> Option<String> {
     let (what, name) = line.split_once(" feature specified for `-Ctarget-feature`: `")?;
-    let unknown = what
-        .strip_prefix("warning: ")?
-        .split(" and ")
-        .all(|word| matches!(word, "unknown" | "unstable"));
-    unknown.then(|| name.trim_end_matches('`').to_owned())
+    let mut words = what.strip_prefix("warning: ")?.split(" and ");
+    let is_unknown = words.all(|word| matches!(word, "unknown" | "unstable"));
+    is_unknown.then(|| name.trim_end_matches('`').to_owned())
 }
 
 /// ``warning: `dynamics-core` (lib) generated 10 warnings``

@@ -2,25 +2,15 @@
 
 use std::path::Path;
 
-use cycle_meter::{Sample, Summary};
+use cycle_meter::Sample;
+pub use cycle_meter::Summary as Spread;
 use serde::{Deserialize, Serialize};
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, refuse};
 use crate::workspace;
 
 /// The regions' names by their number; 0 is the whole tick.
 pub const REGIONS: [&str; 6] = ["total", "read", "reference", "dynamics", "safety", "write"];
-
-/// Smallest, middle and largest.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Spread {
-    /// The smallest.
-    pub min: u64,
-    /// The median, the lower one of two.
-    pub median: u64,
-    /// The largest.
-    pub max: u64,
-}
 
 /// The price of a region.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
@@ -50,21 +40,18 @@ pub fn costs(
     ticks: usize,
     counts: impl Fn(usize) -> bool,
 ) -> Result<Vec<Cost>> {
-    let mut regions = Vec::new();
-    for (number, name) in REGIONS.iter().enumerate() {
-        let of_region: Vec<[u64; 2]> = samples
-            .iter()
-            .filter(|sample| usize::from(sample.region) == number)
-            .map(|sample| [sample.instructions, sample.cycles])
-            .collect();
-        if of_region.len() != ticks {
-            return Err(Error::check(format!(
-                "the cycle meter saw region {number} ({name}) {} times in {ticks} ticks",
-                of_region.len()
-            )));
-        }
-        regions.push(of_region);
-    }
+    let of = |(number, name): (usize, &&str)| {
+        let is_mine = |one: &&Sample| usize::from(one.region) == number;
+        let mine = samples.iter().filter(is_mine);
+        let mine: Vec<[u64; 2]> = mine.map(|one| [one.instructions, one.cycles]).collect();
+        let seen = mine.len();
+        refuse(seen != ticks, || {
+            format!("the cycle meter saw region {number} ({name}) {seen} times in {ticks} ticks")
+        })?;
+        Ok(mine)
+    };
+    let regions = REGIONS.iter().enumerate().map(of);
+    let mut regions = regions.collect::<Result<Vec<_>>>()?;
     let between = (0..ticks).map(|tick| {
         [0, 1].map(|which| {
             let phases: u64 = regions[1..].iter().map(|phase| phase[tick][which]).sum();
@@ -72,12 +59,9 @@ pub fn costs(
         })
     });
     regions.push(between.collect());
-    let cost = |ticks: &Vec<[u64; 2]>| {
-        let chosen = |which: usize| {
-            let numbered = ticks.iter().enumerate();
-            let chosen = numbered.filter(|(tick, _)| counts(*tick));
-            chosen.map(move |(_, values)| values[which])
-        };
+    let cost = |region: &Vec<[u64; 2]>| {
+        let ticks = || (0..ticks).filter(|tick| counts(*tick));
+        let chosen = |which: usize| ticks().map(move |tick| region[tick][which]);
         Cost::of(chosen(0), chosen(1))
     };
     regions.iter().map(cost).collect()
@@ -89,17 +73,12 @@ impl Cost {
         instructions: impl IntoIterator<Item = u64>,
         cycles: impl IntoIterator<Item = u64>,
     ) -> Result<Self> {
+        let nothing = || Error::check("the cycle meter measured nothing");
         Ok(Self {
-            instructions: spread(instructions)?,
-            cycles: spread(cycles)?,
+            instructions: Spread::of(instructions).ok_or_else(nothing)?,
+            cycles: Spread::of(cycles).ok_or_else(nothing)?,
         })
     }
-}
-
-fn spread(values: impl IntoIterator<Item = u64>) -> Result<Spread> {
-    let Summary { min, median, max } =
-        Summary::of(values).ok_or_else(|| Error::check("the cycle meter measured nothing"))?;
-    Ok(Spread { min, median, max })
 }
 
 #[cfg(test)]

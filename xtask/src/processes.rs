@@ -5,8 +5,10 @@
 
 use std::collections::BTreeSet;
 use std::io;
-use std::process::{Child, Command};
+use std::process::{Child, Command, ExitStatus};
 use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::thread;
+use std::time::{Duration, Instant};
 
 /// The groups that run, by the number of their first process.
 static RUNNING: Mutex<BTreeSet<u32>> = Mutex::new(BTreeSet::new());
@@ -44,15 +46,29 @@ fn end(group: u32) {
 #[cfg(not(unix))]
 fn end(_: u32) {}
 
-/// Tells a process to end, which may still write what it has.
-#[cfg(unix)]
+/// Tells a process to end, where there are signals; it may still write what it has.
 pub fn tell_to_end(child: &Child) {
     end(child.id());
 }
 
-/// Ends a process.
-#[cfg(not(unix))]
-pub fn tell_to_end(_: &Child) {}
+/// How a process ended, if it does within so long.
+pub fn within(child: &mut Child, limit: Duration) -> io::Result<Option<ExitStatus>> {
+    let start = Instant::now();
+    loop {
+        let status = child.try_wait()?;
+        if status.is_some() || start.elapsed() > limit {
+            return Ok(status);
+        }
+        thread::sleep(Duration::from_millis(5));
+    }
+}
+
+/// Ends a process at once.
+pub fn kill(child: &mut Child) {
+    // Both fail only if it has ended already, which is what is wanted.
+    let _ = child.kill();
+    let _ = child.wait();
+}
 
 /// A process group that runs; when dropped, what is left of it is ended.
 #[derive(Debug)]

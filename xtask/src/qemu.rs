@@ -4,12 +4,11 @@
 mod tests;
 mod watch;
 
-use std::io::{Read, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::sync::OnceLock;
-use std::thread;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use defmt_decoder::{DecodeError, StreamDecoder, Table};
 
@@ -17,7 +16,7 @@ use crate::error::{Error, Result};
 use crate::processes;
 use crate::shell;
 use crate::toolchain::release;
-use watch::{Decoder, Line, Watch};
+use watch::{Decoder, Line, Watch, bytes_of, said};
 
 const PROGRAM: &str = "qemu-system-arm";
 
@@ -26,9 +25,6 @@ pub const MACHINE: &str = "netduinoplus2";
 
 /// A file that keeps nothing.
 const NOWHERE: &str = "/dev/null";
-
-/// Bytes that are read of what QEMU says when it refuses the meter.
-const MOST_SAID: u64 = 1 << 16;
 
 /// The line a firmware ends with.
 pub const DONE: &str = "done";
@@ -63,6 +59,19 @@ pub struct Run<'a> {
     pub meter: Option<(&'a Path, &'a Path)>,
     /// Whether it logs, and then ends with [`DONE`]; one that does not must stay silent.
     pub logs: bool,
+}
+
+impl<'a> Run<'a> {
+    /// A firmware that logs, and is measured if there is a meter.
+    pub fn logging(name: &'a str, elf: &'a Path, meter: Option<(&'a Path, &'a Path)>) -> Self {
+        let logs = true;
+        Self {
+            name,
+            elf,
+            meter,
+            logs,
+        }
+    }
 }
 
 /// What to do where QEMU does not take the meter.
@@ -136,49 +145,31 @@ impl Qemu {
     fn load(&self, meter: &Path, interface: Option<i32>) -> std::result::Result<(), String> {
         let mut command = Command::new(&self.program);
         command
-            .args(["-machine", "none", "-nodefaults", "-display", "none"])
-            .args(["-monitor", "stdio", "-plugin"])
+            .args("-machine none -nodefaults -display none -monitor stdio -plugin".split(' '))
             .arg(format!("{},out={NOWHERE}", meter.display()))
+            .envs(interface.map(|version| (cycle_meter::INTERFACE, version.to_string())))
             .stdin(Stdio::piped())
             .stdout(Stdio::null())
             .stderr(Stdio::piped());
-        if let Some(version) = interface {
-            command.env(cycle_meter::INTERFACE, version.to_string());
-        }
         let (mut child, _group) = shell::spawn(&mut command).map_err(|e| e.to_string())?;
         if let Some(mut monitor) = child.stdin.take() {
             // A QEMU that has refused and left already does not read it.
             let _ = monitor.write_all(b"quit\n");
         }
-        let start = Instant::now();
-        let status = loop {
-            match child.try_wait() {
-                Ok(Some(status)) => break status,
-                Ok(None) if start.elapsed() < LOADING => thread::sleep(Duration::from_millis(5)),
-                Ok(None) => {
-                    // It may have ended just now.
-                    let _ = child.kill();
-                    let _ = child.wait();
-                    return Err(format!("it did not end within {LOADING:?}"));
-                }
-                Err(error) => return Err(error.to_string()),
-            }
+        let stderr = child.stderr.take().map(bytes_of);
+        let status = processes::within(&mut child, LOADING).map_err(|e| e.to_string())?;
+        let Some(status) = status else {
+            processes::kill(&mut child);
+            return Err(format!("it did not end within {LOADING:?}"));
         };
         if status.success() {
             return Ok(());
         }
-        let mut said = String::new();
-        if let Some(stderr) = child.stderr.take() {
-            let _ = stderr.take(MOST_SAID).read_to_string(&mut said);
-        }
-        let said = said.trim();
+        let said = stderr.as_ref().map_or_else(String::new, said);
         // Behind the path of the plugin, which the user did not choose.
-        let why = said.rsplit_once(": ").map_or(said, |(_, why)| why);
-        Err(if why.is_empty() {
-            status.to_string()
-        } else {
-            why.to_owned()
-        })
+        let why = said.rsplit_once(": ").map_or(&*said, |(_, why)| why);
+        let says_nothing = why.is_empty().then(|| status.to_string());
+        Err(says_nothing.unwrap_or_else(|| why.to_owned()))
     }
 
     /// Runs a firmware to its end and hands over its log line by line; returns the raw bytes
@@ -192,17 +183,13 @@ impl Qemu {
         run: &Run<'_>,
         mut on_line: impl FnMut(&str) -> Result<()>,
     ) -> Result<Vec<u8>> {
-        let failed = |what: String| Error::Qemu {
-            program: run.name.to_owned(),
-            what,
-        };
         let elf = std::fs::read(run.elf).map_err(Error::file("read", run.elf))?;
-        let table = Table::parse(&elf)
-            .map_err(|e| failed(format!("its defmt strings cannot be read: {e:#}")))?;
+        let table = Table::parse(&elf).map_err(|e| {
+            Error::qemu(run.name, format!("its defmt strings cannot be read: {e:#}"))
+        })?;
         if run.logs && table.is_none() {
-            return Err(failed(
-                "it has no defmt strings: was it linked with defmt.x?".into(),
-            ));
+            let what = "it has no defmt strings: was it linked with defmt.x?";
+            return Err(Error::qemu(run.name, what));
         }
         let table = table.as_ref().filter(|_| run.logs);
         let watch = Watch {
@@ -216,27 +203,19 @@ impl Qemu {
     /// The command line of a run.
     fn command(&self, machine: &str, run: &Run<'_>) -> Result<Command> {
         let mut command = Command::new(&self.program);
-        command
-            .args(["-machine", machine, "-nographic"])
-            // Without it QEMU opens the sound of the machine that it runs on.
-            .args(["-audiodev", "none,id=silent"])
-            .args(["-monitor", "none", "-serial", "none"])
-            .args(["-icount", "shift=3,sleep=off"])
-            .args(["-semihosting-config", "enable=on,target=native"]);
+        command.args(["-machine", machine]);
+        // Without `-audiodev` QEMU opens the sound of the machine that it runs on.
+        let fixed = "-nographic -audiodev none,id=silent -monitor none -serial none -icount shift=3,sleep=off \
+                     -semihosting-config enable=on,target=native";
+        command.args(fixed.split(' '));
         if let Some((plugin, out)) = run.meter {
-            command
-                .arg("-plugin")
-                .arg(format!("{},out={}", plugin.display(), out.display()));
-            if let Some(version) = self.interface(plugin)? {
-                command.env(cycle_meter::INTERFACE, version.to_string());
-            }
+            let plugged = format!("{},out={}", plugin.display(), out.display());
+            command.args(["-plugin", &plugged]);
+            let version = self.interface(plugin)?;
+            command.envs(version.map(|version| (cycle_meter::INTERFACE, version.to_string())));
         }
-        command
-            .arg("-kernel")
-            .arg(run.elf)
-            .stdin(Stdio::null())
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped());
+        command.arg("-kernel").arg(run.elf);
+        shell::heard_by(&mut command, Stdio::piped);
         Ok(command)
     }
 
@@ -254,31 +233,16 @@ impl Qemu {
             command.stdout(std::io::stderr());
         }
         let (mut child, _group) = shell::spawn(&mut command)?;
-        let start = Instant::now();
-        let mut told = false;
-        loop {
-            let status = child.try_wait().map_err(|e| Error::spawn(&command, e))?;
-            match status {
-                Some(_) if told => return Ok(false),
-                Some(status) if status.success() => return Ok(true),
-                Some(status) => {
-                    return Err(Error::Qemu {
-                        program: run.name.to_owned(),
-                        what: format!("it failed ({status})"),
-                    });
-                }
-                None if start.elapsed() >= limit + LOADING => {
-                    // It may have ended just now.
-                    let _ = child.kill();
-                    let _ = child.wait();
-                    return Ok(false);
-                }
-                None if start.elapsed() >= limit && !told => {
-                    // QEMU then writes what was measured, and ends.
-                    processes::tell_to_end(&child);
-                    told = true;
-                }
-                None => thread::sleep(Duration::from_millis(5)),
+        let cannot_wait = |e| Error::spawn(&command, e);
+        match processes::within(&mut child, limit).map_err(cannot_wait)? {
+            Some(status) if status.success() => Ok(true),
+            Some(status) => Err(Error::qemu(run.name, format!("it failed ({status})"))),
+            None => {
+                // QEMU then writes what was measured, and ends.
+                processes::tell_to_end(&child);
+                processes::within(&mut child, LOADING).map_err(cannot_wait)?;
+                processes::kill(&mut child);
+                Ok(false)
             }
         }
     }

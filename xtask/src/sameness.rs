@@ -3,17 +3,16 @@
 
 use crate::callgraph::Instruction;
 use crate::elf::{Function, Image};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, refuse};
 
-/// An instruction, with what it refers to instead of how far away that is.
+/// An instruction, with what it reaches instead of how far away that is.
 #[derive(Debug, PartialEq, Eq)]
-enum Act {
-    /// It says all itself.
-    Plain(u32, Option<u32>),
-    /// It goes to another function.
-    Leaves { opcode: [u32; 2], to: u64 },
-    /// It loads literals.
-    Loads { opcode: [u32; 2], words: Vec<u32> },
+struct Act {
+    opcode: [u16; 2],
+    /// Where it leaves its function to.
+    leaves: Option<u32>,
+    /// The literals that it loads.
+    words: Vec<u32>,
 }
 
 /// How many instructions two functions, by their addresses, have in common.
@@ -29,22 +28,19 @@ pub fn same(image: &Image, one: u64, other: u64) -> Result<usize> {
             a[at], b[at]
         )));
     }
-    if a.len() != b.len() {
-        return Err(Error::check(format!(
-            "{one:#x} has {} instructions, {other:#x} {}",
-            a.len(),
-            b.len()
-        )));
-    }
-    Ok(a.len())
+    let [many, others] = [a.len(), b.len()];
+    refuse(many != others, || {
+        format!("{one:#x} has {many} instructions, {other:#x} {others}")
+    })?;
+    Ok(many)
 }
 
 /// The function at an address, or that which it does nothing but jump to: the compiler makes such
 /// jumps where it finds two functions the same.
 fn function(image: &Image, address: u64) -> Result<&Function> {
     let at = |address: u64| image.functions.iter().find(|f| f.address == address);
-    let found =
-        at(address).ok_or_else(|| Error::check(format!("there is no function at {address:#x}")))?;
+    let nothing = || Error::check(format!("there is no function at {address:#x}"));
+    let found = at(address).ok_or_else(nothing)?;
     let instructions = found.instructions();
     let jump = instructions.first().filter(|_| instructions.len() == 1);
     let target = jump.and_then(|jump| jump.target()).and_then(at);
@@ -57,61 +53,29 @@ fn acts(function: &Function) -> Vec<Act> {
 }
 
 fn act(function: &Function, instruction: Instruction) -> Act {
-    let Instruction {
-        address,
-        first,
-        second,
-    } = instruction;
-    let end = function.address + function.bytes.len() as u64;
-    if let Some(to) = instruction.target()
-        && !(function.address..end).contains(&to)
-    {
-        // The link, and of the conditional ones the condition; else what is left is the distance.
-        let opcode = match second {
-            None => [first & 0xff00, 0],
-            Some(second) if second & 0x1000 == 0 => [first & 0xfbc0, second & 0xd000],
-            Some(second) => [first & 0xf800, second & 0xd000],
-        };
-        return Act::Leaves { opcode, to };
-    }
-    let base = (address + 4) & !3;
-    let Some((opcode, offset, words)) = literal(first, second) else {
-        return Act::Plain(first, second);
+    let plain = Act {
+        opcode: instruction.code,
+        leaves: None,
+        words: Vec::new(),
     };
-    let from = base.wrapping_add_signed(offset);
-    let word = |n: u64| {
-        let at = usize::try_from((from + 4 * n).checked_sub(function.address)?).ok()?;
+    let Some(reached) = instruction.relative() else {
+        return plain;
+    };
+    let is_own = function.contains(reached.target.into());
+    if is_own && reached.words == 0 {
+        return plain;
+    }
+    let bytes = |n: u32| {
+        let at = u64::from(reached.target + 4 * n).checked_sub(function.address)? as usize;
         let bytes = function.bytes.get(at..at + 4)?;
         Some(u32::from_le_bytes(bytes.try_into().ok()?))
     };
-    match (0..words).map(word).collect() {
-        Some(words) => Act::Loads { opcode, words },
+    let words: Option<Vec<u32>> = (0..reached.words).map(bytes).collect();
+    Act {
+        opcode: [0, 1].map(|half| instruction.code[half] & !reached.bits[half]),
         // Beyond its own end it loads no literal of its own.
-        None => Act::Leaves { opcode, to: from },
-    }
-}
-
-/// Of a load relative to the program counter: what it is, how far it reaches, and how many words it
-/// loads. ARMv7-M manual: LDR (literal), A7.7.44; VLDR, A7.7.233.
-fn literal(first: u32, second: Option<u32>) -> Option<([u32; 2], i64, u64)> {
-    let signed = |up: bool, offset: u32| {
-        let offset = i64::from(offset);
-        if up { offset } else { -offset }
-    };
-    let up = first & 0x80 != 0;
-    match second {
-        None if first >> 11 == 0b01001 => {
-            Some(([first & 0xff00, 0], i64::from(first & 0xff) * 4, 1))
-        }
-        Some(second) if first & 0xff7f == 0xf85f => {
-            Some(([0xf85f, second & 0xf000], signed(up, second & 0xfff), 1))
-        }
-        Some(second) if first & 0xff3f == 0xed1f => {
-            let words = if second & 0x100 == 0 { 1 } else { 2 };
-            let opcode = [first & 0xff7f, second & 0xff00];
-            Some((opcode, signed(up, second & 0xff) * 4, words))
-        }
-        _ => None,
+        leaves: (!is_own || words.is_none()).then_some(reached.target),
+        words: words.unwrap_or_default(),
     }
 }
 

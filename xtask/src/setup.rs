@@ -10,7 +10,10 @@ use crate::shell;
 use crate::system::{self, Privilege, System};
 use crate::toolchain::{self, Choice, DEBIAN_PACKAGES, TARGET, Toolchain};
 
-const DEBIAN_CLIPPY: &str = "rust-web-clippy";
+const CLIPPY: &str = "rust-web-clippy";
+/// What of cargo the tests need, rustup's component that has it, and Debian's package.
+#[rustfmt::skip]
+const COMPONENTS: [(&str, &str, &str); 2] = [("fmt", "rustfmt", "rustfmt-web"), ("clippy", "clippy", CLIPPY)];
 
 /// How the user wants the set-up done.
 #[derive(Clone, Copy, Debug, clap::Args)]
@@ -38,24 +41,35 @@ pub struct Tools {
 #[derive(Default)]
 struct Plan {
     reasons: Vec<String>,
-    rustup: Vec<Vec<&'static str>>,
+    rustup: Vec<String>,
     apt: Vec<&'static str>,
     /// For systems where the user has to do it.
     manual: Vec<String>,
 }
 
 impl Plan {
-    fn add_apt(&mut self, reason: &str, packages: &[&'static str]) {
-        self.reasons.push(reason.to_owned());
-        self.apt.extend(packages);
+    /// Debian's packages, or what the user has to do on another system.
+    fn add(&mut self, reason: String, packages: &[&'static str], elsewhere: &str) {
+        self.reasons.push(reason);
+        if System::this() == System::Debian {
+            self.apt.extend(packages);
+        } else {
+            self.manual.push(elsewhere.to_owned());
+        }
+    }
+
+    /// What rustup has to do.
+    fn add_rustup(&mut self, reason: String, line: String) {
+        self.reasons.push(reason);
+        self.rustup.push(line);
     }
 
     fn commands(&self) -> Vec<String> {
-        let mut lines: Vec<String> = self.rustup.iter().map(|words| words.join(" ")).collect();
+        let mut lines = self.rustup.clone();
         if !self.apt.is_empty() {
             lines.extend(system::apt_lines(&self.apt));
         }
-        lines.extend(self.manual.iter().cloned());
+        lines.extend_from_slice(&self.manual);
         lines
     }
 
@@ -73,14 +87,17 @@ impl Plan {
         }
         let packages = !self.apt.is_empty();
         may_install(options, &commands, packages)?;
-        for words in &self.rustup {
-            shell::run(Command::new(words[0]).args(&words[1..]))?;
+        for line in &self.rustup {
+            shell::run(Command::new("rustup").args(line.split(' ').skip(1)))?;
         }
-        if !self.apt.is_empty() {
-            system::apt_install(&self.apt)?;
-        }
-        Ok(())
+        let install = packages.then(|| system::apt_install(&self.apt));
+        install.unwrap_or(Ok(()))
     }
+}
+
+/// Whether this is a CI machine, which is thrown away.
+pub fn is_ci() -> bool {
+    std::env::var_os("CI").is_some_and(|ci| ci == "true")
 }
 
 /// Says what will be installed; packages through sudo only if the user says yes.
@@ -88,39 +105,30 @@ impl Plan {
 /// # Errors
 /// The user says no or cannot be asked, or may not install packages.
 pub fn may_install(options: Options, commands: &[String], packages: bool) -> Result<()> {
-    let missing = || Error::Missing {
-        commands: commands.to_vec(),
-    };
-    let agreed = options.yes || std::env::var_os("CI").is_some_and(|ci| ci == "true");
-    match Privilege::this() {
-        Privilege::None if packages => return Err(missing()),
-        Privilege::Sudo if packages && !agreed => {
-            let terminal = std::io::stdin().is_terminal() && std::io::stderr().is_terminal();
-            if !terminal {
-                output::note(
-                    "not installed: nobody can be asked here whether to use sudo; --yes agrees to it",
-                );
-                return Err(missing());
-            }
-            output::note("this would be installed with:");
-            for command in commands {
-                output::note(&format!("    {command}"));
-            }
+    let say = |what: &str| output::note(&format!("{what}:\n    {}", commands.join("\n    ")));
+    let privilege = Privilege::this();
+    let asks = packages && privilege == Privilege::Sudo && !options.yes && !is_ci();
+    let is_watched = std::io::stdin().is_terminal() && std::io::stderr().is_terminal();
+    let may = match (asks, is_watched) {
+        (true, true) => {
+            say("this would be installed with");
             let _ = write!(std::io::stderr(), "run it? [y/N] ");
             let mut answer = String::new();
-            let read = std::io::stdin().read_line(&mut answer);
-            if read.is_err() || !is_yes(&answer) {
-                return Err(missing());
-            }
+            std::io::stdin().read_line(&mut answer).is_ok() && is_yes(&answer)
         }
-        _ => {
-            output::note("about to install it with:");
-            for command in commands {
-                output::note(&format!("    {command}"));
-            }
+        (true, false) => {
+            let why = "nobody can be asked here whether to use sudo; --yes agrees to it";
+            output::note(&format!("not installed: {why}"));
+            false
         }
-    }
-    Ok(())
+        (false, _) if packages && privilege == Privilege::None => false,
+        (false, _) => {
+            say("about to install it with");
+            true
+        }
+    };
+    let commands = commands.to_vec();
+    may.then_some(()).ok_or(Error::Missing { commands })
 }
 
 fn is_yes(answer: &str) -> bool {
@@ -129,38 +137,30 @@ fn is_yes(answer: &str) -> bool {
 
 /// Everything that the demo needs.
 pub fn for_demo(options: Options) -> Result<Tools> {
-    let toolchain = compiler(options)?;
-    Ok(Tools {
-        toolchain,
-        qemu: Qemu::find()?,
-    })
+    let (toolchain, qemu) = (compiler(options)?, Qemu::find()?);
+    Ok(Tools { toolchain, qemu })
 }
 
 /// Everything that the tests need: what the demo needs, rustfmt and clippy.
 pub fn for_test(options: Options) -> Result<Tools> {
     let tools = for_demo(options)?;
     let mut plan = Plan::default();
-    for (subcommand, component, package) in [
-        ("fmt", "rustfmt", "rustfmt-web"),
-        ("clippy", "clippy", DEBIAN_CLIPPY),
-    ] {
+    for (subcommand, component, package) in COMPONENTS {
         let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-        let native = shell::succeeds(Command::new(cargo).args([subcommand, "--version"]));
-        if !native && shell::which("rustup").is_some() {
-            plan.reasons.push(format!("`cargo {subcommand}`"));
-            plan.rustup
-                .push(vec!["rustup", "component", "add", component]);
-        } else if !native && System::this() == System::Debian {
-            plan.add_apt(&format!("`cargo {subcommand}`"), &[package]);
-        } else if !native {
-            plan.reasons.push(format!("`cargo {subcommand}`"));
-            plan.manual
-                .push(format!("install Rust's `{component}` component"));
+        if shell::succeeds(Command::new(cargo).args([subcommand, "--version"])) {
+            continue;
+        }
+        let reason = format!("`cargo {subcommand}`");
+        if shell::which("rustup").is_some() {
+            plan.add_rustup(reason, format!("rustup component add {component}"));
+        } else {
+            let elsewhere = format!("install Rust's `{component}` component");
+            plan.add(reason, &[package], &elsewhere);
         }
     }
     let is_debian = tools.toolchain == Toolchain::Debian;
-    if is_debian && !toolchain::has_debian_clippy() && !plan.apt.contains(&DEBIAN_CLIPPY) {
-        plan.add_apt("the clippy of Debian's compiler", &[DEBIAN_CLIPPY]);
+    if is_debian && !toolchain::has_debian_clippy() && !plan.apt.contains(&CLIPPY) {
+        plan.add("the clippy of Debian's compiler".into(), &[CLIPPY], "");
     }
     plan.carry_out(options)?;
     Ok(tools)
@@ -170,7 +170,8 @@ pub fn for_test(options: Options) -> Result<Tools> {
 pub fn debian(options: Options) -> Result<Toolchain> {
     if let Some(why) = toolchain::debian_lacks() {
         let mut plan = Plan::default();
-        plan.add_apt(&format!("Debian's own compiler: {why}"), DEBIAN_PACKAGES);
+        let reason = format!("Debian's own compiler: {why}");
+        plan.add(reason, DEBIAN_PACKAGES, "");
         plan.carry_out(options)?;
         toolchain::require_debian()?;
     }
@@ -179,19 +180,14 @@ pub fn debian(options: Options) -> Result<Toolchain> {
 
 /// The compiler and QEMU in one plan, so that the user is told everything at once.
 fn compiler(options: Options) -> Result<Toolchain> {
-    let system = System::this();
     let mut plan = Plan::default();
-    let mut chosen = choose(options.toolchain, system, &mut plan)?;
+    let mut chosen = choose(options.toolchain, &mut plan)?;
     if !Qemu::is_installed() {
         let reason = "`qemu-system-arm`, the emulator that runs the firmware";
-        if system == System::Debian {
-            plan.add_apt(reason, &["qemu-system-arm"]);
-        } else {
-            plan.reasons.push(reason.into());
-            plan.manual.push(system.qemu_command());
-        }
+        let elsewhere = System::this().qemu_command();
+        plan.add(reason.into(), &[system::QEMU], elsewhere);
     }
-    let may_fall_back = options.toolchain == Choice::Auto && system == System::Debian;
+    let may_fall_back = options.toolchain == Choice::Auto && System::this() == System::Debian;
     if options.no_install && !plan.rustup.is_empty() && may_fall_back {
         output::note(&format!(
             "where rustup cannot fetch the target, Debian's own compiler does:\n    {}",
@@ -228,31 +224,30 @@ fn compiler(options: Options) -> Result<Toolchain> {
 }
 
 /// Which compiler it will be, and what it lacks.
-fn choose(choice: Choice, system: System, plan: &mut Plan) -> Result<Toolchain> {
+fn choose(choice: Choice, plan: &mut Plan) -> Result<Toolchain> {
     let core = format!("a Rust core library for {TARGET}");
+    let is_debian = System::this() == System::Debian;
     if choice != Choice::Debian {
         if toolchain::native_has_target() {
             return Ok(Toolchain::Native);
         }
         // A machine that once fell back on Debian's compiler need not ask rustup again.
-        let debian_is_there = system == System::Debian && toolchain::debian_lacks().is_none();
-        if choice == Choice::Auto && debian_is_there {
+        if choice == Choice::Auto && is_debian && toolchain::debian_lacks().is_none() {
             return Ok(Toolchain::Debian);
         }
         if shell::which("rustup").is_some() {
-            plan.reasons.push(core);
-            plan.rustup.push(vec!["rustup", "target", "add", TARGET]);
+            plan.add_rustup(core, format!("rustup target add {TARGET}"));
             return Ok(Toolchain::Native);
         }
     }
-    if choice == Choice::Rustup || system != System::Debian {
+    if choice == Choice::Rustup || !is_debian {
         return Err(Error::check(format!(
             "the Rust compiler here has no core library for {TARGET}, and there is no rustup to \
              add it: install Rust through rustup, or the target with what installed Rust"
         )));
     }
     if let Some(why) = toolchain::debian_lacks() {
-        plan.add_apt(&format!("{core} ({why})"), DEBIAN_PACKAGES);
+        plan.add(format!("{core} ({why})"), DEBIAN_PACKAGES, "");
     }
     Ok(Toolchain::Debian)
 }

@@ -1,6 +1,6 @@
 //! Running other programs.
 
-use std::io::{BufRead, BufReader, Read};
+use std::io::{BufRead, BufReader};
 use std::path::PathBuf;
 use std::process::{Child, Command, ExitStatus, Stdio};
 
@@ -11,18 +11,12 @@ use crate::processes::Group;
 
 /// The command as one would type it, without its environment.
 pub fn display(command: &Command) -> String {
-    std::iter::once(command.get_program())
-        .chain(command.get_args())
-        .map(|word| {
-            let word = word.to_string_lossy();
-            if word.contains([' ', '"', '*']) {
-                format!("'{word}'")
-            } else {
-                word.into_owned()
-            }
-        })
-        .collect::<Vec<_>>()
-        .join(" ")
+    let words = std::iter::once(command.get_program()).chain(command.get_args());
+    let quoted = words.map(|word| match word.to_string_lossy() {
+        word if word.contains([' ', '"', '*']) => format!("'{word}'"),
+        word => word.into_owned(),
+    });
+    quoted.collect::<Vec<_>>().join(" ")
 }
 
 /// Starts a command whose processes end when xtask is told to end.
@@ -42,22 +36,15 @@ pub fn run(command: &mut Command) -> Result<()> {
 /// Runs a command that may ask for a password: it stays in the terminal's foreground group, whose
 /// programs alone may read from it and all get what is typed to interrupt.
 pub fn run_with_questions(command: &mut Command) -> Result<()> {
-    let status = command
-        .stdout(std::io::stderr())
-        .status()
-        .map_err(|e| Error::spawn(command, e))?;
-    succeeded(command, status)
+    let status = command.stdout(std::io::stderr()).status();
+    succeeded(command, status.map_err(|e| Error::spawn(command, e))?)
 }
 
 fn succeeded(command: &Command, status: ExitStatus) -> Result<()> {
     if status.success() {
         return Ok(());
     }
-    Err(Error::Failed {
-        command: display(command),
-        status,
-        output: String::new(),
-    })
+    Err(Error::failed(command, status, String::new()))
 }
 
 /// Runs a command and returns its stdout; what it printed is shown only if it fails.
@@ -80,37 +67,26 @@ pub fn cargo(command: &mut Command) -> Result<String> {
 }
 
 fn output_of(command: &mut Command) -> Result<(String, String)> {
-    command
-        .stdin(Stdio::null())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped());
-    let (child, _group) = spawn(command)?;
-    let out = child
-        .wait_with_output()
-        .map_err(|e| Error::spawn(command, e))?;
-    let stdout = String::from_utf8_lossy(&out.stdout).into_owned();
-    let stderr = String::from_utf8_lossy(&out.stderr).into_owned();
+    let (child, _group) = spawn(heard_by(command, Stdio::piped))?;
+    let out = child.wait_with_output();
+    let out = out.map_err(|e| Error::spawn(command, e))?;
+    let [stdout, stderr] =
+        [out.stdout, out.stderr].map(|text| String::from_utf8_lossy(&text).into_owned());
     if out.status.success() {
         return Ok((stdout, stderr));
     }
-    Err(Error::Failed {
-        command: display(command),
-        status: out.status,
-        output: format!("\n{stdout}{stderr}").trim_end().to_owned(),
-    })
+    let output = format!("\n{stdout}{stderr}");
+    let output = output.trim_end().to_owned();
+    Err(Error::failed(command, out.status, output))
 }
 
 /// Runs a command and hands over its stdout line by line; its stderr is the user's.
 pub fn each_line(command: &mut Command, mut on_line: impl FnMut(&str) -> Result<()>) -> Result<()> {
     command.stdin(Stdio::null()).stdout(Stdio::piped());
     let (mut child, _group) = spawn(command)?;
-    let stdout: Box<dyn Read> = match child.stdout.take() {
-        Some(stdout) => Box::new(stdout),
-        None => Box::new(std::io::empty()),
-    };
-    for line in BufReader::new(stdout).lines() {
-        let line = line.map_err(|e| Error::spawn(command, e))?;
-        on_line(&line)?;
+    let stdout = child.stdout.take().into_iter();
+    for line in stdout.flat_map(|out| BufReader::new(out).lines()) {
+        on_line(&line.map_err(|e| Error::spawn(command, e))?)?;
     }
     let status = child.wait().map_err(|e| Error::spawn(command, e))?;
     succeeded(command, status)
@@ -118,12 +94,13 @@ pub fn each_line(command: &mut Command, mut on_line: impl FnMut(&str) -> Result<
 
 /// Whether the command can be started and succeeds, with nothing shown.
 pub fn succeeds(command: &mut Command) -> bool {
-    command
-        .stdin(Stdio::null())
-        .stdout(Stdio::null())
-        .stderr(Stdio::null())
-        .status()
-        .is_ok_and(|status| status.success())
+    let status = heard_by(command, Stdio::null).status();
+    status.is_ok_and(|status| status.success())
+}
+
+/// A command that reads nothing, and whose output goes there.
+pub fn heard_by(command: &mut Command, place: fn() -> Stdio) -> &mut Command {
+    command.stdin(Stdio::null()).stdout(place()).stderr(place())
 }
 
 /// Where `program` is on the PATH.

@@ -6,6 +6,9 @@ use crate::error::Result;
 use crate::output;
 use crate::shell;
 
+/// Debian's package of the emulator.
+pub const QEMU: &str = "qemu-system-arm";
+
 /// What installs QEMU here.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum System {
@@ -25,6 +28,19 @@ pub enum System {
     Other,
 }
 
+/// Each system, the words of `/etc/os-release` that it goes by, and what gets the user a QEMU there; Debian's is
+/// installed by [`apt_install`].
+#[rustfmt::skip]
+const SYSTEMS: [(System, &[&str], &str); 7] = [
+    (System::Debian, &["debian"], ""),
+    (System::Fedora, &["fedora", "rhel"], "sudo dnf install -y qemu-system-arm-core"),
+    (System::Arch, &["arch"], "sudo pacman -S --needed qemu-system-arm"),
+    (System::Suse, &["suse", "opensuse"], "sudo zypper install -y qemu-arm"),
+    (System::MacOs, &[], "brew install qemu"),
+    (System::Windows, &[], "winget install SoftwareFreedomConservancy.QEMU    # and put qemu-system-arm on the PATH"),
+    (System::Other, &[], "# install QEMU's `qemu-system-arm` with your system's package manager"),
+];
+
 impl System {
     /// The system that xtask runs on.
     pub fn this() -> Self {
@@ -38,40 +54,18 @@ impl System {
 
     /// From the `ID` and `ID_LIKE` of `/etc/os-release`.
     fn from_os_release(text: &str) -> Self {
-        let ids = text
-            .lines()
-            .filter_map(|line| {
-                line.strip_prefix("ID=")
-                    .or_else(|| line.strip_prefix("ID_LIKE="))
-            })
-            .flat_map(|value| value.trim_matches(['"', '\'']).split_whitespace());
-        for id in ids {
-            match id {
-                "debian" => return Self::Debian,
-                "fedora" | "rhel" => return Self::Fedora,
-                "arch" => return Self::Arch,
-                "suse" | "opensuse" => return Self::Suse,
-                _ => {}
-            }
-        }
-        Self::Other
+        let value = |line| str::strip_prefix(line, "ID=").or_else(|| line.strip_prefix("ID_LIKE="));
+        let values = text.lines().filter_map(value);
+        let ids = values.flat_map(|value| value.trim_matches(['"', '\'']).split_whitespace());
+        let known = |id: &str| SYSTEMS.iter().find(|(_, ids, _)| ids.contains(&id));
+        let mut systems = ids.filter_map(known).map(|row| row.0);
+        systems.next().unwrap_or(Self::Other)
     }
 
     /// What the user has to do to get a QEMU, where xtask does not install it itself.
-    pub fn qemu_command(self) -> String {
-        match self {
-            Self::Debian => apt_lines(&["qemu-system-arm"]).join(" && "),
-            Self::Fedora => "sudo dnf install -y qemu-system-arm-core".into(),
-            Self::Suse => "sudo zypper install -y qemu-arm".into(),
-            Self::Arch => "sudo pacman -S --needed qemu-system-arm".into(),
-            Self::MacOs => "brew install qemu".into(),
-            Self::Windows => {
-                "winget install SoftwareFreedomConservancy.QEMU    # and put qemu-system-arm on the PATH".into()
-            }
-            Self::Other => {
-                "# install QEMU's `qemu-system-arm` with your system's package manager".into()
-            }
-        }
+    pub fn qemu_command(self) -> &'static str {
+        let mut rows = SYSTEMS.iter();
+        rows.find(|row| row.0 == self).map_or("", |row| row.2)
     }
 }
 
@@ -90,12 +84,10 @@ impl Privilege {
     /// This user's. It runs no sudo: that is for the user to allow.
     pub fn this() -> Self {
         let uid = shell::capture(Command::new("id").arg("-u")).unwrap_or_default();
-        if uid.trim() == "0" {
-            Self::Root
-        } else if shell::which("sudo").is_none() {
-            Self::None
-        } else {
-            Self::Sudo
+        match shell::which("sudo") {
+            _ if uid.trim() == "0" => Self::Root,
+            None => Self::None,
+            Some(_) => Self::Sudo,
         }
     }
 
@@ -108,26 +100,21 @@ impl Privilege {
         }
     }
 
-    fn command(self, program: &str) -> Command {
-        match self {
-            Self::Root | Self::None => Command::new(program),
-            Self::Sudo => {
-                let mut command = Command::new("sudo");
-                command.arg(program);
-                command
-            }
-        }
+    fn apt_get(self) -> Command {
+        let through: &[&str] = if self == Self::Sudo { &["sudo"] } else { &[] };
+        let words = [through, &["apt-get"]].concat();
+        let mut command = Command::new(words[0]);
+        command.args(&words[1..]);
+        command
     }
 }
 
 fn apt_commands(privilege: Privilege, packages: &[&str]) -> [Command; 2] {
-    let mut update = privilege.command("apt-get");
+    let (mut update, mut install) = (privilege.apt_get(), privilege.apt_get());
     update.arg("update");
-    let mut install = privilege.command("apt-get");
-    install
-        .args(["install", "--no-install-recommends", "-y"])
-        .args(packages)
-        .env("DEBIAN_FRONTEND", "noninteractive");
+    install.args(["install", "--no-install-recommends", "-y"]);
+    install.args(packages);
+    install.env("DEBIAN_FRONTEND", "noninteractive");
     [update, install]
 }
 
@@ -135,10 +122,10 @@ fn apt_commands(privilege: Privilege, packages: &[&str]) -> [Command; 2] {
 pub fn apt_lines(packages: &[&str]) -> Vec<String> {
     let privilege = Privilege::this();
     let commands = apt_commands(privilege, packages);
-    // Without root and sudo the reader has to become root in a way of their own.
-    let hint =
-        (privilege == Privilege::None).then(|| "# as root: there is no sudo here".to_owned());
     let lines = commands.iter().map(shell::display);
+    // Without root and sudo the reader has to become root in a way of their own.
+    let is_lost = privilege == Privilege::None;
+    let hint = is_lost.then(|| "# as root: there is no sudo here".to_owned());
     hint.into_iter().chain(lines).collect()
 }
 

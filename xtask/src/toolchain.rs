@@ -1,13 +1,12 @@
 //! The two ways to a compiler for the target: the one that runs xtask, with the target's
 //! core added by rustup, or Debian's own, which builds core from Debian's sources.
 
-use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use clap::ValueEnum;
 
-use crate::error::{Error, Result};
+use crate::error::{Result, refuse};
 use crate::shell;
 use crate::workspace::{FIRMWARE, Workspace};
 
@@ -55,13 +54,10 @@ impl Toolchain {
             Self::Native => workspace.cargo(subcommand),
             Self::Debian => {
                 // Cargo would find rustup's `cargo-clippy` first.
-                let mut command = match subcommand {
-                    "clippy" => debian(DEBIAN_CLIPPY),
-                    _ => debian(DEBIAN_CARGO),
-                };
+                let programs = [DEBIAN_CARGO, DEBIAN_CLIPPY];
+                let mut command = debian(programs[usize::from(subcommand == "clippy")]);
                 command
-                    .arg(subcommand)
-                    .arg("-Zbuild-std=core")
+                    .args([subcommand, "-Zbuild-std=core"])
                     .env("CARGO", DEBIAN_CARGO)
                     .current_dir(&workspace.root)
                     .env("RUSTC", DEBIAN_RUSTC)
@@ -87,10 +83,9 @@ impl Toolchain {
 
     /// The ELF of a bin of the firmware in a profile.
     pub fn elf(self, workspace: &Workspace, profile: &str, bin: &str) -> PathBuf {
-        self.target_dir(workspace)
-            .join(TARGET)
-            .join(profile)
-            .join(bin)
+        let mut path = self.target_dir(workspace);
+        path.extend([TARGET, profile, bin]);
+        path
     }
 
     /// `rustc --version`.
@@ -107,62 +102,74 @@ fn native_rustc() -> Command {
     Command::new(std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into()))
 }
 
-/// A command of Debian's toolchain, rid of what `cargo run` and rustup's shims left in the
-/// environment: library paths and variables that lead back to the other compiler.
-fn debian(program: impl AsRef<OsStr>) -> Command {
+/// A command of Debian's toolchain.
+fn debian(program: &str) -> Command {
     let mut command = Command::new(program);
+    clear(&mut command);
+    command
+}
+
+/// A program of one of rustup's toolchains, to be completed.
+pub fn rustup(toolchain: &str, program: &str) -> Command {
+    let mut command = Command::new("rustup");
+    command.args(["run", toolchain, program]);
+    clear(&mut command);
+    command
+}
+
+/// Rids a command of what `cargo run` and rustup's shims left in the environment: library paths and variables that
+/// lead back to the other compiler.
+fn clear(command: &mut Command) {
+    let left = "CARGO RUSTC RUSTDOC LD_LIBRARY_PATH RUSTUP_TOOLCHAIN RUST_RECURSION_COUNT";
     for (name, _) in std::env::vars_os() {
         let text = name.to_string_lossy();
-        let foreign = ["RUSTUP_", "CARGO_PKG_", "CARGO_BIN_", "CARGO_MANIFEST_"]
-            .iter()
-            .any(|prefix| text.starts_with(prefix))
-            || ["CARGO", "RUSTC", "RUSTDOC", "LD_LIBRARY_PATH"].contains(&&*text);
-        if foreign {
+        let of_a_package = ["CARGO_PKG_", "CARGO_BIN_", "CARGO_MANIFEST_"];
+        let is_foreign = of_a_package.iter().any(|prefix| text.starts_with(prefix))
+            || left.split(' ').any(|word| word == text);
+        if is_foreign {
             command.env_remove(&name);
         }
     }
-    command
 }
 
 /// Whether the compiler that runs xtask has a core for the target.
 pub fn native_has_target() -> bool {
-    shell::capture(native_rustc().args(["--print", "target-libdir", "--target", TARGET]))
-        .is_ok_and(|dir| has_core(Path::new(dir.trim())))
+    let mut rustc = native_rustc();
+    let dir = shell::capture(rustc.args(["--print", "target-libdir", "--target", TARGET]));
+    dir.is_ok_and(|dir| has_core(Path::new(dir.trim())))
 }
 
 /// Whether there is a precompiled core library in a directory.
 pub fn has_core(dir: &Path) -> bool {
-    std::fs::read_dir(dir).is_ok_and(|entries| {
-        entries
-            .flatten()
-            .any(|entry| entry.file_name().to_string_lossy().starts_with("libcore-"))
-    })
+    let mut files = std::fs::read_dir(dir).into_iter().flatten().flatten();
+    files.any(|file| file.file_name().to_string_lossy().starts_with("libcore-"))
+}
+
+/// The sources of the core library, below a compiler's root.
+const SOURCES: &str = "lib/rustlib/src/rust/library/core/Cargo.toml";
+
+/// Whether the sources of the core library are below a compiler's root.
+pub fn has_sources(sysroot: &Path) -> bool {
+    sysroot.join(SOURCES).is_file()
 }
 
 /// Why Debian's way does not work yet, if it does not.
 pub fn debian_lacks() -> Option<String> {
-    for file in [DEBIAN_RUSTC, DEBIAN_CARGO, DEBIAN_LINKER] {
-        if !Path::new(file).is_file() {
-            return Some(format!("{file} is not there"));
-        }
+    let files = [DEBIAN_RUSTC, DEBIAN_CARGO, DEBIAN_LINKER];
+    if let Some(file) = files.into_iter().find(|file| !Path::new(file).is_file()) {
+        return Some(format!("{file} is not there"));
     }
-    let asked = |argument: &[&str]| {
-        shell::capture(debian(DEBIAN_RUSTC).args(argument)).map(|out| out.trim().to_owned())
+    let says = |arguments: &[&str]| shell::capture(debian(DEBIAN_RUSTC).args(arguments));
+    let (version, sysroot) = match (says(&["--version"]), says(&["--print", "sysroot"])) {
+        (Ok(version), Ok(sysroot)) => (version, sysroot),
+        (Err(error), _) | (_, Err(error)) => return Some(error.to_string()),
     };
-    let version = match asked(&["--version"]) {
-        Ok(version) => version,
-        Err(error) => return Some(error.to_string()),
-    };
+    let (version, sysroot) = (version.trim(), sysroot.trim());
     let oldest = env!("CARGO_PKG_RUST_VERSION");
-    if release(&version) < release(oldest) {
+    if release(version) < release(oldest) {
         return Some(format!("{DEBIAN_RUSTC} is {version}, older than {oldest}"));
     }
-    let core = "lib/rustlib/src/rust/library/core/Cargo.toml";
-    match asked(&["--print", "sysroot"]) {
-        Ok(sysroot) if Path::new(&sysroot).join(core).is_file() => None,
-        Ok(sysroot) => Some(format!("{sysroot}/{core} is not there")),
-        Err(error) => Some(error.to_string()),
-    }
+    (!has_sources(Path::new(sysroot))).then(|| format!("{sysroot}/{SOURCES} is not there"))
 }
 
 /// Whether Debian's clippy is there.
@@ -172,22 +179,20 @@ pub fn has_debian_clippy() -> bool {
 
 /// Fails with the reason if Debian's way does not work.
 pub fn require_debian() -> Result<()> {
-    debian_lacks().map_or(Ok(()), |why| {
-        Err(Error::check(format!(
-            "Debian's packages {} are not enough: {why}",
-            DEBIAN_PACKAGES.join(" ")
-        )))
+    let why = debian_lacks().unwrap_or_default();
+    let packages = DEBIAN_PACKAGES.join(" ");
+    refuse(!why.is_empty(), || {
+        format!("Debian's packages {packages} are not enough: {why}")
     })
 }
 
 /// Major and minor of the first version number in the text.
 pub fn release(text: &str) -> (u32, u32) {
-    let number = text
-        .split_whitespace()
-        .find(|word| word.starts_with(|c: char| c.is_ascii_digit()))
-        .unwrap_or_default();
-    let mut parts = number.split('.').map(|part| part.parse().unwrap_or(0));
-    (parts.next().unwrap_or(0), parts.next().unwrap_or(0))
+    let is_number = |word: &&str| word.starts_with(|c: char| c.is_ascii_digit());
+    let number = text.split_whitespace().find(is_number);
+    let mut parts = number.unwrap_or_default().split('.').map(str::parse);
+    let mut part = || parts.next().and_then(|part| part.ok()).unwrap_or(0);
+    (part(), part())
 }
 
 #[cfg(test)]

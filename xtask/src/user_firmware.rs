@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Duration;
 
-use cycle_meter::{Sample, Summary};
+use cycle_meter::Sample;
 use serde::Serialize;
 
 use crate::docs;
@@ -14,42 +14,30 @@ use crate::firmware;
 use crate::meter::{self, Spread};
 use crate::output;
 use crate::progress::Spinner;
-use crate::qemu::Run;
+use crate::qemu::{MACHINE, Run};
 use crate::report::MODEL;
 use crate::setup::{self, Options};
 use crate::table::{Table, thousands};
 use crate::workspace::Workspace;
 
 /// How a firmware is marked, in the help and where it is not.
-pub const MARKERS: &str = "\
-A region k, 0 to 7, begins with the instruction `dbg #2k` and ends with `dbg #2k+1`. They do nothing on the
-processor and may stay in the firmware. In Rust:
-
-    #[inline(always)]
-    fn start_0() { unsafe { core::arch::asm!(\"dbg #0\", options(nostack, preserves_flags)) } }
-    #[inline(always)]
-    fn stop_0() { unsafe { core::arch::asm!(\"dbg #1\", options(nostack, preserves_flags)) } }
-
-    start_0();
-    let tau = black_box(control_tick(black_box(&state)));   // #[inline(never)] fn control_tick
-    stop_0();
-
-In C: `__asm volatile(\"dbg #0\" ::: \"memory\")`. A marker keeps accesses to memory on their side, but not arithmetic
-on values in registers: measure the call of a function that is not inlined, with black_box around its arguments
-and its result. Regions may nest. The ELF is run on an emulated Netduino Plus 2 (STM32F405: flash at 0x08000000,
-RAM at 0x20000000); what else is on the board does not answer. It may end by semihosting (SYS_EXIT); one that
-never ends is stopped after --seconds, and what was measured until then is printed. Keep its symbols (no strip).";
+pub const MARKERS: &str = include_str!("markers.txt");
 
 /// What to measure.
+#[derive(clap::Args)]
 pub struct Wish {
-    /// The firmware.
-    pub elf: PathBuf,
-    /// The board in QEMU.
-    pub machine: String,
-    /// How long it may run.
-    pub seconds: u64,
-    /// Print JSON.
-    pub json: bool,
+    /// The firmware, with its symbols
+    #[arg(value_name = "ELF")]
+    elf: PathBuf,
+    /// The board that QEMU emulates
+    #[arg(long, default_value = MACHINE, value_name = "NAME")]
+    machine: String,
+    /// Stop it after so many seconds
+    #[arg(long, default_value_t = 10, value_name = "N")]
+    seconds: u64,
+    /// The measurements as JSON on stdout; progress stays on stderr
+    #[arg(long)]
+    json: bool,
 }
 
 /// What a region costs; the fields are those of the JSON.
@@ -91,14 +79,11 @@ pub fn run(options: Options, wish: &Wish) -> Result<ExitCode> {
     let plugin = firmware::build_meter(&workspace)?;
     tools.qemu.interface(&plugin)?;
     let out = workspace.output(&format!("{name}.{}.regions", std::process::id()))?;
-    let run = Run {
-        name: &name,
-        elf: &wish.elf,
-        meter: Some((&plugin, &out)),
-        logs: image.has_defmt,
-    };
+    let meter = Some((plugin.as_path(), out.as_path()));
     spinner.say(format!("running {name} in QEMU"));
     let limit = Duration::from_secs(wish.seconds);
+    let mut run = Run::logging(&name, &wish.elf, meter);
+    run.logs = image.has_defmt;
     let ended = tools.qemu.run_for(&wish.machine, &run, limit);
     drop(spinner);
     let samples = ended.and_then(|ended| Ok((ended, meter::read(&out)?)));
@@ -112,15 +97,11 @@ pub fn run(options: Options, wish: &Wish) -> Result<ExitCode> {
         foreign: foreign(&image),
     };
     if report.regions.is_empty() {
+        let when = ["in its time", "before it ended"][usize::from(ended)];
+        let seconds = wish.seconds;
         return Err(Error::check(format!(
-            "{name} has markers, but closed no region {}: is it built for a board with flash at 0x08000000, does \
-             it wait for a device that QEMU lacks, or does it need more than --seconds {}?",
-            if ended {
-                "before it ended"
-            } else {
-                "in its time"
-            },
-            wish.seconds
+            "{name} has markers, but closed no region {when}: is it built for a board with flash at 0x08000000, does \
+             it wait for a device that QEMU lacks, or does it need more than --seconds {seconds}?"
         )));
     }
     if wish.json {
@@ -128,16 +109,14 @@ pub fn run(options: Options, wish: &Wish) -> Result<ExitCode> {
     } else {
         output::print(&report.text(&name, wish.seconds))?;
     }
-    if let Some(first) = report.foreign.first() {
-        return Err(Error::check(format!(
-            "{} instructions are none of a Cortex-M4F, the first at {} in `{}`: build with \
-             --target thumbv7em-none-eabihf and the flags that README.md gives",
-            report.foreign.len(),
-            first.address,
-            first.function
-        )));
+    let number = report.foreign.len();
+    match report.foreign.first() {
+        None => Ok(ExitCode::SUCCESS),
+        Some(Foreign { function, address }) => Err(Error::check(format!(
+            "{number} instructions are none of a Cortex-M4F, the first at {address} in `{function}`: build with \
+             --target thumbv7em-none-eabihf and the flags that README.md gives"
+        ))),
     }
-    Ok(ExitCode::SUCCESS)
 }
 
 /// The ELF, if it is one that can be measured.
@@ -159,8 +138,7 @@ fn image(elf: &Path) -> Result<Image> {
     if image.functions.is_empty() {
         return wrong("it has no symbols of functions: build it without `strip`");
     }
-    let instructions = image.functions.iter().flat_map(|f| f.instructions());
-    if !instructions.into_iter().any(|one| one.is_marker()) {
+    if !image.instructions().any(|(_, one)| one.insn.is_marker()) {
         return wrong(&format!("it has no markers.\n\n{MARKERS}"));
     }
     Ok(image)
@@ -168,14 +146,10 @@ fn image(elf: &Path) -> Result<Image> {
 
 fn regions(samples: &[Sample]) -> Vec<Region> {
     let of = |region: u8| {
-        let passages: Vec<&Sample> = samples.iter().filter(|one| one.region == region).collect();
-        let spread = |what: fn(&Sample) -> u64| {
-            let Summary { min, median, max } = Summary::of(passages.iter().map(|one| what(one)))?;
-            Some(Spread { min, median, max })
-        };
+        let spread = |what| Spread::of_region(samples, region, what);
         Some(Region {
             region,
-            calls: passages.len(),
+            calls: samples.iter().filter(|one| one.region == region).count(),
             instructions: spread(|one| one.instructions)?,
             cycles: spread(|one| one.cycles)?,
             flops: spread(|one| one.flops)?,
@@ -185,59 +159,32 @@ fn regions(samples: &[Sample]) -> Vec<Region> {
 }
 
 fn foreign(image: &Image) -> Vec<Foreign> {
-    let mut foreign = Vec::new();
-    for function in &image.functions {
-        for instruction in function.instructions() {
-            if instruction.is_beyond_m4f() {
-                foreign.push(Foreign {
-                    function: function.names.join(" = "),
-                    address: format!("{:#x}", instruction.address),
-                });
-            }
-        }
-    }
-    foreign
+    let foreign = image.instructions().filter(|(_, one)| one.is_beyond_m4f());
+    let named = foreign.map(|(function, one)| Foreign {
+        function: function.names.join(" = "),
+        address: format!("{:#x}", one.address),
+    });
+    named.collect()
 }
 
 impl Report {
     fn text(&self, name: &str, seconds: u64) -> String {
-        let mut table = Table::new(&[
-            "region",
-            "calls",
-            "insn min",
-            "median",
-            "max",
-            "cycles min",
-            "median",
-            "max",
-            "flops max",
-        ]);
+        let head = "region,calls,insn min,median,max,cycles min,median,max,flops max";
+        let mut table = Table::new(&head.split(',').collect::<Vec<_>>());
         for region in &self.regions {
-            let (insn, cycles) = (region.instructions, region.cycles);
-            let figures = [
-                region.calls as u64,
-                insn.min,
-                insn.median,
-                insn.max,
-                cycles.min,
-                cycles.median,
-                cycles.max,
-                region.flops.max,
-            ];
-            let cells = figures.map(thousands);
+            let mut figures = vec![region.calls as u64];
+            for spread in [region.instructions, region.cycles] {
+                figures.extend([spread.min, spread.median, spread.max]);
+            }
+            figures.push(region.flops.max);
+            let cells = figures.into_iter().map(thousands);
             table.row(std::iter::once(region.region.to_string()).chain(cells));
         }
-        let end = if self.ended {
-            String::new()
-        } else {
-            format!(", stopped after {seconds} s")
-        };
+        let stopped = format!(", stopped after {seconds} s");
+        let end = if self.ended { "" } else { &stopped };
         let mut text = format!("{name}{end} ({})\n\n{}", self.model, table.text());
-        for one in &self.foreign {
-            text += &format!(
-                "  not of a Cortex-M4F: {} in `{}`\n",
-                one.address, one.function
-            );
+        for Foreign { function, address } in &self.foreign {
+            text += &format!("  not of a Cortex-M4F: {address} in `{function}`\n");
         }
         text
     }

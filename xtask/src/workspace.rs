@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::OnceLock;
 
-use serde::Deserialize;
+use serde_json::Value;
 
 use crate::error::{Error, Result};
 use crate::shell;
@@ -22,27 +22,6 @@ pub struct Workspace {
     pub reports: Option<PathBuf>,
     /// The firmware's bins that are built without a feature being asked for.
     pub bins: Vec<String>,
-}
-
-#[derive(Deserialize)]
-struct Metadata {
-    workspace_root: PathBuf,
-    target_directory: PathBuf,
-    packages: Vec<Package>,
-}
-
-#[derive(Deserialize)]
-struct Package {
-    name: String,
-    targets: Vec<Target>,
-}
-
-#[derive(Deserialize)]
-struct Target {
-    name: String,
-    kind: Vec<String>,
-    #[serde(default, rename = "required-features")]
-    required_features: Vec<String>,
 }
 
 /// Set once from the command line.
@@ -82,23 +61,24 @@ impl Workspace {
     pub fn find() -> Result<Self> {
         let mut command = host_cargo();
         command.args(["metadata", "--no-deps", "--format-version", "1"]);
-        let json = shell::capture(&mut command)?;
-        let metadata: Metadata = serde_json::from_str(&json)
+        let metadata: Value = serde_json::from_str(&shell::capture(&mut command)?)
             .map_err(|e| Error::check(format!("`{}`: {e}", shell::display(&command))))?;
-        let bins = metadata
-            .packages
-            .into_iter()
-            .filter(|package| package.name == FIRMWARE)
-            .flat_map(|package| package.targets)
-            .filter(|target| target.kind.iter().any(|kind| kind == "bin"))
-            .filter(|target| target.required_features.is_empty())
-            .map(|target| target.name)
-            .collect();
+        let path = |key: &str| metadata[key].as_str().map(PathBuf::from);
+        let lacks = || Error::check("`cargo metadata` names no directories");
+        let list = |value: &Value| value.as_array().cloned().unwrap_or_default();
+        let packages = list(&metadata["packages"]).into_iter();
+        let targets = packages.filter(|package| package["name"] == FIRMWARE);
+        let targets = targets.flat_map(|package| list(&package["targets"]));
+        let bins = targets.filter(|target| {
+            let is_bin = list(&target["kind"]).iter().any(|kind| kind == "bin");
+            is_bin && list(&target["required-features"]).is_empty()
+        });
+        let names = bins.filter_map(|bin| bin["name"].as_str().map(str::to_owned));
         Ok(Self {
-            root: metadata.workspace_root,
-            target: metadata.target_directory,
+            root: path("workspace_root").ok_or_else(lacks)?,
+            target: path("target_directory").ok_or_else(lacks)?,
             reports: REPORTS.get().cloned(),
-            bins,
+            bins: names.collect(),
         })
     }
 
@@ -144,15 +124,15 @@ pub fn write_whole<T: AsRef<[u8]>>(files: &[(PathBuf, T)]) -> Result<()> {
         name.push(".part");
         PathBuf::from(name)
     };
-    let written = files.iter().try_for_each(|(path, contents)| {
+    let write = |(path, contents): &(PathBuf, T)| {
         // The message names the file that the user knows.
         std::fs::write(beside(path), contents).map_err(Error::file("write", path))
-    });
-    let moved = written.and_then(|()| {
-        files.iter().try_for_each(|(path, _)| {
-            std::fs::rename(beside(path), path).map_err(Error::file("write", path))
-        })
-    });
+    };
+    let place = |(path, _): &(PathBuf, T)| {
+        std::fs::rename(beside(path), path).map_err(Error::file("write", path))
+    };
+    let written = files.iter().try_for_each(write);
+    let moved = written.and_then(|()| files.iter().try_for_each(place));
     if moved.is_err() {
         for (path, _) in files {
             // Those that were not written, or moved already, are not there.

@@ -1,6 +1,6 @@
 //! Sequences whose instructions and cycles were counted by hand, between the markers
 //! of `cycle-meter`. The figures, here in the comments as "instructions: sum of
-//! cycles", stand in `cycle_meter::hand_counted`, in the order of the markers here.
+//! cycles", stand in `host-tests/cycle-meter/src/hand_counted.txt`, in the order of the markers here.
 #![no_std]
 #![no_main]
 

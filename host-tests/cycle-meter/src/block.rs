@@ -16,6 +16,15 @@ pub struct Tally {
 }
 
 impl Tally {
+    /// Both together.
+    pub fn plus(self, other: Self) -> Self {
+        Self {
+            instructions: self.instructions + other.instructions,
+            cycles: self.cycles + other.cycles,
+            flops: self.flops + other.flops,
+        }
+    }
+
     fn charge(&mut self, insn: &Insn, pipe: &mut Pipe) {
         self.instructions += u64::from(!insn.is_marker());
         self.cycles += u64::from(pipe.step(insn));
@@ -56,21 +65,17 @@ impl Block {
             sum.charge(insn, &mut exit);
             before.push(sum);
         }
-        let marks = insns
-            .iter()
-            .enumerate()
-            .filter_map(|(index, insn)| match insn.class {
-                Class::Marker(marker) => Some(Mark { index, marker }),
-                _ => None,
-            });
+        let mark = |(index, insn): (usize, &Insn)| match insn.class {
+            Class::Marker(marker) => Some(Mark { index, marker }),
+            _ => None,
+        };
+        let end = |pc: u32, insn: &Insn| pc.wrapping_add(u32::from(insn.size));
         Self {
             start,
-            end: insns
-                .iter()
-                .fold(start, |pc, insn| pc.wrapping_add(u32::from(insn.size))),
+            end: insns.iter().fold(start, end),
             before: before.into(),
             exit,
-            marks: marks.collect(),
+            marks: insns.iter().enumerate().filter_map(mark).collect(),
             checkpoints: checkpoints(&insns),
             insns: insns.into(),
         }
@@ -145,12 +150,9 @@ impl Block {
 /// Every access to a device but one that comes last, and the last instruction to
 /// tell that the others came through.
 fn checkpoints(insns: &[Insn]) -> Box<[usize]> {
-    let Some(last) = insns.len().checked_sub(1) else {
-        return Box::default();
-    };
-    let mut found: Vec<usize> = (0..last)
-        .filter(|&index| insns[index].may_access_device())
-        .collect();
+    let last = insns.len().saturating_sub(1);
+    let devices = (0..last).filter(|&index| insns[index].may_access_device());
+    let mut found: Vec<usize> = devices.collect();
     if !found.is_empty() {
         found.push(last);
     }

@@ -2,7 +2,10 @@
 //! ARMv7-M Architecture Reference Manual (DDI 0403).
 
 mod float;
+mod relative;
 mod wide;
+
+pub use relative::{Relative, relative};
 
 use crate::insn::{Class, Insn};
 
@@ -27,18 +30,16 @@ const fn register(encoding: u16, low: u32, bits: u32) -> u16 {
 
 const SP: u16 = 1 << 13;
 const PC: u16 = 1 << 15;
+/// The number of the link register.
+const LR: u16 = 14;
 
 /// 16-bit encodings (A5.2).
 fn narrow(code: u16) -> Insn {
     let integer = Insn::new(Class::Integer, 2);
-    let transfer = |loads: bool, data: u16| {
-        if loads {
-            Insn::new(Class::Load, 2).writing(data)
-        } else {
-            Insn::new(Class::Store, 2)
-        }
+    let transfer = |loads: bool, data: u16| match loads {
+        true => Insn::new(Class::Load, 2).writing(data),
+        false => Insn::new(Class::Store, 2),
     };
-    let multiple = |registers: u16| Insn::new(Class::Words(registers.count_ones() as u8), 2);
     let low = register(code, 0, 3);
     let high = register(code, 8, 3);
     let loads = code & 0x0800 != 0;
@@ -52,8 +53,13 @@ fn narrow(code: u16) -> Insn {
         },
         0b01000 => match code >> 8 & 3 {
             1 => integer, // CMP
-            3 => integer.branching(),
-            _ => integer.writing(1 << (code >> 4 & 8 | code & 7)),
+            3 => Insn {
+                indirect: code & 0x80 != 0 || code >> 3 & 0xF != LR, // BLX, BX
+                ..integer.branching()
+            },
+            _ => integer
+                .writing(1 << (code >> 4 & 8 | code & 7))
+                .returning_if(code >> 3 & 0xF == LR),
         },
         0b01001 => transfer(true, high), // literal
         0b01010 | 0b01011 => {
@@ -64,13 +70,16 @@ fn narrow(code: u16) -> Insn {
         0b10010 | 0b10011 => transfer(loads, high).addressed_by(SP),
         0b10100 | 0b10101 => integer.writing(high), // ADR, ADD from SP
         0b10110 | 0b10111 => miscellaneous(code),
-        0b11000 => multiple(code & 0xFF).addressed_by(high),
-        0b11001 => multiple(code & 0xFF)
-            .writing(code & 0xFF)
-            .addressed_by(high),
+        0b11000 => several(code & 0xFF).addressed_by(high),
+        0b11001 => several(code & 0xFF).writing(code & 0xFF).addressed_by(high),
         0b11010..=0b11100 => integer.branching(), // B, SVC, UDF
         _ => Insn::new(Class::Unknown, 2),
     }
+}
+
+/// A transfer of these registers.
+fn several(registers: u16) -> Insn {
+    Insn::new(Class::Words(registers.count_ones() as u8), 2)
 }
 
 /// 16-bit miscellaneous encodings (A5.2.5).
@@ -80,16 +89,12 @@ fn miscellaneous(code: u16) -> Insn {
         0 => integer.writing(SP),
         1 | 3 | 9 | 11 => integer.branching(), // CBZ, CBNZ
         2 | 10 => integer.writing(register(code, 0, 3)),
-        4 | 5 => {
-            let registers = code & 0xFF | (code & 0x100) << 6;
-            Insn::new(Class::Words(registers.count_ones() as u8), 2).addressed_by(SP)
-        }
+        4 | 5 => several(code & 0xFF | (code & 0x100) << 6).addressed_by(SP),
         6 => Insn::new(Class::System, 2), // CPS
         12 | 13 => {
             let registers = code & 0xFF | (code & 0x100) << 7;
-            Insn::new(Class::Words(registers.count_ones() as u8), 2)
-                .writing(registers)
-                .addressed_by(SP)
+            let pop = several(registers).writing(registers);
+            pop.returning_if(true).addressed_by(SP)
         }
         14 => integer.branching(), // BKPT
         15 => integer,             // IT and hints
@@ -145,6 +150,60 @@ mod tests {
             );
             assert!(!insn.may_branch, "{code:#06x}");
         }
+    }
+
+    #[test]
+    fn a_branch_through_any_register_is_indirect_and_a_return_is_not() {
+        // blx r3, blx lr, bx r3, mov pc, r3, add pc, r3, ldr.w pc, [r3], ldr.w pc, [pc, #4], ldm.w r0, {r1, pc}
+        let indirect = [
+            [0x4798, 0],
+            [0x47F0, 0],
+            [0x4718, 0],
+            [0x469F, 0],
+            [0x449F, 0],
+            [0xF8D3, 0xF000],
+            [0xF8DF, 0xF004],
+            [0xE890, 0x8002],
+        ];
+        // bx lr, mov pc, lr, mov r0, r3, pop {pc}, pop.w {r4, pc}, ldr pc, [sp], #4, b, bl, svc
+        let direct = [
+            [0x4770, 0],
+            [0x46F7, 0],
+            [0x4618, 0],
+            [0xBD00, 0],
+            [0xE8BD, 0x8010],
+            [0xF85D, 0xFB04],
+            [0xE07E, 0],
+            [0xF000, 0xF87E],
+            [0xDF00, 0],
+        ];
+        for [first, second] in indirect {
+            assert!(decode(first, second).indirect, "{first:#06x}");
+        }
+        for [first, second] in direct {
+            assert!(!decode(first, second).indirect, "{first:#06x}");
+        }
+    }
+
+    #[test]
+    fn opcodes_beyond_an_m4f_are_told_from_its_own() {
+        let beyond = |first, second| decode(first, second).class == Class::Unknown;
+        assert!(beyond(0xfe00, 0x0a00)); // vseleq.f32 s0, s0, s0
+        assert!(beyond(0xfe00, 0x0b00)); // vseleq.f64 d0, d0, d0
+        assert!(beyond(0xfe80, 0x0b00)); // vmaxnm.f64 d0, d0, d0
+        assert!(beyond(0xfeb8, 0x0a40)); // vrinta.f32 s0, s0
+        assert!(beyond(0xeeb6, 0x0a40)); // vrintr.f32 s0, s0
+        assert!(beyond(0xeeb7, 0x0ac0)); // vcvt.f64.f32 d0, s0
+        assert!(beyond(0xee30, 0x0b00)); // vadd.f64 d0, d0, d0
+        assert!(beyond(0xea51, 0x8002)); // csel r0, r1, r2, eq
+        assert!(beyond(0xf040, 0xe001)); // dls lr, r0
+        assert!(beyond(0xe8d0, 0x1faf)); // lda r1, [r0]
+        assert!(!beyond(0xea51, 0x0002)); // orrs.w r0, r1, r2
+        assert!(!beyond(0xf7ff, 0xff7e)); // bl
+        assert!(!beyond(0xe8d0, 0x1f4f)); // ldrexb r1, [r0]
+        assert!(!beyond(0xee30, 0x0a00)); // vadd.f32 s0, s0, s0
+        assert!(!beyond(0xed2d, 0x8b02)); // vpush {d8}
+        assert!(!beyond(0xee00, 0x0b10)); // vmov.32 d0[0], r0
     }
 
     #[test]

@@ -42,7 +42,8 @@ pub enum Class {
     FloatMultiplyAdd,
     /// `VDIV`, `VSQRT`.
     FloatDivide,
-    /// No instruction of an ARMv7E-M with FPv4-SP that we know of.
+    /// No instruction of a Cortex-M4F: FPv5 (VSEL, VRINT, VMINNM …), f64 arithmetic, what ARMv8-M and v8.1-M added
+    /// (CSEL …, low-overhead loops, load-acquire and store-release), or none at all.
     Unknown,
 }
 
@@ -66,6 +67,8 @@ pub struct Insn {
     pub float: bool,
     /// Whether the instruction after it may be elsewhere.
     pub may_branch: bool,
+    /// Whether it calls or jumps to an address that it takes from a register or from memory, other than to return.
+    pub indirect: bool,
 }
 
 const SP: u16 = 1 << 13;
@@ -83,13 +86,21 @@ impl Insn {
             float_writes: 0,
             float: false,
             may_branch: false,
+            indirect: false,
         }
     }
 
-    /// Adds core results; one that goes to the PC makes it a branch.
+    /// Adds core results; one that goes to the PC makes it an indirect branch.
     pub(crate) const fn writing(mut self, registers: u16) -> Self {
         self.core_writes |= registers & !PC;
         self.may_branch |= registers & PC != 0;
+        self.indirect |= registers & PC != 0;
+        self
+    }
+
+    /// Makes it a return if `it_is`: an indirect branch that goes back to the caller.
+    pub(crate) const fn returning_if(mut self, it_is: bool) -> Self {
+        self.indirect &= !it_is;
         self
     }
 

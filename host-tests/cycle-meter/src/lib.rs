@@ -9,7 +9,8 @@
 //! The firmware opens region k (0 to 7) with the instruction `dbg #2k` and closes it
 //! with `dbg #2k+1`, a hint that does nothing on silicon. Regions may nest and
 //! overlap. When QEMU exits, the plugin writes a line for each closed region (see
-//! [`parse_samples`]). As an ordinary library it reads that file. It must be the
+//! [`parse_samples`]). As an ordinary library it reads that file, and decodes Thumb code for whoever checks
+//! a firmware ([`decode()`], [`relative()`]). It must be the
 //! only plugin that runs, on a machine with one processor, under QEMU 4.2 or later.
 //! It speaks versions 1 to [`NEWEST_INTERFACE`] of QEMU's plugin interface and looks at the QEMU
 //! that loads it to choose one; the environment variable [`INTERFACE`] sets another version, for
@@ -80,7 +81,7 @@ mod block;
 mod decode;
 #[cfg(unix)]
 mod ffi;
-pub mod hand_counted;
+mod hand_counted;
 mod insn;
 mod meter;
 mod model;
@@ -88,7 +89,9 @@ mod model;
 mod plugin;
 mod samples;
 
+pub use decode::{Relative, decode, relative, size};
 pub use hand_counted::check_hand_counted;
+pub use insn::{Class, Insn, Marker};
 /// The newest version of QEMU's plugin interface that the plugin knows.
 pub const NEWEST_INTERFACE: i32 = 7;
 /// The environment variable that sets the version of the interface which the plugin asks QEMU for.

@@ -33,11 +33,7 @@ impl<'b> Meter<'b> {
     pub fn mark(&mut self, mark: &Mark) {
         let Some(block) = self.current else { return };
         let part = block.cost_before(self.entry, mark.index);
-        let now = Tally {
-            instructions: self.total.instructions + part.instructions,
-            cycles: self.total.cycles + part.cycles,
-            flops: self.total.flops + part.flops,
-        };
+        let now = self.total.plus(part);
         let Marker { region, opens } = mark.marker;
         let slot = &mut self.open[usize::from(region)];
         if opens {
@@ -67,9 +63,7 @@ impl<'b> Meter<'b> {
     fn settle(&mut self, last: &Block, passed: usize, next: u32) {
         let executed = last.executed(passed);
         let (cost, pipe) = last.cost(self.entry, executed);
-        self.total.instructions += cost.instructions;
-        self.total.cycles += cost.cycles;
-        self.total.flops += cost.flops;
+        self.total = self.total.plus(cost);
         self.entry = pipe;
         // A block that was left early goes on elsewhere; an interrupt is no branch.
         if executed == last.insns().len() && next != last.end() {

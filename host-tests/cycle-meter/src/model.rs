@@ -45,16 +45,14 @@ impl Pipe {
             self.divider = 0;
         }
         let cycles = stall + self.issue(insn.class, interlock);
-        let arithmetic = matches!(
-            insn.class,
-            Class::FloatArithmetic
-                | Class::FloatConversion
-                | Class::FloatMultiplyAdd
-                | Class::FloatDivide
-        );
+        use Class::{FloatArithmetic, FloatConversion, FloatDivide, FloatMultiplyAdd};
+        let is_arithmetic = match insn.class {
+            FloatArithmetic | FloatConversion | FloatMultiplyAdd | FloatDivide => u32::MAX,
+            _ => 0,
+        };
         *self = Self {
             core_results: insn.core_writes,
-            float_results: if arithmetic { insn.float_writes } else { 0 },
+            float_results: insn.float_writes & is_arithmetic,
             after_load: insn.class == Class::Load,
             divider: match insn.class {
                 Class::FloatDivide => DIVIDER_BUSY,
@@ -82,13 +80,7 @@ impl Pipe {
             Class::FloatMultiplyAdd => 3,
             Class::IntegerDivide => INTEGER_DIVIDE,
             Class::Words(n) => 1 + u32::from(n),
-            Class::Integer
-            | Class::Store
-            | Class::FloatMove
-            | Class::FloatArithmetic
-            | Class::FloatConversion
-            | Class::FloatDivide
-            | Class::Unknown => 1,
+            _ => 1,
         }
     }
 }

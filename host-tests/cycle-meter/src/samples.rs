@@ -29,6 +29,21 @@ pub struct Sample {
     pub flops: u64,
 }
 
+impl fmt::Display for Sample {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self {
+            region,
+            instructions,
+            cycles,
+            flops,
+        } = self;
+        write!(
+            f,
+            "{instructions} instructions, {cycles} cycles, {flops} flops in region {region}"
+        )
+    }
+}
+
 /// Why a file was refused.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Error {
@@ -73,24 +88,22 @@ pub fn parse_samples(text: &str) -> Result<Vec<Sample>, Error> {
     lines.map(|(index, line)| sample(line, index + 1)).collect()
 }
 
-fn sample(line: &str, number: usize) -> Result<Sample, Error> {
+/// The sample of a line, which is the one of this number.
+pub(crate) fn sample(line: &str, number: usize) -> Result<Sample, Error> {
     let malformed = || Error::Line(number, line.into());
     if let Some(count) = line.strip_prefix("unmatched ") {
         return Err(count.parse().map_or_else(|_| malformed(), Error::Unmatched));
     }
-    let mut words = line.split(' ');
-    let mut word = || words.next()?.parse::<u64>().ok();
-    let (Some(region @ 0..8), Some(instructions), Some(cycles), Some(flops), None) =
-        (word(), word(), word(), word(), words.next())
-    else {
-        return Err(malformed());
-    };
-    Ok(Sample {
-        region: region as u8,
-        instructions,
-        cycles,
-        flops,
-    })
+    let words = line.split(' ').map(|word| word.parse().ok());
+    match words.collect::<Option<Vec<u64>>>().as_deref() {
+        Some(&[region @ 0..8, instructions, cycles, flops]) => Ok(Sample {
+            region: region as u8,
+            instructions,
+            cycles,
+            flops,
+        }),
+        _ => Err(malformed()),
+    }
 }
 
 /// Writes what [`parse_samples`] reads.
@@ -113,7 +126,8 @@ pub fn format_samples(samples: &[Sample], unmatched: u64) -> String {
 }
 
 /// Smallest, middle and largest of some values.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Summary {
     /// The smallest.
     pub min: u64,
@@ -137,24 +151,20 @@ impl Summary {
         })
     }
 
+    /// Of what one region's samples say; `None` if it was never closed.
+    pub fn of_region(samples: &[Sample], region: u8, what: fn(&Sample) -> u64) -> Option<Self> {
+        let passages = samples.iter().filter(|sample| sample.region == region);
+        Self::of(passages.map(what))
+    }
+
     /// Of a region's instructions; `None` if it was never closed.
     pub fn instructions(samples: &[Sample], region: u8) -> Option<Self> {
-        Self::of(
-            samples
-                .iter()
-                .filter(|sample| sample.region == region)
-                .map(|sample| sample.instructions),
-        )
+        Self::of_region(samples, region, |sample| sample.instructions)
     }
 
     /// Of a region's cycles; `None` if it was never closed.
     pub fn cycles(samples: &[Sample], region: u8) -> Option<Self> {
-        Self::of(
-            samples
-                .iter()
-                .filter(|sample| sample.region == region)
-                .map(|sample| sample.cycles),
-        )
+        Self::of_region(samples, region, |sample| sample.cycles)
     }
 }
 

@@ -23,42 +23,14 @@ const OTHER_ERROR: f64 = 0.1;
 
 /// What headings say of their columns, the first that is found in them; a column whose heading says nothing is of
 /// the kind of the one before it.
+#[rustfmt::skip]
 const HEADINGS: [(Kind, &[&str]); 4] = [
-    (
-        Kind::Exact,
-        &["bound", "at most", "bodies", "joints", "no.", "safety gate"],
-    ),
+    (Kind::Exact, &["bound", "at most", "bodies", "joints", "no.", "safety gate"]),
     (Kind::Ratio, &[" / ", "of floor", "of default's"]),
-    (
-        Kind::Error,
-        &[
-            "error",
-            "N·m",
-            "rad",
-            "99 %",
-            "RMS",
-            "of full scale",
-            "drift",
-            "joint ",
-        ],
-    ),
-    (
-        Kind::Cost,
-        &[
-            "insn",
-            "instructions",
-            "cycles",
-            "tick",
-            "mean",
-            "µs",
-            "flops",
-            "code",
-            "stack",
-            "RAM",
-            "flash",
-            "now",
-        ],
-    ),
+    (Kind::Error, &["error", "N·m", "rad", "99 %", "RMS", "of full scale", "drift", "joint "]),
+    (Kind::Cost, &[
+        "insn", "instructions", "cycles", "tick", "mean", "µs", "flops", "code", "stack", "RAM", "flash", "now",
+    ]),
 ];
 
 impl Kind {
@@ -92,28 +64,32 @@ pub fn first_difference<'a>(old: &'a str, new: &'a str) -> Option<(&'a str, &'a 
             (Some(a), Some(b)) => (a, b),
             (a, b) => return Some((a.unwrap_or(NO_LINE), b.unwrap_or(NO_LINE))),
         };
-        let same = match (cells(a), cells(b)) {
-            (Some(a), Some(b)) => {
-                let heads = kinds.is_none();
-                let kinds = kinds.get_or_insert_with(|| of_headings(&a));
-                // Headings are words, and so is what a row is about.
-                let alike = |((i, a), b): ((usize, &&str), &&str)| match kinds.get(i) {
-                    _ if heads || is_rule(a) && is_rule(b) => *a == *b || is_rule(a) && is_rule(b),
-                    Some(kind) => words_alike(a, b, *kind),
-                    None => *a == *b,
-                };
-                a.len() == b.len() && a.iter().enumerate().zip(&b).all(alike)
-            }
-            (None, None) => {
+        let same = match (cells(a), cells(b), &kinds) {
+            (None, None, _) => {
                 kinds = None;
                 words_alike(a, b, Kind::Cost)
             }
+            // Headings are words.
+            (Some(heads), Some(b), None) => {
+                kinds = Some(of_headings(&heads));
+                heads == b
+            }
+            (Some(a), Some(b), Some(kinds)) => a.len() == b.len() && rows_alike(&a, &b, kinds),
             _ => false,
         };
         if !same {
             return Some((a, b));
         }
     }
+}
+
+fn rows_alike(old: &[&str], new: &[&str], kinds: &[Kind]) -> bool {
+    let mut pairs = std::iter::zip(old, new).enumerate();
+    pairs.all(|(column, (a, b))| match kinds.get(column) {
+        _ if is_rule(a) && is_rule(b) => true,
+        Some(kind) => words_alike(a, b, *kind),
+        None => a == b,
+    })
 }
 
 /// The lines that say something, up to the name of the compiler.
@@ -148,17 +124,13 @@ fn of_headings(headings: &[&str]) -> Vec<Kind> {
 
 /// Whether two cells or sentences are alike, word for word.
 fn words_alike(old: &str, new: &str, kind: Kind) -> bool {
-    let words = |text: &str| -> Vec<String> {
-        text.split_whitespace()
-            .map(|word| word.trim_matches(['(', ')', ',', '.', '*']).to_owned())
-            .collect()
-    };
+    let trimmed = |word| str::trim_matches(word, ['(', ')', ',', '.', '*']);
+    let words = |text| -> Vec<&str> { str::split_whitespace(text).map(trimmed).collect() };
     let (old, new) = (words(old), words(new));
-    let is_share = |at: usize| old.get(at + 1).is_some_and(|word| word == "%");
+    let is_share = |at: usize| old.get(at + 1).is_some_and(|word| *word == "%");
+    let mut pairs = std::iter::zip(&old, &new).enumerate();
     old.len() == new.len()
-        && std::iter::zip(&old, &new)
-            .enumerate()
-            .all(|(at, (old, new))| old == new || figures_alike(old, new, kind, is_share(at)))
+        && pairs.all(|(at, (old, new))| old == new || figures_alike(old, new, kind, is_share(at)))
 }
 
 /// Whether two words are figures that are close.
@@ -170,16 +142,12 @@ fn figures_alike(old: &str, new: &str, kind: Kind, is_share: bool) -> bool {
     let (Some(from), Some(to)) = (figure(old), figure(new)) else {
         return false;
     };
-    let kind = match kind {
-        // A multiple is one, whatever the column.
-        Kind::Cost if old.ends_with('×') => Kind::Ratio,
-        other => other,
-    };
-    let allowed = if is_share {
+    let allowed = match kind {
         // A share of the tick, printed to a tenth of a per cent, moves by more than itself.
-        Kind::Cost.slack(from) + last_place(old)
-    } else {
-        kind.slack(from)
+        _ if is_share => Kind::Cost.slack(from) + last_place(old),
+        // A multiple is one, whatever the column.
+        Kind::Cost if old.ends_with('×') => Kind::Ratio.slack(from),
+        _ => kind.slack(from),
     };
     (from - to).abs() <= allowed
 }

@@ -1,3 +1,6 @@
+mod generated;
+pub mod repository;
+
 use std::path::PathBuf;
 
 use super::{README, compare, compare_picture, rustc_of};

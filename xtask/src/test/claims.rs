@@ -1,8 +1,9 @@
 //! The claims that only a full run tests, read from the sources: they are not compiled in an everyday run.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use crate::error::{Error, Result};
+use crate::error::Result;
+use crate::lines::sources;
 use crate::workspace;
 
 /// What stands before such a test.
@@ -14,32 +15,17 @@ const FILE_GATE: &str = "#![cfg(feature = \"full\")]";
 pub fn full_only(folder: &Path) -> Result<Vec<(String, String)>> {
     let mut claims = Vec::new();
     for path in sources(folder)? {
-        let program = path
-            .strip_prefix(folder)
-            .ok()
-            .and_then(|rest| rest.iter().next());
-        let program = program.map_or_else(String::new, |name| {
-            Path::new(name).with_extension("").display().to_string()
-        });
+        let inside = path.strip_prefix(folder).unwrap_or(&path);
+        let program = inside
+            .iter()
+            .next()
+            .map(|name| Path::new(name).with_extension(""));
+        let program = program.unwrap_or_default().display().to_string();
         let gated = gated(&workspace::read(&path)?);
         claims.extend(gated.into_iter().map(|test| (program.clone(), test)));
     }
     claims.sort();
     Ok(claims)
-}
-
-/// Every source file under a folder.
-fn sources(folder: &Path) -> Result<Vec<PathBuf>> {
-    let mut found = Vec::new();
-    for entry in std::fs::read_dir(folder).map_err(Error::file("read", folder))? {
-        let path = entry.map_err(Error::file("read", folder))?.path();
-        if path.is_dir() {
-            found.extend(sources(&path)?);
-        } else if path.extension().is_some_and(|extension| extension == "rs") {
-            found.push(path);
-        }
-    }
-    Ok(found)
 }
 
 /// The names of the tests in a source that stand behind the gate, and of those that go further behind it.
@@ -53,12 +39,16 @@ fn gated(source: &str) -> Vec<String> {
             GATE if line == GATE => whole = true,
             GATE => names.extend(test.take().map(|name| format!("{name}: further robots"))),
             code if code.starts_with("fn ") && line == code => {
-                let name = code["fn ".len()..]
+                let name = code[3..]
                     .split(['(', '<'])
                     .next()
-                    .unwrap_or_default();
-                test = (is_test && !whole).then(|| name.to_owned());
-                names.extend((is_test && whole).then(|| name.to_owned()));
+                    .unwrap_or_default()
+                    .to_owned();
+                match (is_test, whole) {
+                    (true, true) => names.push(name),
+                    (true, false) => test = Some(name),
+                    (false, _) => test = None,
+                }
                 (is_test, whole) = (false, false);
             }
             code if line == code && !code.starts_with('#') => (is_test, whole) = (false, false),

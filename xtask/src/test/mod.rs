@@ -1,15 +1,13 @@
 //! `cargo xtask test`: what guards correctness, as a table of steps; `--full` adds every robot, every scene,
 //! every report and the currency of the documents, which is what CI runs.
 
-mod absent_steps;
+mod absent;
 mod claims;
-mod cost_steps;
-mod firmware_steps;
-mod host_steps;
-mod other_compilers;
-mod other_machines;
-mod package_steps;
-mod scene_steps;
+mod functions;
+mod host;
+mod others;
+mod package;
+mod scenes;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -17,26 +15,30 @@ use std::sync::OnceLock;
 use std::time::Instant;
 
 use clap::builder::PossibleValuesParser;
+use cycle_meter::Sample;
 
 use crate::demo::{self, Measured};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::firmware;
 use crate::output;
 use crate::progress::Spinner;
+use crate::qemu::Run;
 use crate::scene::Scene;
 use crate::setup::{self, Options, Tools};
 use crate::workspace::Workspace;
+use crate::{accuracy, effects, eliminations, growth, hard_cases, layers, lines, meter, shell};
+use Lane::{Host, Target};
+use Scope::{Everyday, Full};
 
-/// One thing that is tested.
-struct Step {
-    /// Its name on the command line.
-    name: &'static str,
-    /// What holds if it passes.
-    title: &'static str,
-    lane: Lane,
-    scope: Scope,
-    run: fn(&Context) -> Result<Outcome>,
-}
+/// One thing that is tested: its name on the command line, its lane, which runs it belongs to, what holds if it
+/// passes, and what tests it and says what was seen, if there is something to see.
+type Step = (
+    &'static str,
+    Lane,
+    Scope,
+    &'static str,
+    fn(&Context) -> Result<String>,
+);
 
 /// Which runs a step belongs to.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -55,18 +57,6 @@ enum Lane {
     Target,
 }
 
-/// How a step ended that did not fail.
-enum Outcome {
-    /// It passed; what was seen, if there is something to see.
-    Passed(String),
-    /// It does not apply here, and why.
-    Skipped(String),
-}
-
-impl Outcome {
-    const PASSED: Result<Self> = Ok(Self::Passed(String::new()));
-}
-
 /// What the steps share.
 struct Context {
     workspace: Workspace,
@@ -80,242 +70,51 @@ struct Context {
     measured: OnceLock<Vec<Measured>>,
 }
 
+#[rustfmt::skip]
 const STEPS: &[Step] = &[
-    Step {
-        name: "fmt",
-        title: "rustfmt has nothing to change",
-        lane: Lane::Host,
-        scope: Scope::Everyday,
-        run: host_steps::fmt,
-    },
-    Step {
-        name: "clippy",
-        title: "clippy has nothing to say of the host crates",
-        lane: Lane::Host,
-        scope: Scope::Full,
-        run: host_steps::clippy,
-    },
-    Step {
-        name: "clippy-firmware",
-        title: "clippy has nothing to say of the firmware",
-        lane: Lane::Target,
-        scope: Scope::Full,
-        run: firmware_steps::clippy,
-    },
-    Step {
-        name: "host",
-        title: "the host tests pass",
-        lane: Lane::Host,
-        scope: Scope::Everyday,
-        run: host_steps::tests,
-    },
-    Step {
-        name: "doctests",
-        title: "the examples in the documentation run",
-        lane: Lane::Host,
-        scope: Scope::Everyday,
-        run: host_steps::doctests,
-    },
-    Step {
-        name: "doc",
-        title: "the documentation builds without a warning",
-        lane: Lane::Host,
-        scope: Scope::Full,
-        run: host_steps::doc,
-    },
-    Step {
-        name: "examples",
-        title: "the library's examples run",
-        lane: Lane::Host,
-        scope: Scope::Everyday,
-        run: package_steps::examples,
-    },
-    Step {
-        name: "features",
-        title: "the library's features build for the target and change no number",
-        lane: Lane::Host,
-        scope: Scope::Full,
-        run: package_steps::features,
-    },
-    Step {
-        name: "package",
-        title: "the crate packages, and builds vendored from git",
-        lane: Lane::Host,
-        scope: Scope::Full,
-        run: package_steps::package,
-    },
-    Step {
-        name: "deny",
-        title: "dependencies, their licences and their sources are those that deny.toml allows",
-        lane: Lane::Host,
-        scope: Scope::Full,
-        run: package_steps::deny,
-    },
-    Step {
-        name: "firmware",
-        title: "every bin of the firmware builds",
-        lane: Lane::Target,
-        scope: Scope::Full,
-        run: firmware_steps::build,
-    },
-    Step {
-        name: "meter",
-        title: "the cycle meter agrees with sequences counted by hand",
-        lane: Lane::Target,
-        scope: Scope::Everyday,
-        run: firmware_steps::meter,
-    },
-    Step {
-        name: "bits",
-        title: "the host and QEMU compute the same bits",
-        lane: Lane::Host,
-        scope: Scope::Everyday,
-        run: firmware_steps::bits,
-    },
-    Step {
-        name: "scene",
-        title: "every scene runs to its end",
-        lane: Lane::Target,
-        scope: Scope::Everyday,
-        run: scene_steps::runs,
-    },
-    Step {
-        name: "determinism",
-        title: "two runs of a scene give the same bytes",
-        lane: Lane::Target,
-        scope: Scope::Everyday,
-        run: scene_steps::determinism,
-    },
-    Step {
-        name: "tracking",
-        title: "every scene tracks within its bound, the default one better than PD as promised",
-        lane: Lane::Target,
-        scope: Scope::Everyday,
-        run: scene_steps::tracking,
-    },
-    Step {
-        name: "cycles",
-        title: "the longest tick is short enough",
-        lane: Lane::Target,
-        scope: Scope::Everyday,
-        run: scene_steps::cycles,
-    },
-    Step {
-        name: "no-f64",
-        title: "the tick reaches no f64 arithmetic, no libm trigonometry and no panic",
-        lane: Lane::Target,
-        scope: Scope::Everyday,
-        run: firmware_steps::no_f64,
-    },
-    Step {
-        name: "opcodes",
-        title: "the firmware has no instruction that a Cortex-M4F lacks",
-        lane: Lane::Target,
-        scope: Scope::Everyday,
-        run: firmware_steps::opcodes,
-    },
-    Step {
-        name: "budgets",
-        title: "every scene is within budgets.toml",
-        lane: Lane::Target,
-        scope: Scope::Everyday,
-        run: scene_steps::budgets,
-    },
-    Step {
-        name: "constant",
-        title: "the work costs the same whatever the data",
-        lane: Lane::Target,
-        scope: Scope::Everyday,
-        run: cost_steps::constant,
-    },
-    Step {
-        name: "costs",
-        title: "every function is within budgets.toml and its bar, and docs/costs.md says so",
-        lane: Lane::Target,
-        scope: Scope::Everyday,
-        run: cost_steps::costs,
-    },
-    Step {
-        name: "growth",
-        title: "inverse and forward dynamics grow in step with a chain, and docs/growth.md says so",
-        lane: Lane::Target,
-        scope: Scope::Full,
-        run: cost_steps::growth,
-    },
-    Step {
-        name: "absent-effects",
-        title: "an effect that a scene does not name costs it nothing",
-        lane: Lane::Target,
-        scope: Scope::Everyday,
-        run: absent_steps::absent_effects_cost_nothing,
-    },
-    Step {
-        name: "accuracy",
-        title: "docs/accuracy.md has today's costs and errors of single changes; what is printed to be pasted keeps them",
-        lane: Lane::Target,
-        scope: Scope::Full,
-        run: cost_steps::accuracy,
-    },
-    Step {
-        name: "effects",
-        title: "docs/effects.md has today's prices",
-        lane: Lane::Target,
-        scope: Scope::Full,
-        run: cost_steps::effects,
-    },
-    Step {
-        name: "eliminations",
-        title: "docs/eliminations.md has today's accuracies",
-        lane: Lane::Host,
-        scope: Scope::Full,
-        run: host_steps::eliminations,
-    },
-    Step {
-        name: "hard-cases",
-        title: "every hard case holds, and docs/hard-cases.md has today's figures",
-        lane: Lane::Host,
-        scope: Scope::Full,
-        run: host_steps::hard_cases,
-    },
-    Step {
-        name: "readme",
-        title: "the tables of README.md and docs/scenes.md are those of this run",
-        lane: Lane::Target,
-        scope: Scope::Everyday,
-        run: scene_steps::readme,
-    },
-    Step {
-        name: "debian",
-        title: "Debian's own compiler builds a scene that runs",
-        lane: Lane::Target,
-        scope: Scope::Full,
-        run: scene_steps::debian,
-    },
-    Step {
-        name: "qemu-10",
-        title: "QEMU 10 logs and measures what this machine's QEMU does, byte for byte",
-        lane: Lane::Target,
-        scope: Scope::Full,
-        run: other_machines::qemu_10,
-    },
-    Step {
-        name: "compilers",
-        title: "the UR5e's demo and costs are within their budgets with rustup's other compilers",
-        lane: Lane::Target,
-        scope: Scope::Full,
-        run: other_compilers::compilers,
-    },
+    ("fmt", Host, Everyday, "rustfmt has nothing to change", |c| c.cargo(&["fmt --all --check"])),
+    ("clippy", Host, Full, "clippy has nothing to say of the host crates", host::clippy),
+    ("clippy-firmware", Target, Full, "clippy has nothing to say of the firmware", functions::clippy),
+    ("host", Host, Everyday, "the host tests pass", host::tests),
+    ("doctests", Host, Everyday, "the examples in the documentation run", host::doctests),
+    ("doc", Host, Full, "the documentation builds without a warning, that of private items too", host::doc),
+    ("layers", Host, Full, "each module of the library uses those above it alone", |c| layers::check(&c.workspace.root)),
+    ("lines", Host, Full, "the tooling has fewer lines of code than the library, and no more than its bound", |c| lines::check(&c.workspace.root)),
+    ("examples", Host, Everyday, "the library's examples run", package::examples),
+    ("features", Host, Full, "the library's features build for the target and change no number", package::features),
+    ("package", Host, Full, "the crate packages, and builds vendored from git", package::package),
+    ("deny", Host, Full, "dependencies, their licences and their sources are those that deny.toml allows", package::deny),
+    ("firmware", Target, Full, "every bin of the firmware builds", functions::build),
+    ("meter", Target, Everyday, "the cycle meter agrees with sequences counted by hand", functions::meter),
+    ("bits", Host, Everyday, "the host and QEMU compute the same bits", functions::bits),
+    ("scene", Target, Everyday, "every scene runs to its end", scenes::runs),
+    ("determinism", Target, Everyday, "two runs of a scene give the same bytes", scenes::determinism),
+    ("tracking", Target, Everyday, "every scene tracks within its bound, the default one better than PD as promised", scenes::tracking),
+    ("cycles", Target, Everyday, "the longest tick is short enough", scenes::cycles),
+    ("no-f64", Target, Everyday, "the tick reaches no f64 arithmetic, no libm trigonometry and no panic", functions::no_f64),
+    ("opcodes", Target, Everyday, "the firmware has no instruction that a Cortex-M4F lacks", functions::opcodes),
+    ("budgets", Target, Everyday, "every scene is within budgets.toml", scenes::budgets),
+    ("constant", Target, Everyday, "the work costs the same whatever the data", functions::constant),
+    ("costs", Target, Everyday, "every function is within budgets.toml and its bar, and docs/costs.md says so", functions::costs),
+    ("growth", Target, Full, "inverse and forward dynamics grow in step with a chain, and docs/growth.md says so",
+        |c| growth::check(&c.workspace, &growth::measure(&c.workspace, &c.tools)?)),
+    ("absent-effects", Target, Everyday, "an effect that a scene does not name costs it nothing", absent::absent_effects_cost_nothing),
+    ("accuracy", Target, Full, "docs/accuracy.md has today's costs and errors of single changes; what is printed to be pasted keeps them",
+        |c| accuracy::check(&c.workspace, &c.tools)),
+    ("effects", Target, Full, "docs/effects.md has today's prices", |c| effects::check(&c.workspace, &c.tools)),
+    ("eliminations", Host, Full, "docs/eliminations.md has today's accuracies",
+        |c| eliminations::check(&c.workspace).map(|()| String::new())),
+    ("hard-cases", Host, Full, "every hard case holds, and docs/hard-cases.md has today's figures", |c| hard_cases::check(&c.workspace)),
+    ("readme", Target, Everyday, "the tables of README.md and docs/scenes.md are those of this run", scenes::readme),
+    ("debian", Target, Full, "Debian's own compiler builds a scene that runs", others::debian),
+    ("qemu-10", Target, Full, "QEMU 10 logs and measures what this machine's QEMU does, byte for byte", others::qemu_10),
+    ("compilers", Target, Full, "the UR5e's demo and costs are within their budgets with rustup's other compilers", others::compilers),
 ];
 
 impl Context {
     /// The cycle meter, built once.
     fn meter(&self) -> Result<&PathBuf> {
-        if self.meter.get().is_none() {
-            let meter = firmware::build_meter(&self.workspace)?;
-            // Set just now, by nobody else: there is one thread.
-            let _ = self.meter.set(meter);
-        }
-        Ok(self.meter.get_or_init(PathBuf::new))
+        once(&self.meter, || firmware::build_meter(&self.workspace))
     }
 
     /// The scenes under test: all of them in a full run, the default one else.
@@ -329,57 +128,111 @@ impl Context {
 
     /// One run of each scene under test, done once.
     fn measured(&self) -> Result<&[Measured]> {
-        if self.measured.get().is_none() {
-            let all = demo::build_and_measure(&self.workspace, &self.tools, self.scenes())?;
-            let _ = self.measured.set(all);
-        }
-        Ok(self.measured.get_or_init(Vec::new))
+        let run = || demo::build_and_measure(&self.workspace, &self.tools, self.scenes());
+        once(&self.measured, run).map(Vec::as_slice)
     }
+
+    /// Runs cargo for host crates, once for each line of words, and returns what it printed.
+    fn cargo(&self, lines: &[&str]) -> Result<String> {
+        let mut printed = String::new();
+        for line in lines {
+            let mut words = line.split_whitespace();
+            let subcommand = words.next().unwrap_or_default();
+            let mut command = self.workspace.cargo(subcommand);
+            if subcommand == "doc" {
+                command.env("RUSTDOCFLAGS", "-D warnings");
+            }
+            printed += &shell::capture(command.args(words))?;
+        }
+        Ok(printed)
+    }
+
+    /// A bin of the firmware, built.
+    fn built(&self, name: &str) -> Result<PathBuf> {
+        firmware::build(&self.workspace, self.tools.toolchain, name)
+    }
+
+    /// The lines that a bin of the firmware logs, and what it cost between its markers.
+    fn metered(&self, name: &str, logs: bool) -> Result<(Vec<String>, Vec<Sample>)> {
+        let elf = self.built(name)?;
+        let regions = self.workspace.output(&format!("{name}.regions"))?;
+        let meter = Some((self.meter()?.as_path(), regions.as_path()));
+        let mut run = Run::logging(name, &elf, meter);
+        run.logs = logs;
+        Ok((self.lines(&run)?, meter::read(&regions)?))
+    }
+
+    /// The lines that a firmware logs.
+    fn lines(&self, run: &Run<'_>) -> Result<Vec<String>> {
+        let mut lines = Vec::new();
+        let keep = |line: &str| {
+            lines.push(line.to_owned());
+            Ok(())
+        };
+        self.tools.qemu.run(run, keep)?;
+        Ok(lines)
+    }
+}
+
+/// What is made at the first call and kept.
+fn once<T>(kept: &OnceLock<T>, make: impl FnOnce() -> Result<T>) -> Result<&T> {
+    if let Some(made) = kept.get() {
+        return Ok(made);
+    }
+    let made = make()?;
+    Ok(kept.get_or_init(|| made))
 }
 
 /// The steps' names, for the command line.
 pub fn names() -> PossibleValuesParser {
-    STEPS
-        .iter()
-        .map(|step| step.name)
-        .collect::<Vec<_>>()
-        .into()
+    STEPS.iter().map(|step| step.0).collect::<Vec<_>>().into()
 }
 
 /// Prints the steps, with those last that only a full run takes, and the tests that it adds to the step `host`.
 pub fn list() -> Result<ExitCode> {
     let workspace = Workspace::find()?;
-    let steps = |scope| STEPS.iter().filter(move |step| step.scope == scope);
-    let mut text = String::from("every run:\n");
-    for step in steps(Scope::Everyday) {
-        text += &format!("  {:16} {}\n", step.name, step.title);
-    }
-    text += "\nonly with --full, or by name:\n";
-    for step in steps(Scope::Full) {
-        text += &format!("  {:16} {}\n", step.name, step.title);
-    }
-    text += "\ntests that only --full adds to the step `host`; every other step then takes all robots and scenes:\n";
-    let folders = ["host-tests/tests", "host-tests/unoptimised/tests"];
-    let claims = folders.map(|folder| claims::full_only(&workspace.root.join(folder)));
-    for (program, test) in claims.into_iter().collect::<Result<Vec<_>>>()?.concat() {
-        text += &format!("  {program:16} {}\n", test.replace('_', " "));
+    let steps = |scope| -> String {
+        let steps = STEPS.iter().filter(|step| step.2 == scope);
+        let lines = steps.map(|(name, _, _, title, _)| format!("  {name:16} {title}\n"));
+        lines.collect()
+    };
+    let mut text = format!(
+        "every run:\n{}\nonly with --full, or by name:\n{}\n\
+         tests that only --full adds to the step `host`; every other step then takes all robots and scenes:\n",
+        steps(Everyday),
+        steps(Full)
+    );
+    for folder in ["host-tests/tests", "host-tests/unoptimised/tests"] {
+        for (program, test) in claims::full_only(&workspace.root.join(folder))? {
+            text += &format!("  {program:16} {}\n", test.replace('_', " "));
+        }
     }
     output::print(&text)?;
     Ok(ExitCode::SUCCESS)
 }
 
 /// Which steps to run, and how.
+#[derive(clap::Args)]
 pub struct Args {
-    /// The steps of these names; none: those of the run.
-    pub steps: Vec<String>,
-    /// Every step, every robot, every scene.
-    pub full: bool,
-    /// Whether the step `debian` may install Debian's compiler.
-    pub debian: bool,
+    /// Only these steps (see --list)
+    #[arg(value_name = "STEP", value_parser = names())]
+    steps: Vec<String>,
+    /// All robots, all scenes, all reports and whether the documents are current: what CI runs
+    #[arg(long)]
+    full: bool,
+    /// List the steps, and the claims that only --full holds
+    #[arg(long)]
+    list: bool,
+    /// Let the step `debian` install Debian's own compiler, as on CI (CI=true)
+    #[arg(long)]
+    debian: bool,
 }
 
 /// Runs the steps of these names, or those of an everyday or a full run.
 pub fn run(options: Options, args: &Args) -> Result<ExitCode> {
+    if args.list {
+        return list();
+    }
     let start = Instant::now();
     let context = Context {
         workspace: Workspace::find()?,
@@ -387,33 +240,26 @@ pub fn run(options: Options, args: &Args) -> Result<ExitCode> {
         options,
         full: args.full,
         // A CI machine is thrown away: what is installed there is in nobody's way.
-        may_install_debian: args.debian || std::env::var_os("CI").is_some_and(|ci| ci == "true"),
+        may_install_debian: args.debian || setup::is_ci(),
         meter: OnceLock::new(),
         measured: OnceLock::new(),
     };
-    let wanted = |step: &&Step| match args.steps.as_slice() {
-        [] => args.full || step.scope == Scope::Everyday,
-        names => names.iter().any(|name| name == step.name),
+    let wanted = |(name, _, scope, _, _): &&Step| match args.steps.as_slice() {
+        [] => args.full || *scope == Everyday,
+        names => names.iter().any(|wanted| wanted == name),
     };
     let run = |lane| {
-        let steps = STEPS.iter().filter(|step| step.lane == lane).filter(wanted);
-        steps
-            .map(|step| passes(step, &context))
-            .collect::<Result<Vec<_>>>()
+        let steps = STEPS.iter().filter(|step| step.1 == lane).filter(wanted);
+        let outcomes = steps.map(|step| passes(step, &context));
+        outcomes.collect::<Result<Vec<_>>>()
     };
     let outcomes = std::thread::scope(|scope| {
-        let lanes = [Lane::Host, Lane::Target].map(|lane| scope.spawn(move || run(lane)));
-        let panicked = |_| Ok(vec![Some(false)]);
-        let ends = lanes.map(|lane| lane.join().unwrap_or_else(panicked));
+        let lanes = [Host, Target].map(|lane| scope.spawn(move || run(lane)));
+        let ends = lanes.map(|lane| lane.join().unwrap_or_else(|_| Ok(vec![Some(false)])));
         ends.into_iter().collect::<Result<Vec<_>>>()
-    })?;
-    let count = |what| {
-        outcomes
-            .iter()
-            .flatten()
-            .filter(|outcome| **outcome == what)
-            .count()
-    };
+    })?
+    .concat();
+    let count = |what| outcomes.iter().filter(|outcome| **outcome == what).count();
     let (passed, failed) = (count(Some(true)), count(Some(false)));
     if args.steps.is_empty() && !args.full {
         output::line(
@@ -423,42 +269,25 @@ pub fn run(options: Options, args: &Args) -> Result<ExitCode> {
     let seconds = start.elapsed().as_secs();
     output::line(&format!("took {} min {:02} s", seconds / 60, seconds % 60))?;
     output::line(&format!("{passed} passed, {failed} failed"))?;
-    Ok(if failed == 0 {
-        ExitCode::SUCCESS
-    } else {
-        ExitCode::FAILURE
-    })
+    Ok(ExitCode::from(u8::from(failed > 0)))
 }
 
 /// Runs a step and says how it ended: whether it passed, if it applied here.
-fn passes(step: &Step, context: &Context) -> Result<Option<bool>> {
+fn passes((name, _, _, title, run): &Step, context: &Context) -> Result<Option<bool>> {
     let start = Instant::now();
-    let spinner = Spinner::start(step.title);
-    let result = (step.run)(context);
+    let spinner = Spinner::start(title);
+    let result = run(context);
     drop(spinner);
-    let (mark, detail) = match &result {
-        Ok(Outcome::Passed(seen)) => ("ok  ", seen.clone()),
-        Ok(Outcome::Skipped(why)) => ("skip", why.clone()),
-        Err(_) => ("FAIL", String::new()),
+    let in_brackets = |text: &str| format!(" ({text})");
+    let (mark, detail, passed) = match result {
+        Ok(seen) if seen.is_empty() => ("ok  ", seen, Some(true)),
+        Ok(seen) => ("ok  ", in_brackets(&seen), Some(true)),
+        Err(Error::Skipped(why)) => ("skip", in_brackets(&why), None),
+        Err(error) => ("FAIL", format!("\n{error}\n"), Some(false)),
     };
-    let detail = match detail.as_str() {
-        "" => detail,
-        seen => format!(" ({seen})"),
-    };
-    let (name, title, seconds) = (step.name, step.title, start.elapsed().as_secs_f64());
-    let line = format!("{mark} {seconds:6.1} s  {name:16} {title}{detail}");
-    match result {
-        Ok(Outcome::Passed(_)) => {
-            output::line(&line)?;
-            Ok(Some(true))
-        }
-        Ok(Outcome::Skipped(_)) => {
-            output::line(&line)?;
-            Ok(None)
-        }
-        Err(error) => {
-            output::line(&format!("{line}\n{error}\n"))?;
-            Ok(Some(false))
-        }
-    }
+    let seconds = start.elapsed().as_secs_f64();
+    output::line(&format!(
+        "{mark} {seconds:6.1} s  {name:16} {title}{detail}"
+    ))?;
+    Ok(passed)
 }

@@ -46,11 +46,8 @@ fn load_store(first: u16, second: u16) -> Insn {
         (true, false) => Class::Store,
         (false, _) => Class::Words(words.min(32) as u8),
     };
-    let registers = if start < 32 {
-        run(start, u32::from(words.min(32)))
-    } else {
-        0
-    };
+    let count = if start < 32 { words.min(32) } else { 0 };
+    let registers = run(start.min(31), count.into());
     let (reads, writes) = if loads {
         (0, registers)
     } else {
@@ -69,13 +66,12 @@ fn move_pair(first: u16, second: u16) -> Insn {
     } else {
         single(second, 0, low)
     };
-    let insn = Insn::new(Class::FloatMovePair, 4);
-    if first & 0x10 != 0 {
-        insn.writing(register(second, 12, 4) | register(first, 0, 4))
-            .on_floats(run(start, 2), 0)
-    } else {
-        insn.on_floats(0, run(start, 2))
+    let (insn, pair) = (Insn::new(Class::FloatMovePair, 4), run(start, 2));
+    if first & 0x10 == 0 {
+        return insn.on_floats(0, pair);
     }
+    let core = register(second, 12, 4) | register(first, 0, 4);
+    insn.writing(core).on_floats(pair, 0)
 }
 
 /// VMOV of a core register and a single or half a double, VMRS, VMSR (A6.6).
@@ -85,21 +81,20 @@ fn move_one(first: u16, second: u16) -> Insn {
     let core = register(second, 12, 4);
     if first & 0xE0 == 0xE0 {
         // VMRS with the PC as its destination moves the flags.
-        return match to_core && core != 1 << 15 {
-            true => insn.writing(core).on_floats(0, 0),
-            false => insn.on_floats(0, 0),
-        };
+        let written = if to_core { core & !(1 << 15) } else { 0 };
+        return insn.writing(written).on_floats(0, 0);
     }
-    let half = if second & 0x100 != 0 {
-        first & 0x20 != 0
+    // Of a double it is one half; of a single the lowest bit of its number.
+    let is_double = second & 0x100 != 0;
+    let lowest = if is_double {
+        first & 0x20
     } else {
-        second & 0x80 != 0
+        second & 0x80
     };
-    let float = 1 << single(first, 0, half);
-    if to_core {
-        insn.writing(core).on_floats(float, 0)
-    } else {
-        insn.on_floats(0, float)
+    let float = 1 << single(first, 0, lowest != 0);
+    match to_core {
+        true => insn.writing(core).on_floats(float, 0),
+        false => insn.on_floats(0, float),
     }
 }
 

@@ -3,6 +3,8 @@
 use super::{PC, float, register};
 use crate::insn::{Class, Insn, Marker};
 
+const SP_NUMBER: u16 = 13;
+
 pub(super) fn decode(first: u16, second: u16) -> Insn {
     let integer = Insn::new(Class::Integer, 4);
     let result = register(second, 8, 4);
@@ -12,6 +14,8 @@ pub(super) fn decode(first: u16, second: u16) -> Insn {
     match first >> 9 & 0x7F {
         0x74 if first & 0x40 == 0 => load_store_multiple(first, second),
         0x74 => double_exclusive_table(first, second),
+        // CSEL and its kin.
+        0x75 if first & 0x1F0 == 0x50 && second & 0x8000 != 0 => Insn::new(Class::Unknown, 4),
         0x75 => data_processing(second),
         // Immediate operands and branches share their first halfwords.
         0x78..=0x7B if second & 0x8000 != 0 => branches_and_control(first, second),
@@ -39,12 +43,11 @@ fn data_processing(second: u16) -> Insn {
 
 /// LDM, STM, PUSH, POP (A5.3.5).
 fn load_store_multiple(first: u16, second: u16) -> Insn {
-    let insn =
-        Insn::new(Class::Words(second.count_ones() as u8), 4).addressed_by(register(first, 0, 4));
-    if first & 0x10 != 0 {
-        insn.writing(second)
-    } else {
-        insn
+    let words = Class::Words(second.count_ones() as u8);
+    let insn = Insn::new(words, 4).addressed_by(register(first, 0, 4));
+    match first & 0x10 {
+        0 => insn,
+        _ => insn.writing(second).returning_if(first & 0xF == SP_NUMBER),
     }
 }
 
@@ -54,12 +57,18 @@ fn double_exclusive_table(first: u16, second: u16) -> Insn {
     let loads = first & 0x10 != 0;
     let data = register(second, 12, 4);
     if first & 0x120 != 0 {
-        let insn = Insn::new(Class::Words(2), 4).addressed_by(base);
-        return if loads {
-            insn.writing(data | register(second, 8, 4))
+        let written = if loads {
+            data | register(second, 8, 4)
         } else {
-            insn
+            0
         };
+        return Insn::new(Class::Words(2), 4)
+            .addressed_by(base)
+            .writing(written);
+    }
+    // Load-acquire and store-release.
+    if first & 0x80 != 0 && matches!(second >> 4 & 0xF, 0x8 | 0x9 | 0xA | 0xC | 0xD | 0xE) {
+        return Insn::new(Class::Unknown, 4);
     }
     // STREX is timed like LDREX, and that like LDR (TRM 3.3.3).
     let exclusive = Insn::new(Class::Load, 4).addressed_by(base);
@@ -78,20 +87,18 @@ fn double_exclusive_table(first: u16, second: u16) -> Insn {
 fn branches_and_control(first: u16, second: u16) -> Insn {
     let integer = Insn::new(Class::Integer, 4);
     let system = Insn::new(Class::System, 4);
+    // Low-overhead loops.
+    if second & 0x5000 == 0x4000 {
+        return Insn::new(Class::Unknown, 4);
+    }
     // B, BL; the link register forms no address before the callee spills it.
     if second & 0x5000 != 0 || first & 0x0380 != 0x0380 {
         return integer.branching();
     }
     match first {
         0xF3AF if second & 0xFFF0 == 0x80F0 => {
-            let option = second as u8 & 0xF;
-            Insn::new(
-                Class::Marker(Marker {
-                    region: option >> 1,
-                    opens: option & 1 == 0,
-                }),
-                4,
-            )
+            let (region, opens) = ((second as u8 & 0xF) >> 1, second & 1 == 0);
+            Insn::new(Class::Marker(Marker { region, opens }), 4)
         }
         0xF3AF => integer,
         0xF3BF if second & 0xF0 == 0x60 => Insn::new(Class::InstructionBarrier, 4),
@@ -108,11 +115,12 @@ fn load_store_single(first: u16, second: u16) -> Insn {
     let base = register(first, 0, 4);
     let data = register(second, 12, 4);
     let by_register = first & 0x80 == 0 && second & 0xFC0 == 0 && base != PC;
-    let address = if by_register {
-        base | register(second, 0, 4)
+    let index = if by_register {
+        register(second, 0, 4)
     } else {
-        base
+        0
     };
+    let address = base | index;
     if first & 0x10 == 0 {
         return Insn::new(Class::Store, 4).addressed_by(address);
     }
@@ -123,6 +131,7 @@ fn load_store_single(first: u16, second: u16) -> Insn {
     Insn::new(Class::Load, 4)
         .addressed_by(address)
         .writing(data)
+        .returning_if(first & 0xF == SP_NUMBER)
 }
 
 #[cfg(test)]

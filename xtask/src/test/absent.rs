@@ -1,11 +1,13 @@
 //! The step about effects that a scene does not name.
 
-use super::{Context, Outcome};
+use std::path::{Path, PathBuf};
+
+use super::Context;
 use crate::bars::Held;
 use crate::budgets;
 use crate::costs::{self, ADDED, Row};
 use crate::elf::Image;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, refuse};
 use crate::firmware;
 use crate::qemu::Run;
 use crate::sameness;
@@ -20,7 +22,7 @@ const LUGRE_BYTES: u64 = 4 * (6 * 6 + 1);
 const LUGRE_NUMBERS: [f32; 2] = [core::f32::consts::LOG2_E, 1.428_606_8e-6];
 
 /// Effects with nothing but defaults leave the code as it is, and one that is dropped leaves nothing.
-pub fn absent_effects_cost_nothing(context: &Context) -> Result<Outcome> {
+pub fn absent_effects_cost_nothing(context: &Context) -> Result<String> {
     let (workspace, tools) = (&context.workspace, &context.tools);
     let bins = [BIN, SCENES[0], SCENES[1]];
     let elves = firmware::build_bins(workspace, tools.toolchain, RELEASE, &bins)?;
@@ -28,16 +30,14 @@ pub fn absent_effects_cost_nothing(context: &Context) -> Result<Outcome> {
     let image = Image::read(&elves[0])?;
     let mut seen = Vec::new();
     for form in ["core", "engine"] {
-        let [full, idle, friction] =
-            ["full", "idle", "friction"].map(|inputs| row(&rows, form, inputs));
-        let (full, idle, friction) = (full?, idle?, friction?);
-        let instructions = sameness::same(&image, full.address, idle.address)?;
-        if sameness::same(&image, full.address, friction.address).is_ok() {
-            return Err(Error::check(
-                "friction changes no instruction: the comparison sees nothing",
-            ));
-        }
-        let folded = if full.address == idle.address {
+        let address = |inputs| row(&rows, form, inputs).map(|row| row.address);
+        let (full, idle) = (address("full")?, address("idle")?);
+        let instructions = sameness::same(&image, full, idle)?;
+        let friction = sameness::same(&image, full, address("friction")?);
+        refuse(friction.is_ok(), || {
+            "friction changes no instruction: the comparison sees nothing".into()
+        })?;
+        let folded = if full == idle {
             ", folded into one function"
         } else {
             ""
@@ -47,45 +47,41 @@ pub fn absent_effects_cost_nothing(context: &Context) -> Result<Outcome> {
         ));
     }
     let known = |inputs| row(&rows, "engine", inputs);
-    seen.push(added(
-        context,
-        known("full_known")?,
-        known("friction_known")?,
-    )?);
-    let [named, dropped] = [Image::read(&elves[1])?, Image::read(&elves[2])?];
-    let [with, without] = [
-        effects_bytes(context, SCENES[0], &elves[1])?,
-        effects_bytes(context, SCENES[1], &elves[2])?,
-    ];
+    let (full, friction) = (known("full_known")?, known("friction_known")?);
+    seen.push(added(context, full, friction)?);
+    seen.push(dropped(context, [&elves[1], &elves[2]])?);
+    Ok(seen.join(", "))
+}
+
+/// What a scene is rid of without LuGre friction.
+fn dropped(context: &Context, elves: [&PathBuf; 2]) -> Result<String> {
+    let [named, dropped] = [Image::read(elves[0])?, Image::read(elves[1])?];
+    let with = effects_bytes(context, SCENES[0], elves[0])?;
+    let without = effects_bytes(context, SCENES[1], elves[1])?;
     let freed = |of: fn(&Image) -> u64| of(&named).checked_sub(of(&dropped));
     let (flash, ram) = (freed(|i| i.sizes.flash), freed(|i| i.sizes.ram));
     // Tuples are padded to the 8 bytes of gravity's f64.
-    let expected = with.checked_sub(without);
-    let shrunk = expected.filter(|b| (LUGRE_BYTES..LUGRE_BYTES + 8).contains(b));
-    if shrunk.is_none() || ram != shrunk || flash.is_none_or(|bytes| bytes == 0) {
+    let is_its_size = |bytes: &u64| (LUGRE_BYTES..LUGRE_BYTES + 8).contains(bytes);
+    let shrunk = with.checked_sub(without).filter(is_its_size);
+    let (Some(fewer), Some(less @ 1..), true) = (shrunk, flash, ram == shrunk) else {
         return Err(Error::check(format!(
             "LuGre friction takes {LUGRE_BYTES} B; without it the effects shrink from {with} to {without} B, \
              RAM by {ram:?} and flash by {flash:?}"
         )));
-    }
+    };
     for number in LUGRE_NUMBERS {
         let there = [&named, &dropped].map(|image| image.words.contains(&number.to_bits()));
-        if there != [true, false] {
-            return Err(Error::check(format!(
-                "{number} should be with LuGre friction and not without, but is: {there:?}"
-            )));
-        }
+        refuse(there != [true, false], || {
+            format!("{number} should be with LuGre friction and not without, but is: {there:?}")
+        })?;
     }
     let mut names = dropped.functions.iter().flat_map(|f| &f.names);
     if let Some(name) = names.find(|name| name.contains("exp_neg") || name.contains("ugre")) {
         return Err(Error::check(format!("without LuGre there is `{name}`")));
     }
-    seen.push(format!(
-        "LuGre dropped: {} B of flash and {} B of RAM less",
-        flash.unwrap_or_default(),
-        ram.unwrap_or_default()
-    ));
-    Ok(Outcome::Passed(seen.join(", ")))
+    Ok(format!(
+        "LuGre dropped: {less} B of flash and {fewer} B of RAM less"
+    ))
 }
 
 fn row<'a>(rows: &'a [Row], form: &str, inputs: &str) -> Result<&'a Row> {
@@ -115,19 +111,11 @@ fn added(context: &Context, full: &Row, friction: &Row) -> Result<String> {
 }
 
 /// The bytes of a scene's effects, as it says itself.
-fn effects_bytes(context: &Context, name: &str, elf: &std::path::Path) -> Result<u64> {
-    let run = Run {
-        name,
-        elf,
-        meter: None,
-        logs: true,
-    };
-    let mut bytes = None;
-    context.tools.qemu.run(&run, |line| {
-        if let Some(number) = line.strip_prefix("effects ") {
-            bytes = number.parse().ok();
-        }
-        Ok(())
-    })?;
-    bytes.ok_or_else(|| Error::check(format!("`{name}` did not say how large its effects are")))
+fn effects_bytes(context: &Context, name: &str, elf: &Path) -> Result<u64> {
+    let lines = context.lines(&Run::logging(name, elf, None))?;
+    let mut said = lines
+        .iter()
+        .filter_map(|line| line.strip_prefix("effects ")?.parse().ok());
+    said.next_back()
+        .ok_or_else(|| Error::check(format!("`{name}` did not say how large its effects are")))
 }

@@ -1,10 +1,11 @@
 //! The steps about the library as a dependency: what cargo packages and vendors, its features and its examples.
 
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use super::{Context, Outcome};
-use crate::error::{Error, Result};
+use super::Context;
+use crate::error::{Error, Result, refuse};
 use crate::shell;
 use crate::toolchain::{TARGET, Toolchain};
 use crate::workspace::{read, write};
@@ -18,23 +19,22 @@ const COPIES: [&str; 2] = ["LICENSE-APACHE", "LICENSE-MIT"];
 /// The example whose numbers are compared with and without features: it prints all digits of a simulation's end.
 const COMPARED: &str = "computed_torque";
 
-pub fn package(context: &Context) -> Result<Outcome> {
+pub fn package(context: &Context) -> Result<String> {
     let root = &context.workspace.root;
     copies_are_equal(root, &root.join(LIBRARY))?;
-    let mut cargo = context.workspace.cargo("package");
-    shell::capture(cargo.args(["--package", LIBRARY, "--allow-dirty"]))?;
+    context.cargo(&["package --package dynamics-core --allow-dirty"])?;
     let folder = Folder::new("vendored")?;
     vendored_builds(context, &folder.0)?;
-    Outcome::PASSED
+    Ok(String::new())
 }
 
 /// Compares what stands in the workspace's root with the crate's copies.
 fn copies_are_equal(root: &Path, library: &Path) -> Result<()> {
     for name in COPIES {
-        if read(&root.join(name))? != read(&library.join(name))? {
-            let what = format!("{LIBRARY}/{name} is not a copy of {name}");
-            return Err(Error::check(what));
-        }
+        let is_other = read(&root.join(name))? != read(&library.join(name))?;
+        refuse(is_other, || {
+            format!("{LIBRARY}/{name} is not a copy of {name}")
+        })?;
     }
     Ok(())
 }
@@ -43,6 +43,11 @@ fn copies_are_equal(root: &Path, library: &Path) -> Result<()> {
 fn vendored_builds(context: &Context, folder: &Path) -> Result<()> {
     let git_url = commit_work_tree(&context.workspace.root, &folder.join("repository"))?;
     let project = folder.join("project");
+    let put = |name: &str, text: &str| {
+        let path = project.join(name);
+        create_parent(&path)?;
+        write(&path, text)
+    };
     let manifest = format!(
         "[package]\nname = \"vendored\"\nversion = \"0.1.0\"\nedition = \"2024\"\n\n[workspace]\n\n\
          [dependencies]\n{LIBRARY} = {{ git = \"{git_url}\", features = [\"serde\"] }}\n"
@@ -51,124 +56,91 @@ fn vendored_builds(context: &Context, folder: &Path) -> Result<()> {
                    let _ = dynamics_core::effects::GravityVector::<f32>(Vec3::X);\n}\n";
     let files = [("Cargo.toml", manifest.as_str()), ("src/main.rs", program)];
     for (name, text) in files {
-        create_parent(&project.join(name))?;
-        write(&project.join(name), text)?;
+        put(name, text)?;
     }
     // The versions that the workspace's other steps have been tested with.
     let lock = read(&context.workspace.root.join("Cargo.lock"))?;
-    write(&project.join("Cargo.lock"), lock)?;
+    put("Cargo.lock", &lock)?;
     let cargo = |subcommand| {
         let mut command = context.workspace.cargo(subcommand);
         command.current_dir(&project);
         command
     };
-    let config = shell::capture(&mut cargo("vendor"))?;
-    let path = project.join(".cargo/config.toml");
-    create_parent(&path)?;
-    write(&path, config)?;
-    let target = project.join("target");
+    put(".cargo/config.toml", &shell::capture(&mut cargo("vendor"))?)?;
     let mut check = cargo("check");
-    shell::capture(
-        check
-            .args(["--offline", "--locked", "--target-dir"])
-            .arg(target),
-    )?;
-    Ok(())
+    check.args(["--offline", "--locked", "--target-dir", "target"]);
+    shell::capture(&mut check).map(drop)
 }
 
 /// Commits the work tree as it is, without what git ignores, into a new repository, and returns its URL.
 fn commit_work_tree(root: &Path, repository: &Path) -> Result<String> {
-    shell::capture(
-        Command::new("git")
-            .args(["init", "--quiet"])
-            .arg(repository),
-    )?;
-    let git = |arguments: &[&str]| {
-        let mut command = Command::new("git");
-        command.arg("--git-dir").arg(repository.join(".git"));
-        command.arg("--work-tree").arg(root).current_dir(root);
-        command.args(["-c", "user.name=test", "-c", "user.email=test@localhost"]);
-        shell::capture(command.args(arguments)).map(drop)
-    };
-    git(&["add", "--all"])?;
-    git(&[
-        "commit",
-        "--quiet",
-        "--no-gpg-sign",
-        "--no-verify",
-        "--message",
-        "work tree",
-    ])?;
+    let mut init = Command::new("git");
+    shell::capture(init.args(["init", "--quiet"]).arg(repository))?;
+    let commit = "commit --quiet --no-gpg-sign --no-verify --message work-tree";
+    for arguments in ["add --all", commit] {
+        let mut git = Command::new("git");
+        git.arg("--git-dir").arg(repository.join(".git"));
+        git.arg("--work-tree").arg(root).current_dir(root);
+        git.args(["-c", "user.name=test", "-c", "user.email=test@localhost"]);
+        shell::capture(git.args(arguments.split(' ')))?;
+    }
     let path = repository.to_string_lossy().replace('\\', "/");
     Ok(format!("file:///{}", path.trim_start_matches('/')))
 }
 
-pub fn features(context: &Context) -> Result<Outcome> {
+pub fn features(context: &Context) -> Result<String> {
     if context.tools.toolchain == Toolchain::Native {
-        let mut cargo = context.workspace.cargo("check");
-        cargo.args([
-            "--package",
-            LIBRARY,
-            "--features",
-            FEATURES,
-            "--target",
-            TARGET,
-        ]);
-        shell::capture(&mut cargo)?;
+        let check = format!("check --package {LIBRARY} --features {FEATURES}");
+        context.cargo(&[&format!("{check} --target {TARGET}")])?;
     }
-    let plain = run_example(context, COMPARED, &[])?;
-    let with_features = run_example(context, COMPARED, &["--features", FEATURES])?;
-    if plain != with_features {
-        return Err(Error::check(format!(
-            "the features `{FEATURES}` change the numbers of the example `{COMPARED}`:\n{plain}\n{with_features}"
-        )));
-    }
-    Ok(Outcome::Passed(FEATURES.to_owned()))
+    let plain = run_example(context, COMPARED, "")?;
+    let with_features = run_example(context, COMPARED, &format!("--features {FEATURES}"))?;
+    refuse(plain != with_features, || {
+        format!(
+            "the features `{FEATURES}` change the numbers of `{COMPARED}`:\n{plain}\n{with_features}"
+        )
+    })?;
+    Ok(FEATURES.to_owned())
 }
 
-pub fn examples(context: &Context) -> Result<Outcome> {
+pub fn examples(context: &Context) -> Result<String> {
     let names = example_names(&context.workspace.root)?;
-    let mut cargo = context.workspace.cargo("build");
-    shell::capture(cargo.args(["--package", LIBRARY, "--examples"]))?;
+    context.cargo(&["build --package dynamics-core --examples"])?;
     for name in &names {
-        run_example(context, name, &[])?;
+        run_example(context, name, "")?;
     }
-    Ok(Outcome::Passed(names.join(", ")))
+    Ok(names.join(", "))
 }
 
-fn run_example(context: &Context, name: &str, arguments: &[&str]) -> Result<String> {
-    let mut cargo = context.workspace.cargo("run");
-    cargo.args(["--quiet", "--package", LIBRARY, "--example", name]);
-    shell::capture(cargo.args(arguments))
+fn run_example(context: &Context, name: &str, more: &str) -> Result<String> {
+    let run = format!("run --quiet --package {LIBRARY}");
+    context.cargo(&[&format!("{run} --example {name} {more}")])
 }
 
 /// The names of the library's examples, which must be some.
 fn example_names(root: &Path) -> Result<Vec<String>> {
     let folder = root.join(LIBRARY).join("examples");
     let entries = std::fs::read_dir(&folder).map_err(Error::file("read", &folder))?;
-    let mut names: Vec<String> = entries
-        .flatten()
-        .filter_map(|entry| Some(entry.file_name().to_str()?.strip_suffix(".rs")?.to_owned()))
-        .collect();
+    let files = entries.flatten().map(|entry| entry.file_name());
+    let stem = |file: OsString| Some(file.to_str()?.strip_suffix(".rs")?.to_owned());
+    let mut names: Vec<String> = files.filter_map(stem).collect();
     names.sort();
-    if names.is_empty() {
-        return Err(Error::check(format!("{} is empty", folder.display())));
-    }
+    refuse(names.is_empty(), || {
+        format!("{} is empty", folder.display())
+    })?;
     Ok(names)
 }
 
-pub fn deny(context: &Context) -> Result<Outcome> {
-    const INSTALL: &str = "cargo install cargo-deny --locked";
+pub fn deny(context: &Context) -> Result<String> {
     if shell::which("cargo-deny").is_none() {
         if !context.may_install_debian {
-            return Ok(Outcome::Skipped(format!("to have it run: {INSTALL}")));
+            let why = "to have it run: cargo install cargo-deny --locked";
+            return Err(Error::Skipped(why.into()));
         }
-        let mut cargo = context.workspace.cargo("install");
-        shell::capture(cargo.args(["cargo-deny", "--locked"]))?;
+        context.cargo(&["install cargo-deny --locked"])?;
     }
-    let mut cargo = context.workspace.cargo("deny");
-    shell::capture(cargo.args(["check", "bans", "licenses", "sources"]))?;
-    Outcome::PASSED
+    context.cargo(&["deny check bans licenses sources"])?;
+    Ok(String::new())
 }
 
 /// A folder outside the workspace, whose configuration would otherwise apply; removed when dropped.

@@ -1,7 +1,5 @@
 //! Every file that a command writes into the repository, and what holds it against today's figures.
 
-use crate::error::{Error, Result};
-
 /// What notices that a file is out of date.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Checked {
@@ -41,17 +39,3 @@ pub const FILES: [(&str, Checked); 18] = [
     ("docs/scenes.md", Checked::Step("readme")),
     ("docs/ur5e.svg", Checked::Step("readme")),
 ];
-
-/// Fails if a file that is compared is none of those that commands write.
-pub fn listed(file: &str) -> Result<()> {
-    let known = |(name, checked): &(&str, Checked)| match checked {
-        Checked::Step(_) => *name == file,
-        Checked::Bars(_) => false,
-    };
-    if FILES.iter().any(known) {
-        return Ok(());
-    }
-    Err(Error::check(format!(
-        "{file} is not listed among the files that commands write and steps compare: xtask/src/docs/generated.rs"
-    )))
-}

@@ -8,7 +8,7 @@ use super::generated::{Checked, FILES};
 
 /// The rows of the tables in a page, without their headings.
 pub fn rows_of(page: &str) -> Vec<Vec<&str>> {
-    let cells = |line| super::columns::cells(line);
+    let cells = |line| crate::docs::columns::cells(line);
     let (mut rows, mut inside) = (Vec::new(), false);
     for line in page.lines() {
         match cells(line) {

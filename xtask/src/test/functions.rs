@@ -1,0 +1,254 @@
+//! The steps about the firmware's code: what it consists of, what it computes, and what its functions cost.
+
+use cycle_meter::Sample;
+
+use super::Context;
+use crate::budgets;
+use crate::callgraph::Reach;
+use crate::costs;
+use crate::elf::Image;
+use crate::error::{Error, Result, refuse};
+use crate::firmware;
+use crate::meter::Cost;
+use crate::qemu::Run;
+use crate::shell;
+
+/// How many hard cases run in QEMU at least.
+const HARD_CASES: usize = 15;
+
+/// Whether a symbol is `ControlLoop::tick`, which is there once for each control law.
+fn is_tick(symbol: &str) -> bool {
+    symbol.contains("ControlLoop") && symbol.contains("4tick")
+}
+
+pub fn clippy(context: &Context) -> Result<String> {
+    let toolchain = context.tools.toolchain;
+    let mut command = toolchain.firmware(&context.workspace, "clippy");
+    shell::capture(command.args(["--lib", "--bins", "--", "-D", "warnings"]))
+}
+
+pub fn build(context: &Context) -> Result<String> {
+    firmware::build_all(&context.workspace, context.tools.toolchain)?;
+    Ok(context.workspace.bins.join(", "))
+}
+
+pub fn meter(context: &Context) -> Result<String> {
+    let (_, samples) = context.metered("meter_check", false)?;
+    let agreeing = cycle_meter::check_hand_counted(&samples).map_err(Error::check)?;
+    Ok(format!("{agreeing} sequences"))
+}
+
+pub fn bits(context: &Context) -> Result<String> {
+    let name = "bits";
+    let elf = context.built(name)?;
+    let mut on_target = context.lines(&Run::logging(name, &elf, None))?;
+    on_target.retain(|line| line.starts_with("bits "));
+    let host = context.cargo(&["run --quiet --package host-reports --bin bits"])?;
+    let on_host: Vec<&str> = host.lines().collect();
+    if let Some((target, host)) = std::iter::zip(&on_target, &on_host).find(|(a, b)| a != b) {
+        let both = format!("  QEMU: {target}\n  host: {host}");
+        return Err(Error::check(format!(
+            "the same states give other bits:\n{both}"
+        )));
+    }
+    let (there, here) = (on_target.len(), on_host.len());
+    refuse(there == 0 || there != here, || {
+        format!("`bits` printed {there} digests in QEMU and {here} on the host")
+    })?;
+    let hard = on_host
+        .iter()
+        .filter_map(|line| line.strip_prefix("bits hard "));
+    let mut cases: Vec<_> = hard.map(|case| case.split(' ').next()).collect();
+    cases.dedup();
+    let seen = cases.len();
+    refuse(seen < HARD_CASES, || {
+        format!("`bits` ran {seen} of at least {HARD_CASES} hard cases")
+    })?;
+    Ok(format!("{there} digests, {seen} hard cases among them"))
+}
+
+pub fn no_f64(context: &Context) -> Result<String> {
+    let mut seen = 0;
+    for measured in context.measured()? {
+        let image = Image::read(&measured.elf)?;
+        let reach = Reach::of(&image, |function| function.is_named(is_tick))?;
+        for (function, path) in reach.functions() {
+            seen += 1;
+            let unwanted = |name: &&String| is_f64(name) || is_panic(name);
+            if let Some(name) = function.names.iter().find(unwanted) {
+                return Err(Error::check(format!("the tick reaches `{name}`: {path}")));
+            }
+        }
+    }
+    Ok(format!("{seen} functions reached"))
+}
+
+/// Whether a symbol is f64 arithmetic of the compiler's runtime, or trigonometry of libm: the
+/// f32 functions of libm's compute in f64 inside.
+fn is_f64(symbol: &str) -> bool {
+    let has = |parts: &str| parts.split(' ').any(|part| symbol.contains(part));
+    let conversions = "__aeabi_f2d __aeabi_i2d __aeabi_ui2d __aeabi_l2d __aeabi_ul2d";
+    let runtime = symbol.starts_with("__aeabi_d")
+        || conversions.split(' ').any(|name| name == symbol)
+        || (symbol.starts_with("__") && has("df3 df2 dfsi"));
+    let trig = "sin cos tan rem_pio2";
+    let plain = symbol.strip_suffix('f').unwrap_or(symbol);
+    runtime || trig.split(' ').any(|f| f == plain) || (symbol.contains("libm") && has(trig))
+}
+
+/// Whether a symbol is one of those that a failed check of `core`'s ends in.
+fn is_panic(symbol: &str) -> bool {
+    let parts = "4core9panicking unwrap_failed expect_failed index_fail index_len_fail index_order_fail \
+                 len_mismatch_fail panic_already_ rust_begin_unwind";
+    parts.split(' ').any(|part| symbol.contains(part))
+}
+
+pub fn opcodes(context: &Context) -> Result<String> {
+    let mut seen = 0;
+    for measured in context.measured()? {
+        for (function, one) in Image::read(&measured.elf)?.instructions() {
+            seen += 1;
+            if one.is_beyond_m4f() {
+                let (name, code, at) = (&function.names[0], one.code, one.address);
+                return Err(Error::check(format!("`{name}` has {code:x?} at {at:#x}")));
+            }
+        }
+    }
+    Ok(format!("{seen} instructions"))
+}
+
+pub fn costs(context: &Context) -> Result<String> {
+    let (workspace, tools) = (&context.workspace, &context.tools);
+    if !context.full {
+        let report = costs::measure_first(workspace, tools)?;
+        let robot = report.rows.first().map(|row| &*row.robot);
+        return budgets::check_costs(workspace, &report, robot);
+    }
+    let report = costs::measure(workspace, tools)?;
+    // Both are told: a page out of date is no reason to hide what is over budget.
+    let budget = budgets::check_costs(workspace, &report, None);
+    match (budget, costs::check_page(workspace, &report)) {
+        (Err(budget), Err(page)) => Err(Error::check(format!("{budget}\n{page}"))),
+        (budget, page) => page.and(budget),
+    }
+}
+
+pub fn constant(context: &Context) -> Result<String> {
+    let (lines, samples) = context.metered("constant", true)?;
+    let mut kinds = Vec::new();
+    for line in &lines {
+        let words: Vec<&str> = line.split(' ').collect();
+        if let [word @ ("constant" | "bounded"), name, states] = *words {
+            let bad = |_| Error::check(format!("the line {line:?} cannot be understood"));
+            kinds.push(Kind {
+                name: name.to_owned(),
+                states: states.parse().map_err(bad)?,
+                constant: word == "constant",
+            });
+        }
+    }
+    Ok(steady(&kinds, &samples)?.join(", "))
+}
+
+/// Work that was done on so many states.
+struct Kind {
+    name: String,
+    states: usize,
+    /// Whether it must cost the same each time; else its maximum is told.
+    constant: bool,
+}
+
+/// The instructions of each kind of work.
+fn steady(kinds: &[Kind], mut samples: &[Sample]) -> Result<Vec<String>> {
+    let (mut seen, mut unsteady) = (Vec::new(), false);
+    for kind in kinds {
+        let (mine, rest) = samples
+            .split_at_checked(kind.states)
+            .ok_or_else(|| Error::check("the cycle meter saw fewer calls than were made"))?;
+        samples = rest;
+        let instructions = mine.iter().map(|sample| sample.instructions);
+        let cost = Cost::of(instructions, mine.iter().map(|sample| sample.cycles))?;
+        let (name, least, most) = (&kind.name, cost.instructions.min, cost.instructions.max);
+        unsteady |= kind.constant && least != most;
+        seen.push(match least == most {
+            true => format!("{name} {most}"),
+            false => format!("{name} {least} to {most}"),
+        });
+    }
+    refuse(kinds.is_empty() || !samples.is_empty(), || {
+        "the cycle meter saw more calls than were made".into()
+    })?;
+    refuse(unsteady, || {
+        format!("the instructions depend on the data: {}", seen.join(", "))
+    })?;
+    Ok(seen)
+}
+
+#[cfg(test)]
+mod tests {
+    use cycle_meter::Sample;
+
+    use super::{Kind, is_f64, is_panic, steady};
+
+    #[test]
+    fn panics_are_known_by_their_symbols() {
+        for symbol in [
+            "_ZN4core9panicking5panic17h0123456789abcdefE",
+            "_ZN4core9panicking18panic_bounds_check17h0123456789abcdefE",
+            "_RNvNtCs1_4core9panicking9panic_fmt",
+            "_ZN4core6option13unwrap_failed17h0123456789abcdefE",
+            "_ZN4core5slice5index24slice_end_index_len_fail17h0123456789abcdefE",
+            "_ZN4core5slice5index16slice_index_fail17h0123456789abcdefE",
+        ] {
+            assert!(is_panic(symbol), "{symbol}");
+        }
+        assert!(!is_panic("_ZN13dynamics_core7control10supervisor4pass17hE"));
+    }
+
+    #[test]
+    fn f64_is_known_by_its_symbols() {
+        for symbol in [
+            "__aeabi_dadd",
+            "__muldf3",
+            "__extendsfdf2",
+            "__fixdfsi",
+            "sinf",
+            "rem_pio2",
+            "_ZN4libm4math5k_cosf17h0123456789abcdefE",
+        ] {
+            assert!(is_f64(symbol), "{symbol}");
+        }
+        for symbol in [
+            "__aeabi_fadd",
+            "__aeabi_memcpy",
+            "_ZN13dynamics_core4trig7sin_cosE",
+        ] {
+            assert!(!is_f64(symbol), "{symbol}");
+        }
+    }
+
+    #[test]
+    fn work_that_varies_is_named() {
+        let samples = [5, 5, 7, 8].map(|instructions| Sample {
+            region: 0,
+            instructions,
+            cycles: 10,
+            flops: 0,
+        });
+        let kind = |name: &str, constant| Kind {
+            name: name.into(),
+            states: 2,
+            constant,
+        };
+        let kinds = [kind("law", true), kind("gate", true)];
+        let told = steady(&kinds, &samples).expect_err("varies").to_string();
+        assert!(told.contains("law 5, gate 7 to 8"), "{told}");
+        let seen = steady(&kinds[..1], &samples[..2]).expect("steady");
+        assert_eq!(seen, ["law 5"]);
+        let bounded = [kind("law", true), kind("reentry", false)];
+        let seen = steady(&bounded, &samples).expect("steady but for the bounded");
+        assert_eq!(seen, ["law 5", "reentry 7 to 8"]);
+        assert!(steady(&kinds[..1], &samples).is_err());
+        assert!(steady(&kinds, &samples[..3]).is_err());
+    }
+}

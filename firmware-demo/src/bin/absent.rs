@@ -3,12 +3,10 @@
 #![no_std]
 #![no_main]
 
-#[expect(dead_code, reason = "postures are for what takes them at hand")]
 mod costs;
 
 use cortex_m_rt::entry;
 use dynamics_core::effects::{Coulomb, Effect, RIGID_BODY, RotorInertia, Viscous};
-use dynamics_core::model::Robot;
 use dynamics_core::robots::Ur5e;
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
@@ -33,7 +31,7 @@ type Rnea<E> = fn(&State<f32, 6, 6>, &E) -> [f32; 6];
 
 #[entry]
 fn main() -> ! {
-    let asks = asks::<Ur5e, 6, 6>();
+    let asks = asks::<Ur5e, 6, 6, STATES>();
     both("full", &asks, &RIGID_BODY);
     both("idle", &asks, &(Nothing, RIGID_BODY, (Nothing, Nothing)));
     both("friction", &asks, &(RIGID_BODY, VISCOUS, COULOMB, ROTORS));
@@ -67,12 +65,5 @@ fn both<E: Effect<f32, 6, 6>>(inputs: &'static str, asks: &[Ask<6>; STATES], eff
 }
 
 fn row(form: &'static str, inputs: &'static str) -> Row<'static> {
-    Row {
-        robot: <Ur5e as Robot<6, 6, 6>>::MODEL.name,
-        algorithm: "rnea",
-        form,
-        inputs,
-        trig: true,
-        joints: 6,
-    }
+    Row::of::<Ur5e, 6, 6>("rnea", form, inputs, true)
 }

@@ -3,21 +3,6 @@
 #![no_std]
 #![no_main]
 
-#[expect(dead_code, reason = "postures are for what takes them at hand")]
 mod costs;
-mod effects;
 
-use cortex_m_rt::entry;
-use dynamics_core::Engine;
-use dynamics_core::robots::Panda;
-use firmware_demo::catalogue;
-
-use effects::Priced;
-
-#[entry]
-fn main() -> ! {
-    let priced = &mut Priced::<Engine<Panda>, 7>::new();
-    catalogue::rigid(priced);
-    catalogue::bodies::<7, 6>(priced);
-    costs::done()
-}
+costs::main!(costs::effects::bodies::<robots::Panda, 7, 6>());

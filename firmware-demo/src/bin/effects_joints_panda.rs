@@ -2,19 +2,6 @@
 #![no_std]
 #![no_main]
 
-#[expect(dead_code, reason = "postures are for what takes them at hand")]
 mod costs;
-mod effects;
 
-use cortex_m_rt::entry;
-use dynamics_core::Engine;
-use dynamics_core::robots::Panda;
-use firmware_demo::catalogue;
-
-use effects::Priced;
-
-#[entry]
-fn main() -> ! {
-    catalogue::joints(&mut Priced::<Engine<Panda>, 7>::new());
-    costs::done()
-}
+costs::main!(costs::effects::joints::<robots::Panda, 7>());

@@ -101,14 +101,7 @@ fn aba<const N: usize>(
 #[inline(never)]
 fn chain<const N: usize>() {
     let model: Known<N> = black_box(const { &Chain::<N>::MODEL_F32 });
-    let row = |algorithm| Row {
-        robot: "chain",
-        algorithm,
-        form: "core",
-        inputs: "full",
-        trig: false,
-        joints: N,
-    };
+    let row = |algorithm| Row::of::<Chain<N>, N, N>(algorithm, "core", "full", false);
     let asks = [0.5_f32, -0.7].map(|angle| {
         let mut q = [angle; N];
         q.iter_mut().step_by(2).for_each(|q| *q = 0.3 - *q);

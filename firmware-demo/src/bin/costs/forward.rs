@@ -6,46 +6,77 @@ use dynamics_core::effects::{Coriolis, Gravity, Inertia, RIGID_BODY};
 use dynamics_core::model::Robot;
 use dynamics_core::spatial::Motion;
 use dynamics_core::state::{Posture, State};
-use dynamics_core::{Core, MassMatrix};
+use dynamics_core::{Core, Engine, MassMatrix};
 
-use super::costs::row::Row;
-use super::costs::{asks, done};
+use super::row::Row;
+use super::{STATES, asks};
 
-pub type Scene = (Gravity, Inertia, Coriolis);
-pub type Solution<const N: usize> = Result<[f32; N], NotPositiveDefinite>;
-pub type Forward<const N: usize> = fn(&State<f32, N, N>, &[f32; N], &Scene) -> Solution<N>;
-pub type ForwardAt<const N: usize> =
+type Scene = (Gravity, Inertia, Coriolis);
+type Solution<const N: usize> = Result<[f32; N], NotPositiveDefinite>;
+type Forward<const N: usize> = fn(&State<f32, N, N>, &[f32; N], &Scene) -> Solution<N>;
+type ForwardAt<const N: usize> =
     fn(&Posture<f32, N>, &State<f32, N, N>, &[f32; N], &Scene) -> Solution<N>;
 
 /// The functions of core or engine; those that take a posture have sines and cosines at hand.
-pub struct Forms<const N: usize> {
-    pub name: &'static str,
-    pub crba: fn(&[f32; N], &Scene) -> MassMatrix<f32, N>,
-    pub crba_at: fn(&Posture<f32, N>, &Scene) -> MassMatrix<f32, N>,
-    pub factor_solve: fn(&MassMatrix<f32, N>, &[f32; N]) -> Solution<N>,
-    pub forward: Forward<N>,
-    pub forward_at: ForwardAt<N>,
-    pub aba: Forward<N>,
-    pub aba_at: ForwardAt<N>,
-    pub jacobian: fn(&[f32; N]) -> [Motion<f32>; N],
-    pub jacobian_at: fn(&Posture<f32, N>) -> [Motion<f32>; N],
+struct Forms<const N: usize> {
+    name: &'static str,
+    crba: fn(&[f32; N], &Scene) -> MassMatrix<f32, N>,
+    crba_at: fn(&Posture<f32, N>, &Scene) -> MassMatrix<f32, N>,
+    factor_solve: fn(&MassMatrix<f32, N>, &[f32; N]) -> Solution<N>,
+    forward: Forward<N>,
+    forward_at: ForwardAt<N>,
+    aba: Forward<N>,
+    aba_at: ForwardAt<N>,
+    jacobian: fn(&[f32; N]) -> [Motion<f32>; N],
+    jacobian_at: fn(&Posture<f32, N>) -> [Motion<f32>; N],
 }
 
-impl<const N: usize> Forms<N> {
-    pub fn core<T: Robot<B, N, N>, const B: usize>() -> Self {
-        Self {
-            name: "core",
-            crba: Core::<T>::crba,
-            crba_at: Core::<T>::crba_at,
-            factor_solve: core_factor_solve::<T, B, N>,
-            forward: Core::<T>::forward,
-            forward_at: Core::<T>::forward_at,
-            aba: Core::<T>::aba,
-            aba_at: Core::<T>::aba_at,
-            jacobian: tip_jacobian::<T, B, N>,
-            jacobian_at: tip_jacobian_at::<T, B, N>,
-        }
+fn of_core<T: Robot<B, N, N>, const B: usize, const N: usize>() -> Forms<N> {
+    Forms {
+        name: "core",
+        crba: Core::<T>::crba,
+        crba_at: Core::<T>::crba_at,
+        factor_solve: core_factor_solve::<T, B, N>,
+        forward: Core::<T>::forward,
+        forward_at: Core::<T>::forward_at,
+        aba: Core::<T>::aba,
+        aba_at: Core::<T>::aba_at,
+        jacobian: tip_jacobian::<T, B, N>,
+        jacobian_at: tip_jacobian_at::<T, B, N>,
     }
+}
+
+fn of_engine<T: Robot<B, N, N>, const B: usize, const N: usize, const TIP: usize>() -> Forms<N> {
+    Forms {
+        name: "engine",
+        crba: Engine::<T>::crba,
+        crba_at: Engine::<T>::crba_at,
+        factor_solve: engine_factor_solve::<T, B, N>,
+        forward: Engine::<T>::forward,
+        forward_at: Engine::<T>::forward_at,
+        aba: Engine::<T>::aba,
+        aba_at: Engine::<T>::aba_at,
+        jacobian: Engine::<T>::jacobian::<TIP, _, _, _, _>,
+        jacobian_at: Engine::<T>::jacobian_at::<TIP, _, _, _, _>,
+    }
+}
+
+/// Measures core and engine.
+pub fn both<T: Robot<B, N, N>, const B: usize, const N: usize, const TIP: usize>() {
+    run::<T, B, N>(&[of_core::<T, B, N>(), of_engine::<T, B, N, TIP>()]);
+}
+
+/// Measures the core alone.
+pub fn core<T: Robot<B, N, N>, const B: usize, const N: usize>() {
+    run::<T, B, N>(&[of_core::<T, B, N>()]);
+}
+
+#[inline(never)]
+fn engine_factor_solve<T: Robot<B, N, N>, const B: usize, const N: usize>(
+    m: &MassMatrix<f32, N>,
+    tau: &[f32; N],
+) -> Solution<N> {
+    Ok(Engine::<T>::solve(&Engine::<T>::factor(m)?, tau))
 }
 
 #[inline(never)]
@@ -71,19 +102,13 @@ fn tip_jacobian_at<T: Robot<B, N, N>, const B: usize, const N: usize>(
     Core::<T>::jacobian_at(posture, const { B - 1 }, frame::Mixed)
 }
 
-/// Measures the rows of these forms and leaves the emulator. Torques are the states' accelerations: any
-/// will do, since the work does not depend on what they move.
-pub fn run<T: Robot<B, N, N>, const B: usize, const N: usize>(forms: &[Forms<N>]) -> ! {
-    let asks = &asks::<T, B, N>();
+/// Measures the rows of these forms. Torques are the states' accelerations: any will do, since the work
+/// does not depend on what they move.
+fn run<T: Robot<B, N, N>, const B: usize, const N: usize>(forms: &[Forms<N>]) {
+    let asks = &asks::<T, B, N, STATES>();
     let scene = &RIGID_BODY;
-    let row = |form: &Forms<N>, algorithm, trig| Row {
-        robot: T::MODEL.name,
-        algorithm,
-        form: form.name,
-        inputs: "full",
-        trig,
-        joints: N,
-    };
+    let row =
+        |form: &Forms<N>, algorithm, trig| Row::of::<T, B, N>(algorithm, form.name, "full", trig);
     for form in forms {
         let (inside, at_hand) = (form.crba, form.crba_at);
         row(form, "crba", true).measure(inside as usize, asks, |ask| inside(&ask.state.q, scene));
@@ -116,5 +141,4 @@ pub fn run<T: Robot<B, N, N>, const B: usize, const N: usize>(forms: &[Forms<N>]
         row(form, "jacobian", true).measure(inside as usize, asks, |ask| inside(&ask.state.q));
         row(form, "jacobian", false).measure(at_hand as usize, asks, |ask| at_hand(&ask.posture));
     }
-    done()
 }

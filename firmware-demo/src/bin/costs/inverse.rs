@@ -5,20 +5,19 @@ use dynamics_core::model::Robot;
 use dynamics_core::state::{Posture, State};
 use dynamics_core::{Core, Engine};
 
-use super::costs::row::Row;
-use super::costs::{Ask, STATES, asks, done};
+use super::row::Row;
+use super::{Ask, STATES, asks};
 
 type Inside<E, const N: usize> = fn(&State<f32, N, N>, &E) -> [f32; N];
 type AtHand<E, const N: usize> = fn(&Posture<f32, N>, &State<f32, N, N>, &E) -> [f32; N];
 
-/// Measures every row of the robot T and leaves the emulator.
-pub fn run<T: Robot<B, N, N>, const B: usize, const N: usize>() -> ! {
-    let asks = asks::<T, B, N>();
+/// Measures every row of the robot T.
+pub fn run<T: Robot<B, N, N>, const B: usize, const N: usize>() {
+    let asks = asks::<T, B, N, STATES>();
     inverse::<T, _, B, N>("full", &asks, &RIGID_BODY);
     inverse::<T, _, B, N>("bias", &asks, &(Gravity::EARTH, Coriolis));
     inverse::<T, _, B, N>("gravity", &asks, &(Gravity::EARTH,));
     inverse::<T, _, B, N>("no_coriolis", &asks, &(Gravity::EARTH, Inertia));
-    done()
 }
 
 /// Inverse dynamics in both forms, with sines and cosines inside and at hand.
@@ -32,14 +31,7 @@ fn inverse<T: Robot<B, N, N>, E: Effect<f32, B, N>, const B: usize, const N: usi
         ("engine", Engine::<T>::rnea, Engine::<T>::rnea_at),
     ];
     for (form, inside, at_hand) in forms {
-        let row = |trig| Row {
-            robot: T::MODEL.name,
-            algorithm: "rnea",
-            form,
-            inputs,
-            trig,
-            joints: N,
-        };
+        let row = |trig| Row::of::<T, B, N>("rnea", form, inputs, trig);
         row(true).measure(inside as usize, asks, |ask| inside(&ask.state, effects));
         row(false).measure(at_hand as usize, asks, |ask| {
             at_hand(&ask.posture, &ask.state, effects)

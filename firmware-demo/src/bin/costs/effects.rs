@@ -13,13 +13,13 @@ use dynamics_core::effects::Effect;
 use dynamics_core::model::Robot;
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
-use firmware_demo::catalogue::Visitor;
+use firmware_demo::catalogue::{self, Visitor};
 
-use super::costs::row::Row;
-use super::costs::{Ask, STATES, asks};
+use super::row::Row;
+use super::{Ask, STATES, asks};
 
 /// Inverse dynamics of an arm in one of its forms.
-pub trait Form<const N: usize> {
+trait Form<const N: usize> {
     const NAME: &'static str;
     type Arm: Robot<N, N, N>;
     fn rnea<E: Effect<f32, N, N>>() -> Rnea<E, N>;
@@ -44,16 +44,15 @@ impl<T: Robot<N, N, N>, const N: usize> Form<N> for Engine<T> {
 }
 
 /// Prices each scene that it visits.
-pub struct Priced<F, const N: usize> {
+struct Priced<F, const N: usize> {
     asks: [Ask<N>; STATES],
     form: PhantomData<F>,
 }
 
 impl<F: Form<N>, const N: usize> Priced<F, N> {
-    pub fn new() -> Self {
-        let asks = asks::<F::Arm, N, N>();
+    fn new() -> Self {
         Self {
-            asks,
+            asks: asks::<F::Arm, N, N, STATES>(),
             form: PhantomData,
         }
     }
@@ -70,15 +69,29 @@ impl<F: Form<N>, const N: usize> Visitor<N> for Priced<F, N> {
             name,
             bytes
         );
-        let row = Row {
-            robot,
-            algorithm: "rnea",
-            form: F::NAME,
-            inputs: name,
-            trig: true,
-            joints: N,
-        };
+        let row = Row::of::<F::Arm, N, N>("rnea", F::NAME, name, true);
         let rnea = F::rnea::<E>();
         row.measure(rnea as usize, &self.asks, |ask| rnea(&ask.state, &effects));
     }
+}
+
+/// Every effect, in the core.
+pub fn core<T: Robot<N, N, N>, const N: usize, const TIP: usize>() {
+    let priced = &mut Priced::<Core<T>, N>::new();
+    catalogue::rigid(priced);
+    catalogue::joints(priced);
+    catalogue::bodies::<N, TIP>(priced);
+    catalogue::spinning(priced);
+}
+
+/// Effects at joints, in the engine.
+pub fn joints<T: Robot<N, N, N>, const N: usize>() {
+    catalogue::joints(&mut Priced::<Engine<T>, N>::new());
+}
+
+/// A rigid body's own terms, and effects on bodies, in the engine.
+pub fn bodies<T: Robot<N, N, N>, const N: usize, const TIP: usize>() {
+    let priced = &mut Priced::<Engine<T>, N>::new();
+    catalogue::rigid(priced);
+    catalogue::bodies::<N, TIP>(priced);
 }

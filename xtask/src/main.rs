@@ -5,6 +5,7 @@ mod bars;
 mod budgets;
 mod build_time;
 mod callgraph;
+mod chart;
 mod costs;
 mod demo;
 mod docs;

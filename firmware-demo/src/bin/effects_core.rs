@@ -7,4 +7,5 @@ mod costs;
 costs::main!({
     costs::effects::core::<robots::Ur5e, 6, 5>();
     costs::effects::core::<robots::Panda, 7, 6>();
+    costs::done()
 });

@@ -41,7 +41,7 @@ pub fn runs(context: &Context) -> Result<Outcome> {
         }
         let picture = context.workspace.output(&format!("{name}.svg"))?;
         plot::write(&measured.recording, &picture)?;
-        ticks += measured.recording.ticks as usize * measured.recording.order.len();
+        ticks += measured.recording.ticks as usize * measured.recording.runs.len();
     }
     Ok(Outcome::Passed(format!("{ticks} ticks")))
 }

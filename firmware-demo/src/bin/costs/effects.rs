@@ -16,7 +16,7 @@ use dynamics_core::{Core, Engine};
 use firmware_demo::catalogue::{self, Visitor};
 
 use super::row::Row;
-use super::{Ask, STATES, asks};
+use super::{Ask, STATES, asks, done};
 
 /// Inverse dynamics of an arm in one of its forms.
 trait Form<const N: usize> {
@@ -76,6 +76,7 @@ impl<F: Form<N>, const N: usize> Visitor<N> for Priced<F, N> {
 }
 
 /// Every effect, in the core.
+#[inline(always)]
 pub fn core<T: Robot<N, N, N>, const N: usize, const TIP: usize>() {
     let priced = &mut Priced::<Core<T>, N>::new();
     catalogue::rigid(priced);
@@ -85,13 +86,15 @@ pub fn core<T: Robot<N, N, N>, const N: usize, const TIP: usize>() {
 }
 
 /// Effects at joints, in the engine.
-pub fn joints<T: Robot<N, N, N>, const N: usize>() {
+pub fn joints<T: Robot<N, N, N>, const N: usize>() -> ! {
     catalogue::joints(&mut Priced::<Engine<T>, N>::new());
+    done()
 }
 
 /// A rigid body's own terms, and effects on bodies, in the engine.
-pub fn bodies<T: Robot<N, N, N>, const N: usize, const TIP: usize>() {
+pub fn bodies<T: Robot<N, N, N>, const N: usize, const TIP: usize>() -> ! {
     let priced = &mut Priced::<Engine<T>, N>::new();
     catalogue::rigid(priced);
     catalogue::bodies::<N, TIP>(priced);
+    done()
 }

@@ -9,7 +9,7 @@ use dynamics_core::state::{Posture, State};
 use dynamics_core::{Core, Engine, MassMatrix};
 
 use super::row::Row;
-use super::{STATES, asks};
+use super::{STATES, asks, done};
 
 type Scene = (Gravity, Inertia, Coriolis);
 type Solution<const N: usize> = Result<[f32; N], NotPositiveDefinite>;
@@ -62,13 +62,13 @@ fn of_engine<T: Robot<B, N, N>, const B: usize, const N: usize, const TIP: usize
 }
 
 /// Measures core and engine.
-pub fn both<T: Robot<B, N, N>, const B: usize, const N: usize, const TIP: usize>() {
-    run::<T, B, N>(&[of_core::<T, B, N>(), of_engine::<T, B, N, TIP>()]);
+pub fn both<T: Robot<B, N, N>, const B: usize, const N: usize, const TIP: usize>() -> ! {
+    run::<T, B, N>(&[of_core::<T, B, N>(), of_engine::<T, B, N, TIP>()])
 }
 
 /// Measures the core alone.
-pub fn core<T: Robot<B, N, N>, const B: usize, const N: usize>() {
-    run::<T, B, N>(&[of_core::<T, B, N>()]);
+pub fn core<T: Robot<B, N, N>, const B: usize, const N: usize>() -> ! {
+    run::<T, B, N>(&[of_core::<T, B, N>()])
 }
 
 #[inline(never)]
@@ -104,7 +104,7 @@ fn tip_jacobian_at<T: Robot<B, N, N>, const B: usize, const N: usize>(
 
 /// Measures the rows of these forms. Torques are the states' accelerations: any will do, since the work
 /// does not depend on what they move.
-fn run<T: Robot<B, N, N>, const B: usize, const N: usize>(forms: &[Forms<N>]) {
+fn run<T: Robot<B, N, N>, const B: usize, const N: usize>(forms: &[Forms<N>]) -> ! {
     let asks = &asks::<T, B, N, STATES>();
     let scene = &RIGID_BODY;
     let row =
@@ -141,4 +141,5 @@ fn run<T: Robot<B, N, N>, const B: usize, const N: usize>(forms: &[Forms<N>]) {
         row(form, "jacobian", true).measure(inside as usize, asks, |ask| inside(&ask.state.q));
         row(form, "jacobian", false).measure(at_hand as usize, asks, |ask| at_hand(&ask.posture));
     }
+    done()
 }

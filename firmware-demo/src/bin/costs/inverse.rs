@@ -6,18 +6,19 @@ use dynamics_core::state::{Posture, State};
 use dynamics_core::{Core, Engine};
 
 use super::row::Row;
-use super::{Ask, STATES, asks};
+use super::{Ask, STATES, asks, done};
 
 type Inside<E, const N: usize> = fn(&State<f32, N, N>, &E) -> [f32; N];
 type AtHand<E, const N: usize> = fn(&Posture<f32, N>, &State<f32, N, N>, &E) -> [f32; N];
 
-/// Measures every row of the robot T.
-pub fn run<T: Robot<B, N, N>, const B: usize, const N: usize>() {
+/// Measures every row of the robot T and leaves the emulator.
+pub fn run<T: Robot<B, N, N>, const B: usize, const N: usize>() -> ! {
     let asks = asks::<T, B, N, STATES>();
     inverse::<T, _, B, N>("full", &asks, &RIGID_BODY);
     inverse::<T, _, B, N>("bias", &asks, &(Gravity::EARTH, Coriolis));
     inverse::<T, _, B, N>("gravity", &asks, &(Gravity::EARTH,));
     inverse::<T, _, B, N>("no_coriolis", &asks, &(Gravity::EARTH, Inertia));
+    done()
 }
 
 /// Inverse dynamics in both forms, with sines and cosines inside and at hand.

@@ -53,15 +53,14 @@ pub fn done() -> ! {
     target::leave(debug::EXIT_SUCCESS)
 }
 
-/// The `main` of a bin that measures and is done.
+/// The `main` of a bin that measures.
 macro_rules! main {
     ($run:expr) => {
         use dynamics_core::robots;
 
         #[cortex_m_rt::entry]
         fn main() -> ! {
-            $run;
-            costs::done()
+            $run
         }
     };
 }

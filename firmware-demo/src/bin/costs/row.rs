@@ -30,6 +30,7 @@ pub struct Row<'a> {
 
 impl<'a> Row<'a> {
     /// The row of an algorithm on the robot T.
+    #[inline(always)]
     pub fn of<T: Robot<B, N, N>, const B: usize, const N: usize>(
         algorithm: &'static str,
         form: &'static str,

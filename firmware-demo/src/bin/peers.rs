@@ -3,17 +3,22 @@
 #![no_std]
 #![no_main]
 
+mod costs;
+
 use core::hint::black_box;
 
 use cortex_m_rt::entry;
-use cortex_m_semihosting::debug;
 use dynamics_core::algorithms::NotPositiveDefinite;
 use dynamics_core::effects::{Coriolis, Effect, Gravity, Inertia, RIGID_BODY};
 use dynamics_core::model::{Robot, Turn};
 use dynamics_core::robots::{A1, Iiwa14, Panda, Ur5e};
 use dynamics_core::state::{Posture, State};
 use dynamics_core::{Core, Engine, MassMatrix};
-use firmware_demo::{marker::measured, scene::larger, target};
+use firmware_demo::scene::larger;
+use heapless::Vec;
+
+use costs::row::Row;
+use costs::{Ask, asks, done};
 
 /// What CasADi's C takes: cosines, sines, and two vectors of which an algorithm may need none.
 type C = unsafe extern "C" fn(*const f32, *const f32, *const f32, *const f32, *mut f32);
@@ -49,8 +54,7 @@ fn main() -> ! {
     robot::<Panda, 7, 7>();
     robot::<Iiwa14, 7, 7>();
     tree::<A1, 16, 12>();
-    defmt::println!("done");
-    target::leave(debug::EXIT_SUCCESS)
+    done()
 }
 
 /// Everything of a robot.
@@ -80,23 +84,19 @@ fn inverse<T: Robot<B, N, N>, const B: usize, const N: usize>() {
 }
 
 fn crba<T: Robot<B, N, N>, const B: usize, const N: usize>(forms: &[Form<Matrix<N>>]) {
-    let run = |run: Matrix<N>, posture: &_, _: &_| run(posture, &RIGID_BODY);
-    let triangle = |m: MassMatrix<f32, N>, out: &mut [f32; MOST]| {
+    let run = |run: Matrix<N>, ask: &Ask<N>| run(&ask.posture, &RIGID_BODY);
+    let triangle = |m: MassMatrix<f32, N>| {
         let entries = (0..N).flat_map(|i| (i..N).map(move |j| (i, j)));
-        for (out, (i, j)) in core::iter::zip(out, entries) {
-            *out = m.get(i, j);
-        }
-        N * (N + 1) / 2
+        entries.map(|(i, j)| m.get(i, j)).collect()
     };
     compare::<T, _, _, B, N>("crba", forms, |run| run as usize, run, triangle);
 }
 
 /// Forward dynamics; the torque stands in the place of q̈.
 fn forward<T: Robot<B, N, N>, const B: usize, const N: usize>(forms: &[Form<Forward<N>>]) {
-    let run = |run: Forward<N>, posture: &_, state: &State<f32, N, N>| {
-        run(posture, state, &state.qdd, &RIGID_BODY)
-    };
-    let flat = |qdd: Solution<N>, out: &mut _| write(&qdd.unwrap_or([f32::NAN; N]), out);
+    let run =
+        |run: Forward<N>, ask: &Ask<N>| run(&ask.posture, &ask.state, &ask.state.qdd, &RIGID_BODY);
+    let flat = |qdd: Solution<N>| qdd.unwrap_or([f32::NAN; N]).into_iter().collect();
     compare::<T, _, _, B, N>("aba", forms, |run| run as usize, run, flat);
 }
 
@@ -109,132 +109,58 @@ fn under<T: Robot<B, N, N>, E: Effect<f32, B, N>, const B: usize, const N: usize
         ("core", Core::<T>::rnea_at),
         ("engine", Engine::<T>::rnea_at),
     ];
-    let run = |run: Inverse<E, N>, posture: &_, state: &_| run(posture, state, effects);
-    compare::<T, _, _, B, N>(
-        algorithm,
-        &forms,
-        |run| run as usize,
-        run,
-        |tau, out| write(&tau, out),
-    );
-}
-
-/// Numbers for a state, as far as there are any.
-#[derive(Clone, Copy)]
-struct Numbers([f32; MOST], usize);
-
-impl Numbers {
-    fn all(&self) -> &[f32] {
-        self.0.get(..self.1).unwrap_or_default()
-    }
-}
-
-fn write(numbers: &[f32], out: &mut [f32; MOST]) -> usize {
-    for (out, number) in core::iter::zip(out, numbers) {
-        *out = *number;
-    }
-    numbers.len()
+    let run = |run: Inverse<E, N>, ask: &Ask<N>| run(&ask.posture, &ask.state, effects);
+    let flat = |tau: [f32; N]| tau.into_iter().collect();
+    compare::<T, _, _, B, N>(algorithm, &forms, |run| run as usize, run, flat);
 }
 
 /// An algorithm: ours in their forms, the first of which is what the others are held against, then each
-/// build of the C.
+/// build of the C. Behind each row stands the largest error, relative to full scale.
 fn compare<T: Robot<B, N, N>, F: Copy, O, const B: usize, const N: usize>(
     algorithm: &'static str,
     forms: &[Form<F>],
     address: impl Fn(F) -> usize,
-    call: impl Fn(F, &Posture<f32, N>, &State<f32, N, N>) -> O,
-    flat: impl Fn(O, &mut [f32; MOST]) -> usize,
+    call: impl Fn(F, &Ask<N>) -> O,
+    flat: impl Fn(O) -> Vec<f32, MOST>,
 ) {
-    let name = T::MODEL.name;
-    let states = states::<N>();
-    let numbers = |found| {
-        let mut out = [0.0; MOST];
-        let count = flat(found, &mut out);
-        Numbers(out, count)
-    };
+    let asks = &asks::<T, B, N, STATES>();
     let Some(&(_, textbook)) = forms.first() else {
         return;
     };
-    let expected = states.each_ref().map(|state| {
-        let posture = Core::<T>::posture(&state.q);
-        numbers(call(textbook, &posture, state))
-    });
-    let scale = expected.iter().flat_map(Numbers::all);
-    let scale = scale.fold(0.0, |scale, x| f32::max(scale, x.abs()));
-    for &(form, run) in forms {
-        let mut error = 0.0;
-        for (state, expected) in core::iter::zip(&states, &expected) {
-            let posture = black_box(Core::<T>::posture(&state.q));
-            // Made opaque outside, as the peers' arguments are.
-            let asked = black_box(state);
-            let found = numbers(black_box(measured::<0, _>(|| call(run, &posture, asked))));
-            error = larger(error, worst(found.all(), expected.all()));
-        }
-        report(name, algorithm, form, address(run), error / scale);
-    }
-    for peer in PEERS
-        .iter()
-        .filter(|peer| (peer.robot, peer.algorithm) == (name, algorithm))
-    {
-        let mut error = 0.0;
-        for (state, expected) in core::iter::zip(&states, &expected) {
-            let out = casadi(peer, state);
-            error = larger(error, worst(&out, expected.all()));
-        }
-        report(
-            name,
-            algorithm,
-            peer.build,
-            peer.run as usize,
-            error / scale,
-        );
-    }
-}
-
-/// What a function of the C says of a state.
-fn casadi<const N: usize>(peer: &Peer, state: &State<f32, N, N>) -> [f32; MOST] {
-    let cos = black_box(state.q.map(|q| Turn::new(q).cos));
-    let sin = black_box(state.q.map(|q| Turn::new(q).sin));
-    let (cos, sin, state) = (cos.as_ptr(), sin.as_ptr(), black_box(state));
-    let (qd, qdd) = (state.qd.as_ptr(), state.qdd.as_ptr());
-    let mut out = [0.0; MOST];
-    let to = out.as_mut_ptr();
-    // SAFETY: xtask's table names functions of this type, which read N numbers at most from
-    // each input and write no more than N (N + 1) / 2.
-    measured::<0, _>(|| unsafe { (peer.run)(cos, sin, qd, qdd, to) });
-    black_box(out)
-}
-
-/// In the order of the meter's samples.
-fn report(robot: &str, algorithm: &str, peer: &str, address: usize, error: f32) {
-    // The lowest bit of a function's address says Thumb.
-    let address = address & !1;
-    defmt::println!(
-        "peer {=str} {=str} {=usize} {=usize} {=f32} {=str}",
-        robot,
-        algorithm,
-        STATES,
-        address,
-        error,
-        peer
-    );
-}
-
-/// NaN counts as wrong.
-fn worst(found: &[f32], expected: &[f32]) -> f32 {
-    core::iter::zip(found, expected).fold(0.0, |worst, (a, b)| larger(worst, (a - b).abs()))
-}
-
-/// Some states within the joints' usual ranges.
-fn states<const N: usize>() -> [State<f32, N, N>; STATES] {
-    let mut seed = 1_u32;
-    let mut number = |bound: f32| {
-        seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        (seed >> 8) as f32 * (2.0 * bound / 16_777_216.0) - bound
+    let expected = asks.each_ref().map(|ask| flat(call(textbook, ask)));
+    let size = |numbers: &[f32]| numbers.iter().fold(0.0, |size, x| larger(size, x.abs()));
+    let scale = expected.iter().fold(0.0, |scale, row| larger(scale, size(row)));
+    let report = |found: [Vec<f32, MOST>; STATES]| {
+        let rows = core::iter::zip(found, &expected);
+        let off = rows.flat_map(|(found, expected)| {
+            let pairs = core::iter::zip(found, expected);
+            pairs.map(|(a, b)| (a - b).abs()).collect::<Vec<_, MOST>>()
+        });
+        // NaN counts as wrong.
+        defmt::println!("error {=f32}", off.fold(0.0, larger) / scale);
     };
-    [(); STATES].map(|()| State {
-        q: [(); N].map(|()| number(3.0)),
-        qd: [(); N].map(|()| number(3.0)),
-        qdd: [(); N].map(|()| number(10.0)),
-    })
+    let row = |form| Row::of::<T, B, N>(algorithm, form, "full", false);
+    for &(form, run) in forms {
+        row(form).measure(address(run), asks, |ask| call(run, ask));
+        report(asks.each_ref().map(|ask| flat(call(run, ask))));
+    }
+    let is_mine = |peer: &&Peer| (peer.robot, peer.algorithm) == (T::MODEL.name, algorithm);
+    let inputs = asks.each_ref().map(|ask| {
+        let turns = ask.state.q.map(Turn::new);
+        (turns.map(|turn| turn.cos), turns.map(|turn| turn.sin), &ask.state)
+    });
+    for peer in PEERS.iter().filter(is_mine) {
+        let call = |(cos, sin, state): &([f32; N], [f32; N], &State<f32, N, N>), out: &mut [f32; MOST]| {
+            let (qd, qdd) = (state.qd.as_ptr(), state.qdd.as_ptr());
+            // SAFETY: xtask's table names functions of this type, which read N numbers at most from
+            // each input and write no more than N (N + 1) / 2.
+            unsafe { (peer.run)(cos.as_ptr(), sin.as_ptr(), qd, qdd, out.as_mut_ptr()) }
+        };
+        let mut out = [0.0; MOST];
+        row(peer.build).measure(peer.run as usize, &inputs, |input| call(input, &mut out));
+        report(inputs.each_ref().map(|input| {
+            call(input, &mut out);
+            Vec::from_array(black_box(out))
+        }));
+    }
 }

@@ -74,7 +74,7 @@ fn figures<const N: usize>(of: [(&str, u64); N]) -> Figures {
 
 impl Budget {
     fn measured(report: &Report) -> Self {
-        let (total, dynamics) = (&report.tick.total, &report.tick.dynamics);
+        let (total, dynamics) = (report.tick["total"], report.tick["dynamics"]);
         Self {
             rustc: report.rustc.clone(),
             figures: figures([

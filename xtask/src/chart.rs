@@ -199,6 +199,12 @@ fn frame<'a, 'b>(
     Ok(chart)
 }
 
+/// Where a point of a chart is in its area, pixels.
+fn place(area: &Area<'_>, chart: &Chart<'_, '_>, at: (f64, f64)) -> (i32, i32) {
+    let ((x, y), (columns, rows)) = (chart.backend_coord(&at), area.get_pixel_range());
+    (x - columns.start, y - rows.start)
+}
+
 /// An upright line at a value of `x`, and a text above the chart at its left or right side.
 pub fn mark(
     area: &Area<'_>,
@@ -208,7 +214,7 @@ pub fn mark(
     let ends = chart.y_range();
     let ends = [(at, ends.start), (at, ends.end)];
     chart.draw_series(LineSeries::new(ends, INK.stroke_width(1)))?;
-    let (left, top) = chart.backend_coord(&ends[1]);
+    let (left, top) = place(area, chart, ends[1]);
     label(area, text, (left, top - 10), 14, side)
 }
 
@@ -226,14 +232,14 @@ pub fn bars(
     let start = x.ends[0].max(0.0);
     for (number, row) in rows.iter().rev().enumerate() {
         let high = 0.8 / row.len() as f64;
-        for (place, (bar, colour)) in row.iter().zip(colours).enumerate() {
+        for (index, (bar, colour)) in row.iter().zip(colours).enumerate() {
             let Some((value, words)) = bar else { continue };
-            let upper = number as f64 + 0.9 - high * place as f64;
+            let upper = number as f64 + 0.9 - high * index as f64;
             let end = value.max(start);
             let corners = [(start, upper), (end, upper - high)];
             chart.draw_series([Rectangle::new(corners, colour.filled())])?;
             let beside = (end, upper - high / 2.0);
-            let (left, middle) = chart.backend_coord(&beside);
+            let (left, middle) = place(area, &chart, beside);
             label(area, words, (left + 5, middle), 12, HPos::Left)?;
         }
     }

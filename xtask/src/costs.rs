@@ -5,6 +5,7 @@ mod report;
 
 use std::process::ExitCode;
 
+use crate::bars::Bars;
 use crate::budgets;
 use crate::docs;
 use crate::error::Result;
@@ -43,12 +44,8 @@ pub fn run(options: Options, wish: Wish) -> Result<ExitCode> {
 
 /// Measures every row and says what they may be.
 pub fn measure(workspace: &Workspace, tools: &Tools) -> Result<Report> {
-    Ok(Report {
-        rows: measure::all(workspace, tools)?,
-        small: measure::small(workspace, tools)?,
-        bars: budgets::bars(workspace)?,
-        rustc: tools.toolchain.rustc_version()?,
-    })
+    let rows = measure::all(workspace, tools)?;
+    report(workspace, tools, rows, budgets::bars(workspace)?)
 }
 
 /// Measures the rows of the first robot alone, with what is promised of them.
@@ -56,6 +53,10 @@ pub fn measure_first(workspace: &Workspace, tools: &Tools) -> Result<Report> {
     let mut bars = budgets::bars(workspace)?;
     let rows = measure::first(workspace, tools)?;
     bars.retain(|key, _| rows.iter().any(|row| key.contains(&*row.robot)));
+    report(workspace, tools, rows, bars)
+}
+
+fn report(workspace: &Workspace, tools: &Tools, rows: Vec<Row>, bars: Bars) -> Result<Report> {
     Ok(Report {
         rows,
         small: measure::small(workspace, tools)?,

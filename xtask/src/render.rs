@@ -122,13 +122,18 @@ impl Report {
     }
 
     fn costs(&self) -> Table {
-        let whole = self.tick.total.cycles.median as f64;
+        let whole = self.tick["total"].cycles.median as f64;
         let period = f64::from(self.period_us);
         let microseconds = |cycles: u64| format!("{:.2}", cycles as f64 / CLOCK_MHZ);
         Table::of(
-            &self.tick.phases(),
+            self.tick
+                .iter()
+                .skip(1)
+                .chain(self.tick.first())
+                .collect::<Vec<_>>()
+                .iter(),
             &[
-                ("phase", &|(name, _)| (*name).to_owned()),
+                ("phase", &|(name, _)| (*name).clone()),
                 ("insn min", &|(_, cost)| thousands(cost.instructions.min)),
                 ("median", &|(_, cost)| thousands(cost.instructions.median)),
                 ("max", &|(_, cost)| thousands(cost.instructions.max)),

@@ -3,13 +3,14 @@
 use std::collections::BTreeMap;
 
 use cycle_meter::Sample;
+use indexmap::IndexMap;
 use serde::{Deserialize, Serialize};
 
 use crate::bars::largest;
 use crate::costs::code_bytes;
 use crate::elf::Image;
 use crate::error::{Error, Result};
-use crate::meter::{self, BETWEEN, Cost};
+use crate::meter::{self, BETWEEN, Cost, REGIONS};
 use crate::protocol::{Gains, PD, PLANTS, Recording, SOLD, Trajectory, WITHOUT};
 
 /// What every cycle figure has to say of itself.
@@ -26,8 +27,8 @@ pub struct Report {
     pub ticks_measured: usize,
     /// Length of a tick's period in µs.
     pub period_us: u32,
-    /// The price of a tick.
-    pub tick: Tick,
+    /// The price of a tick by its parts: of the whole, of each phase, and of what is between them.
+    pub tick: IndexMap<String, Cost>,
     /// The feedback's gains, if the scene says.
     pub gains: Option<Gains>,
     /// The greatest speed of a joint's reference in rad/s.
@@ -54,25 +55,6 @@ pub struct Report {
     pub rustc: String,
     /// The emulator.
     pub qemu: String,
-}
-
-/// The price of each phase of a tick.
-#[derive(Debug, Default, Serialize, Deserialize)]
-pub struct Tick {
-    /// The whole tick.
-    pub total: Cost,
-    /// Reading the encoders.
-    pub read: Cost,
-    /// Evaluating the trajectory.
-    pub reference: Cost,
-    /// Computing the torques.
-    pub dynamics: Cost,
-    /// The safety gate.
-    pub safety: Cost,
-    /// Commanding the drives.
-    pub write: Cost,
-    /// What is in none of them.
-    pub between: Cost,
 }
 
 /// The error of each law.
@@ -124,21 +106,6 @@ pub struct JointError {
     pub rms_rad: f64,
     /// Its largest absolute value.
     pub max_rad: f64,
-}
-
-impl Tick {
-    /// The phases with their names, the total last.
-    pub fn phases(&self) -> [(&'static str, &Cost); 7] {
-        [
-            ("read", &self.read),
-            ("reference", &self.reference),
-            ("dynamics", &self.dynamics),
-            ("safety", &self.safety),
-            ("write", &self.write),
-            (BETWEEN, &self.between),
-            ("total", &self.total),
-        ]
-    }
 }
 
 impl Tracking {
@@ -236,9 +203,7 @@ impl Report {
         // The other laws cost less: the figures are those of the law that we sell.
         let is_sold = |tick: usize| recording.runs[tick / ticks].law == SOLD;
         let costs = meter::costs(samples, all, is_sold)?;
-        let [total, read, reference, dynamics, safety, write, between] = costs[..] else {
-            return Err(Error::check("the meter has other regions than a tick"));
-        };
+        let names = REGIONS.into_iter().chain([BETWEEN]);
         let mut runs = Runs(Vec::new());
         for (number, run) in recording.runs.iter().enumerate() {
             let costs = meter::costs(samples, all, |tick| tick / ticks == number)?;
@@ -251,15 +216,7 @@ impl Report {
             model: MODEL.to_owned(),
             ticks_measured: (0..all).filter(|tick| is_sold(*tick)).count(),
             period_us: recording.tick_us,
-            tick: Tick {
-                total,
-                read,
-                reference,
-                dynamics,
-                safety,
-                write,
-                between,
-            },
+            tick: names.map(str::to_owned).zip(costs).collect(),
             gains: recording.gains.clone(),
             peak_speed: recording.peak_speed(),
             tracking: tracking(PLANTS[0])?,

@@ -62,7 +62,7 @@ fn table(reports: &[&Report], set_off: impl Fn(&str) -> String) -> Table {
             let rest = [rms, max, bound, format!("{share:.1} %"), gate];
             std::iter::once(name).chain(costs).chain(rest)
         };
-        let longest = report.tick.total.cycles.max;
+        let longest = report.tick["total"].cycles.max;
         let period = f64::from(report.period_us) * CLOCK_MHZ;
         let costs = [
             thousands(longest),

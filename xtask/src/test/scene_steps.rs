@@ -138,7 +138,7 @@ pub fn tracking(context: &Context) -> Result<Outcome> {
 pub fn cycles(context: &Context) -> Result<Outcome> {
     let mut seen = Vec::new();
     for measured in context.measured()? {
-        let (report, longest) = (&measured.report, measured.report.tick.total.cycles.max);
+        let (report, longest) = (&measured.report, measured.report.tick["total"].cycles.max);
         let period = f64::from(report.period_us) * CLOCK_MHZ;
         let share = longest as f64 / period;
         if share > LARGEST_SHARE {

@@ -3,6 +3,7 @@
 #![no_std]
 #![no_main]
 
+#[path = "../costs/mod.rs"]
 mod costs;
 
 use cortex_m_rt::entry;

@@ -2,7 +2,6 @@
 //! is part of the change that earns it; `--write-budgets` writes it.
 
 use std::collections::BTreeMap;
-use std::path::PathBuf;
 
 use indexmap::IndexMap;
 use serde::{Deserialize, Serialize};
@@ -21,6 +20,8 @@ const OTHER_RUSTC_FLASH: f64 = 0.06;
 
 /// The figures that bars are set for.
 const BARRED: [&str; 4] = ["instructions", "cycles", "code_bytes", "ns"];
+
+const FILE: &str = "budgets.toml";
 
 const HEADER: &str = "\
 # What scenes and functions may cost at most, as measured with the named compiler (another one is given
@@ -91,8 +92,8 @@ impl Budget {
 
     /// What exceeds this budget, in words.
     fn exceeded_by(&self, measured: &Self) -> Vec<String> {
-        let slack = slack(&self.rustc, &measured.rustc);
-        exceeded(&self.figures, &measured.figures, slack)
+        let is_other = self.rustc != measured.rustc;
+        exceeded(&self.figures, &measured.figures, is_other)
     }
 }
 
@@ -116,13 +117,13 @@ impl Rows {
 
     /// What exceeds this budget, in words; a row that has none, or is gone, is named as well.
     fn exceeded_by(&self, measured: &Self) -> Vec<String> {
-        let slack = slack(&self.rustc, &measured.rustc);
+        let is_other = self.rustc != measured.rustc;
         let mut wrong = Vec::new();
         for (key, taken) in &measured.rows {
             match self.rows.get(key) {
                 None => wrong.push(format!("{key}: has no budget")),
                 Some(most) => wrong.extend(
-                    exceeded(most, taken, slack)
+                    exceeded(most, taken, is_other)
                         .iter()
                         .map(|what| format!("{key}: {what}")),
                 ),
@@ -138,22 +139,23 @@ impl Rows {
     fn toml(&self) -> String {
         let mut text = format!("[costs]\nrustc = {:?}\n\n[costs.rows]\n", self.rustc);
         for (key, most) in &self.rows {
-            text += &inline(
-                key,
-                most.iter().map(|(what, most)| (what, most.to_string())),
-            );
+            let items = most.iter().map(|(what, most)| format!("{what} = {most}"));
+            let items: Vec<String> = items.collect();
+            text += &format!("{key:?} = {{ {} }}\n", items.join(", "));
         }
         text
     }
 }
 
-/// The figures that are beyond what is allowed, or that only one side has, in words.
-fn exceeded(most: &Figures, taken: &Figures, slack: f64) -> Vec<String> {
+/// The figures that are beyond what is allowed, or that only one side has, in words; whether they were measured
+/// with another compiler.
+fn exceeded(most: &Figures, taken: &Figures, is_other: bool) -> Vec<String> {
     let mut wrong = Vec::new();
     for (what, taken) in taken {
         let more = match &**what {
-            "flash_bytes" if slack > 0.0 => OTHER_RUSTC_FLASH,
-            _ => slack,
+            _ if !is_other => 0.0,
+            "flash_bytes" => OTHER_RUSTC_FLASH,
+            _ => OTHER_RUSTC,
         };
         match most.get(what) {
             None => wrong.push(format!("{what} has no budget")),
@@ -168,27 +170,8 @@ fn exceeded(most: &Figures, taken: &Figures, slack: f64) -> Vec<String> {
     wrong
 }
 
-/// A line `"key" = { figure = number, … }`.
-fn inline<'a>(key: &str, items: impl Iterator<Item = (&'a String, String)>) -> String {
-    let items = items.map(|(what, most)| format!("{what} = {most}"));
-    format!("{key:?} = {{ {} }}\n", items.collect::<Vec<_>>().join(", "))
-}
-
-/// What may be added to a budget of one compiler when another one is measured.
-fn slack(budgeted: &str, measured: &str) -> f64 {
-    if budgeted == measured {
-        0.0
-    } else {
-        OTHER_RUSTC
-    }
-}
-
-fn file(workspace: &Workspace) -> PathBuf {
-    workspace.root.join("budgets.toml")
-}
-
 fn read(workspace: &Workspace) -> Result<Budgets> {
-    let path = file(workspace);
+    let path = workspace.root.join(FILE);
     if !path.exists() {
         return Ok(Budgets::default());
     }
@@ -256,7 +239,7 @@ fn hold_costs(budgets: &Budgets, report: &costs::Report) -> Result<String> {
 
 impl Budgets {
     fn write(&self, workspace: &Workspace) -> Result<()> {
-        let path = file(workspace);
+        let path = workspace.root.join(FILE);
         let bad = |e| Error::check(format!("{}: {e}", path.display()));
         let scenes = toml::to_string(&self.scenes).map_err(bad)?;
         let [mut bars, mut ratios] = [String::new(), String::new()];
@@ -304,11 +287,8 @@ fn hold_scene(budgets: &Budgets, scene: &str, measured: &Budget) -> Result<Strin
             measured.rustc
         )));
     }
-    let [most, stack, most_stack] = [
-        taken(budget, "tick_cycles"),
-        taken(measured, "stack_bytes"),
-        taken(budget, "stack_bytes"),
-    ];
+    let [most, most_stack] = ["tick_cycles", "stack_bytes"].map(|what| taken(budget, what));
+    let stack = taken(measured, "stack_bytes");
     Ok(format!(
         "tick {cycles} of {most} cycles, stack {stack} of {most_stack} B"
     ))

@@ -13,7 +13,9 @@ use crate::setup::{self, Options, Tools};
 use crate::table;
 use crate::workspace::{self, Workspace};
 
-pub use measure::{Row, code_bytes, measure as measure_bins, run as run_bin, run_for_time};
+pub use measure::{
+    Row, code_bytes, measure as measure_bins, run as run_bin, run_all, run_for_time,
+};
 pub use report::{ADDED, Report, TICK};
 
 /// The generated page.

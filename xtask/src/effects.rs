@@ -91,17 +91,12 @@ fn generated(tools: &Tools, prices: &[Price]) -> Result<String> {
 }
 
 fn measure(workspace: &Workspace, tools: &Tools) -> Result<Vec<Price>> {
-    let spinner = Spinner::start(&format!("building {}", BINS.join(", ")));
+    let building = Spinner::start(&format!("building {}", BINS.join(", ")));
     let elves = firmware::build_featured(workspace, tools.toolchain, RELEASE, FEATURE, &BINS)?;
-    let meter = firmware::build_meter(workspace)?;
-    let (mut rows, mut held) = (Vec::new(), BTreeMap::new());
-    for (name, elf) in BINS.into_iter().zip(elves) {
-        spinner.say(format!("running {name} in QEMU"));
-        let (mine, lines) = costs::run_bin(tools, &meter, name, &elf)?;
-        rows.extend(mine);
-        held.extend(lines.iter().filter_map(|line| holds(line)));
-    }
-    spinner.say("computing torques on the host".into());
+    drop(building);
+    let (rows, lines) = costs::run_all(workspace, tools, &BINS, &elves)?;
+    let held = lines.iter().filter_map(|line| holds(line)).collect();
+    let _spinner = Spinner::start("computing torques on the host");
     let mut command = workspace.cargo("run");
     command.args(["--quiet", "--package", "host-reports"]);
     let torques = shell::capture(command.args(["--bin", HOST_BIN]))?;

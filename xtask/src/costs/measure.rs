@@ -1,6 +1,6 @@
 //! Runs the firmware's bins `costs_…` and `forward_…` under the meter and cuts its samples by their logs.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use cycle_meter::Sample;
 use serde::Serialize;
@@ -108,16 +108,29 @@ pub fn measure(
     profile: &str,
     bins: &[&'static str],
 ) -> Result<Vec<Row>> {
-    let spinner = Spinner::start(&format!("building {} ({profile})", bins.join(", ")));
+    let building = Spinner::start(&format!("building {} ({profile})", bins.join(", ")));
     let elves = firmware::build_bins(workspace, tools.toolchain, profile, bins)?;
-    spinner.say("building the cycle meter".into());
+    drop(building);
+    Ok(run_all(workspace, tools, bins, &elves)?.0)
+}
+
+/// Runs bins under the meter; returns their rows in order, and their logs.
+pub fn run_all(
+    workspace: &Workspace,
+    tools: &Tools,
+    bins: &[&'static str],
+    elves: &[PathBuf],
+) -> Result<(Vec<Row>, Vec<String>)> {
+    let spinner = Spinner::start("building the cycle meter");
     let meter = firmware::build_meter(workspace)?;
-    let mut rows = Vec::new();
+    let (mut rows, mut log) = (Vec::new(), Vec::new());
     for (name, elf) in bins.iter().zip(elves) {
         spinner.say(format!("running {name} in QEMU"));
-        rows.extend(run(tools, &meter, name, &elf)?.0);
+        let (mine, lines) = run(tools, &meter, name, elf)?;
+        rows.extend(mine);
+        log.extend(lines);
     }
-    Ok(rows)
+    Ok((rows, log))
 }
 
 /// Runs a bin under the meter; returns its rows in order, and its log.

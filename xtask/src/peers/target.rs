@@ -5,7 +5,6 @@ use std::process::Command;
 
 use crate::costs;
 use crate::error::{Error, Result};
-use crate::firmware;
 use crate::peers::ALGORITHMS;
 use crate::peers::build::Workshop;
 use crate::peers::report::{M4F, Row};
@@ -94,9 +93,8 @@ pub fn measure(
         .env("PEERS_TABLE", &table);
     shell::capture(&mut command)?;
     let elf = tools.toolchain.elf(workspace, RELEASE, BIN);
-    let meter = firmware::build_meter(workspace)?;
-    spinner.say("running the firmware of the peers in QEMU".into());
-    let (measured, lines) = costs::run_bin(tools, &meter, BIN, &elf)?;
+    drop(spinner);
+    let (measured, lines) = costs::run_all(workspace, tools, &[BIN], &[elf])?;
     rows(measured, &lines)
 }
 

@@ -2,7 +2,11 @@
 //! emulated meter uses; needs a debug probe that serves semihosting.
 //!
 //! 168 MHz from the 8 MHz crystal of the usual boards, five wait states, flash accelerator on; a board without a
-//! crystal stops before the first figure.
+//! crystal stops before the first figure. It is built for a board alone:
+//!
+//! ```text
+//! cargo build --release -p firmware-demo --features board --bin bench --target thumbv7em-none-eabihf
+//! ```
 #![no_std]
 #![no_main]
 

@@ -129,7 +129,9 @@ fn compare<T: Robot<B, N, N>, F: Copy, O, const B: usize, const N: usize>(
     };
     let expected = asks.each_ref().map(|ask| flat(call(textbook, ask)));
     let size = |numbers: &[f32]| numbers.iter().fold(0.0, |size, x| larger(size, x.abs()));
-    let scale = expected.iter().fold(0.0, |scale, row| larger(scale, size(row)));
+    let scale = expected
+        .iter()
+        .fold(0.0, |scale, row| larger(scale, size(row)));
     let report = |found: [Vec<f32, MOST>; STATES]| {
         let rows = core::iter::zip(found, &expected);
         let off = rows.flat_map(|(found, expected)| {
@@ -147,10 +149,15 @@ fn compare<T: Robot<B, N, N>, F: Copy, O, const B: usize, const N: usize>(
     let is_mine = |peer: &&Peer| (peer.robot, peer.algorithm) == (T::MODEL.name, algorithm);
     let inputs = asks.each_ref().map(|ask| {
         let turns = ask.state.q.map(Turn::new);
-        (turns.map(|turn| turn.cos), turns.map(|turn| turn.sin), &ask.state)
+        (
+            turns.map(|turn| turn.cos),
+            turns.map(|turn| turn.sin),
+            &ask.state,
+        )
     });
     for peer in PEERS.iter().filter(is_mine) {
-        let call = |(cos, sin, state): &([f32; N], [f32; N], &State<f32, N, N>), out: &mut [f32; MOST]| {
+        let call = |(cos, sin, state): &([f32; N], [f32; N], &State<f32, N, N>),
+                    out: &mut [f32; MOST]| {
             let (qd, qdd) = (state.qd.as_ptr(), state.qdd.as_ptr());
             // SAFETY: xtask's table names functions of this type, which read N numbers at most from
             // each input and write no more than N (N + 1) / 2.

@@ -12,10 +12,10 @@ use crate::costs::{self, Row};
 use crate::docs::{self, Page};
 use crate::error::{Error, Result};
 use crate::firmware;
+use crate::host_bin;
 use crate::progress::Spinner;
 use crate::report::MODEL;
 use crate::setup::{self, Options, Tools};
-use crate::shell;
 use crate::table::{self, Table};
 use crate::toolchain::RELEASE;
 use crate::workspace::{self, Workspace};
@@ -97,9 +97,7 @@ fn measure(workspace: &Workspace, tools: &Tools) -> Result<Vec<Price>> {
     let (rows, lines) = costs::run_all(workspace, tools, &BINS, &elves)?;
     let held = lines.iter().filter_map(|line| holds(line)).collect();
     let _spinner = Spinner::start("computing torques on the host");
-    let mut command = workspace.cargo("run");
-    command.args(["--quiet", "--package", "host-reports"]);
-    let torques = shell::capture(command.args(["--bin", HOST_BIN]))?;
+    let torques = host_bin::text(workspace, HOST_BIN)?;
     let torques = torques.lines().filter_map(torque).collect();
     priced(&rows, &held, &torques)
 }

@@ -18,6 +18,7 @@ mod firmware;
 mod flags;
 mod growth;
 mod hard_cases;
+mod host_bin;
 mod meter;
 mod output;
 mod peers;

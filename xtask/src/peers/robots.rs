@@ -6,8 +6,8 @@ use std::path::Path;
 
 use serde::Deserialize;
 
-use crate::error::{Error, Result};
-use crate::shell;
+use crate::error::Result;
+use crate::host_bin;
 use crate::workspace::{self, Workspace};
 
 /// A robot as `export_robots` prints it.
@@ -45,17 +45,7 @@ const MANY: usize = 16;
 
 /// Asks the library for its robots.
 pub fn export(workspace: &Workspace) -> Result<Vec<Robot>> {
-    let mut command = workspace.cargo("run");
-    command.args([
-        "--quiet",
-        "--package",
-        "host-reports",
-        "--bin",
-        "export_robots",
-    ]);
-    let json = shell::capture(&mut command)?;
-    let mut robots: Vec<Robot> = serde_json::from_str(&json)
-        .map_err(|e| Error::check(format!("`{}`: {e}", shell::display(&command))))?;
+    let mut robots: Vec<Robot> = host_bin::json(workspace, "export_robots")?;
     robots.retain(|robot| COMPARED.contains(&&*robot.name));
     for body in robots.iter_mut().flat_map(|robot| &mut robot.bodies) {
         // The library holds inertias about the link's origin. What comes back to the centre of mass

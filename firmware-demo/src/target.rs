@@ -11,7 +11,7 @@ use dynamics_core::control::Status;
 use heapless::spsc::{Consumer, Queue};
 
 use crate::scene::{App, Effects, Errors, Name, OMEGA_N, QUEUE, Record, Scene, TICK, ZETA};
-use crate::wires::Wires;
+use crate::sim_io::Wires;
 
 /// The core's clock, Hz.
 const CLOCK: u32 = 168_000_000;
@@ -183,7 +183,7 @@ impl defmt::Format for Words<'_> {
 macro_rules! scene_main {
     ($module:ident::$scene:ident, $B:literal, $Q:literal, $V:literal, $N:literal) => {
         use $crate::scene::{App, QUEUE, Record};
-        use $crate::wires::Wires;
+        use $crate::sim_io::Wires;
 
         type Scene = App<$crate::scenes::$module::$scene, $B, $Q, $V, $N>;
         type Queue = ::heapless::spsc::Queue<Record<$N>, QUEUE>;

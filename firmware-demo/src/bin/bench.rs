@@ -26,8 +26,8 @@ use firmware_demo::marker::measured;
 use firmware_demo::plant::Rig;
 use firmware_demo::scene::{Full, STEPS, Scene, SimBrake, SimLoop, TICK, control_loop};
 use firmware_demo::scenes::ur5e::PickAndPlace;
+use firmware_demo::sim_io::Wires;
 use firmware_demo::target;
-use firmware_demo::wires::Wires;
 use stm32f4xx_hal::prelude::*;
 use stm32f4xx_hal::{pac, rcc};
 

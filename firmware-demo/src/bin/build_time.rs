@@ -10,7 +10,7 @@ use cortex_m_rt::entry;
 use cortex_m_semihosting::debug;
 use dynamics_core::Engine;
 use dynamics_core::effects::RIGID_BODY;
-use dynamics_core::model::{BASE, Body, Joint, Limits, Model, Robot};
+use dynamics_core::model::{BASE, Body, Joint, JointLimits, Model, Robot};
 use dynamics_core::robots::Panda;
 use dynamics_core::state::State;
 use firmware_demo::target;
@@ -83,21 +83,21 @@ const ARM: [Link; 7] = [
 /// The body of a link; `left` is 1 or -1.
 const fn body((axis, at, mass, length, turn): Link, parent: usize, left: f64) -> Body {
     let [x, y, z] = length;
-    let per_axis = mass / 12.0;
+    let axis_inv = mass / 12.0;
     Body::new("link", parent, Joint::revolute(axis))
         .xyz([at[0], at[1] * left, at[2]])
         .rpy([turn[0] * left, turn[1], 0.0])
         .mass(mass)
         .com([0.5 * x + 0.003, 0.5 * y * left - 0.002, 0.5 * z + 0.001])
         .inertia([
-            per_axis * (y * y + z * z + 0.01),
+            axis_inv * (y * y + z * z + 0.01),
             1e-5 * mass,
             -2e-5 * mass,
-            per_axis * (x * x + z * z + 0.01),
+            axis_inv * (x * x + z * z + 0.01),
             3e-5 * mass,
-            per_axis * (x * x + y * y + 0.01),
+            axis_inv * (x * x + y * y + 0.01),
         ])
-        .limits(Limits {
+        .limits(JointLimits {
             lower: -FRAC_PI_2,
             upper: FRAC_PI_2,
             velocity: 20.0,

@@ -16,7 +16,7 @@ use dynamics_core::algorithms::{
 };
 use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::model::{Arm, BASE, Body, Joint, Robot};
-use dynamics_core::state::{Posture, State};
+use dynamics_core::state::{JointTrig, State};
 use firmware_demo::target;
 use row::Row;
 
@@ -27,7 +27,7 @@ const STATES: usize = 2;
 struct Chain<const N: usize>;
 
 impl<const N: usize> Robot<N, N, N> for Chain<N> {
-    const MODEL: Arm<f64, N> = Arm::new("chain", rods());
+    const MODEL: ArmModel<f64, N> = Arm::new("chain", rods());
 }
 
 /// Every number that a body has is another than zero.
@@ -53,20 +53,20 @@ const fn rods<const N: usize>() -> [Body; N] {
 }
 
 /// A model that the compiler knows nothing of.
-type Known<const N: usize> = &'static Arm<f32, N>;
+type Known<const N: usize> = &'static ArmModel<f32, N>;
 type Solution<const N: usize> = Result<[f32; N], NotPositiveDefinite>;
 
 #[inline(never)]
 fn rnea<const N: usize>(
     model: Known<N>,
-    posture: &Posture<f32, N>,
+    posture: &JointTrig<f32, N>,
     state: &State<f32, N, N>,
 ) -> [f32; N] {
     rnea_at(model, posture, state, &RIGID_BODY)
 }
 
 #[inline(never)]
-fn crba<const N: usize>(model: Known<N>, posture: &Posture<f32, N>) -> MassMatrix<f32, N> {
+fn crba<const N: usize>(model: Known<N>, posture: &JointTrig<f32, N>) -> MassMatrix<f32, N> {
     crba_at(model, posture, &RIGID_BODY)
 }
 
@@ -82,16 +82,16 @@ fn factor_solve<const N: usize>(
 #[inline(never)]
 fn forward<const N: usize>(
     model: Known<N>,
-    posture: &Posture<f32, N>,
+    posture: &JointTrig<f32, N>,
     state: &State<f32, N, N>,
 ) -> Solution<N> {
-    forward_at(model, posture, state, &state.qdd, &RIGID_BODY)
+    forward_dynamics_at(model, posture, state, &state.qdd, &RIGID_BODY)
 }
 
 #[inline(never)]
 fn aba<const N: usize>(
     model: Known<N>,
-    posture: &Posture<f32, N>,
+    posture: &JointTrig<f32, N>,
     state: &State<f32, N, N>,
 ) -> Solution<N> {
     aba_at(model, posture, state, &state.qdd, &RIGID_BODY)
@@ -110,7 +110,7 @@ fn chain<const N: usize>() {
             qd: [0.4 * angle; N],
             qdd: [1.0; N],
         };
-        (Posture::of(model, &q), state)
+        (JointTrig::of(model, &q), state)
     });
     let asks: &[_; STATES] = &asks;
     row("rnea").measure(

@@ -10,9 +10,9 @@ use core::hint::black_box;
 use cortex_m_rt::entry;
 use dynamics_core::algorithms::NotPositiveDefinite;
 use dynamics_core::effects::{Coriolis, Effect, Gravity, Inertia, RIGID_BODY};
-use dynamics_core::model::{Robot, Turn};
+use dynamics_core::model::{JointCoordinate, Robot};
 use dynamics_core::robots::{A1, Iiwa14, Panda, Ur5e};
-use dynamics_core::state::{Posture, State};
+use dynamics_core::state::{JointTrig, State};
 use dynamics_core::{Core, Engine, MassMatrix};
 use firmware_demo::scene::larger;
 use heapless::Vec;
@@ -24,10 +24,10 @@ use costs::{Ask, asks, done};
 type C = unsafe extern "C" fn(*const f32, *const f32, *const f32, *const f32, *mut f32);
 type Scene = (Gravity, Inertia, Coriolis);
 /// What ours take.
-type Inverse<E, const N: usize> = fn(&Posture<f32, N>, &State<f32, N, N>, &E) -> [f32; N];
-type Matrix<const N: usize> = fn(&Posture<f32, N>, &Scene) -> MassMatrix<f32, N>;
+type Inverse<E, const N: usize> = fn(&JointTrig<f32, N>, &State<f32, N, N>, &E) -> [f32; N];
+type Matrix<const N: usize> = fn(&JointTrig<f32, N>, &Scene) -> MassMatrix<f32, N>;
 type Forward<const N: usize> =
-    fn(&Posture<f32, N>, &State<f32, N, N>, &[f32; N], &Scene) -> Solution<N>;
+    fn(&JointTrig<f32, N>, &State<f32, N, N>, &[f32; N], &Scene) -> Solution<N>;
 type Solution<const N: usize> = Result<[f32; N], NotPositiveDefinite>;
 /// A form's name and function.
 type Form<F> = (&'static str, F);
@@ -66,7 +66,7 @@ fn robot<T: Robot<B, N, N>, const B: usize, const N: usize>() {
     ]);
     forward::<T, B, N>(&[
         ("core", Core::<T>::aba_at),
-        ("engine", Engine::<T>::forward_at),
+        ("engine", Engine::<T>::forward_dynamics_at),
     ]);
 }
 
@@ -148,7 +148,7 @@ fn compare<T: Robot<B, N, N>, F: Copy, O, const B: usize, const N: usize>(
     }
     let is_mine = |peer: &&Peer| (peer.robot, peer.algorithm) == (T::MODEL.name, algorithm);
     let inputs = asks.each_ref().map(|ask| {
-        let turns = ask.state.q.map(Turn::new);
+        let turns = ask.state.q.map(JointCoordinate::revolute);
         (
             turns.map(|turn| turn.cos),
             turns.map(|turn| turn.sin),

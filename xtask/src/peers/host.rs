@@ -49,7 +49,7 @@ struct Foreign {
 
 /// Algorithms and precisions of a robot.
 fn compared(robot: &Robot) -> (&'static [&'static str], &'static [&'static str]) {
-    if robot.is_large() {
+    if robot.has_subtree_functions() {
         (&LARGE, &PRECISIONS[1..])
     } else {
         (&ALGORITHMS, &PRECISIONS)
@@ -104,7 +104,7 @@ fn build(shop: &Workshop<'_>, robots: &[Robot]) -> Result<Vec<Foreign>> {
         let sizes = [one.robot.joints(), outputs(algorithm, one.robot.joints())];
         for (inputs, compilers) in [("q", &C_COMPILERS[..]), ("cs", &C_COMPILERS[..1])] {
             // What takes cosines is for the target, where large robots are not compared.
-            if inputs == "cs" && one.robot.is_large() {
+            if inputs == "cs" && one.robot.has_subtree_functions() {
                 continue;
             }
             let name = format!("{name}_{algorithm}_{inputs}_{}", one.precision);

@@ -67,7 +67,7 @@ impl Robot {
     }
 
     /// Whether it is compared on the host alone, in f64, and of less: its C takes compilers minutes.
-    pub fn is_large(&self) -> bool {
+    pub fn has_subtree_functions(&self) -> bool {
         self.joints() > MANY
     }
 

@@ -103,7 +103,7 @@ fn compile(shop: &Workshop<'_>, robots: &[Robot]) -> Result<(Vec<PathBuf>, PathB
     let spinner = Spinner::start("building CasADi's C for the target");
     let (mut objects, mut externs, mut table) = (Vec::new(), String::new(), String::new());
     let inputs = "_: *const f32, ".repeat(4);
-    for robot in robots.iter().filter(|robot| !robot.is_large()) {
+    for robot in robots.iter().filter(|robot| !robot.has_subtree_functions()) {
         let robot = &robot.name;
         for algorithm in ALGORITHMS {
             let name = format!("{robot}_{algorithm}_cs_f32");

@@ -13,7 +13,7 @@ use dynamics_core::effects::Effect;
 use dynamics_core::model::Robot;
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
-use firmware_demo::catalogue::{self, Visitor};
+use firmware_demo::effect_presets::{self, Visitor};
 
 use super::row::Row;
 use super::{Ask, STATES, asks, done};
@@ -21,7 +21,7 @@ use super::{Ask, STATES, asks, done};
 /// Inverse dynamics of an arm in one of its forms.
 trait Form<const N: usize> {
     const NAME: &'static str;
-    type Arm: Robot<N, N, N>;
+    type ArmModel: Robot<N, N, N>;
     fn rnea<E: Effect<f32, N, N>>() -> Rnea<E, N>;
 }
 
@@ -29,7 +29,7 @@ type Rnea<E, const N: usize> = fn(&State<f32, N, N>, &E) -> [f32; N];
 
 impl<T: Robot<N, N, N>, const N: usize> Form<N> for Core<T> {
     const NAME: &'static str = "core";
-    type Arm = T;
+    type ArmModel = T;
     fn rnea<E: Effect<f32, N, N>>() -> Rnea<E, N> {
         Self::rnea
     }
@@ -37,7 +37,7 @@ impl<T: Robot<N, N, N>, const N: usize> Form<N> for Core<T> {
 
 impl<T: Robot<N, N, N>, const N: usize> Form<N> for Engine<T> {
     const NAME: &'static str = "engine";
-    type Arm = T;
+    type ArmModel = T;
     fn rnea<E: Effect<f32, N, N>>() -> Rnea<E, N> {
         Self::rnea
     }
@@ -79,22 +79,22 @@ impl<F: Form<N>, const N: usize> Visitor<N> for Priced<F, N> {
 #[inline(always)]
 pub fn core<T: Robot<N, N, N>, const N: usize, const TIP: usize>() {
     let priced = &mut Priced::<Core<T>, N>::new();
-    catalogue::rigid(priced);
-    catalogue::joints(priced);
-    catalogue::bodies::<N, TIP>(priced);
-    catalogue::spinning(priced);
+    effect_presets::rigid(priced);
+    effect_presets::joints(priced);
+    effect_presets::bodies::<N, TIP>(priced);
+    effect_presets::spinning(priced);
 }
 
 /// Effects at joints, in the engine.
 pub fn joints<T: Robot<N, N, N>, const N: usize>() -> ! {
-    catalogue::joints(&mut Priced::<Engine<T>, N>::new());
+    effect_presets::joints(&mut Priced::<Engine<T>, N>::new());
     done()
 }
 
 /// A rigid body's own terms, and effects on bodies, in the engine.
 pub fn bodies<T: Robot<N, N, N>, const N: usize, const TIP: usize>() -> ! {
     let priced = &mut Priced::<Engine<T>, N>::new();
-    catalogue::rigid(priced);
-    catalogue::bodies::<N, TIP>(priced);
+    effect_presets::rigid(priced);
+    effect_presets::bodies::<N, TIP>(priced);
     done()
 }

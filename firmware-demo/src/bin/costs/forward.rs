@@ -5,7 +5,7 @@ use dynamics_core::effects::{Coriolis, Gravity, Inertia, RIGID_BODY};
 
 use dynamics_core::model::Robot;
 use dynamics_core::spatial::Motion;
-use dynamics_core::state::{Posture, State};
+use dynamics_core::state::{JointTrig, State};
 use dynamics_core::{Core, Engine, MassMatrix};
 
 use super::row::Row;
@@ -15,20 +15,20 @@ type Scene = (Gravity, Inertia, Coriolis);
 type Solution<const N: usize> = Result<[f32; N], NotPositiveDefinite>;
 type Forward<const N: usize> = fn(&State<f32, N, N>, &[f32; N], &Scene) -> Solution<N>;
 type ForwardAt<const N: usize> =
-    fn(&Posture<f32, N>, &State<f32, N, N>, &[f32; N], &Scene) -> Solution<N>;
+    fn(&JointTrig<f32, N>, &State<f32, N, N>, &[f32; N], &Scene) -> Solution<N>;
 
 /// The functions of core or engine; those that take a posture have sines and cosines at hand.
 struct Forms<const N: usize> {
     name: &'static str,
     crba: fn(&[f32; N], &Scene) -> MassMatrix<f32, N>,
-    crba_at: fn(&Posture<f32, N>, &Scene) -> MassMatrix<f32, N>,
+    crba_at: fn(&JointTrig<f32, N>, &Scene) -> MassMatrix<f32, N>,
     factor_solve: fn(&MassMatrix<f32, N>, &[f32; N]) -> Solution<N>,
     forward: Forward<N>,
     forward_at: ForwardAt<N>,
     aba: Forward<N>,
     aba_at: ForwardAt<N>,
     jacobian: fn(&[f32; N]) -> [Motion<f32>; N],
-    jacobian_at: fn(&Posture<f32, N>) -> [Motion<f32>; N],
+    jacobian_at: fn(&JointTrig<f32, N>) -> [Motion<f32>; N],
 }
 
 fn of_core<T: Robot<B, N, N>, const B: usize, const N: usize>() -> Forms<N> {
@@ -76,7 +76,7 @@ fn engine_factor_solve<T: Robot<B, N, N>, const B: usize, const N: usize>(
     m: &MassMatrix<f32, N>,
     tau: &[f32; N],
 ) -> Solution<N> {
-    Ok(Engine::<T>::solve(&Engine::<T>::factor(m)?, tau))
+    Ok(Engine::<T>::solve(&Engine::<T>::ltdl(m)?, tau))
 }
 
 #[inline(never)]
@@ -84,7 +84,7 @@ fn core_factor_solve<T: Robot<B, N, N>, const B: usize, const N: usize>(
     m: &MassMatrix<f32, N>,
     tau: &[f32; N],
 ) -> Solution<N> {
-    Ok(Core::<T>::solve(&Core::<T>::factor(m)?, tau))
+    Ok(Core::<T>::solve(&Core::<T>::ltdl(m)?, tau))
 }
 
 /// The engine's: of the last body, along the axes of the base.
@@ -92,14 +92,14 @@ fn core_factor_solve<T: Robot<B, N, N>, const B: usize, const N: usize>(
 fn tip_jacobian<T: Robot<B, N, N>, const B: usize, const N: usize>(
     q: &[f32; N],
 ) -> [Motion<f32>; N] {
-    Core::<T>::jacobian(q, const { B - 1 }, frame::Mixed)
+    Core::<T>::jacobian(q, const { B - 1 }, frame::LocalWorldAligned)
 }
 
 #[inline(never)]
 fn tip_jacobian_at<T: Robot<B, N, N>, const B: usize, const N: usize>(
-    posture: &Posture<f32, N>,
+    posture: &JointTrig<f32, N>,
 ) -> [Motion<f32>; N] {
-    Core::<T>::jacobian_at(posture, const { B - 1 }, frame::Mixed)
+    Core::<T>::jacobian_at(posture, const { B - 1 }, frame::LocalWorldAligned)
 }
 
 /// Measures the rows of these forms. Torques are the states' accelerations: any will do, since the work

@@ -2,14 +2,14 @@
 
 use dynamics_core::effects::{Coriolis, Effect, Gravity, Inertia, RIGID_BODY};
 use dynamics_core::model::Robot;
-use dynamics_core::state::{Posture, State};
+use dynamics_core::state::{JointTrig, State};
 use dynamics_core::{Core, Engine};
 
 use super::row::Row;
 use super::{Ask, STATES, asks, done};
 
 type Inside<E, const N: usize> = fn(&State<f32, N, N>, &E) -> [f32; N];
-type AtHand<E, const N: usize> = fn(&Posture<f32, N>, &State<f32, N, N>, &E) -> [f32; N];
+type AtHand<E, const N: usize> = fn(&JointTrig<f32, N>, &State<f32, N, N>, &E) -> [f32; N];
 
 /// Measures every row of the robot T and leaves the emulator.
 pub fn run<T: Robot<B, N, N>, const B: usize, const N: usize>() -> ! {

@@ -17,7 +17,7 @@ pub mod row;
 use cortex_m_semihosting::debug;
 use dynamics_core::Core;
 use dynamics_core::model::Robot;
-use dynamics_core::state::{Posture, State};
+use dynamics_core::state::{JointTrig, State};
 use firmware_demo::target;
 
 /// States that each function is asked for.
@@ -26,7 +26,7 @@ pub const STATES: usize = 32;
 /// What a function may be asked for.
 pub struct Ask<const N: usize> {
     pub state: State<f32, N, N>,
-    pub posture: Posture<f32, N>,
+    pub posture: JointTrig<f32, N>,
 }
 
 /// Some states within the joints' usual ranges, from a fixed seed.

@@ -7,7 +7,7 @@
 mod costs;
 
 use cortex_m_rt::entry;
-use dynamics_core::effects::{Coulomb, Effect, RIGID_BODY, RotorInertia, Viscous};
+use dynamics_core::effects::{Armature, Coulomb, Effect, RIGID_BODY, Viscous};
 use dynamics_core::robots::Ur5e;
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
@@ -26,7 +26,7 @@ const COULOMB: Coulomb<f32, 6> = Coulomb {
     torque: [8.0, 8.0, 6.0, 1.5, 1.5, 1.2],
     per_width: 20.0,
 };
-const ROTORS: RotorInertia<f32, 6> = RotorInertia([0.9, 0.9, 0.9, 0.25, 0.25, 0.25]);
+const ROTORS: Armature<f32, 6> = Armature([0.9, 0.9, 0.9, 0.25, 0.25, 0.25]);
 
 type Rnea<E> = fn(&State<f32, 6, 6>, &E) -> [f32; 6];
 

@@ -4,7 +4,7 @@
 
 use cortex_m_rt::entry;
 use cortex_m_semihosting::debug;
-use firmware_demo::{bits::digests, hard, target};
+use firmware_demo::{digest::digests, hard, target};
 
 #[entry]
 fn main() -> ! {

@@ -17,8 +17,8 @@ use core::hint::black_box;
 
 use cortex_m_rt::entry;
 use cortex_m_semihosting::debug;
-use dynamics_core::control::{Bounds, Command, Gains, Mode, Supervisor, feedback};
-use dynamics_core::effects::{Coulomb, RIGID_BODY, RotorInertia, Viscous};
+use dynamics_core::control::{Command, Gains, Mode, SafetyLimits, Supervisor, feedback};
+use dynamics_core::effects::{Armature, Coulomb, RIGID_BODY, Viscous};
 use dynamics_core::robots::Ur5e;
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine, trig};
@@ -101,13 +101,13 @@ impl Noise {
     }
 }
 
-const EFFECTS: (Viscous<f32, N>, Coulomb<f32, N>, RotorInertia<f32, N>) = (
+const EFFECTS: (Viscous<f32, N>, Coulomb<f32, N>, Armature<f32, N>) = (
     Viscous([12.0, 12.0, 8.0, 2.0, 2.0, 1.5]),
     Coulomb {
         torque: [8.0, 8.0, 6.0, 1.5, 1.5, 1.2],
         per_width: 20.0,
     },
-    RotorInertia([0.9, 0.9, 0.9, 0.25, 0.25, 0.25]),
+    Armature([0.9, 0.9, 0.9, 0.25, 0.25, 0.25]),
 );
 
 #[entry]
@@ -183,7 +183,7 @@ fn gate(noise: &mut Noise, reset: Option<usize>) {
     const RANGE: f32 = 6.3;
     // The greatest step that the gate takes for a movement.
     const STEP: f32 = 2.0 * SPEED * 1e-3;
-    let bounds = Bounds {
+    let bounds = SafetyLimits {
         torque: [150.0; N],
         rate: [75.0; N],
         speed: [SPEED; N],

@@ -69,7 +69,7 @@ pub fn all<T: Robot<B, N, N>, R: Real, const B: usize, const N: usize>(
                 Core::<T>::aba(s, &s.qdd, &RIGID_BODY).expect("M > 0")
             }),
             rows("engine", states, |s| {
-                Engine::<T>::forward(s, &s.qdd, &RIGID_BODY).expect("M > 0")
+                Engine::<T>::forward_dynamics(s, &s.qdd, &RIGID_BODY).expect("M > 0")
             }),
         ],
         _ => inverse::<T, R, B, N>(algorithm, states),

@@ -177,6 +177,27 @@ impl defmt::Format for Words<'_> {
     }
 }
 
+/// The `main` of a scene: its type in [`scenes`](crate::scenes), and how many bodies, position coordinates,
+/// velocity coordinates and driven joints its robot has. What lives as long as the firmware lies in statics.
+#[macro_export]
+macro_rules! scene_main {
+    ($module:ident::$scene:ident, $B:literal, $Q:literal, $V:literal, $N:literal) => {
+        use $crate::scene::{App, QUEUE, Record};
+        use $crate::sim_io::Wires;
+
+        type Scene = App<$crate::scenes::$module::$scene, $B, $Q, $V, $N>;
+        type Queue = ::heapless::spsc::Queue<Record<$N>, QUEUE>;
+
+        #[::cortex_m_rt::entry]
+        fn main() -> ! {
+            static WIRES: Wires<$N> = Wires::new();
+            let queue = ::cortex_m::singleton!(: Queue = Queue::new());
+            let place = |app| ::cortex_m::singleton!(: Scene = app);
+            $crate::target::scene(&WIRES, queue, place)
+        }
+    };
+}
+
 /// Leaves the emulator with a message and a failure.
 pub fn fail(why: &str) -> ! {
     defmt::error!("{=str}", why);

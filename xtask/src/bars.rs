@@ -9,28 +9,23 @@ use crate::table::{Table, thousands};
 /// Where the missed bars are explained.
 const RECORD: &str = "decisions/0002-bars.md";
 
-/// What a figure of one thing may be at most as a multiple of another's, by the pair's name.
-pub type Ratios = BTreeMap<String, Ratio>;
+/// What was promised, by the name of the row or of the pair of rows.
+pub type Bars = BTreeMap<String, Bar>;
 
-/// The figures of a pair.
+/// What the figures of a row, or of a row as multiples of another one's, may be at most.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Ratio {
-    /// Instructions.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub instructions: Option<f64>,
-    /// Modelled cycles.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub cycles: Option<f64>,
-    /// Code in bytes.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub code_bytes: Option<f64>,
-    /// Time on the host.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub ns: Option<f64>,
+pub struct Bar {
+    /// The figures by their names.
+    #[serde(flatten)]
+    pub most: BTreeMap<String, f64>,
     /// The figures that are recorded as missed.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub missed: Vec<String>,
+}
+
+/// Whether a bar of this name is of a pair of rows.
+pub fn is_ratio(key: &str) -> bool {
+    key.contains(" / ")
 }
 
 /// One figure of a bar, beside what was measured.
@@ -49,21 +44,15 @@ pub struct Held {
 }
 
 impl Held {
-    /// The pair `key` of `ratios`, its `figure` as measured; nothing if no bar is set.
-    pub fn ratio(ratios: &Ratios, key: &str, figure: &str, taken: f64) -> Option<Self> {
-        let ratio = ratios.get(key)?;
-        let most = match figure {
-            "instructions" => ratio.instructions,
-            "cycles" => ratio.cycles,
-            "code_bytes" => ratio.code_bytes,
-            _ => ratio.ns,
-        }?;
+    /// The figure of the row or pair `key` as measured; nothing if no bar is set.
+    pub fn of(bars: &Bars, key: &str, figure: &str, taken: f64) -> Option<Self> {
+        let bar = bars.get(key)?;
         Some(Self {
             what: format!("{key}: {figure}"),
             taken,
-            most,
-            recorded: ratio.missed.iter().any(|missed| missed == figure),
-            ratio: true,
+            most: *bar.most.get(figure)?,
+            recorded: bar.missed.iter().any(|missed| missed == figure),
+            ratio: is_ratio(key),
         })
     }
 
@@ -116,18 +105,16 @@ pub fn table(held: &[Held]) -> Table {
 
 #[cfg(test)]
 mod tests {
-    use super::{Held, Ratio, Ratios, largest, table};
+    use super::{Bar, Bars, Held, largest, table};
 
     #[test]
     fn a_bar_is_met_or_recorded() {
-        let pair = Ratio {
-            cycles: Some(0.47),
-            ns: Some(0.15),
+        let pair = Bar {
+            most: [("cycles".into(), 0.47), ("ns".into(), 0.15)].into(),
             missed: vec!["ns".into()],
-            ..Ratio::default()
         };
-        let ratios = Ratios::from([("a / b".into(), pair)]);
-        let complaint = |figure, taken| Held::ratio(&ratios, "a / b", figure, taken)?.complaint();
+        let ratios = Bars::from([("a / b".into(), pair)]);
+        let complaint = |figure, taken| Held::of(&ratios, "a / b", figure, taken)?.complaint();
         assert_eq!(complaint("cycles", 0.47), None);
         assert_eq!(
             complaint("cycles", 0.48).unwrap(),
@@ -138,8 +125,8 @@ mod tests {
         assert!(complaint("cycles", f64::NAN).is_some());
         assert_eq!(complaint("ns", 0.16), None);
         assert!(complaint("ns", 0.14).unwrap().contains("met now"));
-        assert!(Held::ratio(&ratios, "a / b", "code_bytes", 1.0).is_none());
-        assert!(Held::ratio(&ratios, "a / c", "cycles", 1.0).is_none());
+        assert!(Held::of(&ratios, "a / b", "code_bytes", 1.0).is_none());
+        assert!(Held::of(&ratios, "a / c", "cycles", 1.0).is_none());
     }
 
     #[test]

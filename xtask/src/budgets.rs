@@ -2,12 +2,12 @@
 //! is part of the change that earns it; `--write-budgets` writes it.
 
 use std::collections::BTreeMap;
-use std::path::PathBuf;
 
+use indexmap::IndexMap;
 use serde::{Deserialize, Serialize};
 
-use crate::bars::{Held, Ratios};
-use crate::costs::{self, Bars, TICK};
+use crate::bars::{Bars, Held, is_ratio};
+use crate::costs::{self, TICK};
 use crate::error::{Error, Result};
 use crate::report::Report;
 use crate::workspace::{self, Workspace};
@@ -17,6 +17,11 @@ pub const OTHER_RUSTC: f64 = 0.03;
 
 /// The same of a firmware's flash, a part of which is the compiler's own library: rustc 1.99.1 takes 4.4 % more.
 const OTHER_RUSTC_FLASH: f64 = 0.06;
+
+/// The figures that bars are set for.
+const BARRED: [&str; 4] = ["instructions", "cycles", "code_bytes", "ns"];
+
+const FILE: &str = "budgets.toml";
 
 const HEADER: &str = "\
 # What scenes and functions may cost at most, as measured with the named compiler (another one is given
@@ -39,97 +44,147 @@ struct Budgets {
     #[serde(default)]
     bars: Bars,
     #[serde(default)]
-    ratios: Ratios,
-    costs: Option<costs::Budget>,
+    ratios: Bars,
+    costs: Option<Rows>,
     #[serde(flatten)]
     scenes: BTreeMap<String, Budget>,
 }
 
-/// What a scene may cost.
+/// What something costs, by the names of the figures.
+type Figures = IndexMap<String, u64>;
+
+/// What a scene may cost, and the compiler that it was measured with.
 #[derive(Debug, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
 struct Budget {
-    /// The compiler that it was measured with.
     rustc: String,
-    /// Instructions of the longest tick.
-    tick_instructions: u64,
-    /// Modelled cycles of the longest tick.
-    tick_cycles: u64,
-    /// Instructions of the dynamics in the longest tick.
-    dynamics_instructions: u64,
-    /// Modelled cycles of the dynamics in the longest tick.
-    dynamics_cycles: u64,
-    /// Flash in bytes.
-    flash_bytes: u64,
-    /// RAM in bytes, without the stack.
-    ram_bytes: u64,
-    /// Peak stack in bytes.
-    stack_bytes: u64,
+    #[serde(flatten)]
+    figures: Figures,
+}
+
+/// What each row of the costs may cost, and the compiler that they were measured with.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Rows {
+    rustc: String,
+    rows: BTreeMap<String, Figures>,
+}
+
+fn figures<const N: usize>(of: [(&str, u64); N]) -> Figures {
+    of.map(|(what, taken)| (what.to_owned(), taken)).into()
 }
 
 impl Budget {
     fn measured(report: &Report) -> Self {
+        let (total, dynamics) = (report.tick["total"], report.tick["dynamics"]);
         Self {
             rustc: report.rustc.clone(),
-            tick_instructions: report.tick.total.instructions.max,
-            tick_cycles: report.tick.total.cycles.max,
-            dynamics_instructions: report.tick.dynamics.instructions.max,
-            dynamics_cycles: report.tick.dynamics.cycles.max,
-            flash_bytes: report.flash_bytes,
-            ram_bytes: report.ram_bytes,
-            stack_bytes: report.stack_bytes,
+            figures: figures([
+                ("tick_instructions", total.instructions.max),
+                ("tick_cycles", total.cycles.max),
+                ("dynamics_instructions", dynamics.instructions.max),
+                ("dynamics_cycles", dynamics.cycles.max),
+                ("flash_bytes", report.flash_bytes),
+                ("ram_bytes", report.ram_bytes),
+                ("stack_bytes", report.stack_bytes),
+            ]),
         }
-    }
-
-    fn items(&self) -> [(&'static str, u64); 7] {
-        [
-            ("tick_instructions", self.tick_instructions),
-            ("tick_cycles", self.tick_cycles),
-            ("dynamics_instructions", self.dynamics_instructions),
-            ("dynamics_cycles", self.dynamics_cycles),
-            ("flash_bytes", self.flash_bytes),
-            ("ram_bytes", self.ram_bytes),
-            ("stack_bytes", self.stack_bytes),
-        ]
     }
 
     /// What exceeds this budget, in words.
     fn exceeded_by(&self, measured: &Self) -> Vec<String> {
-        let slack = slack(&self.rustc, &measured.rustc);
-        std::iter::zip(self.items(), measured.items())
-            .filter(|((what, allowed), (_, taken))| {
-                let more = if slack > 0.0 && *what == "flash_bytes" {
-                    OTHER_RUSTC_FLASH
-                } else {
-                    slack
-                };
-                *taken as f64 > *allowed as f64 * (1.0 + more)
-            })
-            .map(|((what, allowed), (_, taken))| format!("{what} {taken} > {allowed}"))
-            .collect()
+        let is_other = self.rustc != measured.rustc;
+        exceeded(&self.figures, &measured.figures, is_other)
     }
 }
 
-/// What may be added to a budget of one compiler when another one is measured.
-pub fn slack(budgeted: &str, measured: &str) -> f64 {
-    if budgeted == measured {
-        0.0
-    } else {
-        OTHER_RUSTC
+impl Rows {
+    fn measured(report: &costs::Report) -> Self {
+        let rows = report.rows.iter();
+        Self {
+            rustc: report.rustc.clone(),
+            rows: rows
+                .map(|row| (row.key(), figures(row.figures())))
+                .collect(),
+        }
+    }
+
+    /// The part of one robot.
+    fn only(mut self, robot: &str) -> Self {
+        self.rows
+            .retain(|key, _| key.split(' ').next() == Some(robot));
+        self
+    }
+
+    /// What exceeds this budget, in words; a row that has none, or is gone, is named as well.
+    fn exceeded_by(&self, measured: &Self) -> Vec<String> {
+        let is_other = self.rustc != measured.rustc;
+        let mut wrong = Vec::new();
+        for (key, taken) in &measured.rows {
+            match self.rows.get(key) {
+                None => wrong.push(format!("{key}: has no budget")),
+                Some(most) => wrong.extend(
+                    exceeded(most, taken, is_other)
+                        .iter()
+                        .map(|what| format!("{key}: {what}")),
+                ),
+            }
+        }
+        let all = self.rows.keys();
+        let gone = all.filter(|key| !measured.rows.contains_key(*key));
+        wrong.extend(gone.map(|key| format!("{key}: is no longer measured")));
+        wrong
+    }
+
+    /// As TOML, a line a row.
+    fn toml(&self) -> String {
+        let mut text = format!("[costs]\nrustc = {:?}\n\n[costs.rows]\n", self.rustc);
+        for (key, most) in &self.rows {
+            let items = most.iter().map(|(what, most)| format!("{what} = {most}"));
+            let items: Vec<String> = items.collect();
+            text += &format!("{key:?} = {{ {} }}\n", items.join(", "));
+        }
+        text
     }
 }
 
-fn file(workspace: &Workspace) -> PathBuf {
-    workspace.root.join("budgets.toml")
+/// The figures that are beyond what is allowed, or that only one side has, in words; whether they were measured
+/// with another compiler.
+fn exceeded(most: &Figures, taken: &Figures, is_other: bool) -> Vec<String> {
+    let mut wrong = Vec::new();
+    for (what, taken) in taken {
+        let more = match &**what {
+            _ if !is_other => 0.0,
+            "flash_bytes" => OTHER_RUSTC_FLASH,
+            _ => OTHER_RUSTC,
+        };
+        match most.get(what) {
+            None => wrong.push(format!("{what} has no budget")),
+            Some(most) if *taken as f64 > *most as f64 * (1.0 + more) => {
+                wrong.push(format!("{what} {taken} > {most}"));
+            }
+            Some(_) => {}
+        }
+    }
+    let gone = most.keys().filter(|what| !taken.contains_key(*what));
+    wrong.extend(gone.map(|what| format!("{what} is no figure")));
+    wrong
 }
 
 fn read(workspace: &Workspace) -> Result<Budgets> {
-    let path = file(workspace);
+    let path = workspace.root.join(FILE);
     if !path.exists() {
         return Ok(Budgets::default());
     }
-    toml::from_str(&workspace::read(&path)?)
-        .map_err(|e| Error::check(format!("{}: {e}", path.display())))
+    let wrong = |why: String| Error::check(format!("{}: {why}", path.display()));
+    let budgets: Budgets =
+        toml::from_str(&workspace::read(&path)?).map_err(|e| wrong(e.to_string()))?;
+    for (key, bar) in budgets.bars.iter().chain(&budgets.ratios) {
+        let mut names = bar.most.keys().chain(&bar.missed);
+        if let Some(name) = names.find(|name| !BARRED.contains(&&***name)) {
+            return Err(wrong(format!("{key}: {name} is no figure")));
+        }
+    }
+    Ok(budgets)
 }
 
 /// Rewrites the budget of the report's scene.
@@ -141,16 +196,19 @@ pub fn write(workspace: &Workspace, report: &Report) -> Result<()> {
 }
 
 /// Rewrites the budgets of the costs' rows.
-pub fn write_costs(workspace: &Workspace, costs: costs::Budget) -> Result<()> {
+pub fn write_costs(workspace: &Workspace, report: &costs::Report) -> Result<()> {
     let mut budgets = read(workspace)?;
-    budgets.costs = Some(costs);
+    budgets.costs = Some(Rows::measured(report));
     budgets.write(workspace)
 }
 
-/// What was promised: of rows, and of pairs.
-pub fn bars(workspace: &Workspace) -> Result<(Bars, Ratios)> {
-    let budgets = read(workspace)?;
-    Ok((budgets.bars, budgets.ratios))
+/// What was promised: of rows, and of pairs of rows.
+pub fn bars(workspace: &Workspace) -> Result<Bars> {
+    let Budgets {
+        mut bars, ratios, ..
+    } = read(workspace)?;
+    bars.extend(ratios);
+    Ok(bars)
 }
 
 /// Fails if a row of the costs exceeds its budget or misses its bar; else says how many rows hold. With a
@@ -171,7 +229,7 @@ fn hold_costs(budgets: &Budgets, report: &costs::Report) -> Result<String> {
     let budget = budgets.costs.as_ref().ok_or_else(|| {
         Error::check("budgets.toml has no [costs]: `cargo xtask costs --write-budgets`")
     })?;
-    let mut wrong = budget.exceeded_by(&costs::Budget::measured(report));
+    let mut wrong = budget.exceeded_by(&Rows::measured(report));
     wrong.extend(report.missed().iter().map(|bar| format!("bar: {bar}")));
     if !wrong.is_empty() {
         return Err(Error::check(wrong.join("\n")));
@@ -181,19 +239,20 @@ fn hold_costs(budgets: &Budgets, report: &costs::Report) -> Result<String> {
 
 impl Budgets {
     fn write(&self, workspace: &Workspace) -> Result<()> {
-        let path = file(workspace);
-        let bad = |e: toml::ser::Error| Error::check(format!("{}: {e}", path.display()));
+        let path = workspace.root.join(FILE);
+        let bad = |e| Error::check(format!("{}: {e}", path.display()));
         let scenes = toml::to_string(&self.scenes).map_err(bad)?;
-        let (mut bars, mut ratios) = (String::new(), String::new());
-        for (key, bar) in &self.bars {
+        let [mut bars, mut ratios] = [String::new(), String::new()];
+        for (key, bar) in self.bars.iter().chain(&self.ratios) {
             let value = toml::Value::try_from(bar).map_err(bad)?;
-            bars += &format!("{key:?} = {value}\n");
+            let section = if is_ratio(key) {
+                &mut ratios
+            } else {
+                &mut bars
+            };
+            *section += &format!("{key:?} = {value}\n");
         }
-        for (key, ratio) in &self.ratios {
-            let value = toml::Value::try_from(ratio).map_err(bad)?;
-            ratios += &format!("{key:?} = {value}\n");
-        }
-        let costs = self.costs.as_ref().map_or_else(String::new, |c| c.toml());
+        let costs = self.costs.as_ref().map_or_else(String::new, Rows::toml);
         workspace::write(
             &path,
             format!(
@@ -214,20 +273,12 @@ fn hold_scene(budgets: &Budgets, scene: &str, measured: &Budget) -> Result<Strin
             "budgets.toml has no [{scene}]: `cargo xtask demo --scene {scene} --write-budgets`"
         ))
     })?;
+    let taken = |budget: &Budget, what: &str| budget.figures.get(what).copied().unwrap_or(0);
+    let cycles = taken(measured, "tick_cycles");
     let mut exceeded = budget.exceeded_by(measured);
     let key = format!("{scene}{TICK}");
-    if let Some(bar) = budgets.bars.get(&key)
-        && let Some(most) = bar.cycles
-    {
-        let held = Held {
-            what: format!("bar: {key}: cycles"),
-            taken: measured.tick_cycles as f64,
-            most: most as f64,
-            recorded: bar.missed.iter().any(|figure| figure == "cycles"),
-            ratio: false,
-        };
-        exceeded.extend(held.complaint());
-    }
+    let bar = Held::of(&budgets.bars, &key, "cycles", cycles as f64);
+    exceeded.extend(bar.and_then(|bar| Some(format!("bar: {}", bar.complaint()?))));
     if !exceeded.is_empty() {
         return Err(Error::check(format!(
             "over budget: {} (budget of {}, measured with {})",
@@ -236,9 +287,10 @@ fn hold_scene(budgets: &Budgets, scene: &str, measured: &Budget) -> Result<Strin
             measured.rustc
         )));
     }
+    let [most, most_stack] = ["tick_cycles", "stack_bytes"].map(|what| taken(budget, what));
+    let stack = taken(measured, "stack_bytes");
     Ok(format!(
-        "tick {} of {} cycles, stack {} of {} B",
-        measured.tick_cycles, budget.tick_cycles, measured.stack_bytes, budget.stack_bytes
+        "tick {cycles} of {most} cycles, stack {stack} of {most_stack} B"
     ))
 }
 

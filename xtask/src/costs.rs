@@ -1,23 +1,22 @@
 //! `cargo xtask costs`: what each algorithm costs on each robot, and what it may.
 
-mod bars;
-mod budget;
 mod measure;
 mod report;
 
 use std::process::ExitCode;
 
+use crate::bars::Bars;
 use crate::budgets;
 use crate::docs;
 use crate::error::Result;
-use crate::output;
 use crate::setup::{self, Options, Tools};
+use crate::table;
 use crate::workspace::{self, Workspace};
 
-pub use bars::{ADDED, Bars, TICK};
-pub use budget::Budget;
-pub use measure::{Row, measure as measure_bins, run as run_bin, run_for_time};
-pub use report::Report;
+pub use measure::{
+    Row, code_bytes, measure as measure_bins, run as run_bin, run_all, run_for_time,
+};
+pub use report::{ADDED, Report, TICK};
 
 /// The generated page.
 const PAGE: &str = "docs/costs.md";
@@ -39,51 +38,39 @@ pub fn run(options: Options, wish: Wish) -> Result<ExitCode> {
     let workspace = Workspace::for_reports()?;
     let tools = setup::for_demo(options)?;
     let report = measure(&workspace, &tools)?;
-    workspace::write(&workspace.report(PAGE), report.markdown())?;
+    let page = report.markdown();
+    workspace::write(&workspace.report(PAGE), &page)?;
     if wish.write_budgets {
-        budgets::write_costs(&workspace, Budget::measured(&report))?;
+        budgets::write_costs(&workspace, &report)?;
     }
-    if wish.json {
-        docs::print_json(&report.rows)?;
-    } else {
-        output::print(&report.text())?;
-    }
-    Ok(ExitCode::SUCCESS)
+    table::show(wish.json, &report.rows, &page)
 }
 
 /// Measures every row and says what they may be.
 pub fn measure(workspace: &Workspace, tools: &Tools) -> Result<Report> {
-    let (bars, ratios) = budgets::bars(workspace)?;
-    Ok(Report {
-        rows: measure::all(workspace, tools)?,
-        small: measure::small(workspace, tools)?,
-        bars,
-        ratios,
-        rustc: tools.toolchain.rustc_version()?,
-    })
+    let rows = measure::all(workspace, tools)?;
+    report(workspace, tools, rows, budgets::bars(workspace)?)
 }
 
 /// Measures the rows of the first robot alone, with what is promised of them.
 pub fn measure_first(workspace: &Workspace, tools: &Tools) -> Result<Report> {
-    let (mut bars, ratios) = budgets::bars(workspace)?;
+    let mut bars = budgets::bars(workspace)?;
     let rows = measure::first(workspace, tools)?;
-    bars.retain(|key, _| rows.iter().any(|row| key.starts_with(&*row.robot)));
+    bars.retain(|key, _| rows.iter().any(|row| key.contains(&*row.robot)));
+    report(workspace, tools, rows, bars)
+}
+
+fn report(workspace: &Workspace, tools: &Tools, rows: Vec<Row>, bars: Bars) -> Result<Report> {
     Ok(Report {
         rows,
         small: measure::small(workspace, tools)?,
         bars,
-        ratios,
         rustc: tools.toolchain.rustc_version()?,
     })
 }
 
 /// Fails unless the page is that of the report, or close to it if another compiler wrote it.
 pub fn check_page(workspace: &Workspace, report: &Report) -> Result<()> {
-    let path = workspace.root.join(PAGE);
-    let written = if path.exists() {
-        workspace::read(&path)?
-    } else {
-        String::new()
-    };
+    let written = workspace::read(&workspace.root.join(PAGE))?;
     docs::compare(PAGE, COMMAND, &written, &report.markdown(), &report.rustc)
 }

@@ -4,6 +4,7 @@ mod tracking;
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 use crate::budgets;
@@ -91,11 +92,11 @@ pub fn run(options: Options, wish: Wish) -> Result<ExitCode> {
             scenes::PAGE.write(&workspace, &scenes::markdown(&reports))?;
         }
     }
-    match (reports.as_slice(), wish.all) {
-        (all, true) if wish.json => docs::print_json(&all)?,
-        ([one], _) if wish.json => docs::print_json(one)?,
-        (all, true) => output::print(&scenes::text(all))?,
-        (all, _) => {
+    match reports.as_slice() {
+        [one] if wish.json && !wish.all => docs::print_json(one)?,
+        all if wish.json => docs::print_json(&all)?,
+        all if wish.all => output::print(&scenes::text(all))?,
+        all => {
             for (report, picture) in all.iter().zip(&pictures) {
                 output::print(&report.text(workspace.relative(picture)))?;
             }
@@ -162,40 +163,21 @@ pub fn measure_all(
     runs: &[(Scene, PathBuf)],
 ) -> Result<Vec<Measured>> {
     let next = AtomicUsize::new(0);
+    let done: Vec<_> = runs.iter().map(|_| OnceLock::new()).collect();
     let work = || {
-        let mut done = Vec::new();
-        while let Some((scene, elf)) = runs.get(next.fetch_add(1, Relaxed)) {
-            done.push(measure(
-                workspace,
-                tools,
-                *scene,
-                tools.toolchain,
-                elf,
-                meter,
-            )?);
+        while let Some(number) = Some(next.fetch_add(1, Relaxed)).filter(|n| *n < runs.len()) {
+            let (scene, elf) = &runs[number];
+            let toolchain = tools.toolchain;
+            done[number].get_or_init(|| measure(workspace, tools, *scene, toolchain, elf, meter));
         }
-        Ok(done)
     };
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    let mut measured = std::thread::scope(|scope| {
-        let workers: Vec<_> = (0..cores.min(runs.len()))
-            .map(|_| scope.spawn(work))
-            .collect();
-        let done = workers.into_iter().map(|worker| {
-            let panicked = |_| Err(Error::check("a run of a scene panicked"));
-            worker.join().unwrap_or_else(panicked)
-        });
-        done.collect::<Result<Vec<Vec<Measured>>>>()
-    })?
-    .into_iter()
-    .flatten()
-    .collect::<Vec<_>>();
-    let place = |one: &Measured| {
-        runs.iter()
-            .position(|(scene, _)| scene.name() == one.report.scene)
-    };
-    measured.sort_by_key(place);
-    Ok(measured)
+    std::thread::scope(|scope| {
+        for _ in 0..cores.min(runs.len()) {
+            scope.spawn(work);
+        }
+    });
+    done.into_iter().filter_map(OnceLock::into_inner).collect()
 }
 
 /// What a run is, from the line that announces it: `run exact pd 0x800b789`.
@@ -219,25 +201,8 @@ pub fn measure(
     elf: &Path,
     plugin: &Path,
 ) -> Result<Measured> {
-    let name = scene.name();
-    let regions = workspace.output(&format!("{name}.regions"))?;
-    let spinner = Spinner::start(&format!("running scene {name} in QEMU"));
-    let mut recording = Recording::default();
-    let run = Run {
-        name,
-        elf,
-        meter: Some((plugin, &regions)),
-        logs: true,
-    };
-    let raw = tools.qemu.run(&run, |line| {
-        if !recording.line(line)? {
-            spinner.line(&format!("[{name}] {line}"));
-        } else if let Some(words) = run_in_words(line) {
-            spinner.say(format!("scene {name} in QEMU: {words}"));
-        }
-        Ok(())
-    })?;
-    drop(spinner);
+    let regions = workspace.output(&format!("{}.regions", scene.name()))?;
+    let (recording, raw) = record(tools, scene, elf, Some((plugin, &regions)))?;
     let metered = workspace::read(&regions)?;
     let report = Report::new(
         &recording,
@@ -252,6 +217,33 @@ pub fn measure(
         elf: elf.to_owned(),
         raw: (raw, metered),
     })
+}
+
+/// Runs a scene, with the meter and its file or without, and returns what it said, and that as it came.
+fn record(
+    tools: &Tools,
+    scene: Scene,
+    elf: &Path,
+    meter: Option<(&Path, &Path)>,
+) -> Result<(Recording, Vec<u8>)> {
+    let name = scene.name();
+    let spinner = Spinner::start(&format!("running scene {name} in QEMU"));
+    let mut recording = Recording::default();
+    let run = Run {
+        name,
+        elf,
+        meter,
+        logs: true,
+    };
+    let raw = tools.qemu.run(&run, |line| {
+        if !recording.line(line)? {
+            spinner.line(&format!("[{name}] {line}"));
+        } else if let Some(words) = run_in_words(line) {
+            spinner.say(format!("scene {name} in QEMU: {words}"));
+        }
+        Ok(())
+    })?;
+    Ok((recording, raw))
 }
 
 #[cfg(test)]

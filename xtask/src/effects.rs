@@ -4,6 +4,7 @@ mod picture;
 
 use std::collections::BTreeMap;
 use std::process::ExitCode;
+use std::str::FromStr;
 
 use serde::Serialize;
 
@@ -11,12 +12,11 @@ use crate::costs::{self, Row};
 use crate::docs::{self, Page};
 use crate::error::{Error, Result};
 use crate::firmware;
-use crate::output;
+use crate::host_bin;
 use crate::progress::Spinner;
 use crate::report::MODEL;
 use crate::setup::{self, Options, Tools};
-use crate::shell;
-use crate::table::Table;
+use crate::table::{self, Table};
 use crate::toolchain::RELEASE;
 use crate::workspace::{self, Workspace};
 
@@ -67,14 +67,10 @@ pub fn run(options: Options, json: bool) -> Result<ExitCode> {
     let workspace = Workspace::for_reports()?;
     let tools = setup::for_demo(options)?;
     let prices = measure(&workspace, &tools)?;
-    PAGE.write(&workspace, &generated(&tools, &prices)?)?;
+    let page = generated(&tools, &prices)?;
+    PAGE.write(&workspace, &page)?;
     workspace::write(&workspace.report(PICTURE), picture::svg(&prices)?)?;
-    if json {
-        docs::print_json(&prices)?;
-    } else {
-        output::print(&table(&prices).text())?;
-    }
-    Ok(ExitCode::SUCCESS)
+    table::show(json, &prices, &page)
 }
 
 /// Fails unless the page is what would be measured now; else says how many prices there are.
@@ -90,45 +86,38 @@ pub fn check(workspace: &Workspace, tools: &Tools) -> Result<String> {
 }
 
 fn generated(tools: &Tools, prices: &[Price]) -> Result<String> {
-    let (table, rustc) = (table(prices).markdown(), tools.toolchain.rustc_version()?);
+    let (table, rustc) = (in_rows(prices).markdown(), tools.toolchain.rustc_version()?);
     Ok(format!("{table}\n{MODEL}. Measured with {rustc}."))
 }
 
 fn measure(workspace: &Workspace, tools: &Tools) -> Result<Vec<Price>> {
-    let spinner = Spinner::start(&format!("building {}", BINS.join(", ")));
+    let building = Spinner::start(&format!("building {}", BINS.join(", ")));
     let elves = firmware::build_featured(workspace, tools.toolchain, RELEASE, FEATURE, &BINS)?;
-    let meter = firmware::build_meter(workspace)?;
-    let (mut rows, mut held) = (Vec::new(), BTreeMap::new());
-    for (name, elf) in BINS.into_iter().zip(elves) {
-        spinner.say(format!("running {name} in QEMU"));
-        let (mine, lines) = costs::run_bin(tools, &meter, name, &elf)?;
-        rows.extend(mine);
-        held.extend(lines.iter().filter_map(|line| holds(line)));
-    }
-    spinner.say("computing torques on the host".into());
-    let mut command = workspace.cargo("run");
-    command.args(["--quiet", "--package", "host-reports"]);
-    let torques = shell::capture(command.args(["--bin", HOST_BIN]))?;
+    drop(building);
+    let (rows, lines) = costs::run_all(workspace, tools, &BINS, &elves)?;
+    let held = lines.iter().filter_map(|line| holds(line)).collect();
+    let _spinner = Spinner::start("computing torques on the host");
+    let torques = host_bin::text(workspace, HOST_BIN)?;
     let torques = torques.lines().filter_map(torque).collect();
     priced(&rows, &held, &torques)
 }
 
-/// Robot, form and scene, and the bytes of its effects, from a line `holds ROBOT FORM NAME BYTES`.
-fn holds(line: &str) -> Option<([String; 3], i64)> {
-    let words: Vec<&str> = line.split(' ').collect();
-    let ["holds", robot, form, name, bytes] = *words.as_slice() else {
-        return None;
-    };
-    Some(([robot, form, name].map(str::to_owned), bytes.parse().ok()?))
+/// The N names and the number of a line `WORD NAME… NUMBER`.
+fn named<const N: usize, T: FromStr>(line: &str, word: &str) -> Option<([String; N], T)> {
+    let mut words: Vec<&str> = line.strip_prefix(word)?.split(' ').skip(1).collect();
+    let number = words.pop()?.parse().ok()?;
+    let names = <[&str; N]>::try_from(words).ok()?;
+    Some((names.map(str::to_owned), number))
 }
 
-/// Robot and scene, and its torque, from a line `effect ROBOT NAME RMS`.
+/// Robot, form and scene, and the bytes of its effects.
+fn holds(line: &str) -> Option<([String; 3], i64)> {
+    named(line, "holds")
+}
+
+/// Robot and scene, and its torque.
 fn torque(line: &str) -> Option<([String; 2], f64)> {
-    let words: Vec<&str> = line.split(' ').collect();
-    let ["effect", robot, name, rms] = *words.as_slice() else {
-        return None;
-    };
-    Some(([robot, name].map(str::to_owned), rms.parse().ok()?))
+    named(line, "effect")
 }
 
 /// Every scene's difference to the rigid body.
@@ -170,37 +159,30 @@ fn priced(
 }
 
 /// An effect a row, core and engine side by side.
-fn table(prices: &[Price]) -> Table {
-    let mut table = Table::new(&[
-        "effect, robot",
-        "insn: core",
-        "engine",
-        "cycles: core",
-        "engine",
-        "code: core",
-        "engine",
-        "RAM",
-        "torque, N·m",
-    ]);
+fn in_rows(prices: &[Price]) -> Table {
     let mut sorted: Vec<&Price> = prices.iter().filter(|p| p.form == "core").collect();
     // Robots side by side, effects in the catalogue's order.
-    let place = |price: &Price| prices.iter().position(|p| p.effect == price.effect);
-    sorted.sort_by_key(|price| place(price));
-    for core in sorted {
-        let engine = prices.iter().find(|price| {
+    sorted.sort_by_key(|price| prices.iter().position(|p| p.effect == price.effect));
+    let engine = |core: &Price, figure: fn(&Price) -> i64| {
+        let found = prices.iter().find(|price| {
             (&*price.form, &price.effect, &price.robot) == ("engine", &core.effect, &core.robot)
         });
-        let mut cells = vec![format!("{} {}", core.effect, core.robot)];
-        let figures: [fn(&Price) -> i64; 3] = [|p| p.instructions, |p| p.cycles, |p| p.code_bytes];
-        for figure in figures {
-            cells.push(figure(core).to_string());
-            cells.push(engine.map_or_else(|| "–".into(), |engine| figure(engine).to_string()));
-        }
-        cells.push(core.ram_bytes.to_string());
-        cells.push(format!("{:.3}", core.torque_rms_nm));
-        table.row(cells);
-    }
-    table
+        found.map_or("–".into(), |engine| figure(engine).to_string())
+    };
+    Table::of(
+        sorted,
+        &[
+            ("effect, robot", &|p| format!("{} {}", p.effect, p.robot)),
+            ("insn: core", &|p| p.instructions.to_string()),
+            ("engine", &|p| engine(p, |p| p.instructions)),
+            ("cycles: core", &|p| p.cycles.to_string()),
+            ("engine", &|p| engine(p, |p| p.cycles)),
+            ("code: core", &|p| p.code_bytes.to_string()),
+            ("engine", &|p| engine(p, |p| p.code_bytes)),
+            ("RAM", &|p| p.ram_bytes.to_string()),
+            ("torque, N·m", &|p| format!("{:.3}", p.torque_rms_nm)),
+        ],
+    )
 }
 
 #[cfg(test)]

@@ -4,8 +4,8 @@ use std::process::ExitCode;
 
 use crate::docs::Page;
 use crate::error::Result;
+use crate::host_bin;
 use crate::output;
-use crate::shell;
 use crate::workspace::Workspace;
 
 const PAGE: Page = Page {
@@ -34,10 +34,6 @@ pub fn check(workspace: &Workspace) -> Result<()> {
 }
 
 fn generated(workspace: &Workspace) -> Result<String> {
-    let mut command = workspace.cargo("run");
-    command.args(["--quiet", "--package", "host-reports", "--bin", BIN]);
-    Ok(format!(
-        "{HEAD}{}",
-        shell::capture(&mut command)?.trim_end()
-    ))
+    let rows = host_bin::text(workspace, BIN)?;
+    Ok(format!("{HEAD}{}", rows.trim_end()))
 }

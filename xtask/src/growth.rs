@@ -4,15 +4,14 @@ mod picture;
 
 use std::process::ExitCode;
 
-use crate::bars::{self, Held, Ratios};
+use crate::bars::{self, Bars, Held};
 use crate::budgets;
 use crate::costs::{self, Row};
 use crate::docs;
 use crate::error::{Error, Result};
-use crate::output;
 use crate::report::MODEL;
 use crate::setup::{self, Options, Tools};
-use crate::table::{Table, thousands};
+use crate::table::{self, Table, thousands};
 use crate::toolchain::RELEASE;
 use crate::workspace::{self, Workspace};
 
@@ -37,7 +36,7 @@ const ENDS: [usize; 2] = [8, 64];
 pub struct Report {
     /// A row for each algorithm and length.
     rows: Vec<Row>,
-    ratios: Ratios,
+    bars: Bars,
     rustc: String,
 }
 
@@ -46,27 +45,17 @@ pub fn run(options: Options, json: bool) -> Result<ExitCode> {
     let workspace = Workspace::for_reports()?;
     let tools = setup::for_demo(options)?;
     let report = measure(&workspace, &tools)?;
-    workspace::write(&workspace.report(PAGE), report.markdown())?;
+    let page = report.markdown();
+    workspace::write(&workspace.report(PAGE), &page)?;
     workspace::write(&workspace.report(PICTURE), picture::svg(&report)?)?;
-    if json {
-        docs::print_json(&report.json())?;
-    } else {
-        output::print(&format!(
-            "{}\n{}\n",
-            report.table().text(),
-            report.verdict()
-        ))?;
-        output::print(&bars::table(&report.held()).text())?;
-    }
-    Ok(ExitCode::SUCCESS)
+    table::show(json, &report.json(), &page)
 }
 
 /// Runs the firmware's bin under the meter.
 pub fn measure(workspace: &Workspace, tools: &Tools) -> Result<Report> {
-    let (_, ratios) = budgets::bars(workspace)?;
     Ok(Report {
         rows: costs::measure_bins(workspace, tools, RELEASE, &[BIN])?,
-        ratios,
+        bars: budgets::bars(workspace)?,
         rustc: tools.toolchain.rustc_version()?,
     })
 }
@@ -130,7 +119,7 @@ impl Report {
                 Some(row.instructions.max as f64 / n as f64)
             });
             let key = format!("growth, {algorithm} a body, {} / {}", ENDS[1], ENDS[0]);
-            Held::ratio(&self.ratios, &key, "instructions", long? / short?)
+            Held::of(&self.bars, &key, "instructions", long? / short?)
         };
         ALGORITHMS
             .iter()
@@ -139,20 +128,19 @@ impl Report {
     }
 
     fn table(&self) -> Table {
-        let heads = ALGORITHMS
-            .iter()
-            .flat_map(|(_, name)| [format!("{name}: insn"), "cycles".into()]);
-        let heads: Vec<String> = std::iter::once("bodies".to_owned()).chain(heads).collect();
-        let mut table = Table::new(&heads.iter().map(String::as_str).collect::<Vec<_>>());
+        let heads = ALGORITHMS.map(|(_, name)| format!("{name}: insn"));
+        let cost = |of: fn(&Row) -> u64| move |row: Option<&Row>| thousands(row.map_or(0, of));
+        let insn = cost(|row| row.instructions.max);
+        let cycles = cost(|row| row.cycles.max);
+        let mut table = Table::new(
+            &std::iter::once("bodies")
+                .chain(heads.iter().flat_map(|head| [&**head, "cycles"]))
+                .collect::<Vec<_>>(),
+        );
         for n in self.lengths() {
-            let mut cells = vec![n.to_string()];
-            for (algorithm, _) in ALGORITHMS {
-                let costs = self
-                    .row(algorithm, n)
-                    .map(|row| [row.instructions.max, row.cycles.max]);
-                cells.extend(costs.unwrap_or_default().map(thousands));
-            }
-            table.row(cells);
+            let rows = ALGORITHMS.map(|(algorithm, _)| self.row(algorithm, n));
+            let costs = rows.into_iter().flat_map(|row| [insn(row), cycles(row)]);
+            table.row(std::iter::once(n.to_string()).chain(costs));
         }
         table
     }
@@ -207,7 +195,7 @@ impl Report {
 #[cfg(test)]
 mod tests {
     use super::Report;
-    use crate::bars::{Ratio, Ratios};
+    use crate::bars::{Bar, Bars};
     use crate::costs::Row;
     use crate::meter::Spread;
 
@@ -236,9 +224,9 @@ mod tests {
 
     #[test]
     fn the_crossing_is_between_the_lengths_around_it() {
-        let ratio = Ratio {
-            instructions: Some(1.1),
-            ..Ratio::default()
+        let bar = Bar {
+            most: [("instructions".into(), 1.1)].into(),
+            missed: Vec::new(),
         };
         let report = Report {
             rows: vec![
@@ -247,7 +235,7 @@ mod tests {
                 row("forward", 64, 6_900),
                 row("aba", 64, 6_800),
             ],
-            ratios: Ratios::from([("growth, aba a body, 64 / 8".into(), ratio)]),
+            bars: Bars::from([("growth, aba a body, 64 / 8".into(), bar)]),
             rustc: String::new(),
         };
         assert_eq!(report.crossing(), Some((64, 36.0)));

@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::docs::{self, Page};
 use crate::error::{Error, Result};
+use crate::host_bin;
 use crate::output;
-use crate::shell;
 use crate::workspace::Workspace;
 
 const PAGE: Page = Page {
@@ -57,7 +57,7 @@ struct Row {
 /// Measures and rewrites the page, or prints the measurements.
 pub fn run(json: bool) -> Result<ExitCode> {
     let workspace = Workspace::find()?;
-    let suite = measured(&workspace)?;
+    let suite: Suite = host_bin::json(&workspace, BIN)?;
     if json {
         docs::print_json(&suite.rows)?;
     } else {
@@ -74,7 +74,7 @@ pub fn run(json: bool) -> Result<ExitCode> {
 
 /// Fails unless every case holds and the page says what would be measured now.
 pub fn check(workspace: &Workspace) -> Result<String> {
-    let suite = measured(workspace)?;
+    let suite: Suite = host_bin::json(workspace, BIN)?;
     if let Some(row) = suite.rows.iter().find(|row| row.verdict == "fail") {
         let Row {
             number, quantity, ..
@@ -83,14 +83,6 @@ pub fn check(workspace: &Workspace) -> Result<String> {
     }
     PAGE.check(workspace, &page(&suite), None)?;
     Ok(summary(&suite))
-}
-
-fn measured(workspace: &Workspace) -> Result<Suite> {
-    let mut command = workspace.cargo("run");
-    command.args(["--quiet", "--package", "host-reports", "--bin", BIN]);
-    let text = shell::capture(&mut command)?;
-    serde_json::from_str(&text)
-        .map_err(|e| Error::check(format!("`{BIN}` printed what is no suite: {e}")))
 }
 
 fn summary(suite: &Suite) -> String {

@@ -12,8 +12,6 @@
 //! done
 //! ```
 
-use std::collections::BTreeMap;
-
 use serde::{Deserialize, Serialize};
 
 use crate::bars::largest;
@@ -33,14 +31,18 @@ pub const PLANTS: [&str; 2] = ["exact", "mismatched"];
 /// One trajectory run under one law on one plant.
 #[derive(Clone, Debug, Default)]
 pub struct Trajectory {
+    /// One of [`PLANTS`].
+    pub plant: String,
+    /// The law's name.
+    pub law: String,
     /// Tick, reference and true joint angles, every so many ticks.
     pub samples: Vec<Sample>,
     /// RMS of the tracking error of each joint in rad.
     pub rms: Vec<f64>,
     /// Largest absolute error of each joint in rad.
     pub max: Vec<f64>,
-    /// RMS of the error over all joints in rad.
-    pub total: Option<f64>,
+    /// RMS of the error over all joints in rad; not a number until it is reported.
+    pub total: f64,
     /// What the safety gate said.
     pub status: String,
     /// Where the function is that was called each tick.
@@ -95,10 +97,8 @@ pub struct Recording {
     pub effects: Vec<Named>,
     /// The feedback's gains, if the scene says.
     pub gains: Option<Gains>,
-    /// Plant and law of each run, in the order in which they ran.
-    pub order: Vec<(String, String)>,
-    /// The runs by plant and law.
-    pub runs: BTreeMap<(String, String), Trajectory>,
+    /// The runs in their order.
+    pub runs: Vec<Trajectory>,
     /// Peak stack in bytes.
     pub stack: Option<u64>,
 }
@@ -106,121 +106,100 @@ pub struct Recording {
 impl Recording {
     /// Takes a line in; `false` if it is none of the protocol's.
     pub fn line(&mut self, line: &str) -> Result<bool> {
-        let words: Vec<&str> = line.split(' ').collect();
         let bad = || Error::check(format!("the firmware's line {line:?} cannot be understood"));
+        self.take(line).ok_or_else(bad)
+    }
+
+    /// The same; nothing if a line of the protocol is not as it should be.
+    fn take(&mut self, line: &str) -> Option<bool> {
+        let words: Vec<&str> = line.split(' ').collect();
+        let joints = self.joints;
         match *words.as_slice() {
-            [
-                "scene",
-                name,
-                "joints",
-                joints,
-                "tick-us",
-                tick_us,
-                "ticks",
-                ticks,
-                "bound",
-                bound,
-            ] => {
+            ["scene", name, _, joints, _, tick_us, _, ticks, _, bound] => {
                 self.scene = name.into();
-                self.joints = joints.parse().map_err(|_| bad())?;
-                self.tick_us = tick_us.parse().map_err(|_| bad())?;
-                self.ticks = ticks.parse().map_err(|_| bad())?;
-                self.bound = number(bound).ok_or_else(bad)?;
+                self.joints = joints.parse().ok()?;
+                self.tick_us = tick_us.parse().ok()?;
+                self.ticks = ticks.parse().ok()?;
+                self.bound = number(bound)?;
             }
             ["effect", name, bytes] => self.effects.push(Named {
                 name: name.into(),
-                bytes: bytes.parse().map_err(|_| bad())?,
+                bytes: bytes.parse().ok()?,
             }),
             ["gains", omega_n, zeta, pose] => {
                 self.gains = Some(Gains {
-                    omega_n: number(omega_n).ok_or_else(bad)?,
-                    zeta: number(zeta).ok_or_else(bad)?,
+                    omega_n: number(omega_n)?,
+                    zeta: number(zeta)?,
                     pose: pose.into(),
                 });
             }
             ["run", plant, law, at] => {
-                let known = PLANTS.contains(&plant);
-                let tick_at = hexadecimal(at).filter(|_| known).ok_or_else(bad)?;
-                let key = (plant.to_owned(), law.to_owned());
-                let run = Trajectory {
-                    tick_at,
+                let is_new = self.trajectory(plant, law).is_none() && PLANTS.contains(&plant);
+                self.runs.push(is_new.then_some(Trajectory {
+                    plant: plant.into(),
+                    law: law.into(),
+                    // The lowest bit of a function's address says Thumb.
+                    tick_at: u64::from_str_radix(at.strip_prefix("0x")?, 16).ok()? & !1,
+                    total: f64::NAN,
                     ..Trajectory::default()
-                };
-                self.order.push(key.clone());
-                if self.runs.insert(key, run).is_some() {
-                    return Err(bad());
-                }
+                })?);
             }
             ["sample", tick, ref angles @ ..] => {
-                let mut reference = self.numbers(angles, 2).ok_or_else(bad)?;
-                let angle = reference.split_off(self.joints);
-                let tick = tick.parse().map_err(|_| bad())?;
-                self.run().ok_or_else(bad)?.samples.push(Sample {
-                    tick,
+                let mut reference = numbers(angles, 2 * joints)?;
+                let angle = reference.split_off(joints);
+                self.runs.last_mut()?.samples.push(Sample {
+                    tick: tick.parse().ok()?,
                     reference,
                     angle,
                 });
             }
-            ["rms", ref errors @ ..] => {
-                let rms = self.numbers(errors, 1).ok_or_else(bad)?;
-                self.run().ok_or_else(bad)?.rms = rms;
-            }
-            ["max", ref errors @ ..] => {
-                let max = self.numbers(errors, 1).ok_or_else(bad)?;
-                self.run().ok_or_else(bad)?.max = max;
-            }
-            ["total", rms] => {
-                let rms = number(rms).ok_or_else(bad)?;
-                self.run().ok_or_else(bad)?.total = Some(rms);
-            }
-            ["status", ref said @ ..] => {
-                self.run().ok_or_else(bad)?.status = said.join(" ");
-            }
-            ["stack", bytes] => self.stack = Some(bytes.parse().map_err(|_| bad())?),
+            ["rms", ref errors @ ..] => self.runs.last_mut()?.rms = numbers(errors, joints)?,
+            ["max", ref errors @ ..] => self.runs.last_mut()?.max = numbers(errors, joints)?,
+            ["total", rms] => self.runs.last_mut()?.total = number(rms)?,
+            ["status", ref said @ ..] => self.runs.last_mut()?.status = said.join(" "),
+            ["stack", bytes] => self.stack = Some(bytes.parse().ok()?),
             [DONE] => {}
-            _ => return Ok(false),
+            _ => return Some(false),
         }
-        Ok(true)
+        Some(true)
     }
 
     /// Fails with what is not there, if anything that the report needs is not.
     pub fn complete(&self) -> Result<()> {
-        let lacks = |what: String| Err(Error::check(format!("the firmware did not report {what}")));
+        let mut lacks = Vec::new();
         if self.joints == 0 {
-            return lacks("its `scene`".into());
+            lacks.push("its `scene`".to_owned());
         }
         if self.stack.is_none() {
-            return lacks("its `stack`".into());
+            lacks.push("its `stack`".to_owned());
         }
-        for plant in PLANTS {
-            for law in [SOLD, PD] {
-                if self.trajectory(plant, law).is_none() {
-                    return lacks(format!("`run {plant} {law}`"));
-                }
+        let needed = PLANTS
+            .iter()
+            .flat_map(|plant| [SOLD, PD].map(|law| (plant, law)));
+        let missing = needed.filter(|(plant, law)| self.trajectory(plant, law).is_none());
+        lacks.extend(missing.map(|(plant, law)| format!("`run {plant} {law}`")));
+        for run in &self.runs {
+            if run.rms.is_empty() || run.max.is_empty() || run.total.is_nan() {
+                let (plant, law) = (&run.plant, &run.law);
+                lacks.push(format!("`rms`, `max` and `total` of {plant} {law}"));
             }
         }
-        for ((plant, law), run) in &self.runs {
-            if run.rms.is_empty() || run.max.is_empty() || run.total.is_none() {
-                return lacks(format!("`rms`, `max` and `total` of {plant} {law}"));
-            }
+        match lacks.first() {
+            None => Ok(()),
+            Some(what) => Err(Error::check(format!("the firmware did not report {what}"))),
         }
-        Ok(())
     }
 
     /// The first run of these laws whose status is not this one, with its status.
     pub fn unlike(&self, status: &str, laws: impl Fn(&str) -> bool) -> Option<String> {
         let mut runs = self.runs.iter();
-        let ((plant, law), run) = runs.find(|((_, law), run)| laws(law) && run.status != status)?;
-        Some(format!("{plant} {law}: {:?}", run.status))
+        let run = runs.find(|run| laws(&run.law) && run.status != status)?;
+        Some(format!("{} {}: {:?}", run.plant, run.law, run.status))
     }
 
     /// The greatest speed of a joint's reference between two samples, rad/s.
     pub fn peak_speed(&self) -> f64 {
-        let samples = self
-            .runs
-            .values()
-            .next()
-            .map_or(&[][..], |run| &run.samples);
+        let samples = self.runs.first().map_or(&[][..], |run| &run.samples);
         let speeds = samples.windows(2).flat_map(|pair| {
             let seconds = f64::from(pair[1].tick - pair[0].tick) * f64::from(self.tick_us) * 1e-6;
             let turns = pair[1].reference.iter().zip(&pair[0].reference);
@@ -231,43 +210,33 @@ impl Recording {
 
     /// The run of a law on a plant.
     pub fn trajectory(&self, plant: &str, law: &str) -> Option<&Trajectory> {
-        self.runs.get(&(plant.to_owned(), law.to_owned()))
+        let mut runs = self.runs.iter();
+        runs.find(|run| (&*run.plant, &*run.law) == (plant, law))
     }
 
     /// The laws on a plant in the order in which they ran, but for those that lack an effect; PD last.
     pub fn laws(&self, plant: &str) -> Vec<&str> {
-        let laws = self.order.iter().filter(|(on, _)| on == plant);
-        let mut laws: Vec<&str> = laws
-            .map(|(_, law)| law.as_str())
-            .filter(|law| !law.starts_with(WITHOUT))
-            .collect();
+        let runs = self.runs.iter().filter(|run| run.plant == plant);
+        let laws = runs.map(|run| &*run.law);
+        let mut laws: Vec<&str> = laws.filter(|law| !law.starts_with(WITHOUT)).collect();
         laws.sort_by_key(|law| *law == PD);
         laws
     }
+}
 
-    /// The present run.
-    fn run(&mut self) -> Option<&mut Trajectory> {
-        self.runs.get_mut(self.order.last()?)
-    }
-
-    /// So many numbers per joint, all of them finite.
-    fn numbers(&self, words: &[&str], per_joint: usize) -> Option<Vec<f64>> {
-        if self.joints == 0 || words.len() != per_joint * self.joints {
-            return None;
-        }
-        words.iter().map(|word| number(word)).collect()
-    }
+/// So many numbers, at least one of them, all finite.
+fn numbers(words: &[&str], count: usize) -> Option<Vec<f64>> {
+    let is_all = count > 0 && words.len() == count;
+    words
+        .iter()
+        .map(|word| number(word).filter(|_| is_all))
+        .collect()
 }
 
 fn number(word: &str) -> Option<f64> {
     // defmt prints a slice with brackets and commas.
     let digits = word.trim_matches(['[', ']', ',']);
     digits.parse().ok().filter(|x: &f64| x.is_finite())
-}
-
-fn hexadecimal(word: &str) -> Option<u64> {
-    // The lowest bit of a function's address says Thumb.
-    Some(u64::from_str_radix(word.strip_prefix("0x")?, 16).ok()? & !1)
 }
 
 /// A law's name in print.

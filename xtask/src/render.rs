@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::protocol::in_print;
-use crate::report::{Errors, MODEL, Report, Tracking};
+use crate::report::{Errors, JointError, MODEL, Report, Tracking};
 use crate::table::{Table, thousands};
 
 /// The clock of the STM32F405 in MHz, so cycles per µs.
@@ -12,9 +12,9 @@ pub const CLOCK_MHZ: f64 = 168.0;
 impl Report {
     /// For a terminal.
     pub fn text(&self, plot: &Path) -> String {
+        let ticks = thousands(self.ticks_measured as u64);
         let mut text = format!(
-            "\nCost of a tick, feed-forward, {} ticks ({MODEL})\n\n{}",
-            thousands(self.ticks_measured as u64),
+            "\nCost of a tick, feed-forward, {ticks} ticks ({MODEL})\n\n{}",
             self.costs().text()
         );
         for (what, tracking) in self.trackings() {
@@ -23,107 +23,83 @@ impl Report {
         if !self.effects.is_empty() {
             text += &format!("\n{WORTH}\n\n{}", self.worth().text());
         }
-        text += &format!("\n{}\n{}\n", self.memory(), self.provenance());
-        text += &self.feedback();
-        text += &self.gate();
-        text + &format!("Plot: {}\n", plot.display())
+        let (memory, rustc, qemu) = (self.memory(), &self.rustc, &self.qemu);
+        text += &format!("\n{memory}\n{rustc}; {qemu}; µs at {CLOCK_MHZ} MHz\n");
+        if let Some(gains) = &self.gains {
+            text += &format!(
+                "Feedback in every run: ω_n {:.1} rad/s, ζ {:.2}, on M's diagonal at the pose {}\n",
+                gains.omega_n, gains.zeta, gains.pose
+            );
+        }
+        let (speed, gate) = (self.peak_speed, self.gate());
+        text + &format!(
+            "The reference reaches {speed:.2} rad/s\n{gate}Plot: {}\n",
+            plot.display()
+        )
     }
 
     /// For the README.
     pub fn markdown(&self) -> String {
-        let mut text = format!(
-            "Cost of a tick with feed-forward, {} ticks ({MODEL}):\n\n{}",
-            thousands(self.ticks_measured as u64),
-            self.costs().markdown()
-        );
-        let mut table = Table::new(&["tracking error RMS, mrad", "exact model", "model off"]);
-        let percent = |errors: &Errors, pd: &Errors| {
-            format!(
-                "{} ({:.1} %)",
-                milli(errors.rms_rad),
-                100.0 * errors.rms_rad / pd.rms_rad
-            )
+        let percent = |errors: &Errors, tracking: &Tracking| {
+            let share = 100.0 * errors.rms_rad / tracking.pd.rms_rad;
+            format!("{} ({share:.1} %)", milli(errors.rms_rad))
         };
         let (exact, off) = (&self.tracking, &self.tracking_mismatched);
-        for ((law, errors), (_, errors_off)) in exact.laws().into_iter().zip(off.laws()) {
-            table.row([
-                in_print(law),
-                percent(errors, &exact.pd),
-                percent(errors_off, &off.pd),
-            ]);
-        }
-        text += &format!(
-            "\nIn brackets the share of PD's error. \"Model off\": the plant's inertias differ by \
-             up to ±3 % and its friction by up to ±10 %.\n\n{}",
-            table.markdown()
+        let laws: Vec<_> = exact.laws().into_iter().zip(off.laws()).collect();
+        let table = Table::of(
+            &laws,
+            &[
+                ("tracking error RMS, mrad", &|((law, _), _)| in_print(law)),
+                ("exact model", &|((_, errors), _)| percent(errors, exact)),
+                ("model off", &|(_, (_, errors))| percent(errors, off)),
+            ],
         );
-        text + &format!("\n{}.\nMeasured with {}.\n", self.memory(), self.rustc)
+        format!(
+            "Cost of a tick with feed-forward, {} ticks ({MODEL}):\n\n{}\n\
+             In brackets the share of PD's error. \"Model off\": the plant's inertias differ by \
+             up to ±3 % and its friction by up to ±10 %.\n\n{}\n{}.\nMeasured with {}.\n",
+            thousands(self.ticks_measured as u64),
+            self.costs().markdown(),
+            table.markdown(),
+            self.memory(),
+            self.rustc
+        )
     }
 
     /// A row per effect.
     fn worth(&self) -> Table {
-        let mut table = Table::new(&[
-            "effect",
-            "saves cycles",
-            "flash B",
-            "RAM B",
-            "error RMS, mrad",
-            "max",
-            "RMS ×",
-            "safety gate",
-        ]);
         let full = &self.tracking.feedforward;
-        let row = |name: &str, saved: [i64; 3], errors: &Errors| {
-            let saved = saved.map(|n| {
-                if n < 0 {
-                    format!("-{}", thousands(n.unsigned_abs()))
-                } else {
-                    thousands(n as u64)
-                }
-            });
-            std::iter::once(name.to_owned())
-                .chain(saved)
-                .chain([
-                    milli(errors.rms_rad),
-                    milli(errors.max_rad),
-                    format!("{:.1}", errors.rms_rad / full.rms_rad),
-                    gate(&errors.status),
-                ])
-                .collect::<Vec<_>>()
-        };
-        table.row(row("(none dropped)", [0; 3], full));
-        for worth in &self.effects {
+        let rows = self.effects.iter().map(|worth| {
             let saved = [worth.cycles, worth.flash_bytes, worth.ram_bytes as i64];
-            table.row(row(&worth.effect, saved, &worth.without));
-        }
-        table
-    }
-
-    /// What the laws have in common.
-    fn feedback(&self) -> String {
-        let gains = self.gains.as_ref().map_or_else(String::new, |gains| {
-            format!(
-                "Feedback in every run: ω_n {:.1} rad/s, ζ {:.2}, on M's diagonal at the pose {}\n",
-                gains.omega_n, gains.zeta, gains.pose
-            )
+            (&*worth.effect, saved, &worth.without)
         });
-        format!(
-            "{gains}The reference reaches {:.2} rad/s\n",
-            self.peak_speed
+        let rows: Vec<_> = std::iter::once(("(none dropped)", [0; 3], full))
+            .chain(rows)
+            .collect();
+        Table::of(
+            &rows,
+            &[
+                ("effect", &|(name, ..)| (*name).to_owned()),
+                ("saves cycles", &|(_, [cycles, ..], _)| signed(*cycles, "-")),
+                ("flash B", &|(_, [_, flash, _], _)| signed(*flash, "-")),
+                ("RAM B", &|(_, [.., ram], _)| signed(*ram, "-")),
+                ("error RMS, mrad", &|(.., errors)| milli(errors.rms_rad)),
+                ("max", &|(.., errors)| milli(errors.max_rad)),
+                ("RMS ×", &|(.., errors)| {
+                    format!("{:.1}", errors.rms_rad / full.rms_rad)
+                }),
+                ("safety gate", &|(.., errors)| gate(&errors.status)),
+            ],
         )
     }
 
     /// What the safety gate said: once, if it said the same of every run.
     fn gate(&self) -> String {
-        let said: Vec<(String, String)> =
-            self.trackings()
-                .into_iter()
-                .flat_map(|(what, tracking)| {
-                    tracking.laws().into_iter().map(move |(law, e)| {
-                        (format!("{what}, {}", in_print(law)), words(&e.status))
-                    })
-                })
-                .collect();
+        let runs = self.trackings().into_iter().flat_map(|(what, tracking)| {
+            let laws = tracking.laws().into_iter();
+            laws.map(move |(law, e)| (format!("{what}, {}", in_print(law)), words(&e.status)))
+        });
+        let said: Vec<(String, String)> = runs.collect();
         match said.as_slice() {
             [(_, first), rest @ ..] if rest.iter().all(|(_, status)| status == first) => {
                 format!("Safety gate in every run: {first}\n")
@@ -146,40 +122,37 @@ impl Report {
     }
 
     fn costs(&self) -> Table {
-        let mut table = Table::new(&[
-            "phase",
-            "insn min",
-            "median",
-            "max",
-            "cycles min",
-            "median",
-            "max",
-            "µs median",
-            "µs max",
-            "of the work",
-            &format!("of {} ms", f64::from(self.period_us) / 1e3),
-        ]);
-        let whole = self.tick.total.cycles.median as f64;
-        for (name, cost) in self.tick.phases() {
-            let (i, c) = (cost.instructions, cost.cycles);
-            let counts = [i.min, i.median, i.max, c.min, c.median, c.max].map(thousands);
-            let times = [c.median, c.max].map(|n| format!("{:.2}", n as f64 / CLOCK_MHZ));
-            let (median, longest) = (c.median as f64, c.max as f64);
-            let shares = [
-                format!("{:.1} %", 100.0 * median / whole),
-                format!(
-                    "{:.2} %",
-                    100.0 * longest / CLOCK_MHZ / f64::from(self.period_us)
-                ),
-            ];
-            table.row(
-                std::iter::once(name.to_owned())
-                    .chain(counts)
-                    .chain(times)
-                    .chain(shares),
-            );
-        }
-        table
+        let whole = self.tick["total"].cycles.median as f64;
+        let period = f64::from(self.period_us);
+        let microseconds = |cycles: u64| format!("{:.2}", cycles as f64 / CLOCK_MHZ);
+        Table::of(
+            self.tick
+                .iter()
+                .skip(1)
+                .chain(self.tick.first())
+                .collect::<Vec<_>>()
+                .iter(),
+            &[
+                ("phase", &|(name, _)| (*name).clone()),
+                ("insn min", &|(_, cost)| thousands(cost.instructions.min)),
+                ("median", &|(_, cost)| thousands(cost.instructions.median)),
+                ("max", &|(_, cost)| thousands(cost.instructions.max)),
+                ("cycles min", &|(_, cost)| thousands(cost.cycles.min)),
+                ("median", &|(_, cost)| thousands(cost.cycles.median)),
+                ("max", &|(_, cost)| thousands(cost.cycles.max)),
+                ("µs median", &|(_, cost)| microseconds(cost.cycles.median)),
+                ("µs max", &|(_, cost)| microseconds(cost.cycles.max)),
+                ("of the work", &|(_, cost)| {
+                    format!("{:.1} %", 100.0 * cost.cycles.median as f64 / whole)
+                }),
+                (&format!("of {} ms", period / 1e3), &|(_, cost)| {
+                    format!(
+                        "{:.2} %",
+                        100.0 * cost.cycles.max as f64 / CLOCK_MHZ / period
+                    )
+                }),
+            ],
+        )
     }
 
     fn memory(&self) -> String {
@@ -191,43 +164,39 @@ impl Report {
             thousands(self.stack_bytes)
         )
     }
-
-    fn provenance(&self) -> String {
-        format!("{}; {}; µs at {CLOCK_MHZ} MHz", self.rustc, self.qemu)
-    }
 }
 
 /// A row per law: RMS and maximum of each joint and of all, the ratio to PD, and the longest tick.
 fn errors_table(tracking: &Tracking) -> Table {
     let joints = tracking.pd.per_joint.len();
-    let joint_names: Vec<String> = (1..=joints).map(|joint| format!("joint {joint}")).collect();
-    let head: Vec<&str> = std::iter::once("mrad")
-        .chain(joint_names.iter().map(String::as_str))
-        .chain(["all", "of PD", "tick cycles"])
-        .collect();
-    let mut table = Table::new(&head);
-    type Pick = fn(&Errors) -> (f64, Vec<f64>);
+    let joints: Vec<String> = (1..=joints).map(|joint| format!("joint {joint}")).collect();
+    let names = joints.iter().map(String::as_str);
+    let head = std::iter::once("mrad")
+        .chain(names)
+        .chain(["all", "of PD", "tick cycles"]);
+    let mut table = Table::new(&head.collect::<Vec<_>>());
+    type Pick = (fn(&Errors) -> f64, fn(&JointError) -> f64);
     let kinds: [(&str, Pick); 2] = [
-        ("RMS", |e| {
-            (e.rms_rad, e.per_joint.iter().map(|j| j.rms_rad).collect())
-        }),
-        ("max", |e| {
-            (e.max_rad, e.per_joint.iter().map(|j| j.max_rad).collect())
-        }),
+        ("RMS", (|e| e.rms_rad, |j| j.rms_rad)),
+        ("max", (|e| e.max_rad, |j| j.max_rad)),
     ];
-    for (kind, pick) in kinds {
-        let (pd, _) = pick(&tracking.pd);
+    for (kind, (all, each)) in kinds {
         for (law, errors) in tracking.laws() {
-            let (all, each) = pick(errors);
-            table.row(
-                std::iter::once(format!("{} {kind}", in_print(law)))
-                    .chain(each.into_iter().map(milli))
-                    .chain([milli(all), format!("{:.1} %", 100.0 * all / pd)])
-                    .chain([thousands(errors.tick_cycles)]),
-            );
+            let mut cells = vec![format!("{} {kind}", in_print(law))];
+            cells.extend(errors.per_joint.iter().map(|joint| milli(each(joint))));
+            cells.push(milli(all(errors)));
+            cells.push(format!("{:.1} %", 100.0 * all(errors) / all(&tracking.pd)));
+            cells.push(thousands(errors.tick_cycles));
+            table.row(cells);
         }
     }
     table
+}
+
+/// A number with its sign in print, if that is a minus.
+pub fn signed(number: i64, minus: &str) -> String {
+    let sign = if number < 0 { minus } else { "" };
+    format!("{sign}{}", thousands(number.unsigned_abs()))
 }
 
 /// What the table of effects shows.
@@ -237,14 +206,14 @@ const WORTH: &str = "What each effect is worth: saved in the longest tick, in th
 /// The safety gate's status in a word or two.
 pub fn gate(status: &str) -> String {
     let said = words(status);
-    let changed = said
+    let usual = ["the full law", "no fault", "no limit reached"];
+    let changed: Vec<&str> = said
         .split(", ")
-        .filter(|part| !["the full law", "no fault", "no limit reached"].contains(part));
-    let changed: Vec<&str> = changed.collect();
-    if changed.is_empty() {
-        "silent".into()
-    } else {
-        changed.join(", ")
+        .filter(|part| !usual.contains(part))
+        .collect();
+    match changed.as_slice() {
+        [] => "silent".into(),
+        changed => changed.join(", "),
     }
 }
 

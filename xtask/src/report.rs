@@ -3,10 +3,11 @@
 use std::collections::BTreeMap;
 
 use cycle_meter::Sample;
+use indexmap::IndexMap;
 use serde::{Deserialize, Serialize};
 
 use crate::bars::largest;
-use crate::callgraph::Reach;
+use crate::costs::code_bytes;
 use crate::elf::Image;
 use crate::error::{Error, Result};
 use crate::meter::{self, BETWEEN, Cost, REGIONS};
@@ -26,8 +27,8 @@ pub struct Report {
     pub ticks_measured: usize,
     /// Length of a tick's period in µs.
     pub period_us: u32,
-    /// The price of a tick.
-    pub tick: Tick,
+    /// The price of a tick by its parts: of the whole, of each phase, and of what is between them.
+    pub tick: IndexMap<String, Cost>,
     /// The feedback's gains, if the scene says.
     pub gains: Option<Gains>,
     /// The greatest speed of a joint's reference in rad/s.
@@ -54,25 +55,6 @@ pub struct Report {
     pub rustc: String,
     /// The emulator.
     pub qemu: String,
-}
-
-/// The price of each phase of a tick.
-#[derive(Debug, Default, Serialize, Deserialize)]
-pub struct Tick {
-    /// The whole tick.
-    pub total: Cost,
-    /// Reading the encoders.
-    pub read: Cost,
-    /// Evaluating the trajectory.
-    pub reference: Cost,
-    /// Computing the torques.
-    pub dynamics: Cost,
-    /// The safety gate.
-    pub safety: Cost,
-    /// Commanding the drives.
-    pub write: Cost,
-    /// What is in none of them.
-    pub between: Cost,
 }
 
 /// The error of each law.
@@ -126,21 +108,6 @@ pub struct JointError {
     pub max_rad: f64,
 }
 
-impl Tick {
-    /// The phases with their names, the total last.
-    pub fn phases(&self) -> [(&'static str, &Cost); 7] {
-        [
-            ("read", &self.read),
-            ("reference", &self.reference),
-            ("dynamics", &self.dynamics),
-            ("safety", &self.safety),
-            ("write", &self.write),
-            (BETWEEN, &self.between),
-            ("total", &self.total),
-        ]
-    }
-}
-
 impl Tracking {
     /// The laws by their names, the one to sell first, PD last.
     pub fn laws(&self) -> Vec<(&str, &Errors)> {
@@ -157,44 +124,46 @@ impl Tracking {
         self.feedforward.rms_rad / self.pd.rms_rad
     }
 
-    fn of(recording: &Recording, costs: &[Cost], plant: &str) -> Result<Self> {
-        let errors = |law: &str| {
-            run(recording, costs, plant, law)
-                .and_then(|(run, cost)| errors(run, cost))
-                .ok_or_else(|| Error::check(format!("there is no run of {law} on {plant}")))
-        };
-        let mut beside = BTreeMap::new();
-        for law in recording.laws(plant) {
-            if ![SOLD, PD].contains(&law) {
-                beside.insert(law.to_owned(), errors(law)?);
-            }
-        }
+    fn of(runs: &Runs<'_>, laws: &[&str], plant: &str) -> Result<Self> {
+        let errors = |law: &str| runs.find(plant, law).map(|(run, cost)| errors(run, cost));
+        let beside = laws.iter().filter(|law| ![SOLD, PD].contains(law));
         Ok(Self {
             feedforward: errors(SOLD)?,
-            beside,
+            beside: beside
+                .map(|law| Ok(((*law).to_owned(), errors(law)?)))
+                .collect::<Result<_>>()?,
             pd: errors(PD)?,
         })
     }
 }
 
-impl Worth {
-    /// Of each effect that the scene runs without.
-    fn all(recording: &Recording, costs: &[Cost], image: &Image) -> Result<Vec<Self>> {
-        let plant = PLANTS[0];
-        let at = |law: &str| run(recording, costs, plant, law);
-        let none = || Error::check(format!("there is no run of {SOLD} on {plant}"));
-        let (full, full_cost) = at(SOLD).ok_or_else(none)?;
+/// The runs of a recording, each with the price of its tick.
+struct Runs<'a>(Vec<(&'a Trajectory, Cost)>);
+
+impl Runs<'_> {
+    fn find(&self, plant: &str, law: &str) -> Result<(&Trajectory, &Cost)> {
+        let mut runs = self.0.iter();
+        let found = runs.find(|(run, _)| (&*run.plant, &*run.law) == (plant, law));
+        let (run, cost) =
+            found.ok_or_else(|| Error::check(format!("there is no run of {law} on {plant}")))?;
+        Ok((run, cost))
+    }
+
+    /// What each effect is worth that the scene runs without.
+    fn worths(&self, recording: &Recording, image: &Image) -> Result<Vec<Worth>> {
+        let (full, full_cost) = self.find(PLANTS[0], SOLD)?;
         let mut all = Vec::new();
         for effect in &recording.effects {
-            let Some((run, cost)) = at(&format!("{WITHOUT}{}", effect.name)) else {
+            let law = format!("{WITHOUT}{}", effect.name);
+            let Ok((run, cost)) = self.find(PLANTS[0], &law) else {
                 continue;
             };
-            all.push(Self {
+            all.push(Worth {
                 effect: effect.name.clone(),
                 cycles: full_cost.cycles.max as i64 - cost.cycles.max as i64,
                 flash_bytes: code(image, full)? as i64 - code(image, run)? as i64,
                 ram_bytes: effect.bytes,
-                without: errors(run, cost).ok_or_else(none)?,
+                without: errors(run, cost),
             });
         }
         Ok(all)
@@ -203,35 +172,20 @@ impl Worth {
 
 /// Bytes of the code that a run's tick can reach.
 fn code(image: &Image, run: &Trajectory) -> Result<u64> {
-    let reach = Reach::of(image, |function| function.address == run.tick_at)?;
-    Ok(reach
-        .functions()
-        .map(|(function, _)| function.bytes.len() as u64)
-        .sum())
+    code_bytes(image, run.tick_at, |_| false)
 }
 
-/// The run of a law on a plant, with the price of its tick; `costs` are in the order of the runs.
-fn run<'a>(
-    recording: &'a Recording,
-    costs: &'a [Cost],
-    plant: &str,
-    law: &str,
-) -> Option<(&'a Trajectory, &'a Cost)> {
-    let mut order = recording.order.iter();
-    let place = order.position(|(on, name)| on == plant && name == law)?;
-    Some((recording.trajectory(plant, law)?, costs.get(place)?))
-}
-
-fn errors(run: &Trajectory, cost: &Cost) -> Option<Errors> {
-    Some(Errors {
-        rms_rad: run.total?,
+fn errors(run: &Trajectory, cost: &Cost) -> Errors {
+    let joints = std::iter::zip(&run.rms, &run.max);
+    Errors {
+        rms_rad: run.total,
         max_rad: largest(run.max.iter().copied()),
-        per_joint: std::iter::zip(&run.rms, &run.max)
+        per_joint: joints
             .map(|(&rms_rad, &max_rad)| JointError { rms_rad, max_rad })
             .collect(),
         status: run.status.clone(),
         tick_cycles: cost.cycles.max,
-    })
+    }
 }
 
 impl Report {
@@ -244,53 +198,33 @@ impl Report {
         qemu: String,
     ) -> Result<Self> {
         recording.complete()?;
-        let ticks = recording.ticks as usize;
+        let ticks = recording.ticks.max(1) as usize;
+        let all = ticks * recording.runs.len();
         // The other laws cost less: the figures are those of the law that we sell.
-        let is_sold = |tick: usize| {
-            let run = recording.order.get(tick / ticks.max(1));
-            run.is_some_and(|(_, law)| law == SOLD)
-        };
-        let all = ticks * recording.order.len();
+        let is_sold = |tick: usize| recording.runs[tick / ticks].law == SOLD;
         let costs = meter::costs(samples, all, is_sold)?;
-        let cost = |name: &str| {
-            let mut names = REGIONS.iter().chain([&BETWEEN]);
-            let at = names.position(|region| *region == name);
-            at.and_then(|at| costs.get(at).copied()).unwrap_or_default()
-        };
-        let of_runs = (0..recording.order.len())
-            .map(|run| {
-                let costs = meter::costs(samples, all, |tick| tick / ticks.max(1) == run)?;
-                Ok(costs.first().copied().unwrap_or_default())
-            })
-            .collect::<Result<Vec<Cost>>>()?;
+        let names = REGIONS.into_iter().chain([BETWEEN]);
+        let mut runs = Runs(Vec::new());
+        for (number, run) in recording.runs.iter().enumerate() {
+            let costs = meter::costs(samples, all, |tick| tick / ticks == number)?;
+            runs.0.push((run, costs[0]));
+        }
+        let tracking = |plant| Tracking::of(&runs, &recording.laws(plant), plant);
+        let effects = recording.effects.iter();
         Ok(Self {
             scene: recording.scene.clone(),
             model: MODEL.to_owned(),
             ticks_measured: (0..all).filter(|tick| is_sold(*tick)).count(),
             period_us: recording.tick_us,
-            tick: Tick {
-                total: cost("total"),
-                read: cost("read"),
-                reference: cost("reference"),
-                dynamics: cost("dynamics"),
-                safety: cost("safety"),
-                write: cost("write"),
-                between: cost(BETWEEN),
-            },
+            tick: names.map(str::to_owned).zip(costs).collect(),
             gains: recording.gains.clone(),
             peak_speed: recording.peak_speed(),
-            tracking: Tracking::of(recording, &of_runs, PLANTS[0])?,
-            tracking_mismatched: Tracking::of(recording, &of_runs, PLANTS[1])?,
+            tracking: tracking(PLANTS[0])?,
+            tracking_mismatched: tracking(PLANTS[1])?,
             bound_rad: recording.bound,
-            named: recording
-                .effects
-                .iter()
-                .map(|effect| effect.name.clone())
-                .collect(),
-            effects: Worth::all(recording, &of_runs, image)?,
-            tick_bytes: recording
-                .trajectory(PLANTS[0], SOLD)
-                .map_or(Ok(0), |run| code(image, run))?,
+            named: effects.map(|effect| effect.name.clone()).collect(),
+            effects: runs.worths(recording, image)?,
+            tick_bytes: code(image, runs.find(PLANTS[0], SOLD)?.0)?,
             flash_bytes: image.sizes.flash,
             ram_bytes: image.sizes.ram,
             stack_bytes: recording.stack.unwrap_or_default(),

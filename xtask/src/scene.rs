@@ -4,30 +4,24 @@ use clap::ValueEnum;
 
 /// A bin of `firmware-demo` that moves an arm and reports what it costs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+#[value(rename_all = "snake_case")]
 pub enum Scene {
     /// A UR5e picks and places, its encoders on SPI and its drives on PWM.
     #[default]
     Ur5e,
     /// A Panda carries a load that it picks up on the way, known or not.
-    #[value(name = "panda_payload")]
     PandaPayload,
     /// A SCARA serves a table: three vertical axes, on which gravity does no work.
-    #[value(name = "scara_table")]
     ScaraTable,
     /// An iiwa 14 whose transmissions give way, told so or not.
-    #[value(name = "flexible_joint")]
     FlexibleJoint,
     /// A leg of a quadruped hops on a vertical rail.
-    #[value(name = "leg_hop")]
     LegHop,
     /// An arm of low gear ratios, whose motors' rotors are gyroscopes.
-    #[value(name = "direct_drive")]
     DirectDrive,
     /// An arm on a satellite that floats free, with the satellite's recoil in its feed-forward.
-    #[value(name = "space_arm")]
     SpaceArm,
     /// A gimbal on a rolling ship holds its camera level and sweeps the horizon.
-    #[value(name = "gimbal_ship")]
     GimbalShip,
 }
 

@@ -2,8 +2,8 @@
 
 use crate::docs::Page;
 use crate::protocol::in_print;
-use crate::render::{gate, milli};
-use crate::report::{Errors, MODEL, Report, Worth};
+use crate::render::{CLOCK_MHZ, gate, milli};
+use crate::report::{Errors, MODEL, Report};
 use crate::table::{Table, thousands};
 
 /// Where the table stands.
@@ -47,90 +47,62 @@ fn table(reports: &[&Report], set_off: impl Fn(&str) -> String) -> Table {
         "safety gate",
     ]);
     for report in reports {
-        table.row(whole(report, set_off(&report.scene)));
+        let dash = || "–".to_owned();
+        let saved = |saved: i64| {
+            if saved == 0 {
+                "0".into()
+            } else {
+                signed_change(-saved)
+            }
+        };
+        let row = |name: String, costs: [String; 5], errors: &Errors, bound: String| {
+            let share = 100.0 * errors.rms_rad / report.tracking.pd.rms_rad;
+            let [rms, max] = [errors.rms_rad, errors.max_rad].map(milli);
+            let gate = gate(&errors.status);
+            let rest = [rms, max, bound, format!("{share:.1} %"), gate];
+            std::iter::once(name).chain(costs).chain(rest)
+        };
+        let longest = report.tick["total"].cycles.max;
+        let period = f64::from(report.period_us) * CLOCK_MHZ;
+        let costs = [
+            thousands(longest),
+            format!("{:.1} %", 100.0 * longest as f64 / period),
+            thousands(report.tick_bytes),
+            thousands(report.flash_bytes),
+            thousands(report.ram_bytes),
+        ];
+        let bound = format!("{:.1}", 1e3 * report.bound_rad);
+        let errors = &report.tracking.feedforward;
+        table.row(row(set_off(&report.scene), costs, errors, bound));
         for name in &report.named {
-            let worth = report.effects.iter().find(|worth| worth.effect == *name);
-            table.row(match worth {
-                Some(worth) => without(worth, report),
-                None => needed(name),
-            });
+            let less = format!("− {name}");
+            let Some(worth) = report.effects.iter().find(|worth| worth.effect == *name) else {
+                // The scene's law cannot do without it.
+                let rest = std::iter::repeat_n(dash(), 9);
+                table.row([less, "needed".to_owned()].into_iter().chain(rest));
+                continue;
+            };
+            let [cycles, flash] = [worth.cycles, worth.flash_bytes].map(saved);
+            let costs = [
+                cycles,
+                dash(),
+                flash,
+                dash(),
+                saved(worth.ram_bytes.cast_signed()),
+            ];
+            table.row(row(less, costs, &worth.without, dash()));
         }
         for (law, errors) in &report.tracking.beside {
-            table.row(other(law, errors, report));
+            let cycles = saved(longest as i64 - errors.tick_cycles as i64);
+            let costs = [cycles, dash(), dash(), dash(), dash()];
+            table.row(row(in_print(law), costs, errors, dash()));
         }
     }
     table
 }
 
-fn whole(report: &Report, name: String) -> Vec<String> {
-    let (errors, longest) = (&report.tracking.feedforward, report.tick.total.cycles.max);
-    let period = f64::from(report.period_us) * crate::render::CLOCK_MHZ;
-    vec![
-        name,
-        thousands(longest),
-        format!("{:.1} %", 100.0 * longest as f64 / period),
-        thousands(report.tick_bytes),
-        thousands(report.flash_bytes),
-        thousands(report.ram_bytes),
-        milli(errors.rms_rad),
-        milli(errors.max_rad),
-        format!("{:.1}", 1e3 * report.bound_rad),
-        format!("{:.1} %", 100.0 * report.tracking.ratio()),
-        gate(&errors.status),
-    ]
-}
-
-fn without(worth: &Worth, report: &Report) -> Vec<String> {
-    let mut row = lesser(
-        format!("− {}", worth.effect),
-        worth.cycles,
-        &worth.without,
-        report,
-    );
-    row[3] = less(worth.flash_bytes);
-    row[5] = less(worth.ram_bytes.cast_signed());
-    row
-}
-
-/// Another law than the scene's feed-forward.
-fn other(law: &str, errors: &Errors, report: &Report) -> Vec<String> {
-    let saved = report.tick.total.cycles.max as i64 - errors.tick_cycles as i64;
-    lesser(in_print(law), saved, errors, report)
-}
-
-/// A law that is not the one to sell, by its name and the cycles that it saves.
-fn lesser(name: String, saved: i64, errors: &Errors, report: &Report) -> Vec<String> {
-    let dash = || "–".to_owned();
-    vec![
-        name,
-        less(saved),
-        dash(),
-        dash(),
-        dash(),
-        dash(),
-        milli(errors.rms_rad),
-        milli(errors.max_rad),
-        dash(),
-        format!(
-            "{:.1} %",
-            100.0 * errors.rms_rad / report.tracking.pd.rms_rad
-        ),
-        gate(&errors.status),
-    ]
-}
-
-/// What is saved, as a change.
-fn less(saved: i64) -> String {
-    match saved {
-        0 => "0".to_owned(),
-        1.. => format!("−{}", thousands(saved.unsigned_abs())),
-        _ => format!("+{}", thousands(saved.unsigned_abs())),
-    }
-}
-
-/// An effect that the scene's law cannot do without.
-fn needed(name: &str) -> Vec<String> {
-    let mut row = vec![format!("− {name}"), "needed".to_owned()];
-    row.extend(std::iter::repeat_n("–".to_owned(), 9));
-    row
+/// A change in print.
+fn signed_change(change: i64) -> String {
+    let sign = if change < 0 { '−' } else { '+' };
+    format!("{sign}{}", thousands(change.unsigned_abs()))
 }

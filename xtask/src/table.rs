@@ -1,4 +1,12 @@
-//! One table, as text for a terminal and as Markdown for the docs.
+//! One table, as Markdown for the docs and as text for a terminal, and how a report is shown.
+
+use std::process::ExitCode;
+
+use serde::Serialize;
+
+use crate::docs;
+use crate::error::Result;
+use crate::output;
 
 /// Rows of cells; the first column is left-aligned, the others are right-aligned.
 pub struct Table {
@@ -20,69 +28,78 @@ impl Table {
         self.rows.push(cells.into_iter().collect());
     }
 
+    /// A row for each of some things, by what their columns are called and say of one.
+    pub fn of<'a, T: 'a>(rows: impl IntoIterator<Item = &'a T>, columns: &[Column<'_, T>]) -> Self {
+        let head: Vec<&str> = columns.iter().map(|(head, _)| *head).collect();
+        let mut table = Self::new(&head);
+        for row in rows {
+            table.row(columns.iter().map(|(_, cell)| cell(row)));
+        }
+        table
+    }
+
     /// For a terminal.
     pub fn text(&self) -> String {
-        let rule: Vec<String> = self.widths().iter().map(|w| "─".repeat(*w)).collect();
-        self.lines(&rule)
-            .map(|cells| format!("  {}\n", cells.join("  ").trim_end()))
-            .collect()
+        plain(&self.markdown())
     }
 
     /// For GitHub.
     pub fn markdown(&self) -> String {
-        let rule: Vec<String> = self
-            .widths()
-            .iter()
-            .enumerate()
-            .map(|(i, w)| {
-                let dashes = "-".repeat(w.saturating_sub(1));
-                if i == 0 {
-                    format!("-{dashes}")
-                } else {
-                    format!("{dashes}:")
-                }
-            })
-            .collect();
-        self.lines(&rule)
-            .map(|cells| format!("| {} |\n", cells.join(" | ")))
-            .collect()
+        let all = || std::iter::once(&self.head).chain(&self.rows);
+        let width = |column: usize| {
+            let cells = all().filter_map(|row| row.get(column));
+            cells.map(|cell| cell.chars().count()).fold(3, usize::max)
+        };
+        let widths: Vec<usize> = (0..self.head.len()).map(width).collect();
+        let line = |row: &Vec<String>| {
+            let cells = row.iter().zip(&widths).enumerate();
+            let padded = cells.map(|(column, (cell, &width))| match column {
+                0 => format!("{cell:width$}"),
+                _ => format!("{cell:>width$}"),
+            });
+            format!("| {} |\n", padded.collect::<Vec<_>>().join(" | "))
+        };
+        let rule = widths.iter().enumerate().map(|(column, width)| {
+            let end = if column == 0 { "-" } else { ":" };
+            "-".repeat(width - 1) + end
+        });
+        let rule = line(&rule.collect());
+        line(&self.head) + &rule + &self.rows.iter().map(line).collect::<String>()
     }
+}
 
-    fn widths(&self) -> Vec<usize> {
-        (0..self.head.len())
-            .map(|i| {
-                let cells = std::iter::once(&self.head).chain(&self.rows);
-                cells
-                    .filter_map(|row| row.get(i))
-                    .map(|cell| cell.chars().count())
-                    .max()
-                    .unwrap_or(0)
-                    .max(3)
-            })
-            .collect()
-    }
+/// What a column is called, and its cell of a row.
+pub type Column<'a, T> = (&'a str, &'a dyn Fn(&T) -> String);
 
-    /// The padded cells of heading, rule and rows.
-    fn lines<'a>(&'a self, rule: &'a Vec<String>) -> impl Iterator<Item = Vec<String>> + 'a {
-        let widths = self.widths();
-        [&self.head, rule]
-            .into_iter()
-            .chain(&self.rows)
-            .map(move |row| {
-                row.iter()
-                    .zip(&widths)
-                    .enumerate()
-                    .map(|(i, (cell, width))| {
-                        let space = " ".repeat(width.saturating_sub(cell.chars().count()));
-                        if i == 0 {
-                            format!("{cell}{space}")
-                        } else {
-                            format!("{space}{cell}")
-                        }
-                    })
-                    .collect()
-            })
+/// Markdown for a terminal: tables without bars, and neither comments nor pictures.
+pub fn plain(markdown: &str) -> String {
+    let mut text = String::new();
+    for line in markdown.lines() {
+        if line.starts_with("<!--") || line.starts_with("![") {
+            continue;
+        }
+        let cells = line.strip_prefix("| ").and_then(|l| l.strip_suffix(" |"));
+        let line = match cells.map(|cells| cells.replace(" | ", "  ")) {
+            Some(rule) if rule.starts_with("---") => format!("  {}", rule.replace(['-', ':'], "─")),
+            Some(cells) => format!("  {}", cells.trim_end()),
+            None => line.trim_start_matches('#').trim_start().to_owned(),
+        };
+        if !(line.is_empty() && text.ends_with("\n\n")) {
+            text += &line;
+            text.push('\n');
+        }
     }
+    text
+}
+
+/// Prints a report: its measurements as JSON, or its page.
+pub fn show(json: bool, measurements: &impl Serialize, markdown: &str) -> Result<ExitCode> {
+    if json {
+        docs::print_json(measurements)?;
+    } else {
+        output::print(&format!("\n{}", plain(markdown)))?;
+    }
+    Ok(ExitCode::SUCCESS)
 }
 
 /// `1234567` as `1,234,567`.

@@ -29,14 +29,66 @@ const X: [f64; 3] = [1.0, 0.0, 0.0];
 const Y: [f64; 3] = [0.0, 1.0, 0.0];
 const Z: [f64; 3] = [0.0, 0.0, 1.0];
 
-/// A link of `mass` kg along its own `length`, in m.
-const fn link(parent: usize, axis: [f64; 3], at: [f64; 3], mass: f64, length: [f64; 3]) -> Body {
+/// Of the left side, along y mirrored for the right one: the axis, the place on the body before, the mass in
+/// kg, the link's own length in m, and a turn about x and y.
+type Link = ([f64; 3], [f64; 3], f64, [f64; 3], [f64; 2]);
+
+const LEG: [Link; 6] = [
+    (
+        Y,
+        [0.0, 0.064, -0.103],
+        1.35,
+        [0.0, 0.05, -0.03],
+        [0.0, 0.0],
+    ),
+    (
+        X,
+        [0.0, 0.052, -0.030],
+        1.52,
+        [0.03, 0.0, -0.1],
+        [0.0, -0.175],
+    ),
+    (Z, [0.025, 0.0, -0.124], 1.7, [0.0, 0.02, -0.15], [0.0, 0.0]),
+    (
+        Y,
+        [-0.078, 0.002, -0.177],
+        1.93,
+        [0.0, 0.0, -0.3],
+        [0.0, 0.175],
+    ),
+    (Y, [0.0, 0.0, -0.3], 0.07, [0.0, 0.0, -0.02], [0.0, 0.0]),
+    (X, [0.0, 0.0, -0.018], 0.61, [0.13, 0.0, -0.03], [0.0, 0.0]),
+];
+const WAIST: [Link; 3] = [
+    (Z, [0.0, 0.0, 0.0], 0.24, [0.0, 0.0, 0.03], [0.0, 0.0]),
+    (X, [-0.004, 0.0, 0.035], 0.05, [0.0, 0.0, 0.01], [0.0, 0.0]),
+    (Y, [0.0, 0.0, 0.019], 9.6, [0.01, 0.0, 0.35], [0.0, 0.0]),
+];
+const ARM: [Link; 7] = [
+    (Y, [0.004, 0.1, 0.248], 0.72, [0.0, 0.04, 0.0], [0.279, 0.0]),
+    (
+        X,
+        [0.0, 0.038, -0.014],
+        0.64,
+        [0.0, 0.01, -0.09],
+        [-0.279, 0.0],
+    ),
+    (Z, [0.0, 0.006, -0.103], 0.73, [0.01, 0.0, -0.1], [0.0, 0.0]),
+    (Y, [0.016, 0.0, -0.081], 0.6, [0.1, 0.0, -0.01], [0.0, 0.0]),
+    (X, [0.1, 0.002, -0.01], 0.09, [0.04, 0.0, 0.0], [0.0, 0.0]),
+    (Y, [0.038, 0.0, 0.0], 0.48, [0.05, 0.0, 0.0], [0.0, 0.0]),
+    (Z, [0.046, 0.0, 0.0], 0.25, [0.09, 0.01, 0.0], [0.0, 0.0]),
+];
+
+/// The body of a link; `left` is 1 or -1.
+const fn body((axis, at, mass, length, turn): Link, parent: usize, left: f64) -> Body {
     let [x, y, z] = length;
     let axis_inv = mass / 12.0;
     Body::new("link", parent, Joint::revolute(axis))
-        .xyz(at)
+        .xyz([at[0], at[1] * left, at[2]])
+        .rpy([turn[0] * left, turn[1], 0.0])
         .mass(mass)
-        .com([0.5 * x + 0.003, 0.5 * y - 0.002, 0.5 * z + 0.001])
+        .com([0.5 * x + 0.003, 0.5 * y * left - 0.002, 0.5 * z + 0.001])
         .inertia([
             axis_inv * (y * y + z * z + 0.01),
             1e-5 * mass,
@@ -53,72 +105,23 @@ const fn link(parent: usize, axis: [f64; 3], at: [f64; 3], mass: f64, length: [f
         })
 }
 
-/// Six bodies from `first` on; `left` is 1 or -1.
-const fn leg(bodies: &mut [Body; 29], first: usize, left: f64) {
-    let hip = [0.0, 0.064 * left, -0.103];
-    bodies[first] = link(BASE, Y, hip, 1.35, [0.0, 0.05 * left, -0.03]);
-    bodies[first + 1] = link(
-        first,
-        X,
-        [0.0, 0.052 * left, -0.030],
-        1.52,
-        [0.03, 0.0, -0.1],
-    )
-    .rpy([0.0, -0.175, 0.0]);
-    bodies[first + 2] = link(first + 1, Z, [0.025, 0.0, -0.124], 1.7, [0.0, 0.02, -0.15]);
-    bodies[first + 3] = link(
-        first + 2,
-        Y,
-        [-0.078, 0.002, -0.177],
-        1.93,
-        [0.0, 0.0, -0.3],
-    )
-    .rpy([0.0, 0.175, 0.0]);
-    bodies[first + 4] = link(first + 3, Y, [0.0, 0.0, -0.3], 0.07, [0.0, 0.0, -0.02]);
-    bodies[first + 5] = link(first + 4, X, [0.0, 0.0, -0.018], 0.61, [0.13, 0.0, -0.03]);
-}
-
-/// Seven bodies from `first` on, on the last body of the waist.
-const fn arm(bodies: &mut [Body; 29], first: usize, left: f64) {
-    let shoulder = [0.004, 0.1 * left, 0.248];
-    bodies[first] =
-        link(14, Y, shoulder, 0.72, [0.0, 0.04 * left, 0.0]).rpy([0.279 * left, 0.0, 0.0]);
-    bodies[first + 1] = link(
-        first,
-        X,
-        [0.0, 0.038 * left, -0.014],
-        0.64,
-        [0.0, 0.01, -0.09],
-    )
-    .rpy([-0.279 * left, 0.0, 0.0]);
-    bodies[first + 2] = link(
-        first + 1,
-        Z,
-        [0.0, 0.006 * left, -0.103],
-        0.73,
-        [0.01, 0.0, -0.1],
-    );
-    bodies[first + 3] = link(first + 2, Y, [0.016, 0.0, -0.081], 0.6, [0.1, 0.0, -0.01]);
-    bodies[first + 4] = link(
-        first + 3,
-        X,
-        [0.1, 0.002 * left, -0.01],
-        0.09,
-        [0.04, 0.0, 0.0],
-    );
-    bodies[first + 5] = link(first + 4, Y, [0.038, 0.0, 0.0], 0.48, [0.05, 0.0, 0.0]);
-    bodies[first + 6] = link(first + 5, Z, [0.046, 0.0, 0.0], 0.25, [0.09, 0.01, 0.0]);
+/// The bodies of a limb from `first` on, the first of them on `parent`.
+const fn limb(bodies: &mut [Body; 29], links: &[Link], first: usize, parent: usize, left: f64) {
+    let mut i = 0;
+    while i < links.len() {
+        let parent = if i == 0 { parent } else { first + i - 1 };
+        bodies[first + i] = body(links[i], parent, left);
+        i += 1;
+    }
 }
 
 const fn humanoid() -> [Body; 29] {
-    let mut bodies = [link(BASE, Z, [0.0; 3], 1.0, [0.0; 3]); 29];
-    leg(&mut bodies, 0, 1.0);
-    leg(&mut bodies, 6, -1.0);
-    bodies[12] = link(BASE, Z, [0.0; 3], 0.24, [0.0, 0.0, 0.03]);
-    bodies[13] = link(12, X, [-0.004, 0.0, 0.035], 0.05, [0.0, 0.0, 0.01]);
-    bodies[14] = link(13, Y, [0.0, 0.0, 0.019], 9.6, [0.01, 0.0, 0.35]);
-    arm(&mut bodies, 15, 1.0);
-    arm(&mut bodies, 22, -1.0);
+    let mut bodies = [body(WAIST[0], BASE, 1.0); 29];
+    limb(&mut bodies, &LEG, 0, BASE, 1.0);
+    limb(&mut bodies, &LEG, 6, BASE, -1.0);
+    limb(&mut bodies, &WAIST, 12, BASE, 1.0);
+    limb(&mut bodies, &ARM, 15, 14, 1.0);
+    limb(&mut bodies, &ARM, 22, 14, -1.0);
     bodies
 }
 

@@ -3,13 +3,5 @@
 #![no_main]
 
 mod costs;
-#[path = "costs/inverse.rs"]
-mod inverse;
 
-use cortex_m_rt::entry;
-use dynamics_core::robots::A1;
-
-#[entry]
-fn main() -> ! {
-    inverse::run::<A1, 16, 12>()
-}
+costs::main!(costs::inverse::run::<robots::A1, 16, 12>());

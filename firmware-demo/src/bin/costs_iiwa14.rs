@@ -3,13 +3,5 @@
 #![no_main]
 
 mod costs;
-#[path = "costs/inverse.rs"]
-mod inverse;
 
-use cortex_m_rt::entry;
-use dynamics_core::robots::Iiwa14;
-
-#[entry]
-fn main() -> ! {
-    inverse::run::<Iiwa14, 7, 7>()
-}
+costs::main!(costs::inverse::run::<robots::Iiwa14, 7, 7>());

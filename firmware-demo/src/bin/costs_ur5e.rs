@@ -3,13 +3,5 @@
 #![no_main]
 
 mod costs;
-#[path = "costs/inverse.rs"]
-mod inverse;
 
-use cortex_m_rt::entry;
-use dynamics_core::robots::Ur5e;
-
-#[entry]
-fn main() -> ! {
-    inverse::run::<Ur5e, 6, 6>()
-}
+costs::main!(costs::inverse::run::<robots::Ur5e, 6, 6>());

@@ -3,24 +3,6 @@
 #![no_std]
 #![no_main]
 
-#[expect(
-    dead_code,
-    reason = "sines and cosines are for functions that take them"
-)]
 mod costs;
-mod effects;
 
-use cortex_m_rt::entry;
-use dynamics_core::Engine;
-use dynamics_core::robots::Panda;
-use firmware_demo::effect_presets;
-
-use effects::Priced;
-
-#[entry]
-fn main() -> ! {
-    let priced = &mut Priced::<Engine<Panda>, 7>::new();
-    effect_presets::rigid(priced);
-    effect_presets::bodies::<7, 6>(priced);
-    costs::done()
-}
+costs::main!(costs::effects::bodies::<robots::Panda, 7, 6>());

@@ -3,14 +3,5 @@
 #![no_main]
 
 mod costs;
-#[path = "costs/forward.rs"]
-mod forward;
 
-use cortex_m_rt::entry;
-use dynamics_core::robots::A1;
-use forward::Forms;
-
-#[entry]
-fn main() -> ! {
-    forward::run::<A1, 16, 12>(&costs::asks::<A1, 16, 12>(), &[Forms::core::<A1, 16>()])
-}
+costs::main!(costs::forward_dynamics::core::<robots::A1, 16, 12>());

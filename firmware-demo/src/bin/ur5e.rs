@@ -2,20 +2,4 @@
 #![no_std]
 #![no_main]
 
-use cortex_m::singleton;
-use cortex_m_rt::entry;
-use firmware_demo::scene::{App, QUEUE, Record};
-use firmware_demo::scenes::ur5e::PickAndPlace;
-use firmware_demo::{sim_io::Wires, target};
-use heapless::spsc::Queue;
-
-#[entry]
-fn main() -> ! {
-    static WIRES: Wires<6> = Wires::new();
-    let queue = singleton!(: Queue<Record<6>, QUEUE> = Queue::new());
-    target::scene(
-        &WIRES,
-        queue,
-        |app| singleton!(: App<PickAndPlace, 6, 6, 6, 6> = app),
-    )
-}
+firmware_demo::scene_main!(ur5e::PickAndPlace, 6, 6, 6, 6);

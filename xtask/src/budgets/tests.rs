@@ -1,18 +1,22 @@
-use super::{Budget, Budgets, hold_costs, hold_scene};
-use crate::bars::{Ratio, Ratios};
-use crate::costs::{self, Bars};
+use super::{Budget, Budgets, Rows, hold_costs, hold_scene};
+use crate::bars::{Bar, Bars};
+use crate::costs;
 use crate::meter::Spread;
 
+/// A scene's budget of these costs.
 fn budget(rustc: &str, cost: u64) -> Budget {
+    let figures = [
+        "tick_instructions",
+        "tick_cycles",
+        "dynamics_instructions",
+        "dynamics_cycles",
+        "flash_bytes",
+        "ram_bytes",
+        "stack_bytes",
+    ];
     Budget {
         rustc: rustc.into(),
-        tick_instructions: cost,
-        tick_cycles: cost,
-        dynamics_instructions: cost,
-        dynamics_cycles: cost,
-        flash_bytes: cost,
-        ram_bytes: cost,
-        stack_bytes: cost,
+        figures: figures.map(|figure| (figure.to_owned(), cost)).into(),
     }
 }
 
@@ -40,12 +44,13 @@ fn row(cost: u64) -> costs::Row {
 }
 
 /// A report of one row of these costs, at opt-level s with those, and of these bars.
-fn report(cost: u64, small: u64, bars: &str, ratios: Ratios) -> costs::Report {
+fn report(cost: u64, small: u64, bars: &str, ratios: Bars) -> costs::Report {
+    let mut all = toml::from_str::<Bars>(bars).expect("bars");
+    all.extend(ratios);
     costs::Report {
         rows: vec![row(cost)],
         small: vec![row(small)],
-        bars: toml::from_str::<Bars>(bars).expect("bars"),
-        ratios,
+        bars: all,
         rustc: "rustc 1".into(),
     }
 }
@@ -53,7 +58,7 @@ fn report(cost: u64, small: u64, bars: &str, ratios: Ratios) -> costs::Report {
 /// Budgets whose only row of costs is that of this report.
 fn budgets_of(report: &costs::Report) -> Budgets {
     Budgets {
-        costs: Some(costs::Budget::measured(report)),
+        costs: Some(Rows::measured(report)),
         ..Budgets::default()
     }
 }
@@ -77,7 +82,7 @@ fn another_compiler_gets_three_per_cent_and_no_more() {
 
 #[test]
 fn a_row_that_costs_one_cycle_more_than_its_budget_is_refused() {
-    let plain = |cost| report(cost, cost, "", Ratios::new());
+    let plain = |cost| report(cost, cost, "", Bars::new());
     let budgets = budgets_of(&plain(1000));
     assert_eq!(told(hold_costs(&budgets, &plain(1000))), "1 rows");
     let over = told(hold_costs(&budgets, &plain(1001)));
@@ -89,11 +94,11 @@ fn a_row_that_costs_one_cycle_more_than_its_budget_is_refused() {
 fn a_bar_of_the_costs_is_held_whatever_the_budget_allows() {
     let key = row(0).key();
     let held = |bar: &str, ratio: f64, small: u64| {
-        let ratio = Ratio {
-            cycles: Some(ratio),
-            ..Ratio::default()
+        let ratio = Bar {
+            most: [("cycles".into(), ratio)].into(),
+            missed: Vec::new(),
         };
-        let ratios = Ratios::from([(format!("opt-level s / 3, {key}"), ratio)]);
+        let ratios = Bars::from([(format!("opt-level s / 3, {key}"), ratio)]);
         let report = report(1000, small, bar, ratios);
         told(hold_costs(&budgets_of(&report), &report))
     };
@@ -150,4 +155,58 @@ fn a_scene_is_held_to_its_budget_and_to_its_bar() {
         .is_err()
     );
     assert!(hold_scene(&Budgets::default(), "arm", &budget("rustc 1", 1)).is_err());
+}
+
+/// The budget of one row.
+fn rows(rustc: &str, key: &str, cycles: u64) -> Rows {
+    let text = format!(
+        "rustc = {rustc:?}\n[rows]\n{key:?} = {{ instructions = 9, cycles = {cycles}, \
+         code_bytes = 9, stack_bytes = 9 }}\n"
+    );
+    toml::from_str(&text).expect("TOML")
+}
+
+#[test]
+fn what_is_written_is_read() {
+    let text = rows("rustc 1", "ur5e rnea core full", 1000).toml();
+    let value: toml::Table = toml::from_str(&text).expect("TOML");
+    let again: Rows = value["costs"].clone().try_into().expect("a budget");
+    assert_eq!(again.toml(), text);
+}
+
+#[test]
+fn the_budget_of_one_robot_misses_no_row_of_another() {
+    let both = rows("rustc 1", "ur5e rnea core full", 9).only("ur5e");
+    let measured = rows("rustc 1", "ur5e aba core full", 9);
+    let wrong = both.exceeded_by(&measured).join("; ");
+    assert!(
+        wrong.contains("ur5e rnea core full: is no longer measured"),
+        "{wrong}"
+    );
+    let other = rows("rustc 1", "ur5e10 rnea core full", 9).only("ur5e");
+    let wrong = other.exceeded_by(&measured);
+    assert_eq!(wrong, ["ur5e aba core full: has no budget"]);
+}
+
+#[test]
+fn a_row_over_budget_is_named() {
+    let ours = rows("rustc 1", "a", 1000);
+    assert!(ours.exceeded_by(&rows("rustc 1", "a", 1000)).is_empty());
+    assert!(ours.exceeded_by(&rows("rustc 2", "a", 1030)).is_empty());
+    assert_eq!(
+        ours.exceeded_by(&rows("rustc 1", "a", 1001)),
+        ["a: cycles 1001 > 1000"]
+    );
+    assert_eq!(
+        ours.exceeded_by(&rows("rustc 1", "b", 1)),
+        ["b: has no budget", "a: is no longer measured"]
+    );
+}
+
+#[test]
+fn a_figure_that_only_one_side_has_is_named() {
+    let ours: Budget = toml::from_str("rustc = \"rustc 1\"\nbytes = 1").expect("TOML");
+    let theirs: Budget = toml::from_str("rustc = \"rustc 1\"\ncycles = 1").expect("TOML");
+    let wrong = ours.exceeded_by(&theirs);
+    assert_eq!(wrong, ["cycles has no budget", "bytes is no figure"]);
 }

@@ -1,6 +1,6 @@
 //! Runs the firmware's bins `costs_…` and `forward_…` under the meter and cuts its samples by their logs.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use cycle_meter::Sample;
 use serde::Serialize;
@@ -72,6 +72,16 @@ impl Row {
             self.robot, self.algorithm, self.form, self.inputs
         )
     }
+
+    /// What budgets and bars are about.
+    pub fn figures(&self) -> [(&'static str, u64); 4] {
+        [
+            ("instructions", self.instructions.max),
+            ("cycles", self.cycles.max),
+            ("code_bytes", self.code_bytes),
+            ("stack_bytes", self.stack_bytes),
+        ]
+    }
 }
 
 /// Builds the bins, runs each of them, and returns their rows in order.
@@ -98,16 +108,29 @@ pub fn measure(
     profile: &str,
     bins: &[&'static str],
 ) -> Result<Vec<Row>> {
-    let spinner = Spinner::start(&format!("building {} ({profile})", bins.join(", ")));
+    let building = Spinner::start(&format!("building {} ({profile})", bins.join(", ")));
     let elves = firmware::build_bins(workspace, tools.toolchain, profile, bins)?;
-    spinner.say("building the cycle meter".into());
+    drop(building);
+    Ok(run_all(workspace, tools, bins, &elves)?.0)
+}
+
+/// Runs bins under the meter; returns their rows in order, and their logs.
+pub fn run_all(
+    workspace: &Workspace,
+    tools: &Tools,
+    bins: &[&'static str],
+    elves: &[PathBuf],
+) -> Result<(Vec<Row>, Vec<String>)> {
+    let spinner = Spinner::start("building the cycle meter");
     let meter = firmware::build_meter(workspace)?;
-    let mut rows = Vec::new();
+    let (mut rows, mut log) = (Vec::new(), Vec::new());
     for (name, elf) in bins.iter().zip(elves) {
         spinner.say(format!("running {name} in QEMU"));
-        rows.extend(run(tools, &meter, name, &elf)?.0);
+        let (mine, lines) = run(tools, &meter, name, elf)?;
+        rows.extend(mine);
+        log.extend(lines);
     }
-    Ok(rows)
+    Ok((rows, log))
 }
 
 /// Runs a bin under the meter; returns its rows in order, and its log.
@@ -119,7 +142,9 @@ pub fn run(
 ) -> Result<(Vec<Row>, Vec<String>)> {
     let image = Image::read(elf)?;
     let (lines, samples) = watch(tools, meter, name, elf)?;
-    let rows = cut(&lines, &samples, |address| code_bytes(&image, address))?;
+    let rows = cut(&lines, &samples, |address| {
+        code_bytes(&image, address, |name| name.contains("libm"))
+    })?;
     Ok((rows, lines))
 }
 
@@ -159,60 +184,41 @@ fn watch(
 /// The rows that a log announces, each with its share of the samples.
 fn cut(
     lines: &[String],
-    samples: &[Sample],
+    mut samples: &[Sample],
     code_bytes: impl Fn(u64) -> Result<u64>,
 ) -> Result<Vec<Row>> {
-    let mut samples = samples;
     let mut rows = Vec::new();
     for line in lines {
         let words: Vec<&str> = line.split(' ').collect();
-        let [
-            "config",
-            robot,
-            algorithm,
-            form,
-            inputs,
-            trig,
-            joints,
-            states,
-            address,
-            stack,
-        ] = *words.as_slice()
-        else {
+        let ["config", robot, algorithm, form, inputs, ref numbers @ ..] = *words else {
             continue;
         };
-        let number = |word: &str| {
-            let bad =
-                |_| Error::check(format!("the firmware's line {line:?} cannot be understood"));
-            word.parse::<u64>().map_err(bad)
+        let numbers = numbers.iter().map(|word| word.parse());
+        let numbers = numbers.collect::<std::result::Result<Vec<u64>, _>>();
+        let Ok(&[trig, joints, states, address, stack_bytes]) = numbers.as_deref() else {
+            let why = format!("the firmware's line {line:?} cannot be understood");
+            return Err(Error::check(why));
         };
-        let (mine, rest) = samples
-            .split_at_checked(number(states)? as usize)
-            .ok_or_else(|| {
-                Error::check("the cycle meter saw fewer calls than the firmware made")
-            })?;
+        let (mine, rest) = samples.split_at_checked(states as usize).ok_or_else(|| {
+            Error::check("the cycle meter saw fewer calls than the firmware made")
+        })?;
         samples = rest;
-        let Cost {
-            instructions,
-            cycles,
-        } = Cost::of(
-            mine.iter().map(|sample| sample.instructions),
-            mine.iter().map(|sample| sample.cycles),
-        )?;
+        let cycles = || mine.iter().map(|sample| sample.cycles);
+        let cost = Cost::of(mine.iter().map(|sample| sample.instructions), cycles())?;
         rows.push(Row {
             robot: robot.into(),
             algorithm: algorithm.into(),
             form: form.into(),
             inputs: inputs.into(),
-            trig: number(trig)? != 0,
-            joints: number(joints)? as usize,
-            instructions,
-            cycles,
-            cycles_mean: mean(mine),
+            trig: trig != 0,
+            joints: joints as usize,
+            instructions: cost.instructions,
+            cycles: cost.cycles,
+            cycles_mean: cycles().sum::<u64>() as f64 / mine.len() as f64,
             flops: mine.iter().map(|sample| sample.flops).max().unwrap_or(0),
-            code_bytes: code_bytes(number(address)?)?,
-            stack_bytes: number(stack)?,
-            address: number(address)?,
+            code_bytes: code_bytes(address)?,
+            stack_bytes,
+            address,
         });
     }
     if rows.is_empty() || !samples.is_empty() {
@@ -223,24 +229,17 @@ fn cut(
     Ok(rows)
 }
 
-fn mean(samples: &[Sample]) -> f64 {
-    let cycles: u64 = samples.iter().map(|sample| sample.cycles).sum();
-    cycles as f64 / samples.len() as f64
-}
-
-/// Instructions and literals of the function at an address and of all that it calls.
-fn code_bytes(image: &Image, address: u64) -> Result<u64> {
-    let mut functions = image.functions.iter();
-    let function = functions.find(|function| function.address == address);
-    let function = function
-        .ok_or_else(|| Error::check(format!("the firmware has no function at {address:#x}")))?;
-    let reach = Reach::of(image, |f| f.address == function.address)?;
-    let counted = reach
-        .functions()
-        .filter(|(function, _)| !function.names.iter().any(|name| name.contains("libm")));
-    Ok(counted
-        .map(|(function, _)| function.bytes.len() as u64)
-        .sum())
+/// Instructions and literals of the function at an address and of all that it calls, but for those that are
+/// left out by their names.
+pub fn code_bytes(image: &Image, address: u64, left_out: impl Fn(&str) -> bool) -> Result<u64> {
+    if !image.functions.iter().any(|f| f.address == address) {
+        let why = format!("the firmware has no function at {address:#x}");
+        return Err(Error::check(why));
+    }
+    let reach = Reach::of(image, |f| f.address == address)?;
+    let functions = reach.functions();
+    let counted = functions.filter(|(f, _)| !f.names.iter().any(|name| left_out(name)));
+    Ok(counted.map(|(f, _)| f.bytes.len() as u64).sum())
 }
 
 #[cfg(test)]

@@ -1,8 +1,7 @@
 //! The rows in print.
 
-use super::bars::{Bars, held, held_small, unknown};
 use super::measure::Row;
-use crate::bars::{self, Held, Ratios};
+use crate::bars::{self, Bars, Held, is_ratio};
 use crate::render::CLOCK_MHZ;
 use crate::report::MODEL;
 use crate::table::{Table, thousands};
@@ -10,6 +9,11 @@ use crate::table::{Table, thousands};
 /// The least arithmetic known for a general arm of six joints, flops: Balafoutis; McMillan & Orin.
 const FLOORS: [(&str, u64); 3] = [("rnea", 836), ("crba", 855), ("aba", 2067)];
 const FLOOR_JOINTS: usize = 6;
+
+/// The end of the name of a scene's bar.
+pub const TICK: &str = " tick";
+/// The end of the name of a bar of what effects add to a rigid body's call.
+pub const ADDED: &str = " added";
 
 /// Of the section on forward dynamics.
 const WAYS: &str = "\
@@ -25,25 +29,11 @@ pub struct Report {
     pub small: Vec<Row>,
     /// What was promised.
     pub bars: Bars,
-    /// What was promised of opt-level s, among others.
-    pub ratios: Ratios,
     /// The compiler of the firmware.
     pub rustc: String,
 }
 
 impl Report {
-    /// For a terminal.
-    pub fn text(&self) -> String {
-        let mut text = format!("\nCost of a call ({MODEL})\n");
-        for (robot, table) in self.tables() {
-            text += &format!("\n{robot}\n\n{}", table.text());
-        }
-        text += &format!("\nTwo ways of forward dynamics\n\n{}", self.ways().text());
-        text += &format!("\nur5e at opt-level s\n\n{}", self.small_table().text());
-        text += &format!("\nBars\n\n{}", bars::table(&self.held()).text());
-        text + &format!("\n{}; µs at {CLOCK_MHZ} MHz\n", self.rustc)
-    }
-
     /// For the docs.
     pub fn markdown(&self) -> String {
         let mut text = format!(
@@ -87,38 +77,29 @@ impl Report {
     }
 
     /// A table for each robot.
-    fn tables(&self) -> Vec<(&str, Table)> {
-        let mut tables: Vec<(&str, Table)> = Vec::new();
-        for row in &self.rows {
-            if tables.last().is_none_or(|(robot, _)| *robot != row.robot) {
-                let table = Table::new(&[
-                    "algorithm, form, inputs",
-                    "sin/cos",
-                    "insn min",
-                    "median",
-                    "max",
-                    "cycles min",
-                    "median",
-                    "max",
-                    "µs",
-                    "flops",
-                    "of floor",
-                    "code",
-                    "stack",
-                ]);
-                tables.push((&row.robot, table));
-            }
-            if let Some((_, table)) = tables.last_mut() {
-                table.row(cells(row));
-            }
-        }
-        tables
+    fn tables(&self) -> impl Iterator<Item = (&str, Table)> {
+        let robots = self.rows.chunk_by(|a, b| a.robot == b.robot);
+        robots.map(|rows| (&*rows[0].robot, table(rows)))
     }
 
-    /// Every bar that there is a figure for.
+    /// Every bar that there is a figure for: of the rows, then of the engine at opt-level s against itself at 3.
     fn held(&self) -> Vec<Held> {
-        let mut all = held(&self.bars, &self.rows);
-        all.extend(held_small(&self.ratios, &self.rows, &self.small));
+        let mut all = Vec::new();
+        for (key, row) in self
+            .bars
+            .keys()
+            .filter_map(|key| Some((key, self.row(key)?)))
+        {
+            let figures = row.figures().into_iter();
+            let held = |(figure, taken)| Held::of(&self.bars, key, figure, taken as f64);
+            all.extend(figures.filter_map(held));
+        }
+        for (small, row) in self.pairs() {
+            let key = format!("opt-level s / 3, {}", row.key());
+            for ((figure, taken), (_, of)) in small.figures().into_iter().zip(row.figures()) {
+                all.extend(Held::of(&self.bars, &key, figure, taken as f64 / of as f64));
+            }
+        }
         all
     }
 
@@ -126,91 +107,116 @@ impl Report {
     pub fn missed(&self) -> Vec<String> {
         let held = self.held();
         let unmet = held.iter().filter_map(Held::complaint);
-        unmet.chain(unknown(&self.bars, &self.rows)).collect()
+        let bars = self.bars.keys().filter(|key| !is_ratio(key));
+        let unknown = bars
+            .filter(|key| ![TICK, ADDED].iter().any(|end| key.ends_with(end)))
+            .filter(|key| self.row(key).is_none())
+            .map(|key| format!("{key}: there is no such row"));
+        unmet.chain(unknown).collect()
+    }
+
+    fn row(&self, key: &str) -> Option<&Row> {
+        self.rows.iter().find(|row| row.key() == key)
+    }
+
+    /// The rows at opt-level s, and beside them those at 3.
+    fn pairs(&self) -> Vec<(&Row, &Row)> {
+        let small = self.small.iter();
+        small
+            .filter_map(|small| Some((small, self.row(&small.key())?)))
+            .collect()
     }
 
     /// By M and its factors, and by articulated bodies.
     fn ways(&self) -> Table {
-        let mut table = Table::new(&[
-            "robot, form",
-            "joints",
-            "forward: cycles",
-            "aba: cycles",
-            "aba / forward",
-            "shorter",
-        ]);
-        for row in &self.rows {
+        let pairs = self.rows.iter().filter_map(|row| {
             let of = |other: &&Row| {
                 (&other.robot, &other.form, other.trig, &*other.algorithm)
-                    == (&row.robot, &row.form, row.trig, "aba")
+                    == (&row.robot, &row.form, false, "aba")
             };
-            let aba = self.rows.iter().find(of).map(|row| row.cycles.max);
-            let (true, Some(aba)) = (row.algorithm == "forward" && !row.trig, aba) else {
-                continue;
-            };
-            let forward = row.cycles.max;
-            let shorter = if aba < forward { "aba" } else { "forward" };
-            table.row([
-                format!("{} {}", row.robot, row.form),
-                row.joints.to_string(),
-                thousands(forward),
-                thousands(aba),
-                format!("{:.2}", aba as f64 / forward as f64),
-                shorter.to_owned(),
-            ]);
-        }
-        table
+            let aba = self.rows.iter().find(of)?;
+            (row.algorithm == "forward" && !row.trig).then_some((
+                row,
+                row.cycles.max,
+                aba.cycles.max,
+            ))
+        });
+        Table::of(
+            &pairs.collect::<Vec<_>>(),
+            &[
+                ("robot, form", &|(row, ..)| {
+                    format!("{} {}", row.robot, row.form)
+                }),
+                ("joints", &|(row, ..)| row.joints.to_string()),
+                ("forward: cycles", &|(_, forward, _)| thousands(*forward)),
+                ("aba: cycles", &|(.., aba)| thousands(*aba)),
+                ("aba / forward", &|(_, forward, aba)| {
+                    format!("{:.2}", *aba as f64 / *forward as f64)
+                }),
+                ("shorter", &|(_, forward, aba)| {
+                    if aba < forward { "aba" } else { "forward" }.into()
+                }),
+            ],
+        )
     }
 
     /// opt-level s beside 3.
     fn small_table(&self) -> Table {
-        let mut table = Table::new(&[
-            "algorithm, form, inputs",
-            "sin/cos",
-            "cycles at s",
-            "at 3",
-            "s / 3",
-            "code at s",
-            "at 3",
-            "s / 3",
-        ]);
-        for small in &self.small {
-            let Some(row) = self.rows.iter().find(|row| row.key() == small.key()) else {
-                continue;
-            };
-            let mut line = cells(small)[..2].to_vec();
-            for (small, row) in [
-                (small.cycles.max, row.cycles.max),
-                (small.code_bytes, row.code_bytes),
-            ] {
-                let ratio = format!("{:.3}", small as f64 / row as f64);
-                line.extend([thousands(small), thousands(row), ratio]);
-            }
-            table.row(line);
-        }
-        table
+        let ratio = |small: u64, row: u64| format!("{:.3}", small as f64 / row as f64);
+        Table::of(
+            &self.pairs(),
+            &[
+                ("algorithm, form, inputs", &|(row, _)| called(row)),
+                ("sin/cos", &|(row, _)| trig(row)),
+                ("cycles at s", &|(small, _)| thousands(small.cycles.max)),
+                ("at 3", &|(_, row)| thousands(row.cycles.max)),
+                ("s / 3", &|(small, row)| {
+                    ratio(small.cycles.max, row.cycles.max)
+                }),
+                ("code at s", &|(small, _)| thousands(small.code_bytes)),
+                ("at 3", &|(_, row)| thousands(row.code_bytes)),
+                ("s / 3", &|(small, row)| {
+                    ratio(small.code_bytes, row.code_bytes)
+                }),
+            ],
+        )
     }
 }
 
-fn cells(row: &Row) -> Vec<String> {
-    let (i, c) = (row.instructions, row.cycles);
-    let mut cells = vec![
-        format!("{} {} {}", row.algorithm, row.form, row.inputs),
-        if row.trig { "inside" } else { "at hand" }.to_owned(),
-    ];
-    cells.extend([i.min, i.median, i.max, c.min, c.median, c.max].map(thousands));
-    cells.push(format!("{:.2}", c.max as f64 / CLOCK_MHZ));
-    cells.push(thousands(row.flops));
-    cells.push(floor_share(row).map_or_else(String::new, |share| format!("{share:.2}")));
-    cells.extend([row.code_bytes, row.stack_bytes].map(thousands));
-    cells
+fn called(row: &Row) -> String {
+    format!("{} {} {}", row.algorithm, row.form, row.inputs)
+}
+
+fn trig(row: &Row) -> String {
+    if row.trig { "inside" } else { "at hand" }.to_owned()
+}
+
+fn table(rows: &[Row]) -> Table {
+    Table::of(
+        rows,
+        &[
+            ("algorithm, form, inputs", &called),
+            ("sin/cos", &trig),
+            ("insn min", &|row| thousands(row.instructions.min)),
+            ("median", &|row| thousands(row.instructions.median)),
+            ("max", &|row| thousands(row.instructions.max)),
+            ("cycles min", &|row| thousands(row.cycles.min)),
+            ("median", &|row| thousands(row.cycles.median)),
+            ("max", &|row| thousands(row.cycles.max)),
+            ("µs", &|row| {
+                format!("{:.2}", row.cycles.max as f64 / CLOCK_MHZ)
+            }),
+            ("flops", &|row| thousands(row.flops)),
+            ("of floor", &|row| floor_share(row).unwrap_or_default()),
+            ("code", &|row| thousands(row.code_bytes)),
+            ("stack", &|row| thousands(row.stack_bytes)),
+        ],
+    )
 }
 
 /// Flops as a share of the floor, where there is one: for what the floor computes.
-fn floor_share(row: &Row) -> Option<f64> {
-    let (_, floor) = FLOORS
-        .iter()
-        .find(|(algorithm, _)| *algorithm == row.algorithm)?;
+fn floor_share(row: &Row) -> Option<String> {
+    let floor = FLOORS.iter().find(|(name, _)| *name == row.algorithm)?.1;
     let comparable = row.joints == FLOOR_JOINTS && row.inputs == "full" && !row.trig;
-    comparable.then(|| row.flops as f64 / *floor as f64)
+    comparable.then(|| format!("{:.2}", row.flops as f64 / floor as f64))
 }

@@ -5,13 +5,14 @@ use std::process::ExitCode;
 
 use serde::Serialize;
 
+use super::record;
+use crate::bars::largest;
 use crate::docs;
 use crate::error::{Error, Result};
 use crate::output;
 use crate::plot;
-use crate::progress::Spinner;
 use crate::protocol::Recording;
-use crate::qemu::Run;
+use crate::render::milli;
 use crate::scene::Scene;
 use crate::setup::Tools;
 use crate::table::Table;
@@ -46,70 +47,50 @@ pub fn run(
 ) -> Result<ExitCode> {
     let mut all = Vec::new();
     for (scene, elf) in runs {
-        let name = scene.name();
-        let spinner = Spinner::start(&format!("running scene {name} in QEMU, without the meter"));
-        let mut recording = Recording::default();
-        let run = Run {
-            name,
-            elf,
-            meter: None,
-            logs: true,
-        };
-        tools.qemu.run(&run, |line| {
-            if !recording.line(line)? {
-                spinner.line(&format!("[{name}] {line}"));
-            }
-            Ok(())
-        })?;
-        drop(spinner);
+        let (recording, _) = record(tools, *scene, elf, None)?;
         recording.complete()?;
-        plot::write(&recording, &workspace.output(&format!("{name}.svg"))?)?;
-        all.push(Tracked::of(&recording, why)?);
+        let picture = workspace.output(&format!("{}.svg", scene.name()))?;
+        plot::write(&recording, &picture)?;
+        all.push(Tracked::of(recording, why));
     }
     if json {
         docs::print_json(&all)?;
-    } else {
-        for one in &all {
-            output::print(&one.text())?;
-        }
-        output::print(&format!("\nCosts are missing: {why}.\n"))?;
+        return Ok(ExitCode::SUCCESS);
     }
+    for one in &all {
+        output::print(&one.text())?;
+    }
+    output::print(&format!("\nCosts are missing: {why}.\n"))?;
     Ok(ExitCode::SUCCESS)
 }
 
 impl Tracked {
-    fn of(recording: &Recording, why: &Error) -> Result<Self> {
-        let runs = recording.order.iter().map(|(plant, law)| {
-            let run = recording.trajectory(plant, law);
-            let found = run.and_then(|run| Some((run, run.total?)));
-            let (run, rms_rad) = found
-                .ok_or_else(|| Error::check(format!("there is no error of {law} on {plant}")))?;
-            Ok(Errors {
-                plant: plant.clone(),
-                law: law.clone(),
-                rms_rad,
-                max_rad: run.max.iter().copied().fold(0.0, f64::max),
-                status: run.status.clone(),
-            })
+    fn of(recording: Recording, why: &Error) -> Self {
+        let runs = recording.runs.into_iter().map(|run| Errors {
+            rms_rad: run.total,
+            max_rad: largest(run.max.into_iter()),
+            plant: run.plant,
+            law: run.law,
+            status: run.status,
         });
-        Ok(Self {
-            scene: recording.scene.clone(),
+        Self {
+            scene: recording.scene,
             costs_missing: why.to_string(),
-            runs: runs.collect::<Result<_>>()?,
-        })
+            runs: runs.collect(),
+        }
     }
 
     fn text(&self) -> String {
-        let mut table = Table::new(&["model", "law", "RMS, mrad", "largest, mrad", "safety gate"]);
-        for run in &self.runs {
-            table.row([
-                run.plant.clone(),
-                run.law.clone(),
-                format!("{:.3}", 1e3 * run.rms_rad),
-                format!("{:.3}", 1e3 * run.max_rad),
-                run.status.clone(),
-            ]);
-        }
+        let table = Table::of(
+            &self.runs,
+            &[
+                ("model", &|run| run.plant.clone()),
+                ("law", &|run| run.law.clone()),
+                ("RMS, mrad", &|run| milli(run.rms_rad)),
+                ("largest, mrad", &|run| milli(run.max_rad)),
+                ("safety gate", &|run| run.status.clone()),
+            ],
+        );
         format!("scene {}: tracking error\n\n{}", self.scene, table.text())
     }
 }

@@ -1,6 +1,6 @@
 //! How engine and core stand against the best peer, and what was promised of that.
 
-use crate::bars::{Held, Ratios};
+use crate::bars::{Bars, Held};
 use crate::peers::PRECISIONS;
 use crate::peers::report::{HOST, M4F, Row};
 
@@ -13,7 +13,7 @@ const OURS: [&str; 2] = ["engine", "core run-time model"];
 const OTHERS: [&str; 3] = ["casadi", "pinocchio", "dynibo"];
 
 /// The bars of `budgets.toml` that this run has the figures for.
-pub fn held(ratios: &Ratios, rows: &[Row]) -> Vec<Held> {
+pub fn held(ratios: &Bars, rows: &[Row]) -> Vec<Held> {
     let mut all = Vec::new();
     for (robot, algorithm) in pairs(rows, M4F) {
         let key = format!("{robot} {algorithm}, m4f, engine / casadi");
@@ -33,9 +33,7 @@ pub fn held(ratios: &Ratios, rows: &[Row]) -> Vec<Held> {
             ("code_bytes", engine.code_bytes, best.code_bytes),
         ] {
             let pair = ours.zip(theirs);
-            all.extend(
-                pair.and_then(|(a, b)| Held::ratio(ratios, &key, figure, a as f64 / b as f64)),
-            );
+            all.extend(pair.and_then(|(a, b)| Held::of(ratios, &key, figure, a as f64 / b as f64)));
         }
     }
     for (robot, algorithm) in pairs(rows, HOST) {
@@ -52,7 +50,7 @@ pub fn held(ratios: &Ratios, rows: &[Row]) -> Vec<Held> {
                     let key = format!("{robot} {algorithm}, host {precision}, {ours} / {other}");
                     let pair =
                         best(&|peer| peer == ours).zip(best(&|peer| peer.starts_with(other)));
-                    all.extend(pair.and_then(|(a, b)| Held::ratio(ratios, &key, "ns", a / b)));
+                    all.extend(pair.and_then(|(a, b)| Held::of(ratios, &key, "ns", a / b)));
                 }
             }
         }
@@ -80,7 +78,7 @@ fn is_of(row: &Row, target: &str, robot: &str, algorithm: &str, precision: &str)
 #[cfg(test)]
 mod tests {
     use super::{HOST, M4F, Row, held};
-    use crate::bars::{Ratio, Ratios};
+    use crate::bars::{Bar, Bars};
 
     #[test]
     fn the_engine_is_held_against_the_best_build() {
@@ -104,20 +102,21 @@ mod tests {
             row(HOST, "casadi clang", None, Some(40.0)),
             row(HOST, "engine", None, Some(20.0)),
         ];
-        let pair = |cycles, ns| Ratio {
-            cycles,
-            code_bytes: cycles,
-            ns,
-            ..Ratio::default()
+        let bar = |most: &[(&str, f64)]| Bar {
+            most: most
+                .iter()
+                .map(|(figure, most)| ((*figure).into(), *most))
+                .collect(),
+            missed: Vec::new(),
         };
-        let ratios = Ratios::from([
+        let ratios = Bars::from([
             (
                 "ur5e rnea, m4f, engine / casadi".into(),
-                pair(Some(0.47), None),
+                bar(&[("cycles", 0.47), ("code_bytes", 0.47)]),
             ),
             (
                 "ur5e rnea, host f32, engine / casadi".into(),
-                pair(None, Some(0.8)),
+                bar(&[("ns", 0.8)]),
             ),
         ]);
         let held = held(&ratios, &rows);

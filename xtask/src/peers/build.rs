@@ -4,10 +4,10 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::error::{Error, Result};
-use crate::peers::progress::Progress;
 use crate::peers::robots::Robot;
 use crate::peers::target;
 use crate::peers::tools::Peers;
+use crate::progress::Spinner;
 use crate::shell;
 use crate::workspace::{self, Workspace};
 
@@ -42,13 +42,11 @@ pub struct Workshop<'a> {
     pub code: PathBuf,
     /// Shared libraries and objects.
     pub built: PathBuf,
-    /// What is going on.
-    pub progress: &'a Progress,
 }
 
 impl<'a> Workshop<'a> {
     /// Makes the directories.
-    pub fn new(workspace: &Workspace, peers: &'a Peers, progress: &'a Progress) -> Result<Self> {
+    pub fn new(workspace: &Workspace, peers: &'a Peers) -> Result<Self> {
         let make = |name: &str| {
             let dir = peers.dir.join(name);
             std::fs::create_dir_all(&dir).map_err(Error::file("create", &dir))?;
@@ -61,65 +59,57 @@ impl<'a> Workshop<'a> {
             robots: make("robots")?,
             code: make("code")?,
             built: make("built")?,
-            progress,
         })
     }
 
-    /// Runs a command that makes `output` of `sources`, unless it was made by this very command of
-    /// these very sources with these very compilers and packages: Pinocchio takes minutes.
-    pub fn make(&self, output: &Path, sources: &[&Path], command: &mut Command) -> Result<()> {
-        let mut recipe = format!("{}\n{}\n", shell::display(command), self.compilers);
-        recipe += &workspace::read(&self.peers.requirements)?;
-        for source in sources {
+    /// Compiles `sources`, the first of them by name, with these arguments to the file `name`, unless that was
+    /// made by this very command of these very sources with these very compilers and packages: Pinocchio
+    /// takes minutes.
+    pub fn make(
+        &self,
+        name: &str,
+        compiler: &str,
+        args: &[&[&str]],
+        sources: &[&Path],
+    ) -> Result<PathBuf> {
+        let output = self.built.join(name);
+        let mut command = Command::new(compiler);
+        command.args(sources.first()).args(args.concat());
+        command.arg("-o").arg(&output);
+        let mut recipe = format!("{}\n{}\n", shell::display(&command), self.compilers);
+        for source in std::iter::once(&*self.peers.requirements).chain(sources.iter().copied()) {
             recipe += &workspace::read(source)?;
         }
-        let mut stamp = output.as_os_str().to_owned();
-        stamp.push(".recipe");
-        let stamp = PathBuf::from(stamp);
+        let stamp = self.built.join(format!("{name}.recipe"));
         let made_of = std::fs::read_to_string(&stamp);
-        if output.exists() && made_of.is_ok_and(|made_of| made_of == recipe) {
-            self.progress.step(&format!("kept {}", name_of(output)));
-            return Ok(());
+        if !(output.exists() && made_of.is_ok_and(|made_of| made_of == recipe)) {
+            shell::capture(&mut command)?;
+            workspace::write(&stamp, recipe)?;
         }
-        self.progress
-            .doing_quietly(&format!("compiling {}", name_of(output)));
-        shell::capture(command)?;
-        workspace::write(&stamp, recipe)?;
-        self.progress.step(&format!("compiled {}", name_of(output)));
-        Ok(())
+        Ok(output)
     }
 
     /// Writes the robots and has CasADi write its C.
     pub fn generate(&self, robots: &[Robot]) -> Result<()> {
+        let _spinner = Spinner::start("generating C by CasADi");
         for robot in robots {
             robot.write(&self.robots)?;
         }
         let text = self.robots_file();
         workspace::write(&text, robots.iter().map(Robot::text).collect::<String>())?;
-        self.progress.doing("building CasADi's generator");
-        let generator = self.built.join("generate");
         let casadi = self.peers.packages.join("casadi");
-        let prefix = self.prefix();
-        let mut compile = self.cpp("clang++", &["-O1"]);
-        for lib in [prefix.join("lib"), casadi.clone()] {
-            compile
-                .arg("-L")
-                .arg(&lib)
-                .arg(format!("-Wl,-rpath,{}", lib.display()));
-        }
-        compile
-            .arg("-isystem")
-            .arg(casadi.join("include"))
-            .arg(self.source("generate.cpp"))
-            .args(["-lpinocchio_default", "-lcasadi", "-o"])
-            .arg(&generator);
-        let sources = [self.source("generate.cpp"), self.source("robot.hpp")];
-        self.make(
-            &generator,
-            &sources.each_ref().map(PathBuf::as_path),
-            &mut compile,
-        )?;
-        self.progress.doing("generating C");
+        let libraries = [self.prefix().join("lib"), casadi.clone()].map(|dir| {
+            let dir = dir.display().to_string();
+            [format!("-L{dir}"), format!("-Wl,-rpath,{dir}")]
+        });
+        let include = format!("-isystem{}", casadi.join("include").display());
+        let mut args: Vec<&str> = libraries
+            .as_flattened()
+            .iter()
+            .map(String::as_str)
+            .collect();
+        args.extend(["-O1", &include, "-lpinocchio_default", "-lcasadi"]);
+        let generator = self.cpp("generate", "clang++", &args, "generate.cpp")?;
         shell::capture(Command::new(&generator).arg(&text).arg(&self.code))?;
         Ok(())
     }
@@ -131,94 +121,76 @@ impl<'a> Workshop<'a> {
 
     /// Pinocchio by a compiler, as a shared library.
     pub fn pinocchio(&self, compiler: &str) -> Result<PathBuf> {
-        self.progress
-            .doing(&format!("building Pinocchio by {compiler}"));
-        let library = self.built.join(format!("pinocchio_{compiler}.so"));
-        let mut compile = self.cpp(compiler, &HOST);
-        compile
-            .arg(self.source("pinocchio_peer.cpp"))
-            .arg("-o")
-            .arg(&library);
-        let sources = [self.source("pinocchio_peer.cpp"), self.source("robot.hpp")];
-        self.make(
-            &library,
-            &sources.each_ref().map(PathBuf::as_path),
-            &mut compile,
-        )?;
-        Ok(library)
+        let _spinner = Spinner::start(&format!("building Pinocchio by {compiler}"));
+        let name = format!("pinocchio_{compiler}.so");
+        self.cpp(&name, compiler, &HOST, "pinocchio_peer.cpp")
     }
 
     /// MuJoCo behind our interface.
     pub fn mujoco(&self) -> Result<PathBuf> {
-        let library = self.built.join("mujoco.so");
         let package = self.peers.packages.join("mujoco");
-        let theirs = std::fs::read_dir(&package)
+        let mut files = std::fs::read_dir(&package)
             .map_err(Error::file("read", &package))?
-            .flatten()
-            .map(|entry| entry.path())
-            .find(|path| name_of(path).starts_with("libmujoco."))
+            .flatten();
+        let theirs = files
+            .find(|entry| {
+                entry
+                    .file_name()
+                    .to_string_lossy()
+                    .starts_with("libmujoco.")
+            })
             .ok_or_else(|| Error::check("the package mujoco carries no library"))?;
-        let source = self.source("mujoco_peer.c");
-        let mut compile = Command::new("gcc");
-        compile
-            .args(HOST)
-            .arg("-isystem")
-            .arg(package.join("include"))
-            .arg(&source)
-            .arg(theirs)
-            .arg(format!("-Wl,-rpath,{}", package.display()))
-            .arg("-o")
-            .arg(&library);
-        self.make(&library, &[&source], &mut compile)?;
-        Ok(library)
+        let (theirs, dir) = (theirs.path().display().to_string(), package.display());
+        let include = format!("-isystem{dir}/include");
+        let path = format!("-Wl,-rpath,{dir}");
+        let source = self.sources.join("mujoco_peer.c");
+        self.make(
+            "mujoco.so",
+            "gcc",
+            &[&HOST, &[&include, &theirs, &path]],
+            &[&source],
+        )
     }
 
     /// A function of CasADi's by a compiler, as a shared library.
     pub fn casadi(&self, compiler: &str, name: &str, sizes: [usize; 2]) -> Result<PathBuf> {
-        let library = self.built.join(format!("{name}_{compiler}.so"));
-        let (source, code) = (
-            self.source("casadi_peer.c"),
-            self.code.join(format!("{name}.c")),
-        );
+        let source = self.sources.join("casadi_peer.c");
+        let code = self.code.join(format!("{name}.c"));
         let [joints, outputs] = sizes;
-        let mut compile = Command::new(compiler);
-        compile
-            .args(HOST)
-            .arg(format!("-DFILE=\"{}\"", code.display()))
-            .arg(format!("-DNAME={name}"))
-            .arg(format!("-DJOINTS={joints}"))
-            .arg(format!("-DOUTPUTS={outputs}"))
-            .arg(format!("-DCS={}", u8::from(name.contains("_cs_"))))
-            .arg(&source)
-            .args(["-lm", "-o"])
-            .arg(&library);
-        self.make(&library, &[&source, &code], &mut compile)?;
-        Ok(library)
+        let defined = [
+            format!("-DFILE=\"{}\"", code.display()),
+            format!("-DNAME={name}"),
+            format!("-DJOINTS={joints}"),
+            format!("-DOUTPUTS={outputs}"),
+            format!("-DCS={}", u8::from(name.contains("_cs_"))),
+        ];
+        let defined = defined.each_ref().map(String::as_str);
+        let output = format!("{name}_{compiler}.so");
+        self.make(
+            &output,
+            compiler,
+            &[&HOST, &defined, &["-lm"]],
+            &[&source, &code],
+        )
     }
 
-    fn cpp(&self, compiler: &str, flags: &[&str]) -> Command {
-        let mut command = Command::new(compiler);
+    fn cpp(&self, name: &str, compiler: &str, args: &[&str], source: &str) -> Result<PathBuf> {
+        let dirs = [self.prefix().join("include"), self.peers.eigen.clone()];
+        let dirs = dirs.map(|dir| format!("-isystem{}", dir.display()));
+        let dirs = dirs.each_ref().map(String::as_str);
+        let sources = [source, "robot.hpp"].map(|name| self.sources.join(name));
         // Warnings are of others' headers.
-        command.args(["-std=c++17", "-w"]).args(flags).args(BOOST);
-        for dir in [self.prefix().join("include"), self.peers.eigen.clone()] {
-            command.arg("-isystem").arg(dir);
-        }
-        command
+        let all: [&[&str]; 4] = [&["-std=c++17", "-w"], &BOOST, &dirs, args];
+        self.make(
+            name,
+            compiler,
+            &all,
+            &sources.each_ref().map(PathBuf::as_path),
+        )
     }
 
     /// Where Pinocchio's packages put their headers and libraries.
     fn prefix(&self) -> PathBuf {
         self.peers.packages.join("cmeel.prefix")
     }
-
-    fn source(&self, name: &str) -> PathBuf {
-        self.sources.join(name)
-    }
-}
-
-fn name_of(path: &Path) -> String {
-    path.file_name()
-        .unwrap_or_default()
-        .to_string_lossy()
-        .into_owned()
 }

@@ -3,13 +3,14 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use crate::error::{Error, Result};
 use crate::peers::build::Workshop;
 use crate::peers::report::{HOST, Row};
 use crate::peers::robots::Robot;
 use crate::peers::{ALGORITHMS, LARGE, PRECISIONS, outputs};
+use crate::progress::Spinner;
 use crate::shell;
 use crate::workspace::{self, Workspace};
 
@@ -46,26 +47,6 @@ struct Foreign {
     timed: bool,
 }
 
-/// A line of the benchmark's.
-#[derive(Deserialize)]
-struct Line {
-    robot: String,
-    algorithm: String,
-    peer: String,
-    precision: String,
-    ns: Option<f64>,
-}
-
-/// Shared libraries that [`measure`] makes.
-pub fn steps(robots: &[Robot]) -> usize {
-    let casadi = robots.iter().map(|robot| {
-        let (algorithms, precisions) = compared(robot);
-        let cs = usize::from(!robot.has_subtree_functions());
-        algorithms.len() * precisions.len() * (C_COMPILERS.len() + cs)
-    });
-    casadi.sum::<usize>() + CPP_COMPILERS.len() + 1
-}
-
 /// Algorithms and precisions of a robot.
 fn compared(robot: &Robot) -> (&'static [&'static str], &'static [&'static str]) {
     if robot.has_subtree_functions() {
@@ -85,114 +66,119 @@ pub fn measure(workspace: &Workspace, shop: &Workshop<'_>, robots: &[Robot]) -> 
     let json = serde_json::to_string_pretty(&manifest)
         .map_err(|e| Error::check(format!("cannot write the manifest: {e}")))?;
     workspace::write(&path, json)?;
-    let bench = bench(workspace, shop)?;
-    run(&bench, &path, shop)
+    run(&bench(workspace)?, &path)
 }
 
 fn build(shop: &Workshop<'_>, robots: &[Robot]) -> Result<Vec<Foreign>> {
     let mut foreign = Vec::new();
     for compiler in CPP_COMPILERS {
         let library = shop.pinocchio(compiler)?;
-        for robot in robots {
-            let (algorithms, precisions) = compared(robot);
-            for precision in precisions {
-                for algorithm in algorithms {
-                    let one = casadi(robot, algorithm, precision, "", &library);
-                    foreign.push(Foreign {
-                        peer: format!("pinocchio {compiler}"),
-                        run: format!("pinocchio_{precision}_{algorithm}"),
-                        open: Some((format!("pinocchio_{precision}_open"), shop.robots_file())),
-                        ..square(one, robot)
-                    });
-                }
-            }
+        for one in all(robots) {
+            let precision = one.precision;
+            let open = (format!("pinocchio_{precision}_open"), shop.robots_file());
+            let run = format!("pinocchio_{precision}_{}", one.algorithm);
+            foreign.push(one.by(format!("pinocchio {compiler}"), &library, run, Some(open)));
         }
     }
     let library = shop.mujoco()?;
     for robot in robots {
         for (algorithm, peer, run) in MUJOCO {
-            let one = casadi(robot, algorithm, "f64", "", &library);
-            foreign.push(Foreign {
-                peer: peer.into(),
-                run: format!("mujoco_f64_{run}"),
-                open: Some((
-                    "mujoco_f64_open".into(),
-                    shop.robots.join(format!("{}.xml", robot.name)),
-                )),
-                ..square(one, robot)
-            });
+            let file = shop.robots.join(format!("{}.xml", robot.name));
+            let open = ("mujoco_f64_open".to_owned(), file);
+            let one = Wanted {
+                robot,
+                algorithm,
+                precision: "f64",
+            };
+            foreign.push(one.by(
+                peer.into(),
+                &library,
+                format!("mujoco_f64_{run}"),
+                Some(open),
+            ));
         }
     }
-    shop.progress.doing("building CasADi's C for the host");
-    for robot in robots {
-        let (algorithms, precisions) = compared(robot);
-        for algorithm in algorithms {
-            for precision in precisions {
-                let sizes = [robot.joints(), outputs(algorithm, robot.joints())];
-                let all = [("q", &C_COMPILERS[..]), ("cs", &C_COMPILERS[..1])];
-                // What takes cosines is for the target.
-                let wanted = if robot.has_subtree_functions() {
-                    &all[..1]
-                } else {
-                    &all
-                };
-                for &(inputs, compilers) in wanted {
-                    let name = format!("{}_{algorithm}_{inputs}_{precision}", robot.name);
-                    for compiler in compilers {
-                        let library = shop.casadi(compiler, &name, sizes)?;
-                        foreign.push(Foreign {
-                            peer: format!("casadi {compiler}"),
-                            cs: inputs == "cs",
-                            // What takes cosines is timed on the target.
-                            timed: inputs == "q",
-                            ..casadi(robot, algorithm, precision, inputs, &library)
-                        });
-                    }
-                }
+    let spinner = Spinner::start("building CasADi's C for the host");
+    for one in all(robots) {
+        let (name, algorithm) = (&one.robot.name, one.algorithm);
+        let sizes = [one.robot.joints(), outputs(algorithm, one.robot.joints())];
+        for (inputs, compilers) in [("q", &C_COMPILERS[..]), ("cs", &C_COMPILERS[..1])] {
+            // What takes cosines is for the target, where large robots are not compared.
+            if inputs == "cs" && one.robot.has_subtree_functions() {
+                continue;
+            }
+            let name = format!("{name}_{algorithm}_{inputs}_{}", one.precision);
+            for compiler in compilers {
+                spinner.say(format!("building {name} by {compiler}"));
+                let library = shop.casadi(compiler, &name, sizes)?;
+                let peer = format!("casadi {compiler}");
+                foreign.push(Foreign {
+                    cs: inputs == "cs",
+                    // It is timed there.
+                    timed: inputs == "q",
+                    outputs: sizes[1],
+                    square: false,
+                    ..one.by(peer, &library, format!("casadi_{name}"), None)
+                });
             }
         }
     }
     Ok(foreign)
 }
 
-/// A function of CasADi's, and what all functions have in common.
-fn casadi(
-    robot: &Robot,
-    algorithm: &str,
-    precision: &str,
-    inputs: &str,
-    library: &Path,
-) -> Foreign {
-    Foreign {
-        robot: robot.name.clone(),
-        algorithm: algorithm.into(),
-        peer: String::new(),
-        precision: precision.into(),
-        library: library.to_owned(),
-        run: format!("casadi_{}_{algorithm}_{inputs}_{precision}", robot.name),
-        open: None,
-        cs: false,
-        outputs: outputs(algorithm, robot.joints()),
-        square: false,
-        timed: true,
-    }
+/// What is to be computed.
+struct Wanted<'a> {
+    robot: &'a Robot,
+    algorithm: &'static str,
+    precision: &'static str,
 }
 
-/// The same by a library that writes M as a square.
-fn square(mut of: Foreign, robot: &Robot) -> Foreign {
-    if of.algorithm == "crba" {
-        of.outputs = robot.joints() * robot.joints();
-        of.square = true;
+/// Everything that is compared.
+fn all(robots: &[Robot]) -> impl Iterator<Item = Wanted<'_>> {
+    robots.iter().flat_map(|robot| {
+        let (algorithms, precisions) = compared(robot);
+        let pairs = precisions
+            .iter()
+            .flat_map(|p| algorithms.iter().map(move |a| (a, p)));
+        pairs.map(move |(algorithm, precision)| Wanted {
+            robot,
+            algorithm,
+            precision,
+        })
+    })
+}
+
+impl Wanted<'_> {
+    /// A library's function for it, which writes M as a square.
+    fn by(
+        &self,
+        peer: String,
+        library: &Path,
+        run: String,
+        open: Option<(String, PathBuf)>,
+    ) -> Foreign {
+        let (joints, square) = (self.robot.joints(), self.algorithm == "crba");
+        Foreign {
+            robot: self.robot.name.clone(),
+            algorithm: self.algorithm.into(),
+            peer,
+            precision: self.precision.into(),
+            library: library.to_owned(),
+            run,
+            open,
+            cs: false,
+            outputs: if square { joints * joints } else { joints },
+            square,
+            timed: true,
+        }
     }
-    of
 }
 
 /// Our side, for this very processor like the others: in a directory of its own, since other flags
 /// rebuild everything.
-fn bench(workspace: &Workspace, shop: &Workshop<'_>) -> Result<PathBuf> {
-    shop.progress
-        .doing("compiling our side and dynibo for this processor");
-    let target = workspace.target.join("peers").join("native");
+fn bench(workspace: &Workspace) -> Result<PathBuf> {
+    let _spinner = Spinner::start("compiling our side and dynibo for this processor");
+    let target = workspace.target.join("peers/native");
     let mut command = workspace.cargo("build");
     command
         .args(["--release", "--package", "peers-bench", "--target-dir"])
@@ -201,32 +187,20 @@ fn bench(workspace: &Workspace, shop: &Workshop<'_>) -> Result<PathBuf> {
         // It would take precedence.
         .env_remove("CARGO_ENCODED_RUSTFLAGS");
     shell::capture(&mut command)?;
-    Ok(target
-        .join("release")
-        .join(format!("peers-bench{}", std::env::consts::EXE_SUFFIX)))
+    Ok(target.join("release/peers-bench"))
 }
 
-fn run(bench: &Path, manifest: &Path, shop: &Workshop<'_>) -> Result<Vec<Row>> {
-    shop.progress.doing("timing on the host");
+fn run(bench: &Path, manifest: &Path) -> Result<Vec<Row>> {
+    let spinner = Spinner::start("timing on the host");
     let mut command = Command::new(bench);
     command.arg(manifest);
     let mut rows = Vec::new();
     shell::each_line(&mut command, |line| {
-        let line: Line = serde_json::from_str(line)
+        let mut row: Row = serde_json::from_str(line)
             .map_err(|e| Error::check(format!("peers-bench printed {line:?}: {e}")))?;
-        shop.progress
-            .doing_quietly(&format!("timing {} of {}", line.algorithm, line.robot));
-        if line.ns.is_some() {
-            rows.push(Row {
-                target: HOST,
-                robot: line.robot,
-                algorithm: line.algorithm,
-                peer: line.peer,
-                precision: line.precision,
-                ns: line.ns,
-                ..Row::default()
-            });
-        }
+        spinner.say(format!("timing {} of {}", row.algorithm, row.robot));
+        row.target = HOST;
+        rows.extend(row.ns.is_some().then_some(row));
         Ok(())
     })?;
     Ok(rows)

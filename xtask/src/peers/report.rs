@@ -1,9 +1,9 @@
 //! What was measured, as tables, as JSON and as the page in the docs.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::bars::{self, Held};
-use crate::peers::{ALGORITHMS, PRECISIONS};
+use crate::peers::ALGORITHMS;
 use crate::report::MODEL;
 use crate::table::{Table, thousands};
 
@@ -15,9 +15,10 @@ pub const M4F: &str = "cortex-m4f";
 const COMMAND: &str = "cargo xtask peers";
 
 /// A measurement. Its fields, but for those that are skipped, are those of the JSON.
-#[derive(Debug, Default, Serialize)]
+#[derive(Debug, Default, Deserialize, Serialize)]
 pub struct Row {
     /// [`HOST`] or [`M4F`].
+    #[serde(skip_deserializing)]
     pub target: &'static str,
     /// The robot's name.
     pub robot: String,
@@ -52,29 +53,11 @@ pub struct Report {
     pub date: String,
 }
 
-/// A part of the report.
-struct Section {
-    title: String,
-    /// What its figures are.
-    note: &'static str,
-    table: Table,
-}
-
 const ON_TARGET: &str = "f32, sines and cosines at hand; instructions are exact, cycles modelled. \
     `casadi clang` has our CPU flags and is outside the bars.";
 const ON_HOST: &str = "Nanoseconds a state, sines and cosines included.";
 
 impl Report {
-    /// For a terminal.
-    pub fn text(&self) -> String {
-        let mut text = String::new();
-        for Section { title, note, table } in self.sections() {
-            text += &format!("{title}\n{note}\n\n{}\n", table.text());
-        }
-        text += &bars::table(&self.held).text();
-        text + &format!("\n{MODEL}\n")
-    }
-
     /// For the docs.
     pub fn markdown(&self) -> String {
         let mut text = format!(
@@ -87,8 +70,13 @@ impl Report {
              and literals and those of what it calls.\n\n{}\n",
             self.date, ABOUT
         );
-        for Section { title, note, table } in self.sections() {
-            text += &format!("\n## {title}\n\n{note}\n\n{}", table.markdown());
+        for algorithm in ALGORITHMS {
+            let table = self.on_target(algorithm).markdown();
+            text += &format!("\n## Cortex-M4F: {algorithm}\n\n{ON_TARGET}\n\n{table}");
+        }
+        for algorithm in ALGORITHMS {
+            let table = self.on_host(algorithm).markdown();
+            text += &format!("\n## Host: {algorithm}\n\n{ON_HOST}\n\n{table}");
         }
         text += &format!(
             "\n## Against the bars\n\nWhat was promised, from `budgets.toml`: against the better build of \
@@ -102,73 +90,55 @@ impl Report {
         text
     }
 
-    fn sections(&self) -> Vec<Section> {
-        let targets = ALGORITHMS.iter().map(|algorithm| Section {
-            title: format!("Cortex-M4F: {algorithm}"),
-            note: ON_TARGET,
-            table: self.on_target(algorithm),
-        });
-        let hosts = ALGORITHMS.iter().map(|algorithm| Section {
-            title: format!("Host: {algorithm}"),
-            note: ON_HOST,
-            table: self.on_host(algorithm),
-        });
-        targets.chain(hosts).collect()
-    }
-
     fn on_target(&self, algorithm: &str) -> Table {
-        let mut table = Table::new(&[
-            "robot, code",
-            "instructions",
-            "cycles",
-            "bytes",
-            "engine / this",
-        ]);
-        for row in self.of(M4F, algorithm) {
-            let engine = self
-                .of(M4F, algorithm)
-                .find(|other| other.robot == row.robot && other.peer == "engine")
-                .and_then(|engine| engine.cycles);
-            let ratio = engine
-                .zip(row.cycles)
-                .map(|(engine, cycles)| format!("{:.2}", engine as f64 / cycles as f64));
-            let number = |value: Option<u64>| value.map_or("–".into(), thousands);
-            table.row([
-                format!("{}, {}", row.robot, row.peer),
-                number(row.instructions),
-                number(row.cycles),
-                number(row.code_bytes),
-                ratio.unwrap_or("–".into()),
-            ]);
-        }
-        table
+        let number = |value: Option<u64>| value.map_or("–".into(), thousands);
+        let ratio = |row: &Row| {
+            let mut rows = self.of(M4F, algorithm);
+            let engine = rows.find(|other| other.robot == row.robot && other.peer == "engine")?;
+            Some(format!("{:.2}", engine.cycles? as f64 / row.cycles? as f64))
+        };
+        Table::of(
+            self.of(M4F, algorithm),
+            &[
+                ("robot, code", &|row| format!("{}, {}", row.robot, row.peer)),
+                ("instructions", &|row| number(row.instructions)),
+                ("cycles", &|row| number(row.cycles)),
+                ("bytes", &|row| number(row.code_bytes)),
+                ("engine / this", &|row| ratio(row).unwrap_or("–".into())),
+            ],
+        )
     }
 
     fn on_host(&self, algorithm: &str) -> Table {
-        let mut table = Table::new(&["robot, code", "f64", "f32"]);
-        let mut lines: Vec<(&str, &str)> = Vec::new();
+        let mut lines: Vec<&Row> = Vec::new();
         for row in self.of(HOST, algorithm) {
-            if !lines.contains(&(&row.robot, &row.peer)) {
-                lines.push((&row.robot, &row.peer));
+            if !lines
+                .iter()
+                .any(|line| (&line.robot, &line.peer) == (&row.robot, &row.peer))
+            {
+                lines.push(row);
             }
         }
         // By robot, which the two precisions of a peer interrupt.
-        let mut robots: Vec<&str> = lines.iter().map(|(robot, _)| *robot).collect();
-        robots.dedup();
-        for robot in robots {
-            for (_, peer) in lines.iter().filter(|(other, _)| *other == robot) {
-                let [single, double] = PRECISIONS.map(|precision| {
-                    self.of(HOST, algorithm)
-                        .find(|row| {
-                            (&*row.robot, &*row.peer, &*row.precision) == (robot, peer, precision)
-                        })
-                        .and_then(|row| row.ns)
-                        .map_or("–".into(), |ns| format!("{ns:.1}"))
-                });
-                table.row([format!("{robot}, {peer}"), double, single]);
-            }
-        }
-        table
+        let robots: Vec<&String> = lines.iter().map(|line| &line.robot).collect();
+        lines.sort_by_key(|line| robots.iter().position(|robot| **robot == line.robot));
+        let time = |line: &Row, precision| {
+            let mut rows = self.of(HOST, algorithm);
+            let of = (&line.robot, &line.peer, precision);
+            let row = rows.find(|row| (&row.robot, &row.peer, &*row.precision) == of);
+            let ns = row.and_then(|row| row.ns);
+            ns.map_or("–".into(), |ns| format!("{ns:.1}"))
+        };
+        Table::of(
+            lines,
+            &[
+                ("robot, code", &|line| {
+                    format!("{}, {}", line.robot, line.peer)
+                }),
+                ("f64", &|line| time(line, "f64")),
+                ("f32", &|line| time(line, "f32")),
+            ],
+        )
     }
 
     fn of<'a>(&'a self, target: &'a str, algorithm: &'a str) -> impl Iterator<Item = &'a Row> {

@@ -6,8 +6,8 @@ use std::path::Path;
 
 use serde::Deserialize;
 
-use crate::error::{Error, Result};
-use crate::shell;
+use crate::error::Result;
+use crate::host_bin;
 use crate::workspace::{self, Workspace};
 
 /// A robot as `export_robots` prints it.
@@ -45,17 +45,7 @@ const MANY: usize = 16;
 
 /// Asks the library for its robots.
 pub fn export(workspace: &Workspace) -> Result<Vec<Robot>> {
-    let mut command = workspace.cargo("run");
-    command.args([
-        "--quiet",
-        "--package",
-        "host-reports",
-        "--bin",
-        "export_robots",
-    ]);
-    let json = shell::capture(&mut command)?;
-    let mut robots: Vec<Robot> = serde_json::from_str(&json)
-        .map_err(|e| Error::check(format!("`{}`: {e}", shell::display(&command))))?;
+    let mut robots: Vec<Robot> = host_bin::json(workspace, "export_robots")?;
     robots.retain(|robot| COMPARED.contains(&&*robot.name));
     for body in robots.iter_mut().flat_map(|robot| &mut robot.bodies) {
         // The library holds inertias about the link's origin. What comes back to the centre of mass
@@ -156,7 +146,8 @@ impl Robot {
             let [xx, xy, xz, yy, yz, zz] = body.inertia_com;
             let inertia = spaced(&[xx, yy, zz, xy, xz, yz]);
             let (pos, com) = (spaced(&body.placement.position), spaced(&body.com));
-            let quat = spaced(&quaternion(&body.placement.rotation));
+            let [xx, xy, _, yx, yy, _, zx, zy, _] = body.placement.rotation;
+            let axes = spaced(&[xx, yx, zx, xy, yy, zy]);
             let axis = spaced(&body.axis);
             let joint = match body.moves() {
                 true => format!("<joint type=\"hinge\" axis=\"{axis}\"/>"),
@@ -165,7 +156,7 @@ impl Robot {
             let children = self.mjcf_children(index as i64);
             let _ = writeln!(
                 text,
-                "<body name=\"{}\" pos=\"{pos}\" quat=\"{quat}\"><inertial pos=\"{com}\" \
+                "<body name=\"{}\" pos=\"{pos}\" xyaxes=\"{axes}\"><inertial pos=\"{com}\" \
                  mass=\"{}\" fullinertia=\"{inertia}\"/>{joint}\n{children}</body>",
                 body.name, body.mass
             );
@@ -200,44 +191,17 @@ fn angles(r: &[f64; 9]) -> [f64; 3] {
     [r[7].atan2(r[8]), pitch, r[3].atan2(r[0])]
 }
 
-/// The unit quaternion w, x, y, z of a rotation by rows, from its largest component (Shepperd 1978).
-fn quaternion(r: &[f64; 9]) -> [f64; 4] {
-    let trace = r[0] + r[4] + r[8];
-    // Four times the squares of w, x, y and z.
-    let squares = [
-        trace,
-        2.0 * r[0] - trace,
-        2.0 * r[4] - trace,
-        2.0 * r[8] - trace,
-    ]
-    .map(|s| 1.0 + s);
-    let (wx, wy, wz) = (r[7] - r[5], r[2] - r[6], r[3] - r[1]);
-    let (xy, xz, yz) = (r[1] + r[3], r[2] + r[6], r[5] + r[7]);
-    let rows = [
-        [squares[0], wx, wy, wz],
-        [wx, squares[1], xy, xz],
-        [wy, xy, squares[2], yz],
-        [wz, xz, yz, squares[3]],
-    ];
-    let largest = (0..4)
-        .max_by(|&a, &b| squares[a].total_cmp(&squares[b]))
-        .unwrap_or(0);
-    rows[largest].map(|entry| entry / (2.0 * squares[largest].sqrt()))
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{angles, quaternion};
+    use super::angles;
 
     #[test]
-    fn a_quarter_turn_is_one_in_every_form() {
+    fn a_quarter_turn_is_one_about_an_axis() {
         let close = |a: &[f64], b: &[f64]| std::iter::zip(a, b).all(|(a, b)| (a - b).abs() < 1e-15);
-        let (quarter, half) = (std::f64::consts::FRAC_PI_2, std::f64::consts::FRAC_1_SQRT_2);
+        let quarter = std::f64::consts::FRAC_PI_2;
         let about_x = [1.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0];
         assert!(close(&angles(&about_x), &[quarter, 0.0, 0.0]));
-        assert!(close(&quaternion(&about_x), &[half, half, 0.0, 0.0]));
         let about_y = [0.0, 0.0, 1.0, 0.0, 1.0, 0.0, -1.0, 0.0, 0.0];
         assert!(close(&angles(&about_y), &[0.0, quarter, 0.0]));
-        assert!(close(&quaternion(&about_y), &[half, 0.0, half, 0.0]));
     }
 }

@@ -1,13 +1,12 @@
 //! Compilers from the system's packages, and a Python environment that carries the peers.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::Command;
 
 use crate::error::{Error, Result};
 use crate::output;
 use crate::setup::{self, Options, Tools};
 use crate::shell;
-use crate::system::{self, System};
 use crate::workspace::{self, Workspace};
 
 /// Programs, and Debian's packages of them.
@@ -27,8 +26,6 @@ const EIGEN: [&str; 3] = [
     "/opt/homebrew/include/eigen3",
 ];
 
-const PYTHON: &str = "python3";
-
 /// Where everything is.
 pub struct Peers {
     /// The directory of all that is made here.
@@ -43,116 +40,63 @@ pub struct Peers {
     pub eigen: PathBuf,
 }
 
-/// Installs what is missing, announced, or says what would.
+/// Makes the Python environment, announced; says what else would have to be installed.
 pub fn set_up(workspace: &Workspace, options: Options) -> Result<(Tools, Peers)> {
+    let tools = setup::for_demo(options)?;
+    let mut packages: Vec<_> = PROGRAMS
+        .iter()
+        .filter(|(program, _)| shell::which(program).is_none())
+        .map(|(_, package)| *package)
+        .collect();
+    let mut eigen = EIGEN.iter().map(PathBuf::from);
+    let eigen = eigen.find(|dir| dir.join("Eigen/Core").is_file());
+    if eigen.is_none() {
+        packages.push("libeigen3-dev");
+    }
+    // Debian has `python3 -m venv` in a package of its own.
+    if !shell::succeeds(Command::new("python3").args(["-c", "import ensurepip, venv"])) {
+        packages.push("python3-venv");
+    }
+    let Some(eigen) = eigen.filter(|_| packages.is_empty()) else {
+        let line = format!("sudo apt-get install {}", packages.join(" "));
+        let commands = vec![line + "    # or what your system calls these"];
+        return Err(Error::Missing { commands });
+    };
     let dir = workspace.target.join("peers");
     let venv = dir.join("venv");
+    let python = venv.join("bin/python");
     let requirements = workspace.root.join("host-tests/peers/requirements.txt");
     let wanted = workspace::read(&requirements)?;
     // Written last: an environment that was left half done has none.
     let stamp = venv.join("installed.txt");
-    let is_installed = std::fs::read_to_string(&stamp).is_ok_and(|found| found == wanted);
-
-    let packages = missing_packages();
-    let mut commands = Vec::new();
-    if !packages.is_empty() {
-        output::note(&format!(
-            "missing, of what the peers are built with: {}",
-            packages.join(", ")
-        ));
-        commands.extend(install_lines(&packages));
-    }
-    let pip = python_of(&venv);
-    let mut make = Command::new(PYTHON);
-    make.args(["-m", "venv"]).arg(&venv);
-    let mut fill = Command::new(&pip);
-    fill.args(["-m", "pip", "install", "--requirement"])
-        .arg(&requirements);
-    if !is_installed {
-        output::note("missing: a Python environment with Pinocchio, CasADi and MuJoCo");
-        commands.extend([shell::display(&make), shell::display(&fill)]);
-    }
-
-    let tools = setup::for_demo(options);
-    let may_install = packages.is_empty() || System::this() == System::Debian;
-    match tools {
-        Err(Error::Missing { commands: first }) => {
-            return Err(Error::Missing {
-                commands: [first, commands].concat(),
-            });
-        }
-        Ok(_) if !commands.is_empty() && (options.no_install || !may_install) => {
+    if !std::fs::read_to_string(&stamp).is_ok_and(|found| found == wanted) {
+        let mut make = Command::new("python3");
+        make.args(["-m", "venv"]).arg(&venv);
+        let mut fill = Command::new(&python);
+        fill.args(["-m", "pip", "install", "--requirement"]);
+        fill.arg(&requirements);
+        let commands = vec![shell::display(&make), shell::display(&fill)];
+        if options.no_install {
             return Err(Error::Missing { commands });
         }
-        _ => {}
-    }
-    let tools = tools?;
-    if !commands.is_empty() {
-        setup::may_install(options, &commands, !packages.is_empty())?;
-    }
-    if !packages.is_empty() {
-        system::apt_install(&packages)?;
-    }
-    if !is_installed {
+        output::note("a Python environment with Pinocchio, CasADi and MuJoCo is made with:");
+        output::note(&format!("    {}", commands.join("\n    ")));
         std::fs::create_dir_all(&dir).map_err(Error::file("create", &dir))?;
         shell::run(&mut make)?;
         shell::run(&mut fill)?;
         workspace::write(&stamp, wanted)?;
     }
     let script = "import sysconfig; print(sysconfig.get_path('purelib'))";
-    let packages = shell::capture(Command::new(&pip).args(["-c", script]))?;
-    let eigen = eigen().ok_or_else(|| Error::check("Eigen is not where it was installed"))?;
+    let packages = shell::capture(Command::new(&python).args(["-c", script]))?;
+    let packages = packages.trim().into();
     Ok((
         tools,
         Peers {
-            packages: packages.trim().into(),
-            python: pip,
             dir,
+            python,
+            packages,
             requirements,
             eigen,
         },
     ))
-}
-
-fn python_of(venv: &Path) -> PathBuf {
-    venv.join(if cfg!(windows) {
-        "Scripts/python.exe"
-    } else {
-        "bin/python"
-    })
-}
-
-fn eigen() -> Option<PathBuf> {
-    EIGEN
-        .iter()
-        .map(PathBuf::from)
-        .find(|dir| dir.join("Eigen/Core").is_file())
-}
-
-/// Debian's packages of what is not there.
-fn missing_packages() -> Vec<&'static str> {
-    let mut packages: Vec<_> = PROGRAMS
-        .iter()
-        .filter(|(program, _)| shell::which(program).is_none())
-        .map(|(_, package)| *package)
-        .collect();
-    if eigen().is_none() {
-        packages.push("libeigen3-dev");
-    }
-    // Debian has `python3 -m venv` in a package of its own.
-    if !shell::succeeds(Command::new(PYTHON).args(["-c", "import ensurepip, venv"])) {
-        packages.push("python3-venv");
-    }
-    packages.dedup();
-    packages
-}
-
-fn install_lines(packages: &[&str]) -> Vec<String> {
-    if System::this() == System::Debian {
-        return system::apt_lines(packages);
-    }
-    vec![format!(
-        "install what Debian calls {} with your system's package manager",
-        packages.join(", ")
-    )]
 }

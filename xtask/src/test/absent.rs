@@ -92,20 +92,14 @@ fn row<'a>(rows: &'a [Row], form: &str, inputs: &str) -> Result<&'a Row> {
 
 /// What friction and rotors add to a call, held against the bar.
 fn added(context: &Context, full: &Row, friction: &Row) -> Result<String> {
-    let (bars, _) = budgets::bars(&context.workspace)?;
+    let bars = budgets::bars(&context.workspace)?;
     let key = format!("{}{ADDED}", friction.key());
-    let bar = bars.get(&key).and_then(|bar| Some((bar, bar.cycles?)));
-    let (bar, most) = bar.ok_or_else(|| Error::check(format!("there is no bar {key:?}")))?;
     let taken = friction.cycles.max.saturating_sub(full.cycles.max);
-    let held = Held {
-        what: format!("bar: {key}: cycles"),
-        taken: taken as f64,
-        most: most as f64,
-        recorded: bar.missed.iter().any(|figure| figure == "cycles"),
-        ratio: false,
-    };
+    let held = Held::of(&bars, &key, "cycles", taken as f64)
+        .ok_or_else(|| Error::check(format!("there is no bar {key:?}")))?;
+    let most = held.most;
     match held.complaint() {
-        Some(complaint) => Err(Error::check(complaint)),
+        Some(complaint) => Err(Error::check(format!("bar: {complaint}"))),
         None => Ok(format!("friction and rotors {taken} of {most} cycles")),
     }
 }

@@ -5,47 +5,78 @@ use dynamics_core::effects::{Coriolis, Gravity, Inertia, RIGID_BODY};
 
 use dynamics_core::model::Robot;
 use dynamics_core::spatial::Motion;
-use dynamics_core::state::{JointTrig, State, StateWithTrig};
-use dynamics_core::{Core, MassMatrix};
+use dynamics_core::state::{JointTrig, State};
+use dynamics_core::{Core, Engine, MassMatrix};
 
-use super::costs::row::Row;
-use super::costs::{Ask, STATES, done};
+use super::row::Row;
+use super::{STATES, asks, done};
 
-pub type Scene = (Gravity, Inertia, Coriolis);
-pub type Solution<const N: usize> = Result<[f32; N], NotPositiveDefinite>;
-pub type Forward<'a, const N: usize> = fn(&'a State<f32, N, N>, &[f32; N], &Scene) -> Solution<N>;
-pub type Precomputed<'a, const N: usize> =
-    fn(StateWithTrig<'a, f32, N, N>, &[f32; N], &Scene) -> Solution<N>;
+type Scene = (Gravity, Inertia, Coriolis);
+type Solution<const N: usize> = Result<[f32; N], NotPositiveDefinite>;
+type Forward<const N: usize> = fn(&State<f32, N, N>, &[f32; N], &Scene) -> Solution<N>;
+type ForwardAt<const N: usize> =
+    fn(&JointTrig<f32, N>, &State<f32, N, N>, &[f32; N], &Scene) -> Solution<N>;
 
-/// The functions of core or engine, each with sines and cosines computed inside and before.
-pub struct Forms<'a, const N: usize> {
-    pub name: &'static str,
-    pub crba: fn(&[f32; N], &Scene) -> MassMatrix<f32, N>,
-    pub crba_at: fn(&JointTrig<f32, N>, &Scene) -> MassMatrix<f32, N>,
-    pub factor_solve: fn(&MassMatrix<f32, N>, &[f32; N]) -> Solution<N>,
-    pub forward: Forward<'a, N>,
-    pub forward_at: Precomputed<'a, N>,
-    pub aba: Forward<'a, N>,
-    pub aba_at: Precomputed<'a, N>,
-    pub jacobian: fn(&[f32; N]) -> [Motion<f32>; N],
-    pub jacobian_at: fn(&JointTrig<f32, N>) -> [Motion<f32>; N],
+/// The functions of core or engine; those that take a posture have sines and cosines at hand.
+struct Forms<const N: usize> {
+    name: &'static str,
+    crba: fn(&[f32; N], &Scene) -> MassMatrix<f32, N>,
+    crba_at: fn(&JointTrig<f32, N>, &Scene) -> MassMatrix<f32, N>,
+    factor_solve: fn(&MassMatrix<f32, N>, &[f32; N]) -> Solution<N>,
+    forward: Forward<N>,
+    forward_at: ForwardAt<N>,
+    aba: Forward<N>,
+    aba_at: ForwardAt<N>,
+    jacobian: fn(&[f32; N]) -> [Motion<f32>; N],
+    jacobian_at: fn(&JointTrig<f32, N>) -> [Motion<f32>; N],
 }
 
-impl<const N: usize> Forms<'_, N> {
-    pub fn core<T: Robot<B, N, N>, const B: usize>() -> Self {
-        Self {
-            name: "core",
-            crba: Core::<T>::crba,
-            crba_at: Core::<T>::crba,
-            factor_solve: core_factor_solve::<T, B, N>,
-            forward: Core::<T>::forward_dynamics,
-            forward_at: Core::<T>::forward_dynamics,
-            aba: Core::<T>::aba,
-            aba_at: Core::<T>::aba,
-            jacobian: tip_jacobian::<T, B, N>,
-            jacobian_at: tip_jacobian_at::<T, B, N>,
-        }
+fn of_core<T: Robot<B, N, N>, const B: usize, const N: usize>() -> Forms<N> {
+    Forms {
+        name: "core",
+        crba: Core::<T>::crba,
+        crba_at: Core::<T>::crba_at,
+        factor_solve: core_factor_solve::<T, B, N>,
+        forward: Core::<T>::forward,
+        forward_at: Core::<T>::forward_at,
+        aba: Core::<T>::aba,
+        aba_at: Core::<T>::aba_at,
+        jacobian: tip_jacobian::<T, B, N>,
+        jacobian_at: tip_jacobian_at::<T, B, N>,
     }
+}
+
+fn of_engine<T: Robot<B, N, N>, const B: usize, const N: usize, const TIP: usize>() -> Forms<N> {
+    Forms {
+        name: "engine",
+        crba: Engine::<T>::crba,
+        crba_at: Engine::<T>::crba_at,
+        factor_solve: engine_factor_solve::<T, B, N>,
+        forward: Engine::<T>::forward,
+        forward_at: Engine::<T>::forward_at,
+        aba: Engine::<T>::aba,
+        aba_at: Engine::<T>::aba_at,
+        jacobian: Engine::<T>::jacobian::<TIP, _, _, _, _>,
+        jacobian_at: Engine::<T>::jacobian_at::<TIP, _, _, _, _>,
+    }
+}
+
+/// Measures core and engine.
+pub fn both<T: Robot<B, N, N>, const B: usize, const N: usize, const TIP: usize>() -> ! {
+    run::<T, B, N>(&[of_core::<T, B, N>(), of_engine::<T, B, N, TIP>()])
+}
+
+/// Measures the core alone.
+pub fn core<T: Robot<B, N, N>, const B: usize, const N: usize>() -> ! {
+    run::<T, B, N>(&[of_core::<T, B, N>()])
+}
+
+#[inline(never)]
+fn engine_factor_solve<T: Robot<B, N, N>, const B: usize, const N: usize>(
+    m: &MassMatrix<f32, N>,
+    tau: &[f32; N],
+) -> Solution<N> {
+    Ok(Engine::<T>::solve(&Engine::<T>::ltdl(m)?, tau))
 }
 
 #[inline(never)]
@@ -66,26 +97,18 @@ fn tip_jacobian<T: Robot<B, N, N>, const B: usize, const N: usize>(
 
 #[inline(never)]
 fn tip_jacobian_at<T: Robot<B, N, N>, const B: usize, const N: usize>(
-    trig: &JointTrig<f32, N>,
+    posture: &JointTrig<f32, N>,
 ) -> [Motion<f32>; N] {
-    Core::<T>::jacobian(trig, const { B - 1 }, frame::LocalWorldAligned)
+    Core::<T>::jacobian_at(posture, const { B - 1 }, frame::LocalWorldAligned)
 }
 
-/// Measures the rows of these forms and leaves the emulator. Torques are the states' accelerations: any
-/// will do, since the work does not depend on what they move.
-pub fn run<'a, T: Robot<B, N, N>, const B: usize, const N: usize>(
-    asks: &'a [Ask<N>; STATES],
-    forms: &[Forms<'a, N>],
-) -> ! {
+/// Measures the rows of these forms. Torques are the states' accelerations: any will do, since the work
+/// does not depend on what they move.
+fn run<T: Robot<B, N, N>, const B: usize, const N: usize>(forms: &[Forms<N>]) -> ! {
+    let asks = &asks::<T, B, N, STATES>();
     let scene = &RIGID_BODY;
-    let row = |form: &Forms<'_, N>, algorithm, trig| Row {
-        robot: T::MODEL.name,
-        algorithm,
-        form: form.name,
-        inputs: "full",
-        trig,
-        joints: N,
-    };
+    let row =
+        |form: &Forms<N>, algorithm, trig| Row::of::<T, B, N>(algorithm, form.name, "full", trig);
     for form in forms {
         let (inside, precomputed) = (form.crba, form.crba_at);
         row(form, "crba", true).measure(inside as usize, asks, |ask| inside(&ask.state.q, scene));

@@ -1,7 +1,17 @@
 //! What the algorithms cost on a robot, between the meter's markers: states, and how a row is measured.
 //! `cargo xtask costs` reads the log, rows and at last `done`, and cuts the meter's samples by it. Two bins
 //! a robot, since each specialised function takes the compiler seconds, and bins are built side by side.
+#![allow(
+    dead_code,
+    unused_imports,
+    unused_macros,
+    reason = "each bin measures its part of these rows"
+)]
 
+#[cfg(feature = "effects")]
+pub mod effects;
+pub mod forward;
+pub mod inverse;
 pub mod row;
 
 use cortex_m_semihosting::debug;
@@ -16,17 +26,17 @@ pub const STATES: usize = 32;
 /// What a function may be asked for.
 pub struct Ask<const N: usize> {
     pub state: State<f32, N, N>,
-    pub trig: JointTrig<f32, N>,
+    pub posture: JointTrig<f32, N>,
 }
 
 /// Some states within the joints' usual ranges, from a fixed seed.
-pub fn asks<T: Robot<B, N, N>, const B: usize, const N: usize>() -> [Ask<N>; STATES] {
+pub fn asks<T: Robot<B, N, N>, const B: usize, const N: usize, const S: usize>() -> [Ask<N>; S] {
     let mut seed = 1_u32;
     let mut number = |bound: f32| {
         seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
         (seed >> 8) as f32 * (2.0 * bound / 16_777_216.0) - bound
     };
-    [(); STATES].map(|()| {
+    [(); S].map(|()| {
         let state = State {
             q: [(); N].map(|()| number(3.0)),
             qd: [(); N].map(|()| number(3.0)),
@@ -42,3 +52,16 @@ pub fn done() -> ! {
     defmt::println!("done");
     target::leave(debug::EXIT_SUCCESS)
 }
+
+/// The `main` of a bin that measures.
+macro_rules! main {
+    ($run:expr) => {
+        use dynamics_core::robots;
+
+        #[cortex_m_rt::entry]
+        fn main() -> ! {
+            $run
+        }
+    };
+}
+pub(crate) use main;

@@ -10,6 +10,7 @@
 use core::arch::asm;
 use core::hint::black_box;
 
+use dynamics_core::model::Robot;
 use firmware_demo::marker::measured;
 
 /// Words painted below the stack pointer: more than any of these functions takes.
@@ -27,7 +28,25 @@ pub struct Row<'a> {
     pub joints: usize,
 }
 
-impl Row<'_> {
+impl<'a> Row<'a> {
+    /// The row of an algorithm on the robot T.
+    #[inline(always)]
+    pub fn of<T: Robot<B, N, N>, const B: usize, const N: usize>(
+        algorithm: &'static str,
+        form: &'static str,
+        inputs: &'a str,
+        trig: bool,
+    ) -> Self {
+        Self {
+            robot: T::MODEL.name,
+            algorithm,
+            form,
+            inputs,
+            trig,
+            joints: N,
+        }
+    }
+
     /// Logs the row, then runs the function of this address once for each ask in region 0. Taking the
     /// address also keeps the compiler from shaping the function to its calls.
     #[inline(always)]

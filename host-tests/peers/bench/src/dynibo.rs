@@ -60,24 +60,19 @@ pub fn subject<const N: usize>(
         "crba" | "aba" => 1.0,
         _ => return Ok(None),
     };
-    let is_square = algorithm == "crba";
-    let outputs = if is_square { N * N } else { N };
-    let run = compute(algorithm);
+    let order = match algorithm {
+        "crba" => square(&order),
+        _ => order.into_iter().map(Some).collect(),
+    };
+    let (run, outputs) = (compute(algorithm), order.len());
+    let run = move |out: &mut [f64]| {
+        for (out, s) in std::iter::zip(out.chunks_exact_mut(outputs), &states) {
+            run(&mut robot, s, out).expect("finite inputs of the right size");
+        }
+    };
     Ok(Some(Subject {
-        peer: "dynibo".to_owned(),
-        run: Box::new(move |out| {
-            for (out, s) in std::iter::zip(out.chunks_exact_mut(outputs), &states) {
-                run(&mut robot, s, out).expect("finite inputs of the right size");
-            }
-        }),
-        outputs,
-        order: if is_square {
-            square(&order)
-        } else {
-            order.into_iter().map(Some).collect()
-        },
-        timed: true,
         gravity,
+        ..Subject::new("dynibo", Box::new(run), order)
     }))
 }
 

@@ -70,22 +70,19 @@ impl Foreign {
         };
         let (outputs, count) = (self.outputs, states.len());
         let input: Vec<R> = states.iter().flat_map(|state| self.input(state)).collect();
+        let order = match self.square {
+            true => square(&(0..N).collect::<Vec<_>>()),
+            false => (0..outputs).map(Some).collect(),
+        };
+        let run = move |out: &mut [R]| {
+            assert_eq!(out.len(), count * outputs);
+            // SAFETY: as many states as it is told, of the size that it expects, and room for
+            // their outputs, as xtask's manifest says; the context is its own.
+            unsafe { run(context, input.as_ptr(), count, out.as_mut_ptr()) }
+        };
         Ok(Subject {
-            peer: self.peer.clone(),
-            outputs,
-            order: if self.square {
-                square(&std::array::from_fn::<usize, N, _>(|i| i))
-            } else {
-                (0..outputs).map(Some).collect()
-            },
             timed: self.timed,
-            gravity: 1.0,
-            run: Box::new(move |out| {
-                assert_eq!(out.len(), count * outputs);
-                // SAFETY: as many states as it is told, of the size that it expects, and room for
-                // their outputs, as xtask's manifest says; the context is its own.
-                unsafe { run(context, input.as_ptr(), count, out.as_mut_ptr()) }
-            }),
+            ..Subject::new(&self.peer, Box::new(run), order)
         })
     }
 

@@ -13,45 +13,34 @@ use crate::{Manifest, dynibo, ours};
 /// States in a timed batch; the recording is gone through again until there are so many.
 const BATCH: usize = 256;
 
-/// Ours of a robot known while compiling, for an algorithm.
-type Known<R, const N: usize> = fn(&str, &[State<R, N, N>]) -> Vec<Subject<R>>;
-
 /// Checks, times and prints everything about a robot.
 pub fn run<T: Robot<B, N, N>, const B: usize, const N: usize>(
     manifest: &Manifest,
 ) -> Result<(), Box<dyn Error>> {
-    let known = (
-        ours::all::<T, f64, B, N> as _,
-        ours::all::<T, f32, B, N> as _,
-    );
-    run_with::<T, B, N>(manifest, known)
+    run_with::<T, B, N>(manifest, ours::all::<T, _, B, N>, ours::all::<T, _, B, N>)
 }
 
 /// The same of a robot of which only inverse dynamics is specialised here.
 pub fn run_tree<T: Robot<B, N, N>, const B: usize, const N: usize>(
     manifest: &Manifest,
 ) -> Result<(), Box<dyn Error>> {
-    let known = (
-        ours::inverse::<T, f64, B, N> as _,
-        ours::inverse::<T, f32, B, N> as _,
-    );
-    run_with::<T, B, N>(manifest, known)
+    run_with::<T, B, N>(
+        manifest,
+        ours::inverse::<T, _, B, N>,
+        ours::inverse::<T, _, B, N>,
+    )
 }
 
 fn run_with<T: Robot<B, N, N>, const B: usize, const N: usize>(
     manifest: &Manifest,
-    known: (Known<f64, N>, Known<f32, N>),
+    double: ours::Subjects<f64, N>,
+    single: ours::Subjects<f32, N>,
 ) -> Result<(), Box<dyn Error>> {
     let recording = recordings::load(T::MODEL.name);
     for algorithm in ["rnea", "bias", "gravity", "crba", "aba"] {
-        one(manifest, &recording, algorithm, "f64", |states| {
-            let mut subjects = known.0(algorithm, states);
-            subjects.extend(ours::run_time::<T, f64, B, N>(algorithm, states));
-            subjects.extend(of_dynibo(manifest, &recording, algorithm, states)?);
-            Ok(subjects)
-        })?;
+        in_f64::<T, B, N>(manifest, &recording, algorithm, double)?;
         one(manifest, &recording, algorithm, "f32", |states| {
-            let mut subjects = known.1(algorithm, states);
+            let mut subjects = single(algorithm, states);
             subjects.extend(ours::run_time::<T, f32, B, N>(algorithm, states));
             Ok(subjects)
         })?;
@@ -65,23 +54,25 @@ pub fn run_large<T: Robot<B, N, N>, const B: usize, const N: usize>(
 ) -> Result<(), Box<dyn Error>> {
     let recording = recordings::load(T::MODEL.name);
     for algorithm in ["rnea", "crba", "aba"] {
-        one(manifest, &recording, algorithm, "f64", |states| {
-            let mut subjects = ours::run_time::<T, f64, B, N>(algorithm, states);
-            subjects.extend(of_dynibo(manifest, &recording, algorithm, states)?);
-            Ok(subjects)
-        })?;
+        in_f64::<T, B, N>(manifest, &recording, algorithm, |_, _| Vec::new())?;
     }
     Ok(())
 }
 
-fn of_dynibo<const N: usize>(
+/// With these of ours, the core over a model of run time, and dynibo.
+fn in_f64<T: Robot<B, N, N>, const B: usize, const N: usize>(
     manifest: &Manifest,
     recording: &Recording,
     algorithm: &str,
-    states: &[State<f64, N, N>],
-) -> Result<Option<Subject<f64>>, Box<dyn Error>> {
-    let urdf = manifest.urdfs.join(format!("{}.urdf", recording.robot));
-    dynibo::subject::<N>(algorithm, &urdf, recording, states)
+    known: ours::Subjects<f64, N>,
+) -> Result<(), Box<dyn Error>> {
+    one(manifest, recording, algorithm, "f64", |states| {
+        let mut subjects = known(algorithm, states);
+        subjects.extend(ours::run_time::<T, f64, B, N>(algorithm, states));
+        let urdf = manifest.urdfs.join(format!("{}.urdf", recording.robot));
+        subjects.extend(dynibo::subject::<N>(algorithm, &urdf, recording, states)?);
+        Ok(subjects)
+    })
 }
 
 type Subjects<R> = Result<Vec<Subject<R>>, Box<dyn Error>>;

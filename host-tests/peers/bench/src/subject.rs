@@ -13,7 +13,7 @@ const ROUNDS: usize = 101;
 const TURN: Duration = Duration::from_micros(300);
 
 /// Fills an output.
-type Batch<R> = Box<dyn FnMut(&mut [R])>;
+pub type Batch<R> = Box<dyn FnMut(&mut [R])>;
 
 /// A function with its inputs.
 pub struct Subject<R> {
@@ -49,6 +49,18 @@ pub struct Row<'a> {
 }
 
 impl<R: Real> Subject<R> {
+    /// A function that is timed, under the recordings' gravity.
+    pub fn new(peer: &str, run: Batch<R>, order: Vec<Option<usize>>) -> Self {
+        Self {
+            peer: peer.to_owned(),
+            run,
+            outputs: order.len(),
+            order,
+            timed: true,
+            gravity: 1.0,
+        }
+    }
+
     /// The largest difference from the expected rows, relative to the full scale.
     ///
     /// # Errors

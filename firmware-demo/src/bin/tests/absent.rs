@@ -3,15 +3,11 @@
 #![no_std]
 #![no_main]
 
-#[expect(
-    dead_code,
-    reason = "sines and cosines are for functions that take them"
-)]
+#[path = "../costs/mod.rs"]
 mod costs;
 
 use cortex_m_rt::entry;
-use dynamics_core::effects::{Armature, Coulomb, Effect, RIGID_BODY, Viscous, Width};
-use dynamics_core::model::Robot;
+use dynamics_core::effects::{Armature, Coulomb, Effect, RIGID_BODY, Viscous};
 use dynamics_core::robots::Ur5e;
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
@@ -36,7 +32,7 @@ type Rnea<'a, E> = fn(&'a State<f32, 6, 6>, &E) -> [f32; 6];
 
 #[entry]
 fn main() -> ! {
-    let asks = asks::<Ur5e, 6, 6>();
+    let asks = asks::<Ur5e, 6, 6, STATES>();
     both("full", &asks, &RIGID_BODY);
     both("idle", &asks, &(Nothing, RIGID_BODY, (Nothing, Nothing)));
     both("friction", &asks, &(RIGID_BODY, VISCOUS, COULOMB, ROTORS));
@@ -70,12 +66,5 @@ fn both<E: Effect<f32, 6, 6>>(inputs: &'static str, asks: &[Ask<6>; STATES], eff
 }
 
 fn row(form: &'static str, inputs: &'static str) -> Row<'static> {
-    Row {
-        robot: <Ur5e as Robot<6, 6, 6>>::MODEL.name,
-        algorithm: "rnea",
-        form,
-        inputs,
-        trig: true,
-        joints: 6,
-    }
+    Row::of::<Ur5e, 6, 6>("rnea", form, inputs, true)
 }

@@ -13,47 +13,46 @@ use dynamics_core::effects::Effect;
 use dynamics_core::model::Robot;
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
-use firmware_demo::effect_presets::Visitor;
+use firmware_demo::effect_presets::{self, Visitor};
 
-use super::costs::row::Row;
-use super::costs::{Ask, STATES, asks};
+use super::row::Row;
+use super::{Ask, STATES, asks, done};
 
 /// Inverse dynamics of an arm in one of its forms.
-pub trait Form<const N: usize> {
+trait Form<const N: usize> {
     const NAME: &'static str;
-    type Arm: Robot<N, N, N>;
-    fn rnea<'a, E: Effect<f32, N, N>>() -> Rnea<'a, E, N>;
+    type ArmModel: Robot<N, N, N>;
+    fn rnea<E: Effect<f32, N, N>>() -> Rnea<E, N>;
 }
 
 type Rnea<'a, E, const N: usize> = fn(&'a State<f32, N, N>, &E) -> [f32; N];
 
 impl<T: Robot<N, N, N>, const N: usize> Form<N> for Core<T> {
     const NAME: &'static str = "core";
-    type Arm = T;
-    fn rnea<'a, E: Effect<f32, N, N>>() -> Rnea<'a, E, N> {
+    type ArmModel = T;
+    fn rnea<E: Effect<f32, N, N>>() -> Rnea<E, N> {
         Self::rnea
     }
 }
 
 impl<T: Robot<N, N, N>, const N: usize> Form<N> for Engine<T> {
     const NAME: &'static str = "engine";
-    type Arm = T;
-    fn rnea<'a, E: Effect<f32, N, N>>() -> Rnea<'a, E, N> {
+    type ArmModel = T;
+    fn rnea<E: Effect<f32, N, N>>() -> Rnea<E, N> {
         Self::rnea
     }
 }
 
 /// Prices each scene that it visits.
-pub struct Priced<F, const N: usize> {
+struct Priced<F, const N: usize> {
     asks: [Ask<N>; STATES],
     form: PhantomData<F>,
 }
 
 impl<F: Form<N>, const N: usize> Priced<F, N> {
-    pub fn new() -> Self {
-        let asks = asks::<F::Arm, N, N>();
+    fn new() -> Self {
         Self {
-            asks,
+            asks: asks::<F::Arm, N, N, STATES>(),
             form: PhantomData,
         }
     }
@@ -70,15 +69,32 @@ impl<F: Form<N>, const N: usize> Visitor<N> for Priced<F, N> {
             name,
             bytes
         );
-        let row = Row {
-            robot,
-            algorithm: "rnea",
-            form: F::NAME,
-            inputs: name,
-            trig: true,
-            joints: N,
-        };
+        let row = Row::of::<F::Arm, N, N>("rnea", F::NAME, name, true);
         let rnea = F::rnea::<E>();
         row.measure(rnea as usize, &self.asks, |ask| rnea(&ask.state, &effects));
     }
+}
+
+/// Every effect, in the core.
+#[inline(always)]
+pub fn core<T: Robot<N, N, N>, const N: usize, const TIP: usize>() {
+    let priced = &mut Priced::<Core<T>, N>::new();
+    effect_presets::rigid(priced);
+    effect_presets::joints(priced);
+    effect_presets::bodies::<N, TIP>(priced);
+    effect_presets::spinning(priced);
+}
+
+/// Effects at joints, in the engine.
+pub fn joints<T: Robot<N, N, N>, const N: usize>() -> ! {
+    effect_presets::joints(&mut Priced::<Engine<T>, N>::new());
+    done()
+}
+
+/// A rigid body's own terms, and effects on bodies, in the engine.
+pub fn bodies<T: Robot<N, N, N>, const N: usize, const TIP: usize>() -> ! {
+    let priced = &mut Priced::<Engine<T>, N>::new();
+    effect_presets::rigid(priced);
+    effect_presets::bodies::<N, TIP>(priced);
+    done()
 }

@@ -1,0 +1,19 @@
+//! What the reports measure on the host: the bins of the package `host-reports`.
+
+use serde::de::DeserializeOwned;
+
+use crate::error::{Error, Result};
+use crate::shell;
+use crate::workspace::Workspace;
+
+/// What a bin prints.
+pub fn text(workspace: &Workspace, bin: &str) -> Result<String> {
+    let mut command = workspace.cargo("run");
+    shell::capture(command.args(["--quiet", "--package", "host-reports", "--bin", bin]))
+}
+
+/// The same of a bin that prints JSON.
+pub fn json<T: DeserializeOwned>(workspace: &Workspace, bin: &str) -> Result<T> {
+    serde_json::from_str(&text(workspace, bin)?)
+        .map_err(|e| Error::check(format!("`{bin}` printed what is not understood: {e}")))
+}

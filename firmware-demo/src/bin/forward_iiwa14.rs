@@ -4,4 +4,4 @@
 
 mod costs;
 
-costs::main!(costs::forward_dynamics::both::<robots::Iiwa14, 7, 7, 6>());
+costs::main!(costs::forward::both::<robots::Iiwa14, 7, 7, 6>());

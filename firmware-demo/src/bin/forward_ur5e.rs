@@ -4,4 +4,4 @@
 
 mod costs;
 
-costs::main!(costs::forward_dynamics::both::<robots::Ur5e, 6, 6, 5>());
+costs::main!(costs::forward::both::<robots::Ur5e, 6, 6, 5>());

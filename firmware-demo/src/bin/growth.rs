@@ -13,7 +13,7 @@ use cortex_m_semihosting::debug;
 use dynamics_core::MassMatrix;
 use dynamics_core::algorithms::{self, NotPositiveDefinite, ltdl, solve};
 use dynamics_core::effects::RIGID_BODY;
-use dynamics_core::model::{Arm, BASE, Body, Joint, Robot};
+use dynamics_core::model::{ArmModel, BASE, Body, Joint, Robot};
 use dynamics_core::state::{JointTrig, State};
 use firmware_demo::target;
 use row::Row;
@@ -25,7 +25,7 @@ const STATES: usize = 2;
 struct Chain<const N: usize>;
 
 impl<const N: usize> Robot<N, N, N> for Chain<N> {
-    const MODEL: ArmModel<f64, N> = Arm::new("chain", rods());
+    const MODEL: ArmModel<f64, N> = ArmModel::new("chain", rods());
 }
 
 /// Every number that a body has is another than zero.
@@ -57,15 +57,15 @@ type Solution<const N: usize> = Result<[f32; N], NotPositiveDefinite>;
 #[inline(never)]
 fn rnea<const N: usize>(
     model: Known<N>,
-    posture: &JointTrig<f32, N>,
+    trig: &JointTrig<f32, N>,
     state: &State<f32, N, N>,
 ) -> [f32; N] {
     algorithms::rnea(model, trig.with(state), &RIGID_BODY)
 }
 
 #[inline(never)]
-fn crba<const N: usize>(model: Known<N>, posture: &JointTrig<f32, N>) -> MassMatrix<f32, N> {
-    crba_at(model, posture, &RIGID_BODY)
+fn crba<const N: usize>(model: Known<N>, trig: &JointTrig<f32, N>) -> MassMatrix<f32, N> {
+    algorithms::crba(model, trig, &RIGID_BODY)
 }
 
 #[inline(never)]
@@ -80,16 +80,16 @@ fn factor_solve<const N: usize>(
 #[inline(never)]
 fn forward<const N: usize>(
     model: Known<N>,
-    posture: &JointTrig<f32, N>,
+    trig: &JointTrig<f32, N>,
     state: &State<f32, N, N>,
 ) -> Solution<N> {
-    forward_dynamics_at(model, posture, state, &state.qdd, &RIGID_BODY)
+    algorithms::forward_dynamics(model, trig.with(state), &state.qdd, &RIGID_BODY)
 }
 
 #[inline(never)]
 fn aba<const N: usize>(
     model: Known<N>,
-    posture: &JointTrig<f32, N>,
+    trig: &JointTrig<f32, N>,
     state: &State<f32, N, N>,
 ) -> Solution<N> {
     algorithms::aba(model, trig.with(state), &state.qdd, &RIGID_BODY)
@@ -108,7 +108,7 @@ fn chain<const N: usize>() {
             qd: [0.4 * angle; N],
             qdd: [1.0; N],
         };
-        (JointTrig::of(model, &q), state)
+        (JointTrig::new(model, &q), state)
     });
     let asks: &[_; STATES] = &asks;
     row("rnea").measure(

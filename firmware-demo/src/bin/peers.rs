@@ -12,7 +12,7 @@ use dynamics_core::algorithms::NotPositiveDefinite;
 use dynamics_core::effects::{Coriolis, Effect, Gravity, Inertia, RIGID_BODY};
 use dynamics_core::model::{JointCoordinate, Robot};
 use dynamics_core::robots::{A1, Iiwa14, Panda, Ur5e};
-use dynamics_core::state::{JointTrig, State};
+use dynamics_core::state::{JointTrig, State, StateWithTrig};
 use dynamics_core::{Core, Engine, MassMatrix};
 use firmware_demo::scene::larger;
 use heapless::Vec;
@@ -24,10 +24,11 @@ use costs::{Ask, asks, done};
 type C = unsafe extern "C" fn(*const f32, *const f32, *const f32, *const f32, *mut f32);
 type Scene = (Gravity, Inertia, Coriolis);
 /// What ours take.
-type Inverse<E, const N: usize> = fn(&JointTrig<f32, N>, &State<f32, N, N>, &E) -> [f32; N];
+type Inverse<'a, E, const N: usize> = fn(StateWithTrig<'a, f32, N, N>, &E) -> [f32; N];
 type Matrix<const N: usize> = fn(&JointTrig<f32, N>, &Scene) -> MassMatrix<f32, N>;
-type Forward<const N: usize> =
-    fn(&JointTrig<f32, N>, &State<f32, N, N>, &[f32; N], &Scene) -> Solution<N>;
+type Forward<'a, const N: usize> =
+    fn(StateWithTrig<'a, f32, N, N>, &[f32; N], &Scene) -> Solution<N>;
+type Asks<const N: usize> = [Ask<N>; STATES];
 type Solution<const N: usize> = Result<[f32; N], NotPositiveDefinite>;
 /// A form's name and function.
 type Form<F> = (&'static str, F);
@@ -59,20 +60,24 @@ fn main() -> ! {
 
 /// Everything of a robot.
 fn robot<T: Robot<B, N, N>, const B: usize, const N: usize>() {
-    inverse::<T, B, N>();
-    crba::<T, B, N>(&[
-        ("core", Core::<T>::crba_at),
-        ("engine", Engine::<T>::crba_at),
-    ]);
-    forward::<T, B, N>(&[
-        ("core", Core::<T>::aba_at),
-        ("engine", Engine::<T>::forward_dynamics_at),
-    ]);
+    let asks = &asks::<T, B, N, STATES>();
+    inverse::<T, B, N>(asks);
+    crba::<T, B, N>(
+        asks,
+        &[("core", Core::<T>::crba), ("engine", Engine::<T>::crba)],
+    );
+    forward::<T, B, N>(
+        asks,
+        &[
+            ("core", Core::<T>::aba),
+            ("engine", Engine::<T>::forward_dynamics),
+        ],
+    );
 }
 
 /// The same of a robot of which only inverse dynamics is specialised here.
 fn tree<T: Robot<B, N, N>, const B: usize, const N: usize>() {
-    let asks = &asks::<T, B, N>();
+    let asks = &asks::<T, B, N, STATES>();
     inverse::<T, B, N>(asks);
     crba::<T, B, N>(asks, &[("core", Core::<T>::crba)]);
     forward::<T, B, N>(asks, &[("core", Core::<T>::aba)]);
@@ -84,8 +89,11 @@ fn inverse<T: Robot<B, N, N>, const B: usize, const N: usize>(asks: &Asks<N>) {
     under::<T, _, B, N>(asks, "gravity", &(Gravity::EARTH,));
 }
 
-fn crba<T: Robot<B, N, N>, const B: usize, const N: usize>(forms: &[Form<Matrix<N>>]) {
-    let run = |run: Matrix<N>, ask: &Ask<N>| run(&ask.posture, &RIGID_BODY);
+fn crba<T: Robot<B, N, N>, const B: usize, const N: usize>(
+    asks: &Asks<N>,
+    forms: &[Form<Matrix<N>>],
+) {
+    let run = |run: Matrix<N>, ask: &Ask<N>| run(&ask.trig, &RIGID_BODY);
     let triangle = |m: MassMatrix<f32, N>| {
         let entries = (0..N).flat_map(|i| (i..N).map(move |j| (i, j)));
         entries.map(|(i, j)| m.get(i, j)).collect()
@@ -94,11 +102,15 @@ fn crba<T: Robot<B, N, N>, const B: usize, const N: usize>(forms: &[Form<Matrix<
 }
 
 /// Forward dynamics; the torque stands in the place of q̈.
-fn forward<T: Robot<B, N, N>, const B: usize, const N: usize>(forms: &[Form<Forward<N>>]) {
-    let run =
-        |run: Forward<N>, ask: &Ask<N>| run(&ask.posture, &ask.state, &ask.state.qdd, &RIGID_BODY);
+fn forward<'a, T: Robot<B, N, N>, const B: usize, const N: usize>(
+    asks: &'a Asks<N>,
+    forms: &[Form<Forward<'a, N>>],
+) {
+    let run = |run: Forward<'a, N>, ask: &'a Ask<N>| {
+        run(ask.trig.with(&ask.state), &ask.state.qdd, &RIGID_BODY)
+    };
     let flat = |qdd: Solution<N>| qdd.unwrap_or([f32::NAN; N]).into_iter().collect();
-    compare::<T, _, _, B, N>("aba", forms, |run| run as usize, run, flat);
+    compare::<T, _, _, B, N>(asks, "aba", forms, |run| run as usize, run, flat);
 }
 
 /// Inverse dynamics under `effects`.
@@ -107,25 +119,23 @@ fn under<'a, T: Robot<B, N, N>, E: Effect<f32, B, N>, const B: usize, const N: u
     algorithm: &'static str,
     effects: &E,
 ) {
-    let forms: [Form<Inverse<E, N>>; 2] = [
-        ("core", Core::<T>::rnea_at),
-        ("engine", Engine::<T>::rnea_at),
-    ];
-    let run = |run: Inverse<E, N>, ask: &Ask<N>| run(&ask.posture, &ask.state, effects);
+    let forms: [Form<Inverse<'a, E, N>>; 2] =
+        [("core", Core::<T>::rnea), ("engine", Engine::<T>::rnea)];
+    let run = |run: Inverse<'a, E, N>, ask: &'a Ask<N>| run(ask.trig.with(&ask.state), effects);
     let flat = |tau: [f32; N]| tau.into_iter().collect();
-    compare::<T, _, _, B, N>(algorithm, &forms, |run| run as usize, run, flat);
+    compare::<T, _, _, B, N>(asks, algorithm, &forms, |run| run as usize, run, flat);
 }
 
 /// An algorithm: ours in their forms, the first of which is what the others are held against, then each
 /// build of the C. Behind each row stands the largest error, relative to full scale.
-fn compare<T: Robot<B, N, N>, F: Copy, O, const B: usize, const N: usize>(
+fn compare<'a, T: Robot<B, N, N>, F: Copy, O, const B: usize, const N: usize>(
+    asks: &'a Asks<N>,
     algorithm: &'static str,
     forms: &[Form<F>],
     address: impl Fn(F) -> usize,
-    call: impl Fn(F, &Ask<N>) -> O,
+    call: impl Fn(F, &'a Ask<N>) -> O,
     flat: impl Fn(O) -> Vec<f32, MOST>,
 ) {
-    let asks = &asks::<T, B, N, STATES>();
     let Some(&(_, textbook)) = forms.first() else {
         return;
     };

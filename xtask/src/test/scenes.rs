@@ -43,7 +43,7 @@ pub fn runs(context: &Context) -> Result<String> {
         })?;
         let picture = context.workspace.output(&format!("{name}.svg"))?;
         plot::write(&measured.recording, &picture)?;
-        ticks += measured.recording.ticks as usize * measured.recording.order.len();
+        ticks += measured.recording.ticks as usize * measured.recording.runs.len();
     }
     Ok(format!("{ticks} ticks"))
 }
@@ -111,7 +111,7 @@ pub fn tracking(context: &Context) -> Result<String> {
 pub fn cycles(context: &Context) -> Result<String> {
     let mut seen = Vec::new();
     for measured in context.measured()? {
-        let (report, longest) = (&measured.report, measured.report.tick.total.cycles.max);
+        let (report, longest) = (&measured.report, measured.report.tick["total"].cycles.max);
         let share = longest as f64 / (f64::from(report.period_us) * CLOCK_MHZ);
         let (name, percent) = (&report.scene, 100.0 * share);
         refuse(share > LARGEST_SHARE, || {

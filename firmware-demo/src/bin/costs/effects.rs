@@ -21,24 +21,24 @@ use super::{Ask, STATES, asks, done};
 /// Inverse dynamics of an arm in one of its forms.
 trait Form<const N: usize> {
     const NAME: &'static str;
-    type ArmModel: Robot<N, N, N>;
-    fn rnea<E: Effect<f32, N, N>>() -> Rnea<E, N>;
+    type Arm: Robot<N, N, N>;
+    fn rnea<'a, E: Effect<f32, N, N>>() -> Rnea<'a, E, N>;
 }
 
 type Rnea<'a, E, const N: usize> = fn(&'a State<f32, N, N>, &E) -> [f32; N];
 
 impl<T: Robot<N, N, N>, const N: usize> Form<N> for Core<T> {
     const NAME: &'static str = "core";
-    type ArmModel = T;
-    fn rnea<E: Effect<f32, N, N>>() -> Rnea<E, N> {
+    type Arm = T;
+    fn rnea<'a, E: Effect<f32, N, N>>() -> Rnea<'a, E, N> {
         Self::rnea
     }
 }
 
 impl<T: Robot<N, N, N>, const N: usize> Form<N> for Engine<T> {
     const NAME: &'static str = "engine";
-    type ArmModel = T;
-    fn rnea<E: Effect<f32, N, N>>() -> Rnea<E, N> {
+    type Arm = T;
+    fn rnea<'a, E: Effect<f32, N, N>>() -> Rnea<'a, E, N> {
         Self::rnea
     }
 }

@@ -5,70 +5,73 @@ use dynamics_core::effects::{Coriolis, Gravity, Inertia, RIGID_BODY};
 
 use dynamics_core::model::Robot;
 use dynamics_core::spatial::Motion;
-use dynamics_core::state::{JointTrig, State};
+use dynamics_core::state::{JointTrig, State, StateWithTrig};
 use dynamics_core::{Core, Engine, MassMatrix};
 
 use super::row::Row;
-use super::{STATES, asks, done};
+use super::{Ask, STATES, asks, done};
 
 type Scene = (Gravity, Inertia, Coriolis);
 type Solution<const N: usize> = Result<[f32; N], NotPositiveDefinite>;
-type Forward<const N: usize> = fn(&State<f32, N, N>, &[f32; N], &Scene) -> Solution<N>;
-type ForwardAt<const N: usize> =
-    fn(&JointTrig<f32, N>, &State<f32, N, N>, &[f32; N], &Scene) -> Solution<N>;
+type Forward<'a, const N: usize> = fn(&'a State<f32, N, N>, &[f32; N], &Scene) -> Solution<N>;
+type Precomputed<'a, const N: usize> =
+    fn(StateWithTrig<'a, f32, N, N>, &[f32; N], &Scene) -> Solution<N>;
 
-/// The functions of core or engine; those that take a posture have sines and cosines at hand.
-struct Forms<const N: usize> {
+/// The functions of core or engine, each with sines and cosines computed inside and before.
+struct Forms<'a, const N: usize> {
     name: &'static str,
     crba: fn(&[f32; N], &Scene) -> MassMatrix<f32, N>,
-    crba_at: fn(&JointTrig<f32, N>, &Scene) -> MassMatrix<f32, N>,
+    crba_before: fn(&JointTrig<f32, N>, &Scene) -> MassMatrix<f32, N>,
     factor_solve: fn(&MassMatrix<f32, N>, &[f32; N]) -> Solution<N>,
-    forward: Forward<N>,
-    forward_at: ForwardAt<N>,
-    aba: Forward<N>,
-    aba_at: ForwardAt<N>,
+    forward: Forward<'a, N>,
+    forward_before: Precomputed<'a, N>,
+    aba: Forward<'a, N>,
+    aba_before: Precomputed<'a, N>,
     jacobian: fn(&[f32; N]) -> [Motion<f32>; N],
-    jacobian_at: fn(&JointTrig<f32, N>) -> [Motion<f32>; N],
+    jacobian_before: fn(&JointTrig<f32, N>) -> [Motion<f32>; N],
 }
 
-fn of_core<T: Robot<B, N, N>, const B: usize, const N: usize>() -> Forms<N> {
+fn of_core<'a, T: Robot<B, N, N>, const B: usize, const N: usize>() -> Forms<'a, N> {
     Forms {
         name: "core",
         crba: Core::<T>::crba,
-        crba_at: Core::<T>::crba_at,
+        crba_before: Core::<T>::crba,
         factor_solve: core_factor_solve::<T, B, N>,
-        forward: Core::<T>::forward,
-        forward_at: Core::<T>::forward_at,
+        forward: Core::<T>::forward_dynamics,
+        forward_before: Core::<T>::forward_dynamics,
         aba: Core::<T>::aba,
-        aba_at: Core::<T>::aba_at,
+        aba_before: Core::<T>::aba,
         jacobian: tip_jacobian::<T, B, N>,
-        jacobian_at: tip_jacobian_at::<T, B, N>,
+        jacobian_before: tip_jacobian_before::<T, B, N>,
     }
 }
 
-fn of_engine<T: Robot<B, N, N>, const B: usize, const N: usize, const TIP: usize>() -> Forms<N> {
+fn of_engine<'a, T: Robot<B, N, N>, const B: usize, const N: usize, const TIP: usize>()
+-> Forms<'a, N> {
     Forms {
         name: "engine",
         crba: Engine::<T>::crba,
-        crba_at: Engine::<T>::crba_at,
+        crba_before: Engine::<T>::crba,
         factor_solve: engine_factor_solve::<T, B, N>,
-        forward: Engine::<T>::forward,
-        forward_at: Engine::<T>::forward_at,
+        forward: Engine::<T>::forward_dynamics,
+        forward_before: Engine::<T>::forward_dynamics,
         aba: Engine::<T>::aba,
-        aba_at: Engine::<T>::aba_at,
+        aba_before: Engine::<T>::aba,
         jacobian: Engine::<T>::jacobian::<TIP, _, _, _, _>,
-        jacobian_at: Engine::<T>::jacobian_at::<TIP, _, _, _, _>,
+        jacobian_before: Engine::<T>::jacobian::<TIP, _, _, _, _>,
     }
 }
 
 /// Measures core and engine.
 pub fn both<T: Robot<B, N, N>, const B: usize, const N: usize, const TIP: usize>() -> ! {
-    run::<T, B, N>(&[of_core::<T, B, N>(), of_engine::<T, B, N, TIP>()])
+    let asks = &asks::<T, B, N, STATES>();
+    run::<T, B, N>(asks, &[of_core::<T, B, N>(), of_engine::<T, B, N, TIP>()])
 }
 
 /// Measures the core alone.
 pub fn core<T: Robot<B, N, N>, const B: usize, const N: usize>() -> ! {
-    run::<T, B, N>(&[of_core::<T, B, N>()])
+    let asks = &asks::<T, B, N, STATES>();
+    run::<T, B, N>(asks, &[of_core::<T, B, N>()])
 }
 
 #[inline(never)]
@@ -96,21 +99,24 @@ fn tip_jacobian<T: Robot<B, N, N>, const B: usize, const N: usize>(
 }
 
 #[inline(never)]
-fn tip_jacobian_at<T: Robot<B, N, N>, const B: usize, const N: usize>(
-    posture: &JointTrig<f32, N>,
+fn tip_jacobian_before<T: Robot<B, N, N>, const B: usize, const N: usize>(
+    trig: &JointTrig<f32, N>,
 ) -> [Motion<f32>; N] {
-    Core::<T>::jacobian_at(posture, const { B - 1 }, frame::LocalWorldAligned)
+    Core::<T>::jacobian(trig, const { B - 1 }, frame::LocalWorldAligned)
 }
 
 /// Measures the rows of these forms. Torques are the states' accelerations: any will do, since the work
 /// does not depend on what they move.
-fn run<T: Robot<B, N, N>, const B: usize, const N: usize>(forms: &[Forms<N>]) -> ! {
-    let asks = &asks::<T, B, N, STATES>();
+fn run<'a, T: Robot<B, N, N>, const B: usize, const N: usize>(
+    asks: &'a [Ask<N>; STATES],
+    forms: &[Forms<'a, N>],
+) -> ! {
     let scene = &RIGID_BODY;
-    let row =
-        |form: &Forms<N>, algorithm, trig| Row::of::<T, B, N>(algorithm, form.name, "full", trig);
+    let row = |form: &Forms<'_, N>, algorithm, trig| {
+        Row::of::<T, B, N>(algorithm, form.name, "full", trig)
+    };
     for form in forms {
-        let (inside, precomputed) = (form.crba, form.crba_at);
+        let (inside, precomputed) = (form.crba, form.crba_before);
         row(form, "crba", true).measure(inside as usize, asks, |ask| inside(&ask.state.q, scene));
         row(form, "crba", false).measure(precomputed as usize, asks, |ask| {
             precomputed(&ask.trig, scene)
@@ -123,10 +129,10 @@ fn run<T: Robot<B, N, N>, const B: usize, const N: usize>(forms: &[Forms<N>]) ->
     }
     let forward = forms
         .iter()
-        .map(|form| (form, "forward", form.forward, form.forward_at));
+        .map(|form| (form, "forward", form.forward, form.forward_before));
     let aba = forms
         .iter()
-        .map(|form| (form, "aba", form.aba, form.aba_at));
+        .map(|form| (form, "aba", form.aba, form.aba_before));
     for (form, algorithm, inside, precomputed) in forward.chain(aba) {
         row(form, algorithm, true).measure(inside as usize, asks, |ask| {
             inside(&ask.state, &ask.state.qdd, scene)
@@ -136,7 +142,7 @@ fn run<T: Robot<B, N, N>, const B: usize, const N: usize>(forms: &[Forms<N>]) ->
         });
     }
     for form in forms {
-        let (inside, precomputed) = (form.jacobian, form.jacobian_at);
+        let (inside, precomputed) = (form.jacobian, form.jacobian_before);
         row(form, "jacobian", true).measure(inside as usize, asks, |ask| inside(&ask.state.q));
         row(form, "jacobian", false)
             .measure(precomputed as usize, asks, |ask| precomputed(&ask.trig));

@@ -2,14 +2,14 @@
 
 use dynamics_core::effects::{Coriolis, Effect, Gravity, Inertia, RIGID_BODY};
 use dynamics_core::model::Robot;
-use dynamics_core::state::{JointTrig, State};
+use dynamics_core::state::{State, StateWithTrig};
 use dynamics_core::{Core, Engine};
 
 use super::row::Row;
 use super::{Ask, STATES, asks, done};
 
-type Inside<E, const N: usize> = fn(&State<f32, N, N>, &E) -> [f32; N];
-type AtHand<E, const N: usize> = fn(&JointTrig<f32, N>, &State<f32, N, N>, &E) -> [f32; N];
+type Inside<'a, E, const N: usize> = fn(&'a State<f32, N, N>, &E) -> [f32; N];
+type Precomputed<'a, E, const N: usize> = fn(StateWithTrig<'a, f32, N, N>, &E) -> [f32; N];
 
 /// Measures every row of the robot T and leaves the emulator.
 pub fn run<T: Robot<B, N, N>, const B: usize, const N: usize>() -> ! {
@@ -31,7 +31,7 @@ fn inverse<T: Robot<B, N, N>, E: Effect<f32, B, N>, const B: usize, const N: usi
         ("core", Core::<T>::rnea, Core::<T>::rnea),
         ("engine", Engine::<T>::rnea, Engine::<T>::rnea),
     ];
-    for (form, inside, at_hand) in forms {
+    for (form, inside, precomputed) in forms {
         let row = |trig| Row::of::<T, B, N>("rnea", form, inputs, trig);
         row(true).measure(inside as usize, asks, |ask| inside(&ask.state, effects));
         row(false).measure(precomputed as usize, asks, |ask| {

@@ -26,7 +26,7 @@ pub const STATES: usize = 32;
 /// What a function may be asked for.
 pub struct Ask<const N: usize> {
     pub state: State<f32, N, N>,
-    pub posture: JointTrig<f32, N>,
+    pub trig: JointTrig<f32, N>,
 }
 
 /// Some states within the joints' usual ranges, from a fixed seed.

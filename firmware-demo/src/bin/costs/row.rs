@@ -50,7 +50,7 @@ impl<'a> Row<'a> {
     /// Logs the row, then runs the function of this address once for each ask in region 0. Taking the
     /// address also keeps the compiler from shaping the function to its calls.
     #[inline(always)]
-    pub fn measure<'a, A, T>(self, address: usize, asks: &'a [A], mut run: impl FnMut(&'a A) -> T) {
+    pub fn measure<'b, A, T>(self, address: usize, asks: &'b [A], mut run: impl FnMut(&'b A) -> T) {
         let stack = asks
             .iter()
             .map(|ask| stack_of(|| run(black_box(ask))))

@@ -7,7 +7,7 @@
 mod costs;
 
 use cortex_m_rt::entry;
-use dynamics_core::effects::{Armature, Coulomb, Effect, RIGID_BODY, Viscous};
+use dynamics_core::effects::{Armature, Coulomb, Effect, RIGID_BODY, Viscous, Width};
 use dynamics_core::robots::Ur5e;
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;

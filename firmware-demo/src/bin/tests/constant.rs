@@ -18,7 +18,7 @@ use core::hint::black_box;
 use cortex_m_rt::entry;
 use cortex_m_semihosting::debug;
 use dynamics_core::control::{Command, Gains, Mode, SafetyLimits, Supervisor, feedback};
-use dynamics_core::effects::{Armature, Coulomb, RIGID_BODY, Viscous};
+use dynamics_core::effects::{Armature, Coulomb, RIGID_BODY, Viscous, Width};
 use dynamics_core::robots::Ur5e;
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine, trig};

@@ -71,7 +71,6 @@ mod inertia;
 mod joint;
 mod node;
 mod pruned;
-mod scaled;
 mod turn;
 
 pub(crate) use axis::Axis;
@@ -352,7 +351,8 @@ impl<R: Real, const B: usize, const Q: usize, const V: usize> Model<R, B, Q, V> 
     }
 }
 
-const EMPTY: Link<f64> = Link {
+#[doc(hidden)]
+pub const EMPTY: Link<f64> = Link {
     name: "",
     parent: BASE,
     joint: Joint::fixed(),

@@ -14,12 +14,17 @@ pub enum Kind {
     Simulation,
 }
 
-/// Largest, root mean square and 99th percentile of |error|, over all joints or of one.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+/// Of |error| over all joints; none if the robot has left its range.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Errors {
-    pub max: f64,
-    pub rms: f64,
-    pub p99: f64,
+    /// The largest.
+    pub error_max: Option<f64>,
+    /// Root mean square.
+    pub error_rms: Option<f64>,
+    /// 99 % are no larger.
+    pub error_p99: Option<f64>,
+    /// `error_max` as a share of full scale.
+    pub relative_max: Option<f64>,
 }
 
 /// A configuration of a robot: one in the JSON that `--json` prints.
@@ -37,16 +42,11 @@ pub struct Point {
     pub cycles: u64,
     /// Modelled cycles of a call in the mean, over a whole period where calls take turns.
     pub cycles_mean: f64,
-    /// None has left the robot's range.
-    pub error_max: Option<f64>,
-    /// Root mean square.
-    pub error_rms: Option<f64>,
-    /// 99 % are no larger.
-    pub error_p99: Option<f64>,
+    /// How far it is off.
+    #[serde(flatten)]
+    pub errors: Errors,
     /// Of the errors.
     pub unit: String,
-    /// `error_max` as a share of full scale.
-    pub relative_max: Option<f64>,
     /// No other one is as accurate for less, in the worst tick or in the mean.
     pub front: bool,
     /// By less in the worst tick, by less in the mean.
@@ -54,15 +54,6 @@ pub struct Point {
     pub fronts: [bool; 2],
     /// Axes that are not the default's, as one word.
     pub key: String,
-    /// Of what errors are shares.
-    #[serde(skip)]
-    pub full_scale: f64,
-    /// Joint by joint; of what is recorded, only where a page shows it.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub joints: Vec<Errors>,
-    /// Largest error over states anywhere, as a share of full scale.
-    #[serde(skip)]
-    pub anywhere: Option<f64>,
     /// Largest change of the energy in a simulated second, as a share of the largest kinetic energy.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub drift: Option<f64>,
@@ -85,7 +76,7 @@ impl Point {
 
     /// The largest error, infinite if the robot has left its range.
     pub fn error(&self) -> f64 {
-        self.error_max.unwrap_or(f64::INFINITY)
+        self.errors.error_max.unwrap_or(f64::INFINITY)
     }
 
     /// What it costs: the worst tick, the mean.
@@ -99,35 +90,10 @@ impl Point {
     }
 }
 
-/// An error that nothing computed makes: of a sensor, of a parameter.
-#[derive(Clone, Debug, Deserialize)]
-pub struct Yardstick {
-    /// The robot's name.
-    pub robot: String,
-    /// Its own name.
-    pub key: String,
-    /// What is off.
-    #[serde(default)]
-    pub what: String,
-    /// N·m.
-    pub error_max: f64,
-    /// N·m.
-    pub error_rms: f64,
-    /// N·m.
-    pub error_p99: f64,
-    /// `error_max` as a share of full scale.
-    pub relative_max: f64,
-}
-
-/// What leaving out velocity products loses at a speed of the joints.
-#[derive(Clone, Debug, Deserialize)]
-pub struct Speed {
-    /// The robot's name.
-    pub robot: String,
-    /// rad/s: no joint is faster.
-    pub speed: f64,
-    /// N·m.
-    pub error_max: f64,
-    /// `error_max` as a share of full scale.
-    pub relative_max: f64,
+/// The points of a group.
+pub fn of_group<'a>(points: &'a [Point], group: (&str, Kind, &str)) -> Vec<&'a Point> {
+    points
+        .iter()
+        .filter(|point| point.group() == group)
+        .collect()
 }

@@ -70,39 +70,53 @@ impl<T, const BITS: u32, const B: usize, const N: usize> Robot<B, N, N> for Roun
 where
     T: Robot<B, N, N>,
 {
-    const MODEL: Model<f64, B, N, N> = {
-        const fn vector(v: DVec3, bits: u32) -> DVec3 {
-            let [x, y, z] = v.to_array();
-            DVec3::new(round(x, bits), round(y, bits), round(z, bits))
-        }
-        let (mut model, mut i) = (T::MODEL, 0);
-        while i < B {
-            let link = &mut model.links[i];
-            link.placement.pos = vector(link.placement.pos, BITS);
-            let inertia = &mut link.inertia;
-            inertia.mass = round(inertia.mass, BITS);
-            inertia.moment = vector(inertia.moment, BITS);
-            let DMat3 {
-                x_axis,
-                y_axis,
-                z_axis,
-            } = inertia.inertia;
-            inertia.inertia = DMat3::from_cols(
-                vector(x_axis, BITS),
-                vector(y_axis, BITS),
-                vector(z_axis, BITS),
-            );
-            i += 1;
-        }
-        model
-    };
+    const MODEL: Model<f64, B, N, N> = changed(T::MODEL, 1.0, 1.0, BITS);
+}
+
+/// The robot in units of `length` m and `mass` kg, its numbers rounded to so many bits; its joints turn, since lengths
+/// among coordinates and limits stay as they are.
+const fn changed<const B: usize, const N: usize>(
+    mut model: Model<f64, B, N, N>,
+    length: f64,
+    mass: f64,
+    bits: u32,
+) -> Model<f64, B, N, N> {
+    const fn vector(v: DVec3, s: f64, bits: u32) -> DVec3 {
+        DVec3::new(
+            round(v.x * s, bits),
+            round(v.y * s, bits),
+            round(v.z * s, bits),
+        )
+    }
+    let (first, second) = (1.0 / (mass * length), 1.0 / (mass * length * length));
+    let mut i = 0;
+    while i < B {
+        let link = &mut model.links[i];
+        link.placement.pos = vector(link.placement.pos, 1.0 / length, bits);
+        let inertia = &mut link.inertia;
+        inertia.mass = round(inertia.mass / mass, bits);
+        inertia.moment = vector(inertia.moment, first, bits);
+        let DMat3 {
+            x_axis: x,
+            y_axis: y,
+            z_axis: z,
+        } = inertia.inertia;
+        let [x, y, z] = [
+            vector(x, second, bits),
+            vector(y, second, bits),
+            vector(z, second, bits),
+        ];
+        inertia.inertia = DMat3::from_cols(x, y, z);
+        i += 1;
+    }
+    model
 }
 
 /// To nearest, by adding and cutting off bits of the mantissa's 53.
 const fn round(x: f64, bits: u32) -> f64 {
-    assert!(bits >= 1 && bits <= 52);
+    assert!(bits >= 1 && bits <= 53);
     let cut = 53 - bits;
-    let half = 1_u64 << (cut - 1);
+    let half = (1_u64 << cut) >> 1;
     f64::from_bits((x.to_bits() + half) >> cut << cut)
 }
 
@@ -179,33 +193,13 @@ const fn power_of_two(least: f64) -> f64 {
     power
 }
 
-/// The robot in its [`Units`]; its joints turn, since lengths among coordinates and limits stay as they are.
+/// The robot in its [`Units`].
 #[derive(Clone, Copy, Debug)]
 pub struct InUnits<T>(PhantomData<T>);
 
 impl<T: Robot<B, N, N>, const B: usize, const N: usize> Robot<B, N, N> for InUnits<T> {
     const MODEL: Model<f64, B, N, N> = {
-        const fn scale(v: DVec3, s: f64) -> DVec3 {
-            DVec3::new(v.x * s, v.y * s, v.z * s)
-        }
         let Units { length, mass, .. } = Units::of(&T::MODEL);
-        let (mut model, mut i) = (T::MODEL, 0);
-        while i < B {
-            let link = &mut model.links[i];
-            link.placement.pos = scale(link.placement.pos, 1.0 / length);
-            let inertia = &mut link.inertia;
-            inertia.mass /= mass;
-            inertia.moment = scale(inertia.moment, 1.0 / (mass * length));
-            let DMat3 {
-                x_axis,
-                y_axis,
-                z_axis,
-            } = inertia.inertia;
-            let s = 1.0 / (mass * length * length);
-            inertia.inertia =
-                DMat3::from_cols(scale(x_axis, s), scale(y_axis, s), scale(z_axis, s));
-            i += 1;
-        }
-        model
+        changed(T::MODEL, length, mass, 53)
     };
 }

@@ -149,7 +149,7 @@ fn told(point: &Point) -> String {
         cycles(point.cycles_mean),
         digits(point.error()),
         point.unit,
-        stated(point.errors.relative_max),
+        stated(point.relative_max),
         sentence(point)
     )
 }

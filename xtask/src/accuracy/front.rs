@@ -52,7 +52,7 @@ pub fn front<'a>(points: &[&'a Point], cost: usize) -> Vec<&'a Point> {
 
 #[cfg(test)]
 pub mod tests {
-    use super::super::point::{Errors, Kind, Point};
+    use super::super::point::{Kind, Point};
     use super::{front, mark};
 
     /// A way of the robot `arm` with this key, error, and cost in the worst tick and in the mean.
@@ -69,11 +69,11 @@ pub mod tests {
             instructions: cycles,
             cycles,
             cycles_mean: mean,
-            errors: Errors {
-                error_max: error.is_finite().then_some(error),
-                ..Errors::default()
-            },
+            error_max: error.is_finite().then_some(error),
+            error_rms: None,
+            error_p99: None,
             unit: "N·m".into(),
+            relative_max: None,
             front: false,
             fronts: [false; 2],
             key: key.into(),

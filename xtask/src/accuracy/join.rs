@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 
 use super::front;
-use super::point::{Errors, Kind, Point};
+use super::point::{Kind, Point};
 use crate::costs::Row;
 use crate::error::{Error, Result};
 
@@ -42,8 +42,10 @@ pub struct Line {
     configuration: BTreeMap<String, String>,
     unit: String,
     pub full_scale: f64,
-    #[serde(flatten)]
-    pub errors: Errors,
+    pub error_max: Option<f64>,
+    pub error_rms: Option<f64>,
+    pub error_p99: Option<f64>,
+    pub relative_max: Option<f64>,
     energy_drift_relative: Option<f64>,
     /// The largest error over states anywhere, as a share of full scale.
     pub anywhere: Option<f64>,
@@ -90,6 +92,18 @@ impl Host {
     }
 }
 
+impl Line {
+    /// All that is said of its errors.
+    pub fn errors(&self) -> [Option<f64>; 4] {
+        [
+            self.error_max,
+            self.error_p99,
+            self.error_rms,
+            self.relative_max,
+        ]
+    }
+}
+
 /// A point for each way and opt-level; `measured` are the rows of each.
 pub fn join(host: &Host, measured: &[(&'static str, Vec<Row>)]) -> Result<Vec<Point>> {
     let mut known: BTreeMap<(&str, &str, &str), Vec<&(Kind, Line)>> = BTreeMap::new();
@@ -132,12 +146,10 @@ fn point(kind: Kind, way: &Line, row: &Row, opt: &str) -> Point {
         instructions: row.instructions.max * calls,
         cycles: row.cycles.max * calls,
         cycles_mean: row.cycles_mean * calls as f64,
-        errors: Errors {
-            error_max: known(way.errors.error_max, way.full_scale),
-            error_rms: known(way.errors.error_rms, way.full_scale),
-            error_p99: known(way.errors.error_p99, way.full_scale),
-            relative_max: known(way.errors.relative_max, 1.0),
-        },
+        error_max: known(way.error_max, way.full_scale),
+        error_rms: known(way.error_rms, way.full_scale),
+        error_p99: known(way.error_p99, way.full_scale),
+        relative_max: known(way.relative_max, 1.0),
         unit: way.unit.clone(),
         front: false,
         fronts: [false; 2],

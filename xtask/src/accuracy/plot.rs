@@ -7,6 +7,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::front as fronts;
 use super::join::Line;
+use super::measure::Robot;
 use super::page::{SCENES, steps};
 use super::point::{Kind, Point, of_group};
 use super::words::{cycles, name, stated};
@@ -19,12 +20,11 @@ const DOT: RGBColor = RGBColor(165, 174, 185);
 const WORST: RGBColor = RGBColor(27, 80, 162);
 const MEAN: RGBColor = RGBColor(214, 110, 0);
 const MEASURE: RGBColor = RGBColor(150, 45, 95);
-
 /// px: a line of text, and how wide a letter is.
 const TEXT: i32 = 14;
 const LETTER: f64 = 6.9;
-/// Names at most.
-const NAMES: usize = 8;
+/// Points of a front that have a name, beside the default.
+const NAMES: usize = 7;
 /// Yardsticks in the picture; the page has all.
 const MEASURES: [(&str, &str); 3] = [
     ("friction10", "friction known to 10 %"),
@@ -39,7 +39,7 @@ const COLOURS: [(&str, &str, RGBColor); 5] = [
         "semi-implicit Euler",
         RGBColor(0, 128, 110),
     ),
-    ("rk4", "RK4", RGBColor(27, 80, 162)),
+    ("rk4", "RK4", WORST),
     ("energy", "energy-preserving", RGBColor(230, 145, 0)),
     (
         "implicit_damping",
@@ -49,307 +49,243 @@ const COLOURS: [(&str, &str, RGBColor); 5] = [
 ];
 /// Cycles of a second at 168 MHz: a simulation right of it is slower than what it simulates.
 const REAL_TIME: f64 = 168e6;
+const TICK: &str = "cycles of the worst tick (Cortex-M4F at zero wait states, modelled)";
+const TORQUE: &str = "largest torque error, N·m";
 
-type Outcome = std::result::Result<(), Box<dyn std::error::Error>>;
+type Fallible<T> = std::result::Result<T, Box<dyn std::error::Error>>;
+type Place = (i32, i32);
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<LogCoord<f64>, LogCoord<f64>>>;
+type Axes = Cartesian2d<LogCoord<f64>, LogCoord<f64>>;
+type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Axes>;
 
-fn svg(what: &str, size: (u32, u32), draw: impl FnOnce(&Area<'_>) -> Outcome) -> Result<String> {
+fn svg(
+    what: &str,
+    size: (u32, u32),
+    draw: impl FnOnce(&Area<'_>) -> Fallible<()>,
+) -> Result<String> {
     let mut svg = String::new();
-    let drawn = {
+    let all = || {
         let root = SVGBackend::with_string(&mut svg, size).into_drawing_area();
-        let filled = root.fill(&WHITE).map_err(Into::into);
-        filled
-            .and_then(|()| draw(&root))
-            .and_then(|()| Ok(root.present()?))
+        root.fill(&WHITE)?;
+        draw(&root)?;
+        Ok(root.present()?)
     };
+    let drawn: Fallible<()> = all();
     drawn.map_err(|e| Error::check(format!("cannot draw {what}: {e}")))?;
     Ok(svg)
 }
 
-/// Words beside a place: to its right or left, on its height.
-fn text(area: &Area<'_>, words: &str, at: (i32, i32), colour: &RGBColor, side: HPos) -> Outcome {
-    let font = (FONT, TEXT)
-        .into_font()
-        .color(colour)
-        .pos(Pos::new(side, VPos::Center));
-    Ok(area.draw(&Text::new(words.to_owned(), at, font))?)
+/// Words to the right or left of a place.
+fn text(area: &Area<'_>, words: &str, at: Place, colour: RGBColor, side: HPos) -> Fallible<()> {
+    let font = (FONT, TEXT).into_font().color(&colour);
+    let style = font.pos(Pos::new(side, VPos::Center));
+    Ok(area.draw(&Text::new(words.to_owned(), at, style))?)
 }
 
-fn line(area: &Area<'_>, path: Vec<(i32, i32)>, style: impl Into<ShapeStyle>) -> Outcome {
-    Ok(area.draw(&PathElement::new(path, style.into()))?)
+fn wide(words: &str) -> i32 {
+    (LETTER * words.chars().count() as f64) as i32
 }
 
-fn dot(area: &Area<'_>, at: (i32, i32), radius: i32, style: impl Into<ShapeStyle>) -> Outcome {
-    Ok(area.draw(&Circle::new(at, radius, style.into()))?)
+/// A line through these places, and dots on them.
+fn path(
+    area: &Area<'_>,
+    places: &[Place],
+    width: u32,
+    dots: i32,
+    colour: RGBColor,
+) -> Fallible<()> {
+    area.draw(&PathElement::new(places, colour.stroke_width(width)))?;
+    for &place in places.iter().filter(|_| dots > 0) {
+        area.draw(&Circle::new(place, dots, colour.filled()))?;
+    }
+    Ok(())
 }
 
-/// Logarithmic axes under a line of text.
+/// Logarithmic axes around these points, with so much room left and right, under a title.
 fn axes<'a, 'b>(
     area: &'a Area<'b>,
-    title: &str,
-    [x, y]: [&str; 2],
-    [[left, right], [low, high]]: [[f64; 2]; 2],
-) -> std::result::Result<Chart<'a, 'b>, Box<dyn std::error::Error>> {
-    text(area, title, (12, 16), &INK, HPos::Left)?;
-    let mut chart = ChartBuilder::on(area)
-        .margin_top(32)
-        .margin_right(16)
-        .x_label_area_size(44)
-        .y_label_area_size(72)
-        .build_cartesian_2d((left..right).log_scale(), (low..high).log_scale())?;
+    [title, x, y]: [&str; 3],
+    points: impl Iterator<Item = (f64, f64)>,
+    room: [f64; 2],
+) -> Fallible<Chart<'a, 'b>> {
+    let (mut low, mut high) = ([f64::INFINITY; 2], [1e-300_f64; 2]);
+    for (x, y) in points {
+        low = [low[0].min(x), low[1].min(y)];
+        high = [high[0].max(x), high[1].max(y)];
+    }
+    let across = (low[0] / room[0]..high[0] * room[1]).log_scale();
+    let up = (low[1].max(1e-9 * high[1]) / 2.0..high[1] * 2.0).log_scale();
+    text(area, title, (12, 16), INK, HPos::Left)?;
+    let mut builder = ChartBuilder::on(area);
+    builder.margin_top(32).margin_right(16);
+    builder.x_label_area_size(44).y_label_area_size(72);
+    let mut chart = builder.build_cartesian_2d(across, up)?;
     let label = (FONT, TEXT).into_font().color(&INK);
-    chart
-        .configure_mesh()
-        .light_line_style(TRANSPARENT)
+    let mut mesh = chart.configure_mesh();
+    mesh.light_line_style(TRANSPARENT)
         .bold_line_style(FAINT)
-        .axis_style(INK)
-        .label_style(label.clone())
-        .axis_desc_style(label)
-        .x_desc(x)
-        .y_desc(y)
-        .x_label_formatter(&|x| {
-            if *x < 1e5 {
-                cycles(*x)
-            } else {
-                format!("{x:.0e}")
-            }
-        })
-        .y_label_formatter(&|y| {
-            if (0.009..1e4).contains(y) {
-                format!("{}", (y * 1e3).round() / 1e3)
-            } else {
-                format!("{y:.0e}")
-            }
-        })
-        .draw()?;
+        .axis_style(INK);
+    mesh.label_style(label.clone()).axis_desc_style(label);
+    let short = |x: &f64| match x {
+        1.0..1e5 => cycles(*x),
+        _ => format!("{x:.0e}"),
+    };
+    let error = |y: &f64| match y {
+        0.009..1e4 => format!("{}", (y * 1e3).round() / 1e3),
+        _ => format!("{y:.0e}"),
+    };
+    mesh.x_label_formatter(&short).y_label_formatter(&error);
+    mesh.x_desc(x).y_desc(y).draw()?;
+    drop(mesh);
     Ok(chart)
 }
 
-/// The smallest and the largest.
-fn range(values: impl Iterator<Item = f64>) -> [f64; 2] {
-    let seen = values.filter(|value| value.is_finite() && *value > 0.0);
-    seen.fold([f64::INFINITY, 1e-300], |[low, high], value| {
-        [low.min(value), high.max(value)]
-    })
-}
-
 /// A front by a cost as a stair, from the cheapest down.
-fn stair(area: &Area<'_>, front: &[(i32, i32)], colour: RGBColor) -> Outcome {
-    let mut corners: Vec<(i32, i32)> = Vec::new();
-    for &(x, y) in front {
+fn stair(area: &Area<'_>, chart: &Chart<'_, '_>, front: &[&Point], cost: usize) -> Fallible<()> {
+    let places = front
+        .iter()
+        .map(|point| chart.backend_coord(&(point.costs()[cost], point.error())));
+    let mut corners: Vec<Place> = Vec::new();
+    for (x, y) in places.clone() {
         corners.extend(corners.last().map(|&(_, above)| (x, above)));
         corners.push((x, y));
     }
-    line(area, corners, colour.stroke_width(2))?;
-    front
-        .iter()
-        .try_for_each(|&at| dot(area, at, 4, colour.filled()))
+    let colour = [WORST, MEAN][cost];
+    path(area, &corners, 2, 0, colour)?;
+    path(area, &places.collect::<Vec<_>>(), 0, 4, colour)
 }
 
-const CYCLES: &str = "cycles of the worst tick (Cortex-M4F at zero wait states, modelled)";
-const TORQUE: &str = "largest torque error, N·m";
-
 /// The front by the worst tick, with names and yardsticks.
-pub fn front(title: &str, points: &[&Point], yardsticks: &[&Line]) -> Result<String> {
+pub fn front(robot: Robot, points: &[&Point], yardsticks: &[Line]) -> Result<String> {
+    let title = robot.title();
     let head = format!(
-        "{title}: the cheapest inverse dynamics of each accuracy; dashed: errors from other causes"
+        "{title}: the cheapest inverse dynamics of each accuracy; dashed: errors of other causes"
     );
+    let default = points.iter().find(|point| point.is_default());
+    let mut shown = fronts::front(points, 0);
+    // What is dearer than the default by far, in other numbers, is in the other picture.
+    shown.retain(|point| default.is_none_or(|default| point.cycles <= default.cycles));
     svg(title, (800, 520), |root| {
-        let default = points.iter().find(|point| point.is_default());
-        let [most, floor] = default.map_or([f64::INFINITY, 0.0], |p| {
-            [1.05 * p.cycles as f64, p.error()]
-        });
-        let mut shown = fronts::front(points, 0);
-        shown.retain(|point| point.cycles as f64 <= most && point.error() >= 0.1 * floor);
-        let [left, right] = range(shown.iter().map(|point| point.cycles as f64));
-        let [low, high] = range(shown.iter().map(|point| point.error()));
-        let ranges = [[left * 0.55, right * 2.2], [low * 0.3, high * 3.0]];
-        let chart = axes(root, &head, [CYCLES, TORQUE], ranges)?;
-        let at = |x: f64, y: f64| chart.backend_coord(&(x, y));
-        let (x0, _) = at(ranges[0][0], low);
-        let (x1, _) = at(ranges[0][1], low);
-        let mut taken: Vec<i32> = Vec::new();
-        let lines = MEASURES.iter().filter_map(|(key, what)| {
-            let line = yardsticks.iter().find(|line| line.key == *key)?;
-            Some((what, line.errors.error_max?))
-        });
-        for (what, error) in lines {
-            let (_, y) = at(left, error);
-            for dash in (x0..x1).step_by(12) {
-                line(
-                    root,
-                    vec![(dash, y), ((dash + 7).min(x1), y)],
-                    MEASURE.stroke_width(1),
-                )?;
+        let ends = shown
+            .iter()
+            .map(|point| (point.cycles as f64, point.error()));
+        let chart = axes(root, [&head, TICK, TORQUE], ends, [1.9, 2.2])?;
+        let (x0, x1) = (
+            chart.plotting_area().get_x_axis_pixel_range().start,
+            chart.plotting_area().get_x_axis_pixel_range().end,
+        );
+        let mut dashed: Vec<i32> = Vec::new();
+        for (key, what) in MEASURES {
+            let of = |line: &&Line| line.robot == robot.name() && line.key == key;
+            let Some(error) = yardsticks.iter().find(of).and_then(|line| line.error_max) else {
+                continue;
+            };
+            let y = chart.backend_coord(&(1.0, error)).1;
+            for x in (x0..x1 - 6).step_by(12) {
+                path(root, &[(x, y), (x + 7, y)], 1, 0, MEASURE)?;
             }
             // Below its line where another one is close above.
-            let crowded = taken.iter().any(|other| (y - 18..y).contains(other));
+            let crowded = dashed.iter().any(|other| (y - 20..y).contains(other));
             let words = format!("{what}: {} N·m", stated(Some(error)));
-            text(
-                root,
-                &words,
-                (x1 - 4, if crowded { y + 10 } else { y - 10 }),
-                &MEASURE,
-                HPos::Right,
-            )?;
-            taken.push(y);
+            let beside = if crowded { y + 10 } else { y - 10 };
+            text(root, &words, (x1 - 4, beside), MEASURE, HPos::Right)?;
+            dashed.push(y);
         }
-        let path: Vec<_> = shown
-            .iter()
-            .map(|point| at(point.cycles as f64, point.error()))
-            .collect();
-        stair(root, &path, WORST)?;
+        stair(root, &chart, &shown, 0)?;
+        let mut steps = steps(&shown, 0);
+        steps.retain(|point| !point.is_default());
+        let count = steps.len().min(NAMES);
+        let named = (0..count)
+            .map(|i| steps[i * steps.len() / count])
+            .chain(default.copied());
         // Left of a front that falls to the right there is room; names keep clear of each other and of dashed lines.
-        let mut named = steps(&shown, 0);
-        named.retain(|point| !point.is_default());
-        let places = named.len();
-        let spare = NAMES - 1;
-        let mut named: Vec<&Point> = (0..places.min(spare))
-            .map(|i| named[i * places / places.min(spare)])
-            .collect();
-        named.extend(default);
-        let mut above = i32::MIN / 2;
+        let mut last = i32::MIN / 2;
         for point in named {
-            let (x, y) = at(point.cycles as f64, point.error());
+            let (x, y) = chart.backend_coord(&(point.cycles as f64, point.error()));
             let words = name(point);
-            let wide = (LETTER * words.chars().count() as f64) as i32;
-            if x - 12 - wide < x0 {
-                text(root, &words, (x + 2, y - 12), &INK, HPos::Left)?;
+            if x - 12 - wide(&words) < x0 {
+                text(root, &words, (x + 2, y - 12), INK, HPos::Left)?;
                 continue;
             }
-            let mut height = y.max(above + 17);
-            while let Some(dashed) = taken.iter().find(|dashed| (height - **dashed).abs() < 9) {
-                height = dashed + 9;
+            let mut height = y.max(last + 17);
+            while let Some(line) = dashed.iter().find(|line| (height - **line).abs() < 10) {
+                height = line + 10;
             }
-            text(root, &words, (x - 12, height), &INK, HPos::Right)?;
+            text(root, &words, (x - 12, height), INK, HPos::Right)?;
             if height > y + 5 {
-                line(
-                    root,
-                    vec![(x - 3, y + 3), (x - 10, height)],
-                    INK.mix(0.5).stroke_width(1),
-                )?;
+                path(root, &[(x - 3, y + 3), (x - 10, height)], 1, 0, DOT)?;
             }
-            above = height;
+            last = height;
         }
         Ok(())
     })
 }
 
 /// All ways, by what the worst tick costs, and both fronts.
-pub fn all(title: &str, points: &[&Point]) -> Result<String> {
+pub fn all(robot: Robot, points: &[&Point]) -> Result<String> {
+    let title = robot.title();
     let head = format!(
         "{title}: every way; fronts by the worst tick (blue) and by the mean over ticks (orange)"
     );
+    let finite = points.iter().filter(|point| point.error().is_finite());
     svg(title, (800, 520), |root| {
-        let x = range(points.iter().flat_map(|point| point.costs()));
-        let y = range(points.iter().map(|point| point.error()));
-        let chart = axes(
-            root,
-            &head,
-            ["cycles of a tick", TORQUE],
-            [x, y].map(|[a, b]| [a * 0.6, b * 1.7]),
-        )?;
-        for point in points.iter().filter(|point| point.error().is_finite()) {
-            dot(
-                root,
-                chart.backend_coord(&(point.cycles as f64, point.error())),
-                2,
-                DOT.filled(),
-            )?;
+        let both = finite
+            .clone()
+            .flat_map(|point| point.costs().map(|cost| (cost, point.error())));
+        let chart = axes(root, [&head, "cycles of a tick", TORQUE], both, [1.7, 1.7])?;
+        for point in finite {
+            let place = chart.backend_coord(&(point.cycles as f64, point.error()));
+            path(root, &[place], 0, 2, DOT)?;
         }
-        for (cost, colour) in [(1, MEAN), (0, WORST)] {
-            let front = fronts::front(points, cost);
-            let place = |point: &&Point| chart.backend_coord(&(point.costs()[cost], point.error()));
-            stair(root, &front.iter().map(place).collect::<Vec<_>>(), colour)?;
-        }
-        Ok(())
+        stair(root, &chart, &fronts::front(points, 1), 1)?;
+        stair(root, &chart, &fronts::front(points, 0), 0)
     })
 }
 
 /// Errors against cycles, a line per integrator through its lengths of step.
 pub fn simulations(points: &[Point]) -> Result<String> {
     svg("the simulations", (800, 1300), |root| {
-        let (mut x, mut y) = (12, 16);
+        let mut x = 12;
         for (_, words, colour) in COLOURS {
-            line(root, vec![(x, y), (x + 22, y)], colour.stroke_width(3))?;
-            text(root, words, (x + 28, y), &INK, HPos::Left)?;
-            x += 44 + (LETTER * words.chars().count() as f64) as i32;
+            path(root, &[(x, 16), (x + 22, 16)], 3, 0, colour)?;
+            text(root, words, (x + 28, 16), INK, HPos::Left)?;
+            x += 44 + wide(words);
         }
-        y += 22;
-        let how = "filled: f32; rings: f32 with compensated sums; thin: f64. Each dot is a length of step, 10 ms to 20 µs.";
-        text(root, how, (12, y), &INK, HPos::Left)?;
+        let how = "large dots: f32; small dots: f32 with compensated sums; no dots: f64. A dot is a length of step, 10 ms to 20 µs.";
+        text(root, how, (12, 38), INK, HPos::Left)?;
         for (row, (robot, scene, title)) in SCENES.into_iter().enumerate() {
             let area = root.clone().shrink((0, 50 + 310 * row as i32), (800, 305));
             let own = of_group(points, (robot.name(), Kind::Simulation, scene));
-            panel(root, &area, title, &own)?;
+            let seen = || own.iter().filter(|point| point.error().is_finite());
+            let names = [title, "cycles for a simulated second", "largest error, rad"];
+            let ends = seen().map(|point| (point.cycles as f64, point.error()));
+            let chart = axes(&area, names, ends, [1.4, 1.4])?;
+            // Coordinates of a chart are those of the whole picture.
+            let (x, y) =
+                chart.backend_coord(&(REAL_TIME, seen().map(|p| p.error()).fold(0.0, f64::max)));
+            if x < 780 {
+                path(root, &[(x, y), (x, y + 200)], 1, 0, DOT)?;
+                text(root, "real time at 168 MHz", (x - 5, y), INK, HPos::Right)?;
+            }
+            for (integrator, _, colour) in COLOURS {
+                for (arith, state, width, dots) in [
+                    ("f64", "plain", 1, 0),
+                    ("f32", "plain", 2, 4),
+                    ("f32", "compensated", 1, 2),
+                ] {
+                    let kind = [integrator, arith, state];
+                    let of = |point: &&&Point| {
+                        ["integrator", "arith", "state"].map(|axis| point.on(axis)) == kind
+                    };
+                    let mut line: Vec<_> = seen().filter(of).collect();
+                    line.sort_by_key(|point| point.cycles);
+                    let places = line
+                        .iter()
+                        .map(|p| chart.backend_coord(&(p.cycles as f64, p.error())));
+                    path(root, &places.collect::<Vec<_>>(), width, dots, colour)?;
+                }
+            }
         }
         Ok(())
     })
-}
-
-fn panel(root: &Area<'_>, area: &Area<'_>, title: &str, points: &[&Point]) -> Outcome {
-    let [left, right] = range(points.iter().map(|point| point.cycles as f64));
-    let [low, high] = range(points.iter().map(|point| point.error()));
-    let low = low.max(1e-9 * high);
-    let names = ["cycles for a simulated second", "largest error, rad"];
-    let chart = axes(
-        area,
-        title,
-        names,
-        [[left * 0.7, right * 1.5], [low * 0.5, high * 2.0]],
-    )?;
-    // Coordinates of a chart are those of the whole picture.
-    let at = |x: f64, y: f64| chart.backend_coord(&(x, y));
-    if (left..right).contains(&REAL_TIME) {
-        let (x, top) = at(REAL_TIME, high);
-        line(
-            root,
-            vec![(x, top), (x, at(REAL_TIME, low).1)],
-            INK.mix(0.4).stroke_width(1),
-        )?;
-        text(
-            root,
-            "real time at 168 MHz",
-            (x + 5, top - 4),
-            &INK,
-            HPos::Left,
-        )?;
-    }
-    for (integrator, _, colour) in COLOURS {
-        for (arith, state, wide, radius) in [
-            ("f64", "plain", 1, 2),
-            ("f32", "plain", 2, 3),
-            ("f32", "compensated", 2, 5),
-        ] {
-            let of = |point: &&&Point| {
-                // What is below the lower edge is not drawn.
-                let drawn = point.error().is_finite() && point.error() > 0.5 * low;
-                drawn
-                    && [point.on("integrator"), point.on("arith"), point.on("state")]
-                        == [integrator, arith, state]
-            };
-            let mut own: Vec<_> = points.iter().filter(of).collect();
-            own.sort_by_key(|point| point.cycles);
-            let path: Vec<_> = own
-                .iter()
-                .map(|point| at(point.cycles as f64, point.error()))
-                .collect();
-            for &place in &path {
-                let style = if state == "plain" {
-                    colour.filled()
-                } else {
-                    colour.stroke_width(1)
-                };
-                dot(
-                    root,
-                    place,
-                    if state == "plain" { radius } else { 5 },
-                    style,
-                )?;
-            }
-            line(root, path, colour.stroke_width(wide))?;
-        }
-    }
-    Ok(())
 }

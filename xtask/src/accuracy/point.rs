@@ -14,19 +14,6 @@ pub enum Kind {
     Simulation,
 }
 
-/// Of |error| over all joints; none if the robot has left its range.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Errors {
-    /// The largest.
-    pub error_max: Option<f64>,
-    /// Root mean square.
-    pub error_rms: Option<f64>,
-    /// 99 % are no larger.
-    pub error_p99: Option<f64>,
-    /// `error_max` as a share of full scale.
-    pub relative_max: Option<f64>,
-}
-
 /// A configuration of a robot: one in the JSON that `--json` prints.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Point {
@@ -42,11 +29,16 @@ pub struct Point {
     pub cycles: u64,
     /// Modelled cycles of a call in the mean, over a whole period where calls take turns.
     pub cycles_mean: f64,
-    /// How far it is off.
-    #[serde(flatten)]
-    pub errors: Errors,
+    /// The largest |error| of any joint; none if the robot has left its range.
+    pub error_max: Option<f64>,
+    /// Root mean square.
+    pub error_rms: Option<f64>,
+    /// 99 % are no larger.
+    pub error_p99: Option<f64>,
     /// Of the errors.
     pub unit: String,
+    /// `error_max` as a share of full scale.
+    pub relative_max: Option<f64>,
     /// No other one is as accurate for less, in the worst tick or in the mean.
     pub front: bool,
     /// By less in the worst tick, by less in the mean.
@@ -76,7 +68,17 @@ impl Point {
 
     /// The largest error, infinite if the robot has left its range.
     pub fn error(&self) -> f64 {
-        self.errors.error_max.unwrap_or(f64::INFINITY)
+        self.error_max.unwrap_or(f64::INFINITY)
+    }
+
+    /// All that is said of its errors.
+    pub fn errors(&self) -> [Option<f64>; 4] {
+        [
+            self.error_max,
+            self.error_p99,
+            self.error_rms,
+            self.relative_max,
+        ]
     }
 
     /// What it costs: the worst tick, the mean.

@@ -22,7 +22,7 @@ const CLOSE: std::ops::RangeInclusive<f64> = 0.95..=1.02;
 /// Of the UR5e, every single change that can be pasted; of the leg, one.
 fn is_sample(point: &Point) -> bool {
     let all = point.robot == "ur5e" || (&*point.robot, &*point.key) == ("a1_leg", "trig=minimax7");
-    all && point.on("plant") == "rigid" && page::SINGLE.contains(&&*point.key)
+    all && point.on("plant") == "rigid" && page::is_single(point, usize::MAX)
 }
 
 /// Writes it, as a module for each and a visit of all of a robot's.
@@ -134,11 +134,11 @@ pub fn check(measured: &Measured) -> Result<usize> {
             point.cycles_mean,
         ];
         let mut ratios = std::iter::zip(seen, promised).map(|(seen, promised)| seen / promised);
-        if !ratios.all(|ratio| CLOSE.contains(&ratio)) || line.errors != point.errors {
+        if !ratios.all(|ratio| CLOSE.contains(&ratio)) || line.errors() != point.errors() {
             unlike.push(format!(
                 "{} {}: instructions, cycles and their mean were promised as {promised:?}, errors as {:?}, but what is \
                  pasted has {seen:?} and {:?}",
-                row.robot, row.inputs, point.errors, line.errors
+                row.robot, row.inputs, point.errors(), line.errors()
             ));
         }
     }

@@ -47,8 +47,7 @@ pub fn check(recorded: &[Point], now: &[Point]) -> Result<()> {
         let close = |old: &Point| {
             let apart =
                 std::iter::zip(old.costs(), point.costs()).map(|(a, b)| (a / b - 1.0).abs());
-            old.errors.error_max == point.errors.error_max
-                && apart.into_iter().all(|apart| apart <= CLOSE)
+            old.error_max == point.error_max && apart.into_iter().all(|apart| apart <= CLOSE)
         };
         if !old.is_some_and(close) {
             return Err(Error::check(format!(

@@ -114,23 +114,16 @@ impl Wish {
             Budget::Cycles(_) if robot == Robot::DoublePendulum => Kind::Simulation,
             _ => budget.kind(),
         };
-        let (among, what, hint) = match kind {
-            Kind::Inverse => (
-                &Robot::COMPUTED[..],
-                "torques are",
-                "its simulation is in rad",
-            ),
-            Kind::Simulation if self.quick => {
-                (&[][..], "with --quick no simulation is", "torques is in Nm")
-            }
-            Kind::Simulation => (&Robot::SIMULATED[..], "simulations are", "torques is in Nm"),
+        let (among, other) = match kind {
+            Kind::Inverse => (&Robot::COMPUTED[..], "simulations are in rad"),
+            Kind::Simulation => (&Robot::SIMULATED[..], "torques are in Nm"),
         };
-        if among.contains(&robot) {
+        if among.contains(&robot) && !(self.quick && kind == Kind::Simulation) {
             return Ok(Some(kind));
         }
         let names: Vec<&str> = among.iter().map(|robot| robot.name()).collect();
         Err(Error::check(format!(
-            "{what} not computed of {}, but of: {}; an error of {hint}",
+            "there is no such {kind:?} of {}, but, without --quick, of {}; errors of {other}",
             robot.name(),
             names.join(", ")
         )))

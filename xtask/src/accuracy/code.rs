@@ -69,23 +69,19 @@ pub fn rust(point: &Point) -> Result<String> {
         Kind::Simulation => simulation(point)?,
         Kind::Inverse => torques(point)?,
     };
-    Ok(match point.on("opt") {
-        "s" | "z" => format!(
-            "// In Cargo.toml: [profile.release] opt-level = \"{}\"\n{code}",
-            point.on("opt")
-        ),
-        _ => code,
-    })
+    let opt = point.on("opt");
+    let manifest = format!("// In Cargo.toml: [profile.release] opt-level = \"{opt}\"\n");
+    Ok(pick(matches!(opt, "s" | "z"), &manifest, "").to_owned() + &code)
 }
 
-/// Type, bodies and joints of a robot whose torques are computed.
-pub fn robot(point: &Point) -> Result<(&'static str, &'static str, &'static str)> {
-    match &*point.robot {
-        "ur5e" => Ok(("Ur5e", "6", "6")),
-        "panda" => Ok(("Panda", "7", "7")),
-        "a1_leg" => Ok(("A1Leg", "4", "3")),
-        _ => Err(lacks(point, "kind")),
-    }
+fn pick<'a>(first: bool, one: &'a str, other: &'a str) -> &'a str {
+    if first { one } else { other }
+}
+
+/// The code with each of these words replaced, one after the other.
+fn filled(code: String, values: &[(&str, &str)]) -> String {
+    let fill = |code: String, (word, value): &(&str, &str)| code.replace(word, value);
+    values.iter().fold(code, fill)
 }
 
 /// Whether it remembers something from tick to tick.
@@ -94,104 +90,105 @@ pub fn ticks(point: &Point) -> bool {
 }
 
 fn torques(point: &Point) -> Result<String> {
-    let (arm, bodies, joints) = robot(point)?;
-    let [model, trig, rate, between] =
-        ["model", "trig", "rate", "between"].map(|axis| point.on(axis));
-    let (pruned, effects) = match (model, model.strip_prefix("pruned")) {
-        ("full", _) => (None, "RIGID_BODY"),
-        ("no_coriolis", _) => (None, "(Gravity::EARTH, Inertia)"),
-        ("gravity", _) => (None, "Gravity::EARTH"),
-        (_, Some(millionths)) => (Some(format!("Pruned<{arm}, {millionths}>")), "RIGID_BODY"),
+    let axes = ["model", "trig", "rate", "between", "arith"];
+    let [model, trig, rate, between, scalar] = axes.map(|axis| point.on(axis));
+    let (arm, bodies, joints) = match &*point.robot {
+        "ur5e" => ("Ur5e", "6", "6"),
+        "panda" => ("Panda", "7", "7"),
+        "a1_leg" => ("A1Leg", "4", "3"),
+        _ => return Err(lacks(point, "kind")),
+    };
+    let mut robot = arm.to_owned();
+    let effects = match (model, model.strip_prefix("pruned")) {
+        ("full", _) => "RIGID_BODY",
+        ("no_coriolis", _) => "(Gravity::EARTH, Inertia)",
+        ("gravity", _) => "Gravity::EARTH",
+        (_, Some(millionths)) => {
+            robot = format!("Pruned<{arm}, {millionths}>");
+            "RIGID_BODY"
+        }
         _ => return Err(lacks(point, "model")),
     };
-    let form = if point.on("form") == "core" {
-        "Core"
-    } else {
-        "Engine"
-    };
-    let scalar = point.on("arith");
     if !matches!(scalar, "f32" | "f64") {
         return Err(lacks(point, "arith"));
     }
-    if !trig.starts_with("table") && !trig.starts_with("minimax") && trig != "incremental" {
-        return Err(lacks(point, "trig"));
-    }
-    let own = if form == "Core" { "table3x4" } else { "table3" };
-    let call = if trig == own || scalar == "f64" {
-        "FORM::<ROBOT>::rnea(state, &EFFECTS)"
-    } else if trig == "incremental" {
-        "FORM::<ROBOT>::rnea_at(self.carried.follow(&state.q), state, &EFFECTS)"
-    } else {
-        "FORM::<ROBOT>::rnea_by::<KERNEL, f32, _, BODIES, JOINTS, JOINTS>(state, &EFFECTS)"
+    let core = point.on("form") == "core";
+    let own = trig == pick(core, "table3x4", "table3") || scalar == "f64";
+    let call = match trig {
+        _ if own => "FORM::<ROBOT>::rnea(state, &EFFECTS)",
+        "incremental" => "FORM::<ROBOT>::rnea_at(self.carried.follow(&state.q), state, &EFFECTS)",
+        "libm" | "micromath" => return Err(lacks(point, "trig")),
+        _ => "FORM::<ROBOT>::rnea_by::<KERNEL, f32, _, BODIES, JOINTS, JOINTS>(state, &EFFECTS)",
     };
-    let kept = match between {
-        "held" => "Held<f32, JOINTS>",
-        "extrapolated" => "Extrapolated<f32, JOINTS, TICKS>",
-        "interpolated" => "Interpolated<f32, JOINTS, TICKS>",
-        _ => "Linearised<f32, JOINTS, TICKS>",
+    let (first, renewed) = (
+        call.replace("state", "first"),
+        format!("        self.between.renew({call})\n"),
+    );
+    let (kept, start, coast, fresh) = match between {
+        "held" => ("Held<f32, JOINTS>", "Held::start()", "", &*renewed),
+        "extrapolated" => (
+            "Extrapolated<f32, JOINTS, TICKS>",
+            "Extrapolated::start()",
+            "",
+            &*renewed,
+        ),
+        "interpolated" => (
+            "Interpolated<f32, JOINTS, TICKS>",
+            "Interpolated::start(CALL)",
+            "",
+            &*renewed,
+        ),
+        _ => (
+            "Linearised<f32, JOINTS, TICKS>",
+            "Linearised::start()",
+            "&state.qdd",
+            LINEARISED,
+        ),
     };
-    let named = kept.split('<').next().unwrap_or_default();
-    let first = call.replace("state", "first");
-    let start = if between == "interpolated" {
-        first.as_str()
-    } else {
-        ""
+    let interpolated = between == "interpolated";
+    let ahead = "        // In a tick that computes, `state` is to be that of TICKS ticks later.\n";
+    let sparse = SPARSE.replace("COAST", coast).replace("FRESH", fresh);
+    let (fields, start, tick) = match rate {
+        "1" => (
+            "    carried: Carried<f32, JOINTS>,\n".into(),
+            "carried: Carried::at(first.q)".into(),
+            format!("        {call}\n"),
+        ),
+        _ => (
+            format!("    between: {kept},\n    wait: usize,\n"),
+            format!("between: {start}, wait: 0"),
+            pick(interpolated, ahead, "").to_owned() + &sparse,
+        ),
     };
-    let reads_first = between == "interpolated" || trig == "incremental";
-    let code = if trig == "incremental" {
-        let tick = format!("        {call}\n");
-        TICKING
-            .replace("FIELDS", "    carried: Carried<f32, JOINTS>,\n")
-            .replace("START", "carried: Carried::at(first.q)")
-            .replace("TICK ", &format!("{tick} "))
-    } else if rate == "1" {
-        EVERY.replace("CALL", call)
-    } else {
-        let fresh = match between {
-            "linearised" => LINEARISED.to_owned(),
-            _ => format!("        self.between.renew({call})\n"),
-        };
-        let ahead = match between {
-            "interpolated" => {
-                "        // In a tick that computes, `state` is to be that of TICKS ticks later.\n"
-            }
-            _ => "",
-        };
-        let coast = if between == "linearised" {
-            "&state.qdd"
-        } else {
-            ""
-        };
-        let sparse = SPARSE.replace("COAST", coast).replace("FRESH", &fresh);
-        TICKING
-            .replace(
-                "FIELDS",
-                &format!("    between: {kept},\n    wait: usize,\n"),
-            )
-            .replace(
-                "START",
-                &format!("between: {named}::start({start}), wait: 0"),
-            )
-            .replace("TICK ", &format!("{ahead}{sparse} "))
+    let code = match ticks(point) {
+        false => EVERY.replace("CALL", call),
+        true => filled(
+            TICKING.into(),
+            &[
+                ("FIELDS", &fields),
+                ("START", &start),
+                ("CALL", &first),
+                ("TICK ", &(tick + " ")),
+            ],
+        ),
     };
+    let reads_first = interpolated || trig == "incremental";
     let values = [
-        ("FORM", form),
-        ("ROBOT", pruned.as_deref().unwrap_or(arm)),
+        ("FORM", pick(core, "Core", "Engine")),
+        ("ROBOT", &robot),
         ("EFFECTS", effects),
         ("KERNEL", kernel(trig)),
         ("BODIES", bodies),
         ("JOINTS", joints),
         ("TICKS", rate),
-        ("FIRST", if reads_first { "first" } else { "_first" }),
+        ("FIRST", pick(reads_first, "first", "_first")),
         ("f32", scalar),
     ];
-    let code = values
-        .iter()
-        .fold(code, |code, (word, value)| code.replace(word, value));
+    let code = filled(code, &values);
     let uses = PATHS.split_whitespace().filter(|path| {
         let name = path.rsplit("::").next().unwrap_or_default();
-        code.split(|letter: char| !letter.is_alphanumeric() && letter != '_')
-            .any(|word| word == name)
+        let mut words = code.split(|letter: char| !letter.is_alphanumeric() && letter != '_');
+        words.any(|word| word == name)
     });
     let uses: String = uses
         .map(|path| format!("use dynamics_core::{path};\n"))
@@ -200,44 +197,45 @@ fn torques(point: &Point) -> Result<String> {
 }
 
 fn simulation(point: &Point) -> Result<String> {
-    if point.on("scene") != "free" {
-        return Err(lacks(point, "scene"));
-    }
     let scalar = point.on("arith");
-    let (integrator, kind) = match point.on("integrator") {
-        "euler" => ("Euler", "Euler".to_owned()),
-        "semi_implicit" => ("SemiImplicit", "SemiImplicit".to_owned()),
-        "rk4" => ("RungeKutta", "RungeKutta".to_owned()),
-        "energy" => ("EnergyKept", format!("EnergyKept<{scalar}>")),
+    let kept = format!("EnergyKept<{scalar}>");
+    let integrator = match (point.on("scene"), point.on("integrator")) {
+        ("free", "euler") => "Euler",
+        ("free", "semi_implicit") => "SemiImplicit",
+        ("free", "rk4") => "RungeKutta",
+        ("free", "energy") => &kept,
         _ => return Err(lacks(point, "integrator")),
     };
-    let (path, robot, n) = match &*point.robot {
-        "ur5e" => ("dynamics_core::robots::Ur5e", "Ur5e", "6"),
-        _ => (
-            "firmware_demo::accuracy::let_go::DoublePendulum",
-            "DoublePendulum",
-            "2",
-        ),
-    };
+    let arm = point.robot == "ur5e";
+    let pendulum = "firmware_demo::accuracy::let_go::DoublePendulum";
+    let n = pick(arm, "6", "2");
+    let [array, generic, last] = ["]", ",", ">"].map(|end| format!("{n}{end}"));
     let step: f64 = point.on("step").parse().map_err(|_| lacks(point, "step"))?;
-    let compensated = (point.on("state") == "compensated").to_string();
     let values = [
-        ("dynamics_core::robots::Ur5e", path),
-        ("Ur5e", robot),
-        ("integrator: RungeKutta", &format!("integrator: {kind}")),
-        ("RungeKutta", integrator),
+        (
+            "dynamics_core::robots::Ur5e",
+            pick(arm, "dynamics_core::robots::Ur5e", pendulum),
+        ),
+        ("Ur5e", pick(arm, "Ur5e", "DoublePendulum")),
+        (
+            "integrator: RungeKutta",
+            &format!("integrator: {integrator}"),
+        ),
+        (
+            ", RungeKutta",
+            &format!(", {}", integrator.split('<').next().unwrap_or_default()),
+        ),
         ("1000.0e-6", &format!("{step:?}e-6")),
-        ("true", &compensated),
-        ("6]", &format!("{n}]")),
-        ("6,", &format!("{n},")),
-        ("6>", &format!("{n}>")),
+        (
+            "true",
+            pick(point.on("state") == "compensated", "true", "false"),
+        ),
+        ("6]", &array),
+        ("6,", &generic),
+        ("6>", &last),
         ("f32", scalar),
     ];
-    Ok(values
-        .iter()
-        .fold(SIMULATION.to_owned(), |code, (word, value)| {
-            code.replace(word, value)
-        }))
+    Ok(filled(SIMULATION.to_owned(), &values))
 }
 
 #[cfg(test)]

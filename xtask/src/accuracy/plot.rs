@@ -117,7 +117,7 @@ fn axes<'a, 'b>(
     let up = (low[1].max(1e-9 * high[1]) / 2.0..high[1] * 2.0).log_scale();
     text(area, title, (12, 16), INK, HPos::Left)?;
     let mut builder = ChartBuilder::on(area);
-    builder.margin_top(32).margin_right(16);
+    builder.margin_top(32).margin_right(16).margin_left(8);
     builder.x_label_area_size(44).y_label_area_size(72);
     let mut chart = builder.build_cartesian_2d(across, up)?;
     let label = (FONT, TEXT).into_font().color(&INK);
@@ -135,16 +135,21 @@ fn axes<'a, 'b>(
         _ => format!("{y:.0e}"),
     };
     mesh.x_label_formatter(&short).y_label_formatter(&error);
-    mesh.x_desc(x).y_desc(y).draw()?;
+    mesh.x_labels(6).x_desc(x).y_desc(y).draw()?;
     drop(mesh);
     Ok(chart)
+}
+
+/// Where a cost and an error are; errors below the lower edge are drawn on it.
+fn at(chart: &Chart<'_, '_>, cost: f64, error: f64) -> Place {
+    chart.backend_coord(&(cost, error.max(chart.y_range().start)))
 }
 
 /// A front by a cost as a stair, from the cheapest down.
 fn stair(area: &Area<'_>, chart: &Chart<'_, '_>, front: &[&Point], cost: usize) -> Fallible<()> {
     let places = front
         .iter()
-        .map(|point| chart.backend_coord(&(point.costs()[cost], point.error())));
+        .map(|point| at(chart, point.costs()[cost], point.error()));
     let mut corners: Vec<Place> = Vec::new();
     for (x, y) in places.clone() {
         corners.extend(corners.last().map(|&(_, above)| (x, above)));
@@ -170,17 +175,15 @@ pub fn front(robot: Robot, points: &[&Point], yardsticks: &[Line]) -> Result<Str
             .iter()
             .map(|point| (point.cycles as f64, point.error()));
         let chart = axes(root, [&head, TICK, TORQUE], ends, [1.9, 2.2])?;
-        let (x0, x1) = (
-            chart.plotting_area().get_x_axis_pixel_range().start,
-            chart.plotting_area().get_x_axis_pixel_range().end,
-        );
+        let across = chart.x_range();
+        let [x0, x1] = [across.start, across.end].map(|x| at(&chart, x, 1.0).0);
         let mut dashed: Vec<i32> = Vec::new();
         for (key, what) in MEASURES {
             let of = |line: &&Line| line.robot == robot.name() && line.key == key;
             let Some(error) = yardsticks.iter().find(of).and_then(|line| line.error_max) else {
                 continue;
             };
-            let y = chart.backend_coord(&(1.0, error)).1;
+            let y = at(&chart, 1.0, error).1;
             for x in (x0..x1 - 6).step_by(12) {
                 path(root, &[(x, y), (x + 7, y)], 1, 0, MEASURE)?;
             }
@@ -201,7 +204,7 @@ pub fn front(robot: Robot, points: &[&Point], yardsticks: &[Line]) -> Result<Str
         // Left of a front that falls to the right there is room; names keep clear of each other and of dashed lines.
         let mut last = i32::MIN / 2;
         for point in named {
-            let (x, y) = chart.backend_coord(&(point.cycles as f64, point.error()));
+            let (x, y) = at(&chart, point.cycles as f64, point.error());
             let words = name(point);
             if x - 12 - wide(&words) < x0 {
                 text(root, &words, (x + 2, y - 12), INK, HPos::Left)?;
@@ -234,7 +237,7 @@ pub fn all(robot: Robot, points: &[&Point]) -> Result<String> {
             .flat_map(|point| point.costs().map(|cost| (cost, point.error())));
         let chart = axes(root, [&head, "cycles of a tick", TORQUE], both, [1.7, 1.7])?;
         for point in finite {
-            let place = chart.backend_coord(&(point.cycles as f64, point.error()));
+            let place = at(&chart, point.cycles as f64, point.error());
             path(root, &[place], 0, 2, DOT)?;
         }
         stair(root, &chart, &fronts::front(points, 1), 1)?;
@@ -279,9 +282,7 @@ pub fn simulations(points: &[Point]) -> Result<String> {
                     };
                     let mut line: Vec<_> = seen().filter(of).collect();
                     line.sort_by_key(|point| point.cycles);
-                    let places = line
-                        .iter()
-                        .map(|p| chart.backend_coord(&(p.cycles as f64, p.error())));
+                    let places = line.iter().map(|p| at(&chart, p.cycles as f64, p.error()));
                     path(root, &places.collect::<Vec<_>>(), width, dots, colour)?;
                 }
             }

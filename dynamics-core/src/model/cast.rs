@@ -66,7 +66,14 @@ macro_rules! cast_model {
 impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
     /// The same robot in f32, each number rounded to nearest.
     pub const fn to_f32(&self) -> Model<f32, B, Q, V> {
-        cast_model!(self, B, f32, |x| x as f32, glam::Vec3::new, glam::Mat3::from_cols)
+        cast_model!(
+            self,
+            B,
+            f32,
+            |x| x as f32,
+            glam::Vec3::new,
+            glam::Mat3::from_cols
+        )
     }
 
     /// The same tree of joints with the numbers of these links.

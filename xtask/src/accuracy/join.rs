@@ -15,6 +15,9 @@ const KNOWN: f64 = 1e-13;
 /// The axis that only the target has.
 const OPT: &str = "opt";
 
+/// What the target ran, each at its opt-level.
+pub type Rows = [(&'static str, Row)];
+
 /// What the host printed.
 #[derive(Default)]
 pub struct Host {
@@ -105,24 +108,22 @@ impl Line {
 }
 
 /// A point for each way and opt-level; `measured` are the rows of each.
-pub fn join(host: &Host, measured: &[(&'static str, Vec<Row>)]) -> Result<Vec<Point>> {
-    let mut known: BTreeMap<(&str, &str, &str), Vec<&(Kind, Line)>> = BTreeMap::new();
-    for way in &host.ways {
-        let key = (&*way.1.robot, &*way.1.kind, &*way.1.key);
-        known.entry(key).or_default().push(way);
-    }
+pub fn join(host: &Host, measured: &Rows) -> Result<Vec<Point>> {
     let mut points = Vec::new();
-    for (opt, rows) in measured {
-        for row in rows {
-            let ways = known
-                .get(&(&*row.robot, &*row.algorithm, &*row.inputs))
-                .ok_or_else(|| {
-                    Error::check(format!(
-                        "the host knows no error of {} {} {}",
-                        row.robot, row.algorithm, row.inputs
-                    ))
-                })?;
-            points.extend(ways.iter().map(|(kind, way)| point(*kind, way, row, opt)));
+    for (opt, row) in measured {
+        let of = |way: &&(Kind, Line)| {
+            let Line {
+                robot, kind, key, ..
+            } = &way.1;
+            (robot, kind, key) == (&row.robot, &row.algorithm, &row.inputs)
+        };
+        let before = points.len();
+        let ways = host.ways.iter().filter(of);
+        points.extend(ways.map(|(kind, way)| point(*kind, way, row, opt)));
+        if points.len() == before {
+            let (robot, kind, key) = (&row.robot, &row.algorithm, &row.inputs);
+            let what = format!("the host knows no error of {robot} {kind} {key}");
+            return Err(Error::check(what));
         }
     }
     front::mark(&mut points);
@@ -208,14 +209,14 @@ mod tests {
     #[test]
     fn rows_and_lines_meet_by_robot_kind_and_key() {
         let host = Host::read(LINES.trim()).expect("good lines");
-        let rows = vec![row("inverse", "default"), row("simulation", "default")];
-        let points = join(&host, &[("s", rows)]).expect("complete");
+        let rows = ["inverse", "simulation"].map(|kind| ("s", row(kind, "default")));
+        let points = join(&host, &rows).expect("complete");
         assert_eq!((points[0].cycles, points[0].cycles_mean), (20, 12.5));
         assert_eq!((&*points[0].key, points[0].on("opt")), ("opt=s", "s"));
         assert!(points[0].front);
         // A thousand steps make a second.
         assert_eq!((points[1].cycles, points[1].front), (20_000, false));
-        assert!(join(&host, &[("3", vec![row("inverse", "trig=new")])]).is_err());
+        assert!(join(&host, &[("3", row("inverse", "trig=new"))]).is_err());
         assert!(Host::read("{").is_err());
     }
 

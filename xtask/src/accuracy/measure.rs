@@ -75,6 +75,9 @@ pub struct Plan {
     pub simulation: bool,
 }
 
+/// A row with its bin and opt-level.
+type Bin = (&'static str, &'static str, Row);
+
 /// What came out.
 pub struct Measured {
     /// All configurations of a run that is not quick.
@@ -118,62 +121,54 @@ impl Plan {
     /// Builds and runs it all, for host and target side by side.
     pub fn run(&self, workspace: &Workspace, tools: &Tools) -> Result<Measured> {
         let printed = printed::write(workspace)?;
-        std::thread::scope(|scope| {
+        let (rows, lines) = std::thread::scope(|scope| {
             let host = scope.spawn(|| self.errors(workspace, &printed));
-            let costs = self.costs(workspace, tools, &printed);
-            let lines = host
-                .join()
-                .map_err(|_| Error::check("the host's errors were not computed"))?;
-            let ((measured, single, pasted), host) = (costs?, Host::read(&lines?)?);
-            Ok(Measured {
-                points: join::join(&host, &measured)?,
-                single: join::join(&host, &single)?,
-                host,
-                pasted,
-                rustc: tools.toolchain.rustc_version()?,
-            })
+            let rows = self.costs(workspace, tools, &printed);
+            let lost = |_| Err(Error::check("the host's errors were not computed"));
+            (rows, host.join().unwrap_or_else(lost))
+        });
+        let (mut measured, host) = (rows?, Host::read(&lines?)?);
+        let pasted = |(_, _, row): &mut Bin| row.algorithm == printed::ALGORITHM;
+        let pasted = measured
+            .extract_if(.., pasted)
+            .map(|(_, _, row)| row)
+            .collect();
+        let single = measured.extract_if(.., |(bin, ..)| *bin == QUICK_BIN);
+        let single: Vec<_> = single.map(|(_, opt, row)| (opt, row)).collect();
+        let points: Vec<_> = measured
+            .into_iter()
+            .map(|(_, opt, row)| (opt, row))
+            .collect();
+        Ok(Measured {
+            points: join::join(&host, &points)?,
+            single: join::join(&host, &single)?,
+            host,
+            pasted,
+            rustc: tools.toolchain.rustc_version()?,
         })
     }
 
-    /// The rows of each opt-level: of all, of single changes, and of what is printed.
-    #[allow(clippy::type_complexity, reason = "taken apart at once")]
-    fn costs(
-        &self,
-        workspace: &Workspace,
-        tools: &Tools,
-        printed: &PathBuf,
-    ) -> Result<(
-        Vec<(&'static str, Vec<Row>)>,
-        Vec<(&'static str, Vec<Row>)>,
-        Vec<Row>,
-    )> {
+    /// What the target runs of these robots.
+    fn costs(&self, workspace: &Workspace, tools: &Tools, printed: &PathBuf) -> Result<Vec<Bin>> {
         let spinner = Spinner::start("building the cycle meter");
         let meter = firmware::build_meter(workspace)?;
-        let (mut measured, mut single, mut pasted) = (Vec::new(), Vec::new(), Vec::new());
+        let mut all = Vec::new();
         for (opt, profile, bins) in self.batches() {
             spinner.line(&format!("building {} (opt-level {opt})", bins.join(", ")));
             let mut command = tools.toolchain.firmware(workspace, "build");
             command
                 .env(PRINTED, printed)
                 .args(["--profile", profile, "--features", FEATURE]);
-            shell::cargo(
-                bins.iter()
-                    .fold(&mut command, |command, bin| command.args(["--bin", bin])),
-            )?;
+            shell::cargo(command.args(bins.iter().flat_map(|bin| ["--bin", bin])))?;
             for bin in bins {
                 spinner.say(format!("running {bin} (opt-level {opt}) in QEMU"));
                 let elf = tools.toolchain.elf(workspace, profile, bin);
                 let mut rows = costs::run_for_time(tools, &meter, bin, &elf)?;
                 rows.retain(|row| self.robots.iter().any(|robot| robot.name() == row.robot));
-                if bin == QUICK_BIN {
-                    pasted.extend(rows.extract_if(.., |row| row.algorithm == printed::ALGORITHM));
-                    single.push((opt, rows));
-                } else {
-                    measured.push((opt, rows));
-                }
+                all.extend(rows.into_iter().map(|row| (bin, opt, row)));
             }
         }
-        Ok((measured, single, pasted))
+        Ok(all)
     }
 
     /// What the host prints of these robots.

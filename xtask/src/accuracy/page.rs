@@ -32,7 +32,7 @@ pub const README: Page = part("README.md", "accuracy");
 /// What the bins `accuracy_quick` run; first what the README shows.
 const SINGLE: &str = "default trig=table model=pruned1000 rate=10,between=linearised model=no_coriolis model=gravity \
                       trig=minimax5 trig=minimax3 trig=minimax7 trig=incremental model=params8 rate=10 \
-                      rate=10,between=interpolated form=core";
+                      rate=10,between=interpolated trig=table3x4,form=core";
 
 /// Whether a point is one of the first so many of them.
 pub fn is_single(point: &Point, most: usize) -> bool {

@@ -114,16 +114,24 @@ impl Wish {
             Budget::Cycles(_) if robot == Robot::DoublePendulum => Kind::Simulation,
             _ => budget.kind(),
         };
-        let (among, other) = match kind {
-            Kind::Inverse => (&Robot::COMPUTED[..], "simulations are in rad"),
-            Kind::Simulation => (&Robot::SIMULATED[..], "torques are in Nm"),
+        let (among, what, other) = match kind {
+            Kind::Inverse => (
+                &Robot::COMPUTED[..],
+                "torques are computed",
+                "its simulation is in rad",
+            ),
+            Kind::Simulation => (
+                &Robot::SIMULATED[..],
+                "there are simulations, without --quick,",
+                "torques is in Nm",
+            ),
         };
         if among.contains(&robot) && !(self.quick && kind == Kind::Simulation) {
             return Ok(Some(kind));
         }
         let names: Vec<&str> = among.iter().map(|robot| robot.name()).collect();
         Err(Error::check(format!(
-            "there is no such {kind:?} of {}, but, without --quick, of {}; errors of {other}",
+            "not for {}: {what} for {}; an error of {other}",
             robot.name(),
             names.join(", ")
         )))

@@ -1,6 +1,6 @@
 //! Every way of a robot.
 
-use dynamics_core::control::{Extrapolated, Held, Interpolated, Linearised};
+use dynamics_core::control::{Extrapolated, Held, Interpolated};
 use dynamics_core::model::{Pruned, Robot};
 use dynamics_core::trig::{Minimax, Table};
 use dynamics_core::{Core, Engine};
@@ -8,22 +8,15 @@ use dynamics_core::{Core, Engine};
 use super::compliant::{Compliant, Joints, Rigid};
 use super::form::Form;
 use super::inverse::{After, By, Following, Shipped};
-use super::kernels::{Libm, Micromath};
+use super::kernels::{Libm, Micromath, Named};
 use super::model::{Full, GravityOnly, Modelled, NoCoriolis, Parameters, Rounded, Without};
 use super::numbers::{Compensated, FixedPoint, In};
-use super::sparse::Every;
+use super::sparse::{Every, EveryLinearised};
 use super::{Inverse, Visitor};
 
 macro_rules! ways {
     ($visitor:ident: $($way:ty),* $(,)?) => {
         $($visitor.way::<$way>();)*
-    };
-}
-
-/// Every few ticks, by M between.
-macro_rules! linearised {
-    ($visitor:ident, $way:ty, $($ticks:literal)*) => {
-        ways!($visitor: $(Every<$way, Linearised<f32, N, $ticks>, $ticks>),*)
     };
 }
 
@@ -54,12 +47,12 @@ pub fn inverse<T: Robot<B, N, N>, const B: usize, const N: usize>(visitor: &mut 
         Kernel<Coarse, Without<T, 30_000>, B, N>,
     }
     rates::<Kernel<Coarse, Without<T, 1000>, B, N>, N>(visitor);
-    linearised!(visitor, Kernel<Coarse, Without<T, 1000>, B, N>, 2 5 10 20);
+    linearised::<Coarse, Without<T, 1000>, B, N>(visitor);
     rates::<Own<Full<T>, B, N>, N>(visitor);
     rates::<Kernel<Coarse, Full<T>, B, N>, N>(visitor);
     rates::<Own<GravityOnly<T>, B, N>, N>(visitor);
-    linearised!(visitor, Kernel<Table<128, 3>, Full<T>, B, N>, 2 5 10 20);
-    linearised!(visitor, Kernel<Coarse, Full<T>, B, N>, 2 5 10 20);
+    linearised::<Table<128, 3>, Full<T>, B, N>(visitor);
+    linearised::<Coarse, Full<T>, B, N>(visitor);
 }
 
 /// Shows the default and what single changes make of it to `visitor`: few enough to be built in a minute.
@@ -77,7 +70,7 @@ pub fn single<T: Robot<B, N, N>, const B: usize, const N: usize>(visitor: &mut i
         Shipped<Without<T, 1000>, Engine<Pruned<T, 1000>>, B, N>,
         Every<Own<Full<T>, B, N>, Held<f32, N>, 10>,
         Every<Own<Full<T>, B, N>, Interpolated<f32, N, 10>, 10>,
-        Every<Kernel<Table<128, 3>, Full<T>, B, N>, Linearised<f32, N, 10>, 10>,
+        EveryLinearised<Table<128, 3>, Full<T>, B, N, 10>,
         Shipped<Full<T>, Core<T>, B, N>,
     }
 }
@@ -122,18 +115,30 @@ pub fn compliant<T: Robot<N, N, N> + Joints<N>, const N: usize>(visitor: &mut im
 
 /// Every few ticks, held, extrapolated and interpolated.
 fn rates<W: Inverse<N, Scalar = f32>, const N: usize>(visitor: &mut impl Visitor<N>) {
+    rate::<W, N, 2>(visitor);
+    rate::<W, N, 5>(visitor);
+    rate::<W, N, 10>(visitor);
+    rate::<W, N, 20>(visitor);
+}
+
+fn rate<W: Inverse<N, Scalar = f32>, const N: usize, const TICKS: usize>(
+    visitor: &mut impl Visitor<N>,
+) {
     ways! { visitor:
-        Every<W, Held<f32, N>, 2>,
-        Every<W, Extrapolated<f32, N, 2>, 2>,
-        Every<W, Interpolated<f32, N, 2>, 2>,
-        Every<W, Held<f32, N>, 5>,
-        Every<W, Extrapolated<f32, N, 5>, 5>,
-        Every<W, Interpolated<f32, N, 5>, 5>,
-        Every<W, Held<f32, N>, 10>,
-        Every<W, Extrapolated<f32, N, 10>, 10>,
-        Every<W, Interpolated<f32, N, 10>, 10>,
-        Every<W, Held<f32, N>, 20>,
-        Every<W, Extrapolated<f32, N, 20>, 20>,
-        Every<W, Interpolated<f32, N, 20>, 20>,
+        Every<W, Held<f32, N>, TICKS>,
+        Every<W, Extrapolated<f32, N, TICKS>, TICKS>,
+        Every<W, Interpolated<f32, N, TICKS>, TICKS>,
+    }
+}
+
+/// Every few ticks, by M between.
+fn linearised<K: Named, M: Modelled<B, N>, const B: usize, const N: usize>(
+    visitor: &mut impl Visitor<N>,
+) {
+    ways! { visitor:
+        EveryLinearised<K, M, B, N, 2>,
+        EveryLinearised<K, M, B, N, 5>,
+        EveryLinearised<K, M, B, N, 10>,
+        EveryLinearised<K, M, B, N, 20>,
     }
 }

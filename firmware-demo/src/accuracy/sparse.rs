@@ -1,5 +1,7 @@
 //! Ways that compute in every few ticks only.
 
+use core::marker::PhantomData;
+
 use dynamics_core::Engine;
 use dynamics_core::control::{Extrapolated, Held, Interpolated, Linearised};
 use dynamics_core::flexible::Course;
@@ -20,89 +22,71 @@ pub struct Every<W, P, const TICKS: usize> {
     wait: usize,
 }
 
-/// What the ticks between those of the way W get.
-pub trait Between<W: Inverse<N>, const N: usize> {
+/// The engine's torque and M in every `TICKS`-th tick, and between them what M makes of the accelerations.
+#[derive(Debug)]
+pub struct EveryLinearised<K, M, const B: usize, const N: usize, const TICKS: usize> {
+    between: Linearised<f32, N, TICKS>,
+    wait: usize,
+    names: PhantomData<(K, M)>,
+}
+
+/// What the ticks between get.
+pub trait Between<const N: usize> {
     /// On the axis `between`.
     const NAME: &'static str;
     /// It computes torques of the next computing tick.
     const AHEAD: bool = false;
-    /// Before the first tick.
-    fn begin(way: &mut W, first: &State<f32, N, N>) -> Self;
-    /// In a tick that computes.
-    fn fresh(&mut self, way: &mut W, input: &W::Input) -> [f32; N];
-    /// In a tick that does not.
-    fn stale(&mut self, input: &W::Input) -> [f32; N];
+    /// Before the first tick, which has this torque.
+    fn begin(first: [f32; N]) -> Self;
+    /// In a tick that has computed the torque.
+    fn fresh(&mut self, torque: [f32; N]) -> [f32; N];
+    /// In a tick that has not.
+    fn stale(&mut self) -> [f32; N];
 }
 
 macro_rules! between {
-    ($($between:ident $(<$ticks:ident>)?, $name:literal, $ahead:literal, |$way:pat_param, $first:pat_param| $start:expr;)*) => {$(
-        impl<W: Inverse<N, Scalar = f32>, const N: usize $(, const $ticks: usize)?> Between<W, N>
-            for $between<f32, N $(, $ticks)?>
-        {
+    ($($between:ident $(<$ticks:ident>)?, $name:literal, $ahead:literal, |$first:pat_param| $start:expr;)*) => {$(
+        impl<const N: usize $(, const $ticks: usize)?> Between<N> for $between<f32, N $(, $ticks)?> {
             const NAME: &'static str = $name;
             const AHEAD: bool = $ahead;
-            fn begin($way: &mut W, $first: &State<f32, N, N>) -> Self {
+            fn begin($first: [f32; N]) -> Self {
                 $start
             }
             #[inline(always)]
-            fn fresh(&mut self, way: &mut W, input: &W::Input) -> [f32; N] {
-                let torque = way.tick(input);
+            fn fresh(&mut self, torque: [f32; N]) -> [f32; N] {
                 self.renew(torque)
             }
             #[inline(always)]
-            fn stale(&mut self, _: &W::Input) -> [f32; N] {
+            fn stale(&mut self) -> [f32; N] {
                 self.coast()
             }
         }
     )*};
 }
 between! {
-    Held, "held", false, |_, _| Self::start();
-    Extrapolated<TICKS>, "extrapolated", false, |_, _| Self::start();
-    Interpolated<TICKS>, "interpolated", true, |way, first| Self::start(way.tick(&W::input(&momentary(*first))));
+    Held, "held", false, |_| Self::start();
+    Extrapolated<TICKS>, "extrapolated", false, |_| Self::start();
+    Interpolated<TICKS>, "interpolated", true, |first| Self::start(first);
 }
 
-/// The engine's torque and M, and between them what M makes of the accelerations.
-impl<K, M, const B: usize, const N: usize, const TICKS: usize>
-    Between<By<K, M, Engine<M::Robot>, B, N>, N> for Linearised<f32, N, TICKS>
-where
-    K: Named,
-    M: Modelled<B, N>,
-{
-    const NAME: &'static str = "linearised";
-    fn begin(_: &mut By<K, M, Engine<M::Robot>, B, N>, _: &State<f32, N, N>) -> Self {
-        Self::start()
-    }
-    #[inline(always)]
-    fn fresh(
-        &mut self,
-        _: &mut By<K, M, Engine<M::Robot>, B, N>,
-        state: &State<f32, N, N>,
-    ) -> [f32; N] {
-        let posture = Engine::<M::Robot>::posture_by::<K, f32, B, N, N>(&state.q);
-        let torque = Engine::<M::Robot>::rnea_at(&posture, state, &M::SCENE);
-        let mass_matrix = Engine::<M::Robot>::crba_at(&posture, &M::SCENE);
-        self.renew(torque, mass_matrix, &state.qdd)
-    }
-    #[inline(always)]
-    fn stale(&mut self, state: &State<f32, N, N>) -> [f32; N] {
-        self.coast(&state.qdd)
+/// On the axis `rate`.
+const fn rate(ticks: usize) -> &'static str {
+    match ticks {
+        2 => "2",
+        5 => "5",
+        10 => "10",
+        20 => "20",
+        _ => panic!("no such rate"),
     }
 }
 
 impl<W, P, const N: usize, const TICKS: usize> Inverse<N> for Every<W, P, TICKS>
 where
     W: Inverse<N, Scalar = f32>,
-    P: Between<W, N>,
+    P: Between<N>,
 {
     const KEY: Key = Key {
-        rate: match TICKS {
-            2 => "2",
-            5 => "5",
-            10 => "10",
-            20 => "20",
-            _ => panic!("no such rate"),
-        },
+        rate: rate(TICKS),
         between: P::NAME,
         ..W::KEY
     };
@@ -113,9 +97,10 @@ where
 
     fn start(first: &State<f32, N, N>) -> Self {
         let mut way = W::start(first);
+        let torque = way.tick(&W::input(&momentary(*first)));
         Self {
-            between: P::begin(&mut way, first),
             way,
+            between: P::begin(torque),
             wait: 0,
         }
     }
@@ -126,9 +111,49 @@ where
     fn tick(&mut self, input: &Self::Input) -> [f32; N] {
         if self.wait > 0 {
             self.wait -= 1;
-            return self.between.stale(input);
+            return self.between.stale();
         }
         self.wait = TICKS - 1;
-        self.between.fresh(&mut self.way, input)
+        let torque = self.way.tick(input);
+        self.between.fresh(torque)
+    }
+}
+
+impl<K, M, const B: usize, const N: usize, const TICKS: usize> Inverse<N>
+    for EveryLinearised<K, M, B, N, TICKS>
+where
+    K: Named,
+    M: Modelled<B, N>,
+{
+    const KEY: Key = Key {
+        rate: rate(TICKS),
+        between: "linearised",
+        ..By::<K, M, Engine<M::Robot>, B, N>::KEY
+    };
+    const MEMORY: bool = true;
+    type Input = State<f32, N, N>;
+    type Scalar = f32;
+
+    fn start(_: &State<f32, N, N>) -> Self {
+        Self {
+            between: Linearised::start(),
+            wait: 0,
+            names: PhantomData,
+        }
+    }
+    fn input(course: &Course<f32, N, N>) -> Self::Input {
+        course.state
+    }
+    #[inline(never)]
+    fn tick(&mut self, state: &Self::Input) -> [f32; N] {
+        if self.wait > 0 {
+            self.wait -= 1;
+            return self.between.coast(&state.qdd);
+        }
+        self.wait = TICKS - 1;
+        let posture = Engine::<M::Robot>::posture_by::<K, f32, B, N, N>(&state.q);
+        let torque = Engine::<M::Robot>::rnea_at(&posture, state, &M::SCENE);
+        let mass_matrix = Engine::<M::Robot>::crba_at(&posture, &M::SCENE);
+        self.between.renew(torque, mass_matrix, &state.qdd)
     }
 }

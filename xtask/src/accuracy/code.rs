@@ -102,7 +102,7 @@ fn torques(point: &Point) -> Result<String> {
     let effects = match (model, model.strip_prefix("pruned")) {
         ("full", _) => "RIGID_BODY",
         ("no_coriolis", _) => "(Gravity::EARTH, Inertia)",
-        ("gravity", _) => "Gravity::EARTH",
+        ("gravity", _) => "(Gravity::EARTH,)",
         (_, Some(millionths)) => {
             robot = format!("Pruned<{arm}, {millionths}>");
             "RIGID_BODY"

@@ -126,16 +126,21 @@ fn axes<'a, 'b>(
         .bold_line_style(FAINT)
         .axis_style(INK);
     mesh.label_style(label.clone()).axis_desc_style(label);
-    let short = |x: &f64| match x {
-        1.0..1e5 => cycles(*x),
-        _ => format!("{x:.0e}"),
+    let short = |x: &f64| {
+        // Between powers of ten, 2, 3 and 5 have room.
+        let digit = (x / 10_f64.powf(x.log10().floor() + 1e-9)).round();
+        match x {
+            _ if ![1.0, 2.0, 3.0, 5.0, 10.0].contains(&digit) => String::new(),
+            1.0..1e5 => cycles(*x),
+            _ => format!("{x:.0e}"),
+        }
     };
     let error = |y: &f64| match y {
         0.009..1e4 => format!("{}", (y * 1e3).round() / 1e3),
         _ => format!("{y:.0e}"),
     };
     mesh.x_label_formatter(&short).y_label_formatter(&error);
-    mesh.x_labels(6).x_desc(x).y_desc(y).draw()?;
+    mesh.x_desc(x).y_desc(y).draw()?;
     drop(mesh);
     Ok(chart)
 }

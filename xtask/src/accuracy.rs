@@ -1,28 +1,15 @@
 //! `cargo xtask accuracy`: what accuracy costs in time, for every way to compute that the library offers.
 
-mod asides;
-mod bars;
 mod choice;
-mod drawing;
+mod code;
 mod front;
 mod join;
-mod kept;
-mod labels;
-mod margin;
 mod measure;
-mod movie;
 mod page;
-mod parts;
-mod paste;
-mod picture;
+mod plot;
 mod point;
-mod progress;
-mod proof;
+mod printed;
 mod recorded;
-mod simulated;
-mod simulator;
-mod single;
-mod vocabulary;
 mod words;
 
 use std::path::PathBuf;
@@ -32,13 +19,12 @@ use crate::docs;
 use crate::error::{Error, Result};
 use crate::output;
 use crate::setup::{self, Options, Tools};
-use crate::table::{Table, thousands};
 use crate::workspace::{self, Workspace};
 
 pub use choice::{Allowed, Budget};
 pub use measure::Robot;
 use measure::{Measured, Plan};
-use point::{Kind, Point};
+use point::{Kind, Point, of_group};
 
 /// What is wanted.
 #[derive(clap::Args)]
@@ -99,7 +85,7 @@ pub fn run(options: Options, wish: Wish) -> Result<ExitCode> {
     if wish.json {
         docs::print_json(all)?;
     } else {
-        output::print(&table(all).text())?;
+        output::print(&page::terminal(all))?;
     }
     Ok(ExitCode::SUCCESS)
 }
@@ -117,22 +103,18 @@ impl Wish {
             Kind::Inverse => "rigid",
             Kind::Simulation => "free",
         };
-        let robot = self.robot.map(Robot::name);
-        let of = |point: &&Point| {
-            let (of, what, how) = point.group();
-            (what, how) == (kind, circumstances) && robot.is_none_or(|robot| robot == of)
-        };
-        let points: Vec<&Point> = all.iter().filter(of).collect();
-        let answer = budget.answer(&points)?;
+        let robot = self.robot.unwrap_or(Robot::Ur5e).name();
+        let points = choice::shipped(all, (robot, kind, circumstances));
+        let points: Vec<&Point> = points.iter().collect();
         if self.json {
             docs::print_json(&budget.choose(&points)?)?;
             return Ok(ExitCode::SUCCESS);
         }
-        output::print(&answer)?;
+        output::print(&budget.answer(&points)?)?;
         if !(self.measure | self.quick) {
+            let file = recorded::FILE;
             output::note(&format!(
-                "\nFrom {}; --measure takes its figures on this machine, in minutes.",
-                recorded::FILE
+                "\nFrom {file}; --measure takes its figures on this machine, in minutes."
             ));
         }
         Ok(ExitCode::SUCCESS)
@@ -148,28 +130,27 @@ impl Wish {
             Budget::Cycles(_) if robot == Robot::DoublePendulum => Kind::Simulation,
             _ => budget.kind(),
         };
-        let among = match kind {
-            Kind::Inverse => &Robot::COMPUTED[..],
-            Kind::Simulation if self.quick => &[],
-            Kind::Simulation => &Robot::SIMULATED[..],
+        let (among, what, other) = match kind {
+            Kind::Inverse => (
+                &Robot::COMPUTED[..],
+                "torques are computed",
+                "its simulation is in rad",
+            ),
+            Kind::Simulation => (
+                &Robot::SIMULATED[..],
+                "there are simulations, without --quick,",
+                "torques is in Nm",
+            ),
         };
-        if among.contains(&robot) {
+        if among.contains(&robot) && !(self.quick && kind == Kind::Simulation) {
             return Ok(Some(kind));
         }
         let names: Vec<&str> = among.iter().map(|robot| robot.name()).collect();
-        Err(Error::check(match (kind, names.as_slice()) {
-            (_, []) => "simulations are not part of --quick".into(),
-            (Kind::Inverse, names) => format!(
-                "torques are not computed of {}, but of {}; an error of its simulation is in rad",
-                robot.name(),
-                names.join(", ")
-            ),
-            (Kind::Simulation, names) => format!(
-                "{} is not simulated, but {}; an error of torques is in Nm",
-                robot.name(),
-                names.join(", ")
-            ),
-        }))
+        Err(Error::check(format!(
+            "not for {}: {what} for {}; an error of {other}",
+            robot.name(),
+            names.join(", ")
+        )))
     }
 }
 
@@ -182,87 +163,71 @@ pub fn check(workspace: &Workspace, tools: &Tools) -> Result<String> {
         simulation: false,
     };
     let measured = plan.run(workspace, tools)?;
-    let pasted = proof::check(&measured)?;
-    let text = single::text(&measured.single, &measured.rustc);
-    single::PAGE.check(workspace, &text, Some(&measured.rustc))?;
-    let brief = single::brief(&measured.single, &measured.rustc);
-    single::README.check(workspace, &brief, Some(&measured.rustc))?;
+    let Measured {
+        single,
+        host,
+        rustc,
+        ..
+    } = &measured;
+    let pasted = printed::check(&measured)?;
+    page::SINGLES.check(workspace, &page::singles(single, rustc), Some(rustc))?;
+    page::README.check(workspace, &page::brief(single, rustc), Some(rustc))?;
     let recorded = recorded::read(workspace)?;
-    recorded::check(&recorded, &measured.single)?;
-    let kept = kept::check(workspace, &measured, &recorded)?;
-    // The leg's are missed: docs/decisions/0002-bars.md.
+    recorded::check(&recorded, single)?;
+    // Parts and pictures of a whole run, by its record, and by the compiler that they name.
+    let text = workspace::read(&workspace.root.join(page::FILE))?;
+    let mut pictures = 0;
+    for robot in Robot::ALL {
+        let part = page::page_of(robot);
+        let written = part.written(&text)?;
+        let rustc = docs::rustc_of(written).unwrap_or_default();
+        let now = part.generated(&page::text(&recorded, host, robot, rustc));
+        docs::compare(page::FILE, page::COMMAND, written, &now, "")?;
+        for (file, svg) in page::pictures(&recorded, host, robot)? {
+            docs::compare_picture(workspace, &file, page::COMMAND, &svg, true)?;
+            pictures += 1;
+        }
+    }
+    // The leg's bars are missed: docs/decisions/0002-bars.md.
     let saved = [Robot::Ur5e, Robot::Panda]
-        .map(|robot| bars::check(&page::ways(&recorded, robot, "rigid")))
+        .map(|robot| page::check_bars(&of_group(&recorded, (robot.name(), Kind::Inverse, "rigid"))))
         .into_iter()
         .collect::<Result<Vec<String>>>()?
         .join("; ");
-    let points = measured.single.len();
     Ok(format!(
-        "{points} configurations, {pasted} of them as printed; {kept}; {saved}"
+        "{} configurations, {pasted} of them as printed; {pictures} pictures as recorded; {saved}",
+        single.len()
     ))
 }
 
 /// Rewrites the page's parts that this run has all of, and their pictures; all of them or none.
 fn write(workspace: &Workspace, measured: &Measured, only: Option<Robot>) -> Result<()> {
-    let file = workspace.root.join(page::FILE);
-    let mut text = workspace::read(&file)?;
-    let file = workspace.report(page::FILE);
-    let mut files: Vec<(PathBuf, String)> = Vec::new();
-    let (points, host, rustc) = (&measured.points, &measured.host, &measured.rustc);
-    for robot in Robot::COMPUTED {
-        if page::ways(points, robot, "rigid").is_empty() {
-            continue;
+    let Measured {
+        points,
+        single,
+        host,
+        rustc,
+        ..
+    } = measured;
+    let mut text = workspace::read(&workspace.root.join(page::FILE))?;
+    let mut files: Vec<(PathBuf, String)> = vec![recorded::replaced(workspace, points)?];
+    for robot in Robot::ALL {
+        let whole = match robot {
+            Robot::DoublePendulum => only.is_none(),
+            _ => only.is_none_or(|only| only == robot),
+        };
+        if whole {
+            let pictures = page::pictures(points, host, robot)?.into_iter();
+            files.extend(pictures.map(|(file, svg)| (workspace.report(&file), svg)));
+            text = page::page_of(robot).replaced(&text, &page::text(points, host, robot, rustc))?;
         }
-        let picture = workspace.report(&page::picture(robot));
-        files.push((picture, page::drawn(points, host, robot)?));
-        let part = page::text(points, host, robot, rustc);
-        text = page::page_of(robot).replaced(&text, &part)?;
     }
     if only.is_none() {
-        let simulated = Robot::DoublePendulum;
-        let picture = workspace.report(&page::picture(simulated));
-        files.push((picture, movie::svg(points)?));
-        let part = simulated::text(points, rustc);
-        text = page::page_of(simulated).replaced(&text, &part)?;
-        let single = single::text(&measured.single, &measured.rustc);
-        text = single::PAGE.replaced(&text, &single)?;
-        let readme = workspace.root.join(single::README.file);
-        let brief = single::brief(&measured.single, &measured.rustc);
-        let brief = single::README.replaced(&workspace::read(&readme)?, &brief)?;
-        files.push((workspace.report(single::README.file), brief));
+        text = page::SINGLES.replaced(&text, &page::singles(single, rustc))?;
+        let readme = workspace::read(&workspace.root.join(page::README.file))?;
+        let readme = page::README.replaced(&readme, &page::brief(single, rustc))?;
+        files.push((workspace.report(page::README.file), readme));
     }
-    files.push(recorded::replaced(workspace, &measured.points)?);
-    files.push((file, text));
+    files.push((workspace.report(page::FILE), text));
     workspace::write_whole(&files)
-}
-
-/// The fronts, for a terminal.
-fn table(points: &[Point]) -> Table {
-    let mut table = Table::new(&[
-        "configuration",
-        "insn",
-        "cycles",
-        "mean",
-        "max error",
-        "unit",
-        "of full scale",
-    ]);
-    for point in points.iter().filter(|point| point.front) {
-        let error = |x: Option<f64>| x.map_or_else(|| "–".into(), words::digits);
-        table.row([
-            format!(
-                "{} {}: {}",
-                point.robot,
-                point.group().2,
-                words::name(point)
-            ),
-            thousands(point.instructions),
-            thousands(point.cycles),
-            words::cycles(point.cycles_mean),
-            error(point.error_max),
-            point.unit.clone(),
-            error(point.relative_max),
-        ]);
-    }
-    table
 }

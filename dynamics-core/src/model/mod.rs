@@ -70,7 +70,6 @@ mod joint;
 mod joint_coordinate;
 mod joint_kinematics;
 mod pruned;
-mod scaled;
 mod source;
 
 pub(crate) use body::moments_excess;
@@ -363,7 +362,8 @@ impl<R: Real, const B: usize, const Q: usize, const V: usize> Model<R, B, Q, V> 
     }
 }
 
-const EMPTY: Link<f64> = Link {
+#[doc(hidden)]
+pub const EMPTY: Link<f64> = Link {
     name: "",
     parent: BASE,
     joint: Joint::fixed(),

@@ -1,8 +1,7 @@
 //! The scalar of a computation, f32 or f64, with its vectors and matrices, which are glam's.
 //!
 //! Everything else is written against [`Real`] alone, so that one source serves the firmware
-//! (f32), the host tests (f64) and the reports that compare the two in one binary. [`Compensated`] and [`Fixed`]
-//! are there to be compared with them.
+//! (f32), the host tests (f64) and the reports that compare the two in one binary.
 
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
@@ -13,28 +12,20 @@ pub use positive_part::positive_part;
 use crate::model::{Model, Robot};
 use crate::trig::Kernel;
 
-mod compensated;
-mod fixed;
-mod plain;
 mod positive_part;
 
-pub use compensated::Compensated;
-pub use fixed::{Fixed, HalfTurns};
-pub(crate) use plain::{Mat3 as PlainMat3, Vec3 as PlainVec3};
-
-mod sealed {
-    /// Keeps [`super::Real`] to the types whose errors we test.
-    pub trait Sealed {}
-    impl Sealed for f32 {}
-    impl Sealed for f64 {}
-}
+/// Keeps [`Real`] to the types whose errors are tested. The reports of this repository implement it for numbers that
+/// they compare with f32; it is no part of the API.
+#[doc(hidden)]
+pub trait Sealed {}
+impl Sealed for f32 {}
+impl Sealed for f64 {}
 
 /// A real number: `f32` on the target, `f64` for oracles.
 ///
-/// Sealed: the tolerance table and the bit-identity tests cover these two, `docs/accuracy.md` in the repository
-/// [`Compensated`] and [`Fixed`].
+/// Sealed: the tolerance table and the bit-identity tests cover these two.
 pub trait Real:
-    sealed::Sealed
+    Sealed
     + Copy
     + Debug
     + Default

@@ -1,4 +1,4 @@
-//! Arms whose joints give way: told so, or taken for rigid.
+//! Arms whose joints give way: computed so, or taken for rigid.
 
 use core::marker::PhantomData;
 
@@ -28,72 +28,37 @@ pub trait Joints<const N: usize> {
     }
 }
 
-/// The motors' torques through springs.
-#[derive(Debug)]
-pub struct Compliant<T, const N: usize>(ElasticJoints<f32, N>, PhantomData<T>);
+macro_rules! motors {
+    ($($(#[$doc:meta])* $way:ident, trig: $trig:literal, model: $model:literal, form: $form:literal,
+       |$course:ident| $input:ty = $given:expr, |$joints:ident, $now:ident| $tick:expr;)*) => {$(
+        $(#[$doc])*
+        #[derive(Debug)]
+        pub struct $way<T, const N: usize>(ElasticJoints<f32, N>, PhantomData<T>);
 
-/// The motors' torques if the springs were rigid.
-#[derive(Debug)]
-pub struct Rigid<T, const N: usize>(Armature<f32, N>, Viscous<f32, N>, PhantomData<T>);
+        impl<T: Robot<N, N, N> + Joints<N>, const N: usize> Inverse<N> for $way<T, N> {
+            const KEY: Key = Key { trig: $trig, model: $model, form: $form, ..Key::DEFAULT };
+            type Input = $input;
+            type Scalar = f32;
 
-impl<T: Robot<N, N, N> + Joints<N>, const N: usize> Inverse<N> for Compliant<T, N> {
-    const KEY: Key = Key {
-        trig: "table3x4",
-        model: "compliant",
-        form: "core",
-        ..Key::DEFAULT
-    };
-    type Input = ElasticReference<f32, N, N>;
-    type Output = [f32; N];
-
-    fn start(_: &State<f32, N, N>) -> Self {
-        Self(T::joints(), PhantomData)
-    }
-    fn input(course: &ElasticReference<f32, N, N>) -> Self::Input {
-        *course
-    }
-    #[inline(never)]
-    fn tick(&mut self, course: &Self::Input) -> [f32; N] {
-        match elastic_inverse_dynamics(&Static::<T>::NEW, &self.0, course, &RIGID_BODY) {
-            Ok(told) => told.torque,
-            Err(_) => [f32::NAN; N],
+            fn start(_: &State<f32, N, N>) -> Self {
+                Self(T::joints(), PhantomData)
+            }
+            fn input($course: &ElasticReference<f32, N, N>) -> $input {
+                $given
+            }
+            #[inline(never)]
+            fn tick(&mut self, $now: &$input) -> [f32; N] {
+                let $joints = &self.0;
+                $tick
+            }
         }
-    }
-    fn torque(output: &[f32; N]) -> [f64; N] {
-        output.map(f64::from)
-    }
-    fn address() -> usize {
-        Self::tick as fn(&mut Self, &Self::Input) -> Self::Output as usize
-    }
+    )*};
 }
-
-impl<T: Robot<N, N, N> + Joints<N>, const N: usize> Inverse<N> for Rigid<T, N> {
-    const KEY: Key = Key {
-        model: "rigid",
-        ..Key::DEFAULT
-    };
-    type Input = State<f32, N, N>;
-    type Output = [f32; N];
-
-    fn start(_: &State<f32, N, N>) -> Self {
-        let joints = T::joints();
-        Self(
-            Armature(joints.rotor),
-            Viscous(joints.friction),
-            PhantomData,
-        )
-    }
-    fn input(course: &ElasticReference<f32, N, N>) -> Self::Input {
-        course.state
-    }
-    #[inline(never)]
-    fn tick(&mut self, state: &Self::Input) -> [f32; N] {
-        Engine::<T>::rnea(state, &(RIGID_BODY, self.0, self.1))
-    }
-    fn torque(output: &[f32; N]) -> [f64; N] {
-        output.map(f64::from)
-    }
-    fn address() -> usize {
-        Self::tick as fn(&mut Self, &Self::Input) -> Self::Output as usize
-    }
+motors! {
+    /// The motors' torques through springs.
+    Compliant, trig: "table3x4", model: "compliant", form: "core", |course| ElasticReference<f32, N, N> = *course,
+        |joints, course| elastic_inverse_dynamics(&Static::<T>::NEW, joints, course, &RIGID_BODY).map_or([f32::NAN; N], |told| told.torque);
+    /// The motors' torques if the springs were rigid.
+    Rigid, trig: "table3", model: "rigid", form: "engine", |course| State<f32, N, N> = course.state,
+        |joints, state| Engine::<T>::rnea(state, &(RIGID_BODY, Armature(joints.rotor), Viscous(joints.friction)));
 }

@@ -4,8 +4,6 @@ use core::marker::PhantomData;
 
 use dynamics_core::Engine;
 use dynamics_core::drivetrain::ElasticReference;
-use dynamics_core::scalar::Native;
-use dynamics_core::state::Carried;
 use dynamics_core::state::State;
 
 use super::Inverse;
@@ -14,146 +12,54 @@ use super::kernels::Named;
 use super::key::Key;
 use super::model::Modelled;
 
-/// As the library ships it, in f32.
-#[derive(Debug)]
-pub struct Shipped<M, F, const B: usize>(PhantomData<(M, F)>);
+/// Ways of the model M by the form F, K being the kernel of those that have one: the name of their sines, what they
+/// remember, and a tick, which is a call of the function at `address`, or one by itself.
+macro_rules! ways {
+    ($($(#[$doc:meta])* $way:ident <$($k:ident)?>, $trig:expr, $state:ty = |$first:pat_param| $start:expr,
+       #[inline($inline:ident)] |$self:ident, $now:ident| $tick:expr
+       $(, address: $address:expr)? $(, memory: $memory:literal)?;)*) => {$(
+        $(#[$doc])*
+        #[derive(Debug)]
+        pub struct $way<$($k,)? M, F, const B: usize, const N: usize>($state, PhantomData<($($k,)? M, F)>);
 
-/// With the kernel K inside.
-#[derive(Debug)]
-pub struct By<K, M, F, const B: usize>(PhantomData<(K, M, F)>);
+        impl<$($k: Named,)? M: Modelled<B, N>, F: Form<M::Robot>, const B: usize, const N: usize>
+            Inverse<N> for $way<$($k,)? M, F, B, N>
+        {
+            const KEY: Key = Key { trig: $trig, model: M::NAME, form: F::NAME, ..Key::DEFAULT };
+            $(const MEMORY: bool = $memory;)?
+            type Input = State<f32, N, N>;
+            type Scalar = f32;
 
-/// With the kernel K, a call into another crate, before it.
-#[derive(Debug)]
-pub struct After<K, M, F, const B: usize>(PhantomData<(K, M, F)>);
-
-/// With sines and cosines carried from tick to tick.
-#[derive(Debug)]
-pub struct Following<M, F, const B: usize, const N: usize>(Carried<f32, N>, PhantomData<(M, F)>);
-
-/// Torques as they are compared.
-fn widened<const N: usize>(torque: &[f32; N]) -> [f64; N] {
-    torque.map(f64::from)
+            fn start($first: &State<f32, N, N>) -> Self {
+                Self($start, PhantomData)
+            }
+            fn input(course: &ElasticReference<f32, N, N>) -> Self::Input {
+                course.state
+            }
+            #[inline($inline)]
+            fn tick(&mut $self, $now: &Self::Input) -> [f32; N] {
+                $tick
+            }
+            $(fn address() -> usize {
+                $address as usize
+            })?
+        }
+    )*};
 }
-
-impl<M, F, const B: usize, const N: usize> Inverse<N> for Shipped<M, F, B>
-where
-    M: Modelled<B, N>,
-    F: Form<M::Robot>,
-{
-    const KEY: Key = Key {
-        trig: F::TRIG,
-        model: M::NAME,
-        form: F::NAME,
-        ..Key::DEFAULT
+ways! {
+    /// As the library ships it, in f32.
+    Shipped<>, F::TRIG, () = |_| (), #[inline(always)] |self, state| F::rnea()(state, &M::SCENE),
+        address: F::rnea::<f32, M::Scene, B, N>();
+    /// With the kernel K inside.
+    By<K>, K::NAME, () = |_| (), #[inline(always)] |self, state| F::rnea_by::<K, M::Scene, B, N>()(state, &M::SCENE),
+        address: F::rnea_by::<K, M::Scene, B, N>();
+    /// With the kernel K, a call into another crate, before it.
+    After<K>, K::NAME, () = |_| (), #[inline(never)] |self, state| {
+        let posture = Engine::<M::Robot>::posture_by::<K, f32, B, N, N>(&state.q);
+        F::rnea_at()(&posture, state, &M::SCENE)
     };
-    type Input = State<f32, N, N>;
-    type Output = [f32; N];
-
-    fn start(_: &State<f32, N, N>) -> Self {
-        Self(PhantomData)
-    }
-    fn input(course: &ElasticReference<f32, N, N>) -> Self::Input {
-        course.state
-    }
-    #[inline(always)]
-    fn tick(&mut self, state: &Self::Input) -> [f32; N] {
-        F::rnea::<Native, _, _, _, _, _>(state, &M::SCENE)
-    }
-    fn torque(output: &[f32; N]) -> [f64; N] {
-        widened(output)
-    }
-    fn address() -> usize {
-        F::address::<Native, f32, M::Scene, B, N>()
-    }
-}
-
-impl<K, M, F, const B: usize, const N: usize> Inverse<N> for By<K, M, F, B>
-where
-    K: Named,
-    M: Modelled<B, N>,
-    F: Form<M::Robot>,
-{
-    const KEY: Key = Key {
-        trig: K::NAME,
-        ..Shipped::<M, F, B>::KEY
-    };
-    type Input = State<f32, N, N>;
-    type Output = [f32; N];
-
-    fn start(_: &State<f32, N, N>) -> Self {
-        Self(PhantomData)
-    }
-    fn input(course: &ElasticReference<f32, N, N>) -> Self::Input {
-        course.state
-    }
-    #[inline(always)]
-    fn tick(&mut self, state: &Self::Input) -> [f32; N] {
-        F::rnea::<K, _, _, _, _, _>(state, &M::SCENE)
-    }
-    fn torque(output: &[f32; N]) -> [f64; N] {
-        widened(output)
-    }
-    fn address() -> usize {
-        F::address::<K, f32, M::Scene, B, N>()
-    }
-}
-
-impl<K, M, F, const B: usize, const N: usize> Inverse<N> for After<K, M, F, B>
-where
-    K: Named,
-    M: Modelled<B, N>,
-    F: Form<M::Robot>,
-{
-    const KEY: Key = By::<K, M, F, B>::KEY;
-    type Input = State<f32, N, N>;
-    type Output = [f32; N];
-
-    fn start(_: &State<f32, N, N>) -> Self {
-        Self(PhantomData)
-    }
-    fn input(course: &ElasticReference<f32, N, N>) -> Self::Input {
-        course.state
-    }
-    #[inline(never)]
-    fn tick(&mut self, state: &Self::Input) -> [f32; N] {
-        let trig = Engine::<M::Robot, K>::joint_trig(&state.q);
-        F::rnea::<Native, _, _, _, _, _>(trig.with(state), &M::SCENE)
-    }
-    fn torque(output: &[f32; N]) -> [f64; N] {
-        widened(output)
-    }
-    fn address() -> usize {
-        Self::tick as fn(&mut Self, &Self::Input) -> Self::Output as usize
-    }
-}
-
-impl<M, F, const B: usize, const N: usize> Inverse<N> for Following<M, F, B, N>
-where
-    M: Modelled<B, N>,
-    F: Form<M::Robot>,
-{
-    const KEY: Key = Key {
-        trig: "incremental",
-        ..Shipped::<M, F, B>::KEY
-    };
-    const MEMORY: bool = true;
-    type Input = State<f32, N, N>;
-    type Output = [f32; N];
-
-    fn start(first: &State<f32, N, N>) -> Self {
-        Self(Carried::at(first.q), PhantomData)
-    }
-    fn input(course: &ElasticReference<f32, N, N>) -> Self::Input {
-        course.state
-    }
-    #[inline(never)]
-    fn tick(&mut self, state: &Self::Input) -> [f32; N] {
-        F::rnea::<Native, _, _, _, _, _>(self.0.follow(&state.q).with(state), &M::SCENE)
-    }
-    fn torque(output: &[f32; N]) -> [f64; N] {
-        widened(output)
-    }
-    fn address() -> usize {
-        Self::tick as fn(&mut Self, &Self::Input) -> Self::Output as usize
-    }
+    /// With sines and cosines carried from tick to tick.
+    Following<>, "incremental", Carried<f32, N> = |first| Carried::at(first.q), #[inline(never)] |self, state| {
+        F::rnea_at()(self.0.follow(&state.q), state, &M::SCENE)
+    }, memory: true;
 }

@@ -2,78 +2,73 @@
 
 use core::fmt;
 
-/// What a way is along each axis.
-///
-/// It prints as `axis=value`, joined by commas, values of the default left out; the default prints as `default`.
-///
-/// ```
-/// use firmware_demo::accuracy::key::Key;
-/// assert_eq!(Key::DEFAULT.to_string(), "default");
-/// let coarse = Key { trig: "minimax3", form: "core", ..Key::DEFAULT };
-/// assert_eq!(coarse.to_string(), "trig=minimax3,form=core");
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Key {
-    /// Numbers: `f32`, `f64`, `compensated`, `q31`.
-    pub arith: &'static str,
-    /// Sines and cosines: `table3` and others, see [`super::kernels`].
-    pub trig: &'static str,
-    /// What is computed: `full` and others, see [`super::model`].
-    pub model: &'static str,
-    /// Every how many ticks it is computed.
-    pub rate: &'static str,
-    /// What the ticks between get: `held`, `extrapolated`, `linearised`.
-    pub between: &'static str,
-    /// `engine` or `core`.
-    pub form: &'static str,
-}
-
-impl Key {
-    /// The library's own choice.
-    pub const DEFAULT: Self = Self {
-        arith: "f32",
-        trig: "table3",
-        model: "full",
-        rate: "1",
-        between: "held",
-        form: "engine",
-    };
-
-    /// Axis and value, in the order of names.
-    pub const fn axes(&self) -> [(&'static str, &'static str); 6] {
-        [
-            ("arith", self.arith),
-            ("trig", self.trig),
-            ("model", self.model),
-            ("rate", self.rate),
-            ("between", self.between),
-            ("form", self.form),
-        ]
-    }
-}
-
-impl fmt::Display for Key {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write(out, self.axes().into_iter().zip(Self::DEFAULT.axes()))
-    }
-}
-
-type Axis = (&'static str, &'static str);
-
-/// The axes that differ from the default's.
-pub(super) fn write(
-    out: &mut fmt::Formatter<'_>,
-    axes: impl Iterator<Item = (Axis, Axis)>,
-) -> fmt::Result {
-    let mut comma = "";
-    for ((axis, value), (_, usual)) in axes {
-        if value != usual {
-            write!(out, "{comma}{axis}={value}")?;
-            comma = ",";
+/// A key of these axes, with the values of the default.
+macro_rules! key {
+    ($(#[$doc:meta])* $key:ident, $axes:literal: $($(#[$what:meta])* $axis:ident = $usual:literal,)*) => {
+        $(#[$doc])*
+        ///
+        /// It prints as `axis=value`, joined by commas, values of the default left out; the default prints as `default`.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub struct $key {
+            $($(#[$what])* pub $axis: &'static str,)*
         }
-    }
-    if comma.is_empty() {
-        out.write_str("default")?;
-    }
-    Ok(())
+
+        impl $key {
+            /// The library's own choice.
+            pub const DEFAULT: Self = Self { $($axis: $usual,)* };
+
+            /// Axis and value, in the order of names.
+            pub const fn axes(&self) -> [(&'static str, &'static str); $axes] {
+                [$((stringify!($axis), self.$axis),)*]
+            }
+        }
+
+        impl fmt::Display for $key {
+            fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+                let mut comma = "";
+                for ((axis, value), (_, usual)) in self.axes().into_iter().zip(Self::DEFAULT.axes()) {
+                    if value != usual {
+                        write!(out, "{comma}{axis}={value}")?;
+                        comma = ",";
+                    }
+                }
+                out.write_str(if comma.is_empty() { "default" } else { "" })
+            }
+        }
+    };
+}
+key! {
+    /// What a way to compute torques is along each axis.
+    ///
+    /// ```
+    /// use firmware_demo::accuracy::key::Key;
+    /// assert_eq!(Key::DEFAULT.to_string(), "default");
+    /// let coarse = Key { trig: "minimax3", form: "core", ..Key::DEFAULT };
+    /// assert_eq!(coarse.to_string(), "trig=minimax3,form=core");
+    /// ```
+    Key, 6:
+    /// Numbers: `f32`, `f64`, `compensated`, `q31`.
+    arith = "f32",
+    /// Sines and cosines: `table3` and others, see [`super::kernels`].
+    trig = "table3",
+    /// What is computed: `full` and others, see [`super::model`].
+    model = "full",
+    /// Every how many ticks it is computed.
+    rate = "1",
+    /// What the ticks between get: `held`, `extrapolated`, `linearised`.
+    between = "held",
+    /// `engine` or `core`.
+    form = "engine",
+}
+key! {
+    /// What a way to simulate is along each axis; the default is what the library's scenes use.
+    Simulated, 4:
+    /// `euler`, `semi_implicit`, `rk4`, `energy`, `implicit_damping`.
+    integrator = "semi_implicit",
+    /// `plain` or `compensated`.
+    state = "plain",
+    /// `f32` or `f64`.
+    arith = "f32",
+    /// `free`, or `damped` by viscous friction.
+    scene = "free",
 }

@@ -61,28 +61,27 @@ pub trait Scene<T, R: Real, const N: usize> {
     fn effects() -> Self::Effects;
 }
 
-/// Nothing but its weight.
-#[derive(Clone, Copy, Debug)]
-pub struct Free;
+macro_rules! scenes {
+    ($($(#[$doc:meta])* $scene:ident, $name:literal: $effects:ty = $value:expr;)*) => {$(
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug)]
+        pub struct $scene;
 
-impl<T, R: Real, const N: usize> Scene<T, R, N> for Free {
-    const NAME: &'static str = "free";
-    type Effects = (Gravity, Inertia, Coriolis);
-    fn effects() -> Self::Effects {
-        RIGID_BODY
-    }
+        impl<T: LetGo<N>, R: Real, const N: usize> Scene<T, R, N> for $scene {
+            const NAME: &'static str = $name;
+            type Effects = $effects;
+            fn effects() -> $effects {
+                $value
+            }
+        }
+    )*};
 }
-
-/// Viscous friction too.
-#[derive(Clone, Copy, Debug)]
-pub struct Damped;
-
-impl<T: LetGo<N>, R: Real, const N: usize> Scene<T, R, N> for Damped {
-    const NAME: &'static str = "damped";
-    type Effects = ((Gravity, Inertia, Coriolis), Viscous<R, N>);
-    fn effects() -> Self::Effects {
-        (RIGID_BODY, Viscous(T::DAMPING.map(R::from_f64)))
-    }
+type RigidBody = (Gravity, Inertia, Coriolis);
+scenes! {
+    /// Nothing but its weight.
+    Free, "free": RigidBody = RIGID_BODY;
+    /// Viscous friction too.
+    Damped, "damped": (RigidBody, Viscous<R, N>) = (RIGID_BODY, Viscous(T::DAMPING.map(R::from_f64)));
 }
 
 /// A robot by the engine.

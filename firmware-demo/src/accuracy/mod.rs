@@ -12,7 +12,6 @@
 //! | [`sparse`] | ways that compute in every few ticks |
 //! | [`compliant`] | ways to the motors of joints that give way |
 //! | [`simulation`], [`let_go`] | ways to simulate, and what |
-//! | [`pasted`] | what `cargo xtask accuracy` prints to be pasted |
 //! | [`list`], [`robots`] | all of them; whose they are |
 
 pub mod compliant;
@@ -24,39 +23,45 @@ pub mod let_go;
 pub mod list;
 pub mod model;
 pub mod numbers;
-pub mod pasted;
 pub mod robots;
 pub mod simulation;
 pub mod sparse;
 
 use dynamics_core::drivetrain::ElasticReference;
+use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
 
 use key::Key;
 
 /// A way to compute the torques of N joints, tick by tick.
-pub trait Inverse<const N: usize> {
+pub trait Inverse<const N: usize>: Sized {
     /// Its name.
     const KEY: Key;
     /// It remembers the ticks before: it has to be run along a way.
     const MEMORY: bool = false;
     /// A tick is given where the joints are to be so many ticks later.
     const AHEAD: usize = 0;
+    /// N·m of a torque of 1.
+    const UNIT: f64 = 1.0;
     /// What a tick is given: a state, in the numbers that it computes with.
     type Input;
-    /// What a tick gives: torques in those numbers.
-    type Output;
+    /// The numbers of the torques.
+    type Scalar: Real;
 
     /// Before the first tick, which will be that of this state.
     fn start(first: &State<f32, N, N>) -> Self;
     /// Where the joints are to be, in its own numbers: what a firmware of this kind would have computed with so far.
     fn input(course: &ElasticReference<f32, N, N>) -> Self::Input;
     /// One tick: what is measured.
-    fn tick(&mut self, input: &Self::Input) -> Self::Output;
+    fn tick(&mut self, input: &Self::Input) -> [Self::Scalar; N];
     /// Torques, N·m.
-    fn torque(output: &Self::Output) -> [f64; N];
+    fn torque(output: [Self::Scalar; N]) -> [f64; N] {
+        output.map(|tau| tau.to_f64() * Self::UNIT)
+    }
     /// The address of the function that a tick is, or calls.
-    fn address() -> usize;
+    fn address() -> usize {
+        Self::tick as fn(&mut Self, &Self::Input) -> [Self::Scalar; N] as usize
+    }
 }
 
 /// What is done with each way.

@@ -4,7 +4,9 @@ use core::marker::PhantomData;
 
 use dynamics_core::effects::{Coriolis, Effect, Gravity, Inertia};
 use dynamics_core::model::{Model, Pruned, Robot};
-use dynamics_core::scalar::{Compensated, Fixed};
+use glam::{DMat3, DVec3};
+
+use super::numbers::{Compensated, Fixed};
 
 /// A robot as it is computed, and the effects that are.
 pub trait Modelled<const B: usize, const N: usize> {
@@ -68,45 +70,80 @@ impl<T, const BITS: u32, const B: usize, const N: usize> Robot<B, N, N> for Roun
 where
     T: Robot<B, N, N>,
 {
-    const MODEL: Model<f64, B, N, N> = T::MODEL.rounded(BITS);
+    const MODEL: Model<f64, B, N, N> = changed(T::MODEL, 1.0, 1.0, BITS);
 }
 
-impl<T, const BITS: u32, const B: usize, const N: usize> Modelled<B, N> for Parameters<T, BITS>
-where
-    T: Robot<B, N, N>,
-{
-    const NAME: &'static str = match BITS {
-        6 => "params6",
-        8 => "params8",
-        11 => "params11",
-        _ => panic!("no such number of bits"),
-    };
-    type Robot = Rounded<T, BITS>;
-    type Scene = (Gravity, Inertia, Coriolis);
-    const SCENE: Self::Scene = <Full<T> as Modelled<B, N>>::SCENE;
-    const IN_UNITS: Self::Scene = <Full<T> as Modelled<B, N>>::IN_UNITS;
+/// The robot in units of `length` m and `mass` kg, its numbers rounded to so many bits; its joints turn, since lengths
+/// among coordinates and limits stay as they are.
+const fn changed<const B: usize, const N: usize>(
+    mut model: Model<f64, B, N, N>,
+    length: f64,
+    mass: f64,
+    bits: u32,
+) -> Model<f64, B, N, N> {
+    const fn vector(v: DVec3, s: f64, bits: u32) -> DVec3 {
+        DVec3::new(
+            round(v.x * s, bits),
+            round(v.y * s, bits),
+            round(v.z * s, bits),
+        )
+    }
+    let (first, second) = (1.0 / (mass * length), 1.0 / (mass * length * length));
+    let mut i = 0;
+    while i < B {
+        let link = &mut model.links[i];
+        link.placement.pos = vector(link.placement.pos, 1.0 / length, bits);
+        let inertia = &mut link.inertia;
+        inertia.mass = round(inertia.mass / mass, bits);
+        inertia.first_moment = vector(inertia.first_moment, first, bits);
+        let DMat3 {
+            x_axis: x,
+            y_axis: y,
+            z_axis: z,
+        } = inertia.inertia;
+        let [x, y, z] = [
+            vector(x, second, bits),
+            vector(y, second, bits),
+            vector(z, second, bits),
+        ];
+        inertia.inertia = DMat3::from_cols(x, y, z);
+        i += 1;
+    }
+    model
+}
+
+/// To nearest, by adding and cutting off bits of the mantissa's 53.
+const fn round(x: f64, bits: u32) -> f64 {
+    assert!(bits >= 1 && bits <= 53);
+    let cut = 53 - bits;
+    let half = (1_u64 << cut) >> 1;
+    f64::from_bits((x.to_bits() + half) >> cut << cut)
 }
 
 /// All of it, but for the base parameters that take less than so many millionths of the robot's torque.
 #[derive(Clone, Copy, Debug)]
 pub struct Without<T, const PPM: u32>(PhantomData<T>);
 
-impl<T, const PPM: u32, const B: usize, const N: usize> Modelled<B, N> for Without<T, PPM>
-where
-    T: Robot<B, N, N>,
-{
-    const NAME: &'static str = match PPM {
-        100 => "pruned100",
-        1000 => "pruned1000",
-        3000 => "pruned3000",
-        10_000 => "pruned10000",
-        30_000 => "pruned30000",
-        _ => panic!("no such share"),
-    };
-    type Robot = Pruned<T, PPM>;
-    type Scene = (Gravity, Inertia, Coriolis);
-    const SCENE: Self::Scene = <Full<T> as Modelled<B, N>>::SCENE;
-    const IN_UNITS: Self::Scene = <Full<T> as Modelled<B, N>>::IN_UNITS;
+macro_rules! approximate {
+    ($($model:ident<$n:ident> of $robot:ident: $($value:literal = $name:literal)*;)*) => {$(
+        impl<T: Robot<B, N, N>, const $n: u32, const B: usize, const N: usize> Modelled<B, N>
+            for $model<T, $n>
+        {
+            const NAME: &'static str = match $n {
+                $($value => $name,)*
+                _ => panic!("no such model"),
+            };
+            type Robot = $robot<T, $n>;
+            type Scene = (Gravity, Inertia, Coriolis);
+            const SCENE: Self::Scene = <Full<T> as Modelled<B, N>>::SCENE;
+            const IN_UNITS: Self::Scene = <Full<T> as Modelled<B, N>>::IN_UNITS;
+        }
+    )*};
+}
+approximate! {
+    Parameters<BITS> of Rounded: 6 = "params6" 8 = "params8" 11 = "params11";
+    Without<PPM> of Pruned: 100 = "pruned100" 1000 = "pruned1000" 3000 = "pruned3000"
+        10_000 = "pruned10000" 30_000 = "pruned30000";
 }
 
 /// Units in which everything that inverse dynamics meets stays within ±2.
@@ -126,7 +163,7 @@ impl Units {
         let (mut reach, mut total, mut i) = (0.0, 0.0, 0);
         while i < B {
             let at = model.links[i].placement.pos;
-            reach += larger(at.x) + larger(at.y) + larger(at.z);
+            reach += at.x.abs() + at.y.abs() + at.z.abs();
             total += model.links[i].inertia.mass;
             i += 1;
         }
@@ -148,10 +185,6 @@ impl Units {
     }
 }
 
-const fn larger(x: f64) -> f64 {
-    if x < 0.0 { -x } else { x }
-}
-
 const fn power_of_two(least: f64) -> f64 {
     let mut power = 1.0 / 64.0;
     while power < least {
@@ -166,7 +199,7 @@ pub struct InUnits<T>(PhantomData<T>);
 
 impl<T: Robot<B, N, N>, const B: usize, const N: usize> Robot<B, N, N> for InUnits<T> {
     const MODEL: Model<f64, B, N, N> = {
-        let units = Units::of(&T::MODEL);
-        T::MODEL.in_units(units.length, units.mass)
+        let Units { length, mass, .. } = Units::of(&T::MODEL);
+        changed(T::MODEL, length, mass, 53)
     };
 }

@@ -7,7 +7,6 @@ use dynamics_core::robots::{A1Leg, Panda, Ur5e};
 use dynamics_core::state::State;
 
 use super::compliant::Joints;
-use super::{Visitor, list, pasted};
 use crate::scene::TICK;
 use crate::trajectories::{
     LEG_STEPS, PANDA_PICK_AND_PLACE, PANDA_SWING, PICK_AND_PLACE, UR5E_SWING,
@@ -21,17 +20,6 @@ pub trait Compared<const B: usize, const N: usize, const W: usize>: Robot<B, N, 
     const POINTS: [WayPoint<f32, N>; W];
     /// Greatest acceleration, rad/s².
     const ACCELERATION: f32;
-
-    /// Shows the ways to compute of rigid joints.
-    fn rigid(visitor: &mut impl Visitor<N>)
-    where
-        Self: Sized,
-    {
-        list::inverse::<Self, B, N>(visitor);
-    }
-
-    /// Shows ways as they are printed to be pasted, if there are any of this robot.
-    fn pasted(_: &mut impl Visitor<N>) {}
 
     /// Where it goes, tick by tick.
     ///
@@ -94,10 +82,6 @@ impl Compared<6, 6, 9> for Ur5e {
     const RECORDED: &'static str = "ur5e";
     const POINTS: [WayPoint<f32, 6>; 9] = PICK_AND_PLACE;
     const ACCELERATION: f32 = 12.0;
-
-    fn pasted(visitor: &mut impl Visitor<6>) {
-        pasted::ur5e(visitor);
-    }
 }
 
 impl Compared<7, 7, 7> for Panda {
@@ -110,10 +94,6 @@ impl Compared<4, 3, 7> for A1Leg {
     const RECORDED: &'static str = "a1";
     const POINTS: [WayPoint<f32, 3>; 7] = LEG_STEPS;
     const ACCELERATION: f32 = 300.0;
-
-    fn pasted(visitor: &mut impl Visitor<3>) {
-        pasted::a1_leg(visitor);
-    }
 }
 
 /// Assumed, of the order of harmonic drives of this size.

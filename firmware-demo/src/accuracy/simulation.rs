@@ -1,7 +1,5 @@
 //! Ways to simulate: integrators, with and without compensated state, of a double pendulum and of an arm.
 
-use core::fmt;
-
 use dynamics_core::algorithms::NotPositiveDefinite;
 use dynamics_core::scalar::Real;
 use dynamics_core::sim::{
@@ -9,46 +7,8 @@ use dynamics_core::sim::{
 };
 use dynamics_core::state::State;
 
+pub use super::key::Simulated as Key;
 pub use super::let_go::{Damped, DoublePendulum, Engined, Free, LetGo, Scene};
-
-/// The name of a way to simulate; it prints as [`super::key::Key`] does.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Key {
-    /// `euler`, `semi_implicit`, `rk4`, `energy`, `implicit_damping`.
-    pub integrator: &'static str,
-    /// `plain` or `compensated`.
-    pub state: &'static str,
-    /// `f32` or `f64`.
-    pub arith: &'static str,
-    /// `free`, or `damped` by viscous friction.
-    pub scene: &'static str,
-}
-
-impl Key {
-    /// What the library's scenes use.
-    pub const DEFAULT: Self = Self {
-        integrator: "semi_implicit",
-        state: "plain",
-        arith: "f32",
-        scene: "free",
-    };
-
-    /// Axis and value, in the order of names.
-    pub const fn axes(&self) -> [(&'static str, &'static str); 4] {
-        [
-            ("integrator", self.integrator),
-            ("state", self.state),
-            ("arith", self.arith),
-            ("scene", self.scene),
-        ]
-    }
-}
-
-impl fmt::Display for Key {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        super::key::write(out, self.axes().into_iter().zip(Self::DEFAULT.axes()))
-    }
-}
 
 /// A way to simulate.
 pub trait Simulation<const N: usize> {
@@ -165,25 +125,32 @@ where
     }
 }
 
-/// Shows every way to simulate the robot T to `visitor`.
-pub fn every<T: LetGo<N>, const N: usize>(visitor: &mut impl Visitor<N>) {
-    scalar::<T, f32, N, false>(visitor);
-    scalar::<T, f32, N, true>(visitor);
-    visitor.simulation::<Run<T, Free, EnergyProjected<f32>, f32, N, false>>();
-    visitor.simulation::<Run<T, Free, EnergyProjected<f32>, f32, N, true>>();
-    visitor.simulation::<Run<T, Free, SemiImplicit, f64, N, false>>();
-    visitor.simulation::<Run<T, Free, RungeKutta, f64, N, false>>();
-    visitor.simulation::<Run<T, Free, EnergyProjected<f64>, f64, N, false>>();
-    visitor.simulation::<Run<T, Damped, LinearlyImplicit, f64, N, false>>();
+macro_rules! runs {
+    ($visitor:ident of $t:ident: $($scene:ident $integrator:ty, $r:ty, $compensated:expr;)*) => {
+        $($visitor.simulation::<Run<$t, $scene, $integrator, $r, N, $compensated>>();)*
+    };
 }
 
-fn scalar<T: LetGo<N>, R: Real, const N: usize, const COMPENSATED: bool>(
-    visitor: &mut impl Visitor<N>,
-) {
-    visitor.simulation::<Run<T, Free, Euler, R, N, COMPENSATED>>();
-    visitor.simulation::<Run<T, Free, SemiImplicit, R, N, COMPENSATED>>();
-    visitor.simulation::<Run<T, Free, RungeKutta, R, N, COMPENSATED>>();
-    visitor.simulation::<Run<T, Damped, SemiImplicit, R, N, COMPENSATED>>();
-    visitor.simulation::<Run<T, Damped, RungeKutta, R, N, COMPENSATED>>();
-    visitor.simulation::<Run<T, Damped, LinearlyImplicit, R, N, COMPENSATED>>();
+/// Shows every way to simulate the robot T to `visitor`.
+pub fn every<T: LetGo<N>, const N: usize>(visitor: &mut impl Visitor<N>) {
+    single::<T, N, false>(visitor);
+    single::<T, N, true>(visitor);
+    runs! { visitor of T:
+        Free SemiImplicit, f64, false;
+        Free RungeKutta, f64, false;
+        Free EnergyProjected<f64>, f64, false;
+        Damped LinearlyImplicit, f64, false;
+    }
+}
+
+fn single<T: LetGo<N>, const N: usize, const COMPENSATED: bool>(visitor: &mut impl Visitor<N>) {
+    runs! { visitor of T:
+        Free Euler, f32, COMPENSATED;
+        Free SemiImplicit, f32, COMPENSATED;
+        Free RungeKutta, f32, COMPENSATED;
+        Free EnergyProjected<f32>, f32, COMPENSATED;
+        Damped SemiImplicit, f32, COMPENSATED;
+        Damped RungeKutta, f32, COMPENSATED;
+        Damped LinearlyImplicit, f32, COMPENSATED;
+    }
 }

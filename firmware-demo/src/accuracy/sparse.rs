@@ -45,8 +45,8 @@ pub trait Between<const N: usize> {
 }
 
 macro_rules! between {
-    ($between:ty, $name:literal, $ahead:literal, |$first:ident| $start:expr $(, $ticks:ident)?) => {
-        impl<const N: usize $(, const $ticks: usize)?> Between<N> for $between {
+    ($($between:ident $(<$ticks:ident>)?, $name:literal, $ahead:literal, |$first:pat_param| $start:expr;)*) => {$(
+        impl<const N: usize $(, const $ticks: usize)?> Between<N> for $between<f32, N $(, $ticks)?> {
             const NAME: &'static str = $name;
             const AHEAD: bool = $ahead;
             fn begin($first: [f32; N]) -> Self {
@@ -61,11 +61,13 @@ macro_rules! between {
                 self.hold()
             }
         }
-    };
+    )*};
 }
-between!(ZeroOrderHold<f32, N>, "held", false, |_first| Self::start());
-between!(FirstOrderHold<f32, N, TICKS>, "extrapolated", false, |_first| Self::start(), TICKS);
-between!(Interpolator<f32, N, TICKS>, "interpolated", true, |first| Self::start(first), TICKS);
+between! {
+    ZeroOrderHold, "held", false, |_| Self::start();
+    FirstOrderHold<TICKS>, "extrapolated", false, |_| Self::start();
+    Interpolator<TICKS>, "interpolated", true, |first| Self::start(first);
+}
 
 /// On the axis `rate`.
 const fn rate(ticks: usize) -> &'static str {
@@ -80,7 +82,7 @@ const fn rate(ticks: usize) -> &'static str {
 
 impl<W, P, const N: usize, const TICKS: usize> Inverse<N> for Every<W, P, TICKS>
 where
-    W: Inverse<N, Output = [f32; N]>,
+    W: Inverse<N, Scalar = f32>,
     P: Between<N>,
 {
     const KEY: Key = Key {
@@ -91,7 +93,7 @@ where
     const MEMORY: bool = true;
     const AHEAD: usize = if P::AHEAD { TICKS } else { 0 };
     type Input = W::Input;
-    type Output = [f32; N];
+    type Scalar = f32;
 
     fn start(first: &State<f32, N, N>) -> Self {
         let mut way = W::start(first);
@@ -115,12 +117,6 @@ where
         let torque = self.way.tick(input);
         self.between.fresh(torque)
     }
-    fn torque(output: &[f32; N]) -> [f64; N] {
-        W::torque(output)
-    }
-    fn address() -> usize {
-        Self::tick as fn(&mut Self, &Self::Input) -> Self::Output as usize
-    }
 }
 
 impl<K, M, const B: usize, const N: usize, const TICKS: usize> Inverse<N>
@@ -132,11 +128,11 @@ where
     const KEY: Key = Key {
         rate: rate(TICKS),
         between: "linearised",
-        ..By::<K, M, Engine<M::Robot>, B>::KEY
+        ..By::<K, M, Engine<M::Robot>, B, N>::KEY
     };
     const MEMORY: bool = true;
     type Input = State<f32, N, N>;
-    type Output = [f32; N];
+    type Scalar = f32;
 
     fn start(_: &State<f32, N, N>) -> Self {
         Self {
@@ -155,15 +151,9 @@ where
             return self.between.hold(&state.qdd);
         }
         self.wait = TICKS - 1;
-        let trig = Engine::<M::Robot, K>::joint_trig(&state.q);
-        let torque = Engine::<M::Robot>::rnea(trig.with(state), &M::SCENE);
-        let mass_matrix = Engine::<M::Robot>::crba(&trig, &M::SCENE);
+        let posture = Engine::<M::Robot>::posture_by::<K, f32, B, N, N>(&state.q);
+        let torque = Engine::<M::Robot>::rnea_at(&posture, state, &M::SCENE);
+        let mass_matrix = Engine::<M::Robot>::crba_at(&posture, &M::SCENE);
         self.between.update(torque, mass_matrix, &state.qdd)
-    }
-    fn torque(output: &[f32; N]) -> [f64; N] {
-        output.map(f64::from)
-    }
-    fn address() -> usize {
-        Self::tick as fn(&mut Self, &Self::Input) -> Self::Output as usize
     }
 }

@@ -4,11 +4,10 @@
 
 mod accuracy;
 
-use cortex_m_rt::entry;
-use dynamics_core::robots::A1Leg;
-
-#[entry]
+#[cortex_m_rt::entry]
 fn main() -> ! {
-    accuracy::rigid::<A1Leg, 4, 3, 7>();
+    type Leg = dynamics_core::robots::A1Leg;
+    let mut priced = accuracy::states::<Leg, 4, 3, 7>();
+    firmware_demo::accuracy::list::inverse::<Leg, 4, 3>(&mut priced);
     accuracy::done()
 }

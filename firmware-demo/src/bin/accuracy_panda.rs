@@ -3,13 +3,8 @@
 #![no_main]
 
 mod accuracy;
-#[path = "accuracy/arm.rs"]
-mod arm;
 
-use cortex_m_rt::entry;
-use dynamics_core::robots::Panda;
-
-#[entry]
+#[cortex_m_rt::entry]
 fn main() -> ! {
-    arm::run::<Panda, 7, 7>()
+    accuracy::arm::<dynamics_core::robots::Panda, 7, 7>()
 }

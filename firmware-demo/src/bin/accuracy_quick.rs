@@ -1,27 +1,33 @@
-//! What single changes to the default way to compute torques cost, and what is printed to be pasted: few enough for the
-//! tests.
+//! What single changes to the default way to compute torques cost, few enough for the tests; and what is printed to be
+//! pasted, as it is printed.
 #![no_std]
 #![no_main]
 
 mod accuracy;
-
-use cortex_m_rt::entry;
-use dynamics_core::robots::{A1Leg, Panda, Ur5e};
-use firmware_demo::accuracy::list;
-use firmware_demo::accuracy::robots::Compared;
-
-#[inline(never)]
-fn robot<T: Compared<B, N, W>, const B: usize, const N: usize, const W: usize>() {
-    let mut priced = accuracy::states::<T, B, N, W>();
-    list::single::<T, B, N>(&mut priced);
-    priced.algorithm = "pasted";
-    T::pasted(&mut priced);
+/// Written by `cargo xtask accuracy`.
+mod printed {
+    include!(env!("ACCURACY_PRINTED"));
 }
 
-#[entry]
+use dynamics_core::robots::{A1Leg, Panda, Ur5e};
+use firmware_demo::accuracy::list;
+
+/// Robots, and what is printed of them.
+macro_rules! measure {
+    ($($robot:ident, $b:literal, $n:literal, $w:literal, $printed:ident;)*) => {$({
+        let mut priced = accuracy::states::<$robot, $b, $n, $w>();
+        list::single::<$robot, $b, $n>(&mut priced);
+        priced.algorithm = "pasted";
+        printed::$printed(&mut priced);
+    })*};
+}
+
+#[cortex_m_rt::entry]
 fn main() -> ! {
-    robot::<Ur5e, 6, 6, 9>();
-    robot::<Panda, 7, 7, 7>();
-    robot::<A1Leg, 4, 3, 7>();
+    measure! {
+        Ur5e, 6, 6, 9, ur5e;
+        Panda, 7, 7, 7, panda;
+        A1Leg, 4, 3, 7, a1_leg;
+    }
     accuracy::done()
 }

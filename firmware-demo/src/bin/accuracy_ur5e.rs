@@ -3,13 +3,8 @@
 #![no_main]
 
 mod accuracy;
-#[path = "accuracy/arm.rs"]
-mod arm;
 
-use cortex_m_rt::entry;
-use dynamics_core::robots::Ur5e;
-
-#[entry]
+#[cortex_m_rt::entry]
 fn main() -> ! {
-    arm::run::<Ur5e, 6, 9>()
+    accuracy::arm::<dynamics_core::robots::Ur5e, 6, 9>()
 }

@@ -2,10 +2,9 @@
 
 use std::str::FromStr;
 
-use super::front;
-use super::paste;
 use super::point::{Kind, Point};
-use super::words::{cycles, digits, name, sentence};
+use super::words::{cycles, digits, name, sentence, stated};
+use super::{code, front};
 use crate::error::{Error, Result};
 use crate::table::thousands;
 
@@ -41,27 +40,20 @@ impl FromStr for Allowed {
     type Err = String;
 
     fn from_str(text: &str) -> std::result::Result<Self, String> {
-        let units =
-            "a torque in Nm or mNm (0.05Nm), for a simulation an angle in rad or mrad (2mrad)";
+        let text = text.trim();
+        let units = "an error is a torque in Nm or mNm (0.05Nm), for a simulation an angle in rad or mrad (2mrad)";
         let known = UNITS.iter().find_map(|&(unit, scale, kind)| {
-            let number = text.trim().strip_suffix(unit)?;
-            Some((number.trim().parse::<f64>(), scale, kind))
+            Some((text.strip_suffix(unit)?.trim().parse::<f64>(), scale, kind))
         });
-        let Some((number, scale, kind)) = known else {
-            return Err(match text.trim().parse::<f64>() {
-                Ok(_) => format!("{text} has no unit: an error is {units}"),
-                Err(_) => format!("an error is {units}"),
-            });
-        };
-        match number {
-            Ok(number) if number > 0.0 && number.is_finite() => Ok(Self {
+        match known {
+            Some((Ok(number), scale, kind)) if number > 0.0 && number.is_finite() => Ok(Self {
                 error: number * scale,
                 kind,
             }),
-            Ok(_) => Err(format!("{text}: an error is more than nothing")),
-            Err(_) => Err(format!(
-                "{text} does not begin with a number: an error is {units}"
-            )),
+            Some((Ok(_), ..)) => Err(format!("{text}: an error is more than nothing")),
+            Some((Err(_), ..)) => Err(format!("{text} does not begin with a number: {units}")),
+            None if text.parse::<f64>().is_ok() => Err(format!("{text} has no unit: {units}")),
+            None => Err(units.into()),
         }
     }
 }
@@ -82,33 +74,29 @@ impl Budget {
         let (cheapest, best) =
             ends.ok_or_else(|| Error::check("nothing was measured of this robot"))?;
         let unit = &best.unit;
-        match self {
-            Self::Cycles(most) => {
-                let within = front.iter().rev().find(|point| point.cycles <= most);
-                within.copied().ok_or_else(|| {
-                    Error::check(format!(
-                        "nothing on the front is below {} cycles; the cheapest is {} ({}), off by up to {} {unit}",
-                        thousands(most),
-                        thousands(cheapest.cycles),
-                        name(cheapest),
-                        digits(cheapest.error()),
-                    ))
-                })
-            }
-            Self::Error(allowed) => {
-                let within = front.iter().find(|point| point.error() <= allowed.error);
-                within.copied().ok_or_else(|| {
-                    Error::check(format!(
-                        "nothing on the front is off by less than {} {unit}; the most accurate is off by up to {} \
-                         ({}, {} cycles)",
-                        digits(allowed.error),
-                        digits(best.error()),
-                        name(best),
-                        thousands(best.cycles),
-                    ))
-                })
-            }
-        }
+        let (within, what, end) = match self {
+            Self::Cycles(most) => (
+                front.iter().rev().find(|point| point.cycles <= most),
+                format!("below {} cycles; the cheapest", thousands(most)),
+                cheapest,
+            ),
+            Self::Error(allowed) => (
+                front.iter().find(|point| point.error() <= allowed.error),
+                format!(
+                    "off by less than {} {unit}; the most accurate",
+                    digits(allowed.error)
+                ),
+                best,
+            ),
+        };
+        within.copied().ok_or_else(|| {
+            Error::check(format!(
+                "nothing on the front is {what} takes {} cycles ({}) and is off by up to {} {unit}",
+                thousands(end.cycles),
+                name(end),
+                digits(end.error()),
+            ))
+        })
     }
 
     /// The cheapest in the mean that is no less accurate, if that is another one.
@@ -125,16 +113,26 @@ impl Budget {
     /// The choice in words, with the Rust to paste.
     pub fn answer(self, points: &[&Point]) -> Result<String> {
         let chosen = self.choose(points)?;
-        let mut text = format!("{}\n\n{}", told(chosen), paste::rust(chosen)?);
+        let mut text = format!("{}\n\n{}", told(chosen), code::rust(chosen)?);
         if let Some(other) = self.in_the_mean(points, chosen) {
             text += &format!(
                 "\nIf the mean over ticks matters rather than the worst tick:\n\n{}\n\n{}",
                 told(other),
-                paste::rust(other)?
+                code::rust(other)?
             );
         }
         Ok(text)
     }
+}
+
+/// What may be chosen from a group: what the library ships, and the fronts of that.
+pub fn shipped(points: &[Point], group: (&str, Kind, &str)) -> Vec<Point> {
+    let own = points
+        .iter()
+        .filter(|point| point.group() == group && code::rust(point).is_ok());
+    let mut own: Vec<Point> = own.cloned().collect();
+    front::mark(&mut own);
+    own
 }
 
 /// A point's figures in words.
@@ -143,17 +141,15 @@ fn told(point: &Point) -> String {
         Kind::Inverse => "cycles in the worst tick",
         Kind::Simulation => "cycles for a simulated second",
     };
-    let share = point.relative_max.map_or_else(String::new, |share| {
-        format!(" ({} of full scale)", digits(share))
-    });
     format!(
-        "{} {}: {} modelled {of}, {} in the mean; off by up to {} {}{share}\n{}",
+        "{} {}: {} modelled {of}, {} in the mean; off by up to {} {} ({} of full scale)\n{}",
         point.robot,
         name(point),
         thousands(point.cycles),
         cycles(point.cycles_mean),
         digits(point.error()),
         point.unit,
+        stated(point.relative_max),
         sentence(point)
     )
 }
@@ -210,7 +206,7 @@ mod tests {
             .expect_err("too little")
             .to_string();
         assert!(
-            told.starts_with("nothing on the front is below 10 cycles; the cheapest is 300"),
+            told.starts_with("nothing on the front is below 10 cycles; the cheapest takes 300"),
             "{told}"
         );
         assert!(chosen(error(1e-9)).is_err());

@@ -50,13 +50,6 @@ pub fn front<'a>(points: &[&'a Point], cost: usize) -> Vec<&'a Point> {
     front
 }
 
-/// All that are on a front, by what their worst tick costs: a point's number is its place here, from 1 on.
-pub fn numbered<'a>(points: &[&'a Point]) -> Vec<&'a Point> {
-    let mut all: Vec<&Point> = points.iter().copied().filter(|point| point.front).collect();
-    all.sort_by_key(|point| (point.cycles, &point.key));
-    all
-}
-
 #[cfg(test)]
 pub mod tests {
     use super::super::point::{Kind, Point};
@@ -84,9 +77,6 @@ pub mod tests {
             front: false,
             fronts: [false; 2],
             key: key.into(),
-            full_scale: 1.0,
-            joints: Vec::new(),
-            anywhere: None,
             drift: None,
         }
     }
@@ -123,7 +113,7 @@ pub mod tests {
     }
 
     #[test]
-    fn robots_are_not_held_against_each_other() {
+    fn robots_are_not_compared_with_each_other() {
         let mut points = [
             point("default", 1.0, 10, 10.0),
             point("default", 2.0, 20, 20.0),

@@ -3,171 +3,159 @@
 use std::collections::BTreeMap;
 
 use serde::Deserialize;
-use serde_json::Value;
 
 use super::front;
-use super::point::{Errors, Kind, Point, Speed, Yardstick};
+use super::point::{Kind, Point};
 use crate::costs::Row;
 use crate::error::{Error, Result};
 
-/// What errors are held against is known to this share of full scale and no better: smaller ones count as that.
+/// What errors are measured from is known to this share of full scale and no better: smaller ones count as that.
 const KNOWN: f64 = 1e-13;
 
 /// The axis that only the target has.
 const OPT: &str = "opt";
 
+/// What the target ran, each at its opt-level.
+pub type Rows = [(&'static str, Row)];
+
 /// What the host printed.
 #[derive(Default)]
 pub struct Host {
-    ways: Vec<Way>,
+    ways: Vec<(Kind, Line)>,
     /// What is printed to be pasted.
-    pub pasted: Vec<Value>,
+    pub pasted: Vec<Line>,
     /// Errors of other causes.
-    pub yardsticks: Vec<Yardstick>,
+    pub yardsticks: Vec<Line>,
     /// What leaving out velocity products loses.
-    pub speeds: Vec<Speed>,
-    /// How far what errors are held against is itself off, by robot.
-    pub oracles: Vec<(String, Value)>,
+    pub speeds: Vec<Line>,
+    /// How far what errors are measured from is itself off.
+    pub oracles: Vec<Line>,
 }
 
-/// A line about a way to compute.
-#[derive(Deserialize)]
-struct Way {
-    robot: String,
-    kind: Kind,
-    key: String,
-    #[serde(default)]
+/// A line; what not every kind has is empty.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub struct Line {
+    pub robot: String,
+    pub kind: String,
+    pub key: String,
     plant: Option<String>,
     /// µs.
-    #[serde(default)]
     step: Option<u64>,
     configuration: BTreeMap<String, String>,
     unit: String,
-    full_scale: f64,
-    error_max: Option<f64>,
-    error_rms: Option<f64>,
-    error_p99: Option<f64>,
-    relative_max: Option<f64>,
-    #[serde(default)]
+    pub full_scale: f64,
+    pub error_max: Option<f64>,
+    pub error_rms: Option<f64>,
+    pub error_p99: Option<f64>,
+    pub relative_max: Option<f64>,
     energy_drift_relative: Option<f64>,
-    #[serde(default)]
-    trajectory: Option<Joints>,
-    #[serde(default)]
-    states: Option<Joints>,
-}
-
-#[derive(Deserialize)]
-struct Joints {
-    relative_max: f64,
-    joint_max: Vec<f64>,
-    joint_rms: Vec<f64>,
-    joint_p99: Vec<f64>,
+    /// The largest error over states anywhere, as a share of full scale.
+    pub anywhere: Option<f64>,
+    /// What is off.
+    pub what: String,
+    /// rad/s: no joint is faster.
+    pub speed: f64,
+    /// The oracle's own: Pinocchio's version, the recorded states, and those of 50 digits with how far it is off there.
+    pub pinocchio: String,
+    pub states: u64,
+    pub sample: u64,
+    pub from_50_digits: f64,
 }
 
 impl Host {
     /// Reads the host's lines.
     pub fn read(lines: &str) -> Result<Self> {
         let mut host = Self::default();
-        for line in lines.lines() {
-            let bad = |e| {
+        for text in lines.lines() {
+            let bad = |e: &dyn std::fmt::Display| {
                 Error::check(format!(
-                    "the host's line {line:?} cannot be understood: {e}"
+                    "the host's line {text:?} cannot be understood: {e}"
                 ))
             };
-            let value: Value = serde_json::from_str(line).map_err(bad)?;
-            match value["kind"].as_str().unwrap_or_default() {
-                "inverse" | "simulation" => {
-                    host.ways.push(serde_json::from_value(value).map_err(bad)?);
-                }
-                "pasted" => host.pasted.push(value),
-                "yardstick" => {
-                    let yardstick = serde_json::from_value(value).map_err(bad)?;
-                    host.yardsticks.push(yardstick);
-                }
-                "oracle" => {
-                    let robot = value["robot"].as_str().unwrap_or_default().to_owned();
-                    host.oracles.push((robot, value));
-                }
-                "speed" => host
-                    .speeds
-                    .push(serde_json::from_value(value).map_err(bad)?),
-                other => {
-                    return Err(Error::check(format!(
-                        "the host's line is of an unknown kind {other:?}"
-                    )));
-                }
+            let line: Line = serde_json::from_str(text).map_err(|e| bad(&e))?;
+            match &*line.kind {
+                "inverse" => host.ways.push((Kind::Inverse, line)),
+                "simulation" => host.ways.push((Kind::Simulation, line)),
+                "pasted" => host.pasted.push(line),
+                "yardstick" => host.yardsticks.push(line),
+                "oracle" => host.oracles.push(line),
+                "speed" => host.speeds.push(line),
+                other => return Err(bad(&format!("unknown kind {other:?}"))),
             }
         }
         Ok(host)
     }
+
+    /// How far a robot's default is off over states anywhere, as a share of full scale.
+    pub fn anywhere(&self, robot: &str) -> Option<f64> {
+        let mut ways = self.ways.iter().map(|(_, line)| line);
+        ways.find(|line| (&*line.robot, &*line.key) == (robot, "default"))?
+            .anywhere
+    }
+}
+
+impl Line {
+    /// All that is said of its errors.
+    pub fn errors(&self) -> [Option<f64>; 4] {
+        [
+            self.error_max,
+            self.error_p99,
+            self.error_rms,
+            self.relative_max,
+        ]
+    }
 }
 
 /// A point for each way and opt-level; `measured` are the rows of each.
-pub fn join(host: &Host, measured: &[(&'static str, Vec<Row>)]) -> Result<Vec<Point>> {
-    let mut known: BTreeMap<(&str, Kind, &str), Vec<&Way>> = BTreeMap::new();
-    for way in &host.ways {
-        let key = (&*way.robot, way.kind, &*way.key);
-        known.entry(key).or_default().push(way);
-    }
+pub fn join(host: &Host, measured: &Rows) -> Result<Vec<Point>> {
     let mut points = Vec::new();
-    for (opt, rows) in measured {
-        for row in rows {
-            let kind = match &*row.algorithm {
-                "inverse" => Kind::Inverse,
-                "simulation" => Kind::Simulation,
-                other => {
-                    return Err(Error::check(format!(
-                        "the firmware ran an unknown {other:?}"
-                    )));
-                }
-            };
-            let ways = known
-                .get(&(&*row.robot, kind, &*row.inputs))
-                .ok_or_else(|| {
-                    let (robot, key) = (&row.robot, &row.inputs);
-                    Error::check(format!("the host knows no error of {robot} {key}"))
-                })?;
-            points.extend(ways.iter().map(|way| point(way, row, opt)));
+    for (opt, row) in measured {
+        let of = |way: &&(Kind, Line)| {
+            let Line {
+                robot, kind, key, ..
+            } = &way.1;
+            (robot, kind, key) == (&row.robot, &row.algorithm, &row.inputs)
+        };
+        let before = points.len();
+        let ways = host.ways.iter().filter(of);
+        points.extend(ways.map(|(kind, way)| point(*kind, way, row, opt)));
+        if points.len() == before {
+            let (robot, kind, key) = (&row.robot, &row.algorithm, &row.inputs);
+            let what = format!("the host knows no error of {robot} {kind} {key}");
+            return Err(Error::check(what));
         }
     }
     front::mark(&mut points);
     Ok(points)
 }
 
-fn point(way: &Way, row: &Row, opt: &str) -> Point {
+fn point(kind: Kind, way: &Line, row: &Row, opt: &str) -> Point {
     let mut configuration = way.configuration.clone();
     configuration.insert(OPT.into(), opt.into());
-    configuration.extend(
-        way.plant
-            .iter()
-            .map(|plant| ("plant".into(), plant.clone())),
-    );
+    let plant = way
+        .plant
+        .iter()
+        .map(|plant| ("plant".into(), plant.clone()));
+    configuration.extend(plant);
     // A simulation is as good as its steps are short: what counts is a simulated second.
     let calls = way.step.map_or(1, |step| 1_000_000 / step);
-    let stated = |error: Option<f64>| error.map(|error| error.max(KNOWN * way.full_scale));
-    let each = way.trajectory.as_ref().map_or_else(Vec::new, |of| {
-        std::iter::zip(&of.joint_max, std::iter::zip(&of.joint_rms, &of.joint_p99))
-            .map(|(&max, (&rms, &p99))| Errors { max, rms, p99 })
-            .collect()
-    });
+    let known = |error: Option<f64>, scale: f64| error.map(|error| error.max(KNOWN * scale));
     Point {
         robot: way.robot.clone(),
-        kind: way.kind,
+        kind,
         instructions: row.instructions.max * calls,
         cycles: row.cycles.max * calls,
         cycles_mean: row.cycles_mean * calls as f64,
-        error_max: stated(way.error_max),
-        error_rms: stated(way.error_rms),
-        error_p99: stated(way.error_p99),
+        error_max: known(way.error_max, way.full_scale),
+        error_rms: known(way.error_rms, way.full_scale),
+        error_p99: known(way.error_p99, way.full_scale),
+        relative_max: known(way.relative_max, 1.0),
         unit: way.unit.clone(),
-        relative_max: way.relative_max.map(|share| share.max(KNOWN)),
         front: false,
         fronts: [false; 2],
         key: key(&way.key, way.step, opt),
         configuration,
-        full_scale: way.full_scale,
-        joints: each,
-        anywhere: way.states.as_ref().map(|states| states.relative_max),
         drift: way.energy_drift_relative,
     }
 }
@@ -179,9 +167,10 @@ fn key(key: &str, step: Option<u64>, opt: &str) -> String {
     let opt = (opt != "3").then(|| format!("{OPT}={opt}"));
     let axes: Vec<String> = known.into_iter().chain(step).chain(opt).collect();
     if axes.is_empty() {
-        return key.to_owned();
+        key.to_owned()
+    } else {
+        axes.join(",")
     }
-    axes.join(",")
 }
 
 #[cfg(test)]
@@ -220,14 +209,14 @@ mod tests {
     #[test]
     fn rows_and_lines_meet_by_robot_kind_and_key() {
         let host = Host::read(LINES.trim()).expect("good lines");
-        let rows = vec![row("inverse", "default"), row("simulation", "default")];
-        let points = join(&host, &[("s", rows)]).expect("complete");
+        let rows = ["inverse", "simulation"].map(|kind| ("s", row(kind, "default")));
+        let points = join(&host, &rows).expect("complete");
         assert_eq!((points[0].cycles, points[0].cycles_mean), (20, 12.5));
         assert_eq!((&*points[0].key, points[0].on("opt")), ("opt=s", "s"));
         assert!(points[0].front);
         // A thousand steps make a second.
         assert_eq!((points[1].cycles, points[1].front), (20_000, false));
-        assert!(join(&host, &[("3", vec![row("inverse", "trig=new")])]).is_err());
+        assert!(join(&host, &[("3", row("inverse", "trig=new"))]).is_err());
         assert!(Host::read("{").is_err());
     }
 

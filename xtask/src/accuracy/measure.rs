@@ -1,25 +1,25 @@
 //! Builds and runs: bins in QEMU for costs, a bin on the host for errors.
 
+use std::path::PathBuf;
+
 use super::join::{self, Host};
 use super::point::Point;
-use super::progress::Progress;
+use super::printed::{self, PRINTED};
 use crate::costs::{self, Row};
 use crate::error::{Error, Result};
 use crate::firmware;
+use crate::progress::Spinner;
 use crate::setup::Tools;
 use crate::shell;
 use crate::toolchain::{RELEASE, SMALL, TINY};
 use crate::workspace::Workspace;
 
-pub const FEATURE: &str = "accuracy";
+const FEATURE: &str = "accuracy";
+/// The bin on the host.
 const HOST_BIN: &str = "accuracy";
-const QUICK_HOST_BIN: &str = "accuracy_quick";
-
-/// The bin with a dozen ways of each robot.
+/// The bins, here and there, with a dozen ways of each robot.
 const QUICK_BIN: &str = "accuracy_quick";
 const SIMULATION_BIN: &str = "accuracy_simulation";
-/// What the firmware calls ways as they are printed.
-const PASTED: &str = "pasted";
 /// What the host calls the simulations.
 const SIMULATION: &str = "simulation";
 
@@ -42,33 +42,24 @@ impl Robot {
     /// Those that are simulated.
     pub const SIMULATED: [Self; 2] = [Self::DoublePendulum, Self::Ur5e];
 
+    /// Its name in rows, lines and files, and in print; its bin, if torques are computed.
+    fn names(self) -> (&'static str, &'static str, Option<&'static str>) {
+        match self {
+            Self::Ur5e => ("ur5e", "UR5e", Some("accuracy_ur5e")),
+            Self::Panda => ("panda", "Panda", Some("accuracy_panda")),
+            Self::A1Leg => ("a1_leg", "leg of the A1", Some("accuracy_leg")),
+            Self::DoublePendulum => ("double_pendulum", "double pendulum", None),
+        }
+    }
+
     /// Its name in rows, lines and files.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Ur5e => "ur5e",
-            Self::Panda => "panda",
-            Self::A1Leg => "a1_leg",
-            Self::DoublePendulum => "double_pendulum",
-        }
+        self.names().0
     }
 
     /// Its name in print.
     pub fn title(self) -> &'static str {
-        match self {
-            Self::Ur5e => "UR5e",
-            Self::Panda => "Panda",
-            Self::A1Leg => "leg of the A1",
-            Self::DoublePendulum => "double pendulum",
-        }
-    }
-
-    fn bin(self) -> Option<&'static str> {
-        match self {
-            Self::Ur5e => Some("accuracy_ur5e"),
-            Self::Panda => Some("accuracy_panda"),
-            Self::A1Leg => Some("accuracy_leg"),
-            Self::DoublePendulum => None,
-        }
+        self.names().1
     }
 }
 
@@ -84,6 +75,9 @@ pub struct Plan {
     pub simulation: bool,
 }
 
+/// A row with its bin and opt-level.
+type Bin = (&'static str, &'static str, Row);
+
 /// What came out.
 pub struct Measured {
     /// All configurations of a run that is not quick.
@@ -98,102 +92,55 @@ pub struct Measured {
     pub rustc: String,
 }
 
-/// Bins that are built with a profile, side by side.
-struct Batch {
-    opt: &'static str,
-    profile: &'static str,
-    bins: Vec<&'static str>,
-}
-
-/// What takes how long on two idle cores, s: the bar learns from these how much is left.
-const BUILD: f64 = 90.0;
-const HOST: f64 = 150.0;
-const RUN: f64 = 3.0;
-
 impl Plan {
-    fn wants(&self, robots: &[Robot]) -> bool {
-        robots.iter().any(|robot| self.robots.contains(robot))
-    }
-
     fn simulates(&self) -> bool {
-        self.simulation && !self.quick && self.wants(&Robot::SIMULATED)
+        let mut simulated = Robot::SIMULATED.iter();
+        self.simulation && !self.quick && simulated.any(|robot| self.robots.contains(robot))
     }
 
-    fn batches(&self) -> Vec<Batch> {
-        let chosen = self.robots.iter().filter_map(|robot| robot.bin());
-        let mut bins: Vec<_> = chosen.filter(|_| self.inverse).collect();
-        if self.quick && !bins.is_empty() {
-            bins = vec![QUICK_BIN];
-        }
-        let others = [("s", SMALL), ("z", TINY)].map(|(opt, profile)| Batch {
-            opt,
-            profile,
-            bins: bins.clone(),
-        });
+    /// Opt-levels, their profiles and the bins that are built with them.
+    fn batches(&self) -> Vec<(&'static str, &'static str, Vec<&'static str>)> {
+        let chosen = self.robots.iter().filter_map(|robot| robot.names().2);
+        let all: Vec<_> = chosen.filter(|_| self.inverse && !self.quick).collect();
+        let mut first = all.clone();
         // In every run, so that what is written here is what the tests measure.
-        if !self.quick && self.inverse {
-            bins.push(QUICK_BIN);
-        }
+        first.extend(self.inverse.then_some(QUICK_BIN));
         // Simulations are no code for a controller: their size is nobody's concern.
-        bins.extend(self.simulates().then_some(SIMULATION_BIN));
-        let first = Batch {
-            opt: "3",
-            profile: RELEASE,
-            bins,
-        };
-        let others = others.into_iter().filter(|_| !self.quick);
-        let batches = [first].into_iter().chain(others);
-        batches.filter(|batch| !batch.bins.is_empty()).collect()
+        first.extend(self.simulates().then_some(SIMULATION_BIN));
+        let batches = [
+            ("3", RELEASE, first),
+            ("s", SMALL, all.clone()),
+            ("z", TINY, all),
+        ];
+        batches
+            .into_iter()
+            .filter(|(_, _, bins)| !bins.is_empty())
+            .collect()
     }
 
     /// Builds and runs it all, for host and target side by side.
     pub fn run(&self, workspace: &Workspace, tools: &Tools) -> Result<Measured> {
-        std::thread::scope(|scope| {
-            let host = scope.spawn(|| self.errors(workspace));
-            self.costs(workspace, tools, || {
-                host.join()
-                    .unwrap_or_else(|_| Err(Error::check("the host's errors were not computed")))
-            })
-        })
-    }
-
-    /// Builds and runs bins on the target, and joins them with what the host says.
-    fn costs(
-        &self,
-        workspace: &Workspace,
-        tools: &Tools,
-        host_lines: impl FnOnce() -> Result<String>,
-    ) -> Result<Measured> {
-        let batches = self.batches();
-        let bins = batches.iter().map(|batch| batch.bins.len()).sum::<usize>();
-        let host = if self.quick { HOST / 5.0 } else { HOST };
-        let bar = Progress::new(host + bins as f64 * (BUILD / 2.0 + RUN));
-        bar.step("building the cycle meter", 0.0);
-        let meter = firmware::build_meter(workspace)?;
-        let (mut measured, mut single, mut pasted) = (Vec::new(), Vec::new(), Vec::new());
-        for Batch { opt, profile, bins } in batches {
-            bar.step(
-                &format!("building {} (opt-level {opt})", bins.join(", ")),
-                bins.len() as f64 * BUILD / 2.0,
-            );
-            let elves =
-                firmware::build_featured(workspace, tools.toolchain, profile, FEATURE, &bins)?;
-            for (bin, elf) in bins.into_iter().zip(elves) {
-                bar.step(&format!("running {bin} (opt-level {opt}) in QEMU"), RUN);
-                let mut rows = costs::run_for_time(tools, &meter, bin, &elf)?;
-                rows.retain(|row| self.covers(row));
-                if bin == QUICK_BIN {
-                    pasted.extend(rows.extract_if(.., |row| row.algorithm == PASTED));
-                    single.push((opt, rows));
-                } else {
-                    measured.push((opt, rows));
-                }
-            }
-        }
-        bar.step("computing errors on the host", host);
-        let host = Host::read(&host_lines()?)?;
+        let printed = printed::write(workspace)?;
+        let (rows, lines) = std::thread::scope(|scope| {
+            let host = scope.spawn(|| self.errors(workspace, &printed));
+            let rows = self.costs(workspace, tools, &printed);
+            let lost = |_| Err(Error::check("the host's errors were not computed"));
+            (rows, host.join().unwrap_or_else(lost))
+        });
+        let (mut measured, host) = (rows?, Host::read(&lines?)?);
+        let pasted = |(_, _, row): &mut Bin| row.algorithm == printed::ALGORITHM;
+        let pasted = measured
+            .extract_if(.., pasted)
+            .map(|(_, _, row)| row)
+            .collect();
+        let single = measured.extract_if(.., |(bin, ..)| *bin == QUICK_BIN);
+        let single: Vec<_> = single.map(|(_, opt, row)| (opt, row)).collect();
+        let points: Vec<_> = measured
+            .into_iter()
+            .map(|(_, opt, row)| (opt, row))
+            .collect();
         Ok(Measured {
-            points: join::join(&host, &measured)?,
+            points: join::join(&host, &points)?,
             single: join::join(&host, &single)?,
             host,
             pasted,
@@ -201,21 +148,43 @@ impl Plan {
         })
     }
 
-    fn covers(&self, row: &Row) -> bool {
-        self.robots.iter().any(|robot| robot.name() == row.robot)
+    /// What the target runs of these robots.
+    fn costs(&self, workspace: &Workspace, tools: &Tools, printed: &PathBuf) -> Result<Vec<Bin>> {
+        let spinner = Spinner::start("building the cycle meter");
+        let meter = firmware::build_meter(workspace)?;
+        let mut all = Vec::new();
+        for (opt, profile, bins) in self.batches() {
+            spinner.line(&format!("building {} (opt-level {opt})", bins.join(", ")));
+            let mut command = tools.toolchain.firmware(workspace, "build");
+            command
+                .env(PRINTED, printed)
+                .args(["--profile", profile, "--features", FEATURE]);
+            shell::cargo(command.args(bins.iter().flat_map(|bin| ["--bin", bin])))?;
+            for bin in bins {
+                spinner.say(format!("running {bin} (opt-level {opt}) in QEMU"));
+                let elf = tools.toolchain.elf(workspace, profile, bin);
+                let mut rows = costs::run_for_time(tools, &meter, bin, &elf)?;
+                rows.retain(|row| self.robots.iter().any(|robot| robot.name() == row.robot));
+                all.extend(rows.into_iter().map(|row| (bin, opt, row)));
+            }
+        }
+        Ok(all)
     }
 
     /// What the host prints of these robots.
-    fn errors(&self, workspace: &Workspace) -> Result<String> {
-        let mut command = workspace.cargo("run");
+    fn errors(&self, workspace: &Workspace, printed: &PathBuf) -> Result<String> {
         // Not for speed: to build it with optimisation across crates takes longer than it runs.
-        command.args(["--quiet", "--package", "host-reports"]);
-        let bin = if self.quick { QUICK_HOST_BIN } else { HOST_BIN };
+        let mut command = workspace.cargo("run");
+        let bin = if self.quick { QUICK_BIN } else { HOST_BIN };
+        command
+            .env(PRINTED, printed)
+            .args(["--quiet", "--package", "host-reports"]);
         command.args(["--features", FEATURE, "--bin", bin, "--"]);
-        let computed = self.robots.iter().filter(|robot| robot.bin().is_some());
-        if self.inverse {
-            command.args(computed.map(|robot| robot.name()));
-        }
+        let computed = self
+            .robots
+            .iter()
+            .filter(|robot| self.inverse && robot.names().2.is_some());
+        command.args(computed.map(|robot| robot.name()));
         if self.simulates() {
             command.arg(SIMULATION);
         }

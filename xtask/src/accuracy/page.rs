@@ -1,25 +1,53 @@
-//! docs/accuracy.md: fronts in words, what single choices cost, yardsticks.
+//! docs/accuracy.md: fronts, what single choices cost, yardsticks, simulations; and the README's few lines.
 
-use super::asides::{compliant, every, joints, oracle, speeds, yardsticks};
-use super::bars;
 use super::front;
-use super::join::Host;
+use super::join::{Host, Line};
 use super::measure::Robot;
-use super::picture::{Scene, svg};
-use super::point::{Kind, Point};
-use super::words::{cycles, digits, glossary, name};
+use super::plot;
+use super::point::{Kind, Point, of_group};
+use super::words::{cycles, digits, glossary, name, stated};
 use crate::docs::Page;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::report::MODEL;
 use crate::table::{Table, thousands};
 
 pub const FILE: &str = "docs/accuracy.md";
 pub const COMMAND: &str = "cargo xtask accuracy";
 
+/// A part of a page that the command writes.
+const fn part(file: &'static str, name: &'static str) -> Page {
+    let command = COMMAND;
+    Page {
+        file,
+        name,
+        command,
+    }
+}
+
+/// Single changes, which CI compares with a quick run.
+pub const SINGLES: Page = part(FILE, "accuracy-single");
+/// The few of them that the README shows.
+pub const README: Page = part("README.md", "accuracy");
+
+/// What the bins `accuracy_quick` run; first what the README shows.
+const SINGLE: &str = "default trig=table model=pruned1000 rate=10,between=linearised model=no_coriolis model=gravity \
+                      trig=minimax5 trig=minimax3 trig=minimax7 trig=incremental model=params8 rate=10 \
+                      rate=10,between=interpolated trig=table3x4,form=core";
+
+/// Whether a point is one of the first so many of them.
+pub fn is_single(point: &Point, most: usize) -> bool {
+    SINGLE.split(' ').take(most).any(|key| key == point.key)
+}
+
 /// A step of a front is at least so much more accurate than the one before it: others are there, but not worth a word.
 const STEP: f64 = 0.8;
 
-/// The part of the page about a robot's torques.
+/// The error that hardly matters, as a share of full scale, and what a point of the front may cost of the default at it:
+/// its worst tick, its mean.
+const ERROR: f64 = 1e-3;
+const MOST: [f64; 2] = [0.85, 0.6];
+
+/// The part of the page about a robot's torques, or about the simulations.
 pub fn page_of(robot: Robot) -> Page {
     let name = match robot {
         Robot::Ur5e => "accuracy-ur5e",
@@ -27,11 +55,22 @@ pub fn page_of(robot: Robot) -> Page {
         Robot::A1Leg => "accuracy-a1_leg",
         Robot::DoublePendulum => "accuracy-simulation",
     };
-    Page {
-        file: FILE,
-        name,
-        command: COMMAND,
+    part(FILE, name)
+}
+
+/// The pictures of that part: file and SVG.
+pub fn pictures(points: &[Point], host: &Host, robot: Robot) -> Result<Vec<(String, String)>> {
+    let file = format!("docs/{}", page_of(robot).name);
+    if robot == Robot::DoublePendulum {
+        return Ok(vec![(file + ".svg", plot::simulations(points)?)]);
     }
+    let own = of_group(points, (robot.name(), Kind::Inverse, "rigid"));
+    let front = plot::front(robot, &own, &host.yardsticks)?;
+    let all = plot::all(robot, &own)?;
+    Ok(vec![
+        (format!("{file}.svg"), front),
+        (format!("{file}-all.svg"), all),
+    ])
 }
 
 /// The points of a front, from the cheapest on, each much more accurate than the one before; the default in any case.
@@ -48,151 +87,319 @@ pub fn steps<'a>(points: &[&'a Point], cost: usize) -> Vec<&'a Point> {
     steps
 }
 
-/// A robot's ways, of rigid joints or of those that give way.
-pub fn ways<'a>(points: &'a [Point], robot: Robot, plant: &str) -> Vec<&'a Point> {
-    let of = |point: &&Point| {
-        point.kind == Kind::Inverse && point.robot == robot.name() && point.on("plant") == plant
-    };
-    points.iter().filter(of).collect()
-}
-
-/// The file of the picture of a robot's torques, or of the simulations.
-pub fn picture(robot: Robot) -> String {
-    format!("docs/{}.svg", page_of(robot).name)
-}
-
-/// The picture of a robot's torques.
-pub fn drawn(points: &[Point], host: &Host, robot: Robot) -> Result<String> {
-    let all = host.yardsticks.iter();
-    svg(&Scene {
-        title: robot.title(),
-        points: ways(points, robot, "rigid"),
-        yardsticks: all.filter(|it| it.robot == robot.name()).collect(),
-    })
-}
-
-/// The text about a robot's torques.
-pub fn text(points: &[Point], host: &Host, robot: Robot, rustc: &str) -> String {
-    let rigid = ways(points, robot, "rigid");
-    let mut text = format!(
-        "![Error against cycles of every way to compute torques of the {}](accuracy-{}.svg)\n\n\
-         {} configurations, of which {} are on the front; full scale is {} N·m. {MODEL}.\n\n",
-        robot.title(),
-        robot.name(),
-        rigid.len(),
-        rigid.iter().filter(|point| point.front).count(),
-        digits(rigid.first().map_or(0.0, |point| point.full_scale)),
-    );
-    text += &oracle(host, robot);
-    text += &on_default(&rigid);
-    text += &bars::told(&rigid);
-    let heads = [
-        "### The worst tick: what each step costs and gives up",
-        "### The mean over ticks: what each step costs and gives up",
-    ];
-    for (cost, head) in heads.into_iter().enumerate() {
-        let shown = shown(&rigid, cost);
-        text += &format!("{head}\n\n{}\n", steps_table(&rigid, &shown).markdown());
-        text += &format!("{}\n", glossary(&shown));
-    }
-    text += &every(&rigid);
-    text += &joints(&rigid);
-    text += &speeds(host, robot);
-    text += &compliant(&ways(points, robot, "compliant"));
-    let own = host.yardsticks.iter();
-    let own: Vec<_> = own.filter(|it| it.robot == robot.name()).collect();
-    text += &format!(
-        "### Where accuracy stops mattering\n\n{}",
-        yardsticks(&own).markdown()
-    );
-    text += &format!("\nMeasured with {}.\n", rustc);
-    text
-}
-
-/// The steps of a front; by the mean, those that are not on the other front already.
-pub fn shown<'a>(points: &[&'a Point], cost: usize) -> Vec<&'a Point> {
-    let mut shown = steps(points, cost);
-    shown.retain(|point| cost == 0 || !point.fronts[0] || point.is_default());
-    // The default is told even where a front passes it by.
-    if !shown.iter().any(|point| point.is_default()) {
-        shown.extend(points.iter().filter(|point| point.is_default()));
-        shown.sort_by(|a, b| a.costs()[cost].total_cmp(&b.costs()[cost]));
-    }
-    shown
-}
-
-/// Where the default stands.
-fn on_default(rigid: &[&Point]) -> String {
-    let Some(default) = rigid.iter().find(|point| point.is_default()) else {
-        return String::new();
-    };
-    let anywhere = default.anywhere.map_or_else(String::new, |share| {
-        format!(
-            "; over all states anywhere it is within {} of full scale",
-            digits(share)
-        )
-    });
-    let mut text = format!(
-        "The default takes {} cycles and is off by up to {} N·m along the robot's way{anywhere}. ",
-        thousands(default.cycles),
-        digits(default.error())
-    );
-    let better = rigid
-        .iter()
-        .filter(|p| p.cycles < default.cycles && p.error() <= 1.05 * default.error());
-    text += &match better.min_by_key(|point| point.cycles) {
-        Some(better) => format!(
-            "As accurate (to 5 %) for less is *{}*, {} cycles, on a memory without wait states, as modelled here.\n\n",
-            name(better),
-            thousands(better.cycles)
-        ),
-        None => "Nothing as accurate costs less.\n\n".into(),
-    };
-    text
-}
-
-fn share(part: f64, whole: f64) -> String {
-    let ratio = part / whole;
-    if ratio < 9.95 {
-        format!("{:.0} %", 100.0 * ratio)
-    } else {
-        format!("{ratio:.0} ×")
-    }
-}
-
-/// Of each step the cost, its share of the default's, and errors.
-fn steps_table(points: &[&Point], shown: &[&Point]) -> Table {
-    let mut table = Table::new(&[
-        "configuration",
-        "worst tick",
-        "of default's",
-        "mean",
-        "of default's",
-        "max, N·m",
-        "99 %",
-        "RMS",
-        "of full scale",
-    ]);
+/// These points, a row each, with these of the columns below.
+fn table(points: &[&Point], first: &str, columns: &[(usize, &str)]) -> Table {
     let default = points.iter().find(|point| point.is_default());
-    let of_default = |of: usize, point: &Point| {
-        default.map_or_else(
-            || "–".into(),
-            |default| share(point.costs()[of], default.costs()[of]),
-        )
-    };
-    for point in shown {
-        let error = |x: Option<f64>| x.map_or_else(|| "–".into(), digits);
-        table.row([
-            name(point),
+    let heads: Vec<&str> = columns.iter().map(|column| column.1).collect();
+    let mut table = Table::new(&[&[first], &heads[..]].concat());
+    for point in points {
+        let share = |cost: usize| {
+            let ratio = default.map(|default| point.costs()[cost] / default.costs()[cost]);
+            ratio.map_or_else(String::new, percent)
+        };
+        let step = 1e-6 * point.on("step").parse().unwrap_or(1.0);
+        let [max, p99, rms, relative] = point.errors().map(stated);
+        let cells = [
+            thousands(point.instructions),
             thousands(point.cycles),
-            of_default(0, point),
+            share(0),
             cycles(point.cycles_mean),
-            of_default(1, point),
-            error(point.error_max),
-            error(point.error_p99),
-            error(point.error_rms),
-            error(point.relative_max),
-        ]);
+            share(1),
+            max,
+            p99,
+            rms,
+            relative,
+            cycles(point.cycles as f64 * step),
+            stated(point.drift),
+        ];
+        let robot = if first.starts_with("robot") {
+            format!("{} ", point.robot)
+        } else {
+            String::new()
+        };
+        let row = columns.iter().map(|column| cells[column.0].clone());
+        table.row([robot + &name(point)].into_iter().chain(row));
     }
     table
+}
+
+fn percent(ratio: f64) -> String {
+    if ratio < 9.95 {
+        return format!("{:.0} %", 100.0 * ratio);
+    }
+    format!("{ratio:.0} ×")
+}
+
+type Columns<'a> = [(usize, &'a str)];
+const COSTS: &Columns<'_> = &[(0, "insn"), (1, "worst tick"), (3, "mean")];
+const ERRORS: &Columns<'_> = &[
+    (5, "max, N·m"),
+    (6, "99 %"),
+    (7, "RMS"),
+    (8, "of full scale"),
+];
+const SHARES: &Columns<'_> = &[
+    (1, "worst tick"),
+    (2, "of default's"),
+    (3, "mean"),
+    (4, "of default's"),
+];
+const BRIEF: &Columns<'_> = &[
+    (1, "worst tick, cycles"),
+    (3, "mean"),
+    (5, "largest error, N·m"),
+    (8, "of full scale"),
+];
+const STEPS: &Columns<'_> = &[
+    (1, "cycles a second"),
+    (9, "a step"),
+    (5, "max, rad"),
+    (6, "99 %"),
+    (7, "RMS"),
+    (10, "energy drift"),
+];
+
+/// The fronts, for a terminal.
+pub fn terminal(points: &[Point]) -> String {
+    let on: Vec<&Point> = points.iter().filter(|point| point.front).collect();
+    table(
+        &on,
+        "robot, configuration",
+        &[COSTS, &[(5, "max error"), (8, "of full scale")]].concat(),
+    )
+    .text()
+}
+
+/// Single changes to the default.
+pub fn singles(points: &[Point], rustc: &str) -> String {
+    let few: Vec<&Point> = points
+        .iter()
+        .filter(|point| is_single(point, usize::MAX))
+        .collect();
+    let table = table(&few, "robot, what is changed", &[COSTS, ERRORS].concat());
+    format!("{}\nMeasured with {rustc}.", table.markdown())
+}
+
+/// The README's.
+pub fn brief(points: &[Point], rustc: &str) -> String {
+    let mut few = of_group(points, ("ur5e", Kind::Inverse, "rigid"));
+    few.retain(|point| is_single(point, 6));
+    few.sort_by(|a, b| a.error().total_cmp(&b.error()));
+    format!(
+        "{}\nMeasured with {rustc}.",
+        table(&few, "UR5e", BRIEF).markdown()
+    )
+}
+
+/// The text about a robot's torques, or about simulations.
+pub fn text(points: &[Point], host: &Host, robot: Robot, rustc: &str) -> String {
+    let text = match robot {
+        Robot::DoublePendulum => simulations(points),
+        _ => torques(points, host, robot),
+    };
+    format!("{text}Measured with {rustc}.\n")
+}
+
+fn torques(points: &[Point], host: &Host, robot: Robot) -> String {
+    let rigid = of_group(points, (robot.name(), Kind::Inverse, "rigid"));
+    let own = |line: &&Line| line.robot == robot.name();
+    let (title, part) = (robot.title(), page_of(robot).name);
+    let mut text = format!(
+        "![Front of error against cycles of inverse dynamics of the {title}]({part}.svg)\n\n{} configurations, of which {} \
+         are on a front ([picture of all]({part}-all.svg)); {MODEL}.\n\n",
+        rigid.len(),
+        rigid.iter().filter(|point| point.front).count(),
+    );
+    for line in host.oracles.iter().filter(own) {
+        text += &format!(
+            "Full scale is {} N·m. The f64 that errors are measured from is off by at most {} of it from Pinocchio {} on \
+             {} states, and by at most {} from 50 digits on {}. Over all states anywhere the default is within {} of it.\n\n",
+            digits(line.full_scale),
+            stated(line.relative_max),
+            line.pinocchio,
+            line.states,
+            digits(line.from_50_digits),
+            line.sample,
+            stated(host.anywhere(robot.name()))
+        );
+    }
+    if let Some([(worst, worst_share), (mean, mean_share)]) = cheapest(&rigid) {
+        text += &format!(
+            "Within {} of full scale, the cheapest worst tick is {} of the default's (*{}*) and the cheapest mean {} \
+             (*{}*).\n\n",
+            digits(ERROR),
+            percent(worst_share),
+            name(worst),
+            percent(mean_share),
+            name(mean)
+        );
+    }
+    for (cost, which) in ["worst tick", "mean over ticks"].into_iter().enumerate() {
+        let mut shown = steps(&rigid, cost);
+        // What is on both fronts stands in the first; the default is shown even where a front passes it by.
+        shown.retain(|point| cost == 0 || !point.fronts[0]);
+        shown.extend(rigid.iter().filter(|point| point.is_default()));
+        shown.sort_by(|a, b| a.costs()[cost].total_cmp(&b.costs()[cost]));
+        shown.dedup_by_key(|point| &point.key);
+        let table = table(&shown, "configuration", &[SHARES, ERRORS].concat()).markdown();
+        text += &format!(
+            "### The {which}: what each step costs and gives up\n\n{table}\n{}\n",
+            glossary(&shown)
+        );
+    }
+    let mut speeds = Table::new(&["joints as fast as, rad/s", "max, N·m", "of full scale"]);
+    for line in host.speeds.iter().filter(own) {
+        speeds.row([
+            digits(line.speed),
+            stated(line.error_max),
+            stated(line.relative_max),
+        ]);
+    }
+    text += &format!(
+        "### Without Coriolis: how slow is slow enough\n\n{}\n",
+        speeds.markdown()
+    );
+    let mut elastic = of_group(points, (robot.name(), Kind::Inverse, "compliant"));
+    elastic.retain(|point| point.on("opt") == "3");
+    if !elastic.is_empty() {
+        let table = table(&elastic, "configuration", &[COSTS, ERRORS].concat()).markdown();
+        text += &format!(
+            "### MotorState' torques on elastic joints, along a smooth swing\n\n{table}\n"
+        );
+    }
+    let mut off = Table::new(&["what is off", "max, N·m", "99 %", "RMS", "of full scale"]);
+    for line in host.yardsticks.iter().filter(own) {
+        off.row(
+            [line.what.clone()]
+                .into_iter()
+                .chain(line.errors().map(stated)),
+        );
+    }
+    text + &format!("### Where accuracy stops mattering\n\n{}\n", off.markdown())
+}
+
+/// The cheapest within [`ERROR`], by the worst tick and by the mean, each with its share of the default's cost.
+fn cheapest<'a>(points: &[&'a Point]) -> Option<[(&'a Point, f64); 2]> {
+    let default = points.iter().find(|point| point.is_default())?;
+    let of = |cost: usize| {
+        let within = |point: &&Point| point.relative_max.is_some_and(|share| share <= ERROR);
+        let point = front::front(points, cost).into_iter().find(within)?;
+        Some((point, point.costs()[cost] / default.costs()[cost]))
+    };
+    Some([of(0)?, of(1)?])
+}
+
+/// Fails unless an error that hardly matters saves as much as was promised; else says how much.
+pub fn check_bars(points: &[&Point]) -> Result<String> {
+    let none = || Error::check("nothing on the front is within the bar's error");
+    let [worst, mean] = cheapest(points).ok_or_else(none)?.map(|(_, share)| share);
+    let saved = format!("{worst:.3} of the worst tick, {mean:.3} of the mean");
+    if worst > MOST[0] || mean > MOST[1] {
+        return Err(Error::check(format!(
+            "bar: within {ERROR} of full scale, the cheapest takes {saved} of the default's; at most {MOST:?}"
+        )));
+    }
+    Ok(saved)
+}
+
+/// Robots and scenes in the order of the page and of its picture.
+pub const SCENES: [(Robot, &str, &str); 4] = [
+    (Robot::DoublePendulum, "free", "A double pendulum, let go"),
+    (
+        Robot::DoublePendulum,
+        "damped",
+        "A double pendulum with viscous friction, stiff at one joint",
+    ),
+    (Robot::Ur5e, "free", "The UR5e, let go"),
+    (Robot::Ur5e, "damped", "The UR5e with viscous friction"),
+];
+
+fn simulations(points: &[Point]) -> String {
+    let mut text = format!(
+        "![Errors against cycles of integrators over their lengths of step](accuracy-simulation.svg)\n\n\
+         Cycles are those of as many steps as make a simulated second; trajectory errors are over its first second, \
+         energy drift over five, a second, as a share of the largest kinetic energy. {MODEL}.\n\n"
+    );
+    let mut all = Vec::new();
+    for (robot, scene, title) in SCENES {
+        let steps = steps(
+            &of_group(points, (robot.name(), Kind::Simulation, scene)),
+            0,
+        );
+        text += &format!(
+            "### {title}\n\n{}\n",
+            table(&steps, "configuration", STEPS).markdown()
+        );
+        all.extend(steps);
+    }
+    text + &glossary(&all) + "\n"
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::front::{mark, tests::point};
+    use super::super::point::Point;
+    use super::super::recorded;
+    use super::{COMMAND, FILE, Host, Robot, check_bars, page_of, text};
+    use crate::docs::{self, repository::root};
+
+    #[test]
+    fn the_bars_are_of_the_default() {
+        let mut points = [
+            point("default", 1e-6, 1000, 1000.0),
+            point("trig=table", 1e-4, 800, 800.0),
+            point("rate=10", 5e-4, 1200, 500.0),
+            point("model=gravity", 1.0, 100, 100.0),
+        ];
+        for point in &mut points {
+            point.relative_max = point.error_max;
+        }
+        mark(&mut points);
+        let all: Vec<&Point> = points.iter().collect();
+        assert_eq!(
+            check_bars(&all).expect("met"),
+            "0.800 of the worst tick, 0.500 of the mean"
+        );
+        assert!(check_bars(&all[..2]).is_err());
+    }
+
+    /// The lines of a text, without what a table pads them with.
+    fn lines(text: &str) -> Vec<String> {
+        let words = text
+            .lines()
+            .map(|line| line.split_whitespace().collect::<Vec<_>>().join(" "));
+        words
+            .filter(|line| !line.is_empty() && !line.starts_with("| --"))
+            .collect()
+    }
+
+    /// The lines that recorded points make, without the host's errors, and that a page lacks.
+    fn lacking(page: &str, points: &[Point]) -> Vec<String> {
+        let mut lacking = Vec::new();
+        for robot in Robot::ALL {
+            let written = page_of(robot).written(page).expect("markers");
+            let rustc = docs::rustc_of(written).expect("a compiler");
+            let fresh = lines(&text(points, &Host::default(), robot, rustc));
+            let written = lines(written);
+            lacking.extend(fresh.into_iter().filter(|line| !written.contains(line)));
+        }
+        lacking
+    }
+
+    #[test]
+    fn the_page_has_every_line_that_is_recorded() {
+        let read = |file: &str| std::fs::read_to_string(root().join(file)).expect("it is there");
+        let page = read(FILE);
+        let mut points: Vec<Point> = serde_json::from_str(&read(recorded::FILE)).expect("points");
+        mark(&mut points);
+        let nothing: [String; 0] = [];
+        assert_eq!(
+            lacking(&page, &points),
+            nothing,
+            "`{COMMAND}` rewrites {FILE}"
+        );
+        let default = points.iter_mut().find(|point| point.is_default());
+        default.expect("a default").cycles += 1;
+        assert!(!lacking(&page, &points).is_empty());
+    }
 }

@@ -14,14 +14,6 @@ pub enum Kind {
     Simulation,
 }
 
-/// Largest, root mean square and 99th percentile of |error|, over all joints or of one.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
-pub struct Errors {
-    pub max: f64,
-    pub rms: f64,
-    pub p99: f64,
-}
-
 /// A configuration of a robot: one in the JSON that `--json` prints.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Point {
@@ -37,7 +29,7 @@ pub struct Point {
     pub cycles: u64,
     /// Modelled cycles of a call in the mean, over a whole period where calls take turns.
     pub cycles_mean: f64,
-    /// None has left the robot's range.
+    /// The largest |error| of any joint; none if the robot has left its range.
     pub error_max: Option<f64>,
     /// Root mean square.
     pub error_rms: Option<f64>,
@@ -54,15 +46,6 @@ pub struct Point {
     pub fronts: [bool; 2],
     /// Axes that are not the default's, as one word.
     pub key: String,
-    /// Of what errors are shares.
-    #[serde(skip)]
-    pub full_scale: f64,
-    /// Joint by joint; of what is recorded, only where a page shows it.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub joints: Vec<Errors>,
-    /// Largest error over states anywhere, as a share of full scale.
-    #[serde(skip)]
-    pub anywhere: Option<f64>,
     /// Largest change of the energy in a simulated second, as a share of the largest kinetic energy.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub drift: Option<f64>,
@@ -88,6 +71,16 @@ impl Point {
         self.error_max.unwrap_or(f64::INFINITY)
     }
 
+    /// All that is said of its errors.
+    pub fn errors(&self) -> [Option<f64>; 4] {
+        [
+            self.error_max,
+            self.error_p99,
+            self.error_rms,
+            self.relative_max,
+        ]
+    }
+
     /// What it costs: the worst tick, the mean.
     pub fn costs(&self) -> [f64; 2] {
         [self.cycles as f64, self.cycles_mean]
@@ -99,35 +92,10 @@ impl Point {
     }
 }
 
-/// An error that nothing computed makes: of a sensor, of a parameter.
-#[derive(Clone, Debug, Deserialize)]
-pub struct Yardstick {
-    /// The robot's name.
-    pub robot: String,
-    /// Its own name.
-    pub key: String,
-    /// What is off.
-    #[serde(default)]
-    pub what: String,
-    /// N·m.
-    pub error_max: f64,
-    /// N·m.
-    pub error_rms: f64,
-    /// N·m.
-    pub error_p99: f64,
-    /// `error_max` as a share of full scale.
-    pub relative_max: f64,
-}
-
-/// What leaving out velocity products loses at a speed of the joints.
-#[derive(Clone, Debug, Deserialize)]
-pub struct Speed {
-    /// The robot's name.
-    pub robot: String,
-    /// rad/s: no joint is faster.
-    pub speed: f64,
-    /// N·m.
-    pub error_max: f64,
-    /// `error_max` as a share of full scale.
-    pub relative_max: f64,
+/// The points of a group.
+pub fn of_group<'a>(points: &'a [Point], group: (&str, Kind, &str)) -> Vec<&'a Point> {
+    points
+        .iter()
+        .filter(|point| point.group() == group)
+        .collect()
 }

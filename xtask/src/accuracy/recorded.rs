@@ -14,13 +14,9 @@ pub const FILE: &str = "docs/accuracy.json";
 /// Recorded figures may be so far from today's, as a share: those of one program, these of another one.
 const CLOSE: f64 = 0.05;
 
-fn path(workspace: &Workspace) -> PathBuf {
-    workspace.root.join(FILE)
-}
-
 /// What is recorded.
 pub fn read(workspace: &Workspace) -> Result<Vec<Point>> {
-    let text = workspace::read(&path(workspace))?;
+    let text = workspace::read(&workspace.root.join(FILE))?;
     let mut points: Vec<Point> = serde_json::from_str(&text)
         .map_err(|e| Error::check(format!("{FILE}: {e}; `{COMMAND}` writes it anew")))?;
     front::mark(&mut points);
@@ -29,23 +25,14 @@ pub fn read(workspace: &Workspace) -> Result<Vec<Point>> {
 
 /// The file with what was measured in the place of what it had of the same.
 pub fn replaced(workspace: &Workspace, measured: &[Point]) -> Result<(PathBuf, String)> {
-    let path = path(workspace);
-    let mut points = if path.exists() {
-        read(workspace)?
-    } else {
-        Vec::new()
-    };
+    let mut points = read(workspace)?;
     points.retain(|old| !measured.iter().any(|new| new.group() == old.group()));
     points.extend_from_slice(measured);
     points.sort_by(|a, b| a.group().cmp(&b.group()));
-    for point in &mut points {
-        if !point.front && !point.is_default() {
-            point.joints.clear();
-        }
-    }
-    let lines: std::result::Result<Vec<String>, _> =
-        points.iter().map(serde_json::to_string).collect();
-    let lines = lines.map_err(|e| Error::check(format!("cannot write {FILE}: {e}")))?;
+    let lines = points.iter().map(serde_json::to_string);
+    let lines: Vec<String> = lines
+        .collect::<std::result::Result<_, _>>()
+        .map_err(|e| Error::check(format!("cannot write {FILE}: {e}")))?;
     Ok((
         workspace.report(FILE),
         format!("[\n{}\n]\n", lines.join(",\n")),
@@ -78,7 +65,7 @@ mod tests {
     use super::check;
 
     #[test]
-    fn what_is_recorded_is_held_against_today() {
+    fn what_is_recorded_is_compared_with_today() {
         let old = [point("default", 1e-6, 1000, 1000.0)];
         assert!(check(&old, &[point("default", 1e-6, 1040, 1040.0)]).is_ok());
         assert!(check(&old, &[point("default", 1e-6, 1100, 1100.0)]).is_err());

@@ -1,30 +1,64 @@
 //! Configurations in plain words.
 
 use super::point::{Kind, Point};
-use super::vocabulary::found;
 use crate::table::thousands;
 
-fn changed(point: &Point) -> impl Iterator<Item = (&str, &str)> {
-    point.key.split(',').filter_map(|axis| axis.split_once('='))
+/// Axis, value, the type of a kernel, name in print, and what it does: see the file, which the firmware shares.
+type Word = (
+    &'static str,
+    &'static str,
+    &'static str,
+    &'static str,
+    &'static str,
+);
+macro_rules! words {
+    ($($axis:ident $value:literal [$($kernel:ty)?] $name:literal, $phrase:literal;)*) => {
+        const WORDS: &[Word] =
+            &[$((stringify!($axis), $value, concat!($(stringify!($kernel))?), $name, $phrase),)*];
+    };
+}
+include!("../../../firmware-demo/src/accuracy/words.rs");
+
+fn found(axis: &str, value: &str) -> Option<&'static Word> {
+    WORDS.iter().find(|word| (word.0, word.1) == (axis, value))
+}
+
+/// The type of a kernel; empty if it is none.
+pub fn kernel(trig: &str) -> &'static str {
+    found("trig", trig).map_or("", |word| word.2)
 }
 
 /// What it is made of that the default is not: names, and what each does.
 fn parts(point: &Point) -> Vec<(String, String)> {
     let mut parts = Vec::new();
-    let owned = |(name, phrase): (&str, &str)| (name.to_owned(), phrase.to_owned());
+    let owned = |word: &Word| (word.3.to_owned(), word.4.to_owned());
     if point.kind == Kind::Simulation {
         parts.extend(found("integrator", point.on("integrator")).map(owned));
-        parts.push((step(point), format!("takes steps of {}", step(point))));
+        let step = match point.on("step").parse::<u64>() {
+            Ok(us) if us >= 1000 => format!("{} ms", us as f64 / 1000.0),
+            _ => format!("{} µs", point.on("step")),
+        };
+        let phrase = format!("takes steps of {step}");
+        parts.push((step, phrase));
     }
-    for (axis, value) in changed(point) {
+    let changed = point.key.split(',').filter_map(|axis| axis.split_once('='));
+    for (axis, value) in changed {
         match (axis, found(axis, value)) {
             ("integrator" | "step" | "scene" | "between", _) => {}
             ("rate", _) => {
-                let between = point.on("between");
-                let name = format!("every {} tick, {between}", nth(value));
-                parts.push((name, every(value, between)));
+                let nth = format!(
+                    "every {value}{} tick",
+                    if value == "2" { "nd" } else { "th" }
+                );
+                let (name, phrase) = found("between", point.on("between"))
+                    .map(owned)
+                    .unwrap_or_default();
+                parts.push((
+                    format!("{nth}, {name}"),
+                    format!("computes in {nth} only and {phrase}"),
+                ));
             }
-            (_, Some(words)) => parts.push(owned(words)),
+            (_, Some(word)) => parts.push(owned(word)),
             (_, None) => parts.push((format!("{axis} {value}"), format!("has {axis} {value}"))),
         }
     }
@@ -35,15 +69,9 @@ fn parts(point: &Point) -> Vec<(String, String)> {
 pub fn name(point: &Point) -> String {
     let names: Vec<String> = parts(point).into_iter().map(|part| part.0).collect();
     if names.is_empty() {
-        return "default".into();
-    }
-    names.join(", ")
-}
-
-fn step(point: &Point) -> String {
-    match point.on("step").parse::<u64>() {
-        Ok(us) if us >= 1000 => format!("{} ms", us as f64 / 1000.0),
-        _ => format!("{} µs", point.on("step")),
+        "default".into()
+    } else {
+        names.join(", ")
     }
 }
 
@@ -52,49 +80,30 @@ const DEFAULT: &str = "The default: the whole rigid-body equation in f32, by the
 
 /// Of all that these are made of, what each does, once.
 pub fn glossary(points: &[&Point]) -> String {
-    let mut told: Vec<(String, String)> = Vec::new();
+    let mut said: Vec<(String, String)> = Vec::new();
     for part in points.iter().flat_map(|point| parts(point)) {
-        if !told.contains(&part) {
-            told.push(part);
+        if !said.contains(&part) && !part.1.starts_with("takes steps") {
+            said.push(part);
         }
     }
-    let mut text: String = told
+    let lines = said
         .into_iter()
-        .map(|(name, phrase)| format!("- **{name}** {phrase}.\n"))
-        .collect();
-    if points.iter().any(|point| point.is_default()) {
-        text += &format!("- {DEFAULT}\n");
-    }
-    text
+        .map(|(name, phrase)| format!("- **{name}** {phrase}.\n"));
+    let default = points
+        .iter()
+        .any(|point| point.is_default())
+        .then(|| format!("- {DEFAULT}\n"));
+    lines.chain(default).collect()
 }
 
 /// What it does that the default does not, as a sentence.
 pub fn sentence(point: &Point) -> String {
     let phrases: Vec<String> = parts(point).into_iter().map(|part| part.1).collect();
-    match phrases.as_slice() {
-        [] => DEFAULT.into(),
-        [phrases @ .., last] if !phrases.is_empty() => {
-            format!("It {}; and {last}.", phrases.join("; "))
-        }
-        [only, ..] => format!("It {only}."),
+    if phrases.is_empty() {
+        DEFAULT.into()
+    } else {
+        format!("It {}.", phrases.join("; and "))
     }
-}
-
-fn every(ticks: &str, between: &str) -> String {
-    let what = match between {
-        "held" => "holds the torque in between, late by up to as many ticks",
-        "extrapolated" => "goes on in between along the line of the last two torques",
-        "interpolated" => {
-            "goes straight from one torque to the next, computed ahead: what is wanted then has to be known that early"
-        }
-        _ => "adds M Δq̈ in between, with M, position and speed as they were then",
-    };
-    format!("computes in every {} tick only and {what}", nth(ticks))
-}
-
-fn nth(ticks: &str) -> String {
-    let ending = if ticks == "2" { "nd" } else { "th" };
-    format!("{ticks}{ending}")
 }
 
 /// Three digits of an error, as people write it.
@@ -107,6 +116,11 @@ pub fn digits(x: f64) -> String {
         return format!("{x:.1e}");
     }
     format!("{x:.*}", (2 - exponent).max(0) as usize)
+}
+
+/// An error that may be none.
+pub fn stated(error: Option<f64>) -> String {
+    error.map_or_else(|| "–".into(), digits)
 }
 
 /// A cost with commas.
@@ -126,23 +140,23 @@ mod tests {
         assert!(sentence(&plain).starts_with("The default"));
         let both = point("trig=table,rate=10,between=linearised", 1.0, 1, 1.0);
         assert_eq!(name(&both), "linear table, every 10th tick, linearised");
-        let told = sentence(&both);
+        let said = sentence(&both);
         assert!(
-            told.starts_with("It interpolates")
-                && told.contains("; and computes in every 10th tick"),
-            "{told}"
+            said.starts_with("It interpolates")
+                && said.contains("; and computes in every 10th tick"),
+            "{said}"
         );
     }
 
     #[test]
-    fn a_glossary_tells_each_word_once() {
+    fn a_glossary_has_each_word_once() {
         let one = point("trig=table", 1.0, 1, 1.0);
         let both = point("trig=table,rate=10,between=linearised", 1.0, 1, 1.0);
-        let told = glossary(&[&one, &both]);
-        assert_eq!(told.matches("**linear table**").count(), 1);
+        let said = glossary(&[&one, &both]);
+        assert_eq!(said.matches("**linear table**").count(), 1);
         assert!(
-            told.contains("- **every 10th tick, linearised** computes in every 10th tick"),
-            "{told}"
+            said.contains("- **every 10th tick, linearised** computes in every 10th tick"),
+            "{said}"
         );
     }
 

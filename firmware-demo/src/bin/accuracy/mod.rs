@@ -1,23 +1,29 @@
-//! What each way to compute a robot's torques costs, between the meter's markers. `cargo xtask accuracy` reads the log:
-//! the rows of `costs`, of the algorithm `inverse`, their inputs the key without form and opt-level. A call is a tick.
+//! What each way to compute a robot's torques, or to simulate it, costs, between the meter's markers. `cargo xtask
+//! accuracy` reads the log: rows as those of `costs`, of the algorithms `inverse` and `simulation`, their inputs the key
+//! without what the target does not know. A call is a tick or a step.
+#![allow(dead_code, reason = "not every bin measures all")]
 
 #[path = "../costs/row.rs"]
 mod row;
 
-use core::fmt::Write;
+use core::fmt::{Display, Write};
 
 use cortex_m_semihosting::debug;
+use dynamics_core::control::Reference;
 use dynamics_core::drivetrain::ElasticReference;
 use dynamics_core::state::State;
-use firmware_demo::accuracy::robots::{Compared, momentary};
-use firmware_demo::accuracy::{Inverse, Visitor};
+use firmware_demo::accuracy::robots::{Compared, Swung, momentary};
+use firmware_demo::accuracy::simulation::{self, LetGo, Simulation};
+use firmware_demo::accuracy::{Inverse, Visitor, list};
 use firmware_demo::target;
 use heapless::String;
-
 use row::Row;
 
 /// Ticks of each way: two periods of the lowest rate.
-pub const TICKS: usize = 40;
+const TICKS: usize = 40;
+
+/// Steps of each way to simulate, and their length in s: short enough for every integrator.
+const STEPS: [f64; 8] = [1e-4; 8];
 
 /// Measures each way that it visits.
 pub struct Priced<const N: usize> {
@@ -25,9 +31,29 @@ pub struct Priced<const N: usize> {
     /// What the log calls them.
     pub algorithm: &'static str,
     /// Anywhere, for ways that remember nothing.
-    pub spread: [ElasticReference<f32, N, N>; TICKS],
+    spread: [ElasticReference<f32, N, N>; TICKS],
     /// One after the other on the robot's way.
-    pub course: [ElasticReference<f32, N, N>; TICKS],
+    course: [ElasticReference<f32, N, N>; TICKS],
+}
+
+/// Runs a row under the key that the host knows it by.
+#[inline(always)]
+fn measure<A, T>(
+    row: Row<'_>,
+    key: impl Display,
+    address: usize,
+    asks: &[A],
+    run: impl FnMut(&A) -> T,
+) {
+    let mut inputs = String::<96>::new();
+    if write!(inputs, "{key}").is_err() {
+        target::fail("a key is too long");
+    }
+    Row {
+        inputs: &inputs,
+        ..row
+    }
+    .measure(address, asks, run);
 }
 
 impl<const N: usize> Visitor<N> for Priced<N> {
@@ -37,21 +63,37 @@ impl<const N: usize> Visitor<N> for Priced<N> {
         } else {
             &self.spread
         };
-        let mut key = String::<96>::new();
-        if write!(key, "{}", W::KEY).is_err() {
-            target::fail("a key is too long");
-        }
-        let row = Row {
-            robot: self.robot,
-            algorithm: self.algorithm,
-            form: W::KEY.form,
-            inputs: &key,
-            trig: true,
-            joints: N,
-        };
         let mut way = W::start(&states[0].state);
         let inputs = states.each_ref().map(W::input);
-        row.measure(W::address(), &inputs, |input| way.tick(input));
+        let row = row(self.robot, self.algorithm, W::KEY.form, N);
+        measure(row, W::KEY, W::address(), &inputs, |input| way.tick(input));
+    }
+}
+
+/// Measures each way to simulate the robot of this name.
+struct Stepped(&'static str);
+
+impl<const N: usize> simulation::Visitor<N> for Stepped {
+    fn simulation<S: Simulation<N>>(&mut self) {
+        let mut run = S::start();
+        let row = row(self.0, "simulation", "engine", N);
+        measure(row, S::KEY, S::address(), &STEPS, |&h| run.step(h));
+    }
+}
+
+fn row(
+    robot: &'static str,
+    algorithm: &'static str,
+    form: &'static str,
+    joints: usize,
+) -> Row<'static> {
+    Row {
+        robot,
+        algorithm,
+        form,
+        inputs: "",
+        trig: true,
+        joints,
     }
 }
 
@@ -61,12 +103,26 @@ pub fn done() -> ! {
     target::leave(debug::EXIT_SUCCESS)
 }
 
-/// Measures every way of the robot T.
-#[allow(dead_code, reason = "not every bin measures all")]
-pub fn rigid<T: Compared<B, N, W>, const B: usize, const N: usize, const W: usize>() -> Priced<N> {
-    let mut priced = states::<T, B, N, W>();
-    T::rigid(&mut priced);
-    priced
+/// Measures every way to simulate the robot T.
+pub fn simulated<T: LetGo<N>, const N: usize>() {
+    simulation::every::<T, N>(&mut Stepped(T::MODEL.name));
+}
+
+/// Measures every way of the arm T, rigid and on joints that give way.
+pub fn arm<T: Compared<N, N, W> + Swung<N>, const N: usize, const W: usize>() -> ! {
+    let Ok(swing) = T::swing() else {
+        target::fail("the robot cannot swing there");
+    };
+    let mut priced = states::<T, N, N, W>();
+    list::inverse::<T, N, N>(&mut priced);
+    let mut tick = swing.ticks() / 8;
+    priced.course = [(); TICKS].map(|()| {
+        tick += 1;
+        swing.course(tick)
+    });
+    priced.spread = priced.course;
+    list::compliant::<T, N>(&mut priced);
+    done()
 }
 
 /// The states of the robot T, for its ways to be measured.

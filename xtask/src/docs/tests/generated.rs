@@ -11,11 +11,14 @@ pub enum Checked {
 }
 
 /// The files: a test holds them against what is there.
-pub const FILES: [(&str, Checked); 18] = [
+pub const FILES: [(&str, Checked); 21] = [
     ("README.md", Checked::Step("readme")),
+    ("docs/accuracy-a1_leg-all.svg", Checked::Step("accuracy")),
     ("docs/accuracy-a1_leg.svg", Checked::Step("accuracy")),
+    ("docs/accuracy-panda-all.svg", Checked::Step("accuracy")),
     ("docs/accuracy-panda.svg", Checked::Step("accuracy")),
     ("docs/accuracy-simulation.svg", Checked::Step("accuracy")),
+    ("docs/accuracy-ur5e-all.svg", Checked::Step("accuracy")),
     ("docs/accuracy-ur5e.svg", Checked::Step("accuracy")),
     ("docs/accuracy.json", Checked::Step("accuracy")),
     ("docs/accuracy.md", Checked::Step("accuracy")),

@@ -1,5 +1,7 @@
 //! Inverse dynamics: errors over states anywhere and along the robot's way.
 
+use std::f64::consts::PI;
+
 use dynamics_core::Core;
 use dynamics_core::control::Reference;
 use dynamics_core::drivetrain::{ElasticReference, elastic_inverse_dynamics};
@@ -8,12 +10,12 @@ use dynamics_core::model::Static;
 use dynamics_core::state::State;
 use firmware_demo::accuracy::robots::{Compared, Swung, momentary};
 use firmware_demo::accuracy::{Inverse, Visitor, list};
-use host_tests::measured::largest;
 use host_tests::random::{random_numbers, within};
-use host_tests::recordings::{Precise, Recording, load, read};
-use serde_json::{Value, json};
+use host_tests::recordings::{Precise, load, read};
+use proptest::test_runner::TestRng;
+use serde_json::json;
 
-use super::statistics::Errors;
+use super::statistics::{Errors, object, widened};
 use super::{speed, yardsticks};
 
 /// States beside those recorded, whose oracle is our f64.
@@ -23,10 +25,10 @@ const MORE_STATES: usize = 2000;
 /// that compute: elsewhere, what rates lose would look too small.
 const REST: u32 = 3;
 
-/// What every way of a robot is held against.
+/// What every way of a robot is compared with.
 pub struct Bench<const N: usize> {
     /// What the lines call them.
-    kind: &'static str,
+    pub kind: &'static str,
     robot: &'static str,
     /// What its joints are: `rigid` or `compliant`.
     plant: &'static str,
@@ -46,74 +48,54 @@ pub struct Asked<const N: usize> {
 impl<const N: usize> Visitor<N> for Bench<N> {
     fn way<W: Inverse<N>>(&mut self) {
         let run = |asked: &[Asked<N>]| {
-            let mut errors = Errors::<N>::new();
             let mut way = W::start(&asked[0].course.state);
-            for (k, Asked { truth, .. }) in asked.iter().enumerate() {
+            Errors::of(asked.iter().enumerate().map(|(k, Asked { truth, .. })| {
                 let given = &asked[(k + W::AHEAD).min(asked.len() - 1)];
-                errors.add(&W::torque(&way.tick(&W::input(&given.course))), truth);
-            }
-            errors.summary(self.full_scale)
+                (W::torque(way.tick(&W::input(&given.course))), *truth)
+            }))
         };
-        let along = run(&self.way);
-        let configuration: serde_json::Map<String, Value> = W::KEY
-            .axes()
-            .map(|(axis, value)| (axis.to_owned(), json!(value)))
-            .into_iter()
-            .collect();
-        let mut line = json!({
-            "robot": self.robot,
-            "kind": self.kind,
+        let states = !W::MEMORY && !self.states.is_empty();
+        let line = json!({
             "plant": self.plant,
             "key": W::KEY.to_string(),
-            "configuration": configuration,
-            "unit": "N·m",
-            "full_scale": self.full_scale,
-            "error_max": largest([along.error_max, self.floor]),
-            "error_rms": largest([along.error_rms, self.floor]),
-            "error_p99": largest([along.error_p99, self.floor]),
-            "relative_max": largest([along.relative_max, self.floor / self.full_scale]),
-            "trajectory": along,
+            "configuration": object(&W::KEY.axes()),
+            "anywhere": states.then(|| run(&self.states).max() / self.full_scale),
         });
-        if !W::MEMORY && !self.states.is_empty() {
-            line["states"] = json!(run(&self.states));
-        }
-        println!("{line}");
+        let scales = [self.full_scale, self.floor];
+        run(&self.way).print(self.robot, self.kind, scales, line);
     }
 }
 
-/// Prints a line for each of these ways of the robot T, and for those that are printed to be pasted.
+/// Random positions, speeds and accelerations within ± these bounds.
+pub fn drawn<const N: usize>(random: &mut TestRng, bounds: [f64; 3]) -> State<f32, N, N> {
+    let [q, qd, qdd] = bounds.map(|bound| within::<N>(random, bound).map(|x| x as f32));
+    State { q, qd, qdd }
+}
+
+/// Prints what everything is compared with, and a line for each of these ways of the robot T.
 pub fn print<T: Compared<B, N, W>, const B: usize, const N: usize, const W: usize>(
     ways: fn(&mut Bench<N>),
 ) {
-    let recording = load(T::RECORDED);
-    let recorded = recorded_states::<N>(&recording);
+    let recorded = recorded_states::<N>(T::RECORDED);
     let full_scale = full_scale(&recorded);
-    let ours = Errors::of(recorded.iter().map(|asked| {
-        let state = widened(&asked.course.state);
-        (Core::<T>::rnea(&state, &RIGID_BODY), asked.truth)
-    }));
-    let ours = ours.summary(full_scale);
+    let ours = |state: &State<f32, N, N>| Core::<T>::rnea(&widened(state), &RIGID_BODY);
+    let off = Errors::of(recorded.iter().map(|it| (ours(&it.course.state), it.truth)));
     let precise: Precise = read("precise");
     let sample = precise.states.iter().zip(precise.rnea(T::RECORDED));
-    let sample = Errors::<N>::of(sample.map(|(&k, tau)| {
-        let state = widened(&recorded[k].course.state);
-        let truth = std::array::from_fn(|j| tau[j]);
-        (Core::<T>::rnea(&state, &RIGID_BODY), truth)
+    let sample = Errors::of(sample.map(|(&k, tau)| {
+        let truth: [f64; N] = std::array::from_fn(|j| tau[j]);
+        (ours(&recorded[k].course.state), truth)
     }));
-    println!(
-        "{}",
-        json!({
-            "robot": T::MODEL.name,
-            "kind": "oracle",
-            "pinocchio": recording.pinocchio,
-            "full_scale": full_scale,
-            "f64_against_recorded": ours,
-            "f64_against_50_digits": sample.summary(full_scale),
-        })
-    );
+    let oracle = json!({
+        "pinocchio": load(T::RECORDED).pinocchio,
+        "states": recorded.len(),
+        "from_50_digits": sample.max() / full_scale,
+        "sample": precise.states.len(),
+    });
+    off.print(T::MODEL.name, "oracle", [full_scale, 0.0], oracle);
     let asked = |state| Asked {
         course: momentary(state),
-        truth: Core::<T>::rnea(&widened(&state), &RIGID_BODY),
+        truth: ours(&state),
     };
     let way = T::way().expect("the robot can go there");
     let ticks = 0..=way.ticks() + REST;
@@ -123,26 +105,16 @@ pub fn print<T: Compared<B, N, W>, const B: usize, const N: usize, const W: usiz
     yardsticks::print::<T, B, N>(full_scale, &way);
     speed::print::<T, B, N>(full_scale);
     let mut random = random_numbers();
-    let more = (0..MORE_STATES).map(|_| {
-        let mut numbers = |bound| within::<N>(&mut random, bound).map(|x| x as f32);
-        asked(State {
-            q: numbers(std::f64::consts::PI),
-            qd: numbers(3.0),
-            qdd: numbers(10.0),
-        })
-    });
-    let mut bench = Bench {
+    let more = (0..MORE_STATES).map(|_| asked(drawn(&mut random, [PI, 3.0, 10.0])));
+    ways(&mut Bench {
         kind: "inverse",
         robot: T::MODEL.name,
         plant: "rigid",
         full_scale,
-        floor: ours.error_max,
+        floor: off.max(),
         states: recorded.into_iter().chain(more).collect(),
         way,
-    };
-    ways(&mut bench);
-    bench.kind = "pasted";
-    T::pasted(&mut bench);
+    });
 }
 
 #[allow(dead_code, reason = "the quick bin has no such joints")]
@@ -159,17 +131,18 @@ where
             jerk: course.jerk.map(f64::from),
             snap: course.snap.map(f64::from),
         };
-        let told = elastic_inverse_dynamics(&Static::<T>::NEW, &T::joints(), &double, &RIGID_BODY);
+        let motors =
+            elastic_inverse_dynamics(&Static::<T>::NEW, &T::joints(), &double, &RIGID_BODY);
         Asked {
             course,
-            truth: told.expect("joints of one freedom").torque,
+            truth: motors.expect("joints of one freedom").torque,
         }
     };
     list::compliant::<T, N>(&mut Bench {
         kind: "inverse",
         robot: T::MODEL.name,
         plant: "compliant",
-        full_scale: full_scale(&recorded_states::<N>(&load(T::RECORDED))),
+        full_scale: full_scale(&recorded_states::<N>(T::RECORDED)),
         floor: 0.0,
         states: Vec::new(),
         way: (0..=swing.ticks()).map(asked).collect(),
@@ -181,26 +154,16 @@ fn full_scale<const N: usize>(recorded: &[Asked<N>]) -> f64 {
     truths.fold(0.0, |most, tau| most.max(tau.abs()))
 }
 
-fn recorded_states<const N: usize>(recording: &Recording) -> Vec<Asked<N>> {
-    let first = |row: &Vec<f64>| -> [f64; N] { std::array::from_fn(|j| row[j]) };
-    let rows = recording.q.iter().zip(&recording.qd).zip(&recording.qdd);
-    rows.zip(&recording.rnea)
-        .map(|(((q, qd), qdd), tau)| Asked {
-            course: momentary(State {
-                q: first(q).map(|x| x as f32),
-                qd: first(qd).map(|x| x as f32),
-                qdd: first(qdd).map(|x| x as f32),
-            }),
-            truth: first(tau),
-        })
-        .collect()
-}
-
-/// The same state in f64.
-pub fn widened<const N: usize>(state: &State<f32, N, N>) -> State<f64, N, N> {
-    State {
-        q: state.q.map(f64::from),
-        qd: state.qd.map(f64::from),
-        qdd: state.qdd.map(f64::from),
-    }
+fn recorded_states<const N: usize>(name: &str) -> Vec<Asked<N>> {
+    let recording = load(name);
+    let first = |rows: &[Vec<f64>], k: usize| -> [f64; N] { std::array::from_fn(|j| rows[k][j]) };
+    let state = |k| {
+        let [q, qd, qdd] = [&recording.q, &recording.qd, &recording.qdd]
+            .map(|rows| first(rows, k).map(|x| x as f32));
+        Asked {
+            course: momentary(State { q, qd, qdd }),
+            truth: first(&recording.rnea, k),
+        }
+    };
+    (0..recording.rnea.len()).map(state).collect()
 }

@@ -4,7 +4,6 @@
 //! | kind of line | what |
 //! |---|---|
 //! | `inverse` | torque errors of a way along the robot's trajectory, and over states anywhere, N·m |
-//! | `pasted` | the same of what `cargo xtask accuracy` prints to be pasted |
 //! | `yardstick` | torque errors that an encoder, parameters and friction leave, N·m |
 //! | `speed` | torque errors of a way that leaves out velocity products, by the joints' speed, N·m |
 //! | `simulation` | trajectory error in the first second, rad, and energy bias_acceleration, J/s, of a way with a length of step, µs |
@@ -13,27 +12,28 @@
 //! Arguments name the robots, and `simulation`; none names all.
 
 mod inverse;
+mod motion;
 mod simulation;
 mod speed;
 mod statistics;
 mod yardsticks;
 
 use dynamics_core::robots::{A1Leg, Panda, Ur5e};
-use firmware_demo::accuracy::robots::Compared;
+use firmware_demo::accuracy::list;
 
 fn main() {
     let asked: Vec<String> = std::env::args().skip(1).collect();
     let wanted = |name: &str| asked.is_empty() || asked.iter().any(|robot| robot == name);
     if wanted("ur5e") {
-        inverse::print::<Ur5e, 6, 6, 9>(Ur5e::rigid);
+        inverse::print::<Ur5e, 6, 6, 9>(list::inverse::<Ur5e, 6, 6>);
         inverse::print_compliant::<Ur5e, 6, 9>();
     }
     if wanted("panda") {
-        inverse::print::<Panda, 7, 7, 7>(Panda::rigid);
+        inverse::print::<Panda, 7, 7, 7>(list::inverse::<Panda, 7, 7>);
         inverse::print_compliant::<Panda, 7, 7>();
     }
     if wanted("a1_leg") {
-        inverse::print::<A1Leg, 4, 3, 7>(A1Leg::rigid);
+        inverse::print::<A1Leg, 4, 3, 7>(list::inverse::<A1Leg, 4, 3>);
     }
     if wanted("simulation") {
         simulation::print();

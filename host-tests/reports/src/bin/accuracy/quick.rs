@@ -1,7 +1,11 @@
-//! The errors of single changes to the default way to compute a torque, and of what is printed to be pasted: what the bin
-//! `accuracy` prints of them, from less to build. Arguments name the robots; none names all.
+//! The errors of single changes to the default way to compute a torque: what the bin `accuracy` prints of them, from less
+//! to build; and of what is printed to be pasted, as it is printed. Arguments name the robots; none names all.
 
 mod inverse;
+/// Written by `cargo xtask accuracy`.
+mod printed {
+    include!(env!("ACCURACY_PRINTED"));
+}
 mod speed;
 mod statistics;
 mod yardsticks;
@@ -9,16 +13,23 @@ mod yardsticks;
 use dynamics_core::robots::{A1Leg, Panda, Ur5e};
 use firmware_demo::accuracy::list;
 
+macro_rules! print {
+    ($($robot:ident, $b:literal, $n:literal, $w:literal, $name:ident;)*) => {
+        let asked: Vec<String> = std::env::args().skip(1).collect();
+        $(if asked.is_empty() || asked.iter().any(|robot| robot == stringify!($name)) {
+            inverse::print::<$robot, $b, $n, $w>(|bench| {
+                list::single::<$robot, $b, $n>(bench);
+                bench.kind = "pasted";
+                printed::$name(bench);
+            });
+        })*
+    };
+}
+
 fn main() {
-    let asked: Vec<String> = std::env::args().skip(1).collect();
-    let wanted = |name: &str| asked.is_empty() || asked.iter().any(|robot| robot == name);
-    if wanted("ur5e") {
-        inverse::print::<Ur5e, 6, 6, 9>(list::single::<Ur5e, 6, 6>);
-    }
-    if wanted("panda") {
-        inverse::print::<Panda, 7, 7, 7>(list::single::<Panda, 7, 7>);
-    }
-    if wanted("a1_leg") {
-        inverse::print::<A1Leg, 4, 3, 7>(list::single::<A1Leg, 4, 3>);
+    print! {
+        Ur5e, 6, 6, 9, ur5e;
+        Panda, 7, 7, 7, panda;
+        A1Leg, 4, 3, 7, a1_leg;
     }
 }

@@ -1,71 +1,75 @@
-//! Errors of many answers, joint by joint.
+//! Errors of many answers, and the lines of JSON that say them.
 
+use dynamics_core::state::State;
 use host_tests::measured::largest;
-use serde::Serialize;
+use serde_json::{Value, json};
 
-/// |error| of N joints, answer by answer.
-#[derive(Clone, Debug)]
-pub struct Errors<const N: usize>(pub [Vec<f64>; N]);
+/// |error| of every joint in every answer.
+#[derive(Clone, Debug, Default)]
+pub struct Errors(Vec<f64>);
 
-/// What is told of errors; the fields are those of the JSON.
-#[derive(Clone, Debug, Serialize)]
-pub struct Summary {
-    pub error_max: f64,
-    pub error_rms: f64,
-    pub error_p99: f64,
-    pub relative_max: f64,
-    pub answers: usize,
-    pub joint_max: Vec<f64>,
-    pub joint_rms: Vec<f64>,
-    pub joint_p99: Vec<f64>,
-}
-
-impl<const N: usize> Errors<N> {
-    pub fn new() -> Self {
-        Self([(); N].map(|()| Vec::new()))
-    }
-
+impl Errors {
     /// Of answers and what they should have been.
-    pub fn of(pairs: impl Iterator<Item = ([f64; N], [f64; N])>) -> Self {
-        let mut errors = Self::new();
-        pairs.for_each(|(told, truth)| errors.add(&told, &truth));
+    pub fn of<const N: usize>(pairs: impl Iterator<Item = ([f64; N], [f64; N])>) -> Self {
+        let mut errors = Self::default();
+        pairs.for_each(|(answer, truth)| errors.add(&answer, &truth));
         errors
     }
 
-    pub fn add(&mut self, told: &[f64; N], truth: &[f64; N]) {
-        for ((errors, told), truth) in self.0.iter_mut().zip(told).zip(truth) {
-            let error = (told - truth).abs();
-            errors.push(if error.is_nan() { f64::INFINITY } else { error });
-        }
+    pub fn add<const N: usize>(&mut self, answer: &[f64; N], truth: &[f64; N]) {
+        let errors = answer.iter().zip(truth).map(|(a, b)| (a - b).abs());
+        let stated = |error: f64| if error.is_nan() { f64::INFINITY } else { error };
+        self.0.extend(errors.map(stated));
     }
 
-    pub fn summary(&self, full_scale: f64) -> Summary {
-        let each = |of: fn(&[f64]) -> f64| self.0.iter().map(|errors| of(errors)).collect();
-        let all = self.0.concat();
-        Summary {
-            error_max: max(&all),
-            error_rms: rms(&all),
-            error_p99: p99(&all),
-            relative_max: max(&all) / full_scale,
-            answers: self.0[0].len(),
-            joint_max: each(max),
-            joint_rms: each(rms),
-            joint_p99: each(p99),
+    pub fn max(&self) -> f64 {
+        largest(self.0.iter().copied())
+    }
+
+    pub fn rms(&self) -> f64 {
+        (self.0.iter().map(|e| e * e).sum::<f64>() / self.0.len() as f64).sqrt()
+    }
+
+    /// The smallest error that 99 % do not exceed.
+    fn p99(&self) -> f64 {
+        let mut sorted = self.0.clone();
+        sorted.sort_by(f64::total_cmp);
+        sorted[(sorted.len() * 99).div_ceil(100) - 1]
+    }
+
+    /// Prints a line with them, none smaller than `floor`, and with what else it is to have.
+    pub fn print(&self, robot: &str, kind: &str, [full_scale, floor]: [f64; 2], more: Value) {
+        let [max, rms, p99] = [self.max(), self.rms(), self.p99()].map(|e| largest([e, floor]));
+        let mut line = json!({
+            "robot": robot,
+            "kind": kind,
+            "unit": "N·m",
+            "full_scale": full_scale,
+            "error_max": max,
+            "error_rms": rms,
+            "error_p99": p99,
+            "relative_max": max / full_scale,
+        });
+        if let (Value::Object(line), Value::Object(more)) = (&mut line, more) {
+            line.extend(more);
         }
+        println!("{line}");
     }
 }
 
-fn max(errors: &[f64]) -> f64 {
-    largest(errors.iter().copied())
+/// Axes as a JSON object.
+pub fn object(axes: &[(&str, &str)]) -> Value {
+    axes.iter()
+        .map(|&(axis, value)| (axis.to_owned(), json!(value)))
+        .collect::<serde_json::Map<_, _>>()
+        .into()
 }
 
-fn rms(errors: &[f64]) -> f64 {
-    (errors.iter().map(|e| e * e).sum::<f64>() / errors.len() as f64).sqrt()
-}
-
-/// The smallest error that 99 % do not exceed.
-fn p99(errors: &[f64]) -> f64 {
-    let mut sorted = errors.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    sorted[(sorted.len() * 99).div_ceil(100) - 1]
+/// The same state in f64.
+pub fn widened<const N: usize>(state: &State<f32, N, N>) -> State<f64, N, N> {
+    State {
+        q: state.q.map(f64::from),
+        qd: state.qd.map(f64::from),
+        qdd: state.qdd.map(f64::from),
+    }
 }

@@ -11,8 +11,8 @@ use dynamics_core::model::{Calibrated, Robot, model};
 use host_tests::random::{random_numbers, within};
 use serde_json::json;
 
-use super::inverse::{Asked, widened};
-use super::statistics::Errors;
+use super::inverse::Asked;
+use super::statistics::{Errors, widened};
 
 /// Drawings of parameters that are off.
 const DRAWINGS: usize = 20;
@@ -23,29 +23,15 @@ const FRICTION: f64 = 0.1;
 
 /// Prints a line for each of them.
 pub fn print<T: Robot<B, N, N>, const B: usize, const N: usize>(full_scale: f64, way: &[Asked<N>]) {
-    let line = |name: &str, how: &str, errors: &Errors<N>| {
-        let summary = errors.summary(full_scale);
-        println!(
-            "{}",
-            json!({
-                "robot": T::MODEL.name,
-                "kind": "yardstick",
-                "key": name,
-                "what": how,
-                "unit": "N·m",
-                "full_scale": full_scale,
-                "error_max": summary.error_max,
-                "error_rms": summary.error_rms,
-                "error_p99": summary.error_p99,
-                "relative_max": summary.relative_max,
-                "trajectory": summary,
-            })
-        );
+    let line = |key: &str, what: &str, errors: &Errors| {
+        let line = json!({"key": key, "what": what});
+        errors.print(T::MODEL.name, "yardstick", [full_scale, 0.0], line);
     };
+    let rounded = encoder::<T, B, N>(way, 14);
     line(
         "encoder14",
         "positions rounded to 14 bits of a turn",
-        &encoder::<T, B, N>(way, 14),
+        &rounded,
     );
     for percent in [1, 5] {
         line(
@@ -66,7 +52,7 @@ pub fn print<T: Robot<B, N, N>, const B: usize, const N: usize>(full_scale: f64,
 fn encoder<T: Robot<B, N, N>, const B: usize, const N: usize>(
     way: &[Asked<N>],
     bits: u32,
-) -> Errors<N> {
+) -> Errors {
     let step = TAU / f64::from(1_u32 << bits);
     Errors::of(way.iter().map(|Asked { course, truth }| {
         let mut state = widened(&course.state);
@@ -79,7 +65,7 @@ fn encoder<T: Robot<B, N, N>, const B: usize, const N: usize>(
 fn inertial<T: Robot<B, N, N>, const B: usize, const N: usize>(
     way: &[Asked<N>],
     share: f64,
-) -> Errors<N> {
+) -> Errors {
     let mut random = random_numbers();
     let drawings = (0..DRAWINGS).map(|_| {
         let mut robot = Calibrated::<T, f64, B, N, N>::nominal();
@@ -94,15 +80,11 @@ fn inertial<T: Robot<B, N, N>, const B: usize, const N: usize>(
         }))
     });
     drawings
-        .max_by(|a, b| {
-            a.summary(1.0)
-                .error_rms
-                .total_cmp(&b.summary(1.0).error_rms)
-        })
+        .max_by(|a, b| a.rms().total_cmp(&b.rms()))
         .expect("some drawings")
 }
 
-fn friction<T: Robot<B, N, N>, const B: usize, const N: usize>(way: &[Asked<N>]) -> Errors<N> {
+fn friction<T: Robot<B, N, N>, const B: usize, const N: usize>(way: &[Asked<N>]) -> Errors {
     let mut per_speed = [0.0; N];
     for link in &model::<f64, T, B, N, N>().links {
         if let Some(per_speed) = per_speed.get_mut(link.v_at) {
@@ -110,10 +92,7 @@ fn friction<T: Robot<B, N, N>, const B: usize, const N: usize>(way: &[Asked<N>])
         }
     }
     Errors::of(way.iter().map(|Asked { course, truth }| {
-        let qd = course.state.qd.map(f64::from);
-        (
-            std::array::from_fn(|j| truth[j] + per_speed[j] * qd[j]),
-            *truth,
-        )
+        let with = |j| truth[j] + per_speed[j] * f64::from(course.state.qd[j]);
+        (std::array::from_fn(with), *truth)
     }))
 }

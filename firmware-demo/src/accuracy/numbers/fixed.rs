@@ -1,20 +1,22 @@
 //! Fixed point, for comparison: what processors without an FPU use.
 //!
 //! Products are summed in 64 bits (SMULL, SMLAL) and rounded once. Every quantity has the same scale, so units have to
-//! be chosen that keep all of them within ±2: [`Model::in_units`] makes a robot in such units. Yates, *Fixed-Point
+//! be chosen that keep all of them within ±2: [`InUnits`](crate::accuracy::model::InUnits) makes a robot in such units. Yates, *Fixed-Point
 //! Arithmetic: An Introduction* (2009).
 
-use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
+use core::ops::{Add, Div, Mul, Neg};
 
-use super::plain::{Mat3, Plain, Vec3, assigning};
-use super::{Real, sealed};
-use crate::model::{Model, Robot};
-use crate::trig::Kernel;
+use dynamics_core::scalar::Real;
+use dynamics_core::trig::Kernel;
+
+use super::real;
+use super::vector::Plain;
 
 /// A number within ±2 in steps of 2⁻³⁰: Q31 with the bit of headroom that 1 takes. What overflows wraps.
 ///
 /// ```
-/// use dynamics_core::scalar::{Fixed, Real};
+/// use dynamics_core::scalar::Real;
+/// use firmware_demo::accuracy::numbers::Fixed;
 /// let half = Fixed::from_f64(0.5);
 /// assert_eq!((half * half + half).to_f64(), 0.75);
 /// ```
@@ -26,7 +28,7 @@ const FRACTION: u32 = 30;
 
 impl Fixed {
     /// The nearest one to an f64.
-    pub(crate) const fn new(x: f64) -> Self {
+    pub const fn new(x: f64) -> Self {
         let scaled = x * (1_i64 << FRACTION) as f64;
         Self((scaled + if scaled < 0.0 { -0.5 } else { 0.5 }) as i32)
     }
@@ -66,8 +68,6 @@ impl Neg for Fixed {
     }
 }
 
-assigning!(Fixed);
-
 impl Plain for Fixed {
     #[inline(always)]
     fn products<const K: usize>(terms: [(Self, Self); K]) -> Self {
@@ -82,11 +82,11 @@ impl Plain for Fixed {
 
 /// Sine and cosine of angles in half turns, within ±2 of them: 1 is π. Error 5·10⁻⁹.
 ///
-/// The polynomials are those of [`crate::trig::Minimax`] of degree 7. The same instructions whatever the angle.
+/// The polynomials are those of [`dynamics_core::trig::Minimax`] of degree 7. The same instructions whatever the angle.
 ///
 /// ```
-/// use dynamics_core::scalar::{Fixed, HalfTurns, Real};
-/// use dynamics_core::trig::Kernel;
+/// use dynamics_core::{scalar::Real, trig::Kernel};
+/// use firmware_demo::accuracy::numbers::{Fixed, HalfTurns};
 /// let (s, c) = HalfTurns::sin_cos(Fixed::from_f64(0.25));
 /// assert!((s.to_f64() - 0.5_f64.sqrt()).abs() < 5e-9 && (c.to_f64() - 0.5_f64.sqrt()).abs() < 5e-9);
 /// ```
@@ -125,76 +125,15 @@ impl Kernel<Fixed> for HalfTurns {
     }
 }
 
-impl sealed::Sealed for Fixed {}
-
-impl Real for Fixed {
-    type Vec3 = Vec3<Self>;
-    type Mat3 = Mat3<Self>;
-    const ZERO: Self = Self(0);
-    const ONE: Self = Self(1 << FRACTION);
-    const MAX_TRUNC: f64 = 2.0;
-    const EPSILON: Self = Self(1);
-    const MIN_POSITIVE: Self = Self(1);
-
-    #[inline(always)]
-    fn from_f64(x: f64) -> Self {
-        Self::new(x)
-    }
-    #[inline(always)]
-    fn to_f64(self) -> f64 {
-        f64::from(self.0) / (1_i64 << FRACTION) as f64
-    }
-    #[inline(always)]
-    fn sin_cos(self) -> (Self, Self) {
-        HalfTurns::sin_cos(self * const { Self::new(core::f64::consts::FRAC_1_PI) })
-    }
-    #[inline(always)]
-    fn sin_cos_near(self) -> (Self, Self) {
-        self.sin_cos()
-    }
-    fn exp_neg(self) -> Self {
-        Self::new(self.to_f64().exp_neg())
-    }
-    fn sqrt(self) -> Self {
-        Self::new(self.to_f64().sqrt())
-    }
-    fn atan2(self, x: Self) -> Self {
-        Self::new(self.to_f64().atan2(x.to_f64()))
-    }
-    fn rsqrt(self) -> Self {
-        Self::new(self.to_f64().rsqrt())
-    }
-    #[inline(always)]
-    fn abs(self) -> Self {
-        Self(self.0.wrapping_abs())
-    }
-    #[inline(always)]
-    fn is_finite(self) -> bool {
-        true
-    }
-    #[inline(always)]
-    fn clamped(self, lo: Self, hi: Self) -> Self {
-        let x = if self > lo { self } else { lo };
-        if x < hi { x } else { hi }
-    }
-    #[inline(always)]
-    fn trunc_saturating(self) -> Self {
-        Self(self.0 / Self::ONE.0 * Self::ONE.0)
-    }
-    fn cast<const B: usize, const Q: usize, const V: usize>(
-        model: &Model<f64, B, Q, V>,
-    ) -> Model<Self, B, Q, V> {
-        model.to_fixed()
-    }
-    #[inline(always)]
-    fn model<T, const B: usize, const Q: usize, const V: usize>() -> &'static Model<Self, B, Q, V>
-    where
-        T: Robot<B, Q, V>,
-    {
-        const { &T::MODEL.to_fixed() }
-    }
-    #[inline(always)]
-    fn select(double: f64, _: f32) -> Self {
-        Self::new(double)
-    }
+real! {
+    Fixed,
+    full: 2.0,
+    epsilon: Self(1),
+    tiny: Self(1),
+    sin_cos: |x| HalfTurns::sin_cos(x * const { Self::new(core::f64::consts::FRAC_1_PI) }),
+    to_f64: |x| -> f64 { f64::from(x.0) / (1_i64 << FRACTION) as f64 }
+    rsqrt: |x| -> Self { Self::new(x.to_f64().rsqrt()) }
+    abs: |x| -> Self { Self(x.0.wrapping_abs()) }
+    is_finite: |_| -> bool { true }
+    saturate: |x| -> Self { Self(x.0 / Self::ONE.0 * Self::ONE.0) }
 }

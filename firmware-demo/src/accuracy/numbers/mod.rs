@@ -1,0 +1,219 @@
+//! Ways in other numbers than f32. Nobody ships [`Compensated`] and [`Fixed`]: they are here to be compared with.
+
+mod compensated;
+mod fixed;
+mod vector;
+
+use core::marker::PhantomData;
+
+use dynamics_core::drivetrain::ElasticReference;
+use dynamics_core::effects::Effect;
+use dynamics_core::model::Robot;
+use dynamics_core::scalar::Real;
+use dynamics_core::state::{JointTrig, State};
+use dynamics_core::{Core, Engine};
+
+use super::Inverse;
+use super::form::Form;
+use super::key::Key;
+use super::model::{InUnits, Modelled, Units};
+
+pub use compensated::Compensated;
+pub use fixed::{Fixed, HalfTurns};
+
+/// A scalar that glam does not have as a [`Real`]; what no inverse dynamics computes goes through f64.
+macro_rules! real {
+    ($r:ident, full: $full:expr, epsilon: $epsilon:expr, tiny: $tiny:expr, sin_cos: $sin_cos:expr,
+     $($name:ident: |$x:pat_param| -> $out:ty { $value:expr })*) => {
+        impl dynamics_core::scalar::Sealed for $r {}
+
+        impl Real for $r {
+            type Vec3 = super::vector::Vec3<Self>;
+            type Mat3 = super::vector::Mat3<Self>;
+            const ZERO: Self = Self::new(0.0);
+            const ONE: Self = Self::new(1.0);
+            const FULL: f64 = $full;
+            const EPSILON: Self = $epsilon;
+            const TINY: Self = $tiny;
+            $(
+                #[inline(always)]
+                fn $name(self) -> $out {
+                    let $x = self;
+                    $value
+                }
+            )*
+            #[inline(always)]
+            fn from_f64(x: f64) -> Self {
+                Self::new(x)
+            }
+            #[inline(always)]
+            fn sin_cos(self) -> (Self, Self) {
+                $sin_cos(self)
+            }
+            #[inline(always)]
+            fn sin_cos_near(self) -> (Self, Self) {
+                $sin_cos(self)
+            }
+            fn exp_neg(self) -> Self {
+                Self::new(self.to_f64().exp_neg())
+            }
+            fn sqrt(self) -> Self {
+                Self::new(self.to_f64().sqrt())
+            }
+            fn atan2(self, x: Self) -> Self {
+                Self::new(self.to_f64().atan2(x.to_f64()))
+            }
+            #[inline(always)]
+            fn limit(self, lo: Self, hi: Self) -> Self {
+                let x = if self > lo { self } else { lo };
+                if x < hi { x } else { hi }
+            }
+            fn cast<const B: usize, const Q: usize, const V: usize>(
+                model: &Model<f64, B, Q, V>,
+            ) -> Model<Self, B, Q, V> {
+                cast(model)
+            }
+            #[inline(always)]
+            fn model<T: Robot<B, Q, V>, const B: usize, const Q: usize, const V: usize>()
+            -> &'static Model<Self, B, Q, V> {
+                const { &cast(&T::MODEL) }
+            }
+            #[inline(always)]
+            fn select(double: f64, _: f32) -> Self {
+                Self::new(double)
+            }
+        }
+
+        use dynamics_core::model::{Model, Robot};
+
+        const fn cast<const B: usize, const Q: usize, const V: usize>(
+            model: &Model<f64, B, Q, V>,
+        ) -> Model<$r, B, Q, V> {
+            use super::vector::{Mat3, Vec3};
+            dynamics_core::cast_model!(model, B, $r, |x| <$r>::new(x), Vec3::of, Mat3::of)
+        }
+
+        super::follows! {
+            $r: Sub sub |a, b| a + -b, AddAssign add_assign +, SubAssign sub_assign -, MulAssign mul_assign *
+        }
+    };
+}
+/// The operators that follow from others.
+macro_rules! follows {
+    ($r:ident: Sub sub |$a:ident, $b:ident| $difference:expr, $($op:ident $name:ident $sign:tt),*) => {
+        impl core::ops::Sub for $r {
+            type Output = Self;
+            #[inline(always)]
+            fn sub(self, other: Self) -> Self {
+                let ($a, $b) = (self, other);
+                $difference
+            }
+        }
+        $(
+            impl core::ops::$op for $r {
+                #[inline(always)]
+                fn $name(&mut self, other: Self) {
+                    *self = *self $sign other;
+                }
+            }
+        )*
+    };
+}
+use {follows, real};
+
+/// A scalar with a name.
+pub trait Number: Real {
+    /// On the axis `arith`.
+    const NAME: &'static str;
+}
+
+impl Number for f64 {
+    const NAME: &'static str = "f64";
+}
+
+impl Number for Compensated {
+    const NAME: &'static str = "compensated";
+}
+
+/// As the library ships it, in the scalar R, with its own sines and cosines: f64, which this processor computes in
+/// software, or f32 with the rounding errors carried along.
+#[derive(Debug)]
+pub struct In<R, M, F, const B: usize>(PhantomData<(R, M, F)>);
+
+impl<R, M, F, const B: usize, const N: usize> Inverse<N> for In<R, M, F, B>
+where
+    R: Number,
+    M: Modelled<B, N>,
+    M::Scene: Effect<R, B, N>,
+    F: Form<M::Robot>,
+{
+    const KEY: Key = Key {
+        arith: R::NAME,
+        model: M::NAME,
+        form: F::NAME,
+        ..Key::DEFAULT
+    };
+    type Input = State<R, N, N>;
+    type Scalar = R;
+
+    fn start(_: &State<f32, N, N>) -> Self {
+        Self(PhantomData)
+    }
+    fn input(course: &ElasticReference<f32, N, N>) -> Self::Input {
+        let State { q, qd, qdd } = course.state;
+        let [q, qd, qdd] = [q, qd, qdd].map(|xs| xs.map(|x| R::from_f64(f64::from(x))));
+        State { q, qd, qdd }
+    }
+    #[inline(always)]
+    fn tick(&mut self, state: &Self::Input) -> [R; N] {
+        F::rnea()(state, &M::SCENE)
+    }
+    fn address() -> usize {
+        F::rnea::<R, M::Scene, B, N>() as usize
+    }
+}
+
+/// In fixed point, by the core: angles come in half turns, rates and accelerations in the robot's [`Units`], as
+/// drives of this kind count them.
+#[derive(Debug)]
+pub struct FixedPoint<T, M, const B: usize>(PhantomData<(T, M)>);
+
+impl<T, M, const B: usize, const N: usize> Inverse<N> for FixedPoint<T, M, B>
+where
+    T: Robot<B, N, N>,
+    M: Modelled<B, N, Robot = T>,
+{
+    const KEY: Key = Key {
+        arith: "q31",
+        model: M::NAME,
+        form: "core",
+        ..Key::DEFAULT
+    };
+    const UNIT: f64 = Units::of(&T::MODEL).torque();
+    type Input = State<Fixed, N, N>;
+    type Scalar = Fixed;
+
+    fn start(_: &State<f32, N, N>) -> Self {
+        Self(PhantomData)
+    }
+    fn input(course: &ElasticReference<f32, N, N>) -> Self::Input {
+        let State { q, qd, qdd } = course.state;
+        let time = const { Units::of(&T::MODEL).time };
+        State {
+            q: q.map(|q| {
+                let half_turns = f64::from(q) / core::f64::consts::PI;
+                // Whole turns are none.
+                let turns = (half_turns * 0.5 + 0.5 * half_turns.signum()) as i32;
+                Fixed::from_f64(half_turns - 2.0 * f64::from(turns))
+            }),
+            qd: qd.map(|qd| Fixed::from_f64(f64::from(qd) * time)),
+            qdd: qdd.map(|qdd| Fixed::from_f64(f64::from(qdd) * time * time)),
+        }
+    }
+    #[inline(never)]
+    fn tick(&mut self, state: &Self::Input) -> [Fixed; N] {
+        let posture: JointTrig<Fixed, N> =
+            Engine::<InUnits<T>>::posture_by::<HalfTurns, Fixed, B, N, N>(&state.q);
+        Core::<InUnits<T>>::rnea_at(&posture, state, &M::IN_UNITS)
+    }
+}

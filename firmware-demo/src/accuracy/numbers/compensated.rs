@@ -127,7 +127,7 @@ real! {
     }}
     abs: |x| -> Self { if x.value < 0.0 { -x } else { x } }
     is_finite: |x| -> bool { x.value.is_finite() && x.rest.is_finite() }
-    saturate: |x| -> Self { Self::from(x.value.trunc_saturating()) + Self::from(x.rest.trunc_saturating()) }
+    trunc_saturating: |x| -> Self { Self::from(x.value.trunc_saturating()) + Self::from(x.rest.trunc_saturating()) }
 }
 
 impl From<f32> for Compensated {

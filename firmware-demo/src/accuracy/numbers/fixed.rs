@@ -135,5 +135,5 @@ real! {
     rsqrt: |x| -> Self { Self::new(x.to_f64().rsqrt()) }
     abs: |x| -> Self { Self(x.0.wrapping_abs()) }
     is_finite: |_| -> bool { true }
-    saturate: |x| -> Self { Self(x.0 / Self::ONE.0 * Self::ONE.0) }
+    trunc_saturating: |x| -> Self { Self(x.0 / Self::ONE.0 * Self::ONE.0) }
 }

@@ -32,9 +32,9 @@ macro_rules! real {
             type Mat3 = super::vector::Mat3<Self>;
             const ZERO: Self = Self::new(0.0);
             const ONE: Self = Self::new(1.0);
-            const FULL: f64 = $full;
+            const MAX_TRUNC: f64 = $full;
             const EPSILON: Self = $epsilon;
-            const TINY: Self = $tiny;
+            const MIN_POSITIVE: Self = $tiny;
             $(
                 #[inline(always)]
                 fn $name(self) -> $out {
@@ -64,7 +64,7 @@ macro_rules! real {
                 Self::new(self.to_f64().atan2(x.to_f64()))
             }
             #[inline(always)]
-            fn limit(self, lo: Self, hi: Self) -> Self {
+            fn clamped(self, lo: Self, hi: Self) -> Self {
                 let x = if self > lo { self } else { lo };
                 if x < hi { x } else { hi }
             }

@@ -6,7 +6,7 @@ mod motion;
 
 use std::collections::BTreeSet;
 
-use dynamics_core::control::{Extrapolated, Linearised};
+use dynamics_core::control::{FirstOrderHold, InertiaUpdate};
 use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::model::Robot;
 use dynamics_core::robots::{A1Leg, Panda, Ur5e};
@@ -213,7 +213,7 @@ fn kernels_are_as_good_as_they_say() {
         ),
         (
             "compensated",
-            worst_of::<Compensated, dynamics_core::trig::Native>(100.0, 1.0),
+            worst_of::<Compensated, dynamics_core::scalar::Native>(100.0, 1.0),
         ),
     ];
     let results = errors.map(|(kernel, error)| check("trig", kernel, "f32", error));
@@ -247,7 +247,7 @@ fn compensated_numbers_have_46_bits() {
         assert!(((p - q).to_f64() - (a - b)).abs() <= scale);
         assert!(((p * q).to_f64() - a * b).abs() <= (a * b).abs() * 2.0_f64.powi(-44));
         assert!(((p / q).to_f64() - a / b).abs() <= (a / b).abs() * 2.0_f64.powi(-43));
-        assert!((p.per_sqrt().to_f64() - 1.0 / a.sqrt()).abs() <= 2.0_f64.powi(-41) / a.sqrt());
+        assert!((p.rsqrt().to_f64() - 1.0 / a.sqrt()).abs() <= 2.0_f64.powi(-41) / a.sqrt());
         x = x * 1.618 + 0.3;
         x = x.fract() + 0.01;
     }
@@ -255,8 +255,8 @@ fn compensated_numbers_have_46_bits() {
 
 #[test]
 fn torque_between_computations_is_exact_where_it_is_linear() {
-    let mut extrapolated = Extrapolated::<f64, 1, 4>::start();
-    let mut linearised = Linearised::<f64, 6, 4>::start();
+    let mut extrapolated = FirstOrderHold::<f64, 1, 4>::start();
+    let mut linearised = InertiaUpdate::<f64, 6, 4>::start();
     let at = |tick: usize| State {
         qdd: [(tick % 7) as f64; 6], // jumps
         ..State::at([0.3; 6])
@@ -266,14 +266,14 @@ fn torque_between_computations_is_exact_where_it_is_linear() {
         let computed = Core::<Ur5e>::rnea(&state, &RIGID_BODY);
         let told = if tick % 4 == 0 {
             let m = Core::<Ur5e>::crba(&state.q, &RIGID_BODY);
-            linearised.renew(computed, m, &state.qdd)
+            linearised.update(computed, m, &state.qdd)
         } else {
-            linearised.coast(&state.qdd)
+            linearised.hold(&state.qdd)
         };
         let goes_on = if tick % 4 == 0 {
-            extrapolated.renew([line])
+            extrapolated.update([line])
         } else {
-            extrapolated.coast()
+            extrapolated.hold()
         };
         assert!(
             told.iter()

@@ -10,7 +10,7 @@ use crate::scalar::Real;
 macro_rules! cast_model {
     ($model:expr, $b:ident, $r:ty, |$x:ident| $cast:expr, $vec:expr, $mat:expr) => {{
         use $crate::glam::{DMat3, DVec3};
-        use $crate::model::{EMPTY, Joint, Limits, Link};
+        use $crate::model::{EMPTY, Joint, JointLimits, Link};
         use $crate::scalar::Real;
         use $crate::spatial::{SpatialInertia, Xform};
         type R = $r;
@@ -40,12 +40,12 @@ macro_rules! cast_model {
                 },
                 inertia: SpatialInertia {
                     mass: number(link.inertia.mass),
-                    moment: vector(link.inertia.moment),
+                    first_moment: vector(link.inertia.first_moment),
                     inertia: matrix(&link.inertia.inertia),
                 },
-                q_at: link.q_at,
-                v_at: link.v_at,
-                limits: Limits {
+                idx_q: link.idx_q,
+                idx_v: link.idx_v,
+                limits: JointLimits {
                     lower: number(link.limits.lower),
                     upper: number(link.limits.upper),
                     velocity: number(link.limits.velocity),

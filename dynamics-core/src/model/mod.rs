@@ -5,16 +5,16 @@
 //! and cast to f32 by [`Model::to_f32`]:
 //!
 //! ```
-//! use dynamics_core::model::{Arm, BASE, Body, Joint, Model, Robot};
+//! use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model, Robot};
 //!
 //! /// A pendulum: 2 kg on 0.5 m.
 //! struct Pendulum;
 //! impl Robot<1, 1, 1> for Pendulum {
-//!     const MODEL: Arm<f64, 1> = Model::new("pendulum", [
+//!     const MODEL: ArmModel<f64, 1> = Model::new("pendulum", [
 //!         Body::new("rod", BASE, Joint::revolute([0.0, 1.0, 0.0])).mass(2.0).com([0.0, 0.0, -0.5]),
 //!     ]);
 //! }
-//! const _: Arm<f64, 1> = Pendulum::MODEL; // checked by `cargo check`, too
+//! const _: ArmModel<f64, 1> = Pendulum::MODEL; // checked by `cargo check`, too
 //! assert_eq!(Pendulum::MODEL.links[0].inertia.mass, 2.0);
 //! ```
 //!
@@ -23,8 +23,8 @@
 //! robot. The line `const _` above evaluates it at once; every robot should have one. This description can be,
 //!
 //! ```
-//! use dynamics_core::model::{Arm, BASE, Body, Joint, Model};
-//! const ARM: Arm<f64, 2> = Model::new("arm", [
+//! use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model};
+//! const ARM: ArmModel<f64, 2> = Model::new("arm", [
 //!     Body::new("root", BASE, Joint::revolute([0.0, 0.0, 1.0])).mass(2.0),
 //!     Body::new("tip", 0, Joint::revolute([0.0, 1.0, 0.0])).mass(1.0),
 //! ]);
@@ -35,8 +35,8 @@
 //! cannot:
 //!
 //! ```compile_fail,E0080
-//! use dynamics_core::model::{Arm, BASE, Body, Joint, Model};
-//! const ARM: Arm<f64, 2> = Model::new("arm", [
+//! use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model};
+//! const ARM: ArmModel<f64, 2> = Model::new("arm", [
 //!     Body::new("root", BASE, Joint::revolute([0.0, 0.0, 1.0])).mass(2.0),
 //!     Body::new("tip", 1, Joint::revolute([0.0, 1.0, 0.0])).mass(1.0),
 //! ]); // error: body `tip`: its parent is not listed before it
@@ -44,8 +44,8 @@
 //! ```
 //!
 //! ```compile_fail,E0080
-//! use dynamics_core::model::{Arm, BASE, Body, Joint, Model};
-//! const ARM: Arm<f64, 2> = Model::new("arm", [
+//! use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model};
+//! const ARM: ArmModel<f64, 2> = Model::new("arm", [
 //!     Body::new("root", BASE, Joint::revolute([0.0, 0.0, 1.0])).mass(2.0),
 //!     Body::new("tip", 0, Joint::revolute([0.0, 0.0, 0.0])).mass(1.0),
 //! ]); // error: body `tip`: its joint axis is zero or not finite
@@ -53,8 +53,8 @@
 //! ```
 //!
 //! ```compile_fail,E0080
-//! use dynamics_core::model::{Arm, BASE, Body, Joint, Model};
-//! const ARM: Arm<f64, 2> = Model::new("arm", [
+//! use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model};
+//! const ARM: ArmModel<f64, 2> = Model::new("arm", [
 //!     Body::new("root", BASE, Joint::revolute([0.0, 0.0, 1.0])).mass(2.0),
 //!     Body::new("tip", 0, Joint::revolute([0.0, 1.0, 0.0])).mass(-1.0),
 //! ]); // error: body `tip`: its mass is negative or not finite
@@ -73,19 +73,19 @@ mod node;
 mod pruned;
 mod turn;
 
-pub(crate) use axis::Axis;
+pub(crate) use axis::MotionSubspace;
 pub(crate) use body::moments_excess;
-pub use body::{BASE, Body, Limits};
-pub use description::{Calibrated, Description, Of, Revolutes};
+pub use body::{BASE, Body, JointLimits};
+pub use description::{AllRevolute, Calibrated, RobotModel, Static};
 pub use error::{ModelError, Problem};
-pub use floating::on_root;
+pub use floating::attach_to;
 pub use inertia::BodyInertia;
-pub use joint::{Joint, JointKind, Kinds};
-pub use node::Node;
+pub use joint::{Joint, JointKind, JointKinds};
+pub use node::LinkView;
 pub use pruned::Pruned;
-pub use turn::Turn;
+pub use turn::JointCoordinate;
 
-use crate::const_math::{add, dot, mul, mul_vec, scale, transpose, vec3};
+use crate::math::const_eval::{add, dot, mul, mul_vec, scale, transpose, vec3};
 use crate::scalar::Real;
 use crate::spatial::{SpatialInertia, Xform};
 use glam::{DMat3, DVec3};
@@ -107,11 +107,11 @@ pub struct Link<R: Real> {
     /// The body's inertia at the origin, in the aligned frame.
     pub inertia: SpatialInertia<R>,
     /// Where the joint's position stands in q; [`BASE`] if it has none.
-    pub q_at: usize,
+    pub idx_q: usize,
     /// Where the joint's velocity stands in q̇; [`BASE`] if it has none.
-    pub v_at: usize,
+    pub idx_v: usize,
     /// The limits of the joint's coordinates.
-    pub limits: Limits<R>,
+    pub limits: JointLimits<R>,
 }
 
 /// A robot of B bodies, Q position and V velocity coordinates.
@@ -125,11 +125,11 @@ pub struct Model<R: Real, const B: usize, const Q: usize, const V: usize> {
     /// that carries it; [`BASE`] for the first of a branch. RBDA (2008), section 6.5.
     pub lambda: [usize; V],
     /// The kinds of its joints.
-    kinds: Kinds,
+    kinds: JointKinds,
 }
 
 /// A robot of N bodies on N joints of one degree of freedom.
-pub type Arm<R, const N: usize> = Model<R, N, N, N>;
+pub type ArmModel<R, const N: usize> = Model<R, N, N, N>;
 
 /// A robot known at compile time.
 pub trait Robot<const B: usize, const Q: usize, const V: usize> {
@@ -182,8 +182,8 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
     /// that its joints make.
     pub const fn try_new(name: &'static str, bodies: [Body; B]) -> Result<Self, ModelError> {
         let mut links = [EMPTY; B];
-        let (mut lambda, mut kinds) = ([BASE; V], Kinds::NONE);
-        let (mut q_at, mut v_at, mut i) = (0, 0, 0);
+        let (mut lambda, mut kinds) = ([BASE; V], JointKinds::NONE);
+        let (mut idx_q, mut idx_v, mut i) = (0, 0, 0);
         while i < B {
             let body = &bodies[i];
             if let Some(problem) = body.problem(i) {
@@ -200,25 +200,25 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
                     problem: Problem::NotFinite,
                 });
             }
-            link.q_at = if nq == 0 { BASE } else { q_at };
-            link.v_at = if nv == 0 { BASE } else { v_at };
+            link.idx_q = if nq == 0 { BASE } else { idx_q };
+            link.idx_v = if nv == 0 { BASE } else { idx_v };
             links[i] = link;
             kinds = kinds.with(link.joint.kind);
             let (mut above, mut k) = (last_coordinate(&links, body.parent), 0);
-            while k < nv && v_at + k < V {
-                lambda[v_at + k] = above;
-                above = v_at + k;
+            while k < nv && idx_v + k < V {
+                lambda[idx_v + k] = above;
+                above = idx_v + k;
                 k += 1;
             }
-            q_at += nq;
-            v_at += nv;
+            idx_q += nq;
+            idx_v += nv;
             i += 1;
         }
-        if q_at != Q || v_at != V {
+        if idx_q != Q || idx_v != V {
             return Err(ModelError {
                 body: name,
                 problem: Problem::Coordinates {
-                    expected: [q_at, v_at],
+                    expected: [idx_q, idx_v],
                     given: [Q, V],
                 },
             });
@@ -232,7 +232,7 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
     }
 
     /// The kinds of its joints.
-    pub const fn kinds(&self) -> Kinds {
+    pub const fn kinds(&self) -> JointKinds {
         self.kinds
     }
 
@@ -250,7 +250,7 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
 
     /// Placement and inertia of link `i` in the frames of its description, as URDF has them; not of a
     /// robot's last bit where an axis is none of x, y, z.
-    pub fn described(&self, i: usize) -> (Xform<f64>, SpatialInertia<f64>) {
+    pub fn in_link_frame(&self, i: usize) -> (Xform<f64>, SpatialInertia<f64>) {
         let link = &self.links[i];
         let (back, above) = match self.links.get(link.parent) {
             Some(parent) => (link.frame.transpose(), parent.frame),
@@ -262,7 +262,7 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
         };
         let inertia = SpatialInertia {
             mass: link.inertia.mass,
-            moment: back * link.inertia.moment,
+            first_moment: back * link.inertia.first_moment,
             inertia: back * link.inertia.inertia * link.frame,
         };
         (placement, inertia)
@@ -363,12 +363,12 @@ pub const EMPTY: Link<f64> = Link {
     },
     inertia: SpatialInertia {
         mass: 0.0,
-        moment: DVec3::ZERO,
+        first_moment: DVec3::ZERO,
         inertia: DMat3::ZERO,
     },
-    q_at: BASE,
-    v_at: BASE,
-    limits: Limits::NONE,
+    idx_q: BASE,
+    idx_v: BASE,
+    limits: JointLimits::NONE,
 };
 
 /// The body in its aligned frame, after those of `links` before it; its coordinates are not set.
@@ -391,11 +391,11 @@ const fn aligned<const B: usize>(body: &Body, links: &[Link<f64>; B]) -> Link<f6
         placement: Xform { rot, pos },
         inertia: SpatialInertia {
             mass: inertia.mass,
-            moment: mul_vec(&frame, inertia.moment),
+            first_moment: mul_vec(&frame, inertia.first_moment),
             inertia: mul(&mul(&frame, &inertia.inertia), &transpose(&frame)),
         },
-        q_at: BASE,
-        v_at: BASE,
+        idx_q: BASE,
+        idx_v: BASE,
         limits: body.limits,
     }
 }
@@ -415,7 +415,7 @@ const fn is_finite(link: &Link<f64>) -> bool {
     // x·0 is 0 for finite x and NaN otherwise; a sum of such products is 0 or NaN.
     let (inertia, none) = (&link.inertia.inertia, DVec3::ZERO);
     let sum = dot(link.placement.pos, none)
-        + dot(link.inertia.moment, none)
+        + dot(link.inertia.first_moment, none)
         + dot(inertia.x_axis, none)
         + dot(inertia.y_axis, none)
         + dot(inertia.z_axis, none);
@@ -427,7 +427,7 @@ const fn last_coordinate<const B: usize>(links: &[Link<f64>; B], mut at: usize) 
     while at != BASE {
         let (_, count) = links[at].joint.kind.coordinates();
         if count > 0 {
-            return links[at].v_at + count - 1;
+            return links[at].idx_v + count - 1;
         }
         at = links[at].parent;
     }
@@ -440,7 +440,7 @@ const fn at_origin(body: &Body) -> SpatialInertia<f64> {
     let cc = dot(c, c);
     SpatialInertia {
         mass: body.mass,
-        moment: scale(c, body.mass),
+        first_moment: scale(c, body.mass),
         inertia: DMat3::from_cols(
             add(DVec3::new(xx, xy, xz), parallel(body.mass, DVec3::X, c, cc)),
             add(DVec3::new(xy, yy, yz), parallel(body.mass, DVec3::Y, c, cc)),

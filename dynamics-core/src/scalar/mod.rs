@@ -47,7 +47,7 @@ pub trait Real:
     /// 1.
     const ONE: Self;
     /// Where [`Real::saturate`] ends: 2³¹ in f32, 2⁶³ in f64.
-    const FULL: f64;
+    const MAX_TRUNC: f64;
 
     /// The nearest value of this type. Meant for constants: on an FPU without f64 the
     /// conversion of a run-time value is a call into software.
@@ -60,7 +60,7 @@ pub trait Real:
     fn sin_cos(self) -> (Self, Self);
     /// As `sin_cos`, for angles within ±100 rad: [`crate::trig::sin_cos_near`] in f32.
     fn sin_cos_near(self) -> (Self, Self);
-    /// e⁻ˣ of x ≥ 0: [`crate::exponential::exp_neg`] in f32; 1 for x < 0 and for NaN.
+    /// e⁻ˣ of x ≥ 0: [`crate::scalar::exp_neg`] in f32; 1 for x < 0 and for NaN.
     ///
     /// Cost: in f32 the same instructions for every input.
     fn exp_neg(self) -> Self;
@@ -72,20 +72,20 @@ pub trait Real:
     /// The distance from 1 to the next number.
     const EPSILON: Self;
     /// The least normal number: what keeps 0/0 from being computed, at no scale of anybody's.
-    const TINY: Self;
+    const MIN_POSITIVE: Self;
     /// 1/√x of a positive normal number, within 2 ulp; no division, the same instructions for every x.
-    fn per_sqrt(self) -> Self;
+    fn rsqrt(self) -> Self;
     /// |x|.
     fn abs(self) -> Self;
     /// Neither infinite nor NaN.
     fn is_finite(self) -> bool;
     /// x limited to [lo, hi]; a NaN becomes `lo`. No branch, no panic if lo > hi.
-    fn limit(self, lo: Self, hi: Self) -> Self;
-    /// The whole number next to x towards zero, within ±[`Real::FULL`]; a NaN becomes 0.
+    fn clamped(self, lo: Self, hi: Self) -> Self;
+    /// The whole number next to x towards zero, within ±[`Real::MAX_TRUNC`]; a NaN becomes 0.
     ///
     /// Cost: two conversions, which saturate on their own: neither a comparison nor its wait for
     /// the FPU's flags.
-    fn saturate(self) -> Self;
+    fn trunc_saturating(self) -> Self;
     /// A model cast to this type.
     fn cast<const B: usize, const Q: usize, const V: usize>(
         model: &Model<f64, B, Q, V>,
@@ -95,7 +95,7 @@ pub trait Real:
     where
         T: Robot<B, Q, V>;
     /// Of two values prepared for f64 and f32, that of this type.
-    fn pick_value(double: f64, single: f32) -> Self;
+    fn select(double: f64, single: f32) -> Self;
 }
 
 /// What the algorithms ask of a vector of three.
@@ -164,7 +164,7 @@ macro_rules! real {
             type Mat3 = $mat;
             const ZERO: Self = 0.0;
             const ONE: Self = 1.0;
-            const FULL: f64 = -($whole::MIN as f64);
+            const MAX_TRUNC: f64 = -($whole::MIN as f64);
             #[inline(always)]
             fn from_f64(x: f64) -> Self {
                 x as $r
@@ -194,9 +194,9 @@ macro_rules! real {
                 $atan2(self, x)
             }
             const EPSILON: Self = <$r>::EPSILON;
-            const TINY: Self = <$r>::MIN_POSITIVE;
+            const MIN_POSITIVE: Self = <$r>::MIN_POSITIVE;
             #[inline(always)]
-            fn per_sqrt(self) -> Self {
+            fn rsqrt(self) -> Self {
                 // Halves the exponent, then Newton's iteration for 1/y² = x. Of a NaN's bits anything may become.
                 let halved = self.to_bits() >> 1;
                 let mut y = <$r>::from_bits(halved.wrapping_neg().wrapping_add($magic));
@@ -215,12 +215,12 @@ macro_rules! real {
                 <$r>::is_finite(self)
             }
             #[inline(always)]
-            fn limit(self, lo: Self, hi: Self) -> Self {
+            fn clamped(self, lo: Self, hi: Self) -> Self {
                 let x = if self > lo { self } else { lo };
                 if x < hi { x } else { hi }
             }
             #[inline(always)]
-            fn saturate(self) -> Self {
+            fn trunc_saturating(self) -> Self {
                 (self as $whole) as $r
             }
             fn cast<const B: usize, const Q: usize, const V: usize>(
@@ -237,7 +237,7 @@ macro_rules! real {
                 const { &T::$model }
             }
             #[inline(always)]
-            fn pick_value($double: f64, $single: f32) -> Self {
+            fn select($double: f64, $single: f32) -> Self {
                 let _ = ($double, $single);
                 $pick
             }
@@ -293,7 +293,7 @@ real!(
     glam::Mat3,
     crate::trig::sin_cos,
     crate::trig::sin_cos_near,
-    crate::exponential::exp_neg,
+    crate::scalar::exp_neg,
     libm::sqrtf,
     libm::atan2f,
     0x5f37_59df,

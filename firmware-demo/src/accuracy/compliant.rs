@@ -3,9 +3,9 @@
 use core::marker::PhantomData;
 
 use dynamics_core::Engine;
-use dynamics_core::effects::{RIGID_BODY, RotorInertia, Viscous};
-use dynamics_core::flexible::{Course, Flexible, flexible_rnea};
-use dynamics_core::model::{Of, Robot};
+use dynamics_core::drivetrain::{ElasticJoints, ElasticReference, elastic_inverse_dynamics};
+use dynamics_core::effects::{Armature, RIGID_BODY, Viscous};
+use dynamics_core::model::{Robot, Static};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
 
@@ -18,9 +18,9 @@ pub trait Joints<const N: usize> {
     const JOINTS: [[f64; N]; 3];
 
     /// The same in a scalar.
-    fn joints<R: Real>() -> Flexible<R, N> {
+    fn joints<R: Real>() -> ElasticJoints<R, N> {
         let [stiffness, rotor, friction] = Self::JOINTS.map(|numbers| numbers.map(R::from_f64));
-        Flexible {
+        ElasticJoints {
             stiffness,
             rotor,
             friction,
@@ -33,7 +33,7 @@ macro_rules! motors {
        |$course:ident| $input:ty = $given:expr, |$joints:ident, $now:ident| $tick:expr;)*) => {$(
         $(#[$doc])*
         #[derive(Debug)]
-        pub struct $way<T, const N: usize>(Flexible<f32, N>, PhantomData<T>);
+        pub struct $way<T, const N: usize>(ElasticJoints<f32, N>, PhantomData<T>);
 
         impl<T: Robot<N, N, N> + Joints<N>, const N: usize> Inverse<N> for $way<T, N> {
             const KEY: Key = Key { trig: $trig, model: $model, form: $form, ..Key::DEFAULT };
@@ -43,7 +43,7 @@ macro_rules! motors {
             fn start(_: &State<f32, N, N>) -> Self {
                 Self(T::joints(), PhantomData)
             }
-            fn input($course: &Course<f32, N, N>) -> $input {
+            fn input($course: &ElasticReference<f32, N, N>) -> $input {
                 $given
             }
             #[inline(never)]
@@ -56,9 +56,9 @@ macro_rules! motors {
 }
 motors! {
     /// The motors' torques through springs.
-    Compliant, trig: "table3x4", model: "compliant", form: "core", |course| Course<f32, N, N> = *course,
-        |joints, course| flexible_rnea(&Of::<T>::NEW, joints, course, &RIGID_BODY).map_or([f32::NAN; N], |told| told.torque);
+    Compliant, trig: "table3x4", model: "compliant", form: "core", |course| ElasticReference<f32, N, N> = *course,
+        |joints, course| elastic_inverse_dynamics(&Static::<T>::NEW, joints, course, &RIGID_BODY).map_or([f32::NAN; N], |told| told.torque);
     /// The motors' torques if the springs were rigid.
     Rigid, trig: "table3", model: "rigid", form: "engine", |course| State<f32, N, N> = course.state,
-        |joints, state| Engine::<T>::rnea(state, &(RIGID_BODY, RotorInertia(joints.rotor), Viscous(joints.friction)));
+        |joints, state| Engine::<T>::rnea(state, &(RIGID_BODY, Armature(joints.rotor), Viscous(joints.friction)));
 }

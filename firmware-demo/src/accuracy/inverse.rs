@@ -3,7 +3,7 @@
 use core::marker::PhantomData;
 
 use dynamics_core::Engine;
-use dynamics_core::flexible::Course;
+use dynamics_core::drivetrain::ElasticReference;
 use dynamics_core::state::State;
 use dynamics_core::trig::Carried;
 
@@ -34,7 +34,7 @@ macro_rules! ways {
             fn start($first: &State<f32, N, N>) -> Self {
                 Self($start, PhantomData)
             }
-            fn input(course: &Course<f32, N, N>) -> Self::Input {
+            fn input(course: &ElasticReference<f32, N, N>) -> Self::Input {
                 course.state
             }
             #[inline($inline)]

@@ -4,10 +4,10 @@ use core::marker::PhantomData;
 
 use dynamics_core::algorithms::NotPositiveDefinite;
 use dynamics_core::effects::{Coriolis, Effect, Gravity, Implicit, Inertia, RIGID_BODY, Viscous};
-use dynamics_core::model::{Arm, BASE, Body, Joint, Of, Robot};
+use dynamics_core::model::{ArmModel, BASE, Body, Joint, Robot, Static};
 use dynamics_core::robots::Ur5e;
 use dynamics_core::scalar::Real;
-use dynamics_core::sim::{Mechanics, Rates};
+use dynamics_core::sim::{Dynamics, StepIncrement};
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
 
@@ -24,7 +24,7 @@ pub trait LetGo<const N: usize>: Robot<N, N, N> {
 pub struct DoublePendulum;
 
 impl Robot<2, 2, 2> for DoublePendulum {
-    const MODEL: Arm<f64, 2> = {
+    const MODEL: ArmModel<f64, 2> = {
         const fn rod(name: &'static str, parent: usize) -> Body {
             Body::new(name, parent, Joint::revolute([0.0, -1.0, 0.0]))
                 .mass(1.0)
@@ -101,13 +101,13 @@ impl<T, E> Engined<T, E> {
     }
 }
 
-impl<T, E, R: Real, const N: usize> Mechanics<R, N, N> for Engined<T, E>
+impl<T, E, R: Real, const N: usize> Dynamics<R, N, N> for Engined<T, E>
 where
     T: Robot<N, N, N>,
     E: Effect<R, N, N>,
 {
     fn acceleration(&self, at: &State<R, N, N>) -> Result<[R; N], NotPositiveDefinite> {
-        Engine::<T>::forward(at, &[R::ZERO; N], &self.effects)
+        Engine::<T>::forward_dynamics(at, &[R::ZERO; N], &self.effects)
     }
 
     fn implicit_acceleration(
@@ -115,8 +115,8 @@ where
         at: &State<R, N, N>,
         h: R,
     ) -> Result<[R; N], NotPositiveDefinite> {
-        let effects = Implicit::new(&Of::<T>::NEW, at, &self.effects, h);
-        Engine::<T>::forward(at, &[R::ZERO; N], &effects)
+        let effects = Implicit::new(&Static::<T>::NEW, at, &self.effects, h);
+        Engine::<T>::forward_dynamics(at, &[R::ZERO; N], &effects)
     }
 
     fn energies(&self, at: &State<R, N, N>) -> (R, R) {
@@ -126,7 +126,7 @@ where
         )
     }
 
-    fn moved(&self, q: &[R; N], at: &Rates<R, N>, h: R) -> [R; N] {
-        at.moved(&Of::<T>::NEW, q, h)
+    fn moved(&self, q: &[R; N], at: &StepIncrement<R, N>, h: R) -> [R; N] {
+        at.moved(&Static::<T>::NEW, q, h)
     }
 }

@@ -1,6 +1,6 @@
 //! Every way of a robot.
 
-use dynamics_core::control::{Extrapolated, Held, Interpolated};
+use dynamics_core::control::{FirstOrderHold, Interpolator, ZeroOrderHold};
 use dynamics_core::model::{Pruned, Robot};
 use dynamics_core::trig::{Minimax, Table};
 use dynamics_core::{Core, Engine};
@@ -68,8 +68,8 @@ pub fn single<T: Robot<B, N, N>, const B: usize, const N: usize>(visitor: &mut i
         Own<GravityOnly<T>, B, N>,
         Shipped<Parameters<T, 8>, Engine<Rounded<T, 8>>, B, N>,
         Shipped<Without<T, 1000>, Engine<Pruned<T, 1000>>, B, N>,
-        Every<Own<Full<T>, B, N>, Held<f32, N>, 10>,
-        Every<Own<Full<T>, B, N>, Interpolated<f32, N, 10>, 10>,
+        Every<Own<Full<T>, B, N>, ZeroOrderHold<f32, N>, 10>,
+        Every<Own<Full<T>, B, N>, Interpolator<f32, N, 10>, 10>,
         EveryLinearised<Table<128, 3>, Full<T>, B, N, 10>,
         Shipped<Full<T>, Core<T>, B, N>,
     }
@@ -125,9 +125,9 @@ fn rate<W: Inverse<N, Scalar = f32>, const N: usize, const TICKS: usize>(
     visitor: &mut impl Visitor<N>,
 ) {
     ways! { visitor:
-        Every<W, Held<f32, N>, TICKS>,
-        Every<W, Extrapolated<f32, N, TICKS>, TICKS>,
-        Every<W, Interpolated<f32, N, TICKS>, TICKS>,
+        Every<W, ZeroOrderHold<f32, N>, TICKS>,
+        Every<W, FirstOrderHold<f32, N, TICKS>, TICKS>,
+        Every<W, Interpolator<f32, N, TICKS>, TICKS>,
     }
 }
 

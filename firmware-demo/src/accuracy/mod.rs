@@ -27,7 +27,7 @@ pub mod robots;
 pub mod simulation;
 pub mod sparse;
 
-use dynamics_core::flexible::Course;
+use dynamics_core::drivetrain::ElasticReference;
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
 
@@ -51,7 +51,7 @@ pub trait Inverse<const N: usize>: Sized {
     /// Before the first tick, which will be that of this state.
     fn start(first: &State<f32, N, N>) -> Self;
     /// Where the joints are to be, in its own numbers: what a firmware of this kind would have computed with so far.
-    fn input(course: &Course<f32, N, N>) -> Self::Input;
+    fn input(course: &ElasticReference<f32, N, N>) -> Self::Input;
     /// One tick: what is measured.
     fn tick(&mut self, input: &Self::Input) -> [Self::Scalar; N];
     /// Torques, N·m.

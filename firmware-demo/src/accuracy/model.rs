@@ -95,7 +95,7 @@ const fn changed<const B: usize, const N: usize>(
         link.placement.pos = vector(link.placement.pos, 1.0 / length, bits);
         let inertia = &mut link.inertia;
         inertia.mass = round(inertia.mass / mass, bits);
-        inertia.moment = vector(inertia.moment, first, bits);
+        inertia.first_moment = vector(inertia.first_moment, first, bits);
         let DMat3 {
             x_axis: x,
             y_axis: y,

@@ -1,7 +1,7 @@
 //! The robots, each with a way to go.
 
-use dynamics_core::control::{Smooth, Speed, Trajectory, TrajectoryError, WayPoint};
-use dynamics_core::flexible::Course;
+use dynamics_core::control::{MotionLimits, RestToRest, Trajectory, TrajectoryError, WayPoint};
+use dynamics_core::drivetrain::ElasticReference;
 use dynamics_core::model::{Robot, model};
 use dynamics_core::robots::{A1Leg, Panda, Ur5e};
 use dynamics_core::state::State;
@@ -45,22 +45,24 @@ pub trait Swung<const N: usize>: Robot<N, N, N> + Joints<N> {
     /// Where it goes, tick by tick.
     ///
     /// # Errors
-    /// Stops that the limits do not allow.
-    fn swing() -> Result<Smooth<f32, N, 4>, TrajectoryError>
+    /// EndStops that the limits do not allow.
+    fn swing() -> Result<RestToRest<f32, N, 4>, TrajectoryError>
     where
         Self: Sized,
     {
-        Smooth::new(&Self::STOPS, TICK, &speeds::<Self, N, N>(8.0))
+        RestToRest::new(&Self::STOPS, TICK, &speeds::<Self, N, N>(8.0))
     }
 }
 
-fn speeds<T: Robot<B, N, N>, const B: usize, const N: usize>(acceleration: f32) -> [Speed<f32>; N] {
-    let mut speeds = [Speed {
+fn speeds<T: Robot<B, N, N>, const B: usize, const N: usize>(
+    acceleration: f32,
+) -> [MotionLimits<f32>; N] {
+    let mut speeds = [MotionLimits {
         velocity: 0.0,
         acceleration,
     }; N];
     for link in &model::<f32, T, B, N, N>().links {
-        if let Some(speed) = speeds.get_mut(link.v_at) {
+        if let Some(speed) = speeds.get_mut(link.idx_v) {
             speed.velocity = link.limits.velocity;
         }
     }
@@ -68,8 +70,8 @@ fn speeds<T: Robot<B, N, N>, const B: usize, const N: usize>(acceleration: f32) 
 }
 
 /// A state that nothing is known of beyond.
-pub fn momentary<const N: usize>(state: State<f32, N, N>) -> Course<f32, N, N> {
-    Course {
+pub fn momentary<const N: usize>(state: State<f32, N, N>) -> ElasticReference<f32, N, N> {
+    ElasticReference {
         state,
         jerk: [0.0; N],
         snap: [0.0; N],

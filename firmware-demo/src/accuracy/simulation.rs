@@ -3,7 +3,7 @@
 use dynamics_core::algorithms::NotPositiveDefinite;
 use dynamics_core::scalar::Real;
 use dynamics_core::sim::{
-    EnergyKept, Euler, Integrator, LinearlyImplicit, RungeKutta, SemiImplicit, Summed,
+    EnergyProjected, Euler, Integrator, KahanState, LinearlyImplicit, RungeKutta, SemiImplicit,
 };
 use dynamics_core::state::State;
 
@@ -51,8 +51,8 @@ named!(
     SemiImplicit = "semi_implicit",
     RungeKutta = "rk4",
     LinearlyImplicit = "implicit_damping",
-    EnergyKept<f32> = "energy",
-    EnergyKept<f64> = "energy"
+    EnergyProjected<f32> = "energy",
+    EnergyProjected<f64> = "energy"
 );
 
 /// The robot T by the integrator I in the scalar R.
@@ -60,7 +60,7 @@ named!(
 pub struct Run<T, S: Scene<T, R, N>, I, R: Real, const N: usize, const COMPENSATED: bool> {
     mechanics: Engined<T, S::Effects>,
     integrator: I,
-    motion: Summed<R, N, COMPENSATED>,
+    motion: KahanState<R, N, COMPENSATED>,
 }
 
 impl<T, S, I, R, const N: usize, const COMPENSATED: bool> Run<T, S, I, R, N, COMPENSATED>
@@ -106,7 +106,7 @@ where
         Self {
             integrator: I::start(&mechanics, &state),
             mechanics,
-            motion: Summed::at(state),
+            motion: KahanState::at(state),
         }
     }
 
@@ -138,7 +138,7 @@ pub fn every<T: LetGo<N>, const N: usize>(visitor: &mut impl Visitor<N>) {
     runs! { visitor of T:
         Free SemiImplicit, f64, false;
         Free RungeKutta, f64, false;
-        Free EnergyKept<f64>, f64, false;
+        Free EnergyProjected<f64>, f64, false;
         Damped LinearlyImplicit, f64, false;
     }
 }
@@ -148,7 +148,7 @@ fn single<T: LetGo<N>, const N: usize, const COMPENSATED: bool>(visitor: &mut im
         Free Euler, f32, COMPENSATED;
         Free SemiImplicit, f32, COMPENSATED;
         Free RungeKutta, f32, COMPENSATED;
-        Free EnergyKept<f32>, f32, COMPENSATED;
+        Free EnergyProjected<f32>, f32, COMPENSATED;
         Damped SemiImplicit, f32, COMPENSATED;
         Damped RungeKutta, f32, COMPENSATED;
         Damped LinearlyImplicit, f32, COMPENSATED;

@@ -3,8 +3,8 @@
 use core::marker::PhantomData;
 
 use dynamics_core::Engine;
-use dynamics_core::control::{Extrapolated, Held, Interpolated, Linearised};
-use dynamics_core::flexible::Course;
+use dynamics_core::control::{FirstOrderHold, InertiaUpdate, Interpolator, ZeroOrderHold};
+use dynamics_core::drivetrain::ElasticReference;
 use dynamics_core::state::State;
 
 use super::Inverse;
@@ -25,7 +25,7 @@ pub struct Every<W, P, const TICKS: usize> {
 /// The engine's torque and M in every `TICKS`-th tick, and between them what M makes of the accelerations.
 #[derive(Debug)]
 pub struct EveryLinearised<K, M, const B: usize, const N: usize, const TICKS: usize> {
-    between: Linearised<f32, N, TICKS>,
+    between: InertiaUpdate<f32, N, TICKS>,
     wait: usize,
     names: PhantomData<(K, M)>,
 }
@@ -54,19 +54,19 @@ macro_rules! between {
             }
             #[inline(always)]
             fn fresh(&mut self, torque: [f32; N]) -> [f32; N] {
-                self.renew(torque)
+                self.update(torque)
             }
             #[inline(always)]
             fn stale(&mut self) -> [f32; N] {
-                self.coast()
+                self.hold()
             }
         }
     )*};
 }
 between! {
-    Held, "held", false, |_| Self::start();
-    Extrapolated<TICKS>, "extrapolated", false, |_| Self::start();
-    Interpolated<TICKS>, "interpolated", true, |first| Self::start(first);
+    ZeroOrderHold, "held", false, |_| Self::start();
+    FirstOrderHold<TICKS>, "extrapolated", false, |_| Self::start();
+    Interpolator<TICKS>, "interpolated", true, |first| Self::start(first);
 }
 
 /// On the axis `rate`.
@@ -104,7 +104,7 @@ where
             wait: 0,
         }
     }
-    fn input(course: &Course<f32, N, N>) -> Self::Input {
+    fn input(course: &ElasticReference<f32, N, N>) -> Self::Input {
         W::input(course)
     }
     #[inline(never)]
@@ -136,24 +136,24 @@ where
 
     fn start(_: &State<f32, N, N>) -> Self {
         Self {
-            between: Linearised::start(),
+            between: InertiaUpdate::start(),
             wait: 0,
             names: PhantomData,
         }
     }
-    fn input(course: &Course<f32, N, N>) -> Self::Input {
+    fn input(course: &ElasticReference<f32, N, N>) -> Self::Input {
         course.state
     }
     #[inline(never)]
     fn tick(&mut self, state: &Self::Input) -> [f32; N] {
         if self.wait > 0 {
             self.wait -= 1;
-            return self.between.coast(&state.qdd);
+            return self.between.hold(&state.qdd);
         }
         self.wait = TICKS - 1;
         let posture = Engine::<M::Robot>::posture_by::<K, f32, B, N, N>(&state.q);
         let torque = Engine::<M::Robot>::rnea_at(&posture, state, &M::SCENE);
         let mass_matrix = Engine::<M::Robot>::crba_at(&posture, &M::SCENE);
-        self.between.renew(torque, mass_matrix, &state.qdd)
+        self.between.update(torque, mass_matrix, &state.qdd)
     }
 }

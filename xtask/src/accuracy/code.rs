@@ -35,7 +35,7 @@ TICK    }
 /// What a tick in every few is.
 const SPARSE: &str = "        if self.wait > 0 {
             self.wait -= 1;
-            return self.between.coast(COAST);
+            return self.between.hold(COAST);
         }
         self.wait = TICKS - 1;
 FRESH";
@@ -43,11 +43,11 @@ FRESH";
 const LINEARISED: &str = "        let posture = FORM::<ROBOT>::posture_by::<KERNEL, f32, BODIES, JOINTS, JOINTS>(&state.q);
         let torque = FORM::<ROBOT>::rnea_at(&posture, state, &EFFECTS);
         let mass_matrix = FORM::<ROBOT>::crba_at(&posture, &EFFECTS);
-        self.between.renew(torque, mass_matrix, &state.qdd)
+        self.between.update(torque, mass_matrix, &state.qdd)
 ";
 
 /// Where the library has what a piece of code names.
-const PATHS: &str = "Core Engine control::Extrapolated control::Held control::Interpolated control::Linearised \
+const PATHS: &str = "Core Engine control::FirstOrderHold control::Held control::Interpolator control::InertiaUpdate \
                      effects::Gravity effects::Inertia effects::RIGID_BODY model::Pruned robots::A1Leg robots::Panda \
                      robots::Ur5e state::State trig::Carried trig::Minimax trig::Table";
 
@@ -122,25 +122,25 @@ fn torques(point: &Point) -> Result<String> {
     };
     let (first, renewed) = (
         call.replace("state", "first"),
-        format!("        self.between.renew({call})\n"),
+        format!("        self.between.update({call})\n"),
     );
     let (kept, start, coast, fresh) = match between {
         "held" => ("Held<f32, JOINTS>", "Held::start()", "", &*renewed),
         "extrapolated" => (
-            "Extrapolated<f32, JOINTS, TICKS>",
-            "Extrapolated::start()",
+            "FirstOrderHold<f32, JOINTS, TICKS>",
+            "FirstOrderHold::start()",
             "",
             &*renewed,
         ),
         "interpolated" => (
-            "Interpolated<f32, JOINTS, TICKS>",
-            "Interpolated::start(CALL)",
+            "Interpolator<f32, JOINTS, TICKS>",
+            "Interpolator::start(CALL)",
             "",
             &*renewed,
         ),
         _ => (
-            "Linearised<f32, JOINTS, TICKS>",
-            "Linearised::start()",
+            "InertiaUpdate<f32, JOINTS, TICKS>",
+            "InertiaUpdate::start()",
             "&state.qdd",
             LINEARISED,
         ),
@@ -198,7 +198,7 @@ fn torques(point: &Point) -> Result<String> {
 
 fn simulation(point: &Point) -> Result<String> {
     let scalar = point.on("arith");
-    let kept = format!("EnergyKept<{scalar}>");
+    let kept = format!("EnergyProjected<{scalar}>");
     let integrator = match (point.on("scene"), point.on("integrator")) {
         ("free", "euler") => "Euler",
         ("free", "semi_implicit") => "SemiImplicit",

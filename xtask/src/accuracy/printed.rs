@@ -30,7 +30,7 @@ pub fn write(workspace: &Workspace) -> Result<PathBuf> {
     let points = recorded::read(workspace)?;
     let file = workspace.target.join("accuracy_printed.rs");
     let mut text = String::from(
-        "use dynamics_core::{flexible::Course, state::State};\nuse firmware_demo::accuracy::{Inverse, Visitor, key::Key};\n",
+        "use dynamics_core::{drivetrain::Course, state::State};\nuse firmware_demo::accuracy::{Inverse, Visitor, key::Key};\n",
     );
     for (robot, n) in [("ur5e", 6), ("panda", 7), ("a1_leg", 3)] {
         let samples = points

@@ -115,19 +115,19 @@ impl Neg for Compensated {
 
 real! {
     Compensated,
-    full: <f32 as Real>::FULL,
+    full: <f32 as Real>::MAX_TRUNC,
     epsilon: Self::new(1.0 / (1_u64 << 46) as f64),
     tiny: Self::new(f32::MIN_POSITIVE as f64),
     sin_cos: sin_cos,
     to_f64: |x| -> f64 { f64::from(x.value) + f64::from(x.rest) }
     // One more step of Newton's iteration doubles the digits of f32's.
-    per_sqrt: |x| -> Self {{
-        let y = Self::from(x.value.per_sqrt());
+    rsqrt: |x| -> Self {{
+        let y = Self::from(x.value.rsqrt());
         y + y * (const { Self::new(0.5) } - const { Self::new(0.5) } * x * y * y)
     }}
     abs: |x| -> Self { if x.value < 0.0 { -x } else { x } }
     is_finite: |x| -> bool { x.value.is_finite() && x.rest.is_finite() }
-    saturate: |x| -> Self { Self::from(x.value.saturate()) + Self::from(x.rest.saturate()) }
+    saturate: |x| -> Self { Self::from(x.value.trunc_saturating()) + Self::from(x.rest.trunc_saturating()) }
 }
 
 impl From<f32> for Compensated {

@@ -132,7 +132,7 @@ real! {
     tiny: Self(1),
     sin_cos: |x| HalfTurns::sin_cos(x * const { Self::new(core::f64::consts::FRAC_1_PI) }),
     to_f64: |x| -> f64 { f64::from(x.0) / (1_i64 << FRACTION) as f64 }
-    per_sqrt: |x| -> Self { Self::new(x.to_f64().per_sqrt()) }
+    rsqrt: |x| -> Self { Self::new(x.to_f64().rsqrt()) }
     abs: |x| -> Self { Self(x.0.wrapping_abs()) }
     is_finite: |_| -> bool { true }
     saturate: |x| -> Self { Self(x.0 / Self::ONE.0 * Self::ONE.0) }

@@ -6,11 +6,11 @@ mod vector;
 
 use core::marker::PhantomData;
 
+use dynamics_core::drivetrain::ElasticReference;
 use dynamics_core::effects::Effect;
-use dynamics_core::flexible::Course;
 use dynamics_core::model::Robot;
 use dynamics_core::scalar::Real;
-use dynamics_core::state::{Posture, State};
+use dynamics_core::state::{JointTrig, State};
 use dynamics_core::{Core, Engine};
 
 use super::Inverse;
@@ -79,7 +79,7 @@ macro_rules! real {
                 const { &cast(&T::MODEL) }
             }
             #[inline(always)]
-            fn pick_value(double: f64, _: f32) -> Self {
+            fn select(double: f64, _: f32) -> Self {
                 Self::new(double)
             }
         }
@@ -159,7 +159,7 @@ where
     fn start(_: &State<f32, N, N>) -> Self {
         Self(PhantomData)
     }
-    fn input(course: &Course<f32, N, N>) -> Self::Input {
+    fn input(course: &ElasticReference<f32, N, N>) -> Self::Input {
         let State { q, qd, qdd } = course.state;
         let [q, qd, qdd] = [q, qd, qdd].map(|xs| xs.map(|x| R::from_f64(f64::from(x))));
         State { q, qd, qdd }
@@ -196,7 +196,7 @@ where
     fn start(_: &State<f32, N, N>) -> Self {
         Self(PhantomData)
     }
-    fn input(course: &Course<f32, N, N>) -> Self::Input {
+    fn input(course: &ElasticReference<f32, N, N>) -> Self::Input {
         let State { q, qd, qdd } = course.state;
         let time = const { Units::of(&T::MODEL).time };
         State {
@@ -212,7 +212,7 @@ where
     }
     #[inline(never)]
     fn tick(&mut self, state: &Self::Input) -> [Fixed; N] {
-        let posture: Posture<Fixed, N> =
+        let posture: JointTrig<Fixed, N> =
             Engine::<InUnits<T>>::posture_by::<HalfTurns, Fixed, B, N, N>(&state.q);
         Core::<InUnits<T>>::rnea_at(&posture, state, &M::IN_UNITS)
     }

@@ -10,7 +10,7 @@ use core::fmt::{Display, Write};
 
 use cortex_m_semihosting::debug;
 use dynamics_core::control::Reference;
-use dynamics_core::flexible::Course;
+use dynamics_core::drivetrain::ElasticReference;
 use dynamics_core::state::State;
 use firmware_demo::accuracy::robots::{Compared, Swung, momentary};
 use firmware_demo::accuracy::simulation::{self, LetGo, Simulation};
@@ -31,9 +31,9 @@ pub struct Priced<const N: usize> {
     /// What the log calls them.
     pub algorithm: &'static str,
     /// Anywhere, for ways that remember nothing.
-    spread: [Course<f32, N, N>; TICKS],
+    spread: [ElasticReference<f32, N, N>; TICKS],
     /// One after the other on the robot's way.
-    course: [Course<f32, N, N>; TICKS],
+    course: [ElasticReference<f32, N, N>; TICKS],
 }
 
 /// Runs a row under the key that the host knows it by.

@@ -4,9 +4,9 @@ use std::f64::consts::PI;
 
 use dynamics_core::Core;
 use dynamics_core::control::Reference;
+use dynamics_core::drivetrain::{ElasticReference, elastic_inverse_dynamics};
 use dynamics_core::effects::RIGID_BODY;
-use dynamics_core::flexible::{Course, flexible_rnea};
-use dynamics_core::model::Of;
+use dynamics_core::model::Static;
 use dynamics_core::state::State;
 use firmware_demo::accuracy::robots::{Compared, Swung, momentary};
 use firmware_demo::accuracy::{Inverse, Visitor, list};
@@ -41,7 +41,7 @@ pub struct Bench<const N: usize> {
 
 /// Where the joints are to be, and the torques of it.
 pub struct Asked<const N: usize> {
-    pub course: Course<f32, N, N>,
+    pub course: ElasticReference<f32, N, N>,
     pub truth: [f64; N],
 }
 
@@ -126,12 +126,13 @@ where
     let swing = T::swing().expect("the arm can swing there");
     let asked = |tick| {
         let course = swing.course(tick);
-        let double = Course {
+        let double = ElasticReference {
             state: widened(&course.state),
             jerk: course.jerk.map(f64::from),
             snap: course.snap.map(f64::from),
         };
-        let motors = flexible_rnea(&Of::<T>::NEW, &T::joints(), &double, &RIGID_BODY);
+        let motors =
+            elastic_inverse_dynamics(&Static::<T>::NEW, &T::joints(), &double, &RIGID_BODY);
         Asked {
             course,
             truth: motors.expect("joints of one freedom").torque,

@@ -1,8 +1,8 @@
 //! The true motion of a robot that is let go, for simulations to be compared with.
 
 use dynamics_core::effects::Effect;
-use dynamics_core::model::Of;
-use dynamics_core::sim::{Described, Integrator, RungeKutta, Summed};
+use dynamics_core::model::Static;
+use dynamics_core::sim::{Integrator, KahanState, ModelDynamics, RungeKutta};
 use dynamics_core::state::State;
 use firmware_demo::accuracy::simulation::LetGo;
 
@@ -18,13 +18,13 @@ pub fn true_motion<T: LetGo<N>, E: Effect<f64, N, N>, const N: usize>(
     effects: &E,
     step: u32,
 ) -> Vec<[[f64; N]; 2]> {
-    let robot = Described {
-        robot: &Of::<T>::NEW,
+    let robot = ModelDynamics {
+        robot: &Static::<T>::NEW,
         tau: [0.0; N],
         effects,
     };
     let ([q, qd], qdd) = (T::START, [0.0; N]);
-    let mut motion = Summed::<f64, N, true>::at(State { q, qd, qdd });
+    let mut motion = KahanState::<f64, N, true>::at(State { q, qd, qdd });
     let h = f64::from(step) * 1e-6;
     let samples = (0..SECOND).map(|_| {
         for _ in 0..SAMPLE / step {

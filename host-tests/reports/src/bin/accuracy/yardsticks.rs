@@ -72,7 +72,7 @@ fn inertial<T: Robot<B, N, N>, const B: usize, const N: usize>(
         for inertia in robot.inertias() {
             let [mass, moment, second] = within::<3>(&mut random, share).map(|x| 1.0 + x);
             inertia.mass *= mass;
-            inertia.moment *= moment;
+            inertia.first_moment *= moment;
             inertia.inertia *= second;
         }
         Errors::of(way.iter().step_by(10).map(|Asked { course, truth }| {

@@ -11,6 +11,7 @@ use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::model::Robot;
 use dynamics_core::robots::{A1Leg, Panda, Ur5e};
 use dynamics_core::scalar::Real;
+use dynamics_core::state::Carried;
 use dynamics_core::state::State;
 use dynamics_core::trig::{Kernel, Minimax, Table};
 use dynamics_core::{Core, Engine};

@@ -4,7 +4,8 @@ use core::marker::PhantomData;
 
 use dynamics_core::Engine;
 use dynamics_core::drivetrain::ElasticReference;
-use dynamics_core::state::State;
+use dynamics_core::scalar::Native;
+use dynamics_core::state::{Carried, State};
 
 use super::Inverse;
 use super::form::Form;
@@ -41,25 +42,25 @@ macro_rules! ways {
                 $tick
             }
             $(fn address() -> usize {
-                $address as usize
+                $address
             })?
         }
     )*};
 }
 ways! {
     /// As the library ships it, in f32.
-    Shipped<>, F::TRIG, () = |_| (), #[inline(always)] |self, state| F::rnea()(state, &M::SCENE),
-        address: F::rnea::<f32, M::Scene, B, N>();
+    Shipped<>, F::TRIG, () = |_| (), #[inline(always)] |self, state| F::rnea::<Native, _, _, _, _, _>(state, &M::SCENE),
+        address: F::address::<Native, f32, M::Scene, B, N>();
     /// With the kernel K inside.
-    By<K>, K::NAME, () = |_| (), #[inline(always)] |self, state| F::rnea_by::<K, M::Scene, B, N>()(state, &M::SCENE),
-        address: F::rnea_by::<K, M::Scene, B, N>();
+    By<K>, K::NAME, () = |_| (), #[inline(always)] |self, state| F::rnea::<K, _, _, _, _, _>(state, &M::SCENE),
+        address: F::address::<K, f32, M::Scene, B, N>();
     /// With the kernel K, a call into another crate, before it.
     After<K>, K::NAME, () = |_| (), #[inline(never)] |self, state| {
-        let posture = Engine::<M::Robot>::posture_by::<K, f32, B, N, N>(&state.q);
-        F::rnea_at()(&posture, state, &M::SCENE)
+        let trig = Engine::<M::Robot, K>::joint_trig(&state.q);
+        F::rnea::<Native, _, _, _, _, _>(trig.with(state), &M::SCENE)
     };
     /// With sines and cosines carried from tick to tick.
     Following<>, "incremental", Carried<f32, N> = |first| Carried::at(first.q), #[inline(never)] |self, state| {
-        F::rnea_at()(self.0.follow(&state.q), state, &M::SCENE)
+        F::rnea::<Native, _, _, _, _, _>(self.0.follow(&state.q).with(state), &M::SCENE)
     }, memory: true;
 }

@@ -151,9 +151,9 @@ where
             return self.between.hold(&state.qdd);
         }
         self.wait = TICKS - 1;
-        let posture = Engine::<M::Robot>::posture_by::<K, f32, B, N, N>(&state.q);
-        let torque = Engine::<M::Robot>::rnea_at(&posture, state, &M::SCENE);
-        let mass_matrix = Engine::<M::Robot>::crba_at(&posture, &M::SCENE);
+        let trig = Engine::<M::Robot, K>::joint_trig(&state.q);
+        let torque = Engine::<M::Robot>::rnea(trig.with(state), &M::SCENE);
+        let mass_matrix = Engine::<M::Robot>::crba(&trig, &M::SCENE);
         self.between.update(torque, mass_matrix, &state.qdd)
     }
 }

@@ -40,16 +40,16 @@ const SPARSE: &str = "        if self.wait > 0 {
         self.wait = TICKS - 1;
 FRESH";
 
-const LINEARISED: &str = "        let posture = FORM::<ROBOT>::posture_by::<KERNEL, f32, BODIES, JOINTS, JOINTS>(&state.q);
-        let torque = FORM::<ROBOT>::rnea_at(&posture, state, &EFFECTS);
-        let mass_matrix = FORM::<ROBOT>::crba_at(&posture, &EFFECTS);
+const LINEARISED: &str = "        let trig = FORM::<ROBOT, KERNEL>::joint_trig(&state.q);
+        let torque = FORM::<ROBOT>::rnea(trig.with(state), &EFFECTS);
+        let mass_matrix = FORM::<ROBOT>::crba(&trig, &EFFECTS);
         self.between.update(torque, mass_matrix, &state.qdd)
 ";
 
 /// Where the library has what a piece of code names.
-const PATHS: &str = "Core Engine control::FirstOrderHold control::Held control::Interpolator control::InertiaUpdate \
+const PATHS: &str = "Core Engine control::FirstOrderHold control::ZeroOrderHold control::Interpolator control::InertiaUpdate \
                      effects::Gravity effects::Inertia effects::RIGID_BODY model::Pruned robots::A1Leg robots::Panda \
-                     robots::Ur5e state::State trig::Carried trig::Minimax trig::Table";
+                     robots::Ur5e state::State state::Carried trig::Minimax trig::Table";
 
 /// The simulation of the UR5e, which the tests compile and run.
 const SIMULATION: &str = include_str!("../../../host-tests/tests/pasted/ur5e_rk4.rs");
@@ -92,10 +92,10 @@ pub fn ticks(point: &Point) -> bool {
 fn torques(point: &Point) -> Result<String> {
     let axes = ["model", "trig", "rate", "between", "arith"];
     let [model, trig, rate, between, scalar] = axes.map(|axis| point.on(axis));
-    let (arm, bodies, joints) = match &*point.robot {
-        "ur5e" => ("Ur5e", "6", "6"),
-        "panda" => ("Panda", "7", "7"),
-        "a1_leg" => ("A1Leg", "4", "3"),
+    let (arm, joints) = match &*point.robot {
+        "ur5e" => ("Ur5e", "6"),
+        "panda" => ("Panda", "7"),
+        "a1_leg" => ("A1Leg", "3"),
         _ => return Err(lacks(point, "kind")),
     };
     let mut robot = arm.to_owned();
@@ -116,16 +116,21 @@ fn torques(point: &Point) -> Result<String> {
     let own = trig == pick(core, "table3x4", "table3") || scalar == "f64";
     let call = match trig {
         _ if own => "FORM::<ROBOT>::rnea(state, &EFFECTS)",
-        "incremental" => "FORM::<ROBOT>::rnea_at(self.carried.follow(&state.q), state, &EFFECTS)",
+        "incremental" => "FORM::<ROBOT>::rnea(self.carried.follow(&state.q).with(state), &EFFECTS)",
         "libm" | "micromath" => return Err(lacks(point, "trig")),
-        _ => "FORM::<ROBOT>::rnea_by::<KERNEL, f32, _, BODIES, JOINTS, JOINTS>(state, &EFFECTS)",
+        _ => "FORM::<ROBOT, KERNEL>::rnea(state, &EFFECTS)",
     };
     let (first, renewed) = (
         call.replace("state", "first"),
         format!("        self.between.update({call})\n"),
     );
     let (kept, start, coast, fresh) = match between {
-        "held" => ("Held<f32, JOINTS>", "Held::start()", "", &*renewed),
+        "held" => (
+            "ZeroOrderHold<f32, JOINTS>",
+            "ZeroOrderHold::start()",
+            "",
+            &*renewed,
+        ),
         "extrapolated" => (
             "FirstOrderHold<f32, JOINTS, TICKS>",
             "FirstOrderHold::start()",
@@ -178,7 +183,6 @@ fn torques(point: &Point) -> Result<String> {
         ("ROBOT", &robot),
         ("EFFECTS", effects),
         ("KERNEL", kernel(trig)),
-        ("BODIES", bodies),
         ("JOINTS", joints),
         ("TICKS", rate),
         ("FIRST", pick(reads_first, "first", "_first")),

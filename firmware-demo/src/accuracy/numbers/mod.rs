@@ -9,8 +9,8 @@ use core::marker::PhantomData;
 use dynamics_core::drivetrain::ElasticReference;
 use dynamics_core::effects::Effect;
 use dynamics_core::model::Robot;
-use dynamics_core::scalar::Real;
-use dynamics_core::state::{JointTrig, State};
+use dynamics_core::scalar::{Native, Real};
+use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
 
 use super::Inverse;
@@ -166,10 +166,10 @@ where
     }
     #[inline(always)]
     fn tick(&mut self, state: &Self::Input) -> [R; N] {
-        F::rnea()(state, &M::SCENE)
+        F::rnea::<Native, _, _, _, _, _>(state, &M::SCENE)
     }
     fn address() -> usize {
-        F::rnea::<R, M::Scene, B, N>() as usize
+        F::address::<Native, R, M::Scene, B, N>()
     }
 }
 
@@ -212,8 +212,7 @@ where
     }
     #[inline(never)]
     fn tick(&mut self, state: &Self::Input) -> [Fixed; N] {
-        let posture: JointTrig<Fixed, N> =
-            Engine::<InUnits<T>>::posture_by::<HalfTurns, Fixed, B, N, N>(&state.q);
-        Core::<InUnits<T>>::rnea_at(&posture, state, &M::IN_UNITS)
+        let trig = Engine::<InUnits<T>, HalfTurns>::joint_trig(&state.q);
+        Core::<InUnits<T>>::rnea(trig.with(state), &M::IN_UNITS)
     }
 }

@@ -90,7 +90,7 @@ fn measured(workspace: &Workspace) -> Result<Suite> {
     command.args(["--quiet", "--package", "host-reports", "--bin", BIN]);
     let text = shell::capture(&mut command)?;
     serde_json::from_str(&text)
-        .map_err(|e| Error::check(format!("`{BIN}` did not print a suite of hard cases: {e}")))
+        .map_err(|e| Error::check(format!("`{BIN}` printed what is no suite: {e}")))
 }
 
 fn summary(suite: &Suite) -> String {

@@ -1,4 +1,4 @@
-//! `cargo xtask eliminations`: which way of forward dynamics is less accurate where, measured on the host.
+//! `cargo xtask eliminations`: the accuracy of the two methods of forward dynamics, measured on the host.
 
 use std::process::ExitCode;
 
@@ -28,7 +28,7 @@ pub fn run() -> Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Fails unless the page's table is what would be measured now: f32 gives the same bits everywhere.
+/// Fails unless the table on the page agrees with a new measurement: f32 gives the same bits everywhere.
 pub fn check(workspace: &Workspace) -> Result<()> {
     PAGE.check(workspace, &generated(workspace)?, None)
 }

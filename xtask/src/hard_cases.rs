@@ -1,4 +1,4 @@
-//! `cargo xtask hard-cases`: what breaks dynamics codes, measured on the host.
+//! `cargo xtask hard-cases`: situations in which dynamics libraries fail, measured on the host.
 
 use std::process::ExitCode;
 
@@ -22,11 +22,11 @@ const HEAD: &str = "
 | --- | ---: | ---: | ---: | ---: | ---: | --- |
 ";
 
-/// What the bin prints.
+/// The output of the bin.
 #[derive(Deserialize)]
 struct Suite {
     cases: Vec<Case>,
-    /// The numbers of those that the step `bits` runs in QEMU.
+    /// The numbers of the cases that the step `bits` runs in QEMU.
     in_qemu: Vec<u32>,
     rows: Vec<Row>,
 }
@@ -41,7 +41,7 @@ struct Case {
     reason: String,
 }
 
-/// A measurement; what is not finite is none.
+/// A measurement; a value that is not finite is `None`.
 #[derive(Deserialize, Serialize)]
 struct Row {
     case: String,
@@ -72,7 +72,7 @@ pub fn run(json: bool) -> Result<ExitCode> {
     })
 }
 
-/// Fails unless every case holds and the page says what would be measured now.
+/// Fails unless every case is within its bounds and the page agrees with a new measurement.
 pub fn check(workspace: &Workspace) -> Result<String> {
     let suite: Suite = host_bin::json(workspace, BIN)?;
     if let Some(row) = suite.rows.iter().find(|row| row.verdict == "fail") {
@@ -96,7 +96,7 @@ fn summary(suite: &Suite) -> String {
     )
 }
 
-/// All that is between the markers.
+/// The text between the markers.
 fn page(suite: &Suite) -> String {
     let mut text = format!("{}.\n", summary(suite));
     for case in &suite.cases {
@@ -105,22 +105,22 @@ fn page(suite: &Suite) -> String {
             .collect();
         let Case { number, name, .. } = case;
         text += &format!("\n### {number}. {name}\n\n");
-        for (what, told) in [
+        for (label, text_of_case) in [
             ("Parameters", &case.parameters),
             ("Source", &case.source),
             ("Oracle", &case.oracle),
             ("Bound", &case.reason),
         ] {
-            text += &format!("- {what}: {told}.\n");
+            text += &format!("- {label}: {text_of_case}.\n");
         }
         if suite.in_qemu.contains(number) {
-            text += "- In QEMU: the same bits, in f32 and by every algorithm.\n";
+            text += "- In QEMU: every algorithm gives the same bits in f32.\n";
         }
         text += HEAD;
-        let mut told: Vec<&str> = Vec::new();
+        let mut written: Vec<&str> = Vec::new();
         for row in &rows {
-            if !told.contains(&&*row.quantity) {
-                told.push(&row.quantity);
+            if !written.contains(&&*row.quantity) {
+                written.push(&row.quantity);
                 text += &line(&rows, &row.quantity);
             }
         }
@@ -128,10 +128,10 @@ fn page(suite: &Suite) -> String {
     text.trim_end().to_owned()
 }
 
-/// What was measured of one quantity, in f32 and in f64.
+/// The measurements of one quantity, in f32 and in f64.
 fn line(rows: &[&Row], quantity: &str) -> String {
-    let mine = || rows.iter().filter(|row| row.quantity == quantity);
-    let figures = |scalar: &str| match mine().find(|row| row.scalar == scalar) {
+    let of_quantity = || rows.iter().filter(|row| row.quantity == quantity);
+    let figures = |scalar: &str| match of_quantity().find(|row| row.scalar == scalar) {
         Some(row) => format!(
             "{} | {}",
             figure(row.error, "no number"),
@@ -139,10 +139,10 @@ fn line(rows: &[&Row], quantity: &str) -> String {
         ),
         None => " | ".into(),
     };
-    let condition = mine().find_map(|row| row.condition);
+    let condition = of_quantity().find_map(|row| row.condition);
     let condition = condition.map_or(String::new(), |k| format!("{k:.1e}"));
-    let said = |verdict: &str| mine().any(|row| row.verdict == verdict);
-    let verdict = match (said("fail"), said("shown")) {
+    let has = |verdict: &str| of_quantity().any(|row| row.verdict == verdict);
+    let verdict = match (has("fail"), has("shown")) {
         (true, _) => "fails",
         (false, true) => "breaks, as shown",
         (false, false) => "pass",

@@ -16,22 +16,22 @@ pub const CASES: &[Case] = &[
     Case {
         number: 25,
         name: "quaternion after 1e7 steps",
-        parameters: "10⁷ steps of 7/2¹³ rad about (2, 3, 6)/7, by `integrate` alone",
-        source: "floating bases integrated for hours; quaternions that are normalised now and then or never",
+        parameters: "10⁷ steps of 7/2¹³ rad about (2, 3, 6)/7, only by `integrate`",
+        source: "floating bases that are integrated for hours; quaternions that are normalised rarely or never",
         oracle: "closed form: the angle 10⁷·7/2¹³ is exact in f64",
-        reason: "length: rounding of one step, since each step corrects the length of the one before. \
-                 Attitude: the rounding of the step is the same each time, so that up to ε/2 of 8545 rad add \
-                 up (5e-4 in f32, 9e-13 in f64), and that of 10⁷ sums walks as far",
+        reason: "length: the rounding error of one step, because each step corrects the length of the previous one. \
+            Attitude: the rounding error of the step is the same each time, so that up to ε/2 of 8545 rad \
+            accumulate (5e-4 in f32, 9e-13 in f64), and the random walk of the errors of 10⁷ sums is as large",
         run: quaternion,
     },
     Case {
         number: 26,
         name: "Dzhanibekov body (1, 2, 3)",
         parameters: "moments 1, 2, 3 kg·m², 5 rad/s about the middle axis and 0.01 about another, 60 s of 1 ms",
-        source: "Poinsot (1834); Ashbaugh, Chicone & Cushman (1991); the flip that energy drift makes come early",
-        oracle: "conserved energy and momentum in space; the order of each integrator, by halving its step",
-        reason: "first order: the energy grows by h²/2 ω̇·Iω̇ a step, as that sum says, and momentum in \
-                 proportion to h. Fourth order in f64: measured; in f32 rounding, 6e4 steps of less than ε/2",
+        source: "Poinsot (1834); Ashbaugh, Chicone & Cushman (1991); a flip that is too early because of energy drift",
+        oracle: "conserved energy and conserved momentum in the inertial frame; the order of each integrator, measured with half the step",
+        reason: "first order: the energy grows by h²/2 ω̇·Iω̇ per step, as the sum of these terms shows, and momentum \
+            in proportion to h. Fourth order: measured in f64; rounding in f32, 6e4 steps of less than ε/2",
         run: dzhanibekov,
     },
 ];

@@ -4,16 +4,16 @@ use super::measure::{ErrorBounds, against_oracle};
 use super::setup::list::{Stance, arm, chain};
 use super::{Case, Row};
 
-const ORACLE: &str = "50 digits from the very f32 bits (oracle/hard.py)";
+const ORACLE: &str = "computation in 50 digits from the same f32 bits (oracle/hard.py)";
 const SOURCE: &str = "Featherstone, \"An empirical study of the joint-space inertia matrix\" (2004): κ grows as n⁴ in the worst case";
-const REASON: &str = "a backward stable elimination is off by some κ ε in the worst case; bounds are measured, and below that. Torques and mobilities do not feel κ";
+const REASON: &str = "the error of a backward stable elimination is about κ ε in the worst case; the bounds are measured, and smaller. Torques and inverse operational-space inertias do not depend on κ";
 
 /// The family's cases.
 pub const CASES: &[Case] = &[
     Case {
         number: 7,
         name: "chain of 8 rods",
-        parameters: "8 rods of 1 kg and 0.25 m, straight on parallel axes, and anyhow on crossed ones; four states each",
+        parameters: "8 rods of 1 kg and 0.25 m: straight on parallel axes, and in random configurations on crossed axes; four states each",
         source: SOURCE,
         oracle: ORACLE,
         reason: REASON,
@@ -43,14 +43,14 @@ pub const CASES: &[Case] = &[
         parameters: "as case 7, 64 rods",
         source: SOURCE,
         oracle: ORACLE,
-        reason: "f32 keeps two digits of the accelerations of such a chain anyhow, and none where it is straight: there κ ε = 8, LᵀDL is off by 1.1 and ABA by 0.1 of full scale. M's own rounding does it: refining with torques of RNEA in f32 gains nothing beyond ABA's error. Torques and mobilities do not feel κ",
+        reason: "f32 keeps two digits of the accelerations of such a chain in random configurations, and none where it is straight: there κ ε = 8, and the errors of LᵀDL and ABA are 1.1 and 0.1 of full scale. The cause is the rounding of M: refinement with torques of RNEA in f32 does not improve on the error of ABA. Torques and inverse operational-space inertias do not depend on κ",
         run: || rods::<64>(10, &[STRAIGHT_64, RANDOM_64]),
     },
     Case {
         number: 11,
         name: "six links in a zigzag",
-        parameters: "six rods of 1 kg and 1 m on parallel axes, joints at ±75° by turns, and mirrored",
-        source: "Featherstone (2004): how a chain is folded sets κ; here it is 725",
+        parameters: "six rods of 1 kg and 1 m on parallel axes, joints alternately at ±75°, and the mirrored chain",
+        source: "Featherstone (2004): κ depends on how a chain is folded; here it is 725",
         oracle: ORACLE,
         reason: "κ ε = 9·10⁻⁵ in f32",
         run: || against_oracle(&arm(11, "zigzag ±75°"), &ZIGZAG),

@@ -13,21 +13,21 @@ pub const CASES: &[Case] = &[
     Case {
         number: 38,
         name: "encoder wrap 2π → 0",
-        parameters: "14 bits, 2 rad/s, 10 s of 1 ms both ways, observer of 250 rad/s",
-        source: "absolute encoders of one turn; a velocity of −6283 rad/s where somebody takes a difference",
-        oracle: "the velocity that it turns with",
-        reason: "a step Δ of the encoder kicks the velocity by ω² h Δ, 0.024 rad/s: twice that",
+        parameters: "14 bits, 2 rad/s, 10 s in steps of 1 ms in both directions, observer of 250 rad/s",
+        source: "single-turn absolute encoders; a velocity of −6283 rad/s if it is computed as a difference",
+        oracle: "the true velocity",
+        reason: "a step Δ of the encoder changes the velocity by ω² h Δ, 0.024 rad/s: twice that",
         run: wrap,
     },
     Case {
         number: 39,
         name: "tick jitter 0, 0.5, 1, 2, 10 × and missed ticks",
-        parameters: "UR5e in motion; 200 ticks late by up to that much of a tick; 1, 2, 5, 10, 50 ticks missed",
-        source: "interrupts behind a busy bus; laws that divide by the interval they measure",
-        oracle: "limits; the tracking error without jitter",
-        reason: "nothing divides by an interval; limits are limits. Whole ticks that were missed are counted, and the \
-                 observer goes on without measurement: what is left is less than a tick and the delay, which the \
-                 loop's poles forget (a tenth after 196 ticks, a hundredth after 306)",
+        parameters: "UR5e in motion; 200 ticks that are late by up to this multiple of a tick; 1, 2, 5, 10, 50 missed ticks",
+        source: "interrupts delayed by a busy bus; control laws that divide by a measured interval",
+        oracle: "the limits; the tracking error without jitter",
+        reason: "nothing is divided by an interval, and the limits hold. Missed ticks are counted, and the observer \
+            continues without measurement: the remaining error is less than a tick and the delay, which decays \
+            with the poles of the loop (a tenth after 196 ticks, a hundredth after 306)",
         run: jitter,
     },
     Case {
@@ -35,8 +35,8 @@ pub const CASES: &[Case] = &[
         name: "24 h of ticks",
         parameters: "a motion after 86.4 million ticks of rest; 86.4 million ticks of an observer",
         source: "t += 0.001 in f32 stops at 32,768 s",
-        oracle: "the same motion at once; an observer that has just begun",
-        reason: "time is counted in integers: the same bits. An observer forgets all but its last ticks' rounding, ε and ω ε",
+        oracle: "the same motion without the rest; an observer that has just started",
+        reason: "time is counted in integers: the same bits. The error of an observer is the rounding error of its last ticks, ε and ω ε",
         run: day,
     },
 ];

@@ -9,10 +9,10 @@ use dynamics_core::scalar::Real;
 pub const CASES: &[Case] = &[Case {
     number: 41,
     name: "saturation and recovery without wind-up",
-    parameters: "UR5e held fast for 100 … 6400 ticks, 0.11 rad from its reference, torques at their limits; then let go",
+    parameters: "UR5e blocked for 100 … 6400 ticks, 0.11 rad from its reference, torques at their limits; then released",
     source: "integrators that wind up behind a limit: Åström & Hägglund (1995), section 3.5",
-    oracle: "the same recovery whatever the time at the limit; no overshoot, as of critically damped poles",
-    reason: "nothing integrates: the same bits after any time that the observer has settled in (400 ticks)",
+    oracle: "the same recovery after any time at the limit; no overshoot, because the poles are critically damped",
+    reason: "there is no integrator: the same bits after any time in which the observer has settled (400 ticks)",
     run: saturation,
 }];
 

@@ -21,29 +21,30 @@ pub const CASES: &[Case] = &[
         number: 28,
         name: "energy of a double pendulum",
         parameters: "two points of 1 kg on rods of 1 m, from rest at (2, 2.5) rad, steps of 1 ms, 10 s and 1 h",
-        source: "the demo of every simulator; a chaotic motion, so that only energy can be held against a law",
-        oracle: "the energy by the textbook's formula, in f64 from the state; the order of each integrator",
-        reason: "first order in h, measured. Fourth order: 1.5e-11 a second in f64; in f32 rounding of two sums a \
-                 step, which walks: √N ε",
+        source: "the demo of every simulator; the motion is chaotic, so that only the energy can be compared with a law",
+        oracle: "the energy from the textbook's formula, in f64 from the state; the order of each integrator",
+        reason: "of first order in h, measured. Fourth order: 1.5e-11 per second in f64; in f32 the random walk of \
+            the rounding errors of two sums per step, √N ε",
         run: pendulum,
     },
     Case {
         number: 29,
         name: "free fall of a floating tree",
-        parameters: "A1 and G1 on a free base, released at rest in 50 random poses; 1 s of fall",
+        parameters: "A1 and G1 on a free base, released at rest in 50 random configurations; 1 s of fall",
         source: "quadrupeds and humanoids in MuJoCo and Brax that move their joints while they fall",
-        oracle: "the base accelerates by g, no joint moves, no motor has anything to do",
-        reason: "inverse dynamics: the rounding of one sum. Articulated bodies: a free joint takes up what its base \
-                 does before anything else, so that nothing is left for the others. By M and its factors: κ ε",
+        oracle: "the base accelerates by g, no joint moves, and every motor torque is zero",
+        reason: "inverse dynamics: the rounding error of one sum. Articulated bodies: a free joint decouples the \
+            robot from the acceleration of its base, so that the other joints have none. By M and its factors: κ \
+            ε",
         run: fall,
     },
     Case {
         number: 30,
         name: "at rest without gravity",
-        parameters: "UR5e, Panda, G1 and A1 free, G1 free in 50 random poses; no gravity, and gravity of 0",
-        source: "drift of an idle simulation",
+        parameters: "UR5e, Panda, G1 and A1 on a free base, G1 on a free base in 50 random configurations; without gravity, and with gravity of 0",
+        source: "the drift of an idle simulation",
         oracle: "zero",
-        reason: "nothing is computed but products with zeros: exactly zero",
+        reason: "only products with zeros are computed: exactly zero",
         run: rest,
     },
 ];

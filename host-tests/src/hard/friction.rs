@@ -17,21 +17,21 @@ pub const CASES: &[Case] = &[
     Case {
         number: 33,
         name: "friction at rest under 0.9 of break-away",
-        parameters: "2 kg under 3.6 N against 4 N, widths 1e-2 … 1e-6 m/s, 2 s of 1 ms; LuGre of Canudas de Wit \
-                     (1995), loaded in 1 s, then 10 s",
+        parameters: "2 kg, a force of 3.6 N and friction of 4 N, widths 1e-2 … 1e-6 m/s, 2 s in steps of 1 ms; the LuGre \
+            model of Canudas de Wit (1995), loaded within 1 s, then 10 s",
         source: "brakes and wrists that slip_tolerance or chatter in simulators with a regularised sign",
-        oracle: "closed form: the sign u (3 − u²)/2 is 0.9 at u = 2 sin(asin(0.9)/3); LuGre bends by −ln(0.1) F_s/σ₀",
-        reason: "speed: rounding of the balance of two forces, 30 ε. No chatter: the speed never falls by more than \
-                 rounding. LuGre: 2.5 F_s/σ₀ and 1 % are what is asked",
+        oracle: "closed form: the smooth sign u (3 − u²)/2 is 0.9 at u = 2 sin(asin(0.9)/3); the deflection of LuGre is −ln(0.1) F_s/σ₀",
+        reason: "speed: the rounding error of the balance of two forces, 30 ε. No chatter: the speed never decreases \
+            by more than the rounding error. LuGre: the requirement is 2.5 F_s/σ₀ and 1 %",
         run: rest,
     },
     Case {
         number: 35,
         name: "friction through zero",
         parameters: "every power of two in f32 and f64 with 16 mantissas, both signs",
-        source: "signs that jump at zero; friction that drives, from tables with an offset",
+        source: "signs that jump at zero; friction from tables with an offset, which drives the joint",
         oracle: "τ(−v) = −τ(v) bit by bit, τ v ≥ 0",
-        reason: "a claim: no rounding depends on a sign",
+        reason: "a claim: no rounding error depends on a sign",
         run: through_zero,
     },
 ];

@@ -14,13 +14,13 @@ use dynamics_core::state::State;
 pub const CASES: &[Case] = &[Case {
     number: 37,
     name: "NaN, ±Inf, ±1e38, subnormal in each input in turn",
-    parameters: "UR5e; every component of q, q̇, q̈, τ of rnea, crba, aba, crba + ltdl; in mid-motion every joint's measured \
-                 position, reference and torque for one tick",
+    parameters: "UR5e; every component of q, q̇, q̈, τ of rnea, crba, aba, crba + ltdl; during a motion, the measured \
+            position, reference and torque of every joint for one tick",
     source: "damaged frames, uninitialised references; drives that read NaN as \"no limit\"",
-    oracle: "the same without poison, bit by bit; the limits",
-    reason: "dynamics and law keep nothing: the same bits at once. What is no number is ridden through for its tick. A \
-             huge number becomes what the rate allows for a tick, a jolt that dies away as the loop's poles do: \
-             ω t e^(1 − ω t) is a tenth after 196 ticks",
+    oracle: "the same bits as without the injected value; the limits",
+    reason: "dynamics and control law have no state: the same bits at once. The ride-through covers a tick with \
+            NaN or infinity. A very large number is limited to the rate of one tick, a disturbance that decays \
+            with the poles of the loop: ω t e^(1 − ω t) is a tenth after 196 ticks",
     run: poisoned,
 }];
 

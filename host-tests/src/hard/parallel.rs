@@ -14,26 +14,26 @@ use dynamics_core::state::State;
 use firmware_demo::hard::{GRAVITY, N, scene};
 use proptest::test_runner::TestRng;
 
-const ORACLE: &str = "50 digits from the very f32 bits (oracle/hard.py)";
+const ORACLE: &str = "computation in 50 digits from the same f32 bits (oracle/hard.py)";
 
 /// The family's cases.
 pub const CASES: &[Case] = &[
     Case {
         number: 20,
         name: "coincident axes with nothing between them",
-        parameters: "UR5e, wrist 2 massless and wrist 3 on its axis, four states; and 1000 chains of four with a massless link between two joints on one axis of any direction",
-        source: "a roll joint behind a continuous one with a dummy link between",
+        parameters: "UR5e, wrist 2 massless and wrist 3 on its axis, four states; and 1000 chains of four links with a massless link between two joints on one axis of any direction",
+        source: "a roll joint after a continuous joint with a dummy link between them",
         oracle: ORACLE,
-        reason: "RNEA has no inverse. A pivot that is not above 32 roundings of M's own diagonal, or eight of the largest inertia that its joint could move, is what rounding left of zero: relative, for robots of any size",
+        reason: "RNEA has no inverse. A pivot that does not exceed 32 times the rounding error of M's diagonal entry, or eight times that of the largest inertia that its joint could move, is a rounding error of zero; the criterion is relative, for robots of any size",
         run: coincident,
     },
     Case {
         number: 21,
         name: "parallel axes",
         parameters: "six rods of 1 kg and 1 m on parallel axes in a vertical plane, four states",
-        source: "planar arms: every spatial inertia is used in one plane only",
-        oracle: "50 digits; and the planar closed form in absolute angles, in f64",
-        reason: "κ ε = 2·10⁻⁴ in f32 for accelerations; torques round like any",
+        source: "planar arms, which use every spatial inertia in one plane only",
+        oracle: "50 digits, and the planar closed form in absolute angles, in f64",
+        reason: "κ ε = 2·10⁻⁴ in f32 for accelerations; torques are rounded as in any other arm",
         run: planar,
     },
 ];

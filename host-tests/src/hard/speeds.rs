@@ -10,7 +10,7 @@ use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
 use firmware_demo::hard::{N, counts, scene};
 
-const ORACLE: &str = "50 digits from the very f32 bits (oracle/hard.py)";
+const ORACLE: &str = "computation in 50 digits from the same f32 bits (oracle/hard.py)";
 
 /// The family's cases.
 pub const CASES: &[Case] = &[
@@ -18,27 +18,27 @@ pub const CASES: &[Case] = &[
         number: 15,
         name: "1000 rad/s",
         parameters: "UR5e, every joint at ±1000 rad/s, accelerations up to 10⁶ rad/s²",
-        source: "spindles and rotors as joints; a runaway in a simulation",
+        source: "spindles and rotors as joints; a simulation that diverges",
         oracle: ORACLE,
-        reason: "velocity products are homogeneous of degree two: no size of q̇ loses digits, as long as nothing overflows",
+        reason: "velocity products are homogeneous of degree two: no magnitude of q̇ loses digits unless a number overflows",
         run: || against_oracle(&arm(15, "1000 rad/s"), &FAST),
     },
     Case {
         number: 16,
         name: "a million rad",
-        parameters: "UR5e, every joint at ±10⁶ rad (6.5·10⁸ counts of a 12-bit encoder); f32's numbers there are 1/16 rad apart",
-        source: "a continuous joint that has turned for a day",
-        oracle: "50 digits at what remains of the counts without whole turns",
-        reason: "a gate without limits of its own refuses what f32 cannot reduce; whole turns taken off in integers cost no digit",
+        parameters: "UR5e, every joint at ±10⁶ rad (6.5·10⁸ counts of a 12-bit encoder), where adjacent f32 numbers differ by 1/16 rad",
+        source: "a continuous joint that has rotated for a day",
+        oracle: "50 digits at the counts modulo whole turns",
+        reason: "a supervisor without position limits rejects angles that f32 cannot reduce; subtracting whole turns in integers costs no digit",
         run: million,
     },
     Case {
         number: 17,
         name: "quarter turns ± 1 ulp",
-        parameters: "UR5e, joints at k π/2 rounded to f32 and a unit in the last place beside it, |k| ≤ 5",
-        source: "Cody & Waite (1980): argument reduction loses everything there if π/2 is short",
+        parameters: "UR5e, joints at k π/2 rounded to f32 and at the two adjacent f32 numbers, |k| ≤ 5",
+        source: "Cody & Waite (1980): argument reduction loses all digits there if π/2 has too few",
         oracle: ORACLE,
-        reason: "sine and cosine are off by 10⁻⁷ of one at most: as at any other angle",
+        reason: "the error of sine and cosine is at most 10⁻⁷, as at any other angle",
         run: || against_oracle(&arm(17, "k π/2 ± 1 ulp"), &QUARTERS),
     },
 ];

@@ -1,4 +1,4 @@
-//! What the programs of the guide's page on firmware share: the arm of the page, and a board that is not there.
+//! The common part of the programs of the guide's page on firmware: the arm of the page, and a placeholder for the board.
 #![no_std]
 
 use dynamics_core::control::*;
@@ -14,7 +14,7 @@ const SCENE: (Gravity, Inertia, Coriolis, Armature<f32, 6>) = (
 );
 const HOME: [f32; 6] = [0.0, -1.57, 1.57, -1.57, -1.57, 0.0];
 
-/// The arm: a controller, what it follows, and its gains.
+/// The arm: a controller, its trajectory and its gains.
 pub struct Arm {
     controller: MotionController<f32, 6>,
     trajectory: Trajectory<f32, 6, 2>,
@@ -65,7 +65,7 @@ impl Arm {
         }
     }
 
-    /// One tick: the joints' positions, or why there are none, to torques and brake.
+    /// Computes the command of one tick from the positions of the joints, or from the fault that prevented their measurement.
     pub fn tick(&mut self, measured: Result<&[f32; 6], Fault>) -> Command<f32, 6> {
         let gains = &self.gains;
         self.controller

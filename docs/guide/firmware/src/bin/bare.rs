@@ -1,4 +1,4 @@
-//! The control tick in a timer interrupt, with cortex-m-rt alone.
+//! The control tick in a timer interrupt, with cortex-m-rt only.
 #![cfg_attr(target_arch = "arm", no_std, no_main)]
 
 #[cfg(target_arch = "arm")]
@@ -11,7 +11,7 @@ mod program {
     // page: begin
     #[entry]
     fn main() -> ! {
-        let mut core = cortex_m::Peripherals::take().expect("nobody else has them");
+        let mut core = cortex_m::Peripherals::take().expect("called only once");
         core.SYST.set_clock_source(SystClkSource::Core);
         core.SYST.set_reload(168_000 - 1); // 1 kHz at 168 MHz
         core.SYST.enable_counter();
@@ -23,7 +23,7 @@ mod program {
 
     #[exception]
     fn SysTick() {
-        static mut ARM: Option<Arm> = None; // of this interrupt alone: cortex-m-rt makes it a `&mut`
+        static mut ARM: Option<Arm> = None; // local to this handler: cortex-m-rt makes it a `&mut`
         let arm = ARM.get_or_insert_with(Arm::new);
         let measured = board::positions();
         board::drive(&arm.tick(measured.as_ref().map_err(|fault| *fault)));

@@ -11,7 +11,6 @@ use dynamics_core::effects::{Coriolis, Effect, Gravity, Inertia, RIGID_BODY, hoo
 use dynamics_core::model::Robot;
 use dynamics_core::robots::Panda;
 use dynamics_core::sim::semi_implicit;
-use dynamics_core::spatial::Force;
 use dynamics_core::state::{JointTrig, State};
 use glam::{DMat3, DVec3};
 use host_tests::measured::largest;

@@ -101,6 +101,11 @@ use super::hook_args::{BodyState, BodyVelocity};
 use crate::scalar::Real;
 use crate::spatial::{Force, Motion, SpatialInertia, Xform};
 
+/// Adds to the velocity and acceleration of the base.
+type AddMotion<E, R> = fn(&E, &mut Motion<R>, &mut Motion<R>);
+/// Adds to the wrench on a body, from what it reads.
+type AddWrench<E, R, Read> = fn(&E, usize, &Read, &mut Force<R>);
+
 /// A field that accelerates every body.
 #[derive(Debug)]
 pub struct Field<E, R: Real> {
@@ -169,7 +174,7 @@ impl<E, R: Real> Field<E, R> {
 /// A motion that the base is made to follow.
 #[derive(Debug)]
 pub struct Base<E, R: Real> {
-    pub(super) add: Option<fn(&E, &mut Motion<R>, &mut Motion<R>)>,
+    pub(super) add: Option<AddMotion<E, R>>,
 }
 
 impl<E, R: Real> Base<E, R> {
@@ -197,9 +202,9 @@ impl<E, R: Real> Base<E, R> {
 #[derive(Debug)]
 pub struct Wrench<E, R: Real> {
     pub(super) constant: Option<fn(&E, usize, &mut Force<R>)>,
-    pub(super) of_pose: Option<fn(&E, usize, &Xform<R>, &mut Force<R>)>,
-    pub(super) of_velocity: Option<fn(&E, usize, &BodyVelocity<R>, &mut Force<R>)>,
-    pub(super) of_state: Option<fn(&E, usize, &BodyState<R>, &mut Force<R>)>,
+    pub(super) of_pose: Option<AddWrench<E, R, Xform<R>>>,
+    pub(super) of_velocity: Option<AddWrench<E, R, BodyVelocity<R>>>,
+    pub(super) of_state: Option<AddWrench<E, R, BodyState<R>>>,
     pub(super) reads_pose: bool,
     pub(super) reads_velocity: bool,
 }

@@ -19,6 +19,8 @@ pub enum Fault {
     },
     /// There is no measurement of this tick.
     Stale,
+    /// The tick before was begun and got no torque: the drives still have an older one.
+    Unfinished,
     /// The measured position is not finite.
     NotFinite {
         /// The joint.
@@ -57,7 +59,9 @@ pub enum Fault {
     /// The brake did not take its order.
     Brake,
     /// A stop from outside the loop: an emergency stop's contact, a safety controller, an operator. For
-    /// [`Supervisor::stop`](super::Supervisor::stop).
+    /// [`MotionController::stop`](super::MotionController::stop) and [`Supervisor::stop`](super::Supervisor::stop).
+    #[doc(alias = "e-stop")]
+    #[doc(alias = "emergency stop")]
     External,
 }
 
@@ -65,6 +69,7 @@ impl fmt::Display for Fault {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (joint, text) = match *self {
             Self::Stale => return write!(out, "no measurement of this tick"),
+            Self::Unfinished => return write!(out, "the tick before got no torque"),
             Self::Brake => return write!(out, "the brake did not take its order"),
             Self::External => return write!(out, "a stop from outside"),
             Self::Encoder { joint } => (joint, "its encoder reports an error"),

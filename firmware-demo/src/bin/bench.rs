@@ -85,7 +85,8 @@ mod tick {
     use cortex_m::peripheral::DWT;
     use dynamics_core::Engine;
     use dynamics_core::control::{
-        Gains, Mode, MotionLimits, Observer, Rejoin, SafetyLimits, Supervisor, Trajectory, WayPoint,
+        Gains, Mode, MotionController, MotionControllerConfig, MotionLimits, SafetyLimits,
+        SupervisorConfig, Trajectory, WayPoint,
     };
     use dynamics_core::effects::RIGID_BODY;
     use dynamics_core::robots::Ur5e;
@@ -148,7 +149,7 @@ mod tick {
     }
 
     fn control(wires: &'static Wires<6>) -> ControlLoop<SimEncoder, SimDrive, SimBrake, 6> {
-        let bounds = SafetyLimits {
+        let limits = SafetyLimits {
             torque: TORQUE,
             rate: TORQUE,
             speed: [3.1; 6],
@@ -160,9 +161,19 @@ mod tick {
             core::array::from_fn(|j| Drive::new(wires.drive(j), TORQUE[j])),
             SimBrake,
             Gains::from_inertia(&[3.0, 3.0, 1.0, 0.3, 0.3, 0.3], 25.0, 1.0),
-            Observer::new(250.0, TICK),
-            Supervisor::new(bounds, TICK, 100, 200).riding(5),
-            Rejoin::new(TICK, 25.0, 200),
+            MotionController::new(MotionControllerConfig {
+                supervisor: SupervisorConfig {
+                    limits,
+                    tick: TICK,
+                    resolution: 0.0,
+                    ride_through_ticks: 5,
+                    hold_ticks: 100,
+                    reentry_ticks: 200,
+                },
+                observer_bandwidth: 250.0,
+                decay_rate: 25.0,
+                restart_distance: 0.15,
+            }),
         )
     }
 }

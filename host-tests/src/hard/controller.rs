@@ -4,8 +4,8 @@
 use super::measure::larger;
 use dynamics_core::algorithms::{crba, rnea};
 use dynamics_core::control::{
-    Command, Fault, Gains, Mode, MotionLimits, Observer, Rejoin, SafetyLimits, Supervisor,
-    Trajectory, WayPoint, feedback,
+    Command, Fault, Gains, Mode, MotionLimits, Observer, ResumeTrajectory, SafetyLimits,
+    Supervisor, Trajectory, WayPoint, feedback,
 };
 use dynamics_core::effects::{Armature, Coriolis, Gravity, Inertia};
 use dynamics_core::model::{ArmModel, model};
@@ -72,7 +72,7 @@ pub struct Bench<R: Real> {
     gains: Gains<R, 6>,
     supervisor: Supervisor<R, 6>,
     observer: Observer<R, 6>,
-    rejoin: Rejoin<R, 6>,
+    resume: ResumeTrajectory<R, 6>,
     clock: u32,
     expected: [R; 6],
     /// What went to the drives.
@@ -119,7 +119,7 @@ impl<R: Real> Bench<R> {
             gains: Gains::from_inertia(&diagonal, R::from_f64(OMEGA), R::ONE),
             supervisor: Supervisor::new(bounds, tick, HOLD, REENTRY).riding(RIDE),
             observer: Observer::new(R::from_f64(250.0), tick),
-            rejoin: Rejoin::new(tick, R::from_f64(LAMBDA), REENTRY),
+            resume: ResumeTrajectory::new(tick, R::from_f64(LAMBDA), REENTRY),
             clock: 0,
             expected: of([0.0; 6]),
             command: of([0.0; 6]),
@@ -138,7 +138,7 @@ impl<R: Real> Bench<R> {
 
     /// A tick that comes after so many missed ones, which a timer has counted: time goes on, and what is expected.
     pub fn late_tick(&mut self, missed: u32) -> Command<R, 6> {
-        let follows = self.supervisor.mode() == Mode::Full && !self.rejoin.active();
+        let follows = self.supervisor.mode() == Mode::Full && !self.resume.active();
         self.supervisor.missed(missed);
         for _ in 0..missed {
             self.observer.predict(&self.expected);
@@ -159,7 +159,7 @@ impl<R: Real> Bench<R> {
         let Self {
             supervisor,
             observer,
-            rejoin,
+            resume,
             trajectory,
             ..
         } = self;
@@ -174,13 +174,13 @@ impl<R: Real> Bench<R> {
         }
         let held = supervisor.watch(&estimate.qd) != Mode::Full;
         let mut aim = if held {
-            rejoin.start(&estimate, self.clock);
+            resume.start(&estimate, self.clock);
             State::at(estimate.q)
-        } else if rejoin.active() && supervisor.authority() < R::ONE {
-            rejoin.at(trajectory, supervisor.authority())
+        } else if resume.active() && supervisor.authority() < R::ONE {
+            resume.at(trajectory, supervisor.authority())
         } else {
-            self.clock = if rejoin.active() {
-                rejoin.finish()
+            self.clock = if resume.active() {
+                resume.finish()
             } else {
                 self.clock + 1
             };
@@ -213,7 +213,7 @@ impl<R: Real> Bench<R> {
     /// Starts a stopped arm again.
     pub fn reset(&mut self) {
         self.supervisor.reset();
-        self.rejoin.start(self.observer.estimate(), self.clock);
+        self.resume.start(self.observer.estimate(), self.clock);
         self.expected = [R::ZERO; 6];
     }
 

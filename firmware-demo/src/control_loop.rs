@@ -4,8 +4,8 @@
 //! [`MotionController`], which keeps all else from tick to tick and knows what to do on a fault.
 
 use dynamics_core::control::{
-    Fault, Gains, MotionController, ObservedTick, Reference, ReferencedTick, ResetError, Status,
-    feedback,
+    Estimate, Fault, Gains, MotionController, ObservedTick, Reference, ReferencedTick, ResetError,
+    Status, feedback,
 };
 use dynamics_core::state::State;
 use embedded_hal::digital::OutputPin;
@@ -113,17 +113,16 @@ where
             if !L::ACCELERATES {
                 tick = tick.without_inertia();
             }
-            let (clock, reference) = (tick.trajectory_tick(), tick.reference().q);
-            let estimate = tick.estimate().q;
-            let gains = &self.gains;
-            let torque =
-                measured::<{ region::DYNAMICS }, _>(|| torque::<L, X, V>(&tick, gains, around));
+            let clock = tick.trajectory_tick();
+            let torque = measured::<{ region::DYNAMICS }, _>(|| {
+                torque::<L, X, V>(&self.gains, tick.reference(), tick.estimate(), around)
+            });
             let command = measured::<{ region::SAFETY }, _>(|| tick.command(&torque));
             measured::<{ region::WRITE }, _>(|| self.write(&command.torque, command.brake));
             Telemetry {
                 tick: clock,
-                reference,
-                estimate,
+                reference: self.controller.reference().q,
+                estimate: self.controller.estimate().q,
                 torque: command.torque,
                 status: command.status,
                 frame: self.frame,
@@ -197,13 +196,13 @@ fn follow<'a, T: Reference<f32, V>, const V: usize>(
 /// τ = feed-forward + K_p (q_d − q) + K_d (q̇_d − q̇).
 #[inline(never)]
 fn torque<L: Law<V, X>, X, const V: usize>(
-    tick: &ReferencedTick<'_, f32, V>,
     gains: &Gains<f32, V>,
+    reference: &State<f32, V, V>,
+    estimate: &Estimate<f32, V>,
     around: &X,
 ) -> [f32; V] {
-    let reference = tick.reference();
     let mut tau = L::feedforward(reference, around);
-    let pd = feedback(gains, reference, tick.estimate());
+    let pd = feedback(gains, reference, estimate);
     for (tau, pd) in tau.iter_mut().zip(pd) {
         *tau += pd;
     }

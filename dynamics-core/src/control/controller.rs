@@ -78,8 +78,8 @@ pub struct MotionController<R, const V: usize, A = PreviousTick> {
     observer: Observer<R, V>,
     supervisor: Supervisor<R, V>,
     resume: ResumeTrajectory<R, V>,
-    /// The reference's acceleration, which acts until the next tick.
-    expected: [R; V],
+    /// What the joints follow; its acceleration acts until the next tick.
+    reference: State<R, V, V>,
     restart_distance: R,
     /// The trajectory's tick, which stands still during a fault.
     clock: u32,
@@ -108,7 +108,7 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
             observer: Observer::new(config.observer()),
             supervisor: Supervisor::new(config.supervisor),
             resume: ResumeTrajectory::new(config.resume()),
-            expected: [R::ZERO; V],
+            reference: State::at([R::ZERO; V]),
             restart_distance: config.restart_distance,
             clock: 0,
             dead_reckoning: false,
@@ -153,14 +153,10 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
     pub fn observe(&mut self, measured: Result<&[R; V], Fault>) -> ObservedTick<'_, R, V, A> {
         self.supervisor.accept_measurement(measured);
         let stopped = matches!(self.supervisor.mode(), Mode::Stopped);
-        if self.supervisor.measurement_accepted() & !self.dead_reckoning & !stopped {
-            A::correct(
-                &mut self.observer,
-                self.supervisor.last_good(),
-                &self.expected,
-            );
-        } else {
-            self.predict_estimate(measured);
+        let usual = self.supervisor.measurement_accepted() & !self.dead_reckoning & !stopped;
+        match measured {
+            Ok(q) if usual => A::correct(&mut self.observer, q, &self.reference.qdd),
+            _ => self.predict_estimate(measured),
         }
         self.supervisor.check_speed(&self.observer.estimate().qd);
         ObservedTick::new(self)
@@ -178,9 +174,9 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
         self.supervisor.missed(ticks);
         let follows = matches!(self.supervisor.mode(), Mode::Full) & !self.resume.active();
         for _ in 0..ticks.min(self.supervisor.longest_fault()) {
-            self.observer.predict(&self.expected);
+            self.observer.predict(&self.reference.qdd);
             if follows {
-                self.expected = trajectory.at(self.clock).qdd;
+                self.reference = trajectory.at(self.clock);
                 self.clock = self.clock.saturating_add(1);
             }
         }
@@ -195,6 +191,12 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
     #[cold]
     pub fn stop(&mut self, fault: Fault) {
         self.supervisor.stop(fault);
+    }
+
+    /// What the joints were to follow in the last tick.
+    #[inline(always)]
+    pub fn reference(&self) -> &State<R, V, V> {
+        &self.reference
     }
 
     /// Where the joints are and how fast, as the observer has it.

@@ -1,4 +1,4 @@
-//! Why a measurement or a command was rejected.
+//! The faults that a supervisor knows.
 
 use core::fmt;
 
@@ -41,7 +41,7 @@ pub enum Fault {
         /// The joint.
         joint: usize,
     },
-    /// The torque asked for is not finite.
+    /// The torque of the law is not finite.
     Torque {
         /// The joint.
         joint: usize,
@@ -77,7 +77,7 @@ impl fmt::Display for Fault {
             Self::Position { joint } => (joint, "its position is outside its bounds"),
             Self::Jump { joint } => (joint, "its position jumped"),
             Self::Speed { joint } => (joint, "it is faster than it may be"),
-            Self::Torque { joint } => (joint, "the torque asked for is not finite"),
+            Self::Torque { joint } => (joint, "the torque of its law is not finite"),
             Self::Limits { joint } => (joint, "a limit of it allows nothing"),
             Self::Drive { joint } => (joint, "its drive did not take its torque"),
         };

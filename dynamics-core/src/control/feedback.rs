@@ -8,6 +8,7 @@ use crate::scalar::Real;
 use crate::state::State;
 
 /// Gains of the feedback of each joint.
+#[doc(alias = "PD gains")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Gains<R, const V: usize> {

@@ -8,6 +8,7 @@ use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::Force;
 
 /// The axes of a task, fixed in the base; their origin is the body's.
+#[doc(alias = "task frame")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TaskFrame<R: Real> {
     /// Its columns are the axes in base coordinates, of unit length and at right angles.
@@ -20,7 +21,7 @@ impl<R: Real> TaskFrame<R> {
         axes: R::Mat3::IDENTITY,
     };
 
-    /// The directions of a task in three coordinates: the place of the body's origin along the axes, m.
+    /// The directions of a task in three coordinates: the position of the body's origin along the axes, m.
     ///
     /// For [`crate::algorithms::task_jacobian`] of a Jacobian in the frame `LocalWorldAligned`.
     #[inline(always)]
@@ -28,9 +29,9 @@ impl<R: Real> TaskFrame<R> {
         self.axes.cols().map(|axis| Force::new(R::Vec3::ZERO, axis))
     }
 
-    /// The directions of a task in six coordinates: turns about the axes, and the place along them.
+    /// The directions of a task in six coordinates: rotations about the axes, and the position along them.
     ///
-    /// A turn counts as the way of a point at `radius`, m, so that all are lengths; 1 m gives rad.
+    /// A rotation counts as the path of a point at `radius`, m, so that all are lengths; 1 m gives rad.
     #[inline(always)]
     pub fn turn_and_place(&self, radius: R) -> [Force<R>; 6] {
         let [x, y, z] = self.place();
@@ -42,6 +43,7 @@ impl<R: Real> TaskFrame<R> {
 /// The command along one direction of a task, a motion or a force: Khatib's selection matrix, as a type.
 #[doc(alias = "selection matrix")]
 #[doc(alias = "compliance selection")]
+#[doc(alias = "Aim")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum TaskCommand<R> {
     /// A motion (Ω has a one here).

@@ -172,7 +172,7 @@ impl<R: Real, const V: usize> Observer<R, V> {
     /// latch a position at the end of one frame and send it in the next. `qdd` has acted since.
     ///
     /// What was expected of the tick before is corrected, then goes on: the poles are those of
-    /// [`Self::update`], the estimate lacks what the newest tick would have told. Cost and the rest
+    /// [`Self::update`], the estimate lacks the measurement of the newest tick. Cost and the rest
     /// as there.
     ///
     /// ```

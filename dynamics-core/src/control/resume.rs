@@ -56,6 +56,8 @@ impl<R: Real> ResumeConfig<R> {
 /// assert_eq!(resume.finish(), 400); // the trajectory lost half of the 200 ticks
 /// # Ok::<(), TrajectoryError>(())
 /// ```
+#[doc(alias = "resynchronisation")]
+#[doc(alias = "Rejoin")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ResumeTrajectory<R, const V: usize> {
     tick: R,

@@ -18,6 +18,7 @@ use crate::scalar::Real;
 /// assert_eq!((limits.rate[0], limits.speed[0], limits.upper[0]), (75.0, 3.2, 3.0));
 /// ```
 #[doc(alias = "soft limits")]
+#[doc(alias = "Bounds")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SafetyLimits<R, const V: usize> {

@@ -23,21 +23,20 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
             }
             (mode, _) => {
                 self.dead_reckoning |= matches!(mode, Mode::Hold);
-                self.observer.predict(&self.expected);
+                self.observer.predict(&self.reference.qdd);
             }
         }
     }
 
-    /// What the joints are to follow in this tick.
+    /// Updates what the joints are to follow in this tick.
     #[inline(always)]
-    pub(super) fn next_reference<T: Reference<R, V>>(&mut self, trajectory: &T) -> State<R, V, V> {
+    pub(super) fn next_reference<T: Reference<R, V>>(&mut self, trajectory: &T) {
         let full = matches!(self.supervisor.mode(), Mode::Full);
         if (!full | self.resume.active()) && !self.recovery_done(full) {
-            return self.recovery_reference(trajectory, full);
+            self.recovery_reference(trajectory, full);
+        } else {
+            self.reference = trajectory.at(self.clock);
         }
-        let reference = trajectory.at(self.clock);
-        self.expected = reference.qdd;
-        reference
     }
 
     /// Whether the return onto the trajectory ends in this tick.
@@ -54,19 +53,13 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
     /// rest together. Then the return onto the trajectory.
     #[cold]
     #[inline(never)]
-    fn recovery_reference<T: Reference<R, V>>(
-        &mut self,
-        trajectory: &T,
-        full: bool,
-    ) -> State<R, V, V> {
-        let reference = if full {
+    fn recovery_reference<T: Reference<R, V>>(&mut self, trajectory: &T, full: bool) {
+        self.reference = if full {
             let share = self.supervisor.authority();
             self.resume.at(trajectory, share)
         } else {
             self.stop_reference()
         };
-        self.expected = reference.qdd;
-        reference
     }
 
     /// Slows the arm down where it is. The clock stops when that begins; the return starts anew in

@@ -63,7 +63,7 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
         }
         self.supervisor.reset();
         self.resume.start(self.observer.estimate(), self.clock);
-        self.expected = [R::ZERO; V];
+        self.reference.qdd = [R::ZERO; V];
         Ok(())
     }
 }

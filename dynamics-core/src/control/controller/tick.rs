@@ -76,7 +76,6 @@ pub struct ObservedTick<'a, R, const V: usize, A = PreviousTick> {
 #[derive(Debug)]
 pub struct ReferencedTick<'a, R, const V: usize, A = PreviousTick> {
     controller: &'a mut MotionController<R, V, A>,
-    reference: State<R, V, V>,
 }
 
 impl<'a, R: Real, const V: usize, A: MeasurementAge> ObservedTick<'a, R, V, A> {
@@ -100,10 +99,9 @@ impl<'a, R: Real, const V: usize, A: MeasurementAge> ObservedTick<'a, R, V, A> {
     /// Goes on with what the joints are to follow in this tick: the trajectory, or what a fault puts in its place.
     #[inline(always)]
     pub fn reference<T: Reference<R, V>>(self, trajectory: &T) -> ReferencedTick<'a, R, V, A> {
-        let reference = self.controller.next_reference(trajectory);
+        self.controller.next_reference(trajectory);
         ReferencedTick {
             controller: self.controller,
-            reference,
         }
     }
 }
@@ -112,7 +110,7 @@ impl<R: Real, const V: usize, A: MeasurementAge> ReferencedTick<'_, R, V, A> {
     /// What the joints are to follow in this tick.
     #[inline(always)]
     pub fn reference(&self) -> &State<R, V, V> {
-        &self.reference
+        &self.controller.reference
     }
 
     /// Where the joints are and how fast, as the observer has it.
@@ -138,9 +136,9 @@ impl<R: Real, const V: usize, A: MeasurementAge> ReferencedTick<'_, R, V, A> {
     /// Such a law cannot bring the deceleration of a held arm about. The reference of a held arm then has a velocity of
     /// zero, and K_d slows the joints down.
     #[inline(always)]
-    pub fn without_inertia(mut self) -> Self {
+    pub fn without_inertia(self) -> Self {
         if !matches!(self.mode(), Mode::Full) {
-            self.reference.qd = [R::ZERO; V];
+            self.controller.reference.qd = [R::ZERO; V];
         }
         self
     }

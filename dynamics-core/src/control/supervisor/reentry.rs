@@ -1,10 +1,10 @@
-//! The way back to the full law: after a hold, and after a stop.
+//! The return to the full law: after a hold, and after a stop.
 
 use super::{FAR, Mode, Supervisor, real};
 use crate::scalar::Real;
 
 impl<R: Real, const V: usize> Supervisor<R, V> {
-    /// How far the arm is on its way back to the full law in this tick, 0 to 1: for the reference to
+    /// How far the arm is on its return to the full law in this tick, 0 to 1: for the reference to
     /// follow (see [`super::super::ResumeTrajectory`]). Zero while the arm is held and while the brake waits.
     ///
     /// ```
@@ -32,9 +32,10 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         }
     }
 
-    /// Starts again, from zero torque on the brake: clears a latched fault and takes the next
-    /// plausible positions as they are. The brake opens when the torque asked for is there; then
-    /// [`Self::authority`] rises.
+    /// Starts again, from zero torque on the brake: clears a latched fault and accepts the next
+    /// positions within their limits as they are.
+    ///
+    /// The brake opens when the torque of the law is there; then [`Self::authority`] rises.
     ///
     /// ```
     /// # use dynamics_core::control::{Fault, Mode, SafetyLimits, Supervisor, SupervisorConfig};

@@ -26,7 +26,7 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         let full = matches!(self.mode, Mode::Full);
         let moving = full & !self.braked;
         self.braked &= !full | limited;
-        // Sums and products for the same instructions on the way back as after it.
+        // Sums and products for the same instructions during the return as after it.
         self.ramp += u32::from(moving & (self.ramp < self.reentry_ticks));
         let quiet = full & !self.faulted;
         self.quiet += u32::from(self.quiet < self.reentry_ticks);

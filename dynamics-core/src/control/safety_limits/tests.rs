@@ -83,3 +83,20 @@ fn an_arm_with_such_limits_is_stopped_and_says_why_instead_of_going_limp() {
     let mut supervisor = Supervisor::try_new(config(GOOD)).expect("limits that allow something");
     assert_eq!(supervisor.accept_measurement(Ok(&[0.0; 2])), Mode::Full);
 }
+
+#[test]
+fn what_a_description_does_not_limit_is_unlimited() {
+    let joint = JointLimits {
+        lower: -1.0,
+        upper: 2.0,
+        velocity: 3.0,
+        torque: 4.0_f32,
+    };
+    let limits = SafetyLimits::from([joint; 2]);
+    assert_eq!(limits.check(), Ok(()));
+    assert_eq!((limits.rate, limits.upper), ([f32::INFINITY; 2], [2.0; 2]));
+    let limits = limits.with_speed_share(0.5).with_rate_share(0.25);
+    assert_eq!((limits.speed, limits.rate), ([1.5; 2], [1.0; 2]));
+    let motion = MotionLimits::from(joint);
+    assert_eq!((motion.velocity, motion.acceleration), (3.0, f32::INFINITY));
+}

@@ -91,6 +91,22 @@ impl<R: Real> Form<R> for Width<R> {
     }
 }
 
+/// What has a record of its own.
+macro_rules! nested {
+    ($($name:ident),+) => {$(
+        impl<R: Real, const V: usize> Form<Self> for crate::control::$name<R, V> {
+            fn form(self) -> Self {
+                self
+            }
+            fn of(form: Self) -> Self {
+                form
+            }
+        }
+    )+};
+}
+
+nested!(SafetyLimits, SupervisorConfig);
+
 impl<R: Real, const N: usize> Form<Array<R, N>> for [R; N] {
     fn form(self) -> Array<R, N> {
         Array(self)
@@ -115,7 +131,10 @@ macro_rules! record {
     ($module:ident::$name:ident<R $(, $n:ident)*> { $($field:ident: $form:ty),+ $(,)? } $($check:ident)?) => {
         const _: () = {
             #[derive(Serialize, Deserialize)]
-            #[serde(deny_unknown_fields)]
+            #[serde(
+                deny_unknown_fields,
+                bound(serialize = "R: Real + Serialize", deserialize = "R: Real + Deserialize<'de>")
+            )]
             struct $name<R $(, const $n: usize)*> {
                 $($field: $form),+
             }
@@ -147,6 +166,22 @@ record!(control::SafetyLimits<R, V> {
     lower: Array<R, V>,
     upper: Array<R, V>,
 } check);
+record!(control::SupervisorConfig<R, V> {
+    limits: crate::control::SafetyLimits<R, V>,
+    tick: R,
+    resolution: R,
+    ride_through_ticks: u32,
+    hold_ticks: u32,
+    reentry_ticks: u32,
+} check);
+record!(control::MotionControllerConfig<R, V> {
+    supervisor: crate::control::SupervisorConfig<R, V>,
+    observer_bandwidth: R,
+    decay_rate: R,
+    restart_distance: R,
+} check);
+record!(control::ObserverConfig<R> { bandwidth: R, tick: R } check);
+record!(control::ResumeConfig<R> { tick: R, decay_rate: R, ticks: u32 } check);
 record!(control::Gains<R, V> { kp: Array<R, V>, kd: Array<R, V> });
 record!(control::MotionLimits<R> { velocity: R, acceleration: R });
 record!(control::WayPoint<R, V> { q: Array<R, V>, qd: Array<R, V>, ticks: u32 });

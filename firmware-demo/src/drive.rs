@@ -1,10 +1,23 @@
 //! A current-controlled motor drive whose set-point is a PWM duty: 50 % is zero torque.
 
-use embedded_hal::pwm::SetDutyCycle;
+use core::fmt;
+
+use embedded_hal::pwm::{Error, ErrorKind, SetDutyCycle};
 
 /// A drive refused its set-point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct DriveError;
+pub struct DriveError {
+    /// What its PWM peripheral says.
+    pub kind: ErrorKind,
+}
+
+impl fmt::Display for DriveError {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(out, "a drive refused its set-point: {}", self.kind)
+    }
+}
+
+impl core::error::Error for DriveError {}
 
 /// One joint's drive.
 #[derive(Debug)]
@@ -35,7 +48,9 @@ impl<Pwm: SetDutyCycle> Drive<Pwm> {
     /// The PWM peripheral refused.
     #[inline(always)]
     pub fn set(&mut self, duty: u16) -> Result<(), DriveError> {
-        self.pwm.set_duty_cycle(duty).map_err(|_| DriveError)
+        self.pwm
+            .set_duty_cycle(duty)
+            .map_err(|error| DriveError { kind: error.kind() })
     }
 }
 

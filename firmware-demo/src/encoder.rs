@@ -5,13 +5,14 @@
 //!
 //! A frame answers the command of the frame before, with the angle latched when that one ended. One
 //! frame a tick is read, and the angle is one tick old: the observer knows it and goes on by one tick
-//! ([`dynamics_core::control::Observer::update_late`]), for nothing. A second frame for the angle of
+//! ([`dynamics_core::control::Observer::update_delayed`]), for nothing. A second frame for the angle of
 //! now would cost six transfers on the bus a tick, 10 µs and more at the 10 MHz that the part takes.
 
 use core::f32::consts::TAU;
+use core::fmt;
 
 use dynamics_core::control::MultiTurnEncoder;
-use embedded_hal::spi::SpiDevice;
+use embedded_hal::spi::{Error, ErrorKind, SpiDevice};
 
 /// Counts per turn.
 pub const COUNTS: u16 = 1 << BITS;
@@ -32,12 +33,24 @@ const ERROR_BIT: u32 = 14;
 #[non_exhaustive]
 pub enum FrameError {
     /// The bus reported an error.
-    Bus,
+    Bus(ErrorKind),
     /// The frame's parity is odd.
     Parity,
     /// The encoder reports an error of the frame before.
     Flag,
 }
+
+impl fmt::Display for FrameError {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Bus(kind) => write!(out, "the encoder's bus failed: {kind}"),
+            Self::Parity => out.write_str("the parity of the encoder's frame is odd"),
+            Self::Flag => out.write_str("the encoder reports an error of the frame before"),
+        }
+    }
+}
+
+impl core::error::Error for FrameError {}
 
 /// One joint's encoder: counts, direction and zero are those of the joint.
 #[derive(Debug)]
@@ -80,7 +93,7 @@ impl<Spi: SpiDevice> Encoder<Spi> {
         let sent = self.spi.transfer_in_place(&mut frame);
         let answer = match sent {
             Ok(()) => decode(u16::from_be_bytes(frame)),
-            Err(_) => Err(FrameError::Bus),
+            Err(error) => Err(FrameError::Bus(error.kind())),
         };
         match answer {
             Ok(raw) => {

@@ -6,7 +6,9 @@ use common::{Verdict, Worst};
 use dynamics_core::algorithms::{
     Damping, bias_acceleration, frame, kinematics, operational_space, rnea,
 };
-use dynamics_core::control::{TaskCommand, TaskFrame, hybrid_motion_force, orientation_error};
+use dynamics_core::control::{
+    TaskCommand, TaskForce, TaskFrame, TaskMotion, hybrid_motion_force, orientation_error,
+};
 use dynamics_core::effects::{Coriolis, Effect, Gravity, Inertia, RIGID_BODY, hook};
 use dynamics_core::model::Robot;
 use dynamics_core::robots::Panda;
@@ -99,11 +101,24 @@ fn run(posture: f64) -> Errors {
             Damping::relative(1e-4),
         )
         .unwrap();
-        let still = |k: usize| TaskCommand::motion([off[k], 0.0], [0.0, spin[k]], 0.0, 40.0, 1.0);
-        let along = |k: usize| {
-            TaskCommand::motion([place[k], rate[k]], [seen[k], speed[k]], feed[k], 40.0, 1.0)
+        let motion = |error, error_rate, acceleration| {
+            TaskCommand::motion(TaskMotion {
+                error,
+                error_rate,
+                acceleration,
+                omega_n: 40.0,
+                zeta: 1.0,
+            })
         };
-        let push = TaskCommand::force(PRESS, pressed, 1.0, speed.x, 150.0);
+        let still = |k: usize| motion(off[k], -spin[k], 0.0);
+        let along = |k: usize| motion(place[k] - seen[k], rate[k] - speed[k], feed[k]);
+        let push = TaskCommand::force(TaskForce {
+            desired: PRESS,
+            measured: pressed,
+            gain: 1.0,
+            velocity: speed.x,
+            damping: 150.0,
+        });
         let aims = [still(0), still(1), still(2), push, along(1), along(2)];
         let drift = bias_acceleration(robot, at.with(&arm), HAND, frame::LocalWorldAligned);
         let bias = rnea(robot, at.with(&arm), &(Gravity::EARTH, Coriolis));

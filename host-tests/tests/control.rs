@@ -3,8 +3,8 @@
 
 use dynamics_core::Core;
 use dynamics_core::control::{
-    Fault, Gains, Mode, MotionLimits, Observer, SafetyLimits, Supervisor, Trajectory,
-    TrajectoryError, WayPoint, feedback,
+    Estimate, Fault, Gains, Mode, MotionLimits, Observer, ObserverConfig, SafetyLimits, Supervisor,
+    SupervisorConfig, Trajectory, TrajectoryError, WayPoint, feedback,
 };
 use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::robots::Ur5e;
@@ -15,7 +15,7 @@ const TICK: f32 = 1e-3;
 const HOLD: u32 = 20;
 const REENTRY: u32 = 50;
 const HOME: [f32; 6] = [0.0, -1.57, 1.57, -1.57, -1.57, 0.0];
-const BOUNDS: SafetyLimits<f32, 6> = SafetyLimits {
+const LIMITS: SafetyLimits<f32, 6> = SafetyLimits {
     torque: [150.0, 150.0, 150.0, 28.0, 28.0, 28.0],
     rate: [75.0, 75.0, 75.0, 14.0, 14.0, 14.0],
     speed: [3.2; 6],
@@ -23,8 +23,27 @@ const BOUNDS: SafetyLimits<f32, 6> = SafetyLimits {
     upper: [6.3; 6],
 };
 
+const CONFIG: SupervisorConfig<f32, 6> = SupervisorConfig {
+    limits: LIMITS,
+    tick: TICK,
+    resolution: 0.0,
+    ride_through_ticks: 0,
+    hold_ticks: HOLD,
+    reentry_ticks: REENTRY,
+};
+
 fn supervisor() -> Supervisor<f32, 6> {
-    Supervisor::new(BOUNDS, TICK, HOLD, REENTRY).riding(5)
+    Supervisor::new(SupervisorConfig {
+        ride_through_ticks: 5,
+        ..CONFIG
+    })
+}
+
+fn observer() -> Observer<f32, 6> {
+    Observer::new(ObserverConfig {
+        bandwidth: 250.0,
+        tick: TICK,
+    })
 }
 
 /// Any bits: NaN, infinities and subnormals among them.
@@ -45,21 +64,23 @@ proptest! {
         ticks in prop::collection::vec((prop::array::uniform6(any_bits()), 0..4_u8), 1..60),
     ) {
         let mut supervisor = supervisor();
-        let mut observer = Observer::new(250.0, TICK);
+        let mut observer = observer();
         for (q, kind) in ticks {
             let measured = match kind {
                 0 => Ok(&q),
                 1 => Err(Fault::Stale),
                 _ => Ok(&HOME),
             };
-            supervisor.admit(measured);
-            let estimate = if supervisor.seen() {
-                *observer.update_late(supervisor.last_good(), &[0.0; 6])
-            } else {
-                observer.predict(&[0.0; 6])
-            };
-            supervisor.watch(&estimate.qd);
-            let command = supervisor.pass(&[1.0; 6]);
+            let command = supervisor.tick(measured, |tick| {
+                if tick.measurement_accepted() {
+                    observer.update_delayed(tick.last_good(), &[0.0; 6]);
+                } else {
+                    observer.predict(&[0.0; 6]);
+                }
+                tick.check_speed(&observer.estimate().qd);
+                [1.0; 6]
+            });
+            let estimate = observer.estimate();
             prop_assert!(estimate.qd.iter().chain(&estimate.q).all(|x| x.is_finite()));
             prop_assert!(supervisor.last_good().iter().all(|q| q.abs() <= 6.3));
             let stopped = command.status.mode == Mode::Stopped;
@@ -75,12 +96,11 @@ proptest! {
     ) {
         let [torque, rate, speed, upper] = bounds.map(|x| [x; 6]);
         let lower = upper.map(|x| -x);
-        let bounds = if wild { SafetyLimits { torque, rate, speed, lower, upper } } else { BOUNDS };
-        let mut supervisor = Supervisor::new(bounds, TICK, HOLD, REENTRY);
+        let limits = if wild { SafetyLimits { torque, rate, speed, lower, upper } } else { LIMITS };
+        let mut supervisor = Supervisor::new(SupervisorConfig { limits, ..CONFIG });
         let mut last = [0.0; 6];
         for tau in ticks {
-            supervisor.admit(Ok(&[0.0; 6]));
-            let command = supervisor.pass(&tau);
+            let command = supervisor.tick(Ok(&[0.0; 6]), |_| tau);
             let whole = tau.iter().all(|tau| tau.is_finite());
             let mode = command.status.mode;
             let (stopped, held) = (mode == Mode::Stopped, mode == Mode::Hold);
@@ -90,13 +110,13 @@ proptest! {
             prop_assert!(whole || command.status.fault.is_some());
             prop_assert!(whole || command.torque == last || command.torque == [0.0; 6]);
             for (j, (&out, last)) in command.torque.iter().zip(&mut last).enumerate() {
-                prop_assert!(out.is_finite() && (out == 0.0 || out.abs() <= bounds.torque[j]));
+                prop_assert!(out.is_finite() && (out == 0.0 || out.abs() <= limits.torque[j]));
                 if whole && !stopped {
                     // The bounds are sums in f32, rounded.
                     let (now, before) = (f64::from(out), f64::from(*last));
                     let slack = f64::from(f32::EPSILON) * now.abs().max(before.abs());
                     let change = (now - before).abs();
-                    prop_assert!(change == 0.0 || change <= f64::from(bounds.rate[j]) + slack);
+                    prop_assert!(change == 0.0 || change <= f64::from(limits.rate[j]) + slack);
                 }
                 *last = out;
             }
@@ -112,12 +132,10 @@ fn a_rejected_torque_is_never_remembered() {
         [f32::NAN; 6],
         [1.0, 1.0, 1.0, 1.0, 1.0, f32::INFINITY],
     ] {
-        supervisor.admit(Ok(&HOME));
-        supervisor.pass(&tau);
+        supervisor.tick(Ok(&HOME), |_| tau);
     }
-    supervisor.admit(Ok(&HOME));
     assert_eq!(
-        supervisor.pass(&[-150.0; 6]).torque,
+        supervisor.tick(Ok(&HOME), |_| [-150.0; 6]).torque,
         [-5.0, -5.0, -5.0, 0.0, 0.0, 0.0]
     );
 }
@@ -133,19 +151,22 @@ fn the_same_inputs_after_a_fault_give_the_same_bits() {
             qdd: [x, 1.0, -x, 0.5, 0.0, -0.0],
         };
         let mut tau = Core::<Ur5e>::rnea(&reference, &RIGID_BODY);
-        let pd = feedback(&gains, &reference, &HOME, &[0.0; 6]);
+        let rest = Estimate {
+            q: HOME,
+            qd: [0.0; 6],
+        };
+        let pd = feedback(&gains, &reference, &rest);
         tau.iter_mut().zip(pd).for_each(|(tau, pd)| *tau += pd);
         tau
     };
-    let [mut whole, mut hurt] = [(); 2].map(|()| Supervisor::new(BOUNDS, TICK, HOLD, REENTRY));
+    let [mut whole, mut hurt] = [(); 2].map(|()| Supervisor::new(CONFIG));
     for tick in 0..500 {
         let fault = (100..100 + HOLD).contains(&tick);
         let tau = law(tick);
-        whole.admit(Ok(&HOME));
-        hurt.admit(if fault { Err(Fault::Stale) } else { Ok(&HOME) });
-        let a = whole.pass(&tau);
+        let a = whole.tick(Ok(&HOME), |_| tau);
         let held = tau.map(|tau| 0.9 * tau);
-        let b = hurt.pass(if fault { &held } else { &tau });
+        let measured = if fault { Err(Fault::Stale) } else { Ok(&HOME) };
+        let b = hurt.tick(measured, |_| if fault { held } else { tau });
         assert_eq!(fault, b.status.mode == Mode::Hold);
         assert!(fault || bits(&a.torque) == bits(&b.torque), "tick {tick}");
     }
@@ -153,7 +174,7 @@ fn the_same_inputs_after_a_fault_give_the_same_bits() {
 
 #[test]
 fn the_observer_forgets_a_fault_but_for_rounding() {
-    let [mut whole, mut hurt] = [(); 2].map(|()| Observer::<f32, 6>::new(250.0, TICK));
+    let [mut whole, mut hurt] = [(); 2].map(|()| observer());
     for tick in 0..500 {
         let q = HOME.map(|q| q + tick as f32 * 1e-3);
         let a = whole.update(&q, &[0.0; 6]);

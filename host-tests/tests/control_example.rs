@@ -13,7 +13,7 @@ use host_tests::measured::{largest, within};
 #[path = "../../dynamics-core/src/control/example.rs"]
 mod example;
 
-use example::{EFFECTS, HOLD, Loop, OMEGA_N, REENTRY, RIDE, TICK};
+use example::{EFFECTS, HOLD, OMEGA_N, REENTRY, RIDE_THROUGH as RIDE, TICK};
 
 /// The fastest moment of the way: 1.9 rad/s.
 const FAST: u32 = 3200;
@@ -33,26 +33,23 @@ struct Outcome {
 
 /// The arm on its way, without measurements for `lost` ticks from the tick `at` on.
 fn lost_frames(at: u32, lost: u32) -> Outcome {
-    let limits = PickAndPlace::limits();
-    let torque = limits.map(|limit| limit.torque);
-    let bounds = SafetyLimits {
-        torque,
-        rate: torque.map(|torque| 0.5 * torque),
-        speed: limits.map(|limit| limit.velocity),
-        lower: limits.map(|limit| limit.lower),
-        upper: limits.map(|limit| limit.upper),
-    };
+    let limits = SafetyLimits::from(PickAndPlace::limits()).with_rate_share(0.5);
     let way = PickAndPlace::reference().unwrap();
     let mut arm = State::at(way.at(0).q);
-    let mut control = Loop::new(bounds, arm.q);
+    let mut controller = example::controller(limits).unwrap();
+    let gains = example::gains(&arm.q);
     let mut before = arm.q;
     let mut step = |arm: &mut State<f32, 6, 6>, measured: bool| {
         let fault = Fault::Encoder { joint: 0 };
         let measured = if measured { Ok(&before) } else { Err(fault) };
-        let command = control.tick(&way, measured);
+        let mut followed = [0.0; 6];
+        let command = controller.tick(measured, &way, |reference, estimate| {
+            followed = reference.q;
+            example::law(&gains, reference, estimate)
+        });
         before = arm.q;
         let apart = |(r, q): (&f32, &f32)| (r - q).abs();
-        let error = largest(control.reference.q.iter().zip(&arm.q).map(apart));
+        let error = largest(followed.iter().zip(&arm.q).map(apart));
         for _ in 0..STEPS {
             let h = TICK / STEPS as f32;
             linearly_implicit(

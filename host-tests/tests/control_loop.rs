@@ -4,8 +4,8 @@ mod arm;
 
 use arm::outcome::bad_frames;
 use arm::{Arm, HOLD, POISON, RIDE};
-use dynamics_core::control::{Fault, Mode};
-use firmware_demo::control_loop::Refusal;
+use dynamics_core::control::{Fault, Mode, ResetError};
+use embedded_hal::spi::ErrorKind;
 use firmware_demo::encoder::FrameError;
 use firmware_demo::scenes::ur5e::GravityOnly;
 use host_tests::measured::{largest, within};
@@ -122,7 +122,7 @@ fn a_bus_that_fails_for_a_moment_is_ridden_through() {
     arm.bent[4].bus.set(true);
     for _ in 0..RIDE {
         let telemetry = arm.tick();
-        assert_eq!(telemetry.frame, Some(FrameError::Bus));
+        assert_eq!(telemetry.frame, Some(FrameError::Bus(ErrorKind::Other)));
         assert_eq!(telemetry.status.mode, Mode::Full);
     }
     arm.bent[4].bus.set(false);
@@ -217,7 +217,10 @@ fn stopped() -> Arm {
 #[test]
 fn after_a_reset_the_arm_goes_back_to_its_trajectory() {
     let mut arm = stopped();
-    assert_eq!(arm.control.reset(&arm.trajectory), Err(Refusal::Unseen));
+    assert_eq!(
+        arm.control.reset(&arm.trajectory),
+        Err(ResetError::NoMeasurement)
+    );
     arm.corrupt(0, 0);
     arm.run(2000);
     assert_eq!(arm.control.reset(&arm.trajectory), Ok(()));
@@ -245,7 +248,10 @@ fn after_a_reset_the_arm_goes_back_to_its_trajectory() {
         5e-4,
     );
     within("speed, rad/s", largest(speeds), 2.5);
-    assert_eq!(arm.control.reset(&arm.trajectory), Err(Refusal::Running));
+    assert_eq!(
+        arm.control.reset(&arm.trajectory),
+        Err(ResetError::NotStopped)
+    );
 }
 
 #[test]
@@ -257,7 +263,7 @@ fn an_arm_far_from_its_reference_is_not_started_again() {
     arm.run(5);
     assert_eq!(
         arm.control.reset(&arm.trajectory),
-        Err(Refusal::Far { joint: 4 })
+        Err(ResetError::TooFar { joint: 4 })
     );
     assert_eq!(arm.tick().status.mode, Mode::Stopped);
     arm.rig.plant.state.q[4] -= 0.2;

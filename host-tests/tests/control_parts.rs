@@ -2,8 +2,9 @@
 
 use dynamics_core::Core;
 use dynamics_core::control::{
-    Estimate, Fault, InertiaUpdate, Mode, MotionLimits, Observer, Reference, Rejoin, RestToRest,
-    SafetyLimits, Supervisor, TrajectoryError, WayPoint,
+    Estimate, Fault, InertiaUpdate, Mode, MotionLimits, Observer, ObserverConfig, Reference,
+    RestToRest, ResumeConfig, ResumeTrajectory, SafetyLimits, Supervisor, SupervisorConfig,
+    TrajectoryError, WayPoint,
 };
 use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::robots::Ur5e;
@@ -15,25 +16,29 @@ const RIDE: u32 = 2;
 const HOLD: u32 = 3;
 
 fn supervisor() -> Supervisor<f64, 1> {
-    let bounds = SafetyLimits {
+    let limits = SafetyLimits {
         torque: [10.0],
         rate: [4.0],
         speed: [2.0],
         lower: [-1.0],
         upper: [1.0],
     };
-    let mut supervisor = Supervisor::new(bounds, 0.01, HOLD, 200).riding(RIDE);
-    supervisor.admit(Ok(&[0.5]));
-    supervisor.pass(&[1.0]);
+    let mut supervisor = Supervisor::new(SupervisorConfig {
+        limits,
+        tick: 0.01,
+        resolution: 0.0,
+        ride_through_ticks: RIDE,
+        hold_ticks: HOLD,
+        reentry_ticks: 200,
+    });
+    supervisor.tick(Ok(&[0.5]), |_| [1.0]);
     supervisor
 }
 
 /// The modes of so many ticks with a fault.
 fn faults(supervisor: &mut Supervisor<f64, 1>, ticks: u32) -> Vec<Mode> {
-    let tick = |_| {
-        supervisor.admit(Err(Fault::Encoder { joint: 0 }));
-        supervisor.pass(&[1.0]).status.mode
-    };
+    let fault = Fault::Encoder { joint: 0 };
+    let tick = |_| supervisor.tick(Err(fault), |_| [1.0]).status.mode;
     (0..ticks).map(tick).collect()
 }
 
@@ -43,8 +48,7 @@ fn after_a_reset_faults_are_counted_anew() {
     let all = faults(&mut supervisor, RIDE + HOLD + 1);
     assert_eq!(all.last(), Some(&Mode::Stopped));
     supervisor.reset();
-    supervisor.admit(Ok(&[0.5]));
-    supervisor.pass(&[1.0]);
+    supervisor.tick(Ok(&[0.5]), |_| [1.0]);
     assert_eq!(faults(&mut supervisor, RIDE + HOLD + 1), all);
 }
 
@@ -52,8 +56,10 @@ fn after_a_reset_faults_are_counted_anew() {
 fn a_speed_adds_to_the_faults_before_it() {
     let mut supervisor = supervisor();
     faults(&mut supervisor, RIDE + HOLD);
-    supervisor.admit(Ok(&[0.5]));
-    assert_eq!(supervisor.watch(&[2.1]), Mode::Stopped);
+    supervisor.tick(Ok(&[0.5]), |tick| {
+        assert_eq!(tick.check_speed(&[2.1]), Mode::Stopped);
+        [0.0]
+    });
 }
 
 #[test]
@@ -61,8 +67,7 @@ fn no_limit_is_reported_of_a_torque_that_a_stop_has_made_zero() {
     let mut supervisor = supervisor();
     supervisor.stop(Fault::External);
     for _ in 0..3 {
-        supervisor.admit(Ok(&[0.5]));
-        let command = supervisor.pass(&[100.0]);
+        let command = supervisor.tick(Ok(&[0.5]), |_| [100.0]);
         assert_eq!((command.torque, command.status.limited), ([0.0], false));
     }
 }
@@ -71,9 +76,9 @@ fn no_limit_is_reported_of_a_torque_that_a_stop_has_made_zero() {
 #[test]
 fn an_observer_of_late_measurements_has_both_poles_where_its_bandwidth_puts_them() {
     for bandwidth in [50.0, 150.0, 400.0] {
-        let mut observer = Observer::<f64, 1>::new(bandwidth, H);
+        let mut observer = Observer::<f64, 1>::new(ObserverConfig { bandwidth, tick: H });
         observer.reset(&[1.0]);
-        let positions = (0..60).map(|_| observer.update_late(&[0.0], &[0.0]).q[0]);
+        let positions = (0..60).map(|_| observer.update_delayed(&[0.0], &[0.0]).q[0]);
         let e: Vec<f64> = positions.collect();
         // Sums that yield trace and determinant of the recurrence: two equations of one error each.
         let [a, b] = [0, 5].map(|n| [e[n + 1], -e[n], e[n + 2]]);
@@ -95,17 +100,20 @@ fn an_observer_of_late_measurements_has_both_poles_where_its_bandwidth_puts_them
 }
 
 #[test]
-fn a_relocated_arm_is_where_its_speed_has_brought_it_since_the_measurement() {
-    let mut observer = Observer::<f64, 1>::new(250.0, H);
+fn a_late_position_is_moved_on_by_the_speed_since_the_measurement() {
+    let mut observer = Observer::<f64, 1>::new(ObserverConfig {
+        bandwidth: 250.0,
+        tick: H,
+    });
     let position = |tick: u32| 0.5 + 2.0 * H * f64::from(tick);
     for tick in 1..400 {
-        observer.update_late(&[position(tick - 1)], &[0.0]);
+        observer.update_delayed(&[position(tick - 1)], &[0.0]);
     }
     for _ in 400..420 {
         observer.predict(&[0.0]);
     }
     let before = *observer.estimate();
-    observer.relocate(&[position(419) + 0.1]);
+    observer.correct_position_delayed(&[position(419) + 0.1]);
     let after = observer.estimate();
     assert_eq!(after.qd, before.qd);
     assert!(
@@ -188,17 +196,21 @@ impl Reference<f64, 1> for Falling {
 #[test]
 fn the_way_back_is_on_its_reference_within_ticks_too_with_its_derivatives() {
     const TICKS: u32 = 200;
-    let mut rejoin = Rejoin::<f64, 1>::new(H, 40.0, TICKS);
+    let mut resume = ResumeTrajectory::<f64, 1>::new(ResumeConfig {
+        tick: H,
+        decay_rate: 40.0,
+        ticks: TICKS,
+    });
     let rest = Estimate {
         q: [0.0],
         qd: [0.0],
     };
-    rejoin.start(&rest, 0);
+    resume.start(&rest, 0);
     let mut way = vec![];
     let mut errors = vec![];
     for tick in 0..TICKS {
         let x = f64::from(tick) / f64::from(TICKS);
-        let at = rejoin.at(&Falling, x);
+        let at = resume.at(&Falling, x);
         let w = x.powi(3) * (10.0 - 15.0 * x + 6.0 * x * x);
         let sigma = H * f64::from(TICKS) * x.powi(4) * (2.5 - 3.0 * x + x * x);
         errors.push((at.q[0] - w * 0.5 * FALL * sigma * sigma).abs());
@@ -231,6 +243,13 @@ fn the_way_back_is_on_its_reference_within_ticks_too_with_its_derivatives() {
 #[test]
 fn the_trajectory_waits_where_a_speed_that_decays_has_its_end() {
     // 1/λ = 32 ticks.
-    let rejoin = Rejoin::<f64, 1>::new(1.0 / 1024.0, 32.0, 200);
-    assert_eq!((rejoin.meet(100), rejoin.meet(u32::MAX)), (132, u32::MAX));
+    let resume = ResumeTrajectory::<f64, 1>::new(ResumeConfig {
+        tick: 1.0 / 1024.0,
+        decay_rate: 32.0,
+        ticks: 200,
+    });
+    assert_eq!(
+        (resume.resume_tick(100), resume.resume_tick(u32::MAX)),
+        (132, u32::MAX)
+    );
 }

@@ -1,6 +1,9 @@
 //! What firmware keeps in flash comes back as it was, and nothing else is read.
 
-use dynamics_core::control::{Gains, MotionLimits, SafetyLimits, WayPoint};
+use dynamics_core::control::{
+    Gains, MotionControllerConfig, MotionLimits, ObserverConfig, ResumeConfig, SafetyLimits,
+    SupervisorConfig, WayPoint,
+};
 use dynamics_core::effects::{
     Armature, AsymmetricCoulomb, Cogging, Coulomb, EndStops, Lugre, Payload, Spring, Stribeck,
     Viscous, Width,
@@ -26,12 +29,25 @@ fn refusal<T: DeserializeOwned + std::fmt::Debug>(text: &str) -> String {
         .to_string()
 }
 
-const BOUNDS: SafetyLimits<f32, 2> = SafetyLimits {
+const LIMITS: SafetyLimits<f32, 2> = SafetyLimits {
     torque: [10.1, 20.2],
     rate: [1.0, 3.4e38],
     speed: [3.3, 1e-30],
     lower: [-1.1, -2.2],
     upper: [1.1, 2.2],
+};
+const CONFIG: MotionControllerConfig<f32, 2> = MotionControllerConfig {
+    supervisor: SupervisorConfig {
+        limits: LIMITS,
+        tick: 1e-3,
+        resolution: 3.8e-4,
+        ride_through_ticks: 5,
+        hold_ticks: 100,
+        reentry_ticks: 200,
+    },
+    observer_bandwidth: 250.1,
+    decay_rate: 25.1,
+    restart_distance: 0.15,
 };
 const THIRDS: [f32; 2] = [1.0 / 3.0, -2.0 / 3.0];
 
@@ -47,7 +63,18 @@ fn inertia() -> SpatialInertia<f32> {
 #[test]
 fn what_the_controller_is_configured_with_comes_back_to_the_bit() {
     let [a, b] = [THIRDS, [1e-30, 3.4e38]];
-    comes_back(BOUNDS);
+    comes_back(LIMITS);
+    comes_back(CONFIG.supervisor);
+    comes_back(CONFIG);
+    comes_back(ObserverConfig {
+        bandwidth: 250.1_f32,
+        tick: 1e-3,
+    });
+    comes_back(ResumeConfig {
+        tick: 1e-3_f32,
+        decay_rate: 25.1,
+        ticks: 200,
+    });
     comes_back(Gains { kp: a, kd: b });
     comes_back(MotionLimits {
         velocity: a[0],
@@ -147,11 +174,18 @@ fn a_field_that_is_missing_or_unknown_is_refused() {
 fn bounds_that_allow_nothing_are_refused_as_they_are_read() {
     let negative = SafetyLimits {
         torque: [10.0, -10.0],
-        ..BOUNDS
+        ..LIMITS
     };
     let text = serde_json::to_string(&negative).expect("bounds");
     assert!(
         refusal::<SafetyLimits<f32, 2>>(&text).contains("joint 1: its limit of torque is negative")
+    );
+    let mut config = CONFIG;
+    config.observer_bandwidth = -1.0;
+    let text = serde_json::to_string(&config).expect("a configuration");
+    assert!(
+        refusal::<MotionControllerConfig<f32, 2>>(&text)
+            .contains("the bandwidth of the observer is not a positive number")
     );
 }
 

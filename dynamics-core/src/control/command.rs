@@ -1,8 +1,8 @@
-//! What the supervisor is told and what it tells.
+//! The commands of a supervisor, and its status.
 
 use super::Fault;
 
-/// What the arm does, in the order in which faults take it down.
+/// What the arm does, in the order in which a lasting fault leads from one to the next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Mode {
@@ -10,7 +10,7 @@ pub enum Mode {
     Full,
     /// Brought to rest where the observer has the arm: inverse dynamics of q̈ = −λ q̇, see [`super::hold`].
     Hold,
-    /// Zero torque and the brake, until [`super::Supervisor::reset`].
+    /// Zero torque and the brake, until a reset ([`super::MotionController::reset`], [`super::Supervisor::reset`]).
     Stopped,
 }
 

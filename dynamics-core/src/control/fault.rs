@@ -1,4 +1,4 @@
-//! Why a measurement or a command was rejected.
+//! The faults that a supervisor knows.
 
 use core::fmt;
 
@@ -19,6 +19,8 @@ pub enum Fault {
     },
     /// There is no measurement of this tick.
     Stale,
+    /// The tick before was begun and got no torque: the drives still have an older one.
+    Unfinished,
     /// The measured position is not finite.
     NotFinite {
         /// The joint.
@@ -39,7 +41,7 @@ pub enum Fault {
         /// The joint.
         joint: usize,
     },
-    /// The torque asked for is not finite.
+    /// The torque of the law is not finite.
     Torque {
         /// The joint.
         joint: usize,
@@ -57,7 +59,9 @@ pub enum Fault {
     /// The brake did not take its order.
     Brake,
     /// A stop from outside the loop: an emergency stop's contact, a safety controller, an operator. For
-    /// [`Supervisor::stop`](super::Supervisor::stop).
+    /// [`MotionController::stop`](super::MotionController::stop) and [`Supervisor::stop`](super::Supervisor::stop).
+    #[doc(alias = "e-stop")]
+    #[doc(alias = "emergency stop")]
     External,
 }
 
@@ -65,6 +69,7 @@ impl fmt::Display for Fault {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (joint, text) = match *self {
             Self::Stale => return write!(out, "no measurement of this tick"),
+            Self::Unfinished => return write!(out, "the tick before got no torque"),
             Self::Brake => return write!(out, "the brake did not take its order"),
             Self::External => return write!(out, "a stop from outside"),
             Self::Encoder { joint } => (joint, "its encoder reports an error"),
@@ -72,7 +77,7 @@ impl fmt::Display for Fault {
             Self::Position { joint } => (joint, "its position is outside its bounds"),
             Self::Jump { joint } => (joint, "its position jumped"),
             Self::Speed { joint } => (joint, "it is faster than it may be"),
-            Self::Torque { joint } => (joint, "the torque asked for is not finite"),
+            Self::Torque { joint } => (joint, "the torque of its law is not finite"),
             Self::Limits { joint } => (joint, "a limit of it allows nothing"),
             Self::Drive { joint } => (joint, "its drive did not take its torque"),
         };

@@ -3,10 +3,12 @@
 //! τ = τ_ff + K_p (q_d − q) + K_d (q̇_d − q̇). An, Atkeson & Hollerbach, *Model-Based Control of a
 //! Robot Manipulator* (1988), chapter 5; Craig, *Introduction to Robotics* (2005), section 10.5.
 
+use super::Estimate;
 use crate::scalar::Real;
 use crate::state::State;
 
 /// Gains of the feedback of each joint.
+#[doc(alias = "PD gains")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Gains<R, const V: usize> {
@@ -38,28 +40,31 @@ impl<R: Real, const V: usize> Gains<R, V> {
 /// The feedback torque K_p (q_d − q) + K_d (q̇_d − q̇) of each joint, N·m or N, to be added to the
 /// feed-forward.
 ///
-/// Cost: 5 flops a joint, the same instructions whatever the data. Errors: none; a non-finite input
-/// gives a non-finite output, which [`super::Supervisor`] rejects.
+/// # Cost
+/// 5 flops a joint, the same instructions whatever the data.
+///
+/// # Errors
+/// None; a non-finite input gives a non-finite output, which [`super::Supervisor`] rejects.
 ///
 /// ```
-/// use dynamics_core::{control::{Gains, feedback}, state::State};
+/// use dynamics_core::{control::{Estimate, Gains, feedback}, state::State};
 /// let gains = Gains { kp: [100.0_f32], kd: [5.0] };
 /// let reference = State { q: [1.0], qd: [0.5], qdd: [0.0] };
-/// assert_eq!(feedback(&gains, &reference, &[0.5], &[0.25]), [51.25]);
+/// assert_eq!(feedback(&gains, &reference, &Estimate { q: [0.5], qd: [0.25] }), [51.25]);
 /// ```
+#[doc(alias = "PD control")]
 #[inline(always)]
 pub fn feedback<R: Real, const V: usize>(
     gains: &Gains<R, V>,
     reference: &State<R, V, V>,
-    q: &[R; V],
-    qd: &[R; V],
+    estimate: &Estimate<R, V>,
 ) -> [R; V] {
     let mut tau = [R::ZERO; V];
-    let aims = reference.q.iter().zip(&reference.qd);
-    let seen = q.iter().zip(qd);
+    let desired = reference.q.iter().zip(&reference.qd);
+    let actual = estimate.q.iter().zip(&estimate.qd);
     let gains = gains.kp.iter().zip(&gains.kd);
-    for (((tau, aim), seen), gain) in tau.iter_mut().zip(aims).zip(seen).zip(gains) {
-        *tau = *gain.0 * (*aim.0 - *seen.0) + *gain.1 * (*aim.1 - *seen.1);
+    for (((tau, desired), actual), gain) in tau.iter_mut().zip(desired).zip(actual).zip(gains) {
+        *tau = *gain.0 * (*desired.0 - *actual.0) + *gain.1 * (*desired.1 - *actual.1);
     }
     tau
 }

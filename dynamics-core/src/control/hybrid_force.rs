@@ -7,7 +7,8 @@ use crate::algorithms::OperationalSpace;
 use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::Force;
 
-/// The axes along which a task is told, fixed in the base; their origin is the body's.
+/// The axes of a task, fixed in the base; their origin is the body's.
+#[doc(alias = "task frame")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TaskFrame<R: Real> {
     /// Its columns are the axes in base coordinates, of unit length and at right angles.
@@ -20,7 +21,7 @@ impl<R: Real> TaskFrame<R> {
         axes: R::Mat3::IDENTITY,
     };
 
-    /// The directions of a task in three coordinates: the place of the body's origin along the axes, m.
+    /// The directions of a task in three coordinates: the position of the body's origin along the axes, m.
     ///
     /// For [`crate::algorithms::task_jacobian`] of a Jacobian in the frame `LocalWorldAligned`.
     #[inline(always)]
@@ -28,9 +29,9 @@ impl<R: Real> TaskFrame<R> {
         self.axes.cols().map(|axis| Force::new(R::Vec3::ZERO, axis))
     }
 
-    /// The directions of a task in six coordinates: turns about the axes, and the place along them.
+    /// The directions of a task in six coordinates: rotations about the axes, and the position along them.
     ///
-    /// A turn counts as the way of a point at `radius`, m, so that all are lengths; 1 m gives rad.
+    /// A rotation counts as the path of a point at `radius`, m, so that all are lengths; 1 m gives rad.
     #[inline(always)]
     pub fn turn_and_place(&self, radius: R) -> [Force<R>; 6] {
         let [x, y, z] = self.place();
@@ -39,7 +40,10 @@ impl<R: Real> TaskFrame<R> {
     }
 }
 
-/// What is asked along one direction of a task: Khatib's selection, as a type.
+/// The command along one direction of a task, a motion or a force: Khatib's selection matrix, as a type.
+#[doc(alias = "selection matrix")]
+#[doc(alias = "compliance selection")]
+#[doc(alias = "Aim")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum TaskCommand<R> {
     /// A motion (Ω has a one here).
@@ -56,39 +60,88 @@ pub enum TaskCommand<R> {
     },
 }
 
+/// A motion along one direction of a task that is to follow x_d as a damped oscillator: for [`TaskCommand::motion`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct TaskMotion<R> {
+    /// x_d − x, m; of a rotation a component of [`orientation_error`], times the radius that its direction has.
+    pub error: R,
+    /// ẋ_d − ẋ, m/s.
+    pub error_rate: R,
+    /// ẍ_d, m/s².
+    pub acceleration: R,
+    /// Natural frequency ω, rad/s.
+    pub omega_n: R,
+    /// Damping ratio ζ.
+    pub zeta: R,
+}
+
+/// A force along one direction of a task, and the damping of the motion in contact: for [`TaskCommand::force`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct TaskForce<R> {
+    /// f_d that the body is to exert on its environment, N.
+    pub desired: R,
+    /// f that it exerts, as a sensor measures it, N.
+    pub measured: R,
+    /// Gain k on their difference, without unit.
+    pub gain: R,
+    /// ẋ, m/s.
+    pub velocity: R,
+    /// Damping d, 1/s.
+    pub damping: R,
+}
+
 impl<R: Real> TaskCommand<R> {
     /// A motion that follows x_d: ẍ* = ẍ_d + 2 ζ ω (ẋ_d − ẋ) + ω² (x_d − x).
     ///
-    /// `aim`, `seen`: place (m) and velocity (m/s); `feed` = ẍ_d, m/s². A turn has only an error: pass it as the
-    /// place of the aim. 8 flops. Khatib (1987), (13).
+    /// # Cost
+    /// 6 flops.
+    ///
+    /// # Source
+    /// Khatib (1987), (13).
+    ///
+    /// ```
+    /// use dynamics_core::control::{TaskCommand, TaskMotion};
+    /// let motion = TaskMotion { error: 0.01_f64, error_rate: 0.0, acceleration: 0.5, omega_n: 40.0, zeta: 1.0 };
+    /// assert_eq!(TaskCommand::motion(motion), TaskCommand::Motion { acceleration: 16.5 });
+    /// ```
     #[inline(always)]
-    pub fn motion(aim: [R; 2], seen: [R; 2], feed: R, omega_n: R, zeta: R) -> Self {
-        let [error, rate] = [aim[0] - seen[0], aim[1] - seen[1]];
-        let stiff = omega_n * (omega_n * error + R::from_f64(2.0) * zeta * rate);
+    pub fn motion(task: TaskMotion<R>) -> Self {
+        let damped = R::from_f64(2.0) * task.zeta * task.error_rate;
+        let stiff = task.omega_n * (task.omega_n * task.error + damped);
         Self::Motion {
-            acceleration: feed + stiff,
+            acceleration: task.acceleration + stiff,
         }
     }
 
-    /// A force that comes to `aim` N: f* = f_d + k (f_d − f), and motion damped by −d ẋ.
+    /// A force that comes to f_d: f* = f_d + k (f_d − f), and motion damped by −d ẋ.
     ///
-    /// `seen`: what a sensor says the body exerts, N; `gain` k without unit; `damping` d in 1/s. 6 flops. Khatib
-    /// (1987), (48) to (50).
+    /// # Cost
+    /// 5 flops.
+    ///
+    /// # Source
+    /// Khatib (1987), (48) to (50).
     #[inline(always)]
-    pub fn force(aim: R, seen: R, gain: R, rate: R, damping: R) -> Self {
+    pub fn force(task: TaskForce<R>) -> Self {
         Self::Force {
-            force: aim + gain * (aim - seen),
-            acceleration: -(damping * rate),
+            force: task.desired + task.gain * (task.desired - task.measured),
+            acceleration: -(task.damping * task.velocity),
         }
     }
 }
 
-/// The torques of a task of motions and forces, N·m or N.
+/// Computes the torques of a task of motions and forces, N·m or N.
 ///
 /// `drift`: J̇ q̇ along the task's directions; `bias`: torques at q̈ = 0 of all that acts on the joints
 /// (velocity products, gravity, friction): Khatib's μ and p, and their like outside the task. Torques that
-/// the task shall not feel may be added through [`OperationalSpace::unseen`]. Cost: 2 M (M + V) + 2 M + V flops,
-/// the same whatever the data. Errors: none; near a singularity finite, see [`OperationalSpace::conditioning`].
+/// do not act on the task may be added through [`OperationalSpace::null_space_torque`].
+///
+/// # Cost
+/// 2 M (M + V) + 2 M + V flops, the same whatever the data.
+///
+/// # Errors
+/// None; near a singularity finite, see [`OperationalSpace::conditioning`].
 ///
 /// ```
 /// use dynamics_core::algorithms::{Damping, OperationalSpace, frame, task_jacobian};
@@ -105,10 +158,10 @@ impl<R: Real> TaskCommand<R> {
 ///
 /// // Press downwards with 20 N, stand still sideways, and let the elbow come to rest.
 /// let still = TaskCommand::Motion { acceleration: 0.0 };
-/// let aims = [still, still, TaskCommand::Force { force: -20.0, acceleration: 0.0 }];
+/// let commands = [still, still, TaskCommand::Force { force: -20.0, acceleration: 0.0 }];
 /// let drift = Core::<Ur5e>::bias_acceleration(&arm, 5, frame::LocalWorldAligned);
 /// let bias = Engine::<Ur5e>::rnea(&arm, &(Gravity::EARTH, Coriolis));
-/// let mut tau = hybrid_motion_force(&task, &aims, &directions.map(|d| drift.dot(d)), &bias);
+/// let mut tau = hybrid_motion_force(&task, &commands, &directions.map(|d| drift.dot(d)), &bias);
 /// for (tau, rest) in tau.iter_mut().zip(task.null_space_torque(&arm.qd.map(|qd| -2.0 * qd))) {
 ///     *tau += rest;
 /// }
@@ -116,7 +169,7 @@ impl<R: Real> TaskCommand<R> {
 /// # Ok::<(), dynamics_core::algorithms::NotPositiveDefinite>(())
 /// ```
 ///
-/// An aim for each direction, neither more nor less:
+/// A command for each direction, neither more nor less:
 ///
 /// ```compile_fail,E0308
 /// use dynamics_core::{algorithms::OperationalSpace, control::{TaskCommand, hybrid_motion_force}};
@@ -125,17 +178,19 @@ impl<R: Real> TaskCommand<R> {
 ///     hybrid_motion_force(task, &[still, still], &[0.0; 3], &[0.0; 6])
 /// }
 /// ```
+#[doc(alias = "end effector")]
+#[doc(alias = "operational space control")]
 #[inline(always)]
 pub fn hybrid_motion_force<R: Real, const M: usize, const V: usize>(
     task: &OperationalSpace<R, M, V>,
-    aims: &[TaskCommand<R>; M],
+    commands: &[TaskCommand<R>; M],
     drift: &[R; M],
     bias: &[R; V],
 ) -> [R; V] {
     let (mut acceleration, mut exerted) = ([R::ZERO; M], [R::ZERO; M]);
     let both = acceleration.iter_mut().zip(&mut exerted);
-    for ((acceleration, exerted), (aim, &drift)) in both.zip(aims.iter().zip(drift)) {
-        let (wanted, force) = match *aim {
+    for ((acceleration, exerted), (command, &drift)) in both.zip(commands.iter().zip(drift)) {
+        let (wanted, force) = match *command {
             TaskCommand::Motion { acceleration } => (acceleration, R::ZERO),
             TaskCommand::Force {
                 force,
@@ -155,9 +210,15 @@ pub fn hybrid_motion_force<R: Real, const M: usize, const V: usize>(
     tau
 }
 
-/// The turn from an attitude to the wanted one as a vector: its sine along its axis, in base coordinates.
+/// The rotation from an attitude to the wanted one as a vector: its sine along its axis, in base coordinates.
 ///
-/// Zero only there and at half a turn from it. 27 flops. Luh, Walker & Paul, "Resolved-acceleration control of
+/// Zero only there and at half a turn from it.
+///
+/// # Cost
+/// 27 flops.
+///
+/// # Source
+/// Luh, Walker & Paul, "Resolved-acceleration control of
 /// mechanical manipulators" (1980), (20).
 ///
 /// ```

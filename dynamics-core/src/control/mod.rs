@@ -3,6 +3,7 @@
 //!
 //! | item | what | memory |
 //! |---|---|---|
+//! | [`MotionController`] | a control loop but for the law and the devices: all of the following that has memory | all of a loop |
 //! | [`Trajectory`] | quintics through way-points, checked against speed and acceleration limits | none |
 //! | [`RestToRest`] | from stop to stop with four derivatives, for compliant joints | none |
 //! | [`Reference`] | what a controller follows: a trajectory, or a motion of one's own | |
@@ -13,37 +14,40 @@
 //! | [`hybrid_motion_force`], [`TaskCommand`] | motions and forces along a task's directions | none |
 //! | [`ZeroOrderHold`], [`FirstOrderHold`], [`Interpolator`], [`InertiaUpdate`] | the torque of ticks that compute no dynamics | last torques |
 //! | [`Supervisor`] | limits, plausibility, what to do on a fault | last good values |
-//! | [`Rejoin`] | from where a fault left the arm back onto the trajectory | reference |
+//! | [`ResumeTrajectory`] | from where a fault left the arm back onto the trajectory | reference |
+//!
+//! What a struct configures has a `try_new`, which checks the struct, and a `new` for constants, which does not.
 //!
 //! Time is counted in integer ticks of one nominal length; nothing divides by a measured interval.
 //! What has no memory gives the same bits for the same inputs whatever happened before; what has
 //! memory never takes in a value that it rejects. Nothing here panics or returns NaN.
 //!
-//! One tick of an arm's control loop:
+//! The control loop of an arm:
 //!
 //! ```
 #![doc = include_str!("example.rs")]
 //!
 //! let stop = |q, ticks| WayPoint { q, qd: [0.0; 6], ticks };
 //! let (home, away) = ([0.0, -1.57, 1.57, -1.57, -1.57, 0.0], [1.0, -1.2, 1.4, -1.57, -1.57, 0.0]);
-//! let limits = [MotionLimits { velocity: 3.0, acceleration: 10.0 }; 6];
-//! let trajectory = Trajectory::new(&[stop(home, 0), stop(away, 1000)], TICK, &limits)?;
-//! let bounds = SafetyLimits {
-//!     torque: [150.0, 150.0, 150.0, 28.0, 28.0, 28.0],
-//!     rate: [75.0, 75.0, 75.0, 14.0, 14.0, 14.0],
-//!     speed: [3.2; 6],
-//!     lower: [-6.3; 6],
-//!     upper: [6.3; 6],
-//! };
-//! let mut control = Loop::new(bounds, home);
+//! let speeds = [MotionLimits { velocity: 3.0, acceleration: 10.0 }; 6];
+//! let trajectory = Trajectory::new(&[stop(home, 0), stop(away, 1000)], TICK, &speeds)?;
+//! let torque = [150.0, 150.0, 150.0, 28.0, 28.0, 28.0];
+//! let limits = SafetyLimits { torque, rate: torque, speed: [3.2; 6], lower: [-6.3; 6], upper: [6.3; 6] };
+//!
+//! let (mut controller, gains) = (controller(limits)?, gains(&home));
+//! // Each tick: from what the encoders latched in the tick before to what goes to drives and brake.
 //! for measured in [Ok(&home), Ok(&home), Err(Fault::Encoder { joint: 2 })] {
-//!     let command = control.tick(&trajectory, measured);
+//!     let command = controller.tick(measured, &trajectory, |reference, estimate| {
+//!         law(&gains, reference, estimate)
+//!     });
 //!     assert_eq!((command.status.fault, command.brake), (measured.err(), false));
 //! }
-//! # Ok::<(), TrajectoryError>(())
+//! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
 mod command;
+mod config_error;
+mod controller;
 mod fault;
 mod feedback;
 mod hold;
@@ -58,17 +62,24 @@ mod supervisor;
 mod trajectory;
 
 pub use command::{Command, Mode, Status};
+pub use config_error::{ConfigError, ConfigParameter};
+pub use controller::{
+    CurrentTick, MeasurementAge, MotionController, MotionControllerConfig, ObservedTick,
+    PreviousTick, ReferencedTick, ResetError,
+};
 pub use fault::Fault;
 pub use feedback::{Gains, feedback};
 pub use hold::hold;
-pub use hybrid_force::{TaskCommand, TaskFrame, hybrid_motion_force, orientation_error};
+pub use hybrid_force::{
+    TaskCommand, TaskForce, TaskFrame, TaskMotion, hybrid_motion_force, orientation_error,
+};
 pub use multi_turn::MultiTurnEncoder;
 pub use multirate::{FirstOrderHold, InertiaUpdate, Interpolator, ZeroOrderHold};
-pub use observer::{Estimate, Observer};
+pub use observer::{Estimate, Observer, ObserverConfig};
 pub use reference::Reference;
-pub use resume::Rejoin;
+pub use resume::{ResumeConfig, ResumeTrajectory};
 pub use safety_limits::{LimitKind, SafetyLimits, SafetyLimitsError};
-pub use supervisor::Supervisor;
+pub use supervisor::{Supervisor, SupervisorConfig, SupervisorTick};
 pub use trajectory::{MotionLimits, RestToRest, Trajectory, TrajectoryError, WayPoint};
 
 use crate::scalar::Real;

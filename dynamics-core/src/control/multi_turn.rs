@@ -15,6 +15,8 @@ use crate::scalar::Real;
 /// assert_eq!(joint.update(2), 2);
 /// assert_eq!(joint.angle::<f32>(), 2.0 * core::f32::consts::TAU / 16_384.0);
 /// ```
+#[doc(alias = "turn counter")]
+#[doc(alias = "TurnCounter")]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct MultiTurnEncoder<const BITS: u32> {
     counts: i32,

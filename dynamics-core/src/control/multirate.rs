@@ -1,14 +1,14 @@
 //! Torque between two computations of the dynamics, for loops that tick faster than they compute.
 //!
-//! A loop computes every `TICKS`-th tick and tells what it found by `renew`, which gives that tick's torque; in the
-//! ticks between it asks `coast`. What that loses grows with `TICKS` and with how fast the arm moves, and most where
+//! A loop computes in every `TICKS`-th tick and passes the result to `update`, which returns the torque of that tick; in
+//! the ticks between, `hold` does. What that loses grows with `TICKS` and with how fast the arm moves, and most where
 //! the reference's jerk jumps, as at the way-points of [`Trajectory`](super::Trajectory), unless such ticks are among
 //! those that compute: `docs/accuracy.md` in the repository has it, with what it saves.
 
 use crate::algorithms::MassMatrix;
 use crate::scalar::Real;
 
-/// The torque stays as it was.
+/// Keeps the torque of the last computation.
 ///
 /// ```
 /// use dynamics_core::control::ZeroOrderHold;
@@ -16,6 +16,9 @@ use crate::scalar::Real;
 /// held.update([3.0_f32]);
 /// assert_eq!(held.hold(), [3.0]);
 /// ```
+#[doc(alias = "zero-order hold")]
+#[doc(alias = "sample and hold")]
+#[doc(alias = "Held")]
 #[derive(Clone, Copy, Debug)]
 pub struct ZeroOrderHold<R, const V: usize> {
     torque: [R; V],
@@ -43,7 +46,7 @@ impl<R: Real, const V: usize> ZeroOrderHold<R, V> {
     }
 }
 
-/// The torque goes on as it went between the last two computations.
+/// Extrapolates the torque along the line through the last two computations.
 ///
 /// ```
 /// use dynamics_core::control::FirstOrderHold;
@@ -53,6 +56,8 @@ impl<R: Real, const V: usize> ZeroOrderHold<R, V> {
 /// torque.update([4.0]);
 /// assert_eq!(torque.hold(), [4.5]);
 /// ```
+#[doc(alias = "extrapolation")]
+#[doc(alias = "Extrapolated")]
 #[derive(Clone, Copy, Debug)]
 pub struct FirstOrderHold<R, const V: usize, const TICKS: usize> {
     computed: [R; V],
@@ -95,9 +100,9 @@ impl<R: Real, const V: usize, const TICKS: usize> FirstOrderHold<R, V, TICKS> {
     }
 }
 
-/// The torque goes straight from one computation to the next, which is made ahead of its time.
+/// Interpolates the torque between one computation and the next, which is made ahead of its time.
 ///
-/// For feed-forward, whose reference is known: `renew` is given the torque of `TICKS` ticks later.
+/// For feed-forward, whose reference is known: `update` receives the torque of `TICKS` ticks later.
 ///
 /// ```
 /// use dynamics_core::control::Interpolator;
@@ -106,6 +111,8 @@ impl<R: Real, const V: usize, const TICKS: usize> FirstOrderHold<R, V, TICKS> {
 /// assert_eq!(torque.hold(), [3.5]);
 /// assert_eq!(torque.update([6.0]), [4.0]);
 /// ```
+#[doc(alias = "linear interpolation")]
+#[doc(alias = "Interpolated")]
 #[derive(Clone, Copy, Debug)]
 pub struct Interpolator<R, const V: usize, const TICKS: usize> {
     ahead: [R; V],
@@ -167,9 +174,10 @@ fn slope<R: Real, const V: usize, const TICKS: usize>(b: &[R; V], a: &[R; V]) ->
 /// let m = Engine::<Ur5e>::crba(&state.q, &RIGID_BODY);
 /// torque.update(Engine::<Ur5e>::rnea(&state, &RIGID_BODY), m, &state.qdd);
 /// state.qdd = [2.0; 6]; // brakes off
-/// let (told, computed) = (torque.hold(&state.qdd), Engine::<Ur5e>::rnea(&state, &RIGID_BODY));
-/// assert!(told.iter().zip(computed).all(|(a, b)| (a - b).abs() < 1e-4));
+/// let (held, computed) = (torque.hold(&state.qdd), Engine::<Ur5e>::rnea(&state, &RIGID_BODY));
+/// assert!(held.iter().zip(computed).all(|(a, b)| (a - b).abs() < 1e-4));
 /// ```
+#[doc(alias = "Linearised")]
 #[derive(Clone, Copy, Debug)]
 pub struct InertiaUpdate<R, const V: usize, const TICKS: usize> {
     mass_matrix: MassMatrix<R, V>,

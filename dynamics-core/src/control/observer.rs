@@ -10,8 +10,12 @@
 //! Both poles lie at β = exp(−ω_o h): the critically damped g-h filter of Brookner, *Tracking and
 //! Kalman Filtering Made Easy* (1998), section 1.2.6. h is the nominal tick, never a measured one.
 
+use super::{ConfigError, ConfigParameter};
 use crate::scalar::Real;
 use crate::state::all_finite;
+
+#[cfg(test)]
+mod tests;
 
 /// Where the joints are and how fast, as an [`Observer`] has it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,19 +27,44 @@ pub struct Estimate<R, const V: usize> {
     pub qd: [R; V],
 }
 
+/// What an [`Observer`] has to know of the loop.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct ObserverConfig<R> {
+    /// Bandwidth ω_o, rad/s. Higher follows faster and passes more of the encoder's steps: a step Δ kicks the velocity
+    /// by about ω_o² h Δ.
+    pub bandwidth: R,
+    /// Nominal length h of a tick, s.
+    pub tick: R,
+}
+
+impl<R: Real> ObserverConfig<R> {
+    /// Checks that both numbers are finite and greater than zero.
+    ///
+    /// # Errors
+    /// [`ConfigError::OutOfRange`] names the number.
+    pub fn check(&self) -> Result<(), ConfigError> {
+        ConfigParameter::Tick.positive(self.tick)?;
+        ConfigParameter::Bandwidth.positive(self.bandwidth)
+    }
+}
+
 /// An observer of V joints with one bandwidth.
 ///
 /// A known acceleration (the reference's) keeps the estimate from lagging while the arm speeds up.
 /// A non-finite input leaves the estimate as it was.
 ///
 /// ```
-/// use dynamics_core::control::Observer;
-/// let mut observer = Observer::<f32, 1>::new(200.0, 1e-3);
+/// use dynamics_core::control::{Observer, ObserverConfig};
+/// let mut observer = Observer::<f32, 1>::try_new(ObserverConfig { bandwidth: 200.0, tick: 1e-3 })?;
 /// for tick in 0..200 {
 ///     observer.update(&[0.5 + 2e-3 * tick as f32], &[0.0]);
 /// }
 /// assert!((observer.predict(&[0.0]).qd[0] - 2.0).abs() < 1e-3);
+/// # Ok::<(), dynamics_core::control::ConfigError>(())
 /// ```
+#[doc(alias = "velocity estimator")]
+#[doc(alias = "Luenberger")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Observer<R, const V: usize> {
     tick: R,
@@ -50,13 +79,21 @@ pub struct Observer<R, const V: usize> {
 }
 
 impl<R: Real, const V: usize> Observer<R, V> {
-    /// An observer of the bandwidth ω_o (rad/s) that is called each `tick` (s), without a position
-    /// yet: the first update takes it over at zero velocity.
+    /// An observer without a position yet: the first update takes it over at zero velocity.
     ///
-    /// Higher follows faster and passes more of the encoder's steps: a step Δ kicks the velocity
-    /// by about ω_o² h Δ. A bandwidth or tick that is not a positive number leaves both gains at
-    /// zero, and with them the velocity; ω_o h counts up to 16.
-    pub fn new(bandwidth: R, tick: R) -> Self {
+    /// # Errors
+    /// [`ConfigError`]: of [`ObserverConfig::check`].
+    pub fn try_new(config: ObserverConfig<R>) -> Result<Self, ConfigError> {
+        config.check()?;
+        Ok(Self::new(config))
+    }
+
+    /// The same without a check, for configurations that are constants.
+    ///
+    /// A bandwidth or tick that is not a positive number leaves both gains at zero, and with them the velocity; ω_o h
+    /// counts up to 16.
+    pub fn new(config: ObserverConfig<R>) -> Self {
+        let ObserverConfig { bandwidth, tick } = config;
         let usable = tick.is_finite() & (tick > R::ZERO) & (bandwidth > R::ZERO);
         let (tick, x) = if usable {
             (tick, bandwidth * tick)
@@ -119,8 +156,8 @@ impl<R: Real, const V: usize> Observer<R, V> {
     /// The estimate after a tick without a valid measurement: the motion goes on as predicted.
     ///
     /// ```
-    /// use dynamics_core::control::Observer;
-    /// let mut observer = Observer::<f32, 1>::new(200.0, 0.5);
+    /// use dynamics_core::control::{Observer, ObserverConfig};
+    /// let mut observer = Observer::<f32, 1>::new(ObserverConfig { bandwidth: 200.0, tick: 0.5 });
     /// observer.reset(&[1.0]);
     /// let estimate = observer.predict(&[2.0]);
     /// assert_eq!((estimate.q, estimate.qd), ([1.25], [1.0]));
@@ -138,20 +175,20 @@ impl<R: Real, const V: usize> Observer<R, V> {
     /// latch a position at the end of one frame and send it in the next. `qdd` has acted since.
     ///
     /// What was expected of the tick before is corrected, then goes on: the poles are those of
-    /// [`Self::update`], the estimate lacks what the newest tick would have told. Cost and the rest
+    /// [`Self::update`], the estimate lacks the measurement of the newest tick. Cost and the rest
     /// as there.
     ///
     /// ```
-    /// use dynamics_core::control::Observer;
-    /// let mut observer = Observer::<f32, 1>::new(200.0, 1e-3);
+    /// use dynamics_core::control::{Observer, ObserverConfig};
+    /// let mut observer = Observer::<f32, 1>::new(ObserverConfig { bandwidth: 200.0, tick: 1e-3 });
     /// let position = |tick: i32| 0.5 + 2e-3 * tick as f32;
     /// for tick in 0..200 {
-    ///     observer.update_late(&[position(tick - 1)], &[0.0]);
+    ///     observer.update_delayed(&[position(tick - 1)], &[0.0]);
     /// }
     /// assert!((observer.estimate().q[0] - position(199)).abs() < 1e-5);
     /// ```
     #[inline]
-    pub fn update_late(&mut self, q: &[R; V], qdd: &[R; V]) -> &Estimate<R, V> {
+    pub fn update_delayed(&mut self, q: &[R; V], qdd: &[R; V]) -> &Estimate<R, V> {
         if !self.started {
             self.reset(q);
             return &self.estimate;
@@ -173,10 +210,16 @@ impl<R: Real, const V: usize> Observer<R, V> {
         &self.estimate
     }
 
-    /// After ticks without measurements: the positions q (rad, m) of the tick before, moved on to
-    /// now at the velocities that were expected, which stay as they are. A non-finite q changes
-    /// nothing.
-    pub fn relocate(&mut self, q: &[R; V]) {
+    /// Replaces the positions by measured ones q (rad, m) after ticks without measurements; the velocities stay as they
+    /// were predicted. A non-finite q changes nothing.
+    pub fn correct_position(&mut self, q: &[R; V]) {
+        if all_finite(q) {
+            self.estimate.q = *q;
+        }
+    }
+
+    /// The same with positions q (rad, m) of the tick before, moved on to now at the velocities that were predicted.
+    pub fn correct_position_delayed(&mut self, q: &[R; V]) {
         if !all_finite(q) {
             return;
         }
@@ -209,74 +252,5 @@ impl<R: Real, const V: usize> Observer<R, V> {
             self.estimate = next;
         }
         self.estimate
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    const H: f64 = 1e-3;
-
-    #[test]
-    fn a_constant_acceleration_that_is_known_leaves_no_error() {
-        let mut observer = Observer::<f64, 1>::new(250.0, H);
-        let mut estimate = observer.update(&[0.1], &[0.0]);
-        for tick in 1..500 {
-            let t = H * f64::from(tick);
-            estimate = observer.update(&[0.1 + 2.0 * t * t], &[4.0]);
-            assert!((estimate.qd[0] - 4.0 * t).abs() < 1e-9, "{tick}");
-        }
-        assert!((estimate.qd[0] - 1.996).abs() < 1e-9);
-    }
-
-    #[test]
-    fn an_initial_error_decays_as_two_equal_poles_do() {
-        let bandwidth = 150.0;
-        let mut observer = Observer::<f64, 1>::new(bandwidth, H);
-        observer.reset(&[1.0]);
-        let beta = (-bandwidth * H).exp();
-        // Both poles at β: e_{n+2} = 2β e_{n+1} − β² e_n.
-        let errors: Vec<f64> = (0..40)
-            .map(|_| observer.update(&[0.0], &[0.0]).q[0])
-            .collect();
-        for e in errors.windows(3) {
-            let expected = 2.0 * beta * e[1] - beta * beta * e[0];
-            assert!((e[2] - expected).abs() < 1e-6, "{} {expected}", e[2]);
-        }
-        assert!(errors[39].abs() < 0.1 * errors[0].abs());
-    }
-
-    #[test]
-    fn encoder_steps_leave_little_ripple() {
-        let mut observer = Observer::<f32, 1>::new(250.0, 1e-3);
-        let count = core::f32::consts::TAU / 16_384.0;
-        for tick in 0..2000_i32 {
-            let q = (1.5e-3 * tick as f32 / count).round() * count;
-            let qd = observer.update(&[q], &[0.0]).qd[0];
-            assert!(tick < 200 || (qd - 1.5).abs() < 0.03, "{tick}: {qd}");
-        }
-    }
-
-    #[test]
-    fn useless_parameters_give_finite_estimates() {
-        for bad in [0.0, -1.0, f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 1e38] {
-            for (bandwidth, tick) in [(bad, 1e-3), (200.0, bad), (bad, bad)] {
-                let mut observer = Observer::<f32, 1>::new(bandwidth, tick);
-                for q in [1.0, 1.1, 1.2, 1.1] {
-                    let estimate = observer.update(&[q], &[0.5]);
-                    assert!(estimate.q[0].is_finite() && estimate.qd[0].is_finite());
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn before_the_first_position_nothing_moves() {
-        let mut observer = Observer::<f32, 1>::new(200.0, 1e-3);
-        assert_eq!(observer.predict(&[3.0]).qd, [0.0]);
-        assert_eq!(observer.update(&[f32::NAN], &[3.0]).q, [0.0]);
-        let first = observer.update(&[2.5], &[3.0]);
-        assert_eq!((first.q, first.qd), ([2.5], [0.0]));
     }
 }

@@ -1,8 +1,8 @@
-//! The way back onto a trajectory that stood still while a fault lasted.
+//! The return onto a trajectory that stood still while a fault lasted.
 //!
 //! Two references that both have finite accelerations: one that comes to rest from where the arm is
 //! and how fast, a(t) with ȧ' = −λ ȧ, and the trajectory q(σ) whose time starts from a standstill.
-//! With x the share of the way from 0 to 1 over T and w = x³ (10 − 15 x + 6 x²),
+//! With x the share of the return from 0 to 1 over T and w = x³ (10 − 15 x + 6 x²),
 //!
 //! ```text
 //! r = a + w (q(σ) − a)        σ' = w
@@ -10,39 +10,67 @@
 //!
 //! so that position, velocity and acceleration are those of a at the start and of q at the end.
 
-use super::{Estimate, Reference, real};
+use super::{ConfigError, ConfigParameter, Estimate, Reference, real};
 use crate::scalar::Real;
 use crate::state::State;
+
+#[cfg(test)]
+mod tests;
+
+/// What a [`ResumeTrajectory`] has to know of the loop.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct ResumeConfig<R> {
+    /// Nominal length of a tick, s.
+    pub tick: R,
+    /// Rate λ at which the arm's own velocity decays, 1/s: q̈ = −λ q̇, about ω_n of the feedback.
+    pub decay_rate: R,
+    /// Ticks of the return, an even number; an odd one counts as one more.
+    pub ticks: u32,
+}
+
+impl<R: Real> ResumeConfig<R> {
+    /// Checks that the tick and the decay rate are finite and greater than zero.
+    ///
+    /// # Errors
+    /// [`ConfigError::OutOfRange`] names the number.
+    pub fn check(&self) -> Result<(), ConfigError> {
+        ConfigParameter::Tick.positive(self.tick)?;
+        ConfigParameter::DecayRate.positive(self.decay_rate)
+    }
+}
 
 /// A reference that leads from where the arm is to a trajectory that waits for it.
 ///
 /// ```
-/// use dynamics_core::control::{Estimate, Rejoin, MotionLimits, Trajectory, WayPoint};
+/// use dynamics_core::control::{Estimate, MotionLimits, ResumeConfig, ResumeTrajectory, Trajectory, WayPoint};
 /// # use dynamics_core::control::TrajectoryError;
 /// let points = [
 ///     WayPoint { q: [0.0_f32], qd: [0.0], ticks: 0 },
 ///     WayPoint { q: [1.0], qd: [0.0], ticks: 1000 },
 /// ];
 /// let trajectory = Trajectory::new(&points, 1e-3, &[MotionLimits { velocity: 2.0, acceleration: 10.0 }])?;
-/// let mut rejoin = Rejoin::new(1e-3, 40.0, 200);
-/// rejoin.start(&Estimate { q: [0.02], qd: [0.0] }, 300);
-/// assert_eq!(rejoin.at(&trajectory, 0.0).q, [0.02]);
+/// let mut resume = ResumeTrajectory::new(ResumeConfig { tick: 1e-3, decay_rate: 40.0, ticks: 200 });
+/// resume.start(&Estimate { q: [0.02], qd: [0.0] }, 300);
+/// assert_eq!(resume.at(&trajectory, 0.0).q, [0.02]);
 /// for tick in 1..200 {
-///     rejoin.at(&trajectory, tick as f32 / 200.0);
+///     resume.at(&trajectory, tick as f32 / 200.0);
 /// }
-/// assert_eq!(rejoin.finish(), 400); // the trajectory lost half of the 200 ticks
+/// assert_eq!(resume.finish(), 400); // the trajectory lost half of the 200 ticks
 /// # Ok::<(), TrajectoryError>(())
 /// ```
+#[doc(alias = "resynchronisation")]
+#[doc(alias = "Rejoin")]
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Rejoin<R, const V: usize> {
+pub struct ResumeTrajectory<R, const V: usize> {
     tick: R,
     /// λ.
     decay: R,
-    /// The ticks that the trajectory advances on the way.
+    /// The ticks that the trajectory advances during the return.
     half: u32,
     /// 1 / λ in ticks.
     lead: u32,
-    /// Share of the way in a tick, and share in a second.
+    /// Share of the return in a tick, and share in a second.
     per_tick: R,
     per_second: R,
     /// a.
@@ -54,10 +82,23 @@ pub struct Rejoin<R, const V: usize> {
     active: bool,
 }
 
-impl<R: Real, const V: usize> Rejoin<R, V> {
-    /// A way back of `ticks` ticks (an even number; an odd one counts as one more) of `tick`
-    /// seconds, on which the arm's own velocity decays with `decay` (λ, 1/s).
-    pub fn new(tick: R, decay: R, ticks: u32) -> Self {
+impl<R: Real, const V: usize> ResumeTrajectory<R, V> {
+    /// A return that has not begun.
+    ///
+    /// # Errors
+    /// [`ConfigError`]: of [`ResumeConfig::check`].
+    pub fn try_new(config: ResumeConfig<R>) -> Result<Self, ConfigError> {
+        config.check()?;
+        Ok(Self::new(config))
+    }
+
+    /// The same without a check, for configurations that are constants.
+    pub fn new(config: ResumeConfig<R>) -> Self {
+        let ResumeConfig {
+            tick,
+            decay_rate: decay,
+            ticks,
+        } = config;
         let half = ticks.div_ceil(2).max(1);
         let per_tick = R::from_f64(0.5) / real(half);
         Self {
@@ -76,13 +117,13 @@ impl<R: Real, const V: usize> Rejoin<R, V> {
         }
     }
 
-    /// λ, 1/s.
+    /// The decay rate λ, 1/s.
     #[inline(always)]
-    pub fn decay(&self) -> R {
+    pub fn decay_rate(&self) -> R {
         self.decay
     }
 
-    /// Whether a way back has been started and not been finished.
+    /// Whether a return has been started and not been finished.
     #[inline(always)]
     pub fn active(&self) -> bool {
         self.active
@@ -100,34 +141,36 @@ impl<R: Real, const V: usize> Rejoin<R, V> {
     }
 
     /// The tick at which a trajectory should wait for an arm that leaves it at the tick `clock` with
-    /// a speed that decays: 1 / λ later it is about where the arm comes to rest, so that the way back
-    /// is none backwards.
-    pub fn meet(&self, clock: u32) -> u32 {
+    /// a speed that decays: 1 / λ later it is about where the arm comes to rest, so that the return
+    /// does not lead backwards.
+    pub fn resume_tick(&self, clock: u32) -> u32 {
         clock.saturating_add(self.lead)
     }
 
-    /// Ends the way at its end; the trajectory's tick there.
+    /// Ends the return at its end; the trajectory's tick there.
     pub fn finish(&mut self) -> u32 {
         self.active = false;
         self.clock.saturating_add(self.half)
     }
 
-    /// Ends the way where it is; the trajectory's tick there.
-    pub fn abandon(&mut self) -> u32 {
+    /// Ends the return where it is; the trajectory's tick there.
+    pub fn cancel(&mut self) -> u32 {
         self.active = false;
         self.clock.saturating_add(self.advanced)
     }
 
-    /// One tick on: the reference at `share` of the way, 0 to 1.
+    /// The reference one tick on, at `share` of the return, 0 to 1.
     ///
-    /// Cost: that of the trajectory and about 40 flops a joint. A reference after
-    /// [`Self::start`] with a share of zero stands at the start.
+    /// The first one after [`Self::start`], with a share of zero, stands at the start.
+    ///
+    /// # Cost
+    /// That of the trajectory and about 40 flops a joint.
     #[cold]
     #[inline(never)]
     pub fn at<T: Reference<R, V>>(&mut self, trajectory: &T, share: R) -> State<R, V, V> {
         let [w, slope, bend] = self.weights(share);
         let goal = self.goal(trajectory, share, w, slope);
-        self.settle(share);
+        self.decay_step(share);
         let mut next = self.rest;
         let rates = next.qd.iter_mut().zip(&mut next.qdd);
         let goals = goal.q.iter().zip(goal.qd.iter().zip(&goal.qdd));
@@ -157,7 +200,7 @@ impl<R: Real, const V: usize> Rejoin<R, V> {
         rate: R,
         slope: R,
     ) -> State<R, V, V> {
-        // Rates of the middles of ticks: their sum over the whole way is exactly half its ticks.
+        // Rates of the middles of ticks: their sum over the whole return is exactly half its ticks.
         let middle = share - R::from_f64(0.5) * self.per_tick;
         let [passed, ..] = self.weights(middle.clamped(R::ZERO, R::ONE));
         self.fraction += passed;
@@ -178,7 +221,7 @@ impl<R: Real, const V: usize> Rejoin<R, V> {
     }
 
     /// a, one tick on, from the second tick on.
-    fn settle(&mut self, share: R) {
+    fn decay_step(&mut self, share: R) {
         let moving = share > R::ZERO;
         let h = if moving { self.tick } else { R::ZERO };
         let keep = (R::ONE - h * self.decay).clamped(R::ZERO, R::ONE);
@@ -189,71 +232,5 @@ impl<R: Real, const V: usize> Rejoin<R, V> {
             *q += R::from_f64(0.5) * h * (before + *qd);
             *qdd = -(self.decay * *qd);
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::super::{MotionLimits, Trajectory, WayPoint};
-    use super::*;
-
-    const H: f64 = 1e-3;
-    const TICKS: u32 = 200;
-
-    fn trajectory() -> Trajectory<f64, 1, 2> {
-        let limits = [MotionLimits {
-            velocity: 3.0,
-            acceleration: 20.0,
-        }];
-        let point = |q, ticks| WayPoint {
-            q: [q],
-            qd: [0.0],
-            ticks,
-        };
-        Trajectory::new(&[point(0.0, 0), point(1.5, 1000)], H, &limits).unwrap()
-    }
-
-    #[test]
-    fn the_way_back_leads_onto_the_trajectory_without_a_jump() {
-        let trajectory = trajectory();
-        let start = Estimate {
-            q: [trajectory.at(400).q[0] + 0.03],
-            qd: [1.0],
-        };
-        let mut rejoin = Rejoin::new(H, 40.0, TICKS);
-        rejoin.start(&start, 400);
-        let mut way: Vec<_> = (0..TICKS)
-            .map(|tick| rejoin.at(&trajectory, f64::from(tick) / f64::from(TICKS)))
-            .collect();
-        let end = rejoin.finish();
-        assert_eq!(end, 400 + TICKS / 2);
-        way.extend((0..10).map(|tick| trajectory.at(end + tick)));
-        assert_eq!((way[0].q, way[0].qd), (start.q, start.qd));
-        for pair in way.windows(2) {
-            let (a, b) = (pair[0], pair[1]);
-            let mean = 0.5 * (a.qd[0] + b.qd[0]);
-            assert!((b.q[0] - a.q[0] - H * mean).abs() < 4e-6, "{a:?} {b:?}");
-            let mean = 0.5 * (a.qdd[0] + b.qdd[0]);
-            assert!((b.qd[0] - a.qd[0] - H * mean).abs() < 2e-3, "{a:?} {b:?}");
-            assert!(b.qd[0].abs() < 3.0);
-        }
-    }
-
-    #[test]
-    fn a_way_that_is_left_early_keeps_the_trajectorys_progress() {
-        let trajectory = trajectory();
-        let mut rejoin = Rejoin::new(H, 40.0, TICKS);
-        let start = Estimate {
-            q: [0.5],
-            qd: [0.0],
-        };
-        rejoin.start(&start, 400);
-        for tick in 0..=TICKS / 2 {
-            rejoin.at(&trajectory, f64::from(tick) / f64::from(TICKS));
-        }
-        assert!(rejoin.active());
-        // ∫w over the first half is 0.078 of the whole way.
-        assert_eq!(rejoin.abandon(), 415);
-        assert!(!rejoin.active());
     }
 }

@@ -2,9 +2,26 @@
 
 use core::fmt;
 
+use super::MotionLimits;
+use crate::model::JointLimits;
 use crate::scalar::Real;
 
-/// The limits of each joint.
+#[cfg(test)]
+mod tests;
+
+/// The limits of each joint that a [`Supervisor`](super::Supervisor) keeps.
+///
+/// [`JointLimits`] of a robot's description make all of them but the torque's rate, which is then unlimited:
+///
+/// ```
+/// use dynamics_core::control::SafetyLimits;
+/// use dynamics_core::model::JointLimits;
+/// let joint = JointLimits { lower: -3.1_f32, upper: 3.1, velocity: 3.2, torque: 150.0 };
+/// let limits = SafetyLimits::from([joint; 6]).with_rate_share(0.5).with_position_margin(0.1);
+/// assert_eq!((limits.rate[0], limits.speed[0], limits.upper[0]), (75.0, 3.2, 3.0));
+/// ```
+#[doc(alias = "soft limits")]
+#[doc(alias = "Bounds")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SafetyLimits<R, const V: usize> {
@@ -20,15 +37,65 @@ pub struct SafetyLimits<R, const V: usize> {
     pub upper: [R; V],
 }
 
+impl<R: Real, const V: usize> From<[JointLimits<R>; V]> for SafetyLimits<R, V> {
+    /// The joints' limits, of which none is on the rate of the torque.
+    #[inline]
+    fn from(limits: [JointLimits<R>; V]) -> Self {
+        Self {
+            torque: limits.map(|limit| limit.torque),
+            rate: [R::ONE / R::ZERO; V],
+            speed: limits.map(|limit| limit.velocity),
+            lower: limits.map(|limit| limit.lower),
+            upper: limits.map(|limit| limit.upper),
+        }
+    }
+}
+
+impl<R: Real> From<JointLimits<R>> for MotionLimits<R> {
+    /// The joint's speed, and any acceleration.
+    fn from(limits: JointLimits<R>) -> Self {
+        Self {
+            velocity: limits.velocity,
+            acceleration: R::ONE / R::ZERO,
+        }
+    }
+}
+
 impl<R: Real, const V: usize> SafetyLimits<R, V> {
-    /// Whether every limit allows something: what [`super::Supervisor::try_new`] takes.
+    /// The same with torques that change by at most this share of their limits from one tick to the next.
+    #[inline]
+    pub fn with_rate_share(self, share: R) -> Self {
+        Self {
+            rate: self.torque.map(|torque| torque * share),
+            ..self
+        }
+    }
+
+    /// The same with positions that keep a distance of `margin` (rad or m) from both ends of their range.
+    pub fn with_position_margin(self, margin: R) -> Self {
+        Self {
+            lower: self.lower.map(|lower| lower + margin),
+            upper: self.upper.map(|upper| upper - margin),
+            ..self
+        }
+    }
+
+    /// The same with speeds that are this share of the joints' limits.
+    pub fn with_speed_share(self, share: R) -> Self {
+        Self {
+            speed: self.speed.map(|speed| speed * share),
+            ..self
+        }
+    }
+
+    /// Whether every limit allows something: what [`super::Supervisor::try_new`] accepts.
     ///
     /// Positions, speeds and rates may be unlimited (infinite), torques may not. Zero is a limit like others.
     ///
     /// ```
     /// use dynamics_core::control::{SafetyLimits, SafetyLimitsError, LimitKind};
-    /// let bounds = SafetyLimits { torque: [9.0, -9.0], rate: [1.0; 2], speed: [2.0; 2], lower: [-1.0; 2], upper: [1.0; 2] };
-    /// let error = bounds.check().unwrap_err();
+    /// let limits = SafetyLimits { torque: [9.0, -9.0], rate: [1.0; 2], speed: [2.0; 2], lower: [-1.0; 2], upper: [1.0; 2] };
+    /// let error = limits.check().unwrap_err();
     /// assert_eq!(error, SafetyLimitsError::Negative { joint: 1, of: LimitKind::Torque });
     /// assert_eq!(error.to_string(), "joint 1: its limit of torque is negative");
     /// ```
@@ -155,80 +222,3 @@ impl fmt::Display for SafetyLimitsError {
 }
 
 impl core::error::Error for SafetyLimitsError {}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::control::{Fault, Mode, Supervisor};
-
-    const GOOD: SafetyLimits<f32, 2> = SafetyLimits {
-        torque: [10.0, 0.0],
-        rate: [4.0, f32::INFINITY],
-        speed: [2.0, f32::INFINITY],
-        lower: [-1.0, f32::NEG_INFINITY],
-        upper: [1.0, f32::INFINITY],
-    };
-
-    fn with(of: LimitKind, limit: f32) -> SafetyLimits<f32, 2> {
-        let mut bounds = GOOD;
-        let limits = match of {
-            LimitKind::Torque => &mut bounds.torque,
-            LimitKind::Rate => &mut bounds.rate,
-            LimitKind::Speed => &mut bounds.speed,
-            LimitKind::Position => &mut bounds.upper,
-        };
-        limits[1] = limit;
-        bounds
-    }
-
-    #[test]
-    fn limits_that_allow_nothing_are_refused_by_joint_and_name() {
-        assert_eq!(GOOD.check(), Ok(()));
-        let joint = 1;
-        for of in [LimitKind::Torque, LimitKind::Rate, LimitKind::Speed] {
-            let negative = SafetyLimitsError::Negative { joint, of };
-            assert_eq!(with(of, -1.0).check(), Err(negative));
-            assert_eq!(with(of, f32::NEG_INFINITY).check(), Err(negative));
-            let none = SafetyLimitsError::NotFinite { joint, of };
-            assert_eq!(with(of, f32::NAN).check(), Err(none));
-        }
-        let of = LimitKind::Torque;
-        let endless = SafetyLimitsError::NotFinite { joint, of };
-        assert_eq!(with(of, f32::INFINITY).check(), Err(endless));
-        let of = LimitKind::Position;
-        let none = SafetyLimitsError::NotFinite { joint, of };
-        assert_eq!(with(of, f32::NAN).check(), Err(none));
-        let mut bounds = with(of, -1.0);
-        bounds.lower[1] = f32::NAN;
-        assert_eq!(bounds.check(), Err(none));
-        bounds.lower[1] = -0.5;
-        assert_eq!(bounds.check(), Err(SafetyLimitsError::Empty { joint }));
-        bounds.lower[1] = -1.0;
-        assert_eq!(bounds.check(), Ok(()));
-    }
-
-    #[test]
-    fn an_arm_with_such_limits_is_stopped_and_says_why_instead_of_going_limp() {
-        for of in [
-            LimitKind::Torque,
-            LimitKind::Rate,
-            LimitKind::Speed,
-            LimitKind::Position,
-        ] {
-            let bounds = with(of, f32::NAN);
-            let error = Supervisor::try_new(bounds, 0.01, 3, 4).unwrap_err();
-            assert_eq!(error.joint(), 1);
-            let mut supervisor = Supervisor::new(bounds, 0.01, 3, 4);
-            for _ in 0..3 {
-                assert_eq!(supervisor.admit(Ok(&[0.0; 2])), Mode::Stopped);
-                let command = supervisor.pass(&[1.0, 0.0]);
-                assert_eq!((command.torque, command.brake), ([0.0; 2], true));
-                assert_eq!(command.status.fault, Some(Fault::Limits { joint: 1 }));
-                supervisor.reset();
-            }
-        }
-        let mut supervisor =
-            Supervisor::try_new(GOOD, 0.01, 3, 4).expect("limits that allow something");
-        assert_eq!(supervisor.admit(Ok(&[0.0; 2])), Mode::Full);
-    }
-}

@@ -13,62 +13,79 @@
 //! tick (last good positions, last torques, counters) takes in only what was accepted. With limits that allow
 //! nothing (NaN, negative, an empty range) there is no supervisor, or one that keeps the arm stopped.
 
-use super::{Command, Fault, Mode, SafetyLimits, SafetyLimitsError, Status, real};
+use super::{Command, ConfigError, Fault, Mode, SafetyLimits, Status, real};
 use crate::scalar::Real;
 
+mod config;
+mod gate;
 mod reentry;
 #[cfg(test)]
 mod tests;
 mod tick;
+mod transitions;
+
+pub use config::SupervisorConfig;
+pub use tick::SupervisorTick;
 
 /// How many times the greatest step at full speed a measurement may be from the last good one; speed
 /// itself is held against the observer's. The encoder's own step comes on top.
 const JUMP: f64 = 2.0;
 /// Positions beyond this are as good as infinite, in f64 too.
 const FAR: f64 = f32::MAX as f64;
-/// Beyond this, rad, f32 has no sine to 10⁻⁷: whatever the limits, no position is accepted there. Joints that
-/// turn without end are told by what remains of whole turns, [`super::MultiTurnEncoder::within_turn`].
+/// Beyond this, rad, f32 has no sine to 10⁻⁷: whatever the limits, no position is accepted there. Of joints
+/// that turn without end the angle within a turn is measured, [`super::MultiTurnEncoder::within_turn`].
 const RANGE: f64 = 1e4;
 
-/// The safety gate: [`Self::admit`] starts a tick, [`Self::pass`] ends it.
+/// The safety gate that every measurement and every torque passes, a tick at a time: [`Self::tick`].
+///
+/// [`super::MotionController`] holds one, with all else that a loop keeps from tick to tick.
 ///
 /// ```
-/// use dynamics_core::control::{SafetyLimits, Fault, Mode, Supervisor};
-/// let bounds = SafetyLimits { torque: [10.0_f32], rate: [8.0], speed: [3.0], lower: [-1.0], upper: [1.0] };
-/// let mut supervisor = Supervisor::new(bounds, 1e-3, 1, 4).riding(1);
+/// use dynamics_core::control::{Fault, Mode, SafetyLimits, Supervisor, SupervisorConfig};
+/// let mut supervisor = Supervisor::try_new(SupervisorConfig {
+///     limits: SafetyLimits { torque: [10.0_f32], rate: [8.0], speed: [3.0], lower: [-1.0], upper: [1.0] },
+///     tick: 1e-3,
+///     resolution: 0.0,
+///     ride_through_ticks: 1,
+///     hold_ticks: 1,
+///     reentry_ticks: 4,
+/// })?;
+/// // Not more than 8 N·m in one tick.
+/// assert_eq!(supervisor.tick(Ok(&[0.5]), |_| [9.0]).torque, [8.0]);
 ///
-/// assert_eq!(supervisor.admit(Ok(&[0.5])), Mode::Full);
-/// assert_eq!(supervisor.pass(&[9.0]).torque, [8.0]); // not more than 8 N·m in one tick
-///
-/// assert_eq!(supervisor.admit(Ok(&[f32::NAN])), Mode::Full); // one is ridden through
-/// assert_eq!(supervisor.last_good(), &[0.5]);
-/// let command = supervisor.pass(&[9.0]);
+/// // One bad measurement is ridden through.
+/// let command = supervisor.tick(Ok(&[f32::NAN]), |tick| {
+///     assert_eq!((tick.mode(), tick.last_good()), (Mode::Full, &[0.5]));
+///     [9.0]
+/// });
 /// assert_eq!(command.status.fault, Some(Fault::NotFinite { joint: 0 }));
 ///
-/// assert_eq!(supervisor.admit(Err(Fault::Encoder { joint: 0 })), Mode::Hold);
-/// supervisor.pass(&[5.0]); // the gravity torque
-/// assert_eq!(supervisor.admit(Err(Fault::Encoder { joint: 0 })), Mode::Stopped);
-/// let command = supervisor.pass(&[5.0]);
-/// assert_eq!((command.torque, command.brake), ([0.0], true));
+/// for (mode, torque, brake) in [(Mode::Hold, [5.0], false), (Mode::Stopped, [0.0], true)] {
+///     let command = supervisor.tick(Err(Fault::Encoder { joint: 0 }), |_| [5.0]);
+///     assert_eq!((command.status.mode, command.torque, command.brake), (mode, torque, brake));
+/// }
+/// # Ok::<(), dynamics_core::control::ConfigError>(())
 /// ```
+#[doc(alias = "watchdog")]
+#[doc(alias = "safety gate")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Supervisor<R, const V: usize> {
-    bounds: SafetyLimits<R, V>,
+    limits: SafetyLimits<R, V>,
     /// Middle and half width of the range of positions.
     middle: [R; V],
     half: [R; V],
     /// Greatest plausible change of position in one tick.
-    step: [R; V],
+    plausible_step: [R; V],
     /// Ticks since the last good position; very many before the first.
-    reach: R,
-    ride_ticks: u32,
+    ticks_since_good: R,
+    ride_through_ticks: u32,
     hold_ticks: u32,
     reentry_ticks: u32,
     reentry_inv: R,
 
     last_good: [R; V],
     /// The positions of this tick were accepted.
-    seen: bool,
+    accepted: bool,
     /// Whether there is a last good position.
     known: bool,
     /// The last torque that was accepted.
@@ -83,8 +100,8 @@ pub struct Supervisor<R, const V: usize> {
     fault: Option<Fault>,
     /// There was a fault in this tick.
     faulted: bool,
-    /// There was an `admit` in this tick.
-    fresh: bool,
+    /// A tick has begun and has no torque yet.
+    open: bool,
     /// The next tick holds the arm, whatever is measured: the full law has no torque for it.
     hold_next: bool,
     /// The brake waits for the torque to be there after a reset.
@@ -94,16 +111,37 @@ pub struct Supervisor<R, const V: usize> {
 }
 
 impl<R: Real, const V: usize> Supervisor<R, V> {
-    /// A supervisor of an arm that holds itself, at full authority from the first tick; the torque
-    /// rises from zero at the rate allowed. Call [`Self::reset`] first for an arm on its brake.
+    /// A supervisor of an arm that holds itself, at full authority from the first tick; the torque rises from zero at the
+    /// rate allowed. Call [`Self::reset`] first for an arm on its brake.
     ///
-    /// `tick` is the nominal length of a tick in s. A fault that lasts for more than `hold_ticks`
-    /// ticks, or comes back so often without `reentry_ticks` good ticks in between, stops the arm.
+    /// A fault that lasts for more than `ride_through_ticks` and `hold_ticks` together, or comes back so often without
+    /// `reentry_ticks` good ticks in between, stops the arm.
+    ///
+    /// ```
+    /// use dynamics_core::control::{ConfigError, SafetyLimits, SafetyLimitsError, Supervisor, SupervisorConfig};
+    /// let limits = SafetyLimits { torque: [10.0_f32], rate: [8.0], speed: [3.0], lower: [1.0], upper: [-1.0] };
+    /// let config = SupervisorConfig {
+    ///     limits, tick: 1e-3, resolution: 0.0, ride_through_ticks: 0, hold_ticks: 1, reentry_ticks: 4,
+    /// };
+    /// let empty = SafetyLimitsError::Empty { joint: 0 };
+    /// assert_eq!(Supervisor::try_new(config), Err(ConfigError::Limits(empty)));
+    /// ```
+    ///
+    /// # Errors
+    /// [`ConfigError`]: of [`SupervisorConfig::check`].
+    pub fn try_new(config: SupervisorConfig<R, V>) -> Result<Self, ConfigError> {
+        config.check()?;
+        Ok(Self::new(config))
+    }
+
+    /// The same without a check, for configurations that are constants.
     ///
     /// With limits that allow nothing ([`SafetyLimits::check`]) the arm is stopped by [`Fault::Limits`], and no reset
-    /// starts it: [`Self::try_new`] tells them while they are set.
-    pub fn new(bounds: SafetyLimits<R, V>, tick: R, hold_ticks: u32, reentry_ticks: u32) -> Self {
-        let unusable = bounds.check().err().map(|error| Fault::Limits {
+    /// starts it. A tick that is not a positive number leaves the joints no plausible step; a resolution that is not one
+    /// counts as none.
+    pub fn new(config: SupervisorConfig<R, V>) -> Self {
+        let (limits, tick) = (&config.limits, config.tick);
+        let unusable = limits.check().err().map(|error| Fault::Limits {
             joint: error.joint(),
         });
         // Comparisons with NaN are false, so that a limit of NaN allows nothing.
@@ -118,221 +156,91 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
                 x
             }
         };
-        let (mut middle, mut half) = (bounds.lower, bounds.upper);
+        let (mut middle, mut half) = (limits.lower, limits.upper);
         for (lower, upper) in middle.iter_mut().zip(&mut half) {
             let [a, b] = [*lower, *upper].map(|x| R::from_f64(0.5) * end(x));
             (*lower, *upper) = (a + b, b - a);
         }
+        let resolution = allowed(config.resolution);
         Self {
-            bounds: SafetyLimits {
-                torque: bounds.torque.map(finite),
-                rate: bounds.rate.map(allowed),
-                ..bounds
+            limits: SafetyLimits {
+                torque: limits.torque.map(finite),
+                rate: limits.rate.map(allowed),
+                ..*limits
             },
             middle,
             half,
-            step: bounds.speed.map(|speed| R::from_f64(JUMP) * speed * tick),
-            reach: far,
-            ride_ticks: 0,
-            hold_ticks,
-            reentry_ticks,
-            reentry_inv: R::ONE / real(reentry_ticks.max(1)),
+            plausible_step: limits
+                .speed
+                .map(|speed| R::from_f64(JUMP) * speed * tick + resolution),
+            ticks_since_good: far,
+            ride_through_ticks: config.ride_through_ticks,
+            hold_ticks: config.hold_ticks,
+            reentry_ticks: config.reentry_ticks,
+            reentry_inv: R::ONE / real(config.reentry_ticks.max(1)),
             last_good: [R::ZERO; V],
-            seen: false,
+            accepted: false,
             known: false,
             torque: [R::ZERO; V],
             faults: 0,
-            quiet: reentry_ticks,
-            ramp: reentry_ticks,
+            quiet: config.reentry_ticks,
+            ramp: config.reentry_ticks,
             mode: match unusable {
                 None => Mode::Full,
                 Some(_) => Mode::Stopped,
             },
             fault: unusable,
             faulted: false,
-            fresh: false,
+            open: false,
             hold_next: false,
             braked: false,
             unusable,
         }
     }
 
-    /// As [`Self::new`], of limits that allow something.
+    /// Counts so many ticks that have passed without a call, as a timer has counted them: the joints may have moved on.
+    ///
+    /// Before [`Self::tick`]; as many calls of [`super::Observer::predict`] bring the estimate up to date.
+    /// [`super::MotionController::missed`] does both.
     ///
     /// ```
-    /// use dynamics_core::control::{SafetyLimits, SafetyLimitsError, Supervisor};
-    /// let bounds = SafetyLimits { torque: [10.0_f32], rate: [8.0], speed: [3.0], lower: [1.0], upper: [-1.0] };
-    /// assert_eq!(Supervisor::try_new(bounds, 1e-3, 1, 4), Err(SafetyLimitsError::Empty { joint: 0 }));
-    /// ```
-    ///
-    /// # Errors
-    /// [`SafetyLimitsError`] names the joint and the limit.
-    pub fn try_new(
-        bounds: SafetyLimits<R, V>,
-        tick: R,
-        hold_ticks: u32,
-        reentry_ticks: u32,
-    ) -> Result<Self, SafetyLimitsError> {
-        bounds.check()?;
-        Ok(Self::new(bounds, tick, hold_ticks, reentry_ticks))
-    }
-
-    /// The same, which stays in [`Mode::Full`] for the first `ticks` ticks with a fault: for
-    /// measurements that an observer can stand in for, and torques that the last one can.
-    /// Too high a speed is not ridden through.
-    pub fn riding(self, ticks: u32) -> Self {
-        Self {
-            ride_ticks: ticks,
-            ..self
-        }
-    }
-
-    /// The same for encoders whose step is `step` (rad, m), which slow joints would otherwise
-    /// exceed their reach by. A step that is not positive counts as none.
-    pub fn with_resolution(mut self, step: R) -> Self {
-        let step = if step > R::ZERO { step } else { R::ZERO };
-        self.step = self.step.map(|reach| reach + step);
-        self
-    }
-
-    /// Starts a tick with the positions measured in it (rad, m), or why there are none, and returns
-    /// what the arm does in it.
-    ///
-    /// Accepted are finite positions within their bounds (and within 10⁴ rad or m, beyond which f32 has no
-    /// accurate sine) and within reach of the last good ones: up
-    /// to twice the greatest speed times the ticks since. Without any good position yet there is
-    /// nothing to hold: a fault stops the arm at once.
-    ///
-    /// Cost: 3 flops and 3 comparisons a joint; the same instructions whatever the data, except on
-    /// a fault.
-    #[inline]
-    pub fn admit(&mut self, measured: Result<&[R; V], Fault>) -> Mode {
-        self.begin();
-        let fault = match measured {
-            Ok(q) if self.plausible(q) => {
-                self.last_good = *q;
-                self.seen = true;
-                self.known = true;
-                self.reach = R::ONE;
-                return self.mode;
-            }
-            Ok(q) => self.blame(q),
-            Err(fault) => fault,
-        };
-        self.miss();
-        self.raise(fault);
-        self.mode
-    }
-
-    /// Says that so many ticks have passed without a call, as a timer has counted them: the joints may have moved on.
-    /// Before [`Self::admit`]; of [`super::Observer::predict`] as many calls bring the estimate up to date.
-    ///
-    /// ```
-    /// # use dynamics_core::control::{SafetyLimits, Fault, Mode, Supervisor};
-    /// # let bounds = SafetyLimits { torque: [10.0_f32], rate: [8.0], speed: [3.0], lower: [-1.0], upper: [1.0] };
-    /// let mut supervisor = Supervisor::new(bounds, 1e-3, 1, 4);
-    /// supervisor.admit(Ok(&[0.5]));
+    /// # use dynamics_core::control::{SafetyLimits, Mode, Supervisor, SupervisorConfig};
+    /// # let limits = SafetyLimits { torque: [10.0_f32], rate: [8.0], speed: [3.0], lower: [-1.0], upper: [1.0] };
+    /// # let mut supervisor = Supervisor::try_new(SupervisorConfig {
+    /// #     limits, tick: 1e-3, resolution: 0.0, ride_through_ticks: 0, hold_ticks: 1, reentry_ticks: 4,
+    /// # })?;
+    /// supervisor.tick(Ok(&[0.5]), |_| [0.0]);
     /// supervisor.missed(9); // 3 rad/s for 10 ms are no jump
-    /// assert_eq!(supervisor.admit(Ok(&[0.53])), Mode::Full);
-    /// assert_eq!(supervisor.admit(Ok(&[0.56])), Mode::Hold);
+    /// for (q, mode) in [([0.53], Mode::Full), ([0.56], Mode::Hold)] {
+    ///     assert_eq!(supervisor.tick(Ok(&q), |_| [0.0]).status.mode, mode);
+    /// }
+    /// # Ok::<(), dynamics_core::control::ConfigError>(())
     /// ```
     #[cold]
     pub fn missed(&mut self, ticks: u32) {
-        self.reach += real(ticks);
+        self.ticks_since_good += real(ticks);
     }
 
-    /// Whether the positions of this tick were accepted.
-    #[inline(always)]
-    pub fn seen(&self) -> bool {
-        self.seen
-    }
-
-    /// Holds the observer's velocities (rad/s, m/s) against their bounds, and returns what the arm
-    /// does in this tick. Between [`Self::admit`] and [`Self::pass`].
+    /// Stops the arm for a reason found outside, as a drive that fails or an emergency stop, from the next tick on;
+    /// [`SupervisorTick::stop`] does so in the present one.
+    ///
+    /// Latched until [`Self::reset`]; the first reason stays. A stop that is still demanded after a reset is to be
+    /// called again, every tick.
     ///
     /// ```
-    /// # use dynamics_core::control::{SafetyLimits, Mode, Supervisor};
-    /// # let bounds = SafetyLimits { torque: [10.0_f32], rate: [8.0], speed: [3.0], lower: [-1.0], upper: [1.0] };
-    /// # let mut supervisor = Supervisor::new(bounds, 1e-3, 2, 4).riding(5);
-    /// assert_eq!(supervisor.admit(Ok(&[0.5])), Mode::Full);
-    /// assert_eq!(supervisor.watch(&[-3.1]), Mode::Hold);
-    /// ```
-    #[inline]
-    pub fn watch(&mut self, qd: &[R; V]) -> Mode {
-        let slow = |(qd, bound): (&R, &R)| qd.abs() <= *bound;
-        let joints = || qd.iter().zip(&self.bounds.speed);
-        if !joints().fold(true, |ok, joint| ok & slow(joint)) {
-            let joint = joints().position(|joint| !slow(joint)).unwrap_or(V);
-            self.faults = self.faults.max(self.ride_ticks);
-            self.faulted = false;
-            self.raise(Fault::Speed { joint });
-        }
-        self.mode
-    }
-
-    /// Ends a tick: the torques that may go to the drives, of those asked for (N·m, N).
-    ///
-    /// Limits on torque and rate. A torque that is not finite is a fault: the last torques stand for
-    /// all of its tick, and the next tick is a hold unless the fault is ridden through; in a hold, for
-    /// which there is then no torque, it stops the arm. After a reset the brake opens when no limit
-    /// keeps the torque from being there. A tick without [`Self::admit`] is [`Fault::Stale`].
-    ///
-    /// Cost: 7 flops and 4 comparisons a joint; the same instructions whatever the data, except on
-    /// a fault.
-    ///
-    /// ```
-    /// # use dynamics_core::control::{SafetyLimits, Fault, Mode, Supervisor};
-    /// # let bounds = SafetyLimits { torque: [10.0_f32], rate: [8.0], speed: [3.0], lower: [-1.0], upper: [1.0] };
-    /// # let mut supervisor = Supervisor::new(bounds, 1e-3, 2, 4).riding(5);
-    /// supervisor.admit(Ok(&[0.5]));
-    /// supervisor.pass(&[7.0]);
-    /// supervisor.admit(Ok(&[0.5]));
-    /// let command = supervisor.pass(&[f32::NAN]);
-    /// assert_eq!((command.torque, command.status.mode), ([7.0], Mode::Full));
-    /// assert_eq!(command.status.fault, Some(Fault::Torque { joint: 0 }));
-    /// ```
-    #[inline]
-    pub fn pass(&mut self, tau: &[R; V]) -> Command<R, V> {
-        if !self.fresh {
-            self.begin();
-            self.miss();
-            self.raise(Fault::Stale);
-        }
-        let mut off = R::ZERO;
-        let mut torque = [R::ZERO; V];
-        let asked = tau.iter().zip(&self.torque);
-        let bounds = self.bounds.torque.iter().zip(&self.bounds.rate);
-        for ((out, (&tau, &last)), (&most, &rate)) in torque.iter_mut().zip(asked).zip(bounds) {
-            let next = tau.clamped(-most, most).clamped(last - rate, last + rate);
-            // Zero within the limits; not finite if a torque is not, and otherwise no sum of so many.
-            off += (next - tau).abs() * R::from_f64(1.0 / 64.0);
-            *out = next;
-        }
-        if !off.is_finite() {
-            self.refuse(tau);
-            torque = self.torque;
-        }
-        if matches!(self.mode, Mode::Stopped) {
-            torque = [R::ZERO; V];
-        }
-        self.torque = torque;
-        self.end(torque, off != R::ZERO)
-    }
-
-    /// Stops the arm for a reason found outside, as a drive that fails or an emergency stop: before [`Self::pass`] in
-    /// the same tick, after it from the next one on. Latched until [`Self::reset`]; the first reason stays. A stop that
-    /// is still demanded after a reset is to be called again, every tick.
-    ///
-    /// ```
-    /// # use dynamics_core::control::{SafetyLimits, Fault, Mode, Supervisor};
-    /// # let bounds = SafetyLimits { torque: [10.0_f32], rate: [8.0], speed: [3.0], lower: [-1.0], upper: [1.0] };
-    /// # let mut supervisor = Supervisor::new(bounds, 1e-3, 2, 4).riding(5);
-    /// supervisor.admit(Ok(&[0.5]));
+    /// # use dynamics_core::control::{Fault, SafetyLimits, Supervisor, SupervisorConfig};
+    /// # let limits = SafetyLimits { torque: [10.0_f32], rate: [8.0], speed: [3.0], lower: [-1.0], upper: [1.0] };
+    /// # let mut supervisor = Supervisor::try_new(SupervisorConfig {
+    /// #     limits, tick: 1e-3, resolution: 0.0, ride_through_ticks: 5, hold_ticks: 2, reentry_ticks: 4,
+    /// # })?;
     /// supervisor.stop(Fault::External);
-    /// let command = supervisor.pass(&[7.0]);
+    /// let command = supervisor.tick(Ok(&[0.5]), |_| [7.0]);
     /// assert_eq!((command.torque, command.brake), ([0.0], true));
     /// assert_eq!(command.status.fault, Some(Fault::External));
+    /// # Ok::<(), dynamics_core::control::ConfigError>(())
     /// ```
+    #[doc(alias = "e-stop")]
+    #[doc(alias = "emergency stop")]
     #[cold]
     pub fn stop(&mut self, fault: Fault) {
         if !matches!(self.mode, Mode::Stopped) {
@@ -342,13 +250,24 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         }
     }
 
+    /// Whether the positions of the last tick were accepted.
+    #[inline(always)]
+    pub fn measurement_accepted(&self) -> bool {
+        self.accepted
+    }
+
     /// The last positions that were accepted, rad or m; zeros before the first.
     #[inline(always)]
     pub fn last_good(&self) -> &[R; V] {
         &self.last_good
     }
 
-    /// What the arm does in this tick.
+    /// Ticks that a fault may last at most before the arm is stopped.
+    pub(super) fn longest_fault(&self) -> u32 {
+        self.ride_through_ticks.saturating_add(self.hold_ticks)
+    }
+
+    /// What the arm did in the last tick.
     #[inline(always)]
     pub fn mode(&self) -> Mode {
         self.mode

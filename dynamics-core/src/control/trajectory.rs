@@ -35,6 +35,7 @@ pub use smooth::RestToRest;
 /// let stop = WayPoint { q: [0.3_f32, 1.2], qd: [0.0; 2], ticks: 800 };
 /// # let _ = stop;
 /// ```
+#[doc(alias = "via point")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct WayPoint<R, const V: usize> {
@@ -46,7 +47,8 @@ pub struct WayPoint<R, const V: usize> {
     pub ticks: u32,
 }
 
-/// How fast a joint may move.
+/// How fast a joint may move: what a trajectory keeps, [`super::SafetyLimits`] being what a supervisor keeps.
+#[doc(alias = "Speed")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct MotionLimits<R> {
@@ -57,7 +59,7 @@ pub struct MotionLimits<R> {
 }
 
 impl<R: Real> MotionLimits<R> {
-    /// Holds what a joint needs on the way to a point against its greatest speed; nothing admits a NaN.
+    /// Compares what a joint needs before a point with its greatest speed; nothing admits a NaN.
     fn admits_speed(&self, needed: R, point: usize, joint: usize) -> Result<(), TrajectoryError> {
         if needed.is_finite() && needed <= self.velocity {
             return Ok(());

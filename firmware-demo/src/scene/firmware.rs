@@ -1,6 +1,8 @@
 //! What a scene's data sheet makes of the control loop, whatever its devices are.
 
-use dynamics_core::control::{Gains, Observer, Rejoin, SafetyLimits, Supervisor};
+use dynamics_core::control::{
+    Gains, MotionController, MotionControllerConfig, SafetyLimits, SupervisorConfig,
+};
 use embedded_hal::digital::OutputPin;
 use embedded_hal::pwm::SetDutyCycle;
 use embedded_hal::spi::SpiDevice;
@@ -24,6 +26,8 @@ pub const RIDE: u32 = 5;
 pub const HOLD: u32 = 100;
 /// Ticks of the return to the trajectory after a fault.
 pub const REENTRY: u32 = 200;
+/// How far a joint may be from its reference for a restart, rad or m.
+pub const NEAR: f32 = 0.15;
 
 /// The loop on these devices, for an arm at rest at the start of its trajectory.
 pub fn control_loop<
@@ -48,25 +52,25 @@ where
     Brake: OutputPin,
 {
     let limits = S::limits();
-    let torque = limits.map(|l| l.torque);
-    let bounds = SafetyLimits {
-        torque,
-        rate: torque.map(|t| t * 0.5),
-        speed: limits.map(|l| l.velocity),
-        lower: limits.map(|l| l.lower),
-        upper: limits.map(|l| l.upper),
-    };
-    let mut torques = torque.into_iter();
+    let mut torques = limits.iter().map(|limit| limit.torque);
     ControlLoop::new(
         encoders.map(Encoder::new),
         drives.map(|pwm| Drive::new(pwm, torques.next().unwrap_or_default())),
         brake,
         Gains::from_inertia(&S::inertia(environment), OMEGA_N, ZETA),
-        Observer::new(OBSERVER, TICK),
-        Supervisor::new(bounds, TICK, HOLD, REENTRY)
-            .riding(RIDE)
-            .with_resolution(RESOLUTION),
-        // Half of what K_d does: at full speed the torques for more are not to be had.
-        Rejoin::new(TICK, ZETA * OMEGA_N, REENTRY),
+        MotionController::new(MotionControllerConfig {
+            supervisor: SupervisorConfig {
+                limits: SafetyLimits::from(limits).with_rate_share(0.5),
+                tick: TICK,
+                resolution: RESOLUTION,
+                ride_through_ticks: RIDE,
+                hold_ticks: HOLD,
+                reentry_ticks: REENTRY,
+            },
+            observer_bandwidth: OBSERVER,
+            // Half of what K_d does: at full speed the torques for more are not to be had.
+            decay_rate: ZETA * OMEGA_N,
+            restart_distance: NEAR,
+        }),
     )
 }

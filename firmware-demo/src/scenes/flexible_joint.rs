@@ -2,7 +2,7 @@
 //! does not. Its encoders sit on the motors, as those of most arms do; what counts is where the links are.
 
 use dynamics_core::Core;
-use dynamics_core::control::{Gains, RestToRest, TrajectoryError, feedback};
+use dynamics_core::control::{Estimate, Gains, RestToRest, TrajectoryError, feedback};
 use dynamics_core::drivetrain::{ElasticJoints, ElasticReference, elastic_inverse_dynamics};
 use dynamics_core::effects::{Armature, Coriolis, Effect, Gravity, Inertia, Viscous};
 use dynamics_core::model::{Calibrated, Static};
@@ -86,7 +86,11 @@ impl Scene<7, 7, 7, 7> for CompliantArm {
             qd: wanted.velocity,
             qdd: [0.0; 7],
         };
-        let wound = feedback(&gains, &motors, &reference.q, &reference.qd);
+        let joints = Estimate {
+            q: reference.q,
+            qd: reference.qd,
+        };
+        let wound = feedback(&gains, &motors, &joints);
         core::array::from_fn(|j| wanted.torque[j] + wound[j])
     }
 

@@ -35,7 +35,7 @@ pub fn controller(bytes: &[u8]) {
                 let q = from.numbers().map(|x: f64| x as f32);
                 tick(&mut bench, |bench| bench.tick_of(Ok(&q), None));
             }
-            13 => bench.reset(),
+            13 => _ = bench.reset(),
             _ => (0..from.byte() % 32).for_each(|_| tick(&mut bench, |bench| bench.tick(None))),
         }
     }

@@ -4,7 +4,8 @@ use super::controller::{Bench, TICK};
 use super::measure::larger;
 use super::{Case, Row, name};
 use dynamics_core::control::{
-    Mode, MotionLimits, MultiTurnEncoder, Observer, SafetyLimits, Supervisor, Trajectory, WayPoint,
+    Mode, MotionLimits, MultiTurnEncoder, Observer, ObserverConfig, SafetyLimits, Supervisor,
+    SupervisorConfig, Trajectory, WayPoint,
 };
 use dynamics_core::scalar::Real;
 
@@ -45,25 +46,37 @@ fn wrap() -> Vec<Row> {
     const COUNTS: f64 = 16_384.0;
     fn run<R: Real>(rows: &mut Vec<Row>, direction: f64) {
         let (mut counter, of) = (MultiTurnEncoder::<14>::new(), R::from_f64);
-        let mut observer = Observer::<R, 1>::new(of(250.0), of(TICK));
-        let bounds = SafetyLimits {
+        let mut observer = Observer::<R, 1>::new(ObserverConfig {
+            bandwidth: of(250.0),
+            tick: of(TICK),
+        });
+        let limits = SafetyLimits {
             torque: [R::ONE],
             rate: [R::ONE],
             speed: [of(3.0)],
             lower: [of(-100.0)],
             upper: [of(100.0)],
         };
-        let mut supervisor = Supervisor::new(bounds, of(TICK), 20, 50);
+        let mut supervisor = Supervisor::new(SupervisorConfig {
+            limits,
+            tick: of(TICK),
+            resolution: R::ZERO,
+            ride_through_ticks: 0,
+            hold_ticks: 20,
+            reentry_ticks: 50,
+        });
         let (mut worst, mut full, mut naive, mut last) = (0.0_f64, true, 0.0_f64, 0.0);
         for tick in 0..10_000 {
             let turns = f64::from(tick) * (2.0 / std::f64::consts::TAU * TICK) * direction;
             let raw = (turns * COUNTS).round() as i32 & 0x3fff;
             counter.update(raw as u16);
             let q = [counter.angle()];
-            full &= supervisor.admit(Ok(&q)) == Mode::Full;
             let qd = observer.update(&q, &[R::ZERO]).qd;
-            full &= supervisor.watch(&qd) == Mode::Full;
-            supervisor.pass(&[R::ZERO]);
+            supervisor.tick(Ok(&q), |tick| {
+                full &= tick.mode() == Mode::Full;
+                full &= tick.check_speed(&qd) == Mode::Full;
+                [R::ZERO]
+            });
             let angle = f64::from(raw) / COUNTS * std::f64::consts::TAU;
             if tick >= 200 {
                 worst = larger(worst, (qd[0].to_f64() - 2.0 * direction).abs());
@@ -122,7 +135,7 @@ fn disturbed<R: Real>(
     });
     if bench.mode() == Mode::Stopped {
         bench.tick(None);
-        bench.reset();
+        bench.reset().expect("an arm that is stopped and measured");
     }
     for tick in 0..1000 {
         bench.tick(None);
@@ -255,7 +268,12 @@ fn day() -> Vec<Row> {
         let phase = tick % 4096;
         (if phase < 2048 { phase } else { 4096 - phase }) as f32 * 3.834_952e-4
     };
-    let [mut old, mut new] = [(); 2].map(|()| Observer::<f32, 1>::new(250.0, 1e-3));
+    let [mut old, mut new] = [(); 2].map(|()| {
+        Observer::<f32, 1>::new(ObserverConfig {
+            bandwidth: 250.0,
+            tick: 1e-3,
+        })
+    });
     for tick in 0..DAY {
         old.update(&[position(tick)], &[0.0]);
         if tick >= DAY - 1000 {

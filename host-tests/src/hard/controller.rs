@@ -1,11 +1,11 @@
-//! An arm under the control parts of the library, put together as `dynamics_core::control` shows, so that a case may
-//! spoil any of their inputs, on a plant whose time need not be the controller's.
+//! An arm under the library's motion controller, of whose inputs a case may spoil any, on a plant whose time need not be
+//! the controller's.
 
 use super::measure::larger;
 use dynamics_core::algorithms::{crba, rnea};
 use dynamics_core::control::{
-    Command, Fault, Gains, Mode, MotionLimits, Observer, Rejoin, SafetyLimits, Supervisor,
-    Trajectory, WayPoint, feedback,
+    Command, CurrentTick, Fault, Gains, Mode, MotionController, MotionControllerConfig,
+    MotionLimits, ResetError, SafetyLimits, SupervisorConfig, Trajectory, WayPoint, feedback,
 };
 use dynamics_core::effects::{Armature, Coriolis, Gravity, Inertia};
 use dynamics_core::model::{ArmModel, model};
@@ -20,14 +20,13 @@ pub const TICK: f64 = 1e-3;
 pub const HOME: [f64; 6] = [0.0, -1.57, 1.57, -1.57, -1.57, 0.0];
 /// Greatest torques, N·m; half of each a tick.
 pub const TORQUE: [f64; 6] = [150.0, 150.0, 150.0, 28.0, 28.0, 28.0];
-/// Ticks that a fault is ridden through, held, and that the way back takes.
+/// Ticks that a fault is ridden through, held, and that the return takes.
 pub const RIDE: u32 = 5;
 /// The same.
 pub const HOLD: u32 = 100;
 /// The same.
 pub const REENTRY: u32 = 200;
 const OMEGA: f64 = 25.0;
-const LAMBDA: f64 = 2.0 * OMEGA;
 
 /// A number that should not be where it is.
 #[derive(Clone, Copy, Debug)]
@@ -70,11 +69,7 @@ pub struct Bench<R: Real> {
     scene: Scene<R>,
     trajectory: Trajectory<R, 6, 3>,
     gains: Gains<R, 6>,
-    supervisor: Supervisor<R, 6>,
-    observer: Observer<R, 6>,
-    rejoin: Rejoin<R, 6>,
-    clock: u32,
-    expected: [R; 6],
+    controller: MotionController<R, 6, CurrentTick>,
     /// What went to the drives.
     pub command: [R; 6],
     /// Whether the brake holds the arm.
@@ -95,12 +90,12 @@ impl<R: Real> Bench<R> {
             ticks,
         };
         let away = HOME.map(|q| q + step);
-        let limits = [MotionLimits {
+        let speeds = [MotionLimits {
             velocity: R::from_f64(3.0),
             acceleration: R::from_f64(30.0),
         }; 6];
         let points = [stop(HOME, 0), stop(away, ticks), stop(HOME, ticks)];
-        let bounds = SafetyLimits {
+        let limits = SafetyLimits {
             torque: of(TORQUE),
             rate: of(TORQUE.map(|tau| 0.5 * tau)),
             speed: of([3.2; 6]),
@@ -115,13 +110,21 @@ impl<R: Real> Bench<R> {
         Self {
             model,
             scene,
-            trajectory: Trajectory::new(&points, tick, &limits).expect("slow enough"),
+            trajectory: Trajectory::new(&points, tick, &speeds).expect("slow enough"),
             gains: Gains::from_inertia(&diagonal, R::from_f64(OMEGA), R::ONE),
-            supervisor: Supervisor::new(bounds, tick, HOLD, REENTRY).riding(RIDE),
-            observer: Observer::new(R::from_f64(250.0), tick),
-            rejoin: Rejoin::new(tick, R::from_f64(LAMBDA), REENTRY),
-            clock: 0,
-            expected: of([0.0; 6]),
+            controller: MotionController::new(MotionControllerConfig {
+                supervisor: SupervisorConfig {
+                    limits,
+                    tick,
+                    resolution: R::ZERO,
+                    ride_through_ticks: RIDE,
+                    hold_ticks: HOLD,
+                    reentry_ticks: REENTRY,
+                },
+                observer_bandwidth: R::from_f64(250.0),
+                decay_rate: R::from_f64(OMEGA),
+                restart_distance: R::ONE / R::ZERO,
+            }),
             command: of([0.0; 6]),
             brake: false,
             aim: State::at(of(HOME)),
@@ -138,15 +141,7 @@ impl<R: Real> Bench<R> {
 
     /// A tick that comes after so many missed ones, which a timer has counted: time goes on, and what is expected.
     pub fn late_tick(&mut self, missed: u32) -> Command<R, 6> {
-        let follows = self.supervisor.mode() == Mode::Full && !self.rejoin.active();
-        self.supervisor.missed(missed);
-        for _ in 0..missed {
-            self.observer.predict(&self.expected);
-            if follows {
-                self.clock += 1;
-                self.expected = self.trajectory.at(self.clock).qdd;
-            }
-        }
+        self.controller.missed(missed, &self.trajectory);
         self.tick(None)
     }
 
@@ -156,65 +151,39 @@ impl<R: Real> Bench<R> {
         measured: Result<&[R; 6], Fault>,
         poison: Option<Poison<R>>,
     ) -> Command<R, 6> {
-        let Self {
-            supervisor,
-            observer,
-            rejoin,
-            trajectory,
-            ..
-        } = self;
-        supervisor.admit(measured);
-        let estimate = if supervisor.seen() {
-            observer.update(supervisor.last_good(), &self.expected)
-        } else {
-            observer.predict(&self.expected)
-        };
-        if supervisor.mode() == Mode::Stopped && supervisor.seen() {
-            observer.reset(supervisor.last_good()); // on the brake
-        }
-        let held = supervisor.watch(&estimate.qd) != Mode::Full;
-        let mut aim = if held {
-            rejoin.start(&estimate, self.clock);
-            State::at(estimate.q)
-        } else if rejoin.active() && supervisor.authority() < R::ONE {
-            rejoin.at(trajectory, supervisor.authority())
-        } else {
-            self.clock = if rejoin.active() {
-                rejoin.finish()
-            } else {
-                self.clock + 1
-            };
-            trajectory.at(self.clock)
-        };
-        let slower = estimate.qd.map(|qd| R::from_f64(-LAMBDA) * qd);
-        self.expected = if held { slower } else { aim.qdd };
-        self.aim = aim;
-        spoil(&mut aim.q, poison, Input::Reference(0));
-        spoil(&mut aim.qd, poison, Input::Reference(1));
-        spoil(&mut aim.qdd, poison, Input::Reference(2));
-        let mut tau = rnea(self.model, &aim, &self.scene);
-        for (tau, pd) in tau
-            .iter_mut()
-            .zip(feedback(&self.gains, &aim, &estimate.q, &estimate.qd))
-        {
-            *tau += pd;
-        }
-        spoil(&mut tau, poison, Input::Torque);
-        let command = supervisor.pass(&tau);
+        let (model, scene, gains) = (self.model, &self.scene, &self.gains);
+        let followed = &mut self.aim;
+        let trajectory = &self.trajectory;
+        let command = self
+            .controller
+            .tick(measured, trajectory, |reference, estimate| {
+                *followed = *reference;
+                let mut aim = *reference;
+                spoil(&mut aim.q, poison, Input::Reference(0));
+                spoil(&mut aim.qd, poison, Input::Reference(1));
+                spoil(&mut aim.qdd, poison, Input::Reference(2));
+                let mut tau = rnea(model, &aim, scene);
+                for (tau, pd) in tau.iter_mut().zip(feedback(gains, &aim, estimate)) {
+                    *tau += pd;
+                }
+                spoil(&mut tau, poison, Input::Torque);
+                tau
+            });
         (self.command, self.brake) = (command.torque, command.brake);
         command
     }
 
     /// What the arm does.
     pub fn mode(&self) -> Mode {
-        self.supervisor.mode()
+        self.controller.mode()
     }
 
-    /// Starts a stopped arm again.
-    pub fn reset(&mut self) {
-        self.supervisor.reset();
-        self.rejoin.start(self.observer.estimate(), self.clock);
-        self.expected = [R::ZERO; 6];
+    /// Starts a stopped arm again, wherever it is.
+    ///
+    /// # Errors
+    /// [`ResetError`], of an arm that is not stopped or not measured.
+    pub fn reset(&mut self) -> Result<(), ResetError> {
+        self.controller.reset(&self.trajectory)
     }
 
     /// The arm moves on by `seconds` under the last command, in steps of a quarter of a tick or less.

@@ -5,7 +5,7 @@ use super::setup::list::arm;
 use super::setup::turning;
 use super::{Case, Row};
 use dynamics_core::algorithms::rnea;
-use dynamics_core::control::{Fault, MultiTurnEncoder, SafetyLimits, Supervisor};
+use dynamics_core::control::{Fault, MultiTurnEncoder, SafetyLimits, Supervisor, SupervisorConfig};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
 use firmware_demo::hard::{N, counts, scene};
@@ -100,9 +100,16 @@ fn refused<R: Real>(q: R) -> bool {
         lower: [-far],
         upper: [far],
     };
-    let mut gate = Supervisor::new(limits, R::from_f64(1e-3), 1, 4);
-    gate.admit(Ok(&[q]));
-    gate.pass(&[R::ZERO]).status.fault == Some(Fault::Position { joint: 0 })
+    let mut gate = Supervisor::new(SupervisorConfig {
+        limits,
+        tick: R::from_f64(1e-3),
+        resolution: R::ZERO,
+        ride_through_ticks: 0,
+        hold_ticks: 1,
+        reentry_ticks: 4,
+    });
+    let command = gate.tick(Ok(&[q]), |_| [R::ZERO]);
+    command.status.fault == Some(Fault::Position { joint: 0 })
 }
 
 const FAST: ErrorBounds = ErrorBounds {

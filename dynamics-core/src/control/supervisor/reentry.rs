@@ -1,21 +1,25 @@
-//! The way back to the full law: after a hold, and after a stop.
+//! The return to the full law: after a hold, and after a stop.
 
 use super::{FAR, Mode, Supervisor, real};
 use crate::scalar::Real;
 
 impl<R: Real, const V: usize> Supervisor<R, V> {
-    /// How far the arm is on its way back to the full law in this tick, 0 to 1: for the reference to
-    /// follow (see [`super::super::Rejoin`]). Zero while the arm is held and while the brake waits.
+    /// How far the arm is on its return to the full law in this tick, 0 to 1: for the reference to
+    /// follow (see [`super::super::ResumeTrajectory`]). Zero while the arm is held and while the brake waits.
     ///
     /// ```
-    /// # use dynamics_core::control::{SafetyLimits, Fault, Supervisor};
-    /// # let bounds = SafetyLimits { torque: [10.0_f32], rate: [8.0], speed: [3.0], lower: [-1.0], upper: [1.0] };
-    /// let mut supervisor = Supervisor::new(bounds, 1e-3, 2, 4);
+    /// # use dynamics_core::control::{Fault, SafetyLimits, Supervisor, SupervisorConfig};
+    /// # let limits = SafetyLimits { torque: [10.0_f32], rate: [8.0], speed: [3.0], lower: [-1.0], upper: [1.0] };
+    /// # let mut supervisor = Supervisor::try_new(SupervisorConfig {
+    /// #     limits, tick: 1e-3, resolution: 0.0, ride_through_ticks: 0, hold_ticks: 2, reentry_ticks: 4,
+    /// # })?;
     /// for (measured, share) in [(Ok(&[0.5]), 1.0), (Err(Fault::Stale), 0.0), (Ok(&[0.5]), 0.25)] {
-    ///     supervisor.admit(measured);
-    ///     assert_eq!(supervisor.authority(), share);
-    ///     supervisor.pass(&[1.0]);
+    ///     supervisor.tick(measured, |tick| {
+    ///         assert_eq!(tick.authority(), share);
+    ///         [1.0]
+    ///     });
     /// }
+    /// # Ok::<(), dynamics_core::control::ConfigError>(())
     /// ```
     #[inline(always)]
     pub fn authority(&self) -> R {
@@ -28,26 +32,29 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         }
     }
 
-    /// Starts again, from zero torque on the brake: clears a latched fault and takes the next
-    /// plausible positions as they are. The brake opens when the torque asked for is there; then
-    /// [`Self::authority`] rises.
+    /// Starts again, from zero torque on the brake: clears a latched fault and accepts the next
+    /// positions within their limits as they are.
+    ///
+    /// The brake opens when the torque of the law is there; then [`Self::authority`] rises.
     ///
     /// ```
-    /// # use dynamics_core::control::{SafetyLimits, Fault, Mode, Supervisor};
-    /// # let bounds = SafetyLimits { torque: [10.0_f32], rate: [2.0], speed: [3.0], lower: [-1.0], upper: [1.0] };
-    /// let mut supervisor = Supervisor::new(bounds, 1e-3, 0, 2);
-    /// assert_eq!(supervisor.admit(Err(Fault::Stale)), Mode::Stopped);
+    /// # use dynamics_core::control::{Fault, Mode, SafetyLimits, Supervisor, SupervisorConfig};
+    /// # let limits = SafetyLimits { torque: [10.0_f32], rate: [2.0], speed: [3.0], lower: [-1.0], upper: [1.0] };
+    /// # let mut supervisor = Supervisor::try_new(SupervisorConfig {
+    /// #     limits, tick: 1e-3, resolution: 0.0, ride_through_ticks: 0, hold_ticks: 0, reentry_ticks: 2,
+    /// # })?;
+    /// assert_eq!(supervisor.tick(Err(Fault::Stale), |_| [0.0]).status.mode, Mode::Stopped);
     /// supervisor.reset();
     /// for (torque, brake) in [([2.0], true), ([4.0], false)] {
-    ///     assert_eq!(supervisor.admit(Ok(&[0.5])), Mode::Full);
-    ///     let command = supervisor.pass(&[4.0]);
+    ///     let command = supervisor.tick(Ok(&[0.5]), |_| [4.0]);
     ///     assert_eq!((command.torque, command.brake), (torque, brake));
     /// }
+    /// # Ok::<(), dynamics_core::control::ConfigError>(())
     /// ```
     pub fn reset(&mut self) {
         self.known = false;
-        self.seen = false;
-        self.reach = R::from_f64(FAR);
+        self.accepted = false;
+        self.ticks_since_good = R::from_f64(FAR);
         self.torque = [R::ZERO; V];
         self.faults = 0;
         self.quiet = 0;
@@ -55,7 +62,7 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         self.mode = Mode::Full;
         self.fault = None;
         self.faulted = false;
-        self.fresh = false;
+        self.open = false;
         self.hold_next = false;
         self.braked = true;
         if let Some(fault) = self.unusable {

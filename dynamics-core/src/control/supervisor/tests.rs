@@ -1,6 +1,8 @@
 use super::*;
 
-const BOUNDS: SafetyLimits<f32, 2> = SafetyLimits {
+mod protocol;
+
+const LIMITS: SafetyLimits<f32, 2> = SafetyLimits {
     torque: [10.0, 5.0],
     rate: [4.0, 4.0],
     speed: [2.0, 2.0],
@@ -11,20 +13,37 @@ const TICK: f32 = 0.01;
 const HOLD: u32 = 3;
 const REENTRY: u32 = 4;
 
+const CONFIG: SupervisorConfig<f32, 2> = SupervisorConfig {
+    limits: LIMITS,
+    tick: TICK,
+    resolution: 0.0,
+    ride_through_ticks: 0,
+    hold_ticks: HOLD,
+    reentry_ticks: REENTRY,
+};
+
 fn supervisor() -> Supervisor<f32, 2> {
-    Supervisor::new(BOUNDS, TICK, HOLD, REENTRY)
+    Supervisor::new(CONFIG)
+}
+
+/// One that rides through so many ticks.
+fn riding(ticks: u32) -> Supervisor<f32, 2> {
+    Supervisor::new(SupervisorConfig {
+        ride_through_ticks: ticks,
+        ..CONFIG
+    })
 }
 
 /// A tick with good positions.
 fn good(supervisor: &mut Supervisor<f32, 2>, tau: [f32; 2]) -> Command<f32, 2> {
     let q = *supervisor.last_good();
-    supervisor.admit(Ok(&q));
-    supervisor.pass(&tau)
+    supervisor.accept_measurement(Ok(&q));
+    supervisor.gate(&tau)
 }
 
 fn bad(supervisor: &mut Supervisor<f32, 2>, tau: [f32; 2]) -> Command<f32, 2> {
-    supervisor.admit(Err(Fault::Encoder { joint: 1 }));
-    supervisor.pass(&tau)
+    supervisor.accept_measurement(Err(Fault::Encoder { joint: 1 }));
+    supervisor.gate(&tau)
 }
 
 #[test]
@@ -61,33 +80,36 @@ fn each_fault_names_its_joint() {
     ] {
         let mut supervisor = supervisor();
         good(&mut supervisor, [0.0; 2]);
-        assert_eq!(supervisor.admit(Ok(&q)), Mode::Hold);
+        assert_eq!(supervisor.accept_measurement(Ok(&q)), Mode::Hold);
         assert_eq!(supervisor.last_good(), &[0.0; 2]);
-        assert_eq!(supervisor.pass(&[0.0; 2]).status.fault, Some(fault));
+        assert_eq!(supervisor.gate(&[0.0; 2]).status.fault, Some(fault));
     }
     let mut supervisor = supervisor();
     good(&mut supervisor, [0.0; 2]);
-    supervisor.admit(Ok(&[0.0, 0.039]));
-    assert_eq!(supervisor.watch(&[2.0, -2.01]), Mode::Hold);
+    supervisor.accept_measurement(Ok(&[0.0, 0.039]));
+    assert_eq!(supervisor.check_speed(&[2.0, -2.01]), Mode::Hold);
     assert_eq!(
-        supervisor.pass(&[0.0; 2]).status.fault,
+        supervisor.gate(&[0.0; 2]).status.fault,
         Some(Fault::Speed { joint })
     );
-    supervisor.admit(Ok(&[0.0; 2]));
-    assert_eq!(supervisor.watch(&[f32::NAN, 0.0]), Mode::Hold);
-    let status = supervisor.pass(&[0.0; 2]).status;
+    supervisor.accept_measurement(Ok(&[0.0; 2]));
+    assert_eq!(supervisor.check_speed(&[f32::NAN, 0.0]), Mode::Hold);
+    let status = supervisor.gate(&[0.0; 2]).status;
     assert_eq!(status.fault, Some(Fault::Speed { joint: 0 }));
 }
 
 #[test]
 fn a_lasting_fault_goes_from_full_to_hold_to_stopped_and_stays_there() {
-    let mut supervisor = supervisor().riding(2);
+    let mut supervisor = riding(2);
     good(&mut supervisor, [3.0; 2]);
     for mode in [Mode::Full, Mode::Full, Mode::Hold, Mode::Hold, Mode::Hold] {
-        assert_eq!(supervisor.admit(Err(Fault::Stale)), mode);
+        assert_eq!(supervisor.accept_measurement(Err(Fault::Stale)), mode);
         let share = if mode == Mode::Full { 1.0 } else { 0.0 };
-        assert_eq!((supervisor.seen(), supervisor.authority()), (false, share));
-        let command = supervisor.pass(&[2.0; 2]);
+        assert_eq!(
+            (supervisor.measurement_accepted(), supervisor.authority()),
+            (false, share)
+        );
+        let command = supervisor.gate(&[2.0; 2]);
         assert_eq!((command.torque, command.brake), ([2.0; 2], false));
         assert_eq!(command.status.fault, Some(Fault::Stale));
     }
@@ -105,26 +127,26 @@ fn a_lasting_fault_goes_from_full_to_hold_to_stopped_and_stays_there() {
 
 #[test]
 fn authority_rises_after_a_hold_and_stays_after_a_ride() {
-    let mut supervisor = supervisor().riding(1);
+    let mut supervisor = riding(1);
     good(&mut supervisor, [3.0; 2]);
     bad(&mut supervisor, [3.0; 2]);
-    supervisor.admit(Ok(&[0.0; 2]));
+    supervisor.accept_measurement(Ok(&[0.0; 2]));
     assert_eq!(supervisor.authority(), 1.0);
-    supervisor.pass(&[3.0; 2]);
+    supervisor.gate(&[3.0; 2]);
     bad(&mut supervisor, [3.0; 2]);
     for share in [0.25, 0.5, 0.75, 1.0, 1.0] {
-        supervisor.admit(Ok(&[0.0; 2]));
+        supervisor.accept_measurement(Ok(&[0.0; 2]));
         assert_eq!(supervisor.authority(), share);
-        supervisor.pass(&[3.0; 2]);
+        supervisor.gate(&[3.0; 2]);
     }
 }
 
 #[test]
 fn a_speed_is_not_ridden_through() {
-    let mut supervisor = supervisor().riding(5);
+    let mut supervisor = riding(5);
     good(&mut supervisor, [3.0; 2]);
-    supervisor.admit(Err(Fault::Stale));
-    assert_eq!(supervisor.watch(&[0.0, 2.1]), Mode::Hold);
+    supervisor.accept_measurement(Err(Fault::Stale));
+    assert_eq!(supervisor.check_speed(&[0.0, 2.1]), Mode::Hold);
 }
 
 #[test]
@@ -140,12 +162,12 @@ fn a_failure_from_outside_stops_the_arm_in_the_next_tick() {
 
 #[test]
 fn an_external_stop_acts_in_its_tick_and_stays_until_a_reset() {
-    let mut supervisor = supervisor().riding(5);
+    let mut supervisor = riding(5);
     good(&mut supervisor, [3.0; 2]);
     bad(&mut supervisor, [3.0; 2]);
-    supervisor.admit(Err(Fault::Encoder { joint: 1 }));
+    supervisor.accept_measurement(Err(Fault::Encoder { joint: 1 }));
     supervisor.stop(Fault::External);
-    let command = supervisor.pass(&[3.0; 2]);
+    let command = supervisor.gate(&[3.0; 2]);
     assert_eq!((command.torque, command.brake), ([0.0; 2], true));
     for _ in 0..10 {
         let command = good(&mut supervisor, [3.0; 2]);
@@ -163,7 +185,7 @@ fn an_external_stop_acts_in_its_tick_and_stays_until_a_reset() {
 
 #[test]
 fn without_a_torque_the_last_ones_stand_then_a_hold_then_the_brake() {
-    let mut supervisor = supervisor().riding(2);
+    let mut supervisor = riding(2);
     good(&mut supervisor, [4.0; 2]);
     let nan = [4.0, f32::NAN];
     let fault = Some(Fault::Torque { joint: 1 });
@@ -190,11 +212,18 @@ fn without_a_torque_the_last_ones_stand_then_a_hold_then_the_brake() {
 
 #[test]
 fn an_encoders_step_is_no_jump() {
-    let mut bounds = BOUNDS;
-    bounds.speed = [0.01; 2];
-    let mut supervisor = Supervisor::new(bounds, TICK, HOLD, REENTRY).with_resolution(0.01);
+    let mut limits = LIMITS;
+    limits.speed = [0.01; 2];
+    let mut supervisor = Supervisor::new(SupervisorConfig {
+        limits,
+        resolution: 0.01,
+        ..CONFIG
+    });
     good(&mut supervisor, [0.0; 2]);
-    assert_eq!(supervisor.admit(Ok(&[0.01, -0.01])), Mode::Full);
+    assert_eq!(
+        supervisor.accept_measurement(Ok(&[0.01, -0.01])),
+        Mode::Full
+    );
 }
 
 #[test]
@@ -224,76 +253,41 @@ fn good_ticks_up_to_full_authority_forget_a_fault() {
 }
 
 #[test]
-fn a_tick_without_a_measurement_is_stale() {
-    let mut supervisor = supervisor();
-    good(&mut supervisor, [1.0; 2]);
-    let status = supervisor.pass(&[1.0; 2]).status;
-    assert_eq!(
-        (status.mode, status.fault),
-        (Mode::Hold, Some(Fault::Stale))
-    );
-}
-
-#[test]
 fn without_any_good_position_a_fault_stops_the_arm_at_once() {
     let mut supervisor = supervisor();
-    assert_eq!(supervisor.admit(Ok(&[2.0; 2])), Mode::Stopped);
+    assert_eq!(supervisor.accept_measurement(Ok(&[2.0; 2])), Mode::Stopped);
     supervisor.reset();
-    assert_eq!(supervisor.admit(Ok(&[0.9; 2])), Mode::Full);
+    assert_eq!(supervisor.accept_measurement(Ok(&[0.9; 2])), Mode::Full);
 }
 
 #[test]
-fn the_reach_of_a_joint_grows_with_the_ticks_that_were_lost() {
+fn the_plausible_step_of_a_joint_grows_with_the_ticks_that_were_lost() {
     let mut supervisor = supervisor();
     good(&mut supervisor, [0.0; 2]);
     bad(&mut supervisor, [0.0; 2]);
-    assert_eq!(supervisor.admit(Ok(&[0.07; 2])), Mode::Full);
-    supervisor.pass(&[0.0; 2]);
-    assert_eq!(supervisor.admit(Ok(&[0.12; 2])), Mode::Hold);
-}
-
-#[test]
-fn after_a_reset_the_brake_waits_for_the_torque() {
-    let mut supervisor = supervisor();
-    supervisor.reset();
-    let mut brakes = [true; 8];
-    for brake in &mut brakes {
-        supervisor.admit(Ok(&[0.5; 2]));
-        *brake = supervisor.pass(&[10.0, 0.0]).brake;
-    }
-    assert_eq!(
-        brakes,
-        [true, true, false, false, false, false, false, false]
-    );
-    // A rate that is slower than the ramp makes it wait longer.
-    supervisor.bounds.rate = [1.5; 2];
-    supervisor.reset();
-    for _ in 0..6 {
-        supervisor.admit(Ok(&[0.5; 2]));
-        assert!(supervisor.pass(&[10.0, 0.0]).brake);
-    }
-    supervisor.admit(Ok(&[0.5; 2]));
-    assert!(!supervisor.pass(&[10.0, 0.0]).brake);
+    assert_eq!(supervisor.accept_measurement(Ok(&[0.07; 2])), Mode::Full);
+    supervisor.gate(&[0.0; 2]);
+    assert_eq!(supervisor.accept_measurement(Ok(&[0.12; 2])), Mode::Hold);
 }
 
 #[test]
 fn useless_limits_allow_nothing() {
     for bad in [f32::NAN, -1.0] {
         for which in 0..5 {
-            let mut bounds = BOUNDS;
+            let mut limits = LIMITS;
             let field = match which {
-                0 => &mut bounds.torque,
-                1 => &mut bounds.rate,
-                2 => &mut bounds.speed,
-                3 => &mut bounds.upper,
-                _ => &mut bounds.lower,
+                0 => &mut limits.torque,
+                1 => &mut limits.rate,
+                2 => &mut limits.speed,
+                3 => &mut limits.upper,
+                _ => &mut limits.lower,
             };
             *field = [bad; 2];
-            let mut supervisor = Supervisor::new(bounds, TICK, HOLD, REENTRY);
+            let mut supervisor = Supervisor::new(SupervisorConfig { limits, ..CONFIG });
             for _ in 0..2 {
-                supervisor.admit(Ok(&[0.0; 2]));
-                supervisor.watch(&[0.0; 2]);
-                let command = supervisor.pass(&[1.0; 2]);
+                supervisor.accept_measurement(Ok(&[0.0; 2]));
+                supervisor.check_speed(&[0.0; 2]);
+                let command = supervisor.gate(&[1.0; 2]);
                 // −1 rad is a good lower bound.
                 let torque = if which == 4 && bad == -1.0 { 1.0 } else { 0.0 };
                 let held = which == 2 && command.status.mode == Mode::Hold;

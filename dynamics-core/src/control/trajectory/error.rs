@@ -44,7 +44,7 @@ pub enum TrajectoryError {
         point: usize,
         /// The joint.
         joint: usize,
-        /// The greatest |q̇| on the way, rad/s or m/s.
+        /// The greatest |q̇| before the point, rad/s or m/s.
         needed: f64,
         /// The limit.
         allowed: f64,
@@ -55,7 +55,7 @@ pub enum TrajectoryError {
         point: usize,
         /// The joint.
         joint: usize,
-        /// The greatest |q̈| on the way, rad/s² or m/s².
+        /// The greatest |q̈| before the point, rad/s² or m/s².
         needed: f64,
         /// The limit.
         allowed: f64,

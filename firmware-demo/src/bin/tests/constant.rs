@@ -17,7 +17,9 @@ use core::hint::black_box;
 
 use cortex_m_rt::entry;
 use cortex_m_semihosting::debug;
-use dynamics_core::control::{Command, Gains, Mode, SafetyLimits, Supervisor, feedback};
+use dynamics_core::control::{
+    Command, Estimate, Gains, Mode, SafetyLimits, Supervisor, SupervisorConfig, feedback,
+};
 use dynamics_core::effects::{Armature, Coulomb, RIGID_BODY, Viscous, Width};
 use dynamics_core::robots::Ur5e;
 use dynamics_core::state::State;
@@ -130,8 +132,11 @@ fn main() -> ! {
     each(
         noise,
         "law",
-        |noise| (noise.state(), noise.numbers(6.3), noise.numbers(3.0)),
-        |(reference, q, qd)| law(&gains, reference, q, qd),
+        |noise| {
+            let (reference, q, qd) = (noise.state(), noise.numbers(6.3), noise.numbers(3.0));
+            (reference, Estimate { q, qd })
+        },
+        |(reference, estimate)| law(&gains, reference, estimate),
     );
     let scale = Scale::new(8400, 150.0);
     each(
@@ -170,10 +175,9 @@ fn duty(scale: &Scale, torque: f32) -> u16 {
 fn law(
     gains: &Gains<f32, N>,
     reference: &State<f32, N, N>,
-    q: &[f32; N],
-    qd: &[f32; N],
+    estimate: &Estimate<f32, N>,
 ) -> [f32; N] {
-    feedback(gains, reference, q, qd)
+    feedback(gains, reference, estimate)
 }
 
 /// The gate on what it accepts: at full authority, or, with a reset every so many ticks, on the way
@@ -183,14 +187,21 @@ fn gate(noise: &mut Noise, reset: Option<usize>) {
     const RANGE: f32 = 6.3;
     // The greatest step that the gate takes for a movement.
     const STEP: f32 = 2.0 * SPEED * 1e-3;
-    let bounds = SafetyLimits {
+    let limits = SafetyLimits {
         torque: [150.0; N],
         rate: [75.0; N],
         speed: [SPEED; N],
         lower: [-RANGE; N],
         upper: [RANGE; N],
     };
-    let mut supervisor = Supervisor::new(bounds, 1e-3, 100, REENTRY as u32);
+    let mut supervisor = Supervisor::new(SupervisorConfig {
+        limits,
+        tick: 1e-3,
+        resolution: 0.0,
+        ride_through_ticks: 0,
+        hold_ticks: 100,
+        reentry_ticks: REENTRY as u32,
+    });
     let mut q = [0.0; N];
     // The first measurement is a transition of its own: nothing was known before it.
     pass(&mut supervisor, &q, &q, &q);
@@ -220,7 +231,8 @@ fn pass(
     qd: &[f32; N],
     tau: &[f32; N],
 ) -> Command<f32, N> {
-    supervisor.admit(Ok(q));
-    supervisor.watch(qd);
-    supervisor.pass(tau)
+    supervisor.tick(Ok(q), |tick| {
+        tick.check_speed(qd);
+        *tau
+    })
 }

@@ -1,0 +1,90 @@
+//! What is wrong with a configuration.
+
+use core::fmt;
+
+use super::SafetyLimitsError;
+use crate::scalar::Real;
+
+/// Why a configuration was refused.
+///
+/// ```
+/// use dynamics_core::control::{ConfigError, ConfigParameter, Observer, ObserverConfig};
+/// let error = Observer::<f32, 6>::try_new(ObserverConfig { bandwidth: 250.0, tick: 0.0 }).unwrap_err();
+/// assert_eq!(error, ConfigError::OutOfRange { parameter: ConfigParameter::Tick });
+/// assert_eq!(error.to_string(), "the length of a tick is not a positive number");
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
+pub enum ConfigError {
+    /// A limit of a joint allows nothing; the source names the joint.
+    Limits(SafetyLimitsError),
+    /// A number that holds for all joints is outside its range.
+    OutOfRange {
+        /// Which number.
+        parameter: ConfigParameter,
+    },
+}
+
+/// A number in a configuration that holds for all joints.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
+pub enum ConfigParameter {
+    /// The nominal length of a tick.
+    Tick,
+    /// The bandwidth of the observer.
+    Bandwidth,
+    /// The rate at which the speed of a held arm decays.
+    DecayRate,
+    /// The step of the encoders, which may be zero.
+    Resolution,
+    /// The greatest distance from the trajectory at a restart, which may be infinite.
+    RestartDistance,
+}
+
+impl ConfigParameter {
+    /// Accepts a finite number greater than zero.
+    pub(super) fn positive<R: Real>(self, x: R) -> Result<(), ConfigError> {
+        self.require(x.is_finite() & (x > R::ZERO))
+    }
+
+    pub(super) fn require(self, holds: bool) -> Result<(), ConfigError> {
+        if holds {
+            Ok(())
+        } else {
+            Err(ConfigError::OutOfRange { parameter: self })
+        }
+    }
+}
+
+impl From<SafetyLimitsError> for ConfigError {
+    fn from(error: SafetyLimitsError) -> Self {
+        Self::Limits(error)
+    }
+}
+
+impl fmt::Display for ConfigError {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let parameter = match self {
+            Self::Limits(_) => return out.write_str("a limit of a joint allows nothing"),
+            Self::OutOfRange { parameter } => parameter,
+        };
+        out.write_str(match parameter {
+            ConfigParameter::Tick => "the length of a tick is not a positive number",
+            ConfigParameter::Bandwidth => "the bandwidth of the observer is not a positive number",
+            ConfigParameter::DecayRate => "the decay rate of a held arm is not a positive number",
+            ConfigParameter::Resolution => "the step of the encoders is negative or not finite",
+            ConfigParameter::RestartDistance => "the restart distance is negative or not a number",
+        })
+    }
+}
+
+impl core::error::Error for ConfigError {
+    fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
+        match self {
+            Self::Limits(error) => Some(error),
+            Self::OutOfRange { .. } => None,
+        }
+    }
+}

@@ -1,0 +1,77 @@
+//! What the controller does on a fault and after it: decision 3.
+
+use super::super::{Fault, Mode, Reference, hold};
+use super::{MeasurementAge, MotionController};
+use crate::scalar::Real;
+use crate::state::State;
+
+impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
+    /// The estimate when there is no measurement, or no torque from it.
+    #[cold]
+    pub(super) fn predict_estimate(&mut self, measured: Result<&[R; V], Fault>) {
+        match (self.supervisor.mode(), measured) {
+            // The brake holds the arm where it is.
+            (Mode::Stopped, measured) => {
+                self.dead_reckoning = measured.is_err();
+                if let Ok(q) = measured {
+                    self.observer.reset(q);
+                }
+            }
+            (_, Ok(q)) if self.supervisor.measurement_accepted() => {
+                self.dead_reckoning = false;
+                A::correct_position(&mut self.observer, q);
+            }
+            (mode, _) => {
+                self.dead_reckoning |= matches!(mode, Mode::Hold);
+                self.observer.predict(&self.reference.qdd);
+            }
+        }
+    }
+
+    /// Updates what the joints are to follow in this tick.
+    #[inline(always)]
+    pub(super) fn next_reference<T: Reference<R, V>>(&mut self, trajectory: &T) {
+        let full = matches!(self.supervisor.mode(), Mode::Full);
+        if (!full | self.resume.active()) && !self.recovery_done(full) {
+            self.recovery_reference(trajectory, full);
+        } else {
+            self.reference = trajectory.at(self.clock);
+        }
+    }
+
+    /// Whether the return onto the trajectory ends in this tick.
+    #[cold]
+    fn recovery_done(&mut self, full: bool) -> bool {
+        let done = full & (self.supervisor.authority() >= R::ONE);
+        if done {
+            self.clock = self.resume.finish();
+        }
+        done
+    }
+
+    /// While the arm is held: where it is, its speed decaying, so that the same law brings all joints to
+    /// rest together. Then the return onto the trajectory.
+    #[cold]
+    #[inline(never)]
+    fn recovery_reference<T: Reference<R, V>>(&mut self, trajectory: &T, full: bool) {
+        self.reference = if full {
+            let share = self.supervisor.authority();
+            self.resume.at(trajectory, share)
+        } else {
+            self.stop_reference()
+        };
+    }
+
+    /// Slows the arm down where it is. The clock stops when that begins; the return starts anew in
+    /// each of these ticks.
+    fn stop_reference(&mut self) -> State<R, V, V> {
+        if self.resume.active() {
+            self.clock = self.resume.cancel();
+        } else {
+            self.clock = self.resume.resume_tick(self.clock);
+        }
+        let estimate = *self.observer.estimate();
+        self.resume.start(&estimate, self.clock);
+        hold(&estimate, self.resume.decay_rate())
+    }
+}

@@ -1,0 +1,69 @@
+//! The restart of an arm that a fault has stopped.
+
+use core::fmt;
+
+use super::super::{Mode, Reference};
+use super::{MeasurementAge, MotionController};
+use crate::scalar::Real;
+
+/// Why a stopped arm does not start again. Joints count from 0.
+///
+/// ```
+/// use dynamics_core::control::ResetError;
+/// assert_eq!(ResetError::TooFar { joint: 2 }.to_string(), "joint 2: it is too far from its reference");
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
+pub enum ResetError {
+    /// The arm is not stopped.
+    NotStopped,
+    /// There was no measurement in the last tick.
+    NoMeasurement,
+    /// A joint is further than the restart distance from where its trajectory waits.
+    TooFar {
+        /// The joint.
+        joint: usize,
+    },
+}
+
+impl fmt::Display for ResetError {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::NotStopped => out.write_str("the arm is not stopped"),
+            Self::NoMeasurement => out.write_str("there was no measurement in the last tick"),
+            Self::TooFar { joint } => {
+                write!(out, "joint {joint}: it is too far from its reference")
+            }
+        }
+    }
+}
+
+impl core::error::Error for ResetError {}
+
+impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
+    /// Starts a stopped arm again: clears the fault, and leads the arm back onto its trajectory.
+    ///
+    /// The brake holds until the torque of rest is there, a few ticks.
+    ///
+    /// # Errors
+    /// [`ResetError`]: nothing has changed then.
+    pub fn reset<T: Reference<R, V>>(&mut self, trajectory: &T) -> Result<(), ResetError> {
+        if !matches!(self.supervisor.mode(), Mode::Stopped) {
+            return Err(ResetError::NotStopped);
+        }
+        if self.dead_reckoning {
+            return Err(ResetError::NoMeasurement);
+        }
+        let goal = trajectory.at(self.clock).q;
+        let mut joints = goal.iter().zip(&self.observer.estimate().q);
+        let near = |(goal, q): (&R, &R)| (*goal - *q).abs() <= self.restart_distance;
+        if let Some(joint) = joints.position(|joint| !near(joint)) {
+            return Err(ResetError::TooFar { joint });
+        }
+        self.supervisor.reset();
+        self.resume.start(self.observer.estimate(), self.clock);
+        self.reference.qdd = [R::ZERO; V];
+        Ok(())
+    }
+}

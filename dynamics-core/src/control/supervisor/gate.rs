@@ -1,0 +1,69 @@
+//! The two halves of a tick: what is accepted of the measurements, and what passes of the torques.
+
+use super::super::{Command, Fault, Mode};
+use super::Supervisor;
+use crate::scalar::Real;
+
+impl<R: Real, const V: usize> Supervisor<R, V> {
+    /// Starts a tick with the positions measured in it, or why there are none, and returns what the arm does in it.
+    /// [`Self::gate`] has to follow.
+    #[inline]
+    pub(in crate::control) fn accept_measurement(
+        &mut self,
+        measured: Result<&[R; V], Fault>,
+    ) -> Mode {
+        self.begin();
+        let fault = match measured {
+            Ok(q) if self.plausible(q) => {
+                self.last_good = *q;
+                self.accepted = true;
+                self.known = true;
+                self.ticks_since_good = R::ONE;
+                return self.mode;
+            }
+            Ok(q) => self.diagnose(q),
+            Err(fault) => fault,
+        };
+        self.no_measurement();
+        self.record_fault(fault);
+        self.mode
+    }
+
+    /// Compares the observer's velocities with their limits, between [`Self::accept_measurement`] and [`Self::gate`].
+    #[inline]
+    pub(in crate::control) fn check_speed(&mut self, qd: &[R; V]) -> Mode {
+        let slow = |(qd, limit): (&R, &R)| qd.abs() <= *limit;
+        let joints = || qd.iter().zip(&self.limits.speed);
+        if !joints().fold(true, |ok, joint| ok & slow(joint)) {
+            let joint = joints().position(|joint| !slow(joint)).unwrap_or(V);
+            self.faults = self.faults.max(self.ride_through_ticks);
+            self.faulted = false;
+            self.record_fault(Fault::Speed { joint });
+        }
+        self.mode
+    }
+
+    /// Ends a tick: the torques that may go to the drives, of those that the law wants.
+    #[inline]
+    pub(in crate::control) fn gate(&mut self, tau: &[R; V]) -> Command<R, V> {
+        let mut off = R::ZERO;
+        let mut torque = [R::ZERO; V];
+        let wanted = tau.iter().zip(&self.torque);
+        let limits = self.limits.torque.iter().zip(&self.limits.rate);
+        for ((out, (&tau, &last)), (&most, &rate)) in torque.iter_mut().zip(wanted).zip(limits) {
+            let next = tau.clamped(-most, most).clamped(last - rate, last + rate);
+            // Zero within the limits; not finite if a torque is not, and otherwise no sum of so many.
+            off += (next - tau).abs() * R::from_f64(1.0 / 64.0);
+            *out = next;
+        }
+        if !off.is_finite() {
+            self.reject_torque(tau);
+            torque = self.torque;
+        }
+        if matches!(self.mode, Mode::Stopped) {
+            torque = [R::ZERO; V];
+        }
+        self.torque = torque;
+        self.end(torque, off != R::ZERO)
+    }
+}

@@ -1,0 +1,71 @@
+//! What holds of ticks that lack a half, and of a reset.
+
+use super::*;
+
+/// A tick without positions; one that was not begun has no torque to ask for, which the type of a tick sees to.
+#[test]
+fn a_tick_without_a_measurement_is_stale() {
+    let mut supervisor = supervisor();
+    good(&mut supervisor, [1.0; 2]);
+    let status = supervisor.tick(Err(Fault::Stale), |_| [1.0; 2]).status;
+    assert_eq!(
+        (status.mode, status.fault),
+        (Mode::Hold, Some(Fault::Stale))
+    );
+}
+
+#[test]
+fn a_tick_without_a_torque_is_a_fault_of_the_next_one() {
+    let mut supervisor = riding(2);
+    good(&mut supervisor, [3.0; 2]);
+    let unfinished = Some(Fault::Unfinished);
+    for (ticks, mode) in [(1, Mode::Full), (1, Mode::Full), (HOLD, Mode::Hold)] {
+        for _ in 0..ticks {
+            supervisor.accept_measurement(Ok(&[0.0; 2])); // and no torque
+            let command = good(&mut supervisor, [3.0; 2]);
+            assert_eq!(
+                (command.status.mode, command.status.fault),
+                (mode, unfinished)
+            );
+        }
+    }
+    supervisor.accept_measurement(Ok(&[0.0; 2]));
+    let command = good(&mut supervisor, [3.0; 2]);
+    assert_eq!((command.torque, command.brake), ([0.0; 2], true));
+    assert_eq!(command.status.fault, unfinished);
+}
+
+#[test]
+fn many_unfinished_ticks_in_a_row_stop_the_arm() {
+    let mut supervisor = riding(2);
+    good(&mut supervisor, [3.0; 2]);
+    let modes = [(); 8].map(|()| supervisor.accept_measurement(Ok(&[0.0; 2])));
+    let (full, held) = (Mode::Full, Mode::Hold);
+    assert_eq!(modes[..3], [full; 3]);
+    assert_eq!(modes[3..6], [held; 3]);
+    assert_eq!(modes[6..], [Mode::Stopped; 2]);
+}
+
+#[test]
+fn after_a_reset_the_brake_waits_for_the_torque() {
+    let mut supervisor = supervisor();
+    supervisor.reset();
+    let mut brakes = [true; 8];
+    for brake in &mut brakes {
+        supervisor.accept_measurement(Ok(&[0.5; 2]));
+        *brake = supervisor.gate(&[10.0, 0.0]).brake;
+    }
+    assert_eq!(
+        brakes,
+        [true, true, false, false, false, false, false, false]
+    );
+    // A rate that is slower than the ramp makes it wait longer.
+    supervisor.limits.rate = [1.5; 2];
+    supervisor.reset();
+    for _ in 0..6 {
+        supervisor.accept_measurement(Ok(&[0.5; 2]));
+        assert!(supervisor.gate(&[10.0, 0.0]).brake);
+    }
+    supervisor.accept_measurement(Ok(&[0.5; 2]));
+    assert!(!supervisor.gate(&[10.0, 0.0]).brake);
+}

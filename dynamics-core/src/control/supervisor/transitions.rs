@@ -1,0 +1,136 @@
+//! The steps of a tick: how it begins and ends, what is plausible, what a fault leads to.
+
+use super::{Command, Fault, Mode, Status, Supervisor};
+use crate::scalar::Real;
+
+impl<R: Real, const V: usize> Supervisor<R, V> {
+    #[inline(always)]
+    pub(super) fn begin(&mut self) {
+        if self.open {
+            self.unfinished();
+        }
+        self.open = true;
+        let clear = !self.faulted & !matches!(self.mode, Mode::Stopped);
+        if clear & self.hold_next {
+            self.mode = Mode::Hold;
+        } else if clear {
+            self.mode = Mode::Full;
+            self.fault = None;
+        }
+        self.hold_next = false;
+    }
+
+    #[inline(always)]
+    pub(super) fn end(&mut self, torque: [R; V], limited: bool) -> Command<R, V> {
+        let stopped = matches!(self.mode, Mode::Stopped);
+        let full = matches!(self.mode, Mode::Full);
+        let moving = full & !self.braked;
+        self.braked &= !full | limited;
+        // Sums and products for the same instructions during the return as after it.
+        self.ramp += u32::from(moving & (self.ramp < self.reentry_ticks));
+        let quiet = full & !self.faulted;
+        self.quiet += u32::from(self.quiet < self.reentry_ticks);
+        self.quiet *= u32::from(quiet);
+        let calm = quiet & (self.quiet >= self.reentry_ticks);
+        self.faults *= u32::from(!calm);
+        self.open = false;
+        self.faulted = false;
+        Command {
+            torque,
+            brake: stopped | self.braked,
+            status: Status {
+                mode: self.mode,
+                fault: self.fault,
+                limited: limited & !stopped,
+            },
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn next_ramp(&self) -> u32 {
+        self.ramp.saturating_add(1).min(self.reentry_ticks)
+    }
+
+    /// The tick before got no torque: a fault of this one, whatever that one had.
+    #[cold]
+    fn unfinished(&mut self) {
+        self.faulted = false;
+        self.record_fault(Fault::Unfinished);
+    }
+
+    /// No positions in this tick: the joints may have moved on.
+    #[cold]
+    pub(super) fn no_measurement(&mut self) {
+        self.accepted = false;
+        self.ticks_since_good += R::ONE;
+    }
+
+    #[inline(always)]
+    pub(super) fn plausible(&self, q: &[R; V]) -> bool {
+        let ranges = self.middle.iter().zip(&self.half);
+        let steps = self.last_good.iter().zip(&self.plausible_step);
+        // The ranges are finite, and so is what lies in them. Not `all`: joints need not wait for
+        // each other's verdict.
+        q.iter().zip(ranges).zip(steps).fold(
+            true,
+            |ok, ((&q, (&middle, &half)), (&last, &step))| {
+                ok & ((q - middle).abs() <= half)
+                    & ((q - last).abs() <= step * self.ticks_since_good)
+            },
+        )
+    }
+
+    /// What is wrong with positions that are not plausible, the worst first.
+    #[cold]
+    pub(super) fn diagnose(&self, q: &[R; V]) -> Fault {
+        if let Some(joint) = q.iter().position(|q| !q.is_finite()) {
+            return Fault::NotFinite { joint };
+        }
+        let ranges = self.middle.iter().zip(&self.half);
+        let inside = |(&q, (&middle, &half)): (&R, (&R, &R))| (q - middle).abs() <= half;
+        if let Some(joint) = q.iter().zip(ranges).position(|joint| !inside(joint)) {
+            return Fault::Position { joint };
+        }
+        let steps = self.last_good.iter().zip(&self.plausible_step);
+        let near =
+            |(&q, (&last, &step)): (&R, (&R, &R))| (q - last).abs() <= step * self.ticks_since_good;
+        let joint = q.iter().zip(steps).position(|joint| !near(joint));
+        Fault::Jump {
+            joint: joint.unwrap_or(V),
+        }
+    }
+
+    /// A torque that is not finite.
+    #[cold]
+    pub(super) fn reject_torque(&mut self, tau: &[R; V]) {
+        let joint = tau.iter().position(|tau| !tau.is_finite()).unwrap_or(V);
+        let fault = Fault::Torque { joint };
+        if matches!(self.mode, Mode::Full) {
+            self.record_fault(fault);
+            self.hold_next = matches!(self.mode, Mode::Hold);
+        } else {
+            self.stop(fault);
+        }
+    }
+
+    #[cold]
+    pub(super) fn record_fault(&mut self, fault: Fault) {
+        if matches!(self.mode, Mode::Stopped) {
+            return;
+        }
+        if !self.faulted {
+            self.faulted = true;
+            self.fault = Some(fault);
+            self.faults = self.faults.saturating_add(1);
+        }
+        let held = self.faults.saturating_sub(self.ride_through_ticks);
+        if !self.known | (held > self.hold_ticks) {
+            self.mode = Mode::Stopped;
+        } else if held > 0 {
+            self.mode = Mode::Hold;
+        }
+        if !matches!(self.mode, Mode::Full) {
+            self.ramp = 0;
+        }
+    }
+}

@@ -3,7 +3,7 @@
 
 use dynamics_core::control::*;
 use dynamics_core::effects::{Armature, Coriolis, Gravity, Inertia};
-use dynamics_core::{Engine, robots::Ur5e, state::State};
+use dynamics_core::{Engine, robots::Ur5e};
 
 const TICK: f32 = 1e-3; // s
 const SCENE: (Gravity, Inertia, Coriolis, Armature<f32, 6>) = (
@@ -71,7 +71,7 @@ impl Arm {
         self.controller
             .tick(measured, &self.trajectory, |reference, estimate| {
                 let mut tau = Engine::<Ur5e>::rnea(reference, &SCENE);
-                let pd = feedback(gains, reference, &estimate.q, &estimate.qd);
+                let pd = feedback(gains, reference, estimate);
                 tau.iter_mut().zip(pd).for_each(|(tau, pd)| *tau += pd);
                 tau
             })

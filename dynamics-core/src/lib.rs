@@ -6,7 +6,9 @@
 //! | module | contents |
 //! |---|---|
 //! | `math`, [`trig`] | functions of plain numbers: sine, cosine and e⁻ˣ without f64; what is evaluated while compiling |
-//! | [`scalar`], [`spatial`], [`model`] | f32 and f64 as one type parameter; motion and force vectors, transforms, inertias, rotations; a robot's description, checked while compiling |
+//! | [`scalar`] | f32 and f64 as one type parameter |
+//! | [`spatial`] | motion and force vectors, transforms, inertias, rotations |
+//! | [`model`] | a robot's description, checked while compiling |
 //! | [`robots`] | real robots, from a four-legged walker's leg to a humanoid |
 //! | [`state`] | q, q̇, q̈; sines and cosines of one configuration; steps and differences of configurations |
 //! | [`effects`] | what acts on the robot: only what a scene names is computed |

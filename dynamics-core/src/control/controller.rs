@@ -7,7 +7,7 @@
 //! | a fault lasts | reference | estimate |
 //! |---|---|---|
 //! | up to `ride_through_ticks` | the trajectory, as if nothing had happened | predicted with the reference's acceleration |
-//! | `hold_ticks` more | [`hold`](super::hold): q̈ = −λ q̇ where the arm is; the trajectory's clock stands still | predicted |
+//! | `hold_ticks` more | [`hold`](super::hold()): q̈ = −λ q̇ where the arm is; the trajectory's clock stands still | predicted |
 //! | longer | the same, with zero torque on the brake, latched | as measured |
 //!
 //! Afterwards a reference of its own leads back onto the trajectory ([`ResumeTrajectory`]). The reasons, with

@@ -9,8 +9,8 @@
 //! | [`Reference`] | what a controller follows: a trajectory, or a motion of one's own | |
 //! | [`MultiTurnEncoder`] | an encoder's counts, turns included | counts |
 //! | [`Observer`] | velocity from positions | estimate |
-//! | [`Gains`], [`feedback`] | K_p (q_d − q) + K_d (q̇_d − q̇) | none |
-//! | [`hold`] | what a held arm is to follow: q̈ = −λ q̇ | none |
+//! | [`Gains`], [`feedback()`] | K_p (q_d − q) + K_d (q̇_d − q̇) | none |
+//! | [`hold()`] | what a held arm is to follow: q̈ = −λ q̇ | none |
 //! | [`hybrid_motion_force`], [`TaskCommand`] | motions and forces along a task's directions | none |
 //! | [`ZeroOrderHold`], [`FirstOrderHold`], [`Interpolator`], [`InertiaUpdate`] | the torque of ticks that compute no dynamics | last torques |
 //! | [`Supervisor`] | limits, plausibility, what to do on a fault | last good values |

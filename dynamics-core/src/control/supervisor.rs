@@ -13,7 +13,7 @@
 //! tick (last good positions, last torques, counters) takes in only what was accepted. With limits that allow
 //! nothing (NaN, negative, an empty range) there is no supervisor, or one that keeps the arm stopped.
 
-use super::{Command, ConfigError, Fault, Mode, SafetyLimits, Status, real};
+use super::{Command, ConfigError, Fault, Mode, Status, real};
 use crate::scalar::Real;
 
 mod config;
@@ -70,7 +70,10 @@ const RANGE: f64 = 1e4;
 #[doc(alias = "safety gate")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Supervisor<R, const V: usize> {
-    limits: SafetyLimits<R, V>,
+    /// Greatest torque, its greatest change in a tick, and greatest speed.
+    torque_limit: [R; V],
+    rate_limit: [R; V],
+    speed_limit: [R; V],
     /// Middle and half width of the range of positions.
     middle: [R; V],
     half: [R; V],
@@ -136,7 +139,7 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
 
     /// The same without a check, for configurations that are constants.
     ///
-    /// With limits that allow nothing ([`SafetyLimits::check`]) the arm is stopped by [`Fault::Limits`], and no reset
+    /// With limits that allow nothing ([`super::SafetyLimits::check`]) the arm is stopped by [`Fault::Limits`], and no reset
     /// starts it. A tick that is not a positive number leaves the joints no plausible step; a resolution that is not one
     /// counts as none.
     pub fn new(config: SupervisorConfig<R, V>) -> Self {
@@ -163,11 +166,9 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         }
         let resolution = allowed(config.resolution);
         Self {
-            limits: SafetyLimits {
-                torque: limits.torque.map(finite),
-                rate: limits.rate.map(allowed),
-                ..*limits
-            },
+            torque_limit: limits.torque.map(finite),
+            rate_limit: limits.rate.map(allowed),
+            speed_limit: limits.speed,
             middle,
             half,
             plausible_step: limits

@@ -33,7 +33,7 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
     #[inline]
     pub(in crate::control) fn check_speed(&mut self, qd: &[R; V]) -> Mode {
         let slow = |(qd, limit): (&R, &R)| qd.abs() <= *limit;
-        let joints = || qd.iter().zip(&self.limits.speed);
+        let joints = || qd.iter().zip(&self.speed_limit);
         if !joints().fold(true, |ok, joint| ok & slow(joint)) {
             let joint = joints().position(|joint| !slow(joint)).unwrap_or(V);
             self.faults = self.faults.max(self.ride_through_ticks);
@@ -49,7 +49,7 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         let mut off = R::ZERO;
         let mut torque = [R::ZERO; V];
         let wanted = tau.iter().zip(&self.torque);
-        let limits = self.limits.torque.iter().zip(&self.limits.rate);
+        let limits = self.torque_limit.iter().zip(&self.rate_limit);
         for ((out, (&tau, &last)), (&most, &rate)) in torque.iter_mut().zip(wanted).zip(limits) {
             let next = tau.clamped(-most, most).clamped(last - rate, last + rate);
             // Zero within the limits; not finite if a torque is not, and otherwise no sum of so many.

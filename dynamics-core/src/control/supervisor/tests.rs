@@ -1,3 +1,4 @@
+use super::super::SafetyLimits;
 use super::*;
 
 mod protocol;

@@ -60,7 +60,7 @@ fn after_a_reset_the_brake_waits_for_the_torque() {
         [true, true, false, false, false, false, false, false]
     );
     // A rate that is slower than the ramp makes it wait longer.
-    supervisor.limits.rate = [1.5; 2];
+    supervisor.rate_limit = [1.5; 2];
     supervisor.reset();
     for _ in 0..6 {
         supervisor.accept_measurement(Ok(&[0.5; 2]));

@@ -147,7 +147,7 @@ fn matrix<R: Real, const B: usize, const Q: usize, const V: usize>(
     }
     let seen = Cell::new(Motion::ZERO);
     let witness = (Witness { body, seen },);
-    rnea(model, state, &witness);
+    let _ = rnea(model, state, &witness); // the witness keeps what it is given
     let numbers = |m: Motion<R>| [m.ang.array(), m.lin.array()].concat();
     let want = numbers(witness.0.seen.get());
     worst.plain("Jacobian", &numbers(velocity), &want);

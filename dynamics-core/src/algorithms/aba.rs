@@ -10,8 +10,7 @@ use heapless::Vec;
 
 use super::pivot_check::{Magnitude, PivotCheck};
 use super::rnea::external_force;
-use super::rotors::at_parent_side;
-use super::tree_pass::{inward, per_body};
+use super::tree_pass::per_body;
 use super::{JointResult, NotPositiveDefinite, Prescribed};
 use crate::effects::{Effect, base_motion, body_inertia, gyroscopic, joint_torque, rotor_force};
 use crate::model::{JointKind, LinkView, RobotModel};
@@ -152,7 +151,9 @@ fn outward_velocities<'a, R: Real, D, E, const B: usize, const Q: usize, const V
             c = link.plus_velocity_product(Motion::ZERO, turns, &state.qd, v_i);
             pa = inertia.bias_force(v_i);
         }
-        pa -= external_force(effects, i, &link, &x, &mut poses, v_i);
+        if E::WRENCH {
+            pa -= external_force(effects, i, &link, &x, &mut poses, v_i);
+        }
         if E::GYROSCOPIC_ROTORS
             && E::VELOCITY_PRODUCTS
             && let Some(parent) = bodies.get_mut(link.parent)
@@ -162,12 +163,13 @@ fn outward_velocities<'a, R: Real, D, E, const B: usize, const Q: usize, const V
             parent.pa.ang += x.rot.transpose_mul(couple);
         }
         v.push(v_i);
+        let (ia, magnitude) = (inertia.into(), Magnitude::from(&inertia));
         let _ = bodies.push(Body {
             link,
             x,
             c,
-            ia: inertia.into(),
-            magnitude: Magnitude::from(&inertia),
+            ia,
+            magnitude,
             pa,
         });
     }
@@ -187,8 +189,9 @@ where
     E: Effect<R, B, V>,
 {
     let turns = &trig.turns;
-    let mut bodies = inward(bodies);
-    while let Some((body, inner)) = bodies.next() {
+    // Not by `inward`, which costs 1.5 % of the UR5e's cycles here.
+    let mut left = bodies;
+    while let Some((body, inner)) = core::mem::take(&mut left).split_last_mut() {
         let (mut ia, mut pa) = (body.ia, body.pa);
         let mut pivots = PivotCheck::of(body.magnitude);
         for (k, joint) in body.link.coordinates().enumerate().rev() {
@@ -201,18 +204,25 @@ where
                     pivots.check((&body.link, k), turns, (u_a, d), joint)?;
                     let d_inv = R::ONE / d;
                     let u = tau - joint_torque(effects, &body.link, state, joint) - s.dot(pa);
-                    at_parent_side(effects, &body.link, u_a, |u_a| {
-                        ia = ia.minus_outer(u_a, d_inv); // Iᵃ = Iᴬ − U D⁻¹ Uᵀ
-                        pa += u_a * (u * d_inv); // pᴬ + U D⁻¹ u
-                        JointFactor { u_a, d_inv, u }
-                    })
+                    // Compiled in one place or the other: a sum that may be made or not costs scenes without rotors
+                    // 18 instructions.
+                    if E::GYROSCOPIC_ROTORS {
+                        let u_a = u_a + rotor_force(effects, &body.link);
+                        eliminate(&mut ia, &mut pa, JointFactor { u_a, d_inv, u })
+                    } else {
+                        eliminate(&mut ia, &mut pa, JointFactor { u_a, d_inv, u })
+                    }
                 }
                 Prescribed::Acceleration(qdd) => {
                     let (d_inv, u) = (R::ZERO, s.dot(pa));
-                    at_parent_side(effects, &body.link, u_a, |u_a| {
+                    if E::GYROSCOPIC_ROTORS {
+                        let u_a = u_a + rotor_force(effects, &body.link);
                         pa += u_a * qdd;
                         JointFactor { u_a, d_inv, u }
-                    })
+                    } else {
+                        pa += u_a * qdd;
+                        JointFactor { u_a, d_inv, u }
+                    }
                 }
             };
             let _ = factors.push(factor);
@@ -223,8 +233,23 @@ where
             parent.magnitude += body.magnitude.at_parent(body.x.pos);
             parent.pa += body.x.transpose_mul(pa);
         }
+        left = inner;
     }
     Ok(())
+}
+
+/// Iᵃ = Iᴬ − U D⁻¹ Uᵀ and pᴬ + U D⁻¹ u: the articulated body once the coordinate gives way. With a rotor that spins, U
+/// has its part, since it stands on the parent's side of the joint and takes part in its q̈.
+#[inline(always)]
+fn eliminate<R: Real>(
+    ia: &mut ArticulatedInertia<R>,
+    pa: &mut Force<R>,
+    factor: JointFactor<R>,
+) -> JointFactor<R> {
+    let JointFactor { u_a, d_inv, u } = factor;
+    *ia = ia.minus_outer(u_a, d_inv);
+    *pa += u_a * (u * d_inv);
+    factor
 }
 
 /// Pass 3: q̈ᵢ = D⁻¹ (u − Uᵀ a′) with a′ = X a_λ + c, and aᵢ = a′ + S q̈. The last factor made is the first used.

@@ -1,4 +1,4 @@
-//! Rotors that spin as bodies, [`crate::effects::GyroscopicRotors`]: what RNEA and ABA add for them.
+//! Rotors that spin as bodies, [`crate::effects::GyroscopicRotors`]: what RNEA adds for them.
 //!
 //! A rotor of ratio ρ stands on the parent's side of its joint and spins by ρ q̇ about the joint's axis z, so that its
 //! angular momentum is ρ I q̇ z beyond what the parent's inertia includes.
@@ -6,7 +6,7 @@
 use crate::effects::{Effect, gyroscopic, rotor_force};
 use crate::model::LinkView;
 use crate::scalar::Real;
-use crate::spatial::{Force, Motion};
+use crate::spatial::Motion;
 use crate::state::{State, entry};
 
 /// The couple that the rotor of a joint exerts on the parent link, in the body's frame, and the torque that the
@@ -33,25 +33,4 @@ where
     let qdd = rate(E::ACCELERATIONS, &state.qdd);
     let couple = gyroscopic(effects, link, v_i.ang, qd, qdd);
     (couple, a_parent.dot(rotor_force(effects, link)))
-}
-
-/// `update` of a joint's U: with the rotor's part if the scene has rotors that spin, since such a rotor stands on the
-/// parent's side of the joint and takes part in its q̈.
-///
-/// `update` is compiled in two places: a sum that may be made or not costs scenes without rotors 18 instructions.
-#[inline(always)]
-pub(super) fn at_parent_side<R: Real, E, O, const B: usize, const V: usize>(
-    effects: &E,
-    link: &LinkView<'_, R>,
-    u_a: Force<R>,
-    update: impl FnOnce(Force<R>) -> O,
-) -> O
-where
-    E: Effect<R, B, V>,
-{
-    if E::GYROSCOPIC_ROTORS {
-        update(u_a + rotor_force(effects, link))
-    } else {
-        update(u_a)
-    }
 }

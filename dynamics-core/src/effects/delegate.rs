@@ -226,3 +226,5 @@ macro_rules! delegate_effect {
         }
     };
 }
+
+pub(crate) use delegate_effect;

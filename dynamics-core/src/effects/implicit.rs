@@ -2,7 +2,7 @@
 
 use super::query::joint_state;
 use super::{Effect, JointState, TorqueDerivatives};
-use crate::delegate_effect;
+use crate::effects::delegate::delegate_effect;
 use crate::model::RobotModel;
 use crate::scalar::Real;
 use crate::state::{State, entry};

@@ -1,7 +1,7 @@
 //! Tuples of effects: hooks run in the order of the tuple.
 
 use super::Effect;
-use crate::delegate_effect;
+use crate::effects::delegate::delegate_effect;
 use crate::scalar::Real;
 
 macro_rules! tuple {

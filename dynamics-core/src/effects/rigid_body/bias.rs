@@ -1,7 +1,7 @@
 //! A scene without its accelerations: what inverse dynamics of forward dynamics' bias computes.
 
-use crate::delegate_effect;
 use crate::effects::Effect;
+use crate::effects::delegate::delegate_effect;
 use crate::scalar::Real;
 
 /// The effects of `E` at q̈ = 0, known while compiling.

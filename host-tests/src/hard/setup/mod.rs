@@ -213,6 +213,7 @@ struct ExportedLink {
     rot: Vec<String>,
     pos: Vec<String>,
     mass: String,
+    #[serde(rename = "moment")]
     first_moment: Vec<String>,
     inertia: Vec<String>,
 }

@@ -52,7 +52,7 @@ pub trait Real:
     const ZERO: Self;
     /// 1.
     const ONE: Self;
-    /// Where [`Real::saturate`] ends: 2³¹ in f32, 2⁶³ in f64.
+    /// Where [`Real::trunc_saturating`] ends: 2³¹ in f32, 2⁶³ in f64.
     const MAX_TRUNC: f64;
 
     /// The nearest value of this type. Meant for constants: on an FPU without f64 the

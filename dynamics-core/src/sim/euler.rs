@@ -33,7 +33,7 @@ impl<R: Real, const Q: usize, const V: usize> Integrator<R, Q, V> for SemiImplic
 
 /// One step of `h` seconds by semi-implicit (symplectic) Euler: q̇ ← q̇ + h FD(q, q̇, τ), then
 /// q ← q ⊕ h q̇ with the new q̇. First order in h; `state.qdd` is left at the acceleration used. What effects
-/// remember stays as it is: [`linearly_implicit`](super::linearly_implicit) moves it on.
+/// remember stays as it is: [`linearly_implicit`](super::linearly_implicit()) moves it on.
 ///
 /// Hairer, Lubich & Wanner, *Geometric Numerical Integration* (2006), section I.1.2.
 ///

@@ -1,7 +1,7 @@
 //! Time steps of a simulated robot, and its actuators.
 //!
-//! A robot by its description takes a step of [`semi_implicit`], [`linearly_implicit`], [`runge_kutta`] or
-//! [`momentum_preserving`]: each calls the [`Integrator`] of its name, which steps any [`Dynamics`], the
+//! A robot by its description takes a step of [`semi_implicit`], [`linearly_implicit()`], [`runge_kutta()`] or
+//! [`momentum_preserving()`]: each calls the [`Integrator`] of its name, which steps any [`Dynamics`], the
 //! engine's for one, on joints of any kind. Coordinates that add up may be [`KahanState`] without loss.
 
 mod actuator;

@@ -8,7 +8,7 @@ use crate::scalar::Real;
 use crate::spatial::Force;
 use crate::state::State;
 
-/// One step of `h` seconds as [`linearly_implicit`], after which the rates of the first body's free joint are
+/// One step of `h` seconds as [`linearly_implicit()`], after which the rates of the first body's free joint are
 /// set so that all bodies together have the given momentum, about the base's origin and along its axes.
 ///
 /// For a robot that floats free: nothing acts on it from outside, and every body hangs on the first. The plain
@@ -35,7 +35,7 @@ use crate::state::State;
 /// ```
 ///
 /// # Errors
-/// As [`linearly_implicit`].
+/// As [`linearly_implicit()`].
 pub fn momentum_preserving<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     state: &mut State<R, Q, V>,

@@ -95,7 +95,7 @@ impl<R: Real> Symmetric<R> {
         }
     }
 
-    /// Eᵀ Σ E in 59 flops instead of 75: Σ is zz 1, a matrix without a third column, and [v]×; the
+    /// Eᵀ Σ E in 59 flops instead of 75: Σ is zz 1, a matrix without a third column, and \[v\]×; the
     /// first is what it was, the last turns as v does, and the trace spares a product.
     #[inline(always)]
     pub(crate) fn turned_back(&self, e: &R::Mat3) -> Self {

@@ -94,7 +94,7 @@ fn about_origin<R: Real>(inertia: &SpatialInertia<R>, x: &Xform<R>) -> SpatialIn
     }
 }
 
-/// [v]×
+/// \[v\]×
 fn crossed<R: Real>(v: R::Vec3) -> R::Mat3 {
     let ([x, y, z], o) = (v.array(), R::ZERO);
     R::Mat3::from_cols(

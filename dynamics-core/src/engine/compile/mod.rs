@@ -5,7 +5,7 @@
 //!    perpendicular to it ([`tree`]).
 //! 3. Entries that miss −1, 0 or 1 by rounding become exact ([`snap`]).
 //! 4. Inertias are regrouped to base parameters ([`base_parameters`]).
-//! 5. Parameters below the robot's negligible share of torque become zero ([`prune`]).
+//! 5. Parameters below the robot's negligible share of torque become zero ([`mod@prune`]).
 //! 6. The unit of length becomes a joint offset, so that this offset is 1, and the unit of mass such that Σ keeps its
 //!    numbers: p/L, h·L, m·L².
 

@@ -132,7 +132,7 @@ pub fn code(source: &str) -> impl Iterator<Item = (usize, &str)> {
 mod tests {
     use std::path::Path;
 
-    use super::{BINS, Counts, code, is_below};
+    use super::{BINS, Counts, MOST, code, is_below};
 
     #[test]
     fn blanks_comments_and_tests_are_not_counted() {

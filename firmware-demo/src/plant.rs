@@ -16,12 +16,12 @@ pub use flexible::FlexiblePlant;
 
 /// A simulated robot of which N joints are driven and have encoders; `X` is what goes on around it.
 pub trait Simulated<X, const N: usize> {
-    /// What the encoders see, rad or m.
-    fn seen(&self) -> [f32; N];
+    /// The positions that the encoders measure, rad or m.
+    fn encoder_positions(&self) -> [f32; N];
 
     /// Where the driven joints truly are, rad or m; an encoder may sit on the other side of a spring.
     fn actual(&self) -> [f32; N] {
-        self.seen()
+        self.encoder_positions()
     }
 
     /// One step of `h` seconds under the drives' torques, N·m or N.
@@ -40,12 +40,12 @@ pub struct Rig<P, const N: usize> {
 }
 
 impl<P, const N: usize> Rig<P, N> {
-    /// A robot whose drives deliver `full_scale` at full duty, seen by the encoders.
+    /// A robot whose drives deliver `full_scale` at full duty and whose positions the encoders measure.
     pub fn new<X>(plant: P, full_scale: [f32; N], wires: &Wires<N>) -> Self
     where
         P: Simulated<X, N>,
     {
-        wires.publish(&plant.seen());
+        wires.publish(&plant.encoder_positions());
         Self { plant, full_scale }
     }
 
@@ -71,7 +71,7 @@ impl<P, const N: usize> Rig<P, N> {
         for step in 0..steps {
             self.plant.step(&tau, &around(step), h)?;
         }
-        wires.publish(&self.plant.seen());
+        wires.publish(&self.plant.encoder_positions());
         Ok(())
     }
 }
@@ -114,7 +114,7 @@ where
     T: Robot<B, Q, V>,
     E: Effect<f32, B, V>,
 {
-    fn seen(&self) -> [f32; N] {
+    fn encoder_positions(&self) -> [f32; N] {
         last(&self.state.q)
     }
 
@@ -138,7 +138,7 @@ where
     T: Robot<B, Q, V>,
     E: Effect<f32, B, V>,
 {
-    fn seen(&self) -> [f32; N] {
+    fn encoder_positions(&self) -> [f32; N] {
         last(&self.0.state.q)
     }
 

@@ -37,7 +37,7 @@ impl<const N: usize> Wires<N> {
         }
     }
 
-    /// Lets joint j's encoder find an error: its answers say so until it is asked which.
+    /// Lets joint j's encoder find an error: its answers carry the error flag until its error register is read.
     pub fn flag(&self, j: usize) {
         let encoder = &self.encoders[j];
         encoder.store(encoder.load(Relaxed) | FLAG, Relaxed);
@@ -51,7 +51,7 @@ impl<const N: usize> Wires<N> {
         }
     }
 
-    /// The share of its full torque that each drive is asked for, -1 to 1.
+    /// The commanded share of the full torque of each drive, -1 to 1.
     pub fn duties(&self) -> [f32; N] {
         (self.duties.each_ref())
             .map(|duty| f32::from(duty.load(Relaxed)) * (2.0 / f32::from(MAX_DUTY)) - 1.0)
@@ -69,10 +69,10 @@ impl<const N: usize> Default for Wires<N> {
     }
 }
 
-/// What an encoder answers before it has been asked: an angle that is none.
+/// The answer of an encoder before the first request: not a valid angle.
 const GARBAGE: u16 = encode(0x2a5a);
 
-/// The encoder has found an error and not been asked for it.
+/// The encoder has found an error that has not been read yet.
 const FLAG: u32 = 1 << 31;
 
 /// A simulated encoder on SPI, which answers the frame before.

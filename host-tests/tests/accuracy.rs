@@ -134,9 +134,9 @@ fn f64_is_good_to_1e_13_by_50_digits() {
                 qd: first(&recording.qd),
                 qdd: first(&recording.qdd),
             };
-            for (told, truth) in Core::<T>::rnea(&state, &RIGID_BODY).iter().zip(truth) {
+            for (torque, truth) in Core::<T>::rnea(&state, &RIGID_BODY).iter().zip(truth) {
                 scale = scale.max(truth.abs());
-                worst = largest([worst, (told - truth).abs()]);
+                worst = largest([worst, (torque - truth).abs()]);
             }
         }
         worst / scale
@@ -265,7 +265,7 @@ fn torque_between_computations_is_exact_where_it_is_linear() {
     for tick in 0..40 {
         let (line, state) = (2.0 + 0.5 * tick as f64, at(tick));
         let computed = Core::<Ur5e>::rnea(&state, &RIGID_BODY);
-        let told = if tick % 4 == 0 {
+        let torque = if tick % 4 == 0 {
             let m = Core::<Ur5e>::crba(&state.q, &RIGID_BODY);
             linearised.update(computed, m, &state.qdd)
         } else {
@@ -277,7 +277,8 @@ fn torque_between_computations_is_exact_where_it_is_linear() {
             extrapolated.hold()
         };
         assert!(
-            told.iter()
+            torque
+                .iter()
                 .zip(computed)
                 .all(|(a, b)| (a - b).abs() < 1e-12)
         );

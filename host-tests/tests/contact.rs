@@ -61,7 +61,7 @@ struct Errors {
     swing: f64,
 }
 
-/// Three seconds along a loop on the wall; `posture` is a torque on all joints, asked in the null space.
+/// Three seconds along a loop on the wall; `posture` is a torque on all joints, applied in the null space.
 fn run(posture: f64) -> Errors {
     let robot = &Panda::MODEL;
     let mut arm = State::at([0.3, -0.4, 0.2, -2.0, 0.3, 1.9, 0.5]);
@@ -87,7 +87,7 @@ fn run(posture: f64) -> Errors {
         let at = JointTrig::new(robot, &arm.q);
         let k = kinematics(robot, at.with(&arm), &());
         let (pose, v) = (k.poses[HAND], k.velocity(HAND, frame::LocalWorldAligned));
-        let seen = axes.transpose() * (pose.pos - start.pos);
+        let reached = axes.transpose() * (pose.pos - start.pos);
         let [speed, spin] = [axes.transpose() * v.lin, axes.transpose() * v.ang];
         let off = axes.transpose() * orientation_error::<f64>(&pose.rot, &start.rot);
         let pressed = wall.pressed(pose.pos, v.lin);
@@ -111,7 +111,7 @@ fn run(posture: f64) -> Errors {
             })
         };
         let still = |k: usize| motion(off[k], -spin[k], 0.0);
-        let along = |k: usize| motion(place[k] - seen[k], rate[k] - speed[k], feed[k]);
+        let along = |k: usize| motion(place[k] - reached[k], rate[k] - speed[k], feed[k]);
         let push = TaskCommand::force(TaskForce {
             desired: PRESS,
             measured: pressed,
@@ -130,7 +130,7 @@ fn run(posture: f64) -> Errors {
 
         if t > 2.0 {
             errors.force = largest([errors.force, (pressed - PRESS).abs()]);
-            errors.path = largest([errors.path, (seen - place).y.hypot((seen - place).z)]);
+            errors.path = largest([errors.path, (reached - place).y.hypot((reached - place).z)]);
             errors.turn = largest([errors.turn, off.length()]);
             let free = task.null_space_torque(&arm.qd);
             errors.swing = largest(free.map(f64::abs).into_iter().chain([errors.swing]));

@@ -1,5 +1,5 @@
-//! Claims about the control layer as a whole: what reaches the drive, what is remembered, what a
-//! way-point that asks too much is told.
+//! Claims about the control layer as a whole: the command that reaches the drive, the memory, and
+//! the error for a way-point beyond the limits.
 
 use dynamics_core::Core;
 use dynamics_core::control::{

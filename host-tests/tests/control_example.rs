@@ -15,7 +15,7 @@ mod example;
 
 use example::{EFFECTS, HOLD, OMEGA_N, REENTRY, RIDE_THROUGH as RIDE, TICK};
 
-/// The fastest moment of the way: 1.9 rad/s.
+/// The fastest moment of the trajectory: 1.9 rad/s.
 const FAST: u32 = 3200;
 const STEPS: u32 = 4;
 

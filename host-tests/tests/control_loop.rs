@@ -11,7 +11,7 @@ use firmware_demo::scenes::ur5e::GravityOnly;
 use host_tests::measured::{largest, within};
 use proptest::prelude::*;
 
-/// The fastest moment of the way: 1.9 rad/s.
+/// The fastest moment of the trajectory: 1.9 rad/s.
 const FAST: u32 = 3200;
 /// A moment with a load on the shoulder, slower.
 const SLOW: u32 = 1600;
@@ -54,7 +54,7 @@ fn a_longer_fault_ends_on_the_trajectory_without_a_turn_back() {
 }
 
 #[test]
-fn what_is_seen_again_after_a_hold_is_believed_at_once() {
+fn a_measurement_after_a_hold_is_accepted_at_once() {
     let mut arm = Arm::new();
     arm.run(FAST);
     arm.corrupt(0, 1);
@@ -101,7 +101,7 @@ fn a_fault_that_lasts_brakes_the_arm_and_names_frame_and_joint() {
 }
 
 #[test]
-fn an_error_flag_costs_one_angle_and_is_asked_for() {
+fn an_error_flag_costs_one_angle_and_the_error_is_read() {
     let mut arm = Arm::new();
     arm.run(FAST);
     arm.wires.flag(2);

@@ -163,9 +163,9 @@ fn between_computations_the_bias_goes_on_as_it_went_and_m_acts_on_the_accelerati
     between.update(torque(3.0, 1.0), m, &[1.0; 6]);
     between.update(torque(5.0, -2.0), m, &[-2.0; 6]);
     for (bias, qdd) in [(5.5, 0.5), (6.0, 7.0), (6.5, 0.0)] {
-        let told = between.hold(&[qdd; 6]);
+        let held = between.hold(&[qdd; 6]);
         let error = largest(
-            told.iter()
+            held.iter()
                 .zip(torque(bias, qdd))
                 .map(|(a, b)| (a - b).abs()),
         );
@@ -192,9 +192,9 @@ impl Reference<f64, 1> for Falling {
     }
 }
 
-/// From rest at 0 the way is r = w q(σ), with σ' = w: σ is known in closed form.
+/// From rest at 0 the trajectory is r = w q(σ), with σ' = w: σ is known in closed form.
 #[test]
-fn the_way_back_is_on_its_reference_within_ticks_too_with_its_derivatives() {
+fn the_return_is_on_its_reference_within_ticks_too_with_its_derivatives() {
     const TICKS: u32 = 200;
     let mut resume = ResumeTrajectory::<f64, 1>::new(ResumeConfig {
         tick: H,

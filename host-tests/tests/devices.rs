@@ -41,7 +41,7 @@ fn an_angle_is_the_nearest_count_on_either_side_of_zero() {
 struct Wound;
 
 impl Simulated<(), 1> for Wound {
-    fn seen(&self) -> [f32; 1] {
+    fn encoder_positions(&self) -> [f32; 1] {
         [0.1]
     }
     fn actual(&self) -> [f32; 1] {
@@ -57,11 +57,11 @@ fn encoders_sit_on_the_motors() {
     let wires: &'static Wires<1> = Box::leak(Box::new(Wires::new()));
     let mut encoder = Encoder::new(wires.encoder(0));
     let mut rig = Rig::new(Wound, [1.0], wires);
-    let mut seen = || {
+    let mut encoder_positions = || {
         encoder.start();
         encoder.read().unwrap()
     };
-    assert!((seen() - 0.1).abs() <= 0.5001 * RESOLUTION);
+    assert!((encoder_positions() - 0.1).abs() <= 0.5001 * RESOLUTION);
     rig.advance(wires, 1, 1e-3, |_| ()).unwrap();
-    assert!((seen() - 0.1).abs() <= 0.5001 * RESOLUTION);
+    assert!((encoder_positions() - 0.1).abs() <= 0.5001 * RESOLUTION);
 }

@@ -29,6 +29,6 @@ fn no_inputs_drive_the_controller_beyond_its_limits() {
 }
 
 #[test]
-fn no_frame_is_taken_for_another() {
+fn no_frame_is_mistaken_for_another() {
     run(frames, 2_000);
 }

@@ -44,7 +44,7 @@ fn problem(tip: Body) -> Option<Problem> {
 }
 
 #[test]
-fn a_sound_description_is_taken() {
+fn a_sound_description_is_accepted() {
     assert_eq!(arm(tip()).links[1].name, "tip");
     assert_eq!(problem(tip().limits(JointLimits::NONE)), None);
     // A weld has no axis, a massless body is one that only carries others.

@@ -64,7 +64,7 @@ fn motions<R: Real, T, const B: usize, const Q: usize, const V: usize>(
         ("centroidal momentum", &r.centroidal_momentum),
         ("centroidal matrix", &r.centroidal_matrix),
     ];
-    let mut seen = quantities.map(|(_, rows)| worst(rows));
+    let mut errors = quantities.map(|(_, rows)| worst(rows));
     let tip = B - 1;
     for i in 0..r.first_states() {
         let velocity = |rows| row::<V>(rows, i).map(R::from_f64);
@@ -80,9 +80,9 @@ fn motions<R: Real, T, const B: usize, const Q: usize, const V: usize>(
         let place = pose.pos.array().map(R::to_f64);
         let got: [f64; 12] =
             core::array::from_fn(|k| if k < 9 { flat_rot(k) } else { place[k - 9] });
-        seen[0].compare(got, row(&r.tip_pose, i));
-        seen[1].compare(six(k.velocity(tip, frame::Local)), row(&r.tip_velocity, i));
-        seen[2].compare(
+        errors[0].compare(got, row(&r.tip_pose, i));
+        errors[1].compare(six(k.velocity(tip, frame::Local)), row(&r.tip_velocity, i));
+        errors[2].compare(
             six(k.acceleration(tip, frame::Local)),
             row(&r.tip_acceleration, i),
         );
@@ -94,18 +94,18 @@ fn motions<R: Real, T, const B: usize, const Q: usize, const V: usize>(
         for (k, jacobian) in jacobians.into_iter().enumerate() {
             let want = columns::<V>(quantities[3 + k].1, i);
             for (got, want) in jacobian.into_iter().zip(want) {
-                seen[3 + k].compare(six(got), want);
+                errors[3 + k].compare(six(got), want);
             }
         }
-        seen[6].compare(
+        errors[6].compare(
             six(Core::<T>::bias_acceleration(&state, tip, frame::Local)),
             row(&r.drift_local, i),
         );
-        seen[7].compare(
+        errors[7].compare(
             six(Core::<T>::bias_acceleration(&state, tip, frame::World)),
             row(&r.drift_world, i),
         );
-        seen[8].compare(
+        errors[8].compare(
             six(Core::<T>::bias_acceleration(
                 &state,
                 tip,
@@ -117,26 +117,26 @@ fn motions<R: Real, T, const B: usize, const Q: usize, const V: usize>(
             Core::<T>::kinetic_energy(&state, &()),
             Core::<T>::potential_energy(&state.q, &RIGID_BODY),
         ];
-        seen[9].compare([kinetic.to_f64()], row(&r.kinetic_energy, i));
-        seen[10].compare([potential.to_f64()], row(&r.potential_energy, i));
+        errors[9].compare([kinetic.to_f64()], row(&r.kinetic_energy, i));
+        errors[10].compare([potential.to_f64()], row(&r.potential_energy, i));
         let centre = center_of_mass(&Static::<T>::NEW, &state, &()).position;
-        seen[11].compare(centre.array().map(R::to_f64), row(&r.centre_of_mass, i));
+        errors[11].compare(centre.array().map(R::to_f64), row(&r.centre_of_mass, i));
         let all = |f: Force<R>| flat::<R>(f.ang, f.lin);
-        seen[12].compare(
+        errors[12].compare(
             all(momentum(&Static::<T>::NEW, &state, &())),
             row(&r.momentum, i),
         );
         let h = centroidal_momentum(&Static::<T>::NEW, &state, &());
-        seen[13].compare(all(h), row(&r.centroidal_momentum, i));
+        errors[13].compare(all(h), row(&r.centroidal_momentum, i));
         let matrix = centroidal_matrix(&Static::<T>::NEW, &state.q, &());
         for (got, want) in matrix
             .into_iter()
             .zip(columns::<V>(&r.centroidal_matrix, i))
         {
-            seen[14].compare(all(got), want);
+            errors[14].compare(all(got), want);
         }
     }
-    for ((name, _), worst) in quantities.iter().zip(&seen) {
+    for ((name, _), worst) in quantities.iter().zip(&errors) {
         most.see::<R>(name, worst);
     }
 }
@@ -148,7 +148,7 @@ fn mobilities<R: Real, T, const B: usize, const Q: usize, const V: usize>(
 ) where
     T: Robot<B, Q, V>,
 {
-    let mut seen = worst(&r.operational_inverse);
+    let mut errors = worst(&r.operational_inverse);
     for i in 0..r.first_states() {
         let q = row::<Q>(&r.q, i).map(R::from_f64);
         let mobility =
@@ -158,10 +158,10 @@ fn mobilities<R: Real, T, const B: usize, const Q: usize, const V: usize>(
             .into_iter()
             .zip(symmetric::<6>(&r.operational_inverse, i))
         {
-            seen.compare(got, want);
+            errors.compare(got, want);
         }
     }
-    most.see::<R>("mobility", &seen);
+    most.see::<R>("mobility", &errors);
 }
 
 fn both<T, const B: usize, const Q: usize, const V: usize>(most: &mut Most)

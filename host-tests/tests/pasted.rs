@@ -18,11 +18,11 @@ fn a_pasted_simulation_gives_the_bits_of_the_measured_one() {
         qd,
         qdd: [0.0; 6],
     });
-    let mut measured = Run::<Ur5e, Free, RungeKutta, f32, 6, true>::start();
+    let mut run = Run::<Ur5e, Free, RungeKutta, f32, 6, true>::start();
     for _ in 0..200 {
         let state = pasted.step().expect("a robot with inertia");
-        let told = [state.q, state.qd].map(|numbers| numbers.map(f64::from));
-        measured.step(1e-3).expect("a robot with inertia");
-        assert_eq!(told, measured.seen());
+        let pasted_state = [state.q, state.qd].map(|numbers| numbers.map(f64::from));
+        run.step(1e-3).expect("a robot with inertia");
+        assert_eq!(pasted_state, run.measured());
     }
 }

@@ -181,7 +181,7 @@ fn the_inertial_unit_tells_how_the_mast_moves() {
         (Worst::default(), Worst::default(), Worst::default());
     for second in 0..60 {
         let t = f64::from(second) * 1.13;
-        let ((attitude, _), (g, base)) = (pose(&ship, t), ship.seen(t));
+        let ((attitude, _), (g, base)) = (pose(&ship, t), ship.measured(t));
         let foot = slope(|dt| pose(&ship, t + dt).1.to_array());
         let v = attitude.transpose() * DVec3::from(foot);
         let turn = attitude.transpose()
@@ -189,7 +189,7 @@ fn the_inertial_unit_tells_how_the_mast_moves() {
         let omega = DVec3::new(turn.y_axis.z, turn.z_axis.x, turn.x_axis.y);
         velocity.see(six(base.velocity), flat::<f64>(omega, v));
         // In the ship's own coordinates a spatial acceleration is the rate of the velocity's numbers.
-        let rate = slope(|dt| six(ship.seen(t + dt).1.velocity));
+        let rate = slope(|dt| six(ship.measured(t + dt).1.velocity));
         acceleration.see(six(base.acceleration), rate);
         let weight = attitude.transpose() * DVec3::new(0.0, 0.0, -9.81);
         gravity.see(g.0.to_array(), weight.to_array());
@@ -213,9 +213,9 @@ fn the_watch_keeps_the_camera_level_and_on_its_sweep() {
         let t = f64::from(second) * 0.97;
         let State { q, qd, qdd } = watch.after(t);
         let [.., camera] = poses(&Gimbal::MODEL, &q);
-        let seen = pose(&watch.ship, t).0 * camera.rot;
+        let attitude = pose(&watch.ship, t).0 * camera.rot;
         let wanted = DMat3::from_rotation_z(watch.sweep.at(t)[0]);
-        level.see(seen.to_cols_array(), wanted.to_cols_array());
+        level.see(attitude.to_cols_array(), wanted.to_cols_array());
         rates.see(qd, slope(|dt| watch.after(t + dt).q));
         rates.see(qdd, slope(|dt| watch.after(t + dt).qd));
     }

@@ -1,4 +1,4 @@
-//! Near and at singular poses: the damping is what it says, and nothing jumps on the way.
+//! Near and at singular poses: the damping is as documented, and nothing jumps along a path through them.
 
 mod common;
 
@@ -150,7 +150,7 @@ const TWO: ArmModel<f64, 3> = Model::new(
 );
 
 #[test]
-fn nothing_jumps_in_value_or_slope_on_the_way_through_a_singularity() {
+fn nothing_jumps_in_value_or_slope_through_a_singularity() {
     let damping = Damping::relative(DAMPING);
     // Of the UR5e: the elbow stretched; two axes of the wrist in one line.
     let elbow = |s: f64| [0.0, -1.2, 0.4 * s, 0.3, 0.7, 0.0];

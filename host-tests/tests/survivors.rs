@@ -233,7 +233,7 @@ fn a_spring_at_a_compliant_joint_adds_its_rate_to_that_of_the_torque() {
         stiffness: [30.0],
         rest: [0.2],
     };
-    let told = elastic_inverse_dynamics(&WHEEL, &joints, &course, &(Inertia, Coriolis, spring))
+    let motors = elastic_inverse_dynamics(&WHEEL, &joints, &course, &(Inertia, Coriolis, spring))
         .expect("one joint");
     // τ = I q̈ + k (q − q₀) with its derivatives; θ = q + τ/K; τ_m = J θ̈ + τ.
     let [tau, rate, accel] = [
@@ -242,7 +242,7 @@ fn a_spring_at_a_compliant_joint_adds_its_rate_to_that_of_the_torque() {
         2.0 * -2.0 + 30.0 * -0.4,
     ];
     let close = |got: f64, want: f64| assert!((got - want).abs() < 1e-14, "{got} for {want}");
-    close(told.position[0], 0.7 + tau / 100.0);
-    close(told.velocity[0], 0.3 + rate / 100.0);
-    close(told.torque[0], 0.5 * (-0.4 + accel / 100.0) + tau);
+    close(motors.position[0], 0.7 + tau / 100.0);
+    close(motors.velocity[0], 0.3 + rate / 100.0);
+    close(motors.torque[0], 0.5 * (-0.4 + accel / 100.0) + tau);
 }

@@ -34,7 +34,7 @@ pub struct Held {
     /// Row and figure.
     pub what: String,
     /// What was measured.
-    pub taken: f64,
+    pub measured: f64,
     /// The bar.
     pub most: f64,
     /// It is recorded as missed.
@@ -45,11 +45,11 @@ pub struct Held {
 
 impl Held {
     /// The figure of the row or pair `key` as measured; nothing if no bar is set.
-    pub fn of(bars: &Bars, key: &str, figure: &str, taken: f64) -> Option<Self> {
+    pub fn of(bars: &Bars, key: &str, figure: &str, measured: f64) -> Option<Self> {
         let bar = bars.get(key)?;
         Some(Self {
             what: format!("{key}: {figure}"),
-            taken,
+            measured,
             most: *bar.most.get(figure)?,
             recorded: bar.missed.iter().any(|missed| missed == figure),
             ratio: is_ratio(key),
@@ -58,14 +58,14 @@ impl Held {
 
     /// Whether it is within the bar.
     pub fn is_met(&self) -> bool {
-        self.taken <= self.most
+        self.measured <= self.most
     }
 
     /// What is wrong, if anything: a bar is missed without a record, or met in spite of one.
     pub fn complaint(&self) -> Option<String> {
-        let (what, [most, taken]) = (&self.what, self.numbers());
+        let (what, [most, measured]) = (&self.what, self.numbers());
         match (self.is_met(), self.recorded) {
-            (false, false) => Some(format!("{what} {taken} > {most}")),
+            (false, false) => Some(format!("{what} {measured} > {most}")),
             (true, true) => Some(format!("{what} is met now: take it off `missed`")),
             _ => None,
         }
@@ -73,7 +73,7 @@ impl Held {
 
     /// The bar and what was measured, in print.
     fn numbers(&self) -> [String; 2] {
-        [self.most, self.taken].map(|x| {
+        [self.most, self.measured].map(|x| {
             if self.ratio {
                 format!("{x:.3}×")
             } else {
@@ -97,8 +97,8 @@ pub fn table(held: &[Held]) -> Table {
             (false, true) => format!("missed, see {RECORD}"),
             (false, false) => "MISSED".to_owned(),
         };
-        let [most, taken] = held.numbers();
-        table.row([held.what.clone(), most, taken, verdict]);
+        let [most, measured] = held.numbers();
+        table.row([held.what.clone(), most, measured, verdict]);
     }
     table
 }
@@ -114,7 +114,8 @@ mod tests {
             missed: vec!["ns".into()],
         };
         let ratios = Bars::from([("a / b".into(), pair)]);
-        let complaint = |figure, taken| Held::of(&ratios, "a / b", figure, taken)?.complaint();
+        let complaint =
+            |figure, measured| Held::of(&ratios, "a / b", figure, measured)?.complaint();
         assert_eq!(complaint("cycles", 0.47), None);
         assert_eq!(
             complaint("cycles", 0.48).unwrap(),
@@ -140,9 +141,9 @@ mod tests {
 
     #[test]
     fn one_cycle_beyond_a_bar_is_a_miss() {
-        let held = |taken, recorded| Held {
+        let held = |measured, recorded| Held {
             what: "rnea: cycles".into(),
-            taken,
+            measured,
             most: 640.0,
             recorded,
             ratio: false,

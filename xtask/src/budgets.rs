@@ -70,7 +70,7 @@ struct Rows {
 }
 
 fn figures<const N: usize>(of: [(&str, u64); N]) -> Figures {
-    of.map(|(what, taken)| (what.to_owned(), taken)).into()
+    of.map(|(what, value)| (what.to_owned(), value)).into()
 }
 
 impl Budget {
@@ -119,11 +119,11 @@ impl Rows {
     fn exceeded_by(&self, measured: &Self) -> Vec<String> {
         let is_other = self.rustc != measured.rustc;
         let mut wrong = Vec::new();
-        for (key, taken) in &measured.rows {
+        for (key, row) in &measured.rows {
             match self.rows.get(key) {
                 None => wrong.push(format!("{key}: has no budget")),
                 Some(most) => wrong.extend(
-                    exceeded(most, taken, is_other)
+                    exceeded(most, row, is_other)
                         .iter()
                         .map(|what| format!("{key}: {what}")),
                 ),
@@ -149,9 +149,9 @@ impl Rows {
 
 /// The figures that are beyond what is allowed, or that only one side has, in words; whether they were measured
 /// with another compiler.
-fn exceeded(most: &Figures, taken: &Figures, is_other: bool) -> Vec<String> {
+fn exceeded(most: &Figures, measured: &Figures, is_other: bool) -> Vec<String> {
     let mut wrong = Vec::new();
-    for (what, taken) in taken {
+    for (what, value) in measured {
         let more = match &**what {
             _ if !is_other => 0.0,
             "flash_bytes" => OTHER_RUSTC_FLASH,
@@ -159,13 +159,13 @@ fn exceeded(most: &Figures, taken: &Figures, is_other: bool) -> Vec<String> {
         };
         match most.get(what) {
             None => wrong.push(format!("{what} has no budget")),
-            Some(most) if *taken as f64 > *most as f64 * (1.0 + more) => {
-                wrong.push(format!("{what} {taken} > {most}"));
+            Some(most) if *value as f64 > *most as f64 * (1.0 + more) => {
+                wrong.push(format!("{what} {value} > {most}"));
             }
             Some(_) => {}
         }
     }
-    let gone = most.keys().filter(|what| !taken.contains_key(*what));
+    let gone = most.keys().filter(|what| !measured.contains_key(*what));
     wrong.extend(gone.map(|what| format!("{what} is no figure")));
     wrong
 }
@@ -273,8 +273,8 @@ fn hold_scene(budgets: &Budgets, scene: &str, measured: &Budget) -> Result<Strin
             "budgets.toml has no [{scene}]: `cargo xtask demo --scene {scene} --write-budgets`"
         ))
     })?;
-    let taken = |budget: &Budget, what: &str| budget.figures.get(what).copied().unwrap_or(0);
-    let cycles = taken(measured, "tick_cycles");
+    let figure = |budget: &Budget, what: &str| budget.figures.get(what).copied().unwrap_or(0);
+    let cycles = figure(measured, "tick_cycles");
     let mut exceeded = budget.exceeded_by(measured);
     let key = format!("{scene}{TICK}");
     let bar = Held::of(&budgets.bars, &key, "cycles", cycles as f64);
@@ -287,8 +287,8 @@ fn hold_scene(budgets: &Budgets, scene: &str, measured: &Budget) -> Result<Strin
             measured.rustc
         )));
     }
-    let [most, most_stack] = ["tick_cycles", "stack_bytes"].map(|what| taken(budget, what));
-    let stack = taken(measured, "stack_bytes");
+    let [most, most_stack] = ["tick_cycles", "stack_bytes"].map(|what| figure(budget, what));
+    let stack = figure(measured, "stack_bytes");
     Ok(format!(
         "tick {cycles} of {most} cycles, stack {stack} of {most_stack} B"
     ))

@@ -82,9 +82,9 @@ impl Function {
         instructions
     }
 
-    /// Whether one of its names is as asked.
-    pub fn is_named(&self, asked: impl Fn(&str) -> bool) -> bool {
-        self.names.iter().any(|name| asked(name))
+    /// Whether one of its names matches.
+    pub fn is_named(&self, matches: impl Fn(&str) -> bool) -> bool {
+        self.names.iter().any(|name| matches(name))
     }
 
     fn name(&self) -> &str {
@@ -140,7 +140,7 @@ impl<'a> Reach<'a> {
         Ok(reach)
     }
 
-    /// The functions, with the way to each of them in words.
+    /// The functions, each with the chain of calls that reaches it.
     pub fn functions(&self) -> impl Iterator<Item = (&'a Function, String)> + '_ {
         let found = self.from.keys();
         found.map(|index| (&self.image.functions[*index], self.path(*index)))

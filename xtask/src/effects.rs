@@ -233,11 +233,11 @@ mod tests {
         let torques = ["effect ur5e viscous 3.5", "effect ur5e less_gravity 40"];
         let torques = torques.iter().filter_map(|line| torque(line)).collect();
         let prices = priced(&rows, &held, &torques).expect("complete");
-        let seen: Vec<_> = prices
+        let found: Vec<_> = prices
             .iter()
             .map(|p| (&*p.effect, p.cycles, p.ram_bytes, p.torque_rms_nm))
             .collect();
-        assert_eq!(seen, [("viscous", 30, 24, 3.5), ("gravity", 20, 16, 40.0)]);
+        assert_eq!(found, [("viscous", 30, 24, 3.5), ("gravity", 20, 16, 40.0)]);
         assert!(priced(&rows, &held, &BTreeMap::new()).is_err());
         assert!(priced(&rows[..1], &held, &torques).is_err());
     }

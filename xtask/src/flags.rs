@@ -105,8 +105,8 @@ warning: the following packages contain code that will be rejected by a future v
 
     #[test]
     fn only_warnings_about_target_features_become_a_sentence() {
-        let seen = sifted(CARGO_SAYS);
-        let firsts: Vec<&str> = seen
+        let warnings = sifted(CARGO_SAYS);
+        let firsts: Vec<&str> = warnings
             .others
             .iter()
             .filter_map(|warning| warning.lines().next())
@@ -120,14 +120,14 @@ warning: the following packages contain code that will be rejected by a future v
                  Rust: old v0.1.0",
             ]
         );
-        assert_eq!(seen.others[0].lines().count(), 7);
-        assert!(seen.sentence().expect("one").contains("(lob, mve.fp)"));
+        assert_eq!(warnings.others[0].lines().count(), 7);
+        assert!(warnings.sentence().expect("one").contains("(lob, mve.fp)"));
     }
 
     #[test]
     fn a_warning_that_mentions_a_feature_is_not_one_of_them() {
         let text = "warning: dead feature specified for `-Ctarget-feature`: `x`\n\nwarning: unused import: `unknown and unstable feature specified`\n";
-        let seen = sifted(text);
-        assert_eq!((seen.others.len(), seen.sentence()), (2, None));
+        let warnings = sifted(text);
+        assert_eq!((warnings.others.len(), warnings.sentence()), (2, None));
     }
 }

@@ -60,7 +60,7 @@ pub fn measure(workspace: &Workspace, tools: &Tools) -> Result<Report> {
     })
 }
 
-/// Fails unless the bars hold and the page is that of the report; else says what was seen.
+/// Fails unless the bars hold and the page is that of the report; else returns the measured figures in words.
 pub fn check(workspace: &Workspace, report: &Report) -> Result<String> {
     let held = report.held();
     let unmet: Vec<String> = held.iter().filter_map(Held::complaint).collect();
@@ -73,10 +73,10 @@ pub fn check(workspace: &Workspace, report: &Report) -> Result<String> {
     let same_figures = docs::rustc_of(&written) == Some(&report.rustc);
     let picture = picture::svg(report)?;
     docs::compare_picture(workspace, PICTURE, COMMAND, &picture, same_figures)?;
-    let seen = held
+    let figures = held
         .iter()
-        .map(|held| format!("{} {:.3}", held.what, held.taken));
-    Ok(seen.collect::<Vec<_>>().join(", "))
+        .map(|held| format!("{} {:.3}", held.what, held.measured));
+    Ok(figures.collect::<Vec<_>>().join(", "))
 }
 
 impl Report {
@@ -241,6 +241,6 @@ mod tests {
         assert_eq!(report.crossing(), Some((64, 36.0)));
         let held = report.held();
         assert_eq!(held.len(), 1);
-        assert_eq!(held[0].taken, 1.0625);
+        assert_eq!(held[0].measured, 1.0625);
     }
 }

@@ -205,8 +205,8 @@ mod tests {
 
     #[test]
     fn modules_that_use_lower_ones_pass() {
-        let seen = tree("good", "notes.txt", "").expect("in order");
-        assert_eq!(seen, "4 modules, 7 uses");
+        let outcome = tree("good", "notes.txt", "").expect("in order");
+        assert_eq!(outcome, "4 modules, 7 uses");
         let tests = "use crate::scalar;\n// crate::control is above.\n#[cfg(test)]\nmod tests {\n    use crate::control::Law;\n}\n";
         assert!(tree("tests", "model/tree.rs", tests).is_ok());
     }

@@ -44,9 +44,9 @@ pub fn costs(
         let is_mine = |one: &&Sample| usize::from(one.region) == number;
         let mine = samples.iter().filter(is_mine);
         let mine: Vec<[u64; 2]> = mine.map(|one| [one.instructions, one.cycles]).collect();
-        let seen = mine.len();
-        refuse(seen != ticks, || {
-            format!("the cycle meter saw region {number} ({name}) {seen} times in {ticks} ticks")
+        let found = mine.len();
+        refuse(found != ticks, || {
+            format!("the cycle meter saw region {number} ({name}) {found} times in {ticks} ticks")
         })?;
         Ok(mine)
     };

@@ -17,7 +17,7 @@ const LAW_COLOURS: [RGBColor; 4] = [
     RGBColor(86, 120, 190),
 ];
 
-/// Samples of which one point of an error's line is the largest: more would not be seen.
+/// Samples of which one point of an error's line is the largest: more points would not be visible.
 const OF_A_POINT: usize = 5;
 const WIDTH: i32 = 1160;
 /// How high the rows of charts are, from one to the next, and the room for what stands left of and below them.

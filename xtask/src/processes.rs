@@ -1,4 +1,4 @@
-//! The processes that xtask started: they end when it is told to end, and with it.
+//! The processes that xtask started: they end with it, and on a signal that ends it.
 //!
 //! A child runs in a process group of its own, because cargo starts compilers that outlive it: on
 //! SIGINT, SIGTERM and SIGHUP the whole group is told to end.
@@ -23,7 +23,7 @@ fn running() -> MutexGuard<'static, BTreeSet<u32>> {
     RUNNING.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Ends everything that runs when xtask is told to end.
+/// Ends all running processes on a signal that ends xtask.
 pub fn end_with_us() -> Result<(), ctrlc::Error> {
     ctrlc::set_handler(|| {
         // Kept locked: nothing is started from now on.

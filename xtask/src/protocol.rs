@@ -265,9 +265,16 @@ mod tests {
             "max [1e-3, 2e-3]",
             "stack 512",
         ] {
-            assert!(recording.line(line).is_ok_and(|taken| taken), "{line}");
+            assert!(
+                recording.line(line).is_ok_and(|accepted| accepted),
+                "{line}"
+            );
         }
-        assert!(recording.line("hello there").is_ok_and(|taken| !taken));
+        assert!(
+            recording
+                .line("hello there")
+                .is_ok_and(|accepted| !accepted)
+        );
         for line in [
             "sample 1 0.1",
             "rms NaN 0",

@@ -246,8 +246,8 @@ mod tests {
     use super::words;
 
     #[test]
-    fn a_status_is_told_in_words() {
-        for (logged, told) in [
+    fn a_status_is_written_in_words() {
+        for (logged, expected) in [
             (
                 "mode Full, fault None, limited false",
                 "the full law, no fault, no limit reached",
@@ -265,7 +265,7 @@ mod tests {
                 "stopped on the brake, fault: External, no limit reached",
             ),
         ] {
-            assert_eq!(words(logged), told);
+            assert_eq!(words(logged), expected);
         }
     }
 }

@@ -9,11 +9,11 @@ pub enum Scene {
     /// A UR5e picks and places, its encoders on SPI and its drives on PWM.
     #[default]
     Ur5e,
-    /// A Panda carries a load that it picks up on the way, known or not.
+    /// A Panda carries a load that it picks up along its path, known to the model or not.
     PandaPayload,
     /// A SCARA serves a table: three vertical axes, on which gravity does no work.
     ScaraTable,
-    /// An iiwa 14 whose transmissions give way, told so or not.
+    /// An iiwa 14 with elastic transmissions, known to the model or not.
     FlexibleJoint,
     /// A leg of a quadruped hops on a vertical rail.
     LegHop,

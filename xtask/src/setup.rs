@@ -178,7 +178,7 @@ pub fn debian(options: Options) -> Result<Toolchain> {
     Ok(Toolchain::Debian)
 }
 
-/// The compiler and QEMU in one plan, so that the user is told everything at once.
+/// The compiler and QEMU in one plan, so that the user receives one message about everything.
 fn compiler(options: Options) -> Result<Toolchain> {
     let mut plan = Plan::default();
     let mut chosen = choose(options.toolchain, &mut plan)?;

@@ -19,7 +19,7 @@ pub fn display(command: &Command) -> String {
     quoted.collect::<Vec<_>>().join(" ")
 }
 
-/// Starts a command whose processes end when xtask is told to end.
+/// Starts a command whose processes end on a signal that ends xtask.
 pub fn spawn(command: &mut Command) -> Result<(Child, Group)> {
     Group::spawn(command).map_err(|e| Error::spawn(command, e))
 }
@@ -56,11 +56,11 @@ pub fn capture(command: &mut Command) -> Result<String> {
 /// forwards to LLVM, of which one sentence says that there are some.
 pub fn cargo(command: &mut Command) -> Result<String> {
     let (stdout, stderr) = output_of(command)?;
-    let seen = flags::sifted(&stderr);
-    if let Some(sentence) = seen.sentence() {
+    let warnings = flags::sifted(&stderr);
+    if let Some(sentence) = warnings.sentence() {
         output::note_once(&sentence);
     }
-    for warning in &seen.others {
+    for warning in &warnings.others {
         output::note(warning);
     }
     Ok(stdout)

@@ -156,7 +156,7 @@ mod tests {
     use super::System;
 
     #[test]
-    fn every_system_is_told_how_it_gets_a_qemu() {
+    fn every_system_has_instructions_to_install_qemu() {
         for system in [
             System::Fedora,
             System::Arch,

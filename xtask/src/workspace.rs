@@ -20,7 +20,7 @@ pub struct Workspace {
     pub target: PathBuf,
     /// Where reports are written instead of where they lie in the workspace.
     pub reports: Option<PathBuf>,
-    /// The firmware's bins that are built without a feature being asked for.
+    /// The firmware's bins that need no feature.
     pub bins: Vec<String>,
 }
 

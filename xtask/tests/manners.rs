@@ -70,7 +70,7 @@ fn on_debian() -> bool {
 }
 
 #[test]
-fn sudo_does_not_run_where_nobody_can_be_asked() {
+fn sudo_does_not_run_without_a_user_to_confirm() {
     let dir = Dir::new();
     let (code, _, said) = outcome(&mut poor_user(&dir, true));
     assert!(!dir.0.join("sudo-ran").exists(), "{said}");
@@ -132,7 +132,7 @@ fn is_alive(process: &str) -> bool {
 
 #[test]
 #[cfg(target_os = "linux")]
-fn no_process_is_left_behind_when_it_is_told_to_end() {
+fn no_process_is_left_behind_after_a_signal_to_end() {
     for signal in ["TERM", "INT", "HUP"] {
         let dir = Dir::new();
         let processes = dir.0.join("processes");

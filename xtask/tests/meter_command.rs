@@ -101,7 +101,7 @@ fn an_instruction_that_a_cortex_m4f_lacks_is_named_with_its_function() {
 }
 
 #[test]
-fn markers_that_are_never_reached_are_told_from_none() {
+fn markers_that_are_never_reached_are_distinguished_from_none() {
     if !has_qemu() {
         return;
     }

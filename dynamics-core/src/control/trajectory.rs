@@ -43,7 +43,7 @@ pub struct WayPoint<R, const V: usize> {
     pub q: [R; V],
     /// Velocities in passing, rad/s or m/s; zero to stop.
     pub qd: [R; V],
-    /// Ticks since the way-point before; 0 for the first.
+    /// Ticks since the previous way-point; 0 for the first.
     pub ticks: u32,
 }
 

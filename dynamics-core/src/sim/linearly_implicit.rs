@@ -22,8 +22,8 @@ impl<R: Real, const Q: usize, const V: usize> Integrator<R, Q, V> for LinearlyIm
 }
 
 /// One step of `h` seconds by linearly implicit Euler: as [`semi_implicit`](super::semi_implicit), with
-/// joint effects taken at the step's end along their slopes ([`Implicit`](crate::effects::Implicit)), which then move on what they
-/// remember. First order in h; `state.qdd` is left at the acceleration used.
+/// joint effects evaluated at the step's end by their slopes ([`Implicit`](crate::effects::Implicit)), after which their states
+/// advance. First order in h; `state.qdd` is left at the acceleration used.
 ///
 /// Hairer & Wanner, *Solving Ordinary Differential Equations II* (1996), section IV.7; Baraff & Witkin
 /// (1998). Wrenches on bodies (contact) are explicit.

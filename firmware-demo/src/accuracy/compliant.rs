@@ -1,4 +1,4 @@
-//! Arms whose joints give way: computed so, or taken for rigid.
+//! Arms with elastic joints: inverse dynamics with the elasticity, or as if the joints were rigid.
 
 use core::marker::PhantomData;
 
@@ -57,7 +57,7 @@ macro_rules! motors {
 motors! {
     /// The motors' torques through springs.
     Compliant, trig: "table3x4", model: "compliant", form: "core", |course| ElasticReference<f32, N, N> = *course,
-        |joints, course| elastic_inverse_dynamics(&Static::<T>::NEW, joints, course, &RIGID_BODY).map_or([f32::NAN; N], |told| told.torque);
+        |joints, course| elastic_inverse_dynamics(&Static::<T>::NEW, joints, course, &RIGID_BODY).map_or([f32::NAN; N], |motors| motors.torque);
     /// The motors' torques if the springs were rigid.
     Rigid, trig: "table3", model: "rigid", form: "engine", |course| State<f32, N, N> = course.state,
         |joints, state| Engine::<T>::rnea(state, &(RIGID_BODY, Armature(joints.rotor), Viscous(joints.friction)));

@@ -1,4 +1,4 @@
-//! What is computed: all of the rigid-body equation, or less, of the robot or of what it is taken for.
+//! The computed model: all terms of the rigid-body equation or fewer, of the robot or of a simplified one.
 
 use core::marker::PhantomData;
 
@@ -12,7 +12,7 @@ use super::numbers::{Compensated, Fixed};
 pub trait Modelled<const B: usize, const N: usize> {
     /// On the axis `model`.
     const NAME: &'static str;
-    /// The robot, or what it is taken for.
+    /// The robot, or the simplified robot in its place.
     type Robot: Robot<B, N, N>;
     /// The effects.
     type Scene: Effect<f32, B, N>

@@ -22,7 +22,7 @@ pub trait Simulation<const N: usize> {
     /// As forward dynamics.
     fn step(&mut self, h: f64) -> Result<(), NotPositiveDefinite>;
     /// q and q̇.
-    fn seen(&self) -> [[f64; N]; 2];
+    fn measured(&self) -> [[f64; N]; 2];
     /// The address of the function that a step is.
     fn address() -> usize;
 }
@@ -115,7 +115,7 @@ where
         self.advance(R::from_f64(h))
     }
 
-    fn seen(&self) -> [[f64; N]; 2] {
+    fn measured(&self) -> [[f64; N]; 2] {
         let State { q, qd, .. } = self.motion.state;
         [q, qd].map(|numbers| numbers.map(R::to_f64))
     }

@@ -14,7 +14,7 @@ use super::key::Key;
 use super::model::Modelled;
 use super::robots::momentary;
 
-/// The way W in every `TICKS`-th tick, and P in those between.
+/// The computation W in every `TICKS`-th tick, and P in the ticks between.
 #[derive(Debug)]
 pub struct Every<W, P, const TICKS: usize> {
     way: W,

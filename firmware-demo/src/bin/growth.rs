@@ -18,7 +18,7 @@ use dynamics_core::state::{JointTrig, State};
 use firmware_demo::target;
 use row::Row;
 
-/// States that each function is asked for: the work does not depend on them.
+/// Number of states on which each function is called: the work does not depend on them.
 const STATES: usize = 2;
 
 /// Rods that bend and twist: N bodies, one on the other.

@@ -44,7 +44,7 @@ struct Peer {
 // `static PEERS: [Peer; …]`, as xtask wrote it.
 include!(env!("PEERS_TABLE"));
 
-/// States that each function is asked for.
+/// Number of states on which each function is called.
 const STATES: usize = 8;
 /// More than any output has entries.
 const MOST: usize = 128;

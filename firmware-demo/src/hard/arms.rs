@@ -26,17 +26,17 @@ pub(super) static LIST: [Problem<ArmModel<f64, N>>; COUNT] = [
     armature("armature 10⁻⁶", 1e-6),
     armature("armature 10⁻⁴", 1e-4),
     armature("armature 10⁻²", 1e-2),
-    asked(11, "zigzag ±75°", RODS, &ZIGZAG),
+    at_states(11, "zigzag ±75°", RODS, &ZIGZAG),
     plain(13, "base 10⁴ m away", moved(UR5E, [1e4, -1e4, 1e4])),
-    asked(15, "1000 rad/s", UR5E, &FAST),
-    asked(16, "remainder of 10⁶ rad", UR5E, &REMAINDERS),
-    asked(17, "k π/2 ± 1 ulp", UR5E, &QUARTERS),
+    at_states(15, "1000 rad/s", UR5E, &FAST),
+    at_states(16, "remainder of 10⁶ rad", UR5E, &REMAINDERS),
+    at_states(17, "k π/2 ± 1 ulp", UR5E, &QUARTERS),
     plain(20, "coincident axes", coincident(UR5E)),
     plain(21, "parallel axes", RODS),
     plain(22, "triangle inequality broken", fat(UR5E)),
     plain(22, "point masses", POINTS),
-    asked(42, "tiny", sized(UR5E, 1.0 / 16.0, 1.0 / 1024.0), &QUICK),
-    asked(42, "giant", sized(UR5E, 16.0, 512.0), &SLOW),
+    at_states(42, "tiny", sized(UR5E, 1.0 / 16.0, 1.0 / 1024.0), &QUICK),
+    at_states(42, "giant", sized(UR5E, 16.0, 512.0), &SLOW),
     plain(44, "base turned, gravity not", turned_base(UR5E)),
     plain(45, "tree", TREE),
     plain(45, "tree, numbered otherwise", RENUMBERED),
@@ -47,7 +47,7 @@ pub(super) static LIST: [Problem<ArmModel<f64, N>>; COUNT] = [
     plain(48, "general rotations", GENERAL),
 ];
 
-const fn asked(
+const fn at_states(
     case: u32,
     name: &'static str,
     arm: ArmModel<f64, N>,
@@ -64,7 +64,7 @@ const fn asked(
 }
 
 const fn plain(case: u32, name: &'static str, arm: ArmModel<f64, N>) -> Problem<ArmModel<f64, N>> {
-    asked(case, name, arm, &COMMON)
+    at_states(case, name, arm, &COMMON)
 }
 
 /// A massless last link whose rotor has inertia.

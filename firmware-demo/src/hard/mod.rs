@@ -53,7 +53,7 @@ pub struct Problem<A> {
     pub name: &'static str,
     /// The arm.
     pub arm: A,
-    /// What it is asked.
+    /// The states at which it is evaluated.
     pub states: &'static [Numbers],
     /// What it carries.
     pub extras: Extras<N>,

@@ -1,4 +1,4 @@
-//! What the arms are asked.
+//! The states at which the arms are evaluated.
 
 use super::Numbers;
 
@@ -97,7 +97,7 @@ pub const QUARTERS: [Numbers; 6] = {
     states
 };
 
-/// As [`COMMON`], each joint at what remains of 10⁶ rad when whole turns are taken off in integers.
+/// As [`COMMON`], each joint at the remainder of 10⁶ rad after whole turns, counted in integers.
 pub const REMAINDERS: [Numbers; 4] = {
     let (mut states, mut k) = (COMMON, 0);
     while k < states.len() {

@@ -49,7 +49,7 @@ where
     T: Robot<B, B, B>,
     E: Effect<f32, B, B>,
 {
-    fn seen(&self) -> [f32; B] {
+    fn encoder_positions(&self) -> [f32; B] {
         self.motors.position
     }
 

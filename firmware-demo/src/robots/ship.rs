@@ -58,11 +58,11 @@ impl<R: Real> Ship<R> {
         }
     }
 
-    /// What the mast's inertial unit tells after t seconds: gravity and the motion of the mast's foot, in the
+    /// The measurement of the mast's inertial unit after t seconds: gravity and the motion of the mast's foot, in the
     /// ship's coordinates.
     ///
     /// RBDA (2008), (2.42) in its angular part, from axis to axis: ω' = E ω + e q̇, ω̇' = E ω̇ + e q̈ + E ω × e q̇.
-    pub fn seen(&self, t: R) -> (GravityVector<R>, MovingBase<R>) {
+    pub fn measured(&self, t: R) -> (GravityVector<R>, MovingBase<R>) {
         let zero = R::ZERO;
         let (roll, pitch, yaw) = (self.roll.at(t), self.pitch.at(t), self.yaw.at(t));
         let [_, climb, lift] = self.heave.at(t);

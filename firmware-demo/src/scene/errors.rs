@@ -51,7 +51,7 @@ impl<const N: usize> Errors<N> {
         self.root(self.squares.iter().sum::<f64>() / N as f64)
     }
 
-    /// Ticks taken in.
+    /// Number of ticks counted.
     pub fn count(&self) -> u32 {
         self.count
     }

@@ -37,7 +37,7 @@ const EFFECTS: Effects = (
     ROTORS,
 );
 
-/// What the rotors become if they are taken for inertia at their joints: ρ² I.
+/// The effects with the rotors as armature inertia at their joints: ρ² I.
 const DIAGONAL: (
     Gravity,
     Inertia,
@@ -55,8 +55,8 @@ const DIAGONAL: (
             ratio: r,
         },
     ) = EFFECTS;
-    let seen = Armature([i[0] * r[0] * r[0], i[1] * r[1] * r[1], i[2] * r[2] * r[2]]);
-    (gravity, inertia, coriolis, viscous, seen)
+    let armature = Armature([i[0] * r[0] * r[0], i[1] * r[1] * r[1], i[2] * r[2] * r[2]]);
+    (gravity, inertia, coriolis, viscous, armature)
 };
 
 const START: [f32; 3] = [0.0, FRAC_PI_4, 0.0];

@@ -73,7 +73,7 @@ impl Scene<3, 3, 3, 3> for OnWatch {
     }
 
     fn environment(watch: &Self::Reference, ticks: f32) -> Self::Environment {
-        watch.ship.seen(ticks * TICK)
+        watch.ship.measured(ticks * TICK)
     }
 
     fn apply(effects: &mut Effects, &(gravity, base): &Self::Environment) {

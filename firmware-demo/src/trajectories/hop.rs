@@ -29,7 +29,7 @@ mod phase;
 use phase::Phase;
 pub use phase::arc_cosine;
 
-/// What is asked of the leg.
+/// The desired motion of the leg.
 ///
 /// ```
 /// use dynamics_core::control::Reference;
@@ -166,7 +166,7 @@ impl Hop {
         }
     }
 
-    /// The way of carriage, hip, thigh and calf at a tick.
+    /// The motion of carriage, hip, thigh and calf at a tick.
     #[inline(always)]
     pub fn whole(&self, tick: u32) -> State<f32, 4, 4> {
         let begun = |phase: &Phase| usize::from(phase.start <= tick);

@@ -186,7 +186,7 @@ mod tests {
     }
 
     #[test]
-    fn opcodes_beyond_an_m4f_are_told_from_its_own() {
+    fn opcodes_beyond_an_m4f_are_distinguished_from_its_own() {
         let beyond = |first, second| decode(first, second).class == Class::Unknown;
         assert!(beyond(0xfe00, 0x0a00)); // vseleq.f32 s0, s0, s0
         assert!(beyond(0xfe00, 0x0b00)); // vseleq.f64 d0, d0, d0

@@ -122,7 +122,7 @@ mod tests {
     }
 
     #[test]
-    fn a_taken_branch_is_told_by_its_successor() {
+    fn an_executed_branch_is_recognised_by_its_successor() {
         let body = block(4, &[NOP, BACK]);
         let tail = block(8, &[NOP]);
         assert_eq!(run(&[&body, &tail]), [sample(0, 3, 3)]);

@@ -3,7 +3,7 @@
 
 use crate::insn::{Class, Insn};
 
-/// Cycles to refill the pipeline after a taken branch (the manual says 1 to 3).
+/// Cycles to refill the pipeline after an executed branch (the manual says 1 to 3).
 pub const REFILL: u32 = 2;
 
 /// Cycles of `SDIV` and `UDIV`: the worst of 2 to 12, so that a figure does not
@@ -62,7 +62,7 @@ impl Pipe {
         cycles
     }
 
-    /// Refills the pipeline after a taken branch and returns the cycles it takes.
+    /// Refills the pipeline after an executed branch and returns the cycles it takes.
     pub fn refill(&mut self) -> u32 {
         *self = Self {
             divider: self.divider.saturating_sub(REFILL),

@@ -16,7 +16,7 @@ use crate::samples::format_samples;
 /// All that the plugin knows.
 struct Plugin {
     qemu: Qemu,
-    /// The version of the interface that QEMU speaks, whichever was asked for.
+    /// The version of the interface that QEMU speaks, whichever was requested.
     version: c_int,
     out: PathBuf,
     meter: Meter<'static>,
@@ -32,7 +32,7 @@ struct Plugin {
 /// Set once by `qemu_plugin_install`, before QEMU can call anything else.
 static PLUGIN: AtomicPtr<Plugin> = AtomicPtr::new(ptr::null_mut());
 
-/// Version of the interface that is asked for. QEMU reads it when it has loaded the library, before
+/// The requested version of the interface. QEMU reads it when it has loaded the library, before
 /// it calls anything in it, and each QEMU refuses versions that the other one takes: so it is written
 /// while the library is loaded, by [`choose_version`].
 #[allow(non_upper_case_globals, reason = "QEMU looks for this name")]
@@ -40,8 +40,8 @@ static PLUGIN: AtomicPtr<Plugin> = AtomicPtr::new(ptr::null_mut());
 pub static qemu_plugin_version: AtomicI32 = AtomicI32::new(1);
 
 extern "C" fn choose_version() {
-    let asked = std::env::var_os(crate::INTERFACE);
-    let version = ffi::version_to_ask_for(asked.as_deref(), ffi::host_has);
+    let requested = std::env::var_os(crate::INTERFACE);
+    let version = ffi::version_to_ask_for(requested.as_deref(), ffi::host_has);
     qemu_plugin_version.store(version, Ordering::Relaxed);
 }
 

@@ -132,7 +132,7 @@ pub struct Summary {
     /// The smallest.
     pub min: u64,
     /// The middle one in order of size; of an even number the lower of the two
-    /// middle ones, so that it is a value that was seen.
+    /// middle ones, so that it is a measured value.
     pub median: u64,
     /// The largest.
     pub max: u64,
@@ -226,7 +226,7 @@ mod tests {
     }
 
     #[test]
-    fn a_summary_holds_values_that_were_seen() {
+    fn a_summary_holds_measured_values() {
         assert_eq!(Summary::of([]), None);
         assert_eq!(
             Summary::of([5]),

@@ -121,15 +121,15 @@ fn disturbed<R: Real>(
     wrong: impl FnOnce(&mut Bench<R>, &mut dyn FnMut(&Bench<R>)),
 ) -> [f64; 3] {
     let mut bench = Bench::<R>::new(0.8, 1000);
-    let mut seen = [0.0_f64; 3];
+    let mut measured = [0.0_f64; 3];
     for _ in 0..300 {
         bench.tick(None);
         bench.advance(TICK);
     }
     wrong(&mut bench, &mut |bench| {
-        seen = [
-            larger(seen[0], bench.effort()),
-            larger(seen[1], bench.error()),
+        measured = [
+            larger(measured[0], bench.effort()),
+            larger(measured[1], bench.error()),
             0.0,
         ];
     });
@@ -140,17 +140,17 @@ fn disturbed<R: Real>(
     for tick in 0..1000 {
         bench.tick(None);
         let error = bench.error();
-        seen = [
-            larger(seen[0], bench.effort()),
-            larger(seen[1], error),
-            seen[2],
+        measured = [
+            larger(measured[0], bench.effort()),
+            larger(measured[1], error),
+            measured[2],
         ];
         if error > settled || bench.arm.q.iter().any(|q| !q.is_finite()) {
-            seen[2] = f64::from(tick + 1);
+            measured[2] = f64::from(tick + 1);
         }
         bench.advance(TICK);
     }
-    seen
+    measured
 }
 
 /// 200 ticks, each late by up to so many ticks; a timer that counts tells how many were missed, or nobody does.
@@ -202,18 +202,18 @@ fn jitter() -> Vec<Row> {
             (2.0, 5e-3, 196.0),
             (10.0, 5e-2, 400.0),
         ] {
-            let seen = disturbed::<R>(settled, |bench, see| lates(bench, see, late, true));
-            push(&format!("jitter {late} ×"), seen, [most, ticks]);
+            let measured = disturbed::<R>(settled, |bench, see| lates(bench, see, late, true));
+            push(&format!("jitter {late} ×"), measured, [most, ticks]);
         }
         for missed in [1, 2, 5, 10, 50] {
-            let seen = disturbed::<R>(settled, |bench, see| {
+            let measured = disturbed::<R>(settled, |bench, see| {
                 bench.tick(None);
                 bench.advance(TICK * f64::from(missed + 1));
                 bench.late_tick(missed);
                 see(bench);
                 bench.advance(TICK);
             });
-            push(&format!("{missed} ticks missed"), seen, [5e-3, 196.0]);
+            push(&format!("{missed} ticks missed"), measured, [5e-3, 196.0]);
         }
         let [_, thrown, _] = disturbed::<R>(settled, |bench, see| lates(bench, see, 10.0, false));
         rows.push(Row::naive(

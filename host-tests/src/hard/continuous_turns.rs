@@ -20,33 +20,33 @@ pub const CASES: &[Case] = &[Case {
 const HELD_OFF: f64 = 0.11;
 
 /// An arm that was held fast for so many ticks: the greatest share of its torque while it was, ticks till it is
-/// within 1 mrad for good, overshoot of the way back, and where it is a second after.
+/// within 1 mrad for good, overshoot of the return, and where it is a second after.
 fn recover<R: Real>(held: u32) -> ([f64; 3], [R; 6]) {
     let mut bench = Bench::<R>::new(0.0, 1);
     let off = R::from_f64(HELD_OFF);
     bench.arm.q = bench.arm.q.map(|q| q + off);
-    let (fast, mut seen) = (bench.arm, [0.0_f64; 3]);
+    let (fast, mut measured) = (bench.arm, [0.0_f64; 3]);
     for _ in 0..held {
         bench.tick(None);
-        seen[0] = larger(seen[0], bench.effort());
+        measured[0] = larger(measured[0], bench.effort());
         bench.arm = fast;
     }
     for tick in 1..=1000 {
         bench.tick(None);
         bench.advance(TICK);
         if bench.error() > 1e-3 {
-            seen[1] = f64::from(tick);
+            measured[1] = f64::from(tick);
         }
         let beyond = |(aim, q): (&R, &R)| (aim.to_f64() - q.to_f64()) / HELD_OFF;
-        seen[2] = bench
+        measured[2] = bench
             .aim
             .q
             .iter()
             .zip(&bench.arm.q)
             .map(beyond)
-            .fold(seen[2], larger);
+            .fold(measured[2], larger);
     }
-    (seen, bench.arm.q)
+    (measured, bench.arm.q)
 }
 
 /// The overshoot of a joint of 1 kg·m² under the same poles, limited to 30 N·m, and an integrator.

@@ -50,7 +50,7 @@ fn impossible() -> Vec<Row> {
     );
     let mut rows = against_oracle(&fat, &FAT);
     rows.extend(against_oracle(&points, &POINTS));
-    let excess = |told: Result<(), ModelError>| match told {
+    let excess = |checked: Result<(), ModelError>| match checked {
         Err(ModelError {
             body: "wrist_3",
             problem: Problem::Triangle(by),

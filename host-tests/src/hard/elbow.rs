@@ -180,9 +180,9 @@ fn poses() -> Vec<Row> {
     // σ_min σ_max = sin q₂, and σ_max = √5 where it is small.
     for (name, sigma) in [("0", 0.0), ("10⁻⁶", 1e-6), ("10⁻³", 1e-3)] {
         let q = (sigma * 5.0_f64.sqrt()) as f32;
-        let seen = [errors(&single, q), errors(&double, q)];
-        for (worst, seen) in worst.iter_mut().zip(seen) {
-            *worst = std::array::from_fn(|k| larger(worst[k], seen[k]));
+        let measured = [errors(&single, q), errors(&double, q)];
+        for (worst, measured) in worst.iter_mut().zip(measured) {
+            *worst = std::array::from_fn(|k| larger(worst[k], measured[k]));
         }
         let [a, b, d] = matrix(f64::from(q));
         let (trace, det) = (a + d, a * d - b * b);
@@ -194,13 +194,13 @@ fn poses() -> Vec<Row> {
         rows.push(Row::stated(
             name.clone(),
             "f32",
-            seen[0][5],
+            measured[0][5],
             4.0 * f64::from(f32::EPSILON) / DAMPING,
         ));
         rows.push(Row::stated(
             name,
             "f64",
-            seen[1][5],
+            measured[1][5],
             4.0 * f64::EPSILON / DAMPING,
         ));
     }

@@ -65,7 +65,7 @@ fn functions<R: Real>(rows: &mut Vec<Row>, scalar: &'static str) {
     };
     let tau = [5.0, -40.0, 20.0, 3.0, -2.0, 1.0].map(R::from_f64);
     let before = outputs(&clean, &tau);
-    let (mut same, mut told, mut small) = (true, true, 0.0_f64);
+    let (mut same, mut reported, mut small) = (true, true, 0.0_f64);
     for value in values::<R>() {
         for input in 0..24 {
             let (mut state, mut torque) = (clean, tau);
@@ -75,7 +75,7 @@ fn functions<R: Real>(rows: &mut Vec<Row>, scalar: &'static str) {
             let zero = value.to_f64().abs() < 1e-30;
             let after = outputs(&state, &torque);
             if !value.is_finite() {
-                told &= after.iter().any(|&x| !f64::from_bits(x).is_finite());
+                reported &= after.iter().any(|&x| !f64::from_bits(x).is_finite());
             }
             if zero {
                 let arrays = [&mut state.q, &mut state.qd, &mut state.qdd, &mut torque];
@@ -96,7 +96,7 @@ fn functions<R: Real>(rows: &mut Vec<Row>, scalar: &'static str) {
     rows.push(Row::claim(
         "dynamics: what is no number is never made one",
         scalar,
-        told,
+        reported,
     ));
     rows.push(Row::stated(
         "dynamics: a subnormal against zero",

@@ -62,13 +62,13 @@ fn twofold(rng: &mut TestRng) -> ArmModel<f64, 4> {
 }
 
 /// How many of LᵀDL, Cholesky's method and ABA do not name joint 1.
-fn unnamed<R: Real>(arm: &ArmModel<R, 4>, q: &[R; 4], seen: &mut [u32; 3]) {
+fn unnamed<R: Real>(arm: &ArmModel<R, 4>, q: &[R; 4], counts: &mut [u32; 3]) {
     let arm = &turning(arm);
     let m = crba(arm, q, &RIGID_BODY);
     let by_bodies = aba(arm, &State::at(*q), &[R::ONE; 4], &RIGID_BODY).err();
     let named = [ltdl(arm, &m).err(), cholesky(arm, &m).err(), by_bodies];
-    for (seen, error) in seen.iter_mut().zip(named) {
-        *seen += u32::from(error.is_none_or(|error| error.joint != 1));
+    for (count, error) in counts.iter_mut().zip(named) {
+        *count += u32::from(error.is_none_or(|error| error.joint != 1));
     }
 }
 

@@ -39,7 +39,7 @@ pub struct Row {
 }
 
 impl Row {
-    /// An error whose bound was set by measuring: at most ten times what is seen.
+    /// An error whose bound was set by measuring: at most ten times the measured error.
     pub fn measured(
         quantity: impl Into<String>,
         scalar: &'static str,

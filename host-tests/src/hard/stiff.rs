@@ -250,7 +250,7 @@ fn driven<R: Real>(rows: &mut Vec<Row>, k: f64) {
     ));
 }
 
-/// What the motors of an arm at rest are told in f32: its weight, and angles ahead by weight over stiffness.
+/// The motors' commands for an arm at rest in f32: its weight, and angles ahead by weight over stiffness.
 fn held(rows: &mut Vec<Row>, k: f32) {
     let joints = ElasticJoints {
         stiffness: [k; 6],
@@ -263,14 +263,14 @@ fn held(rows: &mut Vec<Row>, k: f32) {
         jerk: [0.0; 6],
         snap: [0.0; 6],
     };
-    let told = elastic_inverse_dynamics(&Ur5e::MODEL_F32, &joints, &rest, &RIGID_BODY)
+    let motors = elastic_inverse_dynamics(&Ur5e::MODEL_F32, &joints, &rest, &RIGID_BODY)
         .expect("every joint is single");
     let weight = rnea(&Ur5e::MODEL, &State::at(q.map(f64::from)), &RIGID_BODY);
     let most = weight.iter().fold(0.0_f64, |most, tau| most.max(tau.abs()));
     let (mut torque, mut ahead) = (0.0_f64, 0.0_f64);
     for (i, weight) in weight.into_iter().enumerate() {
-        torque = larger(torque, (f64::from(told.torque[i]) - weight).abs() / most);
-        let angle = f64::from(told.position[i]) - f64::from(q[i]);
+        torque = larger(torque, (f64::from(motors.torque[i]) - weight).abs() / most);
+        let angle = f64::from(motors.position[i]) - f64::from(q[i]);
         ahead = larger(ahead, (angle - weight / f64::from(k)).abs());
     }
     let epsilon = f64::from(f32::EPSILON);

@@ -323,18 +323,18 @@ fn fed_forward_through_the_springs_a_compliant_arm_follows_its_course() {
         let (mut off, mut scene) = (0.0_f64, RIGID_BODY);
         for i in 0..(0.5 / h) as u32 {
             let now = course((f64::from(i) + 0.5) * h);
-            let mut told =
+            let mut feedforward =
                 elastic_inverse_dynamics(&Ur5e::MODEL, &joints, &now, &RIGID_BODY).unwrap();
             if stiff {
                 let rigid = (RIGID_BODY, Armature(joints.rotor), Viscous(joints.friction));
-                told.torque = rnea(&Ur5e::MODEL, &now.state, &rigid);
+                feedforward.torque = rnea(&Ur5e::MODEL, &now.state, &rigid);
             }
             elastic_step(
                 &Ur5e::MODEL,
                 &joints,
                 &mut links,
                 &mut motors,
-                &told.torque,
+                &feedforward.torque,
                 &mut scene,
                 h,
             )
@@ -373,6 +373,6 @@ fn joints_of_several_degrees_of_freedom_are_refused_by_name() {
         jerk: [0.0; 3],
         snap: [0.0; 3],
     };
-    let told = elastic_inverse_dynamics(&ball, &joints, &course, &RIGID_BODY);
-    assert_eq!(told.unwrap_err().body, 0);
+    let refused = elastic_inverse_dynamics(&ball, &joints, &course, &RIGID_BODY);
+    assert_eq!(refused.unwrap_err().body, 0);
 }

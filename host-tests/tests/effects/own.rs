@@ -164,7 +164,7 @@ fn engine_equals_core_under_the_other_effects_and_a_users_own() {
 
 /// A base that moves, and what asks where bodies stand, on a tree with slides, welds and two roots.
 #[test]
-fn engine_equals_core_on_a_moving_base_and_where_poses_are_asked() {
+fn engine_equals_core_on_a_moving_base_and_where_poses_are_read() {
     fn ulps<R: Real>(ulp: f64) -> [f64; 2] {
         let vec = |x, y, z| R::Vec3::new(R::from_f64(x), R::from_f64(y), R::from_f64(z));
         let of = R::from_f64;

@@ -1,4 +1,4 @@
-//! Input at the edges: what is out of range, missing or contradictory is taken as the documentation says, or refused.
+//! Input at the edges: values out of range, missing or contradictory are treated as documented, or refused.
 
 use dynamics_core::algorithms::{crba_jacobian, jacobian, rnea};
 use dynamics_core::effects::{

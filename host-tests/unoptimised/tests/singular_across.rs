@@ -16,7 +16,7 @@ use host_tests::random::{random_numbers, six_points, state_of, within};
 use proptest::prelude::RngExt;
 use proptest::test_runner::TestRng;
 
-/// What is asked of each robot.
+/// The algorithms that run on each robot.
 const WAYS: [&str; 7] = [
     "aba",
     "hybrid",
@@ -121,7 +121,7 @@ impl Line {
     }
 
     /// The line in the frame of a body that stands at `place` and `turn` of this one.
-    fn seen_from(self, place: DVec3, turn: &DMat3) -> Self {
+    fn in_frame(self, place: DVec3, turn: &DMat3) -> Self {
         let Self(along, point) = self;
         Self(turn.transpose() * along, turn.transpose() * (point - place))
     }
@@ -137,7 +137,7 @@ impl Line {
         let rpy = within(rng, 3.0);
         let Self(along, point) = self;
         let place = point + along * rng.random_range(-0.3..0.3);
-        let Self(axis, _) = self.seen_from(place, &rotation(rpy));
+        let Self(axis, _) = self.in_frame(place, &rotation(rpy));
         let body = Body::new(name, parent, joint(axis.to_array()));
         body.xyz(place.to_array()).rpy(rpy)
     }
@@ -170,7 +170,7 @@ fn across_a_plate(rng: &mut TestRng, reach: f64) -> (Model<f64, 4, 3, 3>, State<
     let place = axis.0 * rng.random_range(-0.3..0.3) + DVec3::from(within(rng, 1.0)) * reach;
     let rpy = within(rng, 3.0);
     let plate = Body::new("plate", 1, Joint::fixed()).xyz(place.to_array());
-    let across = axis.seen_from(place, &rotation(rpy));
+    let across = axis.in_frame(place, &rotation(rpy));
     let hand = across.carry(rng, "hand", 2, Joint::revolute);
     let bodies = [arm(rng), motor, plate.rpy(rpy), solid(rng, hand)];
     let model = Model::new("plate", bodies);
@@ -209,7 +209,7 @@ fn a_turn_between_two_slides_on_one_axis_is_refused() {
         let axis = Line::random(rng);
         let slide = carrier(rng, "slide", 0, Joint::prismatic(axis.0.to_array()));
         let rpy = within(rng, 3.0);
-        let axis = axis.seen_from(DVec3::ZERO, &rotation(rpy));
+        let axis = axis.in_frame(DVec3::ZERO, &rotation(rpy));
         let turn = Body::new("turn", 1, Joint::revolute(axis.0.to_array())).rpy(rpy);
         let quill = axis.carry(rng, "quill", 2, Joint::prismatic);
         let bodies = [arm(rng), slide, turn, solid(rng, quill)];

@@ -113,11 +113,11 @@ impl Budget {
     /// The choice in words, with the Rust to paste.
     pub fn answer(self, points: &[&Point]) -> Result<String> {
         let chosen = self.choose(points)?;
-        let mut text = format!("{}\n\n{}", told(chosen), code::rust(chosen)?);
+        let mut text = format!("{}\n\n{}", described(chosen), code::rust(chosen)?);
         if let Some(other) = self.in_the_mean(points, chosen) {
             text += &format!(
                 "\nIf the mean over ticks matters rather than the worst tick:\n\n{}\n\n{}",
-                told(other),
+                described(other),
                 code::rust(other)?
             );
         }
@@ -136,7 +136,7 @@ pub fn shipped(points: &[Point], group: (&str, Kind, &str)) -> Vec<Point> {
 }
 
 /// A point's figures in words.
-fn told(point: &Point) -> String {
+fn described(point: &Point) -> String {
     let of = match point.kind {
         Kind::Inverse => "cycles in the worst tick",
         Kind::Simulation => "cycles for a simulated second",
@@ -180,8 +180,8 @@ mod tests {
         for bad in ["0.05", "Nm", "-1Nm", "0Nm", "nanNm", "5kg", "infNm"] {
             assert!(bad.parse::<Allowed>().is_err(), "{bad}");
         }
-        let told = "0.05".parse::<Allowed>().expect_err("no unit");
-        assert!(told.contains("no unit"), "{told}");
+        let refused = "0.05".parse::<Allowed>().expect_err("no unit");
+        assert!(refused.contains("no unit"), "{refused}");
     }
 
     #[test]
@@ -202,12 +202,12 @@ mod tests {
         };
         assert!(chosen(error(0.05)).is_ok_and(|key| key == "trig=table"));
         assert!(chosen(Budget::Cycles(1500)).is_ok_and(|key| key == "default"));
-        let told = chosen(Budget::Cycles(10))
+        let refused = chosen(Budget::Cycles(10))
             .expect_err("too little")
             .to_string();
         assert!(
-            told.starts_with("nothing on the front is below 10 cycles; the cheapest takes 300"),
-            "{told}"
+            refused.starts_with("nothing on the front is below 10 cycles; the cheapest takes 300"),
+            "{refused}"
         );
         assert!(chosen(error(1e-9)).is_err());
     }

@@ -264,13 +264,13 @@ pub fn simulations(points: &[Point]) -> Result<String> {
         for (row, (robot, scene, title)) in SCENES.into_iter().enumerate() {
             let area = root.clone().shrink((0, 50 + 310 * row as i32), (800, 305));
             let own = of_group(points, (robot.name(), Kind::Simulation, scene));
-            let seen = || own.iter().filter(|point| point.error().is_finite());
+            let finite = || own.iter().filter(|point| point.error().is_finite());
             let names = [title, "cycles for a simulated second", "largest error, rad"];
-            let ends = seen().map(|point| (point.cycles as f64, point.error()));
+            let ends = finite().map(|point| (point.cycles as f64, point.error()));
             let chart = axes(&area, names, ends, [1.4, 1.4])?;
             // Coordinates of a chart are those of the whole picture.
             let (x, y) =
-                chart.backend_coord(&(REAL_TIME, seen().map(|p| p.error()).fold(0.0, f64::max)));
+                chart.backend_coord(&(REAL_TIME, finite().map(|p| p.error()).fold(0.0, f64::max)));
             if x < 780 {
                 path(root, &[(x, y), (x, y + 200)], 1, 0, DOT)?;
                 text(root, "real time at 168 MHz", (x - 5, y), INK, HPos::Right)?;
@@ -285,7 +285,7 @@ pub fn simulations(points: &[Point]) -> Result<String> {
                     let of = |point: &&&Point| {
                         ["integrator", "arith", "state"].map(|axis| point.on(axis)) == kind
                     };
-                    let mut line: Vec<_> = seen().filter(of).collect();
+                    let mut line: Vec<_> = finite().filter(of).collect();
                     line.sort_by_key(|point| point.cycles);
                     let places = line.iter().map(|p| at(&chart, p.cycles as f64, p.error()));
                     path(root, &places.collect::<Vec<_>>(), width, dots, colour)?;

@@ -123,7 +123,7 @@ pub fn check(measured: &Measured) -> Result<usize> {
             );
             return Err(Error::check(what));
         };
-        let seen = [
+        let found = [
             row.instructions.max as f64,
             row.cycles.max as f64,
             row.cycles_mean,
@@ -133,11 +133,11 @@ pub fn check(measured: &Measured) -> Result<usize> {
             point.cycles as f64,
             point.cycles_mean,
         ];
-        let mut ratios = std::iter::zip(seen, promised).map(|(seen, promised)| seen / promised);
+        let mut ratios = std::iter::zip(found, promised).map(|(found, promised)| found / promised);
         if !ratios.all(|ratio| CLOSE.contains(&ratio)) || line.errors() != point.errors() {
             unlike.push(format!(
                 "{} {}: instructions, cycles and their mean were promised as {promised:?}, errors as {:?}, but what is \
-                 pasted has {seen:?} and {:?}",
+                 pasted has {found:?} and {:?}",
                 row.robot, row.inputs, point.errors(), line.errors()
             ));
         }

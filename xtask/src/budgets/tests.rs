@@ -63,9 +63,9 @@ fn budgets_of(report: &costs::Report) -> Budgets {
     }
 }
 
-fn told(result: crate::error::Result<String>) -> String {
+fn outcome(result: crate::error::Result<String>) -> String {
     match result {
-        Ok(seen) => seen,
+        Ok(held) => held,
         Err(error) => error.to_string(),
     }
 }
@@ -84,8 +84,8 @@ fn another_compiler_gets_three_per_cent_and_no_more() {
 fn a_row_that_costs_one_cycle_more_than_its_budget_is_refused() {
     let plain = |cost| report(cost, cost, "", Bars::new());
     let budgets = budgets_of(&plain(1000));
-    assert_eq!(told(hold_costs(&budgets, &plain(1000))), "1 rows");
-    let over = told(hold_costs(&budgets, &plain(1001)));
+    assert_eq!(outcome(hold_costs(&budgets, &plain(1000))), "1 rows");
+    let over = outcome(hold_costs(&budgets, &plain(1001)));
     assert!(over.contains("cycles 1001 > 1000"), "{over}");
     assert!(hold_costs(&Budgets::default(), &plain(1)).is_err());
 }
@@ -100,7 +100,7 @@ fn a_bar_of_the_costs_is_held_whatever_the_budget_allows() {
         };
         let ratios = Bars::from([(format!("opt-level s / 3, {key}"), ratio)]);
         let report = report(1000, small, bar, ratios);
-        told(hold_costs(&budgets_of(&report), &report))
+        outcome(hold_costs(&budgets_of(&report), &report))
     };
     let bar =
         |most: u64, missed: &str| format!("{key:?} = {{ cycles = {most}, missed = [{missed}] }}");
@@ -128,14 +128,14 @@ fn a_scene_is_held_to_its_budget_and_to_its_bar() {
         let budget = toml::to_string(&budget("rustc 1", 1000)).expect("TOML");
         format!("[bars]\n{bar}\n[arm]\n{budget}")
     };
-    let held = |bar: &str, taken: u64| {
+    let held = |bar: &str, measured: u64| {
         let budgets: Budgets = toml::from_str(&text(bar)).expect("budgets");
-        hold_scene(&budgets, "arm", &budget("rustc 1", taken))
+        hold_scene(&budgets, "arm", &budget("rustc 1", measured))
     };
     assert!(held("", 1000).is_ok());
     assert!(held("", 1001).is_err());
     assert!(held("\"arm tick\" = { cycles = 1000 }", 1000).is_ok());
-    let missed = told(held("\"arm tick\" = { cycles = 999 }", 1000));
+    let missed = outcome(held("\"arm tick\" = { cycles = 999 }", 1000));
     assert!(
         missed.contains("bar: arm tick: cycles 1,000 > 999"),
         "{missed}"

@@ -266,7 +266,7 @@ mod tests {
         ]
         .map(str::to_owned);
         let rows = cut(&lines, &samples, |address| Ok(address / 2)).expect("enough samples");
-        let seen: Vec<_> = rows
+        let found: Vec<_> = rows
             .iter()
             .map(|row| {
                 let costs = (row.instructions.min, row.cycles.max, row.flops);
@@ -274,7 +274,7 @@ mod tests {
             })
             .collect();
         assert_eq!(
-            seen,
+            found,
             [
                 ("ur5e rnea core full trig".into(), (1, 10, 100), 2048, 128),
                 ("ur5e rnea engine gravity".into(), (2, 30, 300), 4096, 64),

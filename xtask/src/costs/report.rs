@@ -91,13 +91,13 @@ impl Report {
             .filter_map(|key| Some((key, self.row(key)?)))
         {
             let figures = row.figures().into_iter();
-            let held = |(figure, taken)| Held::of(&self.bars, key, figure, taken as f64);
+            let held = |(figure, value)| Held::of(&self.bars, key, figure, value as f64);
             all.extend(figures.filter_map(held));
         }
         for (small, row) in self.pairs() {
             let key = format!("opt-level s / 3, {}", row.key());
-            for ((figure, taken), (_, of)) in small.figures().into_iter().zip(row.figures()) {
-                all.extend(Held::of(&self.bars, &key, figure, taken as f64 / of as f64));
+            for ((figure, value), (_, of)) in small.figures().into_iter().zip(row.figures()) {
+                all.extend(Held::of(&self.bars, &key, figure, value as f64 / of as f64));
             }
         }
         all

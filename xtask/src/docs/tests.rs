@@ -44,8 +44,8 @@ fn a_page_with_one_digit_changed_is_refused() {
         &page(head, row, NOW),
         NOW,
     );
-    let told = refused.expect_err("one digit").to_string();
-    assert!(told.contains("there: | ur5e | 1,235") && told.contains("now:   | ur5e | 1,234"));
+    let message = refused.expect_err("one digit").to_string();
+    assert!(message.contains("there: | ur5e | 1,235") && message.contains("now:   | ur5e | 1,234"));
 }
 
 #[test]

@@ -120,7 +120,7 @@ mod tests {
             ),
         ]);
         let held = held(&ratios, &rows);
-        let measured: Vec<f64> = held.iter().map(|held| held.taken).collect();
+        let measured: Vec<f64> = held.iter().map(|held| held.measured).collect();
         assert_eq!(measured, [0.5, 0.5, 0.5]);
         let unmet: Vec<bool> = held.iter().map(|held| held.complaint().is_some()).collect();
         assert_eq!(unmet, [true, true, false]);

@@ -24,7 +24,7 @@ const MUJOCO: [(&str, &str, &str); 4] = [
 ];
 const CPP_COMPILERS: [&str; 2] = ["g++", "clang++"];
 
-/// What the benchmark is told.
+/// The input of the benchmark.
 #[derive(Serialize)]
 struct Manifest {
     foreign: Vec<Foreign>,

@@ -31,7 +31,7 @@ pub struct Row {
     /// Median nanoseconds a state, on the host, sines and cosines included.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub ns: Option<f64>,
-    /// Modelled cycles, on the target, sines and cosines at hand.
+    /// Modelled cycles on the target, with sines and cosines computed before.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cycles: Option<u64>,
     /// Instructions and literals of the function and what it calls; not known on the host.

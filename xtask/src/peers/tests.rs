@@ -87,15 +87,15 @@ fn check(page: &str, promised: &Bars) -> Result<(), String> {
     }
     for (held, cells) in of_rows.iter_mut().zip(&bars) {
         let now: f64 = number(cells[2].trim_end_matches('×')).ok_or("no figure")?;
-        let off = (now / held.taken - 1.0).abs();
+        let off = (now / held.measured - 1.0).abs();
         // What is not a number is off as well.
         if off.is_nan() || off > ROUNDING {
             return Err(format!(
                 "{}: {now}, by the tables {:.4}",
-                held.what, held.taken
+                held.what, held.measured
             ));
         }
-        held.taken = now;
+        held.measured = now;
     }
     if let Some(wrong) = of_rows.iter().find_map(Held::complaint) {
         return Err(wrong);

@@ -102,7 +102,7 @@ fn a_run_that_ends_with_done_passes() {
 }
 
 #[test]
-fn a_crash_is_told_with_what_it_said() {
+fn a_crash_is_reported_with_its_output() {
     assert_fails(
         r"printf 'hello\0'; echo 'no such machine' >&2; exit 3",
         &["it failed", "3", "QEMU said: no such machine"],
@@ -136,7 +136,7 @@ fn a_trickle_of_junk_is_killed_by_the_clock() {
 }
 
 #[test]
-fn malformed_frames_are_told() {
+fn malformed_frames_are_reported() {
     assert_fails(
         r"printf '?bad\0'; exec sleep 100",
         &["not the defmt log", "?bad"],
@@ -154,7 +154,7 @@ fn a_silent_exit_is_no_success() {
 }
 
 #[test]
-fn a_panic_is_told_at_once() {
+fn a_panic_is_reported_at_once() {
     assert_fails(
         r"printf '!panic: out of bounds\0'; exec sleep 100",
         &["the firmware panicked: panic: out of bounds"],
@@ -182,7 +182,7 @@ fn qemu(script: &Script) -> Qemu {
     Qemu::at(program).expect("a version")
 }
 
-/// What it says when it is asked for its version, and when it loads the meter.
+/// A QEMU of this version that runs `why` in place of loading the meter.
 fn refusing(version: &str, why: &str) -> Script {
     Script::new(&format!(
         "#!/bin/sh\nif [ \"$1\" = --version ]; then echo 'QEMU emulator version {version}'; exit; fi\n{why}\n"
@@ -196,8 +196,8 @@ const REFUSES: &str =
 fn a_qemu_that_loads_the_meter_takes_it_whatever_its_version() {
     for version in ["7.2.22", "10.0.2", "99.1.0"] {
         let script = refusing(version, "read quit; exit 0");
-        let taken = qemu(&script).interface(Path::new("meter.so"));
-        assert_eq!(taken.map_err(|e| e.to_string()), Ok(None), "{version}");
+        let accepted = qemu(&script).interface(Path::new("meter.so"));
+        assert_eq!(accepted.map_err(|e| e.to_string()), Ok(None), "{version}");
     }
 }
 
@@ -211,8 +211,8 @@ fn the_version_that_a_newer_qemu_names_is_tried_before_it_is_refused() {
         ),
     );
     let qemu = qemu(&script);
-    let taken = qemu.interface(Path::new("meter.so"));
-    assert_eq!(taken.map_err(|e| e.to_string()), Ok(Some(9)));
+    let accepted = qemu.interface(Path::new("meter.so"));
+    assert_eq!(accepted.map_err(|e| e.to_string()), Ok(Some(9)));
     assert!(!qemu.is_known());
 }
 

@@ -28,7 +28,7 @@ pub fn absent_effects_cost_nothing(context: &Context) -> Result<String> {
     let elves = firmware::build_bins(workspace, tools.toolchain, RELEASE, &bins)?;
     let rows = costs::measure_bins(workspace, tools, RELEASE, &bins[..1])?;
     let image = Image::read(&elves[0])?;
-    let mut seen = Vec::new();
+    let mut outcomes = Vec::new();
     for form in ["core", "engine"] {
         let address = |inputs| row(&rows, form, inputs).map(|row| row.address);
         let (full, idle) = (address("full")?, address("idle")?);
@@ -42,15 +42,15 @@ pub fn absent_effects_cost_nothing(context: &Context) -> Result<String> {
         } else {
             ""
         };
-        seen.push(format!(
+        outcomes.push(format!(
             "{form}: {instructions} instructions the same{folded}"
         ));
     }
     let known = |inputs| row(&rows, "engine", inputs);
     let (full, friction) = (known("full_known")?, known("friction_known")?);
-    seen.push(added(context, full, friction)?);
-    seen.push(dropped(context, [&elves[1], &elves[2]])?);
-    Ok(seen.join(", "))
+    outcomes.push(added(context, full, friction)?);
+    outcomes.push(dropped(context, [&elves[1], &elves[2]])?);
+    Ok(outcomes.join(", "))
 }
 
 /// What a scene is rid of without LuGre friction.
@@ -94,13 +94,13 @@ fn row<'a>(rows: &'a [Row], form: &str, inputs: &str) -> Result<&'a Row> {
 fn added(context: &Context, full: &Row, friction: &Row) -> Result<String> {
     let bars = budgets::bars(&context.workspace)?;
     let key = format!("{}{ADDED}", friction.key());
-    let taken = friction.cycles.max.saturating_sub(full.cycles.max);
-    let held = Held::of(&bars, &key, "cycles", taken as f64)
+    let cycles = friction.cycles.max.saturating_sub(full.cycles.max);
+    let held = Held::of(&bars, &key, "cycles", cycles as f64)
         .ok_or_else(|| Error::check(format!("there is no bar {key:?}")))?;
     let most = held.most;
     match held.complaint() {
         Some(complaint) => Err(Error::check(format!("bar: {complaint}"))),
-        None => Ok(format!("friction and rotors {taken} of {most} cycles")),
+        None => Ok(format!("friction and rotors {cycles} of {most} cycles")),
     }
 }
 

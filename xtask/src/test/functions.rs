@@ -60,27 +60,27 @@ pub fn bits(context: &Context) -> Result<String> {
         .filter_map(|line| line.strip_prefix("bits hard "));
     let mut cases: Vec<_> = hard.map(|case| case.split(' ').next()).collect();
     cases.dedup();
-    let seen = cases.len();
-    refuse(seen < HARD_CASES, || {
-        format!("`bits` ran {seen} of at least {HARD_CASES} hard cases")
+    let count = cases.len();
+    refuse(count < HARD_CASES, || {
+        format!("`bits` ran {count} of at least {HARD_CASES} hard cases")
     })?;
-    Ok(format!("{there} digests, {seen} hard cases among them"))
+    Ok(format!("{there} digests, {count} hard cases among them"))
 }
 
 pub fn no_f64(context: &Context) -> Result<String> {
-    let mut seen = 0;
+    let mut count = 0;
     for measured in context.measured()? {
         let image = Image::read(&measured.elf)?;
         let reach = Reach::of(&image, |function| function.is_named(is_tick))?;
         for (function, path) in reach.functions() {
-            seen += 1;
+            count += 1;
             let unwanted = |name: &&String| is_f64(name) || is_panic(name);
             if let Some(name) = function.names.iter().find(unwanted) {
                 return Err(Error::check(format!("the tick reaches `{name}`: {path}")));
             }
         }
     }
-    Ok(format!("{seen} functions reached"))
+    Ok(format!("{count} functions reached"))
 }
 
 /// Whether a symbol is f64 arithmetic of the compiler's runtime, or trigonometry of libm: the
@@ -104,17 +104,17 @@ fn is_panic(symbol: &str) -> bool {
 }
 
 pub fn opcodes(context: &Context) -> Result<String> {
-    let mut seen = 0;
+    let mut count = 0;
     for measured in context.measured()? {
         for (function, one) in Image::read(&measured.elf)?.instructions() {
-            seen += 1;
+            count += 1;
             if one.is_beyond_m4f() {
                 let (name, code, at) = (&function.names[0], one.code, one.address);
                 return Err(Error::check(format!("`{name}` has {code:x?} at {at:#x}")));
             }
         }
     }
-    Ok(format!("{seen} instructions"))
+    Ok(format!("{count} instructions"))
 }
 
 pub fn costs(context: &Context) -> Result<String> {
@@ -154,13 +154,13 @@ pub fn constant(context: &Context) -> Result<String> {
 struct Kind {
     name: String,
     states: usize,
-    /// Whether it must cost the same each time; else its maximum is told.
+    /// Whether it must cost the same each time; else its maximum is reported.
     constant: bool,
 }
 
 /// The instructions of each kind of work.
 fn steady(kinds: &[Kind], mut samples: &[Sample]) -> Result<Vec<String>> {
-    let (mut seen, mut unsteady) = (Vec::new(), false);
+    let (mut costs, mut unsteady) = (Vec::new(), false);
     for kind in kinds {
         let (mine, rest) = samples
             .split_at_checked(kind.states)
@@ -170,7 +170,7 @@ fn steady(kinds: &[Kind], mut samples: &[Sample]) -> Result<Vec<String>> {
         let cost = Cost::of(instructions, mine.iter().map(|sample| sample.cycles))?;
         let (name, least, most) = (&kind.name, cost.instructions.min, cost.instructions.max);
         unsteady |= kind.constant && least != most;
-        seen.push(match least == most {
+        costs.push(match least == most {
             true => format!("{name} {most}"),
             false => format!("{name} {least} to {most}"),
         });
@@ -179,9 +179,9 @@ fn steady(kinds: &[Kind], mut samples: &[Sample]) -> Result<Vec<String>> {
         "the cycle meter saw more calls than were made".into()
     })?;
     refuse(unsteady, || {
-        format!("the instructions depend on the data: {}", seen.join(", "))
+        format!("the instructions depend on the data: {}", costs.join(", "))
     })?;
-    Ok(seen)
+    Ok(costs)
 }
 
 #[cfg(test)]
@@ -241,13 +241,13 @@ mod tests {
             constant,
         };
         let kinds = [kind("law", true), kind("gate", true)];
-        let told = steady(&kinds, &samples).expect_err("varies").to_string();
-        assert!(told.contains("law 5, gate 7 to 8"), "{told}");
-        let seen = steady(&kinds[..1], &samples[..2]).expect("steady");
-        assert_eq!(seen, ["law 5"]);
+        let message = steady(&kinds, &samples).expect_err("varies").to_string();
+        assert!(message.contains("law 5, gate 7 to 8"), "{message}");
+        let costs = steady(&kinds[..1], &samples[..2]).expect("steady");
+        assert_eq!(costs, ["law 5"]);
         let bounded = [kind("law", true), kind("reentry", false)];
-        let seen = steady(&bounded, &samples).expect("steady but for the bounded");
-        assert_eq!(seen, ["law 5", "reentry 7 to 8"]);
+        let costs = steady(&bounded, &samples).expect("steady but for the bounded");
+        assert_eq!(costs, ["law 5", "reentry 7 to 8"]);
         assert!(steady(&kinds[..1], &samples).is_err());
         assert!(steady(&kinds, &samples[..3]).is_err());
     }

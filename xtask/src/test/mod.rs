@@ -30,8 +30,8 @@ use crate::{accuracy, effects, eliminations, growth, hard_cases, layers, lines, 
 use Lane::{Host, Target};
 use Scope::{Everyday, Full};
 
-/// One thing that is tested: its name on the command line, its lane, which runs it belongs to, what holds if it
-/// passes, and what tests it and says what was seen, if there is something to see.
+/// One thing that is tested: its name on the command line, its lane, which runs it belongs to, the claim that holds if
+/// it passes, and the function that tests it and returns the measured figures in words, if there are any.
 type Step = (
     &'static str,
     Lane,
@@ -280,8 +280,8 @@ fn passes((name, _, _, title, run): &Step, context: &Context) -> Result<Option<b
     drop(spinner);
     let in_brackets = |text: &str| format!(" ({text})");
     let (mark, detail, passed) = match result {
-        Ok(seen) if seen.is_empty() => ("ok  ", seen, Some(true)),
-        Ok(seen) => ("ok  ", in_brackets(&seen), Some(true)),
+        Ok(detail) if detail.is_empty() => ("ok  ", detail, Some(true)),
+        Ok(detail) => ("ok  ", in_brackets(&detail), Some(true)),
         Err(Error::Skipped(why)) => ("skip", in_brackets(&why), None),
         Err(error) => ("FAIL", format!("\n{error}\n"), Some(false)),
     };

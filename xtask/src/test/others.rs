@@ -82,14 +82,14 @@ pub fn compilers(context: &Context) -> Result<String> {
     let mut wanted = vec![oldest, "stable"];
     wanted.retain(|wanted| !names.iter().any(|name| name.starts_with(wanted)));
     let lacks = |name| format!("{name} is not there: `rustup toolchain install {name}`");
-    let mut seen: Vec<String> = wanted.into_iter().map(lacks).collect();
+    let mut outcomes: Vec<String> = wanted.into_iter().map(lacks).collect();
     let mut ran = false;
     let mut done = vec![own.clone()];
     for name in names {
         let version = match shell::capture(toolchain::rustup(name, "rustc").arg("--version")) {
             Ok(version) => version.trim().to_owned(),
             Err(error) => {
-                seen.push(format!("{name}: {error}"));
+                outcomes.push(format!("{name}: {error}"));
                 continue;
             }
         };
@@ -97,7 +97,7 @@ pub fn compilers(context: &Context) -> Result<String> {
             continue;
         }
         if release(&version) < release(oldest) {
-            seen.push(format!("{version} is older than {oldest}"));
+            outcomes.push(format!("{version} is older than {oldest}"));
             continue;
         }
         let verdict = match cores(name) {
@@ -110,14 +110,14 @@ pub fn compilers(context: &Context) -> Result<String> {
                 built_by(context, name, &version, precompiled)?
             }
         };
-        seen.push(format!("{version}: {verdict}"));
+        outcomes.push(format!("{version}: {verdict}"));
         done.push(version);
     }
-    let seen = seen.join("; ");
+    let outcomes = outcomes.join("; ");
     if ran {
-        Ok(seen)
+        Ok(outcomes)
     } else {
-        skip(format!("all of this ran with {own}; {seen}"))
+        skip(format!("all of this ran with {own}; {outcomes}"))
     }
 }
 

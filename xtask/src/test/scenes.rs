@@ -66,7 +66,7 @@ pub fn determinism(context: &Context) -> Result<String> {
 }
 
 pub fn tracking(context: &Context) -> Result<String> {
-    let mut seen = Vec::new();
+    let mut outcomes = Vec::new();
     for measured in context.measured()? {
         let report = &measured.report;
         let (name, tracking) = (&report.scene, &report.tracking);
@@ -83,7 +83,7 @@ pub fn tracking(context: &Context) -> Result<String> {
             )
         })?;
         let mrad = [max, bound].map(|rad| format!("{:.2}", 1e3 * rad));
-        seen.push(format!("{name} {} mrad", mrad.join(" of ")));
+        outcomes.push(format!("{name} {} mrad", mrad.join(" of ")));
         if name != Scene::default().name() {
             continue;
         }
@@ -97,19 +97,19 @@ pub fn tracking(context: &Context) -> Result<String> {
                     "{name}, {plant} plant: feed-forward's error is {ratio:.4} of PD's, more than {largest}"
                 )
             })?;
-            seen.push(format!("{plant} {ratio:.4}"));
+            outcomes.push(format!("{plant} {ratio:.4}"));
         }
         let peak = measured.recording.peak_speed();
         refuse(peak < LEAST_PEAK_SPEED, || {
             format!("{name}: no joint is faster than {peak:.2} rad/s: too easy a trajectory")
         })?;
-        seen.push(format!("peak speed {peak:.2} rad/s"));
+        outcomes.push(format!("peak speed {peak:.2} rad/s"));
     }
-    Ok(seen.join(", "))
+    Ok(outcomes.join(", "))
 }
 
 pub fn cycles(context: &Context) -> Result<String> {
-    let mut seen = Vec::new();
+    let mut outcomes = Vec::new();
     for measured in context.measured()? {
         let (report, longest) = (&measured.report, measured.report.tick["total"].cycles.max);
         let share = longest as f64 / (f64::from(report.period_us) * CLOCK_MHZ);
@@ -119,9 +119,9 @@ pub fn cycles(context: &Context) -> Result<String> {
                 "{name}: the longest tick takes {longest} modelled cycles, {percent:.0} % of its period"
             )
         })?;
-        seen.push(format!("{name} {longest}"));
+        outcomes.push(format!("{name} {longest}"));
     }
-    Ok(seen.join(", "))
+    Ok(outcomes.join(", "))
 }
 
 pub fn budgets(context: &Context) -> Result<String> {

@@ -1,4 +1,4 @@
-//! The steps of a tick, each of which can be taken once and in its order only.
+//! The steps of a tick: each can be called once only, and only in its order.
 
 use super::super::{Command, Estimate, Fault, Mode, Reference};
 use super::{MeasurementAge, MotionController, PreviousTick};

@@ -23,7 +23,7 @@ fn trajectory() -> Trajectory<f64, 1, 2> {
 }
 
 #[test]
-fn the_way_back_leads_onto_the_trajectory_without_a_jump() {
+fn the_return_reaches_the_trajectory_without_a_jump() {
     let trajectory = trajectory();
     let start = Estimate {
         q: [trajectory.at(400).q[0] + 0.03],

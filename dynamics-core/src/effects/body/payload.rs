@@ -43,7 +43,7 @@ use core::fmt;
 pub struct Payload<R: Real, const BODY: usize>(pub SpatialInertia<R>);
 
 impl<R: Real, const BODY: usize> Payload<R, BODY> {
-    /// Of mass, centre of mass and inertia in the body's frame, taken as they are. RBDA (2.63).
+    /// The payload of this mass, centre of mass and inertia in the body's frame, unchecked. RBDA (2.63).
     pub fn from_inertia(inertia: BodyInertia<R>) -> Self {
         Self(inertia.about_origin())
     }

@@ -12,7 +12,7 @@ use dynamics_core::scalar::Real;
 use super::real;
 use super::vector::Plain;
 
-/// A number as the sum of an f32 and what rounding has taken from it: some 46 bits.
+/// A number as the sum of an f32 and its rounding error: some 46 bits.
 ///
 /// Errors are relative to the larger operand. No infinities: what overflows becomes NaN.
 ///

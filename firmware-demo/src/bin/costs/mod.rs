@@ -20,10 +20,10 @@ use dynamics_core::model::Robot;
 use dynamics_core::state::{JointTrig, State};
 use firmware_demo::target;
 
-/// States that each function is asked for.
+/// Number of states on which each function is called.
 pub const STATES: usize = 32;
 
-/// What a function may be asked for.
+/// The input of a measured function.
 pub struct Ask<const N: usize> {
     pub state: State<f32, N, N>,
     pub trig: JointTrig<f32, N>,

@@ -28,7 +28,7 @@ use firmware_demo::{drive::Scale, marker::measured, target};
 
 const N: usize = 6;
 const STATES: usize = 10_000;
-/// Ticks of the way back to full authority.
+/// Ticks of the return to full authority.
 const REENTRY: usize = 200;
 
 /// Numbers that tempt an algorithm to branch.
@@ -180,8 +180,8 @@ fn law(
     feedback(gains, reference, estimate)
 }
 
-/// The gate on what it accepts: at full authority, or, with a reset every so many ticks, on the way
-/// back to it.
+/// The gate on accepted commands: at full authority, or, with a reset every so many ticks, during the
+/// return to it.
 fn gate(noise: &mut Noise, reset: Option<usize>) {
     const SPEED: f32 = 3.2;
     const RANGE: f32 = 6.3;

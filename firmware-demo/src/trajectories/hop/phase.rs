@@ -6,7 +6,7 @@ use dynamics_core::scalar::Real;
 /// A number that moves: itself and its rates, per s and per s².
 pub(super) type Moving = [f32; 3];
 
-/// A stretch of the way with one formula.
+/// A section of the trajectory with one formula.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Phase {
     pub start: u32,

@@ -76,8 +76,8 @@ impl<R: Real> Subject<R> {
         (self.run)(&mut out);
         let mut error = 0.0;
         for (found, expected) in std::iter::zip(out.chunks(self.outputs), expected) {
-            let seen = expected.len() == self.order.iter().flatten().count();
-            if !seen || self.order.len() != self.outputs {
+            let complete = expected.len() == self.order.iter().flatten().count();
+            if !complete || self.order.len() != self.outputs {
                 return Err(format!("{} has {} outputs", self.peer, self.outputs).into());
             }
             for (found, at) in std::iter::zip(found, &self.order) {

@@ -49,7 +49,7 @@ fn main() {
     every::<Panda, 7, 7, 6>(&PANDA_PICK_AND_PLACE);
 }
 
-/// Prints a line for each effect, on the way through these points.
+/// Prints a line for each effect, along the trajectory through these points.
 fn every<T: Robot<N, N, N>, const N: usize, const W: usize, const TIP: usize>(
     points: &[WayPoint<f32, N>; W],
 ) {

@@ -28,8 +28,8 @@ enum Stance {
     Zigzag,
 }
 
-/// What was seen of one case; errors relative to the largest acceleration.
-struct Seen {
+/// The measured figures of one case; errors relative to the largest acceleration.
+struct Measured {
     condition: f64,
     matrix: Vec<f64>,
     bodies: Vec<f64>,
@@ -98,7 +98,7 @@ fn case<const B: usize, const Q: usize, const V: usize>(
     model: &Model<f64, B, Q, V>,
     stance: Stance,
 ) {
-    let mut seen = Seen {
+    let mut measured = Measured {
         condition: 0.0,
         matrix: Vec::new(),
         bodies: Vec::new(),
@@ -108,17 +108,17 @@ fn case<const B: usize, const Q: usize, const V: usize>(
     let (single, double) = (&model.to_f32(), &widened(model));
     let mut rng = random_numbers();
     for _ in 0..STATES {
-        one(single, double, stance, &mut rng, &mut seen);
+        one(single, double, stance, &mut rng, &mut measured);
     }
-    for errors in [&mut seen.matrix, &mut seen.bodies] {
+    for errors in [&mut measured.matrix, &mut measured.bodies] {
         errors.sort_by(f64::total_cmp);
     }
-    let numbers = [&seen.matrix, &seen.bodies].map(|e| [e[STATES / 2], e[STATES - 1]]);
+    let numbers = [&measured.matrix, &measured.bodies].map(|e| [e[STATES / 2], e[STATES - 1]]);
     let [[m, m_worst], [b, b_worst]] = numbers;
     let ratio = m_worst / b_worst;
     println!(
         "| {name} | {V} | {:.0e} | {m:.0e} | {m_worst:.0e} | {b:.0e} | {b_worst:.0e} | {ratio:.1} | {:.0e} |",
-        seen.condition, seen.f64s
+        measured.condition, measured.f64s
     );
 }
 
@@ -128,7 +128,7 @@ fn one<const B: usize, const Q: usize, const V: usize>(
     double: &Model<f64, B, Q, V>,
     stance: Stance,
     rng: &mut TestRng,
-    seen: &mut Seen,
+    measured: &mut Measured,
 ) {
     let mut q: [f64; Q] = within(rng, std::f64::consts::PI);
     let turn = 75.0_f64.to_radians();
@@ -161,16 +161,18 @@ fn one<const B: usize, const Q: usize, const V: usize>(
         truth = std::array::from_fn(|i| truth[i] + more[i]);
     }
     let by_bodies = aba(double, &wide, &wide_tau, &RIGID_BODY).expect("M > 0");
-    seen.f64s = largest([seen.f64s, error(&by_bodies, &truth)]);
+    measured.f64s = largest([measured.f64s, error(&by_bodies, &truth)]);
     let matrix = forward_dynamics(single, &state, &tau, &RIGID_BODY).map(|x| x.map(f64::from));
     let bodies = aba(single, &state, &tau, &RIGID_BODY).map(|x| x.map(f64::from));
-    seen.matrix
+    measured
+        .matrix
         .push(matrix.map_or(f64::INFINITY, |x| error(&x, &truth)));
-    seen.bodies
+    measured
+        .bodies
         .push(bodies.map_or(f64::INFINITY, |x| error(&x, &truth)));
     let most = eigenvalue(|x| m.mul_vec(x));
     let least = eigenvalue(|x| solved(double, &factors, x));
-    seen.condition = largest([seen.condition, most * least]);
+    measured.condition = largest([measured.condition, most * least]);
 }
 
 #[inline(never)]

@@ -11,7 +11,7 @@ use firmware_demo::hard::{Answers, Extras, GRAVITY, Revolute, answers_to, scene}
 use glam::{DMat3, Mat3, Vec3};
 use serde::{Deserialize, Serialize};
 
-/// A robot, what it carries, and what it is asked.
+/// A robot, its load, and the states at which it is evaluated.
 #[derive(Clone, Debug)]
 pub struct Setup<const N: usize> {
     /// The case's number.
@@ -24,7 +24,7 @@ pub struct Setup<const N: usize> {
     pub double: ArmModel<f64, N>,
     /// What it carries.
     pub extras: Extras<N>,
-    /// What it is asked.
+    /// The states at which it is evaluated.
     pub states: Vec<State<f32, N, N>>,
 }
 
@@ -151,8 +151,8 @@ pub fn widened<const Q: usize, const V: usize>(state: &State<f32, Q, V>) -> Stat
     }
 }
 
-/// The f32 numbers in f64, but for rotations, of which the nearest orthonormal ones are taken: what
-/// rounding leaves of a general rotation is none, and no truth can be said of it.
+/// The f32 numbers in f64, except that rotations are replaced by the nearest orthonormal ones: a general
+/// rotation is no longer one after rounding, and has no exact result.
 pub fn same_in_f64<const N: usize>(
     arm: &ArmModel<f64, N>,
     single: &ArmModel<f32, N>,

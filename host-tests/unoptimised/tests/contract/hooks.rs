@@ -225,7 +225,7 @@ fn among_all_hooks_every_one_of_them_counts() {
 }
 
 /// What a scene says of itself and what its hooks add, in numbers.
-fn seen<R: Real, E: Effect<R, 6, 3>>(scene: &E) -> Vec<f64> {
+fn observed<R: Real, E: Effect<R, 6, 3>>(scene: &E) -> Vec<f64> {
     let flags = [
         E::FIELD,
         E::ACCELERATIONS,
@@ -236,28 +236,28 @@ fn seen<R: Real, E: Effect<R, 6, 3>>(scene: &E) -> Vec<f64> {
         E::BASE_MOTION,
         E::GYROSCOPIC_ROTORS,
     ];
-    let mut seen = vec![of::<R>(E::GRAVITIES as f64)];
+    let mut numbers = vec![of::<R>(E::GRAVITIES as f64)];
     let flags = [&flags[..], &E::FIELD_AXES, &E::PAYLOAD].concat();
-    seen.extend(
+    numbers.extend(
         flags
             .into_iter()
             .map(|flag| of::<R>(f64::from(u8::from(flag)))),
     );
     let mut load = SpatialInertia::ZERO;
     scene.payload(2, &mut load);
-    seen.push(load.mass);
-    seen.extend(load.first_moment.array());
-    seen.extend(load.inertia.cols().map(Vector::array).as_flattened());
+    numbers.push(load.mass);
+    numbers.extend(load.first_moment.array());
+    numbers.extend(load.inertia.cols().map(Vector::array).as_flattened());
     let mut g = R::Vec3::ZERO;
     scene.field(&mut g);
-    seen.extend(g.array());
+    numbers.extend(g.array());
     let (mut v, mut a, mut fx) = (Motion::ZERO, Motion::ZERO, Force::ZERO);
     scene.base(&mut v, &mut a);
     let mut at = BodyState::REST;
     at.pose.pos = vec3::<R>(0.3, 0.4, 0.5);
     at.velocity = Motion::new(vec3::<R>(0.1, 0.2, 0.3), vec3::<R>(0.4, 0.5, 0.6));
     scene.wrench(2, &at, &mut fx);
-    seen.extend(
+    numbers.extend(
         [v.ang, v.lin, a.ang, a.lin, fx.ang, fx.lin]
             .map(Vector::array)
             .as_flattened(),
@@ -269,8 +269,8 @@ fn seen<R: Real, E: Effect<R, 6, 3>>(scene: &E) -> Vec<f64> {
     scene.derivatives(1, at, &mut derivatives);
     scene.add_inertia(1, &mut diagonal);
     scene.spin(1, &mut coupling);
-    seen.extend([tau, derivatives.dq, derivatives.dqd, diagonal, coupling]);
-    seen.into_iter().map(R::to_f64).collect()
+    numbers.extend([tau, derivatives.dq, derivatives.dqd, diagonal, coupling]);
+    numbers.into_iter().map(R::to_f64).collect()
 }
 
 /// What `advance` of a scene adds up to.
@@ -299,38 +299,41 @@ delegate_effect! {
 
 #[test]
 fn whatever_forwards_effects_forwards_every_hook() {
-    let direct = seen::<f32, _>(&EVERY);
+    let direct = observed::<f32, _>(&EVERY);
     // All numbers differ from what is there without the effect.
-    let none = seen::<f32, _>(&());
+    let none = observed::<f32, _>(&());
     let same = direct.iter().zip(&none).filter(|(a, b)| a == b).count();
     assert_eq!(same, 4, "{direct:?}"); // the entries of the inertia that are zero
     assert_eq!(advanced(&mut { EVERY }), 1.875);
 
-    assert_eq!(seen::<f32, _>(&((), (EVERY,))), direct);
+    assert_eq!(observed::<f32, _>(&((), (EVERY,))), direct);
     assert_eq!(advanced(&mut ((), (EVERY,))), 1.875);
-    assert_eq!(seen::<f32, _>(&Wrapper(EVERY)), direct);
+    assert_eq!(observed::<f32, _>(&Wrapper(EVERY)), direct);
     assert_eq!(advanced(&mut Wrapper(EVERY)), 1.875);
-    assert_eq!(seen::<f32, _>(&Toggle::<true>(EVERY)), direct);
+    assert_eq!(observed::<f32, _>(&Toggle::<true>(EVERY)), direct);
     assert_eq!(advanced(&mut Toggle::<true>(EVERY)), 1.875);
     // What the demo's laws leave out, and what they keep.
-    assert_eq!(seen::<f32, _>(&Without::<_, 0>(((), EVERY))), direct);
+    assert_eq!(observed::<f32, _>(&Without::<_, 0>(((), EVERY))), direct);
 }
 
 #[test]
 fn a_forwarder_that_is_off_forwards_nothing() {
-    assert_eq!(seen::<f32, _>(&Toggle::<false>(EVERY)), seen::<f32, _>(&()));
+    assert_eq!(
+        observed::<f32, _>(&Toggle::<false>(EVERY)),
+        observed::<f32, _>(&())
+    );
     assert_eq!(advanced(&mut Toggle::<false>(EVERY)), 0.0);
     assert_eq!(
-        seen::<f32, _>(&Without::<_, 1>(((), EVERY))),
-        seen::<f32, _>(&())
+        observed::<f32, _>(&Without::<_, 1>(((), EVERY))),
+        observed::<f32, _>(&())
     );
 }
 
 #[test]
 fn an_implicit_step_of_no_length_forwards_every_hook() {
     let robot = Static::<TwoHands>::NEW;
-    let implicit = seen::<f64, _>(&Implicit::new(&robot, &MOVING, &EVERY, 0.0));
-    let direct = seen::<f64, _>(&EVERY);
+    let implicit = observed::<f64, _>(&Implicit::new(&robot, &MOVING, &EVERY, 0.0));
+    let direct = observed::<f64, _>(&EVERY);
     assert_eq!(implicit, direct);
 }
 

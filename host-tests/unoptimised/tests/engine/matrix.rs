@@ -16,7 +16,7 @@ use proptest::test_runner::{RngAlgorithm, TestRng};
 
 const ROTORS: Armature<f64, 7> = Armature([0.2, 0.1, 0.3, 0.05, 0.15, 0.4, 0.25]);
 
-/// A number from −1 to 1, times what it is asked for.
+/// Random numbers from −1 to 1, times the requested scale.
 struct Random(TestRng);
 
 impl Random {

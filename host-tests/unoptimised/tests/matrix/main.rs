@@ -86,17 +86,17 @@ fn entries<R: Real, const V: usize>(m: &MassMatrix<R, V>) -> Vec<R> {
     (0..V).flat_map(|i| *m.row(i).expect("a row")).collect()
 }
 
-/// What a body's velocity is, seen by an effect.
+/// A body's velocity as an effect receives it.
 struct Witness<R: Real> {
     body: usize,
-    seen: Cell<Motion<R>>,
+    observed: Cell<Motion<R>>,
 }
 
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Witness<R> {
     const EXTERNAL_WRENCH: hook::Wrench<Self, R> =
         hook::Wrench::of_velocity(|witness, body, at, _| {
             if body == witness.body {
-                witness.seen.set(at.velocity);
+                witness.observed.set(at.velocity);
             }
         });
 }
@@ -143,11 +143,11 @@ fn matrix<R: Real, const B: usize, const Q: usize, const V: usize>(
     for (column, &qd) in jacobian.iter().zip(&state.qd) {
         velocity += *column * qd;
     }
-    let seen = Cell::new(Motion::ZERO);
-    let witness = (Witness { body, seen },);
+    let observed = Cell::new(Motion::ZERO);
+    let witness = (Witness { body, observed },);
     let _ = rnea(model, state, &witness);
     let numbers = |m: Motion<R>| [m.ang.array(), m.lin.array()].concat();
-    let want = numbers(witness.0.seen.get());
+    let want = numbers(witness.0.observed.get());
     worst.plain("Jacobian", &numbers(velocity), &want);
 }
 

@@ -35,24 +35,29 @@ pub struct Bench<const N: usize> {
     full_scale: f64,
     /// How far the oracle itself is off, N·m: smaller errors are given as that.
     floor: f64,
-    states: Vec<Asked<N>>,
-    way: Vec<Asked<N>>,
+    states: Vec<Problem<N>>,
+    way: Vec<Problem<N>>,
 }
 
-/// Where the joints are to be, and the torques of it.
-pub struct Asked<const N: usize> {
+/// A desired motion of the joints, and its exact torques.
+pub struct Problem<const N: usize> {
     pub course: ElasticReference<f32, N, N>,
     pub truth: [f64; N],
 }
 
 impl<const N: usize> Visitor<N> for Bench<N> {
     fn way<W: Inverse<N>>(&mut self) {
-        let run = |asked: &[Asked<N>]| {
-            let mut way = W::start(&asked[0].course.state);
-            Errors::of(asked.iter().enumerate().map(|(k, Asked { truth, .. })| {
-                let given = &asked[(k + W::AHEAD).min(asked.len() - 1)];
-                (W::torque(way.tick(&W::input(&given.course))), *truth)
-            }))
+        let run = |problems: &[Problem<N>]| {
+            let mut way = W::start(&problems[0].course.state);
+            Errors::of(
+                problems
+                    .iter()
+                    .enumerate()
+                    .map(|(k, Problem { truth, .. })| {
+                        let given = &problems[(k + W::AHEAD).min(problems.len() - 1)];
+                        (W::torque(way.tick(&W::input(&given.course))), *truth)
+                    }),
+            )
         };
         let states = !W::MEMORY && !self.states.is_empty();
         let line = json!({
@@ -93,19 +98,19 @@ pub fn print<T: Compared<B, N, W>, const B: usize, const N: usize, const W: usiz
         "sample": precise.states.len(),
     });
     off.print(T::MODEL.name, "oracle", [full_scale, 0.0], oracle);
-    let asked = |state| Asked {
+    let labelled = |state| Problem {
         course: momentary(state),
         truth: ours(&state),
     };
     let way = T::way().expect("the robot can go there");
     let ticks = 0..=way.ticks() + REST;
     let way: Vec<_> = ticks
-        .map(|tick| asked(way.at(tick.saturating_sub(REST))))
+        .map(|tick| labelled(way.at(tick.saturating_sub(REST))))
         .collect();
     yardsticks::print::<T, B, N>(full_scale, &way);
     speed::print::<T, B, N>(full_scale);
     let mut random = random_numbers();
-    let more = (0..MORE_STATES).map(|_| asked(drawn(&mut random, [PI, 3.0, 10.0])));
+    let more = (0..MORE_STATES).map(|_| labelled(drawn(&mut random, [PI, 3.0, 10.0])));
     ways(&mut Bench {
         kind: "inverse",
         robot: T::MODEL.name,
@@ -124,7 +129,7 @@ where
     T: Compared<N, N, W> + Swung<N>,
 {
     let swing = T::swing().expect("the arm can swing there");
-    let asked = |tick| {
+    let labelled = |tick| {
         let course = swing.course(tick);
         let double = ElasticReference {
             state: widened(&course.state),
@@ -133,7 +138,7 @@ where
         };
         let motors =
             elastic_inverse_dynamics(&Static::<T>::NEW, &T::joints(), &double, &RIGID_BODY);
-        Asked {
+        Problem {
             course,
             truth: motors.expect("joints of one freedom").torque,
         }
@@ -145,22 +150,22 @@ where
         full_scale: full_scale(&recorded_states::<N>(T::RECORDED)),
         floor: 0.0,
         states: Vec::new(),
-        way: (0..=swing.ticks()).map(asked).collect(),
+        way: (0..=swing.ticks()).map(labelled).collect(),
     });
 }
 
-fn full_scale<const N: usize>(recorded: &[Asked<N>]) -> f64 {
-    let truths = recorded.iter().flat_map(|asked| asked.truth);
+fn full_scale<const N: usize>(recorded: &[Problem<N>]) -> f64 {
+    let truths = recorded.iter().flat_map(|problem| problem.truth);
     truths.fold(0.0, |most, tau| most.max(tau.abs()))
 }
 
-fn recorded_states<const N: usize>(name: &str) -> Vec<Asked<N>> {
+fn recorded_states<const N: usize>(name: &str) -> Vec<Problem<N>> {
     let recording = load(name);
     let first = |rows: &[Vec<f64>], k: usize| -> [f64; N] { std::array::from_fn(|j| rows[k][j]) };
     let state = |k| {
         let [q, qd, qdd] = [&recording.q, &recording.qd, &recording.qdd]
             .map(|rows| first(rows, k).map(|x| x as f32));
-        Asked {
+        Problem {
             course: momentary(State { q, qd, qdd }),
             truth: first(&recording.rnea, k),
         }

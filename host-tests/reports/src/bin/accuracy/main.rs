@@ -22,8 +22,8 @@ use dynamics_core::robots::{A1Leg, Panda, Ur5e};
 use firmware_demo::accuracy::list;
 
 fn main() {
-    let asked: Vec<String> = std::env::args().skip(1).collect();
-    let wanted = |name: &str| asked.is_empty() || asked.iter().any(|robot| robot == name);
+    let requested: Vec<String> = std::env::args().skip(1).collect();
+    let wanted = |name: &str| requested.is_empty() || requested.iter().any(|robot| robot == name);
     if wanted("ur5e") {
         inverse::print::<Ur5e, 6, 6, 9>(list::inverse::<Ur5e, 6, 6>);
         inverse::print_compliant::<Ur5e, 6, 9>();

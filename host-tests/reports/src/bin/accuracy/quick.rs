@@ -15,8 +15,8 @@ use firmware_demo::accuracy::list;
 
 macro_rules! print {
     ($($robot:ident, $b:literal, $n:literal, $w:literal, $name:ident;)*) => {
-        let asked: Vec<String> = std::env::args().skip(1).collect();
-        $(if asked.is_empty() || asked.iter().any(|robot| robot == stringify!($name)) {
+        let requested: Vec<String> = std::env::args().skip(1).collect();
+        $(if requested.is_empty() || requested.iter().any(|robot| robot == stringify!($name)) {
             inverse::print::<$robot, $b, $n, $w>(|bench| {
                 list::single::<$robot, $b, $n>(bench);
                 bench.kind = "pasted";

@@ -71,19 +71,19 @@ impl<const N: usize> Visitor<N> for Bench<N> {
         let seconds = if damped { 1 } else { WATCHED };
         for step in STEPS {
             let mut run = S::start();
-            let start = total(run.seen());
+            let start = total(run.measured());
             let (mut errors, mut drift) = (Errors::default(), Errors::default());
             let mut failed = false;
             for sample in 0..seconds * SECOND {
                 for _ in 0..SAMPLE / step {
                     failed |= run.step(f64::from(step) * 1e-6).is_err();
                 }
-                let seen = run.seen();
+                let measured = run.measured();
                 if let Some(truth) = truth.get(sample) {
-                    errors.add(&seen[0], &truth[0]);
+                    errors.add(&measured[0], &truth[0]);
                 }
                 let want = if damped { total(truth[sample]) } else { start };
-                drift.add(&[total(seen)], &[want]);
+                drift.add(&[total(measured)], &[want]);
             }
             let [kinetic, angle] = self.scales;
             let mut configuration = object(&S::KEY.axes());

@@ -1,4 +1,4 @@
-//! What else is off: the torque errors that measuring and identifying leave, beside which those of computing are seen.
+//! Other torque errors, those of measurement and identification, for comparison with those of the computation.
 //!
 //! Along the robot's way, in f64, so that nothing of the computation is in them.
 
@@ -11,7 +11,7 @@ use dynamics_core::model::{Calibrated, Robot, model};
 use host_tests::random::{random_numbers, within};
 use serde_json::json;
 
-use super::inverse::Asked;
+use super::inverse::Problem;
 use super::statistics::{Errors, widened};
 
 /// Drawings of parameters that are off.
@@ -22,7 +22,10 @@ const DRAWINGS: usize = 20;
 const FRICTION: f64 = 0.1;
 
 /// Prints a line for each of them.
-pub fn print<T: Robot<B, N, N>, const B: usize, const N: usize>(full_scale: f64, way: &[Asked<N>]) {
+pub fn print<T: Robot<B, N, N>, const B: usize, const N: usize>(
+    full_scale: f64,
+    way: &[Problem<N>],
+) {
     let line = |key: &str, what: &str, errors: &Errors| {
         let line = json!({"key": key, "what": what});
         errors.print(T::MODEL.name, "yardstick", [full_scale, 0.0], line);
@@ -50,11 +53,11 @@ pub fn print<T: Robot<B, N, N>, const B: usize, const N: usize>(full_scale: f64,
 }
 
 fn encoder<T: Robot<B, N, N>, const B: usize, const N: usize>(
-    way: &[Asked<N>],
+    way: &[Problem<N>],
     bits: u32,
 ) -> Errors {
     let step = TAU / f64::from(1_u32 << bits);
-    Errors::of(way.iter().map(|Asked { course, truth }| {
+    Errors::of(way.iter().map(|Problem { course, truth }| {
         let mut state = widened(&course.state);
         state.q = state.q.map(|q| (q / step).round() * step);
         (Core::<T>::rnea(&state, &RIGID_BODY), *truth)
@@ -63,7 +66,7 @@ fn encoder<T: Robot<B, N, N>, const B: usize, const N: usize>(
 
 /// Of the drawing with the largest RMS.
 fn inertial<T: Robot<B, N, N>, const B: usize, const N: usize>(
-    way: &[Asked<N>],
+    way: &[Problem<N>],
     share: f64,
 ) -> Errors {
     let mut random = random_numbers();
@@ -75,7 +78,7 @@ fn inertial<T: Robot<B, N, N>, const B: usize, const N: usize>(
             inertia.first_moment *= moment;
             inertia.inertia *= second;
         }
-        Errors::of(way.iter().step_by(10).map(|Asked { course, truth }| {
+        Errors::of(way.iter().step_by(10).map(|Problem { course, truth }| {
             (rnea(&robot, &widened(&course.state), &RIGID_BODY), *truth)
         }))
     });
@@ -84,14 +87,14 @@ fn inertial<T: Robot<B, N, N>, const B: usize, const N: usize>(
         .expect("some drawings")
 }
 
-fn friction<T: Robot<B, N, N>, const B: usize, const N: usize>(way: &[Asked<N>]) -> Errors {
+fn friction<T: Robot<B, N, N>, const B: usize, const N: usize>(way: &[Problem<N>]) -> Errors {
     let mut per_speed = [0.0; N];
     for link in &model::<f64, T, B, N, N>().links {
         if let Some(per_speed) = per_speed.get_mut(link.v_at) {
             *per_speed = 0.1 * FRICTION * link.limits.torque / link.limits.velocity;
         }
     }
-    Errors::of(way.iter().map(|Asked { course, truth }| {
+    Errors::of(way.iter().map(|Problem { course, truth }| {
         let with = |j| truth[j] + per_speed[j] * f64::from(course.state.qd[j]);
         (std::array::from_fn(with), *truth)
     }))

@@ -264,7 +264,7 @@ fn torques(points: &[Point], host: &Host, robot: Robot) -> String {
     if !elastic.is_empty() {
         let table = table(&elastic, "configuration", &[COSTS, ERRORS].concat()).markdown();
         text += &format!(
-            "### MotorState' torques on elastic joints, along a smooth swing\n\n{table}\n"
+            "### Motors' torques on elastic joints, along a smooth swing\n\n{table}\n"
         );
     }
     let mut off = Table::new(&["what is off", "max, N·m", "99 %", "RMS", "of full scale"]);

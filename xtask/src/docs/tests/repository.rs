@@ -53,7 +53,8 @@ fn is_generated(name: &str) -> bool {
 #[test]
 fn every_generated_file_is_compared_in_a_step_or_says_why_not() {
     let mut there = below("docs");
-    there.retain(|name| is_generated(name));
+    // The guide is written by hand, its programs included.
+    there.retain(|name| !name.starts_with("docs/guide/") && is_generated(name));
     there.push("README.md".into());
     there.sort();
     let listed: Vec<&str> = FILES.iter().map(|(name, _)| *name).collect();

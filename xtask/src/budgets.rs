@@ -250,6 +250,8 @@ impl Budgets {
             } else {
                 &mut bars
             };
+            // Whole numbers as people write them.
+            let value = value.to_string().replace(".0,", ",").replace(".0 }", " }");
             *section += &format!("{key:?} = {value}\n");
         }
         let costs = self.costs.as_ref().map_or_else(String::new, Rows::toml);

@@ -263,9 +263,8 @@ fn torques(points: &[Point], host: &Host, robot: Robot) -> String {
     elastic.retain(|point| point.on("opt") == "3");
     if !elastic.is_empty() {
         let table = table(&elastic, "configuration", &[COSTS, ERRORS].concat()).markdown();
-        text += &format!(
-            "### Motors' torques on elastic joints, along a smooth swing\n\n{table}\n"
-        );
+        text +=
+            &format!("### Motors' torques on elastic joints, along a smooth swing\n\n{table}\n");
     }
     let mut off = Table::new(&["what is off", "max, N·m", "99 %", "RMS", "of full scale"]);
     for line in host.yardsticks.iter().filter(own) {

@@ -31,6 +31,24 @@ fn skip<T>(why: impl Into<String>) -> Result<T> {
     Err(Error::Skipped(why.into()))
 }
 
+/// The oldest compiler, as the library's manifest promises it.
+const MSRV: &str = "1.88.0";
+
+/// The library with the oldest compiler, which rustup installs if it is not there.
+pub fn msrv(context: &Context) -> Result<String> {
+    let list = shell::capture(Command::new("rustup").args(["toolchain", "list"]));
+    let list = list.or_else(|_| skip("there is no rustup"))?;
+    if !list.contains(MSRV) && !context.options.no_install {
+        let install = "toolchain install --profile minimal --no-self-update".split(' ');
+        shell::capture(Command::new("rustup").args(install).arg(MSRV))
+            .or_else(|_| skip(format!("{MSRV} is not there")))?;
+    }
+    let check = "check --package dynamics-core --all-features --target-dir target/msrv".split(' ');
+    let mut cargo = toolchain::rustup(MSRV, "cargo");
+    shell::capture(cargo.current_dir(&context.workspace.root).args(check))?;
+    Ok(format!("rustc {MSRV}"))
+}
+
 pub fn debian(context: &Context) -> Result<String> {
     if context.tools.toolchain == Toolchain::Debian {
         return skip("all of this ran with it");
@@ -290,5 +308,12 @@ mod tests {
             let error = same("x", &here, &there).expect_err(why).to_string();
             assert!(error.contains(why), "{error}");
         }
+    }
+
+    #[test]
+    fn the_oldest_compiler_is_the_one_that_the_manifest_promises() {
+        let manifest = include_str!("../../../dynamics-core/Cargo.toml");
+        let promised = super::MSRV.trim_end_matches(".0");
+        assert!(manifest.contains(&format!("rust-version = \"{promised}\"")));
     }
 }

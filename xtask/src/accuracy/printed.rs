@@ -30,7 +30,7 @@ pub fn write(workspace: &Workspace) -> Result<PathBuf> {
     let points = recorded::read(workspace)?;
     let file = workspace.target.join("accuracy_printed.rs");
     let mut text = String::from(
-        "use dynamics_core::{drivetrain::Course, state::State};\nuse firmware_demo::accuracy::{Inverse, Visitor, key::Key};\n",
+        "use dynamics_core::{drivetrain::ElasticReference, state::State};\nuse firmware_demo::accuracy::{Inverse, Visitor, key::Key};\n",
     );
     for (robot, n) in [("ur5e", 6), ("panda", 7), ("a1_leg", 3)] {
         let samples = points
@@ -96,7 +96,7 @@ impl Inverse<{n}> for Way {{
     type Input = State<f32, {n}, {n}>;
     type Scalar = f32;
     fn start(first: &State<f32, {n}, {n}>) -> Self {{ Self({start}) }}
-    fn input(course: &Course<f32, {n}, {n}>) -> Self::Input {{ course.state }}
+    fn input(course: &ElasticReference<f32, {n}, {n}>) -> Self::Input {{ course.state }}
     #[inline(always)]
     fn tick(&mut self, state: &Self::Input) -> [f32; {n}] {{ {tick} }}
     fn address() -> usize {{ {address} as usize }}

@@ -90,7 +90,7 @@ fn inertial<T: Robot<B, N, N>, const B: usize, const N: usize>(
 fn friction<T: Robot<B, N, N>, const B: usize, const N: usize>(way: &[Problem<N>]) -> Errors {
     let mut per_speed = [0.0; N];
     for link in &model::<f64, T, B, N, N>().links {
-        if let Some(per_speed) = per_speed.get_mut(link.v_at) {
+        if let Some(per_speed) = per_speed.get_mut(link.idx_v) {
             *per_speed = 0.1 * FRICTION * link.limits.torque / link.limits.velocity;
         }
     }

@@ -61,8 +61,10 @@
 //! const _: usize = ARM.links.len();
 //! ```
 
+mod aligned;
 mod body;
 mod cast;
+mod check;
 mod error;
 mod floating_base;
 mod inertia;
@@ -83,7 +85,7 @@ pub use joint_kinematics::LinkView;
 pub use pruned::Pruned;
 pub use source::{AllRevolute, Calibrated, RobotModel, Static};
 
-use crate::math::const_eval::{add, dot, mul, mul_vec, scale, transpose, vec3};
+use self::aligned::{aligned, is_finite};
 use crate::scalar::Real;
 use crate::spatial::{SpatialInertia, Xform};
 use glam::{DMat3, DVec3};
@@ -215,10 +217,10 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
             link.idx_v = if nv == 0 { BASE } else { idx_v };
             links[i] = link;
             kinds = kinds.with(link.joint.kind);
-            let (mut above, mut k) = (last_coordinate(&links, body.parent), 0);
+            let (mut parent, mut k) = (last_coordinate(&links, body.parent), 0);
             while k < nv && idx_v + k < V {
-                lambda[idx_v + k] = above;
-                above = idx_v + k;
+                lambda[idx_v + k] = parent;
+                parent = idx_v + k;
                 k += 1;
             }
             idx_q += nq;
@@ -263,13 +265,13 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
     /// robot's last bit where an axis is none of x, y, z.
     pub fn in_link_frame(&self, i: usize) -> (Xform<f64>, SpatialInertia<f64>) {
         let link = &self.links[i];
-        let (back, above) = match self.links.get(link.parent) {
+        let (back, parent) = match self.links.get(link.parent) {
             Some(parent) => (link.frame.transpose(), parent.frame),
             None => (link.frame.transpose(), DMat3::IDENTITY),
         };
         let placement = Xform {
-            rot: back * link.placement.rot * above,
-            pos: above.transpose() * link.placement.pos,
+            rot: back * link.placement.rot * parent,
+            pos: parent.transpose() * link.placement.pos,
         };
         let inertia = SpatialInertia {
             mass: link.inertia.mass,
@@ -277,88 +279,6 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
             inertia: back * link.inertia.inertia * link.frame,
         };
         (placement, inertia)
-    }
-}
-
-impl<R: Real, const B: usize, const Q: usize, const V: usize> Model<R, B, Q, V> {
-    /// The number of the body of this name, for [`crate::effects::Payload`] and [`crate::Engine::jacobian`].
-    ///
-    /// ```
-    /// use dynamics_core::{model::Robot, robots::Panda};
-    /// const HAND: usize = Panda::MODEL.body("link7");
-    /// assert_eq!(HAND, 6);
-    /// ```
-    ///
-    /// A name that no body has does not compile:
-    ///
-    /// ```compile_fail,E0080
-    /// use dynamics_core::{model::Robot, robots::Panda};
-    /// const HAND: usize = Panda::MODEL.body("hnad"); // error: no body of the robot has the name `hnad`
-    /// # let _ = HAND;
-    /// ```
-    ///
-    /// # Panics
-    /// Unless exactly one body has the name. Meant for `const` items, where a panic is a compile error.
-    pub const fn body(&self, name: &str) -> usize {
-        let (mut found, mut i) = (BASE, 0);
-        while i < B {
-            if same(self.links[i].name, name) {
-                if found != BASE {
-                    error::panic(&["several bodies of the robot have the name `", name, "`"]);
-                }
-                found = i;
-            }
-            i += 1;
-        }
-        if found == BASE {
-            error::panic(&["no body of the robot has the name `", name, "`"]);
-        }
-        found
-    }
-
-    /// Whether every inertia could be that of a body: none without mass, symmetric, with principal moments (about the
-    /// centre of mass) that are not negative and obey the triangle inequality, all within `relative`; and whether
-    /// every body has a name of its own.
-    ///
-    /// Published robots break it (PUMA 560) or pass by a hair (Panda), and have to run all the
-    /// same: hence a check, not a condition. In f32 rounding alone exceeds it by some 10⁻⁶.
-    ///
-    /// # Errors
-    /// [`Problem::Asymmetric`] or [`Problem::Triangle`] with the body's name and the amount: by how much the
-    /// largest moment exceeds the sum of the others, relative to that moment; [`Problem::Massless`],
-    /// [`Problem::Name`].
-    pub fn check(&self, relative: f64) -> Result<(), ModelError> {
-        for link in &self.links {
-            let wrong = |problem| ModelError {
-                body: link.name,
-                problem,
-            };
-            if body::is_massless(&link.inertia) {
-                return Err(wrong(Problem::Massless));
-            }
-            let skew = body::asymmetry(&link.inertia);
-            if skew > relative || skew.is_nan() {
-                return Err(wrong(Problem::Asymmetric(skew)));
-            }
-            let excess = body::triangle_excess(&link.inertia);
-            if excess > relative || excess.is_nan() {
-                return Err(wrong(Problem::Triangle(excess)));
-            }
-        }
-        for (i, link) in self.links.iter().enumerate() {
-            if self
-                .links
-                .iter()
-                .take(i)
-                .any(|other| other.name == link.name)
-            {
-                return Err(ModelError {
-                    body: link.name,
-                    problem: Problem::Name,
-                });
-            }
-        }
-        Ok(())
     }
 }
 
@@ -382,57 +302,6 @@ pub const EMPTY: Link<f64> = Link {
     limits: JointLimits::NONE,
 };
 
-/// The body in its aligned frame, after those of `links` before it; its coordinates are not set.
-const fn aligned<const B: usize>(body: &Body, links: &[Link<f64>; B]) -> Link<f64> {
-    let joint = body.joint.normalised();
-    let frame = joint.frame();
-    let above = if body.parent == BASE {
-        DMat3::IDENTITY
-    } else {
-        links[body.parent].frame
-    };
-    let rot = mul(&mul(&frame, &transpose(&body.rotation)), &transpose(&above));
-    let pos = mul_vec(&above, vec3(body.position));
-    let inertia = at_origin(body);
-    Link {
-        name: body.name,
-        parent: body.parent,
-        joint,
-        frame,
-        placement: Xform { rot, pos },
-        inertia: SpatialInertia {
-            mass: inertia.mass,
-            first_moment: mul_vec(&frame, inertia.first_moment),
-            inertia: mul(&mul(&frame, &inertia.inertia), &transpose(&frame)),
-        },
-        idx_q: BASE,
-        idx_v: BASE,
-        limits: body.limits,
-    }
-}
-
-/// Whether two names are the same.
-const fn same(a: &str, b: &str) -> bool {
-    let (a, b) = (a.as_bytes(), b.as_bytes());
-    let mut i = 0;
-    while i < a.len() && i < b.len() && a[i] == b[i] {
-        i += 1;
-    }
-    i == a.len() && i == b.len()
-}
-
-/// Whether what was computed of a description is finite: numbers of 10¹⁵⁴ have squares that are not.
-const fn is_finite(link: &Link<f64>) -> bool {
-    // x·0 is 0 for finite x and NaN otherwise; a sum of such products is 0 or NaN.
-    let (inertia, none) = (&link.inertia.inertia, DVec3::ZERO);
-    let sum = dot(link.placement.pos, none)
-        + dot(link.inertia.first_moment, none)
-        + dot(inertia.x_axis, none)
-        + dot(inertia.y_axis, none)
-        + dot(inertia.z_axis, none);
-    sum == 0.0
-}
-
 /// The last velocity coordinate of the nearest joint that has one, from body `at` to the base.
 const fn last_coordinate<const B: usize>(links: &[Link<f64>; B], mut at: usize) -> usize {
     while at != BASE {
@@ -443,24 +312,4 @@ const fn last_coordinate<const B: usize>(links: &[Link<f64>; B], mut at: usize) 
         at = links[at].parent;
     }
     BASE
-}
-
-/// The parallel-axis theorem, RBDA (2.63): Ī_O = Ī_C + m (c·c 1 − c cᵀ).
-const fn at_origin(body: &Body) -> SpatialInertia<f64> {
-    let (c, [xx, xy, xz, yy, yz, zz]) = (vec3(body.com), body.inertia);
-    let cc = dot(c, c);
-    SpatialInertia {
-        mass: body.mass,
-        first_moment: scale(c, body.mass),
-        inertia: DMat3::from_cols(
-            add(DVec3::new(xx, xy, xz), parallel(body.mass, DVec3::X, c, cc)),
-            add(DVec3::new(xy, yy, yz), parallel(body.mass, DVec3::Y, c, cc)),
-            add(DVec3::new(xz, yz, zz), parallel(body.mass, DVec3::Z, c, cc)),
-        ),
-    }
-}
-
-/// m (c·c e − c (c·e)), a column of the parallel-axis term.
-const fn parallel(mass: f64, e: DVec3, c: DVec3, cc: f64) -> DVec3 {
-    scale(add(scale(e, cc), scale(c, -dot(c, e))), mass)
 }

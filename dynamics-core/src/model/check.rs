@@ -1,0 +1,96 @@
+//! Questions about a finished model: the number of a body by its name, and whether its inertias are physical.
+
+use super::{BASE, Model, ModelError, Problem, body, error};
+use crate::scalar::Real;
+
+impl<R: Real, const B: usize, const Q: usize, const V: usize> Model<R, B, Q, V> {
+    /// The number of the body of this name, for [`crate::effects::Payload`] and [`crate::Engine::jacobian`].
+    ///
+    /// ```
+    /// use dynamics_core::{model::Robot, robots::Panda};
+    /// const HAND: usize = Panda::MODEL.body("link7");
+    /// assert_eq!(HAND, 6);
+    /// ```
+    ///
+    /// A name that no body has does not compile:
+    ///
+    /// ```compile_fail,E0080
+    /// use dynamics_core::{model::Robot, robots::Panda};
+    /// const HAND: usize = Panda::MODEL.body("hnad"); // error: no body of the robot has the name `hnad`
+    /// # let _ = HAND;
+    /// ```
+    ///
+    /// # Panics
+    /// Unless exactly one body has the name. Meant for `const` items, where a panic is a compile error.
+    pub const fn body(&self, name: &str) -> usize {
+        let (mut found, mut i) = (BASE, 0);
+        while i < B {
+            if same(self.links[i].name, name) {
+                if found != BASE {
+                    error::panic(&["several bodies of the robot have the name `", name, "`"]);
+                }
+                found = i;
+            }
+            i += 1;
+        }
+        if found == BASE {
+            error::panic(&["no body of the robot has the name `", name, "`"]);
+        }
+        found
+    }
+
+    /// Whether every inertia could be that of a body: none without mass, symmetric, with principal moments (about the
+    /// centre of mass) that are not negative and obey the triangle inequality, all within `relative`; and whether
+    /// every body has a name of its own.
+    ///
+    /// Published robots break it (PUMA 560) or pass by a hair (Panda), and have to run all the
+    /// same: hence a check, not a condition. In f32 rounding alone exceeds it by some 10⁻⁶.
+    ///
+    /// # Errors
+    /// [`Problem::Asymmetric`] or [`Problem::Triangle`] with the body's name and the amount: by how much the
+    /// largest moment exceeds the sum of the others, relative to that moment; [`Problem::Massless`],
+    /// [`Problem::Name`].
+    pub fn check(&self, relative: f64) -> Result<(), ModelError> {
+        for link in &self.links {
+            let wrong = |problem| ModelError {
+                body: link.name,
+                problem,
+            };
+            if body::is_massless(&link.inertia) {
+                return Err(wrong(Problem::Massless));
+            }
+            let skew = body::asymmetry(&link.inertia);
+            if skew > relative || skew.is_nan() {
+                return Err(wrong(Problem::Asymmetric(skew)));
+            }
+            let excess = body::triangle_excess(&link.inertia);
+            if excess > relative || excess.is_nan() {
+                return Err(wrong(Problem::Triangle(excess)));
+            }
+        }
+        for (i, link) in self.links.iter().enumerate() {
+            if self
+                .links
+                .iter()
+                .take(i)
+                .any(|other| other.name == link.name)
+            {
+                return Err(ModelError {
+                    body: link.name,
+                    problem: Problem::Name,
+                });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Whether two names are the same.
+const fn same(a: &str, b: &str) -> bool {
+    let (a, b) = (a.as_bytes(), b.as_bytes());
+    let mut i = 0;
+    while i < a.len() && i < b.len() && a[i] == b[i] {
+        i += 1;
+    }
+    i == a.len() && i == b.len()
+}

@@ -40,7 +40,7 @@ pub trait Law<const V: usize, X = ()> {
     const ACCELERATES: bool = true;
 
     /// The torque for the reference, N·m or N.
-    fn feedforward(reference: &State<f32, V, V>, around: &X) -> [f32; V];
+    fn feedforward(reference: &State<f32, V, V>, environment: &X) -> [f32; V];
 }
 
 /// What a tick did, for whoever logs it.
@@ -60,7 +60,7 @@ pub struct Telemetry<const V: usize> {
     pub frame: Option<FrameError>,
 }
 
-/// The control loop of a robot with V joints: its devices around a [`MotionController`].
+/// The control loop of a robot with V joints: its devices and a [`MotionController`].
 #[derive(Debug)]
 pub struct ControlLoop<Spi, Pwm, Brake, const V: usize> {
     encoders: [Encoder<Spi>; V],
@@ -103,7 +103,7 @@ where
     pub fn tick<L: Law<V, X>, T: Reference<f32, V>, X>(
         &mut self,
         trajectory: &T,
-        around: &X,
+        environment: &X,
     ) -> Telemetry<V> {
         measured::<{ region::TICK }, _>(|| {
             let (encoders, controller) = (&mut self.encoders, &mut self.controller);
@@ -115,7 +115,7 @@ where
             }
             let clock = tick.trajectory_tick();
             let torque = measured::<{ region::DYNAMICS }, _>(|| {
-                torque::<L, X, V>(&self.gains, tick.reference(), tick.estimate(), around)
+                torque::<L, X, V>(&self.gains, tick.reference(), tick.estimate(), environment)
             });
             let command = measured::<{ region::SAFETY }, _>(|| tick.command(&torque));
             measured::<{ region::WRITE }, _>(|| self.write(&command.torque, command.brake));
@@ -199,9 +199,9 @@ fn torque<L: Law<V, X>, X, const V: usize>(
     gains: &Gains<f32, V>,
     reference: &State<f32, V, V>,
     estimate: &Estimate<f32, V>,
-    around: &X,
+    environment: &X,
 ) -> [f32; V] {
-    let mut tau = L::feedforward(reference, around);
+    let mut tau = L::feedforward(reference, environment);
     let pd = feedback(gains, reference, estimate);
     for (tau, pd) in tau.iter_mut().zip(pd) {
         *tau += pd;

@@ -14,7 +14,7 @@ mod flexible;
 
 pub use flexible::FlexiblePlant;
 
-/// A simulated robot of which N joints are driven and have encoders; `X` is what goes on around it.
+/// A simulated robot of which N joints are driven and have encoders; `X` is the state of its environment.
 pub trait Simulated<X, const N: usize> {
     /// The positions that the encoders measure, rad or m.
     fn encoder_positions(&self) -> [f32; N];
@@ -28,7 +28,12 @@ pub trait Simulated<X, const N: usize> {
     ///
     /// # Errors
     /// As forward dynamics.
-    fn step(&mut self, torque: &[f32; N], around: &X, h: f32) -> Result<(), NotPositiveDefinite>;
+    fn step(
+        &mut self,
+        torque: &[f32; N],
+        environment: &X,
+        h: f32,
+    ) -> Result<(), NotPositiveDefinite>;
 }
 
 /// A simulated robot and its drives, on wires.
@@ -50,7 +55,7 @@ impl<P, const N: usize> Rig<P, N> {
     }
 
     /// Moves on by `steps` steps of `h` seconds under the duties of now, and shows the encoders where the
-    /// robot is; `around` tells what goes on at a step.
+    /// robot is; `environment` gives the environment at a step.
     ///
     /// # Errors
     /// As forward dynamics.
@@ -59,7 +64,7 @@ impl<P, const N: usize> Rig<P, N> {
         wires: &Wires<N>,
         steps: u32,
         h: f32,
-        around: impl Fn(u32) -> X,
+        environment: impl Fn(u32) -> X,
     ) -> Result<(), NotPositiveDefinite>
     where
         P: Simulated<X, N>,
@@ -69,7 +74,7 @@ impl<P, const N: usize> Rig<P, N> {
             *tau *= full;
         }
         for step in 0..steps {
-            self.plant.step(&tau, &around(step), h)?;
+            self.plant.step(&tau, &environment(step), h)?;
         }
         wires.publish(&self.plant.encoder_positions());
         Ok(())
@@ -81,9 +86,9 @@ impl<P, const N: usize> Rig<P, N> {
 pub struct Plant<T, E, X, const B: usize, const Q: usize, const V: usize> {
     robot: Calibrated<T, f32, B, Q, V>,
     effects: E,
-    /// Tells the effects what goes on around the robot.
-    surround: fn(&mut E, &X),
-    /// Position, velocity and acceleration, beyond what the encoders tell.
+    /// Applies the environment to the effects.
+    apply: fn(&mut E, &X),
+    /// Position, velocity and acceleration, beyond what the encoders measure.
     pub state: State<f32, Q, V>,
 }
 
@@ -97,12 +102,12 @@ where
         robot: Calibrated<T, f32, B, Q, V>,
         effects: E,
         q: [f32; Q],
-        surround: fn(&mut E, &X),
+        apply: fn(&mut E, &X),
     ) -> Self {
         Self {
             robot,
             effects,
-            surround,
+            apply,
             state: State::at(q),
         }
     }
@@ -118,8 +123,13 @@ where
         last(&self.state.q)
     }
 
-    fn step(&mut self, torque: &[f32; N], around: &X, h: f32) -> Result<(), NotPositiveDefinite> {
-        (self.surround)(&mut self.effects, around);
+    fn step(
+        &mut self,
+        torque: &[f32; N],
+        environment: &X,
+        h: f32,
+    ) -> Result<(), NotPositiveDefinite> {
+        (self.apply)(&mut self.effects, environment);
         let tau = padded(torque);
         linearly_implicit(&self.robot, &mut self.state, &tau, &mut self.effects, h)
     }
@@ -142,9 +152,14 @@ where
         last(&self.0.state.q)
     }
 
-    fn step(&mut self, torque: &[f32; N], around: &X, h: f32) -> Result<(), NotPositiveDefinite> {
+    fn step(
+        &mut self,
+        torque: &[f32; N],
+        environment: &X,
+        h: f32,
+    ) -> Result<(), NotPositiveDefinite> {
         let plant = &mut self.0;
-        (plant.surround)(&mut plant.effects, around);
+        (plant.apply)(&mut plant.effects, environment);
         let (tau, rest) = (padded(torque), Force::ZERO);
         momentum_preserving(
             &plant.robot,

@@ -21,7 +21,7 @@ pub use app::{App, QUEUE, Record, STEPS, SimBrake, SimLoop};
 pub use errors::{Errors, larger};
 pub use firmware::{HOLD, OMEGA_N, REENTRY, RIDE, TICK, ZETA, control_loop};
 pub use noise::Noise;
-pub use run::{Full, Less, Name, PdOnly, Run, Truth};
+pub use run::{Full, Less, Name, PdOnly, PlantModel, Run};
 
 /// The data sheet of a scene: a robot of B bodies, Q position and V velocity coordinates whose last N joints
 /// are driven.
@@ -54,10 +54,10 @@ pub trait Scene<const B: usize, const Q: usize, const V: usize, const N: usize>:
 
     /// The runs of every scene.
     const RUNS: [Run<Self, B, Q, V, N>; 4] = [
-        Run::of::<Full<Self, B, Q, V>>(Truth::Exact, "feedforward"),
-        Run::of::<PdOnly>(Truth::Exact, "pd"),
-        Run::of::<Full<Self, B, Q, V>>(Truth::Mismatched, "feedforward"),
-        Run::of::<PdOnly>(Truth::Mismatched, "pd"),
+        Run::of::<Full<Self, B, Q, V>>(PlantModel::Exact, "feedforward"),
+        Run::of::<PdOnly>(PlantModel::Exact, "pd"),
+        Run::of::<Full<Self, B, Q, V>>(PlantModel::Mismatched, "feedforward"),
+        Run::of::<PdOnly>(PlantModel::Mismatched, "pd"),
     ];
     /// Other laws that it compares.
     const BASELINES: &'static [Run<Self, B, Q, V, N>] = &[];

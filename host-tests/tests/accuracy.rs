@@ -11,7 +11,7 @@ use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::model::Robot;
 use dynamics_core::robots::{A1Leg, Panda, Ur5e};
 use dynamics_core::scalar::Real;
-use dynamics_core::state::Carried;
+use dynamics_core::state::IncrementalTrig;
 use dynamics_core::state::State;
 use dynamics_core::trig::{Kernel, Minimax, Table};
 use dynamics_core::{Core, Engine};
@@ -224,7 +224,7 @@ fn kernels_are_as_good_as_they_say() {
 
 #[test]
 fn sines_that_are_carried_on_drift_slowly() {
-    let mut turns = Carried::at([0.0_f32]);
+    let mut turns = IncrementalTrig::at([0.0_f32]);
     let mut worst = 0.0_f64;
     for tick in 0..10_000 {
         let q = (f64::from(tick) * 1e-3).sin() as f32 * 3.0;

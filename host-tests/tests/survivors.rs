@@ -11,7 +11,7 @@ use dynamics_core::effects::{
 };
 use dynamics_core::model::{ArmModel, BASE, Body, BodyInertia, Joint, Model, Problem};
 use dynamics_core::spatial::{Force, Motion};
-use dynamics_core::state::Carried;
+use dynamics_core::state::IncrementalTrig;
 use dynamics_core::state::State;
 use dynamics_core::state::manifold::{integrate, neutral};
 use glam::DVec3;
@@ -196,7 +196,7 @@ fn a_momentum_is_reached_on_a_base_that_moves() {
 
 #[test]
 fn sines_that_are_carried_on_stay_on_the_unit_circle() {
-    let (mut turns, mut q) = (Carried::at([0.3_f64]), 0.3);
+    let (mut turns, mut q) = (IncrementalTrig::at([0.3_f64]), 0.3);
     for _ in 0..100_000 {
         q += 0.01;
         turns.follow(&[q]);

@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use dynamics_core::scalar::Native;
 use dynamics_core::scalar::Real;
-use dynamics_core::state::Carried;
+use dynamics_core::state::IncrementalTrig;
 use dynamics_core::trig::{Kernel, Minimax, Table, sin_cos, sin_cos_f64, sin_cos_near};
 use host_tests::tolerances::check;
 
@@ -172,7 +172,7 @@ fn within_range_every_bit_is_what_it_was() {
 #[test]
 fn one_wrong_reading_leaves_no_trace_in_sines_turned_on() {
     for wrong in [3e9, f32::MAX, f32::INFINITY, f32::NAN] {
-        let mut turns = Carried::at([0.3_f32]);
+        let mut turns = IncrementalTrig::at([0.3_f32]);
         let held = turns.follow(&[wrong]).turns[0];
         assert_eq!(held.q, 0.3);
         assert!(held.sin.abs() <= 1.0 && held.cos.abs() <= 1.0);

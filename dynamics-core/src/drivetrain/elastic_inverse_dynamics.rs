@@ -134,7 +134,7 @@ where
 }
 
 /// Velocity of a body and its derivatives by components; the first is its spatial acceleration.
-type Rates<R> = [Motion<R>; 4];
+type MotionDerivatives<R> = [Motion<R>; 4];
 
 /// What the outward pass leaves for the inward pass: f, ḟ, f̈ and W₀, W₁.
 struct Link<'a, R: Real> {
@@ -169,7 +169,7 @@ where
     // A base that accelerates by −g for ever is gravity.
     let (v_0, a_0) = base_motion(effects);
     let base = [v_0, a_0, Motion::ZERO, Motion::ZERO];
-    let mut all: Vec<Rates<R>, B> = Vec::new();
+    let mut all: Vec<MotionDerivatives<R>, B> = Vec::new();
     let mut links: Vec<Link<'_, R>, B> = Vec::new();
     for (i, link) in robot.links().enumerate() {
         if link.coordinates().len() > 1 {
@@ -223,7 +223,11 @@ where
 /// X m and its derivatives, from those of m in the parent's coordinates.
 ///
 /// y(k, n), the n-th derivative of X m^(k), is y(k+1, n−1) − Σ_j C(n−1, j) W_j × y(k, n−1−j).
-fn transformed<R: Real>(x: &Xform<R>, w: &[Motion<R>; 4], m: &Rates<R>) -> Rates<R> {
+fn transformed<R: Real>(
+    x: &Xform<R>,
+    w: &[Motion<R>; 4],
+    m: &MotionDerivatives<R>,
+) -> MotionDerivatives<R> {
     let [w0, w1, w2, _] = *w;
     let two = R::from_f64(2.0);
     let [a0, b0, c0, d0] = m.map(|m| *x * m);
@@ -237,7 +241,7 @@ fn transformed<R: Real>(x: &Xform<R>, w: &[Motion<R>; 4], m: &Rates<R>) -> Rates
 }
 
 /// f = I a + v ×* I v with its first two derivatives.
-fn forces<R: Real>(inertia: &SpatialInertia<R>, v: &Rates<R>) -> [Force<R>; 3] {
+fn forces<R: Real>(inertia: &SpatialInertia<R>, v: &MotionDerivatives<R>) -> [Force<R>; 3] {
     let [v0, v1, v2, _] = *v;
     let [p0, p1, p2, p3] = v.map(|v| *inertia * v);
     let twice = v1.cross_force(p1) * R::from_f64(2.0);

@@ -37,7 +37,7 @@ pub trait Declared<R: Real, const B: usize, const V: usize>: Sized {
     /// Adds to the inertia of `body`.
     fn payload(&self, body: usize, inertia: &mut SpatialInertia<R>);
     /// Adds to ρ I of the rotor of `joint`.
-    fn spin(&self, joint: usize, coupling: &mut R);
+    fn rotor_coupling(&self, joint: usize, coupling: &mut R);
     /// Adds what stands at `joint` to an entry of M's diagonal.
     fn add_inertia(&self, joint: usize, diagonal: &mut R);
 }
@@ -95,7 +95,7 @@ where
     }
 
     #[inline(always)]
-    fn spin(&self, joint: usize, coupling: &mut R) {
+    fn rotor_coupling(&self, joint: usize, coupling: &mut R) {
         if let Some(add) = const { E::ROTOR.add } {
             add(self, joint, coupling);
         }

@@ -211,7 +211,7 @@ macro_rules! delegate_effect {
             #[inline(always)]
             fn forward_spin(&self, joint: usize, coupling: &mut $R) {
                 let $this = self;
-                $(<$inner as $crate::effects::Declared<$R, $B, $V>>::spin(&$to, joint, coupling);)*
+                $(<$inner as $crate::effects::Declared<$R, $B, $V>>::rotor_coupling(&$to, joint, coupling);)*
             }
         }
     };

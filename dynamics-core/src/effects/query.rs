@@ -189,7 +189,7 @@ where
 {
     let (mut coupling, coordinates) = (R::ZERO, link.coordinates());
     if coordinates.len() == 1 {
-        effects.spin(coordinates.start, &mut coupling);
+        effects.rotor_coupling(coordinates.start, &mut coupling);
     }
     Force::new(R::Vec3::new(R::ZERO, R::ZERO, coupling), R::Vec3::ZERO)
 }

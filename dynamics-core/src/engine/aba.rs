@@ -139,12 +139,12 @@ where
         }
     });
     let (n, f) = if joint.prismatic {
-        let [_, _, n] = ia.mixed.0;
-        let [_, _, f] = ia.moving.columns();
+        let [_, _, n] = ia.coupling.0;
+        let [_, _, f] = ia.lin.columns();
         (n.scale(length_inv), f.scale(length_inv))
     } else {
-        let [_, _, n] = ia.turning.columns();
-        let [_, _, f] = ia.mixed.rows();
+        let [_, _, n] = ia.ang.columns();
+        let [_, _, f] = ia.coupling.rows();
         (n, f)
     };
     let mut d = Wrench { f, n }.along(joint.prismatic, length_inv).get();

@@ -21,7 +21,7 @@ pub(crate) struct AccelerationField<R> {
     /// ω, for effects that read the body's velocity.
     pub(crate) omega: Vec3<R>,
     /// ω in the velocity products: zero unless an effect needs them.
-    pub(crate) spin: Vec3<R>,
+    pub(crate) omega_products: Vec3<R>,
     /// α.
     pub(crate) alpha: Vec3<R>,
     /// U = \[α\]× + \[ω\]×\[ω\]×.
@@ -34,12 +34,12 @@ pub(crate) struct AccelerationField<R> {
     pub(crate) pose: Pose<R>,
 }
 
-/// Rates of a joint, in units of length; zero where no effect needs them.
+/// JointRates of a joint, in units of length; zero where no effect needs them.
 #[derive(Clone, Copy)]
-pub(crate) struct Rates<R> {
+pub(crate) struct JointRates<R> {
     pub(crate) velocity: Folded<R>,
     /// The velocity in the velocity products.
-    pub(crate) spin: Folded<R>,
+    pub(crate) omega_products: Folded<R>,
     pub(crate) accel: Folded<R>,
 }
 
@@ -156,17 +156,22 @@ impl<R: Real> Add for Inertia<R> {
 impl<R: Real> AccelerationField<R> {
     /// The field of a child behind a revolute joint.
     #[inline(always)]
-    pub(crate) fn turned(&self, joint: &Joint, turn: JointCoordinate<R>, rates: Rates<R>) -> Self {
+    pub(crate) fn across_revolute(
+        &self,
+        joint: &Joint,
+        turn: JointCoordinate<R>,
+        rates: JointRates<R>,
+    ) -> Self {
         let (rot, p) = (Mat3::constant(&joint.rot), Vec3::constant(joint.pos));
-        let spin = enter(&rot, turn, self.spin) + along_z(rates.spin);
+        let omega_products = enter(&rot, turn, self.omega_products) + along_z(rates.omega_products);
         let az = rot.transpose_mul(self.alpha).0[2] + rates.accel;
         // Points on the joint's axis move with both links: U's column along it is the parent's.
         let along = enter(&rot, turn, self.u.mul(rot.0[2]));
         let a = enter(&rot, turn, self.a + self.u.mul(p));
-        let (ax, ay, u) = complete(spin, az, along);
+        let (ax, ay, u) = complete(omega_products, az, along);
         Self {
             omega: enter(&rot, turn, self.omega) + along_z(rates.velocity),
-            spin,
+            omega_products,
             alpha: Vec3([ax, ay, az]),
             u,
             a,
@@ -177,10 +182,15 @@ impl<R: Real> AccelerationField<R> {
 
     /// The field of a child behind a prismatic joint at q, in units of length.
     #[inline(always)]
-    pub(crate) fn slid(&self, joint: &Joint, q: Folded<R>, rates: Rates<R>) -> Self {
+    pub(crate) fn across_prismatic(
+        &self,
+        joint: &Joint,
+        q: Folded<R>,
+        rates: JointRates<R>,
+    ) -> Self {
         let rot = Mat3::constant(&joint.rot);
         let p = Vec3::constant(joint.pos) + rot.0[2].scale(q);
-        let spin = rot.transpose_mul(self.spin);
+        let omega_products = rot.transpose_mul(self.omega_products);
         let a = rot.transpose_mul(self.a + self.u.mul(p));
         let v = rot.transpose_mul(self.v + self.omega.cross(p));
         let u = Mat3([
@@ -190,10 +200,11 @@ impl<R: Real> AccelerationField<R> {
         ]);
         Self {
             omega: rot.transpose_mul(self.omega),
-            spin,
+            omega_products,
             alpha: rot.transpose_mul(self.alpha),
             u,
-            a: a + spin.cross(along_z(rates.spin + rates.spin)) + along_z(rates.accel),
+            a: a + omega_products.cross(along_z(rates.omega_products + rates.omega_products))
+                + along_z(rates.accel),
             v: v + along_z(rates.velocity),
             pose: Pose::UNKNOWN,
         }
@@ -203,7 +214,7 @@ impl<R: Real> AccelerationField<R> {
     #[inline(always)]
     pub(crate) fn wrench(&self, body: &Inertia<R>) -> Wrench<R> {
         let (mass, h) = (body.mass, body.moment);
-        let ([x, y, z], [wx, wy, wz]) = (self.u.0, self.spin.0);
+        let ([x, y, z], [wx, wy, wz]) = (self.u.0, self.omega_products.0);
         let (sxx, sxy, sxz) = (body.second.xx, body.second.xy, body.second.xz);
         let (syy, syz, szz) = (body.second.yy, body.second.yz, body.second.zz);
         let (xx, yy, zz) = (wx * wx, wy * wy, wz * wz);

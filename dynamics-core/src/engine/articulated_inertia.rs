@@ -16,9 +16,9 @@ use crate::scalar::Real;
 /// The three blocks.
 #[derive(Clone, Copy)]
 pub(crate) struct Articulated<R> {
-    pub(crate) turning: Sym3<R>,
-    pub(crate) mixed: Mat3<R>,
-    pub(crate) moving: Sym3<R>,
+    pub(crate) ang: Sym3<R>,
+    pub(crate) coupling: Mat3<R>,
+    pub(crate) lin: Sym3<R>,
 }
 
 impl<R: Real> Articulated<R> {
@@ -28,7 +28,7 @@ impl<R: Real> Articulated<R> {
         let (s, m, zero) = (body.second, body.mass, Folded::ZERO);
         let [x, y, z] = body.moment.0;
         Self {
-            turning: Sym3 {
+            ang: Sym3 {
                 xx: s.yy + s.zz,
                 xy: -s.xy,
                 xz: -s.xz,
@@ -36,12 +36,12 @@ impl<R: Real> Articulated<R> {
                 yz: -s.yz,
                 zz: s.xx + s.yy,
             },
-            mixed: Mat3([
+            coupling: Mat3([
                 Vec3([zero, z, -y]),
                 Vec3([-z, zero, x]),
                 Vec3([y, -x, zero]),
             ]),
-            moving: Sym3 {
+            lin: Sym3 {
                 xx: m,
                 yy: m,
                 zz: m,
@@ -54,11 +54,11 @@ impl<R: Real> Articulated<R> {
     #[inline(always)]
     pub(crate) fn minus_joint(self, n: Vec3<R>, f: Vec3<R>, d_inv: Folded<R>) -> Self {
         let ([fx, fy, fz], minus) = (f.scale(d_inv).0, -d_inv);
-        let [hx, hy, hz] = self.mixed.0;
+        let [hx, hy, hz] = self.coupling.0;
         Self {
-            turning: self.turning + Sym3::square(n, minus),
-            mixed: Mat3([hx - n.scale(fx), hy - n.scale(fy), hz - n.scale(fz)]),
-            moving: self.moving + Sym3::square(f, minus),
+            ang: self.ang + Sym3::square(n, minus),
+            coupling: Mat3([hx - n.scale(fx), hy - n.scale(fy), hz - n.scale(fz)]),
+            lin: self.lin + Sym3::square(f, minus),
         }
     }
 
@@ -76,17 +76,17 @@ impl<R: Real> Articulated<R> {
         if const { !CompiledRobot::<T, B, Q, V>::joint(I).prismatic } {
             let (sin, cos) = (Folded::runtime(turn.sin), Folded::runtime(turn.cos));
             at = Self {
-                turning: at.turning.turn(sin, cos),
-                mixed: at.mixed.turned(sin, cos),
-                moving: at.moving.turn(sin, cos),
+                ang: at.ang.turn(sin, cos),
+                coupling: at.coupling.rotated_about_z(sin, cos),
+                lin: at.lin.turn(sin, cos),
             };
         }
-        let moving = rotate_symmetric_to_parent::<R, T, B, Q, V, I>(at.moving);
-        let here = rotate_matrix_to_parent::<R, T, B, Q, V, I>(&at.mixed);
+        let lin = rotate_symmetric_to_parent::<R, T, B, Q, V, I>(at.lin);
+        let here = rotate_matrix_to_parent::<R, T, B, Q, V, I>(&at.coupling);
         // H′ = H + [p]× A; I′ = I + [p]× Hᵀ + ([p]× H′ᵀ)ᵀ.
-        let mixed = here + cross_offset::<R, T, B, Q, V, I>(Mat3(moving.columns()), slide);
+        let coupling = here + cross_offset::<R, T, B, Q, V, I>(Mat3(lin.columns()), slide);
         let Mat3([lx, ly, lz]) = cross_offset::<R, T, B, Q, V, I>(Mat3(here.rows()), slide);
-        let Mat3([rx, ry, rz]) = cross_offset::<R, T, B, Q, V, I>(Mat3(mixed.rows()), slide);
+        let Mat3([rx, ry, rz]) = cross_offset::<R, T, B, Q, V, I>(Mat3(coupling.rows()), slide);
         let shift = Sym3 {
             xx: lx.0[0] + rx.0[0],
             xy: ly.0[0] + rx.0[1],
@@ -96,9 +96,9 @@ impl<R: Real> Articulated<R> {
             zz: lz.0[2] + rz.0[2],
         };
         Self {
-            turning: rotate_symmetric_to_parent::<R, T, B, Q, V, I>(at.turning) + shift,
-            mixed,
-            moving,
+            ang: rotate_symmetric_to_parent::<R, T, B, Q, V, I>(at.ang) + shift,
+            coupling,
+            lin,
         }
     }
 }
@@ -108,9 +108,9 @@ impl<R: Real> Add for Articulated<R> {
     #[inline(always)]
     fn add(self, o: Self) -> Self {
         Self {
-            turning: self.turning + o.turning,
-            mixed: self.mixed + o.mixed,
-            moving: self.moving + o.moving,
+            ang: self.ang + o.ang,
+            coupling: self.coupling + o.coupling,
+            lin: self.lin + o.lin,
         }
     }
 }

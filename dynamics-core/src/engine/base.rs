@@ -44,7 +44,7 @@ where
     ]);
     let mut field = AccelerationField {
         omega: Vec3::ZERO,
-        spin: Vec3::ZERO,
+        omega_products: Vec3::ZERO,
         alpha: Vec3::ZERO,
         u: Mat3::ZERO,
         a: weight,
@@ -69,7 +69,7 @@ where
         ]);
         field.a = field.a + Vec3::runtime(a.lin).scale(length_inv);
         if E::VELOCITY_PRODUCTS {
-            field.spin = omega;
+            field.omega_products = omega;
             // [ω]×[ω]× r = ω × (ω × r), and the origin's own ω × v.
             let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
             let [x, y, z] =

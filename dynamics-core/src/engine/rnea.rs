@@ -1,7 +1,7 @@
 //! Inverse dynamics by one recursion over the bodies: the outward pass on entering a joint, the inward pass on returning from
 //! its children, so that intermediate values stay in registers.
 
-use super::acceleration_field::{AccelerationField, Inertia, Rates, Wrench};
+use super::acceleration_field::{AccelerationField, Inertia, JointRates, Wrench};
 use super::compile::{BodyPlacement, CompiledRobot, CompiledTree};
 use super::folding::Folded;
 use super::folding::{Mat3, Sym3, Vec3};
@@ -47,16 +47,16 @@ where
     } else {
         Folded::constant(1.0)
     };
-    let rates = Rates {
+    let rates = JointRates {
         velocity: Folded::runtime_if(E::BODY_VELOCITY, at.qd) * unit,
-        spin: Folded::runtime_if(E::VELOCITY_PRODUCTS, at.qd) * unit,
+        omega_products: Folded::runtime_if(E::VELOCITY_PRODUCTS, at.qd) * unit,
         accel: Folded::runtime_if(E::ACCELERATIONS, qdd) * unit,
     };
 
     let mut field = if joint.prismatic {
-        parent.slid(joint, slide, rates)
+        parent.across_prismatic(joint, slide, rates)
     } else {
-        parent.turned(joint, turn, rates)
+        parent.across_revolute(joint, turn, rates)
     };
     if E::BODY_POSE {
         field.pose = parent.pose.transformed_by(joint, turn, slide);

@@ -85,7 +85,7 @@ where
     }
     let ([ux, uy, uz], [x, y, z]) = (parent.u.0, parent.pose.axes.0);
     let field = SpilledField {
-        rates: [parent.omega, parent.spin, parent.alpha].map(Vec3::get),
+        rates: [parent.omega, parent.omega_products, parent.alpha].map(Vec3::get),
         u: [ux, uy, uz].map(Vec3::get),
         origin: [parent.a, parent.v].map(Vec3::get),
         pose: [x, y, z, parent.pose.origin].map(Vec3::get),
@@ -115,13 +115,13 @@ where
     T: Robot<B, Q, V>,
     E: Effect<R, B, V>,
 {
-    let ([omega, spin, alpha], [ux, uy, uz]) = (parent.rates, parent.u);
+    let ([omega, omega_products, alpha], [ux, uy, uz]) = (parent.rates, parent.u);
     let [a, v] = parent.origin;
     let [x, y, z, origin] = parent.pose.map(|v| runtime_if(E::BODY_POSE, v));
     let moves = E::VELOCITY_PRODUCTS | E::ACCELERATIONS | E::BASE_MOTION;
     let field = AccelerationField {
         omega: runtime_if(E::BODY_VELOCITY, omega),
-        spin: runtime_if(E::VELOCITY_PRODUCTS, spin),
+        omega_products: runtime_if(E::VELOCITY_PRODUCTS, omega_products),
         alpha: runtime_if(moves, alpha),
         u: Mat3([
             runtime_if(moves, ux),

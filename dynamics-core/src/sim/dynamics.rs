@@ -28,8 +28,8 @@ pub trait Dynamics<R, const Q: usize, const V: usize> {
     /// Kinetic and potential energy, J.
     fn energies(&self, at: &State<R, Q, V>) -> (R, R);
 
-    /// Where q is after h seconds at these rates: [`StepIncrement::moved`].
-    fn moved(&self, q: &[R; Q], at: &StepIncrement<R, V>, h: R) -> [R; Q];
+    /// Where q is after h seconds at these rates: [`StepIncrement::configuration_after`].
+    fn configuration_after(&self, q: &[R; Q], at: &StepIncrement<R, V>, h: R) -> [R; Q];
 }
 
 /// A robot by its description, under constant torques.
@@ -78,7 +78,7 @@ where
         )
     }
 
-    fn moved(&self, q: &[R; Q], at: &StepIncrement<R, V>, h: R) -> [R; Q] {
-        at.moved(self.robot, q, h)
+    fn configuration_after(&self, q: &[R; Q], at: &StepIncrement<R, V>, h: R) -> [R; Q] {
+        at.configuration_after(self.robot, q, h)
     }
 }

@@ -1,6 +1,6 @@
 //! A time step that keeps the energy of what nothing brakes or drives.
 
-use super::step_increment::ahead;
+use super::step_increment::add_scaled;
 use super::{Dynamics, Integrator, RungeKutta, Step};
 use crate::scalar::Real;
 use crate::state::State;
@@ -31,7 +31,7 @@ impl<R: Real, const Q: usize, const V: usize> Integrator<R, Q, V> for EnergyProj
         let x = (self.energy - potential - kinetic) * R::from_f64(0.5) / kinetic;
         if x.abs() < R::from_f64(0.1) {
             let share = x - R::from_f64(0.5) * x * x;
-            rates.qdd = ahead(rates.qdd, share / h, &end.qd);
+            rates.qdd = add_scaled(rates.qdd, share / h, &end.qd);
         }
         Ok(rates)
     }

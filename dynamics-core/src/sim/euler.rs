@@ -1,6 +1,6 @@
 //! Time steps of first order: one acceleration, that of the step's beginning.
 
-use super::step_increment::ahead;
+use super::step_increment::add_scaled;
 use super::{Dynamics, Integrator, ModelDynamics, Step, StepIncrement};
 use crate::algorithms::NotPositiveDefinite;
 use crate::effects::Effect;
@@ -15,7 +15,7 @@ pub struct Euler;
 impl<R: Real, const Q: usize, const V: usize> Integrator<R, Q, V> for Euler {
     #[inline(always)]
     fn step(&self, robot: &impl Dynamics<R, Q, V>, at: &State<R, Q, V>, _h: R) -> Step<R, V> {
-        Ok(StepIncrement::straight(at.qd, robot.acceleration(at)?))
+        Ok(StepIncrement::constant(at.qd, robot.acceleration(at)?))
     }
 }
 
@@ -27,7 +27,7 @@ impl<R: Real, const Q: usize, const V: usize> Integrator<R, Q, V> for SemiImplic
     #[inline(always)]
     fn step(&self, robot: &impl Dynamics<R, Q, V>, at: &State<R, Q, V>, h: R) -> Step<R, V> {
         let qdd = robot.acceleration(at)?;
-        Ok(StepIncrement::straight(ahead(at.qd, h, &qdd), qdd))
+        Ok(StepIncrement::constant(add_scaled(at.qd, h, &qdd), qdd))
     }
 }
 

@@ -1,6 +1,6 @@
 //! A time step that no spring, damper or bristle makes unstable.
 
-use super::step_increment::ahead;
+use super::step_increment::add_scaled;
 use super::{Dynamics, Integrator, ModelDynamics, Step, StepIncrement};
 use crate::algorithms::NotPositiveDefinite;
 use crate::effects::{Effect, joint_state};
@@ -17,7 +17,7 @@ impl<R: Real, const Q: usize, const V: usize> Integrator<R, Q, V> for LinearlyIm
     #[inline(always)]
     fn step(&self, robot: &impl Dynamics<R, Q, V>, at: &State<R, Q, V>, h: R) -> Step<R, V> {
         let qdd = robot.implicit_acceleration(at, h)?;
-        Ok(StepIncrement::straight(ahead(at.qd, h, &qdd), qdd))
+        Ok(StepIncrement::constant(add_scaled(at.qd, h, &qdd), qdd))
     }
 }
 

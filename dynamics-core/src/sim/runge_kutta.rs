@@ -27,14 +27,14 @@ impl<R: Real, const Q: usize, const V: usize> Integrator<R, Q, V> for RungeKutta
     fn step(&self, robot: &impl Dynamics<R, Q, V>, at: &State<R, Q, V>, h: R) -> Step<R, V> {
         let rates = |at: &State<R, Q, V>| {
             let qdd = robot.acceleration(at)?;
-            Ok(StepIncrement::straight(at.qd, qdd))
+            Ok(StepIncrement::constant(at.qd, qdd))
         };
         let after = |k: &StepIncrement<R, V>, h| rates(&k.end(robot, at, h));
         let half = h * R::from_f64(0.5);
         let first = rates(at)?;
         let second = after(&first, half)?;
         let mut third = after(&second, half)?;
-        third.bend = Some(core::array::from_fn(|j| first.qd[j] - third.qd[j]));
+        third.half_difference = Some(core::array::from_fn(|j| first.qd[j] - third.qd[j]));
         let last = after(&third, h)?;
 
         let [third_of, sixth_of] = [1.0 / 3.0, 1.0 / 6.0].map(R::from_f64);
@@ -48,7 +48,7 @@ impl<R: Real, const Q: usize, const V: usize> Integrator<R, Q, V> for RungeKutta
         Ok(StepIncrement {
             qd: mean(|k| &k.qd),
             qdd: mean(|k| &k.qdd),
-            bend: Some(core::array::from_fn(|j| {
+            half_difference: Some(core::array::from_fn(|j| {
                 third_of * (first.qd[j] - last.qd[j])
             })),
         })

@@ -1,4 +1,4 @@
-//! What a time step comes to, on joints of any kind.
+//! The mean velocity and acceleration of a time step, on joints of any kind.
 
 use super::Dynamics;
 use crate::model::RobotModel;
@@ -13,44 +13,59 @@ pub struct StepIncrement<R, const V: usize> {
     pub qd: [R; V],
     /// Mean acceleration q̈, rad/s² or m/s².
     pub qdd: [R; V],
-    /// Where turns do not commute: the first half of the step is at q̇ + bend, the second at q̇ − bend.
-    pub bend: Option<[R; V]>,
+    /// Half the difference δ of the two halves' mean velocities, for rotations that do not commute: the first half of
+    /// the step is at q̇ + δ, the second at q̇ − δ.
+    pub half_difference: Option<[R; V]>,
 }
 
 impl<R: Real, const V: usize> StepIncrement<R, V> {
-    /// The same all along the step.
+    /// A velocity and an acceleration that are constant over the step.
     #[inline(always)]
-    pub fn straight(qd: [R; V], qdd: [R; V]) -> Self {
-        let bend = None;
-        Self { qd, qdd, bend }
+    pub fn constant(qd: [R; V], qdd: [R; V]) -> Self {
+        let half_difference = None;
+        Self {
+            qd,
+            qdd,
+            half_difference,
+        }
     }
 
-    /// Where these lead from q in h seconds, on this robot's joints. Cost: [`integrate`], twice for what bends; on
-    /// joints known to be of one axis nothing bends, and it is V sums.
+    /// Configuration after h seconds from q, on this robot's joints.
+    ///
+    /// # Cost
+    /// [`integrate`], twice if the halves of the step differ; V sums if all joints are known to have one axis.
     ///
     /// ```
     /// use dynamics_core::{state::manifold::neutral, model::{BASE, Body, Joint, Model}, sim::StepIncrement};
     /// let ball = Model::<f64, 1, 4, 3>::new("ball", [Body::new("b", BASE, Joint::spherical()).mass(1.0)]);
     /// let (about_x, about_y) = ([0.5, 0.5, 0.0], Some([0.5, -0.5, 0.0]));
-    /// let quarters = StepIncrement { qd: about_x, qdd: [0.0; 3], bend: about_y }; // about x, then about the new y
-    /// let [x, y, z, w] = quarters.moved(&ball, &neutral(&ball), core::f64::consts::PI);
+    /// // A quarter about x, then a quarter about the new y.
+    /// let quarters = StepIncrement { qd: about_x, qdd: [0.0; 3], half_difference: about_y };
+    /// let [x, y, z, w] = quarters.configuration_after(&ball, &neutral(&ball), core::f64::consts::PI);
     /// assert!([x, y, z, w].iter().all(|part| (part - 0.5).abs() < 1e-15));
     /// ```
     #[inline(always)]
-    pub fn moved<D, const B: usize, const Q: usize>(&self, robot: &D, q: &[R; Q], h: R) -> [R; Q]
+    pub fn configuration_after<D, const B: usize, const Q: usize>(
+        &self,
+        robot: &D,
+        q: &[R; Q],
+        h: R,
+    ) -> [R; Q]
     where
         D: RobotModel<R, B, Q, V>,
     {
-        match self.bend {
-            Some(bend) if !D::SINGLE => {
-                let half = |sign| ahead(self.qd, sign, &bend).map(|qd| R::from_f64(0.5) * h * qd);
+        match self.half_difference {
+            Some(half_difference) if !D::SINGLE => {
+                let half = |sign| {
+                    add_scaled(self.qd, sign, &half_difference).map(|qd| R::from_f64(0.5) * h * qd)
+                };
                 integrate(robot, &integrate(robot, q, &half(R::ONE)), &half(-R::ONE))
             }
             _ => integrate(robot, q, &self.qd.map(|qd| h * qd)),
         }
     }
 
-    /// Where these lead from a state in h seconds; its q̈ is their mean.
+    /// State after h seconds; its q̈ is the step's mean.
     #[inline(always)]
     pub fn end<const Q: usize>(
         &self,
@@ -59,8 +74,8 @@ impl<R: Real, const V: usize> StepIncrement<R, V> {
         h: R,
     ) -> State<R, Q, V> {
         State {
-            q: mechanics.moved(&from.q, self, h),
-            qd: ahead(from.qd, h, &self.qdd),
+            q: mechanics.configuration_after(&from.q, self, h),
+            qd: add_scaled(from.qd, h, &self.qdd),
             qdd: self.qdd,
         }
     }
@@ -68,7 +83,7 @@ impl<R: Real, const V: usize> StepIncrement<R, V> {
 
 /// x + h ẋ.
 #[inline(always)]
-pub(super) fn ahead<R: Real, const V: usize>(mut x: [R; V], h: R, rates: &[R; V]) -> [R; V] {
+pub(super) fn add_scaled<R: Real, const V: usize>(mut x: [R; V], h: R, rates: &[R; V]) -> [R; V] {
     for (x, &rate) in x.iter_mut().zip(rates) {
         *x += h * rate;
     }

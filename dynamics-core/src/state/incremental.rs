@@ -10,24 +10,24 @@ use crate::state::JointTrig;
 ///
 /// From one tick to the next each is turned by Δ = q − q₋ with Taylor's polynomials of degree 3 and 2, and brought
 /// back to sin² + cos² = 1 by one step of Newton's iteration. Rounding turns the pair a little each tick, which
-/// nothing takes back: the angle drifts as a random walk, in f32 by some 10⁻⁵ rad in 10⁴ ticks. [`Carried::at`]
+/// nothing takes back: the angle drifts as a random walk, in f32 by some 10⁻⁵ rad in 10⁴ ticks. [`IncrementalTrig::at`]
 /// starts anew.
 /// Angles: |Δ| < 0.02 rad, an error of 10⁻⁸ a tick. A joint that seems to jump by 0.5 rad or more, or to something that
 /// is not a number, stays where it was: `q` of its entry is the angle that the sine and cosine belong to, and a single
-/// wrong reading leaves no trace. One that did jump needs [`Carried::at`]. 21 flops a joint; the same instructions whatever the data.
+/// wrong reading leaves no trace. One that did jump needs [`IncrementalTrig::at`]. 21 flops a joint; the same instructions whatever the data.
 ///
 /// ```
-/// use dynamics_core::state::Carried;
-/// let mut turns = Carried::at([0.3_f32]);
+/// use dynamics_core::state::IncrementalTrig;
+/// let mut turns = IncrementalTrig::at([0.3_f32]);
 /// let posture = turns.follow(&[0.301]);
 /// assert!((posture.turns[0].sin - 0.301_f32.sin()).abs() < 2e-7);
 /// ```
 #[derive(Clone, Copy, Debug)]
-pub struct Carried<R, const N: usize> {
+pub struct IncrementalTrig<R, const N: usize> {
     trig: JointTrig<R, N>,
 }
 
-impl<R: Real, const N: usize> Carried<R, N> {
+impl<R: Real, const N: usize> IncrementalTrig<R, N> {
     /// Joints that stand at q, rad.
     pub fn at(q: [R; N]) -> Self {
         Self {

@@ -6,7 +6,7 @@ pub mod manifold;
 
 pub(crate) use crate::math::entry;
 pub use configuration::{Configuration, RobotState, StateWithTrig, TrigSource};
-pub use incremental::Carried;
+pub use incremental::IncrementalTrig;
 
 use crate::model::{JointCoordinate, RobotModel};
 use crate::scalar::Real;

@@ -5,7 +5,7 @@ use core::marker::PhantomData;
 use dynamics_core::Engine;
 use dynamics_core::drivetrain::ElasticReference;
 use dynamics_core::scalar::Native;
-use dynamics_core::state::{Carried, State};
+use dynamics_core::state::{IncrementalTrig, State};
 
 use super::Inverse;
 use super::form::Form;
@@ -60,7 +60,7 @@ ways! {
         F::rnea::<Native, _, _, _, _, _>(trig.with(state), &M::SCENE)
     };
     /// With sines and cosines carried from tick to tick.
-    Following<>, "incremental", Carried<f32, N> = |first| Carried::at(first.q), #[inline(never)] |self, state| {
+    Following<>, "incremental", IncrementalTrig<f32, N> = |first| IncrementalTrig::at(first.q), #[inline(never)] |self, state| {
         F::rnea::<Native, _, _, _, _, _>(self.0.follow(&state.q).with(state), &M::SCENE)
     }, memory: true;
 }

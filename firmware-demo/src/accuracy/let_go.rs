@@ -126,7 +126,7 @@ where
         )
     }
 
-    fn moved(&self, q: &[R; N], at: &StepIncrement<R, N>, h: R) -> [R; N] {
-        at.moved(&Static::<T>::NEW, q, h)
+    fn configuration_after(&self, q: &[R; N], at: &StepIncrement<R, N>, h: R) -> [R; N] {
+        at.configuration_after(&Static::<T>::NEW, q, h)
     }
 }

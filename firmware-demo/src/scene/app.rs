@@ -6,7 +6,7 @@ use dynamics_core::control::{Reference, TrajectoryError};
 use embedded_hal::digital::{self, OutputPin};
 use heapless::spsc::Producer;
 
-use super::{Noise, Run, Scene, TICK, Truth, control_loop};
+use super::{Noise, PlantModel, Run, Scene, TICK, control_loop};
 use crate::control_loop::{ControlLoop, Telemetry};
 use crate::plant::{Rig, Simulated};
 use crate::sim_io::{SimDrive, SimEncoder, Wires};
@@ -81,7 +81,7 @@ where
         records: Producer<'static, Record<N>>,
     ) -> Result<Self, TrajectoryError> {
         let reference = S::reference()?;
-        let (rig, control) = start::<S, B, Q, V, N>(&reference, wires, Truth::Exact);
+        let (rig, control) = start::<S, B, Q, V, N>(&reference, wires, PlantModel::Exact);
         Ok(Self {
             reference,
             wires,
@@ -134,7 +134,9 @@ where
         if self.tick == self.ticks() {
             self.run += 1;
             self.tick = 0;
-            let next = Self::runs().nth(self.run).map_or(Truth::Exact, |r| r.plant);
+            let next = Self::runs()
+                .nth(self.run)
+                .map_or(PlantModel::Exact, |r| r.plant);
             (self.rig, self.control) = start::<S, B, Q, V, N>(&self.reference, self.wires, next);
         }
     }
@@ -144,13 +146,13 @@ where
 fn start<S, const B: usize, const Q: usize, const V: usize, const N: usize>(
     reference: &S::Reference,
     wires: &'static Wires<N>,
-    truth: Truth,
+    truth: PlantModel,
 ) -> (Rig<S::Plant, N>, SimLoop<N>)
 where
     S: Scene<B, Q, V, N>,
 {
     let mut noise = Noise::seeded();
-    let noise = (truth == Truth::Mismatched).then_some(&mut noise);
+    let noise = (truth == PlantModel::Mismatched).then_some(&mut noise);
     let torque = S::limits().map(|l| l.torque);
     let rig = Rig::new(S::plant(noise), torque, wires);
     let encoders = core::array::from_fn(|j| wires.encoder(j));

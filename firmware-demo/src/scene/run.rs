@@ -11,14 +11,14 @@ use crate::control_loop::{Law, Telemetry};
 
 /// How well the controller knows the plant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Truth {
+pub enum PlantModel {
     /// Exactly.
     Exact,
     /// Its inertias are off by up to 3 %, its friction by up to 10 %.
     Mismatched,
 }
 
-impl Truth {
+impl PlantModel {
     /// As the log names it.
     pub const fn name(self) -> &'static str {
         match self {
@@ -49,7 +49,7 @@ type Ticked<S, const B: usize, const Q: usize, const V: usize, const N: usize> =
 pub struct Run<S: Scene<B, Q, V, N>, const B: usize, const Q: usize, const V: usize, const N: usize>
 {
     /// The plant.
-    pub plant: Truth,
+    pub plant: PlantModel,
     /// The law.
     pub law: Name,
     /// The control loop under this law.
@@ -61,7 +61,7 @@ where
     S: Scene<B, Q, V, N>,
 {
     /// Of the law `L`.
-    pub const fn of<L: Law<N, S::Environment>>(plant: Truth, name: &'static str) -> Self {
+    pub const fn of<L: Law<N, S::Environment>>(plant: PlantModel, name: &'static str) -> Self {
         Self {
             plant,
             law: Name::Of(name),
@@ -72,7 +72,7 @@ where
     /// Of the law `L`, which lacks an effect of this name, on the exact plant.
     pub const fn without<L: Law<N, S::Environment>>(name: fn() -> &'static str) -> Self {
         Self {
-            plant: Truth::Exact,
+            plant: PlantModel::Exact,
             law: Name::Without(name),
             tick: SimLoop::<N>::tick::<L, S::Reference, S::Environment>,
         }

@@ -12,7 +12,7 @@ use dynamics_core::{Core, Engine};
 use crate::control_loop::Law;
 use crate::plant::Plant;
 use crate::robots::DirectDrive;
-use crate::scene::{Noise, Run, Scene, Truth, rigid, through};
+use crate::scene::{Noise, PlantModel, Run, Scene, rigid, through};
 
 /// What acts on the arm.
 pub type Effects = (
@@ -95,9 +95,9 @@ impl Scene<3, 3, 3, 3> for FastArm {
     const GAIN_POSE: [f32; 3] = START;
     const GAIN_POSE_NAME: &'static str = "start";
     const BASELINES: &'static [Run<Self, 3, 3, 3, 3>] = &[
-        Run::of::<Diagonal>(Truth::Exact, "diagonal"),
-        Run::of::<DiagonalEngine>(Truth::Exact, "diagonal-engine"),
-        Run::of::<Diagonal>(Truth::Mismatched, "diagonal"),
+        Run::of::<Diagonal>(PlantModel::Exact, "diagonal"),
+        Run::of::<DiagonalEngine>(PlantModel::Exact, "diagonal-engine"),
+        Run::of::<Diagonal>(PlantModel::Mismatched, "diagonal"),
     ];
 
     fn reference() -> Result<Self::Reference, TrajectoryError> {

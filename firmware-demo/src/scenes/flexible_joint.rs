@@ -11,7 +11,7 @@ use dynamics_core::state::State;
 
 use crate::control_loop::Law;
 use crate::plant::FlexiblePlant;
-use crate::scene::{Less, Noise, OMEGA_N, Run, Scene, TICK, Truth, ZETA, name, speeds};
+use crate::scene::{Less, Noise, OMEGA_N, PlantModel, Run, Scene, TICK, ZETA, name, speeds};
 use crate::trajectories::{SWING, UPRIGHT};
 
 /// What acts on the links.
@@ -50,7 +50,7 @@ impl Scene<7, 7, 7, 7> for CompliantArm {
     const GAIN_POSE: [f32; 7] = UPRIGHT;
     const GAIN_POSE_NAME: &'static str = "upright";
     const BASELINES: &'static [Run<Self, 7, 7, 7, 7>] =
-        &[Run::of::<RigidJoints>(Truth::Exact, "rigid-joints")];
+        &[Run::of::<RigidJoints>(PlantModel::Exact, "rigid-joints")];
     // Inverse dynamics of compliant joints needs `Inertia` and `Coriolis`.
     const ABLATIONS: &'static [Run<Self, 7, 7, 7, 7>] = &[
         Run::without::<Less<Self, 0, 7, 7, 7>>(name::<Gravity>),

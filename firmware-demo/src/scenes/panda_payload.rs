@@ -12,7 +12,7 @@ use dynamics_core::spatial::SpatialInertia;
 use dynamics_core::state::State;
 
 use crate::plant::Plant;
-use crate::scene::{Less, Noise, Run, Scene, Truth, rigid, through};
+use crate::scene::{Less, Noise, PlantModel, Run, Scene, rigid, through};
 use crate::trajectories::{PANDA_CARRY, READY, arrival};
 
 /// The body that carries the hand.
@@ -103,8 +103,8 @@ impl Scene<7, 7, 7, 7> for Carry {
     const GAIN_POSE: [f32; 7] = READY;
     const GAIN_POSE_NAME: &'static str = "ready";
     const BASELINES: &'static [Run<Self, 7, 7, 7, 7>] = &[
-        Run::of::<Less<Self, LOAD, 7, 7, 7>>(Truth::Exact, "unknown-load"),
-        Run::of::<Less<Self, LOAD, 7, 7, 7>>(Truth::Mismatched, "unknown-load"),
+        Run::of::<Less<Self, LOAD, 7, 7, 7>>(PlantModel::Exact, "unknown-load"),
+        Run::of::<Less<Self, LOAD, 7, 7, 7>>(PlantModel::Mismatched, "unknown-load"),
     ];
 
     fn reference() -> Result<Job, TrajectoryError> {

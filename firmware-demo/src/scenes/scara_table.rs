@@ -12,7 +12,7 @@ use glam::Vec3;
 use crate::control_loop::Law;
 use crate::plant::Plant;
 use crate::robots::Scara;
-use crate::scene::{Noise, Run, Scene, Truth, rigid, through};
+use crate::scene::{Noise, PlantModel, Run, Scene, rigid, through};
 use crate::trajectories::{ASIDE, SCARA_SERVES};
 
 /// What acts on the arm.
@@ -53,8 +53,8 @@ impl Scene<3, 3, 3, 3> for Serve {
     const GAIN_POSE: [f32; 3] = ASIDE;
     const GAIN_POSE_NAME: &'static str = "aside";
     const BASELINES: &'static [Run<Self, 3, 3, 3, 3>] = &[
-        Run::of::<WithGravity>(Truth::Exact, "with-gravity"),
-        Run::of::<WithGravityAlong>(Truth::Exact, "with-gravity-of-run-time"),
+        Run::of::<WithGravity>(PlantModel::Exact, "with-gravity"),
+        Run::of::<WithGravityAlong>(PlantModel::Exact, "with-gravity-of-run-time"),
     ];
 
     fn reference() -> Result<Self::Reference, TrajectoryError> {

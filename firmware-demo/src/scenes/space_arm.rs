@@ -11,7 +11,7 @@ use dynamics_core::state::State;
 use crate::control_loop::Law;
 use crate::plant::{Floating, last};
 use crate::robots::SpaceArm;
-use crate::scene::{Less, Noise, Run, Scene, Truth, name, rigid, through};
+use crate::scene::{Less, Noise, PlantModel, Run, Scene, name, rigid, through};
 use crate::trajectories::{REACH_OUT, STOWED};
 
 /// What acts on the joints; nothing acts on the satellite.
@@ -52,8 +52,8 @@ impl Scene<7, 13, 12, 6> for ReachOut {
     const GAIN_POSE: [f32; 13] = SpaceArm::at(STOWED);
     const GAIN_POSE_NAME: &'static str = "stowed";
     const BASELINES: &'static [Run<Self, 7, 13, 12, 6>] = &[
-        Run::of::<FixedBase>(Truth::Exact, "fixed-base"),
-        Run::of::<FixedBase>(Truth::Mismatched, "fixed-base"),
+        Run::of::<FixedBase>(PlantModel::Exact, "fixed-base"),
+        Run::of::<FixedBase>(PlantModel::Mismatched, "fixed-base"),
     ];
     /// Nothing moves without `Inertia`.
     const ABLATIONS: &'static [Run<Self, 7, 13, 12, 6>] = &[

@@ -10,7 +10,7 @@ use dynamics_core::state::State;
 
 use crate::control_loop::Law;
 use crate::plant::Plant;
-use crate::scene::{Noise, Run, Scene, Truth, rigid, through};
+use crate::scene::{Noise, PlantModel, Run, Scene, rigid, through};
 use crate::trajectories::{HOME, PICK_AND_PLACE};
 
 /// What acts on the arm.
@@ -54,8 +54,8 @@ impl Scene<6, 6, 6, 6> for PickAndPlace {
     const GAIN_POSE: [f32; 6] = HOME;
     const GAIN_POSE_NAME: &'static str = "home";
     const BASELINES: &'static [Run<Self, 6, 6, 6, 6>] = &[
-        Run::of::<GravityOnly>(Truth::Exact, "gravity"),
-        Run::of::<GravityOnly>(Truth::Mismatched, "gravity"),
+        Run::of::<GravityOnly>(PlantModel::Exact, "gravity"),
+        Run::of::<GravityOnly>(PlantModel::Mismatched, "gravity"),
     ];
 
     fn reference() -> Result<Self::Reference, TrajectoryError> {

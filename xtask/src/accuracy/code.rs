@@ -49,7 +49,7 @@ const LINEARISED: &str = "        let trig = FORM::<ROBOT, KERNEL>::joint_trig(&
 /// Where the library has what a piece of code names.
 const PATHS: &str = "Core Engine control::FirstOrderHold control::ZeroOrderHold control::Interpolator control::InertiaUpdate \
                      effects::Gravity effects::Inertia effects::RIGID_BODY model::Pruned robots::A1Leg robots::Panda \
-                     robots::Ur5e state::State state::Carried trig::Minimax trig::Table";
+                     robots::Ur5e state::State state::IncrementalTrig trig::Minimax trig::Table";
 
 /// The simulation of the UR5e, which the tests compile and run.
 const SIMULATION: &str = include_str!("../../../host-tests/tests/pasted/ur5e_rk4.rs");
@@ -155,8 +155,8 @@ fn torques(point: &Point) -> Result<String> {
     let sparse = SPARSE.replace("COAST", coast).replace("FRESH", fresh);
     let (fields, start, tick) = match rate {
         "1" => (
-            "    carried: Carried<f32, JOINTS>,\n".into(),
-            "carried: Carried::at(first.q)".into(),
+            "    carried: IncrementalTrig<f32, JOINTS>,\n".into(),
+            "carried: IncrementalTrig::at(first.q)".into(),
             format!("        {call}\n"),
         ),
         _ => (

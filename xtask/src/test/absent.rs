@@ -13,9 +13,9 @@ use crate::qemu::Run;
 use crate::sameness;
 use crate::toolchain::RELEASE;
 
-const BIN: &str = "absent";
+const BIN: &str = "ablation_identity";
 /// The scene with LuGre friction, and the same without.
-const SCENES: [&str; 2] = ["bristles_named", "bristles_dropped"];
+const SCENES: [&str; 2] = ["lugre_named", "lugre_dropped"];
 /// A joint's LuGre friction: σ₀, σ₁, σ₂, F_c, F_s − F_c and its bristle; 1/v_s of all.
 const LUGRE_BYTES: u64 = 4 * (6 * 6 + 1);
 /// Numbers that only LuGre's exponential has, by their bits.

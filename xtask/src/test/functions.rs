@@ -134,7 +134,7 @@ pub fn costs(context: &Context) -> Result<String> {
 }
 
 pub fn constant(context: &Context) -> Result<String> {
-    let (lines, samples) = context.metered("constant", true)?;
+    let (lines, samples) = context.metered("constant_time", true)?;
     let mut kinds = Vec::new();
     for line in &lines {
         let words: Vec<&str> = line.split(' ').collect();

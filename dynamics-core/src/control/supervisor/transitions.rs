@@ -123,10 +123,10 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
             self.fault = Some(fault);
             self.faults = self.faults.saturating_add(1);
         }
-        let held = self.faults.saturating_sub(self.ride_through_ticks);
-        if !self.known | (held > self.hold_ticks) {
+        let in_hold = self.faults.saturating_sub(self.ride_through_ticks);
+        if !self.known | (in_hold > self.hold_ticks) {
             self.mode = Mode::Stopped;
-        } else if held > 0 {
+        } else if in_hold > 0 {
             self.mode = Mode::Hold;
         }
         if !matches!(self.mode, Mode::Full) {

@@ -76,8 +76,8 @@ impl<R: Real, const P: usize> Contact<R, P> {
         let b = self.damping * smooth_sign(depth * self.damping_depth.inverse());
         let press = positive_part(self.stiffness * depth - b * out);
         let slip = velocity - n * out;
-        let per_speed = (slip.dot(slip) + self.slip_tolerance * self.slip_tolerance).rsqrt();
-        n * press - slip * (self.friction * press * per_speed)
+        let speed_inv = (slip.dot(slip) + self.slip_tolerance * self.slip_tolerance).rsqrt();
+        n * press - slip * (self.friction * press * speed_inv)
     }
 }
 

@@ -141,7 +141,7 @@ impl<R: Real> Mat3<R> {
 impl<R: Real> Mat3<R> {
     /// Rz M Rzᵀ.
     #[inline(always)]
-    pub(crate) fn turned(&self, sin: Folded<R>, cos: Folded<R>) -> Self {
+    pub(crate) fn rotated_about_z(&self, sin: Folded<R>, cos: Folded<R>) -> Self {
         let [Vec3([xx, yx, zx]), Vec3([xy, yy, zy]), Vec3([xz, yz, zz])] = self.0;
         let w = sin * (xx - yy) + cos * (xy + yx);
         let (step, bend) = (sin * w, cos * w);

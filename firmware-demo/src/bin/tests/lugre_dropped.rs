@@ -1,8 +1,8 @@
-//! The scene of `bristles_named` without its LuGre friction.
+//! The scene of `lugre_named` without its LuGre friction.
 #![no_std]
 #![no_main]
 
-mod bristles;
+mod lugre;
 
 use cortex_m::singleton;
 use cortex_m_rt::entry;
@@ -14,5 +14,5 @@ const EFFECTS: Effects = (Gravity::EARTH, Inertia, Coriolis);
 
 #[entry]
 fn main() -> ! {
-    bristles::run(singleton!(: Effects = EFFECTS))
+    lugre::run(singleton!(: Effects = EFFECTS))
 }

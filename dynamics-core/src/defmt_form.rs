@@ -23,10 +23,10 @@ impl<R: Real + Format> Format for Force<R> {
 
 impl<R: Real + Format> Format for SpatialInertia<R> {
     fn format(&self, f: Formatter<'_>) {
-        let columns = self.inertia.cols().map(R::Vec3::array);
+        let columns = self.rotational.cols().map(R::Vec3::array);
         write!(
             f,
-            "SpatialInertia {{ mass: {}, first_moment: {}, inertia: {} }}",
+            "SpatialInertia {{ mass: {}, first_moment: {}, rotational: {} }}",
             self.mass,
             self.first_moment.array(),
             columns

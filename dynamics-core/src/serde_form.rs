@@ -244,16 +244,16 @@ per_joint!(Viscous, Armature);
 struct TenNumbers<R> {
     mass: R,
     first_moment: Array<R, 3>,
-    inertia: Array<R, 6>,
+    rotational: Array<R, 6>,
 }
 
 impl<R: Real + Serialize> Serialize for SpatialInertia<R> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let [[xx, xy, xz], [_, yy, yz], [_, _, zz]] = self.inertia.cols().map(R::Vec3::array);
+        let [[xx, xy, xz], [_, yy, yz], [_, _, zz]] = self.rotational.cols().map(R::Vec3::array);
         let form = TenNumbers {
             mass: self.mass,
             first_moment: Array(self.first_moment.array()),
-            inertia: Array([xx, xy, xz, yy, yz, zz]),
+            rotational: Array([xx, xy, xz, yy, yz, zz]),
         };
         form.serialize(serializer)
     }
@@ -262,12 +262,16 @@ impl<R: Real + Serialize> Serialize for SpatialInertia<R> {
 impl<'de, R: Real + Deserialize<'de>> Deserialize<'de> for SpatialInertia<R> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let read = TenNumbers::<R>::deserialize(deserializer)?;
-        let ([x, y, z], [xx, xy, xz, yy, yz, zz]) = (read.first_moment.0, read.inertia.0);
+        let ([x, y, z], [xx, xy, xz, yy, yz, zz]) = (read.first_moment.0, read.rotational.0);
         let column = R::Vec3::new;
         Ok(Self {
             mass: read.mass,
             first_moment: column(x, y, z),
-            inertia: R::Mat3::from_cols(column(xx, xy, xz), column(xy, yy, yz), column(xz, yz, zz)),
+            rotational: R::Mat3::from_cols(
+                column(xx, xy, xz),
+                column(xy, yy, yz),
+                column(xz, yz, zz),
+            ),
         })
     }
 }

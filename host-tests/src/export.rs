@@ -68,7 +68,7 @@ fn body(link: &Link<f64>, (placement, inertia): (Xform<f64>, SpatialInertia<f64>
     } else {
         inertia.first_moment
     };
-    let about_origin = inertia.inertia.to_cols_array_2d();
+    let about_origin = inertia.rotational.to_cols_array_2d();
     let c = com.to_array().map(|x| x + 0.0); // no negative zero
     let about_com = |i: usize, j: usize| {
         let diagonal = if i == j { com.dot(com) } else { 0.0 };

@@ -20,12 +20,12 @@ fn widen(link: &mut Link<f64>, rounded: &Link<f32>) {
     link.joint.axis = rounded.joint.axis.as_dvec3();
     link.joint.first_axis = rounded.joint.first_axis.as_dvec3();
     link.joint.pitch = rounded.joint.pitch.into();
-    link.frame = rotation(&rounded.frame);
+    link.to_joint_frame = rotation(&rounded.to_joint_frame);
     link.placement.rot = rotation(&rounded.placement.rot);
     link.placement.pos = rounded.placement.pos.as_dvec3();
     link.inertia.mass = rounded.inertia.mass.into();
     link.inertia.first_moment = rounded.inertia.first_moment.as_dvec3();
-    link.inertia.inertia = rounded.inertia.inertia.as_dmat3();
+    link.inertia.rotational = rounded.inertia.rotational.as_dmat3();
 }
 
 fn rotation(rounded: &Mat3) -> DMat3 {

@@ -63,7 +63,7 @@ fn apart<const B: usize, const Q: usize, const V: usize>(
     for (a, b) in a.links.iter().zip(&b.links) {
         let numbers = |link: &dynamics_core::model::Link<f64>| {
             let i = link.inertia;
-            let mut numbers = i.inertia.to_cols_array().to_vec();
+            let mut numbers = i.rotational.to_cols_array().to_vec();
             numbers.extend(i.first_moment.to_array());
             numbers.push(i.mass);
             numbers

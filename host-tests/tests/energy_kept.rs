@@ -22,7 +22,7 @@ impl Dynamics<f64, 1, 1> for Mass {
     fn energies(&self, at: &State<f64, 1, 1>) -> (f64, f64) {
         (0.5 * at.qd[0] * at.qd[0], 0.0)
     }
-    fn moved(&self, q: &[f64; 1], at: &StepIncrement<f64, 1>, h: f64) -> [f64; 1] {
+    fn configuration_after(&self, q: &[f64; 1], at: &StepIncrement<f64, 1>, h: f64) -> [f64; 1] {
         [q[0] + h * at.qd[0]]
     }
 }

@@ -272,7 +272,7 @@ fn the_tolerance_of_a_check_is_the_amount_itself() {
     assert!(matches!(error.problem, Problem::Triangle(_)), "{error}");
     // xy and yx differ by 0.1 of the largest entry, 2.
     let mut skewed = arm(tip().inertia([2.0, 0.3, 0.0, 2.0, 0.0, 2.0]).com([0.0; 3]));
-    let inertia = &mut skewed.links[1].inertia.inertia;
+    let inertia = &mut skewed.links[1].inertia.rotational;
     let size = inertia
         .to_cols_array()
         .iter()

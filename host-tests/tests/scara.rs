@@ -32,7 +32,7 @@ fn planar(s: &State<f64, 3, 3>) -> [f64; 3] {
     assert!([arm, forearm].map(|link| link.inertia.first_moment.y) == [0.0; 2]);
     let [l1, l2] = [forearm, quill].map(|link| link.placement.pos.x);
     let h = [arm, forearm, quill].map(|link| link.inertia.first_moment.truncate());
-    let izz = [arm, forearm, quill].map(|link| link.inertia.inertia.z_axis.z);
+    let izz = [arm, forearm, quill].map(|link| link.inertia.rotational.z_axis.z);
     let [m2, m3] = [forearm, quill].map(|link| link.inertia.mass);
     let d12 = l1 * (h[1].x + m3 * l2);
     let [d13, d23] = [l1, l2].map(|l| l * h[2].length());

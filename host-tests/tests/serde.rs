@@ -193,7 +193,7 @@ fn bounds_that_allow_nothing_are_refused_as_they_are_read() {
 fn a_rotational_inertia_is_six_numbers_and_thus_symmetric() {
     let text = serde_json::to_string(&inertia()).expect("an inertia");
     let read: SpatialInertia<f32> = serde_json::from_str(&text).expect("the same");
-    assert_eq!(read.inertia, Mat3::transpose(&read.inertia));
+    assert_eq!(read.rotational, Mat3::transpose(&read.rotational));
     let nine = r#"{"mass": 1.0, "moment": [0, 0, 0], "inertia": [1, 0, 0, 0, 1, 0, 0, 0, 1]}"#;
     refusal::<SpatialInertia<f32>>(nine);
 }

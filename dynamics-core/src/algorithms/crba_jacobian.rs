@@ -106,7 +106,7 @@ where
             last = joint;
         }
         if i == body {
-            let turned = |v| link.frame.transpose_mul(v);
+            let turned = |v| link.to_joint_frame.transpose_mul(v);
             wanted = jacobian.map(|column| Motion::new(turned(column.ang), turned(column.lin)));
         }
         jacobians.push((last, jacobian));

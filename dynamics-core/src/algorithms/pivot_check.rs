@@ -37,7 +37,7 @@ pub(super) struct Magnitude<R> {
 impl<R: Real> From<&SpatialInertia<R>> for Magnitude<R> {
     #[inline(always)]
     fn from(body: &SpatialInertia<R>) -> Self {
-        let [x, y, z] = body.inertia.cols().map(Vector::array);
+        let [x, y, z] = body.rotational.cols().map(Vector::array);
         Self {
             mass: body.mass,
             first_moment: length::<R>(body.first_moment),

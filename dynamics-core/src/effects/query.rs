@@ -81,8 +81,8 @@ where
     link.inertia
         + SpatialInertia {
             mass: load.mass,
-            first_moment: link.frame * load.first_moment,
-            inertia: link.frame * load.inertia * link.frame.transpose(),
+            first_moment: link.to_joint_frame * load.first_moment,
+            rotational: link.to_joint_frame * load.rotational * link.to_joint_frame.transpose(),
         }
 }
 
@@ -107,7 +107,7 @@ pub(crate) fn body_wrench<R: Real, E, const B: usize, const V: usize>(
 where
     E: Effect<R, B, V>,
 {
-    let (frame, mut fx) = (&link.frame, Force::ZERO);
+    let (frame, mut fx) = (&link.to_joint_frame, Force::ZERO);
     let mut at = BodyState {
         pose: Xform::IDENTITY,
         velocity: Motion::ZERO,

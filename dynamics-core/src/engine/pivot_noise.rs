@@ -52,7 +52,8 @@ const fn sizes<const B: usize, const Q: usize, const V: usize>(
         let mut size = bodies[i];
         size.mass += own.mass;
         size.moment += length(own.first_moment);
-        size.second += 0.5 * (own.inertia.x_axis.x + own.inertia.y_axis.y + own.inertia.z_axis.z);
+        size.second +=
+            0.5 * (own.rotational.x_axis.x + own.rotational.y_axis.y + own.rotational.z_axis.z);
         if !matches!(link.joint.kind, JointKind::Fixed) {
             joints[link.idx_v] = size;
         }
@@ -190,7 +191,7 @@ where
 /// The largest inertia of a payload about an axis that is no further than `reach` from its body's origin.
 #[inline(always)]
 fn of_load<R: Real>(load: &SpatialInertia<R>, reach: R) -> R {
-    let [x, y, z] = load.inertia.cols().map(Vector::array);
+    let [x, y, z] = load.rotational.cols().map(Vector::array);
     let [hx, hy, hz] = load.first_moment.array();
     let moment = hx.abs() + hy.abs() + hz.abs();
     (x[0] + y[1] + z[2]) * R::from_f64(0.5) + reach * (moment + moment + reach * load.mass)

@@ -150,7 +150,7 @@ where
     let mass = Folded::runtime(load.mass) * length * length;
     let h = rot.mul(Vec3::runtime(load.first_moment)).scale(length);
     // Σ = ½ tr(Ī) 1 − Ī, turned and moved to the joint's frame.
-    let [x, y, z] = load.inertia.cols();
+    let [x, y, z] = load.rotational.cols();
     let trace = x.array()[0] + y.array()[1] + z.array()[2];
     let half = Folded::runtime(trace * R::from_f64(0.5));
     let zero = Folded::ZERO;

@@ -13,7 +13,7 @@ pub(super) const fn aligned<const B: usize>(body: &Body, links: &[Link<f64>; B])
     let parent = if body.parent == BASE {
         DMat3::IDENTITY
     } else {
-        links[body.parent].frame
+        links[body.parent].to_joint_frame
     };
     let rot = mul(
         &mul(&frame, &transpose(&body.rotation)),
@@ -25,12 +25,12 @@ pub(super) const fn aligned<const B: usize>(body: &Body, links: &[Link<f64>; B])
         name: body.name,
         parent: body.parent,
         joint,
-        frame,
+        to_joint_frame: frame,
         placement: Xform { rot, pos },
         inertia: SpatialInertia {
             mass: inertia.mass,
             first_moment: mul_vec(&frame, inertia.first_moment),
-            inertia: mul(&mul(&frame, &inertia.inertia), &transpose(&frame)),
+            rotational: mul(&mul(&frame, &inertia.rotational), &transpose(&frame)),
         },
         idx_q: BASE,
         idx_v: BASE,
@@ -41,7 +41,7 @@ pub(super) const fn aligned<const B: usize>(body: &Body, links: &[Link<f64>; B])
 /// Whether the numbers computed from a description are finite: numbers of 10¹⁵⁴ have squares that are not.
 pub(super) const fn is_finite(link: &Link<f64>) -> bool {
     // x·0 is 0 for finite x and NaN otherwise; a sum of such products is 0 or NaN.
-    let (inertia, none) = (&link.inertia.inertia, DVec3::ZERO);
+    let (inertia, none) = (&link.inertia.rotational, DVec3::ZERO);
     let sum = dot(link.placement.pos, none)
         + dot(link.inertia.first_moment, none)
         + dot(inertia.x_axis, none)
@@ -57,7 +57,7 @@ const fn at_origin(body: &Body) -> SpatialInertia<f64> {
     SpatialInertia {
         mass: body.mass,
         first_moment: scale(c, body.mass),
-        inertia: DMat3::from_cols(
+        rotational: DMat3::from_cols(
             add(DVec3::new(xx, xy, xz), parallel(body.mass, DVec3::X, c, cc)),
             add(DVec3::new(xy, yy, yz), parallel(body.mass, DVec3::Y, c, cc)),
             add(DVec3::new(xz, yz, zz), parallel(body.mass, DVec3::Z, c, cc)),

@@ -166,7 +166,7 @@ const fn is_unit(v: DVec3) -> bool {
 /// By how much an inertia's matrix and its transpose differ, relative to its largest entry.
 pub(super) fn asymmetry<R: Real>(inertia: &SpatialInertia<R>) -> f64 {
     use crate::scalar::{Matrix, Vector};
-    let a = inertia.inertia.cols().map(|c| c.array().map(R::to_f64));
+    let a = inertia.rotational.cols().map(|c| c.array().map(R::to_f64));
     let [[_, xy, xz], [yx, _, yz], [zx, zy, _]] = a;
     let apart = [xy - yx, xz - zx, yz - zy].map(f64::abs);
     let largest = |size: f64, x: f64| if x.abs() <= size { size } else { x.abs() };
@@ -180,7 +180,7 @@ pub(super) fn is_massless<R: Real>(inertia: &SpatialInertia<R>) -> bool {
     use crate::scalar::{Matrix, Vector};
     let some = |v: &R::Vec3| v.array().iter().any(|&x| x != R::ZERO);
     inertia.mass == R::ZERO
-        && (some(&inertia.first_moment) || inertia.inertia.cols().iter().any(some))
+        && (some(&inertia.first_moment) || inertia.rotational.cols().iter().any(some))
 }
 
 /// By how much the largest principal moment about the centre of mass exceeds the sum of the other
@@ -191,7 +191,7 @@ pub(super) fn triangle_excess<R: Real>(inertia: &SpatialInertia<R>) -> f64 {
         inertia.mass.to_f64(),
         inertia.first_moment.array().map(R::to_f64),
     );
-    let mut a = inertia.inertia.cols().map(|c| c.array().map(R::to_f64));
+    let mut a = inertia.rotational.cols().map(|c| c.array().map(R::to_f64));
     let hh = h.iter().map(|x| x * x).sum::<f64>();
     let largest = a
         .as_flattened()

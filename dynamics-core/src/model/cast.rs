@@ -33,7 +33,7 @@ macro_rules! cast_model {
                     first_axis: vector(link.joint.first_axis),
                     pitch: number(link.joint.pitch),
                 },
-                frame: matrix(&link.frame),
+                to_joint_frame: matrix(&link.to_joint_frame),
                 placement: Xform {
                     rot: matrix(&link.placement.rot),
                     pos: vector(link.placement.pos),
@@ -41,7 +41,7 @@ macro_rules! cast_model {
                 inertia: SpatialInertia {
                     mass: number(link.inertia.mass),
                     first_moment: vector(link.inertia.first_moment),
-                    inertia: matrix(&link.inertia.inertia),
+                    rotational: matrix(&link.inertia.rotational),
                 },
                 idx_q: link.idx_q,
                 idx_v: link.idx_v,

@@ -22,7 +22,7 @@ impl<R: Real> BodyInertia<R> {
     pub(crate) fn problem(&self, relative: f64) -> Option<Problem> {
         let about = self.about_origin();
         let finite = |v: &R::Vec3| v.array().iter().all(|x| x.is_finite());
-        let columns = about.inertia.cols();
+        let columns = about.rotational.cols();
         if !(finite(&about.first_moment) && columns.iter().all(finite)) {
             return Some(Problem::NotFinite);
         }
@@ -49,7 +49,7 @@ impl<R: Real> BodyInertia<R> {
         SpatialInertia {
             mass,
             first_moment: column(x, y, z) * mass,
-            inertia: R::Mat3::from_cols(
+            rotational: R::Mat3::from_cols(
                 column(
                     xx + mass * (y * y + z * z),
                     xy - mass * x * y,
@@ -79,7 +79,7 @@ impl<R: Real> BodyInertia<R> {
         };
         let com = (about.first_moment * per).array();
         let [x, y, z] = com;
-        let [cx, cy, cz] = about.inertia.cols().map(Vector::array);
+        let [cx, cy, cz] = about.rotational.cols().map(Vector::array);
         let ([xx, xy, xz], [_, yy, yz], [_, _, zz]) = (cx, cy, cz);
         Self {
             mass,
@@ -146,11 +146,11 @@ where
                 problem,
             });
         }
-        let (about, frame) = (inertia.about_origin(), link.frame);
+        let (about, frame) = (inertia.about_origin(), link.to_joint_frame);
         link.inertia = SpatialInertia {
             mass: about.mass,
             first_moment: frame * about.first_moment,
-            inertia: frame * about.inertia * frame.transpose(),
+            rotational: frame * about.rotational * frame.transpose(),
         };
         Ok(())
     }
@@ -158,11 +158,11 @@ where
     /// The inertia of the body of this number, in the frame of its description; none for a number that no body has.
     pub fn inertia(&self, body: usize) -> Option<BodyInertia<R>> {
         let link = self.model.links.get(body)?;
-        let (about, back) = (&link.inertia, link.frame.transpose());
+        let (about, back) = (&link.inertia, link.to_joint_frame.transpose());
         Some(BodyInertia::about_com(&SpatialInertia {
             mass: about.mass,
             first_moment: back * about.first_moment,
-            inertia: back * about.inertia * link.frame,
+            rotational: back * about.rotational * link.to_joint_frame,
         }))
     }
 }

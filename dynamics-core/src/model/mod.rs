@@ -101,7 +101,7 @@ pub struct Link<R: Real> {
     /// The joint between parent and body.
     pub joint: Joint<R>,
     /// Rotation of coordinates from the body's own frame, as described, to the aligned one.
-    pub frame: R::Mat3,
+    pub to_joint_frame: R::Mat3,
     /// ᵀX: from the parent's aligned frame to this one's at q = 0.
     pub placement: Xform<R>,
     /// The body's inertia at the origin, in the aligned frame.
@@ -266,8 +266,8 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
     pub fn in_link_frame(&self, i: usize) -> (Xform<f64>, SpatialInertia<f64>) {
         let link = &self.links[i];
         let (back, parent) = match self.links.get(link.parent) {
-            Some(parent) => (link.frame.transpose(), parent.frame),
-            None => (link.frame.transpose(), DMat3::IDENTITY),
+            Some(parent) => (link.to_joint_frame.transpose(), parent.to_joint_frame),
+            None => (link.to_joint_frame.transpose(), DMat3::IDENTITY),
         };
         let placement = Xform {
             rot: back * link.placement.rot * parent,
@@ -276,7 +276,7 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
         let inertia = SpatialInertia {
             mass: link.inertia.mass,
             first_moment: back * link.inertia.first_moment,
-            inertia: back * link.inertia.inertia * link.frame,
+            rotational: back * link.inertia.rotational * link.to_joint_frame,
         };
         (placement, inertia)
     }
@@ -287,7 +287,7 @@ pub const EMPTY: Link<f64> = Link {
     name: "",
     parent: BASE,
     joint: Joint::fixed(),
-    frame: DMat3::IDENTITY,
+    to_joint_frame: DMat3::IDENTITY,
     placement: Xform {
         rot: DMat3::IDENTITY,
         pos: DVec3::ZERO,
@@ -295,7 +295,7 @@ pub const EMPTY: Link<f64> = Link {
     inertia: SpatialInertia {
         mass: 0.0,
         first_moment: DVec3::ZERO,
-        inertia: DMat3::ZERO,
+        rotational: DMat3::ZERO,
     },
     idx_q: BASE,
     idx_v: BASE,

@@ -21,7 +21,7 @@ impl<R: Real> From<SpatialInertia<R>> for CompositeInertia<R> {
         Self {
             mass: i.mass,
             first_moment: i.first_moment,
-            inertia: Symmetric::of(&i.inertia),
+            inertia: Symmetric::of(&i.rotational),
         }
     }
 }
@@ -119,7 +119,7 @@ impl<R: Real> From<SpatialInertia<R>> for ArticulatedInertia<R> {
     fn from(i: SpatialInertia<R>) -> Self {
         let ([x, y, z], zero) = (i.first_moment.array(), R::ZERO);
         Self {
-            inertia: Symmetric::of(&i.inertia),
+            inertia: Symmetric::of(&i.rotational),
             coupling: R::Mat3::from_cols(
                 R::Vec3::new(zero, z, -y),
                 R::Vec3::new(-z, zero, x),

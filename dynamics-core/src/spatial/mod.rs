@@ -75,7 +75,7 @@ pub struct SpatialInertia<R: Real> {
     /// First moment h = m c, kg·m.
     pub first_moment: R::Vec3,
     /// Rotational inertia about the frame's origin, kg·m².
-    pub inertia: R::Mat3,
+    pub rotational: R::Mat3,
 }
 
 /// Nothing, where the default of glam's matrices would be 1 kg·m².
@@ -256,7 +256,7 @@ impl<R: Real> SpatialInertia<R> {
     /// The upper triangle of Ī: xx, xy, xz, yy, yz, zz.
     #[inline(always)]
     fn upper(&self) -> [R; 6] {
-        let [x, y, z] = self.inertia.cols();
+        let [x, y, z] = self.rotational.cols();
         let ([xx, _, _], [xy, yy, _], [xz, yz, zz]) = (x.array(), y.array(), z.array());
         [xx, xy, xz, yy, yz, zz]
     }
@@ -265,7 +265,7 @@ impl<R: Real> SpatialInertia<R> {
     pub const ZERO: Self = Self {
         mass: R::ZERO,
         first_moment: R::Vec3::ZERO,
-        inertia: R::Mat3::ZERO,
+        rotational: R::Mat3::ZERO,
     };
 }
 
@@ -276,7 +276,7 @@ impl<R: Real> Add for SpatialInertia<R> {
         Self {
             mass: self.mass + o.mass,
             first_moment: self.first_moment + o.first_moment,
-            inertia: self.inertia + o.inertia,
+            rotational: self.rotational + o.rotational,
         }
     }
 }
@@ -287,7 +287,7 @@ impl<R: Real> Mul<Motion<R>> for SpatialInertia<R> {
     #[inline(always)]
     fn mul(self, m: Motion<R>) -> Force<R> {
         Force::new(
-            self.inertia * m.ang + self.first_moment.cross(m.lin),
+            self.rotational * m.ang + self.first_moment.cross(m.lin),
             m.lin * self.mass - self.first_moment.cross(m.ang),
         )
     }

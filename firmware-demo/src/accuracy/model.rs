@@ -100,13 +100,13 @@ const fn changed<const B: usize, const N: usize>(
             x_axis: x,
             y_axis: y,
             z_axis: z,
-        } = inertia.inertia;
+        } = inertia.rotational;
         let [x, y, z] = [
             vector(x, second, bits),
             vector(y, second, bits),
             vector(z, second, bits),
         ];
-        inertia.inertia = DMat3::from_cols(x, y, z);
+        inertia.rotational = DMat3::from_cols(x, y, z);
         i += 1;
     }
     model

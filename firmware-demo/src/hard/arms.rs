@@ -97,8 +97,8 @@ const fn heavier(mut link: Link<f64>, by: f64) -> Link<f64> {
     let inertia = &mut link.inertia;
     inertia.mass *= by;
     inertia.first_moment = times(inertia.first_moment, by);
-    let i = inertia.inertia;
-    inertia.inertia = DMat3::from_cols(
+    let i = inertia.rotational;
+    inertia.rotational = DMat3::from_cols(
         times(i.x_axis, by),
         times(i.y_axis, by),
         times(i.z_axis, by),
@@ -113,8 +113,8 @@ const fn sized(mut arm: ArmModel<f64, N>, length: f64, mass: f64) -> ArmModel<f6
         let mut link = heavier(arm.links[k], mass);
         link.placement.pos = times(link.placement.pos, length);
         link.inertia.first_moment = times(link.inertia.first_moment, length);
-        let (i, by) = (link.inertia.inertia, length * length);
-        link.inertia.inertia = DMat3::from_cols(
+        let (i, by) = (link.inertia.rotational, length * length);
+        link.inertia.rotational = DMat3::from_cols(
             times(i.x_axis, by),
             times(i.y_axis, by),
             times(i.z_axis, by),
@@ -151,9 +151,10 @@ const fn fat(mut arm: ArmModel<f64, N>) -> ArmModel<f64, N> {
     let inertia = &mut arm.links[5].inertia;
     // The centre of mass is on z.
     let across = inertia.first_moment.z * inertia.first_moment.z / inertia.mass;
-    let (x, y) = (inertia.inertia.x_axis.x, inertia.inertia.y_axis.y);
+    let (x, y) = (inertia.rotational.x_axis.x, inertia.rotational.y_axis.y);
     let z = (x + y - 2.0 * across) / (1.0 - EXCESS);
-    inertia.inertia = DMat3::from_cols(times(DVec3::X, x), times(DVec3::Y, y), times(DVec3::Z, z));
+    inertia.rotational =
+        DMat3::from_cols(times(DVec3::X, x), times(DVec3::Y, y), times(DVec3::Z, z));
     arm
 }
 

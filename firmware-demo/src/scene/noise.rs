@@ -38,7 +38,7 @@ impl Noise {
             let factor = self.factor(0.03);
             inertia.mass *= factor;
             inertia.first_moment *= factor;
-            inertia.inertia *= factor;
+            inertia.rotational *= factor;
         }
     }
 }

@@ -123,12 +123,12 @@ impl Scene<7, 7, 7, 7> for Carry {
         let Payload(SpatialInertia {
             mass,
             first_moment: moment,
-            inertia,
+            rotational: inertia,
         }) = job.part;
         Payload(SpatialInertia {
             mass: mass * borne,
             first_moment: moment * borne,
-            inertia: inertia * borne,
+            rotational: inertia * borne,
         })
     }
 

@@ -26,7 +26,7 @@ pub fn description(bytes: &[u8]) {
             .rot
             .cols()
             .into_iter()
-            .chain(inertia.inertia.cols());
+            .chain(inertia.rotational.cols());
         let mut vectors = vectors.chain([placement.pos, inertia.first_moment, link.joint.axis]);
         assert!(
             vectors.all(|v| v.array().iter().all(|x| x.is_finite())),

@@ -131,9 +131,9 @@ fn of_scalar<R: Real>(scalar: &'static str, rows: &mut Vec<Row>) {
         rod.check(1e-5).is_ok(),
     ));
     for inertia in rod.inertias() {
-        let [mut x, y, z] = inertia.inertia.cols();
+        let [mut x, y, z] = inertia.rotational.cols();
         x += R::Vec3::new(R::ZERO, R::from_f64(0.02), R::ZERO);
-        inertia.inertia = R::Mat3::from_cols(x, y, z);
+        inertia.rotational = R::Mat3::from_cols(x, y, z);
     }
     let named = rod.check(1e-5).err().map(|e| (e.body, e.problem));
     let named = matches!(named, Some(("rod", Problem::Asymmetric(by))) if by > 0.05);

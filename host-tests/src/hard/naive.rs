@@ -84,13 +84,13 @@ fn about_origin<R: Real>(inertia: &SpatialInertia<R>, x: &Xform<R>) -> SpatialIn
     let (e, p) = (x.rot, x.pos);
     let h = e.transpose_mul(inertia.first_moment);
     let moment = h + p * inertia.mass;
-    let turned = e.transpose() * inertia.inertia * e;
+    let turned = e.transpose() * inertia.rotational * e;
     let inertia_there =
         turned - crossed::<R>(p) * crossed::<R>(h) - crossed::<R>(moment) * crossed::<R>(p);
     SpatialInertia {
         mass: inertia.mass,
         first_moment: moment,
-        inertia: inertia_there,
+        rotational: inertia_there,
     }
 }
 

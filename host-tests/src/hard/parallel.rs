@@ -149,7 +149,7 @@ fn planar() -> Vec<Row> {
     let setup = arm(21, "parallel axes");
     let mut rows = against_oracle(&setup, &PARALLEL);
     // 1/3 and 1/12 as f32 rounds them, about the rod's end and about its centre.
-    let about_centre = setup.double.links[0].inertia.inertia.z_axis.z - 0.25;
+    let about_centre = setup.double.links[0].inertia.rotational.z_axis.z - 0.25;
     let (single, double) = (scene(&setup.extras), scene(&setup.extras));
     let (mut f32s, mut f64s, mut full) = (0.0, 0.0, 0.0_f64);
     for state in &setup.states {

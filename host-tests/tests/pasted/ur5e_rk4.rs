@@ -29,8 +29,8 @@ impl Dynamics<f32, 6, 6> for LetGo {
         )
     }
 
-    fn moved(&self, q: &[f32; 6], at: &StepIncrement<f32, 6>, h: f32) -> [f32; 6] {
-        at.moved(&Static::<Ur5e>::NEW, q, h)
+    fn configuration_after(&self, q: &[f32; 6], at: &StepIncrement<f32, 6>, h: f32) -> [f32; 6] {
+        at.configuration_after(&Static::<Ur5e>::NEW, q, h)
     }
 }
 

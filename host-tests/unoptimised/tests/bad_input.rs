@@ -187,7 +187,7 @@ fn a_quaternion_of_any_length_is_an_attitude() {
 fn the_axes_of_a_universal_joint_are_made_orthogonal() {
     let joint = Joint::universal([1.0, 0.0, 9e-10], [0.0, 0.0, 1.0]);
     let cross: Model<f64, 1, 2, 2> = Model::new("cross", [link("cross", BASE, joint)]);
-    let r: DMat3 = cross.links[0].frame;
+    let r: DMat3 = cross.links[0].to_joint_frame;
     assert!((r.transpose() * r).abs_diff_eq(DMat3::IDENTITY, 1e-15));
 }
 

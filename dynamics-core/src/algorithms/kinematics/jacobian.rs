@@ -57,7 +57,7 @@ where
             break; // the base
         };
         if reached == body {
-            x.rot = link.frame.transpose();
+            x.rot = link.to_joint_frame.transpose();
         }
         for (k, coordinate) in link.coordinates().enumerate() {
             if let Some(column) = columns.get_mut(coordinate) {
@@ -125,7 +125,7 @@ where
         let v = link.plus_motion(x * v, turns, &state.qd);
         let a = link.plus_velocity_product(x * a, turns, &state.qd, v);
         if i == body {
-            let pose = pose.in_link_frame(&link.frame);
+            let pose = pose.in_link_frame(&link.to_joint_frame);
             let express = |m| F::express(&pose, in_link_frame(&link, m));
             return express(a) + F::classical_term(express(v));
         }

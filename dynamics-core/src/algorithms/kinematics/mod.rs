@@ -93,7 +93,7 @@ where
     for (link, pose) in robot.links().zip(&mut poses) {
         let here = at.parent(&link);
         let here = here.transformed_by(&link.xform(&trig.turns));
-        *pose = here.in_link_frame(&link.frame);
+        *pose = here.in_link_frame(&link.to_joint_frame);
         at.push(here);
     }
     poses
@@ -162,6 +162,6 @@ pub(in crate::algorithms) fn in_link_frame<R: Real>(
     link: &LinkView<'_, R>,
     m: Motion<R>,
 ) -> Motion<R> {
-    let frame = &link.frame;
+    let frame = &link.to_joint_frame;
     Motion::new(frame.transpose_mul(m.ang), frame.transpose_mul(m.lin))
 }

@@ -225,10 +225,10 @@ where
         return Ok(OsimInverse::ZERO);
     };
     let own = Xform {
-        rot: link.frame.transpose(),
+        rot: link.to_joint_frame.transpose(),
         pos: R::Vec3::ZERO,
     };
-    let expressed = F::from_body(&pose.in_link_frame(&link.frame));
+    let expressed = F::from_body(&pose.in_link_frame(&link.to_joint_frame));
     Ok(mobility.at(&(expressed * own)))
 }
 

@@ -74,7 +74,7 @@ const fn compile<const B: usize, const Q: usize, const V: usize>(
             let (rot, d, mass) = (&places[i].rot, places[i].pos, link.inertia.mass);
             let h = mul_vec(rot, link.inertia.first_moment);
             let second = mul(
-                &mul(rot, &second_moment(&link.inertia.inertia)),
+                &mul(rot, &second_moment(&link.inertia.rotational)),
                 &transpose(rot),
             );
             let second = mat_add(&second, &mat_add(&outer(h, d), &outer(d, h)));
@@ -98,7 +98,7 @@ const fn compile<const B: usize, const Q: usize, const V: usize>(
     i = 0;
     while i < B {
         // From the aligned frames to those of the description.
-        places[i].rot = mul(&places[i].rot, &model.links[i].frame);
+        places[i].rot = mul(&places[i].rot, &model.links[i].to_joint_frame);
         places[i].pos = divide(places[i].pos, length);
         i += 1;
     }

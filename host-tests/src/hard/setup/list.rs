@@ -127,8 +127,8 @@ pub fn reframed() -> Setup<N> {
         link.placement.rot = own * link.placement.rot * before.transpose();
         link.placement.pos = before * link.placement.pos;
         link.inertia.first_moment = own * link.inertia.first_moment;
-        link.inertia.inertia = own * link.inertia.inertia * own.transpose();
-        link.frame = own * link.frame;
+        link.inertia.rotational = own * link.inertia.rotational * own.transpose();
+        link.to_joint_frame = own * link.to_joint_frame;
         before = own;
     }
     Setup::new(43, "general frames", &turned, Extras::NONE, common)

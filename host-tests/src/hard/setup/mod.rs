@@ -119,7 +119,7 @@ impl<const N: usize> Setup<N> {
             name: self.name.clone(),
             inputs: String::new(),
             links,
-            tip_frame: bits(&self.single.links[N - 1].frame.to_cols_array()),
+            tip_frame: bits(&self.single.links[N - 1].to_joint_frame.to_cols_array()),
             gravity: bits(&[0.0, 0.0, -GRAVITY as f32]),
             rotors: bits(&self.extras.rotors),
             payload: bits(&[self.extras.payload]).remove(0),
@@ -160,7 +160,7 @@ pub fn same_in_f64<const N: usize>(
     let mut wide = literally_in_f64(arm, single);
     for link in &mut wide.links {
         link.placement.rot = nearest_rotation(link.placement.rot);
-        link.frame = nearest_rotation(link.frame);
+        link.to_joint_frame = nearest_rotation(link.to_joint_frame);
     }
     wide
 }
@@ -172,12 +172,12 @@ pub fn literally_in_f64<const N: usize>(
 ) -> ArmModel<f64, N> {
     let mut wide = *arm;
     for (link, rounded) in std::iter::zip(&mut wide.links, &single.links) {
-        link.frame = rounded.frame.as_dmat3();
+        link.to_joint_frame = rounded.to_joint_frame.as_dmat3();
         link.placement.rot = rounded.placement.rot.as_dmat3();
         link.placement.pos = rounded.placement.pos.as_dvec3();
         link.inertia.mass = rounded.inertia.mass.into();
         link.inertia.first_moment = rounded.inertia.first_moment.as_dvec3();
-        link.inertia.inertia = rounded.inertia.inertia.as_dmat3();
+        link.inertia.rotational = rounded.inertia.rotational.as_dmat3();
     }
     wide
 }
@@ -244,7 +244,7 @@ fn exported_link(link: &Link<f32>) -> ExportedLink {
         pos: vector(link.placement.pos),
         mass: bits(&[link.inertia.mass]).remove(0),
         first_moment: vector(link.inertia.first_moment),
-        inertia: matrix(&link.inertia.inertia),
+        inertia: matrix(&link.inertia.rotational),
     }
 }
 

@@ -73,7 +73,7 @@ impl<R: Real, const FLAGS: u32, const B: usize, const V: usize> Effect<R, B, V> 
             inertia.mass += of(0.5 + body as f64);
             inertia.first_moment += vec3::<R>(0.1, 0.2, -0.3);
             let (x, y) = (vec3::<R>(0.5, 0.1, 0.0), vec3::<R>(0.1, 0.6, 0.0));
-            inertia.inertia += R::Mat3::from_cols(x, y, vec3::<R>(0.0, 0.0, 0.7));
+            inertia.rotational += R::Mat3::from_cols(x, y, vec3::<R>(0.0, 0.0, 0.7));
         });
     const ROTOR: hook::Rotor<Self, R> = if has(FLAGS, GYROSCOPIC_ROTORS) {
         hook::Rotor::coupling(|_, joint, coupling| *coupling += of(0.05 + 0.1 * joint as f64))
@@ -247,7 +247,7 @@ fn observed<R: Real, E: Effect<R, 6, 3>>(scene: &E) -> Vec<f64> {
     scene.payload(2, &mut load);
     numbers.push(load.mass);
     numbers.extend(load.first_moment.array());
-    numbers.extend(load.inertia.cols().map(Vector::array).as_flattened());
+    numbers.extend(load.rotational.cols().map(Vector::array).as_flattened());
     let mut g = R::Vec3::ZERO;
     scene.field(&mut g);
     numbers.extend(g.array());
@@ -268,7 +268,7 @@ fn observed<R: Real, E: Effect<R, 6, 3>>(scene: &E) -> Vec<f64> {
     scene.torque(1, at, &mut tau);
     scene.derivatives(1, at, &mut derivatives);
     scene.add_inertia(1, &mut diagonal);
-    scene.spin(1, &mut coupling);
+    scene.rotor_coupling(1, &mut coupling);
     numbers.extend([tau, derivatives.dq, derivatives.dqd, diagonal, coupling]);
     numbers.into_iter().map(R::to_f64).collect()
 }

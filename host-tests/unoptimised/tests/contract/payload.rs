@@ -29,11 +29,11 @@ fn carrying(loads: &[(usize, SpatialInertia<f64>)]) -> Model<f64, 6, 3, 3> {
     let mut model = TwoHands::MODEL;
     for &(body, load) in loads {
         let link = &mut model.links[body];
-        let frame: DMat3 = link.frame;
+        let frame: DMat3 = link.to_joint_frame;
         let turned = SpatialInertia {
             mass: load.mass,
             first_moment: frame * load.first_moment,
-            inertia: frame * load.inertia * frame.transpose(),
+            rotational: frame * load.rotational * frame.transpose(),
         };
         link.inertia = link.inertia + turned;
     }

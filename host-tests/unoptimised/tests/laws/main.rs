@@ -245,7 +245,7 @@ fn energies<const B: usize, const N: usize>(
         let (h, body_omega) = (rot * inertia.first_moment, rot.transpose() * omega);
         sums[0] += 0.5 * inertia.mass * v.dot(v)
             + v.dot(omega.cross(h))
-            + 0.5 * body_omega.dot(inertia.inertia * body_omega);
+            + 0.5 * body_omega.dot(inertia.rotational * body_omega);
         sums[1] += G * (inertia.mass * p.z + h.z);
         sums[2] += omega.dot(omega) + v.dot(v);
     }

@@ -62,7 +62,7 @@ fn two_links_are_where_trigonometry_says() {
         at_rest,
     );
     let height = -2.0 * 0.5 * a.sin() + (-a.sin() - 0.25 * b.sin());
-    let energy = potential_energy(&TWO, &q, &(Gravity::EARTH,));
+    let energy = potential_energy(&TWO, &q, &Gravity::EARTH);
     assert!((energy - 9.81 * height).abs() < 1e-14);
 }
 

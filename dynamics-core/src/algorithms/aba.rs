@@ -36,7 +36,7 @@ use crate::state::{Configuration, JointTrig, RobotState, State, entry};
 ///
 /// ```compile_fail
 /// use dynamics_core::{Core, effects::Gravity, robots::Ur5e, state::State};
-/// let _ = Core::<Ur5e>::aba(&State::at([0.0_f32; 6]), &[0.0; 6], &(Gravity::EARTH,));
+/// let _ = Core::<Ur5e>::aba(&State::at([0.0_f32; 6]), &[0.0; 6], &Gravity::EARTH);
 /// ```
 ///
 /// # Errors

@@ -78,7 +78,7 @@ where
 /// # Example
 /// ```
 /// use dynamics_core::{algorithms::potential_energy, effects::Gravity, model::Robot, robots::Ur5e};
-/// let energy = |lift| potential_energy(&Ur5e::MODEL, &[0.0, lift, 0.0, 0.0, 0.0, 0.0], &(Gravity::EARTH,));
+/// let energy = |lift| potential_energy(&Ur5e::MODEL, &[0.0, lift, 0.0, 0.0, 0.0, 0.0], &Gravity::EARTH);
 /// assert!(energy(-1.57_f64) > energy(0.0) + 50.0); // upright
 /// ```
 #[inline(always)]

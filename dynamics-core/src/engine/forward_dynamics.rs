@@ -27,7 +27,7 @@ impl<T, K> Engine<T, K> {
     ///
     /// ```compile_fail
     /// use dynamics_core::{Engine, effects::Gravity, robots::Ur5e, state::State};
-    /// let _ = Engine::<Ur5e>::forward_dynamics(&State::at([0.0_f32; 6]), &[0.0; 6], &(Gravity::EARTH,));
+    /// let _ = Engine::<Ur5e>::forward_dynamics(&State::at([0.0_f32; 6]), &[0.0; 6], &Gravity::EARTH);
     /// ```
     ///
     /// # Errors

@@ -109,7 +109,7 @@ fn floor(body: usize) -> Contact<f64, 1> {
 fn friction_is_that_of_the_deck_on_a_base_that_moves() {
     let state = State::at([0.3_f64, 0.5, 0.7]);
     let still = Core::<Quill>::rnea(&state, &(Gravity::EARTH, floor(2)));
-    let weight = Core::<Quill>::rnea(&state, &(Gravity::EARTH,));
+    let weight = Core::<Quill>::rnea(&state, &Gravity::EARTH);
     assert!(
         std::iter::zip(still, weight).all(|(a, b)| (a - b).abs() > 1.0),
         "{still:?} {weight:?}"
@@ -169,7 +169,7 @@ fn the_jacobian_of_a_body_that_there_is_not_is_not_a_number() {
 fn a_quaternion_of_any_length_is_an_attitude() {
     let ball: Model<f64, 1, 4, 3> = Model::new("ball", [link("ball", BASE, Joint::spherical())]);
     let unit = [0.1, -0.5, 0.7, 0.5];
-    let weight = |q: [f64; 4]| rnea(&ball, &State::at(q), &(Gravity::EARTH,));
+    let weight = |q: [f64; 4]| rnea(&ball, &State::at(q), &Gravity::EARTH);
     let want = weight(unit);
     for length in [3.0, 1e-3, 0.9, 1.2, 1e6] {
         let found = weight(unit.map(|x| x * length));

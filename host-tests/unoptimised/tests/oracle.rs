@@ -97,7 +97,7 @@ fn core<R: Real, T, const B: usize, const Q: usize, const V: usize>(
     compare::<R, Q, V>(recording, verdict, ["rnea", "gravity", "bias"], |state| {
         [
             rnea(robot, state, &RIGID_BODY),
-            rnea(robot, state, &(Gravity::EARTH,)),
+            rnea(robot, state, &Gravity::EARTH),
             rnea(robot, state, &(Gravity::EARTH, Coriolis)),
         ]
     });

@@ -70,7 +70,7 @@ where
     T: Robot<B, N, N>,
 {
     let of = (&*r.gravity, r.full_scale.gravity);
-    inverse::<R, T, _, B, N>("engine gravity", of, r, &(Gravity::EARTH,));
+    inverse::<R, T, _, B, N>("engine gravity", of, r, &Gravity::EARTH);
     let of = (&*r.bias, r.full_scale.bias);
     inverse::<R, T, _, B, N>("engine bias", of, r, &(Gravity::EARTH, Coriolis));
 }

@@ -35,8 +35,8 @@ fn absent_effects_change_nothing() {
             let want = bits(rnea(model, state, &gravity));
             assert_eq!(bits(rnea(model, &other, &gravity)), want);
             other.qd = [f64::NAN; N];
-            let want = bits(rnea(model, state, &(Gravity::EARTH,)));
-            assert_eq!(bits(rnea(model, &other, &(Gravity::EARTH,))), want);
+            let want = bits(rnea(model, state, &Gravity::EARTH));
+            assert_eq!(bits(rnea(model, &other, &Gravity::EARTH)), want);
         }
     }
     worst_of_all::<Absent>();
@@ -53,7 +53,7 @@ fn torques_of_the_effects_add_up() {
         ) {
             let all = rnea(model, state, &(RIGID_BODY, Drag));
             let parts = [
-                rnea(model, state, &(Gravity::EARTH,)),
+                rnea(model, state, &Gravity::EARTH),
                 rnea(model, state, &(Inertia,)),
                 rnea(model, state, &(Coriolis,)),
                 rnea(model, state, &(Drag,)),

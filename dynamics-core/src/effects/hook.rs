@@ -97,14 +97,15 @@
 //! Machine code: a hook is a constant, so that its call is a direct one; a function with `#[inline(always)]` in place
 //! of a closure is inlined at every level of optimisation.
 
-use super::hook_args::{BodyState, BodyVelocity};
+pub use wrench::Wrench;
+
 use crate::scalar::Real;
-use crate::spatial::{Force, Motion, SpatialInertia, Xform};
+use crate::spatial::{Motion, SpatialInertia};
+
+mod wrench;
 
 /// Adds to the velocity and acceleration of the base.
 type AddMotion<E, R> = fn(&E, &mut Motion<R>, &mut Motion<R>);
-/// Adds to the wrench on a body, from what it reads.
-type AddWrench<E, R, Read> = fn(&E, usize, &Read, &mut Force<R>);
 
 /// A field that accelerates every body.
 #[derive(Debug)]
@@ -192,97 +193,6 @@ impl<E, R: Real> Base<E, R> {
         Self {
             add: if any { Some(add) } else { None },
         }
-    }
-}
-
-/// A wrench fˣ that the environment exerts on a body.
-///
-/// The hook is called for each body by its place in the model's list, and adds to fˣ, about the origin of the body's
-/// frame and in its coordinates, N·m and N.
-#[derive(Debug)]
-pub struct Wrench<E, R: Real> {
-    pub(super) constant: Option<fn(&E, usize, &mut Force<R>)>,
-    pub(super) of_pose: Option<AddWrench<E, R, Xform<R>>>,
-    pub(super) of_velocity: Option<AddWrench<E, R, BodyVelocity<R>>>,
-    pub(super) of_state: Option<AddWrench<E, R, BodyState<R>>>,
-    pub(super) reads_pose: bool,
-    pub(super) reads_velocity: bool,
-}
-
-impl<E, R: Real> Wrench<E, R> {
-    /// No wrench.
-    pub const NONE: Self = Self {
-        constant: None,
-        of_pose: None,
-        of_velocity: None,
-        of_state: None,
-        reads_pose: false,
-        reads_velocity: false,
-    };
-
-    /// A wrench that depends on nothing but the effect.
-    pub const fn constant(add: fn(&E, usize, &mut Force<R>)) -> Self {
-        Self {
-            constant: Some(add),
-            ..Self::NONE
-        }
-    }
-
-    /// A wrench that depends on the body's pose relative to the base: the coordinate transform from the base to the
-    /// body's frame, its origin in base coordinates, m.
-    pub const fn of_pose(add: fn(&E, usize, &Xform<R>, &mut Force<R>)) -> Self {
-        Self {
-            of_pose: Some(add),
-            reads_pose: true,
-            ..Self::NONE
-        }
-    }
-
-    /// A wrench that depends on the body's velocity (which does not switch the velocity products on).
-    pub const fn of_velocity(add: fn(&E, usize, &BodyVelocity<R>, &mut Force<R>)) -> Self {
-        Self {
-            of_velocity: Some(add),
-            reads_velocity: true,
-            ..Self::NONE
-        }
-    }
-
-    /// A wrench that depends on the body's pose and velocity.
-    pub const fn of_state(add: fn(&E, usize, &BodyState<R>, &mut Force<R>)) -> Self {
-        Self {
-            of_state: Some(add),
-            reads_pose: true,
-            reads_velocity: true,
-            ..Self::NONE
-        }
-    }
-
-    /// That of a forwarder.
-    #[doc(hidden)]
-    pub const fn forwarded(
-        any: bool,
-        reads_pose: bool,
-        reads_velocity: bool,
-        add: fn(&E, usize, &BodyState<R>, &mut Force<R>),
-    ) -> Self {
-        if any {
-            Self {
-                of_state: Some(add),
-                reads_pose,
-                reads_velocity,
-                ..Self::NONE
-            }
-        } else {
-            Self::NONE
-        }
-    }
-
-    /// Whether there is any.
-    pub(super) const fn is_some(&self) -> bool {
-        self.constant.is_some()
-            | self.of_pose.is_some()
-            | self.of_velocity.is_some()
-            | self.of_state.is_some()
     }
 }
 

@@ -1,158 +1,10 @@
-//! What a joint lets its body do: kinds, axes, coordinates. RBDA (2008), table 4.1.
+//! A joint as a model describes it: its kind and its axes.
 
 use super::error::Problem;
+use super::joint_kind::JointKind;
 use crate::math::const_eval as m;
 use crate::scalar::Real;
 use glam::{DMat3, DVec3};
-
-/// What a joint lets its body do, and the coordinates that say it.
-///
-/// "Parent side" is the joint's frame, fixed in the parent; velocities are those of the body in its own
-/// frame. Turns are in rad, lengths in m.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum JointKind {
-    /// A turn q about an axis.
-    Revolute,
-    /// A turn without end: as `Revolute`, but q and q + 2π are the same place.
-    Continuous,
-    /// A slide q along an axis.
-    Prismatic,
-    /// A turn q about an axis and a slide pitch·q along it.
-    Helical,
-    /// A turn q₀ about an axis and a slide q₁ along it.
-    Cylindrical,
-    /// A turn q₀ about an axis of the parent side, then a turn q₁ about an axis of the body.
-    Universal,
-    /// A ball joint: q is a unit quaternion (x, y, z, w), the body's attitude on the parent side; q̇
-    /// stands for ω.
-    Spherical,
-    /// A turn q₀ about z and the place (q₁, q₂) of the body's origin on the parent side's x-y plane;
-    /// q̇ stands for (ω_z, v_x, v_y).
-    Planar,
-    /// No constraint: a unit quaternion (x, y, z, w) and the place of the body's origin on the parent
-    /// side; q̇ stands for (ω, v).
-    Free,
-    /// Nothing: no coordinate.
-    Fixed,
-}
-
-impl JointKind {
-    /// Every kind.
-    pub const ALL: [Self; 10] = [
-        Self::Revolute,
-        Self::Continuous,
-        Self::Prismatic,
-        Self::Helical,
-        Self::Cylindrical,
-        Self::Universal,
-        Self::Spherical,
-        Self::Planar,
-        Self::Free,
-        Self::Fixed,
-    ];
-
-    /// The numbers of position and velocity coordinates.
-    ///
-    /// ```
-    /// use dynamics_core::model::JointKind;
-    /// assert_eq!(JointKind::Free.coordinates(), (7, 6));
-    /// ```
-    pub const fn coordinates(self) -> (usize, usize) {
-        match self {
-            Self::Revolute | Self::Continuous | Self::Prismatic | Self::Helical => (1, 1),
-            Self::Cylindrical | Self::Universal => (2, 2),
-            Self::Planar => (3, 3),
-            Self::Spherical => (4, 3),
-            Self::Free => (7, 6),
-            Self::Fixed => (0, 0),
-        }
-    }
-
-    /// How many of its first coordinates are angles, and how many a quaternion's.
-    pub(crate) const fn angles(self) -> (usize, usize) {
-        match self {
-            Self::Revolute | Self::Continuous | Self::Helical => (1, 0),
-            Self::Cylindrical | Self::Planar => (1, 0),
-            Self::Universal => (2, 0),
-            Self::Spherical | Self::Free => (0, 4),
-            Self::Prismatic | Self::Fixed => (0, 0),
-        }
-    }
-}
-
-/// The kinds of joint that a robot has: what others would do is not in its machine code.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct JointKinds(u16);
-
-impl JointKinds {
-    /// Every kind: a robot known only at run time.
-    pub const ALL: Self = Self(u16::MAX);
-
-    /// No kind.
-    pub(super) const NONE: Self = Self(0);
-
-    /// Turns about one axis only, with an end or without.
-    pub(super) const REVOLUTE: Self = Self::NONE
-        .with(JointKind::Revolute)
-        .with(JointKind::Continuous);
-
-    /// Whether each is such a turn.
-    #[inline(always)]
-    pub(super) const fn are_revolute(self) -> bool {
-        self.0 & !Self::REVOLUTE.0 == 0
-    }
-
-    /// These and one more.
-    pub(super) const fn with(self, kind: JointKind) -> Self {
-        Self(self.0 | 1 << kind as u16)
-    }
-
-    /// Whether each has one coordinate.
-    pub(super) const fn are_single(self) -> bool {
-        use JointKind::*;
-        let single = Self::NONE.with(Revolute).with(Continuous).with(Prismatic);
-        self.0 & !single.with(Helical).0 == 0
-    }
-
-    /// Whether this kind is one of them.
-    #[inline(always)]
-    pub(crate) const fn has(self, kind: JointKind) -> bool {
-        self.0 & (1 << kind as u16) != 0
-    }
-
-    /// `kind`, which is one of these; written so that the compiler sees that it is.
-    #[inline(always)]
-    pub(super) fn of(self, kind: JointKind) -> JointKind {
-        use JointKind::*;
-        match kind {
-            Revolute if self.has(Revolute) => Revolute,
-            Continuous if self.has(Continuous) => Continuous,
-            Prismatic if self.has(Prismatic) => Prismatic,
-            Helical if self.has(Helical) => Helical,
-            Cylindrical if self.has(Cylindrical) => Cylindrical,
-            Universal if self.has(Universal) => Universal,
-            Spherical if self.has(Spherical) => Spherical,
-            Planar if self.has(Planar) => Planar,
-            Free if self.has(Free) => Free,
-            Fixed if self.has(Fixed) => Fixed,
-            _ => self.first(),
-        }
-    }
-
-    #[inline(always)]
-    const fn first(self) -> JointKind {
-        let kinds = JointKind::ALL;
-        let mut i = 0;
-        while i < kinds.len() {
-            if self.has(kinds[i]) {
-                return kinds[i];
-            }
-            i += 1;
-        }
-        JointKind::Fixed
-    }
-}
 
 /// A joint: its kind and axes, in the body's frame.
 ///
@@ -163,7 +15,7 @@ impl JointKinds {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Joint<R: Real> {
-    /// What the joint lets its body do.
+    /// The kind.
     pub kind: JointKind,
     /// Unit axis (the second of a universal joint) in the body's frame; zero if it has none.
     pub axis: R::Vec3,

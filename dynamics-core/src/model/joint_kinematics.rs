@@ -1,13 +1,11 @@
-//! A joint at work: ⁱX_λ(i), S q̇, S̊ q̇, Sᵀ f. RBDA (2008), table 4.1.
+//! The kinematics of one joint: ⁱX_λ(i), S q̇, S̊ q̇, Sᵀ f. RBDA (2008), table 4.1.
 //!
 //! In a link's aligned frame every axis is z, so that S is made of unit vectors, and only a
 //! universal joint's first column depends on q.
 
-use core::ops::Deref;
-
-use super::Link;
-use super::joint::{JointKind, JointKinds};
+use super::LinkView;
 use super::joint_coordinate::{JointCoordinate, near_unit, rotation};
+use super::joint_kind::JointKind;
 use crate::math::entry;
 use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::{Force, Motion, MotionSubspace, Xform, raised};
@@ -15,82 +13,8 @@ use crate::trig::Kernel;
 
 use JointKind::*;
 
-/// A link, with what the compiler knows of its joint.
-#[derive(Clone, Copy, Debug)]
-pub struct LinkView<'a, R: Real> {
-    link: &'a Link<R>,
-    pub(super) kind: JointKind,
-    idx_q: usize,
-    idx_v: usize,
-}
-
-impl<R: Real> Deref for LinkView<'_, R> {
-    type Target = Link<R>;
-    #[inline(always)]
-    fn deref(&self) -> &Link<R> {
-        self.link
-    }
-}
-
-impl<'a, R: Real> LinkView<'a, R> {
-    /// Link `i`, its joint one of `kinds`; `single`: every body has one coordinate.
-    #[inline(always)]
-    pub(super) fn new(i: usize, link: &'a Link<R>, kinds: JointKinds, single: bool) -> Self {
-        let (idx_q, idx_v) = if single {
-            (i, i)
-        } else {
-            (link.idx_q, link.idx_v)
-        };
-        Self {
-            link,
-            kind: kinds.of(link.joint.kind),
-            idx_q,
-            idx_v,
-        }
-    }
-
-    /// The kind of its joint.
-    #[inline(always)]
-    pub fn kind(&self) -> JointKind {
-        self.kind
-    }
-
-    /// Index of its first position in q.
-    #[inline(always)]
-    pub(crate) fn idx_q(&self) -> usize {
-        self.idx_q
-    }
-
-    /// Index of its first velocity in q̇.
-    #[inline(always)]
-    pub(crate) fn idx_v(&self) -> usize {
-        self.idx_v
-    }
-
-    /// Its velocity coordinates, as indices of q̇.
-    #[inline(always)]
-    pub fn coordinates(&self) -> core::ops::Range<usize> {
-        let (_, count) = self.kind.coordinates();
-        if count == 0 {
-            return 0..0;
-        }
-        self.idx_v..self.idx_v + count
-    }
-
-    /// The position that belongs to the velocity coordinate k; zero where none does, as with the ω of
-    /// a quaternion.
-    #[inline(always)]
-    pub(crate) fn position(&self, q: &[R], k: usize) -> R {
-        let (_, quaternion) = self.kind.angles();
-        let place = k - self.idx_v;
-        match quaternion {
-            0 => entry(q, self.idx_q + place),
-            _ if place < 3 => R::ZERO,
-            _ => entry(q, self.idx_q + place + 1),
-        }
-    }
-
-    /// Its entries of a posture: sines and cosines of its angles, its quaternion at unit length.
+impl<R: Real> LinkView<'_, R> {
+    /// Its entries of the joints' sines and cosines: those of its angles, its quaternion at unit length.
     #[inline(always)]
     pub(crate) fn pose<K: Kernel<R>>(&self, q: &[R], turns: &mut [JointCoordinate<R>]) {
         let (count, _) = self.kind.coordinates();
@@ -231,6 +155,16 @@ impl<'a, R: Real> LinkView<'a, R> {
         }
     }
 
+    /// Column k of S.
+    #[inline(always)]
+    pub(crate) fn subspace(&self, turns: &[JointCoordinate<R>], k: usize) -> MotionSubspace<R> {
+        match self.kind {
+            JointKind::Revolute | JointKind::Continuous => MotionSubspace::RevoluteZ,
+            JointKind::Prismatic => MotionSubspace::PrismaticZ,
+            _ => MotionSubspace::General(self.column(turns, k)),
+        }
+    }
+
     /// Sᵀ f: the parts of a force that the joint's motors carry, put into their places of `tau`.
     #[inline(always)]
     pub fn project(&self, turns: &[JointCoordinate<R>], f: Force<R>, tau: &mut [R]) {
@@ -287,16 +221,4 @@ fn unit<R: Real>(k: usize) -> Motion<R> {
         R::Vec3::new(at(0), at(1), at(2)),
         R::Vec3::new(at(3), at(4), at(5)),
     )
-}
-
-impl<R: Real> LinkView<'_, R> {
-    /// Column k of S.
-    #[inline(always)]
-    pub(crate) fn subspace(&self, turns: &[JointCoordinate<R>], k: usize) -> MotionSubspace<R> {
-        match self.kind {
-            JointKind::Revolute | JointKind::Continuous => MotionSubspace::RevoluteZ,
-            JointKind::Prismatic => MotionSubspace::PrismaticZ,
-            _ => MotionSubspace::General(self.column(turns, k)),
-        }
-    }
 }

@@ -70,8 +70,11 @@ mod floating_base;
 mod inertia;
 mod joint;
 mod joint_coordinate;
+mod joint_kind;
 mod joint_kinematics;
+mod link_view;
 mod pruned;
+mod robot;
 mod source;
 
 pub(crate) use body::moments_excess;
@@ -79,10 +82,12 @@ pub use body::{BASE, Body, JointLimits};
 pub use error::{ModelError, Problem};
 pub use floating_base::attach_to;
 pub use inertia::BodyInertia;
-pub use joint::{Joint, JointKind, JointKinds};
+pub use joint::Joint;
 pub use joint_coordinate::JointCoordinate;
-pub use joint_kinematics::LinkView;
+pub use joint_kind::{JointKind, JointKinds};
+pub use link_view::LinkView;
 pub use pruned::Pruned;
+pub use robot::{Arm, Robot, model};
 pub use source::{AllRevolute, Calibrated, RobotModel, Static};
 
 use self::aligned::{aligned, is_finite};
@@ -130,48 +135,6 @@ pub struct Model<R: Real, const B: usize, const Q: usize, const V: usize> {
 
 /// A robot of N bodies on N joints of one degree of freedom.
 pub type ArmModel<R, const N: usize> = Model<R, N, N, N>;
-
-/// A robot known at compile time.
-pub trait Robot<const B: usize, const Q: usize, const V: usize> {
-    /// The robot's description, in f64.
-    const MODEL: Model<f64, B, Q, V>;
-    /// The same, rounded to f32.
-    const MODEL_F32: Model<f32, B, Q, V> = Self::MODEL.to_f32();
-    /// The share of the robot's torque below which [`crate::Engine`] leaves a base parameter out, from 0, which leaves
-    /// all in, to below 1; [`Pruned`] sets it.
-    ///
-    /// Torques are compared at 1 g and at the angular acceleration at which the largest second moment needs as much
-    /// torque as the largest first moment weighs.
-    const NEGLIGIBLE: f64 = 0.0;
-}
-
-/// A [`Robot`] of N joints of one degree of freedom, one body each: the bound of a function for ordinary arms.
-///
-/// ```
-/// use dynamics_core::{Engine, effects::RIGID_BODY, model::Arm, robots::Ur5e, state::ArmState};
-/// fn torque<T: Arm<N>, const N: usize>(state: &ArmState<f32, N>) -> [f32; N] {
-///     Engine::<T>::rnea(state, &RIGID_BODY)
-/// }
-/// assert!(torque::<Ur5e, 6>(&ArmState::at([0.0; 6]))[1] < -50.0); // N·m
-/// ```
-pub trait Arm<const N: usize>: Robot<N, N, N> {}
-
-impl<T: Robot<N, N, N>, const N: usize> Arm<N> for T {}
-
-/// The model of a robot known at compile time, in the scalar R.
-///
-/// ```
-/// use dynamics_core::{model::model, robots::Ur5e};
-/// assert_eq!(model::<f32, Ur5e, 6, 6, 6>().links[1].name, "upper_arm");
-/// ```
-#[inline(always)]
-pub fn model<R: Real, T, const B: usize, const Q: usize, const V: usize>()
--> &'static Model<R, B, Q, V>
-where
-    T: Robot<B, Q, V>,
-{
-    R::model::<T, B, Q, V>()
-}
 
 impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
     /// A model from its bodies; a description that cannot be does not compile.

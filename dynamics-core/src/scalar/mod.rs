@@ -7,12 +7,15 @@ use core::fmt::Debug;
 use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
 pub use crate::math::exp_neg;
+pub use native::Native;
 pub use positive_part::positive_part;
+pub use vector::{Matrix, Vector};
 
 use crate::model::{Model, Robot};
-use crate::trig::Kernel;
 
+mod native;
 mod positive_part;
+mod vector;
 
 /// Keeps [`Real`] to the types whose errors are tested. The reports of this repository implement it for numbers that
 /// they compare with f32; it is no part of the API.
@@ -77,7 +80,7 @@ pub trait Real:
     fn atan2(self, x: Self) -> Self;
     /// The distance from 1 to the next number.
     const EPSILON: Self;
-    /// The least normal number: what keeps 0/0 from being computed, at no scale of anybody's.
+    /// The smallest positive normal number; added to a denominator, it avoids 0/0.
     const MIN_POSITIVE: Self;
     /// 1/√x of a positive normal number, within 2 ulp; no division, the same instructions for every x.
     fn rsqrt(self) -> Self;
@@ -102,65 +105,6 @@ pub trait Real:
         T: Robot<B, Q, V>;
     /// Of two values prepared for f64 and f32, that of this type.
     fn select(double: f64, single: f32) -> Self;
-}
-
-/// What the algorithms ask of a vector of three.
-pub trait Vector<R>:
-    Copy
-    + Debug
-    + Default
-    + PartialEq
-    + Add<Output = Self>
-    + Sub<Output = Self>
-    + Neg<Output = Self>
-    + Mul<R, Output = Self>
-    + AddAssign
-    + SubAssign
-    + Send
-    + Sync
-    + 'static
-{
-    /// The zero vector.
-    const ZERO: Self;
-    /// From components.
-    fn new(x: R, y: R, z: R) -> Self;
-    /// The components.
-    fn array(self) -> [R; 3];
-    /// The scalar product.
-    fn dot(self, other: Self) -> R;
-    /// The vector product.
-    fn cross(self, other: Self) -> Self;
-}
-
-/// What the algorithms ask of a 3×3 matrix.
-pub trait Matrix<R: Real>:
-    Copy
-    + Debug
-    + Default
-    + PartialEq
-    + Add<Output = Self>
-    + Sub<Output = Self>
-    + Mul<R::Vec3, Output = R::Vec3>
-    + Mul<Self, Output = Self>
-    + Mul<R, Output = Self>
-    + AddAssign
-    + SubAssign
-    + Send
-    + Sync
-    + 'static
-{
-    /// The zero matrix.
-    const ZERO: Self;
-    /// The unit matrix.
-    const IDENTITY: Self;
-    /// From columns.
-    fn from_cols(x: R::Vec3, y: R::Vec3, z: R::Vec3) -> Self;
-    /// The columns.
-    fn cols(self) -> [R::Vec3; 3];
-    /// The transpose.
-    fn transpose(self) -> Self;
-    /// Mᵀ v.
-    fn transpose_mul(self, v: R::Vec3) -> R::Vec3;
 }
 
 macro_rules! real {
@@ -248,47 +192,6 @@ macro_rules! real {
                 $pick
             }
         }
-
-        impl Vector<$r> for $vec {
-            const ZERO: Self = Self::ZERO;
-            #[inline(always)]
-            fn new(x: $r, y: $r, z: $r) -> Self {
-                Self::new(x, y, z)
-            }
-            #[inline(always)]
-            fn array(self) -> [$r; 3] {
-                [self.x, self.y, self.z]
-            }
-            #[inline(always)]
-            fn dot(self, other: Self) -> $r {
-                self.dot(other)
-            }
-            #[inline(always)]
-            fn cross(self, other: Self) -> Self {
-                self.cross(other)
-            }
-        }
-
-        impl Matrix<$r> for $mat {
-            const ZERO: Self = Self::ZERO;
-            const IDENTITY: Self = Self::IDENTITY;
-            #[inline(always)]
-            fn from_cols(x: $vec, y: $vec, z: $vec) -> Self {
-                Self::from_cols(x, y, z)
-            }
-            #[inline(always)]
-            fn cols(self) -> [$vec; 3] {
-                [self.x_axis, self.y_axis, self.z_axis]
-            }
-            #[inline(always)]
-            fn transpose(self) -> Self {
-                Self::transpose(&self)
-            }
-            #[inline(always)]
-            fn transpose_mul(self, v: $vec) -> $vec {
-                <$vec>::new(self.x_axis.dot(v), self.y_axis.dot(v), self.z_axis.dot(v))
-            }
-        }
     };
 }
 
@@ -324,18 +227,3 @@ real!(
     Model::clone,
     |double, single| double
 );
-
-/// The scalar's own kernel, [`Real::sin_cos`]: the default.
-#[derive(Clone, Copy, Debug)]
-pub struct Native;
-
-impl<R: Real> Kernel<R> for Native {
-    #[inline(always)]
-    fn sin_cos(x: R) -> (R, R) {
-        x.sin_cos()
-    }
-    #[inline(always)]
-    fn sin_cos_near(x: R) -> (R, R) {
-        x.sin_cos_near()
-    }
-}

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use indexmap::IndexMap;
 use serde::{Deserialize, Serialize};
 
-use crate::bars::{Bars, Held, is_ratio};
+use crate::bars::{Bars, Compared, is_ratio};
 use crate::costs::{self, TICK};
 use crate::error::{Error, Result};
 use crate::report::Report;
@@ -279,7 +279,7 @@ fn hold_scene(budgets: &Budgets, scene: &str, measured: &Budget) -> Result<Strin
     let cycles = figure(measured, "tick_cycles");
     let mut exceeded = budget.exceeded_by(measured);
     let key = format!("{scene}{TICK}");
-    let bar = Held::of(&budgets.bars, &key, "cycles", cycles as f64);
+    let bar = Compared::of(&budgets.bars, &key, "cycles", cycles as f64);
     exceeded.extend(bar.and_then(|bar| Some(format!("bar: {}", bar.complaint()?))));
     if !exceeded.is_empty() {
         return Err(Error::check(format!(

@@ -1,7 +1,7 @@
 //! The rows in print.
 
 use super::measure::Row;
-use crate::bars::{self, Bars, Held, is_ratio};
+use crate::bars::{self, Bars, Compared, is_ratio};
 use crate::render::CLOCK_MHZ;
 use crate::report::MODEL;
 use crate::table::{Table, thousands};
@@ -17,7 +17,7 @@ pub const ADDED: &str = " added";
 
 /// Of the section on forward dynamics.
 const WAYS: &str = "\
-`forward`: bias, CRBA, factors, solution; `aba`: articulated bodies; sines and cosines at hand. The core's two \
+`forward`: bias, CRBA, factors, solution; `aba`: articulated bodies; sines and cosines computed outside. The core's two \
 lines over the length of a chain are in `docs/growth.md`; which is less accurate where, in \
 `docs/eliminations.md`. The engine folds more of M than of articulated inertias.";
 
@@ -44,11 +44,11 @@ impl Report {
              - form: `core`, the textbook loop over the model; `engine`, specialised to the robot\n\
              - inputs, the effects named: `full`: gravity, inertia and velocity products; `bias`: gravity and \
              velocity products; `gravity`: gravity alone; `no_coriolis`: gravity and inertia\n\
-             - sin/cos: whether they are computed inside, or at hand\n\
+             - sin/cos: whether they are computed inside the call, or outside\n\
              - flops: sums, products, quotients and roots executed; a multiply-accumulate is two\n\
              - of floor: flops as a share of the least arithmetic known for a general arm of six joints, sines \
              and cosines aside (RNEA {}, CRBA {}, ABA {})\n\
-             - `crba`: M; `factor_solve`: M's factors and one solution, M at hand; `forward`: bias, M, its \
+             - `crba`: M; `factor_solve`: M's factors and one solution, M given; `forward`: bias, M, its \
              factors and the solution; `aba`: the same by articulated bodies; `jacobian`: of the last body\n\
              - code: instructions and literals of the function and of all that it calls, in bytes, without the \
              robot's constants in memory and without library functions of trigonometry\n\
@@ -71,7 +71,7 @@ impl Report {
         );
         text += &format!(
             "\n## Bars\n\nWhat was promised, from `budgets.toml`.\n\n{}",
-            bars::table(&self.held()).markdown()
+            bars::table(&self.compared()).markdown()
         );
         text + &format!("\nMeasured with {}.\n", self.rustc)
     }
@@ -83,7 +83,7 @@ impl Report {
     }
 
     /// Every bar that there is a figure for: of the rows, then of the engine at opt-level s against itself at 3.
-    fn held(&self) -> Vec<Held> {
+    fn compared(&self) -> Vec<Compared> {
         let mut all = Vec::new();
         for (key, row) in self
             .bars
@@ -91,13 +91,18 @@ impl Report {
             .filter_map(|key| Some((key, self.row(key)?)))
         {
             let figures = row.figures().into_iter();
-            let held = |(figure, value)| Held::of(&self.bars, key, figure, value as f64);
-            all.extend(figures.filter_map(held));
+            let compared = |(figure, value)| Compared::of(&self.bars, key, figure, value as f64);
+            all.extend(figures.filter_map(compared));
         }
         for (small, row) in self.pairs() {
             let key = format!("opt-level s / 3, {}", row.key());
             for ((figure, value), (_, of)) in small.figures().into_iter().zip(row.figures()) {
-                all.extend(Held::of(&self.bars, &key, figure, value as f64 / of as f64));
+                all.extend(Compared::of(
+                    &self.bars,
+                    &key,
+                    figure,
+                    value as f64 / of as f64,
+                ));
             }
         }
         all
@@ -105,8 +110,8 @@ impl Report {
 
     /// The bars that are not as `budgets.toml` has them, or whose row is not there, in words.
     pub fn missed(&self) -> Vec<String> {
-        let held = self.held();
-        let unmet = held.iter().filter_map(Held::complaint);
+        let compared = self.compared();
+        let unmet = compared.iter().filter_map(Compared::complaint);
         let bars = self.bars.keys().filter(|key| !is_ratio(key));
         let unknown = bars
             .filter(|key| ![TICK, ADDED].iter().any(|end| key.ends_with(end)))
@@ -188,7 +193,7 @@ fn called(row: &Row) -> String {
 }
 
 fn trig(row: &Row) -> String {
-    if row.trig { "inside" } else { "at hand" }.to_owned()
+    if row.trig { "inside" } else { "outside" }.to_owned()
 }
 
 fn table(rows: &[Row]) -> Table {

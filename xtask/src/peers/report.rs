@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::bars::{self, Held};
+use crate::bars::{self, Compared};
 use crate::peers::ALGORITHMS;
 use crate::report::MODEL;
 use crate::table::{Table, thousands};
@@ -46,14 +46,14 @@ pub struct Report {
     /// The measurements.
     pub rows: Vec<Row>,
     /// The bars among them.
-    pub held: Vec<Held>,
+    pub compared: Vec<Compared>,
     /// What was measured with what.
     pub versions: Vec<String>,
     /// The day of the run, and the commit.
     pub date: String,
 }
 
-const ON_TARGET: &str = "f32, sines and cosines at hand; instructions are exact, cycles modelled. \
+const ON_TARGET: &str = "f32, sines and cosines computed outside; instructions are exact, cycles modelled. \
     `casadi clang` has our CPU flags and is outside the bars.";
 const ON_HOST: &str = "Nanoseconds a state, sines and cosines included.";
 
@@ -81,7 +81,7 @@ impl Report {
         text += &format!(
             "\n## Against the bars\n\nWhat was promised, from `budgets.toml`: against the better build of \
              CasADi's C and the better compiler of Pinocchio.\n\n{}",
-            bars::table(&self.held).markdown()
+            bars::table(&self.compared).markdown()
         );
         text += "\n## Versions\n\n";
         for version in &self.versions {

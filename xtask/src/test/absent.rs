@@ -3,14 +3,14 @@
 use std::path::{Path, PathBuf};
 
 use super::Context;
-use crate::bars::Held;
+use crate::bars::Compared;
 use crate::budgets;
 use crate::costs::{self, ADDED, Row};
 use crate::elf::Image;
 use crate::error::{Error, Result, refuse};
 use crate::firmware;
 use crate::qemu::Run;
-use crate::sameness;
+use crate::same_code;
 use crate::toolchain::RELEASE;
 
 const BIN: &str = "absent";
@@ -32,8 +32,8 @@ pub fn absent_effects_cost_nothing(context: &Context) -> Result<String> {
     for form in ["core", "engine"] {
         let address = |inputs| row(&rows, form, inputs).map(|row| row.address);
         let (full, idle) = (address("full")?, address("idle")?);
-        let instructions = sameness::same(&image, full, idle)?;
-        let friction = sameness::same(&image, full, address("friction")?);
+        let instructions = same_code::same(&image, full, idle)?;
+        let friction = same_code::same(&image, full, address("friction")?);
         refuse(friction.is_ok(), || {
             "friction changes no instruction: the comparison sees nothing".into()
         })?;
@@ -90,15 +90,15 @@ fn row<'a>(rows: &'a [Row], form: &str, inputs: &str) -> Result<&'a Row> {
         .ok_or_else(|| Error::check(format!("`{BIN}` did not measure {form} {inputs}")))
 }
 
-/// What friction and rotors add to a call, held against the bar.
+/// What friction and rotors add to a call, compared with the bar.
 fn added(context: &Context, full: &Row, friction: &Row) -> Result<String> {
     let bars = budgets::bars(&context.workspace)?;
     let key = format!("{}{ADDED}", friction.key());
     let cycles = friction.cycles.max.saturating_sub(full.cycles.max);
-    let held = Held::of(&bars, &key, "cycles", cycles as f64)
+    let compared = Compared::of(&bars, &key, "cycles", cycles as f64)
         .ok_or_else(|| Error::check(format!("there is no bar {key:?}")))?;
-    let most = held.most;
-    match held.complaint() {
+    let most = compared.most;
+    match compared.complaint() {
         Some(complaint) => Err(Error::check(format!("bar: {complaint}"))),
         None => Ok(format!("friction and rotors {cycles} of {most} cycles")),
     }

@@ -226,17 +226,17 @@ fn raw(context: &Context, qemu: &Qemu, name: &str, elf: &Path) -> Result<(Vec<u8
 
 /// How many samples two runs have in common, which are all.
 fn same(name: &str, here: &(Vec<u8>, String), there: &(Vec<u8>, String)) -> Result<usize> {
-    let unlike = |what: &str| Err(Error::check(format!("{name}: {what}")));
+    let differs = |what: &str| Err(Error::check(format!("{name}: {what}")));
     if here.0 != there.0 {
-        return unlike("the two QEMUs logged different bytes");
+        return differs("the two QEMUs logged different bytes");
     }
     let mut lines = std::iter::zip(here.1.lines(), there.1.lines()).zip(1..);
     if let Some(((one, other), at)) = lines.find(|((one, other), _)| one != other) {
         let both = format!("`{one}` here and `{other}` there");
-        return unlike(&format!("line {at} of the samples is {both}"));
+        return differs(&format!("line {at} of the samples is {both}"));
     }
     if here.1 != there.1 {
-        return unlike("the two QEMUs gave different numbers of samples");
+        return differs("the two QEMUs gave different numbers of samples");
     }
     Ok(here.1.lines().count().saturating_sub(1))
 }

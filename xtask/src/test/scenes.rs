@@ -6,7 +6,7 @@ use crate::demo::{self, Measured};
 use crate::docs;
 use crate::error::{Result, refuse};
 use crate::plot;
-use crate::protocol::SOLD;
+use crate::protocol::FEEDFORWARD;
 use crate::render::CLOCK_MHZ;
 use crate::scene::Scene;
 use crate::scenes;
@@ -35,9 +35,9 @@ pub fn runs(context: &Context) -> Result<String> {
     for measured in context.measured()? {
         let name = &measured.report.scene;
         // Of the default scene no law needs the gate; elsewhere some are there to show that they do.
-        let held = |law: &str| law == SOLD || *name == Scene::default().name();
-        let unlike = measured.recording.unlike(PLAIN, held);
-        let run = unlike.as_deref().unwrap_or_default();
+        let is_checked = |law: &str| law == FEEDFORWARD || *name == Scene::default().name();
+        let other = measured.recording.differing_status(PLAIN, is_checked);
+        let run = other.as_deref().unwrap_or_default();
         refuse(!run.is_empty(), || {
             format!("{name}: the safety gate stepped in: {run}")
         })?;

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::bars::{Bars, Compared, is_ratio};
 use crate::costs::{self, TICK};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, bail, check};
 use crate::report::Report;
 use crate::workspace::{self, Workspace};
 
@@ -175,7 +175,7 @@ fn read(workspace: &Workspace) -> Result<Budgets> {
     if !path.exists() {
         return Ok(Budgets::default());
     }
-    let wrong = |why: String| Error::check(format!("{}: {why}", path.display()));
+    let wrong = |why: String| check!("{}: {why}", path.display());
     let budgets: Budgets =
         toml::from_str(&workspace::read(&path)?).map_err(|e| wrong(e.to_string()))?;
     for (key, bar) in budgets.bars.iter().chain(&budgets.ratios) {
@@ -227,7 +227,7 @@ pub fn check_costs(
 
 fn hold_costs(budgets: &Budgets, report: &costs::Report) -> Result<String> {
     let budget = budgets.costs.as_ref().ok_or_else(|| {
-        Error::check("budgets.toml has no [costs]: `cargo xtask costs --write-budgets`")
+        check!("budgets.toml has no [costs]: `cargo xtask costs --write-budgets`")
     })?;
     let mut wrong = budget.exceeded_by(&Rows::measured(report));
     wrong.extend(report.missed().iter().map(|bar| format!("bar: {bar}")));
@@ -240,7 +240,7 @@ fn hold_costs(budgets: &Budgets, report: &costs::Report) -> Result<String> {
 impl Budgets {
     fn write(&self, workspace: &Workspace) -> Result<()> {
         let path = workspace.root.join(FILE);
-        let bad = |e| Error::check(format!("{}: {e}", path.display()));
+        let bad = |e| check!("{}: {e}", path.display());
         let scenes = toml::to_string(&self.scenes).map_err(bad)?;
         let [mut bars, mut ratios] = [String::new(), String::new()];
         for (key, bar) in self.bars.iter().chain(&self.ratios) {
@@ -271,9 +271,7 @@ pub fn check(workspace: &Workspace, report: &Report) -> Result<String> {
 
 fn hold_scene(budgets: &Budgets, scene: &str, measured: &Budget) -> Result<String> {
     let budget = budgets.scenes.get(scene).ok_or_else(|| {
-        Error::check(format!(
-            "budgets.toml has no [{scene}]: `cargo xtask demo --scene {scene} --write-budgets`"
-        ))
+        check!("budgets.toml has no [{scene}]: `cargo xtask demo --scene {scene} --write-budgets`")
     })?;
     let figure = |budget: &Budget, what: &str| budget.figures.get(what).copied().unwrap_or(0);
     let cycles = figure(measured, "tick_cycles");
@@ -282,12 +280,12 @@ fn hold_scene(budgets: &Budgets, scene: &str, measured: &Budget) -> Result<Strin
     let bar = Compared::of(&budgets.bars, &key, "cycles", cycles as f64);
     exceeded.extend(bar.and_then(|bar| Some(format!("bar: {}", bar.complaint()?))));
     if !exceeded.is_empty() {
-        return Err(Error::check(format!(
+        bail!(
             "over budget: {} (budget of {}, measured with {})",
             exceeded.join(", "),
             budget.rustc,
             measured.rustc
-        )));
+        );
     }
     let [most, most_stack] = ["tick_cycles", "stack_bytes"].map(|what| figure(budget, what));
     let stack = figure(measured, "stack_bytes");

@@ -10,7 +10,7 @@ use serde::Serialize;
 
 use crate::costs::{self, Row};
 use crate::docs::{self, Page};
-use crate::error::{Error, Result};
+use crate::error::{Result, check};
 use crate::firmware;
 use crate::host_bin;
 use crate::progress::Spinner;
@@ -129,7 +129,7 @@ fn priced(
     let mut prices = Vec::new();
     for row in rows.iter().filter(|row| row.inputs != RIGID) {
         let (robot, form, scene) = (&row.robot, &row.form, &row.inputs);
-        let missing = |what| Error::check(format!("there is no {what} of {robot} {form} {scene}"));
+        let missing = |what| check!("there is no {what} of {robot} {form} {scene}");
         let rigid =
             |other: &&Row| (&*other.inputs, &other.form, &other.robot) == (RIGID, form, robot);
         let rigid = rows.iter().find(rigid);

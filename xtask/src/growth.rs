@@ -8,7 +8,7 @@ use crate::bars::{self, Bars, Compared};
 use crate::budgets;
 use crate::costs::{self, Row};
 use crate::docs;
-use crate::error::{Error, Result};
+use crate::error::{Result, bail};
 use crate::report::MODEL;
 use crate::setup::{self, Options, Tools};
 use crate::table::{self, Table, thousands};
@@ -66,7 +66,7 @@ pub fn check(workspace: &Workspace, report: &Report) -> Result<String> {
     let unmet: Vec<String> = compared.iter().filter_map(Compared::complaint).collect();
     if compared.is_empty() || !unmet.is_empty() {
         let why = unmet.join("\nbar: ");
-        return Err(Error::check(format!("bar: {why}")));
+        bail!("bar: {why}");
     }
     let written = workspace::read(&workspace.root.join(PAGE))?;
     docs::compare(PAGE, COMMAND, &written, &report.markdown(), &report.rustc)?;

@@ -49,7 +49,7 @@ use std::process::ExitCode;
 use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser, Subcommand};
 
-use crate::error::{Error, Result};
+use crate::error::{Result, check};
 
 /// Set-up, demo, tests and reports of this workspace
 #[derive(Parser)]
@@ -173,7 +173,7 @@ fn valid_words(kind: ErrorKind) -> Option<String> {
 }
 
 fn run(cli: Cli) -> Result<ExitCode> {
-    processes::end_with_us().map_err(|e| Error::check(format!("cannot handle signals: {e}")))?;
+    processes::end_with_us().map_err(|e| check!("cannot handle signals: {e}"))?;
     if let Some(dir) = cli.out {
         workspace::write_reports_to(dir)?;
     }

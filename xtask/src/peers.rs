@@ -15,7 +15,7 @@ use std::process::{Command, ExitCode};
 use crate::bars::Compared;
 use crate::budgets;
 use crate::docs;
-use crate::error::{Error, Result};
+use crate::error::{Result, bail};
 use crate::peers::build::Workshop;
 use crate::peers::report::Report;
 use crate::peers::tools::Peers;
@@ -70,7 +70,7 @@ pub fn run(options: Options, json: bool) -> Result<ExitCode> {
     workspace::write(&workspace.report("docs/peers.md"), &page)?;
     let code = table::show(json, &report.rows, &page)?;
     if !unmet.is_empty() {
-        return Err(Error::check(format!("bar: {}", unmet.join("\nbar: "))));
+        bail!("bar: {}", unmet.join("\nbar: "));
     }
     Ok(code)
 }

@@ -15,7 +15,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::bars::largest;
-use crate::error::{Error, Result};
+use crate::error::{Result, check};
 use crate::qemu::DONE;
 
 /// Inverse dynamics along the reference, and PD.
@@ -106,7 +106,7 @@ pub struct Recording {
 impl Recording {
     /// Takes a line in; `false` if it is none of the protocol's.
     pub fn line(&mut self, line: &str) -> Result<bool> {
-        let bad = || Error::check(format!("the firmware's line {line:?} cannot be understood"));
+        let bad = || check!("the firmware's line {line:?} cannot be understood");
         self.take(line).ok_or_else(bad)
     }
 
@@ -186,7 +186,7 @@ impl Recording {
         }
         match lacks.first() {
             None => Ok(()),
-            Some(what) => Err(Error::check(format!("the firmware did not report {what}"))),
+            Some(what) => Err(check!("the firmware did not report {what}")),
         }
     }
 

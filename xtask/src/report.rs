@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use crate::bars::largest;
 use crate::costs::code_bytes;
 use crate::elf::Image;
-use crate::error::{Error, Result};
+use crate::error::{Result, check};
 use crate::meter::{self, BETWEEN, Cost, REGIONS};
 use crate::protocol::{FEEDFORWARD, Gains, PD, PLANTS, Recording, Trajectory, WITHOUT};
 
@@ -144,8 +144,7 @@ impl Runs<'_> {
     fn find(&self, plant: &str, law: &str) -> Result<(&Trajectory, &Cost)> {
         let mut runs = self.0.iter();
         let found = runs.find(|(run, _)| (&*run.plant, &*run.law) == (plant, law));
-        let (run, cost) =
-            found.ok_or_else(|| Error::check(format!("there is no run of {law} on {plant}")))?;
+        let (run, cost) = found.ok_or_else(|| check!("there is no run of {law} on {plant}"))?;
         Ok((run, cost))
     }
 

@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use crate::docs;
 use crate::elf::Image;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, bail, check};
 use crate::firmware;
 use crate::meter::{self, Spread};
 use crate::output;
@@ -99,10 +99,10 @@ pub fn run(options: Options, args: &Args) -> Result<ExitCode> {
     if report.regions.is_empty() {
         let when = ["in its time", "before it ended"][usize::from(ended)];
         let seconds = args.seconds;
-        return Err(Error::check(format!(
+        bail!(
             "{name} has markers, but closed no region {when}: is it built for a board with flash at 0x08000000, does \
              it wait for a device that QEMU lacks, or does it need more than --seconds {seconds}?"
-        )));
+        );
     }
     if args.json {
         docs::print_json(&report)?;
@@ -112,16 +112,16 @@ pub fn run(options: Options, args: &Args) -> Result<ExitCode> {
     let number = report.foreign.len();
     match report.foreign.first() {
         None => Ok(ExitCode::SUCCESS),
-        Some(Foreign { function, address }) => Err(Error::check(format!(
+        Some(Foreign { function, address }) => Err(check!(
             "{number} instructions are none of a Cortex-M4F, the first at {address} in `{function}`: build with \
              --target thumbv7em-none-eabihf and the flags that README.md gives"
-        ))),
+        )),
     }
 }
 
 /// The ELF, if it is one that can be measured.
 fn image(elf: &Path) -> Result<Image> {
-    let wrong = |what: &str| Err(Error::check(format!("{}: {what}", elf.display())));
+    let wrong = |what: &str| Err(check!("{}: {what}", elf.display()));
     let bytes = std::fs::read(elf).map_err(Error::file("read", elf))?;
     if !bytes.starts_with(b"\x7fELF") {
         return wrong(

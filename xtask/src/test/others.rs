@@ -8,7 +8,7 @@ use super::Context;
 use crate::budgets::{self, OTHER_RUSTC};
 use crate::costs;
 use crate::demo;
-use crate::error::{Error, Result, refuse};
+use crate::error::{Error, Result, check, refuse_if};
 use crate::firmware;
 use crate::qemu::{Qemu, Run};
 use crate::scene::Scene;
@@ -184,11 +184,10 @@ fn apart(
     for ((name, usual), (other, these)) in std::iter::zip(usual, these) {
         let share = (these as f64 / usual as f64 - 1.0).abs();
         let is_apart = name != other || share.is_nan() || share > OTHER_RUSTC;
-        refuse(is_apart, || {
-            format!(
-                "`{name}` takes {usual} cycles with the usual compiler, `{other}` {these} with this one"
-            )
-        })?;
+        refuse_if!(
+            is_apart,
+            "`{name}` takes {usual} cycles with the usual compiler, `{other}` {these} with this one"
+        );
         worst = f64::max(worst, share);
     }
     Ok(worst)
@@ -226,7 +225,7 @@ fn raw(context: &Context, qemu: &Qemu, name: &str, elf: &Path) -> Result<(Vec<u8
 
 /// How many samples two runs have in common, which are all.
 fn same(name: &str, here: &(Vec<u8>, String), there: &(Vec<u8>, String)) -> Result<usize> {
-    let differs = |what: &str| Err(Error::check(format!("{name}: {what}")));
+    let differs = |what: &str| Err(check!("{name}: {what}"));
     if here.0 != there.0 {
         return differs("the two QEMUs logged different bytes");
     }

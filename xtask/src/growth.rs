@@ -158,20 +158,13 @@ impl Report {
 
     fn markdown(&self) -> String {
         format!(
-            "# Growth\n\n<!-- written by `{COMMAND}`: do not edit -->\n\n\
-             Chains of n rods on revolute joints; the core's loops over a model of run time, f32, sines and \
-             cosines computed outside, all effects of a rigid body: {MODEL}. `factor + solve` \
-             begins with M given.\n\n![Instructions against the number of bodies](growth.svg)\n\n{}\n\
-             {}\n\nThe engine is another matter: it folds what a robot's constants leave to fold, of M more \
-             than of articulated inertias; `docs/costs.md` has both ways for arms of 6 and 7 joints. Where \
-             which is less accurate: `docs/eliminations.md`.\n\n\
-             ## Bars\n\nInstructions a body of the longest chain against those of one of {}, from \
-             `budgets.toml`.\n\n{}\nMeasured with {}.\n",
-            self.table().markdown(),
-            self.verdict(),
-            ENDS[0],
-            bars::table(&self.compared()).markdown(),
-            self.rustc
+            include_str!("growth/page.md"),
+            model = MODEL,
+            table = self.table().markdown(),
+            verdict = self.verdict(),
+            short = ENDS[0],
+            bars = bars::table(&self.compared()).markdown(),
+            rustc = self.rustc
         )
     }
 

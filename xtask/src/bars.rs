@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
 use crate::table::{Table, thousands};
 
@@ -13,13 +13,13 @@ const RECORD: &str = "decisions/0002-bars.md";
 pub type Bars = BTreeMap<String, Bar>;
 
 /// What the figures of a row, or of a row as multiples of another one's, may be at most.
-#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, Deserialize)]
 pub struct Bar {
     /// The figures by their names.
     #[serde(flatten)]
     pub most: BTreeMap<String, f64>,
     /// The figures that are recorded as missed.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(default)]
     pub missed: Vec<String>,
 }
 

@@ -1,4 +1,4 @@
-use super::{Budget, Budgets, Rows, hold_costs, hold_scene};
+use super::{Budget, Budgets, DocumentMut, Rows, hold_costs, hold_scene};
 use crate::bars::{Bar, Bars};
 use crate::costs;
 use crate::meter::Spread;
@@ -125,7 +125,11 @@ fn a_bar_of_the_costs_is_checked_whatever_the_budget_allows() {
 #[test]
 fn a_scene_is_checked_to_its_budget_and_to_its_bar() {
     let text = |bar: &str| {
-        let budget = toml::to_string(&budget("rustc 1", 1000)).expect("TOML");
+        let Budget { rustc, figures } = budget("rustc 1", 1000);
+        let budget = format!(
+            "rustc = {rustc:?}\n{}",
+            toml::to_string(&figures).expect("TOML")
+        );
         format!("[bars]\n{bar}\n[arm]\n{budget}")
     };
     let compared = |bar: &str, measured: u64| {
@@ -168,10 +172,23 @@ fn rows(rustc: &str, key: &str, cycles: u64) -> Rows {
 
 #[test]
 fn what_is_written_is_read() {
-    let text = rows("rustc 1", "ur5e rnea core full", 1000).toml();
-    let value: toml::Table = toml::from_str(&text).expect("TOML");
-    let again: Rows = value["costs"].clone().try_into().expect("a budget");
-    assert_eq!(again.toml(), text);
+    let before =
+        "# Why.\n[costs]\nrustc = \"rustc 0\"\n\n[costs.rows]\n\"gone\" = { cycles = 1 }\n";
+    let mut file: DocumentMut = before.parse().expect("TOML");
+    rows("rustc 1", "ur5e rnea core full", 1000).put(&mut file);
+    let after = "# Why.\n[costs]\nrustc = \"rustc 1\"\n\n[costs.rows]\n\"ur5e rnea core full\" = { instructions = 9, \
+                 cycles = 1000, code_bytes = 9, stack_bytes = 9 }\n";
+    assert_eq!(file.to_string(), after);
+}
+
+#[test]
+fn the_same_costs_leave_the_file_as_it_is() {
+    let path = crate::docs::repository::root().join("budgets.toml");
+    let text = std::fs::read_to_string(path).expect("budgets");
+    let budgets: Budgets = toml::from_str(&text).expect("budgets");
+    let mut file: DocumentMut = text.parse().expect("TOML");
+    budgets.costs.expect("costs").put(&mut file);
+    assert_eq!(file.to_string(), text);
 }
 
 #[test]

@@ -1,8 +1,8 @@
-//! Bars: what was promised, held against what was measured, and the record of what is missed.
+//! Bars: what was promised, compared with what was measured, and the record of what is missed.
 
 use std::collections::BTreeMap;
 
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
 use crate::table::{Table, thousands};
 
@@ -13,13 +13,13 @@ const RECORD: &str = "decisions/0002-bars.md";
 pub type Bars = BTreeMap<String, Bar>;
 
 /// What the figures of a row, or of a row as multiples of another one's, may be at most.
-#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, Deserialize)]
 pub struct Bar {
     /// The figures by their names.
     #[serde(flatten)]
     pub most: BTreeMap<String, f64>,
     /// The figures that are recorded as missed.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(default)]
     pub missed: Vec<String>,
 }
 
@@ -30,7 +30,7 @@ pub fn is_ratio(key: &str) -> bool {
 
 /// One figure of a bar, beside what was measured.
 #[derive(Clone, Debug)]
-pub struct Held {
+pub struct Compared {
     /// Row and figure.
     pub what: String,
     /// What was measured.
@@ -43,7 +43,7 @@ pub struct Held {
     pub ratio: bool,
 }
 
-impl Held {
+impl Compared {
     /// The figure of the row or pair `key` as measured; nothing if no bar is set.
     pub fn of(bars: &Bars, key: &str, figure: &str, measured: f64) -> Option<Self> {
         let bar = bars.get(key)?;
@@ -89,23 +89,23 @@ pub fn largest(figures: impl Iterator<Item = f64>) -> f64 {
 }
 
 /// All of them in print.
-pub fn table(held: &[Held]) -> Table {
+pub fn table(compared: &[Compared]) -> Table {
     let mut table = Table::new(&["bar", "at most", "now", ""]);
-    for held in held {
-        let verdict = match (held.is_met(), held.recorded) {
+    for compared in compared {
+        let verdict = match (compared.is_met(), compared.recorded) {
             (true, _) => "met".to_owned(),
             (false, true) => format!("missed, see {RECORD}"),
             (false, false) => "MISSED".to_owned(),
         };
-        let [most, measured] = held.numbers();
-        table.row([held.what.clone(), most, measured, verdict]);
+        let [most, measured] = compared.numbers();
+        table.row([compared.what.clone(), most, measured, verdict]);
     }
     table
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Bar, Bars, Held, largest, table};
+    use super::{Bar, Bars, Compared, largest, table};
 
     #[test]
     fn a_bar_is_met_or_recorded() {
@@ -115,7 +115,7 @@ mod tests {
         };
         let ratios = Bars::from([("a / b".into(), pair)]);
         let complaint =
-            |figure, measured| Held::of(&ratios, "a / b", figure, measured)?.complaint();
+            |figure, measured| Compared::of(&ratios, "a / b", figure, measured)?.complaint();
         assert_eq!(complaint("cycles", 0.47), None);
         assert_eq!(
             complaint("cycles", 0.48).unwrap(),
@@ -126,8 +126,8 @@ mod tests {
         assert!(complaint("cycles", f64::NAN).is_some());
         assert_eq!(complaint("ns", 0.16), None);
         assert!(complaint("ns", 0.14).unwrap().contains("met now"));
-        assert!(Held::of(&ratios, "a / b", "code_bytes", 1.0).is_none());
-        assert!(Held::of(&ratios, "a / c", "cycles", 1.0).is_none());
+        assert!(Compared::of(&ratios, "a / b", "code_bytes", 1.0).is_none());
+        assert!(Compared::of(&ratios, "a / c", "cycles", 1.0).is_none());
     }
 
     #[test]
@@ -141,21 +141,26 @@ mod tests {
 
     #[test]
     fn one_cycle_beyond_a_bar_is_a_miss() {
-        let held = |measured, recorded| Held {
+        let compared = |measured, recorded| Compared {
             what: "rnea: cycles".into(),
             measured,
             most: 640.0,
             recorded,
             ratio: false,
         };
-        assert_eq!(held(640.0, false).complaint(), None);
+        assert_eq!(compared(640.0, false).complaint(), None);
         assert_eq!(
-            held(641.0, false).complaint().unwrap(),
+            compared(641.0, false).complaint().unwrap(),
             "rnea: cycles 641 > 640"
         );
-        assert_eq!(held(641.0, true).complaint(), None);
-        assert!(held(640.0, true).complaint().is_some());
-        let words = table(&[held(640.0, false), held(641.0, true), held(641.0, false)]).text();
+        assert_eq!(compared(641.0, true).complaint(), None);
+        assert!(compared(640.0, true).complaint().is_some());
+        let words = table(&[
+            compared(640.0, false),
+            compared(641.0, true),
+            compared(641.0, false),
+        ])
+        .text();
         for word in ["met", "missed, see", "MISSED"] {
             assert!(words.contains(word), "{word}: {words}");
         }

@@ -4,11 +4,12 @@
 use std::collections::BTreeMap;
 
 use indexmap::IndexMap;
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
+use toml_edit::{DocumentMut, InlineTable, Item, value};
 
-use crate::bars::{Bars, Held, is_ratio};
+use crate::bars::{Bars, Compared};
 use crate::costs::{self, TICK};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, bail, check};
 use crate::report::Report;
 use crate::workspace::{self, Workspace};
 
@@ -22,21 +23,6 @@ const OTHER_RUSTC_FLASH: f64 = 0.06;
 const BARRED: [&str; 4] = ["instructions", "cycles", "code_bytes", "ns"];
 
 const FILE: &str = "budgets.toml";
-
-const HEADER: &str = "\
-# What scenes and functions may cost at most, as measured with the named compiler (another one is given
-# 3 % more). `cargo xtask test` fails when a budget is exceeded; to lower it,
-# `cargo xtask demo --write-budgets` and `cargo xtask costs --write-budgets`.
-";
-
-const BARS: &str = "\
-# What was promised, whatever it costs now: nobody gets more, and no command writes it.
-";
-
-const RATIOS: &str = "\
-# The same of multiples: opt-level s against 3 (`costs`), long chains against short ones
-# (`growth`), ours against the best build of a peer (`peers`).
-";
 
 /// The file.
 #[derive(Debug, Default, Deserialize)]
@@ -54,7 +40,7 @@ struct Budgets {
 type Figures = IndexMap<String, u64>;
 
 /// What a scene may cost, and the compiler that it was measured with.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Deserialize)]
 struct Budget {
     rustc: String,
     #[serde(flatten)]
@@ -135,15 +121,14 @@ impl Rows {
         wrong
     }
 
-    /// As TOML, a line a row.
-    fn toml(&self) -> String {
-        let mut text = format!("[costs]\nrustc = {:?}\n\n[costs.rows]\n", self.rustc);
-        for (key, most) in &self.rows {
-            let items = most.iter().map(|(what, most)| format!("{what} = {most}"));
-            let items: Vec<String> = items.collect();
-            text += &format!("{key:?} = {{ {} }}\n", items.join(", "));
-        }
-        text
+    /// Takes the place of what a file has.
+    fn put(&self, file: &mut DocumentMut) {
+        file["costs"]["rustc"] = value(&self.rustc);
+        let rows = self.rows.iter().map(|(key, row)| {
+            let row = row.iter().map(|(what, most)| (what, *most as i64));
+            (key, Item::Value(row.collect::<InlineTable>().into()))
+        });
+        file["costs"]["rows"] = Item::Table(rows.collect());
     }
 }
 
@@ -172,10 +157,7 @@ fn exceeded(most: &Figures, measured: &Figures, is_other: bool) -> Vec<String> {
 
 fn read(workspace: &Workspace) -> Result<Budgets> {
     let path = workspace.root.join(FILE);
-    if !path.exists() {
-        return Ok(Budgets::default());
-    }
-    let wrong = |why: String| Error::check(format!("{}: {why}", path.display()));
+    let wrong = |why: String| check!("{}: {why}", path.display());
     let budgets: Budgets =
         toml::from_str(&workspace::read(&path)?).map_err(|e| wrong(e.to_string()))?;
     for (key, bar) in budgets.bars.iter().chain(&budgets.ratios) {
@@ -187,19 +169,30 @@ fn read(workspace: &Workspace) -> Result<Budgets> {
     Ok(budgets)
 }
 
+/// Changes the file; what is not concerned stays as it is written there.
+fn change(workspace: &Workspace, put: impl FnOnce(&mut DocumentMut)) -> Result<()> {
+    let path = workspace.root.join(FILE);
+    let file = workspace::read(&path)?.parse();
+    let mut file = file.map_err(|e| check!("{}: {e}", path.display()))?;
+    put(&mut file);
+    workspace::write(&path, file.to_string())
+}
+
 /// Rewrites the budget of the report's scene.
 pub fn write(workspace: &Workspace, report: &Report) -> Result<()> {
-    let mut budgets = read(workspace)?;
-    let scene = report.scene.clone();
-    budgets.scenes.insert(scene, Budget::measured(report));
-    budgets.write(workspace)
+    let Budget { rustc, figures } = Budget::measured(report);
+    change(workspace, |file| {
+        let scene = file.entry(&report.scene).or_insert(toml_edit::table());
+        scene["rustc"] = value(rustc);
+        figures
+            .iter()
+            .for_each(|(what, most)| scene[what] = value(*most as i64));
+    })
 }
 
 /// Rewrites the budgets of the costs' rows.
 pub fn write_costs(workspace: &Workspace, report: &costs::Report) -> Result<()> {
-    let mut budgets = read(workspace)?;
-    budgets.costs = Some(Rows::measured(report));
-    budgets.write(workspace)
+    change(workspace, |file| Rows::measured(report).put(file))
 }
 
 /// What was promised: of rows, and of pairs of rows.
@@ -227,7 +220,7 @@ pub fn check_costs(
 
 fn hold_costs(budgets: &Budgets, report: &costs::Report) -> Result<String> {
     let budget = budgets.costs.as_ref().ok_or_else(|| {
-        Error::check("budgets.toml has no [costs]: `cargo xtask costs --write-budgets`")
+        check!("budgets.toml has no [costs]: `cargo xtask costs --write-budgets`")
     })?;
     let mut wrong = budget.exceeded_by(&Rows::measured(report));
     wrong.extend(report.missed().iter().map(|bar| format!("bar: {bar}")));
@@ -237,33 +230,6 @@ fn hold_costs(budgets: &Budgets, report: &costs::Report) -> Result<String> {
     Ok(format!("{} rows", report.rows.len()))
 }
 
-impl Budgets {
-    fn write(&self, workspace: &Workspace) -> Result<()> {
-        let path = workspace.root.join(FILE);
-        let bad = |e| Error::check(format!("{}: {e}", path.display()));
-        let scenes = toml::to_string(&self.scenes).map_err(bad)?;
-        let [mut bars, mut ratios] = [String::new(), String::new()];
-        for (key, bar) in self.bars.iter().chain(&self.ratios) {
-            let value = toml::Value::try_from(bar).map_err(bad)?;
-            let section = if is_ratio(key) {
-                &mut ratios
-            } else {
-                &mut bars
-            };
-            // Whole numbers as people write them.
-            let value = value.to_string().replace(".0,", ",").replace(".0 }", " }");
-            *section += &format!("{key:?} = {value}\n");
-        }
-        let costs = self.costs.as_ref().map_or_else(String::new, Rows::toml);
-        workspace::write(
-            &path,
-            format!(
-                "{HEADER}\n{scenes}\n{BARS}[bars]\n{bars}\n{RATIOS}[ratios]\n{ratios}\n{costs}"
-            ),
-        )
-    }
-}
-
 /// Fails if the report exceeds its scene's budget; else says what there is to spare.
 pub fn check(workspace: &Workspace, report: &Report) -> Result<String> {
     hold_scene(&read(workspace)?, &report.scene, &Budget::measured(report))
@@ -271,23 +237,21 @@ pub fn check(workspace: &Workspace, report: &Report) -> Result<String> {
 
 fn hold_scene(budgets: &Budgets, scene: &str, measured: &Budget) -> Result<String> {
     let budget = budgets.scenes.get(scene).ok_or_else(|| {
-        Error::check(format!(
-            "budgets.toml has no [{scene}]: `cargo xtask demo --scene {scene} --write-budgets`"
-        ))
+        check!("budgets.toml has no [{scene}]: `cargo xtask demo --scene {scene} --write-budgets`")
     })?;
     let figure = |budget: &Budget, what: &str| budget.figures.get(what).copied().unwrap_or(0);
     let cycles = figure(measured, "tick_cycles");
     let mut exceeded = budget.exceeded_by(measured);
     let key = format!("{scene}{TICK}");
-    let bar = Held::of(&budgets.bars, &key, "cycles", cycles as f64);
+    let bar = Compared::of(&budgets.bars, &key, "cycles", cycles as f64);
     exceeded.extend(bar.and_then(|bar| Some(format!("bar: {}", bar.complaint()?))));
     if !exceeded.is_empty() {
-        return Err(Error::check(format!(
+        bail!(
             "over budget: {} (budget of {}, measured with {})",
             exceeded.join(", "),
             budget.rustc,
             measured.rustc
-        )));
+        );
     }
     let [most, most_stack] = ["tick_cycles", "stack_bytes"].map(|what| figure(budget, what));
     let stack = figure(measured, "stack_bytes");

@@ -21,7 +21,7 @@ const NONE: &str = "none";
 /// Builds of each, of which the fastest counts: the machine may have other work.
 const BUILDS: usize = 2;
 /// Robots that the bin knows, their joints, and how many seconds more were promised at most.
-const ROBOTS: [(&str, usize, f64); 2] = [("panda", 7, 5.0), ("humanoid", 29, 60.0)];
+const ROBOTS: [(&str, usize, f64); 2] = [("panda", 7, 5.0), ("g1", 29, 60.0)];
 
 /// A robot's line, as in the JSON.
 #[derive(Debug, Serialize)]
@@ -54,12 +54,11 @@ pub fn run(options: Options, json: bool) -> Result<ExitCode> {
 
 fn page(rows: &[Row], when: &str, rustc: &str) -> String {
     format!(
-        "# Build time\n\n<!-- written by `cargo xtask build-time`: do not edit -->\n\n\
-         Seconds that a release build of a firmware takes whose libraries are built already: with one \
-         inverse dynamics by the engine, and without. The faster of {BUILDS}, on {when}; other machines take other \
-         times. The humanoid is made up: two legs of six joints, a waist of three, two arms of seven.\n\n\
-         {}\nMeasured with {rustc}.\n",
-        table(rows).markdown()
+        include_str!("build_time.md"),
+        builds = BUILDS,
+        when = when,
+        table = table(rows).markdown(),
+        rustc = rustc
     )
 }
 

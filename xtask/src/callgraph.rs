@@ -7,7 +7,7 @@ use std::collections::btree_map::{BTreeMap, Entry};
 use cycle_meter::{Class, Insn, Relative};
 
 use crate::elf::{Function, Image};
-use crate::error::{Error, Result, refuse};
+use crate::error::{Result, bail, check};
 
 /// An instruction.
 #[derive(Clone, Copy, Debug)]
@@ -104,12 +104,12 @@ impl<'a> Reach<'a> {
     ///
     /// # Errors
     /// There is no root, or something reached calls through a register or leaves the known
-    /// functions, so that it cannot be told what else is reached.
+    /// functions, so that what else is reached is not known.
     pub fn of(image: &'a Image, is_root: impl Fn(&Function) -> bool) -> Result<Self> {
         let is_root = |index: &usize| is_root(&image.functions[*index]);
         let roots: Vec<usize> = (0..image.functions.len()).filter(is_root).collect();
         if roots.is_empty() {
-            return Err(Error::check("the firmware has no function to start from"));
+            bail!("the firmware has no function to start from");
         }
         let from = roots.iter().map(|root| (*root, None)).collect();
         let mut reach = Self { from, image };
@@ -117,19 +117,19 @@ impl<'a> Reach<'a> {
         while let Some(index) = queue.pop_front() {
             let function = &image.functions[index];
             for one in function.instructions() {
-                refuse(one.insn.indirect, || {
+                if one.insn.indirect {
                     let (path, at) = (reach.path(index), one.address);
-                    format!(
-                        "{path} calls through a register at {at:#x}: what it reaches cannot be told"
-                    )
-                })?;
+                    bail!(
+                        "{path} calls through a register at {at:#x}: what it reaches is not known"
+                    );
+                }
                 let Some(target) = one.target().filter(|to| !function.contains(*to)) else {
                     continue;
                 };
                 let callee = image.functions.iter().position(|f| f.contains(target));
                 let callee = callee.ok_or_else(|| {
                     let jumps = format!("{} jumps to {target:#x}", reach.path(index));
-                    Error::check(format!("{jumps}, which is in no function"))
+                    check!("{jumps}, which is in no function")
                 })?;
                 if let Entry::Vacant(new) = reach.from.entry(callee) {
                     new.insert(Some(index));

@@ -7,7 +7,7 @@ use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, Value
 use plotters::prelude::*;
 use plotters::style::text_anchor::{Pos, VPos};
 
-use crate::error::{Error, Result};
+use crate::error::{Result, check};
 
 pub use plotters::style::RGBColor;
 pub use plotters::style::text_anchor::HPos;
@@ -33,9 +33,7 @@ pub fn svg(size: (u32, u32), draw: impl FnOnce(&Area<'_>) -> Outcome) -> Result<
         draw(&root)?;
         Ok(root.present()?)
     })();
-    drawn.map_err(|e: Box<dyn std::error::Error>| {
-        Error::check(format!("cannot draw a picture: {e}"))
-    })?;
+    drawn.map_err(|e: Box<dyn std::error::Error>| check!("cannot draw a picture: {e}"))?;
     Ok(svg)
 }
 

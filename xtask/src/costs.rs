@@ -24,7 +24,7 @@ const COMMAND: &str = "cargo xtask costs";
 
 /// What to do with the measurements.
 #[derive(Clone, Copy, clap::Args)]
-pub struct Wish {
+pub struct Args {
     /// The measurements as JSON on stdout; progress stays on stderr
     #[arg(long)]
     pub json: bool,
@@ -34,16 +34,16 @@ pub struct Wish {
 }
 
 /// Measures, writes the page and prints it.
-pub fn run(options: Options, wish: Wish) -> Result<ExitCode> {
+pub fn run(options: Options, args: Args) -> Result<ExitCode> {
     let workspace = Workspace::for_reports()?;
     let tools = setup::for_demo(options)?;
     let report = measure(&workspace, &tools)?;
     let page = report.markdown();
     workspace::write(&workspace.report(PAGE), &page)?;
-    if wish.write_budgets {
+    if args.write_budgets {
         budgets::write_costs(&workspace, &report)?;
     }
-    table::show(wish.json, &report.rows, &page)
+    table::show(args.json, &report.rows, &page)
 }
 
 /// Measures every row and says what they may be.

@@ -16,7 +16,7 @@ use crate::meter;
 use crate::output;
 use crate::plot;
 use crate::progress::Spinner;
-use crate::protocol::{PD, Recording, SOLD};
+use crate::protocol::{FEEDFORWARD, PD, Recording};
 use crate::qemu::Run;
 use crate::report::Report;
 use crate::scene::Scene;
@@ -42,7 +42,7 @@ pub struct Measured {
 
 /// What to run and what to do with it.
 #[derive(clap::Args)]
-pub struct Wish {
+pub struct Args {
     /// The scene
     #[arg(long, value_enum, default_value_t)]
     #[arg(value_name = "NAME", ignore_case = true)]
@@ -61,18 +61,18 @@ pub struct Wish {
     write_budgets: bool,
 }
 
-/// Runs scenes, writes what is wished, and prints.
-pub fn run(options: Options, wish: Wish) -> Result<ExitCode> {
+/// Runs scenes, writes what the arguments name, and prints.
+pub fn run(options: Options, args: Args) -> Result<ExitCode> {
     let workspace = Workspace::find()?;
     let tools = setup::for_demo(options)?;
-    let one = [wish.scene];
-    let scenes = if wish.all { Scene::ALL } else { &one };
+    let one = [args.scene];
+    let scenes = if args.all { Scene::ALL } else { &one };
     let built = Built::new(&workspace, &tools, scenes)?;
     let measured = match built.measure(&workspace, &tools) {
         Ok(measured) => measured,
-        Err(why) if wish.write_docs || wish.write_budgets => return Err(why),
+        Err(why) if args.write_docs || args.write_budgets => return Err(why),
         Err(why) if built.lacks_the_meter(&tools, &why) => {
-            return tracking::run(&workspace, &tools, &built.runs, &why, wish.json);
+            return tracking::run(&workspace, &tools, &built.runs, &why, args.json);
         }
         Err(why) => return Err(why),
     };
@@ -81,21 +81,21 @@ pub fn run(options: Options, wish: Wish) -> Result<ExitCode> {
         let picture = workspace.output(&format!("{}.svg", one.report.scene))?;
         plot::write(&one.recording, &picture)?;
         pictures.push(picture);
-        if wish.write_budgets {
+        if args.write_budgets {
             budgets::write(&workspace, &one.report)?;
         }
     }
     let reports: Vec<&Report> = measured.iter().map(|one| &one.report).collect();
-    if wish.write_docs {
+    if args.write_docs {
         write_docs(&workspace, &measured)?;
-        if wish.all {
+        if args.all {
             scenes::PAGE.write(&workspace, &scenes::markdown(&reports))?;
         }
     }
     match reports.as_slice() {
-        [one] if wish.json && !wish.all => docs::print_json(one)?,
-        all if wish.json => docs::print_json(&all)?,
-        all if wish.all => output::print(&scenes::text(all))?,
+        [one] if args.json && !args.all => docs::print_json(one)?,
+        all if args.json => docs::print_json(&all)?,
+        all if args.all => output::print(&scenes::text(all))?,
         all => {
             for (report, picture) in all.iter().zip(&pictures) {
                 output::print(&report.text(workspace.relative(picture)))?;
@@ -186,7 +186,7 @@ fn run_in_words(line: &str) -> Option<String> {
     let (plant, law) = (words.next()?, words.next()?);
     let law = match law {
         PD => "PD alone".to_owned(),
-        SOLD => "feed-forward and PD".to_owned(),
+        FEEDFORWARD => "feed-forward and PD".to_owned(),
         _ => law.replace('-', " "),
     };
     Some(format!("{law}, with the {plant} model"))

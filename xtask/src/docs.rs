@@ -7,7 +7,7 @@ mod tests;
 use std::process::Command;
 use std::time::{SystemTime, UNIX_EPOCH};
 
-use crate::error::{Error, Result};
+use crate::error::{Result, check};
 use crate::output;
 use crate::shell;
 use crate::workspace::{self, Workspace};
@@ -82,7 +82,7 @@ impl Page {
             let (inside, after) = rest.split_once(&end)?;
             Some((before, inside, after))
         });
-        let lacks = || Error::check(format!("{} lacks the markers {begin} and {end}", self.file));
+        let lacks = || check!("{} lacks the markers {begin} and {end}", self.file);
         parts.ok_or_else(lacks)
     }
 }
@@ -115,8 +115,8 @@ fn date(days: u64) -> String {
 
 /// Prints measurements as JSON.
 pub fn print_json(value: &impl serde::Serialize) -> Result<()> {
-    let text = serde_json::to_string_pretty(value)
-        .map_err(|e| Error::check(format!("cannot write the JSON: {e}")))?;
+    let text =
+        serde_json::to_string_pretty(value).map_err(|e| check!("cannot write the JSON: {e}"))?;
     output::line(&text)
 }
 
@@ -140,9 +140,9 @@ pub fn compare(file: &str, command: &str, written: &str, fresh: &str, rustc: &st
     };
     match differing {
         None => Ok(()),
-        Some((old, new)) => Err(Error::check(format!(
+        Some((old, new)) => Err(check!(
             "{file} is out of date: `{command}` rewrites it\n  there: {old}\n  now:   {new}"
-        ))),
+        )),
     }
 }
 
@@ -179,9 +179,9 @@ pub fn compare_picture(
     if same {
         return Ok(());
     }
-    Err(Error::check(format!(
+    Err(check!(
         "{file} is not the picture of today's figures: `{command}` draws it anew"
-    )))
+    ))
 }
 
 /// A picture with each number in it replaced by the same sign.

@@ -10,7 +10,7 @@ use serde::Serialize;
 
 use crate::costs::{self, Row};
 use crate::docs::{self, Page};
-use crate::error::{Error, Result};
+use crate::error::{Result, check};
 use crate::firmware;
 use crate::host_bin;
 use crate::progress::Spinner;
@@ -37,7 +37,7 @@ const PAGE: Page = Page {
 };
 const PICTURE: &str = "docs/effects.svg";
 
-/// The scene that others are held against, and what the names of those begin with that lack a term of it.
+/// The scene that others are compared with, and what the names of those begin with that lack a term of it.
 const RIGID: &str = "rigid_body";
 const LESS: &str = "less_";
 
@@ -95,11 +95,11 @@ fn measure(workspace: &Workspace, tools: &Tools) -> Result<Vec<Price>> {
     let elves = firmware::build_featured(workspace, tools.toolchain, RELEASE, FEATURE, &BINS)?;
     drop(building);
     let (rows, lines) = costs::run_all(workspace, tools, &BINS, &elves)?;
-    let held = lines.iter().filter_map(|line| holds(line)).collect();
+    let sizes = lines.iter().filter_map(|line| holds(line)).collect();
     let _spinner = Spinner::start("computing torques on the host");
     let torques = host_bin::text(workspace, HOST_BIN)?;
     let torques = torques.lines().filter_map(torque).collect();
-    priced(&rows, &held, &torques)
+    priced(&rows, &sizes, &torques)
 }
 
 /// The N names and the number of a line `WORD NAME… NUMBER`.
@@ -123,18 +123,18 @@ fn torque(line: &str) -> Option<([String; 2], f64)> {
 /// Every scene's difference to the rigid body.
 fn priced(
     rows: &[Row],
-    held: &BTreeMap<[String; 3], i64>,
+    sizes: &BTreeMap<[String; 3], i64>,
     torques: &BTreeMap<[String; 2], f64>,
 ) -> Result<Vec<Price>> {
     let mut prices = Vec::new();
     for row in rows.iter().filter(|row| row.inputs != RIGID) {
         let (robot, form, scene) = (&row.robot, &row.form, &row.inputs);
-        let missing = |what| Error::check(format!("there is no {what} of {robot} {form} {scene}"));
+        let missing = |what| check!("there is no {what} of {robot} {form} {scene}");
         let rigid =
             |other: &&Row| (&*other.inputs, &other.form, &other.robot) == (RIGID, form, robot);
         let rigid = rows.iter().find(rigid);
         let rigid = rigid.ok_or_else(|| missing("rigid body beside that"))?;
-        let bytes = |scene: &str| held.get(&[robot, form, scene].map(str::to_owned));
+        let bytes = |scene: &str| sizes.get(&[robot, form, scene].map(str::to_owned));
         let bytes = bytes(scene).zip(bytes(RIGID));
         let (own, of_rigid) = bytes.ok_or_else(|| missing("size"))?;
         // What a scene lacks is the rigid body's own.
@@ -229,16 +229,16 @@ mod tests {
             "holds ur5e core rigid_body 16",
             "holds ur5e core less_gravity 0",
         ];
-        let held: BTreeMap<_, _> = lines.iter().filter_map(|line| holds(line)).collect();
+        let sizes: BTreeMap<_, _> = lines.iter().filter_map(|line| holds(line)).collect();
         let torques = ["effect ur5e viscous 3.5", "effect ur5e less_gravity 40"];
         let torques = torques.iter().filter_map(|line| torque(line)).collect();
-        let prices = priced(&rows, &held, &torques).expect("complete");
+        let prices = priced(&rows, &sizes, &torques).expect("complete");
         let found: Vec<_> = prices
             .iter()
             .map(|p| (&*p.effect, p.cycles, p.ram_bytes, p.torque_rms_nm))
             .collect();
         assert_eq!(found, [("viscous", 30, 24, 3.5), ("gravity", 20, 16, 40.0)]);
-        assert!(priced(&rows, &held, &BTreeMap::new()).is_err());
-        assert!(priced(&rows[..1], &held, &torques).is_err());
+        assert!(priced(&rows, &sizes, &BTreeMap::new()).is_err());
+        assert!(priced(&rows[..1], &sizes, &torques).is_err());
     }
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use object::{Architecture, Object, ObjectSection, ObjectSymbol, SectionKind, SymbolKind};
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, check};
 
 /// Where RAM begins on a Cortex-M.
 const RAM: u64 = 0x2000_0000;
@@ -50,8 +50,7 @@ impl Image {
     /// Reads an ELF.
     pub fn read(path: &Path) -> Result<Self> {
         let bytes = std::fs::read(path).map_err(Error::file("read", path))?;
-        let file = object::File::parse(&*bytes)
-            .map_err(|e| Error::check(format!("{}: {e}", path.display())))?;
+        let file = object::File::parse(&*bytes).map_err(|e| check!("{}: {e}", path.display()))?;
         Ok(Self {
             is_arm: file.architecture() == Architecture::Arm,
             has_defmt: file.section_by_name(".defmt").is_some(),

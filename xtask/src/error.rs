@@ -64,11 +64,22 @@ pub enum Error {
     Skipped(String),
 }
 
-/// Fails with what is wrong, if it is.
-pub fn refuse(is_wrong: bool, what: impl FnOnce() -> String) -> Result<()> {
-    let wrong = is_wrong.then(|| Err(Error::check(what())));
-    wrong.unwrap_or(Ok(()))
+/// A check that did not hold, in words that are formatted.
+macro_rules! check {
+    ($($words:tt)*) => { $crate::error::Error::Check(format!($($words)*)) };
 }
+
+/// Returns with [`check!`].
+macro_rules! bail {
+    ($($words:tt)*) => { return Err($crate::error::check!($($words)*)) };
+}
+
+/// Returns with [`check!`] if something is wrong.
+macro_rules! refuse_if {
+    ($is_wrong:expr, $($words:tt)*) => { if $is_wrong { $crate::error::bail!($($words)*) } };
+}
+
+pub(crate) use {bail, check, refuse_if};
 
 impl Error {
     /// `command` could not be started.

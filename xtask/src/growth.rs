@@ -4,11 +4,11 @@ mod picture;
 
 use std::process::ExitCode;
 
-use crate::bars::{self, Bars, Held};
+use crate::bars::{self, Bars, Compared};
 use crate::budgets;
 use crate::costs::{self, Row};
 use crate::docs;
-use crate::error::{Error, Result};
+use crate::error::{Result, bail};
 use crate::report::MODEL;
 use crate::setup::{self, Options, Tools};
 use crate::table::{self, Table, thousands};
@@ -29,7 +29,7 @@ const ALGORITHMS: [(&str, &str); 5] = [
     ("aba", "ABA"),
 ];
 
-/// The lengths whose instructions a body are held against each other.
+/// The lengths whose instructions a body are compared with each other.
 const ENDS: [usize; 2] = [8, 64];
 
 /// What was measured.
@@ -62,20 +62,20 @@ pub fn measure(workspace: &Workspace, tools: &Tools) -> Result<Report> {
 
 /// Fails unless the bars hold and the page is that of the report; else returns the measured figures in words.
 pub fn check(workspace: &Workspace, report: &Report) -> Result<String> {
-    let held = report.held();
-    let unmet: Vec<String> = held.iter().filter_map(Held::complaint).collect();
-    if held.is_empty() || !unmet.is_empty() {
+    let compared = report.compared();
+    let unmet: Vec<String> = compared.iter().filter_map(Compared::complaint).collect();
+    if compared.is_empty() || !unmet.is_empty() {
         let why = unmet.join("\nbar: ");
-        return Err(Error::check(format!("bar: {why}")));
+        bail!("bar: {why}");
     }
     let written = workspace::read(&workspace.root.join(PAGE))?;
     docs::compare(PAGE, COMMAND, &written, &report.markdown(), &report.rustc)?;
     let same_figures = docs::rustc_of(&written) == Some(&report.rustc);
     let picture = picture::svg(report)?;
     docs::compare_picture(workspace, PICTURE, COMMAND, &picture, same_figures)?;
-    let figures = held
+    let figures = compared
         .iter()
-        .map(|held| format!("{} {:.3}", held.what, held.measured));
+        .map(|compared| format!("{} {:.3}", compared.what, compared.measured));
     Ok(figures.collect::<Vec<_>>().join(", "))
 }
 
@@ -112,14 +112,14 @@ impl Report {
     }
 
     /// Instructions a body of the longest chain against those of the shorter one, where there are bars.
-    fn held(&self) -> Vec<Held> {
+    fn compared(&self) -> Vec<Compared> {
         let ratio = |algorithm: &str| {
             let [short, long] = ENDS.map(|n| {
                 let row = self.row(algorithm, n)?;
                 Some(row.instructions.max as f64 / n as f64)
             });
             let key = format!("growth, {algorithm} a body, {} / {}", ENDS[1], ENDS[0]);
-            Held::of(&self.bars, &key, "instructions", long? / short?)
+            Compared::of(&self.bars, &key, "instructions", long? / short?)
         };
         ALGORITHMS
             .iter()
@@ -158,20 +158,13 @@ impl Report {
 
     fn markdown(&self) -> String {
         format!(
-            "# Growth\n\n<!-- written by `{COMMAND}`: do not edit -->\n\n\
-             Chains of n rods on revolute joints; the core's loops over a model of run time, f32, sines and \
-             cosines at hand, all effects of a rigid body: {MODEL}. `factor + solve` \
-             begins with M at hand.\n\n![Instructions against the number of bodies](growth.svg)\n\n{}\n\
-             {}\n\nThe engine is another matter: it folds what a robot's constants leave to fold, of M more \
-             than of articulated inertias; `docs/costs.md` has both ways for arms of 6 and 7 joints. Where \
-             which is less accurate: `docs/eliminations.md`.\n\n\
-             ## Bars\n\nInstructions a body of the longest chain against those of one of {}, from \
-             `budgets.toml`.\n\n{}\nMeasured with {}.\n",
-            self.table().markdown(),
-            self.verdict(),
-            ENDS[0],
-            bars::table(&self.held()).markdown(),
-            self.rustc
+            include_str!("growth/page.md"),
+            model = MODEL,
+            table = self.table().markdown(),
+            verdict = self.verdict(),
+            short = ENDS[0],
+            bars = bars::table(&self.compared()).markdown(),
+            rustc = self.rustc
         )
     }
 
@@ -239,8 +232,8 @@ mod tests {
             rustc: String::new(),
         };
         assert_eq!(report.crossing(), Some((64, 36.0)));
-        let held = report.held();
-        assert_eq!(held.len(), 1);
-        assert_eq!(held[0].measured, 1.0625);
+        let compared = report.compared();
+        assert_eq!(compared.len(), 1);
+        assert_eq!(compared[0].measured, 1.0625);
     }
 }

@@ -5,7 +5,7 @@ use std::process::ExitCode;
 use serde::{Deserialize, Serialize};
 
 use crate::docs::{self, Page};
-use crate::error::{Error, Result};
+use crate::error::{Result, bail};
 use crate::host_bin;
 use crate::output;
 use crate::workspace::Workspace;
@@ -79,7 +79,7 @@ pub fn check(workspace: &Workspace) -> Result<String> {
         let Row {
             number, quantity, ..
         } = row;
-        return Err(Error::check(format!("case {number} fails: {quantity}")));
+        bail!("case {number} fails: {quantity}");
     }
     PAGE.check(workspace, &page(&suite), None)?;
     Ok(summary(&suite))

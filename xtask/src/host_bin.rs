@@ -2,7 +2,7 @@
 
 use serde::de::DeserializeOwned;
 
-use crate::error::{Error, Result};
+use crate::error::{Result, check};
 use crate::shell;
 use crate::workspace::Workspace;
 
@@ -15,5 +15,5 @@ pub fn text(workspace: &Workspace, bin: &str) -> Result<String> {
 /// The same of a bin that prints JSON.
 pub fn json<T: DeserializeOwned>(workspace: &Workspace, bin: &str) -> Result<T> {
     serde_json::from_str(&text(workspace, bin)?)
-        .map_err(|e| Error::check(format!("`{bin}` printed what is not understood: {e}")))
+        .map_err(|e| check!("`{bin}` printed what is not understood: {e}"))
 }

@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use crate::error::{Error, Result, refuse};
+use crate::error::{Error, Result, refuse_if};
 use crate::lines::{code, sources};
 use crate::workspace;
 
@@ -81,14 +81,13 @@ impl Order {
                 exports.extend(items.map(|item| (item.to_owned(), module.to_owned())));
             }
         }
-        refuse(listed.is_empty(), || {
-            "lib.rs has no table of its modules".into()
-        })?;
+        refuse_if!(listed.is_empty(), "lib.rs has no table of its modules");
         let gone = listed.iter().find(|name| !declared.contains(name));
         let gone = gone.map_or("", String::as_str);
-        refuse(!gone.is_empty(), || {
-            format!("the table in lib.rs lists `{gone}`, which is no module")
-        })?;
+        refuse_if!(
+            !gone.is_empty(),
+            "the table in lib.rs lists `{gone}`, which is no module"
+        );
         Ok(Self {
             listed,
             declared,

@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, check};
 use crate::scene::Scene;
 use crate::table::{Table, thousands};
 use crate::workspace::{self, Workspace};
@@ -50,9 +50,7 @@ impl Counts {
                 .filter(below)
                 .map(|path| Ok(code(&workspace::read(path)?).count()));
             match lines.sum::<Result<usize>>()? {
-                0 => Err(Error::check(format!(
-                    "{place} has no lines of code to count"
-                ))),
+                0 => Err(check!("{place} has no lines of code to count")),
                 lines => Ok(lines),
             }
         };
@@ -66,9 +64,7 @@ impl Counts {
         if tooling <= MOST && tooling < library {
             return Ok(counts);
         }
-        Err(Error::check(format!(
-            "the tooling has too many lines of code: {counts}"
-        )))
+        Err(check!("the tooling has too many lines of code: {counts}"))
     }
 }
 

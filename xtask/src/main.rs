@@ -31,7 +31,7 @@ mod protocol;
 mod qemu;
 mod render;
 mod report;
-mod sameness;
+mod same_code;
 mod scene;
 mod scenes;
 mod setup;
@@ -49,7 +49,7 @@ use std::process::ExitCode;
 use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser, Subcommand};
 
-use crate::error::{Error, Result};
+use crate::error::{Result, check};
 
 /// Set-up, demo, tests and reports of this workspace
 #[derive(Parser)]
@@ -67,9 +67,9 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     /// Run a scene in QEMU, report what a tick costs and how well the arm tracks
-    Demo(demo::Wish),
+    Demo(demo::Args),
     /// Measure what each algorithm costs on each robot, rewrite docs/costs.md
-    Costs(costs::Wish),
+    Costs(costs::Args),
     /// Measure how the core's algorithms grow with a chain's length, rewrite docs/growth.md
     Growth(Json),
     /// Measure what each effect costs and the torque it contributes, rewrite docs/effects.md
@@ -78,7 +78,7 @@ enum Command {
     Accuracy(accuracy::Wish),
     /// Measure a firmware of your own between its markers, and check its instructions
     #[command(after_long_help = user_firmware::MARKERS)]
-    Meter(user_firmware::Wish),
+    Meter(user_firmware::Args),
     /// Measure on the host which of the two eliminations is less accurate where, rewrite
     /// docs/eliminations.md
     Eliminations,
@@ -173,18 +173,18 @@ fn valid_words(kind: ErrorKind) -> Option<String> {
 }
 
 fn run(cli: Cli) -> Result<ExitCode> {
-    processes::end_with_us().map_err(|e| Error::check(format!("cannot handle signals: {e}")))?;
+    processes::end_with_us().map_err(|e| check!("cannot handle signals: {e}"))?;
     if let Some(dir) = cli.out {
         workspace::write_reports_to(dir)?;
     }
     let setup = cli.setup;
     match cli.command {
-        Command::Demo(wish) => demo::run(setup, wish),
-        Command::Costs(wish) => costs::run(setup, wish),
+        Command::Demo(args) => demo::run(setup, args),
+        Command::Costs(args) => costs::run(setup, args),
         Command::Growth(Json { json }) => growth::run(setup, json),
         Command::Effects(Json { json }) => effects::run(setup, json),
         Command::Accuracy(wish) => accuracy::run(setup, wish),
-        Command::Meter(wish) => user_firmware::run(setup, &wish),
+        Command::Meter(args) => user_firmware::run(setup, &args),
         Command::Eliminations => eliminations::run(),
         Command::HardCases(Json { json }) => hard_cases::run(json),
         Command::Peers(Json { json }) => peers::run(setup, json),

@@ -6,7 +6,7 @@ use cycle_meter::Sample;
 pub use cycle_meter::Summary as Spread;
 use serde::{Deserialize, Serialize};
 
-use crate::error::{Error, Result, refuse};
+use crate::error::{Result, check, refuse_if};
 use crate::workspace;
 
 /// The regions' names by their number; 0 is the whole tick.
@@ -24,7 +24,7 @@ pub struct Cost {
 /// Reads the file that the meter wrote.
 pub fn read(path: &Path) -> Result<Vec<Sample>> {
     cycle_meter::parse_samples(&workspace::read(path)?)
-        .map_err(|e| Error::check(format!("{}: {e}", path.display())))
+        .map_err(|e| check!("{}: {e}", path.display()))
 }
 
 /// The name of what a tick does outside its phases: moving their results, and its own entry.
@@ -45,9 +45,10 @@ pub fn costs(
         let mine = samples.iter().filter(is_mine);
         let mine: Vec<[u64; 2]> = mine.map(|one| [one.instructions, one.cycles]).collect();
         let found = mine.len();
-        refuse(found != ticks, || {
-            format!("the cycle meter saw region {number} ({name}) {found} times in {ticks} ticks")
-        })?;
+        refuse_if!(
+            found != ticks,
+            "the cycle meter saw region {number} ({name}) {found} times in {ticks} ticks"
+        );
         Ok(mine)
     };
     let regions = REGIONS.iter().enumerate().map(of);
@@ -73,7 +74,7 @@ impl Cost {
         instructions: impl IntoIterator<Item = u64>,
         cycles: impl IntoIterator<Item = u64>,
     ) -> Result<Self> {
-        let nothing = || Error::check("the cycle meter measured nothing");
+        let nothing = || check!("the cycle meter measured nothing");
         Ok(Self {
             instructions: Spread::of(instructions).ok_or_else(nothing)?,
             cycles: Spread::of(cycles).ok_or_else(nothing)?,

@@ -12,10 +12,10 @@ mod tools;
 
 use std::process::{Command, ExitCode};
 
-use crate::bars::Held;
+use crate::bars::Compared;
 use crate::budgets;
 use crate::docs;
-use crate::error::{Error, Result};
+use crate::error::{Result, bail};
 use crate::peers::build::Workshop;
 use crate::peers::report::Report;
 use crate::peers::tools::Peers;
@@ -53,16 +53,16 @@ pub fn run(options: Options, json: bool) -> Result<ExitCode> {
     rows.extend(host::measure(&workspace, &shop, &robots)?);
     let versions = versions(&workspace, &tools, &peers)?;
     let ratios = budgets::bars(&workspace)?;
-    let held = bars::held(&ratios, &rows);
+    let compared = bars::compared(&ratios, &rows);
     // Times on a host vary: one that happens to meet its bar is no reason to fail.
-    let unmet: Vec<String> = held
+    let unmet: Vec<String> = compared
         .iter()
-        .filter(|held| !held.is_met())
-        .filter_map(Held::complaint)
+        .filter(|compared| !compared.is_met())
+        .filter_map(Compared::complaint)
         .collect();
     let report = Report {
         rows,
-        held,
+        compared,
         versions,
         date: docs::today_and_commit(&workspace),
     };
@@ -70,7 +70,7 @@ pub fn run(options: Options, json: bool) -> Result<ExitCode> {
     workspace::write(&workspace.report("docs/peers.md"), &page)?;
     let code = table::show(json, &report.rows, &page)?;
     if !unmet.is_empty() {
-        return Err(Error::check(format!("bar: {}", unmet.join("\nbar: "))));
+        bail!("bar: {}", unmet.join("\nbar: "));
     }
     Ok(code)
 }

@@ -6,7 +6,7 @@ use std::path::Path;
 use crate::bars::largest;
 use crate::chart::{self, Area, Axis, HPos, INK, Line, Outcome, RGBColor};
 use crate::error::Result;
-use crate::protocol::{PLANTS, Recording, SOLD, Sample, in_print};
+use crate::protocol::{FEEDFORWARD, PLANTS, Recording, Sample, in_print};
 use crate::workspace;
 
 /// One colour per law; readable to the colour-blind.
@@ -82,7 +82,7 @@ fn seconds(recording: &Recording, tick: u32) -> f64 {
 }
 
 fn references(recording: &Recording, area: &Area<'_>) -> Outcome {
-    let Some(run) = recording.trajectory(PLANTS[0], SOLD) else {
+    let Some(run) = recording.trajectory(PLANTS[0], FEEDFORWARD) else {
         return Ok(());
     };
     chart::label(area, "reference", (ROOM[0] as i32, 12), 17, HPos::Left)?;

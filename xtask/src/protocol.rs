@@ -15,14 +15,14 @@
 use serde::{Deserialize, Serialize};
 
 use crate::bars::largest;
-use crate::error::{Error, Result};
+use crate::error::{Result, check};
 use crate::qemu::DONE;
 
-/// The law to sell.
-pub const SOLD: &str = "feedforward";
-/// The law that it is held against.
+/// Inverse dynamics along the reference, and PD.
+pub const FEEDFORWARD: &str = "feedforward";
+/// The law that it is compared with.
 pub const PD: &str = "pd";
-/// What the name of a law begins with that is [`SOLD`] less an effect.
+/// What the name of a law begins with that is [`FEEDFORWARD`] less an effect.
 pub const WITHOUT: &str = "without-";
 
 /// The plants, the one that the controller knows exactly first.
@@ -106,7 +106,7 @@ pub struct Recording {
 impl Recording {
     /// Takes a line in; `false` if it is none of the protocol's.
     pub fn line(&mut self, line: &str) -> Result<bool> {
-        let bad = || Error::check(format!("the firmware's line {line:?} cannot be understood"));
+        let bad = || check!("the firmware's line {line:?} cannot be understood");
         self.take(line).ok_or_else(bad)
     }
 
@@ -175,7 +175,7 @@ impl Recording {
         }
         let needed = PLANTS
             .iter()
-            .flat_map(|plant| [SOLD, PD].map(|law| (plant, law)));
+            .flat_map(|plant| [FEEDFORWARD, PD].map(|law| (plant, law)));
         let missing = needed.filter(|(plant, law)| self.trajectory(plant, law).is_none());
         lacks.extend(missing.map(|(plant, law)| format!("`run {plant} {law}`")));
         for run in &self.runs {
@@ -186,12 +186,12 @@ impl Recording {
         }
         match lacks.first() {
             None => Ok(()),
-            Some(what) => Err(Error::check(format!("the firmware did not report {what}"))),
+            Some(what) => Err(check!("the firmware did not report {what}")),
         }
     }
 
     /// The first run of these laws whose status is not this one, with its status.
-    pub fn unlike(&self, status: &str, laws: impl Fn(&str) -> bool) -> Option<String> {
+    pub fn differing_status(&self, status: &str, laws: impl Fn(&str) -> bool) -> Option<String> {
         let mut runs = self.runs.iter();
         let run = runs.find(|run| laws(&run.law) && run.status != status)?;
         Some(format!("{} {}: {:?}", run.plant, run.law, run.status))
@@ -242,7 +242,7 @@ fn number(word: &str) -> Option<f64> {
 /// A law's name in print.
 pub fn in_print(law: &str) -> String {
     match law {
-        SOLD => "feed-forward".into(),
+        FEEDFORWARD => "feed-forward".into(),
         PD => "PD".into(),
         other => other.replace('-', " "),
     }

@@ -12,7 +12,7 @@ use std::time::Duration;
 
 use defmt_decoder::{DecodeError, StreamDecoder, Table};
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, check};
 use crate::processes;
 use crate::shell;
 use crate::toolchain::release;
@@ -132,12 +132,10 @@ impl Qemu {
             }
         });
         tried.clone().map_err(|why| {
-            Error::check(format!(
-                "{} does not take the cycle meter, which speaks versions 1 to {} of QEMU's plugin interface \
+            check!("{} does not take the cycle meter, which speaks versions 1 to {} of QEMU's plugin interface \
                  ({why}); {ANOTHER_QEMU}",
                 self.version,
-                cycle_meter::NEWEST_INTERFACE
-            ))
+                cycle_meter::NEWEST_INTERFACE)
         })
     }
 

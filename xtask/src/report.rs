@@ -9,9 +9,9 @@ use serde::{Deserialize, Serialize};
 use crate::bars::largest;
 use crate::costs::code_bytes;
 use crate::elf::Image;
-use crate::error::{Error, Result};
+use crate::error::{Result, check};
 use crate::meter::{self, BETWEEN, Cost, REGIONS};
-use crate::protocol::{Gains, PD, PLANTS, Recording, SOLD, Trajectory, WITHOUT};
+use crate::protocol::{FEEDFORWARD, Gains, PD, PLANTS, Recording, Trajectory, WITHOUT};
 
 /// What every cycle figure has to say of itself.
 pub const MODEL: &str = "modelled Cortex-M4F, zero-wait memory; instructions exact";
@@ -109,14 +109,14 @@ pub struct JointError {
 }
 
 impl Tracking {
-    /// The laws by their names, the one to sell first, PD last.
+    /// The laws by their names, feed-forward first, PD last.
     pub fn laws(&self) -> Vec<(&str, &Errors)> {
         let beside = self
             .beside
             .iter()
             .map(|(law, errors)| (law.as_str(), errors));
-        let sold = std::iter::once((SOLD, &self.feedforward));
-        sold.chain(beside).chain([(PD, &self.pd)]).collect()
+        let first = std::iter::once((FEEDFORWARD, &self.feedforward));
+        first.chain(beside).chain([(PD, &self.pd)]).collect()
     }
 
     /// The error with feed-forward as a share of PD's.
@@ -126,9 +126,9 @@ impl Tracking {
 
     fn of(runs: &Runs<'_>, laws: &[&str], plant: &str) -> Result<Self> {
         let errors = |law: &str| runs.find(plant, law).map(|(run, cost)| errors(run, cost));
-        let beside = laws.iter().filter(|law| ![SOLD, PD].contains(law));
+        let beside = laws.iter().filter(|law| ![FEEDFORWARD, PD].contains(law));
         Ok(Self {
-            feedforward: errors(SOLD)?,
+            feedforward: errors(FEEDFORWARD)?,
             beside: beside
                 .map(|law| Ok(((*law).to_owned(), errors(law)?)))
                 .collect::<Result<_>>()?,
@@ -144,14 +144,13 @@ impl Runs<'_> {
     fn find(&self, plant: &str, law: &str) -> Result<(&Trajectory, &Cost)> {
         let mut runs = self.0.iter();
         let found = runs.find(|(run, _)| (&*run.plant, &*run.law) == (plant, law));
-        let (run, cost) =
-            found.ok_or_else(|| Error::check(format!("there is no run of {law} on {plant}")))?;
+        let (run, cost) = found.ok_or_else(|| check!("there is no run of {law} on {plant}"))?;
         Ok((run, cost))
     }
 
     /// What each effect is worth that the scene runs without.
     fn worths(&self, recording: &Recording, image: &Image) -> Result<Vec<Worth>> {
-        let (full, full_cost) = self.find(PLANTS[0], SOLD)?;
+        let (full, full_cost) = self.find(PLANTS[0], FEEDFORWARD)?;
         let mut all = Vec::new();
         for effect in &recording.effects {
             let law = format!("{WITHOUT}{}", effect.name);
@@ -200,9 +199,9 @@ impl Report {
         recording.complete()?;
         let ticks = recording.ticks.max(1) as usize;
         let all = ticks * recording.runs.len();
-        // The other laws cost less: the figures are those of the law that we sell.
-        let is_sold = |tick: usize| recording.runs[tick / ticks].law == SOLD;
-        let costs = meter::costs(samples, all, is_sold)?;
+        // The other laws cost less: the figures are those of feed-forward.
+        let is_feedforward = |tick: usize| recording.runs[tick / ticks].law == FEEDFORWARD;
+        let costs = meter::costs(samples, all, is_feedforward)?;
         let names = REGIONS.into_iter().chain([BETWEEN]);
         let mut runs = Runs(Vec::new());
         for (number, run) in recording.runs.iter().enumerate() {
@@ -214,7 +213,7 @@ impl Report {
         Ok(Self {
             scene: recording.scene.clone(),
             model: MODEL.to_owned(),
-            ticks_measured: (0..all).filter(|tick| is_sold(*tick)).count(),
+            ticks_measured: (0..all).filter(|tick| is_feedforward(*tick)).count(),
             period_us: recording.tick_us,
             tick: names.map(str::to_owned).zip(costs).collect(),
             gains: recording.gains.clone(),
@@ -224,7 +223,7 @@ impl Report {
             bound_rad: recording.bound,
             named: effects.map(|effect| effect.name.clone()).collect(),
             effects: runs.worths(recording, image)?,
-            tick_bytes: code(image, runs.find(PLANTS[0], SOLD)?.0)?,
+            tick_bytes: code(image, runs.find(PLANTS[0], FEEDFORWARD)?.0)?,
             flash_bytes: image.sizes.flash,
             ram_bytes: image.sizes.ram,
             stack_bytes: recording.stack.unwrap_or_default(),

@@ -3,7 +3,7 @@
 use std::io::{IsTerminal, Write};
 use std::process::Command;
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, bail};
 use crate::output;
 use crate::qemu::Qemu;
 use crate::shell;
@@ -213,10 +213,10 @@ fn compiler(options: Options) -> Result<Toolchain> {
     match chosen {
         Toolchain::Debian => toolchain::require_debian()?,
         Toolchain::Native if !toolchain::native_has_target() => {
-            return Err(Error::check(format!(
+            bail!(
                 "rustup succeeded, yet `rustc` finds no core library for {TARGET}: is the \
                  `rustc` on the PATH (or in RUSTC) rustup's?"
-            )));
+            );
         }
         Toolchain::Native => {}
     }
@@ -241,10 +241,10 @@ fn choose(choice: Choice, plan: &mut Plan) -> Result<Toolchain> {
         }
     }
     if choice == Choice::Rustup || !is_debian {
-        return Err(Error::check(format!(
+        bail!(
             "the Rust compiler here has no core library for {TARGET}, and there is no rustup to \
              add it: install Rust through rustup, or the target with what installed Rust"
-        )));
+        );
     }
     if let Some(why) = toolchain::debian_lacks() {
         plan.add(format!("{core} ({why})"), DEBIAN_PACKAGES, "");

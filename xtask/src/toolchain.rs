@@ -6,7 +6,7 @@ use std::process::Command;
 
 use clap::ValueEnum;
 
-use crate::error::{Result, refuse};
+use crate::error::{Result, bail};
 use crate::shell;
 use crate::workspace::{FIRMWARE, Workspace};
 
@@ -179,11 +179,11 @@ pub fn has_debian_clippy() -> bool {
 
 /// Fails with the reason if Debian's way does not work.
 pub fn require_debian() -> Result<()> {
-    let why = debian_lacks().unwrap_or_default();
+    let Some(why) = debian_lacks() else {
+        return Ok(());
+    };
     let packages = DEBIAN_PACKAGES.join(" ");
-    refuse(!why.is_empty(), || {
-        format!("Debian's packages {packages} are not enough: {why}")
-    })
+    bail!("Debian's packages {packages} are not enough: {why}");
 }
 
 /// Major and minor of the first version number in the text.

@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use crate::docs;
 use crate::elf::Image;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, bail, check};
 use crate::firmware;
 use crate::meter::{self, Spread};
 use crate::output;
@@ -25,7 +25,7 @@ pub const MARKERS: &str = include_str!("markers.txt");
 
 /// What to measure.
 #[derive(clap::Args)]
-pub struct Wish {
+pub struct Args {
     /// The firmware, with its symbols
     #[arg(value_name = "ELF")]
     elf: PathBuf,
@@ -69,11 +69,11 @@ struct Foreign {
 }
 
 /// Measures and prints.
-pub fn run(options: Options, wish: &Wish) -> Result<ExitCode> {
-    let image = image(&wish.elf)?;
+pub fn run(options: Options, args: &Args) -> Result<ExitCode> {
+    let image = image(&args.elf)?;
     let workspace = Workspace::find()?;
     let tools = setup::for_demo(options)?;
-    let name = wish.elf.file_name().unwrap_or(wish.elf.as_os_str());
+    let name = args.elf.file_name().unwrap_or(args.elf.as_os_str());
     let name = name.to_string_lossy();
     let spinner = Spinner::start("building the cycle meter");
     let plugin = firmware::build_meter(&workspace)?;
@@ -81,10 +81,10 @@ pub fn run(options: Options, wish: &Wish) -> Result<ExitCode> {
     let out = workspace.output(&format!("{name}.{}.regions", std::process::id()))?;
     let meter = Some((plugin.as_path(), out.as_path()));
     spinner.say(format!("running {name} in QEMU"));
-    let limit = Duration::from_secs(wish.seconds);
-    let mut run = Run::logging(&name, &wish.elf, meter);
+    let limit = Duration::from_secs(args.seconds);
+    let mut run = Run::logging(&name, &args.elf, meter);
     run.logs = image.has_defmt;
-    let ended = tools.qemu.run_for(&wish.machine, &run, limit);
+    let ended = tools.qemu.run_for(&args.machine, &run, limit);
     drop(spinner);
     let samples = ended.and_then(|ended| Ok((ended, meter::read(&out)?)));
     // Not there if QEMU did not start.
@@ -98,30 +98,30 @@ pub fn run(options: Options, wish: &Wish) -> Result<ExitCode> {
     };
     if report.regions.is_empty() {
         let when = ["in its time", "before it ended"][usize::from(ended)];
-        let seconds = wish.seconds;
-        return Err(Error::check(format!(
+        let seconds = args.seconds;
+        bail!(
             "{name} has markers, but closed no region {when}: is it built for a board with flash at 0x08000000, does \
              it wait for a device that QEMU lacks, or does it need more than --seconds {seconds}?"
-        )));
+        );
     }
-    if wish.json {
+    if args.json {
         docs::print_json(&report)?;
     } else {
-        output::print(&report.text(&name, wish.seconds))?;
+        output::print(&report.text(&name, args.seconds))?;
     }
     let number = report.foreign.len();
     match report.foreign.first() {
         None => Ok(ExitCode::SUCCESS),
-        Some(Foreign { function, address }) => Err(Error::check(format!(
+        Some(Foreign { function, address }) => Err(check!(
             "{number} instructions are none of a Cortex-M4F, the first at {address} in `{function}`: build with \
              --target thumbv7em-none-eabihf and the flags that README.md gives"
-        ))),
+        )),
     }
 }
 
 /// The ELF, if it is one that can be measured.
 fn image(elf: &Path) -> Result<Image> {
-    let wrong = |what: &str| Err(Error::check(format!("{}: {what}", elf.display())));
+    let wrong = |what: &str| Err(check!("{}: {what}", elf.display()));
     let bytes = std::fs::read(elf).map_err(Error::file("read", elf))?;
     if !bytes.starts_with(b"\x7fELF") {
         return wrong(

@@ -6,7 +6,7 @@ use std::sync::OnceLock;
 
 use serde_json::Value;
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, check};
 use crate::shell;
 
 /// The package whose bins are the scenes and the checks that run on the target.
@@ -62,9 +62,9 @@ impl Workspace {
         let mut command = host_cargo();
         command.args(["metadata", "--no-deps", "--format-version", "1"]);
         let metadata: Value = serde_json::from_str(&shell::capture(&mut command)?)
-            .map_err(|e| Error::check(format!("`{}`: {e}", shell::display(&command))))?;
+            .map_err(|e| check!("`{}`: {e}", shell::display(&command)))?;
         let path = |key: &str| metadata[key].as_str().map(PathBuf::from);
-        let lacks = || Error::check("`cargo metadata` names no directories");
+        let lacks = || check!("`cargo metadata` names no directories");
         let list = |value: &Value| value.as_array().cloned().unwrap_or_default();
         let packages = list(&metadata["packages"]).into_iter();
         let targets = packages.filter(|package| package["name"] == FIRMWARE);

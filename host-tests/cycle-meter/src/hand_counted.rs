@@ -25,7 +25,7 @@ pub fn check_hand_counted(samples: &[Sample]) -> Result<usize, String> {
     let pairs = by_hand().zip(samples);
     let differences: Vec<String> = pairs
         .filter(|((_, hand), meter)| hand != *meter)
-        .map(|((name, hand), meter)| format!("{name}: by hand {hand}, by the meter {meter}"))
+        .map(|((name, hand), meter)| format!("{name}: by hand {hand:?}, by the meter {meter:?}"))
         .collect();
     if !differences.is_empty() {
         return Err(differences.join("\n"));
@@ -61,8 +61,8 @@ mod tests {
         assert_eq!(
             check_hand_counted(&samples),
             Err(
-                "divide: by hand 2 instructions, 13 cycles, 0 flops in region 0, \
-                 by the meter 2 instructions, 14 cycles, 0 flops in region 0"
+                "divide: by hand Sample { region: 0, instructions: 2, cycles: 13, flops: 0 }, \
+                 by the meter Sample { region: 0, instructions: 2, cycles: 14, flops: 0 }"
                     .into()
             )
         );

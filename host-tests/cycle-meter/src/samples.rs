@@ -11,7 +11,7 @@
 //! cycles, floating-point operations. A last line `unmatched n` says that n markers opened an open region or
 //! closed a closed one; such a file is refused. A region still open at the exit is not in it.
 
-use std::fmt::{self, Write as _};
+use std::fmt::Write as _;
 
 /// First line of a file.
 pub const HEADER: &str = "cycle-meter 2 cortex-m4f zero-wait";
@@ -29,43 +29,20 @@ pub struct Sample {
     pub flops: u64,
 }
 
-impl fmt::Display for Sample {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self {
-            region,
-            instructions,
-            cycles,
-            flops,
-        } = self;
-        write!(
-            f,
-            "{instructions} instructions, {cycles} cycles, {flops} flops in region {region}"
-        )
-    }
-}
-
 /// Why a file was refused.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum Error {
     /// The first line is not [`HEADER`]; this is what stands there.
+    #[error("expected the header `{HEADER}`, found `{0}`")]
     Header(String),
     /// Not a sample: number of the line, from 1, and the line.
+    #[error("line {0} is not a sample: `{1}`")]
     Line(usize, String),
     /// So many markers had no partner.
+    #[error("{0} region markers have no partner")]
     Unmatched(u64),
 }
-
-impl fmt::Display for Error {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Header(found) => write!(f, "expected the header `{HEADER}`, found `{found}`"),
-            Self::Line(number, line) => write!(f, "line {number} is not a sample: `{line}`"),
-            Self::Unmatched(count) => write!(f, "{count} region markers have no partner"),
-        }
-    }
-}
-
-impl std::error::Error for Error {}
 
 /// Reads the plugin's output file.
 ///
@@ -110,14 +87,9 @@ pub(crate) fn sample(line: &str, number: usize) -> Result<Sample, Error> {
 pub fn format_samples(samples: &[Sample], unmatched: u64) -> String {
     let mut text = format!("{HEADER}\n");
     // Writing to a string does not fail.
-    for Sample {
-        region,
-        instructions,
-        cycles,
-        flops,
-    } in samples
-    {
-        let _ = writeln!(text, "{region} {instructions} {cycles} {flops}");
+    for one in samples {
+        let (region, flops) = (one.region, one.flops);
+        let _ = writeln!(text, "{region} {} {} {flops}", one.instructions, one.cycles);
     }
     if unmatched > 0 {
         let _ = writeln!(text, "unmatched {unmatched}");
@@ -155,16 +127,6 @@ impl Summary {
     pub fn of_region(samples: &[Sample], region: u8, what: fn(&Sample) -> u64) -> Option<Self> {
         let passages = samples.iter().filter(|sample| sample.region == region);
         Self::of(passages.map(what))
-    }
-
-    /// Of a region's instructions; `None` if it was never closed.
-    pub fn instructions(samples: &[Sample], region: u8) -> Option<Self> {
-        Self::of_region(samples, region, |sample| sample.instructions)
-    }
-
-    /// Of a region's cycles; `None` if it was never closed.
-    pub fn cycles(samples: &[Sample], region: u8) -> Option<Self> {
-        Self::of_region(samples, region, |sample| sample.cycles)
     }
 }
 
@@ -245,13 +207,13 @@ mod tests {
             })
         );
         assert_eq!(
-            Summary::cycles(&SAMPLES, 1).map(|cycles| cycles.max),
+            Summary::of_region(&SAMPLES, 1, |one| one.cycles).map(|cycles| cycles.max),
             Some(508)
         );
         assert_eq!(
-            Summary::instructions(&SAMPLES, 0).map(|insns| insns.min),
+            Summary::of_region(&SAMPLES, 0, |one| one.instructions).map(|insns| insns.min),
             Some(1204)
         );
-        assert_eq!(Summary::cycles(&SAMPLES, 5), None);
+        assert_eq!(Summary::of_region(&SAMPLES, 5, |one| one.cycles), None);
     }
 }

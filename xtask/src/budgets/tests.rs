@@ -1,4 +1,4 @@
-use super::{Budget, Budgets, Rows, hold_costs, hold_scene};
+use super::{Budget, Budgets, DocumentMut, Rows, hold_costs, hold_scene};
 use crate::bars::{Bar, Bars};
 use crate::costs;
 use crate::meter::Spread;
@@ -65,7 +65,7 @@ fn budgets_of(report: &costs::Report) -> Budgets {
 
 fn outcome(result: crate::error::Result<String>) -> String {
     match result {
-        Ok(held) => held,
+        Ok(compared) => compared,
         Err(error) => error.to_string(),
     }
 }
@@ -91,9 +91,9 @@ fn a_row_that_costs_one_cycle_more_than_its_budget_is_refused() {
 }
 
 #[test]
-fn a_bar_of_the_costs_is_held_whatever_the_budget_allows() {
+fn a_bar_of_the_costs_is_checked_whatever_the_budget_allows() {
     let key = row(0).key();
-    let held = |bar: &str, ratio: f64, small: u64| {
+    let compared = |bar: &str, ratio: f64, small: u64| {
         let ratio = Bar {
             most: [("cycles".into(), ratio)].into(),
             missed: Vec::new(),
@@ -104,18 +104,18 @@ fn a_bar_of_the_costs_is_held_whatever_the_budget_allows() {
     };
     let bar =
         |most: u64, missed: &str| format!("{key:?} = {{ cycles = {most}, missed = [{missed}] }}");
-    assert_eq!(held(&bar(1000, ""), 1.05, 1050), "1 rows");
-    let missed = held(&bar(999, ""), 1.05, 1050);
+    assert_eq!(compared(&bar(1000, ""), 1.05, 1050), "1 rows");
+    let missed = compared(&bar(999, ""), 1.05, 1050);
     assert!(
         missed.contains("bar: ") && missed.contains("cycles 1,000 > 999"),
         "{missed}"
     );
-    assert_eq!(held(&bar(999, "\"cycles\""), 1.05, 1050), "1 rows");
-    let met = held(&bar(1000, "\"cycles\""), 1.05, 1050);
+    assert_eq!(compared(&bar(999, "\"cycles\""), 1.05, 1050), "1 rows");
+    let met = compared(&bar(1000, "\"cycles\""), 1.05, 1050);
     assert!(met.contains("met now"), "{met}");
-    let larger = held(&bar(1000, ""), 1.05, 1051);
+    let larger = compared(&bar(1000, ""), 1.05, 1051);
     assert!(larger.contains("1.051× > 1.050×"), "{larger}");
-    let unknown = held("\"no such row\" = { cycles = 1 }", 1.05, 1050);
+    let unknown = compared("\"no such row\" = { cycles = 1 }", 1.05, 1050);
     assert!(
         unknown.contains("no such row: there is no such row"),
         "{unknown}"
@@ -123,32 +123,36 @@ fn a_bar_of_the_costs_is_held_whatever_the_budget_allows() {
 }
 
 #[test]
-fn a_scene_is_held_to_its_budget_and_to_its_bar() {
+fn a_scene_is_checked_to_its_budget_and_to_its_bar() {
     let text = |bar: &str| {
-        let budget = toml::to_string(&budget("rustc 1", 1000)).expect("TOML");
+        let Budget { rustc, figures } = budget("rustc 1", 1000);
+        let budget = format!(
+            "rustc = {rustc:?}\n{}",
+            toml::to_string(&figures).expect("TOML")
+        );
         format!("[bars]\n{bar}\n[arm]\n{budget}")
     };
-    let held = |bar: &str, measured: u64| {
+    let compared = |bar: &str, measured: u64| {
         let budgets: Budgets = toml::from_str(&text(bar)).expect("budgets");
         hold_scene(&budgets, "arm", &budget("rustc 1", measured))
     };
-    assert!(held("", 1000).is_ok());
-    assert!(held("", 1001).is_err());
-    assert!(held("\"arm tick\" = { cycles = 1000 }", 1000).is_ok());
-    let missed = outcome(held("\"arm tick\" = { cycles = 999 }", 1000));
+    assert!(compared("", 1000).is_ok());
+    assert!(compared("", 1001).is_err());
+    assert!(compared("\"arm tick\" = { cycles = 1000 }", 1000).is_ok());
+    let missed = outcome(compared("\"arm tick\" = { cycles = 999 }", 1000));
     assert!(
         missed.contains("bar: arm tick: cycles 1,000 > 999"),
         "{missed}"
     );
     assert!(
-        held(
+        compared(
             "\"arm tick\" = { cycles = 999, missed = [\"cycles\"] }",
             1000
         )
         .is_ok()
     );
     assert!(
-        held(
+        compared(
             "\"arm tick\" = { cycles = 1000, missed = [\"cycles\"] }",
             1000
         )
@@ -168,10 +172,23 @@ fn rows(rustc: &str, key: &str, cycles: u64) -> Rows {
 
 #[test]
 fn what_is_written_is_read() {
-    let text = rows("rustc 1", "ur5e rnea core full", 1000).toml();
-    let value: toml::Table = toml::from_str(&text).expect("TOML");
-    let again: Rows = value["costs"].clone().try_into().expect("a budget");
-    assert_eq!(again.toml(), text);
+    let before =
+        "# Why.\n[costs]\nrustc = \"rustc 0\"\n\n[costs.rows]\n\"gone\" = { cycles = 1 }\n";
+    let mut file: DocumentMut = before.parse().expect("TOML");
+    rows("rustc 1", "ur5e rnea core full", 1000).put(&mut file);
+    let after = "# Why.\n[costs]\nrustc = \"rustc 1\"\n\n[costs.rows]\n\"ur5e rnea core full\" = { instructions = 9, \
+                 cycles = 1000, code_bytes = 9, stack_bytes = 9 }\n";
+    assert_eq!(file.to_string(), after);
+}
+
+#[test]
+fn the_same_costs_leave_the_file_as_it_is() {
+    let path = crate::docs::repository::root().join("budgets.toml");
+    let text = std::fs::read_to_string(path).expect("budgets");
+    let budgets: Budgets = toml::from_str(&text).expect("budgets");
+    let mut file: DocumentMut = text.parse().expect("TOML");
+    budgets.costs.expect("costs").put(&mut file);
+    assert_eq!(file.to_string(), text);
 }
 
 #[test]

@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use crate::callgraph::Reach;
 use crate::elf::Image;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, bail, check};
 use crate::firmware;
 use crate::meter::{self, Cost, Spread};
 use crate::progress::Spinner;
@@ -199,9 +199,9 @@ fn cut(
             let why = format!("the firmware's line {line:?} cannot be understood");
             return Err(Error::check(why));
         };
-        let (mine, rest) = samples.split_at_checked(states as usize).ok_or_else(|| {
-            Error::check("the cycle meter saw fewer calls than the firmware made")
-        })?;
+        let (mine, rest) = samples
+            .split_at_checked(states as usize)
+            .ok_or_else(|| check!("the cycle meter saw fewer calls than the firmware made"))?;
         samples = rest;
         let cycles = || mine.iter().map(|sample| sample.cycles);
         let cost = Cost::of(mine.iter().map(|sample| sample.instructions), cycles())?;
@@ -222,9 +222,7 @@ fn cut(
         });
     }
     if rows.is_empty() || !samples.is_empty() {
-        return Err(Error::check(
-            "the cycle meter saw more calls than the firmware announced",
-        ));
+        bail!("the cycle meter saw more calls than the firmware announced");
     }
     Ok(rows)
 }

@@ -1,7 +1,7 @@
 //! The rows in print.
 
 use super::measure::Row;
-use crate::bars::{self, Bars, Held, is_ratio};
+use crate::bars::{self, Bars, Compared, is_ratio};
 use crate::render::CLOCK_MHZ;
 use crate::report::MODEL;
 use crate::table::{Table, thousands};
@@ -14,12 +14,6 @@ const FLOOR_JOINTS: usize = 6;
 pub const TICK: &str = " tick";
 /// The end of the name of a bar of what effects add to a rigid body's call.
 pub const ADDED: &str = " added";
-
-/// Of the section on forward dynamics.
-const WAYS: &str = "\
-`forward`: bias, CRBA, factors, solution; `aba`: articulated bodies; sines and cosines at hand. The core's two \
-lines over the length of a chain are in `docs/growth.md`; which is less accurate where, in \
-`docs/eliminations.md`. The engine folds more of M than of articulated inertias.";
 
 /// Everything that is printed.
 pub struct Report {
@@ -36,54 +30,27 @@ pub struct Report {
 impl Report {
     /// For the docs.
     pub fn markdown(&self) -> String {
-        let mut text = format!(
-            "# Costs\n\n\
-             <!-- written by `{}`: do not edit -->\n\n\
-             What a call costs, its passing of arguments included, over 32 random states: {MODEL}, µs at \
-             {CLOCK_MHZ} MHz.\n\n\
-             - form: `core`, the textbook loop over the model; `engine`, specialised to the robot\n\
-             - inputs, the effects named: `full`: gravity, inertia and velocity products; `bias`: gravity and \
-             velocity products; `gravity`: gravity alone; `no_coriolis`: gravity and inertia\n\
-             - sin/cos: whether they are computed inside, or at hand\n\
-             - flops: sums, products, quotients and roots executed; a multiply-accumulate is two\n\
-             - of floor: flops as a share of the least arithmetic known for a general arm of six joints, sines \
-             and cosines aside (RNEA {}, CRBA {}, ABA {})\n\
-             - `crba`: M; `factor_solve`: M's factors and one solution, M at hand; `forward`: bias, M, its \
-             factors and the solution; `aba`: the same by articulated bodies; `jacobian`: of the last body\n\
-             - code: instructions and literals of the function and of all that it calls, in bytes, without the \
-             robot's constants in memory and without library functions of trigonometry\n\
-             - stack: bytes that it and all that it calls write to\n",
-            super::COMMAND,
-            thousands(FLOORS[0].1),
-            thousands(FLOORS[1].1),
-            thousands(FLOORS[2].1),
-        );
-        for (robot, table) in self.tables() {
-            text += &format!("\n## {robot}\n\n{}", table.markdown());
-        }
-        text += &format!(
-            "\n## Two ways of forward dynamics\n\n{WAYS}\n\n{}",
-            self.ways().markdown()
-        );
-        text += &format!(
-            "\n## ur5e at opt-level s\n\nThe whole firmware built for size.\n\n{}",
-            self.small_table().markdown()
-        );
-        text += &format!(
-            "\n## Bars\n\nWhat was promised, from `budgets.toml`.\n\n{}",
-            bars::table(&self.held()).markdown()
-        );
-        text + &format!("\nMeasured with {}.\n", self.rustc)
-    }
-
-    /// A table for each robot.
-    fn tables(&self) -> impl Iterator<Item = (&str, Table)> {
         let robots = self.rows.chunk_by(|a, b| a.robot == b.robot);
-        robots.map(|rows| (&*rows[0].robot, table(rows)))
+        let robots =
+            robots.map(|rows| format!("\n## {}\n\n{}", rows[0].robot, table(rows).markdown()));
+        let [rnea, crba, aba] = FLOORS.map(|(_, flops)| thousands(flops));
+        format!(
+            include_str!("page.md"),
+            model = MODEL,
+            clock = CLOCK_MHZ,
+            rnea = rnea,
+            crba = crba,
+            aba = aba,
+            robots = robots.collect::<String>(),
+            ways = self.ways().markdown(),
+            small = self.small_table().markdown(),
+            bars = bars::table(&self.compared()).markdown(),
+            rustc = self.rustc
+        )
     }
 
     /// Every bar that there is a figure for: of the rows, then of the engine at opt-level s against itself at 3.
-    fn held(&self) -> Vec<Held> {
+    fn compared(&self) -> Vec<Compared> {
         let mut all = Vec::new();
         for (key, row) in self
             .bars
@@ -91,13 +58,18 @@ impl Report {
             .filter_map(|key| Some((key, self.row(key)?)))
         {
             let figures = row.figures().into_iter();
-            let held = |(figure, value)| Held::of(&self.bars, key, figure, value as f64);
-            all.extend(figures.filter_map(held));
+            let compared = |(figure, value)| Compared::of(&self.bars, key, figure, value as f64);
+            all.extend(figures.filter_map(compared));
         }
         for (small, row) in self.pairs() {
             let key = format!("opt-level s / 3, {}", row.key());
             for ((figure, value), (_, of)) in small.figures().into_iter().zip(row.figures()) {
-                all.extend(Held::of(&self.bars, &key, figure, value as f64 / of as f64));
+                all.extend(Compared::of(
+                    &self.bars,
+                    &key,
+                    figure,
+                    value as f64 / of as f64,
+                ));
             }
         }
         all
@@ -105,8 +77,8 @@ impl Report {
 
     /// The bars that are not as `budgets.toml` has them, or whose row is not there, in words.
     pub fn missed(&self) -> Vec<String> {
-        let held = self.held();
-        let unmet = held.iter().filter_map(Held::complaint);
+        let compared = self.compared();
+        let unmet = compared.iter().filter_map(Compared::complaint);
         let bars = self.bars.keys().filter(|key| !is_ratio(key));
         let unknown = bars
             .filter(|key| ![TICK, ADDED].iter().any(|end| key.ends_with(end)))
@@ -188,7 +160,7 @@ fn called(row: &Row) -> String {
 }
 
 fn trig(row: &Row) -> String {
-    if row.trig { "inside" } else { "at hand" }.to_owned()
+    if row.trig { "inside" } else { "outside" }.to_owned()
 }
 
 fn table(rows: &[Row]) -> Table {

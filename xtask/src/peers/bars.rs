@@ -1,6 +1,6 @@
 //! How engine and core stand against the best peer, and what was promised of that.
 
-use crate::bars::{Bars, Held};
+use crate::bars::{Bars, Compared};
 use crate::peers::PRECISIONS;
 use crate::peers::report::{HOST, M4F, Row};
 
@@ -13,7 +13,7 @@ const OURS: [&str; 2] = ["engine", "core run-time model"];
 const OTHERS: [&str; 3] = ["casadi", "pinocchio", "dynibo"];
 
 /// The bars of `budgets.toml` that this run has the figures for.
-pub fn held(ratios: &Bars, rows: &[Row]) -> Vec<Held> {
+pub fn compared(ratios: &Bars, rows: &[Row]) -> Vec<Compared> {
     let mut all = Vec::new();
     for (robot, algorithm) in pairs(rows, M4F) {
         let key = format!("{robot} {algorithm}, m4f, engine / casadi");
@@ -33,7 +33,9 @@ pub fn held(ratios: &Bars, rows: &[Row]) -> Vec<Held> {
             ("code_bytes", engine.code_bytes, best.code_bytes),
         ] {
             let pair = ours.zip(theirs);
-            all.extend(pair.and_then(|(a, b)| Held::of(ratios, &key, figure, a as f64 / b as f64)));
+            all.extend(
+                pair.and_then(|(a, b)| Compared::of(ratios, &key, figure, a as f64 / b as f64)),
+            );
         }
     }
     for (robot, algorithm) in pairs(rows, HOST) {
@@ -50,7 +52,7 @@ pub fn held(ratios: &Bars, rows: &[Row]) -> Vec<Held> {
                     let key = format!("{robot} {algorithm}, host {precision}, {ours} / {other}");
                     let pair =
                         best(&|peer| peer == ours).zip(best(&|peer| peer.starts_with(other)));
-                    all.extend(pair.and_then(|(a, b)| Held::of(ratios, &key, "ns", a / b)));
+                    all.extend(pair.and_then(|(a, b)| Compared::of(ratios, &key, "ns", a / b)));
                 }
             }
         }
@@ -77,11 +79,11 @@ fn is_of(row: &Row, target: &str, robot: &str, algorithm: &str, precision: &str)
 
 #[cfg(test)]
 mod tests {
-    use super::{HOST, M4F, Row, held};
+    use super::{HOST, M4F, Row, compared};
     use crate::bars::{Bar, Bars};
 
     #[test]
-    fn the_engine_is_held_against_the_best_build() {
+    fn the_engine_is_checked_against_the_best_build() {
         let row = |target, peer: &str, cycles, ns| Row {
             target,
             robot: "ur5e".into(),
@@ -119,10 +121,13 @@ mod tests {
                 bar(&[("ns", 0.8)]),
             ),
         ]);
-        let held = held(&ratios, &rows);
-        let measured: Vec<f64> = held.iter().map(|held| held.measured).collect();
+        let compared = compared(&ratios, &rows);
+        let measured: Vec<f64> = compared.iter().map(|compared| compared.measured).collect();
         assert_eq!(measured, [0.5, 0.5, 0.5]);
-        let unmet: Vec<bool> = held.iter().map(|held| held.complaint().is_some()).collect();
+        let unmet: Vec<bool> = compared
+            .iter()
+            .map(|compared| compared.complaint().is_some())
+            .collect();
         assert_eq!(unmet, [true, true, false]);
     }
 }

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, check};
 use crate::peers::robots::Robot;
 use crate::peers::target;
 use crate::peers::tools::Peers;
@@ -139,7 +139,7 @@ impl<'a> Workshop<'a> {
                     .to_string_lossy()
                     .starts_with("libmujoco.")
             })
-            .ok_or_else(|| Error::check("the package mujoco carries no library"))?;
+            .ok_or_else(|| check!("the package mujoco carries no library"))?;
         let (theirs, dir) = (theirs.path().display().to_string(), package.display());
         let include = format!("-isystem{dir}/include");
         let path = format!("-Wl,-rpath,{dir}");

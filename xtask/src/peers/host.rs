@@ -5,7 +5,7 @@ use std::process::Command;
 
 use serde::Serialize;
 
-use crate::error::{Error, Result};
+use crate::error::{Result, check};
 use crate::peers::build::Workshop;
 use crate::peers::report::{HOST, Row};
 use crate::peers::robots::Robot;
@@ -64,7 +64,7 @@ pub fn measure(workspace: &Workspace, shop: &Workshop<'_>, robots: &[Robot]) -> 
     };
     let path = shop.built.join("manifest.json");
     let json = serde_json::to_string_pretty(&manifest)
-        .map_err(|e| Error::check(format!("cannot write the manifest: {e}")))?;
+        .map_err(|e| check!("cannot write the manifest: {e}"))?;
     workspace::write(&path, json)?;
     run(&bench(workspace)?, &path)
 }
@@ -196,8 +196,8 @@ fn run(bench: &Path, manifest: &Path) -> Result<Vec<Row>> {
     command.arg(manifest);
     let mut rows = Vec::new();
     shell::each_line(&mut command, |line| {
-        let mut row: Row = serde_json::from_str(line)
-            .map_err(|e| Error::check(format!("peers-bench printed {line:?}: {e}")))?;
+        let mut row: Row =
+            serde_json::from_str(line).map_err(|e| check!("peers-bench printed {line:?}: {e}"))?;
         spinner.say(format!("timing {} of {}", row.algorithm, row.robot));
         row.target = HOST;
         rows.extend(row.ns.is_some().then_some(row));

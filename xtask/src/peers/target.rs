@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::process::Command;
 
 use crate::costs;
-use crate::error::{Error, Result};
+use crate::error::{Result, bail};
 use crate::peers::ALGORITHMS;
 use crate::peers::build::Workshop;
 use crate::peers::report::{M4F, Row};
@@ -143,17 +143,15 @@ fn rows(measured: Vec<costs::Row>, lines: &[String]) -> Result<Vec<Row>> {
         .map(|error| error.parse().unwrap_or(f64::NAN))
         .collect();
     if errors.len() != measured.len() {
-        return Err(Error::check(
-            "the firmware did not check all that it measured",
-        ));
+        bail!("the firmware did not check all that it measured");
     }
     let mut rows: Vec<Row> = Vec::new();
     for (cost, error) in measured.into_iter().zip(errors) {
         let (robot, algorithm, form) = (cost.robot, cost.algorithm, cost.form);
         if error.is_nan() || error > bound(&algorithm) {
-            return Err(Error::check(format!(
+            bail!(
                 "{algorithm} of {robot} by {form} is off by {error:.1e} of full scale on the target"
-            )));
+            );
         }
         let build = BUILDS.iter().find(|(name, ..)| *name == form);
         let row = Row {

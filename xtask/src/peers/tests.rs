@@ -1,9 +1,9 @@
 //! docs/peers.md, which no step measures anew, against itself, `budgets.toml` and what a decision says of it.
 
-use super::bars::held;
+use super::bars::compared;
 use super::report::{HOST, M4F, Report, Row};
 use super::{ALGORITHMS, PRECISIONS};
-use crate::bars::{self, Bars, Held};
+use crate::bars::{self, Bars, Compared};
 use crate::docs::repository::{root, rows_of};
 
 /// What a ratio of figures may be off by that are printed in three digits or more.
@@ -80,24 +80,24 @@ fn measured(page: &str) -> Vec<Row> {
 /// Holds a page against its own figures and what is promised.
 fn check(page: &str, promised: &Bars) -> Result<(), String> {
     let rows = measured(page);
-    let mut of_rows = held(promised, &rows);
+    let mut of_rows = compared(promised, &rows);
     let bars = rows_of(under(page, "Against the bars"));
     if bars.len() != of_rows.len() {
         return Err(format!("{} bars of {}", bars.len(), of_rows.len()));
     }
-    for (held, cells) in of_rows.iter_mut().zip(&bars) {
+    for (compared, cells) in of_rows.iter_mut().zip(&bars) {
         let now: f64 = number(cells[2].trim_end_matches('×')).ok_or("no figure")?;
-        let off = (now / held.measured - 1.0).abs();
+        let off = (now / compared.measured - 1.0).abs();
         // What is not a number is off as well.
         if off.is_nan() || off > ROUNDING {
             return Err(format!(
                 "{}: {now}, by the tables {:.4}",
-                held.what, held.measured
+                compared.what, compared.measured
             ));
         }
-        held.measured = now;
+        compared.measured = now;
     }
-    if let Some(wrong) = of_rows.iter().find_map(Held::complaint) {
+    if let Some(wrong) = of_rows.iter().find_map(Compared::complaint) {
         return Err(wrong);
     }
     let table = bars::table(&of_rows).markdown();
@@ -106,7 +106,7 @@ fn check(page: &str, promised: &Bars) -> Result<(), String> {
     }
     let report = Report {
         rows,
-        held: of_rows,
+        compared: of_rows,
         versions: Vec::new(),
         date: String::new(),
     };
@@ -128,7 +128,7 @@ fn the_page_agrees_with_itself_and_with_what_is_promised() {
     check(&page, &promised).expect("docs/peers.md: `cargo xtask peers` rewrites it");
     let figures: usize = promised.values().map(|bar| bar.most.len()).sum();
     assert_eq!(
-        held(&promised, &measured(&page)).len(),
+        compared(&promised, &measured(&page)).len(),
         figures,
         "a bar has no figures"
     );

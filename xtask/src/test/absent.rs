@@ -3,14 +3,14 @@
 use std::path::{Path, PathBuf};
 
 use super::Context;
-use crate::bars::Held;
+use crate::bars::Compared;
 use crate::budgets;
 use crate::costs::{self, ADDED, Row};
 use crate::elf::Image;
-use crate::error::{Error, Result, refuse};
+use crate::error::{Result, bail, check, refuse_if};
 use crate::firmware;
 use crate::qemu::Run;
-use crate::sameness;
+use crate::same_code;
 use crate::toolchain::RELEASE;
 
 const BIN: &str = "ablation_identity";
@@ -32,11 +32,12 @@ pub fn absent_effects_cost_nothing(context: &Context) -> Result<String> {
     for form in ["core", "engine"] {
         let address = |inputs| row(&rows, form, inputs).map(|row| row.address);
         let (full, idle) = (address("full")?, address("idle")?);
-        let instructions = sameness::same(&image, full, idle)?;
-        let friction = sameness::same(&image, full, address("friction")?);
-        refuse(friction.is_ok(), || {
-            "friction changes no instruction: the comparison sees nothing".into()
-        })?;
+        let instructions = same_code::same(&image, full, idle)?;
+        let friction = same_code::same(&image, full, address("friction")?);
+        refuse_if!(
+            friction.is_ok(),
+            "friction changes no instruction: the comparison sees nothing"
+        );
         let folded = if full == idle {
             ", folded into one function"
         } else {
@@ -64,20 +65,21 @@ fn dropped(context: &Context, elves: [&PathBuf; 2]) -> Result<String> {
     let is_its_size = |bytes: &u64| (LUGRE_BYTES..LUGRE_BYTES + 8).contains(bytes);
     let shrunk = with.checked_sub(without).filter(is_its_size);
     let (Some(fewer), Some(less @ 1..), true) = (shrunk, flash, ram == shrunk) else {
-        return Err(Error::check(format!(
+        bail!(
             "LuGre friction takes {LUGRE_BYTES} B; without it the effects shrink from {with} to {without} B, \
              RAM by {ram:?} and flash by {flash:?}"
-        )));
+        );
     };
     for number in LUGRE_NUMBERS {
         let there = [&named, &dropped].map(|image| image.words.contains(&number.to_bits()));
-        refuse(there != [true, false], || {
-            format!("{number} should be with LuGre friction and not without, but is: {there:?}")
-        })?;
+        refuse_if!(
+            there != [true, false],
+            "{number} should be with LuGre friction and not without, but is: {there:?}"
+        );
     }
     let mut names = dropped.functions.iter().flat_map(|f| &f.names);
     if let Some(name) = names.find(|name| name.contains("exp_neg") || name.contains("ugre")) {
-        return Err(Error::check(format!("without LuGre there is `{name}`")));
+        bail!("without LuGre there is `{name}`");
     }
     Ok(format!(
         "LuGre dropped: {less} B of flash and {fewer} B of RAM less"
@@ -87,19 +89,19 @@ fn dropped(context: &Context, elves: [&PathBuf; 2]) -> Result<String> {
 fn row<'a>(rows: &'a [Row], form: &str, inputs: &str) -> Result<&'a Row> {
     let mut rows = rows.iter();
     rows.find(|row| (&*row.form, &*row.inputs) == (form, inputs))
-        .ok_or_else(|| Error::check(format!("`{BIN}` did not measure {form} {inputs}")))
+        .ok_or_else(|| check!("`{BIN}` did not measure {form} {inputs}"))
 }
 
-/// What friction and rotors add to a call, held against the bar.
+/// What friction and rotors add to a call, compared with the bar.
 fn added(context: &Context, full: &Row, friction: &Row) -> Result<String> {
     let bars = budgets::bars(&context.workspace)?;
     let key = format!("{}{ADDED}", friction.key());
     let cycles = friction.cycles.max.saturating_sub(full.cycles.max);
-    let held = Held::of(&bars, &key, "cycles", cycles as f64)
-        .ok_or_else(|| Error::check(format!("there is no bar {key:?}")))?;
-    let most = held.most;
-    match held.complaint() {
-        Some(complaint) => Err(Error::check(format!("bar: {complaint}"))),
+    let compared = Compared::of(&bars, &key, "cycles", cycles as f64)
+        .ok_or_else(|| check!("there is no bar {key:?}"))?;
+    let most = compared.most;
+    match compared.complaint() {
+        Some(complaint) => Err(check!("bar: {complaint}")),
         None => Ok(format!("friction and rotors {cycles} of {most} cycles")),
     }
 }
@@ -111,5 +113,5 @@ fn effects_bytes(context: &Context, name: &str, elf: &Path) -> Result<u64> {
         .iter()
         .filter_map(|line| line.strip_prefix("effects ")?.parse().ok());
     said.next_back()
-        .ok_or_else(|| Error::check(format!("`{name}` did not say how large its effects are")))
+        .ok_or_else(|| check!("`{name}` did not say how large its effects are"))
 }

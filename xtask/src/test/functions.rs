@@ -7,7 +7,7 @@ use crate::budgets;
 use crate::callgraph::Reach;
 use crate::costs;
 use crate::elf::Image;
-use crate::error::{Error, Result, refuse};
+use crate::error::{Error, Result, bail, check, refuse_if};
 use crate::firmware;
 use crate::meter::Cost;
 use crate::qemu::Run;
@@ -47,23 +47,23 @@ pub fn bits(context: &Context) -> Result<String> {
     let on_host: Vec<&str> = host.lines().collect();
     if let Some((target, host)) = std::iter::zip(&on_target, &on_host).find(|(a, b)| a != b) {
         let both = format!("  QEMU: {target}\n  host: {host}");
-        return Err(Error::check(format!(
-            "the same states give other bits:\n{both}"
-        )));
+        bail!("the same states give other bits:\n{both}");
     }
     let (there, here) = (on_target.len(), on_host.len());
-    refuse(there == 0 || there != here, || {
-        format!("`bits` printed {there} digests in QEMU and {here} on the host")
-    })?;
+    refuse_if!(
+        there == 0 || there != here,
+        "`bits` printed {there} digests in QEMU and {here} on the host"
+    );
     let hard = on_host
         .iter()
         .filter_map(|line| line.strip_prefix("bits hard "));
     let mut cases: Vec<_> = hard.map(|case| case.split(' ').next()).collect();
     cases.dedup();
     let count = cases.len();
-    refuse(count < HARD_CASES, || {
-        format!("`bits` ran {count} of at least {HARD_CASES} hard cases")
-    })?;
+    refuse_if!(
+        count < HARD_CASES,
+        "`bits` ran {count} of at least {HARD_CASES} hard cases"
+    );
     Ok(format!("{there} digests, {count} hard cases among them"))
 }
 
@@ -76,7 +76,7 @@ pub fn no_f64(context: &Context) -> Result<String> {
             count += 1;
             let unwanted = |name: &&String| is_f64(name) || is_panic(name);
             if let Some(name) = function.names.iter().find(unwanted) {
-                return Err(Error::check(format!("the tick reaches `{name}`: {path}")));
+                bail!("the tick reaches `{name}`: {path}");
             }
         }
     }
@@ -110,7 +110,7 @@ pub fn opcodes(context: &Context) -> Result<String> {
             count += 1;
             if one.is_beyond_m4f() {
                 let (name, code, at) = (&function.names[0], one.code, one.address);
-                return Err(Error::check(format!("`{name}` has {code:x?} at {at:#x}")));
+                bail!("`{name}` has {code:x?} at {at:#x}");
             }
         }
     }
@@ -128,7 +128,7 @@ pub fn costs(context: &Context) -> Result<String> {
     // Both are told: a page out of date is no reason to hide what is over budget.
     let budget = budgets::check_costs(workspace, &report, None);
     match (budget, costs::check_page(workspace, &report)) {
-        (Err(budget), Err(page)) => Err(Error::check(format!("{budget}\n{page}"))),
+        (Err(budget), Err(page)) => Err(check!("{budget}\n{page}")),
         (budget, page) => page.and(budget),
     }
 }
@@ -139,7 +139,7 @@ pub fn constant(context: &Context) -> Result<String> {
     for line in &lines {
         let words: Vec<&str> = line.split(' ').collect();
         if let [word @ ("constant" | "bounded"), name, states] = *words {
-            let bad = |_| Error::check(format!("the line {line:?} cannot be understood"));
+            let bad = |_| check!("the line {line:?} cannot be understood");
             kinds.push(Kind {
                 name: name.to_owned(),
                 states: states.parse().map_err(bad)?,
@@ -164,7 +164,7 @@ fn steady(kinds: &[Kind], mut samples: &[Sample]) -> Result<Vec<String>> {
     for kind in kinds {
         let (mine, rest) = samples
             .split_at_checked(kind.states)
-            .ok_or_else(|| Error::check("the cycle meter saw fewer calls than were made"))?;
+            .ok_or_else(|| check!("the cycle meter saw fewer calls than were made"))?;
         samples = rest;
         let instructions = mine.iter().map(|sample| sample.instructions);
         let cost = Cost::of(instructions, mine.iter().map(|sample| sample.cycles))?;
@@ -175,12 +175,15 @@ fn steady(kinds: &[Kind], mut samples: &[Sample]) -> Result<Vec<String>> {
             false => format!("{name} {least} to {most}"),
         });
     }
-    refuse(kinds.is_empty() || !samples.is_empty(), || {
-        "the cycle meter saw more calls than were made".into()
-    })?;
-    refuse(unsteady, || {
-        format!("the instructions depend on the data: {}", costs.join(", "))
-    })?;
+    refuse_if!(
+        kinds.is_empty() || !samples.is_empty(),
+        "the cycle meter saw more calls than were made"
+    );
+    refuse_if!(
+        unsteady,
+        "the instructions depend on the data: {}",
+        costs.join(", ")
+    );
     Ok(costs)
 }
 

@@ -8,7 +8,7 @@ use super::Context;
 use crate::budgets::{self, OTHER_RUSTC};
 use crate::costs;
 use crate::demo;
-use crate::error::{Error, Result, refuse};
+use crate::error::{Error, Result, check, refuse_if};
 use crate::firmware;
 use crate::qemu::{Qemu, Run};
 use crate::scene::Scene;
@@ -184,11 +184,10 @@ fn apart(
     for ((name, usual), (other, these)) in std::iter::zip(usual, these) {
         let share = (these as f64 / usual as f64 - 1.0).abs();
         let is_apart = name != other || share.is_nan() || share > OTHER_RUSTC;
-        refuse(is_apart, || {
-            format!(
-                "`{name}` takes {usual} cycles with the usual compiler, `{other}` {these} with this one"
-            )
-        })?;
+        refuse_if!(
+            is_apart,
+            "`{name}` takes {usual} cycles with the usual compiler, `{other}` {these} with this one"
+        );
         worst = f64::max(worst, share);
     }
     Ok(worst)
@@ -226,17 +225,17 @@ fn raw(context: &Context, qemu: &Qemu, name: &str, elf: &Path) -> Result<(Vec<u8
 
 /// How many samples two runs have in common, which are all.
 fn same(name: &str, here: &(Vec<u8>, String), there: &(Vec<u8>, String)) -> Result<usize> {
-    let unlike = |what: &str| Err(Error::check(format!("{name}: {what}")));
+    let differs = |what: &str| Err(check!("{name}: {what}"));
     if here.0 != there.0 {
-        return unlike("the two QEMUs logged different bytes");
+        return differs("the two QEMUs logged different bytes");
     }
     let mut lines = std::iter::zip(here.1.lines(), there.1.lines()).zip(1..);
     if let Some(((one, other), at)) = lines.find(|((one, other), _)| one != other) {
         let both = format!("`{one}` here and `{other}` there");
-        return unlike(&format!("line {at} of the samples is {both}"));
+        return differs(&format!("line {at} of the samples is {both}"));
     }
     if here.1 != there.1 {
-        return unlike("the two QEMUs gave different numbers of samples");
+        return differs("the two QEMUs gave different numbers of samples");
     }
     Ok(here.1.lines().count().saturating_sub(1))
 }

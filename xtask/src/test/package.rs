@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use super::Context;
-use crate::error::{Error, Result, refuse};
+use crate::error::{Error, Result, refuse_if};
 use crate::shell;
 use crate::toolchain::{TARGET, Toolchain};
 use crate::workspace::{read, write};
@@ -32,9 +32,7 @@ pub fn package(context: &Context) -> Result<String> {
 fn copies_are_equal(root: &Path, library: &Path) -> Result<()> {
     for name in COPIES {
         let is_other = read(&root.join(name))? != read(&library.join(name))?;
-        refuse(is_other, || {
-            format!("{LIBRARY}/{name} is not a copy of {name}")
-        })?;
+        refuse_if!(is_other, "{LIBRARY}/{name} is not a copy of {name}");
     }
     Ok(())
 }
@@ -95,11 +93,10 @@ pub fn features(context: &Context) -> Result<String> {
     }
     let plain = run_example(context, COMPARED, "")?;
     let with_features = run_example(context, COMPARED, &format!("--features {FEATURES}"))?;
-    refuse(plain != with_features, || {
-        format!(
-            "the features `{FEATURES}` change the numbers of `{COMPARED}`:\n{plain}\n{with_features}"
-        )
-    })?;
+    refuse_if!(
+        plain != with_features,
+        "the features `{FEATURES}` change the numbers of `{COMPARED}`:\n{plain}\n{with_features}"
+    );
     Ok(FEATURES.to_owned())
 }
 
@@ -125,9 +122,7 @@ fn example_names(root: &Path) -> Result<Vec<String>> {
     let stem = |file: OsString| Some(file.to_str()?.strip_suffix(".rs")?.to_owned());
     let mut names: Vec<String> = files.filter_map(stem).collect();
     names.sort();
-    refuse(names.is_empty(), || {
-        format!("{} is empty", folder.display())
-    })?;
+    refuse_if!(names.is_empty(), "{} is empty", folder.display());
     Ok(names)
 }
 

@@ -4,9 +4,9 @@ use super::Context;
 use crate::budgets;
 use crate::demo::{self, Measured};
 use crate::docs;
-use crate::error::{Result, refuse};
+use crate::error::{Result, refuse_if};
 use crate::plot;
-use crate::protocol::SOLD;
+use crate::protocol::FEEDFORWARD;
 use crate::render::CLOCK_MHZ;
 use crate::scene::Scene;
 use crate::scenes;
@@ -35,12 +35,10 @@ pub fn runs(context: &Context) -> Result<String> {
     for measured in context.measured()? {
         let name = &measured.report.scene;
         // Of the default scene no law needs the gate; elsewhere some are there to show that they do.
-        let held = |law: &str| law == SOLD || *name == Scene::default().name();
-        let unlike = measured.recording.unlike(PLAIN, held);
-        let run = unlike.as_deref().unwrap_or_default();
-        refuse(!run.is_empty(), || {
-            format!("{name}: the safety gate stepped in: {run}")
-        })?;
+        let is_checked = |law: &str| law == FEEDFORWARD || *name == Scene::default().name();
+        let other = measured.recording.differing_status(PLAIN, is_checked);
+        let run = other.as_deref().unwrap_or_default();
+        refuse_if!(!run.is_empty(), "{name}: the safety gate stepped in: {run}");
         let picture = context.workspace.output(&format!("{name}.svg"))?;
         plot::write(&measured.recording, &picture)?;
         ticks += measured.recording.ticks as usize * measured.recording.runs.len();
@@ -57,9 +55,12 @@ pub fn determinism(context: &Context) -> Result<String> {
     let mut bytes = 0;
     for ((first, _), second) in firsts.iter().zip(&again) {
         let [one, other] = [first, second].map(|run| &run.raw);
-        let two = |what: &str| format!("two runs of the same ELF {what}");
-        refuse(one.0 != other.0, || two("logged different bytes"))?;
-        refuse(one.1 != other.1, || two("cost differently"))?;
+        for (differ, what) in [
+            (one.0 != other.0, "logged different bytes"),
+            (one.1 != other.1, "cost differently"),
+        ] {
+            refuse_if!(differ, "two runs of the same ELF {what}");
+        }
         bytes += one.0.len() + one.1.len();
     }
     Ok(format!("{bytes} bytes"))
@@ -71,17 +72,15 @@ pub fn tracking(context: &Context) -> Result<String> {
         let report = &measured.report;
         let (name, tracking) = (&report.scene, &report.tracking);
         let (max, bound) = (tracking.feedforward.max_rad, report.bound_rad);
-        refuse(max.is_nan() || max > bound, || {
-            format!(
-                "{name}, exact plant: feed-forward's largest error is {max:.2e} rad, more than the scene's bound \
+        refuse_if!(
+            max.is_nan() || max > bound,
+            "{name}, exact plant: feed-forward's largest error is {max:.2e} rad, more than the scene's bound \
                  of {bound:.2e}"
-            )
-        })?;
-        refuse(bound > SLACK * max, || {
-            format!(
-                "{name}: its bound of {bound:.2e} rad has become slack: the largest error is {max:.2e}"
-            )
-        })?;
+        );
+        refuse_if!(
+            bound > SLACK * max,
+            "{name}: its bound of {bound:.2e} rad has become slack: the largest error is {max:.2e}"
+        );
         let mrad = [max, bound].map(|rad| format!("{:.2}", 1e3 * rad));
         outcomes.push(format!("{name} {} mrad", mrad.join(" of ")));
         if name != Scene::default().name() {
@@ -92,17 +91,17 @@ pub fn tracking(context: &Context) -> Result<String> {
         for ((plant, tracking), largest) in plants.into_iter().zip(LARGEST_RATIO) {
             let ratio = tracking.ratio();
             // A ratio that is not a number fails as well.
-            refuse(ratio.is_nan() || ratio > largest, || {
-                format!(
-                    "{name}, {plant} plant: feed-forward's error is {ratio:.4} of PD's, more than {largest}"
-                )
-            })?;
+            refuse_if!(
+                ratio.is_nan() || ratio > largest,
+                "{name}, {plant} plant: feed-forward's error is {ratio:.4} of PD's, more than {largest}"
+            );
             outcomes.push(format!("{plant} {ratio:.4}"));
         }
         let peak = measured.recording.peak_speed();
-        refuse(peak < LEAST_PEAK_SPEED, || {
-            format!("{name}: no joint is faster than {peak:.2} rad/s: too easy a trajectory")
-        })?;
+        refuse_if!(
+            peak < LEAST_PEAK_SPEED,
+            "{name}: no joint is faster than {peak:.2} rad/s: too easy a trajectory"
+        );
         outcomes.push(format!("peak speed {peak:.2} rad/s"));
     }
     Ok(outcomes.join(", "))
@@ -114,11 +113,10 @@ pub fn cycles(context: &Context) -> Result<String> {
         let (report, longest) = (&measured.report, measured.report.tick["total"].cycles.max);
         let share = longest as f64 / (f64::from(report.period_us) * CLOCK_MHZ);
         let (name, percent) = (&report.scene, 100.0 * share);
-        refuse(share > LARGEST_SHARE, || {
-            format!(
-                "{name}: the longest tick takes {longest} modelled cycles, {percent:.0} % of its period"
-            )
-        })?;
+        refuse_if!(
+            share > LARGEST_SHARE,
+            "{name}: the longest tick takes {longest} modelled cycles, {percent:.0} % of its period"
+        );
         outcomes.push(format!("{name} {longest}"));
     }
     Ok(outcomes.join(", "))

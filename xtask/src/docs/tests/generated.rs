@@ -5,7 +5,7 @@
 pub enum Checked {
     /// A step of `cargo xtask test`, of this name.
     Step(&'static str),
-    /// Nothing that runs in every test measures it anew, for this reason; what it says of bars is held against
+    /// Nothing that runs in every test measures it anew, for this reason; what it says of bars is compared with
     /// `budgets.toml` by a test of this crate.
     Bars(&'static str),
 }

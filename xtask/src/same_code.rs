@@ -3,7 +3,7 @@
 
 use crate::callgraph::Instruction;
 use crate::elf::{Function, Image};
-use crate::error::{Error, Result, refuse};
+use crate::error::{Result, bail, check, refuse_if};
 
 /// An instruction, with what it reaches instead of how far away that is.
 #[derive(Debug, PartialEq, Eq)]
@@ -23,15 +23,17 @@ pub fn same(image: &Image, one: u64, other: u64) -> Result<usize> {
     let [a, b] = [one, other].map(|address| function(image, address).map(acts));
     let (a, b) = (a?, b?);
     if let Some(at) = std::iter::zip(&a, &b).position(|(a, b)| a != b) {
-        return Err(Error::check(format!(
+        bail!(
             "instruction {at} of {one:#x} is {:x?}, that of {other:#x} {:x?}",
-            a[at], b[at]
-        )));
+            a[at],
+            b[at]
+        );
     }
     let [many, others] = [a.len(), b.len()];
-    refuse(many != others, || {
-        format!("{one:#x} has {many} instructions, {other:#x} {others}")
-    })?;
+    refuse_if!(
+        many != others,
+        "{one:#x} has {many} instructions, {other:#x} {others}"
+    );
     Ok(many)
 }
 
@@ -39,7 +41,7 @@ pub fn same(image: &Image, one: u64, other: u64) -> Result<usize> {
 /// jumps where it finds two functions the same.
 fn function(image: &Image, address: u64) -> Result<&Function> {
     let at = |address: u64| image.functions.iter().find(|f| f.address == address);
-    let nothing = || Error::check(format!("there is no function at {address:#x}"));
+    let nothing = || check!("there is no function at {address:#x}");
     let found = at(address).ok_or_else(nothing)?;
     let instructions = found.instructions();
     let jump = instructions.first().filter(|_| instructions.len() == 1);

@@ -110,8 +110,8 @@ where
     };
     let (v_0, a_0) = base_motion(effects);
     let mut bodies = Vec::new();
-    let mut factors = Vec::new();
     outward_velocities(robot, trig, state, effects, v_0, &mut bodies);
+    let mut factors = Vec::new();
     inward_inertias(&mut bodies, trig, state, effects, &given, &mut factors)?;
     Ok(outward_accelerations(
         robot,
@@ -139,7 +139,7 @@ fn outward_velocities<'a, R: Real, D, E, const B: usize, const Q: usize, const V
     E: Effect<R, B, V>,
 {
     let turns = &trig.turns;
-    // Not in one pattern, which costs the A1 1 % of its cycles.
+    // Not in one pattern, which costs the A1 1.5 % of its cycles.
     let mut v = per_body(robot, v_0);
     let mut poses = per_body(robot, Xform::IDENTITY);
     for i in 0..B {

@@ -109,8 +109,9 @@ where
         )
     };
     let (v_0, a_0) = base_motion(effects);
-    let (mut bodies, mut factors) = (Vec::new(), Vec::new());
+    let mut bodies = Vec::new();
     outward_velocities(robot, trig, state, effects, v_0, &mut bodies);
+    let mut factors = Vec::new();
     inward_inertias(&mut bodies, trig, state, effects, &given, &mut factors)?;
     Ok(outward_accelerations(
         robot,
@@ -138,7 +139,9 @@ fn outward_velocities<'a, R: Real, D, E, const B: usize, const Q: usize, const V
     E: Effect<R, B, V>,
 {
     let turns = &trig.turns;
-    let (mut v, mut poses) = (per_body(robot, v_0), per_body(robot, Xform::IDENTITY));
+    // Not in one pattern, which costs the A1 1.5 % of its cycles.
+    let mut v = per_body(robot, v_0);
+    let mut poses = per_body(robot, Xform::IDENTITY);
     for i in 0..B {
         let Some(link) = robot.link(i) else {
             break;

@@ -77,7 +77,9 @@ where
 {
     let turns = &trig.turns;
     let (v_0, a_0) = base_motion(effects);
-    let (mut v, mut a) = (per_body(robot, v_0), per_body(robot, a_0));
+    // With one pattern for both, or with `v.push` after (5) or `a.push` before it, the A1 takes 2 % more cycles.
+    let mut v = per_body(robot, v_0);
+    let mut a = per_body(robot, a_0);
     let mut poses = per_body(robot, Xform::IDENTITY);
     let mut bodies: Vec<Body<R>, B> = Vec::new();
     let mut rotor_tau = [R::ZERO; V];
@@ -87,6 +89,7 @@ where
         };
         let x = link.xform(turns);
         let v_i = velocity(effects, &link, x * v.parent(&link), turns, state); // (3)
+        v.push(v_i);
         let a_parent = x * a.parent(&link);
         let a_i = acceleration(effects, &link, a_parent, v_i, turns, state); // (4)
         let mut f_i = net_force(effects, i, &link, a_i, v_i); // (5)
@@ -100,7 +103,6 @@ where
                 *rotor_tau = tau;
             }
         }
-        v.push(v_i);
         a.push(a_i);
         let _ = bodies.push(Body { rot: x.rot, f: f_i });
     }

@@ -1,4 +1,4 @@
-//! What a time step comes to, on joints of any kind.
+//! The increment of a time step, on joints of any kind.
 
 use super::Dynamics;
 use crate::model::RobotModel;
@@ -13,20 +13,20 @@ pub struct StepIncrement<R, const V: usize> {
     pub qd: [R; V],
     /// Mean acceleration q̈, rad/s² or m/s².
     pub qdd: [R; V],
-    /// Where turns do not commute: the first half of the step is at q̇ + bend, the second at q̇ − bend.
+    /// For rotations that do not commute: the first half of the step is at q̇ + bend, the second at q̇ − bend.
     pub bend: Option<[R; V]>,
 }
 
 impl<R: Real, const V: usize> StepIncrement<R, V> {
-    /// The same all along the step.
+    /// Constant rates throughout the step.
     #[inline(always)]
     pub fn straight(qd: [R; V], qdd: [R; V]) -> Self {
         let bend = None;
         Self { qd, qdd, bend }
     }
 
-    /// Where these lead from q in h seconds, on this robot's joints. Cost: [`integrate`], twice for what bends; on
-    /// joints known to be of one axis nothing bends, and it is V sums.
+    /// The configuration after h seconds at these rates from q, on this robot's joints. Cost: that of [`integrate`],
+    /// twice if `bend` is not zero; for joints known to be of one axis, V sums.
     ///
     /// ```
     /// use dynamics_core::{state::manifold::neutral, model::{BASE, Body, Joint, Model}, sim::StepIncrement};
@@ -50,7 +50,7 @@ impl<R: Real, const V: usize> StepIncrement<R, V> {
         }
     }
 
-    /// Where these lead from a state in h seconds; its q̈ is their mean.
+    /// The state after h seconds at these rates; its q̈ is their mean.
     #[inline(always)]
     pub fn end<const Q: usize>(
         &self,

@@ -1,39 +1,38 @@
-//! What a joint lets its body do: kinds, axes, coordinates. RBDA (2008), table 4.1.
+//! Joints: kinds, axes and coordinates. RBDA (2008), table 4.1.
 
 use super::error::Problem;
 use crate::math::const_eval as m;
 use crate::scalar::Real;
 use glam::{DMat3, DVec3};
 
-/// What a joint lets its body do, and the coordinates that say it.
+/// The kind of a joint, and its coordinates.
 ///
-/// "Parent side" is the joint's frame, fixed in the parent; velocities are those of the body in its own
-/// frame. Turns are in rad, lengths in m.
+/// "Parent side" is the joint's frame, fixed in the parent; velocities are those of the body in its own frame.
+/// Rotations are in rad, lengths in m.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum JointKind {
-    /// A turn q about an axis.
+    /// A rotation q about an axis.
     Revolute,
-    /// A turn without end: as `Revolute`, but q and q + 2π are the same place.
+    /// A rotation without limits: as `Revolute`, but q and q + 2π are the same position.
     Continuous,
-    /// A slide q along an axis.
+    /// A translation q along an axis.
     Prismatic,
-    /// A turn q about an axis and a slide pitch·q along it.
+    /// A rotation q about an axis and a translation pitch·q along it.
     Helical,
-    /// A turn q₀ about an axis and a slide q₁ along it.
+    /// A rotation q₀ about an axis and a translation q₁ along it.
     Cylindrical,
-    /// A turn q₀ about an axis of the parent side, then a turn q₁ about an axis of the body.
+    /// A rotation q₀ about an axis of the parent side, then a rotation q₁ about an axis of the body.
     Universal,
-    /// A ball joint: q is a unit quaternion (x, y, z, w), the body's attitude on the parent side; q̇
-    /// stands for ω.
+    /// A ball joint: q is a unit quaternion (x, y, z, w), the body's attitude on the parent side; q̇ is ω.
     Spherical,
-    /// A turn q₀ about z and the place (q₁, q₂) of the body's origin on the parent side's x-y plane;
-    /// q̇ stands for (ω_z, v_x, v_y).
+    /// A rotation q₀ about z and the position (q₁, q₂) of the body's origin in the parent side's x-y plane; q̇ is (ω_z,
+    /// v_x, v_y).
     Planar,
-    /// No constraint: a unit quaternion (x, y, z, w) and the place of the body's origin on the parent
-    /// side; q̇ stands for (ω, v).
+    /// No constraint: a unit quaternion (x, y, z, w) and the position of the body's origin on the parent side; q̇ is
+    /// (ω, v).
     Free,
-    /// Nothing: no coordinate.
+    /// A fixed joint, without coordinates.
     Fixed,
 }
 
@@ -69,7 +68,7 @@ impl JointKind {
         }
     }
 
-    /// How many of its first coordinates are angles, and how many a quaternion's.
+    /// The numbers of its first coordinates that are angles and that are those of a quaternion.
     pub(crate) const fn angles(self) -> (usize, usize) {
         match self {
             Self::Revolute | Self::Continuous | Self::Helical => (1, 0),
@@ -81,7 +80,7 @@ impl JointKind {
     }
 }
 
-/// The kinds of joint that a robot has: what others would do is not in its machine code.
+/// The kinds of joint that a robot has; the machine code contains no others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct JointKinds(u16);
 
@@ -163,13 +162,13 @@ impl JointKinds {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Joint<R: Real> {
-    /// What the joint lets its body do.
+    /// The kind of the joint.
     pub kind: JointKind,
     /// Unit axis (the second of a universal joint) in the body's frame; zero if it has none.
     pub axis: R::Vec3,
-    /// Unit axis of a universal joint's first turn, at q = 0 in the body's frame; else zero.
+    /// Unit axis of a universal joint's first rotation, at q = 0 in the body's frame; else zero.
     pub first_axis: R::Vec3,
-    /// Slide per turn of a helical joint, m/rad; else zero.
+    /// Translation per rotation of a helical joint, m/rad; else zero.
     pub pitch: R,
 }
 

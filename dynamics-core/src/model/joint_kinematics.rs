@@ -1,4 +1,4 @@
-//! A joint at work: ⁱX_λ(i), S q̇, S̊ q̇, Sᵀ f. RBDA (2008), table 4.1.
+//! The kinematics of a joint: ⁱX_λ(i), S q̇, S̊ q̇, Sᵀ f. RBDA (2008), table 4.1.
 //!
 //! In a link's aligned frame every axis is z, so that S is made of unit vectors, and only a
 //! universal joint's first column depends on q.
@@ -15,7 +15,7 @@ use crate::trig::Kernel;
 
 use JointKind::*;
 
-/// A link, with what the compiler knows of its joint.
+/// A link, with the properties of its joint that are known at compile time.
 #[derive(Clone, Copy, Debug)]
 pub struct LinkView<'a, R: Real> {
     link: &'a Link<R>,
@@ -90,7 +90,7 @@ impl<'a, R: Real> LinkView<'a, R> {
         }
     }
 
-    /// Its entries of a posture: sines and cosines of its angles, its quaternion at unit length.
+    /// Its coordinates: sines and cosines of its angles, its quaternion at unit length.
     #[inline(always)]
     pub(crate) fn pose<K: Kernel<R>>(&self, q: &[R], turns: &mut [JointCoordinate<R>]) {
         let (count, _) = self.kind.coordinates();
@@ -144,7 +144,7 @@ impl<'a, R: Real> LinkView<'a, R> {
         }
     }
 
-    /// S q̇: the velocity across the joint, `rates` being all of q̇ (or S q̈ of all of q̈).
+    /// S q̇: the velocity of the joint, where `rates` is all of q̇ (or S q̈ of all of q̈).
     #[inline(always)]
     pub fn motion(&self, turns: &[JointCoordinate<R>], rates: &[R]) -> Motion<R> {
         let zero = R::Vec3::ZERO;
@@ -167,7 +167,7 @@ impl<'a, R: Real> LinkView<'a, R> {
         }
     }
 
-    /// m + S q̇, without the additions of zeros that S is mostly made of.
+    /// m + S q̇, without additions of the zeros of S.
     #[inline(always)]
     pub fn plus_motion(
         &self,
@@ -184,7 +184,7 @@ impl<'a, R: Real> LinkView<'a, R> {
         }
     }
 
-    /// a + S̊ q̇ + v × S q̇: what a body's velocity v and its joint's add to an acceleration.
+    /// a + S̊ q̇ + v × S q̇: an acceleration with the velocity products of the body and its joint.
     #[inline(always)]
     pub fn plus_velocity_product(
         &self,
@@ -211,7 +211,7 @@ impl<'a, R: Real> LinkView<'a, R> {
         }
     }
 
-    /// Column k of S: the velocity across the joint at unit rate of its coordinate k.
+    /// Column k of S: the velocity of the joint at unit rate of its coordinate k.
     #[inline(always)]
     pub fn column(&self, turns: &[JointCoordinate<R>], k: usize) -> Motion<R> {
         let zero = R::Vec3::ZERO;
@@ -231,7 +231,7 @@ impl<'a, R: Real> LinkView<'a, R> {
         }
     }
 
-    /// Sᵀ f: the parts of a force that the joint's motors carry, put into their places of `tau`.
+    /// Sᵀ f: the components of a force along the joint's coordinates, stored in their entries of `tau`.
     #[inline(always)]
     pub fn project(&self, turns: &[JointCoordinate<R>], f: Force<R>, tau: &mut [R]) {
         let ([nx, ny, nz], [fx, fy, fz]) = (f.ang.array(), f.lin.array());

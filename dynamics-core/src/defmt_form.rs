@@ -1,4 +1,4 @@
-//! defmt's trait for what holds glam's vectors, which have none, for the feature `defmt`.
+//! defmt's trait for types with glam's vectors, which do not implement it, for the feature `defmt`.
 //!
 //! All else that firmware logs derives it where it is defined.
 

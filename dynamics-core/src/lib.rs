@@ -5,7 +5,7 @@
 //!
 //! | module | contents |
 //! |---|---|
-//! | `math`, [`trig`] | functions of plain numbers: sine, cosine and e⁻ˣ without f64; what is evaluated while compiling |
+//! | `math`, [`trig`] | functions of plain numbers: sine, cosine and e⁻ˣ without f64; functions that are evaluated at compile time |
 //! | [`scalar`] | f32 and f64 as one type parameter |
 //! | [`spatial`] | motion and force vectors, transforms, inertias, rotations |
 //! | [`model`] | a robot's description, checked while compiling |

@@ -1,8 +1,8 @@
-//! serde's traits for what firmware keeps in flash, for the feature `serde`.
+//! serde's traits for the types that firmware stores in flash, for the feature `serde`.
 //!
-//! A field at a time, under its name, arrays as tuples of their length. Only types whose fields are public, so that
-//! nothing is read which could not be written in code; bounds that their check refuses are not read. What a constructor
-//! checks (models, trajectories, supervisors, payloads) has no `Deserialize`: that constructor builds it from these.
+//! A field at a time, under its name, arrays as tuples of their length. Only types whose fields are public have them,
+//! and limits that their check rejects are not read. Types that a constructor checks (models, trajectories,
+//! supervisors, payloads) have no `Deserialize`: the constructor builds them from these.
 
 use crate::effects::{Armature, Viscous, Width};
 use crate::scalar::{Matrix, Real, Vector};

@@ -12,8 +12,8 @@ use crate::state::{Configuration, JointTrig, RobotState};
 
 /// The textbook algorithms for the robot `T`; sines and cosines by the kernel `K`.
 ///
-/// Each function is that of [`crate::algorithms`] for [`Static<T, K>`](Static), compiled once and never inlined; those that
-/// are not listed here take `&Static::<T>::NEW` in its place.
+/// Each function is that of [`crate::algorithms`] for [`Static<T, K>`](Static), compiled once and never inlined; call
+/// those that are not listed here with `&Static::<T>::NEW`.
 ///
 /// ```
 /// use dynamics_core::{Core, algorithms, effects::RIGID_BODY, model::Static, robots::Ur5e, state::State};
@@ -203,7 +203,8 @@ impl<T, K> Core<T, K> {
         algorithms::osim_inverse(&Static::<T, K>::NEW, q, body, frame, effects)
     }
 
-    /// q̇ with the base's rates that give all bodies the momentum h, see [`algorithms::base_velocity_from_momentum`].
+    /// q̇ with the base's rates for which the momentum of all bodies is h, see
+    /// [`algorithms::base_velocity_from_momentum`].
     ///
     /// # Errors
     /// [`NotPositiveDefinite`] names the first coordinate of bodies without mass or inertia.

@@ -1,8 +1,9 @@
 //! Forward dynamics: the articulated-body algorithm in link coordinates.
 //!
-//! Featherstone, RBDA (2008), table 7.1; Featherstone & Orin (2000), section 3.2. A joint of several
-//! degrees of freedom is eliminated a coordinate at a time, which is the same as by its block D. Where
-//! [`hybrid_dynamics`](super::hybrid_dynamics()) prescribes a coordinate's motion, RBDA section 9.2, nothing is eliminated.
+//! Featherstone, RBDA (2008), table 7.1; Featherstone & Orin (2000), section 3.2. A joint of several degrees of freedom
+//! is eliminated a coordinate at a time, which is the same as by its block D. Where
+//! [`hybrid_dynamics`](super::hybrid_dynamics()) prescribes a coordinate's motion, RBDA section 9.2, nothing is
+//! eliminated.
 
 use core::borrow::Borrow;
 
@@ -22,6 +23,23 @@ use crate::state::{Configuration, JointTrig, RobotState, State, entry};
 /// The acceleration of each joint, q̈ = FD(q, q̇, τ), rad/s² or m/s², under the effects of the scene.
 ///
 /// `state.qdd` is not read.
+///
+/// Velocities as in [`rnea`](super::rnea()), then the articulated bodies from the tips to the base, then the
+/// accelerations from the base, with $a_0 = -g$, to the tips:
+///
+/// $$
+/// \begin{aligned}
+/// c_i &= \mathring S_i \dot q_i + v_i \times S_i \dot q_i \cr
+/// I^A_i &= I_i + \sum_{\lambda(j) = i} {}^jX_i^T I^a_j \thinspace {}^jX_i &
+/// p^A_i &= v_i \times^\ast I_i v_i - f^x_i + \sum_{\lambda(j) = i} {}^jX_i^T p^a_j \cr
+/// U_i &= I^A_i S_i, \quad D_i = S_i^T U_i & u_i &= \tau_i - S_i^T p^A_i \cr
+/// I^a_i &= I^A_i - U_i D_i^{-1} U_i^T & p^a_i &= p^A_i + I^a_i c_i + U_i D_i^{-1} u_i \cr
+/// a^\prime_i &= {}^iX_{\lambda(i)} a_{\lambda(i)} + c_i \cr
+/// \ddot q_i &= D_i^{-1} (u_i - U_i^T a^\prime_i) & a_i &= a^\prime_i + S_i \ddot q_i
+/// \end{aligned}
+/// $$
+///
+/// The effects of joints add their inertia (armatures) to $D_i$ and subtract their torque from $u_i$.
 ///
 /// # Shape
 /// V.

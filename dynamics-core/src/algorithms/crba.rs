@@ -21,6 +21,13 @@ use crate::state::{Configuration, JointTrig};
 ///
 /// Of the effects, armatures, rotors and payloads are part of M. A non-finite input gives a non-finite output.
 ///
+/// $$
+/// I^c_i = I_i + \sum_{\lambda(j) = i} {}^jX_i^T I^c_j \thinspace {}^jX_i, \qquad
+/// M_{ij} = M_{ji} = S_i^T \thinspace {}^jX_i^T I^c_j S_j
+/// $$
+///
+/// where joint i is joint j or one of its ancestors.
+///
 /// # Shape
 /// V × V, symmetric; an entry between joints of which neither is an ancestor of the other is exactly zero.
 ///

@@ -30,6 +30,10 @@ struct Body<'a, R: Real> {
 ///
 /// Column k of the Jacobian is the velocity of the body at unit rate of coordinate k.
 ///
+/// $$
+/// J_k = {}^bX_k S_k, \qquad M_{jk} = ({}^jX_k S_k)^T I^c_j S_j
+/// $$
+///
 /// # Shape
 /// V × V and 6 × V. The Jacobian of the base is zero, that of a body that the robot does not have NaN.
 ///

@@ -11,7 +11,11 @@ use crate::model::RobotModel;
 use crate::scalar::{Real, Vector};
 use crate::state::{Configuration, RobotState, entry};
 
-/// The kinetic energy T = Σ ½ v·I v, J.
+/// The kinetic energy T, J.
+///
+/// $$
+/// T = \tfrac 1 2 \sum_i v_i^T I_i v_i
+/// $$
 ///
 /// It counts the bodies, a payload of the scene, and rotors by their inertia at the joints: ½ q̇ᵀ M q̇ on a base at
 /// rest, M under the same effects. On a base of given motion it is that of the moving bodies.
@@ -65,7 +69,11 @@ where
     twice * R::from_f64(0.5)
 }
 
-/// The potential energy U = −Σ m g·c in the field of the effects, J; zero at the height of the base's origin.
+/// The potential energy U in the field of the effects, J; zero at the height of the base's origin.
+///
+/// $$
+/// U = -\sum_i m_i g^T c_i
+/// $$
 ///
 /// It counts the bodies and a payload. Springs that are effects of joints are not counted.
 ///

@@ -15,6 +15,10 @@ use crate::state::{Configuration, RobotState};
 ///
 /// [`aba`](super::aba()) gives the same without M. `state.qdd` is not read.
 ///
+/// $$
+/// M(q) \ddot q = \tau - C(q, \dot q), \qquad C(q, \dot q) = \mathrm{ID}(q, \dot q, 0)
+/// $$
+///
 /// # Shape
 /// V.
 ///

@@ -19,6 +19,21 @@ use crate::state::{Configuration, JointTrig, RobotState, State, entry};
 ///
 /// A non-finite input gives a non-finite output, which [`crate::control`] rejects.
 ///
+/// The velocities and accelerations follow from the base to the tips, with $a_0 = -g$, the forces from the tips to the
+/// base:
+///
+/// $$
+/// \begin{aligned}
+/// v_i &= {}^iX_{\lambda(i)} v_{\lambda(i)} + S_i \dot q_i && (3) \cr
+/// a_i &= {}^iX_{\lambda(i)} a_{\lambda(i)} + S_i \ddot q_i + \mathring S_i \dot q_i
+/// {} + v_i \times S_i \dot q_i && (4) \cr
+/// f_i &= I_i a_i + v_i \times^\ast I_i v_i - f^x_i + \sum_{\lambda(j) = i} {}^jX_i^T f_j && (5), (6), (7) \cr
+/// \tau_i &= S_i^T f_i && (8)
+/// \end{aligned}
+/// $$
+///
+/// The effects of joints (friction, armatures, springs) add their torque to $\tau_i$.
+///
 /// # Shape
 /// V.
 ///

@@ -2,23 +2,23 @@
 
 use super::Fault;
 
-/// What the arm does, in the order in which a lasting fault leads from one to the next.
+/// The mode of the arm. A lasting fault leads from each to the next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Mode {
-    /// The full control law; while a fault is ridden through, on what the observer expects.
+    /// The full control law. During a ride-through it acts on the prediction of the observer.
     Full,
-    /// Brought to rest where the observer has the arm: inverse dynamics of q̈ = −λ q̇, see [`super::hold()`].
+    /// The arm is brought to rest at its estimated position: inverse dynamics of q̈ = −λ q̇, see [`super::hold()`].
     Hold,
     /// Zero torque and the brake, until a reset ([`super::MotionController::reset`], [`super::Supervisor::reset`]).
     Stopped,
 }
 
-/// What the supervisor did in a tick, and why.
+/// The decision of the supervisor in a tick, and its reason.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Status {
-    /// What the arm did.
+    /// The mode of the arm.
     pub mode: Mode,
     /// The first fault of this tick; in [`Mode::Stopped`] the one that stopped the arm.
     pub fault: Option<Fault>,
@@ -26,14 +26,14 @@ pub struct Status {
     pub limited: bool,
 }
 
-/// What goes to the drives.
+/// The command to the drives.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Command<R, const V: usize> {
     /// Torques, N·m or N: finite and within their limits.
     pub torque: [R; V],
-    /// Whether the brake is to hold the arm.
+    /// Whether the brake must hold the arm.
     pub brake: bool,
-    /// Why so.
+    /// The mode, and the fault that led to it.
     pub status: Status,
 }

@@ -5,7 +5,7 @@ use core::fmt;
 use super::SafetyLimitsError;
 use crate::scalar::Real;
 
-/// Why a configuration was refused.
+/// The reason why a configuration is rejected.
 ///
 /// ```
 /// use dynamics_core::control::{ConfigError, ConfigParameter, Observer, ObserverConfig};
@@ -17,7 +17,7 @@ use crate::scalar::Real;
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum ConfigError {
-    /// A limit of a joint allows nothing; the source names the joint.
+    /// A limit of a joint allows no motion or torque; the source names the joint.
     Limits(SafetyLimitsError),
     /// A number that holds for all joints is outside its range.
     OutOfRange {

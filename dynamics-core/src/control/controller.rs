@@ -1,7 +1,7 @@
-//! A whole control loop but for the law and the devices: observer, supervisor, clock, and what happens on a fault.
+//! A control loop without its control law and devices: observer, supervisor, clock and the reaction to faults.
 //!
-//! In this order a tick goes: [`MotionController::observe`] judges the measurement and updates the estimate,
-//! [`ObservedTick::reference`] says what the joints are to follow, the caller's law computes torques, and
+//! A tick has four steps: [`MotionController::observe`] checks the measurement and updates the estimate,
+//! [`ObservedTick::reference`] gives the reference of the joints, the caller's law computes torques, and
 //! [`ReferencedTick::command`] limits them. [`MotionController::tick`] does all four with the law as a closure.
 //!
 //! | a fault lasts | reference | estimate |
@@ -10,7 +10,7 @@
 //! | `hold_ticks` more | [`hold`](super::hold()): q̈ = −λ q̇ where the arm is; the trajectory's clock stands still | predicted |
 //! | longer | the same, with zero torque on the brake, latched | as measured |
 //!
-//! Afterwards a reference of its own leads back onto the trajectory ([`ResumeTrajectory`]). The reasons, with
+//! After the fault a separate reference leads back onto the trajectory ([`ResumeTrajectory`]). The reasons, with
 //! figures, are in `docs/decisions/0003-faults.md` of the repository.
 
 use core::marker::PhantomData;
@@ -34,11 +34,11 @@ pub use config::MotionControllerConfig;
 pub use reset::ResetError;
 pub use tick::{ObservedTick, ReferencedTick};
 
-/// The controller of a robot's motion: all that a control loop keeps from tick to tick, and what it does on a fault.
+/// The controller of a robot's motion: the state of a control loop, and its reaction to faults.
 ///
-/// It knows no devices and no model: positions come in, torques go out, and the law in between is the caller's. `A` is
-/// the age of the measurements: [`PreviousTick`] for encoders that answer with the angle of the tick before,
-/// [`CurrentTick`] for those of this tick.
+/// It is independent of devices and of the model: its inputs are positions, its outputs torques, and the caller
+/// supplies the control law. `A` is the age of the measurements: [`PreviousTick`] for encoders that answer with the
+/// angle of the tick before, [`CurrentTick`] for those of this tick.
 ///
 /// ```
 /// use dynamics_core::control::*;
@@ -78,31 +78,31 @@ pub struct MotionController<R, const V: usize, A = PreviousTick> {
     observer: Observer<R, V>,
     supervisor: Supervisor<R, V>,
     resume: ResumeTrajectory<R, V>,
-    /// What the joints follow; its acceleration acts until the next tick.
+    /// The reference of the joints; its acceleration acts until the next tick.
     reference: State<R, V, V>,
     restart_distance: R,
-    /// The trajectory's tick, which stands still during a fault.
+    /// The tick of the trajectory, which does not advance during a fault.
     clock: u32,
-    /// The estimate has gone without a measurement for longer than is ridden through.
+    /// Whether the estimate has been without a measurement for longer than the ride-through.
     dead_reckoning: bool,
     age: PhantomData<A>,
 }
 
 impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
-    /// A controller at the start of the trajectory, of an arm that holds itself.
+    /// A controller at the start of the trajectory, for an arm that holds its position.
     ///
-    /// The first tick should follow within a tick's time, or the arm stand still till then.
+    /// The first tick should follow within one tick, or the arm must stand still until then.
     ///
     /// # Errors
-    /// [`ConfigError`]: of [`MotionControllerConfig::check`].
+    /// [`ConfigError`], as [`MotionControllerConfig::check`].
     pub fn try_new(config: MotionControllerConfig<R, V>) -> Result<Self, ConfigError> {
         config.check()?;
         Ok(Self::new(config))
     }
 
-    /// The same without a check, for configurations that are constants.
+    /// As [`Self::try_new`], without the check: for constant configurations.
     ///
-    /// With limits that allow nothing the arm stays stopped, see [`Supervisor::new`].
+    /// If a limit allows no motion or torque, the arm stays stopped: see [`Supervisor::new`].
     pub fn new(config: MotionControllerConfig<R, V>) -> Self {
         Self {
             observer: Observer::new(config.observer()),
@@ -116,15 +116,16 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
         }
     }
 
-    /// Runs one tick: from the measured positions (rad, m), or why there are none, to what goes to the drives.
+    /// Runs one tick: from the measured positions (rad, m), or the fault that prevented them, to the command to the
+    /// drives.
     ///
-    /// `law` is called once, in every mode: from what the joints are to follow and where they are to torques (N·m, N).
-    /// Its feed-forward has to bring the reference's acceleration about; for one that does not, see
+    /// `law` is called once, in every mode; it computes torques (N·m, N) from the reference and the estimate of the
+    /// joints. Its feed-forward must produce the acceleration of the reference; for a law without inertia, see
     /// [`ReferencedTick::without_inertia`].
     ///
     /// # Cost
-    /// 25 flops a joint beside the trajectory's and the law's, the same instructions whatever the data; more on a fault
-    /// and on the return after it.
+    /// 25 flops per joint in addition to the trajectory and the law, with the same instructions for all data; more
+    /// during a fault and the return after it.
     #[inline]
     pub fn tick<T: Reference<R, V>>(
         &mut self,
@@ -137,10 +138,11 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
         tick.command(&tau)
     }
 
-    /// Starts a tick: judges the measured positions (rad, m), or why there are none, and updates the estimate.
+    /// Starts a tick: checks the measured positions (rad, m), or accepts the fault that prevented them, and updates the
+    /// estimate.
     ///
-    /// The first of the three steps of [`Self::tick`], for loops that do something in between. A tick that is begun and
-    /// gets no command is [`Fault::Unfinished`] in the next one.
+    /// The first of the three steps of [`Self::tick`], for loops that do other work between them. A tick that ends
+    /// without a command is [`Fault::Unfinished`] in the next one.
     ///
     /// ```compile_fail
     /// # #![deny(unused_must_use)]
@@ -162,13 +164,14 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
         ObservedTick::new(self)
     }
 
-    /// Counts so many ticks that have passed without a call, as a timer has counted them.
+    /// Reports ticks that have passed without a call, as counted by a timer.
     ///
-    /// Before the next tick: the estimate goes on, the joints may have moved, and so may the trajectory, unless the arm is
-    /// held or on its return. What exceeds the ticks that a fault may last is not predicted.
+    /// Call it before the next tick. The estimate is extrapolated, the plausible range of positions grows, and the
+    /// trajectory advances, unless the arm is held or returns. Ticks beyond the longest tolerated fault are not
+    /// predicted.
     ///
     /// # Cost
-    /// A prediction and a point of the trajectory for each tick missed.
+    /// One prediction and one point of the trajectory per missed tick.
     #[cold]
     pub fn missed<T: Reference<R, V>>(&mut self, ticks: u32, trajectory: &T) {
         self.supervisor.missed(ticks);
@@ -182,10 +185,10 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
         }
     }
 
-    /// Stops the arm for a reason found outside, as a drive that fails or an emergency stop, from the next tick on.
+    /// Stops the arm from the next tick on, for an external reason such as a failed drive or an emergency stop.
     ///
-    /// Latched until [`Self::reset`]; the first reason stays. A stop that is still demanded after a reset is to be called
-    /// again, every tick. [`ReferencedTick::stop`] acts in the present tick.
+    /// The stop is latched until [`Self::reset`], with its first reason. While a stop is still required after a reset,
+    /// call this function in every tick. [`ReferencedTick::stop`] acts in the present tick.
     #[doc(alias = "e-stop")]
     #[doc(alias = "emergency stop")]
     #[cold]
@@ -193,25 +196,25 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
         self.supervisor.stop(fault);
     }
 
-    /// What the joints were to follow in the last tick.
+    /// The reference of the joints in the last tick.
     #[inline(always)]
     pub fn reference(&self) -> &State<R, V, V> {
         &self.reference
     }
 
-    /// Where the joints are and how fast, as the observer has it.
+    /// The estimated positions and velocities of the joints.
     #[inline(always)]
     pub fn estimate(&self) -> &Estimate<R, V> {
         self.observer.estimate()
     }
 
-    /// What the arm did in the last tick.
+    /// The mode of the arm in the last tick.
     #[inline(always)]
     pub fn mode(&self) -> Mode {
         self.supervisor.mode()
     }
 
-    /// The trajectory's tick that comes next; it stands still while the arm is held or returns.
+    /// The next tick of the trajectory; it does not advance while the arm is held or returns.
     #[inline(always)]
     pub fn trajectory_tick(&self) -> u32 {
         self.clock

@@ -1,8 +1,8 @@
-//! The faults that a supervisor knows.
+//! The faults that a supervisor detects or is notified of.
 
 use core::fmt;
 
-/// Why a measurement or a command was rejected. Joints count from 0.
+/// The reason why a measurement or a command is rejected. Joints are numbered from 0.
 ///
 /// ```
 /// use dynamics_core::control::Fault;
@@ -12,14 +12,14 @@ use core::fmt;
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum Fault {
-    /// The encoder reported an error, or its answer was damaged.
+    /// The encoder reported an error, or its frame was corrupted.
     Encoder {
         /// The joint.
         joint: usize,
     },
-    /// There is no measurement of this tick.
+    /// There is no measurement in this tick.
     Stale,
-    /// The tick before was begun and got no torque: the drives still have an older one.
+    /// The previous tick was begun but not ended with a torque: the drives still apply an older one.
     Unfinished,
     /// The measured position is not finite.
     NotFinite {
@@ -31,12 +31,12 @@ pub enum Fault {
         /// The joint.
         joint: usize,
     },
-    /// The measured position is further from the last good one than the joint can have moved.
+    /// The measured position differs from the last accepted one by more than the joint can have moved.
     Jump {
         /// The joint.
         joint: usize,
     },
-    /// The joint is faster than it may be.
+    /// The speed of the joint is above its limit.
     Speed {
         /// The joint.
         joint: usize,
@@ -46,19 +46,19 @@ pub enum Fault {
         /// The joint.
         joint: usize,
     },
-    /// The drive did not take its torque.
+    /// The drive did not accept its torque.
     Drive {
         /// The joint.
         joint: usize,
     },
-    /// A limit of the joint allows nothing: [`super::SafetyLimits::check`] says which.
+    /// A limit of the joint allows no motion or torque: [`super::SafetyLimits::check`] names it.
     Limits {
         /// The joint.
         joint: usize,
     },
-    /// The brake did not take its order.
+    /// The brake did not accept its command.
     Brake,
-    /// A stop from outside the loop: an emergency stop's contact, a safety controller, an operator. For
+    /// A stop from outside the loop: an emergency stop, a safety controller, an operator. See
     /// [`MotionController::stop`](super::MotionController::stop) and [`Supervisor::stop`](super::Supervisor::stop).
     #[doc(alias = "e-stop")]
     #[doc(alias = "emergency stop")]

@@ -19,10 +19,10 @@ pub struct Gains<R, const V: usize> {
 }
 
 impl<R: Real, const V: usize> Gains<R, V> {
-    /// Gains that make each joint alone a damped oscillator of natural frequency `omega_n` (rad/s)
-    /// and damping ratio `zeta`: K_p = M_jj ω_n², K_d = 2 ζ ω_n M_jj.
+    /// Gains with which each joint by itself is a damped oscillator of natural frequency `omega_n` (rad/s) and damping
+    /// ratio `zeta`: K_p = M_jj ω_n², K_d = 2 ζ ω_n M_jj.
     ///
-    /// `diagonal`: that of M at a pose that stands for the others, kg·m² or kg.
+    /// `diagonal`: that of M at a representative configuration, kg·m² or kg.
     ///
     /// ```
     /// use dynamics_core::control::Gains;
@@ -41,7 +41,7 @@ impl<R: Real, const V: usize> Gains<R, V> {
 /// feed-forward.
 ///
 /// # Cost
-/// 5 flops a joint, the same instructions whatever the data.
+/// 5 flops per joint, with the same instructions for all data.
 ///
 /// # Errors
 /// None; a non-finite input gives a non-finite output, which [`super::Supervisor`] rejects.

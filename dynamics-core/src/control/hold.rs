@@ -4,17 +4,17 @@ use super::Estimate;
 use crate::scalar::Real;
 use crate::state::State;
 
-/// The reference of an arm in [`Mode::Hold`](super::Mode::Hold): it is where the observer has it, and its speed
-/// decays, q̈ = −λ q̇.
+/// The reference of an arm in [`Mode::Hold`](super::Mode::Hold): its estimated position, with a velocity that decays,
+/// q̈ = −λ q̇.
 ///
-/// Inverse dynamics of it slows the joints down together; `decay` is λ in 1/s, about ω_n of the feedback.
+/// Inverse dynamics of this reference decelerates all joints together; `decay` is λ in 1/s, about ω_n of the feedback.
 ///
-/// The feedback of this reference is zero. With damping by K_d in place of this acceleration, the joint that slows down
-/// swings the others back; with λ = 2 ζ ω_n a fast arm needs more torque than it has. A law whose feed-forward has no
-/// inertia in it takes this reference with q̇ = 0, and K_d slows the joints down.
+/// The feedback of this reference is zero. Damping by K_d in place of this acceleration reverses joints: the joint that
+/// decelerates accelerates the others. With λ = 2 ζ ω_n a fast arm needs more torque than it has. A law without inertia
+/// in its feed-forward uses this reference with q̇ = 0, and K_d decelerates the joints.
 ///
 /// # Cost
-/// 1 flop a joint, the same instructions whatever the data.
+/// 1 flop per joint, with the same instructions for all data.
 ///
 /// ```
 /// use dynamics_core::control::{Estimate, hold};

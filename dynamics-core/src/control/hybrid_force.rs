@@ -31,7 +31,8 @@ impl<R: Real> TaskFrame<R> {
 
     /// The directions of a task in six coordinates: rotations about the axes, and the position along them.
     ///
-    /// A rotation counts as the path of a point at `radius`, m, so that all are lengths; 1 m gives rad.
+    /// A rotation is expressed as the path of a point at `radius`, m, so that all coordinates are lengths; 1 m gives
+    /// rad.
     #[inline(always)]
     pub fn turn_and_place(&self, radius: R) -> [Force<R>; 6] {
         let [x, y, z] = self.place();
@@ -60,7 +61,7 @@ pub enum TaskCommand<R> {
     },
 }
 
-/// A motion along one direction of a task that is to follow x_d as a damped oscillator: for [`TaskCommand::motion`].
+/// A motion along one direction of a task that follows x_d as a damped oscillator: for [`TaskCommand::motion`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct TaskMotion<R> {
@@ -80,11 +81,11 @@ pub struct TaskMotion<R> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct TaskForce<R> {
-    /// f_d that the body is to exert on its environment, N.
+    /// Desired force f_d of the body on its environment, N.
     pub desired: R,
-    /// f that it exerts, as a sensor measures it, N.
+    /// Measured force f of the body on its environment, N.
     pub measured: R,
-    /// Gain k on their difference, without unit.
+    /// Gain k on their difference, dimensionless.
     pub gain: R,
     /// ẋ, m/s.
     pub velocity: R,
@@ -115,7 +116,7 @@ impl<R: Real> TaskCommand<R> {
         }
     }
 
-    /// A force that comes to f_d: f* = f_d + k (f_d − f), and motion damped by −d ẋ.
+    /// A force that converges to f_d: f* = f_d + k (f_d − f), with motion damped by −d ẋ.
     ///
     /// # Cost
     /// 5 flops.
@@ -133,12 +134,12 @@ impl<R: Real> TaskCommand<R> {
 
 /// Computes the torques of a task of motions and forces, N·m or N.
 ///
-/// `drift`: J̇ q̇ along the task's directions; `bias`: torques at q̈ = 0 of all that acts on the joints
-/// (velocity products, gravity, friction): Khatib's μ and p, and their like outside the task. Torques that
-/// do not act on the task may be added through [`OperationalSpace::null_space_torque`].
+/// `drift`: J̇ q̇ along the task's directions; `bias`: torques at q̈ = 0 of all effects on the joints (velocity
+/// products, gravity, friction): Khatib's μ and p, in joint space. Torques that do not act on the task may be added
+/// through [`OperationalSpace::null_space_torque`].
 ///
 /// # Cost
-/// 2 M (M + V) + 2 M + V flops, the same whatever the data.
+/// 2 M (M + V) + 2 M + V flops for all data.
 ///
 /// # Errors
 /// None; near a singularity finite, see [`OperationalSpace::conditioning`].
@@ -169,7 +170,7 @@ impl<R: Real> TaskCommand<R> {
 /// # Ok::<(), dynamics_core::algorithms::NotPositiveDefinite>(())
 /// ```
 ///
-/// A command for each direction, neither more nor less:
+/// The number of commands is that of the directions:
 ///
 /// ```compile_fail,E0308
 /// use dynamics_core::{algorithms::OperationalSpace, control::{TaskCommand, hybrid_motion_force}};
@@ -210,9 +211,9 @@ pub fn hybrid_motion_force<R: Real, const M: usize, const V: usize>(
     tau
 }
 
-/// The rotation from an attitude to the wanted one as a vector: its sine along its axis, in base coordinates.
+/// The rotation from an attitude to the desired one as a vector: its sine along its axis, in base coordinates.
 ///
-/// Zero only there and at half a turn from it.
+/// It is zero only at the desired attitude and at a rotation by π from it.
 ///
 /// # Cost
 /// 27 flops.

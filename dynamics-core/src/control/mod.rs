@@ -1,5 +1,4 @@
-//! Control: where the arm should be, where it is, the torque in between, and the gate that every
-//! command passes.
+//! Control: reference, estimate, control law, and the safety gate that every command passes.
 //!
 //! | item | what | memory |
 //! |---|---|---|

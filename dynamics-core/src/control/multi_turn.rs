@@ -4,9 +4,8 @@ use crate::scalar::Real;
 
 /// The position of an absolute encoder of BITS bits (1 to 16), turns included.
 ///
-/// A step of less than half a turn between two readings is taken the short way, so that the wrap
-/// from the last count to 0 is no jump. The count itself wraps after 2³¹ counts: 131,072 turns of
-/// 14 bits.
+/// The difference of two readings is interpreted as the shorter rotation, so that the wrap from the last count to 0 is
+/// not a jump. The count itself wraps after 2³¹ counts: 131,072 turns of 14 bits.
 ///
 /// ```
 /// use dynamics_core::control::MultiTurnEncoder;
@@ -33,8 +32,8 @@ impl<const BITS: u32> MultiTurnEncoder<BITS> {
         Self { counts: 0 }
     }
 
-    /// A counter whose first reading lies within half a turn of `turns` whole turns, for joints
-    /// whose turn is known at power-up.
+    /// A counter whose first reading lies within half a turn of `turns` whole turns, for joints whose number of turns
+    /// is known at power-up.
     ///
     /// ```
     /// use dynamics_core::control::MultiTurnEncoder;
@@ -46,10 +45,9 @@ impl<const BITS: u32> MultiTurnEncoder<BITS> {
         }
     }
 
-    /// The position in counts, after a reading `raw` whose bits above BITS do not matter.
+    /// The position in counts after a reading `raw`, of which the bits above BITS are ignored.
     ///
-    /// Call it with readings that passed the encoder's own checks only. Cost: 4 instructions,
-    /// the same whatever the reading.
+    /// Call it only with readings that passed the encoder's own checks. Cost: 4 instructions for all readings.
     #[inline(always)]
     pub fn update(&mut self, raw: u16) -> i32 {
         // Shifting out the turns leaves the difference modulo one turn, with its sign.
@@ -80,8 +78,8 @@ impl<const BITS: u32> MultiTurnEncoder<BITS> {
 
     /// The position in rad, turns included: 2π counts / 2^BITS.
     ///
-    /// f32: within 1.5 units in the last place, so that nothing is gained by adding the turns
-    /// separately; that unit is 6·10⁻⁵ rad at 100 turns, a sixth of a 14-bit count. Cost: 2 flops.
+    /// f32: within 1.5 units in the last place, so that adding the turns separately would not be more accurate; that
+    /// unit is 6·10⁻⁵ rad at 100 turns, a sixth of a 14-bit count. Cost: 2 flops.
     #[inline(always)]
     pub fn angle<R: Real>(&self) -> R {
         // A power of two scales exactly: one rounding here, and one of 2π.

@@ -1,9 +1,9 @@
 //! Torque between two computations of the dynamics, for loops that tick faster than they compute.
 //!
-//! A loop computes in every `TICKS`-th tick and passes the result to `update`, which returns the torque of that tick; in
-//! the ticks between, `hold` does. What that loses grows with `TICKS` and with how fast the arm moves, and most where
-//! the reference's jerk jumps, as at the way-points of [`Trajectory`](super::Trajectory), unless such ticks are among
-//! those that compute: `docs/accuracy.md` in the repository has it, with what it saves.
+//! A loop computes in every `TICKS`-th tick and passes the result to `update`, which returns the torque of that tick;
+//! in the other ticks, `hold` returns it. The error grows with `TICKS` and with the speed of the arm. It is largest
+//! where the jerk of the reference jumps, as at the way-points of [`Trajectory`](super::Trajectory), unless the
+//! dynamics are computed in such ticks. Errors and savings are in `docs/accuracy.md` in the repository.
 
 use crate::algorithms::MassMatrix;
 use crate::scalar::Real;

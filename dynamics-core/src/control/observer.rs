@@ -17,7 +17,7 @@ use crate::state::all_finite;
 #[cfg(test)]
 mod tests;
 
-/// Where the joints are and how fast, as an [`Observer`] has it.
+/// Positions and velocities of the joints, as estimated by an [`Observer`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Estimate<R, const V: usize> {
@@ -27,12 +27,12 @@ pub struct Estimate<R, const V: usize> {
     pub qd: [R; V],
 }
 
-/// What an [`Observer`] has to know of the loop.
+/// The parameters of an [`Observer`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ObserverConfig<R> {
-    /// Bandwidth ω_o, rad/s. Higher follows faster and passes more of the encoder's steps: a step Δ kicks the velocity
-    /// by about ω_o² h Δ.
+    /// Bandwidth ω_o, rad/s. A higher bandwidth follows faster and passes more of the quantisation: a step Δ of the
+    /// encoder changes the velocity by about ω_o² h Δ.
     pub bandwidth: R,
     /// Nominal length h of a tick, s.
     pub tick: R,
@@ -51,8 +51,8 @@ impl<R: Real> ObserverConfig<R> {
 
 /// An observer of V joints with one bandwidth.
 ///
-/// A known acceleration (the reference's) keeps the estimate from lagging while the arm speeds up.
-/// A non-finite input leaves the estimate as it was.
+/// With a known acceleration (that of the reference) the estimate does not lag while the arm accelerates. A non-finite
+/// input leaves the estimate unchanged.
 ///
 /// ```
 /// use dynamics_core::control::{Observer, ObserverConfig};
@@ -79,16 +79,16 @@ pub struct Observer<R, const V: usize> {
 }
 
 impl<R: Real, const V: usize> Observer<R, V> {
-    /// An observer without a position yet: the first update takes it over at zero velocity.
+    /// An observer without a position: the first update sets the position, at zero velocity.
     ///
     /// # Errors
-    /// [`ConfigError`]: of [`ObserverConfig::check`].
+    /// [`ConfigError`], as [`ObserverConfig::check`].
     pub fn try_new(config: ObserverConfig<R>) -> Result<Self, ConfigError> {
         config.check()?;
         Ok(Self::new(config))
     }
 
-    /// The same without a check, for configurations that are constants.
+    /// As [`Self::try_new`], without the check: for constant configurations.
     ///
     /// A bandwidth or tick that is not a positive number leaves both gains at zero, and with them the velocity; ω_o h
     /// counts up to 16.
@@ -122,7 +122,7 @@ impl<R: Real, const V: usize> Observer<R, V> {
         }
     }
 
-    /// Starts again at rest at q. A non-finite q changes nothing.
+    /// Restarts at rest at q. A non-finite q changes nothing.
     pub fn reset(&mut self, q: &[R; V]) {
         if all_finite(q) {
             self.started = true;
@@ -133,11 +133,10 @@ impl<R: Real, const V: usize> Observer<R, V> {
         }
     }
 
-    /// The estimate after a measurement q (rad, m), the acceleration `qdd` having acted since the
-    /// one before.
+    /// The estimate after a measurement q (rad, m); the acceleration `qdd` has acted since the previous one.
     ///
-    /// Cost: 10 flops a joint, the same instructions whatever the data, except for the first
-    /// measurement and non-finite ones.
+    /// Cost: 10 flops per joint, with the same instructions for all data, except for the first measurement and
+    /// non-finite ones.
     #[inline]
     pub fn update(&mut self, q: &[R; V], qdd: &[R; V]) -> Estimate<R, V> {
         if !self.started {
@@ -153,7 +152,7 @@ impl<R: Real, const V: usize> Observer<R, V> {
         self.keep(next)
     }
 
-    /// The estimate after a tick without a valid measurement: the motion goes on as predicted.
+    /// The estimate after a tick without a valid measurement: the prediction.
     ///
     /// ```
     /// use dynamics_core::control::{Observer, ObserverConfig};
@@ -171,12 +170,11 @@ impl<R: Real, const V: usize> Observer<R, V> {
         self.keep(next)
     }
 
-    /// The estimate now, after a measurement q (rad, m) of the tick before: as encoders answer that
-    /// latch a position at the end of one frame and send it in the next. `qdd` has acted since.
+    /// The present estimate, after a measurement q (rad, m) of the previous tick, for encoders that latch a position at
+    /// the end of one frame and send it in the next. `qdd` has acted since then.
     ///
-    /// What was expected of the tick before is corrected, then goes on: the poles are those of
-    /// [`Self::update`], the estimate lacks the measurement of the newest tick. Cost and the rest
-    /// as there.
+    /// The prediction of the previous tick is corrected and then extrapolated: the poles are those of [`Self::update`],
+    /// but the estimate does not include a measurement of the present tick. The cost is that of [`Self::update`].
     ///
     /// ```
     /// use dynamics_core::control::{Observer, ObserverConfig};
@@ -210,15 +208,16 @@ impl<R: Real, const V: usize> Observer<R, V> {
         &self.estimate
     }
 
-    /// Replaces the positions by measured ones q (rad, m) after ticks without measurements; the velocities stay as they
-    /// were predicted. A non-finite q changes nothing.
+    /// Replaces the positions by measured ones q (rad, m) after ticks without measurements; the velocities keep their
+    /// predicted values. A non-finite q changes nothing.
     pub fn correct_position(&mut self, q: &[R; V]) {
         if all_finite(q) {
             self.estimate.q = *q;
         }
     }
 
-    /// The same with positions q (rad, m) of the tick before, moved on to now at the velocities that were predicted.
+    /// As [`Self::correct_position`], with positions q (rad, m) of the previous tick, extrapolated to the present one
+    /// at the predicted velocities.
     pub fn correct_position_delayed(&mut self, q: &[R; V]) {
         if !all_finite(q) {
             return;
@@ -229,7 +228,7 @@ impl<R: Real, const V: usize> Observer<R, V> {
         }
     }
 
-    /// The estimate as it is.
+    /// The present estimate.
     #[inline(always)]
     pub fn estimate(&self) -> &Estimate<R, V> {
         &self.estimate

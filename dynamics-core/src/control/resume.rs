@@ -1,8 +1,8 @@
-//! The return onto a trajectory that stood still while a fault lasted.
+//! The return onto a trajectory that was stopped during a fault.
 //!
-//! Two references that both have finite accelerations: one that comes to rest from where the arm is
-//! and how fast, a(t) with ȧ' = −λ ȧ, and the trajectory q(σ) whose time starts from a standstill.
-//! With x the share of the return from 0 to 1 over T and w = x³ (10 − 15 x + 6 x²),
+//! Two references that both have finite accelerations: one that comes to rest from the position and velocity of the
+//! arm, a(t) with ȧ' = −λ ȧ, and the trajectory q(σ), whose time starts at zero rate. With x the share of the return
+//! from 0 to 1 over T and w = x³ (10 − 15 x + 6 x²),
 //!
 //! ```text
 //! r = a + w (q(σ) − a)        σ' = w
@@ -17,7 +17,7 @@ use crate::state::State;
 #[cfg(test)]
 mod tests;
 
-/// What a [`ResumeTrajectory`] has to know of the loop.
+/// The parameters of a [`ResumeTrajectory`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ResumeConfig<R> {
@@ -25,7 +25,7 @@ pub struct ResumeConfig<R> {
     pub tick: R,
     /// Rate λ at which the arm's own velocity decays, 1/s: q̈ = −λ q̇, about ω_n of the feedback.
     pub decay_rate: R,
-    /// Ticks of the return, an even number; an odd one counts as one more.
+    /// Ticks of the return, an even number; an odd number is rounded up.
     pub ticks: u32,
 }
 
@@ -40,7 +40,7 @@ impl<R: Real> ResumeConfig<R> {
     }
 }
 
-/// A reference that leads from where the arm is to a trajectory that waits for it.
+/// A reference that leads from the state of the arm onto its stopped trajectory.
 ///
 /// ```
 /// use dynamics_core::control::{Estimate, MotionLimits, ResumeConfig, ResumeTrajectory, Trajectory, WayPoint};
@@ -86,13 +86,13 @@ impl<R: Real, const V: usize> ResumeTrajectory<R, V> {
     /// A return that has not begun.
     ///
     /// # Errors
-    /// [`ConfigError`]: of [`ResumeConfig::check`].
+    /// [`ConfigError`], as [`ResumeConfig::check`].
     pub fn try_new(config: ResumeConfig<R>) -> Result<Self, ConfigError> {
         config.check()?;
         Ok(Self::new(config))
     }
 
-    /// The same without a check, for configurations that are constants.
+    /// As [`Self::try_new`], without the check: for constant configurations.
     pub fn new(config: ResumeConfig<R>) -> Self {
         let ResumeConfig {
             tick,
@@ -123,13 +123,13 @@ impl<R: Real, const V: usize> ResumeTrajectory<R, V> {
         self.decay
     }
 
-    /// Whether a return has been started and not been finished.
+    /// Whether a return has been started and not finished.
     #[inline(always)]
     pub fn active(&self) -> bool {
         self.active
     }
 
-    /// Starts from where the arm is, the trajectory waiting at the tick `clock`.
+    /// Starts from the state of the arm; the trajectory continues from the tick `clock`.
     pub fn start(&mut self, estimate: &Estimate<R, V>, clock: u32) {
         self.rest.q = estimate.q;
         self.rest.qd = estimate.qd;
@@ -140,31 +140,31 @@ impl<R: Real, const V: usize> ResumeTrajectory<R, V> {
         self.active = true;
     }
 
-    /// The tick at which a trajectory should wait for an arm that leaves it at the tick `clock` with
-    /// a speed that decays: 1 / λ later it is about where the arm comes to rest, so that the return
-    /// does not lead backwards.
+    /// The tick from which a trajectory should continue for an arm that leaves it at the tick `clock` with a decaying
+    /// speed: 1 / λ later the trajectory is near the point at which the arm comes to rest, so that the return does not
+    /// lead backwards.
     pub fn resume_tick(&self, clock: u32) -> u32 {
         clock.saturating_add(self.lead)
     }
 
-    /// Ends the return at its end; the trajectory's tick there.
+    /// Ends a completed return and gives the tick of the trajectory.
     pub fn finish(&mut self) -> u32 {
         self.active = false;
         self.clock.saturating_add(self.half)
     }
 
-    /// Ends the return where it is; the trajectory's tick there.
+    /// Cancels the return and gives the present tick of the trajectory.
     pub fn cancel(&mut self) -> u32 {
         self.active = false;
         self.clock.saturating_add(self.advanced)
     }
 
-    /// The reference one tick on, at `share` of the return, 0 to 1.
+    /// The reference of the next tick, at `share` of the return, 0 to 1.
     ///
-    /// The first one after [`Self::start`], with a share of zero, stands at the start.
+    /// The first one after [`Self::start`], with a share of zero, is the start.
     ///
     /// # Cost
-    /// That of the trajectory and about 40 flops a joint.
+    /// That of the trajectory and about 40 flops per joint.
     #[cold]
     #[inline(never)]
     pub fn at<T: Reference<R, V>>(&mut self, trajectory: &T, share: R) -> State<R, V, V> {

@@ -9,9 +9,9 @@ use crate::scalar::Real;
 #[cfg(test)]
 mod tests;
 
-/// The limits of each joint that a [`Supervisor`](super::Supervisor) keeps.
+/// The limits of each joint that a [`Supervisor`](super::Supervisor) enforces.
 ///
-/// [`JointLimits`] of a robot's description make all of them but the torque's rate, which is then unlimited:
+/// They can be made from the [`JointLimits`] of a robot's description; the rate of the torque is then unlimited:
 ///
 /// ```
 /// use dynamics_core::control::SafetyLimits;
@@ -62,7 +62,7 @@ impl<R: Real> From<JointLimits<R>> for MotionLimits<R> {
 }
 
 impl<R: Real, const V: usize> SafetyLimits<R, V> {
-    /// The same with torques that change by at most this share of their limits from one tick to the next.
+    /// The same limits with a rate of the torque, per tick, of this share of the torque limit.
     #[inline]
     pub fn with_rate_share(self, share: R) -> Self {
         Self {
@@ -71,7 +71,7 @@ impl<R: Real, const V: usize> SafetyLimits<R, V> {
         }
     }
 
-    /// The same with positions that keep a distance of `margin` (rad or m) from both ends of their range.
+    /// The same limits with a range of positions that is smaller by `margin` (rad or m) at both ends.
     pub fn with_position_margin(self, margin: R) -> Self {
         Self {
             lower: self.lower.map(|lower| lower + margin),
@@ -80,7 +80,7 @@ impl<R: Real, const V: usize> SafetyLimits<R, V> {
         }
     }
 
-    /// The same with speeds that are this share of the joints' limits.
+    /// The same limits with speeds of this share of the joints' limits.
     pub fn with_speed_share(self, share: R) -> Self {
         Self {
             speed: self.speed.map(|speed| speed * share),
@@ -88,9 +88,9 @@ impl<R: Real, const V: usize> SafetyLimits<R, V> {
         }
     }
 
-    /// Whether every limit allows something: what [`super::Supervisor::try_new`] accepts.
+    /// Checks that every limit allows some motion or torque, as [`super::Supervisor::try_new`] requires.
     ///
-    /// Positions, speeds and rates may be unlimited (infinite), torques may not. Zero is a limit like others.
+    /// Positions, speeds and rates may be unlimited (infinite), torques may not. Zero is a valid limit.
     ///
     /// ```
     /// use dynamics_core::control::{SafetyLimits, SafetyLimitsError, LimitKind};
@@ -136,7 +136,7 @@ impl<R: Real, const V: usize> SafetyLimits<R, V> {
     }
 }
 
-/// What a limit is of.
+/// The quantity that a limit applies to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
@@ -162,7 +162,7 @@ impl fmt::Display for LimitKind {
     }
 }
 
-/// What is wrong with the limits of a joint. Joints count from 0.
+/// The reason why the limits of a joint are rejected. Joints are numbered from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]

@@ -1,4 +1,4 @@
-//! The safety gate that every measurement and every command passes, and what happens on a fault.
+//! The safety gate that every measurement and every command passes, and the reaction to faults.
 //!
 //! ```text
 //!          more than ride_ticks of fault        hold_ticks more
@@ -9,9 +9,10 @@
 //!    └──────────────────────────────────────────────────────────────┘ reset()
 //! ```
 //!
-//! Ticks with a fault are counted until `reentry_ticks` in a row had none. What is kept from tick to
-//! tick (last good positions, last torques, counters) takes in only what was accepted. With limits that allow
-//! nothing (NaN, negative, an empty range) there is no supervisor, or one that keeps the arm stopped.
+//! Ticks with a fault are counted until `reentry_ticks` consecutive ticks had none. The state from tick to tick (last
+//! good positions, last torques, counters) is updated only by accepted values. With limits that allow no motion or
+//! torque (NaN, negative, an empty range), `try_new` returns an error and `new` a supervisor that keeps the arm
+//! stopped.
 
 use super::{Command, ConfigError, Fault, Mode, Status, real};
 use crate::scalar::Real;
@@ -27,8 +28,8 @@ mod transitions;
 pub use config::SupervisorConfig;
 pub use tick::SupervisorTick;
 
-/// How many times the greatest step at full speed a measurement may be from the last good one; speed
-/// itself is held against the observer's. The encoder's own step comes on top.
+/// The greatest plausible distance of a measurement from the last accepted one, in steps at full speed; the resolution
+/// of the encoder is added. Speed itself is checked with the velocity of the observer.
 const JUMP: f64 = 2.0;
 /// Positions beyond this are as good as infinite, in f64 too.
 const FAR: f64 = f32::MAX as f64;
@@ -36,9 +37,9 @@ const FAR: f64 = f32::MAX as f64;
 /// that turn without end the angle within a turn is measured, [`super::MultiTurnEncoder::within_turn`].
 const RANGE: f64 = 1e4;
 
-/// The safety gate that every measurement and every torque passes, a tick at a time: [`Self::tick`].
+/// The safety gate that every measurement and every torque passes in each tick: [`Self::tick`].
 ///
-/// [`super::MotionController`] holds one, with all else that a loop keeps from tick to tick.
+/// [`super::MotionController`] contains one, with the rest of a loop's state.
 ///
 /// ```
 /// use dynamics_core::control::{Fault, Mode, SafetyLimits, Supervisor, SupervisorConfig};
@@ -114,10 +115,10 @@ pub struct Supervisor<R, const V: usize> {
 }
 
 impl<R: Real, const V: usize> Supervisor<R, V> {
-    /// A supervisor of an arm that holds itself, at full authority from the first tick; the torque rises from zero at the
-    /// rate allowed. Call [`Self::reset`] first for an arm on its brake.
+    /// A supervisor of an arm that holds its position, at full authority from the first tick; the torque rises from
+    /// zero at the allowed rate. For an arm on its brake, call [`Self::reset`] first.
     ///
-    /// A fault that lasts for more than `ride_through_ticks` and `hold_ticks` together, or comes back so often without
+    /// A fault that lasts longer than `ride_through_ticks` and `hold_ticks` together, or recurs as often without
     /// `reentry_ticks` good ticks in between, stops the arm.
     ///
     /// ```
@@ -131,17 +132,17 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
     /// ```
     ///
     /// # Errors
-    /// [`ConfigError`]: of [`SupervisorConfig::check`].
+    /// [`ConfigError`], as [`SupervisorConfig::check`].
     pub fn try_new(config: SupervisorConfig<R, V>) -> Result<Self, ConfigError> {
         config.check()?;
         Ok(Self::new(config))
     }
 
-    /// The same without a check, for configurations that are constants.
+    /// As [`Self::try_new`], without the check: for constant configurations.
     ///
-    /// With limits that allow nothing ([`super::SafetyLimits::check`]) the arm is stopped by [`Fault::Limits`], and no reset
-    /// starts it. A tick that is not a positive number leaves the joints no plausible step; a resolution that is not one
-    /// counts as none.
+    /// If a limit allows no motion or torque ([`super::SafetyLimits::check`]), the arm is stopped by [`Fault::Limits`],
+    /// and a reset does not restart it. If the tick is not a positive number, no step of the joints is plausible; a
+    /// resolution that is not a positive number is treated as zero.
     pub fn new(config: SupervisorConfig<R, V>) -> Self {
         let (limits, tick) = (&config.limits, config.tick);
         let unusable = limits.check().err().map(|error| Fault::Limits {
@@ -199,9 +200,9 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         }
     }
 
-    /// Counts so many ticks that have passed without a call, as a timer has counted them: the joints may have moved on.
+    /// Reports ticks that have passed without a call, as counted by a timer: the joints may have moved.
     ///
-    /// Before [`Self::tick`]; as many calls of [`super::Observer::predict`] bring the estimate up to date.
+    /// Call it before [`Self::tick`], and [`super::Observer::predict`] as many times for the estimate.
     /// [`super::MotionController::missed`] does both.
     ///
     /// ```
@@ -222,11 +223,11 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         self.ticks_since_good += real(ticks);
     }
 
-    /// Stops the arm for a reason found outside, as a drive that fails or an emergency stop, from the next tick on;
-    /// [`SupervisorTick::stop`] does so in the present one.
+    /// Stops the arm from the next tick on, for an external reason such as a failed drive or an emergency stop;
+    /// [`SupervisorTick::stop`] stops it in the present tick.
     ///
-    /// Latched until [`Self::reset`]; the first reason stays. A stop that is still demanded after a reset is to be
-    /// called again, every tick.
+    /// The stop is latched until [`Self::reset`], with its first reason. While a stop is still required after a reset,
+    /// call this function in every tick.
     ///
     /// ```
     /// # use dynamics_core::control::{Fault, SafetyLimits, Supervisor, SupervisorConfig};
@@ -263,12 +264,12 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         &self.last_good
     }
 
-    /// Ticks that a fault may last at most before the arm is stopped.
+    /// The greatest number of ticks for which a fault may last before the arm is stopped.
     pub(super) fn longest_fault(&self) -> u32 {
         self.ride_through_ticks.saturating_add(self.hold_ticks)
     }
 
-    /// What the arm did in the last tick.
+    /// The mode of the arm in the last tick.
     #[inline(always)]
     pub fn mode(&self) -> Mode {
         self.mode

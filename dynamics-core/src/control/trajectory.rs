@@ -47,7 +47,7 @@ pub struct WayPoint<R, const V: usize> {
     pub ticks: u32,
 }
 
-/// How fast a joint may move: what a trajectory keeps, [`super::SafetyLimits`] being what a supervisor keeps.
+/// The limits of a joint's motion that a trajectory respects; a supervisor enforces [`super::SafetyLimits`].
 #[doc(alias = "Speed")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -59,7 +59,7 @@ pub struct MotionLimits<R> {
 }
 
 impl<R: Real> MotionLimits<R> {
-    /// Compares what a joint needs before a point with its greatest speed; nothing admits a NaN.
+    /// Compares the speed that a joint needs before a point with its limit; a NaN is rejected.
     fn admits_speed(&self, needed: R, point: usize, joint: usize) -> Result<(), TrajectoryError> {
         if needed.is_finite() && needed <= self.velocity {
             return Ok(());
@@ -72,7 +72,7 @@ impl<R: Real> MotionLimits<R> {
         })
     }
 
-    /// The same of its greatest acceleration.
+    /// Compares the acceleration that a joint needs before a point with its limit; a NaN is rejected.
     fn admits_acceleration(
         &self,
         needed: R,
@@ -94,7 +94,7 @@ impl<R: Real> MotionLimits<R> {
 /// The motion of V joints through W way-points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trajectory<R, const V: usize, const W: usize> {
-    /// The last one is the rest at the end.
+    /// The segments; the last one is the rest at the end.
     segments: [Segment<R, V>; W],
     ticks: u32,
 }
@@ -103,8 +103,8 @@ impl<R: Real, const V: usize, const W: usize> Trajectory<R, V, W> {
     /// The trajectory through `points`, with ticks of `tick` seconds; W ≥ 1, which the compiler
     /// checks.
     ///
-    /// The peaks that are held against `limits` are exact, up to rounding. Positions between
-    /// way-points that pass at speed may overshoot them.
+    /// The peaks that are compared with `limits` are exact, up to rounding. Positions between way-points that pass at
+    /// speed may overshoot them.
     ///
     /// # Errors
     /// [`TrajectoryError`] names the way-point, the joint, and what was needed and allowed.
@@ -130,12 +130,11 @@ impl<R: Real, const V: usize, const W: usize> Trajectory<R, V, W> {
         Ok(Self { segments, ticks })
     }
 
-    /// The reference at a tick since the start; at rest at the last way-point from [`Self::ticks`]
-    /// on.
+    /// The reference at a tick counted from the start; from [`Self::ticks`] on, at rest at the last way-point.
     ///
-    /// As exact after a day as at once: time runs in integers, and in fractions only within a
-    /// segment. Cost: about 45 flops for the segment and 17 a joint, no division, 4 instructions a
-    /// way-point to find the segment; the same instructions whatever the tick.
+    /// Time is counted in integers, and in fractions only within a segment, so that the accuracy does not decrease with
+    /// time. Cost: about 45 flops for the segment and 17 per joint, no division, and 4 instructions per way-point to
+    /// find the segment; the same instructions for all ticks.
     ///
     /// ```
     /// use dynamics_core::control::{MotionLimits, Trajectory, WayPoint};

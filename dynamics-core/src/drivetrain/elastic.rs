@@ -1,11 +1,19 @@
 //! Joint compliance: motors that drive their links through springs.
 //!
-//! M(q) q̈ + C(q, q̇) = k (θ − q), J θ̈ + b θ̇ + k (θ − q) = τ_m, with the motors' angles θ reflected to the
-//! joints: Spong, "Modeling and control of elastic joint robots" (1987), equations (12), (13). The rotors
-//! count as spinning about their own axes only (his assumption of high gear ratios). For joints of one
-//! degree of freedom.
+//! Spong, "Modeling and control of elastic joint robots" (1987), equations (12), (13). The kinetic energy of a rotor is
+//! that of its rotation about its own axis only (his assumption of high gear ratios). For joints of one degree of
+//! freedom.
 
 /// The transmissions and motors of V joints, reflected to the joint.
+///
+/// $$
+/// \begin{aligned}
+/// M(q) \ddot q + C(q, \dot q) &= k (\theta - q) \cr
+/// J \ddot\theta + b \dot\theta + k (\theta - q) &= \tau_m
+/// \end{aligned}
+/// $$
+///
+/// with the motors' angles θ reflected to the joints: Spong (1987), equations (12), (13).
 ///
 /// ```
 /// use dynamics_core::drivetrain::ElasticJoints;

@@ -1,10 +1,12 @@
-//! Inverse dynamics with compliant joints: the motors' torques for a course of the links, through its snap.
+//! Inverse dynamics with compliant joints: the motors' torques for a trajectory of the links with four derivatives.
 //!
-//! The springs have to carry τ = ID(q, q̇, q̈), hence θ = q + τ/k and τ_m = J θ̈ + b θ̇ + τ, which needs τ̇ and τ̈:
-//! De Luca & Lucibello, "A general algorithm for dynamic feedback linearization of robots with elastic joints"
-//! (1998); Buondonno & De Luca, "A recursive Newton-Euler algorithm for robots with elastic joints" (2015).
-//! All in link coordinates and by components there: with W_j = S q^(j+1) the transform obeys
-//! d(X m) = X ṁ − W₀ × X m and d(Xᵀ f) = Xᵀ(ḟ + W₀ ×* f), the rest is Leibniz' rule.
+//! De Luca & Lucibello, "A general algorithm for dynamic feedback linearization of robots with elastic joints" (1998);
+//! Buondonno & De Luca, "A recursive Newton-Euler algorithm for robots with elastic joints" (2015). The derivatives τ̇
+//! and τ̈ are computed by components in link coordinates, with $W_j = S q^{(j+1)}$, the rule of Leibniz and
+//!
+//! $$
+//! \frac{d}{dt} (X m) = X \dot m - W_0 \times X m, \qquad \frac{d}{dt} (X^T f) = X^T (\dot f + W_0 \times^\ast f)
+//! $$
 
 use core::fmt;
 
@@ -18,7 +20,7 @@ use crate::scalar::Real;
 use crate::spatial::{Force, Motion, SpatialInertia, Xform};
 use crate::state::{JointTrig, State, entry};
 
-/// Where the links are to be, with four derivatives.
+/// The reference of the links: positions with four derivatives.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ElasticReference<R, const Q: usize, const V: usize> {
     /// q, q̇ and q̈.
@@ -40,7 +42,7 @@ pub struct ElasticCommand<R, const V: usize> {
     pub velocity: [R; V],
 }
 
-/// A joint that has several degrees of freedom, of which no transmission is known.
+/// The error for a joint of several degrees of freedom: no transmission is defined for it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
@@ -61,11 +63,17 @@ impl fmt::Display for MultiDofJoint {
 
 impl core::error::Error for MultiDofJoint {}
 
-/// τ_m, θ and θ̇ of the motors for a course of the links.
+/// Torques τ_m, angles θ and rates θ̇ of the motors for a motion of the links.
 ///
-/// Effects act on the links. Those of joints are differentiated along their derivatives, assumed constant: exact
-/// for springs and viscous friction, and for Coulomb friction away from its width. Effects that push bodies
-/// or move the base have no known derivatives and do not compile. Cost: some 1000 flops a joint, O(B).
+/// $$
+/// \tau = \mathrm{ID}(q, \dot q, \ddot q), \qquad \theta = q + \tau / k, \qquad
+/// \tau_m = J \ddot\theta + b \dot\theta + \tau
+/// $$
+///
+/// Effects act on the links. The torques of joint effects are differentiated with derivatives that are assumed
+/// constant: this is exact for springs and viscous friction, and for Coulomb friction at speeds above its width.
+/// Effects that exert wrenches on bodies or move the base have no known derivatives and do not compile. Cost: some 1000
+/// flops per joint, O(B).
 ///
 /// ```
 /// use dynamics_core::effects::RIGID_BODY;
@@ -222,7 +230,11 @@ where
 
 /// X m and its derivatives, from those of m in the parent's coordinates.
 ///
-/// y(k, n), the n-th derivative of X m^(k), is y(k+1, n−1) − Σ_j C(n−1, j) W_j × y(k, n−1−j).
+/// The n-th derivative $y_{k,n}$ of $X m^{(k)}$ is
+///
+/// $$
+/// y_{k,n} = y_{k+1,n-1} - \sum_{j=0}^{n-1} \binom{n-1}{j} W_j \times y_{k,n-1-j}
+/// $$
 fn transformed<R: Real>(
     x: &Xform<R>,
     w: &[Motion<R>; 4],

@@ -1,9 +1,15 @@
-//! The plant with compliant joints, stable however stiff they are.
+//! The plant with compliant joints, stable at any stiffness.
 //!
-//! Springs and motors at the end of the step, by backward Euler: with D = J + h (b + h k) and e = k (θ − q)
-//! the unknown θ̇₊ leaves the torque of the springs
-//! τ₊ = [(J + h b)(e − h k q̇₊) + h k (J θ̇ + h τ_m)] / D, linear in the links' q̇₊ = q̇ + h q̈: a torque, and
-//! h² k (J + h b) / D on M's diagonal, which for k → ∞ becomes the rotor's J + h b.
+//! Springs and motors are integrated by backward Euler. With θ̇ at the end of the step eliminated, the torque of the
+//! springs there is
+//!
+//! $$
+//! \tau_+ = \frac{(J + h b) (e - h k \dot q_+) + h k (J \dot\theta + h \tau_m)}{D}, \qquad
+//! D = J + h (b + h k), \quad e = k (\theta - q)
+//! $$
+//!
+//! It is linear in the links' q̇₊ = q̇ + h q̈: a torque, and h² k (J + h b) / D on the diagonal of M, which for k → ∞
+//! becomes the rotor's J + h b.
 
 use super::{ElasticJoints, MotorState};
 use crate::algorithms::{NotPositiveDefinite, aba};
@@ -15,9 +21,9 @@ use crate::state::{State, entry};
 
 /// One step of `h` seconds of links and motors under the motors' torques τ_m, N·m or N.
 ///
-/// First order in h; as [`linearly_implicit`](crate::sim::linearly_implicit) on the side of the links, where the
-/// effects act. No cancellation for stiff springs: k (θ − q) is multiplied by J/D before it is used. Cost: that of `aba`,
-/// a division and 30 flops a joint.
+/// The step is of first order in h. The links, on which the effects act, are integrated as by
+/// [`linearly_implicit`](crate::sim::linearly_implicit). Stiff springs cause no cancellation: k (θ − q) is multiplied
+/// by J/D before it is used. Cost: that of `aba`, and a division and 30 flops per joint.
 ///
 /// ```
 /// use dynamics_core::effects::RIGID_BODY;

@@ -1,4 +1,4 @@
-//! What lies between motors and joints: a constant matrix that couples them, or springs.
+//! Drivetrains between motors and joints: a constant matrix that couples them, or springs.
 
 mod elastic;
 mod elastic_inverse_dynamics;

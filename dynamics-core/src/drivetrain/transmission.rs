@@ -4,12 +4,15 @@ use crate::algorithms::MassMatrix;
 use crate::scalar::Real;
 use crate::state::State;
 
-/// q = G u + q₀: V joints driven by M motors; u in rad or m at the motors.
+/// A constant coupling q = G u + q₀ of V joints and M motors; u in rad or m at the motors.
 ///
-/// A mimic joint (a gripper's second finger) is a row that repeats another; a differential wrist is a block
-/// of sums and differences. Power is kept: τ_u = Gᵀ τ, and the inertia reflected to the motors is Gᵀ M G
-/// (Featherstone, RBDA, section 3.5: G is the implicit constraint's null space). For joints of one
-/// degree of freedom. Cost: 2 M V flops a vector.
+/// $$
+/// q = G u + q_0, \qquad \tau_u = G^T \tau, \qquad M_u = G^T M G
+/// $$
+///
+/// A mimic joint (a gripper's second finger) is a row that repeats another; a differential wrist is a block of sums and
+/// differences. The power of the motors is that of the joints (Featherstone, RBDA, section 3.5: G is the null space of
+/// the implicit constraint). For joints of one degree of freedom. Cost: 2 M V flops per vector.
 ///
 /// ```
 /// use dynamics_core::drivetrain::Transmission;

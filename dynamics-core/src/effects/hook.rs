@@ -1,7 +1,7 @@
-//! Hooks that an effect has or has not, as values: what a hook reads is the type of its argument.
+//! Optional hooks of an effect, as values: the type of a hook's argument is what it reads.
 //!
-//! An effect names such a hook by a constant of [`Effect`](super::Effect). Naming it is the only way to have it, and its
-//! constructor says what it reads, so that no hook is left uncalled and none reads what was not computed:
+//! An effect names such a hook by a constant of [`Effect`](super::Effect). This is the only place to declare it, and
+//! its constructor determines what it reads, so that every hook is called and none reads a value that was not computed:
 //!
 //! ```
 //! use dynamics_core::effects::{Effect, hook};
@@ -172,7 +172,7 @@ impl<E, R: Real> Field<E, R> {
     }
 }
 
-/// A motion that the base is made to follow.
+/// A prescribed motion of the base.
 #[derive(Debug)]
 pub struct Base<E, R: Real> {
     pub(super) add: Option<AddMotion<E, R>>,

@@ -9,10 +9,10 @@ use crate::state::{State, entry};
 
 /// The effects of a scene for a step of `h` seconds, with torques at its end, extrapolated along their derivatives.
 ///
-/// τ(q + h q̇₊, q̇₊) ≈ τ + ∂τ/∂q h (q̇ + h q̈) + ∂τ/∂q̇ h q̈: what goes with q̈ adds to M's diagonal, h ∂τ/∂q̇ +
-/// h² ∂τ/∂q, the rest to τ. Forward dynamics under these effects is the linearly implicit Euler step; no
-/// spring or damper, however stiff, makes it unstable, and it costs some flops a joint. Baraff & Witkin,
-/// "Large steps in cloth simulation" (1998), equation (6).
+/// τ(q + h q̇₊, q̇₊) ≈ τ + ∂τ/∂q h (q̇ + h q̈) + ∂τ/∂q̇ h q̈: the factor of q̈, h ∂τ/∂q̇ + h² ∂τ/∂q, is added to M's
+/// diagonal, the rest to τ. Forward dynamics under these effects is the linearly implicit Euler step. It is stable at
+/// any stiffness of springs and dampers, and costs a few flops per joint. Baraff & Witkin, "Large steps in cloth
+/// simulation" (1998), equation (6).
 ///
 /// ```
 /// use dynamics_core::algorithms::aba;
@@ -37,7 +37,7 @@ pub struct Implicit<'a, E, R, const V: usize> {
 }
 
 impl<'a, E, R: Real, const V: usize> Implicit<'a, E, R, V> {
-    /// `effects` as a step of `h` seconds from `state` on treats them.
+    /// `effects` for a step of `h` seconds from `state`.
     #[inline(always)]
     pub fn new<D, const B: usize, const Q: usize>(
         robot: &D,

@@ -19,7 +19,7 @@
 //! | a joint: position | [`Spring`], [`EndStops`], [`Cogging`] |
 //! | a motor | [`Armature`], [`GyroscopicRotors`]; [`crate::sim::Actuator`] and [`crate::drivetrain`] stand between command and joint |
 //!
-//! What none of them is, a user adds by an `impl` of the same trait, for core, engine and plant alike:
+//! A user adds other effects by an `impl` of the same trait, for core, engine and plant alike:
 //!
 //! ```
 //! use dynamics_core::effects::{Effect, RIGID_BODY, hook};
@@ -43,7 +43,7 @@
 //! assert!(core[0] > Core::<Ur5e>::rnea(&swinging, &RIGID_BODY)[0]);
 //! ```
 //!
-//! Gravity that is named twice would act twice, so that such a scene does not compile:
+//! A scene that contains gravity twice does not compile:
 //!
 //! ```compile_fail,E0080
 //! use dynamics_core::effects::{GravityVector, RIGID_BODY};
@@ -98,12 +98,11 @@ use crate::scalar::Real;
 
 /// A physical effect, or a tuple of them, on a robot of B bodies and V velocity coordinates.
 ///
-/// Every hook defaults to nothing, and what is default costs nothing. Hooks *add* to their last
-/// argument: an effect that returned a zero would leave an addition behind (x + 0.0 is not x for
-/// IEEE's −0.0). Sizes are part of the type, so that five friction values on six joints do not
-/// compile. Hooks at joints are functions; those that switch a part of the algorithms on are constants that name
-/// their function and what it reads ([`hook`]), so that no hook is declared that is not there, and none is there that
-/// is not declared.
+/// Every hook has an empty default, which costs nothing. Hooks *add* to their last argument: an effect that returned
+/// zero would leave an addition in the machine code (x + 0.0 is not x for IEEE's −0.0). Sizes are part of the type, so
+/// that five friction values on six joints do not compile. Hooks at joints are functions. Hooks that enable a part of
+/// the algorithms are constants that name their function and what it reads ([`hook`]), so that a hook and its
+/// declaration cannot contradict each other.
 ///
 /// ```
 /// use dynamics_core::effects::{Effect, JointState};
@@ -130,7 +129,7 @@ use crate::scalar::Real;
 pub trait Effect<R: Real, const B: usize, const V: usize>: Declared<R, B, V> {
     /// A field that accelerates every body.
     const GRAVITY_FIELD: hook::Field<Self, R> = hook::Field::NONE;
-    /// A motion that the base is made to follow.
+    /// A prescribed motion of the base.
     const BASE: hook::Base<Self, R> = hook::Base::NONE;
     /// A wrench fˣ that the environment exerts on a body.
     const EXTERNAL_WRENCH: hook::Wrench<Self, R> = hook::Wrench::NONE;
@@ -143,7 +142,7 @@ pub trait Effect<R: Real, const B: usize, const V: usize>: Declared<R, B, V> {
     /// The scene has the velocity products C(q, q̇) q̇.
     const VELOCITY_PRODUCTS: bool = false;
 
-    /// Adds to the torque τ that the motor of `joint` must supply whatever its acceleration, N·m or N.
+    /// Adds to the torque τ that the motor of `joint` must supply independently of its acceleration, N·m or N.
     #[inline(always)]
     fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R) {
         let _ = (joint, at, tau);
@@ -163,7 +162,7 @@ pub trait Effect<R: Real, const B: usize, const V: usize>: Declared<R, B, V> {
         None
     }
 
-    /// Advances what the effect remembers of `joint` (bristles, a motor's current) by h seconds.
+    /// Advances the effect's internal state of `joint` (bristles, a motor's current) by h seconds.
     #[inline(always)]
     fn advance(&mut self, joint: usize, at: JointState<R>, h: R) {
         let _ = (joint, at, h);

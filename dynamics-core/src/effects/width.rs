@@ -1,10 +1,10 @@
-//! The speed or depth by which an effect has come to its full size.
+//! The speed or depth at which an effect reaches its full value.
 
 use crate::scalar::Real;
 
 /// A speed, rad/s or m/s, or a depth, rad or m, over which an effect fades in. The sign does not matter.
 ///
-/// Kept as its reciprocal, so that no tick divides by it. For a scene in a `const` or `static` [`Width::f32`] and
+/// Its reciprocal is stored, so that no tick divides by it. For a scene in a `const` or `static` [`Width::f32`] and
 /// [`Width::f64`] are evaluated by the compiler.
 ///
 /// ```

@@ -1,9 +1,16 @@
 //! How the points of a body accelerate, from parent to child, and the wrench that its inertia then needs.
 //!
-//! The field form of Newton-Euler: a body's points accelerate as a(r) = a + U r with
-//! U = \[α\]× + \[ω\]×\[ω\]×, and with Σ = ∫ r rᵀ dm the body needs f = m a + U h and
-//! n = h × a + axial(U Σ − Σ Uᵀ). Balafoutis & Patel, *Dynamic Analysis of Robot Manipulators*
-//! (1991), use U likewise.
+//! The field form of the Newton-Euler equations: the acceleration of the points of a body, and the wrench of its
+//! inertia,
+//!
+//! $$
+//! \begin{aligned}
+//! a(r) &= a + U r, & U &= \alpha\times + \omega\times \omega\times, & \Sigma &= \int r r^T dm, \cr
+//! f &= m a + U h, & n &= h \times a + \mathrm{axial}(U \Sigma - \Sigma U^T)
+//! \end{aligned}
+//! $$
+//!
+//! Balafoutis & Patel, *Dynamic Analysis of Robot Manipulators* (1991), also use U.
 
 use core::ops::Add;
 

@@ -1,7 +1,10 @@
 //! Articulated-body inertia: what a joint must move when the joints beyond it are free.
 //!
 //! Featherstone, RBDA (2008), section 7.1, in blocks over units of length:
-//! n = I α + H a, f = Hᵀ α + A a.
+//!
+//! $$
+//! n = I \alpha + H a, \qquad f = H^T \alpha + A a
+//! $$
 
 use core::ops::Add;
 

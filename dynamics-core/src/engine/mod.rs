@@ -1,9 +1,9 @@
 //! The engine: the algorithms of a robot known at compile time, specialised by the compiler.
 //!
-//! The same robot, state and effects as [`crate::Core`], under the same names: a user switches by
-//! changing one word. No code generator, no nightly: [`folding`] removes what the robot's constants
-//! make known, [`compile`] regroups its inertias to base parameters while compiling, and one
-//! recursion over its bodies keeps what it can in registers.
+//! The functions have the robot, state, effects and names of [`crate::Core`]: a user switches by changing one word.
+//! There is no code generator, and no nightly compiler is needed: [`folding`] removes products with constants of the
+//! robot that are 0, 1 or −1, [`compile`] regroups its inertias to base parameters at compile time, and one recursion
+//! over its bodies keeps intermediate values in registers.
 //!
 //! Joints: revolute, prismatic and fixed, on trees of up to 32 moving bodies.
 
@@ -62,8 +62,9 @@ use subtree::{has_subtree_functions, root_subtree};
 /// The algorithms specialised at compile time for the robot `T`; sines and cosines by the kernel `K`.
 ///
 /// Robots: trees of up to 32 moving bodies on revolute, continuous, prismatic and fixed joints. Of the bodies that move
-/// with one joint, welded to its body, there may be any number, but up to 32 in a scene with wrenches ([`crate::effects::Contact`],
-/// [`crate::effects::BodyWrench`] and others that act on a body). Others do not compile; [`crate::Core`] takes them.
+/// with one joint, welded to its body, there may be any number, but up to 32 in a scene with wrenches
+/// ([`crate::effects::Contact`], [`crate::effects::BodyWrench`] and others that act on a body). Others do not compile;
+/// use [`crate::Core`] for them.
 ///
 /// ```
 /// use dynamics_core::{Core, Engine, effects::RIGID_BODY, robots::Ur5e, state::State};
@@ -137,7 +138,7 @@ impl<T, K> Engine<T, K> {
     /// ```
     ///
     /// # Source
-    /// Featherstone & Orin (2000), (3) to (8), over base parameters; the module's documentation.
+    /// Featherstone & Orin (2000), (3) to (8), over base parameters.
     #[doc(alias = "ID")]
     #[doc(alias = "inverse dynamics")]
     #[inline(never)]

@@ -7,7 +7,7 @@
 
 /// e⁻ˣ of x ≥ 0: relative error below 1.5·10⁻⁷ down to e⁻⁸⁷, then 0; 1 for x < 0 and for NaN.
 ///
-/// Cost: the same instructions whatever x.
+/// Cost: the same instructions for all x.
 ///
 /// ```
 /// use dynamics_core::scalar::exp_neg;

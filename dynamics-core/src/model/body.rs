@@ -1,4 +1,4 @@
-//! The description of a body, as a person writes it.
+//! The description of a body, in the conventions of URDF.
 
 use super::error::Problem;
 use super::joint::Joint;
@@ -7,10 +7,10 @@ use crate::scalar::Real;
 use crate::spatial::SpatialInertia;
 use glam::{DMat3, DVec3};
 
-/// The parent of a body that hangs on the fixed base.
+/// The parent of a body whose joint is on the fixed base.
 pub const BASE: usize = usize::MAX;
 
-/// The limits of a joint: what its drive and mechanics allow.
+/// The limits of a joint, as given by its drive and mechanics.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct JointLimits<R> {
@@ -74,8 +74,8 @@ impl Body {
         self
     }
 
-    /// Attitude of the body's frame in the parent's at q = 0: roll, pitch, yaw about the parent's
-    /// fixed axes, rad; within ±2π each, so that most angles in degrees are refused.
+    /// Attitude of the body's frame in the parent's at q = 0: roll, pitch, yaw about the parent's fixed axes, rad;
+    /// within ±2π each, so that most angles in degrees are rejected.
     pub const fn rpy(mut self, rpy: [f64; 3]) -> Self {
         self.largest_angle = rpy[0].abs().max(rpy[1].abs()).max(rpy[2].abs());
         self.rotation = m::rotation(m::sin_cos(rpy[0]), m::sin_cos(rpy[1]), m::sin_cos(rpy[2]));

@@ -1,4 +1,4 @@
-//! Questions about a finished model: the number of a body by its name, and whether its inertias are physical.
+//! Queries of a model: the number of a body by its name, and whether its inertias are physical.
 
 use super::{BASE, Model, ModelError, Problem, body, error};
 use crate::scalar::Real;
@@ -21,7 +21,7 @@ impl<R: Real, const B: usize, const Q: usize, const V: usize> Model<R, B, Q, V> 
     /// ```
     ///
     /// # Panics
-    /// Unless exactly one body has the name. Meant for `const` items, where a panic is a compile error.
+    /// If not exactly one body has the name. Meant for `const` items, where a panic is a compile error.
     pub const fn body(&self, name: &str) -> usize {
         let (mut found, mut i) = (BASE, 0);
         while i < B {
@@ -39,12 +39,12 @@ impl<R: Real, const B: usize, const Q: usize, const V: usize> Model<R, B, Q, V> 
         found
     }
 
-    /// Whether every inertia could be that of a body: none without mass, symmetric, with principal moments (about the
-    /// centre of mass) that are not negative and obey the triangle inequality, all within `relative`; and whether
-    /// every body has a name of its own.
+    /// Checks that every inertia is physical: not without mass, symmetric, with principal moments (about the centre of
+    /// mass) that are not negative and obey the triangle inequality, all within `relative`; and that the names of
+    /// bodies differ.
     ///
-    /// Published robots break it (PUMA 560) or pass by a hair (Panda), and have to run all the
-    /// same: hence a check, not a condition. In f32 rounding alone exceeds it by some 10⁻⁶.
+    /// Published models violate the inequality (PUMA 560) or satisfy it narrowly (Panda) and must be usable: it is
+    /// therefore a separate check, not a condition of the model. In f32 rounding alone violates it by some 10⁻⁶.
     ///
     /// # Errors
     /// [`Problem::Asymmetric`] or [`Problem::Triangle`] with the body's name and the amount: by how much the

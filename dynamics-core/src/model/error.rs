@@ -1,4 +1,4 @@
-//! What can be wrong with a robot's description.
+//! The errors of a robot's description.
 
 use core::fmt;
 
@@ -9,11 +9,11 @@ use core::fmt;
 pub struct ModelError {
     /// The body's name (the robot's, where the whole is concerned).
     pub body: &'static str,
-    /// What is wrong with it.
+    /// The problem.
     pub problem: Problem,
 }
 
-/// What is wrong with a body's description.
+/// The problem of a body's description.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
@@ -26,11 +26,11 @@ pub enum Problem {
     RightAngles,
     /// The pitch of a helical joint is not finite.
     Pitch,
-    /// Roll, pitch or yaw is beyond a whole turn, 2π rad: most often degrees.
+    /// Roll, pitch or yaw exceeds a whole turn, 2π rad: usually an angle in degrees.
     Angle,
     /// The mass is negative or not finite.
     Mass,
-    /// A length, an angle or an inertia is not finite, or so large that what follows from it is not.
+    /// A length, an angle or an inertia is not finite, or so large that a result is not finite.
     NotFinite,
     /// A limit is NaN, the lower one exceeds the upper, or that of speed or torque is negative.
     Limits,
@@ -38,18 +38,18 @@ pub enum Problem {
     NoBody(usize),
     /// The joints do not add up to the model's Q position and V velocity coordinates.
     Coordinates {
-        /// How many position and velocity coordinates the joints have: what Q and V have to be.
+        /// The numbers of position and velocity coordinates of the joints, which Q and V must equal.
         expected: [usize; 2],
         /// The model's Q and V.
         given: [usize; 2],
     },
-    /// There is inertia without mass.
+    /// The body has inertia but no mass.
     Massless,
     /// A body before it has the same name, by [`super::Model::check`].
     Name,
-    /// The principal moments break the triangle inequality by this much, relative to the largest.
+    /// The principal moments violate the triangle inequality by this amount, relative to the largest.
     Triangle(f64),
-    /// The inertia matrix is not symmetric by this much, relative to its largest entry.
+    /// The inertia matrix is asymmetric by this amount, relative to its largest entry.
     Asymmetric(f64),
 }
 

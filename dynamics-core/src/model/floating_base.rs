@@ -2,11 +2,10 @@
 
 use super::{BASE, Body};
 
-/// The bodies of a robot behind the body that they hung on: `root` comes first, and what had
-/// [`BASE`] for its parent hangs on it.
+/// The bodies of a robot with a new root: `root` is the first, and the parent of the bodies that had the parent
+/// [`BASE`].
 ///
-/// With `root` on a free joint this makes the floating form of a robot from its fixed one, so that
-/// nothing is listed twice.
+/// With `root` on a free joint this gives the floating-base form of a fixed-base robot.
 ///
 /// ```
 /// use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model, attach_to};

@@ -17,8 +17,8 @@ pub struct BodyInertia<R> {
 }
 
 impl<R: Real> BodyInertia<R> {
-    /// What no body has: numbers that are not finite, a negative mass, inertia without mass, or principal moments that
-    /// break the triangle inequality by more than `relative` of the largest.
+    /// The first property that is not physical: numbers that are not finite, a negative mass, inertia without mass, or
+    /// principal moments that violate the triangle inequality by more than `relative` of the largest.
     pub(crate) fn problem(&self, relative: f64) -> Option<Problem> {
         let about = self.about_origin();
         let finite = |v: &R::Vec3| v.array().iter().all(|x| x.is_finite());
@@ -100,12 +100,13 @@ impl<T, R: Real, const B: usize, const Q: usize, const V: usize> Calibrated<T, R
 where
     T: Robot<B, Q, V>,
 {
-    /// Sets the inertia of the body of this number, in the frame of its description: what an identification in URDF's
-    /// conventions gives. [`super::Model::body`] looks a number up.
+    /// Sets the inertia of the body of this number, in the frame of its description, as identified in URDF's
+    /// conventions. [`super::Model::body`] looks a number up.
     ///
-    /// Principal moments may break the triangle inequality by `relative` of the largest: some 10⁻⁶ for what f32 has
-    /// rounded, `f64::INFINITY` for numbers that have to be accepted as they are. Not for the tick: it computes principal
-    /// moments in f64. The algorithms of [`crate::algorithms`] take the robot by `&`, the engine's numbers are constants.
+    /// Principal moments may violate the triangle inequality by `relative` of the largest: some 10⁻⁶ for numbers
+    /// rounded to f32, `f64::INFINITY` for numbers that must be accepted unchecked. Not for the tick: it computes
+    /// principal moments in f64. The algorithms of [`crate::algorithms`] accept the robot by reference; the engine's
+    /// numbers are constants.
     ///
     /// ```
     /// use dynamics_core::model::{BodyInertia, Calibrated, Problem, Robot};
@@ -126,9 +127,9 @@ where
     /// ```
     ///
     /// # Errors
-    /// [`ModelError`] names the body and what no body has, with its amount ([`Problem::NotFinite`], [`Problem::Mass`],
-    /// [`Problem::Massless`], [`Problem::Triangle`]), or the robot and a number that no body has ([`Problem::NoBody`]).
-    /// The robot is then as it was.
+    /// [`ModelError`] names the body and what is not physical, with its amount ([`Problem::NotFinite`],
+    /// [`Problem::Mass`], [`Problem::Massless`], [`Problem::Triangle`]), or the robot and a number that no body has
+    /// ([`Problem::NoBody`]). The robot is then unchanged.
     pub fn set_inertia(
         &mut self,
         body: usize,

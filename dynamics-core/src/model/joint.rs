@@ -19,9 +19,9 @@ pub struct Joint<R: Real> {
     pub kind: JointKind,
     /// Unit axis (the second of a universal joint) in the body's frame; zero if it has none.
     pub axis: R::Vec3,
-    /// Unit axis of a universal joint's first turn, at q = 0 in the body's frame; else zero.
+    /// Unit axis of a universal joint's first rotation, at q = 0 in the body's frame; else zero.
     pub first_axis: R::Vec3,
-    /// Slide per turn of a helical joint, m/rad; else zero.
+    /// Translation per rotation of a helical joint, m/rad; else zero.
     pub pitch: R,
 }
 

@@ -4,7 +4,7 @@
 use crate::scalar::{Matrix, Real, Vector};
 use crate::trig::Kernel;
 
-/// A position coordinate as the algorithms use it: q itself, and of an angle its sine and cosine.
+/// A position coordinate as the algorithms use it: q, with the sine and cosine of an angle.
 ///
 /// ```
 /// use dynamics_core::model::JointCoordinate;
@@ -91,8 +91,8 @@ pub(crate) fn rotation<R: Real>([x, y, z, w]: [R; 4]) -> R::Mat3 {
 }
 
 /// A quaternion at unit length. One that has drifted, |p|² = 1 + ε with |ε| < 1/8, by one step of Newton's iteration
-/// for 1/|p|: no root, no division; its length is then 1 to 3ε²/8. Any other by its length; of zero nothing can be made, and
-/// [`rotation`] takes it as no turn. 29 flops.
+/// for 1/|p|: no root, no division; its length is then 1 to 3ε²/8. Any other by its length; [`rotation`] interprets the
+/// quaternion zero as no rotation. 29 flops.
 #[inline(always)]
 pub(crate) fn near_unit<R: Real>(p: [R; 4]) -> [R; 4] {
     let [x, y, z, w] = p;

@@ -64,7 +64,7 @@ impl JointKind {
         }
     }
 
-    /// How many of its first coordinates are angles, and how many a quaternion's.
+    /// The numbers of its first coordinates that are angles and that are those of a quaternion.
     pub(crate) const fn angles(self) -> (usize, usize) {
         match self {
             Self::Revolute | Self::Continuous | Self::Helical => (1, 0),

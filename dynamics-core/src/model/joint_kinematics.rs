@@ -68,7 +68,7 @@ impl<R: Real> LinkView<'_, R> {
         }
     }
 
-    /// S q̇: the velocity across the joint, `rates` being all of q̇ (or S q̈ of all of q̈).
+    /// S q̇: the velocity of the joint, where `rates` is all of q̇ (or S q̈ of all of q̈).
     #[inline(always)]
     pub fn motion(&self, turns: &[JointCoordinate<R>], rates: &[R]) -> Motion<R> {
         let zero = R::Vec3::ZERO;
@@ -91,7 +91,7 @@ impl<R: Real> LinkView<'_, R> {
         }
     }
 
-    /// m + S q̇, without the additions of zeros that S is mostly made of.
+    /// m + S q̇, without additions of the zeros of S.
     #[inline(always)]
     pub fn plus_motion(
         &self,
@@ -108,7 +108,7 @@ impl<R: Real> LinkView<'_, R> {
         }
     }
 
-    /// a + S̊ q̇ + v × S q̇: what a body's velocity v and its joint's add to an acceleration.
+    /// a + S̊ q̇ + v × S q̇: an acceleration with the velocity products of the body and its joint.
     #[inline(always)]
     pub fn plus_velocity_product(
         &self,
@@ -135,7 +135,7 @@ impl<R: Real> LinkView<'_, R> {
         }
     }
 
-    /// Column k of S: the velocity across the joint at unit rate of its coordinate k.
+    /// Column k of S: the velocity of the joint at unit rate of its coordinate k.
     #[inline(always)]
     pub fn column(&self, turns: &[JointCoordinate<R>], k: usize) -> Motion<R> {
         let zero = R::Vec3::ZERO;
@@ -165,7 +165,7 @@ impl<R: Real> LinkView<'_, R> {
         }
     }
 
-    /// Sᵀ f: the parts of a force that the joint's motors carry, put into their places of `tau`.
+    /// Sᵀ f: the components of a force along the joint's coordinates, stored in their entries of `tau`.
     #[inline(always)]
     pub fn project(&self, turns: &[JointCoordinate<R>], f: Force<R>, tau: &mut [R]) {
         let ([nx, ny, nz], [fx, fy, fz]) = (f.ang.array(), f.lin.array());

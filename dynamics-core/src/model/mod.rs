@@ -1,8 +1,7 @@
 //! A robot: a tree of rigid bodies, each on one joint.
 //!
-//! Bodies are listed so that a parent comes before its children; link frames, joint axes and
-//! placements follow URDF. A robot is written once, as a `const` in f64, checked while compiling,
-//! and cast to f32 by [`Model::to_f32`]:
+//! Bodies are listed so that a parent comes before its children; link frames, joint axes and placements follow URDF. A
+//! robot is described once, as a `const` in f64, which is checked at compile time and cast to f32 by [`Model::to_f32`]:
 //!
 //! ```
 //! use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model, Robot};
@@ -18,9 +17,9 @@
 //! assert_eq!(Pendulum::MODEL.links[0].inertia.mass, 2.0);
 //! ```
 //!
-//! A description that cannot be does not compile; the message names the body. A trait's constant is not evaluated
-//! before some code that is compiled uses it: `cargo check` and clippy compile none, and a library need not use its
-//! robot. The line `const _` above evaluates it at once; every robot should have one. This description can be,
+//! An impossible description does not compile; the message names the body. The compiler evaluates a trait's constant
+//! only where compiled code uses it: `cargo check` and clippy compile none, and a library need not use its robot. The
+//! line `const _` above evaluates it at once; every robot should have one. This description compiles,
 //!
 //! ```
 //! use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model};
@@ -31,8 +30,7 @@
 //! const _: usize = ARM.links.len();
 //! ```
 //!
-//! and the same with a parent that is not listed before its child, a zero axis or a negative mass
-//! cannot:
+//! but the same with a parent that is not listed before its child, a zero axis or a negative mass does not:
 //!
 //! ```compile_fail,E0080
 //! use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model};
@@ -137,11 +135,11 @@ pub struct Model<R: Real, const B: usize, const Q: usize, const V: usize> {
 pub type ArmModel<R, const N: usize> = Model<R, N, N, N>;
 
 impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
-    /// A model from its bodies; a description that cannot be does not compile.
+    /// A model from its bodies; an impossible description does not compile.
     ///
     /// # Panics
-    /// As [`Model::try_new`] errs, with the body's name. Meant for `const` items, where a panic
-    /// is a compile error; for descriptions that come at run time use `try_new`.
+    /// If [`Model::try_new`] returns an error, with the body's name. Meant for `const` items, where a panic is a
+    /// compile error; for descriptions that come at run time use `try_new`.
     pub const fn new(name: &'static str, bodies: [Body; B]) -> Self {
         match Self::try_new(name, bodies) {
             Ok(model) => model,
@@ -212,7 +210,7 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
         self.kinds
     }
 
-    /// Whether every body hangs on the one before it.
+    /// Whether the parent of every body is the one before it.
     pub const fn is_chain(&self) -> bool {
         let mut i = 0;
         while i < B {
@@ -265,7 +263,7 @@ pub const EMPTY: Link<f64> = Link {
     limits: JointLimits::NONE,
 };
 
-/// The last velocity coordinate of the nearest joint that has one, from body `at` to the base.
+/// The last velocity coordinate of the nearest joint with coordinates, from body `at` to the base.
 const fn last_coordinate<const B: usize>(links: &[Link<f64>; B], mut at: usize) -> usize {
     while at != BASE {
         let (_, count) = links[at].joint.kind.coordinates();

@@ -4,11 +4,12 @@ use core::marker::PhantomData;
 
 use super::{Model, Robot};
 
-/// The robot T, of which [`crate::Engine`] leaves out the base parameters that need less than `PPM` millionths of its
+/// The robot T, of which [`crate::Engine`] omits the base parameters that contribute less than `PPM` millionths of its
 /// torque ([`Robot::NEGLIGIBLE`]), while [`crate::Core`] computes all of it.
 ///
-/// The torque that is lost grows with the joints' accelerations and the square of their speeds; that along a robot's trajectory,
-/// and the cycles won, are in `docs/accuracy.md` in the repository. It pays for arms whose wrist is light beside the rest.
+/// The torque error grows with the joints' accelerations and the square of their speeds; the error along a robot's
+/// trajectory and the cycles saved are in `docs/accuracy.md` in the repository. Pruning is most effective for arms with
+/// a light wrist.
 ///
 /// ```
 /// use dynamics_core::{Core, Engine, effects::RIGID_BODY, model::Pruned, robots::Ur5e, state::State};
@@ -18,8 +19,8 @@ use super::{Model, Robot};
 /// assert!(all.iter().zip(most).all(|(a, b)| (a - b).abs() < 0.005)); // N·m, of 60
 /// ```
 ///
-/// Meant for inverse dynamics. A joint that turns a light last link may lose all of its inertia; M is then singular,
-/// which forward dynamics refuses by name, unless an effect (a rotor's inertia) gives the joint some:
+/// Meant for inverse dynamics. The joint of a light last link may lose all of its inertia; M is then singular, and
+/// forward dynamics returns an error that names the joint, unless an effect (a rotor's inertia) adds inertia to it:
 ///
 /// ```
 /// use dynamics_core::{Engine, effects::RIGID_BODY, model::Pruned, robots::Ur5e, state::State};

@@ -1,4 +1,4 @@
-//! The robots that the algorithms accept: known at run time, or while compiling.
+//! The robots that the algorithms accept: known at run time or at compile time.
 
 use core::marker::PhantomData;
 
@@ -7,31 +7,31 @@ use crate::scalar::{Native, Real};
 use crate::spatial::{SpatialInertia, Xform};
 use crate::trig::Kernel;
 
-/// A robot of B bodies, Q position and V velocity coordinates, with what is known of it while
-/// compiling: what its joints never do is not in the machine code.
+/// A robot of B bodies, Q position and V velocity coordinates, with the properties that are known at compile time: the
+/// machine code contains only the kinds of joint that it has.
 ///
-/// A [`Model`] is one of which nothing is known; [`Static`] is a [`Robot`] of which all is.
+/// Of a [`Model`] nothing is known at compile time; of a [`Robot`] as [`Static`], everything is.
 pub trait RobotModel<R: Real, const B: usize, const Q: usize, const V: usize> {
-    /// What computes its sines and cosines.
+    /// The kernel that computes its sines and cosines.
     type Kernel: Kernel<R>;
     /// The kinds of joint that occur.
     const KINDS: JointKinds = JointKinds::ALL;
-    /// Every body is known to hang on the one before it.
+    /// Whether the parent of every body is known to be the one before it.
     const CHAIN: bool = false;
-    /// Every body is known to have one coordinate.
+    /// Whether every body is known to have one coordinate.
     const SINGLE: bool = false;
 
     /// The robot's numbers.
     fn model(&self) -> &Model<R, B, Q, V>;
 
-    /// The same robot as one of revolute joints only, if that is what a model turns out to be: for
-    /// algorithms that are worth compiling twice for it. Nothing if it is known while compiling.
+    /// The same robot as one of revolute joints only, if all joints of a model of run time are revolute: for algorithms
+    /// that are compiled a second time for this case. None if the robot is known at compile time.
     #[inline(always)]
     fn as_all_revolute(&self) -> Option<AllRevolute<'_, R, B, Q, V>> {
         None
     }
 
-    /// The links, parents first, each with what is known of its joint.
+    /// The links, parents first, each with the properties of its joint that are known at compile time.
     #[inline(always)]
     fn links<'a>(&'a self) -> impl DoubleEndedIterator<Item = LinkView<'a, R>> + ExactSizeIterator
     where
@@ -69,7 +69,7 @@ impl<R: Real, const B: usize, const Q: usize, const V: usize> RobotModel<R, B, Q
     }
 }
 
-/// A [`Model`] of which one thing is known: every body turns on a revolute joint of its own.
+/// A [`Model`] whose joints are all known to be revolute.
 ///
 /// [`RobotModel::as_all_revolute`] makes it. A loop over it has no branch on the kind of joint, which saves a fifth of inverse dynamics
 /// on a host.
@@ -91,7 +91,7 @@ impl<R: Real, const B: usize, const Q: usize, const V: usize> RobotModel<R, B, Q
     }
 }
 
-/// The robot `T`, known while compiling, as a [`RobotModel`]; sines and cosines by the kernel `K`.
+/// The robot `T`, known at compile time, as a [`RobotModel`]; sines and cosines by the kernel `K`.
 ///
 /// ```
 /// use dynamics_core::{algorithms::rnea, effects::RIGID_BODY, model::{Static, Robot}, robots::Ur5e, state::State};
@@ -125,10 +125,10 @@ where
     }
 }
 
-/// A robot with the structure of `T`, known while compiling, and numbers of run time: identified masses and
-/// inertias, measured lengths.
+/// A robot with the structure of `T`, known at compile time, and numbers of run time: identified masses and inertias,
+/// measured lengths.
 ///
-/// As quick and as small as [`Static`], where a [`Model`] of run time has a branch on the kind of each joint.
+/// It is as fast and as small as [`Static`], while a [`Model`] of run time has a branch on the kind of each joint.
 ///
 /// ```
 /// use dynamics_core::{algorithms::rnea, effects::RIGID_BODY, model::Calibrated, robots::Ur5e, state::State};
@@ -165,8 +165,7 @@ where
         self.model.links.iter_mut().map(|link| &mut link.inertia)
     }
 
-    /// Whether every inertia could be that of a body, see [`Model::check`]: of numbers that were identified, before
-    /// they are used.
+    /// Checks that every inertia is physical, see [`Model::check`]: for identified numbers, before they are used.
     ///
     /// # Errors
     /// As [`Model::check`].
@@ -174,7 +173,7 @@ where
         self.model.check(relative)
     }
 
-    /// Where its joints stand at q = 0, from the parents' aligned frames.
+    /// The placements of its joints at q = 0, from the parents' aligned frames.
     pub fn placements(&mut self) -> impl Iterator<Item = &mut Xform<R>> {
         self.model.links.iter_mut().map(|link| &mut link.placement)
     }

@@ -1,7 +1,7 @@
 //! The scalar of a computation, f32 or f64, with its vectors and matrices, which are glam's.
 //!
-//! Everything else is written against [`Real`] alone, so that one source serves the firmware
-//! (f32), the host tests (f64) and the reports that compare the two in one binary.
+//! All other modules use [`Real`] only, so that one source serves the firmware (f32), the host tests (f64) and the
+//! reports that compare the two in one binary.
 
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
@@ -17,8 +17,8 @@ mod native;
 mod positive_part;
 mod vector;
 
-/// Keeps [`Real`] to the types whose errors are tested. The reports of this repository implement it for numbers that
-/// they compare with f32; it is no part of the API.
+/// Restricts [`Real`] to the types whose errors are tested. The reports of this repository implement it for numbers
+/// that they compare with f32; it is no part of the API.
 #[doc(hidden)]
 pub trait Sealed {}
 impl Sealed for f32 {}
@@ -55,7 +55,7 @@ pub trait Real:
     const ZERO: Self;
     /// 1.
     const ONE: Self;
-    /// Where [`Real::trunc_saturating`] ends: 2³¹ in f32, 2⁶³ in f64.
+    /// The limit of [`Real::trunc_saturating`]: 2³¹ in f32, 2⁶³ in f64.
     const MAX_TRUNC: f64;
 
     /// The nearest value of this type. Meant for constants: on an FPU without f64 the
@@ -73,10 +73,10 @@ pub trait Real:
     ///
     /// Cost: in f32 the same instructions for every input.
     fn exp_neg(self) -> Self;
-    /// √x, rounded to nearest; NaN below zero. In software where the target's compiler offers no
-    /// instruction without std: never in the control tick.
+    /// √x, rounded to nearest; NaN below zero. It is computed in software if the target has no instruction for it
+    /// without std: not for the control tick.
     fn sqrt(self) -> Self;
-    /// The angle of the point (x, self) from the x axis, rad, within ±π. Never in the control tick.
+    /// The angle of the point (x, self) from the x axis, rad, within ±π. Not for the control tick.
     fn atan2(self, x: Self) -> Self;
     /// The distance from 1 to the next number.
     const EPSILON: Self;
@@ -86,14 +86,13 @@ pub trait Real:
     fn rsqrt(self) -> Self;
     /// |x|.
     fn abs(self) -> Self;
-    /// Neither infinite nor NaN.
+    /// Whether the value is neither infinite nor NaN.
     fn is_finite(self) -> bool;
     /// x limited to [lo, hi]; a NaN becomes `lo`. No branch, no panic if lo > hi.
     fn clamped(self, lo: Self, hi: Self) -> Self;
     /// The whole number next to x towards zero, within ±[`Real::MAX_TRUNC`]; a NaN becomes 0.
     ///
-    /// Cost: two conversions, which saturate on their own: neither a comparison nor its wait for
-    /// the FPU's flags.
+    /// Cost: two conversions, which saturate; there is no comparison that waits for the FPU's flags.
     fn trunc_saturating(self) -> Self;
     /// A model cast to this type.
     fn cast<const B: usize, const Q: usize, const V: usize>(
@@ -103,7 +102,7 @@ pub trait Real:
     fn model<T, const B: usize, const Q: usize, const V: usize>() -> &'static Model<Self, B, Q, V>
     where
         T: Robot<B, Q, V>;
-    /// Of two values prepared for f64 and f32, that of this type.
+    /// The one of two values, for f64 and for f32, that is for this type.
     fn select(double: f64, single: f32) -> Self;
 }
 

@@ -2,7 +2,7 @@
 
 use crate::scalar::Real;
 
-/// max(0, x) = (x + |x|) / 2, exact: what touches pushes and never pulls.
+/// max(0, x) = (x + |x|) / 2, exact: contacts push and never pull.
 ///
 /// ```
 /// use dynamics_core::scalar::positive_part;

@@ -1,4 +1,4 @@
-//! A motor behind its current controller: what of a command reaches the joint.
+//! A motor with its current controller: the torque at the joint that results from a command.
 //!
 //! i_c = τ_c / k within ±I; the supply drives at most (U − k ω)/R and at least (−U − k ω)/R against the
 //! back-EMF k ω; the current follows with the lag T: T di/dt = i_c − i; τ = k i. Krause, Wasynczuk &
@@ -7,7 +7,8 @@
 
 use crate::scalar::Real;
 
-/// One joint's actuator, all quantities reflected to the joint: behind a gear of ρ, k is ρ times the motor's.
+/// The actuator of one joint, with all quantities reflected to the joint: with a gear ratio of ρ, k is ρ times that of
+/// the motor.
 ///
 /// ```
 /// use dynamics_core::sim::Actuator;
@@ -36,14 +37,14 @@ pub struct Actuator<R> {
 }
 
 impl<R: Real> Actuator<R> {
-    /// The torque now, N·m.
+    /// The present torque, N·m.
     #[inline(always)]
     pub fn torque(&self) -> R {
         self.torque_constant * self.current
     }
 
-    /// The torque that a command settles at, at the joint's speed, N·m: within the current limit and below
-    /// the torque-speed curve k (U − k ω)/R; beyond the speed without load the back-EMF brakes.
+    /// The steady-state torque of a command at the joint's speed, N·m: within the current limit and below the
+    /// torque-speed curve k (U − k ω)/R; above the no-load speed the back-EMF brakes.
     #[inline(always)]
     pub fn saturated_torque(&self, command: R, speed: R) -> R {
         let k = self.torque_constant;
@@ -54,9 +55,9 @@ impl<R: Real> Actuator<R> {
         k * wanted.clamped(least, most)
     }
 
-    /// Moves the current on by h seconds at a constant command (N·m) and speed (rad/s): exactly.
+    /// Advances the current by h seconds at a constant command (N·m) and speed (rad/s), exactly.
     ///
-    /// A command that is not a number counts as the greatest backward one: gate commands first.
+    /// A NaN is treated as the most negative command: check commands before.
     #[inline(always)]
     pub fn advance(&mut self, command: R, speed: R, h: R) {
         let goal = self.saturated_torque(command, speed) / self.torque_constant;

@@ -1,4 +1,4 @@
-//! What an integrator needs to know of a robot.
+//! The dynamics of a robot, as an integrator uses them.
 
 use super::StepIncrement;
 use crate::algorithms::{NotPositiveDefinite, aba, kinetic_energy, potential_energy};
@@ -7,7 +7,7 @@ use crate::model::RobotModel;
 use crate::scalar::Real;
 use crate::state::{JointTrig, State};
 
-/// A robot under some torques and effects, as [`Integrator`](super::Integrator)s see it.
+/// A robot under given torques and effects, for an [`Integrator`](super::Integrator).
 pub trait Dynamics<R, const Q: usize, const V: usize> {
     /// q̈ of q and q̇.
     ///
@@ -47,7 +47,7 @@ pub struct ModelDynamics<'a, D, E, R, const B: usize, const V: usize> {
     pub robot: &'a D,
     /// Torques of its motors, N·m or N.
     pub tau: [R; V],
-    /// What acts on it.
+    /// The effects that act on it.
     pub effects: &'a E,
 }
 

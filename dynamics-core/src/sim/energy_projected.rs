@@ -1,11 +1,11 @@
-//! A time step that keeps the energy of what nothing brakes or drives.
+//! A time step that conserves the energy of a robot without friction and drives.
 
 use super::step_increment::add_scaled;
 use super::{Dynamics, Integrator, RungeKutta, Step};
 use crate::scalar::Real;
 use crate::state::State;
 
-/// [`RungeKutta`], then q̇ scaled until T + U is what it was at the start: the projection on constant energy that is
+/// [`RungeKutta`], then q̇ is scaled so that T + U has its initial value: the projection on constant energy that is
 /// orthogonal in M. For motions without friction and drives.
 ///
 /// Hairer, Lubich & Wanner, *Geometric Numerical Integration* (2006), section IV.4.

@@ -19,7 +19,7 @@ impl<R: Real, const Q: usize, const V: usize> Integrator<R, Q, V> for Euler {
     }
 }
 
-/// Semi-implicit (symplectic) Euler: q moves with the new q̇. First order; energy swings, but does not drift.
+/// Semi-implicit (symplectic) Euler: q advances with the new q̇. First order; the energy oscillates but does not drift.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct SemiImplicit;
 
@@ -31,9 +31,9 @@ impl<R: Real, const Q: usize, const V: usize> Integrator<R, Q, V> for SemiImplic
     }
 }
 
-/// One step of `h` seconds by semi-implicit (symplectic) Euler: q̇ ← q̇ + h FD(q, q̇, τ), then
-/// q ← q ⊕ h q̇ with the new q̇. First order in h; `state.qdd` is left at the acceleration used. What effects
-/// remember stays as it is: [`linearly_implicit`](super::linearly_implicit()) moves it on.
+/// One step of `h` seconds by semi-implicit (symplectic) Euler: q̇ ← q̇ + h FD(q, q̇, τ), then q ← q ⊕ h q̇ with the
+/// new q̇. First order in h; `state.qdd` is left at the acceleration used. The internal states of effects are not
+/// advanced; [`linearly_implicit`](super::linearly_implicit()) advances them.
 ///
 /// Hairer, Lubich & Wanner, *Geometric Numerical Integration* (2006), section I.1.2.
 ///

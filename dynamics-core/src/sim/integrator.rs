@@ -1,6 +1,6 @@
-//! What all ways to step through time have in common.
+//! The common interface of the methods of integration.
 //!
-//! What each costs and loses is in `docs/accuracy.md` in the repository.
+//! The cost and the accuracy of each method are in `docs/accuracy.md` in the repository.
 
 use super::{Dynamics, StepIncrement};
 use crate::algorithms::NotPositiveDefinite;
@@ -22,7 +22,7 @@ pub type Step<R, const V: usize> = Result<StepIncrement<R, V>, NotPositiveDefini
 /// # Ok::<(), dynamics_core::algorithms::NotPositiveDefinite>(())
 /// ```
 pub trait Integrator<R: Real, const Q: usize, const V: usize>: Default {
-    /// For a motion from this state on.
+    /// The integrator of a motion that starts from this state.
     fn start(_robot: &impl Dynamics<R, Q, V>, _at: &State<R, Q, V>) -> Self {
         Self::default()
     }

@@ -1,15 +1,15 @@
-//! Many small increments on a large number, with or without compensation of rounding.
+//! Sums of many small increments, with or without compensated summation.
 
 use super::StepIncrement;
 use crate::scalar::Real;
 use crate::state::State;
 
-/// Position and velocity of V joints of one axis, to which steps are added; `COMPENSATED`, what rounding took from an increment
-/// is added with the next.
+/// Position and velocity of V joints of one axis, to which steps are added; if `COMPENSATED`, the rounding error of
+/// each increment is added to the next one.
 ///
 /// Kahan, "Further remarks on reducing truncation errors" (1965). In f32 a step of 10 µs at 1 rad/s adds 10⁻⁵ rad, of
-/// which rounding at 3 rad takes up to one part in a hundred: without compensation finer steps are worse. 3 flops
-/// more a coordinate.
+/// which rounding at 3 rad loses up to one per cent: without compensation, finer steps are less accurate. 3 more flops
+/// per coordinate.
 ///
 /// ```
 /// use dynamics_core::{sim::{StepIncrement, KahanState}, state::State};
@@ -25,13 +25,13 @@ use crate::state::State;
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct KahanState<R, const V: usize, const COMPENSATED: bool> {
-    /// Position and velocity; the acceleration stays as it is.
+    /// Position and velocity; the acceleration is unchanged.
     pub state: State<R, V, V>,
     lost: [[R; V]; 2],
 }
 
 impl<R: Real, const V: usize, const COMPENSATED: bool> KahanState<R, V, COMPENSATED> {
-    /// At a state that is exact.
+    /// Starts at an exact state.
     pub fn at(state: State<R, V, V>) -> Self {
         Self {
             state,
@@ -39,7 +39,7 @@ impl<R: Real, const V: usize, const COMPENSATED: bool> KahanState<R, V, COMPENSA
         }
     }
 
-    /// A step of h seconds on.
+    /// Advances by a step of h seconds.
     #[inline(always)]
     pub fn add(&mut self, rates: &StepIncrement<R, V>, h: R) {
         let [lost_q, lost_qd] = &mut self.lost;

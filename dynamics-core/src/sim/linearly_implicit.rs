@@ -1,4 +1,4 @@
-//! A time step that no spring, damper or bristle makes unstable.
+//! A time step that is stable at any stiffness of springs, dampers and bristles.
 
 use super::step_increment::add_scaled;
 use super::{Dynamics, Integrator, ModelDynamics, Step, StepIncrement};
@@ -8,8 +8,8 @@ use crate::model::RobotModel;
 use crate::scalar::Real;
 use crate::state::State;
 
-/// Linearly implicit Euler: [`SemiImplicit`](super::SemiImplicit) with joint effects at the step's end along their
-/// slopes. First order. What effects remember stays as it is.
+/// Linearly implicit Euler: [`SemiImplicit`](super::SemiImplicit) with joint effects extrapolated to the end of the
+/// step by their derivatives. First order. The internal states of effects are not advanced.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct LinearlyImplicit;
 
@@ -21,9 +21,9 @@ impl<R: Real, const Q: usize, const V: usize> Integrator<R, Q, V> for LinearlyIm
     }
 }
 
-/// One step of `h` seconds by linearly implicit Euler: as [`semi_implicit`](super::semi_implicit), with
-/// joint effects evaluated at the step's end by their slopes ([`Implicit`](crate::effects::Implicit)), after which their states
-/// advance. First order in h; `state.qdd` is left at the acceleration used.
+/// One step of `h` seconds by linearly implicit Euler: as [`semi_implicit`](super::semi_implicit), with joint effects
+/// extrapolated to the end of the step by their derivatives ([`Implicit`](crate::effects::Implicit)), after which their
+/// states are advanced. First order in h; `state.qdd` is left at the acceleration used.
 ///
 /// Hairer & Wanner, *Solving Ordinary Differential Equations II* (1996), section IV.7; Baraff & Witkin
 /// (1998). Wrenches on bodies (contact) are explicit.
@@ -41,7 +41,7 @@ impl<R: Real, const Q: usize, const V: usize> Integrator<R, Q, V> for LinearlyIm
 /// ```
 ///
 /// # Errors
-/// As [`aba`](crate::algorithms::aba); state and effects are then left as they were.
+/// As [`aba`](crate::algorithms::aba); state and effects are then unchanged.
 pub fn linearly_implicit<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     state: &mut State<R, Q, V>,

@@ -1,4 +1,4 @@
-//! A time step that keeps the momentum of what floats free.
+//! A time step that conserves the momentum of a robot that floats freely.
 
 use super::linearly_implicit;
 use crate::algorithms::{NotPositiveDefinite, base_velocity_from_momentum};
@@ -11,9 +11,9 @@ use crate::state::State;
 /// One step of `h` seconds as [`linearly_implicit()`], after which the rates of the first body's free joint are
 /// set so that all bodies together have the given momentum, about the base's origin and along its axes.
 ///
-/// For a robot that floats free: nothing acts on it from outside, and every body hangs on the first. The plain
-/// step loses momentum at first order in h, and the loss adds up; here what is missing after a step is rounding,
-/// and none of it stays. First order in h in everything else. Cost: [`base_velocity_from_momentum`] on top.
+/// For a robot that floats freely: no external force acts on it, and every body is a descendant of the first. The plain
+/// step has a momentum error of first order in h, which accumulates; here the error is that of rounding and does not
+/// accumulate. First order in h in everything else. Cost: that of [`base_velocity_from_momentum`] in addition.
 ///
 /// Hairer, Lubich & Wanner, *Geometric Numerical Integration* (2006), section IV.4: projection onto an invariant.
 ///

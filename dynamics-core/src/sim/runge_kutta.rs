@@ -18,7 +18,7 @@ use crate::model::RobotModel;
 use crate::scalar::Real;
 use crate::state::State;
 
-/// Runge and Kutta's method. Fourth order, four forward dynamics a step.
+/// Runge and Kutta's method. Fourth order, with four evaluations of forward dynamics per step.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct RungeKutta;
 
@@ -55,8 +55,8 @@ impl<R: Real, const Q: usize, const V: usize> Integrator<R, Q, V> for RungeKutta
     }
 }
 
-/// One step of `h` seconds of fourth order, explicit: for motion without stiff springs, dampers or dry
-/// friction. `state.qdd` is left at the mean acceleration; what effects remember stays as it is.
+/// One step of `h` seconds of fourth order, explicit: for motion without stiff springs, dampers or dry friction.
+/// `state.qdd` is left at the mean acceleration; the internal states of effects are not advanced.
 ///
 /// Cost: four times that of [`aba`](crate::algorithms::aba), and for quaternions six exponentials.
 ///
@@ -76,7 +76,7 @@ impl<R: Real, const Q: usize, const V: usize> Integrator<R, Q, V> for RungeKutta
 /// ```
 ///
 /// # Errors
-/// As [`aba`](crate::algorithms::aba); the state is then left as it was.
+/// As [`aba`](crate::algorithms::aba); the state is then unchanged.
 pub fn runge_kutta<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     state: &mut State<R, Q, V>,

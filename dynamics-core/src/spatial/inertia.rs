@@ -56,8 +56,8 @@ impl<R: Real> CompositeInertia<R> {
         }
     }
 
-    /// m with Iᶜ m = f, RBDA (2.74): about the centre of mass turns and slides go apart. Nothing if there is no mass,
-    /// or no inertia about some axis. 130 flops.
+    /// The motion m with Iᶜ m = f, RBDA (2.74): about the centre of mass, rotation and translation are decoupled. None
+    /// if there is no mass, or no inertia about some axis. 130 flops.
     #[inline(always)]
     pub(crate) fn solve(&self, f: Force<R>) -> Option<Motion<R>> {
         let mass_inv = R::ONE / self.mass;
@@ -106,7 +106,7 @@ impl<R: Real> CompositeInertia<R> {
 
 /// The inertia of an articulated body: symmetric, but no longer that of a rigid one.
 ///
-/// The blocks of [Ī H; Hᵀ M], RBDA (2.72), in 21 numbers: what force gives what acceleration at a handle.
+/// The blocks of [Ī H; Hᵀ M], RBDA (2.72), in 21 numbers: the force per acceleration of its handle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct ArticulatedInertia<R: Real> {
     inertia: Symmetric<R>,

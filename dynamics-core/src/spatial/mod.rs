@@ -78,7 +78,7 @@ pub struct SpatialInertia<R: Real> {
     pub rotational: R::Mat3,
 }
 
-/// Nothing, where the default of glam's matrices would be 1 kg·m².
+/// Zero inertia; the default of glam's matrices would be 1 kg·m².
 impl<R: Real> Default for SpatialInertia<R> {
     fn default() -> Self {
         Self::ZERO
@@ -145,7 +145,7 @@ vector_space!(Motion, "motion");
 vector_space!(Force, "force");
 
 impl<R: Real> Motion<R> {
-    /// Not a number, six times: the motion of a body that there is not.
+    /// Six NaNs: the motion of a body that the robot does not have.
     #[inline(always)]
     pub(crate) fn nan() -> Self {
         let none = R::from_f64(f64::NAN);
@@ -261,7 +261,7 @@ impl<R: Real> SpatialInertia<R> {
         [xx, xy, xz, yy, yz, zz]
     }
 
-    /// The inertia of nothing.
+    /// Zero inertia.
     pub const ZERO: Self = Self {
         mass: R::ZERO,
         first_moment: R::Vec3::ZERO,

@@ -3,12 +3,12 @@
 use super::{Force, Motion};
 use crate::scalar::{Real, Vector};
 
-/// The velocity across a joint at unit rate of one of its coordinates.
+/// The velocity of a joint at unit rate of one of its coordinates.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum MotionSubspace<R: Real> {
-    /// A turn about z.
+    /// A rotation about z.
     RevoluteZ,
-    /// A slide along z.
+    /// A translation along z.
     PrismaticZ,
     /// Any other.
     General(Motion<R>),

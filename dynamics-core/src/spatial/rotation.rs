@@ -28,18 +28,18 @@ pub(crate) fn squared<R: Real>([x, y, z, w]: [R; 4]) -> R {
     (x * x + y * y) + (z * z + w * w)
 }
 
-/// v turned by p: p ⊗ v ⊗ p⁻¹, as v + 2 w (u × v) + 2 u × (u × v).
+/// v rotated by p: p ⊗ v ⊗ p⁻¹, as v + 2 w (u × v) + 2 u × (u × v).
 pub(crate) fn rotate<R: Real>([x, y, z, w]: [R; 4], v: R::Vec3) -> R::Vec3 {
     let u = R::Vec3::new(x, y, z);
     let t = u.cross(v) * R::from_f64(2.0);
     v + t * w + u.cross(t)
 }
 
-/// The attitude p after a turn by the rotation vector φ in its own frame: p ⊗ (φ sin(θ/2)/θ, cos(θ/2)), θ = |φ|.
+/// The attitude p after a rotation by the vector φ in its own frame: p ⊗ (φ sin(θ/2)/θ, cos(θ/2)), θ = |φ|.
 ///
-/// As p plus what the step adds, whose rounding is then that of one sum; what p's length lacks, (1 − |p|²)/2 of it,
-/// is added in each step. Of ten million steps in f32, products alone make a length of 0.78 and an attitude off
-/// by 0.04 rad.
+/// It is computed as p plus an increment, so that the rounding error is that of one sum; the error of p's length, (1 −
+/// |p|²)/2 of it, is corrected in each step. After ten million steps in f32, products alone give a length of 0.78 and
+/// an attitude error of 0.04 rad.
 pub(crate) fn so3_plus<R: Real>(p: [R; 4], phi: R::Vec3) -> [R; 4] {
     let (one, half) = (R::ONE, phi.dot(phi).sqrt() * R::from_f64(0.5));
     let (sin, cos) = half.sin_cos();

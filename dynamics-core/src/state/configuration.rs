@@ -1,4 +1,4 @@
-//! What the algorithms accept as a configuration, and as a state: plain numbers, or with precomputed sines and cosines.
+//! The configurations and states that the algorithms accept: plain numbers, or with precomputed sines and cosines.
 
 use core::borrow::Borrow;
 
@@ -7,7 +7,7 @@ use crate::model::RobotModel;
 use crate::scalar::Real;
 
 mod sealed {
-    /// Keeps the two traits to the types of this module: the engine relies on what they do.
+    /// Restricts the two traits to the types of this module: the engine relies on their behaviour.
     pub trait Sealed {}
     impl<R, const Q: usize> Sealed for [R; Q] {}
     impl<R, const Q: usize> Sealed for super::JointTrig<R, Q> {}
@@ -16,7 +16,7 @@ mod sealed {
 }
 
 /// A configuration q: an array `[R; Q]`, whose sines and cosines are computed by the callee, or a [`JointTrig`], which
-/// has them.
+/// contains them.
 ///
 /// Several algorithms at one configuration share a [`JointTrig`]:
 ///
@@ -62,7 +62,8 @@ impl<R, const Q: usize> Configuration<R, Q> for JointTrig<R, Q> {
     }
 }
 
-/// What computes the sines and cosines of a configuration. A trait, since a closure would not be inlined everywhere.
+/// A source of the sines and cosines of a configuration. It is a trait, since a closure would not be inlined
+/// everywhere.
 pub trait TrigSource<R, const Q: usize> {
     /// The sines and cosines at q.
     fn compute(&self, q: &[R; Q]) -> JointTrig<R, Q>;
@@ -83,7 +84,7 @@ where
 }
 
 /// A state q, q̇, q̈: a reference to a [`State`], whose sines and cosines are computed by the callee, or
-/// [`JointTrig::with`], which has them.
+/// [`JointTrig::with`], which contains them.
 ///
 /// ```
 /// use dynamics_core::{Engine, effects::{Coriolis, Gravity}, robots::Ur5e, state::State};
@@ -93,7 +94,7 @@ where
 /// assert_eq!(Engine::<Ur5e>::rnea(trig.with(&state), &bias), Engine::<Ur5e>::rnea(&state, &bias));
 /// ```
 pub trait RobotState<R, const Q: usize, const V: usize>: Copy + sealed::Sealed {
-    /// What it has for a configuration.
+    /// The type of its configuration.
     type Configuration: Configuration<R, Q>;
 
     /// The configuration.
@@ -148,7 +149,7 @@ impl<R, const Q: usize, const V: usize> RobotState<R, Q, V> for StateWithTrig<'_
 }
 
 impl<R, const Q: usize> JointTrig<R, Q> {
-    /// The state with these sines and cosines as its configuration's. `state.q` reaches the effects of joints only.
+    /// The state with these sines and cosines as its configuration's. `state.q` is used by the effects of joints only.
     #[inline(always)]
     #[must_use]
     pub fn with<'a, const V: usize>(

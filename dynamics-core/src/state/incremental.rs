@@ -6,15 +6,14 @@ use crate::model::JointCoordinate;
 use crate::scalar::Real;
 use crate::state::JointTrig;
 
-/// The sines and cosines of N joints that move a little every tick.
+/// The sines and cosines of N joints that move by small angles in each tick.
 ///
-/// From one tick to the next each is turned by Δ = q − q₋ with Taylor's polynomials of degree 3 and 2, and brought
-/// back to sin² + cos² = 1 by one step of Newton's iteration. Rounding turns the pair a little each tick, which
-/// nothing takes back: the angle drifts as a random walk, in f32 by some 10⁻⁵ rad in 10⁴ ticks. [`IncrementalTrig::at`]
-/// starts anew.
-/// Angles: |Δ| < 0.02 rad, an error of 10⁻⁸ a tick. A joint that seems to jump by 0.5 rad or more, or to something that
-/// is not a number, stays where it was: `q` of its entry is the angle that the sine and cosine belong to, and a single
-/// wrong reading leaves no trace. One that did jump needs [`IncrementalTrig::at`]. 21 flops a joint; the same instructions whatever the data.
+/// In each tick each pair is rotated by Δ = q − q₋ with Taylor's polynomials of degree 3 and 2, and normalised to sin²
+/// + cos² = 1 by one step of Newton's iteration. Rounding errors of the angle are not corrected: the angle drifts as a
+/// random walk, in f32 by some 10⁻⁵ rad in 10⁴ ticks. [`IncrementalTrig::at`] starts again without drift. Angles: |Δ| < 0.02
+/// rad, an error of 10⁻⁸ a tick. If the angle of a joint jumps by 0.5 rad or more, or is NaN, the entry is not updated:
+/// its `q` remains the angle of its sine and cosine, and a single wrong reading has no effect. After a real jump, call
+/// [`IncrementalTrig::at`]. 21 flops per joint, with the same instructions for all data.
 ///
 /// ```
 /// use dynamics_core::state::IncrementalTrig;
@@ -28,7 +27,7 @@ pub struct IncrementalTrig<R, const N: usize> {
 }
 
 impl<R: Real, const N: usize> IncrementalTrig<R, N> {
-    /// Joints that stand at q, rad.
+    /// The joints at q, rad.
     pub fn at(q: [R; N]) -> Self {
         Self {
             trig: JointTrig {

@@ -1,8 +1,8 @@
 //! The configuration manifold: q is not always a vector, nor q̇ always its derivative.
 //!
-//! Turns without end close on themselves, attitudes are unit quaternions; a step along q̇ and the
-//! difference of two places are exponentials and logarithms, joint by joint. For joints of one axis they are
-//! a sum and a difference. Meant for simulation and planning: nothing here is in the control tick.
+//! Continuous joints return to the same place after a turn, and attitudes are unit quaternions: a step along q̇ and the
+//! difference of two configurations are exponentials and logarithms, joint by joint. For joints of one axis they are a
+//! sum and a difference. Meant for simulation and planning: nothing here is in the control tick.
 
 use core::fmt;
 
@@ -15,7 +15,7 @@ use crate::state::entry;
 
 use JointKind::*;
 
-/// A quaternion of length zero, or not a number: no attitude.
+/// The error for a quaternion of length zero or with a NaN, which is not an attitude.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
@@ -56,7 +56,7 @@ where
     q
 }
 
-/// q ⊕ δ: the configuration after a unit of time at the constant velocity δ, rad and m.
+/// The configuration q ⊕ δ after a unit of time at the constant velocity δ, rad and m.
 ///
 /// Exact for every joint: quaternions by the exponential of SO(3), free joints of SE(3), planar ones of
 /// SE(2); they come out at unit length within two units in the last place, after any number of steps.
@@ -108,10 +108,10 @@ where
     out
 }
 
-/// q₁ ⊖ q₀: the velocity that leads from q₀ to q₁ in a unit of time, the shorter way round.
+/// The velocity q₁ ⊖ q₀ that leads from q₀ to q₁ in a unit of time, along the shorter rotation.
 ///
-/// `integrate(robot, q0, difference(robot, q0, q1))` is q₁ (a turn without end: its place; a quaternion: up
-/// to sign). Attitudes half a turn apart have two shortest ways, of which this is one.
+/// `integrate(robot, q0, difference(robot, q0, q1))` is q₁ (a turn without end: its place; a quaternion: up to sign).
+/// Between attitudes that differ by half a turn there are two shortest rotations, of which this is one.
 ///
 /// ```
 /// use dynamics_core::{state::manifold::difference, model::{BASE, Body, Joint, Model}};

@@ -50,7 +50,7 @@ impl<R: Real, const Q: usize, const V: usize> State<R, Q, V> {
     }
 }
 
-/// Whether every number is finite; the same instructions whatever the data.
+/// Whether every number is finite; the same instructions for all data.
 #[inline(always)]
 pub fn all_finite<R: Real>(values: &[R]) -> bool {
     // x·0 is 0 for finite x and NaN otherwise; sums of zeros are zero.
@@ -81,7 +81,7 @@ impl<R: Real, const Q: usize> JointTrig<R, Q> {
         Self::with_kernel::<D::Kernel, D, B, V>(robot, q)
     }
 
-    /// The same by the kernel K in place of the robot's own: of a model of run time.
+    /// As [`Self::new`], with the kernel K in place of the robot's own: for models of run time.
     ///
     /// ```
     /// use dynamics_core::{model::Robot, robots::Ur5e, state::JointTrig, trig::Table};

@@ -11,8 +11,9 @@ use super::{Kernel, bounded};
 /// | 5 | 10⁻⁶ |
 /// | 7 | 3·10⁻⁹, below rounding |
 ///
-/// Two parts hold to ±100 rad, three to 10⁴; of other x the results stay within ±1, as [`crate::trig`] says. Cost: the same instructions whatever x. Source: as [`crate::trig`];
-/// the coefficients are printed by `host-tests/oracle/minimax.py`.
+/// Two parts suffice up to ±100 rad, three up to 10⁴; for other x the results are within ±1, see [`crate::trig`]. Cost:
+/// the same instructions for all x. Source: as [`crate::trig`]; the coefficients are printed by
+/// `host-tests/oracle/minimax.py`.
 ///
 /// ```
 /// use dynamics_core::trig::{Kernel, Minimax};

@@ -13,11 +13,11 @@ use crate::math::const_eval;
 /// | 128, 3 | 1 kB | 8·10⁻⁸, of which 6·10⁻⁸ are rounding |
 /// | 64, 4 | 512 B | 7·10⁻⁸ |
 ///
-/// The step of the table comes off x in `PARTS`: 2 hold to ±100 rad, 4 to 10⁴ for up to 128 entries. Of other x the
-/// results stay within ±1 (for orders 1 and 2 within ±1.05), as [`crate::trig`] says. Cost: the same
-/// instructions whatever x, two of them loads of neighbours from flash, which wait states make longer. Source: Gal,
-/// "Computing elementary functions: a new approach for achieving high accuracy and good performance" (1986), with
-/// equidistant entries; parts as in [`crate::trig`].
+/// Multiples of the table's step are subtracted from x in `PARTS` parts: 2 suffice up to ±100 rad, 4 up to 10⁴ for up
+/// to 128 entries. For other x the results are within ±1 (for orders 1 and 2 within ±1.05), see [`crate::trig`]. Cost:
+/// the same instructions for all x, of which two load neighbouring words from flash and take longer with wait states.
+/// Source: Gal, "Computing elementary functions: a new approach for achieving high accuracy and good performance"
+/// (1986), with equidistant entries; parts as in [`crate::trig`].
 ///
 /// ```
 /// use dynamics_core::trig::{Kernel, Table};

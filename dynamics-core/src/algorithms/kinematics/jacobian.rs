@@ -1,7 +1,7 @@
-//! The geometric Jacobian of a body, and its drift J̇ q̇.
+//! The geometric Jacobian of a body, and its bias acceleration J̇ q̇.
 //!
-//! Featherstone, RBDA (2008), section 4.1: v = J q̇, the column of a coordinate being that of S at its
-//! joint, transformed to the body; zero for joints that do not move the body.
+//! Featherstone, RBDA (2008), section 4.1: the column of a coordinate is that of S at its joint, transformed to the
+//! body; zero for joints that do not move the body.
 
 use core::borrow::Borrow;
 
@@ -15,7 +15,14 @@ use crate::state::{Configuration, RobotState};
 
 /// The geometric Jacobian J of `body` in a [`Frame`] with v = J q̇, by columns, one for each coordinate.
 ///
-/// ω in rad/s and velocity in m/s per rad/s or m/s. τ = Jᵀ f for a force on the body in the same frame.
+/// ω in rad/s and velocity in m/s per rad/s or m/s; the force f on the body b is in the same frame:
+///
+/// $$
+/// v_b = J \dot q, \qquad J_j = \begin{cases}
+/// {}^bX_j S_j & \text{if joint } j \text{ moves body } b \cr
+/// 0 & \text{otherwise}
+/// \end{cases}, \qquad \tau = J^T f
+/// $$
 ///
 /// # Shape
 /// 6 × V; zero for the base, NaN for a body that the robot does not have.
@@ -84,6 +91,10 @@ where
 ///
 /// It is the derivative of J q̇ in that frame's coordinates: in `LocalWorldAligned` ω̇ and p̈, in the others the
 /// spatial acceleration. `state.qdd` is not read.
+///
+/// $$
+/// \dot v_b = J \ddot q + \dot J \dot q
+/// $$
 ///
 /// # Shape
 /// 6; zero for the base, NaN for a body that the robot does not have.

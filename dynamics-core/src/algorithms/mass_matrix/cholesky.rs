@@ -1,7 +1,7 @@
 //! M = Lᵀ L, without the entries that the tree's branches leave zero.
 //!
 //! Featherstone, RBDA (2008), section 6.5, table 6.4. [`ltdl`](crate::algorithms::ltdl()) does the same
-//! without roots, and is the one to prefer; this one has what Lᵀ D L lacks, a root of M: M⁻¹ = L⁻¹ L⁻ᵀ.
+//! without roots, and is preferable, except where a root of M is needed: M⁻¹ = L⁻¹ L⁻ᵀ.
 
 use crate::algorithms::MassMatrix;
 use crate::algorithms::NotPositiveDefinite;
@@ -19,6 +19,10 @@ pub struct Cholesky<R, const V: usize> {
 }
 
 /// The factor L of M = Lᵀ L, with the reciprocals of its diagonal, for [`Cholesky::solve`].
+///
+/// $$
+/// M = L^T L, \qquad M^{-1} = L^{-1} L^{-T}
+/// $$
 ///
 /// # Shape
 /// V × V and V.

@@ -17,6 +17,12 @@ pub(crate) const MATRIX_ROUNDINGS: f64 = 32.0;
 ///
 /// L is zero where M is zero. An implicit joint damping is a sum on M's diagonal, [`MassMatrix::plus_diagonal`].
 ///
+/// For each coordinate k from the last to the first, and its ancestors i and j:
+///
+/// $$
+/// D_k = M_{kk}, \qquad L_{ki} = M_{ki} / D_k, \qquad M_{ij} \leftarrow M_{ij} - L_{ki} D_k L_{kj}
+/// $$
+///
 /// # Shape
 /// V × V and V.
 ///
@@ -38,12 +44,12 @@ pub(crate) const MATRIX_ROUNDINGS: f64 = 32.0;
 /// ```
 ///
 /// # Errors
-/// [`NotPositiveDefinite`] names the coordinate, outermost first, whose pivot is not a number or not
-/// above 32 roundings of M_ii: it moves no inertia once the coordinates that it carries give way. Within a
-/// joint of several coordinates the rounding errors of each count for those before it as they are
-/// multiplied there. M does not show how far away the frames of bodies are in which it was computed: where
-/// they are much farther than what moves, a singular M may leave more than that; the articulated bodies of
-/// [`aba`](crate::algorithms::aba()) and [`spatial_operator_ltdl`](crate::algorithms::spatial_operator_ltdl()) refuse it.
+/// [`NotPositiveDefinite`] names the coordinate, outermost first, whose pivot is not a number or not above 32 roundings
+/// of M_ii: it moves no inertia once the coordinates that it carries give way. Within a joint of several coordinates
+/// the rounding errors of each count for those before it as they are multiplied there. M does not show how far away the
+/// frames of bodies are in which it was computed: where they are much farther than what moves, a singular M may leave
+/// more than that; the articulated bodies of [`aba`](crate::algorithms::aba()) and
+/// [`spatial_operator_ltdl`](crate::algorithms::spatial_operator_ltdl()) refuse it.
 #[doc(alias = "LTL")]
 #[doc(alias = "factor")]
 #[inline(always)]
@@ -86,6 +92,10 @@ where
 }
 
 /// The solution x of M x = τ: accelerations of torques, rad/s² or m/s² of N·m or N.
+///
+/// $$
+/// L^T y = \tau, \qquad D z = y, \qquad L x = z
+/// $$
 ///
 /// # Shape
 /// V.

@@ -14,9 +14,12 @@ use crate::scalar::Real;
 
 /// M(q), symmetric, V × V: kg·m² between revolute joints, kg between prismatic ones, kg·m mixed.
 ///
-/// Row i holds the torques of all joints that accelerate joint i alone by one, without gravity and
-/// velocities; ½ q̇ᵀ M q̇ is the kinetic energy. Positive definite. Source: Featherstone, RBDA (2008),
-/// chapter 6.
+/// Row i holds the torques of all joints that accelerate joint i alone by one, without gravity and velocities. M is
+/// positive definite. Source: Featherstone, RBDA (2008), chapter 6. The equation of motion and the kinetic energy are
+///
+/// $$
+/// M(q) \ddot q + C(q, \dot q) = \tau, \qquad T = \tfrac 1 2 \dot q^T M(q) \dot q
+/// $$
 ///
 /// ```
 /// use dynamics_core::{Engine, effects::RIGID_BODY, robots::Ur5e};

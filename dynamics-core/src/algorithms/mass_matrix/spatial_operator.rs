@@ -1,9 +1,13 @@
 //! M⁻¹ and the factors of M by the spatial operators of articulated bodies, each without the other.
 //!
-//! Rodriguez, Jain & Kreutz-Delgado (1991, 1992): M = (1 + HΦK) D (1 + HΦK)ᵀ and
-//! M⁻¹ = (1 − HΨK)ᵀ D⁻¹ (1 − HΨK). H projects on the joints; K = U/D of a joint, at its parent; Φ transmits
-//! forces inward as through rigid bodies, Ψ as through joints that move freely. In the letters of RBDA's
-//! section 6.5 the first factor is Lᵀ: what elimination finds in M, the filter finds in the bodies.
+//! Rodriguez, Jain & Kreutz-Delgado (1991, 1992):
+//!
+//! $$
+//! M = (1 + H \Phi K) D (1 + H \Phi K)^T, \qquad M^{-1} = (1 - H \Psi K)^T D^{-1} (1 - H \Psi K)
+//! $$
+//!
+//! H projects on the joints; K = U/D of a joint, at its parent; Φ transmits forces inward as through rigid bodies, Ψ as
+//! through joints that move freely. The first factor is Lᵀ of RBDA's section 6.5.
 
 use core::borrow::Borrow;
 
@@ -17,6 +21,12 @@ use crate::spatial::Force;
 use crate::state::{Configuration, entry};
 
 /// The factors L = (1 + HΦK)ᵀ and D of M(q), without M: the same as those of [`ltdl`](crate::algorithms::ltdl()).
+///
+/// $$
+/// M = L^T D L = (1 + H \Phi K) D (1 + H \Phi K)^T
+/// $$
+///
+/// H projects on the joints; K = U/D of a joint, at its parent; Φ transmits forces inward as through rigid bodies.
 ///
 /// # Shape
 /// V × V and V.
@@ -54,7 +64,13 @@ where
     columns(robot, q, effects, |f, _, _| f)
 }
 
-/// The inverse M⁻¹ = (1 − HΨK)ᵀ D⁻¹ (1 − HΨK), without M and without its elimination.
+/// The inverse M⁻¹, without M and without its elimination.
+///
+/// $$
+/// M^{-1} = (1 - H \Psi K)^T D^{-1} (1 - H \Psi K)
+/// $$
+///
+/// H and K are those of [`spatial_operator_ltdl`]; Ψ transmits forces inward as through joints that move freely.
 ///
 /// # Shape
 /// V × V.

@@ -1,8 +1,9 @@
 //! The velocity of a free base from the momentum of all bodies: how it recoils.
 //!
-//! Umetani & Yoshida, "Resolved motion rate control of space manipulators with generalized Jacobian matrix"
-//! (1989): M_b v_b + M_bj q̇_j = h. On what floats free h stays as it is, and v_b follows from the joints'
-//! rates. M_b is the composite inertia of all bodies at the first, a rigid body's, whose inverse is closed.
+//! Umetani & Yoshida, "Resolved motion rate control of space manipulators with generalized Jacobian matrix" (1989). The
+//! momentum h of a robot that floats freely is constant, and the velocity of its base follows from the rates of the
+//! joints. M_b is the composite inertia of all bodies at the first one; as that of a rigid body, it has an inverse in
+//! closed form.
 
 use core::borrow::Borrow;
 
@@ -28,8 +29,12 @@ struct Body<R: Real> {
 /// The velocity q̇ of a floating robot whose bodies together have the momentum h.
 ///
 /// The rates of the first body, which stands on a free joint, are replaced; h is about the base's origin and along its
-/// axes, N·m·s and N·s. A robot whose first joint is not free is left as it is. Of the effects those count that count
-/// in [`momentum`](crate::algorithms::momentum()).
+/// axes, N·m·s and N·s. The velocity of a robot whose first joint is not free is returned unchanged. The effects are
+/// those of [`momentum`](crate::algorithms::momentum()).
+///
+/// $$
+/// M_b v_b + M_{bj} \dot q_j = h
+/// $$
 ///
 /// # Shape
 /// V.

@@ -1,8 +1,8 @@
-//! Momentum about the centre of mass, and the matrix that makes it of q̇.
+//! Momentum about the centre of mass, and the matrix that maps q̇ to it.
 //!
-//! Orin, Goswami & Lee, "Centroidal dynamics of a humanoid robot" (2013): h_G = A_G q̇. A column is what
-//! the composite body beyond a joint has of momentum when that coordinate alone moves, so that the
-//! composite inertias of the CRBA give all of it in O(n) (their section 5; Wensing & Orin, 2016).
+//! Orin, Goswami & Lee, "Centroidal dynamics of a humanoid robot" (2013). A column is the momentum of the composite
+//! body beyond a joint when that coordinate alone moves at unit rate, so that the composite inertias of the CRBA give
+//! the matrix in O(n) (their section 5; Wensing & Orin, 2016).
 
 use core::borrow::Borrow;
 
@@ -19,6 +19,10 @@ use crate::spatial::{Force, Xform};
 use crate::state::{Configuration, RobotState};
 
 /// The centroidal momentum h_G: about the centre of mass and along the base's axes, N·m·s and N·s.
+///
+/// $$
+/// h_G = {}^0X_G^T h = \sum_i {}^iX_G^T I_i v_i
+/// $$
 ///
 /// # Shape
 /// 6.
@@ -56,6 +60,10 @@ where
 /// The centroidal momentum matrix A_G with h_G = A_G q̇, by columns, one for each coordinate; for a base at rest.
 ///
 /// About the centre of mass and along the base's axes, N·m·s and N·s per rad/s or m/s.
+///
+/// $$
+/// h_G = A_G \dot q, \qquad A_{G,j} = {}^jX_G^T I^c_j S_j
+/// $$
 ///
 /// # Shape
 /// 6 × V.

@@ -1,10 +1,16 @@
 //! The inverse of a symmetric matrix that may be singular, damped where it is.
 //!
-//! Damping that begins smoothly (after Nakamura & Hanafusa, 1986, and Chiaverini, 1997): an eigenvalue λ above
-//! the threshold ε counts with 1/λ, one below with λ/(λ² + (ε − λ)²), which has the same value and slope at ε
-//! and goes to zero with λ. The threshold follows the sum of the eigenvalues, which, unlike the largest, is
-//! smooth. Whether an eigenvalue is smaller than it is decided without them: A − ε 1 then has a negative pivot
-//! (Sylvester's law of inertia).
+//! The damping begins smoothly (after Nakamura & Hanafusa, 1986, and Chiaverini, 1997): the inverse of an eigenvalue λ
+//! below the threshold ε is replaced by a function that has the value and slope of 1/λ at ε and goes to zero with λ:
+//!
+//! $$
+//! \frac 1 \lambda \quad \text{becomes} \quad \frac{\lambda}{\lambda^2 + (\varepsilon - \lambda)^2}
+//! \quad \text{for } \lambda \lt \varepsilon
+//! $$
+//!
+//! The threshold is proportional to the sum of the eigenvalues, which, unlike the largest one, is smooth. Whether an
+//! eigenvalue is below the threshold is decided without eigenvalues: A − ε 1 then has a negative pivot (Sylvester's law
+//! of inertia).
 
 use super::eigen::eigen;
 use crate::scalar::Real;
@@ -56,8 +62,17 @@ pub enum Conditioning<R> {
 
 /// The inverse of a symmetric matrix A with no negative eigenvalue, and whether it had to be damped.
 ///
-/// What belongs to an eigenvalue smaller than the threshold goes to zero with it, without a jump in value or slope.
-/// Numbers that are not finite give such numbers, and are not `Regular`.
+/// The inverse of an eigenvalue λ below the threshold ε goes to zero with λ, without a jump in value or slope. An
+/// input that is not finite gives an output that is not finite and not `Regular`.
+///
+/// $$
+/// A^{-1} = \sum_k g(\lambda_k) w_k w_k^T, \qquad g(\lambda) = \begin{cases}
+/// 1 / \lambda & \lambda \ge \varepsilon \cr
+/// \lambda / \left(\lambda^2 + (\varepsilon - \lambda)^2\right) & \lambda \lt \varepsilon
+/// \end{cases}
+/// $$
+///
+/// with the eigenvectors w of A.
 ///
 /// # Shape
 /// M × M.
@@ -67,7 +82,7 @@ pub enum Conditioning<R> {
 /// (M − 1) divisions, in f64 a sixth more.
 ///
 /// # Source
-/// The module's documentation.
+/// After Nakamura & Hanafusa (1986) and Chiaverini (1997).
 ///
 /// # Example
 /// ```

@@ -1,7 +1,11 @@
 //! Operational space: the inertia of a task, and the torques that do not accelerate it.
 //!
 //! Khatib, "A unified approach for motion and force control of robot manipulators: the operational
-//! space formulation" (1987): Λ = (J M⁻¹ Jᵀ)⁻¹, J̄ = M⁻¹ Jᵀ Λ, τ = Jᵀ F + (1 − Jᵀ J̄ᵀ) τ₀.
+//! space formulation" (1987):
+//!
+//! $$
+//! \Lambda = (J M^{-1} J^T)^{-1}, \qquad \bar J = M^{-1} J^T \Lambda, \qquad \tau = J^T F + (1 - J^T \bar J^T) \tau_0
+//! $$
 
 mod damped_inverse;
 mod eigen;
@@ -55,6 +59,10 @@ pub fn task_jacobian<R: Real, const M: usize, const V: usize>(
 /// factors.
 ///
 /// Of the effects, armatures and payloads are part of M.
+///
+/// $$
+/// \Lambda = (J M^{-1} J^T)^{-1}, \qquad \bar J = M^{-1} J^T \Lambda, \qquad \tau = J^T F + (1 - J^T \bar J^T) \tau_0
+/// $$
 ///
 /// # Cost
 /// That of [`super::crba()`], [`super::ltdl()`] and [`super::jacobian`], M solutions of 2 V² flops, 2 M² V flops and

@@ -1,12 +1,17 @@
 //! Mobility Λ⁻¹ of a body, the inverse of its operational-space inertia, in O(n).
 //!
-//! Chang & Khatib, "Operational space dynamics: efficient algorithms for modeling and control of
-//! branching mechanisms" (2000); Lilly & Orin, "Efficient O(N) recursive computation of the operational
-//! space inertia matrix" (1993). Articulated-body inertias inwards, as in the ABA; then, from the base,
-//! where nothing moves, out to the body: a joint of axis s, U = Iᴬ s, D = sᵀU passes of what its parent
-//! does the part P = 1 − s D⁻¹ Uᵀ and adds its own,
+//! Chang & Khatib, "Operational space dynamics: efficient algorithms for modeling and control of branching mechanisms"
+//! (2000); Lilly & Orin, "Efficient O(N) recursive computation of the operational space inertia matrix" (1993).
+//! Articulated-body inertias are computed inward, as in the ABA; then Λ⁻¹ outward, from the base, where it is zero, to
+//! the body. A joint of axis s transmits the part P of its parent's acceleration and adds its own:
 //!
-//! Λ⁻¹ ← P X Λ⁻¹ Xᵀ Pᵀ + s D⁻¹ sᵀ.
+//! $$
+//! U = I^A s, \qquad D = s^T U, \qquad P = 1 - s D^{-1} U^T
+//! $$
+//!
+//! $$
+//! \Lambda_i^{-1} = P_i {}^iX_{\lambda(i)} \Lambda_{\lambda(i)}^{-1} {}^iX_{\lambda(i)}^T P_i^T + s_i D_i^{-1} s_i^T
+//! $$
 
 use core::borrow::Borrow;
 
@@ -23,7 +28,7 @@ use crate::spatial::symmetric::{Symmetric, turned_back};
 use crate::spatial::{Force, Motion, Xform};
 use crate::state::{Configuration, entry};
 
-/// Λ⁻¹: what acceleration a force on a body gives that body, all joints being free to move.
+/// Λ⁻¹: the acceleration of a body per force on it, with all joints free to move.
 ///
 /// The blocks of a symmetric map from F⁶ to M⁶; `mobility * force` is a motion, and a motion no force:
 ///
@@ -165,7 +170,11 @@ fn with_row_z<R: Real>(m: &R::Mat3, row: R::Vec3) -> R::Mat3 {
 
 /// The inverse operational-space inertia Λ⁻¹ = J M⁻¹ Jᵀ of `body` in a [`Frame`], without J or M.
 ///
-/// Inertias of joints and a payload of the scene count.
+/// Inertias of joints and a payload of the scene are included.
+///
+/// $$
+/// \Lambda^{-1} = J M^{-1} J^T
+/// $$
 ///
 /// # Shape
 /// 6 × 6; zero for a body that the robot does not have.

@@ -7,7 +7,8 @@ mod sealed {
     pub trait Sealed {}
 }
 
-/// How old the measurements of a [`MotionController`](super::MotionController) are: a property of the encoders, as a type.
+/// The age of the measurements of a [`MotionController`](super::MotionController), a property of the encoders, as a
+/// type.
 pub trait MeasurementAge: sealed::Sealed {
     /// Updates the estimate by positions that were accepted.
     #[doc(hidden)]
@@ -18,7 +19,8 @@ pub trait MeasurementAge: sealed::Sealed {
     fn correct_position<R: Real, const V: usize>(observer: &mut Observer<R, V>, q: &[R; V]);
 }
 
-/// The positions are those of the tick before: of encoders that latch at the end of a frame and send in the next one.
+/// The positions are those of the previous tick: for encoders that latch at the end of a frame and send in the next
+/// one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PreviousTick;
 

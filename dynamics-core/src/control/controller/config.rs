@@ -3,26 +3,27 @@
 use super::super::{ConfigError, ConfigParameter, ObserverConfig, ResumeConfig, SupervisorConfig};
 use crate::scalar::Real;
 
-/// What a [`MotionController`](super::MotionController) has to know of the arm and of the loop.
+/// The parameters of a [`MotionController`](super::MotionController): those of the arm and of the loop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct MotionControllerConfig<R, const V: usize> {
-    /// Limits, the length of a tick, and how long each answer to a fault lasts.
+    /// Limits, the length of a tick, and the durations of the reactions to a fault.
     pub supervisor: SupervisorConfig<R, V>,
-    /// Bandwidth ω_o of the observer, rad/s, ten times that of the feedback or so.
+    /// Bandwidth ω_o of the observer, rad/s, about ten times that of the feedback.
     pub observer_bandwidth: R,
     /// Rate λ at which the speed of a held arm decays, 1/s: q̈ = −λ q̇. About ω_n of the feedback; with 2 ζ ω_n a fast arm
     /// needs more torque than it has.
     pub decay_rate: R,
-    /// How far from its reference a joint may be for [`MotionController::reset`](super::MotionController::reset), rad or m.
+    /// The greatest distance of a joint from its reference for
+    /// [`MotionController::reset`](super::MotionController::reset), rad or m.
     pub restart_distance: R,
 }
 
 impl<R: Real, const V: usize> MotionControllerConfig<R, V> {
-    /// Checks that every number lies in its range and that every limit allows something.
+    /// Checks that every number is within its range and that every limit allows some motion or torque.
     ///
     /// # Errors
-    /// [`ConfigError`]: its source names the joint, if a limit is wrong.
+    /// [`ConfigError`]; if a limit is wrong, its source names the joint.
     pub fn check(&self) -> Result<(), ConfigError> {
         self.supervisor.check()?;
         self.observer().check()?;

@@ -1,4 +1,4 @@
-//! What the controller does on a fault and after it: decision 3.
+//! The reaction of the controller to a fault, and the return after it: decision 3.
 
 use super::super::{Fault, Mode, Reference, hold};
 use super::{MeasurementAge, MotionController};
@@ -6,7 +6,7 @@ use crate::scalar::Real;
 use crate::state::State;
 
 impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
-    /// The estimate when there is no measurement, or no torque from it.
+    /// The estimate without a measurement, or without a torque computed from it.
     #[cold]
     pub(super) fn predict_estimate(&mut self, measured: Result<&[R; V], Fault>) {
         match (self.supervisor.mode(), measured) {
@@ -28,7 +28,7 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
         }
     }
 
-    /// Updates what the joints are to follow in this tick.
+    /// Updates the reference of the joints in this tick.
     #[inline(always)]
     pub(super) fn next_reference<T: Reference<R, V>>(&mut self, trajectory: &T) {
         let full = matches!(self.supervisor.mode(), Mode::Full);
@@ -49,8 +49,8 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
         done
     }
 
-    /// While the arm is held: where it is, its speed decaying, so that the same law brings all joints to
-    /// rest together. Then the return onto the trajectory.
+    /// While the arm is held, the reference is its estimated position with a decaying velocity, so that the same law
+    /// brings all joints to rest together. Then the return onto the trajectory.
     #[cold]
     #[inline(never)]
     fn recovery_reference<T: Reference<R, V>>(&mut self, trajectory: &T, full: bool) {
@@ -62,8 +62,8 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
         };
     }
 
-    /// Slows the arm down where it is. The clock stops when that begins; the return starts anew in
-    /// each of these ticks.
+    /// Decelerates the arm at its present position. The clock stops when the deceleration begins, and the return is
+    /// initialised again in each of these ticks.
     fn stop_reference(&mut self) -> State<R, V, V> {
         if self.resume.active() {
             self.clock = self.resume.cancel();

@@ -6,7 +6,7 @@ use super::super::{Mode, Reference};
 use super::{MeasurementAge, MotionController};
 use crate::scalar::Real;
 
-/// Why a stopped arm does not start again. Joints count from 0.
+/// The reason why a stopped arm is not restarted. Joints are numbered from 0.
 ///
 /// ```
 /// use dynamics_core::control::ResetError;
@@ -20,7 +20,7 @@ pub enum ResetError {
     NotStopped,
     /// There was no measurement in the last tick.
     NoMeasurement,
-    /// A joint is further than the restart distance from where its trajectory waits.
+    /// A joint is further than the restart distance from the point at which its trajectory continues.
     TooFar {
         /// The joint.
         joint: usize,
@@ -42,12 +42,12 @@ impl fmt::Display for ResetError {
 impl core::error::Error for ResetError {}
 
 impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
-    /// Starts a stopped arm again: clears the fault, and leads the arm back onto its trajectory.
+    /// Restarts a stopped arm: clears the fault and leads the arm back onto its trajectory.
     ///
-    /// The brake holds until the torque of rest is there, a few ticks.
+    /// The brake holds until the torque that keeps the arm at rest is reached, a few ticks later.
     ///
     /// # Errors
-    /// [`ResetError`]: nothing has changed then.
+    /// [`ResetError`]; the controller is then unchanged.
     pub fn reset<T: Reference<R, V>>(&mut self, trajectory: &T) -> Result<(), ResetError> {
         if !matches!(self.supervisor.mode(), Mode::Stopped) {
             return Err(ResetError::NotStopped);

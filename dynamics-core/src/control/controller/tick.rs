@@ -1,18 +1,18 @@
-//! The steps of a tick: each can be called once only, and only in its order.
+//! The steps of a tick: each can be called only once, and only in this order.
 
 use super::super::{Command, Estimate, Fault, Mode, Reference};
 use super::{MeasurementAge, MotionController, PreviousTick};
 use crate::scalar::Real;
 use crate::state::State;
 
-/// A tick of a [`MotionController`] whose measurement has been judged: [`Self::reference`] comes next.
+/// A tick of a [`MotionController`] after the check of its measurement; [`Self::reference`] is the next step.
 #[must_use = "a tick without a command leaves the drives the torques of an older one"]
 #[derive(Debug)]
 pub struct ObservedTick<'a, R, const V: usize, A = PreviousTick> {
     controller: &'a mut MotionController<R, V, A>,
 }
 
-/// A tick of a [`MotionController`] that waits for the law's torques: [`Self::command`] ends it.
+/// A tick of a [`MotionController`] that needs the torques of the law; [`Self::command`] ends it.
 ///
 /// ```
 /// use dynamics_core::control::{Command, Fault, MotionController, Reference};
@@ -84,19 +84,19 @@ impl<'a, R: Real, const V: usize, A: MeasurementAge> ObservedTick<'a, R, V, A> {
         Self { controller }
     }
 
-    /// Where the joints are and how fast, as the observer has it.
+    /// The estimated positions and velocities of the joints.
     #[inline(always)]
     pub fn estimate(&self) -> &Estimate<R, V> {
         self.controller.estimate()
     }
 
-    /// What the arm does in this tick.
+    /// The mode of the arm in this tick.
     #[inline(always)]
     pub fn mode(&self) -> Mode {
         self.controller.mode()
     }
 
-    /// Goes on with what the joints are to follow in this tick: the trajectory, or what a fault puts in its place.
+    /// The second step: computes the reference of this tick, which is the trajectory or, on a fault, what replaces it.
     #[inline(always)]
     pub fn reference<T: Reference<R, V>>(self, trajectory: &T) -> ReferencedTick<'a, R, V, A> {
         self.controller.next_reference(trajectory);
@@ -107,34 +107,34 @@ impl<'a, R: Real, const V: usize, A: MeasurementAge> ObservedTick<'a, R, V, A> {
 }
 
 impl<R: Real, const V: usize, A: MeasurementAge> ReferencedTick<'_, R, V, A> {
-    /// What the joints are to follow in this tick.
+    /// The reference of the joints in this tick.
     #[inline(always)]
     pub fn reference(&self) -> &State<R, V, V> {
         &self.controller.reference
     }
 
-    /// Where the joints are and how fast, as the observer has it.
+    /// The estimated positions and velocities of the joints.
     #[inline(always)]
     pub fn estimate(&self) -> &Estimate<R, V> {
         self.controller.estimate()
     }
 
-    /// What the arm does in this tick.
+    /// The mode of the arm in this tick.
     #[inline(always)]
     pub fn mode(&self) -> Mode {
         self.controller.mode()
     }
 
-    /// The trajectory's tick; it stands still while the arm is held or returns.
+    /// The tick of the trajectory; it does not advance while the arm is held or returns.
     #[inline(always)]
     pub fn trajectory_tick(&self) -> u32 {
         self.controller.clock
     }
 
-    /// The same for a law whose feed-forward has no inertia in it (gravity compensation, or no feed-forward at all).
+    /// The same tick for a law without inertia in its feed-forward (gravity compensation, or no feed-forward at all).
     ///
-    /// Such a law cannot bring the deceleration of a held arm about. The reference of a held arm then has a velocity of
-    /// zero, and K_d slows the joints down.
+    /// Such a law cannot produce the deceleration of a held arm. The reference of a held arm then has zero velocity,
+    /// and K_d decelerates the joints.
     #[inline(always)]
     pub fn without_inertia(self) -> Self {
         if !matches!(self.mode(), Mode::Full) {
@@ -151,7 +151,7 @@ impl<R: Real, const V: usize, A: MeasurementAge> ReferencedTick<'_, R, V, A> {
         self.controller.stop(fault);
     }
 
-    /// Ends the tick: what goes to the drives, of the torques that the law wants (N·m, N).
+    /// Ends the tick: limits the torques of the law (N·m, N) and returns the command to the drives.
     ///
     /// A torque that is not finite is a fault, see [`Supervisor::tick`](super::super::Supervisor::tick).
     #[inline(always)]

@@ -3,7 +3,7 @@
 use super::super::{ConfigError, ConfigParameter, SafetyLimits};
 use crate::scalar::Real;
 
-/// What a [`Supervisor`](super::Supervisor) has to know of the arm and of the loop.
+/// The parameters of a [`Supervisor`](super::Supervisor): those of the arm and of the loop.
 ///
 /// ```
 /// use dynamics_core::control::{SafetyLimits, SupervisorConfig};
@@ -26,21 +26,22 @@ pub struct SupervisorConfig<R, const V: usize> {
     pub tick: R,
     /// Step of the encoders, rad or m, by which a slow joint may seem to exceed its greatest speed; zero for none.
     pub resolution: R,
-    /// Ticks with a fault for which the arm stays in [`Mode::Full`](super::Mode::Full): an observer can stand in for the
-    /// measurements, the last torque for a torque that is not finite. Too high a speed is not ridden through.
+    /// Ticks with a fault for which the arm stays in [`Mode::Full`](super::Mode::Full): the prediction of an observer
+    /// replaces the measurements, and the last torque replaces a torque that is not finite. Excessive speed has no
+    /// ride-through.
     pub ride_through_ticks: u32,
     /// Ticks with a fault after those for which the arm is held, before it is stopped.
     pub hold_ticks: u32,
-    /// Ticks in a row without a fault after which the faults before them no longer count, and ticks of the return to
+    /// Consecutive ticks without a fault after which earlier faults are no longer counted, and ticks of the return to
     /// the trajectory.
     pub reentry_ticks: u32,
 }
 
 impl<R: Real, const V: usize> SupervisorConfig<R, V> {
-    /// Checks that every number lies in its range and that every limit allows something.
+    /// Checks that every number is within its range and that every limit allows some motion or torque.
     ///
     /// # Errors
-    /// [`ConfigError`]: its source names the joint, if a limit is wrong.
+    /// [`ConfigError`]; if a limit is wrong, its source names the joint.
     pub fn check(&self) -> Result<(), ConfigError> {
         ConfigParameter::Tick.positive(self.tick)?;
         let step = self.resolution;

@@ -1,12 +1,12 @@
-//! The two halves of a tick: what is accepted of the measurements, and what passes of the torques.
+//! The two halves of a tick: the check of the measurements, and the limits of the torques.
 
 use super::super::{Command, Fault, Mode};
 use super::Supervisor;
 use crate::scalar::Real;
 
 impl<R: Real, const V: usize> Supervisor<R, V> {
-    /// Starts a tick with the positions measured in it, or why there are none, and returns what the arm does in it.
-    /// [`Self::gate`] has to follow.
+    /// Starts a tick with its measured positions, or with the fault that prevented them, and returns the mode of the
+    /// arm. [`Self::gate`] must follow.
     #[inline]
     pub(in crate::control) fn accept_measurement(
         &mut self,
@@ -43,7 +43,7 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         self.mode
     }
 
-    /// Ends a tick: the torques that may go to the drives, of those that the law wants.
+    /// Ends a tick: the torques of the law, limited to those that may go to the drives.
     #[inline]
     pub(in crate::control) fn gate(&mut self, tau: &[R; V]) -> Command<R, V> {
         let mut off = R::ZERO;
@@ -52,7 +52,8 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         let limits = self.torque_limit.iter().zip(&self.rate_limit);
         for ((out, (&tau, &last)), (&most, &rate)) in torque.iter_mut().zip(wanted).zip(limits) {
             let next = tau.clamped(-most, most).clamped(last - rate, last + rate);
-            // Zero within the limits; not finite if a torque is not, and otherwise no sum of so many.
+            // Zero if no torque was limited, and not finite if a torque is not; the factor keeps the sum of finite
+            // terms from overflowing.
             off += (next - tau).abs() * R::from_f64(1.0 / 64.0);
             *out = next;
         }

@@ -4,8 +4,8 @@ use super::{FAR, Mode, Supervisor, real};
 use crate::scalar::Real;
 
 impl<R: Real, const V: usize> Supervisor<R, V> {
-    /// How far the arm is on its return to the full law in this tick, 0 to 1: for the reference to
-    /// follow (see [`super::super::ResumeTrajectory`]). Zero while the arm is held and while the brake waits.
+    /// The progress of the return to the full law in this tick, 0 to 1, for the reference (see
+    /// [`super::super::ResumeTrajectory`]). It is zero while the arm is held and before the brake opens.
     ///
     /// ```
     /// # use dynamics_core::control::{Fault, SafetyLimits, Supervisor, SupervisorConfig};
@@ -32,10 +32,10 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         }
     }
 
-    /// Starts again, from zero torque on the brake: clears a latched fault and accepts the next
-    /// positions within their limits as they are.
+    /// Restarts the arm from zero torque on the brake: clears a latched fault and accepts the next positions that are
+    /// within their limits.
     ///
-    /// The brake opens when the torque of the law is there; then [`Self::authority`] rises.
+    /// The brake opens when the torque of the law is reached; then [`Self::authority`] rises.
     ///
     /// ```
     /// # use dynamics_core::control::{Fault, Mode, SafetyLimits, Supervisor, SupervisorConfig};

@@ -12,19 +12,20 @@ pub struct SupervisorTick<'a, R, const V: usize> {
 impl<R: Real, const V: usize> Supervisor<R, V> {
     /// Runs one tick: judges the measured positions, has the law compute torques, and limits these.
     ///
-    /// `measured`: the positions of this tick (rad, m), or why there are none. `law` is called once, in every mode, and
-    /// returns the torques (N·m, N) that it wants; [`SupervisorTick`] tells it in which mode the arm is.
+    /// `measured`: the positions of this tick (rad, m), or the fault that prevented them. `law` is called once, in
+    /// every mode, and returns torques (N·m, N); its argument [`SupervisorTick`] has the mode of the arm.
     ///
     /// Accepted are positions that are finite, within their limits (and within 10⁴ rad or m, beyond which f32 has no
-    /// accurate sine) and plausible: within twice the greatest speed times the ticks since the last good ones.
-    /// Without any good position yet there is nothing to hold: a fault stops the arm at once.
+    /// accurate sine) and plausible: within twice the greatest speed times the ticks since the last good ones. Before
+    /// the first accepted position there is no position to hold: a fault stops the arm at once.
     ///
     /// Torques and their rates of change are limited. A torque that is not finite is a fault: the last torques stand for
     /// all of its tick, and the next tick is a hold unless the fault is ridden through; in a hold, for which there is
     /// then no torque, it stops the arm. After a reset the brake opens when no limit keeps the torque from being there.
     ///
     /// # Cost
-    /// 10 flops and 7 comparisons a joint beside the law's; the same instructions whatever the data, except on a fault.
+    /// 10 flops and 7 comparisons per joint in addition to the law, with the same instructions for all data, except on
+    /// a fault.
     ///
     /// # Misuse
     /// A law without a torque does not compile:
@@ -57,7 +58,7 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
 }
 
 impl<R: Real, const V: usize> SupervisorTick<'_, R, V> {
-    /// What the arm does in this tick.
+    /// The mode of the arm in this tick.
     #[inline(always)]
     pub fn mode(&self) -> Mode {
         self.supervisor.mode()
@@ -75,15 +76,15 @@ impl<R: Real, const V: usize> SupervisorTick<'_, R, V> {
         self.supervisor.last_good()
     }
 
-    /// How far the arm is on its return to the full law, 0 to 1, as [`Supervisor::authority`].
+    /// The progress of the return to the full law, 0 to 1, as [`Supervisor::authority`].
     #[inline(always)]
     pub fn authority(&self) -> R {
         self.supervisor.authority()
     }
 
-    /// Compares the observer's velocities (rad/s, m/s) with their limits, and returns what the arm does in this tick.
+    /// Compares the observer's velocities (rad/s, m/s) with their limits, and returns the mode of the arm in this tick.
     ///
-    /// Too high a speed is a fault that is not ridden through.
+    /// Excessive speed is a fault without ride-through.
     ///
     /// ```
     /// # use dynamics_core::control::{SafetyLimits, Mode, Supervisor, SupervisorConfig};

@@ -1,4 +1,4 @@
-//! The steps of a tick: how it begins and ends, what is plausible, what a fault leads to.
+//! The steps of a tick: its begin and end, the check of plausibility, and the transitions on faults.
 
 use super::{Command, Fault, Mode, Status, Supervisor};
 use crate::scalar::Real;
@@ -51,7 +51,7 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         self.ramp.saturating_add(1).min(self.reentry_ticks)
     }
 
-    /// The tick before got no torque: a fault of this one, whatever that one had.
+    /// The previous tick ended without a torque: a fault of this tick, even if the previous one had another fault.
     #[cold]
     fn unfinished(&mut self) {
         self.faulted = false;
@@ -80,7 +80,7 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         )
     }
 
-    /// What is wrong with positions that are not plausible, the worst first.
+    /// The fault of positions that are not plausible; the most severe one if there are several.
     #[cold]
     pub(super) fn diagnose(&self, q: &[R; V]) -> Fault {
         if let Some(joint) = q.iter().position(|q| !q.is_finite()) {

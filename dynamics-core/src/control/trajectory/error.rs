@@ -2,8 +2,8 @@
 
 use core::fmt;
 
-/// Why way-points make no trajectory. Points and joints count from 0; of a segment, the point that
-/// ends it is named.
+/// The reason why way-points define no trajectory. Points and joints are numbered from 0; a segment has the number of
+/// the point that ends it.
 ///
 /// ```
 /// use dynamics_core::control::TrajectoryError;
@@ -26,19 +26,19 @@ pub enum TrajectoryError {
         /// The joint.
         joint: usize,
     },
-    /// The first or the last way-point does not stop.
+    /// The velocity at the first or the last way-point is not zero.
     NotAtRest {
         /// The way-point.
         point: usize,
         /// The joint.
         joint: usize,
     },
-    /// No ticks to get there (for the first point: not 0), or more than a `u32` in total.
+    /// The number of ticks to the point is zero (for the first point: not zero), or the total exceeds a `u32`.
     Ticks {
         /// The way-point.
         point: usize,
     },
-    /// The joint must move faster than it may.
+    /// The speed that the joint needs exceeds its limit.
     Velocity {
         /// The way-point.
         point: usize,
@@ -49,7 +49,7 @@ pub enum TrajectoryError {
         /// The limit.
         allowed: f64,
     },
-    /// The joint must accelerate more than it may.
+    /// The acceleration that the joint needs exceeds its limit.
     Acceleration {
         /// The way-point.
         point: usize,

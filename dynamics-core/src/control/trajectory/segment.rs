@@ -16,7 +16,7 @@ pub(super) struct Segment<R, const V: usize> {
     pub(super) joints: [[R; 4]; V],
 }
 
-/// What the joints share at one moment: the factors of D, v₀ and v₁ in q, q̇ and q̈.
+/// The factors of D, v₀ and v₁ in q, q̇ and q̈ at one time, which are those of all joints.
 pub(super) struct Weights<R> {
     q: [R; 3],
     qd: [R; 3],
@@ -24,7 +24,7 @@ pub(super) struct Weights<R> {
 }
 
 impl<R: Real, const V: usize> Segment<R, V> {
-    /// Rest at q, which takes no time: every weight but those of zeros vanishes.
+    /// Rest at q, of zero duration: only the weights of zeros differ from zero.
     pub(super) fn rest(q: [R; V]) -> Self {
         Self {
             start: 0,
@@ -93,7 +93,7 @@ impl<R: Real, const V: usize> Segment<R, V> {
         state
     }
 
-    /// Holds the peaks of speed and acceleration against the limits; `point` ends the segment.
+    /// Compares the peaks of speed and acceleration with the limits; `point` ends the segment.
     pub(super) fn check(
         &self,
         point: usize,

@@ -1,4 +1,4 @@
-//! Joint trajectories from stop to stop with four derivatives: what inverse dynamics of compliant joints needs.
+//! Joint trajectories from stop to stop with four derivatives, for the inverse dynamics of compliant joints.
 //!
 //! The polynomial of degree nine whose first four derivatives vanish at both ends; with s = t/T, D the step,
 //! u = s (1 − s) and w = 1 − 2 s,
@@ -25,7 +25,7 @@ const ACCELERATION: f64 = 2520.0 * 27.0 / 2744.0 * 0.377_964_473_009_227_2;
 /// The motion of V joints from stop to stop, W of them, smooth to the fourth derivative.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RestToRest<R, const V: usize, const W: usize> {
-    /// The last one is the rest at the end.
+    /// The segments; the last one is the rest at the end.
     segments: [Segment<R, V>; W],
     ticks: u32,
 }
@@ -34,7 +34,7 @@ impl<R: Real, const V: usize, const W: usize> RestToRest<R, V, W> {
     /// The motion that stops in each of `points`, with ticks of `tick` seconds.
     ///
     /// # Errors
-    /// As [`Trajectory::new`](super::Trajectory::new); no way-point may pass at speed.
+    /// As [`Trajectory::new`](super::Trajectory::new); the velocity at every way-point must be zero.
     ///
     /// ```
     /// use dynamics_core::control::{RestToRest, MotionLimits, TrajectoryError, WayPoint};
@@ -55,9 +55,9 @@ impl<R: Real, const V: usize, const W: usize> RestToRest<R, V, W> {
         Ok(Self { segments, ticks })
     }
 
-    /// Position and four derivatives at a tick since the start; at rest at the last stop from the end on.
+    /// Position and four derivatives at a tick counted from the start; after the end, at rest at the last stop.
     ///
-    /// Cost: about 40 flops for the segment and 9 a joint, no division.
+    /// Cost: about 40 flops for the segment and 9 per joint, no division.
     ///
     /// ```
     /// use dynamics_core::control::{RestToRest, MotionLimits, WayPoint};
@@ -115,7 +115,7 @@ impl<R: Real, const V: usize, const W: usize> Reference<R, V> for RestToRest<R, 
     }
 }
 
-/// What D is multiplied with in q and its derivatives.
+/// The factors of D in q and its derivatives.
 fn weights<R: Real, const V: usize>(segment: &Segment<R, V>, tick: u32) -> [R; 5] {
     let number = R::from_f64;
     let s = real::<R>(tick.wrapping_sub(segment.start)) * segment.per_tick;
@@ -133,7 +133,7 @@ fn weights<R: Real, const V: usize>(segment: &Segment<R, V>, tick: u32) -> [R; 5
     ]
 }
 
-/// Holds the peaks of speed and acceleration against the limits; `point` ends the segment.
+/// Compares the peaks of speed and acceleration with the limits; `point` ends the segment.
 fn check<R: Real, const V: usize>(
     point: usize,
     segment: &Segment<R, V>,

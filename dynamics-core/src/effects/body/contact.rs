@@ -1,9 +1,9 @@
 //! Compliant contact of points with a plane: a spring and damper without adhesion, and friction within a cone.
 //!
-//! At depth p below the plane, with v_n the speed out of it and v_t that along it:
-//! f_n = max(0, k p − b c v_n), f_t = −μ f_n v_t / √(v_t² + w²), c growing from 0 to 1 with the depth. The
-//! friction never leaves its cone, |f_t| ≤ μ f_n, and creeps below the speed w instead of sticking. Hunt &
-//! Crossley (1975); Haessig & Friedland, "On the modeling and simulation of friction" (1991).
+//! At the depth p below the plane, with the velocity v_n out of the plane and v_t along it: f_n = max(0, k p − b c
+//! v_n), f_t = −μ f_n v_t / √(v_t² + w²), c growing from 0 to 1 with the depth. The friction never leaves its cone,
+//! |f_t| ≤ μ f_n, and creeps below the speed w instead of sticking. Hunt & Crossley (1975); Haessig & Friedland, "On
+//! the modeling and simulation of friction" (1991).
 
 use super::wrench::absent;
 use crate::effects::{BodyState, Effect, Width, hook, smooth_sign};
@@ -21,14 +21,13 @@ pub struct ContactPoint<R: Real> {
     pub point: R::Vec3,
 }
 
-/// Contact of P points with a plane of the base: all is free above it.
+/// Contact of P points with a plane of the base; the space above the plane is free.
 ///
-/// The plane is fixed to the base and moves with it: on a [`MovingBase`](crate::effects::MovingBase) speeds are those relative to the
-/// deck. A foot on a body that the robot does not have makes every torque NaN.
+/// The plane is fixed to the base and moves with it: on a [`MovingBase`](crate::effects::MovingBase) speeds are those
+/// relative to the deck. A point on a body that the robot does not have makes every torque NaN.
 ///
-/// Explicit: a step of h seconds is stable while k < M/h² and b < M/h, M the effective mass at a point. Cost:
-/// pose and velocity of the bodies, and some 110 flops a point, the same instructions on the ground and
-/// in the air.
+/// Explicit: a step of h seconds is stable while k < M/h² and b < M/h, M the effective mass at a point. Cost: pose and
+/// velocity of the bodies, and some 110 flops per point, with the same instructions on the ground and in the air.
 ///
 /// ```
 /// use dynamics_core::effects::{Contact, ContactPoint, Width};
@@ -59,7 +58,7 @@ pub struct Contact<R: Real, const P: usize> {
     pub stiffness: R,
     /// Damping b along the normal, N·s/m.
     pub damping: R,
-    /// The depth at which the damping is all there, m.
+    /// The depth from which on the damping has its full value, m.
     pub damping_depth: Width<R>,
     /// Coefficient of friction μ.
     pub friction: R,

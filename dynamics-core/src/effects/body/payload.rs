@@ -9,9 +9,8 @@ use core::fmt;
 /// A rigid payload fixed to the body of the number BODY in the description: its inertia about the origin of that body's
 /// frame.
 ///
-/// It acts through whatever else the scene names: its weight
-/// with `Gravity`, its M q̈ with `Inertia`. Payloads of several bodies stand side by side in a scene, and those of
-/// one body add up.
+/// It acts through the other effects of the scene: its weight with `Gravity`, its M q̈ with `Inertia`. A scene may
+/// contain payloads of several bodies; those of one body add up.
 ///
 /// ```
 /// use dynamics_core::effects::{Gravity, Payload};
@@ -28,7 +27,7 @@ use core::fmt;
 /// # Ok::<(), dynamics_core::effects::InvalidPayload>(())
 /// ```
 ///
-/// A payload of a body that there is not does not compile:
+/// A payload of a body that the robot does not have does not compile:
 ///
 /// ```compile_fail,E0080
 /// use dynamics_core::effects::{Payload, RIGID_BODY};
@@ -48,8 +47,9 @@ impl<R: Real, const BODY: usize> Payload<R, BODY> {
         Self(inertia.about_origin())
     }
 
-    /// Of mass, centre of mass and inertia in the body's frame, if a body could have them: no negative mass, principal
-    /// moments that are not negative and obey the triangle inequality within `relative` of the largest (f32 rounds to 1e-6).
+    /// The payload of this mass, centre of mass and inertia in the body's frame, if they are physical: no negative
+    /// mass, and principal moments that are not negative and obey the triangle inequality within `relative` of the
+    /// largest (f32 rounds to 1e-6).
     ///
     /// Not for the tick: it computes principal moments in f64.
     ///
@@ -71,7 +71,7 @@ impl<R: Real, const BODY: usize> Payload<R, BODY> {
     /// ```
     ///
     /// # Errors
-    /// [`InvalidPayload`] names the body and what no body has, with its amount.
+    /// [`InvalidPayload`] names the body and what is not physical, with its amount.
     pub fn try_new(inertia: BodyInertia<R>, relative: f64) -> Result<Self, InvalidPayload> {
         match inertia.problem(relative) {
             None => Ok(Self::from_inertia(inertia)),
@@ -83,14 +83,14 @@ impl<R: Real, const BODY: usize> Payload<R, BODY> {
     }
 }
 
-/// A payload with a mass or an inertia that no body has.
+/// A payload with a mass or an inertia that is not physical.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub struct InvalidPayload {
-    /// The number of the body that was to carry it.
+    /// The number of the body to which it was to be attached.
     pub body: usize,
-    /// What no body has: [`Problem::NotFinite`], [`Problem::Mass`], [`Problem::Massless`] or [`Problem::Triangle`].
+    /// What is not physical: [`Problem::NotFinite`], [`Problem::Mass`], [`Problem::Massless`] or [`Problem::Triangle`].
     pub problem: Problem,
 }
 

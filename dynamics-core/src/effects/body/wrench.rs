@@ -1,4 +1,4 @@
-//! A wrench from outside on one body: f + fˣ = I a + v ×* I v. Featherstone & Orin (2000), (5).
+//! An external wrench on one body: f + fˣ = I a + v ×* I v. Featherstone & Orin (2000), (5).
 
 use crate::effects::{Effect, hook};
 use crate::scalar::{Real, Vector};
@@ -14,7 +14,7 @@ pub(super) fn absent<R: Real>() -> Force<R> {
 
 /// A wrench on `body`, about the origin of the body's frame and in its coordinates, N·m and N.
 ///
-/// It turns with the body: a thruster, a screwdriver. Cost: 6 flops.
+/// It rotates with the body: a thruster, a screwdriver. Cost: 6 flops.
 ///
 /// ```
 /// use dynamics_core::effects::BodyWrench;
@@ -30,7 +30,7 @@ pub(super) fn absent<R: Real>() -> Force<R> {
 pub struct BodyWrench<R: Real> {
     /// The body's place in the model's list; that of a body which the robot does not have makes every torque NaN.
     pub body: usize,
-    /// What the environment exerts on it.
+    /// The wrench of the environment on it.
     pub wrench: Force<R>,
 }
 
@@ -68,7 +68,7 @@ impl<R: Real> BodyWrench<R> {
 pub struct WorldWrench<R: Real> {
     /// The body's place in the model's list; that of a body which the robot does not have makes every torque NaN.
     pub body: usize,
-    /// What the environment exerts on it, in base axes.
+    /// The wrench of the environment on it, along the axes of the base.
     pub wrench: Force<R>,
 }
 

@@ -1,4 +1,4 @@
-//! LuGre friction: bristles that bend before they slide.
+//! LuGre friction: bristles that deflect before they slide.
 //!
 //! ż = q̇ − σ₀ |q̇| z / g(q̇), τ = σ₀ z + σ₁ ż + σ₂ q̇, g(q̇) = F_c + (F_s − F_c) e^{−(q̇/v_s)²}: Canudas de
 //! Wit, Olsson, Åström & Lischinsky, "A new model for control of systems with friction" (1995),
@@ -8,12 +8,12 @@ use crate::effects::{Effect, JointState, TorqueDerivatives, Width};
 use crate::scalar::Real;
 use crate::state::entry;
 
-/// LuGre friction of each joint, with the bend of its bristles.
+/// LuGre friction of each joint, with the deflection of its bristles.
 ///
-/// Memory: `bristle`, V numbers, advanced by the plant (implicitly: z₊ = (z + h q̇)/(1 + h σ₀ |q̇| / g), so
-/// that no step makes it unstable). It gives back no more than the σ₀ z²/2 that its bristles store while
-/// σ₁ ≤ 4 g / |q̇|: mind fast joints. Near √(σ₀ M) σ₁ keeps the inertia M from swinging on the bristles.
-/// Cost: an exponential, a division and some 20 flops a joint.
+/// Memory: `bristle`, V numbers, advanced by the plant (implicitly: z₊ = (z + h q̇)/(1 + h σ₀ |q̇| / g), so that no
+/// step makes it unstable). The model is passive (it returns no more than the σ₀ z²/2 that its bristles store) while σ₁
+/// ≤ 4 g / |q̇|, which may be violated by fast joints. With σ₁ near √(σ₀ M) the inertia M does not oscillate on the
+/// bristles. Cost: an exponential, a division and some 20 flops per joint.
 ///
 /// ```
 /// use dynamics_core::effects::{Effect, JointState, Lugre, Width};
@@ -47,12 +47,12 @@ pub struct Lugre<R, const V: usize> {
     pub excess: [R; V],
     /// Stribeck's speed v_s, rad/s or m/s.
     pub stribeck_speed: Width<R>,
-    /// Bend z of the bristles, rad or m; zero when relaxed.
+    /// Deflection z of the bristles, rad or m; zero when relaxed.
     pub bristle: [R; V],
 }
 
 impl<R: Real, const V: usize> Lugre<R, V> {
-    /// σ₀ / g(q̇): the reciprocal of the bend at which bristles slide.
+    /// σ₀ / g(q̇): the reciprocal of the deflection at which bristles slide.
     #[inline(always)]
     fn per_bend(&self, joint: usize, qd: R) -> R {
         let (at, u) = (

@@ -1,7 +1,7 @@
 //! Stribeck's effect: friction that falls from stiction to sliding, τ = (F_s − F_c) e^{−(q̇/v_s)²} s(q̇/w).
 //!
-//! Bo & Pavelescu (1982); Armstrong-Hélouvry (1991), chapter 2. It stands beside
-//! [`Coulomb`](crate::effects::Coulomb), which has F_c, and takes the same smooth sign s.
+//! Bo & Pavelescu (1982); Armstrong-Hélouvry (1991), chapter 2. It is used together with
+//! [`Coulomb`](crate::effects::Coulomb), which has F_c, and has the same smooth sign s.
 
 use crate::effects::{
     Effect, JointState, TorqueDerivatives, Width, smooth_sign, smooth_sign_slope,
@@ -9,10 +9,10 @@ use crate::effects::{
 use crate::scalar::Real;
 use crate::state::entry;
 
-/// What each joint's friction has at rest above its sliding friction.
+/// The friction of each joint at rest in excess of its sliding friction.
 ///
-/// Cost: an exponential, 20 flops, and 12 more a joint. Where it falls with speed it drives stick-slip; a
-/// step treats implicitly only where it rises.
+/// Cost: an exponential, 20 flops, and 12 more per joint. Where it decreases with speed it causes stick-slip; a step is
+/// implicit only where it increases.
 ///
 /// ```
 /// use dynamics_core::effects::{Effect, JointState, Stribeck, Width};
@@ -28,7 +28,7 @@ use crate::state::entry;
 pub struct Stribeck<R, const V: usize> {
     /// Stiction less sliding friction F_s − F_c of each joint, N·m or N.
     pub excess: [R; V],
-    /// The speed v_s at which 1/e of it is left, rad/s or m/s.
+    /// The speed v_s at which it has decreased to 1/e, rad/s or m/s.
     pub stribeck_speed: Width<R>,
     /// The speed w below which friction fades, rad/s or m/s; well below v_s.
     pub width: Width<R>,

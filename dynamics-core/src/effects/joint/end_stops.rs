@@ -11,11 +11,10 @@ use crate::state::entry;
 
 /// End stops of each joint at the ends of its travel.
 ///
-/// The motor supplies the torque that holds against them. Stiff: let the plant treat them implicitly
-/// ([`crate::sim::linearly_implicit`]); in the step in which a joint leaves a stop, that step's line may
-/// then hold it back. Such steps take k alone for
-/// ∂τ/∂q: b c′(p) q̇, by which the damping grows with the depth, is left out, since it is negative while a joint leaves.
-/// Cost: 30 flops a joint, no comparison.
+/// The motor supplies the torque against them. End stops are stiff: integrate the plant implicitly
+/// ([`crate::sim::linearly_implicit`]). In the step in which a joint leaves a stop, the linearisation may then retard
+/// it. In such steps ∂τ/∂q is k alone: the term b c′(p) q̇, by which the damping grows with the depth, is omitted,
+/// since it is negative while a joint leaves. Cost: 30 flops per joint, no comparison.
 ///
 /// ```
 /// use dynamics_core::effects::{EndStops, Width};
@@ -38,11 +37,11 @@ pub struct EndStops<R, const V: usize> {
     pub stiffness: R,
     /// Damping b of a stop, N·m·s/rad or N·s/m.
     pub damping: R,
-    /// The depth at which the damping is all there, rad or m.
+    /// The depth from which on the damping has its full value, rad or m.
     pub damping_depth: Width<R>,
 }
 
-/// One stop: what it pushes back with, and how that grows with depth and its rate.
+/// The torque of one stop, and its derivatives with respect to depth and rate.
 struct Push<R> {
     force: R,
     derivatives: TorqueDerivatives<R>,

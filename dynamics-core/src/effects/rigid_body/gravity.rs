@@ -21,7 +21,7 @@ impl Direction for Down {
     const UNIT: [f64; 3] = [0.0, 0.0, -1.0];
 }
 
-/// Uniform gravity of a direction carried in its type; magnitude in m/s².
+/// Uniform gravity with its direction as a type; magnitude in m/s².
 ///
 /// Its direction lets the engine drop the products with its zero components, and the sine and
 /// cosine of a first joint whose axis is parallel to it.

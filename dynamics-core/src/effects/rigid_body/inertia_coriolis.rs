@@ -13,7 +13,7 @@ pub struct Inertia;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Coriolis;
 
-/// A rigid body on earth: what most scenes begin with, so that nobody forgets M q̈.
+/// Rigid-body dynamics on earth: gravity, inertia and velocity products, with which most scenes begin.
 pub const RIGID_BODY: (Gravity, Inertia, Coriolis) = (Gravity::EARTH, Inertia, Coriolis);
 
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Inertia {

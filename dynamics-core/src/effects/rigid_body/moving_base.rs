@@ -1,4 +1,4 @@
-//! A base that moves by itself: a ship, a vehicle, a lift.
+//! A base with a given motion: a ship, a vehicle, a lift.
 //!
 //! v₀ and a₀ of RBDA (2008), section 5.3, are then not zero.
 
@@ -6,7 +6,7 @@ use crate::effects::{Effect, hook};
 use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::Motion;
 
-/// The motion that the base is made to follow, about its origin and in its coordinates.
+/// The given motion of the base, about its origin and in its coordinates.
 ///
 /// The acceleration is the spatial one: its linear part is that of the origin less ω × v
 /// ([`MovingBase::of_point`] takes what an accelerometer's frame gives). Gravity is not part of it, and

@@ -1,0 +1,257 @@
+//! Links and names in the documents refer to something that exists: files, headings, items that `cargo doc` writes.
+
+use std::collections::BTreeSet;
+use std::fs::read_to_string;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::sync::LazyLock;
+
+/// Items of other crates, and parameters.
+const OTHERS: [&str; 6] = [
+    "BODY",
+    "Deserialize",
+    "Format",
+    "InterruptExecutor",
+    "R",
+    "Serialize",
+];
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+fn files(folder: &Path, extension: &str) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    for entry in folder.read_dir().expect("a folder") {
+        let path = entry.expect("an entry").path();
+        let is_hidden = path
+            .file_name()
+            .is_some_and(|name| name.as_encoded_bytes()[0] == b'.');
+        if path.is_dir() && !is_hidden && !path.ends_with("target") {
+            found.append(&mut files(&path, extension));
+        } else if path.extension().is_some_and(|found| found == extension) {
+            found.push(path);
+        }
+    }
+    found
+}
+
+/// A page without its blocks of code.
+fn prose(page: &str) -> String {
+    let mut outside = true;
+    let lines = page.lines().filter(|line| {
+        let is_fence = line.trim_start().starts_with("```");
+        outside ^= is_fence;
+        outside && !is_fence
+    });
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+/// What stands between each occurrence of `begin` and the next `end`.
+fn between<'a>(text: &'a str, begin: &'a str, end: char) -> impl Iterator<Item = &'a str> {
+    text.split(begin)
+        .skip(1)
+        .filter_map(move |rest| Some(rest.split_once(end)?.0))
+}
+
+/// The anchor of a heading.
+fn slug(heading: &str) -> String {
+    let kept = |c: char| c.is_alphanumeric() || "-_ ".contains(c);
+    let text = heading.trim_start_matches('#').trim().to_lowercase();
+    text.chars()
+        .filter(|&c| kept(c))
+        .collect::<String>()
+        .replace(' ', "-")
+}
+
+/// Whether the target of a link in `page` exists.
+fn leads_somewhere(page: &Path, link: &str) -> bool {
+    if link.contains("://") || link.starts_with("mailto:") {
+        return true;
+    }
+    let (path, anchor) = link.split_once('#').unwrap_or((link, ""));
+    if let Some((_, item)) = path.split_once("dynamics_core/") {
+        let id = format!("id=\"{anchor}\"");
+        let page = DOCUMENTED
+            .pages
+            .contains(item)
+            .then(|| read_to_string(reference().join(item)));
+        return page.is_some_and(|page| anchor.is_empty() || page.expect("a page").contains(&id));
+    }
+    let target = match path {
+        "" => page.to_owned(),
+        path => page.with_file_name(path),
+    };
+    let has_heading = || {
+        let text = prose(&read_to_string(&target).expect("text"));
+        text.lines()
+            .any(|line| line.starts_with('#') && slug(line) == anchor)
+    };
+    target.exists() && (anchor.is_empty() || has_heading())
+}
+
+/// Where `cargo doc` writes the library's documentation.
+fn reference() -> PathBuf {
+    Path::new(env!("CARGO_TARGET_TMPDIR")).with_file_name("doc/dynamics_core")
+}
+
+/// What `cargo doc` wrote: its pages, and the names of items, `Type::member` and variants.
+struct Documented {
+    pages: BTreeSet<String>,
+    names: BTreeSet<String>,
+}
+
+static DOCUMENTED: LazyLock<Documented> = LazyLock::new(|| {
+    let target = Path::new(env!("CARGO_TARGET_TMPDIR"))
+        .parent()
+        .expect("the target's directory");
+    let mut cargo = Command::new(env!("CARGO"));
+    cargo.args([
+        "doc",
+        "--quiet",
+        "--no-deps",
+        "--package",
+        "dynamics-core",
+        "--target-dir",
+    ]);
+    assert!(cargo.arg(target).status().expect("cargo").success());
+    let all = read_to_string(reference().join("all.html")).expect("the list of all items");
+    let (mut pages, mut names) = (BTreeSet::new(), BTreeSet::new());
+    for page in between(&all, "href=\"", '"') {
+        let file: Vec<&str> = page
+            .rsplit('/')
+            .next()
+            .expect("a name")
+            .split('.')
+            .collect();
+        let &[_, item, "html"] = file.as_slice() else {
+            continue;
+        };
+        pages.insert(page.to_owned());
+        names.insert(item.to_owned());
+        let text = read_to_string(reference().join(page)).expect("the page of an item");
+        for id in between(&text, "id=\"", '"') {
+            if let Some((kind, member)) = id.split_once('.') {
+                names.insert(format!("{item}::{member}"));
+                names.extend((kind == "variant").then(|| member.to_owned()));
+            }
+        }
+    }
+    assert!(names.contains("Engine") && names.contains("Gravity::EARTH"));
+    Documented { pages, names }
+});
+
+/// The items that a piece of code in a sentence names: types, constants and their members.
+fn items(code: &str) -> Vec<&str> {
+    let is_command =
+        code.starts_with(|c: char| c.is_lowercase() || c == '-') && code.contains([' ', '=']);
+    let parts = code.split(|c: char| !(c.is_alphanumeric() || "_:".contains(c)));
+    parts
+        .filter(|_| !is_command)
+        .filter_map(|path| path.find(|c: char| c.is_uppercase()).map(|at| (path, at)))
+        .filter(|&(path, at)| at == 0 || path[..at].ends_with("::"))
+        .map(|(path, at)| path[at..].trim_end_matches(':'))
+        .filter(|item| !OTHERS.contains(item))
+        .collect()
+}
+
+/// The files and items in the sentences of a page that do not exist.
+fn unknown<'a>(prose: &'a str, sources: &[PathBuf]) -> Vec<&'a str> {
+    let code = prose.split('`').skip(1).step_by(2);
+    let is_unknown = |name: &&str| match name.ends_with(".rs") {
+        true => !sources.iter().any(|source| source.ends_with(name)),
+        false => !DOCUMENTED.names.contains(*name),
+    };
+    let names = code.flat_map(|code| match code.ends_with(".rs") {
+        true => vec![code],
+        false => items(code),
+    });
+    names.filter(is_unknown).collect()
+}
+
+#[test]
+fn every_link_leads_to_a_file_a_heading_or_an_item() {
+    let mut count = 0;
+    for page in files(&root(), "md") {
+        let text = prose(&read_to_string(&page).expect("a page"));
+        for link in between(&text, "](", ')') {
+            assert!(leads_somewhere(&page, link), "{}: {link}", page.display());
+            count += 1;
+        }
+    }
+    assert!(count > 50, "{count} links");
+    let page = root().join("docs/guide/src/tuning.md");
+    assert!(leads_somewhere(&page, "effects.md#signs"));
+    assert!(leads_somewhere(
+        &page,
+        "doc/dynamics_core/struct.Engine.html#method.rnea"
+    ));
+    for dead in [
+        "effect.md",
+        "effects.md#sings",
+        "doc/dynamics_core/struct.Motor.html",
+        "doc/dynamics_core/struct.Engine.html#method.id",
+    ] {
+        assert!(!leads_somewhere(&page, dead), "{dead}");
+    }
+}
+
+#[test]
+fn every_file_and_item_that_the_guide_names_exists() {
+    let sources = files(&root(), "rs");
+    for page in files(&root().join("docs/guide/src"), "md") {
+        let text = prose(&read_to_string(&page).expect("a page"));
+        let unknown = unknown(&text, &sources);
+        assert!(unknown.is_empty(), "{}: {unknown:?}", page.display());
+    }
+    let wrong = "`Gravity::VENUS` and `algorithms::Lost<R>` in `lost.rs`, `Gains` in `rnea.rs`, `cargo -E x`";
+    assert_eq!(
+        unknown(wrong, &sources),
+        ["Gravity::VENUS", "Lost", "lost.rs"]
+    );
+}
+
+#[test]
+fn every_page_of_the_guide_is_in_its_list_and_its_code_is_compiled() {
+    let pages = root().join("docs/guide");
+    let list = read_to_string(pages.join("src/SUMMARY.md")).expect("the list");
+    let compiled = read_to_string(pages.join("lib.rs")).expect("the library");
+    for page in files(&pages.join("src"), "md") {
+        let name = page
+            .file_name()
+            .and_then(|name| name.to_str())
+            .expect("a name");
+        assert!(
+            name == "SUMMARY.md" || list.contains(&format!("({name})")),
+            "{name}"
+        );
+        let has_code = read_to_string(&page).expect("a page").contains("```rust\n");
+        assert!(
+            !has_code || compiled.contains(&format!("\"{name}\"")),
+            "{name}"
+        );
+    }
+}
+
+/// The equations of a page of `cargo doc` in which Markdown has replaced characters by elements.
+fn broken_equations(page: &str) -> Vec<&str> {
+    let equations = page.split("$$").skip(1).step_by(2);
+    equations
+        .filter(|equation| equation.contains('<'))
+        .collect()
+}
+
+#[test]
+fn equations_reach_the_documentation_as_they_are_written() {
+    let mut count = 0;
+    for page in &DOCUMENTED.pages {
+        let text = read_to_string(reference().join(page)).expect("a page");
+        assert_eq!(broken_equations(&text), [""; 0], "{page}");
+        count += text.matches("$$").count() / 2;
+    }
+    assert!(count > 20, "{count} equations");
+    assert_eq!(
+        broken_equations("$$ a_i $$ b $$ <em>i</em> $$"),
+        [" <em>i</em> "]
+    );
+}

@@ -89,9 +89,10 @@ pub struct MotionController<R, const V: usize, A = PreviousTick> {
 }
 
 impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
-    /// A controller at the start of the trajectory, for an arm that holds its position.
+    /// A controller at the start of the trajectory, for an arm that holds its position there.
     ///
-    /// The first tick should follow within one tick, or the arm must stand still until then.
+    /// The first tick should follow within one tick, or the arm must stand still until then. For an arm on its brake, or
+    /// at a position that is not known yet, use [`Self::on_brake`].
     ///
     /// # Errors
     /// [`ConfigError`], as [`MotionControllerConfig::check`].
@@ -114,6 +115,40 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
             dead_reckoning: false,
             age: PhantomData,
         }
+    }
+
+    /// The same controller for an arm that is on its brake when the firmware starts.
+    ///
+    /// It is stopped without a fault: its commands have zero torque and the brake set until [`Self::reset`], which
+    /// compares the measured position with the first point of the trajectory.
+    ///
+    /// ```
+    /// use dynamics_core::control::{Mode, MotionController, MotionControllerConfig, ResetError};
+    /// # use dynamics_core::control::{SafetyLimits, SupervisorConfig, MotionLimits, Trajectory, WayPoint};
+    /// # let config = MotionControllerConfig {
+    /// #     supervisor: SupervisorConfig {
+    /// #         limits: SafetyLimits { torque: [10.0], rate: [10.0], speed: [3.0], lower: [-1.0], upper: [1.0] },
+    /// #         tick: 1e-3, resolution: 0.0, ride_through_ticks: 2, hold_ticks: 3, reentry_ticks: 10,
+    /// #     },
+    /// #     observer_bandwidth: 250.0, decay_rate: 25.0, restart_distance: 0.1,
+    /// # };
+    /// # let point = |q, ticks| WayPoint { q: [q], qd: [0.0], ticks };
+    /// # let limits = [MotionLimits { velocity: 3.0, acceleration: 10.0 }];
+    /// # let trajectory = Trajectory::new(&[point(0.0, 0), point(0.5, 1000)], 1e-3, &limits)?;
+    /// let mut controller = MotionController::<f32, 1>::try_new(config)?.on_brake();
+    /// assert_eq!(controller.reset(&trajectory), Err(ResetError::NoMeasurement));
+    /// let command = controller.tick(Ok(&[0.4]), &trajectory, |_, _| [1.0]);
+    /// assert_eq!((command.torque, command.brake), ([0.0], true));
+    /// // The trajectory starts at zero: the arm has to be moved there first, or a trajectory has to start where it is.
+    /// assert_eq!(controller.reset(&trajectory), Err(ResetError::TooFar { joint: 0 }));
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    #[doc(alias = "power-up")]
+    #[doc(alias = "start-up")]
+    #[must_use]
+    pub fn on_brake(mut self) -> Self {
+        self.supervisor = self.supervisor.on_brake();
+        self
     }
 
     /// Runs one tick: from the measured positions (rad, m), or the fault that prevented them, to the command to the

@@ -116,7 +116,7 @@ pub struct Supervisor<R, const V: usize> {
 
 impl<R: Real, const V: usize> Supervisor<R, V> {
     /// A supervisor of an arm that holds its position, at full authority from the first tick; the torque rises from
-    /// zero at the allowed rate. For an arm on its brake, call [`Self::reset`] first.
+    /// zero at the allowed rate. For an arm on its brake, use [`Self::on_brake`].
     ///
     /// A fault that lasts longer than `ride_through_ticks` and `hold_ticks` together, or recurs as often without
     /// `reentry_ticks` good ticks in between, stops the arm.
@@ -198,6 +198,20 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
             braked: false,
             unusable,
         }
+    }
+
+    /// The same supervisor for an arm that is on its brake: stopped without a fault until [`Self::reset`].
+    #[must_use]
+    pub fn on_brake(mut self) -> Self {
+        self.mode = Mode::Stopped;
+        self.ramp = 0;
+        self
+    }
+
+    /// Whether any positions were accepted since the start or the last reset.
+    #[inline(always)]
+    pub(super) fn knows_positions(&self) -> bool {
+        self.known
     }
 
     /// Reports ticks that have passed without a call, as counted by a timer: the joints may have moved.

@@ -1,4 +1,4 @@
-//! The restart of an arm that a fault has stopped.
+//! The start of an arm that is stopped, at power-up or after a fault.
 
 use core::fmt;
 
@@ -42,7 +42,7 @@ impl fmt::Display for ResetError {
 impl core::error::Error for ResetError {}
 
 impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
-    /// Restarts a stopped arm: clears the fault and leads the arm back onto its trajectory.
+    /// Starts a stopped arm, at power-up or after a fault: clears the fault and leads the arm onto its trajectory.
     ///
     /// The brake holds until the torque that keeps the arm at rest is reached, a few ticks later.
     ///
@@ -52,7 +52,7 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
         if !matches!(self.supervisor.mode(), Mode::Stopped) {
             return Err(ResetError::NotStopped);
         }
-        if self.dead_reckoning {
+        if self.dead_reckoning | !self.supervisor.knows_positions() {
             return Err(ResetError::NoMeasurement);
         }
         let goal = trajectory.at(self.clock).q;

@@ -218,3 +218,37 @@ fn numbers_outside_their_range_are_refused_by_name() {
         Some("joint 0: its limit of torque is negative")
     );
 }
+
+#[test]
+fn an_arm_on_its_brake_starts_by_a_reset_near_its_trajectory_and_no_other_way() {
+    let mut controller = controller::<PreviousTick>().on_brake();
+    assert_eq!(controller.reset(&Cruise), Err(ResetError::NoMeasurement));
+    for q in [[0.2], [0.2]] {
+        let command = controller.tick(Ok(&q), &Cruise, |_, _| [1.0]);
+        assert_eq!((command.torque, command.brake), ([0.0], true));
+        assert_eq!(
+            (command.status.mode, command.status.fault),
+            (Mode::Stopped, None)
+        );
+    }
+    let far = ResetError::TooFar { joint: 0 };
+    assert_eq!(controller.reset(&Cruise), Err(far));
+
+    let mut config = CONFIG;
+    config.supervisor.reentry_ticks = 200;
+    let controller = MotionController::<f64, 1>::try_new(config);
+    let mut controller = controller.expect("every number is in its range").on_brake();
+    controller.tick(Ok(&[0.05]), &Cruise, |_, _| [1.0]);
+    assert_eq!(controller.reset(&Cruise), Ok(()));
+    let (mut brakes, mut q) = (0, [0.05]);
+    for _ in 0..2000 {
+        let command = controller.tick(Ok(&q), &Cruise, |_, _| [1.0]);
+        q = controller.reference().q;
+        assert_eq!(command.status.fault, None);
+        brakes += u32::from(command.brake);
+    }
+    assert!(brakes < 5, "{brakes}");
+    let reference = controller.reference().q[0];
+    let on = Cruise.at(controller.clock - 1).q[0];
+    assert!((reference - on).abs() < 1e-9, "{reference} {on}");
+}

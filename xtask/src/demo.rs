@@ -229,12 +229,7 @@ fn record(
     let name = scene.name();
     let spinner = Spinner::start(&format!("running scene {name} in QEMU"));
     let mut recording = Recording::default();
-    let run = Run {
-        name,
-        elf,
-        meter,
-        logs: true,
-    };
+    let run = Run::logging(name, elf, meter);
     let raw = tools.qemu.run(&run, |line| {
         if !recording.line(line)? {
             spinner.line(&format!("[{name}] {line}"));

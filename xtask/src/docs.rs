@@ -5,7 +5,8 @@ mod columns;
 mod tests;
 
 use std::process::Command;
-use std::time::{SystemTime, UNIX_EPOCH};
+
+use time::OffsetDateTime;
 
 use crate::error::{Result, check};
 use crate::output;
@@ -89,8 +90,7 @@ impl Page {
 
 /// Today and the commit that is checked out, for figures that no step measures anew.
 pub fn today_and_commit(workspace: &Workspace) -> String {
-    let seconds = SystemTime::now().duration_since(UNIX_EPOCH);
-    let today = date(seconds.map_or(0, |since| since.as_secs() / 86_400));
+    let today = OffsetDateTime::now_utc().date();
     let mut git = Command::new("git");
     git.current_dir(&workspace.root);
     match shell::capture(git.args(["describe", "--always", "--dirty"])) {
@@ -98,19 +98,6 @@ pub fn today_and_commit(workspace: &Workspace) -> String {
         // An archive of the sources is no repository.
         Err(_) => format!("{today} at an unknown commit"),
     }
-}
-
-/// The day so many days after 1970-01-01, by the Gregorian calendar.
-fn date(days: u64) -> String {
-    // Years begin in March, so that a leap day is the last of its year: 400 of them have 146,097 days.
-    let shifted = days + 719_468;
-    let (era, day) = (shifted / 146_097, shifted % 146_097);
-    let year = (day - day / 1_460 + day / 36_524 - day / 146_096) / 365;
-    let day = day - (365 * year + year / 4 - year / 100);
-    let march = (5 * day + 2) / 153;
-    let (day, month) = (day - (153 * march + 2) / 5 + 1, (march + 2) % 12 + 1);
-    let year = 400 * era + year + u64::from(month < 3);
-    format!("{year:04}-{month:02}-{day:02}")
 }
 
 /// Prints measurements as JSON.

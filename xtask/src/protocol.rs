@@ -49,6 +49,13 @@ pub struct Trajectory {
     pub tick_at: u64,
 }
 
+impl Trajectory {
+    /// The largest error of any joint, rad.
+    pub fn largest(&self) -> f64 {
+        largest(self.max.iter().copied())
+    }
+}
+
 /// An effect that the scene names.
 #[derive(Clone, Debug)]
 pub struct Named {

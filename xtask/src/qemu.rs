@@ -64,12 +64,11 @@ pub struct Run<'a> {
 impl<'a> Run<'a> {
     /// A firmware that logs, and is measured if there is a meter.
     pub fn logging(name: &'a str, elf: &'a Path, meter: Option<(&'a Path, &'a Path)>) -> Self {
-        let logs = true;
         Self {
             name,
             elf,
             meter,
-            logs,
+            logs: true,
         }
     }
 }
@@ -196,6 +195,16 @@ impl Qemu {
             decoder: table.map(|table| Box::new(Defmt(table.new_stream_decoder())) as _),
         };
         watch.run(&mut self.command(MACHINE, run)?, &mut on_line)
+    }
+
+    /// As [`Qemu::run`]; returns the lines.
+    pub fn lines(&self, run: &Run<'_>) -> Result<Vec<String>> {
+        let mut lines = Vec::new();
+        let keep = |line: &str| {
+            lines.push(line.to_owned());
+            Ok(())
+        };
+        self.run(run, keep).map(|_| lines)
     }
 
     /// The command line of a run.

@@ -6,7 +6,6 @@ use cycle_meter::Sample;
 use indexmap::IndexMap;
 use serde::{Deserialize, Serialize};
 
-use crate::bars::largest;
 use crate::costs::code_bytes;
 use crate::elf::Image;
 use crate::error::{Result, check};
@@ -178,7 +177,7 @@ fn errors(run: &Trajectory, cost: &Cost) -> Errors {
     let joints = std::iter::zip(&run.rms, &run.max);
     Errors {
         rms_rad: run.total,
-        max_rad: largest(run.max.iter().copied()),
+        max_rad: run.largest(),
         per_joint: joints
             .map(|(&rms_rad, &max_rad)| JointError { rms_rad, max_rad })
             .collect(),

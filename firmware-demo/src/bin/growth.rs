@@ -54,45 +54,27 @@ const fn rods<const N: usize>() -> [Body; N] {
 type Known<const N: usize> = &'static ArmModel<f32, N>;
 type Solution<const N: usize> = Result<[f32; N], NotPositiveDefinite>;
 
-#[inline(never)]
-fn rnea<const N: usize>(
-    model: Known<N>,
-    trig: &JointTrig<f32, N>,
-    state: &State<f32, N, N>,
-) -> [f32; N] {
-    algorithms::rnea(model, trig.with(state), &RIGID_BODY)
+/// Functions that are called as they are measured: their arguments behind the model, and what they do.
+macro_rules! functions {
+    ($($name:ident($model:ident $(, $argument:ident: $type:ty)+) -> $result:ty = $call:expr;)+) => {$(
+        #[inline(never)]
+        fn $name<const N: usize>($model: Known<N> $(, $argument: $type)+) -> $result {
+            $call
+        }
+    )+};
 }
 
-#[inline(never)]
-fn crba<const N: usize>(model: Known<N>, trig: &JointTrig<f32, N>) -> MassMatrix<f32, N> {
-    algorithms::crba(model, trig, &RIGID_BODY)
-}
-
-#[inline(never)]
-fn factor_solve<const N: usize>(
-    model: Known<N>,
-    m: &MassMatrix<f32, N>,
-    tau: &[f32; N],
-) -> Solution<N> {
-    Ok(solve(model, &ltdl(model, m)?, tau))
-}
-
-#[inline(never)]
-fn forward<const N: usize>(
-    model: Known<N>,
-    trig: &JointTrig<f32, N>,
-    state: &State<f32, N, N>,
-) -> Solution<N> {
-    algorithms::forward_dynamics(model, trig.with(state), &state.qdd, &RIGID_BODY)
-}
-
-#[inline(never)]
-fn aba<const N: usize>(
-    model: Known<N>,
-    trig: &JointTrig<f32, N>,
-    state: &State<f32, N, N>,
-) -> Solution<N> {
-    algorithms::aba(model, trig.with(state), &state.qdd, &RIGID_BODY)
+functions! {
+    rnea(model, trig: &JointTrig<f32, N>, state: &State<f32, N, N>) -> [f32; N]
+        = algorithms::rnea(model, trig.with(state), &RIGID_BODY);
+    crba(model, trig: &JointTrig<f32, N>) -> MassMatrix<f32, N>
+        = algorithms::crba(model, trig, &RIGID_BODY);
+    factor_solve(model, m: &MassMatrix<f32, N>, tau: &[f32; N]) -> Solution<N>
+        = Ok(solve(model, &ltdl(model, m)?, tau));
+    forward(model, trig: &JointTrig<f32, N>, state: &State<f32, N, N>) -> Solution<N>
+        = algorithms::forward_dynamics(model, trig.with(state), &state.qdd, &RIGID_BODY);
+    aba(model, trig: &JointTrig<f32, N>, state: &State<f32, N, N>) -> Solution<N>
+        = algorithms::aba(model, trig.with(state), &state.qdd, &RIGID_BODY);
 }
 
 /// Measures every algorithm on a chain of N.
@@ -111,43 +93,27 @@ fn chain<const N: usize>() {
         (JointTrig::new(model, &q), state)
     });
     let asks: &[_; STATES] = &asks;
-    row("rnea").measure(
-        rnea::<N> as fn(_, &_, &_) -> _ as usize,
-        asks,
-        |(trig, state)| rnea(model, trig, state),
-    );
-    row("crba").measure(crba::<N> as fn(_, &_) -> _ as usize, asks, |(trig, _)| {
-        crba(model, trig)
-    });
+    macro_rules! measure {
+        ($name:ident on $inputs:expr, ($($input:tt)*) => $($argument:expr),+) => {
+            let run: fn(Known<N>, $(measure!(any $argument)),+) -> _ = $name::<N>;
+            row(stringify!($name)).measure(run as usize, $inputs, |$($input)*| $name(model, $($argument),+));
+        };
+        (any $argument:expr) => { &_ };
+    }
+    measure!(rnea on asks, ((trig, state)) => trig, state);
+    measure!(crba on asks, ((trig, _)) => trig);
     let m = [crba(model, &asks[0].0)];
-    row("factor_solve").measure(factor_solve::<N> as fn(_, &_, &_) -> _ as usize, &m, |m| {
-        factor_solve(model, m, &[1.0; N])
-    });
-    row("forward").measure(
-        forward::<N> as fn(_, &_, &_) -> _ as usize,
-        asks,
-        |(trig, state)| forward(model, trig, state),
-    );
-    row("aba").measure(
-        aba::<N> as fn(_, &_, &_) -> _ as usize,
-        asks,
-        |(trig, state)| aba(model, trig, state),
-    );
+    measure!(factor_solve on &m, (m) => m, &[1.0; N]);
+    measure!(forward on asks, ((trig, state)) => trig, state);
+    measure!(aba on asks, ((trig, state)) => trig, state);
 }
 
 #[entry]
 fn main() -> ! {
-    chain::<2>();
-    chain::<4>();
-    chain::<6>();
-    chain::<8>();
-    chain::<9>();
-    chain::<12>();
-    chain::<16>();
-    chain::<24>();
-    chain::<32>();
-    chain::<48>();
-    chain::<64>();
+    macro_rules! chains {
+        ($($n:literal)*) => { $(chain::<$n>();)* };
+    }
+    chains!(2 4 6 8 9 12 16 24 32 48 64);
     defmt::println!("done");
     target::leave(debug::EXIT_SUCCESS)
 }

@@ -167,17 +167,9 @@ fn watch(
     elf: &Path,
 ) -> Result<(Vec<String>, Vec<Sample>)> {
     let regions = elf.with_extension("regions");
-    let run = Run {
-        name,
-        elf,
-        meter: Some((meter, &regions)),
-        logs: true,
-    };
-    let mut lines = Vec::new();
-    tools.qemu.run(&run, |line| {
-        lines.push(line.to_owned());
-        Ok(())
-    })?;
+    let lines = tools
+        .qemu
+        .lines(&Run::logging(name, elf, Some((meter, &regions))))?;
     Ok((lines, meter::read(&regions)?))
 }
 

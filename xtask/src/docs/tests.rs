@@ -309,19 +309,3 @@ fn a_readme_without_markers_is_an_error() {
             .is_ok_and(|parts| parts == ("a", "b", "c"))
     );
 }
-
-#[test]
-fn days_are_those_of_the_calendar() {
-    for (days, date) in [
-        (0, "1970-01-01"),
-        (11_016, "2000-02-29"),
-        (11_017, "2000-03-01"),
-        (19_723, "2024-01-01"),
-        (20_088, "2024-12-31"),
-        (20_777, "2026-11-20"),
-        (47_540, "2100-02-28"),
-        (47_541, "2100-03-01"),
-    ] {
-        assert_eq!(super::date(days), date);
-    }
-}

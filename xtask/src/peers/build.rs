@@ -12,23 +12,17 @@ use crate::shell;
 use crate::workspace::{self, Workspace};
 
 /// What Pinocchio needs of Boost: its joints are more types than Boost expects by default.
-const BOOST: [&str; 4] = [
-    "-DBOOST_MPL_LIMIT_LIST_SIZE=30",
-    "-DBOOST_MPL_LIMIT_VECTOR_SIZE=30",
-    "-DBOOST_FUSION_INVOKE_MAX_ARITY=12",
-    "-DBOOST_MPL_CFG_NO_PREPROCESSED_HEADERS",
-];
+const BOOST: &str = "-DBOOST_MPL_LIMIT_LIST_SIZE=30 -DBOOST_MPL_LIMIT_VECTOR_SIZE=30 \
+    -DBOOST_FUSION_INVOKE_MAX_ARITY=12 -DBOOST_MPL_CFG_NO_PREPROCESSED_HEADERS";
 
 /// How a library for this machine is made, C or C++: as fast as the compiler can without
 /// changing results, and with no name to be mistaken for another compiler's.
-const HOST: [&str; 6] = [
-    "-O3",
-    "-march=native",
-    "-DNDEBUG",
-    "-fPIC",
-    "-shared",
-    "-fvisibility=hidden",
-];
+const HOST: &str = "-O3 -march=native -DNDEBUG -fPIC -shared -fvisibility=hidden";
+
+/// Arguments that have no spaces.
+pub fn words(line: &str) -> Vec<&str> {
+    line.split_whitespace().collect()
+}
 
 /// The directories and what is made in them.
 pub struct Workshop<'a> {
@@ -123,7 +117,7 @@ impl<'a> Workshop<'a> {
     pub fn pinocchio(&self, compiler: &str) -> Result<PathBuf> {
         let _spinner = Spinner::start(&format!("building Pinocchio by {compiler}"));
         let name = format!("pinocchio_{compiler}.so");
-        self.cpp(&name, compiler, &HOST, "pinocchio_peer.cpp")
+        self.cpp(&name, compiler, &words(HOST), "pinocchio_peer.cpp")
     }
 
     /// MuJoCo behind our interface.
@@ -147,7 +141,7 @@ impl<'a> Workshop<'a> {
         self.make(
             "mujoco.so",
             "gcc",
-            &[&HOST, &[&include, &theirs, &path]],
+            &[&words(HOST), &[&include, &theirs, &path]],
             &[&source],
         )
     }
@@ -169,7 +163,7 @@ impl<'a> Workshop<'a> {
         self.make(
             &output,
             compiler,
-            &[&HOST, &defined, &["-lm"]],
+            &[&words(HOST), &defined, &["-lm"]],
             &[&source, &code],
         )
     }
@@ -180,7 +174,7 @@ impl<'a> Workshop<'a> {
         let dirs = dirs.each_ref().map(String::as_str);
         let sources = [source, "robot.hpp"].map(|name| self.sources.join(name));
         // Warnings are of others' headers.
-        let all: [&[&str]; 4] = [&["-std=c++17", "-w"], &BOOST, &dirs, args];
+        let all: [&[&str]; 4] = [&["-std=c++17", "-w"], &words(BOOST), &dirs, args];
         self.make(
             name,
             compiler,

@@ -6,7 +6,7 @@ use std::process::Command;
 use crate::costs;
 use crate::error::{Result, bail};
 use crate::peers::ALGORITHMS;
-use crate::peers::build::Workshop;
+use crate::peers::build::{Workshop, words};
 use crate::peers::report::{M4F, Row};
 use crate::peers::robots::Robot;
 use crate::progress::Spinner;
@@ -24,51 +24,21 @@ fn bound(algorithm: &str) -> f64 {
     if algorithm == "aba" { 1e-3 } else { 1e-5 }
 }
 
-/// A way to compile the C: what it is called at the end of its symbols, in the report, the compiler and its flags.
-type Build = (
-    &'static str,
-    &'static str,
-    &'static str,
-    &'static [&'static str],
-);
-
-const BUILDS: [Build; 3] = [
-    (
-        "gcc",
-        "casadi gcc",
-        "arm-none-eabi-gcc",
-        &["-mcpu=cortex-m4"],
-    ),
-    (
+/// Ways to compile the C: what each is called at the end of its symbols, in the report, the compiler and its flags; of
+/// clang those of `.cargo/config.toml` in its words.
+const BUILDS: [[&str; 4]; 3] = [
+    ["gcc", "casadi gcc", "arm-none-eabi-gcc", "-mcpu=cortex-m4"],
+    [
         "off",
         "casadi gcc -ffp-contract=off",
         "arm-none-eabi-gcc",
-        &["-mcpu=cortex-m4", "-ffp-contract=off"],
-    ),
-    // The flags of `.cargo/config.toml`, in clang's words.
-    (
-        "clang",
-        "casadi clang",
-        "clang",
-        &[
-            "--target=thumbv7em-none-eabihf",
-            "-mcpu=cortex-m7",
-            "-ffp-contract=off",
-            "-Xclang",
-            "-target-feature",
-            "-Xclang",
-            "+slowfpvmlx",
-        ],
-    ),
+        "-mcpu=cortex-m4 -ffp-contract=off",
+    ],
+    ["clang", "casadi clang", "clang", CLANG],
 ];
-
-const COMMON: [&str; 5] = [
-    "-c",
-    "-O3",
-    "-mthumb",
-    "-mfpu=fpv4-sp-d16",
-    "-mfloat-abi=hard",
-];
+const CLANG: &str = "--target=thumbv7em-none-eabihf -mcpu=cortex-m7 -ffp-contract=off -Xclang -target-feature \
+    -Xclang +slowfpvmlx";
+const COMMON: &str = "-c -O3 -mthumb -mfpu=fpv4-sp-d16 -mfloat-abi=hard";
 
 /// Whether the compiler may know that inputs and output do not overlap, with what it adds to the
 /// symbols: the better of the two is the peer.
@@ -111,13 +81,13 @@ fn compile(shop: &Workshop<'_>, robots: &[Robot]) -> Result<(Vec<PathBuf>, PathB
             let builds = BUILDS
                 .iter()
                 .flat_map(|build| OVERLAP.map(|overlap| (build, overlap)));
-            for (&(build, _, compiler, flags), (keyword, mark)) in builds {
+            for (&[build, _, compiler, flags], (keyword, mark)) in builds {
                 let suffix = format!("{build}{mark}");
                 let symbol = format!("{name}_{suffix}");
                 spinner.say(format!("compiling {symbol}"));
                 let peer = format!("-DPEER(name)=name##_{suffix}");
                 let restrict = format!("-DRESTRICT={keyword}");
-                let args: [&[&str]; 3] = [flags, &COMMON, &[&peer, &restrict]];
+                let args: [&[&str]; 3] = [&words(flags), &words(COMMON), &[&peer, &restrict]];
                 objects.push(shop.make(&format!("{symbol}.o"), compiler, &args, &[&source])?);
                 externs += &format!("    fn {symbol}({inputs}_: *mut f32);\n");
                 table += &format!(
@@ -153,10 +123,10 @@ fn rows(measured: Vec<costs::Row>, lines: &[String]) -> Result<Vec<Row>> {
                 "{algorithm} of {robot} by {form} is off by {error:.1e} of full scale on the target"
             );
         }
-        let build = BUILDS.iter().find(|(name, ..)| *name == form);
+        let build = BUILDS.iter().find(|build| build[0] == form);
         let row = Row {
             target: M4F,
-            peer: build.map_or(form, |(_, peer, ..)| (*peer).to_owned()),
+            peer: build.map_or(form, |build| build[1].to_owned()),
             robot,
             algorithm,
             precision: "f32".into(),

@@ -108,7 +108,7 @@ fn added(context: &Context, full: &Row, friction: &Row) -> Result<String> {
 
 /// The bytes of a scene's effects, as it says itself.
 fn effects_bytes(context: &Context, name: &str, elf: &Path) -> Result<u64> {
-    let lines = context.lines(&Run::logging(name, elf, None))?;
+    let lines = context.tools.qemu.lines(&Run::logging(name, elf, None))?;
     let mut said = lines
         .iter()
         .filter_map(|line| line.strip_prefix("effects ")?.parse().ok());

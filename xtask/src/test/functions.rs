@@ -41,7 +41,7 @@ pub fn meter(context: &Context) -> Result<String> {
 pub fn bits(context: &Context) -> Result<String> {
     let name = "bits";
     let elf = context.built(name)?;
-    let mut on_target = context.lines(&Run::logging(name, &elf, None))?;
+    let mut on_target = context.tools.qemu.lines(&Run::logging(name, &elf, None))?;
     on_target.retain(|line| line.starts_with("bits "));
     let host = context.cargo(&["run --quiet --package host-reports --bin bits"])?;
     let on_host: Vec<&str> = host.lines().collect();

@@ -162,18 +162,7 @@ impl Context {
         let meter = Some((self.meter()?.as_path(), regions.as_path()));
         let mut run = Run::logging(name, &elf, meter);
         run.logs = logs;
-        Ok((self.lines(&run)?, meter::read(&regions)?))
-    }
-
-    /// The lines that a firmware logs.
-    fn lines(&self, run: &Run<'_>) -> Result<Vec<String>> {
-        let mut lines = Vec::new();
-        let keep = |line: &str| {
-            lines.push(line.to_owned());
-            Ok(())
-        };
-        self.tools.qemu.run(run, keep)?;
-        Ok(lines)
+        Ok((self.tools.qemu.lines(&run)?, meter::read(&regions)?))
     }
 }
 

@@ -1,8 +1,10 @@
 //! The steps about the library as a dependency: what cargo packages and vendors, its features and its examples.
 
 use std::ffi::OsString;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
+
+use tempfile::TempDir;
 
 use super::Context;
 use crate::error::{Error, Result, refuse_if};
@@ -23,8 +25,7 @@ pub fn package(context: &Context) -> Result<String> {
     let root = &context.workspace.root;
     copies_are_equal(root, &root.join(LIBRARY))?;
     context.cargo(&["package --package dynamics-core --allow-dirty"])?;
-    let folder = Folder::new("vendored")?;
-    vendored_builds(context, &folder.0)?;
+    vendored_builds(context, folder()?.path())?;
     Ok(String::new())
 }
 
@@ -138,22 +139,9 @@ pub fn deny(context: &Context) -> Result<String> {
     Ok(String::new())
 }
 
-/// A folder outside the workspace, whose configuration would otherwise apply; removed when dropped.
-struct Folder(PathBuf);
-
-impl Folder {
-    fn new(name: &str) -> Result<Self> {
-        let folder = std::env::temp_dir().join(format!("{LIBRARY}-{name}-{}", std::process::id()));
-        std::fs::create_dir_all(&folder).map_err(Error::file("create", &folder))?;
-        Ok(Self(folder))
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        // It is in the system's place for what may be removed at any time.
-        let _ = std::fs::remove_dir_all(&self.0);
-    }
+/// A folder outside the workspace, whose configuration would otherwise apply.
+fn folder() -> Result<TempDir> {
+    TempDir::new().map_err(Error::file("create", "a folder for what is temporary"))
 }
 
 fn create_parent(path: &Path) -> Result<()> {
@@ -163,21 +151,21 @@ fn create_parent(path: &Path) -> Result<()> {
 
 #[cfg(test)]
 mod tests {
-    use super::{COPIES, Folder, LIBRARY, copies_are_equal, create_parent};
+    use super::{COPIES, LIBRARY, copies_are_equal, create_parent, folder};
     use crate::workspace::write;
 
     #[test]
     fn a_licence_that_differs_from_its_copy_is_refused() {
-        let folder = Folder::new("copies").expect("a folder");
-        let library = folder.0.join(LIBRARY);
+        let folder = folder().expect("a folder");
+        let library = folder.path().join(LIBRARY);
         for name in COPIES {
             create_parent(&library.join(name)).expect("a folder");
-            write(&folder.0.join(name), "a licence").expect("written");
+            write(&folder.path().join(name), "a licence").expect("written");
             write(&library.join(name), "a licence").expect("written");
         }
-        copies_are_equal(&folder.0, &library).expect("equal");
+        copies_are_equal(folder.path(), &library).expect("equal");
         write(&library.join(COPIES[0]), "another licence").expect("written");
-        let error = copies_are_equal(&folder.0, &library).expect_err("not equal");
+        let error = copies_are_equal(folder.path(), &library).expect_err("not equal");
         assert!(error.to_string().contains(COPIES[0]), "{error}");
     }
 }

@@ -60,7 +60,7 @@ impl<T, K> Engine<T, K> {
     }
 }
 
-/// What all bodies share.
+/// The data that all bodies share.
 struct Task<'a, R, E, const Q: usize, const V: usize> {
     turns: &'a [JointCoordinate<R>; Q],
     effects: &'a E,

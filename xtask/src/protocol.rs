@@ -18,9 +18,9 @@ use crate::bars::largest;
 use crate::error::{Error, Result};
 use crate::qemu::DONE;
 
-/// The law to sell.
+/// The feed-forward law.
 pub const SOLD: &str = "feedforward";
-/// The law that it is held against.
+/// The law that it is compared with.
 pub const PD: &str = "pd";
 /// What the name of a law begins with that is [`SOLD`] less an effect.
 pub const WITHOUT: &str = "without-";

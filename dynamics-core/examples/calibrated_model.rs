@@ -1,4 +1,4 @@
-//! A calibrated model: masses and inertias that were identified, from flash, in place of those of the data sheet.
+//! A calibrated model: identified masses and inertias, from flash, in place of those of the data sheet.
 //!
 //! `cargo run -p dynamics-core --example calibrated_model`
 
@@ -10,12 +10,12 @@ use dynamics_core::{robots::Ur5e, state::State};
 
 const UPPER_ARM: usize = Ur5e::MODEL.body("upper_arm");
 
-/// The arm with what an identification has found, in the frames of the description (a URDF's); done once, at start.
+/// The arm with identified inertias, in the frames of the description (those of a URDF); built once, at start.
 ///
 /// The feature `serde` reads `BodyInertia` from flash.
 fn calibrated(upper_arm: BodyInertia<f32>) -> Result<Calibrated<Ur5e, f32, 6, 6, 6>, ModelError> {
     let mut arm = Calibrated::nominal();
-    // The triangle inequality of the moments of inertia may be missed by what f32 rounds.
+    // The moments of inertia may violate the triangle inequality by the rounding of f32.
     arm.set_inertia(UPPER_ARM, upper_arm, 1e-6)?;
     Ok(arm)
 }
@@ -39,7 +39,7 @@ fn main() -> Result<(), ModelError> {
         assert!(added > 0.0 || (tau[1] - plain[1]).abs() < 1e-4);
     }
 
-    // A number that no body has is refused, and says of which body.
+    // An inertia that is not physical is rejected, and the error names the body.
     let damaged = BodyInertia {
         mass: f32::NAN,
         ..described

@@ -1,4 +1,4 @@
-//! Gravity compensation: the torques that carry an arm's own weight, so that it floats under a hand that leads it.
+//! Gravity compensation: the torques that support an arm's own weight, so that it can be guided by hand.
 //!
 //! `cargo run -p dynamics-core --example gravity_compensation`
 
@@ -7,7 +7,7 @@ use dynamics_core::effects::Gravity;
 use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model, Robot};
 use dynamics_core::state::State;
 
-/// A shoulder and an elbow that turn about y; at q = 0 both links hang down.
+/// A shoulder and an elbow that rotate about y; at q = 0 both links hang down.
 struct TwoLinks;
 impl Robot<2, 2, 2> for TwoLinks {
     const MODEL: ArmModel<f64, 2> = Model::new(
@@ -25,7 +25,7 @@ impl Robot<2, 2, 2> for TwoLinks {
 }
 const _: ArmModel<f64, 2> = TwoLinks::MODEL; // `cargo check` now reports a description that is wrong
 
-/// What firmware computes every tick: the torques at the measured positions, N·m.
+/// The computation of each tick: the torques at the measured positions, N·m.
 fn compensation(q: [f32; 2]) -> [f32; 2] {
     // Gravity is the only effect, so that no other term is in the machine code.
     Engine::<TwoLinks>::rnea(&State::at(q), &Gravity::EARTH)

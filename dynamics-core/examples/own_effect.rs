@@ -1,4 +1,4 @@
-//! An effect of one's own: a gas spring at a shoulder, of which the library knows nothing.
+//! A user-defined effect: a gas spring at a shoulder, which the library does not contain.
 //!
 //! `cargo run -p dynamics-core --example own_effect`
 
@@ -18,7 +18,7 @@ struct GasSpring<R> {
 const SHOULDER: usize = 1;
 
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for GasSpring<R> {
-    /// What the motor has to supply: the spring takes its share off.
+    /// The torque that the motor must supply: the spring reduces it.
     #[inline(always)]
     fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R) {
         if joint == SHOULDER {
@@ -26,7 +26,7 @@ impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for GasSpring<R> {
         }
     }
 
-    /// ∂τ/∂q, for simulations and linearised torques; an effect in a controller does without.
+    /// ∂τ/∂q, for simulations and linearised torques; an effect in a controller does not need it.
     #[inline(always)]
     fn derivatives(&self, joint: usize, at: JointState<R>, derivatives: &mut TorqueDerivatives<R>) {
         if joint == SHOULDER {
@@ -53,7 +53,7 @@ fn main() {
         let lever = 0.05 * shoulder.cos();
         assert!((helped[SHOULDER] - bare[SHOULDER] - 900.0 * lever).abs() < 1e-3);
         assert_eq!(helped[0], bare[0]);
-        // The engine takes the same effect without another line.
+        // The engine accepts the same effect.
         let engine = Engine::<Ur5e>::rnea(&arm, &(RIGID_BODY, spring));
         assert!((engine[SHOULDER] - helped[SHOULDER]).abs() < 1e-3);
     }

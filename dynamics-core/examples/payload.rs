@@ -1,4 +1,4 @@
-//! A payload that is known only at run time: what a gripper holds, on the body that the type names.
+//! A payload that is known only at run time: the load of a gripper, on the body that the type names.
 //!
 //! `cargo run -p dynamics-core --example payload`
 
@@ -10,7 +10,7 @@ use dynamics_core::{Engine, robots::Ur5e, state::State};
 type OnWrist = Payload<f32, { Ur5e::MODEL.body("wrist_3") }>;
 
 fn main() -> Result<(), InvalidPayload> {
-    // Numbers that come from outside are checked: those that no body has give an error that names the body.
+    // Numbers from outside are checked: if they are not physical, the error names the body.
     let load = |mass| {
         let (com, inertia) = ([0.0, 0.0, 0.1], [0.0; 6]);
         OnWrist::try_new(BodyInertia { mass, com, inertia }, 1e-6)
@@ -19,7 +19,7 @@ fn main() -> Result<(), InvalidPayload> {
     assert_eq!(problem(-1.0), Err(Problem::Mass));
     assert_eq!(problem(f32::NAN), Err(Problem::NotFinite));
 
-    // The gripper is always there. The load adds to it, and with no mass it is no load.
+    // The gripper is always present, and the load is added to it; a load without mass has no effect.
     let gripper = OnWrist::from_inertia(BodyInertia {
         mass: 0.9,
         com: [0.0, 0.0, 0.06],

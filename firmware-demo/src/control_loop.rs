@@ -1,7 +1,7 @@
 //! The tick: read, reference, dynamics, safety, write.
 //!
 //! The loop owns its encoders, drives and brake through `embedded-hal` traits, and calls the library's
-//! [`MotionController`], which keeps all else from tick to tick and knows what to do on a fault.
+//! [`MotionController`], which contains the state of the loop and the reaction to faults.
 
 use dynamics_core::control::{
     Estimate, Fault, Gains, MotionController, ObservedTick, Reference, ReferencedTick, ResetError,
@@ -32,31 +32,31 @@ pub mod region {
     pub const WRITE: u8 = 5;
 }
 
-/// Where the torque that the feedback need not supply comes from; `X` is what it has to know beside the
-/// reference (what the hand holds, how the base moves).
+/// The feed-forward part of the control law; `X` is its input beside the reference (the payload, the motion of the
+/// base).
 pub trait Law<const V: usize, X = ()> {
-    /// Whether the feed-forward brings about the reference's acceleration. If so an arm that is held
-    /// is slowed down by it, coupling and all; if not, by the feedback's K_d alone.
+    /// Whether the feed-forward produces the acceleration of the reference. If so, it decelerates a held arm with all
+    /// coupling; if not, only K_d of the feedback does.
     const ACCELERATES: bool = true;
 
     /// The torque for the reference, N·m or N.
     fn feedforward(reference: &State<f32, V, V>, environment: &X) -> [f32; V];
 }
 
-/// What a tick did, for whoever logs it.
+/// The record of a tick, for logs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Telemetry<const V: usize> {
     /// Ticks since the trajectory's start, held during a fault.
     pub tick: u32,
-    /// Where the joints should be, rad or m.
+    /// The reference positions, rad or m.
     pub reference: [f32; V],
-    /// Where the observer has them, rad or m.
+    /// The estimated positions, rad or m.
     pub estimate: [f32; V],
     /// Torque commanded, N·m or N.
     pub torque: [f32; V],
-    /// What the supervisor says.
+    /// The status of the supervisor.
     pub status: Status,
-    /// What the first encoder that gave no angle said.
+    /// The error of the first encoder without an angle.
     pub frame: Option<FrameError>,
 }
 
@@ -78,8 +78,8 @@ where
     Pwm: SetDutyCycle,
     Brake: OutputPin,
 {
-    /// A loop at the start of its trajectory; starts the encoders. The first tick should follow
-    /// within a tick's time, or the arm stand still till then.
+    /// A loop at the start of its trajectory; starts the encoders. The first tick should follow within one tick, or the
+    /// arm must stand still until then.
     pub fn new(
         mut encoders: [Encoder<Spi>; V],
         drives: [Drive<Pwm>; V],
@@ -130,11 +130,11 @@ where
         })
     }
 
-    /// Starts a stopped arm again: clears the fault, and leads the arm back onto its trajectory. The
-    /// brake holds until the torque of rest is there, a few ticks.
+    /// Restarts a stopped arm: clears the fault and leads the arm back onto its trajectory. The brake holds until the
+    /// torque that keeps the arm at rest is reached, a few ticks later.
     ///
     /// # Errors
-    /// [`ResetError`]: nothing has changed then.
+    /// [`ResetError`]; the controller is then unchanged.
     pub fn reset<T: Reference<f32, V>>(&mut self, trajectory: &T) -> Result<(), ResetError> {
         self.controller.reset(trajectory)
     }
@@ -151,7 +151,7 @@ where
                 failed = failed.or(Some(Fault::Drive { joint }));
             }
         }
-        // A drive that may not obey: the brake at once, the other drives from the next tick on.
+        // A drive that may have failed: the brake at once, the other drives from the next tick on.
         let set = if brake | failed.is_some() {
             self.brake.set_high()
         } else {
@@ -184,7 +184,7 @@ fn read<'a, Spi: SpiDevice, const V: usize>(
     controller.observe(fault.map_or(Ok(&q), Err))
 }
 
-/// Where the joints should be.
+/// The reference of the joints.
 #[inline(never)]
 fn follow<'a, T: Reference<f32, V>, const V: usize>(
     tick: ObservedTick<'a, f32, V>,

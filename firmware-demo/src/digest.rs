@@ -1,6 +1,6 @@
 //! The same f32 states give the same bits on every machine: digests to compare them by.
 //!
-//! The states are those that the oracle recorded; core and engine are asked about each of them.
+//! The states are those that the oracle recorded; core and engine compute each of them.
 
 use dynamics_core::effects::{Coriolis, Gravity, RIGID_BODY, smooth_sign};
 use dynamics_core::model::Robot;

@@ -4,10 +4,10 @@ use core::fmt;
 
 use embedded_hal::pwm::{Error, ErrorKind, SetDutyCycle};
 
-/// A drive refused its set-point.
+/// A drive did not accept its set-point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DriveError {
-    /// What its PWM peripheral says.
+    /// The error of its PWM peripheral.
     pub kind: ErrorKind,
 }
 
@@ -29,23 +29,23 @@ pub struct Drive<Pwm> {
 impl<Pwm: SetDutyCycle> Drive<Pwm> {
     /// A drive that delivers `full_scale` N·m (or N) at a duty of 100 % and its opposite at 0 %.
     ///
-    /// The greatest duty is asked for once: a timer whose period changes needs a new drive.
+    /// The greatest duty is read once: a timer whose period changes needs a new drive.
     pub fn new(pwm: Pwm, full_scale: f32) -> Self {
         let scale = Scale::new(pwm.max_duty_cycle(), full_scale);
         Self { pwm, scale }
     }
 
-    /// The duty of a torque, limited to the full scale; what is not a number becomes zero torque.
+    /// The duty of a torque, limited to the full scale; NaN becomes zero torque.
     #[inline(always)]
     pub fn duty(&self, torque: f32) -> u16 {
         self.scale.duty(torque)
     }
 
-    /// Sets a duty of [`Self::duty`]. Two calls, so that the arithmetic of all joints need not wait
-    /// for each one's peripheral.
+    /// Sets a duty of [`Self::duty`]. The two calls are separate, so that the arithmetic of all joints does not wait
+    /// for the peripherals.
     ///
     /// # Errors
-    /// The PWM peripheral refused.
+    /// The PWM peripheral did not accept the duty.
     #[inline(always)]
     pub fn set(&mut self, duty: u16) -> Result<(), DriveError> {
         self.pwm
@@ -79,7 +79,7 @@ impl Scale {
         }
     }
 
-    /// The duty of a torque, to the nearest. Cost: the same instructions whatever the torque.
+    /// The duty of a torque, to the nearest. Cost: the same instructions for all torques.
     #[inline(always)]
     pub fn duty(&self, torque: f32) -> u16 {
         // 2³¹ of full scale; what is not a number converts to zero.

@@ -1,5 +1,5 @@
-//! Every effect once, with numbers of an arm of the UR5e's size, the scene's where it has them: what effects
-//! are priced by, on the target and on the host.
+//! Every effect once, with the parameters of an arm of the UR5e's size, those of the scene where it has them, to
+//! measure the cost of effects on the target and on the host.
 //!
 //! A scene is a rigid body on earth and one effect more; of a rigid body's own terms, the rigid body
 //! without it. Except for gravity all numbers are assumed, of the order that such arms have.
@@ -15,7 +15,7 @@ use glam::Vec3;
 
 use crate::scenes::ur5e;
 
-/// The scene that all others are held against.
+/// The scene that all others are compared with.
 pub const RIGID: &str = "rigid_body";
 /// What the name begins with of a scene that lacks the effect.
 pub const LESS: &str = "less_";

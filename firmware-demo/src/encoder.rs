@@ -3,10 +3,10 @@
 //! ams OSRAM, AS5047P data sheet (2016), figures 13 to 18: 16-bit frames, mode 1, bit 15 of each
 //! makes its parity even, bit 14 of a command reads, bit 14 of an answer reports an error.
 //!
-//! A frame answers the command of the frame before, with the angle latched when that one ended. One
-//! frame a tick is read, and the angle is one tick old: the observer knows it and goes on by one tick
-//! ([`dynamics_core::control::Observer::update_delayed`]), for nothing. A second frame for the angle of
-//! now would cost six transfers on the bus a tick, 10 µs and more at the 10 MHz that the part takes.
+//! A frame answers the command of the frame before, with the angle latched when that one ended. One frame a tick is
+//! read, and the angle is one tick old: the observer extrapolates by one tick
+//! ([`dynamics_core::control::Observer::update_delayed`]), which costs no transfers. A second frame for the present
+//! angle would cost six transfers per tick on the bus, 10 µs and more at the 10 MHz that the part supports.
 
 use core::f32::consts::TAU;
 use core::fmt;
@@ -28,7 +28,7 @@ const READ: u16 = 1 << 14;
 pub(crate) const ERROR: u16 = 1 << ERROR_BIT;
 const ERROR_BIT: u32 = 14;
 
-/// Why a frame holds no angle.
+/// The reason why a frame contains no angle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum FrameError {
@@ -36,7 +36,7 @@ pub enum FrameError {
     Bus(ErrorKind),
     /// The frame's parity is odd.
     Parity,
-    /// The encoder reports an error of the frame before.
+    /// The encoder reports an error of the previous frame.
     Flag,
 }
 
@@ -68,11 +68,10 @@ impl<Spi: SpiDevice> Encoder<Spi> {
         }
     }
 
-    /// Makes the next answer an angle: clears the encoder's error flags, asks for the angle, and
-    /// drops both answers, which belong to commands of before.
+    /// Makes the next answer an angle: clears the encoder's error flags, requests the angle, and drops both answers,
+    /// which belong to earlier commands.
     ///
-    /// Without it the first answer after power-up is anything. Errors are left for [`Self::read`] to
-    /// find.
+    /// Without it the first answer after power-up is undefined. Errors are reported by [`Self::read`].
     #[cold]
     pub fn start(&mut self) {
         for command in [READ_ERRORS, READ_ANGLE] {
@@ -80,13 +79,12 @@ impl<Spi: SpiDevice> Encoder<Spi> {
         }
     }
 
-    /// The joint's angle in rad, turns included, when the frame before ended: a tick ago.
+    /// The joint's angle in rad, over all turns, at the end of the previous frame, one tick ago.
     ///
-    /// After an error the encoder is started again at once, two frames more, so that one error costs
-    /// one angle whatever it was.
+    /// After an error the encoder is restarted at once, with two more frames, so that every error costs one angle.
     ///
     /// # Errors
-    /// [`FrameError`]; the count of turns is then as it was.
+    /// [`FrameError`]; the count of turns is then unchanged.
     #[inline(always)]
     pub fn read(&mut self) -> Result<f32, FrameError> {
         let mut frame = READ_ANGLE.to_be_bytes();
@@ -120,7 +118,7 @@ impl<Spi: SpiDevice> Encoder<Spi> {
 /// ```
 #[inline(always)]
 pub fn decode(frame: u16) -> Result<u16, FrameError> {
-    // One branch for both, on the way that all but a few frames take.
+    // One branch for both, which almost no frame takes.
     if (parity(frame) | frame >> ERROR_BIT) & 1 == 0 {
         return Ok(frame & MASK);
     }
@@ -131,7 +129,7 @@ pub fn decode(frame: u16) -> Result<u16, FrameError> {
     })
 }
 
-/// The answer that holds a 14-bit angle: what a simulated encoder sends.
+/// The answer with a 14-bit angle, as sent by a simulated encoder.
 pub const fn encode(raw: u16) -> u16 {
     with_parity(raw & MASK)
 }

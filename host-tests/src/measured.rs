@@ -1,4 +1,4 @@
-//! Measured values held against bounds that neither NaN nor slack can pass.
+//! Measured values compared with bounds; NaN and slack bounds fail.
 
 /// How many times its measured value a bound may be.
 const SLACK: f64 = 10.0;

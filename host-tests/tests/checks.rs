@@ -1,4 +1,4 @@
-//! What holds errors against their bounds refuses what it has to refuse: the tables of tolerances and of hard cases.
+//! The comparisons of errors with bounds fail when they must: the tables of tolerances and of hard cases.
 
 use host_tests::hard::measure::larger;
 use host_tests::hard::{Row, Verdict};

@@ -1,4 +1,4 @@
-//! Bars: what was promised, compared with what was measured, and the record of what is missed.
+//! Bars: promised figures compared with measured ones, and the record of those that are missed.
 
 use std::collections::BTreeMap;
 

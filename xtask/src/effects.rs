@@ -37,7 +37,7 @@ const PAGE: Page = Page {
 };
 const PICTURE: &str = "docs/effects.svg";
 
-/// The scene that others are compared with, and what the names of those begin with that lack a term of it.
+/// The scene that others are compared with, and the prefix of the names of those without a term of it.
 const RIGID: &str = "rigid_body";
 const LESS: &str = "less_";
 

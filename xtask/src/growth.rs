@@ -29,7 +29,7 @@ const ALGORITHMS: [(&str, &str); 5] = [
     ("aba", "ABA"),
 ];
 
-/// The lengths whose instructions a body are compared with each other.
+/// The lengths whose instructions per body are compared.
 const ENDS: [usize; 2] = [8, 64];
 
 /// What was measured.

@@ -18,7 +18,7 @@ use crate::bars::largest;
 use crate::error::{Result, check};
 use crate::qemu::DONE;
 
-/// Inverse dynamics along the reference, and PD.
+/// The feed-forward law.
 pub const FEEDFORWARD: &str = "feedforward";
 /// The law that it is compared with.
 pub const PD: &str = "pd";

@@ -114,6 +114,12 @@ static DOCUMENTED: LazyLock<Documented> = LazyLock::new(|| {
         "dynamics-core",
         "--target-dir",
     ]);
+    let header = root().canonicalize().expect("a path");
+    let header = header.join("dynamics-core/katex.html");
+    cargo.env(
+        "RUSTDOCFLAGS",
+        format!("--html-in-header={}", header.display()),
+    );
     assert!(cargo.arg(target).status().expect("cargo").success());
     let all = read_to_string(reference().join("all.html")).expect("the list of all items");
     let (mut pages, mut names) = (BTreeSet::new(), BTreeSet::new());
@@ -252,6 +258,7 @@ fn equations_reach_the_documentation_as_they_are_written() {
     for page in &DOCUMENTED.pages {
         let text = read_to_string(reference().join(page)).expect("a page");
         assert_eq!(broken_equations(&text), [""; 0], "{page}");
+        assert!(text.contains("renderMathInElement"), "{page}");
         count += text.matches("$$").count() / 2;
     }
     assert!(count > 20, "{count} equations");

@@ -58,11 +58,11 @@ use crate::state::{Configuration, JointTrig, RobotState, State, entry};
 /// ```
 ///
 /// # Errors
-/// [`NotPositiveDefinite`] names the outermost coordinate that moves no inertia once those that it carries give way
-/// (a massless last link without rotor inertia, a joint on the axis of another with no inertia between them, a
-/// wrist without mass in gimbal lock), or whose inertia is not a number: its pivot is not above eight roundings of
-/// the largest inertia that all that it carries, stretched out, could have about it. Of four joints or more without
-/// inertia whose axes meet in one point rounding may leave more.
+/// [`NotPositiveDefinite`] names the outermost coordinate that moves no inertia when its descendants are free (a
+/// massless last link without rotor inertia, a joint on the axis of another with no inertia between them, a massless
+/// wrist in gimbal lock), or whose inertia is NaN: its pivot does not exceed eight roundings of the largest inertia
+/// that its descendants, stretched out, could have about it. For four or more joints without inertia whose axes meet in
+/// one point, the rounding error may be larger.
 #[doc(alias = "articulated-body inertia")]
 #[doc(alias = "ABI")]
 #[doc(alias = "forward dynamics")]
@@ -89,7 +89,7 @@ where
     Ok(response.qdd)
 }
 
-/// What the outward passes and the inward one share of a body.
+/// The data of a body that the outward passes and the inward pass share.
 struct Body<'a, R: Real> {
     link: LinkView<'a, R>,
     x: Xform<R>,
@@ -99,7 +99,7 @@ struct Body<'a, R: Real> {
     pa: Force<R>,
 }
 
-/// What the inward pass leaves of a coordinate: U, 1/D and u; where its motion is prescribed, only U and sᵀ pᴬ.
+/// The results of the inward pass for a coordinate: U, 1/D and u; for a prescribed motion, only U and sᵀ pᴬ.
 #[derive(Clone, Copy)]
 struct JointFactor<R: Real> {
     u_a: Force<R>,
@@ -259,8 +259,8 @@ where
     Ok(())
 }
 
-/// Iᵃ = Iᴬ − U D⁻¹ Uᵀ and pᴬ + U D⁻¹ u: the articulated body once the coordinate gives way. With a rotor that spins, U
-/// has its part, since it stands on the parent's side of the joint and takes part in its q̈.
+/// Iᵃ = Iᴬ − U D⁻¹ Uᵀ and pᴬ + U D⁻¹ u: the articulated body with the coordinate free. A spinning rotor is included in
+/// U, since it is mounted on the parent's side of the joint and rotates with its q̈.
 #[inline(always)]
 fn eliminate<R: Real>(
     ia: &mut ArticulatedInertia<R>,
@@ -273,7 +273,7 @@ fn eliminate<R: Real>(
     factor
 }
 
-/// Pass 3: q̈ᵢ = D⁻¹ (u − Uᵀ a′) with a′ = X a_λ + c, and aᵢ = a′ + S q̈. The last factor made is the first used.
+/// Pass 3: q̈ᵢ = D⁻¹ (u − Uᵀ a′) with a′ = X a_λ + c, and aᵢ = a′ + S q̈. The factors are used in reverse order.
 #[inline(always)]
 #[allow(
     clippy::too_many_arguments,
@@ -328,9 +328,9 @@ where
     joints
 }
 
-/// Whether nothing ties a body to its parent: no constraint, no prescribed motion, no inertia at the joint.
+/// Whether a body is decoupled from its parent: no constraint, no prescribed motion, no inertia at the joint.
 ///
-/// The parent's acceleration then does not matter to the body's; without it a free fall comes out exactly.
+/// The body's acceleration is then independent of the parent's; without it free fall is exact.
 #[inline(always)]
 fn is_free<R: Real, E, const B: usize, const V: usize>(
     link: &LinkView<'_, R>,

@@ -1,4 +1,4 @@
-//! Articulated-body inertias without forces: pass 2 of RBDA (2008), table 7.1, for algorithms that need no more.
+//! Articulated-body inertias without forces: pass 2 of RBDA (2008), table 7.1, for algorithms that need only these.
 
 use heapless::Vec;
 
@@ -11,22 +11,22 @@ use crate::scalar::Real;
 use crate::spatial::inertia::ArticulatedInertia;
 use crate::spatial::{Force, Xform};
 
-/// What a coordinate's elimination leaves: U and 1/D.
+/// The result of the elimination of a coordinate: U and 1/D.
 #[derive(Clone, Copy, Default)]
 pub(super) struct JointFactor<R: Real> {
     pub(super) u_a: Force<R>,
     pub(super) d_inv: R,
-    /// 1 − sᵀU/D: what of the joint's inertia is not the bodies', but a rotor's.
+    /// 1 − sᵀU/D: the share of the joint's inertia that is a rotor's, not the bodies'.
     pub(super) armature_share: R,
 }
 
-/// What the pass leaves: ⁱX_λ(i) of every body, and the factor of every coordinate.
+/// The results of the pass: ⁱX_λ(i) of every body, and the factor of every coordinate.
 pub(super) struct ArticulatedPass<R: Real, const B: usize, const V: usize> {
     pub(super) x: Vec<Xform<R>, B>,
     pub(super) factors: [JointFactor<R>; V],
 }
 
-/// Eliminates every coordinate, from the tips to the base. Some 390 flops a revolute joint.
+/// Eliminates every coordinate, from the tips to the base. Some 390 flops per revolute joint.
 #[inline(always)]
 pub(super) fn eliminate<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,

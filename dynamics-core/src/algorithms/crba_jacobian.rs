@@ -1,9 +1,9 @@
-//! M and a Jacobian in one: the modified composite-rigid-body method.
+//! M and a Jacobian together: the modified composite-rigid-body method.
 //!
-//! Lilly & Orin, "Alternate formulations for the manipulator inertia matrix" (1991). As
-//! [`crba`](super::crba()), but instead of a force that is transformed inward to the base, the joints' axes are
-//! transformed outward to the tips: what stands in a body's frame is its Jacobian, and M_jk is its column k times
-//! the force that accelerates the composite of joint j.
+//! Lilly & Orin, "Alternate formulations for the manipulator inertia matrix" (1991). As [`crba`](super::crba()), but
+//! the joints' axes are transformed outward to the tips instead of a force inward to the base: in a body's frame they
+//! are its Jacobian, and M_jk is the scalar product of its column k and the force that accelerates the composite body
+//! of joint j.
 
 use core::borrow::Borrow;
 
@@ -19,7 +19,7 @@ use crate::spatial::inertia::CompositeInertia;
 use crate::spatial::{Motion, Xform};
 use crate::state::Configuration;
 
-/// What the outward pass leaves for the others.
+/// The results of the outward pass for the others.
 struct Body<'a, R: Real> {
     link: LinkView<'a, R>,
     x: Xform<R>,

@@ -17,8 +17,8 @@ use crate::state::{Configuration, RobotState, entry};
 /// T = \tfrac 1 2 \sum_i v_i^T I_i v_i
 /// $$
 ///
-/// It counts the bodies, a payload of the scene, and rotors by their inertia at the joints: ½ q̇ᵀ M q̇ on a base at
-/// rest, M under the same effects. On a base of given motion it is that of the moving bodies.
+/// It includes the bodies, a payload of the scene, and rotors by their inertia at the joints: on a base at rest it is ½
+/// q̇ᵀ M q̇, with M under the same effects. On a base with a given motion it is that of the moving bodies.
 ///
 /// # Cost
 /// O(B): some 115 flops for each revolute joint.
@@ -75,7 +75,7 @@ where
 /// U = -\sum_i m_i g^T c_i
 /// $$
 ///
-/// It counts the bodies and a payload. Springs that are effects of joints are not counted.
+/// It includes the bodies and a payload, but not springs at the joints.
 ///
 /// # Cost
 /// O(B): some 110 flops for each revolute joint.

@@ -1,9 +1,9 @@
-//! How forward dynamics can fail.
+//! The error of forward dynamics.
 
 use core::fmt;
 
-/// M(q) is not positive definite: the named joint moves no inertia; or some coordinate or inertia is not a number,
-/// not necessarily of that joint.
+/// M(q) is not positive definite: the named joint moves no inertia; or a coordinate or inertia is NaN, not necessarily
+/// one of that joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]

@@ -1,7 +1,7 @@
-//! Hybrid dynamics: of some coordinates the torque is given, of the others the acceleration.
+//! Hybrid dynamics: the torque of some coordinates is given, and the acceleration of the others.
 //!
-//! Featherstone, RBDA (2008), section 9.2: the articulated-body algorithm, in which a coordinate whose
-//! motion is prescribed is as stiff as a weld. Inverse and forward dynamics are its two ends.
+//! Featherstone, RBDA (2008), section 9.2: the articulated-body algorithm, in which a coordinate with a prescribed
+//! motion is not eliminated. Inverse and forward dynamics are its special cases.
 
 use core::borrow::Borrow;
 
@@ -13,7 +13,7 @@ use crate::scalar::{Real, Vector};
 use crate::spatial::Motion;
 use crate::state::{Configuration, RobotState, entry};
 
-/// What is known of a coordinate; hybrid dynamics finds the other.
+/// The given quantity of a coordinate; hybrid dynamics computes the other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Prescribed<R> {
     /// The motor's torque or force, N·m or N.
@@ -28,7 +28,7 @@ impl<R: Real> Default for Prescribed<R> {
     }
 }
 
-/// Torques and accelerations of all coordinates: what was given and what follows from it.
+/// Torques and accelerations of all coordinates, given and computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JointResult<R, const V: usize> {
     /// Torque of each motor, N·m or N.
@@ -60,7 +60,7 @@ impl<R: Real, const V: usize> JointResult<R, V> {
     }
 }
 
-/// Torques and accelerations of all coordinates, of which one is prescribed for each coordinate.
+/// Torques and accelerations of all coordinates; for each coordinate one of the two is given.
 ///
 /// `state.qdd` is not read.
 ///
@@ -86,8 +86,7 @@ impl<R: Real, const V: usize> JointResult<R, V> {
 /// ```
 ///
 /// # Errors
-/// [`NotPositiveDefinite`] names a coordinate whose torque is given but that moves no inertia, as
-/// [`aba`](super::aba()) does.
+/// [`NotPositiveDefinite`] names a coordinate with a given torque that moves no inertia, as [`aba`](super::aba()) does.
 #[doc(alias = "HD")]
 #[inline(always)]
 pub fn hybrid_dynamics<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(

@@ -1,14 +1,13 @@
 //! Detects pivots of articulated bodies that are only rounding errors, that is, a singular mass matrix.
 //!
-//! D = sᵀ Iᴬ s is what the inertia along s was before the coordinates that it carries gave way, less what each of
-//! them took. Where nothing is left, D is the rounding error of the numbers that went into it, of either sign, and
-//! those are no larger than if all that the joint carries stood in one line, away from it: m, |h| and ∫ r² dm add up
-//! along the bodies' offsets, whatever their directions, across fixed bodies and bodies without inertia. A pivot has to
-//! be more than some roundings of that.
+//! D = sᵀ Iᴬ s is the inertia along s with all descendants fixed, minus a term for each descendant that is free. If the
+//! exact difference is zero, D is the rounding error of its terms, of either sign. The terms are bounded by their
+//! values for a straight chain of the descendants: m, |h| and ∫ r² dm add up along the bodies' offsets, independently
+//! of their directions, across fixed bodies and bodies without inertia. A pivot must exceed some roundings of this
+//! bound.
 //!
-//! The coordinates of one joint are one block, which is eliminated a coordinate at a time. A coordinate that is left
-//! with little before the last one multiplies its rounding errors: the next ones inherit its own, times the square of its
-//! multiplier.
+//! The coordinates of one joint are one block, which is eliminated a coordinate at a time. A small pivot amplifies the
+//! rounding errors: the following coordinates of the joint inherit its error, times the square of the multiplier.
 
 use core::ops::AddAssign;
 
@@ -26,7 +25,7 @@ const ROUNDINGS: f64 = 8.0;
 /// The coordinates of a free joint.
 const MOST: usize = 6;
 
-/// Mass, largest first moment and largest ∫ r² dm of what a joint carries, about its frame's origin.
+/// Mass, largest first moment and largest ∫ r² dm of the bodies that a joint moves, about its frame's origin.
 #[derive(Clone, Copy)]
 pub(super) struct Magnitude<R> {
     mass: R,
@@ -81,14 +80,14 @@ impl<R: Real> Magnitude<R> {
     }
 }
 
-/// |x| + |y| + |z|, which is no less than the length and takes no root.
+/// |x| + |y| + |z|, a bound of the length without a root.
 #[inline(always)]
 fn length<R: Real>(v: R::Vec3) -> R {
     let [x, y, z] = v.array();
     x.abs() + y.abs() + z.abs()
 }
 
-/// What the pivots of one joint are compared with, from its last coordinate to its first.
+/// The bounds of the pivots of one joint, from its last coordinate to its first.
 pub(super) struct PivotCheck<R> {
     magnitude: Magnitude<R>,
     /// The errors that coordinates inherit from those eliminated before them.
@@ -106,8 +105,8 @@ impl<R: Real> PivotCheck<R> {
         }
     }
 
-    /// Whether `d`, the pivot of coordinate `k` of the joint, which is coordinate `joint` of the robot, is a number
-    /// and more than rounding errors.
+    /// Whether `d`, the pivot of coordinate `k` of the joint, which is coordinate `joint` of the robot, is not NaN and
+    /// exceeds rounding errors.
     #[inline(always)]
     pub(super) fn check(
         &mut self,

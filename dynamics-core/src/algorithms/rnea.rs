@@ -1,7 +1,7 @@
 //! Inverse dynamics: the recursive Newton-Euler algorithm in link coordinates.
 //!
-//! Featherstone & Orin (2000), equations (3) to (8); RBDA (2008), table 5.1. Bias, gravity and
-//! full torque are this one function under different effects.
+//! Featherstone & Orin (2000), equations (3) to (8); RBDA (2008), table 5.1. Bias, gravity torque and full torque are
+//! computed by the same function with different effects.
 
 use core::borrow::Borrow;
 
@@ -71,7 +71,7 @@ where
     }
 }
 
-/// What the outward pass leaves for the inward one.
+/// The results of the outward pass for the inward one.
 #[derive(Clone, Copy)]
 struct Body<R: Real> {
     rot: R::Mat3,
@@ -140,7 +140,7 @@ where
         if inner.is_empty() {
             break; // the first body stands on the base
         }
-        // The origin is a constant of most joints: it is not worth keeping.
+        // The origin is a constant of most joints, so that storing it costs more than computing it.
         let (rot, pos) = (body.rot, link.origin(turns));
         let f_parent = Xform { rot, pos }.transpose_mul(f_i); // (7)
         if D::CHAIN {

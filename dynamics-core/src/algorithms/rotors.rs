@@ -1,7 +1,7 @@
-//! Rotors that spin as bodies, [`crate::effects::GyroscopicRotors`]: what RNEA adds for them.
+//! Rotors that spin as bodies, [`crate::effects::GyroscopicRotors`]: their terms in the RNEA.
 //!
-//! A rotor of ratio ρ stands on the parent's side of its joint and spins by ρ q̇ about the joint's axis z, so that its
-//! angular momentum is ρ I q̇ z beyond what the parent's inertia includes.
+//! A rotor of ratio ρ is mounted on the parent's side of its joint and spins by ρ q̇ about the joint's axis z. Its
+//! angular momentum exceeds that which the parent's inertia includes by ρ I q̇ z.
 
 use crate::effects::{Effect, gyroscopic, rotor_force};
 use crate::model::LinkView;
@@ -9,8 +9,8 @@ use crate::scalar::Real;
 use crate::spatial::Motion;
 use crate::state::{State, entry};
 
-/// The couple that the rotor of a joint exerts on the parent link, in the body's frame, and the torque that the
-/// parent's acceleration takes at the rotor, ρ I z·α_λ.
+/// The couple that the rotor of a joint exerts on the parent link, in the body's frame, and the torque at the rotor due
+/// to the parent's acceleration, ρ I z·α_λ.
 #[inline(always)]
 pub(super) fn rotor<R: Real, E, const B: usize, const Q: usize, const V: usize>(
     effects: &E,

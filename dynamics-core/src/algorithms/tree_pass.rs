@@ -7,7 +7,7 @@ use heapless::Vec;
 use crate::model::{LinkView, RobotModel};
 use crate::scalar::Real;
 
-/// Whether every body is known to stand on the one before it.
+/// Whether the parent of every body is known to be the one before it.
 pub(super) trait Topology {
     const CHAIN: bool;
 }
@@ -22,9 +22,9 @@ where
     const CHAIN: bool = D::CHAIN;
 }
 
-/// A quantity of the base and of each body so far, from which the next body takes its parent's.
+/// A quantity of the base and of each body so far, from which the next body reads that of its parent.
 ///
-/// Of a chain only the last one is kept: `T::CHAIN` is a constant, and the other form is not in the machine code.
+/// For a chain only the last one is stored: `T::CHAIN` is a constant, and the other form is not in the machine code.
 pub(super) struct PerBody<A, T, const B: usize> {
     base: A,
     last: A,
@@ -71,7 +71,7 @@ impl<A: Copy, T: Topology, const B: usize> PerBody<A, T, B> {
     }
 }
 
-/// The inward pass over what the outward one has left of each body.
+/// The inward pass over the results of the outward one.
 pub(crate) struct Inward<'a, A>(&'a mut [A]);
 
 /// From the last body to the first.

@@ -1,25 +1,26 @@
 //! Control: reference, estimate, control law, and the safety gate that every command passes.
 //!
-//! | item | what | memory |
+//! | item | purpose | memory |
 //! |---|---|---|
-//! | [`MotionController`] | a control loop but for the law and the devices: all of the following that has memory | all of a loop |
+//! | [`MotionController`] | a control loop without its law and devices: all of the following items with memory | the state of a loop |
 //! | [`Trajectory`] | quintics through way-points, checked against speed and acceleration limits | none |
 //! | [`RestToRest`] | from stop to stop with four derivatives, for compliant joints | none |
-//! | [`Reference`] | what a controller follows: a trajectory, or a motion of one's own | |
-//! | [`MultiTurnEncoder`] | an encoder's counts, turns included | counts |
+//! | [`Reference`] | the reference of a controller: a trajectory, or a user's own motion | |
+//! | [`MultiTurnEncoder`] | the position of an encoder over many turns | counts |
 //! | [`Observer`] | velocity from positions | estimate |
 //! | [`Gains`], [`feedback()`] | K_p (q_d − q) + K_d (q̇_d − q̇) | none |
-//! | [`hold()`] | what a held arm is to follow: q̈ = −λ q̇ | none |
+//! | [`hold()`] | the reference of a held arm: q̈ = −λ q̇ | none |
 //! | [`hybrid_motion_force`], [`TaskCommand`] | motions and forces along a task's directions | none |
-//! | [`ZeroOrderHold`], [`FirstOrderHold`], [`Interpolator`], [`InertiaUpdate`] | the torque of ticks that compute no dynamics | last torques |
-//! | [`Supervisor`] | limits, plausibility, what to do on a fault | last good values |
-//! | [`ResumeTrajectory`] | from where a fault left the arm back onto the trajectory | reference |
+//! | [`ZeroOrderHold`], [`FirstOrderHold`], [`Interpolator`], [`InertiaUpdate`] | the torque in ticks without a computation of the dynamics | last torques |
+//! | [`Supervisor`] | limits, plausibility, reactions to faults | last good values |
+//! | [`ResumeTrajectory`] | the return onto the trajectory after a fault | reference |
 //!
-//! What a struct configures has a `try_new`, which checks the struct, and a `new` for constants, which does not.
+//! Types with a configuration struct have a `try_new`, which checks the struct, and a `new` for constants, which does
+//! not.
 //!
-//! Time is counted in integer ticks of one nominal length; nothing divides by a measured interval.
-//! What has no memory gives the same bits for the same inputs whatever happened before; what has
-//! memory never takes in a value that it rejects. Nothing here panics or returns NaN.
+//! Time is counted in integer ticks of one nominal length; nothing divides by a measured interval. Items without memory
+//! give the same bits for the same inputs at any time; items with memory never store a value that they reject. None of
+//! them panics or returns NaN.
 //!
 //! The control loop of an arm:
 //!

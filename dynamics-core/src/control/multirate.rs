@@ -62,7 +62,7 @@ impl<R: Real, const V: usize> ZeroOrderHold<R, V> {
 pub struct FirstOrderHold<R, const V: usize, const TICKS: usize> {
     computed: [R; V],
     torque: [R; V],
-    /// What a tick adds.
+    /// The increment of a tick.
     step: [R; V],
     known: bool,
 }
@@ -117,7 +117,7 @@ impl<R: Real, const V: usize, const TICKS: usize> FirstOrderHold<R, V, TICKS> {
 pub struct Interpolator<R, const V: usize, const TICKS: usize> {
     ahead: [R; V],
     torque: [R; V],
-    /// What a tick adds.
+    /// The increment of a tick.
     step: [R; V],
 }
 

@@ -171,14 +171,14 @@ pub enum SafetyLimitsError {
     NotFinite {
         /// The joint.
         joint: usize,
-        /// What the limit is of.
+        /// The quantity.
         of: LimitKind,
     },
     /// A limit is negative.
     Negative {
         /// The joint.
         joint: usize,
-        /// What the limit is of.
+        /// The quantity.
         of: LimitKind,
     },
     /// The least position is above the greatest.

@@ -33,8 +33,8 @@ pub use tick::SupervisorTick;
 const JUMP: f64 = 2.0;
 /// Positions beyond this are as good as infinite, in f64 too.
 const FAR: f64 = f32::MAX as f64;
-/// Beyond this, rad, f32 has no sine to 10⁻⁷: whatever the limits, no position is accepted there. Of joints
-/// that turn without end the angle within a turn is measured, [`super::MultiTurnEncoder::within_turn`].
+/// Beyond this, rad, f32 has no sine accurate to 10⁻⁷: positions beyond it are rejected for all limits. For joints
+/// without limits the angle within a turn is measured, [`super::MultiTurnEncoder::within_turn`].
 const RANGE: f64 = 1e4;
 
 /// The safety gate that every measurement and every torque passes in each tick: [`Self::tick`].

@@ -144,7 +144,7 @@ where
 /// Velocity of a body and its derivatives by components; the first is its spatial acceleration.
 type MotionDerivatives<R> = [Motion<R>; 4];
 
-/// What the outward pass leaves for the inward pass: f, ḟ, f̈ and W₀, W₁.
+/// The results of the outward pass for the inward one: f, ḟ, f̈ and W₀, W₁.
 struct Link<'a, R: Real> {
     link: LinkView<'a, R>,
     x: Xform<R>,

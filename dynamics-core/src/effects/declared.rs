@@ -1,4 +1,4 @@
-//! What an effect declares by its hooks, in the form in which core, engine and plant use it.
+//! The declarations of an effect's hooks, in the form that core, engine and plant use.
 
 use super::hook_args::BodyVelocity;
 use super::{BodyState, Effect};

@@ -62,7 +62,7 @@ impl<'a, E, R: Real, const V: usize> Implicit<'a, E, R, V> {
     }
 }
 
-/// What goes with q̈ and what with q̇, of the derivatives of each joint's torque.
+/// The factors of q̈ and of q̇, from the derivatives of each joint's torque.
 #[derive(Clone, Copy, Debug)]
 struct AtEndOfStep<R, const V: usize> {
     h: R,

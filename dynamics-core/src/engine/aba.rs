@@ -1,8 +1,8 @@
 //! Forward dynamics by articulated bodies.
 //!
-//! Featherstone (1983); RBDA (2008), table 7.1, in two steps: the recursion of [`super::rnea`] takes
-//! the bias from the torques, and what is left moves a robot at rest without gravity, so that the
-//! articulated bodies need neither velocities nor velocity products.
+//! Featherstone (1983); RBDA (2008), table 7.1, in two steps: the recursion of [`super::rnea`] subtracts the bias from
+//! the torques, and the remaining torques accelerate a robot at rest without gravity, so that the articulated bodies
+//! need neither velocities nor velocity products.
 
 use core::borrow::Borrow;
 use core::hint::black_box;
@@ -25,8 +25,7 @@ use crate::state::{Configuration, JointTrig, RobotState, State};
 use crate::trig::Kernel;
 
 impl<T, K> Engine<T, K> {
-    /// The acceleration of each joint, q̈ = FD(q, q̇, τ), as [`Engine::forward_dynamics`] has it, by articulated
-    /// bodies.
+    /// The acceleration of each joint, q̈ = FD(q, q̇, τ), as by [`Engine::forward_dynamics`], with articulated bodies.
     ///
     /// `state.qdd` is not read.
     ///
@@ -59,14 +58,14 @@ impl<T, K> Engine<T, K> {
     }
 }
 
-/// What the pass to the base leaves for the pass to the tips.
+/// The results of the inward pass for the outward pass.
 struct Task<'a, R, E, const Q: usize, const V: usize> {
     turns: &'a [JointCoordinate<R>; Q],
     effects: &'a E,
     /// U = Iᴬ S: couple and force.
     u: &'a mut [[R; 6]; V],
     d_inv: &'a mut [R; V],
-    /// The torques, less what the bodies beyond push with; then the accelerations.
+    /// The torques without the bias forces of the descendants; then the accelerations.
     x: &'a mut [R; V],
 }
 
@@ -107,7 +106,7 @@ where
     Ok(x)
 }
 
-/// To the base: the articulated inertia of joint I and what it pushes with, in the parent's frame.
+/// The inward pass: the articulated inertia of joint I and its bias force, in the parent's frame.
 #[inline(always)]
 fn inward<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     task: &mut Task<'_, R, E, Q, V>,
@@ -170,7 +169,7 @@ where
     )
 }
 
-/// To the tips: the acceleration of joint I, from its parent's α and a.
+/// The outward pass: the acceleration of joint I, from its parent's α and a.
 #[inline(always)]
 fn outward<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     task: &mut Task<'_, R, E, Q, V>,

@@ -1,4 +1,4 @@
-//! How the points of a body accelerate, from parent to child, and the wrench that its inertia then needs.
+//! The acceleration field of a body, from parent to child, and the wrench of its inertia.
 //!
 //! The field form of the Newton-Euler equations: the acceleration of the points of a body, and the wrench of its
 //! inertia,
@@ -22,7 +22,7 @@ use super::pose::Pose;
 use crate::model::{JointCoordinate, Robot};
 use crate::scalar::Real;
 
-/// How the points of a body move, in its frame.
+/// The acceleration field of a body, in its frame.
 #[derive(Clone, Copy)]
 pub(crate) struct AccelerationField<R> {
     /// ω, for effects that read the body's velocity.

@@ -1,4 +1,4 @@
-//! Articulated-body inertia: what a joint must move when the joints beyond it are free.
+//! Articulated-body inertia: the inertia that a joint moves when its descendants are free.
 //!
 //! Featherstone, RBDA (2008), section 7.1, in blocks over units of length:
 //!
@@ -53,7 +53,7 @@ impl<R: Real> Articulated<R> {
         }
     }
 
-    /// What is left when a joint yields: less U Uᵀ/d.
+    /// The inertia with a joint free: minus U Uᵀ/d.
     #[inline(always)]
     pub(crate) fn minus_joint(self, n: Vec3<R>, f: Vec3<R>, d_inv: Folded<R>) -> Self {
         let ([fx, fy, fz], minus) = (f.scale(d_inv).0, -d_inv);

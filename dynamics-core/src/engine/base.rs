@@ -1,4 +1,4 @@
-//! How the base moves: what the recursion starts from.
+//! The motion of the base, from which the recursion starts.
 
 use super::acceleration_field::AccelerationField;
 use super::folding::Folded;
@@ -22,7 +22,8 @@ where
     };
 }
 
-/// The base: a = −g and, if it moves, its own; in units of length. At rest all else is a known zero.
+/// The motion of the base: a = −g plus its own acceleration, in units of length. If it is at rest, all other values are
+/// known zeros.
 #[inline(always)]
 pub(crate) fn base<R: Real, E, const B: usize, const V: usize>(
     effects: &E,

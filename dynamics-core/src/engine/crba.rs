@@ -1,4 +1,4 @@
-//! M(q) by composite bodies: all that a joint moves, as one rigid body, and the wrench of its unit acceleration.
+//! M(q) by composite bodies: the bodies that a joint moves as one rigid body, and the wrench of its unit acceleration.
 //!
 //! Walker & Orin (1982); Featherstone, RBDA (2008), table 6.2, over base parameters: the masses of
 //! composite bodies are known zeros behind revolute joints, and h travels as R h.
@@ -23,11 +23,11 @@ use crate::trig::Kernel;
 impl<T, K> Engine<T, K> {
     /// The joint-space inertia matrix M(q), kg·m², kg and kg·m, with the armatures and the payload of the scene.
     ///
-    /// Other effects do not matter: [`crate::effects::RIGID_BODY`] gives the robot's own M. Angles as in
+    /// Other effects are ignored: [`crate::effects::RIGID_BODY`] gives the robot's own M. Angles as in
     /// [`Engine::rnea`].
     ///
     /// # Cost
-    /// `docs/costs.md` in the repository; the same instructions whatever the data.
+    /// `docs/costs.md` in the repository; the same instructions for all data.
     ///
     /// # Source
     /// Walker & Orin (1982); Featherstone, RBDA (2008), table 6.2.
@@ -60,7 +60,7 @@ impl<T, K> Engine<T, K> {
     }
 }
 
-/// What all bodies share.
+/// The data that all bodies share.
 struct Task<'a, R, E, const Q: usize, const V: usize> {
     turns: &'a [JointCoordinate<R>; Q],
     effects: &'a E,

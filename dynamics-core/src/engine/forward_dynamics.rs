@@ -20,7 +20,7 @@ use crate::state::{Configuration, JointTrig, RobotState, State};
 use crate::trig::Kernel;
 
 impl<T, K> Engine<T, K> {
-    /// q̈ = FD(q, q̇, τ): the acceleration of each joint, rad/s² or m/s², under the effects named.
+    /// The acceleration of each joint, q̈ = FD(q, q̇, τ), rad/s² or m/s², under the effects of the scene.
     ///
     /// By the inertia matrix and its factors; [`Engine::aba`] gives the same without them.
     /// `state.qdd` is not read. A scene without `Inertia` does not compile:
@@ -31,10 +31,10 @@ impl<T, K> Engine<T, K> {
     /// ```
     ///
     /// # Errors
-    /// [`NotPositiveDefinite`] names the outermost joint that moves no inertia once its descendants
-    /// yield (a massless last link without rotor inertia; a joint on the axis of another with no inertia between
-    /// them), or whose inertia is not a number: its pivot does not exceed 16 roundings of the largest inertia that
-    /// all its descendants, stretched out, could have about it.
+    /// [`NotPositiveDefinite`] names the outermost joint that moves no inertia when its descendants are free (a
+    /// massless last link without rotor inertia; a joint on the axis of another with no inertia between them), or whose
+    /// inertia is NaN: its pivot does not exceed 16 roundings of the largest inertia that all its descendants,
+    /// stretched out, could have about it.
     #[doc(alias = "FD")]
     #[inline(never)]
     pub fn forward_dynamics<R: Real, S, E, const B: usize, const Q: usize, const V: usize>(

@@ -1,4 +1,4 @@
-//! The geometric Jacobian: what a body's frame does when each joint moves by itself.
+//! The geometric Jacobian: the velocity of a body's frame per rate of each joint.
 //!
 //! Featherstone, RBDA (2008), section 4.1; axes and arms in base coordinates: z_j, z_j × (p − p_j).
 
@@ -37,7 +37,7 @@ impl<T, K> Engine<T, K> {
     /// assert_eq!(j[0].ang.to_array(), [0.0, 0.0, 1.0]); // the first axis is vertical
     /// ```
     ///
-    /// A body that there is not does not compile:
+    /// A body that the robot does not have does not compile:
     ///
     /// ```compile_fail,E0080
     /// use dynamics_core::{Engine, robots::Ur5e};
@@ -59,7 +59,7 @@ impl<T, K> Engine<T, K> {
     }
 }
 
-/// The columns of the joints that carry the body; zero for others.
+/// The columns of the joints that move the body; zero for others.
 #[inline(always)]
 fn columns<R: Real, T, const B: usize, const Q: usize, const V: usize, const BODY: usize>(
     turns: &[JointCoordinate<R>; Q],

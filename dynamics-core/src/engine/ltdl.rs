@@ -1,7 +1,7 @@
-//! M = Lᵀ D L and M x = τ, without the entries that the tree's branches leave zero.
+//! M = Lᵀ D L and M x = τ, without the entries that are zero by the branches of the tree.
 //!
-//! Featherstone, RBDA (2008), section 6.5, tables 6.3 and 6.4: from the tips to the base, so that
-//! no zero is ever filled. All sums run over the ancestors of a joint, λ(i), λ(λ(i)) …
+//! Featherstone, RBDA (2008), section 6.5, tables 6.3 and 6.4: from the tips to the base, so that no zero is filled.
+//! All sums run over the ancestors of a joint, λ(i), λ(λ(i)) …
 
 use super::Engine;
 use super::compile::CompiledRobot;
@@ -15,7 +15,7 @@ impl<T, K> Engine<T, K> {
     ///
     /// # Cost
     /// One division for each joint, and n (n² − 1)/3 + n (n − 1)/2 flops for a chain of n joints, less on a tree; the
-    /// same instructions whatever the data.
+    /// same instructions for all data.
     ///
     /// # Source
     /// Featherstone, RBDA (2008), table 6.3.
@@ -31,9 +31,8 @@ impl<T, K> Engine<T, K> {
     /// ```
     ///
     /// # Errors
-    /// [`NotPositiveDefinite`] names the outermost joint whose pivot is not a number or does not exceed 32 roundings of
-    /// M_ii, as [`ltdl`](crate::algorithms::ltdl()) does: it moves no inertia once its descendants
-    /// yield.
+    /// [`NotPositiveDefinite`] names the outermost joint whose pivot is NaN or does not exceed 32 roundings of M_ii, as
+    /// [`ltdl`](crate::algorithms::ltdl()) does: it moves no inertia when its descendants are free.
     #[inline(never)]
     pub fn ltdl<R: Real, const B: usize, const Q: usize, const V: usize>(
         m: &MassMatrix<R, V>,

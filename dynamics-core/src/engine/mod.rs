@@ -127,7 +127,7 @@ impl<T, K> Engine<T, K> {
     /// limits lie within ±4π may go to ±100 rad, others to ±10⁴ rad.
     ///
     /// # Cost
-    /// `docs/costs.md` in the repository; the same instructions whatever the data. What a less accurate kernel saves is
+    /// `docs/costs.md` in the repository; the same instructions for all data. The savings of less accurate kernels are
     /// in `docs/accuracy.md`:
     ///
     /// ```

@@ -12,7 +12,7 @@ use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::{Force, Motion, SpatialInertia, Xform};
 use crate::state::State;
 
-/// What all bodies share.
+/// The data that all bodies share.
 pub(crate) struct Task<'a, R: Real, E, const Q: usize, const V: usize> {
     pub(crate) turns: &'a [JointCoordinate<R>; Q],
     /// The same, loaded again in the inward pass where registers are short.

@@ -1,8 +1,8 @@
 //! Robots of more than 16 joints are split into one function per subtree, to bound compile time.
 //!
-//! The compiler's time grows with the square of a function's length and more: a humanoid of 29 joints in
-//! one function takes minutes. Arguments between the functions are plain numbers; what no effect needs is a
-//! known zero again on the other side.
+//! The compile time grows faster than the square of a function's length: a humanoid of 29 joints takes minutes in one
+//! function. Arguments between the functions are plain numbers; values that no effect needs are known zeros in each
+//! function.
 
 use super::acceleration_field::{AccelerationField, Wrench};
 use super::base::base;
@@ -97,7 +97,7 @@ where
     }
 }
 
-/// A field in memory: ω, ω as its products see it, α; U's columns; a and v of the origin; axes and origin.
+/// A field in memory: ω, ω of the velocity products, α; U's columns; a and v of the origin; axes and origin.
 struct SpilledField<R: Real> {
     rates: [R::Vec3; 3],
     u: [R::Vec3; 3],

@@ -91,8 +91,8 @@ impl Joint<f64> {
         Self::new(JointKind::Fixed, [0.0; 3])
     }
 
-    /// What it lacks of the axes that its kind needs, at right angles within 10⁻⁹ rad if there are two, and
-    /// of a finite pitch.
+    /// The problem of its axes: those that its kind needs, at right angles within 10⁻⁹ rad if there are two, and of a
+    /// finite pitch.
     pub(super) const fn problem(&self) -> Option<Problem> {
         use JointKind::*;
         match self.kind {

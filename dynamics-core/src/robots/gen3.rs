@@ -2,8 +2,7 @@
 
 use crate::model::{ArmModel, BASE, Body, Joint, JointLimits, Model, Robot};
 
-/// Kinova Gen3 with 7 joints and vision module, no gripper: joints 1, 3, 5 and 7 turn without end; 6.5 kg
-/// of moving mass.
+/// Kinova Gen3 with 7 joints and vision module, no gripper: joints 1, 3, 5 and 7 are continuous; 6.5 kg of moving mass.
 ///
 /// # Source
 ///

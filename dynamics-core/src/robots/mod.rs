@@ -6,7 +6,7 @@
 //! - [`A1`]: Unitree A1 with its trunk held, a tree of four legs, 12 revolute joints and 4 fixed feet.
 //! - [`A1Leg`]: one leg of it, 3 revolute joints and a fixed foot.
 //! - [`A1Free`]: the same with its trunk free, 18 degrees of freedom.
-//! - [`Gen3`]: Kinova Gen3 with vision module, 7 joints, four of which turn without end.
+//! - [`Gen3`]: Kinova Gen3 with vision module, 7 joints, four of which are continuous.
 //! - [`XArm7`]: UFACTORY xArm7, 7 revolute joints, dense inertias.
 //! - [`Z1`]: Unitree Z1 with its gripper, 7 revolute joints about x, y and z.
 //! - [`G1`]: Unitree G1 with its pelvis held, a humanoid of 29 revolute joints.

@@ -126,8 +126,8 @@ fn under<'a, T: Robot<B, N, N>, E: Effect<f32, B, N>, const B: usize, const N: u
     compare::<T, _, _, B, N>(asks, algorithm, &forms, |run| run as usize, run, flat);
 }
 
-/// An algorithm: ours in their forms, the first of which is what the others are held against, then each
-/// build of the C. Behind each row stands the largest error, relative to full scale.
+/// An algorithm: ours in their forms, the first of which is the reference, then each build of the C. The last entry of
+/// each row is the largest error, relative to full scale.
 fn compare<'a, T: Robot<B, N, N>, F: Copy, O, const B: usize, const N: usize>(
     asks: &'a Asks<N>,
     algorithm: &'static str,

@@ -1,7 +1,7 @@
 //! Hard cases on arms of six bodies, as numbers that the host tests and the firmware share.
 //!
-//! The host holds the results against 50-digit oracles and closed forms (`host-tests/src/hard`); the
-//! firmware's bin `bits` shows that a microcontroller computes the same bits.
+//! The host compares the results with 50-digit oracles and closed forms (`host-tests/src/hard`); the firmware's bin
+//! `bits` shows that a microcontroller computes the same bits.
 
 mod arms;
 mod compute;

@@ -42,8 +42,8 @@ pub fn is_single(point: &Point, most: usize) -> bool {
 /// A step of a front is at least so much more accurate than the one before it: others are there, but not worth a word.
 const STEP: f64 = 0.8;
 
-/// The error that hardly matters, as a share of full scale, and what a point of the front may cost of the default at it:
-/// its worst tick, its mean.
+/// The negligible error, as a share of full scale, and what a point of the front may cost of the default at it: its
+/// worst tick, its mean.
 const ERROR: f64 = 1e-3;
 const MOST: [f64; 2] = [0.85, 0.6];
 
@@ -288,7 +288,7 @@ fn cheapest<'a>(points: &[&'a Point]) -> Option<[(&'a Point, f64); 2]> {
     Some([of(0)?, of(1)?])
 }
 
-/// Fails unless an error that hardly matters saves as much as was promised; else says how much.
+/// Fails unless a negligible error saves as much as was promised; returns the saving.
 pub fn check_bars(points: &[&Point]) -> Result<String> {
     let none = || Error::check("nothing on the front is within the bar's error");
     let [worst, mean] = cheapest(points).ok_or_else(none)?.map(|(_, share)| share);

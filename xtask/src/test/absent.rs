@@ -92,7 +92,7 @@ fn row<'a>(rows: &'a [Row], form: &str, inputs: &str) -> Result<&'a Row> {
         .ok_or_else(|| check!("`{BIN}` did not measure {form} {inputs}"))
 }
 
-/// What friction and rotors add to a call, compared with the bar.
+/// The cost that friction and rotors add to a call, compared with the bar.
 fn added(context: &Context, full: &Row, friction: &Row) -> Result<String> {
     let bars = budgets::bars(&context.workspace)?;
     let key = format!("{}{ADDED}", friction.key());

@@ -25,7 +25,7 @@ impl<R: Real> Default for Pose<R> {
 }
 
 impl<R: Real> Pose<R> {
-    /// The base's own.
+    /// The pose of the base.
     pub const IDENTITY: Self = Self {
         rot: R::Mat3::IDENTITY,
         pos: R::Vec3::ZERO,
@@ -46,7 +46,7 @@ impl<R: Real> Pose<R> {
         }
     }
 
-    /// The pose of a frame that X takes coordinates to from this one's. 63 flops.
+    /// The pose of the frame to which X transforms coordinates from this one's. 63 flops.
     #[inline(always)]
     pub(in crate::algorithms) fn transformed_by(&self, x: &Xform<R>) -> Self {
         Self {
@@ -55,7 +55,7 @@ impl<R: Real> Pose<R> {
         }
     }
 
-    /// The same origin; axes that `frame` turns into this one's.
+    /// The pose with the same origin, and axes that `frame` rotates into this one's.
     #[inline(always)]
     pub(in crate::algorithms) fn in_link_frame(&self, frame: &R::Mat3) -> Self {
         Self {
@@ -66,7 +66,7 @@ impl<R: Real> Pose<R> {
 }
 
 mod sealed {
-    /// Keeps [`super::Frame`] to the three frames that there are names for.
+    /// Restricts [`super::Frame`] to the three frames of this module.
     pub trait Sealed {}
     impl Sealed for super::Local {}
     impl Sealed for super::World {}
@@ -75,20 +75,20 @@ mod sealed {
 
 /// A frame in which the motion of a body is expressed: [`Local`], [`World`] or [`LocalWorldAligned`].
 ///
-/// A type, not a flag: a velocity in the wrong one is another function. Of a body that turns by ω and
-/// whose origin p moves:
+/// The frame is a type, not a flag, so that it is fixed at compile time. For a body with the angular velocity ω and the
+/// origin p:
 ///
-/// | frame | axes | reference point | drift J̇ q̇ |
+/// | frame | axes | reference point | bias acceleration J̇ q̇ |
 /// |---|---|---|---|
 /// | `Local` | the body's | its origin | spatial acceleration at q̈ = 0 |
 /// | `World` | the base's | the base's origin | spatial acceleration at q̈ = 0 |
 /// | `LocalWorldAligned` | the base's | the body's origin | ω̇ and p̈ at q̈ = 0 |
 pub trait Frame: sealed::Sealed + Copy {
-    /// A motion of the body at `pose` from its own frame to this one.
+    /// Transforms a motion of the body at `pose` from its own frame to this one.
     fn express<R: Real>(pose: &Pose<R>, m: Motion<R>) -> Motion<R>;
     /// The transform that [`Frame::express`] applies.
     fn from_body<R: Real>(pose: &Pose<R>) -> Xform<R>;
-    /// What an acceleration has here beyond the spatial one, v being the velocity in this frame.
+    /// The difference of the acceleration in this frame and the spatial one; v is the velocity in this frame.
     #[inline(always)]
     fn classical_term<R: Real>(v: Motion<R>) -> Motion<R> {
         let _ = v;

@@ -1,4 +1,4 @@
-//! Kinematics: where the bodies are and how they move.
+//! Kinematics: poses, velocities and accelerations of the bodies.
 //!
 //! Featherstone & Orin (2000), equations (3) and (4); RBDA (2008), table 5.1, without the forces.
 
@@ -24,12 +24,12 @@ pub struct Kinematics<R: Real, const B: usize> {
     pub poses: [Pose<R>; B],
     /// The spatial velocity of each body, in its own frame.
     pub velocities: [Motion<R>; B],
-    /// The spatial acceleration of each body, in its own frame; gravity has no part in it.
+    /// The spatial acceleration of each body, in its own frame, without gravity.
     pub accelerations: [Motion<R>; B],
 }
 
 impl<R: Real, const B: usize> Kinematics<R, B> {
-    /// The velocity of `body`, rad/s and m/s, in a [`Frame`]; NaN for what is no body of the robot.
+    /// The velocity of `body`, rad/s and m/s, in a [`Frame`]; NaN for a body that the robot does not have.
     #[inline(always)]
     pub fn velocity<F: Frame>(&self, body: usize, frame: F) -> Motion<R> {
         let _ = frame;
@@ -39,8 +39,8 @@ impl<R: Real, const B: usize> Kinematics<R, B> {
         }
     }
 
-    /// The spatial acceleration of `body`, rad/s² and m/s², in a [`Frame`]; NaN for what is no
-    /// body of the robot.
+    /// The spatial acceleration of `body`, rad/s² and m/s², in a [`Frame`]; NaN for a body that the
+    /// robot does not have.
     #[inline(always)]
     pub fn acceleration<F: Frame>(&self, body: usize, frame: F) -> Motion<R> {
         let _ = frame;
@@ -50,8 +50,8 @@ impl<R: Real, const B: usize> Kinematics<R, B> {
         }
     }
 
-    /// ω̇ and p̈ of the origin of `body`, rad/s² and m/s²: what an accelerometer there would show
-    /// if there were no gravity, along the axes of a [`Frame`] at the point that it refers to.
+    /// The classical acceleration of `body`: ω̇ and p̈ of its origin, rad/s² and m/s², without gravity, along the axes
+    /// of a [`Frame`] at its reference point.
     #[inline(always)]
     pub fn classical<F: Frame>(&self, body: usize, frame: F) -> Motion<R> {
         classical(self.acceleration(body, frame), self.velocity(body, frame))
@@ -101,8 +101,8 @@ where
 
 /// Pose, velocity and acceleration of every body, on a base that moves as the effects specify.
 ///
-/// `state.qdd` counts. Of the effects only a given motion of the base does, not gravity: all bodies share its v₀ and
-/// a₀. The results are along the base's axes at this moment.
+/// `state.qdd` is read. Of the effects, only a given motion v₀, a₀ of the base is included, not gravity. The results
+/// are along the present axes of the base.
 ///
 /// # Shape
 /// B.

@@ -1,7 +1,7 @@
-//! M = Lᵀ L, without the entries that the tree's branches leave zero.
+//! M = Lᵀ L, without the entries that are zero by the branches of the tree.
 //!
-//! Featherstone, RBDA (2008), section 6.5, table 6.4. [`ltdl`](crate::algorithms::ltdl()) does the same
-//! without roots, and is preferable, except where a root of M is needed: M⁻¹ = L⁻¹ L⁻ᵀ.
+//! Featherstone, RBDA (2008), section 6.5, table 6.4. [`ltdl`](crate::algorithms::ltdl()) computes the factors without
+//! roots, and is preferable, except where a root of M is needed: M⁻¹ = L⁻¹ L⁻ᵀ.
 
 use crate::algorithms::MassMatrix;
 use crate::algorithms::NotPositiveDefinite;

@@ -1,7 +1,7 @@
-//! M = Lᵀ D L and M x = τ, without the entries that the tree's branches leave zero.
+//! M = Lᵀ D L and M x = τ, without the entries that are zero by the branches of the tree.
 //!
-//! Featherstone, RBDA (2008), section 6.5, tables 6.3 and 6.5: from the tips to the base, so that no
-//! zero is ever filled. All loops run over the coordinates that carry one, λ(i), λ(λ(i)) …
+//! Featherstone, RBDA (2008), section 6.5, tables 6.3 and 6.5: from the tips to the base, so that no zero is filled.
+//! All loops run over the ancestors of a coordinate, λ(i), λ(λ(i)) …
 
 use crate::algorithms::NotPositiveDefinite;
 use crate::algorithms::{Ltdl, MassMatrix};
@@ -44,12 +44,12 @@ pub(crate) const MATRIX_ROUNDINGS: f64 = 32.0;
 /// ```
 ///
 /// # Errors
-/// [`NotPositiveDefinite`] names the coordinate, outermost first, whose pivot is not a number or not above 32 roundings
-/// of M_ii: it moves no inertia once the coordinates that it carries give way. Within a joint of several coordinates
-/// the rounding errors of each count for those before it as they are multiplied there. M does not show how far away the
-/// frames of bodies are in which it was computed: where they are much farther than what moves, a singular M may leave
-/// more than that; the articulated bodies of [`aba`](crate::algorithms::aba()) and
-/// [`spatial_operator_ltdl`](crate::algorithms::spatial_operator_ltdl()) refuse it.
+/// [`NotPositiveDefinite`] names the outermost coordinate whose pivot is NaN or does not exceed 32 roundings of M_ii:
+/// it moves no inertia when its descendants are free. Within a joint of several coordinates the rounding errors of each
+/// are propagated to those before it. M does not contain the distances of the frames in which it was computed: if they
+/// are much larger than those of the moving masses, the rounding error of a singular M may be larger than this bound;
+/// the articulated bodies of [`aba`](crate::algorithms::aba()) and
+/// [`spatial_operator_ltdl`](crate::algorithms::spatial_operator_ltdl()) reject it.
 #[doc(alias = "LTL")]
 #[doc(alias = "factor")]
 #[inline(always)]
@@ -144,7 +144,7 @@ where
 
 /// The inverse M⁻¹, a column at a time: accelerations of unit torques.
 ///
-/// Unlike M it has no zeros but between separate roots.
+/// Unlike M it has zeros only between separate roots.
 ///
 /// # Shape
 /// V × V.
@@ -181,9 +181,9 @@ where
     m_inv
 }
 
-/// What the pivots of M are compared with.
+/// The bounds of the pivots of M.
 pub(in crate::algorithms) struct Sizes<R, const V: usize> {
-    /// M_ii, and within a joint the errors inherited from the coordinates after it.
+    /// M_ii, and within a joint the errors propagated from the coordinates after it.
     sizes: [R; V],
     /// The first coordinate of the joint that each one belongs to.
     firsts: [usize; V],

@@ -131,8 +131,8 @@ impl<R: Real, const V: usize> Ltdl<R, V> {
         }
     }
 
-    /// The reciprocals of D: what each coordinate accelerates by under a unit torque while those that
-    /// carry it hold still and those that it carries give way.
+    /// The reciprocals of D: the acceleration of each coordinate under a unit torque when its ancestors are fixed and
+    /// its descendants are free.
     #[inline(always)]
     pub fn d_inv(&self) -> &[R; V] {
         &self.d_inv

@@ -1,4 +1,4 @@
-//! M⁻¹ and the factors of M by the spatial operators of articulated bodies, each without the other.
+//! M⁻¹ and the factors of M by the spatial operators of articulated bodies, computed independently.
 //!
 //! Rodriguez, Jain & Kreutz-Delgado (1991, 1992):
 //!
@@ -110,8 +110,8 @@ where
     Ok(m_inv)
 }
 
-/// H (Φ or Ψ) K by rows of joints, and D⁻¹: K of each joint, projected on its ancestors; `pass` is what a
-/// joint transmits inward of a force, given the force's projection on the joint and its own K.
+/// H (Φ or Ψ) K by rows of joints, and D⁻¹: K of each joint, projected on its ancestors; `pass` is the force that a
+/// joint transmits inward, given the force's projection on the joint and its own K.
 #[inline(always)]
 fn columns<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,

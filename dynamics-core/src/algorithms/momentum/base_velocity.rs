@@ -1,4 +1,4 @@
-//! The velocity of a free base from the momentum of all bodies: how it recoils.
+//! The velocity of a free base from the momentum of all bodies.
 //!
 //! Umetani & Yoshida, "Resolved motion rate control of space manipulators with generalized Jacobian matrix" (1989). The
 //! momentum h of a robot that floats freely is constant, and the velocity of its base follows from the rates of the
@@ -18,7 +18,7 @@ use crate::spatial::inertia::CompositeInertia;
 use crate::spatial::{Force, Xform};
 use crate::state::{Configuration, RobotState, entry};
 
-/// What the outward pass leaves for the inward one.
+/// The results of the outward pass for the inward one.
 struct Body<R: Real> {
     x: Xform<R>,
     parent: usize,

@@ -1,4 +1,4 @@
-//! The inverse of a symmetric matrix that may be singular, damped where it is.
+//! The inverse of a symmetric matrix, damped near singularities.
 //!
 //! The damping begins smoothly (after Nakamura & Hanafusa, 1986, and Chiaverini, 1997): the inverse of an eigenvalue λ
 //! below the threshold ε is replaced by a function that has the value and slope of 1/λ at ε and goes to zero with λ:
@@ -16,7 +16,7 @@ use super::eigen::eigen;
 use crate::scalar::Real;
 use crate::state::all_finite;
 
-/// The threshold from which on a direction of little mobility is damped.
+/// The threshold below which a direction of small mobility is damped.
 ///
 /// ```
 /// use dynamics_core::algorithms::Damping;
@@ -32,14 +32,14 @@ pub struct Damping<R> {
 impl<R: Real> Damping<R> {
     /// A threshold ε in eigenvalues of Λ⁻¹, relative to their sum; 10⁻³ suits f32.
     ///
-    /// A task of one direction is its own sum: it needs [`Damping::with_max_inertia`].
+    /// In a task of one direction the only eigenvalue is the sum: use [`Damping::with_max_inertia`].
     pub fn relative(relative: R) -> Self {
         let least = R::ZERO;
         Self { relative, least }
     }
 
-    /// Adds to ε what damps inertias beyond `inertia`, kg: directions that nearly stand still although
-    /// the task has no other to compare them with.
+    /// Adds an absolute threshold to ε, which damps inertias above `inertia`, kg: for tasks whose directions may all
+    /// become singular.
     pub fn with_max_inertia(mut self, inertia: R) -> Self {
         self.least = R::ONE / inertia;
         self
@@ -50,9 +50,9 @@ impl<R: Real> Damping<R> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Conditioning<R> {
-    /// Every direction of the task moves: Λ is exact.
+    /// No direction of the task is singular: Λ is exact.
     Regular,
-    /// A direction hardly moves: Λ is damped along it.
+    /// A direction is nearly singular: Λ is damped along it.
     Damped {
         /// The least eigenvalue of Λ⁻¹ over the threshold: one where damping begins, zero at the
         /// singularity.
@@ -78,7 +78,7 @@ pub enum Conditioning<R> {
 /// M × M.
 ///
 /// # Cost
-/// 4 M³ + M² flops and 2 M divisions where nothing is damped; else 3 M (M − 1) (18 M + 50) + 2 M³ flops more, with 3 M
+/// 4 M³ + M² flops and 2 M divisions without damping; with damping 3 M (M − 1) (18 M + 50) + 2 M³ more flops, with 3 M
 /// (M − 1) divisions, in f64 a sixth more.
 ///
 /// # Source

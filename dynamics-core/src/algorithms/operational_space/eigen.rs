@@ -4,7 +4,7 @@
 
 use crate::scalar::Real;
 
-/// Sweeps over all off-diagonal entries: what 6×6 matrices of any condition needed to reach rounding, and
+/// Sweeps over all off-diagonal entries: the number that 6×6 matrices of any condition needed for full accuracy, and
 /// one more.
 #[inline(always)]
 fn sweeps<R: Real>() -> usize {
@@ -15,7 +15,7 @@ fn sweeps<R: Real>() -> usize {
     }
 }
 
-/// Eigenvalues and eigenvectors (one a row) of a symmetric matrix, in no order.
+/// Eigenvalues and eigenvectors (by rows) of a symmetric matrix, unordered.
 #[inline(always)]
 pub(super) fn eigen<R: Real, const M: usize>(mut a: [[R; M]; M]) -> ([R; M], [[R; M]; M]) {
     let mut vectors = [[R::ZERO; M]; M];
@@ -41,7 +41,7 @@ pub(super) fn eigen<R: Real, const M: usize>(mut a: [[R; M]; M]) -> ([R; M], [[R
     (values, vectors)
 }
 
-/// Rows p and q turned by an angle.
+/// Rotates rows p and q by an angle.
 #[inline(always)]
 fn turn<R: Real, const M: usize>(rows: &mut [[R; M]; M], p: usize, q: usize, c: R, s: R) {
     let (x, y) = (rows[p], rows[q]);
@@ -50,7 +50,7 @@ fn turn<R: Real, const M: usize>(rows: &mut [[R; M]; M], p: usize, q: usize, c: 
     }
 }
 
-/// Cosine and sine of the least turn that makes [app apq; apq aqq] diagonal; none if it is.
+/// Cosine and sine of the smallest rotation that makes [app apq; apq aqq] diagonal; none if it is diagonal.
 #[inline(always)]
 fn rotation<R: Real>(app: R, apq: R, aqq: R) -> (R, R) {
     let (apart, twice) = (aqq - app, apq + apq);

@@ -83,8 +83,8 @@ pub fn task_jacobian<R: Real, const M: usize, const V: usize>(
 /// ```
 ///
 /// # Errors
-/// [`NotPositiveDefinite`] names a joint that moves no inertia. A singular pose is none: all is finite,
-/// and [`OperationalSpace::conditioning`] says so.
+/// [`NotPositiveDefinite`] names a joint that moves no inertia. A singular configuration is not an error: the results
+/// are finite, and [`OperationalSpace::conditioning`] reports it.
 #[doc(alias = "end effector")]
 #[doc(alias = "OSIM")]
 #[inline(always)]
@@ -123,22 +123,22 @@ where
 pub struct OperationalSpace<R, const M: usize, const V: usize> {
     /// J by rows: ẋ = J q̇.
     pub jacobian: [[R; V]; M],
-    /// M⁻¹ Jᵀ by columns: the accelerations q̈ that a unit of each task force gives.
+    /// M⁻¹ Jᵀ by columns: the accelerations q̈ per unit of each task force.
     pub response: [[R; V]; M],
     /// Λ⁻¹ = J M⁻¹ Jᵀ.
     pub mobility: [[R; M]; M],
     /// Λ, damped near singularities: the task force F = Λ ẍ.
     pub inertia: [[R; M]; M],
-    /// Whether it had to be damped.
+    /// Whether Λ is damped.
     pub conditioning: Conditioning<R>,
 }
 
 impl<R: Real, const M: usize, const V: usize> OperationalSpace<R, M, V> {
-    /// From the task's Jacobian, by rows, and M⁻¹, as whatever solves M x = τ: the factors of core or
-    /// engine.
+    /// The operational space of a task from its Jacobian, by rows, and a solution of M x = τ with the factors of core
+    /// or engine.
     ///
-    /// Cost: M solutions, 2 M² V flops, and the inverse. Errors:
-    /// none; at a singular pose all is finite, and `conditioning` says so. Source: Khatib (1987), (18).
+    /// Cost: M solutions, 2 M² V flops, and the inverse. Errors: none; in a singular configuration the results are
+    /// finite, and `conditioning` reports it. Source: Khatib (1987), (18).
     ///
     /// ```
     /// use dynamics_core::{Core, Engine, effects::RIGID_BODY, robots::Ur5e, spatial::Force};
@@ -202,7 +202,7 @@ impl<R: Real, const M: usize, const V: usize> OperationalSpace<R, M, V> {
         self.inertia.map(|row| combine(&self.response, &row))
     }
 
-    /// (1 − Jᵀ J̄ᵀ) τ₀: of some torques the part that does not accelerate the task. Khatib (1987), (53).
+    /// (1 − Jᵀ J̄ᵀ) τ₀: the part of torques τ₀ that does not accelerate the task. Khatib (1987), (53).
     ///
     /// Where Λ is damped, some acceleration along the damped direction remains. 4 M V + 2 M² flops.
     #[inline(always)]

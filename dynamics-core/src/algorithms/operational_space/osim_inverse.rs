@@ -30,7 +30,7 @@ use crate::state::{Configuration, entry};
 
 /// Λ⁻¹: the acceleration of a body per force on it, with all joints free to move.
 ///
-/// The blocks of a symmetric map from F⁶ to M⁶; `mobility * force` is a motion, and a motion no force:
+/// The blocks of a symmetric map from F⁶ to M⁶; `mobility * force` is a motion; a motion is not accepted as a force:
 ///
 /// ```compile_fail,E0308
 /// use dynamics_core::{Core, algorithms::frame, robots::Ur5e, spatial::Motion};
@@ -47,7 +47,7 @@ pub struct OsimInverse<R: Real> {
     lin: Symmetric<R>,
 }
 
-/// Λ⁻¹ f: the acceleration that a force gives, rad/s² and m/s². 66 flops.
+/// Λ⁻¹ f: the acceleration by a force, rad/s² and m/s². 66 flops.
 impl<R: Real> Mul<Force<R>> for OsimInverse<R> {
     type Output = Motion<R>;
     #[inline(always)]
@@ -60,14 +60,14 @@ impl<R: Real> Mul<Force<R>> for OsimInverse<R> {
 }
 
 impl<R: Real> OsimInverse<R> {
-    /// That of a body which cannot move.
+    /// The mobility of a body that cannot move.
     const ZERO: Self = Self {
         ang: Symmetric::ZERO,
         coupling: R::Mat3::ZERO,
         lin: Symmetric::ZERO,
     };
 
-    /// Λ⁻¹ of a task: of what the body does along some directions, given as forces. 77 M² flops.
+    /// Λ⁻¹ of a task: along directions of the body that are given as forces. 77 M² flops.
     #[inline(always)]
     pub fn along<const M: usize>(&self, directions: &[Force<R>; M]) -> [[R; M]; M] {
         directions.map(|f| {
@@ -104,9 +104,9 @@ impl<R: Real> OsimInverse<R> {
 
     /// P Λ⁻¹ Pᵀ + s D⁻¹ sᵀ.
     ///
-    /// Of a turn about z or a slide along it P is 1 but for one row, p = e_z − U D⁻¹: the row and column of
-    /// z become Λ⁻¹ p, and their common entry pᵀ Λ⁻¹ p + D⁻¹. What the joint removes from the motion is so
-    /// removed in p, before it is multiplied by what may be much larger than the rest. 80 flops.
+    /// For a rotation about z or a translation along it, P differs from 1 in one row, p = e_z − U D⁻¹: the row and
+    /// column of z become Λ⁻¹ p, and their common entry pᵀ Λ⁻¹ p + D⁻¹. Cancellation thus occurs in p, before the
+    /// multiplication by entries that may be much larger than the others. 80 flops.
     #[inline(always)]
     fn across(&self, s: &MotionSubspace<R>, joint: &JointFactor<R>) -> Self {
         let k = joint.u_a * joint.d_inv;
@@ -198,7 +198,7 @@ fn with_row_z<R: Real>(m: &R::Mat3, row: R::Vec3) -> R::Mat3 {
 /// ```
 ///
 /// # Errors
-/// [`NotPositiveDefinite`] names a coordinate that moves no inertia, or whose inertia is not a number, as
+/// [`NotPositiveDefinite`] names a coordinate that moves no inertia, or whose inertia is NaN, as
 /// [`aba`](crate::algorithms::aba()) does.
 #[doc(alias = "end effector")]
 #[doc(alias = "mobility")]
@@ -241,7 +241,7 @@ where
     Ok(mobility.at(&(expressed * own)))
 }
 
-/// Which bodies carry `body`, itself included.
+/// The ancestors of `body`, itself included.
 #[inline(always)]
 fn path<R: Real, D, const B: usize, const Q: usize, const V: usize>(
     robot: &D,

@@ -67,7 +67,7 @@ pub struct Contact<R: Real, const P: usize> {
 }
 
 impl<R: Real, const P: usize> Contact<R, P> {
-    /// What the ground exerts on a point at `place` that moves with `velocity`, in base coordinates, N.
+    /// The force of the ground on a point at `place` that moves with `velocity`, in base coordinates, N.
     #[inline(always)]
     pub fn force(&self, place: R::Vec3, velocity: R::Vec3) -> R::Vec3 {
         let n = self.normal;

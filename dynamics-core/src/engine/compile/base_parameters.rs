@@ -10,7 +10,7 @@ use super::tree::Joint;
 use crate::math::const_eval::{add, mul, scale, transpose};
 use crate::model::BASE;
 
-/// From the last joint to the first, moves to the parent what the joint's motion does not depend on.
+/// From the last joint to the first, moves the parameters to the parent on which the joint's motion does not depend.
 pub(super) const fn regroup<const V: usize>(joints: &mut [Joint; V]) {
     let mut i = V;
     while i > 0 {

@@ -1,4 +1,4 @@
-//! From the description to what the engine computes with: evaluated while compiling, in f64, tips to base.
+//! The constants of the engine from the description: evaluated at compile time, in f64, from the tips to the base.
 //!
 //! 1. A fixed body becomes part of its parent.
 //! 2. Each frame is rotated until the joint's axis is z, and moved along it until the offset p from the parent is
@@ -145,5 +145,5 @@ const fn offset(joint: &Joint, k: usize) -> f64 {
     }
 }
 
-/// No joint that limits hold within this leaves it by so much that two parts of π/2 do not do.
+/// The bound of limits within which the reduction with two parts of π/2 is accurate, with a margin for overshoot.
 const FOUR_PI: f64 = 4.0 * core::f64::consts::PI;

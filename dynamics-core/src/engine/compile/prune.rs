@@ -1,4 +1,4 @@
-//! Base parameters whose torque is negligible, left out: where a zero is known, the engine has no instructions.
+//! Base parameters whose torque is negligible become zero: the engine has no instructions for known zeros.
 //!
 //! Each parameter is compared with the robot's largest ones by the torque that it needs while all is at 1 g and turns at
 //! α = g ĥ/Σ̂, by which the largest second moment Σ̂ needs the torque ĥ g that the largest first moment ĥ weighs. A second

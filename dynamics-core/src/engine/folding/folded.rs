@@ -1,4 +1,4 @@
-//! Scalars that may be known while compiling.
+//! Scalars that may be known at compile time.
 //!
 //! LLVM may not fold 0·x or 0 + x for floats (IEEE's −0, NaN and infinities forbid it); here the
 //! operators fold them by a tag. Tags come from constants and every operator is inlined, so that
@@ -18,7 +18,7 @@ enum Tag {
     One,
 }
 
-/// A number with what the compiler knows of it: anything, 0 or 1, and its sign.
+/// A number with a tag for its compile-time value: any, 0 or 1, and a sign.
 #[derive(Clone, Copy)]
 pub(crate) struct Folded<R> {
     magnitude: R,

@@ -9,7 +9,7 @@ const X: [f64; 3] = [1.0, 0.0, 0.0];
 const Y: [f64; 3] = [0.0, 1.0, 0.0];
 const Z: [f64; 3] = [0.0, 0.0, 1.0];
 
-/// What the source's 0.52 rad are in degrees.
+/// The source's 0.52 rad in degrees.
 const WAIST: f64 = 0.52 * 180.0 / PI;
 
 /// From `lower` to `upper` degrees.

@@ -183,7 +183,7 @@ fn solve_inverts_m() {
     check("odd", "engine solve", "f64", worst);
 }
 
-/// J against the core's, which is held against Pinocchio's.
+/// J against the core's, which is compared with Pinocchio's.
 fn jacobian<R: Real, T, const B: usize, const N: usize, const BODY: usize>()
 where
     T: Robot<B, N, N>,

@@ -1,4 +1,4 @@
-//! Every file that a command writes into the repository, and what holds it against today's figures.
+//! Every file that a command writes into the repository, and the check that compares it with current figures.
 
 /// What notices that a file is out of date.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -10,7 +10,7 @@ pub enum Checked {
     Bars(&'static str),
 }
 
-/// The files: a test holds them against what is there.
+/// The files; a test compares the list with the repository.
 pub const FILES: [(&str, Checked); 21] = [
     ("README.md", Checked::Step("readme")),
     ("docs/accuracy-a1_leg-all.svg", Checked::Step("accuracy")),

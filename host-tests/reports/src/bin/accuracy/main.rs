@@ -7,7 +7,7 @@
 //! | `yardstick` | torque errors that an encoder, parameters and friction leave, N·m |
 //! | `speed` | torque errors of a way that leaves out velocity products, by the joints' speed, N·m |
 //! | `simulation` | trajectory error in the first second, rad, and energy bias_acceleration, J/s, of a way with a length of step, µs |
-//! | `oracle` | how far the f64 that all are held against is itself off |
+//! | `oracle` | the error of the f64 reference itself |
 //!
 //! Arguments name the robots, and `simulation`; none names all.
 

@@ -47,6 +47,9 @@ fn main() -> Result<(), ModelError> {
     let error = calibrated(damaged).expect_err("no mass");
     println!("{error}");
     assert_eq!(error.body, "upper_arm");
-    assert!(matches!(error.problem, Problem::Mass | Problem::NotFinite));
+    assert!(matches!(
+        error.problem,
+        Problem::Mass(_) | Problem::NotFinite
+    ));
     Ok(())
 }

@@ -16,7 +16,7 @@ fn main() -> Result<(), InvalidPayload> {
         OnWrist::try_new(BodyInertia { mass, com, inertia }, 1e-6)
     };
     let problem = |mass| load(mass).map_err(|error| error.problem);
-    assert_eq!(problem(-1.0), Err(Problem::Mass));
+    assert_eq!(problem(-1.0), Err(Problem::Mass(-1.0)));
     assert_eq!(problem(f32::NAN), Err(Problem::NotFinite));
 
     // The gripper is always present, and the load is added to it; a load without mass has no effect.

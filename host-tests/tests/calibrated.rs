@@ -161,7 +161,7 @@ fn what_no_body_has_is_named_and_changes_nothing() {
         change(&mut inertia);
         inertia
     };
-    assert_eq!(problem(changed(|i| i.mass = -0.1)), Problem::Mass);
+    assert_eq!(problem(changed(|i| i.mass = -0.1)), Problem::Mass(-0.1));
     assert_eq!(problem(changed(|i| i.mass = f64::NAN)), Problem::NotFinite);
     assert_eq!(
         problem(changed(|i| i.com[1] = f64::INFINITY)),

@@ -122,7 +122,7 @@ impl Body {
             return Some(problem);
         }
         if !(self.mass >= 0.0 && self.mass.is_finite()) {
-            return Some(Problem::Mass);
+            return Some(Problem::Mass(self.mass));
         }
         let mut i = 0;
         while i < 6 {

@@ -28,8 +28,8 @@ pub enum Problem {
     Pitch,
     /// Roll, pitch or yaw exceeds a whole turn, 2π rad: usually an angle in degrees.
     Angle,
-    /// The mass is negative or not finite.
-    Mass,
+    /// The mass, kg, is negative or not finite.
+    Mass(f64),
     /// A length, an angle or an inertia is not finite, or so large that a result is not finite.
     NotFinite,
     /// A limit is NaN, the lower one exceeds the upper, or that of speed or torque is negative.
@@ -58,7 +58,7 @@ impl Problem {
         match self {
             Self::Parent => "its parent is not listed before it",
             Self::Axis => "its joint axis is zero or not finite",
-            Self::Mass => "its mass is negative or not finite",
+            Self::Mass(_) => "its mass is negative or not finite",
             Self::NotFinite => "a length, an angle or an inertia is not finite",
             Self::Limits => {
                 "a limit is not a number, lower exceeds upper, or a speed or torque limit is negative"
@@ -87,6 +87,9 @@ impl fmt::Display for ModelError {
             );
         }
         write!(out, "body `{}`: {}", self.body, self.problem.text())?;
+        if let Problem::Mass(mass) = self.problem {
+            write!(out, ": {mass} kg")?;
+        }
         if let Problem::NoBody(number) = self.problem {
             write!(out, ": {number}")?;
         }

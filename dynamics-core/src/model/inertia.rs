@@ -27,7 +27,7 @@ impl<R: Real> BodyInertia<R> {
             return Some(Problem::NotFinite);
         }
         if !(self.mass.is_finite() && self.mass >= R::ZERO) {
-            return Some(Problem::Mass);
+            return Some(Problem::Mass(self.mass.to_f64()));
         }
         if self.mass == R::ZERO && self.inertia.iter().any(|&x| x != R::ZERO) {
             return Some(Problem::Massless);
@@ -122,14 +122,14 @@ where
     /// assert!(rnea(&arm, &at, &RIGID_BODY)[1].abs() > before[1].abs() + 0.1);
     ///
     /// let error = arm.set_inertia(UPPER_ARM, BodyInertia { mass: -1.0, ..identified }, 1e-6).unwrap_err();
-    /// assert_eq!((error.body, error.problem), ("upper_arm", Problem::Mass));
+    /// assert_eq!((error.body, error.problem), ("upper_arm", Problem::Mass(-1.0)));
     /// # Ok::<(), dynamics_core::model::ModelError>(())
     /// ```
     ///
     /// # Errors
-    /// [`ModelError`] names the body and what is not physical, with its amount ([`Problem::NotFinite`],
-    /// [`Problem::Mass`], [`Problem::Massless`], [`Problem::Triangle`]), or the robot and a number that no body has
-    /// ([`Problem::NoBody`]). The robot is then unchanged.
+    /// [`ModelError`] names the body and what is not physical: [`Problem::Mass`] with the mass, [`Problem::Triangle`]
+    /// with the excess, [`Problem::Massless`] or [`Problem::NotFinite`]; for an index without a body it names the robot
+    /// and the index ([`Problem::NoBody`]). The robot is then unchanged.
     pub fn set_inertia(
         &mut self,
         body: usize,

@@ -59,7 +59,7 @@ impl<R: Real, const BODY: usize> Payload<R, BODY> {
     /// let load = |mass, xx| BodyInertia { mass, com: [0.0, 0.0, 0.1], inertia: [xx, 0.0, 0.0, 0.02, 0.0, 0.02] };
     /// let problem = |mass, xx| Payload::<f64, 5>::try_new(load(mass, xx), 1e-6).map_err(|error| error.problem);
     /// assert!(problem(2.0, 0.01).is_ok());
-    /// assert_eq!(problem(-2.0, 0.01), Err(Problem::Mass));
+    /// assert_eq!(problem(-2.0, 0.01), Err(Problem::Mass(-2.0)));
     /// assert_eq!(problem(0.0, 0.01), Err(Problem::Massless));
     /// assert_eq!(problem(f64::NAN, 0.01), Err(Problem::NotFinite));
     ///

@@ -1,4 +1,4 @@
-//! How the textbook algorithms call the hooks of effects: in the frames that hooks are defined in.
+//! Evaluates the hooks of effects for the textbook algorithms, in the frames in which hooks are defined.
 
 use super::{BodyState, Effect, JointState, field_axes, loads, one_gravity, only_load};
 use crate::model::LinkView;

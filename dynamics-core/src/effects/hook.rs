@@ -140,7 +140,7 @@ impl<E, R: Real> Field<E, R> {
         }
     }
 
-    /// The same field, of which only these base components may differ from zero; what the hook adds to others is left out.
+    /// The same field, of which only these base components may differ from zero; others are ignored.
     #[must_use]
     pub const fn along(self, axes: [bool; 3]) -> Self {
         let [x, y, z] = self.axes;
@@ -220,7 +220,7 @@ impl<E, R: Real> Wrench<E, R> {
         reads_velocity: false,
     };
 
-    /// A wrench that depends on nothing but the effect.
+    /// A wrench that depends only on the effect.
     pub const fn constant(add: fn(&E, usize, &mut Force<R>)) -> Self {
         Self {
             constant: Some(add),

@@ -56,7 +56,7 @@ where
     (v, a)
 }
 
-/// The inertia of body `i` with what the effects add to it, in its aligned frame.
+/// The inertia of body `i` with the contributions of the effects, in its aligned frame.
 #[inline(always)]
 pub(crate) fn body_inertia<R: Real, E, const B: usize, const V: usize>(
     effects: &E,

@@ -8,12 +8,12 @@ use crate::state::JointTrig;
 
 /// The sines and cosines of N joints that move by small angles in each tick.
 ///
-/// In each tick each pair is rotated by Δ = q − q₋ with Taylor's polynomials of degree 3 and 2, and normalised to sin²
-/// + cos² = 1 by one step of Newton's iteration. Rounding errors of the angle are not corrected: the angle drifts as a
-/// random walk, in f32 by some 10⁻⁵ rad in 10⁴ ticks. [`Carried::at`] starts again without drift. Angles: |Δ| < 0.02
-/// rad, an error of 10⁻⁸ a tick. If the angle of a joint jumps by 0.5 rad or more, or is NaN, the entry is not updated:
-/// its `q` remains the angle of its sine and cosine, and a single wrong reading has no effect. After a real jump, call
-/// [`Carried::at`]. 21 flops per joint, with the same instructions for all data.
+/// In each tick each pair is rotated by Δ = q − q₋ with Taylor's polynomials of degree 3 and 2, and normalised
+/// (sin² + cos² = 1) by one step of Newton's iteration. Rounding errors of the angle are not corrected: the angle
+/// drifts as a random walk, in f32 by some 10⁻⁵ rad in 10⁴ ticks. [`Carried::at`] starts again without drift. Angles:
+/// |Δ| < 0.02 rad, an error of 10⁻⁸ a tick. If the angle of a joint jumps by 0.5 rad or more, or is NaN, the entry is
+/// not updated: its `q` remains the angle of its sine and cosine, and a single wrong reading has no effect. After a
+/// real jump, call [`Carried::at`]. 21 flops per joint, with the same instructions for all data.
 ///
 /// ```
 /// use dynamics_core::state::Carried;

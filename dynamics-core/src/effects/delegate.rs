@@ -1,10 +1,11 @@
-//! The one place where effects are forwarded: tuples, what wraps an effect, and wrappers of a user.
+//! Forwarding of effects, for tuples, for wrappers of this crate and for those of users.
 
 use super::BodyState;
 use crate::scalar::Real;
 use crate::spatial::{Force, Motion, SpatialInertia};
 
-/// The functions of a forwarder's hooks. `delegate_effect!` implements it; without default bodies, so that none is left out.
+/// The functions of a forwarder's hooks. `delegate_effect!` implements it. It has no default bodies, so that no hook is
+/// omitted.
 #[doc(hidden)]
 pub trait Forwarder<R: Real, const B: usize, const V: usize> {
     fn forward_field(&self, g: &mut R::Vec3);
@@ -25,7 +26,7 @@ pub const fn any_of<const B: usize, const N: usize>(effects: &[[bool; B]; N]) ->
     any
 }
 
-/// The sum of what there is.
+/// The sum of the values that are present.
 #[doc(hidden)]
 #[inline(always)]
 pub fn sum<R: Real>(a: Option<R>, b: Option<R>) -> Option<R> {
@@ -36,10 +37,10 @@ pub fn sum<R: Real>(a: Option<R>, b: Option<R>) -> Option<R> {
     }
 }
 
-/// Implements [`Effect`](crate::effects::Effect) by forwarding every hook to other effects, in their order: those of the type
-/// on the left of each arrow, found at the place on its right. Bounds of the impl stand in `where [..]` after the type. With `, advance` their memory is advanced, too; without it, for
-/// effects that are borrowed or made anew each time, it stays. After `if` and a constant nothing is forwarded where that is
-/// false.
+/// Implements [`Effect`](crate::effects::Effect) by forwarding every hook to other effects, in their order: those of
+/// the type on the left of each arrow, found at the place on its right. Bounds of the impl stand in `where [..]` after
+/// the type. With `, advance` their internal states are advanced, too; without it, for effects that are borrowed or
+/// built for each call, they are not. With `if` and a constant, nothing is forwarded if the constant is false.
 ///
 /// ```
 /// use dynamics_core::delegate_effect;

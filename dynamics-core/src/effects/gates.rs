@@ -1,10 +1,10 @@
-//! What follows from the hooks of a scene: core and engine use them under the same conditions.
+//! Constants that follow from the hooks of a scene, so that core and engine use them under the same conditions.
 
 use super::Effect;
 use crate::model::BASE;
 use crate::scalar::Real;
 
-/// The base components of the field that are not left out.
+/// The base components of the field that are computed.
 pub(crate) const fn field_axes<R: Real, E, const B: usize, const V: usize>() -> [bool; 3]
 where
     E: Effect<R, B, V>,

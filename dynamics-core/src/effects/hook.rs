@@ -141,7 +141,7 @@ impl<E, R: Real> Field<E, R> {
         }
     }
 
-    /// The same field, of which only these base components may differ from zero; what the hook adds to others is left out.
+    /// The same field, of which only these base components may differ from zero; others are ignored.
     #[must_use]
     pub const fn along(self, axes: [bool; 3]) -> Self {
         let [x, y, z] = self.axes;

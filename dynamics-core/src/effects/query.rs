@@ -1,4 +1,4 @@
-//! How the textbook algorithms call the hooks of effects: in the frames that hooks are defined in.
+//! Evaluates the hooks of effects for the textbook algorithms, in the frames in which hooks are defined.
 
 use super::{BodyState, Effect, JointState, field_axes, loads, one_gravity, only_load};
 use crate::model::LinkView;
@@ -56,7 +56,7 @@ where
     (v, a)
 }
 
-/// The inertia of body `i` with what the effects add to it, in its aligned frame.
+/// The inertia of body `i` with the contributions of the effects, in its aligned frame.
 #[inline(always)]
 pub(crate) fn body_inertia<R: Real, E, const B: usize, const V: usize>(
     effects: &E,

@@ -61,10 +61,9 @@ use subtree::{has_subtree_functions, root_subtree};
 
 /// The algorithms specialised at compile time for the robot `T`; sines and cosines by the kernel `K`.
 ///
-/// Robots: trees of up to 32 moving bodies on revolute, continuous, prismatic and fixed joints. Of the bodies that move
-/// with one joint, welded to its body, there may be any number, but up to 32 in a scene with wrenches
-/// ([`crate::effects::Contact`], [`crate::effects::BodyWrench`] and others that act on a body). Others do not compile;
-/// use [`crate::Core`] for them.
+/// Robots: trees of up to 32 moving bodies on revolute, continuous, prismatic and fixed joints. Any number of bodies
+/// may be welded to one moving body, but at most 32 in a scene with wrenches ([`crate::effects::Contact`],
+/// [`crate::effects::BodyWrench`] and others that act on a body). Others do not compile; use [`crate::Core`] for them.
 ///
 /// ```
 /// use dynamics_core::{Core, Engine, effects::RIGID_BODY, robots::Ur5e, state::State};
@@ -123,8 +122,8 @@ impl<T, K> Engine<T, K> {
 
     /// τ = ID(q, q̇, q̈): the torque of each motor, N·m or N, as [`crate::algorithms::rnea`] computes it.
     ///
-    /// Sines and cosines that no effect in the scene needs are not computed. Angles: those of joints whose
-    /// limits lie within ±4π may go to ±100 rad, others to ±10⁴ rad.
+    /// Sines and cosines that no effect in the scene needs are not computed. Angles of joints whose limits lie within
+    /// ±4π may be up to ±100 rad, others up to ±10⁴ rad.
     ///
     /// # Cost
     /// `docs/costs.md` in the repository; the same instructions for all data. The savings of less accurate kernels are
@@ -156,8 +155,9 @@ impl<T, K> Engine<T, K> {
             .configuration()
             .trig_or(Specialised::<T, K, B, V>(PhantomData));
         let trig = trig.borrow();
-        // Sines and cosines that come from memory are loaded again on the inward pass: `black_box` hides that it is the
-        // same place, since the compiler would spill them to the stack. Gravity alone needs no spills.
+        // Precomputed sines and cosines are loaded again on the inward pass: `black_box` hides from the compiler that
+        // both references are the same, since it would spill the loaded values to the stack. Not needed for gravity
+        // alone.
         let back = if const { S::Configuration::PRECOMPUTED && E::VELOCITY_PRODUCTS | E::ACCELERATIONS }
         {
             black_box(trig)

@@ -139,7 +139,7 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
     ///
     /// # Panics
     /// If [`Model::try_new`] returns an error, with the body's name. Meant for `const` items, where a panic is a
-    /// compile error; for descriptions that come at run time use `try_new`.
+    /// compile error; for descriptions of run time use `try_new`.
     pub const fn new(name: &'static str, bodies: [Body; B]) -> Self {
         match Self::try_new(name, bodies) {
             Ok(model) => model,
@@ -152,8 +152,8 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
     /// # Errors
     /// [`ModelError`] names the body: parent not listed before it, zero or non-finite axis, axes of a universal joint
     /// that are not at right angles, a pitch that is not finite, negative or non-finite mass, other non-finite numbers,
-    /// roll, pitch or yaw beyond a whole turn, limits that are NaN or exclude each other; or the robot, with the Q and V
-    /// that its joints make.
+    /// roll, pitch or yaw beyond a whole turn, limits that are NaN or exclude each other; or the robot, with the Q and
+    /// V of its joints.
     pub const fn try_new(name: &'static str, bodies: [Body; B]) -> Result<Self, ModelError> {
         let mut links = [EMPTY; B];
         let (mut lambda, mut kinds) = ([BASE; V], JointKinds::NONE);
@@ -222,8 +222,8 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
         true
     }
 
-    /// Placement and inertia of link `i` in the frames of its description, as URDF has them; not of a
-    /// robot's last bit where an axis is none of x, y, z.
+    /// Placement and inertia of link `i` in the frames of its description, as in a URDF; up to rounding where an axis
+    /// is none of x, y, z.
     pub fn in_link_frame(&self, i: usize) -> (Xform<f64>, SpatialInertia<f64>) {
         let link = &self.links[i];
         let (back, parent) = match self.links.get(link.parent) {

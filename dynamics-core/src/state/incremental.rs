@@ -8,18 +8,22 @@ use crate::state::JointTrig;
 
 /// The sines and cosines of N joints that move by small angles in each tick.
 ///
-/// In each tick each pair is rotated by Δ = q − q₋ with Taylor's polynomials of degree 3 and 2, and normalised to sin²
-/// + cos² = 1 by one step of Newton's iteration. Rounding errors of the angle are not corrected: the angle drifts as a
-/// random walk, in f32 by some 10⁻⁵ rad in 10⁴ ticks. [`IncrementalTrig::at`] starts again without drift. Angles: |Δ| < 0.02
-/// rad, an error of 10⁻⁸ a tick. If the angle of a joint jumps by 0.5 rad or more, or is NaN, the entry is not updated:
-/// its `q` remains the angle of its sine and cosine, and a single wrong reading has no effect. After a real jump, call
-/// [`IncrementalTrig::at`]. 21 flops per joint, with the same instructions for all data.
+/// In each tick each pair is rotated by Δ = q − q₋ with Taylor's polynomials of degree 3 and 2, and normalised by one step
+/// of Newton's iteration for sin² + cos² = 1. Rounding errors of the angle are not corrected: the angle drifts as a random
+/// walk, in f32 by some 10⁻⁵ rad in 10⁴ ticks. [`IncrementalTrig::at`] starts again without drift.
+///
+/// Angles: |Δ| < 0.02 rad, an error of 10⁻⁸ a tick. If the angle of a joint jumps by 0.5 rad or more, or is NaN, the entry
+/// is not updated: its `q` remains the angle of its sine and cosine, and a single wrong reading has no effect. After a
+/// real jump, call [`IncrementalTrig::at`].
+///
+/// # Cost
+/// 21 flops per joint, with the same instructions for all data.
 ///
 /// ```
 /// use dynamics_core::state::IncrementalTrig;
 /// let mut turns = IncrementalTrig::at([0.3_f32]);
-/// let posture = turns.follow(&[0.301]);
-/// assert!((posture.turns[0].sin - 0.301_f32.sin()).abs() < 2e-7);
+/// let trig = turns.follow(&[0.301]);
+/// assert!((trig.turns[0].sin - 0.301_f32.sin()).abs() < 2e-7);
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct IncrementalTrig<R, const N: usize> {

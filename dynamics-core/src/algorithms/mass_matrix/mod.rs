@@ -58,7 +58,7 @@ impl<R: Real, const V: usize> MassMatrix<R, V> {
         })
     }
 
-    /// M + diag(d): with d = h b, what an implicit step of h s solves with under a damping of b.
+    /// M + diag(d): with d = h b, the matrix of an implicit step of h seconds with a damping b.
     ///
     /// ```
     /// use dynamics_core::algorithms::{forward_dynamics, ltdl, rnea, solve};

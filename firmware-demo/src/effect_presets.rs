@@ -116,7 +116,7 @@ pub fn bodies<const N: usize, const BODY: usize>(visitor: &mut impl Visitor<N>) 
     visitor.scene("body_wrench", (RIGID_BODY, BodyWrench { body, wrench }));
     visitor.scene("world_wrench", (RIGID_BODY, WorldWrench { body, wrench }));
     let floor = Contact {
-        feet: [ContactPoint {
+        points: [ContactPoint {
             body,
             point: Vec3::new(0.0, 0.0, 0.1),
         }],

@@ -228,7 +228,7 @@ fn sines_that_are_carried_on_drift_slowly() {
     let mut worst = 0.0_f64;
     for tick in 0..10_000 {
         let q = (f64::from(tick) * 1e-3).sin() as f32 * 3.0;
-        let turn = turns.follow(&[q]).turns[0];
+        let turn = turns.follow(&[q]).coordinates[0];
         let (sin, cos) = f64::from(q).sin_cos();
         let off = [f64::from(turn.sin) - sin, f64::from(turn.cos) - cos];
         worst = largest(off.map(f64::abs).into_iter().chain([worst]));

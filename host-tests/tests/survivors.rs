@@ -201,7 +201,7 @@ fn sines_that_are_carried_on_stay_on_the_unit_circle() {
         q += 0.01;
         turns.follow(&[q]);
     }
-    let turn = turns.follow(&[q]).turns[0];
+    let turn = turns.follow(&[q]).coordinates[0];
     let off = turn.sin * turn.sin + turn.cos * turn.cos - 1.0;
     assert!(off.abs() < 1e-15, "{off:e}");
 }

@@ -173,10 +173,10 @@ fn within_range_every_bit_is_what_it_was() {
 fn one_wrong_reading_leaves_no_trace_in_sines_turned_on() {
     for wrong in [3e9, f32::MAX, f32::INFINITY, f32::NAN] {
         let mut turns = IncrementalTrig::at([0.3_f32]);
-        let held = turns.follow(&[wrong]).turns[0];
+        let held = turns.follow(&[wrong]).coordinates[0];
         assert_eq!(held.q, 0.3);
         assert!(held.sin.abs() <= 1.0 && held.cos.abs() <= 1.0);
-        let back = turns.follow(&[0.301]).turns[0];
+        let back = turns.follow(&[0.301]).coordinates[0];
         assert!(
             (back.sin - 0.301_f32.sin()).abs() < 2e-7 && back.q == 0.301,
             "{wrong}: {back:?}"

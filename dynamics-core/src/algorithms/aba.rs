@@ -156,7 +156,7 @@ fn outward_velocities<'a, R: Real, D, E, const B: usize, const Q: usize, const V
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    let turns = &trig.turns;
+    let turns = &trig.coordinates;
     // Not in one pattern, which costs the A1 1.5 % of its cycles.
     let mut v = per_body(robot, v_0);
     let mut poses = per_body(robot, Xform::IDENTITY);
@@ -209,7 +209,7 @@ fn inward_inertias<R: Real, E, const B: usize, const Q: usize, const V: usize>(
 where
     E: Effect<R, B, V>,
 {
-    let turns = &trig.turns;
+    let turns = &trig.coordinates;
     // Not by `inward`, which costs 1.5 % of the UR5e's cycles here.
     let mut left = bodies;
     while let Some((body, inner)) = core::mem::take(&mut left).split_last_mut() {
@@ -293,7 +293,7 @@ where
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    let turns = &trig.turns;
+    let turns = &trig.coordinates;
     let mut joints = JointResult::ZERO;
     let mut a = per_body(robot, a_0);
     for body in bodies {

@@ -84,7 +84,7 @@ where
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    let turns = &trig.turns;
+    let turns = &trig.coordinates;
     let mut bodies: Vec<Body<'_, R>, B> = Vec::new();
     for i in 0..B {
         let Some(link) = robot.link(i) else {

@@ -67,7 +67,7 @@ where
 {
     let trig = q.trig_of(robot);
     let trig = trig.borrow();
-    let (turns, lambda) = (&trig.turns, &robot.model().lambda);
+    let (turns, lambda) = (&trig.coordinates, &robot.model().lambda);
     let mut bodies: Vec<Body<'_, R>, B> = Vec::new();
     for (i, link) in robot.links().enumerate() {
         let ic = body_inertia(effects, i, &link).into();

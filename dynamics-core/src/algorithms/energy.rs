@@ -47,7 +47,7 @@ where
 {
     let trig = state.configuration().trig_of(robot);
     let (trig, state) = (trig.borrow(), state.state());
-    let turns = &trig.turns;
+    let turns = &trig.coordinates;
     let mut twice = R::ZERO;
     let mut v = per_body(robot, base_given(effects).0);
     for (i, link) in robot.links().enumerate() {

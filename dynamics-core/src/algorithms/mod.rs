@@ -7,7 +7,7 @@ mod crba_jacobian;
 mod energy;
 mod error;
 mod forward_dynamics;
-mod hybrid;
+mod hybrid_dynamics;
 pub mod kinematics;
 mod mass_matrix;
 mod momentum;
@@ -23,7 +23,7 @@ pub use crba_jacobian::crba_jacobian;
 pub use energy::{kinetic_energy, potential_energy};
 pub use error::NotPositiveDefinite;
 pub use forward_dynamics::forward_dynamics;
-pub use hybrid::{JointResult, Prescribed, hybrid_dynamics};
+pub use hybrid_dynamics::{JointResult, Prescribed, hybrid_dynamics};
 pub use kinematics::{
     Frame, Kinematics, Pose, bias_acceleration, classical, frame, jacobian, kinematics, poses,
 };

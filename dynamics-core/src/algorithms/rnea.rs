@@ -90,7 +90,7 @@ where
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    let turns = &trig.turns;
+    let turns = &trig.coordinates;
     let (v_0, a_0) = base_motion(effects);
     // With one pattern for both, or with `v.push` after (5) or `a.push` before it, the A1 takes 2 % more cycles.
     let mut v = per_body(robot, v_0);

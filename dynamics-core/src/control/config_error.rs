@@ -67,7 +67,7 @@ impl From<SafetyLimitsError> for ConfigError {
 impl fmt::Display for ConfigError {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let parameter = match self {
-            Self::Limits(_) => return out.write_str("a limit of a joint allows nothing"),
+            Self::Limits(_) => return out.write_str("a limit of a joint is invalid"),
             Self::OutOfRange { parameter } => parameter,
         };
         out.write_str(match parameter {

@@ -70,16 +70,16 @@ impl fmt::Display for Fault {
         let (joint, text) = match *self {
             Self::Stale => return write!(out, "no measurement of this tick"),
             Self::Unfinished => return write!(out, "the tick before got no torque"),
-            Self::Brake => return write!(out, "the brake did not take its order"),
+            Self::Brake => return write!(out, "the brake did not respond"),
             Self::External => return write!(out, "a stop from outside"),
             Self::Encoder { joint } => (joint, "its encoder reports an error"),
             Self::NotFinite { joint } => (joint, "its measured position is not finite"),
             Self::Position { joint } => (joint, "its position is outside its bounds"),
             Self::Jump { joint } => (joint, "its position jumped"),
-            Self::Speed { joint } => (joint, "it is faster than it may be"),
+            Self::Speed { joint } => (joint, "it exceeds its speed limit"),
             Self::Torque { joint } => (joint, "the torque of its law is not finite"),
-            Self::Limits { joint } => (joint, "a limit of it allows nothing"),
-            Self::Drive { joint } => (joint, "its drive did not take its torque"),
+            Self::Limits { joint } => (joint, "one of its limits is invalid"),
+            Self::Drive { joint } => (joint, "its drive rejected the torque command"),
         };
         write!(out, "joint {joint}: {text}")
     }

@@ -25,21 +25,21 @@ pub struct ZeroOrderHold<R, const V: usize> {
 }
 
 impl<R: Real, const V: usize> ZeroOrderHold<R, V> {
-    /// Before the first computation.
+    /// A state before the first computation: its torques are zero.
     pub fn start() -> Self {
         Self {
             torque: [R::ZERO; V],
         }
     }
 
-    /// In a tick that has computed the torque.
+    /// Updates the state in a tick that has computed the torque.
     #[inline(always)]
     pub fn update(&mut self, torque: [R; V]) -> [R; V] {
         self.torque = torque;
         torque
     }
 
-    /// In a tick that has not.
+    /// The torque of a tick that has not computed it.
     #[inline(always)]
     pub fn hold(&self) -> [R; V] {
         self.torque
@@ -68,7 +68,7 @@ pub struct FirstOrderHold<R, const V: usize, const TICKS: usize> {
 }
 
 impl<R: Real, const V: usize, const TICKS: usize> FirstOrderHold<R, V, TICKS> {
-    /// Before the first computation.
+    /// A state before the first computation: its torques are zero.
     pub fn start() -> Self {
         Self {
             computed: [R::ZERO; V],
@@ -78,7 +78,7 @@ impl<R: Real, const V: usize, const TICKS: usize> FirstOrderHold<R, V, TICKS> {
         }
     }
 
-    /// In a tick that has computed the torque.
+    /// Updates the state in a tick that has computed the torque.
     #[inline(always)]
     pub fn update(&mut self, torque: [R; V]) -> [R; V] {
         if self.known {
@@ -90,7 +90,7 @@ impl<R: Real, const V: usize, const TICKS: usize> FirstOrderHold<R, V, TICKS> {
         torque
     }
 
-    /// In a tick that has not.
+    /// The torque of a tick that has not computed it.
     #[inline(always)]
     pub fn hold(&mut self) -> [R; V] {
         for (torque, &step) in self.torque.iter_mut().zip(&self.step) {
@@ -131,7 +131,7 @@ impl<R: Real, const V: usize, const TICKS: usize> Interpolator<R, V, TICKS> {
         }
     }
 
-    /// In a tick that has computed the torque of `TICKS` ticks later; the torque of now.
+    /// Updates the state in a tick that has computed the torque of `TICKS` ticks later; returns the torque of this tick.
     #[inline(always)]
     pub fn update(&mut self, ahead: [R; V]) -> [R; V] {
         self.torque = self.ahead;
@@ -140,7 +140,7 @@ impl<R: Real, const V: usize, const TICKS: usize> Interpolator<R, V, TICKS> {
         self.torque
     }
 
-    /// In a tick that has not.
+    /// The torque of a tick that has not computed it.
     #[inline(always)]
     pub fn hold(&mut self) -> [R; V] {
         for (torque, &step) in self.torque.iter_mut().zip(&self.step) {
@@ -153,16 +153,16 @@ impl<R: Real, const V: usize, const TICKS: usize> Interpolator<R, V, TICKS> {
 /// (b − a)/`TICKS`.
 #[inline(always)]
 fn slope<R: Real, const V: usize, const TICKS: usize>(b: &[R; V], a: &[R; V]) -> [R; V] {
-    let per_tick = R::from_f64(const { 1.0 / TICKS as f64 });
+    let ticks_inv = R::from_f64(const { 1.0 / TICKS as f64 });
     let mut slope = *b;
     for (slope, &a) in slope.iter_mut().zip(a) {
-        *slope = (*slope - a) * per_tick;
+        *slope = (*slope - a) * ticks_inv;
     }
     slope
 }
 
-/// τ = b + M q̈ with the M of the last computation and the q̈ of now; b, all that M q̈ is not, goes on as it went
-/// between the last two.
+/// τ = b + M q̈ with the M of the last computation and the q̈ of now; b, the bias τ − M q̈, is extrapolated linearly from
+/// the last two.
 ///
 /// Exact where the acceleration jumps, which the others see a period late.
 ///
@@ -185,7 +185,7 @@ pub struct InertiaUpdate<R, const V: usize, const TICKS: usize> {
 }
 
 impl<R: Real, const V: usize, const TICKS: usize> InertiaUpdate<R, V, TICKS> {
-    /// Before the first computation.
+    /// A state before the first computation: its torques are zero.
     pub fn start() -> Self {
         Self {
             mass_matrix: MassMatrix::ZERO,
@@ -193,7 +193,7 @@ impl<R: Real, const V: usize, const TICKS: usize> InertiaUpdate<R, V, TICKS> {
         }
     }
 
-    /// In a tick that has computed torque and M at the acceleration q̈.
+    /// Updates the state in a tick that has computed the torque, and M at the acceleration q̈.
     #[inline(always)]
     pub fn update(
         &mut self,
@@ -210,7 +210,7 @@ impl<R: Real, const V: usize, const TICKS: usize> InertiaUpdate<R, V, TICKS> {
         torque
     }
 
-    /// In a tick that has not.
+    /// The torque of a tick that has not computed it.
     #[inline(always)]
     pub fn hold(&mut self, qdd: &[R; V]) -> [R; V] {
         let mut torque = self.bias.hold();

@@ -71,8 +71,8 @@ pub struct ResumeTrajectory<R, const V: usize> {
     /// 1 / λ in ticks.
     lead: u32,
     /// Share of the return in a tick, and share in a second.
-    per_tick: R,
-    per_second: R,
+    ticks_inv: R,
+    seconds_inv: R,
     /// a.
     rest: State<R, V, V>,
     /// σ: whole ticks, and the fraction of the next one.
@@ -100,15 +100,15 @@ impl<R: Real, const V: usize> ResumeTrajectory<R, V> {
             ticks,
         } = config;
         let half = ticks.div_ceil(2).max(1);
-        let per_tick = R::from_f64(0.5) / real(half);
+        let ticks_inv = R::from_f64(0.5) / real(half);
         Self {
             tick,
             decay,
             half,
             // What is not a number of ticks becomes none or very many: the end of the trajectory.
             lead: (R::ONE / (decay * tick)).to_f64() as u32,
-            per_tick,
-            per_second: per_tick / tick,
+            ticks_inv,
+            seconds_inv: ticks_inv / tick,
             rest: State::at([R::ZERO; V]),
             clock: 0,
             advanced: 0,
@@ -187,12 +187,12 @@ impl<R: Real, const V: usize> ResumeTrajectory<R, V> {
     fn weights(&self, x: R) -> [R; 3] {
         let [six, ten, fifteen, thirty] = [6.0, 10.0, 15.0, 30.0].map(R::from_f64);
         let (xx, r) = (x * x, R::ONE - x);
-        let slope = thirty * xx * r * r * self.per_second;
-        let bend = (thirty + thirty) * x * r * (r - x) * self.per_second * self.per_second;
+        let slope = thirty * xx * r * r * self.seconds_inv;
+        let bend = (thirty + thirty) * x * r * (r - x) * self.seconds_inv * self.seconds_inv;
         [xx * x * (ten - fifteen * x + six * xx), slope, bend]
     }
 
-    /// The trajectory at σ, one tick on, under a time that passes at the rate w.
+    /// The trajectory at σ, advanced by one tick of a time that passes at the rate w.
     fn goal<T: Reference<R, V>>(
         &mut self,
         trajectory: &T,
@@ -201,7 +201,7 @@ impl<R: Real, const V: usize> ResumeTrajectory<R, V> {
         slope: R,
     ) -> State<R, V, V> {
         // Rates of the middles of ticks: their sum over the whole return is exactly half its ticks.
-        let middle = share - R::from_f64(0.5) * self.per_tick;
+        let middle = share - R::from_f64(0.5) * self.ticks_inv;
         let [passed, ..] = self.weights(middle.clamped(R::ZERO, R::ONE));
         self.fraction += passed;
         if self.fraction >= R::ONE {
@@ -220,7 +220,7 @@ impl<R: Real, const V: usize> ResumeTrajectory<R, V> {
         goal
     }
 
-    /// a, one tick on, from the second tick on.
+    /// a, advanced by one tick except in the first one.
     fn decay_step(&mut self, share: R) {
         let moving = share > R::ZERO;
         let h = if moving { self.tick } else { R::ZERO };

@@ -1,7 +1,7 @@
 //! The safety gate that every measurement and every command passes, and the reaction to faults.
 //!
 //! ```text
-//!          more than ride_ticks of fault        hold_ticks more
+//!          more than ride_through_ticks of fault   hold_ticks more
 //!   Full ────────────────────────────────▶ Hold ───────────────▶ Stopped
 //!    ▲                                      │                       │
 //!    └──────────────────────────────────────┘ no fault              │

@@ -19,16 +19,16 @@ use crate::scalar::Real;
 use crate::state::{State, all_finite};
 
 mod error;
+mod rest_to_rest;
 mod segment;
-mod smooth;
 #[cfg(test)]
 mod tests;
 
 pub use error::TrajectoryError;
+pub use rest_to_rest::RestToRest;
 use segment::Segment;
-pub use smooth::RestToRest;
 
-/// A configuration to pass, with the velocity in passing, at zero acceleration.
+/// A configuration and the velocity at which to pass it, at zero acceleration.
 ///
 /// ```
 /// use dynamics_core::control::WayPoint;
@@ -157,7 +157,7 @@ impl<R: Real, const V: usize, const W: usize> Trajectory<R, V, W> {
         for next in &self.segments {
             segment = if next.start <= tick { next } else { segment };
         }
-        let s = real::<R>(tick.wrapping_sub(segment.start)) * segment.per_tick;
+        let s = real::<R>(tick.wrapping_sub(segment.start)) * segment.ticks_inv;
         segment.at(s)
     }
 

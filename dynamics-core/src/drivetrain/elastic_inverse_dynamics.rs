@@ -104,15 +104,15 @@ impl core::error::Error for MultiDofJoint {}
 pub fn elastic_inverse_dynamics<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     joints: &ElasticJoints<R, V>,
-    course: &ElasticReference<R, Q, V>,
+    reference: &ElasticReference<R, Q, V>,
     effects: &E,
 ) -> Result<ElasticCommand<R, V>, MultiDofJoint>
 where
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    let tau = torque_rates(robot, course, effects)?;
-    let State { q, qd, qdd } = &course.state;
+    let tau = torque_rates(robot, reference, effects)?;
+    let State { q, qd, qdd } = &reference.state;
     let mut command = ElasticCommand {
         torque: [R::ZERO; V],
         position: [R::ZERO; V],
@@ -155,7 +155,7 @@ struct Link<'a, R: Real> {
 /// τ, τ̇ and τ̈ of the springs.
 fn torque_rates<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
-    course: &ElasticReference<R, Q, V>,
+    reference: &ElasticReference<R, Q, V>,
     effects: &E,
 ) -> Result<[[R; V]; 3], MultiDofJoint>
 where
@@ -172,8 +172,11 @@ where
             "inverse dynamics of compliant joints allows no wrenches on bodies, moving base or `GyroscopicRotors`"
         );
     };
-    let (state, turns) = (&course.state, JointTrig::new(robot, &course.state.q).turns);
-    let rates = [&state.qd, &state.qdd, &course.jerk, &course.snap];
+    let (state, turns) = (
+        &reference.state,
+        JointTrig::new(robot, &reference.state.q).coordinates,
+    );
+    let rates = [&state.qd, &state.qdd, &reference.jerk, &reference.snap];
     // A base that accelerates by −g for ever is gravity.
     let (v_0, a_0) = base_motion(effects);
     let base = [v_0, a_0, Motion::ZERO, Motion::ZERO];
@@ -207,7 +210,7 @@ where
             effects.torque(k, at, &mut own);
             effects.add_inertia(k, &mut inertia);
             effects.derivatives(k, at, &mut derivatives);
-            let (jerk, snap) = (entry(&course.jerk, k), entry(&course.snap, k));
+            let (jerk, snap) = (entry(&reference.jerk, k), entry(&reference.snap, k));
             let added = [
                 own + inertia * qdd,
                 derivatives.dq * at.qd + derivatives.dqd * qdd + inertia * jerk,

@@ -86,7 +86,7 @@ where
     black_box(&mut x);
     let (mut u, mut d_inv) = ([[R::ZERO; 6]; V], [R::ZERO; V]);
     let mut task = Task {
-        turns: &trig.turns,
+        turns: &trig.coordinates,
         effects,
         u: &mut u,
         d_inv: &mut d_inv,
@@ -97,7 +97,10 @@ where
             let _ = inward::<R, T, E, B, Q, V, J>(&mut task);
         }
     });
-    positive(task.d_inv, &noise::<R, T, E, B, Q, V>(&trig.turns, effects))?;
+    positive(
+        task.d_inv,
+        &noise::<R, T, E, B, Q, V>(&trig.coordinates, effects),
+    )?;
     for_each_joint!(J, {
         if const { is_on_base::<T, B, Q, V>(J) } {
             outward::<R, T, E, B, Q, V, J>(&mut task, [R::Vec3::ZERO; 2]);

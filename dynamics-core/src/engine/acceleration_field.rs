@@ -41,7 +41,7 @@ pub(crate) struct AccelerationField<R> {
     pub(crate) pose: Pose<R>,
 }
 
-/// JointRates of a joint, in units of length; zero where no effect needs them.
+/// Rates of a joint, in units of length; zero where no effect needs them.
 #[derive(Clone, Copy)]
 pub(crate) struct JointRates<R> {
     pub(crate) velocity: Folded<R>,

@@ -55,7 +55,7 @@ impl<T, K> Engine<T, K> {
     {
         let trig = q.trig_or(Specialised::<T, K, B, V>(PhantomData));
         let mut m = MassMatrix::ZERO;
-        mass_matrix::<R, T, E, B, Q, V>(&trig.borrow().turns, effects, &mut m);
+        mass_matrix::<R, T, E, B, Q, V>(&trig.borrow().coordinates, effects, &mut m);
         m
     }
 }

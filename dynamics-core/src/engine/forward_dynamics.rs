@@ -101,10 +101,13 @@ where
     let mut x = Engine::<T>::remaining(trig, state, tau, effects);
     black_box(&mut x);
     let mut m = MassMatrix::ZERO;
-    mass_matrix::<R, T, E, B, Q, V>(&trig.turns, effects, &mut m);
+    mass_matrix::<R, T, E, B, Q, V>(&trig.coordinates, effects, &mut m);
     black_box(&mut m);
     let d_inv = decompose::<R, T, B, Q, V>(&mut m.rows);
-    positive(&d_inv, &noise::<R, T, E, B, Q, V>(&trig.turns, effects))?;
+    positive(
+        &d_inv,
+        &noise::<R, T, E, B, Q, V>(&trig.coordinates, effects),
+    )?;
     substitute::<R, T, B, Q, V>(&m.rows, &d_inv, &mut x);
     Ok(x)
 }

@@ -55,7 +55,7 @@ impl<T, K> Engine<T, K> {
         K: Kernel<R>,
     {
         let trig = q.trig_or(Specialised::<T, K, B, V>(PhantomData));
-        columns::<R, T, B, Q, V, BODY>(&trig.borrow().turns)
+        columns::<R, T, B, Q, V, BODY>(&trig.borrow().coordinates)
     }
 }
 

@@ -117,7 +117,7 @@ impl<T, K> Engine<T, K> {
                 };
             }
         });
-        JointTrig { turns }
+        JointTrig { coordinates: turns }
     }
 
     /// τ = ID(q, q̇, q̈): the torque of each motor, N·m or N, as [`crate::algorithms::rnea`] computes it.
@@ -200,8 +200,8 @@ impl<T> Engine<T> {
         let base = base::<R, E, B, V>(effects, length);
         let mut tau = [R::ZERO; V];
         let mut task = Task {
-            turns: &trig.turns,
-            back: &back.turns,
+            turns: &trig.coordinates,
+            back: &back.coordinates,
             state,
             effects,
             tau: &mut tau,

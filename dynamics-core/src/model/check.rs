@@ -12,7 +12,7 @@ impl<R: Real, const B: usize, const Q: usize, const V: usize> Model<R, B, Q, V> 
     /// assert_eq!(HAND, 6);
     /// ```
     ///
-    /// A name that no body has does not compile:
+    /// The name of no body does not compile:
     ///
     /// ```compile_fail,E0080
     /// use dynamics_core::{model::Robot, robots::Panda};

@@ -139,7 +139,7 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
     ///
     /// # Panics
     /// If [`Model::try_new`] returns an error, with the body's name. Meant for `const` items, where a panic is a
-    /// compile error; for descriptions of run time use `try_new`.
+    /// compile error; for descriptions at run time use `try_new`.
     pub const fn new(name: &'static str, bodies: [Body; B]) -> Self {
         match Self::try_new(name, bodies) {
             Ok(model) => model,

@@ -28,7 +28,7 @@ use super::{Model, Robot};
 /// assert_eq!(refused.unwrap_err().joint, 5);
 /// ```
 ///
-/// All of it is not negligible:
+/// A share of 100 % does not compile:
 ///
 /// ```compile_fail,E0080
 /// use dynamics_core::{Engine, effects::RIGID_BODY, model::Pruned, robots::Ur5e, state::State};

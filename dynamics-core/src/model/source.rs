@@ -24,7 +24,7 @@ pub trait RobotModel<R: Real, const B: usize, const Q: usize, const V: usize> {
     /// The robot's numbers.
     fn model(&self) -> &Model<R, B, Q, V>;
 
-    /// The same robot as one of revolute joints only, if all joints of a model of run time are revolute: for algorithms
+    /// The same robot as one of revolute joints only, if all joints of a model loaded at run time are revolute: for algorithms
     /// that are compiled a second time for this case. None if the robot is known at compile time.
     #[inline(always)]
     fn as_all_revolute(&self) -> Option<AllRevolute<'_, R, B, Q, V>> {
@@ -125,10 +125,10 @@ where
     }
 }
 
-/// A robot with the structure of `T`, known at compile time, and numbers of run time: identified masses and inertias,
+/// A robot with the structure of `T`, known at compile time, and run-time parameters: identified masses and inertias,
 /// measured lengths.
 ///
-/// It is as fast and as small as [`Static`], while a [`Model`] of run time has a branch on the kind of each joint.
+/// It is as fast and as small as [`Static`], while a [`Model`] at run time has a branch on the kind of each joint.
 ///
 /// ```
 /// use dynamics_core::{algorithms::rnea, effects::RIGID_BODY, model::Calibrated, robots::Ur5e, state::State};

@@ -15,7 +15,7 @@ pub trait Dynamics<R, const Q: usize, const V: usize> {
     /// As forward dynamics.
     fn acceleration(&self, at: &State<R, Q, V>) -> Result<[R; V], NotPositiveDefinite>;
 
-    /// q̈ that a step of h seconds takes which treats joint effects along their slopes: [`Implicit`].
+    /// q̈ of a linearly implicit step of h seconds: [`Implicit`].
     ///
     /// # Errors
     /// As forward dynamics.

@@ -35,7 +35,7 @@ impl<R: Real, const N: usize> IncrementalTrig<R, N> {
     pub fn at(q: [R; N]) -> Self {
         Self {
             trig: JointTrig {
-                turns: q.map(JointCoordinate::revolute),
+                coordinates: q.map(JointCoordinate::revolute),
             },
         }
     }
@@ -44,7 +44,7 @@ impl<R: Real, const N: usize> IncrementalTrig<R, N> {
     #[inline(always)]
     pub fn follow(&mut self, q: &[R; N]) -> &JointTrig<R, N> {
         let [quarter, half, sixth, three_halves] = [0.25, 0.5, 1.0 / 6.0, 1.5].map(R::from_f64);
-        for (turn, &q) in self.trig.turns.iter_mut().zip(q) {
+        for (turn, &q) in self.trig.coordinates.iter_mut().zip(q) {
             let d = q - turn.q;
             // False of a NaN, too.
             let near = d * d < quarter;

@@ -62,7 +62,7 @@ pub fn all_finite<R: Real>(values: &[R]) -> bool {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JointTrig<R, const Q: usize> {
     /// One entry per position coordinate.
-    pub turns: [JointCoordinate<R>; Q],
+    pub coordinates: [JointCoordinate<R>; Q],
 }
 
 impl<R: Real, const Q: usize> JointTrig<R, Q> {
@@ -81,7 +81,7 @@ impl<R: Real, const Q: usize> JointTrig<R, Q> {
         Self::with_kernel::<D::Kernel, D, B, V>(robot, q)
     }
 
-    /// As [`Self::new`], with the kernel K in place of the robot's own: for models of run time.
+    /// As [`Self::new`], with the kernel K in place of the robot's own: for models loaded at run time.
     ///
     /// ```
     /// use dynamics_core::{model::Robot, robots::Ur5e, state::JointTrig, trig::Table};
@@ -100,6 +100,6 @@ impl<R: Real, const Q: usize> JointTrig<R, Q> {
             Some(robot) => robot.links().for_each(|link| link.pose::<K>(q, &mut turns)),
             None => robot.links().for_each(|link| link.pose::<K>(q, &mut turns)),
         }
-        Self { turns }
+        Self { coordinates: turns }
     }
 }

@@ -62,7 +62,7 @@ impl Scene<7, 7, 7, 7> for CompliantArm {
     }
 
     fn environment(reference: &Self::Reference, ticks: f32) -> ElasticReference<f32, 7, 7> {
-        reference.course(ticks as u32)
+        reference.elastic_reference(ticks as u32)
     }
 
     fn inverse<E: Effect<f32, 7, 7>>(

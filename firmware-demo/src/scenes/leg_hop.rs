@@ -25,7 +25,7 @@ pub type Effects = (
 
 /// A rubber mat; its numbers are assumed. The ball's centre comes as near as its radius.
 pub const GROUND: Contact<f32, 1> = Contact {
-    feet: [ContactPoint {
+    points: [ContactPoint {
         body: Leg::FOOT,
         point: Vec3::ZERO,
     }],

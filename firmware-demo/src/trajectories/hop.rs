@@ -173,7 +173,7 @@ impl Hop {
         let [first, others @ ..] = &self.phases;
         let at = others.iter().map(begun).sum();
         let phase = self.phases.get::<usize>(at).unwrap_or(first);
-        let s = (tick - phase.start) as f32 * TICK * phase.per_time;
+        let s = (tick - phase.start) as f32 * TICK * phase.time_inv;
         let centre = phase.centre(s, self.gravity);
         let [depth, sink, sag] = phase.depth(s, self.give, self.lag);
         let [lift, climb, heave] = phase.lift(s);

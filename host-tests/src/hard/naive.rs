@@ -62,7 +62,7 @@ pub fn absolute<R: Real, const N: usize>(
     let (mut axes, mut forces) = ([Motion::ZERO; N], [Force::ZERO; N]);
     for i in 0..N {
         let link = dynamics_core::model::RobotModel::link(arm, i).expect("a chain");
-        x = link.xform(&trig.turns) * x;
+        x = link.xform(&trig.coordinates) * x;
         let along = x.rot.transpose_mul(R::Vec3::new(R::ZERO, R::ZERO, R::ONE));
         let axis = Motion::new(along, x.pos.cross(along));
         v += axis * state.qd[i];

@@ -177,7 +177,7 @@ fn engine_equals_core_on_a_moving_base_and_where_poses_are_read() {
             point: vec(x, -0.1, 0.2),
         };
         let ground = Contact {
-            feet: [foot(6, 0.1), foot(8, -0.2), foot(3, 0.3)],
+            points: [foot(6, 0.1), foot(8, -0.2), foot(3, 0.3)],
             normal: vec(0.0, 0.6, 0.8),
             height: of(0.5),
             stiffness: of(60.0),

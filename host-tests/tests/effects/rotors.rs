@@ -1,4 +1,4 @@
-//! GyroscopicRotors that spin as bodies, against the tree in which they are bodies.
+//! Rotors that spin as bodies, compared with the tree in which they are bodies.
 
 use super::*;
 use dynamics_core::MassMatrix;

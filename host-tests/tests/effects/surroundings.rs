@@ -122,7 +122,7 @@ fn a_base_that_rolls_is_a_joint_that_is_made_to() {
 fn ground<R: Real>(foot: [f64; 3]) -> Contact<R, 1> {
     let of = R::from_f64;
     Contact {
-        feet: [ContactPoint {
+        points: [ContactPoint {
             body: 0,
             point: R::Vec3::new(of(foot[0]), of(foot[1]), of(foot[2])),
         }],
@@ -193,7 +193,7 @@ fn a_box_on_a_slope_slides_as_coulomb_says() {
             point: DVec3::new(x, y, -0.02),
         };
         let ground = Contact::<f64, 4> {
-            feet: [
+            points: [
                 corner(0.2, 0.2),
                 corner(-0.2, 0.2),
                 corner(0.2, -0.2),

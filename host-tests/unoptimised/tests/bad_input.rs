@@ -94,7 +94,7 @@ fn any_number_of_bodies_may_move_with_one_joint_where_no_wrench_acts() {
 fn floor(body: usize) -> Contact<f64, 1> {
     let point = DVec3::new(0.1, 0.2, -0.3);
     Contact {
-        feet: [ContactPoint { body, point }],
+        points: [ContactPoint { body, point }],
         normal: DVec3::Z,
         height: 3.0,
         stiffness: 1e3,

@@ -39,7 +39,7 @@ pub fn svg(report: &Report) -> Result<String> {
     x.ticks = lengths;
     let y = Axis::decades("instructions", [0.7 * low, 1.4 * high], 84);
     chart::svg((960, 640), |root| {
-        let title = "Instructions of a call against bodies of a chain (core, model of run time, Cortex-M4F)";
+        let title = "Instructions of a call against bodies of a chain (core, model at run time, Cortex-M4F)";
         chart::label(root, title, (28, 24), 20, HPos::Left)?;
         let names = ALGORITHMS.map(|(_, name)| name.to_owned());
         chart::legend(root, names.into_iter().zip(COLOURS), (98, 56))?;

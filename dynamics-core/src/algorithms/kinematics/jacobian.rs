@@ -55,7 +55,7 @@ where
 {
     let trig = q.trig_of(robot);
     let trig = trig.borrow();
-    let turns = &trig.turns;
+    let turns = &trig.coordinates;
     let mut columns = [Motion::ZERO; V];
     let mut x = Xform::IDENTITY; // from the body reached to `body`
     let mut reached = body;
@@ -127,7 +127,7 @@ where
 {
     let trig = state.configuration().trig_of(robot);
     let (trig, state) = (trig.borrow(), state.state());
-    let turns = &trig.turns;
+    let turns = &trig.coordinates;
     let mut moving = per_body(robot, (Pose::IDENTITY, Motion::ZERO, Motion::ZERO));
     for (i, link) in robot.links().enumerate() {
         let (pose, v, a) = moving.parent(&link);

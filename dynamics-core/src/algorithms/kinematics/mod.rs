@@ -92,7 +92,7 @@ where
     let mut at = per_body(robot, Pose::IDENTITY);
     for (link, pose) in robot.links().zip(&mut poses) {
         let here = at.parent(&link);
-        let here = here.transformed_by(&link.xform(&trig.turns));
+        let here = here.transformed_by(&link.xform(&trig.coordinates));
         *pose = here.in_link_frame(&link.to_joint_frame);
         at.push(here);
     }
@@ -135,7 +135,7 @@ where
 {
     let trig = state.configuration().trig_of(robot);
     let (trig, state) = (trig.borrow(), state.state());
-    let (turns, (v_0, a_0)) = (&trig.turns, base_given(effects));
+    let (turns, (v_0, a_0)) = (&trig.coordinates, base_given(effects));
     let mut v = per_body(robot, v_0);
     let mut a = per_body(robot, a_0);
     let (mut velocities, mut accelerations) = ([Motion::ZERO; B], [Motion::ZERO; B]);

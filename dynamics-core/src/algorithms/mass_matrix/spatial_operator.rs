@@ -124,7 +124,7 @@ where
     E: Effect<R, B, V>,
 {
     let trig = q.trig_of(robot);
-    let turns = &trig.borrow().turns;
+    let turns = &trig.borrow().coordinates;
     let ArticulatedPass { x, factors } = eliminate(robot, turns, effects)?;
     let gain = |joint| {
         let factor: JointFactor<R> = entry(&factors, joint);

@@ -26,7 +26,7 @@ struct Body<R: Real> {
     ic: CompositeInertia<R>,
 }
 
-/// The velocity q̇ of a floating robot whose bodies together have the momentum h.
+/// The velocity q̇ at which the total momentum of a floating robot is h.
 ///
 /// The rates of the first body, which stands on a free joint, are replaced; h is about the base's origin and along its
 /// axes, N·m·s and N·s. The velocity of a robot whose first joint is not free is returned unchanged. The effects are
@@ -77,7 +77,7 @@ where
 {
     let trig = state.configuration().trig_of(robot);
     let (trig, state) = (trig.borrow(), state.state());
-    let turns = &trig.turns;
+    let turns = &trig.coordinates;
     let mut v = per_body(robot, base_given(effects).0);
     let mut bodies: Vec<Body<R>, B> = Vec::new();
     for (i, link) in robot.links().enumerate() {

@@ -102,7 +102,7 @@ where
             "no rotors that spin as bodies here; name `Armature`"
         )
     };
-    let turns = &trig.turns;
+    let turns = &trig.coordinates;
     let (mass, moment) = mass_and_first_moment(robot, trig, effects);
     let centre = moment * reciprocal(mass);
 

@@ -54,7 +54,7 @@ where
     let mut at = per_body(robot, Pose::IDENTITY);
     for (i, link) in robot.links().enumerate() {
         let here = at.parent(&link);
-        let here = here.transformed_by(&link.xform(&trig.turns));
+        let here = here.transformed_by(&link.xform(&trig.coordinates));
         let inertia = body_inertia(effects, i, &link);
         mass += inertia.mass;
         moment += here.pos * inertia.mass + here.rot * inertia.first_moment;
@@ -156,7 +156,7 @@ where
 {
     let trig = state.configuration().trig_of(robot);
     let (trig, state) = (trig.borrow(), state.state());
-    let turns = &trig.turns;
+    let turns = &trig.coordinates;
     let mut v = per_body(robot, base_given(effects).0);
     let mut bodies: Vec<(Xform<R>, usize, Force<R>), B> = Vec::new();
     for (i, link) in robot.links().enumerate() {

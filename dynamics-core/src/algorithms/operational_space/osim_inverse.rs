@@ -217,7 +217,7 @@ where
 {
     let trig = q.trig_of(robot);
     let trig = trig.borrow();
-    let turns = &trig.turns;
+    let turns = &trig.coordinates;
     let ArticulatedPass { x, factors } = eliminate(robot, turns, effects)?;
     let carries: [bool; B] = path(robot, body);
     let (mut pose, mut mobility) = (Pose::IDENTITY, OsimInverse::ZERO);

@@ -43,7 +43,7 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         self.mode
     }
 
-    /// Ends a tick: the torques of the law, limited to those that may go to the drives.
+    /// Ends a tick: limits the torques of the law and returns the command to the drives.
     #[inline]
     pub(in crate::control) fn gate(&mut self, tau: &[R; V]) -> Command<R, V> {
         let mut off = R::ZERO;

@@ -32,7 +32,7 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         }
     }
 
-    /// Restarts the arm from zero torque on the brake: clears a latched fault and accepts the next positions that are
+    /// Restarts the arm with zero torque and the brake set: clears a latched fault and accepts the next positions that are
     /// within their limits.
     ///
     /// The brake opens when the torque of the law is reached; then [`Self::authority`] rises.

@@ -7,11 +7,11 @@ use super::*;
 pub(super) struct Segment<R, const V: usize> {
     pub(super) start: u32,
     /// 1 / its ticks, so that no tick divides.
-    pub(super) per_tick: R,
+    pub(super) ticks_inv: R,
     /// T.
     pub(super) seconds: R,
     /// 1 / T.
-    pub(super) per_second: R,
+    pub(super) seconds_inv: R,
     /// q₀, D, v₀, v₁.
     pub(super) joints: [[R; 4]; V],
 }
@@ -28,9 +28,9 @@ impl<R: Real, const V: usize> Segment<R, V> {
     pub(super) fn rest(q: [R; V]) -> Self {
         Self {
             start: 0,
-            per_tick: R::ZERO,
+            ticks_inv: R::ZERO,
             seconds: R::ZERO,
-            per_second: R::ZERO,
+            seconds_inv: R::ZERO,
             joints: q.map(|q| [q, R::ZERO, R::ZERO, R::ZERO]),
         }
     }
@@ -46,9 +46,9 @@ impl<R: Real, const V: usize> Segment<R, V> {
         let seconds = ticks * tick;
         Self {
             start,
-            per_tick: R::ONE / ticks,
+            ticks_inv: R::ONE / ticks,
             seconds,
-            per_second: R::ONE / seconds,
+            seconds_inv: R::ONE / seconds,
             joints,
         }
     }
@@ -59,7 +59,7 @@ impl<R: Real, const V: usize> Segment<R, V> {
         let [twelve, fifteen, thirty] = [12.0, 15.0, 30.0].map(R::from_f64);
         let (one, r) = (R::ONE, R::ONE - s);
         let (ss, rr, sr) = (s * s, r * r, s * r);
-        let w = self.per_second;
+        let w = self.seconds_inv;
         Weights {
             q: [
                 ss * s * (one + three * r + six * rr),

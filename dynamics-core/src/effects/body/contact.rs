@@ -35,7 +35,7 @@ pub struct ContactPoint<R: Real> {
 /// use glam::DVec3;
 /// let tip = ContactPoint { body: 5, point: DVec3::ZERO };
 /// let mut table = Contact {
-///     feet: [tip], normal: DVec3::Z, height: -1.0,
+///     points: [tip], normal: DVec3::Z, height: -1.0,
 ///     stiffness: 1e4, damping: 100.0, damping_depth: Width::new(1e-3), friction: 0.5, slip_tolerance: 1e-3,
 /// };
 /// let reaching = State::at([0.0_f64; 6]);
@@ -49,7 +49,7 @@ pub struct ContactPoint<R: Real> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contact<R: Real, const P: usize> {
     /// The points.
-    pub feet: [ContactPoint<R>; P],
+    pub points: [ContactPoint<R>; P],
     /// Unit normal of the plane in base coordinates, out of the ground.
     pub normal: R::Vec3,
     /// Height of the plane along its normal above the base's origin, m.
@@ -89,16 +89,16 @@ impl<R: Real, const P: usize> Contact<R, P> {
     #[inline(always)]
     fn add_to<const B: usize>(&self, body: usize, at: &BodyState<R>, fx: &mut Force<R>) {
         let (rot, v) = (at.pose.rot, at.velocity);
-        for foot in &self.feet {
-            if foot.body == body {
-                let place = at.pose.pos + rot.transpose_mul(foot.point);
-                let mut velocity = rot.transpose_mul(v.lin + v.ang.cross(foot.point));
+        for contact in &self.points {
+            if contact.body == body {
+                let place = at.pose.pos + rot.transpose_mul(contact.point);
+                let mut velocity = rot.transpose_mul(v.lin + v.ang.cross(contact.point));
                 if let Some(base) = at.base {
                     velocity -= base.lin + base.ang.cross(place);
                 }
                 let f = rot * self.force(place, velocity);
-                *fx += Force::new(foot.point.cross(f), f);
-            } else if foot.body >= B {
+                *fx += Force::new(contact.point.cross(f), f);
+            } else if contact.body >= B {
                 *fx += absent();
             }
         }

@@ -50,7 +50,7 @@ pub fn smooth_sign_slope<R: Real>(u: R) -> R {
     R::from_f64(1.5) * (R::ONE - u * u)
 }
 
-/// F s(u), given u in units of 1/FULL: where a conversion to an integer and back limits it.
+/// F s(u), given u in units of 1/`MAX_TRUNC`: where a conversion to an integer and back limits it.
 #[inline(always)]
 fn sliding<R: Real>(force: R, scaled: R) -> R {
     let unit = const { 1.0 / R::MAX_TRUNC };

@@ -54,7 +54,7 @@ pub struct Lugre<R, const V: usize> {
 impl<R: Real, const V: usize> Lugre<R, V> {
     /// σ₀ / g(q̇): the reciprocal of the deflection at which bristles slide.
     #[inline(always)]
-    fn per_bend(&self, joint: usize, qd: R) -> R {
+    fn deflection_inv(&self, joint: usize, qd: R) -> R {
         let (at, u) = (
             |values| entry::<R>(values, joint),
             qd * self.stribeck_speed.inverse(),
@@ -68,7 +68,7 @@ impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Lugre<R, V> {
     fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R) {
         let of = |values| entry::<R>(values, joint);
         let z = of(&self.bristle);
-        let rate = at.qd - at.qd.abs() * self.per_bend(joint, at.qd) * z;
+        let rate = at.qd - at.qd.abs() * self.deflection_inv(joint, at.qd) * z;
         *tau += of(&self.stiffness) * z + of(&self.damping) * rate + of(&self.viscous) * at.qd;
     }
 
@@ -78,7 +78,7 @@ impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Lugre<R, V> {
         // The sign of q̇ without a comparison; 0 at rest, where the bristles bend with the joint.
         let sign = at.qd / (at.qd.abs() + R::MIN_POSITIVE);
         // dz/dq = 1 − σ₀ z sgn(q̇) / g: 1 where they stick, 0 where they slide.
-        let bends = R::ONE - sign * self.per_bend(joint, at.qd) * of(&self.bristle);
+        let bends = R::ONE - sign * self.deflection_inv(joint, at.qd) * of(&self.bristle);
         derivatives.dq += of(&self.stiffness) * crate::scalar::positive_part(bends);
         derivatives.dqd +=
             of(&self.damping) * crate::scalar::positive_part(bends) + of(&self.viscous);
@@ -86,7 +86,7 @@ impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Lugre<R, V> {
 
     #[inline(always)]
     fn advance(&mut self, joint: usize, at: JointState<R>, h: R) {
-        let slip = h * at.qd.abs() * self.per_bend(joint, at.qd);
+        let slip = h * at.qd.abs() * self.deflection_inv(joint, at.qd);
         if let Some(z) = self.bristle.get_mut(joint) {
             *z = (*z + h * at.qd) / (R::ONE + slip);
         }

@@ -1,4 +1,4 @@
-//! Cogging: the torque with which a motor's magnets cling to its slots, by harmonics of its angle.
+//! Cogging: the detent torque between a motor's magnets and its slots, by harmonics of its angle.
 //!
 //! τ = Σ_k a_k cos(k n q) + b_k sin(k n q), n periods a turn of the joint: Hanselman, *Brushless
 //! Permanent Magnet Motor Design* (2003), chapter 5. The multiples come from one sine and cosine by
@@ -11,7 +11,7 @@ use crate::state::entry;
 
 /// Cogging torque of each joint's motor, by H harmonics.
 ///
-/// The motor supplies what the map says. Cost: a sine and cosine, and 8 flops a harmonic. Accuracy: n q
+/// The motor must supply the mapped torque. Cost: a sine and cosine, and 8 flops a harmonic. Accuracy: n q
 /// should stay within 10⁴ rad; an f32 q resolves the phase to 6·10⁻⁸ n q.
 ///
 /// ```

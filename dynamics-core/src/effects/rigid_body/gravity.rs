@@ -25,6 +25,9 @@ impl Direction for Down {
 ///
 /// Its direction lets the engine drop the products with its zero components, and the sine and
 /// cosine of a first joint whose axis is parallel to it.
+#[doc(alias = "gravity compensation")]
+#[doc(alias = "hand guiding")]
+#[doc(alias = "lead-through")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gravity<D = Down> {
     double: f64,

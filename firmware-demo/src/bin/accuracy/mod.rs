@@ -118,7 +118,7 @@ pub fn arm<T: Compared<N, N, W> + Swung<N>, const N: usize, const W: usize>() ->
     let mut tick = swing.ticks() / 8;
     priced.course = [(); TICKS].map(|()| {
         tick += 1;
-        swing.course(tick)
+        swing.elastic_reference(tick)
     });
     priced.spread = priced.course;
     list::compliant::<T, N>(&mut priced);

@@ -12,7 +12,7 @@ pub(super) struct Phase {
     pub start: u32,
     /// T and 1/T, s.
     pub time: f32,
-    pub per_time: f32,
+    pub time_inv: f32,
     /// Of f, m/s².
     pub rest: f32,
     pub change: f32,
@@ -28,7 +28,7 @@ impl Phase {
     pub fn lasting(time: f32) -> Self {
         Self {
             time,
-            per_time: 1.0 / time,
+            time_inv: 1.0 / time,
             ..Self::default()
         }
     }
@@ -63,7 +63,7 @@ impl Phase {
     /// How deep the foot stands in the ground: (f − ḟ b/k) M/k.
     #[inline(always)]
     pub fn depth(&self, s: f32, give: f32, lag: f32) -> Moving {
-        let (r, per) = (1.0 - s, self.per_time);
+        let (r, per) = (1.0 - s, self.time_inv);
         let (u, slope) = (s * r, r - s);
         let (h, b) = (self.change, self.push);
         // f and its rates per s.
@@ -79,7 +79,7 @@ impl Phase {
     /// How high the foot is above the ground.
     #[inline(always)]
     pub fn lift(&self, s: f32) -> Moving {
-        let (r, per) = (1.0 - s, self.per_time);
+        let (r, per) = (1.0 - s, self.time_inv);
         let (u, slope) = (s * r, r - s);
         [
             self.lift * u * u * u,

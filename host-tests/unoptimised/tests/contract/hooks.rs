@@ -219,7 +219,7 @@ fn among_all_hooks_every_one_of_them_counts() {
     for less in less {
         assert!((less[0] - all[0]).abs() > 0.01, "{less:?} and {all:?}");
     }
-    // GyroscopicRotors that spin are the core's alone.
+    // Only the core has rotors that spin as bodies.
     let spinning = core::<{ ENGINE | GYROSCOPIC_ROTORS }>();
     assert!((spinning[0] - all[0]).abs() > 0.01);
 }

@@ -130,7 +130,7 @@ where
 {
     let swing = T::swing().expect("the arm can swing there");
     let labelled = |tick| {
-        let course = swing.course(tick);
+        let course = swing.elastic_reference(tick);
         let double = ElasticReference {
             state: widened(&course.state),
             jerk: course.jerk.map(f64::from),

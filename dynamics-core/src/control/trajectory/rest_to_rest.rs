@@ -65,12 +65,12 @@ impl<R: Real, const V: usize, const W: usize> RestToRest<R, V, W> {
     /// let stop = |q, ticks| WayPoint { q: [q], qd: [0.0_f32], ticks };
     /// let quick = [MotionLimits { velocity: 3.0, acceleration: 20.0 }];
     /// let smooth = RestToRest::new(&[stop(0.0, 0), stop(1.0, 1000)], 1e-3, &quick)?;
-    /// let middle = smooth.course(500);
+    /// let middle = smooth.elastic_reference(500);
     /// assert_eq!((middle.state.q, middle.jerk, middle.snap), ([0.5], [-78.75], [0.0]));
-    /// assert_eq!(smooth.course(1000).state.q, [1.0]);
+    /// assert_eq!(smooth.elastic_reference(1000).state.q, [1.0]);
     /// # Ok::<(), TrajectoryError>(())
     /// ```
-    pub fn course(&self, tick: u32) -> ElasticReference<R, V, V> {
+    pub fn elastic_reference(&self, tick: u32) -> ElasticReference<R, V, V> {
         let zero = [R::ZERO; V];
         let mut course = ElasticReference {
             state: State::at(zero),
@@ -107,7 +107,7 @@ impl<R: Real, const V: usize, const W: usize> RestToRest<R, V, W> {
 
 impl<R: Real, const V: usize, const W: usize> Reference<R, V> for RestToRest<R, V, W> {
     fn at(&self, tick: u32) -> State<R, V, V> {
-        self.course(tick).state
+        self.elastic_reference(tick).state
     }
 
     fn ticks(&self) -> u32 {
@@ -118,9 +118,9 @@ impl<R: Real, const V: usize, const W: usize> Reference<R, V> for RestToRest<R, 
 /// The factors of D in q and its derivatives.
 fn weights<R: Real, const V: usize>(segment: &Segment<R, V>, tick: u32) -> [R; 5] {
     let number = R::from_f64;
-    let s = real::<R>(tick.wrapping_sub(segment.start)) * segment.per_tick;
+    let s = real::<R>(tick.wrapping_sub(segment.start)) * segment.ticks_inv;
     let (u, w) = (s * (R::ONE - s), R::ONE - number(2.0) * s);
-    let (uu, t_inv) = (u * u, segment.per_second);
+    let (uu, t_inv) = (u * u, segment.seconds_inv);
     let tt_inv = t_inv * t_inv;
     let inner = [-315.0, 540.0, -420.0, 126.0].map(number);
     let horner = inner.into_iter().fold(number(70.0), |sum, c| sum * s + c);
@@ -139,11 +139,11 @@ fn check<R: Real, const V: usize>(
     segment: &Segment<R, V>,
     limits: &[MotionLimits<R>; V],
 ) -> Result<(), TrajectoryError> {
-    let per_second = segment.per_second;
+    let seconds_inv = segment.seconds_inv;
     for (joint, (&[_, step, ..], limit)) in segment.joints.iter().zip(limits).enumerate() {
-        let speed = R::from_f64(SPEED) * step.abs() * per_second;
+        let speed = R::from_f64(SPEED) * step.abs() * seconds_inv;
         limit.admits_speed(speed, point, joint)?;
-        let acceleration = R::from_f64(ACCELERATION) * step.abs() * per_second * per_second;
+        let acceleration = R::from_f64(ACCELERATION) * step.abs() * seconds_inv * seconds_inv;
         limit.admits_acceleration(acceleration, point, joint)?;
     }
     Ok(())
@@ -174,7 +174,7 @@ mod tests {
     fn each_derivative_is_the_slope_of_the_one_before() {
         let smooth = swing();
         let all = |tick| {
-            let c = smooth.course(tick);
+            let c = smooth.elastic_reference(tick);
             [c.state.q, c.state.qd, c.state.qdd, c.jerk, c.snap].map(|[x]| x)
         };
         let scale: [f64; 5] =
@@ -192,7 +192,7 @@ mod tests {
     fn the_peaks_that_are_checked_are_those_of_the_motion() {
         let smooth = swing();
         let peak = |of: fn(&ElasticReference<f64, 1, 1>) -> f64| {
-            let all = (0..=800).map(|tick| of(&smooth.course(tick)).abs());
+            let all = (0..=800).map(|tick| of(&smooth.elastic_reference(tick)).abs());
             all.fold(0.0, f64::max)
         };
         let (step, t) = (1.7, 0.8);

@@ -66,7 +66,7 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
     let workspace = Workspace::find()?;
     let tools = setup::for_demo(options)?;
     let one = [args.scene];
-    let scenes = if args.all { Scene::ALL } else { &one };
+    let scenes = if args.all { Scene::all() } else { &one };
     let built = Built::new(&workspace, &tools, scenes)?;
     let measured = match built.measure(&workspace, &tools) {
         Ok(measured) => measured,

@@ -123,9 +123,9 @@ impl Context {
     /// The scenes under test: all of them in a full run, the default one else.
     fn scenes(&self) -> &'static [Scene] {
         if self.full {
-            Scene::ALL
+            Scene::all()
         } else {
-            &Scene::ALL[..1]
+            &Scene::all()[..1]
         }
     }
 

@@ -11,8 +11,10 @@ use crate::docs;
 use crate::error::Result;
 use crate::setup::{self, Options, Tools};
 use crate::table;
+use crate::toolchain::{RELEASE, SMALL};
 use crate::workspace::{self, Workspace};
 
+use measure::BINS;
 pub use measure::{
     Row, code_bytes, measure as measure_bins, run as run_bin, run_all, run_for_time,
 };
@@ -48,22 +50,24 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
 
 /// Measures every row and says what they may be.
 pub fn measure(workspace: &Workspace, tools: &Tools) -> Result<Report> {
-    let rows = measure::all(workspace, tools)?;
+    let rows = measure_bins(workspace, tools, RELEASE, &BINS)?;
     report(workspace, tools, rows, budgets::bars(workspace)?)
 }
 
 /// Measures the rows of the first robot alone, with what is promised of them.
 pub fn measure_first(workspace: &Workspace, tools: &Tools) -> Result<Report> {
     let mut bars = budgets::bars(workspace)?;
-    let rows = measure::first(workspace, tools)?;
+    let rows = measure_bins(workspace, tools, RELEASE, &BINS[..2])?;
     bars.retain(|key, _| rows.iter().any(|row| key.contains(&*row.robot)));
     report(workspace, tools, rows, bars)
 }
 
 fn report(workspace: &Workspace, tools: &Tools, rows: Vec<Row>, bars: Bars) -> Result<Report> {
+    let mut small = measure_bins(workspace, tools, SMALL, &BINS[..1])?;
+    small.retain(|row| row.form == "engine");
     Ok(Report {
         rows,
-        small: measure::small(workspace, tools)?,
+        small,
         bars,
         rustc: tools.toolchain.rustc_version()?,
     })

@@ -22,7 +22,7 @@ use crate::report::Report;
 use crate::scene::Scene;
 use crate::scenes;
 use crate::setup::{self, Options, Tools};
-use crate::toolchain::{RELEASE, Toolchain};
+use crate::toolchain::RELEASE;
 use crate::workspace::{self, Workspace};
 
 /// The README's picture, of the default scene.
@@ -66,7 +66,7 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
     let workspace = Workspace::find()?;
     let tools = setup::for_demo(options)?;
     let one = [args.scene];
-    let scenes = if args.all { Scene::ALL } else { &one };
+    let scenes = if args.all { Scene::all() } else { &one };
     let built = Built::new(&workspace, &tools, scenes)?;
     let measured = match built.measure(&workspace, &tools) {
         Ok(measured) => measured,
@@ -115,23 +115,15 @@ fn write_docs(workspace: &Workspace, measured: &[Measured]) -> Result<()> {
     Ok(())
 }
 
-/// Builds scenes and the meter, and runs the ones under the other, two at a time.
-pub fn build_and_measure(
-    workspace: &Workspace,
-    tools: &Tools,
-    scenes: &[Scene],
-) -> Result<Vec<Measured>> {
-    Built::new(workspace, tools, scenes)?.measure(workspace, tools)
-}
-
 /// Scenes and the meter, built.
-struct Built {
+pub struct Built {
     meter: PathBuf,
     runs: Vec<(Scene, PathBuf)>,
 }
 
 impl Built {
-    fn new(workspace: &Workspace, tools: &Tools, scenes: &[Scene]) -> Result<Self> {
+    /// Builds them.
+    pub fn new(workspace: &Workspace, tools: &Tools, scenes: &[Scene]) -> Result<Self> {
         let names: Vec<&str> = scenes.iter().map(|scene| scene.name()).collect();
         let building = Spinner::start(&format!("building {}", names.join(", ")));
         let elves = firmware::build_bins(workspace, tools.toolchain, RELEASE, &names)?;
@@ -142,7 +134,8 @@ impl Built {
         Ok(Self { meter, runs })
     }
 
-    fn measure(&self, workspace: &Workspace, tools: &Tools) -> Result<Vec<Measured>> {
+    /// Runs the ones under the other.
+    pub fn measure(&self, workspace: &Workspace, tools: &Tools) -> Result<Vec<Measured>> {
         tools.qemu.interface(&self.meter)?;
         measure_all(workspace, tools, &self.meter, &self.runs)
     }
@@ -167,8 +160,7 @@ pub fn measure_all(
     let work = || {
         while let Some(number) = Some(next.fetch_add(1, Relaxed)).filter(|n| *n < runs.len()) {
             let (scene, elf) = &runs[number];
-            let toolchain = tools.toolchain;
-            done[number].get_or_init(|| measure(workspace, tools, *scene, toolchain, elf, meter));
+            done[number].get_or_init(|| measure(workspace, tools, *scene, elf, meter));
         }
     };
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
@@ -197,7 +189,6 @@ pub fn measure(
     workspace: &Workspace,
     tools: &Tools,
     scene: Scene,
-    toolchain: Toolchain,
     elf: &Path,
     plugin: &Path,
 ) -> Result<Measured> {
@@ -208,7 +199,7 @@ pub fn measure(
         &recording,
         &meter::read(&regions)?,
         &Image::read(elf)?,
-        toolchain.rustc_version()?,
+        tools.toolchain.rustc_version()?,
         tools.qemu.version.clone(),
     )?;
     Ok(Measured {
@@ -232,7 +223,7 @@ fn record(
     let run = Run::logging(name, elf, meter);
     let raw = tools.qemu.run(&run, |line| {
         if !recording.line(line)? {
-            spinner.line(&format!("[{name}] {line}"));
+            output::note(&format!("[{name}] {line}"));
         } else if let Some(words) = run_in_words(line) {
             spinner.say(format!("scene {name} in QEMU: {words}"));
         }

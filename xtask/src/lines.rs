@@ -76,7 +76,7 @@ fn is_below(path: &Path, place: &str) -> bool {
     let bin = text
         .strip_prefix(BINS)
         .and_then(|rest| rest.split(['/', '.']).next());
-    let is_scene = bin.is_some_and(|bin| Scene::ALL.iter().any(|scene| scene.name() == bin));
+    let is_scene = bin.is_some_and(|bin| Scene::all().iter().any(|scene| scene.name() == bin));
     text.starts_with(place) && !is_other && !is_scene
 }
 

@@ -147,13 +147,12 @@ fn main() -> ExitCode {
 fn valid_words(kind: ErrorKind) -> Option<String> {
     let mut root = Cli::command();
     root.build();
-    match kind {
+    let (what, words): (_, Vec<String>) = match kind {
         ErrorKind::InvalidSubcommand => {
-            let commands = root.get_subcommands().map(clap::Command::get_name);
-            Some(format!(
-                "valid commands: {}",
-                commands.collect::<Vec<_>>().join(", ")
-            ))
+            let names = root
+                .get_subcommands()
+                .map(|command| command.get_name().to_owned());
+            ("commands".to_owned(), names.collect())
         }
         ErrorKind::UnknownArgument => {
             let typed = std::env::args().find_map(|word| root.find_subcommand(&word));
@@ -162,14 +161,14 @@ fn valid_words(kind: ErrorKind) -> Option<String> {
                 .get_arguments()
                 .filter(|argument| !argument.is_hide_set());
             let options = shown.filter_map(|argument| Some(format!("--{}", argument.get_long()?)));
-            let options = options.collect::<Vec<_>>().join(", ");
-            Some(format!(
-                "valid options of {}: {options}",
-                command.get_name()
-            ))
+            (
+                format!("options of {}", command.get_name()),
+                options.collect(),
+            )
         }
-        _ => None,
-    }
+        _ => return None,
+    };
+    Some(format!("valid {what}: {}", words.join(", ")))
 }
 
 fn run(cli: Cli) -> Result<ExitCode> {

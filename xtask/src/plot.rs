@@ -89,13 +89,8 @@ fn references(recording: &Recording, area: &Area<'_>) -> Outcome {
     let wide = (WIDTH - ROOM[0] as i32) / recording.joints.max(1) as i32;
     for joint in 0..recording.joints as i32 {
         let middle = ROOM[0] as i32 + wide * joint + wide / 2;
-        chart::label(
-            area,
-            &format!("joint {}", joint + 1),
-            (middle, 32),
-            15,
-            HPos::Center,
-        )?;
+        let name = format!("joint {}", joint + 1);
+        chart::label(area, &name, (middle, 32), 15, HPos::Center)?;
     }
     let angles = || run.samples.iter().flat_map(|s| &s.reference).copied();
     let [low, high] = [f64::min, f64::max].map(|pick| angles().reduce(pick).unwrap_or(0.0));
@@ -114,11 +109,8 @@ fn references(recording: &Recording, area: &Area<'_>) -> Outcome {
 
 /// The largest absolute error of a joint in some samples, mrad.
 fn worst(samples: &[Sample], joint: usize) -> f64 {
-    largest(
-        samples
-            .iter()
-            .map(|s| 1e3 * (s.reference[joint] - s.angle[joint]).abs()),
-    )
+    let errors = samples.iter().map(|s| s.reference[joint] - s.angle[joint]);
+    largest(errors.map(|error| 1e3 * error.abs()))
 }
 
 /// Whole decades around what all charts show, but no more than five.
@@ -150,13 +142,8 @@ fn errors(recording: &Recording, plant: &str, what: &str, below: u32, area: &Are
         (format!("{}: {rms} mrad RMS", in_print(law)), colour)
     });
     let left = ROOM[0] as i32;
-    chart::label(
-        area,
-        &format!("error where {what}"),
-        (left, 16),
-        17,
-        HPos::Left,
-    )?;
+    let head = format!("error where {what}");
+    chart::label(area, &head, (left, 16), 17, HPos::Left)?;
     chart::legend(area, entries, (left, 38))?;
     let y = Axis::decades("|error|, mrad", error_range(recording), ROOM[0]);
     columns(recording, area, (54, below), &y, |joint| {

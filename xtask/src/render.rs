@@ -55,14 +55,13 @@ impl Report {
             ],
         );
         format!(
-            "Cost of a tick with feed-forward, {} ticks ({MODEL}):\n\n{}\n\
-             In brackets the share of PD's error. \"Model off\": the plant's inertias differ by \
-             up to ±3 % and its friction by up to ±10 %.\n\n{}\n{}.\nMeasured with {}.\n",
-            thousands(self.ticks_measured as u64),
-            self.costs().markdown(),
-            table.markdown(),
-            self.memory(),
-            self.rustc
+            include_str!("readme.md"),
+            ticks = thousands(self.ticks_measured as u64),
+            model = MODEL,
+            costs = self.costs().markdown(),
+            errors = table.markdown(),
+            memory = self.memory(),
+            rustc = self.rustc
         )
     }
 

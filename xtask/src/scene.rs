@@ -13,30 +13,23 @@ pub enum Scene {
     PandaPayload,
     /// A SCARA serves a table: three vertical axes, on which gravity does no work.
     ScaraTable,
-    /// An iiwa 14 with elastic transmissions, known to the model or not.
-    FlexibleJoint,
-    /// A leg of a quadruped hops on a vertical rail.
-    LegHop,
-    /// An arm of low gear ratios, whose motors' rotors are gyroscopes.
-    DirectDrive,
     /// An arm on a satellite that floats free, with the satellite's recoil in its feed-forward.
     SpaceArm,
+    /// A leg of a quadruped hops on a vertical rail.
+    LegHop,
+    /// An iiwa 14 with elastic transmissions, known to the model or not.
+    FlexibleJoint,
     /// A gimbal on a rolling ship holds its camera level and sweeps the horizon.
     GimbalShip,
+    /// An arm of low gear ratios, whose motors' rotors are gyroscopes.
+    DirectDrive,
 }
 
 impl Scene {
     /// All of them.
-    pub const ALL: &[Self] = &[
-        Self::Ur5e,
-        Self::PandaPayload,
-        Self::ScaraTable,
-        Self::SpaceArm,
-        Self::LegHop,
-        Self::FlexibleJoint,
-        Self::GimbalShip,
-        Self::DirectDrive,
-    ];
+    pub fn all() -> &'static [Self] {
+        Self::value_variants()
+    }
 
     /// The name on the command line, of the bin, and in every generated file.
     pub fn name(self) -> &'static str {

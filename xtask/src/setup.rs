@@ -3,12 +3,12 @@
 use std::io::{IsTerminal, Write};
 use std::process::Command;
 
-use crate::error::{Error, Result, bail};
+use crate::error::{Error, Result, bail, refuse_if};
 use crate::output;
 use crate::qemu::Qemu;
 use crate::shell;
 use crate::system::{self, Privilege, System};
-use crate::toolchain::{self, Choice, DEBIAN_PACKAGES, TARGET, Toolchain};
+use crate::toolchain::{self, DEBIAN_PACKAGES, TARGET, Toolchain};
 
 const CLIPPY: &str = "rust-web-clippy";
 /// What of cargo the tests need, rustup's component that has it, and Debian's package.
@@ -24,9 +24,6 @@ pub struct Options {
     /// Install what is missing without asking, through sudo if need be (CI=true says so too)
     #[arg(long, global = true, conflicts_with = "no_install")]
     pub yes: bool,
-    /// Which compiler builds the firmware
-    #[arg(long, global = true, value_enum, default_value_t, hide = true)]
-    pub toolchain: Choice,
 }
 
 /// What a set-up ends with.
@@ -181,13 +178,13 @@ pub fn debian(options: Options) -> Result<Toolchain> {
 /// The compiler and QEMU in one plan, so that the user receives one message about everything.
 fn compiler(options: Options) -> Result<Toolchain> {
     let mut plan = Plan::default();
-    let mut chosen = choose(options.toolchain, &mut plan)?;
+    let mut chosen = choose(&mut plan)?;
     if !Qemu::is_installed() {
         let reason = "`qemu-system-arm`, the emulator that runs the firmware";
         let elsewhere = System::this().qemu_command();
         plan.add(reason.into(), &[system::QEMU], elsewhere);
     }
-    let may_fall_back = options.toolchain == Choice::Auto && System::this() == System::Debian;
+    let may_fall_back = System::this() == System::Debian;
     if options.no_install && !plan.rustup.is_empty() && may_fall_back {
         output::note(&format!(
             "where rustup cannot fetch the target, Debian's own compiler does:\n    {}",
@@ -224,31 +221,28 @@ fn compiler(options: Options) -> Result<Toolchain> {
 }
 
 /// Which compiler it will be, and what it lacks.
-fn choose(choice: Choice, plan: &mut Plan) -> Result<Toolchain> {
+fn choose(plan: &mut Plan) -> Result<Toolchain> {
     let core = format!("a Rust core library for {TARGET}");
     let is_debian = System::this() == System::Debian;
-    if choice != Choice::Debian {
-        if toolchain::native_has_target() {
-            return Ok(Toolchain::Native);
-        }
-        // A machine that once fell back on Debian's compiler need not ask rustup again.
-        if choice == Choice::Auto && is_debian && toolchain::debian_lacks().is_none() {
-            return Ok(Toolchain::Debian);
-        }
-        if shell::which("rustup").is_some() {
-            plan.add_rustup(core, format!("rustup target add {TARGET}"));
-            return Ok(Toolchain::Native);
-        }
+    if toolchain::native_has_target() {
+        return Ok(Toolchain::Native);
     }
-    if choice == Choice::Rustup || !is_debian {
-        bail!(
-            "the Rust compiler here has no core library for {TARGET}, and there is no rustup to \
-             add it: install Rust through rustup, or the target with what installed Rust"
-        );
+    let lack = toolchain::debian_lacks();
+    // A machine that once fell back on Debian's compiler need not consult rustup again.
+    if is_debian && lack.is_none() {
+        return Ok(Toolchain::Debian);
     }
-    if let Some(why) = toolchain::debian_lacks() {
-        plan.add(format!("{core} ({why})"), DEBIAN_PACKAGES, "");
+    if shell::which("rustup").is_some() {
+        plan.add_rustup(core, format!("rustup target add {TARGET}"));
+        return Ok(Toolchain::Native);
     }
+    refuse_if!(
+        !is_debian,
+        "the Rust compiler here has no core library for {TARGET}, and there is no rustup to \
+         add it: install Rust through rustup, or the target with what installed Rust"
+    );
+    let why = lack.unwrap_or_default();
+    plan.add(format!("{core} ({why})"), DEBIAN_PACKAGES, "");
     Ok(Toolchain::Debian)
 }
 

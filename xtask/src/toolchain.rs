@@ -4,8 +4,6 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use clap::ValueEnum;
-
 use crate::error::{Result, bail};
 use crate::shell;
 use crate::workspace::{FIRMWARE, Workspace};
@@ -25,18 +23,6 @@ const DEBIAN_RUSTC: &str = "/usr/bin/rustc";
 const DEBIAN_CARGO: &str = "/usr/bin/cargo";
 const DEBIAN_CLIPPY: &str = "/usr/bin/cargo-clippy";
 const DEBIAN_LINKER: &str = "/usr/bin/ld.lld";
-
-/// Which way the user asks for.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub enum Choice {
-    /// The first that works.
-    #[default]
-    Auto,
-    /// The compiler that runs xtask, with a precompiled core.
-    Rustup,
-    /// Debian's compiler and sources.
-    Debian,
-}
 
 /// A compiler that can build the firmware.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -13,11 +13,10 @@ use crate::meter::{self, Cost, Spread};
 use crate::progress::Spinner;
 use crate::qemu::Run;
 use crate::setup::Tools;
-use crate::toolchain::{RELEASE, SMALL};
 use crate::workspace::Workspace;
 
 /// Two bins for each robot, inverse dynamics and the rest: the compiler builds them side by side.
-const BINS: [&str; 8] = [
+pub const BINS: [&str; 8] = [
     "costs_ur5e",
     "forward_ur5e",
     "costs_panda",
@@ -82,23 +81,6 @@ impl Row {
             ("stack_bytes", self.stack_bytes),
         ]
     }
-}
-
-/// Builds the bins, runs each of them, and returns their rows in order.
-pub fn all(workspace: &Workspace, tools: &Tools) -> Result<Vec<Row>> {
-    measure(workspace, tools, RELEASE, &BINS)
-}
-
-/// The rows of the first robot.
-pub fn first(workspace: &Workspace, tools: &Tools) -> Result<Vec<Row>> {
-    measure(workspace, tools, RELEASE, &BINS[..2])
-}
-
-/// The engine's rows of inverse dynamics of the first robot in a firmware that is built for size.
-pub fn small(workspace: &Workspace, tools: &Tools) -> Result<Vec<Row>> {
-    let mut rows = measure(workspace, tools, SMALL, &BINS[..1])?;
-    rows.retain(|row| row.form == "engine");
-    Ok(rows)
 }
 
 /// Builds these bins in a profile, runs each of them under the meter, and returns their rows in order.

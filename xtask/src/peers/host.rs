@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use serde::Serialize;
+use serde_json::{Value, json};
 
 use crate::error::{Result, check};
 use crate::peers::build::Workshop;
@@ -24,28 +24,8 @@ const MUJOCO: [(&str, &str, &str); 4] = [
 ];
 const CPP_COMPILERS: [&str; 2] = ["g++", "clang++"];
 
-/// The input of the benchmark.
-#[derive(Serialize)]
-struct Manifest {
-    foreign: Vec<Foreign>,
-    urdfs: PathBuf,
-}
-
-/// A function in a shared library (see `host-tests/peers/bench/src/foreign.rs`).
-#[derive(Serialize)]
-struct Foreign {
-    robot: String,
-    algorithm: String,
-    peer: String,
-    precision: String,
-    library: PathBuf,
-    run: String,
-    open: Option<(String, PathBuf)>,
-    cs: bool,
-    outputs: usize,
-    square: bool,
-    timed: bool,
-}
+/// What is to be computed: by which robot, algorithm and precision.
+type Wanted<'a> = (&'a Robot, &'static str, &'static str);
 
 /// Algorithms and precisions of a robot.
 fn compared(robot: &Robot) -> (&'static [&'static str], &'static [&'static str]) {
@@ -58,26 +38,27 @@ fn compared(robot: &Robot) -> (&'static [&'static str], &'static [&'static str])
 
 /// Builds the peers and the benchmark, and runs it.
 pub fn measure(workspace: &Workspace, shop: &Workshop<'_>, robots: &[Robot]) -> Result<Vec<Row>> {
-    let manifest = Manifest {
-        foreign: build(shop, robots)?,
-        urdfs: shop.robots.clone(),
-    };
+    let manifest = json!({ "foreign": build(shop, robots)?, "urdfs": shop.robots });
     let path = shop.built.join("manifest.json");
-    let json = serde_json::to_string_pretty(&manifest)
-        .map_err(|e| check!("cannot write the manifest: {e}"))?;
-    workspace::write(&path, json)?;
+    workspace::write(&path, manifest.to_string())?;
     run(&bench(workspace)?, &path)
 }
 
-fn build(shop: &Workshop<'_>, robots: &[Robot]) -> Result<Vec<Foreign>> {
-    let mut foreign = Vec::new();
+fn build(shop: &Workshop<'_>, robots: &[Robot]) -> Result<Vec<Value>> {
+    let mut all = Vec::new();
     for compiler in CPP_COMPILERS {
         let library = shop.pinocchio(compiler)?;
-        for one in all(robots) {
-            let precision = one.precision;
+        for wanted in wanted(robots) {
+            let (_, algorithm, precision) = wanted;
             let open = (format!("pinocchio_{precision}_open"), shop.robots_file());
-            let run = format!("pinocchio_{precision}_{}", one.algorithm);
-            foreign.push(one.by(format!("pinocchio {compiler}"), &library, run, Some(open)));
+            let run = format!("pinocchio_{precision}_{algorithm}");
+            all.push(foreign(
+                wanted,
+                &format!("pinocchio {compiler}"),
+                &library,
+                run,
+                Some(open),
+            ));
         }
     }
     let library = shop.mujoco()?;
@@ -85,93 +66,68 @@ fn build(shop: &Workshop<'_>, robots: &[Robot]) -> Result<Vec<Foreign>> {
         for (algorithm, peer, run) in MUJOCO {
             let file = shop.robots.join(format!("{}.xml", robot.name));
             let open = ("mujoco_f64_open".to_owned(), file);
-            let one = Wanted {
-                robot,
-                algorithm,
-                precision: "f64",
-            };
-            foreign.push(one.by(
-                peer.into(),
+            let run = format!("mujoco_f64_{run}");
+            all.push(foreign(
+                (robot, algorithm, "f64"),
+                peer,
                 &library,
-                format!("mujoco_f64_{run}"),
+                run,
                 Some(open),
             ));
         }
     }
     let spinner = Spinner::start("building CasADi's C for the host");
-    for one in all(robots) {
-        let (name, algorithm) = (&one.robot.name, one.algorithm);
-        let sizes = [one.robot.joints(), outputs(algorithm, one.robot.joints())];
+    for wanted in wanted(robots) {
+        let (robot, algorithm, precision) = wanted;
+        let sizes = [robot.joints(), outputs(algorithm, robot.joints())];
         for (inputs, compilers) in [("q", &C_COMPILERS[..]), ("cs", &C_COMPILERS[..1])] {
-            // What takes cosines is for the target, where large robots are not compared.
-            if inputs == "cs" && one.robot.has_subtree_functions() {
+            // What takes cosines is for the target, where large robots are not compared; it is timed there.
+            if inputs == "cs" && robot.has_subtree_functions() {
                 continue;
             }
-            let name = format!("{name}_{algorithm}_{inputs}_{}", one.precision);
+            let name = format!("{}_{algorithm}_{inputs}_{precision}", robot.name);
             for compiler in compilers {
                 spinner.say(format!("building {name} by {compiler}"));
                 let library = shop.casadi(compiler, &name, sizes)?;
-                let peer = format!("casadi {compiler}");
-                foreign.push(Foreign {
-                    cs: inputs == "cs",
-                    // It is timed there.
-                    timed: inputs == "q",
-                    outputs: sizes[1],
-                    square: false,
-                    ..one.by(peer, &library, format!("casadi_{name}"), None)
-                });
+                let (peer, run) = (format!("casadi {compiler}"), format!("casadi_{name}"));
+                let mut one = foreign(wanted, &peer, &library, run, None);
+                one["cs"] = (inputs == "cs").into();
+                one["timed"] = (inputs == "q").into();
+                one["outputs"] = sizes[1].into();
+                one["square"] = false.into();
+                all.push(one);
             }
         }
     }
-    Ok(foreign)
-}
-
-/// What is to be computed.
-struct Wanted<'a> {
-    robot: &'a Robot,
-    algorithm: &'static str,
-    precision: &'static str,
+    Ok(all)
 }
 
 /// Everything that is compared.
-fn all(robots: &[Robot]) -> impl Iterator<Item = Wanted<'_>> {
+fn wanted(robots: &[Robot]) -> impl Iterator<Item = Wanted<'_>> {
     robots.iter().flat_map(|robot| {
         let (algorithms, precisions) = compared(robot);
         let pairs = precisions
             .iter()
             .flat_map(|p| algorithms.iter().map(move |a| (a, p)));
-        pairs.map(move |(algorithm, precision)| Wanted {
-            robot,
-            algorithm,
-            precision,
-        })
+        pairs.map(move |(algorithm, precision)| (robot, *algorithm, *precision))
     })
 }
 
-impl Wanted<'_> {
-    /// A library's function for it, which writes M as a square.
-    fn by(
-        &self,
-        peer: String,
-        library: &Path,
-        run: String,
-        open: Option<(String, PathBuf)>,
-    ) -> Foreign {
-        let (joints, square) = (self.robot.joints(), self.algorithm == "crba");
-        Foreign {
-            robot: self.robot.name.clone(),
-            algorithm: self.algorithm.into(),
-            peer,
-            precision: self.precision.into(),
-            library: library.to_owned(),
-            run,
-            open,
-            cs: false,
-            outputs: if square { joints * joints } else { joints },
-            square,
-            timed: true,
-        }
-    }
+/// A library's function (see `host-tests/peers/bench/src/foreign.rs`), which writes M as a square.
+fn foreign(
+    (robot, algorithm, precision): Wanted<'_>,
+    peer: &str,
+    library: &Path,
+    run: String,
+    open: Option<(String, PathBuf)>,
+) -> Value {
+    let (joints, square) = (robot.joints(), algorithm == "crba");
+    let outputs = if square { joints * joints } else { joints };
+    json!({
+        "robot": robot.name, "algorithm": algorithm, "precision": precision, "peer": peer,
+        "library": library, "run": run, "open": open,
+        "cs": false, "outputs": outputs, "square": square, "timed": true,
+    })
 }
 
 /// Our side, for this very processor like the others: in a directory of its own, since other flags

@@ -17,7 +17,7 @@ use std::time::Instant;
 use clap::builder::PossibleValuesParser;
 use cycle_meter::Sample;
 
-use crate::demo::{self, Measured};
+use crate::demo::{Built, Measured};
 use crate::error::{Error, Result};
 use crate::firmware;
 use crate::output;
@@ -123,15 +123,16 @@ impl Context {
     /// The scenes under test: all of them in a full run, the default one else.
     fn scenes(&self) -> &'static [Scene] {
         if self.full {
-            Scene::ALL
+            Scene::all()
         } else {
-            &Scene::ALL[..1]
+            &Scene::all()[..1]
         }
     }
 
     /// One run of each scene under test, done once.
     fn measured(&self) -> Result<&[Measured]> {
-        let run = || demo::build_and_measure(&self.workspace, &self.tools, self.scenes());
+        let (workspace, tools) = (&self.workspace, &self.tools);
+        let run = || Built::new(workspace, tools, self.scenes())?.measure(workspace, tools);
         once(&self.measured, run).map(Vec::as_slice)
     }
 

@@ -8,7 +8,7 @@ use super::Context;
 use crate::budgets::{self, OTHER_RUSTC};
 use crate::costs;
 use crate::demo;
-use crate::error::{Error, Result, check, refuse_if};
+use crate::error::{Error, Result, refuse_if};
 use crate::firmware;
 use crate::qemu::{Qemu, Run};
 use crate::scene::Scene;
@@ -80,8 +80,7 @@ pub fn debian(context: &Context) -> Result<String> {
 /// Runs the default scene and says how far it is within its budgets, as what a compiler made.
 fn budgets_kept(context: &Context, elf: &Path, rustc: &str) -> Result<String> {
     let (workspace, tools, meter) = (&context.workspace, &context.tools, context.meter()?);
-    let (scene, toolchain) = (Scene::default(), tools.toolchain);
-    let mut measured = demo::measure(workspace, tools, scene, toolchain, elf, meter)?;
+    let mut measured = demo::measure(workspace, tools, Scene::default(), elf, meter)?;
     measured.report.rustc = rustc.to_owned();
     budgets::check(workspace, &measured.report)
 }
@@ -225,19 +224,24 @@ fn raw(context: &Context, qemu: &Qemu, name: &str, elf: &Path) -> Result<(Vec<u8
 
 /// How many samples two runs have in common, which are all.
 fn same(name: &str, here: &(Vec<u8>, String), there: &(Vec<u8>, String)) -> Result<usize> {
-    let differs = |what: &str| Err(check!("{name}: {what}"));
-    if here.0 != there.0 {
-        return differs("the two QEMUs logged different bytes");
+    refuse_if!(
+        here.0 != there.0,
+        "{name}: the two QEMUs logged different bytes"
+    );
+    let [these, those] = [&here.1, &there.1].map(|samples| samples.lines().collect::<Vec<_>>());
+    for (at, (one, other)) in std::iter::zip(&these, &those).enumerate() {
+        let line = at + 1;
+        refuse_if!(
+            one != other,
+            "{name}: line {line} of the samples is `{one}` here and `{other}` there"
+        );
     }
-    let mut lines = std::iter::zip(here.1.lines(), there.1.lines()).zip(1..);
-    if let Some(((one, other), at)) = lines.find(|((one, other), _)| one != other) {
-        let both = format!("`{one}` here and `{other}` there");
-        return differs(&format!("line {at} of the samples is {both}"));
-    }
-    if here.1 != there.1 {
-        return differs("the two QEMUs gave different numbers of samples");
-    }
-    Ok(here.1.lines().count().saturating_sub(1))
+    let is_other = these.len() != those.len();
+    refuse_if!(
+        is_other,
+        "{name}: the two QEMUs gave different numbers of samples"
+    );
+    Ok(these.len().saturating_sub(1))
 }
 
 /// The newer QEMU, unpacked beside the one that is installed; it needs the same libraries.

@@ -30,9 +30,12 @@ fn main() -> Result<(), Box<dyn Error>> {
         .nth(1)
         .ok_or("usage: peers-bench MANIFEST")?;
     let manifest: Manifest = serde_json::from_str(&std::fs::read_to_string(path)?)?;
-    robot::run::<Ur5e, 6, 6>(&manifest)?;
-    robot::run::<Panda, 7, 7>(&manifest)?;
-    robot::run::<Iiwa14, 7, 7>(&manifest)?;
-    robot::run_tree::<A1, 16, 12>(&manifest)?;
-    robot::run_large::<G1, 29, 29>(&manifest)
+    macro_rules! robots {
+        ($($robot:ident $b:literal $n:literal $known:ident;)*) => {$(
+            let known = Some((ours::$known::<$robot, _, $b, $n> as _, ours::$known::<$robot, _, $b, $n> as _));
+            robot::run::<$robot, $b, $n>(&manifest, known)?;
+        )*};
+    }
+    robots! { Ur5e 6 6 all; Panda 7 7 all; Iiwa14 7 7 all; A1 16 12 inverse; }
+    robot::run::<G1, 29, 29>(&manifest, None)
 }

@@ -13,66 +13,37 @@ use crate::{Manifest, dynibo, ours};
 /// States in a timed batch; the recording is gone through again until there are so many.
 const BATCH: usize = 256;
 
-/// Checks, times and prints everything about a robot.
+/// Ours in f64 and in f32.
+pub type Known<const N: usize> = (ours::Subjects<f64, N>, ours::Subjects<f32, N>);
+
+/// Checks, times and prints everything about a robot; of one that is too large to be specialised here the core over a
+/// model of run time, in f64.
 pub fn run<T: Robot<B, N, N>, const B: usize, const N: usize>(
     manifest: &Manifest,
+    known: Option<Known<N>>,
 ) -> Result<(), Box<dyn Error>> {
-    run_with::<T, B, N>(manifest, ours::all::<T, _, B, N>, ours::all::<T, _, B, N>)
-}
-
-/// The same of a robot of which only inverse dynamics is specialised here.
-pub fn run_tree<T: Robot<B, N, N>, const B: usize, const N: usize>(
-    manifest: &Manifest,
-) -> Result<(), Box<dyn Error>> {
-    run_with::<T, B, N>(
-        manifest,
-        ours::inverse::<T, _, B, N>,
-        ours::inverse::<T, _, B, N>,
-    )
-}
-
-fn run_with<T: Robot<B, N, N>, const B: usize, const N: usize>(
-    manifest: &Manifest,
-    double: ours::Subjects<f64, N>,
-    single: ours::Subjects<f32, N>,
-) -> Result<(), Box<dyn Error>> {
-    let recording = recordings::load(T::MODEL.name);
-    for algorithm in ["rnea", "bias", "gravity", "crba", "aba"] {
-        in_f64::<T, B, N>(manifest, &recording, algorithm, double)?;
-        one(manifest, &recording, algorithm, "f32", |states| {
-            let mut subjects = single(algorithm, states);
-            subjects.extend(ours::run_time::<T, f32, B, N>(algorithm, states));
+    let recording = &recordings::load(T::MODEL.name);
+    let urdf = manifest.urdfs.join(format!("{}.urdf", recording.robot));
+    let algorithms: &[_] = match known {
+        Some(_) => &["rnea", "bias", "gravity", "crba", "aba"],
+        None => &["rnea", "crba", "aba"],
+    };
+    for algorithm in algorithms {
+        one(manifest, recording, algorithm, "f64", |states| {
+            let mut subjects = known.map_or(Vec::new(), |(double, _)| double(algorithm, states));
+            subjects.extend(ours::run_time::<T, f64, B, N>(algorithm, states));
+            subjects.extend(dynibo::subject::<N>(algorithm, &urdf, recording, states)?);
             Ok(subjects)
         })?;
+        if let Some((_, single)) = known {
+            one(manifest, recording, algorithm, "f32", |states| {
+                let mut subjects = single(algorithm, states);
+                subjects.extend(ours::run_time::<T, f32, B, N>(algorithm, states));
+                Ok(subjects)
+            })?;
+        }
     }
     Ok(())
-}
-
-/// The same of a robot that is too large to be specialised here: the core over a model of run time, in f64.
-pub fn run_large<T: Robot<B, N, N>, const B: usize, const N: usize>(
-    manifest: &Manifest,
-) -> Result<(), Box<dyn Error>> {
-    let recording = recordings::load(T::MODEL.name);
-    for algorithm in ["rnea", "crba", "aba"] {
-        in_f64::<T, B, N>(manifest, &recording, algorithm, |_, _| Vec::new())?;
-    }
-    Ok(())
-}
-
-/// With these of ours, the core over a model of run time, and dynibo.
-fn in_f64<T: Robot<B, N, N>, const B: usize, const N: usize>(
-    manifest: &Manifest,
-    recording: &Recording,
-    algorithm: &str,
-    known: ours::Subjects<f64, N>,
-) -> Result<(), Box<dyn Error>> {
-    one(manifest, recording, algorithm, "f64", |states| {
-        let mut subjects = known(algorithm, states);
-        subjects.extend(ours::run_time::<T, f64, B, N>(algorithm, states));
-        let urdf = manifest.urdfs.join(format!("{}.urdf", recording.robot));
-        subjects.extend(dynibo::subject::<N>(algorithm, &urdf, recording, states)?);
-        Ok(subjects)
-    })
 }
 
 type Subjects<R> = Result<Vec<Subject<R>>, Box<dyn Error>>;

@@ -31,11 +31,15 @@ impl Kernel<f32> for Micromath {
     }
 }
 
-macro_rules! words {
-    ($($axis:ident $value:literal [$($kernel:ty)?] $name:literal, $phrase:literal;)*) => {$($(
+macro_rules! named {
+    ($($kernel:ty = $name:literal),*) => {$(
         impl Named for $kernel {
-            const NAME: &'static str = $value;
+            const NAME: &'static str = $name;
         }
-    )?)*};
+    )*};
 }
-include!("words.rs");
+named! {
+    Minimax<3, 2> = "minimax3", Minimax<5, 2> = "minimax5", Minimax<7, 2> = "minimax7", Minimax<7, 3> = "minimax7x3",
+    Table<256, 1> = "table", Table<256, 2> = "table2", Table<64, 4> = "table4",
+    Table<128, 3> = "table3", Table<128, 3, 4> = "table3x4", Libm = "libm", Micromath = "micromath"
+}

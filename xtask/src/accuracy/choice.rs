@@ -2,7 +2,8 @@
 
 use std::str::FromStr;
 
-use super::point::{Kind, Point};
+use super::measure::Robot;
+use super::point::{Kind, Point, of_group};
 use super::words::{cycles, digits, name, sentence, stated};
 use super::{code, front};
 use crate::error::{Error, Result};
@@ -59,42 +60,66 @@ impl FromStr for Allowed {
 }
 
 impl Budget {
-    /// What is chosen from.
-    pub fn kind(self) -> Kind {
+    /// What is computed by what is chosen.
+    pub fn kind(self, robot: Robot) -> Kind {
         match self {
             Self::Error(allowed) => allowed.kind,
+            Self::Cycles(_) if robot == Robot::DoublePendulum => Kind::Simulation,
             Self::Cycles(_) => Kind::Inverse,
         }
+    }
+
+    /// What is chosen from.
+    pub fn group(self, robot: Robot, quick: bool) -> Result<(&'static str, Kind, &'static str)> {
+        let (kind, name) = (self.kind(robot), robot.name());
+        let (among, circumstances) = match kind {
+            Kind::Simulation => (&Robot::SIMULATED[..], "free"),
+            _ => (&Robot::COMPUTED[..], "rigid"),
+        };
+        if among.contains(&robot) && !(quick && kind == Kind::Simulation) {
+            return Ok((name, kind, circumstances));
+        }
+        let [torques, angles] = [&Robot::COMPUTED[..], &Robot::SIMULATED[..]].map(|robots| {
+            robots
+                .iter()
+                .map(|robot| robot.name())
+                .collect::<Vec<_>>()
+                .join(", ")
+        });
+        Err(Error::check(format!(
+            "not for {name}: there are torques, in Nm, of {torques}, and simulations, in rad, without --quick, of {angles}"
+        )))
     }
 
     /// The point of the front that this allows.
     pub fn choose<'a>(self, points: &[&'a Point]) -> Result<&'a Point> {
         let front = front::front(points, 0);
-        let ends = front.first().zip(front.last());
-        let (cheapest, best) =
-            ends.ok_or_else(|| Error::check("nothing was measured of this robot"))?;
+        let (&[cheapest, ..], &[.., best]) = (&front[..], &front[..]) else {
+            return Err(Error::check("nothing was measured of this robot"));
+        };
         let unit = &best.unit;
+        let mut front = front.into_iter();
         let (within, what, end) = match self {
             Self::Cycles(most) => (
-                front.iter().rev().find(|point| point.cycles <= most),
+                front.rfind(|point| point.cycles <= most),
                 format!("below {} cycles; the cheapest", thousands(most)),
                 cheapest,
             ),
-            Self::Error(allowed) => (
-                front.iter().find(|point| point.error() <= allowed.error),
-                format!(
-                    "off by less than {} {unit}; the most accurate",
-                    digits(allowed.error)
-                ),
-                best,
-            ),
+            Self::Error(allowed) => {
+                let error = digits(allowed.error);
+                let what = format!("off by less than {error} {unit}; the most accurate");
+                (
+                    front.find(|point| point.error() <= allowed.error),
+                    what,
+                    best,
+                )
+            }
         };
-        within.copied().ok_or_else(|| {
+        within.ok_or_else(|| {
+            let (cycles, error) = (thousands(end.cycles), digits(end.error()));
+            let (name, front) = (name(end), "nothing on the front is");
             Error::check(format!(
-                "nothing on the front is {what} takes {} cycles ({}) and is off by up to {} {unit}",
-                thousands(end.cycles),
-                name(end),
-                digits(end.error()),
+                "{front} {what} takes {cycles} cycles ({name}) and is off by up to {error} {unit}"
             ))
         })
     }
@@ -127,10 +152,11 @@ impl Budget {
 
 /// What may be chosen from a group: what the library ships, and the fronts of that.
 pub fn shipped(points: &[Point], group: (&str, Kind, &str)) -> Vec<Point> {
-    let own = points
-        .iter()
-        .filter(|point| point.group() == group && code::rust(point).is_ok());
-    let mut own: Vec<Point> = own.cloned().collect();
+    let own = of_group(points, group).into_iter();
+    let mut own: Vec<Point> = own
+        .filter(|point| code::rust(point).is_ok())
+        .cloned()
+        .collect();
     front::mark(&mut own);
     own
 }
@@ -138,8 +164,8 @@ pub fn shipped(points: &[Point], group: (&str, Kind, &str)) -> Vec<Point> {
 /// A point's figures in words.
 fn described(point: &Point) -> String {
     let of = match point.kind {
-        Kind::Inverse => "cycles in the worst tick",
         Kind::Simulation => "cycles for a simulated second",
+        _ => "cycles in the worst tick",
     };
     format!(
         "{} {}: {} modelled {of}, {} in the mean; off by up to {} {} ({} of full scale)\n{}",

@@ -60,10 +60,11 @@ impl<const N: usize> Visitor<N> for Bench<N> {
             )
         };
         let states = !W::MEMORY && !self.states.is_empty();
+        let mut configuration = object(&W::KEY.axes());
+        configuration["plant"] = json!(self.plant);
         let line = json!({
-            "plant": self.plant,
             "key": W::KEY.to_string(),
-            "configuration": object(&W::KEY.axes()),
+            "configuration": configuration,
             "anywhere": states.then(|| run(&self.states).max() / self.full_scale),
         });
         let scales = [self.full_scale, self.floor];

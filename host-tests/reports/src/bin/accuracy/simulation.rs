@@ -90,15 +90,14 @@ impl<const N: usize> Visitor<N> for Bench<N> {
             configuration["step"] = json!(step.to_string());
             let mut line = json!({
                 "key": S::KEY.to_string(),
-                "step": step,
                 "configuration": configuration,
                 "unit": "rad per simulated second",
-                "energy_drift_relative": drift.max() / kinetic / seconds as f64,
+                "drift": drift.max() / kinetic / seconds as f64,
             });
             // What has left the robot's range has no error worth a number.
             if failed || errors.max() >= 100.0 || drift.max() >= 1e3 * kinetic {
                 let errors = ["error_max", "error_rms", "error_p99", "relative_max"];
-                for name in errors.into_iter().chain(["energy_drift_relative"]) {
+                for name in errors.into_iter().chain(["drift"]) {
                     line[name] = Value::Null;
                 }
             }

@@ -6,27 +6,11 @@ use dynamics_core::Engine;
 use dynamics_core::drivetrain::{ElasticJoints, ElasticReference, elastic_inverse_dynamics};
 use dynamics_core::effects::{Armature, RIGID_BODY, Viscous};
 use dynamics_core::model::{Robot, Static};
-use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
 
 use super::Inverse;
 use super::key::Key;
-
-/// An arm's joints.
-pub trait Joints<const N: usize> {
-    /// Stiffness, N·m/rad, reflected inertia of the rotor, kg·m², and friction, N·m·s/rad.
-    const JOINTS: [[f64; N]; 3];
-
-    /// The same in a scalar.
-    fn joints<R: Real>() -> ElasticJoints<R, N> {
-        let [stiffness, rotor, friction] = Self::JOINTS.map(|numbers| numbers.map(R::from_f64));
-        ElasticJoints {
-            stiffness,
-            rotor,
-            friction,
-        }
-    }
-}
+use super::robots::Swung;
 
 macro_rules! motors {
     ($($(#[$doc:meta])* $way:ident, trig: $trig:literal, model: $model:literal, form: $form:literal,
@@ -35,7 +19,7 @@ macro_rules! motors {
         #[derive(Debug)]
         pub struct $way<T, const N: usize>(ElasticJoints<f32, N>, PhantomData<T>);
 
-        impl<T: Robot<N, N, N> + Joints<N>, const N: usize> Inverse<N> for $way<T, N> {
+        impl<T: Robot<N, N, N> + Swung<N>, const N: usize> Inverse<N> for $way<T, N> {
             const KEY: Key = Key { trig: $trig, model: $model, form: $form, ..Key::DEFAULT };
             type Input = $input;
             type Scalar = f32;

@@ -1,11 +1,12 @@
 //! Sines and cosines: the library's kernels, and those of others.
 
+use dynamics_core::scalar::Native;
 use dynamics_core::trig::{Kernel, Minimax, Table};
 use micromath::F32Ext;
 
 /// A kernel with a name.
-pub trait Named: Kernel<f32> {
-    /// On the axis `trig`.
+pub trait Named {
+    /// On the axis `trig`; empty for the library's own, whichever it is.
     const NAME: &'static str;
 }
 
@@ -41,5 +42,5 @@ macro_rules! named {
 named! {
     Minimax<3, 2> = "minimax3", Minimax<5, 2> = "minimax5", Minimax<7, 2> = "minimax7", Minimax<7, 3> = "minimax7x3",
     Table<256, 1> = "table", Table<256, 2> = "table2", Table<64, 4> = "table4",
-    Table<128, 3> = "table3", Table<128, 3, 4> = "table3x4", Libm = "libm", Micromath = "micromath"
+    Table<128, 3> = "table3", Table<128, 3, 4> = "table3x4", Native = "", Libm = "libm", Micromath = "micromath"
 }

@@ -81,35 +81,31 @@ const fn changed<const B: usize, const N: usize>(
     mass: f64,
     bits: u32,
 ) -> Model<f64, B, N, N> {
-    const fn vector(v: DVec3, s: f64, bits: u32) -> DVec3 {
-        DVec3::new(
-            round(v.x * s, bits),
-            round(v.y * s, bits),
-            round(v.z * s, bits),
-        )
-    }
     let (first, second) = (1.0 / (mass * length), 1.0 / (mass * length * length));
     let mut i = 0;
     while i < B {
         let link = &mut model.links[i];
-        link.placement.pos = vector(link.placement.pos, 1.0 / length, bits);
         let inertia = &mut link.inertia;
+        link.placement.pos =
+            DVec3::from_array(rounded(link.placement.pos.to_array(), 1.0 / length, bits));
         inertia.mass = round(inertia.mass / mass, bits);
-        inertia.first_moment = vector(inertia.first_moment, first, bits);
-        let DMat3 {
-            x_axis: x,
-            y_axis: y,
-            z_axis: z,
-        } = inertia.inertia;
-        let [x, y, z] = [
-            vector(x, second, bits),
-            vector(y, second, bits),
-            vector(z, second, bits),
-        ];
-        inertia.inertia = DMat3::from_cols(x, y, z);
+        inertia.first_moment =
+            DVec3::from_array(rounded(inertia.first_moment.to_array(), first, bits));
+        inertia.inertia =
+            DMat3::from_cols_array(&rounded(inertia.inertia.to_cols_array(), second, bits));
         i += 1;
     }
     model
+}
+
+/// These numbers times s, rounded.
+const fn rounded<const K: usize>(mut numbers: [f64; K], s: f64, bits: u32) -> [f64; K] {
+    let mut i = 0;
+    while i < K {
+        numbers[i] = round(numbers[i] * s, bits);
+        i += 1;
+    }
+    numbers
 }
 
 /// To nearest, by adding and cutting off bits of the mantissa's 53.

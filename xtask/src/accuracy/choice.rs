@@ -27,14 +27,11 @@ pub enum Budget {
     Cycles(u64),
 }
 
-/// Units by their names.
-const UNITS: [(&str, f64, Kind); 6] = [
-    ("mN·m", 1e-3, Kind::Inverse),
-    ("mNm", 1e-3, Kind::Inverse),
-    ("N·m", 1.0, Kind::Inverse),
-    ("Nm", 1.0, Kind::Inverse),
-    ("mrad", 1e-3, Kind::Simulation),
-    ("rad", 1.0, Kind::Simulation),
+/// Units by their names, each of which `m` makes a thousandth of.
+const UNITS: [(&str, Kind); 3] = [
+    ("N·m", Kind::Inverse),
+    ("Nm", Kind::Inverse),
+    ("rad", Kind::Simulation),
 ];
 
 impl FromStr for Allowed {
@@ -43,18 +40,21 @@ impl FromStr for Allowed {
     fn from_str(text: &str) -> std::result::Result<Self, String> {
         let text = text.trim();
         let units = "an error is a torque in Nm or mNm (0.05Nm), for a simulation an angle in rad or mrad (2mrad)";
-        let known = UNITS.iter().find_map(|&(unit, scale, kind)| {
-            Some((text.strip_suffix(unit)?.trim().parse::<f64>(), scale, kind))
-        });
-        match known {
-            Some((Ok(number), scale, kind)) if number > 0.0 && number.is_finite() => Ok(Self {
-                error: number * scale,
-                kind,
-            }),
-            Some((Ok(_), ..)) => Err(format!("{text}: an error is more than nothing")),
-            Some((Err(_), ..)) => Err(format!("{text} does not begin with a number: {units}")),
-            None if text.parse::<f64>().is_ok() => Err(format!("{text} has no unit: {units}")),
-            None => Err(units.into()),
+        let known = UNITS
+            .iter()
+            .find_map(|(unit, kind)| Some((text.strip_suffix(unit)?, *kind)));
+        let (number, kind) = known.ok_or_else(|| format!("{text} has no unit: {units}"))?;
+        let (number, scale) = match number.strip_suffix('m') {
+            Some(number) => (number, 1e-3),
+            None => (number, 1.0),
+        };
+        match number.trim().parse::<f64>() {
+            Ok(number) if number > 0.0 && number.is_finite() => {
+                let error = number * scale;
+                Ok(Self { error, kind })
+            }
+            Ok(_) => Err(format!("{text}: an error is more than nothing")),
+            Err(_) => Err(format!("{text} does not begin with a number: {units}")),
         }
     }
 }
@@ -79,15 +79,10 @@ impl Budget {
         if among.contains(&robot) && !(quick && kind == Kind::Simulation) {
             return Ok((name, kind, circumstances));
         }
-        let [torques, angles] = [&Robot::COMPUTED[..], &Robot::SIMULATED[..]].map(|robots| {
-            robots
-                .iter()
-                .map(|robot| robot.name())
-                .collect::<Vec<_>>()
-                .join(", ")
-        });
         Err(Error::check(format!(
-            "not for {name}: there are torques, in Nm, of {torques}, and simulations, in rad, without --quick, of {angles}"
+            "not for {name}: there are torques, in Nm, of {:?}, and simulations, in rad, without --quick, of {:?}",
+            Robot::COMPUTED,
+            Robot::SIMULATED
         )))
     }
 
@@ -98,24 +93,22 @@ impl Budget {
             return Err(Error::check("nothing was measured of this robot"));
         };
         let unit = &best.unit;
-        let mut front = front.into_iter();
-        let (within, what, end) = match self {
-            Self::Cycles(most) => (
-                front.rfind(|point| point.cycles <= most),
-                format!("below {} cycles; the cheapest", thousands(most)),
-                cheapest,
-            ),
+        let within = front.iter().copied().filter(|point| match self {
+            Self::Cycles(most) => point.cycles <= most,
+            Self::Error(allowed) => point.error() <= allowed.error,
+        });
+        let (chosen, what, end) = match self {
+            Self::Cycles(most) => {
+                let what = format!("below {} cycles; the cheapest", thousands(most));
+                (within.last(), what, cheapest)
+            }
             Self::Error(allowed) => {
                 let error = digits(allowed.error);
                 let what = format!("off by less than {error} {unit}; the most accurate");
-                (
-                    front.find(|point| point.error() <= allowed.error),
-                    what,
-                    best,
-                )
+                (within.min_by_key(|point| point.cycles), what, best)
             }
         };
-        within.ok_or_else(|| {
+        chosen.ok_or_else(|| {
             let (cycles, error) = (thousands(end.cycles), digits(end.error()));
             let (name, front) = (name(end), "nothing on the front is");
             Error::check(format!(
@@ -138,13 +131,10 @@ impl Budget {
     /// The choice in words, with the Rust to paste.
     pub fn answer(self, points: &[&Point]) -> Result<String> {
         let chosen = self.choose(points)?;
-        let mut text = format!("{}\n\n{}", described(chosen), code::rust(chosen)?);
+        let mut text = described(chosen)?;
         if let Some(other) = self.in_the_mean(points, chosen) {
-            text += &format!(
-                "\nIf the mean over ticks matters rather than the worst tick:\n\n{}\n\n{}",
-                described(other),
-                code::rust(other)?
-            );
+            text += "\nIf the mean over ticks matters rather than the worst tick:\n\n";
+            text += &described(other)?;
         }
         Ok(text)
     }
@@ -161,23 +151,20 @@ pub fn shipped(points: &[Point], group: (&str, Kind, &str)) -> Vec<Point> {
     own
 }
 
-/// A point's figures in words.
-fn described(point: &Point) -> String {
+/// A point's figures in words, and its code.
+fn described(point: &Point) -> Result<String> {
     let of = match point.kind {
         Kind::Simulation => "cycles for a simulated second",
         _ => "cycles in the worst tick",
     };
-    format!(
-        "{} {}: {} modelled {of}, {} in the mean; off by up to {} {} ({} of full scale)\n{}",
-        point.robot,
-        name(point),
-        thousands(point.cycles),
-        cycles(point.cycles_mean),
-        digits(point.error()),
-        point.unit,
-        stated(point.relative_max),
-        sentence(point)
-    )
+    let (robot, name, unit) = (&point.robot, name(point), &point.unit);
+    let [worst, mean] = point.costs().map(cycles);
+    let (error, share) = (digits(point.error()), stated(point.relative_max));
+    let (sentence, code) = (sentence(point), code::rust(point)?);
+    Ok(format!(
+        "{robot} {name}: {worst} modelled {of}, {mean} in the mean; off by up to {error} {unit} ({share} of full scale)\n\
+         {sentence}\n\n{code}"
+    ))
 }
 
 #[cfg(test)]

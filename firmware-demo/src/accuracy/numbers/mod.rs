@@ -7,14 +7,12 @@ mod vector;
 use core::marker::PhantomData;
 
 use dynamics_core::drivetrain::ElasticReference;
-use dynamics_core::effects::Effect;
 use dynamics_core::model::Robot;
-use dynamics_core::scalar::{Native, Real};
+use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
 
 use super::Inverse;
-use super::form::Form;
 use super::key::Key;
 use super::model::{InUnits, Modelled, Units};
 
@@ -93,38 +91,52 @@ macro_rules! real {
             dynamics_core::cast_model!(model, B, $r, |x| <$r>::new(x), Vec3::of, Mat3::of)
         }
 
-        super::follows! {
-            $r: Sub sub |a, b| a + -b, AddAssign add_assign +, SubAssign sub_assign -, MulAssign mul_assign *
+        super::assigning! {
+            [] $r, AddAssign add_assign +;
+            [] $r, SubAssign sub_assign -;
+            [] $r, MulAssign mul_assign *;
         }
     };
 }
-/// The operators that follow from others.
-macro_rules! follows {
-    ($r:ident: Sub sub |$a:ident, $b:ident| $difference:expr, $($op:ident $name:ident $sign:tt),*) => {
-        impl core::ops::Sub for $r {
-            type Output = Self;
+/// Operators of one or two operands, each with its result in terms of them.
+macro_rules! operators {
+    ($($(#[$doc:meta])* [$($generics:tt)*] $t:ty, $op:ident $name:ident ($($other:ty)?) -> $out:ty:
+       |$a:ident $(, $b:ident)?| $value:expr;)*) => {$(
+        $(#[$doc])*
+        impl<$($generics)*> core::ops::$op $(<$other>)? for $t {
+            type Output = $out;
             #[inline(always)]
-            fn sub(self, other: Self) -> Self {
-                let ($a, $b) = (self, other);
-                $difference
+            fn $name(self $(, $b: $other)?) -> $out {
+                let $a = self;
+                $value
             }
         }
-        $(
-            impl core::ops::$op for $r {
-                #[inline(always)]
-                fn $name(&mut self, other: Self) {
-                    *self = *self $sign other;
-                }
-            }
-        )*
-    };
+    )*};
 }
-use {follows, real};
+/// The operators that assign, by those that do not.
+macro_rules! assigning {
+    ($([$($generics:tt)*] $t:ty, $op:ident $name:ident $sign:tt;)*) => {$(
+        impl<$($generics)*> core::ops::$op for $t {
+            #[inline(always)]
+            fn $name(&mut self, other: Self) {
+                *self = *self $sign other;
+            }
+        }
+    )*};
+}
+use {assigning, operators, real};
 
 /// A scalar with a name.
 pub trait Number: Real {
     /// On the axis `arith`.
     const NAME: &'static str;
+    /// Whether its sines are one of several kernels.
+    const KERNELS: bool = false;
+}
+
+impl Number for f32 {
+    const NAME: &'static str = "f32";
+    const KERNELS: bool = true;
 }
 
 impl Number for f64 {
@@ -133,44 +145,6 @@ impl Number for f64 {
 
 impl Number for Compensated {
     const NAME: &'static str = "compensated";
-}
-
-/// As the library ships it, in the scalar R, with its own sines and cosines: f64, which this processor computes in
-/// software, or f32 with the rounding errors carried along.
-#[derive(Debug)]
-pub struct In<R, M, F, const B: usize>(PhantomData<(R, M, F)>);
-
-impl<R, M, F, const B: usize, const N: usize> Inverse<N> for In<R, M, F, B>
-where
-    R: Number,
-    M: Modelled<B, N>,
-    M::Scene: Effect<R, B, N>,
-    F: Form<M::Robot>,
-{
-    const KEY: Key = Key {
-        arith: R::NAME,
-        model: M::NAME,
-        form: F::NAME,
-        ..Key::DEFAULT
-    };
-    type Input = State<R, N, N>;
-    type Scalar = R;
-
-    fn start(_: &State<f32, N, N>) -> Self {
-        Self(PhantomData)
-    }
-    fn input(course: &ElasticReference<f32, N, N>) -> Self::Input {
-        let State { q, qd, qdd } = course.state;
-        let [q, qd, qdd] = [q, qd, qdd].map(|xs| xs.map(|x| R::from_f64(f64::from(x))));
-        State { q, qd, qdd }
-    }
-    #[inline(always)]
-    fn tick(&mut self, state: &Self::Input) -> [R; N] {
-        F::rnea::<Native, _, _, _, _, _>(state, &M::SCENE)
-    }
-    fn address() -> usize {
-        F::address::<Native, R, M::Scene, B, N>()
-    }
 }
 
 /// In fixed point, by the core: angles come in half turns, rates and accelerations in the robot's [`Units`], as

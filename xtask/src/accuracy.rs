@@ -16,7 +16,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use crate::docs;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::output;
 use crate::setup::{self, Options, Tools};
 use crate::workspace::{self, Workspace};
@@ -32,9 +32,6 @@ pub struct Wish {
     /// Only this robot
     #[arg(long, value_enum, value_name = "NAME", ignore_case = true)]
     robot: Option<Robot>,
-    /// A dozen configurations of each robot, at opt-level 3
-    #[arg(long)]
-    quick: bool,
     /// The measurements as JSON on stdout; progress stays on stderr
     #[arg(long)]
     json: bool,
@@ -57,30 +54,30 @@ pub fn run(options: Options, wish: Wish) -> Result<ExitCode> {
         (None, cycles) => cycles.map(Budget::Cycles),
     };
     let choice = budget.zip(wish.robot);
-    let writes = choice.is_none() && !wish.quick;
-    let workspace = match writes {
-        true => Workspace::for_reports()?,
-        false => Workspace::find()?,
+    let workspace = match choice {
+        None => Workspace::for_reports()?,
+        Some(_) => Workspace::find()?,
     };
-    if let Some((budget, robot)) = choice {
-        // Better now than after the minutes that the measurements take.
-        budget.group(robot, wish.quick)?;
+    let mut points = recorded::read(&workspace)?;
+    if let Some((budget, robot)) = choice
+        && choice::shipped(&points, budget.group(robot)).is_empty()
+    {
+        let (file, robot) = (recorded::FILE, robot.name());
+        let what = format!("{file} has nothing of {robot} that is off by such an error");
+        return Err(Error::check(what));
     }
-    let is_fresh = choice.is_none() | wish.measure | wish.quick;
-    let points = if is_fresh {
+    if choice.is_none() | wish.measure {
         let plan = Plan {
             robots: wish.robot.map_or(Robot::ALL.to_vec(), |robot| vec![robot]),
-            quick: wish.quick,
-            kind: choice.map(|(budget, robot)| budget.kind(robot)),
+            quick: false,
+            kind: choice.map(|(budget, robot)| budget.group(robot).1),
         };
         let measured = plan.run(&workspace, &setup::for_demo(options)?)?;
-        if writes {
+        if choice.is_none() {
             write(&workspace, &measured, wish.robot)?;
         }
-        measured.points
-    } else {
-        recorded::read(&workspace)?
-    };
+        points = measured.points;
+    }
     let Some((budget, robot)) = choice else {
         match wish.json {
             true => docs::print_json(&points)?,
@@ -88,13 +85,13 @@ pub fn run(options: Options, wish: Wish) -> Result<ExitCode> {
         }
         return Ok(ExitCode::SUCCESS);
     };
-    let points = choice::shipped(&points, budget.group(robot, wish.quick)?);
+    let points = choice::shipped(&points, budget.group(robot));
     let points: Vec<&Point> = points.iter().collect();
     if wish.json {
         docs::print_json(&budget.choose(&points)?)?;
     } else {
         output::print(&budget.answer(&points)?)?;
-        if !is_fresh {
+        if !wish.measure {
             let file = recorded::FILE;
             output::note(&format!(
                 "\nFrom {file}; --measure takes its figures on this machine, in minutes."

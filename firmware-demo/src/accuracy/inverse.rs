@@ -5,16 +5,14 @@ use core::marker::PhantomData;
 use dynamics_core::Engine;
 use dynamics_core::drivetrain::ElasticReference;
 use dynamics_core::effects::Effect;
-use dynamics_core::scalar::Native;
+use dynamics_core::scalar::{Native, Real};
 use dynamics_core::state::{Carried, State};
 use dynamics_core::trig::Kernel;
 
 use super::Inverse;
 use super::form::Form;
-use super::kernels::Named;
-use super::key::Key;
+use super::key::{Key, Named};
 use super::model::Modelled;
-use super::numbers::Number;
 
 /// By the form F in the scalar R, with the kernel K inside.
 #[derive(Debug)]
@@ -25,7 +23,7 @@ pub type In<R, M, F, const B: usize> = By<R, Native, M, F, B>;
 
 impl<R, K, M, F, const B: usize, const N: usize> Inverse<N> for By<R, K, M, F, B>
 where
-    R: Number,
+    R: Real + Named,
     K: Kernel<R> + Named,
     M: Modelled<B, N>,
     M::Scene: Effect<R, B, N>,
@@ -33,8 +31,9 @@ where
 {
     const KEY: Key = Key {
         arith: R::NAME,
-        trig: match (K::NAME.is_empty(), R::KERNELS) {
+        trig: match (K::NAME.is_empty(), size_of::<R>() == 4) {
             (true, true) => F::TRIG,
+            // In other numbers than f32 there is but one kernel.
             (true, false) => Key::DEFAULT.trig,
             _ => K::NAME,
         },

@@ -29,14 +29,14 @@ pub trait Modelled<const B: usize, const N: usize> {
 const FREE_FALL: f64 = 9.81;
 
 macro_rules! modelled {
-    ($($(#[$doc:meta])* $model:ident = $name:literal: $scene:ty = |$g:ident| $value:expr;)*) => {$(
+    ($($(#[$doc:meta])* $model:ident<$($n:ident)?> of $robot:ty = $name:expr, $scene:ty = |$g:ident| $value:expr;)*) => {$(
         $(#[$doc])*
         #[derive(Clone, Copy, Debug)]
-        pub struct $model<T>(PhantomData<T>);
+        pub struct $model<T $(, const $n: u32)?>(PhantomData<T>);
 
-        impl<T: Robot<B, N, N>, const B: usize, const N: usize> Modelled<B, N> for $model<T> {
+        impl<T: Robot<B, N, N> $(, const $n: u32)?, const B: usize, const N: usize> Modelled<B, N> for $model<T $(, $n)?> {
             const NAME: &'static str = $name;
-            type Robot = T;
+            type Robot = $robot;
             type Scene = $scene;
             const SCENE: $scene = {
                 let $g = Gravity::new(FREE_FALL);
@@ -51,16 +51,28 @@ macro_rules! modelled {
 }
 modelled! {
     /// M q̈ + C q̇ + g.
-    Full = "full": (Gravity, Inertia, Coriolis) = |g| (g, Inertia, Coriolis);
+    Full<> of T = "full", (Gravity, Inertia, Coriolis) = |g| (g, Inertia, Coriolis);
     /// M q̈ + g.
-    NoCoriolis = "no_coriolis": (Gravity, Inertia) = |g| (g, Inertia);
+    NoCoriolis<> of T = "no_coriolis", (Gravity, Inertia) = |g| (g, Inertia);
     /// g.
-    GravityOnly = "gravity": (Gravity,) = |g| (g,);
+    GravityOnly<> of T = "gravity", (Gravity,) = |g| (g,);
+    /// All of it, of a robot whose lengths, masses and inertias are known to `BITS` bits: 8 are those of bf16, 11 of f16.
+    Parameters<BITS> of Rounded<T, BITS> = match BITS {
+        6 => "params6",
+        8 => "params8",
+        11 => "params11",
+        _ => panic!("no such model"),
+    }, (Gravity, Inertia, Coriolis) = |g| (g, Inertia, Coriolis);
+    /// All of it, but for the base parameters that take less than so many millionths of the robot's torque.
+    Without<PPM> of Pruned<T, PPM> = match PPM {
+        100 => "pruned100",
+        1000 => "pruned1000",
+        3000 => "pruned3000",
+        10_000 => "pruned10000",
+        30_000 => "pruned30000",
+        _ => panic!("no such model"),
+    }, (Gravity, Inertia, Coriolis) = |g| (g, Inertia, Coriolis);
 }
-
-/// All of it, of a robot whose lengths, masses and inertias are known to `BITS` bits: 8 are those of bf16, 11 of f16.
-#[derive(Clone, Copy, Debug)]
-pub struct Parameters<T, const BITS: u32>(PhantomData<T>);
 
 /// The robot with rounded parameters.
 #[derive(Clone, Copy, Debug)]
@@ -114,32 +126,6 @@ const fn round(x: f64, bits: u32) -> f64 {
     let cut = 53 - bits;
     let half = (1_u64 << cut) >> 1;
     f64::from_bits((x.to_bits() + half) >> cut << cut)
-}
-
-/// All of it, but for the base parameters that take less than so many millionths of the robot's torque.
-#[derive(Clone, Copy, Debug)]
-pub struct Without<T, const PPM: u32>(PhantomData<T>);
-
-macro_rules! approximate {
-    ($($model:ident<$n:ident> of $robot:ident: $($value:literal = $name:literal)*;)*) => {$(
-        impl<T: Robot<B, N, N>, const $n: u32, const B: usize, const N: usize> Modelled<B, N>
-            for $model<T, $n>
-        {
-            const NAME: &'static str = match $n {
-                $($value => $name,)*
-                _ => panic!("no such model"),
-            };
-            type Robot = $robot<T, $n>;
-            type Scene = (Gravity, Inertia, Coriolis);
-            const SCENE: Self::Scene = <Full<T> as Modelled<B, N>>::SCENE;
-            const IN_UNITS: Self::Scene = <Full<T> as Modelled<B, N>>::IN_UNITS;
-        }
-    )*};
-}
-approximate! {
-    Parameters<BITS> of Rounded: 6 = "params6" 8 = "params8" 11 = "params11";
-    Without<PPM> of Pruned: 100 = "pruned100" 1000 = "pruned1000" 3000 = "pruned3000"
-        10_000 = "pruned10000" 30_000 = "pruned30000";
 }
 
 /// Units in which everything that inverse dynamics meets stays within ±2.

@@ -9,6 +9,7 @@ use dynamics_core::sim::{
 };
 use dynamics_core::state::State;
 
+use super::key::Named;
 pub use super::key::Simulated as Key;
 pub use super::let_go::{Damped, DoublePendulum, Engined, Free, LetGo, Scene};
 
@@ -48,28 +49,6 @@ pub trait Visitor<const N: usize> {
     fn simulation<S: Simulation<N>>(&mut self);
 }
 
-/// The integrators' names.
-pub trait Named {
-    /// On the axis `integrator`.
-    const NAME: &'static str;
-}
-
-macro_rules! named {
-    ($($integrator:ty = $name:literal),*) => {$(
-        impl Named for $integrator {
-            const NAME: &'static str = $name;
-        }
-    )*};
-}
-named!(
-    Euler = "euler",
-    SemiImplicit = "semi_implicit",
-    RungeKutta = "rk4",
-    LinearlyImplicit = "implicit_damping",
-    EnergyProjected<f32> = "energy",
-    EnergyProjected<f64> = "energy"
-);
-
 /// The robot T by the integrator I in the scalar R.
 #[derive(Debug)]
 pub struct Run<T, S, I, R, const N: usize, const COMPENSATED: bool> {
@@ -84,12 +63,12 @@ where
     T: LetGo<N>,
     S: Scene<T, R, N>,
     I: Integrator<R, N, N> + Named,
-    R: Real,
+    R: Real + Named,
 {
     const KEY: Key = Key {
         integrator: I::NAME,
         state: if COMPENSATED { "compensated" } else { "plain" },
-        arith: if size_of::<R>() == 4 { "f32" } else { "f64" },
+        arith: R::NAME,
         scene: S::NAME,
     };
     type Scalar = R;

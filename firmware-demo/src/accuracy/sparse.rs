@@ -9,8 +9,7 @@ use dynamics_core::state::State;
 use dynamics_core::trig::Kernel;
 
 use super::Inverse;
-use super::kernels::Named;
-use super::key::Key;
+use super::key::{Key, Named};
 use super::model::Modelled;
 use super::robots::momentary;
 

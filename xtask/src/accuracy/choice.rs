@@ -60,30 +60,18 @@ impl FromStr for Allowed {
 }
 
 impl Budget {
-    /// What is computed by what is chosen.
-    pub fn kind(self, robot: Robot) -> Kind {
-        match self {
+    /// What is chosen from.
+    pub fn group(self, robot: Robot) -> (&'static str, Kind, &'static str) {
+        let kind = match self {
             Self::Error(allowed) => allowed.kind,
             Self::Cycles(_) if robot == Robot::DoublePendulum => Kind::Simulation,
             Self::Cycles(_) => Kind::Inverse,
-        }
-    }
-
-    /// What is chosen from.
-    pub fn group(self, robot: Robot, quick: bool) -> Result<(&'static str, Kind, &'static str)> {
-        let (kind, name) = (self.kind(robot), robot.name());
-        let (among, circumstances) = match kind {
-            Kind::Simulation => (&Robot::SIMULATED[..], "free"),
-            _ => (&Robot::COMPUTED[..], "rigid"),
         };
-        if among.contains(&robot) && !(quick && kind == Kind::Simulation) {
-            return Ok((name, kind, circumstances));
-        }
-        Err(Error::check(format!(
-            "not for {name}: there are torques, in Nm, of {:?}, and simulations, in rad, without --quick, of {:?}",
-            Robot::COMPUTED,
-            Robot::SIMULATED
-        )))
+        let circumstances = match kind {
+            Kind::Simulation => "free",
+            _ => "rigid",
+        };
+        (robot.name(), kind, circumstances)
     }
 
     /// The point of the front that this allows.
@@ -93,19 +81,19 @@ impl Budget {
             return Err(Error::check("nothing was measured of this robot"));
         };
         let unit = &best.unit;
-        let within = front.iter().copied().filter(|point| match self {
+        let mut within = front.iter().copied().filter(|point| match self {
             Self::Cycles(most) => point.cycles <= most,
             Self::Error(allowed) => point.error() <= allowed.error,
         });
         let (chosen, what, end) = match self {
             Self::Cycles(most) => {
                 let what = format!("below {} cycles; the cheapest", thousands(most));
-                (within.last(), what, cheapest)
+                (within.next_back(), what, cheapest)
             }
             Self::Error(allowed) => {
                 let error = digits(allowed.error);
                 let what = format!("off by less than {error} {unit}; the most accurate");
-                (within.min_by_key(|point| point.cycles), what, best)
+                (within.next(), what, best)
             }
         };
         chosen.ok_or_else(|| {

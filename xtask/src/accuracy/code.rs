@@ -60,12 +60,13 @@ fn torques(point: &Point) -> Result<String> {
     let axes = ["model", "trig", "between", "form", "arith"];
     let [effects, kernel, between, form, scalar] = shipped(point, axes)?;
     let [rate, trig] = ["rate", "trig"].map(|axis| point.on(axis));
-    let Some(arm) = Robot::of(&point.robot) else {
-        return Err(Error::check(format!("{} is no robot", point.robot)));
-    };
+    let arm = Robot::COMPUTED.map(Robot::names);
+    let arm = arm.into_iter().find(|names| names[0] == point.robot);
+    let lacks = || Error::check(format!("no torques of {} are computed", point.robot));
+    let [_, _, arm, joints, ..] = arm.ok_or_else(lacks)?;
     let robot = match point.on("model").strip_prefix("pruned") {
-        Some(millionths) => format!("Pruned<{}, {millionths}>", arm.rust()),
-        None => arm.rust().to_owned(),
+        Some(millionths) => format!("Pruned<{arm}, {millionths}>"),
+        None => arm.to_owned(),
     };
     let template = match (rate, trig, point.on("between")) {
         ("1", "incremental", _) => include_str!("templates/carried.txt"),
@@ -90,7 +91,7 @@ fn torques(point: &Point) -> Result<String> {
         ("ROBOT", &robot),
         ("EFFECTS", effects),
         ("KERNEL", kernel),
-        ("JOINTS", arm.joints()),
+        ("JOINTS", joints),
         ("TICKS", rate),
         ("f32", scalar),
     ];

@@ -14,14 +14,11 @@ use crate::shell;
 use crate::toolchain::{RELEASE, SMALL, TINY};
 use crate::workspace::Workspace;
 
-const FEATURE: &str = "accuracy";
-/// The bin on the host.
-const HOST_BIN: &str = "accuracy";
+/// The feature, and the bin on the host.
+const ACCURACY: &str = "accuracy";
 /// The bins, here and there, with a dozen ways of each robot.
 const QUICK_BIN: &str = "accuracy_quick";
 const SIMULATION_BIN: &str = "accuracy_simulation";
-/// What the host calls the simulations.
-const SIMULATION: &str = "simulation";
 
 /// A robot that there is something to measure of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -39,45 +36,49 @@ impl Robot {
     pub const ALL: [Self; 4] = [Self::Ur5e, Self::Panda, Self::A1Leg, Self::DoublePendulum];
     /// Those whose torques are computed.
     pub const COMPUTED: [Self; 3] = [Self::Ur5e, Self::Panda, Self::A1Leg];
-    /// Those that are simulated.
-    pub const SIMULATED: [Self; 2] = [Self::DoublePendulum, Self::Ur5e];
 
-    /// Its name in rows, lines and files, in print, and in the library; the number of its joints, and its bin, if torques
-    /// are computed.
-    fn names(self) -> [&'static str; 5] {
+    /// Its name in rows, lines and files, in print, and in the library; the number of its joints; what is written about it;
+    /// and its bin, if torques are computed.
+    pub fn names(self) -> [&'static str; 6] {
         match self {
-            Self::Ur5e => ["ur5e", "UR5e", "Ur5e", "6", "accuracy_ur5e"],
-            Self::Panda => ["panda", "Panda", "Panda", "7", "accuracy_panda"],
-            Self::A1Leg => ["a1_leg", "leg of the A1", "A1Leg", "3", "accuracy_leg"],
-            Self::DoublePendulum => ["double_pendulum", "double pendulum", "", "2", ""],
+            Self::Ur5e => [
+                "ur5e",
+                "UR5e",
+                "Ur5e",
+                "6",
+                "accuracy-ur5e",
+                "accuracy_ur5e",
+            ],
+            Self::Panda => [
+                "panda",
+                "Panda",
+                "Panda",
+                "7",
+                "accuracy-panda",
+                "accuracy_panda",
+            ],
+            Self::A1Leg => [
+                "a1_leg",
+                "leg of the A1",
+                "A1Leg",
+                "3",
+                "accuracy-a1_leg",
+                "accuracy_leg",
+            ],
+            Self::DoublePendulum => [
+                "double_pendulum",
+                "double pendulum",
+                "",
+                "2",
+                "accuracy-simulation",
+                "",
+            ],
         }
-    }
-
-    /// The robot of a name whose torques are computed.
-    pub fn of(name: &str) -> Option<Self> {
-        Self::COMPUTED
-            .into_iter()
-            .find(|robot| robot.name() == name)
     }
 
     /// Its name in rows, lines and files.
     pub fn name(self) -> &'static str {
         self.names()[0]
-    }
-
-    /// Its name in print.
-    pub fn title(self) -> &'static str {
-        self.names()[1]
-    }
-
-    /// Its name in the library.
-    pub fn rust(self) -> &'static str {
-        self.names()[2]
-    }
-
-    /// The number of its joints.
-    pub fn joints(self) -> &'static str {
-        self.names()[3]
     }
 }
 
@@ -117,14 +118,14 @@ impl Plan {
     }
 
     fn simulates(&self) -> bool {
-        let mut simulated = Robot::SIMULATED.iter();
-        let any = simulated.any(|robot| self.robots.contains(robot));
-        any && !self.quick && self.kind != Some(Kind::Inverse)
+        let simulated = [Robot::DoublePendulum, Robot::Ur5e];
+        let wanted = !self.quick && self.kind != Some(Kind::Inverse);
+        wanted && simulated.iter().any(|robot| self.robots.contains(robot))
     }
 
     /// Opt-levels, their profiles and the bins that are built with them.
     fn batches(&self) -> Vec<(&'static str, &'static str, Vec<&'static str>)> {
-        let bins = self.computed().map(|robot| robot.names()[4]);
+        let bins = self.computed().map(|robot| robot.names()[5]);
         let all: Vec<_> = bins.filter(|_| !self.quick).collect();
         let mut first = all.clone();
         // In every run, so that what is written here is what the tests measure.
@@ -177,7 +178,7 @@ impl Plan {
             spinner.line(&format!("building {} (opt-level {opt})", bins.join(", ")));
             let mut command = tools.toolchain.firmware(workspace, "build");
             let command = command.env(PRINTED, printed).args(["--profile", profile]);
-            command.args(["--features", FEATURE]);
+            command.args(["--features", ACCURACY]);
             shell::cargo(command.args(bins.iter().flat_map(|bin| ["--bin", bin])))?;
             for bin in bins {
                 spinner.say(format!("running {bin} (opt-level {opt}) in QEMU"));
@@ -198,13 +199,13 @@ impl Plan {
     fn errors(&self, workspace: &Workspace, printed: &Path) -> Result<String> {
         // Not for speed: to build it with optimisation across crates takes longer than it runs.
         let mut command = workspace.cargo("run");
-        let bin = if self.quick { QUICK_BIN } else { HOST_BIN };
+        let bin = if self.quick { QUICK_BIN } else { ACCURACY };
         command
             .env(PRINTED, printed)
             .args(["--quiet", "--package", "host-reports"]);
-        command.args(["--features", FEATURE, "--bin", bin, "--"]);
+        command.args(["--features", ACCURACY, "--bin", bin, "--"]);
         command.args(self.computed().map(|robot| robot.name()));
-        command.args(self.simulates().then_some(SIMULATION));
+        command.args(self.simulates().then_some("simulation"));
         shell::capture(&mut command)
     }
 }

@@ -52,13 +52,7 @@ const MOST: [f64; 2] = [0.85, 0.6];
 
 /// The part of the page about a robot's torques, or about the simulations.
 pub fn page_of(robot: Robot) -> Page {
-    let name = match robot {
-        Robot::Ur5e => "accuracy-ur5e",
-        Robot::Panda => "accuracy-panda",
-        Robot::A1Leg => "accuracy-a1_leg",
-        Robot::DoublePendulum => "accuracy-simulation",
-    };
-    part(FILE, name)
+    part(FILE, robot.names()[4])
 }
 
 /// The pictures of that part: file and SVG.
@@ -68,10 +62,10 @@ pub fn pictures(points: &[Point], host: &Host, robot: Robot) -> Result<Vec<(Stri
         return Ok(vec![(file + ".svg", plot::simulations(points)?)]);
     }
     let own = of_group(points, (robot.name(), Kind::Inverse, "rigid"));
-    let front = (format!("{file}.svg"), plot::front(robot, &own, host)?);
+    let [front, all] = [plot::front(robot, &own, host)?, plot::all(robot, &own)?];
     Ok(vec![
-        front,
-        (format!("{file}-all.svg"), plot::all(robot, &own)?),
+        (format!("{file}.svg"), front),
+        (file + "-all.svg", all),
     ])
 }
 
@@ -184,7 +178,7 @@ pub fn text(points: &[Point], host: &Host, robot: Robot, rustc: &str) -> String 
 
 fn torques(points: &[Point], host: &Host, robot: Robot) -> String {
     let rigid = of_group(points, (robot.name(), Kind::Inverse, "rigid"));
-    let (title, part) = (robot.title(), page_of(robot).name);
+    let [_, title, _, _, part, _] = robot.names();
     let mut text = format!(
         "![Front of error against cycles of inverse dynamics of the {title}]({part}.svg)\n\n{} configurations, of which {} \
          are on a front ([picture of all]({part}-all.svg)); {MODEL}.\n\n",

@@ -19,6 +19,8 @@ const DOT: RGBColor = RGBColor(165, 174, 185);
 const WORST: RGBColor = RGBColor(27, 80, 162);
 const MEAN: RGBColor = RGBColor(214, 110, 0);
 const MEASURE: RGBColor = RGBColor(150, 45, 95);
+const GREEN: RGBColor = RGBColor(0, 128, 110);
+const RED: RGBColor = RGBColor(200, 50, 90);
 /// px: a line of text, and how wide a letter is.
 const TEXT: i32 = 14;
 const LETTER: f64 = 6.9;
@@ -33,18 +35,10 @@ const MEASURES: [(&str, &str); 3] = [
 /// By integrator; readable to the colour-blind.
 const COLOURS: [(&str, &str, RGBColor); 5] = [
     ("euler", "explicit Euler", RGBColor(86, 160, 211)),
-    (
-        "semi_implicit",
-        "semi-implicit Euler",
-        RGBColor(0, 128, 110),
-    ),
+    ("semi_implicit", "semi-implicit Euler", GREEN),
     ("rk4", "RK4", WORST),
     ("energy", "energy-preserving", RGBColor(230, 145, 0)),
-    (
-        "implicit_damping",
-        "implicit damping",
-        RGBColor(200, 50, 90),
-    ),
+    ("implicit_damping", "implicit damping", RED),
 ];
 /// Cycles of a second at 168 MHz: a simulation right of it is slower than what it simulates.
 const REAL_TIME: f64 = 168e6;
@@ -141,7 +135,7 @@ fn stair(area: &Area<'_>, chart: &Chart<'_, '_>, front: &[&Point], cost: usize) 
 
 /// The front by the worst tick, with names and yardsticks.
 pub fn front(robot: Robot, points: &[&Point], host: &Host) -> Result<String> {
-    let title = robot.title();
+    let title = robot.names()[1];
     let head = format!(
         "{title}: the cheapest inverse dynamics of each accuracy; dashed: errors of other causes"
     );
@@ -204,7 +198,7 @@ pub fn front(robot: Robot, points: &[&Point], host: &Host) -> Result<String> {
 
 /// All ways, by what the worst tick costs, and both fronts.
 pub fn all(robot: Robot, points: &[&Point]) -> Result<String> {
-    let title = robot.title();
+    let title = robot.names()[1];
     let head = format!(
         "{title}: every way; fronts by the worst tick (blue) and by the mean over ticks (orange)"
     );

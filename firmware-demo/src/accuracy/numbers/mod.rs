@@ -126,27 +126,6 @@ macro_rules! assigning {
 }
 use {assigning, operators, real};
 
-/// A scalar with a name.
-pub trait Number: Real {
-    /// On the axis `arith`.
-    const NAME: &'static str;
-    /// Whether its sines are one of several kernels.
-    const KERNELS: bool = false;
-}
-
-impl Number for f32 {
-    const NAME: &'static str = "f32";
-    const KERNELS: bool = true;
-}
-
-impl Number for f64 {
-    const NAME: &'static str = "f64";
-}
-
-impl Number for Compensated {
-    const NAME: &'static str = "compensated";
-}
-
 /// In fixed point, by the core: angles come in half turns, rates and accelerations in the robot's [`Units`], as
 /// drives of this kind count them.
 #[derive(Debug)]

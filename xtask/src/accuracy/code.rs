@@ -63,7 +63,7 @@ fn torques(point: &Point) -> Result<String> {
     let arm = Robot::COMPUTED.map(Robot::names);
     let arm = arm.into_iter().find(|names| names[0] == point.robot);
     let lacks = || Error::check(format!("no torques of {} are computed", point.robot));
-    let [_, _, arm, joints, ..] = arm.ok_or_else(lacks)?;
+    let [_, _, arm, joints] = arm.ok_or_else(lacks)?;
     let robot = match point.on("model").strip_prefix("pruned") {
         Some(millionths) => format!("Pruned<{arm}, {millionths}>"),
         None => arm.to_owned(),

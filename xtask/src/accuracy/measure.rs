@@ -16,6 +16,8 @@ use crate::workspace::Workspace;
 
 /// The feature, and the bin on the host.
 const ACCURACY: &str = "accuracy";
+/// The bins of the robots whose torques are computed.
+const BINS: [&str; 3] = ["accuracy_ur5e", "accuracy_panda", "accuracy_leg"];
 /// The bins, here and there, with a dozen ways of each robot.
 const QUICK_BIN: &str = "accuracy_quick";
 const SIMULATION_BIN: &str = "accuracy_simulation";
@@ -37,42 +39,13 @@ impl Robot {
     /// Those whose torques are computed.
     pub const COMPUTED: [Self; 3] = [Self::Ur5e, Self::Panda, Self::A1Leg];
 
-    /// Its name in rows, lines and files, in print, and in the library; the number of its joints; what is written about it;
-    /// and its bin, if torques are computed.
-    pub fn names(self) -> [&'static str; 6] {
+    /// Its name in rows, lines and files, in print, and in the library; and the number of its joints.
+    pub fn names(self) -> [&'static str; 4] {
         match self {
-            Self::Ur5e => [
-                "ur5e",
-                "UR5e",
-                "Ur5e",
-                "6",
-                "accuracy-ur5e",
-                "accuracy_ur5e",
-            ],
-            Self::Panda => [
-                "panda",
-                "Panda",
-                "Panda",
-                "7",
-                "accuracy-panda",
-                "accuracy_panda",
-            ],
-            Self::A1Leg => [
-                "a1_leg",
-                "leg of the A1",
-                "A1Leg",
-                "3",
-                "accuracy-a1_leg",
-                "accuracy_leg",
-            ],
-            Self::DoublePendulum => [
-                "double_pendulum",
-                "double pendulum",
-                "",
-                "2",
-                "accuracy-simulation",
-                "",
-            ],
+            Self::Ur5e => ["ur5e", "UR5e", "Ur5e", "6"],
+            Self::Panda => ["panda", "Panda", "Panda", "7"],
+            Self::A1Leg => ["a1_leg", "leg of the A1", "A1Leg", "3"],
+            Self::DoublePendulum => ["double_pendulum", "double pendulum", "", "2"],
         }
     }
 
@@ -107,14 +80,11 @@ pub struct Measured {
 }
 
 impl Plan {
-    /// The robots whose torques are computed.
-    fn computed(&self) -> impl Iterator<Item = &Robot> {
+    /// The robots whose torques are computed, each with its bin.
+    fn computed(&self) -> impl Iterator<Item = (Robot, &'static str)> {
         let wanted = self.kind != Some(Kind::Simulation);
-        let computed = self
-            .robots
-            .iter()
-            .filter(|robot| Robot::COMPUTED.contains(robot));
-        computed.filter(move |_| wanted)
+        let all = std::iter::zip(Robot::COMPUTED, BINS);
+        all.filter(move |(robot, _)| wanted && self.robots.contains(robot))
     }
 
     fn simulates(&self) -> bool {
@@ -125,20 +95,20 @@ impl Plan {
 
     /// Opt-levels, their profiles and the bins that are built with them.
     fn batches(&self) -> Vec<(&'static str, &'static str, Vec<&'static str>)> {
-        let bins = self.computed().map(|robot| robot.names()[5]);
+        let bins = self.computed().map(|(_, bin)| bin);
         let all: Vec<_> = bins.filter(|_| !self.quick).collect();
         let mut first = all.clone();
         // In every run, so that what is written here is what the tests measure.
         first.extend(self.computed().next().map(|_| QUICK_BIN));
         // Simulations are no code for a controller: their size is nobody's concern.
         first.extend(self.simulates().then_some(SIMULATION_BIN));
-        let mut batches = vec![
+        let batches = [
             ("3", RELEASE, first),
             ("s", SMALL, all.clone()),
             ("z", TINY, all),
         ];
-        batches.retain(|(_, _, bins)| !bins.is_empty());
-        batches
+        let batches = batches.into_iter().filter(|batch| !batch.2.is_empty());
+        batches.collect()
     }
 
     /// Builds and runs it all, for host and target side by side.
@@ -204,7 +174,7 @@ impl Plan {
             .env(PRINTED, printed)
             .args(["--quiet", "--package", "host-reports"]);
         command.args(["--features", ACCURACY, "--bin", bin, "--"]);
-        command.args(self.computed().map(|robot| robot.name()));
+        command.args(self.computed().map(|(robot, _)| robot.name()));
         command.args(self.simulates().then_some("simulation"));
         shell::capture(&mut command)
     }

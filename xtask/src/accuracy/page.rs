@@ -19,11 +19,10 @@ pub const COMMAND: &str = "cargo xtask accuracy";
 
 /// A part of a page that the command writes.
 const fn part(file: &'static str, name: &'static str) -> Page {
-    let command = COMMAND;
     Page {
         file,
         name,
-        command,
+        command: COMMAND,
     }
 }
 
@@ -52,7 +51,13 @@ const MOST: [f64; 2] = [0.85, 0.6];
 
 /// The part of the page about a robot's torques, or about the simulations.
 pub fn page_of(robot: Robot) -> Page {
-    part(FILE, robot.names()[4])
+    let name = match robot {
+        Robot::Ur5e => "accuracy-ur5e",
+        Robot::Panda => "accuracy-panda",
+        Robot::A1Leg => "accuracy-a1_leg",
+        Robot::DoublePendulum => "accuracy-simulation",
+    };
+    part(FILE, name)
 }
 
 /// The pictures of that part: file and SVG.
@@ -178,7 +183,7 @@ pub fn text(points: &[Point], host: &Host, robot: Robot, rustc: &str) -> String 
 
 fn torques(points: &[Point], host: &Host, robot: Robot) -> String {
     let rigid = of_group(points, (robot.name(), Kind::Inverse, "rigid"));
-    let [_, title, _, _, part, _] = robot.names();
+    let (title, part) = (robot.names()[1], page_of(robot).name);
     let mut text = format!(
         "![Front of error against cycles of inverse dynamics of the {title}]({part}.svg)\n\n{} configurations, of which {} \
          are on a front ([picture of all]({part}-all.svg)); {MODEL}.\n\n",
@@ -186,27 +191,22 @@ fn torques(points: &[Point], host: &Host, robot: Robot) -> String {
         rigid.iter().filter(|point| point.front).count(),
     );
     for line in host.of(Kind::Oracle, robot.name()) {
+        let [scale, precise] = [line.full_scale, line.from_50_digits].map(digits);
+        let [off, anywhere] = [line.point.relative_max, host.anywhere(robot.name())].map(stated);
+        let (pinocchio, states, sample) = (&line.pinocchio, line.states, line.sample);
         text += &format!(
-            "Full scale is {} N·m. The f64 that errors are measured from is off by at most {} of it from Pinocchio {} on \
-             {} states, and by at most {} from 50 digits on {}. Over all states anywhere the default is within {} of it.\n\n",
-            digits(line.full_scale),
-            stated(line.point.relative_max),
-            line.pinocchio,
-            line.states,
-            digits(line.from_50_digits),
-            line.sample,
-            stated(host.anywhere(robot.name()))
+            "Full scale is {scale} N·m. The f64 that errors are measured from is off by at most {off} of it from Pinocchio \
+             {pinocchio} on {states} states, and by at most {precise} from 50 digits on {sample}. Over all states anywhere \
+             the default is within {anywhere} of it.\n\n"
         );
     }
-    if let Some([(worst, worst_share), (mean, mean_share)]) = cheapest(&rigid) {
+    if let Some([worst, mean]) = cheapest(&rigid) {
+        let [(worst, tick), (mean, ticks)] =
+            [worst, mean].map(|(point, share)| (name(point), percent(share)));
+        let error = digits(ERROR);
         text += &format!(
-            "Within {} of full scale, the cheapest worst tick is {} of the default's (*{}*) and the cheapest mean {} \
-             (*{}*).\n\n",
-            digits(ERROR),
-            percent(worst_share),
-            name(worst),
-            percent(mean_share),
-            name(mean)
+            "Within {error} of full scale, the cheapest worst tick is {tick} of the default's (*{worst}*) and the \
+             cheapest mean {ticks} (*{mean}*).\n\n"
         );
     }
     for (cost, which) in ["worst tick", "mean over ticks"].into_iter().enumerate() {

@@ -28,7 +28,7 @@ pub fn write(workspace: &Workspace) -> Result<PathBuf> {
     let file = workspace.target.join("accuracy_printed.rs");
     let mut text = include_str!("templates/uses.txt").to_owned();
     for robot in Robot::COMPUTED {
-        let [name, _, _, n, ..] = robot.names();
+        let [name, _, _, n] = robot.names();
         let of = |point: &&Point| point.robot == name && is_sample(point);
         let codes = points.iter().filter(of).enumerate();
         let codes = codes.filter_map(|(i, point)| Some((i, point, code::rust(point).ok()?)));

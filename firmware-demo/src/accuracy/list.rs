@@ -103,8 +103,8 @@ where
         By<f32, Table<256, 2>, M, F, B>,
         By<f32, Table<256, 1>, M, F, B>,
         Following<M, F, B, N>,
-        After<Libm, M, F, B, N>,
-        After<Micromath, M, F, B, N>,
+        After<Libm, M, F, B>,
+        After<Micromath, M, F, B>,
         In<f64, M, F, B>,
     }
 }

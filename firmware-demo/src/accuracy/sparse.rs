@@ -46,29 +46,22 @@ macro_rules! every {
     ($([$($generics:tt)*] $way:ty, $between:ty = $name:literal, ahead: $ahead:expr, $key:expr,
        $input:ty = |$course:ident| $given:expr, |$first:pat_param| $start:expr,
        |$self:ident, $now:ident| $fresh:expr, $stale:expr;)*) => {$(
-        impl<$($generics)*, const N: usize, const TICKS: usize> Inverse<N> for Every<$way, $between, TICKS> {
-            const KEY: Key = Key { rate: rate(TICKS), between: $name, ..$key };
-            const MEMORY: bool = true;
-            const AHEAD: usize = $ahead;
-            type Input = $input;
-            type Scalar = f32;
-
-            fn start($first: &State<f32, N, N>) -> Self {
+        inverse! {
+            [$($generics)*, const TICKS: usize] Every<$way, $between, TICKS>,
+            Key { rate: rate(TICKS), between: $name, ..$key },
+            { const MEMORY: bool = true; const AHEAD: usize = $ahead; },
+            $input = |$course| $given, f32, |$first| {
                 let (way, between) = $start;
                 Self { way, between, wait: 0 }
-            }
-            fn input($course: &ElasticReference<f32, N, N>) -> Self::Input {
-                $given
-            }
-            #[inline(never)]
-            fn tick(&mut $self, $now: &Self::Input) -> [f32; N] {
+            },
+            #[inline(never)] |$self, $now| {
                 if $self.wait > 0 {
                     $self.wait -= 1;
                     return $stale;
                 }
                 $self.wait = TICKS - 1;
                 $fresh
-            }
+            };
         }
     )*};
 }

@@ -131,41 +131,25 @@ use {assigning, operators, real};
 #[derive(Debug)]
 pub struct FixedPoint<T, M, const B: usize>(PhantomData<(T, M)>);
 
-impl<T, M, const B: usize, const N: usize> Inverse<N> for FixedPoint<T, M, B>
-where
-    T: Robot<B, N, N>,
-    M: Modelled<B, N, Robot = T>,
-{
-    const KEY: Key = Key {
-        arith: "q31",
-        model: M::NAME,
-        form: "core",
-        ..Key::DEFAULT
-    };
-    const UNIT: f64 = Units::of(&T::MODEL).torque();
-    type Input = State<Fixed, N, N>;
-    type Scalar = Fixed;
-
-    fn start(_: &State<f32, N, N>) -> Self {
-        Self(PhantomData)
-    }
-    fn input(course: &ElasticReference<f32, N, N>) -> Self::Input {
-        let State { q, qd, qdd } = course.state;
-        let time = const { Units::of(&T::MODEL).time };
-        State {
-            q: q.map(|q| {
+inverse! {
+    [T: Robot<B, N, N>, M: Modelled<B, N, Robot = T>, const B: usize] FixedPoint<T, M, B>,
+        Key { arith: "q31", model: M::NAME, form: "core", ..Key::DEFAULT },
+        { const UNIT: f64 = Units::of(&T::MODEL).torque(); },
+        State<Fixed, N, N> = |course| {
+            let State { q, qd, qdd } = course.state;
+            let time = const { Units::of(&T::MODEL).time };
+            let q = q.map(|q| {
                 let half_turns = f64::from(q) / core::f64::consts::PI;
                 // Whole turns are none.
                 let turns = (half_turns * 0.5 + 0.5 * half_turns.signum()) as i32;
                 Fixed::from_f64(half_turns - 2.0 * f64::from(turns))
-            }),
-            qd: qd.map(|qd| Fixed::from_f64(f64::from(qd) * time)),
-            qdd: qdd.map(|qdd| Fixed::from_f64(f64::from(qdd) * time * time)),
-        }
-    }
-    #[inline(never)]
-    fn tick(&mut self, state: &Self::Input) -> [Fixed; N] {
-        let trig = Engine::<InUnits<T>, HalfTurns>::joint_trig(&state.q);
-        Core::<InUnits<T>>::rnea(trig.with(state), &M::IN_UNITS)
-    }
+            });
+            let qd = qd.map(|qd| Fixed::from_f64(f64::from(qd) * time));
+            let qdd = qdd.map(|qdd| Fixed::from_f64(f64::from(qdd) * time * time));
+            State { q, qd, qdd }
+        }, Fixed,
+        |_| Self(PhantomData), #[inline(never)] |self, state| {
+            let trig = Engine::<InUnits<T>, HalfTurns>::joint_trig(&state.q);
+            Core::<InUnits<T>>::rnea(trig.with(state), &M::IN_UNITS)
+        };
 }

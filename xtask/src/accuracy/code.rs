@@ -110,33 +110,31 @@ fn torques(point: &Point) -> Result<String> {
 fn simulation(point: &Point) -> Result<String> {
     let axes = ["scene", "integrator", "state", "arith"];
     let [_, integrator, compensated, scalar] = shipped(point, axes)?;
-    let (path, robot, n) = match &*point.robot {
-        "ur5e" => ("dynamics_core::robots::Ur5e", "Ur5e", "6"),
-        _ => (
-            "firmware_demo::accuracy::let_go::DoublePendulum",
-            "DoublePendulum",
-            "2",
-        ),
+    let pendulum = [
+        ("robots::Ur5e", "DoublePendulum"),
+        ("dynamics_core::D", "firmware_demo::accuracy::let_go::D"),
+        ("Ur5e", "DoublePendulum"),
+        ("6]", "2]"),
+        ("6,", "2,"),
+        ("6>", "2>"),
+    ];
+    let robot = match &*point.robot {
+        "ur5e" => &[],
+        _ => &pendulum[..],
     };
-    let [array, generic, last] = ["]", ",", ">"].map(|end| format!("{n}{end}"));
     let name = integrator.split('<').next().unwrap_or_default();
     let step: f64 = point.on("step").parse().unwrap_or_default();
     let values = [
-        ("dynamics_core::robots::Ur5e", path),
-        ("Ur5e", robot),
         (
             "integrator: RungeKutta",
-            &format!("integrator: {integrator}"),
+            &*format!("integrator: {integrator}"),
         ),
         (", RungeKutta", &format!(", {name}")),
         ("1000.0e-6", &format!("{step:?}e-6")),
         ("true", compensated),
-        ("6]", &array),
-        ("6,", &generic),
-        ("6>", &last),
         ("f32", scalar),
     ];
-    Ok(filled(SIMULATION, &values))
+    Ok(filled(&filled(SIMULATION, robot), &values))
 }
 
 #[cfg(test)]

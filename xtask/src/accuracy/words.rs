@@ -50,14 +50,10 @@ fn parts(point: &Point) -> Vec<(String, String)> {
     for (axis, value) in point.changes() {
         match (axis, found(axis, value)) {
             ("integrator" | "step" | "scene" | "between", _) => {}
-            ("rate", _) => {
-                let nth = format!(
-                    "every {value}{} tick",
-                    if value == "2" { "nd" } else { "th" }
-                );
+            ("rate", Some(Word { name: nth, .. })) => {
                 let (name, does) = known("between").unwrap_or_default();
-                let phrase = format!("computes in {nth} only and {does}");
-                parts.push((format!("{nth}, {name}"), phrase));
+                let does = format!("computes in {nth} only and {does}");
+                parts.push((format!("{nth}, {name}"), does));
             }
             (_, Some(word)) => parts.push(owned(word)),
             (_, None) => parts.push((format!("{axis} {value}"), format!("has {axis} {value}"))),
@@ -69,9 +65,9 @@ fn parts(point: &Point) -> Vec<(String, String)> {
 /// A short name, for a plot.
 pub fn name(point: &Point) -> String {
     let names: Vec<String> = parts(point).into_iter().map(|part| part.0).collect();
-    match names.is_empty() {
-        true => "default".into(),
-        false => names.join(", "),
+    match &names[..] {
+        [] => "default".into(),
+        names => names.join(", "),
     }
 }
 
@@ -97,10 +93,9 @@ pub fn glossary(points: &[&Point]) -> String {
 /// What it does that the default does not, as a sentence.
 pub fn sentence(point: &Point) -> String {
     let phrases: Vec<String> = parts(point).into_iter().map(|part| part.1).collect();
-    if phrases.is_empty() {
-        DEFAULT.into()
-    } else {
-        format!("It {}.", phrases.join("; and "))
+    match &phrases[..] {
+        [] => DEFAULT.into(),
+        phrases => format!("It {}.", phrases.join("; and ")),
     }
 }
 

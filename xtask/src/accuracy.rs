@@ -32,9 +32,6 @@ pub struct Wish {
     /// Only this robot
     #[arg(long, value_enum, value_name = "NAME", ignore_case = true)]
     robot: Option<Robot>,
-    /// A dozen configurations of each robot, at opt-level 3
-    #[arg(long)]
-    quick: bool,
     /// The measurements as JSON on stdout; progress stays on stderr
     #[arg(long)]
     json: bool,
@@ -52,106 +49,56 @@ pub struct Wish {
 
 /// Measures, writes page and pictures, and prints; or chooses.
 pub fn run(options: Options, wish: Wish) -> Result<ExitCode> {
-    let kind = wish.kind()?;
-    let workspace = Workspace::find()?;
-    if let (Some(budget), Some(kind), false) = (wish.budget(), kind, wish.measure | wish.quick) {
-        return wish.choose(&recorded::read(&workspace)?, budget, kind);
-    }
-    let workspace = match wish.budget() {
-        None if !wish.quick => Workspace::for_reports()?,
-        _ => workspace,
+    let budget = match (wish.error, wish.cycles) {
+        (Some(error), _) => Some(Budget::Error(error)),
+        (None, cycles) => cycles.map(Budget::Cycles),
     };
-    let tools = setup::for_demo(options)?;
-    let plan = Plan {
-        robots: wish
-            .robot
-            .map_or_else(|| Robot::ALL.to_vec(), |robot| vec![robot]),
-        quick: wish.quick,
-        inverse: kind != Some(Kind::Simulation),
-        simulation: kind != Some(Kind::Inverse),
+    let choice = budget.zip(wish.robot);
+    let workspace = match choice {
+        None => Workspace::for_reports()?,
+        Some(_) => Workspace::find()?,
     };
-    let measured = plan.run(&workspace, &tools)?;
-    let all = if wish.quick {
-        &measured.single
-    } else {
-        &measured.points
-    };
-    if let (Some(budget), Some(kind)) = (wish.budget(), kind) {
-        return wish.choose(all, budget, kind);
+    let mut points = recorded::read(&workspace)?;
+    if let Some((budget, robot)) = choice
+        && choice::shipped(&points, budget.group(robot)).is_empty()
+    {
+        let (file, robot) = (recorded::FILE, robot.name());
+        let what = format!("{file} has nothing of {robot} that is off by such an error");
+        return Err(Error::check(what));
     }
-    if !wish.quick {
-        write(&workspace, &measured, wish.robot)?;
-    }
-    if wish.json {
-        docs::print_json(all)?;
-    } else {
-        output::print(&page::terminal(all))?;
-    }
-    Ok(ExitCode::SUCCESS)
-}
-
-impl Wish {
-    /// What a configuration is chosen by, if one is.
-    fn budget(&self) -> Option<Budget> {
-        let error = self.error.map(Budget::Error);
-        error.or(self.cycles.map(Budget::Cycles))
-    }
-
-    /// Chooses from these, and prints.
-    fn choose(&self, all: &[Point], budget: Budget, kind: Kind) -> Result<ExitCode> {
-        let circumstances = match kind {
-            Kind::Inverse => "rigid",
-            Kind::Simulation => "free",
+    if choice.is_none() | wish.measure {
+        let plan = Plan {
+            robots: wish.robot.map_or(Robot::ALL.to_vec(), |robot| vec![robot]),
+            quick: false,
+            kind: choice.map(|(budget, robot)| budget.group(robot).1),
         };
-        let robot = self.robot.unwrap_or(Robot::Ur5e).name();
-        let points = choice::shipped(all, (robot, kind, circumstances));
-        let points: Vec<&Point> = points.iter().collect();
-        if self.json {
-            docs::print_json(&budget.choose(&points)?)?;
-            return Ok(ExitCode::SUCCESS);
+        let measured = plan.run(&workspace, &setup::for_demo(options)?)?;
+        if choice.is_none() {
+            write(&workspace, &measured, wish.robot)?;
         }
+        points = measured.points;
+    }
+    let Some((budget, robot)) = choice else {
+        match wish.json {
+            true => docs::print_json(&points)?,
+            false => output::print(&page::terminal(&points))?,
+        }
+        return Ok(ExitCode::SUCCESS);
+    };
+    let points = choice::shipped(&points, budget.group(robot));
+    let points: Vec<&Point> = points.iter().collect();
+    if wish.json {
+        docs::print_json(&budget.choose(&points)?)?;
+    } else {
         output::print(&budget.answer(&points)?)?;
-        if !(self.measure | self.quick) {
+        if !wish.measure {
             let file = recorded::FILE;
             output::note(&format!(
                 "\nFrom {file}; --measure takes its figures on this machine, in minutes."
             ));
         }
-        Ok(ExitCode::SUCCESS)
     }
-
-    /// What a budget chooses from, if there is one.
-    fn kind(&self) -> Result<Option<Kind>> {
-        let Some(budget) = self.budget() else {
-            return Ok(None);
-        };
-        let robot = self.robot.unwrap_or(Robot::Ur5e);
-        let kind = match budget {
-            Budget::Cycles(_) if robot == Robot::DoublePendulum => Kind::Simulation,
-            _ => budget.kind(),
-        };
-        let (among, what, other) = match kind {
-            Kind::Inverse => (
-                &Robot::COMPUTED[..],
-                "torques are computed",
-                "its simulation is in rad",
-            ),
-            Kind::Simulation => (
-                &Robot::SIMULATED[..],
-                "there are simulations, without --quick,",
-                "torques is in Nm",
-            ),
-        };
-        if among.contains(&robot) && !(self.quick && kind == Kind::Simulation) {
-            return Ok(Some(kind));
-        }
-        let names: Vec<&str> = among.iter().map(|robot| robot.name()).collect();
-        Err(Error::check(format!(
-            "not for {}: {what} for {}; an error of {other}",
-            robot.name(),
-            names.join(", ")
-        )))
-    }
+    Ok(ExitCode::SUCCESS)
 }
 
 /// Fails unless what single changes cost and lose is what the page says; else says how many there are.
@@ -159,16 +106,10 @@ pub fn check(workspace: &Workspace, tools: &Tools) -> Result<String> {
     let plan = Plan {
         robots: Robot::COMPUTED.to_vec(),
         quick: true,
-        inverse: true,
-        simulation: false,
+        kind: Some(Kind::Inverse),
     };
     let measured = plan.run(workspace, tools)?;
-    let Measured {
-        single,
-        host,
-        rustc,
-        ..
-    } = &measured;
+    let (single, host, rustc) = (&measured.single, &measured.host, &measured.rustc);
     let pasted = printed::check(&measured)?;
     page::SINGLES.check(workspace, &page::singles(single, rustc), Some(rustc))?;
     page::README.check(workspace, &page::brief(single, rustc), Some(rustc))?;
@@ -179,10 +120,8 @@ pub fn check(workspace: &Workspace, tools: &Tools) -> Result<String> {
     let mut pictures = 0;
     for robot in Robot::ALL {
         let part = page::page_of(robot);
-        let written = part.written(&text)?;
-        let rustc = docs::rustc_of(written).unwrap_or_default();
-        let now = part.generated(&page::text(&recorded, host, robot, rustc));
-        docs::compare(page::FILE, page::COMMAND, written, &now, "")?;
+        let rustc = docs::rustc_of(part.written(&text)?).unwrap_or_default();
+        part.check(workspace, &page::text(&recorded, host, robot, rustc), None)?;
         for (file, svg) in page::pictures(&recorded, host, robot)? {
             docs::compare_picture(workspace, &file, page::COMMAND, &svg, true)?;
             pictures += 1;
@@ -202,27 +141,21 @@ pub fn check(workspace: &Workspace, tools: &Tools) -> Result<String> {
 
 /// Rewrites the page's parts that this run has all of, and their pictures; all of them or none.
 fn write(workspace: &Workspace, measured: &Measured, only: Option<Robot>) -> Result<()> {
-    let Measured {
-        points,
-        single,
-        host,
-        rustc,
-        ..
-    } = measured;
+    let (points, host, rustc) = (&measured.points, &measured.host, &measured.rustc);
     let mut text = workspace::read(&workspace.root.join(page::FILE))?;
     let mut files: Vec<(PathBuf, String)> = vec![recorded::replaced(workspace, points)?];
-    for robot in Robot::ALL {
-        let whole = match robot {
-            Robot::DoublePendulum => only.is_none(),
-            _ => only.is_none_or(|only| only == robot),
-        };
-        if whole {
-            let pictures = page::pictures(points, host, robot)?.into_iter();
-            files.extend(pictures.map(|(file, svg)| (workspace.report(&file), svg)));
-            text = page::page_of(robot).replaced(&text, &page::text(points, host, robot, rustc))?;
-        }
+    // The simulations are of two robots.
+    let is_whole = |robot: &Robot| match only {
+        Some(only) => only == *robot && only != Robot::DoublePendulum,
+        None => true,
+    };
+    for robot in Robot::ALL.into_iter().filter(is_whole) {
+        let pictures = page::pictures(points, host, robot)?.into_iter();
+        files.extend(pictures.map(|(file, svg)| (workspace.report(&file), svg)));
+        text = page::page_of(robot).replaced(&text, &page::text(points, host, robot, rustc))?;
     }
     if only.is_none() {
+        let single = &measured.single;
         text = page::SINGLES.replaced(&text, &page::singles(single, rustc))?;
         let readme = workspace::read(&workspace.root.join(page::README.file))?;
         let readme = page::README.replaced(&readme, &page::brief(single, rustc))?;

@@ -1,13 +1,7 @@
-//! Sines and cosines: the library's kernels, and those of others.
+//! Sines and cosines of other crates.
 
-use dynamics_core::trig::{Kernel, Minimax, Table};
+use dynamics_core::trig::Kernel;
 use micromath::F32Ext;
-
-/// A kernel with a name.
-pub trait Named: Kernel<f32> {
-    /// On the axis `trig`.
-    const NAME: &'static str;
-}
 
 /// The crate `libm`, which computes single precision in f64 inside.
 #[derive(Clone, Copy, Debug)]
@@ -30,12 +24,3 @@ impl Kernel<f32> for Micromath {
         (F32Ext::sin(x), F32Ext::cos(x))
     }
 }
-
-macro_rules! words {
-    ($($axis:ident $value:literal [$($kernel:ty)?] $name:literal, $phrase:literal;)*) => {$($(
-        impl Named for $kernel {
-            const NAME: &'static str = $value;
-        }
-    )?)*};
-}
-include!("words.rs");

@@ -2,6 +2,35 @@
 
 use core::fmt;
 
+use dynamics_core::scalar::Native;
+use dynamics_core::sim::{EnergyProjected, Euler, LinearlyImplicit, RungeKutta, SemiImplicit};
+use dynamics_core::trig::{Minimax, Table};
+
+use super::kernels::{Libm, Micromath};
+use super::numbers::Compensated;
+
+/// A type with a name on an axis.
+pub trait Named {
+    /// Its name; empty for the library's own kernel, whichever it is.
+    const NAME: &'static str;
+}
+
+macro_rules! named {
+    ($($t:ty = $name:literal),*) => {$(
+        impl Named for $t {
+            const NAME: &'static str = $name;
+        }
+    )*};
+}
+named! {
+    f32 = "f32", f64 = "f64", Compensated = "compensated",
+    Minimax<3, 2> = "minimax3", Minimax<5, 2> = "minimax5", Minimax<7, 2> = "minimax7", Minimax<7, 3> = "minimax7x3",
+    Table<256, 1> = "table", Table<256, 2> = "table2", Table<64, 4> = "table4",
+    Table<128, 3> = "table3", Table<128, 3, 4> = "table3x4", Native = "", Libm = "libm", Micromath = "micromath",
+    Euler = "euler", SemiImplicit = "semi_implicit", RungeKutta = "rk4", LinearlyImplicit = "implicit_damping",
+    EnergyProjected<f32> = "energy", EnergyProjected<f64> = "energy"
+}
+
 /// A key of these axes, with the values of the default.
 macro_rules! key {
     ($(#[$doc:meta])* $key:ident, $axes:literal: $($(#[$what:meta])* $axis:ident = $usual:literal,)*) => {

@@ -51,55 +51,36 @@ impl LetGo<6> for Ur5e {
     const DAMPING: [f64; 6] = [12.0, 12.0, 8.0, 2.0, 2.0, 1.5];
 }
 
+/// Nothing but its weight.
+pub type Free = (Gravity, Inertia, Coriolis);
+/// Viscous friction too.
+pub type Damped<R, const N: usize> = (Free, Viscous<R, N>);
+
 /// What acts on a robot that is let go.
-pub trait Scene<T, R: Real, const N: usize> {
+pub trait Scene<T, R: Real, const N: usize>: Effect<R, N, N> {
     /// On the axis `scene`.
     const NAME: &'static str;
-    /// The effects.
-    type Effects: Effect<R, N, N>;
-    /// With their numbers.
-    fn effects() -> Self::Effects;
+    /// The effects with their numbers.
+    fn effects() -> Self;
 }
 
-macro_rules! scenes {
-    ($($(#[$doc:meta])* $scene:ident, $name:literal: $effects:ty = $value:expr;)*) => {$(
-        $(#[$doc])*
-        #[derive(Clone, Copy, Debug)]
-        pub struct $scene;
-
-        impl<T: LetGo<N>, R: Real, const N: usize> Scene<T, R, N> for $scene {
-            const NAME: &'static str = $name;
-            type Effects = $effects;
-            fn effects() -> $effects {
-                $value
-            }
-        }
-    )*};
-}
-type RigidBody = (Gravity, Inertia, Coriolis);
-scenes! {
-    /// Nothing but its weight.
-    Free, "free": RigidBody = RIGID_BODY;
-    /// Viscous friction too.
-    Damped, "damped": (RigidBody, Viscous<R, N>) = (RIGID_BODY, Viscous(T::DAMPING.map(R::from_f64)));
-}
-
-/// A robot by the engine.
-#[derive(Debug)]
-pub struct Engined<T, E> {
-    effects: E,
-    robot: PhantomData<fn() -> T>,
-}
-
-impl<T, E> Engined<T, E> {
-    /// Under these effects.
-    pub fn under(effects: E) -> Self {
-        Self {
-            effects,
-            robot: PhantomData,
-        }
+impl<T, R: Real, const N: usize> Scene<T, R, N> for Free {
+    const NAME: &'static str = "free";
+    fn effects() -> Self {
+        RIGID_BODY
     }
 }
+
+impl<T: LetGo<N>, R: Real, const N: usize> Scene<T, R, N> for Damped<R, N> {
+    const NAME: &'static str = "damped";
+    fn effects() -> Self {
+        (RIGID_BODY, Viscous(T::DAMPING.map(R::from_f64)))
+    }
+}
+
+/// A robot by the engine, under these effects.
+#[derive(Debug)]
+pub struct Engined<T, E>(pub E, pub PhantomData<fn() -> T>);
 
 impl<T, E, R: Real, const N: usize> Dynamics<R, N, N> for Engined<T, E>
 where
@@ -107,7 +88,7 @@ where
     E: Effect<R, N, N>,
 {
     fn acceleration(&self, at: &State<R, N, N>) -> Result<[R; N], NotPositiveDefinite> {
-        Engine::<T>::forward_dynamics(at, &[R::ZERO; N], &self.effects)
+        Engine::<T>::forward_dynamics(at, &[R::ZERO; N], &self.0)
     }
 
     fn implicit_acceleration(
@@ -115,15 +96,13 @@ where
         at: &State<R, N, N>,
         h: R,
     ) -> Result<[R; N], NotPositiveDefinite> {
-        let effects = Implicit::new(&Static::<T>::NEW, at, &self.effects, h);
+        let effects = Implicit::new(&Static::<T>::NEW, at, &self.0, h);
         Engine::<T>::forward_dynamics(at, &[R::ZERO; N], &effects)
     }
 
     fn energies(&self, at: &State<R, N, N>) -> (R, R) {
-        (
-            Core::<T>::kinetic_energy(at, &self.effects),
-            Core::<T>::potential_energy(&at.q, &self.effects),
-        )
+        let kinetic = Core::<T>::kinetic_energy(at, &self.0);
+        (kinetic, Core::<T>::potential_energy(&at.q, &self.0))
     }
 
     fn configuration_after(&self, q: &[R; N], at: &StepIncrement<R, N>, h: R) -> [R; N] {

@@ -1,16 +1,18 @@
 //! Every way of a robot.
 
 use dynamics_core::control::{FirstOrderHold, Interpolator, ZeroOrderHold};
-use dynamics_core::model::{Pruned, Robot};
+use dynamics_core::model::Robot;
 use dynamics_core::trig::{Minimax, Table};
 use dynamics_core::{Core, Engine};
 
-use super::compliant::{Compliant, Joints, Rigid};
+use super::compliant::{Compliant, Rigid};
 use super::form::Form;
-use super::inverse::{After, By, Following, Shipped};
-use super::kernels::{Libm, Micromath, Named};
-use super::model::{Full, GravityOnly, Modelled, NoCoriolis, Parameters, Rounded, Without};
-use super::numbers::{Compensated, FixedPoint, In};
+use super::inverse::{After, By, Following, In};
+use super::kernels::{Libm, Micromath};
+use super::key::Named;
+use super::model::{Full, GravityOnly, Modelled, NoCoriolis, Parameters, Without};
+use super::numbers::{Compensated, FixedPoint};
+use super::robots::Swung;
 use super::sparse::{Every, EveryLinearised};
 use super::{Inverse, Visitor};
 
@@ -20,12 +22,11 @@ macro_rules! ways {
     };
 }
 
-/// The engine on the robot of a model.
-type Specialised<M, const B: usize, const N: usize> = Engine<<M as Modelled<B, N>>::Robot>;
-/// As the engine ships it.
-type Own<M, const B: usize, const N: usize> = Shipped<M, Specialised<M, B, N>, B, N>;
-/// The engine by a kernel.
-type Kernel<K, M, const B: usize, const N: usize> = By<K, M, Specialised<M, B, N>, B, N>;
+/// The engine on the robot of a model, in f32.
+type Own<M, const B: usize, const N: usize> = In<f32, M, Engine<<M as Modelled<B, N>>::Robot>, B>;
+/// The same by a kernel.
+type Kernel<K, M, const B: usize, const N: usize> =
+    By<f32, K, M, Engine<<M as Modelled<B, N>>::Robot>, B>;
 /// The kernel whose errors are as small as what the approximations of the model leave out.
 type Coarse = Table<256, 1>;
 
@@ -36,9 +37,9 @@ pub fn inverse<T: Robot<B, N, N>, const B: usize, const N: usize>(visitor: &mut 
     forms::<GravityOnly<T>, T, B, N>(visitor);
     ways! { visitor:
         In<Compensated, Full<T>, Engine<T>, B>,
-        Shipped<Parameters<T, 6>, Engine<Rounded<T, 6>>, B, N>,
-        Shipped<Parameters<T, 8>, Engine<Rounded<T, 8>>, B, N>,
-        Shipped<Parameters<T, 11>, Engine<Rounded<T, 11>>, B, N>,
+        Own<Parameters<T, 6>, B, N>,
+        Own<Parameters<T, 8>, B, N>,
+        Own<Parameters<T, 11>, B, N>,
         Own<Without<T, 1000>, B, N>,
         Own<Without<T, 100>, B, N>,
         Kernel<Coarse, Without<T, 1000>, B, N>,
@@ -66,12 +67,12 @@ pub fn single<T: Robot<B, N, N>, const B: usize, const N: usize>(visitor: &mut i
         Following<Full<T>, Engine<T>, B, N>,
         Own<NoCoriolis<T>, B, N>,
         Own<GravityOnly<T>, B, N>,
-        Shipped<Parameters<T, 8>, Engine<Rounded<T, 8>>, B, N>,
-        Shipped<Without<T, 1000>, Engine<Pruned<T, 1000>>, B, N>,
+        Own<Parameters<T, 8>, B, N>,
+        Own<Without<T, 1000>, B, N>,
         Every<Own<Full<T>, B, N>, ZeroOrderHold<f32, N>, 10>,
         Every<Own<Full<T>, B, N>, Interpolator<f32, N, 10>, 10>,
         EveryLinearised<Table<128, 3>, Full<T>, B, N, 10>,
-        Shipped<Full<T>, Core<T>, B, N>,
+        In<f32, Full<T>, Core<T>, B>,
     }
 }
 
@@ -81,9 +82,9 @@ where
     M: Modelled<B, N, Robot = T>,
     T: Robot<B, N, N>,
 {
-    ways!(visitor: Shipped<M, Engine<T>, B, N>, By<Table<128, 3, 4>, M, Engine<T>, B, N>);
+    ways!(visitor: In<f32, M, Engine<T>, B>, By<f32, Table<128, 3, 4>, M, Engine<T>, B>);
     kernels::<M, Engine<T>, B, N>(visitor);
-    ways!(visitor: Shipped<M, Core<T>, B, N>, By<Table<128, 3>, M, Core<T>, B, N>);
+    ways!(visitor: In<f32, M, Core<T>, B>, By<f32, Table<128, 3>, M, Core<T>, B>);
     kernels::<M, Core<T>, B, N>(visitor);
     ways!(visitor: In<Compensated, M, Core<T>, B>, FixedPoint<T, M, B>);
 }
@@ -91,50 +92,46 @@ where
 fn kernels<M, F, const B: usize, const N: usize>(visitor: &mut impl Visitor<N>)
 where
     M: Modelled<B, N>,
-    F: Form<M::Robot>,
+    F: Form<M::Robot, f32, M::Scene, B, N> + Form<M::Robot, f64, M::Scene, B, N>,
 {
     ways! { visitor:
-        By<Minimax<7, 3>, M, F, B, N>,
-        By<Minimax<7, 2>, M, F, B, N>,
-        By<Minimax<5, 2>, M, F, B, N>,
-        By<Minimax<3, 2>, M, F, B, N>,
-        By<Table<64, 4>, M, F, B, N>,
-        By<Table<256, 2>, M, F, B, N>,
-        By<Table<256, 1>, M, F, B, N>,
+        By<f32, Minimax<7, 3>, M, F, B>,
+        By<f32, Minimax<7, 2>, M, F, B>,
+        By<f32, Minimax<5, 2>, M, F, B>,
+        By<f32, Minimax<3, 2>, M, F, B>,
+        By<f32, Table<64, 4>, M, F, B>,
+        By<f32, Table<256, 2>, M, F, B>,
+        By<f32, Table<256, 1>, M, F, B>,
         Following<M, F, B, N>,
-        After<Libm, M, F, B, N>,
-        After<Micromath, M, F, B, N>,
+        After<Libm, M, F, B>,
+        After<Micromath, M, F, B>,
         In<f64, M, F, B>,
     }
 }
 
 /// Shows those of the same arm on joints that give way to `visitor`.
-pub fn compliant<T: Robot<N, N, N> + Joints<N>, const N: usize>(visitor: &mut impl Visitor<N>) {
+pub fn compliant<T: Swung<N>, const N: usize>(visitor: &mut impl Visitor<N>) {
     ways!(visitor: Compliant<T, N>, Rigid<T, N>);
 }
 
 /// Every few ticks, held, extrapolated and interpolated.
 fn rates<W: Inverse<N, Scalar = f32>, const N: usize>(visitor: &mut impl Visitor<N>) {
-    rate::<W, N, 2>(visitor);
-    rate::<W, N, 5>(visitor);
-    rate::<W, N, 10>(visitor);
-    rate::<W, N, 20>(visitor);
-}
-
-fn rate<W: Inverse<N, Scalar = f32>, const N: usize, const TICKS: usize>(
-    visitor: &mut impl Visitor<N>,
-) {
-    ways! { visitor:
-        Every<W, ZeroOrderHold<f32, N>, TICKS>,
-        Every<W, FirstOrderHold<f32, N, TICKS>, TICKS>,
-        Every<W, Interpolator<f32, N, TICKS>, TICKS>,
+    macro_rules! rates {
+        ($($ticks:literal)*) => {$(ways! { visitor:
+            Every<W, ZeroOrderHold<f32, N>, $ticks>,
+            Every<W, FirstOrderHold<f32, N, $ticks>, $ticks>,
+            Every<W, Interpolator<f32, N, $ticks>, $ticks>,
+        })*};
     }
+    rates!(2 5 10 20);
 }
 
 /// Every few ticks, by M between.
-fn linearised<K: Named, M: Modelled<B, N>, const B: usize, const N: usize>(
-    visitor: &mut impl Visitor<N>,
-) {
+fn linearised<K, M, const B: usize, const N: usize>(visitor: &mut impl Visitor<N>)
+where
+    K: dynamics_core::trig::Kernel<f32> + Named,
+    M: Modelled<B, N>,
+{
     ways! { visitor:
         EveryLinearised<K, M, B, N, 2>,
         EveryLinearised<K, M, B, N, 5>,

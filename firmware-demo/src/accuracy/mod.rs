@@ -14,6 +14,31 @@
 //! | [`simulation`], [`let_go`] | ways to simulate, and what |
 //! | [`list`], [`robots`] | all of them; whose they are |
 
+/// Ways: their generics but N, their types and keys, what else they have, what a tick is given and the numbers that it
+/// gives, what they start with, and a tick.
+macro_rules! inverse {
+    ($([$($generics:tt)*] $way:ty, $key:expr, { $($more:tt)* }, $input:ty = |$course:ident| $given:expr, $scalar:ty,
+       |$first:pat_param| $start:expr, #[$inline:meta] |$self:ident, $now:ident| $tick:expr;)*) => {$(
+        impl<$($generics)*, const N: usize> Inverse<N> for $way {
+            const KEY: Key = $key;
+            $($more)*
+            type Input = $input;
+            type Scalar = $scalar;
+
+            fn start($first: &State<f32, N, N>) -> Self {
+                $start
+            }
+            fn input($course: &ElasticReference<f32, N, N>) -> Self::Input {
+                $given
+            }
+            #[$inline]
+            fn tick(&mut $self, $now: &Self::Input) -> [$scalar; N] {
+                $tick
+            }
+        }
+    )*};
+}
+
 pub mod compliant;
 pub mod form;
 pub mod inverse;

@@ -29,14 +29,14 @@ pub trait Modelled<const B: usize, const N: usize> {
 const FREE_FALL: f64 = 9.81;
 
 macro_rules! modelled {
-    ($($(#[$doc:meta])* $model:ident = $name:literal: $scene:ty = |$g:ident| $value:expr;)*) => {$(
+    ($($(#[$doc:meta])* $model:ident<$($n:ident)?> of $robot:ty = $name:expr, $scene:ty = |$g:ident| $value:expr;)*) => {$(
         $(#[$doc])*
         #[derive(Clone, Copy, Debug)]
-        pub struct $model<T>(PhantomData<T>);
+        pub struct $model<T $(, const $n: u32)?>(PhantomData<T>);
 
-        impl<T: Robot<B, N, N>, const B: usize, const N: usize> Modelled<B, N> for $model<T> {
+        impl<T: Robot<B, N, N> $(, const $n: u32)?, const B: usize, const N: usize> Modelled<B, N> for $model<T $(, $n)?> {
             const NAME: &'static str = $name;
-            type Robot = T;
+            type Robot = $robot;
             type Scene = $scene;
             const SCENE: $scene = {
                 let $g = Gravity::new(FREE_FALL);
@@ -51,16 +51,28 @@ macro_rules! modelled {
 }
 modelled! {
     /// M q̈ + C q̇ + g.
-    Full = "full": (Gravity, Inertia, Coriolis) = |g| (g, Inertia, Coriolis);
+    Full<> of T = "full", (Gravity, Inertia, Coriolis) = |g| (g, Inertia, Coriolis);
     /// M q̈ + g.
-    NoCoriolis = "no_coriolis": (Gravity, Inertia) = |g| (g, Inertia);
+    NoCoriolis<> of T = "no_coriolis", (Gravity, Inertia) = |g| (g, Inertia);
     /// g.
-    GravityOnly = "gravity": (Gravity,) = |g| (g,);
+    GravityOnly<> of T = "gravity", (Gravity,) = |g| (g,);
+    /// All of it, of a robot whose lengths, masses and inertias are known to `BITS` bits: 8 are those of bf16, 11 of f16.
+    Parameters<BITS> of Rounded<T, BITS> = match BITS {
+        6 => "params6",
+        8 => "params8",
+        11 => "params11",
+        _ => panic!("no such model"),
+    }, (Gravity, Inertia, Coriolis) = |g| (g, Inertia, Coriolis);
+    /// All of it, but for the base parameters that take less than so many millionths of the robot's torque.
+    Without<PPM> of Pruned<T, PPM> = match PPM {
+        100 => "pruned100",
+        1000 => "pruned1000",
+        3000 => "pruned3000",
+        10_000 => "pruned10000",
+        30_000 => "pruned30000",
+        _ => panic!("no such model"),
+    }, (Gravity, Inertia, Coriolis) = |g| (g, Inertia, Coriolis);
 }
-
-/// All of it, of a robot whose lengths, masses and inertias are known to `BITS` bits: 8 are those of bf16, 11 of f16.
-#[derive(Clone, Copy, Debug)]
-pub struct Parameters<T, const BITS: u32>(PhantomData<T>);
 
 /// The robot with rounded parameters.
 #[derive(Clone, Copy, Debug)]
@@ -81,35 +93,31 @@ const fn changed<const B: usize, const N: usize>(
     mass: f64,
     bits: u32,
 ) -> Model<f64, B, N, N> {
-    const fn vector(v: DVec3, s: f64, bits: u32) -> DVec3 {
-        DVec3::new(
-            round(v.x * s, bits),
-            round(v.y * s, bits),
-            round(v.z * s, bits),
-        )
-    }
     let (first, second) = (1.0 / (mass * length), 1.0 / (mass * length * length));
     let mut i = 0;
     while i < B {
         let link = &mut model.links[i];
-        link.placement.pos = vector(link.placement.pos, 1.0 / length, bits);
         let inertia = &mut link.inertia;
+        link.placement.pos =
+            DVec3::from_array(rounded(link.placement.pos.to_array(), 1.0 / length, bits));
         inertia.mass = round(inertia.mass / mass, bits);
-        inertia.first_moment = vector(inertia.first_moment, first, bits);
-        let DMat3 {
-            x_axis: x,
-            y_axis: y,
-            z_axis: z,
-        } = inertia.rotational;
-        let [x, y, z] = [
-            vector(x, second, bits),
-            vector(y, second, bits),
-            vector(z, second, bits),
-        ];
-        inertia.rotational = DMat3::from_cols(x, y, z);
+        inertia.first_moment =
+            DVec3::from_array(rounded(inertia.first_moment.to_array(), first, bits));
+        inertia.rotational =
+            DMat3::from_cols_array(&rounded(inertia.rotational.to_cols_array(), second, bits));
         i += 1;
     }
     model
+}
+
+/// These numbers times s, rounded.
+const fn rounded<const K: usize>(mut numbers: [f64; K], s: f64, bits: u32) -> [f64; K] {
+    let mut i = 0;
+    while i < K {
+        numbers[i] = round(numbers[i] * s, bits);
+        i += 1;
+    }
+    numbers
 }
 
 /// To nearest, by adding and cutting off bits of the mantissa's 53.
@@ -118,32 +126,6 @@ const fn round(x: f64, bits: u32) -> f64 {
     let cut = 53 - bits;
     let half = (1_u64 << cut) >> 1;
     f64::from_bits((x.to_bits() + half) >> cut << cut)
-}
-
-/// All of it, but for the base parameters that take less than so many millionths of the robot's torque.
-#[derive(Clone, Copy, Debug)]
-pub struct Without<T, const PPM: u32>(PhantomData<T>);
-
-macro_rules! approximate {
-    ($($model:ident<$n:ident> of $robot:ident: $($value:literal = $name:literal)*;)*) => {$(
-        impl<T: Robot<B, N, N>, const $n: u32, const B: usize, const N: usize> Modelled<B, N>
-            for $model<T, $n>
-        {
-            const NAME: &'static str = match $n {
-                $($value => $name,)*
-                _ => panic!("no such model"),
-            };
-            type Robot = $robot<T, $n>;
-            type Scene = (Gravity, Inertia, Coriolis);
-            const SCENE: Self::Scene = <Full<T> as Modelled<B, N>>::SCENE;
-            const IN_UNITS: Self::Scene = <Full<T> as Modelled<B, N>>::IN_UNITS;
-        }
-    )*};
-}
-approximate! {
-    Parameters<BITS> of Rounded: 6 = "params6" 8 = "params8" 11 = "params11";
-    Without<PPM> of Pruned: 100 = "pruned100" 1000 = "pruned1000" 3000 = "pruned3000"
-        10_000 = "pruned10000" 30_000 = "pruned30000";
 }
 
 /// Units in which everything that inverse dynamics meets stays within ±2.

@@ -1,5 +1,7 @@
 //! Ways to simulate: integrators, with and without compensated state, of a double pendulum and of an arm.
 
+use core::marker::PhantomData;
+
 use dynamics_core::algorithms::NotPositiveDefinite;
 use dynamics_core::scalar::Real;
 use dynamics_core::sim::{
@@ -7,6 +9,7 @@ use dynamics_core::sim::{
 };
 use dynamics_core::state::State;
 
+use super::key::Named;
 pub use super::key::Simulated as Key;
 pub use super::let_go::{Damped, DoublePendulum, Engined, Free, LetGo, Scene};
 
@@ -14,17 +17,30 @@ pub use super::let_go::{Damped, DoublePendulum, Engined, Free, LetGo, Scene};
 pub trait Simulation<const N: usize> {
     /// Its name.
     const KEY: Key;
+    /// Its numbers.
+    type Scalar: Real;
     /// From the robot's start.
     fn start() -> Self;
-    /// One step of h seconds: what is measured.
+    /// One step of h seconds.
     ///
     /// # Errors
     /// As forward dynamics.
-    fn step(&mut self, h: f64) -> Result<(), NotPositiveDefinite>;
+    fn advance(&mut self, h: Self::Scalar) -> Result<(), NotPositiveDefinite>;
     /// q and q̇.
     fn measured(&self) -> [[f64; N]; 2];
+
+    /// The step with its length from f64: what is measured.
+    ///
+    /// # Errors
+    /// As forward dynamics.
+    #[inline(always)]
+    fn step(&mut self, h: f64) -> Result<(), NotPositiveDefinite> {
+        self.advance(Self::Scalar::from_f64(h))
+    }
     /// The address of the function that a step is.
-    fn address() -> usize;
+    fn address() -> usize {
+        Self::advance as fn(&mut Self, Self::Scalar) -> Result<(), NotPositiveDefinite> as usize
+    }
 }
 
 /// What is done with each way to simulate.
@@ -33,51 +49,12 @@ pub trait Visitor<const N: usize> {
     fn simulation<S: Simulation<N>>(&mut self);
 }
 
-/// The integrators' names.
-pub trait Named {
-    /// On the axis `integrator`.
-    const NAME: &'static str;
-}
-
-macro_rules! named {
-    ($($integrator:ty = $name:literal),*) => {$(
-        impl Named for $integrator {
-            const NAME: &'static str = $name;
-        }
-    )*};
-}
-named!(
-    Euler = "euler",
-    SemiImplicit = "semi_implicit",
-    RungeKutta = "rk4",
-    LinearlyImplicit = "implicit_damping",
-    EnergyProjected<f32> = "energy",
-    EnergyProjected<f64> = "energy"
-);
-
 /// The robot T by the integrator I in the scalar R.
 #[derive(Debug)]
-pub struct Run<T, S: Scene<T, R, N>, I, R: Real, const N: usize, const COMPENSATED: bool> {
-    mechanics: Engined<T, S::Effects>,
+pub struct Run<T, S, I, R, const N: usize, const COMPENSATED: bool> {
+    mechanics: Engined<T, S>,
     integrator: I,
     motion: KahanState<R, N, COMPENSATED>,
-}
-
-impl<T, S, I, R, const N: usize, const COMPENSATED: bool> Run<T, S, I, R, N, COMPENSATED>
-where
-    T: LetGo<N>,
-    S: Scene<T, R, N>,
-    I: Integrator<R, N, N>,
-    R: Real,
-{
-    #[inline(never)]
-    fn advance(&mut self, h: R) -> Result<(), NotPositiveDefinite> {
-        let step = self
-            .integrator
-            .step(&self.mechanics, &self.motion.state, h)?;
-        self.motion.add(&step, h);
-        Ok(())
-    }
 }
 
 impl<T, S, I, R, const N: usize, const COMPENSATED: bool> Simulation<N>
@@ -86,23 +63,21 @@ where
     T: LetGo<N>,
     S: Scene<T, R, N>,
     I: Integrator<R, N, N> + Named,
-    R: Real,
+    R: Real + Named,
 {
     const KEY: Key = Key {
         integrator: I::NAME,
         state: if COMPENSATED { "compensated" } else { "plain" },
-        arith: if size_of::<R>() == 4 { "f32" } else { "f64" },
+        arith: R::NAME,
         scene: S::NAME,
     };
+    type Scalar = R;
 
     fn start() -> Self {
-        let mechanics = Engined::under(S::effects());
+        let mechanics = Engined(S::effects(), PhantomData);
         let [q, qd] = T::START.map(|numbers| numbers.map(R::from_f64));
-        let state = State {
-            q,
-            qd,
-            qdd: [R::ZERO; N],
-        };
+        let qdd = [R::ZERO; N];
+        let state = State { q, qd, qdd };
         Self {
             integrator: I::start(&mechanics, &state),
             mechanics,
@@ -110,23 +85,22 @@ where
         }
     }
 
-    #[inline(always)]
-    fn step(&mut self, h: f64) -> Result<(), NotPositiveDefinite> {
-        self.advance(R::from_f64(h))
+    #[inline(never)]
+    fn advance(&mut self, h: R) -> Result<(), NotPositiveDefinite> {
+        let at = &self.motion.state;
+        let step = self.integrator.step(&self.mechanics, at, h)?;
+        self.motion.add(&step, h);
+        Ok(())
     }
 
     fn measured(&self) -> [[f64; N]; 2] {
         let State { q, qd, .. } = self.motion.state;
         [q, qd].map(|numbers| numbers.map(R::to_f64))
     }
-
-    fn address() -> usize {
-        Self::advance as fn(&mut Self, R) -> Result<(), NotPositiveDefinite> as usize
-    }
 }
 
 macro_rules! runs {
-    ($visitor:ident of $t:ident: $($scene:ident $integrator:ty, $r:ty, $compensated:expr;)*) => {
+    ($visitor:ident of $t:ident: $($scene:ty, $integrator:ty, $r:ty, $compensated:expr;)*) => {
         $($visitor.simulation::<Run<$t, $scene, $integrator, $r, N, $compensated>>();)*
     };
 }
@@ -136,21 +110,21 @@ pub fn every<T: LetGo<N>, const N: usize>(visitor: &mut impl Visitor<N>) {
     single::<T, N, false>(visitor);
     single::<T, N, true>(visitor);
     runs! { visitor of T:
-        Free SemiImplicit, f64, false;
-        Free RungeKutta, f64, false;
-        Free EnergyProjected<f64>, f64, false;
-        Damped LinearlyImplicit, f64, false;
+        Free, SemiImplicit, f64, false;
+        Free, RungeKutta, f64, false;
+        Free, EnergyProjected<f64>, f64, false;
+        Damped<f64, N>, LinearlyImplicit, f64, false;
     }
 }
 
 fn single<T: LetGo<N>, const N: usize, const COMPENSATED: bool>(visitor: &mut impl Visitor<N>) {
     runs! { visitor of T:
-        Free Euler, f32, COMPENSATED;
-        Free SemiImplicit, f32, COMPENSATED;
-        Free RungeKutta, f32, COMPENSATED;
-        Free EnergyProjected<f32>, f32, COMPENSATED;
-        Damped SemiImplicit, f32, COMPENSATED;
-        Damped RungeKutta, f32, COMPENSATED;
-        Damped LinearlyImplicit, f32, COMPENSATED;
+        Free, Euler, f32, COMPENSATED;
+        Free, SemiImplicit, f32, COMPENSATED;
+        Free, RungeKutta, f32, COMPENSATED;
+        Free, EnergyProjected<f32>, f32, COMPENSATED;
+        Damped<f32, N>, SemiImplicit, f32, COMPENSATED;
+        Damped<f32, N>, RungeKutta, f32, COMPENSATED;
+        Damped<f32, N>, LinearlyImplicit, f32, COMPENSATED;
     }
 }

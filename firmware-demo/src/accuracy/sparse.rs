@@ -6,11 +6,10 @@ use dynamics_core::Engine;
 use dynamics_core::control::{FirstOrderHold, InertiaUpdate, Interpolator, ZeroOrderHold};
 use dynamics_core::drivetrain::ElasticReference;
 use dynamics_core::state::State;
+use dynamics_core::trig::Kernel;
 
 use super::Inverse;
-use super::inverse::By;
-use super::kernels::Named;
-use super::key::Key;
+use super::key::{Key, Named};
 use super::model::Modelled;
 use super::robots::momentary;
 
@@ -22,52 +21,13 @@ pub struct Every<W, P, const TICKS: usize> {
     wait: usize,
 }
 
-/// The engine's torque and M in every `TICKS`-th tick, and between them what M makes of the accelerations.
+/// The engine's torque and M.
 #[derive(Debug)]
-pub struct EveryLinearised<K, M, const B: usize, const N: usize, const TICKS: usize> {
-    between: InertiaUpdate<f32, N, TICKS>,
-    wait: usize,
-    names: PhantomData<(K, M)>,
-}
+pub struct Linear<K, M, const B: usize>(PhantomData<(K, M)>);
 
-/// What the ticks between get.
-pub trait Between<const N: usize> {
-    /// On the axis `between`.
-    const NAME: &'static str;
-    /// It computes torques of the next computing tick.
-    const AHEAD: bool = false;
-    /// Before the first tick, which has this torque.
-    fn begin(first: [f32; N]) -> Self;
-    /// In a tick that has computed the torque.
-    fn fresh(&mut self, torque: [f32; N]) -> [f32; N];
-    /// In a tick that has not.
-    fn stale(&mut self) -> [f32; N];
-}
-
-macro_rules! between {
-    ($($between:ident $(<$ticks:ident>)?, $name:literal, $ahead:literal, |$first:pat_param| $start:expr;)*) => {$(
-        impl<const N: usize $(, const $ticks: usize)?> Between<N> for $between<f32, N $(, $ticks)?> {
-            const NAME: &'static str = $name;
-            const AHEAD: bool = $ahead;
-            fn begin($first: [f32; N]) -> Self {
-                $start
-            }
-            #[inline(always)]
-            fn fresh(&mut self, torque: [f32; N]) -> [f32; N] {
-                self.update(torque)
-            }
-            #[inline(always)]
-            fn stale(&mut self) -> [f32; N] {
-                self.hold()
-            }
-        }
-    )*};
-}
-between! {
-    ZeroOrderHold, "held", false, |_| Self::start();
-    FirstOrderHold<TICKS>, "extrapolated", false, |_| Self::start();
-    Interpolator<TICKS>, "interpolated", true, |first| Self::start(first);
-}
+/// The engine's torque and M in every `TICKS`-th tick, and between them what M makes of the accelerations.
+pub type EveryLinearised<K, M, const B: usize, const N: usize, const TICKS: usize> =
+    Every<Linear<K, M, B>, InertiaUpdate<f32, N, TICKS>, TICKS>;
 
 /// On the axis `rate`.
 const fn rate(ticks: usize) -> &'static str {
@@ -80,80 +40,52 @@ const fn rate(ticks: usize) -> &'static str {
     }
 }
 
-impl<W, P, const N: usize, const TICKS: usize> Inverse<N> for Every<W, P, TICKS>
-where
-    W: Inverse<N, Scalar = f32>,
-    P: Between<N>,
-{
-    const KEY: Key = Key {
-        rate: rate(TICKS),
-        between: P::NAME,
-        ..W::KEY
-    };
-    const MEMORY: bool = true;
-    const AHEAD: usize = if P::AHEAD { TICKS } else { 0 };
-    type Input = W::Input;
-    type Scalar = f32;
-
-    fn start(first: &State<f32, N, N>) -> Self {
-        let mut way = W::start(first);
-        let torque = way.tick(&W::input(&momentary(*first)));
-        Self {
-            way,
-            between: P::begin(torque),
-            wait: 0,
+/// What is computed and what the ticks between get it from; how many ticks ahead it is computed, its key if it is computed
+/// in every tick, and what it is given; both before the first tick; a tick that computes, and one that does not.
+macro_rules! every {
+    ($([$($generics:tt)*] $way:ty, $between:ty = $name:literal, ahead: $ahead:expr, $key:expr,
+       $input:ty = |$course:ident| $given:expr, |$first:pat_param| $start:expr,
+       |$self:ident, $now:ident| $fresh:expr, $stale:expr;)*) => {$(
+        inverse! {
+            [$($generics)*, const TICKS: usize] Every<$way, $between, TICKS>,
+            Key { rate: rate(TICKS), between: $name, ..$key },
+            { const MEMORY: bool = true; const AHEAD: usize = $ahead; },
+            $input = |$course| $given, f32, |$first| {
+                let (way, between) = $start;
+                Self { way, between, wait: 0 }
+            },
+            #[inline(never)] |$self, $now| {
+                if $self.wait > 0 {
+                    $self.wait -= 1;
+                    return $stale;
+                }
+                $self.wait = TICKS - 1;
+                $fresh
+            };
         }
-    }
-    fn input(course: &ElasticReference<f32, N, N>) -> Self::Input {
-        W::input(course)
-    }
-    #[inline(never)]
-    fn tick(&mut self, input: &Self::Input) -> [f32; N] {
-        if self.wait > 0 {
-            self.wait -= 1;
-            return self.between.stale();
-        }
-        self.wait = TICKS - 1;
-        let torque = self.way.tick(input);
-        self.between.fresh(torque)
-    }
+    )*};
 }
-
-impl<K, M, const B: usize, const N: usize, const TICKS: usize> Inverse<N>
-    for EveryLinearised<K, M, B, N, TICKS>
-where
-    K: Named,
-    M: Modelled<B, N>,
-{
-    const KEY: Key = Key {
-        rate: rate(TICKS),
-        between: "linearised",
-        ..By::<K, M, Engine<M::Robot>, B, N>::KEY
-    };
-    const MEMORY: bool = true;
-    type Input = State<f32, N, N>;
-    type Scalar = f32;
-
-    fn start(_: &State<f32, N, N>) -> Self {
-        Self {
-            between: InertiaUpdate::start(),
-            wait: 0,
-            names: PhantomData,
-        }
-    }
-    fn input(course: &ElasticReference<f32, N, N>) -> Self::Input {
-        course.state
-    }
-    #[inline(never)]
-    fn tick(&mut self, state: &Self::Input) -> [f32; N] {
-        if self.wait > 0 {
-            self.wait -= 1;
-            return self.between.hold(&state.qdd);
-        }
-        self.wait = TICKS - 1;
-        let trig = Engine::<M::Robot, K>::joint_trig(&state.q);
-        let torque = Engine::<M::Robot>::rnea(trig.with(state), &M::SCENE);
-        let mass_matrix = Engine::<M::Robot>::crba(&trig, &M::SCENE);
-        self.between.update(torque, mass_matrix, &state.qdd)
-    }
+every! {
+    [W: Inverse<N, Scalar = f32>] W, ZeroOrderHold<f32, N> = "held", ahead: 0, W::KEY,
+        W::Input = |course| W::input(course), |first| (W::start(first), ZeroOrderHold::start()),
+        |self, input| self.between.update(self.way.tick(input)), self.between.hold();
+    [W: Inverse<N, Scalar = f32>] W, FirstOrderHold<f32, N, TICKS> = "extrapolated", ahead: 0, W::KEY,
+        W::Input = |course| W::input(course), |first| (W::start(first), FirstOrderHold::start()),
+        |self, input| self.between.update(self.way.tick(input)), self.between.hold();
+    [W: Inverse<N, Scalar = f32>] W, Interpolator<f32, N, TICKS> = "interpolated", ahead: TICKS, W::KEY,
+        W::Input = |course| W::input(course), |first| {
+            let mut way = W::start(first);
+            let torque = way.tick(&W::input(&momentary(*first)));
+            (way, Interpolator::start(torque))
+        },
+        |self, input| self.between.update(self.way.tick(input)), self.between.hold();
+    [K: Kernel<f32> + Named, M: Modelled<B, N>, const B: usize] Linear<K, M, B>,
+        InertiaUpdate<f32, N, TICKS> = "linearised", ahead: 0, Key { trig: K::NAME, model: M::NAME, ..Key::DEFAULT },
+        State<f32, N, N> = |course| course.state, |_| (Linear(PhantomData), InertiaUpdate::start()),
+        |self, state| {
+            let trig = Engine::<M::Robot, K>::joint_trig(&state.q);
+            let torque = Engine::<M::Robot>::rnea(trig.with(state), &M::SCENE);
+            let mass_matrix = Engine::<M::Robot>::crba(&trig, &M::SCENE);
+            self.between.update(torque, mass_matrix, &state.qdd)
+        }, self.between.hold(&state.qdd);
 }

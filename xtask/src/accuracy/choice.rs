@@ -2,7 +2,8 @@
 
 use std::str::FromStr;
 
-use super::point::{Kind, Point};
+use super::measure::Robot;
+use super::point::{Kind, Point, of_group};
 use super::words::{cycles, digits, name, sentence, stated};
 use super::{code, front};
 use crate::error::{Error, Result};
@@ -26,14 +27,11 @@ pub enum Budget {
     Cycles(u64),
 }
 
-/// Units by their names.
-const UNITS: [(&str, f64, Kind); 6] = [
-    ("mN·m", 1e-3, Kind::Inverse),
-    ("mNm", 1e-3, Kind::Inverse),
-    ("N·m", 1.0, Kind::Inverse),
-    ("Nm", 1.0, Kind::Inverse),
-    ("mrad", 1e-3, Kind::Simulation),
-    ("rad", 1.0, Kind::Simulation),
+/// Units by their names, each of which `m` makes a thousandth of.
+const UNITS: [(&str, Kind); 3] = [
+    ("N·m", Kind::Inverse),
+    ("Nm", Kind::Inverse),
+    ("rad", Kind::Simulation),
 ];
 
 impl FromStr for Allowed {
@@ -42,59 +40,67 @@ impl FromStr for Allowed {
     fn from_str(text: &str) -> std::result::Result<Self, String> {
         let text = text.trim();
         let units = "an error is a torque in Nm or mNm (0.05Nm), for a simulation an angle in rad or mrad (2mrad)";
-        let known = UNITS.iter().find_map(|&(unit, scale, kind)| {
-            Some((text.strip_suffix(unit)?.trim().parse::<f64>(), scale, kind))
-        });
-        match known {
-            Some((Ok(number), scale, kind)) if number > 0.0 && number.is_finite() => Ok(Self {
-                error: number * scale,
-                kind,
-            }),
-            Some((Ok(_), ..)) => Err(format!("{text}: an error is more than nothing")),
-            Some((Err(_), ..)) => Err(format!("{text} does not begin with a number: {units}")),
-            None if text.parse::<f64>().is_ok() => Err(format!("{text} has no unit: {units}")),
-            None => Err(units.into()),
+        let known = UNITS
+            .iter()
+            .find_map(|(unit, kind)| Some((text.strip_suffix(unit)?, *kind)));
+        let (number, kind) = known.ok_or_else(|| format!("{text} has no unit: {units}"))?;
+        let (number, scale) = match number.strip_suffix('m') {
+            Some(number) => (number, 1e-3),
+            None => (number, 1.0),
+        };
+        match number.trim().parse::<f64>() {
+            Ok(number) if number > 0.0 && number.is_finite() => {
+                let error = number * scale;
+                Ok(Self { error, kind })
+            }
+            Ok(_) => Err(format!("{text}: an error is more than nothing")),
+            Err(_) => Err(format!("{text} does not begin with a number: {units}")),
         }
     }
 }
 
 impl Budget {
     /// What is chosen from.
-    pub fn kind(self) -> Kind {
-        match self {
+    pub fn group(self, robot: Robot) -> (&'static str, Kind, &'static str) {
+        let kind = match self {
             Self::Error(allowed) => allowed.kind,
+            Self::Cycles(_) if robot == Robot::DoublePendulum => Kind::Simulation,
             Self::Cycles(_) => Kind::Inverse,
-        }
+        };
+        let circumstances = match kind {
+            Kind::Simulation => "free",
+            _ => "rigid",
+        };
+        (robot.name(), kind, circumstances)
     }
 
     /// The point of the front that this allows.
     pub fn choose<'a>(self, points: &[&'a Point]) -> Result<&'a Point> {
         let front = front::front(points, 0);
-        let ends = front.first().zip(front.last());
-        let (cheapest, best) =
-            ends.ok_or_else(|| Error::check("nothing was measured of this robot"))?;
-        let unit = &best.unit;
-        let (within, what, end) = match self {
-            Self::Cycles(most) => (
-                front.iter().rev().find(|point| point.cycles <= most),
-                format!("below {} cycles; the cheapest", thousands(most)),
-                cheapest,
-            ),
-            Self::Error(allowed) => (
-                front.iter().find(|point| point.error() <= allowed.error),
-                format!(
-                    "off by less than {} {unit}; the most accurate",
-                    digits(allowed.error)
-                ),
-                best,
-            ),
+        let (&[cheapest, ..], &[.., best]) = (&front[..], &front[..]) else {
+            return Err(Error::check("nothing was measured of this robot"));
         };
-        within.copied().ok_or_else(|| {
+        let unit = &best.unit;
+        let mut within = front.iter().copied().filter(|point| match self {
+            Self::Cycles(most) => point.cycles <= most,
+            Self::Error(allowed) => point.error() <= allowed.error,
+        });
+        let (chosen, what, end) = match self {
+            Self::Cycles(most) => {
+                let what = format!("below {} cycles; the cheapest", thousands(most));
+                (within.next_back(), what, cheapest)
+            }
+            Self::Error(allowed) => {
+                let error = digits(allowed.error);
+                let what = format!("off by less than {error} {unit}; the most accurate");
+                (within.next(), what, best)
+            }
+        };
+        chosen.ok_or_else(|| {
+            let (cycles, error) = (thousands(end.cycles), digits(end.error()));
+            let (name, front) = (name(end), "nothing on the front is");
             Error::check(format!(
-                "nothing on the front is {what} takes {} cycles ({}) and is off by up to {} {unit}",
-                thousands(end.cycles),
-                name(end),
-                digits(end.error()),
+                "{front} {what} takes {cycles} cycles ({name}) and is off by up to {error} {unit}"
             ))
         })
     }
@@ -113,13 +119,10 @@ impl Budget {
     /// The choice in words, with the Rust to paste.
     pub fn answer(self, points: &[&Point]) -> Result<String> {
         let chosen = self.choose(points)?;
-        let mut text = format!("{}\n\n{}", described(chosen), code::rust(chosen)?);
+        let mut text = described(chosen)?;
         if let Some(other) = self.in_the_mean(points, chosen) {
-            text += &format!(
-                "\nIf the mean over ticks matters rather than the worst tick:\n\n{}\n\n{}",
-                described(other),
-                code::rust(other)?
-            );
+            text += "\nIf the mean over ticks matters rather than the worst tick:\n\n";
+            text += &described(other)?;
         }
         Ok(text)
     }
@@ -127,31 +130,29 @@ impl Budget {
 
 /// What may be chosen from a group: what the library ships, and the fronts of that.
 pub fn shipped(points: &[Point], group: (&str, Kind, &str)) -> Vec<Point> {
-    let own = points
-        .iter()
-        .filter(|point| point.group() == group && code::rust(point).is_ok());
-    let mut own: Vec<Point> = own.cloned().collect();
+    let own = of_group(points, group).into_iter();
+    let mut own: Vec<Point> = own
+        .filter(|point| code::rust(point).is_ok())
+        .cloned()
+        .collect();
     front::mark(&mut own);
     own
 }
 
-/// A point's figures in words.
-fn described(point: &Point) -> String {
+/// A point's figures in words, and its code.
+fn described(point: &Point) -> Result<String> {
     let of = match point.kind {
-        Kind::Inverse => "cycles in the worst tick",
         Kind::Simulation => "cycles for a simulated second",
+        _ => "cycles in the worst tick",
     };
-    format!(
-        "{} {}: {} modelled {of}, {} in the mean; off by up to {} {} ({} of full scale)\n{}",
-        point.robot,
-        name(point),
-        thousands(point.cycles),
-        cycles(point.cycles_mean),
-        digits(point.error()),
-        point.unit,
-        stated(point.relative_max),
-        sentence(point)
-    )
+    let (robot, name, unit) = (&point.robot, name(point), &point.unit);
+    let [worst, mean] = point.costs().map(cycles);
+    let (error, share) = (digits(point.error()), stated(point.relative_max));
+    let (sentence, code) = (sentence(point), code::rust(point)?);
+    Ok(format!(
+        "{robot} {name}: {worst} modelled {of}, {mean} in the mean; off by up to {error} {unit} ({share} of full scale)\n\
+         {sentence}\n\n{code}"
+    ))
 }
 
 #[cfg(test)]

@@ -1,50 +1,9 @@
 //! A configuration as Rust to paste.
 
+use super::measure::Robot;
 use super::point::{Kind, Point};
-use super::words::kernel;
+use super::words;
 use crate::error::{Error, Result};
-
-/// In every tick. Capitals stand for what a configuration puts there.
-const EVERY: &str = "\
-/// Torques of a motion, N·m.
-#[inline]
-pub fn torques(state: &State<f32, JOINTS, JOINTS>) -> [f32; JOINTS] {
-    CALL
-}
-";
-
-/// In every tick or in every few of them, with something to remember.
-const TICKING: &str = "\
-/// Torques of a motion, tick by tick.
-pub struct Torques {
-FIELDS}
-
-impl Torques {
-    /// Before the first tick, which will be that of this state.
-    pub fn start(FIRST: &State<f32, JOINTS, JOINTS>) -> Self {
-        Self { START }
-    }
-
-    /// Torques of this tick, N·m.
-    #[inline(never)]
-    pub fn tick(&mut self, state: &State<f32, JOINTS, JOINTS>) -> [f32; JOINTS] {
-TICK    }
-}
-";
-
-/// What a tick in every few is.
-const SPARSE: &str = "        if self.wait > 0 {
-            self.wait -= 1;
-            return self.between.hold(COAST);
-        }
-        self.wait = TICKS - 1;
-FRESH";
-
-const LINEARISED: &str = "        let trig = FORM::<ROBOT, KERNEL>::joint_trig(&state.q);
-        let torque = FORM::<ROBOT>::rnea(trig.with(state), &EFFECTS);
-        let mass_matrix = FORM::<ROBOT>::crba(&trig, &EFFECTS);
-        self.between.update(torque, mass_matrix, &state.qdd)
-";
 
 /// Where the library has what a piece of code names.
 const PATHS: &str = "Core Engine control::FirstOrderHold control::ZeroOrderHold control::Interpolator control::InertiaUpdate \
@@ -54,34 +13,42 @@ const PATHS: &str = "Core Engine control::FirstOrderHold control::ZeroOrderHold 
 /// The simulation of the UR5e, which the tests compile and run.
 const SIMULATION: &str = include_str!("../../../host-tests/tests/pasted/ur5e_rk4.rs");
 
-/// Whether, and why not, there is code: what the library does not ship cannot be pasted.
-fn lacks(point: &Point, axis: &str) -> Error {
-    Error::check(format!(
-        "there is no Rust to paste of {} with {axis}={}: see firmware-demo/src/accuracy",
-        point.robot,
-        point.on(axis)
-    ))
-}
-
 /// The code, with what has to stand in the user's manifest.
+///
+/// # Errors
+/// What the library does not ship cannot be pasted.
 pub fn rust(point: &Point) -> Result<String> {
     let code = match point.kind {
         Kind::Simulation => simulation(point)?,
-        Kind::Inverse => torques(point)?,
+        _ => torques(point)?,
     };
-    let opt = point.on("opt");
-    let manifest = format!("// In Cargo.toml: [profile.release] opt-level = \"{opt}\"\n");
-    Ok(pick(matches!(opt, "s" | "z"), &manifest, "").to_owned() + &code)
+    Ok(match point.on("opt") {
+        opt @ ("s" | "z") => {
+            format!("// In Cargo.toml: [profile.release] opt-level = \"{opt}\"\n{code}")
+        }
+        _ => code,
+    })
 }
 
-fn pick<'a>(first: bool, one: &'a str, other: &'a str) -> &'a str {
-    if first { one } else { other }
+/// What the library has for the values on these axes.
+fn shipped<const K: usize>(point: &Point, axes: [&str; K]) -> Result<[&'static str; K]> {
+    let mut all = [""; K];
+    for (rust, axis) in all.iter_mut().zip(axes) {
+        let value = point.on(axis);
+        let lacks = || {
+            let robot = &point.robot;
+            let what = format!("there is no Rust to paste of {robot} with {axis}={value}");
+            Error::check(what + ": see firmware-demo/src/accuracy")
+        };
+        *rust = words::rust(axis, value).ok_or_else(lacks)?;
+    }
+    Ok(all)
 }
 
 /// The code with each of these words replaced, one after the other.
-fn filled(code: String, values: &[(&str, &str)]) -> String {
+pub fn filled(code: &str, values: &[(&str, &str)]) -> String {
     let fill = |code: String, (word, value): &(&str, &str)| code.replace(word, value);
-    values.iter().fold(code, fill)
+    values.iter().fold(code.to_owned(), fill)
 }
 
 /// Whether it remembers something from tick to tick.
@@ -90,105 +57,45 @@ pub fn ticks(point: &Point) -> bool {
 }
 
 fn torques(point: &Point) -> Result<String> {
-    let axes = ["model", "trig", "rate", "between", "arith"];
-    let [model, trig, rate, between, scalar] = axes.map(|axis| point.on(axis));
-    let (arm, joints) = match &*point.robot {
-        "ur5e" => ("Ur5e", "6"),
-        "panda" => ("Panda", "7"),
-        "a1_leg" => ("A1Leg", "3"),
-        _ => return Err(lacks(point, "kind")),
+    let axes = ["model", "trig", "between", "form", "arith"];
+    let [effects, kernel, between, form, scalar] = shipped(point, axes)?;
+    let [rate, trig] = ["rate", "trig"].map(|axis| point.on(axis));
+    let arm = Robot::COMPUTED.map(Robot::names);
+    let arm = arm.into_iter().find(|names| names[0] == point.robot);
+    let lacks = || Error::check(format!("no torques of {} are computed", point.robot));
+    let [_, _, arm, joints] = arm.ok_or_else(lacks)?;
+    let robot = match point.on("model").strip_prefix("pruned") {
+        Some(millionths) => format!("Pruned<{arm}, {millionths}>"),
+        None => arm.to_owned(),
     };
-    let mut robot = arm.to_owned();
-    let effects = match (model, model.strip_prefix("pruned")) {
-        ("full", _) => "RIGID_BODY",
-        ("no_coriolis", _) => "(Gravity::EARTH, Inertia)",
-        ("gravity", _) => "(Gravity::EARTH,)",
-        (_, Some(millionths)) => {
-            robot = format!("Pruned<{arm}, {millionths}>");
-            "RIGID_BODY"
-        }
-        _ => return Err(lacks(point, "model")),
+    let template = match (rate, trig, point.on("between")) {
+        ("1", "incremental", _) => include_str!("templates/carried.txt"),
+        ("1", ..) => include_str!("templates/every.txt"),
+        (_, _, "interpolated") => include_str!("templates/interpolated.txt"),
+        (_, _, "linearised") => include_str!("templates/linearised.txt"),
+        _ => include_str!("templates/held.txt"),
     };
-    if !matches!(scalar, "f32" | "f64") {
-        return Err(lacks(point, "arith"));
-    }
-    let core = point.on("form") == "core";
-    let own = trig == pick(core, "table3x4", "table3") || scalar == "f64";
-    let call = match trig {
-        _ if own => "FORM::<ROBOT>::rnea(state, &EFFECTS)",
-        "incremental" => "FORM::<ROBOT>::rnea(self.carried.follow(&state.q).with(state), &EFFECTS)",
-        "libm" | "micromath" => return Err(lacks(point, "trig")),
-        _ => "FORM::<ROBOT, KERNEL>::rnea(state, &EFFECTS)",
+    let own = match form {
+        "Core" => "table3x4",
+        _ => "table3",
     };
-    let (first, renewed) = (
-        call.replace("state", "first"),
-        format!("        self.between.update({call})\n"),
-    );
-    let (kept, start, coast, fresh) = match between {
-        "held" => (
-            "ZeroOrderHold<f32, JOINTS>",
-            "ZeroOrderHold::start()",
-            "",
-            &*renewed,
-        ),
-        "extrapolated" => (
-            "FirstOrderHold<f32, JOINTS, TICKS>",
-            "FirstOrderHold::start()",
-            "",
-            &*renewed,
-        ),
-        "interpolated" => (
-            "Interpolator<f32, JOINTS, TICKS>",
-            "Interpolator::start(CALL)",
-            "",
-            &*renewed,
-        ),
-        _ => (
-            "InertiaUpdate<f32, JOINTS, TICKS>",
-            "InertiaUpdate::start()",
-            "&state.qdd",
-            LINEARISED,
-        ),
+    let generics = match [own, "incremental"].contains(&trig) || scalar == "f64" {
+        true => robot.clone(),
+        false => format!("{robot}, {kernel}"),
     };
-    let interpolated = between == "interpolated";
-    let ahead = "        // In a tick that computes, `state` is to be that of TICKS ticks later.\n";
-    let sparse = SPARSE.replace("COAST", coast).replace("FRESH", fresh);
-    let (fields, start, tick) = match rate {
-        "1" => (
-            "    carried: IncrementalTrig<f32, JOINTS>,\n".into(),
-            "carried: IncrementalTrig::at(first.q)".into(),
-            format!("        {call}\n"),
-        ),
-        _ => (
-            format!("    between: {kept},\n    wait: usize,\n"),
-            format!("between: {start}, wait: 0"),
-            pick(interpolated, ahead, "").to_owned() + &sparse,
-        ),
-    };
-    let code = match ticks(point) {
-        false => EVERY.replace("CALL", call),
-        true => filled(
-            TICKING.into(),
-            &[
-                ("FIELDS", &fields),
-                ("START", &start),
-                ("CALL", &first),
-                ("TICK ", &(tick + " ")),
-            ],
-        ),
-    };
-    let reads_first = interpolated || trig == "incremental";
     let values = [
-        ("FORM", pick(core, "Core", "Engine")),
+        ("BETWEEN", between),
+        ("NAME", between.split('<').next().unwrap_or_default()),
+        ("FORM", form),
+        ("GENERICS", &generics),
         ("ROBOT", &robot),
         ("EFFECTS", effects),
-        ("KERNEL", kernel(trig)),
+        ("KERNEL", kernel),
         ("JOINTS", joints),
         ("TICKS", rate),
-        ("FIRST", pick(reads_first, "first", "_first")),
         ("f32", scalar),
     ];
-    let code = filled(code, &values);
+    let code = filled(template, &values);
     let uses = PATHS.split_whitespace().filter(|path| {
         let name = path.rsplit("::").next().unwrap_or_default();
         let mut words = code.split(|letter: char| !letter.is_alphanumeric() && letter != '_');
@@ -201,45 +108,33 @@ fn torques(point: &Point) -> Result<String> {
 }
 
 fn simulation(point: &Point) -> Result<String> {
-    let scalar = point.on("arith");
-    let kept = format!("EnergyProjected<{scalar}>");
-    let integrator = match (point.on("scene"), point.on("integrator")) {
-        ("free", "euler") => "Euler",
-        ("free", "semi_implicit") => "SemiImplicit",
-        ("free", "rk4") => "RungeKutta",
-        ("free", "energy") => &kept,
-        _ => return Err(lacks(point, "integrator")),
+    let axes = ["scene", "integrator", "state", "arith"];
+    let [_, integrator, compensated, scalar] = shipped(point, axes)?;
+    let pendulum = [
+        ("robots::Ur5e", "DoublePendulum"),
+        ("dynamics_core::D", "firmware_demo::accuracy::let_go::D"),
+        ("Ur5e", "DoublePendulum"),
+        ("6]", "2]"),
+        ("6,", "2,"),
+        ("6>", "2>"),
+    ];
+    let robot = match &*point.robot {
+        "ur5e" => &[],
+        _ => &pendulum[..],
     };
-    let arm = point.robot == "ur5e";
-    let pendulum = "firmware_demo::accuracy::let_go::DoublePendulum";
-    let n = pick(arm, "6", "2");
-    let [array, generic, last] = ["]", ",", ">"].map(|end| format!("{n}{end}"));
-    let step: f64 = point.on("step").parse().map_err(|_| lacks(point, "step"))?;
+    let name = integrator.split('<').next().unwrap_or_default();
+    let step: f64 = point.on("step").parse().unwrap_or_default();
     let values = [
         (
-            "dynamics_core::robots::Ur5e",
-            pick(arm, "dynamics_core::robots::Ur5e", pendulum),
-        ),
-        ("Ur5e", pick(arm, "Ur5e", "DoublePendulum")),
-        (
             "integrator: RungeKutta",
-            &format!("integrator: {integrator}"),
+            &*format!("integrator: {integrator}"),
         ),
-        (
-            ", RungeKutta",
-            &format!(", {}", integrator.split('<').next().unwrap_or_default()),
-        ),
+        (", RungeKutta", &format!(", {name}")),
         ("1000.0e-6", &format!("{step:?}e-6")),
-        (
-            "true",
-            pick(point.on("state") == "compensated", "true", "false"),
-        ),
-        ("6]", &array),
-        ("6,", &generic),
-        ("6>", &last),
+        ("true", compensated),
         ("f32", scalar),
     ];
-    Ok(filled(SIMULATION.to_owned(), &values))
+    Ok(filled(&filled(SIMULATION, robot), &values))
 }
 
 #[cfg(test)]
@@ -275,7 +170,7 @@ mod tests {
             Kind::Simulation => {
                 point.on("scene") == "free" && point.on("integrator") != "implicit_damping"
             }
-            Kind::Inverse => {
+            _ => {
                 point.on("plant") == "rigid"
                     && matches!(point.on("arith"), "f32" | "f64")
                     && !matches!(point.on("trig"), "libm" | "micromath")
@@ -287,7 +182,7 @@ mod tests {
         for point in points.iter().filter(shipped) {
             let code = rust(point).unwrap_or_else(|e| panic!("{} {}: {e}", point.robot, point.key));
             for blank in [
-                "FORM", "ROBOT", "JOINTS", "TICK", "CALL", "START", "FRESH", "FIELDS", "<>",
+                "FORM", "ROBOT", "GENERICS", "JOINTS", "TICK", "BETWEEN", "NAME", "KERNEL", "<>",
             ] {
                 assert!(
                     !code.contains(blank),

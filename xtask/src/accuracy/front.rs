@@ -26,20 +26,16 @@ fn beaten(point: &Point, all: &[Point], cost: usize) -> bool {
     };
     all.iter()
         .filter(|other| other.group() == point.group() && other.key != point.key)
-        .any(|other| match changes(other).cmp(&changes(point)) {
-            Ordering::Less => no_worse(other, point, SAME),
-            Ordering::Equal => {
-                let alike = no_worse(point, other, 1.0);
-                no_worse(other, point, 1.0) && (!alike || other.key < point.key)
-            }
-            Ordering::Greater => no_worse(other, point, 1.0) && !no_worse(point, other, SAME),
-        })
-}
-
-/// How many things are not as in the default.
-fn changes(point: &Point) -> usize {
-    let axes = point.key.split(',');
-    axes.filter(|axis| axis.contains('=')).count()
+        .any(
+            |other| match other.changes().count().cmp(&point.changes().count()) {
+                Ordering::Less => no_worse(other, point, SAME),
+                Ordering::Equal => {
+                    let alike = no_worse(point, other, 1.0);
+                    no_worse(other, point, 1.0) && (!alike || other.key < point.key)
+                }
+                Ordering::Greater => no_worse(other, point, 1.0) && !no_worse(point, other, SAME),
+            },
+        )
 }
 
 /// The front of a group by a cost, from the cheapest on.
@@ -52,33 +48,25 @@ pub fn front<'a>(points: &[&'a Point], cost: usize) -> Vec<&'a Point> {
 
 #[cfg(test)]
 pub mod tests {
-    use super::super::point::{Kind, Point};
+    use super::super::point::Point;
     use super::{front, mark};
 
     /// A way of the robot `arm` with this key, error, and cost in the worst tick and in the mean.
     pub fn point(key: &str, error: f64, cycles: u64, mean: f64) -> Point {
-        let changed = key.split(',').filter_map(|axis| axis.split_once('='));
-        let plant = [("plant", "rigid")].into_iter();
-        Point {
+        let mut point = Point {
             robot: "arm".into(),
-            kind: Kind::Inverse,
-            configuration: changed
-                .chain(plant)
-                .map(|(axis, value)| (axis.to_owned(), value.to_owned()))
-                .collect(),
-            instructions: cycles,
             cycles,
             cycles_mean: mean,
             error_max: error.is_finite().then_some(error),
-            error_rms: None,
-            error_p99: None,
             unit: "N·m".into(),
-            relative_max: None,
-            front: false,
-            fronts: [false; 2],
             key: key.into(),
-            drift: None,
-        }
+            ..Point::default()
+        };
+        let changes = point.changes().chain([("plant", "rigid")]);
+        point.configuration = changes
+            .map(|(axis, value)| (axis.to_owned(), value.to_owned()))
+            .collect();
+        point
     }
 
     #[test]

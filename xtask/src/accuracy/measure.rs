@@ -1,11 +1,11 @@
 //! Builds and runs: bins in QEMU for costs, a bin on the host for errors.
 
-use std::path::PathBuf;
+use std::path::Path;
 
-use super::join::{self, Host};
-use super::point::Point;
+use super::join::{self, Bin, Host};
+use super::point::{Kind, Point};
 use super::printed::{self, PRINTED};
-use crate::costs::{self, Row};
+use crate::costs;
 use crate::error::{Error, Result};
 use crate::firmware;
 use crate::progress::Spinner;
@@ -14,14 +14,13 @@ use crate::shell;
 use crate::toolchain::{RELEASE, SMALL, TINY};
 use crate::workspace::Workspace;
 
-const FEATURE: &str = "accuracy";
-/// The bin on the host.
-const HOST_BIN: &str = "accuracy";
+/// The feature, and the bin on the host.
+const ACCURACY: &str = "accuracy";
+/// The bins of the robots whose torques are computed.
+const BINS: [&str; 3] = ["accuracy_ur5e", "accuracy_panda", "accuracy_leg"];
 /// The bins, here and there, with a dozen ways of each robot.
 const QUICK_BIN: &str = "accuracy_quick";
 const SIMULATION_BIN: &str = "accuracy_simulation";
-/// What the host calls the simulations.
-const SIMULATION: &str = "simulation";
 
 /// A robot that there is something to measure of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -39,27 +38,20 @@ impl Robot {
     pub const ALL: [Self; 4] = [Self::Ur5e, Self::Panda, Self::A1Leg, Self::DoublePendulum];
     /// Those whose torques are computed.
     pub const COMPUTED: [Self; 3] = [Self::Ur5e, Self::Panda, Self::A1Leg];
-    /// Those that are simulated.
-    pub const SIMULATED: [Self; 2] = [Self::DoublePendulum, Self::Ur5e];
 
-    /// Its name in rows, lines and files, and in print; its bin, if torques are computed.
-    fn names(self) -> (&'static str, &'static str, Option<&'static str>) {
+    /// Its name in rows, lines and files, in print, and in the library; and the number of its joints.
+    pub fn names(self) -> [&'static str; 4] {
         match self {
-            Self::Ur5e => ("ur5e", "UR5e", Some("accuracy_ur5e")),
-            Self::Panda => ("panda", "Panda", Some("accuracy_panda")),
-            Self::A1Leg => ("a1_leg", "leg of the A1", Some("accuracy_leg")),
-            Self::DoublePendulum => ("double_pendulum", "double pendulum", None),
+            Self::Ur5e => ["ur5e", "UR5e", "Ur5e", "6"],
+            Self::Panda => ["panda", "Panda", "Panda", "7"],
+            Self::A1Leg => ["a1_leg", "leg of the A1", "A1Leg", "3"],
+            Self::DoublePendulum => ["double_pendulum", "double pendulum", "", "2"],
         }
     }
 
     /// Its name in rows, lines and files.
     pub fn name(self) -> &'static str {
-        self.names().0
-    }
-
-    /// Its name in print.
-    pub fn title(self) -> &'static str {
-        self.names().1
+        self.names()[0]
     }
 }
 
@@ -67,44 +59,47 @@ impl Robot {
 pub struct Plan {
     /// Of these robots.
     pub robots: Vec<Robot>,
-    /// A dozen ways of each, at opt-level 3.
+    /// A dozen ways of each, at opt-level 3, and no simulations.
     pub quick: bool,
-    /// Torques.
-    pub inverse: bool,
-    /// Simulations.
-    pub simulation: bool,
+    /// Only this is computed.
+    pub kind: Option<Kind>,
 }
-
-/// A row with its bin and opt-level.
-type Bin = (&'static str, &'static str, Row);
 
 /// What came out.
 pub struct Measured {
-    /// All configurations of a run that is not quick.
+    /// All configurations.
     pub points: Vec<Point>,
     /// Those that differ from the default in one thing, measured in a program of their own.
     pub single: Vec<Point>,
+    /// In a quick run, what is printed to be pasted.
+    pub pasted: Vec<Point>,
     /// What the host printed.
     pub host: Host,
-    /// What that costs which is printed to be pasted.
-    pub pasted: Vec<Row>,
     /// The compiler.
     pub rustc: String,
 }
 
 impl Plan {
+    /// The robots whose torques are computed, each with its bin.
+    fn computed(&self) -> impl Iterator<Item = (Robot, &'static str)> {
+        let wanted = self.kind != Some(Kind::Simulation);
+        let all = std::iter::zip(Robot::COMPUTED, BINS);
+        all.filter(move |(robot, _)| wanted && self.robots.contains(robot))
+    }
+
     fn simulates(&self) -> bool {
-        let mut simulated = Robot::SIMULATED.iter();
-        self.simulation && !self.quick && simulated.any(|robot| self.robots.contains(robot))
+        let simulated = [Robot::DoublePendulum, Robot::Ur5e];
+        let wanted = !self.quick && self.kind != Some(Kind::Inverse);
+        wanted && simulated.iter().any(|robot| self.robots.contains(robot))
     }
 
     /// Opt-levels, their profiles and the bins that are built with them.
     fn batches(&self) -> Vec<(&'static str, &'static str, Vec<&'static str>)> {
-        let chosen = self.robots.iter().filter_map(|robot| robot.names().2);
-        let all: Vec<_> = chosen.filter(|_| self.inverse && !self.quick).collect();
+        let bins = self.computed().map(|(_, bin)| bin);
+        let all: Vec<_> = bins.filter(|_| !self.quick).collect();
         let mut first = all.clone();
         // In every run, so that what is written here is what the tests measure.
-        first.extend(self.inverse.then_some(QUICK_BIN));
+        first.extend(self.computed().next().map(|_| QUICK_BIN));
         // Simulations are no code for a controller: their size is nobody's concern.
         first.extend(self.simulates().then_some(SIMULATION_BIN));
         let batches = [
@@ -112,10 +107,8 @@ impl Plan {
             ("s", SMALL, all.clone()),
             ("z", TINY, all),
         ];
-        batches
-            .into_iter()
-            .filter(|(_, _, bins)| !bins.is_empty())
-            .collect()
+        let batches = batches.into_iter().filter(|batch| !batch.2.is_empty());
+        batches.collect()
     }
 
     /// Builds and runs it all, for host and target side by side.
@@ -127,44 +120,45 @@ impl Plan {
             let lost = |_| Err(Error::check("the host's errors were not computed"));
             (rows, host.join().unwrap_or_else(lost))
         });
-        let (mut measured, host) = (rows?, Host::read(&lines?)?);
-        let pasted = |(_, _, row): &mut Bin| row.algorithm == printed::ALGORITHM;
-        let pasted = measured
-            .extract_if(.., pasted)
-            .map(|(_, _, row)| row)
-            .collect();
-        let single = measured.extract_if(.., |(bin, ..)| *bin == QUICK_BIN);
-        let single: Vec<_> = single.map(|(_, opt, row)| (opt, row)).collect();
-        let points: Vec<_> = measured
-            .into_iter()
-            .map(|(_, opt, row)| (opt, row))
-            .collect();
+        let (mut rows, host) = (rows?, Host::read(&lines?)?);
+        let single: Vec<_> = rows.extract_if(.., |(bin, ..)| *bin == QUICK_BIN).collect();
+        let mut single = join::join(&host, &single)?;
+        let is_pasted = |point: &mut Point| point.kind == Kind::Pasted;
+        let pasted = single.extract_if(.., is_pasted).collect();
+        let points = match self.quick {
+            true => single.clone(),
+            false => join::join(&host, &rows)?,
+        };
+        let rustc = tools.toolchain.rustc_version()?;
         Ok(Measured {
-            points: join::join(&host, &points)?,
-            single: join::join(&host, &single)?,
-            host,
+            points,
+            single,
             pasted,
-            rustc: tools.toolchain.rustc_version()?,
+            host,
+            rustc,
         })
     }
 
     /// What the target runs of these robots.
-    fn costs(&self, workspace: &Workspace, tools: &Tools, printed: &PathBuf) -> Result<Vec<Bin>> {
+    fn costs(&self, workspace: &Workspace, tools: &Tools, printed: &Path) -> Result<Vec<Bin>> {
         let spinner = Spinner::start("building the cycle meter");
         let meter = firmware::build_meter(workspace)?;
         let mut all = Vec::new();
         for (opt, profile, bins) in self.batches() {
             spinner.line(&format!("building {} (opt-level {opt})", bins.join(", ")));
             let mut command = tools.toolchain.firmware(workspace, "build");
-            command
-                .env(PRINTED, printed)
-                .args(["--profile", profile, "--features", FEATURE]);
+            let command = command.env(PRINTED, printed).args(["--profile", profile]);
+            command.args(["--features", ACCURACY]);
             shell::cargo(command.args(bins.iter().flat_map(|bin| ["--bin", bin])))?;
             for bin in bins {
                 spinner.say(format!("running {bin} (opt-level {opt}) in QEMU"));
                 let elf = tools.toolchain.elf(workspace, profile, bin);
                 let mut rows = costs::run_for_time(tools, &meter, bin, &elf)?;
-                rows.retain(|row| self.robots.iter().any(|robot| robot.name() == row.robot));
+                // Only the host's quick bin knows the errors of what is pasted.
+                rows.retain(|row| {
+                    let known = self.quick || row.algorithm != "pasted";
+                    known && self.robots.iter().any(|robot| robot.name() == row.robot)
+                });
                 all.extend(rows.into_iter().map(|row| (bin, opt, row)));
             }
         }
@@ -172,22 +166,16 @@ impl Plan {
     }
 
     /// What the host prints of these robots.
-    fn errors(&self, workspace: &Workspace, printed: &PathBuf) -> Result<String> {
+    fn errors(&self, workspace: &Workspace, printed: &Path) -> Result<String> {
         // Not for speed: to build it with optimisation across crates takes longer than it runs.
         let mut command = workspace.cargo("run");
-        let bin = if self.quick { QUICK_BIN } else { HOST_BIN };
+        let bin = if self.quick { QUICK_BIN } else { ACCURACY };
         command
             .env(PRINTED, printed)
             .args(["--quiet", "--package", "host-reports"]);
-        command.args(["--features", FEATURE, "--bin", bin, "--"]);
-        let computed = self
-            .robots
-            .iter()
-            .filter(|robot| self.inverse && robot.names().2.is_some());
-        command.args(computed.map(|robot| robot.name()));
-        if self.simulates() {
-            command.arg(SIMULATION);
-        }
+        command.args(["--features", ACCURACY, "--bin", bin, "--"]);
+        command.args(self.computed().map(|(robot, _)| robot.name()));
+        command.args(self.simulates().then_some("simulation"));
         shell::capture(&mut command)
     }
 }

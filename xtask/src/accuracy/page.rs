@@ -1,5 +1,8 @@
 //! docs/accuracy.md: fronts, what single choices cost, yardsticks, simulations; and the README's few lines.
 
+#[cfg(test)]
+mod tests;
+
 use super::front;
 use super::join::{Host, Line};
 use super::measure::Robot;
@@ -16,11 +19,10 @@ pub const COMMAND: &str = "cargo xtask accuracy";
 
 /// A part of a page that the command writes.
 const fn part(file: &'static str, name: &'static str) -> Page {
-    let command = COMMAND;
     Page {
         file,
         name,
-        command,
+        command: COMMAND,
     }
 }
 
@@ -65,11 +67,10 @@ pub fn pictures(points: &[Point], host: &Host, robot: Robot) -> Result<Vec<(Stri
         return Ok(vec![(file + ".svg", plot::simulations(points)?)]);
     }
     let own = of_group(points, (robot.name(), Kind::Inverse, "rigid"));
-    let front = plot::front(robot, &own, &host.yardsticks)?;
-    let all = plot::all(robot, &own)?;
+    let [front, all] = [plot::front(robot, &own, host)?, plot::all(robot, &own)?];
     Ok(vec![
         (format!("{file}.svg"), front),
-        (format!("{file}-all.svg"), all),
+        (file + "-all.svg", all),
     ])
 }
 
@@ -87,14 +88,18 @@ pub fn steps<'a>(points: &[&'a Point], cost: usize) -> Vec<&'a Point> {
     steps
 }
 
-/// These points, a row each, with these of the columns below.
-fn table(points: &[&Point], first: &str, columns: &[(usize, &str)]) -> Table {
-    let default = points.iter().find(|point| point.is_default());
-    let heads: Vec<&str> = columns.iter().map(|column| column.1).collect();
+/// Rows by their names, with the columns of these numbers, each with what it is called.
+fn table(rows: &[(String, &Point)], first: &str, columns: &str) -> Table {
+    let default = rows.iter().find(|(_, point)| point.is_default());
+    let columns = columns.split("; ").filter_map(|column| {
+        let (number, head) = column.split_once(' ')?;
+        Some((number.parse::<usize>().ok()?, head))
+    });
+    let (numbers, heads): (Vec<_>, Vec<_>) = columns.unzip();
     let mut table = Table::new(&[&[first], &heads[..]].concat());
-    for point in points {
+    for (name, point) in rows {
         let share = |cost: usize| {
-            let ratio = default.map(|default| point.costs()[cost] / default.costs()[cost]);
+            let ratio = default.map(|(_, default)| point.costs()[cost] / default.costs()[cost]);
             ratio.map_or_else(String::new, percent)
         };
         let step = 1e-6 * point.on("step").parse().unwrap_or(1.0);
@@ -112,15 +117,22 @@ fn table(points: &[&Point], first: &str, columns: &[(usize, &str)]) -> Table {
             cycles(point.cycles as f64 * step),
             stated(point.drift),
         ];
-        let robot = if first.starts_with("robot") {
-            format!("{} ", point.robot)
-        } else {
-            String::new()
-        };
-        let row = columns.iter().map(|column| cells[column.0].clone());
-        table.row([robot + &name(point)].into_iter().chain(row));
+        let row = numbers.iter().map(|number| cells[*number].clone());
+        table.row(std::iter::once(name.clone()).chain(row));
     }
     table
+}
+
+/// These points by their names.
+fn named<'a>(points: &[&'a Point]) -> Vec<(String, &'a Point)> {
+    points.iter().map(|point| (name(point), *point)).collect()
+}
+
+/// These points by their robots and names.
+fn of_robots<'a>(points: &'a [Point], shown: impl Fn(&Point) -> bool) -> Vec<(String, &'a Point)> {
+    let shown = points.iter().filter(|point| shown(point));
+    let name = |point: &'a Point| (format!("{} {}", point.robot, name(point)), point);
+    shown.map(name).collect()
 }
 
 fn percent(ratio: f64) -> String {
@@ -130,54 +142,25 @@ fn percent(ratio: f64) -> String {
     format!("{ratio:.0} ×")
 }
 
-type Columns<'a> = [(usize, &'a str)];
-const COSTS: &Columns<'_> = &[(0, "insn"), (1, "worst tick"), (3, "mean")];
-const ERRORS: &Columns<'_> = &[
-    (5, "max, N·m"),
-    (6, "99 %"),
-    (7, "RMS"),
-    (8, "of full scale"),
-];
-const SHARES: &Columns<'_> = &[
-    (1, "worst tick"),
-    (2, "of default's"),
-    (3, "mean"),
-    (4, "of default's"),
-];
-const BRIEF: &Columns<'_> = &[
-    (1, "worst tick, cycles"),
-    (3, "mean"),
-    (5, "largest error, N·m"),
-    (8, "of full scale"),
-];
-const STEPS: &Columns<'_> = &[
-    (1, "cycles a second"),
-    (9, "a step"),
-    (5, "max, rad"),
-    (6, "99 %"),
-    (7, "RMS"),
-    (10, "energy drift"),
-];
+const COSTS: &str = "0 insn; 1 worst tick; 3 mean; 5 max, N·m; 6 99 %; 7 RMS; 8 of full scale";
+const FRONTS: &str = "0 insn; 1 worst tick; 3 mean; 5 max error; 8 of full scale";
+const SHARES: &str = "1 worst tick; 2 of default's; 3 mean; 4 of default's; 5 max, N·m; 6 99 %; 7 RMS; 8 of full scale";
+const BRIEF: &str = "1 worst tick, cycles; 3 mean; 5 largest error, N·m; 8 of full scale";
+const STEPS: &str = "1 cycles a second; 9 a step; 5 max, rad; 6 99 %; 7 RMS; 10 energy drift";
+const SPEEDS: &str = "5 max, N·m; 8 of full scale";
+const ERRORS: &str = "5 max, N·m; 6 99 %; 7 RMS; 8 of full scale";
 
 /// The fronts, for a terminal.
 pub fn terminal(points: &[Point]) -> String {
-    let on: Vec<&Point> = points.iter().filter(|point| point.front).collect();
-    table(
-        &on,
-        "robot, configuration",
-        &[COSTS, &[(5, "max error"), (8, "of full scale")]].concat(),
-    )
-    .text()
+    let on = of_robots(points, |point| point.front);
+    table(&on, "robot, configuration", FRONTS).text()
 }
 
 /// Single changes to the default.
 pub fn singles(points: &[Point], rustc: &str) -> String {
-    let few: Vec<&Point> = points
-        .iter()
-        .filter(|point| is_single(point, usize::MAX))
-        .collect();
-    let table = table(&few, "robot, what is changed", &[COSTS, ERRORS].concat());
-    format!("{}\nMeasured with {rustc}.", table.markdown())
+    let few = of_robots(points, |point| is_single(point, usize::MAX));
+    let table = table(&few, "robot, what is changed", COSTS).markdown();
+    format!("{table}\nMeasured with {rustc}.")
 }
 
 /// The README's.
@@ -185,10 +168,8 @@ pub fn brief(points: &[Point], rustc: &str) -> String {
     let mut few = of_group(points, ("ur5e", Kind::Inverse, "rigid"));
     few.retain(|point| is_single(point, 6));
     few.sort_by(|a, b| a.error().total_cmp(&b.error()));
-    format!(
-        "{}\nMeasured with {rustc}.",
-        table(&few, "UR5e", BRIEF).markdown()
-    )
+    let table = table(&named(&few), "UR5e", BRIEF).markdown();
+    format!("{table}\nMeasured with {rustc}.")
 }
 
 /// The text about a robot's torques, or about simulations.
@@ -202,36 +183,30 @@ pub fn text(points: &[Point], host: &Host, robot: Robot, rustc: &str) -> String 
 
 fn torques(points: &[Point], host: &Host, robot: Robot) -> String {
     let rigid = of_group(points, (robot.name(), Kind::Inverse, "rigid"));
-    let own = |line: &&Line| line.robot == robot.name();
-    let (title, part) = (robot.title(), page_of(robot).name);
+    let (title, part) = (robot.names()[1], page_of(robot).name);
     let mut text = format!(
         "![Front of error against cycles of inverse dynamics of the {title}]({part}.svg)\n\n{} configurations, of which {} \
          are on a front ([picture of all]({part}-all.svg)); {MODEL}.\n\n",
         rigid.len(),
         rigid.iter().filter(|point| point.front).count(),
     );
-    for line in host.oracles.iter().filter(own) {
+    for line in host.of(Kind::Oracle, robot.name()) {
+        let [scale, precise] = [line.full_scale, line.from_50_digits].map(digits);
+        let [off, anywhere] = [line.point.relative_max, host.anywhere(robot.name())].map(stated);
+        let (pinocchio, states, sample) = (&line.pinocchio, line.states, line.sample);
         text += &format!(
-            "Full scale is {} N·m. The f64 that errors are measured from is off by at most {} of it from Pinocchio {} on \
-             {} states, and by at most {} from 50 digits on {}. Over all states anywhere the default is within {} of it.\n\n",
-            digits(line.full_scale),
-            stated(line.relative_max),
-            line.pinocchio,
-            line.states,
-            digits(line.from_50_digits),
-            line.sample,
-            stated(host.anywhere(robot.name()))
+            "Full scale is {scale} N·m. The f64 that errors are measured from is off by at most {off} of it from Pinocchio \
+             {pinocchio} on {states} states, and by at most {precise} from 50 digits on {sample}. Over all states anywhere \
+             the default is within {anywhere} of it.\n\n"
         );
     }
-    if let Some([(worst, worst_share), (mean, mean_share)]) = cheapest(&rigid) {
+    if let Some([worst, mean]) = cheapest(&rigid) {
+        let [(worst, tick), (mean, ticks)] =
+            [worst, mean].map(|(point, share)| (name(point), percent(share)));
+        let error = digits(ERROR);
         text += &format!(
-            "Within {} of full scale, the cheapest worst tick is {} of the default's (*{}*) and the cheapest mean {} \
-             (*{}*).\n\n",
-            digits(ERROR),
-            percent(worst_share),
-            name(worst),
-            percent(mean_share),
-            name(mean)
+            "Within {error} of full scale, the cheapest worst tick is {tick} of the default's (*{worst}*) and the \
+             cheapest mean {ticks} (*{mean}*).\n\n"
         );
     }
     for (cost, which) in ["worst tick", "mean over ticks"].into_iter().enumerate() {
@@ -241,40 +216,35 @@ fn torques(points: &[Point], host: &Host, robot: Robot) -> String {
         shown.extend(rigid.iter().filter(|point| point.is_default()));
         shown.sort_by(|a, b| a.costs()[cost].total_cmp(&b.costs()[cost]));
         shown.dedup_by_key(|point| &point.key);
-        let table = table(&shown, "configuration", &[SHARES, ERRORS].concat()).markdown();
-        text += &format!(
-            "### The {which}: what each step costs and gives up\n\n{table}\n{}\n",
-            glossary(&shown)
-        );
+        let head = format!("The {which}: what each step costs and gives up");
+        text +=
+            &(section(&head, &named(&shown), "configuration", SHARES) + &glossary(&shown) + "\n");
     }
-    let mut speeds = Table::new(&["joints as fast as, rad/s", "max, N·m", "of full scale"]);
-    for line in host.speeds.iter().filter(own) {
-        speeds.row([
-            digits(line.speed),
-            stated(line.error_max),
-            stated(line.relative_max),
-        ]);
-    }
-    text += &format!(
-        "### Without Coriolis: how slow is slow enough\n\n{}\n",
-        speeds.markdown()
-    );
+    let lines = |kind, name: fn(&Line) -> String| -> Vec<_> {
+        let lines = host.of(kind, robot.name());
+        lines.map(|line| (name(line), &line.point)).collect()
+    };
+    let head = "Without Coriolis: how slow is slow enough";
+    let speeds = lines(Kind::Speed, |line| digits(line.speed));
+    text += &section(head, &speeds, "joints as fast as, rad/s", SPEEDS);
     let mut elastic = of_group(points, (robot.name(), Kind::Inverse, "compliant"));
     elastic.retain(|point| point.on("opt") == "3");
     if !elastic.is_empty() {
-        let table = table(&elastic, "configuration", &[COSTS, ERRORS].concat()).markdown();
-        text +=
-            &format!("### Motors' torques on elastic joints, along a smooth swing\n\n{table}\n");
+        let head = "Motors' torques on elastic joints, along a smooth swing";
+        text += &section(head, &named(&elastic), "configuration", COSTS);
     }
-    let mut off = Table::new(&["what is off", "max, N·m", "99 %", "RMS", "of full scale"]);
-    for line in host.yardsticks.iter().filter(own) {
-        off.row(
-            [line.what.clone()]
-                .into_iter()
-                .chain(line.errors().map(stated)),
-        );
-    }
-    text + &format!("### Where accuracy stops mattering\n\n{}\n", off.markdown())
+    let others = lines(Kind::Yardstick, |line| line.what.clone());
+    text + &section(
+        "Where accuracy stops mattering",
+        &others,
+        "what is off",
+        ERRORS,
+    )
+}
+
+/// A table under a heading.
+fn section(head: &str, rows: &[(String, &Point)], first: &str, columns: &str) -> String {
+    format!("### {head}\n\n{}\n", table(rows, first, columns).markdown())
 }
 
 /// The cheapest within [`ERROR`], by the worst tick and by the mean, each with its share of the default's cost.
@@ -321,84 +291,10 @@ fn simulations(points: &[Point]) -> String {
     );
     let mut all = Vec::new();
     for (robot, scene, title) in SCENES {
-        let steps = steps(
-            &of_group(points, (robot.name(), Kind::Simulation, scene)),
-            0,
-        );
-        text += &format!(
-            "### {title}\n\n{}\n",
-            table(&steps, "configuration", STEPS).markdown()
-        );
+        let own = of_group(points, (robot.name(), Kind::Simulation, scene));
+        let steps = steps(&own, 0);
+        text += &section(title, &named(&steps), "configuration", STEPS);
         all.extend(steps);
     }
     text + &glossary(&all) + "\n"
-}
-
-#[cfg(test)]
-mod tests {
-    use super::super::front::{mark, tests::point};
-    use super::super::point::Point;
-    use super::super::recorded;
-    use super::{COMMAND, FILE, Host, Robot, check_bars, page_of, text};
-    use crate::docs::{self, repository::root};
-
-    #[test]
-    fn the_bars_are_of_the_default() {
-        let mut points = [
-            point("default", 1e-6, 1000, 1000.0),
-            point("trig=table", 1e-4, 800, 800.0),
-            point("rate=10", 5e-4, 1200, 500.0),
-            point("model=gravity", 1.0, 100, 100.0),
-        ];
-        for point in &mut points {
-            point.relative_max = point.error_max;
-        }
-        mark(&mut points);
-        let all: Vec<&Point> = points.iter().collect();
-        assert_eq!(
-            check_bars(&all).expect("met"),
-            "0.800 of the worst tick, 0.500 of the mean"
-        );
-        assert!(check_bars(&all[..2]).is_err());
-    }
-
-    /// The lines of a text, without what a table pads them with.
-    fn lines(text: &str) -> Vec<String> {
-        let words = text
-            .lines()
-            .map(|line| line.split_whitespace().collect::<Vec<_>>().join(" "));
-        words
-            .filter(|line| !line.is_empty() && !line.starts_with("| --"))
-            .collect()
-    }
-
-    /// The lines that recorded points make, without the host's errors, and that a page lacks.
-    fn lacking(page: &str, points: &[Point]) -> Vec<String> {
-        let mut lacking = Vec::new();
-        for robot in Robot::ALL {
-            let written = page_of(robot).written(page).expect("markers");
-            let rustc = docs::rustc_of(written).expect("a compiler");
-            let fresh = lines(&text(points, &Host::default(), robot, rustc));
-            let written = lines(written);
-            lacking.extend(fresh.into_iter().filter(|line| !written.contains(line)));
-        }
-        lacking
-    }
-
-    #[test]
-    fn the_page_has_every_line_that_is_recorded() {
-        let read = |file: &str| std::fs::read_to_string(root().join(file)).expect("it is there");
-        let page = read(FILE);
-        let mut points: Vec<Point> = serde_json::from_str(&read(recorded::FILE)).expect("points");
-        mark(&mut points);
-        let nothing: [String; 0] = [];
-        assert_eq!(
-            lacking(&page, &points),
-            nothing,
-            "`{COMMAND}` rewrites {FILE}"
-        );
-        let default = points.iter_mut().find(|point| point.is_default());
-        default.expect("a default").cycles += 1;
-        assert!(!lacking(&page, &points).is_empty());
-    }
 }

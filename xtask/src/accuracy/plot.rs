@@ -1,25 +1,26 @@
 //! The pictures: a robot's front with a few names, all of its ways as dots, and the simulations.
 
-use plotters::coord::Shift;
 use plotters::coord::combinators::LogCoord;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::front as fronts;
-use super::join::Line;
+use super::join::Host;
 use super::measure::Robot;
 use super::page::{SCENES, steps};
 use super::point::{Kind, Point, of_group};
 use super::words::{cycles, name, stated};
-use crate::error::{Error, Result};
+use crate::chart::{Area, INK, Outcome, svg};
+use crate::error::Result;
 
 const FONT: &str = "system-ui, Helvetica, Arial, sans-serif";
-const INK: RGBColor = RGBColor(45, 50, 58);
 const FAINT: RGBColor = RGBColor(228, 231, 235);
 const DOT: RGBColor = RGBColor(165, 174, 185);
 const WORST: RGBColor = RGBColor(27, 80, 162);
 const MEAN: RGBColor = RGBColor(214, 110, 0);
 const MEASURE: RGBColor = RGBColor(150, 45, 95);
+const GREEN: RGBColor = RGBColor(0, 128, 110);
+const RED: RGBColor = RGBColor(200, 50, 90);
 /// px: a line of text, and how wide a letter is.
 const TEXT: i32 = 14;
 const LETTER: f64 = 6.9;
@@ -34,49 +35,22 @@ const MEASURES: [(&str, &str); 3] = [
 /// By integrator; readable to the colour-blind.
 const COLOURS: [(&str, &str, RGBColor); 5] = [
     ("euler", "explicit Euler", RGBColor(86, 160, 211)),
-    (
-        "semi_implicit",
-        "semi-implicit Euler",
-        RGBColor(0, 128, 110),
-    ),
+    ("semi_implicit", "semi-implicit Euler", GREEN),
     ("rk4", "RK4", WORST),
     ("energy", "energy-preserving", RGBColor(230, 145, 0)),
-    (
-        "implicit_damping",
-        "implicit damping",
-        RGBColor(200, 50, 90),
-    ),
+    ("implicit_damping", "implicit damping", RED),
 ];
 /// Cycles of a second at 168 MHz: a simulation right of it is slower than what it simulates.
 const REAL_TIME: f64 = 168e6;
 const TICK: &str = "cycles of the worst tick (Cortex-M4F at zero wait states, modelled)";
 const TORQUE: &str = "largest torque error, N·m";
 
-type Fallible<T> = std::result::Result<T, Box<dyn std::error::Error>>;
 type Place = (i32, i32);
-type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 type Axes = Cartesian2d<LogCoord<f64>, LogCoord<f64>>;
 type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Axes>;
 
-fn svg(
-    what: &str,
-    size: (u32, u32),
-    draw: impl FnOnce(&Area<'_>) -> Fallible<()>,
-) -> Result<String> {
-    let mut svg = String::new();
-    let all = || {
-        let root = SVGBackend::with_string(&mut svg, size).into_drawing_area();
-        root.fill(&WHITE)?;
-        draw(&root)?;
-        Ok(root.present()?)
-    };
-    let drawn: Fallible<()> = all();
-    drawn.map_err(|e| Error::check(format!("cannot draw {what}: {e}")))?;
-    Ok(svg)
-}
-
 /// Words to the right or left of a place.
-fn text(area: &Area<'_>, words: &str, at: Place, colour: RGBColor, side: HPos) -> Fallible<()> {
+fn text(area: &Area<'_>, words: &str, at: Place, colour: RGBColor, side: HPos) -> Outcome {
     let font = (FONT, TEXT).into_font().color(&colour);
     let style = font.pos(Pos::new(side, VPos::Center));
     Ok(area.draw(&Text::new(words.to_owned(), at, style))?)
@@ -87,13 +61,7 @@ fn wide(words: &str) -> i32 {
 }
 
 /// A line through these places, and dots on them.
-fn path(
-    area: &Area<'_>,
-    places: &[Place],
-    width: u32,
-    dots: i32,
-    colour: RGBColor,
-) -> Fallible<()> {
+fn path(area: &Area<'_>, places: &[Place], width: u32, dots: i32, colour: RGBColor) -> Outcome {
     area.draw(&PathElement::new(places, colour.stroke_width(width)))?;
     for &place in places.iter().filter(|_| dots > 0) {
         area.draw(&Circle::new(place, dots, colour.filled()))?;
@@ -107,7 +75,7 @@ fn axes<'a, 'b>(
     [title, x, y]: [&str; 3],
     points: impl Iterator<Item = (f64, f64)>,
     room: [f64; 2],
-) -> Fallible<Chart<'a, 'b>> {
+) -> std::result::Result<Chart<'a, 'b>, Box<dyn std::error::Error>> {
     let (mut low, mut high) = ([f64::INFINITY; 2], [1e-300_f64; 2]);
     for (x, y) in points {
         low = [low[0].min(x), low[1].min(y)];
@@ -146,15 +114,15 @@ fn axes<'a, 'b>(
 }
 
 /// Where a cost and an error are; errors below the lower edge are drawn on it.
-fn at(chart: &Chart<'_, '_>, cost: f64, error: f64) -> Place {
+fn at(chart: &Chart<'_, '_>, (cost, error): (f64, f64)) -> Place {
     chart.backend_coord(&(cost, error.max(chart.y_range().start)))
 }
 
 /// A front by a cost as a stair, from the cheapest down.
-fn stair(area: &Area<'_>, chart: &Chart<'_, '_>, front: &[&Point], cost: usize) -> Fallible<()> {
+fn stair(area: &Area<'_>, chart: &Chart<'_, '_>, front: &[&Point], cost: usize) -> Outcome {
     let places = front
         .iter()
-        .map(|point| at(chart, point.costs()[cost], point.error()));
+        .map(|point| at(chart, (point.costs()[cost], point.error())));
     let mut corners: Vec<Place> = Vec::new();
     for (x, y) in places.clone() {
         corners.extend(corners.last().map(|&(_, above)| (x, above)));
@@ -166,8 +134,8 @@ fn stair(area: &Area<'_>, chart: &Chart<'_, '_>, front: &[&Point], cost: usize) 
 }
 
 /// The front by the worst tick, with names and yardsticks.
-pub fn front(robot: Robot, points: &[&Point], yardsticks: &[Line]) -> Result<String> {
-    let title = robot.title();
+pub fn front(robot: Robot, points: &[&Point], host: &Host) -> Result<String> {
+    let title = robot.names()[1];
     let head = format!(
         "{title}: the cheapest inverse dynamics of each accuracy; dashed: errors of other causes"
     );
@@ -175,20 +143,19 @@ pub fn front(robot: Robot, points: &[&Point], yardsticks: &[Line]) -> Result<Str
     let mut shown = fronts::front(points, 0);
     // What is dearer than the default by far, in other numbers, is in the other picture.
     shown.retain(|point| default.is_none_or(|default| point.cycles <= default.cycles));
-    svg(title, (800, 520), |root| {
-        let ends = shown
-            .iter()
-            .map(|point| (point.cycles as f64, point.error()));
+    svg((800, 520), |root| {
+        let ends = shown.iter().map(|point| point.place());
         let chart = axes(root, [&head, TICK, TORQUE], ends, [1.9, 2.2])?;
         let across = chart.x_range();
-        let [x0, x1] = [across.start, across.end].map(|x| at(&chart, x, 1.0).0);
+        let [x0, x1] = [across.start, across.end].map(|x| at(&chart, (x, 1.0)).0);
         let mut dashed: Vec<i32> = Vec::new();
         for (key, what) in MEASURES {
-            let of = |line: &&Line| line.robot == robot.name() && line.key == key;
-            let Some(error) = yardsticks.iter().find(of).and_then(|line| line.error_max) else {
+            let mut yardsticks = host.of(Kind::Yardstick, robot.name());
+            let yardstick = yardsticks.find(|line| line.point.key == key);
+            let Some(error) = yardstick.and_then(|line| line.point.error_max) else {
                 continue;
             };
-            let y = at(&chart, 1.0, error).1;
+            let y = at(&chart, (1.0, error)).1;
             for x in (x0..x1 - 6).step_by(12) {
                 path(root, &[(x, y), (x + 7, y)], 1, 0, MEASURE)?;
             }
@@ -209,7 +176,7 @@ pub fn front(robot: Robot, points: &[&Point], yardsticks: &[Line]) -> Result<Str
         // Left of a front that falls to the right there is room; names keep clear of each other and of dashed lines.
         let mut last = i32::MIN / 2;
         for point in named {
-            let (x, y) = at(&chart, point.cycles as f64, point.error());
+            let (x, y) = at(&chart, point.place());
             let words = name(point);
             if x - 12 - wide(&words) < x0 {
                 text(root, &words, (x + 2, y - 12), INK, HPos::Left)?;
@@ -231,18 +198,18 @@ pub fn front(robot: Robot, points: &[&Point], yardsticks: &[Line]) -> Result<Str
 
 /// All ways, by what the worst tick costs, and both fronts.
 pub fn all(robot: Robot, points: &[&Point]) -> Result<String> {
-    let title = robot.title();
+    let title = robot.names()[1];
     let head = format!(
         "{title}: every way; fronts by the worst tick (blue) and by the mean over ticks (orange)"
     );
     let finite = points.iter().filter(|point| point.error().is_finite());
-    svg(title, (800, 520), |root| {
+    svg((800, 520), |root| {
         let both = finite
             .clone()
             .flat_map(|point| point.costs().map(|cost| (cost, point.error())));
         let chart = axes(root, [&head, "cycles of a tick", TORQUE], both, [1.7, 1.7])?;
         for point in finite {
-            let place = at(&chart, point.cycles as f64, point.error());
+            let place = at(&chart, point.place());
             path(root, &[place], 0, 2, DOT)?;
         }
         stair(root, &chart, &fronts::front(points, 1), 1)?;
@@ -252,7 +219,7 @@ pub fn all(robot: Robot, points: &[&Point]) -> Result<String> {
 
 /// Errors against cycles, a line per integrator through its lengths of step.
 pub fn simulations(points: &[Point]) -> Result<String> {
-    svg("the simulations", (800, 1300), |root| {
+    svg((800, 1300), |root| {
         let mut x = 12;
         for (_, words, colour) in COLOURS {
             path(root, &[(x, 16), (x + 22, 16)], 3, 0, colour)?;
@@ -266,7 +233,7 @@ pub fn simulations(points: &[Point]) -> Result<String> {
             let own = of_group(points, (robot.name(), Kind::Simulation, scene));
             let finite = || own.iter().filter(|point| point.error().is_finite());
             let names = [title, "cycles for a simulated second", "largest error, rad"];
-            let ends = finite().map(|point| (point.cycles as f64, point.error()));
+            let ends = finite().map(|point| point.place());
             let chart = axes(&area, names, ends, [1.4, 1.4])?;
             // Coordinates of a chart are those of the whole picture.
             let (x, y) =
@@ -287,7 +254,7 @@ pub fn simulations(points: &[Point]) -> Result<String> {
                     };
                     let mut line: Vec<_> = finite().filter(of).collect();
                     line.sort_by_key(|point| point.cycles);
-                    let places = line.iter().map(|p| at(&chart, p.cycles as f64, p.error()));
+                    let places = line.iter().map(|p| at(&chart, p.place()));
                     path(root, &places.collect::<Vec<_>>(), width, dots, colour)?;
                 }
             }

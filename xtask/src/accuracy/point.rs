@@ -4,18 +4,28 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-/// What is computed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+/// What is computed, or what a line of the host is about.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Kind {
     /// Torques of a motion.
+    #[default]
     Inverse,
     /// A motion, step by step.
     Simulation,
+    /// Torques by the code that is printed to be pasted.
+    Pasted,
+    /// Errors of other causes.
+    Yardstick,
+    /// What leaving out velocity products loses.
+    Speed,
+    /// How far what errors are measured from is itself off.
+    Oracle,
 }
 
 /// A configuration of a robot: one in the JSON that `--json` prints.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+#[serde(default)]
 pub struct Point {
     /// The robot's name.
     pub robot: String,
@@ -47,7 +57,7 @@ pub struct Point {
     /// Axes that are not the default's, as one word.
     pub key: String,
     /// Largest change of the energy in a simulated second, as a share of the largest kinetic energy.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub drift: Option<f64>,
 }
 
@@ -57,11 +67,17 @@ impl Point {
         self.configuration.get(axis).map_or("", String::as_str)
     }
 
+    /// Axes and values that are not the default's.
+    pub fn changes(&self) -> impl Iterator<Item = (&str, &str)> {
+        let axes = self.key.split(',');
+        axes.filter_map(|axis| axis.split_once('='))
+    }
+
     /// What is the same of all that are compared with it.
     pub fn group(&self) -> (&str, Kind, &str) {
         let circumstances = match self.kind {
-            Kind::Inverse => self.on("plant"),
             Kind::Simulation => self.on("scene"),
+            _ => self.on("plant"),
         };
         (&self.robot, self.kind, circumstances)
     }
@@ -71,19 +87,20 @@ impl Point {
         self.error_max.unwrap_or(f64::INFINITY)
     }
 
-    /// All that is said of its errors.
+    /// All that is said of its errors: the largest, 99 %, RMS, and the largest as a share of full scale.
     pub fn errors(&self) -> [Option<f64>; 4] {
-        [
-            self.error_max,
-            self.error_p99,
-            self.error_rms,
-            self.relative_max,
-        ]
+        let [max, p99, rms] = [self.error_max, self.error_p99, self.error_rms];
+        [max, p99, rms, self.relative_max]
     }
 
     /// What it costs: the worst tick, the mean.
     pub fn costs(&self) -> [f64; 2] {
         [self.cycles as f64, self.cycles_mean]
+    }
+
+    /// Where it is in a picture: what the worst tick costs, and the largest error.
+    pub fn place(&self) -> (f64, f64) {
+        (self.cycles as f64, self.error())
     }
 
     /// Whether it is the library's own choice.
@@ -94,8 +111,6 @@ impl Point {
 
 /// The points of a group.
 pub fn of_group<'a>(points: &'a [Point], group: (&str, Kind, &str)) -> Vec<&'a Point> {
-    points
-        .iter()
-        .filter(|point| point.group() == group)
-        .collect()
+    let own = points.iter().filter(|point| point.group() == group);
+    own.collect()
 }

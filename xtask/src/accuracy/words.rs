@@ -1,39 +1,45 @@
 //! Configurations in plain words.
 
+use std::collections::BTreeMap;
+use std::sync::LazyLock;
+
+use serde::Deserialize;
+
 use super::point::{Kind, Point};
 use crate::table::thousands;
 
-/// Axis, value, the type of a kernel, name in print, and what it does: see the file, which the firmware shares.
-type Word = (
-    &'static str,
-    &'static str,
-    &'static str,
-    &'static str,
-    &'static str,
-);
-macro_rules! words {
-    ($($axis:ident $value:literal [$($kernel:ty)?] $name:literal, $phrase:literal;)*) => {
-        const WORDS: &[Word] =
-            &[$((stringify!($axis), $value, concat!($(stringify!($kernel))?), $name, $phrase),)*];
-    };
+/// A value on an axis: see the file, whose keys are those of the firmware.
+#[derive(Default, Deserialize)]
+#[serde(default)]
+struct Word {
+    rust: Option<String>,
+    name: String,
+    does: String,
 }
-include!("../../../firmware-demo/src/accuracy/words.rs");
+
+/// Words by value by axis.
+static WORDS: LazyLock<BTreeMap<String, BTreeMap<String, Word>>> = LazyLock::new(|| {
+    let text = include_str!("../../../firmware-demo/src/accuracy/words.toml");
+    // The tests read it: it is never empty.
+    toml::from_str(text).unwrap_or_default()
+});
 
 fn found(axis: &str, value: &str) -> Option<&'static Word> {
-    WORDS.iter().find(|word| (word.0, word.1) == (axis, value))
+    WORDS.get(axis)?.get(value)
 }
 
-/// The type of a kernel; empty if it is none.
-pub fn kernel(trig: &str) -> &'static str {
-    found("trig", trig).map_or("", |word| word.2)
+/// What the library has for the value on an axis; none if it ships nothing of the kind.
+pub fn rust(axis: &str, value: &str) -> Option<&'static str> {
+    found(axis, value)?.rust.as_deref()
 }
 
 /// What it is made of that the default is not: names, and what each does.
 fn parts(point: &Point) -> Vec<(String, String)> {
+    let owned = |word: &Word| (word.name.clone(), word.does.clone());
+    let known = |axis| found(axis, point.on(axis)).map(owned);
     let mut parts = Vec::new();
-    let owned = |word: &Word| (word.3.to_owned(), word.4.to_owned());
     if point.kind == Kind::Simulation {
-        parts.extend(found("integrator", point.on("integrator")).map(owned));
+        parts.extend(known("integrator"));
         let step = match point.on("step").parse::<u64>() {
             Ok(us) if us >= 1000 => format!("{} ms", us as f64 / 1000.0),
             _ => format!("{} µs", point.on("step")),
@@ -41,22 +47,13 @@ fn parts(point: &Point) -> Vec<(String, String)> {
         let phrase = format!("takes steps of {step}");
         parts.push((step, phrase));
     }
-    let changed = point.key.split(',').filter_map(|axis| axis.split_once('='));
-    for (axis, value) in changed {
+    for (axis, value) in point.changes() {
         match (axis, found(axis, value)) {
             ("integrator" | "step" | "scene" | "between", _) => {}
-            ("rate", _) => {
-                let nth = format!(
-                    "every {value}{} tick",
-                    if value == "2" { "nd" } else { "th" }
-                );
-                let (name, phrase) = found("between", point.on("between"))
-                    .map(owned)
-                    .unwrap_or_default();
-                parts.push((
-                    format!("{nth}, {name}"),
-                    format!("computes in {nth} only and {phrase}"),
-                ));
+            ("rate", Some(Word { name: nth, .. })) => {
+                let (name, does) = known("between").unwrap_or_default();
+                let does = format!("computes in {nth} only and {does}");
+                parts.push((format!("{nth}, {name}"), does));
             }
             (_, Some(word)) => parts.push(owned(word)),
             (_, None) => parts.push((format!("{axis} {value}"), format!("has {axis} {value}"))),
@@ -68,10 +65,9 @@ fn parts(point: &Point) -> Vec<(String, String)> {
 /// A short name, for a plot.
 pub fn name(point: &Point) -> String {
     let names: Vec<String> = parts(point).into_iter().map(|part| part.0).collect();
-    if names.is_empty() {
-        "default".into()
-    } else {
-        names.join(", ")
+    match &names[..] {
+        [] => "default".into(),
+        names => names.join(", "),
     }
 }
 
@@ -86,23 +82,20 @@ pub fn glossary(points: &[&Point]) -> String {
             said.push(part);
         }
     }
+    let has_default = points.iter().any(|point| point.is_default());
+    let default = has_default.then(|| format!("- {DEFAULT}\n"));
     let lines = said
-        .into_iter()
-        .map(|(name, phrase)| format!("- **{name}** {phrase}.\n"));
-    let default = points
         .iter()
-        .any(|point| point.is_default())
-        .then(|| format!("- {DEFAULT}\n"));
+        .map(|(name, phrase)| format!("- **{name}** {phrase}.\n"));
     lines.chain(default).collect()
 }
 
 /// What it does that the default does not, as a sentence.
 pub fn sentence(point: &Point) -> String {
     let phrases: Vec<String> = parts(point).into_iter().map(|part| part.1).collect();
-    if phrases.is_empty() {
-        DEFAULT.into()
-    } else {
-        format!("It {}.", phrases.join("; and "))
+    match &phrases[..] {
+        [] => DEFAULT.into(),
+        phrases => format!("It {}.", phrases.join("; and ")),
     }
 }
 

@@ -5,12 +5,10 @@
 //! rigorous error bounds for basic building blocks of double-word arithmetic" (2017). The FPU's fused
 //! multiply-add would halve the product, but has no name in `core`.
 
-use core::ops::{Add, Div, Mul, Neg};
-
 use dynamics_core::scalar::Real;
 
-use super::real;
 use super::vector::Plain;
+use super::{operators, real};
 
 /// A number as the sum of an f32 and its rounding error: some 46 bits.
 ///
@@ -71,46 +69,25 @@ impl Compensated {
     }
 }
 
-/// 11 flops.
-impl Add for Compensated {
-    type Output = Self;
-    #[inline(always)]
-    fn add(self, o: Self) -> Self {
-        let (sum, rest) = two_sum(self.value, o.value);
-        fast_two_sum(sum, rest + (self.rest + o.rest))
-    }
-}
-
-/// 24 flops.
-impl Mul for Compensated {
-    type Output = Self;
-    #[inline(always)]
-    fn mul(self, o: Self) -> Self {
-        let (product, rest) = two_product(self.value, o.value);
-        let cross = self.value * o.rest + self.rest * o.value;
+operators! {
+    /// 11 flops.
+    [] Compensated, Add add (Self) -> Self: |a, b| {
+        let (sum, rest) = two_sum(a.value, b.value);
+        fast_two_sum(sum, rest + (a.rest + b.rest))
+    };
+    [] Compensated, Sub sub (Self) -> Self: |a, b| a + -b;
+    /// 24 flops.
+    [] Compensated, Mul mul (Self) -> Self: |a, b| {
+        let (product, rest) = two_product(a.value, b.value);
+        let cross = a.value * b.rest + a.rest * b.value;
         fast_two_sum(product, rest + cross)
-    }
-}
-
-impl Div for Compensated {
-    type Output = Self;
-    #[inline(always)]
-    fn div(self, o: Self) -> Self {
-        let first = self.value / o.value;
-        let left = self - o * Self::from(first);
-        fast_two_sum(first, left.value / o.value)
-    }
-}
-
-impl Neg for Compensated {
-    type Output = Self;
-    #[inline(always)]
-    fn neg(self) -> Self {
-        Self {
-            value: -self.value,
-            rest: -self.rest,
-        }
-    }
+    };
+    [] Compensated, Div div (Self) -> Self: |a, b| {
+        let first = a.value / b.value;
+        let left = a - b * Self::from(first);
+        fast_two_sum(first, left.value / b.value)
+    };
+    [] Compensated, Neg neg () -> Self: |a| Self { value: -a.value, rest: -a.rest };
 }
 
 real! {

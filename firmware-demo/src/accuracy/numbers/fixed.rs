@@ -4,13 +4,11 @@
 //! be chosen that keep all of them within ±2: [`InUnits`](crate::accuracy::model::InUnits) makes a robot in such units. Yates, *Fixed-Point
 //! Arithmetic: An Introduction* (2009).
 
-use core::ops::{Add, Div, Mul, Neg};
-
 use dynamics_core::scalar::Real;
 use dynamics_core::trig::Kernel;
 
-use super::real;
 use super::vector::Plain;
+use super::{operators, real};
 
 /// A number within ±2 in steps of 2⁻³⁰: Q31 with the bit of headroom that 1 takes. What overflows wraps.
 ///
@@ -34,38 +32,16 @@ impl Fixed {
     }
 }
 
-impl Add for Fixed {
-    type Output = Self;
-    #[inline(always)]
-    fn add(self, o: Self) -> Self {
-        Self(self.0.wrapping_add(o.0))
-    }
-}
-
-impl Mul for Fixed {
-    type Output = Self;
-    #[inline(always)]
-    fn mul(self, o: Self) -> Self {
-        Self::products([(self, o)])
-    }
-}
-
-impl Div for Fixed {
-    type Output = Self;
-    #[inline(always)]
-    fn div(self, o: Self) -> Self {
-        let dividend = i64::from(self.0) * (1 << FRACTION);
+operators! {
+    [] Fixed, Add add (Self) -> Self: |a, b| Self(a.0.wrapping_add(b.0));
+    [] Fixed, Sub sub (Self) -> Self: |a, b| a + -b;
+    [] Fixed, Mul mul (Self) -> Self: |a, b| Self::products([(a, b)]);
+    [] Fixed, Neg neg () -> Self: |a| Self(a.0.wrapping_neg());
+    [] Fixed, Div div (Self) -> Self: |a, b| {
+        let dividend = i64::from(a.0) * (1 << FRACTION);
         // A divisor of 0 gives 0: there is nothing to wrap.
-        Self(dividend.checked_div(i64::from(o.0)).unwrap_or(0) as i32)
-    }
-}
-
-impl Neg for Fixed {
-    type Output = Self;
-    #[inline(always)]
-    fn neg(self) -> Self {
-        Self(self.0.wrapping_neg())
-    }
+        Self(dividend.checked_div(i64::from(b.0)).unwrap_or(0) as i32)
+    };
 }
 
 impl Plain for Fixed {

@@ -7,14 +7,12 @@ mod vector;
 use core::marker::PhantomData;
 
 use dynamics_core::drivetrain::ElasticReference;
-use dynamics_core::effects::Effect;
 use dynamics_core::model::Robot;
-use dynamics_core::scalar::{Native, Real};
+use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
 
 use super::Inverse;
-use super::form::Form;
 use super::key::Key;
 use super::model::{InUnits, Modelled, Units};
 
@@ -93,126 +91,65 @@ macro_rules! real {
             dynamics_core::cast_model!(model, B, $r, |x| <$r>::new(x), Vec3::of, Mat3::of)
         }
 
-        super::follows! {
-            $r: Sub sub |a, b| a + -b, AddAssign add_assign +, SubAssign sub_assign -, MulAssign mul_assign *
+        super::assigning! {
+            [] $r, AddAssign add_assign +;
+            [] $r, SubAssign sub_assign -;
+            [] $r, MulAssign mul_assign *;
         }
     };
 }
-/// The operators that follow from others.
-macro_rules! follows {
-    ($r:ident: Sub sub |$a:ident, $b:ident| $difference:expr, $($op:ident $name:ident $sign:tt),*) => {
-        impl core::ops::Sub for $r {
-            type Output = Self;
+/// Operators of one or two operands, each with its result in terms of them.
+macro_rules! operators {
+    ($($(#[$doc:meta])* [$($generics:tt)*] $t:ty, $op:ident $name:ident ($($other:ty)?) -> $out:ty:
+       |$a:ident $(, $b:ident)?| $value:expr;)*) => {$(
+        $(#[$doc])*
+        impl<$($generics)*> core::ops::$op $(<$other>)? for $t {
+            type Output = $out;
             #[inline(always)]
-            fn sub(self, other: Self) -> Self {
-                let ($a, $b) = (self, other);
-                $difference
+            fn $name(self $(, $b: $other)?) -> $out {
+                let $a = self;
+                $value
             }
         }
-        $(
-            impl core::ops::$op for $r {
-                #[inline(always)]
-                fn $name(&mut self, other: Self) {
-                    *self = *self $sign other;
-                }
+    )*};
+}
+/// The operators that assign, by those that do not.
+macro_rules! assigning {
+    ($([$($generics:tt)*] $t:ty, $op:ident $name:ident $sign:tt;)*) => {$(
+        impl<$($generics)*> core::ops::$op for $t {
+            #[inline(always)]
+            fn $name(&mut self, other: Self) {
+                *self = *self $sign other;
             }
-        )*
-    };
+        }
+    )*};
 }
-use {follows, real};
-
-/// A scalar with a name.
-pub trait Number: Real {
-    /// On the axis `arith`.
-    const NAME: &'static str;
-}
-
-impl Number for f64 {
-    const NAME: &'static str = "f64";
-}
-
-impl Number for Compensated {
-    const NAME: &'static str = "compensated";
-}
-
-/// As the library ships it, in the scalar R, with its own sines and cosines: f64, which this processor computes in
-/// software, or f32 with the rounding errors carried along.
-#[derive(Debug)]
-pub struct In<R, M, F, const B: usize>(PhantomData<(R, M, F)>);
-
-impl<R, M, F, const B: usize, const N: usize> Inverse<N> for In<R, M, F, B>
-where
-    R: Number,
-    M: Modelled<B, N>,
-    M::Scene: Effect<R, B, N>,
-    F: Form<M::Robot>,
-{
-    const KEY: Key = Key {
-        arith: R::NAME,
-        model: M::NAME,
-        form: F::NAME,
-        ..Key::DEFAULT
-    };
-    type Input = State<R, N, N>;
-    type Scalar = R;
-
-    fn start(_: &State<f32, N, N>) -> Self {
-        Self(PhantomData)
-    }
-    fn input(course: &ElasticReference<f32, N, N>) -> Self::Input {
-        let State { q, qd, qdd } = course.state;
-        let [q, qd, qdd] = [q, qd, qdd].map(|xs| xs.map(|x| R::from_f64(f64::from(x))));
-        State { q, qd, qdd }
-    }
-    #[inline(always)]
-    fn tick(&mut self, state: &Self::Input) -> [R; N] {
-        F::rnea::<Native, _, _, _, _, _>(state, &M::SCENE)
-    }
-    fn address() -> usize {
-        F::address::<Native, R, M::Scene, B, N>()
-    }
-}
+use {assigning, operators, real};
 
 /// In fixed point, by the core: angles come in half turns, rates and accelerations in the robot's [`Units`], as
 /// drives of this kind count them.
 #[derive(Debug)]
 pub struct FixedPoint<T, M, const B: usize>(PhantomData<(T, M)>);
 
-impl<T, M, const B: usize, const N: usize> Inverse<N> for FixedPoint<T, M, B>
-where
-    T: Robot<B, N, N>,
-    M: Modelled<B, N, Robot = T>,
-{
-    const KEY: Key = Key {
-        arith: "q31",
-        model: M::NAME,
-        form: "core",
-        ..Key::DEFAULT
-    };
-    const UNIT: f64 = Units::of(&T::MODEL).torque();
-    type Input = State<Fixed, N, N>;
-    type Scalar = Fixed;
-
-    fn start(_: &State<f32, N, N>) -> Self {
-        Self(PhantomData)
-    }
-    fn input(course: &ElasticReference<f32, N, N>) -> Self::Input {
-        let State { q, qd, qdd } = course.state;
-        let time = const { Units::of(&T::MODEL).time };
-        State {
-            q: q.map(|q| {
+inverse! {
+    [T: Robot<B, N, N>, M: Modelled<B, N, Robot = T>, const B: usize] FixedPoint<T, M, B>,
+        Key { arith: "q31", model: M::NAME, form: "core", ..Key::DEFAULT },
+        { const UNIT: f64 = Units::of(&T::MODEL).torque(); },
+        State<Fixed, N, N> = |course| {
+            let State { q, qd, qdd } = course.state;
+            let time = const { Units::of(&T::MODEL).time };
+            let q = q.map(|q| {
                 let half_turns = f64::from(q) / core::f64::consts::PI;
                 // Whole turns are none.
                 let turns = (half_turns * 0.5 + 0.5 * half_turns.signum()) as i32;
                 Fixed::from_f64(half_turns - 2.0 * f64::from(turns))
-            }),
-            qd: qd.map(|qd| Fixed::from_f64(f64::from(qd) * time)),
-            qdd: qdd.map(|qdd| Fixed::from_f64(f64::from(qdd) * time * time)),
-        }
-    }
-    #[inline(never)]
-    fn tick(&mut self, state: &Self::Input) -> [Fixed; N] {
-        let trig = Engine::<InUnits<T>, HalfTurns>::joint_trig(&state.q);
-        Core::<InUnits<T>>::rnea(trig.with(state), &M::IN_UNITS)
-    }
+            });
+            let qd = qd.map(|qd| Fixed::from_f64(f64::from(qd) * time));
+            let qdd = qdd.map(|qdd| Fixed::from_f64(f64::from(qdd) * time * time));
+            State { q, qd, qdd }
+        }, Fixed,
+        |_| Self(PhantomData), #[inline(never)] |self, state| {
+            let trig = Engine::<InUnits<T>, HalfTurns>::joint_trig(&state.q);
+            Core::<InUnits<T>>::rnea(trig.with(state), &M::IN_UNITS)
+        };
 }

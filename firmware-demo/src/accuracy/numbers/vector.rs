@@ -1,8 +1,8 @@
 //! Vectors and matrices of scalars that glam does not have.
 
-use core::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
-
 use dynamics_core::scalar::{Matrix, Real, Vector};
+
+use super::{assigning, operators};
 
 /// A vector of three.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -80,52 +80,20 @@ impl<R: Plain> Matrix<R> for Mat3<R> {
     }
 }
 
-/// Operators, each with its result in terms of the operands' parts.
-macro_rules! operators {
-    ($($op:ident $name:ident $left:ident $right:ty => $out:ty: |$a:ident, $b:ident| $value:expr;)*) => {$(
-        impl<R: Plain> $op<$right> for $left<R> {
-            type Output = $out;
-            #[inline(always)]
-            fn $name(self, other: $right) -> $out {
-                let ($a, $b) = (self, other);
-                $value
-            }
-        }
-    )*};
-}
 operators! {
-    Add add Vec3 Self => Self: |a, b| Self([0, 1, 2].map(|i| a.0[i] + b.0[i]));
-    Sub sub Vec3 Self => Self: |a, b| Self([0, 1, 2].map(|i| a.0[i] - b.0[i]));
-    Mul mul Vec3 R => Self: |a, s| Self(a.0.map(|x| x * s));
-    Add add Mat3 Self => Self: |a, b| Self([0, 1, 2].map(|i| a.0[i] + b.0[i]));
-    Sub sub Mat3 Self => Self: |a, b| Self([0, 1, 2].map(|i| a.0[i] - b.0[i]));
-    Mul mul Mat3 R => Self: |a, s| Self(a.0.map(|x| x * s));
-    Mul mul Mat3 Vec3<R> => Vec3<R>: |a, v| a.transpose().transpose_mul(v);
-    Mul mul Mat3 Self => Self: |a, b| Self(b.0.map(|column| a * column));
+    [R: Plain] Vec3<R>, Add add (Self) -> Self: |a, b| Self([0, 1, 2].map(|i| a.0[i] + b.0[i]));
+    [R: Plain] Vec3<R>, Sub sub (Self) -> Self: |a, b| Self([0, 1, 2].map(|i| a.0[i] - b.0[i]));
+    [R: Plain] Vec3<R>, Mul mul (R) -> Self: |a, s| Self(a.0.map(|x| x * s));
+    [R: Plain] Vec3<R>, Neg neg () -> Self: |a| Self(a.0.map(|x| -x));
+    [R: Plain] Mat3<R>, Add add (Self) -> Self: |a, b| Self([0, 1, 2].map(|i| a.0[i] + b.0[i]));
+    [R: Plain] Mat3<R>, Sub sub (Self) -> Self: |a, b| Self([0, 1, 2].map(|i| a.0[i] - b.0[i]));
+    [R: Plain] Mat3<R>, Mul mul (R) -> Self: |a, s| Self(a.0.map(|x| x * s));
+    [R: Plain] Mat3<R>, Mul mul (Vec3<R>) -> Vec3<R>: |a, v| a.transpose().transpose_mul(v);
+    [R: Plain] Mat3<R>, Mul mul (Self) -> Self: |a, b| Self(b.0.map(|column| a * column));
 }
-
-macro_rules! assigning {
-    ($($t:ident)*) => {$(
-        impl<R: Plain> AddAssign for $t<R> {
-            #[inline(always)]
-            fn add_assign(&mut self, other: Self) {
-                *self = *self + other;
-            }
-        }
-        impl<R: Plain> SubAssign for $t<R> {
-            #[inline(always)]
-            fn sub_assign(&mut self, other: Self) {
-                *self = *self - other;
-            }
-        }
-    )*};
-}
-assigning!(Vec3 Mat3);
-
-impl<R: Plain> Neg for Vec3<R> {
-    type Output = Self;
-    #[inline(always)]
-    fn neg(self) -> Self {
-        Self(self.0.map(|x| -x))
-    }
+assigning! {
+    [R: Plain] Vec3<R>, AddAssign add_assign +;
+    [R: Plain] Vec3<R>, SubAssign sub_assign -;
+    [R: Plain] Mat3<R>, AddAssign add_assign +;
+    [R: Plain] Mat3<R>, SubAssign sub_assign -;
 }

@@ -25,21 +25,24 @@ const TICKS: usize = 40;
 /// Steps of each way to simulate, and their length in s: short enough for every integrator.
 const STEPS: [f64; 8] = [1e-4; 8];
 
+/// Where a robot is to be in some ticks.
+type Courses<const N: usize> = [ElasticReference<f32, N, N>; TICKS];
+
 /// Measures each way that it visits.
 pub struct Priced<const N: usize> {
     robot: &'static str,
     /// What the log calls them.
     pub algorithm: &'static str,
     /// Anywhere, for ways that remember nothing.
-    spread: [ElasticReference<f32, N, N>; TICKS],
+    spread: Courses<N>,
     /// One after the other on the robot's way.
-    course: [ElasticReference<f32, N, N>; TICKS],
+    course: Courses<N>,
 }
 
-/// Runs a row under the key that the host knows it by.
+/// Runs a row under the key that the host knows it by, with all else that is known of the way.
 #[inline(always)]
 fn measure<A, T>(
-    row: Row<'_>,
+    [robot, algorithm]: [&'static str; 2],
     key: impl Display,
     address: usize,
     asks: &[A],
@@ -49,24 +52,30 @@ fn measure<A, T>(
     if write!(inputs, "{key}").is_err() {
         target::fail("a key is too long");
     }
-    Row {
-        inputs: &inputs,
-        ..row
-    }
-    .measure(address, asks, run);
+    let (inputs, form, trig, joints) = (&*inputs, "any", true, 0);
+    let row = Row {
+        robot,
+        algorithm,
+        form,
+        inputs,
+        trig,
+        joints,
+    };
+    row.measure(address, asks, run);
 }
 
 impl<const N: usize> Visitor<N> for Priced<N> {
     fn way<W: Inverse<N>>(&mut self) {
-        let states = if W::MEMORY {
-            &self.course
-        } else {
-            &self.spread
+        let states = match W::MEMORY {
+            true => &self.course,
+            false => &self.spread,
         };
         let mut way = W::start(&states[0].state);
         let inputs = states.each_ref().map(W::input);
-        let row = row(self.robot, self.algorithm, W::KEY.form, N);
-        measure(row, W::KEY, W::address(), &inputs, |input| way.tick(input));
+        let names = [self.robot, self.algorithm];
+        measure(names, W::KEY, W::address(), &inputs, |input| {
+            way.tick(input)
+        });
     }
 }
 
@@ -76,24 +85,8 @@ struct Stepped(&'static str);
 impl<const N: usize> simulation::Visitor<N> for Stepped {
     fn simulation<S: Simulation<N>>(&mut self) {
         let mut run = S::start();
-        let row = row(self.0, "simulation", "engine", N);
-        measure(row, S::KEY, S::address(), &STEPS, |&h| run.step(h));
-    }
-}
-
-fn row(
-    robot: &'static str,
-    algorithm: &'static str,
-    form: &'static str,
-    joints: usize,
-) -> Row<'static> {
-    Row {
-        robot,
-        algorithm,
-        form,
-        inputs: "",
-        trig: true,
-        joints,
+        let names = [self.0, "simulation"];
+        measure(names, S::KEY, S::address(), &STEPS, |&h| run.step(h));
     }
 }
 
@@ -133,11 +126,8 @@ pub fn states<T: Compared<B, N, W>, const B: usize, const N: usize, const W: usi
         (seed >> 8) as f32 * (2.0 * bound / 16_777_216.0) - bound
     };
     let spread = [(); TICKS].map(|()| {
-        momentary(State {
-            q: [(); N].map(|()| number(3.0)),
-            qd: [(); N].map(|()| number(3.0)),
-            qdd: [(); N].map(|()| number(10.0)),
-        })
+        let [q, qd, qdd] = [3.0, 3.0, 10.0].map(|bound| [(); N].map(|()| number(bound)));
+        momentary(State { q, qd, qdd })
     });
     let Ok(way) = T::way() else {
         target::fail("the robot cannot go there");
@@ -147,9 +137,10 @@ pub fn states<T: Compared<B, N, W>, const B: usize, const N: usize, const W: usi
         tick += 1;
         momentary(way.at(tick))
     });
+    let (robot, algorithm) = (T::MODEL.name, "inverse");
     Priced {
-        robot: T::MODEL.name,
-        algorithm: "inverse",
+        robot,
+        algorithm,
         spread,
         course,
     }

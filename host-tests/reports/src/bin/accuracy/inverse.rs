@@ -16,7 +16,7 @@ use proptest::test_runner::TestRng;
 use serde_json::json;
 
 use super::statistics::{Errors, object, widened};
-use super::{speed, yardsticks};
+use super::yardsticks;
 
 /// States beside those recorded, whose oracle is our f64.
 const MORE_STATES: usize = 2000;
@@ -49,21 +49,16 @@ impl<const N: usize> Visitor<N> for Bench<N> {
     fn way<W: Inverse<N>>(&mut self) {
         let run = |problems: &[Problem<N>]| {
             let mut way = W::start(&problems[0].course.state);
-            Errors::of(
-                problems
-                    .iter()
-                    .enumerate()
-                    .map(|(k, Problem { truth, .. })| {
-                        let given = &problems[(k + W::AHEAD).min(problems.len() - 1)];
-                        (W::torque(way.tick(&W::input(&given.course))), *truth)
-                    }),
-            )
+            let given = (0..).map(|k: usize| &problems[(k + W::AHEAD).min(problems.len() - 1)]);
+            let answers = given.map(|given| W::torque(way.tick(&W::input(&given.course))));
+            Errors::of(answers.zip(problems.iter().map(|problem| problem.truth)))
         };
         let states = !W::MEMORY && !self.states.is_empty();
+        let mut configuration = object(&W::KEY.axes());
+        configuration["plant"] = json!(self.plant);
         let line = json!({
-            "plant": self.plant,
             "key": W::KEY.to_string(),
-            "configuration": object(&W::KEY.axes()),
+            "configuration": configuration,
             "anywhere": states.then(|| run(&self.states).max() / self.full_scale),
         });
         let scales = [self.full_scale, self.floor];
@@ -104,11 +99,10 @@ pub fn print<T: Compared<B, N, W>, const B: usize, const N: usize, const W: usiz
     };
     let way = T::way().expect("the robot can go there");
     let ticks = 0..=way.ticks() + REST;
-    let way: Vec<_> = ticks
-        .map(|tick| labelled(way.at(tick.saturating_sub(REST))))
-        .collect();
+    let way = ticks.map(|tick| labelled(way.at(tick.saturating_sub(REST))));
+    let way: Vec<_> = way.collect();
     yardsticks::print::<T, B, N>(full_scale, &way);
-    speed::print::<T, B, N>(full_scale);
+    yardsticks::print_speeds::<T, B, N>(full_scale);
     let mut random = random_numbers();
     let more = (0..MORE_STATES).map(|_| labelled(drawn(&mut random, [PI, 3.0, 10.0])));
     ways(&mut Bench {

@@ -14,7 +14,6 @@
 mod inverse;
 mod motion;
 mod simulation;
-mod speed;
 mod statistics;
 mod yardsticks;
 

@@ -6,7 +6,6 @@ mod inverse;
 mod printed {
     include!(env!("ACCURACY_PRINTED"));
 }
-mod speed;
 mod statistics;
 mod yardsticks;
 

@@ -1,18 +1,21 @@
-//! Other torque errors, those of measurement and identification, for comparison with those of the computation.
-//!
-//! Along the robot's way, in f64, so that nothing of the computation is in them.
+//! Other torque errors, those of measurement and identification, for comparison with those of the computation: along the
+//! robot's way, in f64, so that nothing of the computation is in them. And what leaving out the velocity products loses,
+//! against the joints' speed: a slow arm does not need them.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
-use dynamics_core::Core;
 use dynamics_core::algorithms::rnea;
-use dynamics_core::effects::RIGID_BODY;
+use dynamics_core::effects::{Gravity, Inertia, RIGID_BODY};
 use dynamics_core::model::{Calibrated, Robot, model};
+use dynamics_core::{Core, Engine};
 use host_tests::random::{random_numbers, within};
 use serde_json::json;
 
-use super::inverse::Problem;
+use super::inverse::{Problem, drawn};
 use super::statistics::{Errors, widened};
+
+/// Steps of an encoder in a turn: 14 bits.
+const STEPS: f64 = 16384.0;
 
 /// Drawings of parameters that are off.
 const DRAWINGS: usize = 20;
@@ -20,6 +23,12 @@ const DRAWINGS: usize = 20;
 /// Share of a joint's greatest torque that friction takes at its greatest speed: assumed, of the order of harmonic
 /// drives.
 const FRICTION: f64 = 0.1;
+
+/// rad/s: every joint's speed lies within ± this.
+const SPEEDS: [f64; 7] = [0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 3.0];
+
+/// States of each.
+const STATES: usize = 1000;
 
 /// Prints a line for each of them.
 pub fn print<T: Robot<B, N, N>, const B: usize, const N: usize>(
@@ -30,38 +39,32 @@ pub fn print<T: Robot<B, N, N>, const B: usize, const N: usize>(
         let line = json!({"key": key, "what": what});
         errors.print(T::MODEL.name, "yardstick", [full_scale, 0.0], line);
     };
-    let rounded = encoder::<T, B, N>(way, 14);
-    line(
-        "encoder14",
-        "positions rounded to 14 bits of a turn",
-        &rounded,
-    );
-    for percent in [1, 5] {
-        line(
-            &format!("inertial{percent}"),
-            &format!(
-                "masses, moments and inertias off by up to ±{percent} %, the worst of {DRAWINGS} drawings"
-            ),
-            &inertial::<T, B, N>(way, f64::from(percent) / 100.0),
-        );
-    }
-    line(
-        "friction10",
-        "10 % of a viscous friction that at full speed takes a tenth of the joint's torque",
-        &friction::<T, B, N>(way),
-    );
-}
-
-fn encoder<T: Robot<B, N, N>, const B: usize, const N: usize>(
-    way: &[Problem<N>],
-    bits: u32,
-) -> Errors {
-    let step = TAU / f64::from(1_u32 << bits);
-    Errors::of(way.iter().map(|Problem { course, truth }| {
+    let rounded = Errors::of(way.iter().map(|Problem { course, truth }| {
         let mut state = widened(&course.state);
-        state.q = state.q.map(|q| (q / step).round() * step);
+        state.q = state.q.map(|q| (q / (TAU / STEPS)).round() * (TAU / STEPS));
         (Core::<T>::rnea(&state, &RIGID_BODY), *truth)
-    }))
+    }));
+    let what = "positions rounded to 14 bits of a turn";
+    line("encoder14", what, &rounded);
+    for percent in [1, 5] {
+        let what = format!(
+            "masses, moments and inertias off by up to ±{percent} %, the worst of {DRAWINGS} drawings"
+        );
+        let worst = inertial::<T, B, N>(way, f64::from(percent) / 100.0);
+        line(&format!("inertial{percent}"), &what, &worst);
+    }
+    let mut per_speed = [0.0; N];
+    for link in &model::<f64, T, B, N, N>().links {
+        if let Some(per_speed) = per_speed.get_mut(link.idx_v) {
+            *per_speed = 0.1 * FRICTION * link.limits.torque / link.limits.velocity;
+        }
+    }
+    let friction = Errors::of(way.iter().map(|Problem { course, truth }| {
+        let with = |j| truth[j] + per_speed[j] * f64::from(course.state.qd[j]);
+        (std::array::from_fn(with), *truth)
+    }));
+    let what = "10 % of a viscous friction that at full speed takes a tenth of the joint's torque";
+    line("friction10", what, &friction);
 }
 
 /// Of the drawing with the largest RMS.
@@ -82,20 +85,21 @@ fn inertial<T: Robot<B, N, N>, const B: usize, const N: usize>(
             (rnea(&robot, &widened(&course.state), &RIGID_BODY), *truth)
         }))
     });
-    drawings
-        .max_by(|a, b| a.rms().total_cmp(&b.rms()))
-        .expect("some drawings")
+    let worst = drawings.max_by(|a, b| a.rms().total_cmp(&b.rms()));
+    worst.expect("some drawings")
 }
 
-fn friction<T: Robot<B, N, N>, const B: usize, const N: usize>(way: &[Problem<N>]) -> Errors {
-    let mut per_speed = [0.0; N];
-    for link in &model::<f64, T, B, N, N>().links {
-        if let Some(per_speed) = per_speed.get_mut(link.idx_v) {
-            *per_speed = 0.1 * FRICTION * link.limits.torque / link.limits.velocity;
-        }
+/// Prints a line for each speed.
+pub fn print_speeds<T: Robot<B, N, N>, const B: usize, const N: usize>(full_scale: f64) {
+    let mut random = random_numbers();
+    for speed in SPEEDS {
+        let errors = Errors::of((0..STATES).map(|_| {
+            let state = drawn::<N>(&mut random, [PI, speed, 10.0]);
+            let without = Engine::<T>::rnea(&state, &(Gravity::EARTH, Inertia));
+            let truth = Core::<T>::rnea(&widened(&state), &RIGID_BODY);
+            (without.map(f64::from), truth)
+        }));
+        let line = json!({"key": "model=no_coriolis", "speed": speed});
+        errors.print(T::MODEL.name, "speed", [full_scale, 0.0], line);
     }
-    Errors::of(way.iter().map(|Problem { course, truth }| {
-        let with = |j| truth[j] + per_speed[j] * f64::from(course.state.qd[j]);
-        (std::array::from_fn(with), *truth)
-    }))
 }

@@ -81,7 +81,7 @@ pub fn joints<const N: usize>(visitor: &mut impl Visitor<N>) {
         bristle: [0.0; N],
     };
     visitor.scene("lugre", (RIGID_BODY, lugre));
-    visitor.scene("rotor_inertia", (RIGID_BODY, Armature(rotors)));
+    visitor.scene("armature", (RIGID_BODY, Armature(rotors)));
     let spring = Spring {
         stiffness: [5.0; N],
         rest: [0.0; N],
@@ -94,7 +94,7 @@ pub fn joints<const N: usize>(visitor: &mut impl Visitor<N>) {
         damping: 50.0,
         damping_depth: Width::f32(1e-3),
     };
-    visitor.scene("stops", (RIGID_BODY, stops));
+    visitor.scene("end_stops", (RIGID_BODY, stops));
     let cogging = Cogging {
         per_turn: [1200.0; N],
         cos: sliding.map(|f| [0.05 * f, 0.0]),
@@ -141,7 +141,10 @@ pub fn spinning<const N: usize>(visitor: &mut impl Visitor<N>) {
     let ratio = [100.0; N];
     let (.., Armature(rotors)) = ur5e::EFFECTS;
     let inertia = spread(rotors).map(|i| i * 1e-4);
-    visitor.scene("rotors", (RIGID_BODY, GyroscopicRotors { inertia, ratio }));
+    visitor.scene(
+        "gyroscopic_rotors",
+        (RIGID_BODY, GyroscopicRotors { inertia, ratio }),
+    );
 }
 
 /// The numbers of the UR5e's joints for N joints: the last one's for those beyond.

@@ -15,7 +15,7 @@ use crate::state::State;
 /// use dynamics_core::{sim::{StepIncrement, KahanState}, state::State};
 /// let mut plain = KahanState::<f32, 1, false>::at(State::at([3.0]));
 /// let mut compensated = KahanState::<f32, 1, true>::at(State::at([3.0]));
-/// let slow = StepIncrement::straight([1e-3], [0.0]);
+/// let slow = StepIncrement::constant([1e-3], [0.0]);
 /// for _ in 0..10_000 {
 ///     plain.add(&slow, 1e-4);
 ///     compensated.add(&slow, 1e-4);

@@ -23,7 +23,7 @@ use crate::state::JointTrig;
 /// use dynamics_core::state::IncrementalTrig;
 /// let mut turns = IncrementalTrig::at([0.3_f32]);
 /// let trig = turns.follow(&[0.301]);
-/// assert!((trig.turns[0].sin - 0.301_f32.sin()).abs() < 2e-7);
+/// assert!((trig.coordinates[0].sin - 0.301_f32.sin()).abs() < 2e-7);
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct IncrementalTrig<R, const N: usize> {

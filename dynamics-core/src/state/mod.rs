@@ -86,7 +86,7 @@ impl<R: Real, const Q: usize> JointTrig<R, Q> {
     /// ```
     /// use dynamics_core::{model::Robot, robots::Ur5e, state::JointTrig, trig::Table};
     /// let coarse = JointTrig::with_kernel::<Table<256, 1>, _, _, _>(&Ur5e::MODEL_F32, &[0.5; 6]);
-    /// assert!((coarse.turns[3].sin - 0.5_f32.sin()).abs() < 1e-4);
+    /// assert!((coarse.coordinates[3].sin - 0.5_f32.sin()).abs() < 1e-4);
     /// ```
     #[inline(always)]
     #[must_use]

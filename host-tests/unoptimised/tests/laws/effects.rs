@@ -67,7 +67,7 @@ fn torques_of_the_effects_add_up() {
 }
 
 #[test]
-fn rotor_inertia_adds_exactly_its_inertia_times_acceleration() {
+fn armature_adds_exactly_its_inertia_times_acceleration() {
     fn exactly<R: Real>() {
         let rng = &mut random_numbers();
         let rotors = [2.3, 0.1, 0.7, 0.03, 0.5, 1.1].map(R::from_f64);

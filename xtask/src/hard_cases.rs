@@ -65,21 +65,14 @@ pub fn run(json: bool) -> Result<ExitCode> {
         output::line(&summary(&suite))?;
     }
     let failed = suite.rows.iter().any(|row| row.verdict == "fail");
-    Ok(if failed {
-        ExitCode::FAILURE
-    } else {
-        ExitCode::SUCCESS
-    })
+    Ok(ExitCode::from(u8::from(failed)))
 }
 
 /// Fails unless every case is within its bounds and the page agrees with a new measurement.
 pub fn check(workspace: &Workspace) -> Result<String> {
     let suite: Suite = host_bin::json(workspace, BIN)?;
     if let Some(row) = suite.rows.iter().find(|row| row.verdict == "fail") {
-        let Row {
-            number, quantity, ..
-        } = row;
-        bail!("case {number} fails: {quantity}");
+        bail!("case {} fails: {}", row.number, row.quantity);
     }
     PAGE.check(workspace, &page(&suite), None)?;
     Ok(summary(&suite))

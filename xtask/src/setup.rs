@@ -61,18 +61,11 @@ impl Plan {
         self.rustup.push(line);
     }
 
-    fn commands(&self) -> Vec<String> {
-        let mut lines = self.rustup.clone();
-        if !self.apt.is_empty() {
-            lines.extend(system::apt_lines(&self.apt));
-        }
-        lines.extend_from_slice(&self.manual);
-        lines
-    }
-
     /// Announces and installs everything, or says why it may not.
     fn carry_out(&self, options: Options) -> Result<()> {
-        let commands = self.commands();
+        let packages = !self.apt.is_empty();
+        let apt = packages.then(|| system::apt_lines(&self.apt));
+        let commands = [&*self.rustup, &apt.unwrap_or_default(), &self.manual].concat();
         if commands.is_empty() {
             return Ok(());
         }
@@ -82,7 +75,6 @@ impl Plan {
         if options.no_install || !self.manual.is_empty() {
             return Err(Error::Missing { commands });
         }
-        let packages = !self.apt.is_empty();
         may_install(options, &commands, packages)?;
         for line in &self.rustup {
             shell::run(Command::new("rustup").args(line.split(' ').skip(1)))?;

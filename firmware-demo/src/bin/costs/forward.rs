@@ -1,80 +1,151 @@
 //! M, what solves with it, and the tip's Jacobian, form by form.
 
 use dynamics_core::algorithms::{NotPositiveDefinite, frame};
-use dynamics_core::effects::RIGID_BODY;
+use dynamics_core::effects::{Coriolis, Gravity, Inertia, RIGID_BODY};
+
 use dynamics_core::model::Robot;
 use dynamics_core::spatial::Motion;
-use dynamics_core::state::{Configuration, JointTrig};
+use dynamics_core::state::{JointTrig, State, StateWithTrig};
 use dynamics_core::{Core, Engine, MassMatrix};
 
 use super::row::Row;
-use super::{STATES, asks, done};
+use super::{Ask, STATES, asks, done};
 
-/// A function that measures the rows of some forms, algorithm by algorithm, each with sines and cosines computed inside
-/// and before. Torques are the states' accelerations: any will do, since the work does not depend on what they move.
-macro_rules! measuring {
-    ($name:ident: $($form:ident $label:literal $factor_solve:ident $jacobian:expr, $jacobian_before:expr;)+) => {
-        pub fn $name<T: Robot<B, N, N>, const B: usize, const N: usize, const TIP: usize>() -> ! {
-            let (asks, scene) = (&asks::<T, B, N, STATES>(), &RIGID_BODY);
-            let row = |algorithm, form, trig| Row::of::<T, B, N>(algorithm, form, "full", trig);
-            $(
-                let run: fn(&[f32; N], &_) -> MassMatrix<f32, N> = $form::<T>::crba;
-                row("crba", $label, true).measure(run as usize, asks, |ask| run(&ask.state.q, scene));
-                let run: fn(&JointTrig<f32, N>, &_) -> MassMatrix<f32, N> = $form::<T>::crba;
-                row("crba", $label, false).measure(run as usize, asks, |ask| run(&ask.trig, scene));
-            )+
-            $(
-                let run: fn(&_, &_) -> _ = $factor_solve::<T, B, N>;
-                let matrices = asks.each_ref().map(|ask| Core::<T>::crba(&ask.trig, scene));
-                row("factor_solve", $label, false).measure(run as usize, &matrices, |m| run(m, &[1.0; N]));
-            )+
-            $(measuring!(forward row asks scene "forward" $label $form::<T>::forward_dynamics);)+
-            $(measuring!(forward row asks scene "aba" $label $form::<T>::aba);)+
-            $(
-                let run: fn(&[f32; N]) -> [Motion<f32>; N] = $jacobian;
-                row("jacobian", $label, true).measure(run as usize, asks, |ask| run(&ask.state.q));
-                let run: fn(&JointTrig<f32, N>) -> [Motion<f32>; N] = $jacobian_before;
-                row("jacobian", $label, false).measure(run as usize, asks, |ask| run(&ask.trig));
-            )+
-            done()
-        }
-    };
-    (forward $row:ident $asks:ident $scene:ident $algorithm:literal $label:literal $function:expr) => {
-        let run: fn(_, &_, &_) -> _ = $function;
-        $row($algorithm, $label, true).measure(run as usize, $asks, |ask| run(&ask.state, &ask.state.qdd, $scene));
-        let run: fn(_, &_, &_) -> _ = $function;
-        $row($algorithm, $label, false)
-            .measure(run as usize, $asks, |ask| run(ask.trig.with(&ask.state), &ask.state.qdd, $scene));
-    };
+type Scene = (Gravity, Inertia, Coriolis);
+type Solution<const N: usize> = Result<[f32; N], NotPositiveDefinite>;
+type Forward<'a, const N: usize> = fn(&'a State<f32, N, N>, &[f32; N], &Scene) -> Solution<N>;
+type Precomputed<'a, const N: usize> =
+    fn(StateWithTrig<'a, f32, N, N>, &[f32; N], &Scene) -> Solution<N>;
+
+/// The functions of core or engine, each with sines and cosines computed inside and before.
+struct Forms<'a, const N: usize> {
+    name: &'static str,
+    crba: fn(&[f32; N], &Scene) -> MassMatrix<f32, N>,
+    crba_before: fn(&JointTrig<f32, N>, &Scene) -> MassMatrix<f32, N>,
+    factor_solve: fn(&MassMatrix<f32, N>, &[f32; N]) -> Solution<N>,
+    forward: Forward<'a, N>,
+    forward_before: Precomputed<'a, N>,
+    aba: Forward<'a, N>,
+    aba_before: Precomputed<'a, N>,
+    jacobian: fn(&[f32; N]) -> [Motion<f32>; N],
+    jacobian_before: fn(&JointTrig<f32, N>) -> [Motion<f32>; N],
 }
 
-measuring! { both:
-    Core "core" core_factor_solve tip_jacobian::<_, T, B, N>, tip_jacobian::<_, T, B, N>;
-    Engine "engine" engine_factor_solve
-        Engine::<T>::jacobian::<TIP, _, _, _, _>, Engine::<T>::jacobian::<TIP, _, _, _, _>;
+fn of_core<'a, T: Robot<B, N, N>, const B: usize, const N: usize>() -> Forms<'a, N> {
+    Forms {
+        name: "core",
+        crba: Core::<T>::crba,
+        crba_before: Core::<T>::crba,
+        factor_solve: core_factor_solve::<T, B, N>,
+        forward: Core::<T>::forward_dynamics,
+        forward_before: Core::<T>::forward_dynamics,
+        aba: Core::<T>::aba,
+        aba_before: Core::<T>::aba,
+        jacobian: tip_jacobian::<T, B, N>,
+        jacobian_before: tip_jacobian_before::<T, B, N>,
+    }
 }
 
-measuring! { core: Core "core" core_factor_solve tip_jacobian::<_, T, B, N>, tip_jacobian::<_, T, B, N>; }
-
-/// M's factors and one solution.
-macro_rules! factor_solve {
-    ($($name:ident $form:ident;)+) => {$(
-        #[inline(never)]
-        fn $name<T: Robot<B, N, N>, const B: usize, const N: usize>(
-            m: &MassMatrix<f32, N>,
-            tau: &[f32; N],
-        ) -> Result<[f32; N], NotPositiveDefinite> {
-            Ok($form::<T>::solve(&$form::<T>::ltdl(m)?, tau))
-        }
-    )+};
+fn of_engine<'a, T: Robot<B, N, N>, const B: usize, const N: usize, const TIP: usize>()
+-> Forms<'a, N> {
+    Forms {
+        name: "engine",
+        crba: Engine::<T>::crba,
+        crba_before: Engine::<T>::crba,
+        factor_solve: engine_factor_solve::<T, B, N>,
+        forward: Engine::<T>::forward_dynamics,
+        forward_before: Engine::<T>::forward_dynamics,
+        aba: Engine::<T>::aba,
+        aba_before: Engine::<T>::aba,
+        jacobian: Engine::<T>::jacobian::<TIP, _, _, _, _>,
+        jacobian_before: Engine::<T>::jacobian::<TIP, _, _, _, _>,
+    }
 }
 
-factor_solve! { core_factor_solve Core; engine_factor_solve Engine; }
+/// Measures core and engine.
+pub fn both<T: Robot<B, N, N>, const B: usize, const N: usize, const TIP: usize>() -> ! {
+    let asks = &asks::<T, B, N, STATES>();
+    run::<T, B, N>(asks, &[of_core::<T, B, N>(), of_engine::<T, B, N, TIP>()])
+}
+
+/// Measures the core alone.
+pub fn core<T: Robot<B, N, N>, const B: usize, const N: usize>() -> ! {
+    let asks = &asks::<T, B, N, STATES>();
+    run::<T, B, N>(asks, &[of_core::<T, B, N>()])
+}
+
+#[inline(never)]
+fn engine_factor_solve<T: Robot<B, N, N>, const B: usize, const N: usize>(
+    m: &MassMatrix<f32, N>,
+    tau: &[f32; N],
+) -> Solution<N> {
+    Ok(Engine::<T>::solve(&Engine::<T>::ltdl(m)?, tau))
+}
+
+#[inline(never)]
+fn core_factor_solve<T: Robot<B, N, N>, const B: usize, const N: usize>(
+    m: &MassMatrix<f32, N>,
+    tau: &[f32; N],
+) -> Solution<N> {
+    Ok(Core::<T>::solve(&Core::<T>::ltdl(m)?, tau))
+}
 
 /// The engine's: of the last body, along the axes of the base.
 #[inline(never)]
-fn tip_jacobian<C: Configuration<f32, N>, T: Robot<B, N, N>, const B: usize, const N: usize>(
-    q: &C,
+fn tip_jacobian<T: Robot<B, N, N>, const B: usize, const N: usize>(
+    q: &[f32; N],
 ) -> [Motion<f32>; N] {
     Core::<T>::jacobian(q, const { B - 1 }, frame::LocalWorldAligned)
+}
+
+#[inline(never)]
+fn tip_jacobian_before<T: Robot<B, N, N>, const B: usize, const N: usize>(
+    trig: &JointTrig<f32, N>,
+) -> [Motion<f32>; N] {
+    Core::<T>::jacobian(trig, const { B - 1 }, frame::LocalWorldAligned)
+}
+
+/// Measures the rows of these forms. Torques are the states' accelerations: any will do, since the work
+/// does not depend on what they move.
+fn run<'a, T: Robot<B, N, N>, const B: usize, const N: usize>(
+    asks: &'a [Ask<N>; STATES],
+    forms: &[Forms<'a, N>],
+) -> ! {
+    let scene = &RIGID_BODY;
+    let row = |form: &Forms<'_, N>, algorithm, trig| {
+        Row::of::<T, B, N>(algorithm, form.name, "full", trig)
+    };
+    for form in forms {
+        let (inside, precomputed) = (form.crba, form.crba_before);
+        row(form, "crba", true).measure(inside as usize, asks, |ask| inside(&ask.state.q, scene));
+        row(form, "crba", false).measure(precomputed as usize, asks, |ask| {
+            precomputed(&ask.trig, scene)
+        });
+    }
+    for form in forms {
+        let run = form.factor_solve;
+        let matrices = asks.each_ref().map(|ask| Core::<T>::crba(&ask.trig, scene));
+        row(form, "factor_solve", false).measure(run as usize, &matrices, |m| run(m, &[1.0; N]));
+    }
+    let forward = forms
+        .iter()
+        .map(|form| (form, "forward", form.forward, form.forward_before));
+    let aba = forms
+        .iter()
+        .map(|form| (form, "aba", form.aba, form.aba_before));
+    for (form, algorithm, inside, precomputed) in forward.chain(aba) {
+        row(form, algorithm, true).measure(inside as usize, asks, |ask| {
+            inside(&ask.state, &ask.state.qdd, scene)
+        });
+        row(form, algorithm, false).measure(precomputed as usize, asks, |ask| {
+            precomputed(ask.trig.with(&ask.state), &ask.state.qdd, scene)
+        });
+    }
+    for form in forms {
+        let (inside, precomputed) = (form.jacobian, form.jacobian_before);
+        row(form, "jacobian", true).measure(inside as usize, asks, |ask| inside(&ask.state.q));
+        row(form, "jacobian", false)
+            .measure(precomputed as usize, asks, |ask| precomputed(&ask.trig));
+    }
+    done()
 }

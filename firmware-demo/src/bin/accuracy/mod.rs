@@ -108,11 +108,8 @@ pub fn arm<T: Compared<N, N, W> + Swung<N>, const N: usize, const W: usize>() ->
     };
     let mut priced = states::<T, N, N, W>();
     list::inverse::<T, N, N>(&mut priced);
-    let mut tick = swing.ticks() / 8;
-    priced.course = [(); TICKS].map(|()| {
-        tick += 1;
-        swing.elastic_reference(tick)
-    });
+    let first = swing.ticks() / 8 + 1;
+    priced.course = core::array::from_fn(|k| swing.elastic_reference(first + k as u32));
     priced.spread = priced.course;
     list::compliant::<T, N>(&mut priced);
     done()
@@ -132,11 +129,8 @@ pub fn states<T: Compared<B, N, W>, const B: usize, const N: usize, const W: usi
     let Ok(way) = T::way() else {
         target::fail("the robot cannot go there");
     };
-    let mut tick = way.ticks() / 4;
-    let course = [(); TICKS].map(|()| {
-        tick += 1;
-        momentary(way.at(tick))
-    });
+    let first = way.ticks() / 4 + 1;
+    let course = core::array::from_fn(|k| momentary(way.at(first + k as u32)));
     let (robot, algorithm) = (T::MODEL.name, "inverse");
     Priced {
         robot,

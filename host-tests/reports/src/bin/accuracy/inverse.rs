@@ -54,11 +54,10 @@ impl<const N: usize> Visitor<N> for Bench<N> {
             Errors::of(answers.zip(problems.iter().map(|problem| problem.truth)))
         };
         let states = !W::MEMORY && !self.states.is_empty();
-        let mut configuration = object(&W::KEY.axes());
-        configuration["plant"] = json!(self.plant);
+        let axes = W::KEY.axes();
         let line = json!({
             "key": W::KEY.to_string(),
-            "configuration": configuration,
+            "configuration": object(axes.iter().chain(&[("plant", self.plant)])),
             "anywhere": states.then(|| run(&self.states).max() / self.full_scale),
         });
         let scales = [self.full_scale, self.floor];

@@ -45,11 +45,8 @@ fn robot<T: LetGo<N>, const N: usize>() {
         true_motion::<T, _, N>(&damped, FINE),
     ];
     let energies = |[q, qd]: [[f64; N]; 2]| {
-        let state = State {
-            q,
-            qd,
-            qdd: [0.0; N],
-        };
+        let qdd = [0.0; N];
+        let state = State { q, qd, qdd };
         [
             Core::<T>::kinetic_energy(&state, &RIGID_BODY),
             Core::<T>::potential_energy(&q, &RIGID_BODY),
@@ -90,11 +87,11 @@ impl<const N: usize> Visitor<N> for Bench<N> {
                 drift.add(&[total(measured)], &[want]);
             }
             let [kinetic, angle] = self.scales;
-            let mut configuration = object(&S::KEY.axes());
-            configuration["step"] = json!(step.to_string());
+            let step = step.to_string();
+            let axes = S::KEY.axes();
             let mut line = json!({
                 "key": S::KEY.to_string(),
-                "configuration": configuration,
+                "configuration": object(axes.iter().chain(&[("step", &*step)])),
                 "unit": "rad per simulated second",
                 "drift": drift.max() / kinetic / seconds as f64,
             });

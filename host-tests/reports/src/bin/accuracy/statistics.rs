@@ -58,18 +58,13 @@ impl Errors {
 }
 
 /// Axes as a JSON object.
-pub fn object(axes: &[(&str, &str)]) -> Value {
-    axes.iter()
-        .map(|&(axis, value)| (axis.to_owned(), json!(value)))
-        .collect::<serde_json::Map<_, _>>()
-        .into()
+pub fn object<'a>(axes: impl Iterator<Item = &'a (&'a str, &'a str)>) -> Value {
+    let named = |&(axis, value): &(&str, &str)| (axis.to_owned(), json!(value));
+    Value::Object(axes.map(named).collect())
 }
 
 /// The same state in f64.
 pub fn widened<const N: usize>(state: &State<f32, N, N>) -> State<f64, N, N> {
-    State {
-        q: state.q.map(f64::from),
-        qd: state.qd.map(f64::from),
-        qdd: state.qdd.map(f64::from),
-    }
+    let [q, qd, qdd] = [state.q, state.qd, state.qdd].map(|numbers| numbers.map(f64::from));
+    State { q, qd, qdd }
 }

@@ -17,8 +17,8 @@ use crate::scenes::ur5e;
 
 /// The scene that all others are compared with.
 pub const RIGID: &str = "rigid_body";
-/// What the name begins with of a scene that lacks the effect.
-pub const LESS: &str = "less_";
+/// The prefix of the name of a scene without an effect.
+pub const WITHOUT: &str = "less_";
 
 /// What is done with each scene.
 pub trait Visitor<const N: usize> {

@@ -20,7 +20,7 @@ use firmware_demo::accuracy::key::Key;
 use firmware_demo::accuracy::model::{Full, InUnits, Rounded};
 use firmware_demo::accuracy::numbers::{Compensated, Fixed, FixedPoint, HalfTurns};
 use firmware_demo::accuracy::robots::momentary;
-use firmware_demo::accuracy::simulation::{self, DoublePendulum, LetGo};
+use firmware_demo::accuracy::simulation::{self, DoublePendulum, PassiveMotion};
 use firmware_demo::accuracy::{Inverse, Visitor, list};
 use host_tests::measured::largest;
 use host_tests::recordings::{Precise, load, read};
@@ -350,7 +350,7 @@ fn the_true_motions_are_those_of_lagrange_and_of_a_longer_step() {
             .flat_map(|(a, b)| a[0].into_iter().zip(b[0]));
         largest(pairs.map(|(a, b)| (a - b).abs()))
     }
-    fn coarser<T: LetGo<N>, const N: usize>() -> f64 {
+    fn coarser<T: PassiveMotion<N>, const N: usize>() -> f64 {
         let motion = |step| motion::true_motion::<T, _, N>(&RIGID_BODY, step);
         apart(&motion(motion::FINE), &motion(2 * motion::FINE))
     }

@@ -9,7 +9,7 @@ use dynamics_core::sim::{
     SemiImplicit,
 };
 use dynamics_core::state::State;
-use firmware_demo::accuracy::simulation::{DoublePendulum, LetGo};
+use firmware_demo::accuracy::simulation::{DoublePendulum, PassiveMotion};
 use host_tests::measured::{largest, within};
 use host_tests::tolerances::check;
 

@@ -28,7 +28,7 @@ use point::{Kind, Point, of_group};
 
 /// What is wanted.
 #[derive(clap::Args)]
-pub struct Wish {
+pub struct Args {
     /// Only this robot
     #[arg(long, value_enum, value_name = "NAME", ignore_case = true)]
     robot: Option<Robot>,
@@ -48,12 +48,12 @@ pub struct Wish {
 }
 
 /// Measures, writes page and pictures, and prints; or chooses.
-pub fn run(options: Options, wish: Wish) -> Result<ExitCode> {
-    let budget = match (wish.error, wish.cycles) {
+pub fn run(options: Options, args: Args) -> Result<ExitCode> {
+    let budget = match (args.error, args.cycles) {
         (Some(error), _) => Some(Budget::Error(error)),
         (None, cycles) => cycles.map(Budget::Cycles),
     };
-    let choice = budget.zip(wish.robot);
+    let choice = budget.zip(args.robot);
     let workspace = match choice {
         None => Workspace::for_reports()?,
         Some(_) => Workspace::find()?,
@@ -66,20 +66,20 @@ pub fn run(options: Options, wish: Wish) -> Result<ExitCode> {
         let what = format!("{file} has nothing of {robot} that is off by such an error");
         return Err(Error::check(what));
     }
-    if choice.is_none() | wish.measure {
+    if choice.is_none() | args.measure {
         let plan = Plan {
-            robots: wish.robot.map_or(Robot::ALL.to_vec(), |robot| vec![robot]),
+            robots: args.robot.map_or(Robot::ALL.to_vec(), |robot| vec![robot]),
             quick: false,
             kind: choice.map(|(budget, robot)| budget.group(robot).1),
         };
         let measured = plan.run(&workspace, &setup::for_demo(options)?)?;
         if choice.is_none() {
-            write(&workspace, &measured, wish.robot)?;
+            write(&workspace, &measured, args.robot)?;
         }
         points = measured.points;
     }
     let Some((budget, robot)) = choice else {
-        match wish.json {
+        match args.json {
             true => docs::print_json(&points)?,
             false => output::print(&page::terminal(&points))?,
         }
@@ -87,11 +87,11 @@ pub fn run(options: Options, wish: Wish) -> Result<ExitCode> {
     };
     let points = choice::shipped(&points, budget.group(robot));
     let points: Vec<&Point> = points.iter().collect();
-    if wish.json {
+    if args.json {
         docs::print_json(&budget.choose(&points)?)?;
     } else {
         output::print(&budget.answer(&points)?)?;
-        if !wish.measure {
+        if !args.measure {
             let file = recorded::FILE;
             output::note(&format!(
                 "\nFrom {file}; --measure takes its figures on this machine, in minutes."
@@ -110,7 +110,7 @@ pub fn check(workspace: &Workspace, tools: &Tools) -> Result<String> {
     };
     let measured = plan.run(workspace, tools)?;
     let (single, host, rustc) = (&measured.single, &measured.host, &measured.rustc);
-    let pasted = printed::check(&measured)?;
+    let generated = printed::check(&measured)?;
     page::SINGLES.check(workspace, &page::singles(single, rustc), Some(rustc))?;
     page::README.check(workspace, &page::brief(single, rustc), Some(rustc))?;
     let recorded = recorded::read(workspace)?;
@@ -134,7 +134,7 @@ pub fn check(workspace: &Workspace, tools: &Tools) -> Result<String> {
         .collect::<Result<Vec<String>>>()?
         .join("; ");
     Ok(format!(
-        "{} configurations, {pasted} of them as printed; {pictures} pictures as recorded; {saved}",
+        "{} configurations, {generated} of them as printed; {pictures} pictures as recorded; {saved}",
         single.len()
     ))
 }

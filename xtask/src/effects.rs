@@ -39,7 +39,7 @@ const PICTURE: &str = "docs/effects.svg";
 
 /// The scene that others are compared with, and the prefix of the names of those without a term of it.
 const RIGID: &str = "rigid_body";
-const LESS: &str = "less_";
+const WITHOUT: &str = "less_";
 
 /// What an effect adds in a form: the fields are those of the JSON.
 #[derive(Clone, Debug, Serialize)]
@@ -138,7 +138,7 @@ fn priced(
         let bytes = bytes(scene).zip(bytes(RIGID));
         let (own, of_rigid) = bytes.ok_or_else(|| missing("size"))?;
         // What a scene lacks is the rigid body's own.
-        let (effect, sign) = match row.inputs.strip_prefix(LESS) {
+        let (effect, sign) = match row.inputs.strip_prefix(WITHOUT) {
             Some(term) => (term, -1),
             None => (&*row.inputs, 1),
         };

@@ -25,7 +25,7 @@ const ALGORITHMS: [(&str, &str); 5] = [
     ("rnea", "RNEA"),
     ("crba", "CRBA"),
     ("factor_solve", "factor + solve"),
-    ("forward", "bias + CRBA + factor + solve"),
+    ("forward_dynamics", "bias + CRBA + factor + solve"),
     ("aba", "ABA"),
 ];
 
@@ -102,10 +102,12 @@ impl Report {
     /// The first length at which articulated bodies take fewer instructions than M and its factors, and
     /// the length where both take as many, between the lengths measured.
     fn crossing(&self) -> Option<(usize, f64)> {
-        let pairs: Vec<(f64, f64)> =
-            std::iter::zip(self.instructions("aba"), self.instructions("forward"))
-                .map(|((n, aba), (_, forward))| (n as f64, aba as f64 - forward as f64))
-                .collect();
+        let pairs: Vec<(f64, f64)> = std::iter::zip(
+            self.instructions("aba"),
+            self.instructions("forward_dynamics"),
+        )
+        .map(|((n, aba), (_, forward))| (n as f64, aba as f64 - forward as f64))
+        .collect();
         let pair = pairs.windows(2).find(|p| p[0].1 > 0.0 && p[1].1 <= 0.0)?;
         let [(a, above), (b, below)] = [pair[0], pair[1]];
         Some((b as usize, a + (b - a) * above / (above - below)))
@@ -223,9 +225,9 @@ mod tests {
         };
         let report = Report {
             rows: vec![
-                row("forward", 8, 700),
+                row("forward_dynamics", 8, 700),
                 row("aba", 8, 800),
-                row("forward", 64, 6_900),
+                row("forward_dynamics", 64, 6_900),
                 row("aba", 64, 6_800),
             ],
             bars: Bars::from([("growth, aba a body, 64 / 8".into(), bar)]),

@@ -75,7 +75,7 @@ enum Command {
     /// Measure what each effect costs and the torque it contributes, rewrite docs/effects.md
     Effects(Json),
     /// Measure what accuracy costs in time, rewrite docs/accuracy.md and its plots; or choose a configuration
-    Accuracy(accuracy::Wish),
+    Accuracy(accuracy::Args),
     /// Measure a firmware of your own between its markers, and check its instructions
     #[command(after_long_help = user_firmware::MARKERS)]
     Meter(user_firmware::Args),

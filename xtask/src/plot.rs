@@ -6,7 +6,7 @@ use std::path::Path;
 use crate::bars::largest;
 use crate::chart::{self, Area, Axis, HPos, INK, Line, Outcome, RGBColor};
 use crate::error::Result;
-use crate::protocol::{FEEDFORWARD, PLANTS, Recording, Sample, in_print};
+use crate::protocol::{FEEDFORWARD, PLANTS, Recording, Sample, label};
 use crate::workspace;
 
 /// One colour per law; readable to the colour-blind.
@@ -139,7 +139,7 @@ fn errors(recording: &Recording, plant: &str, what: &str, below: u32, area: &Are
     let entries = laws.iter().zip(LAW_COLOURS).map(|(law, colour)| {
         let run = recording.trajectory(plant, law);
         let rms = short(run.map_or(f64::NAN, |run| 1e3 * run.total));
-        (format!("{}: {rms} mrad RMS", in_print(law)), colour)
+        (format!("{}: {rms} mrad RMS", label(law)), colour)
     });
     let left = ROOM[0] as i32;
     let head = format!("error where {what}");

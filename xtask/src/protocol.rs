@@ -247,7 +247,7 @@ fn number(word: &str) -> Option<f64> {
 }
 
 /// A law's name in print.
-pub fn in_print(law: &str) -> String {
+pub fn label(law: &str) -> String {
     match law {
         FEEDFORWARD => "feed-forward".into(),
         PD => "PD".into(),

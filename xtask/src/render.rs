@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::protocol::in_print;
+use crate::protocol::label;
 use crate::report::{Errors, JointError, MODEL, Report, Tracking};
 use crate::table::{Table, thousands};
 
@@ -49,7 +49,7 @@ impl Report {
         let table = Table::of(
             &laws,
             &[
-                ("tracking error RMS, mrad", &|((law, _), _)| in_print(law)),
+                ("tracking error RMS, mrad", &|((law, _), _)| label(law)),
                 ("exact model", &|((_, errors), _)| percent(errors, exact)),
                 ("model off", &|(_, (_, errors))| percent(errors, off)),
             ],
@@ -96,7 +96,7 @@ impl Report {
     fn gate(&self) -> String {
         let runs = self.trackings().into_iter().flat_map(|(what, tracking)| {
             let laws = tracking.laws().into_iter();
-            laws.map(move |(law, e)| (format!("{what}, {}", in_print(law)), words(&e.status)))
+            laws.map(move |(law, e)| (format!("{what}, {}", label(law)), words(&e.status)))
         });
         let said: Vec<(String, String)> = runs.collect();
         match said.as_slice() {
@@ -181,7 +181,7 @@ fn errors_table(tracking: &Tracking) -> Table {
     ];
     for (kind, (all, each)) in kinds {
         for (law, errors) in tracking.laws() {
-            let mut cells = vec![format!("{} {kind}", in_print(law))];
+            let mut cells = vec![format!("{} {kind}", label(law))];
             cells.extend(errors.per_joint.iter().map(|joint| milli(each(joint))));
             cells.push(milli(all(errors)));
             cells.push(format!("{:.1} %", 100.0 * all(errors) / all(&tracking.pd)));

@@ -41,7 +41,7 @@ pub struct Report {
     /// The effects that the scene names.
     pub named: Vec<String>,
     /// What each of them is worth that the scene runs without.
-    pub effects: Vec<Worth>,
+    pub effects: Vec<Ablation>,
     /// Code that the tick can reach, bytes: the rest of the flash simulates, compares and logs.
     pub tick_bytes: u64,
     /// Code, constants and initial values.
@@ -70,7 +70,7 @@ pub struct Tracking {
 
 /// What an effect costs, and what is lost without it.
 #[derive(Debug, Serialize, Deserialize)]
-pub struct Worth {
+pub struct Ablation {
     /// Its type.
     pub effect: String,
     /// Modelled cycles of the longest tick that dropping it saves.
@@ -148,7 +148,7 @@ impl Runs<'_> {
     }
 
     /// What each effect is worth that the scene runs without.
-    fn worths(&self, recording: &Recording, image: &Image) -> Result<Vec<Worth>> {
+    fn ablations(&self, recording: &Recording, image: &Image) -> Result<Vec<Ablation>> {
         let (full, full_cost) = self.find(PLANTS[0], FEEDFORWARD)?;
         let mut all = Vec::new();
         for effect in &recording.effects {
@@ -156,7 +156,7 @@ impl Runs<'_> {
             let Ok((run, cost)) = self.find(PLANTS[0], &law) else {
                 continue;
             };
-            all.push(Worth {
+            all.push(Ablation {
                 effect: effect.name.clone(),
                 cycles: full_cost.cycles.max as i64 - cost.cycles.max as i64,
                 flash_bytes: code(image, full)? as i64 - code(image, run)? as i64,
@@ -221,7 +221,7 @@ impl Report {
             tracking_mismatched: tracking(PLANTS[1])?,
             bound_rad: recording.bound,
             named: effects.map(|effect| effect.name.clone()).collect(),
-            effects: runs.worths(recording, image)?,
+            effects: runs.ablations(recording, image)?,
             tick_bytes: code(image, runs.find(PLANTS[0], FEEDFORWARD)?.0)?,
             flash_bytes: image.sizes.flash,
             ram_bytes: image.sizes.ram,

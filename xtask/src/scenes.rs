@@ -1,7 +1,7 @@
 //! All scenes in one table: what a tick costs and how well it tracks, and what each effect is worth.
 
 use crate::docs::Page;
-use crate::protocol::in_print;
+use crate::protocol::label;
 use crate::render::{CLOCK_MHZ, gate, milli};
 use crate::report::{Errors, MODEL, Report};
 use crate::table::{Table, thousands};
@@ -85,7 +85,7 @@ fn table(reports: &[&Report], set_off: impl Fn(&str) -> String) -> Table {
         for (law, errors) in &report.tracking.beside {
             let cycles = saved(longest as i64 - errors.tick_cycles as i64);
             let costs = [cycles, dash(), dash(), dash(), dash()];
-            table.row(row(in_print(law), costs, errors, dash()));
+            table.row(row(label(law), costs, errors, dash()));
         }
     }
     table

@@ -11,9 +11,9 @@ use super::inverse::{After, By, Following, In};
 use super::kernels::{Libm, Micromath};
 use super::key::Named;
 use super::model::{Full, GravityOnly, Modelled, NoCoriolis, Parameters, Without};
+use super::multirate::{Every, EveryLinearised};
 use super::numbers::{Compensated, FixedPoint};
 use super::robots::Swung;
-use super::sparse::{Every, EveryLinearised};
 use super::{Inverse, Visitor};
 
 macro_rules! ways {

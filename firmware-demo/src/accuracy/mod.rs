@@ -9,9 +9,9 @@
 //! | [`key`] | the name of a way, the same on target and host |
 //! | [`model`], [`form`], [`kernels`] | what is computed, by which form, with whose sines and cosines |
 //! | [`inverse`], [`numbers`] | ways that compute in every tick, in f32 and in other numbers |
-//! | [`sparse`] | ways that compute in every few ticks |
+//! | [`multirate`] | ways that compute in every few ticks |
 //! | [`compliant`] | ways to the motors of joints that give way |
-//! | [`simulation`], [`let_go`] | ways to simulate, and what |
+//! | [`simulation`], [`passive_motion`] | ways to simulate, and what |
 //! | [`list`], [`robots`] | all of them; whose they are |
 
 /// Ways: their generics but N, their types and keys, what else they have, what a tick is given and the numbers that it
@@ -44,13 +44,13 @@ pub mod form;
 pub mod inverse;
 pub mod kernels;
 pub mod key;
-pub mod let_go;
 pub mod list;
 pub mod model;
+pub mod multirate;
 pub mod numbers;
+pub mod passive_motion;
 pub mod robots;
 pub mod simulation;
-pub mod sparse;
 
 use dynamics_core::drivetrain::ElasticReference;
 use dynamics_core::scalar::Real;

@@ -11,7 +11,7 @@ use dynamics_core::state::State;
 
 use super::key::Named;
 pub use super::key::Simulated as Key;
-pub use super::let_go::{Damped, DoublePendulum, Engined, Free, LetGo, Scene};
+pub use super::passive_motion::{Damped, DoublePendulum, Engined, Free, PassiveMotion, Scene};
 
 /// A way to simulate.
 pub trait Simulation<const N: usize> {
@@ -60,7 +60,7 @@ pub struct Run<T, S, I, R, const N: usize, const COMPENSATED: bool> {
 impl<T, S, I, R, const N: usize, const COMPENSATED: bool> Simulation<N>
     for Run<T, S, I, R, N, COMPENSATED>
 where
-    T: LetGo<N>,
+    T: PassiveMotion<N>,
     S: Scene<T, R, N>,
     I: Integrator<R, N, N> + Named,
     R: Real + Named,
@@ -106,7 +106,7 @@ macro_rules! runs {
 }
 
 /// Shows every way to simulate the robot T to `visitor`.
-pub fn every<T: LetGo<N>, const N: usize>(visitor: &mut impl Visitor<N>) {
+pub fn every<T: PassiveMotion<N>, const N: usize>(visitor: &mut impl Visitor<N>) {
     single::<T, N, false>(visitor);
     single::<T, N, true>(visitor);
     runs! { visitor of T:
@@ -117,7 +117,9 @@ pub fn every<T: LetGo<N>, const N: usize>(visitor: &mut impl Visitor<N>) {
     }
 }
 
-fn single<T: LetGo<N>, const N: usize, const COMPENSATED: bool>(visitor: &mut impl Visitor<N>) {
+fn single<T: PassiveMotion<N>, const N: usize, const COMPENSATED: bool>(
+    visitor: &mut impl Visitor<N>,
+) {
     runs! { visitor of T:
         Free, Euler, f32, COMPENSATED;
         Free, SemiImplicit, f32, COMPENSATED;

@@ -1,5 +1,5 @@
 //! What single changes to the default way to compute torques cost, few enough for the tests; and what is printed to be
-//! pasted, as it is printed.
+//! generated, as it is printed.
 #![no_std]
 #![no_main]
 
@@ -17,7 +17,7 @@ macro_rules! measure {
     ($($robot:ident, $b:literal, $n:literal, $w:literal, $printed:ident;)*) => {$({
         let mut priced = accuracy::states::<$robot, $b, $n, $w>();
         list::single::<$robot, $b, $n>(&mut priced);
-        priced.algorithm = "pasted";
+        priced.algorithm = "generated";
         printed::$printed(&mut priced);
     })*};
 }

@@ -6,7 +6,7 @@ mod accuracy;
 
 #[cortex_m_rt::entry]
 fn main() -> ! {
-    accuracy::simulated::<firmware_demo::accuracy::let_go::DoublePendulum, 2>();
+    accuracy::simulated::<firmware_demo::accuracy::passive_motion::DoublePendulum, 2>();
     accuracy::simulated::<dynamics_core::robots::Ur5e, 6>();
     accuracy::done()
 }

@@ -71,7 +71,7 @@ functions! {
         = algorithms::crba(model, trig, &RIGID_BODY);
     factor_solve(model, m: &MassMatrix<f32, N>, tau: &[f32; N]) -> Solution<N>
         = Ok(solve(model, &ltdl(model, m)?, tau));
-    forward(model, trig: &JointTrig<f32, N>, state: &State<f32, N, N>) -> Solution<N>
+    forward_dynamics(model, trig: &JointTrig<f32, N>, state: &State<f32, N, N>) -> Solution<N>
         = algorithms::forward_dynamics(model, trig.with(state), &state.qdd, &RIGID_BODY);
     aba(model, trig: &JointTrig<f32, N>, state: &State<f32, N, N>) -> Solution<N>
         = algorithms::aba(model, trig.with(state), &state.qdd, &RIGID_BODY);
@@ -104,7 +104,7 @@ fn chain<const N: usize>() {
     measure!(crba on asks, ((trig, _)) => trig);
     let m = [crba(model, &asks[0].0)];
     measure!(factor_solve on &m, (m) => m, &[1.0; N]);
-    measure!(forward on asks, ((trig, state)) => trig, state);
+    measure!(forward_dynamics on asks, ((trig, state)) => trig, state);
     measure!(aba on asks, ((trig, state)) => trig, state);
 }
 

@@ -11,12 +11,12 @@ const PATHS: &str = "Core Engine control::FirstOrderHold control::ZeroOrderHold 
                      robots::Ur5e state::State state::IncrementalTrig trig::Minimax trig::Table";
 
 /// The simulation of the UR5e, which the tests compile and run.
-const SIMULATION: &str = include_str!("../../../host-tests/tests/pasted/ur5e_rk4.rs");
+const SIMULATION: &str = include_str!("../../../host-tests/tests/generated/ur5e_rk4.rs");
 
 /// The code, with what has to stand in the user's manifest.
 ///
 /// # Errors
-/// What the library does not ship cannot be pasted.
+/// What the library does not ship cannot be generated.
 pub fn rust(point: &Point) -> Result<String> {
     let code = match point.kind {
         Kind::Simulation => simulation(point)?,
@@ -112,7 +112,10 @@ fn simulation(point: &Point) -> Result<String> {
     let [_, integrator, compensated, scalar] = shipped(point, axes)?;
     let pendulum = [
         ("robots::Ur5e", "DoublePendulum"),
-        ("dynamics_core::D", "firmware_demo::accuracy::let_go::D"),
+        (
+            "dynamics_core::D",
+            "firmware_demo::accuracy::passive_motion::D",
+        ),
         ("Ur5e", "DoublePendulum"),
         ("6]", "2]"),
         ("6,", "2,"),
@@ -165,7 +168,7 @@ mod tests {
 
     /// All that the library ships has code, in which nothing is left to be filled in.
     #[test]
-    fn whatever_the_library_ships_can_be_pasted() {
+    fn whatever_the_library_ships_can_be_generated() {
         let shipped = |point: &&Point| match point.kind {
             Kind::Simulation => {
                 point.on("scene") == "free" && point.on("integrator") != "implicit_damping"

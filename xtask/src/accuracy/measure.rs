@@ -71,8 +71,8 @@ pub struct Measured {
     pub points: Vec<Point>,
     /// Those that differ from the default in one thing, measured in a program of their own.
     pub single: Vec<Point>,
-    /// In a quick run, what is printed to be pasted.
-    pub pasted: Vec<Point>,
+    /// In a quick run, what is printed as generated code.
+    pub generated: Vec<Point>,
     /// What the host printed.
     pub host: Host,
     /// The compiler.
@@ -123,8 +123,8 @@ impl Plan {
         let (mut rows, host) = (rows?, Host::read(&lines?)?);
         let single: Vec<_> = rows.extract_if(.., |(bin, ..)| *bin == QUICK_BIN).collect();
         let mut single = join::join(&host, &single)?;
-        let is_pasted = |point: &mut Point| point.kind == Kind::Pasted;
-        let pasted = single.extract_if(.., is_pasted).collect();
+        let is_generated = |point: &mut Point| point.kind == Kind::Generated;
+        let generated = single.extract_if(.., is_generated).collect();
         let points = match self.quick {
             true => single.clone(),
             false => join::join(&host, &rows)?,
@@ -133,7 +133,7 @@ impl Plan {
         Ok(Measured {
             points,
             single,
-            pasted,
+            generated,
             host,
             rustc,
         })
@@ -154,9 +154,9 @@ impl Plan {
                 spinner.say(format!("running {bin} (opt-level {opt}) in QEMU"));
                 let elf = tools.toolchain.elf(workspace, profile, bin);
                 let mut rows = costs::run_for_time(tools, &meter, bin, &elf)?;
-                // Only the host's quick bin knows the errors of what is pasted.
+                // Only the host's quick bin knows the errors of what is generated.
                 rows.retain(|row| {
-                    let known = self.quick || row.algorithm != "pasted";
+                    let known = self.quick || row.algorithm != "generated";
                     known && self.robots.iter().any(|robot| robot.name() == row.robot)
                 });
                 all.extend(rows.into_iter().map(|row| (bin, opt, row)));

@@ -13,8 +13,8 @@ pub enum Kind {
     Inverse,
     /// A motion, step by step.
     Simulation,
-    /// Torques by the code that is printed to be pasted.
-    Pasted,
+    /// Torques by the code that is printed as generated code.
+    Generated,
     /// Errors of other causes.
     Yardstick,
     /// What leaving out velocity products loses.

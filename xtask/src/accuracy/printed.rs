@@ -1,4 +1,4 @@
-//! What is printed to be pasted is built and measured beside the ways that it was chosen for, as it is printed: it must
+//! The generated code is built and measured beside the ways that it was chosen for, as it is printed: it must
 //! cost and err the same.
 
 use std::path::PathBuf;
@@ -12,11 +12,11 @@ use crate::workspace::{self, Workspace};
 /// The variable that says to the bins `accuracy_quick` where the file is.
 pub const PRINTED: &str = "ACCURACY_PRINTED";
 
-/// What is pasted may take so much more than was promised, or less, as shares: a caller gets torques in registers in
+/// Generated code may take so much more than was promised, or less, as shares: a caller gets torques in registers in
 /// the one program and through memory in the other, and a function may be compiled into its caller.
 const CLOSE: std::ops::RangeInclusive<f64> = 0.95..=1.02;
 
-/// Of the UR5e, every single change that can be pasted; of the leg, one.
+/// Of the UR5e, every single change that can be generated; of the leg, one.
 fn is_sample(point: &Point) -> bool {
     let all = point.robot == "ur5e" || (&*point.robot, &*point.key) == ("a1_leg", "trig=minimax7");
     all && point.on("plant") == "rigid" && page::is_single(point, usize::MAX)
@@ -69,9 +69,9 @@ fn wrapped(point: &Point, way: &str, code: &str, joints: &str) -> String {
     code::filled(template, &values)
 }
 
-/// Fails unless all that is pasted reproduces its figures, errors to the bit; else says how much that is.
+/// Fails unless all generated code reproduces its figures, errors to the bit; else says how much that is.
 pub fn check(measured: &Measured) -> Result<usize> {
-    let mut unlike = Vec::new();
+    let mut different = Vec::new();
     let name = |point: &Point| [&point.robot, &point.key, point.on("plant")].join(" ");
     let figures = |point: &Point| {
         [
@@ -80,25 +80,25 @@ pub fn check(measured: &Measured) -> Result<usize> {
             point.costs()[1],
         ]
     };
-    for pasted in &measured.pasted {
-        let what = name(pasted);
+    for generated in &measured.generated {
+        let what = name(generated);
         let chosen = measured.single.iter().find(|point| name(point) == what);
-        let lacks = || Error::check(format!("{what} is pasted, but not measured otherwise"));
+        let lacks = || Error::check(format!("{what} is generated, but not measured otherwise"));
         let chosen = chosen.ok_or_else(lacks)?;
-        let [found, promised] = [pasted, chosen].map(figures);
+        let [found, promised] = [generated, chosen].map(figures);
         let mut ratios = std::iter::zip(found, promised).map(|(found, promised)| found / promised);
-        let errors = [chosen, pasted].map(Point::errors);
+        let errors = [chosen, generated].map(Point::errors);
         if !ratios.all(|ratio| CLOSE.contains(&ratio)) || errors[0] != errors[1] {
-            unlike.push(format!(
+            different.push(format!(
                 "{what}: instructions, cycles and their mean were promised as {promised:?}, errors as {:?}, but what is \
-                 pasted has {found:?} and {:?}",
+                 generated has {found:?} and {:?}",
                 errors[0], errors[1]
             ));
         }
     }
-    match (measured.pasted.len(), unlike.is_empty()) {
-        (0, _) => Err(Error::check("nothing that is pasted was measured")),
+    match (measured.generated.len(), different.is_empty()) {
+        (0, _) => Err(Error::check("no generated code was measured")),
         (count, true) => Ok(count),
-        _ => Err(Error::check(unlike.join("\n"))),
+        _ => Err(Error::check(different.join("\n"))),
     }
 }

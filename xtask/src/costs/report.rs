@@ -107,7 +107,7 @@ impl Report {
                     == (&row.robot, &row.form, false, "aba")
             };
             let aba = self.rows.iter().find(of)?;
-            (row.algorithm == "forward" && !row.trig).then_some((
+            (row.algorithm == "forward_dynamics" && !row.trig).then_some((
                 row,
                 row.cycles.max,
                 aba.cycles.max,
@@ -126,7 +126,12 @@ impl Report {
                     format!("{:.2}", *aba as f64 / *forward as f64)
                 }),
                 ("shorter", &|(_, forward, aba)| {
-                    if aba < forward { "aba" } else { "forward" }.into()
+                    if aba < forward {
+                        "aba"
+                    } else {
+                        "forward_dynamics"
+                    }
+                    .into()
                 }),
             ],
         )

@@ -13,7 +13,7 @@ use dynamics_core::control::Reference;
 use dynamics_core::drivetrain::ElasticReference;
 use dynamics_core::state::State;
 use firmware_demo::accuracy::robots::{Compared, Swung, momentary};
-use firmware_demo::accuracy::simulation::{self, LetGo, Simulation};
+use firmware_demo::accuracy::simulation::{self, PassiveMotion, Simulation};
 use firmware_demo::accuracy::{Inverse, Visitor, list};
 use firmware_demo::target;
 use heapless::String;
@@ -97,7 +97,7 @@ pub fn done() -> ! {
 }
 
 /// Measures every way to simulate the robot T.
-pub fn simulated<T: LetGo<N>, const N: usize>() {
+pub fn simulated<T: PassiveMotion<N>, const N: usize>() {
     simulation::every::<T, N>(&mut Stepped(T::MODEL.name));
 }
 

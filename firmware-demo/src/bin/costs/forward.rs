@@ -129,7 +129,7 @@ fn run<'a, T: Robot<B, N, N>, const B: usize, const N: usize>(
     }
     let forward = forms
         .iter()
-        .map(|form| (form, "forward", form.forward, form.forward_before));
+        .map(|form| (form, "forward_dynamics", form.forward, form.forward_before));
     let aba = forms
         .iter()
         .map(|form| (form, "aba", form.aba, form.aba_before));

@@ -4,7 +4,7 @@ use dynamics_core::effects::Effect;
 use dynamics_core::model::Static;
 use dynamics_core::sim::{Integrator, KahanState, ModelDynamics, RungeKutta};
 use dynamics_core::state::State;
-use firmware_demo::accuracy::simulation::LetGo;
+use firmware_demo::accuracy::simulation::PassiveMotion;
 
 /// µs from one comparison to the next.
 pub const SAMPLE: u32 = 20_000;
@@ -14,7 +14,7 @@ pub const FINE: u32 = 20;
 pub const SECOND: usize = (1_000_000 / SAMPLE) as usize;
 
 /// q and q̇ after each sample of the first second, in f64 by the core, in steps of so many µs.
-pub fn true_motion<T: LetGo<N>, E: Effect<f64, N, N>, const N: usize>(
+pub fn true_motion<T: PassiveMotion<N>, E: Effect<f64, N, N>, const N: usize>(
     effects: &E,
     step: u32,
 ) -> Vec<[[f64; N]; 2]> {

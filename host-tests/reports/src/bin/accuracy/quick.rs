@@ -1,5 +1,5 @@
 //! The errors of single changes to the default way to compute a torque: what the bin `accuracy` prints of them, from less
-//! to build; and of what is printed to be pasted, as it is printed. Arguments name the robots; none names all.
+//! to build; and of the generated code, as it is printed. Arguments name the robots; none names all.
 
 mod inverse;
 /// Written by `cargo xtask accuracy`.
@@ -18,7 +18,7 @@ macro_rules! print {
         $(if requested.is_empty() || requested.iter().any(|robot| robot == stringify!($name)) {
             inverse::print::<$robot, $b, $n, $w>(|bench| {
                 list::single::<$robot, $b, $n>(bench);
-                bench.kind = "pasted";
+                bench.kind = "generated";
                 printed::$name(bench);
             });
         })*

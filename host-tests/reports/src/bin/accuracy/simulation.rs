@@ -9,7 +9,7 @@ use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::robots::Ur5e;
 use dynamics_core::state::State;
 use firmware_demo::accuracy::simulation::{
-    Damped, DoublePendulum, LetGo, Scene, Simulation, Visitor, every,
+    Damped, DoublePendulum, PassiveMotion, Scene, Simulation, Visitor, every,
 };
 use host_tests::measured::largest;
 use serde_json::{Value, json};
@@ -38,7 +38,7 @@ pub fn print() {
     robot::<Ur5e, 6>();
 }
 
-fn robot<T: LetGo<N>, const N: usize>() {
+fn robot<T: PassiveMotion<N>, const N: usize>() {
     let damped = <Damped<f64, N> as Scene<T, f64, N>>::effects();
     let truth = [
         true_motion::<T, _, N>(&RIGID_BODY, FINE),

@@ -7,9 +7,9 @@ use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
 
 /// The robot without torques.
-pub struct LetGo;
+pub struct PassiveMotion;
 
-impl Dynamics<f32, 6, 6> for LetGo {
+impl Dynamics<f32, 6, 6> for PassiveMotion {
     fn acceleration(&self, at: &State<f32, 6, 6>) -> Result<[f32; 6], NotPositiveDefinite> {
         Engine::<Ur5e>::forward_dynamics(at, &[0.0; 6], &RIGID_BODY)
     }
@@ -47,14 +47,16 @@ impl Simulation {
     /// From this state on.
     pub fn start(state: State<f32, 6, 6>) -> Self {
         Self {
-            integrator: Integrator::start(&LetGo, &state),
+            integrator: Integrator::start(&PassiveMotion, &state),
             motion: KahanState::at(state),
         }
     }
 
     /// One step; the state after it.
     pub fn step(&mut self) -> Result<&State<f32, 6, 6>, NotPositiveDefinite> {
-        let rates = self.integrator.step(&LetGo, &self.motion.state, STEP)?;
+        let rates = self
+            .integrator
+            .step(&PassiveMotion, &self.motion.state, STEP)?;
         self.motion.add(&rates, STEP);
         Ok(&self.motion.state)
     }

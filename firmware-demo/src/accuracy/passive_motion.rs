@@ -12,7 +12,7 @@ use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
 
 /// A robot that is let go.
-pub trait LetGo<const N: usize>: Robot<N, N, N> {
+pub trait PassiveMotion<const N: usize>: Robot<N, N, N> {
     /// q and q̇ at the start, exact in f32.
     const START: [[f64; N]; 2];
     /// Viscous friction of the scene `damped`, N·m·s/rad.
@@ -38,12 +38,12 @@ impl Robot<2, 2, 2> for DoublePendulum {
     };
 }
 
-impl LetGo<2> for DoublePendulum {
+impl PassiveMotion<2> for DoublePendulum {
     const START: [[f64; 2]; 2] = [[1.5, 0.5], [0.0, 0.0]];
     const DAMPING: [f64; 2] = [0.5, 5.0];
 }
 
-impl LetGo<6> for Ur5e {
+impl PassiveMotion<6> for Ur5e {
     const START: [[f64; 6]; 2] = [
         [0.0, -1.25, 1.0, -0.75, -1.0, 0.25],
         [0.5, 0.0, 0.0, 0.5, 0.0, 1.0],
@@ -71,7 +71,7 @@ impl<T, R: Real, const N: usize> Scene<T, R, N> for Free {
     }
 }
 
-impl<T: LetGo<N>, R: Real, const N: usize> Scene<T, R, N> for Damped<R, N> {
+impl<T: PassiveMotion<N>, R: Real, const N: usize> Scene<T, R, N> for Damped<R, N> {
     const NAME: &'static str = "damped";
     fn effects() -> Self {
         (RIGID_BODY, Viscous(T::DAMPING.map(R::from_f64)))

@@ -39,7 +39,7 @@ pub struct Priced<const N: usize> {
     course: Courses<N>,
 }
 
-/// Runs a row under the key that the host knows it by, with all else that is known of the way.
+/// Runs a row under the key by which the host knows all else.
 #[inline(always)]
 fn measure<A, T>(
     [robot, algorithm]: [&'static str; 2],

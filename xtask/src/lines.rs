@@ -163,7 +163,7 @@ mod tests {
         assert!(verdict(15_000, MOST - 5).is_ok());
         let error = verdict(15_000, MOST - 4).expect_err("too many").to_string();
         assert!(
-            error.contains("tooling 13123, at most 14450; library 15000"),
+            error.contains("tooling 13123, at most 13122; library 15000"),
             "{error}"
         );
         assert!(verdict(9_000, 8_994).is_ok());

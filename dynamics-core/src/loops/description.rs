@@ -7,6 +7,7 @@ use glam::{DMat3, DVec3};
 use super::error::{LoopModelError, LoopProblem};
 use super::joint_constraint::{JointConstraint, MOST, counts};
 use super::reach;
+use crate::algorithms::Pose;
 use crate::math::const_eval as m;
 use crate::model::{BASE, Joint, Model};
 use crate::scalar::{Matrix, Real, Vector};
@@ -53,6 +54,19 @@ impl BodyFrame {
         self
     }
 
+    /// The body that it is fixed on.
+    pub const fn body(&self) -> usize {
+        self.body
+    }
+
+    /// Its pose in the body's own frame.
+    pub const fn pose(&self) -> Pose<f64> {
+        Pose {
+            rot: self.rotation,
+            pos: m::vec3(self.position),
+        }
+    }
+
     const fn problem(&self, bodies: usize) -> Option<LoopProblem> {
         if self.body != BASE && self.body >= bodies {
             return Some(LoopProblem::NoBody(self.body));
@@ -90,6 +104,16 @@ impl LoopJoint {
     /// Its name.
     pub const fn name(&self) -> &'static str {
         self.name
+    }
+
+    /// The joint, its axes in the loop frames.
+    pub const fn joint(&self) -> &Joint<f64> {
+        &self.joint
+    }
+
+    /// The frames on its predecessor and on its successor.
+    pub const fn ends(&self) -> &[BodyFrame; 2] {
+        &self.ends
     }
 
     /// Its predecessor and its successor, as indices in the model's list or [`BASE`].

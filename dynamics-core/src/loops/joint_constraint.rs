@@ -80,14 +80,18 @@ impl<R: Real> JointConstraint<R> {
     /// φ: rotations as 2 tan(θ/2) about their axis, rad for small errors, and m.
     pub(super) fn position(&self) -> [R; MOST] {
         let ([x, y, z], o) = ((self.x.rot * self.x.pos).array(), R::ZERO);
+        // Of a joint that slides, the error across the predecessor's axis, or along it: that across the successor's
+        // would change with its tilt as much as it has slid.
+        let [across, away, along] = self.x.pos.array();
+        let [u, w, _] = (self.x.rot * R::Vec3::new(across, away, o)).array();
         let ([a, b], [p, q, r]) = (self.tilt(), self.turn());
         match self.kind {
             Fixed => [p, q, r, x, y, z],
-            Prismatic => [p, q, r, x, y, o],
+            Prismatic => [p, q, r, u, w, o],
             Revolute | Continuous => [a, b, x, y, z, o],
-            Helical => [a, b, x, y, self.thread(z), o],
-            Cylindrical => [a, b, x, y, o, o],
-            Planar => [a, b, z, o, o, o],
+            Helical => [a, b, u, w, self.thread(along), o],
+            Cylindrical => [a, b, u, w, o, o],
+            Planar => [a, b, along, o, o, o],
             Universal => {
                 let [[_, _, across], ..] = self.x.rot.cols().map(Vector::array);
                 [across, x, y, z, o, o]

@@ -238,7 +238,7 @@ impl<const L: usize, const C: usize, const A: usize> Loops<L, C, A> {
     /// use dynamics_core::robots::Ur5e;
     /// const LOOPS: Loops<1, 4, 6> = Loops::new(&Ur5e::MODEL, [
     ///     LoopJoint::new("table", Joint::planar(), [BodyFrame::new(BASE), BodyFrame::new(5)]),
-    /// ], [0, 1, 2, 3, 4, 5]); // error: loop `ur5e`: its loop joints constrain another number of directions than C: 3, not 4
+    /// ], [0, 1, 2, 3, 4, 5]); // error: robot `ur5e`: its loop joints constrain another number of directions than C: 3, not 4
     /// const _: usize = LOOPS.rows(0).end;
     /// ```
     ///
@@ -248,7 +248,37 @@ impl<const L: usize, const C: usize, const A: usize> Loops<L, C, A> {
     /// use dynamics_core::robots::Ur5e;
     /// const LOOPS: Loops<1, 3, 6> = Loops::new(&Ur5e::MODEL, [
     ///     LoopJoint::new("table", Joint::planar(), [BodyFrame::new(BASE), BodyFrame::new(5)]),
-    /// ], [0, 1, 2, 3, 4, 4]); // error: loop `ur5e`: a coordinate is actuated twice: 4
+    /// ], [0, 1, 2, 3, 4, 4]); // error: robot `ur5e`: a coordinate is actuated twice: 4
+    /// const _: usize = LOOPS.rows(0).end;
+    /// ```
+    ///
+    /// Nor does a loop that cannot close, or one of which too few coordinates are actuated, as far as lengths and numbers
+    /// show it. The rest is found at each configuration: [`super::LoopError`].
+    ///
+    /// ```compile_fail,E0080
+    /// # use dynamics_core::loops::{BodyFrame, LoopJoint, Loops};
+    /// # use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model};
+    /// # const Y: [f64; 3] = [0.0, 1.0, 0.0];
+    /// const TREE: ArmModel<f64, 2> = Model::new("triangle", [
+    ///     Body::new("short", BASE, Joint::revolute(Y)).mass(1.0),
+    ///     Body::new("long", BASE, Joint::revolute(Y)).xyz([0.6, 0.0, 0.0]).mass(1.0),
+    /// ]);
+    /// const LOOPS: Loops<1, 5, 1> = Loops::new(&TREE, [
+    ///     LoopJoint::new("apex", Joint::revolute(Y), [
+    ///         BodyFrame::new(0).xyz([0.2, 0.0, 0.0]),
+    ///         BodyFrame::new(1).xyz([0.3, 0.0, 0.0]),
+    ///     ]),
+    /// ], [0]); // error: loop `apex`: one link is longer than all the others together, so that it cannot close
+    /// const _: usize = LOOPS.rows(0).end;
+    /// ```
+    ///
+    /// ```compile_fail,E0080
+    /// # use dynamics_core::loops::{BodyFrame, LoopJoint, Loops};
+    /// # use dynamics_core::model::{BASE, Joint, Robot};
+    /// # use dynamics_core::robots::Ur5e;
+    /// const LOOPS: Loops<1, 3, 2> = Loops::new(&Ur5e::MODEL, [
+    ///     LoopJoint::new("table", Joint::planar(), [BodyFrame::new(BASE), BodyFrame::new(5)]),
+    /// ], [0, 1]); // error: robot `ur5e`: fewer coordinates are actuated than are free to move: 2 of at least 3
     /// const _: usize = LOOPS.rows(0).end;
     /// ```
     ///
@@ -386,8 +416,8 @@ impl<const L: usize, const C: usize, const A: usize> Loops<L, C, A> {
         passive
     }
 
-    /// The name of the loop that row `row` of K belongs to; the robot's if there is none.
-    pub(super) fn name_of_row(&self, row: usize) -> &'static str {
+    /// The name of the loop that row `row` of K belongs to, such as a redundant one; the robot's if there is none.
+    pub fn name_of_row(&self, row: usize) -> &'static str {
         let mut rows = self.joints.iter().enumerate();
         let joint = rows.find(|(i, _)| self.rows(*i).contains(&row));
         joint.map_or(self.robot, |(_, joint)| joint.name)

@@ -77,6 +77,17 @@ impl LoopProblem {
         }
     }
 
+    /// What the name is one of.
+    const fn subject(self) -> &'static str {
+        match self {
+            Self::Rows { .. }
+            | Self::NoCoordinate(_)
+            | Self::ActuatedTwice(_)
+            | Self::TooFewActuated { .. } => "robot `",
+            _ => "loop `",
+        }
+    }
+
     /// Numbers that the text needs, with the words before them.
     const fn numbers(self) -> [(&'static str, usize); 2] {
         const NONE: (&str, usize) = ("", 0);
@@ -91,7 +102,8 @@ impl LoopProblem {
 
 impl fmt::Display for LoopModelError {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(out, "loop `{}`: {}", self.name, self.problem.text())?;
+        let (subject, text) = (self.problem.subject(), self.problem.text());
+        write!(out, "{subject}{}`: {text}", self.name)?;
         for (words, number) in self.problem.numbers() {
             if !words.is_empty() {
                 write!(out, "{words}{number}")?;
@@ -106,8 +118,8 @@ impl core::error::Error for LoopModelError {}
 impl LoopModelError {
     /// Panics with the text of `Display`, in a form that a `const` evaluation can print.
     pub(super) const fn panic(self) -> ! {
-        let mut text = Text::EMPTY.with("loop `").with(self.name).with("`: ");
-        text = text.with(self.problem.text());
+        let mut text = Text::EMPTY.with(self.problem.subject()).with(self.name);
+        text = text.with("`: ").with(self.problem.text());
         let (numbers, mut i) = (self.problem.numbers(), 0);
         while i < numbers.len() {
             let (words, number) = numbers[i];
@@ -159,7 +171,7 @@ impl fmt::Display for LoopError {
                 out,
                 "loop `{name}`: coordinate {joint} moves although all actuated coordinates are held"
             ),
-            Self::NotFinite { name } => write!(out, "loop `{name}`: a number is not finite"),
+            Self::NotFinite { name } => write!(out, "`{name}`: a number is not finite"),
             Self::NotPositiveDefinite(error) => error.fmt(out),
         }
     }

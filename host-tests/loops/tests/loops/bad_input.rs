@@ -107,7 +107,8 @@ fn too_few_actuated_coordinates_are_refused_where_their_number_says_so() {
     let error = Loops::<1, 3, 2>::try_new(&Ur5e::MODEL, [table], [0, 1]).expect_err("too few");
     let (needed, given) = (3, 2);
     assert_eq!(error.problem, LoopProblem::TooFewActuated { needed, given });
-    let text = "loop `ur5e`: fewer coordinates are actuated than are free to move: 2 of at least 3";
+    let text =
+        "robot `ur5e`: fewer coordinates are actuated than are free to move: 2 of at least 3";
     assert_eq!(error.to_string(), text);
 }
 
@@ -127,12 +128,7 @@ fn a_loop_that_does_not_close_is_named() {
         panic!("{away:?}");
     };
     assert!(error > 0.1 && error < 1.0, "{error}");
-    let moved = assemble(
-        &model,
-        &loops,
-        &[core::f64::consts::PI, 0.1, 0.2],
-        Moving::All,
-    );
+    let moved = assemble(&model, &loops, &[2.5, 0.1, 0.2], Moving::All);
     assert!(moved.is_ok(), "{moved:?}");
 }
 

@@ -115,9 +115,8 @@ fn the_constraints_of_every_kind_of_joint_are_the_derivatives_of_their_errors() 
         errors::<3>(Joint::planar()),
         errors::<6>(Joint::fixed()),
     ];
-    println!("{all:?}");
     for [position, velocity] in all {
-        bounded("K q̇ by differences", position, 1e-6);
+        bounded("K q̇ by differences", position, 5e-7);
         bounded("K q̈ − k by differences", velocity, 5e-7);
     }
 }

@@ -174,7 +174,7 @@ where
     D: RobotModel<R, B, Q, V>,
 {
     let trig = state.configuration().trig_of(robot);
-    let (turns, qd) = (&trig.borrow().turns, &state.state().qd);
+    let (turns, qd) = (&trig.borrow().coordinates, &state.state().qd);
     let mut all = Constraints {
         jacobian: [[R::ZERO; V]; C],
         bias: [R::ZERO; C],

@@ -322,7 +322,7 @@ impl<const L: usize, const C: usize, const A: usize> Loops<L, C, A> {
                 let at = &joint.ends[end];
                 let body = match at.body {
                     BASE => DMat3::IDENTITY,
-                    body => model.links[body].frame,
+                    body => model.links[body].to_joint_frame,
                 };
                 frames[i][end] = Frame::of(body, &joint.joint, at);
                 end += 1;

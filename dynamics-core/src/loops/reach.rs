@@ -40,7 +40,7 @@ pub(super) const fn problem<const B: usize, const Q: usize, const V: usize>(
     while end < 2 {
         let body = if end == 0 { p } else { s };
         if body != BASE {
-            corners[end] = m::mul_vec(&model.links[body].frame, corners[end]);
+            corners[end] = m::mul_vec(&model.links[body].to_joint_frame, corners[end]);
         }
         end += 1;
     }

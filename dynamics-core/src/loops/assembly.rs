@@ -56,7 +56,7 @@ pub struct Assembly<R, const Q: usize> {
 /// Q.
 ///
 /// # Cost
-/// At most 60 steps, each of [`constraints`] and 4 C³ + 2 C² V flops. Not for the control tick.
+/// At most 60 steps, each of [`constraints()`] and 4 C³ + 2 C² V flops. Not for the control tick.
 ///
 /// # Source
 /// Yamashita & Fukushima, "On the rate of convergence of the Levenberg-Marquardt method" (2001).

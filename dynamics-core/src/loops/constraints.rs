@@ -226,8 +226,9 @@ where
                 all.bias.get_mut(row),
                 all.size.get_mut(row),
             ) {
-                (*p, *v) = (position[k], velocity[k]);
-                (*b, *s) = (-(known[k] + apparent[k]), sizes[(k >= rotations) as usize]);
+                (*p, *v) = (entry(&position, k), entry(&velocity, k));
+                *b = -(entry(&known, k) + entry(&apparent, k));
+                *s = if k < rotations { sizes[0] } else { sizes[1] };
             }
         }
         for (coordinate, column) in columns.iter().enumerate() {
@@ -255,7 +256,7 @@ struct Chain<R: Real> {
     a: Motion<R>,
 }
 
-/// Inward from a frame on body `at` to `ancestor`, setting the columns of the Jacobian of the frame on the way.
+/// Inward from a frame on body `at` to `ancestor`, setting the columns of the Jacobian of the frame.
 #[inline(always)]
 fn climb<R: Real, D, const B: usize, const Q: usize, const V: usize>(
     robot: &D,

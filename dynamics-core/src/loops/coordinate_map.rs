@@ -6,13 +6,16 @@
 use core::borrow::Borrow;
 
 use super::description::Loops;
-use super::elimination::{Elimination, LoopRows, eliminate};
+use super::elimination::{Elimination, LoopRows, dot, eliminate};
 use super::error::LoopError;
 use super::{Constraints, constraints};
 use crate::algorithms::{Damping, damped_inverse};
 use crate::model::RobotModel;
 use crate::scalar::Real;
 use crate::state::{Configuration, State, entry};
+
+/// The error of a loop relative to its size above which it counts as open.
+const OPEN: f64 = 1e-2;
 
 /// Whether the motion determines the torques.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,7 +46,7 @@ pub struct CoordinateMap<R, const V: usize, const C: usize, const A: usize> {
 /// V × the number of degrees of freedom.
 ///
 /// # Cost
-/// That of [`constraints`], and 2 C (V + C) r flops for a rank r of K.
+/// That of [`constraints()`], and 2 C (V + C) r flops for a rank r of K.
 ///
 /// # Source
 /// Featherstone, RBDA (2008), section 8.11.
@@ -99,9 +102,6 @@ where
 }
 
 impl<R: Real, const V: usize, const C: usize, const A: usize> CoordinateMap<R, V, C, A> {
-    /// The error of a loop relative to its size above which it counts as open.
-    const OPEN: f64 = 1e-2;
-
     #[inline(always)]
     pub(super) fn of<const L: usize>(
         loops: &Loops<L, C, A>,
@@ -109,7 +109,7 @@ impl<R: Real, const V: usize, const C: usize, const A: usize> CoordinateMap<R, V
     ) -> Result<Self, LoopError> {
         closing.check(loops)?;
         let (error, row) = closing.worst();
-        if error > R::from_f64(Self::OPEN) {
+        if error > R::from_f64(OPEN) {
             let (name, error) = (loops.name_of_row(row), error.to_f64());
             return Err(LoopError::Open { name, error });
         }
@@ -201,8 +201,8 @@ impl<R: Real, const V: usize, const C: usize, const A: usize> CoordinateMap<R, V
             }
         }
         let (inverse, _) = damped_inverse(&squares, Damping::relative(R::ZERO));
-        let weights = inverse.map(|row| super::elimination::dot(&row, &wanted));
-        g.map(|row| super::elimination::dot(&row, &weights))
+        let weights = inverse.map(|row| dot(&row, &wanted));
+        g.map(|row| dot(&row, &weights))
     }
 
     /// The λ that takes the place of the torques `rest` = τ − τ_a.

@@ -6,9 +6,11 @@
 use crate::scalar::Real;
 use crate::state::entry;
 
-/// The pivot, relative to the size of a loop, below which a row depends on those before it: some roots of the
-/// rounding error, since a pivot that much smaller multiplies rounding errors by its reciprocal.
-pub(super) const RANK: (f64, f32) = (1e-7, 2e-3);
+/// The pivot, relative to the size of a loop, below which a row of K depends on those before it, in f64 and in f32.
+///
+/// Some roots of the rounding error: a pivot p multiplies rounding errors by 1/p, and where that is more than p itself
+/// they decide. Closer than this to a singular configuration, in rad, a machine is treated as singular.
+pub const RANK_TOLERANCE: (f64, f32) = (1e-7, 2e-3);
 
 /// No row, or no column.
 const NONE: usize = usize::MAX;
@@ -88,7 +90,7 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
     /// The largest entry of the rows and columns without a pivot.
     #[inline(always)]
     fn largest(&self, allowed: impl Fn(usize) -> bool) -> Option<(usize, usize)> {
-        let (mut largest, mut place) = (R::select(RANK.0, RANK.1), None);
+        let (mut largest, mut place) = (R::select(RANK_TOLERANCE.0, RANK_TOLERANCE.1), None);
         for (i, row) in self.rows.iter().enumerate() {
             if entry(&self.column_of, i) != NONE {
                 continue;

@@ -41,7 +41,7 @@ pub struct LoopTorque<R: Real, const Q: usize, const V: usize, const C: usize, c
 /// A.
 ///
 /// # Cost
-/// That of [`rnea`](crate::algorithms::rnea()), of [`constraints`] twice and of
+/// That of [`rnea`](crate::algorithms::rnea()), of [`constraints()`] twice and of
 /// [`coordinate_map`](super::coordinate_map()).
 ///
 /// # Source

@@ -15,7 +15,7 @@
 //!
 //! Rows of K may depend on each other: a planar four-bar linkage in space has three rows too many, and a parallelogram
 //! that lies flat one more. The rank is found at each configuration by elimination with complete pivoting, relative to
-//! the size of each loop, and [`LoopRows`] says which rows were redundant. Where they are, the forces of the loop joint
+//! the size of each loop ([`RANK_TOLERANCE`]), and [`LoopRows`] says which rows were redundant. Where they are, the forces of the loop joint
 //! are not determined by the motion: redundant rows carry no force.
 //!
 //! ```
@@ -69,9 +69,9 @@ pub use assembly::{Assembly, Moving, assemble};
 pub use constraints::{Constraints, constraints};
 pub use coordinate_map::{CoordinateMap, Drive, coordinate_map};
 pub use description::{BodyFrame, LoopJoint, Loops};
-pub use elimination::LoopRows;
+pub use elimination::{LoopRows, RANK_TOLERANCE};
 pub use error::{LoopError, LoopModelError, LoopProblem};
-pub use forward_dynamics::{LoopMotion, Stabilisation, forward_dynamics};
+pub use forward_dynamics::{LoopMotion, Stabilisation, TIME_CONSTANT, forward_dynamics};
 pub use inverse_dynamics::{LoopTorque, inverse_dynamics};
 
 use crate::model::Robot;

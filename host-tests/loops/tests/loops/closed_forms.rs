@@ -2,10 +2,11 @@
 
 use dynamics_core::effects::{Gravity, RIGID_BODY};
 use dynamics_core::loops::{
-    Drive, LoopRobot, Moving, assemble, constraints, coordinate_map, inverse_dynamics,
+    Drive, LoopError, LoopRobot, Loops, Moving, Stabilisation, assemble, constraints,
+    coordinate_map, forward_dynamics, inverse_dynamics,
 };
 use dynamics_core::model::{Robot, Static};
-use dynamics_core::state::State;
+use dynamics_core::state::{State, all_finite};
 use host_tests::measured::{largest, within};
 use loop_tests::machines::{FOUR_BAR, FiveBar, FourBar, Machine, Parallelogram, ThreeMotors};
 use loop_tests::states::closed_states;
@@ -176,4 +177,127 @@ fn a_third_motor_shares_the_torque_with_the_least_norm() {
     }
     within("shared torque, N m", largest(errors), 4e-15);
     assert_eq!(saved, 200, "two motors with less than three");
+}
+
+/// The linkage with the motor at its rocker, where crank and coupler are in one line: a dead point.
+#[test]
+fn a_dead_point_is_an_error_of_inverse_dynamics_and_none_of_forward_dynamics() {
+    let joints = *FourBar::LOOPS.joints();
+    let loops = Loops::<1, 5, 1>::new(&FourBar::MODEL, joints, [2]);
+    let robot = Static::<FourBar>::NEW;
+    let [a, b, c, d] = FOUR_BAR;
+    let reach = a + b;
+    let crank = ((reach * reach + d * d - c * c) / (2.0 * reach * d)).acos();
+    let rocker = (reach * crank.sin()).atan2(reach * crank.cos() - d);
+    let dead = [-crank, 0.0, -rocker];
+    let state = State {
+        qd: [1.0, 0.0, 0.0],
+        ..State::at(dead)
+    };
+    let torque = inverse_dynamics(&robot, &loops, &state, &RIGID_BODY);
+    let Err(LoopError::UnderActuated {
+        name: "joint",
+        joint,
+    }) = torque
+    else {
+        panic!("{torque:?}");
+    };
+    assert!(joint < 2, "{joint}");
+    let motion = forward_dynamics(
+        &robot,
+        &loops,
+        &state,
+        &[1.0],
+        Stabilisation::NONE,
+        &RIGID_BODY,
+    );
+    assert_eq!(motion.expect("accelerations").rows.rank(), 2);
+
+    // Across it, in both scalars: a torque is finite, or there is none.
+    for k in -60_i32..60 {
+        let off = f64::from(k).signum() * (f64::from(k.abs()) * -0.4).exp();
+        let guess = [-crank + off, 0.0, -rocker];
+        let closed = assemble(&robot, &FourBar::LOOPS, &guess, Moving::Passive);
+        let Ok(closed) = closed else { continue };
+        let state = State {
+            qd: [0.0, 0.0, 1.0],
+            ..State::at(closed.q)
+        };
+        if let Ok(found) = inverse_dynamics(&robot, &loops, &state, &RIGID_BODY) {
+            assert!(
+                found.tau[0].is_finite() && all_finite(&found.lambda),
+                "{off}"
+            );
+        }
+        let state = State {
+            qd: [0.0, 0.0, 1.0],
+            ..State::at(closed.q.map(|x| x as f32))
+        };
+        if let Ok(found) = inverse_dynamics(&robot, &loops, &state, &RIGID_BODY) {
+            assert!(
+                found.tau[0].is_finite() && all_finite(&found.lambda),
+                "{off} in f32"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_parallelogram_moves_on_near_its_flat_configuration() {
+    let robot = Static::<Parallelogram>::NEW;
+    let mut errors = Vec::new();
+    for off in [1e-1_f64, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6] {
+        let state = State {
+            qd: [1.0, -1.0, 1.0],
+            qdd: [2.0, -2.0, 2.0],
+            ..State::at([-off, off, -off])
+        };
+        let id = inverse_dynamics(&robot, &Parallelogram::LOOPS, &state, &RIGID_BODY);
+        let (id, none) = (id.expect("a torque"), Stabilisation::NONE);
+        let fd = forward_dynamics(
+            &robot,
+            &Parallelogram::LOOPS,
+            &state,
+            &id.tau,
+            none,
+            &RIGID_BODY,
+        );
+        let qdd = fd.expect("accelerations").qdd;
+        // What the angle from flat multiplies rounding errors by.
+        let error = largest(
+            qdd.iter()
+                .zip(state.qdd)
+                .map(|(got, want)| (got - want).abs()),
+        );
+        errors.push(error * off);
+    }
+    within(
+        "accelerations near flat, times the angle",
+        largest(errors),
+        2e-14,
+    );
+    let flat = State {
+        qd: [1.0, -1.0, 1.0],
+        ..State::at([0.0_f64; 3])
+    };
+    let none = Stabilisation::NONE;
+    let motion = forward_dynamics(
+        &robot,
+        &Parallelogram::LOOPS,
+        &flat,
+        &[1.0],
+        none,
+        &RIGID_BODY,
+    );
+    let motion = motion.expect("accelerations");
+    assert_eq!(
+        (motion.rows.rank(), motion.rows.redundant().count()),
+        (1, 4)
+    );
+    assert!(
+        motion
+            .rows
+            .redundant()
+            .all(|row| Parallelogram::LOOPS.name_of_row(row) == "far_corner")
+    );
 }

@@ -74,9 +74,9 @@ fn minute<R: Real>(by: Stabilisation<R>) -> (f64, f64) {
 
 #[test]
 fn a_stabilised_loop_stays_closed_for_a_minute() {
-    let (error, energy) = minute(Stabilisation::critical(0.02_f64));
+    let (error, energy) = minute(Stabilisation::for_step(1e-3_f64));
     let (drift, _) = minute(Stabilisation::<f64>::NONE);
-    let (single, single_energy) = minute(Stabilisation::critical(0.02_f32));
+    let (single, single_energy) = minute(Stabilisation::for_step(1e-3_f32));
     within("opening in f64, stabilised, m", error, 1e-8);
     within("energy in f64, stabilised, J", energy, 8e-6);
     within("opening in f64, not stabilised, m", drift, 4e-5);
@@ -90,7 +90,7 @@ fn an_open_loop_closes_by_stabilisation() {
     state.q[1] += 0.05;
     let before = opening(&state);
     for _ in 0..400 {
-        state = step(&state, Stabilisation::critical(0.02), 1e-3);
+        state = step(&state, Stabilisation::for_step(1e-3), 1e-3);
     }
     within(
         "what is left of an opening after 20 time constants",

@@ -2,188 +2,15 @@
 
 use core::ops::Range;
 
-use glam::{DMat3, DVec3};
+use glam::DMat3;
 
 use super::error::{LoopModelError, LoopProblem};
 use super::joint_constraint::{JointConstraint, MOST, counts};
-use super::reach;
-use crate::algorithms::Pose;
-use crate::math::const_eval as m;
+use super::loop_frame::{Both, Frame, both, select};
+use super::loop_joint::{BodyFrame, LoopJoint};
 use crate::model::{BASE, Joint, Model};
-use crate::scalar::{Matrix, Real, Vector};
+use crate::scalar::{Matrix, Real};
 use crate::spatial::{Force, Xform};
-
-/// A frame that is fixed on a body, one end of a loop.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BodyFrame {
-    pub(super) body: usize,
-    pub(super) position: [f64; 3],
-    pub(super) rotation: DMat3,
-    /// The largest of roll, pitch and yaw, rad.
-    largest_angle: f64,
-}
-
-impl BodyFrame {
-    /// The body's own frame. `body` is an index in the model's list, or [`BASE`].
-    pub const fn new(body: usize) -> Self {
-        Self {
-            body,
-            position: [0.0; 3],
-            rotation: DMat3::IDENTITY,
-            largest_angle: 0.0,
-        }
-    }
-
-    /// Its origin in the body's frame, m.
-    pub const fn xyz(mut self, position: [f64; 3]) -> Self {
-        self.position = position;
-        self
-    }
-
-    /// Its attitude in the body's frame, as [`crate::model::Body::rpy`].
-    pub const fn rpy(mut self, rpy: [f64; 3]) -> Self {
-        self.largest_angle = rpy[0].abs().max(rpy[1].abs()).max(rpy[2].abs());
-        self.rotation = m::rotation(m::sin_cos(rpy[0]), m::sin_cos(rpy[1]), m::sin_cos(rpy[2]));
-        self
-    }
-
-    /// The same in quarter turns, exactly.
-    pub const fn quarter_turns(mut self, rpy: [i32; 3]) -> Self {
-        self.largest_angle = 0.0;
-        self.rotation = m::rotation(m::quarter(rpy[0]), m::quarter(rpy[1]), m::quarter(rpy[2]));
-        self
-    }
-
-    /// The body that it is fixed on.
-    pub const fn body(&self) -> usize {
-        self.body
-    }
-
-    /// Its pose in the body's own frame.
-    pub const fn pose(&self) -> Pose<f64> {
-        Pose {
-            rot: self.rotation,
-            pos: m::vec3(self.position),
-        }
-    }
-
-    const fn problem(&self, bodies: usize) -> Option<LoopProblem> {
-        if self.body != BASE && self.body >= bodies {
-            return Some(LoopProblem::NoBody(self.body));
-        }
-        let [x, y, z] = self.position;
-        let sum = x * 0.0 + y * 0.0 + z * 0.0 + self.largest_angle * 0.0;
-        if sum != 0.0 || !self.rotation.x_axis.x.is_finite() {
-            return Some(LoopProblem::NotFinite);
-        }
-        if self.largest_angle > core::f64::consts::TAU {
-            return Some(LoopProblem::Angle);
-        }
-        None
-    }
-}
-
-/// A joint that closes a loop, between a predecessor and a successor.
-///
-/// Any kind of [`Joint`]; its axes are given in the loop frames. Where the joint's coordinates are zero, the frame on the
-/// successor is where that on the predecessor is. Which of two bodies is the predecessor matters for the sign of its
-/// force, and for the first axis of a universal joint, which is fixed on the predecessor.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LoopJoint {
-    pub(super) name: &'static str,
-    pub(super) joint: Joint<f64>,
-    pub(super) ends: [BodyFrame; 2],
-}
-
-impl LoopJoint {
-    /// A joint from a frame on the predecessor to one on the successor.
-    pub const fn new(name: &'static str, joint: Joint<f64>, ends: [BodyFrame; 2]) -> Self {
-        Self { name, joint, ends }
-    }
-
-    /// Its name.
-    pub const fn name(&self) -> &'static str {
-        self.name
-    }
-
-    /// The joint, its axes in the loop frames.
-    pub const fn joint(&self) -> &Joint<f64> {
-        &self.joint
-    }
-
-    /// The frames on its predecessor and on its successor.
-    pub const fn ends(&self) -> &[BodyFrame; 2] {
-        &self.ends
-    }
-
-    /// Its predecessor and its successor, as indices in the model's list or [`BASE`].
-    pub const fn bodies(&self) -> [usize; 2] {
-        [self.ends[0].body, self.ends[1].body]
-    }
-
-    const fn problem<const B: usize, const Q: usize, const V: usize>(
-        &self,
-        model: &Model<f64, B, Q, V>,
-    ) -> Option<LoopProblem> {
-        let mut end = 0;
-        while end < 2 {
-            if let Some(problem) = self.ends[end].problem(B) {
-                return Some(problem);
-            }
-            end += 1;
-        }
-        if self.ends[0].body == self.ends[1].body {
-            return Some(LoopProblem::SameBody);
-        }
-        if let Some(problem) = self.joint.problem() {
-            return Some(LoopProblem::Joint(problem));
-        }
-        let [rotations, translations] = counts(self.joint.kind);
-        if rotations + translations == 0 {
-            return Some(LoopProblem::Unconstrained);
-        }
-        reach::problem(self, model)
-    }
-}
-
-/// An aligned loop frame in the aligned frame of its body, in f64 and rounded to f32.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Frame {
-    /// Rotation of coordinates from the body's frame to this one, by rows.
-    rot: [([f64; 3], [f32; 3]); 3],
-    pos: ([f64; 3], [f32; 3]),
-}
-
-impl Frame {
-    const fn of(body: DMat3, joint: &Joint<f64>, end: &BodyFrame) -> Self {
-        let rot = m::mul(&joint.normalised().frame(), &m::transpose(&end.rotation));
-        let rows = m::mul(&body, &m::transpose(&rot));
-        Self {
-            rot: [both(rows.x_axis), both(rows.y_axis), both(rows.z_axis)],
-            pos: both(m::mul_vec(&body, m::vec3(end.position))),
-        }
-    }
-
-    /// From the body's aligned frame to this one.
-    #[inline(always)]
-    fn xform<R: Real>(&self) -> Xform<R> {
-        let [x, y, z] = self.rot.each_ref().map(select::<R>);
-        Xform {
-            rot: R::Mat3::from_cols(x, y, z).transpose(),
-            pos: select::<R>(&self.pos),
-        }
-    }
-}
-
-const fn both(v: DVec3) -> ([f64; 3], [f32; 3]) {
-    let v = [v.x, v.y, v.z];
-    (v, [v[0] as f32, v[1] as f32, v[2] as f32])
-}
-
-#[inline(always)]
-fn select<R: Real>(&([x, y, z], [p, q, r]): &([f64; 3], [f32; 3])) -> R::Vec3 {
-    R::Vec3::new(R::select(x, p), R::select(y, q), R::select(z, r))
-}
 
 /// The L loops of a robot, which constrain C directions, and its A actuated coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -193,7 +20,7 @@ pub struct Loops<const L: usize, const C: usize, const A: usize> {
     pub(super) joints: [LoopJoint; L],
     frames: [[Frame; 2]; L],
     /// Rotation of coordinates from the loop frames as described to the aligned ones, by columns.
-    axes: [[([f64; 3], [f32; 3]); 3]; L],
+    axes: [[Both; 3]; L],
     first_rows: [usize; L],
     pub(super) actuated: [usize; A],
 }

@@ -54,6 +54,7 @@
 //! ```
 
 mod assembly;
+mod chain;
 mod constraints;
 mod coordinate_map;
 mod description;
@@ -62,17 +63,20 @@ mod error;
 mod forward_dynamics;
 mod inverse_dynamics;
 mod joint_constraint;
+mod loop_frame;
+mod loop_joint;
 mod mass_root;
 mod reach;
 
 pub use assembly::{Assembly, Moving, assemble};
 pub use constraints::{Constraints, constraints};
 pub use coordinate_map::{CoordinateMap, Drive, coordinate_map};
-pub use description::{BodyFrame, LoopJoint, Loops};
+pub use description::Loops;
 pub use elimination::{LoopRows, RANK_TOLERANCE};
 pub use error::{LoopError, LoopModelError, LoopProblem};
 pub use forward_dynamics::{LoopMotion, Stabilisation, TIME_CONSTANT, forward_dynamics};
 pub use inverse_dynamics::{LoopTorque, inverse_dynamics};
+pub use loop_joint::{BodyFrame, LoopJoint};
 
 use crate::model::Robot;
 

@@ -1,7 +1,7 @@
 //! Loops that close at no configuration, as far as their lengths say so.
 
-use super::description::LoopJoint;
 use super::error::LoopProblem;
+use super::loop_joint::LoopJoint;
 use crate::math::const_eval as m;
 use crate::model::JointKind::{self, *};
 use crate::model::{BASE, Model};

@@ -3,3 +3,4 @@
 pub mod export;
 pub mod machines;
 pub mod states;
+pub mod wrenches;

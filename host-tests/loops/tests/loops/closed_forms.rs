@@ -214,8 +214,8 @@ fn a_dead_point_is_an_error_of_inverse_dynamics_and_none_of_forward_dynamics() {
     assert_eq!(motion.expect("accelerations").rows.rank(), 2);
 
     // Across it, in both scalars: a torque is finite, or there is none.
-    for k in -400..400 {
-        let off = f64::from(k).signum() * (f64::from(k.abs()) * -0.05).exp();
+    for k in -60_i32..60 {
+        let off = f64::from(k).signum() * (f64::from(k.abs()) * -0.4).exp();
         let guess = [-crank + off, 0.0, -rocker];
         let closed = assemble(&robot, &FourBar::LOOPS, &guess, Moving::Passive);
         let Ok(closed) = closed else { continue };
@@ -246,7 +246,7 @@ fn a_dead_point_is_an_error_of_inverse_dynamics_and_none_of_forward_dynamics() {
 fn a_parallelogram_moves_on_near_its_flat_configuration() {
     let robot = Static::<Parallelogram>::NEW;
     let mut errors = Vec::new();
-    for off in [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6] {
+    for off in [1e-1_f64, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6] {
         let state = State {
             qd: [1.0, -1.0, 1.0],
             qdd: [2.0, -2.0, 2.0],
@@ -274,7 +274,7 @@ fn a_parallelogram_moves_on_near_its_flat_configuration() {
     within(
         "accelerations near flat, times the angle",
         largest(errors),
-        1.0,
+        2e-14,
     );
     let flat = State {
         qd: [1.0, -1.0, 1.0],

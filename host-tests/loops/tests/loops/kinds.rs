@@ -1,11 +1,14 @@
 //! Every kind of loop joint: K, k and φ against differences along a motion of a tree that mixes kinds.
 
+use dynamics_core::algorithms::{poses, rnea};
+use dynamics_core::effects::BodyWrench;
 use dynamics_core::loops::{BodyFrame, LoopJoint, Loops, Moving, assemble, constraints};
 use dynamics_core::model::{BASE, Body, Joint, Model};
 use dynamics_core::state::State;
 use dynamics_core::state::manifold::integrate;
 use host_tests::measured::{largest, within as bounded};
 use host_tests::random::{random_body, random_numbers, state_of, within};
+use loop_tests::wrenches::wrenches;
 
 /// Bodies, position and velocity coordinates: two branches on a trunk.
 const B: usize = 8;
@@ -34,10 +37,12 @@ fn tree(mut body: impl FnMut(&'static str, usize, Joint<f64>) -> Body) -> Model<
 }
 
 /// Errors of K q̇ against the change of φ where the loop is closed, and of K q̈ − k against that of K q̇ anywhere, both
-/// relative to full scale.
-fn errors<const C: usize>(joint: Joint<f64>) -> [f64; 2] {
+/// relative to full scale; and of Kᵀ λ against the torques of the loop joint's force, and K q̇ against the relative
+/// velocity, absolutely.
+fn errors<const C: usize>(joint: Joint<f64>) -> [f64; 3] {
     let (mut rng, h) = (random_numbers(), 1e-4);
     let (mut differences, mut sizes) = ([vec![], vec![]], [vec![], vec![]]);
+    let mut rounding = vec![];
     for _ in 0..TREES {
         let model =
             tree(|name, parent, joint| random_body(&mut rng, Body::new(name, parent, joint)));
@@ -92,14 +97,27 @@ fn errors<const C: usize>(joint: Joint<f64>) -> [f64; 2] {
             }
             for (row, rate) in now.jacobian.iter().zip(now.velocity) {
                 let products = row.iter().zip(state.qd).map(|(k, v)| k * v);
-                assert!(
-                    (products.sum::<f64>() - rate).abs() < 1e-12,
-                    "{joint:?}: K q̇"
-                );
+                rounding.push((products.sum::<f64>() - rate).abs());
+            }
+            let lambda = within::<C>(&mut rng, 1.0);
+            let (mut torque, poses) = ([0.0; V], poses(&model, &state.q));
+            let force = now.force(&loops, 0, &lambda);
+            for (body, wrench) in wrenches(&joints[0], force, &poses) {
+                let of_wrench = rnea(&model, state, &BodyWrench { body, wrench });
+                for (sum, tau) in torque.iter_mut().zip(of_wrench) {
+                    *sum += tau;
+                }
+            }
+            for (i, torque) in torque.into_iter().enumerate() {
+                let column = now.jacobian.iter().zip(lambda).map(|(row, l)| row[i] * l);
+                let sum = column.sum::<f64>() + torque;
+                rounding.push(sum.abs());
             }
         }
     }
-    [0, 1].map(|k| largest(differences[k].clone()) / largest(sizes[k].clone()))
+    let [position, velocity] =
+        [0, 1].map(|k| largest(differences[k].clone()) / largest(sizes[k].clone()));
+    [position, velocity, largest(rounding)]
 }
 
 #[test]
@@ -115,8 +133,9 @@ fn the_constraints_of_every_kind_of_joint_are_the_derivatives_of_their_errors() 
         errors::<3>(Joint::planar()),
         errors::<6>(Joint::fixed()),
     ];
-    for [position, velocity] in all {
+    for [position, velocity, rounding] in all {
         bounded("K q̇ by differences", position, 5e-7);
         bounded("K q̈ − k by differences", velocity, 5e-7);
+        bounded("K q̇ and Kᵀ λ", rounding, 2e-14);
     }
 }

@@ -5,13 +5,13 @@ use dynamics_core::effects::{BodyWrench, RIGID_BODY};
 use dynamics_core::loops::{LoopTorque, Stabilisation, forward_dynamics, inverse_dynamics};
 use dynamics_core::model::{RobotModel, Static};
 use dynamics_core::scalar::Real;
-use dynamics_core::spatial::Force;
 use dynamics_core::state::State;
 use dynamics_core::state::manifold::integrate;
 use host_tests::measured::largest;
 use host_tests::tolerances;
 use loop_tests::machines::{Delta, FiveBar, FourBar, Machine, Parallelogram, Stewart};
 use loop_tests::states::closed_states;
+use loop_tests::wrenches::wrenches;
 
 const STATES: usize = 200;
 
@@ -141,12 +141,6 @@ fn the_motors_supply_the_change_of_energy_and_loop_joints_none() {
     on_all!(balances);
 }
 
-/// The wrench `f` at a frame of pose (rot, pos) in a body's frame, about the body's origin and along its axes.
-fn at_origin(rot: glam::DMat3, pos: glam::DVec3, f: Force<f64>) -> Force<f64> {
-    let lin = rot * f.lin;
-    Force::new(rot * f.ang + pos.cross(lin), lin)
-}
-
 fn cut_bodies_balance<
     T,
     const B: usize,
@@ -169,22 +163,14 @@ where
         for lambda in [fd.lambda, id.lambda] {
             let poses = poses(&robot, &id.state.q);
             let mut tree = rnea(&robot, &id.state, &RIGID_BODY);
-            let mut load = |body: usize, wrench: Force<f64>| {
-                let of_wrench = rnea(&robot, &id.state, &BodyWrench { body, wrench });
-                for (tree, tau) in tree.iter_mut().zip(of_wrench) {
-                    *tree += tau;
-                }
-            };
             for (i, joint) in T::LOOPS.joints().iter().enumerate() {
                 let force = fd.constraints.force(&T::LOOPS, i, &lambda);
-                let ([p, s], [_, end]) = (joint.bodies(), joint.ends());
-                let (end, [p_pose, s_pose]) = (end.pose(), [p, s].map(|body| poses[body]));
-                load(s, at_origin(end.rot, end.pos, force));
-                // The successor's loop frame, in the predecessor's.
-                let back = p_pose.rot.transpose();
-                let rot = back * s_pose.rot * end.rot;
-                let pos = back * (s_pose.point(end.pos) - p_pose.pos);
-                load(p, -at_origin(rot, pos, force));
+                for (body, wrench) in wrenches(joint, force, &poses) {
+                    let of_wrench = rnea(&robot, &id.state, &BodyWrench { body, wrench });
+                    for (tree, tau) in tree.iter_mut().zip(of_wrench) {
+                        *tree += tau;
+                    }
+                }
             }
             let mut motors = [0.0; V];
             for (&i, tau) in T::LOOPS.actuated().iter().zip(id.tau) {

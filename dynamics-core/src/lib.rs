@@ -13,6 +13,7 @@
 //! | [`state`] | q, q̇, q̈; sines and cosines of one configuration; steps and differences of configurations |
 //! | [`effects`] | what acts on the robot: only what a scene names is computed |
 //! | [`algorithms`] | inverse and forward dynamics, M and its factors, kinematics, momenta, operational space: the textbook, for every model |
+//! | [`loops`] | kinematic loops: assembly, inverse and forward dynamics of trees that further joints close |
 //! | `textbook`: [`Core`] | the same for a robot known at compile time |
 //! | `engine`: [`Engine`] | inverse and forward dynamics, M and Jacobians, specialised by the compiler for a robot known at compile time |
 //! | [`drivetrain`] | between motors and joints: a constant matrix that couples them, or springs |
@@ -45,6 +46,7 @@ mod defmt_form;
 pub mod drivetrain;
 pub mod effects;
 mod engine;
+pub mod loops;
 mod math;
 pub mod model;
 pub mod robots;

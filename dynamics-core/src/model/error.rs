@@ -138,18 +138,18 @@ pub(super) const fn panic(parts: &[&str]) -> ! {
 }
 
 /// A message that is put together while compiling, where there is no `format!`.
-struct Text {
+pub(crate) struct Text {
     bytes: [u8; 160],
     length: usize,
 }
 
 impl Text {
-    const EMPTY: Self = Self {
+    pub(crate) const EMPTY: Self = Self {
         bytes: [b' '; 160],
         length: 0,
     };
 
-    const fn with(mut self, text: &str) -> Self {
+    pub(crate) const fn with(mut self, text: &str) -> Self {
         let (bytes, mut i) = (text.as_bytes(), 0);
         while i < bytes.len() && self.length < self.bytes.len() {
             self.bytes[self.length] = bytes[i];
@@ -159,13 +159,13 @@ impl Text {
         self
     }
 
-    const fn number(self, x: usize) -> Self {
+    pub(crate) const fn number(self, x: usize) -> Self {
         let digits = ["0", "1", "2", "3", "4", "5", "6", "7", "8", "9"];
         let text = if x > 9 { self.number(x / 10) } else { self };
         text.with(digits[x % 10])
     }
 
-    const fn panic(self) -> ! {
+    pub(crate) const fn panic(self) -> ! {
         match core::str::from_utf8(self.bytes.split_at(self.length).0) {
             Ok(text) => panic!("{}", text),
             Err(_) => panic!("a letter of the message was cut"),

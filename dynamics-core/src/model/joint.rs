@@ -93,7 +93,7 @@ impl Joint<f64> {
 
     /// The problem of its axes: those that its kind needs, at right angles within 10⁻⁹ rad if there are two, and of a
     /// finite pitch.
-    pub(super) const fn problem(&self) -> Option<Problem> {
+    pub(crate) const fn problem(&self) -> Option<Problem> {
         use JointKind::*;
         match self.kind {
             Spherical | Planar | Free | Fixed => None,
@@ -115,7 +115,7 @@ impl Joint<f64> {
         }
     }
 
-    pub(super) const fn normalised(self) -> Self {
+    pub(crate) const fn normalised(self) -> Self {
         let (axis, mut first_axis) = (unit(self.axis), unit(self.first_axis));
         // At right angles but for rounding: what its description leaves is taken off the first axis.
         let skew = m::dot(first_axis, axis);
@@ -132,7 +132,7 @@ impl Joint<f64> {
 
     /// The rotation of coordinates from the body's frame to one whose z is the axis, and whose x is a
     /// universal joint's first axis; a signed permutation where the axes are coordinate axes.
-    pub(super) const fn frame(&self) -> DMat3 {
+    pub(crate) const fn frame(&self) -> DMat3 {
         use JointKind::*;
         match self.kind {
             Spherical | Planar | Free | Fixed => DMat3::IDENTITY,

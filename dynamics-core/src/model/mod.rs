@@ -77,6 +77,7 @@ mod source;
 
 pub(crate) use body::moments_excess;
 pub use body::{BASE, Body, JointLimits};
+pub(crate) use error::Text;
 pub use error::{ModelError, Problem};
 pub use floating_base::attach_to;
 pub use inertia::BodyInertia;

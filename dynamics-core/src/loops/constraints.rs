@@ -1,0 +1,249 @@
+//! Loop constraints: K, k, and the errors of position and velocity.
+//!
+//! Featherstone, RBDA (2008), section 8.2. The velocity of a loop joint's successor relative to its predecessor,
+//! Tᵀ (v_s − v_p), in the successor's loop frame. Only the joints between the two bodies and their nearest common
+//! ancestor count: what moves that ancestor, and how far away the base is, does not enter.
+
+use core::borrow::Borrow;
+
+use super::Stabilisation;
+use super::chain::{climb, common_ancestor, inverse};
+use super::description::Loops;
+use super::error::LoopError;
+use super::joint_constraint::counts;
+use crate::model::RobotModel;
+use crate::scalar::{Real, Vector};
+use crate::spatial::{Force, Motion, Xform};
+use crate::state::{Configuration, RobotState, all_finite, entry};
+
+/// The constraints of L loops in one state: K q̇ = 0 and K q̈ = k where the loops are closed and remain so.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Constraints<R: Real, const V: usize, const L: usize, const C: usize> {
+    /// K by rows, those of a loop's rotations before those of its translations.
+    pub jacobian: [[R; V]; C],
+    /// k, rad/s² and m/s².
+    pub bias: [R; C],
+    /// φ, the error of position of each row, rad and m.
+    pub position: [R; C],
+    /// K q̇, the error of velocity of each row, rad/s and m/s.
+    pub velocity: [R; C],
+    /// The size of a loop as its rows see it: the root of the sum of squares of the rotations, or translations, that all
+    /// coordinates of the loop give its successor. One for rows of a loop that none moves.
+    pub size: [R; C],
+    /// From each predecessor's aligned loop frame to the successor's.
+    poses: [Xform<R>; L],
+}
+
+impl<R: Real, const V: usize, const L: usize, const C: usize> Constraints<R, V, L, C> {
+    /// The largest error of position relative to the size of its loop, and its row.
+    #[inline(always)]
+    pub(super) fn worst(&self) -> (R, usize) {
+        let mut worst = (R::ZERO, 0);
+        for (row, (&error, &size)) in self.position.iter().zip(&self.size).enumerate() {
+            let error = error.abs() / size;
+            if error > worst.0 {
+                worst = (error, row);
+            }
+        }
+        worst
+    }
+
+    /// The rows of K over the sizes of their loops.
+    #[inline(always)]
+    pub(super) fn scaled(&self) -> [[R; V]; C] {
+        let mut rows = self.jacobian;
+        for (row, &size) in rows.iter_mut().zip(&self.size) {
+            let by = R::ONE / size;
+            row.iter_mut().for_each(|entry| *entry *= by);
+        }
+        rows
+    }
+
+    /// The errors of position over the sizes of their loops.
+    #[inline(always)]
+    pub(super) fn error(&self) -> [R; C] {
+        let mut error = self.position;
+        for (error, &size) in error.iter_mut().zip(&self.size) {
+            *error *= R::ONE / size;
+        }
+        error
+    }
+
+    /// Row `row` of K q̈, with what stabilises it.
+    #[inline(always)]
+    pub(super) fn wanted(&self, row: usize, by: Stabilisation<R>) -> R {
+        let errors =
+            by.velocity * entry(&self.velocity, row) + by.position * entry(&self.position, row);
+        entry(&self.bias, row) - errors
+    }
+
+    /// The loop that a coordinate moves most; the robot if it moves none.
+    pub(super) fn name_of<const A: usize>(
+        &self,
+        loops: &Loops<L, C, A>,
+        coordinate: usize,
+    ) -> &'static str {
+        let (mut largest, mut most) = (R::ZERO, C);
+        for (i, (row, &size)) in self.jacobian.iter().zip(&self.size).enumerate() {
+            let moves = (entry(row, coordinate) / size).abs();
+            if moves > largest {
+                (largest, most) = (moves, i);
+            }
+        }
+        loops.name_of_row(most)
+    }
+
+    /// The force of loop joint `i` on its successor, N·m about the origin and N, along the axes of the successor's loop
+    /// frame, from the λ of all loops. Its predecessor gets the opposite force.
+    pub fn force<const A: usize>(
+        &self,
+        loops: &Loops<L, C, A>,
+        i: usize,
+        lambda: &[R; C],
+    ) -> Force<R> {
+        let pose = self.poses.get(i).copied();
+        loops.wrench(i, pose.unwrap_or(Xform::IDENTITY), lambda)
+    }
+
+    /// # Errors
+    /// [`LoopError::NotFinite`] with the name of the first loop of which a number is not finite.
+    #[inline(always)]
+    pub(super) fn check<const A: usize>(&self, loops: &Loops<L, C, A>) -> Result<(), LoopError> {
+        for (row, entries) in self.jacobian.iter().enumerate() {
+            let others = [self.bias, self.position, self.velocity, self.size];
+            let others = others.map(|column| entry(&column, row));
+            if !(all_finite(entries) & all_finite(&others)) {
+                let name = loops.name_of_row(row);
+                return Err(LoopError::NotFinite { name });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The constraint Jacobian K and bias k of all loops, and their errors of position and velocity.
+///
+/// `state.qdd` is not read.
+///
+/// # Shape
+/// C × V and C.
+///
+/// # Cost
+/// O(C V) in all; for each joint of a loop some 200 flops.
+///
+/// # Source
+/// Featherstone, RBDA (2008), section 8.2.
+///
+/// # Example
+/// ```
+/// use dynamics_core::loops::{BodyFrame, LoopJoint, Loops, constraints};
+/// use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model};
+/// use dynamics_core::state::State;
+/// const Y: [f64; 3] = [0.0, 1.0, 0.0];
+/// const TREE: ArmModel<f64, 3> = Model::new("slider_crank", [
+///     Body::new("crank", BASE, Joint::revolute(Y)).mass(1.0).com([0.05, 0.0, 0.0]),
+///     Body::new("rod", 0, Joint::revolute(Y)).xyz([0.1, 0.0, 0.0]).mass(1.0).com([0.15, 0.0, 0.0]),
+///     Body::new("piston", BASE, Joint::prismatic([1.0, 0.0, 0.0])).xyz([0.4, 0.0, 0.0]).mass(0.5),
+/// ]);
+/// const LOOPS: Loops<1, 5, 1> = Loops::new(&TREE, [
+///     LoopJoint::new("pin", Joint::revolute(Y), [
+///         BodyFrame::new(2),
+///         BodyFrame::new(1).xyz([0.3, 0.0, 0.0]),
+///     ]),
+/// ], [0]);
+/// let stretched = constraints(&TREE, &LOOPS, &State { qd: [1.0, 0.0, 0.0], ..State::at([0.0; 3]) });
+/// assert_eq!(stretched.position, [0.0; 5]); // the rod reaches the piston
+/// assert!(stretched.velocity.iter().any(|error| error.abs() > 0.3)); // m/s: the crank alone would lift its end
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn constraints<
+    R: Real,
+    D,
+    const B: usize,
+    const Q: usize,
+    const V: usize,
+    const L: usize,
+    const C: usize,
+    const A: usize,
+>(
+    robot: &D,
+    loops: &Loops<L, C, A>,
+    state: impl RobotState<R, Q, V>,
+) -> Constraints<R, V, L, C>
+where
+    D: RobotModel<R, B, Q, V>,
+{
+    let trig = state.configuration().trig_of(robot);
+    let (turns, qd) = (&trig.borrow().coordinates, &state.state().qd);
+    let mut all = Constraints {
+        jacobian: [[R::ZERO; V]; C],
+        bias: [R::ZERO; C],
+        position: [R::ZERO; C],
+        velocity: [R::ZERO; C],
+        size: [R::ONE; C],
+        poses: [Xform::IDENTITY; L],
+    };
+    for (i, (joint, [frame_p, frame_s])) in loops.ends::<R>().enumerate() {
+        let [p, s] = joint.bodies();
+        let ancestor = common_ancestor(robot, p, s);
+        let mut columns = [Motion::ZERO; V];
+        let predecessor = climb(robot, (turns, qd), (p, frame_p), ancestor, &mut columns);
+        let successor = climb(robot, (turns, qd), (s, frame_s), ancestor, &mut columns);
+        let x = successor.x * inverse(&predecessor.x);
+        let mut at = p;
+        while at != ancestor {
+            let Some(link) = robot.link(at) else {
+                break;
+            };
+            for column in columns.get_mut(link.coordinates()).unwrap_or_default() {
+                *column = -(x * *column);
+            }
+            at = link.parent;
+        }
+        let v_p = x * predecessor.v;
+        let v = successor.v - v_p;
+        let a = successor.a - x * predecessor.a + v.cross(v_p);
+
+        let constraint = loops.constraint(joint, x);
+        let squares = columns.iter().fold([R::ZERO; 2], |[ang, lin], c| {
+            [ang + c.ang.dot(c.ang), lin + c.lin.dot(c.lin)]
+        });
+        let sizes = squares.map(|square| {
+            // A NaN remains one.
+            if square == R::ZERO {
+                R::ONE
+            } else {
+                square * square.rsqrt()
+            }
+        });
+        let [rotations, _] = counts(joint.joint.kind);
+        let (position, velocity) = (constraint.position(), constraint.across(v));
+        let (known, apparent) = (constraint.across(a), constraint.apparent(v));
+        for (k, row) in loops.rows(i).enumerate() {
+            if let (Some(p), Some(v), Some(b), Some(s)) = (
+                all.position.get_mut(row),
+                all.velocity.get_mut(row),
+                all.bias.get_mut(row),
+                all.size.get_mut(row),
+            ) {
+                (*p, *v) = (entry(&position, k), entry(&velocity, k));
+                *b = -(entry(&known, k) + entry(&apparent, k));
+                *s = if k < rotations { sizes[0] } else { sizes[1] };
+            }
+        }
+        for (coordinate, column) in columns.iter().enumerate() {
+            let column = constraint.across(*column);
+            let rows = all.jacobian.get_mut(loops.rows(i)).unwrap_or_default();
+            for (row, x) in rows.iter_mut().zip(column) {
+                if let Some(entry) = row.get_mut(coordinate) {
+                    *entry = x;
+                }
+            }
+        }
+        if let Some(pose) = all.poses.get_mut(i) {
+            *pose = x;
+        }
+    }
+    all
+}

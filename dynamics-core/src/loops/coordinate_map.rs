@@ -1,0 +1,245 @@
+//! The map from independent to all coordinates: q̇ = G ẏ, q̈ = G ÿ + ġ, and Gᵀ for torques.
+//!
+//! Featherstone, RBDA (2008), section 8.11. The independent coordinates are actuated ones: K is eliminated with its
+//! pivots in the passive coordinates first.
+
+use core::borrow::Borrow;
+
+use super::description::Loops;
+use super::elimination::{Elimination, LoopRows, dot, eliminate};
+use super::error::LoopError;
+use super::{Constraints, constraints};
+use crate::algorithms::{Damping, damped_inverse};
+use crate::model::RobotModel;
+use crate::scalar::Real;
+use crate::state::{Configuration, State, entry};
+
+/// The error of a loop relative to its size above which it counts as open.
+const OPEN: f64 = 1e-2;
+
+/// Whether the motion determines the torques.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Drive {
+    /// As many actuated coordinates as degrees of freedom: it does.
+    Determined,
+    /// More of them: of all torques that give the motion, those with the least sum of squares.
+    LeastNorm {
+        /// How many more.
+        redundancy: usize,
+    },
+}
+
+/// G of one configuration.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CoordinateMap<R, const V: usize, const C: usize, const A: usize> {
+    elimination: Elimination<R, V, C>,
+    size: [R; C],
+    actuated: [usize; A],
+    /// Which of the actuated coordinates are independent.
+    independent: [bool; A],
+}
+
+/// The map G from the independent to all coordinates, q̇ = G ẏ, where the loops are closed.
+///
+/// # Shape
+/// V × the number of degrees of freedom.
+///
+/// # Cost
+/// That of [`constraints()`], and 2 C (V + C) r flops for a rank r of K.
+///
+/// # Source
+/// Featherstone, RBDA (2008), section 8.11.
+///
+/// # Example
+/// ```
+/// use dynamics_core::loops::{BodyFrame, LoopJoint, Loops, coordinate_map};
+/// use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model};
+/// const Y: [f64; 3] = [0.0, 1.0, 0.0];
+/// const TREE: ArmModel<f64, 3> = Model::new("slider_crank", [
+///     Body::new("crank", BASE, Joint::revolute(Y)).mass(1.0).com([0.05, 0.0, 0.0]),
+///     Body::new("rod", 0, Joint::revolute(Y)).xyz([0.1, 0.0, 0.0]).mass(1.0).com([0.15, 0.0, 0.0]),
+///     Body::new("piston", BASE, Joint::prismatic([1.0, 0.0, 0.0])).xyz([0.4, 0.0, 0.0]).mass(0.5),
+/// ]);
+/// const LOOPS: Loops<1, 5, 1> = Loops::new(&TREE, [
+///     LoopJoint::new("pin", Joint::revolute(Y), [
+///         BodyFrame::new(2),
+///         BodyFrame::new(1).xyz([0.3, 0.0, 0.0]),
+///     ]),
+/// ], [0]);
+/// let map = coordinate_map(&TREE, &LOOPS, &[0.0_f64; 3])?;
+/// assert_eq!(map.degrees_of_freedom(), 1);
+/// assert!((map.velocity(&[3.0])[1] + 4.0).abs() < 1e-14); // the crank turns by 3 rad/s, the rod by −4
+/// # Ok::<(), dynamics_core::loops::LoopError>(())
+/// ```
+///
+/// # Errors
+/// [`LoopError::Open`] names a loop that is open by more than a hundredth of its size, [`LoopError::UnderActuated`] one
+/// that still moves with all actuated coordinates held, and the coordinate; [`LoopError::NotFinite`] the first loop of
+/// which a number is not finite.
+#[doc(alias = "explicit constraints")]
+#[inline(always)]
+pub fn coordinate_map<
+    R: Real,
+    D,
+    const B: usize,
+    const Q: usize,
+    const V: usize,
+    const L: usize,
+    const C: usize,
+    const A: usize,
+>(
+    robot: &D,
+    loops: &Loops<L, C, A>,
+    q: &impl Configuration<R, Q>,
+) -> Result<CoordinateMap<R, V, C, A>, LoopError>
+where
+    D: RobotModel<R, B, Q, V>,
+{
+    let trig = q.trig_of(robot);
+    let rest = State::at([R::ZERO; Q]);
+    CoordinateMap::of(loops, &constraints(robot, loops, trig.borrow().with(&rest)))
+}
+
+impl<R: Real, const V: usize, const C: usize, const A: usize> CoordinateMap<R, V, C, A> {
+    #[inline(always)]
+    pub(super) fn of<const L: usize>(
+        loops: &Loops<L, C, A>,
+        closing: &Constraints<R, V, L, C>,
+    ) -> Result<Self, LoopError> {
+        closing.check(loops)?;
+        let (error, row) = closing.worst();
+        if error > R::from_f64(OPEN) {
+            let (name, error) = (loops.name_of_row(row), error.to_f64());
+            return Err(LoopError::Open { name, error });
+        }
+        let passive = loops.passive();
+        let elimination = eliminate(closing.scaled(), &passive);
+        let mut independent = [false; A];
+        for joint in elimination.free() {
+            if entry(&passive, joint) {
+                let name = closing.name_of(loops, joint);
+                return Err(LoopError::UnderActuated { name, joint });
+            }
+            for (independent, &actuated) in independent.iter_mut().zip(&loops.actuated) {
+                *independent |= actuated == joint;
+            }
+        }
+        Ok(Self {
+            elimination,
+            size: closing.size,
+            actuated: loops.actuated,
+            independent,
+        })
+    }
+
+    /// The number of independent coordinates.
+    pub fn degrees_of_freedom(&self) -> usize {
+        self.elimination.free().count()
+    }
+
+    /// The independent coordinates y, as indices in q̇.
+    pub fn independent(&self) -> impl Iterator<Item = usize> {
+        self.elimination.free()
+    }
+
+    /// Which rows of K are independent.
+    pub fn rows(&self) -> LoopRows<C> {
+        self.elimination.loop_rows()
+    }
+
+    /// Whether there are more actuated than independent coordinates.
+    pub fn drive(&self) -> Drive {
+        match A.saturating_sub(self.degrees_of_freedom()) {
+            0 => Drive::Determined,
+            redundancy => Drive::LeastNorm { redundancy },
+        }
+    }
+
+    /// q̇ = G ẏ from the rates of the actuated coordinates; of a redundantly driven robot the independent ones count.
+    #[inline(always)]
+    pub fn velocity(&self, rates: &[R; A]) -> [R; V] {
+        self.elimination.complete(self.spread(rates), &[R::ZERO; C])
+    }
+
+    /// q̈ = G ÿ + ġ from the accelerations of the actuated coordinates and the k of [`Constraints::bias`].
+    #[inline(always)]
+    pub fn acceleration(&self, accelerations: &[R; A], bias: &[R; C]) -> [R; V] {
+        let mut right = *bias;
+        for (right, &size) in right.iter_mut().zip(&self.size) {
+            *right *= R::ONE / size;
+        }
+        self.elimination
+            .complete(self.spread(accelerations), &right)
+    }
+
+    /// The torques of the actuated coordinates that do what torques of all coordinates would: Gᵀ τ_a = Gᵀ τ, N·m or N.
+    ///
+    /// Of several, that with the least sum of squares, in which an N counts as an N·m.
+    #[inline(always)]
+    pub fn torque(&self, tau: &[R; V]) -> [R; A] {
+        let mut wanted = [R::ZERO; A];
+        for ((wanted, &joint), &independent) in
+            wanted.iter_mut().zip(&self.actuated).zip(&self.independent)
+        {
+            if independent {
+                *wanted = self.elimination.transposed(joint, tau);
+            }
+        }
+        if self.drive() == Drive::Determined {
+            return wanted;
+        }
+        // G of the actuated coordinates; a unit in the place of each that is not independent keeps Gᵀ G regular.
+        let g = self.actuated.map(|joint| self.row(joint));
+        let mut squares = [[R::ZERO; A]; A];
+        for (i, (squares, &independent)) in squares.iter_mut().zip(&self.independent).enumerate() {
+            for (j, square) in squares.iter_mut().enumerate() {
+                *square = g.iter().fold(R::ZERO, |sum, row| sum + row[i] * row[j]);
+            }
+            if !independent {
+                squares[i] = R::ONE;
+            }
+        }
+        let (inverse, _) = damped_inverse(&squares, Damping::relative(R::ZERO));
+        let weights = inverse.map(|row| dot(&row, &wanted));
+        g.map(|row| dot(&row, &weights))
+    }
+
+    /// The λ that takes the place of the torques `rest` = τ − τ_a.
+    #[inline(always)]
+    pub(super) fn lambda(&self, rest: &[R; V]) -> [R; C] {
+        let mut lambda = self.elimination.lambda(rest);
+        for (lambda, &size) in lambda.iter_mut().zip(&self.size) {
+            *lambda *= R::ONE / size;
+        }
+        lambda
+    }
+
+    /// Numbers of the independent coordinates in their places of all coordinates.
+    #[inline(always)]
+    fn spread(&self, of_actuated: &[R; A]) -> [R; V] {
+        let mut all = [R::ZERO; V];
+        let places = self.actuated.iter().zip(&self.independent);
+        for ((&joint, &independent), &x) in places.zip(of_actuated) {
+            if let (true, Some(place)) = (independent, all.get_mut(joint)) {
+                *place = x;
+            }
+        }
+        all
+    }
+
+    /// The row of G of one coordinate, in the places of the actuated ones.
+    #[inline(always)]
+    fn row(&self, joint: usize) -> [R; A] {
+        let pivot_row = self.elimination.row_of(joint);
+        let mut g = [R::ZERO; A];
+        let places = self.actuated.iter().zip(&self.independent);
+        for (g, (&of, &independent)) in g.iter_mut().zip(places) {
+            if independent {
+                let own = if of == joint { R::ONE } else { R::ZERO };
+                *g = pivot_row.map_or(own, |row| -entry(row, of));
+            }
+        }
+        g
+    }
+}

@@ -1,0 +1,282 @@
+//! The description of loops, as a person writes it, checked while compiling.
+
+use core::ops::Range;
+
+use glam::DMat3;
+
+use super::error::{LoopModelError, LoopProblem};
+use super::joint_constraint::{JointConstraint, MOST, counts};
+use super::loop_frame::{Both, Frame, both, select};
+use super::loop_joint::{BodyFrame, LoopJoint};
+use crate::model::{BASE, Joint, Model};
+use crate::scalar::{Matrix, Real};
+use crate::spatial::{Force, Xform};
+
+/// The L loops of a robot, which constrain C directions, and its A actuated coordinates.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Loops<const L: usize, const C: usize, const A: usize> {
+    /// The robot's name.
+    pub(super) robot: &'static str,
+    pub(super) joints: [LoopJoint; L],
+    frames: [[Frame; 2]; L],
+    /// Rotation of coordinates from the loop frames as described to the aligned ones, by columns.
+    axes: [[Both; 3]; L],
+    first_rows: [usize; L],
+    pub(super) actuated: [usize; A],
+}
+
+impl<const L: usize, const C: usize, const A: usize> Loops<L, C, A> {
+    /// Loops on `model`, and the indices in q̇ of the coordinates that have a motor; loops that cannot be do not compile.
+    ///
+    /// ```
+    /// use dynamics_core::loops::{BodyFrame, LoopJoint, Loops};
+    /// use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model};
+    /// const Y: [f64; 3] = [0.0, 1.0, 0.0];
+    /// const TREE: ArmModel<f64, 3> = Model::new("slider_crank", [
+    ///     Body::new("crank", BASE, Joint::revolute(Y)).mass(1.0),
+    ///     Body::new("rod", 0, Joint::revolute(Y)).xyz([0.1, 0.0, 0.0]).mass(1.0),
+    ///     Body::new("piston", BASE, Joint::prismatic([1.0, 0.0, 0.0])).mass(0.5),
+    /// ]);
+    /// const PIN: LoopJoint = LoopJoint::new("pin", Joint::revolute(Y), [
+    ///     BodyFrame::new(2),
+    ///     BodyFrame::new(1).xyz([0.3, 0.0, 0.0]),
+    /// ]);
+    /// const LOOPS: Loops<1, 5, 1> = Loops::new(&TREE, [PIN], [0]);
+    /// assert_eq!(LOOPS.rows(0), 0..5);
+    /// ```
+    ///
+    /// A loop on one body does not compile,
+    ///
+    /// ```compile_fail,E0080
+    /// use dynamics_core::loops::{BodyFrame, LoopJoint, Loops};
+    /// use dynamics_core::model::{Joint, Robot};
+    /// use dynamics_core::robots::A1;
+    /// const LOOPS: Loops<1, 3, 12> = Loops::new(&A1::MODEL, [
+    ///     LoopJoint::new("knee", Joint::spherical(), [BodyFrame::new(1), BodyFrame::new(1)]),
+    /// ], [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11]); // error: loop `knee`: both ends are on the same body
+    /// const _: usize = LOOPS.rows(0).end;
+    /// ```
+    ///
+    /// nor does another C than its joints make, nor a coordinate that is actuated twice:
+    ///
+    /// ```compile_fail,E0080
+    /// use dynamics_core::loops::{BodyFrame, LoopJoint, Loops};
+    /// use dynamics_core::model::{BASE, Joint, Robot};
+    /// use dynamics_core::robots::Ur5e;
+    /// const LOOPS: Loops<1, 4, 6> = Loops::new(&Ur5e::MODEL, [
+    ///     LoopJoint::new("table", Joint::planar(), [BodyFrame::new(BASE), BodyFrame::new(5)]),
+    /// ], [0, 1, 2, 3, 4, 5]); // error: robot `ur5e`: its loop joints constrain another number of directions than C: 3, not 4
+    /// const _: usize = LOOPS.rows(0).end;
+    /// ```
+    ///
+    /// ```compile_fail,E0080
+    /// use dynamics_core::loops::{BodyFrame, LoopJoint, Loops};
+    /// use dynamics_core::model::{BASE, Joint, Robot};
+    /// use dynamics_core::robots::Ur5e;
+    /// const LOOPS: Loops<1, 3, 6> = Loops::new(&Ur5e::MODEL, [
+    ///     LoopJoint::new("table", Joint::planar(), [BodyFrame::new(BASE), BodyFrame::new(5)]),
+    /// ], [0, 1, 2, 3, 4, 4]); // error: robot `ur5e`: a coordinate is actuated twice: 4
+    /// const _: usize = LOOPS.rows(0).end;
+    /// ```
+    ///
+    /// Nor does a loop that cannot close, or one of which too few coordinates are actuated, as far as lengths and numbers
+    /// show it. The rest is found at each configuration: [`super::LoopError`].
+    ///
+    /// ```compile_fail,E0080
+    /// # use dynamics_core::loops::{BodyFrame, LoopJoint, Loops};
+    /// # use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model};
+    /// # const Y: [f64; 3] = [0.0, 1.0, 0.0];
+    /// const TREE: ArmModel<f64, 2> = Model::new("triangle", [
+    ///     Body::new("short", BASE, Joint::revolute(Y)).mass(1.0),
+    ///     Body::new("long", BASE, Joint::revolute(Y)).xyz([0.6, 0.0, 0.0]).mass(1.0),
+    /// ]);
+    /// const LOOPS: Loops<1, 5, 1> = Loops::new(&TREE, [
+    ///     LoopJoint::new("apex", Joint::revolute(Y), [
+    ///         BodyFrame::new(0).xyz([0.2, 0.0, 0.0]),
+    ///         BodyFrame::new(1).xyz([0.3, 0.0, 0.0]),
+    ///     ]),
+    /// ], [0]); // error: loop `apex`: one link is longer than all the others together, so that it cannot close
+    /// const _: usize = LOOPS.rows(0).end;
+    /// ```
+    ///
+    /// ```compile_fail,E0080
+    /// # use dynamics_core::loops::{BodyFrame, LoopJoint, Loops};
+    /// # use dynamics_core::model::{BASE, Joint, Robot};
+    /// # use dynamics_core::robots::Ur5e;
+    /// const LOOPS: Loops<1, 3, 2> = Loops::new(&Ur5e::MODEL, [
+    ///     LoopJoint::new("table", Joint::planar(), [BodyFrame::new(BASE), BodyFrame::new(5)]),
+    /// ], [0, 1]); // error: robot `ur5e`: fewer coordinates are actuated than are free to move: 2 of at least 3
+    /// const _: usize = LOOPS.rows(0).end;
+    /// ```
+    ///
+    /// # Panics
+    /// As [`Loops::try_new`] errs, with the loop's name. Meant for `const` items, where a panic is a compile error.
+    pub const fn new<const B: usize, const Q: usize, const V: usize>(
+        model: &Model<f64, B, Q, V>,
+        joints: [LoopJoint; L],
+        actuated: [usize; A],
+    ) -> Self {
+        match Self::try_new(model, joints, actuated) {
+            Ok(loops) => loops,
+            Err(error) => error.panic(),
+        }
+    }
+
+    /// The same for descriptions of run time.
+    ///
+    /// # Errors
+    /// [`LoopModelError`] names the loop: no such body, both ends on one body or on bodies that cannot move relative to
+    /// each other, a joint that constrains nothing, axes or frames that cannot be, links of which one is longer than all
+    /// others together; or the robot: another C, actuated coordinates that do not exist, that are listed twice, or of
+    /// which there are fewer than V − C.
+    pub const fn try_new<const B: usize, const Q: usize, const V: usize>(
+        model: &Model<f64, B, Q, V>,
+        joints: [LoopJoint; L],
+        actuated: [usize; A],
+    ) -> Result<Self, LoopModelError> {
+        const NOWHERE: Frame = Frame::of(DMat3::IDENTITY, &Joint::fixed(), &BodyFrame::new(BASE));
+        let (mut frames, mut first_rows) = ([[NOWHERE; 2]; L], [0; L]);
+        let mut axes = [NOWHERE.rot; L];
+        let (mut rows, mut i) = (0, 0);
+        while i < L {
+            let joint = &joints[i];
+            if let Some(problem) = joint.problem(model) {
+                let name = joint.name;
+                return Err(LoopModelError { name, problem });
+            }
+            let mut end = 0;
+            while end < 2 {
+                let at = &joint.ends[end];
+                let body = match at.body {
+                    BASE => DMat3::IDENTITY,
+                    body => model.links[body].to_joint_frame,
+                };
+                frames[i][end] = Frame::of(body, &joint.joint, at);
+                end += 1;
+            }
+            let aligned = joint.joint.normalised().frame();
+            axes[i] = [
+                both(aligned.x_axis),
+                both(aligned.y_axis),
+                both(aligned.z_axis),
+            ];
+            let [rotations, translations] = counts(joint.joint.kind);
+            first_rows[i] = rows;
+            rows += rotations + translations;
+            i += 1;
+        }
+        if let Some(problem) = whole(V, [C, rows], &actuated) {
+            let name = model.name;
+            return Err(LoopModelError { name, problem });
+        }
+        Ok(Self {
+            robot: model.name,
+            joints,
+            frames,
+            axes,
+            first_rows,
+            actuated,
+        })
+    }
+
+    /// The loops.
+    pub const fn joints(&self) -> &[LoopJoint; L] {
+        &self.joints
+    }
+
+    /// The actuated coordinates, as indices in q̇.
+    pub const fn actuated(&self) -> &[usize; A] {
+        &self.actuated
+    }
+
+    /// The rows of loop `i` in K; none of a loop that there is not.
+    pub const fn rows(&self, i: usize) -> Range<usize> {
+        if i >= L {
+            return C..C;
+        }
+        let [rotations, translations] = counts(self.joints[i].joint.kind);
+        self.first_rows[i]..self.first_rows[i] + rotations + translations
+    }
+
+    /// The force of loop joint `i` on its successor, N·m and N, in the loop frame of the successor, from the λ of all
+    /// loops. Its predecessor gets the opposite force. `x` is from the predecessor's loop frame to the successor's.
+    pub(super) fn wrench<R: Real>(&self, i: usize, x: Xform<R>, lambda: &[R; C]) -> Force<R> {
+        let (Some(joint), Some(axes)) = (self.joints.get(i), self.axes.get(i)) else {
+            return Force::ZERO;
+        };
+        let mut own = [R::ZERO; MOST];
+        for (own, row) in own.iter_mut().zip(self.rows(i)) {
+            *own = lambda.get(row).copied().unwrap_or_default();
+        }
+        let force = self.constraint(joint, x).force(own);
+        let [a, b, c] = axes.each_ref().map(select::<R>);
+        let back = R::Mat3::from_cols(a, b, c);
+        Force::new(back.transpose_mul(force.ang), back.transpose_mul(force.lin))
+    }
+
+    #[inline(always)]
+    pub(super) fn constraint<R: Real>(&self, joint: &LoopJoint, x: Xform<R>) -> JointConstraint<R> {
+        JointConstraint {
+            kind: joint.joint.kind,
+            pitch: R::from_f64(joint.joint.pitch),
+            x,
+        }
+    }
+
+    /// Each loop joint, with the transforms from the aligned frames of its predecessor and successor to its own.
+    #[inline(always)]
+    pub(super) fn ends<R: Real>(&self) -> impl Iterator<Item = (&LoopJoint, [Xform<R>; 2])> {
+        let frames = self.frames.iter();
+        let xforms = frames.map(|ends| ends.each_ref().map(Frame::xform::<R>));
+        self.joints.iter().zip(xforms)
+    }
+
+    /// Which coordinates are not actuated.
+    #[inline(always)]
+    pub(super) fn passive<const V: usize>(&self) -> [bool; V] {
+        let mut passive = [true; V];
+        for &at in &self.actuated {
+            if let Some(passive) = passive.get_mut(at) {
+                *passive = false;
+            }
+        }
+        passive
+    }
+
+    /// The name of the loop that row `row` of K belongs to, such as a redundant one; the robot's if there is none.
+    pub fn name_of_row(&self, row: usize) -> &'static str {
+        let mut rows = self.joints.iter().enumerate();
+        let joint = rows.find(|(i, _)| self.rows(*i).contains(&row));
+        joint.map_or(self.robot, |(_, joint)| joint.name)
+    }
+}
+
+/// What is wrong with the robot as a whole: C, and the actuated coordinates.
+const fn whole<const A: usize>(
+    coordinates: usize,
+    [given, expected]: [usize; 2],
+    actuated: &[usize; A],
+) -> Option<LoopProblem> {
+    if expected != given {
+        return Some(LoopProblem::Rows { expected, given });
+    }
+    let mut i = 0;
+    while i < A {
+        if actuated[i] >= coordinates {
+            return Some(LoopProblem::NoCoordinate(actuated[i]));
+        }
+        let mut j = 0;
+        while j < i {
+            if actuated[i] == actuated[j] {
+                return Some(LoopProblem::ActuatedTwice(actuated[i]));
+            }
+            j += 1;
+        }
+        i += 1;
+    }
+    let needed = coordinates.saturating_sub(given);
+    if A < needed {
+        return Some(LoopProblem::TooFewActuated { needed, given: A });
+    }
+    None
+}

@@ -1,0 +1,6 @@
+//! Machines with kinematic loops, and their random states.
+
+pub mod export;
+pub mod machines;
+pub mod states;
+pub mod wrenches;

@@ -1,0 +1,29 @@
+//! The machines: planar linkages in space, and two parallel robots.
+
+mod delta;
+mod planar;
+mod stewart;
+
+pub use delta::Delta;
+pub use planar::{FOUR_BAR, FiveBar, FourBar, Parallelogram, ThreeMotors};
+pub use stewart::Stewart;
+
+use dynamics_core::loops::LoopRobot;
+
+/// A machine with a configuration near which it is tested.
+pub trait Machine<
+    const B: usize,
+    const Q: usize,
+    const V: usize,
+    const L: usize,
+    const C: usize,
+    const A: usize,
+>: LoopRobot<B, Q, V, L, C, A>
+{
+    /// A configuration that is nearly closed.
+    const HOME: [f64; Q];
+    /// How far the actuated coordinates go from there, rad or m.
+    const RANGE: f64;
+    /// Where in q each actuated coordinate is.
+    const ACTUATED_Q: [usize; A];
+}

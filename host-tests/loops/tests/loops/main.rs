@@ -1,0 +1,9 @@
+//! Kinematic loops: laws, closed forms, recordings of another library, bad input. One program, since all of it uses the
+//! same functions of the same machines.
+
+mod bad_input;
+mod closed_forms;
+mod drift;
+mod kinds;
+mod laws;
+mod recorded;

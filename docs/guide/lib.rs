@@ -15,6 +15,7 @@ pages! {
     first_torque "first-torque.md",
     effects "effects.md",
     accuracy "accuracy.md",
+    loops "loops.md",
     firmware "firmware.md",
     tuning "tuning.md",
     faults "faults.md",

@@ -1,0 +1,291 @@
+//! What the clusters' independent coordinates make of the spanning tree, and the maps back.
+
+use core::fmt;
+
+use super::description::{Places, sealed::Set};
+use super::layout::{INDEPENDENT, Layout, NONE};
+use super::{ClusterError, ClusterProblem, ClusteredRobot};
+use crate::algorithms::MassMatrix;
+use crate::scalar::Real;
+use crate::spatial::Motion;
+use crate::state::{JointTrig, State, StateWithTrig, entry};
+
+/// The spanning tree's state at y, ẏ, ÿ, with G: computed once a tick, for all algorithms.
+///
+/// Every algorithm of core and engine accepts [`TreeMotion::state`] or [`TreeMotion::configuration`]; what it returns goes back to y
+/// by [`TreeMotion::torque`], [`TreeMotion::inertia`] and [`TreeMotion::jacobian`]:
+///
+/// ```
+/// use dynamics_core::algorithms::frame;
+/// # use dynamics_core::clusters::{Branch, Clustered, ClusteredRobot, Driven, FourBar};
+/// # use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model, Robot};
+/// use dynamics_core::{Core, effects::RIGID_BODY, state::State};
+/// # struct Knee;
+/// # impl Robot<3, 3, 3> for Knee {
+/// #     const MODEL: ArmModel<f64, 3> = Model::new("knee", [
+/// #         Body::new("crank", BASE, Joint::revolute([0.0, 0.0, 1.0])).mass(0.1).com([0.02, 0.0, 0.0]),
+/// #         Body::new("rod", 0, Joint::revolute([0.0, 0.0, 1.0])).xyz([0.05, 0.0, 0.0]).mass(0.1).com([0.1, 0.0, 0.0]),
+/// #         Body::new("shank", BASE, Joint::revolute([0.0, 0.0, 1.0])).xyz([0.2, 0.0, 0.0]).mass(1.0).com([0.0, -0.2, 0.0]),
+/// #     ]);
+/// # }
+/// # impl ClusteredRobot<3, 3, 3, 1, 1> for Knee {
+/// #     type Clusters = (Driven<FourBar, 3, 1>,);
+/// #     const CLUSTERS: Self::Clusters = (Driven::new("knee", FourBar::new(0.2, 0.05, 0.2, 0.06, Branch::Positive)),);
+/// #     const COORDINATES: &'static [&'static [usize]] = &[&[0, 1, 2]];
+/// # }
+/// let knee = Clustered::<Core<Knee>>::motion(&State { q: [1.0], qd: [2.0], qdd: [10.0] })?;
+/// let tau = knee.torque(&Core::<Knee>::rnea(knee.state(), &RIGID_BODY)); // inverse dynamics
+/// let m = knee.inertia(&Core::<Knee>::crba(knee.configuration(), &RIGID_BODY)); // M of y
+/// let j = knee.jacobian(&Core::<Knee>::jacobian(knee.configuration(), 2, frame::Local)); // of the shank
+/// assert!((j[0].ang.z * 2.0 - knee.state().state().qd[2]).abs() < 1e-15);
+/// # use dynamics_core::state::RobotState;
+/// # assert!(tau[0].is_finite() && m.get(0, 0) > 0.0);
+/// # Ok::<(), dynamics_core::clusters::ClusterError>(())
+/// ```
+pub struct TreeMotion<
+    R,
+    T,
+    const B: usize,
+    const Q: usize,
+    const V: usize,
+    const P: usize,
+    const Y: usize,
+> where
+    R: Real,
+    T: ClusteredRobot<B, Q, V, P, Y>,
+{
+    pub(super) trig: JointTrig<R, Q>,
+    pub(super) tree: State<R, Q, V>,
+    pub(super) motions: <T::Clusters as Set>::Motions<R>,
+    /// G of a coordinate in no cluster.
+    pub(super) one: [R; 1],
+}
+
+impl<R, T, const B: usize, const Q: usize, const V: usize, const P: usize, const Y: usize> Clone
+    for TreeMotion<R, T, B, Q, V, P, Y>
+where
+    R: Real,
+    T: ClusteredRobot<B, Q, V, P, Y>,
+{
+    fn clone(&self) -> Self {
+        Self { ..*self }
+    }
+}
+
+impl<R, T, const B: usize, const Q: usize, const V: usize, const P: usize, const Y: usize>
+    fmt::Debug for TreeMotion<R, T, B, Q, V, P, Y>
+where
+    R: Real,
+    T: ClusteredRobot<B, Q, V, P, Y>,
+{
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        out.debug_struct("TreeMotion")
+            .field("tree", &self.tree)
+            .field("motions", &self.motions)
+            .finish_non_exhaustive()
+    }
+}
+
+impl<R, T, const B: usize, const Q: usize, const V: usize, const P: usize, const Y: usize>
+    TreeMotion<R, T, B, Q, V, P, Y>
+where
+    R: Real,
+    T: ClusteredRobot<B, Q, V, P, Y>,
+{
+    pub(super) const LAYOUT: Layout<Q, V> = Places::<T, B, P, Y>::layout::<Q, V>();
+
+    /// γ(y), G ẏ and G ÿ + Ġ ẏ: the state of the tree with its sines and cosines.
+    #[inline(always)]
+    pub fn state(&self) -> StateWithTrig<'_, R, Q, V> {
+        self.trig.with(&self.tree)
+    }
+
+    /// γ(y) with its sines and cosines.
+    #[inline(always)]
+    pub fn configuration(&self) -> &JointTrig<R, Q> {
+        &self.trig
+    }
+
+    /// The name of the first cluster that is at a singularity, where G is damped.
+    pub fn singular(&self) -> Option<&'static str> {
+        let clusters = 0..<T::Clusters as Set>::SIZES.len();
+        let found = clusters
+            .into_iter()
+            .find(|&c| <T::Clusters as Set>::singular(&self.motions, c));
+        found.map(|c| T::CLUSTERS.name(c))
+    }
+
+    /// Gᵀ τ: the torques at y of the tree's torques, N·m or N. Cost: 2 M N flops for each cluster.
+    #[inline(always)]
+    pub fn torque(&self, tau: &[R; V]) -> [R; Y] {
+        let mut out = [R::ZERO; Y];
+        for (&place, &tau) in const { &Self::LAYOUT.free }.iter().zip(tau) {
+            if let Some(out) = out.get_mut(place) {
+                *out = tau;
+            }
+        }
+        <T::Clusters as Set>::torque::<R, T, B, Q, V, P, Y>(&self.motions, tau, &mut out);
+        out
+    }
+
+    /// Gᵀ M G: the inertia at y of the tree's M, kg·m², kg and kg·m.
+    #[must_use]
+    pub fn inertia(&self, m: &MassMatrix<R, V>) -> MassMatrix<R, Y> {
+        // M G by columns, and Gᵀ of each.
+        let mut columns = [[R::ZERO; V]; Y];
+        for v in 0..V {
+            let (first, g, _) = self.row(v);
+            for (k, &g) in g.iter().enumerate() {
+                if let Some(column) = columns.get_mut(first + k) {
+                    for (i, entry) in column.iter_mut().enumerate() {
+                        *entry += m.get(i, v) * g;
+                    }
+                }
+            }
+        }
+        MassMatrix {
+            rows: columns.map(|column| self.torque(&column)),
+        }
+    }
+
+    /// J G: the Jacobian with respect to ẏ of the tree's, by columns.
+    #[must_use]
+    pub fn jacobian(&self, j: &[Motion<R>; V]) -> [Motion<R>; Y] {
+        let mut columns = [Motion::ZERO; Y];
+        for (v, &column) in j.iter().enumerate() {
+            let (first, g, _) = self.row(v);
+            for (k, &g) in g.iter().enumerate() {
+                if let Some(sum) = columns.get_mut(first + k) {
+                    *sum += column * g;
+                }
+            }
+        }
+        columns
+    }
+
+    /// The torques of the motors that do the work of the torques τ at y, N·m or N: G_aᵀ τ_a = τ of each cluster's actuated rows.
+    ///
+    /// In the places of y; a cluster without [`Driven::actuated`](super::Driven::actuated) rows has its motors at y.
+    ///
+    /// # Errors
+    /// [`ClusterProblem::NotActuated`] names a cluster whose actuated coordinates do not determine the others: its motors are at a
+    /// dead point.
+    pub fn to_motors(&self, tau: &[R; Y]) -> Result<[R; Y], ClusterError> {
+        let mut out = *tau;
+        for c in 0..<T::Clusters as Set>::SIZES.len() {
+            let Some((g, first, n)) = self.actuation(c) else {
+                continue;
+            };
+            let mut x = [R::ZERO; INDEPENDENT];
+            for (k, x) in x.iter_mut().enumerate().take(n) {
+                *x = entry(tau, first + k);
+            }
+            // Rows of Gᵀ.
+            let transposed = core::array::from_fn(|i| core::array::from_fn(|j| g[j][i]));
+            if solve(transposed, &mut x, n).is_none() {
+                return Err(ClusterError {
+                    cluster: T::CLUSTERS.name(c),
+                    problem: ClusterProblem::NotActuated,
+                });
+            }
+            for (k, &x) in x.iter().enumerate().take(n) {
+                if let Some(out) = out.get_mut(first + k) {
+                    *out = x;
+                }
+            }
+        }
+        Ok(out)
+    }
+
+    /// The torques at y of the motors' torques, N·m or N: Gᵀ τ_a, the reverse of [`TreeMotion::to_motors`].
+    pub fn from_motors(&self, tau: &[R; Y]) -> [R; Y] {
+        let mut out = *tau;
+        for c in 0..<T::Clusters as Set>::SIZES.len() {
+            let Some((g, first, n)) = self.actuation(c) else {
+                continue;
+            };
+            for k in 0..n {
+                let sum = (0..n).fold(R::ZERO, |sum, l| sum + g[l][k] * entry(tau, first + l));
+                if let Some(out) = out.get_mut(first + k) {
+                    *out = sum;
+                }
+            }
+        }
+        out
+    }
+
+    /// The actuated rows of G of a cluster, where they begin in ẏ, and how many there are.
+    fn actuation(&self, c: usize) -> Option<([[R; INDEPENDENT]; INDEPENDENT], usize, usize)> {
+        let set = const { T::CLUSTERS };
+        let rows = set.actuated(c)?;
+        let mut g = [[R::ZERO; INDEPENDENT]; INDEPENDENT];
+        for (to, &row) in g.iter_mut().zip(rows) {
+            let (from, _) = <T::Clusters as Set>::row(&self.motions, c, row);
+            for (to, &from) in to.iter_mut().zip(from) {
+                *to = from;
+            }
+        }
+        let first = Self::LAYOUT.first.get(c)?[1];
+        Some((g, first, rows.len()))
+    }
+
+    /// Row v of G, beginning at a place of ẏ, and the entry of Ġ ẏ.
+    #[inline(always)]
+    pub(super) fn row(&self, v: usize) -> (usize, &[R], R) {
+        let layout = const { &Self::LAYOUT };
+        match layout.cluster.get(v) {
+            Some(&NONE) | None => (entry(&layout.free, v), &self.one, R::ZERO),
+            Some(&c) => {
+                let (g, bias) = <T::Clusters as Set>::row(&self.motions, c, entry(&layout.row, v));
+                let first = layout.first.get(c).map_or(NONE, |first| first[1]);
+                (first, g, bias)
+            }
+        }
+    }
+}
+
+/// x with A x = b of n rows, in place of b, by elimination with row pivots; nothing where a pivot is below 64 roundings of the
+/// largest entry.
+fn solve<R: Real>(
+    mut a: [[R; INDEPENDENT]; INDEPENDENT],
+    x: &mut [R; INDEPENDENT],
+    n: usize,
+) -> Option<()> {
+    let largest = a.iter().flatten().fold(
+        R::ZERO,
+        |most, &a| if a.abs() > most { a.abs() } else { most },
+    );
+    let least = largest * (R::EPSILON * R::from_f64(64.0));
+    for k in 0..n {
+        let mut best = k;
+        for i in k + 1..n {
+            if a[i][k].abs() > a[best][k].abs() {
+                best = i;
+            }
+        }
+        a.swap(k, best);
+        x.swap(k, best);
+        // False of a NaN, too.
+        if !(a[k][k].abs() > least) {
+            return None;
+        }
+        let inv = R::ONE / a[k][k];
+        for i in k + 1..n {
+            let l = a[i][k] * inv;
+            for j in k..n {
+                a[i][j] = a[i][j] - l * a[k][j];
+            }
+            x[i] = x[i] - l * x[k];
+        }
+        x[k] *= inv;
+        for j in k + 1..n {
+            a[k][j] *= inv;
+        }
+    }
+    for k in (0..n).rev() {
+        for j in k + 1..n {
+            x[k] = x[k] - a[k][j] * x[j];
+        }
+    }
+    Some(())
+}

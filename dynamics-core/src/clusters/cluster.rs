@@ -74,22 +74,6 @@ pub struct ClusterMotion<R, const M: usize, const N: usize> {
 }
 
 impl<R: Real, const M: usize, const N: usize> ClusterMotion<R, M, N> {
-    /// G ẏ.
-    #[inline(always)]
-    pub fn rate(&self, yd: &[R; N]) -> [R; M] {
-        self.g.map(|row| dot(&row, yd))
-    }
-
-    /// G ÿ + Ġ ẏ.
-    #[inline(always)]
-    pub fn acceleration(&self, ydd: &[R; N]) -> [R; M] {
-        let mut out = self.bias;
-        for (out, row) in out.iter_mut().zip(&self.g) {
-            *out += dot(row, ydd);
-        }
-        out
-    }
-
     /// Gᵀ τ: the torques at y that do the work of the joints' torques τ.
     #[inline(always)]
     pub fn torque(&self, tau: &[R; M]) -> [R; N] {

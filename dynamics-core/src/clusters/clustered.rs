@@ -3,11 +3,12 @@
 use core::marker::PhantomData;
 
 use super::description::{TreeState, sealed::Set};
-use super::layout::NONE;
+use super::layout::{EXPANDED, NONE, at, is_near};
 use super::{ClusterError, ClusteredRobot, TreeMotion};
 use crate::algorithms::rnea;
 use crate::effects::Effect;
-use crate::model::{JointCoordinate, JointKind, Robot, RobotModel, Static};
+use crate::engine::for_each_joint;
+use crate::model::{JointCoordinate, JointKind, Model, Robot, RobotModel, Static};
 use crate::scalar::Real;
 use crate::state::{JointTrig, State, entry};
 use crate::trig::Kernel;
@@ -42,7 +43,7 @@ impl<A, R: Real, const B: usize, const Q: usize, const V: usize> TreeAlgorithms<
 }
 
 mod sealed {
-    use super::{Effect, JointTrig, Kernel, Real, Robot, State};
+    use super::{ClusteredRobot, Effect, JointCoordinate, JointTrig, Kernel, Real, Robot, State};
 
     /// What there is of core and engine.
     pub trait Tree<R: Real, const B: usize, const Q: usize, const V: usize> {
@@ -50,6 +51,13 @@ mod sealed {
         type Robot: Robot<B, Q, V>;
         /// Its sines and cosines.
         type Kernel: Kernel<R>;
+
+        /// Sines and cosines of the coordinates in no cluster.
+        fn free_turns<const P: usize, const Y: usize>(
+            q: &[R; Q],
+            turns: &mut [JointCoordinate<R>; Q],
+        ) where
+            Self::Robot: ClusteredRobot<B, Q, V, P, Y>;
 
         /// Inverse dynamics of the tree.
         fn rnea<E: Effect<R, B, V>>(
@@ -70,6 +78,20 @@ where
     type Kernel = Unbounded<K>;
 
     #[inline(always)]
+    fn free_turns<const P: usize, const Y: usize>(q: &[R; Q], turns: &mut [JointCoordinate<R>; Q])
+    where
+        T: ClusteredRobot<B, Q, V, P, Y>,
+    {
+        let layout = const { &TreeMotion::<R, T, B, Q, V, P, Y>::LAYOUT };
+        for link in Static::<T, K>::NEW.links() {
+            let v = link.coordinates().start;
+            if layout.cluster.get(v) == Some(&NONE) {
+                link.pose::<K>(q, turns);
+            }
+        }
+    }
+
+    #[inline(always)]
     fn rnea<E: Effect<R, B, V>>(
         trig: &JointTrig<R, Q>,
         state: &State<R, Q, V>,
@@ -87,6 +109,23 @@ where
 {
     type Robot = T;
     type Kernel = K;
+
+    #[inline(always)]
+    fn free_turns<const P: usize, const Y: usize>(q: &[R; Q], turns: &mut [JointCoordinate<R>; Q])
+    where
+        T: ClusteredRobot<B, Q, V, P, Y>,
+    {
+        for_each_joint!(J, {
+            if const { J < V && TreeMotion::<R, T, B, Q, V, P, Y>::LAYOUT.cluster[J] == NONE } {
+                // The engine takes joints of one coordinate only: J is the place of the position, too.
+                turns[J] = match const { joint(&T::MODEL, J) } {
+                    (true, _) => JointCoordinate::linear(q[J]),
+                    (false, true) => JointCoordinate::revolute_bounded::<K>(q[J]),
+                    (false, false) => JointCoordinate::with_kernel::<K>(q[J]),
+                };
+            }
+        });
+    }
 
     #[inline(always)]
     fn rnea<E: Effect<R, B, V>>(
@@ -179,29 +218,32 @@ where
 {
     let layout = const { &TreeMotion::<R, A::Robot, B, Q, V, P, Y>::LAYOUT };
     let mut tree = State {
-        q: layout.free_q.map(|place| entry(&y.q, place)),
-        qd: layout.free.map(|place| entry(&y.qd, place)),
-        qdd: layout.free.map(|place| entry(&y.qdd, place)),
+        q: [R::ZERO; Q],
+        qd: [R::ZERO; V],
+        qdd: [R::ZERO; V],
     };
-    let mut turns = [JointCoordinate::default(); Q];
-    let robot = Static::<A::Robot, A::Kernel>::NEW;
-    for link in robot.links() {
-        let v = link.idx_v();
-        if v >= V || entry(&layout.cluster, v) != NONE {
-            continue;
+    // Not by loops alone, which might not be unrolled: the tree's state would stay in memory, and with it what nobody reads.
+    for_each_joint!(J, {
+        let p = const { at(&TreeMotion::<R, A::Robot, B, Q, V, P, Y>::LAYOUT.free_q, J) };
+        let y_k = const { at(&TreeMotion::<R, A::Robot, B, Q, V, P, Y>::LAYOUT.free, J) };
+        if p < P {
+            tree.q[J] = y.q[p];
         }
-        let near =
-            link.limits.lower >= R::from_f64(-FOUR_PI) && link.limits.upper <= R::from_f64(FOUR_PI);
-        let turns_about_z = matches!(link.kind(), JointKind::Revolute | JointKind::Continuous);
-        if turns_about_z && near {
-            if let Some(turn) = turns.get_mut(link.idx_q()) {
-                *turn =
-                    JointCoordinate::revolute_bounded::<A::Kernel>(entry(&tree.q, link.idx_q()));
-            }
-        } else {
-            link.pose::<A::Kernel>(&tree.q, &mut turns);
+        if y_k < Y {
+            (tree.qd[J], tree.qdd[J]) = (y.qd[y_k], y.qdd[y_k]);
+        }
+    });
+    if const { Q > EXPANDED } {
+        for (q, &place) in tree.q.iter_mut().zip(&layout.free_q).skip(EXPANDED) {
+            *q = entry(&y.q, place);
+        }
+        let rates = tree.qd.iter_mut().zip(&mut tree.qdd);
+        for ((qd, qdd), &place) in rates.zip(&layout.free).skip(EXPANDED) {
+            (*qd, *qdd) = (entry(&y.qd, place), entry(&y.qdd, place));
         }
     }
+    let mut turns = [JointCoordinate::default(); Q];
+    A::free_turns::<P, Y>(&tree.q, &mut turns);
     let set = const { <A::Robot as ClusteredRobot<B, Q, V, P, Y>>::CLUSTERS };
     let motions = set.evaluate::<R, A::Kernel, A::Robot, B, Q, V, P, Y>(
         y,
@@ -218,5 +260,16 @@ where
     })
 }
 
-/// The bound that the engine takes for that of a small angle.
-const FOUR_PI: f64 = 4.0 * core::f64::consts::PI;
+/// Whether the joint of velocity coordinate `v` is prismatic, and whether its limits are within ±4π.
+const fn joint<const B: usize, const Q: usize, const V: usize>(
+    model: &Model<f64, B, Q, V>,
+    v: usize,
+) -> (bool, bool) {
+    let mut i = 0;
+    while i + 1 < B && model.links[i].idx_v != v {
+        i += 1;
+    }
+    let link = &model.links[i];
+    let prismatic = matches!(link.joint.kind, JointKind::Prismatic);
+    (prismatic, is_near(link))
+}

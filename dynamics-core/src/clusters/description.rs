@@ -1,7 +1,9 @@
 //! How a robot with clusters is described: its spanning tree, and what drives its coordinates.
 
-use super::layout::Layout;
+use super::cluster::dot;
+use super::layout::{Layout, at};
 use super::{Cluster, ClusterError, ClusterMotion, ClusterProblem};
+use crate::engine::for_each_joint;
 use crate::model::{JointCoordinate, Robot};
 use crate::scalar::Real;
 use crate::state::{State, entry};
@@ -270,9 +272,8 @@ impl<C: Cluster<M, N>, const M: usize, const N: usize> Driven<C, M, N> {
         tree: &mut TreeState<'_, R, Q, V>,
     ) -> Result<ClusterMotion<R, M, N>, ClusterError> {
         let layout = const { &Places::<T, B, P, Y>::layout::<Q, V>() };
-        let coordinates = const { T::COORDINATES[I] };
         let [p, first] = layout.first[I];
-        let at = core::array::from_fn(|k| {
+        let place = core::array::from_fn(|k| {
             let y = entry(&y.q, p + k);
             if layout.near[I] {
                 JointCoordinate::revolute_bounded::<K>(y)
@@ -280,22 +281,33 @@ impl<C: Cluster<M, N>, const M: usize, const N: usize> Driven<C, M, N> {
                 JointCoordinate::with_kernel::<K>(y)
             }
         });
-        let yd = core::array::from_fn(|k| entry(&y.qd, first + k));
-        let ydd = core::array::from_fn(|k| entry(&y.qdd, first + k));
-        let motion: ClusterMotion<R, M, N> = match self.cluster.evaluate::<R, K>(&at, &yd) {
+        let yd: [R; N] = core::array::from_fn(|k| entry(&y.qd, first + k));
+        let ydd: [R; N] = core::array::from_fn(|k| entry(&y.qdd, first + k));
+        let motion: ClusterMotion<R, M, N> = match self.cluster.evaluate::<R, K>(&place, &yd) {
             Ok(motion) => motion,
             Err(problem) => return Err(self.error(problem)),
         };
-        let (rate, accel) = (motion.rate(&yd), motion.acceleration(&ydd));
-        for (k, &v) in coordinates.iter().enumerate().take(M) {
-            let q = entry(&layout.position, v);
-            if let (Some(turn), Some(place)) = (tree.turns.get_mut(q), tree.state.q.get_mut(q)) {
-                (*turn, *place) = (motion.q[k], motion.q[k].q);
+        for_each_joint!(J, {
+            // Not a loop, which might not be unrolled: angles that no effect reads are then computed.
+            if const { J < M } {
+                let v = const { at(T::COORDINATES[I], J) };
+                let q = const {
+                    at(
+                        &Places::<T, B, P, Y>::layout::<Q, V>().position,
+                        at(T::COORDINATES[I], J),
+                    )
+                };
+                if let (Some(turn), Some(angle)) = (tree.turns.get_mut(q), tree.state.q.get_mut(q))
+                {
+                    (*turn, *angle) = (motion.q[J], motion.q[J].q);
+                }
+                if let (Some(qd), Some(qdd)) = (tree.state.qd.get_mut(v), tree.state.qdd.get_mut(v))
+                {
+                    let g = &motion.g[J];
+                    (*qd, *qdd) = (dot(g, &yd), dot(g, &ydd) + motion.bias[J]);
+                }
             }
-            if let (Some(qd), Some(qdd)) = (tree.state.qd.get_mut(v), tree.state.qdd.get_mut(v)) {
-                (*qd, *qdd) = (rate[k], accel[k]);
-            }
-        }
+        });
         Ok(motion)
     }
 
@@ -324,9 +336,17 @@ impl<C: Cluster<M, N>, const M: usize, const N: usize> Driven<C, M, N> {
         out: &mut [R; Y],
     ) {
         let layout = const { &Places::<T, B, P, Y>::layout::<Q, V>() };
-        let coordinates = const { T::COORDINATES[I] };
-        let tau = core::array::from_fn(|k| entry(tau, entry(coordinates, k)));
-        for (k, tau) in motion.torque(&tau).into_iter().enumerate() {
+        let mut sums = [R::ZERO; N];
+        for_each_joint!(J, {
+            if const { J < M } {
+                let tau = entry(tau, const { at(T::COORDINATES[I], J) });
+                for (sum, &g) in sums.iter_mut().zip(&motion.g[J]) {
+                    // Without an addition to zero.
+                    *sum = if J == 0 { g * tau } else { *sum + g * tau };
+                }
+            }
+        });
+        for (k, tau) in sums.into_iter().enumerate() {
             if let Some(out) = out.get_mut(layout.first[I][1] + k) {
                 *out = tau;
             }

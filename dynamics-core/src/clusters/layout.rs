@@ -1,12 +1,15 @@
 //! Which coordinates of the tree belong to which cluster, checked while compiling.
 
-use crate::model::{BASE, JointKind, Model};
+use crate::model::{BASE, JointKind, Link, Model};
 
 /// At most so many clusters.
 pub(super) const CLUSTERS: usize = 8;
 
 /// At most so many independent coordinates of a cluster.
 pub(super) const INDEPENDENT: usize = 6;
+
+/// How often [`for_each_joint`](crate::engine::for_each_joint) expands its block.
+pub(super) const EXPANDED: usize = 32;
 
 /// No cluster, or no place.
 pub(super) const NONE: usize = usize::MAX;
@@ -148,8 +151,7 @@ impl<const Q: usize, const V: usize> Layout<Q, V> {
             self.position[link.idx_v + k] = link.idx_q + k;
             k += 1;
         }
-        const FOUR_PI: f64 = 4.0 * core::f64::consts::PI;
-        self.near[c] &= link.limits.lower >= -FOUR_PI && link.limits.upper <= FOUR_PI;
+        self.near[c] &= is_near(link);
         let on_own_cluster = link.parent != BASE && {
             let parent = &model.links[link.parent];
             let (_, count) = parent.joint.kind.coordinates();
@@ -180,4 +182,15 @@ const fn is_scalar(kind: JointKind) -> bool {
         kind,
         Revolute | Continuous | Prismatic | Helical | Cylindrical | Universal
     )
+}
+
+/// Whether a joint has limits within ±4π, as the engine takes them for its sines.
+pub(super) const fn is_near(link: &Link<f64>) -> bool {
+    const FOUR_PI: f64 = 4.0 * core::f64::consts::PI;
+    link.limits.lower >= -FOUR_PI && link.limits.upper <= FOUR_PI
+}
+
+/// An entry of a list, or [`NONE`] behind its end: for constants that are evaluated where they are not used, too.
+pub(super) const fn at(list: &[usize], i: usize) -> usize {
+    if i < list.len() { list[i] } else { NONE }
 }

@@ -3,9 +3,10 @@
 use core::fmt;
 
 use super::description::{Places, sealed::Set};
-use super::layout::{INDEPENDENT, Layout, NONE};
+use super::layout::{EXPANDED, INDEPENDENT, Layout, NONE, at};
 use super::{ClusterError, ClusterProblem, ClusteredRobot};
 use crate::algorithms::MassMatrix;
+use crate::engine::for_each_joint;
 use crate::scalar::Real;
 use crate::spatial::Motion;
 use crate::state::{JointTrig, State, StateWithTrig, entry};
@@ -119,9 +120,18 @@ where
     #[inline(always)]
     pub fn torque(&self, tau: &[R; V]) -> [R; Y] {
         let mut out = [R::ZERO; Y];
-        for (&place, &tau) in const { &Self::LAYOUT.free }.iter().zip(tau) {
-            if let Some(out) = out.get_mut(place) {
-                *out = tau;
+        let layout = const { &Self::LAYOUT };
+        for_each_joint!(J, {
+            let place = const { at(&Self::LAYOUT.free, J) };
+            if place < Y {
+                out[place] = tau[J];
+            }
+        });
+        if const { V > EXPANDED } {
+            for (&place, &tau) in layout.free.iter().zip(tau).skip(EXPANDED) {
+                if let Some(out) = out.get_mut(place) {
+                    *out = tau;
+                }
             }
         }
         <T::Clusters as Set>::torque::<R, T, B, Q, V, P, Y>(&self.motions, tau, &mut out);

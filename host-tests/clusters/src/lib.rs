@@ -6,6 +6,7 @@ use dynamics_core::clusters::{
 use dynamics_core::drivetrain::Transmission;
 use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model, Robot};
 use dynamics_core::robots::Ur5e;
+use dynamics_core::state::State;
 use firmware_demo::robots::AnkleLeg;
 
 const X: [f64; 3] = [1.0, 0.0, 0.0];
@@ -237,4 +238,68 @@ pub fn apart(a: &[f64], b: &[f64]) -> f64 {
 /// The largest number of a row.
 pub fn largest(a: &[f64]) -> f64 {
     a.iter().fold(0.0, |most, a| a.abs().max(most))
+}
+
+/// 200 states with y within `reach` of `centre`; quaternions, which begin at `quaternion`, at length one.
+pub fn states<const P: usize, const Y: usize>(
+    centre: [f64; P],
+    reach: [f64; P],
+    quaternion: Option<usize>,
+) -> Vec<State<f64, P, Y>> {
+    let mut random = Random::new(7);
+    let one = |_| {
+        let mut q = core::array::from_fn(|i| centre[i] + random.number(reach[i]));
+        if let Some(at) = quaternion {
+            let attitude = &mut q[at..at + 4];
+            let length = attitude.iter().map(|x| x * x).sum::<f64>().sqrt();
+            attitude.iter_mut().for_each(|x| *x /= length);
+        }
+        State {
+            q,
+            qd: random.numbers(3.0),
+            qdd: random.numbers(10.0),
+        }
+    };
+    (0..200).map(one).collect()
+}
+
+/// 200 states of the four-bar leg.
+pub fn four_bar_states() -> Vec<State<f64, 3, 3>> {
+    states([0.0; 3], [2.0, 0.6, 2.0], None)
+}
+
+/// 200 states of the five-bar leg.
+pub fn five_bar_states() -> Vec<State<f64, 3, 3>> {
+    states([0.0, 2.2, 0.9], [1.0, 0.5, 0.5], None)
+}
+
+/// 200 states of the wrist with a differential.
+pub fn wrist_states() -> Vec<State<f64, 6, 6>> {
+    states([0.0; 6], [2.0; 6], None)
+}
+
+/// 200 states of the arm with belt and gears.
+pub fn geared_states() -> Vec<State<f64, 4, 4>> {
+    states([0.0; 4], [2.0; 4], None)
+}
+
+/// 200 states of the parallel ankle.
+pub fn ankle_states() -> Vec<State<f64, 3, 3>> {
+    states([0.0; 3], [2.0, 0.45, 0.3], None)
+}
+
+/// 200 states of the parallel ankle on a floating shank.
+pub fn floating_states() -> Vec<State<f64, 9, 8>> {
+    let reach = [1.0, 1.0, 1.0, 1.0, 2.0, 2.0, 2.0, 0.45, 0.3];
+    states([0.0; 9], reach, Some(0))
+}
+
+/// Holds a measured error against a bound, which may be at most ten times as large.
+///
+/// # Panics
+/// If the error exceeds the bound or the bound is slack.
+pub fn hold(what: &str, error: f64, bound: f64) {
+    println!("{what}: {error:.1e}, bound {bound:.0e}");
+    assert!(error <= bound, "{what}: {error:.1e} exceeds {bound:.0e}");
+    assert!(error * 10.0 > bound, "{what}: {error:.1e} makes the bound {bound:.0e} slack");
 }

@@ -1,26 +1,15 @@
 //! γ, G and Ġ ẏ of every linkage, in the tree: its loops are closed, and its rates are the derivatives of its positions.
 
-use cluster_tests::{FiveBarLeg, FloatingAnkle, Geared, Random, Wrist, apart};
+use cluster_tests::{
+    FiveBarLeg, FloatingAnkle, Geared, Wrist, ankle_states, apart, five_bar_states,
+    floating_states, four_bar_states, geared_states, wrist_states,
+};
 use dynamics_core::clusters::{Clustered, ClusteredRobot};
 use dynamics_core::model::Static;
 use dynamics_core::state::{RobotState, State};
 use dynamics_core::{Core, algorithms};
 use firmware_demo::robots::{AnkleLeg, FourBarLeg};
 use glam::DVec3;
-
-/// States of y about `centre`, within `reach` of it.
-fn states<const P: usize, const Y: usize>(
-    centre: [f64; P],
-    reach: [f64; P],
-) -> Vec<State<f64, P, Y>> {
-    let mut random = Random::new(7);
-    let one = |_| State {
-        q: core::array::from_fn(|i| centre[i] + random.number(reach[i])),
-        qd: random.numbers(3.0),
-        qdd: random.numbers(10.0),
-    };
-    (0..200).map(one).collect()
-}
 
 /// d/dt of q and of q̇ of the tree along y(t) = y + ẏ t + ÿ t²/2, by differences of sixth order.
 fn derivatives<T, const B: usize, const N: usize, const Y: usize>(
@@ -59,19 +48,14 @@ where
 
 /// Holds G ẏ and G ÿ + Ġ ẏ against differences.
 fn rates_are_derivatives<T, const B: usize, const N: usize, const Y: usize>(
-    centre: [f64; Y],
-    reach: [f64; Y],
+    states: &[State<f64, Y, Y>],
 ) where
     T: ClusteredRobot<B, N, N, Y, Y>,
 {
     let mut worst = [0.0_f64; 2];
-    for y in states::<Y, Y>(centre, reach) {
-        let y = State {
-            qd: y.qd.map(|x| 0.5 * x),
-            ..y
-        };
-        let [rate, accel] = derivatives::<T, B, N, Y>(&y);
-        let motion = Clustered::<Core<T>>::motion(&y).expect("it closes");
+    for y in states {
+        let [rate, accel] = derivatives::<T, B, N, Y>(y);
+        let motion = Clustered::<Core<T>>::motion(y).expect("it closes");
         let tree = motion.state();
         let tree = tree.state();
         let scale = |row: &[f64]| cluster_tests::largest(row).max(1.0);
@@ -90,11 +74,11 @@ fn rates_are_derivatives<T, const B: usize, const N: usize, const Y: usize>(
 
 #[test]
 fn rates_of_every_linkage_are_the_derivatives_of_its_positions() {
-    rates_are_derivatives::<FourBarLeg, 5, 5, 3>([0.0; 3], [2.0, 0.6, 2.0]);
-    rates_are_derivatives::<FiveBarLeg, 5, 5, 3>([0.0, 2.2, 0.9], [1.0, 0.5, 0.5]);
-    rates_are_derivatives::<Wrist, 6, 6, 6>([0.0; 6], [2.0; 6]);
-    rates_are_derivatives::<Geared, 7, 7, 4>([0.0; 4], [2.0; 4]);
-    rates_are_derivatives::<AnkleLeg, 9, 9, 3>([0.0; 3], [2.0, 0.45, 0.3]);
+    rates_are_derivatives::<FourBarLeg, 5, 5, 3>(&four_bar_states());
+    rates_are_derivatives::<FiveBarLeg, 5, 5, 3>(&five_bar_states());
+    rates_are_derivatives::<Wrist, 6, 6, 6>(&wrist_states());
+    rates_are_derivatives::<Geared, 7, 7, 4>(&geared_states());
+    rates_are_derivatives::<AnkleLeg, 9, 9, 3>(&ankle_states());
 }
 
 /// The points of two bodies that the loop joins, in base coordinates.
@@ -128,34 +112,16 @@ fn closed<T, const B: usize, const Q: usize, const V: usize, const P: usize, con
 #[test]
 fn loops_are_closed() {
     use firmware_demo::robots::four_bar_leg::{LEVER, ROD};
-    closed::<FourBarLeg, 5, 5, 5, 3, 3>(
-        &states([0.0; 3], [2.0, 0.6, 2.0]),
-        [
-            (2, DVec3::new(0.0, 0.0, -ROD)),
-            (3, DVec3::new(LEVER, 0.0, 0.0)),
-        ],
-    );
-    closed::<FiveBarLeg, 5, 5, 5, 3, 3>(
-        &states([0.0, 2.2, 0.9], [1.0, 0.5, 0.5]),
-        [
-            (2, DVec3::new(0.22, 0.0, 0.0)),
-            (4, DVec3::new(0.2, 0.0, 0.0)),
-        ],
-    );
+    let [rod, lever] = [DVec3::Z * -ROD, DVec3::X * LEVER];
+    closed::<FourBarLeg, 5, 5, 5, 3, 3>(&four_bar_states(), [(2, rod), (3, lever)]);
+    let [rod, other] = [0.22, 0.2].map(|length| DVec3::X * length);
+    closed::<FiveBarLeg, 5, 5, 5, 3, 3>(&five_bar_states(), [(2, rod), (4, other)]);
     for (rod, body) in firmware_demo::robots::RODS.iter().zip([5, 8]) {
-        let (foot, end) = (
-            DVec3::from_array(rod.foot),
-            DVec3::new(0.0, 0.0, -rod.length),
-        );
-        closed::<AnkleLeg, 9, 9, 9, 3, 3>(
-            &states([0.0; 3], [2.0, 0.45, 0.3]),
-            [(2, foot), (body, end)],
-        );
-        let mut floating = states([0.0; 9], [1.0, 1.0, 1.0, 1.0, 2.0, 2.0, 2.0, 0.45, 0.3]);
-        for y in &mut floating {
-            let length = y.q[..4].iter().map(|x| x * x).sum::<f64>().sqrt();
-            y.q[..4].iter_mut().for_each(|x| *x /= length);
-        }
-        closed::<FloatingAnkle, 9, 15, 14, 9, 8>(&floating, [(2, foot), (body, end)]);
+        let joined = [
+            (2, DVec3::from_array(rod.foot)),
+            (body, DVec3::Z * -rod.length),
+        ];
+        closed::<AnkleLeg, 9, 9, 9, 3, 3>(&ankle_states(), joined);
+        closed::<FloatingAnkle, 9, 15, 14, 9, 8>(&floating_states(), joined);
     }
 }

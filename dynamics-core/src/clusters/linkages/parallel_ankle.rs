@@ -1,6 +1,7 @@
 //! The parallel ankle: two cranks at the shank, each with a rod to the foot.
 
 use super::dyad::{Branch, Root, root};
+use super::zero::of_unit;
 use crate::clusters::{Cluster, ClusterMotion, ClusterProblem};
 use crate::model::JointCoordinate;
 use crate::scalar::{Real, Vector};
@@ -221,11 +222,7 @@ impl Rod {
         let vd = edy * flat_inv;
         let vdd = lift(edd) + ey * vd * vd * flat_inv;
         let q = [(sm, cm), (sa * cm - ca * sm, ca * cm + sa * sm), (sv, cv)];
-        let q = q.map(|(sin, cos)| JointCoordinate {
-            q: sin.atan2(cos),
-            sin,
-            cos,
-        });
+        let q = q.map(|(sin, cos)| of_unit(sin, cos));
         let rows = [
             g,
             [turn(columns[0]) - g[0], turn(columns[1]) - g[1]],

@@ -1,7 +1,7 @@
 //! One name per algorithm: how many public algorithms there are, and that none is a variant of another by its name.
 //!
-//! Counted are the public functions of `algorithms`, the public methods of `Core` and `Engine`, the methods of public
-//! traits in these rooms, and the public methods of other types there that take a robot. Accessors of results are not.
+//! Counted are the public functions of `algorithms` and `clusters`, the public methods of `Core`, `Engine` and `Clustered`, the
+//! methods of public traits in these rooms, and the public methods of other types there that take a robot. Accessors of results are not.
 
 use std::fs;
 use std::path::Path;
@@ -16,7 +16,7 @@ const VARIANTS: [&str; 2] = ["_at", "_by"];
 /// What an item at the left margin contains.
 #[derive(Clone, Copy, PartialEq)]
 enum Block {
-    /// The methods of `Core` or `Engine`.
+    /// The methods of `Core`, `Engine` or `Clustered`.
     Marker,
     /// The methods of a public trait.
     Trait,
@@ -43,7 +43,9 @@ fn algorithms(source: &str) -> Vec<String> {
             block = Block::Trait;
         } else if line.starts_with("impl") {
             let inherent = !line.contains(" for ");
-            let marker = line.contains(" Core<") || line.contains(" Engine<");
+            let marker = [" Core<", " Engine<", " Clustered<"]
+                .iter()
+                .any(|name| line.contains(name));
             block = if inherent && marker {
                 Block::Marker
             } else {
@@ -94,15 +96,21 @@ fn of(path: &Path) -> Vec<String> {
 #[test]
 fn there_is_one_name_per_algorithm_and_few_of_them() {
     let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-    let [free, core, engine] =
-        ["algorithms", "textbook.rs", "engine"].map(|room| of(&src.join(room)));
-    let counts = [&free, &core, &engine].map(Vec::len);
-    println!("algorithms, Core, Engine: {counts:?}\n{free:?}\n{core:?}\n{engine:?}");
+    let [free, core, engine, clusters] =
+        ["algorithms", "textbook.rs", "engine", "clusters"].map(|room| of(&src.join(room)));
+    let counts = [&free, &core, &engine, &clusters].map(Vec::len);
+    println!("algorithms, Core, Engine, clusters: {counts:?}");
+    println!("{free:?}\n{core:?}\n{engine:?}\n{clusters:?}");
     // The parser sees something: what every user calls.
-    for (room, name) in [(&free, "crba"), (&core, "rnea"), (&engine, "rnea")] {
+    for (room, name) in [
+        (&free, "crba"),
+        (&core, "rnea"),
+        (&engine, "rnea"),
+        (&clusters, "aba"),
+    ] {
         assert!(room.iter().any(|found| found == name), "no `{name}`");
     }
-    let all = [free, core, engine].concat();
+    let all = [free, core, engine, clusters].concat();
     assert_eq!(objections(&all), Vec::<String>::new());
 }
 

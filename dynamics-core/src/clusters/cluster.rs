@@ -2,6 +2,7 @@
 
 use core::fmt;
 
+use crate::engine::for_each_joint;
 use crate::model::JointCoordinate;
 use crate::scalar::Real;
 use crate::state::all_finite;
@@ -91,12 +92,33 @@ impl<R: Real, const M: usize, const N: usize> ClusterMotion<R, M, N> {
     }
 }
 
-/// aᵀ b, without an addition to zero.
+/// aᵀ b, without a loop and without an addition to zero.
 #[inline(always)]
-pub(super) fn dot<R: Real>(a: &[R], b: &[R]) -> R {
-    let mut terms = a.iter().zip(b).map(|(&a, &b)| a * b);
-    let first = terms.next().unwrap_or_default();
-    terms.fold(first, |sum, term| sum + term)
+pub(super) fn dot<R: Real, const N: usize>(a: &[R; N], b: &[R; N]) -> R {
+    let mut sum = R::ZERO;
+    for_each_joint!(K, {
+        if const { K < N } {
+            let term = a[K] * b[K];
+            sum = if K == 0 { term } else { sum + term };
+        }
+    });
+    sum
+}
+
+/// Adds gᵏ τ to each of the sums, or begins them.
+#[inline(always)]
+pub(super) fn add_torque<R: Real, const N: usize>(
+    sums: &mut [R; N],
+    g: &[R; N],
+    tau: R,
+    first: bool,
+) {
+    for_each_joint!(K, {
+        if const { K < N } {
+            let term = g[K] * tau;
+            sums[K] = if first { term } else { sums[K] + term };
+        }
+    });
 }
 
 /// Why a cluster has no motion.

@@ -1,6 +1,6 @@
 //! How a robot with clusters is described: its spanning tree, and what drives its coordinates.
 
-use super::cluster::dot;
+use super::cluster::{add_torque, dot};
 use super::layout::{Layout, at};
 use super::{Cluster, ClusterError, ClusterMotion, ClusterProblem};
 use crate::engine::for_each_joint;
@@ -340,10 +340,7 @@ impl<C: Cluster<M, N>, const M: usize, const N: usize> Driven<C, M, N> {
         for_each_joint!(J, {
             if const { J < M } {
                 let tau = entry(tau, const { at(T::COORDINATES[I], J) });
-                for (sum, &g) in sums.iter_mut().zip(&motion.g[J]) {
-                    // Without an addition to zero.
-                    *sum = if J == 0 { g * tau } else { *sum + g * tau };
-                }
+                add_torque(&mut sums, &motion.g[J], tau, J == 0);
             }
         });
         for (k, tau) in sums.into_iter().enumerate() {

@@ -7,7 +7,6 @@
 use heapless::Vec;
 
 use super::aba::ForwardError;
-use super::cluster::dot;
 use super::description::sealed::Set;
 use super::layout::{INDEPENDENT, NONE};
 use super::{ClusterError, ClusterProblem, ClusteredRobot, TreeMotion};
@@ -385,7 +384,10 @@ where
             body.accel = body.x * a + body.c;
             for (k, v) in body.link.coordinates().enumerate() {
                 let (first, g, _) = motion.row(v);
-                let qdd = dot(g, ydd.get(first..).unwrap_or(&[]));
+                let of_group = ydd.get(first..).unwrap_or(&[]).iter();
+                let qdd = of_group
+                    .zip(g)
+                    .fold(R::ZERO, |sum, (&ydd, &g)| sum + g * ydd);
                 let s = body.link.subspace(&motion.trig.turns, k);
                 body.accel = s.add_scaled_to(body.accel, qdd);
             }

@@ -84,7 +84,7 @@ impl ClusteredRobot<5, 5, 5, 3, 3> for FiveBarLeg {
     type Clusters = (Driven<FiveBar, 4, 2>,);
     const CLUSTERS: Self::Clusters = (Driven::new(
         "leg",
-        FiveBar::new(0.05, [0.12, 0.22], [0.11, 0.2], Branch::Negative),
+        FiveBar::new(0.05, [0.12, 0.22], [0.11, 0.2], Branch::Positive),
     ),);
     const COORDINATES: &'static [&'static [usize]] = &[&[1, 2, 3, 4]];
 }
@@ -301,5 +301,8 @@ pub fn floating_states() -> Vec<State<f64, 9, 8>> {
 pub fn hold(what: &str, error: f64, bound: f64) {
     println!("{what}: {error:.1e}, bound {bound:.0e}");
     assert!(error <= bound, "{what}: {error:.1e} exceeds {bound:.0e}");
-    assert!(error * 10.0 > bound, "{what}: {error:.1e} makes the bound {bound:.0e} slack");
+    assert!(
+        error * 10.0 > bound,
+        "{what}: {error:.1e} makes the bound {bound:.0e} slack"
+    );
 }

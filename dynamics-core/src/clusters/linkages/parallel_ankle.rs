@@ -221,8 +221,12 @@ impl Rod {
         let alpha_dd = turn(edd) - two * ((ex * edx + ez * edz) * flat2_inv);
         let vd = edy * flat_inv;
         let vdd = lift(edd) + ey * vd * vd * flat_inv;
-        let q = [(sm, cm), (sa * cm - ca * sm, ca * cm + sa * sm), (sv, cv)];
-        let q = q.map(|(sin, cos)| of_unit(sin, cos));
+        // One by one: a loop is not removed where nobody reads the angles.
+        let q = [
+            of_unit(sm, cm),
+            of_unit(sa * cm - ca * sm, ca * cm + sa * sm),
+            of_unit(sv, cv),
+        ];
         let rows = [
             g,
             [turn(columns[0]) - g[0], turn(columns[1]) - g[1]],

@@ -1,8 +1,8 @@
 //! Forward dynamics of a robot with clusters: the articulated-body algorithm by clusters.
 //!
-//! Jain (2011), section 11.5, constraint embedding; Chignoli, Adrian, Kim & Wensing (2023); table 7.1 of RBDA (2008), in which
-//! S of a cluster has the columns Aᵢₖ = X A_λ(i)ₖ + Sᵢ Gᵢₖ for each body i of it: U = Σ Iᴬ A at the body that carries the cluster,
-//! D = Aᵀ Iᴬ A of N × N. A coordinate in no cluster is a cluster of one, of the column S.
+//! Jain (2011), section 11.5, constraint embedding; Chignoli, Adrian, Kim & Wensing (2023); table 7.1 of RBDA (2008),
+//! in which S of a cluster has the columns Aᵢₖ = X A_λ(i)ₖ + Sᵢ Gᵢₖ for each body i of it: U = Σ Iᴬ A at the body that
+//! carries the cluster, D = Aᵀ Iᴬ A of N × N. A coordinate in no cluster is a cluster of one, of the column S.
 
 use core::fmt;
 
@@ -48,7 +48,8 @@ impl From<ClusterError> for ForwardError {
 impl<T, K> Clustered<Core<T, K>> {
     /// ÿ = FD(y, ẏ, τ_y): the independent accelerations, rad/s² or m/s², under the effects of the scene.
     ///
-    /// `y.qdd` is not read. τ_y are torques at y: those of motors elsewhere go through [`TreeMotion::from_motors`].
+    /// `y.qdd` is not read. τ_y are torques at y: those of motors elsewhere go through
+    /// [`TreeMotion::from_motors`](super::TreeMotion::from_motors).
     ///
     /// # Shape
     /// Y.
@@ -80,8 +81,8 @@ impl<T, K> Clustered<Core<T, K>> {
     /// ```
     ///
     /// # Errors
-    /// [`ForwardError`] names the cluster that no configuration closes at y or that moves no inertia in some direction, or the
-    /// joint that moves none.
+    /// [`ForwardError`] names the cluster that no configuration closes at y or that moves no inertia in some direction,
+    /// or the joint that moves none.
     #[inline(never)]
     pub fn aba<
         R,

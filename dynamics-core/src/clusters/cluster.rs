@@ -10,7 +10,8 @@ use crate::trig::Kernel;
 
 /// M joint coordinates q of a spanning tree as a function q = γ(y) of N independent coordinates y: a loop, or several.
 ///
-/// Implemented by the linkages of this module, by [`Transmission`](crate::drivetrain::Transmission) and by the user's own:
+/// Implemented by the linkages of this module, by [`Transmission`](crate::drivetrain::Transmission) and by the user's
+/// own:
 ///
 /// ```
 /// use dynamics_core::clusters::{Cluster, ClusterMotion, ClusterProblem};
@@ -43,17 +44,18 @@ use crate::trig::Kernel;
 /// ```
 ///
 /// # Source
-/// Jain, *Robot and Multibody Dynamics* (2011), chapter 11, constraint embedding; Chignoli, Adrian, Kim & Wensing (2023).
+/// Jain, *Robot and Multibody Dynamics* (2011), chapter 11, constraint embedding; Chignoli, Adrian, Kim & Wensing
+/// (2023).
 pub trait Cluster<const M: usize, const N: usize>: Copy {
     /// γ(y), G and Ġ ẏ.
     ///
-    /// `y` are the independent coordinates with their sines and cosines by the kernel K, which also serves for those
-    /// of the results: [`JointCoordinate::with_kernel`]. |y| ≤ 100 rad where all the cluster's joints have limits within
+    /// `y` are the independent coordinates with their sines and cosines by the kernel K, which also serves for those of
+    /// the results: [`JointCoordinate::with_kernel`]. |y| ≤ 100 rad where all the cluster's joints have limits within
     /// ±4π, else 10⁴ rad.
     ///
     /// # Errors
-    /// [`ClusterProblem`] where no configuration belongs to y. Of numbers that are finite every result must be finite; at a
-    /// singularity of G it is that of a damped G, and `singular` is set.
+    /// [`ClusterProblem`] where no configuration belongs to y. Of numbers that are finite every result must be finite;
+    /// at a singularity of G it is that of a damped G, and `singular` is set.
     fn evaluate<R: Real, K: Kernel<R>>(
         &self,
         y: &[JointCoordinate<R>; N],

@@ -2,8 +2,8 @@
 
 use core::marker::PhantomData;
 
-use super::description::{TreeState, sealed::Set};
 use super::layout::{EXPANDED, NONE, at, is_near};
+use super::set::{TreeState, sealed::Set};
 use super::{ClusterError, ClusteredRobot, TreeMotion};
 use crate::algorithms::rnea;
 use crate::effects::Effect;
@@ -166,13 +166,15 @@ impl<A> Clustered<A> {
 
     /// τ_y = Gᵀ ID(γ(y), G ẏ, G ÿ + Ġ ẏ): the torques at y, N·m or N, under the effects of the scene.
     ///
-    /// Gravity alone: the same with `&Gravity::EARTH`. Effects act on the tree: friction and rotors are of its coordinates.
+    /// Gravity alone: the same with `&Gravity::EARTH`. Effects act on the tree: friction and rotors are of its
+    /// coordinates.
     ///
     /// # Shape
     /// Y.
     ///
     /// # Cost
-    /// That of the tree's `rnea` without the sines of the dependent angles, that of the clusters, and 2 M N flops for each.
+    /// That of the tree's `rnea` without the sines of the dependent angles, that of the clusters, and 2 M N flops for
+    /// each.
     ///
     /// # Errors
     /// [`ClusterError`] names the cluster that no configuration closes at y.
@@ -222,7 +224,8 @@ where
         qd: [R::ZERO; V],
         qdd: [R::ZERO; V],
     };
-    // Not by loops alone, which might not be unrolled: the tree's state would stay in memory, and with it what nobody reads.
+    // Not by loops alone, which might not be unrolled: the tree's state would stay in memory, and with it what nobody
+    // reads.
     for_each_joint!(J, {
         let p = const { at(&TreeMotion::<R, A::Robot, B, Q, V, P, Y>::LAYOUT.free_q, J) };
         let y_k = const { at(&TreeMotion::<R, A::Robot, B, Q, V, P, Y>::LAYOUT.free, J) };

@@ -38,8 +38,8 @@ pub(super) struct Layout<const Q: usize, const V: usize> {
 }
 
 impl<const Q: usize, const V: usize> Layout<Q, V> {
-    /// Of the clusters that drive these coordinates of a model and have these sizes M and N; a description that cannot be
-    /// does not compile.
+    /// Of the clusters that drive these coordinates of a model and have these sizes M and N; a description that cannot
+    /// be does not compile.
     pub(super) const fn of<const B: usize>(
         model: &Model<f64, B, Q, V>,
         coordinates: &[&[usize]],

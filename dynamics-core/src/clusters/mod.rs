@@ -43,21 +43,24 @@
 //! | [`Transmission`](crate::drivetrain::Transmission) | its V, its M | its motors |
 //!
 //! Everything else of the tree is of use as it is: [`Clustered::motion`] gives the tree's state with its sines and
-//! cosines, which every algorithm of [`Core`](crate::Core) and [`Engine`](crate::Engine) accepts, and the maps of torques, M and
-//! Jacobians to y.
+//! cosines, which every algorithm of [`Core`](crate::Core) and [`Engine`](crate::Engine) accepts, and the maps of
+//! torques, M and Jacobians to y.
 
 mod aba;
+mod articulated;
 mod cluster;
 mod clustered;
 mod description;
 mod layout;
 mod linkages;
 mod passes;
+mod set;
 mod tree_motion;
 
 pub use aba::ForwardError;
 pub use cluster::{Cluster, ClusterError, ClusterMotion, ClusterProblem};
 pub use clustered::{Clustered, TreeAlgorithms};
-pub use description::{ClusterSet, ClusteredRobot, Driven};
+pub use description::{ClusteredRobot, Driven};
 pub use linkages::{Belt, Branch, Differential, FiveBar, FourBar, ParallelAnkle, Rod};
+pub use set::ClusterSet;
 pub use tree_motion::TreeMotion;

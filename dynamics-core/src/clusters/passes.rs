@@ -1,74 +1,27 @@
 //! The passes of forward dynamics by clusters: [`Clustered::aba`](super::Clustered::aba).
 //!
-//! All bodies of a cluster give way at once, when the pass from the tips reaches the first of them. Its bodies' forces are those
-//! of inverse dynamics within the cluster on a body that does not accelerate: once at ÿ = 0, which makes u = τ − Gᵀ(…), and once
-//! for each unit ÿₖ, which makes a column of D and of U. The joint of a body in no cluster is a cluster of one body with G = 1.
+//! All bodies of a cluster give way at once, when the pass from the tips reaches the first of them. Its bodies' forces
+//! are those of inverse dynamics within the cluster on a body that does not accelerate: once at ÿ = 0, which makes u =
+//! τ − Gᵀ(…), and once for each unit ÿₖ, which makes a column of D and of U. The joint of a body in no cluster is a
+//! cluster of one body with G = 1.
 
 use heapless::Vec;
 
 use super::aba::ForwardError;
-use super::description::sealed::Set;
+use super::articulated::{Body, Column, Factor, Group};
 use super::layout::{INDEPENDENT, NONE};
+use super::set::sealed::Set;
 use super::{ClusterError, ClusterProblem, ClusteredRobot, TreeMotion};
 use crate::algorithms::{Magnitude, NotPositiveDefinite};
 use crate::effects::{Effect, base_motion, body_inertia, body_wrench, joint_torque};
 use crate::model::{BASE, LinkView, RobotModel};
 use crate::scalar::Real;
-use crate::spatial::inertia::ArticulatedInertia;
 use crate::spatial::{Force, Motion, MotionSubspace, Xform};
 use crate::state::entry;
 
-/// How many roundings a pivot must exceed, relative to what the bodies could have: twice those of the algorithm without clusters,
-/// since the motion of a cluster's body is a turn and a slide at once.
+/// How many roundings a pivot must exceed, relative to what the bodies could have: twice those of the algorithm without
+/// clusters, since the motion of a cluster's body is a turn and a slide at once.
 const ROUNDINGS: f64 = 16.0;
-
-/// What the passes know of a body.
-struct Body<'a, R: Real> {
-    link: LinkView<'a, R>,
-    x: Xform<R>,
-    /// S̊ q̇ + v × S q̇ + S Ġ ẏ.
-    c: Motion<R>,
-    /// Iᴬ and pᴬ of the body with the clusters that it carries, and the largest that the inertia could be.
-    ia: ArticulatedInertia<R>,
-    pa: Force<R>,
-    magnitude: Magnitude<R>,
-    /// The body's acceleration within its cluster, and the force that it takes.
-    accel: Motion<R>,
-    force: Force<R>,
-}
-
-/// What an independent coordinate's elimination leaves, of D = L Δ Lᵀ: L⁻¹ Uᵀ, 1/Δ, L⁻¹ u, and the row of L.
-#[derive(Clone, Copy, Default)]
-struct Factor<R: Real> {
-    z: Force<R>,
-    d_inv: R,
-    u: R,
-    l: [R; INDEPENDENT],
-}
-
-/// What moves at once: a cluster, or the joint of a body in none.
-struct Group {
-    /// Its first body.
-    root: usize,
-    /// The cluster, or [`NONE`].
-    cluster: usize,
-    /// Where its coordinates begin in ẏ, and how many there are.
-    first: usize,
-    count: usize,
-}
-
-impl Group {
-    /// The parent of a body of the group, if it is of the group too: what carries the group is listed before all of it.
-    fn parent_in<'b, 'a, R: Real>(
-        &self,
-        inner: &'b mut [Body<'a, R>],
-        link: &LinkView<'_, R>,
-    ) -> Option<&'b mut Body<'a, R>> {
-        (link.parent >= self.root)
-            .then(|| inner.get_mut(link.parent))
-            .flatten()
-    }
-}
 
 /// The articulated bodies of a tree of clusters.
 pub(super) struct Passes<
@@ -181,8 +134,9 @@ where
         i == group.root || (i < B && group.cluster != NONE && self.cluster(i) == group.cluster)
     }
 
-    /// The forces within the group while the body that carries it is at rest: `accel` is what each body's joints add to its
-    /// acceleration, and `visit` sees the bodies from the last to the first. Returns what reaches the body that carries the group.
+    /// The forces within the group while the body that carries it is at rest: `accel` is what each body's joints add to
+    /// its acceleration, and `visit` sees the bodies from the last to the first. Returns what reaches the body that
+    /// carries the group.
     fn forces(
         &mut self,
         group: &Group,
@@ -245,20 +199,20 @@ where
                         effects.add_inertia(v, &mut rotor);
                         torque += rotor * bias;
                     }
-                    for (u, &g) in u.iter_mut().skip(first - group.first).zip(g) {
+                    let places = u.iter_mut().skip(first.wrapping_sub(group.first));
+                    for (u, &g) in places.zip(g) {
                         *u -= g * torque;
                     }
                 }
             },
         );
         // Unit ÿₖ: columns of D and of U, and how large D's diagonal could be.
-        let mut d = [[R::ZERO; INDEPENDENT]; INDEPENDENT];
-        let mut noise = [R::ZERO; INDEPENDENT];
-        let mut z = [Force::ZERO; INDEPENDENT];
-        for c in 0..n {
+        let mut columns = [Column::default(); INDEPENDENT];
+        for (c, (column, &u)) in columns.iter_mut().zip(&u).enumerate().take(n) {
             let of = |first: usize, g: &[R]| entry(g, (group.first + c).wrapping_sub(first));
-            let (column, noise) = (&mut d[c], &mut noise[c]);
-            z[c] = self.forces(
+            let Column { d, noise, factor } = column;
+            factor.u = u;
+            factor.z = self.forces(
                 &group,
                 false,
                 |body| {
@@ -277,7 +231,8 @@ where
                         effects.add_inertia(v, &mut rotor);
                         let s = body.link.subspace(turns, k);
                         let torque = s.dot(body.force) + rotor * of(first, g);
-                        for (d, &g) in column.iter_mut().skip(first - group.first).zip(g) {
+                        let sums = d.iter_mut().skip(first.wrapping_sub(group.first));
+                        for (d, &g) in sums.zip(g) {
                             *d += g * torque;
                         }
                     }
@@ -286,30 +241,18 @@ where
         }
         // D = L Δ Lᵀ, with L⁻¹ Uᵀ and L⁻¹ u.
         for k in 0..n {
-            let mut l = [R::ZERO; INDEPENDENT];
-            for j in 0..k {
-                let row = d[j];
-                l[j] = d[j][k] * self.factor(&group, j).d_inv;
-                for (d, &above) in d[k].iter_mut().zip(&row).skip(k) {
-                    *d -= l[j] * above;
-                }
-                z[k] -= z[j] * l[j];
-                u[k] = u[k] - l[j] * u[j];
-                let inherited = l[j] * l[j] * noise[j];
-                noise[k] += inherited;
-            }
-            let pivot = d[k][k];
+            let (before, at) = columns.split_at_mut_checked(k).unwrap_or_default();
+            let Some(column) = at.first_mut() else {
+                break;
+            };
+            let pivot = column.eliminate(before);
             // False of a NaN, too.
-            if !(pivot > noise[k] * (R::EPSILON * R::from_f64(ROUNDINGS)) && pivot.is_finite()) {
+            let least = column.noise * (R::EPSILON * R::from_f64(ROUNDINGS));
+            if !((pivot > least) & pivot.is_finite()) {
                 return Err(self.no_inertia(&group, k));
             }
             if let Some(factor) = self.factors.get_mut(group.first + k) {
-                *factor = Factor {
-                    z: z[k],
-                    d_inv: R::ONE / pivot,
-                    u: u[k],
-                    l,
-                };
+                *factor = column.factor;
             }
         }
         self.give_way(&group, bias_force);

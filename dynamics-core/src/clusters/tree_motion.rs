@@ -2,8 +2,9 @@
 
 use core::fmt;
 
-use super::description::{Places, sealed::Set};
+use super::description::Places;
 use super::layout::{EXPANDED, INDEPENDENT, Layout, NONE, at};
+use super::set::sealed::Set;
 use super::{ClusterError, ClusterProblem, ClusteredRobot};
 use crate::algorithms::MassMatrix;
 use crate::engine::for_each_joint;
@@ -13,8 +14,8 @@ use crate::state::{JointTrig, State, StateWithTrig, entry};
 
 /// The spanning tree's state at y, ẏ, ÿ, with G: computed once a tick, for all algorithms.
 ///
-/// Every algorithm of core and engine accepts [`TreeMotion::state`] or [`TreeMotion::configuration`]; what it returns goes back to y
-/// by [`TreeMotion::torque`], [`TreeMotion::inertia`] and [`TreeMotion::jacobian`]:
+/// Every algorithm of core and engine accepts [`TreeMotion::state`] or [`TreeMotion::configuration`]; what it returns
+/// goes back to y by [`TreeMotion::torque`], [`TreeMotion::inertia`] and [`TreeMotion::jacobian`]:
 ///
 /// ```
 /// use dynamics_core::algorithms::frame;
@@ -34,7 +35,7 @@ use crate::state::{JointTrig, State, StateWithTrig, entry};
 /// #     const CLUSTERS: Self::Clusters = (Driven::new("knee", FourBar::new(0.2, 0.05, 0.2, 0.06, Branch::Positive)),);
 /// #     const COORDINATES: &'static [&'static [usize]] = &[&[0, 1, 2]];
 /// # }
-/// let knee = Clustered::<Core<Knee>>::motion(&State { q: [1.0], qd: [2.0], qdd: [10.0] })?;
+/// let knee = Clustered::<Core<Knee>>::motion(&State { q: [1.0_f64], qd: [2.0], qdd: [10.0] })?;
 /// let tau = knee.torque(&Core::<Knee>::rnea(knee.state(), &RIGID_BODY)); // inverse dynamics
 /// let m = knee.inertia(&Core::<Knee>::crba(knee.configuration(), &RIGID_BODY)); // M of y
 /// let j = knee.jacobian(&Core::<Knee>::jacobian(knee.configuration(), 2, frame::Local)); // of the shank
@@ -173,35 +174,29 @@ where
         columns
     }
 
-    /// The torques of the motors that do the work of the torques τ at y, N·m or N: G_aᵀ τ_a = τ of each cluster's actuated rows.
+    /// The torques of the motors that do the work of the torques τ at y, N·m or N: G_aᵀ τ_a = τ of each cluster's
+    /// actuated rows.
     ///
     /// In the places of y; a cluster without [`Driven::actuated`](super::Driven::actuated) rows has its motors at y.
     ///
     /// # Errors
-    /// [`ClusterProblem::NotActuated`] names a cluster whose actuated coordinates do not determine the others: its motors are at a
-    /// dead point.
+    /// [`ClusterProblem::NotActuated`] names a cluster whose actuated coordinates do not determine the others: its
+    /// motors are at a dead point.
     pub fn to_motors(&self, tau: &[R; Y]) -> Result<[R; Y], ClusterError> {
         let mut out = *tau;
         for c in 0..<T::Clusters as Set>::SIZES.len() {
-            let Some((g, first, n)) = self.actuation(c) else {
+            let Some((mut rows, first, n)) = self.actuation(c, tau) else {
                 continue;
             };
-            let mut x = [R::ZERO; INDEPENDENT];
-            for (k, x) in x.iter_mut().enumerate().take(n) {
-                *x = entry(tau, first + k);
-            }
-            // Rows of Gᵀ.
-            let transposed = core::array::from_fn(|i| core::array::from_fn(|j| g[j][i]));
-            if solve(transposed, &mut x, n).is_none() {
+            let rows = rows.get_mut(..n).unwrap_or_default();
+            if solve(rows).is_none() {
                 return Err(ClusterError {
                     cluster: T::CLUSTERS.name(c),
                     problem: ClusterProblem::NotActuated,
                 });
             }
-            for (k, &x) in x.iter().enumerate().take(n) {
-                if let Some(out) = out.get_mut(first + k) {
-                    *out = x;
-                }
+            for (out, &(_, x)) in out.iter_mut().skip(first).zip(&*rows) {
+                *out = x;
             }
         }
         Ok(out)
@@ -211,32 +206,31 @@ where
     pub fn from_motors(&self, tau: &[R; Y]) -> [R; Y] {
         let mut out = *tau;
         for c in 0..<T::Clusters as Set>::SIZES.len() {
-            let Some((g, first, n)) = self.actuation(c) else {
+            let Some((rows, first, n)) = self.actuation(c, tau) else {
                 continue;
             };
-            for k in 0..n {
-                let sum = (0..n).fold(R::ZERO, |sum, l| sum + g[l][k] * entry(tau, first + l));
-                if let Some(out) = out.get_mut(first + k) {
-                    *out = sum;
-                }
+            for (out, (row, _)) in out.iter_mut().skip(first).zip(&rows).take(n) {
+                let terms = row.iter().zip(tau.iter().skip(first));
+                *out = terms.fold(R::ZERO, |sum, (&g, &tau)| sum + g * tau);
             }
         }
         out
     }
 
-    /// The actuated rows of G of a cluster, where they begin in ẏ, and how many there are.
-    fn actuation(&self, c: usize) -> Option<([[R; INDEPENDENT]; INDEPENDENT], usize, usize)> {
+    /// G_aᵀ of a cluster's actuated rows by rows, each with its entry of `tau`; where they begin in ẏ, and how many
+    /// there are.
+    fn actuation(&self, c: usize, tau: &[R; Y]) -> Option<([Row<R>; INDEPENDENT], usize, usize)> {
         let set = const { T::CLUSTERS };
-        let rows = set.actuated(c)?;
-        let mut g = [[R::ZERO; INDEPENDENT]; INDEPENDENT];
-        for (to, &row) in g.iter_mut().zip(rows) {
-            let (from, _) = <T::Clusters as Set>::row(&self.motions, c, row);
-            for (to, &from) in to.iter_mut().zip(from) {
-                *to = from;
-            }
-        }
+        let actuated = set.actuated(c)?;
         let first = Self::LAYOUT.first.get(c)?[1];
-        Some((g, first, rows.len()))
+        let row = |k| {
+            let column = core::array::from_fn(|l| match actuated.get(l) {
+                Some(&row) => entry(<T::Clusters as Set>::row(&self.motions, c, row).0, k),
+                None => R::ZERO,
+            });
+            (column, entry(tau, first + k))
+        };
+        Some((core::array::from_fn(row), first, actuated.len()))
     }
 
     /// Row v of G, beginning at a place of ẏ, and the entry of Ġ ẏ.
@@ -254,47 +248,48 @@ where
     }
 }
 
-/// x with A x = b of n rows, in place of b, by elimination with row pivots; nothing where a pivot is below 64 roundings of the
+/// A row of A, and the entry of b.
+type Row<R> = ([R; INDEPENDENT], R);
+
+/// x with A x = b, in place of b, by elimination with row pivots; nothing where a pivot is below 64 roundings of A's
 /// largest entry.
-fn solve<R: Real>(
-    mut a: [[R; INDEPENDENT]; INDEPENDENT],
-    x: &mut [R; INDEPENDENT],
-    n: usize,
-) -> Option<()> {
-    let largest = a.iter().flatten().fold(
-        R::ZERO,
-        |most, &a| if a.abs() > most { a.abs() } else { most },
-    );
+fn solve<R: Real>(rows: &mut [Row<R>]) -> Option<()> {
+    let entries = rows.iter().flat_map(|(row, _)| row);
+    let largest = entries.fold(R::ZERO, |most, a| {
+        let size = a.abs();
+        if size > most { size } else { most }
+    });
     let least = largest * (R::EPSILON * R::from_f64(64.0));
-    for k in 0..n {
-        let mut best = k;
-        for i in k + 1..n {
-            if a[i][k].abs() > a[best][k].abs() {
-                best = i;
+    for k in 0..rows.len() {
+        let (_, rest) = rows.split_at_mut_checked(k)?;
+        let (first, others) = rest.split_first_mut()?;
+        for other in &mut *others {
+            if entry(&other.0, k).abs() > entry(&first.0, k).abs() {
+                core::mem::swap(first, other);
             }
         }
-        a.swap(k, best);
-        x.swap(k, best);
+        let pivot = entry(&first.0, k);
         // False of a NaN, too.
-        if !(a[k][k].abs() > least) {
+        let regular = pivot.abs() > least;
+        if !regular {
             return None;
         }
-        let inv = R::ONE / a[k][k];
-        for i in k + 1..n {
-            let l = a[i][k] * inv;
-            for j in k..n {
-                a[i][j] = a[i][j] - l * a[k][j];
+        let inv = R::ONE / pivot;
+        first.0 = first.0.map(|a| a * inv);
+        first.1 *= inv;
+        for (row, b) in others {
+            let l = entry(row, k);
+            for (a, &above) in row.iter_mut().zip(&first.0) {
+                *a -= l * above;
             }
-            x[i] = x[i] - l * x[k];
-        }
-        x[k] *= inv;
-        for j in k + 1..n {
-            a[k][j] *= inv;
+            *b -= l * first.1;
         }
     }
-    for k in (0..n).rev() {
-        for j in k + 1..n {
-            x[k] = x[k] - a[k][j] * x[j];
+    for k in (0..rows.len()).rev() {
+        let (above, rest) = rows.split_at_mut_checked(k)?;
+        let (_, x) = *rest.first()?;
+        for (row, b) in above {
+            *b -= entry(row, k) * x;
         }
     }
     Some(())

@@ -102,7 +102,8 @@ impl ClusteredRobot<6, 6, 6, 6, 6> for Wrist {
     const COORDINATES: &'static [&'static [usize]] = &[&[4, 5]];
 }
 
-/// Two links, of which a spiral pulley on the first drives the second, and a hand on it by gears with rotors of their own.
+/// Two links, of which a spiral pulley on the first drives the second, and a hand on it by gears with rotors of their
+/// own.
 pub struct Geared;
 
 impl Robot<7, 7, 7> for Geared {

@@ -17,10 +17,11 @@ fn solved<const N: usize>(m: &MassMatrix<f64, N>, tau: &[f64; N]) -> [f64; N] {
     let mut a: [[f64; N]; N] = core::array::from_fn(|i| core::array::from_fn(|j| m.get(i, j)));
     let mut x = *tau;
     for k in 0..N {
-        for i in k + 1..N {
-            let l = a[i][k] / a[k][k];
-            for j in k..N {
-                a[i][j] -= l * a[k][j];
+        let (above, rest) = a.split_at_mut(k + 1);
+        for (row, i) in rest.iter_mut().zip(k + 1..) {
+            let l = row[k] / above[k][k];
+            for (a, &above) in row.iter_mut().zip(&above[k]) {
+                *a -= l * above;
             }
             x[i] -= l * x[k];
         }
@@ -127,7 +128,8 @@ fn laws_hold_for_every_robot() {
     hold("columns of M", worst(|e| e.columns), 5e-15);
 }
 
-/// The largest difference of the engine's torques and the core's, relative to the largest torque; and the core's in f32.
+/// The largest difference of the engine's torques and the core's, relative to the largest torque; and the core's in
+/// f32.
 fn engine_and_single<T, E, const B: usize, const N: usize, const Y: usize>(
     states: &[State<f64, Y, Y>],
     scene: &E,

@@ -1,4 +1,5 @@
-//! γ, G and Ġ ẏ of every linkage, in the tree: its loops are closed, and its rates are the derivatives of its positions.
+//! γ, G and Ġ ẏ of every linkage, in the tree: its loops are closed, and its rates are the derivatives of its
+//! positions.
 
 use cluster_tests::{
     FiveBarLeg, FloatingAnkle, Geared, Wrist, ankle_states, apart, five_bar_states,

@@ -1,8 +1,8 @@
 //! Two links between two points of a plane: what four-bars and five-bars have in common.
 //!
-//! The intersection of two circles. Links of lengths b₁ and b₂ from the points P₁ and P₂ meet; w = P₂ − P₁, b₁ e₁ − b₂ e₂ = w.
-//! With k = (w² + b₁² − b₂²) / 2 b₁ and h² = w² − k² it is e₁ = (k w + h w⊥) / w². h / b₂ is the sine of the angle at which
-//! the links meet: 0 where they are in line.
+//! The intersection of two circles. Links of lengths b₁ and b₂ from the points P₁ and P₂ meet; w = P₂ − P₁, b₁ e₁ − b₂
+//! e₂ = w. With k = (w² + b₁² − b₂²) / 2 b₁ and h² = w² − k² it is e₁ = (k w + h w⊥) / w². h / b₂ is the sine of the
+//! angle at which the links meet: 0 where they are in line.
 
 use super::super::ClusterProblem;
 use crate::scalar::Real;
@@ -16,7 +16,8 @@ pub(super) fn dot<R: Real>(a: Vec2<R>, b: Vec2<R>) -> R {
     a[0] * b[0] + a[1] * b[1]
 }
 
-/// How many roundings of the squared lengths h² has to be away from zero: less is a singularity, at which rates are damped.
+/// How many roundings of the squared lengths h² has to be away from zero: less is a singularity, at which rates are
+/// damped.
 const SINGULAR: f64 = 256.0;
 
 /// √h² on one of two branches, and its damped reciprocal.
@@ -141,7 +142,8 @@ impl<R: Real> Dyad<R> {
         })
     }
 
-    /// Both links' rates at which w changes by `wd`: b₁ ω₁ e₁⊥ − b₂ ω₂ e₂⊥ = ẇ. Their accelerations of ẅ + b₁ ω₁² e₁ − b₂ ω₂² e₂.
+    /// Both links' rates at which w changes by `wd`: b₁ ω₁ e₁⊥ − b₂ ω₂ e₂⊥ = ẇ. Their accelerations of ẅ + b₁ ω₁² e₁ −
+    /// b₂ ω₂² e₂.
     #[inline(always)]
     pub(super) fn rates(&self, lengths: &Lengths, wd: Vec2<R>) -> [R; 2] {
         let b1_inv = R::from_f64(1.0 / lengths.b1);

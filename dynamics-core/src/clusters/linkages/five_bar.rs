@@ -9,9 +9,9 @@ use crate::trig::Kernel;
 
 /// A planar five-bar: two cranks on one body, each with a rod, and the rods' ends joined. M = 4, N = 2, y = (q₀, q₂).
 ///
-/// Legs and arms with both motors at the body are of this kind. In the plane across the joints' axes, which are parallel and
-/// point the same way, x leads from the first crank's joint to the second's, both on the parent body. The spanning tree's
-/// joint coordinates, in this order and in rad, are:
+/// Legs and arms with both motors at the body are of this kind. In the plane across the joints' axes, which are
+/// parallel and point the same way, x leads from the first crank's joint to the second's, both on the parent body. The
+/// spanning tree's joint coordinates, in this order and in rad, are:
 ///
 /// | q | joint | angle |
 /// |---|---|---|
@@ -55,11 +55,12 @@ pub struct FiveBar {
 }
 
 impl FiveBar {
-    /// A linkage of these lengths, m: between the cranks' joints; of the first crank and its rod; of the second and its.
+    /// A linkage of these lengths, m: between the cranks' joints; of the first crank and its rod; of the second and
+    /// its.
     ///
     /// # Panics
-    /// If a link's length is not positive, the ground's is negative, or the linkage closes at no y; in a `const` this does
-    /// not compile.
+    /// If a link's length is not positive, the ground's is negative, or the linkage closes at no y; in a `const` this
+    /// does not compile.
     pub const fn new(ground: f64, first: [f64; 2], second: [f64; 2], branch: Branch) -> Self {
         let cranks = [first[0], second[0]];
         assert!(

@@ -9,8 +9,9 @@ use crate::trig::Kernel;
 
 /// A planar four-bar: a crank and a rocker on one body, and a coupler between their ends. M = 3, N = 1, y = q₀.
 ///
-/// In the plane across the three joints' axes, which are parallel and point the same way, x leads from the crank's joint to
-/// the rocker's, both on the parent body. The spanning tree's joint coordinates, in this order and in rad, are:
+/// In the plane across the three joints' axes, which are parallel and point the same way, x leads from the crank's
+/// joint to the rocker's, both on the parent body. The spanning tree's joint coordinates, in this order and in rad,
+/// are:
 ///
 /// | q | joint | angle |
 /// |---|---|---|
@@ -19,19 +20,19 @@ use crate::trig::Kernel;
 /// | 2 | rocker on the parent | of the rocker, from x |
 ///
 /// each less its [`FourBar::zeros`]. The loop is cut between the ends of coupler and rocker: crank e₀ + coupler e₁ =
-/// ground x + rocker e₂. Any of the links may be the longest; the crank is that of which y is the angle, and need not be
-/// able to turn.
+/// ground x + rocker e₂. Any of the links may be the longest; the crank is that of which y is the angle, and need not
+/// be able to turn.
 ///
-/// [`Branch::Positive`]: the rocker's direction is counterclockwise from the coupler's, by less than π. The branch does not
-/// change while y moves, as the linkage itself cannot change it but at a singularity.
+/// [`Branch::Positive`]: the rocker's direction is counterclockwise from the coupler's, by less than π. The branch does
+/// not change while y moves, as the linkage itself cannot change it but at a singularity.
 ///
 /// # Cost
 /// Some 85 flops, a division and a reciprocal root; sine and cosine of y, and none of q₁ and q₂. Where an effect reads
 /// the angles q₁ and q₂ themselves, two arc tangents.
 ///
 /// # Errors
-/// [`ClusterProblem::CannotClose`] of a y that the crank does not reach. Where coupler and rocker are in line, such as at the
-/// change points of a Grashof linkage (shortest + longest = sum of the other two) and in a flat parallelogram,
+/// [`ClusterProblem::CannotClose`] of a y that the crank does not reach. Where coupler and rocker are in line, such as
+/// at the change points of a Grashof linkage (shortest + longest = sum of the other two) and in a flat parallelogram,
 /// [`ClusterMotion::singular`] is set: the angle between them has a sine below √(256 ε · max(1, longest / longer of the
 /// two)), 0.3° in f32.
 ///

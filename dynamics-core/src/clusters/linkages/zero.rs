@@ -60,8 +60,9 @@ impl Zero {
 
 /// The angle within ±π of a sine and cosine.
 ///
-/// Without a branch or a call, so that nothing of it is left where no effect reads the angle. An arc tangent within 10⁻⁵ rad
-/// (Abramowitz & Stegun, 4.4.49), the error of which, δ, one step with the sine of the difference reduces to δ³/6.
+/// Without a branch or a call, so that nothing of it is left where no effect reads the angle. An arc tangent within
+/// 10⁻⁵ rad (Abramowitz & Stegun, 4.4.49), the error of which, δ, one step with the sine of the difference reduces to
+/// δ³/6.
 #[inline(always)]
 pub(super) fn of_unit<R: Real>(sin: R, cos: R) -> JointCoordinate<R> {
     const ATAN: [f64; 5] = [0.999_866, -0.330_299_5, 0.180_141, -0.085_133, 0.020_835_1];

@@ -16,8 +16,10 @@
 //! impl Robot<3, 3, 3> for Knee {
 //!     const MODEL: ArmModel<f64, 3> = Model::new("knee", [
 //!         Body::new("crank", BASE, Joint::revolute([0.0, 0.0, 1.0])).mass(0.1).com([0.02, 0.0, 0.0]),
-//!         Body::new("rod", 0, Joint::revolute([0.0, 0.0, 1.0])).xyz([0.05, 0.0, 0.0]).mass(0.1).com([0.1, 0.0, 0.0]),
-//!         Body::new("shank", BASE, Joint::revolute([0.0, 0.0, 1.0])).xyz([0.2, 0.0, 0.0]).mass(1.0).com([0.0, -0.2, 0.0]),
+//!         Body::new("rod", 0, Joint::revolute([0.0, 0.0, 1.0])).xyz([0.05, 0.0, 0.0]).mass(0.1)
+//!             .com([0.1, 0.0, 0.0]),
+//!         Body::new("shank", BASE, Joint::revolute([0.0, 0.0, 1.0])).xyz([0.2, 0.0, 0.0]).mass(1.0)
+//!             .com([0.0, -0.2, 0.0]),
 //!     ]);
 //! }
 //!

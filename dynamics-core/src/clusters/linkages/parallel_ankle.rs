@@ -56,8 +56,8 @@ pub struct Rod {
 /// the rod parallel to y, [`ClusterMotion::singular`] is set.
 ///
 /// # Source
-/// |p − t|² = l² with p on the foot and t on the crank, which is A cos m + B sin m = K in the motor's angle m, and its two
-/// derivatives.
+/// The rod's length l = |p − t| with p on the foot and t on the crank: A cos m + B sin m = K in the motor's angle m,
+/// and its two derivatives.
 ///
 /// ```
 /// use dynamics_core::clusters::{Branch, Cluster, ParallelAnkle, Rod};
@@ -83,7 +83,13 @@ pub struct Rod {
 ///
 /// ```compile_fail,E0080
 /// use dynamics_core::clusters::{Branch, ParallelAnkle, Rod};
-/// const ROD: Rod = Rod { joint: [0.0; 3], crank: [-0.05, 0.0, 0.0], foot: [-0.05, 0.0, 0.0], length: 0.0, branch: Branch::Positive };
+/// const ROD: Rod = Rod {
+///     joint: [0.0; 3],
+///     crank: [-0.05, 0.0, 0.0],
+///     foot: [-0.05, 0.0, 0.0],
+///     length: 0.0,
+///     branch: Branch::Positive,
+/// };
 /// const _: ParallelAnkle = ParallelAnkle::new([ROD, ROD]); // error: a rod's length is not positive
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]

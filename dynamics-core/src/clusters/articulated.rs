@@ -64,6 +64,8 @@ impl<R: Real> Column<R> {
 pub(super) struct Group {
     /// Its first body.
     pub(super) root: usize,
+    /// The body behind its last one.
+    pub(super) end: usize,
     /// The cluster, or [`NONE`].
     pub(super) cluster: usize,
     /// Where its coordinates begin in ẏ, and how many there are.

@@ -33,6 +33,8 @@ pub(super) struct Layout<const Q: usize, const V: usize> {
     pub(super) count: [usize; CLUSTERS],
     /// The first body of each cluster, which is the last that a pass from the tips reaches.
     pub(super) root: [usize; CLUSTERS],
+    /// The body behind the last one of each cluster.
+    pub(super) end: [usize; CLUSTERS],
     /// Whether the joints of a cluster have limits within ±4π.
     pub(super) near: [bool; CLUSTERS],
 }
@@ -55,6 +57,7 @@ impl<const Q: usize, const V: usize> Layout<Q, V> {
             first: [[NONE; 2]; CLUSTERS],
             count: [0; CLUSTERS],
             root: [NONE; CLUSTERS],
+            end: [NONE; CLUSTERS],
             near: [true; CLUSTERS],
         };
         assert!(sizes.len() <= CLUSTERS, "a robot has up to 8 clusters");
@@ -168,6 +171,7 @@ impl<const Q: usize, const V: usize> Layout<Q, V> {
                 ),
             }
         }
+        self.end[c] = i + 1;
         if self.root[c] != NONE {
             return [p, y];
         }

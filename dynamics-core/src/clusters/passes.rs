@@ -114,6 +114,7 @@ where
             let count = entry(&layout.count, cluster);
             return (root == i).then_some(Group {
                 root,
+                end: entry(&layout.end, cluster),
                 cluster,
                 first,
                 count,
@@ -123,6 +124,7 @@ where
         let (count, first) = (coordinates.len(), entry(&layout.free, coordinates.start));
         Some(Group {
             root: i,
+            end: i + 1,
             cluster,
             first,
             count,
@@ -144,7 +146,7 @@ where
         accel: impl Fn(&Body<'a, R>) -> Motion<R>,
         mut visit: impl FnMut(&Body<'a, R>),
     ) -> Force<R> {
-        for i in group.root..B {
+        for i in group.root..group.end {
             let members = self.is_in(group, i);
             let (inner, outer) = self.bodies.split_at_mut(i);
             let (true, Some(body)) = (members, outer.first_mut()) else {
@@ -160,7 +162,7 @@ where
             }
         }
         let mut total = Force::ZERO;
-        for i in (group.root..B).rev() {
+        for i in (group.root..group.end).rev() {
             let members = self.is_in(group, i);
             let (inner, outer) = self.bodies.split_at_mut(i);
             let (true, Some(body)) = (members, outer.first()) else {
@@ -261,7 +263,7 @@ where
 
     /// Iᴬ and pᴬ of the body that carries the group: Σ Xᵀ Iᴬ X − U D⁻¹ Uᵀ, and the bias force + U D⁻¹ u.
     fn give_way(&mut self, group: &Group, bias_force: Force<R>) {
-        for i in (group.root..B).rev() {
+        for i in (group.root..group.end).rev() {
             let member = self.is_in(group, i);
             let (inner, outer) = self.bodies.split_at_mut(i);
             let (true, Some(body)) = (member, outer.first()) else {

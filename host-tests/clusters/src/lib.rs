@@ -7,7 +7,7 @@ use dynamics_core::drivetrain::Transmission;
 use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model, Robot};
 use dynamics_core::robots::Ur5e;
 use dynamics_core::state::State;
-use firmware_demo::robots::AnkleLeg;
+use firmware_demo::robots::{AnkleLeg, RODS};
 
 const X: [f64; 3] = [1.0, 0.0, 0.0];
 const Y: [f64; 3] = [0.0, 1.0, 0.0];
@@ -197,6 +197,44 @@ impl ClusteredRobot<9, 15, 14, 9, 8> for FloatingAnkle {
     type Clusters = (Driven<ParallelAnkle, 8, 2>,);
     const CLUSTERS: Self::Clusters = <AnkleLeg as ClusteredRobot<9, 9, 9, 3, 3>>::CLUSTERS;
     const COORDINATES: &'static [&'static [usize]] = &[&[6, 7, 8, 9, 10, 11, 12, 13]];
+}
+
+/// The parallel ankle with universal joints in place of pairs of revolute ones.
+pub struct UniversalAnkle;
+
+impl Robot<6, 9, 9> for UniversalAnkle {
+    const MODEL: Model<f64, 6, 9, 9> = {
+        let (turn, both) = (Joint::revolute(Y), Joint::universal(Y, X));
+        let [left, right] = RODS;
+        let [x, y, z] = left.joint;
+        let left_joint = [x, y, z - 0.35];
+        let [x, y, z] = right.joint;
+        let right_joint = [x, y, z - 0.35];
+        Model::new(
+            "universal_ankle",
+            [
+                link("shank", BASE, turn, [0.0; 3], 2.8, [0.0, 0.0, -0.1]),
+                link(
+                    "foot",
+                    0,
+                    both,
+                    [0.0, 0.0, -0.35],
+                    0.9,
+                    [0.04, 0.002, -0.03],
+                ),
+                link("left_crank", 0, turn, left_joint, 0.2, [-0.01, 0.0, 0.0]),
+                link("left_rod", 2, both, left.crank, 0.1, [0.0, 0.0, -0.08]),
+                link("right_crank", 0, turn, right_joint, 0.2, [-0.01, 0.0, 0.0]),
+                link("right_rod", 4, both, right.crank, 0.1, [0.0, 0.0, -0.13]),
+            ],
+        )
+    };
+}
+
+impl ClusteredRobot<6, 9, 9, 3, 3> for UniversalAnkle {
+    type Clusters = (Driven<ParallelAnkle, 8, 2>,);
+    const CLUSTERS: Self::Clusters = <AnkleLeg as ClusteredRobot<9, 9, 9, 3, 3>>::CLUSTERS;
+    const COORDINATES: &'static [&'static [usize]] = &[&[1, 2, 3, 4, 5, 6, 7, 8]];
 }
 
 /// Numbers from a fixed seed, exactly representable in f32.

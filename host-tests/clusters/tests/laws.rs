@@ -1,7 +1,7 @@
 //! Laws of inverse and forward dynamics with clusters, on 200 random states of every robot.
 
 use cluster_tests::{
-    FiveBarLeg, FloatingAnkle, Geared, Wrist, ankle_states, apart, five_bar_states,
+    FiveBarLeg, FloatingAnkle, Geared, UniversalAnkle, Wrist, ankle_states, apart, five_bar_states,
     floating_states, four_bar_states, geared_states, hold, largest, wrist_states,
 };
 use dynamics_core::algorithms::MassMatrix;
@@ -119,6 +119,7 @@ fn laws_hold_for_every_robot() {
         laws::<Geared, 7, 7, 7, 4, 4>(&geared_states()),
         laws::<AnkleLeg, 9, 9, 9, 3, 3>(&ankle_states()),
         laws::<FloatingAnkle, 9, 15, 14, 9, 8>(&floating_states()),
+        laws::<UniversalAnkle, 6, 9, 9, 3, 3>(&ankle_states()),
     ];
     let worst = |of: fn(&Errors) -> f64| all.iter().map(of).fold(0.0, f64::max);
     hold("ID of FD", worst(|e| e.inverse), 1e-13);

@@ -2,7 +2,7 @@
 //! positions.
 
 use cluster_tests::{
-    FiveBarLeg, FloatingAnkle, Geared, Wrist, ankle_states, apart, five_bar_states,
+    FiveBarLeg, FloatingAnkle, Geared, UniversalAnkle, Wrist, ankle_states, apart, five_bar_states,
     floating_states, four_bar_states, geared_states, wrist_states,
 };
 use dynamics_core::clusters::{Clustered, ClusteredRobot};
@@ -80,6 +80,7 @@ fn rates_of_every_linkage_are_the_derivatives_of_its_positions() {
     rates_are_derivatives::<Wrist, 6, 6, 6>(&wrist_states());
     rates_are_derivatives::<Geared, 7, 7, 4>(&geared_states());
     rates_are_derivatives::<AnkleLeg, 9, 9, 3>(&ankle_states());
+    rates_are_derivatives::<UniversalAnkle, 6, 9, 3>(&ankle_states());
 }
 
 /// The points of two bodies that the loop joins, in base coordinates.
@@ -123,6 +124,8 @@ fn loops_are_closed() {
             (body, DVec3::Z * -rod.length),
         ];
         closed::<AnkleLeg, 9, 9, 9, 3, 3>(&ankle_states(), joined);
+        let universal = [(1, joined[0].1), (body - 2 - (body - 5) / 3, joined[1].1)];
+        closed::<UniversalAnkle, 6, 9, 9, 3, 3>(&ankle_states(), universal);
         closed::<FloatingAnkle, 9, 15, 14, 9, 8>(&floating_states(), joined);
     }
 }

@@ -17,6 +17,7 @@
 //! | `textbook`: [`Core`] | the same for a robot known at compile time |
 //! | `engine`: [`Engine`] | inverse and forward dynamics, M and Jacobians, specialised by the compiler for a robot known at compile time |
 //! | [`drivetrain`] | between motors and joints: a constant matrix that couples them, or springs |
+//! | [`clusters`] | kinematic loops of closed form, such as four-bars and parallel ankles, as joints of several bodies |
 //! | [`control`] | trajectories, observer, control law, safety gate |
 //! | [`sim`] | time steps of a simulated robot, and its actuators |
 //!
@@ -40,6 +41,7 @@
 #![forbid(unsafe_code)]
 
 pub mod algorithms;
+pub mod clusters;
 pub mod control;
 #[cfg(feature = "defmt")]
 mod defmt_form;

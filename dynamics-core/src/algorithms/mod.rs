@@ -40,5 +40,6 @@ pub use operational_space::{
     Conditioning, Damping, OperationalSpace, OsimInverse, damped_inverse, operational_space,
     osim_inverse, task_jacobian,
 };
+pub(crate) use pivot_check::Magnitude;
 pub use rnea::rnea;
 pub(crate) use tree_pass::inward;

@@ -27,7 +27,7 @@ const MOST: usize = 6;
 
 /// Mass, largest first moment and largest ∫ r² dm of the bodies that a joint moves, about its frame's origin.
 #[derive(Clone, Copy)]
-pub(super) struct Magnitude<R> {
+pub(crate) struct Magnitude<R> {
     mass: R,
     first_moment: R,
     second: R,
@@ -57,7 +57,7 @@ impl<R: Real> AddAssign for Magnitude<R> {
 impl<R: Real> Magnitude<R> {
     /// The same about the origin of the parent's frame, from which the body's is at `pos`. 10 flops.
     #[inline(always)]
-    pub(super) fn at_parent(&self, pos: R::Vec3) -> Self {
+    pub(crate) fn at_parent(&self, pos: R::Vec3) -> Self {
         let r = length::<R>(pos);
         let moment = self.first_moment + r * self.mass;
         Self {
@@ -69,7 +69,7 @@ impl<R: Real> Magnitude<R> {
 
     /// The largest sᵀ Iᶜ s.
     #[inline(always)]
-    fn along(&self, s: &MotionSubspace<R>) -> R {
+    pub(crate) fn along(&self, s: &MotionSubspace<R>) -> R {
         match s {
             MotionSubspace::RevoluteZ => self.second,
             MotionSubspace::PrismaticZ => self.mass,

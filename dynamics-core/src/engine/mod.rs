@@ -20,6 +20,8 @@ macro_rules! for_each_joint {
     })*};
 }
 
+pub(crate) use for_each_joint;
+
 /// [`for_each_joint`] from the last joint to the first.
 macro_rules! for_each_joint_reversed {
     ($j:ident, $body:block) => {

@@ -1,13 +1,17 @@
 //! Machines that no maker publishes, as constants: numbers of our own, of the size of real ones.
 
+mod ankle_leg;
 mod direct_drive;
+pub mod four_bar_leg;
 mod gimbal;
 mod leg;
 mod scara;
 pub mod ship;
 mod space_arm;
 
+pub use ankle_leg::{AnkleLeg, RODS};
 pub use direct_drive::DirectDrive;
+pub use four_bar_leg::FourBarLeg;
 pub use gimbal::Gimbal;
 pub use leg::Leg;
 pub use scara::Scara;

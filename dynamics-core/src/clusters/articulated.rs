@@ -1,0 +1,87 @@
+//! What forward dynamics by clusters knows of bodies, of what moves at once, and of D.
+
+use super::layout::INDEPENDENT;
+use crate::algorithms::Magnitude;
+use crate::model::LinkView;
+use crate::scalar::Real;
+use crate::spatial::inertia::ArticulatedInertia;
+use crate::spatial::{Force, Motion, Xform};
+use crate::state::entry;
+
+/// What the passes know of a body.
+pub(super) struct Body<'a, R: Real> {
+    pub(super) link: LinkView<'a, R>,
+    pub(super) x: Xform<R>,
+    /// S̊ q̇ + v × S q̇ + S Ġ ẏ.
+    pub(super) c: Motion<R>,
+    /// Iᴬ and pᴬ of the body with the clusters that it carries, and the largest that the inertia could be.
+    pub(super) ia: ArticulatedInertia<R>,
+    pub(super) pa: Force<R>,
+    pub(super) magnitude: Magnitude<R>,
+    /// The body's acceleration within its cluster, and the force that it takes.
+    pub(super) accel: Motion<R>,
+    pub(super) force: Force<R>,
+}
+
+/// What an independent coordinate's elimination leaves, of D = L Δ Lᵀ: L⁻¹ Uᵀ, 1/Δ, L⁻¹ u, and the row of L.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Factor<R: Real> {
+    pub(super) z: Force<R>,
+    pub(super) d_inv: R,
+    pub(super) u: R,
+    pub(super) l: [R; INDEPENDENT],
+}
+
+/// A column of D on its way to the factor.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Column<R: Real> {
+    pub(super) d: [R; INDEPENDENT],
+    /// What rounding errors of the pivot are relative to.
+    pub(super) noise: R,
+    pub(super) factor: Factor<R>,
+}
+
+impl<R: Real> Column<R> {
+    /// Takes off the shares of the columns before it; returns the pivot.
+    pub(super) fn eliminate(&mut self, before: &[Self]) -> R {
+        let k = before.len();
+        for (earlier, l) in before.iter().zip(&mut self.factor.l) {
+            *l = entry(&earlier.d, k) * earlier.factor.d_inv;
+            for (d, &above) in self.d.iter_mut().zip(&earlier.d).skip(k) {
+                *d -= *l * above;
+            }
+            self.factor.z -= earlier.factor.z * *l;
+            self.factor.u -= *l * earlier.factor.u;
+            self.noise += *l * *l * earlier.noise;
+        }
+        let pivot = entry(&self.d, k);
+        self.factor.d_inv = R::ONE / pivot;
+        pivot
+    }
+}
+
+/// What moves at once: a cluster, or the joint of a body in none.
+pub(super) struct Group {
+    /// Its first body.
+    pub(super) root: usize,
+    /// The body behind its last one.
+    pub(super) end: usize,
+    /// The cluster, or [`NONE`].
+    pub(super) cluster: usize,
+    /// Where its coordinates begin in ẏ, and how many there are.
+    pub(super) first: usize,
+    pub(super) count: usize,
+}
+
+impl Group {
+    /// The parent of a body of the group, if it is of the group too: what carries the group is listed before all of it.
+    pub(super) fn parent_in<'b, 'a, R: Real>(
+        &self,
+        inner: &'b mut [Body<'a, R>],
+        link: &LinkView<'_, R>,
+    ) -> Option<&'b mut Body<'a, R>> {
+        (link.parent >= self.root)
+            .then(|| inner.get_mut(link.parent))
+            .flatten()
+    }
+}

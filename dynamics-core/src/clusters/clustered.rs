@@ -1,0 +1,279 @@
+//! [`Clustered`]: the algorithms for a robot with clusters.
+
+use core::marker::PhantomData;
+
+use super::layout::{EXPANDED, NONE, at, is_near};
+use super::set::{TreeState, sealed::Set};
+use super::{ClusterError, ClusteredRobot, TreeMotion};
+use crate::algorithms::rnea;
+use crate::effects::Effect;
+use crate::engine::for_each_joint;
+use crate::model::{JointCoordinate, JointKind, Model, Robot, RobotModel, Static};
+use crate::scalar::Real;
+use crate::state::{JointTrig, State, entry};
+use crate::trig::Kernel;
+use crate::{Core, Engine};
+
+/// The algorithms for a robot with clusters by those of its tree: `Clustered<Core<T>>` or `Clustered<Engine<T>>`.
+///
+/// States are those of y: see [`ClusteredRobot`].
+#[derive(Clone, Copy, Debug)]
+pub struct Clustered<A>(PhantomData<A>);
+
+/// The kernel K without its form for small angles, which the engine takes and the core does not.
+#[derive(Clone, Copy, Debug)]
+pub struct Unbounded<K>(PhantomData<K>);
+
+impl<R, K: Kernel<R>> Kernel<R> for Unbounded<K> {
+    #[inline(always)]
+    fn sin_cos(x: R) -> (R, R) {
+        K::sin_cos(x)
+    }
+}
+
+/// The algorithms of a tree: [`Core`] or [`Engine`].
+pub trait TreeAlgorithms<R: Real, const B: usize, const Q: usize, const V: usize>:
+    sealed::Tree<R, B, Q, V>
+{
+}
+
+impl<A, R: Real, const B: usize, const Q: usize, const V: usize> TreeAlgorithms<R, B, Q, V> for A where
+    A: sealed::Tree<R, B, Q, V>
+{
+}
+
+mod sealed {
+    use super::{ClusteredRobot, Effect, JointCoordinate, JointTrig, Kernel, Real, Robot, State};
+
+    /// What there is of core and engine.
+    pub trait Tree<R: Real, const B: usize, const Q: usize, const V: usize> {
+        /// The robot.
+        type Robot: Robot<B, Q, V>;
+        /// Its sines and cosines.
+        type Kernel: Kernel<R>;
+
+        /// Sines and cosines of the coordinates in no cluster.
+        fn free_turns<const P: usize, const Y: usize>(
+            q: &[R; Q],
+            turns: &mut [JointCoordinate<R>; Q],
+        ) where
+            Self::Robot: ClusteredRobot<B, Q, V, P, Y>;
+
+        /// Inverse dynamics of the tree.
+        fn rnea<E: Effect<R, B, V>>(
+            trig: &JointTrig<R, Q>,
+            state: &State<R, Q, V>,
+            effects: &E,
+        ) -> [R; V];
+    }
+}
+
+impl<T, K, R: Real, const B: usize, const Q: usize, const V: usize> sealed::Tree<R, B, Q, V>
+    for Core<T, K>
+where
+    T: Robot<B, Q, V>,
+    K: Kernel<R>,
+{
+    type Robot = T;
+    type Kernel = Unbounded<K>;
+
+    #[inline(always)]
+    fn free_turns<const P: usize, const Y: usize>(q: &[R; Q], turns: &mut [JointCoordinate<R>; Q])
+    where
+        T: ClusteredRobot<B, Q, V, P, Y>,
+    {
+        let layout = const { &TreeMotion::<R, T, B, Q, V, P, Y>::LAYOUT };
+        for link in Static::<T, K>::NEW.links() {
+            let v = link.coordinates().start;
+            if layout.cluster.get(v) == Some(&NONE) {
+                link.pose::<K>(q, turns);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn rnea<E: Effect<R, B, V>>(
+        trig: &JointTrig<R, Q>,
+        state: &State<R, Q, V>,
+        effects: &E,
+    ) -> [R; V] {
+        rnea(&Static::<T, K>::NEW, trig.with(state), effects)
+    }
+}
+
+impl<T, K, R: Real, const B: usize, const Q: usize, const V: usize> sealed::Tree<R, B, Q, V>
+    for Engine<T, K>
+where
+    T: Robot<B, Q, V>,
+    K: Kernel<R>,
+{
+    type Robot = T;
+    type Kernel = K;
+
+    #[inline(always)]
+    fn free_turns<const P: usize, const Y: usize>(q: &[R; Q], turns: &mut [JointCoordinate<R>; Q])
+    where
+        T: ClusteredRobot<B, Q, V, P, Y>,
+    {
+        for_each_joint!(J, {
+            if const { J < V && TreeMotion::<R, T, B, Q, V, P, Y>::LAYOUT.cluster[J] == NONE } {
+                // The engine takes joints of one coordinate only: J is the place of the position, too.
+                turns[J] = match const { joint(&T::MODEL, J) } {
+                    (true, _) => JointCoordinate::linear(q[J]),
+                    (false, true) => JointCoordinate::revolute_bounded::<K>(q[J]),
+                    (false, false) => JointCoordinate::with_kernel::<K>(q[J]),
+                };
+            }
+        });
+    }
+
+    #[inline(always)]
+    fn rnea<E: Effect<R, B, V>>(
+        trig: &JointTrig<R, Q>,
+        state: &State<R, Q, V>,
+        effects: &E,
+    ) -> [R; V] {
+        Engine::<T>::run(trig, trig, state, effects)
+    }
+}
+
+impl<A> Clustered<A> {
+    /// The tree's state at y, ẏ, ÿ, and G, for every algorithm of a tick.
+    ///
+    /// # Cost
+    /// That of the clusters, and a sine and cosine for each angle in no cluster.
+    ///
+    /// # Errors
+    /// [`ClusterError`] names the cluster that no configuration closes at y.
+    #[inline(never)]
+    pub fn motion<
+        R,
+        const B: usize,
+        const Q: usize,
+        const V: usize,
+        const P: usize,
+        const Y: usize,
+    >(
+        y: &State<R, P, Y>,
+    ) -> Result<TreeMotion<R, A::Robot, B, Q, V, P, Y>, ClusterError>
+    where
+        R: Real,
+        A: TreeAlgorithms<R, B, Q, V>,
+        A::Robot: ClusteredRobot<B, Q, V, P, Y>,
+    {
+        evaluate::<R, A, B, Q, V, P, Y>(y)
+    }
+
+    /// τ_y = Gᵀ ID(γ(y), G ẏ, G ÿ + Ġ ẏ): the torques at y, N·m or N, under the effects of the scene.
+    ///
+    /// Gravity alone: the same with `&Gravity::EARTH`. Effects act on the tree: friction and rotors are of its
+    /// coordinates.
+    ///
+    /// # Shape
+    /// Y.
+    ///
+    /// # Cost
+    /// That of the tree's `rnea` without the sines of the dependent angles, that of the clusters, and 2 M N flops for each.
+    /// The same instructions whatever the data, but at singularities. Dependent angles themselves, which only effects of
+    /// joints read, cost an arc tangent each where one does, in the core, and in the engine on trees of more than 16 joints.
+    ///
+    /// # Errors
+    /// [`ClusterError`] names the cluster that no configuration closes at y.
+    ///
+    /// # Source
+    /// Jain (2011), section 11.4; Featherstone, RBDA (2008), (3.16), G being the null space of the loops' constraints.
+    ///
+    /// # Example
+    /// That of [the module](super).
+    #[inline(never)]
+    pub fn rnea<
+        R,
+        E,
+        const B: usize,
+        const Q: usize,
+        const V: usize,
+        const P: usize,
+        const Y: usize,
+    >(
+        y: &State<R, P, Y>,
+        effects: &E,
+    ) -> Result<[R; Y], ClusterError>
+    where
+        R: Real,
+        A: TreeAlgorithms<R, B, Q, V>,
+        A::Robot: ClusteredRobot<B, Q, V, P, Y>,
+        E: Effect<R, B, V>,
+    {
+        let motion = evaluate::<R, A, B, Q, V, P, Y>(y)?;
+        Ok(motion.torque(&A::rnea(&motion.trig, &motion.tree, effects)))
+    }
+}
+
+/// The tree's state, and the motions of its clusters.
+#[inline(always)]
+fn evaluate<R, A, const B: usize, const Q: usize, const V: usize, const P: usize, const Y: usize>(
+    y: &State<R, P, Y>,
+) -> Result<TreeMotion<R, A::Robot, B, Q, V, P, Y>, ClusterError>
+where
+    R: Real,
+    A: TreeAlgorithms<R, B, Q, V>,
+    A::Robot: ClusteredRobot<B, Q, V, P, Y>,
+{
+    let layout = const { &TreeMotion::<R, A::Robot, B, Q, V, P, Y>::LAYOUT };
+    let mut tree = State {
+        q: [R::ZERO; Q],
+        qd: [R::ZERO; V],
+        qdd: [R::ZERO; V],
+    };
+    // Not by loops alone, which might not be unrolled: the tree's state would stay in memory, and with it what nobody
+    // reads.
+    for_each_joint!(J, {
+        let p = const { at(&TreeMotion::<R, A::Robot, B, Q, V, P, Y>::LAYOUT.free_q, J) };
+        let y_k = const { at(&TreeMotion::<R, A::Robot, B, Q, V, P, Y>::LAYOUT.free, J) };
+        if p < P {
+            tree.q[J] = y.q[p];
+        }
+        if y_k < Y {
+            (tree.qd[J], tree.qdd[J]) = (y.qd[y_k], y.qdd[y_k]);
+        }
+    });
+    if const { Q > EXPANDED } {
+        for (q, &place) in tree.q.iter_mut().zip(&layout.free_q).skip(EXPANDED) {
+            *q = entry(&y.q, place);
+        }
+        let rates = tree.qd.iter_mut().zip(&mut tree.qdd);
+        for ((qd, qdd), &place) in rates.zip(&layout.free).skip(EXPANDED) {
+            (*qd, *qdd) = (entry(&y.qd, place), entry(&y.qdd, place));
+        }
+    }
+    let mut turns = [JointCoordinate::default(); Q];
+    A::free_turns::<P, Y>(&tree.q, &mut turns);
+    let set = const { <A::Robot as ClusteredRobot<B, Q, V, P, Y>>::CLUSTERS };
+    let motions = set.evaluate::<R, A::Kernel, A::Robot, B, Q, V, P, Y>(
+        y,
+        &mut TreeState {
+            turns: &mut turns,
+            state: &mut tree,
+        },
+    )?;
+    Ok(TreeMotion {
+        trig: JointTrig { turns },
+        tree,
+        motions,
+        one: [R::ONE],
+    })
+}
+
+/// Whether the joint of velocity coordinate `v` is prismatic, and whether its limits are within ±4π.
+const fn joint<const B: usize, const Q: usize, const V: usize>(
+    model: &Model<f64, B, Q, V>,
+    v: usize,
+) -> (bool, bool) {
+    let mut i = 0;
+    while i + 1 < B && model.links[i].idx_v != v {
+        i += 1;
+    }
+    let link = &model.links[i];
+    let prismatic = matches!(link.joint.kind, JointKind::Prismatic);
+    (prismatic, is_near(link))
+}

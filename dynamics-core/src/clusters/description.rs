@@ -1,0 +1,181 @@
+//! How a robot with clusters is described: its spanning tree, and what drives its coordinates.
+
+use super::ClusterSet;
+use super::layout::Layout;
+use super::set::sealed;
+use crate::model::Robot;
+
+/// A cluster of a robot, under a name.
+///
+/// ```
+/// use dynamics_core::clusters::{Differential, Driven};
+/// const WRIST: Driven<Differential, 2, 2> = Driven::new("wrist", Differential::new([1.0, 1.0]));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Driven<C, const M: usize, const N: usize> {
+    pub(super) name: &'static str,
+    pub(super) cluster: C,
+    pub(super) actuated: Option<[usize; N]>,
+}
+
+impl<C, const M: usize, const N: usize> Driven<C, M, N> {
+    /// A cluster with the motors at its independent coordinates; its name is in errors.
+    pub const fn new(name: &'static str, cluster: C) -> Self {
+        Self {
+            name,
+            cluster,
+            actuated: None,
+        }
+    }
+
+    /// The same with the motors at these rows of q, of which [`TreeMotion::to_motors`](super::TreeMotion::to_motors)
+    /// has the torques.
+    ///
+    /// # Panics
+    /// If the cluster has no such row or a row is named twice; in a `const` this does not compile.
+    #[must_use]
+    pub const fn actuated(mut self, rows: [usize; N]) -> Self {
+        let mut k = 0;
+        while k < N {
+            assert!(
+                rows[k] < M,
+                "a cluster is actuated at a row that it does not have"
+            );
+            let mut l = 0;
+            while l < k {
+                assert!(rows[k] != rows[l], "a cluster is actuated twice at one row");
+                l += 1;
+            }
+            k += 1;
+        }
+        self.actuated = Some(rows);
+        self
+    }
+}
+
+/// A robot of B bodies with Q positions and V velocities in its spanning tree, and P independent positions and Y
+/// independent velocities, known at compile time.
+///
+/// y has, in the order of the tree's bodies, the coordinates that are in no cluster as they are, and the independent
+/// coordinates of each cluster in the place of its first body. For robots whose joints all have one degree of freedom P
+/// = Y.
+///
+/// A description that cannot be does not compile: a coordinate that is driven twice, one that the robot does not have,
+/// bodies of a cluster that are on two bodies outside it, a joint with a quaternion, wrong P and Y. This one can be,
+///
+/// ```
+/// use dynamics_core::clusters::{Clustered, ClusteredRobot, Differential, Driven};
+/// use dynamics_core::{Core, effects::RIGID_BODY, model::Robot, robots::Ur5e, state::State};
+/// struct Arm;
+/// impl Robot<6, 6, 6> for Arm {
+///     const MODEL: dynamics_core::model::ArmModel<f64, 6> = Ur5e::MODEL;
+/// }
+/// impl ClusteredRobot<6, 6, 6, 6, 6> for Arm {
+///     type Clusters = (Driven<Differential, 2, 2>,);
+///     const CLUSTERS: Self::Clusters = (Driven::new("wrist", Differential::new([1.0, 1.0])),);
+///     const COORDINATES: &'static [&'static [usize]] = &[&[4, 5]];
+/// }
+/// assert!(Clustered::<Core<Arm>>::rnea(&State::at([0.1; 6]), &RIGID_BODY).is_ok());
+/// ```
+///
+/// and the same with a coordinate that is driven twice cannot:
+///
+/// ```compile_fail,E0080
+/// # use dynamics_core::clusters::{Clustered, ClusteredRobot, Differential, Driven};
+/// # use dynamics_core::{Core, effects::RIGID_BODY, model::Robot, robots::Ur5e, state::State};
+/// # struct Arm;
+/// # impl Robot<6, 6, 6> for Arm {
+/// #     const MODEL: dynamics_core::model::ArmModel<f64, 6> = Ur5e::MODEL;
+/// # }
+/// impl ClusteredRobot<6, 6, 6, 6, 6> for Arm {
+///     type Clusters = (Driven<Differential, 2, 2>,);
+///     const CLUSTERS: Self::Clusters = (Driven::new("wrist", Differential::new([1.0, 1.0])),);
+///     const COORDINATES: &'static [&'static [usize]] = &[&[4, 4]];
+/// }
+/// assert!(Clustered::<Core<Arm>>::rnea(&State::at([0.1; 6]), &RIGID_BODY).is_ok());
+/// // error: a coordinate is driven twice, by one cluster or by two
+/// ```
+///
+/// nor with one that the robot does not have:
+///
+/// ```compile_fail,E0080
+/// # use dynamics_core::clusters::{Clustered, ClusteredRobot, Differential, Driven};
+/// # use dynamics_core::{Core, effects::RIGID_BODY, model::Robot, robots::Ur5e, state::State};
+/// # struct Arm;
+/// # impl Robot<6, 6, 6> for Arm {
+/// #     const MODEL: dynamics_core::model::ArmModel<f64, 6> = Ur5e::MODEL;
+/// # }
+/// impl ClusteredRobot<6, 6, 6, 6, 6> for Arm {
+///     type Clusters = (Driven<Differential, 2, 2>,);
+///     const CLUSTERS: Self::Clusters = (Driven::new("wrist", Differential::new([1.0, 1.0])),);
+///     const COORDINATES: &'static [&'static [usize]] = &[&[5, 6]];
+/// }
+/// assert!(Clustered::<Core<Arm>>::rnea(&State::at([0.1; 6]), &RIGID_BODY).is_ok());
+/// // error: a cluster drives a coordinate that the robot does not have
+/// ```
+///
+/// nor with bodies that are not on each other, here with two between them:
+///
+/// ```compile_fail,E0080
+/// # use dynamics_core::clusters::{Clustered, ClusteredRobot, Differential, Driven};
+/// # use dynamics_core::{Core, effects::RIGID_BODY, model::Robot, robots::Ur5e, state::State};
+/// # struct Arm;
+/// # impl Robot<6, 6, 6> for Arm {
+/// #     const MODEL: dynamics_core::model::ArmModel<f64, 6> = Ur5e::MODEL;
+/// # }
+/// impl ClusteredRobot<6, 6, 6, 6, 6> for Arm {
+///     type Clusters = (Driven<Differential, 2, 2>,);
+///     const CLUSTERS: Self::Clusters = (Driven::new("wrist", Differential::new([1.0, 1.0])),);
+///     const COORDINATES: &'static [&'static [usize]] = &[&[2, 5]];
+/// }
+/// assert!(Clustered::<Core<Arm>>::rnea(&State::at([0.1; 6]), &RIGID_BODY).is_ok());
+/// // error: the bodies of a cluster are not all on each other or on one body outside it
+/// ```
+///
+/// nor with another number of independent coordinates:
+///
+/// ```compile_fail,E0080
+/// # use dynamics_core::clusters::{Clustered, ClusteredRobot, Differential, Driven};
+/// # use dynamics_core::{Core, effects::RIGID_BODY, model::Robot, robots::Ur5e, state::State};
+/// # struct Arm;
+/// # impl Robot<6, 6, 6> for Arm {
+/// #     const MODEL: dynamics_core::model::ArmModel<f64, 6> = Ur5e::MODEL;
+/// # }
+/// impl ClusteredRobot<6, 6, 6, 5, 5> for Arm {
+///     type Clusters = (Driven<Differential, 2, 2>,);
+///     const CLUSTERS: Self::Clusters = (Driven::new("wrist", Differential::new([1.0, 1.0])),);
+///     const COORDINATES: &'static [&'static [usize]] = &[&[4, 5]];
+/// }
+/// assert!(Clustered::<Core<Arm>>::rnea(&State::at([0.1; 5]), &RIGID_BODY).is_ok());
+/// // error: P and Y are not the numbers of independent positions and velocities
+/// ```
+pub trait ClusteredRobot<
+    const B: usize,
+    const Q: usize,
+    const V: usize,
+    const P: usize,
+    const Y: usize,
+>: Robot<B, Q, V>
+{
+    /// The clusters' types: a tuple of up to eight [`Driven`].
+    type Clusters: ClusterSet;
+    /// The clusters.
+    const CLUSTERS: Self::Clusters;
+    /// Which velocity coordinates of the tree each cluster drives, in the order of its rows.
+    const COORDINATES: &'static [&'static [usize]];
+}
+
+/// The layout of a robot's coordinates, with its checks.
+pub(super) struct Places<T, const B: usize, const P: usize, const Y: usize>(
+    core::marker::PhantomData<T>,
+);
+
+impl<T, const B: usize, const P: usize, const Y: usize> Places<T, B, P, Y> {
+    pub(super) const fn layout<const Q: usize, const V: usize>() -> Layout<Q, V>
+    where
+        T: ClusteredRobot<B, Q, V, P, Y>,
+    {
+        let sizes = <T::Clusters as sealed::Set>::SIZES;
+        Layout::of(&T::MODEL, T::COORDINATES, sizes, [P, Y])
+    }
+}

@@ -1,0 +1,267 @@
+//! All clusters of a robot: a tuple.
+
+use super::cluster::{add_torque, dot};
+use super::description::Places;
+use super::layout::at;
+use super::{Cluster, ClusterError, ClusterMotion, ClusterProblem, ClusteredRobot, Driven};
+use crate::engine::for_each_joint;
+use crate::model::JointCoordinate;
+use crate::scalar::Real;
+use crate::state::{State, entry};
+use crate::trig::Kernel;
+
+/// A tuple of clusters: up to eight [`Driven`], of whatever kinds.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a tuple of clusters",
+    note = "a tuple of up to eight `Driven<C, M, N>` with `C: Cluster<M, N>`, and a comma after a single \
+            one: `(Driven<FourBar, 3, 1>,)`"
+)]
+pub trait ClusterSet: sealed::Set {}
+
+impl<S: sealed::Set> ClusterSet for S {}
+
+/// The state of the spanning tree while it is filled in.
+pub struct TreeState<'a, R, const Q: usize, const V: usize> {
+    pub(super) turns: &'a mut [JointCoordinate<R>; Q],
+    pub(super) state: &'a mut State<R, Q, V>,
+}
+
+pub(super) mod sealed {
+    use super::{ClusterError, Real, State, TreeState};
+    use crate::clusters::ClusteredRobot;
+    use crate::trig::Kernel;
+    use core::fmt::Debug;
+
+    /// What the algorithms do with all clusters of a robot.
+    pub trait Set: Copy {
+        /// The motions of the clusters.
+        type Motions<R: Real>: Copy + Debug + PartialEq;
+        /// M and N of each.
+        const SIZES: &'static [[usize; 2]];
+
+        /// Evaluates every cluster and fills in the tree's coordinates that it drives.
+        fn evaluate<
+            R: Real,
+            K: Kernel<R>,
+            T: ClusteredRobot<B, Q, V, P, Y, Clusters = Self>,
+            const B: usize,
+            const Q: usize,
+            const V: usize,
+            const P: usize,
+            const Y: usize,
+        >(
+            &self,
+            y: &State<R, P, Y>,
+            tree: &mut TreeState<'_, R, Q, V>,
+        ) -> Result<Self::Motions<R>, ClusterError>;
+
+        /// Gᵀ τ of every cluster.
+        fn torque<
+            R: Real,
+            T: ClusteredRobot<B, Q, V, P, Y, Clusters = Self>,
+            const B: usize,
+            const Q: usize,
+            const V: usize,
+            const P: usize,
+            const Y: usize,
+        >(
+            motions: &Self::Motions<R>,
+            tau: &[R; V],
+            out: &mut [R; Y],
+        );
+
+        /// A row of G and of Ġ ẏ.
+        fn row<R: Real>(motions: &Self::Motions<R>, cluster: usize, row: usize) -> (&[R], R);
+        /// Whether a cluster is at a singularity.
+        fn singular<R: Real>(motions: &Self::Motions<R>, cluster: usize) -> bool;
+        /// The name of a cluster.
+        fn name(&self, cluster: usize) -> &'static str;
+        /// The actuated rows of a cluster.
+        fn actuated(&self, cluster: usize) -> Option<&[usize]>;
+    }
+}
+
+impl<C: Cluster<M, N>, const M: usize, const N: usize> Driven<C, M, N> {
+    /// Evaluates the cluster, which is the I-th, and fills in the tree's coordinates that it drives.
+    #[inline(always)]
+    fn place<
+        R: Real,
+        K: Kernel<R>,
+        T: ClusteredRobot<B, Q, V, P, Y>,
+        const I: usize,
+        const B: usize,
+        const Q: usize,
+        const V: usize,
+        const P: usize,
+        const Y: usize,
+    >(
+        &self,
+        y: &State<R, P, Y>,
+        tree: &mut TreeState<'_, R, Q, V>,
+    ) -> Result<ClusterMotion<R, M, N>, ClusterError> {
+        let layout = const { &Places::<T, B, P, Y>::layout::<Q, V>() };
+        let [p, first] = layout.first[I];
+        let place = core::array::from_fn(|k| {
+            let y = entry(&y.q, p + k);
+            if layout.near[I] {
+                JointCoordinate::revolute_bounded::<K>(y)
+            } else {
+                JointCoordinate::with_kernel::<K>(y)
+            }
+        });
+        let yd: [R; N] = core::array::from_fn(|k| entry(&y.qd, first + k));
+        let ydd: [R; N] = core::array::from_fn(|k| entry(&y.qdd, first + k));
+        let motion: ClusterMotion<R, M, N> = match self.cluster.evaluate::<R, K>(&place, &yd) {
+            Ok(motion) => motion,
+            Err(problem) => return Err(self.error(problem)),
+        };
+        for_each_joint!(J, {
+            // Not a loop, which might not be unrolled: angles that no effect reads are then computed.
+            if const { J < M } {
+                let v = const { at(T::COORDINATES[I], J) };
+                let q = const {
+                    at(
+                        &Places::<T, B, P, Y>::layout::<Q, V>().position,
+                        at(T::COORDINATES[I], J),
+                    )
+                };
+                if let (Some(turn), Some(angle)) = (tree.turns.get_mut(q), tree.state.q.get_mut(q))
+                {
+                    (*turn, *angle) = (motion.q[J], motion.q[J].q);
+                }
+                if let (Some(qd), Some(qdd)) = (tree.state.qd.get_mut(v), tree.state.qdd.get_mut(v))
+                {
+                    let g = &motion.g[J];
+                    (*qd, *qdd) = (dot(g, &yd), dot(g, &ydd) + motion.bias[J]);
+                }
+            }
+        });
+        Ok(motion)
+    }
+
+    #[cold]
+    fn error(&self, problem: ClusterProblem) -> ClusterError {
+        ClusterError {
+            cluster: self.name,
+            problem,
+        }
+    }
+
+    /// Gᵀ τ of the I-th cluster.
+    #[inline(always)]
+    fn put_torque<
+        R: Real,
+        T: ClusteredRobot<B, Q, V, P, Y>,
+        const I: usize,
+        const B: usize,
+        const Q: usize,
+        const V: usize,
+        const P: usize,
+        const Y: usize,
+    >(
+        motion: &ClusterMotion<R, M, N>,
+        tau: &[R; V],
+        out: &mut [R; Y],
+    ) {
+        let layout = const { &Places::<T, B, P, Y>::layout::<Q, V>() };
+        let mut sums = [R::ZERO; N];
+        for_each_joint!(J, {
+            if const { J < M } {
+                let tau = entry(tau, const { at(T::COORDINATES[I], J) });
+                add_torque(&mut sums, &motion.g[J], tau, J == 0);
+            }
+        });
+        for (k, tau) in sums.into_iter().enumerate() {
+            if let Some(out) = out.get_mut(layout.first[I][1] + k) {
+                *out = tau;
+            }
+        }
+    }
+}
+
+macro_rules! tuple {
+    ($($name:ident $m:ident $n:ident $at:tt),*) => {
+        impl<$($name: Cluster<$m, $n>, const $m: usize, const $n: usize),*> sealed::Set
+            for ($(Driven<$name, $m, $n>,)*)
+        {
+            type Motions<R: Real> = ($(ClusterMotion<R, $m, $n>,)*);
+            const SIZES: &'static [[usize; 2]] = &[$([$m, $n]),*];
+
+            #[inline(always)]
+            fn evaluate<
+                R: Real,
+                K: Kernel<R>,
+                T: ClusteredRobot<B, Q, V, P, Y, Clusters = Self>,
+                    const B: usize,
+                const Q: usize,
+                const V: usize,
+                const P: usize,
+                const Y: usize,
+            >(
+                &self,
+                y: &State<R, P, Y>,
+                tree: &mut TreeState<'_, R, Q, V>,
+            ) -> Result<Self::Motions<R>, ClusterError> {
+                Ok(($(self.$at.place::<R, K, T, $at, B, Q, V, P, Y>(y, tree)?,)*))
+            }
+
+            #[inline(always)]
+            fn torque<
+                R: Real,
+                T: ClusteredRobot<B, Q, V, P, Y, Clusters = Self>,
+                const B: usize,
+                const Q: usize,
+                const V: usize,
+                const P: usize,
+                const Y: usize,
+            >(
+                motions: &Self::Motions<R>,
+                tau: &[R; V],
+                out: &mut [R; Y],
+            ) {
+                $(Driven::<$name, $m, $n>::put_torque::<R, T, $at, B, Q, V, P, Y>(&motions.$at, tau, out);)*
+            }
+
+            #[inline(always)]
+            fn row<R: Real>(motions: &Self::Motions<R>, cluster: usize, row: usize) -> (&[R], R) {
+                match cluster {
+                    $($at => match motions.$at.g.get(row) {
+                        Some(g) => (g, entry(&motions.$at.bias, row)),
+                        None => (&[], R::ZERO),
+                    },)*
+                    _ => (&[], R::ZERO),
+                }
+            }
+
+            fn singular<R: Real>(motions: &Self::Motions<R>, cluster: usize) -> bool {
+                match cluster {
+                    $($at => motions.$at.singular,)*
+                    _ => false,
+                }
+            }
+
+            fn name(&self, cluster: usize) -> &'static str {
+                match cluster {
+                    $($at => self.$at.name,)*
+                    _ => "",
+                }
+            }
+
+            fn actuated(&self, cluster: usize) -> Option<&[usize]> {
+                match cluster {
+                    $($at => self.$at.actuated.as_ref().map(|rows| rows.as_slice()),)*
+                    _ => None,
+                }
+            }
+        }
+    };
+}
+
+tuple!(C0 M0 N0 0);
+tuple!(C0 M0 N0 0, C1 M1 N1 1);
+tuple!(C0 M0 N0 0, C1 M1 N1 1, C2 M2 N2 2);
+tuple!(C0 M0 N0 0, C1 M1 N1 1, C2 M2 N2 2, C3 M3 N3 3);
+tuple!(C0 M0 N0 0, C1 M1 N1 1, C2 M2 N2 2, C3 M3 N3 3, C4 M4 N4 4);
+tuple!(C0 M0 N0 0, C1 M1 N1 1, C2 M2 N2 2, C3 M3 N3 3, C4 M4 N4 4, C5 M5 N5 5);
+tuple!(C0 M0 N0 0, C1 M1 N1 1, C2 M2 N2 2, C3 M3 N3 3, C4 M4 N4 4, C5 M5 N5 5, C6 M6 N6 6);
+tuple!(C0 M0 N0 0, C1 M1 N1 1, C2 M2 N2 2, C3 M3 N3 3, C4 M4 N4 4, C5 M5 N5 5, C6 M6 N6 6, C7 M7 N7 7);

@@ -1,0 +1,131 @@
+//! γ, G and Ġ ẏ of every linkage, in the tree: its loops are closed, and its rates are the derivatives of its
+//! positions.
+
+use cluster_tests::{
+    FiveBarLeg, FloatingAnkle, Geared, UniversalAnkle, Wrist, ankle_states, apart, five_bar_states,
+    floating_states, four_bar_states, geared_states, wrist_states,
+};
+use dynamics_core::clusters::{Clustered, ClusteredRobot};
+use dynamics_core::model::Static;
+use dynamics_core::state::{RobotState, State};
+use dynamics_core::{Core, algorithms};
+use firmware_demo::robots::{AnkleLeg, FourBarLeg};
+use glam::DVec3;
+
+/// d/dt of q and of q̇ of the tree along y(t) = y + ẏ t + ÿ t²/2, by differences of sixth order.
+fn derivatives<T, const B: usize, const N: usize, const Y: usize>(
+    y: &State<f64, Y, Y>,
+) -> [[f64; N]; 2]
+where
+    T: ClusteredRobot<B, N, N, Y, Y>,
+{
+    let h = 1e-3;
+    let at = |t: f64| {
+        let q = core::array::from_fn(|i| y.q[i] + t * (y.qd[i] + t * 0.5 * y.qdd[i]));
+        let qd = core::array::from_fn(|i| y.qd[i] + t * y.qdd[i]);
+        let y = State { q, qd, ..*y };
+        let motion = Clustered::<Core<T>>::motion(&y).expect("it closes");
+        [motion.state().state().q, motion.state().state().qd]
+    };
+    let at: [[[f64; N]; 2]; 7] = core::array::from_fn(|k| at((k as f64 - 3.0) * h));
+    [0, 1].map(|order| {
+        let centre = at[3][order];
+        core::array::from_fn(|i| {
+            let weights = [-1.0, 9.0, -45.0, 0.0, 45.0, -9.0, 1.0];
+            let term = |(weight, at): (&f64, &[[f64; N]; 2])| {
+                // Angles of closed forms are within ±π.
+                let (turn, change) = (core::f64::consts::TAU, at[order][i] - centre[i]);
+                let turns = if order == 0 {
+                    (change / turn).round()
+                } else {
+                    0.0
+                };
+                weight * (change - turn * turns)
+            };
+            weights.iter().zip(&at).map(term).sum::<f64>() / (60.0 * h)
+        })
+    })
+}
+
+/// Holds G ẏ and G ÿ + Ġ ẏ against differences.
+fn rates_are_derivatives<T, const B: usize, const N: usize, const Y: usize>(
+    states: &[State<f64, Y, Y>],
+) where
+    T: ClusteredRobot<B, N, N, Y, Y>,
+{
+    let mut worst = [0.0_f64; 2];
+    for y in states {
+        let [rate, accel] = derivatives::<T, B, N, Y>(y);
+        let motion = Clustered::<Core<T>>::motion(y).expect("it closes");
+        let tree = motion.state();
+        let tree = tree.state();
+        let scale = |row: &[f64]| cluster_tests::largest(row).max(1.0);
+        worst[0] = worst[0].max(apart(&rate, &tree.qd) / scale(&rate));
+        worst[1] = worst[1].max(apart(&accel, &tree.qdd) / scale(&accel));
+        assert_eq!(motion.singular(), None);
+    }
+    println!(
+        "{}: rate {:.1e}, acceleration {:.1e}",
+        T::MODEL.name,
+        worst[0],
+        worst[1]
+    );
+    assert!(worst[0] < 1e-10 && worst[1] < 1e-10, "{worst:?}");
+}
+
+#[test]
+fn rates_of_every_linkage_are_the_derivatives_of_its_positions() {
+    rates_are_derivatives::<FourBarLeg, 5, 5, 3>(&four_bar_states());
+    rates_are_derivatives::<FiveBarLeg, 5, 5, 3>(&five_bar_states());
+    rates_are_derivatives::<Wrist, 6, 6, 6>(&wrist_states());
+    rates_are_derivatives::<Geared, 7, 7, 4>(&geared_states());
+    rates_are_derivatives::<AnkleLeg, 9, 9, 3>(&ankle_states());
+    rates_are_derivatives::<UniversalAnkle, 6, 9, 3>(&ankle_states());
+}
+
+/// The points of two bodies that the loop joins, in base coordinates.
+fn ends<T, const B: usize, const Q: usize, const V: usize, const P: usize, const Y: usize>(
+    y: &State<f64, P, Y>,
+    joined: [(usize, DVec3); 2],
+) -> [DVec3; 2]
+where
+    T: ClusteredRobot<B, Q, V, P, Y>,
+{
+    let motion = Clustered::<Core<T>>::motion(y).expect("it closes");
+    let poses = algorithms::poses(&Static::<T>::NEW, motion.configuration());
+    joined.map(|(body, point)| poses[body].point(point))
+}
+
+fn closed<T, const B: usize, const Q: usize, const V: usize, const P: usize, const Y: usize>(
+    states: &[State<f64, P, Y>],
+    joined: [(usize, DVec3); 2],
+) where
+    T: ClusteredRobot<B, Q, V, P, Y>,
+{
+    let gap = |y| {
+        let [a, b] = ends::<T, B, Q, V, P, Y>(y, joined);
+        (a - b).length()
+    };
+    let worst = states.iter().map(gap).fold(0.0, f64::max);
+    println!("{}: gap {worst:.1e} m", T::MODEL.name);
+    assert!(worst < 1e-14, "{worst:.1e}");
+}
+
+#[test]
+fn loops_are_closed() {
+    use firmware_demo::robots::four_bar_leg::{LEVER, ROD};
+    let [rod, lever] = [DVec3::Z * -ROD, DVec3::X * LEVER];
+    closed::<FourBarLeg, 5, 5, 5, 3, 3>(&four_bar_states(), [(2, rod), (3, lever)]);
+    let [rod, other] = [0.22, 0.2].map(|length| DVec3::X * length);
+    closed::<FiveBarLeg, 5, 5, 5, 3, 3>(&five_bar_states(), [(2, rod), (4, other)]);
+    for (rod, body) in firmware_demo::robots::RODS.iter().zip([5, 8]) {
+        let joined = [
+            (2, DVec3::from_array(rod.foot)),
+            (body, DVec3::Z * -rod.length),
+        ];
+        closed::<AnkleLeg, 9, 9, 9, 3, 3>(&ankle_states(), joined);
+        let universal = [(1, joined[0].1), (body - 2 - (body - 5) / 3, joined[1].1)];
+        closed::<UniversalAnkle, 6, 9, 9, 3, 3>(&ankle_states(), universal);
+        closed::<FloatingAnkle, 9, 15, 14, 9, 8>(&floating_states(), joined);
+    }
+}

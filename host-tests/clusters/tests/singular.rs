@@ -1,0 +1,337 @@
+//! Singularities, and what cannot be: a status or an error that names the cluster, never a NaN.
+
+use core::f64::consts::{FRAC_PI_2, PI};
+
+use cluster_tests::{Random, ankle_states, apart, hold};
+use dynamics_core::algorithms::NotPositiveDefinite;
+use dynamics_core::clusters::{
+    Belt, Branch, Cluster, ClusterError, ClusterProblem, Clustered, ClusteredRobot, Driven,
+    FiveBar, ForwardError, FourBar, ParallelAnkle, Rod,
+};
+use dynamics_core::effects::{Gravity, RIGID_BODY};
+use dynamics_core::model::{ArmModel, BASE, Body, Joint, JointCoordinate, Model, Robot};
+use dynamics_core::scalar::{Native, Real};
+use dynamics_core::state::State;
+use dynamics_core::{Core, Engine};
+use firmware_demo::robots::{AnkleLeg, FourBarLeg};
+
+/// The follower's motion at a crank angle, in the scalar R.
+fn at<R: Real, C: Cluster<M, 1>, const M: usize>(
+    linkage: &C,
+    y: f64,
+) -> Result<dynamics_core::clusters::ClusterMotion<R, M, 1>, ClusterProblem> {
+    let y = JointCoordinate::revolute(R::from_f64(y));
+    linkage.evaluate::<R, Native>(&[y], &[R::from_f64(2.0)])
+}
+
+/// A parallelogram, which is flat at 0 and π.
+const FLAT: FourBar = FourBar::new(0.3, 0.1, 0.3, 0.1, Branch::Positive);
+/// Its crank does not turn all around: ground + crank > coupler + rocker.
+const ROCKING: FourBar = FourBar::new(0.3, 0.2, 0.25, 0.1, Branch::Positive);
+/// Grashof's change point: shortest + longest = the other two.
+const CHANGING: FourBar = FourBar::new(0.4, 0.1, 0.3, 0.2, Branch::Positive);
+
+fn named_and_bounded<R: Real>() {
+    for (linkage, y) in [(FLAT, 0.0), (FLAT, PI), (CHANGING, PI)] {
+        let near = [0.0, 1e-9, -1e-9, 1e-7].map(|off| at::<R, _, 3>(&linkage, y + off));
+        for motion in near {
+            let motion = motion.expect("it closes");
+            assert!(motion.singular && motion.is_finite(), "{motion:?}");
+            // |G| ≤ crank · coupler … / (h damped), h ≥ 0 and h⁻¹ ≤ 1 / √(256 ε) of the longer link.
+            let bound = 2.0 / (256.0 * R::EPSILON.to_f64()).sqrt();
+            assert!(
+                motion.g.iter().all(|[g]| g.to_f64().abs() < bound),
+                "{motion:?}"
+            );
+        }
+        // Away from it there is no status, and the loop is closed by its rates.
+        let away = at::<R, _, 3>(&linkage, y + 0.05).expect("it closes");
+        assert!(!away.singular);
+    }
+}
+
+#[test]
+fn a_flat_parallelogram_and_a_change_point_are_named_and_bounded() {
+    named_and_bounded::<f32>();
+    named_and_bounded::<f64>();
+}
+
+#[test]
+fn the_damping_ends_where_the_status_does() {
+    let mut before: Option<(bool, f64)> = None;
+    let mut step = 0.0_f64;
+    // h of the crank's angle near π grows with it: from the damped range to the other in fine steps.
+    for i in 0..20_000 {
+        let motion = at::<f64, _, 3>(&FLAT, PI - 1e-10 * f64::from(i)).expect("it closes");
+        let g = motion.g[2][0];
+        if let Some((singular, last)) = before
+            && singular != motion.singular
+        {
+            step = (g - last).abs() / g.abs().max(last.abs());
+        }
+        before = Some((motion.singular, g));
+    }
+    assert_eq!(before.map(|at| at.0), Some(false));
+    hold("step of G at the end of the damping", step, 1e-3);
+}
+
+fn cannot_close<R: Real>() {
+    let problem = |y| at::<R, _, 3>(&ROCKING, y).map(|_| ());
+    assert_eq!(problem(3.0), Err(ClusterProblem::CannotClose));
+    assert_eq!(problem(0.9), Ok(()));
+    for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        assert_eq!(problem(bad), Err(ClusterProblem::NotFinite));
+    }
+    // A finite reading that is far beyond any angle is no NaN.
+    for y in [1e6, 1e18, 1e30, -1e30] {
+        if let Ok(motion) = at::<R, _, 3>(&ROCKING, y) {
+            assert!(motion.is_finite());
+        }
+    }
+    let belt = Belt::new([0.0, 1.0, 0.0, 1.0]);
+    assert_eq!(
+        at::<R, _, 2>(&belt, 1e30).is_err(),
+        R::EPSILON == R::from_f64(f64::from(f32::EPSILON))
+    );
+    assert_eq!(
+        at::<R, _, 2>(&belt, f64::NAN).map(|_| ()),
+        Err(ClusterProblem::NotFinite)
+    );
+
+    const FIVE: FiveBar = FiveBar::new(0.1, [0.1, 0.1], [0.1, 0.1], Branch::Positive);
+    let apart = [PI, 0.0].map(|y| JointCoordinate::revolute(R::from_f64(y)));
+    let problem = FIVE.evaluate::<R, Native>(&apart, &[R::ONE; 2]).map(|_| ());
+    assert_eq!(problem, Err(ClusterProblem::CannotClose));
+}
+
+#[test]
+fn a_linkage_that_cannot_close_is_an_error_in_either_scalar() {
+    cannot_close::<f32>();
+    cannot_close::<f64>();
+}
+
+#[test]
+fn errors_name_the_cluster() {
+    let bent = |y: f64| State {
+        q: [0.1, y, 0.0],
+        qd: [1.0; 3],
+        qdd: [1.0; 3],
+    };
+    let expected: ClusterError =
+        Clustered::<Core<FourBarLeg>>::rnea(&bent(2.0), &RIGID_BODY).expect_err("too far");
+    assert_eq!(
+        (expected.cluster, expected.problem),
+        ("knee", ClusterProblem::CannotClose)
+    );
+    assert_eq!(
+        expected.to_string(),
+        "cluster `knee`: the links do not reach each other"
+    );
+    assert_eq!(
+        Clustered::<Engine<FourBarLeg>>::rnea(&bent(2.0), &RIGID_BODY),
+        Err(expected)
+    );
+    let forward = Clustered::<Core<FourBarLeg>>::aba(&bent(2.0), &[0.0; 3], &RIGID_BODY);
+    assert_eq!(forward, Err(ForwardError::Cluster(expected)));
+    let nan =
+        Clustered::<Core<FourBarLeg>>::rnea(&bent(f64::NAN), &RIGID_BODY).expect_err("no number");
+    assert_eq!(
+        (nan.cluster, nan.problem),
+        ("knee", ClusterProblem::NotFinite)
+    );
+}
+
+/// A four-bar whose links have no mass but the rocker's.
+struct Light<const MASS: u8>;
+
+impl<const MASS: u8> Robot<4, 4, 4> for Light<MASS> {
+    const MODEL: ArmModel<f64, 4> = {
+        let z = Joint::revolute([0.0, 0.0, 1.0]);
+        Model::new(
+            "light",
+            [
+                Body::new("turret", BASE, Joint::revolute([1.0, 0.0, 0.0]))
+                    .mass(1.0)
+                    .com([0.0, 0.1, 0.0]),
+                Body::new("crank", 0, z),
+                Body::new("coupler", 1, z).xyz([0.1, 0.0, 0.0]),
+                Body::new("rocker", 0, z)
+                    .xyz([0.3, 0.0, 0.0])
+                    .mass(MASS as f64)
+                    .com([0.1, 0.0, 0.0]),
+            ],
+        )
+    };
+}
+
+impl<const MASS: u8> ClusteredRobot<4, 4, 4, 2, 2> for Light<MASS> {
+    type Clusters = (Driven<FourBar, 3, 1>,);
+    const CLUSTERS: Self::Clusters = (Driven::new("parallelogram", FLAT).actuated([2]),);
+    const COORDINATES: &'static [&'static [usize]] = &[&[1, 2, 3]];
+}
+
+#[test]
+fn links_without_mass_are_no_error_and_a_cluster_without_any_is() {
+    let y = State {
+        q: [0.2, 1.0],
+        qd: [1.0, 2.0],
+        qdd: [3.0, 4.0],
+    };
+    let tau = Clustered::<Core<Light<1>>>::rnea(&y, &RIGID_BODY).expect("it closes");
+    let again =
+        Clustered::<Core<Light<1>>>::aba(&y, &tau, &RIGID_BODY).expect("the rocker has mass");
+    assert!(apart(&again, &y.qdd) < 1e-12);
+    let none =
+        Clustered::<Core<Light<0>>>::aba(&y, &[0.0; 2], &RIGID_BODY).expect_err("no inertia");
+    let ForwardError::Cluster(error) = none else {
+        panic!("{none:?}")
+    };
+    assert_eq!(
+        (error.cluster, error.problem),
+        ("parallelogram", ClusterProblem::NoInertia)
+    );
+}
+
+#[test]
+fn torque_at_a_singularity_is_finite_and_bounded() {
+    let swinging = |off| State {
+        q: [0.2, off],
+        qd: [0.0, 2.0],
+        qdd: [0.0, 10.0],
+    };
+    for off in [0.0, 1e-9, PI, PI + 1e-9] {
+        let y = swinging(off);
+        let motion = Clustered::<Core<Light<1>>>::motion(&y).expect("it closes");
+        assert_eq!(motion.singular(), Some("parallelogram"));
+        let tau = Clustered::<Core<Light<1>>>::rnea(&y, &RIGID_BODY).expect("it closes");
+        assert!(tau.iter().all(|tau| tau.is_finite()), "{tau:?}");
+    }
+    // The motor at the rocker is at a dead point there, and nowhere else.
+    let problem = |off| {
+        let motion = Clustered::<Core<Light<1>>>::motion(&swinging(off)).expect("it closes");
+        motion
+            .to_motors(&[1.0, 2.0])
+            .map_err(|error| (error.cluster, error.problem))
+    };
+    assert_eq!(
+        problem(0.0),
+        Err(("parallelogram", ClusterProblem::NotActuated))
+    );
+    assert_eq!(problem(1.0).map(|[turret, _]| turret), Ok(1.0));
+}
+
+#[test]
+fn the_four_bar_obeys_its_closed_form_and_virtual_work() {
+    // Freudenstein: K₁ cos ψ − K₂ cos φ + K₃ = cos(φ − ψ) of crank φ and rocker ψ, and dψ/dφ from its derivative.
+    let (ground, crank, coupler, rocker) = (0.3, 0.12, 0.28, 0.2);
+    let linkage = FourBar::new(ground, crank, coupler, rocker, Branch::Positive);
+    let k = [
+        ground / crank,
+        ground / rocker,
+        (ground * ground + crank * crank + rocker * rocker - coupler * coupler)
+            / (2.0 * crank * rocker),
+    ];
+    let (mut random, mut worst) = (Random::new(3), [0.0_f64; 2]);
+    for _ in 0..200 {
+        let phi = random.number(PI);
+        let motion = at::<f64, _, 3>(&linkage, phi).expect("a crank that turns all around");
+        let psi = motion.q[2].q;
+        let rest = k[0] * psi.cos() - k[1] * phi.cos() + k[2] - (phi - psi).cos();
+        let difference = (phi - psi).sin();
+        let slope = (k[1] * phi.sin() + difference) / (k[0] * psi.sin() + difference);
+        worst[0] = worst[0].max(rest.abs());
+        worst[1] = worst[1].max((motion.g[2][0] - slope).abs() / slope.abs().max(1.0));
+    }
+    hold("Freudenstein's equation", worst[0], 1e-14);
+    hold("its derivative", worst[1], 2e-15);
+
+    // A weight on the rocker of a linkage without other masses: τ = m g·dc/dφ.
+    let y = State {
+        q: [0.0, 1.1],
+        qd: [0.0; 2],
+        qdd: [0.0; 2],
+    };
+    let [_, tau] = Clustered::<Core<Light<2>>>::rnea(&y, &Gravity::EARTH).expect("it closes");
+    assert!(tau.abs() < 1e-15); // in a horizontal plane
+    let y = State {
+        q: [FRAC_PI_2, 1.1],
+        ..y
+    };
+    let [_, tau] = Clustered::<Core<Light<2>>>::rnea(&y, &Gravity::EARTH).expect("it closes");
+    // The plane's y is up: the rocker of a parallelogram turns as its crank.
+    let expected = 2.0 * 9.81 * 0.1 * 1.1_f64.cos();
+    assert!((tau - expected).abs() < 1e-14, "{tau} {expected}");
+}
+
+#[test]
+fn torques_of_motors_do_the_same_work_and_a_dead_point_is_an_error() {
+    let mut worst = 0.0_f64;
+    for y in ankle_states() {
+        let motion = Clustered::<Core<AnkleLeg>>::motion(&y).expect("it closes");
+        let tau = Clustered::<Core<AnkleLeg>>::rnea(&y, &RIGID_BODY).expect("it closes");
+        let motors = motion.to_motors(&tau).expect("no dead point");
+        worst = worst.max(apart(&motion.from_motors(&motors), &tau));
+        let tree = motion.state();
+        let qd = dynamics_core::state::RobotState::state(&tree).qd;
+        let power: f64 = tau.iter().zip(&y.qd).map(|(tau, yd)| tau * yd).sum();
+        let of_motors = motors[0] * qd[0] + motors[1] * qd[3] + motors[2] * qd[6];
+        worst = worst.max((power - of_motors).abs() / 100.0);
+    }
+    hold("torque of motors", worst, 5e-16);
+
+    let still = [0.0; 2].map(JointCoordinate::revolute);
+    let dead = DEAD.evaluate::<f64, Native>(&still, &[1.0; 2]);
+    assert!(dead.expect("it closes").singular);
+}
+
+/// Cranks and rods in line at rest.
+const DEAD: ParallelAnkle = {
+    const fn rod(side: f64) -> Rod {
+        Rod {
+            joint: [-0.04, side, 0.2],
+            crank: [0.0, 0.0, -0.05],
+            foot: [-0.04, side, 0.0],
+            length: 0.15,
+            branch: Branch::Positive,
+        }
+    }
+    ParallelAnkle::new([rod(0.03), rod(-0.03)])
+};
+
+/// A joint that moves nothing, in no cluster.
+struct Idle;
+
+impl Robot<5, 5, 5> for Idle {
+    const MODEL: ArmModel<f64, 5> = {
+        let z = Joint::revolute([0.0, 0.0, 1.0]);
+        Model::new(
+            "idle",
+            [
+                Body::new("crank", BASE, z),
+                Body::new("coupler", 0, z).xyz([0.1, 0.0, 0.0]).mass(1.0),
+                Body::new("rocker", BASE, z)
+                    .xyz([0.3, 0.0, 0.0])
+                    .mass(1.0)
+                    .com([0.1, 0.0, 0.0]),
+                Body::new("arm", 2, z).mass(1.0).com([0.1, 0.0, 0.0]),
+                Body::new("nothing", 3, z).xyz([0.1, 0.0, 0.0]),
+            ],
+        )
+    };
+}
+
+impl ClusteredRobot<5, 5, 5, 3, 3> for Idle {
+    type Clusters = (Driven<FourBar, 3, 1>,);
+    const CLUSTERS: Self::Clusters = (Driven::new("parallelogram", FLAT),);
+    const COORDINATES: &'static [&'static [usize]] = &[&[0, 1, 2]];
+}
+
+#[test]
+fn a_joint_that_moves_nothing_is_named() {
+    let y = State::at([1.0, 0.3, 0.2]);
+    let error = Clustered::<Core<Idle>>::aba(&y, &[0.0; 3], &RIGID_BODY).expect_err("no inertia");
+    let ForwardError::Joint(NotPositiveDefinite { joint, .. }) = error else {
+        panic!("{error:?}")
+    };
+    assert_eq!(joint, 4);
+}

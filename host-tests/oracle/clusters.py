@@ -1,0 +1,222 @@
+#!/usr/bin/env python3
+"""Record what Pinocchio says about robots with kinematic loops: the oracle of the tests of clusters.
+
+    cargo run -p host-reports --bin export_clusters | venv/bin/python host-tests/oracle/clusters.py
+
+reads the spanning trees as the Rust code has them and writes host-tests/recordings/clusters/<robot>.json. With --check it
+writes nothing and fails if a file would change.
+
+The loops are stated here once more, as pairs of points that coincide, and none of the library's closed forms is used:
+
+- q by Newton's iteration on the distances of these points, from y and a guess;
+- G and the rest of q̈ from Pinocchio's Jacobians and classical accelerations of the points, by least squares: loops of
+  planar linkages in space have redundant rows;
+- inverse dynamics is G^T rnea(q, G ẏ, G ÿ + Ġ ẏ);
+- forward dynamics is Pinocchio's constraintDynamics, of which the accelerations of the independent coordinates are recorded.
+
+What is recorded is held against lcaba, against G^T M G ÿ = τ - bias, and against inverse dynamics of the result.
+"""
+
+import argparse
+import json
+import pathlib
+import random
+import sys
+
+import numpy as np
+import pinocchio as pin
+from record import pinocchio_model, single, text, uniform
+
+SEED = 2026
+STATES = 200
+RECORDINGS = pathlib.Path(__file__).resolve().parent.parent / "recordings" / "clusters"
+
+# Loops: a point of one body and a point of another, each in its body's own frame. Independent coordinates with the middle and
+# the reach of their range, and the dependent coordinates' guess.
+ROBOTS = {
+    "four_bar_leg": {
+        "loops": [("rod", [0.0, 0.0, -0.3], "shank", [0.05, 0.0, 0.0])],
+        "y": [("thigh", 0.0, 2.0), ("crank", 0.0, 0.6), ("foot", 0.0, 2.0)],
+        "guess": {},
+    },
+    "five_bar_leg": {
+        "loops": [("rod", [0.22, 0.0, 0.0], "other_rod", [0.2, 0.0, 0.0])],
+        "y": [("carriage", 0.0, 1.0), ("crank", 2.2, 0.5), ("other_crank", 0.9, 0.5)],
+        "guess": {"rod": -1.5, "other_rod": 1.0},
+    },
+    "ankle_leg": {
+        "loops": [
+            ("foot", [-0.045, 0.9 * 0.035, -0.01], "left_rod", [0.0, 0.0, -0.16]),
+            ("foot", [-0.045, -0.9 * 0.035, -0.01], "right_rod", [0.0, 0.0, -0.26]),
+        ],
+        "y": [("shank", 0.0, 2.0), ("cross", 0.0, 0.45), ("foot", 0.0, 0.3)],
+        "guess": {},
+    },
+}
+
+
+class Machine:
+    def __init__(self, robot):
+        self.robot, self.spec = robot, ROBOTS[robot["name"]]
+        self.model, bodies, order = pinocchio_model(robot)
+        assert list(order.at) == list(range(self.model.nv)), "one degree of freedom each, in order"
+        names = [body["name"] for body in robot["bodies"]]
+        self.independent = [names.index(name) for name, _, _ in self.spec["y"]]
+        self.dependent = [v for v in range(self.model.nv) if v not in self.independent]
+        self.ends = []
+        for i, (a, at_a, b, at_b) in enumerate(self.spec["loops"]):
+            pair = []
+            for which, (name, at) in enumerate([(a, at_a), (b, at_b)]):
+                joint, on_joint = bodies[names.index(name)]
+                place = on_joint * pin.SE3(np.eye(3), np.array(at))
+                frame = pin.Frame(f"loop {i} {which}", joint, 0, place, pin.FrameType.OP_FRAME)
+                pair.append((self.model.addFrame(frame, False), joint, place))
+            self.ends.append(pair)
+        self.guess = np.zeros(self.model.nv)
+        for name, angle in self.spec["guess"].items():
+            self.guess[names.index(name)] = angle
+        self.constraints = pin.StdVec_RigidConstraintModel()
+        for (_, joint_a, place_a), (_, joint_b, place_b) in self.ends:
+            constraint = pin.RigidConstraintModel(
+                pin.ContactType.CONTACT_3D, self.model, joint_a, place_a, joint_b, place_b, pin.LOCAL
+            )
+            constraint.setBaumgarteCorrectorParameters(pin.BaumgarteCorrectorParameters(0.0, 0.0))
+            self.constraints.append(constraint)
+
+    def gap(self, data, q):
+        """The points' differences and their Jacobian."""
+        pin.computeJointJacobians(self.model, data, q)
+        pin.updateFramePlacements(self.model, data)
+        gaps, rows = [], []
+        for (a, _, _), (b, _, _) in self.ends:
+            gaps.append(data.oMf[a].translation - data.oMf[b].translation)
+            of = lambda f: pin.getFrameJacobian(self.model, data, f, pin.LOCAL_WORLD_ALIGNED)[:3]
+            rows.append(of(a) - of(b))
+        return np.concatenate(gaps), np.vstack(rows)
+
+    def least(self, matrix, right):
+        return np.linalg.lstsq(matrix, right, rcond=1e-9)[0]
+
+    def close(self, data, y):
+        q = self.guess.copy()
+        q[self.independent] = y
+        # By steps from the middle of the range, so that the branch is the guess's.
+        middle = np.array([centre for _, centre, _ in self.spec["y"]])
+        for part in np.linspace(0.0, 1.0, 21):
+            q[self.independent] = middle + part * (y - middle)
+            for _ in range(50):
+                gap, k = self.gap(data, q)
+                step = self.least(k[:, self.dependent], gap)
+                q[self.dependent] -= step
+                if np.max(np.abs(step)) < 1e-15:
+                    break
+        q[self.independent] = y
+        gap, k = self.gap(data, q)
+        assert np.max(np.abs(gap)) < 1e-14, "it does not close"
+        return q, k
+
+    def maps(self, data, q, k, yd):
+        """G and Ġ ẏ."""
+        n, free = self.model.nv, len(self.independent)
+        g = np.zeros((n, free))
+        g[self.independent] = np.eye(free)
+        g[self.dependent] = -self.least(k[:, self.dependent], k[:, self.independent])
+        qd = g @ yd
+        pin.forwardKinematics(self.model, data, q, qd, np.zeros(n))
+        pin.updateFramePlacements(self.model, data)
+        at = lambda f: pin.getFrameClassicalAcceleration(self.model, data, f, pin.LOCAL_WORLD_ALIGNED).linear
+        drift = np.concatenate([at(a) - at(b) for (a, _, _), (b, _, _) in self.ends])
+        bias = np.zeros(n)
+        bias[self.dependent] = -self.least(k[:, self.dependent], drift)
+        return g, bias
+
+
+def record(robot):
+    rng = random.Random(f"{SEED} {robot['name']}")
+    machine = Machine(robot)
+    model = machine.model
+    data, free = model.createData(), len(machine.independent)
+    rows, worst = {}, {"lcaba": 0.0, "matrix": 0.0, "inverse": 0.0}
+    for _ in range(STATES):
+        y = single([centre + uniform(rng, 1, reach)[0] for _, centre, reach in machine.spec["y"]])
+        yd, ydd, other = (uniform(rng, free, bound) for bound in (3.0, 10.0, 10.0))
+        q, k = machine.close(data, y)
+        g, bias = machine.maps(data, q, k, yd)
+        inverse = lambda ydd: g.T @ pin.rnea(model, data, q, g @ yd, g @ ydd + bias)
+        tau = single(inverse(other))
+        on_tree = np.zeros(model.nv)
+        on_tree[machine.independent] = tau
+        results = []
+        for solver in (pin.constraintDynamics, pin.lcaba):
+            fresh = model.createData()
+            cdata = pin.StdVec_RigidConstraintData()
+            for constraint in machine.constraints:
+                cdata.append(constraint.createData())
+            if solver is pin.constraintDynamics:
+                pin.initConstraintDynamics(model, fresh, machine.constraints, cdata)
+            else:
+                pin.computeJointMinimalOrdering(model, fresh, machine.constraints)
+            # Of lcaba rounding errors grow with 1/mu: the least of its errors, 1e-11, are at 1e-2.
+            mu = 1e-10 if solver is pin.constraintDynamics else 1e-2
+            settings = pin.ProximalSettings(1e-14, 1e-14, mu, 2000)
+            qdd = solver(model, fresh, q, g @ yd, on_tree, machine.constraints, cdata, settings)
+            results.append(np.array(qdd)[machine.independent])
+        forward = results[0]
+        m = pin.crba(model, data, q)
+        m = np.triu(m) + np.triu(m, 1).T
+        solved = np.linalg.solve(g.T @ m @ g, tau - inverse(np.zeros(free)))
+        size = max(np.max(np.abs(solved)), 10.0)
+        worst["lcaba"] = max(worst["lcaba"], np.max(np.abs(results[1] - solved)) / size)
+        worst["matrix"] = max(worst["matrix"], np.max(np.abs(forward - solved)) / size)
+        back = np.max(np.abs(inverse(forward) - tau)) / np.max(np.abs(tau))
+        worst["inverse"] = max(worst["inverse"], back)
+        row = {
+            "q": y,
+            "qd": yd,
+            "qdd": ydd,
+            "tau": tau,
+            "tree_q": q,
+            "tree_qd": g @ yd,
+            "tree_qdd": g @ ydd + bias,
+            "rnea": inverse(ydd),
+            "gravity": g.T @ pin.computeGeneralizedGravity(model, data, q),
+            "forward": forward,
+            "mass_matrix": (g.T @ m @ g)[np.triu_indices(free)],
+        }
+        for key, values in row.items():
+            rows.setdefault(key, []).append([float(x) + 0.0 for x in values])
+    print(f"{robot['name']}: {STATES} states; {worst}", file=sys.stderr)
+    if not max(worst.values()) < 1e-9:
+        sys.exit(f"{robot['name']}: the ways to forward dynamics differ")
+    header = {
+        "robot": robot["name"],
+        "recorded_by": "host-tests/oracle/clusters.py",
+        "pinocchio": pin.__version__,
+        "numpy": np.__version__,
+        "seed": SEED,
+        "agreement": {key: float(f"{value:.1e}") for key, value in worst.items()},
+        "model": robot,
+    }
+    return text(header, rows)
+
+
+def main():
+    arguments = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
+    arguments.add_argument("robots", nargs="?", default="-", help="JSON of export_clusters; - or nothing: stdin")
+    arguments.add_argument("--check", action="store_true", help="write nothing, fail if a file would change")
+    options = arguments.parse_args()
+    source = sys.stdin if options.robots == "-" else open(options.robots, encoding="utf-8")
+    stale = []
+    for robot in json.load(source):
+        path, new = RECORDINGS / f"{robot['name']}.json", record(robot)
+        if not options.check:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(new, encoding="utf-8")
+        elif not path.exists() or path.read_text(encoding="utf-8") != new:
+            stale.append(str(path))
+    if stale:
+        sys.exit("would change: " + ", ".join(stale))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,16 @@
+//! Prints the spanning trees of robots with clusters as JSON for `host-tests/oracle/clusters.py`.
+
+use cluster_tests::FiveBarLeg;
+use dynamics_core::model::Robot;
+use firmware_demo::robots::{AnkleLeg, FourBarLeg};
+use host_tests::export::robot;
+
+fn main() -> serde_json::Result<()> {
+    let robots = [
+        robot(&FourBarLeg::MODEL),
+        robot(&FiveBarLeg::MODEL),
+        robot(&AnkleLeg::MODEL),
+    ];
+    println!("{}", serde_json::to_string(&robots)?);
+    Ok(())
+}

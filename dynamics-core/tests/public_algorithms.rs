@@ -100,7 +100,8 @@ fn of(path: &Path) -> Vec<String> {
 fn there_is_one_name_per_algorithm_and_few_of_them() {
     let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     let [free, core, engine, loops, clusters] =
-        ["algorithms", "textbook.rs", "engine", "loops", "clusters"].map(|room| of(&src.join(room)));
+        ["algorithms", "textbook.rs", "engine", "loops", "clusters"]
+            .map(|room| of(&src.join(room)));
     println!("{free:?}\n{core:?}\n{engine:?}\n{loops:?}\n{clusters:?}");
     // The parser finds something: what every user calls.
     for (room, name) in [

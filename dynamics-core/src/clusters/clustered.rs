@@ -257,7 +257,7 @@ where
         },
     )?;
     Ok(TreeMotion {
-        trig: JointTrig { turns },
+        trig: JointTrig { coordinates: turns },
         tree,
         motions,
         one: [R::ONE],

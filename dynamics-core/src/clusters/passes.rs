@@ -54,7 +54,7 @@ where
         motion: &'a TreeMotion<R, T, B, Q, V, P, Y>,
         effects: &'a E,
     ) -> Self {
-        let (turns, tree) = (&motion.trig.turns, &motion.tree);
+        let (turns, tree) = (&motion.trig.coordinates, &motion.tree);
         let (v_0, _) = base_motion(effects);
         let (mut v, mut poses): (Vec<Motion<R>, B>, Vec<Xform<R>, B>) = (Vec::new(), Vec::new());
         let mut bodies = Vec::new();
@@ -184,7 +184,7 @@ where
             return Ok(());
         };
         let (motion, effects, n) = (self.motion, self.effects, group.count);
-        let turns = &motion.trig.turns;
+        let turns = &motion.trig.coordinates;
         // ÿ = 0: u = τ − Gᵀ (Sᵀ f + what effects take).
         let mut u: [R; INDEPENDENT] = core::array::from_fn(|k| entry(tau, group.first + k));
         let bias_force = self.forces(
@@ -333,7 +333,7 @@ where
                 let qdd = of_group
                     .zip(g)
                     .fold(R::ZERO, |sum, (&ydd, &g)| sum + g * ydd);
-                let s = body.link.subspace(&motion.trig.turns, k);
+                let s = body.link.subspace(&motion.trig.coordinates, k);
                 body.accel = s.add_scaled_to(body.accel, qdd);
             }
         }

@@ -62,6 +62,33 @@ pub struct Row {
     pub address: u64,
 }
 
+#[cfg(test)]
+impl Row {
+    /// A row for tests, of robot, algorithm, form and inputs, with sines and cosines computed inside.
+    pub fn sample([robot, algorithm, form, inputs]: [&str; 4], cycles: u64) -> Self {
+        let spread = Spread {
+            min: cycles,
+            median: cycles,
+            max: cycles,
+        };
+        Self {
+            robot: robot.into(),
+            algorithm: algorithm.into(),
+            form: form.into(),
+            inputs: inputs.into(),
+            trig: true,
+            joints: 1,
+            instructions: spread,
+            cycles: spread,
+            cycles_mean: 0.0,
+            flops: 0,
+            code_bytes: 0,
+            stack_bytes: 0,
+            address: 0,
+        }
+    }
+}
+
 impl Row {
     /// Its name in budgets.
     pub fn key(&self) -> String {

@@ -5,16 +5,19 @@ use cycle_meter::Sample;
 use super::Context;
 use crate::budgets;
 use crate::callgraph::Reach;
-use crate::costs;
+use crate::costs::{self, Row};
 use crate::elf::Image;
 use crate::error::{Error, Result, bail, check, refuse_if};
 use crate::firmware;
 use crate::meter::Cost;
 use crate::qemu::Run;
 use crate::shell;
+use crate::toolchain::RELEASE;
 
 /// How many hard cases run in QEMU at least.
 const HARD_CASES: usize = 15;
+/// The cycles by which a leg with a four-bar may exceed its spanning tree.
+const CLUSTER: u64 = 180;
 
 /// Whether a symbol is `ControlLoop::tick`, which is there once for each control law.
 fn is_tick(symbol: &str) -> bool {
@@ -25,6 +28,29 @@ pub fn clippy(context: &Context) -> Result<String> {
     let toolchain = context.tools.toolchain;
     let mut command = toolchain.firmware(&context.workspace, "clippy");
     shell::capture(command.args(["--lib", "--bins", "--", "-D", "warnings"]))
+}
+
+/// The four-bar leg takes at most [`CLUSTER`] cycles more than its spanning tree with all angles given.
+pub fn clusters(context: &Context) -> Result<String> {
+    let (workspace, tools) = (&context.workspace, &context.tools);
+    cluster_cycles(&costs::measure_bins(
+        workspace,
+        tools,
+        RELEASE,
+        &["clusters"],
+    )?)
+}
+
+fn cluster_cycles(rows: &[Row]) -> Result<String> {
+    let cycles = |algorithm: &str| {
+        let key = format!("four_bar_leg {algorithm} engine full trig");
+        let row = rows.iter().find(|row| row.key() == key);
+        row.map(|row| row.cycles.max)
+            .ok_or_else(|| check!("nothing measured `{key}`"))
+    };
+    let more = cycles("rnea_clusters")?.saturating_sub(cycles("rnea_tree")?);
+    refuse_if!(more > CLUSTER, "{more} cycles, at most {CLUSTER}");
+    Ok(format!("four-bar leg {more} of {CLUSTER} cycles"))
 }
 
 pub fn build(context: &Context) -> Result<String> {
@@ -191,7 +217,7 @@ fn steady(kinds: &[Kind], mut samples: &[Sample]) -> Result<Vec<String>> {
 mod tests {
     use cycle_meter::Sample;
 
-    use super::{Kind, is_f64, is_panic, steady};
+    use super::{Kind, Row, is_f64, is_panic, steady};
 
     #[test]
     fn panics_are_known_by_their_symbols() {
@@ -228,6 +254,20 @@ mod tests {
         ] {
             assert!(!is_f64(symbol), "{symbol}");
         }
+    }
+
+    #[test]
+    fn clusters_that_cost_too_much_are_refused_and_so_are_missing_rows() {
+        let row =
+            |algorithm, cycles| Row::sample(["four_bar_leg", algorithm, "engine", "full"], cycles);
+        let rows = |more| [row("rnea_tree", 400), row("rnea_clusters", 400 + more)];
+        let cheap = super::cluster_cycles(&rows(180)).expect("within the bar");
+        assert_eq!(cheap, "four-bar leg 180 of 180 cycles");
+        let dear = super::cluster_cycles(&rows(181))
+            .expect_err("beyond it")
+            .to_string();
+        assert!(dear.contains("181 cycles, at most 180"), "{dear}");
+        assert!(super::cluster_cycles(&rows(0)[..1]).is_err());
     }
 
     #[test]

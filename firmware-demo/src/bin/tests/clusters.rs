@@ -1,7 +1,9 @@
-//! What inverse dynamics costs on robots with clusters, and on their spanning trees with all angles given.
+//! Inverse dynamics of robots with clusters, and of their spanning trees with all angles given: `cargo xtask test
+//! clusters` compares their cycles.
 #![no_std]
 #![no_main]
 
+#[path = "../costs/mod.rs"]
 mod costs;
 
 use costs::row::Row;
@@ -65,10 +67,10 @@ fn rows<T, E, const N: usize, const Y: usize>(
 fn main() -> ! {
     let leg = states([2.0, 0.6, 2.0]);
     rows::<FourBarLeg, _, 5, 3>("full", &leg, &RIGID_BODY);
-    rows::<FourBarLeg, _, 5, 3>("gravity", &leg, &(Gravity::EARTH,));
+    rows::<FourBarLeg, _, 5, 3>("gravity", &leg, &Gravity::EARTH);
     let ankle = states([2.0, 0.45, 0.3]);
     rows::<AnkleLeg, _, 9, 3>("full", &ankle, &RIGID_BODY);
-    rows::<AnkleLeg, _, 9, 3>("gravity", &ankle, &(Gravity::EARTH,));
+    rows::<AnkleLeg, _, 9, 3>("gravity", &ankle, &Gravity::EARTH);
     let aba = Clustered::<Core<FourBarLeg>>::aba::<f32, _, 5, 5, 5, 3, 3>;
     let row = Row::of::<FourBarLeg, 5, 5>("aba_clusters", "core", "full", true);
     row.measure(aba as *const () as usize, &leg, |y| {

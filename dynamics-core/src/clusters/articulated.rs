@@ -66,7 +66,7 @@ pub(super) struct Group {
     pub(super) root: usize,
     /// The body behind its last one.
     pub(super) end: usize,
-    /// The cluster, or [`NONE`].
+    /// The cluster, or `NONE`.
     pub(super) cluster: usize,
     /// Where its coordinates begin in ẏ, and how many there are.
     pub(super) first: usize,

@@ -10,7 +10,7 @@ pub trait Robot<const B: usize, const Q: usize, const V: usize> {
     /// The same, rounded to f32.
     const MODEL_F32: Model<f32, B, Q, V> = Self::MODEL.to_f32();
     /// The share of the robot's torque below which [`crate::Engine`] omits a base parameter, from 0, which omits none,
-    /// to below 1; [`Pruned`] sets it.
+    /// to below 1; [`super::Pruned`] sets it.
     ///
     /// Torques are compared at 1 g and at the angular acceleration at which the largest second moment needs as much
     /// torque as the largest first moment weighs.

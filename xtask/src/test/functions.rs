@@ -260,7 +260,7 @@ mod tests {
     fn clusters_that_cost_too_much_are_refused_and_so_are_missing_rows() {
         let row =
             |algorithm, cycles| Row::sample(["four_bar_leg", algorithm, "engine", "full"], cycles);
-        let rows = |more| [row("rnea_tree", 400), row("rnea_clusters", 400 + more)];
+        let rows = |more: u64| [row("rnea_tree", 400), row("rnea_clusters", 400 + more)];
         let cheap = super::cluster_cycles(&rows(180)).expect("within the bar");
         assert_eq!(cheap, "four-bar leg 180 of 180 cycles");
         let dear = super::cluster_cycles(&rows(181))

@@ -79,7 +79,7 @@ fn inertial<T: Robot<B, N, N>, const B: usize, const N: usize>(
             let [mass, moment, second] = within::<3>(&mut random, share).map(|x| 1.0 + x);
             inertia.mass *= mass;
             inertia.first_moment *= moment;
-            inertia.inertia *= second;
+            inertia.rotational *= second;
         }
         Errors::of(way.iter().step_by(10).map(|Problem { course, truth }| {
             (rnea(&robot, &widened(&course.state), &RIGID_BODY), *truth)

@@ -187,14 +187,18 @@ fn limits_that_are_not_numbers_or_negative_are_refused() {
 }
 
 #[test]
-fn the_message_of_a_const_is_that_of_the_error() {
+fn the_message_of_a_const_is_that_of_the_error_without_its_amount() {
     let free = Body::new("tip", 0, Joint::free());
-    for bodies in [[root(), tip().mass(-1.0)], [root(), free]] {
+    // A `const` evaluation cannot print an f64.
+    for (bodies, amount) in [
+        ([root(), tip().mass(-1.0)], ": -1 kg"),
+        ([root(), free], ""),
+    ] {
         let error = Model::<f64, 2, 2, 2>::try_new("arm", bodies).unwrap_err();
         let panic =
             std::panic::catch_unwind(|| Model::<f64, 2, 2, 2>::new("arm", bodies)).unwrap_err();
         let said = panic.downcast_ref::<String>().expect("a formatted message");
-        assert_eq!(said.trim_end(), error.to_string());
+        assert_eq!(format!("{}{amount}", said.trim_end()), error.to_string());
     }
 }
 

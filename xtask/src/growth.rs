@@ -151,7 +151,7 @@ impl Report {
     fn verdict(&self) -> String {
         match self.crossing() {
             Some((first, at)) => format!(
-                "Of the lengths measured, ABA is the shorter way from n = {first} on: the two lines cross at \
+                "Of the lengths measured, ABA needs fewer instructions from n = {first}: the two lines cross at \
                  n = {at:.1}. The literature's figure, by counting flops, is 9."
             ),
             None => "ABA does not overtake within the lengths measured.".to_owned(),

@@ -148,7 +148,7 @@ where
     ) -> Force<R> {
         for i in group.root..group.end {
             let members = self.is_in(group, i);
-            let (inner, outer) = self.bodies.split_at_mut(i);
+            let (inner, outer) = self.bodies.split_at_mut_checked(i).unwrap_or_default();
             let (true, Some(body)) = (members, outer.first_mut()) else {
                 continue;
             };
@@ -164,7 +164,7 @@ where
         let mut total = Force::ZERO;
         for i in (group.root..group.end).rev() {
             let members = self.is_in(group, i);
-            let (inner, outer) = self.bodies.split_at_mut(i);
+            let (inner, outer) = self.bodies.split_at_mut_checked(i).unwrap_or_default();
             let (true, Some(body)) = (members, outer.first()) else {
                 continue;
             };
@@ -265,7 +265,7 @@ where
     fn give_way(&mut self, group: &Group, bias_force: Force<R>) {
         for i in (group.root..group.end).rev() {
             let member = self.is_in(group, i);
-            let (inner, outer) = self.bodies.split_at_mut(i);
+            let (inner, outer) = self.bodies.split_at_mut_checked(i).unwrap_or_default();
             let (true, Some(body)) = (member, outer.first()) else {
                 continue;
             };

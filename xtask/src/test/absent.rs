@@ -15,7 +15,7 @@ use crate::toolchain::RELEASE;
 
 const BIN: &str = "ablation_identity";
 /// The scene with LuGre friction, and the same without.
-const SCENES: [&str; 2] = ["lugre_named", "lugre_dropped"];
+const SCENES: [&str; 2] = ["friction_named", "friction_dropped"];
 /// A joint's LuGre friction: σ₀, σ₁, σ₂, F_c, F_s − F_c and its bristle; 1/v_s of all.
 const LUGRE_BYTES: u64 = 4 * (6 * 6 + 1);
 /// Numbers that only LuGre's exponential has, by their bits.

@@ -1,8 +1,8 @@
-//! A scene that names LuGre friction: `lugre_dropped` is the same without it.
+//! A scene that names LuGre friction: `friction_dropped` is the same without it.
 #![no_std]
 #![no_main]
 
-mod lugre;
+mod friction_scene;
 
 use cortex_m::singleton;
 use cortex_m_rt::entry;
@@ -27,5 +27,5 @@ const EFFECTS: Effects = (
 
 #[entry]
 fn main() -> ! {
-    lugre::run(singleton!(: Effects = EFFECTS))
+    friction_scene::run(singleton!(: Effects = EFFECTS))
 }

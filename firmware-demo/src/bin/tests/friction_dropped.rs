@@ -1,8 +1,8 @@
-//! The scene of `lugre_named` without its LuGre friction.
+//! The scene of `friction_named` without its LuGre friction.
 #![no_std]
 #![no_main]
 
-mod lugre;
+mod friction_scene;
 
 use cortex_m::singleton;
 use cortex_m_rt::entry;
@@ -14,5 +14,5 @@ const EFFECTS: Effects = (Gravity::EARTH, Inertia, Coriolis);
 
 #[entry]
 fn main() -> ! {
-    lugre::run(singleton!(: Effects = EFFECTS))
+    friction_scene::run(singleton!(: Effects = EFFECTS))
 }

@@ -9,8 +9,8 @@ use std::path::Path;
 
 /// At most so many in all.
 const MOST: usize = 62;
-/// Algorithms of robots with kinematic loops.
-const MOST_OF_LOOPS: usize = 14;
+/// At most so many of robots with kinematic loops.
+const MOST_OF_LOOPS: usize = 9;
 
 /// Endings of names for variants that a type of the argument or a parameter of `Core` and `Engine` replaces: sines and
 /// cosines computed before, another kernel.

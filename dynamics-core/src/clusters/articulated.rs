@@ -1,4 +1,4 @@
-//! What forward dynamics by clusters knows of bodies, of what moves at once, and of D.
+//! The data of forward dynamics by clusters: bodies, groups of bodies, and the factors of D.
 
 use super::layout::INDEPENDENT;
 use crate::algorithms::Magnitude;
@@ -60,7 +60,7 @@ impl<R: Real> Column<R> {
     }
 }
 
-/// What moves at once: a cluster, or the joint of a body in none.
+/// A group of bodies that is eliminated at once: those of a cluster, or a body in none.
 pub(super) struct Group {
     /// Its first body.
     pub(super) root: usize,

@@ -60,7 +60,7 @@ impl<C, const M: usize, const N: usize> Driven<C, M, N> {
 /// coordinates of each cluster in the place of its first body. For robots whose joints all have one degree of freedom P
 /// = Y.
 ///
-/// A description that cannot be does not compile: a coordinate that is driven twice, one that the robot does not have,
+/// An impossible description does not compile: a coordinate that is driven twice, one that the robot does not have,
 /// bodies of a cluster that are on two bodies outside it, a joint with a quaternion, wrong P and Y. This one can be,
 ///
 /// ```

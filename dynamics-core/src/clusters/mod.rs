@@ -53,6 +53,7 @@ mod articulated;
 mod cluster;
 mod clustered;
 mod description;
+mod inward;
 mod layout;
 mod linkages;
 mod passes;

@@ -1,27 +1,17 @@
-//! The passes of forward dynamics by clusters: [`Clustered::aba`](super::Clustered::aba).
-//!
-//! All bodies of a cluster give way at once, when the pass from the tips reaches the first of them. Its bodies' forces
-//! are those of inverse dynamics within the cluster on a body that does not accelerate: once at ÿ = 0, which makes u =
-//! τ − Gᵀ(…), and once for each unit ÿₖ, which makes a column of D and of U. The joint of a body in no cluster is a
-//! cluster of one body with G = 1.
+//! The first and the third pass of forward dynamics by clusters, [`Clustered::aba`](super::Clustered::aba), and the forces
+//! within a cluster; the second pass is in `inward.rs`.
 
 use heapless::Vec;
 
-use super::aba::ForwardError;
-use super::articulated::{Body, Column, Factor, Group};
-use super::layout::{INDEPENDENT, NONE};
-use super::set::sealed::Set;
-use super::{ClusterError, ClusterProblem, ClusteredRobot, TreeMotion};
-use crate::algorithms::{Magnitude, NotPositiveDefinite};
-use crate::effects::{Effect, base_motion, body_inertia, body_wrench, joint_torque};
+use super::articulated::{Body, Factor, Group};
+use super::layout::NONE;
+use super::{ClusteredRobot, TreeMotion};
+use crate::algorithms::Magnitude;
+use crate::effects::{Effect, base_motion, body_inertia, body_wrench};
 use crate::model::{BASE, LinkView, RobotModel};
 use crate::scalar::Real;
-use crate::spatial::{Force, Motion, MotionSubspace, Xform};
+use crate::spatial::{Force, Motion, Xform};
 use crate::state::entry;
-
-/// How many roundings a pivot must exceed, relative to what the bodies could have: twice those of the algorithm without
-/// clusters, since the motion of a cluster's body is a turn and a slide at once.
-const ROUNDINGS: f64 = 16.0;
 
 /// The articulated bodies of a tree of clusters.
 pub(super) struct Passes<
@@ -35,10 +25,10 @@ pub(super) struct Passes<
     const P: usize,
     const Y: usize,
 > {
-    motion: &'a TreeMotion<R, T, B, Q, V, P, Y>,
-    effects: &'a E,
-    bodies: Vec<Body<'a, R>, B>,
-    factors: [Factor<R>; Y],
+    pub(super) motion: &'a TreeMotion<R, T, B, Q, V, P, Y>,
+    pub(super) effects: &'a E,
+    pub(super) bodies: Vec<Body<'a, R>, B>,
+    pub(super) factors: [Factor<R>; Y],
 }
 
 impl<'a, R, T, E, const B: usize, const Q: usize, const V: usize, const P: usize, const Y: usize>
@@ -104,8 +94,8 @@ where
         clusters.get(v).copied().unwrap_or(NONE)
     }
 
-    /// What moves at once with body `i`, if this is the first body of it.
-    fn group(&self, i: usize) -> Option<Group> {
+    /// The cluster or joint that moves body `i`, if `i` is its first body.
+    pub(super) fn group(&self, i: usize) -> Option<Group> {
         let layout = const { &TreeMotion::<R, T, B, Q, V, P, Y>::LAYOUT };
         let cluster = self.cluster(i);
         if let (Some(&root), Some(&[_, first])) =
@@ -132,14 +122,13 @@ where
     }
 
     /// Whether body `i` is of the group.
-    fn is_in(&self, group: &Group, i: usize) -> bool {
+    pub(super) fn is_in(&self, group: &Group, i: usize) -> bool {
         i == group.root || (i < B && group.cluster != NONE && self.cluster(i) == group.cluster)
     }
 
-    /// The forces within the group while the body that carries it is at rest: `accel` is what each body's joints add to
-    /// its acceleration, and `visit` sees the bodies from the last to the first. Returns what reaches the body that
-    /// carries the group.
-    fn forces(
+    /// The forces within the group while its parent body is at rest: `accel` is the acceleration that a body's joints add,
+    /// and `visit` is called for the bodies from the last to the first. Returns the force on the parent body.
+    pub(super) fn forces(
         &mut self,
         group: &Group,
         biased: bool,
@@ -178,129 +167,9 @@ where
         total
     }
 
-    /// The second pass at body `i`: if it is the first of its group, the group gives way.
-    pub(super) fn inward(&mut self, i: usize, tau: &[R; Y]) -> Result<(), ForwardError> {
-        let Some(group) = self.group(i) else {
-            return Ok(());
-        };
-        let (motion, effects, n) = (self.motion, self.effects, group.count);
-        let turns = &motion.trig.coordinates;
-        // ÿ = 0: u = τ − Gᵀ (Sᵀ f + what effects take).
-        let mut u: [R; INDEPENDENT] = core::array::from_fn(|k| entry(tau, group.first + k));
-        let bias_force = self.forces(
-            &group,
-            true,
-            |body| body.c,
-            |body| {
-                for (k, v) in body.link.coordinates().enumerate() {
-                    let (first, g, bias) = motion.row(v);
-                    let mut torque = body.link.subspace(turns, k).dot(body.force);
-                    torque += joint_torque(effects, &body.link, &motion.tree, v);
-                    if E::VELOCITY_PRODUCTS {
-                        let mut rotor = R::ZERO;
-                        effects.add_inertia(v, &mut rotor);
-                        torque += rotor * bias;
-                    }
-                    let places = u.iter_mut().skip(first.wrapping_sub(group.first));
-                    for (u, &g) in places.zip(g) {
-                        *u -= g * torque;
-                    }
-                }
-            },
-        );
-        // Unit ÿₖ: columns of D and of U, and how large D's diagonal could be.
-        let mut columns = [Column::default(); INDEPENDENT];
-        for (c, (column, &u)) in columns.iter_mut().zip(&u).enumerate().take(n) {
-            let of = |first: usize, g: &[R]| entry(g, (group.first + c).wrapping_sub(first));
-            let Column { d, noise, factor } = column;
-            factor.u = u;
-            factor.z = self.forces(
-                &group,
-                false,
-                |body| {
-                    let coordinates = body.link.coordinates().enumerate();
-                    coordinates.fold(Motion::ZERO, |sum, (k, v)| {
-                        let (first, g, _) = motion.row(v);
-                        let s = body.link.subspace(turns, k);
-                        s.add_scaled_to(sum, of(first, g))
-                    })
-                },
-                |body| {
-                    *noise += body.magnitude.along(&MotionSubspace::General(body.accel));
-                    for (k, v) in body.link.coordinates().enumerate() {
-                        let (first, g, _) = motion.row(v);
-                        let mut rotor = R::ZERO;
-                        effects.add_inertia(v, &mut rotor);
-                        let s = body.link.subspace(turns, k);
-                        let torque = s.dot(body.force) + rotor * of(first, g);
-                        let sums = d.iter_mut().skip(first.wrapping_sub(group.first));
-                        for (d, &g) in sums.zip(g) {
-                            *d += g * torque;
-                        }
-                    }
-                },
-            );
-        }
-        // D = L Δ Lᵀ, with L⁻¹ Uᵀ and L⁻¹ u.
-        for k in 0..n {
-            let (before, at) = columns.split_at_mut_checked(k).unwrap_or_default();
-            let Some(column) = at.first_mut() else {
-                break;
-            };
-            let pivot = column.eliminate(before);
-            // False of a NaN, too.
-            let least = column.noise * (R::EPSILON * R::from_f64(ROUNDINGS));
-            if !((pivot > least) & pivot.is_finite()) {
-                return Err(self.no_inertia(&group, k));
-            }
-            if let Some(factor) = self.factors.get_mut(group.first + k) {
-                *factor = column.factor;
-            }
-        }
-        self.give_way(&group, bias_force);
-        Ok(())
-    }
-
-    /// Iᴬ and pᴬ of the body that carries the group: Σ Xᵀ Iᴬ X − U D⁻¹ Uᵀ, and the bias force + U D⁻¹ u.
-    fn give_way(&mut self, group: &Group, bias_force: Force<R>) {
-        for i in (group.root..group.end).rev() {
-            let member = self.is_in(group, i);
-            let (inner, outer) = self.bodies.split_at_mut_checked(i).unwrap_or_default();
-            let (true, Some(body)) = (member, outer.first()) else {
-                continue;
-            };
-            if let Some(parent) = inner.get_mut(body.link.parent) {
-                parent.ia += body.ia.at_parent(&body.x);
-                parent.magnitude += body.magnitude.at_parent(body.x.pos);
-            }
-        }
-        let carrier = self.bodies.get(group.root).map(|body| body.link.parent);
-        let Some(carrier) = carrier.and_then(|parent| self.bodies.get_mut(parent)) else {
-            return;
-        };
-        carrier.pa += bias_force;
-        for factor in self.factors.iter().skip(group.first).take(group.count) {
-            carrier.ia = carrier.ia.minus_outer(factor.z, factor.d_inv);
-            carrier.pa += factor.z * (factor.u * factor.d_inv);
-        }
-    }
-
     /// The factor of coordinate `k` of a group.
     fn factor(&self, group: &Group, k: usize) -> Factor<R> {
         entry(&self.factors, group.first + k)
-    }
-
-    #[cold]
-    fn no_inertia(&self, group: &Group, k: usize) -> ForwardError {
-        if group.cluster == NONE {
-            let link = self.bodies.get(group.root).map(|body| &body.link);
-            let joint = link.map_or(NONE, |link| link.idx_v() + k);
-            return ForwardError::Joint(NotPositiveDefinite { joint });
-        }
-        ForwardError::Cluster(ClusterError {
-            cluster: T::CLUSTERS.name(group.cluster),
-            problem: ClusterProblem::NoInertia,
-        })
     }
 
     /// The third pass: D ÿ = u − Uᵀ a of the body that carries the group, and aᵢ = X a_λ + c + S G ÿ.

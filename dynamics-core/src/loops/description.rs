@@ -26,7 +26,7 @@ pub struct Loops<const L: usize, const C: usize, const A: usize> {
 }
 
 impl<const L: usize, const C: usize, const A: usize> Loops<L, C, A> {
-    /// Loops on `model`, and the indices in q̇ of the coordinates that have a motor; loops that cannot be do not compile.
+    /// Loops on `model`, and the indices in q̇ of the coordinates that have a motor; impossible loops do not compile.
     ///
     /// ```
     /// use dynamics_core::loops::{BodyFrame, LoopJoint, Loops};
@@ -126,7 +126,7 @@ impl<const L: usize, const C: usize, const A: usize> Loops<L, C, A> {
     ///
     /// # Errors
     /// [`LoopModelError`] names the loop: no such body, both ends on one body or on bodies that cannot move relative to
-    /// each other, a joint that constrains nothing, axes or frames that cannot be, links of which one is longer than all
+    /// each other, a joint that constrains nothing, impossible axes or frames, links of which one is longer than all
     /// others together; or the robot: another C, actuated coordinates that do not exist, that are listed twice, or of
     /// which there are fewer than V − C.
     pub const fn try_new<const B: usize, const Q: usize, const V: usize>(

@@ -29,7 +29,7 @@ pub enum LoopProblem {
     Rigid,
     /// The joint leaves every direction free.
     Unconstrained,
-    /// The axes or the pitch of the joint cannot be.
+    /// The axes or the pitch of the joint are impossible.
     Joint(Problem),
     /// A frame's position or angle is not finite.
     NotFinite,

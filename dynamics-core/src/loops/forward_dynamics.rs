@@ -64,7 +64,7 @@ impl<R: Real> Stabilisation<R> {
     }
 }
 
-/// What moves how, and the forces that keep the loops closed.
+/// The accelerations of the joints, and the forces that keep the loops closed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LoopMotion<R: Real, const V: usize, const L: usize, const C: usize> {
     /// Acceleration of each joint, rad/s² or m/s².

@@ -82,7 +82,7 @@ use crate::model::Robot;
 
 /// A robot with L kinematic loops, of which C directions are constrained and A coordinates actuated.
 ///
-/// A description that cannot be does not compile; see [`Loops::new`].
+/// An impossible description does not compile; see [`Loops::new`].
 pub trait LoopRobot<
     const B: usize,
     const Q: usize,

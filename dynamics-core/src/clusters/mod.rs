@@ -42,6 +42,8 @@
 //! | [`Differential`] | 2, 2 | both motors |
 //! | [`Belt`] | 2, 1 | the driving pulley |
 //! | [`ParallelAnkle`] | 8, 2 | pitch and roll |
+//! | [`Delta`] | 12, 3 | the cranks |
+//! | [`Stewart`] | 24, 6 | the platform's position and attitude |
 //! | [`Transmission`](crate::drivetrain::Transmission) | its V, its M | its motors |
 //!
 //! Everything else of the tree is of use as it is: [`Clustered::motion`] gives the tree's state with its sines and
@@ -64,6 +66,8 @@ pub use aba::ForwardError;
 pub use cluster::{Cluster, ClusterError, ClusterMotion, ClusterProblem};
 pub use clustered::{Clustered, TreeAlgorithms};
 pub use description::{ClusteredRobot, Driven};
-pub use linkages::{Belt, Branch, Differential, FiveBar, FourBar, ParallelAnkle, Rod};
+pub use linkages::{
+    Belt, Branch, Delta, Differential, FiveBar, FourBar, Leg, ParallelAnkle, Rod, Stewart,
+};
 pub use set::ClusterSet;
 pub use tree_motion::TreeMotion;

@@ -1,6 +1,7 @@
 //! Machines that no maker publishes, as constants: numbers of our own, of the size of real ones.
 
 mod ankle_leg;
+mod delta;
 mod direct_drive;
 pub mod four_bar_leg;
 mod gimbal;
@@ -8,8 +9,10 @@ mod leg;
 mod scara;
 pub mod ship;
 mod space_arm;
+mod stewart;
 
 pub use ankle_leg::{AnkleLeg, RODS};
+pub use delta::DeltaRobot;
 pub use direct_drive::DirectDrive;
 pub use four_bar_leg::FourBarLeg;
 pub use gimbal::Gimbal;
@@ -17,3 +20,4 @@ pub use leg::Leg;
 pub use scara::Scara;
 pub use ship::Ship;
 pub use space_arm::SpaceArm;
+pub use stewart::{LEGS, StewartPlatform};

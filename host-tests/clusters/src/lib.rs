@@ -333,6 +333,20 @@ pub fn floating_states() -> Vec<State<f64, 9, 8>> {
     states([0.0; 9], reach, Some(0))
 }
 
+/// 200 states of the Delta robot.
+pub fn delta_states() -> Vec<State<f64, 3, 3>> {
+    states([0.3; 3], [0.6; 3], None)
+}
+
+/// 200 states of the Stewart platform.
+pub fn stewart_states() -> Vec<State<f64, 6, 6>> {
+    let (centre, reach) = (
+        [0.0, 0.0, 0.8, 0.0, 0.0, 0.0],
+        [0.15, 0.15, 0.1, 0.4, 0.3, 0.3],
+    );
+    states(centre, reach, None)
+}
+
 /// Holds a measured error against a bound, which may be at most ten times as large.
 ///
 /// # Panics

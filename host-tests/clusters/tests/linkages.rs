@@ -2,14 +2,14 @@
 //! positions.
 
 use cluster_tests::{
-    FiveBarLeg, FloatingAnkle, Geared, UniversalAnkle, Wrist, ankle_states, apart, five_bar_states,
-    floating_states, four_bar_states, geared_states, wrist_states,
+    FiveBarLeg, FloatingAnkle, Geared, UniversalAnkle, Wrist, ankle_states, apart, delta_states,
+    five_bar_states, floating_states, four_bar_states, geared_states, stewart_states, wrist_states,
 };
 use dynamics_core::clusters::{Clustered, ClusteredRobot};
 use dynamics_core::model::Static;
 use dynamics_core::state::{RobotState, State};
 use dynamics_core::{Core, algorithms};
-use firmware_demo::robots::{AnkleLeg, FourBarLeg};
+use firmware_demo::robots::{AnkleLeg, DeltaRobot, FourBarLeg, LEGS, StewartPlatform};
 use glam::DVec3;
 
 /// d/dt of q and of q̇ of the tree along y(t) = y + ẏ t + ÿ t²/2, by differences of sixth order.
@@ -80,6 +80,8 @@ fn rates_of_every_linkage_are_the_derivatives_of_its_positions() {
     rates_are_derivatives::<Wrist, 6, 6, 6>(&wrist_states());
     rates_are_derivatives::<Geared, 7, 7, 4>(&geared_states());
     rates_are_derivatives::<AnkleLeg, 9, 9, 3>(&ankle_states());
+    rates_are_derivatives::<DeltaRobot, 12, 12, 3>(&delta_states());
+    rates_are_derivatives::<StewartPlatform, 24, 24, 6>(&stewart_states());
     rates_are_derivatives::<UniversalAnkle, 6, 9, 3>(&ankle_states());
 }
 
@@ -127,5 +129,17 @@ fn loops_are_closed() {
         let universal = [(1, joined[0].1), (body - 2 - (body - 5) / 3, joined[1].1)];
         closed::<UniversalAnkle, 6, 9, 9, 3, 3>(&ankle_states(), universal);
         closed::<FloatingAnkle, 9, 15, 14, 9, 8>(&floating_states(), joined);
+    }
+    for (side, body) in [2, 5, 8].into_iter().enumerate() {
+        let (sin, cos) = (side as f64 * core::f64::consts::TAU / 3.0).sin_cos();
+        let joined = [
+            (11, DVec3::new(0.05 * cos, 0.05 * sin, 0.0)),
+            (body, DVec3::Z * -0.45),
+        ];
+        closed::<DeltaRobot, 12, 12, 12, 3, 3>(&delta_states(), joined);
+    }
+    for (leg, body) in LEGS.iter().zip([8, 11, 14, 17, 20, 23]) {
+        let joined = [(5, DVec3::from_array(leg.platform)), (body, DVec3::Z * 0.4)];
+        closed::<StewartPlatform, 24, 24, 24, 6, 6>(&stewart_states(), joined);
     }
 }

@@ -12,17 +12,17 @@ use dynamics_core::clusters::{Clustered, ClusteredRobot};
 use dynamics_core::effects::{Effect, Gravity, RIGID_BODY};
 use dynamics_core::state::{RobotState, State};
 use dynamics_core::{Core, Engine};
-use firmware_demo::robots::{AnkleLeg, FourBarLeg};
+use firmware_demo::robots::{AnkleLeg, DeltaRobot, FourBarLeg, StewartPlatform};
 
-/// Independent coordinates within `reach`, from a fixed seed.
-fn states<const Y: usize>(reach: [f32; Y]) -> [State<f32, Y, Y>; STATES] {
+/// Independent coordinates within `reach` of `centre`, from a fixed seed.
+fn states<const Y: usize>(centre: [f32; Y], reach: [f32; Y]) -> [State<f32, Y, Y>; STATES] {
     let mut seed = 1_u32;
     let mut number = |bound: f32| {
         seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
         (seed >> 8) as f32 * (2.0 * bound / 16_777_216.0) - bound
     };
     [(); STATES].map(|()| State {
-        q: reach.map(&mut number),
+        q: core::array::from_fn(|k| centre[k] + number(reach[k])),
         qd: [(); Y].map(|()| number(3.0)),
         qdd: [(); Y].map(|()| number(10.0)),
     })
@@ -65,12 +65,18 @@ fn rows<T, E, const N: usize, const Y: usize>(
 
 #[cortex_m_rt::entry]
 fn main() -> ! {
-    let leg = states([2.0, 0.6, 2.0]);
+    let leg = states([0.0; 3], [2.0, 0.6, 2.0]);
     rows::<FourBarLeg, _, 5, 3>("full", &leg, &RIGID_BODY);
     rows::<FourBarLeg, _, 5, 3>("gravity", &leg, &Gravity::EARTH);
-    let ankle = states([2.0, 0.45, 0.3]);
+    let ankle = states([0.0; 3], [2.0, 0.45, 0.3]);
     rows::<AnkleLeg, _, 9, 3>("full", &ankle, &RIGID_BODY);
     rows::<AnkleLeg, _, 9, 3>("gravity", &ankle, &Gravity::EARTH);
+    let delta = states([0.0; 3], [0.5; 3]);
+    rows::<DeltaRobot, _, 12, 3>("full", &delta, &RIGID_BODY);
+    rows::<DeltaRobot, _, 12, 3>("gravity", &delta, &Gravity::EARTH);
+    let centre = [0.0, 0.0, 0.8, 0.0, 0.0, 0.0];
+    let stewart = states(centre, [0.1, 0.1, 0.1, 0.3, 0.3, 0.3]);
+    rows::<StewartPlatform, _, 24, 6>("full", &stewart, &RIGID_BODY);
     let aba = Clustered::<Core<FourBarLeg>>::aba::<f32, _, 5, 5, 5, 3, 3>;
     let row = Row::of::<FourBarLeg, 5, 5>("aba_clusters", "core", "full", true);
     row.measure(aba as *const () as usize, &leg, |y| {

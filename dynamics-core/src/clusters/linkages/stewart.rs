@@ -1,0 +1,245 @@
+//! The platform on six legs.
+
+use super::dyad::{Branch, Root, root};
+use super::hook::Hook;
+use crate::clusters::{Cluster, ClusterMotion, ClusterProblem};
+use crate::model::JointCoordinate;
+use crate::scalar::{Matrix, Real, Vector};
+use crate::trig::Kernel;
+
+/// A leg of a [`Stewart`] platform, m.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Leg {
+    /// Its universal joint on the base.
+    pub base: [f64; 3],
+    /// Its ball joint in the platform's frame.
+    pub platform: [f64; 3],
+    /// Its length where the slide's coordinate is zero.
+    pub length: f64,
+}
+
+/// A platform on six legs of variable length (Gough; Stewart, 1965). M = 24, N = 6, y = the platform's position x, y, z
+/// and yaw, pitch, roll.
+///
+/// The attitude is R_z(yaw) R_y(pitch) R_x(roll), the `rpy` of URDF. The spanning tree's joint coordinates, in this order
+/// and in m and rad, are:
+///
+/// | q | joint | axis, in the body's frame |
+/// |---|---|---|
+/// | 0, 1, 2 | platform on the base | prismatic x, y, z |
+/// | 3, 4, 5 | platform: yaw, pitch, roll | z, y, x |
+/// | 6, 7 | lower half of the first leg on the base | y, x |
+/// | 8 | upper half of the first leg on the lower | prismatic z |
+/// | 9 … 23 | the same of the other legs | |
+///
+/// The bodies between these axes have no mass. At zero all frames have the base's axes, and a leg points along z. The
+/// loops are cut at the ball joints on the platform; both halves of a leg are bodies, which do not spin about the leg.
+///
+/// The motors are at the slides: [`Driven::actuated`](crate::clusters::Driven::actuated)`([8, 11, 14, 17, 20, 23])`. The
+/// motion of the platform determines that of the legs everywhere, so that this cluster has no singularity of the machine;
+/// [`TreeMotion::to_motors`](crate::clusters::TreeMotion::to_motors) has them, where forces of the legs do not hold the
+/// platform.
+///
+/// # Cost
+/// Some 1,200 flops, six divisions and twelve reciprocal roots; sines and cosines of the attitude only. Where an effect
+/// reads the angles of the legs themselves, twelve arc tangents.
+///
+/// # Errors
+/// None of a finite y. Where a leg has no length or is parallel to y, [`ClusterMotion::singular`] is set.
+///
+/// # Source
+/// The legs' vectors z = p + R s − b, and their derivatives in spherical coordinates.
+///
+/// ```
+/// use dynamics_core::clusters::{Cluster, Leg, Stewart};
+/// use dynamics_core::{model::JointCoordinate, scalar::Native};
+/// const fn leg(base: [f64; 2], platform: [f64; 2]) -> Leg {
+///     Leg { base: [base[0], base[1], 0.0], platform: [platform[0], platform[1], 0.0], length: 0.5 }
+/// }
+/// const STEWART: Stewart = Stewart::new([
+///     leg([0.5, -0.1], [0.2, -0.3]),
+///     leg([0.5, 0.1], [0.2, 0.3]),
+///     leg([-0.2, 0.5], [0.1, 0.35]),
+///     leg([-0.3, 0.4], [-0.3, 0.05]),
+///     leg([-0.3, -0.4], [-0.3, -0.05]),
+///     leg([-0.2, -0.5], [0.1, -0.35]),
+/// ]);
+/// let y = [0.0, 0.0, 0.6, 0.0, 0.0, 0.0].map(JointCoordinate::revolute);
+/// let motion = STEWART.evaluate::<f64, Native>(&y, &[0.0, 0.0, 1.0, 0.0, 0.0, 0.0])?;
+/// let length = (0.3_f64 * 0.3 + 0.2 * 0.2 + 0.6 * 0.6).sqrt();
+/// assert!((motion.q[8].q + 0.5 - length).abs() < 1e-15);
+/// assert!((motion.g[8][2] - 0.6 / length).abs() < 1e-15);
+/// # Ok::<(), dynamics_core::clusters::ClusterProblem>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stewart {
+    legs: [Leg; 6],
+    /// What rounding errors are relative to, m².
+    scale: f64,
+}
+
+impl Stewart {
+    /// Of these legs.
+    ///
+    /// # Panics
+    /// If a number is not finite or a length is negative; in a `const` this does not compile.
+    pub const fn new(legs: [Leg; 6]) -> Self {
+        let (mut i, mut scale) = (0, 0.0);
+        while i < legs.len() {
+            let Leg {
+                base,
+                platform,
+                length,
+            } = &legs[i];
+            assert!(
+                *length >= 0.0 && length.is_finite(),
+                "the length of a leg is negative or not finite"
+            );
+            let mut k = 0;
+            while k < 3 {
+                assert!(
+                    base[k].is_finite() && platform[k].is_finite(),
+                    "a joint of a leg is not finite"
+                );
+                let reach = base[k].abs() + platform[k].abs() + *length;
+                if reach * reach > scale {
+                    scale = reach * reach;
+                }
+                k += 1;
+            }
+            i += 1;
+        }
+        Self { legs, scale }
+    }
+}
+
+/// The platform's position, attitude and rates, which all legs share.
+struct Platform<R: Real> {
+    position: R::Vec3,
+    attitude: R::Mat3,
+    /// The axes of pitch and roll; that of yaw is z.
+    pitch: R::Vec3,
+    roll: R::Vec3,
+    velocity: R::Vec3,
+    omega: R::Vec3,
+    /// ω̇ at ÿ = 0.
+    alpha: R::Vec3,
+}
+
+impl<R: Real> Platform<R> {
+    #[inline(always)]
+    fn of([x, y, z, yaw, pitch, roll]: &[JointCoordinate<R>; 6], yd: &[R; 6]) -> Self {
+        let (zero, up) = (R::ZERO, R::Vec3::new(R::ZERO, R::ZERO, R::ONE));
+        let ahead = R::Vec3::new(yaw.cos * pitch.cos, yaw.sin * pitch.cos, -pitch.sin);
+        let left = R::Vec3::new(-yaw.sin, yaw.cos, zero);
+        // ẑ of the platform before it rolls.
+        let above = R::Vec3::new(yaw.cos * pitch.sin, yaw.sin * pitch.sin, pitch.cos);
+        let attitude = R::Mat3::from_cols(
+            ahead,
+            left * roll.cos + above * roll.sin,
+            above * roll.cos - left * roll.sin,
+        );
+        let yaw_pitch = up * yd[3] + left * yd[4];
+        Self {
+            position: R::Vec3::new(x.q, y.q, z.q),
+            attitude,
+            pitch: left,
+            roll: ahead,
+            velocity: R::Vec3::new(yd[0], yd[1], yd[2]),
+            omega: yaw_pitch + ahead * yd[5],
+            alpha: up.cross(left) * (yd[3] * yd[4]) + yaw_pitch.cross(ahead) * yd[5],
+        }
+    }
+}
+
+/// What a leg adds to the cluster: its three coordinates, their rows of G, and Ġ ẏ.
+struct LegMotion<R> {
+    q: [JointCoordinate<R>; 3],
+    g: [[R; 6]; 3],
+    bias: [R; 3],
+    singular: bool,
+}
+
+impl Leg {
+    #[inline(always)]
+    fn reach<R: Real>(
+        &self,
+        platform: &Platform<R>,
+        scale: R,
+    ) -> Result<LegMotion<R>, ClusterProblem> {
+        let [b, s] = [self.base, self.platform]
+            .map(|at| R::Vec3::new(R::from_f64(at[0]), R::from_f64(at[1]), R::from_f64(at[2])));
+        let r = platform.attitude * s;
+        let z = (platform.position - b) + r;
+        let l2 = z.dot(z);
+        let Root {
+            h: l,
+            h_inv: l_inv,
+            singular,
+        } = root(l2, scale, Branch::Positive)?;
+        let hook = Hook::<R>::of(z, l_inv, l2)?;
+        let [e_l, e_turn, e_lift] = hook.axes();
+        let forms = [e_turn * hook.flat_inv, e_lift * l_inv, e_l];
+        let zd = platform.velocity + platform.omega.cross(r);
+        let zdd = platform.alpha.cross(r) + platform.omega.cross(platform.omega.cross(r));
+        let rates = forms.map(|form| form.dot(zd));
+        let [turn, lift] = hook.angles();
+        Ok(LegMotion {
+            q: [
+                turn,
+                lift,
+                JointCoordinate::linear(l - R::from_f64(self.length)),
+            ],
+            g: forms.map(|form| {
+                let moment = r.cross(form);
+                let ([x, y, z], [_, _, yaw]) = (form.array(), moment.array());
+                [
+                    x,
+                    y,
+                    z,
+                    yaw,
+                    moment.dot(platform.pitch),
+                    moment.dot(platform.roll),
+                ]
+            }),
+            bias: hook.telescoping(zdd, rates, [l, l_inv]),
+            singular: singular | hook.singular,
+        })
+    }
+}
+
+impl Cluster<24, 6> for Stewart {
+    #[inline(always)]
+    fn evaluate<R: Real, K: Kernel<R>>(
+        &self,
+        y: &[JointCoordinate<R>; 6],
+        yd: &[R; 6],
+    ) -> Result<ClusterMotion<R, 24, 6>, ClusterProblem> {
+        let mut motion = ClusterMotion {
+            q: [JointCoordinate::default(); 24],
+            g: [[R::ZERO; 6]; 24],
+            bias: [R::ZERO; 24],
+            singular: false,
+        };
+        for (k, (&y, row)) in y.iter().zip(&mut motion.g).enumerate() {
+            motion.q[k] = if k < 3 {
+                JointCoordinate::linear(y.q)
+            } else {
+                y
+            };
+            row[k] = R::ONE;
+        }
+        let platform = Platform::of(y, yd);
+        for (k, leg) in self.legs.iter().enumerate() {
+            let leg = leg.reach(&platform, R::from_f64(self.scale))?;
+            let first = 6 + 3 * k;
+            for i in 0..3 {
+                motion.q[first + i] = leg.q[i];
+                motion.g[first + i] = leg.g[i];
+                motion.bias[first + i] = leg.bias[i];
+            }
+            motion.singular |= leg.singular;
+        }
+        Ok(motion)
+    }
+}

@@ -138,13 +138,23 @@ where
         }
         // Functions of subtrees get the state in memory, and with it angles of which only effects at joints read more
         // than sine and cosine: these are added here.
-        let (mut turns, mut at_zero) = (*trig, *state);
-        at_zero.q = [R::ZERO; Q];
+        let mut turns = JointTrig {
+            coordinates: [JointCoordinate::default(); Q],
+        };
         for_each_joint!(J, {
-            if const { J < V && !joint(&T::MODEL, J).0 } {
-                turns.coordinates[J].q = R::ZERO;
+            if const { J < V } {
+                let of = &trig.coordinates[J];
+                turns.coordinates[J] = if const { joint(&T::MODEL, J).0 } {
+                    *of
+                } else {
+                    JointCoordinate { q: R::ZERO, ..*of }
+                };
             }
         });
+        let at_zero = State {
+            q: [R::ZERO; Q],
+            ..*state
+        };
         let mut tau = Engine::<T>::run(&turns, &turns, &at_zero, &OfBodies(effects));
         for_each_joint!(J, {
             if const { J < V } {

@@ -100,14 +100,14 @@ impl<R: Real> Hook<R> {
         [turn, lift, slide]: [R; 3],
         [l, l_inv]: [R; 2],
     ) -> [R; 3] {
-        let [sv, cv] = self.lift;
-        let [e_l, e_turn, e_lift] = self.axes();
+        let ([sa, ca], [sv, cv]) = (self.turn, self.lift);
+        let ([e_l, _, e_lift], [x, _, z]) = (self.axes(), zdd.array());
         let level = turn * cv;
         let stretch = slide * l_inv;
         let both = turn * (lift * sv - stretch * cv);
         let lengthening = stretch * lift;
         [
-            (zdd.dot(e_turn) + (both + both) * l) * self.flat_inv,
+            (ca * x - sa * z + (both + both) * l) * self.flat_inv,
             zdd.dot(e_lift) * l_inv - (lengthening + lengthening) - turn * level * sv,
             zdd.dot(e_l) + l * (level * level + lift * lift),
         ]

@@ -2,6 +2,7 @@
 
 use super::dyad::{Branch, Root, root};
 use super::hook::Hook;
+use crate::clusters::cluster::dot;
 use crate::clusters::{Cluster, ClusterMotion, ClusterProblem};
 use crate::model::JointCoordinate;
 use crate::scalar::{Matrix, Real, Vector};
@@ -116,48 +117,74 @@ impl Stewart {
 /// The platform's position, attitude and rates, which all legs share.
 struct Platform<R: Real> {
     position: R::Vec3,
-    attitude: R::Mat3,
-    /// The axes of pitch and roll; that of yaw is z.
-    pitch: R::Vec3,
+    attitude: [R::Vec3; 3],
+    /// sin and cos of yaw: the axis of pitch is (−sin, cos, 0), that of yaw z.
+    yaw: [R; 2],
+    /// The axis of roll.
     roll: R::Vec3,
-    velocity: R::Vec3,
-    omega: R::Vec3,
-    /// ω̇ at ÿ = 0.
-    alpha: R::Vec3,
+    /// Of a vector r that is fixed to the platform the r̈ at ÿ = 0: [ω̇]× + [ω]×².
+    centripetal: R::Mat3,
 }
 
 impl<R: Real> Platform<R> {
     #[inline(always)]
     fn of([x, y, z, yaw, pitch, roll]: &[JointCoordinate<R>; 6], yd: &[R; 6]) -> Self {
-        let (zero, up) = (R::ZERO, R::Vec3::new(R::ZERO, R::ZERO, R::ONE));
         let ahead = R::Vec3::new(yaw.cos * pitch.cos, yaw.sin * pitch.cos, -pitch.sin);
-        let left = R::Vec3::new(-yaw.sin, yaw.cos, zero);
+        let left = R::Vec3::new(-yaw.sin, yaw.cos, R::ZERO);
         // ẑ of the platform before it rolls.
         let above = R::Vec3::new(yaw.cos * pitch.sin, yaw.sin * pitch.sin, pitch.cos);
-        let attitude = R::Mat3::from_cols(
+        let attitude = [
             ahead,
             left * roll.cos + above * roll.sin,
             above * roll.cos - left * roll.sin,
-        );
-        let yaw_pitch = up * yd[3] + left * yd[4];
+        ];
+        let yaw_pitch = R::Vec3::new(-(yaw.sin * yd[4]), yaw.cos * yd[4], yd[3]);
+        // z × pitch axis = −(cos, sin, 0)
+        let turn = yd[3] * yd[4];
+        let of_pitch = R::Vec3::new(-(yaw.cos * turn), -(yaw.sin * turn), R::ZERO);
+        let alpha = of_pitch + yaw_pitch.cross(ahead) * yd[5];
         Self {
             position: R::Vec3::new(x.q, y.q, z.q),
             attitude,
-            pitch: left,
+            yaw: [yaw.sin, yaw.cos],
             roll: ahead,
-            velocity: R::Vec3::new(yd[0], yd[1], yd[2]),
-            omega: yaw_pitch + ahead * yd[5],
-            alpha: up.cross(left) * (yd[3] * yd[4]) + yaw_pitch.cross(ahead) * yd[5],
+            centripetal: centripetal::<R>(yaw_pitch + ahead * yd[5], alpha),
         }
+    }
+
+    /// A point of the platform from its origin.
+    #[inline(always)]
+    fn arm(&self, at: [f64; 3]) -> R::Vec3 {
+        let mut r = self.attitude[0] * R::from_f64(at[0]);
+        // Zeros of a constant cost nothing.
+        for (axis, x) in [(self.attitude[1], at[1]), (self.attitude[2], at[2])] {
+            if x != 0.0 {
+                r += axis * R::from_f64(x);
+            }
+        }
+        r
     }
 
     /// The row of G of a rate that is `form` · ż at the end of `r`, from the platform's origin.
     #[inline(always)]
     fn row(&self, r: R::Vec3, form: R::Vec3) -> [R; 6] {
         let moment = r.cross(form);
-        let ([x, y, z], [_, _, yaw]) = (form.array(), moment.array());
-        [x, y, z, yaw, moment.dot(self.pitch), moment.dot(self.roll)]
+        let ([x, y, z], [mx, my, mz]) = (form.array(), moment.array());
+        let [sin, cos] = self.yaw;
+        [x, y, z, mz, my * cos - mx * sin, moment.dot(self.roll)]
     }
+}
+
+/// [ω̇]× + [ω]×².
+#[inline(always)]
+fn centripetal<R: Real>(omega: R::Vec3, alpha: R::Vec3) -> R::Mat3 {
+    let ([x, y, z], [ax, ay, az]) = (omega.array(), alpha.array());
+    let (xx, yy, zz, xy, xz, yz) = (x * x, y * y, z * z, x * y, x * z, y * z);
+    R::Mat3::from_cols(
+        R::Vec3::new(-(yy + zz), xy + az, xz - ay),
+        R::Vec3::new(xy - az, -(xx + zz), yz + ax),
+        R::Vec3::new(xz + ay, yz - ax, -(xx + yy)),
+    )
 }
 
 /// What a leg adds to the cluster: its three coordinates, their rows of G, and Ġ ẏ.
@@ -173,12 +200,12 @@ impl Leg {
     fn reach<R: Real>(
         &self,
         platform: &Platform<R>,
+        yd: &[R; 6],
         scale: R,
     ) -> Result<LegMotion<R>, ClusterProblem> {
-        let [b, s] = [self.base, self.platform]
-            .map(|at| R::Vec3::new(R::from_f64(at[0]), R::from_f64(at[1]), R::from_f64(at[2])));
-        let r = platform.attitude * s;
-        let z = (platform.position - b) + r;
+        let r = platform.arm(self.platform);
+        let b = self.base.map(R::from_f64);
+        let z = (platform.position - R::Vec3::new(b[0], b[1], b[2])) + r;
         let l2 = z.dot(z);
         let Root {
             h: l,
@@ -187,20 +214,18 @@ impl Leg {
         } = root(l2, scale, Branch::Positive)?;
         let hook = Hook::<R>::of(z, l_inv, l2)?;
         let [e_l, e_turn, e_lift] = hook.axes();
-        let [e_turn, e_lift] = [e_turn * hook.flat_inv, e_lift * l_inv];
-        let zd = platform.velocity + platform.omega.cross(r);
-        let zdd = platform.alpha.cross(r) + platform.omega.cross(platform.omega.cross(r));
-        let rates = [e_turn.dot(zd), e_lift.dot(zd), e_l.dot(zd)];
+        let g = [
+            platform.row(r, e_turn * hook.flat_inv),
+            platform.row(r, e_lift * l_inv),
+            platform.row(r, e_l),
+        ];
+        let rates = [dot(&g[0], yd), dot(&g[1], yd), dot(&g[2], yd)];
         let [turn, lift] = hook.angles();
         let slide = JointCoordinate::linear(l - R::from_f64(self.length));
         Ok(LegMotion {
             q: [turn, lift, slide],
-            g: [
-                platform.row(r, e_turn),
-                platform.row(r, e_lift),
-                platform.row(r, e_l),
-            ],
-            bias: hook.telescoping(zdd, rates, [l, l_inv]),
+            g,
+            bias: hook.telescoping(platform.centripetal * r, rates, [l, l_inv]),
             singular: singular | hook.singular,
         })
     }
@@ -227,7 +252,7 @@ impl Cluster<24, 6> for Stewart {
                 y[K]
             };
             motion.g[K][K] = R::ONE;
-            let leg = self.legs[K].reach(&platform, R::from_f64(self.scale))?;
+            let leg = self.legs[K].reach(&platform, yd, R::from_f64(self.scale))?;
             unrolled!(I in 0 1 2, {
                     motion.q[6 + 3 * K + I] = leg.q[I];
                     motion.g[6 + 3 * K + I] = leg.g[I];

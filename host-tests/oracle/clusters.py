@@ -19,6 +19,7 @@ What is recorded is held against lcaba, against G^T M G ÿ = τ - bias, and agai
 
 import argparse
 import json
+import math
 import pathlib
 import random
 import sys
@@ -30,6 +31,13 @@ from record import pinocchio_model, single, text, uniform
 SEED = 2026
 STATES = 200
 RECORDINGS = pathlib.Path(__file__).resolve().parent.parent / "recordings" / "clusters"
+
+
+def turned(radius, degrees):
+    """A point of the plane z = 0 at this radius and angle."""
+    angle = math.radians(degrees)
+    return [radius * math.cos(angle), radius * math.sin(angle), 0.0]
+
 
 # Loops: a point of one body and a point of another, each in its body's own frame. Independent coordinates with the middle and
 # the reach of their range, and the dependent coordinates' guess.
@@ -50,6 +58,30 @@ ROBOTS = {
             ("foot", [-0.045, -0.9 * 0.035, -0.01], "right_rod", [0.0, 0.0, -0.26]),
         ],
         "y": [("shank", 0.0, 2.0), ("cross", 0.0, 0.45), ("foot", 0.0, 0.3)],
+        "guess": {},
+    },
+    "delta_robot": {
+        "loops": [
+            ("platform", [0.05, 0.0, 0.0], "rods_a", [0.0, 0.0, -0.45]),
+            ("platform", [-0.025, 0.025 * math.sqrt(3.0), 0.0], "rods_b", [0.0, 0.0, -0.45]),
+            ("platform", [-0.025, -0.025 * math.sqrt(3.0), 0.0], "rods_c", [0.0, 0.0, -0.45]),
+        ],
+        "y": [("crank_a", 0.3, 0.6), ("crank_b", 0.3, 0.6), ("crank_c", 0.3, 0.6)],
+        "guess": {"cross_a": 0.4, "cross_b": 0.4, "cross_c": 0.4, "platform": -0.4},
+    },
+    "stewart_platform": {
+        "loops": [
+            ("platform", turned(0.3, angle), f"upper_{leg}", [0.0, 0.0, 0.4])
+            for leg, angle in zip("abcdef", (-50.0, 50.0, 70.0, 170.0, 190.0, 290.0))
+        ],
+        "y": [
+            ("along", 0.0, 0.15),
+            ("across", 0.0, 0.15),
+            ("up", 0.8, 0.1),
+            ("yaw", 0.0, 0.4),
+            ("pitch", 0.0, 0.3),
+            ("platform", 0.0, 0.3),
+        ],
         "guess": {},
     },
 }

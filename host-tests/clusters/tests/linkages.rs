@@ -5,12 +5,14 @@ use cluster_tests::{
     FiveBarLeg, FloatingAnkle, Geared, UniversalAnkle, Wrist, ankle_states, apart, delta_states,
     five_bar_states, floating_states, four_bar_states, geared_states, stewart_states, wrist_states,
 };
-use dynamics_core::clusters::{Clustered, ClusteredRobot};
+use dynamics_core::algorithms::{Pose, frame};
+use dynamics_core::clusters::{ClusterProblem, Clustered, ClusteredRobot, Stewart};
 use dynamics_core::model::Static;
+use dynamics_core::spatial::Motion;
 use dynamics_core::state::{RobotState, State};
 use dynamics_core::{Core, algorithms};
 use firmware_demo::robots::{AnkleLeg, DeltaRobot, FourBarLeg, LEGS, StewartPlatform};
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 /// d/dt of q and of q̇ of the tree along y(t) = y + ẏ t + ÿ t²/2, by differences of sixth order.
 fn derivatives<T, const B: usize, const N: usize, const Y: usize>(
@@ -142,4 +144,41 @@ fn loops_are_closed() {
         let joined = [(5, DVec3::from_array(leg.platform)), (body, DVec3::Z * 0.4)];
         closed::<StewartPlatform, 24, 24, 24, 6, 6>(&stewart_states(), joined);
     }
+}
+
+#[test]
+fn coordinates_of_a_stewart_platform_follow_from_its_pose_twist_and_acceleration() {
+    let mut worst = 0.0_f64;
+    for y in stewart_states() {
+        let motion = Clustered::<Core<StewartPlatform>>::motion(&y).expect("it closes");
+        let robot = &Static::<StewartPlatform>::NEW;
+        let pose = algorithms::poses(robot, motion.configuration())[5];
+        // ω and v of the origin in base axes, and by differences of them ω̇ and v̇.
+        let twist = |t: f64| {
+            let q = core::array::from_fn(|i| y.q[i] + t * (y.qd[i] + t * 0.5 * y.qdd[i]));
+            let qd = core::array::from_fn(|i| y.qd[i] + t * y.qdd[i]);
+            let y = State { q, qd, ..y };
+            let motion = Clustered::<Core<StewartPlatform>>::motion(&y).expect("it closes");
+            let jacobian =
+                algorithms::jacobian(robot, motion.configuration(), 5, frame::LocalWorldAligned);
+            let qd = motion.state().state().qd;
+            let columns = jacobian.iter().zip(&qd);
+            columns.fold(Motion::ZERO, |sum, (&j, &qd)| sum + j * qd)
+        };
+        let h = 1e-5;
+        let acceleration = (twist(h) - twist(-h)) * (0.5 / h);
+        let back = Stewart::coordinates(&pose, twist(0.0), acceleration);
+        let back = back.expect("a pitch within limits");
+        worst = worst.max(apart(&back.q, &y.q)).max(apart(&back.qd, &y.qd));
+        assert!(apart(&back.qdd, &y.qdd) < 1e-7, "{back:?} {y:?}");
+    }
+    assert!(worst < 1e-13, "{worst:.1e}");
+    let still = |rot, pos| {
+        let pose = Pose { rot, pos };
+        Stewart::coordinates(&pose, Motion::<f64>::ZERO, Motion::ZERO)
+    };
+    let upright = DMat3::from_rotation_y(core::f64::consts::FRAC_PI_2);
+    assert_eq!(still(upright, DVec3::Z), Err(ClusterProblem::CannotClose));
+    let nowhere = still(DMat3::IDENTITY, DVec3::NAN);
+    assert_eq!(nowhere, Err(ClusterProblem::NotFinite));
 }

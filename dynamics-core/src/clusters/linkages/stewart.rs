@@ -2,10 +2,11 @@
 
 use super::dyad::{Branch, Root, root};
 use super::hook::Hook;
+use super::platform::Platform;
 use crate::clusters::cluster::dot;
 use crate::clusters::{Cluster, ClusterMotion, ClusterProblem};
 use crate::model::JointCoordinate;
-use crate::scalar::{Matrix, Real, Vector};
+use crate::scalar::{Real, Vector};
 use crate::trig::Kernel;
 
 /// A leg of a [`Stewart`] platform, m.
@@ -112,79 +113,6 @@ impl Stewart {
         }
         Self { legs, scale }
     }
-}
-
-/// The platform's position, attitude and rates, which all legs share.
-struct Platform<R: Real> {
-    position: R::Vec3,
-    attitude: [R::Vec3; 3],
-    /// sin and cos of yaw: the axis of pitch is (−sin, cos, 0), that of yaw z.
-    yaw: [R; 2],
-    /// The axis of roll.
-    roll: R::Vec3,
-    /// Of a vector r that is fixed to the platform the r̈ at ÿ = 0: [ω̇]× + [ω]×².
-    centripetal: R::Mat3,
-}
-
-impl<R: Real> Platform<R> {
-    #[inline(always)]
-    fn of([x, y, z, yaw, pitch, roll]: &[JointCoordinate<R>; 6], yd: &[R; 6]) -> Self {
-        let ahead = R::Vec3::new(yaw.cos * pitch.cos, yaw.sin * pitch.cos, -pitch.sin);
-        let left = R::Vec3::new(-yaw.sin, yaw.cos, R::ZERO);
-        // ẑ of the platform before it rolls.
-        let above = R::Vec3::new(yaw.cos * pitch.sin, yaw.sin * pitch.sin, pitch.cos);
-        let attitude = [
-            ahead,
-            left * roll.cos + above * roll.sin,
-            above * roll.cos - left * roll.sin,
-        ];
-        let yaw_pitch = R::Vec3::new(-(yaw.sin * yd[4]), yaw.cos * yd[4], yd[3]);
-        // z × pitch axis = −(cos, sin, 0)
-        let turn = yd[3] * yd[4];
-        let of_pitch = R::Vec3::new(-(yaw.cos * turn), -(yaw.sin * turn), R::ZERO);
-        let alpha = of_pitch + yaw_pitch.cross(ahead) * yd[5];
-        Self {
-            position: R::Vec3::new(x.q, y.q, z.q),
-            attitude,
-            yaw: [yaw.sin, yaw.cos],
-            roll: ahead,
-            centripetal: centripetal::<R>(yaw_pitch + ahead * yd[5], alpha),
-        }
-    }
-
-    /// A point of the platform from its origin.
-    #[inline(always)]
-    fn arm(&self, at: [f64; 3]) -> R::Vec3 {
-        let mut r = self.attitude[0] * R::from_f64(at[0]);
-        // Zeros of a constant cost nothing.
-        for (axis, x) in [(self.attitude[1], at[1]), (self.attitude[2], at[2])] {
-            if x != 0.0 {
-                r += axis * R::from_f64(x);
-            }
-        }
-        r
-    }
-
-    /// The row of G of a rate that is `form` · ż at the end of `r`, from the platform's origin.
-    #[inline(always)]
-    fn row(&self, r: R::Vec3, form: R::Vec3) -> [R; 6] {
-        let moment = r.cross(form);
-        let ([x, y, z], [mx, my, mz]) = (form.array(), moment.array());
-        let [sin, cos] = self.yaw;
-        [x, y, z, mz, my * cos - mx * sin, moment.dot(self.roll)]
-    }
-}
-
-/// [ω̇]× + [ω]×².
-#[inline(always)]
-fn centripetal<R: Real>(omega: R::Vec3, alpha: R::Vec3) -> R::Mat3 {
-    let ([x, y, z], [ax, ay, az]) = (omega.array(), alpha.array());
-    let (xx, yy, zz, xy, xz, yz) = (x * x, y * y, z * z, x * y, x * z, y * z);
-    R::Mat3::from_cols(
-        R::Vec3::new(-(yy + zz), xy + az, xz - ay),
-        R::Vec3::new(xy - az, -(xx + zz), yz + ax),
-        R::Vec3::new(xz + ay, yz - ax, -(xx + yy)),
-    )
 }
 
 /// What a leg adds to the cluster: its three coordinates, their rows of G, and Ġ ẏ.

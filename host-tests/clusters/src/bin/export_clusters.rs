@@ -2,7 +2,7 @@
 
 use cluster_tests::FiveBarLeg;
 use dynamics_core::model::Robot;
-use firmware_demo::robots::{AnkleLeg, FourBarLeg};
+use firmware_demo::robots::{AnkleLeg, DeltaRobot, FourBarLeg, StewartPlatform};
 use host_tests::export::robot;
 
 fn main() -> serde_json::Result<()> {
@@ -10,6 +10,8 @@ fn main() -> serde_json::Result<()> {
         robot(&FourBarLeg::MODEL),
         robot(&FiveBarLeg::MODEL),
         robot(&AnkleLeg::MODEL),
+        robot(&DeltaRobot::MODEL),
+        robot(&StewartPlatform::MODEL),
     ];
     println!("{}", serde_json::to_string(&robots)?);
     Ok(())

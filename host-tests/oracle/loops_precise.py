@@ -21,6 +21,8 @@ from precise import about, cross, square, symmetric, vector
 mp.dps = 50
 OUT = Path(__file__).resolve().parent.parent / "recordings" / "hard" / "loops"
 ZERO = mpf(10) ** -35  # what counts as zero
+# Squares of G of the motors: a posture that f64 numbers describe is singular but for 1e-16.
+SINGULAR = mpf(10) ** -20
 SIZES = {"revolute": (1, 1), "prismatic": (1, 1), "universal": (2, 2), "free": (7, 6)}
 
 
@@ -42,7 +44,7 @@ def attitude_of(quaternion):
     return mp.eye(3) + 2 * w * k + 2 * (k * k)
 
 
-def eliminated(rows, pivots, right):
+def eliminated(rows, pivots, right, zero=ZERO):
     """Gauss-Jordan with complete pivoting: the pivots' (row, column), and the reduced rows and right sides."""
     rows, right, done, left = [list(r) for r in rows], [list(r) for r in right], [], set(pivots)
     scale = max((abs(x) for row in rows for x in row), default=mpf(0))
@@ -50,7 +52,7 @@ def eliminated(rows, pivots, right):
         used = {row for row, _ in done}
         open_ = [(abs(rows[i][j]), i, j) for i in range(len(rows)) if i not in used for j in left]
         size, i, j = max(open_, default=(mpf(0), 0, 0))
-        if size <= ZERO * scale:
+        if size <= zero * scale:
             return done, rows, right
         done.append((i, j))
         left.remove(j)
@@ -63,10 +65,10 @@ def eliminated(rows, pivots, right):
                 right[m] = [x - f * y for x, y in zip(right[m], right[i])]
 
 
-def solved(rows, right):
+def solved(rows, right, zero=ZERO):
     """x of rows x = right, or nothing if it is not determined."""
     n = len(rows[0])
-    done, _, right = eliminated(rows, range(n), [[r] for r in right])
+    done, _, right = eliminated(rows, range(n), [[r] for r in right], zero)
     if len(done) < n:
         return None
     x = [mpf(0)] * n
@@ -310,7 +312,7 @@ def of_loops(problem, state):
         tree = machine.torques(qd, qdd)
         of_motors = [g[j] for j in motors]
         squares = [[dot(a, b) for b in transposed(of_motors)] for a in transposed(of_motors)]
-        weights = solved(squares, [dot(column, tree) for column in transposed(g)])
+        weights = solved(squares, [dot(column, tree) for column in transposed(g)], SINGULAR)
         tau = None if weights is None else apply(of_motors, weights)
     given = single(tau) if tau is not None else [float(k + 1) for k in range(len(motors))]
     spread = [mpf(0)] * n

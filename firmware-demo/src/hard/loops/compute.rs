@@ -3,7 +3,9 @@
 use dynamics_core::Core;
 use dynamics_core::clusters::{Clustered, ClusteredRobot};
 use dynamics_core::effects::{Coriolis, GravityVector, Inertia};
-use dynamics_core::loops::{LoopError, Stabilisation, assemble, forward_dynamics, inverse_dynamics};
+use dynamics_core::loops::{
+    LoopError, Stabilisation, assemble, forward_dynamics, inverse_dynamics,
+};
 use dynamics_core::scalar::{Real, Vector};
 use dynamics_core::state::State;
 

@@ -60,7 +60,7 @@ pub(super) const AT_REST: [Start<3>; 1] = [[[0.0; 3], [0.0; 3], [2.0, 0.0, 0.0]]
 /// A crank that points away from a rocker, beyond what the coupler bridges.
 pub(super) const OUT_OF_REACH: [Start<3>; 2] = [
     crank(3.0, [1.0, 1.0], [3.0, 3.0]),
-    crank(-1.5, [1.0, 1.0], [0.5, 0.5]),
+    crank(-2.0, [1.0, 1.0], [0.5, 0.5]),
 ];
 
 /// Of a crank of 1 mm.

@@ -1,6 +1,8 @@
 //! Clusters that no loop joint describes: a differential, a belt.
 
-use dynamics_core::clusters::{Belt, Clustered, ClusteredRobot, Differential, Driven};
+use dynamics_core::clusters::{
+    Belt, ClusterError, Clustered, ClusteredRobot, Differential, Driven, ForwardError,
+};
 use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model, Robot};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
@@ -37,10 +39,7 @@ impl Robot<2, 2, 2> for Wrist {
 }
 impl ClusteredRobot<2, 2, 2, 2, 2> for Wrist {
     type Clusters = (Driven<Differential, 2, 2>,);
-    const CLUSTERS: Self::Clusters = (Driven::new(
-        "differential",
-        Differential::new([1.0, 1024.0]),
-    ),);
+    const CLUSTERS: Self::Clusters = (Driven::new("wrist", Differential::new([1.0, 1024.0])),);
     const COORDINATES: &'static [&'static [usize]] = &[&[0, 1]];
 }
 
@@ -54,7 +53,7 @@ impl Robot<2, 2, 2> for Steep {
 }
 impl ClusteredRobot<2, 2, 2, 1, 1> for Steep {
     type Clusters = (Driven<Belt<4>, 2, 1>,);
-    const CLUSTERS: Self::Clusters = (Driven::new("belt", Belt::new(STEEP)),);
+    const CLUSTERS: Self::Clusters = (Driven::new("steep", Belt::new(STEEP)),);
     const COORDINATES: &'static [&'static [usize]] = &[&[0, 1]];
 }
 
@@ -184,12 +183,19 @@ where
             qd: rounded(&state.qd),
             qdd: rounded(&state.qdd),
         };
-        let of = |found: Option<[R; Y]>| found.map_or(Outcome::NOTHING, |x| Outcome::of(&x, false));
-        all[0].push(of(Clustered::<Core<T>>::rnea(&y, &scene).ok()));
-        all[1].push(of(Clustered::<Engine<T>>::rnea(&y, &scene).ok()));
-        all[2].push(of(
-            Clustered::<Core<T>>::aba(&y, &rounded(given), &scene).ok()
-        ));
+        let of = |found: Result<[R; Y], ClusterError>| match found {
+            Ok(x) => Outcome::of(&x, false),
+            Err(error) if T::MODEL.name == error.cluster => Outcome::REFUSED,
+            Err(_) => Outcome::NOTHING,
+        };
+        all[0].push(of(Clustered::<Core<T>>::rnea(&y, &scene)));
+        all[1].push(of(Clustered::<Engine<T>>::rnea(&y, &scene)));
+        let forward = Clustered::<Core<T>>::aba(&y, &rounded(given), &scene);
+        all[2].push(match forward {
+            Err(ForwardError::Cluster(error)) => of(Err(error)),
+            Err(_) => Outcome::NOTHING,
+            Ok(x) => of(Ok(x)),
+        });
     }
     all
 }

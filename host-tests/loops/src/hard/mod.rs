@@ -14,7 +14,8 @@ mod status;
 pub use bounds::BOUNDS;
 pub use cases::CASES;
 pub use four_bars::problem;
-pub use setup::{Exported, Planar, Setup};
+pub use outcome::{Demand, Outcome, rows};
+pub use setup::{Exported, Planar, Setup, Start, TrueState, Truth};
 
 use firmware_demo::hard::loops::{PROBLEMS, RIG};
 

@@ -75,23 +75,17 @@ pub fn rows(
     truth: &[Option<&[f64]>],
 ) -> Vec<Row> {
     let mut rows = Vec::new();
-    let entry = BOUNDS
-        .iter()
-        .find(|entry| (entry.0, entry.1) == (case, quantity));
+    let mut entries = BOUNDS.iter();
+    let entry = entries.find(|entry| (entry.0, entry.1) == (case, quantity));
+    let &(_, _, single, double) =
+        entry.unwrap_or_else(|| panic!("no bound of {quantity:?} of case {case}"));
     for (k, (scalar, outcomes)) in ["f32", "f64"].into_iter().zip(outcomes).enumerate() {
-        let demand = entry.map_or(Demand::Within(0.0), |entry| [entry.2, entry.3][k]);
+        let demand = [single, double][k];
         let named = || {
             let words = format!("{quantity}: named, finite");
             Row::claim(words, scalar, outcomes.iter().all(Outcome::is_named))
         };
-        let error = error(outcomes, truth);
-        if entry.is_none() {
-            println!(
-                "GEN|{case}|{quantity}|{scalar}|{error:e}|{}|{}",
-                outcomes.iter().all(Outcome::is_named),
-                outcomes.iter().any(|o| o.named)
-            );
-        }
+        let error = error(outcomes, truth, quantity.contains("(rad, m)"));
         match demand {
             Demand::Within(bound) => {
                 let status = outcomes.iter().any(|outcome| outcome.named);
@@ -107,8 +101,9 @@ pub fn rows(
     rows
 }
 
-/// The largest error, each coordinate relative to its largest over the states; infinite where there is no answer.
-fn error(outcomes: &[Outcome], truth: &[Option<&[f64]>]) -> f64 {
+/// The largest error, each coordinate relative to its largest over the states, or in rad and m where it is `absolute`;
+/// infinite where there is no answer.
+fn error(outcomes: &[Outcome], truth: &[Option<&[f64]>], absolute: bool) -> f64 {
     let Some(truth) = truth.iter().copied().collect::<Option<Vec<_>>>() else {
         return f64::INFINITY;
     };
@@ -127,7 +122,11 @@ fn error(outcomes: &[Outcome], truth: &[Option<&[f64]>]) -> f64 {
                 size(i)
             };
             let error = (x - truth).abs();
-            errors.push(if scale == 0.0 { error } else { error / scale });
+            errors.push(if absolute || scale == 0.0 {
+                error
+            } else {
+                error / scale
+            });
         }
     }
     largest(errors)

@@ -220,7 +220,7 @@ impl<const B: usize, const Q: usize, const V: usize, const L: usize, const C: us
             of(|state| state.tau.as_deref()),
             of(|state| Some(&state.forward)),
         ];
-        let quantities = ["assembly", "inverse dynamics", "forward dynamics"];
+        let quantities = ["assembly (rad, m)", "inverse dynamics", "forward dynamics"];
         let mut all = Vec::new();
         for (k, quantity) in quantities.into_iter().enumerate() {
             if k > 0 || self.moving == Moving::Passive {

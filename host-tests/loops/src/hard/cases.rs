@@ -57,7 +57,7 @@ const SINGULAR: &[Case] = &[
         parameters: "sides of 0.25 and 0.5 m, 2⁻³ to 2⁻¹⁷ rad from flat, and flat; two states each",
         source: "the parallelogram of a palletiser at the end of its stroke; flat, coupler and rocker may turn either way",
         oracle: ORACLE,
-        reason: "ε over the angle from flat. Closer than 2·10⁻³ (f32) or 10⁻⁷ (f64) to it the rank drops, which is named; the cluster's status begins at 6·10⁻³ and 2·10⁻⁷ rad",
+        reason: "general loops: ε over the angle from flat; closer than 2·10⁻³ (f32) or 10⁻⁷ (f64) to it the rank drops, which is named. Clusters have the angle from a difference of squares: at most ε over its square in G and over its cube in Ġ ẏ; their status begins at 6·10⁻³ and 2·10⁻⁷ rad",
         run: || of_case(50),
     },
     Case {
@@ -66,7 +66,7 @@ const SINGULAR: &[Case] = &[
         parameters: "crank, coupler, rocker and ground of 0.125, 0.625, 0.25 and 0.5 m: shortest + longest = sum of the others; 2⁻³ to 2⁻¹⁷ rad from the change point, two states each, and at it, still",
         source: "Grashof (1883): the linkage is flat at the change point, and may continue on either branch",
         oracle: ORACLE,
-        reason: "as case 50; the guess decides on the branch of a loop, its constant on that of a cluster",
+        reason: "as case 50. 2⁻¹⁷ rad from the change point a cluster in f64 has one digit of the torque left, none of the acceleration, and no status yet; general loops have eleven. The guess decides on the branch of a loop, its constant on that of a cluster",
         run: || of_case(51),
     },
     Case {
@@ -75,7 +75,7 @@ const SINGULAR: &[Case] = &[
         parameters: "the Delta with cranks and rods stretched downwards; another one, rods 0.3125 m, whose rods and platform lie in one plane while the cranks are level, 2⁻³ to 2⁻¹⁰ rad from there, and there",
         source: "Gosselin & Angeles (1990): singularities of the first kind (stretched) and of the second kind, in which the motors do not hold the platform",
         oracle: ORACLE,
-        reason: "stretched arms are regular for the motors; near coplanar rods ε over the angle. f32 rounds the description of the Delta, too",
+        reason: "stretched arms are regular for the motors; near coplanar rods ε over the angle. Where they are coplanar three rows of K depend on the others besides, which forward dynamics in f32 names at 2⁻⁵ rad. f32 rounds the description of the Delta, too",
         run: || {
             let mut rows: Vec<_> = robots::deltas().iter().flat_map(Setup::rows).collect();
             rows.extend(status::coplanar_delta());
@@ -109,7 +109,7 @@ const MASSES: &[Case] = &[
         parameters: "a four-bar with a rocker of 2²⁰ kg on links of 1 kg, and with a coupler of 2⁻²⁰ kg between links of 1 kg; four states each",
         source: "presses and excavators; a rod of carbon fibre between motors",
         oracle: ORACLE,
-        reason: "rows of K L⁻¹ D^-½ differ by 10³: they are made orthogonal, and K M⁻¹ Kᵀ, in which it is 10⁶, is not formed",
+        reason: "a light rod costs nothing. With the heavy rocker the torque would accelerate the crank alone 10⁷ times as much as the linkage, and forward dynamics of general loops takes that away again: f32 keeps one digit. A cluster has the inertia of the whole, and keeps three",
         run: || of_case(55),
     },
     Case {
@@ -127,7 +127,7 @@ const MASSES: &[Case] = &[
         parameters: "a four-bar with a crank of 2⁻¹⁰ m, a rocker of 2⁻⁶ m, coupler and ground of 1 m; four states",
         source: "eccentrics",
         oracle: ORACLE,
-        reason: "the closure is a difference of lengths of 1 m: ε over the ratio of the lengths",
+        reason: "the closure is a difference of lengths of 1 m: ε over the ratio of the lengths. In f32 the inertia of the crank is lost beside that of the coupler, and forward dynamics of general loops names its joint",
         run: || of_case(58),
     },
 ];
@@ -160,7 +160,7 @@ const GEARS: &[Case] = &[
         parameters: "pitch at 1 and roll at 1/1024 of its motors; one state of two turns, one of 700 rad at 1000 rad/s",
         source: "harmonic drives behind a differential",
         oracle: ORACLE,
-        reason: "the inertia that the motors see has κ = 10⁶: accelerations in f32 lose that many digits of the motors' difference",
+        reason: "the inertia that the motors see has κ = 10⁶: f64 loses as many digits of the accelerations. In f32 the smaller pivot is within its rounding errors, and forward dynamics names the cluster",
         run: geared::differential_rows,
     },
     Case {

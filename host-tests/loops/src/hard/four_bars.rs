@@ -39,10 +39,10 @@ pub type OfCluster = [Outcome; 3];
 fn as_clusters(problem: &LoopProblem<3, 1>, linkage: usize, truth: &Truth) -> Vec<Row> {
     let states = || problem.starts.iter().zip(&truth.states);
     let single: Vec<OfCluster> = states()
-        .map(|(start, truth)| of(linkage, start.map(|[y, ..]| y), truth.given[0] as f32))
+        .map(|(start, truth)| of(linkage, crank::<f32>(start), truth.given[0] as f32))
         .collect();
     let double: Vec<OfCluster> = states()
-        .map(|(start, truth)| of(linkage, start.map(|[y, ..]| f64::from(y)), truth.given[0]))
+        .map(|(start, truth)| of(linkage, crank::<f64>(start), truth.given[0]))
         .collect();
     let of_states = |from: &[OfCluster], k: usize| -> Vec<Outcome> {
         from.iter().map(|outcomes| outcomes[k].clone()).collect()

@@ -103,13 +103,16 @@ fn refused(rows: &[host_tests::hard::Row]) -> Vec<String> {
     rows.iter().filter_map(|row| row.demand().err()).collect()
 }
 
+/// What makes a result wrong.
+type Change = fn(&mut Truth);
+
 /// A torque, an acceleration and a position that are wrong by some roundings of f64 are found, each in f64 alone.
 #[test]
 fn a_wrong_value_is_refused() {
     let setup = Planar::of(problem(49, "planar four-bar in space"));
     let truth = setup.truth();
     assert_eq!(refused(&setup.rows_against(&truth)), [""; 0]);
-    let wrong: [(&str, fn(&mut Truth)); 3] = [
+    let wrong: [(&str, Change); 3] = [
         ("inverse dynamics", |truth| {
             let tau = truth.states[2].tau.as_mut().expect("a torque");
             tau[0] *= 1.0 + 1e-14;

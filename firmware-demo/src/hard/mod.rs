@@ -1,10 +1,11 @@
-//! Hard cases on arms of six bodies, as numbers that the host tests and the firmware share.
+//! Hard cases on arms of six bodies, and on linkages ([`loops`]), as numbers that the host tests and the firmware share.
 //!
 //! The host compares the results with 50-digit oracles and closed forms (`host-tests/src/hard`); the firmware's bin
 //! `bits` shows that a microcontroller computes the same bits.
 
 mod arms;
 mod compute;
+pub mod loops;
 mod states;
 
 pub use arms::{COUNT, EXCESS, RENUMBERING};
@@ -109,4 +110,5 @@ pub fn digests(mut report: impl FnMut(u32, &'static str, Digest)) {
         }
         report(problem.case, problem.name, digest);
     }
+    loops::digests(report);
 }

@@ -1,6 +1,6 @@
 //! A machine's constants as the oracle's script reads them.
 
-use dynamics_core::loops::BodyFrame;
+use dynamics_core::loops::{BodyFrame, Loops};
 use dynamics_core::model::BASE;
 use host_tests::export::{Placement, Robot, robot};
 use serde::{Deserialize, Serialize};
@@ -50,7 +50,19 @@ pub fn machine<
 where
     T: Machine<B, Q, V, L, C, A>,
 {
-    let loops = T::LOOPS.joints().iter().map(|joint| Loop {
+    let actuated = T::LOOPS.actuated().iter().zip(T::ACTUATED_Q);
+    Exported {
+        robot: robot(&T::MODEL),
+        loops: loops(&T::LOOPS),
+        actuated: actuated.map(|(&v, q)| [v, q]).collect(),
+        home: T::HOME.to_vec(),
+        range: T::RANGE,
+    }
+}
+
+/// The joints that close a machine.
+pub fn loops<const L: usize, const C: usize, const A: usize>(of: &Loops<L, C, A>) -> Vec<Loop> {
+    let loops = of.joints().iter().map(|joint| Loop {
         name: joint.name().into(),
         joint: format!("{:?}", joint.joint().kind).to_lowercase(),
         axis: joint.joint().axis.to_array(),
@@ -60,14 +72,7 @@ where
         }),
         placements: joint.ends().each_ref().map(placement),
     });
-    let actuated = T::LOOPS.actuated().iter().zip(T::ACTUATED_Q);
-    Exported {
-        robot: robot(&T::MODEL),
-        loops: loops.collect(),
-        actuated: actuated.map(|(&v, q)| [v, q]).collect(),
-        home: T::HOME.to_vec(),
-        range: T::RANGE,
-    }
+    loops.collect()
 }
 
 fn placement(end: &BodyFrame) -> Placement {

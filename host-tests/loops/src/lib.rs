@@ -1,6 +1,7 @@
-//! Machines with kinematic loops, and their random states.
+//! Machines with kinematic loops, their random states, and the hard cases of them.
 
 pub mod export;
+pub mod hard;
 pub mod machines;
 pub mod states;
 pub mod wrenches;

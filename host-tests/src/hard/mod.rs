@@ -98,7 +98,15 @@ pub const CASES: &[&[Case]] = &[
 /// # Errors
 /// There is none, or not every row is as demanded: says which.
 pub fn demand(number: u32) -> Result<(), String> {
-    let mut cases = CASES.iter().copied().flatten();
+    demand_of(CASES, number)
+}
+
+/// Runs the case of this number of these cases.
+///
+/// # Errors
+/// As [`demand`].
+pub fn demand_of(cases: &[&[Case]], number: u32) -> Result<(), String> {
+    let mut cases = cases.iter().copied().flatten();
     let case = cases
         .find(|case| case.number == number)
         .ok_or_else(|| format!("there is no case {number}"))?;

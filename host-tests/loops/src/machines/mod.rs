@@ -4,9 +4,9 @@ mod delta;
 mod planar;
 mod stewart;
 
-pub use delta::Delta;
+pub use delta::{Delta, FlatDelta};
 pub use planar::{FOUR_BAR, FiveBar, FourBar, Parallelogram, ThreeMotors};
-pub use stewart::Stewart;
+pub use stewart::{SimilarStewart, Stewart};
 
 use dynamics_core::loops::LoopRobot;
 

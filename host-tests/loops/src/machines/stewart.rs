@@ -9,6 +9,11 @@ use super::Machine;
 #[derive(Clone, Copy, Debug)]
 pub struct Stewart;
 
+/// The same with a platform that is the base at 0.6 of its size, and not turned: it is singular in every pose (Ma &
+/// Angeles, 1991).
+#[derive(Clone, Copy, Debug)]
+pub struct SimilarStewart;
+
 const X: [f64; 3] = [1.0, 0.0, 0.0];
 const Y: [f64; 3] = [0.0, 1.0, 0.0];
 const Z: [f64; 3] = [0.0, 0.0, 1.0];
@@ -48,9 +53,9 @@ const fn rod(name: &'static str, cylinder: usize) -> Body {
         .inertia([0.01, 0.0, 0.0, 0.01, 0.0001, 0.0005])
 }
 
-impl Robot<13, 25, 24> for Stewart {
-    const MODEL: Model<f64, 13, 25, 24> = Model::new(
-        "stewart",
+const fn tree(name: &'static str) -> Model<f64, 13, 25, 24> {
+    Model::new(
+        name,
         [
             Body::new("platform", BASE, Joint::free())
                 .mass(10.0)
@@ -69,11 +74,10 @@ impl Robot<13, 25, 24> for Stewart {
             cylinder("cylinder_f", 5),
             rod("rod_f", 11),
         ],
-    );
+    )
 }
 
-const fn ball(name: &'static str, leg: usize) -> LoopJoint {
-    let (cos, sin) = ABOVE[leg];
+const fn ball(name: &'static str, leg: usize, (cos, sin): (f64, f64)) -> LoopJoint {
     LoopJoint::new(
         name,
         Joint::spherical(),
@@ -84,19 +88,33 @@ const fn ball(name: &'static str, leg: usize) -> LoopJoint {
     )
 }
 
-impl LoopRobot<13, 25, 24, 6, 18, 6> for Stewart {
-    const LOOPS: Loops<6, 18, 6> = Loops::new(
-        &Self::MODEL,
+const fn loops(model: &Model<f64, 13, 25, 24>, on: &[(f64, f64); 6]) -> Loops<6, 18, 6> {
+    Loops::new(
+        model,
         [
-            ball("ball_a", 0),
-            ball("ball_b", 1),
-            ball("ball_c", 2),
-            ball("ball_d", 3),
-            ball("ball_e", 4),
-            ball("ball_f", 5),
+            ball("ball_a", 0, on[0]),
+            ball("ball_b", 1, on[1]),
+            ball("ball_c", 2, on[2]),
+            ball("ball_d", 3, on[3]),
+            ball("ball_e", 4, on[4]),
+            ball("ball_f", 5, on[5]),
         ],
         [8, 11, 14, 17, 20, 23],
-    );
+    )
+}
+
+impl Robot<13, 25, 24> for Stewart {
+    const MODEL: Model<f64, 13, 25, 24> = tree("stewart");
+}
+impl LoopRobot<13, 25, 24, 6, 18, 6> for Stewart {
+    const LOOPS: Loops<6, 18, 6> = loops(&Self::MODEL, &ABOVE);
+}
+
+impl Robot<13, 25, 24> for SimilarStewart {
+    const MODEL: Model<f64, 13, 25, 24> = tree("similar_stewart");
+}
+impl LoopRobot<13, 25, 24, 6, 18, 6> for SimilarStewart {
+    const LOOPS: Loops<6, 18, 6> = loops(&Self::MODEL, &BELOW);
 }
 
 impl Machine<13, 25, 24, 6, 18, 6> for Stewart {

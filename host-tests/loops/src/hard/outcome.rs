@@ -1,0 +1,133 @@
+//! What an algorithm made of one state, and what is demanded of it.
+
+use dynamics_core::scalar::Real;
+use host_tests::hard::Row;
+use host_tests::measured::largest;
+
+use super::bounds::BOUNDS;
+
+/// What is demanded of a quantity in one scalar.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Demand {
+    /// An error of at most this of full scale, and no status.
+    Within(f64),
+    /// The same, and a status that names the singular loop.
+    NamedWithin(f64),
+    /// An error or a status that names the singular loop, and numbers that are finite and bounded.
+    Named,
+}
+
+/// Numbers, and whether they come with a status or an error that names what is singular.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// None of an error.
+    pub values: Vec<f64>,
+    /// Whether the loop, row, joint or cluster is named.
+    pub named: bool,
+}
+
+/// What numbers near a singular configuration may be, as a multiple of what they are elsewhere.
+const BOUNDED: f64 = 1e9;
+
+/// The share of the largest acceleration below which a coordinate does not move.
+const STILL: f64 = 1e-9;
+
+impl Outcome {
+    /// An error that names nothing.
+    pub const NOTHING: Self = Self {
+        values: Vec::new(),
+        named: false,
+    };
+    /// An error that names what is singular.
+    pub const REFUSED: Self = Self {
+        values: Vec::new(),
+        named: true,
+    };
+
+    /// These numbers.
+    pub fn of<R: Real, const N: usize>(values: &[R; N], named: bool) -> Self {
+        let values = values.map(R::to_f64).to_vec();
+        Self { values, named }
+    }
+
+    /// Each angle by as many turns more as bring it next to the other one.
+    #[must_use]
+    pub fn with_whole_turns_of(mut self, other: &[f64]) -> Self {
+        for (x, other) in self.values.iter_mut().zip(other) {
+            let turns = (other - *x) / core::f64::consts::TAU;
+            *x += turns.round() * core::f64::consts::TAU;
+        }
+        self
+    }
+
+    /// Whether the singular configuration is named, and every number finite and bounded.
+    pub fn is_named(&self) -> bool {
+        // False of a NaN, too.
+        self.named && self.values.iter().all(|x| x.abs() < BOUNDED)
+    }
+}
+
+/// The rows of a quantity in f32 and in f64 against the oracle's, as [`BOUNDS`] demands.
+pub fn rows(
+    case: u32,
+    quantity: &str,
+    outcomes: [&[Outcome]; 2],
+    truth: &[Option<&[f64]>],
+) -> Vec<Row> {
+    let mut rows = Vec::new();
+    let mut entries = BOUNDS.iter();
+    let entry = entries.find(|entry| (entry.0, entry.1) == (case, quantity));
+    let &(_, _, single, double) =
+        entry.unwrap_or_else(|| panic!("no bound of {quantity:?} of case {case}"));
+    for (k, (scalar, outcomes)) in ["f32", "f64"].into_iter().zip(outcomes).enumerate() {
+        let demand = [single, double][k];
+        let named = || {
+            let words = format!("{quantity}: named, finite");
+            Row::claim(words, scalar, outcomes.iter().all(Outcome::is_named))
+        };
+        let error = error(outcomes, truth, quantity.contains("(rad, m)"));
+        match demand {
+            Demand::Within(bound) => {
+                let status = outcomes.iter().any(|outcome| outcome.named);
+                let error = if status { f64::INFINITY } else { error };
+                rows.push(Row::measured(quantity, scalar, error, bound));
+            }
+            Demand::NamedWithin(bound) => {
+                rows.extend([Row::measured(quantity, scalar, error, bound), named()]);
+            }
+            Demand::Named => rows.push(named()),
+        }
+    }
+    rows
+}
+
+/// The largest error, each coordinate relative to its largest over the states, or in rad and m where it is `absolute`;
+/// infinite where there is no answer.
+fn error(outcomes: &[Outcome], truth: &[Option<&[f64]>], absolute: bool) -> f64 {
+    let Some(truth) = truth.iter().copied().collect::<Option<Vec<_>>>() else {
+        return f64::INFINITY;
+    };
+    let size = |i: usize| largest(truth.iter().map(|row| row[i].abs()));
+    let most = largest(truth.iter().flat_map(|row| row.iter().map(|x| x.abs())));
+    let mut errors = Vec::new();
+    for (outcome, truth) in outcomes.iter().zip(&truth) {
+        if outcome.values.len() != truth.len() {
+            return f64::INFINITY;
+        }
+        for (i, (x, truth)) in outcome.values.iter().zip(*truth).enumerate() {
+            // One that does not move but for rounding has no scale of its own.
+            let scale = if size(i) < STILL * most {
+                most
+            } else {
+                size(i)
+            };
+            let error = (x - truth).abs();
+            errors.push(if absolute || scale == 0.0 {
+                error
+            } else {
+                error / scale
+            });
+        }
+    }
+    largest(errors)
+}

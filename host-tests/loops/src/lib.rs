@@ -2,5 +2,6 @@
 
 pub mod export;
 pub mod machines;
+pub mod recorded;
 pub mod states;
 pub mod wrenches;

@@ -1,6 +1,6 @@
 //! Prints the spanning trees of robots with clusters as JSON for `host-tests/oracle/clusters.py`.
 
-use cluster_tests::FiveBarLeg;
+use cluster_tests::{FiveBarLeg, Geared, Wrist};
 use dynamics_core::model::Robot;
 use firmware_demo::robots::{AnkleLeg, FourBarLeg};
 use host_tests::export::robot;
@@ -10,6 +10,8 @@ fn main() -> serde_json::Result<()> {
         robot(&FourBarLeg::MODEL),
         robot(&FiveBarLeg::MODEL),
         robot(&AnkleLeg::MODEL),
+        robot(&Wrist::MODEL),
+        robot(&Geared::MODEL),
     ];
     println!("{}", serde_json::to_string(&robots)?);
     Ok(())

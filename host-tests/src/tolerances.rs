@@ -419,7 +419,8 @@ pub fn check(robot: &str, quantity: &str, scalar: &str, error: f64) -> Result<()
 
 /// Errors of a robot's quantities, collected over states.
 pub struct Errors {
-    robot: &'static str,
+    /// The robot, as in the table.
+    pub robot: &'static str,
     /// Quantity, scalar, largest error, full scale.
     rows: Vec<(&'static str, &'static str, f64, f64)>,
 }

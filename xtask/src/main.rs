@@ -87,7 +87,7 @@ enum Command {
     /// Measure on the host how accurate dynamics with kinematic loops are, rewrite docs/loops.md
     Loops,
     /// Measure other libraries and this one side by side, rewrite docs/peers.md: takes minutes
-    Peers(Json),
+    Peers(peers::Args),
     /// Time release builds with and without one specialised function, rewrite docs/build-time.md
     BuildTime(Json),
     /// Feed descriptions, dynamics, controller and encoder frames random bytes; CI does so for a moment
@@ -189,7 +189,7 @@ fn run(cli: Cli) -> Result<ExitCode> {
         Command::Eliminations => host_table::ELIMINATIONS.run(),
         Command::Loops => host_table::LOOPS.run(),
         Command::HardCases(Json { json }) => hard_cases::run(json),
-        Command::Peers(Json { json }) => peers::run(setup, json),
+        Command::Peers(args) => peers::run(setup, &args),
         Command::BuildTime(Json { json }) => build_time::run(setup, json),
         Command::Fuzz { seconds } => endurance::fuzz(seconds),
         Command::Soak { ticks } => endurance::soak(ticks),

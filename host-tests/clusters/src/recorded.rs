@@ -6,13 +6,31 @@ use dynamics_core::effects::{Armature, Gravity, RIGID_BODY, Viscous};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::{RobotState, State};
 use dynamics_core::{Core, Engine};
+use host_tests::export::{Robot, robot};
 use host_tests::recordings::{read, row};
 use host_tests::tolerances::Errors;
 use serde::Deserialize;
 
+/// A loop: two points that coincide, each with its body and its place in the body's frame.
+#[derive(Deserialize)]
+pub struct PointLoop {
+    /// The bodies.
+    pub bodies: [i64; 2],
+    /// The points, m.
+    pub points: [[f64; 3]; 2],
+}
+
 /// A recording; every row is a state.
 #[derive(Deserialize)]
 pub struct Recording {
+    /// The spanning tree that was recorded.
+    pub model: Robot,
+    /// The loops that are pairs of points.
+    #[serde(default)]
+    pub loops: Vec<PointLoop>,
+    /// The tree's coordinates that are the independent ones, where loops are pairs of points.
+    #[serde(default)]
+    pub independent: Vec<usize>,
     /// Independent positions, exactly representable in f32, like velocities, accelerations and torques.
     pub q: Vec<Vec<f64>>,
     /// Independent velocities.
@@ -50,12 +68,17 @@ pub fn recording(robot: &str) -> Recording {
 /// Errors of core and engine over the recorded states, in f64 and f32.
 ///
 /// # Panics
-/// If a recorded state does not close.
+/// If another robot was recorded, or a state of it does not close.
 pub fn errors<T, const B: usize, const N: usize, const Y: usize>() -> Errors
 where
     T: ClusteredRobot<B, N, N, Y, Y>,
 {
     let recorded = recording(T::MODEL.name);
+    assert_eq!(
+        recorded.model,
+        robot(&T::MODEL),
+        "another robot was recorded"
+    );
     let mut errors = Errors::new(T::MODEL.name);
     for k in 0..recorded.q.len() {
         tree::<T, B, N, Y>(&recorded, k, &mut errors);
@@ -65,7 +88,8 @@ where
     errors
 }
 
-fn state<R: Real, const Y: usize>(recorded: &Recording, k: usize) -> State<R, Y, Y> {
+/// A recorded state.
+pub fn state<R: Real, const Y: usize>(recorded: &Recording, k: usize) -> State<R, Y, Y> {
     let of = |rows| row::<Y>(rows, k).map(R::from_f64);
     State {
         q: of(&recorded.q),

@@ -15,6 +15,10 @@ The loops are stated here once more, as pairs of points that coincide, and none 
 - forward dynamics is Pinocchio's constraintDynamics, of which the accelerations of the independent coordinates are recorded.
 
 What is recorded is held against lcaba, against G^T M G ÿ = τ - bias, and against inverse dynamics of the result.
+
+Gears, belts and differentials are no pairs of points: of these robots q as a function of y is stated, in terms of what the
+machine is, and G and Ġ ẏ are its derivatives by differences in 50 digits. Forward dynamics is G^T M G ÿ = τ - bias by numpy, held
+against the equations of the tree with Lagrange multipliers.
 """
 
 import argparse
@@ -24,6 +28,7 @@ import pathlib
 import random
 import sys
 
+import mpmath
 import numpy as np
 import pinocchio as pin
 from record import pinocchio_model, single, text, uniform
@@ -86,14 +91,74 @@ ROBOTS = {
     },
 }
 
+# Coordinates of the tree as functions of the independent ones, and how far the latter go from zero.
+EXPLICIT = {
+    # Two motors turn the side gears of a bevel differential, of ratios 1 and 2.5: the carrier takes their mean, its gear
+    # half of their difference.
+    "wrist": {
+        "reach": [2.0] * 6,
+        "map": lambda y: y[:4] + [(y[4] + y[5]) / 2, (y[4] - y[5]) / 2 / mpmath.mpf("2.5")],
+    },
+    # The forearm hangs on a spiral pulley: its angle is a cubic polynomial of the pulley's. Both motors together pitch the
+    # hand and against each other roll it, by half of their angles from offsets; rotors turn nine times as fast.
+    "geared": {
+        "reach": [2.0] * 4,
+        "map": lambda y: [
+            y[0],
+            y[1],
+            mpmath.mpf("0.1") + mpmath.mpf("0.6") * y[1] + mpmath.mpf("0.05") * y[1] ** 2 - mpmath.mpf("0.01") * y[1] ** 3,
+            (y[2] + y[3]) / 2 + mpmath.mpf("0.1"),
+            (y[2] - y[3]) / 2,
+            9 * y[2],
+            mpmath.mpf("0.2") - 9 * y[3],
+        ],
+    },
+}
+
+
+class Geared:
+    """A robot whose q is a function of y."""
+
+    def __init__(self, robot):
+        spec = EXPLICIT[robot["name"]]
+        self.map, self.range = spec["map"], [(0.0, reach) for reach in spec["reach"]]
+        self.model, _, order = pinocchio_model(robot)
+        assert list(order.at) == list(range(self.model.nv)), "one degree of freedom each, in order"
+        self.free = len(self.range)
+
+    def along(self, y, direction, order):
+        """A derivative of q at y along a direction."""
+        with mpmath.workdps(50):
+            at = lambda k: lambda s: self.map([mpmath.mpf(float(a)) + s * float(d) for a, d in zip(y, direction)])[k]
+            return np.array([float(mpmath.diff(at(k), 0, order)) for k in range(self.model.nv)])
+
+    def maps(self, data, y, yd):
+        """q, G and Ġ ẏ."""
+        g = np.array([self.along(y, unit, 1) for unit in np.eye(self.free)]).T
+        return self.along(y, yd, 0), g, self.along(y, yd, 2)
+
+    def forward(self, q, g, yd, bias, tau, solved):
+        """As was solved; by M q̈ - Kᵀ λ = τ - C and K q̈ = K Ġ ẏ, where the rows of K span what G leaves out."""
+        data, n = self.model.createData(), self.model.nv
+        k = np.linalg.svd(g)[0][:, self.free :].T
+        m = np.triu(pin.crba(self.model, data, q))
+        m = m + np.triu(m, 1).T
+        rest = np.linalg.pinv(g.T) @ tau - pin.nonLinearEffects(self.model, data, q, g @ yd)
+        system = np.block([[m, k.T], [k, np.zeros((len(k), len(k)))]])
+        qdd = np.linalg.solve(system, np.concatenate([rest, k @ bias]))[:n]
+        return solved, {"multipliers": np.linalg.lstsq(g, qdd - bias)[0]}
+
 
 class Machine:
+    """A robot whose loops are pairs of points."""
+
     def __init__(self, robot):
         self.robot, self.spec = robot, ROBOTS[robot["name"]]
         self.model, bodies, order = pinocchio_model(robot)
         assert list(order.at) == list(range(self.model.nv)), "one degree of freedom each, in order"
         names = [body["name"] for body in robot["bodies"]]
         self.independent = [names.index(name) for name, _, _ in self.spec["y"]]
+        self.range, self.free = [entry[1:] for entry in self.spec["y"]], len(self.independent)
         self.dependent = [v for v in range(self.model.nv) if v not in self.independent]
         self.ends = []
         for i, (a, at_a, b, at_b) in enumerate(self.spec["loops"]):
@@ -147,9 +212,10 @@ class Machine:
         assert np.max(np.abs(gap)) < 1e-14, "it does not close"
         return q, k
 
-    def maps(self, data, q, k, yd):
-        """G and Ġ ẏ."""
-        n, free = self.model.nv, len(self.independent)
+    def maps(self, data, y, yd):
+        """q, G and Ġ ẏ."""
+        q, k = self.close(data, y)
+        n, free = self.model.nv, self.free
         g = np.zeros((n, free))
         g[self.independent] = np.eye(free)
         g[self.dependent] = -self.least(k[:, self.dependent], k[:, self.independent])
@@ -160,48 +226,59 @@ class Machine:
         drift = np.concatenate([at(a) - at(b) for (a, _, _), (b, _, _) in self.ends])
         bias = np.zeros(n)
         bias[self.dependent] = -self.least(k[:, self.dependent], drift)
-        return g, bias
+        return q, g, bias
+
+    def forward(self, q, g, yd, bias, tau, solved):
+        """By constraintDynamics; by lcaba, and as was solved."""
+        on_tree = np.zeros(self.model.nv)
+        on_tree[self.independent] = tau
+        results = []
+        for solver in (pin.constraintDynamics, pin.lcaba):
+            fresh = self.model.createData()
+            cdata = pin.StdVec_RigidConstraintData()
+            for constraint in self.constraints:
+                cdata.append(constraint.createData())
+            if solver is pin.constraintDynamics:
+                pin.initConstraintDynamics(self.model, fresh, self.constraints, cdata)
+            else:
+                pin.computeJointMinimalOrdering(self.model, fresh, self.constraints)
+            # Of lcaba rounding errors grow with 1/mu: the least of its errors, 1e-11, are at 1e-2.
+            mu = 1e-10 if solver is pin.constraintDynamics else 1e-2
+            settings = pin.ProximalSettings(1e-14, 1e-14, mu, 2000)
+            qdd = solver(self.model, fresh, q, g @ yd, on_tree, self.constraints, cdata, settings)
+            results.append(np.array(qdd)[self.independent])
+        return results[0], {"lcaba": results[1], "matrix": solved}
+
+    def header(self):
+        """The loops, as the measurements of speed read them."""
+        loops = []
+        for a, at_a, b, at_b in self.spec["loops"]:
+            names = [body["name"] for body in self.robot["bodies"]]
+            loops.append({"bodies": [names.index(a), names.index(b)], "points": [at_a, at_b]})
+        return {"loops": loops, "independent": self.independent}
 
 
 def record(robot):
     rng = random.Random(f"{SEED} {robot['name']}")
-    machine = Machine(robot)
-    model = machine.model
-    data, free = model.createData(), len(machine.independent)
-    rows, worst = {}, {"lcaba": 0.0, "matrix": 0.0, "inverse": 0.0}
+    machine = (Geared if robot["name"] in EXPLICIT else Machine)(robot)
+    model, free = machine.model, machine.free
+    data = model.createData()
+    rows, worst = {}, {}
+    note = lambda way, error: worst.update({way: max(worst.get(way, 0.0), float(error))})
     for _ in range(STATES):
-        y = single([centre + uniform(rng, 1, reach)[0] for _, centre, reach in machine.spec["y"]])
+        y = single([centre + uniform(rng, 1, reach)[0] for centre, reach in machine.range])
         yd, ydd, other = (uniform(rng, free, bound) for bound in (3.0, 10.0, 10.0))
-        q, k = machine.close(data, y)
-        g, bias = machine.maps(data, q, k, yd)
+        q, g, bias = machine.maps(data, y, yd)
         inverse = lambda ydd: g.T @ pin.rnea(model, data, q, g @ yd, g @ ydd + bias)
         tau = single(inverse(other))
-        on_tree = np.zeros(model.nv)
-        on_tree[machine.independent] = tau
-        results = []
-        for solver in (pin.constraintDynamics, pin.lcaba):
-            fresh = model.createData()
-            cdata = pin.StdVec_RigidConstraintData()
-            for constraint in machine.constraints:
-                cdata.append(constraint.createData())
-            if solver is pin.constraintDynamics:
-                pin.initConstraintDynamics(model, fresh, machine.constraints, cdata)
-            else:
-                pin.computeJointMinimalOrdering(model, fresh, machine.constraints)
-            # Of lcaba rounding errors grow with 1/mu: the least of its errors, 1e-11, are at 1e-2.
-            mu = 1e-10 if solver is pin.constraintDynamics else 1e-2
-            settings = pin.ProximalSettings(1e-14, 1e-14, mu, 2000)
-            qdd = solver(model, fresh, q, g @ yd, on_tree, machine.constraints, cdata, settings)
-            results.append(np.array(qdd)[machine.independent])
-        forward = results[0]
         m = pin.crba(model, data, q)
         m = np.triu(m) + np.triu(m, 1).T
         solved = np.linalg.solve(g.T @ m @ g, tau - inverse(np.zeros(free)))
+        forward, ways = machine.forward(q, g, yd, bias, tau, solved)
         size = max(np.max(np.abs(solved)), 10.0)
-        worst["lcaba"] = max(worst["lcaba"], np.max(np.abs(results[1] - solved)) / size)
-        worst["matrix"] = max(worst["matrix"], np.max(np.abs(forward - solved)) / size)
-        back = np.max(np.abs(inverse(forward) - tau)) / np.max(np.abs(tau))
-        worst["inverse"] = max(worst["inverse"], back)
+        for way, ydd_by_it in ways.items():
+            note(way, np.max(np.abs(ydd_by_it - forward)) / size)
+        note("inverse", np.max(np.abs(inverse(forward) - tau)) / np.max(np.abs(tau)))
         row = {
             "q": y,
             "qd": yd,
@@ -228,6 +305,7 @@ def record(robot):
         "seed": SEED,
         "agreement": {key: float(f"{value:.1e}") for key, value in worst.items()},
         "model": robot,
+        **(machine.header() if isinstance(machine, Machine) else {}),
     }
     return text(header, rows)
 

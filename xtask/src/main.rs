@@ -11,7 +11,6 @@ mod demo;
 mod docs;
 mod effects;
 mod elf;
-mod eliminations;
 mod endurance;
 mod error;
 mod firmware;
@@ -19,6 +18,7 @@ mod flags;
 mod growth;
 mod hard_cases;
 mod host_bin;
+mod host_table;
 mod layers;
 mod lines;
 mod meter;
@@ -84,8 +84,10 @@ enum Command {
     Eliminations,
     /// Measure on the host what breaks dynamics codes, rewrite docs/hard-cases.md
     HardCases(Json),
+    /// Measure on the host how accurate dynamics with kinematic loops are, rewrite docs/loops.md
+    Loops,
     /// Measure other libraries and this one side by side, rewrite docs/peers.md: takes minutes
-    Peers(Json),
+    Peers(peers::Args),
     /// Time release builds with and without one specialised function, rewrite docs/build-time.md
     BuildTime(Json),
     /// Feed descriptions, dynamics, controller and encoder frames random bytes; CI does so for a moment
@@ -184,9 +186,10 @@ fn run(cli: Cli) -> Result<ExitCode> {
         Command::Effects(Json { json }) => effects::run(setup, json),
         Command::Accuracy(wish) => accuracy::run(setup, wish),
         Command::Meter(args) => user_firmware::run(setup, &args),
-        Command::Eliminations => eliminations::run(),
+        Command::Eliminations => host_table::ELIMINATIONS.run(),
+        Command::Loops => host_table::LOOPS.run(),
         Command::HardCases(Json { json }) => hard_cases::run(json),
-        Command::Peers(Json { json }) => peers::run(setup, json),
+        Command::Peers(args) => peers::run(setup, &args),
         Command::BuildTime(Json { json }) => build_time::run(setup, json),
         Command::Fuzz { seconds } => endurance::fuzz(seconds),
         Command::Soak { ticks } => endurance::soak(ticks),

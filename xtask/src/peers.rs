@@ -14,7 +14,7 @@ use std::process::{Command, ExitCode};
 
 use crate::bars::Compared;
 use crate::budgets;
-use crate::docs;
+use crate::docs::{self, Page};
 use crate::error::{Result, bail};
 use crate::peers::build::Workshop;
 use crate::peers::report::Report;
@@ -39,15 +39,44 @@ fn outputs(algorithm: &str, joints: usize) -> usize {
     }
 }
 
+/// The part of the page about robots with loops.
+const LOOPS: Page = Page {
+    file: "docs/peers.md",
+    name: "loops",
+    command: "cargo xtask peers --loops",
+};
+
+/// What to measure, and how to print it.
+#[derive(clap::Args)]
+pub struct Args {
+    /// Measure robots with kinematic loops only, on the host, and rewrite their part of the page
+    #[arg(long)]
+    loops: bool,
+    /// The measurements as JSON on stdout; progress stays on stderr
+    #[arg(long)]
+    json: bool,
+}
+
 /// Sets up, builds, measures, and writes `docs/peers.md`.
 ///
 /// # Errors
 /// Among others, a bar is missed that `budgets.toml` does not record as missed.
-pub fn run(options: Options, json: bool) -> Result<ExitCode> {
+pub fn run(options: Options, args: &Args) -> Result<ExitCode> {
     let workspace = Workspace::for_reports()?;
     let (tools, peers) = tools::set_up(&workspace, options)?;
-    let robots = robots::export(&workspace)?;
     let shop = Workshop::new(&workspace, &peers)?;
+    if args.loops {
+        let report = Report {
+            rows: host::measure(&workspace, &shop, &[])?,
+            compared: Vec::new(),
+            versions: versions(&workspace, &tools, &peers)?,
+            date: docs::today_and_commit(&workspace),
+        };
+        let text = report.loops();
+        LOOPS.write(&workspace, &text)?;
+        return table::show(args.json, &report.rows, &text);
+    }
+    let robots = robots::export(&workspace)?;
     shop.generate(&robots)?;
     let mut rows = target::measure(&workspace, &shop, &tools, &robots)?;
     rows.extend(host::measure(&workspace, &shop, &robots)?);
@@ -66,9 +95,9 @@ pub fn run(options: Options, json: bool) -> Result<ExitCode> {
         versions,
         date: docs::today_and_commit(&workspace),
     };
-    let page = report.markdown();
+    let page = LOOPS.replaced(&report.markdown(), &report.loops())?;
     workspace::write(&workspace.report("docs/peers.md"), &page)?;
-    let code = table::show(json, &report.rows, &page)?;
+    let code = table::show(args.json, &report.rows, &page)?;
     if !unmet.is_empty() {
         bail!("bar: {}", unmet.join("\nbar: "));
     }

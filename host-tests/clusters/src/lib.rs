@@ -1,5 +1,7 @@
 //! Robots with clusters of every kind, and what the tests of them share.
 
+pub mod recorded;
+
 use dynamics_core::clusters::{
     Belt, Branch, ClusteredRobot, Differential, Driven, FiveBar, ParallelAnkle,
 };
@@ -93,7 +95,11 @@ impl ClusteredRobot<5, 5, 5, 3, 3> for FiveBarLeg {
 pub struct Wrist;
 
 impl Robot<6, 6, 6> for Wrist {
-    const MODEL: ArmModel<f64, 6> = Ur5e::MODEL;
+    const MODEL: ArmModel<f64, 6> = {
+        let mut model = Ur5e::MODEL;
+        model.name = "wrist";
+        model
+    };
 }
 
 impl ClusteredRobot<6, 6, 6, 6, 6> for Wrist {

@@ -3,5 +3,6 @@
 pub mod export;
 pub mod hard;
 pub mod machines;
+pub mod recorded;
 pub mod states;
 pub mod wrenches;

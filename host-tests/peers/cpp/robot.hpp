@@ -15,7 +15,7 @@ enum class Position { angle, cos_sin };
 struct Body {
   std::string name, joint;
   int parent;
-  double axis[3], rotation[9], position[3], mass, com[3], inertia[6];
+  double axis[3], axis2[3], rotation[9], position[3], mass, com[3], inertia[6];
 };
 
 struct Robot {
@@ -28,27 +28,32 @@ void read(std::istream &in, double (&numbers)[N]) {
   for (double &number : numbers) in >> number;
 }
 
-// Robots of a file: a line `name bodies`, then one line a body. C++ reads a decimal number to the
+// A robot: a line `name bodies`, then one line a body; of none the name is empty. C++ reads a decimal number to the
 // nearest double, so that the numbers are the library's own.
+inline Robot read_robot(std::istream &in) {
+  Robot robot;
+  std::size_t count;
+  if (!(in >> robot.name >> count)) return {};
+  robot.bodies.resize(count);
+  for (Body &body : robot.bodies) {
+    in >> body.name >> body.parent >> body.joint;
+    read(in, body.axis);
+    if (body.joint == "universal") read(in, body.axis2);
+    read(in, body.rotation);
+    read(in, body.position);
+    in >> body.mass;
+    read(in, body.com);
+    read(in, body.inertia);
+  }
+  if (!in) throw std::runtime_error(robot.name + " is incomplete");
+  return robot;
+}
+
+// Robots of a file.
 inline std::vector<Robot> read_robots(const std::string &path) {
   std::ifstream in(path);
   std::vector<Robot> robots;
-  Robot robot;
-  std::size_t count;
-  while (in >> robot.name >> count) {
-    robot.bodies.resize(count);
-    for (Body &body : robot.bodies) {
-      in >> body.name >> body.parent >> body.joint;
-      read(in, body.axis);
-      read(in, body.rotation);
-      read(in, body.position);
-      in >> body.mass;
-      read(in, body.com);
-      read(in, body.inertia);
-    }
-    if (!in) throw std::runtime_error(path + ": " + robot.name + " is incomplete");
-    robots.push_back(robot);
-  }
+  for (Robot robot = read_robot(in); !robot.name.empty(); robot = read_robot(in)) robots.push_back(robot);
   if (robots.empty()) throw std::runtime_error(path + ": no robot");
   return robots;
 }
@@ -57,7 +62,13 @@ inline pinocchio::JointModel joint_model(const Body &body, Position position) {
   using namespace pinocchio;
   const Eigen::Vector3d axis(body.axis);
   const bool angle = position == Position::angle;
-  if (body.joint != "revolute") throw std::runtime_error("a joint that is not revolute");
+  if (body.joint == "free") return JointModel(JointModelFreeFlyer());
+  if (body.joint == "universal") return JointModel(JointModelUniversal(axis, Eigen::Vector3d(body.axis2)));
+  if (body.joint == "prismatic") {
+    if (axis == Eigen::Vector3d::UnitZ()) return JointModel(JointModelPZ());
+    return JointModel(JointModelPrismaticUnaligned(axis));
+  }
+  if (body.joint != "revolute") throw std::runtime_error("a joint of a kind that is not compared");
   if (axis == Eigen::Vector3d::UnitX())
     return angle ? JointModel(JointModelRX()) : JointModel(JointModelRUBX());
   if (axis == Eigen::Vector3d::UnitY())
@@ -68,11 +79,14 @@ inline pinocchio::JointModel joint_model(const Body &body, Position position) {
   return JointModel(JointModelRevoluteUnboundedUnaligned(axis));
 }
 
-inline pinocchio::Model pinocchio_model(const Robot &robot, Position position) {
+// Each body's joint and its place on it.
+using Placed = std::vector<std::pair<pinocchio::JointIndex, pinocchio::SE3>>;
+
+inline pinocchio::Model pinocchio_model(const Robot &robot, Position position, Placed *out = nullptr) {
   using namespace pinocchio;
   Model model;
   model.name = robot.name;
-  std::vector<std::pair<JointIndex, SE3>> placed;
+  Placed placed;
   for (const Body &body : robot.bodies) {
     JointIndex joint = 0;
     SE3 at = SE3::Identity();
@@ -88,5 +102,6 @@ inline pinocchio::Model pinocchio_model(const Robot &robot, Position position) {
     const Symmetric3 inertia(i[0], i[1], i[3], i[2], i[4], i[5]);
     model.appendBodyToJoint(joint, Inertia(body.mass, Eigen::Vector3d(body.com), inertia), here);
   }
+  if (out) *out = placed;
   return model;
 }

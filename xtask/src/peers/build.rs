@@ -120,6 +120,13 @@ impl<'a> Workshop<'a> {
         self.cpp(&name, compiler, &words(HOST), "pinocchio_peer.cpp")
     }
 
+    /// Pinocchio's dynamics of robots with loops, likewise.
+    pub fn pinocchio_loops(&self, compiler: &str) -> Result<PathBuf> {
+        let _spinner = Spinner::start(&format!("building Pinocchio's loops by {compiler}"));
+        let name = format!("pinocchio_loops_{compiler}.so");
+        self.cpp(&name, compiler, &words(HOST), "pinocchio_loops.cpp")
+    }
+
     /// MuJoCo behind our interface.
     pub fn mujoco(&self) -> Result<PathBuf> {
         let package = self.peers.packages.join("mujoco");

@@ -36,9 +36,17 @@ fn compared(robot: &Robot) -> (&'static [&'static str], &'static [&'static str])
     }
 }
 
-/// Builds the peers and the benchmark, and runs it.
+/// Builds the peers and the benchmark, and runs it; without robots those with loops alone.
 pub fn measure(workspace: &Workspace, shop: &Workshop<'_>, robots: &[Robot]) -> Result<Vec<Row>> {
-    let manifest = json!({ "foreign": build(shop, robots)?, "urdfs": shop.robots });
+    let loops = CPP_COMPILERS.map(|compiler| {
+        let library = shop.pinocchio_loops(compiler)?;
+        Ok((format!("pinocchio {compiler}"), library))
+    });
+    let loops: Vec<_> = loops.into_iter().collect::<Result<_>>()?;
+    let manifest = match robots {
+        [] => json!({ "foreign": [], "loops": loops }),
+        _ => json!({ "foreign": build(shop, robots)?, "urdfs": shop.robots, "loops": loops }),
+    };
     let path = shop.built.join("manifest.json");
     workspace::write(&path, manifest.to_string())?;
     run(&bench(workspace)?, &path)

@@ -78,6 +78,39 @@ impl Report {
         )
     }
 
+    /// Of robots with loops.
+    pub fn loops(&self) -> String {
+        let versions = self.versions.iter().map(|version| format!("- {version}\n"));
+        format!(
+            include_str!("loops.md"),
+            date = self.date,
+            inverse = self.in_a_row("loops inverse").markdown(),
+            forward = self.in_a_row("loops forward").markdown(),
+            versions = versions.collect::<String>(),
+        )
+    }
+
+    /// Times, and their ratios to Pinocchio's by its better compiler.
+    fn in_a_row(&self, algorithm: &str) -> Table {
+        let best = |robot: &str| {
+            let rows = self.of(HOST, algorithm).filter(|row| row.robot == robot);
+            let theirs = rows.filter(|row| row.peer.starts_with("pinocchio"));
+            theirs.filter_map(|row| row.ns).min_by(f64::total_cmp)
+        };
+        let text =
+            |value: Option<f64>, digits| value.map_or("–".into(), |x| format!("{x:.digits$}"));
+        Table::of(
+            self.of(HOST, algorithm),
+            &[
+                ("robot, code", &|row| format!("{}, {}", row.robot, row.peer)),
+                ("ns", &|row| text(row.ns, 1)),
+                ("this / pinocchio", &|row| {
+                    text(row.ns.zip(best(&row.robot)).map(|(a, b)| a / b), 2)
+                }),
+            ],
+        )
+    }
+
     fn on_target(&self, algorithm: &str) -> Table {
         let number = |value: Option<u64>| value.map_or("–".into(), thousands);
         let ratio = |row: &Row| {

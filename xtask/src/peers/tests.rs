@@ -222,3 +222,67 @@ fn the_decision_on_missed_bars_quotes_the_page() {
         }
     }
 }
+
+/// The measurements of robots with loops that a page shows.
+fn measured_loops(page: &str) -> Vec<Row> {
+    let part = under(page, "Host: robots with kinematic loops");
+    let (inverse, forward) = part.split_once("\n### Forward dynamics\n").expect("both");
+    let parts = [("loops inverse", inverse), ("loops forward", forward)];
+    let rows = parts.into_iter().flat_map(|(algorithm, part)| {
+        rows_of(part).into_iter().map(move |cells| {
+            let (robot, peer) = cells[0].split_once(", ").expect("robot and code");
+            Row {
+                target: HOST,
+                robot: robot.into(),
+                algorithm: algorithm.into(),
+                peer: peer.into(),
+                precision: "f64".into(),
+                ns: number(cells[1]),
+                ..Row::default()
+            }
+        })
+    });
+    rows.collect()
+}
+
+/// The ratios of a page's robots with loops, to half of their last digit and what rounding the times makes of it.
+fn loop_ratios_agree(page: &str) -> bool {
+    let ratios = |page: &str| -> Vec<f64> {
+        let rows = rows_of(under(page, "Host: robots with kinematic loops"));
+        rows.iter().filter_map(|cells| number(cells[2])).collect()
+    };
+    let report = Report {
+        rows: measured_loops(page),
+        compared: Vec::new(),
+        versions: Vec::new(),
+        date: String::new(),
+    };
+    let text = format!("\n## Host: robots with kinematic loops\n{}", report.loops());
+    let (written, again) = (ratios(page), ratios(&text));
+    let close = |(a, b): (&f64, &f64)| (a - b).abs() < 0.011;
+    written.len() == report.rows.len()
+        && written.len() == again.len()
+        && written.iter().zip(&again).all(close)
+}
+
+#[test]
+fn the_ratios_of_robots_with_loops_are_those_of_their_times() {
+    let page = page();
+    let robots = ["delta", "stewart", "four_bar_leg", "ankle_leg"];
+    let rows = measured_loops(&page);
+    for robot in robots {
+        assert!(rows.iter().any(|row| row.robot == robot), "{robot}");
+    }
+    assert!(
+        loop_ratios_agree(&page),
+        "`cargo xtask peers --loops` rewrites it"
+    );
+    let row = page.lines().find(|line| line.starts_with("| delta, core "));
+    let row = row.expect("a row");
+    let ns = row.split('|').nth(2).expect("a time").trim();
+    assert!(!loop_ratios_agree(&page.replacen(
+        row,
+        &row.replace(ns, "999999.0"),
+        1
+    )));
+}

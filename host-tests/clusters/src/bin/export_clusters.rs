@@ -1,6 +1,6 @@
 //! Prints the spanning trees of robots with clusters as JSON for `host-tests/oracle/clusters.py`.
 
-use cluster_tests::FiveBarLeg;
+use cluster_tests::{FiveBarLeg, Geared, Wrist};
 use dynamics_core::model::Robot;
 use firmware_demo::robots::{AnkleLeg, DeltaRobot, FourBarLeg, StewartPlatform};
 use host_tests::export::robot;
@@ -12,6 +12,8 @@ fn main() -> serde_json::Result<()> {
         robot(&AnkleLeg::MODEL),
         robot(&DeltaRobot::MODEL),
         robot(&StewartPlatform::MODEL),
+        robot(&Wrist::MODEL),
+        robot(&Geared::MODEL),
     ];
     println!("{}", serde_json::to_string(&robots)?);
     Ok(())

@@ -1,8 +1,8 @@
 //! Functions in shared libraries: what C and C++ compilers made of the peers.
 
 use std::error::Error;
-use std::ffi::{CString, c_char, c_void};
-use std::path::PathBuf;
+use std::ffi::{CStr, CString, c_char, c_void};
+use std::path::{Path, PathBuf};
 use std::ptr;
 
 use dynamics_core::scalar::Real;
@@ -48,10 +48,7 @@ impl Foreign {
         &self,
         states: &[State<R, N, N>],
     ) -> Result<Subject<R>, Box<dyn Error>> {
-        // SAFETY: xtask has compiled this library, which runs no code when it is loaded beyond
-        // what C++ needs. It is never unloaded.
-        let library: &'static Library =
-            Box::leak(Box::new(unsafe { Library::new(&self.library) }?));
+        let library = load(&self.library)?;
         // SAFETY: the sources in `host-tests/peers/cpp` give these functions these types.
         let run: Symbol<'static, Run<R>> = unsafe { library.get(self.run.as_bytes()) }?;
         let context = match &self.open {
@@ -96,4 +93,38 @@ impl Foreign {
         };
         [position, state.qd.to_vec(), state.qdd.to_vec()].concat()
     }
+}
+
+fn load(path: &Path) -> Result<&'static Library, Box<dyn Error>> {
+    // SAFETY: xtask has compiled this library, which runs no code when it is loaded beyond what C++ needs. It is never
+    // unloaded.
+    Ok(Box::leak(Box::new(unsafe { Library::new(path) }?)))
+}
+
+/// Pinocchio's dynamics of a robot with loops: a function of a library.
+///
+/// It takes states, their number, and room for the outputs.
+pub fn loops(
+    library: &Path,
+    function: &str,
+    machine: &CStr,
+) -> Result<impl Fn(&[f64], usize, &mut [f64]) + 'static, Box<dyn Error>> {
+    type Open = unsafe extern "C" fn(*const c_char) -> *mut c_void;
+    let library = load(library)?;
+    // SAFETY: `host-tests/peers/cpp/pinocchio_loops.cpp` gives these functions these types.
+    let (open, run): (Symbol<'_, Open>, Symbol<'static, Run<f64>>) = unsafe {
+        (
+            library.get(b"pinocchio_loops_open")?,
+            library.get(function.as_bytes())?,
+        )
+    };
+    // SAFETY: a string that ends in a zero, which it does not keep.
+    let context = unsafe { open(machine.as_ptr()) };
+    if context.is_null() {
+        return Err("Pinocchio does not take a robot with loops".into());
+    }
+    Ok(move |input: &[f64], count, out: &mut [f64]| {
+        // SAFETY: the caller's states and outputs have the sizes of this machine; the context is its own.
+        unsafe { run(context, input.as_ptr(), count, out.as_mut_ptr()) }
+    })
 }

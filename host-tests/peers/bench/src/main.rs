@@ -4,6 +4,7 @@
 
 mod dynibo;
 mod foreign;
+mod loops;
 mod ours;
 mod robot;
 mod subject;
@@ -12,6 +13,8 @@ use std::error::Error;
 use std::path::PathBuf;
 
 use dynamics_core::robots::{A1, G1, Iiwa14, Panda, Ur5e};
+use firmware_demo::robots::{AnkleLeg, FourBarLeg};
+use loop_tests::machines::{Delta, Stewart};
 use serde::Deserialize;
 
 use foreign::Foreign;
@@ -21,8 +24,10 @@ use foreign::Foreign;
 struct Manifest {
     /// The functions.
     foreign: Vec<Foreign>,
-    /// The directory of `<robot>.urdf`.
-    urdfs: PathBuf,
+    /// The directory of `<robot>.urdf`; nothing if robots without loops are not compared.
+    urdfs: Option<PathBuf>,
+    /// Names and libraries of Pinocchio's side of robots with loops.
+    loops: Vec<(String, PathBuf)>,
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -30,12 +35,21 @@ fn main() -> Result<(), Box<dyn Error>> {
         .nth(1)
         .ok_or("usage: peers-bench MANIFEST")?;
     let manifest: Manifest = serde_json::from_str(&std::fs::read_to_string(path)?)?;
+    let loops = &manifest.loops;
+    loops::general::<Delta, 10, 22, 21, 6, 18, 3>(loops)?;
+    loops::general::<Stewart, 13, 25, 24, 6, 18, 6>(loops)?;
+    // Planar, so that one row of three is redundant.
+    loops::clustered::<FourBarLeg, 5, 5, 3>(loops, 1e-10)?;
+    loops::clustered::<AnkleLeg, 9, 9, 3>(loops, 0.0)?;
+    let Some(urdfs) = &manifest.urdfs else {
+        return Ok(());
+    };
     macro_rules! robots {
         ($($robot:ident $b:literal $n:literal $known:ident;)*) => {$(
             let known = Some((ours::$known::<$robot, _, $b, $n> as _, ours::$known::<$robot, _, $b, $n> as _));
-            robot::run::<$robot, $b, $n>(&manifest, known)?;
+            robot::run::<$robot, $b, $n>(&manifest, urdfs, known)?;
         )*};
     }
     robots! { Ur5e 6 6 all; Panda 7 7 all; Iiwa14 7 7 all; A1 16 12 inverse; }
-    robot::run::<G1, 29, 29>(&manifest, None)
+    robot::run::<G1, 29, 29>(&manifest, urdfs, None)
 }

@@ -87,10 +87,10 @@ fn under<T: Robot<B, N, N>, R: Real, E: Effect<R, B, N>, const B: usize, const N
 }
 
 /// A function that gives N numbers a state.
-fn rows<R: Real, const N: usize>(
+pub fn rows<R: Real, S: Clone + 'static, const N: usize>(
     peer: &str,
-    states: &[State<R, N, N>],
-    call: impl Fn(&State<R, N, N>) -> [R; N] + 'static,
+    states: &[S],
+    call: impl Fn(&S) -> [R; N] + 'static,
 ) -> Subject<R> {
     let states = states.to_vec();
     let run = move |out: &mut [R]| {

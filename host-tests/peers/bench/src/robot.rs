@@ -1,6 +1,7 @@
 //! One robot: every algorithm in both precisions.
 
 use std::error::Error;
+use std::path::Path;
 
 use dynamics_core::model::Robot;
 use dynamics_core::scalar::Real;
@@ -11,7 +12,7 @@ use crate::subject::{Row, Subject, interleaved};
 use crate::{Manifest, dynibo, ours};
 
 /// States in a timed batch; the recording is gone through again until there are so many.
-const BATCH: usize = 256;
+pub const BATCH: usize = 256;
 
 /// Ours in f64 and in f32.
 pub type Known<const N: usize> = (ours::Subjects<f64, N>, ours::Subjects<f32, N>);
@@ -20,10 +21,11 @@ pub type Known<const N: usize> = (ours::Subjects<f64, N>, ours::Subjects<f32, N>
 /// model of run time, in f64.
 pub fn run<T: Robot<B, N, N>, const B: usize, const N: usize>(
     manifest: &Manifest,
+    urdfs: &Path,
     known: Option<Known<N>>,
 ) -> Result<(), Box<dyn Error>> {
     let recording = &recordings::load(T::MODEL.name);
-    let urdf = manifest.urdfs.join(format!("{}.urdf", recording.robot));
+    let urdf = urdfs.join(format!("{}.urdf", recording.robot));
     let algorithms: &[_] = match known {
         Some(_) => &["rnea", "bias", "gravity", "crba", "aba"],
         None => &["rnea", "crba", "aba"],
@@ -77,7 +79,40 @@ fn one<R: Real, const N: usize>(
         errors.push(error.map_err(|e| format!("{algorithm} of {}: {e}", recording.robot))?);
     }
     let states = self::states(recording, algorithm, BATCH);
-    let mut subjects = gather(&states)?;
+    print(
+        &recording.robot,
+        algorithm,
+        precision,
+        gather(&states)?,
+        errors,
+    )
+}
+
+/// Checks subjects that compute a batch, of which the expected rows are the first, then times and prints them.
+pub fn timed<R: Real>(
+    robot: &str,
+    algorithm: &str,
+    precision: &str,
+    mut subjects: Vec<Subject<R>>,
+    expected: &[Vec<f64>],
+    bound: f64,
+) -> Result<(), Box<dyn Error>> {
+    let full_scale = recordings::full_scale(expected);
+    let mut errors = Vec::new();
+    for subject in &mut subjects {
+        let error = subject.check(BATCH, expected, full_scale, bound);
+        errors.push(error.map_err(|e| format!("{algorithm} of {robot}: {e}"))?);
+    }
+    print(robot, algorithm, precision, subjects, errors)
+}
+
+fn print<R: Real>(
+    robot: &str,
+    algorithm: &str,
+    precision: &str,
+    mut subjects: Vec<Subject<R>>,
+    errors: Vec<f64>,
+) -> Result<(), Box<dyn Error>> {
     let mut timed: Vec<_> = subjects
         .iter_mut()
         .filter(|subject| subject.timed)
@@ -85,7 +120,7 @@ fn one<R: Real, const N: usize>(
     let mut times = interleaved(&mut timed, BATCH).into_iter();
     for (subject, error) in std::iter::zip(&subjects, errors) {
         let row = Row {
-            robot: &recording.robot,
+            robot,
             algorithm,
             peer: &subject.peer,
             precision,

@@ -1,7 +1,6 @@
 //! Machines that no maker publishes, as constants: numbers of our own, of the size of real ones.
 
 mod ankle_leg;
-mod delta;
 mod direct_drive;
 pub mod four_bar_leg;
 mod gimbal;
@@ -12,7 +11,6 @@ mod space_arm;
 mod stewart;
 
 pub use ankle_leg::{AnkleLeg, RODS};
-pub use delta::DeltaRobot;
 pub use direct_drive::DirectDrive;
 pub use four_bar_leg::FourBarLeg;
 pub use gimbal::Gimbal;

@@ -2,6 +2,8 @@
 
 pub mod recorded;
 
+mod delta_robot;
+
 use dynamics_core::clusters::{
     Belt, Branch, ClusteredRobot, Differential, Driven, FiveBar, ParallelAnkle,
 };
@@ -10,6 +12,8 @@ use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model, Robot};
 use dynamics_core::robots::Ur5e;
 use dynamics_core::state::State;
 use firmware_demo::robots::{AnkleLeg, RODS};
+
+pub use delta_robot::DeltaRobot;
 
 const X: [f64; 3] = [1.0, 0.0, 0.0];
 const Y: [f64; 3] = [0.0, 1.0, 0.0];

@@ -1,8 +1,8 @@
 //! Laws of inverse and forward dynamics with clusters, on 200 random states of every robot.
 
 use cluster_tests::{
-    FiveBarLeg, FloatingAnkle, Geared, UniversalAnkle, Wrist, ankle_states, apart, delta_states,
-    five_bar_states, floating_states, four_bar_states, geared_states, hold, largest,
+    DeltaRobot, FiveBarLeg, FloatingAnkle, Geared, UniversalAnkle, Wrist, ankle_states, apart,
+    delta_states, five_bar_states, floating_states, four_bar_states, geared_states, hold, largest,
     stewart_states, wrist_states,
 };
 use dynamics_core::algorithms::MassMatrix;
@@ -12,7 +12,7 @@ use dynamics_core::model::Static;
 use dynamics_core::scalar::Real;
 use dynamics_core::state::{RobotState, State};
 use dynamics_core::{Core, Engine, algorithms};
-use firmware_demo::robots::{AnkleLeg, DeltaRobot, FourBarLeg, StewartPlatform};
+use firmware_demo::robots::{AnkleLeg, FourBarLeg, StewartPlatform};
 
 /// x with M x = τ, by elimination: M is positive definite.
 fn solved<const N: usize>(m: &MassMatrix<f64, N>, tau: &[f64; N]) -> [f64; N] {

@@ -2,8 +2,9 @@
 //! positions.
 
 use cluster_tests::{
-    FiveBarLeg, FloatingAnkle, Geared, UniversalAnkle, Wrist, ankle_states, apart, delta_states,
-    five_bar_states, floating_states, four_bar_states, geared_states, stewart_states, wrist_states,
+    DeltaRobot, FiveBarLeg, FloatingAnkle, Geared, UniversalAnkle, Wrist, ankle_states, apart,
+    delta_states, five_bar_states, floating_states, four_bar_states, geared_states, stewart_states,
+    wrist_states,
 };
 use dynamics_core::algorithms::{Pose, frame};
 use dynamics_core::clusters::{ClusterProblem, Clustered, ClusteredRobot, Stewart};
@@ -11,7 +12,7 @@ use dynamics_core::model::Static;
 use dynamics_core::spatial::Motion;
 use dynamics_core::state::{RobotState, State};
 use dynamics_core::{Core, algorithms};
-use firmware_demo::robots::{AnkleLeg, DeltaRobot, FourBarLeg, LEGS, StewartPlatform};
+use firmware_demo::robots::{AnkleLeg, FourBarLeg, LEGS, StewartPlatform};
 use glam::{DMat3, DVec3};
 
 /// d/dt of q and of q̇ of the tree along y(t) = y + ẏ t + ÿ t²/2, by differences of sixth order.

@@ -2,8 +2,8 @@
 //! that the engine gives what the core gives.
 
 use cluster_tests::recorded::errors;
-use cluster_tests::{FiveBarLeg, Geared, Wrist};
-use firmware_demo::robots::{AnkleLeg, FourBarLeg};
+use cluster_tests::{DeltaRobot, FiveBarLeg, Geared, Wrist};
+use firmware_demo::robots::{AnkleLeg, FourBarLeg, StewartPlatform};
 
 #[test]
 fn pinocchio_agrees_on_the_four_bar_leg() {
@@ -18,6 +18,16 @@ fn pinocchio_agrees_on_the_five_bar_leg() {
 #[test]
 fn pinocchio_agrees_on_the_parallel_ankle() {
     errors::<AnkleLeg, 9, 9, 3>().check();
+}
+
+#[test]
+fn pinocchio_agrees_on_the_delta_robot() {
+    errors::<DeltaRobot, 12, 12, 3>().check();
+}
+
+#[test]
+fn pinocchio_agrees_on_the_stewart_platform() {
+    errors::<StewartPlatform, 24, 24, 6>().check();
 }
 
 #[test]

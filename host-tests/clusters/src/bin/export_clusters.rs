@@ -1,8 +1,8 @@
 //! Prints the spanning trees of robots with clusters as JSON for `host-tests/oracle/clusters.py`.
 
-use cluster_tests::{FiveBarLeg, Geared, Wrist};
+use cluster_tests::{DeltaRobot, FiveBarLeg, Geared, Wrist};
 use dynamics_core::model::Robot;
-use firmware_demo::robots::{AnkleLeg, DeltaRobot, FourBarLeg, StewartPlatform};
+use firmware_demo::robots::{AnkleLeg, FourBarLeg, StewartPlatform};
 use host_tests::export::robot;
 
 fn main() -> serde_json::Result<()> {

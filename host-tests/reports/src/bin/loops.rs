@@ -1,8 +1,8 @@
 //! Prints how far robots with kinematic loops are from what Pinocchio recorded, as lines of a table: `cargo xtask loops`
 //! puts them into docs/loops.md.
 
-use cluster_tests::{FiveBarLeg, Geared, Wrist, recorded::errors as clusters};
-use firmware_demo::robots::{AnkleLeg, FourBarLeg};
+use cluster_tests::{DeltaRobot, FiveBarLeg, Geared, Wrist, recorded::errors as clusters};
+use firmware_demo::robots::{AnkleLeg, FourBarLeg, StewartPlatform};
 use host_tests::tolerances::{Errors, bounds};
 use loop_tests::machines::{Delta, FiveBar, FourBar, Stewart};
 use loop_tests::recorded::errors as loops;
@@ -26,6 +26,11 @@ fn main() {
     lines("four-bar leg", &clusters::<FourBarLeg, 5, 5, 3>());
     lines("five-bar leg", &clusters::<FiveBarLeg, 5, 5, 3>());
     lines("ankle leg", &clusters::<AnkleLeg, 9, 9, 3>());
+    lines("Delta robot", &clusters::<DeltaRobot, 12, 12, 3>());
+    lines(
+        "Stewart platform",
+        &clusters::<StewartPlatform, 24, 24, 6>(),
+    );
     lines("wrist", &clusters::<Wrist, 6, 6, 6>());
     lines("geared", &clusters::<Geared, 7, 7, 4>());
 }

@@ -84,6 +84,13 @@ const fn single_of(problem: &Problem<ArmModel<f64, N>>) -> Problem<ArmModel<f32,
     }
 }
 
+/// The numbers of the cases of which there are digests.
+pub fn cases() -> impl Iterator<Item = u32> {
+    let linkages = loops::PROBLEMS.iter().map(|problem| problem.case);
+    let arms = SINGLE.iter().map(|problem| problem.case);
+    arms.chain(linkages).chain([loops::RIG.case])
+}
+
 /// The f32 state of these numbers.
 pub fn state(&[q, qd, qdd]: &Numbers) -> State<f32, N, N> {
     State { q, qd, qdd }

@@ -97,7 +97,7 @@ const SINGULAR: &[Case] = &[
         parameters: "crank of 0.125 m, rod of 0.5 m, the motor at the piston, 2⁻³ to 2⁻¹⁰ rad from the dead point, and there; two states each",
         source: "a piston engine at its top: the piston's force has no lever",
         oracle: ORACLE,
-        reason: "the crank's rate is the piston's over the angle, of which the piston's position knows the square: ε over the square of the angle. Forward dynamics is regular",
+        reason: "the crank's rate is the piston's over the angle, of which the piston's position knows the square: at most ε over the square of the angle. Forward dynamics is regular",
         run: || of_case(60),
     },
 ];

@@ -1,6 +1,5 @@
 //! Prints the hard cases and all that they measure as JSON: `cargo xtask hard-cases` makes a page of it.
 
-use firmware_demo::hard::{SINGLE, loops};
 use host_tests::hard::{CASES, Case, Row};
 use serde::Serialize;
 
@@ -17,13 +16,9 @@ fn main() {
     let mut cases: Vec<Case> = all.copied().flatten().copied().collect();
     cases.sort_by_key(|case| case.number);
     let rows = cases.iter().flat_map(Case::rows).collect();
-    let mut in_qemu: Vec<u32> = SINGLE.iter().map(|problem| problem.case).collect();
-    in_qemu.extend(loops::PROBLEMS.iter().map(|problem| problem.case));
-    in_qemu.push(loops::RIG.case);
-    in_qemu.dedup();
     let suite = Suite {
         cases,
-        in_qemu,
+        in_qemu: firmware_demo::hard::cases().collect(),
         rows,
     };
     println!(

@@ -125,8 +125,8 @@ pub fn loops(
     }
     Ok(Box::new(move |out| {
         assert_eq!(out.len(), states * outputs);
-        // SAFETY: the states have the size that the machine expects, and there is room for their outputs; the context is
-        // its own.
+        // SAFETY: the states have the size that the machine expects, and there is room for their outputs; the context
+        // is its own.
         unsafe { run(context, input.as_ptr(), states, out.as_mut_ptr()) }
     }))
 }

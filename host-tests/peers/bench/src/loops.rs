@@ -85,8 +85,8 @@ impl Theirs {
         }
     }
 
-    /// Its function on states of q, q̇ and q̈ or the actuated torques; `wanted` says which of the recorded numbers each of
-    /// our velocity coordinates is.
+    /// Its function on states of q, q̇ and q̈ or the actuated torques; `wanted` says which of the recorded numbers each
+    /// of our velocity coordinates is.
     fn subject(
         &self,
         (peer, path): &(String, PathBuf),

@@ -53,7 +53,7 @@ impl HostTable {
         Ok(ExitCode::SUCCESS)
     }
 
-    /// Fails unless the table on the page agrees with a new measurement: Rust's arithmetic gives the same bits everywhere.
+    /// Fails unless the table on the page agrees with a new measurement, which gives the same bits everywhere.
     pub fn check(&self, workspace: &Workspace) -> Result<String> {
         self.page
             .check(workspace, &self.generated(workspace)?, None)?;

@@ -1,5 +1,5 @@
-//! What Pinocchio recorded of robots with clusters (`host-tests/oracle/clusters.py`), and how far core and engine are from
-//! it and from each other.
+//! What Pinocchio recorded of robots with clusters (`host-tests/oracle/clusters.py`), and how far core and
+//! engine are from it and from each other.
 
 use dynamics_core::clusters::{Clustered, ClusteredRobot};
 use dynamics_core::effects::{Armature, Gravity, RIGID_BODY, Viscous};

@@ -10,7 +10,7 @@ use dynamics_core::state::State;
 use libloading::{Library, Symbol};
 use serde::Deserialize;
 
-use crate::subject::{Subject, square};
+use crate::subject::{Batch, Subject, square};
 
 type Open = unsafe extern "C" fn(*const c_char, *const c_char) -> *mut c_void;
 type Run<R> = unsafe extern "C" fn(*mut c_void, *const R, usize, *mut R);
@@ -101,14 +101,14 @@ fn load(path: &Path) -> Result<&'static Library, Box<dyn Error>> {
     Ok(Box::leak(Box::new(unsafe { Library::new(path) }?)))
 }
 
-/// Pinocchio's dynamics of a robot with loops: a function of a library.
-///
-/// It takes states, their number, and room for the outputs.
+/// A function of Pinocchio's dynamics of robots with loops, which gives `outputs` numbers for each of so many states.
 pub fn loops(
     library: &Path,
     function: &str,
     machine: &CStr,
-) -> Result<impl Fn(&[f64], usize, &mut [f64]) + 'static, Box<dyn Error>> {
+    input: Vec<f64>,
+    [states, outputs]: [usize; 2],
+) -> Result<Batch<f64>, Box<dyn Error>> {
     type Open = unsafe extern "C" fn(*const c_char) -> *mut c_void;
     let library = load(library)?;
     // SAFETY: `host-tests/peers/cpp/pinocchio_loops.cpp` gives these functions these types.
@@ -123,8 +123,10 @@ pub fn loops(
     if context.is_null() {
         return Err("Pinocchio does not take a robot with loops".into());
     }
-    Ok(move |input: &[f64], count, out: &mut [f64]| {
-        // SAFETY: the caller's states and outputs have the sizes of this machine; the context is its own.
-        unsafe { run(context, input.as_ptr(), count, out.as_mut_ptr()) }
-    })
+    Ok(Box::new(move |out| {
+        assert_eq!(out.len(), states * outputs);
+        // SAFETY: the states have the size that the machine expects, and there is room for their outputs; the context
+        // is its own.
+        unsafe { run(context, input.as_ptr(), states, out.as_mut_ptr()) }
+    }))
 }

@@ -15,18 +15,20 @@ use dynamics_core::model::{Model, Static, model};
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
 use host_tests::export::{Placement, Robot};
-use host_tests::recordings::row;
+use host_tests::recordings::{full_scale, row};
 use loop_tests::machines::Machine;
 use loop_tests::recorded::Recording;
 
 use crate::foreign;
 use crate::ours::rows;
-use crate::robot::{BATCH, timed};
+use crate::robot::print;
 use crate::subject::Subject;
 
 /// The algorithms, Pinocchio's functions of them, and the largest errors of what is worth timing.
 const INVERSE: (&str, &str, f64) = ("loops inverse", "pinocchio_loops_inverse", 1e-12);
 const FORWARD: (&str, &str, f64) = ("loops forward", "pinocchio_loops_forward", 1e-10);
+/// States in a timed batch: short against a time slice, since a state takes ten microseconds.
+const BATCH: usize = 64;
 const STILL: Stabilisation<f64> = Stabilisation::NONE;
 
 /// A machine as Pinocchio's side reads it, and the recorded states in its order.
@@ -83,8 +85,8 @@ impl Theirs {
         }
     }
 
-    /// Its function on states of q, q̇ and q̈ or the actuated torques; `wanted` says which of the recorded numbers each of
-    /// our velocity coordinates is.
+    /// Its function on states of q, q̇ and q̈ or the actuated torques; `wanted` says which of the recorded numbers each
+    /// of our velocity coordinates is.
     fn subject(
         &self,
         (peer, path): &(String, PathBuf),
@@ -113,14 +115,26 @@ impl Theirs {
             true => self.order[1].iter().map(|&k| wanted(k)).collect(),
             false => (0..self.actuated.len()).map(Some).collect(),
         };
-        let run = foreign::loops(path, function, &CString::new(&*self.text)?)?;
-        let (count, outputs) = (states.len(), order.len());
-        let run = move |out: &mut [f64]| {
-            assert_eq!(out.len(), count * outputs);
-            run(&input, count, out);
-        };
-        Ok(Subject::new(peer, Box::new(run), order))
+        let machine = CString::new(&*self.text)?;
+        let run = foreign::loops(path, function, &machine, input, [states.len(), order.len()])?;
+        Ok(Subject::new(peer, run, order))
     }
+}
+
+/// Checks on all recorded states what `gather` makes of some of them, then times it on the first ones.
+fn measure(
+    robot: &str,
+    (algorithm, _, bound): (&str, &str, f64),
+    expected: &[Vec<f64>],
+    gather: impl Fn(usize) -> Result<Vec<Subject<f64>>, Box<dyn Error>>,
+) -> Result<(), Box<dyn Error>> {
+    let full_scale = full_scale(expected);
+    let mut errors = Vec::new();
+    for mut subject in gather(expected.len())? {
+        let error = subject.check(expected.len(), expected, full_scale, bound);
+        errors.push(error.map_err(|e| format!("{algorithm} of {robot}: {e}"))?);
+    }
+    print([robot, algorithm, "f64"], gather(BATCH)?, BATCH, errors)
 }
 
 /// Numbers, and the end of the line.
@@ -152,46 +166,47 @@ where
         .map(|joint| [0, 1].map(|k| (joint.bodies[k], joint.placements[k].clone())))
         .collect();
     let theirs = Theirs::new(&machine.robot, &ends, T::LOOPS.actuated(), 0.0);
-    let given: Vec<usize> = (0..recorded.q.len()).cycle().take(BATCH).collect();
-    let states: Vec<(State<f64, Q, V>, [f64; A])> = (given.iter())
-        .map(|&k| (recorded.state(k), row(&recorded.given_tau, k)))
+    let states: Vec<(State<f64, Q, V>, [f64; A])> = (0..recorded.q.len())
+        .map(|k| (recorded.state(k), row(&recorded.given_tau, k)))
         .collect();
     for (key, last, expected) in [
         (INVERSE, &recorded.qdd, &recorded.tau),
         (FORWARD, &recorded.given_tau, &recorded.forward),
     ] {
-        let robot: Box<Model<f64, B, Q, V>> = black_box(Box::new(*model::<f64, T, B, Q, V>()));
-        let loops: Box<Loops<L, C, A>> = black_box(Box::new(T::LOOPS));
-        let mut subjects = match key == INVERSE {
-            true => vec![
-                rows("core", &states, |(s, _)| {
-                    let found = inverse_dynamics(&Static::<T>::NEW, &T::LOOPS, s, &RIGID_BODY);
-                    found.expect("a torque").tau
-                }),
-                rows("core run-time model", &states, move |(s, _)| {
-                    let found = inverse_dynamics(&*robot, &loops, s, &RIGID_BODY);
-                    found.expect("a torque").tau
-                }),
-            ],
-            false => vec![
-                rows("core", &states, |(s, tau)| {
-                    let robot = &Static::<T>::NEW;
-                    let found = forward_dynamics(robot, &T::LOOPS, s, tau, STILL, &RIGID_BODY);
-                    found.expect("accelerations").qdd
-                }),
-                rows("core run-time model", &states, move |(s, tau)| {
-                    let found = forward_dynamics(&*robot, &loops, s, tau, STILL, &RIGID_BODY);
-                    found.expect("accelerations").qdd
-                }),
-            ],
-        };
-        let raw: Vec<[&[f64]; 3]> = (given.iter())
-            .map(|&k| [&*recorded.q[k], &recorded.qd[k], &last[k]])
+        let raw: Vec<[&[f64]; 3]> = (0..recorded.q.len())
+            .map(|k| [&*recorded.q[k], &recorded.qd[k], &last[k]])
             .collect();
-        for library in libraries {
-            subjects.push(theirs.subject(library, key.1, &raw, Some)?);
-        }
-        timed(T::MODEL.name, key.0, "f64", subjects, expected, key.2)?;
+        measure(T::MODEL.name, key, expected, |count| {
+            let robot: Box<Model<f64, B, Q, V>> = black_box(Box::new(*model::<f64, T, B, Q, V>()));
+            let loops: Box<Loops<L, C, A>> = black_box(Box::new(T::LOOPS));
+            let mut subjects = match key == INVERSE {
+                true => vec![
+                    rows("core", &states[..count], |(s, _)| {
+                        let found = inverse_dynamics(&Static::<T>::NEW, &T::LOOPS, s, &RIGID_BODY);
+                        found.expect("a torque").tau
+                    }),
+                    rows("core run-time model", &states[..count], move |(s, _)| {
+                        let found = inverse_dynamics(&*robot, &loops, s, &RIGID_BODY);
+                        found.expect("a torque").tau
+                    }),
+                ],
+                false => vec![
+                    rows("core", &states[..count], |(s, tau)| {
+                        let robot = &Static::<T>::NEW;
+                        let found = forward_dynamics(robot, &T::LOOPS, s, tau, STILL, &RIGID_BODY);
+                        found.expect("accelerations").qdd
+                    }),
+                    rows("core run-time model", &states[..count], move |(s, tau)| {
+                        let found = forward_dynamics(&*robot, &loops, s, tau, STILL, &RIGID_BODY);
+                        found.expect("accelerations").qdd
+                    }),
+                ],
+            };
+            for library in libraries {
+                subjects.push(theirs.subject(library, key.1, &raw[..count], Some)?);
+            }
+            Ok(subjects)
+        })?;
     }
     Ok(())
 }
@@ -215,35 +230,36 @@ where
         .collect();
     let independent = recorded.independent.clone();
     let theirs = Theirs::new(&recorded.model, &ends, &independent, mu);
-    let given: Vec<usize> = (0..recorded.q.len()).cycle().take(BATCH).collect();
-    let states: Vec<(State<f64, Y, Y>, [f64; Y])> = (given.iter())
-        .map(|&k| (clusters::state(&recorded, k), row(&recorded.tau, k)))
+    let states: Vec<(State<f64, Y, Y>, [f64; Y])> = (0..recorded.q.len())
+        .map(|k| (clusters::state(&recorded, k), row(&recorded.tau, k)))
         .collect();
     for (key, last, expected) in [
         (INVERSE, &recorded.tree_qdd, &recorded.rnea),
         (FORWARD, &recorded.tau, &recorded.forward),
     ] {
-        let mut subjects = match key == INVERSE {
-            true => vec![
-                rows("clusters, core", &states, |(y, _)| {
-                    Clustered::<Core<T>>::rnea(y, &RIGID_BODY).expect("it closes")
-                }),
-                rows("clusters, engine", &states, |(y, _)| {
-                    Clustered::<Engine<T>>::rnea(y, &RIGID_BODY).expect("it closes")
-                }),
-            ],
-            false => vec![rows("clusters, core", &states, |(y, tau)| {
-                Clustered::<Core<T>>::aba(y, tau, &RIGID_BODY).expect("it moves")
-            })],
-        };
-        let raw: Vec<[&[f64]; 3]> = (given.iter())
-            .map(|&k| [&*recorded.tree_q[k], &recorded.tree_qd[k], &last[k]])
+        let raw: Vec<[&[f64]; 3]> = (0..recorded.q.len())
+            .map(|k| [&*recorded.tree_q[k], &recorded.tree_qd[k], &last[k]])
             .collect();
-        for library in libraries {
-            let wanted = |k| independent.iter().position(|&i| i == k);
-            subjects.push(theirs.subject(library, key.1, &raw, wanted)?);
-        }
-        timed(T::MODEL.name, key.0, "f64", subjects, expected, key.2)?;
+        measure(T::MODEL.name, key, expected, |count| {
+            let mut subjects = match key == INVERSE {
+                true => vec![
+                    rows("clusters, core", &states[..count], |(y, _)| {
+                        Clustered::<Core<T>>::rnea(y, &RIGID_BODY).expect("it closes")
+                    }),
+                    rows("clusters, engine", &states[..count], |(y, _)| {
+                        Clustered::<Engine<T>>::rnea(y, &RIGID_BODY).expect("it closes")
+                    }),
+                ],
+                false => vec![rows("clusters, core", &states[..count], |(y, tau)| {
+                    Clustered::<Core<T>>::aba(y, tau, &RIGID_BODY).expect("it moves")
+                })],
+            };
+            for library in libraries {
+                let wanted = |k| independent.iter().position(|&i| i == k);
+                subjects.push(theirs.subject(library, key.1, &raw[..count], wanted)?);
+            }
+            Ok(subjects)
+        })?;
     }
     Ok(())
 }

@@ -12,7 +12,7 @@ use crate::subject::{Row, Subject, interleaved};
 use crate::{Manifest, dynibo, ours};
 
 /// States in a timed batch; the recording is gone through again until there are so many.
-pub const BATCH: usize = 256;
+const BATCH: usize = 256;
 
 /// Ours in f64 and in f32.
 pub type Known<const N: usize> = (ours::Subjects<f64, N>, ours::Subjects<f32, N>);
@@ -80,44 +80,25 @@ fn one<R: Real, const N: usize>(
     }
     let states = self::states(recording, algorithm, BATCH);
     print(
-        &recording.robot,
-        algorithm,
-        precision,
+        [&recording.robot, algorithm, precision],
         gather(&states)?,
+        BATCH,
         errors,
     )
 }
 
-/// Checks subjects that compute a batch, of which the expected rows are the first, then times and prints them.
-pub fn timed<R: Real>(
-    robot: &str,
-    algorithm: &str,
-    precision: &str,
+/// Times subjects on so many states, and prints robot, algorithm and precision with their times and errors.
+pub fn print<R: Real>(
+    [robot, algorithm, precision]: [&str; 3],
     mut subjects: Vec<Subject<R>>,
-    expected: &[Vec<f64>],
-    bound: f64,
-) -> Result<(), Box<dyn Error>> {
-    let full_scale = recordings::full_scale(expected);
-    let mut errors = Vec::new();
-    for subject in &mut subjects {
-        let error = subject.check(BATCH, expected, full_scale, bound);
-        errors.push(error.map_err(|e| format!("{algorithm} of {robot}: {e}"))?);
-    }
-    print(robot, algorithm, precision, subjects, errors)
-}
-
-fn print<R: Real>(
-    robot: &str,
-    algorithm: &str,
-    precision: &str,
-    mut subjects: Vec<Subject<R>>,
+    states: usize,
     errors: Vec<f64>,
 ) -> Result<(), Box<dyn Error>> {
     let mut timed: Vec<_> = subjects
         .iter_mut()
         .filter(|subject| subject.timed)
         .collect();
-    let mut times = interleaved(&mut timed, BATCH).into_iter();
+    let mut times = interleaved(&mut timed, states).into_iter();
     for (subject, error) in std::iter::zip(&subjects, errors) {
         let row = Row {
             robot,

@@ -1,5 +1,5 @@
-//! Prints how far robots with kinematic loops are from what Pinocchio recorded, as lines of a table: `cargo xtask loops`
-//! puts them into docs/loops.md.
+//! Prints how far robots with kinematic loops are from what Pinocchio recorded, as lines of a table: `cargo xtask
+//! loops` puts them into docs/loops.md.
 
 use cluster_tests::{DeltaRobot, FiveBarLeg, Geared, Wrist, recorded::errors as clusters};
 use firmware_demo::robots::{AnkleLeg, FourBarLeg, StewartPlatform};

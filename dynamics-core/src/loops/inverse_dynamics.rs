@@ -100,7 +100,12 @@ where
     let trig = state.configuration().trig_of(robot);
     let (trig, given) = (trig.borrow(), state.state());
     let mut state = State::at(given.q);
-    let map = CoordinateMap::of(loops, &constraints(robot, loops, trig.with(&state)))?;
+    let map = CoordinateMap::of(
+        robot,
+        loops,
+        trig,
+        &constraints(robot, loops, trig.with(&state)),
+    )?;
     state.qd = map.velocity(&loops.of_actuated(&given.qd));
     let moving = constraints(robot, loops, trig.with(&state));
     moving.check(loops)?;

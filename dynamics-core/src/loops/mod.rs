@@ -67,6 +67,7 @@ mod loop_frame;
 mod loop_joint;
 mod mass_root;
 mod reach;
+mod singular;
 
 pub use assembly::{Assembly, Moving, assemble};
 pub use constraints::{Constraints, constraints};
@@ -77,6 +78,7 @@ pub use error::{LoopError, LoopModelError, LoopProblem};
 pub use forward_dynamics::{LoopMotion, Stabilisation, TIME_CONSTANT, forward_dynamics};
 pub use inverse_dynamics::{LoopTorque, inverse_dynamics};
 pub use loop_joint::{BodyFrame, LoopJoint};
+pub use singular::SINGULAR;
 
 use crate::model::Robot;
 

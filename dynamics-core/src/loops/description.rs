@@ -25,7 +25,7 @@ pub struct Loops<const L: usize, const C: usize, const A: usize> {
     first_rows: [usize; L],
     pub(super) actuated: [usize; A],
     /// How many coordinates have no motor.
-    passive: usize,
+    pub(super) undriven: usize,
     /// ε in f64 and f32.
     pub(super) threshold: (f64, f32),
 }
@@ -181,29 +181,9 @@ impl<const L: usize, const C: usize, const A: usize> Loops<L, C, A> {
             axes,
             first_rows,
             actuated,
-            passive: V.saturating_sub(A),
+            undriven: V.saturating_sub(A),
             threshold: thresholds(SINGULAR, C, V.saturating_sub(A)),
         })
-    }
-
-    /// The same with another distance from a singular configuration of the motors below which the passive coordinates
-    /// are damped, in place of [`SINGULAR`].
-    ///
-    /// It bounds the torques: |τ_a| ≤ |τ_m| + √(2 L) / ε · |τ_p| of the tree's torques τ_m at the motors and τ_p at the
-    /// passive coordinates. The distance is 1 / √(tr (K_pᵀ K_p)⁻¹) of the passive columns of K, rows relative to the
-    /// sizes of their loops: at most the least singular value. Of p passive coordinates a
-    /// threshold less than √(C − p + 1) times [`RANK_TOLERANCE`](super::RANK_TOLERANCE) counts as that.
-    ///
-    /// # Panics
-    /// If the threshold is not within 0 and 1.
-    #[must_use]
-    pub const fn damped_below(mut self, threshold: f64) -> Self {
-        assert!(
-            threshold >= 0.0 && threshold <= 1.0,
-            "a threshold of damping is not within 0 and 1"
-        );
-        self.threshold = thresholds(threshold, C, self.passive);
-        self
     }
 
     /// The loops.

@@ -12,6 +12,7 @@
 
 use core::iter::once;
 
+use super::description::Loops;
 use super::elimination::{Elimination, NONE, RANK_TOLERANCE, dot, subtract};
 use crate::algorithms::shifted_inverse;
 use crate::math::const_eval as m;
@@ -29,6 +30,28 @@ pub(super) const fn thresholds(given: f64, rows: usize, passive: usize) -> (f64,
     let root = m::sqrt((rows.saturating_sub(passive) + 1) as f64);
     let (double, single) = (root * RANK_TOLERANCE.0, root as f32 * RANK_TOLERANCE.1);
     (given.max(double), (given as f32).max(single))
+}
+
+impl<const L: usize, const C: usize, const A: usize> Loops<L, C, A> {
+    /// The same with another distance from a singular configuration of the motors below which the passive coordinates
+    /// are damped, in place of [`SINGULAR`].
+    ///
+    /// It bounds the torques: |τ_a| ≤ |τ_m| + √(2 L) / ε · |τ_p| of the tree's torques τ_m at the motors and τ_p at the
+    /// passive coordinates. The distance is 1 / √(tr (K_pᵀ K_p)⁻¹) of the passive columns of K, rows relative to the
+    /// sizes of their loops: at most the least singular value. Of p passive coordinates a
+    /// threshold less than √(C − p + 1) times [`RANK_TOLERANCE`](super::RANK_TOLERANCE) counts as that.
+    ///
+    /// # Panics
+    /// If the threshold is not within 0 and 1.
+    #[must_use]
+    pub const fn damped_below(mut self, threshold: f64) -> Self {
+        assert!(
+            threshold >= 0.0 && threshold <= 1.0,
+            "a threshold of damping is not within 0 and 1"
+        );
+        self.threshold = thresholds(threshold, C, self.undriven);
+        self
+    }
 }
 
 impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {

@@ -1,18 +1,23 @@
 //! Machines that no maker publishes, as constants: numbers of our own, of the size of real ones.
 
 mod ankle_leg;
+mod delta;
 mod direct_drive;
 pub mod four_bar_leg;
 mod gimbal;
+mod hexapod;
 mod leg;
+pub mod planar_loops;
 mod scara;
 pub mod ship;
 mod space_arm;
 
 pub use ankle_leg::{AnkleLeg, RODS};
+pub use delta::Delta;
 pub use direct_drive::DirectDrive;
 pub use four_bar_leg::FourBarLeg;
 pub use gimbal::Gimbal;
+pub use hexapod::Hexapod;
 pub use leg::Leg;
 pub use scara::Scara;
 pub use ship::Ship;

@@ -130,12 +130,12 @@ fn rows<
     for state in states {
         defmt::assert!(run(state, scene).is_some());
     }
-    of("inverse_loops").measure(run as usize, states, |state| run(state, scene));
+    of("inverse_loops").measure(run as *const () as usize, states, |state| run(state, scene));
     let run = forward::<T, B, Q, V, L, C, A>;
     for state in states {
         defmt::assert!(run(state, scene).is_some());
     }
-    of("forward_loops").measure(run as usize, states, |state| run(state, scene));
+    of("forward_loops").measure(run as *const () as usize, states, |state| run(state, scene));
 }
 
 type Platform = TreeMotion<f32, Hexapod, 6, 6, 6, 6, 6>;

@@ -90,7 +90,7 @@ pub struct CoordinateMap<R, const V: usize, const C: usize, const A: usize> {
 /// # Errors
 /// [`LoopError::Open`] names a loop that is open by more than a hundredth of its size, [`LoopError::UnderActuated`] one
 /// that still moves with all actuated coordinates held, and the coordinate; [`LoopError::NotFinite`] the first loop of
-/// which a number is not finite.
+/// which a number is not finite. Near a dead point of the motors there is a damped map: [`Drive::Singular`].
 #[doc(alias = "explicit constraints")]
 #[inline(always)]
 pub fn coordinate_map<

@@ -33,13 +33,34 @@ pub(super) const fn thresholds(given: f64, rows: usize, passive: usize) -> (f64,
 }
 
 impl<const L: usize, const C: usize, const A: usize> Loops<L, C, A> {
-    /// The same with another distance from a singular configuration of the motors below which the passive coordinates
+    /// These loops with another distance from a singular configuration of the motors below which the passive coordinates
     /// are damped, in place of [`SINGULAR`].
     ///
     /// It bounds the torques: |τ_a| ≤ |τ_m| + √(2 L) / ε · |τ_p| of the tree's torques τ_m at the motors and τ_p at the
     /// passive coordinates. The distance is 1 / √(tr (K_pᵀ K_p)⁻¹) of the passive columns of K, rows relative to the
     /// sizes of their loops: at most the least singular value. Of p passive coordinates a
     /// threshold less than √(C − p + 1) times [`RANK_TOLERANCE`](super::RANK_TOLERANCE) counts as that.
+    ///
+    /// ```
+    /// use dynamics_core::effects::RIGID_BODY;
+    /// use dynamics_core::loops::{self, BodyFrame, Drive, LoopJoint, Loops};
+    /// use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model};
+    /// use dynamics_core::state::State;
+    /// const Y: [f64; 3] = [0.0, 1.0, 0.0];
+    /// const TREE: ArmModel<f64, 3> = Model::new("slider_crank", [
+    ///     Body::new("crank", BASE, Joint::revolute(Y)).mass(1.0).com([0.05, 0.0, 0.0]),
+    ///     Body::new("rod", 0, Joint::revolute(Y)).xyz([0.1, 0.0, 0.0]).mass(1.0).com([0.15, 0.0, 0.0]),
+    ///     Body::new("piston", BASE, Joint::prismatic([1.0, 0.0, 0.0])).xyz([0.4, 0.0, 0.0]).mass(0.5),
+    /// ]);
+    /// const PIN: LoopJoint =
+    ///     LoopJoint::new("pin", Joint::revolute(Y), [BodyFrame::new(2), BodyFrame::new(1).xyz([0.3, 0.0, 0.0])]);
+    /// // The piston has the motor: with crank and rod in line it turns the crank in neither direction.
+    /// const LOOPS: Loops<1, 5, 1> = Loops::new(&TREE, [PIN], [2]).damped_below(0.02);
+    /// let dead = loops::inverse_dynamics(&TREE, &LOOPS, &State::at([0.0_f64; 3]), &RIGID_BODY)?;
+    /// assert!(matches!(dead.drive, Drive::Singular { name: "pin", .. }));
+    /// assert!(dead.tau[0].abs() < 1.0); // N
+    /// # Ok::<(), loops::LoopError>(())
+    /// ```
     ///
     /// # Panics
     /// If the threshold is not within 0 and 1.

@@ -129,13 +129,14 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
         let damping = if damping > R::ZERO { damping } else { R::ZERO };
         let inverse = shifted_inverse(&squares, damping).unwrap_or([[R::ZERO; V]; V]);
         self.replace(rows, passive, &inverse);
-        let mut most = (0..V).find(|&i| entry(passive, i))?;
-        for i in most..V {
+        let candidates = (0..V).filter(|&i| entry(passive, i));
+        candidates.reduce(|most, i| {
             if of_passive(&inverse, i) > of_passive(&inverse, most) {
-                most = i;
+                i
+            } else {
+                most
             }
-        }
-        Some(most)
+        })
     }
 
     /// W K in place of T K, a row for each passive coordinate, of (K_pᵀ K_p + λ² 1)⁻¹.

@@ -36,6 +36,7 @@ pub use momentum::{
     CenterOfMass, base_velocity_from_momentum, center_of_mass, centroidal_matrix,
     centroidal_momentum, momentum,
 };
+pub(crate) use operational_space::shifted_inverse;
 pub use operational_space::{
     Conditioning, Damping, OperationalSpace, OsimInverse, damped_inverse, operational_space,
     osim_inverse, task_jacobian,

@@ -132,12 +132,10 @@ pub enum ClusterProblem {
     CannotClose,
     /// An iteration has not converged.
     NotConverged,
-    /// A coordinate is not finite.
+    /// A coordinate or a torque is not finite.
     NotFinite,
     /// Forward dynamics: some motion of the cluster moves no inertia.
     NoInertia,
-    /// The actuated coordinates do not determine the independent ones, at this configuration or at any.
-    NotActuated,
 }
 
 /// A cluster that has no motion, or no forward dynamics.
@@ -156,9 +154,8 @@ impl fmt::Display for ClusterError {
         let text = match self.problem {
             ClusterProblem::CannotClose => "the links do not reach each other",
             ClusterProblem::NotConverged => "the iteration has not converged",
-            ClusterProblem::NotFinite => "a coordinate is not finite",
+            ClusterProblem::NotFinite => "a coordinate or a torque is not finite",
             ClusterProblem::NoInertia => "it moves no inertia in some direction",
-            ClusterProblem::NotActuated => "its actuated coordinates do not determine its motion",
         };
         write!(out, "cluster `{}`: {text}", self.cluster)
     }

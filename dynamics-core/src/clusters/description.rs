@@ -1,8 +1,9 @@
 //! How a robot with clusters is described: its spanning tree, and what drives its coordinates.
 
-use super::ClusterSet;
 use super::layout::Layout;
+use super::motors::DEAD_POINT;
 use super::set::sealed;
+use super::{ClusterError, ClusterProblem, ClusterSet};
 use crate::model::Robot;
 
 /// A cluster of a robot, under a name.
@@ -16,6 +17,8 @@ pub struct Driven<C, const M: usize, const N: usize> {
     pub(super) name: &'static str,
     pub(super) cluster: C,
     pub(super) actuated: Option<[usize; N]>,
+    /// The reciprocals of the rates below which motors are damped.
+    pub(super) per: [f64; N],
 }
 
 impl<C, const M: usize, const N: usize> Driven<C, M, N> {
@@ -25,6 +28,7 @@ impl<C, const M: usize, const N: usize> Driven<C, M, N> {
             name,
             cluster,
             actuated: None,
+            per: [1.0 / DEAD_POINT; N],
         }
     }
 
@@ -50,6 +54,45 @@ impl<C, const M: usize, const N: usize> Driven<C, M, N> {
         }
         self.actuated = Some(rows);
         self
+    }
+
+    /// The same with other rates of the motors, per unit rate of each independent coordinate, below which their torques
+    /// are damped, in place of [`DEAD_POINT`] for all.
+    ///
+    /// They are in the units of the motors over those of y, such as m/rad. They bound the torques of the motors: |τ_a| is
+    /// at most the root of the sum of squares of the torques at y, each over its rate.
+    ///
+    /// ```
+    /// use dynamics_core::clusters::{Branch, Driven, FourBar};
+    /// const KNEE: FourBar = FourBar::new(0.2, 0.05, 0.2, 0.06, Branch::Positive);
+    /// // 1 N·m at the crank takes at most 20 N·m of the motor at the shank.
+    /// const DRIVEN: Driven<FourBar, 3, 1> = Driven::new("knee", KNEE).actuated([2]).damped_below([0.05]);
+    /// ```
+    ///
+    /// # Panics
+    /// If a rate is not positive; in a `const` this does not compile.
+    #[must_use]
+    pub const fn damped_below(mut self, rates: [f64; N]) -> Self {
+        let mut k = 0;
+        while k < N {
+            assert!(
+                rates[k] > 0.0 && rates[k].is_finite(),
+                "a rate below which motors are damped is not positive"
+            );
+            self.per[k] = 1.0 / rates[k];
+            k += 1;
+        }
+        self
+    }
+}
+
+impl<C, const M: usize, const N: usize> Driven<C, M, N> {
+    #[cold]
+    pub(super) fn error(&self, problem: ClusterProblem) -> ClusterError {
+        ClusterError {
+            cluster: self.name,
+            problem,
+        }
     }
 }
 

@@ -58,6 +58,7 @@ mod description;
 mod inward;
 mod layout;
 mod linkages;
+mod motors;
 mod passes;
 mod set;
 mod tree_motion;
@@ -69,5 +70,6 @@ pub use description::{ClusteredRobot, Driven};
 pub use linkages::{
     Belt, Branch, Delta, Differential, FiveBar, FourBar, Leg, ParallelAnkle, Rod, Stewart,
 };
+pub use motors::{DEAD_POINT, MotorTorques};
 pub use set::ClusterSet;
 pub use tree_motion::TreeMotion;

@@ -3,7 +3,8 @@
 use super::cluster::{add_torque, dot};
 use super::description::Places;
 use super::layout::at;
-use super::{Cluster, ClusterError, ClusterMotion, ClusterProblem, ClusteredRobot, Driven};
+use super::motors::MotorTorques;
+use super::{Cluster, ClusterError, ClusterMotion, ClusteredRobot, Driven};
 use crate::engine::for_each_joint;
 use crate::model::JointCoordinate;
 use crate::scalar::Real;
@@ -27,7 +28,7 @@ pub struct TreeState<'a, R, const Q: usize, const V: usize> {
 }
 
 pub(super) mod sealed {
-    use super::{ClusterError, Real, State, TreeState};
+    use super::{ClusterError, MotorTorques, Real, State, TreeState};
     use crate::clusters::ClusteredRobot;
     use crate::trig::Kernel;
     use core::fmt::Debug;
@@ -69,6 +70,21 @@ pub(super) mod sealed {
             tau: &[R; V],
             out: &mut [R; Y],
         );
+
+        /// The torques of the motors, in place of those at y.
+        fn motors<
+            R: Real,
+            T: ClusteredRobot<B, Q, V, P, Y, Clusters = Self>,
+            const B: usize,
+            const Q: usize,
+            const V: usize,
+            const P: usize,
+            const Y: usize,
+        >(
+            &self,
+            motions: &Self::Motions<R>,
+            torques: &mut MotorTorques<R, Y>,
+        ) -> Result<(), ClusterError>;
 
         /// A row of G and of Ġ ẏ.
         fn row<R: Real>(motions: &Self::Motions<R>, cluster: usize, row: usize) -> (&[R], R);
@@ -137,14 +153,6 @@ impl<C: Cluster<M, N>, const M: usize, const N: usize> Driven<C, M, N> {
             }
         });
         Ok(motion)
-    }
-
-    #[cold]
-    fn error(&self, problem: ClusterProblem) -> ClusterError {
-        ClusterError {
-            cluster: self.name,
-            problem,
-        }
     }
 
     /// Gᵀ τ of the I-th cluster.
@@ -220,6 +228,24 @@ macro_rules! tuple {
                 out: &mut [R; Y],
             ) {
                 $(Driven::<$name, $m, $n>::put_torque::<R, T, $at, B, Q, V, P, Y>(&motions.$at, tau, out);)*
+            }
+
+            #[inline(always)]
+            fn motors<
+                R: Real,
+                T: ClusteredRobot<B, Q, V, P, Y, Clusters = Self>,
+                const B: usize,
+                const Q: usize,
+                const V: usize,
+                const P: usize,
+                const Y: usize,
+            >(
+                &self,
+                motions: &Self::Motions<R>,
+                torques: &mut MotorTorques<R, Y>,
+            ) -> Result<(), ClusterError> {
+                $(self.$at.put_motors::<R, T, $at, B, Q, V, P, Y>(&motions.$at, torques)?;)*
+                Ok(())
             }
 
             #[inline(always)]

@@ -62,11 +62,13 @@ impl<R: Real, const V: usize, const L: usize, const C: usize> Constraints<R, V, 
     /// The errors of position over the sizes of their loops.
     #[inline(always)]
     pub(super) fn error(&self) -> [R; C] {
-        let mut error = self.position;
-        for (error, &size) in error.iter_mut().zip(&self.size) {
-            *error *= R::ONE / size;
-        }
-        error
+        over(self.position, &self.size)
+    }
+
+    /// k over the sizes of the loops.
+    #[inline(always)]
+    pub(super) fn scaled_bias(&self) -> [R; C] {
+        over(self.bias, &self.size)
     }
 
     /// Row `row` of K q̈, with what stabilises it.
@@ -119,6 +121,15 @@ impl<R: Real, const V: usize, const L: usize, const C: usize> Constraints<R, V, 
         }
         Ok(())
     }
+}
+
+/// Numbers of rows over the sizes of their loops.
+#[inline(always)]
+pub(super) fn over<R: Real, const C: usize>(mut rows: [R; C], size: &[R; C]) -> [R; C] {
+    for (x, &size) in rows.iter_mut().zip(size) {
+        *x *= R::ONE / size;
+    }
+    rows
 }
 
 /// The constraint Jacobian K and bias k of all loops, and their errors of position and velocity.

@@ -5,6 +5,7 @@
 
 use core::borrow::Borrow;
 
+use super::constraints::over;
 use super::description::Loops;
 use super::elimination::{Elimination, LoopRows, dot, eliminate};
 use super::error::LoopError;
@@ -12,7 +13,7 @@ use super::{Constraints, constraints};
 use crate::algorithms::{Damping, damped_inverse};
 use crate::model::RobotModel;
 use crate::scalar::Real;
-use crate::state::{Configuration, State, entry};
+use crate::state::{Configuration, JointTrig, State, entry};
 
 /// The error of a loop relative to its size above which it counts as open.
 const OPEN: f64 = 1e-2;
@@ -20,6 +21,7 @@ const OPEN: f64 = 1e-2;
 /// Whether the motion determines the torques.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
 pub enum Drive {
     /// As many actuated coordinates as degrees of freedom: it does.
     Determined,
@@ -28,6 +30,15 @@ pub enum Drive {
         /// How many more.
         redundancy: usize,
     },
+    /// It does not, or nearly not: the configuration is at or near a dead point of the motors, closer than
+    /// [`Loops::damped_below`]. The passive coordinates are damped; torques are finite and bounded, and exact where the
+    /// damping begins.
+    Singular {
+        /// The loop of the coordinate that is damped most.
+        name: &'static str,
+        /// That coordinate's index in q̇.
+        joint: usize,
+    },
 }
 
 /// G of one configuration.
@@ -35,6 +46,9 @@ pub enum Drive {
 pub struct CoordinateMap<R, const V: usize, const C: usize, const A: usize> {
     elimination: Elimination<R, V, C>,
     size: [R; C],
+    rows: LoopRows<C>,
+    /// The loop and the coordinate that are damped most.
+    singular: Option<(&'static str, usize)>,
     actuated: [usize; A],
     /// Which of the actuated coordinates are independent.
     independent: [bool; A],
@@ -76,7 +90,7 @@ pub struct CoordinateMap<R, const V: usize, const C: usize, const A: usize> {
 /// # Errors
 /// [`LoopError::Open`] names a loop that is open by more than a hundredth of its size, [`LoopError::UnderActuated`] one
 /// that still moves with all actuated coordinates held, and the coordinate; [`LoopError::NotFinite`] the first loop of
-/// which a number is not finite.
+/// which a number is not finite. Near a dead point of the motors there is a damped map: [`Drive::Singular`].
 #[doc(alias = "explicit constraints")]
 #[inline(always)]
 pub fn coordinate_map<
@@ -98,29 +112,52 @@ where
 {
     let trig = q.trig_of(robot);
     let rest = State::at([R::ZERO; Q]);
-    CoordinateMap::of(loops, &constraints(robot, loops, trig.borrow().with(&rest)))
+    let closing = constraints(robot, loops, trig.borrow().with(&rest));
+    CoordinateMap::of(robot, loops, trig.borrow(), &closing)
 }
 
 impl<R: Real, const V: usize, const C: usize, const A: usize> CoordinateMap<R, V, C, A> {
     #[inline(always)]
-    pub(super) fn of<const L: usize>(
+    pub(super) fn of<D, const B: usize, const Q: usize, const L: usize>(
+        robot: &D,
         loops: &Loops<L, C, A>,
+        trig: &JointTrig<R, Q>,
         closing: &Constraints<R, V, L, C>,
-    ) -> Result<Self, LoopError> {
+    ) -> Result<Self, LoopError>
+    where
+        D: RobotModel<R, B, Q, V>,
+    {
         closing.check(loops)?;
         let (error, row) = closing.worst();
         if error > R::from_f64(OPEN) {
             let (name, error) = (loops.name_of_row(row), error.to_f64());
             return Err(LoopError::Open { name, error });
         }
-        let passive = loops.passive();
-        let elimination = eliminate(closing.scaled(), &passive);
-        let mut independent = [false; A];
-        for joint in elimination.free() {
-            if entry(&passive, joint) {
+        let (passive, scaled) = (loops.passive(), closing.scaled());
+        let mut elimination = eliminate(scaled, &passive);
+        let rows = elimination.loop_rows();
+        for joint in elimination.free().filter(|&joint| entry(&passive, joint)) {
+            let bias = |qd| {
+                let moving = State {
+                    qd,
+                    ..State::at([R::ZERO; Q])
+                };
+                constraints(robot, loops, trig.with(&moving)).scaled_bias()
+            };
+            if !elimination.is_isolated(&passive, joint, bias) {
                 let name = closing.name_of(loops, joint);
                 return Err(LoopError::UnderActuated { name, joint });
             }
+        }
+        let threshold = R::select(loops.threshold.0, loops.threshold.1);
+        let singular = if elimination.is_regular(&passive, threshold) {
+            None
+        } else {
+            let joint = elimination.damp(&scaled, &passive, threshold);
+            joint.map(|joint| (closing.name_of(loops, joint), joint))
+        };
+        let mut independent = [false; A];
+        for joint in elimination.free() {
             for (independent, &actuated) in independent.iter_mut().zip(&loops.actuated) {
                 *independent |= actuated == joint;
             }
@@ -128,12 +165,14 @@ impl<R: Real, const V: usize, const C: usize, const A: usize> CoordinateMap<R, V
         Ok(Self {
             elimination,
             size: closing.size,
+            rows,
+            singular,
             actuated: loops.actuated,
             independent,
         })
     }
 
-    /// The number of independent coordinates.
+    /// The number of independent coordinates; of actuated ones where the map is damped.
     pub fn degrees_of_freedom(&self) -> usize {
         self.elimination.free().count()
     }
@@ -145,11 +184,14 @@ impl<R: Real, const V: usize, const C: usize, const A: usize> CoordinateMap<R, V
 
     /// Which rows of K are independent.
     pub fn rows(&self) -> LoopRows<C> {
-        self.elimination.loop_rows()
+        self.rows
     }
 
-    /// Whether there are more actuated than independent coordinates.
+    /// Whether there are more actuated than independent coordinates, or the motors are near a dead point.
     pub fn drive(&self) -> Drive {
+        if let Some((name, joint)) = self.singular {
+            return Drive::Singular { name, joint };
+        }
         match A.saturating_sub(self.degrees_of_freedom()) {
             0 => Drive::Determined,
             redundancy => Drive::LeastNorm { redundancy },
@@ -165,12 +207,8 @@ impl<R: Real, const V: usize, const C: usize, const A: usize> CoordinateMap<R, V
     /// q̈ = G ÿ + ġ from the accelerations of the actuated coordinates and the k of [`Constraints::bias`].
     #[inline(always)]
     pub fn acceleration(&self, accelerations: &[R; A], bias: &[R; C]) -> [R; V] {
-        let mut right = *bias;
-        for (right, &size) in right.iter_mut().zip(&self.size) {
-            *right *= R::ONE / size;
-        }
         self.elimination
-            .complete(self.spread(accelerations), &right)
+            .complete(self.spread(accelerations), &over(*bias, &self.size))
     }
 
     /// The torques of the actuated coordinates that do what torques of all coordinates would: Gᵀ τ_a = Gᵀ τ, N·m or N.
@@ -186,7 +224,7 @@ impl<R: Real, const V: usize, const C: usize, const A: usize> CoordinateMap<R, V
                 *wanted = self.elimination.transposed(joint, tau);
             }
         }
-        if self.drive() == Drive::Determined {
+        if !matches!(self.drive(), Drive::LeastNorm { .. }) {
             return wanted;
         }
         // G of the actuated coordinates; a unit in the place of each that is not independent keeps Gᵀ G regular.
@@ -208,11 +246,7 @@ impl<R: Real, const V: usize, const C: usize, const A: usize> CoordinateMap<R, V
     /// The λ that takes the place of the torques `rest` = τ − τ_a.
     #[inline(always)]
     pub(super) fn lambda(&self, rest: &[R; V]) -> [R; C] {
-        let mut lambda = self.elimination.lambda(rest);
-        for (lambda, &size) in lambda.iter_mut().zip(&self.size) {
-            *lambda *= R::ONE / size;
-        }
-        lambda
+        over(self.elimination.lambda(rest), &self.size)
     }
 
     /// Numbers of the independent coordinates in their places of all coordinates.

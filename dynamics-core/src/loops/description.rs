@@ -8,6 +8,7 @@ use super::error::{LoopModelError, LoopProblem};
 use super::joint_constraint::{JointConstraint, MOST, counts};
 use super::loop_frame::{Both, Frame, both, select};
 use super::loop_joint::{BodyFrame, LoopJoint};
+use super::singular::{SINGULAR, thresholds};
 use crate::model::{BASE, Joint, Model};
 use crate::scalar::{Matrix, Real};
 use crate::spatial::{Force, Xform};
@@ -23,6 +24,10 @@ pub struct Loops<const L: usize, const C: usize, const A: usize> {
     axes: [[Both; 3]; L],
     first_rows: [usize; L],
     pub(super) actuated: [usize; A],
+    /// How many coordinates have no motor.
+    pub(super) undriven: usize,
+    /// ε in f64 and f32.
+    pub(super) threshold: (f64, f32),
 }
 
 impl<const L: usize, const C: usize, const A: usize> Loops<L, C, A> {
@@ -176,6 +181,8 @@ impl<const L: usize, const C: usize, const A: usize> Loops<L, C, A> {
             axes,
             first_rows,
             actuated,
+            undriven: V.saturating_sub(A),
+            threshold: thresholds(SINGULAR, C, V.saturating_sub(A)),
         })
     }
 

@@ -13,7 +13,7 @@ use crate::state::entry;
 pub const RANK_TOLERANCE: (f64, f32) = (1e-7, 2e-3);
 
 /// No row, or no column.
-const NONE: usize = usize::MAX;
+pub(super) const NONE: usize = usize::MAX;
 
 /// Which of C rows are independent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,13 +51,13 @@ impl<const C: usize> LoopRows<C> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Elimination<R, const V: usize, const C: usize> {
     /// K'.
-    rows: [[R; V]; C],
+    pub(super) rows: [[R; V]; C],
     /// T.
-    transform: [[R; C]; C],
+    pub(super) transform: [[R; C]; C],
     /// The column of each row's pivot.
-    column_of: [usize; C],
+    pub(super) column_of: [usize; C],
     /// The row of each column's pivot.
-    row_of: [usize; V],
+    pub(super) row_of: [usize; V],
 }
 
 /// The elimination of `rows`, pivots in the coordinates `first` before those in others.

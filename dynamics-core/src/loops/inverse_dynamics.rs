@@ -37,12 +37,16 @@ pub struct LoopTorque<R: Real, const Q: usize, const V: usize, const C: usize, c
 /// are read, all of which are actuated; the others follow from them. A coordinate that no motor moves and that does no
 /// work, such as the spin of a rod between two ball joints, is under-actuation: give it a universal joint.
 ///
+/// At a dead point of the motors, and near it, torques, velocities and accelerations are those of damped least squares:
+/// finite, bounded as [`Loops::damped_below`] says, and without a jump where the damping ends. [`LoopTorque::drive`] is
+/// then [`Drive::Singular`], and the loops are not closed by the velocities.
+///
 /// # Shape
 /// A.
 ///
 /// # Cost
 /// That of [`rnea`](crate::algorithms::rnea()), of [`constraints()`] twice and of
-/// [`coordinate_map`](super::coordinate_map()).
+/// [`coordinate_map`](super::coordinate_map()). Near a dead point V² C + 3 V³ flops more.
 ///
 /// # Source
 /// Featherstone, RBDA (2008), section 8.12.
@@ -100,7 +104,12 @@ where
     let trig = state.configuration().trig_of(robot);
     let (trig, given) = (trig.borrow(), state.state());
     let mut state = State::at(given.q);
-    let map = CoordinateMap::of(loops, &constraints(robot, loops, trig.with(&state)))?;
+    let map = CoordinateMap::of(
+        robot,
+        loops,
+        trig,
+        &constraints(robot, loops, trig.with(&state)),
+    )?;
     state.qd = map.velocity(&loops.of_actuated(&given.qd));
     let moving = constraints(robot, loops, trig.with(&state));
     moving.check(loops)?;

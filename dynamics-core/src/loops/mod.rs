@@ -16,7 +16,8 @@
 //! Rows of K may depend on each other: a planar four-bar linkage in space has three rows too many, and a parallelogram
 //! that lies flat one more. The rank is found at each configuration by elimination with complete pivoting, relative to
 //! the size of each loop ([`RANK_TOLERANCE`]), and [`LoopRows`] says which rows were redundant. Where they are, the forces of the loop joint
-//! are not determined by the motion: redundant rows carry no force.
+//! are not determined by the motion: redundant rows carry no force. Near a dead point of the motors the passive
+//! coordinates are damped, and [`Drive::Singular`] names the loop.
 //!
 //! ```
 //! use dynamics_core::effects::RIGID_BODY;
@@ -67,6 +68,7 @@ mod loop_frame;
 mod loop_joint;
 mod mass_root;
 mod reach;
+mod singular;
 
 pub use assembly::{Assembly, Moving, assemble};
 pub use constraints::{Constraints, constraints};
@@ -77,6 +79,7 @@ pub use error::{LoopError, LoopModelError, LoopProblem};
 pub use forward_dynamics::{LoopMotion, Stabilisation, TIME_CONSTANT, forward_dynamics};
 pub use inverse_dynamics::{LoopTorque, inverse_dynamics};
 pub use loop_joint::{BodyFrame, LoopJoint};
+pub use singular::SINGULAR;
 
 use crate::model::Robot;
 

@@ -1,16 +1,19 @@
 //! Machines that no maker publishes, as constants: numbers of our own, of the size of real ones.
 
 mod ankle_leg;
+mod delta;
 mod direct_drive;
 pub mod four_bar_leg;
 mod gimbal;
 mod leg;
+pub mod planar_loops;
 mod scara;
 pub mod ship;
 mod space_arm;
 mod stewart;
 
 pub use ankle_leg::{AnkleLeg, RODS};
+pub use delta::{Delta, FlatDelta};
 pub use direct_drive::DirectDrive;
 pub use four_bar_leg::FourBarLeg;
 pub use gimbal::Gimbal;

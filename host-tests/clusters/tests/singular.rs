@@ -5,8 +5,8 @@ use core::f64::consts::{FRAC_PI_2, PI};
 use cluster_tests::{Random, ankle_states, apart, hold};
 use dynamics_core::algorithms::NotPositiveDefinite;
 use dynamics_core::clusters::{
-    Belt, Branch, Cluster, ClusterError, ClusterProblem, Clustered, ClusteredRobot, Driven,
-    FiveBar, ForwardError, FourBar, ParallelAnkle, Rod,
+    Belt, Branch, Cluster, ClusterError, ClusterProblem, Clustered, ClusteredRobot, DEAD_POINT,
+    Driven, FiveBar, ForwardError, FourBar, ParallelAnkle, Rod,
 };
 use dynamics_core::effects::{Gravity, RIGID_BODY};
 use dynamics_core::model::{ArmModel, BASE, Body, Joint, JointCoordinate, Model, Robot};
@@ -207,17 +207,22 @@ fn torque_at_a_singularity_is_finite_and_bounded() {
         assert!(tau.iter().all(|tau| tau.is_finite()), "{tau:?}");
     }
     // The motor at the rocker is at a dead point there, and nowhere else.
-    let problem = |off| {
+    let motors = |off, tau| {
         let motion = Clustered::<Core<Light<1>>>::motion(&swinging(off)).expect("it closes");
-        motion
-            .to_motors(&[1.0, 2.0])
-            .map_err(|error| (error.cluster, error.problem))
+        motion.to_motors(&[1.0, tau])
     };
-    assert_eq!(
-        problem(0.0),
-        Err(("parallelogram", ClusterProblem::NotActuated))
-    );
-    assert_eq!(problem(1.0).map(|[turret, _]| turret), Ok(1.0));
+    let dead = motors(0.0, 2.0).expect("finite");
+    assert_eq!(dead.singular, Some("parallelogram"));
+    assert!(dead.tau[0] == 1.0 && dead.tau[1].abs() < 2.0 / DEAD_POINT);
+    let away = motors(1.0, 2.0).expect("finite");
+    assert_eq!((away.tau[0], away.singular), (1.0, None));
+    for bad in [f64::NAN, f64::INFINITY] {
+        let error = motors(1.0, bad).expect_err("no number");
+        assert_eq!(
+            (error.cluster, error.problem),
+            ("parallelogram", ClusterProblem::NotFinite)
+        );
+    }
 }
 
 #[test]
@@ -264,12 +269,14 @@ fn the_four_bar_obeys_its_closed_form_and_virtual_work() {
 }
 
 #[test]
-fn torques_of_motors_do_the_same_work_and_a_dead_point_is_an_error() {
+fn torques_of_motors_do_the_same_work() {
     let mut worst = 0.0_f64;
     for y in ankle_states() {
         let motion = Clustered::<Core<AnkleLeg>>::motion(&y).expect("it closes");
         let tau = Clustered::<Core<AnkleLeg>>::rnea(&y, &RIGID_BODY).expect("it closes");
-        let motors = motion.to_motors(&tau).expect("no dead point");
+        let found = motion.to_motors(&tau).expect("finite");
+        assert_eq!(found.singular, None);
+        let motors = found.tau;
         worst = worst.max(apart(&motion.from_motors(&motors), &tau));
         let tree = motion.state();
         let qd = dynamics_core::state::RobotState::state(&tree).qd;

@@ -19,6 +19,9 @@ const HARD_CASES: usize = 25;
 /// The cycles by which a leg with a four-bar may exceed its spanning tree.
 const CLUSTER: u64 = 180;
 
+/// The cycles of the torques of six motors behind a cluster, away from a dead point.
+const MOTORS: u64 = 1300;
+
 /// Whether a symbol is `ControlLoop::tick`, which is there once for each control law.
 fn is_tick(symbol: &str) -> bool {
     symbol.contains("ControlLoop") && symbol.contains("4tick")
@@ -51,6 +54,41 @@ fn cluster_cycles(rows: &[Row]) -> Result<String> {
     let more = cycles("rnea_clusters")?.saturating_sub(cycles("rnea_tree")?);
     refuse_if!(more > CLUSTER, "{more} cycles, at most {CLUSTER}");
     Ok(format!("four-bar leg {more} of {CLUSTER} cycles"))
+}
+
+/// Machines with loops run on the target, and no panic is reached from their functions.
+pub fn loops(context: &Context) -> Result<String> {
+    let (workspace, tools, bin) = (&context.workspace, &context.tools, "loops");
+    let rows = costs::measure_bins(workspace, tools, RELEASE, &[bin])?;
+    let image = Image::read(&context.built(bin)?)?;
+    for row in &rows {
+        let reach = Reach::of(&image, |function| function.address == row.address)?;
+        for (function, path) in reach.functions() {
+            if let Some(name) = function.names.iter().find(|name| is_panic(name)) {
+                bail!("`{}` reaches `{name}`: {path}", row.key());
+            }
+        }
+    }
+    loop_figures(&rows)
+}
+
+fn loop_figures(rows: &[Row]) -> Result<String> {
+    let motors = "stewart_platform to_motors core full trig";
+    let row = rows.iter().find(|row| row.key() == motors);
+    let cycles = row.ok_or_else(|| check!("nothing measured `{motors}`"))?;
+    let cycles = cycles.cycles.max;
+    refuse_if!(
+        cycles > MOTORS,
+        "`{motors}` takes {cycles} cycles, at most {MOTORS}"
+    );
+    let figures = rows.iter().map(|row| {
+        let (cycles, code, stack) = (row.cycles.max, row.code_bytes, row.stack_bytes);
+        format!(
+            "{}: {cycles} cycles, {code} B of code, {stack} B of stack",
+            row.key()
+        )
+    });
+    Ok(figures.collect::<Vec<_>>().join("; "))
 }
 
 pub fn build(context: &Context) -> Result<String> {
@@ -284,6 +322,22 @@ mod tests {
             .to_string();
         assert!(dear.contains("181 cycles, at most 180"), "{dear}");
         assert!(super::cluster_cycles(&rows(0)[..1]).is_err());
+    }
+
+    #[test]
+    fn torques_of_motors_that_cost_too_much_are_refused_and_so_are_missing_rows() {
+        let row = |cycles| {
+            [Row::sample(
+                ["stewart_platform", "to_motors", "core", "full"],
+                cycles,
+            )]
+        };
+        assert!(super::loop_figures(&row(1300)).is_ok());
+        let dear = super::loop_figures(&row(1301))
+            .expect_err("beyond it")
+            .to_string();
+        assert!(dear.contains("1301 cycles, at most 1300"), "{dear}");
+        assert!(super::loop_figures(&[]).is_err());
     }
 
     #[test]

@@ -182,6 +182,15 @@ fn add<R: Real, const M: usize>(a: &mut [[R; M]; M], weight: R, vector: &[R; M])
     }
 }
 
+/// (A + shift 1)⁻¹ of a symmetric A, if all its pivots are positive.
+#[inline(never)]
+pub(crate) fn shifted_inverse<R: Real, const M: usize>(
+    a: &[[R; M]; M],
+    shift: R,
+) -> Option<[[R; M]; M]> {
+    eliminate(a, -shift).map(|pivots| pivots.inverse())
+}
+
 /// 1/λ, damped below ε.
 #[inline(always)]
 fn reciprocal<R: Real>(value: R, threshold: R) -> R {

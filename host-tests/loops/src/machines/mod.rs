@@ -4,8 +4,10 @@ mod delta;
 mod planar;
 mod stewart;
 
-pub use delta::{Delta, FlatDelta};
-pub use planar::{FOUR_BAR, FiveBar, FourBar, Parallelogram, ThreeMotors};
+pub use firmware_demo::robots::planar_loops::{
+    FOUR_BAR, FiveBar, FourBar, Parallelogram, ThreeMotors,
+};
+pub use firmware_demo::robots::{Delta, FlatDelta};
 pub use stewart::{SimilarStewart, Stewart};
 
 use dynamics_core::loops::LoopRobot;

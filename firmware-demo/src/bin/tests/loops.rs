@@ -1,0 +1,185 @@
+//! Dynamics of machines with kinematic loops, and the torques of motors behind a cluster: `cargo xtask test loops`
+//! measures them, and shows that they reach no panic.
+#![no_std]
+#![no_main]
+
+#[path = "../costs/mod.rs"]
+mod costs;
+
+use costs::row::Row;
+use costs::{STATES, done};
+use dynamics_core::Core;
+use dynamics_core::clusters::{Clustered, TreeMotion};
+use dynamics_core::effects::{Coriolis, Gravity, Inertia, RIGID_BODY};
+use dynamics_core::loops::{
+    LoopRobot, LoopTorque, Moving, Stabilisation, assemble, forward_dynamics, inverse_dynamics,
+};
+use dynamics_core::model::Static;
+use dynamics_core::state::State;
+use firmware_demo::robots::planar_loops::{FiveBar, FourBar};
+use firmware_demo::robots::{Delta, StewartPlatform};
+
+type Scene = (Gravity, Inertia, Coriolis);
+
+/// The torques of the motors, or none.
+#[inline(never)]
+fn inverse<
+    T,
+    const B: usize,
+    const Q: usize,
+    const V: usize,
+    const L: usize,
+    const C: usize,
+    const A: usize,
+>(
+    state: &State<f32, Q, V>,
+    scene: &Scene,
+) -> Option<[f32; A]>
+where
+    T: LoopRobot<B, Q, V, L, C, A>,
+{
+    let found = inverse_dynamics(&Static::<T>::NEW, &T::LOOPS, state, scene);
+    found.ok().map(|LoopTorque { tau, .. }| tau)
+}
+
+/// The accelerations of all joints, or none.
+#[inline(never)]
+fn forward<
+    T,
+    const B: usize,
+    const Q: usize,
+    const V: usize,
+    const L: usize,
+    const C: usize,
+    const A: usize,
+>(
+    state: &State<f32, Q, V>,
+    scene: &Scene,
+) -> Option<[f32; V]>
+where
+    T: LoopRobot<B, Q, V, L, C, A>,
+{
+    let by = Stabilisation::for_step(1e-3);
+    let found = forward_dynamics(&Static::<T>::NEW, &T::LOOPS, state, &[0.1; A], by, scene);
+    found.ok().map(|motion| motion.qdd)
+}
+
+/// Closed states near a configuration, by motors that are moved within `range` of theirs.
+fn states<
+    T,
+    const B: usize,
+    const Q: usize,
+    const V: usize,
+    const L: usize,
+    const C: usize,
+    const A: usize,
+>(
+    home: [f32; Q],
+    (motors, range): ([usize; A], f32),
+) -> [State<f32, Q, V>; STATES]
+where
+    T: LoopRobot<B, Q, V, L, C, A>,
+{
+    let mut seed = 1_u32;
+    let mut number = |bound: f32| {
+        seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        (seed >> 8) as f32 * (2.0 * bound / 16_777_216.0) - bound
+    };
+    [(); STATES].map(|()| {
+        let mut guess = home;
+        for at in motors {
+            guess[at] += number(range);
+        }
+        let closed = assemble(&Static::<T>::NEW, &T::LOOPS, &guess, Moving::Passive);
+        State {
+            q: match closed {
+                Ok(closed) => closed.q,
+                Err(_) => defmt::panic!("a loop does not close"),
+            },
+            qd: [(); V].map(|()| number(2.0)),
+            qdd: [(); V].map(|()| number(10.0)),
+        }
+    })
+}
+
+/// Both directions, on states that are closed and have a result.
+fn rows<
+    T,
+    const B: usize,
+    const Q: usize,
+    const V: usize,
+    const L: usize,
+    const C: usize,
+    const A: usize,
+>(
+    inputs: &'static str,
+    states: &[State<f32, Q, V>],
+) where
+    T: LoopRobot<B, Q, V, L, C, A>,
+{
+    let of = |algorithm| Row {
+        robot: T::MODEL.name,
+        algorithm,
+        form: "core",
+        inputs,
+        trig: true,
+        joints: V,
+    };
+    let scene = &RIGID_BODY;
+    let run = inverse::<T, B, Q, V, L, C, A>;
+    for state in states {
+        defmt::assert!(run(state, scene).is_some());
+    }
+    of("inverse_loops").measure(run as *const () as usize, states, |state| run(state, scene));
+    let run = forward::<T, B, Q, V, L, C, A>;
+    for state in states {
+        defmt::assert!(run(state, scene).is_some());
+    }
+    of("forward_loops").measure(run as *const () as usize, states, |state| run(state, scene));
+}
+
+type Platform = TreeMotion<f32, StewartPlatform, 24, 24, 24, 6, 6>;
+
+/// The forces of the legs, or none.
+#[inline(never)]
+fn to_motors(platform: &Platform, tau: &[f32; 6]) -> Option<[f32; 6]> {
+    platform.to_motors(tau).ok().map(|found| found.tau)
+}
+
+fn legs(inputs: &'static str, yaw: f32) {
+    let motions = [0.0_f32, 0.05, 0.1, 0.15].map(|off| {
+        let y = State::at([off, -off, 0.8, yaw + off, 0.0, 0.0]);
+        match Clustered::<Core<StewartPlatform>>::motion(&y) {
+            Ok(motion) => motion,
+            Err(_) => defmt::panic!("the legs have a length"),
+        }
+    });
+    let row = Row::of::<StewartPlatform, 24, 24>("to_motors", "core", inputs, true);
+    row.measure(to_motors as *const () as usize, &motions, |platform| {
+        to_motors(platform, &[1.0, 2.0, 100.0, 1.0, 2.0, 3.0])
+    });
+}
+
+#[cortex_m_rt::entry]
+fn main() -> ! {
+    let home = [-1.0, 0.5, -1.5];
+    rows::<FourBar, 3, 3, 3, 1, 5, 1>(
+        "full",
+        &states::<FourBar, 3, 3, 3, 1, 5, 1>(home, ([0], 0.6)),
+    );
+    let home = [-2.2, 1.2, -0.9, -1.2];
+    rows::<FiveBar, 4, 4, 4, 1, 5, 2>(
+        "full",
+        &states::<FiveBar, 4, 4, 4, 1, 5, 2>(home, ([0, 2], 0.4)),
+    );
+    let mut home = [0.0; 22];
+    (home[3], home[6]) = (1.0, -0.33);
+    for first in [7, 12, 17] {
+        (home[first], home[first + 1], home[first + 3]) = (0.2, 0.7, 0.7);
+    }
+    let delta = states::<Delta, 10, 22, 21, 6, 18, 3>(home, ([7, 12, 17], 0.4));
+    rows::<Delta, 10, 22, 21, 6, 18, 3>("full", &delta);
+    legs("full", 0.0);
+    legs("singular", 1.55);
+    done()
+}

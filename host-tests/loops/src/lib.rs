@@ -1,5 +1,6 @@
 //! Machines with kinematic loops, and their random states.
 
+pub mod distance;
 pub mod export;
 pub mod machines;
 pub mod states;

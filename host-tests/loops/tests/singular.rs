@@ -3,39 +3,15 @@
 use dynamics_core::algorithms::rnea;
 use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::loops::{
-    Drive, LoopRobot, LoopTorque, Loops, Moving, SINGULAR, assemble, constraints, inverse_dynamics,
+    Drive, LoopRobot, LoopTorque, Loops, Moving, SINGULAR, assemble, inverse_dynamics,
 };
 use dynamics_core::model::{Robot, RobotModel, Static};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::{State, all_finite};
 use host_tests::measured::within;
+use loop_tests::distance::{distance, inverse, squares, table};
 use loop_tests::machines::{Delta, FOUR_BAR, FiveBar, FourBar, Machine, Parallelogram, Stewart};
 use loop_tests::states::closed_states;
-
-/// The inverse of a regular matrix, by Gauss and Jordan with row pivots.
-fn inverse(a: &[Vec<f64>]) -> Vec<Vec<f64>> {
-    let n = a.len();
-    let unit = |i| (0..n).map(move |j| f64::from(u8::from(i == j)));
-    let mut m: Vec<Vec<f64>> = (0..n)
-        .map(|i| a[i].iter().copied().chain(unit(i)).collect())
-        .collect();
-    for k in 0..n {
-        let largest = (k..n).max_by(|&i, &j| m[i][k].abs().total_cmp(&m[j][k].abs()));
-        m.swap(k, largest.expect("a row"));
-        let pivot = m[k][k];
-        m[k].iter_mut().for_each(|x| *x /= pivot);
-        let row = m[k].clone();
-        for (i, other) in m.iter_mut().enumerate().filter(|(i, _)| *i != k) {
-            let factor = other[k];
-            assert!(i != k);
-            other
-                .iter_mut()
-                .zip(&row)
-                .for_each(|(x, p)| *x -= factor * p);
-        }
-    }
-    m.into_iter().map(|row| row[n..].to_vec()).collect()
-}
 
 /// A machine that a parameter leads through a singular configuration of its motors, at zero.
 struct Sweep<const Q: usize, const L: usize, const C: usize, const A: usize> {
@@ -189,59 +165,6 @@ impl<const Q: usize, const L: usize, const C: usize, const A: usize> Sweep<Q, L,
 
 fn norm(x: &[f64]) -> f64 {
     x.iter().map(|x| x * x).sum::<f64>().sqrt()
-}
-
-/// The passive coordinates, and the products of two columns of K, rows over the sizes of their loops.
-fn squares<
-    T,
-    const B: usize,
-    const Q: usize,
-    const V: usize,
-    const L: usize,
-    const C: usize,
-    const A: usize,
->(
-    loops: &Loops<L, C, A>,
-    q: &[f64; Q],
-) -> (Vec<usize>, impl Fn(usize, usize) -> f64)
-where
-    T: LoopRobot<B, Q, V, L, C, A>,
-{
-    let k = constraints(&Static::<T>::NEW, loops, &State::<f64, Q, V>::at(*q));
-    let passive = (0..V).filter(|i| !loops.actuated().contains(i)).collect();
-    let product = move |i: usize, j: usize| {
-        let rows = k.jacobian.iter().zip(&k.size);
-        rows.map(|(row, size)| row[i] * row[j] / (size * size))
-            .sum()
-    };
-    (passive, product)
-}
-
-fn table(of: &[usize], entry: impl Fn(usize, usize) -> f64) -> Vec<Vec<f64>> {
-    let row = |&i: &usize| of.iter().map(|&j| entry(i, j)).collect();
-    of.iter().map(row).collect()
-}
-
-fn distance<
-    T,
-    const B: usize,
-    const Q: usize,
-    const V: usize,
-    const L: usize,
-    const C: usize,
-    const A: usize,
->(
-    loops: &Loops<L, C, A>,
-    q: &[f64; Q],
-) -> f64
-where
-    T: LoopRobot<B, Q, V, L, C, A>,
-{
-    let (passive, product) = squares::<T, B, Q, V, L, C, A>(loops, q);
-    let inverse = inverse(&table(&passive, product));
-    let trace: f64 = (0..inverse.len()).map(|i| inverse[i][i]).sum();
-    // Rounding may make an eigenvalue that is nearly zero negative, or the trace infinite.
-    trace.abs().sqrt().recip()
 }
 
 /// A flat parallelogram with a motor at its crank, whose joints are off by up to a milliradian, as encoders are: where

@@ -211,7 +211,15 @@ impl<A> Clustered<A> {
 
 /// The tree's state, and the motions of its clusters.
 #[inline(always)]
-fn evaluate<R, A, const B: usize, const Q: usize, const V: usize, const P: usize, const Y: usize>(
+pub(super) fn evaluate<
+    R,
+    A,
+    const B: usize,
+    const Q: usize,
+    const V: usize,
+    const P: usize,
+    const Y: usize,
+>(
     y: &State<R, P, Y>,
 ) -> Result<TreeMotion<R, A::Robot, B, Q, V, P, Y>, ClusterError>
 where

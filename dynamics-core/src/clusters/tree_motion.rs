@@ -2,10 +2,10 @@
 
 use core::fmt;
 
+use super::ClusteredRobot;
 use super::description::Places;
-use super::layout::{EXPANDED, INDEPENDENT, Layout, NONE, at};
+use super::layout::{EXPANDED, Layout, NONE, at};
 use super::set::sealed::Set;
-use super::{ClusterError, ClusterProblem, ClusteredRobot};
 use crate::algorithms::MassMatrix;
 use crate::engine::for_each_joint;
 use crate::scalar::Real;
@@ -176,65 +176,6 @@ where
         columns
     }
 
-    /// The torques of the motors that do the work of the torques τ at y, N·m or N: G_aᵀ τ_a = τ of each cluster's
-    /// actuated rows.
-    ///
-    /// In the places of y; a cluster without [`Driven::actuated`](super::Driven::actuated) rows has its motors at y.
-    ///
-    /// # Errors
-    /// [`ClusterProblem::NotActuated`] names a cluster whose actuated coordinates do not determine the others: its
-    /// motors are at a dead point.
-    pub fn to_motors(&self, tau: &[R; Y]) -> Result<[R; Y], ClusterError> {
-        let mut out = *tau;
-        for c in 0..<T::Clusters as Set>::SIZES.len() {
-            let Some((mut rows, first, n)) = self.actuation(c, tau) else {
-                continue;
-            };
-            let rows = rows.get_mut(..n).unwrap_or_default();
-            if solve(rows).is_none() {
-                return Err(ClusterError {
-                    cluster: T::CLUSTERS.name(c),
-                    problem: ClusterProblem::NotActuated,
-                });
-            }
-            for (out, &(_, x)) in out.iter_mut().skip(first).zip(&*rows) {
-                *out = x;
-            }
-        }
-        Ok(out)
-    }
-
-    /// The torques at y of the motors' torques, N·m or N: Gᵀ τ_a, the reverse of [`TreeMotion::to_motors`].
-    pub fn from_motors(&self, tau: &[R; Y]) -> [R; Y] {
-        let mut out = *tau;
-        for c in 0..<T::Clusters as Set>::SIZES.len() {
-            let Some((rows, first, n)) = self.actuation(c, tau) else {
-                continue;
-            };
-            for (out, (row, _)) in out.iter_mut().skip(first).zip(&rows).take(n) {
-                let terms = row.iter().zip(tau.iter().skip(first));
-                *out = terms.fold(R::ZERO, |sum, (&g, &tau)| sum + g * tau);
-            }
-        }
-        out
-    }
-
-    /// G_aᵀ of a cluster's actuated rows by rows, each with its entry of `tau`; where they begin in ẏ, and how many
-    /// there are.
-    fn actuation(&self, c: usize, tau: &[R; Y]) -> Option<([Row<R>; INDEPENDENT], usize, usize)> {
-        let set = const { T::CLUSTERS };
-        let actuated = set.actuated(c)?;
-        let first = Self::LAYOUT.first.get(c)?[1];
-        let row = |k| {
-            let column = core::array::from_fn(|l| match actuated.get(l) {
-                Some(&row) => entry(<T::Clusters as Set>::row(&self.motions, c, row).0, k),
-                None => R::ZERO,
-            });
-            (column, entry(tau, first + k))
-        };
-        Some((core::array::from_fn(row), first, actuated.len()))
-    }
-
     /// Row v of G, beginning at a place of ẏ, and the entry of Ġ ẏ.
     #[inline(always)]
     pub(super) fn row(&self, v: usize) -> (usize, &[R], R) {
@@ -248,51 +189,4 @@ where
             }
         }
     }
-}
-
-/// A row of A, and the entry of b.
-type Row<R> = ([R; INDEPENDENT], R);
-
-/// x with A x = b, in place of b, by elimination with row pivots; nothing where a pivot is below 64 roundings of A's
-/// largest entry.
-fn solve<R: Real>(rows: &mut [Row<R>]) -> Option<()> {
-    let entries = rows.iter().flat_map(|(row, _)| row);
-    let largest = entries.fold(R::ZERO, |most, a| {
-        let size = a.abs();
-        if size > most { size } else { most }
-    });
-    let least = largest * (R::EPSILON * R::from_f64(64.0));
-    for k in 0..rows.len() {
-        let (_, rest) = rows.split_at_mut_checked(k)?;
-        let (first, others) = rest.split_first_mut()?;
-        for other in &mut *others {
-            if entry(&other.0, k).abs() > entry(&first.0, k).abs() {
-                core::mem::swap(first, other);
-            }
-        }
-        let pivot = entry(&first.0, k);
-        // False of a NaN, too.
-        let regular = pivot.abs() > least;
-        if !regular {
-            return None;
-        }
-        let inv = R::ONE / pivot;
-        first.0 = first.0.map(|a| a * inv);
-        first.1 *= inv;
-        for (row, b) in others {
-            let l = entry(row, k);
-            for (a, &above) in row.iter_mut().zip(&first.0) {
-                *a -= l * above;
-            }
-            *b -= l * first.1;
-        }
-    }
-    for k in (0..rows.len()).rev() {
-        let (above, rest) = rows.split_at_mut_checked(k)?;
-        let (_, x) = *rest.first()?;
-        for (row, b) in above {
-            *b -= entry(row, k) * x;
-        }
-    }
-    Some(())
 }

@@ -50,6 +50,8 @@ pub trait Scene<const B: usize, const Q: usize, const V: usize, const N: usize>:
     const CONSTANT_EFFECTS: bool = size_of::<Self::Environment>() == 0;
     /// The pose whose M sets the gains: only the default of [`Scene::inertia`] reads it.
     const GAIN_POSE: [f32; Q] = [0.0; Q];
+    /// Steps of the simulated robot in a tick.
+    const STEPS: u32 = STEPS;
     /// What that pose is called.
     const GAIN_POSE_NAME: &'static str;
 

@@ -6,8 +6,8 @@ use super::layout::{EXPANDED, NONE, at, is_near};
 use super::set::{TreeState, sealed::Set};
 use super::{ClusterError, ClusteredRobot, TreeMotion};
 use crate::algorithms::rnea;
-use crate::effects::Effect;
-use crate::engine::for_each_joint;
+use crate::effects::{Effect, JointState, OfBodies};
+use crate::engine::{for_each_joint, has_subtree_functions};
 use crate::model::{JointCoordinate, JointKind, Model, Robot, RobotModel, Static};
 use crate::scalar::Real;
 use crate::state::{JointTrig, State, entry};
@@ -133,7 +133,28 @@ where
         state: &State<R, Q, V>,
         effects: &E,
     ) -> [R; V] {
-        Engine::<T>::run(trig, trig, state, effects)
+        if const { !has_subtree_functions(V) } {
+            return Engine::<T>::run(trig, trig, state, effects);
+        }
+        // Functions of subtrees get the state in memory, and with it angles of which only effects at joints read more
+        // than sine and cosine: these are added here.
+        let (mut turns, mut at_zero) = (*trig, *state);
+        at_zero.q = [R::ZERO; Q];
+        for_each_joint!(J, {
+            if const { J < V && !joint(&T::MODEL, J).0 } {
+                turns.coordinates[J].q = R::ZERO;
+            }
+        });
+        let mut tau = Engine::<T>::run(&turns, &turns, &at_zero, &OfBodies(effects));
+        for_each_joint!(J, {
+            if const { J < V } {
+                effects.torque(J, JointState::new(state.q[J], state.qd[J]), &mut tau[J]);
+                if let Some(inertia) = effects.inertia(J) {
+                    tau[J] += inertia * state.qdd[J];
+                }
+            }
+        });
+        tau
     }
 }
 

@@ -69,7 +69,7 @@ macro_rules! delegate_effect {
         |$this:ident| { $($inner:ty => $to:expr),* $(,)? } $(, $advance:ident)?
     ) => {
         $crate::delegate_effect! {
-            @if [true, true]
+            @if [true, true, true]
             impl[$($generics)*] Effect<$R, $B, $V> for $type $(where [$($bounds)*])?,
             |$this| { $($inner => $to),* } $(, $advance)?
         }
@@ -80,14 +80,15 @@ macro_rules! delegate_effect {
         |$this:ident| { $($inner:ty => $to:expr),* $(,)? } $(, $advance:ident)?
     ) => {
         $crate::delegate_effect! {
-            @if [$on, true]
+            @if [$on, true, true]
             impl[$($generics)*] Effect<$R, $B, $V> for $type $(where [$($bounds)*])?,
             |$this| { $($inner => $to),* } $(, $advance)?
         }
     };
-    // All hooks, where `on` is true; those that go with q̈, where `accelerations` is true.
+    // All hooks, where `on` is true; those that go with q̈, where `accelerations` is true; those at joints, where `joints`
+    // is.
     (
-        @if [$on:expr, $accelerations:expr]
+        @if [$on:expr, $accelerations:expr, $joints:expr]
         impl[$($generics:tt)*] Effect<$R:ty, $B:tt, $V:tt> for $type:ty $(where [$($bounds:tt)*])?,
         |$this:ident| { $($inner:ty => $to:expr),* } $(, $advance:ident)?
     ) => {
@@ -138,7 +139,7 @@ macro_rules! delegate_effect {
             #[inline(always)]
             fn torque(&self, joint: usize, at: $crate::effects::JointState<$R>, tau: &mut $R) {
                 let $this = self;
-                if const { $on } {
+                if const { ($on) & ($joints) } {
                     $(<$inner as $crate::effects::Effect<$R, $B, $V>>::torque(&$to, joint, at, tau);)*
                 }
             }
@@ -151,7 +152,7 @@ macro_rules! delegate_effect {
                 derivatives: &mut $crate::effects::TorqueDerivatives<$R>,
             ) {
                 let $this = self;
-                if const { $on } {
+                if const { ($on) & ($joints) } {
                     $(<$inner as $crate::effects::Effect<$R, $B, $V>>::derivatives(&$to, joint, at, derivatives);)*
                 }
             }
@@ -160,7 +161,7 @@ macro_rules! delegate_effect {
             fn inertia(&self, joint: usize) -> Option<$R> {
                 let $this = self;
                 let sum = None;
-                if const { ($on) & ($accelerations) } {
+                if const { ($on) & ($accelerations) & ($joints) } {
                     $(let sum = $crate::effects::sum(
                         sum,
                         <$inner as $crate::effects::Effect<$R, $B, $V>>::inertia(&$to, joint),

@@ -92,7 +92,7 @@ pub(crate) use query::{
     base_given, base_motion, body_inertia, body_wrench, field, gyroscopic, joint_state,
     joint_torque, joint_torques, rotor_force,
 };
-pub(crate) use rigid_body::Bias;
+pub(crate) use rigid_body::{Bias, OfBodies};
 
 use crate::scalar::Real;
 

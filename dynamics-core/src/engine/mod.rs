@@ -59,7 +59,8 @@ use crate::trig::Kernel;
 use base::base;
 use compile::CompiledRobot;
 use rnea::{Task, is_on_base, visit};
-use subtree::{has_subtree_functions, root_subtree};
+pub(crate) use subtree::has_subtree_functions;
+use subtree::root_subtree;
 
 /// The algorithms specialised at compile time for the robot `T`; sines and cosines by the kernel `K`.
 ///

@@ -1,16 +1,18 @@
 //! Laws of inverse and forward dynamics with clusters, on 200 random states of every robot.
 
 use cluster_tests::{
-    FiveBarLeg, FloatingAnkle, Geared, UniversalAnkle, Wrist, ankle_states, apart, five_bar_states,
-    floating_states, four_bar_states, geared_states, hold, largest, wrist_states,
+    FiveBarLeg, FloatingAnkle, Geared, UniversalAnkle, Wrist, ankle_states, apart, delta_states,
+    five_bar_states, floating_states, four_bar_states, geared_states, hold, largest,
+    stewart_states, wrist_states,
 };
 use dynamics_core::algorithms::MassMatrix;
 use dynamics_core::clusters::{Clustered, ClusteredRobot};
-use dynamics_core::effects::{Armature, Effect, Gravity, RIGID_BODY, Viscous};
+use dynamics_core::effects::{Armature, Effect, Gravity, JointState, RIGID_BODY, Viscous};
 use dynamics_core::model::Static;
+use dynamics_core::scalar::Real;
 use dynamics_core::state::{RobotState, State};
 use dynamics_core::{Core, Engine, algorithms};
-use firmware_demo::robots::{AnkleLeg, FourBarLeg};
+use firmware_demo::robots::{AnkleLeg, DeltaRobot, FourBarLeg, StewartPlatform};
 
 /// x with M x = τ, by elimination: M is positive definite.
 fn solved<const N: usize>(m: &MassMatrix<f64, N>, tau: &[f64; N]) -> [f64; N] {
@@ -118,6 +120,8 @@ fn laws_hold_for_every_robot() {
         laws::<Wrist, 6, 6, 6, 6, 6>(&wrist_states()),
         laws::<Geared, 7, 7, 7, 4, 4>(&geared_states()),
         laws::<AnkleLeg, 9, 9, 9, 3, 3>(&ankle_states()),
+        laws::<DeltaRobot, 12, 12, 12, 3, 3>(&delta_states()),
+        laws::<StewartPlatform, 24, 24, 24, 6, 6>(&stewart_states()),
         laws::<FloatingAnkle, 9, 15, 14, 9, 8>(&floating_states()),
         laws::<UniversalAnkle, 6, 9, 9, 3, 3>(&ankle_states()),
     ];
@@ -127,6 +131,20 @@ fn laws_hold_for_every_robot() {
     hold("power", worst(|e| e.power), 2e-15);
     hold("kinetic energy", worst(|e| e.energy), 4e-14);
     hold("columns of M", worst(|e| e.columns), 5e-15);
+}
+
+/// A spring, a damper and a rotor at every joint.
+#[derive(Clone, Copy)]
+struct AtJoints;
+
+impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for AtJoints {
+    fn torque(&self, _: usize, at: JointState<R>, tau: &mut R) {
+        *tau += at.q * R::from_f64(30.0) + at.qd * R::from_f64(0.3);
+    }
+
+    fn inertia(&self, _: usize) -> Option<R> {
+        Some(R::from_f64(0.02))
+    }
 }
 
 /// The largest difference of the engine's torques and the core's, relative to the largest torque; and the core's in
@@ -165,12 +183,16 @@ where
 
 #[test]
 fn the_engine_agrees_with_the_core_and_f32_with_f64() {
+    let joints = (RIGID_BODY, AtJoints);
     let all = [
         engine_and_single::<FourBarLeg, _, 5, 5, 3>(&four_bar_states(), &RIGID_BODY),
         engine_and_single::<FourBarLeg, _, 5, 5, 3>(&four_bar_states(), &Gravity::EARTH),
         engine_and_single::<FiveBarLeg, _, 5, 5, 3>(&five_bar_states(), &RIGID_BODY),
         engine_and_single::<AnkleLeg, _, 9, 9, 3>(&ankle_states(), &RIGID_BODY),
         engine_and_single::<AnkleLeg, _, 9, 9, 3>(&ankle_states(), &Gravity::EARTH),
+        engine_and_single::<DeltaRobot, _, 12, 12, 3>(&delta_states(), &joints),
+        engine_and_single::<StewartPlatform, _, 24, 24, 6>(&stewart_states(), &RIGID_BODY),
+        engine_and_single::<StewartPlatform, _, 24, 24, 6>(&stewart_states(), &joints),
     ];
     let worst = |k: usize| all.iter().map(|errors| errors[k]).fold(0.0, f64::max);
     hold("engine", worst(0), 2e-14);

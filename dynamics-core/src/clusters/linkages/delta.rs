@@ -106,19 +106,142 @@ impl Delta {
     }
 }
 
-/// A vector in the frame of a side, or back with the sine's sign changed.
+/// A vector in the frame of an arm at the angle of this cosine and sine.
 #[inline(always)]
 fn turned<R: Real>([cos, sin]: [R; 2], v: R::Vec3) -> R::Vec3 {
     let [x, y, z] = v.array();
     R::Vec3::new(cos * x + sin * y, cos * y - sin * x, z)
 }
 
-/// A crank, in the frame of its side.
-struct Crank<R: Real> {
-    /// From the joint to its end, m.
+/// An arm; vectors are in its own frame.
+#[derive(Clone, Copy)]
+struct Arm<R: Real> {
+    /// cos and sin of its angle about the base.
+    side: [R; 2],
+    y: JointCoordinate<R>,
+    yd: R,
+    /// From the crank's joint to its end, m.
     radial: R::Vec3,
     /// The derivative of that, m/rad.
     tangent: R::Vec3,
+    /// The crank's end, less the rod's end on the platform, in base axes, m.
+    end: R::Vec3,
+}
+
+impl<R: Real> Arm<R> {
+    #[inline(always)]
+    fn of((cos, sin): (f64, f64), y: JointCoordinate<R>, yd: R, delta: &Delta) -> Self {
+        let [cos, sin, radius, length] = [cos, sin, delta.radius, delta.crank].map(R::from_f64);
+        let (ahead, down) = (length * y.cos, length * y.sin);
+        let radial = R::Vec3::new(ahead, R::ZERO, -down);
+        Self {
+            side: [cos, sin],
+            y,
+            yd,
+            radial,
+            tangent: R::Vec3::new(-down, R::ZERO, -ahead),
+            end: turned::<R>([cos, -sin], radial + R::Vec3::new(radius, R::ZERO, R::ZERO)),
+        }
+    }
+
+    /// A vector in base axes in the arm's.
+    #[inline(always)]
+    fn turn(&self, v: R::Vec3) -> R::Vec3 {
+        turned::<R>(self.side, v)
+    }
+}
+
+/// The platform, in base axes.
+struct Platform<R: Real> {
+    position: R::Vec3,
+    /// The x with eₖ·x = bₖ of each unit vector b.
+    dual: [R::Vec3; 3],
+    singular: bool,
+}
+
+impl<R: Real> Platform<R> {
+    /// The point below the arms' ends, at the length of the rods from each.
+    #[inline(always)]
+    fn of([a, b, c]: [R::Vec3; 3], delta: &Delta) -> Result<Self, ClusterProblem> {
+        let [scale, half, rod2] = [delta.scale, 0.5, delta.rod * delta.rod].map(R::from_f64);
+        let (d1, d2) = (b - a, c - a);
+        let normal = d1.cross(d2);
+        let area = root(normal.dot(normal), scale * scale, Branch::Positive)?;
+        if area.singular {
+            return Err(ClusterProblem::CannotClose); // the ends are in one line
+        }
+        // w − h n from the first end, n being a unit vector and w in the plane of the ends.
+        let (n, n2_inv) = (normal * area.h_inv, area.h_inv * area.h_inv);
+        let (e2, e3) = (d2.cross(normal) * n2_inv, normal.cross(d1) * n2_inv);
+        let w = e2 * (half * d1.dot(d1)) + e3 * (half * d2.dot(d2));
+        let Root { h, h_inv, singular } = root(rod2 - w.dot(w), scale, Branch::Positive)?;
+        let (w2, w3) = (w.dot(e2), w.dot(e3));
+        Ok(Self {
+            position: a + w - n * h,
+            dual: [
+                e2 + e3 + n * ((w2 + w3 - R::ONE) * h_inv),
+                -e2 - n * (w2 * h_inv),
+                -e3 - n * (w3 * h_inv),
+            ],
+            singular,
+        })
+    }
+}
+
+/// Σ xₖ fₖ.
+#[inline(always)]
+fn combined<R: Real>([a, b, c]: &[R::Vec3; 3], [x, y, z]: [R; 3]) -> R::Vec3 {
+    *a * x + *b * y + *c * z
+}
+
+/// Angles, rows of G and Ġ ẏ of the rods of an arm.
+struct RodsMotion<R> {
+    q: [JointCoordinate<R>; 2],
+    g: [[R; 3]; 2],
+    bias: [R; 2],
+    singular: bool,
+}
+
+/// The motion of the platform, in base axes.
+struct Moving<R: Real> {
+    /// ∂p/∂y by columns.
+    columns: [R::Vec3; 3],
+    /// p̈ at ÿ = 0.
+    acceleration: R::Vec3,
+}
+
+impl<R: Real> Arm<R> {
+    /// The rods: e is the vector along them from the crank, with its rate.
+    #[inline(always)]
+    fn rods(
+        &self,
+        [e, ed]: [R::Vec3; 2],
+        moving: &Moving<R>,
+        delta: &Delta,
+        own: usize,
+    ) -> Result<RodsMotion<R>, ClusterProblem> {
+        let [l, l_inv, l2] = [delta.rod, 1.0 / delta.rod, delta.rod * delta.rod].map(R::from_f64);
+        let hook = Hook::<R>::of(-e, l_inv, l2)?;
+        let edd = self.turn(moving.acceleration) + self.radial * (self.yd * self.yd);
+        let (mut turn, mut lift) = ([R::ZERO; 3], [R::ZERO; 3]);
+        unrolled!(J in 0 1 2, {
+            let mut column = -self.turn(moving.columns[J]);
+            if J == own {
+                column += self.tangent;
+            }
+            (turn[J], lift[J]) = (hook.turn_rate(column), hook.lift_rate(column));
+            if J == own {
+                turn[J] -= R::ONE; // relative to the crank
+            }
+        });
+        let rates = [hook.turn_rate(-ed), hook.lift_rate(-ed)];
+        Ok(RodsMotion {
+            q: hook.angles_from([self.y.sin, self.y.cos]),
+            g: [turn, lift],
+            bias: hook.accelerations(-edd, rates, l),
+            singular: hook.singular,
+        })
+    }
 }
 
 impl Cluster<12, 3> for Delta {
@@ -128,90 +251,53 @@ impl Cluster<12, 3> for Delta {
         y: &[JointCoordinate<R>; 3],
         yd: &[R; 3],
     ) -> Result<ClusterMotion<R, 12, 3>, ClusterProblem> {
-        let (one, zero, half) = (R::ONE, R::ZERO, R::from_f64(0.5));
-        let [radius, l, rod] = [self.radius, self.crank, self.rod].map(R::from_f64);
-        let scale = R::from_f64(self.scale);
-        let sides = SIDES.map(|(cos, sin)| [R::from_f64(cos), R::from_f64(sin)]);
-        let back = |k: usize, v: R::Vec3| turned::<R>([sides[k][0], -sides[k][1]], v);
-        let cranks = [0, 1, 2].map(|k| Crank::<R> {
-            radial: R::Vec3::new(l * y[k].cos, zero, -(l * y[k].sin)),
-            tangent: R::Vec3::new(-(l * y[k].sin), zero, -(l * y[k].cos)),
+        let [a, b, c] = [
+            Arm::of(SIDES[0], y[0], yd[0], self),
+            Arm::of(SIDES[1], y[1], yd[1], self),
+            Arm::of(SIDES[2], y[2], yd[2], self),
+        ];
+        let platform = Platform::<R>::of([a.end, b.end, c.end], self)?;
+        let arms = [a, b, c];
+        let (mut rods, mut rates) = ([R::Vec3::ZERO; 3], [R::Vec3::ZERO; 3]);
+        let (mut columns, mut right) = (platform.dual, [R::ZERO; 3]);
+        unrolled!(I in 0 1 2, {
+            rods[I] = arms[I].turn(platform.position - arms[I].end);
+            // eₖ·∂p/∂yₖ = eₖ·tangentₖ
+            columns[I] = columns[I] * rods[I].dot(arms[I].tangent);
         });
-        let ends = [0, 1, 2].map(|k| back(k, cranks[k].radial + R::Vec3::new(radius, zero, zero)));
-
-        // The point at the distance `rod` from all ends, below them: w − h n from the first, n being a unit vector.
-        let (d1, d2) = (ends[1] - ends[0], ends[2] - ends[0]);
-        let normal = d1.cross(d2);
-        let n2 = normal.dot(normal);
-        let area = root(n2, scale * scale, Branch::Positive)?;
-        if area.singular {
-            return Err(ClusterProblem::CannotClose); // the ends are in one line
-        }
-        let (n, n2_inv) = (normal * area.h_inv, area.h_inv * area.h_inv);
-        let (e2, e3) = (d2.cross(normal) * n2_inv, normal.cross(d1) * n2_inv);
-        let w = e2 * (half * d1.dot(d1)) + e3 * (half * d2.dot(d2));
-        let Root { h, h_inv, singular } = root(rod * rod - w.dot(w), scale, Branch::Positive)?;
-        let to_platform = w - n * h;
-        let p = ends[0] + to_platform;
-        // The x with eₖ·x = bₖ: unit vectors of b.
-        let (w2, w3) = (w.dot(e2), w.dot(e3));
-        let [of_2, of_3] = [(e2, w2), (e3, w3)].map(|(e, along)| -e - n * (along * h_inv));
-        let of_1 = e2 + e3 + n * ((w2 + w3 - one) * h_inv);
-        let dual = [of_1, of_2, of_3];
-
-        let rods = [0, 1, 2].map(|k| turned::<R>(sides[k], p - ends[k]));
-        let columns: [R::Vec3; 3] =
-            core::array::from_fn(|k| dual[k] * rods[k].dot(cranks[k].tangent));
-        let pd = columns[0] * yd[0] + columns[1] * yd[1] + columns[2] * yd[2];
-        let rates = [0, 1, 2].map(|k| turned::<R>(sides[k], pd) - cranks[k].tangent * yd[k]);
-        // c̈ = −radial ẏ² at ÿ = 0.
-        let squares = yd.map(|yd| yd * yd);
-        let right =
-            |k: usize| -(rods[k].dot(cranks[k].radial) * squares[k] + rates[k].dot(rates[k]));
-        let pdd = dual[0] * right(0) + dual[1] * right(1) + dual[2] * right(2);
+        let velocity = combined::<R>(&columns, *yd);
+        unrolled!(I in 0 1 2, {
+            let arm = &arms[I];
+            rates[I] = arm.turn(velocity) - arm.tangent * arm.yd;
+            // c̈ = −radial ẏ² at ÿ = 0.
+            let crank = rods[I].dot(arm.radial) * (arm.yd * arm.yd);
+            right[I] = -(crank + rates[I].dot(rates[I]));
+        });
+        let moving = Moving::<R> {
+            columns,
+            acceleration: combined::<R>(&platform.dual, right),
+        };
 
         let mut motion = ClusterMotion {
             q: [JointCoordinate::default(); 12],
-            g: [[zero; 3]; 12],
-            bias: [zero; 12],
-            singular,
+            g: [[R::ZERO; 3]; 12],
+            bias: [R::ZERO; 12],
+            singular: platform.singular,
         };
-        let (l_inv, rod2) = (
-            R::from_f64(1.0 / self.rod),
-            R::from_f64(self.rod * self.rod),
-        );
-        for k in 0..3 {
-            let hook = Hook::<R>::of(-rods[k], l_inv, rod2)?;
-            let [turn, lift] = hook.angles_from([y[k].sin, y[k].cos]);
-            let zd = -rates[k];
-            let zdd = -(turned::<R>(sides[k], pdd) + cranks[k].radial * squares[k]);
-            let of_column = |j: usize| {
-                let column = turned::<R>(sides[k], columns[j]);
-                let own = if j == k {
-                    column - cranks[k].tangent
-                } else {
-                    column
-                };
-                [hook.turn_rate(-own), hook.lift_rate(-own)]
-            };
-            let rows = [of_column(0), of_column(1), of_column(2)];
-            let angular = [hook.turn_rate(zd), hook.lift_rate(zd)];
-            let accelerations = hook.accelerations(zdd, angular, rod);
-            let first = 3 * k;
-            (motion.q[first], motion.q[first + 1], motion.q[first + 2]) = (y[k], turn, lift);
-            motion.g[first][k] = one;
-            motion.g[first + 1] = rows.map(|row| row[0]);
-            motion.g[first + 1][k] -= one;
-            motion.g[first + 2] = rows.map(|row| row[1]);
-            (motion.bias[first + 1], motion.bias[first + 2]) = (accelerations[0], accelerations[1]);
-            motion.singular |= hook.singular;
-        }
+        let [p, pdd] = [platform.position.array(), moving.acceleration.array()];
         let columns = columns.map(R::Vec3::array);
-        for (i, (&p, &pdd)) in p.array().iter().zip(&pdd.array()).enumerate() {
-            motion.q[9 + i] = JointCoordinate::linear(p);
-            motion.g[9 + i] = columns.map(|column| column[i]);
-            motion.bias[9 + i] = pdd;
-        }
+        unrolled!(I in 0 1 2, {
+            let rods = arms[I].rods([rods[I], rates[I]], &moving, self, I)?;
+            motion.q[3 * I] = y[I];
+            (motion.q[3 * I + 1], motion.q[3 * I + 2]) = (rods.q[0], rods.q[1]);
+            motion.g[3 * I][I] = R::ONE;
+            (motion.g[3 * I + 1], motion.g[3 * I + 2]) = (rods.g[0], rods.g[1]);
+            (motion.bias[3 * I + 1], motion.bias[3 * I + 2]) = (rods.bias[0], rods.bias[1]);
+            motion.singular |= rods.singular;
+            motion.q[9 + I] = JointCoordinate::linear(p[I]);
+            motion.g[9 + I] = [columns[0][I], columns[1][I], columns[2][I]];
+            motion.bias[9 + I] = pdd[I];
+        });
         Ok(motion)
     }
 }

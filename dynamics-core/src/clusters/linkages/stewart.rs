@@ -150,6 +150,14 @@ impl<R: Real> Platform<R> {
             alpha: up.cross(left) * (yd[3] * yd[4]) + yaw_pitch.cross(ahead) * yd[5],
         }
     }
+
+    /// The row of G of a rate that is `form` · ż at the end of `r`, from the platform's origin.
+    #[inline(always)]
+    fn row(&self, r: R::Vec3, form: R::Vec3) -> [R; 6] {
+        let moment = r.cross(form);
+        let ([x, y, z], [_, _, yaw]) = (form.array(), moment.array());
+        [x, y, z, yaw, moment.dot(self.pitch), moment.dot(self.roll)]
+    }
 }
 
 /// What a leg adds to the cluster: its three coordinates, their rows of G, and Ġ ẏ.
@@ -179,29 +187,19 @@ impl Leg {
         } = root(l2, scale, Branch::Positive)?;
         let hook = Hook::<R>::of(z, l_inv, l2)?;
         let [e_l, e_turn, e_lift] = hook.axes();
-        let forms = [e_turn * hook.flat_inv, e_lift * l_inv, e_l];
+        let [e_turn, e_lift] = [e_turn * hook.flat_inv, e_lift * l_inv];
         let zd = platform.velocity + platform.omega.cross(r);
         let zdd = platform.alpha.cross(r) + platform.omega.cross(platform.omega.cross(r));
-        let rates = forms.map(|form| form.dot(zd));
+        let rates = [e_turn.dot(zd), e_lift.dot(zd), e_l.dot(zd)];
         let [turn, lift] = hook.angles();
+        let slide = JointCoordinate::linear(l - R::from_f64(self.length));
         Ok(LegMotion {
-            q: [
-                turn,
-                lift,
-                JointCoordinate::linear(l - R::from_f64(self.length)),
+            q: [turn, lift, slide],
+            g: [
+                platform.row(r, e_turn),
+                platform.row(r, e_lift),
+                platform.row(r, e_l),
             ],
-            g: forms.map(|form| {
-                let moment = r.cross(form);
-                let ([x, y, z], [_, _, yaw]) = (form.array(), moment.array());
-                [
-                    x,
-                    y,
-                    z,
-                    yaw,
-                    moment.dot(platform.pitch),
-                    moment.dot(platform.roll),
-                ]
-            }),
             bias: hook.telescoping(zdd, rates, [l, l_inv]),
             singular: singular | hook.singular,
         })
@@ -215,31 +213,28 @@ impl Cluster<24, 6> for Stewart {
         y: &[JointCoordinate<R>; 6],
         yd: &[R; 6],
     ) -> Result<ClusterMotion<R, 24, 6>, ClusterProblem> {
+        let platform = Platform::of(y, yd);
         let mut motion = ClusterMotion {
             q: [JointCoordinate::default(); 24],
             g: [[R::ZERO; 6]; 24],
             bias: [R::ZERO; 24],
             singular: false,
         };
-        for (k, (&y, row)) in y.iter().zip(&mut motion.g).enumerate() {
-            motion.q[k] = if k < 3 {
-                JointCoordinate::linear(y.q)
+        unrolled!(K in 0 1 2 3 4 5, {
+            motion.q[K] = if K < 3 {
+                JointCoordinate::linear(y[K].q)
             } else {
-                y
+                y[K]
             };
-            row[k] = R::ONE;
-        }
-        let platform = Platform::of(y, yd);
-        for (k, leg) in self.legs.iter().enumerate() {
-            let leg = leg.reach(&platform, R::from_f64(self.scale))?;
-            let first = 6 + 3 * k;
-            for i in 0..3 {
-                motion.q[first + i] = leg.q[i];
-                motion.g[first + i] = leg.g[i];
-                motion.bias[first + i] = leg.bias[i];
-            }
+            motion.g[K][K] = R::ONE;
+            let leg = self.legs[K].reach(&platform, R::from_f64(self.scale))?;
+            unrolled!(I in 0 1 2, {
+                    motion.q[6 + 3 * K + I] = leg.q[I];
+                    motion.g[6 + 3 * K + I] = leg.g[I];
+                    motion.bias[6 + 3 * K + I] = leg.bias[I];
+                });
             motion.singular |= leg.singular;
-        }
+        });
         Ok(motion)
     }
 }

@@ -5,7 +5,7 @@ mod gravity;
 mod inertia_coriolis;
 mod moving_base;
 
-pub(crate) use bias::Bias;
+pub(crate) use bias::{Bias, OfBodies};
 pub use gravity::{Direction, Down, Gravity};
 pub use inertia_coriolis::{Coriolis, Inertia, RIGID_BODY};
 pub use moving_base::{GravityVector, MovingBase};

@@ -2,13 +2,13 @@
 
 use core::marker::PhantomData;
 
-use super::layout::{EXPANDED, NONE, at, is_near};
+use super::layout::{EXPANDED, NONE, at, joint};
 use super::set::{TreeState, sealed::Set};
 use super::{ClusterError, ClusteredRobot, TreeMotion};
 use crate::algorithms::rnea;
 use crate::effects::{Effect, JointState, OfBodies};
 use crate::engine::{for_each_joint, has_subtree_functions};
-use crate::model::{JointCoordinate, JointKind, Model, Robot, RobotModel, Static};
+use crate::model::{JointCoordinate, Robot, RobotModel, Static};
 use crate::scalar::Real;
 use crate::state::{JointTrig, State, entry};
 use crate::trig::Kernel;
@@ -291,18 +291,4 @@ where
         motions,
         one: [R::ONE],
     })
-}
-
-/// Whether the joint of velocity coordinate `v` is prismatic, and whether its limits are within ±4π.
-const fn joint<const B: usize, const Q: usize, const V: usize>(
-    model: &Model<f64, B, Q, V>,
-    v: usize,
-) -> (bool, bool) {
-    let mut i = 0;
-    while i + 1 < B && model.links[i].idx_v != v {
-        i += 1;
-    }
-    let link = &model.links[i];
-    let prismatic = matches!(link.joint.kind, JointKind::Prismatic);
-    (prismatic, is_near(link))
 }

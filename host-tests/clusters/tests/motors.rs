@@ -46,7 +46,11 @@ where
         let work = |tau: &[f64; Y], qd: &[f64; Y]| -> f64 {
             tau.iter().zip(qd).map(|(tau, qd)| tau * qd).sum()
         };
-        let size: f64 = at_y.iter().zip(&y.qd).map(|(tau, qd)| (tau * qd).abs()).sum();
+        let size: f64 = at_y
+            .iter()
+            .zip(&y.qd)
+            .map(|(tau, qd)| (tau * qd).abs())
+            .sum();
         for at_motors in [
             Clustered::<Core<T>>::rnea_of_motors(y, &scene),
             Clustered::<Engine<T>>::rnea_of_motors(y, &scene),

@@ -227,7 +227,7 @@ const TABLE: &[(&str, &str, f64, f64)] = &[
     ("picks", "velocity by cranks", 1e-15, 1e-6),
     ("picks", "acceleration by cranks", 1e-15, 1e-6),
     ("ankle", "velocity by difference", NONE, 1e-3),
-    ("ankle", "acceleration by difference", NONE, 1e-2),
+    ("ankle", "acceleration by difference", NONE, 1e-3),
     ("space arm", "momentum lost", 1e-15, 5e-7),
     ("space arm", "momentum lost by plain steps", 4e-4, 6e-4),
     ("ship", "velocity of the mast", 1e-10, NONE),

@@ -91,34 +91,34 @@ impl G1Ankle {
     pub const MOTORS: [usize; 3] = [0, 3, 6];
 }
 
+/// Shank, cross and foot, then the drives.
+const BODIES: [Body; 9] = [
+    Body::new("shank", BASE, Joint::revolute(Y))
+        .mass(1.932)
+        .com([0.005457, 0.003964, -0.12074])
+        .inertia([0.011329, 4.82e-5, -4.49e-5, 0.011277, -0.0007146, 0.0015168])
+        .limits(limits(-5.0, 165.0, 139.0, 20.0)),
+    Body::new("cross", 0, Joint::revolute(Y))
+        .xyz(ANKLE)
+        .mass(0.074)
+        .com([-0.007269, 0.0, 0.011137])
+        .inertia([8.4e-6, 0.0, -2.9e-6, 1.89e-5, 0.0, 1.26e-5])
+        .limits(limits(-50.0, 30.0, 0.0, 30.0)),
+    Body::new("foot", 1, Joint::revolute(X))
+        .mass(0.608)
+        .com([0.026505, 0.0, -0.016425 - ROLL_AXIS])
+        .inertia([0.0002231, 2e-7, 8.91e-5, 0.0016161, -1e-7, 0.0016667])
+        .limits(limits(-15.0, 15.0, 0.0, 30.0)),
+    crank("left_crank", &RODS[0]),
+    cross("left_cross", 3, &RODS[0]),
+    bar("left_rod", 4, &RODS[0]),
+    crank("right_crank", &RODS[1]),
+    cross("right_cross", 6, &RODS[1]),
+    bar("right_rod", 7, &RODS[1]),
+];
+
 impl Robot<9, 9, 9> for G1Ankle {
-    const MODEL: ArmModel<f64, 9> = Model::new(
-        "g1_ankle",
-        [
-            Body::new("shank", BASE, Joint::revolute(Y))
-                .mass(1.932)
-                .com([0.005457, 0.003964, -0.12074])
-                .inertia([0.011329, 4.82e-5, -4.49e-5, 0.011277, -0.0007146, 0.0015168])
-                .limits(limits(-5.0, 165.0, 139.0, 20.0)),
-            Body::new("cross", 0, Joint::revolute(Y))
-                .xyz(ANKLE)
-                .mass(0.074)
-                .com([-0.007269, 0.0, 0.011137])
-                .inertia([8.4e-6, 0.0, -2.9e-6, 1.89e-5, 0.0, 1.26e-5])
-                .limits(limits(-50.0, 30.0, 0.0, 30.0)),
-            Body::new("foot", 1, Joint::revolute(X))
-                .mass(0.608)
-                .com([0.026505, 0.0, -0.016425 - ROLL_AXIS])
-                .inertia([0.0002231, 2e-7, 8.91e-5, 0.0016161, -1e-7, 0.0016667])
-                .limits(limits(-15.0, 15.0, 0.0, 30.0)),
-            crank("left_crank", &RODS[0]),
-            cross("left_cross", 3, &RODS[0]),
-            bar("left_rod", 4, &RODS[0]),
-            crank("right_crank", &RODS[1]),
-            cross("right_cross", 6, &RODS[1]),
-            bar("right_rod", 7, &RODS[1]),
-        ],
-    );
+    const MODEL: ArmModel<f64, 9> = Model::new("g1_ankle", BODIES);
 }
 
 impl ClusteredRobot<9, 9, 9, 3, 3> for G1Ankle {
@@ -129,3 +129,13 @@ impl ClusteredRobot<9, 9, 9, 3, 3> for G1Ankle {
 }
 
 const _: ArmModel<f64, 9> = G1Ankle::MODEL;
+
+/// The same leg as a chain of joints, without cranks and rods: what controllers and simulations of such legs often have.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct SerialAnkle;
+
+impl Robot<3, 3, 3> for SerialAnkle {
+    const MODEL: ArmModel<f64, 3> = Model::new("serial_ankle", [BODIES[0], BODIES[1], BODIES[2]]);
+}
+
+const _: ArmModel<f64, 3> = SerialAnkle::MODEL;

@@ -17,7 +17,7 @@ pub use ankle_leg::{AnkleLeg, RODS};
 pub use delta::DeltaRobot;
 pub use direct_drive::DirectDrive;
 pub use four_bar_leg::FourBarLeg;
-pub use g1_ankle::G1Ankle;
+pub use g1_ankle::{G1Ankle, SerialAnkle};
 pub use gimbal::Gimbal;
 pub use leg::Leg;
 pub use pick_delta::PickDelta;

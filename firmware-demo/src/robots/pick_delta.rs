@@ -24,7 +24,7 @@ use dynamics_core::model::{ArmModel, BASE, Body, Joint, JointLimits, Model, Robo
 /// # Assumed
 ///
 /// Gripper and part, and a centre of the platform 20 mm off its rods' plane. Of the drives the ranges, the speed of
-/// 4,200 turns a minute before the gear, and the torque, of the size of a servo motor of 1.5 kW.
+/// 4,200 turns a minute before the gear, and the torque, of the size of a servo motor of 1 kW.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct PickDelta;
 
@@ -76,7 +76,7 @@ const CRANK_LIMITS: JointLimits<f64> = JointLimits {
     lower: -0.7,
     upper: 1.6,
     velocity: 8.0,
-    torque: 350.0,
+    torque: 450.0,
 };
 
 /// Of joints without a drive.

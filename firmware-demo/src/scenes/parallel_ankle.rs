@@ -1,6 +1,8 @@
 //! Scene `parallel_ankle`: a humanoid's leg steps in the air, and two motors tilt its foot by rods. The encoders are at
 //! the motors, and the reference is the foot's.
 
+use dynamics_core::Engine;
+use dynamics_core::clusters::Clustered;
 use dynamics_core::control::{MotionLimits, Trajectory, TrajectoryError};
 use dynamics_core::effects::{
     Armature, Coriolis, Coulomb, Effect, Gravity, Inertia, Viscous, Width,
@@ -8,10 +10,11 @@ use dynamics_core::effects::{
 use dynamics_core::model::JointLimits;
 use dynamics_core::state::State;
 
+use crate::control_loop::Law;
 use crate::plant::ClusterPlant;
-use crate::robots::G1Ankle;
+use crate::robots::{G1Ankle, SerialAnkle};
 use crate::scene::clustered::{self, MotorReference};
-use crate::scene::{Noise, Scene, TICK};
+use crate::scene::{Noise, PlantModel, Run, Scene, TICK};
 use crate::trajectories::{ANKLE_STEPS, MID_STANCE};
 
 /// What acts on the leg.
@@ -32,16 +35,21 @@ pub const EFFECTS: Effects = (
     Gravity::EARTH,
     Inertia,
     Coriolis,
-    Viscous(at_motors(0.2, 0.05)),
+    Viscous(at_motors(DAMPING)),
     Coulomb {
-        torque: at_motors(1.0, 0.2),
+        torque: at_motors(FRICTION),
         width: Width::f32(0.05),
     },
-    Armature(at_motors(0.025_101_925, 0.003_609_725)),
+    Armature(at_motors(ROTORS)),
 );
 
+/// Of the knee's motor, and of each of the ankle's.
+const DAMPING: [f32; 2] = [0.2, 0.05];
+const FRICTION: [f32; 2] = [1.0, 0.2];
+const ROTORS: [f32; 2] = [0.025_101_925, 0.003_609_725];
+
 /// A number of the knee's motor and of each of the ankle's.
-const fn at_motors(knee: f32, ankle: f32) -> [f32; 9] {
+const fn at_motors([knee, ankle]: [f32; 2]) -> [f32; 9] {
     let mut all = [0.0; 9];
     let [of_knee, left, right] = G1Ankle::MOTORS;
     all[of_knee] = knee;
@@ -67,6 +75,8 @@ impl Scene<9, 9, 9, 3> for AnkleSteps {
     const EFFECTS: Effects = EFFECTS;
     const CONSTANT_EFFECTS: bool = true;
     const GAIN_POSE_NAME: &'static str = "mid-stance, of each motor with the others at rest";
+    const BASELINES: &'static [Run<Self, 9, 9, 9, 3>] =
+        &[Run::of::<SerialJoints>(PlantModel::Exact, "serial-ankle")];
 
     fn reference() -> Result<Self::Reference, TrajectoryError> {
         let limit = |velocity, acceleration| MotionLimits {
@@ -107,5 +117,34 @@ impl Scene<9, 9, 9, 3> for AnkleSteps {
 
     fn inertia(_: &Self::Environment) -> [f32; 3] {
         clustered::inertia::<Self, 9, 9, 3>(MID_STANCE).unwrap_or([0.0; 3])
+    }
+}
+
+/// Both motors of the ankle at pitch and at roll, as mujocolab/mjlab has them.
+const fn at_joints([knee, ankle]: [f32; 2]) -> [f32; 3] {
+    [knee, 2.0 * ankle, 2.0 * ankle]
+}
+
+/// Feed-forward that takes the ankle for two joints with twice a motor's friction and rotor each, without rods. Its
+/// torques go to the motors by the loops' G, as all others do.
+#[derive(Clone, Copy, Debug)]
+pub struct SerialJoints;
+
+impl Law<3, State<f32, 3, 3>> for SerialJoints {
+    fn feedforward(_: &State<f32, 3, 3>, y: &State<f32, 3, 3>) -> [f32; 3] {
+        let effects = const {
+            let coulomb = Coulomb {
+                torque: at_joints(FRICTION),
+                width: Width::f32(0.05),
+            };
+            let rotors = Armature(at_joints(ROTORS));
+            let viscous = Viscous(at_joints(DAMPING));
+            (Gravity::EARTH, Inertia, Coriolis, viscous, coulomb, rotors)
+        };
+        let tau = Engine::<SerialAnkle>::rnea(y, &effects);
+        let motion = Clustered::<Engine<G1Ankle>>::motion(y);
+        motion.map_or([0.0; 3], |motion| {
+            motion.to_motors(&tau).unwrap_or([0.0; 3])
+        })
     }
 }

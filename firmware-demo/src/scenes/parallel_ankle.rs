@@ -5,7 +5,7 @@ use dynamics_core::Engine;
 use dynamics_core::clusters::Clustered;
 use dynamics_core::control::{MotionLimits, Trajectory, TrajectoryError};
 use dynamics_core::effects::{
-    Armature, Coriolis, Coulomb, Effect, Gravity, Inertia, Viscous, Width,
+    Armature, Coriolis, Coulomb, Effect, Gravity, Inertia, JointState, RIGID_BODY, Viscous, Width,
 };
 use dynamics_core::model::JointLimits;
 use dynamics_core::state::State;
@@ -35,17 +35,15 @@ pub const EFFECTS: Effects = (
     Gravity::EARTH,
     Inertia,
     Coriolis,
-    Viscous(at_motors(DAMPING)),
+    Viscous(at_motors([0.2, 0.05])),
     Coulomb {
-        torque: at_motors(FRICTION),
+        torque: at_motors([1.0, 0.2]),
         width: Width::f32(0.05),
     },
     Armature(at_motors(ROTORS)),
 );
 
-/// Of the knee's motor, and of each of the ankle's.
-const DAMPING: [f32; 2] = [0.2, 0.05];
-const FRICTION: [f32; 2] = [1.0, 0.2];
+/// Of the knee's motor, and of each of the ankle's, kg·m².
 const ROTORS: [f32; 2] = [0.025_101_925, 0.003_609_725];
 
 /// A number of the knee's motor and of each of the ankle's.
@@ -120,31 +118,24 @@ impl Scene<9, 9, 9, 3> for AnkleSteps {
     }
 }
 
-/// Both motors of the ankle at pitch and at roll, as mujocolab/mjlab has them.
-const fn at_joints([knee, ankle]: [f32; 2]) -> [f32; 3] {
-    [knee, 2.0 * ankle, 2.0 * ankle]
-}
-
-/// Feed-forward that takes the ankle for two joints with twice a motor's friction and rotor each, without rods. Its
-/// torques go to the motors by the loops' G, as all others do.
+/// Feed-forward that takes the ankle for two joints in a chain, without rods, with the rotors of both motors at each of
+/// them, as mujocolab/mjlab has it. Its torques go to the motors by the loops' G; friction it has at the motors.
 #[derive(Clone, Copy, Debug)]
 pub struct SerialJoints;
 
 impl Law<3, State<f32, 3, 3>> for SerialJoints {
-    fn feedforward(_: &State<f32, 3, 3>, y: &State<f32, 3, 3>) -> [f32; 3] {
-        let effects = const {
-            let coulomb = Coulomb {
-                torque: at_joints(FRICTION),
-                width: Width::f32(0.05),
-            };
-            let rotors = Armature(at_joints(ROTORS));
-            let viscous = Viscous(at_joints(DAMPING));
-            (Gravity::EARTH, Inertia, Coriolis, viscous, coulomb, rotors)
-        };
-        let tau = Engine::<SerialAnkle>::rnea(y, &effects);
+    fn feedforward(motors: &State<f32, 3, 3>, y: &State<f32, 3, 3>) -> [f32; 3] {
+        let [knee, ankle] = ROTORS;
+        let rotors = Armature([knee, 2.0 * ankle, 2.0 * ankle]);
+        let tau = Engine::<SerialAnkle>::rnea(y, &(RIGID_BODY, rotors));
         let motion = Clustered::<Engine<G1Ankle>>::motion(y);
-        motion.map_or([0.0; 3], |motion| {
-            motion.to_motors(&tau).unwrap_or([0.0; 3])
-        })
+        let Ok(mut tau) = motion.and_then(|motion| motion.to_motors(&tau)) else {
+            return [0.0; 3];
+        };
+        let friction = const { (EFFECTS.3, EFFECTS.4) };
+        for ((tau, v), qd) in tau.iter_mut().zip(G1Ankle::MOTORS).zip(motors.qd) {
+            Effect::<f32, 9, 9>::torque(&friction, v, JointState::new(0.0, qd), tau);
+        }
+        tau
     }
 }

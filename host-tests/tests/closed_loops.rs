@@ -121,7 +121,7 @@ where
     most
 }
 
-/// A scene that asks nothing of its motors would show nothing.
+/// Motions far below the limits would make small tracking errors meaningless.
 #[test]
 fn the_ways_are_within_the_limits_of_the_motors() {
     let [torque, speed] = shares::<Picking, 12, 12>();
@@ -200,7 +200,7 @@ fn a_reference_that_does_not_close_is_a_fault_and_no_torque() {
 }
 
 #[test]
-fn a_plant_that_does_not_close_says_so() {
+fn a_step_of_a_plant_that_does_not_close_is_an_error() {
     let torn = Torn.at(20).q;
     let nominal = dynamics_core::model::Calibrated::nominal();
     let mut plant = ClusterPlant::<G1Ankle, _, 9, 9, 3>::new(nominal, AnkleSteps::EFFECTS, torn);

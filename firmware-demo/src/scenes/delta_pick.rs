@@ -70,9 +70,9 @@ impl Scene<12, 12, 12, 3> for Picking {
     const NAME: &'static str = "delta_pick";
     const BOUND: f32 = 1e-3;
     const EFFECTS: Effects = EFFECTS;
-    /// The emulator has no time for more: a step of twelve bodies takes 40,000 instructions.
+    /// A step takes 40,000 instructions, and the emulated processor executes 125,000 in a tick.
     const STEPS: u32 = 2;
-    const GAIN_POSE_NAME: &'static str = "at the feeder";
+    const GAIN_POSE_NAME: &'static str = "feeder";
 
     fn reference() -> Result<Picks, TrajectoryError> {
         Picks::new()

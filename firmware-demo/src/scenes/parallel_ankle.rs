@@ -72,7 +72,7 @@ impl Scene<9, 9, 9, 3> for AnkleSteps {
     const BOUND: f32 = 2e-3;
     const EFFECTS: Effects = EFFECTS;
     const CONSTANT_EFFECTS: bool = true;
-    const GAIN_POSE_NAME: &'static str = "mid-stance, of each motor with the others at rest";
+    const GAIN_POSE_NAME: &'static str = "mid-stance";
     const BASELINES: &'static [Run<Self, 9, 9, 9, 3>] =
         &[Run::of::<SerialJoints>(PlantModel::Exact, "serial-ankle")];
 

@@ -76,7 +76,7 @@ where
         let tau = motion.torque(&algorithms::rnea(&heavy, motion.state(), &scene));
         let ydd = motion.aba(&heavy, &tau, &scene).expect("it moves inertia");
         worst.calibrated = worst.calibrated.max(apart(&ydd, &y.qdd) / 10.0);
-        // The change of masses is seen.
+        // The change of masses is large enough to count.
         let light = Clustered::<Core<T>>::aba(y, &tau, &scene).expect("it moves inertia");
         assert!(apart(&light, &y.qdd) > 1e-3, "{light:?}");
     }

@@ -10,12 +10,17 @@ use dynamics_core::state::State;
 
 use crate::sim_io::Wires;
 
+mod clustered;
 mod flexible;
 
+pub use clustered::ClusterPlant;
 pub use flexible::FlexiblePlant;
 
 /// A simulated robot of which N joints are driven and have encoders; `X` is the state of its environment.
 pub trait Simulated<X, const N: usize> {
+    /// Why a step has no result: its forward dynamics have none.
+    type Error;
+
     /// The positions that the encoders measure, rad or m.
     fn encoder_positions(&self) -> [f32; N];
 
@@ -28,12 +33,7 @@ pub trait Simulated<X, const N: usize> {
     ///
     /// # Errors
     /// As forward dynamics.
-    fn step(
-        &mut self,
-        torque: &[f32; N],
-        environment: &X,
-        h: f32,
-    ) -> Result<(), NotPositiveDefinite>;
+    fn step(&mut self, torque: &[f32; N], environment: &X, h: f32) -> Result<(), Self::Error>;
 }
 
 /// A simulated robot and its drives, on wires.
@@ -65,7 +65,7 @@ impl<P, const N: usize> Rig<P, N> {
         steps: u32,
         h: f32,
         environment: impl Fn(u32) -> X,
-    ) -> Result<(), NotPositiveDefinite>
+    ) -> Result<(), P::Error>
     where
         P: Simulated<X, N>,
     {
@@ -119,6 +119,8 @@ where
     T: Robot<B, Q, V>,
     E: Effect<f32, B, V>,
 {
+    type Error = NotPositiveDefinite;
+
     fn encoder_positions(&self) -> [f32; N] {
         last(&self.state.q)
     }
@@ -148,6 +150,8 @@ where
     T: Robot<B, Q, V>,
     E: Effect<f32, B, V>,
 {
+    type Error = NotPositiveDefinite;
+
     fn encoder_positions(&self) -> [f32; N] {
         last(&self.0.state.q)
     }

@@ -11,6 +11,7 @@ use crate::plant::{Plant, Simulated, last};
 
 mod ablation;
 mod app;
+pub mod clustered;
 mod errors;
 mod firmware;
 mod noise;
@@ -47,8 +48,10 @@ pub trait Scene<const B: usize, const Q: usize, const V: usize, const N: usize>:
     const EFFECTS: Self::Effects;
     /// Whether the environment leaves the effects as they are: their numbers are then known while compiling.
     const CONSTANT_EFFECTS: bool = size_of::<Self::Environment>() == 0;
-    /// The pose whose M sets the gains.
-    const GAIN_POSE: [f32; Q];
+    /// The pose whose M sets the gains: only the default of [`Scene::inertia`] reads it.
+    const GAIN_POSE: [f32; Q] = [0.0; Q];
+    /// Steps of the simulated robot in a tick.
+    const STEPS: u32 = STEPS;
     /// What that pose is called.
     const GAIN_POSE_NAME: &'static str;
 

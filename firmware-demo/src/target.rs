@@ -114,7 +114,7 @@ where
                 fail("a record was lost: the queue is too short");
             }
             if record.broken {
-                fail("the simulated robot failed: its mass matrix is not positive definite");
+                fail("the simulated robot failed: it has no forward dynamics");
             }
             errors.add(&record);
             if record.tick % SAMPLE == 0 {

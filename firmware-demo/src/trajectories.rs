@@ -5,6 +5,7 @@ use core::f32::consts::{FRAC_PI_2, FRAC_PI_4};
 use dynamics_core::control::WayPoint;
 
 pub mod hop;
+pub mod picks;
 pub mod watch;
 
 /// Where the UR5e's pick and place begins and ends, rad.
@@ -146,6 +147,25 @@ pub const LEG_STEPS: [WayPoint<f32, 3>; 7] = [
     pass([0.25, 0.95, -2.20], [0.0, -4.0, 0.0], 120),
     stop([0.20, 0.55, -1.50], 120),
     stop(STANDING, 240),
+];
+
+/// Where the steps of a humanoid's leg begin and end: knee, pitch and roll of the ankle, rad.
+pub const MID_STANCE: [f32; 3] = [0.3, -0.15, 0.0];
+
+/// Two steps of a humanoid's leg in the air: knee, pitch and roll of the ankle. The heel rises, the leg swings, the heel
+/// comes down, and the foot follows the ground; it rolls to the left in the first and to the right in the second.
+pub const ANKLE_STEPS: [WayPoint<f32, 3>; 11] = [
+    stop(MID_STANCE, 0),
+    pass([0.75, 0.40, 0.08], [4.0, 0.0, 0.0], 220),
+    pass([1.10, -0.05, 0.15], [0.0, -2.0, 0.0], 150),
+    stop([0.08, -0.10, 0.06], 280),
+    stop([0.30, 0.15, -0.06], 130),
+    stop(MID_STANCE, 220),
+    pass([0.75, 0.40, -0.08], [4.0, 0.0, 0.0], 220),
+    pass([1.10, -0.05, -0.15], [0.0, -2.0, 0.0], 150),
+    stop([0.08, -0.10, -0.06], 280),
+    stop([0.30, 0.15, 0.06], 130),
+    stop(MID_STANCE, 220),
 ];
 
 /// A way-point at rest.

@@ -23,6 +23,10 @@ pub enum Scene {
     GimbalShip,
     /// An arm of low gear ratios, whose motors' rotors are gyroscopes.
     DirectDrive,
+    /// A humanoid's leg steps in the air; two motors tilt its foot by rods, a closed loop.
+    ParallelAnkle,
+    /// A Delta robot picks 120 parts a minute; three closed loops.
+    DeltaPick,
 }
 
 impl Scene {
@@ -42,6 +46,8 @@ impl Scene {
             Self::DirectDrive => "direct_drive",
             Self::SpaceArm => "space_arm",
             Self::GimbalShip => "gimbal_ship",
+            Self::ParallelAnkle => "parallel_ankle",
+            Self::DeltaPick => "delta_pick",
         }
     }
 }

@@ -8,11 +8,11 @@ use core::fmt;
 
 use super::clustered::Unbounded;
 use super::passes::Passes;
-use super::{ClusterError, Clustered, ClusteredRobot, TreeAlgorithms};
+use super::{ClusterError, Clustered, ClusteredRobot, TreeAlgorithms, TreeMotion};
 use crate::Core;
 use crate::algorithms::NotPositiveDefinite;
 use crate::effects::Effect;
-use crate::model::Static;
+use crate::model::{RobotModel, Static};
 use crate::scalar::Real;
 use crate::state::State;
 use crate::trig::Kernel;
@@ -104,6 +104,61 @@ impl<T, K> Clustered<Core<T, K>> {
         Core<T, K>: TreeAlgorithms<R, B, Q, V, Robot = T, Kernel = Unbounded<K>>,
         E: Effect<R, B, V>,
     {
+        let motion = Clustered::<Core<T, K>>::motion(y)?;
+        motion.aba(&Static::<T, K>::NEW, tau, effects)
+    }
+}
+
+impl<R, T, const B: usize, const Q: usize, const V: usize, const P: usize, const Y: usize>
+    TreeMotion<R, T, B, Q, V, P, Y>
+where
+    R: Real,
+    T: ClusteredRobot<B, Q, V, P, Y>,
+{
+    /// ÿ = FD(y, ẏ, τ_y) of a robot with the joints and loops of `T` and inertias of its own, rad/s² or m/s²:
+    /// [`Calibrated`](crate::model::Calibrated), identified or disturbed.
+    ///
+    /// The lengths of the loops are those of `T`: placements of joints are not to be changed. See [`Clustered::aba`]
+    /// for the rest.
+    ///
+    /// # Cost
+    /// That of [`Clustered::aba`] without the motion of the tree.
+    ///
+    /// # Errors
+    /// As [`Clustered::aba`], but those of clusters that do not close.
+    ///
+    /// ```
+    /// # use dynamics_core::clusters::{Clustered, ClusteredRobot, Differential, Driven};
+    /// # use dynamics_core::model::{ArmModel, Robot};
+    /// # use dynamics_core::{Core, effects::RIGID_BODY, robots::Ur5e, state::State};
+    /// # struct Arm;
+    /// # impl Robot<6, 6, 6> for Arm {
+    /// #     const MODEL: ArmModel<f64, 6> = Ur5e::MODEL;
+    /// # }
+    /// # impl ClusteredRobot<6, 6, 6, 6, 6> for Arm {
+    /// #     type Clusters = (Driven<Differential, 2, 2>,);
+    /// #     const CLUSTERS: Self::Clusters = (Driven::new("wrist", Differential::new([1.0, 1.0])),);
+    /// #     const COORDINATES: &'static [&'static [usize]] = &[&[4, 5]];
+    /// # }
+    /// use dynamics_core::model::Calibrated;
+    /// let mut heavy = Calibrated::<Arm, f64, 6, 6, 6>::nominal();
+    /// for inertia in heavy.inertias() {
+    ///     *inertia = *inertia + *inertia;
+    /// }
+    /// let y = State { q: [0.1, -1.2, 1.5, 0.3, 0.9, 0.2], qd: [0.5; 6], qdd: [0.0; 6] };
+    /// let motion = Clustered::<Core<Arm>>::motion(&y)?;
+    /// let tau = [40.0; 6];
+    /// let light = Clustered::<Core<Arm>>::aba(&y, &tau, &RIGID_BODY)?;
+    /// let same = motion.aba(&heavy, &tau.map(|tau| 2.0 * tau), &RIGID_BODY)?;
+    /// assert!(light.iter().zip(same).all(|(a, b)| (a - b).abs() < 1e-9)); // twice the torque on twice the mass
+    /// # Ok::<(), dynamics_core::clusters::ForwardError>(())
+    /// ```
+    #[inline(always)]
+    pub fn aba<D, E>(&self, robot: &D, tau: &[R; Y], effects: &E) -> Result<[R; Y], ForwardError>
+    where
+        D: RobotModel<R, B, Q, V>,
+        E: Effect<R, B, V>,
+    {
         const {
             assert!(
                 E::ACCELERATIONS,
@@ -114,9 +169,7 @@ impl<T, K> Clustered<Core<T, K>> {
                 "no rotors that spin as bodies here; make them bodies of the tree"
             );
         };
-        let motion = Clustered::<Core<T, K>>::motion(y)?;
-        let robot = Static::<T, K>::NEW;
-        let mut passes = Passes::new(&robot, &motion, effects);
+        let mut passes = Passes::new(robot, self, effects);
         for i in (0..B).rev() {
             passes.inward(i, tau)?;
         }

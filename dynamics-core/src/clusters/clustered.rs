@@ -2,13 +2,13 @@
 
 use core::marker::PhantomData;
 
-use super::layout::{EXPANDED, NONE, at, is_near};
+use super::layout::{EXPANDED, NONE, at, joint};
 use super::set::{TreeState, sealed::Set};
 use super::{ClusterError, ClusteredRobot, TreeMotion};
 use crate::algorithms::rnea;
 use crate::effects::{Effect, JointState, OfBodies};
 use crate::engine::{for_each_joint, has_subtree_functions};
-use crate::model::{JointCoordinate, JointKind, Model, Robot, RobotModel, Static};
+use crate::model::{JointCoordinate, Robot, RobotModel, Static};
 use crate::scalar::Real;
 use crate::state::{JointTrig, State, entry};
 use crate::trig::Kernel;
@@ -242,7 +242,15 @@ impl<A> Clustered<A> {
 
 /// The tree's state, and the motions of its clusters.
 #[inline(always)]
-fn evaluate<R, A, const B: usize, const Q: usize, const V: usize, const P: usize, const Y: usize>(
+pub(super) fn evaluate<
+    R,
+    A,
+    const B: usize,
+    const Q: usize,
+    const V: usize,
+    const P: usize,
+    const Y: usize,
+>(
     y: &State<R, P, Y>,
 ) -> Result<TreeMotion<R, A::Robot, B, Q, V, P, Y>, ClusterError>
 where
@@ -293,18 +301,4 @@ where
         motions,
         one: [R::ONE],
     })
-}
-
-/// Whether the joint of velocity coordinate `v` is prismatic, and whether its limits are within ±4π.
-const fn joint<const B: usize, const Q: usize, const V: usize>(
-    model: &Model<f64, B, Q, V>,
-    v: usize,
-) -> (bool, bool) {
-    let mut i = 0;
-    while i + 1 < B && model.links[i].idx_v != v {
-        i += 1;
-    }
-    let link = &model.links[i];
-    let prismatic = matches!(link.joint.kind, JointKind::Prismatic);
-    (prismatic, is_near(link))
 }

@@ -113,6 +113,10 @@ where
 
     /// Iᴬ and pᴬ of the group's parent body: Σ Xᵀ Iᴬ X − U D⁻¹ Uᵀ, and the bias force + U D⁻¹ u.
     fn eliminate_group(&mut self, group: &Group, bias_force: Force<R>) {
+        let carrier = self.bodies.get(group.root).map(|body| body.link.parent);
+        let Some(carrier) = carrier.filter(|&parent| parent < B) else {
+            return; // The base takes the forces, and nobody reads them.
+        };
         for i in (group.root..group.end).rev() {
             let member = self.is_in(group, i);
             let (inner, outer) = self.bodies.split_at_mut_checked(i).unwrap_or_default();
@@ -124,8 +128,7 @@ where
                 parent.magnitude += body.magnitude.at_parent(body.x.pos);
             }
         }
-        let carrier = self.bodies.get(group.root).map(|body| body.link.parent);
-        let Some(carrier) = carrier.and_then(|parent| self.bodies.get_mut(parent)) else {
+        let Some(carrier) = self.bodies.get_mut(carrier) else {
             return;
         };
         carrier.pa += bias_force;

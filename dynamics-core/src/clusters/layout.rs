@@ -191,9 +191,23 @@ const fn is_scalar(kind: JointKind) -> bool {
 }
 
 /// Whether a joint has limits within ±4π, as the engine takes them for its sines.
-pub(super) const fn is_near(link: &Link<f64>) -> bool {
+const fn is_near(link: &Link<f64>) -> bool {
     const FOUR_PI: f64 = 4.0 * core::f64::consts::PI;
     link.limits.lower >= -FOUR_PI && link.limits.upper <= FOUR_PI
+}
+
+/// Whether the joint of velocity coordinate `v` is prismatic, and whether its limits are within ±4π.
+pub(super) const fn joint<const B: usize, const Q: usize, const V: usize>(
+    model: &Model<f64, B, Q, V>,
+    v: usize,
+) -> (bool, bool) {
+    let mut i = 0;
+    while i + 1 < B && model.links[i].idx_v != v {
+        i += 1;
+    }
+    let link = &model.links[i];
+    let prismatic = matches!(link.joint.kind, JointKind::Prismatic);
+    (prismatic, is_near(link))
 }
 
 /// An entry of a list, or [`NONE`] behind its end: for constants that are evaluated where they are not used, too.

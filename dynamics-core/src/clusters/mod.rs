@@ -58,6 +58,7 @@ mod description;
 mod inward;
 mod layout;
 mod linkages;
+mod motor_motion;
 mod motors;
 mod passes;
 mod set;

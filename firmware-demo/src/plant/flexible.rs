@@ -49,6 +49,8 @@ where
     T: Robot<B, B, B>,
     E: Effect<f32, B, B>,
 {
+    type Error = NotPositiveDefinite;
+
     fn encoder_positions(&self) -> [f32; B] {
         self.motors.position
     }

@@ -11,7 +11,7 @@ use crate::control_loop::{ControlLoop, Telemetry};
 use crate::plant::{Rig, Simulated};
 use crate::sim_io::{SimDrive, SimEncoder, Wires};
 
-/// Steps of the simulated robot in a tick.
+/// Steps of the simulated robot in a tick, unless its scene has others.
 pub const STEPS: u32 = 4;
 /// Ticks that each run goes on after the reference's end.
 const SETTLE: u32 = 200;
@@ -29,8 +29,7 @@ pub struct Record<const N: usize> {
     pub telemetry: Telemetry<N>,
     /// Where the joints truly are.
     pub actual: [f32; N],
-    /// The plant failed in this tick: its mass matrix is not positive definite, and no record
-    /// follows.
+    /// The plant failed in this tick: it has no forward dynamics, and no record follows.
     pub broken: bool,
 }
 
@@ -113,8 +112,8 @@ where
         let now = self.tick as f32;
         let telemetry = (run.tick)(&mut self.control, &self.reference, &environment(now));
         let actual = self.rig.plant.actual();
-        let part = 1.0 / STEPS as f32;
-        let advanced = self.rig.advance(self.wires, STEPS, TICK * part, |step| {
+        let part = 1.0 / S::STEPS as f32;
+        let advanced = self.rig.advance(self.wires, S::STEPS, TICK * part, |step| {
             environment(now + part * step as f32)
         });
         self.broken = advanced.is_err();

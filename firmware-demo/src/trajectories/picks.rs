@@ -1,0 +1,158 @@
+//! Picks of a Delta robot: the path of its platform, and the cranks' motion in closed form.
+
+use dynamics_core::control::{MotionLimits, Reference, Trajectory, TrajectoryError, WayPoint};
+use dynamics_core::scalar::Real;
+use dynamics_core::state::State;
+
+use crate::robots::PickDelta;
+use crate::robots::pick_delta::SIDES;
+use crate::scene::TICK;
+
+/// The lift and the reach of a move, m: 25 mm up, 305 mm across, 25 mm down is the cycle in which makers state the
+/// speed of such robots.
+pub const LIFT: f32 = 0.025;
+/// See [`LIFT`].
+pub const REACH: f32 = 0.305;
+/// Where the parts lie, m.
+pub const FEEDER: [f32; 3] = [-0.16, -0.06, -0.95];
+/// A move, ticks: there and back is half a second, 120 picks a minute.
+pub const MOVE: u32 = 250;
+/// cos and sin of the directions of the places where they go: −30°, 0°, 30°, 60°.
+const PLACES: [[f32; 2]; 4] = [
+    [0.866_025_4, -0.5],
+    [1.0, 0.0],
+    [0.866_025_4, 0.5],
+    [0.5, 0.866_025_4],
+];
+
+/// Ticks of a lift, and of lowering.
+const UP: u32 = 60;
+/// How far from its ends a move is at its full height, m, and at what speed it is there, m/s.
+const CORNER: f32 = 0.02;
+const SPEED: f32 = 1.5;
+
+/// The way-points: the feeder, and three of each move.
+const POINTS: usize = 1 + 6 * PLACES.len();
+
+/// The way of the platform.
+const WAY: [WayPoint<f32, 3>; POINTS] = {
+    let start = WayPoint {
+        q: FEEDER,
+        qd: [0.0; 3],
+        ticks: 0,
+    };
+    let (mut way, mut i) = ([start; POINTS], 0);
+    while i < PLACES.len() {
+        let [cos, sin] = PLACES[i];
+        // There, and back.
+        let mut k = 0;
+        while k < 2 {
+            let (from, to, sign) = if k == 0 {
+                (0.0, REACH, 1.0)
+            } else {
+                (REACH, 0.0, -1.0)
+            };
+            let first = 1 + 6 * i + 3 * k;
+            let speed = sign * SPEED;
+            way[first] = point([cos, sin], from + sign * CORNER, LIFT, speed, UP);
+            way[first + 1] = point([cos, sin], to - sign * CORNER, LIFT, speed, MOVE - 2 * UP);
+            way[first + 2] = point([cos, sin], to, 0.0, 0.0, UP);
+            k += 1;
+        }
+        i += 1;
+    }
+    way
+};
+
+/// A way-point so far from the feeder and so high, at a speed in this direction.
+const fn point(
+    [cos, sin]: [f32; 2],
+    along: f32,
+    lift: f32,
+    speed: f32,
+    ticks: u32,
+) -> WayPoint<f32, 3> {
+    let [x, y, z] = FEEDER;
+    WayPoint {
+        q: [x + cos * along, y + sin * along, z + lift],
+        qd: [cos * speed, sin * speed, 0.0],
+        ticks,
+    }
+}
+
+/// Four picks.
+#[derive(Clone, Copy, Debug)]
+pub struct Picks {
+    platform: Trajectory<f32, 3, POINTS>,
+}
+
+impl Picks {
+    /// At ten times the acceleration of gravity at most, and 3 m/s.
+    ///
+    /// # Errors
+    /// A path that needs more.
+    pub fn new() -> Result<Self, TrajectoryError> {
+        let limits = MotionLimits {
+            velocity: 3.0,
+            acceleration: 98.1,
+        };
+        let platform = Trajectory::new(&WAY, TICK, &[limits; 3])?;
+        Ok(Self { platform })
+    }
+
+    /// Where the platform is to be at a tick, m, m/s and m/s².
+    pub fn platform(&self, tick: u32) -> State<f32, 3, 3> {
+        self.platform.at(tick)
+    }
+}
+
+impl Reference<f32, 3> for Picks {
+    #[inline(always)]
+    fn at(&self, tick: u32) -> State<f32, 3, 3> {
+        cranks(&self.platform.at(tick))
+    }
+
+    fn ticks(&self) -> u32 {
+        self.platform.ticks()
+    }
+}
+
+/// The cranks' motion at a platform's, each with its knee outwards; not a number where a crank does not reach.
+///
+/// With e from the crank's end to the platform: a cos θ + b sin θ = k from |e| = l, e·ė = 0, and its derivative.
+#[inline(always)]
+pub fn cranks<R: Real>(platform: &State<R, 3, 3>) -> State<R, 3, 3> {
+    let [radius, l, k0] = const {
+        let (l, rod) = (PickDelta::CRANK, PickDelta::ROD);
+        [PickDelta::BASE - PickDelta::PLATFORM, l, l * l - rod * rod]
+    }
+    .map(R::from_f64);
+    let half_inv = R::from_f64(const { 0.5 / PickDelta::CRANK });
+    let mut cranks = State::at([R::ZERO; 3]);
+    for (j, [cos, sin]) in SIDES.into_iter().enumerate() {
+        let [cos, sin] = [cos, sin].map(R::from_f64);
+        let turned = |[x, y, z]: [R; 3]| [cos * x + sin * y, cos * y - sin * x, z];
+        let [x, y, z] = turned(platform.q);
+        let (pd, pdd) = (turned(platform.qd), turned(platform.qdd));
+        let (a, b) = (x - radius, -z);
+        let k = (a * a + y * y + b * b + k0) * half_inv;
+        let r2 = a * a + b * b;
+        let h = (r2 - k * k).sqrt();
+        let r2_inv = R::ONE / r2;
+        let (c, s) = ((a * k + b * h) * r2_inv, (b * k - a * h) * r2_inv);
+        // e, of the crank's end (l c, 0, −l s), which moves along t = (−l s, 0, −l c) per rad: e·t = l h.
+        let e = [a - l * c, y, l * s - b];
+        let inv = R::ONE / (l * h);
+        let rate = dot(e, pd) * inv;
+        let ed = [pd[0] + l * s * rate, pd[1], pd[2] + l * c * rate];
+        let inward = e[0] * c - e[2] * s;
+        let accel = (dot(e, pdd) + l * inward * rate * rate + dot(ed, ed)) * inv;
+        (cranks.q[j], cranks.qd[j], cranks.qdd[j]) = (s.atan2(c), rate, accel);
+    }
+    cranks
+}
+
+/// a·b
+fn dot<R: Real>(a: [R; 3], b: [R; 3]) -> R {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}

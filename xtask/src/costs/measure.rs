@@ -6,7 +6,7 @@ use cycle_meter::Sample;
 use serde::Serialize;
 
 use crate::callgraph::Reach;
-use crate::elf::Image;
+use crate::elf::{Image, is_panic};
 use crate::error::{Error, Result, bail, check};
 use crate::firmware;
 use crate::meter::{self, Cost, Spread};
@@ -15,8 +15,9 @@ use crate::qemu::Run;
 use crate::setup::Tools;
 use crate::workspace::Workspace;
 
-/// Two bins for each robot, inverse dynamics and the rest: the compiler builds them side by side.
-pub const BINS: [&str; 8] = [
+/// Two bins for each robot, inverse dynamics and the rest, and two for robots with loops: the compiler builds them side by
+/// side.
+pub const BINS: [&str; 10] = [
     "costs_ur5e",
     "forward_ur5e",
     "costs_panda",
@@ -25,6 +26,8 @@ pub const BINS: [&str; 8] = [
     "forward_iiwa14",
     "costs_a1",
     "forward_a1",
+    "costs_clusters",
+    "costs_loops",
 ];
 
 /// What a function costs; the fields are those of the JSON.
@@ -236,6 +239,11 @@ pub fn code_bytes(image: &Image, address: u64, left_out: impl Fn(&str) -> bool) 
         return Err(Error::check(why));
     }
     let reach = Reach::of(image, |f| f.address == address)?;
+    for (function, path) in reach.functions() {
+        if let Some(name) = function.names.iter().find(|name| is_panic(name)) {
+            bail!("the function at {address:#x} reaches `{name}`: {path}");
+        }
+    }
     let functions = reach.functions();
     let counted = functions.filter(|(f, _)| !f.names.iter().any(|name| left_out(name)));
     Ok(counted.map(|(f, _)| f.bytes.len() as u64).sum())

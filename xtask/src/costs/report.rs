@@ -15,6 +15,9 @@ pub const TICK: &str = " tick";
 /// The end of the name of a bar of what effects add to a rigid body's call.
 pub const ADDED: &str = " added";
 
+/// Between the names of two rows in a bar on the difference of their figures.
+const OVER: &str = " over ";
+
 /// Everything that is printed.
 pub struct Report {
     /// What was measured.
@@ -52,12 +55,12 @@ impl Report {
     /// Every bar that there is a figure for: of the rows, then of the engine at opt-level s against itself at 3.
     fn compared(&self) -> Vec<Compared> {
         let mut all = Vec::new();
-        for (key, row) in self
+        for (key, figures) in self
             .bars
             .keys()
-            .filter_map(|key| Some((key, self.row(key)?)))
+            .filter_map(|key| Some((key, self.figures(key)?)))
         {
-            let figures = row.figures().into_iter();
+            let figures = figures.into_iter();
             let compared = |(figure, value)| Compared::of(&self.bars, key, figure, value as f64);
             all.extend(figures.filter_map(compared));
         }
@@ -82,13 +85,25 @@ impl Report {
         let bars = self.bars.keys().filter(|key| !is_ratio(key));
         let unknown = bars
             .filter(|key| ![TICK, ADDED].iter().any(|end| key.ends_with(end)))
-            .filter(|key| self.row(key).is_none())
+            .filter(|key| self.figures(key).is_none())
             .map(|key| format!("{key}: there is no such row"));
         unmet.chain(unknown).collect()
     }
 
     fn row(&self, key: &str) -> Option<&Row> {
         self.rows.iter().find(|row| row.key() == key)
+    }
+
+    /// The figures of a row, or those by which one exceeds another.
+    fn figures(&self, key: &str) -> Option<[(&'static str, u64); 4]> {
+        let Some((key, base)) = key.split_once(OVER) else {
+            return Some(self.row(key)?.figures());
+        };
+        let (mut figures, base) = (self.row(key)?.figures(), self.row(base)?.figures());
+        for ((_, figure), (_, base)) in figures.iter_mut().zip(base) {
+            *figure = figure.saturating_sub(base);
+        }
+        Some(figures)
     }
 
     /// The rows at opt-level s, and beside them those at 3.

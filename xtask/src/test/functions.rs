@@ -5,23 +5,16 @@ use cycle_meter::Sample;
 use super::Context;
 use crate::budgets;
 use crate::callgraph::Reach;
-use crate::costs::{self, Row};
-use crate::elf::Image;
+use crate::costs;
+use crate::elf::{Image, is_panic};
 use crate::error::{Error, Result, bail, check, refuse_if};
 use crate::firmware;
 use crate::meter::Cost;
 use crate::qemu::Run;
 use crate::shell;
-use crate::toolchain::RELEASE;
 
 /// How many hard cases run in QEMU at least.
 const HARD_CASES: usize = 25;
-/// The cycles by which a leg with a four-bar may exceed its spanning tree.
-const CLUSTER: u64 = 180;
-
-/// The cycles of the torques of six motors behind a cluster, away from a dead point.
-const MOTORS: u64 = 1300;
-
 /// Whether a symbol is `ControlLoop::tick`, which is there once for each control law.
 fn is_tick(symbol: &str) -> bool {
     symbol.contains("ControlLoop") && symbol.contains("4tick")
@@ -31,64 +24,6 @@ pub fn clippy(context: &Context) -> Result<String> {
     let toolchain = context.tools.toolchain;
     let mut command = toolchain.firmware(&context.workspace, "clippy");
     shell::capture(command.args(["--lib", "--bins", "--", "-D", "warnings"]))
-}
-
-/// The four-bar leg takes at most [`CLUSTER`] cycles more than its spanning tree with all angles given.
-pub fn clusters(context: &Context) -> Result<String> {
-    let (workspace, tools) = (&context.workspace, &context.tools);
-    cluster_cycles(&costs::measure_bins(
-        workspace,
-        tools,
-        RELEASE,
-        &["clusters"],
-    )?)
-}
-
-fn cluster_cycles(rows: &[Row]) -> Result<String> {
-    let cycles = |algorithm: &str| {
-        let key = format!("four_bar_leg {algorithm} engine full trig");
-        let row = rows.iter().find(|row| row.key() == key);
-        row.map(|row| row.cycles.max)
-            .ok_or_else(|| check!("nothing measured `{key}`"))
-    };
-    let more = cycles("rnea_clusters")?.saturating_sub(cycles("rnea_tree")?);
-    refuse_if!(more > CLUSTER, "{more} cycles, at most {CLUSTER}");
-    Ok(format!("four-bar leg {more} of {CLUSTER} cycles"))
-}
-
-/// Machines with loops run on the target, and no panic is reached from their functions.
-pub fn loops(context: &Context) -> Result<String> {
-    let (workspace, tools, bin) = (&context.workspace, &context.tools, "loops");
-    let rows = costs::measure_bins(workspace, tools, RELEASE, &[bin])?;
-    let image = Image::read(&context.built(bin)?)?;
-    for row in &rows {
-        let reach = Reach::of(&image, |function| function.address == row.address)?;
-        for (function, path) in reach.functions() {
-            if let Some(name) = function.names.iter().find(|name| is_panic(name)) {
-                bail!("`{}` reaches `{name}`: {path}", row.key());
-            }
-        }
-    }
-    loop_figures(&rows)
-}
-
-fn loop_figures(rows: &[Row]) -> Result<String> {
-    let motors = "stewart_platform to_motors core full trig";
-    let row = rows.iter().find(|row| row.key() == motors);
-    let cycles = row.ok_or_else(|| check!("nothing measured `{motors}`"))?;
-    let cycles = cycles.cycles.max;
-    refuse_if!(
-        cycles > MOTORS,
-        "`{motors}` takes {cycles} cycles, at most {MOTORS}"
-    );
-    let figures = rows.iter().map(|row| {
-        let (cycles, code, stack) = (row.cycles.max, row.code_bytes, row.stack_bytes);
-        format!(
-            "{}: {cycles} cycles, {code} B of code, {stack} B of stack",
-            row.key()
-        )
-    });
-    Ok(figures.collect::<Vec<_>>().join("; "))
 }
 
 pub fn build(context: &Context) -> Result<String> {
@@ -162,13 +97,6 @@ fn is_f64(symbol: &str) -> bool {
     let trig = "sin cos tan rem_pio2";
     let plain = symbol.strip_suffix('f').unwrap_or(symbol);
     runtime || trig.split(' ').any(|f| f == plain) || (symbol.contains("libm") && has(trig))
-}
-
-/// Whether a symbol is one of those that a failed check of `core`'s ends in.
-fn is_panic(symbol: &str) -> bool {
-    let parts = "4core9panicking unwrap_failed expect_failed index_fail index_len_fail index_order_fail \
-                 len_mismatch_fail panic_already_ rust_begin_unwind";
-    parts.split(' ').any(|part| symbol.contains(part))
 }
 
 pub fn opcodes(context: &Context) -> Result<String> {
@@ -259,7 +187,7 @@ fn steady(kinds: &[Kind], mut samples: &[Sample]) -> Result<Vec<String>> {
 mod tests {
     use cycle_meter::Sample;
 
-    use super::{Kind, Row, is_f64, is_panic, steady};
+    use super::{Kind, is_f64, is_panic, steady};
 
     #[test]
     fn panics_are_known_by_their_symbols() {
@@ -308,36 +236,6 @@ mod tests {
         host[7] = "bits hard 7 a 06";
         let error = super::same_bits(&lines, &host).expect_err("another bit");
         assert!(error.to_string().contains(host[7]), "{error}");
-    }
-
-    #[test]
-    fn clusters_that_cost_too_much_are_refused_and_so_are_missing_rows() {
-        let row =
-            |algorithm, cycles| Row::sample(["four_bar_leg", algorithm, "engine", "full"], cycles);
-        let rows = |more: u64| [row("rnea_tree", 400), row("rnea_clusters", 400 + more)];
-        let cheap = super::cluster_cycles(&rows(180)).expect("within the bar");
-        assert_eq!(cheap, "four-bar leg 180 of 180 cycles");
-        let dear = super::cluster_cycles(&rows(181))
-            .expect_err("beyond it")
-            .to_string();
-        assert!(dear.contains("181 cycles, at most 180"), "{dear}");
-        assert!(super::cluster_cycles(&rows(0)[..1]).is_err());
-    }
-
-    #[test]
-    fn torques_of_motors_that_cost_too_much_are_refused_and_so_are_missing_rows() {
-        let row = |cycles| {
-            [Row::sample(
-                ["stewart_platform", "to_motors", "core", "full"],
-                cycles,
-            )]
-        };
-        assert!(super::loop_figures(&row(1300)).is_ok());
-        let dear = super::loop_figures(&row(1301))
-            .expect_err("beyond it")
-            .to_string();
-        assert!(dear.contains("1301 cycles, at most 1300"), "{dear}");
-        assert!(super::loop_figures(&[]).is_err());
     }
 
     #[test]

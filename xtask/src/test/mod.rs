@@ -102,8 +102,6 @@ const STEPS: &[Step] = &[
     ("growth", Target, Full, "inverse and forward dynamics grow in step with a chain, and docs/growth.md says so",
         |c| growth::check(&c.workspace, &growth::measure(&c.workspace, &c.tools)?)),
     ("absent-effects", Target, Everyday, "an effect that a scene does not name costs it nothing", absent::absent_effects_cost_nothing),
-    ("clusters", Target, Everyday, "a loop as a cluster of joints costs little more than its tree with all angles given", functions::clusters),
-    ("loops", Target, Everyday, "dynamics of machines with loops and the torques of their motors run on the target and reach no panic", functions::loops),
     ("accuracy", Target, Full, "docs/accuracy.md has today's costs and errors of single changes; what is printed as generated code keeps them",
         |c| accuracy::check(&c.workspace, &c.tools)),
     ("effects", Target, Full, "docs/effects.md has today's prices", |c| effects::check(&c.workspace, &c.tools)),

@@ -1,23 +1,19 @@
-//! Dynamics of machines with kinematic loops, and the torques of motors behind a cluster: `cargo xtask test loops`
-//! measures them, and shows that they reach no panic.
+//! What dynamics of machines with kinematic loops cost, by general constraints.
 #![no_std]
 #![no_main]
 
-#[path = "../costs/mod.rs"]
 mod costs;
 
 use costs::row::Row;
 use costs::{STATES, done};
-use dynamics_core::Core;
-use dynamics_core::clusters::{Clustered, TreeMotion};
 use dynamics_core::effects::{Coriolis, Gravity, Inertia, RIGID_BODY};
 use dynamics_core::loops::{
     LoopRobot, LoopTorque, Moving, Stabilisation, assemble, forward_dynamics, inverse_dynamics,
 };
 use dynamics_core::model::Static;
 use dynamics_core::state::State;
+use firmware_demo::robots::Delta;
 use firmware_demo::robots::planar_loops::{FiveBar, FourBar};
-use firmware_demo::robots::{Delta, StewartPlatform};
 
 type Scene = (Gravity, Inertia, Coriolis);
 
@@ -138,28 +134,6 @@ fn rows<
     of("forward_loops").measure(run as *const () as usize, states, |state| run(state, scene));
 }
 
-type Platform = TreeMotion<f32, StewartPlatform, 24, 24, 24, 6, 6>;
-
-/// The forces of the legs, or none.
-#[inline(never)]
-fn to_motors(platform: &Platform, tau: &[f32; 6]) -> Option<[f32; 6]> {
-    platform.to_motors(tau).ok().map(|found| found.tau)
-}
-
-fn legs(inputs: &'static str, yaw: f32) {
-    let motions = [0.0_f32, 0.05, 0.1, 0.15].map(|off| {
-        let y = State::at([off, -off, 0.8, yaw + off, 0.0, 0.0]);
-        match Clustered::<Core<StewartPlatform>>::motion(&y) {
-            Ok(motion) => motion,
-            Err(_) => defmt::panic!("the legs have a length"),
-        }
-    });
-    let row = Row::of::<StewartPlatform, 24, 24>("to_motors", "core", inputs, true);
-    row.measure(to_motors as *const () as usize, &motions, |platform| {
-        to_motors(platform, &[1.0, 2.0, 100.0, 1.0, 2.0, 3.0])
-    });
-}
-
 #[cortex_m_rt::entry]
 fn main() -> ! {
     let home = [-1.0, 0.5, -1.5];
@@ -179,7 +153,5 @@ fn main() -> ! {
     }
     let delta = states::<Delta, 10, 22, 21, 6, 18, 3>(home, ([7, 12, 17], 0.4));
     rows::<Delta, 10, 22, 21, 6, 18, 3>("full", &delta);
-    legs("full", 0.0);
-    legs("singular", 1.55);
     done()
 }

@@ -149,11 +149,11 @@ pub const LEG_STEPS: [WayPoint<f32, 3>; 7] = [
     stop(STANDING, 240),
 ];
 
-/// Where the steps of a humanoid's leg begin and end: knee, pitch and roll of the ankle, rad.
+/// The configuration in which the steps of a humanoid's leg begin and end: knee, pitch and roll of the ankle, rad.
 pub const MID_STANCE: [f32; 3] = [0.3, -0.15, 0.0];
 
-/// Two steps of a humanoid's leg in the air: knee, pitch and roll of the ankle. The heel rises, the leg swings, the heel
-/// comes down, and the foot follows the ground; it rolls to the left in the first and to the right in the second.
+/// Two steps of a humanoid's leg in the air: knee, pitch and roll of the ankle. The heel rises, the leg swings, the
+/// heel comes down, and the foot follows the ground; it rolls to the left in the first and to the right in the second.
 pub const ANKLE_STEPS: [WayPoint<f32, 3>; 11] = [
     stop(MID_STANCE, 0),
     pass([0.75, 0.40, 0.08], [4.0, 0.0, 0.0], 220),

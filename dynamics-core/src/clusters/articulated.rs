@@ -8,7 +8,7 @@ use crate::spatial::inertia::ArticulatedInertia;
 use crate::spatial::{Force, Motion, Xform};
 use crate::state::entry;
 
-/// What the passes know of a body.
+/// The data of a body in the three passes.
 pub(super) struct Body<'a, R: Real> {
     pub(super) link: LinkView<'a, R>,
     pub(super) x: Xform<R>,
@@ -18,7 +18,7 @@ pub(super) struct Body<'a, R: Real> {
     pub(super) ia: ArticulatedInertia<R>,
     pub(super) pa: Force<R>,
     pub(super) magnitude: Magnitude<R>,
-    /// The body's acceleration within its cluster, and the force that it takes.
+    /// The body's acceleration within its cluster, and the force on it.
     pub(super) accel: Motion<R>,
     pub(super) force: Force<R>,
 }
@@ -32,7 +32,7 @@ pub(super) struct Factor<R: Real> {
     pub(super) l: [R; INDEPENDENT],
 }
 
-/// A column of D on its way to the factor.
+/// A column of D during its factorisation.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Column<R: Real> {
     pub(super) d: [R; INDEPENDENT],
@@ -42,7 +42,7 @@ pub(super) struct Column<R: Real> {
 }
 
 impl<R: Real> Column<R> {
-    /// Takes off the shares of the columns before it; returns the pivot.
+    /// Subtracts the multiples of the columns before it; returns the pivot.
     pub(super) fn eliminate(&mut self, before: &[Self]) -> R {
         let k = before.len();
         for (earlier, l) in before.iter().zip(&mut self.factor.l) {
@@ -64,7 +64,7 @@ impl<R: Real> Column<R> {
 pub(super) struct Group {
     /// Its first body.
     pub(super) root: usize,
-    /// The body behind its last one.
+    /// One past its last body.
     pub(super) end: usize,
     /// The cluster, or `NONE`.
     pub(super) cluster: usize,
@@ -74,7 +74,7 @@ pub(super) struct Group {
 }
 
 impl Group {
-    /// The parent of a body of the group, if it is of the group too: what carries the group is listed before all of it.
+    /// The parent of a body, if it is of the group too: the body that carries the group is listed before all of it.
     pub(super) fn parent_in<'b, 'a, R: Real>(
         &self,
         inner: &'b mut [Body<'a, R>],

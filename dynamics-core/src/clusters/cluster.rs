@@ -54,8 +54,8 @@ pub trait Cluster<const M: usize, const N: usize>: Copy {
     /// ±4π, else 10⁴ rad.
     ///
     /// # Errors
-    /// [`ClusterProblem`] where no configuration belongs to y. Of numbers that are finite every result must be finite;
-    /// at a singularity of G it is that of a damped G, and `singular` is set.
+    /// [`ClusterProblem`] where no configuration belongs to y. Where y and ẏ are finite every result must be finite; at
+    /// a singularity of G the results are those of a damped G, and `singular` is set.
     fn evaluate<R: Real, K: Kernel<R>>(
         &self,
         y: &[JointCoordinate<R>; N],

@@ -45,7 +45,7 @@ impl<A, R: Real, const B: usize, const Q: usize, const V: usize> TreeAlgorithms<
 mod sealed {
     use super::{ClusteredRobot, Effect, JointCoordinate, JointTrig, Kernel, Real, Robot, State};
 
-    /// What there is of core and engine.
+    /// The functions of core and engine that robots with clusters need.
     pub trait Tree<R: Real, const B: usize, const Q: usize, const V: usize> {
         /// The robot.
         type Robot: Robot<B, Q, V>;
@@ -176,6 +176,9 @@ impl<A> Clustered<A> {
     ///
     /// # Errors
     /// [`ClusterError`] names the cluster that no configuration closes at y.
+    ///
+    /// # Example
+    /// That of [`TreeMotion`].
     #[inline(never)]
     pub fn motion<
         R,
@@ -204,12 +207,14 @@ impl<A> Clustered<A> {
     /// Y.
     ///
     /// # Cost
-    /// That of the tree's `rnea` without the sines of the dependent angles, that of the clusters, and 2 M N flops for each.
-    /// The same instructions whatever the data, but at singularities. Dependent angles themselves, which only effects of
-    /// joints read, cost an arc tangent each where one does, in the core, and in the engine on trees of more than 16 joints.
+    /// That of the tree's `rnea` without the sines of the dependent angles, that of the clusters, and 2 M N flops for
+    /// each. The same instructions whatever the data, but at singularities. Dependent angles themselves, which only
+    /// effects of joints read, cost an arc tangent each where one does, in the core, and in the engine on trees of more
+    /// than 16 joints.
     ///
     /// # Errors
-    /// [`ClusterError`] names the cluster that no configuration closes at y.
+    /// [`ClusterError`] names the cluster that no configuration closes at y. ẏ and ÿ are not checked: where one is not
+    /// finite, torques are not.
     ///
     /// # Source
     /// Jain (2011), section 11.4; Featherstone, RBDA (2008), (3.16), G being the null space of the loops' constraints.
@@ -264,8 +269,8 @@ where
         qd: [R::ZERO; V],
         qdd: [R::ZERO; V],
     };
-    // Not by loops alone, which might not be unrolled: the tree's state would stay in memory, and with it what nobody
-    // reads.
+    // Not by loops alone, which might not be unrolled: the tree's state would stay in memory, and with it numbers that
+    // no effect reads.
     for_each_joint!(J, {
         let p = const { at(&TreeMotion::<R, A::Robot, B, Q, V, P, Y>::LAYOUT.free_q, J) };
         let y_k = const { at(&TreeMotion::<R, A::Robot, B, Q, V, P, Y>::LAYOUT.free, J) };

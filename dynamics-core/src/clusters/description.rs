@@ -6,7 +6,7 @@ use super::set::sealed;
 use super::{ClusterError, ClusterProblem, ClusterSet};
 use crate::model::Robot;
 
-/// A cluster of a robot, under a name.
+/// A cluster of a robot, with its name and the places of its motors.
 ///
 /// ```
 /// use dynamics_core::clusters::{Differential, Driven};
@@ -22,7 +22,7 @@ pub struct Driven<C, const M: usize, const N: usize> {
 }
 
 impl<C, const M: usize, const N: usize> Driven<C, M, N> {
-    /// A cluster with the motors at its independent coordinates; its name is in errors.
+    /// A cluster with the motors at its independent coordinates. Errors and statuses have its name.
     pub const fn new(name: &'static str, cluster: C) -> Self {
         Self {
             name,
@@ -59,8 +59,8 @@ impl<C, const M: usize, const N: usize> Driven<C, M, N> {
     /// The same with other rates of the motors, per unit rate of each independent coordinate, below which their torques
     /// are damped, in place of [`DEAD_POINT`] for all.
     ///
-    /// They are in the units of the motors over those of y, such as m/rad. They bound the torques of the motors: |τ_a| is
-    /// at most the root of the sum of squares of the torques at y, each over its rate.
+    /// They are in the units of the motors over those of y, such as m/rad. They bound the torques of the motors: |τ_a|
+    /// is at most the root of the sum of squares of the torques at y, each over its rate.
     ///
     /// ```
     /// use dynamics_core::clusters::{Branch, Driven, FourBar};
@@ -104,7 +104,7 @@ impl<C, const M: usize, const N: usize> Driven<C, M, N> {
 /// = Y.
 ///
 /// An impossible description does not compile: a coordinate that is driven twice, one that the robot does not have,
-/// bodies of a cluster that are on two bodies outside it, a joint with a quaternion, wrong P and Y. This one can be,
+/// bodies of a cluster that are on two bodies outside it, a joint with a quaternion, wrong P and Y. This one compiles,
 ///
 /// ```
 /// use dynamics_core::clusters::{Clustered, ClusteredRobot, Differential, Driven};
@@ -121,7 +121,7 @@ impl<C, const M: usize, const N: usize> Driven<C, M, N> {
 /// assert!(Clustered::<Core<Arm>>::rnea(&State::at([0.1; 6]), &RIGID_BODY).is_ok());
 /// ```
 ///
-/// and the same with a coordinate that is driven twice cannot:
+/// and the same with a coordinate that is driven twice does not,
 ///
 /// ```compile_fail,E0080
 /// # use dynamics_core::clusters::{Clustered, ClusteredRobot, Differential, Driven};

@@ -33,7 +33,7 @@ pub(super) struct Layout<const Q: usize, const V: usize> {
     pub(super) count: [usize; CLUSTERS],
     /// The first body of each cluster, which is the last that a pass from the tips reaches.
     pub(super) root: [usize; CLUSTERS],
-    /// The body behind the last one of each cluster.
+    /// One past the last body of each cluster.
     pub(super) end: [usize; CLUSTERS],
     /// Whether the joints of a cluster have limits within ±4π.
     pub(super) near: [bool; CLUSTERS],

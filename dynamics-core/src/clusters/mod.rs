@@ -46,9 +46,12 @@
 //! | [`Stewart`] | 24, 6 | the platform's position and attitude |
 //! | [`Transmission`](crate::drivetrain::Transmission) | its V, its M | its motors |
 //!
-//! Everything else of the tree is of use as it is: [`Clustered::motion`] gives the tree's state with its sines and
-//! cosines, which every algorithm of [`Core`](crate::Core) and [`Engine`](crate::Engine) accepts, and the maps of
-//! torques, M and Jacobians to y.
+//! Motors at other coordinates of a linkage than y are those of [`Driven::actuated`]; [`Clustered::rnea_of_motors`] and
+//! [`TreeMotion::to_motors`] have their torques, [`Clustered::motors`] their motion.
+//!
+//! Every other algorithm works on the tree: [`Clustered::motion`] gives the tree's state with its sines and cosines,
+//! which every algorithm of [`Core`](crate::Core) and [`Engine`](crate::Engine) accepts, and the maps of torques, M and
+//! Jacobians to y.
 
 mod aba;
 mod articulated;

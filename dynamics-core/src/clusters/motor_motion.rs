@@ -54,7 +54,8 @@ impl<A> Clustered<A> {
     /// That of both, with the clusters evaluated once.
     ///
     /// # Errors
-    /// As both: [`ClusterError`] names the cluster that no configuration closes at y, or of which a torque is not finite.
+    /// As both: [`ClusterError`] names the cluster that no configuration closes at y, or of which a torque is not
+    /// finite.
     ///
     /// # Example
     /// ```

@@ -14,7 +14,7 @@ use crate::state::{all_finite, entry};
 /// [`Driven::damped_below`](super::Driven::damped_below).
 pub const DEAD_POINT: f64 = 0.01;
 
-/// How many times larger than the pivot an entry below it is at least, for which rows are exchanged.
+/// Rows are exchanged where an entry below the pivot is more than this many times as large.
 const PIVOT: f64 = 4.0;
 
 /// The torques of the motors, and whether they are at a dead point.
@@ -35,10 +35,14 @@ where
     /// The torques of the motors that do the work of the torques τ at y, N·m or N: G_aᵀ τ_a = τ of each cluster's
     /// actuated rows.
     ///
-    /// In the places of y; a cluster without [`Driven::actuated`](super::Driven::actuated) rows has its motors at y.
+    /// A cluster without [`Driven::actuated`](super::Driven::actuated) rows has its motors at y.
     ///
-    /// At a dead point of the motors no torque of theirs does the work. Near it, τ_a is that of damped least squares, with
-    /// the rows of A = G_aᵀ and τ over [`Driven::damped_below`](super::Driven::damped_below):
+    /// # Shape
+    /// Y, in the places of y.
+    ///
+    /// # Dead points
+    /// At a dead point of the motors no torque of theirs does the work. Near it, τ_a is that of damped least squares,
+    /// with the rows of A = G_aᵀ and τ over [`Driven::damped_below`](super::Driven::damped_below):
     ///
     /// $$
     /// \tau_a = A^T (A A^T + \lambda^2 1)^{-1} \tau, \qquad \lambda^2 = 1 - \varsigma^2 \text{ where }
@@ -49,8 +53,8 @@ where
     /// Everywhere |τ_a| ≤ |τ| of these rows, and there is no jump where the damping ends.
     ///
     /// # Cost
-    /// N³/3 + 3 N² multiplications and N divisions for each cluster: 1,220 cycles of a Cortex-M4F with six motors. Near a
-    /// dead point some 5 N³ more: 11,500 cycles.
+    /// N³/3 + 3 N² multiplications and N divisions for each cluster: 1,220 cycles of a Cortex-M4F with six motors. Near
+    /// a dead point some 5 N³ more: 11,500 cycles.
     ///
     /// # Source
     /// Nakamura & Hanafusa (1986); Wampler (1986).
@@ -79,7 +83,10 @@ where
     ///     const COORDINATES: &'static [&'static [usize]] = &[&[0, 1, 2]];
     /// }
     /// let at = |crank: f64| Clustered::<Core<Knee>>::motion(&State::at([crank]));
-    /// assert_eq!(at(1.0)?.to_motors(&[1.0])?.singular, None);
+    /// let knee = at(1.0)?;
+    /// let motors = knee.to_motors(&[1.0])?;
+    /// assert_eq!(motors.singular, None);
+    /// assert!((knee.from_motors(&motors.tau)[0] - 1.0).abs() < 1e-15);
     /// // Crank and rod in line: the law of cosines in the triangle of 0.2 + 0.05, 0.2 and 0.06.
     /// let in_line = (0.25_f64 * 0.25 + 0.2 * 0.2 - 0.06 * 0.06) / (2.0 * 0.25 * 0.2);
     /// let dead = at(in_line.acos())?.to_motors(&[1.0])?;
@@ -101,7 +108,16 @@ where
         Ok(out)
     }
 
-    /// The torques at y of the motors' torques, N·m or N: Gᵀ τ_a, the reverse of [`TreeMotion::to_motors`].
+    /// The torques at y of the motors' torques, N·m or N: G_aᵀ τ_a, the inverse of [`TreeMotion::to_motors`].
+    ///
+    /// # Shape
+    /// Y, in the places of y.
+    ///
+    /// # Cost
+    /// 2 N² flops for each cluster with motors at actuated rows.
+    ///
+    /// # Example
+    /// That of [`TreeMotion::to_motors`].
     pub fn from_motors(&self, tau: &[R; Y]) -> [R; Y] {
         let (mut out, set) = (*tau, const { T::CLUSTERS });
         for c in 0..<T::Clusters as Set>::SIZES.len() {
@@ -159,7 +175,7 @@ impl<C: Cluster<M, N>, const M: usize, const N: usize> Driven<C, M, N> {
     }
 }
 
-/// Of G_a by rows, τ of the cluster and the reciprocals of the rates below which it is damped: τ_a, and whether it is.
+/// τ_a, and whether it is damped, from G_a by rows, τ at y and the reciprocals of the rates below which it is damped.
 #[inline(always)]
 fn solve<R: Real, const N: usize>(
     g: &[[R; N]; N],
@@ -181,8 +197,8 @@ fn solve<R: Real, const N: usize>(
 
 /// x with A x = b, by elimination with row pivots, and whether ς is more than one for certain.
 ///
-/// Of rows of unit length the sum of squares of A⁻¹ is at most N / det² A, by the inequality of the means for its singular
-/// values; rows of length r divide it by their least r². The determinant is the product of the pivots.
+/// Of rows of unit length the sum of squares of A⁻¹ is at most N / det² A, by the inequality of the means for its
+/// singular values; rows of length r divide it by their least r². The determinant is the product of the pivots.
 #[allow(
     clippy::needless_range_loop,
     reason = "iterators that skip entries are not unrolled: 3000 cycles of six motors, in place of 1220"

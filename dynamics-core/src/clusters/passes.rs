@@ -1,5 +1,5 @@
-//! The first and the third pass of forward dynamics by clusters, [`Clustered::aba`](super::Clustered::aba), and the forces
-//! within a cluster; the second pass is in `inward.rs`.
+//! The first and the third pass of forward dynamics by clusters, [`Clustered::aba`](super::Clustered::aba), and the
+//! forces within a cluster; the second pass is in `inward.rs`.
 
 use heapless::Vec;
 
@@ -126,8 +126,8 @@ where
         i == group.root || (i < B && group.cluster != NONE && self.cluster(i) == group.cluster)
     }
 
-    /// The forces within the group while its parent body is at rest: `accel` is the acceleration that a body's joints add,
-    /// and `visit` is called for the bodies from the last to the first. Returns the force on the parent body.
+    /// The forces within the group while its parent body is at rest: `accel` is the acceleration that a body's joints
+    /// add, and `visit` is called for the bodies from the last to the first. Returns the force on the parent body.
     pub(super) fn forces(
         &mut self,
         group: &Group,

@@ -11,7 +11,7 @@ use crate::scalar::Real;
 use crate::state::{State, entry};
 use crate::trig::Kernel;
 
-/// A tuple of clusters: up to eight [`Driven`], of whatever kinds.
+/// A tuple of clusters: up to eight [`Driven`], of any kinds.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a tuple of clusters",
     note = "a tuple of up to eight `Driven<C, M, N>` with `C: Cluster<M, N>`, and a comma after a single \

@@ -85,8 +85,8 @@ macro_rules! delegate_effect {
             |$this| { $($inner => $to),* } $(, $advance)?
         }
     };
-    // All hooks, where `on` is true; those that go with q̈, where `accelerations` is true; those at joints, where `joints`
-    // is.
+    // All hooks, where `on` is true; those that go with q̈, where `accelerations` is true; those at joints, where
+    // `joints` is.
     (
         @if [$on:expr, $accelerations:expr, $joints:expr]
         impl[$($generics:tt)*] Effect<$R:ty, $B:tt, $V:tt> for $type:ty $(where [$($bounds:tt)*])?,

@@ -1,7 +1,7 @@
 //! Assembly: the configuration near a guess at which all loops are closed.
 //!
-//! Levenberg (1944) and Marquardt (1963), with a damping that follows the square of the error: Newton's convergence also
-//! where rows are redundant or a loop is near a singular configuration (Yamashita & Fukushima, 2001).
+//! Levenberg (1944) and Marquardt (1963), with a damping that follows the square of the error: Newton's convergence
+//! also where rows are redundant or a loop is near a singular configuration (Yamashita & Fukushima, 2001).
 
 use super::constraints;
 use super::description::Loops;
@@ -50,7 +50,7 @@ pub struct Assembly<R, const Q: usize> {
 
 /// The configuration near `guess` at which all loops are closed, rad and m.
 ///
-/// Loops have several such configurations: which one is found is the guess's.
+/// Loops have several such configurations: the guess decides which one is found.
 ///
 /// # Shape
 /// Q.

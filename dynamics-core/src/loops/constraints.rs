@@ -27,8 +27,8 @@ pub struct Constraints<R: Real, const V: usize, const L: usize, const C: usize> 
     pub position: [R; C],
     /// K q̇, the error of velocity of each row, rad/s and m/s.
     pub velocity: [R; C],
-    /// The size of a loop as its rows see it: the root of the sum of squares of the rotations, or translations, that all
-    /// coordinates of the loop give its successor. One for rows of a loop that none moves.
+    /// The size of a loop for each of its rows: the root of the sum of squares of the rotations, or translations, that
+    /// unit rates of all coordinates of the loop give its successor. One for rows of a loop that none moves.
     pub size: [R; C],
     /// From each predecessor's aligned loop frame to the successor's.
     poses: [Xform<R>; L],

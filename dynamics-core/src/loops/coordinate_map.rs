@@ -30,7 +30,7 @@ pub enum Drive {
         /// How many more.
         redundancy: usize,
     },
-    /// It does not, or nearly not: the configuration is at or near a dead point of the motors, closer than
+    /// It does not, or almost not: the configuration is at a dead point of the motors, or closer to one than
     /// [`Loops::damped_below`]. The passive coordinates are damped; torques are finite and bounded, and exact where the
     /// damping begins.
     Singular {

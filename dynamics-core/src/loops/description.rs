@@ -1,4 +1,4 @@
-//! The description of loops, as a person writes it, checked while compiling.
+//! The description of loops, checked while compiling.
 
 use core::ops::Range;
 
@@ -84,8 +84,8 @@ impl<const L: usize, const C: usize, const A: usize> Loops<L, C, A> {
     /// const _: usize = LOOPS.rows(0).end;
     /// ```
     ///
-    /// Nor does a loop that cannot close, or one of which too few coordinates are actuated, as far as lengths and numbers
-    /// show it. The rest is found at each configuration: [`super::LoopError`].
+    /// Nor does a loop that cannot close, or one of which too few coordinates are actuated, as far as lengths and
+    /// numbers show it. The rest is found at each configuration: [`super::LoopError`].
     ///
     /// ```compile_fail,E0080
     /// # use dynamics_core::loops::{BodyFrame, LoopJoint, Loops};

@@ -1,15 +1,16 @@
 //! Elimination of K with complete pivoting: its rank, the rows and coordinates that depend on others.
 //!
-//! Golub & Van Loan, *Matrix Computations*, section 3.4. Rows are compared relative to the sizes of their loops, so that
-//! neither the unit of length nor rounding errors of a direction in which nothing moves decide.
+//! Golub & Van Loan, *Matrix Computations*, section 3.4. Rows are compared relative to the sizes of their loops, so
+//! that neither the unit of length nor rounding errors of a direction in which nothing moves decide.
 
 use crate::scalar::Real;
 use crate::state::entry;
 
 /// The pivot, relative to the size of a loop, below which a row of K depends on those before it, in f64 and in f32.
 ///
-/// Some roots of the rounding error: a pivot p multiplies rounding errors by 1/p, and where that is more than p itself
-/// they decide. Closer than this to a singular configuration, in rad, a machine is treated as singular.
+/// Of the order of the root of the rounding error: a pivot p multiplies rounding errors by 1/p, and where the product
+/// exceeds p itself, the rank is that of the rounding errors. Closer than this to a singular configuration, in rad, a
+/// machine is treated as singular.
 pub const RANK_TOLERANCE: (f64, f32) = (1e-7, 2e-3);
 
 /// No row, or no column.
@@ -33,7 +34,7 @@ impl<const C: usize> LoopRows<C> {
         rows.filter_map(|(row, independent)| (!independent).then_some(row))
     }
 
-    /// Leaves rows out that are independent, but not of others by more than rounding.
+    /// Also leaves out independent rows that differ from a combination of others by no more than rounding errors.
     #[inline(always)]
     pub(super) fn keep(&mut self, keeps: impl Fn(usize) -> bool) {
         for (row, independent) in self.independent.iter_mut().enumerate() {

@@ -56,8 +56,8 @@ impl<R: Real> Stabilisation<R> {
     /// For a simulation in steps of this length, s: [`Stabilisation::critical`] with a time constant of
     /// [`TIME_CONSTANT`] steps.
     ///
-    /// A four-bar linkage that swings for a minute in Runge-Kutta steps of 1 ms then opens by 2 nm at most in f64, by 2 µm in
-    /// f32, and by 10 µm in f64 without stabilisation.
+    /// A four-bar linkage that swings for a minute in Runge-Kutta steps of 1 ms then opens by 2 nm at most in f64, by 2
+    /// µm in f32, and by 10 µm in f64 without stabilisation.
     #[must_use]
     pub fn for_step(step: R) -> Self {
         Self::critical(step * R::from_f64(TIME_CONSTANT))
@@ -88,8 +88,9 @@ pub struct LoopMotion<R: Real, const V: usize, const L: usize, const C: usize> {
 /// V, and C.
 ///
 /// # Cost
-/// That of [`rnea`](crate::algorithms::rnea()), [`crba`](crate::algorithms::crba()), [`ltdl`](crate::algorithms::ltdl())
-/// and [`constraints()`]; of rank r 2 C V r flops for the elimination, 2 r V² for the response and 4 r² V for its triangle.
+/// That of [`rnea`](crate::algorithms::rnea()), [`crba`](crate::algorithms::crba()),
+/// [`ltdl`](crate::algorithms::ltdl()) and [`constraints()`]; of rank r 2 C V r flops for the elimination, 2 r V² for
+/// the response and 4 r² V for its triangle.
 ///
 /// # Source
 /// Featherstone, RBDA (2008), sections 8.1 and 8.3.

@@ -1,7 +1,7 @@
 //! Inverse dynamics with kinematic loops.
 //!
-//! Featherstone, RBDA (2008), section 8.12: the torques τ of the tree's inverse dynamics, as if every joint had a motor,
-//! and those of the actuated coordinates that do the same work, Gᵀ τ_a = Gᵀ τ.
+//! Featherstone, RBDA (2008), section 8.12: the torques τ of the tree's inverse dynamics, as if every joint had a
+//! motor, and those of the actuated coordinates that do the same work, Gᵀ τ_a = Gᵀ τ.
 
 use core::borrow::Borrow;
 

@@ -1,4 +1,4 @@
-//! A simulated robot with kinematic loops: its encoders sit on the motors.
+//! A simulated robot with kinematic loops and with encoders at its motors.
 
 use dynamics_core::Core;
 use dynamics_core::clusters::{Clustered, ClusteredRobot, ForwardError, TreeMotion};
@@ -16,7 +16,7 @@ where
 {
     robot: Calibrated<T, f32, B, V, V>,
     effects: E,
-    /// Position, velocity and acceleration, beyond what the encoders measure.
+    /// Position, velocity and acceleration of y, which the encoders do not measure.
     pub y: State<f32, N, N>,
     /// The tree's motion at y, if its loops close there.
     motion: Option<TreeMotion<f32, T, B, V, V, N, N>>,

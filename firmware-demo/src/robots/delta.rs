@@ -7,7 +7,8 @@ use dynamics_core::model::{BASE, Body, Joint, Model, Robot};
 #[derive(Clone, Copy, Debug)]
 pub struct Delta;
 
-/// The same with rods that lie in one plane with the platform while the cranks are level: it then falls.
+/// The same with rods that lie in the plane of the platform while the cranks are level: these then do
+/// not hold the platform.
 #[derive(Clone, Copy, Debug)]
 pub struct FlatDelta;
 

@@ -17,12 +17,13 @@ use dynamics_core::model::{ArmModel, BASE, Body, Joint, JointLimits, Model, Robo
 ///
 /// # Changed
 ///
-/// The source's roll axis is 17.6 mm below its pitch axis; here they meet at the pitch axis, with the foot in its place.
+/// The source's roll axis is 17.6 mm below its pitch axis; here they meet at the pitch axis, with the foot in its
+/// place.
 ///
 /// # Assumed
 ///
-/// The source has no rods. Their lengths and places are of the size that the shank has room for, and so are the masses of
-/// cranks and rods, 0.2 kg together, which the source counts with the shank. The range of the cranks follows.
+/// The source has no rods. Their lengths and places fit the shank; the cranks and rods have 0.2 kg together, which the
+/// source counts with the shank. The range of the cranks follows.
 ///
 /// The tree's coordinates are those of [`AnkleLeg`](super::AnkleLeg).
 #[derive(Clone, Copy, Debug, Default)]
@@ -70,7 +71,7 @@ const fn crank(name: &'static str, rod: &Rod) -> Body {
         .limits(limits(-75.0, 75.0, 25.0, 37.0))
 }
 
-/// What lies between a rod's two axes: nothing.
+/// A body without mass between the two axes of a rod.
 const fn cross(name: &'static str, crank: usize, rod: &Rod) -> Body {
     Body::new(name, crank, Joint::revolute(Y))
         .xyz(rod.crank)
@@ -130,7 +131,7 @@ impl ClusteredRobot<9, 9, 9, 3, 3> for G1Ankle {
 
 const _: ArmModel<f64, 9> = G1Ankle::MODEL;
 
-/// The same leg as a chain of joints, without cranks and rods: what controllers and simulations of such legs often have.
+/// The same leg as a chain of joints, without cranks and rods: a model that controllers and simulations often use.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct SerialAnkle;
 

@@ -10,16 +10,16 @@ use dynamics_core::model::{ArmModel, BASE, Body, Joint, JointLimits, Model, Robo
 ///
 /// # Source
 ///
-/// testbedCIIRC/delta-robot-public (Alikoc, Sustr, Zitek, Rehorik, Burget & Lomakin, *Motion Modelling and Simulation of
-/// a 5-Axis Industrial Delta Robot*), whose numbers are from the robot's CAD model: `Basic_3DoF_Delta_Dynamic_Param.m`
-/// (lengths, the gears' ratio) and `RL5_6kg_Inertia_Mass.m` (masses, inertias). No licence is stated; these are the
-/// numbers alone.
+/// testbedCIIRC/delta-robot-public (Alikoc, Sustr, Zitek, Rehorik, Burget & Lomakin, *Motion Modelling and Simulation
+/// of a 5-Axis Industrial Delta Robot*), whose numbers are from the robot's CAD model:
+/// `Basic_3DoF_Delta_Dynamic_Param.m` (lengths, the gears' ratio) and `RL5_6kg_Inertia_Mass.m` (masses, inertias). No
+/// licence is stated; these are the numbers alone.
 ///
 /// # Changed
 ///
-/// As in the source's basic model the shafts, the wrist and the flange of the two other axes are left out. An arm is its
-/// beam of 3.47 kg with its centre 172 mm from the joint, and the pin of 0.226 kg at its end; the source's inertia of
-/// both about the joint is 0.208 kg·m². A pair of rods is one body, as [`Delta`] has it.
+/// As in the source's basic model the shafts, the wrist and the flange of the two other axes are left out. An arm is
+/// its beam of 3.47 kg with its centre 172 mm from the joint, and the pin of 0.226 kg at its end; the source's inertia
+/// of both about the joint is 0.208 kg·m². A pair of rods is one body, as [`Delta`] has it.
 ///
 /// # Assumed
 ///
@@ -101,7 +101,7 @@ const fn crank(name: &'static str, side: usize) -> Body {
         .limits(CRANK_LIMITS)
 }
 
-/// What lies between the axes of a pair of rods: nothing.
+/// A body without mass between the two axes of a pair of rods.
 const fn cross(name: &'static str, crank: usize) -> Body {
     Body::new(name, crank, Joint::revolute(Y))
         .xyz([PickDelta::CRANK, 0.0, 0.0])

@@ -1,4 +1,4 @@
-//! Planar linkages, described in space: a loop joint that turns about y then has three rows too many.
+//! Planar linkages, described in space: a loop joint that turns about y then has three redundant rows.
 
 use dynamics_core::loops::{BodyFrame, LoopJoint, LoopRobot, Loops};
 use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model, Robot};
@@ -12,7 +12,7 @@ pub const FOUR_BAR: [f64; 4] = [0.2, 0.5, 0.4, 0.6];
 #[derive(Clone, Copy, Debug)]
 pub struct FourBar;
 
-/// A four-bar linkage whose opposite sides are equal: at zero it lies flat.
+/// A four-bar linkage whose opposite sides are equal: at zero all links are in line.
 #[derive(Clone, Copy, Debug)]
 pub struct Parallelogram;
 

@@ -5,7 +5,7 @@ use core::f64::consts::PI;
 use dynamics_core::clusters::{ClusteredRobot, Driven, Leg, Stewart};
 use dynamics_core::model::{ArmModel, BASE, Body, Joint, JointLimits, Model, Robot};
 
-/// A platform on six legs, 23.8 kg, of a reach of 0.8 m: motors at the legs' slides.
+/// A platform on six legs, 23.8 kg, with motors at the slides of the legs, which are 0.8 m long at zero.
 ///
 /// The numbers are assumed, of the size of motion platforms for laboratories. The tree's coordinates are the platform's
 /// position and attitude, and for each leg the two of its universal joint and its slide; the independent ones those of
@@ -64,7 +64,7 @@ const LIMITS: JointLimits<f64> = JointLimits {
     torque: 1000.0,
 };
 
-/// What lies between two axes at one place: nothing.
+/// A body without mass between two axes that meet.
 const fn cross(name: &'static str, parent: usize, joint: Joint<f64>) -> Body {
     Body::new(name, parent, joint).limits(LIMITS)
 }

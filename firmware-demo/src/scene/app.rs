@@ -11,7 +11,7 @@ use crate::control_loop::{ControlLoop, Telemetry};
 use crate::plant::{Rig, Simulated};
 use crate::sim_io::{SimDrive, SimEncoder, Wires};
 
-/// Steps of the simulated robot in a tick, unless its scene has others.
+/// Steps of the simulated robot in a tick, unless its scene sets another number.
 pub const STEPS: u32 = 4;
 /// Ticks that each run goes on after the reference's end.
 const SETTLE: u32 = 200;

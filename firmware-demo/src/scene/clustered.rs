@@ -12,9 +12,9 @@ use dynamics_core::{Core, Engine};
 use super::{Noise, Scene};
 use crate::plant::ClusterPlant;
 
-/// The motors' motion of a reference of y: what a controller follows whose encoders are at the motors.
+/// The motors' motion of a reference of y, for a controller whose encoders are at the motors.
 ///
-/// Where the loops do not close it is not a number: see [`inverse`].
+/// It is NaN where the loops do not close: see [`inverse`].
 #[derive(Debug)]
 pub struct MotorReference<T, C, const B: usize, const V: usize> {
     /// The reference of y.
@@ -49,11 +49,11 @@ where
     }
 }
 
-/// The motors' torques at y, ẏ, ÿ; none where the loops do not close or a motor is at a dead point.
+/// The motors' torques at y, ẏ, ÿ; zero where the loops do not close.
 ///
-/// A reference of the motors that comes from the same y has then no position either, so that the feedback's torque is
-/// not a number: the supervisor stops the robot with [`Fault::Torque`](dynamics_core::control::Fault::Torque), which
-/// the telemetry shows.
+/// A [`MotorReference`] of the same y is then NaN, and so is the feedback's torque: the supervisor stops the robot with
+/// [`Fault::Torque`](dynamics_core::control::Fault::Torque), which the telemetry shows. The status of motors near a
+/// dead point is not read: the references of the scenes have none.
 #[inline(always)]
 pub fn inverse<T, E, const B: usize, const V: usize, const N: usize>(
     y: &State<f32, N, N>,
@@ -69,8 +69,8 @@ where
     }
 }
 
-/// A robot at rest at y: the scene's, or one whose masses the controller does not know, nor of the effects what
-/// `disturb` changes.
+/// A robot at rest at y: that of the scene, or, with noise, one of other masses, of which `disturb` changes the
+/// effects.
 pub fn plant<S, const B: usize, const V: usize, const N: usize>(
     y: [f32; N],
     noise: Option<&mut Noise>,
@@ -103,7 +103,7 @@ where
     })
 }
 
-/// The inertia that each motor sees at y while the others stand still, kg·m²: the diagonal of G_a⁻ᵀ Gᵀ M G G_a⁻¹.
+/// The inertia at each motor at y while the other motors do not move, kg·m²: the diagonal of G_a⁻ᵀ Gᵀ M G G_a⁻¹.
 ///
 /// # Errors
 /// [`ClusterError`] names the cluster that does not close at y.

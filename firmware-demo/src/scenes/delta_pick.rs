@@ -25,8 +25,8 @@ pub type Effects = (
 
 /// The effects' numbers, of the cranks.
 ///
-/// The inertia of the gears is that of [`PickDelta`]'s source, which leaves out the motors' rotors. Friction is assumed,
-/// of the order of gears of 55 : 1 for this torque.
+/// The inertia of the gears is that of [`PickDelta`]'s source, which leaves out the motors' rotors. Friction is
+/// assumed, of the order of gears of 55 : 1 for this torque.
 pub const EFFECTS: Effects = (
     Gravity::EARTH,
     Inertia,
@@ -51,7 +51,7 @@ const fn at_cranks(number: f32) -> [f32; 12] {
     all
 }
 
-/// Where the cranks begin and end.
+/// The cranks' angles at the feeder, where the picks begin and end.
 fn start() -> [f32; 3] {
     cranks(&State::at(FEEDER)).q
 }

@@ -1,5 +1,5 @@
-//! Scene `parallel_ankle`: a humanoid's leg steps in the air, and two motors tilt its foot by rods. The encoders are at
-//! the motors, and the reference is the foot's.
+//! Scene `parallel_ankle`: the leg of a humanoid steps in the air, and two motors tilt its foot by rods. The encoders
+//! are at the motors, and the trajectory is that of the foot.
 
 use dynamics_core::Engine;
 use dynamics_core::clusters::{Clustered, MotorTorques};
@@ -29,8 +29,8 @@ pub type Effects = (
 
 /// The effects' numbers, of knee and cranks.
 ///
-/// The motors' rotors are those of mujocolab/mjlab, `g1_constants.py`: the inertias of rotors and gears by the squares of
-/// their ratios. Friction is assumed, of the size in MuJoCo descriptions of such legs.
+/// The motors' rotors are those of mujocolab/mjlab, `g1_constants.py`: the inertias of rotors and gears by the squares
+/// of their ratios. Friction is assumed, of the size in MuJoCo descriptions of such legs.
 pub const EFFECTS: Effects = (
     Gravity::EARTH,
     Inertia,
@@ -64,7 +64,7 @@ impl Scene<9, 9, 9, 3> for AnkleSteps {
     type Robot = G1Ankle;
     type Effects = Effects;
     type Reference = MotorReference<G1Ankle, Trajectory<f32, 3, 11>, 9, 9>;
-    /// Where knee and foot are to be: y, ẏ and ÿ.
+    /// The reference of knee and foot: y, ẏ and ÿ.
     type Environment = State<f32, 3, 3>;
     type Plant = ClusterPlant<G1Ankle, Effects, 9, 9, 3>;
 
@@ -118,8 +118,9 @@ impl Scene<9, 9, 9, 3> for AnkleSteps {
     }
 }
 
-/// Feed-forward that takes the ankle for two joints in a chain, without rods, with the rotors of both motors at each of
-/// them, as mujocolab/mjlab has it. Its torques go to the motors by the loops' G; friction it has at the motors.
+/// Feed-forward of a serial model, that of mujocolab/mjlab: the ankle is two joints in a chain, without rods, with the
+/// rotors of both motors at each of them. G of the loops converts its torques to those of the motors; friction is at
+/// the motors.
 #[derive(Clone, Copy, Debug)]
 pub struct SerialJoints;
 

@@ -8,16 +8,15 @@ use crate::robots::PickDelta;
 use crate::robots::pick_delta::SIDES;
 use crate::scene::TICK;
 
-/// The lift and the reach of a move, m: 25 mm up, 305 mm across, 25 mm down is the cycle in which makers state the
-/// speed of such robots.
+/// The height of a move, m: manufacturers state the speed of such robots for 25 mm up, 305 mm across and 25 mm down.
 pub const LIFT: f32 = 0.025;
-/// See [`LIFT`].
+/// The horizontal distance of a move, m: see [`LIFT`].
 pub const REACH: f32 = 0.305;
-/// Where the parts lie, m.
+/// The place from which parts are taken, m.
 pub const FEEDER: [f32; 3] = [-0.16, -0.06, -0.95];
-/// A move, ticks: there and back is half a second, 120 picks a minute.
+/// The duration of a move, ticks: with the return half a second, 120 picks a minute.
 pub const MOVE: u32 = 250;
-/// cos and sin of the directions of the places where they go: −30°, 0°, 30°, 60°.
+/// cos and sin of the directions from the feeder to the places of the parts: −30°, 0°, 30°, 60°.
 const PLACES: [[f32; 2]; 4] = [
     [0.866_025_4, -0.5],
     [1.0, 0.0],
@@ -25,16 +24,16 @@ const PLACES: [[f32; 2]; 4] = [
     [0.5, 0.866_025_4],
 ];
 
-/// Ticks of a lift, and of lowering.
+/// The duration of a lift, and of lowering, ticks.
 const UP: u32 = 60;
-/// How far from its ends a move is at its full height, m, and at what speed it is there, m/s.
+/// The horizontal distance from the ends of a move at which it has its full height, m, and its speed there, m/s.
 const CORNER: f32 = 0.02;
 const SPEED: f32 = 1.5;
 
-/// The way-points: the feeder, and three of each move.
+/// The number of way-points: the feeder, and three of each move.
 const POINTS: usize = 1 + 6 * PLACES.len();
 
-/// The way of the platform.
+/// The path of the platform.
 const WAY: [WayPoint<f32, 3>; POINTS] = {
     let start = WayPoint {
         q: FEEDER,
@@ -44,7 +43,7 @@ const WAY: [WayPoint<f32, 3>; POINTS] = {
     let (mut way, mut i) = ([start; POINTS], 0);
     while i < PLACES.len() {
         let [cos, sin] = PLACES[i];
-        // There, and back.
+        // The move, and the return.
         let mut k = 0;
         while k < 2 {
             let (from, to, sign) = if k == 0 {
@@ -64,7 +63,8 @@ const WAY: [WayPoint<f32, 3>; POINTS] = {
     way
 };
 
-/// A way-point so far from the feeder and so high, at a speed in this direction.
+/// A way-point at these distances from the feeder, along a horizontal direction and upward, with a speed in this
+/// direction.
 const fn point(
     [cos, sin]: [f32; 2],
     along: f32,
@@ -87,10 +87,10 @@ pub struct Picks {
 }
 
 impl Picks {
-    /// At ten times the acceleration of gravity at most, and 3 m/s.
+    /// The path, within ten times the acceleration of gravity and 3 m/s.
     ///
     /// # Errors
-    /// A path that needs more.
+    /// [`TrajectoryError`] where the path exceeds these limits.
     pub fn new() -> Result<Self, TrajectoryError> {
         let limits = MotionLimits {
             velocity: 3.0,
@@ -100,7 +100,7 @@ impl Picks {
         Ok(Self { platform })
     }
 
-    /// Where the platform is to be at a tick, m, m/s and m/s².
+    /// The platform's position, velocity and acceleration at a tick, m, m/s and m/s².
     pub fn platform(&self, tick: u32) -> State<f32, 3, 3> {
         self.platform.at(tick)
     }
@@ -117,7 +117,7 @@ impl Reference<f32, 3> for Picks {
     }
 }
 
-/// The cranks' motion at a platform's, each with its knee outwards; not a number where a crank does not reach.
+/// The cranks' motion at that of the platform, with the crank's end on the outer side; NaN where a rod does not reach.
 ///
 /// With e from the crank's end to the platform: a cos θ + b sin θ = k from |e| = l, e·ė = 0, and its derivative.
 #[inline(always)]

@@ -22,18 +22,22 @@ use crate::trig::Kernel;
 /// | 9, 10, 11 | platform on the base | prismatic x, y, z |
 ///
 /// At zero a crank points outwards, and positive angles lower its end; the rods hang from it along −z. The rods of a
-/// crank are one body, between them: of the sum of their masses and of their inertias about their own centres. That is
-/// exact: parallel rods turn alike, and their centres keep their distance along the axis of the crank. Their ends on the
-/// platform are at the radius `platform`; the loops are cut there. Where a pair of axes is at one place, a universal
-/// joint serves, too, or a body without mass between them, which the engine takes.
+/// crank are one body, between them: of the sum of their masses and of their inertias about their own centres. Their
+/// ends on the platform are at the radius `platform`; the loops are cut there. Two axes that meet are a universal
+/// joint, or two revolute joints with a body without mass between them, which the engine takes.
+///
+/// The one body is exact: parallel rods have the same angular velocity, and the vector between their centres is
+/// parallel to the axis of the crank, so that on a base that does not turn both centres have the same velocity. On a
+/// body that turns, the torques at y are exact, too; those of the joints inward of it are with 2 m (d² 1 − d dᵀ) of
+/// every pair added to the body's rotational inertia, m being the mass of a rod and 2 d the vector between the rods.
 ///
 /// # Cost
 /// Some 450 flops, two divisions and five reciprocal roots; sines and cosines of y only. Where an effect reads the
 /// angles of rods themselves, six arc tangents.
 ///
 /// # Errors
-/// [`ClusterProblem::CannotClose`] where the three rods do not reach one point. Where they are in one plane, the platform
-/// in that of the cranks' ends, or a rod is parallel to its crank's axis, [`ClusterMotion::singular`] is set.
+/// [`ClusterProblem::CannotClose`] where the three rods do not reach one point. Where they are in one plane, the
+/// platform in that of the cranks' ends, or a rod is parallel to its crank's axis, [`ClusterMotion::singular`] is set.
 ///
 /// # Source
 /// The intersection of three spheres, eₖ² = l² of the rods' vectors eₖ = p − cₖ, and its two derivatives, eₖ·ṗ = eₖ·ċₖ
@@ -43,7 +47,7 @@ use crate::trig::Kernel;
 /// use dynamics_core::clusters::{Cluster, Delta};
 /// use dynamics_core::{model::JointCoordinate, scalar::Native};
 /// const DELTA: Delta = Delta::new(0.2, 0.2, 0.45, 0.05);
-/// // Level cranks: the platform is below the middle, at the height of Pythagoras.
+/// // Level cranks: the rod is the hypotenuse over 0.2 + 0.2 − 0.05 and the depth of the platform.
 /// let motion = DELTA.evaluate::<f64, Native>(&[0.0; 3].map(JointCoordinate::revolute), &[1.0; 3])?;
 /// let [x, y, z] = [9, 10, 11].map(|i| motion.q[i].q);
 /// let depth = (0.45_f64.powi(2) - 0.35_f64.powi(2)).sqrt();
@@ -75,8 +79,8 @@ const SIDES: [(f64, f64); 3] = [
 ];
 
 impl Delta {
-    /// A robot of these lengths, m: the radius of the circle of the cranks' joints, the cranks, the rods, and the radius
-    /// of the circle of the rods' ends on the platform.
+    /// A robot of these lengths, m: the radius of the circle of the cranks' joints, the cranks, the rods, and the
+    /// radius of the circle of the rods' ends on the platform.
     ///
     /// # Panics
     /// If a length is not finite, a crank's or rod's not positive, or the rods reach the platform in no posture with

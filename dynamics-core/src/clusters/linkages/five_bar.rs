@@ -42,7 +42,7 @@ use crate::trig::Kernel;
 /// const LEG: FiveBar = FiveBar::new(0.0, [0.1, 0.2], [0.1, 0.2], Branch::Negative);
 /// let y = [-2.0, 2.0].map(JointCoordinate::revolute);
 /// let motion = LEG.evaluate::<f64, Native>(&y, &[1.0, -1.0])?;
-/// assert!((motion.q[1].q + motion.q[3].q).abs() < 1e-14); // as in a mirror
+/// assert!((motion.q[1].q + motion.q[3].q).abs() < 1e-14); // symmetric
 /// # Ok::<(), dynamics_core::clusters::ClusterProblem>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -229,7 +229,7 @@ impl Rod {
         let alpha_dd = turn(edd) - two * ((ex * edx + ez * edz) * flat2_inv);
         let vd = edy * flat_inv;
         let vdd = lift(edd) + ey * vd * vd * flat_inv;
-        // One by one: a loop is not removed where nobody reads the angles.
+        // One by one: a loop is not removed where no effect reads the angles.
         let q = [
             of_unit(sm, cm),
             of_unit(sa * cm - ca * sm, ca * cm + sa * sm),

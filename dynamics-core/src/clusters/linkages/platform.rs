@@ -55,7 +55,7 @@ impl<R: Real> Platform<R> {
     #[inline(always)]
     pub(super) fn arm(&self, at: [f64; 3]) -> R::Vec3 {
         let mut r = self.attitude[0] * R::from_f64(at[0]);
-        // Zeros of a constant cost nothing.
+        // Constants: what is zero is not in the machine code.
         for (axis, x) in [(self.attitude[1], at[1]), (self.attitude[2], at[2])] {
             if x != 0.0 {
                 r += axis * R::from_f64(x);

@@ -23,8 +23,8 @@ pub struct Leg {
 /// A platform on six legs of variable length (Gough; Stewart, 1965). M = 24, N = 6, y = the platform's position x, y, z
 /// and yaw, pitch, roll.
 ///
-/// The attitude is R_z(yaw) R_y(pitch) R_x(roll), the `rpy` of URDF. The spanning tree's joint coordinates, in this order
-/// and in m and rad, are:
+/// The attitude is R_z(yaw) R_y(pitch) R_x(roll), the `rpy` of URDF. The spanning tree's joint coordinates, in this
+/// order and in m and rad, are:
 ///
 /// | q | joint | axis, in the body's frame |
 /// |---|---|---|
@@ -37,10 +37,10 @@ pub struct Leg {
 /// The bodies between these axes have no mass. At zero all frames have the base's axes, and a leg points along z. The
 /// loops are cut at the ball joints on the platform; both halves of a leg are bodies, which do not spin about the leg.
 ///
-/// The motors are at the slides: [`Driven::actuated`](crate::clusters::Driven::actuated)`([8, 11, 14, 17, 20, 23])`. The
-/// motion of the platform determines that of the legs everywhere, so that this cluster has no singularity of the machine;
-/// [`TreeMotion::to_motors`](crate::clusters::TreeMotion::to_motors) has them, where forces of the legs do not hold the
-/// platform.
+/// The motors are at the slides: [`Driven::actuated`](crate::clusters::Driven::actuated)`([8, 11, 14, 17, 20, 23])`.
+/// The motion of the platform determines that of the legs everywhere, the reverse has no closed form. Configurations in
+/// which no forces of the legs hold the platform are therefore not singular for this cluster, but dead points of the
+/// motors: [`TreeMotion::to_motors`](crate::clusters::TreeMotion::to_motors) names them.
 ///
 /// # Cost
 /// Some 1,200 flops, six divisions and twelve reciprocal roots; sines and cosines of the attitude only. Where an effect

@@ -57,7 +57,7 @@ const SINGULAR: &[Case] = &[
         parameters: "sides of 0.25 and 0.5 m, 2⁻³ to 2⁻¹⁷ rad from flat, and flat; two states each",
         source: "the parallelogram of a palletiser at the end of its stroke; flat, coupler and rocker may turn either way",
         oracle: ORACLE,
-        reason: "general loops: torques are damped and named below the default distance of 5·10⁻³, and exact where that begins; figures of inverse dynamics are with the least damping there is, which f64 is free of to 2·10⁻⁷ and f32 to 4·10⁻³: ε over the angle from flat. Forward dynamics names the rank that drops at 10⁻⁷ (f64) or 2·10⁻³ (f32). Clusters have the angle from a difference of squares: at most ε over its square in G and over its cube in Ġ ẏ; their status begins at 6·10⁻³ and 2·10⁻⁷ rad",
+        reason: "general loops: torques are damped and named below the default distance of 5·10⁻³, and exact where that begins; figures of inverse dynamics are with the least damping there is, which f64 is free of to 2·10⁻⁷ and f32 to 4·10⁻³: ε over the angle from flat. Forward dynamics names the rank that drops at 10⁻⁷ (f64) or 2·10⁻³ (f32). Clusters have the angle from a difference of squares: at most ε over its square in G and over its cube in Ġ ẏ; their status begins at 1.1·10⁻² (f32) and 6·10⁻⁵ rad (f64), where the error of Ġ ẏ is 10⁻³ of ẏ² in f64",
         run: || of_case(50),
     },
     Case {
@@ -66,7 +66,7 @@ const SINGULAR: &[Case] = &[
         parameters: "crank, coupler, rocker and ground of 0.125, 0.625, 0.25 and 0.5 m: shortest + longest = sum of the others; 2⁻³ to 2⁻¹⁷ rad from the change point, two states each, and at it, still",
         source: "Grashof (1883): the linkage is flat at the change point, and may continue on either branch",
         oracle: ORACLE,
-        reason: "as case 50. 2⁻¹⁷ rad from the change point a cluster in f64 has one digit of the torque left, none of the acceleration, and no status yet; general loops have eleven. The guess decides on the branch of a loop, its constant on that of a cluster",
+        reason: "as case 50; the status of a cluster begins at 2·10⁻² (f32) and 1.2·10⁻⁴ rad (f64). 2⁻¹⁷ rad from the change point, where it has no digit of the acceleration left, it is damped and named; general loops have eleven digits of the torque there, with the least damping there is. The guess decides on the branch of a loop, its constant on that of a cluster",
         run: || of_case(51),
     },
     Case {

@@ -72,7 +72,8 @@ pub struct ClusterMotion<R, const M: usize, const N: usize> {
     pub g: [[R; N]; M],
     /// Ġ ẏ, rad/s² or m/s²: the joints' acceleration at ÿ = 0.
     pub bias: [R; M],
-    /// Whether y is at a singularity, where G and Ġ ẏ are damped and do not close the loop.
+    /// Whether y is at or near a singularity, where G and Ġ ẏ are damped and do not close the loop. Of the linkages of
+    /// this module that begins where rounding errors of Ġ ẏ are some thousandths of ẏ² in f64, and of its size in f32.
     pub singular: bool,
 }
 

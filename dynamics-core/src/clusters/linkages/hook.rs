@@ -41,6 +41,21 @@ impl<R: Real> Hook<R> {
         })
     }
 
+    /// Of a body of almost no length, which is `scale` at most: with rates that are damped as that size has it.
+    #[cold]
+    #[inline(never)]
+    pub(super) fn short(z: R::Vec3, scale: R) -> Result<Self, ClusterProblem> {
+        let [zx, zy, zz] = z.array();
+        let flat2 = zx * zx + zz * zz;
+        let Root { h, h_inv, .. } = root(flat2, scale, Branch::Positive)?;
+        Ok(Self {
+            turn: direction(zx, zz, flat2),
+            lift: direction(-zy, h, flat2 + zy * zy),
+            flat_inv: h_inv,
+            singular: true,
+        })
+    }
+
     /// The coordinates α − `from` and v, `from` being the angle of this sine and cosine.
     #[inline(always)]
     pub(super) fn angles_from(&self, [sin, cos]: [R; 2]) -> [JointCoordinate<R>; 2] {

@@ -57,7 +57,7 @@ const SINGULAR: &[Case] = &[
         parameters: "sides of 0.25 and 0.5 m, 2⁻³ to 2⁻¹⁷ rad from flat, and flat; two states each",
         source: "the parallelogram of a palletiser at the end of its stroke; flat, coupler and rocker may turn either way",
         oracle: ORACLE,
-        reason: "general loops: ε over the angle from flat; closer than 2·10⁻³ (f32) or 10⁻⁷ (f64) to it the rank drops, which is named. Clusters have the angle from a difference of squares: at most ε over its square in G and over its cube in Ġ ẏ; their status begins at 6·10⁻³ and 2·10⁻⁷ rad",
+        reason: "general loops: torques are damped and named below the default distance of 5·10⁻³, and exact where that begins; figures of inverse dynamics are with the least damping there is, which f64 is free of to 2·10⁻⁷ and f32 to 4·10⁻³: ε over the angle from flat. Forward dynamics names the rank that drops at 10⁻⁷ (f64) or 2·10⁻³ (f32). Clusters have the angle from a difference of squares: at most ε over its square in G and over its cube in Ġ ẏ; their status begins at 1.1·10⁻² (f32) and 6·10⁻⁵ rad (f64), where the error of Ġ ẏ is 10⁻³ of ẏ² in f64",
         run: || of_case(50),
     },
     Case {
@@ -66,7 +66,7 @@ const SINGULAR: &[Case] = &[
         parameters: "crank, coupler, rocker and ground of 0.125, 0.625, 0.25 and 0.5 m: shortest + longest = sum of the others; 2⁻³ to 2⁻¹⁷ rad from the change point, two states each, and at it, still",
         source: "Grashof (1883): the linkage is flat at the change point, and may continue on either branch",
         oracle: ORACLE,
-        reason: "as case 50. 2⁻¹⁷ rad from the change point a cluster in f64 has one digit of the torque left, none of the acceleration, and no status yet; general loops have eleven. The guess decides on the branch of a loop, its constant on that of a cluster",
+        reason: "as case 50; the status of a cluster begins at 2·10⁻² (f32) and 1.2·10⁻⁴ rad (f64). 2⁻¹⁷ rad from the change point, where it has no digit of the acceleration left, it is damped and named; general loops have eleven digits of the torque there, with the least damping there is. The guess decides on the branch of a loop, its constant on that of a cluster",
         run: || of_case(51),
     },
     Case {
@@ -75,7 +75,7 @@ const SINGULAR: &[Case] = &[
         parameters: "the Delta with cranks and rods stretched downwards; another one, rods 0.3125 m, whose rods and platform lie in one plane while the cranks are level, 2⁻³ to 2⁻¹⁰ rad from there, and there",
         source: "Gosselin & Angeles (1990): singularities of the first kind (stretched) and of the second kind, in which the motors do not hold the platform",
         oracle: ORACLE,
-        reason: "stretched arms are regular for the motors; near coplanar rods ε over the angle. Where they are coplanar three rows of K depend on the others besides, which forward dynamics in f32 names at 2⁻⁵ rad. f32 rounds the description of the Delta, too",
+        reason: "stretched arms are regular for the motors; near coplanar rods ε over the angle, with the least damping there is, and with the default damping named, finite and within its bound. Where they are coplanar three rows of K depend on the others besides, which forward dynamics in f32 names at 2⁻⁵ rad. f32 rounds the description of the Delta, too",
         run: || {
             let mut rows: Vec<_> = robots::deltas().iter().flat_map(Setup::rows).collect();
             rows.extend(status::coplanar_delta());
@@ -88,7 +88,7 @@ const SINGULAR: &[Case] = &[
         parameters: "the platform above the base's centre, turned about the vertical by 90° less 2⁻³ to 2⁻¹⁰ rad, and by ±90°; a platform similar to its base, which is singular everywhere",
         source: "Fichter (1986): turned by ±90°; Ma & Angeles (1991): architecture singularity",
         oracle: ORACLE,
-        reason: "inverse dynamics: ε over the angle, and named where the legs do not determine the platform's motion. Forward dynamics is regular there: K has full rank in all coordinates",
+        reason: "inverse dynamics: ε over the angle with the least damping there is, and named where the legs do not determine the platform's motion; with the default damping named from 2⁻⁵ rad. Forward dynamics is regular there: K has full rank in all coordinates",
         run: || robots::stewarts().iter().flat_map(Setup::rows).collect(),
     },
     Case {
@@ -97,7 +97,7 @@ const SINGULAR: &[Case] = &[
         parameters: "crank of 0.125 m, rod of 0.5 m, the motor at the piston, 2⁻³ to 2⁻¹⁰ rad from the dead point, and there; two states each",
         source: "a piston engine at its top: the piston's force has no lever",
         oracle: ORACLE,
-        reason: "the crank's rate is the piston's over the angle, of which the piston's position knows the square: at most ε over the square of the angle. Forward dynamics is regular",
+        reason: "the crank's rate is the piston's over the angle, of which the piston's position knows the square: at most ε over the square of the angle, with the least damping there is; with the default damping named from 2⁻⁵ rad. Forward dynamics is regular",
         run: || of_case(60),
     },
 ];

@@ -67,6 +67,13 @@ impl Outcome {
     }
 }
 
+/// Whether something is demanded of this quantity.
+pub(super) fn is_bounded(case: u32, quantity: &str) -> bool {
+    BOUNDS
+        .iter()
+        .any(|entry| (entry.0, entry.1) == (case, quantity))
+}
+
 /// The rows of a quantity in f32 and in f64 against the oracle's, as [`BOUNDS`] demands.
 pub fn rows(
     case: u32,

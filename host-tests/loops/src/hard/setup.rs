@@ -2,8 +2,10 @@
 
 use std::path::PathBuf;
 
+use dynamics_core::algorithms::rnea;
 use dynamics_core::loops::{
-    LoopError, Loops, Moving, Stabilisation, assemble, forward_dynamics, inverse_dynamics,
+    Drive, LoopError, LoopTorque, Loops, Moving, SINGULAR, Stabilisation, assemble,
+    forward_dynamics, inverse_dynamics,
 };
 use dynamics_core::model::{Model, RobotModel};
 use dynamics_core::scalar::Real;
@@ -14,7 +16,7 @@ use host_tests::export::{Robot, robot};
 use host_tests::hard::Row;
 use serde::{Deserialize, Serialize};
 
-use super::outcome::{Outcome, rows};
+use super::outcome::{Outcome, is_bounded, rows};
 use crate::export::{Loop, loops};
 
 /// A machine, and the states at which it is evaluated.
@@ -151,6 +153,9 @@ impl TrueState {
     }
 }
 
+/// Inverse dynamics as it is by default, where it is damped.
+const DAMPED: &str = "damped inverse dynamics";
+
 /// Numbers in the scalar R.
 pub(super) fn rounded<R: Real, const N: usize>(values: &[f64]) -> [R; N] {
     let values: [f64; N] = values.try_into().expect("a row of this robot");
@@ -215,15 +220,26 @@ impl<const B: usize, const Q: usize, const V: usize, const L: usize, const C: us
         );
         let states = &truth.states;
         let of = |values: fn(&TrueState) -> Option<&[f64]>| states.iter().map(values).collect();
-        let truths: [Vec<Option<&[f64]>>; 3] = [
+        let truths: [Vec<Option<&[f64]>>; 4] = [
             of(|state| Some(&state.q)),
+            of(|state| state.tau.as_deref()),
             of(|state| state.tau.as_deref()),
             of(|state| Some(&state.forward)),
         ];
-        let quantities = ["assembly (rad, m)", "inverse dynamics", "forward dynamics"];
+        let quantities = [
+            "assembly (rad, m)",
+            "inverse dynamics",
+            DAMPED,
+            "forward dynamics",
+        ];
         let mut all = Vec::new();
         for (k, quantity) in quantities.into_iter().enumerate() {
-            if k > 0 || self.moving == Moving::Passive {
+            let measured = match k {
+                0 => self.moving == Moving::Passive,
+                2 => self.is_damped(),
+                _ => true,
+            };
+            if measured {
                 let name = format!("{quantity}, {}", self.name);
                 all.extend(rows(self.case, &name, [&single[k], &double[k]], &truths[k]));
             }
@@ -231,13 +247,25 @@ impl<const B: usize, const Q: usize, const V: usize, const L: usize, const C: us
         all
     }
 
-    /// Of assembly, inverse and forward dynamics, by states.
+    /// Whether this is in the range that is damped by default: what is demanded there has a bound of its own.
+    fn is_damped(&self) -> bool {
+        is_bounded(self.case, &format!("{DAMPED}, {}", self.name))
+    }
+
+    /// Of assembly, inverse dynamics, the same with the default damping, and forward dynamics, by states.
+    ///
+    /// In the damped range the first of inverse dynamics are with the least damping there is, which leaves torques exact
+    /// up to where elimination loses a pivot.
     fn outcomes<R: Real>(
         &self,
         robot: &impl RobotModel<R, B, Q, V>,
         truth: &Truth,
-    ) -> [Vec<Outcome>; 3] {
-        let mut all = [Vec::new(), Vec::new(), Vec::new()];
+    ) -> [Vec<Outcome>; 4] {
+        let mut all = [const { Vec::new() }; 4];
+        let least = match self.is_damped() {
+            true => self.loops.damped_below(0.0),
+            false => self.loops,
+        };
         for (start, truth) in self.starts.iter().zip(&truth.states) {
             let guess = rounded(&start.q);
             let closed = assemble(robot, &self.loops, &guess, self.moving);
@@ -246,11 +274,12 @@ impl<const B: usize, const Q: usize, const V: usize, const L: usize, const C: us
                 Err(_) => Outcome::NOTHING,
             });
             let state: State<R, Q, V> = truth.state();
-            all[1].push(self.inverse(robot, &state));
+            all[1].push(self.inverse(robot, &least, &state));
+            all[2].push(self.inverse(robot, &self.loops, &state));
             let tau = rounded(&truth.given);
             let none = Stabilisation::NONE;
             let found = forward_dynamics(robot, &self.loops, &state, &tau, none, &scene());
-            all[2].push(match found {
+            all[3].push(match found {
                 Ok(found) => {
                     let named = found.rows.rank() < self.regular_rank();
                     Outcome::of(&found.qdd, named && all_finite(&found.lambda))
@@ -262,17 +291,41 @@ impl<const B: usize, const Q: usize, const V: usize, const L: usize, const C: us
         all
     }
 
-    /// Torques of a state; near a singular configuration an error that names a loop.
+    /// Torques of a state; near a singular configuration with a status that names a loop.
     pub fn inverse<R: Real>(
         &self,
         robot: &impl RobotModel<R, B, Q, V>,
+        loops: &Loops<L, C, A>,
         state: &State<R, Q, V>,
     ) -> Outcome {
-        match inverse_dynamics(robot, &self.loops, state, &scene()) {
-            Ok(found) => Outcome::of(&found.tau, false),
-            Err(LoopError::UnderActuated { name, .. }) if self.has(name) => Outcome::REFUSED,
+        match inverse_dynamics(robot, loops, state, &scene()) {
+            Ok(found) => {
+                let named = match found.drive {
+                    Drive::Singular { name, .. } => {
+                        self.has(name) && self.is_within_bound(robot, &found)
+                    }
+                    _ => false,
+                };
+                Outcome::of(&found.tau, named)
+            }
             Err(_) => Outcome::NOTHING,
         }
+    }
+
+    /// Whether damped torques are within the bound of [`Loops::damped_below`] at the default threshold.
+    fn is_within_bound<R: Real>(
+        &self,
+        robot: &impl RobotModel<R, B, Q, V>,
+        found: &LoopTorque<R, Q, V, C, A>,
+    ) -> bool {
+        let tree = rnea(robot, &found.state, &scene()).map(Real::to_f64);
+        let norm = |motors: bool| {
+            let of = (0..V).filter(|i| self.loops.actuated().contains(i) == motors);
+            of.map(|i| tree[i] * tree[i]).sum::<f64>().sqrt()
+        };
+        let bound = norm(true) + (2.0 * L as f64).sqrt() / SINGULAR * norm(false);
+        let squares = found.tau.iter().map(|tau| tau.to_f64().powi(2));
+        squares.sum::<f64>().sqrt() <= bound
     }
 
     /// Whether a loop has this name.

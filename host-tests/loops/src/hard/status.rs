@@ -101,8 +101,8 @@ pub fn coplanar_delta() -> Vec<Row> {
         qdd: rounded(&start.qdd),
     };
     let found = [
-        delta.inverse(&delta.single, &single),
-        delta.inverse(&delta.tree, start),
+        delta.inverse(&delta.single, &delta.loops, &single),
+        delta.inverse(&delta.tree, &delta.loops, start),
     ];
     let holds = found.map(|outcome| outcome.is_named());
     both("inverse dynamics, rods coplanar: named, finite", holds).into()

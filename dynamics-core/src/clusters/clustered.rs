@@ -208,7 +208,7 @@ impl<A> Clustered<A> {
     ///
     /// # Cost
     /// That of the tree's `rnea` without the sines of the dependent angles, that of the clusters, and 2 M N flops for
-    /// each. The same instructions whatever the data, but at singularities. Dependent angles themselves, which only
+    /// each. The same instructions for all data, but at singularities. Dependent angles themselves, which only
     /// effects of joints read, cost an arc tangent each where one does, in the core, and in the engine on trees of more
     /// than 16 joints.
     ///

@@ -147,7 +147,7 @@ where
     /// Gᵀ M G: the inertia at y of the tree's M, kg·m², kg and kg·m.
     ///
     /// # Cost
-    /// 2 V² flops for each independent coordinate of the largest cluster, and that of [`TreeMotion::torque`] Y times.
+    /// 2 V flops for each entry of G that can differ from zero, and that of [`TreeMotion::torque`] Y times.
     #[must_use]
     pub fn inertia(&self, m: &MassMatrix<R, V>) -> MassMatrix<R, Y> {
         // M G by columns, and Gᵀ of each.

@@ -173,6 +173,6 @@ where
         for i in (0..B).rev() {
             passes.inward(i, tau)?;
         }
-        Ok(passes.outward())
+        Ok(Self::finite(passes.outward())?)
     }
 }

@@ -213,8 +213,8 @@ impl<A> Clustered<A> {
     /// than 16 joints.
     ///
     /// # Errors
-    /// [`ClusterError`] names the cluster that no configuration closes at y. ẏ and ÿ are not checked: where one is not
-    /// finite, torques are not.
+    /// [`ClusterError`] names the cluster that no configuration closes at y; and where a torque is not finite, the first
+    /// cluster with such a one, or the robot.
     ///
     /// # Source
     /// Jain (2011), section 11.4; Featherstone, RBDA (2008), (3.16), G being the null space of the loops' constraints.
@@ -241,7 +241,8 @@ impl<A> Clustered<A> {
         E: Effect<R, B, V>,
     {
         let motion = evaluate::<R, A, B, Q, V, P, Y>(y)?;
-        Ok(motion.torque(&A::rnea(&motion.trig, &motion.tree, effects)))
+        let tau = A::rnea(&motion.trig, &motion.tree, effects);
+        TreeMotion::<R, A::Robot, B, Q, V, P, Y>::finite(motion.torque(&tau))
     }
 }
 

@@ -106,7 +106,9 @@ impl<A> Clustered<A> {
         E: Effect<R, B, V>,
     {
         let motion = evaluate::<R, A, B, Q, V, P, Y>(y)?;
-        motion.to_motors(&motion.torque(&A::rnea(&motion.trig, &motion.tree, effects)))
+        let tau = A::rnea(&motion.trig, &motion.tree, effects);
+        let tau = TreeMotion::<R, A::Robot, B, Q, V, P, Y>::finite(motion.torque(&tau))?;
+        motion.to_motors(&tau)
     }
 }
 

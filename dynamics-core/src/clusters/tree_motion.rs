@@ -2,15 +2,15 @@
 
 use core::fmt;
 
-use super::ClusteredRobot;
 use super::description::Places;
 use super::layout::{EXPANDED, Layout, NONE, at};
 use super::set::sealed::Set;
+use super::{ClusterError, ClusterProblem, ClusteredRobot};
 use crate::algorithms::MassMatrix;
 use crate::engine::for_each_joint;
 use crate::scalar::Real;
 use crate::spatial::Motion;
-use crate::state::{JointTrig, State, StateWithTrig, entry};
+use crate::state::{JointTrig, State, StateWithTrig, all_finite, entry};
 
 /// The spanning tree's state at y, ẏ, ÿ, with G: computed once a tick, for all algorithms.
 ///
@@ -183,6 +183,32 @@ where
             }
         }
         columns
+    }
+
+    /// Torques or accelerations at y, all of which are finite.
+    #[inline(always)]
+    pub(super) fn finite(of_y: [R; Y]) -> Result<[R; Y], ClusterError> {
+        if all_finite(&of_y) {
+            Ok(of_y)
+        } else {
+            Err(Self::not_finite(&of_y))
+        }
+    }
+
+    /// Names the first cluster of which a torque or an acceleration is not finite, or the robot.
+    #[cold]
+    #[inline(never)]
+    fn not_finite(of_y: &[R; Y]) -> ClusterError {
+        let layout = const { &Self::LAYOUT };
+        let mut clusters = layout.first.iter().zip(&layout.count).enumerate();
+        let found = clusters.find(|&(_, (&[_, first], &count))| {
+            let own = of_y.iter().skip(first).take(count);
+            own.fold(false, |found, x| found | !x.is_finite())
+        });
+        ClusterError {
+            cluster: found.map_or(T::MODEL.name, |(c, _)| T::CLUSTERS.name(c)),
+            problem: ClusterProblem::NotFinite,
+        }
     }
 
     /// Row v of G, beginning at a place of ẏ, and the entry of Ġ ẏ.

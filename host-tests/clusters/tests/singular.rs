@@ -2,7 +2,7 @@
 
 use core::f64::consts::{FRAC_PI_2, PI};
 
-use cluster_tests::{Random, ankle_states, apart, hold};
+use cluster_tests::{DeltaRobot, Random, ankle_states, apart, hold};
 use dynamics_core::algorithms::NotPositiveDefinite;
 use dynamics_core::clusters::{
     Belt, Branch, Cluster, ClusterError, ClusterProblem, Clustered, ClusteredRobot, DEAD_POINT,
@@ -13,7 +13,7 @@ use dynamics_core::model::{ArmModel, BASE, Body, Joint, JointCoordinate, Model, 
 use dynamics_core::scalar::{Native, Real};
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
-use firmware_demo::robots::{AnkleLeg, FourBarLeg};
+use firmware_demo::robots::{AnkleLeg, FourBarLeg, StewartPlatform};
 
 /// The follower's motion at a crank angle, in the scalar R.
 fn at<R: Real, C: Cluster<M, 1>, const M: usize>(
@@ -380,4 +380,53 @@ fn a_joint_that_moves_nothing_is_named() {
         panic!("{error:?}")
     };
     assert_eq!(joint, 4);
+}
+
+/// A number that is not finite in y, ẏ, ÿ or τ is an error of every function, and no NaN.
+fn not_finite<T, const B: usize, const N: usize, const Y: usize>(y: State<f32, Y, Y>)
+where
+    T: ClusteredRobot<B, N, N, Y, Y>,
+{
+    let is_error = |result: Result<[f32; Y], ClusterError>| {
+        assert_eq!(
+            result.map_err(|e| e.problem),
+            Err(ClusterProblem::NotFinite)
+        );
+    };
+    for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+        for k in 0..Y {
+            let mut all = [y; 3];
+            (all[0].q[k], all[1].qd[k], all[2].qdd[k]) = (bad, bad, bad);
+            for y in &all {
+                is_error(Clustered::<Core<T>>::rnea(y, &RIGID_BODY));
+                is_error(Clustered::<Engine<T>>::rnea(y, &RIGID_BODY));
+                let motors = Clustered::<Engine<T>>::rnea_of_motors(y, &RIGID_BODY);
+                is_error(motors.map(|found| found.tau));
+            }
+            let mut tau = [1.0; Y];
+            tau[k] = bad;
+            for (y, tau) in [(&all[0], &[1.0; Y]), (&all[1], &[1.0; Y]), (&y, &tau)] {
+                let found = Clustered::<Core<T>>::aba(y, tau, &RIGID_BODY);
+                assert!(found.is_err(), "{found:?}");
+            }
+        }
+    }
+    assert!(Clustered::<Engine<T>>::rnea(&y, &RIGID_BODY).is_ok());
+}
+
+#[test]
+fn numbers_that_are_not_finite_are_errors() {
+    let at = |q| State {
+        q,
+        qd: [1.0; 3],
+        qdd: [1.0; 3],
+    };
+    not_finite::<FourBarLeg, 5, 5, 3>(at([0.1, 0.2, 0.3]));
+    not_finite::<AnkleLeg, 9, 9, 3>(at([0.1, 0.2, 0.1]));
+    not_finite::<DeltaRobot, 12, 12, 3>(at([0.1, 0.2, 0.3]));
+    not_finite::<StewartPlatform, 24, 24, 6>(State {
+        q: [0.0, 0.0, 0.8, 0.1, 0.1, 0.1],
+        qd: [1.0; 6],
+        qdd: [1.0; 6],
+    });
 }

@@ -10,6 +10,7 @@ mod outcome;
 mod robots;
 mod setup;
 mod status;
+mod torque;
 
 pub use bounds::BOUNDS;
 pub use cases::CASES;

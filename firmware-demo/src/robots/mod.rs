@@ -25,4 +25,4 @@ pub use pick_delta::PickDelta;
 pub use scara::Scara;
 pub use ship::Ship;
 pub use space_arm::SpaceArm;
-pub use stewart::{LEGS, StewartPlatform};
+pub use stewart::{ABOVE, BELOW, LEGS, StewartPlatform};

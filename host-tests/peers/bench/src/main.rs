@@ -12,8 +12,9 @@ mod subject;
 use std::error::Error;
 use std::path::PathBuf;
 
+use cluster_tests::DeltaRobot;
 use dynamics_core::robots::{A1, G1, Iiwa14, Panda, Ur5e};
-use firmware_demo::robots::{AnkleLeg, FourBarLeg};
+use firmware_demo::robots::{AnkleLeg, FourBarLeg, StewartPlatform};
 use loop_tests::machines::{Delta, Stewart};
 use serde::Deserialize;
 
@@ -41,6 +42,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     // Planar, so that one row of three is redundant.
     loops::clustered::<FourBarLeg, 5, 5, 3>(loops, 1e-10)?;
     loops::clustered::<AnkleLeg, 9, 9, 3>(loops, 0.0)?;
+    loops::clustered::<DeltaRobot, 12, 12, 3>(loops, 0.0)?;
+    loops::clustered::<StewartPlatform, 24, 24, 6>(loops, 0.0)?;
     let Some(urdfs) = &manifest.urdfs else {
         return Ok(());
     };

@@ -185,9 +185,12 @@ fn a_reference_that_does_not_close_is_a_fault_and_no_torque() {
     let mut control: SimLoop<3> =
         control_loop::<AnkleSteps, _, _, _, 9, 9, 9, 3>(encoders, drives, SimBrake, &Torn.at(0));
     for tick in 0..60 {
-        let told = control.tick::<Full<AnkleSteps, 9, 9, 9>, _, _>(&reference, &Torn.at(tick));
-        assert!(told.torque.iter().all(|tau| tau.is_finite()), "{told:?}");
-        let fault = told.status.fault;
+        let telemetry = control.tick::<Full<AnkleSteps, 9, 9, 9>, _, _>(&reference, &Torn.at(tick));
+        assert!(
+            telemetry.torque.iter().all(|tau| tau.is_finite()),
+            "{telemetry:?}"
+        );
+        let fault = telemetry.status.fault;
         if tick < 20 {
             assert_eq!(fault, None);
         } else {

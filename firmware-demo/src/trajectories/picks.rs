@@ -12,7 +12,7 @@ use crate::scene::TICK;
 pub const LIFT: f32 = 0.025;
 /// The horizontal distance of a move, m: see [`LIFT`].
 pub const REACH: f32 = 0.305;
-/// The place from which parts are taken, m.
+/// The place of the parts, m.
 pub const FEEDER: [f32; 3] = [-0.16, -0.06, -0.95];
 /// The duration of a move, ticks: with the return half a second, 120 picks a minute.
 pub const MOVE: u32 = 250;

@@ -135,7 +135,7 @@ impl<const Y: usize> Sweep<Y> {
             undamped: 0.0,
             error: 0.0,
         };
-        let (mut seen, [low, high]) = ([0; 2], self.range);
+        let (mut counts, [low, high]) = ([0; 2], self.range);
         let at = |k: i32| low + (high - low) * f64::from(k) / 20_000.0;
         let mut borders = Vec::new();
         let mut before = None;
@@ -148,7 +148,7 @@ impl<const Y: usize> Sweep<Y> {
                 damped == (distance < 1.0) || (distance - 1.0).abs() < slack,
                 "{distance}"
             );
-            seen[usize::from(damped)] += 1;
+            counts[usize::from(damped)] += 1;
             all.largest = all.largest.max(norm(&tau) / bound);
             if distance > 0.0 {
                 all.undamped = all.undamped.max(norm(&exact) / bound);
@@ -166,8 +166,8 @@ impl<const Y: usize> Sweep<Y> {
             before = Some(damped);
         }
         assert!(
-            seen[0] > 10 && seen[1] > 10 && borders.len() >= 2,
-            "{seen:?} {borders:?}"
+            counts[0] > 10 && counts[1] > 10 && borders.len() >= 2,
+            "{counts:?} {borders:?}"
         );
         for [mut one, mut other] in borders {
             let get = |x| {

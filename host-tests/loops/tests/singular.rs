@@ -64,7 +64,7 @@ impl<const Q: usize, const L: usize, const C: usize, const A: usize> Sweep<Q, L,
         let robot = Static::<T>::NEW;
         let torque = |loops, at| self.torque::<R, T, B, V>(loops, at);
         let (mut fullest, mut undamped, mut outside) = (0.0_f64, 0.0_f64, 0.0_f64);
-        let mut seen = [0; 2];
+        let mut counts = [0; 2];
         for k in -80_i32..=80 {
             let off = f64::from(k.signum()) * self.reach * (f64::from(80 - k.abs()) * -0.25).exp();
             for moving in [0.0, 1.0] {
@@ -80,7 +80,7 @@ impl<const Q: usize, const L: usize, const C: usize, const A: usize> Sweep<Q, L,
                     damped == (distance < 1.0) || (distance - 1.0).abs() < slack,
                     "{off:e}"
                 );
-                seen[usize::from(damped)] += 1;
+                counts[usize::from(damped)] += 1;
 
                 // The bound of `damped_below`, by the tree's torques.
                 let tree = rnea(&robot, &found.state, &RIGID_BODY).map(Real::to_f64);
@@ -102,7 +102,7 @@ impl<const Q: usize, const L: usize, const C: usize, const A: usize> Sweep<Q, L,
                 }
             }
         }
-        assert!(seen[0] > 10 && seen[1] > 10, "{seen:?}");
+        assert!(counts[0] > 10 && counts[1] > 10, "{counts:?}");
         println!(
             "{}: {fullest:.3} of the bound, {undamped:.1} without damping",
             T::MODEL.name

@@ -212,3 +212,35 @@ fn floor_share(row: &Row) -> Option<String> {
     let comparable = row.joints == FLOOR_JOINTS && row.inputs == "full" && !row.trig;
     comparable.then(|| format!("{:.2}", row.flops as f64 / floor as f64))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Report, Row};
+    use crate::bars::{Bar, Bars};
+
+    #[test]
+    fn what_one_row_takes_more_than_another_has_a_bar() {
+        let row = |algorithm, cycles| Row::sample(["leg", algorithm, "engine", "full"], cycles);
+        let report = |rows: Vec<Row>| Report {
+            rows,
+            small: Vec::new(),
+            bars: Bars::from([(
+                "leg loop engine full trig over leg tree engine full trig".into(),
+                Bar {
+                    most: [("cycles".into(), 180.0)].into(),
+                    missed: Vec::new(),
+                },
+            )]),
+            rustc: String::new(),
+        };
+        let missed = |more: u64| report(vec![row("tree", 400), row("loop", 400 + more)]).missed();
+        assert!(missed(180).is_empty());
+        assert!(
+            missed(181)[0].ends_with("cycles 181 > 180"),
+            "{:?}",
+            missed(181)
+        );
+        let lonely = report(vec![row("loop", 400)]).missed();
+        assert!(lonely[0].ends_with("there is no such row"), "{lonely:?}");
+    }
+}

@@ -41,6 +41,8 @@ fn an_angle_is_the_nearest_count_on_either_side_of_zero() {
 struct Wound;
 
 impl Simulated<(), 1> for Wound {
+    type Error = NotPositiveDefinite;
+
     fn encoder_positions(&self) -> [f32; 1] {
         [0.1]
     }

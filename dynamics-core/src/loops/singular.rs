@@ -39,7 +39,7 @@ impl<const L: usize, const C: usize, const A: usize> Loops<L, C, A> {
     /// It bounds the torques: |τ_a| ≤ |τ_m| + √(2 L) / ε · |τ_p| of the tree's torques τ_m at the motors and τ_p at the
     /// passive coordinates. The distance is 1 / √(tr (K_pᵀ K_p)⁻¹) of the passive columns of K, rows relative to the
     /// sizes of their loops: at most the least singular value. With p passive coordinates the least threshold is
-    /// √(C − p + 1) times [`RANK_TOLERANCE`](super::RANK_TOLERANCE); a smaller one counts as that.
+    /// √(C − p + 1) times [`RANK_TOLERANCE`]; a smaller one counts as that.
     ///
     /// ```
     /// use dynamics_core::effects::RIGID_BODY;

@@ -20,7 +20,7 @@ pub(super) struct Platform<R: Real> {
     roll: R::Vec3,
     /// ω̇ at ÿ = 0.
     alpha: R::Vec3,
-    /// Of a vector r that is fixed to the platform the r̈ at ÿ = 0: [ω̇]× + [ω]×².
+    /// r̈ at ÿ = 0 of a vector r that is fixed to the platform, as a matrix: ω̇ × r + ω × (ω × r).
     pub(super) centripetal: R::Mat3,
 }
 
@@ -74,7 +74,7 @@ impl<R: Real> Platform<R> {
     }
 }
 
-/// [ω̇]× + [ω]×².
+/// The matrix of ω̇ × r + ω × (ω × r).
 #[inline(always)]
 fn centripetal<R: Real>(omega: R::Vec3, alpha: R::Vec3) -> R::Mat3 {
     let ([x, y, z], [ax, ay, az]) = (omega.array(), alpha.array());

@@ -10,7 +10,7 @@ use std::path::Path;
 /// At most so many in all.
 const MOST: usize = 62;
 /// At most so many of robots with kinematic loops.
-const MOST_OF_LOOPS: usize = 9;
+const MOST_OF_LOOPS: usize = 12;
 
 /// Endings of names for variants that a type of the argument or a parameter of `Core` and `Engine` replaces: sines and
 /// cosines computed before, another kernel.

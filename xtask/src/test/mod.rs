@@ -94,7 +94,7 @@ const STEPS: &[Step] = &[
     ("determinism", Target, Everyday, "two runs of a scene give the same bytes", scenes::determinism),
     ("tracking", Target, Everyday, "every scene tracks within its bound, the default one better than PD as promised", scenes::tracking),
     ("cycles", Target, Everyday, "the longest tick is short enough", scenes::cycles),
-    ("no-f64", Target, Everyday, "the tick reaches no f64 arithmetic, no libm trigonometry and no panic", functions::no_f64),
+    ("no-f64", Target, Everyday, "the tick reaches no f64 arithmetic, no sine of libm and no panic", functions::no_f64),
     ("opcodes", Target, Everyday, "the firmware has no instruction that a Cortex-M4F lacks", functions::opcodes),
     ("budgets", Target, Everyday, "every scene is within budgets.toml", scenes::budgets),
     ("constant", Target, Everyday, "the work costs the same whatever the data", functions::constant),

@@ -16,6 +16,16 @@ pub const REACH: f32 = 0.305;
 pub const FEEDER: [f32; 3] = [-0.16, -0.06, -0.95];
 /// The duration of a move, ticks: with the return half a second, 120 picks a minute.
 pub const MOVE: u32 = 250;
+/// [`SIDES`] in f32: nothing is converted in a tick.
+const SINGLE: [[f32; 2]; 3] = {
+    let mut single = [[0.0; 2]; 3];
+    let mut i = 0;
+    while i < single.len() {
+        single[i] = [SIDES[i][0] as f32, SIDES[i][1] as f32];
+        i += 1;
+    }
+    single
+};
 /// cos and sin of the directions from the feeder to the places of the parts: −30°, 0°, 30°, 60°.
 const PLACES: [[f32; 2]; 4] = [
     [0.866_025_4, -0.5],
@@ -129,8 +139,8 @@ pub fn cranks<R: Real>(platform: &State<R, 3, 3>) -> State<R, 3, 3> {
     .map(R::from_f64);
     let half_inv = R::from_f64(const { 0.5 / PickDelta::CRANK });
     let mut cranks = State::at([R::ZERO; 3]);
-    for (j, [cos, sin]) in SIDES.into_iter().enumerate() {
-        let [cos, sin] = [cos, sin].map(R::from_f64);
+    for (j, (double, single)) in SIDES.into_iter().zip(SINGLE).enumerate() {
+        let [cos, sin] = [0, 1].map(|i| R::select(double[i], single[i]));
         let turned = |[x, y, z]: [R; 3]| [cos * x + sin * y, cos * y - sin * x, z];
         let [x, y, z] = turned(platform.q);
         let (pd, pdd) = (turned(platform.qd), turned(platform.qdd));

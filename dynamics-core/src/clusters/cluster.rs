@@ -22,6 +22,8 @@ use crate::trig::Kernel;
 /// struct ScotchYoke(f64);
 ///
 /// impl Cluster<2, 1> for ScotchYoke {
+///     const INDEPENDENT: [Option<usize>; 2] = [Some(0), None];
+///
 ///     fn evaluate<R: Real, K: Kernel<R>>(
 ///         &self,
 ///         [y]: &[JointCoordinate<R>; 1],
@@ -47,6 +49,12 @@ use crate::trig::Kernel;
 /// Jain, *Robot and Multibody Dynamics* (2011), chapter 11, constraint embedding; Chignoli, Adrian, Kim & Wensing
 /// (2023).
 pub trait Cluster<const M: usize, const N: usize>: Copy {
+    /// The independent coordinate that each joint coordinate is, of those that are one.
+    ///
+    /// Its row of G must be a unit row, and its Ġ ẏ zero: no product with them is computed. `None`, which is the
+    /// default, is right for every row.
+    const INDEPENDENT: [Option<usize>; M] = [None; M];
+
     /// γ(y), G and Ġ ẏ.
     ///
     /// `y` are the independent coordinates with their sines and cosines by the kernel K, which also serves for those of
@@ -110,18 +118,18 @@ pub(super) fn dot<R: Real, const N: usize>(a: &[R; N], b: &[R; N]) -> R {
 
 /// Adds gᵏ τ to each of the sums, or begins them.
 #[inline(always)]
-pub(super) fn add_torque<R: Real, const N: usize>(
-    sums: &mut [R; N],
-    g: &[R; N],
-    tau: R,
-    first: bool,
-) {
+pub(super) fn add_torque<R: Real, const N: usize>(sums: &mut [Option<R>; N], g: &[R; N], tau: R) {
     for_each_joint!(K, {
         if const { K < N } {
-            let term = g[K] * tau;
-            sums[K] = if first { term } else { sums[K] + term };
+            add(&mut sums[K], g[K] * tau);
         }
     });
+}
+
+/// Adds a term to a sum, or begins it: without an addition to zero.
+#[inline(always)]
+pub(super) fn add<R: Real>(sum: &mut Option<R>, term: R) {
+    *sum = Some(sum.map_or(term, |sum| sum + term));
 }
 
 /// Why a cluster has no motion.

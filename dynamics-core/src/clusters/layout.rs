@@ -214,3 +214,8 @@ pub(super) const fn joint<const B: usize, const Q: usize, const V: usize>(
 pub(super) const fn at(list: &[usize], i: usize) -> usize {
     if i < list.len() { list[i] } else { NONE }
 }
+
+/// An entry of [`Cluster::INDEPENDENT`](super::Cluster::INDEPENDENT).
+pub(super) const fn independent(list: &[Option<usize>], j: usize) -> Option<usize> {
+    if j < list.len() { list[j] } else { None }
+}

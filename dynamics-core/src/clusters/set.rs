@@ -1,8 +1,8 @@
 //! All clusters of a robot: a tuple.
 
-use super::cluster::{add_torque, dot};
+use super::cluster::{add, add_torque, dot};
 use super::description::Places;
-use super::layout::at;
+use super::layout::{at, independent};
 use super::motors::MotorTorques;
 use super::{Cluster, ClusterError, ClusterMotion, ClusteredRobot, Driven};
 use crate::engine::for_each_joint;
@@ -147,8 +147,13 @@ impl<C: Cluster<M, N>, const M: usize, const N: usize> Driven<C, M, N> {
                 }
                 if let (Some(qd), Some(qdd)) = (tree.state.qd.get_mut(v), tree.state.qdd.get_mut(v))
                 {
-                    let g = &motion.g[J];
-                    (*qd, *qdd) = (dot(g, &yd), dot(g, &ydd) + motion.bias[J]);
+                    (*qd, *qdd) = match const { independent(&C::INDEPENDENT, J) } {
+                        Some(k) => (entry(&yd, k), entry(&ydd, k)),
+                        None => {
+                            let g = &motion.g[J];
+                            (dot(g, &yd), dot(g, &ydd) + motion.bias[J])
+                        }
+                    };
                 }
             }
         });
@@ -172,16 +177,23 @@ impl<C: Cluster<M, N>, const M: usize, const N: usize> Driven<C, M, N> {
         out: &mut [R; Y],
     ) {
         let layout = const { &Places::<T, B, P, Y>::layout::<Q, V>() };
-        let mut sums = [R::ZERO; N];
+        let mut sums = [None; N];
         for_each_joint!(J, {
             if const { J < M } {
                 let tau = entry(tau, const { at(T::COORDINATES[I], J) });
-                add_torque(&mut sums, &motion.g[J], tau, J == 0);
+                match const { independent(&C::INDEPENDENT, J) } {
+                    Some(k) => {
+                        if let Some(sum) = sums.get_mut(k) {
+                            add(sum, tau);
+                        }
+                    }
+                    None => add_torque(&mut sums, &motion.g[J], tau),
+                }
             }
         });
         for (k, tau) in sums.into_iter().enumerate() {
             if let Some(out) = out.get_mut(layout.first[I][1] + k) {
-                *out = tau;
+                *out = tau.unwrap_or_default();
             }
         }
     }

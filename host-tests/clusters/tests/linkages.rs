@@ -8,10 +8,11 @@ use cluster_tests::{
 };
 use dynamics_core::algorithms::{Pose, frame};
 use dynamics_core::clusters::{ClusterProblem, Clustered, ClusteredRobot, Stewart};
+use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::model::Static;
 use dynamics_core::spatial::Motion;
 use dynamics_core::state::{RobotState, State};
-use dynamics_core::{Core, algorithms};
+use dynamics_core::{Core, Engine, algorithms};
 use firmware_demo::robots::{AnkleLeg, FourBarLeg, LEGS, StewartPlatform};
 use glam::{DMat3, DVec3};
 
@@ -180,6 +181,46 @@ fn coordinates_of_a_stewart_platform_follow_from_its_pose_twist_and_acceleration
     };
     let upright = DMat3::from_rotation_y(core::f64::consts::FRAC_PI_2);
     assert_eq!(still(upright, DVec3::Z), Err(ClusterProblem::CannotClose));
-    let nowhere = still(DMat3::IDENTITY, DVec3::NAN);
-    assert_eq!(nowhere, Err(ClusterProblem::NotFinite));
+}
+
+#[test]
+fn a_platform_whose_pose_or_motion_is_not_finite_has_no_forces_of_its_legs() {
+    let forces = |[pos, ahead, left, above, omega, v, alpha, a]: [DVec3; 8]| {
+        let rot = DMat3::from_cols(ahead, left, above);
+        let of = |ang, lin| Motion::<f64> { ang, lin };
+        let y = Stewart::coordinates(&Pose { rot, pos }, of(omega, v), of(alpha, a));
+        let forces =
+            y.map(|y| Clustered::<Engine<StewartPlatform>>::rnea_of_motors(&y, &RIGID_BODY));
+        forces.map(|forces| {
+            forces
+                .map(|forces| forces.tau)
+                .map_err(|error| error.problem)
+        })
+    };
+    let one = 0.1 * DVec3::ONE;
+    let moving = [
+        DVec3::Z * 0.8,
+        DVec3::X,
+        DVec3::Y,
+        DVec3::Z,
+        one,
+        one,
+        one,
+        one,
+    ];
+    assert!(matches!(forces(moving), Ok(Ok(_))));
+    for (bad, i, k) in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY]
+        .into_iter()
+        .flat_map(|bad| (0..8).flat_map(move |i| (0..3).map(move |k| (bad, i, k))))
+        // Of ŷ of the platform the algorithm reads the last component alone.
+        .filter(|&(_, i, k)| !(i == 2 && k < 2 || i == 3 && k < 2))
+    {
+        let mut of = moving;
+        of[i][k] = bad;
+        let refused = forces(of);
+        assert!(
+            matches!(refused, Err(_) | Ok(Err(_))),
+            "{bad} at {i}, {k}: {refused:?}"
+        );
+    }
 }

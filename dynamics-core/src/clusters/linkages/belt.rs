@@ -56,6 +56,8 @@ impl<const C: usize> Belt<C> {
 }
 
 impl<const C: usize> Cluster<2, 1> for Belt<C> {
+    const INDEPENDENT: [Option<usize>; 2] = [Some(0), None];
+
     #[inline(always)]
     fn evaluate<R: Real, K: Kernel<R>>(
         &self,

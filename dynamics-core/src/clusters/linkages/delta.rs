@@ -251,6 +251,12 @@ impl<R: Real> Arm<R> {
 }
 
 impl Cluster<12, 3> for Delta {
+    const INDEPENDENT: [Option<usize>; 12] = {
+        let mut cranks = [None; 12];
+        (cranks[0], cranks[3], cranks[6]) = (Some(0), Some(1), Some(2));
+        cranks
+    };
+
     #[inline(always)]
     fn evaluate<R: Real, K: Kernel<R>>(
         &self,

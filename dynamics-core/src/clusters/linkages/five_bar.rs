@@ -104,6 +104,8 @@ impl FiveBar {
 }
 
 impl Cluster<4, 2> for FiveBar {
+    const INDEPENDENT: [Option<usize>; 4] = [Some(0), None, Some(1), None];
+
     #[inline(always)]
     fn evaluate<R: Real, K: Kernel<R>>(
         &self,

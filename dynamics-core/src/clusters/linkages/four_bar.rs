@@ -114,6 +114,8 @@ impl FourBar {
 }
 
 impl Cluster<3, 1> for FourBar {
+    const INDEPENDENT: [Option<usize>; 3] = [Some(0), None, None];
+
     #[inline(always)]
     fn evaluate<R: Real, K: Kernel<R>>(
         &self,

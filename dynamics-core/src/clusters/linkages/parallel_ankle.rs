@@ -250,6 +250,8 @@ impl Rod {
 }
 
 impl Cluster<8, 2> for ParallelAnkle {
+    const INDEPENDENT: [Option<usize>; 8] = [Some(0), Some(1), None, None, None, None, None, None];
+
     #[inline(always)]
     fn evaluate<R: Real, K: Kernel<R>>(
         &self,

@@ -8,7 +8,7 @@ use crate::clusters::ClusterProblem;
 use crate::model::JointCoordinate;
 use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::Motion;
-use crate::state::{State, all_finite};
+use crate::state::State;
 
 /// The platform's position, attitude and rates, which all legs share.
 pub(super) struct Platform<R: Real> {
@@ -97,8 +97,9 @@ impl Stewart {
     /// Some 60 flops, two divisions and a root, and an arc tangent for each of three angles.
     ///
     /// # Errors
-    /// [`ClusterProblem::CannotClose`] at a pitch within 10⁻³ rad of ±90°, where yaw and roll have one axis;
-    /// [`ClusterProblem::NotFinite`] where a number is not finite.
+    /// [`ClusterProblem::CannotClose`] at a pitch within 10⁻³ rad of ±90°, where yaw and roll have one axis. Numbers that
+    /// are not finite are not refused here: they give coordinates that are not, for which the dynamics return
+    /// [`ClusterProblem::NotFinite`].
     ///
     /// ```
     /// use dynamics_core::algorithms::Pose;
@@ -140,15 +141,10 @@ impl Stewart {
         let platform = Platform::<R>::of(&[x, y, z, yaw, pitch, roll], &moving);
         let [yaw_dd, pitch_dd, roll_dd] = rates((acceleration.ang - platform.alpha).array());
         let ([vx, vy, vz], [ax, ay, az]) = (twist.lin.array(), acceleration.lin.array());
-        let state = State {
+        Ok(State {
             q: [x.q, y.q, z.q, yaw.q, pitch.q, roll.q],
             qd: [vx, vy, vz, yaw_d, pitch_d, roll_d],
             qdd: [ax, ay, az, yaw_dd, pitch_dd, roll_dd],
-        };
-        if all_finite(&state.q) & all_finite(&state.qd) & all_finite(&state.qdd) {
-            Ok(state)
-        } else {
-            Err(ClusterProblem::NotFinite)
-        }
+        })
     }
 }

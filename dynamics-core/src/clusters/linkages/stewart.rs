@@ -165,6 +165,16 @@ impl Leg {
 }
 
 impl Cluster<24, 6> for Stewart {
+    const INDEPENDENT: [Option<usize>; 24] = {
+        let mut platform = [None; 24];
+        let mut k = 0;
+        while k < 6 {
+            platform[k] = Some(k);
+            k += 1;
+        }
+        platform
+    };
+
     #[inline(always)]
     fn evaluate<R: Real, K: Kernel<R>>(
         &self,

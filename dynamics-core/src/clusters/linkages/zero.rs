@@ -60,12 +60,22 @@ impl Zero {
 
 /// The angle within ±π of a sine and cosine.
 ///
-/// Without a branch or a call, so that nothing of it is left where no effect reads the angle. An arc tangent within
-/// 10⁻⁵ rad (Abramowitz & Stegun, 4.4.49), the error of which, δ, one step with the sine of the difference reduces to
-/// δ³/6.
+/// Without a branch or a call, so that nothing of it is left where no effect reads the angle. In f32 an arc tangent
+/// within 2·10⁻⁸ rad (Abramowitz & Stegun, 4.4.50); in f64 the same, the error of which, δ, one step with the sine of
+/// the difference reduces to δ³/6.
 #[inline(always)]
 pub(super) fn of_unit<R: Real>(sin: R, cos: R) -> JointCoordinate<R> {
-    const ATAN: [f64; 5] = [0.999_866, -0.330_299_5, 0.180_141, -0.085_133, 0.020_835_1];
+    const ATAN: [f64; 9] = [
+        1.0,
+        -0.333_331_452_8,
+        0.199_935_508_5,
+        -0.142_088_994_4,
+        0.106_562_639_3,
+        -0.075_289_640_0,
+        0.042_909_613_8,
+        -0.016_165_736_7,
+        0.002_866_225_7,
+    ];
     let (s, c) = (sin.abs(), cos.abs());
     let steep = s > c;
     let (less, more) = select_unpredictable(steep, (c, s), (s, c));
@@ -76,9 +86,12 @@ pub(super) fn of_unit<R: Real>(sin: R, cos: R) -> JointCoordinate<R> {
     let [quarter, half] = [core::f64::consts::FRAC_PI_2, core::f64::consts::PI].map(R::from_f64);
     let rough = select_unpredictable(steep, quarter - rough, rough);
     let rough = select_unpredictable(cos < R::ZERO, half - rough, rough);
-    let rough = select_unpredictable(sin < R::ZERO, -rough, rough);
-    let (rough_sin, rough_cos) = rough.sin_cos_near();
-    let q = rough + (sin * rough_cos - cos * rough_sin);
+    let q = select_unpredictable(sin < R::ZERO, -rough, rough);
+    if R::EPSILON.to_f64() > 1e-8 {
+        return JointCoordinate { q, sin, cos };
+    }
+    let (rough_sin, rough_cos) = q.sin_cos_near();
+    let q = q + (sin * rough_cos - cos * rough_sin);
     JointCoordinate { q, sin, cos }
 }
 

@@ -18,6 +18,7 @@
 //! | `engine`: [`Engine`] | inverse and forward dynamics, M and Jacobians, specialised by the compiler for a robot known at compile time |
 //! | [`drivetrain`] | between motors and joints: a constant matrix that couples them, or springs |
 //! | [`clusters`] | kinematic loops of closed form, such as four-bars and parallel ankles, as joints of several bodies |
+//! | [`flexible`] | links that bend: modes of beams, inverse and forward dynamics with them |
 //! | [`control`] | trajectories, observer, control law, safety gate |
 //! | [`sim`] | time steps of a simulated robot, and its actuators |
 //!
@@ -48,6 +49,7 @@ mod defmt_form;
 pub mod drivetrain;
 pub mod effects;
 mod engine;
+pub mod flexible;
 pub mod loops;
 mod math;
 pub mod model;

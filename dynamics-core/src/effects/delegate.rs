@@ -135,6 +135,8 @@ macro_rules! delegate_effect {
                 & (false $(| <$inner as $crate::effects::Effect<$R, $B, $V>>::ACCELERATIONS)*);
             const VELOCITY_PRODUCTS: bool = ($on)
                 & (false $(| <$inner as $crate::effects::Effect<$R, $B, $V>>::VELOCITY_PRODUCTS)*);
+            const ELASTICITY: bool = ($on)
+                & (false $(| <$inner as $crate::effects::Effect<$R, $B, $V>>::ELASTICITY)*);
 
             #[inline(always)]
             fn torque(&self, joint: usize, at: $crate::effects::JointState<$R>, tau: &mut $R) {

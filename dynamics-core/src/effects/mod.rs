@@ -13,7 +13,7 @@
 //!
 //! | where | effects |
 //! |---|---|
-//! | all bodies | [`Gravity`], [`GravityVector`]; [`Inertia`], [`Coriolis`]; [`MovingBase`] |
+//! | all bodies | [`Gravity`], [`GravityVector`]; [`Inertia`], [`Coriolis`]; [`MovingBase`]; of links that bend, [`Elasticity`] |
 //! | a body | [`BodyWrench`], [`WorldWrench`], [`Contact`]; [`Payload`] |
 //! | a joint: friction | [`Viscous`], [`Coulomb`], [`AsymmetricCoulomb`], [`Stribeck`], [`Lugre`] |
 //! | a joint: position | [`Spring`], [`EndStops`], [`Cogging`] |
@@ -83,7 +83,7 @@ pub use hook_args::{BodyState, BodyVelocity, JointState, TorqueDerivatives};
 pub use implicit::Implicit;
 pub use joint::{Armature, Cogging, EndStops, GyroscopicRotors, Spring};
 pub use rigid_body::{
-    Coriolis, Direction, Down, Gravity, GravityVector, Inertia, MovingBase, RIGID_BODY,
+    Coriolis, Direction, Down, Elasticity, Gravity, GravityVector, Inertia, MovingBase, RIGID_BODY,
 };
 pub use width::Width;
 
@@ -121,7 +121,7 @@ use crate::scalar::Real;
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not an effect on a robot of {B} bodies and {V} joints in `{R}`",
     label = "not an effect of this size and scalar",
-    note = "effects: Gravity, GravityVector, Inertia, Coriolis, Viscous([R; V]), Coulomb {{ .. }}, \
+    note = "effects: Gravity, GravityVector, Inertia, Coriolis, Elasticity, Viscous([R; V]), Coulomb {{ .. }}, \
             AsymmetricCoulomb {{ .. }}, Stribeck {{ .. }}, Lugre {{ .. }}, Spring {{ .. }}, EndStops {{ .. }}, \
             Cogging {{ .. }}, Armature([R; V]), GyroscopicRotors {{ .. }}, Payload::<_, BODY>, BodyWrench, WorldWrench, Contact, \
             MovingBase, tuples of up to 12 of them, and your own through `impl Effect`"
@@ -141,6 +141,8 @@ pub trait Effect<R: Real, const B: usize, const V: usize>: Declared<R, B, V> {
     const ACCELERATIONS: bool = false;
     /// The scene has the velocity products C(q, q̇) q̇.
     const VELOCITY_PRODUCTS: bool = false;
+    /// The scene has the stiffness and damping of links that bend ([`crate::flexible`]).
+    const ELASTICITY: bool = false;
 
     /// Adds to the torque τ that the motor of `joint` must supply independently of its acceleration, N·m or N.
     #[inline(always)]

@@ -48,6 +48,24 @@ pub(crate) const fn sin_cos(x: f64) -> (f64, f64) {
     }
 }
 
+/// eˣ by Taylor series about the nearest multiple of ln 2; within 2 ulp to |x| ≤ 700.
+pub(crate) const fn exp(x: f64) -> f64 {
+    let powers = x * core::f64::consts::LOG2_E;
+    let k = (if powers < 0.0 {
+        powers - 0.5
+    } else {
+        powers + 0.5
+    }) as i64;
+    // ln 2 in two parts, the first with enough zero bits that k times it is exact.
+    let r = (x - k as f64 * 0.693_147_180_369_123_8) - k as f64 * 1.908_214_929_270_587_7e-10;
+    let (mut sum, mut n) = (1.0, 16);
+    while n >= 1 {
+        sum = 1.0 + sum * r / n as f64;
+        n -= 1;
+    }
+    sum * f64::from_bits(((k + 1023) as u64) << 52)
+}
+
 pub(crate) const fn vec3(v: [f64; 3]) -> DVec3 {
     DVec3::new(v[0], v[1], v[2])
 }
@@ -153,6 +171,7 @@ mod tests {
             assert!((c - libm::cos(x)).abs() < 5e-16, "cos {x}: {c}");
             let y = libm::exp(x);
             assert!((sqrt(y) / libm::sqrt(y) - 1.0).abs() < 3e-16, "sqrt {y}");
+            assert!((exp(x) / y - 1.0).abs() < 5e-16, "exp {x}");
             x += 0.137;
         }
     }

@@ -16,6 +16,15 @@ pub struct Coriolis;
 /// Rigid-body dynamics on earth: gravity, inertia and velocity products, with which most scenes begin.
 pub const RIGID_BODY: (Gravity, Inertia, Coriolis) = (Gravity::EARTH, Inertia, Coriolis);
 
+/// K η + D η̇: the stiffness and damping of links that bend, which [`Modes`](crate::flexible::Modes) has. Robots without
+/// modes have none.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Elasticity;
+
+impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Elasticity {
+    const ELASTICITY: bool = true;
+}
+
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Inertia {
     const ACCELERATIONS: bool = true;
 }

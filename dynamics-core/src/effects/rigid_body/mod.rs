@@ -7,5 +7,5 @@ mod moving_base;
 
 pub(crate) use bias::{Bias, OfBodies};
 pub use gravity::{Direction, Down, Gravity};
-pub use inertia_coriolis::{Coriolis, Inertia, RIGID_BODY};
+pub use inertia_coriolis::{Coriolis, Elasticity, Inertia, RIGID_BODY};
 pub use moving_base::{GravityVector, MovingBase};

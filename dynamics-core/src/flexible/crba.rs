@@ -1,0 +1,229 @@
+//! The inertia of joints and modes: the composite-rigid-body algorithm with modes.
+//!
+//! The composite body on the end of a link is rigid, as everywhere in the algorithm: a mode's column is the force of its
+//! unit acceleration on its own link and on that body, projected on every coordinate between it and the base.
+
+use core::borrow::Borrow;
+use core::ops::Range;
+
+use heapless::Vec;
+
+use super::Modes;
+use super::deformation::{End, Moments};
+use crate::algorithms::{MassMatrix, inward};
+use crate::effects::{Effect, body_inertia};
+use crate::model::{LinkView, RobotModel};
+use crate::scalar::{Real, Vector};
+use crate::spatial::inertia::CompositeInertia;
+use crate::spatial::{Force, MotionSubspace, SpatialInertia, Xform};
+use crate::state::Configuration;
+
+/// The inertia of V joints and M modes, in blocks: [joints, couplingᵀ; coupling, modes], kg, kg·m or kg·m².
+///
+/// Positive definite where the links' data are: see [`Modes`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FlexibleInertia<R, const V: usize, const M: usize> {
+    /// M(q, η) between joints.
+    pub joints: MassMatrix<R, V>,
+    /// Between a mode, by rows, and a joint.
+    pub coupling: [[R; V]; M],
+    /// Between modes.
+    pub modes: MassMatrix<R, M>,
+}
+
+/// A coordinate of a robot with modes.
+#[derive(Clone, Copy)]
+enum Coordinate {
+    Joint(usize),
+    Mode(usize),
+}
+
+use Coordinate::{Joint, Mode};
+
+impl<R: Real, const V: usize, const M: usize> FlexibleInertia<R, V, M> {
+    fn set(&mut self, a: Coordinate, b: Coordinate, value: R) {
+        match (a, b) {
+            (Joint(i), Joint(j)) => self.joints.set(i, j, value),
+            (Mode(k), Mode(l)) => self.modes.set(k, l, value),
+            (Joint(i), Mode(k)) | (Mode(k), Joint(i)) => {
+                if let Some(entry) = self.coupling.get_mut(k).and_then(|row| row.get_mut(i)) {
+                    *entry = value;
+                }
+            }
+        }
+    }
+
+    /// The kinetic energy at these rates, J: ½ ẋᵀ M ẋ.
+    pub fn kinetic_energy(&self, qd: &[R; V], etad: &[R; M]) -> R {
+        let of = |a: &[R], b: &[R]| {
+            let products = a.iter().zip(b).map(|(&a, &b)| a * b);
+            products.fold(R::ZERO, |sum, product| sum + product)
+        };
+        let coupling = self.coupling.map(|row| of(&row, qd));
+        let joints = of(&self.joints.mul_vec(qd), qd);
+        let modes = of(&self.modes.mul_vec(etad), etad);
+        (joints + modes) * R::from_f64(0.5) + of(&coupling, etad)
+    }
+}
+
+/// The inertia M(q, η) of joints and modes.
+///
+/// # Shape
+/// Blocks of V × V, M × V and M × M.
+///
+/// # Cost
+/// That of [`crba`](crate::algorithms::crba()) of as many joints as there are joints and modes.
+///
+/// # Source
+/// Walker & Orin (1982), method 3; Book (1984) for the modes.
+///
+/// # Example
+/// That of [`forward_dynamics`](super::forward_dynamics()).
+#[inline(always)]
+#[must_use]
+pub fn crba<R: Real, D, E, const B: usize, const Q: usize, const V: usize, const M: usize>(
+    robot: &D,
+    modes: &Modes<R, M>,
+    q: &impl Configuration<R, Q>,
+    eta: &[R; M],
+    effects: &E,
+) -> FlexibleInertia<R, V, M>
+where
+    D: RobotModel<R, B, Q, V>,
+    E: Effect<R, B, V>,
+{
+    const {
+        assert!(
+            !E::GYROSCOPIC_ROTORS,
+            "links that bend do not carry gyroscopic rotors"
+        )
+    };
+    let trig = q.trig_of(robot);
+    let turns = &trig.borrow().coordinates;
+    let mut bodies: Vec<Body<'_, R, M>, B> = Vec::new();
+    for i in 0..B {
+        let Some(link) = robot.link(i) else {
+            break;
+        };
+        let (x, range) = (link.xform(turns), modes.of_body(i));
+        let moments = Moments::of(modes, &range, eta);
+        let rigid = body_inertia(effects, i, &link);
+        let (own, end) = if range.is_empty() {
+            (rigid, None)
+        } else {
+            let end = End::of(modes, &range, eta);
+            (moments.inertia(modes, &range, rigid, eta), Some(end))
+        };
+        let _ = bodies.push(Body {
+            link,
+            x,
+            own: own.into(),
+            on_end: SpatialInertia::ZERO.into(),
+            moments,
+            range,
+            end,
+        });
+    }
+
+    let mut m = FlexibleInertia {
+        joints: MassMatrix::ZERO,
+        coupling: [[R::ZERO; V]; M],
+        modes: MassMatrix::ZERO,
+    };
+    let mut pass = inward(&mut bodies);
+    while let Some((body, inner)) = pass.next() {
+        let mut composite = body.own;
+        if let Some(end) = &body.end {
+            for k in body.range.clone() {
+                let on_end = body
+                    .on_end
+                    .along(&MotionSubspace::General(end.column(modes, k)));
+                let load = end.load(on_end);
+                for l in body.range.start..=k {
+                    m.modes.set(k, l, modes.inertia(k, l) + modes.work(l, load));
+                }
+                let f = body.moments.momentum(modes, k) + end.x.transpose_mul(on_end);
+                body.project(turns, Mode(k), f, &mut m);
+                climb(modes, turns, body, inner, Mode(k), f, &mut m);
+            }
+            composite += body.on_end.at_parent(&end.x);
+        } else {
+            composite += body.on_end;
+        }
+        if let Some(parent) = inner.get_mut(body.link.parent) {
+            parent.on_end += composite.at_parent(&body.x);
+        }
+        for (k, joint) in body.link.coordinates().enumerate() {
+            let f = composite.along(&body.link.subspace(turns, k));
+            body.project(turns, Joint(joint), f, &mut m);
+            if let Some(diagonal) = m.joints.diagonal_mut(joint) {
+                effects.add_inertia(joint, diagonal);
+            }
+            climb(modes, turns, body, inner, Joint(joint), f, &mut m);
+        }
+    }
+    m
+}
+
+/// The results of the outward pass for the inward one.
+struct Body<'a, R: Real, const M: usize> {
+    link: LinkView<'a, R>,
+    x: Xform<R>,
+    own: CompositeInertia<R>,
+    on_end: CompositeInertia<R>,
+    moments: Moments<R, M>,
+    range: Range<usize>,
+    end: Option<End<R>>,
+}
+
+type Turns<R> = [crate::model::JointCoordinate<R>];
+
+impl<R: Real, const M: usize> Body<'_, R, M> {
+    /// Sets the entries between a coordinate and the joint of this body, on which its force is f.
+    fn project<const V: usize>(
+        &self,
+        turns: &Turns<R>,
+        of: Coordinate,
+        f: Force<R>,
+        m: &mut FlexibleInertia<R, V, M>,
+    ) {
+        for (l, joint) in self.link.coordinates().enumerate() {
+            m.set(of, Joint(joint), self.link.subspace(turns, l).dot(f));
+        }
+    }
+}
+
+/// Sets the entries between a coordinate of `body` and those of the bodies between it and the base.
+fn climb<R: Real, const V: usize, const M: usize>(
+    modes: &Modes<R, M>,
+    turns: &Turns<R>,
+    body: &Body<'_, R, M>,
+    inner: &[Body<'_, R, M>],
+    of: Coordinate,
+    mut f: Force<R>,
+    m: &mut FlexibleInertia<R, V, M>,
+) {
+    let mut child = body;
+    while let Some(parent) = inner.get(child.link.parent) {
+        f = child.x.transpose_mul(f);
+        if let Some(end) = &parent.end {
+            let load = end.load(f);
+            for k in parent.range.clone() {
+                m.set(of, Mode(k), modes.work(k, load));
+            }
+            f = end.x.transpose_mul(f);
+        }
+        parent.project(turns, of, f, m);
+        child = parent;
+    }
+}
+
+impl<R: Real, const M: usize> Modes<R, M> {
+    /// The force on mode k of a load on the end of its link.
+    #[inline(always)]
+    pub(super) fn work(&self, k: usize, load: Force<R>) -> R {
+        let work =
+            |mode: &super::modes::Integrals<R>| mode.turn.dot(load.ang) + mode.shift.dot(load.lin);
+        self.each.get(k).map_or(R::ZERO, work)
+    }
+}

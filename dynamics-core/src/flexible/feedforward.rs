@@ -1,0 +1,130 @@
+//! Feed-forward torques along a reference of the joints, with the modes' motion under it.
+
+use core::borrow::Borrow;
+
+use super::forward_dynamics::Factors;
+use super::step::advance;
+use super::{FlexibleError, Modes, crba, rnea};
+use crate::effects::{Bias, Effect};
+use crate::model::RobotModel;
+use crate::scalar::Real;
+use crate::state::{Configuration, JointTrig, State, entry};
+
+/// The modes' motion along a reference of the joints, from which follow the torques that move the joints along it.
+///
+/// The inverse dynamics of the joints' motion: the modes move as those of links whose joints are clamped, which their
+/// damping brings to rest, so that it is sound for any reference. That of the tip's motion is not; see the
+/// [module](super).
+///
+/// ```
+/// # use dynamics_core::flexible::{Beam, FlexibleLink, Shape};
+/// # use dynamics_core::model::{ArmModel, BASE, Body, Joint, Robot};
+/// use dynamics_core::effects::{Elasticity, RIGID_BODY};
+/// use dynamics_core::flexible::{ModalFeedforward, Modes};
+/// use dynamics_core::state::State;
+/// # const BEAM: Beam = Beam::new(0.5, 0.8).bending([4.0, 4.0]).tip(0.3, 1e-4);
+/// # const LINK: FlexibleLink = match BEAM.link(0, &[Shape::BendZ(1)]) { Ok(link) => link, Err(_) => panic!() };
+/// # struct Boom;
+/// # impl Robot<1, 1, 1> for Boom {
+/// #     const MODEL: ArmModel<f64, 1> = ArmModel::new("boom", [
+/// #         Body::new("boom", BASE, Joint::revolute([0.0, 1.0, 0.0])).mass(BEAM.mass()).com(BEAM.com()).inertia(BEAM.inertia()),
+/// #     ]);
+/// # }
+/// const MODES: Modes<f64, 1> = Modes::new(&Boom::MODEL, &[LINK]);
+/// let scene = (RIGID_BODY, Elasticity);
+/// let mut feedforward = ModalFeedforward::at_rest(&Boom::MODEL, &MODES, &[0.0], &scene)?;
+/// assert!(feedforward.bent.q[0] < -0.01); // sagging under its weight, m
+/// let reference = State { q: [0.0], qd: [0.0], qdd: [5.0] };
+/// let tau = feedforward.tick(&Boom::MODEL, &MODES, &reference, &scene, 1e-3)?;
+/// assert!(tau[0].is_finite());
+/// # Ok::<(), dynamics_core::flexible::FlexibleError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ModalFeedforward<R, const M: usize> {
+    /// η, η̇ at the next tick, and η̈ of the last.
+    pub bent: State<R, M, M>,
+}
+
+/// Iterations of the deflection at rest, each of which reduces its error by the ratio of weight to stiffness.
+const ITERATIONS: usize = 12;
+
+impl<R: Real, const M: usize> ModalFeedforward<R, M> {
+    /// With the modes at rest under the scene's gravity at configuration q.
+    ///
+    /// # Cost
+    /// Twelve calls of [`rnea`]: at start, not in the control tick.
+    ///
+    /// # Errors
+    /// [`FlexibleError::Mode`] if the stiffness of a mode is not positive, or a number is not finite.
+    pub fn at_rest<D, E, const B: usize, const Q: usize, const V: usize>(
+        robot: &D,
+        modes: &Modes<R, M>,
+        q: &[R; Q],
+        effects: &E,
+    ) -> Result<Self, FlexibleError>
+    where
+        D: RobotModel<R, B, Q, V>,
+        E: Effect<R, B, V>,
+    {
+        let stiffness = Factors::of(&modes.stiffness).map_err(FlexibleError::Mode)?;
+        let mut bent = State::at([R::ZERO; M]);
+        for _ in 0..ITERATIONS {
+            let force = rnea(robot, modes, &State::at(*q), &bent, &Bias(effects)).modes;
+            let correction = stiffness.solve(force);
+            bent.q = core::array::from_fn(|k| entry(&bent.q, k) - entry(&correction, k));
+        }
+        match bent.q.iter().position(|eta| !eta.is_finite()) {
+            Some(mode) => Err(FlexibleError::Mode(mode)),
+            None => Ok(Self { bent }),
+        }
+    }
+
+    /// The torques of the joints' motors at a tick, N·m or N, and the modes' motion over the h seconds to the next.
+    ///
+    /// # Cost
+    /// Two calls of [`rnea`], one of [`crba`], and M³ / 3 flops.
+    ///
+    /// # Errors
+    /// [`FlexibleError::Mode`] if a number is not finite; the modes are then unchanged.
+    #[inline(always)]
+    pub fn tick<D, E, const B: usize, const Q: usize, const V: usize>(
+        &mut self,
+        robot: &D,
+        modes: &Modes<R, M>,
+        reference: &State<R, Q, V>,
+        effects: &E,
+        h: R,
+    ) -> Result<[R; V], FlexibleError>
+    where
+        D: RobotModel<R, B, Q, V>,
+        E: Effect<R, B, V>,
+    {
+        let trig = reference.q.trig_of(robot);
+        let trig: &JointTrig<R, Q> = trig.borrow();
+        let (half, quarter) = (h * R::from_f64(0.5), h * h * R::from_f64(0.25));
+        let mut bent = State {
+            qdd: [R::ZERO; M],
+            ..self.bent
+        };
+        let mut force = rnea(robot, modes, trig.with(reference), &bent, effects).modes;
+        let mut m = crba(robot, modes, trig, &bent.q, effects).modes.rows;
+        if E::ELASTICITY {
+            modes.add_stiffness(&mut m, [half, quarter]);
+            for (row, force) in modes.stiffness.iter().zip(&mut force) {
+                for (&k, &rate) in row.iter().zip(&bent.qd) {
+                    *force += k * (half * rate);
+                }
+            }
+        }
+        let factors = Factors::of(&m).map_err(FlexibleError::Mode)?;
+        bent.qdd = factors.solve(force.map(|force| -force));
+        let tau = rnea(robot, modes, trig.with(reference), &bent, effects).joints;
+        let accelerations = bent.qdd;
+        advance(&mut bent, &accelerations, h);
+        if !bent.is_finite() {
+            return Err(FlexibleError::Mode(0));
+        }
+        self.bent = bent;
+        Ok(tau)
+    }
+}

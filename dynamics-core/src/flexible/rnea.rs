@@ -1,0 +1,173 @@
+//! Inverse dynamics of a robot whose links bend: the recursive Newton-Euler algorithm with modes.
+//!
+//! Book (1984); De Luca & Siciliano (1991); Shabana, *Dynamics of Multibody Systems* (2005), chapter 5. A link's modes are
+//! between its body and its end, on which its children stand: outward the velocity and the acceleration of the end are
+//! those of the body and of the modes' rates; inward the force on the end acts on the modes and on the body.
+
+use core::borrow::Borrow;
+
+use heapless::Vec;
+
+use super::deformation::{End, Moments};
+use super::modal_forces::{Deformed, Outer, add_load, elasticity};
+use super::{FlexibleTorques, Modes};
+use crate::algorithms::inward;
+use crate::effects::{Effect, body_inertia, body_wrench, joint_torques};
+use crate::model::RobotModel;
+use crate::scalar::Real;
+use crate::spatial::{Force, Xform};
+use crate::state::{Configuration, RobotState, State};
+
+/// The torque of each motor, N·m or N, and the force on each mode at a state of joints and modes.
+///
+/// With [`Elasticity`](crate::effects::Elasticity) among the effects, the forces on the modes are zero where they move
+/// freely: nothing but the links' own stiffness and damping acts on them. Without it they are those that stiffness and
+/// damping exert.
+///
+/// $$
+/// \begin{aligned}
+/// f_i &= I_i(\eta) a_i + v_i \times^\ast I_i(\eta) v_i + \int (\varphi \ddot\eta + 2 \omega \times \varphi \dot\eta)
+/// \thinspace dm - f^x_i + X_e^T f_e \cr
+/// Q_k &= \int \varphi_k \cdot a(r) \thinspace dm + J_k^T f_e + K \eta + D \dot\eta
+/// \end{aligned}
+/// $$
+///
+/// where $f_e$ is the force of the bodies on the end, and $J_k$ the end's motion per rate of mode k. Terms of any order
+/// of η that a displacement linear in η has are included; a beam's shortening when it bends is not.
+///
+/// # Frames
+/// A wrench of the effects acts on the link where its joint is, and a payload is fixed there. One at the end belongs to a
+/// body on the end, by a fixed joint if need be. Scenes with gyroscopic rotors do not compile.
+///
+/// # Cost
+/// That of [`rnea`](crate::algorithms::rnea()), and for each link with N modes some 150 + 130 N + 40 N² flops.
+///
+/// # Source
+/// Book, "Recursive Lagrangian dynamics of flexible manipulator arms" (1984).
+///
+/// # Example
+/// ```
+/// # use dynamics_core::flexible::{Beam, FlexibleLink, Shape};
+/// # use dynamics_core::model::{ArmModel, BASE, Body, Joint, Robot};
+/// use dynamics_core::effects::{Elasticity, RIGID_BODY};
+/// use dynamics_core::flexible::{Modes, rnea};
+/// use dynamics_core::state::State;
+/// # const BEAM: Beam = Beam::new(0.5, 0.8).bending([4.0, 4.0]).tip(0.3, 1e-4);
+/// # const LINK: FlexibleLink = match BEAM.link(0, &[Shape::BendZ(1)]) { Ok(link) => link, Err(_) => panic!() };
+/// # struct Boom;
+/// # impl Robot<1, 1, 1> for Boom {
+/// #     const MODEL: ArmModel<f64, 1> = ArmModel::new("boom", [
+/// #         Body::new("boom", BASE, Joint::revolute([0.0, 1.0, 0.0])).mass(BEAM.mass()).com(BEAM.com()).inertia(BEAM.inertia()),
+/// #     ]);
+/// # }
+/// const MODES: Modes<f64, 1> = Modes::new(&Boom::MODEL, &[LINK]);
+/// let scene = (RIGID_BODY, Elasticity);
+/// let level = State::at([0.0]);
+/// let sagging = rnea(&Boom::MODEL, &MODES, &level, &State::at([-0.1]), &scene);
+/// let straight = rnea(&Boom::MODEL, &MODES, &level, &State::at([0.0]), &scene);
+/// // Bent by 0.1 m, its weight acts closer to the joint to the second order only, and its stiffness on the mode.
+/// assert!((sagging.joints[0] - straight.joints[0]).abs() < 1e-12);
+/// assert!(sagging.modes[0] < straight.modes[0]);
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn rnea<R: Real, D, E, const B: usize, const Q: usize, const V: usize, const M: usize>(
+    robot: &D,
+    modes: &Modes<R, M>,
+    state: impl RobotState<R, Q, V>,
+    bent: &State<R, M, M>,
+    effects: &E,
+) -> FlexibleTorques<R, V, M>
+where
+    D: RobotModel<R, B, Q, V>,
+    E: Effect<R, B, V>,
+{
+    const {
+        assert!(
+            !E::GYROSCOPIC_ROTORS,
+            "links that bend do not carry gyroscopic rotors"
+        )
+    };
+    let trig = state.configuration().trig_of(robot);
+    let (turns, state) = (&trig.borrow().coordinates, state.state());
+    let mut out = FlexibleTorques::ZERO;
+    let base = Outer::base(effects);
+    let mut outer: Vec<Outer<R>, B> = Vec::new();
+    let mut bodies: Vec<Body<R>, B> = Vec::new();
+    for i in 0..B {
+        let Some(link) = robot.link(i) else {
+            break;
+        };
+        let parent = outer.get(link.parent).unwrap_or(&base);
+        let x = link.xform(turns);
+        let mut at = parent.moved(effects, &x);
+        if const { E::VELOCITY_PRODUCTS | E::BODY_VELOCITY } {
+            at.v = link.plus_motion(at.v, turns, &state.qd);
+        }
+        if E::ACCELERATIONS {
+            at.a = link.plus_motion(at.a, turns, &state.qdd);
+        }
+        if E::VELOCITY_PRODUCTS {
+            at.a = link.plus_velocity_product(at.a, turns, &state.qd, at.v);
+        }
+        let rigid = body_inertia(effects, i, &link);
+        let range = modes.of_body(i);
+        let (mut f, mut end) = (Force::ZERO, None);
+        if range.is_empty() {
+            f += at.net_force(effects, &rigid);
+            let _ = outer.push(at);
+        } else {
+            let moments = Moments::of(modes, &range, &bent.q);
+            let deformed = Deformed {
+                modes,
+                range,
+                moments,
+                bent,
+            };
+            f += deformed.net_force(effects, &rigid, &at, &mut out.modes);
+            let (on_end, of_end) = deformed.end(effects, &at);
+            let _ = outer.push(on_end);
+            end = Some(of_end);
+        }
+        if E::WRENCH {
+            f -= body_wrench(effects, i, &link, &at.pose, at.v);
+        }
+        let on_end = Force::ZERO;
+        let _ = bodies.push(Body { x, f, end, on_end });
+    }
+    let mut bodies = inward(&mut bodies);
+    while let Some((body, inner)) = bodies.next() {
+        let Some(link) = robot.link(inner.len()) else {
+            break;
+        };
+        let mut f = body.f + body.on_end;
+        if let Some(end) = &body.end {
+            add_load(
+                modes,
+                &modes.of_body(inner.len()),
+                end.load(body.on_end),
+                &mut out.modes,
+            );
+            f = body.f + end.x.transpose_mul(body.on_end);
+        }
+        link.project(turns, f, &mut out.joints);
+        joint_torques(effects, &link, state, &mut out.joints);
+        if let Some(parent) = inner.get_mut(link.parent) {
+            parent.on_end += body.x.transpose_mul(f);
+        }
+    }
+    if E::ELASTICITY {
+        elasticity(modes, bent, &mut out.modes);
+    }
+    out
+}
+
+/// The results of the outward pass for the inward one.
+struct Body<R: Real> {
+    x: Xform<R>,
+    f: Force<R>,
+    /// The end of a link with modes.
+    end: Option<End<R>>,
+    /// The force of the bodies that stand on this one.
+    on_end: Force<R>,
+}

@@ -1,0 +1,122 @@
+//! Two arms of two links that bend, and states of them.
+
+use dynamics_core::flexible::{Beam, FlexibleLink, Modes, Shape};
+use dynamics_core::model::{ArmModel, BASE, Body, Joint, Robot};
+use dynamics_core::state::State;
+
+const Y: [f64; 3] = [0.0, 1.0, 0.0];
+const Z: [f64; 3] = [0.0, 0.0, 1.0];
+
+/// The upper link, and a motor at its end.
+pub const UPPER: Beam = Beam::new(0.5, 0.8)
+    .bending([4.0, 4.0])
+    .torsion(3.0)
+    .sections([2e-5, 2e-5])
+    .tip(0.3, 1e-4);
+/// The lower link, and a gripper at its end.
+pub const LOWER: Beam = Beam::new(0.4, 0.4)
+    .bending([1.0, 1.0])
+    .torsion(0.8)
+    .sections([1e-5, 1e-5])
+    .tip(0.1, 2e-5);
+
+/// The link of a beam, in a `const`.
+pub const fn link(beam: &Beam, body: usize, shapes: &[Shape]) -> FlexibleLink {
+    match beam.link(body, shapes) {
+        Ok(link) => link,
+        Err(_) => panic!("a beam without a length, a mass or a stiffness, or without the shape"),
+    }
+}
+
+const fn body(name: &'static str, parent: usize, axis: [f64; 3], beam: &Beam) -> Body {
+    Body::new(name, parent, Joint::revolute(axis))
+        .mass(beam.mass())
+        .com(beam.com())
+        .inertia(beam.inertia())
+}
+
+const fn arm(name: &'static str, first: [f64; 3]) -> ArmModel<f64, 2> {
+    ArmModel::new(
+        name,
+        [
+            body("upper", BASE, first, &UPPER),
+            body("lower", 0, Y, &LOWER).xyz([0.5, 0.0, 0.0]),
+        ],
+    )
+}
+
+/// Two links in a vertical plane, with two modes each.
+#[derive(Clone, Copy, Debug)]
+pub struct Planar;
+
+impl Robot<2, 2, 2> for Planar {
+    const MODEL: ArmModel<f64, 2> = arm("planar", Y);
+}
+
+/// Its modes.
+pub const PLANAR: Modes<f64, 4> = Modes::new(
+    &Planar::MODEL,
+    &[
+        link(&UPPER, 0, &[Shape::BendZ(1), Shape::BendZ(2)]),
+        link(&LOWER, 1, &[Shape::BendZ(1), Shape::BendZ(2)]),
+    ],
+);
+
+/// Two links, the first about the vertical, that bend in two planes and twist.
+#[derive(Clone, Copy, Debug)]
+pub struct Spatial;
+
+impl Robot<2, 2, 2> for Spatial {
+    const MODEL: ArmModel<f64, 2> = arm("spatial", Z);
+}
+
+/// Its modes.
+pub const SPATIAL: Modes<f64, 6> = Modes::new(
+    &Spatial::MODEL,
+    &[
+        link(
+            &UPPER,
+            0,
+            &[Shape::BendY(1), Shape::BendZ(1), Shape::Twist(1)],
+        ),
+        link(
+            &LOWER,
+            1,
+            &[Shape::BendZ(1), Shape::BendZ(2), Shape::BendY(1)],
+        ),
+    ],
+);
+
+/// A number within ±1 of a sequence.
+#[derive(Debug)]
+pub struct Numbers(u64);
+
+impl Numbers {
+    /// The sequence of a seed.
+    pub fn new(seed: u64) -> Self {
+        Self(seed)
+    }
+
+    /// The next number.
+    pub fn next(&mut self) -> f64 {
+        self.0 = self
+            .0
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+
+    /// A state with positions, rates and accelerations up to these sizes.
+    pub fn state<const N: usize>(&mut self, [q, qd, qdd]: [f64; 3]) -> State<f64, N, N> {
+        State {
+            q: core::array::from_fn(|_| q * self.next()),
+            qd: core::array::from_fn(|_| qd * self.next()),
+            qdd: core::array::from_fn(|_| qdd * self.next()),
+        }
+    }
+}
+
+/// The sizes of q, q̇, q̈ of joints and of modes.
+pub const JOINTS: [f64; 3] = [2.0, 3.0, 20.0];
+/// Those of modes.
+pub const MODES: [f64; 3] = [0.05, 1.0, 50.0];

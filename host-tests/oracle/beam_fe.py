@@ -111,12 +111,14 @@ class Elements:
                 middle = (low + high) / 2
                 low, high = (middle, high) if self.below(middle) < i else (low, middle)
             square, x = (low + high) / 2, [mpf(1)] * len(self.k)
-            for _ in range(8):
-                x = self.solve(self.factors(square), self.times(self.m, x))
+            for step in range(12):
+                # The quotient of a vector that is not near a mode yet leads to another mode.
+                factors = self.factors(square) if step == 0 or step > 3 else factors
+                x = self.solve(factors, self.times(self.m, x))
                 size = sqrt(dot(x, self.times(self.m, x)))
                 x = [a / size for a in x]
-                before, square = square, dot(x, self.times(self.k, x))
-                if abs(square - before) < mpf(10) ** -30 * square:
+                before, square = square, dot(x, self.times(self.k, x)) if step > 2 else square
+                if step > 3 and abs(square - before) < mpf(10) ** -30 * square:
                     break
             near = mpf(10) ** -20 * square
             assert (self.below(square - near), self.below(square + near)) == (i - 1, i), "a frequency between others"

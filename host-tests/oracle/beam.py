@@ -29,10 +29,10 @@ import sys
 import mpmath
 from beam_fe import NODE, Elements, dot
 from beam_forced import TIMES, forced
-from beam_points import Chain
+from beam_points import Chain, rodrigues
 from beam_shapes import Link, bending, modal, torsion
 from mpmath import mp, mpf
-from precise import about, torques, vector
+from precise import torques
 
 SEED, STATES, GRAVITY = 1984, 30, [0.0, 0.0, -9.81]
 PATH = pathlib.Path(__file__).resolve().parent.parent / "recordings" / "beam.json"
@@ -71,8 +71,7 @@ def rigid(chain, x, rate, acceleration):
         bodies.append({**body, "mass": total, "com": [com, 0, 0], "inertia_com": inertia})
         amplitudes = x[chain.first[i] : chain.first[i + 1]]
         end, angles = ([dot([v[k] for v in vs], amplitudes) for k in range(3)] for vs in zip(*chain.ends[i]))
-        a, b, c = (about(vector(axis), angle) for axis, angle in zip(((1, 0, 0), (0, 1, 0), (0, 0, 1)), angles))
-        turn = {"rotation": list(a * b * c), "position": [e.length + end[0], *end[1:]]}
+        turn = {"rotation": [x for row in rodrigues(angles) for x in row], "position": [e.length + end[0], *end[1:]]}
     return torques({"bodies": bodies}, x[:n], rate[:n], acceleration[:n])
 
 

@@ -50,7 +50,7 @@ def dot(a, b):
 
 
 def cross(a, b):
-    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+    return (a[1] * b[2] + -(a[2] * b[1]), a[2] * b[0] + -(a[0] * b[2]), a[0] * b[1] + -(a[1] * b[0]))
 
 
 def turned(attitude, axis, angle):
@@ -63,6 +63,24 @@ def turned(attitude, axis, angle):
         new[j], new[k] = row[j] * c + row[k] * s, row[k] * c + -(row[j] * s)
         rows.append(new)
     return rows
+
+
+def reciprocal(x):
+    if not isinstance(x, Taylor):
+        return 1 / x
+    a, b, c = x.c
+    return Taylor(1 / a, -b / a**2, b * b / a**3 - c / a**2)
+
+
+def rodrigues(angles):
+    """Rows of the rotation of which the angles are twice the Rodrigues parameters g: 1 + 2 (g× + g×²) / (1 + g²)."""
+    g = [angle * mpf("0.5") for angle in angles]
+    scale = reciprocal(1 + dot(g, g)) * 2
+    columns = []
+    for unit in (X, Y, Z):
+        once = cross(g, unit)
+        columns.append([u + (a + b) * scale for u, a, b in zip(unit, once, cross(g, once))])
+    return [[column[k] for column in columns] for k in range(3)]
 
 
 def shape(link, kind, index):
@@ -116,9 +134,9 @@ class Chain:
             end = [sum((u[k] * e for (u, _), e in zip(self.ends[i], amplitudes)), mpf(0)) for k in range(3)]
             end[0] = end[0] + mpf(link.length)
             origin = [o + dot(row, end) for o, row in zip(origin, attitude)]
-            for k in range(3):
-                angle = sum((turn[k] * e for (_, turn), e in zip(self.ends[i], amplitudes)), mpf(0))
-                attitude = turned(attitude, k, angle)
+            turns = [sum((turn[k] * e for (_, turn), e in zip(self.ends[i], amplitudes)), mpf(0)) for k in range(3)]
+            columns = list(zip(*rodrigues(turns)))
+            attitude = [[dot(row, column) for column in columns] for row in attitude]
         return answer
 
     def positions(self, coordinates):

@@ -58,6 +58,7 @@ mod observer;
 mod reference;
 mod resume;
 mod safety_limits;
+mod shaper;
 mod supervisor;
 mod trajectory;
 
@@ -79,6 +80,7 @@ pub use observer::{Estimate, Observer, ObserverConfig};
 pub use reference::Reference;
 pub use resume::{ResumeConfig, ResumeTrajectory};
 pub use safety_limits::{LimitKind, SafetyLimits, SafetyLimitsError};
+pub use shaper::{Shaped, Shaper, ShaperError, ShaperProblem, Vibration};
 pub use supervisor::{Supervisor, SupervisorConfig, SupervisorTick};
 pub use trajectory::{MotionLimits, RestToRest, Trajectory, TrajectoryError, WayPoint};
 

@@ -228,7 +228,8 @@ impl<R: Real, const N: usize> Factors<R, N> {
         Ok(Self { rows, d_inv })
     }
 
-    pub(super) fn solve(&self, mut x: [R; N]) -> [R; N] {
+    /// L⁻¹ x.
+    fn forward(&self, mut x: [R; N]) -> [R; N] {
         for i in 0..N {
             let row = self
                 .rows
@@ -238,6 +239,21 @@ impl<R: Real, const N: usize> Factors<R, N> {
                 *x -= row;
             }
         }
+        x
+    }
+
+    /// D^-½ L⁻¹ x.
+    pub(super) fn half_solve(&self, x: [R; N]) -> [R; N] {
+        let mut x = self.forward(x);
+        for (x, &d_inv) in x.iter_mut().zip(&self.d_inv) {
+            *x *= d_inv.sqrt();
+        }
+        x
+    }
+
+    /// The solution of L D Lᵀ x = b.
+    pub(super) fn solve(&self, b: [R; N]) -> [R; N] {
+        let mut x = self.forward(b);
         for i in (0..N).rev() {
             let mut sum = entry(&x, i) * entry(&self.d_inv, i);
             for (row, &x) in self.rows.iter().zip(&x).skip(i + 1) {

@@ -33,6 +33,7 @@ mod crba;
 mod deformation;
 mod feedforward;
 mod forward_dynamics;
+mod frequencies;
 mod link;
 mod modal_forces;
 mod modes;

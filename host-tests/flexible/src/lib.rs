@@ -120,3 +120,101 @@ impl Numbers {
 pub const JOINTS: [f64; 3] = [2.0, 3.0, 20.0];
 /// Those of modes.
 pub const MODES: [f64; 3] = [0.05, 1.0, 50.0];
+
+pub mod recording {
+    //! What `host-tests/oracle/beam.py` recorded.
+
+    use std::collections::BTreeMap;
+    use std::path::Path;
+    use std::sync::OnceLock;
+
+    use serde::Deserialize;
+
+    /// All of it.
+    #[derive(Debug, Deserialize)]
+    pub struct Recording {
+        /// Robots, by name.
+        pub dynamics: BTreeMap<String, Dynamics>,
+        /// Frequencies.
+        pub frequencies: Frequencies,
+        /// Deflections at rest, by link.
+        pub r#static: BTreeMap<String, Static>,
+        /// A link on a given motion.
+        pub forced: Forced,
+    }
+
+    /// States, and the forces on joints and modes at each.
+    #[derive(Debug, Deserialize)]
+    #[allow(missing_docs, reason = "the quantities of the library, by their names")]
+    pub struct Dynamics {
+        pub q: Vec<Vec<f64>>,
+        pub qd: Vec<Vec<f64>>,
+        pub qdd: Vec<Vec<f64>>,
+        pub eta: Vec<Vec<f64>>,
+        pub etad: Vec<Vec<f64>>,
+        pub etadd: Vec<Vec<f64>>,
+        pub tau: Vec<Vec<f64>>,
+        pub modal: Vec<Vec<f64>>,
+        pub kinetic: Vec<f64>,
+    }
+
+    /// Frequencies of links, by name.
+    #[derive(Debug, Deserialize)]
+    pub struct Frequencies {
+        /// In bending.
+        pub bending: BTreeMap<String, Vibrations>,
+        /// In torsion.
+        pub torsion: BTreeMap<String, Vibrations>,
+    }
+
+    /// The first four.
+    #[derive(Debug, Deserialize)]
+    pub struct Vibrations {
+        /// ω, rad/s.
+        pub omega: Vec<f64>,
+        /// The slope at the end of the shape that is one there.
+        #[serde(default)]
+        pub tip_slope: Vec<f64>,
+        /// Its mass.
+        pub modal_mass: Vec<f64>,
+    }
+
+    /// A cantilever under its weight.
+    #[derive(Debug, Deserialize)]
+    pub struct Static {
+        /// At four places.
+        pub x_deflection_slope: Vec<[f64; 3]>,
+        /// Deflection of the end with 1 to 8 modes.
+        pub tip_of_modes: Vec<f64>,
+    }
+
+    /// The upper link on a given motion of its joint.
+    #[derive(Debug, Deserialize)]
+    pub struct Forced {
+        /// The joint's angle in all.
+        pub angle: f64,
+        /// The motion's time.
+        pub duration: f64,
+        /// Times.
+        pub t: Vec<f64>,
+        /// The end's deflection.
+        pub tip: Vec<f64>,
+        /// With 1 to 6 modes.
+        pub tip_of_modes: Vec<Vec<f64>>,
+        /// The joint's torque with 1 to 6 modes.
+        pub torque_of_modes: Vec<Vec<f64>>,
+    }
+
+    /// The recording.
+    ///
+    /// # Panics
+    /// If the file is missing or has another form.
+    pub fn recording() -> &'static Recording {
+        static RECORDING: OnceLock<Recording> = OnceLock::new();
+        RECORDING.get_or_init(|| {
+            let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../recordings/beam.json");
+            let text = std::fs::read_to_string(&path).expect("recordings/beam.json");
+            serde_json::from_str(&text).expect("the recording's form")
+        })
+    }
+}

@@ -59,7 +59,7 @@ def terms(t):
 
 
 def mode(omega, lever, uniform, reach=4):
-    """[(amplitude, rate, acceleration), ...] at TIMES from static equilibrium; a step turns the mode by at most `reach`."""
+    """[(amplitude, rate, acceleration), ...] at TIMES from static equilibrium; steps turn a mode by `reach` at most."""
     count = 10 * (1 + int(DURATION * max(omega / reach, 50) / 10))
     h, answer = DURATION / count, []
     value, rate = -G * uniform / omega**2, mpf(0)

@@ -41,7 +41,7 @@ use crate::state::{Configuration, JointTrig, State, entry};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ModalFeedforward<R, const M: usize> {
-    /// η, η̇ at the next tick, and η̈ of the last.
+    /// η, η̇ and η̈ at the last tick.
     pub bent: State<R, M, M>,
 }
 
@@ -79,7 +79,16 @@ impl<R: Real, const M: usize> ModalFeedforward<R, M> {
         }
     }
 
-    /// The torques of the joints' motors at a tick, N·m or N, and the modes' motion over the h seconds to the next.
+    /// The torques of the joints' motors at a tick, N·m or N, h seconds after the tick before: that of the reference.
+    ///
+    /// The modes' step is the generalised-α method with ρ∞ = 0 (Chung & Hulbert, 1993), of second order and with
+    /// damping of modes that are faster than the tick: with η and η̇ extrapolated by η̈, and r the force on the modes
+    /// there, η̈ changes by
+    ///
+    /// $$
+    /// \delta = -\bigl(2 M + \tfrac 3 2 h D + h^2 K\bigr)^{-1} r, \qquad \dot\eta \mathrel{+}= \tfrac 3 2 h \delta,
+    /// \quad \eta \mathrel{+}= h^2 \delta
+    /// $$
     ///
     /// # Cost
     /// Two calls of [`rnea`], one of [`crba`], and M³ / 3 flops.
@@ -101,28 +110,34 @@ impl<R: Real, const M: usize> ModalFeedforward<R, M> {
     {
         let trig = reference.q.trig_of(robot);
         let trig: &JointTrig<R, Q> = trig.borrow();
-        let (half, quarter) = (h * R::from_f64(0.5), h * h * R::from_f64(0.25));
-        let mut bent = State {
-            qdd: [R::ZERO; M],
-            ..self.bent
-        };
-        let mut force = rnea(robot, modes, trig.with(reference), &bent, effects).modes;
-        let mut m = crba(robot, modes, trig, &bent.q, effects).modes.rows;
+        let [half, square] = [h * R::from_f64(1.5), h * h];
+        let mut bent = self.bent;
+        advance(&mut bent, &self.bent.qdd, h);
+        let force = rnea(robot, modes, trig.with(reference), &bent, effects).modes;
+        let m = crba(robot, modes, trig, &bent.q, effects).modes.rows;
+        let mut twice = m.map(|row| row.map(|m| m + m));
         if E::ELASTICITY {
-            modes.add_stiffness(&mut m, [half, quarter]);
-            for (row, force) in modes.stiffness.iter().zip(&mut force) {
-                for (&k, &rate) in row.iter().zip(&bent.qd) {
-                    *force += k * (half * rate);
+            modes.add_stiffness(&mut twice, [half, square]);
+        }
+        let factors = Factors::of(&twice).map_err(FlexibleError::Mode)?;
+        for (k, change) in factors.solve(force).into_iter().enumerate() {
+            let terms = [
+                (&mut bent.q, square),
+                (&mut bent.qd, half),
+                (&mut bent.qdd, R::ONE),
+            ];
+            for (to, factor) in terms {
+                if let Some(to) = to.get_mut(k) {
+                    *to -= factor * change;
                 }
             }
         }
-        let factors = Factors::of(&m).map_err(FlexibleError::Mode)?;
-        bent.qdd = factors.solve(force.map(|force| -force));
         let tau = rnea(robot, modes, trig.with(reference), &bent, effects).joints;
-        let accelerations = bent.qdd;
-        advance(&mut bent, &accelerations, h);
-        if !bent.is_finite() {
-            return Err(FlexibleError::Mode(0));
+        if let Some(mode) = bent.qdd.iter().position(|x| !x.is_finite()) {
+            return Err(FlexibleError::Mode(mode));
+        }
+        if let Some(joint) = tau.iter().position(|x| !x.is_finite()) {
+            return Err(FlexibleError::Joint(joint));
         }
         self.bent = bent;
         Ok(tau)

@@ -146,7 +146,9 @@ where
     let force = rnea(robot, modes, trig.with(state), &coasting, effects).modes;
     let m = crba(robot, modes, trig, &bent.q, effects);
     let factors = Factors::of(&m.modes.rows).map_err(FlexibleError::Mode)?;
-    Ok(factors.solve(force.map(|force| -force)))
+    let accelerations = factors.solve(force.map(|force| -force));
+    finite(&accelerations).map_err(FlexibleError::Mode)?;
+    Ok(accelerations)
 }
 
 impl<R: Real, const V: usize, const M: usize> FlexibleInertia<R, V, M> {
@@ -184,7 +186,17 @@ impl<R: Real, const V: usize, const M: usize> FlexibleInertia<R, V, M> {
                 .map_or(R::ZERO, |row| dot(row, &joints));
             entry(&forces.modes, k) - row
         }));
+        finite(&joints).map_err(FlexibleError::Joint)?;
+        finite(&modes).map_err(FlexibleError::Mode)?;
         Ok(FlexibleTorques { joints, modes })
+    }
+}
+
+/// The number of the first value that is not finite is the error.
+fn finite<R: Real>(values: &[R]) -> Result<(), usize> {
+    match values.iter().position(|x| !x.is_finite()) {
+        Some(k) => Err(k),
+        None => Ok(()),
     }
 }
 

@@ -121,6 +121,8 @@ pub const JOINTS: [f64; 3] = [2.0, 3.0, 20.0];
 /// Those of modes.
 pub const MODES: [f64; 3] = [0.05, 1.0, 50.0];
 
+pub mod hard;
+
 pub mod recording {
     //! What `host-tests/oracle/beam.py` recorded.
 

@@ -170,7 +170,7 @@ fn rigid_limit() -> Vec<Row> {
         }
     }
     let mut rows = Vec::new();
-    run::<f32>(&mut rows, [1e-3, 1e-3]);
+    run::<f32>(&mut rows, [1e-3, 5e-7]);
     run::<f64>(&mut rows, [1e-3, 1e-7]);
     rows
 }

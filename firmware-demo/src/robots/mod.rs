@@ -13,6 +13,7 @@ mod scara;
 pub mod ship;
 mod space_arm;
 mod stewart;
+pub mod two_link;
 
 pub use ankle_leg::{AnkleLeg, RODS};
 pub use delta::{Delta, FlatDelta};
@@ -26,3 +27,4 @@ pub use scara::Scara;
 pub use ship::Ship;
 pub use space_arm::SpaceArm;
 pub use stewart::{ABOVE, BELOW, LEGS, StewartPlatform};
+pub use two_link::TwoLink;

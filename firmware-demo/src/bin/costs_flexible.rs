@@ -1,0 +1,133 @@
+//! What dynamics of an arm whose links bend cost, and inverse dynamics of the same arm without modes.
+#![no_std]
+#![no_main]
+
+mod costs;
+
+use costs::row::Row;
+use costs::{STATES, done};
+use dynamics_core::algorithms;
+use dynamics_core::effects::{Elasticity, RIGID_BODY};
+use dynamics_core::flexible::{
+    FlexibleInertia, FlexibleTorques, ModalFeedforward, Modes, crba, forward_dynamics, rnea,
+};
+use dynamics_core::model::Static;
+use dynamics_core::state::State;
+use firmware_demo::robots::TwoLink;
+use firmware_demo::robots::two_link::{MODES_1, MODES_2};
+
+const ROBOT: Static<TwoLink> = Static::NEW;
+
+/// A state of joints and modes, and torques.
+struct Case<const M: usize> {
+    joints: State<f32, 2, 2>,
+    bent: State<f32, M, M>,
+    tau: [f32; 2],
+}
+
+/// Cases from a fixed seed; deflections up to 20 mm.
+fn cases<const M: usize>() -> [Case<M>; STATES] {
+    let mut seed = 1_u32;
+    let mut number = |bound: f32| {
+        seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        (seed >> 8) as f32 * (2.0 * bound / 16_777_216.0) - bound
+    };
+    [(); STATES].map(|()| Case {
+        joints: State {
+            q: [(); 2].map(|()| number(3.0)),
+            qd: [(); 2].map(|()| number(3.0)),
+            qdd: [(); 2].map(|()| number(10.0)),
+        },
+        bent: State {
+            q: [(); M].map(|()| number(0.02)),
+            qd: [(); M].map(|()| number(1.0)),
+            qdd: [(); M].map(|()| number(50.0)),
+        },
+        tau: [(); 2].map(|()| number(5.0)),
+    })
+}
+
+/// Without modes.
+#[inline(never)]
+fn rigid<const M: usize>(case: &Case<M>) -> [f32; 2] {
+    algorithms::rnea(&ROBOT, &case.joints, &RIGID_BODY)
+}
+
+/// A robot's modes, as a constant of the measured functions.
+trait Bending<const M: usize> {
+    const MODES: Modes<f32, M>;
+}
+
+/// Of the first shape of each link.
+struct One;
+/// Of the first two.
+struct Two;
+
+impl Bending<2> for One {
+    const MODES: Modes<f32, 2> = MODES_1;
+}
+
+impl Bending<4> for Two {
+    const MODES: Modes<f32, 4> = MODES_2;
+}
+
+#[inline(never)]
+fn inverse<T: Bending<M>, const M: usize>(case: &Case<M>) -> FlexibleTorques<f32, 2, M> {
+    let scene = (RIGID_BODY, Elasticity);
+    rnea(
+        &ROBOT,
+        const { &T::MODES },
+        &case.joints,
+        &case.bent,
+        &scene,
+    )
+}
+
+#[inline(never)]
+fn inertia<T: Bending<M>, const M: usize>(case: &Case<M>) -> FlexibleInertia<f32, 2, M> {
+    let scene = (RIGID_BODY, Elasticity);
+    let (q, eta) = (&case.joints.q, &case.bent.q);
+    crba(&ROBOT, const { &T::MODES }, q, eta, &scene)
+}
+
+#[inline(never)]
+fn forward<T: Bending<M>, const M: usize>(case: &Case<M>) -> Option<FlexibleTorques<f32, 2, M>> {
+    let scene = (RIGID_BODY, Elasticity);
+    let Case { joints, bent, tau } = case;
+    forward_dynamics(&ROBOT, const { &T::MODES }, joints, bent, tau, &scene).ok()
+}
+
+#[inline(never)]
+fn feedforward<T: Bending<M>, const M: usize>(case: &Case<M>) -> Option<[f32; 2]> {
+    let scene = (RIGID_BODY, Elasticity);
+    let mut modes = ModalFeedforward { bent: case.bent };
+    let found = modes.tick(&ROBOT, const { &T::MODES }, &case.joints, &scene, 1e-3);
+    core::hint::black_box(&modes);
+    found.ok()
+}
+
+/// The rows of M modes in all.
+fn rows<T: Bending<M>, const M: usize>(inputs: &'static str, cases: &[Case<M>]) {
+    let of = |algorithm| Row::of::<TwoLink, 2, 2>(algorithm, "core", inputs, true);
+    for case in cases {
+        defmt::assert!(forward::<T, M>(case).is_some() && feedforward::<T, M>(case).is_some());
+    }
+    let run = inverse::<T, M>;
+    of("rnea").measure(run as *const () as usize, cases, run);
+    let run = inertia::<T, M>;
+    of("crba").measure(run as *const () as usize, cases, run);
+    let run = forward::<T, M>;
+    of("forward_dynamics").measure(run as *const () as usize, cases, run);
+    let run = feedforward::<T, M>;
+    of("modal_feedforward").measure(run as *const () as usize, cases, run);
+}
+
+#[cortex_m_rt::entry]
+fn main() -> ! {
+    let cases = (cases::<2>(), cases::<4>());
+    let row = Row::of::<TwoLink, 2, 2>("rnea", "core", "full", true);
+    row.measure(rigid::<2> as *const () as usize, &cases.0, rigid);
+    rows::<One, 2>("2_modes", &cases.0);
+    rows::<Two, 4>("4_modes", &cases.1);
+    done()
+}

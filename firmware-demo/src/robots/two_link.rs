@@ -1,0 +1,63 @@
+//! A light arm of two links that bend.
+
+use dynamics_core::flexible::{Beam, FlexibleLink, Modes, Shape};
+use dynamics_core::model::{ArmModel, BASE, Body, Joint, Robot};
+
+/// Two beams in a vertical plane: a motor at the end of the first, a gripper at that of the second. Our own numbers.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct TwoLink;
+
+/// The upper link with the elbow's motor.
+pub const UPPER: Beam = Beam::new(0.5, 0.8)
+    .bending([40.0; 2])
+    .tip(0.3, 1e-4)
+    .damping_ratio(0.01);
+/// The fore link with a gripper.
+pub const FORE: Beam = Beam::new(0.4, 0.4)
+    .bending([15.0; 2])
+    .tip(0.1, 2e-5)
+    .damping_ratio(0.01);
+
+const fn body(name: &'static str, parent: usize, beam: &Beam) -> Body {
+    Body::new(name, parent, Joint::revolute([0.0, 1.0, 0.0]))
+        .mass(beam.mass())
+        .com(beam.com())
+        .inertia(beam.inertia())
+}
+
+impl Robot<2, 2, 2> for TwoLink {
+    const MODEL: ArmModel<f64, 2> = ArmModel::new(
+        "two_link",
+        [
+            body("upper", BASE, &UPPER),
+            body("fore", 0, &FORE).xyz([0.5, 0.0, 0.0]),
+        ],
+    );
+}
+
+const fn link(beam: &Beam, body: usize, shapes: &[Shape]) -> FlexibleLink {
+    match beam.link(body, shapes) {
+        Ok(link) => link,
+        Err(_) => panic!("the beams have lengths, masses and stiffness"),
+    }
+}
+
+/// The first bending shape of each link.
+pub const MODES_1: Modes<f32, 2> = Modes::new(
+    &TwoLink::MODEL,
+    &[
+        link(&UPPER, 0, &[Shape::BendZ(1)]),
+        link(&FORE, 1, &[Shape::BendZ(1)]),
+    ],
+)
+.to_f32();
+
+/// The first two of each.
+pub const MODES_2: Modes<f32, 4> = Modes::new(
+    &TwoLink::MODEL,
+    &[
+        link(&UPPER, 0, &[Shape::BendZ(1), Shape::BendZ(2)]),
+        link(&FORE, 1, &[Shape::BendZ(1), Shape::BendZ(2)]),
+    ],
+)
+.to_f32();

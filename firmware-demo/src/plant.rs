@@ -10,9 +10,11 @@ use dynamics_core::state::State;
 
 use crate::sim_io::Wires;
 
+mod bending;
 mod clustered;
 mod flexible;
 
+pub use bending::BendingPlant;
 pub use clustered::ClusterPlant;
 pub use flexible::FlexiblePlant;
 

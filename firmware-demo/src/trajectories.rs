@@ -6,6 +6,7 @@ use dynamics_core::control::WayPoint;
 
 pub mod hop;
 pub mod picks;
+pub mod swing_and_back;
 pub mod watch;
 
 /// Where the UR5e's pick and place begins and ends, rad.

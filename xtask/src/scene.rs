@@ -27,6 +27,8 @@ pub enum Scene {
     ParallelAnkle,
     /// A Delta robot picks 120 parts a minute; three closed loops.
     DeltaPick,
+    /// A light arm whose links bend, with feed-forward that knows their modes and a shaper.
+    FlexibleLink,
 }
 
 impl Scene {
@@ -48,6 +50,7 @@ impl Scene {
             Self::GimbalShip => "gimbal_ship",
             Self::ParallelAnkle => "parallel_ankle",
             Self::DeltaPick => "delta_pick",
+            Self::FlexibleLink => "flexible_link",
         }
     }
 }

@@ -57,6 +57,19 @@ struct Impulse<R> {
     amplitude: R,
 }
 
+impl<R: Real, const N: usize> Default for Shaper<R, N> {
+    /// The reference as it is.
+    fn default() -> Self {
+        let mut impulses = Vec::new();
+        // Fails at N = 0 alone, which no reference uses.
+        let _ = impulses.push(Impulse {
+            ticks: 0,
+            amplitude: R::ONE,
+        });
+        Self { impulses }
+    }
+}
+
 impl<R: Real, const N: usize> Shaper<R, N> {
     /// Zero vibration: two impulses for each vibration. The tick is in s.
     ///
@@ -89,15 +102,7 @@ impl<R: Real, const N: usize> Shaper<R, N> {
         tick: R,
         amplitudes: impl Fn(R) -> [R; 3],
     ) -> Result<Self, ShaperError> {
-        let mut shaper = Self {
-            impulses: Vec::new(),
-        };
-        let whole = Impulse {
-            ticks: 0,
-            amplitude: R::ONE,
-        };
-        // Of N = 0, which no reference uses.
-        let _ = shaper.impulses.push(whole);
+        let mut shaper = Self::default();
         for vibration in vibrations {
             let &Vibration {
                 link,

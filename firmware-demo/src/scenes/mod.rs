@@ -4,6 +4,7 @@
 pub mod delta_pick;
 pub mod direct_drive;
 pub mod flexible_joint;
+pub mod flexible_link;
 pub mod gimbal_ship;
 pub mod leg_hop;
 pub mod panda_payload;

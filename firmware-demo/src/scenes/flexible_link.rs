@@ -1,0 +1,139 @@
+//! Scene `flexible_link`: a light arm whose links bend, under feed-forward with their modes and under one that takes them
+//! for rigid. It swings to a pose as fast as its motors allow, and back through a shaper that leaves no vibration.
+
+use dynamics_core::Core;
+use dynamics_core::control::{Shaped, TrajectoryError};
+use dynamics_core::effects::{Armature, Coriolis, Effect, Elasticity, Gravity, Inertia, Viscous};
+use dynamics_core::flexible::{ModalFeedforward, Modes};
+use dynamics_core::model::{Calibrated, Static};
+use dynamics_core::state::State;
+
+use crate::control_loop::Law;
+use crate::plant::BendingPlant;
+use crate::robots::TwoLink;
+use crate::robots::two_link::{MODES_1, MODES_2, MODES_2_SOFT};
+use crate::scene::{Noise, PlantModel, Run, Scene, TICK, speeds};
+use crate::trajectories::swing_and_back::{Move, SwingAndBack, rest_to_rest, shaper};
+
+/// What acts on the arm.
+pub type Effects = (
+    Gravity,
+    Inertia,
+    Coriolis,
+    Elasticity,
+    Viscous<f32, 2>,
+    Armature<f32, 2>,
+);
+
+/// Gears and motors of this size, assumed.
+pub const EFFECTS: Effects = (
+    Gravity::EARTH,
+    Inertia,
+    Coriolis,
+    Elasticity,
+    Viscous([0.1, 0.05]),
+    Armature([0.02, 0.01]),
+);
+
+/// Where the arm begins and ends, rad: q₀ > 0 is below the horizontal.
+pub const START: [f32; 2] = [0.3, 0.9];
+/// Where it swings to.
+pub const END: [f32; 2] = [-0.6, 0.6];
+/// Ticks of a swing.
+pub const SWING: u32 = 300;
+/// Ticks of the pauses, some four periods of the slow vibration.
+pub const PAUSE: u32 = 600;
+
+/// A swing from one of the poses to the other.
+///
+/// # Errors
+/// A motion beyond the joints' limits.
+pub fn swing(from: [f32; 2], to: [f32; 2]) -> Result<Move, TrajectoryError> {
+    rest_to_rest(from, to, SWING, &speeds(&BendingArm::limits(), [100.0; 2]))
+}
+
+/// The scene.
+#[derive(Clone, Copy, Debug)]
+pub struct BendingArm;
+
+impl Scene<2, 2, 2, 2> for BendingArm {
+    type Robot = TwoLink;
+    type Effects = Effects;
+    type Reference = SwingAndBack;
+    /// The modes under the reference, before the tick.
+    type Environment = State<f32, 2, 2>;
+    /// With two modes a link, of which the controller knows one.
+    type Plant = BendingPlant<TwoLink, Effects, 2, 4>;
+
+    const NAME: &'static str = "flexible_link";
+    const BOUND: f32 = 2e-3;
+    const EFFECTS: Effects = EFFECTS;
+    const CONSTANT_EFFECTS: bool = true;
+    const GAIN_POSE: [f32; 2] = START;
+    const GAIN_POSE_NAME: &'static str = "start";
+    const BASELINES: &'static [Run<Self, 2, 2, 2, 2>] = &[
+        Run::of::<RigidLinks>(PlantModel::Exact, "rigid-links"),
+        Run::of::<RigidLinks>(PlantModel::Mismatched, "rigid-links"),
+    ];
+
+    fn reference() -> Result<SwingAndBack, TrajectoryError> {
+        let (there, reference) = (swing(START, END)?, swing(END, START)?);
+        // The modes have a frequency: they are checked while compiling.
+        let shaper = shaper(&Static::<TwoLink>::NEW, &MODES_1, START).unwrap_or_default();
+        Ok(SwingAndBack::new(
+            there,
+            Shaped { reference, shaper },
+            PAUSE,
+        ))
+    }
+
+    fn environment(reference: &SwingAndBack, ticks: f32) -> State<f32, 2, 2> {
+        reference.modes_before(
+            ticks as u32,
+            || at_rest(START),
+            |modes, state| {
+                let moved = modes.tick(&Static::<TwoLink>::NEW, &MODES_1, state, &EFFECTS, TICK);
+                // The numbers of the reference are finite.
+                let _ = moved;
+            },
+        )
+    }
+
+    fn inverse<E: Effect<f32, 2, 2>>(
+        reference: &State<f32, 2, 2>,
+        bent: &State<f32, 2, 2>,
+        effects: &E,
+    ) -> [f32; 2] {
+        let mut modes = ModalFeedforward { bent: *bent };
+        let tau = modes.tick(&Static::<TwoLink>::NEW, &MODES_1, reference, effects, TICK);
+        tau.unwrap_or([0.0; 2])
+    }
+
+    fn plant(noise: Option<&mut Noise>) -> Self::Plant {
+        let (mut robot, mut effects) = (Calibrated::nominal(), EFFECTS);
+        let modes: &Modes<f32, 4> = if let Some(noise) = noise {
+            noise.masses(&mut robot);
+            noise.friction(&mut effects.4.0);
+            &MODES_2_SOFT
+        } else {
+            &MODES_2
+        };
+        BendingPlant::new(robot, *modes, effects, START)
+    }
+}
+
+/// The modes at rest at a pose.
+fn at_rest(q: [f32; 2]) -> State<f32, 2, 2> {
+    let rest = ModalFeedforward::at_rest(&Static::<TwoLink>::NEW, &MODES_1, &q, &EFFECTS);
+    rest.map_or(State::at([0.0; 2]), |rest| rest.bent)
+}
+
+/// Feed-forward that takes the links for rigid.
+#[derive(Clone, Copy, Debug)]
+pub struct RigidLinks;
+
+impl Law<2, State<f32, 2, 2>> for RigidLinks {
+    fn feedforward(reference: &State<f32, 2, 2>, _: &State<f32, 2, 2>) -> [f32; 2] {
+        Core::<TwoLink>::rnea(reference, &EFFECTS)
+    }
+}

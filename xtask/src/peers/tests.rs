@@ -268,7 +268,14 @@ fn loop_ratios_agree(page: &str) -> bool {
 #[test]
 fn the_ratios_of_robots_with_loops_are_those_of_their_times() {
     let page = page();
-    let robots = ["delta", "stewart", "four_bar_leg", "ankle_leg"];
+    let robots = [
+        "delta",
+        "stewart",
+        "four_bar_leg",
+        "ankle_leg",
+        "delta_robot",
+        "stewart_platform",
+    ];
     let rows = measured_loops(&page);
     for robot in robots {
         assert!(rows.iter().any(|row| row.robot == robot), "{robot}");

@@ -78,8 +78,11 @@ impl<R: Real, const M: usize> Modes<R, M> {
     /// The modes of body `i`: they follow each other.
     #[inline(always)]
     pub(super) fn of_body(&self, i: usize) -> core::ops::Range<usize> {
-        let before = |last| self.links.iter().filter(|&&link| link < i + last).count();
-        before(0)..before(1)
+        let count = |is: fn(usize, usize) -> bool| {
+            let links = self.links.iter();
+            links.filter(|&&link| is(link, i)).count()
+        };
+        count(|link, i| link < i)..count(|link, i| link <= i)
     }
 }
 

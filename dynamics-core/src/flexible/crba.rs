@@ -9,7 +9,7 @@ use core::ops::Range;
 use heapless::Vec;
 
 use super::Modes;
-use super::deformation::{Deformed, End, axial};
+use super::deformation::{End, axial, deform};
 use crate::algorithms::{MassMatrix, inward};
 use crate::effects::{Effect, body_inertia};
 use crate::model::{LinkView, RobotModel};
@@ -107,22 +107,25 @@ where
             break;
         };
         let (mut x, range) = (link.xform(turns), modes.of_body(i));
-        if let Some(end) = bodies.get(link.parent).and_then(|parent| parent.end) {
-            x = end.xform(&x);
+        if let Some((parent, end)) = bodies.get(link.parent).and_then(|p| Some((p, p.end?))) {
+            x = end.xform(&x, modes.rest(&parent.range));
         }
-        let mut own = Deformed::of(body_inertia(effects, i, &link));
+        let mut own = body_inertia(effects, i, &link);
         for k in range.clone() {
             if let (Some(mode), Some(swing)) = (modes.each.get(k), swings.get_mut(k)) {
                 let moments = modes.moments(k, &range, eta);
-                own.add(mode, moments, entry(eta, k));
+                deform::<R>(&mut own, mode, moments, entry(eta, k));
                 *swing = axial::<R>(&moments);
             }
         }
-        let end = (!range.is_empty()).then(|| End::of(modes, &range, eta));
+        let end = (!range.is_empty()).then(|| {
+            let [bend] = modes.at_end(&range, [eta]);
+            End::of(bend, modes.rest(&range))
+        });
         let _ = bodies.push(Body {
             link,
             x,
-            own: own.inertia().into(),
+            own: own.into(),
             on_end: SpatialInertia::ZERO.into(),
             range,
             end,
@@ -139,19 +142,17 @@ where
         let mut composite = body.own;
         if let Some(end) = &body.end {
             for k in body.range.clone() {
-                let on_end = body
-                    .on_end
-                    .along(&MotionSubspace::General(end.column(modes, k)));
+                let Some(mode) = modes.each.get(k) else {
+                    break;
+                };
+                let column = end.velocity([mode.shift, mode.half_turn]);
+                let on_end = body.on_end.along(&MotionSubspace::General(column));
                 let load = end.load(on_end);
                 for l in body.range.start..=k {
                     m.modes.set(k, l, modes.inertia(k, l) + modes.work(l, load));
                 }
-                let momentum = modes
-                    .each
-                    .get(k)
-                    .map_or(R::Vec3::ZERO, |mode| mode.momentum);
                 let swing = swings.get(k).copied().unwrap_or(R::Vec3::ZERO);
-                let f = Force::new(swing, momentum) + on_end;
+                let f = Force::new(swing, mode.momentum) + on_end;
                 body.project(turns, Mode(k), f, &mut m);
                 climb(modes, turns, body, inner, Mode(k), f, &mut m);
             }

@@ -7,43 +7,28 @@ use core::ops::Range;
 
 use super::Modes;
 use super::modes::Integrals;
+use crate::effects::Effect;
 use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::{Force, Motion, SpatialInertia, Xform};
 use crate::state::entry;
 
-/// The inertia of a link about its joint, to which that of its deformation is added mode by mode.
-pub(super) struct Deformed<R: Real> {
-    inertia: SpatialInertia<R>,
-    /// What ∫ r rᵀ dm is greater by, Σ ηₖ (Φₖ + ∫ r₀ φₖᵀ dm).
-    second: R::Mat3,
-}
-
-impl<R: Real> Deformed<R> {
-    #[inline(always)]
-    pub(super) fn of(rigid: SpatialInertia<R>) -> Self {
-        Self {
-            inertia: rigid,
-            second: R::Mat3::ZERO,
-        }
-    }
-
-    /// Adds a mode with Φ = ∫ φ rᵀ dm.
-    #[inline(always)]
-    pub(super) fn add(&mut self, mode: &Integrals<R>, moments: R::Mat3, eta: R) {
-        self.inertia.first_moment += mode.momentum * eta;
-        self.second += (moments + mode.moments.transpose()) * eta;
-    }
-
-    #[inline(always)]
-    pub(super) fn inertia(self) -> SpatialInertia<R> {
-        let ([x, y, z], mut inertia) = (self.second.cols().map(R::Vec3::array), self.inertia);
-        inertia.rotational -= R::Mat3::from_cols(
-            R::Vec3::new(-(y[1] + z[2]), x[1], x[2]),
-            R::Vec3::new(y[0], -(z[2] + x[0]), y[2]),
-            R::Vec3::new(z[0], z[1], -(x[0] + y[1])),
-        );
-        inertia
-    }
+/// Adds what the deformation by a mode with Φ = ∫ φ rᵀ dm is to the inertia of a link about its joint: ∫ r rᵀ dm is greater
+/// by Σ ηₖ (Φₖ + ∫ r₀ φₖᵀ dm).
+#[inline(always)]
+pub(super) fn deform<R: Real>(
+    inertia: &mut SpatialInertia<R>,
+    mode: &Integrals<R>,
+    moments: R::Mat3,
+    eta: R,
+) {
+    let second = (moments + mode.moments.transpose()) * eta;
+    let [x, y, z] = second.cols().map(R::Vec3::array);
+    inertia.first_moment += mode.momentum * eta;
+    inertia.rotational -= R::Mat3::from_cols(
+        R::Vec3::new(-(y[1] + z[2]), x[1], x[2]),
+        R::Vec3::new(y[0], -(z[2] + x[0]), y[2]),
+        R::Vec3::new(z[0], z[1], -(x[0] + y[1])),
+    );
 }
 
 impl<R: Real, const M: usize> Modes<R, M> {
@@ -91,41 +76,29 @@ pub(super) fn trace<R: Real>(m: &R::Mat3) -> R {
 #[derive(Clone, Copy)]
 pub(super) struct End<R: Real> {
     g: R::Vec3,
-    /// 1 / (1 + g²)
+    /// 2 / (1 + g²)
     scale: R,
-    /// The end undeformed.
-    rest: R::Vec3,
     /// The end.
     point: R::Vec3,
 }
 
 impl<R: Real> End<R> {
+    /// From the displacement and the parameters.
     #[inline(always)]
-    pub(super) fn of<const M: usize>(
-        modes: &Modes<R, M>,
-        range: &Range<usize>,
-        eta: &[R; M],
-    ) -> Self {
-        let (shift, g) = displacement(modes, range, eta);
-        let rest = modes
-            .each
-            .get(range.start)
-            .map_or(R::Vec3::ZERO, |mode| mode.end);
+    pub(super) fn of([shift, g]: [R::Vec3; 2], rest: R::Vec3) -> Self {
+        let two = R::from_f64(2.0);
         Self {
             g,
-            scale: R::ONE / (R::ONE + g.dot(g)),
-            rest,
+            scale: two / (R::ONE + g.dot(g)),
             point: rest + shift,
         }
     }
 
-    /// To a body on the end from the link's frame, of what it is undeformed.
+    /// To a body on the end from the link's frame, of what it is undeformed, with the end at `rest`.
     #[inline(always)]
-    pub(super) fn xform(&self, x: &Xform<R>) -> Xform<R> {
-        let Self { g, scale, .. } = *self;
-        let double = g * (scale + scale);
-        let ([x_0, y_0, z_0], [dx, dy, dz]) = (g.array(), double.array());
-        let diagonal = scale + scale - R::ONE;
+    pub(super) fn xform(&self, x: &Xform<R>, rest: R::Vec3) -> Xform<R> {
+        let ([x_0, y_0, z_0], [dx, dy, dz]) = (self.g.array(), (self.g * self.scale).array());
+        let diagonal = self.scale - R::ONE;
         // Rᵀ = (1 − g²)/(1 + g²) 1 + 2/(1 + g²) (g gᵀ − g×)
         let rot = R::Mat3::from_cols(
             R::Vec3::new(diagonal + x_0 * dx, x_0 * dy - dz, x_0 * dz + dy),
@@ -134,53 +107,54 @@ impl<R: Real> End<R> {
         );
         Xform {
             rot: x.rot * rot,
-            pos: self.point + rot.transpose_mul(x.pos - self.rest),
+            pos: self.point + rot.transpose_mul(x.pos - rest),
         }
     }
 
-    /// The velocity against the link of the rates of its modes, and what the acceleration at η̈ = 0 is.
+    /// The angular velocity of ġ.
     #[inline(always)]
-    pub(super) fn velocity<const M: usize>(
-        &self,
-        modes: &Modes<R, M>,
-        range: &Range<usize>,
-        rates: &[R; M],
-    ) -> [Motion<R>; 2] {
-        let (shift, g_dot) = displacement(modes, range, rates);
-        let velocity = self.motion(shift, g_dot);
-        let twice = self.scale * self.g.dot(g_dot);
-        let ang = -(velocity.ang * (twice + twice));
-        let lin = shift.cross(velocity.ang) + self.point.cross(ang);
-        [velocity, Motion::new(ang, lin)]
+    pub(super) fn omega(&self, g_dot: R::Vec3) -> R::Vec3 {
+        (g_dot + self.g.cross(g_dot)) * self.scale
     }
 
-    /// The acceleration against the link at η̇ = 0.
+    /// The velocity against the link.
     #[inline(always)]
-    pub(super) fn acceleration<const M: usize>(
-        &self,
-        modes: &Modes<R, M>,
-        range: &Range<usize>,
-        accelerations: &[R; M],
-    ) -> Motion<R> {
-        let (shift, g_dot) = displacement(modes, range, accelerations);
-        self.motion(shift, g_dot)
-    }
-
-    /// The motion per rate of mode k.
-    #[inline(always)]
-    pub(super) fn column<const M: usize>(&self, modes: &Modes<R, M>, k: usize) -> Motion<R> {
-        modes.each.get(k).map_or(Motion::ZERO, |mode| {
-            self.motion(mode.shift, mode.turn * R::from_f64(0.5))
-        })
-    }
-
-    #[inline(always)]
-    fn motion(&self, shift: R::Vec3, g_dot: R::Vec3) -> Motion<R> {
-        let ang = (g_dot + self.g.cross(g_dot)) * (self.scale + self.scale);
+    pub(super) fn velocity(&self, [shift, g_dot]: [R::Vec3; 2]) -> Motion<R> {
+        let ang = self.omega(g_dot);
         Motion::new(ang, shift + self.point.cross(ang))
     }
 
-    /// What a force on the end is to mode k: a moment for ψₖ and a force for φₖ.
+    /// Adds the velocity against the link and the acceleration to those of the link, as far as the effects have them.
+    #[inline(always)]
+    pub(super) fn add<E, const B: usize, const V: usize>(
+        &self,
+        _: &E,
+        v: &mut Motion<R>,
+        a: &mut Motion<R>,
+        [rates, accelerations]: [[R::Vec3; 2]; 2],
+    ) where
+        E: Effect<R, B, V>,
+    {
+        let [shift, g_dot] = rates;
+        let (velocity, mut ang) = (self.velocity(rates), R::Vec3::ZERO);
+        if E::ACCELERATIONS {
+            ang = self.omega(accelerations[1]);
+            a.lin += accelerations[0];
+        }
+        if E::VELOCITY_PRODUCTS {
+            ang -= velocity.ang * (self.scale * self.g.dot(g_dot));
+            a.ang += v.ang.cross(velocity.ang);
+            a.lin += v.ang.cross(velocity.lin) + (v.lin + shift).cross(velocity.ang);
+        }
+        if const { E::ACCELERATIONS | E::VELOCITY_PRODUCTS } {
+            *a += Motion::new(ang, self.point.cross(ang));
+        }
+        if const { E::VELOCITY_PRODUCTS | E::BODY_VELOCITY } {
+            *v += velocity;
+        }
+    }
+
+    /// What a force on the end is to a mode: a moment for ½ ψ and a force for φ.
     #[inline(always)]
     pub(super) fn load(&self, f: Force<R>) -> Force<R> {
         let moment = f.ang - self.point.cross(f.lin);
@@ -188,19 +162,31 @@ impl<R: Real> End<R> {
     }
 }
 
-/// Displacement and Rodrigues parameters of the end, or their rates.
-#[inline(always)]
-fn displacement<R: Real, const M: usize>(
-    modes: &Modes<R, M>,
-    range: &Range<usize>,
-    x: &[R; M],
-) -> (R::Vec3, R::Vec3) {
-    let (mut shift, mut turn) = (R::Vec3::ZERO, R::Vec3::ZERO);
-    for k in range.clone() {
-        if let Some(mode) = modes.each.get(k) {
-            shift += mode.shift * entry(x, k);
-            turn += mode.turn * entry(x, k);
+impl<R: Real, const M: usize> Modes<R, M> {
+    /// Displacement and Rodrigues parameters of the end of a link at each of these coordinates, or their rates.
+    #[inline(always)]
+    pub(super) fn at_end<const N: usize>(
+        &self,
+        range: &Range<usize>,
+        x: [&[R; M]; N],
+    ) -> [[R::Vec3; 2]; N] {
+        let mut sums = [[R::Vec3::ZERO; 2]; N];
+        for k in range.clone() {
+            let Some(mode) = self.each.get(k) else {
+                break;
+            };
+            for ([shift, g], x) in sums.iter_mut().zip(x) {
+                *shift += mode.shift * entry(x, k);
+                *g += mode.half_turn * entry(x, k);
+            }
         }
+        sums
     }
-    (shift, turn * R::from_f64(0.5))
+
+    /// The end of a link undeformed.
+    #[inline(always)]
+    pub(super) fn rest(&self, range: &Range<usize>) -> R::Vec3 {
+        let mode = self.each.get(range.start);
+        mode.map_or(R::Vec3::ZERO, |mode| mode.end)
+    }
 }

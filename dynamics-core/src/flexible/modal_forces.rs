@@ -3,7 +3,7 @@
 use core::ops::Range;
 
 use super::Modes;
-use super::deformation::{Deformed, End, axial, trace};
+use super::deformation::{axial, deform, trace};
 use super::modes::Integrals;
 use crate::effects::{Effect, base_motion};
 use crate::scalar::{Real, Vector};
@@ -53,29 +53,6 @@ impl<R: Real> Outer<R> {
         }
     }
 
-    /// Adds the motion of the end of a link with modes to that of the link.
-    #[inline(always)]
-    pub(super) fn add<E, const B: usize, const V: usize, const M: usize>(
-        &mut self,
-        _: &E,
-        end: &End<R>,
-        (modes, range): (&Modes<R, M>, &Range<usize>),
-        bent: &State<R, M, M>,
-    ) where
-        E: Effect<R, B, V>,
-    {
-        if E::ACCELERATIONS {
-            self.a += end.acceleration(modes, range, &bent.qdd);
-        }
-        if const { E::VELOCITY_PRODUCTS | E::BODY_VELOCITY } {
-            let [velocity, product] = end.velocity(modes, range, &bent.qd);
-            if E::VELOCITY_PRODUCTS {
-                self.a += product + self.v.cross(velocity);
-            }
-            self.v += velocity;
-        }
-    }
-
     /// I a + v ×* I v, as far as the effects have it.
     #[inline(always)]
     pub(super) fn net_force<E, const B: usize, const V: usize>(
@@ -113,79 +90,74 @@ where
     if E::VELOCITY_PRODUCTS {
         point += omega.cross(at.v.lin);
     }
-    let squared = omega.dot(omega);
-    let mut body = Deformed::of(rigid);
+    let (squared, two) = (omega.dot(omega), R::from_f64(2.0));
+    let mut inertia = rigid;
     // ∫ (2 ω × φ η̇ + φ η̈), and of 2 φ η̇ alone.
     let (mut relative, mut coasting) = (Force::ZERO, R::Vec3::ZERO);
     for k in range.clone() {
-        let (Some(mode), Some(of_mode)) = (modes.each.get(k), of_modes.get_mut(k)) else {
+        let (Some(mode), Some(products), Some(of_mode)) = (
+            modes.each.get(k),
+            modes.products.get(k),
+            of_modes.get_mut(k),
+        ) else {
             break;
         };
-        let moments = modes.moments(k, range, &bent.q);
-        body.add(mode, moments, entry(&bent.q, k));
+        let (mut moments, mut force) = (mode.moments, mode.momentum.dot(point));
+        for l in range.clone() {
+            let Some(&product) = products.get(l) else {
+                break;
+            };
+            let [eta, rate, acceleration] = [&bent.q, &bent.qd, &bent.qdd].map(|x| entry(x, l));
+            moments += product * eta;
+            if E::ACCELERATIONS {
+                force += trace::<R>(&product) * acceleration;
+            }
+            // That of k and k is symmetric.
+            if E::VELOCITY_PRODUCTS && l != k {
+                force += omega.dot(axial::<R>(&product)) * (rate * two);
+            }
+            if E::ELASTICITY {
+                force += modes.elasticity(k, l, [eta, rate]);
+            }
+        }
+        deform::<R>(&mut inertia, mode, moments, entry(&bent.q, k));
         let swing = axial::<R>(&moments);
-        let mut force = mode.momentum.dot(point) + swing.dot(alpha);
+        force += swing.dot(alpha);
         if E::VELOCITY_PRODUCTS {
             // r × (ω × u) = ω r·u − u r·ω
             let (turned, trace) = (moments * omega, trace::<R>(&moments));
-            let twice = entry(&bent.qd, k) * R::from_f64(2.0);
+            let twice = entry(&bent.qd, k) * two;
             coasting += mode.momentum * twice;
             relative.ang += (omega * trace - turned) * twice;
-            force += omega.dot(turned) - squared * trace + modes.coriolis(k, range, omega, bent);
+            force += omega.dot(turned) - squared * trace;
         }
         if E::ACCELERATIONS {
-            let acceleration = entry(&bent.qdd, k);
-            relative += Force::new(swing, mode.momentum) * acceleration;
-            for l in range.clone() {
-                force += modes.inertia(k, l) * entry(&bent.qdd, l);
-            }
-        }
-        if E::ELASTICITY {
-            force += modes.elasticity(k, range, bent);
+            relative += Force::new(swing, mode.momentum) * entry(&bent.qdd, k);
         }
         *of_mode += force;
     }
     if E::VELOCITY_PRODUCTS {
         relative.lin += omega.cross(coasting);
     }
-    at.net_force(effects, &body.inertia()) + relative
+    at.net_force(effects, &inertia) + relative
 }
 
 impl<R: Real, const M: usize> Modes<R, M> {
-    /// ∫ φₖ·(2 ω × u̇) dm.
+    /// K η + D η̇ of mode k by mode l.
     #[inline(always)]
-    fn coriolis(&self, k: usize, range: &Range<usize>, omega: R::Vec3, bent: &State<R, M, M>) -> R {
-        let mut rates = R::Vec3::ZERO;
-        let Some(products) = self.products.get(k) else {
-            return R::ZERO;
-        };
-        for l in range.clone() {
-            // That of k and k is symmetric.
-            if l != k
-                && let Some(product) = products.get(l)
-            {
-                rates += axial::<R>(product) * entry(&bent.qd, l);
+    fn elasticity(&self, k: usize, l: usize, [eta, rate]: [R; 2]) -> R {
+        match (self.stiffness.get(k), self.damping.get(k)) {
+            (Some(stiffness), Some(damping)) => {
+                entry(stiffness, l) * eta + entry(damping, l) * rate
             }
+            _ => R::ZERO,
         }
-        omega.dot(rates) * R::from_f64(2.0)
-    }
-
-    /// K η + D η̇ of mode k.
-    #[inline(always)]
-    fn elasticity(&self, k: usize, range: &Range<usize>, bent: &State<R, M, M>) -> R {
-        let (Some(stiffness), Some(damping)) = (self.stiffness.get(k), self.damping.get(k)) else {
-            return R::ZERO;
-        };
-        let terms = range.clone().map(|l| {
-            entry(stiffness, l) * entry(&bent.q, l) + entry(damping, l) * entry(&bent.qd, l)
-        });
-        terms.fold(R::ZERO, |sum, term| sum + term)
     }
 
     /// What a load on the end of a link is to its mode k.
     #[inline(always)]
     pub(super) fn work(&self, k: usize, load: Force<R>) -> R {
-        let work = |mode: &Integrals<R>| mode.turn.dot(load.ang) + mode.shift.dot(load.lin);
+        let work = |mode: &Integrals<R>| mode.half_turn.dot(load.ang) + mode.shift.dot(load.lin);
         self.each.get(k).map_or(R::ZERO, work)
     }
 }

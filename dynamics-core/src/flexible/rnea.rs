@@ -99,10 +99,13 @@ where
         };
         let (mut at, mut x) = (outer.parent(&link), link.xform(turns));
         let on = modes.of_body(link.parent);
-        let end = (!on.is_empty()).then(|| End::of(modes, &on, &bent.q));
-        if let Some(end) = &end {
-            x = end.xform(&x);
-            at.add(effects, end, (modes, &on), bent);
+        let mut end = None;
+        if !on.is_empty() {
+            let [bend, rates, accelerations] = modes.at_end(&on, [&bent.q, &bent.qd, &bent.qdd]);
+            let of_parent = End::of(bend, modes.rest(&on));
+            x = of_parent.xform(&x, modes.rest(&on));
+            of_parent.add(effects, &mut at.v, &mut at.a, [rates, accelerations]);
+            end = Some(of_parent);
         }
         at = at.moved(effects, &x);
         if const { E::VELOCITY_PRODUCTS | E::BODY_VELOCITY } {

@@ -92,8 +92,8 @@ where
     }
     let (squared, two) = (omega.dot(omega), R::from_f64(2.0));
     let mut inertia = rigid;
-    // ∫ (2 ω × φ η̇ + φ η̈), and of 2 φ η̇ alone.
-    let (mut relative, mut coasting) = (Force::ZERO, R::Vec3::ZERO);
+    // ∫ (2 ω × φ η̇ + φ η̈) dm.
+    let mut relative = Force::ZERO;
     for k in range.clone() {
         let (Some(mode), Some(products), Some(of_mode)) = (
             modes.each.get(k),
@@ -127,17 +127,14 @@ where
             // r × (ω × u) = ω r·u − u r·ω
             let (turned, trace) = (moments * omega, trace::<R>(&moments));
             let twice = entry(&bent.qd, k) * two;
-            coasting += mode.momentum * twice;
-            relative.ang += (omega * trace - turned) * twice;
+            let momentum = omega.cross(mode.momentum);
+            relative += Force::new(omega * trace - turned, momentum) * twice;
             force += omega.dot(turned) - squared * trace;
         }
         if E::ACCELERATIONS {
             relative += Force::new(swing, mode.momentum) * entry(&bent.qdd, k);
         }
         *of_mode += force;
-    }
-    if E::VELOCITY_PRODUCTS {
-        relative.lin += omega.cross(coasting);
     }
     at.net_force(effects, &inertia) + relative
 }

@@ -43,4 +43,4 @@ pub use operational_space::{
 };
 pub(crate) use pivot_check::Magnitude;
 pub use rnea::rnea;
-pub(crate) use tree_pass::inward;
+pub(crate) use tree_pass::{inward, per_body};

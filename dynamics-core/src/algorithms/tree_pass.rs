@@ -8,12 +8,12 @@ use crate::model::{LinkView, RobotModel};
 use crate::scalar::Real;
 
 /// Whether the parent of every body is known to be the one before it.
-pub(super) trait Topology {
+pub(crate) trait Topology {
     const CHAIN: bool;
 }
 
 /// The topology of the robot D.
-pub(super) struct Tree<D, R, const B: usize, const Q: usize, const V: usize>(PhantomData<(D, R)>);
+pub(crate) struct Tree<D, R, const B: usize, const Q: usize, const V: usize>(PhantomData<(D, R)>);
 
 impl<D, R: Real, const B: usize, const Q: usize, const V: usize> Topology for Tree<D, R, B, Q, V>
 where
@@ -25,7 +25,7 @@ where
 /// A quantity of the base and of each body so far, from which the next body reads that of its parent.
 ///
 /// For a chain only the last one is stored: `T::CHAIN` is a constant, and the other form is not in the machine code.
-pub(super) struct PerBody<A, T, const B: usize> {
+pub(crate) struct PerBody<A, T, const B: usize> {
     base: A,
     last: A,
     all: Vec<A, B>,
@@ -34,7 +34,7 @@ pub(super) struct PerBody<A, T, const B: usize> {
 
 /// The base's quantity, for the bodies of `robot` to follow.
 #[inline(always)]
-pub(super) fn per_body<A: Copy, D, R: Real, const B: usize, const Q: usize, const V: usize>(
+pub(crate) fn per_body<A: Copy, D, R: Real, const B: usize, const Q: usize, const V: usize>(
     _: &D,
     base: A,
 ) -> PerBody<A, Tree<D, R, B, Q, V>, B>
@@ -52,7 +52,7 @@ where
 impl<A: Copy, T: Topology, const B: usize> PerBody<A, T, B> {
     /// That of the parent of `link`.
     #[inline(always)]
-    pub(super) fn parent<R: Real>(&self, link: &LinkView<'_, R>) -> A {
+    pub(crate) fn parent<R: Real>(&self, link: &LinkView<'_, R>) -> A {
         if T::CHAIN {
             self.last
         } else {
@@ -62,7 +62,7 @@ impl<A: Copy, T: Topology, const B: usize> PerBody<A, T, B> {
 
     /// Adds that of the next body.
     #[inline(always)]
-    pub(super) fn push(&mut self, value: A) {
+    pub(crate) fn push(&mut self, value: A) {
         if T::CHAIN {
             self.last = value;
         } else {

@@ -9,14 +9,14 @@ use core::ops::Range;
 use heapless::Vec;
 
 use super::Modes;
-use super::deformation::{End, Moments};
+use super::deformation::{End, axial, deform};
 use crate::algorithms::{MassMatrix, inward};
 use crate::effects::{Effect, body_inertia};
 use crate::model::{LinkView, RobotModel};
 use crate::scalar::{Real, Vector};
 use crate::spatial::inertia::CompositeInertia;
 use crate::spatial::{Force, MotionSubspace, SpatialInertia, Xform};
-use crate::state::Configuration;
+use crate::state::{Configuration, entry};
 
 /// The inertia of V joints and M modes, in blocks: [joints, couplingᵀ; coupling, modes], kg, kg·m or kg·m².
 ///
@@ -100,26 +100,33 @@ where
     };
     let trig = q.trig_of(robot);
     let turns = &trig.borrow().coordinates;
-    let mut bodies: Vec<Body<'_, R, M>, B> = Vec::new();
+    let mut bodies: Vec<Body<'_, R>, B> = Vec::new();
+    let mut swings = [R::Vec3::ZERO; M];
     for i in 0..B {
         let Some(link) = robot.link(i) else {
             break;
         };
-        let (x, range) = (link.xform(turns), modes.of_body(i));
-        let moments = Moments::of(modes, &range, eta);
-        let rigid = body_inertia(effects, i, &link);
-        let (own, end) = if range.is_empty() {
-            (rigid, None)
-        } else {
-            let end = End::of(modes, &range, eta);
-            (moments.inertia(modes, &range, rigid, eta), Some(end))
-        };
+        let (mut x, range) = (link.xform(turns), modes.of_body(i));
+        if let Some((parent, end)) = bodies.get(link.parent).and_then(|p| Some((p, p.end?))) {
+            x = end.xform(&x, modes.rest(&parent.range));
+        }
+        let mut own = body_inertia(effects, i, &link);
+        for k in range.clone() {
+            if let (Some(mode), Some(swing)) = (modes.each.get(k), swings.get_mut(k)) {
+                let moments = modes.moments(k, &range, eta);
+                deform::<R>(&mut own, mode, moments, entry(eta, k));
+                *swing = axial::<R>(&moments);
+            }
+        }
+        let end = (!range.is_empty()).then(|| {
+            let [bend] = modes.at_end(&range, [eta]);
+            End::of(bend, modes.rest(&range))
+        });
         let _ = bodies.push(Body {
             link,
             x,
             own: own.into(),
             on_end: SpatialInertia::ZERO.into(),
-            moments,
             range,
             end,
         });
@@ -135,21 +142,22 @@ where
         let mut composite = body.own;
         if let Some(end) = &body.end {
             for k in body.range.clone() {
-                let on_end = body
-                    .on_end
-                    .along(&MotionSubspace::General(end.column(modes, k)));
+                let Some(mode) = modes.each.get(k) else {
+                    break;
+                };
+                let column = end.velocity([mode.shift, mode.half_turn]);
+                let on_end = body.on_end.along(&MotionSubspace::General(column));
                 let load = end.load(on_end);
                 for l in body.range.start..=k {
                     m.modes.set(k, l, modes.inertia(k, l) + modes.work(l, load));
                 }
-                let f = body.moments.momentum(modes, k) + end.x.transpose_mul(on_end);
+                let swing = swings.get(k).copied().unwrap_or(R::Vec3::ZERO);
+                let f = Force::new(swing, mode.momentum) + on_end;
                 body.project(turns, Mode(k), f, &mut m);
                 climb(modes, turns, body, inner, Mode(k), f, &mut m);
             }
-            composite += body.on_end.at_parent(&end.x);
-        } else {
-            composite += body.on_end;
         }
+        composite += body.on_end;
         if let Some(parent) = inner.get_mut(body.link.parent) {
             parent.on_end += composite.at_parent(&body.x);
         }
@@ -166,21 +174,20 @@ where
 }
 
 /// The results of the outward pass for the inward one.
-struct Body<'a, R: Real, const M: usize> {
+struct Body<'a, R: Real> {
     link: LinkView<'a, R>,
     x: Xform<R>,
     own: CompositeInertia<R>,
     on_end: CompositeInertia<R>,
-    moments: Moments<R, M>,
     range: Range<usize>,
     end: Option<End<R>>,
 }
 
 type Turns<R> = [crate::model::JointCoordinate<R>];
 
-impl<R: Real, const M: usize> Body<'_, R, M> {
+impl<R: Real> Body<'_, R> {
     /// Sets the entries between a coordinate and the joint of this body, on which its force is f.
-    fn project<const V: usize>(
+    fn project<const V: usize, const M: usize>(
         &self,
         turns: &Turns<R>,
         of: Coordinate,
@@ -197,8 +204,8 @@ impl<R: Real, const M: usize> Body<'_, R, M> {
 fn climb<R: Real, const V: usize, const M: usize>(
     modes: &Modes<R, M>,
     turns: &Turns<R>,
-    body: &Body<'_, R, M>,
-    inner: &[Body<'_, R, M>],
+    body: &Body<'_, R>,
+    inner: &[Body<'_, R>],
     of: Coordinate,
     mut f: Force<R>,
     m: &mut FlexibleInertia<R, V, M>,
@@ -211,19 +218,8 @@ fn climb<R: Real, const V: usize, const M: usize>(
             for k in parent.range.clone() {
                 m.set(of, Mode(k), modes.work(k, load));
             }
-            f = end.x.transpose_mul(f);
         }
         parent.project(turns, of, f, m);
         child = parent;
-    }
-}
-
-impl<R: Real, const M: usize> Modes<R, M> {
-    /// The force on mode k of a load on the end of its link.
-    #[inline(always)]
-    pub(super) fn work(&self, k: usize, load: Force<R>) -> R {
-        let work =
-            |mode: &super::modes::Integrals<R>| mode.turn.dot(load.ang) + mode.shift.dot(load.lin);
-        self.each.get(k).map_or(R::ZERO, work)
     }
 }

@@ -6,86 +6,29 @@
 use core::ops::Range;
 
 use super::Modes;
+use super::modes::Integrals;
+use crate::effects::Effect;
 use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::{Force, Motion, SpatialInertia, Xform};
 use crate::state::entry;
 
-/// Φₖ = ∫ φₖ rᵀ dm of the deformed link, of the modes that are its own.
-#[derive(Clone, Copy)]
-pub(super) struct Moments<R: Real, const M: usize> {
-    pub(super) each: [R::Mat3; M],
-}
-
-impl<R: Real, const M: usize> Moments<R, M> {
-    #[inline(always)]
-    pub(super) fn of(modes: &Modes<R, M>, range: &Range<usize>, eta: &[R; M]) -> Self {
-        let mut each = [R::Mat3::ZERO; M];
-        for k in range.clone() {
-            let (Some(moments), Some(mode), Some(products)) =
-                (each.get_mut(k), modes.each.get(k), modes.products.get(k))
-            else {
-                break;
-            };
-            *moments = mode.moments;
-            for l in range.clone() {
-                if let Some(&product) = products.get(l) {
-                    *moments += product * entry(eta, l);
-                }
-            }
-        }
-        Self { each }
-    }
-
-    /// The inertia of the deformed link about its joint: with ∫ r rᵀ dm greater by Σ ηₖ (Φₖ + ∫ r₀ φₖᵀ dm).
-    #[inline(always)]
-    pub(super) fn inertia(
-        &self,
-        modes: &Modes<R, M>,
-        range: &Range<usize>,
-        rigid: SpatialInertia<R>,
-        eta: &[R; M],
-    ) -> SpatialInertia<R> {
-        let (mut first, mut second) = (rigid.first_moment, R::Mat3::ZERO);
-        for k in range.clone() {
-            let (Some(mode), Some(&moments)) = (modes.each.get(k), self.each.get(k)) else {
-                break;
-            };
-            first += mode.momentum * entry(eta, k);
-            second += (moments + mode.moments.transpose()) * entry(eta, k);
-        }
-        SpatialInertia {
-            mass: rigid.mass,
-            first_moment: first,
-            rotational: rigid.rotational + R::Mat3::IDENTITY * trace::<R>(&second) - second,
-        }
-    }
-
-    /// The momentum of mode k at unit rate, about the joint: ∫ r × φₖ dm and ∫ φₖ dm.
-    #[inline(always)]
-    pub(super) fn momentum(&self, modes: &Modes<R, M>, k: usize) -> Force<R> {
-        match (modes.each.get(k), self.each.get(k)) {
-            (Some(mode), Some(moments)) => Force::new(axial::<R>(moments), mode.momentum),
-            _ => Force::ZERO,
-        }
-    }
-
-    /// Σ xₖ Φₖ, and Σ xₖ ∫ φₖ dm.
-    #[inline(always)]
-    pub(super) fn sum(
-        &self,
-        modes: &Modes<R, M>,
-        range: &Range<usize>,
-        x: &[R; M],
-    ) -> (R::Mat3, R::Vec3) {
-        let mut sum = (R::Mat3::ZERO, R::Vec3::ZERO);
-        for k in range.clone() {
-            if let (Some(mode), Some(&moments)) = (modes.each.get(k), self.each.get(k)) {
-                sum.0 += moments * entry(x, k);
-                sum.1 += mode.momentum * entry(x, k);
-            }
-        }
-        sum
-    }
+/// Adds what the deformation by a mode with Φ = ∫ φ rᵀ dm is to the inertia of a link about its joint: ∫ r rᵀ dm is greater
+/// by Σ ηₖ (Φₖ + ∫ r₀ φₖᵀ dm).
+#[inline(always)]
+pub(super) fn deform<R: Real>(
+    inertia: &mut SpatialInertia<R>,
+    mode: &Integrals<R>,
+    moments: R::Mat3,
+    eta: R,
+) {
+    let second = (moments + mode.moments.transpose()) * eta;
+    let [x, y, z] = second.cols().map(R::Vec3::array);
+    inertia.first_moment += mode.momentum * eta;
+    inertia.rotational -= R::Mat3::from_cols(
+        R::Vec3::new(-(y[1] + z[2]), x[1], x[2]),
+        R::Vec3::new(y[0], -(z[2] + x[0]), y[2]),
+        R::Vec3::new(z[0], z[1], -(x[0] + y[1])),
+    );
 }
 
 impl<R: Real, const M: usize> Modes<R, M> {
@@ -94,6 +37,21 @@ impl<R: Real, const M: usize> Modes<R, M> {
     pub(super) fn inertia(&self, k: usize, l: usize) -> R {
         let product = self.products.get(k).and_then(|row| row.get(l));
         product.map_or(R::ZERO, trace::<R>)
+    }
+
+    /// Φₖ = ∫ φₖ rᵀ dm of the deformed link.
+    #[inline(always)]
+    pub(super) fn moments(&self, k: usize, range: &Range<usize>, eta: &[R; M]) -> R::Mat3 {
+        let (Some(mode), Some(products)) = (self.each.get(k), self.products.get(k)) else {
+            return R::Mat3::ZERO;
+        };
+        let mut moments = mode.moments;
+        for l in range.clone() {
+            if let Some(&product) = products.get(l) {
+                moments += product * entry(eta, l);
+            }
+        }
+        moments
     }
 }
 
@@ -113,121 +71,122 @@ pub(super) fn trace<R: Real>(m: &R::Mat3) -> R {
 /// The end of a link, which is displaced by Σ φₖ ηₖ and rotated by Σ ψₖ ηₖ, twice its Rodrigues parameters g.
 ///
 /// These give a rotation without a sine, equal to the linear theory's to the second order of the angle. Its velocity is
-/// 2 / (1 + g²) (ġ − g × ġ) in the end's axes: Shuster, "A survey of attitude representations" (1993).
+/// 2 / (1 + g²) (ġ + g × ġ) in the link's axes: Shuster, "A survey of attitude representations" (1993). Motions and forces
+/// of the end are those about the link's joint, in the link's axes.
 #[derive(Clone, Copy)]
 pub(super) struct End<R: Real> {
-    /// From the link's frame to that which stands on the end, both where they coincide undeformed.
-    pub(super) x: Xform<R>,
     g: R::Vec3,
-    /// 1 / (1 + g²)
+    /// 2 / (1 + g²)
     scale: R,
-    /// The end undeformed.
+    /// The end.
     point: R::Vec3,
 }
 
 impl<R: Real> End<R> {
+    /// From the displacement and the parameters.
     #[inline(always)]
-    pub(super) fn of<const M: usize>(
-        modes: &Modes<R, M>,
-        range: &Range<usize>,
-        eta: &[R; M],
-    ) -> Self {
-        let (shift, g) = displacement(modes, range, eta);
-        let point = modes
-            .each
-            .get(range.start)
-            .map_or(R::Vec3::ZERO, |mode| mode.end);
-        let (squared, one) = (g.dot(g), R::ONE);
-        let scale = one / (one + squared);
-        let double = g * (scale + scale);
-        let ([x, y, z], [dx, dy, dz]) = (g.array(), double.array());
-        let diagonal = (one - squared) * scale;
+    pub(super) fn of([shift, g]: [R::Vec3; 2], rest: R::Vec3) -> Self {
+        let two = R::from_f64(2.0);
+        Self {
+            g,
+            scale: two / (R::ONE + g.dot(g)),
+            point: rest + shift,
+        }
+    }
+
+    /// To a body on the end from the link's frame, of what it is undeformed, with the end at `rest`.
+    #[inline(always)]
+    pub(super) fn xform(&self, x: &Xform<R>, rest: R::Vec3) -> Xform<R> {
+        let ([x_0, y_0, z_0], [dx, dy, dz]) = (self.g.array(), (self.g * self.scale).array());
+        let diagonal = self.scale - R::ONE;
         // Rᵀ = (1 − g²)/(1 + g²) 1 + 2/(1 + g²) (g gᵀ − g×)
         let rot = R::Mat3::from_cols(
-            R::Vec3::new(diagonal + x * dx, x * dy - dz, x * dz + dy),
-            R::Vec3::new(y * dx + dz, diagonal + y * dy, y * dz - dx),
-            R::Vec3::new(z * dx - dy, z * dy + dx, diagonal + z * dz),
+            R::Vec3::new(diagonal + x_0 * dx, x_0 * dy - dz, x_0 * dz + dy),
+            R::Vec3::new(y_0 * dx + dz, diagonal + y_0 * dy, y_0 * dz - dx),
+            R::Vec3::new(z_0 * dx - dy, z_0 * dy + dx, diagonal + z_0 * dz),
         );
-        let pos = point + shift - rot.transpose_mul(point);
-        Self {
-            x: Xform { rot, pos },
-            g,
-            scale,
-            point,
+        Xform {
+            rot: x.rot * rot,
+            pos: self.point + rot.transpose_mul(x.pos - rest),
         }
     }
 
-    /// ω of ġ.
+    /// The angular velocity of ġ.
     #[inline(always)]
-    fn omega(&self, g_dot: R::Vec3) -> R::Vec3 {
-        (g_dot - self.g.cross(g_dot)) * (self.scale + self.scale)
+    pub(super) fn omega(&self, g_dot: R::Vec3) -> R::Vec3 {
+        (g_dot + self.g.cross(g_dot)) * self.scale
     }
 
-    /// The velocity of the end against the link of the rates of its modes, and Rᵀ ḋ.
+    /// The velocity against the link.
     #[inline(always)]
-    pub(super) fn velocity<const M: usize>(
+    pub(super) fn velocity(&self, [shift, g_dot]: [R::Vec3; 2]) -> Motion<R> {
+        let ang = self.omega(g_dot);
+        Motion::new(ang, shift + self.point.cross(ang))
+    }
+
+    /// Adds the velocity against the link and the acceleration to those of the link, as far as the effects have them.
+    #[inline(always)]
+    pub(super) fn add<E, const B: usize, const V: usize>(
         &self,
-        modes: &Modes<R, M>,
-        range: &Range<usize>,
-        rates: &[R; M],
-    ) -> EndVelocity<R> {
-        let (shift, g_dot) = displacement(modes, range, rates);
-        let (ang, slide) = (self.omega(g_dot), self.x.rot * shift);
-        EndVelocity {
-            motion: Motion::new(ang, slide - ang.cross(self.point)),
-            slide,
-            g_dot,
+        _: &E,
+        v: &mut Motion<R>,
+        a: &mut Motion<R>,
+        [rates, accelerations]: [[R::Vec3; 2]; 2],
+    ) where
+        E: Effect<R, B, V>,
+    {
+        let [shift, g_dot] = rates;
+        let (velocity, mut ang) = (self.velocity(rates), R::Vec3::ZERO);
+        if E::ACCELERATIONS {
+            ang = self.omega(accelerations[1]);
+            a.lin += accelerations[0];
+        }
+        if E::VELOCITY_PRODUCTS {
+            ang -= velocity.ang * (self.scale * self.g.dot(g_dot));
+            a.ang += v.ang.cross(velocity.ang);
+            a.lin += v.ang.cross(velocity.lin) + (v.lin + shift).cross(velocity.ang);
+        }
+        if const { E::ACCELERATIONS | E::VELOCITY_PRODUCTS } {
+            *a += Motion::new(ang, self.point.cross(ang));
+        }
+        if const { E::VELOCITY_PRODUCTS | E::BODY_VELOCITY } {
+            *v += velocity;
         }
     }
 
-    /// The acceleration against the link at η̈ = 0, as the end's axes have it.
-    #[inline(always)]
-    pub(super) fn velocity_product(&self, velocity: &EndVelocity<R>) -> Motion<R> {
-        let (g_dot, omega) = (velocity.g_dot, velocity.motion.ang);
-        let twice = self.scale * self.g.dot(g_dot);
-        let ang = -(omega * (twice + twice));
-        Motion::new(ang, -omega.cross(velocity.slide) - ang.cross(self.point))
-    }
-
-    /// The motion of the end per rate of mode k.
-    #[inline(always)]
-    pub(super) fn column<const M: usize>(&self, modes: &Modes<R, M>, k: usize) -> Motion<R> {
-        let rates = core::array::from_fn(|l| if l == k { R::ONE } else { R::ZERO });
-        self.velocity(modes, &(k..k + 1), &rates).motion
-    }
-
-    /// What a force on the end is to mode k: a moment and a force in the link's axes, for ψₖ and φₖ.
+    /// What a force on the end is to a mode: a moment for ½ ψ and a force for φ.
     #[inline(always)]
     pub(super) fn load(&self, f: Force<R>) -> Force<R> {
         let moment = f.ang - self.point.cross(f.lin);
-        Force::new(
-            (moment + self.g.cross(moment)) * self.scale,
-            self.x.rot.transpose_mul(f.lin),
-        )
+        Force::new((moment - self.g.cross(moment)) * self.scale, f.lin)
     }
 }
 
-/// The velocity of an end against its link.
-#[derive(Clone, Copy)]
-pub(super) struct EndVelocity<R: Real> {
-    pub(super) motion: Motion<R>,
-    slide: R::Vec3,
-    g_dot: R::Vec3,
-}
-
-/// Σ φₖ xₖ and ½ Σ ψₖ xₖ at the end.
-#[inline(always)]
-fn displacement<R: Real, const M: usize>(
-    modes: &Modes<R, M>,
-    range: &Range<usize>,
-    x: &[R; M],
-) -> (R::Vec3, R::Vec3) {
-    let (mut shift, mut turn) = (R::Vec3::ZERO, R::Vec3::ZERO);
-    for k in range.clone() {
-        if let Some(mode) = modes.each.get(k) {
-            shift += mode.shift * entry(x, k);
-            turn += mode.turn * entry(x, k);
+impl<R: Real, const M: usize> Modes<R, M> {
+    /// Displacement and Rodrigues parameters of the end of a link at each of these coordinates, or their rates.
+    #[inline(always)]
+    pub(super) fn at_end<const N: usize>(
+        &self,
+        range: &Range<usize>,
+        x: [&[R; M]; N],
+    ) -> [[R::Vec3; 2]; N] {
+        let mut sums = [[R::Vec3::ZERO; 2]; N];
+        for k in range.clone() {
+            let Some(mode) = self.each.get(k) else {
+                break;
+            };
+            for ([shift, g], x) in sums.iter_mut().zip(x) {
+                *shift += mode.shift * entry(x, k);
+                *g += mode.half_turn * entry(x, k);
+            }
         }
+        sums
     }
-    (shift, turn * R::from_f64(0.5))
+
+    /// The end of a link undeformed.
+    #[inline(always)]
+    pub(super) fn rest(&self, range: &Range<usize>) -> R::Vec3 {
+        let mode = self.each.get(range.start);
+        mode.map_or(R::Vec3::ZERO, |mode| mode.end)
+    }
 }

@@ -3,13 +3,14 @@
 use core::ops::Range;
 
 use super::Modes;
-use super::deformation::{End, Moments, axial, trace};
+use super::deformation::{axial, deform, trace};
+use super::modes::Integrals;
 use crate::effects::{Effect, base_motion};
-use crate::scalar::{Matrix, Real, Vector};
+use crate::scalar::{Real, Vector};
 use crate::spatial::{Force, Motion, SpatialInertia, Xform};
 use crate::state::{State, entry};
 
-/// The motion of a body, or of the end of one with modes: what the bodies on it start from.
+/// The motion of a body, from which those of the bodies on it start.
 #[derive(Clone, Copy)]
 pub(super) struct Outer<R: Real> {
     pub(super) v: Motion<R>,
@@ -70,144 +71,90 @@ impl<R: Real> Outer<R> {
     }
 }
 
-/// A link with modes at one state.
-pub(super) struct Deformed<'a, R: Real, const M: usize> {
-    pub(super) modes: &'a Modes<R, M>,
-    pub(super) range: Range<usize>,
-    pub(super) moments: Moments<R, M>,
-    pub(super) bent: &'a State<R, M, M>,
-}
-
-impl<R: Real, const M: usize> Deformed<'_, R, M> {
-    /// The force that accelerates the link, and those that accelerate its modes: ∫ a dm, ∫ r × a dm and ∫ φₖ·a dm of
-    /// a = p̈ + α × r + ω × (ω × r) + 2 ω × φ η̇ + φ η̈.
-    #[inline(always)]
-    pub(super) fn net_force<E, const B: usize, const V: usize>(
-        &self,
-        effects: &E,
-        rigid: &SpatialInertia<R>,
-        at: &Outer<R>,
-        of_modes: &mut [R; M],
-    ) -> Force<R>
-    where
-        E: Effect<R, B, V>,
-    {
-        let Self {
-            modes,
-            range,
-            moments,
-            bent,
-        } = self;
-        let inertia = moments.inertia(modes, range, *rigid, &bent.q);
-        let mut f = at.net_force(effects, &inertia);
-        if E::ACCELERATIONS {
-            let (sum, momentum) = moments.sum(modes, range, &bent.qdd);
-            f += Force::new(axial::<R>(&sum), momentum);
-        }
-        let (omega, two) = (at.v.ang, R::from_f64(2.0));
-        if E::VELOCITY_PRODUCTS {
-            // r × (ω × u̇) = ω r·u̇ − u̇ r·ω
-            let (sum, momentum) = moments.sum(modes, range, &bent.qd);
-            let ang = omega * trace::<R>(&sum) - sum * omega;
-            f += Force::new(ang, omega.cross(momentum)) * two;
-        }
-        let mut point = at.a.lin;
-        if E::VELOCITY_PRODUCTS {
-            point += omega.cross(at.v.lin);
-        }
-        for k in range.clone() {
-            let momentum = moments.momentum(modes, k);
-            let mut force = momentum.lin.dot(point) + momentum.ang.dot(at.a.ang);
-            if E::VELOCITY_PRODUCTS {
-                force += self.velocity_force(k, omega);
-            }
-            if E::ACCELERATIONS {
-                for l in range.clone() {
-                    force += modes.inertia(k, l) * entry(&bent.qdd, l);
-                }
-            }
-            if let Some(of_mode) = of_modes.get_mut(k) {
-                *of_mode += force;
-            }
-        }
-        f
-    }
-
-    /// ∫ φₖ·(ω × (ω × r) + 2 ω × u̇) dm.
-    #[inline(always)]
-    fn velocity_force(&self, k: usize, omega: R::Vec3) -> R {
-        let (Some(moments), Some(products)) =
-            (self.moments.each.get(k), self.modes.products.get(k))
-        else {
-            return R::ZERO;
-        };
-        let centripetal = omega.dot(*moments * omega) - omega.dot(omega) * trace::<R>(moments);
-        let mut rates = R::Mat3::ZERO;
-        for l in self.range.clone() {
-            if let Some(&product) = products.get(l) {
-                rates += product * entry(&self.bent.qd, l);
-            }
-        }
-        centripetal + omega.dot(axial::<R>(&rates)) * R::from_f64(2.0)
-    }
-
-    /// The end, and its motion.
-    #[inline(always)]
-    pub(super) fn end<E, const B: usize, const V: usize>(
-        &self,
-        effects: &E,
-        at: &Outer<R>,
-    ) -> (Outer<R>, End<R>)
-    where
-        E: Effect<R, B, V>,
-    {
-        let Self {
-            modes, range, bent, ..
-        } = self;
-        let end = End::of(modes, range, &bent.q);
-        let mut on_end = at.moved(effects, &end.x);
-        if const { E::VELOCITY_PRODUCTS | E::BODY_VELOCITY } {
-            let velocity = end.velocity(modes, range, &bent.qd);
-            on_end.v += velocity.motion;
-            if E::VELOCITY_PRODUCTS {
-                on_end.a += end.velocity_product(&velocity) + on_end.v.cross(velocity.motion);
-            }
-        }
-        if E::ACCELERATIONS {
-            on_end.a += end.velocity(modes, range, &bent.qdd).motion;
-        }
-        (on_end, end)
-    }
-}
-
-/// Adds what a load on the end of a link does to its modes.
+/// The force that accelerates a link with modes, and of those that accelerate its modes: ∫ a dm, ∫ r × a dm and
+/// ∫ φₖ·a dm of a = p̈ + α × r + ω × (ω × r) + 2 ω × φ η̇ + φ η̈. The latter are added to `of_modes`, with K η + D η̇.
 #[inline(always)]
-pub(super) fn add_load<R: Real, const M: usize>(
-    modes: &Modes<R, M>,
-    range: &Range<usize>,
-    load: Force<R>,
-    of_modes: &mut [R; M],
-) {
-    for k in range.clone() {
-        if let (Some(mode), Some(of_mode)) = (modes.each.get(k), of_modes.get_mut(k)) {
-            *of_mode += mode.turn.dot(load.ang) + mode.shift.dot(load.lin);
-        }
-    }
-}
-
-/// Adds K η + D η̇.
-#[inline(always)]
-pub(super) fn elasticity<R: Real, const M: usize>(
-    modes: &Modes<R, M>,
+pub(super) fn net_force<R: Real, E, const B: usize, const V: usize, const M: usize>(
+    effects: &E,
+    (modes, range): (&Modes<R, M>, &Range<usize>),
+    rigid: SpatialInertia<R>,
+    at: &Outer<R>,
     bent: &State<R, M, M>,
     of_modes: &mut [R; M],
-) {
-    let rows = modes.stiffness.iter().zip(&modes.damping);
-    for ((stiffness, damping), of_mode) in rows.zip(of_modes) {
-        let terms = stiffness
-            .iter()
-            .zip(&bent.q)
-            .chain(damping.iter().zip(&bent.qd));
-        *of_mode = terms.fold(*of_mode, |sum, (&a, &x)| sum + a * x);
+) -> Force<R>
+where
+    E: Effect<R, B, V>,
+{
+    let (omega, alpha) = (at.v.ang, at.a.ang);
+    let mut point = at.a.lin;
+    if E::VELOCITY_PRODUCTS {
+        point += omega.cross(at.v.lin);
+    }
+    let (squared, two) = (omega.dot(omega), R::from_f64(2.0));
+    let mut inertia = rigid;
+    // ∫ (2 ω × φ η̇ + φ η̈) dm.
+    let mut relative = Force::ZERO;
+    for k in range.clone() {
+        let (Some(mode), Some(products), Some(of_mode)) = (
+            modes.each.get(k),
+            modes.products.get(k),
+            of_modes.get_mut(k),
+        ) else {
+            break;
+        };
+        let (mut moments, mut force) = (mode.moments, mode.momentum.dot(point));
+        for l in range.clone() {
+            let Some(&product) = products.get(l) else {
+                break;
+            };
+            let [eta, rate, acceleration] = [&bent.q, &bent.qd, &bent.qdd].map(|x| entry(x, l));
+            moments += product * eta;
+            if E::ACCELERATIONS {
+                force += trace::<R>(&product) * acceleration;
+            }
+            // That of k and k is symmetric.
+            if E::VELOCITY_PRODUCTS && l != k {
+                force += omega.dot(axial::<R>(&product)) * (rate * two);
+            }
+            if E::ELASTICITY {
+                force += modes.elasticity(k, l, [eta, rate]);
+            }
+        }
+        deform::<R>(&mut inertia, mode, moments, entry(&bent.q, k));
+        let swing = axial::<R>(&moments);
+        force += swing.dot(alpha);
+        if E::VELOCITY_PRODUCTS {
+            // r × (ω × u) = ω r·u − u r·ω
+            let (turned, trace) = (moments * omega, trace::<R>(&moments));
+            let twice = entry(&bent.qd, k) * two;
+            let momentum = omega.cross(mode.momentum);
+            relative += Force::new(omega * trace - turned, momentum) * twice;
+            force += omega.dot(turned) - squared * trace;
+        }
+        if E::ACCELERATIONS {
+            relative += Force::new(swing, mode.momentum) * entry(&bent.qdd, k);
+        }
+        *of_mode += force;
+    }
+    at.net_force(effects, &inertia) + relative
+}
+
+impl<R: Real, const M: usize> Modes<R, M> {
+    /// K η + D η̇ of mode k by mode l.
+    #[inline(always)]
+    fn elasticity(&self, k: usize, l: usize, [eta, rate]: [R; 2]) -> R {
+        match (self.stiffness.get(k), self.damping.get(k)) {
+            (Some(stiffness), Some(damping)) => {
+                entry(stiffness, l) * eta + entry(damping, l) * rate
+            }
+            _ => R::ZERO,
+        }
+    }
+
+    /// What a load on the end of a link is to its mode k.
+    #[inline(always)]
+    pub(super) fn work(&self, k: usize, load: Force<R>) -> R {
+        let work = |mode: &Integrals<R>| mode.half_turn.dot(load.ang) + mode.shift.dot(load.lin);
+        self.each.get(k).map_or(R::ZERO, work)
     }
 }

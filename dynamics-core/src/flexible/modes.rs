@@ -64,7 +64,8 @@ pub(super) struct Integrals<R: Real> {
     /// ∫ φ r₀ᵀ dm.
     pub(super) moments: R::Mat3,
     pub(super) shift: R::Vec3,
-    pub(super) turn: R::Vec3,
+    /// ½ ψ.
+    pub(super) half_turn: R::Vec3,
     /// The link's end.
     pub(super) end: R::Vec3,
 }
@@ -78,8 +79,11 @@ impl<R: Real, const M: usize> Modes<R, M> {
     /// The modes of body `i`: they follow each other.
     #[inline(always)]
     pub(super) fn of_body(&self, i: usize) -> core::ops::Range<usize> {
-        let before = |last| self.links.iter().filter(|&&link| link < i + last).count();
-        before(0)..before(1)
+        let count = |is: fn(usize, usize) -> bool| {
+            let links = self.links.iter();
+            links.filter(|&&link| is(link, i)).count()
+        };
+        count(|link, i| link < i)..count(|link, i| link <= i)
     }
 }
 
@@ -123,7 +127,7 @@ impl<const M: usize> Modes<f64, M> {
             momentum: DVec3::ZERO,
             moments: DMat3::ZERO,
             shift: DVec3::ZERO,
-            turn: DVec3::ZERO,
+            half_turn: DVec3::ZERO,
             end: DVec3::ZERO,
         };
         let mut modes = Self {
@@ -166,12 +170,13 @@ impl<const M: usize> Modes<f64, M> {
         let mut k = 0;
         while k < link.count {
             let (mode, at) = (&link.modes[k], first + k);
+            let [x, y, z] = mode.turn;
             self.links[at] = link.body;
             self.each[at] = Integrals {
                 momentum: mul_vec(frame, vec3(mode.momentum)),
                 moments: turned(frame, &mode.moments),
                 shift: mul_vec(frame, vec3(mode.shift)),
-                turn: mul_vec(frame, vec3(mode.turn)),
+                half_turn: mul_vec(frame, vec3([0.5 * x, 0.5 * y, 0.5 * z])),
                 end: mul_vec(frame, vec3(link.end)),
             };
             let mut l = 0;
@@ -192,7 +197,7 @@ impl<const M: usize> Modes<f64, M> {
             momentum: Vec3::ZERO,
             moments: Mat3::ZERO,
             shift: Vec3::ZERO,
-            turn: Vec3::ZERO,
+            half_turn: Vec3::ZERO,
             end: Vec3::ZERO,
         };
         let mut modes = Modes {
@@ -209,7 +214,7 @@ impl<const M: usize> Modes<f64, M> {
                 momentum: vector(mode.momentum),
                 moments: matrix(&mode.moments),
                 shift: vector(mode.shift),
-                turn: vector(mode.turn),
+                half_turn: vector(mode.half_turn),
                 end: vector(mode.end),
             };
             let mut l = 0;

@@ -8,10 +8,10 @@ use core::borrow::Borrow;
 
 use heapless::Vec;
 
-use super::deformation::{End, Moments};
-use super::modal_forces::{Deformed, Outer, add_load, elasticity};
+use super::deformation::End;
+use super::modal_forces::{Outer, net_force};
 use super::{FlexibleTorques, Modes};
-use crate::algorithms::inward;
+use crate::algorithms::{inward, per_body};
 use crate::effects::{Effect, body_inertia, body_wrench, joint_torques};
 use crate::model::RobotModel;
 use crate::scalar::Real;
@@ -91,16 +91,23 @@ where
     let trig = state.configuration().trig_of(robot);
     let (turns, state) = (&trig.borrow().coordinates, state.state());
     let mut out = FlexibleTorques::ZERO;
-    let base = Outer::base(effects);
-    let mut outer: Vec<Outer<R>, B> = Vec::new();
+    let mut outer = per_body(robot, Outer::base(effects));
     let mut bodies: Vec<Body<R>, B> = Vec::new();
     for i in 0..B {
         let Some(link) = robot.link(i) else {
             break;
         };
-        let parent = outer.get(link.parent).unwrap_or(&base);
-        let x = link.xform(turns);
-        let mut at = parent.moved(effects, &x);
+        let (mut at, mut x) = (outer.parent(&link), link.xform(turns));
+        let on = modes.of_body(link.parent);
+        let mut end = None;
+        if !on.is_empty() {
+            let [bend, rates, accelerations] = modes.at_end(&on, [&bent.q, &bent.qd, &bent.qdd]);
+            let of_parent = End::of(bend, modes.rest(&on));
+            x = of_parent.xform(&x, modes.rest(&on));
+            of_parent.add(effects, &mut at.v, &mut at.a, [rates, accelerations]);
+            end = Some(of_parent);
+        }
+        at = at.moved(effects, &x);
         if const { E::VELOCITY_PRODUCTS | E::BODY_VELOCITY } {
             at.v = link.plus_motion(at.v, turns, &state.qd);
         }
@@ -110,54 +117,38 @@ where
         if E::VELOCITY_PRODUCTS {
             at.a = link.plus_velocity_product(at.a, turns, &state.qd, at.v);
         }
-        let rigid = body_inertia(effects, i, &link);
-        let range = modes.of_body(i);
-        let (mut f, mut end) = (Force::ZERO, None);
-        if range.is_empty() {
-            f += at.net_force(effects, &rigid);
-            let _ = outer.push(at);
+        let (rigid, own) = (body_inertia(effects, i, &link), modes.of_body(i));
+        let mut f = if own.is_empty() {
+            at.net_force(effects, &rigid)
         } else {
-            let moments = Moments::of(modes, &range, &bent.q);
-            let deformed = Deformed {
-                modes,
-                range,
-                moments,
-                bent,
-            };
-            f += deformed.net_force(effects, &rigid, &at, &mut out.modes);
-            let (on_end, of_end) = deformed.end(effects, &at);
-            let _ = outer.push(on_end);
-            end = Some(of_end);
-        }
+            net_force(effects, (modes, &own), rigid, &at, bent, &mut out.modes)
+        };
         if E::WRENCH {
             f -= body_wrench(effects, i, &link, &at.pose, at.v);
         }
-        let on_end = Force::ZERO;
-        let _ = bodies.push(Body { x, f, end, on_end });
+        outer.push(at);
+        let _ = bodies.push(Body { x, f, end });
     }
     let mut bodies = inward(&mut bodies);
     while let Some((body, inner)) = bodies.next() {
         let Some(link) = robot.link(inner.len()) else {
             break;
         };
-        let mut f = body.f + body.on_end;
-        if let Some(end) = &body.end {
-            add_load(
-                modes,
-                &modes.of_body(inner.len()),
-                end.load(body.on_end),
-                &mut out.modes,
-            );
-            f = body.f + end.x.transpose_mul(body.on_end);
-        }
-        link.project(turns, f, &mut out.joints);
+        link.project(turns, body.f, &mut out.joints);
         joint_torques(effects, &link, state, &mut out.joints);
-        if let Some(parent) = inner.get_mut(link.parent) {
-            parent.on_end += body.x.transpose_mul(f);
+        let Some(parent) = inner.get_mut(link.parent) else {
+            continue;
+        };
+        let f = body.x.transpose_mul(body.f);
+        parent.f += f;
+        if let Some(end) = &body.end {
+            let load = end.load(f);
+            for k in modes.of_body(link.parent) {
+                if let Some(of_mode) = out.modes.get_mut(k) {
+                    *of_mode += modes.work(k, load);
+                }
+            }
         }
-    }
-    if E::ELASTICITY {
-        elasticity(modes, bent, &mut out.modes);
     }
     out
 }
@@ -166,8 +157,6 @@ where
 struct Body<R: Real> {
     x: Xform<R>,
     f: Force<R>,
-    /// The end of a link with modes.
+    /// Of the parent, if it has modes.
     end: Option<End<R>>,
-    /// The force of the bodies that stand on this one.
-    on_end: Force<R>,
 }

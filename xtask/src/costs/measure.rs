@@ -15,9 +15,9 @@ use crate::qemu::Run;
 use crate::setup::Tools;
 use crate::workspace::Workspace;
 
-/// Two bins for each robot, inverse dynamics and the rest, and two for robots with loops: the compiler builds them side by
-/// side.
-pub const BINS: [&str; 10] = [
+/// Two bins for each robot, inverse dynamics and the rest, two for robots with loops, and one for links that bend: the
+/// compiler builds them side by side.
+pub const BINS: [&str; 11] = [
     "costs_ur5e",
     "forward_ur5e",
     "costs_panda",
@@ -28,6 +28,7 @@ pub const BINS: [&str; 10] = [
     "forward_a1",
     "costs_clusters",
     "costs_loops",
+    "costs_flexible",
 ];
 
 /// What a function costs; the fields are those of the JSON.

@@ -9,12 +9,12 @@ pub struct TwoLink;
 
 /// The upper link with the elbow's motor.
 pub const UPPER: Beam = Beam::new(0.5, 0.8)
-    .bending([40.0; 2])
+    .bending([80.0; 2])
     .tip(0.3, 1e-4)
     .damping_ratio(0.01);
 /// The fore link with a gripper.
 pub const FORE: Beam = Beam::new(0.4, 0.4)
-    .bending([15.0; 2])
+    .bending([30.0; 2])
     .tip(0.1, 2e-5)
     .damping_ratio(0.01);
 
@@ -71,8 +71,8 @@ pub const MODES_2: Modes<f32, 4> = Modes::new(
 /// The same of beams that are 9.75 % softer, so that every frequency is 5 % lower.
 pub const MODES_2_SOFT: Modes<f32, 4> = {
     const SOFTER: f64 = 0.95 * 0.95;
-    const UPPER_SOFT: Beam = UPPER.bending([40.0 * SOFTER; 2]);
-    const FORE_SOFT: Beam = FORE.bending([15.0 * SOFTER; 2]);
+    const UPPER_SOFT: Beam = UPPER.bending([80.0 * SOFTER; 2]);
+    const FORE_SOFT: Beam = FORE.bending([30.0 * SOFTER; 2]);
     Modes::new(
         &TwoLink::MODEL,
         &[

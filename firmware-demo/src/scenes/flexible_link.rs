@@ -40,7 +40,7 @@ pub const START: [f32; 2] = [0.3, 0.9];
 /// Where it swings to.
 pub const END: [f32; 2] = [-0.6, 0.6];
 /// Ticks of a swing.
-pub const SWING: u32 = 300;
+pub const SWING: u32 = 350;
 /// Ticks of the pauses, some four periods of the slow vibration.
 pub const PAUSE: u32 = 600;
 

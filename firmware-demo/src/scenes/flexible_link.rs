@@ -1,5 +1,5 @@
 //! Scene `flexible_link`: a light arm whose links bend, under feed-forward with their modes and under one that takes them
-//! for rigid. It swings to a pose as fast as its motors allow, and back through a shaper that leaves no vibration.
+//! for rigid. It swings to a pose through a shaper that leaves no vibration, and back without.
 
 use dynamics_core::Core;
 use dynamics_core::control::{Shaped, TrajectoryError};
@@ -11,7 +11,7 @@ use dynamics_core::state::State;
 use crate::control_loop::Law;
 use crate::plant::BendingPlant;
 use crate::robots::TwoLink;
-use crate::robots::two_link::{MODES_1, MODES_2, MODES_2_SOFT};
+use crate::robots::two_link::{MODES_2, MODES_2_SOFT};
 use crate::scene::{Noise, PlantModel, Run, Scene, TICK, speeds};
 use crate::trajectories::swing_and_back::{Move, SwingAndBack, rest_to_rest, shaper};
 
@@ -31,8 +31,8 @@ pub const EFFECTS: Effects = (
     Inertia,
     Coriolis,
     Elasticity,
-    Viscous([0.1, 0.05]),
-    Armature([0.02, 0.01]),
+    Viscous([1.0, 0.2]),
+    Armature([0.2, 0.04]),
 );
 
 /// Where the arm begins and ends, rad: q₀ > 0 is below the horizontal.
@@ -40,7 +40,7 @@ pub const START: [f32; 2] = [0.3, 0.9];
 /// Where it swings to.
 pub const END: [f32; 2] = [-0.6, 0.6];
 /// Ticks of a swing.
-pub const SWING: u32 = 350;
+pub const SWING: u32 = 400;
 /// Ticks of the pauses, some four periods of the slow vibration.
 pub const PAUSE: u32 = 600;
 
@@ -61,8 +61,7 @@ impl Scene<2, 2, 2, 2> for BendingArm {
     type Effects = Effects;
     type Reference = SwingAndBack;
     /// The modes under the reference, before the tick.
-    type Environment = State<f32, 2, 2>;
-    /// With two modes a link, of which the controller knows one.
+    type Environment = State<f32, 4, 4>;
     type Plant = BendingPlant<TwoLink, Effects, 2, 4>;
 
     const NAME: &'static str = "flexible_link";
@@ -77,22 +76,18 @@ impl Scene<2, 2, 2, 2> for BendingArm {
     ];
 
     fn reference() -> Result<SwingAndBack, TrajectoryError> {
-        let (there, reference) = (swing(START, END)?, swing(END, START)?);
+        let (reference, back) = (swing(START, END)?, swing(END, START)?);
         // The modes have a frequency: they are checked while compiling.
-        let shaper = shaper(&Static::<TwoLink>::NEW, &MODES_1, START).unwrap_or_default();
-        Ok(SwingAndBack::new(
-            there,
-            Shaped { reference, shaper },
-            PAUSE,
-        ))
+        let shaper = shaper(&Static::<TwoLink>::NEW, &MODES_2, END).unwrap_or_default();
+        Ok(SwingAndBack::new(Shaped { reference, shaper }, back, PAUSE))
     }
 
-    fn environment(reference: &SwingAndBack, ticks: f32) -> State<f32, 2, 2> {
+    fn environment(reference: &SwingAndBack, ticks: f32) -> State<f32, 4, 4> {
         reference.modes_before(
             ticks as u32,
             || at_rest(START),
             |modes, state| {
-                let moved = modes.tick(&Static::<TwoLink>::NEW, &MODES_1, state, &EFFECTS, TICK);
+                let moved = modes.tick(&Static::<TwoLink>::NEW, &MODES_2, state, &EFFECTS, TICK);
                 // The numbers of the reference are finite.
                 let _ = moved;
             },
@@ -101,11 +96,11 @@ impl Scene<2, 2, 2, 2> for BendingArm {
 
     fn inverse<E: Effect<f32, 2, 2>>(
         reference: &State<f32, 2, 2>,
-        bent: &State<f32, 2, 2>,
+        bent: &State<f32, 4, 4>,
         effects: &E,
     ) -> [f32; 2] {
         let mut modes = ModalFeedforward { bent: *bent };
-        let tau = modes.tick(&Static::<TwoLink>::NEW, &MODES_1, reference, effects, TICK);
+        let tau = modes.tick(&Static::<TwoLink>::NEW, &MODES_2, reference, effects, TICK);
         tau.unwrap_or([0.0; 2])
     }
 
@@ -123,17 +118,17 @@ impl Scene<2, 2, 2, 2> for BendingArm {
 }
 
 /// The modes at rest at a pose.
-fn at_rest(q: [f32; 2]) -> State<f32, 2, 2> {
-    let rest = ModalFeedforward::at_rest(&Static::<TwoLink>::NEW, &MODES_1, &q, &EFFECTS);
-    rest.map_or(State::at([0.0; 2]), |rest| rest.bent)
+fn at_rest(q: [f32; 2]) -> State<f32, 4, 4> {
+    let rest = ModalFeedforward::at_rest(&Static::<TwoLink>::NEW, &MODES_2, &q, &EFFECTS);
+    rest.map_or(State::at([0.0; 4]), |rest| rest.bent)
 }
 
 /// Feed-forward that takes the links for rigid.
 #[derive(Clone, Copy, Debug)]
 pub struct RigidLinks;
 
-impl Law<2, State<f32, 2, 2>> for RigidLinks {
-    fn feedforward(reference: &State<f32, 2, 2>, _: &State<f32, 2, 2>) -> [f32; 2] {
+impl Law<2, State<f32, 4, 4>> for RigidLinks {
+    fn feedforward(reference: &State<f32, 2, 2>, _: &State<f32, 4, 4>) -> [f32; 2] {
         Core::<TwoLink>::rnea(reference, &EFFECTS)
     }
 }

@@ -1,4 +1,4 @@
-//! A swing to and fro with a pause after each: to as it comes, and back through a shaper; and the motion of modes under it.
+//! A swing to and fro with a pause after each: there through a shaper, and back without; and the motion of modes under it.
 
 use core::cell::Cell;
 
@@ -36,12 +36,12 @@ pub fn rest_to_rest(
     Trajectory::new(&[point(from, 0), point(to, ticks)], TICK, limits)
 }
 
-/// The shaper of a robot's two modes at a pose.
-pub fn shaper<D>(robot: &D, modes: &Modes<f32, 2>, q: [f32; 2]) -> Option<Shaper<f32, IMPULSES>>
+/// The shaper of a robot's two slowest vibrations at a pose.
+pub fn shaper<D>(robot: &D, modes: &Modes<f32, 4>, q: [f32; 2]) -> Option<Shaper<f32, IMPULSES>>
 where
     D: RobotModel<f32, 2, 2, 2>,
 {
-    let inertia = crba(robot, modes, &q, &[0.0; 2], &Inertia);
+    let inertia = crba(robot, modes, &q, &[0.0; 4], &Inertia);
     let omega = modes.frequencies(&inertia).ok()?;
     let of = |mode: usize| Vibration {
         link: "arm",
@@ -52,27 +52,27 @@ where
     Shaper::zv(&[of(0), of(1)], TICK).ok()
 }
 
-/// There, a pause, and back through the shaper.
+/// There through a shaper, a pause, and back without.
 #[derive(Debug)]
 pub struct SwingAndBack {
     /// To the far pose.
-    pub there: Move,
+    pub there: Shaped<Move, f32, IMPULSES>,
     /// And back.
-    pub back: Shaped<Move, f32, IMPULSES>,
+    pub back: Move,
     /// Ticks of the pause.
     pub pause: u32,
     /// The modes under the reference: the tick to which they have moved, and their motion at the tick before.
-    modal: Cell<(u32, State<f32, 2, 2>)>,
+    modal: Cell<(u32, State<f32, 4, 4>)>,
 }
 
 impl SwingAndBack {
     /// With the modes at rest.
-    pub fn new(there: Move, back: Shaped<Move, f32, IMPULSES>, pause: u32) -> Self {
+    pub fn new(there: Shaped<Move, f32, IMPULSES>, back: Move, pause: u32) -> Self {
         Self {
             there,
             back,
             pause,
-            modal: Cell::new((u32::MAX, State::at([0.0; 2]))),
+            modal: Cell::new((u32::MAX, State::at([0.0; 4]))),
         }
     }
 
@@ -80,9 +80,9 @@ impl SwingAndBack {
     pub fn modes_before(
         &self,
         tick: u32,
-        start: impl Fn() -> State<f32, 2, 2>,
-        advance: impl Fn(&mut ModalFeedforward<f32, 2>, &State<f32, 2, 2>),
-    ) -> State<f32, 2, 2> {
+        start: impl Fn() -> State<f32, 4, 4>,
+        advance: impl Fn(&mut ModalFeedforward<f32, 4>, &State<f32, 2, 2>),
+    ) -> State<f32, 4, 4> {
         let (at, bent) = self.modal.get();
         if tick == 0 && at != 0 {
             self.modal.set((0, start()));

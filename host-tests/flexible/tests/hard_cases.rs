@@ -37,3 +37,9 @@ fn modes_that_no_link_can_have_are_named() {
 fn a_mode_of_any_frequency_is_stable() {
     demand(69);
 }
+
+#[test]
+fn numbers_go_on_from_the_63_cases_before() {
+    let cases = CASES.iter().copied().flatten();
+    assert!(cases.map(|case| case.number).eq(64..70));
+}

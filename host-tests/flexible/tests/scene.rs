@@ -7,7 +7,7 @@ use dynamics_core::state::State;
 use firmware_demo::control_loop::Law;
 use firmware_demo::plant::{BendingPlant, Simulated};
 use firmware_demo::robots::TwoLink;
-use firmware_demo::robots::two_link::{MODES_1, MODES_2, MODES_2_SOFT};
+use firmware_demo::robots::two_link::{MODES_2, MODES_2_SOFT};
 use firmware_demo::scene::{OMEGA_N, STEPS, Scene, TICK, ZETA};
 use firmware_demo::scenes::flexible_link::{BendingArm, EFFECTS, END, RigidLinks, START, swing};
 use firmware_demo::trajectories::swing_and_back::shaper;
@@ -31,14 +31,14 @@ fn run(reference: &impl Reference<f32, 2>, modes: &Modes<f32, 4>, knows_modes: b
         START,
     );
     let mut modal =
-        ModalFeedforward::at_rest(&robot, &MODES_1, &START, &EFFECTS).expect("stiffness");
-    let gains = Gains::from_inertia(&BendingArm::inertia(&State::at([0.0; 2])), OMEGA_N, ZETA);
+        ModalFeedforward::at_rest(&robot, &MODES_2, &START, &EFFECTS).expect("stiffness");
+    let gains = Gains::from_inertia(&BendingArm::inertia(&State::at([0.0; 4])), OMEGA_N, ZETA);
     let (mut error, mut range, mut torque) = (0.0_f32, [[f32::MAX, f32::MIN]; 2], [0.0_f32; 2]);
     for tick in 0..reference.ticks() + 700 {
         let wanted = reference.at(tick);
         let feedforward = if knows_modes {
             modal
-                .tick(&robot, &MODES_1, &wanted, &EFFECTS, TICK)
+                .tick(&robot, &MODES_2, &wanted, &EFFECTS, TICK)
                 .expect("finite")
         } else {
             <RigidLinks as Law<2, _>>::feedforward(&wanted, &modal.bent)
@@ -87,12 +87,13 @@ fn a_shaped_reference_leaves_at_most_a_tenth_of_the_vibration_and_a_third_with_f
     let there = swing(START, END).expect("within limits");
     let shaped = Shaped {
         reference: swing(START, END).expect("within limits"),
-        shaper: shaper(&Static::<TwoLink>::NEW, &MODES_1, END).expect("frequencies"),
+        shaper: shaper(&Static::<TwoLink>::NEW, &MODES_2, END).expect("frequencies"),
     };
-    println!("{:?}", shaped.shaper);
     for (modes, most) in [(&MODES_2, 0.1), (&MODES_2_SOFT, 1.0 / 3.0)] {
         let [plain, without] = [run(&there, modes, true), run(&shaped, modes, true)];
         println!("unshaped {plain:?}, shaped {without:?}");
+        let limits = BendingArm::limits().map(|limit| limit.torque);
+        assert!((0..2).all(|j| plain.torque[j] < limits[j]), "{plain:?}");
         assert!(
             without.vibration < most * plain.vibration,
             "{plain:?} {without:?}"

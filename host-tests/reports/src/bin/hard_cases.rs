@@ -12,7 +12,10 @@ struct Suite {
 }
 
 fn main() {
-    let all = CASES.iter().chain(loop_tests::hard::CASES);
+    let all = CASES
+        .iter()
+        .chain(loop_tests::hard::CASES)
+        .chain(flexible_tests::hard::CASES);
     let mut cases: Vec<Case> = all.copied().flatten().copied().collect();
     cases.sort_by_key(|case| case.number);
     let rows = cases.iter().flat_map(Case::rows).collect();

@@ -37,51 +37,48 @@ struct Measured {
 /// Measures and rewrites the page's tables and the picture.
 pub fn run() -> Result<ExitCode> {
     let workspace = Workspace::for_reports()?;
-    let measured: Measured = host_bin::json(&workspace, PAGE.name)?;
-    let text = measured.markdown();
+    let (text, picture) = measure(&workspace)?;
     output::line(&text)?;
     PAGE.write(&workspace, &text)?;
-    workspace::write(&workspace.report(PICTURE), measured.svg()?)?;
+    workspace::write(&workspace.report(PICTURE), picture)?;
     Ok(ExitCode::SUCCESS)
 }
 
 /// Fails unless page and picture agree with a new measurement, which gives the same bits everywhere.
 pub fn check(workspace: &Workspace) -> Result<String> {
-    let measured: Measured = host_bin::json(workspace, PAGE.name)?;
-    PAGE.check(workspace, &measured.markdown(), None)?;
-    docs::compare_picture(workspace, PICTURE, PAGE.command, &measured.svg()?, true)?;
+    let (text, picture) = measure(workspace)?;
+    PAGE.check(workspace, &text, None)?;
+    docs::compare_picture(workspace, PICTURE, PAGE.command, &picture, true)?;
     Ok(String::new())
+}
+
+/// The text and the picture of the page.
+fn measure(workspace: &Workspace) -> Result<(String, String)> {
+    let measured: Measured = host_bin::json(workspace, PAGE.name)?;
+    Ok((measured.markdown(), measured.svg()?))
 }
 
 impl Measured {
     fn markdown(&self) -> String {
+        let digits = |error: &f64| format!("{error:.1e}");
         let [at_rest, fore, moving] = CURVES.map(|(name, _)| name);
         let mut truncation = Table::new(&["modes", at_rest, fore, moving]);
-        for (row, modes) in self.truncation.iter().zip(1..) {
-            let errors = row.iter().map(|error| format!("{error:.1e}"));
-            truncation.row([format!("{modes}")].into_iter().chain(errors));
+        for (row, modes) in self.truncation.iter().zip(1_u8..) {
+            let [a, b, c] = row.each_ref().map(digits);
+            truncation.row([modes.to_string(), a, b, c]);
         }
         let mut errors = Table::new(&["robot", "quantity", "error, f64", "error, f32"]);
-        for (robot, quantity, [double, single]) in &self.errors {
-            let of = [double, single].map(|error| format!("{error:.1e}"));
-            errors.row([robot.clone(), quantity.clone()].into_iter().chain(of));
+        for (robot, quantity, [double, single]) in self.errors.clone() {
+            errors.row([robot, quantity, digits(&double), digits(&single)]);
         }
-        format!(
-            "{}\n{}",
-            truncation.markdown(),
-            errors.markdown().trim_end()
-        )
+        let errors = errors.markdown();
+        format!("{}\n{}", truncation.markdown(), errors.trim_end())
     }
 
     fn svg(&self) -> Result<String> {
-        let curves = CURVES.iter().enumerate();
-        let lines = curves.map(|(k, &(_, colour))| Line {
-            points: self
-                .truncation
-                .iter()
-                .zip(1..)
-                .map(|(row, m)| (f64::from(m), 1e6 * row[k]))
-                .collect(),
+        let rows = || self.truncation.iter().zip(1_u8..);
+        let lines = CURVES.iter().enumerate().map(|(k, &(_, colour))| Line {
+            points: rows().map(|(row, m)| (m.into(), 1e6 * row[k])).collect(),
             colour,
             dots: true,
         });

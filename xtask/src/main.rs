@@ -15,6 +15,7 @@ mod endurance;
 mod error;
 mod firmware;
 mod flags;
+mod flexible;
 mod growth;
 mod hard_cases;
 mod host_bin;
@@ -86,6 +87,8 @@ enum Command {
     HardCases(Json),
     /// Measure on the host how accurate dynamics with kinematic loops are, rewrite docs/loops.md
     Loops,
+    /// Measure on the host what few modes leave out of links that bend, rewrite docs/flexible.md
+    Flexible,
     /// Measure other libraries and this one side by side, rewrite docs/peers.md: takes minutes
     Peers(peers::Args),
     /// Time release builds with and without one specialised function, rewrite docs/build-time.md
@@ -188,6 +191,7 @@ fn run(cli: Cli) -> Result<ExitCode> {
         Command::Meter(args) => user_firmware::run(setup, &args),
         Command::Eliminations => host_table::ELIMINATIONS.run(),
         Command::Loops => host_table::LOOPS.run(),
+        Command::Flexible => flexible::run(),
         Command::HardCases(Json { json }) => hard_cases::run(json),
         Command::Peers(args) => peers::run(setup, &args),
         Command::BuildTime(Json { json }) => build_time::run(setup, json),

@@ -71,7 +71,7 @@ impl<R: Real> Outer<R> {
     }
 }
 
-/// The force that accelerates a link with modes, and of those that accelerate its modes: ∫ a dm, ∫ r × a dm and
+/// The force that accelerates a link with modes, and those that accelerate its modes: ∫ a dm, ∫ r × a dm and
 /// ∫ φₖ·a dm of a = p̈ + α × r + ω × (ω × r) + 2 ω × φ η̇ + φ η̈. The latter are added to `of_modes`, with K η + D η̇.
 #[inline(always)]
 pub(super) fn net_force<R: Real, E, const B: usize, const V: usize, const M: usize>(

@@ -26,7 +26,9 @@ use crate::qemu::Run;
 use crate::scene::Scene;
 use crate::setup::{self, Options, Tools};
 use crate::workspace::Workspace;
-use crate::{accuracy, effects, growth, hard_cases, host_table, layers, lines, meter, shell};
+use crate::{
+    accuracy, effects, flexible, growth, hard_cases, host_table, layers, lines, meter, shell,
+};
 use Lane::{Host, Target};
 use Scope::{Everyday, Full};
 
@@ -108,6 +110,7 @@ const STEPS: &[Step] = &[
     ("eliminations", Host, Full, "docs/eliminations.md has today's accuracies",
         |c| host_table::ELIMINATIONS.check(&c.workspace)),
     ("loops", Host, Full, "docs/loops.md has today's accuracies of robots with loops", |c| host_table::LOOPS.check(&c.workspace)),
+    ("flexible", Host, Full, "docs/flexible.md has today's errors of links that bend", |c| flexible::check(&c.workspace)),
     ("hard-cases", Host, Full, "every hard case holds, and docs/hard-cases.md has today's figures", |c| hard_cases::check(&c.workspace)),
     ("readme", Target, Everyday, "the tables of README.md and docs/scenes.md are those of this run", scenes::readme),
     ("debian", Target, Full, "Debian's own compiler builds a scene that runs", others::debian),

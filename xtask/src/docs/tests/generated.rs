@@ -11,7 +11,7 @@ pub enum Checked {
 }
 
 /// The files; a test compares the list with the repository.
-pub const FILES: [(&str, Checked); 22] = [
+pub const FILES: [(&str, Checked); 24] = [
     ("README.md", Checked::Step("readme")),
     ("docs/accuracy-a1_leg-all.svg", Checked::Step("accuracy")),
     ("docs/accuracy-a1_leg.svg", Checked::Step("accuracy")),
@@ -30,6 +30,8 @@ pub const FILES: [(&str, Checked); 22] = [
     ("docs/effects.md", Checked::Step("effects")),
     ("docs/effects.svg", Checked::Step("effects")),
     ("docs/eliminations.md", Checked::Step("eliminations")),
+    ("docs/flexible.md", Checked::Step("flexible")),
+    ("docs/flexible.svg", Checked::Step("flexible")),
     ("docs/growth.md", Checked::Step("growth")),
     ("docs/growth.svg", Checked::Step("growth")),
     ("docs/hard-cases.md", Checked::Step("hard-cases")),

@@ -1,0 +1,96 @@
+//! A scalar that counts: products, sums (differences are sums) and quotients, for each thread its own count.
+
+extern crate std;
+
+use core::cell::Cell;
+use core::ops::{Add, Div, Mul, Neg, Sub};
+
+use crate::number::Number;
+
+/// How many operations there were.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Operations {
+    /// Products.
+    pub products: i64,
+    /// Sums and differences; a change of sign is neither.
+    pub sums: i64,
+    /// Quotients.
+    pub quotients: i64,
+}
+
+std::thread_local! {
+    static COUNT: Cell<Operations> = const { Cell::new(Operations { products: 0, sums: 0, quotients: 0 }) };
+}
+
+/// An f64 whose operations are counted.
+#[derive(Clone, Copy, Debug)]
+pub struct Counted(f64);
+
+/// The operations of a computation.
+pub fn count<T>(compute: impl FnOnce() -> T) -> Operations {
+    COUNT.set(Operations::default());
+    core::hint::black_box(compute());
+    COUNT.get()
+}
+
+fn step(change: impl FnOnce(&mut Operations)) {
+    let mut operations = COUNT.get();
+    change(&mut operations);
+    COUNT.set(operations);
+}
+
+impl Number for Counted {
+    const ZERO: Self = Self(0.0);
+
+    fn of(value: f64) -> Self {
+        Self(value)
+    }
+
+    fn value(self) -> f64 {
+        self.0
+    }
+}
+
+impl Add for Counted {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        step(|count| count.sums += 1);
+        Self(self.0 + other.0)
+    }
+}
+
+impl Sub for Counted {
+    type Output = Self;
+
+    fn sub(self, other: Self) -> Self {
+        step(|count| count.sums += 1);
+        Self(self.0 - other.0)
+    }
+}
+
+impl Mul for Counted {
+    type Output = Self;
+
+    fn mul(self, other: Self) -> Self {
+        step(|count| count.products += 1);
+        Self(self.0 * other.0)
+    }
+}
+
+impl Div for Counted {
+    type Output = Self;
+
+    fn div(self, other: Self) -> Self {
+        step(|count| count.quotients += 1);
+        Self(self.0 / other.0)
+    }
+}
+
+impl Neg for Counted {
+    type Output = Self;
+
+    fn neg(self) -> Self {
+        Self(-self.0)
+    }
+}

@@ -7,7 +7,7 @@
 //! s̈_i = A_iᵀ s̈_{i−1} + Ω_i p*_i,   s̈_0 = −g
 //! f_i = Ω_i u_i + A_{i+1} f_{i+1}
 //! η_i = dual(Ω_i K_i − K_i Ω_iᵀ) + u_i × A_iᵀ s̈_{i−1} + A_{i+1} η_{i+1} + p*_i × A_{i+1} f_{i+1}
-//! τ_i = η_i · A_iᵀ z
+//! τ_i = (A_i η_i) · z
 //! ```
 //!
 //! A link is augmented by the masses of all links behind it, put in its outer origin: u_i, K_i: `augmented_first`,
@@ -15,8 +15,10 @@
 //! the rest, the mass from there on times s̈_{i−1}, is in u_i and K_i. ω~ is the tensor of ω ×, dual its inverse.
 //! Rotations are two planar ones, of 8 products and 4 sums.
 
+use core::array::from_fn;
+
 use crate::chain::{Chain, State};
-use crate::matrix::{Mat, cross, dot, mul_vec, plus, times};
+use crate::matrix::{Mat, cross, mul_vec, plus};
 use crate::number::Number;
 
 /// The torques of the joints.
@@ -28,9 +30,8 @@ pub fn torques<T: Number, const N: usize>(chain: &Chain<T, N>, state: &State<T, 
         let (qd, qdd) = (state.qd[i], state.qdd[i]);
         let back = |v: &[T; 3]| link.turn_back(state.cos[i], state.sin[i], v);
         if i == 0 {
-            let axis = [T::ZERO, link.sin_alpha, link.cos_alpha];
-            w = times(&axis, qd);
-            wd = times(&axis, qdd);
+            let about_axis = |x| [T::ZERO, link.sin_alpha * x, link.cos_alpha * x];
+            (w, wd) = (about_axis(qd), about_axis(qdd));
         } else {
             let spun = [wd[0] + w[1] * qd, wd[1] - w[0] * qd, wd[2] + qdd];
             w = back(&[w[0], w[1], w[2] + qd]);
@@ -43,21 +44,28 @@ pub fn torques<T: Number, const N: usize>(chain: &Chain<T, N>, state: &State<T, 
             &moment(&turning, &link.augmented_second),
             &cross(&link.augmented_first, &before),
         );
-        wrench[i] = (mul_vec(&turning, &link.augmented_first), moment);
+        // Of the first link only the torque is needed.
+        let force = if i > 0 {
+            mul_vec(&turning, &link.augmented_first)
+        } else {
+            zero
+        };
+        wrench[i] = (force, moment);
     }
     let mut tau = [T::ZERO; N];
-    let (mut f, mut eta) = (zero, zero);
-    for (i, link) in chain.links.iter().enumerate().rev() {
-        (f, eta) = if i + 1 == N {
-            wrench[i]
-        } else {
-            let turn = |v: &[T; 3]| chain.links[i + 1].turn(state.cos[i + 1], state.sin[i + 1], v);
-            let behind = turn(&f);
-            let carried = plus(&turn(&eta), &cross(&link.p, &behind));
-            (plus(&wrench[i].0, &behind), plus(&wrench[i].1, &carried))
-        };
-        tau[i] = link.sin_alpha * eta[1] + link.cos_alpha * eta[2];
+    let (mut f, mut eta) = wrench[N - 1];
+    for i in (1..N).rev() {
+        let turn = |v: &[T; 3]| chain.links[i].turn(state.cos[i], state.sin[i], v);
+        (f, eta) = (turn(&f), turn(&eta));
+        tau[i] = eta[2];
+        let (force, moment) = &wrench[i - 1];
+        eta = plus(moment, &plus(&eta, &cross(&chain.links[i - 1].p, &f)));
+        if i > 1 {
+            f = plus(force, &f);
+        }
     }
+    let first = &chain.links[0];
+    tau[0] = first.sin_alpha * eta[1] + first.cos_alpha * eta[2];
     tau
 }
 
@@ -73,13 +81,12 @@ fn tensor<T: Number>(w: &[T; 3], wd: &[T; 3]) -> Mat<T, 3> {
     ]
 }
 
-/// dual(Ω K − K Ωᵀ), the sum of ρ × Ω ρ dm: 18 products, 15 sums.
+/// dual(Ω K − K Ωᵀ), the integral of ρ × Ω ρ dm: 15 products, 15 sums, by the symmetry of K.
 #[inline(always)]
 fn moment<T: Number>(turning: &Mat<T, 3>, k: &Mat<T, 3>) -> [T; 3] {
-    let entry = |i: usize, j: usize| dot(&turning[i], &k[j]);
-    [
-        entry(2, 1) - entry(1, 2),
-        entry(0, 2) - entry(2, 0),
-        entry(1, 0) - entry(0, 1),
-    ]
+    from_fn(|x| {
+        let (y, z) = ((x + 1) % 3, (x + 2) % 3);
+        let (o, yz) = (turning, turning[z][z] - turning[y][y]);
+        o[z][x] * k[x][y] - o[y][x] * k[x][z] + o[z][y] * k[y][y] - o[y][z] * k[z][z] + yz * k[y][z]
+    })
 }

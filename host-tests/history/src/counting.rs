@@ -23,8 +23,14 @@ std::thread_local! {
 }
 
 /// An f64 whose operations are counted.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub struct Counted(f64);
+
+impl From<f64> for Counted {
+    fn from(value: f64) -> Self {
+        Self(value)
+    }
+}
 
 /// The operations of a computation.
 pub fn count<T>(compute: impl FnOnce() -> T) -> Operations {

@@ -14,6 +14,7 @@ pub mod chain;
 pub mod composite_bodies;
 #[cfg(not(target_os = "none"))]
 pub mod counting;
+pub mod counts;
 pub mod hollerbach_3;
 pub mod hollerbach_4;
 pub mod luh_walker_paul;

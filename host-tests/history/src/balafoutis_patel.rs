@@ -1,4 +1,4 @@
-//! Balafoutis & Patel (1989; 1991, section 5.3): Newton's and Euler's equations with Cartesian tensors and augmented
+//! Balafoutis, Patel & Misra (1988); Balafoutis & Patel (1991): Newton's and Euler's equations with Cartesian tensors and augmented
 //! links, O(n):
 //!
 //! ```text

@@ -24,6 +24,10 @@ fn operations<const N: usize>(key: &str) -> Operations {
         "method_1" => count(|| method_1(chain, state)),
         "method_2" => count(|| method_2(chain, state)),
         "method_3" => count(|| method_3(chain, state)),
+        "method_4" => {
+            let tau = [Counted::from(1.0); N];
+            count(|| solve(chain, state, &tau, (N, Counted::from(0.0))))
+        }
         _ => panic!("no ancestor {key}"),
     }
 }
@@ -38,7 +42,8 @@ fn compare<const N: usize>(counts: &Counts) -> Result<(), String> {
     let n = i64::try_from(N).expect("few joints");
     let expected = counts.counted.map(|polynomial| polynomial.twelvefold(n));
     let measured = [products, sums].map(|count| 12 * count);
-    if (measured, quotients) == (expected, 0) {
+    let divides = if counts.key == "method_4" { 2 * n } else { 0 };
+    if (measured, quotients) == (expected, divides) {
         return Ok(());
     }
     Err(format!(
@@ -70,13 +75,12 @@ fn every_difference_from_a_published_count_is_a_term() {
     }
 }
 
-/// Hollerbach's table for n = 6: what the polynomials of the table give.
+/// Hollerbach's totals for n = 6 are those of the polynomials, but for two numbers of products: 66,271 is by 1,000 less
+/// than the polynomial without its constant, and 7,051 by 6 more.
 #[test]
 fn published_polynomials_give_the_published_totals() {
     let totals = [
-        // Printed: 66,271, which is 1,000 less than the polynomial without its constant.
         ("uicker_kahn", [66_271 + 1_000 - 128, 51_548]),
-        // Printed: 7,051.
         ("waters", [7_051 - 6, 5_652]),
         ("hollerbach_4", [4_388, 3_586]),
         ("hollerbach_3", [2_195, 1_719]),
@@ -111,24 +115,4 @@ fn wrong_counts_and_missing_terms_are_refused() {
             }
         }
     }
-}
-
-/// The steps of method 4 cost the same: so many operations each, at n joints.
-#[test]
-fn a_step_of_conjugate_gradients_costs_a_product_and_vectors() {
-    let cost = |steps: usize| {
-        let chain = Chain::<Counted, 6>::default();
-        let state = State::new(&[0.3; 6], &[0.5; 6], &[0.7; 6]);
-        let tau = [Counted::from(1.0); 6];
-        count(|| solve(&chain, &state, &tau, (steps, Counted::from(0.0))))
-    };
-    let (one, two) = (cost(1), cost(2));
-    let product = operations::<6>("method_1");
-    let a = 4 * 6;
-    assert_eq!(
-        two.products - one.products,
-        (product.products - a) / 6 + 5 * 6
-    );
-    assert_eq!(two.sums - one.sums, product.sums / 6 + 5 * 6 - 2);
-    assert_eq!(two.quotients - one.quotients, 2);
 }

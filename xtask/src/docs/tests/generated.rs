@@ -11,7 +11,7 @@ pub enum Checked {
 }
 
 /// The files; a test compares the list with the repository.
-pub const FILES: [(&str, Checked); 22] = [
+pub const FILES: [(&str, Checked); 24] = [
     ("README.md", Checked::Step("readme")),
     ("docs/accuracy-a1_leg-all.svg", Checked::Step("accuracy")),
     ("docs/accuracy-a1_leg.svg", Checked::Step("accuracy")),
@@ -33,6 +33,8 @@ pub const FILES: [(&str, Checked); 22] = [
     ("docs/growth.md", Checked::Step("growth")),
     ("docs/growth.svg", Checked::Step("growth")),
     ("docs/hard-cases.md", Checked::Step("hard-cases")),
+    ("docs/history.md", Checked::Step("history")),
+    ("docs/history.svg", Checked::Step("history")),
     ("docs/loops.md", Checked::Step("loops")),
     (
         "docs/peers.md",

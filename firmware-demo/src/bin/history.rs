@@ -24,93 +24,68 @@ const STATES: usize = 2;
 
 type Model<const N: usize> = ArmModel<f32, N>;
 type Motion<const N: usize> = history::State<f32, N>;
-type Torques<const N: usize> = fn(&Chain<f32, N>, &Motion<N>) -> [f32; N];
-type Inertia<const N: usize> = fn(&Chain<f32, N>, &Motion<N>) -> [[f32; N]; N];
+type Ask<const N: usize> = (State<f32, N, N>, JointTrig<f32, N>, Motion<N>);
 
-struct Ask<const N: usize> {
-    state: State<f32, N, N>,
-    trig: JointTrig<f32, N>,
-    motion: Motion<N>,
-}
-
-impl<const N: usize> Ask<N> {
-    fn new(model: &Model<N>, angle: f64) -> Self {
-        let mut q = [angle; N];
-        q.iter_mut().step_by(2).for_each(|q| *q = 0.3 - *q);
-        let (qd, qdd) = ([0.4 * angle; N], [1.0; N]);
-        let [single, qd_single, qdd_single] = [q, qd, qdd].map(|list| list.map(|x| x as f32));
-        let state = State {
-            q: single,
-            qd: qd_single,
-            qdd: qdd_single,
-        };
-        let trig = JointTrig::new(model, &state.q);
-        Self {
-            state,
-            trig,
-            motion: Motion::new(&q, &qd, &qdd),
-        }
-    }
+fn ask<const N: usize>(angle: f32) -> Ask<N> {
+    let mut q = [angle; N];
+    q.iter_mut().step_by(2).for_each(|q| *q = 0.3 - *q);
+    let (qd, qdd) = ([0.4 * angle; N], [1.0; N]);
+    let trig = JointTrig::new(const { &Rods::<N>::MODEL_F32 }, &q);
+    let doubles = [q, qd, qdd].map(|list| list.map(f64::from));
+    let motion = Motion::new(&doubles[0], &doubles[1], &doubles[2]);
+    (State { q, qd, qdd }, trig, motion)
 }
 
 #[inline(never)]
-fn core_rnea<const N: usize>(model: &Model<N>, ask: &Ask<N>) -> [f32; N] {
-    algorithms::rnea(model, ask.trig.with(&ask.state), &RIGID_BODY)
+fn rnea<const N: usize>(model: &Model<N>, (state, trig, _): &Ask<N>) -> [f32; N] {
+    algorithms::rnea(model, trig.with(state), &RIGID_BODY)
 }
 
 #[inline(never)]
-fn core_crba<const N: usize>(model: &Model<N>, ask: &Ask<N>) -> MassMatrix<f32, N> {
-    algorithms::crba(model, &ask.trig, &RIGID_BODY)
+fn crba<const N: usize>(model: &Model<N>, (_, trig, _): &Ask<N>) -> MassMatrix<f32, N> {
+    algorithms::crba(model, trig, &RIGID_BODY)
+}
+
+/// The engine has the chain compiled into it.
+#[inline(never)]
+fn engine_rnea<const N: usize>(_: &Model<N>, (state, trig, _): &Ask<N>) -> [f32; N] {
+    Engine::<Rods<N>>::rnea(trig.with(state), &RIGID_BODY)
 }
 
 #[inline(never)]
-fn method_4<const N: usize>(chain: &Chain<f32, N>, motion: &Motion<N>) -> [f32; N] {
-    history::walker_orin::solve(chain, motion, &[1.0; N], (N, 0.0)).0
+fn engine_crba<const N: usize>(_: &Model<N>, (_, trig, _): &Ask<N>) -> MassMatrix<f32, N> {
+    Engine::<Rods<N>>::crba(trig, &RIGID_BODY)
 }
 
-fn row<const N: usize>(algorithm: &'static str, form: &'static str) -> Row<'static> {
-    Row::of::<Rods<N>, N, N>(algorithm, form, "full", false)
+/// Measures functions of a chain or model and of a part of each ask, each under its name.
+macro_rules! measure {
+    ($n:tt, $chain:ident: $chain_type:ty, $asks:ident, $ask:pat => $part:ident: $part_type:ty,
+     $($name:ident = $run:path;)+) => {$(
+        let run: fn(&$chain_type, &$part_type) -> _ = $run;
+        let row = Row::of::<Rods<$n>, $n, $n>(stringify!($name), "history", "full", false);
+        row.measure(run as usize, $asks, |$ask| $run($chain, $part));
+    )+};
 }
 
-/// Measures every algorithm on a chain of N.
+/// Measures every algorithm on a chain of N, but for the engine's.
 #[inline(never)]
 fn chain<const N: usize>() {
+    let chain: &Chain<f32, N> = &black_box(Chain::default());
+    let asks: &[Ask<N>; STATES] = &[0.5, -0.7].map(ask);
+    measure! { N, chain: Chain<f32, N>, asks, (_, _, motion) => motion: Motion<N>,
+        uicker_kahn = history::uicker_kahn::torques;
+        waters = history::waters::torques;
+        hollerbach_4 = history::hollerbach_4::torques;
+        hollerbach_3 = history::hollerbach_3::torques;
+        luh_walker_paul = history::luh_walker_paul::torques;
+        balafoutis_patel = history::balafoutis_patel::torques;
+        method_1 = history::walker_orin::method_1;
+        method_2 = history::walker_orin::method_2;
+        method_3 = history::composite_bodies::method_3;
+        method_4 = history::walker_orin::method_4;
+    }
     let model: &Model<N> = black_box(const { &Rods::<N>::MODEL_F32 });
-    let chain = &black_box(Chain::default());
-    let asks: &[Ask<N>; STATES] = &[0.5, -0.7].map(|angle| Ask::new(model, angle));
-    let torques: [(_, Torques<N>); 7] = [
-        ("uicker_kahn", history::uicker_kahn::torques),
-        ("waters", history::waters::torques),
-        ("hollerbach_4", history::hollerbach_4::torques),
-        ("hollerbach_3", history::hollerbach_3::torques),
-        ("luh_walker_paul", history::luh_walker_paul::torques),
-        ("balafoutis_patel", history::balafoutis_patel::torques),
-        ("method_4", method_4),
-    ];
-    for (name, run) in torques {
-        row::<N>(name, "ancestor").measure(run as usize, asks, |ask| run(chain, &ask.motion));
-    }
-    let inertias: [(_, Inertia<N>); 3] = [
-        ("method_1", history::walker_orin::method_1),
-        ("method_2", history::walker_orin::method_2),
-        ("method_3", history::composite_bodies::method_3),
-    ];
-    for (name, run) in inertias {
-        row::<N>(name, "ancestor").measure(run as usize, asks, |ask| run(chain, &ask.motion));
-    }
-    let (rnea, crba): (fn(_, &_) -> _, fn(_, &_) -> _) = (core_rnea::<N>, core_crba::<N>);
-    row::<N>("rnea", "core").measure(rnea as usize, asks, |ask| rnea(model, ask));
-    row::<N>("crba", "core").measure(crba as usize, asks, |ask| crba(model, ask));
-}
-
-#[inline(never)]
-fn engine_rnea(ask: &Ask<6>) -> [f32; 6] {
-    Engine::<Rods<6>>::rnea(ask.trig.with(&ask.state), &RIGID_BODY)
-}
-
-#[inline(never)]
-fn engine_crba(ask: &Ask<6>) -> MassMatrix<f32, 6> {
-    Engine::<Rods<6>>::crba(&ask.trig, &RIGID_BODY)
+    measure! { N, model: Model<N>, asks, ask => ask: Ask<N>, rnea = rnea; crba = crba; }
 }
 
 #[entry]
@@ -120,10 +95,11 @@ fn main() -> ! {
     }
     chains!(2 3 4 6 8 10 12);
     let model = const { &Rods::<6>::MODEL_F32 };
-    let asks: &[Ask<6>; STATES] = &[0.5, -0.7].map(|angle| Ask::new(model, angle));
-    let (rnea, crba): (fn(&_) -> _, fn(&_) -> _) = (engine_rnea, engine_crba);
-    row::<6>("engine_rnea", "engine").measure(rnea as usize, asks, rnea);
-    row::<6>("engine_crba", "engine").measure(crba as usize, asks, crba);
+    let asks: &[Ask<6>; STATES] = &[0.5, -0.7].map(ask);
+    measure! { 6, model: Model<6>, asks, ask => ask: Ask<6>,
+        engine_rnea = engine_rnea;
+        engine_crba = engine_crba;
+    }
     defmt::println!("done");
     target::leave(debug::EXIT_SUCCESS)
 }

@@ -1,5 +1,5 @@
-//! Balafoutis, Patel & Misra (1988); Balafoutis & Patel (1991): Newton's and Euler's equations with Cartesian tensors and augmented
-//! links, O(n):
+//! Balafoutis, Patel & Misra (1988); Balafoutis & Patel (1991): Newton's and Euler's equations with Cartesian tensors
+//! and augmented links, O(n):
 //!
 //! ```text
 //! ω_i = A_iᵀ (ω_{i−1} + z q̇_i),   ω̇_i = A_iᵀ (ω̇_{i−1} + z q̈_i + ω_{i−1} × z q̇_i)
@@ -11,8 +11,8 @@
 //! ```
 //!
 //! A link is augmented by the masses of all links behind it, put in its outer origin: u_i, K_i: `augmented_first`,
-//! `augmented_second`, ∫ ρ dm and ∫ ρ ρᵀ dm about the origin of frame i − 1. What is left of the force on a link is f_i;
-//! the rest, the mass from there on times s̈_{i−1}, is in u_i and K_i. ω~ is the tensor of ω ×, dual its inverse.
+//! `augmented_second`, ∫ ρ dm and ∫ ρ ρᵀ dm about the origin of frame i − 1. f_i is the force on a link without the
+//! mass from there on times s̈_{i−1}, whose moment is in u_i and K_i. ω~ is the tensor of ω ×, dual its inverse.
 //! Rotations are two planar ones, of 8 products and 4 sums.
 
 use core::array::from_fn;
@@ -22,6 +22,7 @@ use crate::matrix::{Mat, cross, mul_vec, plus};
 use crate::number::Number;
 
 /// The torques of the joints.
+#[inline(never)]
 pub fn torques<T: Number, const N: usize>(chain: &Chain<T, N>, state: &State<T, N>) -> [T; N] {
     let zero = [T::ZERO; 3];
     let mut wrench = [(zero, zero); N];

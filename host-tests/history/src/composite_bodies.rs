@@ -20,6 +20,7 @@ use crate::number::Number;
 type Symmetric<T> = [T; 6];
 
 /// H.
+#[inline(never)]
 pub fn method_3<T: Number, const N: usize>(chain: &Chain<T, N>, state: &State<T, N>) -> Mat<T, N> {
     let mut h = [[T::ZERO; N]; N];
     let mut composite = ([T::ZERO; 3], [T::ZERO; 6]);

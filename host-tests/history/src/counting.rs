@@ -45,6 +45,10 @@ fn step(change: impl FnOnce(&mut Operations)) {
     COUNT.set(operations);
 }
 
+fn one_more(count: &mut i64) {
+    *count += 1;
+}
+
 impl Number for Counted {
     const ZERO: Self = Self(0.0);
 
@@ -57,40 +61,24 @@ impl Number for Counted {
     }
 }
 
-impl Add for Counted {
-    type Output = Self;
+macro_rules! operators {
+    ($($operator:ident $method:ident $field:ident;)+) => {$(
+        impl $operator for Counted {
+            type Output = Self;
 
-    fn add(self, other: Self) -> Self {
-        step(|count| count.sums += 1);
-        Self(self.0 + other.0)
-    }
+            fn $method(self, other: Self) -> Self {
+                step(|count| one_more(&mut count.$field));
+                Self(self.0.$method(other.0))
+            }
+        }
+    )+};
 }
 
-impl Sub for Counted {
-    type Output = Self;
-
-    fn sub(self, other: Self) -> Self {
-        step(|count| count.sums += 1);
-        Self(self.0 - other.0)
-    }
-}
-
-impl Mul for Counted {
-    type Output = Self;
-
-    fn mul(self, other: Self) -> Self {
-        step(|count| count.products += 1);
-        Self(self.0 * other.0)
-    }
-}
-
-impl Div for Counted {
-    type Output = Self;
-
-    fn div(self, other: Self) -> Self {
-        step(|count| count.quotients += 1);
-        Self(self.0 / other.0)
-    }
+operators! {
+    Add add sums;
+    Sub sub sums;
+    Mul mul products;
+    Div div quotients;
 }
 
 impl Neg for Counted {

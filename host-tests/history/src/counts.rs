@@ -107,7 +107,7 @@ pub const ANCESTORS: [Counts; 10] = [
                 [poly(0, 0, -64), poly(0, 0, -48)],
             ),
             Term(
-                "products with q̈: n², where the published count has half a one for each of n (n + 1) (n + 2) / 6 traces",
+                "products with q̈: n²; the published count has half a one for each of n (n + 1) (n + 2) / 6 traces",
                 [Polynomial([0, -1, 9, -2, 0]), NONE],
             ),
             Term(

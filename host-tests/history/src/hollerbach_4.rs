@@ -16,6 +16,7 @@ use crate::number::Number;
 use crate::waters::Turning;
 
 /// The torques of the joints.
+#[inline(never)]
 pub fn torques<T: Number, const N: usize>(chain: &Chain<T, N>, state: &State<T, N>) -> [T; N] {
     let zero = [[T::ZERO; 4]; 4];
     let (mut a, mut dw, mut wdd) = ([zero; N], [zero; N], [zero; N]);

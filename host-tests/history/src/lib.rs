@@ -2,7 +2,7 @@
 //! measured, not to be used. `docs/history.md` has the figures.
 //!
 //! One algorithm a file, with the letters of its source; each takes sines and cosines from outside. They run on the
-//! host and on the target, in any [`Number`].
+//! host and on the target, in any [`Number`], and are never inlined, so that a call is what is measured.
 //!
 //! What counts as an operation is what Hollerbach (1980) counted: a product of 4 × 4 matrices is 64 products and 48
 //! sums and one of 3 × 3 matrices 27 and 18, with all their zeros and ones; Q A, the derivative of a matrix A, costs

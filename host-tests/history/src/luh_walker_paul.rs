@@ -20,6 +20,7 @@ use crate::matrix::{Mat, cross, dot, mul_vec, plus, times, transpose_mul_vec};
 use crate::number::Number;
 
 /// The torques of the joints.
+#[inline(never)]
 pub fn torques<T: Number, const N: usize>(chain: &Chain<T, N>, state: &State<T, N>) -> [T; N] {
     let zero = [T::ZERO; 3];
     let mut a = [[zero; 3]; N];

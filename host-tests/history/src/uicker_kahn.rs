@@ -18,6 +18,7 @@ use crate::matrix::{Mat, derivative, dot, mul, mul_vec, trace_of_product};
 use crate::number::Number;
 
 /// The torques of the joints.
+#[inline(never)]
 pub fn torques<T: Number, const N: usize>(chain: &Chain<T, N>, state: &State<T, N>) -> [T; N] {
     let mut tau = [T::ZERO; N];
     let mut inertia = [[T::ZERO; N]; N];
@@ -70,9 +71,9 @@ fn step<T: Number, const N: usize>(
 ) {
     let da = derivative(a);
     let dda = derivative(&da);
-    for k in 0..j {
-        for l in 0..=k {
-            ddw[k][l] = mul(&ddw[k][l], a);
+    for (k, row) in ddw.iter_mut().enumerate().take(j) {
+        for second in row.iter_mut().take(k + 1) {
+            *second = mul(second, a);
         }
     }
     for l in 0..j {

@@ -50,6 +50,7 @@ fn rotations<T: Number, const N: usize>(
 }
 
 /// H by method 1.
+#[inline(never)]
 pub fn method_1<T: Number, const N: usize>(chain: &Chain<T, N>, state: &State<T, N>) -> Mat<T, N> {
     let a = rotations(chain, state);
     let unit = |j| from_fn(|i| T::of(f64::from(u8::from(i == j))));
@@ -57,6 +58,7 @@ pub fn method_1<T: Number, const N: usize>(chain: &Chain<T, N>, state: &State<T,
 }
 
 /// H by method 2.
+#[inline(never)]
 pub fn method_2<T: Number, const N: usize>(chain: &Chain<T, N>, state: &State<T, N>) -> Mat<T, N> {
     let a = rotations(chain, state);
     let unit = |j| from_fn(|i| T::of(f64::from(u8::from(i == j))));
@@ -64,8 +66,18 @@ pub fn method_2<T: Number, const N: usize>(chain: &Chain<T, N>, state: &State<T,
     from_fn(|i| from_fn(|j| columns[i.min(j)][i.max(j)]))
 }
 
+/// The accelerations of torques of 1 N·m by method 4, in as many steps as there are joints.
+#[inline(never)]
+pub fn method_4<T: Number + PartialOrd, const N: usize>(
+    chain: &Chain<T, N>,
+    state: &State<T, N>,
+) -> [T; N] {
+    solve(chain, state, &[T::of(1.0); N], (N, T::ZERO)).0
+}
+
 /// The accelerations by method 4, and after how many steps the residual was below `tolerance` of its beginning. As
 /// many steps as joints suffice without rounding errors.
+#[inline(always)]
 pub fn solve<T: Number + PartialOrd, const N: usize>(
     chain: &Chain<T, N>,
     state: &State<T, N>,

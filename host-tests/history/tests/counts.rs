@@ -5,7 +5,7 @@ use history::chain::Chain;
 use history::composite_bodies::method_3;
 use history::counting::{Counted, Operations, count};
 use history::counts::{ANCESTORS, Counts, Term};
-use history::walker_orin::{method_1, method_2, solve};
+use history::walker_orin::{method_1, method_2, method_4};
 use history::{
     State, balafoutis_patel, hollerbach_3, hollerbach_4, luh_walker_paul, uicker_kahn, waters,
 };
@@ -24,10 +24,7 @@ fn operations<const N: usize>(key: &str) -> Operations {
         "method_1" => count(|| method_1(chain, state)),
         "method_2" => count(|| method_2(chain, state)),
         "method_3" => count(|| method_3(chain, state)),
-        "method_4" => {
-            let tau = [Counted::from(1.0); N];
-            count(|| solve(chain, state, &tau, (N, Counted::from(0.0))))
-        }
+        "method_4" => count(|| method_4(chain, state)),
         _ => panic!("no ancestor {key}"),
     }
 }

@@ -71,6 +71,14 @@ fn main() {
             cell(at_6(counts.counted))
         );
     }
+    for (key, form) in [
+        ("rnea", "RNEA, core"),
+        ("engine_rnea", "RNEA, engine"),
+        ("crba", "CRBA, core"),
+        ("engine_crba", "CRBA, engine"),
+    ] {
+        println!("{key}|today|this library|{form}|–|–");
+    }
     for counts in &ANCESTORS {
         println!(
             "\n**{}, {}.** Counted: {}.",

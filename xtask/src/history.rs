@@ -14,6 +14,7 @@ use crate::table::{self, Table, thousands};
 use crate::toolchain::RELEASE;
 use crate::workspace::{self, Workspace};
 
+/// The bin, and the feature that it is built for.
 const BIN: &str = "history";
 const PAGE: &str = "docs/history.md";
 const PICTURE: &str = "docs/history.svg";
@@ -70,7 +71,7 @@ pub fn measure(workspace: &Workspace, tools: &Tools) -> Result<Report> {
     let (ancestors, differences) = counts
         .split_once("\n\n")
         .ok_or_else(|| check!("`history_counts` printed no differences"))?;
-    let elves = firmware::build_bins(workspace, tools.toolchain, RELEASE, &[BIN])?;
+    let elves = firmware::build_featured(workspace, tools.toolchain, RELEASE, BIN, &[BIN])?;
     let meter = firmware::build_meter(workspace)?;
     Ok(Report {
         rows: costs::run_for_time(tools, &meter, BIN, &elves[0])?,

@@ -20,7 +20,6 @@ pub mod hollerbach_4;
 pub mod luh_walker_paul;
 pub mod matrix;
 pub mod number;
-#[cfg(not(target_os = "none"))]
 pub mod polynomial;
 pub mod uicker_kahn;
 pub mod walker_orin;

@@ -1,6 +1,6 @@
 //! `cargo xtask growth`: how the core's algorithms grow with the length of a chain.
 
-mod picture;
+pub mod picture;
 
 use std::process::ExitCode;
 

@@ -8,8 +8,13 @@ use crate::workspace::Workspace;
 
 /// What a bin prints.
 pub fn text(workspace: &Workspace, bin: &str) -> Result<String> {
+    text_of(workspace, "host-reports", bin)
+}
+
+/// What a bin of another package prints.
+pub fn text_of(workspace: &Workspace, package: &str, bin: &str) -> Result<String> {
     let mut command = workspace.cargo("run");
-    shell::capture(command.args(["--quiet", "--package", "host-reports", "--bin", bin]))
+    shell::capture(command.args(["--quiet", "--package", package, "--bin", bin]))
 }
 
 /// The same of a bin that prints JSON.

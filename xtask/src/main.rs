@@ -18,6 +18,7 @@ mod flags;
 mod flexible;
 mod growth;
 mod hard_cases;
+mod history;
 mod host_bin;
 mod host_table;
 mod layers;
@@ -73,6 +74,8 @@ enum Command {
     Costs(costs::Args),
     /// Measure how the core's algorithms grow with a chain's length, rewrite docs/growth.md
     Growth(Json),
+    /// Measure what today's algorithms replaced, rewrite docs/history.md
+    History(Json),
     /// Measure what each effect costs and the torque it contributes, rewrite docs/effects.md
     Effects(Json),
     /// Measure what accuracy costs in time, rewrite docs/accuracy.md and its plots; or choose a configuration
@@ -186,6 +189,7 @@ fn run(cli: Cli) -> Result<ExitCode> {
         Command::Demo(args) => demo::run(setup, args),
         Command::Costs(args) => costs::run(setup, args),
         Command::Growth(Json { json }) => growth::run(setup, json),
+        Command::History(Json { json }) => history::run(setup, json),
         Command::Effects(Json { json }) => effects::run(setup, json),
         Command::Accuracy(wish) => accuracy::run(setup, wish),
         Command::Meter(args) => user_firmware::run(setup, &args),

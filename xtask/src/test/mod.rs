@@ -27,7 +27,7 @@ use crate::scene::Scene;
 use crate::setup::{self, Options, Tools};
 use crate::workspace::Workspace;
 use crate::{
-    accuracy, effects, flexible, growth, hard_cases, host_table, layers, lines, meter, shell,
+    accuracy, effects, flexible, growth, hard_cases, history, host_table, layers, lines, meter, shell,
 };
 use Lane::{Host, Target};
 use Scope::{Everyday, Full};
@@ -103,6 +103,8 @@ const STEPS: &[Step] = &[
     ("costs", Target, Everyday, "every function is within budgets.toml and its bar, and docs/costs.md says so", functions::costs),
     ("growth", Target, Full, "inverse and forward dynamics grow in step with a chain, and docs/growth.md says so",
         |c| growth::check(&c.workspace, &growth::measure(&c.workspace, &c.tools)?)),
+    ("history", Target, Full, "docs/history.md has today's costs of the algorithms that today's replaced",
+        |c| history::check(&c.workspace, &history::measure(&c.workspace, &c.tools)?)),
     ("absent-effects", Target, Everyday, "an effect that a scene does not name costs it nothing", absent::absent_effects_cost_nothing),
     ("accuracy", Target, Full, "docs/accuracy.md has today's costs and errors of single changes; what is printed as generated code keeps them",
         |c| accuracy::check(&c.workspace, &c.tools)),

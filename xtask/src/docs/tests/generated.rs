@@ -35,6 +35,8 @@ pub const FILES: [(&str, Checked); 24] = [
     ("docs/growth.md", Checked::Step("growth")),
     ("docs/growth.svg", Checked::Step("growth")),
     ("docs/hard-cases.md", Checked::Step("hard-cases")),
+    ("docs/history.md", Checked::Step("history")),
+    ("docs/history.svg", Checked::Step("history")),
     ("docs/loops.md", Checked::Step("loops")),
     (
         "docs/peers.md",

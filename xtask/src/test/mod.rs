@@ -27,7 +27,8 @@ use crate::scene::Scene;
 use crate::setup::{self, Options, Tools};
 use crate::workspace::Workspace;
 use crate::{
-    accuracy, effects, flexible, growth, hard_cases, history, host_table, layers, lines, meter, shell,
+    accuracy, effects, flexible, growth, hard_cases, history, host_table, layers, lines, meter,
+    shell,
 };
 use Lane::{Host, Target};
 use Scope::{Everyday, Full};

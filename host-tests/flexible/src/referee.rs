@@ -122,7 +122,7 @@ pub fn forced<const M: usize>(beam: &Beam, recorded: &Forced) -> Vec<[f64; 2]> {
         let steps = ((until - t) * omega * 160.0).ceil().max(1.0);
         let h = (until - t) / steps;
         for _ in 0..steps as usize {
-            bent = runge_kutta(&bent, t, h, &accelerate);
+            bent = runge_kutta(&bent, t, h, accelerate);
             t += h;
         }
         t = until;

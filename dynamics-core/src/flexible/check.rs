@@ -42,7 +42,7 @@ pub(super) const fn problem(
             inertia[i][6 + k] = entry;
             i += 1;
         }
-        if !(inertia[6 + k][6 + k] > 0.0) {
+        if inertia[6 + k][6 + k] <= 0.0 {
             return Some((k, ModeProblem::NoMass));
         }
         k += 1;
@@ -67,7 +67,7 @@ pub(super) const fn problem(
             }
             l += 1;
         }
-        if !(stiffness[k][k] > 0.0) {
+        if stiffness[k][k] <= 0.0 {
             return Some((k, ModeProblem::Stiffness));
         }
         if link.damping[k][k] < 0.0 {

@@ -101,7 +101,7 @@ impl Numbers {
     }
 
     /// The next number.
-    pub fn next(&mut self) -> f64 {
+    pub fn draw(&mut self) -> f64 {
         self.0 = self
             .0
             .wrapping_mul(6_364_136_223_846_793_005)
@@ -112,9 +112,9 @@ impl Numbers {
     /// A state with positions, rates and accelerations up to these sizes.
     pub fn state<const N: usize>(&mut self, [q, qd, qdd]: [f64; 3]) -> State<f64, N, N> {
         State {
-            q: core::array::from_fn(|_| q * self.next()),
-            qd: core::array::from_fn(|_| qd * self.next()),
-            qdd: core::array::from_fn(|_| qdd * self.next()),
+            q: core::array::from_fn(|_| q * self.draw()),
+            qd: core::array::from_fn(|_| qd * self.draw()),
+            qdd: core::array::from_fn(|_| qdd * self.draw()),
         }
     }
 }

@@ -16,6 +16,7 @@ pages! {
     effects "effects.md",
     accuracy "accuracy.md",
     loops "loops.md",
+    flexible "flexible.md",
     firmware "firmware.md",
     tuning "tuning.md",
     faults "faults.md",

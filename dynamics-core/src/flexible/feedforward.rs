@@ -49,7 +49,8 @@ pub struct ModalFeedforward<R, const M: usize> {
 const ITERATIONS: usize = 12;
 
 impl<R: Real, const M: usize> ModalFeedforward<R, M> {
-    /// With the modes at rest under the scene's gravity at configuration q.
+    /// With the modes at rest under the scene's gravity at configuration q. [`Elasticity`](crate::effects::Elasticity)
+    /// has to be in the scene: without it no force balances the weight, and the deflection has no meaning.
     ///
     /// # Cost
     /// Twelve calls of [`rnea`]: at start, not in the control tick.
@@ -79,7 +80,8 @@ impl<R: Real, const M: usize> ModalFeedforward<R, M> {
         }
     }
 
-    /// The torques of the joints' motors at a tick, N·m or N, h seconds after the tick before: that of the reference.
+    /// The torques of the joints' motors at a tick, N·m or N, at which the joints' motion is `reference`. To be called once
+    /// in every tick: it moves the modes on by h seconds.
     ///
     /// The modes' step is the generalised-α method with ρ∞ = 0 (Chung & Hulbert, 1993), of second order and with
     /// damping of modes that are faster than the tick: with η and η̇ extrapolated by η̈, and r the force on the modes

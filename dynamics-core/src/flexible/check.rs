@@ -18,6 +18,9 @@ pub(super) const fn problem(
     body: &SpatialInertia<f64>,
     frame: &DMat3,
 ) -> Option<(usize, ModeProblem)> {
+    if link.count > MODES_PER_LINK {
+        return Some((MODES_PER_LINK, ModeProblem::Count));
+    }
     let (mut inertia, mut k) = (rigid(body, frame), 0);
     while k < link.count {
         if !is_finite(link, k) {

@@ -67,6 +67,12 @@ impl<R: Real, const M: usize> ModalFeedforward<R, M> {
         D: RobotModel<R, B, Q, V>,
         E: Effect<R, B, V>,
     {
+        const {
+            assert!(
+                E::ELASTICITY,
+                "modes at rest need `Elasticity` in the scene"
+            )
+        };
         let stiffness = Factors::of(&modes.stiffness).map_err(FlexibleError::Mode)?;
         let mut bent = State::at([R::ZERO; M]);
         for _ in 0..ITERATIONS {

@@ -3,7 +3,7 @@
 use core::borrow::Borrow;
 use core::fmt;
 
-use super::{FlexibleInertia, FlexibleTorques, Modes, crba, rnea};
+use super::{FlexibleInertia, JointsAndModes, Modes, crba, rnea};
 use crate::effects::{Bias, Effect};
 use crate::model::RobotModel;
 use crate::scalar::Real;
@@ -83,7 +83,7 @@ pub fn forward_dynamics<
     bent: &State<R, M, M>,
     tau: &[R; V],
     effects: &E,
-) -> Result<FlexibleTorques<R, V, M>, FlexibleError>
+) -> Result<JointsAndModes<R, V, M>, FlexibleError>
 where
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
@@ -98,7 +98,7 @@ where
     let (trig, state) = (trig.borrow(), state.state());
     let bias = rnea(robot, modes, trig.with(state), bent, &Bias(effects));
     let m = crba(robot, modes, trig, &bent.q, effects);
-    m.solve(&FlexibleTorques {
+    m.solve(&JointsAndModes {
         joints: core::array::from_fn(|k| entry(tau, k) - entry(&bias.joints, k)),
         modes: bias.modes.map(|force| -force),
     })
@@ -158,8 +158,8 @@ impl<R: Real, const V: usize, const M: usize> FlexibleInertia<R, V, M> {
     /// [`FlexibleError`] names the first coordinate whose pivot is not positive.
     pub fn solve(
         &self,
-        forces: &FlexibleTorques<R, V, M>,
-    ) -> Result<FlexibleTorques<R, V, M>, FlexibleError> {
+        forces: &JointsAndModes<R, V, M>,
+    ) -> Result<JointsAndModes<R, V, M>, FlexibleError> {
         let modes = Factors::of(&self.modes.rows).map_err(FlexibleError::Mode)?;
         let mut joints = self.joints.rows;
         let mut rest = forces.joints;
@@ -188,7 +188,7 @@ impl<R: Real, const V: usize, const M: usize> FlexibleInertia<R, V, M> {
         }));
         finite(&joints).map_err(FlexibleError::Joint)?;
         finite(&modes).map_err(FlexibleError::Mode)?;
-        Ok(FlexibleTorques { joints, modes })
+        Ok(JointsAndModes { joints, modes })
     }
 }
 

@@ -83,21 +83,23 @@ pub struct FlexibleLink {
 }
 
 impl FlexibleLink {
-    /// A link with these modes, the first [`MODES_PER_LINK`] of them; their products, stiffness and damping are zero.
+    /// A link with these modes, whose products, stiffness and damping are zero. [`Modes`](super::Modes) refuses more than
+    /// [`MODES_PER_LINK`].
     pub const fn new(body: usize, end: [f64; 3], modes: &[Mode]) -> Self {
         const NONE: [f64; MODES_PER_LINK] = [0.0; MODES_PER_LINK];
         let mut link = Self {
             body,
             end,
-            count: 0,
+            count: modes.len(),
             modes: [Mode::ZERO; MODES_PER_LINK],
             products: [[[[0.0; 3]; 3]; MODES_PER_LINK]; MODES_PER_LINK],
             stiffness: [NONE; MODES_PER_LINK],
             damping: [NONE; MODES_PER_LINK],
         };
-        while link.count < modes.len() && link.count < MODES_PER_LINK {
-            link.modes[link.count] = modes[link.count];
-            link.count += 1;
+        let mut k = 0;
+        while k < modes.len() && k < MODES_PER_LINK {
+            link.modes[k] = modes[k];
+            k += 1;
         }
         link
     }
@@ -125,7 +127,8 @@ pub enum ModeProblem {
     NoBody,
     /// Links are not in the order of their bodies, or one is named twice.
     Order,
-    /// The links' modes are fewer or more than the M of [`Modes`](super::Modes).
+    /// The links' modes are fewer or more than the M of [`Modes`](super::Modes), or those of one link more than
+    /// [`MODES_PER_LINK`].
     Count,
     /// A number is not finite.
     NotFinite,
@@ -152,7 +155,7 @@ impl ModeProblem {
         match self {
             Self::NoBody => "the robot has no body of this number",
             Self::Order => "links are not in the order of their bodies",
-            Self::Count => "the links have another number of modes in all",
+            Self::Count => "the links have another number of modes in all, or one has too many",
             Self::NotFinite => "a number is not finite",
             Self::NoMass => "it moves no mass",
             Self::Inertia => "the modes' inertia is not positive definite",
@@ -169,6 +172,14 @@ impl ModeProblem {
     }
 }
 
+impl fmt::Display for ModeProblem {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        out.write_str(self.text())
+    }
+}
+
+impl core::error::Error for ModeProblem {}
+
 impl fmt::Display for ModeError {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self {
@@ -176,7 +187,7 @@ impl fmt::Display for ModeError {
             mode,
             problem,
         } = self;
-        write!(out, "link `{link}`, mode {mode}: {}", problem.text())
+        write!(out, "link `{link}`, mode {mode}: {problem}")
     }
 }
 

@@ -52,16 +52,16 @@ pub use step::step;
 
 use crate::scalar::Real;
 
-/// Torques of joints and forces on modes, or the accelerations of both.
+/// A quantity of each joint and of each mode: torques and forces, or accelerations.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FlexibleTorques<R, const V: usize, const M: usize> {
+pub struct JointsAndModes<R, const V: usize, const M: usize> {
     /// Of the joints: N·m or N; rad/s² or m/s².
     pub joints: [R; V],
     /// Of the modes: N or N·m; m/s² or rad/s².
     pub modes: [R; M],
 }
 
-impl<R: Real, const V: usize, const M: usize> FlexibleTorques<R, V, M> {
+impl<R: Real, const V: usize, const M: usize> JointsAndModes<R, V, M> {
     /// Zero.
     pub const ZERO: Self = Self {
         joints: [R::ZERO; V],

@@ -10,7 +10,7 @@ use heapless::Vec;
 
 use super::deformation::End;
 use super::modal_forces::{Outer, net_force};
-use super::{FlexibleTorques, Modes};
+use super::{JointsAndModes, Modes};
 use crate::algorithms::{inward, per_body};
 use crate::effects::{Effect, body_inertia, body_wrench, joint_torques};
 use crate::model::RobotModel;
@@ -77,7 +77,7 @@ pub fn rnea<R: Real, D, E, const B: usize, const Q: usize, const V: usize, const
     state: impl RobotState<R, Q, V>,
     bent: &State<R, M, M>,
     effects: &E,
-) -> FlexibleTorques<R, V, M>
+) -> JointsAndModes<R, V, M>
 where
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
@@ -90,7 +90,7 @@ where
     };
     let trig = state.configuration().trig_of(robot);
     let (turns, state) = (&trig.borrow().coordinates, state.state());
-    let mut out = FlexibleTorques::ZERO;
+    let mut out = JointsAndModes::ZERO;
     let mut outer = per_body(robot, Outer::base(effects));
     let mut bodies: Vec<Body<R>, B> = Vec::new();
     for i in 0..B {

@@ -2,7 +2,7 @@
 
 use core::borrow::Borrow;
 
-use super::{FlexibleError, FlexibleTorques, Modes, crba, rnea};
+use super::{FlexibleError, JointsAndModes, Modes, crba, rnea};
 use crate::effects::{Bias, Effect};
 use crate::model::RobotModel;
 use crate::scalar::Real;
@@ -79,7 +79,7 @@ where
             }
         }
     }
-    let found = m.solve(&FlexibleTorques {
+    let found = m.solve(&JointsAndModes {
         joints: core::array::from_fn(|k| entry(tau, k) - entry(&bias.joints, k)),
         modes: bias.modes.map(|force| -force),
     })?;

@@ -9,7 +9,7 @@ use costs::{STATES, done};
 use dynamics_core::algorithms;
 use dynamics_core::effects::{Elasticity, RIGID_BODY};
 use dynamics_core::flexible::{
-    FlexibleInertia, FlexibleTorques, ModalFeedforward, Modes, crba, forward_dynamics, rnea,
+    FlexibleInertia, JointsAndModes, ModalFeedforward, Modes, crba, forward_dynamics, rnea,
 };
 use dynamics_core::model::Static;
 use dynamics_core::state::State;
@@ -72,7 +72,7 @@ impl Bending<4> for Two {
 }
 
 #[inline(never)]
-fn inverse<T: Bending<M>, const M: usize>(case: &Case<M>) -> FlexibleTorques<f32, 2, M> {
+fn inverse<T: Bending<M>, const M: usize>(case: &Case<M>) -> JointsAndModes<f32, 2, M> {
     let scene = (RIGID_BODY, Elasticity);
     rnea(
         &ROBOT,
@@ -91,7 +91,7 @@ fn inertia<T: Bending<M>, const M: usize>(case: &Case<M>) -> FlexibleInertia<f32
 }
 
 #[inline(never)]
-fn forward<T: Bending<M>, const M: usize>(case: &Case<M>) -> Option<FlexibleTorques<f32, 2, M>> {
+fn forward<T: Bending<M>, const M: usize>(case: &Case<M>) -> Option<JointsAndModes<f32, 2, M>> {
     let scene = (RIGID_BODY, Elasticity);
     let Case { joints, bent, tau } = case;
     forward_dynamics(&ROBOT, const { &T::MODES }, joints, bent, tau, &scene).ok()

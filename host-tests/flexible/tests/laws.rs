@@ -2,7 +2,7 @@
 
 use dynamics_core::effects::{Coriolis, Effect, Elasticity, Gravity, Inertia, RIGID_BODY};
 use dynamics_core::flexible::{
-    FlexibleTorques, Modes, crba, forward_dynamics, modal_dynamics, rnea,
+    JointsAndModes, Modes, crba, forward_dynamics, modal_dynamics, rnea,
 };
 use dynamics_core::model::{ArmModel, Robot};
 use dynamics_core::state::State;
@@ -11,8 +11,8 @@ use flexible_tests::{JOINTS, MODES, Numbers, PLANAR, Planar, SPATIAL, Spatial};
 const SCENE: ((Gravity, Inertia, Coriolis), Elasticity) = (RIGID_BODY, Elasticity);
 
 fn difference<const V: usize, const M: usize>(
-    a: &FlexibleTorques<f64, V, M>,
-    b: &FlexibleTorques<f64, V, M>,
+    a: &JointsAndModes<f64, V, M>,
+    b: &JointsAndModes<f64, V, M>,
 ) -> f64 {
     let joints = a.joints.iter().zip(&b.joints);
     let pairs = joints.chain(a.modes.iter().zip(&b.modes));
@@ -99,7 +99,7 @@ fn laws<const M: usize>(model: &ArmModel<f64, 2>, modes: &Modes<f64, M>) {
         );
         let found = forward_dynamics(model, modes, &state, &bent, &along.joints, &SCENE);
         let found = found.expect("positive definite");
-        let given = FlexibleTorques {
+        let given = JointsAndModes {
             joints: state.qdd,
             modes: moving,
         };

@@ -76,6 +76,14 @@ pub(super) fn refused() -> Vec<Row> {
         link.modes[1].moments[2][0] = f64::NAN
     });
     claim(
+        "more modes than a link may have: named",
+        6,
+        ModeProblem::Count,
+        &|link| {
+            link.count = 7;
+        },
+    );
+    claim(
         "negative damping: named",
         0,
         ModeProblem::Damping,

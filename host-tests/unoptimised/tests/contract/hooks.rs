@@ -22,6 +22,7 @@ const PAYLOAD: u32 = 128;
 const GYROSCOPIC_ROTORS: u32 = 256;
 /// Of the field the x axis alone.
 const ALONG_X: u32 = 512;
+const ELASTICITY: u32 = 1024;
 
 /// Has every hook at joints, and of the others those whose bits are set.
 #[derive(Clone, Copy)]
@@ -40,6 +41,7 @@ impl<R: Real, const FLAGS: u32, const B: usize, const V: usize> Effect<R, B, V> 
     };
     const ACCELERATIONS: bool = has(FLAGS, ACCELERATIONS);
     const VELOCITY_PRODUCTS: bool = has(FLAGS, VELOCITY_PRODUCTS);
+    const ELASTICITY: bool = has(FLAGS, ELASTICITY);
     const EXTERNAL_WRENCH: hook::Wrench<Self, R> = match (
         has(FLAGS, WRENCH),
         has(FLAGS, BODY_POSE),
@@ -189,6 +191,8 @@ fn each_hook_acts_alone_in_core_and_engine() {
     idle::<BODY_VELOCITY>();
     idle::<BODY_POSE>();
     idle::<PAYLOAD>();
+    // Nor is the elasticity of links that do not bend.
+    idle::<ELASTICITY>();
     assert_ne!(acting::<{ FIELD | ALONG_X }>(), acting::<FIELD>());
 }
 
@@ -235,6 +239,7 @@ fn observed<R: Real, E: Effect<R, 6, 3>>(scene: &E) -> Vec<f64> {
         E::BODY_POSE,
         E::BASE_MOTION,
         E::GYROSCOPIC_ROTORS,
+        E::ELASTICITY,
     ];
     let mut numbers = vec![of::<R>(E::GRAVITIES as f64)];
     let flags = [&flags[..], &E::FIELD_AXES, &E::PAYLOAD].concat();
@@ -280,7 +285,7 @@ fn advanced<E: Effect<f32, 6, 3>>(scene: &mut E) -> f64 {
     ADVANCED.get()
 }
 
-type Every = All<{ ENGINE | GYROSCOPIC_ROTORS }>;
+type Every = All<{ ENGINE | GYROSCOPIC_ROTORS | ELASTICITY }>;
 const EVERY: Every = All;
 
 /// A wrapper of a user's own.

@@ -53,7 +53,7 @@ impl<R: Real, const M: usize> ModalFeedforward<R, M> {
     /// has to be in the scene: without it no force balances the weight, and the deflection has no meaning.
     ///
     /// # Cost
-    /// Twelve calls of [`rnea`]: at start, not in the control tick.
+    /// Twelve calls of [`rnea()`]: at start, not in the control tick.
     ///
     /// # Errors
     /// [`FlexibleError::Mode`] if the stiffness of a mode is not positive, or a number is not finite.
@@ -99,7 +99,7 @@ impl<R: Real, const M: usize> ModalFeedforward<R, M> {
     /// $$
     ///
     /// # Cost
-    /// Two calls of [`rnea`], one of [`crba`], and M³ / 3 flops.
+    /// Two calls of [`rnea()`], one of [`crba()`], and M³ / 3 flops.
     ///
     /// # Errors
     /// [`FlexibleError::Mode`] if a number is not finite; the modes are then unchanged.

@@ -38,7 +38,7 @@ impl core::error::Error for FlexibleError {}
 /// The accelerations of joints and modes, rad/s² or m/s², under these torques of the motors.
 ///
 /// # Cost
-/// That of [`rnea`] and [`crba`], and (V + M)³ / 3 flops.
+/// That of [`rnea()`] and [`crba()`], and (V + M)³ / 3 flops.
 ///
 /// # Errors
 /// [`FlexibleError`] names a joint or a mode that moves no inertia; so it does where an input is NaN.
@@ -110,7 +110,7 @@ where
 /// links on clamped joints, whatever torques that motion takes.
 ///
 /// # Cost
-/// That of [`forward_dynamics`] without the joints' elimination.
+/// That of [`forward_dynamics()`] without the joints' elimination.
 ///
 /// # Errors
 /// [`FlexibleError::Mode`].

@@ -7,11 +7,11 @@
 //!
 //! | function | result |
 //! |---|---|
-//! | [`rnea`] | torques of the joints and forces on the modes |
-//! | [`crba`] | the inertia of joints and modes |
-//! | [`forward_dynamics`] | accelerations of both |
+//! | [`rnea()`] | torques of the joints and forces on the modes |
+//! | [`crba()`] | the inertia of joints and modes |
+//! | [`forward_dynamics()`] | accelerations of both |
 //! | [`modal_dynamics`] | accelerations of the modes along a given motion of the joints |
-//! | [`step`] | a step of simulation, stable for modes of any frequency |
+//! | [`step()`] | a step of simulation, stable for modes of any frequency |
 //! | [`ModalFeedforward`] | torques along a reference, with the modes' motion under it |
 //!
 //! The torques that move the *joints* along a reference are a sound inverse: the modes move under it as those of links

@@ -52,7 +52,7 @@ pub trait Cluster<const M: usize, const N: usize>: Copy {
     /// The independent coordinate that each joint coordinate is, of those that are one.
     ///
     /// Its row of G must be a unit row, and its Ġ ẏ zero: no product with them is computed. `None`, which is the
-    /// default, is right for every row.
+    /// default, is right for every row. A number beyond N does not compile.
     const INDEPENDENT: [Option<usize>; M] = [None; M];
 
     /// γ(y), G and Ġ ẏ.

@@ -215,7 +215,16 @@ pub(super) const fn at(list: &[usize], i: usize) -> usize {
     if i < list.len() { list[i] } else { NONE }
 }
 
-/// An entry of [`Cluster::INDEPENDENT`](super::Cluster::INDEPENDENT).
-pub(super) const fn independent(list: &[Option<usize>], j: usize) -> Option<usize> {
-    if j < list.len() { list[j] } else { None }
+/// An entry of [`Cluster::INDEPENDENT`](super::Cluster::INDEPENDENT), of N independent coordinates.
+pub(super) const fn independent<const N: usize>(list: &[Option<usize>], j: usize) -> Option<usize> {
+    if j >= list.len() {
+        return None;
+    }
+    if let Some(k) = list[j] {
+        assert!(
+            k < N,
+            "`Cluster::INDEPENDENT` names a coordinate that the cluster does not have"
+        );
+    }
+    list[j]
 }

@@ -147,7 +147,7 @@ impl<C: Cluster<M, N>, const M: usize, const N: usize> Driven<C, M, N> {
                 }
                 if let (Some(qd), Some(qdd)) = (tree.state.qd.get_mut(v), tree.state.qdd.get_mut(v))
                 {
-                    (*qd, *qdd) = match const { independent(&C::INDEPENDENT, J) } {
+                    (*qd, *qdd) = match const { independent::<N>(&C::INDEPENDENT, J) } {
                         Some(k) => (entry(&yd, k), entry(&ydd, k)),
                         None => {
                             let g = &motion.g[J];
@@ -181,7 +181,7 @@ impl<C: Cluster<M, N>, const M: usize, const N: usize> Driven<C, M, N> {
         for_each_joint!(J, {
             if const { J < M } {
                 let tau = entry(tau, const { at(T::COORDINATES[I], J) });
-                match const { independent(&C::INDEPENDENT, J) } {
+                match const { independent::<N>(&C::INDEPENDENT, J) } {
                     Some(k) => {
                         if let Some(sum) = sums.get_mut(k) {
                             add(sum, tau);

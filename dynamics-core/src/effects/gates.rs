@@ -28,6 +28,20 @@ where
     };
 }
 
+/// Links that bend do not carry rotors that spin as bodies.
+#[inline(always)]
+pub(crate) const fn no_gyroscopic_rotors<R: Real, E, const B: usize, const V: usize>()
+where
+    E: Effect<R, B, V>,
+{
+    const {
+        assert!(
+            !E::GYROSCOPIC_ROTORS,
+            "links that bend do not carry gyroscopic rotors: use `Armature`"
+        )
+    };
+}
+
 /// How many bodies carry a payload.
 pub(crate) const fn loads<R: Real, E, const B: usize, const V: usize>() -> usize
 where

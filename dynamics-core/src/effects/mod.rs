@@ -87,7 +87,7 @@ pub use rigid_body::{
 };
 pub use width::Width;
 
-pub(crate) use gates::{field_axes, loads, one_gravity, only_load};
+pub(crate) use gates::{field_axes, loads, no_gyroscopic_rotors, one_gravity, only_load};
 pub(crate) use query::{
     base_given, base_motion, body_inertia, body_wrench, field, gyroscopic, joint_state,
     joint_torque, joint_torques, rotor_force,

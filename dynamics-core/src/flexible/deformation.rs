@@ -12,8 +12,8 @@ use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::{Force, Motion, SpatialInertia, Xform};
 use crate::state::entry;
 
-/// Adds what the deformation by a mode with Φ = ∫ φ rᵀ dm is to the inertia of a link about its joint: ∫ r rᵀ dm is greater
-/// by Σ ηₖ (Φₖ + ∫ r₀ φₖᵀ dm).
+/// Adds the change of a link's inertia by the deformation η of one mode, about the joint. With Φ = ∫ φ rᵀ dm, which is
+/// `moments`, ∫ r rᵀ dm changes by Σ ηₖ (Φₖ + ∫ r₀ φₖᵀ dm).
 #[inline(always)]
 pub(super) fn deform<R: Real>(
     inertia: &mut SpatialInertia<R>,
@@ -94,7 +94,8 @@ impl<R: Real> End<R> {
         }
     }
 
-    /// To a body on the end from the link's frame, of what it is undeformed, with the end at `rest`.
+    /// The transform from the link's frame to a body on its end, from the same transform of the undeformed link, whose end
+    /// is at `rest`.
     #[inline(always)]
     pub(super) fn xform(&self, x: &Xform<R>, rest: R::Vec3) -> Xform<R> {
         let ([x_0, y_0, z_0], [dx, dy, dz]) = (self.g.array(), (self.g * self.scale).array());
@@ -117,14 +118,15 @@ impl<R: Real> End<R> {
         (g_dot + self.g.cross(g_dot)) * self.scale
     }
 
-    /// The velocity against the link.
+    /// The velocity relative to the link.
     #[inline(always)]
     pub(super) fn velocity(&self, [shift, g_dot]: [R::Vec3; 2]) -> Motion<R> {
         let ang = self.omega(g_dot);
         Motion::new(ang, shift + self.point.cross(ang))
     }
 
-    /// Adds the velocity against the link and the acceleration to those of the link, as far as the effects have them.
+    /// Adds the velocity and the acceleration of the end relative to the link to those of the link, with the terms that the
+    /// effects have.
     #[inline(always)]
     pub(super) fn add<E, const B: usize, const V: usize>(
         &self,
@@ -154,7 +156,7 @@ impl<R: Real> End<R> {
         }
     }
 
-    /// What a force on the end is to a mode: a moment for ½ ψ and a force for φ.
+    /// A force on the end, as the moment by which ½ ψ of a mode is multiplied and the force by which φ is.
     #[inline(always)]
     pub(super) fn load(&self, f: Force<R>) -> Force<R> {
         let moment = f.ang - self.point.cross(f.lin);

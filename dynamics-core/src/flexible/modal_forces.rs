@@ -10,7 +10,7 @@ use crate::scalar::{Real, Vector};
 use crate::spatial::{Force, Motion, SpatialInertia, Xform};
 use crate::state::{State, entry};
 
-/// The motion of a body, from which those of the bodies on it start.
+/// The motion of a body, with which the recursion continues to its children.
 #[derive(Clone, Copy)]
 pub(super) struct Outer<R: Real> {
     pub(super) v: Motion<R>,
@@ -53,7 +53,7 @@ impl<R: Real> Outer<R> {
         }
     }
 
-    /// I a + v ×* I v, as far as the effects have it.
+    /// The force I a + v ×* I v that accelerates a body; without `Coriolis` I a.
     #[inline(always)]
     pub(super) fn net_force<E, const B: usize, const V: usize>(
         &self,
@@ -151,7 +151,7 @@ impl<R: Real, const M: usize> Modes<R, M> {
         }
     }
 
-    /// What a load on the end of a link is to its mode k.
+    /// The force on mode k of a load on the end of its link: see [`End::load`](super::deformation::End::load).
     #[inline(always)]
     pub(super) fn work(&self, k: usize, load: Force<R>) -> R {
         let work = |mode: &Integrals<R>| mode.half_turn.dot(load.ang) + mode.shift.dot(load.lin);

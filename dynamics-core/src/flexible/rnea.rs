@@ -12,7 +12,7 @@ use super::deformation::End;
 use super::modal_forces::{Outer, net_force};
 use super::{JointsAndModes, Modes};
 use crate::algorithms::{inward, per_body};
-use crate::effects::{Effect, body_inertia, body_wrench, joint_torques};
+use crate::effects::{Effect, body_inertia, body_wrench, joint_torques, no_gyroscopic_rotors};
 use crate::model::RobotModel;
 use crate::scalar::Real;
 use crate::spatial::{Force, Xform};
@@ -21,8 +21,8 @@ use crate::state::{Configuration, RobotState, State};
 /// The torque of each motor, N·m or N, and the force on each mode at a state of joints and modes.
 ///
 /// With [`Elasticity`](crate::effects::Elasticity) among the effects, the forces on the modes are zero where they move
-/// freely: nothing but the links' own stiffness and damping acts on them. Without it they are those that stiffness and
-/// damping exert.
+/// freely: nothing but the links' own stiffness and damping acts on them. Without it they are the forces that stiffness
+/// and damping have to exert.
 ///
 /// $$
 /// \begin{aligned}
@@ -82,12 +82,7 @@ where
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    const {
-        assert!(
-            !E::GYROSCOPIC_ROTORS,
-            "links that bend do not carry gyroscopic rotors"
-        )
-    };
+    no_gyroscopic_rotors::<R, E, B, V>();
     let trig = state.configuration().trig_of(robot);
     let (turns, state) = (&trig.borrow().coordinates, state.state());
     let mut out = JointsAndModes::ZERO;

@@ -51,6 +51,9 @@ pub(super) const fn problem(
         k += 1;
     }
     let last = 6 + link.count;
+    if let Some(k) = not_transposed(link, &inertia) {
+        return Some((k, ModeProblem::Inertia));
+    }
     if let Some(k) = not_positive(&inertia, 6, last, 0) {
         return Some((k - 6, ModeProblem::Inertia));
     }
@@ -132,6 +135,28 @@ const fn not_positive(
             }
         } else if k >= rigid {
             return Some(k);
+        }
+        k += 1;
+    }
+    None
+}
+
+/// The first mode k of which ∫ φₖ φₗᵀ dm is not the transpose of ∫ φₗ φₖᵀ dm.
+const fn not_transposed(link: &FlexibleLink, inertia: &[[f64; ALL]; ALL]) -> Option<usize> {
+    let mut k = 0;
+    while k < link.count {
+        let (mut l, scale) = (0, inertia[6 + k][6 + k]);
+        while l <= k {
+            let most = LEAST * (scale + inertia[6 + l][6 + l]);
+            let mut i = 0;
+            while i < 9 {
+                let apart = link.products[k][l][i / 3][i % 3] - link.products[l][k][i % 3][i / 3];
+                if apart > most || -apart > most {
+                    return Some(k);
+                }
+                i += 1;
+            }
+            l += 1;
         }
         k += 1;
     }

@@ -134,8 +134,8 @@ pub enum ModeProblem {
     NotFinite,
     /// The mode moves no mass.
     NoMass,
-    /// The products of the modes are not a positive definite matrix: the mode is a sum of those before it, or a number
-    /// is wrong.
+    /// The products of the modes are not a symmetric and positive definite matrix: the mode is a sum of those before it,
+    /// or a number is wrong.
     Inertia,
     /// With the rigid motions of its link the inertia is not positive definite: a part of the mode is a rigid motion, or
     /// the body's mass is not that which the mode moves.

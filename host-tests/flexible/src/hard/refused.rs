@@ -76,6 +76,12 @@ pub(super) fn refused() -> Vec<Row> {
         link.modes[1].moments[2][0] = f64::NAN
     });
     claim(
+        "products that are no transposes: named",
+        1,
+        ModeProblem::Inertia,
+        &|link| link.products[1][0][2][2] += 1e-3,
+    );
+    claim(
         "more modes than a link may have: named",
         6,
         ModeProblem::Count,

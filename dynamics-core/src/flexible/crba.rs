@@ -11,7 +11,7 @@ use heapless::Vec;
 use super::Modes;
 use super::deformation::{End, axial, deform};
 use crate::algorithms::{MassMatrix, inward};
-use crate::effects::{Effect, body_inertia};
+use crate::effects::{Effect, body_inertia, no_gyroscopic_rotors};
 use crate::model::{LinkView, RobotModel};
 use crate::scalar::{Real, Vector};
 use crate::spatial::inertia::CompositeInertia;
@@ -92,12 +92,57 @@ where
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
-    const {
-        assert!(
-            !E::GYROSCOPIC_ROTORS,
-            "links that bend do not carry gyroscopic rotors"
-        )
-    };
+    sweep::<R, D, E, B, Q, V, M, true>(robot, modes, q, eta, effects)
+}
+
+/// The inertia of the modes alone: the block that the motion of modes along a given one of the joints needs.
+#[inline(always)]
+pub(super) fn modal_inertia<
+    R: Real,
+    D,
+    E,
+    const B: usize,
+    const Q: usize,
+    const V: usize,
+    const M: usize,
+>(
+    robot: &D,
+    modes: &Modes<R, M>,
+    q: &impl Configuration<R, Q>,
+    eta: &[R; M],
+    effects: &E,
+) -> [[R; M]; M]
+where
+    D: RobotModel<R, B, Q, V>,
+    E: Effect<R, B, V>,
+{
+    let m = sweep::<R, D, E, B, Q, V, M, false>(robot, modes, q, eta, effects);
+    m.modes.rows
+}
+
+/// The two passes; without `JOINTS` those blocks stay zero that joints have.
+#[inline(always)]
+fn sweep<
+    R: Real,
+    D,
+    E,
+    const B: usize,
+    const Q: usize,
+    const V: usize,
+    const M: usize,
+    const JOINTS: bool,
+>(
+    robot: &D,
+    modes: &Modes<R, M>,
+    q: &impl Configuration<R, Q>,
+    eta: &[R; M],
+    effects: &E,
+) -> FlexibleInertia<R, V, M>
+where
+    D: RobotModel<R, B, Q, V>,
+    E: Effect<R, B, V>,
+{
+    no_gyroscopic_rotors::<R, E, B, V>();
     let trig = q.trig_of(robot);
     let turns = &trig.borrow().coordinates;
     let mut bodies: Vec<Body<'_, R>, B> = Vec::new();
@@ -153,21 +198,24 @@ where
                 }
                 let swing = swings.get(k).copied().unwrap_or(R::Vec3::ZERO);
                 let f = Force::new(swing, mode.momentum) + on_end;
-                body.project(turns, Mode(k), f, &mut m);
-                climb(modes, turns, body, inner, Mode(k), f, &mut m);
+                let of = Mode(k);
+                climb::<R, V, M, JOINTS>(modes, turns, body, inner, of, f, &mut m);
             }
         }
         composite += body.on_end;
         if let Some(parent) = inner.get_mut(body.link.parent) {
             parent.on_end += composite.at_parent(&body.x);
         }
+        if !JOINTS {
+            continue;
+        }
         for (k, joint) in body.link.coordinates().enumerate() {
             let f = composite.along(&body.link.subspace(turns, k));
-            body.project(turns, Joint(joint), f, &mut m);
+            let of = Joint(joint);
+            climb::<R, V, M, JOINTS>(modes, turns, body, inner, of, f, &mut m);
             if let Some(diagonal) = m.joints.diagonal_mut(joint) {
                 effects.add_inertia(joint, diagonal);
             }
-            climb(modes, turns, body, inner, Joint(joint), f, &mut m);
         }
     }
     m
@@ -200,8 +248,9 @@ impl<R: Real> Body<'_, R> {
     }
 }
 
-/// Sets the entries between a coordinate of `body` and those of the bodies between it and the base.
-fn climb<R: Real, const V: usize, const M: usize>(
+/// Sets the entries between a coordinate of `body`, on which its force is f, and the joints and modes from that body to the
+/// base.
+fn climb<R: Real, const V: usize, const M: usize, const JOINTS: bool>(
     modes: &Modes<R, M>,
     turns: &Turns<R>,
     body: &Body<'_, R>,
@@ -211,6 +260,9 @@ fn climb<R: Real, const V: usize, const M: usize>(
     m: &mut FlexibleInertia<R, V, M>,
 ) {
     let mut child = body;
+    if JOINTS {
+        body.project(turns, of, f, m);
+    }
     while let Some(parent) = inner.get(child.link.parent) {
         f = child.x.transpose_mul(f);
         if let Some(end) = &parent.end {
@@ -219,7 +271,9 @@ fn climb<R: Real, const V: usize, const M: usize>(
                 m.set(of, Mode(k), modes.work(k, load));
             }
         }
-        parent.project(turns, of, f, m);
+        if JOINTS {
+            parent.project(turns, of, f, m);
+        }
         child = parent;
     }
 }

@@ -2,9 +2,10 @@
 
 use core::borrow::Borrow;
 
-use super::forward_dynamics::Factors;
+use super::crba::modal_inertia;
+use super::forward_dynamics::{Factors, finite};
 use super::step::advance;
-use super::{FlexibleError, Modes, crba, rnea};
+use super::{FlexibleError, Modes, rnea};
 use crate::effects::{Bias, Effect};
 use crate::model::RobotModel;
 use crate::scalar::Real;
@@ -47,6 +48,8 @@ pub struct ModalFeedforward<R, const M: usize> {
 
 /// Iterations of the deflection at rest, each of which reduces its error by the ratio of weight to stiffness.
 const ITERATIONS: usize = 12;
+/// The largest last correction, of the deflection.
+const CONVERGED: f64 = 1e-4;
 
 impl<R: Real, const M: usize> ModalFeedforward<R, M> {
     /// With the modes at rest under the scene's gravity at configuration q. [`Elasticity`](crate::effects::Elasticity)
@@ -56,7 +59,8 @@ impl<R: Real, const M: usize> ModalFeedforward<R, M> {
     /// Twelve calls of [`rnea()`]: at start, not in the control tick.
     ///
     /// # Errors
-    /// [`FlexibleError::Mode`] if the stiffness of a mode is not positive, or a number is not finite.
+    /// [`FlexibleError::Mode`] if the stiffness of a mode is not positive, a number is not finite, or the deflection has
+    /// not converged: the link is too soft for its weight.
     pub fn at_rest<D, E, const B: usize, const Q: usize, const V: usize>(
         robot: &D,
         modes: &Modes<R, M>,
@@ -74,13 +78,20 @@ impl<R: Real, const M: usize> ModalFeedforward<R, M> {
             )
         };
         let stiffness = Factors::of(&modes.stiffness).map_err(FlexibleError::Mode)?;
-        let mut bent = State::at([R::ZERO; M]);
+        let (mut bent, mut last) = (State::at([R::ZERO; M]), [R::ZERO; M]);
         for _ in 0..ITERATIONS {
             let force = rnea(robot, modes, &State::at(*q), &bent, &Bias(effects)).modes;
             let correction = stiffness.solve(force);
             bent.q = core::array::from_fn(|k| entry(&bent.q, k) - entry(&correction, k));
+            last = correction;
         }
-        match bent.q.iter().position(|eta| !eta.is_finite()) {
+        finite(&bent.q).map_err(FlexibleError::Mode)?;
+        let largest = |of: &[R; M]| {
+            let sizes = of.iter().map(|x| x.abs());
+            sizes.fold(R::ZERO, |most, x| if x > most { x } else { most })
+        };
+        let most = largest(&bent.q) * R::from_f64(CONVERGED);
+        match last.iter().position(|x| x.abs() > most) {
             Some(mode) => Err(FlexibleError::Mode(mode)),
             None => Ok(Self { bent }),
         }
@@ -99,7 +110,7 @@ impl<R: Real, const M: usize> ModalFeedforward<R, M> {
     /// $$
     ///
     /// # Cost
-    /// Two calls of [`rnea()`], one of [`crba()`], and M³ / 3 flops.
+    /// Two calls of [`rnea()`], one of [`crba`](super::crba()) for the modes alone, and M³ / 3 flops.
     ///
     /// # Errors
     /// [`FlexibleError::Mode`] if a number is not finite; the modes are then unchanged.
@@ -118,20 +129,20 @@ impl<R: Real, const M: usize> ModalFeedforward<R, M> {
     {
         let trig = reference.q.trig_of(robot);
         let trig: &JointTrig<R, Q> = trig.borrow();
-        let [half, square] = [h * R::from_f64(1.5), h * h];
+        let [of_rate, square] = [h * R::from_f64(1.5), h * h];
         let mut bent = self.bent;
         advance(&mut bent, &self.bent.qdd, h);
         let force = rnea(robot, modes, trig.with(reference), &bent, effects).modes;
-        let m = crba(robot, modes, trig, &bent.q, effects).modes.rows;
-        let mut twice = m.map(|row| row.map(|m| m + m));
+        let m = modal_inertia(robot, modes, trig, &bent.q, effects);
+        let mut matrix = m.map(|row| row.map(|m| m + m));
         if E::ELASTICITY {
-            modes.add_stiffness(&mut twice, [half, square]);
+            modes.add_stiffness(&mut matrix, [of_rate, square]);
         }
-        let factors = Factors::of(&twice).map_err(FlexibleError::Mode)?;
+        let factors = Factors::of(&matrix).map_err(FlexibleError::Mode)?;
         for (k, change) in factors.solve(force).into_iter().enumerate() {
             let terms = [
                 (&mut bent.q, square),
-                (&mut bent.qd, half),
+                (&mut bent.qd, of_rate),
                 (&mut bent.qdd, R::ONE),
             ];
             for (to, factor) in terms {
@@ -141,12 +152,8 @@ impl<R: Real, const M: usize> ModalFeedforward<R, M> {
             }
         }
         let tau = rnea(robot, modes, trig.with(reference), &bent, effects).joints;
-        if let Some(mode) = bent.qdd.iter().position(|x| !x.is_finite()) {
-            return Err(FlexibleError::Mode(mode));
-        }
-        if let Some(joint) = tau.iter().position(|x| !x.is_finite()) {
-            return Err(FlexibleError::Joint(joint));
-        }
+        finite(&bent.qdd).map_err(FlexibleError::Mode)?;
+        finite(&tau).map_err(FlexibleError::Joint)?;
         self.bent = bent;
         Ok(tau)
     }

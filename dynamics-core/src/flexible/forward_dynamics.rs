@@ -3,6 +3,7 @@
 use core::borrow::Borrow;
 use core::fmt;
 
+use super::crba::modal_inertia;
 use super::{FlexibleInertia, JointsAndModes, Modes, crba, rnea};
 use crate::effects::{Bias, Effect};
 use crate::model::RobotModel;
@@ -16,7 +17,7 @@ use crate::state::{Configuration, RobotState, State, entry};
 pub enum FlexibleError {
     /// The joint of this index in q̇ moves no inertia.
     Joint(usize),
-    /// The mode of this number moves no inertia, or has no stiffness.
+    /// The mode of this number moves no inertia, or has no stiffness or too little for its weight.
     Mode(usize),
 }
 
@@ -28,7 +29,7 @@ impl fmt::Display for FlexibleError {
         };
         write!(
             out,
-            "{what} {k} moves no inertia or has no stiffness, or a number is not finite"
+            "{what} {k} moves no inertia or is too soft, or a number is not finite"
         )
     }
 }
@@ -110,7 +111,7 @@ where
 /// links on clamped joints, whatever torques that motion takes.
 ///
 /// # Cost
-/// That of [`forward_dynamics()`] without the joints' elimination.
+/// That of [`forward_dynamics()`] without the entries of joints and their elimination.
 ///
 /// # Errors
 /// [`FlexibleError::Mode`].
@@ -144,8 +145,8 @@ where
         ..*bent
     };
     let force = rnea(robot, modes, trig.with(state), &coasting, effects).modes;
-    let m = crba(robot, modes, trig, &bent.q, effects);
-    let factors = Factors::of(&m.modes.rows).map_err(FlexibleError::Mode)?;
+    let m = modal_inertia(robot, modes, trig, &bent.q, effects);
+    let factors = Factors::of(&m).map_err(FlexibleError::Mode)?;
     let accelerations = factors.solve(force.map(|force| -force));
     finite(&accelerations).map_err(FlexibleError::Mode)?;
     Ok(accelerations)
@@ -193,7 +194,7 @@ impl<R: Real, const V: usize, const M: usize> FlexibleInertia<R, V, M> {
 }
 
 /// The number of the first value that is not finite is the error.
-fn finite<R: Real>(values: &[R]) -> Result<(), usize> {
+pub(super) fn finite<R: Real>(values: &[R]) -> Result<(), usize> {
     match values.iter().position(|x| !x.is_finite()) {
         Some(k) => Err(k),
         None => Ok(()),

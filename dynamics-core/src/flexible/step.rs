@@ -64,18 +64,14 @@ where
     let trig = now.q.trig_of(robot);
     let trig: &JointTrig<R, V> = trig.borrow();
     let (half, quarter) = (h * R::from_f64(0.5), h * h * R::from_f64(0.25));
-    let ahead = State {
-        q: core::array::from_fn(|k| entry(&bent.q, k) + half * entry(&bent.qd, k)),
-        ..*bent
-    };
     let mut m = crba(robot, modes, trig, &bent.q, effects);
     let mut bias = rnea(robot, modes, trig.with(&now), bent, &Bias(effects));
     if E::ELASTICITY {
         modes.add_stiffness(&mut m.modes.rows, [half, quarter]);
         // What bending by h/2 η̇ more adds to K η.
         for (row, force) in modes.stiffness.iter().zip(&mut bias.modes) {
-            for ((&k, &ahead), &now) in row.iter().zip(&ahead.q).zip(&bent.q) {
-                *force += k * (ahead - now);
+            for (&k, &rate) in row.iter().zip(&bent.qd) {
+                *force += k * (half * rate);
             }
         }
     }

@@ -117,9 +117,9 @@ pub fn forced<const M: usize>(beam: &Beam, recorded: &Forced) -> Vec<[f64; 2]> {
     let (mut bent, mut t) = (rest.expect("stiffness").bent, 0.0);
     let mut rows = Vec::new();
     for &until in &recorded.t {
-        // Runge-Kutta 4, 1000 steps a period of the highest mode.
+        // Runge-Kutta 4, 1500 steps a period of the highest mode.
         let omega = vibration(&beam.link(0, &[Shape::BendZ(M)]).expect("a beam"), 0)[0];
-        let steps = ((until - t) * omega * 160.0).ceil().max(1.0);
+        let steps = ((until - t) * omega * 240.0).ceil().max(1.0);
         let h = (until - t) / steps;
         for _ in 0..steps as usize {
             bent = runge_kutta(&bent, t, h, accelerate);

@@ -112,7 +112,7 @@ fn static_sag_converges_to_the_beams_as_modes_are_added() {
             );
         }
         page.push('\n');
-        assert!(all[0][1] < 0.03 && all[5][1] < 1e-5, "{name}");
+        assert!(all[0][1] < 3e-3 && all[5][1] < 1e-6, "{name}");
     }
     println!("{page}");
 }
@@ -135,7 +135,7 @@ fn forced_motion_is_that_of_finite_elements_as_far_as_the_modes_allow() {
             "{} modes: tip {tip:.1e}, torque {torque:.1e}; of the whole beam {whole:.1e}",
             m + 1
         );
-        assert!(tip < 1e-9 && torque < 1e-9, "{m}: {tip:.1e} {torque:.1e}");
+        assert!(tip < 1e-10 && torque < 1e-10, "{m}: {tip:.1e} {torque:.1e}");
         truncation.push(whole);
     }
     assert!(

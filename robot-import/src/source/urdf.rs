@@ -80,7 +80,7 @@ fn origin(node: Node<'_, '_>) -> Result<Origin> {
         if *x != 0.0 && x.abs() < snap::NO_LENGTH {
             snapped.push(Snap {
                 attribute: name.to_owned(),
-                text: format!("{x}"),
+                text: format!("{x:e}"),
                 exact: "0".to_owned(),
                 difference: *x,
             });

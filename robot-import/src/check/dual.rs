@@ -1,0 +1,95 @@
+//! Dual numbers a + b ε, ε² = 0: a value and its derivative, of numbers that may be dual themselves.
+
+use std::ops::{Add, Mul, Neg, Sub};
+
+/// A number that can be differentiated.
+pub trait Number:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
+{
+    /// A constant.
+    fn constant(x: f64) -> Self;
+    /// Sine and cosine.
+    fn sin_cos(self) -> (Self, Self);
+}
+
+impl Number for f64 {
+    fn constant(x: f64) -> Self {
+        x
+    }
+
+    fn sin_cos(self) -> (Self, Self) {
+        f64::sin_cos(self)
+    }
+}
+
+/// A value and its derivative.
+#[derive(Clone, Copy, Debug)]
+pub struct Dual<T> {
+    /// The value.
+    pub value: T,
+    /// Its derivative.
+    pub rate: T,
+}
+
+impl<T: Number> Dual<T> {
+    /// A value and its derivative.
+    pub fn new(value: T, rate: T) -> Self {
+        Self { value, rate }
+    }
+}
+
+impl<T: Number> Number for Dual<T> {
+    fn constant(x: f64) -> Self {
+        Self::new(T::constant(x), T::constant(0.0))
+    }
+
+    fn sin_cos(self) -> (Self, Self) {
+        let (sin, cos) = self.value.sin_cos();
+        (
+            Self::new(sin, cos * self.rate),
+            Self::new(cos, -sin * self.rate),
+        )
+    }
+}
+
+impl<T: Number> Add for Dual<T> {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        Self::new(self.value + other.value, self.rate + other.rate)
+    }
+}
+
+impl<T: Number> Sub for Dual<T> {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        Self::new(self.value - other.value, self.rate - other.rate)
+    }
+}
+
+impl<T: Number> Mul for Dual<T> {
+    type Output = Self;
+    fn mul(self, other: Self) -> Self {
+        let rate = self.value * other.rate + self.rate * other.value;
+        Self::new(self.value * other.value, rate)
+    }
+}
+
+impl<T: Number> Neg for Dual<T> {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Self::new(-self.value, -self.rate)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_second_derivative_of_a_product_with_a_sine_is_its_own() {
+        let x = Dual::new(Dual::new(0.7, 1.0), Dual::new(1.0, 0.0));
+        let y = x * x * x.sin_cos().0;
+        let (s, c) = 0.7_f64.sin_cos();
+        assert!((y.rate.rate - (2.0 * s + 2.8 * c - 0.49 * s)).abs() < 1e-15);
+    }
+}

@@ -1,0 +1,104 @@
+"""Torques by Pinocchio (URDF) or MuJoCo (MJCF) at the motions of a request on stdin, as JSON on stdout.
+
+The request: path, format, joints (name, kind, and for a free base the name "floating_base"), locked (name, position) and
+motions (q, v, a in the library's order: quaternion before position, angular before linear velocity).
+"""
+
+import json
+import sys
+
+
+def pinocchio(request):
+    import numpy
+    import pinocchio
+
+    free = any(joint["name"] == "floating_base" for joint in request["joints"])
+    root = (pinocchio.JointModelFreeFlyer(),) if free else ()
+    model = pinocchio.buildModelFromUrdf(request["path"], *root)
+    model.gravity.linear = numpy.array([0.0, 0.0, -9.81])
+    data = model.createData()
+    names = {"floating_base": "root_joint"}
+    rows = []
+    for motion in request["motions"]:
+        q = pinocchio.neutral(model)
+        v, a = numpy.zeros(model.nv), numpy.zeros(model.nv)
+        for name, position in request["locked"]:
+            if not model.existJointName(name):
+                continue
+            joint = model.joints[model.getJointId(name)]
+            put(q, joint, [position])
+        at_q = at_v = 0
+        order = []
+        for joint in request["joints"]:
+            own = model.joints[model.getJointId(names.get(joint["name"], joint["name"]))]
+            nq, nv = joint["coordinates"]
+            qi = motion["q"][at_q : at_q + nq]
+            vi = motion["qd"][at_v : at_v + nv]
+            ai = motion["qdd"][at_v : at_v + nv]
+            at_q, at_v = at_q + nq, at_v + nv
+            if joint["kind"] == "Free":
+                qi, vi, ai = qi[4:] + qi[:4], vi[3:] + vi[:3], ai[3:] + ai[:3]
+                order += [own.idx_v + k for k in (3, 4, 5, 0, 1, 2)]
+            elif joint["kind"] in ("Revolute", "Continuous", "Prismatic", "Spherical"):
+                order += [own.idx_v + k for k in range(nv)]
+            else:
+                raise ValueError("a joint of kind " + joint["kind"] + " is not compared")
+            put(q, own, qi)
+            v[own.idx_v : own.idx_v + nv] = vi
+            a[own.idx_v : own.idx_v + nv] = ai
+        tau = pinocchio.rnea(model, data, q, v, a)
+        rows.append([float(tau[i]) for i in order])
+    return {"name": "Pinocchio " + pinocchio.__version__, "torques": rows}
+
+
+def put(q, joint, position):
+    import math
+
+    if joint.nq == 2 and joint.nv == 1:
+        position = [math.cos(position[0]), math.sin(position[0])]
+    q[joint.idx_q : joint.idx_q + joint.nq] = position
+
+
+def mujoco(request):
+    import mujoco
+    import numpy
+
+    model = mujoco.MjModel.from_xml_path(request["path"])
+    model.opt.gravity[:] = [0.0, 0.0, -9.81]
+    # Only rigid-body terms: no constraint, no passive force, no armature.
+    model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_CONSTRAINT
+    model.dof_damping[:] = 0.0
+    model.dof_frictionloss[:] = 0.0
+    model.dof_armature[:] = 0.0
+    model.jnt_stiffness[:] = 0.0
+    data = mujoco.MjData(model)
+    names = {}
+    for j in range(model.njnt):
+        names[model.joint(j).name or "joint_%d" % (j + 1)] = j
+    rows = []
+    for motion in request["motions"]:
+        data.qpos[:] = model.qpos0
+        data.qvel[:] = 0.0
+        data.qacc[:] = 0.0
+        for name, position in request["locked"]:
+            if name in names:
+                j = names[name]
+                data.qpos[model.jnt_qposadr[j]] = position + model.qpos0[model.jnt_qposadr[j]]
+        at, order = 0, []
+        for joint in request["joints"]:
+            if joint["kind"] not in ("Revolute", "Continuous", "Prismatic"):
+                raise ValueError("a joint of kind " + joint["kind"] + " is not compared")
+            j = names[joint["name"]]
+            i = model.jnt_dofadr[j]
+            data.qpos[model.jnt_qposadr[j]] = motion["q"][at] + model.qpos0[model.jnt_qposadr[j]]
+            data.qvel[i] = motion["qd"][at]
+            data.qacc[i] = motion["qdd"][at]
+            order.append(i)
+            at += 1
+        mujoco.mj_inverse(model, data)
+        rows.append([float(data.qfrc_inverse[i]) for i in order])
+    return {"name": "MuJoCo " + mujoco.__version__, "torques": rows}
+
+
+request = json.load(sys.stdin)
+json.dump((pinocchio if request["format"] == "Urdf" else mujoco)(request), sys.stdout)

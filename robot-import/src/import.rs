@@ -1,0 +1,305 @@
+//! `robot-import import`: a file becomes a Rust file, with advice and a check.
+
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+
+use crate::advice::{Advice, advice};
+use crate::check::{self, Checked, Peer, STATES};
+use crate::description::Description;
+use crate::error::{ImportError, Problem, Result};
+use crate::estimate;
+use crate::physical::violation;
+use crate::selection::{Selected, Selection};
+use crate::tree::{Numbers, Tree};
+use crate::{source, write};
+
+/// Which file becomes which robot.
+#[derive(Clone, Debug, Default, clap::Args)]
+pub struct Args {
+    /// The description: URDF or MJCF
+    #[arg(value_name = "FILE")]
+    pub file: PathBuf,
+    /// The link that stands still; the root of the file if not given
+    #[arg(long, value_name = "LINK")]
+    pub base: Option<String>,
+    /// Only the joints between the base and this link move
+    #[arg(long, value_name = "LINK", conflicts_with = "joints")]
+    pub tip: Option<String>,
+    /// Only these joints move
+    #[arg(long, value_name = "A,B,C", value_delimiter = ',')]
+    pub joints: Vec<String>,
+    /// A joint that stands still at a position, rad or m; may be repeated
+    #[arg(long, value_name = "JOINT=POSITION", value_parser = locked)]
+    pub lock: Vec<(String, f64)>,
+    /// The base moves freely
+    #[arg(long)]
+    pub free_base: bool,
+    /// The robot's name; that of the file if not given
+    #[arg(long, value_name = "NAME")]
+    pub name: Option<String>,
+    /// Write the Rust file here instead of to stdout
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+    /// Compare with Pinocchio or MuJoCo, too, and fail if they are not there
+    #[arg(long)]
+    pub check: bool,
+    /// Take the nearest physical inertia where one is not physical
+    #[arg(long)]
+    pub repair: bool,
+    /// Keep roundings of right angles and of zero
+    #[arg(long)]
+    pub keep_roundings: bool,
+    /// The Python that has Pinocchio or MuJoCo
+    #[arg(long, value_name = "PROGRAM", default_value = "python3")]
+    pub python: String,
+    /// The report as JSON on stdout
+    #[arg(long)]
+    pub json: bool,
+}
+
+fn locked(text: &str) -> std::result::Result<(String, f64), String> {
+    let (name, position) = text.rsplit_once('=').ok_or("expected JOINT=POSITION")?;
+    let position: f64 = position
+        .parse()
+        .map_err(|_| "the position is not a number")?;
+    match position.is_finite() {
+        true => Ok((name.to_owned(), position)),
+        false => Err("the position is not finite".to_owned()),
+    }
+}
+
+/// An imported robot.
+#[derive(Debug)]
+pub struct Imported {
+    /// The file as it was read, with repaired inertias.
+    pub robot: Description,
+    /// The part of it that is the robot.
+    pub selected: Selected,
+    /// The robot's bodies.
+    pub tree: Tree,
+    /// Its name.
+    pub name: String,
+    /// Its Rust file.
+    pub source: String,
+    /// What its user should know.
+    pub report: Report,
+}
+
+/// The report of an import; its fields are those of the JSON.
+#[derive(Clone, Debug, Serialize)]
+pub struct Report {
+    /// The robot's name.
+    pub name: String,
+    /// The type's name.
+    pub type_name: String,
+    /// The file.
+    pub file: String,
+    /// The licence that its comments state.
+    pub licence: Option<String>,
+    /// The name of the link that stands still.
+    pub base: String,
+    /// The bodies with their joints.
+    pub bodies: Vec<Row>,
+    /// The numbers of bodies, position and velocity coordinates.
+    pub sizes: [usize; 3],
+    /// What to look at.
+    pub advice: Vec<Advice>,
+    /// The roundings that were made exact.
+    pub exact: Vec<estimate::Saved>,
+    /// The check.
+    pub check: Checked,
+    /// The comparison with a peer.
+    pub peer: Option<Peer>,
+    /// Why there is none.
+    pub no_peer: Option<String>,
+    /// Cycles of inverse dynamics by the engine, estimated.
+    pub estimated_cycles: Option<u64>,
+}
+
+/// A body in the report.
+#[derive(Clone, Debug, Serialize)]
+pub struct Row {
+    /// The joint.
+    pub joint: String,
+    /// The body.
+    pub body: String,
+    /// The parent body's name.
+    pub parent: String,
+    /// The kind of joint.
+    pub kind: String,
+    /// Mass, kg.
+    pub mass: f64,
+    /// Least and greatest position, rad or m.
+    pub range: Option<[f64; 2]>,
+    /// Greatest torque, N·m or N.
+    pub effort: Option<f64>,
+    /// The joint that it follows.
+    pub follows: Option<String>,
+}
+
+/// Reads, selects, merges, checks and writes a robot.
+///
+/// # Errors
+/// Of the file, with line and element; of the selection; [`Problem::Value`] if the check fails.
+pub fn import(args: &Args, today: &str) -> Result<Imported> {
+    let mut robot = source::read(&args.file)?;
+    let mut notes = Vec::new();
+    if args.repair {
+        repair(&mut robot, &mut notes);
+    }
+    if args.keep_roundings {
+        for joint in &mut robot.joints {
+            (joint.exact, joint.snapped) = (joint.origin, Vec::new());
+        }
+        for inertial in robot
+            .links
+            .iter_mut()
+            .filter_map(|link| link.inertial.as_mut())
+        {
+            inertial.exact = inertial.frame;
+        }
+    }
+    let selection = Selection {
+        base: args.base.clone(),
+        tip: args.tip.clone(),
+        joints: args.joints.clone(),
+        lock: args.lock.clone(),
+        free_base: args.free_base,
+    };
+    let selected = selection.of(&robot)?;
+    let tree = Tree::of(&robot, &selected, Numbers::Exact)?;
+    let checked = check::check(&robot, &selected, STATES)?;
+    if !checked.holds() {
+        let difference = checked.energy;
+        return Err(Problem::Value(format!(
+            "the import differs from the file by {difference:.1e} of full scale, at most {:.0e}: this is a defect of robot-import",
+            check::MOST
+        ))
+        .into());
+    }
+    let peer = check::compare(&args.python, &args.file, &robot, &selected, &tree, &checked);
+    let compared = !args.repair && args.base.is_none();
+    let (peer, no_peer) = match peer {
+        _ if !compared => (
+            None,
+            Some("a changed base or inertia is not the file's".to_owned()),
+        ),
+        Ok(peer) => (Some(peer), None),
+        Err(reason) => (None, Some(reason)),
+    };
+    if let (true, Some(reason)) = (args.check, &no_peer) {
+        return Err(Problem::Value(format!("no peer to compare with: {reason}")).into());
+    }
+    if let Some(peer) = peer.as_ref().filter(|peer| peer.difference > check::MOST) {
+        return Err(Problem::Value(format!(
+            "the import differs from {} by {:.1e} of full scale, at most {:.0e}",
+            peer.name,
+            peer.difference,
+            check::MOST
+        ))
+        .into());
+    }
+    if tree.has_followers() && !tree.is_single() {
+        notes.push(
+            "Couplings of joints are left out: they need joints of one coordinate.".to_owned(),
+        );
+    }
+    let name = args.name.clone().unwrap_or_else(|| robot.name.clone());
+    let mut own = advice(&robot, &selected, &tree);
+    own.extend(notes.iter().map(|note| Advice {
+        topic: crate::advice::Topic::LeftOut,
+        line: 0,
+        name: name.clone(),
+        text: note.clone(),
+    }));
+    let origin = write::Origin {
+        file: file_name(&args.file),
+        licence: robot.licence.clone(),
+        date: today.to_owned(),
+        notes: notes.iter().chain(&robot.notes).cloned().collect(),
+    };
+    let source = write::formatted(&write::source(&tree, &name, &origin));
+    let [q, v] = tree.coordinates();
+    let report = Report {
+        type_name: write::type_name(&name),
+        file: file_name(&args.file),
+        licence: robot.licence.clone(),
+        base: tree.base.clone(),
+        bodies: rows(&tree),
+        sizes: [tree.bodies.len(), q, v],
+        advice: own,
+        exact: estimate::savings(&robot, &selected, &tree),
+        check: checked,
+        peer,
+        no_peer,
+        estimated_cycles: estimate::cycles(&tree),
+        name: name.clone(),
+    };
+    Ok(Imported {
+        robot,
+        selected,
+        tree,
+        name,
+        source,
+        report,
+    })
+}
+
+fn file_name(path: &Path) -> String {
+    path.file_name()
+        .unwrap_or(path.as_os_str())
+        .to_string_lossy()
+        .into_owned()
+}
+
+fn rows(tree: &Tree) -> Vec<Row> {
+    let row = |body: &crate::tree::Body| Row {
+        joint: body.joint.clone(),
+        body: body.name.clone(),
+        parent: body
+            .parent
+            .map_or(tree.base.clone(), |parent| tree.bodies[parent].name.clone()),
+        kind: format!("{:?}", body.kind).to_lowercase(),
+        mass: body.inertia.mass,
+        range: body.limits.position,
+        effort: body.limits.effort,
+        follows: body
+            .follows
+            .map(|(leader, ..)| tree.bodies[leader].joint.clone()),
+    };
+    tree.bodies.iter().map(row).collect()
+}
+
+/// Takes the nearest physical inertia of every link that has none, and says so.
+fn repair(robot: &mut Description, notes: &mut Vec<String>) {
+    for link in &mut robot.links {
+        let Some(inertial) = &mut link.inertial else {
+            continue;
+        };
+        if let Some(found) = violation(inertial.inertia, 0.0) {
+            inertial.inertia = found.repaired;
+            notes.push(format!(
+                "The inertia of link `{}` was not physical by {:.1e} of its largest moment: the nearest physical one is taken.",
+                link.name, found.excess
+            ));
+        }
+    }
+}
+
+/// Imports and writes the file.
+///
+/// # Errors
+/// As [`import`], and a file that cannot be written.
+pub fn run(args: &Args, today: &str) -> Result<Imported> {
+    let imported = import(args, today)?;
+    if let Some(out) = &args.out {
+        std::fs::write(out, &imported.source).map_err(|error| {
+            ImportError::from(Problem::File {
+                path: out.display().to_string(),
+                reason: error.to_string(),
+            })
+        })?;
+    }
+    Ok(imported)
+}

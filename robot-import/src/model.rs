@@ -1,0 +1,193 @@
+//! A tree as a model of the library that is built at run time, of any size.
+//!
+//! The library's models have their sizes in their types. A tree is therefore filled up to the next of three sizes with
+//! massless bodies on joints of the base, which change no torque of the tree's joints.
+
+use dynamics_core::algorithms::{crba, rnea};
+use dynamics_core::effects::{Inertia, RIGID_BODY};
+use dynamics_core::model::{BASE, Body, Joint, JointLimits, Model, ModelError};
+use dynamics_core::state::State;
+
+use crate::description::Kind;
+use crate::error::{Problem, Result};
+use crate::number::Attitude;
+use crate::tree::{self, Tree};
+
+/// A state: q, q̇ and q̈.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Motion {
+    /// Position.
+    pub q: Vec<f64>,
+    /// Velocity.
+    pub qd: Vec<f64>,
+    /// Acceleration.
+    pub qdd: Vec<f64>,
+}
+
+/// The library's results of a tree at a state.
+#[derive(Clone, Debug)]
+pub struct Dynamics {
+    /// Inverse dynamics in f64, N·m or N.
+    pub torque: Vec<f64>,
+    /// The same in f32.
+    pub torque_f32: Vec<f64>,
+    /// M, row by row.
+    pub inertia: Vec<Vec<f64>>,
+}
+
+/// A tree as a model.
+#[derive(Debug)]
+pub enum AnyModel {
+    /// Of up to 18 velocity coordinates.
+    Small(Box<Sized<24, 26>>),
+    /// Of up to 66.
+    Middle(Box<Sized<72, 74>>),
+    /// Of up to 136.
+    Large(Box<Sized<160, 168>>),
+}
+
+/// A model filled up to N bodies and velocity coordinates, and Q position coordinates.
+#[derive(Debug)]
+pub struct Sized<const N: usize, const Q: usize> {
+    exact: Model<f64, N, Q, N>,
+    rounded: Model<f32, N, Q, N>,
+    /// How many ball joints fill it up.
+    balls: usize,
+}
+
+/// The most velocity coordinates of a tree that is checked.
+pub const MOST_COORDINATES: usize = 136;
+
+impl AnyModel {
+    /// The model of a tree.
+    ///
+    /// # Errors
+    /// More coordinates than [`MOST_COORDINATES`], or numbers that the library refuses.
+    pub fn of(tree: &Tree) -> Result<Self> {
+        let v = tree.coordinates()[1].max(tree.bodies.len());
+        Ok(match v {
+            0..=18 => Self::Small(Sized::of(tree)?),
+            19..=66 => Self::Middle(Sized::of(tree)?),
+            67..=MOST_COORDINATES => Self::Large(Sized::of(tree)?),
+            _ => {
+                return Err(Problem::TooLarge {
+                    what: "coordinates of a robot",
+                    found: v,
+                    most: MOST_COORDINATES,
+                }
+                .into());
+            }
+        })
+    }
+
+    /// Its dynamics at a state.
+    pub fn dynamics(&self, motion: &Motion) -> Dynamics {
+        match self {
+            Self::Small(model) => model.dynamics(motion),
+            Self::Middle(model) => model.dynamics(motion),
+            Self::Large(model) => model.dynamics(motion),
+        }
+    }
+}
+
+impl<const N: usize, const Q: usize> Sized<N, Q> {
+    fn of(tree: &Tree) -> Result<Box<Self>> {
+        let [q, v] = tree.coordinates();
+        // A ball joint has one position coordinate more than velocity coordinates.
+        let balls = (Q - N).saturating_sub(q - v);
+        let too_many = q - v > Q - N || v + 3 * balls > N;
+        if too_many {
+            return Err(Problem::TooLarge {
+                what: "ball joints and free joints",
+                found: q - v,
+                most: Q - N,
+            }
+            .into());
+        }
+        let revolute = N - v - 3 * balls;
+        let bodies = std::array::from_fn(|i| match tree.bodies.get(i) {
+            Some(body) => described(body),
+            None => {
+                let joint = match i - tree.bodies.len() {
+                    more if more < balls => Joint::spherical(),
+                    more if more < balls + revolute => Joint::revolute([0.0, 0.0, 1.0]),
+                    _ => Joint::fixed(),
+                };
+                Body::new("filler", BASE, joint)
+            }
+        });
+        let refused = |error: ModelError| Problem::Value(error.to_string());
+        let exact = Model::try_new("tree", bodies).map_err(refused)?;
+        let rounded = exact.to_f32();
+        Ok(Box::new(Self {
+            exact,
+            rounded,
+            balls,
+        }))
+    }
+
+    fn dynamics(&self, motion: &Motion) -> Dynamics {
+        let (mut q, qd, qdd) = (
+            filled::<Q>(&motion.q),
+            filled(&motion.qd),
+            filled(&motion.qdd),
+        );
+        // Unit quaternions (x, y, z, w).
+        let fillers = q[motion.q.len()..].chunks_mut(4).take(self.balls);
+        fillers.for_each(|quaternion| quaternion[3] = 1.0);
+        let state = State { q, qd, qdd };
+        let torque = rnea(&self.exact, &state, &RIGID_BODY);
+        let small = State {
+            q: q.map(|x| x as f32),
+            qd: qd.map(|x| x as f32),
+            qdd: qdd.map(|x| x as f32),
+        };
+        let torque_f32 = rnea(&self.rounded, &small, &RIGID_BODY);
+        let m = crba(&self.exact, &q, &(Inertia,));
+        let v = motion.qd.len();
+        Dynamics {
+            torque: torque[..v].to_vec(),
+            torque_f32: torque_f32[..v].iter().map(|&x| f64::from(x)).collect(),
+            inertia: (0..v)
+                .map(|i| (0..v).map(|j| m.get(i, j)).collect())
+                .collect(),
+        }
+    }
+}
+
+/// Coordinates with zeros for the fillers.
+fn filled<const N: usize>(values: &[f64]) -> [f64; N] {
+    std::array::from_fn(|i| values.get(i).copied().unwrap_or_default())
+}
+
+/// A body as the library takes it, with the numbers that the written file has.
+fn described(body: &tree::Body) -> Body {
+    let joint = match body.kind {
+        Kind::Fixed => Joint::fixed(),
+        Kind::Revolute => Joint::revolute(body.axis),
+        Kind::Continuous => Joint::continuous(body.axis),
+        Kind::Prismatic => Joint::prismatic(body.axis),
+        Kind::Spherical => Joint::spherical(),
+        Kind::Planar => Joint::planar(),
+        Kind::Free => Joint::free(),
+    };
+    let placed = Body::new("body", body.parent.unwrap_or(BASE), joint).xyz(body.xyz);
+    let placed = match body.attitude {
+        Attitude::QuarterTurns(turns) => placed.quarter_turns(turns),
+        Attitude::Rpy(rpy) => placed.rpy(rpy),
+    };
+    let [lower, upper] = body
+        .limits
+        .position
+        .unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
+    placed
+        .mass(body.inertia.mass)
+        .com(body.inertia.com)
+        .inertia(body.inertia.inertia)
+        .limits(JointLimits {
+            lower,
+            upper,
+            velocity: body.limits.velocity.unwrap_or(f64::INFINITY),
+            torque: body.limits.effort.unwrap_or(f64::INFINITY),
+        })
+}

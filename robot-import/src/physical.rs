@@ -1,0 +1,101 @@
+//! Whether an inertia is one that a distribution of mass can have, and the nearest that is.
+//!
+//! About the centre of mass the second moments Σ = ½ tr(I) 1 − I have to be positive semidefinite (the triangle
+//! inequality of the principal moments; Wensing, Kim and Slotine 2018). The nearest physical inertia is that of Σ with
+//! its negative eigenvalues set to zero: the projection in the Frobenius norm.
+
+use dynamics_core::glam::{DMat3, DVec3};
+
+use crate::inertia::{entries, matrix};
+
+/// A second moment that is negative.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Violation {
+    /// The principal axis about which the moment of inertia is larger than the sum of the two others.
+    pub axis: DVec3,
+    /// By how much, of the largest moment.
+    pub excess: f64,
+    /// The nearest physical inertia: xx, xy, xz, yy, yz, zz, kg·m².
+    pub repaired: [f64; 6],
+}
+
+/// The violation of an inertia about the centre of mass, if it is larger than `tolerance` of its largest moment.
+pub fn violation(inertia: [f64; 6], tolerance: f64) -> Option<Violation> {
+    let about_com = matrix(inertia);
+    let half_trace = 0.5 * (inertia[0] + inertia[3] + inertia[5]);
+    let second = DMat3::from_diagonal(DVec3::splat(half_trace)) - about_com;
+    let (values, axes) = eigen(second);
+    let [a, b, c] = values;
+    // Principal moments: the sums of two second moments.
+    let largest = [a + b, b + c, a + c]
+        .into_iter()
+        .fold(0.0, |most: f64, x| most.max(x.abs()));
+    let (worst, least) = (0..3)
+        .map(|i| (i, values[i]))
+        .min_by(|x, y| x.1.total_cmp(&y.1))?;
+    if largest == 0.0 || -least <= tolerance * largest {
+        return None;
+    }
+    let kept = values.map(|value| value.max(0.0));
+    let axes_matrix = DMat3::from_cols(axes[0], axes[1], axes[2]);
+    let second =
+        axes_matrix * DMat3::from_diagonal(DVec3::from_array(kept)) * axes_matrix.transpose();
+    let repaired = DMat3::from_diagonal(DVec3::splat(kept.iter().sum())) - second;
+    Some(Violation {
+        axis: axes[worst],
+        excess: -2.0 * least / largest,
+        repaired: entries(repaired),
+    })
+}
+
+/// Eigenvalues and eigenvectors of a symmetric matrix by Jacobi's rotations.
+pub fn eigen(mut m: DMat3) -> ([f64; 3], [DVec3; 3]) {
+    let mut axes = DMat3::IDENTITY;
+    for _ in 0..30 {
+        for (p, q) in [(0, 1), (0, 2), (1, 2)] {
+            let off = m.col(q)[p];
+            if off == 0.0 {
+                continue;
+            }
+            let theta = 0.5 * (2.0 * off).atan2(m.col(q)[q] - m.col(p)[p]);
+            let (s, c) = theta.sin_cos();
+            let mut turn = DMat3::IDENTITY;
+            turn.col_mut(p)[p] = c;
+            turn.col_mut(q)[q] = c;
+            turn.col_mut(q)[p] = s;
+            turn.col_mut(p)[q] = -s;
+            m = turn.transpose() * m * turn;
+            axes *= turn;
+        }
+    }
+    (
+        [0, 1, 2].map(|i| m.col(i)[i]),
+        [0, 1, 2].map(|i| axes.col(i)),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_rod_is_physical_and_an_axis_too_large_is_named_and_repaired() {
+        assert_eq!(violation([0.0, 0.0, 0.0, 1.0, 0.0, 1.0], 1e-9), None);
+        let found = violation([1.0, 0.0, 0.0, 1.0, 0.0, 2.5], 1e-9).expect("too large");
+        assert!((found.axis.z.abs() - 1.0).abs() < 1e-12);
+        assert!((found.excess - 0.2).abs() < 1e-12);
+        assert_eq!(violation(found.repaired, 1e-12), None);
+        // The second moments (0.25, 0.25, −… ) keep those that are positive: xx = yy = 1.25, zz = 2.5.
+        let [xx, _, _, yy, _, zz] = found.repaired;
+        assert!((xx - 1.25).abs() < 1e-12 && (yy - 1.25).abs() < 1e-12 && (zz - 2.5).abs() < 1e-12);
+    }
+
+    #[test]
+    fn eigenvectors_make_the_matrix_diagonal() {
+        let m = matrix([2.0, 0.3, -0.4, 1.5, 0.7, 0.9]);
+        let (values, axes) = eigen(m);
+        for (value, axis) in values.into_iter().zip(axes) {
+            assert!((m * axis - axis * value).length() < 1e-14);
+        }
+    }
+}

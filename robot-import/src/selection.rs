@@ -1,0 +1,173 @@
+//! The part of a description that becomes the robot: its base, and which of its joints move.
+
+use std::collections::HashMap;
+
+use crate::description::{Description, Kind};
+use crate::error::{ImportError, Problem, Result};
+
+/// What a user selects.
+#[derive(Clone, Debug, Default)]
+pub struct Selection {
+    /// The link that stands still; the root if none.
+    pub base: Option<String>,
+    /// Only the joints between the base and this link move.
+    pub tip: Option<String>,
+    /// Only these joints move.
+    pub joints: Vec<String>,
+    /// These joints stand still at a position, rad or m.
+    pub lock: Vec<(String, f64)>,
+    /// The base moves freely.
+    pub free_base: bool,
+}
+
+/// What a joint does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Role {
+    /// It moves.
+    Moves,
+    /// It stands still at a position, rad or m.
+    Locked(f64),
+}
+
+/// A selection in a description.
+#[derive(Clone, Debug)]
+pub struct Selected {
+    /// The index of the base link.
+    pub base: usize,
+    /// The joints below the base, parents first, by index.
+    pub order: Vec<usize>,
+    /// What each joint of the description does.
+    pub roles: Vec<Role>,
+    /// Whether the base moves freely.
+    pub free_base: bool,
+}
+
+impl Selection {
+    /// What the selection is in a description.
+    ///
+    /// # Errors
+    /// Names that there are not, a tip that is not below the base, a joint that cannot be locked at a position.
+    pub fn of(&self, robot: &Description) -> Result<Selected> {
+        let mut joint_of = vec![None; robot.links.len()];
+        for (j, joint) in robot.joints.iter().enumerate() {
+            joint_of[joint.child] = Some(j);
+        }
+        let base = match &self.base {
+            Some(name) => robot.link(name)?,
+            None => joint_of
+                .iter()
+                .position(Option::is_none)
+                .unwrap_or_default(),
+        };
+        let order = order(robot, base);
+        let mut roles: Vec<Role> = robot
+            .joints
+            .iter()
+            .map(|joint| match joint.kind {
+                Kind::Fixed => Role::Locked(0.0),
+                _ => Role::Moves,
+            })
+            .collect();
+        if let Some(tip) = &self.tip {
+            let mut on_path = vec![false; robot.joints.len()];
+            let mut at = robot.link(tip)?;
+            while at != base {
+                let Some(j) = joint_of[at] else {
+                    return Err(
+                        Problem::Value(format!("link `{tip}` is not below the base")).into(),
+                    );
+                };
+                on_path[j] = true;
+                at = robot.joints[j].parent;
+            }
+            lock_others(&mut roles, &on_path);
+        }
+        if !self.joints.is_empty() {
+            let mut listed = vec![false; robot.joints.len()];
+            for name in &self.joints {
+                let j = robot.joint(name)?;
+                if robot.joints[j].kind == Kind::Fixed || !order.contains(&j) {
+                    let problem =
+                        Problem::Value("it does not move, or is not below the base".to_owned());
+                    return Err(at_joint(robot, j, problem));
+                }
+                listed[j] = true;
+            }
+            lock_others(&mut roles, &listed);
+        }
+        for (name, position) in &self.lock {
+            let j = robot.joint(name)?;
+            let kind = robot.joints[j].kind;
+            if !position.is_finite() || (*position != 0.0 && !kind.has_axis()) {
+                let problem = format!("it cannot be locked at {position}");
+                return Err(at_joint(robot, j, Problem::Value(problem)));
+            }
+            roles[j] = Role::Locked(*position);
+        }
+        follow(robot, &mut roles)?;
+        Ok(Selected {
+            base,
+            order,
+            roles,
+            free_base: self.free_base,
+        })
+    }
+}
+
+fn at_joint(robot: &Description, j: usize, problem: Problem) -> ImportError {
+    let joint = &robot.joints[j];
+    ImportError::at(joint.line, format!("joint `{}`", joint.name), problem)
+}
+
+fn lock_others(roles: &mut [Role], moves: &[bool]) {
+    for (role, moves) in roles.iter_mut().zip(moves) {
+        if !moves {
+            *role = Role::Locked(0.0);
+        }
+    }
+}
+
+/// The joints below a link, parents first, each branch as a whole and in the order of the file.
+fn order(robot: &Description, base: usize) -> Vec<usize> {
+    let mut below = vec![Vec::new(); robot.links.len()];
+    for (j, joint) in robot.joints.iter().enumerate().rev() {
+        below[joint.parent].push(j);
+    }
+    let (mut order, mut next) = (Vec::new(), below[base].clone());
+    while let Some(j) = next.pop() {
+        order.push(j);
+        next.extend(&below[robot.joints[j].child]);
+    }
+    order
+}
+
+/// Joints that follow a locked joint are locked at their positions; none follows itself.
+fn follow(robot: &Description, roles: &mut [Role]) -> Result<()> {
+    let names = robot.joints.iter().enumerate();
+    let index: HashMap<&str, usize> = names.map(|(j, joint)| (joint.name.as_str(), j)).collect();
+    for (j, joint) in robot.joints.iter().enumerate() {
+        let (mut at, mut steps) = (j, 0);
+        let (mut ratio, mut offset) = (1.0, 0.0);
+        while let Some(mimic) = &robot.joints[at].mimic {
+            // A joint that follows none of the file's moves by itself.
+            let Some(&next) = index.get(mimic.joint.as_str()) else {
+                break;
+            };
+            offset += ratio * mimic.offset;
+            ratio *= mimic.multiplier;
+            at = next;
+            steps += 1;
+            if steps > robot.joints.len() {
+                let problem = Problem::Value("it follows itself".to_owned());
+                return Err(at_joint(robot, j, problem));
+            }
+        }
+        if at == j || joint.kind == Kind::Fixed {
+            continue;
+        }
+        if let (Role::Moves, Role::Locked(position)) = (roles[j], roles[at]) {
+            roles[j] = Role::Locked(ratio * position + offset);
+        }
+    }
+    Ok(())
+}

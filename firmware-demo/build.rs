@@ -39,6 +39,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     fs::write(out.join("states.rs"), source)?;
     fs::write(out.join("torques.rs"), torques()?)?;
+    fs::write(out.join("own_robot.rs"), own_robot()?)?;
     Ok(())
 }
 
@@ -75,4 +76,17 @@ fn torques() -> Result<String, Box<dyn Error>> {
     }
     writeln!(source, "];")?;
     Ok(source)
+}
+
+/// The module of the file that `OWN_ROBOT` names, and the type that `OWN_ROBOT_TYPE` names in it.
+fn own_robot() -> Result<String, Box<dyn Error>> {
+    println!("cargo:rerun-if-env-changed=OWN_ROBOT");
+    println!("cargo:rerun-if-env-changed=OWN_ROBOT_TYPE");
+    let (Ok(file), Ok(name)) = (env::var("OWN_ROBOT"), env::var("OWN_ROBOT_TYPE")) else {
+        return Ok("compile_error!(\"`cargo xtask import` names the robot's file\");".to_owned());
+    };
+    println!("cargo:rerun-if-changed={file}");
+    Ok(format!(
+        "#[path = {file:?}]\nmod robot;\ntype OwnRobot = robot::{name};\n"
+    ))
 }

@@ -38,10 +38,10 @@ pub struct Dynamics {
 /// A tree as a model.
 #[derive(Debug)]
 pub enum AnyModel {
-    /// Of up to 18 velocity coordinates.
-    Small(Box<Sized<24, 26>>),
-    /// Of up to 66.
-    Middle(Box<Sized<72, 74>>),
+    /// Of up to 16 velocity coordinates.
+    Small(Box<Sized<28, 32>>),
+    /// Of up to 64.
+    Middle(Box<Sized<76, 80>>),
     /// Of up to 136.
     Large(Box<Sized<160, 168>>),
 }
@@ -66,9 +66,9 @@ impl AnyModel {
     pub fn of(tree: &Tree) -> Result<Self> {
         let v = tree.coordinates()[1].max(tree.bodies.len());
         Ok(match v {
-            0..=18 => Self::Small(Sized::of(tree)?),
-            19..=66 => Self::Middle(Sized::of(tree)?),
-            67..=MOST_COORDINATES => Self::Large(Sized::of(tree)?),
+            0..=16 => Self::Small(Sized::of(tree)?),
+            17..=64 => Self::Middle(Sized::of(tree)?),
+            65..=MOST_COORDINATES => Self::Large(Sized::of(tree)?),
             _ => {
                 return Err(Problem::TooLarge {
                     what: "coordinates of a robot",

@@ -181,7 +181,7 @@ impl Tree {
             let leader = body_of_joint.get(at).copied();
             self.bodies[body].follows = leader
                 .filter(|&leader| leader != body)
-                .map(|leader| (leader, ratio, offset));
+                .map(|leader| (leader, tidy(ratio), tidy(offset)));
         }
     }
 }

@@ -21,6 +21,7 @@ mod hard_cases;
 mod history;
 mod host_bin;
 mod host_table;
+mod import;
 mod layers;
 mod lines;
 mod meter;
@@ -80,6 +81,8 @@ enum Command {
     Effects(Json),
     /// Measure what accuracy costs in time, rewrite docs/accuracy.md and its plots; or choose a configuration
     Accuracy(accuracy::Args),
+    /// Write the Rust file of a robot from URDF or MJCF, with advice, a check, and what its inverse dynamics costs
+    Import(import::Args),
     /// Measure a firmware of your own between its markers, and check its instructions
     #[command(after_long_help = user_firmware::MARKERS)]
     Meter(user_firmware::Args),
@@ -192,6 +195,7 @@ fn run(cli: Cli) -> Result<ExitCode> {
         Command::History(Json { json }) => history::run(setup, json),
         Command::Effects(Json { json }) => effects::run(setup, json),
         Command::Accuracy(wish) => accuracy::run(setup, wish),
+        Command::Import(args) => import::run(setup, &args),
         Command::Meter(args) => user_firmware::run(setup, &args),
         Command::Eliminations => host_table::ELIMINATIONS.run(),
         Command::Loops => host_table::LOOPS.run(),

@@ -18,6 +18,8 @@ use random::Random;
 
 /// The number of states.
 pub const STATES: usize = 100;
+/// The work of the energies: links times coordinates times states. A robot with more of it is checked at fewer states.
+const MOST_WORK: usize = 2_000_000;
 /// The largest difference of torques, of full scale.
 pub const MOST: f64 = 1e-10;
 
@@ -55,8 +57,23 @@ impl Checked {
 pub fn check(robot: &Description, selected: &Selected, states: usize) -> Result<Checked> {
     let given = Tree::of(robot, selected, Numbers::AsGiven)?;
     let exact = Tree::of(robot, selected, Numbers::Exact)?;
-    let (library, snapped) = (AnyModel::of(&given)?, AnyModel::of(&exact)?);
+    check_trees(robot, selected, [&given, &exact], states)
+}
+
+/// Checks trees of a selection, one of the file's numbers and one with exact values.
+///
+/// # Errors
+/// As [`check()`].
+pub fn check_trees(
+    robot: &Description,
+    selected: &Selected,
+    [given, exact]: [&Tree; 2],
+    states: usize,
+) -> Result<Checked> {
+    let (library, snapped) = (AnyModel::of(given)?, AnyModel::of(exact)?);
     let energy = Energy::of(robot, selected);
+    let work = robot.links.len() * energy.coordinates.max(1);
+    let states = states.min(MOST_WORK / work).max(1);
     let mut random = Random::new(1);
     let mut checked = Checked {
         states,
@@ -76,7 +93,7 @@ pub fn check(robot: &Description, selected: &Selected, states: usize) -> Result<
         // Attitudes within a quarter turn keep the chain of a ball joint away from its singularity.
         let (u, ud, udd) = (draw(1.2), draw(2.0), draw(5.0));
         let by_energy = energy.torque(&u, &ud, &udd);
-        let (motion, columns) = in_library(&given, &u, &ud, &udd);
+        let (motion, columns) = in_library(given, &u, &ud, &udd);
         let found = library.dynamics(&motion);
         let moved = snapped.dynamics(&motion);
         let in_chain = on_chain(&columns, &found.torque);

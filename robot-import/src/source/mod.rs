@@ -42,13 +42,22 @@ pub fn read(path: &Path) -> Result<Description> {
 /// # Errors
 /// [`ImportError`] with the line and the element.
 pub fn parse(text: &str, folder: &Path) -> Result<Description> {
-    let document = xml::parse(text.trim_start_matches('\u{feff}'))?;
+    let text = text.trim_start_matches('\u{feff}');
+    let document = xml::parse(text)?;
     let root = document.root_element();
     let mut robot = match root.tag_name().name() {
         "robot" => urdf::read(root)?,
         "mujoco" => mjcf::read(root, folder)?,
         _ => return Err(xml::error(root, Problem::Format)),
     };
+    // So far offsets.
+    let lines = xml::Lines::of(text);
+    let of_links = robot.links.iter_mut().map(|link| &mut link.line);
+    let of_joints = robot.joints.iter_mut().map(|joint| &mut joint.line);
+    let of_loops = robot.loops.iter_mut().map(|closed| &mut closed.line);
+    for line in of_links.chain(of_joints).chain(of_loops) {
+        *line = lines.line(*line);
+    }
     if robot.licence.is_none() {
         robot.licence = licence(text);
     }
@@ -79,17 +88,22 @@ fn licence(text: &str) -> Option<String> {
     found.map(|name| (*name).to_owned())
 }
 
+/// Fails if there are more links or joints than a robot has.
+fn few_enough(count: usize) -> Result<()> {
+    if count <= MOST_LINKS {
+        return Ok(());
+    }
+    Err(Problem::TooLarge {
+        what: "links or joints",
+        found: count,
+        most: MOST_LINKS,
+    }
+    .into())
+}
+
 /// What both formats require: few enough links, different names, numbers of a robot's size, joints that are a tree.
 fn check(robot: &Description) -> Result<()> {
-    let count = robot.links.len().max(robot.joints.len());
-    if count > MOST_LINKS {
-        return Err(Problem::TooLarge {
-            what: "links",
-            found: count,
-            most: MOST_LINKS,
-        }
-        .into());
-    }
+    few_enough(robot.links.len().max(robot.joints.len()))?;
     let links = robot.links.iter().map(|link| (&link.name, link.line));
     let joints = robot.joints.iter().map(|joint| (&joint.name, joint.line));
     unique("link", links)?;

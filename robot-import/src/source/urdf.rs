@@ -21,6 +21,10 @@ pub fn read(root: Node<'_, '_>) -> Result<Description> {
         };
         return Err(xml::error(root, problem));
     }
+    let count = children(root, "link")
+        .count()
+        .max(children(root, "joint").count());
+    super::few_enough(count)?;
     let links = children(root, "link").map(link);
     let links = links.collect::<Result<Vec<_>>>()?;
     // Transmissions have elements of the same tag; they are no children of the root.
@@ -40,7 +44,7 @@ fn link(node: Node<'_, '_>) -> Result<Link> {
     let inertial = child(node, "inertial").map(|inertial| mass(node, inertial));
     Ok(Link {
         name: required(node, "name")?.to_owned(),
-        line: xml::line(node),
+        line: xml::offset(node),
         inertial: inertial.transpose()?,
     })
 }
@@ -201,7 +205,7 @@ fn joint(node: Node<'_, '_>, links: &[Link]) -> Result<Joint> {
         Ok(stated.transpose()?.flatten().unwrap_or_default())
     };
     Ok(Joint {
-        line: xml::line(node),
+        line: xml::offset(node),
         parent: end("parent")?,
         child: end("child")?,
         origin: at.pose,

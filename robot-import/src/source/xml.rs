@@ -59,9 +59,29 @@ fn depth(text: &str) -> usize {
     most
 }
 
-/// The line of an element, from 1.
-pub fn line(node: Node<'_, '_>) -> u32 {
-    node.document().text_pos_at(node.range().start).row
+/// Where an element starts, in bytes: a search for its line would take as long as the file is.
+pub fn offset(node: Node<'_, '_>) -> u32 {
+    node.range().start as u32
+}
+
+/// The lines of offsets, from 1.
+pub struct Lines(Vec<u32>);
+
+impl Lines {
+    /// Of a text.
+    pub fn of(text: &str) -> Self {
+        let ends = text.bytes().enumerate();
+        Self(
+            ends.filter(|(_, byte)| *byte == b'\n')
+                .map(|(i, _)| i as u32)
+                .collect(),
+        )
+    }
+
+    /// The line of an offset.
+    pub fn line(&self, offset: u32) -> u32 {
+        self.0.partition_point(|end| *end < offset) as u32 + 1
+    }
 }
 
 /// An error at an element.
@@ -71,7 +91,8 @@ pub fn error(node: Node<'_, '_>, problem: Problem) -> ImportError {
         Some(name) => format!("{tag} `{}`", shortened(name)),
         None => format!("<{tag}>"),
     };
-    ImportError::at(line(node), element, problem)
+    let line = node.document().text_pos_at(node.range().start).row;
+    ImportError::at(line, element, problem)
 }
 
 /// The elements of this tag directly below.

@@ -1,0 +1,262 @@
+//! What an import makes of a file, and that its check fails where the import is wrong.
+
+use std::path::Path;
+
+use robot_import::advice::{Topic, advice};
+use robot_import::check::{MOST, STATES, check, check_trees};
+use robot_import::description::{Description, Kind};
+use robot_import::number::Attitude;
+use robot_import::selection::Selection;
+use robot_import::source::parse;
+use robot_import::tree::{Numbers, Tree};
+
+const SO101: &str = include_str!("urdf/so101.urdf");
+/// Every kind of joint, fixed parts between them, a mimic of a mimic, friction and inertias about turned axes.
+const ZOO: &str = include_str!("urdf/zoo.urdf");
+
+fn read(text: &str) -> Description {
+    parse(text, Path::new(".")).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn tree(robot: &Description, selection: &Selection) -> Tree {
+    let selected = selection.of(robot).expect("a selection");
+    Tree::of(robot, &selected, Numbers::Exact).expect("a tree")
+}
+
+fn holds(robot: &Description, selection: &Selection) {
+    let selected = selection.of(robot).expect("a selection");
+    let checked = check(robot, &selected, STATES).expect("of the library's sizes");
+    assert!(checked.holds(), "{checked:?}");
+}
+
+#[test]
+fn every_kind_of_joint_has_the_torques_of_lagranges_equations() {
+    let robot = read(ZOO);
+    holds(&robot, &Selection::default());
+    let free_base = true;
+    holds(
+        &robot,
+        &Selection {
+            free_base,
+            ..Selection::default()
+        },
+    );
+    let lock = vec![("lift".into(), 0.4), ("turn".into(), -0.3)];
+    holds(
+        &robot,
+        &Selection {
+            lock,
+            ..Selection::default()
+        },
+    );
+    let (base, tip) = (Some("plate".into()), Some("finger".into()));
+    holds(
+        &robot,
+        &Selection {
+            base,
+            tip,
+            ..Selection::default()
+        },
+    );
+    let joints = vec!["lift".into(), "finger_joint".into()];
+    holds(
+        &robot,
+        &Selection {
+            joints,
+            ..Selection::default()
+        },
+    );
+}
+
+#[test]
+fn a_check_fails_where_a_number_of_the_tree_is_wrong() {
+    let robot = read(SO101);
+    let selected = Selection::default().of(&robot).expect("all joints");
+    let given = Tree::of(&robot, &selected, Numbers::AsGiven).expect("a tree");
+    type Change = fn(&mut Tree);
+    let broken: [(&str, Change); 6] = [
+        ("mass", |tree| tree.bodies[3].inertia.mass *= 1.0 + 1e-6),
+        ("centre of mass", |tree| {
+            tree.bodies[4].inertia.com[2] += 1e-8
+        }),
+        ("inertia", |tree| tree.bodies[1].inertia.inertia[1] += 1e-9),
+        ("offset", |tree| tree.bodies[2].xyz[1] += 1e-8),
+        ("axis", |tree| tree.bodies[5].axis[2] = -1.0),
+        ("parent", |tree| tree.bodies[5].parent = Some(3)),
+    ];
+    for (name, change) in broken {
+        let mut wrong = given.clone();
+        change(&mut wrong);
+        let checked =
+            check_trees(&robot, &selected, [&wrong, &given], 20).expect("of the library's sizes");
+        assert!(
+            !checked.holds() && checked.energy > 10.0 * MOST,
+            "{name}: {:e}",
+            checked.energy
+        );
+    }
+    let right =
+        check_trees(&robot, &selected, [&given, &given], 20).expect("of the library's sizes");
+    assert!(right.holds());
+}
+
+#[test]
+fn roundings_of_right_angles_and_zeros_become_exact_and_are_reported() {
+    let robot = read(SO101);
+    let tree = tree(&robot, &Selection::default());
+    let quarters = |k: usize| tree.bodies[k].attitude;
+    assert_eq!(quarters(0), Attitude::QuarterTurns([2, 0, 2]));
+    assert_eq!(quarters(2), Attitude::QuarterTurns([0, 0, 1]));
+    assert_eq!(tree.bodies[0].xyz, [0.0388353, 0.0, 0.0624]);
+    // Its pitch of 2.8 degrees is none.
+    assert!(matches!(quarters(4), Attitude::Rpy([_, 0.0486795, _])));
+    let snapped: usize = tree.bodies.iter().map(|body| body.snapped.len()).sum();
+    assert_eq!(snapped, 20);
+    let selected = Selection::default().of(&robot).expect("all joints");
+    let checked = check(&robot, &selected, STATES).expect("of the library's sizes");
+    assert!(
+        (1e-7..1e-5).contains(&checked.snapping),
+        "{:e}",
+        checked.snapping
+    );
+}
+
+#[test]
+fn fixed_parts_are_merged_and_mimics_of_mimics_resolved() {
+    let robot = read(ZOO);
+    let tree = tree(&robot, &Selection::default());
+    let names: Vec<&str> = tree.bodies.iter().map(|body| body.name.as_str()).collect();
+    assert_eq!(
+        names,
+        [
+            "carriage", "ball", "plate", "finger", "thumb", "tail", "drone"
+        ]
+    );
+    assert_eq!(tree.bodies[0].merged, ["bracket"]);
+    assert_eq!(tree.bodies[0].inertia.mass, 3.5);
+    assert_eq!(tree.bodies[4].follows, Some((3, -0.5, 0.1)));
+    assert_eq!(tree.bodies[5].follows, Some((3, 1.0, -0.3)));
+    assert_eq!(tree.bodies[6].kind, Kind::Free);
+    assert_eq!(tree.bodies[0].damping, 12.0);
+}
+
+#[test]
+fn a_joint_that_follows_a_locked_one_is_locked_where_it_follows_to() {
+    let robot = read(ZOO);
+    let lock = vec![("finger_joint".into(), 0.2)];
+    let selection = Selection {
+        lock,
+        ..Selection::default()
+    };
+    let tree = tree(&robot, &selection);
+    assert!(
+        tree.bodies
+            .iter()
+            .all(|body| !["finger", "thumb", "tail"].contains(&&*body.name))
+    );
+    holds(&robot, &selection);
+}
+
+#[test]
+fn a_selection_of_what_is_not_there_is_an_error_with_a_suggestion() {
+    let robot = read(SO101);
+    let error = |selection: Selection| selection.of(&robot).expect_err("not there").to_string();
+    let joints = vec!["shoulder_pann".into()];
+    assert_eq!(
+        error(Selection {
+            joints,
+            ..Selection::default()
+        }),
+        "there is no joint `shoulder_pann`; did you mean `shoulder_pan`?"
+    );
+    let (base, tip) = (Some("wrist_link".into()), Some("shoulder_link".into()));
+    let text = error(Selection {
+        base,
+        tip,
+        ..Selection::default()
+    });
+    assert_eq!(text, "link `shoulder_link` is not below the base");
+    let lock = vec![("elbow_flex".into(), f64::NAN)];
+    let text = error(Selection {
+        lock,
+        ..Selection::default()
+    });
+    assert!(
+        text.contains("joint `elbow_flex`: it cannot be locked at NaN"),
+        "{text}"
+    );
+}
+
+#[test]
+fn each_topic_of_advice_names_its_line() {
+    let robot = read(include_str!("urdf/advice.urdf"));
+    let selected = Selection::default().of(&robot).expect("all joints");
+    let tree = Tree::of(&robot, &selected, Numbers::Exact).expect("a tree");
+    let all = advice(&robot, &selected, &tree);
+    let found: Vec<(Topic, u32)> = all
+        .iter()
+        .map(|advice| (advice.topic, advice.line))
+        .collect();
+    assert_eq!(
+        found,
+        [
+            (Topic::NonPhysical, 5),
+            (Topic::Placeholder, 9),
+            (Topic::Placeholder, 13),
+            (Topic::Tiny, 17),
+            (Topic::Massless, 46),
+            (Topic::Axis, 25),
+            (Topic::Limits, 25),
+            (Topic::Limits, 30),
+            (Topic::Limits, 35),
+            (Topic::Mimic, 40),
+            (Topic::Mimic, 46),
+        ],
+        "{all:#?}"
+    );
+    assert!(
+        all[0]
+            .text
+            .contains("(0.00, 0.00, 1.00) exceeds the sum of the two others by 20.0 %")
+    );
+}
+
+#[test]
+fn numbers_agree_with_another_reader() {
+    let other = urdf_rs::read_from_string(SO101).expect("read");
+    let own = read(SO101);
+    assert_eq!(own.links.len(), other.links.len());
+    for (own, other) in own.links.iter().zip(&other.links) {
+        let inertial = own.inertial.expect("each has one");
+        let inertia = &other.inertial.inertia;
+        assert_eq!(inertial.mass, other.inertial.mass.value);
+        assert_eq!(
+            inertial.frame.position.to_array(),
+            *other.inertial.origin.xyz
+        );
+        let entries = [
+            inertia.ixx,
+            inertia.ixy,
+            inertia.ixz,
+            inertia.iyy,
+            inertia.iyz,
+            inertia.izz,
+        ];
+        assert_eq!(inertial.inertia, entries);
+    }
+    for (own, other) in own.joints.iter().zip(&other.joints) {
+        assert_eq!(own.origin.position.to_array(), *other.origin.xyz);
+        let limits = [own.limits.velocity, own.limits.effort];
+        if own.kind == Kind::Revolute {
+            assert_eq!(own.axis.to_array(), *other.axis.xyz);
+            assert_eq!(
+                own.limits.position,
+                Some([other.limit.lower, other.limit.upper])
+            );
+            assert_eq!(
+                limits,
+                [Some(other.limit.velocity), Some(other.limit.effort)]
+            );
+        }
+    }
+}

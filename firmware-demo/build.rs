@@ -39,7 +39,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     fs::write(out.join("states.rs"), source)?;
     fs::write(out.join("torques.rs"), torques()?)?;
-    fs::write(out.join("own_robot.rs"), own_robot()?)?;
+    fs::write(out.join("own_robots.rs"), own_robots()?)?;
     Ok(())
 }
 
@@ -78,15 +78,18 @@ fn torques() -> Result<String, Box<dyn Error>> {
     Ok(source)
 }
 
-/// The module of the file that `OWN_ROBOT` names, and the type that `OWN_ROBOT_TYPE` names in it.
-fn own_robot() -> Result<String, Box<dyn Error>> {
-    println!("cargo:rerun-if-env-changed=OWN_ROBOT");
-    println!("cargo:rerun-if-env-changed=OWN_ROBOT_TYPE");
-    let (Ok(file), Ok(name)) = (env::var("OWN_ROBOT"), env::var("OWN_ROBOT_TYPE")) else {
-        return Ok("compile_error!(\"`cargo xtask import` names the robot's file\");".to_owned());
+/// The modules of the files that `OWN_ROBOTS` names, `path:Type` separated by `;`, and a call for each.
+fn own_robots() -> Result<String, Box<dyn Error>> {
+    println!("cargo:rerun-if-env-changed=OWN_ROBOTS");
+    let Ok(robots) = env::var("OWN_ROBOTS") else {
+        return Ok("compile_error!(\"`cargo xtask import` names the robots' files\");".to_owned());
     };
-    println!("cargo:rerun-if-changed={file}");
-    Ok(format!(
-        "#[path = {file:?}]\nmod robot;\ntype OwnRobot = robot::{name};\n"
-    ))
+    let (mut modules, mut calls) = (String::new(), String::new());
+    for (i, robot) in robots.split(';').enumerate() {
+        let (file, name) = robot.rsplit_once(':').ok_or("expected path:Type")?;
+        println!("cargo:rerun-if-changed={file}");
+        writeln!(modules, "#[path = {file:?}]\nmod robot_{i};")?;
+        writeln!(calls, "    robot::<robot_{i}::{name}, {{ robot_{i}::V }}>(\"{i}\");")?;
+    }
+    Ok(format!("{modules}\nfn robots() {{\n{calls}}}\n"))
 }

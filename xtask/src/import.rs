@@ -19,8 +19,8 @@ use crate::toolchain::RELEASE;
 use crate::workspace::Workspace;
 
 const PACKAGE: &str = "robot-import";
-const BIN: &str = "own_robot";
-const FEATURE: &str = "own-robot";
+const BIN: &str = "own_robots";
+const FEATURE: &str = "own-robots";
 /// More joints than this do not fit into the RAM of the measured firmware.
 const MOST_JOINTS: u64 = 40;
 
@@ -81,7 +81,7 @@ pub fn run(options: Options, args: &Args) -> Result<ExitCode> {
     let robot = Robot { file, report };
     let measured = match no_measure {
         true => Err(check!("not measured: --no-measure")),
-        false => setup::for_demo(options).and_then(|tools| measure(&workspace, &tools, &robot)),
+        false => setup::for_demo(options).and_then(|tools| measure(&workspace, &tools, &[&robot])),
     };
     if json {
         let mut report = robot.report;
@@ -125,25 +125,33 @@ pub fn import(workspace: &Workspace, words: &[&str], file: PathBuf) -> Result<Ro
     Ok(Robot { file, report })
 }
 
-/// Builds the firmware's bin for a robot and runs it under the meter.
-pub fn measure(workspace: &Workspace, tools: &Tools, robot: &Robot) -> Result<Vec<Row>> {
+/// Whether the firmware takes a robot.
+pub fn is_measurable(robot: &Robot) -> bool {
     let [bodies, q, v] = [0, 1, 2].map(|i| robot.report["sizes"][i].as_u64().unwrap_or_default());
-    if bodies != v || q != v || v > MOST_JOINTS {
+    bodies == v && q == v && v <= MOST_JOINTS
+}
+
+/// Builds the firmware's bin for some robots and runs it under the meter; a robot's rows have its number as name.
+pub fn measure(workspace: &Workspace, tools: &Tools, robots: &[&Robot]) -> Result<Vec<Row>> {
+    if !robots.iter().all(|robot| is_measurable(robot)) {
         return Err(check!(
-            "not measured: the firmware takes up to {MOST_JOINTS} joints of one coordinate"
+            "the firmware takes up to {MOST_JOINTS} joints of one coordinate"
         ));
     }
     let spinner = Spinner::start("building the firmware for the robot");
-    let name = robot.report["type_name"].as_str().unwrap_or_default();
-    let file = std::path::absolute(&robot.file).map_err(Error::file("find", &robot.file))?;
+    let mut named = Vec::new();
+    for robot in robots {
+        let name = robot.report["type_name"].as_str().unwrap_or_default();
+        let file = std::path::absolute(&robot.file).map_err(Error::file("find", &robot.file))?;
+        named.push(format!("{}:{name}", file.display()));
+    }
     let mut build = tools.toolchain.firmware(workspace, "build");
     build
         .args(["--profile", RELEASE, "--features", FEATURE, "--bin", BIN])
         // The firmware's other bins are not built anew for it.
         .arg("--target-dir")
         .arg(workspace.target.join(FEATURE))
-        .env("OWN_ROBOT", &file)
-        .env("OWN_ROBOT_TYPE", name);
+        .env("OWN_ROBOTS", named.join(";"));
     shell::capture(&mut build)?;
     let target = workspace
         .target

@@ -34,6 +34,7 @@ mod protocol;
 mod qemu;
 mod render;
 mod report;
+mod robots;
 mod same_code;
 mod scene;
 mod scenes;
@@ -83,6 +84,8 @@ enum Command {
     Accuracy(accuracy::Args),
     /// Write the Rust file of a robot from URDF or MJCF, with advice, a check, and what its inverse dynamics costs
     Import(import::Args),
+    /// Import, check and measure the robots of published packages, rewrite docs/robots.md: takes minutes
+    Robots(robots::Args),
     /// Measure a firmware of your own between its markers, and check its instructions
     #[command(after_long_help = user_firmware::MARKERS)]
     Meter(user_firmware::Args),
@@ -196,6 +199,7 @@ fn run(cli: Cli) -> Result<ExitCode> {
         Command::Effects(Json { json }) => effects::run(setup, json),
         Command::Accuracy(wish) => accuracy::run(setup, wish),
         Command::Import(args) => import::run(setup, &args),
+        Command::Robots(args) => robots::run(setup, &args),
         Command::Meter(args) => user_firmware::run(setup, &args),
         Command::Eliminations => host_table::ELIMINATIONS.run(),
         Command::Loops => host_table::LOOPS.run(),

@@ -13,6 +13,7 @@ macro_rules! pages {
 
 pages! {
     first_torque "first-torque.md",
+    own_robot "own-robot.md",
     effects "effects.md",
     accuracy "accuracy.md",
     loops "loops.md",

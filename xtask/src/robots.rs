@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use crate::costs::Row;
+use crate::docs;
 use crate::error::{Error, Result, check};
 use crate::import::{self, Robot};
 use crate::progress::Spinner;
@@ -161,6 +162,71 @@ fn measure(workspace: &Workspace, tools: &Tools, folder: &Path, lines: &mut [Lin
     Ok(())
 }
 
+/// The description that the repository has, and its line of the page.
+const SAMPLE: (&str, &str) = ("robot-import/tests/urdf/so101.urdf", "so101");
+
+/// Fails unless the page has today's figures of the sample, measured with the page's compiler.
+pub fn check(workspace: &Workspace, tools: &Tools) -> Result<String> {
+    let (file, name) = SAMPLE;
+    let folder = tempfile::tempdir().map_err(Error::file("create", &workspace.target))?;
+    let path = workspace.root.join(file).to_string_lossy().into_owned();
+    let words = [&*path, "--name", name];
+    let robot = import::import(workspace, &words, folder.path().join("robot.rs"))?;
+    let mut rows = import::measure(workspace, tools, &[&robot])?;
+    rows.retain(|row| row.inputs == "full");
+    let line = Line {
+        name: name.to_owned(),
+        source: String::new(),
+        report: Some(robot.report),
+        refused: None,
+        rows,
+    };
+    let rustc = tools.toolchain.rustc_version()?;
+    let written = workspace::read(&workspace.root.join(PAGE))?;
+    let same_compiler = docs::rustc_of(&written) == Some(&*rustc);
+    compare(&written, &page(&[line], &rustc), name, same_compiler)?;
+    Ok(format!(
+        "{name}, {}",
+        if same_compiler {
+            "measured"
+        } else {
+            "another compiler"
+        }
+    ))
+}
+
+/// Compares a robot's row of two pages, but for the peer, whom not every machine has.
+fn compare(written: &str, fresh: &str, name: &str, same_compiler: bool) -> Result<()> {
+    let [old, new] = [written, fresh].map(|page| cells(page, name));
+    let (Some(old), Some(new)) = (old, new) else {
+        return Err(check!(
+            "{PAGE} has no line of {name}: `cargo xtask robots` rewrites it"
+        ));
+    };
+    let measured = if same_compiler { old.len() } else { PEER };
+    let differs = |i: &usize| *i != PEER && old.get(*i) != new.get(*i);
+    match (0..measured).find(differs) {
+        None => Ok(()),
+        Some(i) => Err(check!(
+            "{PAGE} is out of date: `cargo xtask robots` rewrites it\n  there: {}\n  now:   {}",
+            old[i],
+            new.get(i).map_or("", |cell| cell)
+        )),
+    }
+}
+
+/// The column of the peer.
+const PEER: usize = 4;
+
+/// The cells of a robot's row.
+fn cells<'a>(page: &'a str, name: &str) -> Option<Vec<&'a str>> {
+    let mut rows = page.lines().filter(|line| line.starts_with("| "));
+    rows.find_map(|row| {
+        let cells: Vec<&str> = row.trim_matches('|').split('|').map(str::trim).collect();
+        (cells.first() == Some(&name)).then_some(cells)
+    })
+}
+
 fn page(lines: &[Line], rustc: &str) -> String {
     let mut table = Table::new(&[
         "robot",
@@ -233,5 +299,23 @@ fn topics(advice: &Value) -> String {
     match words.is_empty() {
         true => "–".to_owned(),
         false => words.join(", "),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::compare;
+
+    #[test]
+    fn a_row_with_another_figure_is_out_of_date_but_for_the_peer() {
+        let page = |cycles: &str, peer: &str| {
+            format!("| so101 | 6 | – | 1e-7 | {peer} | 2 | {cycles} | 3 | 4 |")
+        };
+        let (old, new) = (page("990", "1e-16"), page("989", "–"));
+        assert!(compare(&old, &page("990", "–"), "so101", true).is_ok());
+        assert!(compare(&old, &new, "so101", true).is_err());
+        // Another compiler has other cycles.
+        assert!(compare(&old, &new, "so101", false).is_ok());
+        assert!(compare(&old, &new, "so100", true).is_err());
     }
 }

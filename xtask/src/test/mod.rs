@@ -28,7 +28,7 @@ use crate::setup::{self, Options, Tools};
 use crate::workspace::Workspace;
 use crate::{
     accuracy, effects, flexible, growth, hard_cases, history, host_table, layers, lines, meter,
-    shell,
+    robots, shell,
 };
 use Lane::{Host, Target};
 use Scope::{Everyday, Full};
@@ -115,6 +115,7 @@ const STEPS: &[Step] = &[
     ("loops", Host, Full, "docs/loops.md has today's accuracies of robots with loops", |c| host_table::LOOPS.check(&c.workspace)),
     ("flexible", Host, Full, "docs/flexible.md has today's errors of links that bend", |c| flexible::check(&c.workspace)),
     ("hard-cases", Host, Full, "every hard case holds, and docs/hard-cases.md has today's figures", |c| hard_cases::check(&c.workspace)),
+    ("robots", Target, Full, "an imported robot is checked, and costs what docs/robots.md says", |c| robots::check(&c.workspace, &c.tools)),
     ("readme", Target, Everyday, "the tables of README.md and docs/scenes.md are those of this run", scenes::readme),
     ("debian", Target, Full, "Debian's own compiler builds a scene that runs", others::debian),
     ("qemu-10", Target, Full, "QEMU 10 logs and measures what this machine's QEMU does, byte for byte", others::qemu_10),

@@ -11,7 +11,7 @@ pub enum Checked {
 }
 
 /// The files; a test compares the list with the repository.
-pub const FILES: [(&str, Checked); 26] = [
+pub const FILES: [(&str, Checked); 27] = [
     ("README.md", Checked::Step("readme")),
     ("docs/accuracy-a1_leg-all.svg", Checked::Step("accuracy")),
     ("docs/accuracy-a1_leg.svg", Checked::Step("accuracy")),
@@ -44,6 +44,7 @@ pub const FILES: [(&str, Checked); 26] = [
             "the other libraries are not installed for a test, and times are those of one machine",
         ),
     ),
+    ("docs/robots.md", Checked::Step("robots")),
     ("docs/scenes.md", Checked::Step("readme")),
     ("docs/ur5e.svg", Checked::Step("readme")),
 ];

@@ -1,0 +1,6 @@
+//! Robots from URDF or MJCF as constants of dynamics-core.
+
+pub mod description;
+pub mod error;
+pub mod snap;
+pub mod source;

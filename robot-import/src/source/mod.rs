@@ -1,0 +1,204 @@
+//! Files of descriptions, each format in a module.
+
+mod mjcf;
+mod urdf;
+pub mod xml;
+
+use std::collections::HashMap;
+use std::path::Path;
+
+use crate::description::{Description, shortened};
+use crate::error::{ImportError, Problem, Result};
+
+/// The most links of a robot.
+pub const MOST_LINKS: usize = 2_000;
+/// The largest length (m), mass (kg), inertia and other number.
+const MOST: f64 = 1e9;
+
+/// The robot that a file describes.
+///
+/// # Errors
+/// [`ImportError`] with the line and the element.
+pub fn read(path: &Path) -> Result<Description> {
+    let unreadable = |reason: std::io::Error| Problem::File {
+        path: path.display().to_string(),
+        reason: reason.to_string(),
+    };
+    let length = std::fs::metadata(path).map_err(unreadable)?.len();
+    if length > xml::MOST_BYTES as u64 {
+        return Err(Problem::TooLarge {
+            what: "bytes in the file",
+            found: length as usize,
+            most: xml::MOST_BYTES,
+        }
+        .into());
+    }
+    let text = std::fs::read_to_string(path).map_err(unreadable)?;
+    parse(&text, path.parent().unwrap_or(Path::new(".")))
+}
+
+/// The robot that a text describes; other files that it names are in `folder`.
+///
+/// # Errors
+/// [`ImportError`] with the line and the element.
+pub fn parse(text: &str, folder: &Path) -> Result<Description> {
+    let document = xml::parse(text.trim_start_matches('\u{feff}'))?;
+    let root = document.root_element();
+    let mut robot = match root.tag_name().name() {
+        "robot" => urdf::read(root)?,
+        "mujoco" => mjcf::read(root, folder)?,
+        _ => return Err(xml::error(root, Problem::Format)),
+    };
+    if robot.licence.is_none() {
+        robot.licence = licence(text);
+    }
+    check(&robot)?;
+    Ok(robot)
+}
+
+/// A licence's name in the comments at the beginning.
+fn licence(text: &str) -> Option<String> {
+    let names = [
+        "Apache-2.0",
+        "Apache License",
+        "BSD-3-Clause",
+        "BSD-2-Clause",
+        "BSD",
+        "MIT",
+        "MPL-2.0",
+        "LGPL",
+        "GPL",
+        "CC-BY",
+    ];
+    let start: String = text.chars().take(4_000).collect();
+    let comments = start.split("<!--").skip(1);
+    let comments: String = comments
+        .filter_map(|part| part.split("-->").next())
+        .collect();
+    let found = names.iter().find(|name| comments.contains(*name));
+    found.map(|name| (*name).to_owned())
+}
+
+/// What both formats require: few enough links, different names, numbers of a robot's size, joints that are a tree.
+fn check(robot: &Description) -> Result<()> {
+    let count = robot.links.len().max(robot.joints.len());
+    if count > MOST_LINKS {
+        return Err(Problem::TooLarge {
+            what: "links",
+            found: count,
+            most: MOST_LINKS,
+        }
+        .into());
+    }
+    let links = robot.links.iter().map(|link| (&link.name, link.line));
+    let joints = robot.joints.iter().map(|joint| (&joint.name, joint.line));
+    unique("link", links)?;
+    unique("joint", joints)?;
+    sizes(robot)?;
+    tree(robot)
+}
+
+fn unique<'a>(what: &'static str, names: impl Iterator<Item = (&'a String, u32)>) -> Result<()> {
+    let mut seen = HashMap::new();
+    for (name, line) in names {
+        if seen.insert(name, line).is_some() {
+            let element = format!("{what} `{}`", shortened(name));
+            return Err(ImportError::at(line, element, Problem::Duplicate(what)));
+        }
+    }
+    Ok(())
+}
+
+/// Numbers with which f64 does not overflow, and axes that are directions.
+fn sizes(robot: &Description) -> Result<()> {
+    for link in &robot.links {
+        let Some(inertial) = &link.inertial else {
+            continue;
+        };
+        let position = inertial.frame.position.to_array();
+        let all = [inertial.mass].into_iter().chain(position);
+        let largest = all
+            .chain(inertial.inertia)
+            .fold(0.0, |most: f64, x| most.max(x.abs()));
+        let problem = match () {
+            () if largest > MOST => format!("a number of its inertia is {largest:e}"),
+            () if inertial.mass < 0.0 => format!("its mass is {} kg", inertial.mass),
+            () => continue,
+        };
+        let element = format!("link `{}`", shortened(&link.name));
+        return Err(ImportError::at(link.line, element, Problem::Value(problem)));
+    }
+    for joint in &robot.joints {
+        let all = joint.origin.position.to_array().into_iter();
+        let all = all.chain([joint.damping, joint.friction, joint.armature]);
+        let largest = all.fold(0.0, |most: f64, x| most.max(x.abs()));
+        let axis = joint.axis.length();
+        let problem = match () {
+            () if largest > MOST => format!("a number of it is {largest:e}"),
+            () if joint.kind.has_axis() && !(1e-6..1e6).contains(&axis) => {
+                format!("its axis has the length {axis}")
+            }
+            () if joint.kind == crate::description::Kind::Planar
+                && joint.axis.normalize_or_zero() != dynamics_core::glam::DVec3::Z =>
+            {
+                "the normal of a planar joint has to be z: turn its frame".to_owned()
+            }
+            () => continue,
+        };
+        let element = format!("joint `{}`", shortened(&joint.name));
+        return Err(ImportError::at(
+            joint.line,
+            element,
+            Problem::Value(problem),
+        ));
+    }
+    Ok(())
+}
+
+/// Each link is the child of one joint at most, one of none, and all are below that one.
+fn tree(robot: &Description) -> Result<()> {
+    let mut joint_of = vec![None; robot.links.len()];
+    for (j, joint) in robot.joints.iter().enumerate() {
+        let name = || shortened(&robot.links[joint.child].name);
+        let at = |problem| {
+            let element = format!("joint `{}`", shortened(&joint.name));
+            ImportError::at(joint.line, element, problem)
+        };
+        if joint_of[joint.child].replace(j).is_some() {
+            return Err(at(Problem::TwoParents(name())));
+        }
+        if joint.child == joint.parent {
+            return Err(at(Problem::Cycle(name())));
+        }
+    }
+    let roots = robot.links.iter().zip(&joint_of);
+    let roots = roots.filter(|(_, joint)| joint.is_none());
+    let roots: Vec<&str> = roots.map(|(link, _)| link.name.as_str()).collect();
+    if roots.is_empty() && robot.links.is_empty() {
+        return Err(Problem::MissingElement("link").into());
+    }
+    // Marks: 0 not seen, i + 1 reached from link i first.
+    let mut seen = vec![0; robot.links.len()];
+    for i in 0..robot.links.len() {
+        let mut at = i;
+        while seen[at] == 0 {
+            seen[at] = i + 1;
+            match joint_of[at] {
+                Some(j) => at = robot.joints[j].parent,
+                None => break,
+            }
+        }
+        if seen[at] == i + 1 && joint_of[at].is_some() {
+            let joint = &robot.joints[joint_of[at].unwrap_or_default()];
+            let element = format!("joint `{}`", shortened(&joint.name));
+            let name = shortened(&robot.links[at].name);
+            return Err(ImportError::at(joint.line, element, Problem::Cycle(name)));
+        }
+    }
+    if roots.len() != 1 {
+        let some = roots.iter().take(5).map(|name| shortened(name));
+        let some = some.collect::<Vec<_>>().join(", ");
+        return Err(Problem::Roots(roots.len(), some).into());
+    }
+    Ok(())
+}

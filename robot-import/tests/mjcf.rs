@@ -4,6 +4,8 @@
 
 #[path = "mjcf/hostile.rs"]
 mod hostile;
+#[path = "mjcf/refused.rs"]
+mod refused;
 #[path = "mjcf/walk.rs"]
 mod walk;
 
@@ -159,7 +161,7 @@ fn recorded(path: &Path) -> Recorded {
 #[test]
 fn descriptions_move_as_in_mujoco() {
     let recorded = recorded(&folder().join("recorded.json"));
-    assert_eq!(recorded.models.len(), 18);
+    assert_eq!(recorded.models.len(), 19);
     let mut all = Vec::new();
     for (file, model) in &recorded.models {
         let robot = robot_import::source::read(&folder().join(file));

@@ -90,9 +90,12 @@ impl Walked {
             }
             return all;
         }
-        let first = match name {
-            "mimic" => "b",
-            "mimic by default" => "a",
+        // The joint that follows, and its coefficient in the constraint.
+        let (first, coefficient) = match name {
+            "mimic" => ("b", 1.0),
+            "mimic by default" => ("a", 1.0),
+            "b follows a" => ("b", -2.0),
+            "c follows b" => ("c", 3.0),
             _ => return Vec::new(),
         };
         let joint = robot.joints.iter().find(|joint| joint.name == first);
@@ -100,7 +103,7 @@ impl Walked {
             return Vec::new();
         };
         let [q, other] = [first, mimic.joint.as_str()].map(|name| state.joints[name].q[0]);
-        vec![q - mimic.multiplier * other - mimic.offset]
+        vec![coefficient * (q - mimic.multiplier * other - mimic.offset)]
     }
 }
 

@@ -3,18 +3,18 @@
 use std::collections::{HashMap, HashSet};
 
 use super::compiler::Compiler;
+use super::contents::{Around, Contents};
 use super::defaults::{Classes, View};
 use super::element::Element;
 use super::geom::{self, Geom, Solid};
 use super::pose::Placement;
 use super::{inertia, joint};
-use crate::description::{Joint, Kind, Limits, Link, Pose};
+use crate::description::{Joint, Kind, Link, Pose};
 use crate::error::{Problem, Result};
 use crate::source::MOST_LINKS;
 
 const KNOWN: &str =
     "axisangle childclass euler fuse gravcomp mocap name pos quat simple sleep user xyaxes zaxis";
-const IGNORED: [&str; 3] = ["camera", "light", "site"];
 
 /// The tree as far as it has been read.
 pub struct Tree<'e> {
@@ -38,29 +38,6 @@ pub struct Tree<'e> {
     pub without_mesh: Option<&'e Element>,
     names: HashSet<String>,
     counts: [usize; 2],
-}
-
-/// Where an element is.
-#[derive(Clone)]
-struct Around {
-    /// The link of the body.
-    link: usize,
-    /// The frame in the body.
-    frame: Placement,
-    /// The class of elements that name none.
-    class: usize,
-    /// Whether no joint is between the body and the world.
-    fixed: bool,
-}
-
-/// What a body has, with the frames around it.
-#[derive(Default)]
-struct Contents<'e> {
-    inertial: Option<(&'e Element, Placement)>,
-    joints: Vec<(&'e Element, Placement, usize)>,
-    geoms: Vec<(&'e Element, Placement, usize)>,
-    sites: Vec<(&'e Element, Placement, usize)>,
-    bodies: Vec<(&'e Element, Placement, usize)>,
 }
 
 impl<'e> Tree<'e> {
@@ -102,8 +79,7 @@ impl<'e> Tree<'e> {
                     .named(section, "childclass", tree.classes.main())?,
                 fixed: true,
             };
-            let mut contents = Contents::default();
-            tree.collect(section, &around, &mut contents)?;
+            let contents = Contents::read(section, &around, compiler, classes)?;
             if let Some((joint, ..)) = contents.joints.first() {
                 return Err(joint.value("the world has no joint"));
             }
@@ -149,51 +125,10 @@ impl<'e> Tree<'e> {
         Ok(self.links.len() - 1)
     }
 
-    /// The elements of a body and of the frames in it.
-    fn collect(
-        &self,
-        element: &'e Element,
-        around: &Around,
-        into: &mut Contents<'e>,
-    ) -> Result<()> {
-        for child in &element.children {
-            let here = || (child, around.frame.clone(), around.class);
-            match child.tag.as_str() {
-                "body" => into.bodies.push(here()),
-                "joint" | "freejoint" => into.joints.push(here()),
-                "geom" => into.geoms.push(here()),
-                "site" => into.sites.push(here()),
-                "inertial" => {
-                    let (inertial, frame, _) = here();
-                    if into.inertial.replace((inertial, frame)).is_some() {
-                        return Err(child.value("the body has two of them"));
-                    }
-                }
-                "frame" => {
-                    child.only("axisangle childclass euler name pos quat xyaxes zaxis")?;
-                    let placement = Placement::read(View::plain(child), self.compiler)?;
-                    let inner = Around {
-                        frame: around.frame.then(&placement),
-                        class: self.classes.named(child, "childclass", around.class)?,
-                        ..around.clone()
-                    };
-                    self.collect(child, &inner, into)?;
-                }
-                tag if IGNORED.contains(&tag) => {}
-                tag => {
-                    let reason = "it is not in the subset of MJCF that is read: let MuJoCo write the compiled model by \
-                        mj_saveLastXML, which has bodies in its place, or remove it";
-                    return Err(child.unsupported("element", tag, reason));
-                }
-            }
-        }
-        Ok(())
-    }
-
     fn bodies(&mut self, contents: &Contents<'e>, around: &Around) -> Result<()> {
         for (element, frame, class) in &contents.bodies {
             let around = Around {
-                frame: frame.clone(),
+                frame: Placement::clone(frame),
                 class: *class,
                 ..around.clone()
             };
@@ -223,15 +158,15 @@ impl<'e> Tree<'e> {
             class,
             fixed: around.fixed,
         };
-        let mut contents = Contents::default();
-        self.collect(element, &inside, &mut contents)?;
+        let contents = Contents::read(element, &inside, self.compiler, self.classes)?;
         inside.link = self.chain(element, &name, &placement, around.link, &contents)?;
         inside.fixed &= contents.joints.is_empty();
         if self.bodies.insert(name, inside.link).is_some() {
             return Err(element.error(Problem::Duplicate("body")));
         }
         let geoms = self.geoms(element, &contents, inside.fixed)?;
-        let stated = contents.inertial.clone();
+        let stated = contents.inertial.as_ref();
+        let stated = stated.map(|(element, frame)| (*element, &**frame));
         self.links[inside.link].inertial = inertia::of_body(stated, &geoms, self.compiler)?;
         self.sites(&contents, inside.link)?;
         self.bodies(&contents, &inside)
@@ -283,7 +218,7 @@ impl<'e> Tree<'e> {
             let view = self.classes.view(element, *class)?;
             // Only lines have it, and no constraint is between them.
             if view.get("fromto").is_none() {
-                let placement = frame.then(&Placement::read(view, self.compiler)?);
+                let placement = frame.poses(&Placement::read(view, self.compiler)?);
                 self.sites.insert(name.to_owned(), (link, placement));
             }
         }
@@ -301,7 +236,7 @@ impl<'e> Tree<'e> {
         parent: usize,
         contents: &Contents<'e>,
     ) -> Result<usize> {
-        let world = self.worlds[parent].then(placement);
+        let world = self.worlds[parent].poses(placement);
         let mut parent = parent;
         // The body's frame in the frame of `parent`.
         let mut rest = placement.clone();
@@ -326,7 +261,7 @@ impl<'e> Tree<'e> {
                 true => name.to_owned(),
                 false => self.made_up(format!("{name}/{joint_name}")),
             };
-            let child = self.link(link_name, element, world.then(&parsed.anchor))?;
+            let child = self.link(link_name, element, world.poses(&parsed.anchor))?;
             // Coordinates of a free joint are the body's placement in the world; the file has their first values.
             let origin = match parsed.kind {
                 Kind::Free => Placement::IDENTITY,
@@ -344,32 +279,12 @@ impl<'e> Tree<'e> {
         }
         let link = self.link(name.to_owned(), body, world)?;
         let name = self.made_up(format!("{name}/fixed"));
-        self.joint(fixed(name, body.line, [parent, link], rest), 0.0);
+        self.joint(joint::fixed(name, body.line, [parent, link], rest), 0.0);
         Ok(link)
     }
 
     fn joint(&mut self, joint: Joint, reference: f64) {
         self.joints.push(joint);
         self.references.push(reference);
-    }
-}
-
-/// A joint without motion.
-fn fixed(name: String, line: u32, [parent, child]: [usize; 2], origin: Placement) -> Joint {
-    Joint {
-        name,
-        line,
-        kind: Kind::Fixed,
-        parent,
-        child,
-        origin: origin.pose,
-        snapped: origin.snapped,
-        exact: origin.exact,
-        axis: dynamics_core::glam::DVec3::X,
-        limits: Limits::default(),
-        damping: 0.0,
-        friction: 0.0,
-        armature: 0.0,
-        mimic: None,
     }
 }

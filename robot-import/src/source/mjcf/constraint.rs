@@ -8,8 +8,9 @@ use super::body::Tree;
 use super::compiler::Compiler;
 use super::defaults::{Classes, View};
 use super::element::Element;
+use super::mimic;
 use super::pose::Placement;
-use crate::description::{Kind, Loop, Mimic, shortened};
+use crate::description::{Kind, Loop, shortened};
 use crate::error::{Problem, Result};
 
 /// The constraints of all sections `<equality>`.
@@ -36,12 +37,13 @@ pub fn read(
             continue;
         }
         match element.tag.as_str() {
-            "joint" => mimic(view, tree, &joints)?,
+            "joint" => mimic::of_joints(view, tree, &joints)?,
+            "tendon" => mimic::of_tendon(view, tree, &joints, root)?,
             "connect" => loops.push(connect(view, tree, name)?),
             "weld" => loops.push(weld(view, tree, name, compiler)?),
             tag => {
                 let reason =
-                    "known are joint, connect and weld: remove it, or set active=\"false\"";
+                    "known are joint, tendon, connect and weld: remove it, or set active=\"false\"";
                 return Err(element.unsupported("constraint", tag, reason));
             }
         }
@@ -49,57 +51,8 @@ pub fn read(
     Ok(loops)
 }
 
-/// q₁ = c₀ + c₁ q₂, each from its reference.
-fn mimic(view: View<'_>, tree: &mut Tree<'_>, joints: &HashMap<String, usize>) -> Result<()> {
-    let element = view.element;
-    element.only("active class joint1 joint2 name polycoef solimp solref")?;
-    let stated = view.list("polycoef", [1, 5])?.unwrap_or_default();
-    let mut polynomial = [0.0, 1.0, 0.0, 0.0, 0.0];
-    polynomial[..stated.len()].copy_from_slice(&stated);
-    let [offset, ratio, ..] = polynomial;
-    let find = |attribute: &'static str| -> Result<usize> {
-        let name = element.get(attribute);
-        let name = name.ok_or_else(|| element.error(Problem::Missing(attribute)))?;
-        let found = joints.get(name).copied();
-        found.ok_or_else(|| no_such(element, "joint", name))
-    };
-    let first = find("joint1")?;
-    if element.get("joint2").is_none() {
-        let name = &tree.joints[first].name;
-        let sentence = format!(
-            "it locks joint `{name}`: remove it and lock the joint on import, or remove the joint"
-        );
-        return Err(element.value(sentence));
-    }
-    let second = find("joint2")?;
-    if polynomial[2..].iter().any(|x| *x != 0.0) {
-        let sentence = "`polycoef` is not linear: a joint follows another by ratio and offset only";
-        return Err(element.value(sentence));
-    }
-    for i in [first, second] {
-        let joint = &tree.joints[i];
-        if !joint.kind.has_axis() {
-            let sentence = format!("joint `{}` is no hinge and no slide", joint.name);
-            return Err(element.value(sentence));
-        }
-    }
-    if first == second {
-        return Err(element.value("a joint cannot follow itself"));
-    }
-    let mimic = Mimic {
-        joint: tree.joints[second].name.clone(),
-        multiplier: ratio,
-        offset: tree.references[first] + offset - ratio * tree.references[second],
-    };
-    let joint = &mut tree.joints[first];
-    if joint.mimic.replace(mimic).is_some() {
-        let sentence = format!("joint `{}` follows two joints", joint.name);
-        return Err(element.value(sentence));
-    }
-    Ok(())
-}
-
-fn no_such(element: &Element, what: &'static str, name: &str) -> crate::error::ImportError {
+/// The error of a name.
+pub fn no_such(element: &Element, what: &'static str, name: &str) -> crate::error::ImportError {
     element.error(Problem::NoSuch {
         what,
         name: shortened(name),
@@ -137,7 +90,7 @@ fn bodies(element: &Element, tree: &Tree<'_>) -> Result<[usize; 2]> {
 
 /// The placement of the second link in the first in the configuration of the file.
 fn between(tree: &Tree<'_>, [first, second]: [usize; 2]) -> Placement {
-    tree.worlds[first].inverse().then(&tree.worlds[second])
+    tree.worlds[first].inverse().poses(&tree.worlds[second])
 }
 
 fn closed(view: View<'_>, name: String, kind: Kind, ends: [(usize, Placement); 2]) -> Result<Loop> {

@@ -149,10 +149,10 @@ impl<'v> View<'v> {
         let tag = match self.element.tag.as_str() {
             // The constraint between joints has the tag of a joint, but its attributes differ from it.
             "joint" if self.element.get("joint1").is_some() => "equality",
+            "tendon" if self.element.get("tendon1").is_some() => "equality",
             tag => key(tag),
         };
-        let first = self.defaults.map(|(classes, class)| (classes, class));
-        let chain = std::iter::successors(first, |(classes, class)| {
+        let chain = std::iter::successors(self.defaults, |(classes, class)| {
             let parent = classes.classes[*class].parent?;
             Some((*classes, parent))
         });

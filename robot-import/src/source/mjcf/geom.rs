@@ -90,7 +90,7 @@ pub fn read(view: View<'_>, frame: &Placement, compiler: &Compiler) -> Result<Ge
     Ok(Geom::Solid(Box::new(Solid {
         mass,
         inertia: per_mass.map(|inertia| mass * inertia),
-        frame: frame.then(&placement),
+        frame: frame.poses(&placement),
     })))
 }
 

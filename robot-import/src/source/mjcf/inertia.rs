@@ -19,12 +19,12 @@ const NOISE: f64 = 1e-12;
 /// # Errors
 /// An `<inertial>` without its attributes.
 pub fn of_body(
-    stated: Option<(&Element, Placement)>,
+    stated: Option<(&Element, &Placement)>,
     geoms: &[Solid],
     compiler: &Compiler,
 ) -> Result<Option<Inertial>> {
     let explicit = match stated {
-        Some((element, frame)) => Some(explicit(element, &frame, compiler)?),
+        Some((element, frame)) => Some(explicit(element, frame, compiler)?),
         None => None,
     };
     let inertial = match compiler.from_geoms {
@@ -54,9 +54,13 @@ fn explicit(element: &Element, frame: &Placement, compiler: &Compiler) -> Result
             return Err(element.value(format!("`fullinertia` and `{other}` exclude each other")));
         }
     }
+    let mass = view.number("mass")?;
+    if mass < 0.0 {
+        return Err(element.value(format!("its mass is {mass} kg")));
+    }
     let [x, y, z] = view.numbers::<3>("diaginertia")?.unwrap_or_default();
     Ok(Inertial {
-        mass: view.number("mass")?,
+        mass,
         frame: placement.pose,
         exact: placement.exact,
         // The file has the products of inertia after the moments: xx yy zz xy xz yz.

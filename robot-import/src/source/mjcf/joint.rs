@@ -200,3 +200,23 @@ impl Parsed {
         }
     }
 }
+
+/// A joint without motion.
+pub fn fixed(name: String, line: u32, [parent, child]: [usize; 2], origin: Placement) -> Joint {
+    Joint {
+        name,
+        line,
+        kind: Kind::Fixed,
+        parent,
+        child,
+        origin: origin.pose,
+        snapped: origin.snapped,
+        exact: origin.exact,
+        axis: DVec3::X,
+        limits: Limits::default(),
+        damping: 0.0,
+        friction: 0.0,
+        armature: 0.0,
+        mimic: None,
+    }
+}

@@ -6,7 +6,7 @@
 //! | `compiler` | `angle`, `eulerseq`, `autolimits`, `inertiafromgeom`, `inertiagrouprange`, `boundmass`, `boundinertia`, `balanceinertia`, `settotalmass` |
 //! | `default` | classes in classes, `class` and `childclass` |
 //! | `worldbody` | `body`, `frame`, `inertial`, `joint`, `freejoint`, `geom`, `site` |
-//! | `equality` | `joint` of first degree, `connect`, `weld` |
+//! | `equality` | `joint` of first degree, `tendon` over two joints, `connect`, `weld` |
 //! | `actuator` | `gear`, `forcerange`, a motor's `ctrlrange`, `armature`, `damping` |
 //!
 //! Masses of meshes, `replicate`, `composite`, `flexcomp`, `attach`, plugins and polynomials of damping are refused.
@@ -21,11 +21,13 @@ mod actuator;
 mod body;
 mod compiler;
 mod constraint;
+mod contents;
 mod defaults;
 mod element;
 mod geom;
 mod inertia;
 mod joint;
+mod mimic;
 mod pose;
 
 use std::path::Path;

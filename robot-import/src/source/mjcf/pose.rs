@@ -37,6 +37,15 @@ impl Placement {
         }
     }
 
+    /// The placement of `inner` without the list of differences, which grows along the tree.
+    pub fn poses(&self, inner: &Self) -> Self {
+        Self {
+            pose: self.pose.then(&inner.pose),
+            exact: self.exact.then(&inner.exact),
+            snapped: Vec::new(),
+        }
+    }
+
     /// The reverse placement.
     pub fn inverse(&self) -> Self {
         Self {

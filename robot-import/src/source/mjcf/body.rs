@@ -152,6 +152,11 @@ impl<'e> Tree<'e> {
                 "body `{name}`: gravcomp is a force of the simulation and left out; its weight acts in full"
             ));
         }
+        if view.flag("mocap")? == Some(true) {
+            self.notes.push(format!(
+                "body `{name}`: mocap moves it in a simulation; here it is fixed"
+            ));
+        }
         let mut inside = Around {
             link: 0,
             frame: Placement::IDENTITY,

@@ -7,7 +7,7 @@ use crate::description::shortened;
 use crate::error::{Problem, Result};
 
 /// The deepest nesting of classes, each of which a search for an attribute passes.
-const MOST_DEPTH: usize = 64;
+const MOST_DEPTH: usize = 16;
 /// The attributes that state an orientation; an element's own one replaces that of its class.
 pub const ORIENTATIONS: [&str; 5] = ["quat", "axisangle", "xyaxes", "zaxis", "euler"];
 

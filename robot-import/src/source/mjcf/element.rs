@@ -11,7 +11,7 @@ use crate::error::{ImportError, Problem, Result};
 use crate::source::xml;
 
 /// The most elements that are kept.
-const MOST_ELEMENTS: usize = 200_000;
+const MOST_ELEMENTS: usize = 100_000;
 /// The deepest nesting with the included files in place: reading is recursive.
 const MOST_DEPTH: usize = 500;
 /// The most files that include each other in turn.

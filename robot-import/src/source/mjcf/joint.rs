@@ -67,8 +67,13 @@ pub fn read(
     parsed.anchor = anchor(view, frame)?;
     parsed.axis = match kind.has_axis() {
         true => {
-            frame.exact.rotation
-                * DVec3::from_array(view.numbers("axis")?.unwrap_or([0.0, 0.0, 1.0]))
+            let axis = DVec3::from_array(view.numbers("axis")?.unwrap_or([0.0, 0.0, 1.0]));
+            let [given, exact] = [&frame.pose, &frame.exact].map(|pose| pose.rotation * axis);
+            // Without the rounding of the computation here, but with that of the file.
+            match given.abs_diff_eq(exact, 1e-12) {
+                true => exact,
+                false => given,
+            }
         }
         false => DVec3::Z,
     };

@@ -18,6 +18,8 @@ fn roundings_of_quarter_turns_are_exact() {
         ("euler='90 0 -180'", true, 0),
         ("euler='90.00001 0 0'", true, 1),
         ("euler='90.1 0 0'", false, 0),
+        ("euler='90.001 0 0'", false, 0),
+        ("axisangle='0 0 1 89.9'", false, 0),
         ("axisangle='0 0 1 -90'", true, 0),
         ("xyaxes='0 1 0 -1 0 0.00001'", true, 1),
         ("xyaxes='0 1 0 -1 0 0.01'", false, 0),
@@ -51,6 +53,22 @@ fn roundings_of_quarter_turns_are_exact() {
                 "{report:?}"
             );
         }
+    }
+}
+
+/// In radians a right angle is always a rounding, in degrees only the noise of a computation is one.
+#[test]
+fn right_angles_in_radians_are_roundings() {
+    for (euler, quarter) in [
+        ("1.57 0 -3.1416", true),
+        ("1.5708 0 0", true),
+        ("1.5694 0 0", false),
+    ] {
+        let bodies = format!("<body name='a' euler='{euler}'>{GEOM}</body>");
+        let robot = model("<compiler angle='radian'/>", &bodies).expect(euler);
+        let entries = robot.joints[0].exact.rotation.to_cols_array();
+        let exact = entries.iter().all(|x| [-1.0, 0.0, 1.0].contains(x));
+        assert_eq!(exact, quarter, "{euler}: {entries:?}");
     }
 }
 

@@ -167,7 +167,7 @@ fn orientation(view: View<'_>, compiler: &Compiler) -> Result<Turn> {
             let numbers = numbers(4)?;
             let axis = direction(&numbers[..3])?;
             let angle = text.split_ascii_whitespace().last().unwrap_or_default();
-            digits = snap::resolution(angle) * compiler.angle;
+            digits = rounding(angle, compiler);
             DMat3::from_axis_angle(axis, numbers[3] * compiler.angle)
         }
         "xyaxes" => {
@@ -197,6 +197,14 @@ fn orientation(view: View<'_>, compiler: &Compiler) -> Result<Turn> {
         }
     }
     Ok(turn)
+}
+
+/// The unit of an angle's last digit; 0 in degrees, in which a right angle needs no rounding: 90.1 is none of 90.
+fn rounding(text: &str, compiler: &Compiler) -> f64 {
+    match compiler.angle == 1.0 {
+        true => snap::resolution(text),
+        false => 0.0,
+    }
 }
 
 /// The least rotation that turns z into this direction; half a turn about x if it is opposite.
@@ -229,7 +237,7 @@ fn euler(compiler: &Compiler, text: &str, angles: &[f64]) -> Turn {
     for ((word, angle), letter) in each {
         let radians = angle * compiler.angle;
         let mut exact = radians.sin_cos();
-        if let Some(turns) = snap::quarter_turns(radians, snap::resolution(word) * compiler.angle) {
+        if let Some(turns) = snap::quarter_turns(radians, rounding(word, compiler)) {
             exact = snap::sin_cos(turns);
             let difference = (angle - f64::from(turns) * quarter) * compiler.angle;
             if difference != 0.0 {

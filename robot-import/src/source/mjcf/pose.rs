@@ -9,6 +9,10 @@ use crate::description::{Pose, Snap};
 use crate::error::Result;
 use crate::snap;
 
+/// The difference from quarter turns of a rotation that an exporter has computed from 1.5708 or 3.1416 is 3.7e-6 or
+/// 7.3e-6 rad, whatever the last digits of its numbers are: `quat="0.707105 0.707108 0 0"`.
+const CONVERTED: f64 = 1e-5;
+
 /// A placement as the file has it, and with exact values in place of roundings.
 #[derive(Clone)]
 pub struct Placement {
@@ -184,7 +188,7 @@ fn orientation(view: View<'_>, compiler: &Compiler) -> Result<Turn> {
         exact: given,
         snapped: Vec::new(),
     };
-    if let Some((exact, difference)) = snap::permutation(&given, digits) {
+    if let Some((exact, difference)) = snap::permutation(&given, digits.max(CONVERTED)) {
         turn.exact = exact;
         // Less than this is the rounding of the computation here, not of the text.
         if difference > 1e-15 {

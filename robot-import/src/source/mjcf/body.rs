@@ -199,7 +199,7 @@ impl<'e> Tree<'e> {
                     let name = body.words();
                     self.without_mesh.get_or_insert(body);
                     self.notes.push(format!(
-                        "{name}: its mass is that of a mesh, which is not read; it is fixed to the world and moves nothing"
+                        "{name}: its mass is that of a mesh, which is not read; the body is fixed to the world"
                     ));
                     return Ok(Vec::new());
                 }

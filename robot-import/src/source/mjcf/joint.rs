@@ -8,9 +8,9 @@ use super::pose::Placement;
 use crate::description::{Joint, Kind, Limits, Pose};
 use crate::error::Result;
 
-const KNOWN: &str = "actuatorfrclimited actuatorfrcrange actuatorgravcomp align armature axis class damping frictionloss \
-    group limited margin name pos range ref solimpfriction solimplimit solreffriction solreflimit springdamper \
-    springref springyield stiffness type user";
+const KNOWN: &str = "actuatorfrclimited actuatorfrcrange actuatorgravcomp align armature axis class damping \
+    frictionloss group limited margin name pos range ref solimpfriction solimplimit solreffriction solreflimit \
+    springdamper springref springyield stiffness type user";
 
 /// A joint as its body has it.
 pub struct Parsed {

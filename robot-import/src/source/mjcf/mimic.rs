@@ -59,8 +59,9 @@ pub fn of_joints(
     follow(element, tree, [first, second], [offset, ratio])
 }
 
-/// c₁ q₁ + c₂ q₂ = c₀, each from its reference: the length of a fixed tendon over two joints. The second follows the
-/// first, or the first the second if that follows another already.
+/// c₁ q₁ + c₂ q₂ = c₀, each from its reference: the length of a fixed tendon over two joints.
+///
+/// The second follows the first, or the first the second if that follows another already.
 pub fn of_tendon(
     view: View<'_>,
     tree: &mut Tree<'_>,
@@ -79,7 +80,7 @@ pub fn of_tendon(
     let ([one, other], "fixed", None) =
         (over.as_slice(), tendon.tag.as_str(), element.get("tendon2"))
     else {
-        let sentence = "only one fixed tendon over two joints is read: state the coupling by <joint joint1=… joint2=…>";
+        let sentence = "only one fixed tendon over two joints is read: couple them by <joint joint1=… joint2=…>";
         return Err(element.value(sentence));
     };
     let mut ends = [(0, 0.0); 2];

@@ -3,11 +3,14 @@
 //! | section | what is read |
 //! |---|---|
 //! | `include` | files in the model's folder, each once |
-//! | `compiler` | `angle`, `eulerseq`, `autolimits`, `inertiafromgeom`, `inertiagrouprange`, `boundmass`, `boundinertia`, `balanceinertia`, `settotalmass` |
+//! | `compiler` | `angle`, `eulerseq`, `autolimits`; for inertias six, below |
 //! | `default` | classes in classes, `class` and `childclass` |
 //! | `worldbody` | `body`, `frame`, `inertial`, `joint`, `freejoint`, `geom`, `site` |
 //! | `equality` | `joint` of first degree, `tendon` over two joints, `connect`, `weld` |
 //! | `actuator` | `gear`, `forcerange`, a motor's `ctrlrange`, `armature`, `damping` |
+//!
+//! The settings for inertias are `inertiafromgeom`, `inertiagrouprange`, `boundmass`, `boundinertia`, `balanceinertia`
+//! and `settotalmass`.
 //!
 //! Masses of meshes, `replicate`, `composite`, `flexcomp`, `attach`, plugins and polynomials of damping are refused.
 //! Springs, tendons, gravity, fluids and the gains of actuators are left out and named in the notes. Sections on looks,

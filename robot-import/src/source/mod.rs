@@ -50,14 +50,6 @@ pub fn parse(text: &str, folder: &Path) -> Result<Description> {
         "mujoco" => mjcf::read(root, folder)?,
         _ => return Err(xml::error(root, Problem::Format)),
     };
-    // So far offsets.
-    let lines = xml::Lines::of(text);
-    let of_links = robot.links.iter_mut().map(|link| &mut link.line);
-    let of_joints = robot.joints.iter_mut().map(|joint| &mut joint.line);
-    let of_loops = robot.loops.iter_mut().map(|closed| &mut closed.line);
-    for line in of_links.chain(of_joints).chain(of_loops) {
-        *line = lines.line(*line);
-    }
     if robot.licence.is_none() {
         robot.licence = licence(text);
     }

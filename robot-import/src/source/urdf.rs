@@ -29,7 +29,7 @@ pub fn read(root: Node<'_, '_>) -> Result<Description> {
     let links = links.collect::<Result<Vec<_>>>()?;
     // Transmissions have elements of the same tag; they are no children of the root.
     let joints = children(root, "joint").map(|node| joint(node, &links));
-    Ok(Description {
+    let mut robot = Description {
         name: root.attribute("name").unwrap_or("robot").to_owned(),
         format: Format::Urdf,
         licence: None,
@@ -37,7 +37,15 @@ pub fn read(root: Node<'_, '_>) -> Result<Description> {
         links,
         loops: Vec::new(),
         notes: Vec::new(),
-    })
+    };
+    // So far offsets.
+    let lines = xml::Lines::of(root.document().input_text());
+    let of_links = robot.links.iter_mut().map(|link| &mut link.line);
+    let of_joints = robot.joints.iter_mut().map(|joint| &mut joint.line);
+    for line in of_links.chain(of_joints) {
+        *line = lines.line(*line);
+    }
+    Ok(robot)
 }
 
 fn link(node: Node<'_, '_>) -> Result<Link> {

@@ -1,0 +1,292 @@
+//! The elements of a model with its included files in their places.
+
+use std::collections::HashSet;
+use std::path::{Component, Path, PathBuf};
+use std::rc::Rc;
+
+use roxmltree::Node;
+
+use crate::description::shortened;
+use crate::error::{ImportError, Problem, Result};
+use crate::source::xml;
+
+/// The most elements that are kept.
+const MOST_ELEMENTS: usize = 100_000;
+/// The deepest nesting with the included files in place: reading is recursive.
+const MOST_DEPTH: usize = 500;
+/// The most files that include each other in turn.
+const MOST_INCLUDES: usize = 16;
+/// Sections without an effect on the dynamics; their contents are not kept.
+const SKIPPED: [&str; 9] = [
+    "asset",
+    "visual",
+    "keyframe",
+    "sensor",
+    "custom",
+    "statistic",
+    "contact",
+    "size",
+    "extension",
+];
+
+/// An element.
+pub struct Element {
+    /// Its tag.
+    pub tag: String,
+    /// The line of its file.
+    pub line: u32,
+    /// The included file that it is from.
+    file: Option<Rc<str>>,
+    attributes: Vec<(String, String)>,
+    /// The elements below it.
+    pub children: Vec<Element>,
+}
+
+impl Element {
+    /// The model of a document; included files are in `folder`.
+    ///
+    /// # Errors
+    /// A file that cannot be read, is outside of the folder or is included twice.
+    pub fn load(root: Node<'_, '_>, folder: &Path) -> Result<Self> {
+        let mut loader = Loader {
+            folder,
+            files: HashSet::new(),
+            elements: 0,
+            bytes: root.document().input_text().len(),
+        };
+        let source = Source::new(root, None, folder.to_owned(), 0);
+        loader.element(root, &source, 0)
+    }
+
+    /// An element on the line of another, with a placement of its own.
+    pub fn placement(at: &Self, pos: String, quat: String) -> Self {
+        Self {
+            tag: at.tag.clone(),
+            line: at.line,
+            file: at.file.clone(),
+            attributes: vec![("pos".to_owned(), pos), ("quat".to_owned(), quat)],
+            children: Vec::new(),
+        }
+    }
+
+    /// An attribute's text.
+    pub fn get(&self, attribute: &str) -> Option<&str> {
+        let mut all = self.attributes.iter();
+        all.find_map(|(name, text)| (name == attribute).then_some(text.as_str()))
+    }
+
+    /// The elements of this tag directly below.
+    pub fn all<'a>(&'a self, tag: &'a str) -> impl Iterator<Item = &'a Self> {
+        self.children.iter().filter(move |child| child.tag == tag)
+    }
+
+    /// The attribute `name`, if it is not empty.
+    pub fn name(&self) -> Option<&str> {
+        self.get("name").filter(|name| !name.is_empty())
+    }
+
+    /// The element in words: its tag, its name, its file.
+    pub fn words(&self) -> String {
+        let tag = &self.tag;
+        let element = match self.name().or_else(|| self.get("class")) {
+            Some(name) => format!("{tag} `{}`", shortened(name)),
+            None => format!("<{tag}>"),
+        };
+        match &self.file {
+            Some(file) => format!("{element} of {}", shortened(file)),
+            None => element,
+        }
+    }
+
+    /// An error at this element.
+    pub fn error(&self, problem: Problem) -> ImportError {
+        ImportError::at(self.line, self.words(), problem)
+    }
+
+    /// An error at this element, in a sentence.
+    pub fn value(&self, sentence: impl Into<String>) -> ImportError {
+        self.error(Problem::Value(sentence.into()))
+    }
+
+    /// The error of something that is not imported, with what to do.
+    pub fn unsupported(&self, what: &'static str, word: &str, reason: &str) -> ImportError {
+        self.error(Problem::Unsupported {
+            what,
+            word: shortened(word),
+            reason: reason.to_owned(),
+        })
+    }
+
+    /// Refuses attributes that are not in `known`: each could have an effect.
+    pub fn only(&self, known: &str) -> Result<()> {
+        let unknown = |name: &&(String, String)| !known.split(' ').any(|other| other == name.0);
+        match self.attributes.iter().find(unknown) {
+            None => Ok(()),
+            Some((name, _)) => {
+                let reason =
+                    "it is not in the subset of MJCF that is read: remove it or correct its name";
+                Err(self.unsupported("attribute", name, reason))
+            }
+        }
+    }
+}
+
+struct Loader<'p> {
+    folder: &'p Path,
+    files: HashSet<PathBuf>,
+    elements: usize,
+    bytes: usize,
+}
+
+/// A file that elements are from.
+struct Source {
+    file: Option<Rc<str>>,
+    folder: PathBuf,
+    /// How many files include each other in turn down to this one.
+    includes: usize,
+    /// The positions of its line ends: a search in it is faster than counting from the start for each element.
+    line_ends: Vec<usize>,
+}
+
+impl Source {
+    fn new(root: Node<'_, '_>, file: Option<Rc<str>>, folder: PathBuf, includes: usize) -> Self {
+        let text = root.document().input_text();
+        let ends = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n');
+        Self {
+            file,
+            folder,
+            includes,
+            line_ends: ends.map(|(at, _)| at).collect(),
+        }
+    }
+
+    fn line(&self, node: Node<'_, '_>) -> u32 {
+        let start = node.range().start;
+        let before = self.line_ends.partition_point(|end| *end < start);
+        before as u32 + 1
+    }
+}
+
+impl Loader<'_> {
+    fn element(&mut self, node: Node<'_, '_>, source: &Source, depth: usize) -> Result<Element> {
+        let attributes = node.attributes();
+        let attributes = attributes.map(|one| (one.name().to_owned(), one.value().to_owned()));
+        let mut element = Element {
+            tag: node.tag_name().name().to_owned(),
+            line: source.line(node),
+            file: source.file.clone(),
+            attributes: attributes.collect(),
+            children: Vec::new(),
+        };
+        self.elements += 1;
+        let too_large = |what, found, most| Problem::TooLarge { what, found, most };
+        if self.elements > MOST_ELEMENTS {
+            let problem = too_large("elements", self.elements, MOST_ELEMENTS);
+            return Err(element.error(problem));
+        }
+        if depth > MOST_DEPTH {
+            return Err(element.error(too_large("nested elements", depth, MOST_DEPTH)));
+        }
+        if !(depth == 1 && SKIPPED.contains(&element.tag.as_str())) {
+            self.children(node, source, depth, &mut element.children)?;
+        }
+        Ok(element)
+    }
+
+    fn children(
+        &mut self,
+        node: Node<'_, '_>,
+        source: &Source,
+        depth: usize,
+        into: &mut Vec<Element>,
+    ) -> Result<()> {
+        for child in node.children().filter(Node::is_element) {
+            let read = self.element(child, source, depth + 1)?;
+            if read.tag == "include" {
+                self.include(&read, source, depth, into)?;
+            } else {
+                into.push(read);
+            }
+        }
+        Ok(())
+    }
+
+    /// The children of the included file's root in place of the element.
+    fn include(
+        &mut self,
+        element: &Element,
+        source: &Source,
+        depth: usize,
+        into: &mut Vec<Element>,
+    ) -> Result<()> {
+        element.only("file")?;
+        let file = element.get("file");
+        let file = file.ok_or_else(|| element.error(Problem::Missing("file")))?;
+        let includes = source.includes + 1;
+        if includes > MOST_INCLUDES {
+            return Err(element.error(Problem::TooLarge {
+                what: "files that include each other",
+                found: includes,
+                most: MOST_INCLUDES,
+            }));
+        }
+        let path = self.find(element, file, source)?;
+        if !self.files.insert(path.clone()) {
+            let reason = "it is included twice, or includes itself: remove one of the elements";
+            return Err(element.unsupported("include", file, reason));
+        }
+        let unreadable = |reason: std::io::Error| {
+            element.error(Problem::File {
+                path: shortened(file),
+                reason: reason.to_string(),
+            })
+        };
+        let length = std::fs::metadata(&path).map_err(unreadable)?.len() as usize;
+        self.bytes = self.bytes.saturating_add(length);
+        if self.bytes > xml::MOST_BYTES {
+            return Err(element.error(Problem::TooLarge {
+                what: "bytes in the files",
+                found: self.bytes,
+                most: xml::MOST_BYTES,
+            }));
+        }
+        let text = std::fs::read_to_string(&path).map_err(unreadable)?;
+        let document = xml::parse(text.trim_start_matches('\u{feff}')).map_err(|mut error| {
+            error.place.element = format!("file {}", shortened(file));
+            error
+        })?;
+        let root = document.root_element();
+        let folder = path.parent().unwrap_or(self.folder).to_owned();
+        let source = Source::new(root, Some(file.into()), folder, includes);
+        self.children(root, &source, depth, into)
+    }
+
+    /// The path of an included file: relative to the model's folder or to that of the file with the element, and
+    /// inside of the model's folder.
+    fn find(&self, element: &Element, file: &str, source: &Source) -> Result<PathBuf> {
+        let outside = || {
+            let reason = "it is not in the folder of the model: copy it there";
+            element.unsupported("include", file, reason)
+        };
+        let plain = |part: Component<'_>| matches!(part, Component::Normal(_) | Component::CurDir);
+        if !Path::new(file).components().all(plain) {
+            return Err(outside());
+        }
+        let candidates = [self.folder.join(file), source.folder.join(file)];
+        let Some(path) = candidates.iter().find(|path| path.is_file()) else {
+            return Err(element.error(Problem::File {
+                path: shortened(file),
+                reason: "there is no such file in the folder of the model".to_owned(),
+            }));
+        };
+        let folder = match self.folder.as_os_str().is_empty() {
+            true => Path::new("."),
+            false => self.folder,
+        };
+        // Links of the file system can lead out of the folder.
+        match (path.canonicalize(), folder.canonicalize()) {
+            (Ok(path), Ok(folder)) if path.starts_with(&folder) => Ok(path),
+            _ => Err(outside()),
+        }
+    }
+}

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use serde::Serialize;
 
-use crate::description::{Description, Joint, Kind};
+use crate::description::{Description, Format, Joint, Kind};
 use crate::inertia::MassProperties;
 use crate::physical::violation;
 use crate::selection::{Role, Selected};
@@ -191,6 +191,8 @@ fn joint(robot: &Description, joint: &Joint, selected: &Selected, all: &mut Vec<
     }
     let missing: Vec<&str> = [("speed", limits.velocity), ("torque", limits.effort)]
         .into_iter()
+        // MJCF has no limits of speed.
+        .filter(|(name, _)| robot.format == Format::Urdf || *name != "speed")
         .filter_map(|(name, limit)| limit.is_none_or(|limit| limit <= 0.0).then_some(name))
         .collect();
     if !missing.is_empty() {

@@ -69,6 +69,9 @@ fn locked(text: &str) -> std::result::Result<(String, f64), String> {
     }
 }
 
+/// What notes say of a base whose mass is not known.
+const UNREAD: &str = "its mass is that of a mesh";
+
 /// An imported robot.
 #[derive(Debug)]
 pub struct Imported {
@@ -159,6 +162,14 @@ pub fn import(args: &Args, today: &str) -> Result<Imported> {
         {
             inertial.exact = inertial.frame;
         }
+    }
+    if let (true, Some(note)) = (
+        args.free_base,
+        robot.notes.iter().find(|note| note.contains(UNREAD)),
+    ) {
+        return Err(
+            Problem::Value(format!("{note}: a free base needs its mass in the file")).into(),
+        );
     }
     let selection = Selection {
         base: args.base.clone(),

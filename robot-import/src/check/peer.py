@@ -74,7 +74,7 @@ def mujoco(request):
     data = mujoco.MjData(model)
     names = {}
     for j in range(model.njnt):
-        names[model.joint(j).name or "joint_%d" % (j + 1)] = j
+        names[model.joint(j).name or "joint_%d" % j] = j
     rows = []
     for motion in request["motions"]:
         data.qpos[:] = model.qpos0
@@ -84,19 +84,43 @@ def mujoco(request):
             if name in names:
                 j = names[name]
                 data.qpos[model.jnt_qposadr[j]] = position + model.qpos0[model.jnt_qposadr[j]]
-        at, order = 0, []
+        at_q = at_v = 0
+        parts = []
         for joint in request["joints"]:
-            if joint["kind"] not in ("Revolute", "Continuous", "Prismatic"):
-                raise ValueError("a joint of kind " + joint["kind"] + " is not compared")
+            nq, nv = joint["coordinates"]
+            q = numpy.array(motion["q"][at_q : at_q + nq])
+            v = numpy.array(motion["qd"][at_v : at_v + nv])
+            a = numpy.array(motion["qdd"][at_v : at_v + nv])
+            at_q, at_v = at_q + nq, at_v + nv
             j = names[joint["name"]]
-            i = model.jnt_dofadr[j]
-            data.qpos[model.jnt_qposadr[j]] = motion["q"][at] + model.qpos0[model.jnt_qposadr[j]]
-            data.qvel[i] = motion["qd"][at]
-            data.qacc[i] = motion["qdd"][at]
-            order.append(i)
-            at += 1
+            i, k = model.jnt_dofadr[j], model.jnt_qposadr[j]
+            turn = None
+            if joint["kind"] in ("Revolute", "Continuous", "Prismatic"):
+                q = q + model.qpos0[k]
+            elif joint["kind"] in ("Spherical", "Free"):
+                q[:4] = q[[3, 0, 1, 2]]
+                if joint["kind"] == "Free":
+                    # There, the linear velocity is in the axes of the world, and before the angular one.
+                    turn = numpy.zeros(9)
+                    mujoco.mju_quat2Mat(turn, q[:4])
+                    turn = turn.reshape(3, 3)
+                    a = numpy.concatenate([turn @ (a[3:] + numpy.cross(v[:3], v[3:])), a[:3]])
+                    v = numpy.concatenate([turn @ v[3:], v[:3]])
+                    q = numpy.concatenate([q[4:], q[:4]])
+            else:
+                raise ValueError("a joint of kind " + joint["kind"] + " is not compared")
+            data.qpos[k : k + nq] = q
+            data.qvel[i : i + nv] = v
+            data.qacc[i : i + nv] = a
+            parts.append((i, nv, turn))
         mujoco.mj_inverse(model, data)
-        rows.append([float(data.qfrc_inverse[i]) for i in order])
+        torques = []
+        for i, nv, turn in parts:
+            f = data.qfrc_inverse[i : i + nv]
+            if turn is not None:
+                f = numpy.concatenate([f[3:], turn.T @ f[:3]])
+            torques += [float(x) for x in f]
+        rows.append(torques)
     return {"name": "MuJoCo " + mujoco.__version__, "torques": rows}
 
 

@@ -81,6 +81,8 @@ fn torques() -> Result<String, Box<dyn Error>> {
 /// The modules of the files that `OWN_ROBOTS` names, `path:Type` separated by `;`, and a call for each.
 fn own_robots() -> Result<String, Box<dyn Error>> {
     println!("cargo:rerun-if-env-changed=OWN_ROBOTS");
+    println!("cargo:rerun-if-env-changed=OWN_ROBOTS_WAYS");
+    let ways = env::var("OWN_ROBOTS_WAYS").unwrap_or_else(|_| "robot".to_owned());
     let Ok(robots) = env::var("OWN_ROBOTS") else {
         return Ok("compile_error!(\"`cargo xtask import` names the robots' files\");".to_owned());
     };
@@ -89,7 +91,7 @@ fn own_robots() -> Result<String, Box<dyn Error>> {
         let (file, name) = robot.rsplit_once(':').ok_or("expected path:Type")?;
         println!("cargo:rerun-if-changed={file}");
         writeln!(modules, "#[path = {file:?}]\nmod robot_{i};")?;
-        writeln!(calls, "    robot::<robot_{i}::{name}, {{ robot_{i}::V }}>(\"{i}\");")?;
+        writeln!(calls, "    {ways}::<robot_{i}::{name}, {{ robot_{i}::V }}>(\"{i}\");")?;
     }
     Ok(format!("{modules}\nfn robots() {{\n{calls}}}\n"))
 }

@@ -81,7 +81,8 @@ pub fn run(options: Options, args: &Args) -> Result<ExitCode> {
     let robot = Robot { file, report };
     let measured = match no_measure {
         true => Err(check!("not measured: --no-measure")),
-        false => setup::for_demo(options).and_then(|tools| measure(&workspace, &tools, &[&robot])),
+        false => setup::for_demo(options)
+            .and_then(|tools| measure(&workspace, &tools, &[&robot], Ways::All)),
     };
     if json {
         let mut report = robot.report;
@@ -125,6 +126,25 @@ pub fn import(workspace: &Workspace, words: &[&str], file: PathBuf) -> Result<Ro
     Ok(Robot { file, report })
 }
 
+/// Which inverse dynamics is measured.
+#[derive(Clone, Copy)]
+pub enum Ways {
+    /// Full, and gravity alone.
+    All,
+    /// Full.
+    Full,
+}
+
+impl Ways {
+    /// The firmware's function.
+    fn function(self) -> &'static str {
+        match self {
+            Self::All => "robot",
+            Self::Full => "in_full",
+        }
+    }
+}
+
 /// Whether the firmware takes a robot.
 pub fn is_measurable(robot: &Robot) -> bool {
     let [bodies, q, v] = [0, 1, 2].map(|i| robot.report["sizes"][i].as_u64().unwrap_or_default());
@@ -132,7 +152,12 @@ pub fn is_measurable(robot: &Robot) -> bool {
 }
 
 /// Builds the firmware's bin for some robots and runs it under the meter; a robot's rows have its number as name.
-pub fn measure(workspace: &Workspace, tools: &Tools, robots: &[&Robot]) -> Result<Vec<Row>> {
+pub fn measure(
+    workspace: &Workspace,
+    tools: &Tools,
+    robots: &[&Robot],
+    ways: Ways,
+) -> Result<Vec<Row>> {
     if !robots.iter().all(|robot| is_measurable(robot)) {
         return Err(check!(
             "the firmware takes up to {MOST_JOINTS} joints of one coordinate"
@@ -151,7 +176,8 @@ pub fn measure(workspace: &Workspace, tools: &Tools, robots: &[&Robot]) -> Resul
         // The firmware's other bins are not built anew for it.
         .arg("--target-dir")
         .arg(workspace.target.join(FEATURE))
-        .env("OWN_ROBOTS", named.join(";"));
+        .env("OWN_ROBOTS", named.join(";"))
+        .env("OWN_ROBOTS_WAYS", ways.function());
     shell::capture(&mut build)?;
     let target = workspace
         .target

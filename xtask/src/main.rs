@@ -102,7 +102,7 @@ enum Command {
     Peers(peers::Args),
     /// Time release builds with and without one specialised function, rewrite docs/build-time.md
     BuildTime(Json),
-    /// Feed descriptions, dynamics, controller and encoder frames random bytes; CI does so for a moment
+    /// Feed descriptions, files, dynamics, controller and encoder frames random bytes; CI does so for a moment
     Fuzz {
         /// Seconds for each target
         #[arg(long, default_value_t = 60, value_name = "N")]

@@ -10,7 +10,7 @@ use serde_json::Value;
 use crate::costs::Row;
 use crate::docs;
 use crate::error::{Error, Result, check};
-use crate::import::{self, Robot};
+use crate::import::{self, Robot, Ways};
 use crate::progress::Spinner;
 use crate::report::MODEL;
 use crate::setup::{self, Options, Tools};
@@ -21,7 +21,9 @@ use crate::workspace::{self, Workspace};
 const PAGE: &str = "docs/robots.md";
 const LIST: &str = include_str!("robots/list.toml");
 /// Robots of one firmware: its compilation takes memory and flash for all of them.
-const BATCH: usize = 6;
+const BATCH: usize = 4;
+/// More joints than this take the compiler minutes.
+const MOST_JOINTS: u64 = 16;
 
 /// Which robots, and by whom they are compared.
 #[derive(clap::Args)]
@@ -146,17 +148,16 @@ fn measure(workspace: &Workspace, tools: &Tools, folder: &Path, lines: &mut [Lin
             file: folder.join(format!("{}.rs", line.name)),
             report: report.clone(),
         };
-        if import::is_measurable(&robot) {
+        let joints = robot.report["sizes"][2].as_u64();
+        if import::is_measurable(&robot) && joints <= Some(MOST_JOINTS) {
             robots.push((i, robot));
         }
     }
     for batch in robots.chunks(BATCH) {
         let robots: Vec<&Robot> = batch.iter().map(|(_, robot)| robot).collect();
-        for row in import::measure(workspace, tools, &robots)? {
+        for row in import::measure(workspace, tools, &robots, Ways::Full)? {
             let number: usize = row.robot.parse().map_err(|_| check!("a row of no robot"))?;
-            if row.inputs == "full" {
-                lines[batch[number].0].rows.push(row);
-            }
+            lines[batch[number].0].rows.push(row);
         }
     }
     Ok(())
@@ -172,8 +173,7 @@ pub fn check(workspace: &Workspace, tools: &Tools) -> Result<String> {
     let path = workspace.root.join(file).to_string_lossy().into_owned();
     let words = [&*path, "--name", name];
     let robot = import::import(workspace, &words, folder.path().join("robot.rs"))?;
-    let mut rows = import::measure(workspace, tools, &[&robot])?;
-    rows.retain(|row| row.inputs == "full");
+    let rows = import::measure(workspace, tools, &[&robot], Ways::Full)?;
     let line = Line {
         name: name.to_owned(),
         source: String::new(),

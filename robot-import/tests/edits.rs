@@ -43,7 +43,7 @@ const WORDS: [&str; 20] = [
 fn edited(file: usize, edits: &[(u16, u8, usize)]) -> String {
     let mut text: Vec<char> = FILES[file].chars().collect();
     for &(place, removed, word) in edits {
-        let at = usize::from(place) * text.len() >> 16;
+        let at = (usize::from(place) * text.len()) >> 16;
         let end = (at + usize::from(removed)).min(text.len());
         text.splice(at..end, WORDS[word].chars());
     }

@@ -194,6 +194,8 @@ const TABLE: &[(&str, &str, f64, f64)] = &[
     ("stribeck", "closed form", 4e-16, 2e-7),
     ("lugre", "steady sliding", 4e-15, NONE),
     ("pendulum", "loss to friction", 1e-7, NONE),
+    ("hoist", "acceleration by efficiency", 5e-16, NONE),
+    ("ur5e", "forward dynamics under load friction", 1e-14, NONE),
     ("sledge", "turning points", 3e-3, NONE),
     ("sledge", "backward Euler", 3e-16, NONE),
     ("block on a belt", "period of stick-slip", 8e-4, NONE),

@@ -4,7 +4,7 @@ use core::borrow::Borrow;
 use core::fmt;
 
 use super::{FlexibleInertia, JointsAndModes, Modes, crba, rnea};
-use crate::effects::{Bias, Effect};
+use crate::effects::{Bias, Effect, all_transmitted};
 use crate::model::RobotModel;
 use crate::scalar::Real;
 use crate::state::{Configuration, RobotState, State, entry};
@@ -98,8 +98,9 @@ where
     let (trig, state) = (trig.borrow(), state.state());
     let bias = rnea(robot, modes, trig.with(state), bent, &Bias(effects));
     let m = crba(robot, modes, trig, &bent.q, effects);
+    let tau = all_transmitted(robot, state, effects, tau);
     m.solve(&JointsAndModes {
-        joints: core::array::from_fn(|k| entry(tau, k) - entry(&bias.joints, k)),
+        joints: core::array::from_fn(|k| entry(&tau, k) - entry(&bias.joints, k)),
         modes: bias.modes.map(|force| -force),
     })
 }

@@ -97,7 +97,12 @@ fn factors<R: Real, E, const B: usize, const V: usize>(
 where
     E: Effect<R, B, V>,
 {
-    let mut factors = LoadFactors::default();
+    // x + (−0.0) is x for every x, so that no addition is left in the machine code.
+    let none = R::from_f64(-0.0);
+    let mut factors = LoadFactors {
+        magnitude: none,
+        torque: none,
+    };
     effects.load_factors(joint, at, &mut factors);
     factors
 }

@@ -6,6 +6,7 @@
 //! negative. Duclusaud, Passault, Padois & Ly, "Extended friction models for the physics simulation of servo actuators"
 //! (2025), models M3 to M5, solved for the motor's torque.
 
+use super::coulomb::sign_beyond;
 use crate::effects::{
     Effect, JointState, LoadFactors, Width, hook, smooth_sign, smooth_sign_slope,
 };
@@ -102,7 +103,7 @@ impl<R: Real, const V: usize> LoadFriction<R, V> {
     #[inline(always)]
     fn factors(&self, joint: usize, at: JointState<R>, add: &mut LoadFactors<R>) {
         let (even, odd) = self.halves(joint);
-        let s = smooth_sign(at.qd * self.width.inverse());
+        let s = sign_beyond(self.width, at.qd);
         add.magnitude += even * s;
         add.torque += odd * (s * s);
     }

@@ -13,21 +13,16 @@ type Precomputed<'a, E, const N: usize> = fn(StateWithTrig<'a, f32, N, N>, &E) -
 
 /// Measures every row of the robot T and leaves the emulator.
 pub fn run<T: Robot<B, N, N>, const B: usize, const N: usize>() -> ! {
-    rows::<T, B, N>();
-    done()
-}
-
-/// Measures every row of the robot T.
-pub fn rows<T: Robot<B, N, N>, const B: usize, const N: usize>() {
     let asks = asks::<T, B, N, STATES>();
     inverse::<T, _, B, N>("full", &asks, &RIGID_BODY);
     inverse::<T, _, B, N>("bias", &asks, &(Gravity::EARTH, Coriolis));
     inverse::<T, _, B, N>("gravity", &asks, &(Gravity::EARTH,));
     inverse::<T, _, B, N>("no_coriolis", &asks, &(Gravity::EARTH, Inertia));
+    done()
 }
 
 /// Inverse dynamics in both forms, with sines and cosines computed inside and before.
-fn inverse<T: Robot<B, N, N>, E: Effect<f32, B, N>, const B: usize, const N: usize>(
+pub fn inverse<T: Robot<B, N, N>, E: Effect<f32, B, N>, const B: usize, const N: usize>(
     inputs: &'static str,
     asks: &[Ask<N>; STATES],
     effects: &E,

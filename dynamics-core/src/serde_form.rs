@@ -195,6 +195,11 @@ record!(effects::AsymmetricCoulomb<R, V> {
     backward: Array<R, V>,
     width: R,
 });
+record!(effects::LoadFriction<R, V> {
+    driving: Array<R, V>,
+    backdriving: Array<R, V>,
+    width: R,
+});
 record!(effects::Stribeck<R, V> { excess: Array<R, V>, stribeck_speed: R, width: R });
 record!(effects::Lugre<R, V> {
     stiffness: Array<R, V>,

@@ -41,6 +41,22 @@ pub trait Law<const V: usize, X = ()> {
 
     /// The torque for the reference, N·m or N.
     fn feedforward(reference: &State<f32, V, V>, environment: &X) -> [f32; V];
+
+    /// The command, N·m or N: τ = feed-forward + K_p (q_d − q) + K_d (q̇_d − q̇), or that of another loop.
+    #[inline(always)]
+    fn torque(
+        gains: &Gains<f32, V>,
+        reference: &State<f32, V, V>,
+        estimate: &Estimate<f32, V>,
+        environment: &X,
+    ) -> [f32; V] {
+        let mut tau = Self::feedforward(reference, environment);
+        let pd = feedback(gains, reference, estimate);
+        for (tau, pd) in tau.iter_mut().zip(pd) {
+            *tau += pd;
+        }
+        tau
+    }
 }
 
 /// The record of a tick, for logs.
@@ -193,7 +209,7 @@ fn follow<'a, T: Reference<f32, V>, const V: usize>(
     tick.reference(trajectory)
 }
 
-/// τ = feed-forward + K_p (q_d − q) + K_d (q̇_d − q̇).
+/// The law's command, in a function of its own.
 #[inline(never)]
 fn torque<L: Law<V, X>, X, const V: usize>(
     gains: &Gains<f32, V>,
@@ -201,10 +217,5 @@ fn torque<L: Law<V, X>, X, const V: usize>(
     estimate: &Estimate<f32, V>,
     environment: &X,
 ) -> [f32; V] {
-    let mut tau = L::feedforward(reference, environment);
-    let pd = feedback(gains, reference, estimate);
-    for (tau, pd) in tau.iter_mut().zip(pd) {
-        *tau += pd;
-    }
-    tau
+    L::torque(gains, reference, estimate, environment)
 }

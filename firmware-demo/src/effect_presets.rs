@@ -6,8 +6,8 @@
 
 use dynamics_core::effects::{
     Armature, AsymmetricCoulomb, BodyWrench, Cogging, Contact, ContactPoint, Coriolis, Coulomb,
-    Effect, EndStops, Gravity, GyroscopicRotors, Inertia, Lugre, MovingBase, Payload, RIGID_BODY,
-    Spring, Stribeck, Viscous, Width, WorldWrench,
+    Effect, EndStops, Gravity, GyroscopicRotors, Inertia, LoadFriction, Lugre, MovingBase, Payload,
+    RIGID_BODY, Spring, Stribeck, Viscous, Width, WorldWrench,
 };
 use dynamics_core::model::BodyInertia;
 use dynamics_core::spatial::{Force, Motion};
@@ -81,6 +81,12 @@ pub fn joints<const N: usize>(visitor: &mut impl Visitor<N>) {
         bristle: [0.0; N],
     };
     visitor.scene("lugre", (RIGID_BODY, lugre));
+    let gears = LoadFriction {
+        driving: [0.25; N],
+        backdriving: [0.2; N],
+        width,
+    };
+    visitor.scene("load_friction", (RIGID_BODY, gears));
     visitor.scene("armature", (RIGID_BODY, Armature(rotors)));
     let spring = Spring {
         stiffness: [5.0; N],

@@ -13,10 +13,12 @@ use crate::sim_io::Wires;
 mod bending;
 mod clustered;
 mod flexible;
+mod servos;
 
 pub use bending::BendingPlant;
 pub use clustered::ClusterPlant;
 pub use flexible::FlexiblePlant;
+pub use servos::ServoPlant;
 
 /// A simulated robot of which N joints are driven and have encoders; `X` is the state of its environment.
 pub trait Simulated<X, const N: usize> {

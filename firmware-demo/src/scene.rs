@@ -7,6 +7,7 @@ use dynamics_core::effects::Effect;
 use dynamics_core::model::{Calibrated, JointLimits, Robot, model};
 use dynamics_core::state::State;
 
+use crate::encoder::RESOLUTION;
 use crate::plant::{Plant, Simulated, last};
 
 mod ablation;
@@ -50,6 +51,10 @@ pub trait Scene<const B: usize, const Q: usize, const V: usize, const N: usize>:
     const CONSTANT_EFFECTS: bool = size_of::<Self::Environment>() == 0;
     /// The pose whose M sets the gains: only the default of [`Scene::inertia`] reads it.
     const GAIN_POSE: [f32; Q] = [0.0; Q];
+    /// A tick, s.
+    const TICK: f32 = TICK;
+    /// What an encoder resolves, rad or m.
+    const RESOLUTION: f32 = RESOLUTION;
     /// Steps of the simulated robot in a tick.
     const STEPS: u32 = STEPS;
     /// What that pose is called.

@@ -10,13 +10,11 @@ use defmt_semihosting as _;
 use dynamics_core::control::Status;
 use heapless::spsc::{Consumer, Queue};
 
-use crate::scene::{App, Effects, Errors, Name, OMEGA_N, QUEUE, Record, Scene, TICK, ZETA};
+use crate::scene::{App, Effects, Errors, Name, OMEGA_N, QUEUE, Record, Scene, ZETA};
 use crate::sim_io::Wires;
 
 /// The core's clock, Hz.
 const CLOCK: u32 = 168_000_000;
-/// A tick, µs.
-const MICROSECONDS: u32 = (TICK * 1e6 + 0.5) as u32;
 /// Every so many ticks a sample goes to the log.
 const SAMPLE: u32 = 20;
 
@@ -90,7 +88,7 @@ where
     peripherals.SYST.set_clock_source(SystClkSource::Core);
     peripherals
         .SYST
-        .set_reload(CLOCK / 1_000_000 * MICROSECONDS - 1);
+        .set_reload(CLOCK / 1_000_000 * microseconds::<S, B, Q, V, N>() - 1);
     peripherals.SYST.clear_current();
     peripherals.SYST.enable_counter();
     peripherals.SYST.enable_interrupt();
@@ -146,6 +144,14 @@ where
     leave(debug::EXIT_SUCCESS)
 }
 
+/// A tick of the scene, µs.
+fn microseconds<S, const B: usize, const Q: usize, const V: usize, const N: usize>() -> u32
+where
+    S: Scene<B, Q, V, N>,
+{
+    const { (S::TICK * 1e6 + 0.5) as u32 }
+}
+
 /// What the log says of the scene before its runs.
 fn head<S, const B: usize, const Q: usize, const V: usize, const N: usize>(ticks: u32)
 where
@@ -155,7 +161,7 @@ where
         "scene {=str} joints {=usize} tick-us {=u32} ticks {=u32} bound {=f32}",
         S::NAME,
         N,
-        MICROSECONDS,
+        microseconds::<S, B, Q, V, N>(),
         ticks,
         S::BOUND
     );

@@ -97,6 +97,21 @@ pub const SCARA_SERVES: [WayPoint<f32, 3>; 10] = [
     stop(ASIDE, 640),
 ];
 
+/// Where the SO-101's path begins and ends, rad: folded above the table.
+pub const SO101_START: [f32; 6] = [0.0, -1.2, 1.2, 0.8, 0.0, 0.2];
+
+/// A path that the SO-101 is taught: to a part, down, the jaw closes, up, over, down, and back; ticks of 2 ms.
+pub const TAUGHT: [WayPoint<f32, 6>; 8] = [
+    stop(SO101_START, 0),
+    stop([-0.6, -0.2, 0.5, 0.9, 0.4, 1.2], 600),
+    stop([-0.6, 0.3, 0.3, 0.8, 0.4, 1.2], 350),
+    stop([-0.6, 0.3, 0.3, 0.8, 0.4, 0.2], 350),
+    stop([-0.6, -0.3, 0.6, 0.9, 0.4, 0.2], 350),
+    stop([0.8, -0.2, 0.5, 0.9, -0.5, 0.2], 700),
+    stop([0.8, 0.3, 0.2, 0.8, -0.5, 0.9], 400),
+    stop(SO101_START, 850),
+];
+
 /// Ticks from the first way-point to this one.
 pub const fn arrival<const N: usize>(way: &[WayPoint<f32, N>], point: usize) -> u32 {
     let (mut ticks, mut i) = (0, 0);

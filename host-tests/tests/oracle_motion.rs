@@ -11,7 +11,7 @@ use dynamics_core::algorithms::{
 };
 use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::model::{Robot, Static};
-use dynamics_core::robots::{A1, Gen3, Iiwa14, Panda, Ur5e, XArm7, Z1};
+use dynamics_core::robots::{A1, Gen3, Iiwa14, Panda, So101, Ur5e, XArm7, Z1};
 use dynamics_core::scalar::{Matrix, Real, Vector};
 use dynamics_core::spatial::Force;
 use dynamics_core::state::State;
@@ -184,6 +184,7 @@ fn motions_energies_momenta_and_mobilities_agree_with_pinocchio_within_the_table
     both::<Gen3, 7, 7, 7>(&mut most);
     both::<XArm7, 7, 7, 7>(&mut most);
     both::<Z1, 7, 7, 7>(&mut most);
+    both::<So101, 6, 6, 6>(&mut most);
     both::<A1, 16, 12, 12>(&mut most);
     #[cfg(feature = "full")]
     {

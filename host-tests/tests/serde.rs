@@ -5,8 +5,8 @@ use dynamics_core::control::{
     SupervisorConfig, WayPoint,
 };
 use dynamics_core::effects::{
-    Armature, AsymmetricCoulomb, Cogging, Coulomb, EndStops, Lugre, Payload, Spring, Stribeck,
-    Viscous, Width,
+    Armature, AsymmetricCoulomb, Cogging, Coulomb, EndStops, LoadFriction, Lugre, Payload, Spring,
+    Stribeck, Viscous, Width,
 };
 use dynamics_core::glam::Mat3;
 use dynamics_core::model::{BodyInertia, JointLimits};
@@ -116,6 +116,11 @@ fn what_is_identified_comes_back_to_the_bit() {
     comes_back(AsymmetricCoulomb {
         forward: a,
         backward: b,
+        width: Width::new(0.05),
+    });
+    comes_back(LoadFriction {
+        driving: a,
+        backdriving: b,
         width: Width::new(0.05),
     });
     comes_back(Stribeck {

@@ -29,6 +29,8 @@ pub enum Scene {
     DeltaPick,
     /// A light arm whose links bend, with feed-forward that knows their modes and a shaper.
     FlexibleLink,
+    /// An SO-101 follows a taught path; its servos take duties over a bus at 500 Hz.
+    So101Teach,
 }
 
 impl Scene {
@@ -51,6 +53,7 @@ impl Scene {
             Self::ParallelAnkle => "parallel_ankle",
             Self::DeltaPick => "delta_pick",
             Self::FlexibleLink => "flexible_link",
+            Self::So101Teach => "so101_teach",
         }
     }
 }

@@ -13,7 +13,10 @@ use super::pivot_check::{Magnitude, PivotCheck};
 use super::rnea::external_force;
 use super::tree_pass::per_body;
 use super::{JointResult, NotPositiveDefinite, Prescribed};
-use crate::effects::{Effect, base_motion, body_inertia, gyroscopic, joint_torque, rotor_force};
+use crate::effects::{
+    Effect, base_motion, body_inertia, gyroscopic, joint_state, joint_torque, load_friction,
+    rotor_force, transmitted,
+};
 use crate::model::{JointKind, LinkView, RobotModel};
 use crate::scalar::{Matrix, Real};
 use crate::spatial::inertia::ArticulatedInertia;
@@ -224,6 +227,8 @@ where
                     effects.add_inertia(joint, &mut d);
                     pivots.check((&body.link, k), turns, (u_a, d), joint)?;
                     let d_inv = R::ONE / d;
+                    let tau =
+                        transmitted(effects, joint, joint_state(&body.link, state, joint), tau);
                     let u = tau - joint_torque(effects, &body.link, state, joint) - s.dot(pa);
                     // Compiled in one place or the other: a sum that may be made or not costs scenes without rotors
                     // 18 instructions.
@@ -314,6 +319,12 @@ where
                     }
                     effects.add_inertia(joint, &mut armature);
                     tau += armature * qdd + joint_torque(effects, &body.link, state, joint);
+                    load_friction(
+                        effects,
+                        joint,
+                        joint_state(&body.link, state, joint),
+                        &mut tau,
+                    );
                     (tau, qdd)
                 }
             };

@@ -6,7 +6,7 @@
 use core::borrow::Borrow;
 
 use super::{NotPositiveDefinite, crba, ltdl, rnea, solve};
-use crate::effects::{Bias, Effect};
+use crate::effects::{Bias, Effect, all_transmitted};
 use crate::model::RobotModel;
 use crate::scalar::Real;
 use crate::state::{Configuration, RobotState};
@@ -63,7 +63,7 @@ where
         )
     };
     let bias = rnea(robot, trig.with(state), &Bias(effects));
-    let mut rest = *tau;
+    let mut rest = all_transmitted(robot, state, effects, tau);
     for (rest, bias) in rest.iter_mut().zip(bias) {
         *rest -= bias;
     }

@@ -9,7 +9,9 @@ use heapless::Vec;
 
 use super::rotors::rotor;
 use super::tree_pass::{PerBody, Topology, inward, per_body};
-use crate::effects::{Effect, base_motion, body_inertia, body_wrench, joint_torques};
+use crate::effects::{
+    Effect, base_motion, body_inertia, body_wrench, joint_torques, load_frictions,
+};
 use crate::model::{JointCoordinate, LinkView, RobotModel};
 use crate::scalar::{Matrix, Real};
 use crate::spatial::{Force, Motion, Xform};
@@ -137,6 +139,7 @@ where
         {
             *tau += entry(&rotor_tau, link.idx_v());
         }
+        load_frictions(effects, &link, state, &mut tau);
         if inner.is_empty() {
             break; // the first body stands on the base
         }

@@ -6,7 +6,7 @@ use super::layout::{EXPANDED, NONE, at, joint};
 use super::set::{TreeState, sealed::Set};
 use super::{ClusterError, ClusteredRobot, TreeMotion};
 use crate::algorithms::rnea;
-use crate::effects::{Effect, JointState, OfBodies};
+use crate::effects::{Effect, JointState, OfBodies, no_load_friction};
 use crate::engine::{for_each_joint, has_subtree_functions};
 use crate::model::{JointCoordinate, Robot, RobotModel, Static};
 use crate::scalar::Real;
@@ -240,6 +240,7 @@ impl<A> Clustered<A> {
         A::Robot: ClusteredRobot<B, Q, V, P, Y>,
         E: Effect<R, B, V>,
     {
+        no_load_friction::<R, E, B, V>();
         let motion = evaluate::<R, A, B, Q, V, P, Y>(y)?;
         let tau = A::rnea(&motion.trig, &motion.tree, effects);
         TreeMotion::<R, A::Robot, B, Q, V, P, Y>::finite(motion.torque(&tau))

@@ -5,7 +5,7 @@
 use super::clustered::evaluate;
 use super::set::sealed::Set;
 use super::{ClusterError, Clustered, ClusteredRobot, MotorTorques, TreeAlgorithms, TreeMotion};
-use crate::effects::Effect;
+use crate::effects::{Effect, no_load_friction};
 use crate::scalar::Real;
 use crate::state::{State, entry};
 
@@ -105,6 +105,7 @@ impl<A> Clustered<A> {
         A::Robot: ClusteredRobot<B, Q, V, P, Y>,
         E: Effect<R, B, V>,
     {
+        no_load_friction::<R, E, B, V>();
         let motion = evaluate::<R, A, B, Q, V, P, Y>(y)?;
         let tau = A::rnea(&motion.trig, &motion.tree, effects);
         let tau = TreeMotion::<R, A::Robot, B, Q, V, P, Y>::finite(motion.torque(&tau))?;

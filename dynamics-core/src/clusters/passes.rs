@@ -7,7 +7,7 @@ use super::articulated::{Body, Factor, Group};
 use super::layout::NONE;
 use super::{ClusteredRobot, TreeMotion};
 use crate::algorithms::Magnitude;
-use crate::effects::{Effect, base_motion, body_inertia, body_wrench};
+use crate::effects::{Effect, base_motion, body_inertia, body_wrench, no_load_friction};
 use crate::model::{BASE, LinkView, RobotModel};
 use crate::scalar::Real;
 use crate::spatial::{Force, Motion, Xform};
@@ -44,6 +44,7 @@ where
         motion: &'a TreeMotion<R, T, B, Q, V, P, Y>,
         effects: &'a E,
     ) -> Self {
+        no_load_friction::<R, E, B, V>();
         let (turns, tree) = (&motion.trig.coordinates, &motion.tree);
         let (v_0, _) = base_motion(effects);
         let (mut v, mut poses): (Vec<Motion<R>, B>, Vec<Xform<R>, B>) = (Vec::new(), Vec::new());

@@ -14,7 +14,9 @@ use heapless::Vec;
 
 use super::ElasticJoints;
 use crate::algorithms::inward;
-use crate::effects::{Effect, TorqueDerivatives, base_motion, body_inertia, joint_state};
+use crate::effects::{
+    Effect, TorqueDerivatives, base_motion, body_inertia, joint_state, no_load_friction,
+};
 use crate::model::{LinkView, RobotModel};
 use crate::scalar::Real;
 use crate::spatial::{Force, Motion, SpatialInertia, Xform};
@@ -172,6 +174,7 @@ where
             "inverse dynamics of compliant joints allows no wrenches on bodies, moving base or `GyroscopicRotors`"
         );
     };
+    no_load_friction::<R, E, B, V>();
     let (state, turns) = (
         &reference.state,
         JointTrig::new(robot, &reference.state.q).coordinates,

@@ -13,7 +13,7 @@
 
 use super::{ElasticJoints, MotorState};
 use crate::algorithms::{NotPositiveDefinite, aba};
-use crate::effects::{Armature, Effect, Implicit, joint_state};
+use crate::effects::{Armature, Effect, Implicit, joint_state, no_load_friction};
 use crate::model::RobotModel;
 use crate::scalar::Real;
 use crate::state::manifold::integrate;
@@ -77,6 +77,7 @@ where
             put(&mut gain, h * hk * d_inv);
         }
     }
+    no_load_friction::<R, E, B, V>();
     let implicit = Implicit::new(robot, links, effects, h);
     links.qdd = aba(robot, &*links, &spring, &(implicit, Armature(diagonal)))?;
     for (qd, &qdd) in links.qd.iter_mut().zip(&links.qdd) {

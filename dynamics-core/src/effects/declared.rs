@@ -1,7 +1,7 @@
 //! The declarations of an effect's hooks, in the form that core, engine and plant use.
 
 use super::hook_args::BodyVelocity;
-use super::{BodyState, Effect};
+use super::{BodyState, Effect, JointState, LoadFactors};
 use crate::scalar::Real;
 use crate::spatial::{Force, Motion, SpatialInertia};
 
@@ -27,6 +27,8 @@ pub trait Declared<R: Real, const B: usize, const V: usize>: Sized {
     const PAYLOAD: [bool; B];
     /// Rotors spin as bodies.
     const GYROSCOPIC_ROTORS: bool;
+    /// Friction depends on the transmitted torque.
+    const LOAD_DEPENDENT: bool;
 
     /// Adds to the acceleration g of free fall, in base coordinates, m/s², along [`Self::FIELD_AXES`] only.
     fn field(&self, g: &mut R::Vec3);
@@ -38,6 +40,10 @@ pub trait Declared<R: Real, const B: usize, const V: usize>: Sized {
     fn payload(&self, body: usize, inertia: &mut SpatialInertia<R>);
     /// Adds to ρ I of the rotor of `joint`.
     fn rotor_coupling(&self, joint: usize, coupling: &mut R);
+    /// Adds to the factors a and b of the friction a |τ| + b τ of `joint`.
+    fn load_factors(&self, joint: usize, at: JointState<R>, factors: &mut LoadFactors<R>);
+    /// Adds to their derivatives with respect to q̇.
+    fn load_slopes(&self, joint: usize, at: JointState<R>, slopes: &mut LoadFactors<R>);
     /// Adds what stands at `joint` to an entry of M's diagonal.
     fn add_inertia(&self, joint: usize, diagonal: &mut R);
 }
@@ -55,6 +61,7 @@ where
     const BASE_MOTION: bool = E::BASE.add.is_some();
     const PAYLOAD: [bool; B] = E::ADDED_INERTIA.bodies;
     const GYROSCOPIC_ROTORS: bool = E::ROTOR.add.is_some();
+    const LOAD_DEPENDENT: bool = E::LOAD_FRICTION.factors.is_some();
 
     #[inline(always)]
     fn field(&self, g: &mut R::Vec3) {
@@ -98,6 +105,20 @@ where
     fn rotor_coupling(&self, joint: usize, coupling: &mut R) {
         if let Some(add) = const { E::ROTOR.add } {
             add(self, joint, coupling);
+        }
+    }
+
+    #[inline(always)]
+    fn load_factors(&self, joint: usize, at: JointState<R>, factors: &mut LoadFactors<R>) {
+        if let Some(add) = const { E::LOAD_FRICTION.factors } {
+            add(self, joint, at, factors);
+        }
+    }
+
+    #[inline(always)]
+    fn load_slopes(&self, joint: usize, at: JointState<R>, slopes: &mut LoadFactors<R>) {
+        if let Some(add) = const { E::LOAD_FRICTION.slopes } {
+            add(self, joint, at, slopes);
         }
     }
 

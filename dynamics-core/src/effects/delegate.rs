@@ -1,6 +1,6 @@
 //! Forwarding of effects, for tuples, for wrappers of this crate and for those of users.
 
-use super::BodyState;
+use super::{BodyState, JointState, LoadFactors};
 use crate::scalar::Real;
 use crate::spatial::{Force, Motion, SpatialInertia};
 
@@ -13,6 +13,8 @@ pub trait Forwarder<R: Real, const B: usize, const V: usize> {
     fn forward_wrench(&self, body: usize, at: &BodyState<R>, fx: &mut Force<R>);
     fn forward_payload(&self, body: usize, inertia: &mut SpatialInertia<R>);
     fn forward_spin(&self, joint: usize, coupling: &mut R);
+    fn forward_load(&self, joint: usize, at: JointState<R>, factors: &mut LoadFactors<R>);
+    fn forward_load_slopes(&self, joint: usize, at: JointState<R>, slopes: &mut LoadFactors<R>);
 }
 
 /// Which bodies any of N effects marks.
@@ -131,6 +133,14 @@ macro_rules! delegate_effect {
                     ($on) & (false $(| <$inner as $crate::effects::Declared<$R, $B, $V>>::GYROSCOPIC_ROTORS)*),
                     <Self as $crate::effects::Forwarder<$R, $B, $V>>::forward_spin,
                 );
+            const LOAD_FRICTION: $crate::effects::hook::LoadFriction<Self, $R> =
+                $crate::effects::hook::LoadFriction::forwarded(
+                    // Of a bias it is no part: forward dynamics solves for it.
+                    ($on) & ($accelerations) & ($joints)
+                        & (false $(| <$inner as $crate::effects::Declared<$R, $B, $V>>::LOAD_DEPENDENT)*),
+                    <Self as $crate::effects::Forwarder<$R, $B, $V>>::forward_load,
+                    <Self as $crate::effects::Forwarder<$R, $B, $V>>::forward_load_slopes,
+                );
             const ACCELERATIONS: bool = ($on) & ($accelerations)
                 & (false $(| <$inner as $crate::effects::Effect<$R, $B, $V>>::ACCELERATIONS)*);
             const VELOCITY_PRODUCTS: bool = ($on)
@@ -216,6 +226,28 @@ macro_rules! delegate_effect {
             fn forward_spin(&self, joint: usize, coupling: &mut $R) {
                 let $this = self;
                 $(<$inner as $crate::effects::Declared<$R, $B, $V>>::rotor_coupling(&$to, joint, coupling);)*
+            }
+
+            #[inline(always)]
+            fn forward_load(
+                &self,
+                joint: usize,
+                at: $crate::effects::JointState<$R>,
+                factors: &mut $crate::effects::LoadFactors<$R>,
+            ) {
+                let $this = self;
+                $(<$inner as $crate::effects::Declared<$R, $B, $V>>::load_factors(&$to, joint, at, factors);)*
+            }
+
+            #[inline(always)]
+            fn forward_load_slopes(
+                &self,
+                joint: usize,
+                at: $crate::effects::JointState<$R>,
+                slopes: &mut $crate::effects::LoadFactors<$R>,
+            ) {
+                let $this = self;
+                $(<$inner as $crate::effects::Declared<$R, $B, $V>>::load_slopes(&$to, joint, at, slopes);)*
             }
         }
     };

@@ -42,7 +42,7 @@
 //! }
 //! ```
 //!
-//! A function beside the constants is not a hook (the same for `field`, `base`, `payload` and `spin`):
+//! A function beside the constants is not a hook (the same for `field`, `base`, `payload`, `spin` and `load_factors`):
 //!
 //! ```compile_fail,E0407
 //! # use dynamics_core::{effects::{BodyState, Effect}, scalar::Real, spatial::Force};
@@ -84,6 +84,14 @@
 //! }
 //! ```
 //!
+//! ```compile_fail,E0407
+//! # use dynamics_core::{effects::{Effect, JointState, LoadFactors}, scalar::Real};
+//! struct Worm;
+//! impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Worm {
+//!     fn load_factors(&self, joint: usize, at: JointState<R>, factors: &mut LoadFactors<R>) {} // error: not a member of trait `Effect`
+//! }
+//! ```
+//!
 //! A flag cannot be set without its hook either:
 //!
 //! ```compile_fail,E0438
@@ -97,11 +105,13 @@
 //! Machine code: a hook is a constant, so that its call is a direct one; a function with `#[inline(always)]` in place
 //! of a closure is inlined at every level of optimisation.
 
+pub use load_friction::LoadFriction;
 pub use wrench::Wrench;
 
 use crate::scalar::Real;
 use crate::spatial::{Motion, SpatialInertia};
 
+mod load_friction;
 mod wrench;
 
 /// Adds to the velocity and acceleration of the base.

@@ -5,9 +5,9 @@ use crate::spatial::{Motion, Xform};
 
 /// The state of one joint, which joint hooks read.
 ///
-/// The library fills it in, and a field may be added (a transmitted load, for friction that depends on it): build it by
-/// [`JointState::new`], as in a test of an effect of one's own. It has no q̈: inertia belongs in
-/// [`Effect::inertia`](super::Effect::inertia), from which the library makes the torque and M's diagonal alike.
+/// The library fills it in, and a field may be added: build it by [`JointState::new`], as in a test of an effect of one's
+/// own. It has no q̈: inertia belongs in [`Effect::inertia`](super::Effect::inertia), from which the library makes the torque
+/// and M's diagonal alike. Nor has it the transmitted torque: see [`hook::LoadFriction`](super::hook::LoadFriction).
 ///
 /// ```compile_fail,E0609
 /// # use dynamics_core::{effects::{Effect, JointState}, scalar::Real};
@@ -78,4 +78,13 @@ pub struct TorqueDerivatives<R> {
     pub dq: R,
     /// ∂τ/∂q̇, N·m·s/rad or N·s/m: that of a damper is its damping.
     pub dqd: R,
+}
+
+/// The factors a and b of friction a |τ| + b τ, where τ is the torque that a gear transmits.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LoadFactors<R> {
+    /// a, the factor of |τ|: odd in the velocity where friction opposes motion.
+    pub magnitude: R,
+    /// b, the factor of τ: even in the velocity.
+    pub torque: R,
 }

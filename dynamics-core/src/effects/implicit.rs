@@ -1,7 +1,7 @@
 //! Stiff effects evaluated at the end of a time step instead of at its beginning.
 
 use super::query::joint_state;
-use super::{Effect, JointState, TorqueDerivatives};
+use super::{Effect, JointState, TorqueDerivatives, add_load_slope};
 use crate::effects::delegate::delegate_effect;
 use crate::model::RobotModel;
 use crate::scalar::Real;
@@ -59,6 +59,33 @@ impl<'a, E, R: Real, const V: usize> Implicit<'a, E, R, V> {
         }
         let end = AtEndOfStep { h, derivatives };
         Self { effects, end }
+    }
+
+    /// The same for motors of the torques `tau`, N·m or N, on which load-dependent friction depends.
+    #[inline(always)]
+    pub fn under<D, const B: usize, const Q: usize>(
+        robot: &D,
+        state: &State<R, Q, V>,
+        effects: &'a E,
+        tau: &[R; V],
+        h: R,
+    ) -> Self
+    where
+        D: RobotModel<R, B, Q, V>,
+        E: Effect<R, B, V>,
+    {
+        let mut implicit = Self::new(robot, state, effects, h);
+        if const { E::LOAD_DEPENDENT } {
+            for link in robot.links() {
+                for k in link.coordinates() {
+                    let at = joint_state(&link, state, k);
+                    if let Some(derivatives) = implicit.end.derivatives.get_mut(k) {
+                        add_load_slope(effects, k, at, entry(tau, k), derivatives);
+                    }
+                }
+            }
+        }
+        implicit
     }
 }
 

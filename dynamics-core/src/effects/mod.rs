@@ -15,7 +15,7 @@
 //! |---|---|
 //! | all bodies | [`Gravity`], [`GravityVector`]; [`Inertia`], [`Coriolis`]; [`MovingBase`]; of links that bend, [`Elasticity`] |
 //! | a body | [`BodyWrench`], [`WorldWrench`], [`Contact`]; [`Payload`] |
-//! | a joint: friction | [`Viscous`], [`Coulomb`], [`AsymmetricCoulomb`], [`Stribeck`], [`Lugre`] |
+//! | a joint: friction | [`Viscous`], [`Coulomb`], [`AsymmetricCoulomb`], [`Stribeck`], [`Lugre`], [`LoadFriction`] |
 //! | a joint: position | [`Spring`], [`EndStops`], [`Cogging`] |
 //! | a motor | [`Armature`], [`GyroscopicRotors`]; [`crate::sim::Actuator`] and [`crate::drivetrain`] stand between command and joint |
 //!
@@ -67,6 +67,7 @@ pub mod hook;
 mod hook_args;
 mod implicit;
 mod joint;
+mod load;
 mod query;
 mod rigid_body;
 mod tuple;
@@ -77,9 +78,10 @@ pub use declared::Declared;
 #[doc(hidden)]
 pub use delegate::{Forwarder, any_of, sum};
 pub use friction::{
-    AsymmetricCoulomb, Coulomb, Lugre, Stribeck, Viscous, smooth_sign, smooth_sign_slope,
+    AsymmetricCoulomb, Coulomb, LoadFriction, Lugre, Stribeck, Viscous, smooth_sign,
+    smooth_sign_slope,
 };
-pub use hook_args::{BodyState, BodyVelocity, JointState, TorqueDerivatives};
+pub use hook_args::{BodyState, BodyVelocity, JointState, LoadFactors, TorqueDerivatives};
 pub use implicit::Implicit;
 pub use joint::{Armature, Cogging, EndStops, GyroscopicRotors, Spring};
 pub use rigid_body::{
@@ -88,6 +90,9 @@ pub use rigid_body::{
 pub use width::Width;
 
 pub(crate) use gates::{field_axes, loads, no_gyroscopic_rotors, one_gravity, only_load};
+pub(crate) use load::{
+    add_load_slope, all_transmitted, load_friction, load_frictions, no_load_friction, transmitted,
+};
 pub(crate) use query::{
     base_given, base_motion, body_inertia, body_wrench, field, gyroscopic, joint_state,
     joint_torque, joint_torques, rotor_force,
@@ -122,7 +127,7 @@ use crate::scalar::Real;
     message = "`{Self}` is not an effect on a robot of {B} bodies and {V} joints in `{R}`",
     label = "not an effect of this size and scalar",
     note = "effects: Gravity, GravityVector, Inertia, Coriolis, Elasticity, Viscous([R; V]), Coulomb {{ .. }}, \
-            AsymmetricCoulomb {{ .. }}, Stribeck {{ .. }}, Lugre {{ .. }}, Spring {{ .. }}, EndStops {{ .. }}, \
+            AsymmetricCoulomb {{ .. }}, Stribeck {{ .. }}, Lugre {{ .. }}, LoadFriction {{ .. }}, Spring {{ .. }}, EndStops {{ .. }}, \
             Cogging {{ .. }}, Armature([R; V]), GyroscopicRotors {{ .. }}, Payload::<_, BODY>, BodyWrench, WorldWrench, Contact, \
             MovingBase, tuples of up to 12 of them, and your own through `impl Effect`"
 )]
@@ -137,6 +142,8 @@ pub trait Effect<R: Real, const B: usize, const V: usize>: Declared<R, B, V> {
     const ADDED_INERTIA: hook::Inertia<Self, R, B> = hook::Inertia::NONE;
     /// The coupling of rotors that spin on parent links.
     const ROTOR: hook::Rotor<Self, R> = hook::Rotor::NONE;
+    /// Friction of gears that depends on the torque they transmit.
+    const LOAD_FRICTION: hook::LoadFriction<Self, R> = hook::LoadFriction::NONE;
     /// The scene has the products M q̈ of accelerations.
     const ACCELERATIONS: bool = false;
     /// The scene has the velocity products C(q, q̇) q̇.

@@ -13,7 +13,7 @@ use super::pivot_noise::noise;
 use super::{Engine, Specialised};
 use crate::algorithms::MassMatrix;
 use crate::algorithms::NotPositiveDefinite;
-use crate::effects::{Bias, Effect};
+use crate::effects::{Bias, Effect, JointState, transmitted};
 use crate::model::Robot;
 use crate::scalar::Real;
 use crate::state::{Configuration, JointTrig, RobotState, State};
@@ -78,7 +78,8 @@ impl<T> Engine<T> {
         let mut rest = *tau;
         for_each_joint!(J, {
             if const { J < V } {
-                rest[J] -= bias[J];
+                let at = JointState::new(state.q[J], state.qd[J]);
+                rest[J] = transmitted(effects, J, at, rest[J]) - bias[J];
             }
         });
         rest

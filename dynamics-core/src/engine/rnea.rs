@@ -6,7 +6,7 @@ use super::compile::{BodyPlacement, CompiledRobot, CompiledTree};
 use super::folding::Folded;
 use super::folding::{Mat3, Sym3, Vec3};
 use super::subtree::visit_child;
-use crate::effects::{BodyState, Effect, JointState};
+use crate::effects::{BodyState, Effect, JointState, load_friction};
 use crate::model::{BASE, JointCoordinate, Robot};
 use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::{Force, Motion, SpatialInertia, Xform};
@@ -89,6 +89,7 @@ where
     if let Some(inertia) = task.effects.inertia(I) {
         tau += inertia * qdd;
     }
+    load_friction(task.effects, I, at, &mut tau);
     task.tau[I] = tau;
 
     let turn = if const { reload_sines::<T, B, Q, V>() } {

@@ -5,7 +5,7 @@ use core::fmt;
 
 use super::crba::modal_inertia;
 use super::{FlexibleInertia, JointsAndModes, Modes, crba, rnea};
-use crate::effects::{Bias, Effect};
+use crate::effects::{Bias, Effect, all_transmitted};
 use crate::model::RobotModel;
 use crate::scalar::Real;
 use crate::state::{Configuration, RobotState, State, entry};
@@ -99,8 +99,9 @@ where
     let (trig, state) = (trig.borrow(), state.state());
     let bias = rnea(robot, modes, trig.with(state), bent, &Bias(effects));
     let m = crba(robot, modes, trig, &bent.q, effects);
+    let tau = all_transmitted(robot, state, effects, tau);
     m.solve(&JointsAndModes {
-        joints: core::array::from_fn(|k| entry(tau, k) - entry(&bias.joints, k)),
+        joints: core::array::from_fn(|k| entry(&tau, k) - entry(&bias.joints, k)),
         modes: bias.modes.map(|force| -force),
     })
 }

@@ -12,7 +12,9 @@ use super::deformation::End;
 use super::modal_forces::{Outer, net_force};
 use super::{JointsAndModes, Modes};
 use crate::algorithms::{inward, per_body};
-use crate::effects::{Effect, body_inertia, body_wrench, joint_torques, no_gyroscopic_rotors};
+use crate::effects::{
+    Effect, body_inertia, body_wrench, joint_torques, load_frictions, no_gyroscopic_rotors,
+};
 use crate::model::RobotModel;
 use crate::scalar::Real;
 use crate::spatial::{Force, Xform};
@@ -131,6 +133,7 @@ where
         };
         link.project(turns, body.f, &mut out.joints);
         joint_torques(effects, &link, state, &mut out.joints);
+        load_frictions(effects, &link, state, &mut out.joints);
         let Some(parent) = inner.get_mut(link.parent) else {
             continue;
         };

@@ -3,7 +3,7 @@
 use core::borrow::Borrow;
 
 use super::{FlexibleError, JointsAndModes, Modes, crba, rnea};
-use crate::effects::{Bias, Effect};
+use crate::effects::{Bias, Effect, all_transmitted};
 use crate::model::RobotModel;
 use crate::scalar::Real;
 use crate::state::{Configuration, JointTrig, State, entry};
@@ -75,8 +75,9 @@ where
             }
         }
     }
+    let tau = all_transmitted(robot, &now, effects, tau);
     let found = m.solve(&JointsAndModes {
-        joints: core::array::from_fn(|k| entry(tau, k) - entry(&bias.joints, k)),
+        joints: core::array::from_fn(|k| entry(&tau, k) - entry(&bias.joints, k)),
         modes: bias.modes.map(|force| -force),
     })?;
     advance(state, &found.joints, h);

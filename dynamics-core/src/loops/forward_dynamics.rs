@@ -11,7 +11,7 @@ use super::error::LoopError;
 use super::mass_root::{MassRoot, Orthogonal};
 use super::{Constraints, constraints};
 use crate::algorithms::{crba, ltdl, rnea};
-use crate::effects::{Bias, Effect};
+use crate::effects::{Bias, Effect, no_load_friction};
 use crate::model::RobotModel;
 use crate::scalar::Real;
 use crate::state::{Configuration, RobotState, all_finite};
@@ -159,6 +159,7 @@ where
             "forward dynamics needs `Inertia` in the scene"
         )
     };
+    no_load_friction::<R, E, B, V>();
     let closing = constraints(robot, loops, trig.with(state));
     closing.check(loops)?;
     let mut rows = eliminate(closing.scaled(), &[true; V]).loop_rows();

@@ -11,7 +11,7 @@ use super::description::Loops;
 use super::elimination::LoopRows;
 use super::error::LoopError;
 use crate::algorithms::rnea;
-use crate::effects::Effect;
+use crate::effects::{Effect, no_load_friction};
 use crate::model::RobotModel;
 use crate::scalar::Real;
 use crate::state::{Configuration, RobotState, State, all_finite, entry};
@@ -101,6 +101,7 @@ where
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
+    no_load_friction::<R, E, B, V>();
     let trig = state.configuration().trig_of(robot);
     let (trig, given) = (trig.borrow(), state.state());
     let mut state = State::at(given.q);

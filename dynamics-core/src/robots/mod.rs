@@ -7,6 +7,7 @@
 //! - [`A1Leg`]: one leg of it, 3 revolute joints and a fixed foot.
 //! - [`A1Free`]: the same with its trunk free, 18 degrees of freedom.
 //! - [`Gen3`]: Kinova Gen3 with vision module, 7 joints, four of which are continuous.
+//! - [`So101`]: The Robot Studio's SO-101 with its gripper's jaw, 6 revolute joints moved by hobby servos.
 //! - [`XArm7`]: UFACTORY xArm7, 7 revolute joints, dense inertias.
 //! - [`Z1`]: Unitree Z1 with its gripper, 7 revolute joints about x, y and z.
 //! - [`G1`]: Unitree G1 with its pelvis held, a humanoid of 29 revolute joints.
@@ -21,6 +22,7 @@ mod g1;
 mod gen3;
 mod iiwa14;
 mod panda;
+mod so101;
 mod ur5e;
 mod welded_part;
 mod xarm7;
@@ -31,6 +33,7 @@ pub use g1::{G1, G1Free};
 pub use gen3::Gen3;
 pub use iiwa14::Iiwa14;
 pub use panda::Panda;
+pub use so101::So101;
 pub use ur5e::Ur5e;
 pub use xarm7::XArm7;
 pub use z1::Z1;

@@ -66,7 +66,7 @@ where
         at: &State<R, Q, V>,
         h: R,
     ) -> Result<[R; V], NotPositiveDefinite> {
-        let effects = Implicit::new(self.robot, at, self.effects, h);
+        let effects = Implicit::under(self.robot, at, self.effects, &self.tau, h);
         aba(self.robot, at, &self.tau, &effects)
     }
 

@@ -6,7 +6,7 @@ use dynamics_core::control::{Reference, TrajectoryError};
 use embedded_hal::digital::{self, OutputPin};
 use heapless::spsc::Producer;
 
-use super::{Noise, PlantModel, Run, Scene, TICK, control_loop};
+use super::{Noise, PlantModel, Run, Scene, control_loop};
 use crate::control_loop::{ControlLoop, Telemetry};
 use crate::plant::{Rig, Simulated};
 use crate::sim_io::{SimDrive, SimEncoder, Wires};
@@ -113,9 +113,11 @@ where
         let telemetry = (run.tick)(&mut self.control, &self.reference, &environment(now));
         let actual = self.rig.plant.actual();
         let part = 1.0 / S::STEPS as f32;
-        let advanced = self.rig.advance(self.wires, S::STEPS, TICK * part, |step| {
-            environment(now + part * step as f32)
-        });
+        let advanced = self
+            .rig
+            .advance(self.wires, S::STEPS, S::TICK * part, |step| {
+                environment(now + part * step as f32)
+            });
         self.broken = advanced.is_err();
         let record = Record {
             run: self.run,

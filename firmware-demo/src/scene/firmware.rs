@@ -10,9 +10,9 @@ use embedded_hal::spi::SpiDevice;
 use super::Scene;
 use crate::control_loop::ControlLoop;
 use crate::drive::Drive;
-use crate::encoder::{Encoder, RESOLUTION};
+use crate::encoder::Encoder;
 
-/// A tick, s.
+/// A tick, s, unless a scene sets another one.
 pub const TICK: f32 = 1e-3;
 /// Natural frequency of the feedback on M's diagonal, rad/s.
 pub const OMEGA_N: f32 = core::f32::consts::TAU * 4.0;
@@ -61,8 +61,8 @@ where
         MotionController::new(MotionControllerConfig {
             supervisor: SupervisorConfig {
                 limits: SafetyLimits::from(limits).with_rate_share(0.5),
-                tick: TICK,
-                resolution: RESOLUTION,
+                tick: S::TICK,
+                resolution: S::RESOLUTION,
                 ride_through_ticks: RIDE,
                 hold_ticks: HOLD,
                 reentry_ticks: REENTRY,

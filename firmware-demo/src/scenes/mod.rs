@@ -10,5 +10,6 @@ pub mod leg_hop;
 pub mod panda_payload;
 pub mod parallel_ankle;
 pub mod scara_table;
+pub mod so101_teach;
 pub mod space_arm;
 pub mod ur5e;

@@ -10,6 +10,7 @@ mod actuator;
 mod exponential;
 mod flexible;
 mod friction;
+mod load;
 mod lugre;
 mod own;
 mod passive;

@@ -4,8 +4,8 @@ use super::*;
 use dynamics_core::algorithms::kinetic_energy;
 use dynamics_core::effects::{
     AsymmetricCoulomb, BodyWrench, Cogging, Contact, ContactPoint, Coriolis, EndStops,
-    GravityVector, Inertia, Lugre, MovingBase, RIGID_BODY, Spring, Stribeck, Width, WorldWrench,
-    hook,
+    GravityVector, Inertia, LoadFriction, Lugre, MovingBase, RIGID_BODY, Spring, Stribeck, Width,
+    WorldWrench, hook,
 };
 use dynamics_core::model::Robot;
 use dynamics_core::robots::Ur5e;
@@ -137,6 +137,11 @@ fn engine_equals_core_under_the_other_effects_and_a_users_own() {
                 ),
             },
             cable::<R>(),
+            LoadFriction {
+                driving: [of(0.4); 6],
+                backdriving: [of(0.3); 6],
+                width: Width::new(of(0.5)),
+            },
         );
         let rng = &mut random_numbers();
         let (mut worst, mut full_scale) = (0.0_f64, 0.0_f64);

@@ -15,9 +15,9 @@ use crate::qemu::Run;
 use crate::setup::Tools;
 use crate::workspace::Workspace;
 
-/// Two bins for each robot, inverse dynamics and the rest, two for robots with loops, and one for links that bend: the
+/// Two bins for each robot, inverse dynamics and the rest, but one for the SO-101, two for robots with loops, and one for links that bend: the
 /// compiler builds them side by side.
-pub const BINS: [&str; 11] = [
+pub const BINS: [&str; 12] = [
     "costs_ur5e",
     "forward_ur5e",
     "costs_panda",
@@ -26,6 +26,7 @@ pub const BINS: [&str; 11] = [
     "forward_iiwa14",
     "costs_a1",
     "forward_a1",
+    "costs_so101",
     "costs_clusters",
     "costs_loops",
     "costs_flexible",

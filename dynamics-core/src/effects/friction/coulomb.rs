@@ -50,6 +50,12 @@ pub fn smooth_sign_slope<R: Real>(u: R) -> R {
     R::from_f64(1.5) * (R::ONE - u * u)
 }
 
+/// s(q̇ / w) by the same first steps as [`Coulomb`], which the compiler then takes once for both.
+#[inline(always)]
+pub(super) fn sign_beyond<R: Real>(width: Width<R>, qd: R) -> R {
+    sliding(R::ONE, qd * (width.inverse() * R::from_f64(R::MAX_TRUNC)))
+}
+
 /// F s(u), given u in units of 1/`MAX_TRUNC`: where a conversion to an integer and back limits it.
 #[inline(always)]
 fn sliding<R: Real>(force: R, scaled: R) -> R {

@@ -2,12 +2,14 @@
 
 mod asymmetric;
 mod coulomb;
+mod load;
 mod lugre;
 mod stribeck;
 mod viscous;
 
 pub use asymmetric::AsymmetricCoulomb;
 pub use coulomb::{Coulomb, smooth_sign, smooth_sign_slope};
+pub use load::LoadFriction;
 pub use lugre::Lugre;
 pub use stribeck::Stribeck;
 pub use viscous::Viscous;

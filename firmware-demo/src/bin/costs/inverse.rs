@@ -22,7 +22,7 @@ pub fn run<T: Robot<B, N, N>, const B: usize, const N: usize>() -> ! {
 }
 
 /// Inverse dynamics in both forms, with sines and cosines computed inside and before.
-fn inverse<T: Robot<B, N, N>, E: Effect<f32, B, N>, const B: usize, const N: usize>(
+pub fn inverse<T: Robot<B, N, N>, E: Effect<f32, B, N>, const B: usize, const N: usize>(
     inputs: &'static str,
     asks: &[Ask<N>; STATES],
     effects: &E,

@@ -3,7 +3,9 @@
 use super::*;
 use dynamics_core::algorithms::{kinematics, kinetic_energy, momentum, potential_energy};
 use dynamics_core::delegate_effect;
-use dynamics_core::effects::{BodyState, Effect, Implicit, JointState, TorqueDerivatives, hook};
+use dynamics_core::effects::{
+    BodyState, Effect, Implicit, JointState, LoadFactors, TorqueDerivatives, hook,
+};
 use dynamics_core::model::Static;
 use dynamics_core::scalar::{Matrix, Real, Vector};
 use dynamics_core::spatial::{Force, Motion, SpatialInertia};
@@ -23,6 +25,7 @@ const GYROSCOPIC_ROTORS: u32 = 256;
 /// Of the field the x axis alone.
 const ALONG_X: u32 = 512;
 const ELASTICITY: u32 = 1024;
+const LOAD_DEPENDENT: u32 = 2048;
 
 /// Has every hook at joints, and of the others those whose bits are set.
 #[derive(Clone, Copy)]
@@ -81,6 +84,20 @@ impl<R: Real, const FLAGS: u32, const B: usize, const V: usize> Effect<R, B, V> 
         hook::Rotor::coupling(|_, joint, coupling| *coupling += of(0.05 + 0.1 * joint as f64))
     } else {
         hook::Rotor::NONE
+    };
+    const LOAD_FRICTION: hook::LoadFriction<Self, R> = if has(FLAGS, LOAD_DEPENDENT) {
+        hook::LoadFriction::new(
+            |_, joint, at, factors| {
+                factors.magnitude += of::<R>(0.2 + 0.1 * joint as f64) * at.qd;
+                factors.torque += of::<R>(0.1) * at.q;
+            },
+            |_, joint, at, slopes| {
+                slopes.magnitude += of::<R>(0.2 + 0.1 * joint as f64);
+                slopes.torque += of::<R>(0.3) * at.qd;
+            },
+        )
+    } else {
+        hook::LoadFriction::NONE
     };
 
     fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R) {
@@ -187,6 +204,7 @@ fn each_hook_acts_alone_in_core_and_engine() {
     acting::<VELOCITY_PRODUCTS>();
     acting::<WRENCH>();
     acting::<BASE_MOTION>();
+    acting::<LOAD_DEPENDENT>();
     // What reads nothing, and inertia that nothing accelerates, are no torques.
     idle::<BODY_VELOCITY>();
     idle::<BODY_POSE>();
@@ -204,7 +222,8 @@ const ENGINE: u32 = FIELD
     | BODY_VELOCITY
     | BODY_POSE
     | BASE_MOTION
-    | PAYLOAD;
+    | PAYLOAD
+    | LOAD_DEPENDENT;
 
 #[test]
 fn among_all_hooks_every_one_of_them_counts() {
@@ -219,6 +238,7 @@ fn among_all_hooks_every_one_of_them_counts() {
         core::<{ ENGINE ^ BODY_POSE }>(),
         core::<{ ENGINE ^ BASE_MOTION }>(),
         core::<{ ENGINE ^ PAYLOAD }>(),
+        core::<{ ENGINE ^ LOAD_DEPENDENT }>(),
     ];
     for less in less {
         assert!((less[0] - all[0]).abs() > 0.01, "{less:?} and {all:?}");
@@ -240,6 +260,7 @@ fn observed<R: Real, E: Effect<R, 6, 3>>(scene: &E) -> Vec<f64> {
         E::BASE_MOTION,
         E::GYROSCOPIC_ROTORS,
         E::ELASTICITY,
+        E::LOAD_DEPENDENT,
     ];
     let mut numbers = vec![of::<R>(E::GRAVITIES as f64)];
     let flags = [&flags[..], &E::FIELD_AXES, &E::PAYLOAD].concat();
@@ -274,6 +295,12 @@ fn observed<R: Real, E: Effect<R, 6, 3>>(scene: &E) -> Vec<f64> {
     scene.derivatives(1, at, &mut derivatives);
     scene.add_inertia(1, &mut diagonal);
     scene.rotor_coupling(1, &mut coupling);
+    let [mut factors, mut slopes] = [LoadFactors::default(); 2];
+    scene.load_factors(1, at, &mut factors);
+    scene.load_slopes(1, at, &mut slopes);
+    for LoadFactors { magnitude, torque } in [factors, slopes] {
+        numbers.extend([magnitude, torque]);
+    }
     numbers.extend([tau, derivatives.dq, derivatives.dqd, diagonal, coupling]);
     numbers.into_iter().map(R::to_f64).collect()
 }

@@ -1,0 +1,41 @@
+//! What inverse dynamics costs on the SO-101, and its compensation of gravity and friction as a command of voltage.
+#![no_std]
+#![no_main]
+
+mod costs;
+
+use costs::inverse::inverse;
+use dynamics_core::Engine;
+use dynamics_core::effects::{Gravity, RIGID_BODY};
+use dynamics_core::state::State;
+use firmware_demo::scenes::so101_teach::{COMPENSATION, with_back_emf};
+
+/// The torques that hold and move the arm without effort.
+#[inline(never)]
+fn torques(state: &State<f32, 6, 6>) -> [f32; 6] {
+    Engine::<robots::So101>::rnea(state, &COMPENSATION)
+}
+
+/// The command that holds and moves the arm without effort.
+#[inline(never)]
+fn command(state: &State<f32, 6, 6>) -> [f32; 6] {
+    with_back_emf(
+        Engine::<robots::So101>::rnea(state, &COMPENSATION),
+        &state.qd,
+    )
+}
+
+fn run() -> ! {
+    let asks = costs::asks::<robots::So101, 6, 6, { costs::STATES }>();
+    inverse::<robots::So101, _, 6, 6>("full", &asks, &RIGID_BODY);
+    inverse::<robots::So101, _, 6, 6>("gravity", &asks, &(Gravity::EARTH,));
+    let functions: [(&str, fn(&State<f32, 6, 6>) -> [f32; 6]); 2] =
+        [("compensation", torques), ("command", command)];
+    for (inputs, function) in functions {
+        let row = costs::row::Row::of::<robots::So101, 6, 6>("rnea", "engine", inputs, true);
+        row.measure(function as usize, &asks, |ask| function(&ask.state));
+    }
+    costs::done()
+}
+
+costs::main!(run());

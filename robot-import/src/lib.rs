@@ -2,5 +2,6 @@
 
 pub mod description;
 pub mod error;
+pub mod project;
 pub mod snap;
 pub mod source;

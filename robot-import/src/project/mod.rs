@@ -11,6 +11,7 @@ mod tests;
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
 
 pub use error::ProjectError;
 use names::{check_name, enumerators, snake_case, toml_string};
@@ -112,7 +113,7 @@ pub const MOST_JOINTS: usize = 32;
 const COUPLED: &str = "the joints coupled by `COUPLING` are driven each by itself in this project: use the \
                        Transmission in src/robot.rs where a motor moves several of them";
 
-/// Writes a project into a folder that is empty or not there.
+/// Writes a project into a folder that is empty or not there, and formats it if rustfmt is installed.
 ///
 /// # Errors
 /// [`ProjectError`]; no file that was there is overwritten.
@@ -139,6 +140,7 @@ pub fn create(folder: &Path, project: &Project) -> Result<Created, ProjectError>
         write(folder, &path, &substitute(text, &values), &mut files)?;
     }
     write(folder, "src/robot.rs", &project.robot.text, &mut files)?;
+    format(&files);
     let note = (project.robot.coupled && robot_only.is_none()).then_some(COUPLED);
     Ok(Created {
         files,
@@ -160,6 +162,19 @@ fn write(
     fs::write(&path, text).map_err(ProjectError::io("write", &path))?;
     files.push(path);
     Ok(())
+}
+
+/// Formats Rust files, where rustfmt is installed: how long a line is depends on the project's name.
+fn format(files: &[PathBuf]) {
+    let sources = (files.iter()).filter(|path| path.extension().is_some_and(|end| end == "rs"));
+    let mut rustfmt = Command::new("rustfmt");
+    rustfmt.args(["--quiet", "--edition", "2024"]);
+    let silent = rustfmt
+        .args(sources)
+        .stdout(Stdio::null())
+        .stderr(Stdio::null());
+    // A project whose lines are too long is as good.
+    let _ = silent.status();
 }
 
 impl RobotFile {
@@ -249,17 +264,8 @@ impl FileEffects {
         names.sort_unstable();
         (
             format!("{{{}}}", names.join(", ")),
-            tuple(&types, "pub type Effects = ;".len()),
-            tuple(&values, "pub const EFFECTS: Effects = ;".len()),
+            format!("({})", types.join(", ")),
+            format!("({})", values.join(", ")),
         )
     }
-}
-
-/// A tuple as rustfmt writes it after so many characters.
-fn tuple(items: &[String], before: usize) -> String {
-    let line = format!("({})", items.join(", "));
-    if before + line.len() <= 100 {
-        return line;
-    }
-    format!("(\n    {},\n)", items.join(",\n    "))
 }

@@ -47,7 +47,10 @@ impl fmt::Display for RunError {
             Self::Setup(error) => error.fmt(out),
             Self::Plant(error) => {
                 let name = JOINTS.get(error.joint).unwrap_or(&"?");
-                write!(out, "joint {name} moves no inertia: add an Armature in scene.rs")
+                write!(
+                    out,
+                    "joint {name} moves no inertia: add an Armature in scene.rs"
+                )
             }
         }
     }
@@ -81,7 +84,11 @@ pub fn run(law: Law, clock: impl Fn() -> u32) -> Result<Outcome, RunError> {
     };
     for tick in 0..outcome.ticks {
         let reference = control.motion.at(tick).q;
-        for (error, (is, wanted)) in outcome.error.iter_mut().zip(plant.state.q.iter().zip(reference)) {
+        for (error, (is, wanted)) in outcome
+            .error
+            .iter_mut()
+            .zip(plant.state.q.iter().zip(reference))
+        {
             *error += (is - wanted) * (is - wanted);
         }
         let start = clock();
@@ -149,7 +156,10 @@ pub fn print(out: &mut impl Write, clock: Clock<impl Fn() -> u32>) -> Result<boo
         }
     };
     values(out, "torques of the first tick", &outcome.first)?;
-    writeln!(out, "joint: tracking error RMS in 1e-3 rad or m, greatest torque in N·m or N, its limit")?;
+    writeln!(
+        out,
+        "joint: tracking error RMS in 1e-3 rad or m, greatest torque in N·m or N, its limit"
+    )?;
     let limits = Control::new().map(|control| {
         let needed = scene::needed_torque(&control.motion);
         (scene::limits(&control.motion).torque, needed)
@@ -157,15 +167,29 @@ pub fn print(out: &mut impl Write, clock: Clock<impl Fn() -> u32>) -> Result<boo
     let (limits, needed) = limits.unwrap_or(([0.0; N], [0.0; N]));
     for (joint, name) in JOINTS.iter().enumerate() {
         let (error, torque) = (1e3 * outcome.error[joint], outcome.largest[joint]);
-        writeln!(out, "  {name}: {error:.3}, {torque:.3}, {:.3}", limits[joint])?;
+        writeln!(
+            out,
+            "  {name}: {error:.3}, {torque:.3}, {:.3}",
+            limits[joint]
+        )?;
     }
-    for (joint, name) in JOINTS.iter().enumerate().filter(|&(joint, _)| needed[joint] > limits[joint]) {
+    for (joint, name) in JOINTS
+        .iter()
+        .enumerate()
+        .filter(|&(joint, _)| needed[joint] > limits[joint])
+    {
         let (needed, limit) = (needed[joint], limits[joint]);
-        writeln!(out, "error: joint {name} needs {needed:.3} for this motion; its limit is {limit:.3}: see scene.rs")?;
+        writeln!(
+            out,
+            "error: joint {name} needs {needed:.3} for this motion; its limit is {limit:.3}: see scene.rs"
+        )?;
     }
     if !outcome.is_good() {
         let (limited, faulted) = (outcome.limited, outcome.faulted);
-        writeln!(out, "error: {limited} ticks at a limit, {faulted} ticks on hold or stopped")?;
+        writeln!(
+            out,
+            "error: {limited} ticks at a limit, {faulted} ticks on hold or stopped"
+        )?;
     }
     cost(out, &outcome, clock)?;
     Ok(outcome.is_good())
@@ -185,12 +209,19 @@ fn values(out: &mut impl Write, name: &str, values: &[f32; N]) -> fmt::Result {
 
 fn cost(out: &mut impl Write, outcome: &Outcome, clock: Clock<impl Fn() -> u32>) -> fmt::Result {
     let Some([numerator, denominator]) = clock.instructions else {
-        return writeln!(out, "tick: {} ticks; no counter of instructions here", outcome.ticks);
+        return writeln!(
+            out,
+            "tick: {} ticks; no counter of instructions here",
+            outcome.ticks
+        );
     };
     let before = (clock.now)();
     let overhead = (clock.now)().wrapping_sub(before) & COUNTS;
-    let [least, most] = outcome.cost.map(|cost| u64::from(cost.saturating_sub(overhead)));
-    let [first, last] = [least, most].map(|counts| (counts * numerator + denominator / 2) / denominator);
+    let [least, most] = outcome
+        .cost
+        .map(|cost| u64::from(cost.saturating_sub(overhead)));
+    let [first, last] =
+        [least, most].map(|counts| (counts * numerator + denominator / 2) / denominator);
     writeln!(
         out,
         "tick: {first} to {last} instructions in {} ticks, within 2 ({least} to {most} counts of a timer at 168 MHz: in \

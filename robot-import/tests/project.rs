@@ -156,7 +156,12 @@ fn c_project(name: &str, robot: RobotFile, expected: &str) {
         expected
     );
     assert_eq!(device.lines().last(), Some("good"), "{device}");
-    eprintln!("{}", device.lines().take(4).collect::<Vec<_>>().join("\n"));
+    let costs: Vec<_> = device
+        .lines()
+        .filter(|line| line.contains(": status 0, "))
+        .collect();
+    assert_eq!(costs.len(), 4, "{device}");
+    eprintln!("{}", costs.join("\n"));
     let check = trial.run("make", &[&out, "check"]);
     assert_eq!(check.lines().last(), Some("no panic"));
     trial.run("cargo", &["test"]);

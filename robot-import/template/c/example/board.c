@@ -52,7 +52,17 @@ static int semihost(int operation, const void *argument)
 
 void print(const char *text)
 {
-    semihost(0x04, text); /* SYS_WRITE0 */
+    static int output;
+    if (output == 0) {
+        const uintptr_t console[3] = {(uintptr_t) ":tt", 4, 3}; /* to be written: standard output */
+        output = semihost(0x01, console);                      /* SYS_OPEN */
+    }
+    uintptr_t length = 0;
+    while (text[length] != 0) {
+        length++;
+    }
+    const uintptr_t block[3] = {(uintptr_t)output, (uintptr_t)text, length};
+    semihost(0x05, block); /* SYS_WRITE */
 }
 
 _Noreturn void leave(int good)

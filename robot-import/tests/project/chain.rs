@@ -136,7 +136,12 @@ impl Robot<30, 30, 30> for Chain {
                 .mass(1.4)
                 .com([0.02, 0.01, -0.1])
                 .inertia([0.0140, 0.0001, 0.0, 0.0154, 0.0, 0.002])
-                .limits(JointLimits::NONE),
+                .limits(JointLimits {
+                    lower: 0.0,
+                    upper: 0.04,
+                    velocity: 0.05,
+                    torque: 60.0,
+                }),
             Body::new("b18", 17, Joint::revolute([0.0, 1.0, 0.0]))
                 .xyz([0.00, 0.15, -0.2])
                 .mass(1.1)

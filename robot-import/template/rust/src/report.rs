@@ -181,7 +181,7 @@ pub fn print(out: &mut impl Write, clock: Clock<impl Fn() -> u32>) -> Result<boo
         let (needed, limit) = (needed[joint], limits[joint]);
         writeln!(
             out,
-            "error: joint {name} needs {needed:.3} for this motion; its limit is {limit:.3}: see scene.rs"
+            "error: joint {name} needs {needed:.3} for this motion, its limit is {limit:.3}: see home, away and limits in scene.rs"
         )?;
     }
     if !outcome.is_good() {

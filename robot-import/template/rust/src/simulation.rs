@@ -13,7 +13,7 @@ use embedded_hal::pwm::{self, SetDutyCycle};
 use embedded_hal::spi::{self, Operation, SpiDevice};
 
 use crate::board::{BITS, Board, Drive, Encoder};
-use crate::scene::{Arm, EFFECTS, Effects, N, TICK};
+use crate::scene::{Arm, EFFECTS, Effects, N, TICK, encoder_ratios};
 
 /// Steps of the simulation in a tick.
 const STEPS: u8 = 2;
@@ -44,9 +44,10 @@ impl Wires {
         zero: &[f32; N],
         full_scale: &[f32; N],
     ) -> Board<SimEncoder<'_>, SimDrive<'_>, SimBrake<'_>> {
+        let ratio = encoder_ratios();
         Board {
             encoders: core::array::from_fn(|joint| {
-                Encoder::new(SimEncoder(&self.angles[joint]), zero[joint], 1.0)
+                Encoder::new(SimEncoder(&self.angles[joint]), zero[joint], ratio[joint])
             }),
             drives: core::array::from_fn(|joint| {
                 Drive::new(SimDrive(&self.duties[joint]), full_scale[joint])
@@ -68,6 +69,7 @@ pub struct Plant {
     robot: Calibrated<Arm, f32, N, N, N>,
     effects: Effects,
     zero: [f32; N],
+    ratio: [f32; N],
     full_scale: [f32; N],
     /// Where it is.
     pub state: State<f32, N, N>,
@@ -80,6 +82,7 @@ impl Plant {
             robot: Calibrated::nominal(),
             effects: EFFECTS,
             zero,
+            ratio: encoder_ratios(),
             full_scale,
             state: State::at(zero),
         }
@@ -109,7 +112,7 @@ impl Plant {
             )?;
         }
         for (joint, angle) in wires.angles.iter().enumerate() {
-            let turned = self.state.q[joint] - self.zero[joint];
+            let turned = (self.state.q[joint] - self.zero[joint]) / self.ratio[joint];
             let counts = turned * ((1_u32 << BITS) as f32 / TAU);
             let nearest = counts + if counts < 0.0 { -0.5 } else { 0.5 };
             angle.set((nearest as i32 & ((1 << BITS) - 1)) as u16);

@@ -220,5 +220,6 @@ fn thirty_joints() {
         friction.2,
     );
     let expected = expected::<chain::Chain, _, 30>(&scene);
-    rust_project("thirty-joints", robot, &expected);
+    rust_project("thirty-joints", robot.clone(), &expected);
+    c_project("thirty-joints-for-c", robot, &expected);
 }

@@ -47,7 +47,7 @@ pub struct RobotFile {
     pub v: usize,
     /// Whether joints are coupled (mimic joints): the projects drive each joint by itself.
     pub coupled: bool,
-    /// Which of `VISCOUS`, `COULOMB` and `ARMATURE` have a number other than zero. The others are left out of the scene.
+    /// Which of `VISCOUS`, `COULOMB`, `ARMATURE` have a number other than zero. The others are left out of the scene.
     pub effects: FileEffects,
 }
 
@@ -210,7 +210,11 @@ fn values(project: &Project) -> Result<Vec<Value>, ProjectError> {
     let robot = &project.robot;
     let crate_name = snake_case(&project.name);
     let prefix = crate_name.to_ascii_uppercase();
-    let form = if robot.v > MOST_FOLDED { "Core" } else { "Engine" };
+    let form = if robot.v > MOST_FOLDED {
+        "Core"
+    } else {
+        "Engine"
+    };
     let (names, types, values) = robot.effects.in_scene();
     Ok(vec![
         ("project-name", project.name.clone()),

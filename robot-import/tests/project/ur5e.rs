@@ -1,5 +1,5 @@
-//! A UR5e as the importer writes it: the numbers of dynamics-core/src/robots/ur5e.rs, where their source and licence are;
-//! friction and rotors assumed.
+//! A UR5e as the importer writes it, with the numbers of dynamics-core/src/robots/ur5e.rs, where their source and
+//! licence are; friction and rotors are assumed.
 
 use core::f64::consts::{PI, TAU};
 

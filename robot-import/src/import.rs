@@ -10,6 +10,7 @@ use crate::description::Description;
 use crate::error::{ImportError, Problem, Result};
 use crate::estimate;
 use crate::physical::violation;
+use crate::project::{FileEffects, RobotFile};
 use crate::selection::{Selected, Selection};
 use crate::tree::{Numbers, Tree};
 use crate::{source, write};
@@ -20,6 +21,23 @@ pub struct Args {
     /// The description: URDF or MJCF
     #[arg(value_name = "FILE")]
     pub file: PathBuf,
+    /// Which robot it becomes.
+    #[command(flatten)]
+    pub options: Options,
+    /// The robot's name; that of the file if not given
+    #[arg(long, value_name = "NAME")]
+    pub name: Option<String>,
+    /// Write the Rust file here instead of to stdout
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+    /// The report as JSON on stdout
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Which part of a file becomes the robot, and how it is checked.
+#[derive(Clone, Debug, Default, clap::Args)]
+pub struct Options {
     /// The link that stands still; the root of the file if not given
     #[arg(long, value_name = "LINK")]
     pub base: Option<String>,
@@ -35,12 +53,6 @@ pub struct Args {
     /// The base moves freely
     #[arg(long)]
     pub free_base: bool,
-    /// The robot's name; that of the file if not given
-    #[arg(long, value_name = "NAME")]
-    pub name: Option<String>,
-    /// Write the Rust file here instead of to stdout
-    #[arg(long, value_name = "FILE")]
-    pub out: Option<PathBuf>,
     /// Compare with Pinocchio or MuJoCo, too, and fail if they are not there
     #[arg(long)]
     pub check: bool,
@@ -53,9 +65,6 @@ pub struct Args {
     /// The Python that has Pinocchio or MuJoCo
     #[arg(long, value_name = "PROGRAM", default_value = "python3")]
     pub python: String,
-    /// The report as JSON on stdout
-    #[arg(long)]
-    pub json: bool,
 }
 
 fn locked(text: &str) -> std::result::Result<(String, f64), String> {
@@ -148,10 +157,10 @@ pub struct Row {
 pub fn import(args: &Args, today: &str) -> Result<Imported> {
     let mut robot = source::read(&args.file)?;
     let mut notes = Vec::new();
-    if args.repair {
+    if args.options.repair {
         repair(&mut robot, &mut notes);
     }
-    if args.keep_roundings {
+    if args.options.keep_roundings {
         for joint in &mut robot.joints {
             (joint.exact, joint.snapped) = (joint.origin, Vec::new());
         }
@@ -164,7 +173,7 @@ pub fn import(args: &Args, today: &str) -> Result<Imported> {
         }
     }
     if let (true, Some(note)) = (
-        args.free_base,
+        args.options.free_base,
         robot.notes.iter().find(|note| note.contains(UNREAD)),
     ) {
         return Err(
@@ -172,11 +181,11 @@ pub fn import(args: &Args, today: &str) -> Result<Imported> {
         );
     }
     let selection = Selection {
-        base: args.base.clone(),
-        tip: args.tip.clone(),
-        joints: args.joints.clone(),
-        lock: args.lock.clone(),
-        free_base: args.free_base,
+        base: args.options.base.clone(),
+        tip: args.options.tip.clone(),
+        joints: args.options.joints.clone(),
+        lock: args.options.lock.clone(),
+        free_base: args.options.free_base,
     };
     let selected = selection.of(&robot)?;
     let tree = Tree::of(&robot, &selected, Numbers::Exact)?;
@@ -189,8 +198,15 @@ pub fn import(args: &Args, today: &str) -> Result<Imported> {
         ))
         .into());
     }
-    let peer = check::compare(&args.python, &args.file, &robot, &selected, &tree, &checked);
-    let compared = !args.repair && args.base.is_none();
+    let peer = check::compare(
+        &args.options.python,
+        &args.file,
+        &robot,
+        &selected,
+        &tree,
+        &checked,
+    );
+    let compared = !args.options.repair && args.options.base.is_none();
     let (peer, no_peer) = match peer {
         _ if !compared => (
             None,
@@ -199,7 +215,7 @@ pub fn import(args: &Args, today: &str) -> Result<Imported> {
         Ok(peer) => (Some(peer), None),
         Err(reason) => (None, Some(reason)),
     };
-    if let (true, Some(reason)) = (args.check, &no_peer) {
+    if let (true, Some(reason)) = (args.options.check, &no_peer) {
         return Err(Problem::Value(format!("no peer to compare with: {reason}")).into());
     }
     if let Some(peer) = peer.as_ref().filter(|peer| peer.difference > check::MOST) {
@@ -313,4 +329,28 @@ pub fn run(args: &Args, today: &str) -> Result<Imported> {
         })?;
     }
     Ok(imported)
+}
+
+impl Imported {
+    /// Its file, and what a project needs of it.
+    pub fn robot_file(&self) -> RobotFile {
+        let is_some =
+            |of: fn(&crate::tree::Body) -> f64| self.tree.bodies.iter().any(|body| of(body) != 0.0);
+        let [b, q, v] = self.report.sizes;
+        let joints = self.tree.bodies.iter().map(|body| body.joint.clone());
+        RobotFile {
+            type_name: self.report.type_name.clone(),
+            text: self.source.clone(),
+            joints: joints.collect(),
+            b,
+            q,
+            v,
+            coupled: self.tree.has_followers() && self.tree.is_single(),
+            effects: FileEffects {
+                viscous: is_some(|body| body.damping),
+                coulomb: is_some(|body| body.friction),
+                armature: is_some(|body| body.armature),
+            },
+        }
+    }
 }

@@ -26,6 +26,7 @@ pub mod model;
 pub mod number;
 pub mod physical;
 mod print;
+pub mod project;
 pub mod selection;
 pub mod snap;
 pub mod source;

@@ -1,10 +1,11 @@
-//! `robot-import`: robots from URDF or MJCF as constants of dynamics-core.
+//! `robot-import`: robots from URDF or MJCF as constants of dynamics-core, and projects of one's own for them.
 
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-use robot_import::error::Result;
 use robot_import::import;
+use robot_import::project::{self, Library, Project};
 
 /// Robots from URDF or MJCF as constants of dynamics-core
 #[derive(Parser)]
@@ -18,10 +19,42 @@ struct Cli {
 enum Command {
     /// Write the Rust file of a robot, with advice and a check
     Import(import::Args),
+    /// Write a firmware project, or a static library for C, for a robot
+    New(New),
+}
+
+#[derive(clap::Args)]
+struct New {
+    /// The folder; its name is the project's
+    #[arg(value_name = "FOLDER")]
+    folder: PathBuf,
+    /// The description: URDF or MJCF
+    #[arg(long, value_name = "FILE")]
+    robot: PathBuf,
+    /// A static library with a header for C in place of firmware in Rust
+    #[arg(long)]
+    c: bool,
+    /// The folder of the crate dynamics-core
+    #[arg(
+        long,
+        value_name = "FOLDER",
+        required_unless_present = "git",
+        conflicts_with = "git"
+    )]
+    library: Option<PathBuf>,
+    /// The address of the repository of dynamics-core
+    #[arg(long, value_name = "ADDRESS")]
+    git: Option<String>,
+    #[command(flatten)]
+    options: import::Options,
 }
 
 fn main() -> ExitCode {
-    match run(Cli::parse()) {
+    let done = match Cli::parse().command {
+        Command::Import(args) => import(&args),
+        Command::New(args) => new(args),
+    };
+    match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("error: {error}");
@@ -30,11 +63,10 @@ fn main() -> ExitCode {
     }
 }
 
-fn run(cli: Cli) -> Result<()> {
-    let Command::Import(args) = cli.command;
-    let imported = import::run(&args, &today())?;
+fn import(args: &import::Args) -> Result<(), Box<dyn std::error::Error>> {
+    let imported = import::run(args, &today())?;
     let report = match args.json {
-        true => serde_json::to_string_pretty(&imported.report).unwrap_or_default() + "\n",
+        true => serde_json::to_string_pretty(&imported.report)? + "\n",
         false => imported.report.text(),
     };
     match (&args.out, args.json) {
@@ -43,6 +75,57 @@ fn run(cli: Cli) -> Result<()> {
             print!("{}", imported.source);
         }
         _ => print!("{report}"),
+    }
+    Ok(())
+}
+
+fn new(args: New) -> Result<(), Box<dyn std::error::Error>> {
+    let folder = std::path::absolute(&args.folder)?;
+    let name = folder
+        .file_name()
+        .unwrap_or_default()
+        .to_string_lossy()
+        .into_owned();
+    let imported = import::import(
+        &import::Args {
+            file: args.robot,
+            options: args.options,
+            name: Some(name.clone()),
+            ..import::Args::default()
+        },
+        &today(),
+    )?;
+    print!("{}", imported.report.text());
+    let library = match (args.library, args.git) {
+        (Some(path), _) => Library::Path(std::path::absolute(path)?),
+        (None, git) => Library::Git(git.unwrap_or_default()),
+    };
+    let robot = imported.robot_file();
+    let c = args.c;
+    let created = project::create(
+        &folder,
+        &Project {
+            name,
+            robot,
+            library,
+            c,
+        },
+    )?;
+    println!("\nwritten into {}:", folder.display());
+    for file in &created.files {
+        println!("  {}", file.strip_prefix(&folder).unwrap_or(file).display());
+    }
+    if let Some(reason) = created.robot_only {
+        println!("\nnote: {reason}");
+    } else {
+        println!(
+            "\nnext: cd {} && {}",
+            args.folder.display(),
+            if c { "make run" } else { "cargo run --release" }
+        );
+    }
+    if let Some(note) = created.note {
+        println!("note: {note}");
     }
     Ok(())
 }

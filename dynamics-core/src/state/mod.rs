@@ -19,8 +19,12 @@ use crate::trig::Kernel;
 /// let at_rest = State::<f32, 6, 6>::at([0.1; 6]);
 /// assert_eq!(at_rest.qd, [0.0; 6]);
 /// ```
+///
+/// # Shape
+/// The three arrays one after the other, as in a C struct of them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[repr(C)]
 pub struct State<R, const Q: usize, const V: usize> {
     /// Positions q, rad or m.
     pub q: [R; Q],

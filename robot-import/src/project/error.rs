@@ -1,0 +1,46 @@
+//! Why no project is written.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// A project that cannot be written.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ProjectError {
+    /// The name cannot be that of a crate.
+    #[error("`{name}` cannot be the name of a project: {reason}")]
+    Name {
+        /// The name.
+        name: String,
+        /// Why, and what to do.
+        reason: &'static str,
+    },
+    /// The folder has files already.
+    #[error("{} is there already and is not empty: give another folder or name", .0.display())]
+    NotEmpty(PathBuf),
+    /// The git address or path of the library cannot be written into a manifest.
+    #[error("the library's address `{0}` has a control character or is no Unicode")]
+    Library(String),
+    /// A file or folder cannot be read or written.
+    #[error("cannot {action} {}: {source}", path.display())]
+    Io {
+        /// What was tried.
+        action: &'static str,
+        /// The file or folder.
+        path: PathBuf,
+        /// The error of the operating system.
+        source: io::Error,
+    },
+}
+
+impl ProjectError {
+    /// The error of an action on a path.
+    pub(super) fn io(action: &'static str, path: &Path) -> impl FnOnce(io::Error) -> Self {
+        let path = path.to_path_buf();
+        move |source| Self::Io {
+            action,
+            path,
+            source,
+        }
+    }
+}

@@ -1,0 +1,281 @@
+//! A project outside the repository: firmware in Rust, or a static library for C.
+//!
+//! The templates are in `template/rust` and `template/c`; they are templates of `cargo generate` as well. A placeholder
+//! is replaced by text, nothing else: no condition, no loop.
+
+mod error;
+mod names;
+mod templates;
+#[cfg(test)]
+mod tests;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+pub use error::ProjectError;
+use names::{check_name, enumerators, snake_case, toml_string};
+use templates::{C, File, RUST};
+
+/// A project to be written.
+#[derive(Clone, Debug)]
+pub struct Project {
+    /// Its name: that of the crate, in kebab case or snake case.
+    pub name: String,
+    /// The robot.
+    pub robot: RobotFile,
+    /// Where the library is.
+    pub library: Library,
+    /// Whether it is a static library with a C header.
+    pub c: bool,
+}
+
+/// The Rust file of a robot, and what the templates need of it.
+#[derive(Clone, Debug)]
+pub struct RobotFile {
+    /// The type that implements `Robot`.
+    pub type_name: String,
+    /// The file.
+    pub text: String,
+    /// The names of the joints, one for each velocity coordinate.
+    pub joints: Vec<String>,
+    /// How many bodies.
+    pub b: usize,
+    /// How many position coordinates.
+    pub q: usize,
+    /// How many velocity coordinates.
+    pub v: usize,
+    /// Whether joints are coupled (mimic joints): the projects drive each joint by itself.
+    pub coupled: bool,
+    /// Which of `VISCOUS`, `COULOMB`, `ARMATURE` have a number other than zero. The others are left out of the scene.
+    pub effects: FileEffects,
+}
+
+/// The effects to which a robot's file gives numbers.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct FileEffects {
+    /// `VISCOUS`.
+    pub viscous: bool,
+    /// `COULOMB`.
+    pub coulomb: bool,
+    /// `ARMATURE`.
+    pub armature: bool,
+}
+
+/// Where a project gets dynamics-core from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Library {
+    /// The folder of the crate `dynamics-core`.
+    Path(PathBuf),
+    /// The address of its repository.
+    Git(String),
+}
+
+/// What was written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Created {
+    /// The files.
+    pub files: Vec<PathBuf>,
+    /// Why it is only the robot's file, if it is.
+    pub robot_only: Option<RobotOnly>,
+    /// What the user has to know of the project.
+    pub note: Option<&'static str>,
+}
+
+/// A robot for which there is no project; its file was written.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum RobotOnly {
+    /// A floating base, spherical or planar joints.
+    #[error(
+        "a project needs joints of one degree of freedom on a fixed base; this robot has {b} bodies, {q} position and \
+         {v} velocity coordinates: only its file was written"
+    )]
+    Coordinates {
+        /// How many bodies.
+        b: usize,
+        /// How many position coordinates.
+        q: usize,
+        /// How many velocity coordinates.
+        v: usize,
+    },
+    /// More joints than the engine takes.
+    #[error(
+        "a project has at most {MOST_JOINTS} joints, this robot has {0}: only its file was written"
+    )]
+    Joints(usize),
+}
+
+/// The most joints that the engine takes.
+pub const MOST_JOINTS: usize = 32;
+
+/// The most joints for which the C library's inertia matrix and forward dynamics are the engine's: with 30 joints they
+/// compile for four minutes.
+const MOST_FOLDED: usize = 12;
+
+/// Said of coupled joints.
+const COUPLED: &str = "the joints coupled by `COUPLING` are driven each by itself in this project: use the \
+                       Transmission in src/robot.rs where a motor moves several of them";
+
+/// Writes a project into a folder that is empty or not there, and formats it if rustfmt is installed.
+///
+/// # Errors
+/// [`ProjectError`]; no file that was there is overwritten.
+pub fn create(folder: &Path, project: &Project) -> Result<Created, ProjectError> {
+    check_name(&project.name)?;
+    let values = values(project)?;
+    let is_used = match fs::read_dir(folder) {
+        Ok(mut entries) => entries.next().is_some(),
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => false,
+        Err(error) => return Err(ProjectError::io("read", folder)(error)),
+    };
+    if is_used {
+        return Err(ProjectError::NotEmpty(folder.to_path_buf()));
+    }
+    let robot_only = project.robot.robot_only();
+    let templates: &[File] = match (&robot_only, project.c) {
+        (Some(_), _) => &[],
+        (None, true) => C,
+        (None, false) => RUST,
+    };
+    let mut files = Vec::new();
+    for File { path, text } in templates {
+        let path = substitute(path, &values);
+        write(folder, &path, &substitute(text, &values), &mut files)?;
+    }
+    write(folder, "src/robot.rs", &project.robot.text, &mut files)?;
+    format(&files);
+    let note = (project.robot.coupled && robot_only.is_none()).then_some(COUPLED);
+    Ok(Created {
+        files,
+        robot_only,
+        note,
+    })
+}
+
+fn write(
+    folder: &Path,
+    path: &str,
+    text: &str,
+    files: &mut Vec<PathBuf>,
+) -> Result<(), ProjectError> {
+    let path = folder.join(path);
+    if let Some(parent) = path.parent() {
+        fs::create_dir_all(parent).map_err(ProjectError::io("create", parent))?;
+    }
+    fs::write(&path, text).map_err(ProjectError::io("write", &path))?;
+    files.push(path);
+    Ok(())
+}
+
+/// Formats Rust files, where rustfmt is installed: how long a line is depends on the project's name.
+fn format(files: &[PathBuf]) {
+    let sources = (files.iter()).filter(|path| path.extension().is_some_and(|end| end == "rs"));
+    let mut rustfmt = Command::new("rustfmt");
+    rustfmt.args(["--quiet", "--edition", "2024"]);
+    let silent = rustfmt
+        .args(sources)
+        .stdout(Stdio::null())
+        .stderr(Stdio::null());
+    // A project whose lines are too long is as good.
+    let _ = silent.status();
+}
+
+impl RobotFile {
+    fn robot_only(&self) -> Option<RobotOnly> {
+        let Self { b, q, v, .. } = *self;
+        if b != v || q != v || self.joints.len() != v {
+            return Some(RobotOnly::Coordinates { b, q, v });
+        }
+        (v > MOST_JOINTS).then_some(RobotOnly::Joints(v))
+    }
+}
+
+/// A placeholder between its braces, and its value.
+type Value = (&'static str, String);
+
+fn values(project: &Project) -> Result<Vec<Value>, ProjectError> {
+    let library = match &project.library {
+        Library::Path(path) => {
+            let text = path.to_str().and_then(toml_string);
+            let wrong = || ProjectError::Library(path.display().to_string());
+            format!("{{ path = {} }}", text.ok_or_else(wrong)?)
+        }
+        Library::Git(address) => {
+            let wrong = || ProjectError::Library(address.clone());
+            let text = toml_string(address).ok_or_else(wrong)?;
+            format!("{{ git = {text} }}")
+        }
+    };
+    let robot = &project.robot;
+    let crate_name = snake_case(&project.name);
+    let prefix = crate_name.to_ascii_uppercase();
+    let form = if robot.v > MOST_FOLDED {
+        "Core"
+    } else {
+        "Engine"
+    };
+    let (names, types, values) = robot.effects.in_scene();
+    Ok(vec![
+        ("project-name", project.name.clone()),
+        ("joints", enumerators(&prefix, &robot.joints)),
+        ("n", robot.v.to_string()),
+        ("form", form.into()),
+        ("crate_name", crate_name),
+        ("prefix", prefix),
+        ("library", library),
+        ("robot", robot.type_name.clone()),
+        ("effect_names", names),
+        ("effect_types", types),
+        ("effect_values", values),
+    ])
+}
+
+/// The text with each `{{placeholder}}` replaced by its value; values are not searched for further ones.
+fn substitute(text: &str, values: &[Value]) -> String {
+    let mut parts = text.split("{{");
+    let mut result = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        let known = part.split_once("}}").and_then(|(name, rest)| {
+            let (_, value) = values.iter().find(|(known, _)| *known == name)?;
+            Some((value, rest))
+        });
+        match known {
+            Some((value, rest)) => result.extend([value.as_str(), rest]),
+            None => result.extend(["{{", part]),
+        }
+    }
+    result
+}
+
+impl FileEffects {
+    /// The names to import, the type and the value of the scene.
+    fn in_scene(self) -> (String, String, String) {
+        let of_file = [
+            (self.viscous, "Viscous", "VISCOUS"),
+            (self.coulomb, "Coulomb", "COULOMB"),
+            (self.armature, "Armature", "ARMATURE"),
+        ];
+        let of_file = of_file.into_iter().filter(|(given, ..)| *given);
+        let (mut names, mut types, mut values) = (
+            vec!["Coriolis", "Gravity", "Inertia"],
+            ["Gravity", "Inertia", "Coriolis"]
+                .map(str::to_owned)
+                .to_vec(),
+            ["Gravity::EARTH", "Inertia", "Coriolis"]
+                .map(str::to_owned)
+                .to_vec(),
+        );
+        for (_, name, value) in of_file {
+            names.push(name);
+            types.push(format!("{name}<f32, N>"));
+            values.push(format!("robot::{value}"));
+        }
+        names.sort_unstable();
+        (
+            format!("{{{}}}", names.join(", ")),
+            format!("({})", types.join(", ")),
+            format!("({})", values.join(", ")),
+        )
+    }
+}

@@ -1,0 +1,189 @@
+use std::path::PathBuf;
+use std::{env, fs, process};
+
+use super::*;
+
+fn pendulum() -> RobotFile {
+    RobotFile {
+        type_name: "Pendulum".into(),
+        text: include_str!("../../template/rust/src/robot.rs").into(),
+        joints: vec!["bearing".into()],
+        b: 1,
+        q: 1,
+        v: 1,
+        coupled: false,
+        effects: FileEffects {
+            viscous: true,
+            ..FileEffects::default()
+        },
+    }
+}
+
+fn project(c: bool) -> Project {
+    Project {
+        name: "my-arm".into(),
+        robot: pendulum(),
+        library: Library::Path("/a \"b\"\\c".into()),
+        c,
+    }
+}
+
+/// A folder that is removed with the value.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(name: &str) -> Self {
+        let folder = env::temp_dir().join(format!("robot-import-{name}-{}", process::id()));
+        let _ = fs::remove_dir_all(&folder);
+        Self(folder)
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
+
+fn read(path: &Path) -> String {
+    fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+#[test]
+fn no_placeholder_is_left_in_a_project() {
+    for c in [false, true] {
+        let folder = Folder::new(if c { "c" } else { "rust" });
+        let created = create(&folder.0, &project(c)).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(
+            created.files.len(),
+            1 + if c { C.len() } else { RUST.len() }
+        );
+        for file in &created.files {
+            let text = read(file);
+            assert!(
+                !text.contains("{{") && !text.contains("{%"),
+                "{}",
+                file.display()
+            );
+        }
+        let manifest = read(&folder.0.join("Cargo.toml"));
+        assert!(
+            manifest.contains(r#"{ path = "/a \"b\"\\c" }"#),
+            "{manifest}"
+        );
+        let scene = read(&folder.0.join("src/scene.rs"));
+        assert!(
+            scene.contains("effects::{Coriolis, Gravity, Inertia, Viscous};"),
+            "{scene}"
+        );
+        if c {
+            let header = read(&folder.0.join("include/my_arm.h"));
+            assert!(header.contains("MY_ARM_JOINT_BEARING = 0,"), "{header}");
+        }
+    }
+}
+
+#[test]
+fn templates_have_only_what_cargo_generate_knows() {
+    let config = |c| match c {
+        true => include_str!("../../template/c/cargo-generate.toml"),
+        false => include_str!("../../template/rust/cargo-generate.toml"),
+    };
+    for (c, template) in [(false, RUST), (true, C)] {
+        let mut used = Vec::new();
+        for file in template {
+            for part in [file.path, file.text]
+                .iter()
+                .flat_map(|text| text.split("{{").skip(1))
+            {
+                used.push(part.split("}}").next().unwrap_or_default());
+            }
+        }
+        used.sort_unstable();
+        used.dedup();
+        assert!(used.len() > 3);
+        for name in used {
+            let is_built_in = ["project-name", "crate_name"].contains(&name);
+            let is_asked = config(c)
+                .lines()
+                .any(|line| line.starts_with(&format!("{name} = ")));
+            assert!(is_built_in || is_asked, "{name}");
+        }
+    }
+}
+
+#[test]
+fn a_folder_with_files_is_left_as_it_is() {
+    let folder = Folder::new("used");
+    fs::create_dir_all(&folder.0).unwrap_or_else(|error| panic!("{error}"));
+    fs::write(folder.0.join("mine"), "mine").unwrap_or_else(|error| panic!("{error}"));
+    let error = create(&folder.0, &project(false)).expect_err("it is not empty");
+    assert!(matches!(error, ProjectError::NotEmpty(_)), "{error}");
+    assert_eq!(fs::read_dir(&folder.0).map(Iterator::count).ok(), Some(1));
+}
+
+#[test]
+fn names_that_are_no_crates_are_refused() {
+    for name in [
+        "",
+        "My-arm",
+        "1arm",
+        "a b",
+        "../x",
+        "core",
+        "dynamics-core",
+        "self",
+        "ärm",
+    ] {
+        let project = Project {
+            name: name.into(),
+            ..project(false)
+        };
+        let folder = Folder::new("name");
+        let error = create(&folder.0, &project).expect_err(name);
+        assert!(
+            matches!(error, ProjectError::Name { .. }),
+            "{name}: {error}"
+        );
+        assert!(!folder.0.exists());
+    }
+}
+
+#[test]
+fn addresses_that_are_no_toml_are_refused() {
+    let project = Project {
+        library: Library::Git("https://example.org/a\nb".into()),
+        ..project(false)
+    };
+    let folder = Folder::new("address");
+    let error = create(&folder.0, &project).expect_err("a line end");
+    assert!(matches!(error, ProjectError::Library(_)), "{error}");
+}
+
+#[test]
+fn a_floating_robot_gets_its_file_only() {
+    let mut project = project(false);
+    (project.robot.b, project.robot.q, project.robot.v) = (13, 19, 18);
+    let folder = Folder::new("floating");
+    let created = create(&folder.0, &project).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(created.files, [folder.0.join("src/robot.rs")]);
+    let (b, q, v) = (13, 19, 18);
+    assert_eq!(created.robot_only, Some(RobotOnly::Coordinates { b, q, v }));
+}
+
+#[test]
+fn joints_of_equal_constants_are_numbered() {
+    let joints = ["a-b", "a.b", "c"].map(str::to_owned);
+    let lines = enumerators("ARM", &joints);
+    let expected = "    ARM_JOINT_A_B_0 = 0,\n    ARM_JOINT_A_B_1 = 1,\n    ARM_JOINT_C = 2,";
+    assert_eq!(lines, expected);
+}
+
+#[test]
+fn values_are_not_searched_for_placeholders() {
+    let values = [("a", "{{b}}".to_owned()), ("b", "x".to_owned())];
+    assert_eq!(
+        substitute("{{a}} {{b}} {{c}} }}", &values),
+        "{{b}} x {{c}} }}"
+    );
+}

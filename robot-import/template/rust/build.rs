@@ -1,0 +1,11 @@
+//! Lets the linker find memory.x, and cortex-m-rt's script where there is no operating system.
+
+fn main() {
+    println!("cargo:rerun-if-changed=memory.x");
+    println!("cargo:rerun-if-changed=build.rs");
+    if std::env::var("CARGO_CFG_TARGET_OS").as_deref() == Ok("none") {
+        let folder = std::env::var("CARGO_MANIFEST_DIR").expect("set by cargo");
+        println!("cargo:rustc-link-search={folder}");
+        println!("cargo:rustc-link-arg-bins=-Tlink.x");
+    }
+}

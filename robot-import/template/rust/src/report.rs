@@ -1,0 +1,231 @@
+//! One run of the motion, and what is printed of it.
+
+use core::fmt::{self, Write};
+use core::hint::black_box;
+
+use dynamics_core::algorithms::NotPositiveDefinite;
+use dynamics_core::control::{Command, Mode};
+use dynamics_core::scalar::Real;
+use dynamics_core::state::State;
+
+use crate::control::{Control, Law, SetupError, feed_forward};
+use crate::marker::measured;
+use crate::scene::{self, JOINTS, N};
+use crate::simulation::{Plant, Wires};
+
+/// What a run shows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Outcome {
+    /// The torques of the first tick, N·m or N.
+    pub first: [f32; N],
+    /// The greatest torques, N·m or N.
+    pub largest: [f32; N],
+    /// The root mean square of the tracking error of each joint, rad or m.
+    pub error: [f32; N],
+    /// The ticks.
+    pub ticks: u32,
+    /// Ticks in which a limit on torque or its rate took effect, after the first, where the torque rises from zero.
+    pub limited: u32,
+    /// Ticks in another mode than the full one.
+    pub faulted: u32,
+    /// The least and the greatest cost of a tick, by the clock.
+    pub cost: [u32; 2],
+}
+
+/// Why there is no outcome.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum RunError {
+    /// An impossible scene.
+    Setup(SetupError),
+    /// A joint of the simulated robot moves no inertia.
+    Plant(NotPositiveDefinite),
+}
+
+impl fmt::Display for RunError {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Setup(error) => error.fmt(out),
+            Self::Plant(error) => {
+                let name = JOINTS.get(error.joint).unwrap_or(&"?");
+                write!(
+                    out,
+                    "joint {name} moves no inertia: add an Armature in scene.rs"
+                )
+            }
+        }
+    }
+}
+
+impl core::error::Error for RunError {}
+
+/// The clock counts modulo 2²⁴, as SysTick does.
+const COUNTS: u32 = 0x00ff_ffff;
+/// The ticks of the start in which the torque may still rise at its allowed rate.
+const START: u32 = 20;
+
+/// Runs the motion under a law; `clock` counts what a tick costs.
+///
+/// # Errors
+/// [`RunError`].
+pub fn run(law: Law, clock: impl Fn() -> u32) -> Result<Outcome, RunError> {
+    let mut control = Control::new().map_err(RunError::Setup)?;
+    let (home, full_scale) = (scene::home(), scene::limits(&control.motion).torque);
+    let wires = Wires::new();
+    let mut board = wires.board(&home, &full_scale);
+    let mut plant = Plant::new(home, full_scale);
+    let mut outcome = Outcome {
+        first: [0.0; N],
+        largest: [0.0; N],
+        error: [0.0; N],
+        ticks: control.motion.ticks(),
+        limited: 0,
+        faulted: 0,
+        cost: [u32::MAX, 0],
+    };
+    for tick in 0..outcome.ticks {
+        let reference = control.motion.at(tick).q;
+        for (error, (is, wanted)) in outcome
+            .error
+            .iter_mut()
+            .zip(plant.state.q.iter().zip(reference))
+        {
+            *error += (is - wanted) * (is - wanted);
+        }
+        let start = clock();
+        let command = measured::<0, _>(|| control.tick(&mut board, law));
+        let cost = clock().wrapping_sub(start) & COUNTS;
+        outcome.cost = [outcome.cost[0].min(cost), outcome.cost[1].max(cost)];
+        outcome.note(tick, &command);
+        plant.advance(&wires).map_err(RunError::Plant)?;
+    }
+    let per_tick = 1.0 / outcome.ticks.max(1) as f32;
+    outcome.error = outcome.error.map(|sum| Real::sqrt(sum * per_tick));
+    Ok(outcome)
+}
+
+impl Outcome {
+    fn note(&mut self, tick: u32, command: &Command<f32, N>) {
+        if tick == 0 {
+            self.first = command.torque;
+        }
+        for (largest, torque) in self.largest.iter_mut().zip(command.torque) {
+            *largest = largest.max(torque.abs());
+        }
+        self.limited += u32::from(command.status.limited && tick > START);
+        self.faulted += u32::from(command.status.mode != Mode::Full);
+    }
+
+    /// Whether the robot followed its motion by its own torque.
+    pub fn is_good(&self) -> bool {
+        self.limited == 0 && self.faulted == 0
+    }
+}
+
+/// A state with other numbers for every joint.
+pub fn probe() -> State<f32, N, N> {
+    let of = |first: f32, step: f32| core::array::from_fn(|joint| first + step * joint as f32);
+    State {
+        q: of(0.1, 0.07),
+        qd: of(0.3, -0.05),
+        qdd: of(-0.2, 0.11),
+    }
+}
+
+/// A clock of 24 bits.
+#[derive(Clone, Copy, Debug)]
+pub struct Clock<F> {
+    /// The reading.
+    pub now: F,
+    /// QEMU's instructions per count, as a fraction; `None` where nothing counts.
+    pub instructions: Option<[u64; 2]>,
+}
+
+/// Runs the motion with the model's torque and without, and prints what happened; whether all went well.
+///
+/// # Errors
+/// The text cannot be written.
+pub fn print(out: &mut impl Write, clock: Clock<impl Fn() -> u32>) -> Result<bool, fmt::Error> {
+    let state = black_box(probe());
+    let torque = measured::<1, _>(|| scene::inverse_dynamics(&state));
+    values(out, "inverse dynamics of the probe", &torque)?;
+    let outcome = match run(feed_forward, &clock.now) {
+        Ok(outcome) => outcome,
+        Err(error) => {
+            writeln!(out, "error: {error}")?;
+            return Ok(false);
+        }
+    };
+    values(out, "torques of the first tick", &outcome.first)?;
+    writeln!(
+        out,
+        "joint: tracking error RMS in 1e-3 rad or m, greatest torque in N·m or N, its limit"
+    )?;
+    let limits = Control::new().map(|control| {
+        let needed = scene::needed_torque(&control.motion);
+        (scene::limits(&control.motion).torque, needed)
+    });
+    let (limits, needed) = limits.unwrap_or(([0.0; N], [0.0; N]));
+    for (joint, name) in JOINTS.iter().enumerate() {
+        let (error, torque) = (1e3 * outcome.error[joint], outcome.largest[joint]);
+        writeln!(
+            out,
+            "  {name}: {error:.3}, {torque:.3}, {:.3}",
+            limits[joint]
+        )?;
+    }
+    for (joint, name) in JOINTS
+        .iter()
+        .enumerate()
+        .filter(|&(joint, _)| needed[joint] > limits[joint])
+    {
+        let (needed, limit) = (needed[joint], limits[joint]);
+        writeln!(
+            out,
+            "error: joint {name} needs {needed:.3} for this motion, its limit is {limit:.3}: see home, away and limits in scene.rs"
+        )?;
+    }
+    if !outcome.is_good() {
+        let (limited, faulted) = (outcome.limited, outcome.faulted);
+        writeln!(
+            out,
+            "error: {limited} ticks at a limit, {faulted} ticks on hold or stopped"
+        )?;
+    }
+    cost(out, &outcome, clock)?;
+    Ok(outcome.is_good())
+}
+
+fn values(out: &mut impl Write, name: &str, values: &[f32; N]) -> fmt::Result {
+    write!(out, "{name}:")?;
+    for value in values {
+        write!(out, " {value:.6}")?;
+    }
+    write!(out, "\n  bits:")?;
+    for value in values {
+        write!(out, " {:08x}", value.to_bits())?;
+    }
+    writeln!(out)
+}
+
+fn cost(out: &mut impl Write, outcome: &Outcome, clock: Clock<impl Fn() -> u32>) -> fmt::Result {
+    let Some([numerator, denominator]) = clock.instructions else {
+        return writeln!(
+            out,
+            "tick: {} ticks; no counter of instructions here",
+            outcome.ticks
+        );
+    };
+    let before = (clock.now)();
+    let overhead = (clock.now)().wrapping_sub(before) & COUNTS;
+    let [least, most] = outcome
+        .cost
+        .map(|cost| u64::from(cost.saturating_sub(overhead)));
+    let [first, last] =
+        [least, most].map(|counts| (counts * numerator + denominator / 2) / denominator);
+    writeln!(
+        out,
+        "tick: {first} to {last} instructions in {} ticks, within 2 ({least} to {most} counts of a timer at 168 MHz: in \
+         QEMU 1.344 an instruction, on a board cycles)",
+        outcome.ticks
+    )
+}

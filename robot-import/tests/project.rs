@@ -1,0 +1,225 @@
+//! Projects as a newcomer gets them: built, tested and run in QEMU, their torques compared with those of this process.
+//!
+//! Slow: `cargo test -p robot-import --test project -- --ignored --nocapture` builds both projects of two robots. They
+//! need the target thumbv7em-none-eabihf, qemu-system-arm, make and arm-none-eabi-gcc.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::time::Instant;
+use std::{env, fs};
+
+use dynamics_core::Engine;
+use dynamics_core::effects::{Coriolis, Effect, Gravity, Inertia};
+use dynamics_core::model::Robot;
+use dynamics_core::state::State;
+use robot_import::project::{FileEffects, Library, Project, RobotFile, create};
+
+#[path = "project/chain.rs"]
+#[allow(dead_code, reason = "a robot's file has more than the test compares")]
+mod chain;
+#[path = "../template/rust/src/robot.rs"]
+#[allow(dead_code, reason = "a robot's file has more than the test compares")]
+mod pendulum;
+#[path = "project/ur5e.rs"]
+#[allow(dead_code, reason = "a robot's file has more than the test compares")]
+mod ur5e;
+
+/// The torques of the projects' probe, as bits.
+fn expected<T: Robot<N, N, N>, E: Effect<f32, N, N>, const N: usize>(effects: &E) -> String {
+    let of = |first: f32, step: f32| core::array::from_fn(|joint| first + step * joint as f32);
+    let state = State {
+        q: of(0.1, 0.07),
+        qd: of(0.3, -0.05),
+        qdd: of(-0.2, 0.11),
+    };
+    let torque: [f32; N] = Engine::<T>::rnea(&state, effects);
+    let bits = torque.map(|torque| format!(" {:08x}", torque.to_bits()));
+    format!("  bits:{}", bits.concat())
+}
+
+fn robot(type_name: &str, text: &str, joints: &[&str], effects: FileEffects) -> RobotFile {
+    let n = joints.len();
+    RobotFile {
+        type_name: type_name.into(),
+        text: text.into(),
+        joints: joints.iter().map(|&joint| joint.into()).collect(),
+        b: n,
+        q: n,
+        v: n,
+        coupled: false,
+        effects,
+    }
+}
+
+const ALL: FileEffects = FileEffects {
+    viscous: true,
+    coulomb: true,
+    armature: true,
+};
+
+/// A project in a folder outside the workspace, so that nothing of its configuration acts; it is built in the
+/// workspace's `target`, so that a second run is faster.
+struct Trial {
+    folder: PathBuf,
+    built: PathBuf,
+}
+
+impl Trial {
+    fn new(name: &str, robot: RobotFile, c: bool) -> Self {
+        let folder = env::temp_dir().join(format!("{name}-{}", std::process::id()));
+        let _ = fs::remove_dir_all(&folder);
+        let project = Project {
+            name: name.into(),
+            robot,
+            library: Library::Path(Path::new(env!("CARGO_MANIFEST_DIR")).join("../dynamics-core")),
+            c,
+        };
+        let created = create(&folder, &project).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(created.robot_only, None);
+        let built = Path::new(env!("CARGO_TARGET_TMPDIR")).join("projects");
+        Self { folder, built }
+    }
+
+    /// What a command prints; it has to succeed.
+    fn run(&self, command: &str, arguments: &[&str]) -> String {
+        let start = Instant::now();
+        let output = Command::new(command)
+            .args(arguments)
+            .current_dir(&self.folder)
+            .env("CARGO_TARGET_DIR", &self.built)
+            .env_remove("RUSTFLAGS")
+            .env_remove("CARGO_ENCODED_RUSTFLAGS")
+            .output()
+            .unwrap_or_else(|error| panic!("{command}: {error}"));
+        let text = String::from_utf8_lossy(&output.stdout).into_owned();
+        let errors = String::from_utf8_lossy(&output.stderr);
+        assert!(
+            output.status.success(),
+            "{command} {arguments:?}\n{text}\n{errors}"
+        );
+        assert!(
+            !errors.contains("warning"),
+            "{command} {arguments:?}\n{errors}"
+        );
+        eprintln!(
+            "{:6.1} s  {command} {}",
+            start.elapsed().as_secs_f32(),
+            arguments.join(" ")
+        );
+        text
+    }
+
+    /// The line after the one that begins with `head`.
+    fn after<'a>(text: &'a str, head: &str) -> &'a str {
+        let mut lines = text.lines().skip_while(|line| !line.starts_with(head));
+        lines
+            .nth(1)
+            .unwrap_or_else(|| panic!("no {head:?} in\n{text}"))
+    }
+}
+
+impl Drop for Trial {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.folder);
+    }
+}
+
+const PROBE: &str = "inverse dynamics of the probe";
+const FIRST: &str = "torques of the first tick";
+
+fn rust_project(name: &str, robot: RobotFile, expected: &str) {
+    let trial = Trial::new(name, robot, false);
+    let device = trial.run("cargo", &["qemu"]);
+    assert_eq!(Trial::after(&device, PROBE), expected);
+    assert!(!device.contains("error:"), "{device}");
+    let tick = device.lines().find(|line| line.starts_with("tick: "));
+    eprintln!("{}", tick.unwrap_or_else(|| panic!("no tick in\n{device}")));
+    // The tracking error, too, is the same on the host, but for the line of the clock.
+    let host = trial.run("cargo", &["run"]);
+    assert_eq!(Trial::after(&host, FIRST), Trial::after(&device, FIRST));
+    let without_clock = |text: &str| {
+        text.lines()
+            .filter(|line| !line.starts_with("tick: "))
+            .collect::<String>()
+    };
+    assert_eq!(without_clock(&host), without_clock(&device));
+    trial.run("cargo", &["test"]);
+    trial.run("cargo", &["fmt", "--check"]);
+}
+
+fn c_project(name: &str, robot: RobotFile, expected: &str) {
+    let trial = Trial::new(name, robot, true);
+    let out = format!("OUT={}", trial.built.display());
+    let device = trial.run("make", &[&out, "run"]);
+    assert_eq!(
+        Trial::after(&device, "inverse dynamics of the probe:"),
+        expected
+    );
+    assert_eq!(device.lines().last(), Some("good"), "{device}");
+    let costs: Vec<_> = device
+        .lines()
+        .filter(|line| line.contains(": status 0, "))
+        .collect();
+    assert_eq!(costs.len(), 4, "{device}");
+    eprintln!("{}", costs.join("\n"));
+    let check = trial.run("make", &[&out, "check"]);
+    assert_eq!(check.lines().last(), Some("no panic"));
+    trial.run("cargo", &["test"]);
+    trial.run("cargo", &["fmt", "--check"]);
+}
+
+#[test]
+#[ignore = "builds firmware"]
+fn a_pendulum() {
+    let effects = FileEffects {
+        viscous: true,
+        ..FileEffects::default()
+    };
+    let text = include_str!("../template/rust/src/robot.rs");
+    let robot = robot("Pendulum", text, &pendulum::JOINTS, effects);
+    let scene = (Gravity::EARTH, Inertia, Coriolis, pendulum::VISCOUS);
+    let expected = expected::<pendulum::Pendulum, _, 1>(&scene);
+    rust_project("a-pendulum", robot.clone(), &expected);
+    c_project("a-pendulum-for-c", robot, &expected);
+}
+
+#[test]
+#[ignore = "builds firmware"]
+fn an_arm() {
+    let robot = robot("Ur5e", include_str!("project/ur5e.rs"), &ur5e::JOINTS, ALL);
+    let friction = (ur5e::VISCOUS, ur5e::COULOMB, ur5e::ARMATURE);
+    let scene = (
+        Gravity::EARTH,
+        Inertia,
+        Coriolis,
+        friction.0,
+        friction.1,
+        friction.2,
+    );
+    let expected = expected::<ur5e::Ur5e, _, 6>(&scene);
+    rust_project("an-arm", robot.clone(), &expected);
+    c_project("an-arm-for-c", robot, &expected);
+}
+
+#[test]
+#[ignore = "builds firmware"]
+fn thirty_joints() {
+    let robot = robot(
+        "Chain",
+        include_str!("project/chain.rs"),
+        &chain::JOINTS,
+        ALL,
+    );
+    let friction = (chain::VISCOUS, chain::COULOMB, chain::ARMATURE);
+    let scene = (
+        Gravity::EARTH,
+        Inertia,
+        Coriolis,
+        friction.0,
+        friction.1,
+        friction.2,
+    );
+    let expected = expected::<chain::Chain, _, 30>(&scene);
+    rust_project("thirty-joints", robot.clone(), &expected);
+    c_project("thirty-joints-for-c", robot, &expected);
+}

@@ -121,7 +121,7 @@ fn new(args: New) -> Result<(), Box<dyn std::error::Error>> {
         println!(
             "\nnext: cd {} && {}",
             args.folder.display(),
-            if c { "make run" } else { "cargo run --release" }
+            if c { "make run" } else { "cargo qemu" }
         );
     }
     if let Some(note) = created.note {

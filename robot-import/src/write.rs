@@ -91,6 +91,9 @@ pub fn source(tree: &Tree, name: &str, origin: &Origin) -> String {
         out,
         "/// The number of velocity coordinates.\npub const V: usize = {v};"
     );
+    if single {
+        out += "/// The number of joints.\npub const N: usize = V;\n";
+    }
     let list = |of: fn(&Body) -> &String| {
         let names: Vec<String> = tree.bodies.iter().map(|body| quoted(of(body))).collect();
         names.join(", ")

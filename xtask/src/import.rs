@@ -39,6 +39,33 @@ pub struct Args {
     json: bool,
 }
 
+/// A project, and what `robot-import` is told of it.
+#[derive(clap::Args)]
+pub struct New {
+    /// The folder, --robot FILE, and the other options of `robot-import new`: --c, --git, and those of `import`
+    #[arg(value_name = "FOLDER", required = true, num_args = 1.., trailing_var_arg = true, allow_hyphen_values = true)]
+    arguments: Vec<String>,
+}
+
+/// Writes a project that uses this checkout's library, unless it is told of another.
+pub fn new(args: &New) -> Result<ExitCode> {
+    let workspace = Workspace::find()?;
+    let library = workspace
+        .root
+        .join("dynamics-core")
+        .to_string_lossy()
+        .into_owned();
+    let mut words: Vec<&str> = args.arguments.iter().map(String::as_str).collect();
+    if !words
+        .iter()
+        .any(|word| *word == "--git" || *word == "--library")
+    {
+        words.extend(["--library", &library]);
+    }
+    output::print(&command(&workspace, "new", &words)?)?;
+    Ok(ExitCode::SUCCESS)
+}
+
 /// An imported robot: its file, and the report of `robot-import`.
 pub struct Robot {
     /// The Rust file.
@@ -69,14 +96,14 @@ pub fn run(options: Options, args: &Args) -> Result<ExitCode> {
         words.extend(["--out", &path]);
     }
     // The text is of the same run of the same numbers as the JSON, which only the measurement needs.
-    let text = command(&workspace, &words)?;
+    let text = command(&workspace, "import", &words)?;
     if no_measure && !json {
         output::print(&text)?;
         show(&file, kept.is_some())?;
         return Ok(ExitCode::SUCCESS);
     }
     words.push("--json");
-    let report: Value = serde_json::from_str(&command(&workspace, &words)?)
+    let report: Value = serde_json::from_str(&command(&workspace, "import", &words)?)
         .map_err(|error| check!("{PACKAGE} printed no JSON: {error}"))?;
     let robot = Robot { file, report };
     let measured = match no_measure {
@@ -107,11 +134,11 @@ fn show(file: &Path, kept: bool) -> Result<()> {
     }
 }
 
-/// What `robot-import import` prints; its errors are shown as they are.
-fn command(workspace: &Workspace, words: &[&str]) -> Result<String> {
+/// What a subcommand of `robot-import` prints; its errors are shown as they are.
+fn command(workspace: &Workspace, subcommand: &str, words: &[&str]) -> Result<String> {
     let mut command = workspace.cargo("run");
     command
-        .args(["--quiet", "--package", PACKAGE, "--", "import"])
+        .args(["--quiet", "--package", PACKAGE, "--", subcommand])
         .args(words)
         .current_dir(std::env::current_dir().map_err(Error::file("find", Path::new(".")))?);
     shell::capture(&mut command)
@@ -120,7 +147,11 @@ fn command(workspace: &Workspace, words: &[&str]) -> Result<String> {
 /// Imports a file for a report of its own; the Rust file is written to `file`.
 pub fn import(workspace: &Workspace, words: &[&str], file: PathBuf) -> Result<Robot> {
     let path = file.to_string_lossy().into_owned();
-    let text = command(workspace, &[words, &["--json", "--out", &path]].concat())?;
+    let text = command(
+        workspace,
+        "import",
+        &[words, &["--json", "--out", &path]].concat(),
+    )?;
     let report = serde_json::from_str(&text)
         .map_err(|error| check!("{PACKAGE} printed no JSON: {error}"))?;
     Ok(Robot { file, report })

@@ -84,6 +84,8 @@ enum Command {
     Accuracy(accuracy::Args),
     /// Write the Rust file of a robot from URDF or MJCF, with advice, a check, and what its inverse dynamics costs
     Import(import::Args),
+    /// Write a firmware project, or with --c a static library for C, for a robot from URDF or MJCF
+    New(import::New),
     /// Import, check and measure the robots of published packages, rewrite docs/robots.md: takes minutes
     Robots(robots::Args),
     /// Measure a firmware of your own between its markers, and check its instructions
@@ -199,6 +201,7 @@ fn run(cli: Cli) -> Result<ExitCode> {
         Command::Effects(Json { json }) => effects::run(setup, json),
         Command::Accuracy(wish) => accuracy::run(setup, wish),
         Command::Import(args) => import::run(setup, &args),
+        Command::New(args) => import::new(&args),
         Command::Robots(args) => robots::run(setup, &args),
         Command::Meter(args) => user_firmware::run(setup, &args),
         Command::Eliminations => host_table::ELIMINATIONS.run(),

@@ -155,6 +155,20 @@ pub fn for_test(options: Options) -> Result<Tools> {
     Ok(tools)
 }
 
+/// What a project in C needs.
+pub fn for_projects(options: Options) -> Result<()> {
+    let mut plan = Plan::default();
+    if shell::which("arm-none-eabi-gcc").is_none() || shell::which("make").is_none() {
+        let reason = "`arm-none-eabi-gcc` and `make`, for the projects in C".to_owned();
+        plan.add(
+            reason,
+            &["gcc-arm-none-eabi", "make"],
+            "install GCC for arm-none-eabi",
+        );
+    }
+    plan.carry_out(options)
+}
+
 /// Installs what Debian's way needs, where Debian has it.
 pub fn debian(options: Options) -> Result<Toolchain> {
     if let Some(why) = toolchain::debian_lacks() {

@@ -116,6 +116,7 @@ const STEPS: &[Step] = &[
     ("flexible", Host, Full, "docs/flexible.md has today's errors of links that bend", |c| flexible::check(&c.workspace)),
     ("hard-cases", Host, Full, "every hard case holds, and docs/hard-cases.md has today's figures", |c| hard_cases::check(&c.workspace)),
     ("robots", Target, Full, "an imported robot is checked, and costs what docs/robots.md says", |c| robots::check(&c.workspace, &c.tools)),
+    ("projects", Host, Full, "new projects in Rust and in C build, run in QEMU and compute the host's torques", others::projects),
     ("readme", Target, Everyday, "the tables of README.md and docs/scenes.md are those of this run", scenes::readme),
     ("debian", Target, Full, "Debian's own compiler builds a scene that runs", others::debian),
     ("qemu-10", Target, Full, "QEMU 10 logs and measures what this machine's QEMU does, byte for byte", others::qemu_10),

@@ -49,6 +49,18 @@ pub fn msrv(context: &Context) -> Result<String> {
     Ok(format!("rustc {MSRV}"))
 }
 
+/// The projects that `robot-import new` writes, of a pendulum and of an arm.
+pub fn projects(context: &Context) -> Result<String> {
+    if setup::for_projects(context.options).is_err() {
+        return skip("there is no arm-none-eabi-gcc");
+    }
+    let tests = "--ignored --test-threads 1 a_pendulum an_arm";
+    context.cargo(&[&format!(
+        "test --package robot-import --test project -- {tests}"
+    )])?;
+    Ok(String::new())
+}
+
 pub fn debian(context: &Context) -> Result<String> {
     if context.tools.toolchain == Toolchain::Debian {
         return skip("all of this ran with it");

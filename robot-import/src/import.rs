@@ -127,6 +127,8 @@ pub struct Report {
     pub no_peer: Option<String>,
     /// Cycles of inverse dynamics by the engine, estimated.
     pub estimated_cycles: Option<u64>,
+    /// Bytes of its code, estimated.
+    pub estimated_flash: Option<u64>,
 }
 
 /// A body in the report.
@@ -261,6 +263,7 @@ pub fn import(args: &Args, today: &str) -> Result<Imported> {
         peer,
         no_peer,
         estimated_cycles: estimate::cycles(&tree),
+        estimated_flash: estimate::flash(&tree),
         name: name.clone(),
     };
     Ok(Imported {

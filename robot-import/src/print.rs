@@ -147,10 +147,10 @@ impl Report {
             condition,
         ]);
         out += &table(&rows);
-        if let Some(cycles) = self.estimated_cycles {
+        if let (Some(cycles), Some(flash)) = (self.estimated_cycles, self.estimated_flash) {
             let _ = writeln!(
                 out,
-                "\nInverse dynamics by the engine: about {cycles} cycles on a Cortex-M4F (estimated)."
+                "\nInverse dynamics by the engine: about {cycles} cycles on a Cortex-M4F and {flash} B of code (estimated)."
             );
         }
         out

@@ -115,6 +115,17 @@ fn unique<'a>(what: &'static str, names: impl Iterator<Item = (&'a String, u32)>
     Ok(())
 }
 
+/// The largest size of some numbers; infinite if one is not a number.
+fn largest(numbers: impl Iterator<Item = f64>) -> f64 {
+    numbers.fold(0.0, |most: f64, x| {
+        if x.is_nan() {
+            f64::INFINITY
+        } else {
+            most.max(x.abs())
+        }
+    })
+}
+
 /// Numbers with which f64 does not overflow, and axes that are directions.
 fn sizes(robot: &Description) -> Result<()> {
     for link in &robot.links {
@@ -123,9 +134,8 @@ fn sizes(robot: &Description) -> Result<()> {
         };
         let position = inertial.frame.position.to_array();
         let all = [inertial.mass].into_iter().chain(position);
-        let largest = all
-            .chain(inertial.inertia)
-            .fold(0.0, |most: f64, x| most.max(x.abs()));
+        let turn = inertial.frame.rotation.to_cols_array();
+        let largest = largest(all.chain(inertial.inertia).chain(turn));
         let problem = match () {
             () if largest > MOST => format!("a number of its inertia is {largest:e}"),
             () if inertial.mass < 0.0 => format!("its mass is {} kg", inertial.mass),
@@ -137,7 +147,8 @@ fn sizes(robot: &Description) -> Result<()> {
     for joint in &robot.joints {
         let all = joint.origin.position.to_array().into_iter();
         let all = all.chain([joint.damping, joint.friction, joint.armature]);
-        let largest = all.fold(0.0, |most: f64, x| most.max(x.abs()));
+        let turn = joint.origin.rotation.to_cols_array();
+        let largest = largest(all.chain(turn));
         let axis = joint.axis.length();
         let problem = match () {
             () if largest > MOST => format!("a number of it is {largest:e}"),

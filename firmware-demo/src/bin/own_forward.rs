@@ -1,0 +1,16 @@
+//! What M, forward dynamics and Jacobians cost on the robot of a file: a bin of `cargo xtask costs --file`.
+#![no_std]
+#![no_main]
+
+mod costs;
+
+use firmware_demo::robots::Own;
+
+/// Measures the one robot that there is.
+macro_rules! robots {
+    ($number:literal $robot:ty, $joints:expr;) => {
+        const N: usize = $joints;
+        costs::main!(costs::forward::both::<Own<$robot>, N, N, { N - 1 }>());
+    };
+}
+include!(env!("OWN_ROBOTS"));

@@ -63,7 +63,8 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
 /// Measures the rows of a robot from a file and prints them.
 fn run_own(options: Options, args: &Args) -> Result<ExitCode> {
     let workspace = Workspace::find()?;
-    let Some(robot) = args.own.robot(&workspace, import::MOST_JOINTS)? else {
+    let folder = import::folder(&workspace)?;
+    let Some(robot) = args.own.robot(&workspace, &folder, import::MOST_JOINTS)? else {
         return Err(check!("there is no file"));
     };
     let tools = setup::for_demo(options)?;

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use serde_json::Value;
+use tempfile::TempDir;
 
 use crate::costs::{self, Row};
 use crate::docs;
@@ -62,8 +63,14 @@ pub struct Own {
 }
 
 impl Own {
-    /// The robot, if there is a file; fails if the firmware does not take it, or not so many joints.
-    pub fn robot(&self, workspace: &Workspace, most: u64) -> Result<Option<Robot>> {
+    /// The robot, if there is a file, with its Rust file in a folder; fails if the firmware does not take it, or not so
+    /// many joints.
+    pub fn robot(
+        &self,
+        workspace: &Workspace,
+        folder: &TempDir,
+        most: u64,
+    ) -> Result<Option<Robot>> {
         let Some(file) = &self.file else {
             return Ok(None);
         };
@@ -71,7 +78,7 @@ impl Own {
         let words: Vec<&str> = std::iter::once(&*path)
             .chain(self.options.iter().map(String::as_str))
             .collect();
-        let robot = import(workspace, &words, workspace.target.join("own_robot.rs"))?;
+        let robot = import(workspace, &words, folder.path().join("robot.rs"))?;
         match refusal(&robot.report, most) {
             None => Ok(Some(robot)),
             Some(why) => Err(check!("{path}: {why}")),
@@ -93,7 +100,7 @@ pub fn run(options: Options, args: &Args) -> Result<ExitCode> {
     let json = flag("--json") || args.json;
     let out = words.iter().position(|word| *word == "--out");
     let kept = out.and_then(|i| words.get(i + 1));
-    let scratch = tempfile::tempdir().map_err(Error::file("create", &workspace.target))?;
+    let scratch = folder(&workspace)?;
     let file = kept.map_or(scratch.path().join("robot.rs"), PathBuf::from);
     let mut words = words.clone();
     let path = file.to_string_lossy().into_owned();
@@ -213,16 +220,22 @@ pub fn build(
     robots: &[&Robot],
     bins: &[&str],
 ) -> Result<Vec<PathBuf>> {
-    let modules = modules(workspace, robots)?;
+    let folder = folder(workspace)?;
+    let modules = modules(&folder, robots)?;
     let mut command = tools.toolchain.firmware(workspace, "build");
     command.args(["--profile", RELEASE, "--features", features]);
     command.env(MODULES, modules);
     firmware::build_by(command, workspace, tools.toolchain, RELEASE, bins)
 }
 
-/// Writes a module for each robot, and what the macro `robots` of a bin is given: its number, its type, and the
+/// A folder that is removed in the end, for the files of a robot: two commands at a time have two.
+pub fn folder(workspace: &Workspace) -> Result<TempDir> {
+    tempfile::tempdir().map_err(Error::file("create", &workspace.target))
+}
+
+/// Writes into a folder a module for each robot, and what the macro `robots` of a bin is given: its number, its type, and the
 /// number of its joints.
-pub fn modules(workspace: &Workspace, robots: &[&Robot]) -> Result<PathBuf> {
+pub fn modules(folder: &TempDir, robots: &[&Robot]) -> Result<PathBuf> {
     let (mut modules, mut given) = (String::new(), String::new());
     for (i, robot) in robots.iter().enumerate() {
         let file = std::path::absolute(&robot.file).map_err(Error::file("find", &robot.file))?;
@@ -230,7 +243,7 @@ pub fn modules(workspace: &Workspace, robots: &[&Robot]) -> Result<PathBuf> {
         modules += &format!("#[path = {file:?}]\nmod robot_{i};\n");
         given += &format!("    \"{i}\" robot_{i}::{name}, robot_{i}::V;\n");
     }
-    let file = workspace.target.join("own_robots.rs");
+    let file = folder.path().join("own_robots.rs");
     workspace::write(&file, format!("{modules}robots! {{\n{given}}}\n"))?;
     Ok(file)
 }

@@ -10,7 +10,11 @@ use firmware_demo::robots::Own;
 macro_rules! robots {
     ($number:literal $robot:ty, $joints:expr;) => {
         const N: usize = $joints;
-        costs::main!(costs::inverse::run::<Own<$robot>, N, N>());
+
+        #[cortex_m_rt::entry]
+        fn main() -> ! {
+            costs::inverse::run::<Own<$robot>, N, N>()
+        }
     };
 }
 include!(env!("OWN_ROBOTS"));

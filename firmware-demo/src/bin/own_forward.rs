@@ -10,7 +10,11 @@ use firmware_demo::robots::Own;
 macro_rules! robots {
     ($number:literal $robot:ty, $joints:expr;) => {
         const N: usize = $joints;
-        costs::main!(costs::forward::both::<Own<$robot>, N, N, { N - 1 }>());
+
+        #[cortex_m_rt::entry]
+        fn main() -> ! {
+            costs::forward::both::<Own<$robot>, N, N, { N - 1 }>()
+        }
     };
 }
 include!(env!("OWN_ROBOTS"));

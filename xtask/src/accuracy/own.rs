@@ -2,6 +2,8 @@
 
 use std::process::ExitCode;
 
+use tempfile::TempDir;
+
 use super::choice::{Budget, shipped};
 use super::join::{Host, join};
 use super::measure::ACCURACY;
@@ -34,10 +36,11 @@ pub fn run(options: Options, own: &Own, budget: Option<Budget>, json: bool) -> R
         ));
     }
     let workspace = Workspace::find()?;
-    let Some(robot) = own.robot(&workspace, MOST_JOINTS)? else {
+    let folder = import::folder(&workspace)?;
+    let Some(robot) = own.robot(&workspace, &folder, MOST_JOINTS)? else {
         return Err(check!("there is no file"));
     };
-    let points = measure(&workspace, &setup::for_demo(options)?, &robot)?;
+    let points = measure(&workspace, &setup::for_demo(options)?, &folder, &robot)?;
     if let Some(budget) = budget {
         let points = shipped(&points, (robot.text("name"), Kind::Inverse, "rigid"));
         super::show(budget, &points, json)?;
@@ -61,7 +64,12 @@ const REFERENCE: &str = "No oracle has recorded this robot: errors are those fro
                          60 % of the limits of the file; full scale is the largest torque at 2000 random states";
 
 /// Costs from the target and errors from the host.
-fn measure(workspace: &Workspace, tools: &Tools, robot: &Robot) -> Result<Vec<Point>> {
+fn measure(
+    workspace: &Workspace,
+    tools: &Tools,
+    folder: &TempDir,
+    robot: &Robot,
+) -> Result<Vec<Point>> {
     let spinner = Spinner::start(&format!("building {BIN}"));
     let features = format!("{},{ACCURACY}", import::FEATURE);
     let elves = import::build(workspace, tools, &features, &[robot], &[BIN])?;
@@ -71,7 +79,7 @@ fn measure(workspace: &Workspace, tools: &Tools, robot: &Robot) -> Result<Vec<Po
     let rows = costs::run_for_time(tools, &meter, BIN, elf)?;
     spinner.say(format!("building and running {BIN} on the host"));
     let mut command = workspace.cargo("run");
-    command.env(import::MODULES, import::modules(workspace, &[robot])?);
+    command.env(import::MODULES, import::modules(folder, &[robot])?);
     command.args(["--quiet", "--package", "host-reports", "--bin", BIN]);
     let lines = shell::capture(command.args(["--features", import::FEATURE]))?;
     drop(spinner);

@@ -20,8 +20,8 @@ use clap::ArgGroup;
 
 use crate::docs;
 use crate::error::{Error, Result};
-use crate::import::Own;
 use crate::output;
+use crate::own_robot;
 use crate::setup::{self, Options, Tools};
 use crate::workspace::{self, Workspace};
 
@@ -44,7 +44,7 @@ pub struct Args {
     )]
     robot: Option<Robot>,
     #[command(flatten)]
-    own: Own,
+    own: own_robot::Args,
     /// The measurements as JSON on stdout; progress stays on stderr
     #[arg(long)]
     json: bool,
@@ -66,8 +66,8 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
         (Some(error), _) => Some(Budget::Error(error)),
         (None, cycles) => cycles.map(Budget::Cycles),
     };
-    if args.own.file.is_some() {
-        return own::run(options, &args.own, budget, args.json);
+    if let Some(robot) = args.own.robot(&Workspace::find()?, own::MOST_JOINTS)? {
+        return own::run(options, &robot, budget, args.json);
     }
     let choice = budget.zip(args.robot);
     let workspace = match choice {

@@ -1,7 +1,6 @@
 //! Builds what runs in QEMU, and the plugin that watches it.
 
 use std::path::PathBuf;
-use std::process::Command;
 
 use crate::error::{Error, Result};
 use crate::shell;
@@ -34,17 +33,6 @@ pub fn build_featured(
 ) -> Result<Vec<PathBuf>> {
     let mut command = toolchain.firmware(workspace, "build");
     command.args(["--profile", profile, "--features", feature]);
-    build_by(command, workspace, toolchain, profile, bins)
-}
-
-/// Builds some bins in a profile by a command that lacks only their names, and returns their ELFs.
-pub fn build_by(
-    mut command: Command,
-    workspace: &Workspace,
-    toolchain: Toolchain,
-    profile: &str,
-    bins: &[&str],
-) -> Result<Vec<PathBuf>> {
     command.args(bins.iter().flat_map(|bin| ["--bin", bin]));
     shell::cargo(&mut command)?;
     bins.iter()

@@ -4,7 +4,6 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use serde_json::Value;
-use tempfile::TempDir;
 
 use crate::costs::{self, Row};
 use crate::docs;
@@ -17,16 +16,13 @@ use crate::setup::{self, Options, Tools};
 use crate::shell;
 use crate::table::{Table, thousands};
 use crate::toolchain::RELEASE;
-use crate::workspace::{self, Workspace};
+use crate::workspace::Workspace;
 
 const PACKAGE: &str = "robot-import";
 const BIN: &str = "own_robots";
-/// The feature of the bins that measure robots from files, here and on the host.
-pub const FEATURE: &str = "own-robots";
-/// The variable that says to them where the file of modules is.
-pub const MODULES: &str = "OWN_ROBOTS";
-/// More joints than this do not fit into the RAM of the firmware that measures inverse dynamics.
-pub const MOST_JOINTS: u64 = 40;
+const FEATURE: &str = "own-robots";
+/// More joints than this do not fit into the RAM of the measured firmware.
+const MOST_JOINTS: u64 = 40;
 
 /// A file, and what `robot-import` is told of it.
 #[derive(clap::Args)]
@@ -51,41 +47,6 @@ pub struct Robot {
     pub report: Value,
 }
 
-/// The file of a report's robot.
-#[derive(clap::Args)]
-pub struct Own {
-    /// Of the robot of this file, URDF or MJCF, alone; nothing is written
-    #[arg(long, value_name = "FILE")]
-    pub file: Option<PathBuf>,
-    /// Options of `cargo xtask import` for the file: --base, --tip, --joints, --lock, --name, --repair …
-    #[arg(last = true, requires = "file", value_name = "OPTIONS")]
-    options: Vec<String>,
-}
-
-impl Own {
-    /// The robot, if there is a file, with its Rust file in a folder; fails if the firmware does not take it, or not so
-    /// many joints.
-    pub fn robot(
-        &self,
-        workspace: &Workspace,
-        folder: &TempDir,
-        most: u64,
-    ) -> Result<Option<Robot>> {
-        let Some(file) = &self.file else {
-            return Ok(None);
-        };
-        let path = file.to_string_lossy();
-        let words: Vec<&str> = std::iter::once(&*path)
-            .chain(self.options.iter().map(String::as_str))
-            .collect();
-        let robot = import(workspace, &words, folder.path().join("robot.rs"))?;
-        match refusal(&robot.report, most) {
-            None => Ok(Some(robot)),
-            Some(why) => Err(check!("{path}: {why}")),
-        }
-    }
-}
-
 /// Imports, measures and prints.
 pub fn run(options: Options, args: &Args) -> Result<ExitCode> {
     let workspace = Workspace::find()?;
@@ -100,7 +61,7 @@ pub fn run(options: Options, args: &Args) -> Result<ExitCode> {
     let json = flag("--json") || args.json;
     let out = words.iter().position(|word| *word == "--out");
     let kept = out.and_then(|i| words.get(i + 1));
-    let scratch = folder(&workspace)?;
+    let scratch = tempfile::tempdir().map_err(Error::file("create", &workspace.target))?;
     let file = kept.map_or(scratch.path().join("robot.rs"), PathBuf::from);
     let mut words = words.clone();
     let path = file.to_string_lossy().into_owned();
@@ -164,88 +125,42 @@ pub fn import(workspace: &Workspace, words: &[&str], file: PathBuf) -> Result<Ro
     Ok(Robot { file, report })
 }
 
-impl Robot {
-    /// A text of the report.
-    pub fn text(&self, name: &str) -> &str {
-        self.report[name].as_str().unwrap_or_default()
-    }
-
-    /// The number of its velocity coordinates.
-    pub fn joints(&self) -> u64 {
-        self.report["sizes"][2].as_u64().unwrap_or_default()
-    }
-}
-
 /// Whether the firmware takes a robot.
 pub fn is_measurable(robot: &Robot) -> bool {
-    refusal(&robot.report, MOST_JOINTS).is_none()
-}
-
-/// Why a firmware for so many joints does not take the robot of a report, if it does not.
-fn refusal(report: &Value, most: u64) -> Option<String> {
-    let [bodies, q, v] = [0, 1, 2].map(|i| report["sizes"][i].as_u64().unwrap_or_default());
-    if bodies != v || q != v {
-        return Some(format!(
-            "{bodies} bodies have {q} position and {v} velocity coordinates, but the measured firmware takes joints of \
-             one coordinate only, and no free base"
-        ));
-    }
-    (v > most).then(|| {
-        format!(
-            "{v} joints are more than the {most} that fit into the RAM of the measured firmware: --tip, --joints or \
-             --lock leave some out"
-        )
-    })
+    let [bodies, q, v] = [0, 1, 2].map(|i| robot.report["sizes"][i].as_u64().unwrap_or_default());
+    bodies == v && q == v && v <= MOST_JOINTS
 }
 
 /// Builds the firmware's bin for some robots and runs it under the meter; a robot's rows have its number as name.
 pub fn measure(workspace: &Workspace, tools: &Tools, robots: &[&Robot]) -> Result<Vec<Row>> {
-    let mut refused = robots
-        .iter()
-        .filter_map(|robot| refusal(&robot.report, MOST_JOINTS));
-    if let Some(why) = refused.next() {
-        return Err(check!("{why}"));
+    if !robots.iter().all(|robot| is_measurable(robot)) {
+        return Err(check!(
+            "the firmware takes up to {MOST_JOINTS} joints of one coordinate"
+        ));
     }
     let spinner = Spinner::start("building the firmware for the robot");
-    let elves = build(workspace, tools, FEATURE, robots, &[BIN])?;
-    drop(spinner);
-    Ok(costs::run_all(workspace, tools, &[BIN], &elves)?.0)
-}
-
-/// Builds bins of the firmware with these features for some robots.
-pub fn build(
-    workspace: &Workspace,
-    tools: &Tools,
-    features: &str,
-    robots: &[&Robot],
-    bins: &[&str],
-) -> Result<Vec<PathBuf>> {
-    let folder = folder(workspace)?;
-    let modules = modules(&folder, robots)?;
-    let mut command = tools.toolchain.firmware(workspace, "build");
-    command.args(["--profile", RELEASE, "--features", features]);
-    command.env(MODULES, modules);
-    firmware::build_by(command, workspace, tools.toolchain, RELEASE, bins)
-}
-
-/// A folder that is removed in the end, for the files of a robot: two commands at a time have two.
-pub fn folder(workspace: &Workspace) -> Result<TempDir> {
-    tempfile::tempdir().map_err(Error::file("create", &workspace.target))
-}
-
-/// Writes into a folder a module for each robot, and what the macro `robots` of a bin is given: its number, its type, and the
-/// number of its joints.
-pub fn modules(folder: &TempDir, robots: &[&Robot]) -> Result<PathBuf> {
-    let (mut modules, mut given) = (String::new(), String::new());
-    for (i, robot) in robots.iter().enumerate() {
+    let mut named = Vec::new();
+    for robot in robots {
+        let name = robot.report["type_name"].as_str().unwrap_or_default();
         let file = std::path::absolute(&robot.file).map_err(Error::file("find", &robot.file))?;
-        let name = robot.text("type_name");
-        modules += &format!("#[path = {file:?}]\nmod robot_{i};\n");
-        given += &format!("    \"{i}\" robot_{i}::{name}, robot_{i}::V;\n");
+        named.push(format!("{}:{name}", file.display()));
     }
-    let file = folder.path().join("own_robots.rs");
-    workspace::write(&file, format!("{modules}robots! {{\n{given}}}\n"))?;
-    Ok(file)
+    let mut build = tools.toolchain.firmware(workspace, "build");
+    build
+        .args(["--profile", RELEASE, "--features", FEATURE, "--bin", BIN])
+        // The firmware's other bins are not built anew for it.
+        .arg("--target-dir")
+        .arg(workspace.target.join(FEATURE))
+        .env("OWN_ROBOTS", named.join(";"));
+    shell::capture(&mut build)?;
+    let target = workspace
+        .target
+        .join(FEATURE)
+        .join(crate::toolchain::TARGET);
+    let elf = target.join(RELEASE).join(BIN);
+    let meter = firmware::build_meter(workspace)?;
+    spinner.say("running the robot's firmware in QEMU".to_owned());
+    Ok(costs::run_bin(tools, &meter, BIN, &elf)?.0)
 }
 
 /// What was measured.
@@ -269,28 +184,4 @@ pub fn table(rows: &[Row]) -> Table {
         table.row(names.into_iter().chain(figures.map(thousands)));
     }
     table
-}
-
-#[cfg(test)]
-mod tests {
-    use serde_json::json;
-
-    use super::{MOST_JOINTS, refusal};
-
-    #[test]
-    fn robots_that_the_firmware_does_not_take_are_refused_with_the_reason() {
-        let said = |sizes: [u64; 3]| refusal(&json!({ "sizes": sizes }), MOST_JOINTS);
-        assert_eq!(said([6, 6, 6]), None);
-        assert_eq!(said([40, 40, 40]), None);
-        let reason = |sizes| said(sizes).unwrap_or_default();
-        assert!(reason([41, 41, 41]).starts_with("41 joints are more than the 40"));
-        // A universal joint, and a free base.
-        for sizes in [[6, 7, 7], [7, 13, 12]] {
-            assert!(
-                reason(sizes).contains("joints of one coordinate"),
-                "{sizes:?}"
-            );
-        }
-        assert!(refusal(&json!({ "sizes": [21, 21, 21] }), 20).is_some());
-    }
 }

@@ -26,6 +26,7 @@ mod layers;
 mod lines;
 mod meter;
 mod output;
+mod own_robot;
 mod peers;
 mod plot;
 mod processes;

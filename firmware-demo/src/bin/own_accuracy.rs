@@ -4,21 +4,12 @@
 #![no_main]
 
 mod accuracy;
+// `Robot` and the number of its joints, `N`.
+include!(env!("OWN_ROBOT"));
 
-use firmware_demo::accuracy::list;
-use firmware_demo::robots::Own;
-
-/// Measures the one robot that there is.
-macro_rules! robots {
-    ($number:literal $robot:ty, $joints:expr;) => {
-        const N: usize = $joints;
-
-        #[cortex_m_rt::entry]
-        fn main() -> ! {
-            let mut priced = accuracy::states::<Own<$robot>, N, N, _>();
-            list::single::<Own<$robot>, N, N>(&mut priced);
-            accuracy::done()
-        }
-    };
+#[cortex_m_rt::entry]
+fn main() -> ! {
+    let mut priced = accuracy::states::<Robot, N, N, _>();
+    firmware_demo::accuracy::list::single::<Robot, N, N>(&mut priced);
+    accuracy::done()
 }
-include!(env!("OWN_ROBOTS"));

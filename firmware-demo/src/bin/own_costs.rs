@@ -3,18 +3,10 @@
 #![no_main]
 
 mod costs;
+// `Robot` and the number of its joints, `N`.
+include!(env!("OWN_ROBOT"));
 
-use firmware_demo::robots::Own;
-
-/// Measures the one robot that there is.
-macro_rules! robots {
-    ($number:literal $robot:ty, $joints:expr;) => {
-        const N: usize = $joints;
-
-        #[cortex_m_rt::entry]
-        fn main() -> ! {
-            costs::inverse::run::<Own<$robot>, N, N>()
-        }
-    };
+#[cortex_m_rt::entry]
+fn main() -> ! {
+    costs::inverse::run::<Robot, N, N>()
 }
-include!(env!("OWN_ROBOTS"));

@@ -3,18 +3,10 @@
 #![no_main]
 
 mod costs;
+// `Robot` and the number of its joints, `N`.
+include!(env!("OWN_ROBOT"));
 
-use firmware_demo::robots::Own;
-
-/// Measures the one robot that there is.
-macro_rules! robots {
-    ($number:literal $robot:ty, $joints:expr;) => {
-        const N: usize = $joints;
-
-        #[cortex_m_rt::entry]
-        fn main() -> ! {
-            costs::forward::both::<Own<$robot>, N, N, { N - 1 }>()
-        }
-    };
+#[cortex_m_rt::entry]
+fn main() -> ! {
+    costs::forward::both::<Robot, N, N, { N - 1 }>()
 }
-include!(env!("OWN_ROBOTS"));

@@ -3,15 +3,8 @@
 #![no_main]
 
 mod costs;
-/// Of each file, its number, its robot and the number of its joints.
-macro_rules! robots {
-    ($($number:literal $robot:ty, $joints:expr;)*) => {
-        fn robots() {
-            $(robot::<$robot, { $joints }>($number);)*
-        }
-    };
-}
-include!(env!("OWN_ROBOTS"));
+// A module for each file, and `robots`, which calls `robot` for each.
+include!(concat!(env!("OUT_DIR"), "/own_robots.rs"));
 
 use costs::row::Row;
 use costs::{Ask, STATES, asks, done};

@@ -2,8 +2,6 @@
 
 use std::process::ExitCode;
 
-use tempfile::TempDir;
-
 use super::choice::{Budget, shipped};
 use super::join::{Host, join};
 use super::measure::ACCURACY;
@@ -13,8 +11,8 @@ use crate::costs;
 use crate::docs;
 use crate::error::{Result, check};
 use crate::firmware;
-use crate::import::{self, Own, Robot};
 use crate::output;
+use crate::own_robot::{FEATURE, OwnRobot};
 use crate::progress::Spinner;
 use crate::report::MODEL;
 use crate::setup::{self, Options, Tools};
@@ -24,10 +22,15 @@ use crate::workspace::Workspace;
 /// The bin on the target and the bin on the host.
 const BIN: &str = "own_accuracy";
 /// More joints than this do not fit into the RAM of the measured firmware, with 80 states and the ways' inputs.
-const MOST_JOINTS: u64 = 20;
+pub const MOST_JOINTS: u64 = 20;
 
-/// Imports, measures and prints; with a budget, what it chooses.
-pub fn run(options: Options, own: &Own, budget: Option<Budget>, json: bool) -> Result<ExitCode> {
+/// Measures and prints; with a budget, what it chooses.
+pub fn run(
+    options: Options,
+    robot: &OwnRobot,
+    budget: Option<Budget>,
+    json: bool,
+) -> Result<ExitCode> {
     if let Some(Budget::Error(allowed)) = budget
         && allowed.kind != Kind::Inverse
     {
@@ -36,13 +39,9 @@ pub fn run(options: Options, own: &Own, budget: Option<Budget>, json: bool) -> R
         ));
     }
     let workspace = Workspace::find()?;
-    let folder = import::folder(&workspace)?;
-    let Some(robot) = own.robot(&workspace, &folder, MOST_JOINTS)? else {
-        return Err(check!("there is no file"));
-    };
-    let points = measure(&workspace, &setup::for_demo(options)?, &folder, &robot)?;
+    let points = measure(&workspace, &setup::for_demo(options)?, robot)?;
     if let Some(budget) = budget {
-        let points = shipped(&points, (robot.text("name"), Kind::Inverse, "rigid"));
+        let points = shipped(&points, (&*robot.name, Kind::Inverse, "rigid"));
         super::show(budget, &points, json)?;
         output::note(&format!(
             "\n`crate::robot` is the file of `cargo xtask import`. {REFERENCE}."
@@ -50,7 +49,7 @@ pub fn run(options: Options, own: &Own, budget: Option<Budget>, json: bool) -> R
     } else if json {
         docs::print_json(&points)?;
     } else {
-        let name = robot.text("name");
+        let name = &robot.name;
         output::print(&format!(
             "{name}; {MODEL}.\n{REFERENCE}.\n\n{}",
             page::every(&points)
@@ -64,33 +63,26 @@ const REFERENCE: &str = "No oracle has recorded this robot: errors are those fro
                          60 % of the limits of the file; full scale is the largest torque at 2000 random states";
 
 /// Costs from the target and errors from the host.
-fn measure(
-    workspace: &Workspace,
-    tools: &Tools,
-    folder: &TempDir,
-    robot: &Robot,
-) -> Result<Vec<Point>> {
+fn measure(workspace: &Workspace, tools: &Tools, robot: &OwnRobot) -> Result<Vec<Point>> {
     let spinner = Spinner::start(&format!("building {BIN}"));
-    let features = format!("{},{ACCURACY}", import::FEATURE);
-    let elves = import::build(workspace, tools, &features, &[robot], &[BIN])?;
+    let elves = robot.build(workspace, tools, &format!("{FEATURE},{ACCURACY}"), &[BIN])?;
     let meter = firmware::build_meter(workspace)?;
     spinner.say(format!("running {BIN} in QEMU"));
-    let elf = elves.first().ok_or_else(|| check!("{BIN} was not built"))?;
-    let rows = costs::run_for_time(tools, &meter, BIN, elf)?;
+    let rows = elves
+        .iter()
+        .map(|elf| costs::run_for_time(tools, &meter, BIN, elf));
+    let rows = rows.collect::<Result<Vec<_>>>()?.into_iter().flatten();
+    let rows: Vec<_> = rows.map(|row| (BIN, "3", row)).collect();
     spinner.say(format!("building and running {BIN} on the host"));
     let mut command = workspace.cargo("run");
-    command.env(import::MODULES, import::modules(folder, &[robot])?);
+    robot.given(&mut command)?;
     command.args(["--quiet", "--package", "host-reports", "--bin", BIN]);
-    let lines = shell::capture(command.args(["--features", import::FEATURE]))?;
+    let lines = shell::capture(command.args(["--features", FEATURE]))?;
     drop(spinner);
-    let rows: Vec<_> = rows.into_iter().map(|row| (BIN, "3", row)).collect();
     let mut points = join(&Host::read(&lines)?, &rows)?;
     for point in &mut points {
-        point.robot = robot.text("name").to_owned();
-        point.own = Some([
-            robot.text("type_name").to_owned(),
-            robot.joints().to_string(),
-        ]);
+        point.robot.clone_from(&robot.name);
+        point.own = Some([robot.type_name.clone(), robot.joints.to_string()]);
     }
     Ok(points)
 }

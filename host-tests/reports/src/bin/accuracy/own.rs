@@ -4,18 +4,9 @@
 mod inverse;
 mod statistics;
 mod yardsticks;
+// `Robot` and the number of its joints, `N`.
+include!(env!("OWN_ROBOT"));
 
-use firmware_demo::accuracy::list;
-use firmware_demo::robots::Own;
-
-/// Computes them of the one robot that there is.
-macro_rules! robots {
-    ($number:literal $robot:ty, $joints:expr;) => {
-        const N: usize = $joints;
-
-        fn main() {
-            inverse::print::<Own<$robot>, N, N, _>(list::single::<Own<$robot>, N, N>);
-        }
-    };
+fn main() {
+    inverse::print::<Robot, N, N, _>(firmware_demo::accuracy::list::single::<Robot, N, N>);
 }
-include!(env!("OWN_ROBOTS"));

@@ -20,6 +20,7 @@ const OWN_ROBOT: &str = "OWN_ROBOT";
 
 /// The file of a report's robot.
 #[derive(clap::Args)]
+#[group(skip)]
 pub struct Args {
     /// Of the robot of this file, URDF or MJCF, alone; nothing is written
     #[arg(long, value_name = "FILE")]

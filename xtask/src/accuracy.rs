@@ -5,6 +5,7 @@ mod code;
 mod front;
 mod join;
 mod measure;
+mod own;
 mod page;
 mod plot;
 mod point;
@@ -15,9 +16,12 @@ mod words;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use clap::ArgGroup;
+
 use crate::docs;
 use crate::error::{Error, Result};
 use crate::output;
+use crate::own_robot;
 use crate::setup::{self, Options, Tools};
 use crate::workspace::{self, Workspace};
 
@@ -28,19 +32,28 @@ use point::{Kind, Point, of_group};
 
 /// What is wanted.
 #[derive(clap::Args)]
+#[command(group = ArgGroup::new("chosen").args(["robot", "file"]))]
 pub struct Args {
     /// Only this robot
-    #[arg(long, value_enum, value_name = "NAME", ignore_case = true)]
+    #[arg(
+        long,
+        value_enum,
+        value_name = "NAME",
+        ignore_case = true,
+        conflicts_with = "file"
+    )]
     robot: Option<Robot>,
+    #[command(flatten)]
+    own: own_robot::Args,
     /// The measurements as JSON on stdout; progress stays on stderr
     #[arg(long)]
     json: bool,
     /// Choose the cheapest configuration off by no more than this: 0.05Nm, 2mrad
     #[arg(long, value_name = "ERROR", allow_hyphen_values = true)]
-    #[arg(requires = "robot", conflicts_with = "cycles")]
+    #[arg(requires = "chosen", conflicts_with = "cycles")]
     error: Option<Allowed>,
     /// Choose the most accurate configuration whose worst tick takes no more cycles than this
-    #[arg(long, value_name = "CYCLES", requires = "robot")]
+    #[arg(long, value_name = "CYCLES", requires = "chosen")]
     cycles: Option<u64>,
     /// Choose from what is measured now, not from docs/accuracy.json
     #[arg(long)]
@@ -53,6 +66,9 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
         (Some(error), _) => Some(Budget::Error(error)),
         (None, cycles) => cycles.map(Budget::Cycles),
     };
+    if let Some(robot) = args.own.robot(&Workspace::find()?, own::MOST_JOINTS)? {
+        return own::run(options, &robot, budget, args.json);
+    }
     let choice = budget.zip(args.robot);
     let workspace = match choice {
         None => Workspace::for_reports()?,
@@ -86,19 +102,23 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
         return Ok(ExitCode::SUCCESS);
     };
     let points = choice::shipped(&points, budget.group(robot));
-    let points: Vec<&Point> = points.iter().collect();
-    if args.json {
-        docs::print_json(&budget.choose(&points)?)?;
-    } else {
-        output::print(&budget.answer(&points)?)?;
-        if !args.measure {
-            let file = recorded::FILE;
-            output::note(&format!(
-                "\nFrom {file}; --measure takes its figures on this machine, in minutes."
-            ));
-        }
+    show(budget, &points, args.json)?;
+    if !args.json && !args.measure {
+        let file = recorded::FILE;
+        output::note(&format!(
+            "\nFrom {file}; --measure takes its figures on this machine, in minutes."
+        ));
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// Prints what a budget chooses.
+fn show(budget: Budget, points: &[Point], json: bool) -> Result<()> {
+    let points: Vec<&Point> = points.iter().collect();
+    match json {
+        true => docs::print_json(&budget.choose(&points)?),
+        false => output::print(&budget.answer(&points)?),
+    }
 }
 
 /// Fails unless what single changes cost and lose is what the page says; else says how many there are.

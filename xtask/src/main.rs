@@ -26,6 +26,7 @@ mod layers;
 mod lines;
 mod meter;
 mod output;
+mod own_robot;
 mod peers;
 mod plot;
 mod processes;
@@ -215,5 +216,43 @@ fn run(cli: Cli) -> Result<ExitCode> {
         Command::Miri => endurance::miri(),
         Command::Lines => output::print(&lines::text()?).map(|()| ExitCode::SUCCESS),
         Command::Test(args) => test::run(setup, &args),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::Parser;
+
+    use super::Cli;
+
+    #[test]
+    fn a_file_excludes_what_is_written_or_of_other_robots() {
+        let is_taken = |words: &str| {
+            let words = ["cargo xtask"].into_iter().chain(words.split(' '));
+            Cli::try_parse_from(words).is_ok()
+        };
+        for good in [
+            "costs --file arm.urdf",
+            "costs --file arm.urdf --json",
+            "costs --file arm.xml -- --tip hand --lock finger=0.01",
+            "accuracy --file arm.urdf",
+            "accuracy --file arm.urdf --error 0.05Nm",
+            "accuracy --file arm.urdf --cycles 600 --json -- --name arm",
+            "accuracy --robot ur5e --cycles 600",
+        ] {
+            assert!(is_taken(good), "{good}");
+        }
+        for bad in [
+            "costs --file",
+            "costs --file arm.urdf --write-budgets",
+            "costs -- --tip hand",
+            "accuracy --file arm.urdf --robot ur5e",
+            "accuracy --file arm.urdf --error 0.05Nm --cycles 600",
+            "accuracy --file arm.urdf --error 0.05",
+            "accuracy --cycles 600",
+            "accuracy --error 0.05Nm",
+        ] {
+            assert!(!is_taken(bad), "{bad}");
+        }
     }
 }

@@ -60,10 +60,14 @@ fn torques(point: &Point) -> Result<String> {
     let axes = ["model", "trig", "between", "form", "arith"];
     let [effects, kernel, between, form, scalar] = shipped(point, axes)?;
     let [rate, trig] = ["rate", "trig"].map(|axis| point.on(axis));
-    let arm = Robot::COMPUTED.map(Robot::names);
-    let arm = arm.into_iter().find(|names| names[0] == point.robot);
+    let known = || {
+        let mut arms = Robot::COMPUTED.map(Robot::names).into_iter();
+        arms.find_map(|[name, _, arm, joints]| (name == point.robot).then_some([arm, joints]))
+    };
+    let arm = point.own.as_ref();
+    let arm = arm.map(|own| own.each_ref().map(String::as_str));
     let lacks = || Error::check(format!("no torques of {} are computed", point.robot));
-    let [_, _, arm, joints] = arm.ok_or_else(lacks)?;
+    let [arm, joints] = arm.or_else(known).ok_or_else(lacks)?;
     let robot = match point.on("model").strip_prefix("pruned") {
         Some(millionths) => format!("Pruned<{arm}, {millionths}>"),
         None => arm.to_owned(),
@@ -104,7 +108,10 @@ fn torques(point: &Point) -> Result<String> {
     let uses: String = uses
         .map(|path| format!("use dynamics_core::{path};\n"))
         .collect();
-    Ok(format!("{uses}\n{code}"))
+    // Where the importer's file is a module of the program, the user knows.
+    let own = point.own.as_ref();
+    let own = own.map(|[arm, _]| format!("use crate::robot::{arm};\n"));
+    Ok(format!("{uses}{}\n{code}", own.unwrap_or_default()))
 }
 
 fn simulation(point: &Point) -> Result<String> {
@@ -207,6 +214,32 @@ mod tests {
             rust(point.expect("it was measured")).expect("code"),
             super::SIMULATION
         );
+    }
+
+    #[test]
+    fn the_code_of_a_robot_from_a_file_names_its_type() {
+        let mut own = point("form=core", 1.0, 1, 1.0);
+        let axes = [
+            ("model", "pruned1000"),
+            ("trig", "table3x4"),
+            ("between", "held"),
+            ("form", "core"),
+        ];
+        let axes = axes
+            .into_iter()
+            .chain([("arith", "f32"), ("rate", "1"), ("plant", "rigid")]);
+        own.configuration = axes
+            .map(|(axis, value)| (axis.into(), value.into()))
+            .collect();
+        assert!(rust(&own).is_err(), "the repository has no such robot");
+        own.own = Some(["MyArm".into(), "5".into()]);
+        let code = rust(&own).expect("there is code");
+        assert!(code.contains("use crate::robot::MyArm;\n\n"), "{code}");
+        assert!(
+            code.contains("state: &State<f32, 5, 5>) -> [f32; 5]"),
+            "{code}"
+        );
+        assert!(code.contains("Core::<Pruned<MyArm, 1000>>::rnea"), "{code}");
     }
 
     #[test]

@@ -15,7 +15,7 @@ use crate::toolchain::{RELEASE, SMALL, TINY};
 use crate::workspace::Workspace;
 
 /// The feature, and the bin on the host.
-const ACCURACY: &str = "accuracy";
+pub const ACCURACY: &str = "accuracy";
 /// The bins of the robots whose torques are computed.
 const BINS: [&str; 3] = ["accuracy_ur5e", "accuracy_panda", "accuracy_leg"];
 /// The bins, here and there, with a dozen ways of each robot.

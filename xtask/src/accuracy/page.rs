@@ -156,6 +156,12 @@ pub fn terminal(points: &[Point]) -> String {
     table(&on, "robot, configuration", FRONTS).text()
 }
 
+/// Every way of one robot, for a terminal.
+pub fn every(points: &[Point]) -> String {
+    let all: Vec<&Point> = points.iter().collect();
+    table(&named(&all), "configuration", SHARES).text()
+}
+
 /// Single changes to the default.
 pub fn singles(points: &[Point], rustc: &str) -> String {
     let few = of_robots(points, |point| is_single(point, usize::MAX));

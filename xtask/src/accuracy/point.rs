@@ -59,6 +59,9 @@ pub struct Point {
     /// Largest change of the energy in a simulated second, as a share of the largest kinetic energy.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub drift: Option<f64>,
+    /// Of a robot from a file: the name of its type and the number of its joints.
+    #[serde(skip)]
+    pub own: Option<[String; 2]>,
 }
 
 impl Point {

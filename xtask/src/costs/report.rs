@@ -188,6 +188,12 @@ impl Report {
     }
 }
 
+/// The rows of one robot, for a terminal.
+pub fn of_robot(rows: &[Row]) -> String {
+    let name = rows.first().map_or("", |row| &row.robot);
+    format!("{name}; {MODEL}.\n\n{}", table(rows).markdown())
+}
+
 fn called(row: &Row) -> String {
     format!("{} {} {}", row.algorithm, row.form, row.inputs)
 }

@@ -6,7 +6,7 @@ use dynamics_core::Core;
 use dynamics_core::control::Reference;
 use dynamics_core::drivetrain::{ElasticReference, elastic_inverse_dynamics};
 use dynamics_core::effects::RIGID_BODY;
-use dynamics_core::model::Static;
+use dynamics_core::model::{Robot, Static};
 use dynamics_core::state::State;
 use firmware_demo::accuracy::robots::{Compared, Swung, momentary};
 use firmware_demo::accuracy::{Inverse, Visitor, list};
@@ -75,44 +75,64 @@ pub fn drawn<const N: usize>(random: &mut TestRng, bounds: [f64; 3]) -> State<f3
 pub fn print<T: Compared<B, N, W>, const B: usize, const N: usize, const W: usize>(
     ways: fn(&mut Bench<N>),
 ) {
-    let recorded = recorded_states::<N>(T::RECORDED);
-    let full_scale = full_scale(&recorded);
-    let ours = |state: &State<f32, N, N>| Core::<T>::rnea(&widened(state), &RIGID_BODY);
-    let off = Errors::of(recorded.iter().map(|it| (ours(&it.course.state), it.truth)));
-    let precise: Precise = read("precise");
-    let sample = precise.states.iter().zip(precise.rnea(T::RECORDED));
-    let sample = Errors::of(sample.map(|(&k, tau)| {
-        let truth: [f64; N] = std::array::from_fn(|j| tau[j]);
-        (ours(&recorded[k].course.state), truth)
-    }));
-    let oracle = json!({
-        "pinocchio": load(T::RECORDED).pinocchio,
-        "states": recorded.len(),
-        "from_50_digits": sample.max() / full_scale,
-        "sample": precise.states.len(),
-    });
-    off.print(T::MODEL.name, "oracle", [full_scale, 0.0], oracle);
     let labelled = |state| Problem {
         course: momentary(state),
-        truth: ours(&state),
+        truth: ours::<T, B, N>(&state),
     };
+    let mut random = random_numbers();
+    let more = (0..MORE_STATES).map(|_| labelled(drawn(&mut random, [PI, 3.0, 10.0])));
+    let mut states: Vec<_> = more.collect();
+    let (mut full_scale, mut floor) = (full_scale(&states), 0.0);
+    if let Some(name) = T::RECORDED {
+        let recorded = recorded_states::<N>(name);
+        (full_scale, floor) = print_oracle::<T, B, N>(name, &recorded);
+        states.splice(..0, recorded);
+    }
     let way = T::way().expect("the robot can go there");
     let ticks = 0..=way.ticks() + REST;
     let way = ticks.map(|tick| labelled(way.at(tick.saturating_sub(REST))));
     let way: Vec<_> = way.collect();
-    yardsticks::print::<T, B, N>(full_scale, &way);
-    yardsticks::print_speeds::<T, B, N>(full_scale);
-    let mut random = random_numbers();
-    let more = (0..MORE_STATES).map(|_| labelled(drawn(&mut random, [PI, 3.0, 10.0])));
+    if T::RECORDED.is_some() {
+        yardsticks::print::<T, B, N>(full_scale, &way);
+        yardsticks::print_speeds::<T, B, N>(full_scale);
+    }
     ways(&mut Bench {
         kind: "inverse",
         robot: T::MODEL.name,
         plant: "rigid",
         full_scale,
-        floor: off.max(),
-        states: recorded.into_iter().chain(more).collect(),
+        floor,
+        states,
         way,
     });
+}
+
+fn ours<T: Robot<B, N, N>, const B: usize, const N: usize>(state: &State<f32, N, N>) -> [f64; N] {
+    Core::<T>::rnea(&widened(state), &RIGID_BODY)
+}
+
+/// Prints how far the f64 is off from what was recorded; returns the full scale and the largest error.
+fn print_oracle<T: Robot<B, N, N>, const B: usize, const N: usize>(
+    name: &str,
+    recorded: &[Problem<N>],
+) -> (f64, f64) {
+    let full_scale = full_scale(recorded);
+    let ours = ours::<T, B, N>;
+    let off = Errors::of(recorded.iter().map(|it| (ours(&it.course.state), it.truth)));
+    let precise: Precise = read("precise");
+    let sample = precise.states.iter().zip(precise.rnea(name));
+    let sample = Errors::of(sample.map(|(&k, tau)| {
+        let truth: [f64; N] = std::array::from_fn(|j| tau[j]);
+        (ours(&recorded[k].course.state), truth)
+    }));
+    let oracle = json!({
+        "pinocchio": load(name).pinocchio,
+        "states": recorded.len(),
+        "from_50_digits": sample.max() / full_scale,
+        "sample": precise.states.len(),
+    });
+    off.print(T::MODEL.name, "oracle", [full_scale, 0.0], oracle);
+    (full_scale, off.max())
 }
 
 #[allow(dead_code, reason = "the quick bin has no such joints")]
@@ -140,7 +160,7 @@ where
         kind: "inverse",
         robot: T::MODEL.name,
         plant: "compliant",
-        full_scale: full_scale(&recorded_states::<N>(T::RECORDED)),
+        full_scale: full_scale(&T::RECORDED.map_or_else(Vec::new, recorded_states::<N>)),
         floor: 0.0,
         states: Vec::new(),
         way: (0..=swing.ticks()).map(labelled).collect(),

@@ -89,10 +89,7 @@ fn own_robots() -> Result<String, Box<dyn Error>> {
         let (file, name) = robot.rsplit_once(':').ok_or("expected path:Type")?;
         println!("cargo:rerun-if-changed={file}");
         writeln!(modules, "#[path = {file:?}]\nmod robot_{i};")?;
-        writeln!(
-            calls,
-            "    robot::<robot_{i}::{name}, {{ robot_{i}::V }}>(\"{i}\");"
-        )?;
+        writeln!(calls, "    robot::<robot_{i}::{name}, {{ robot_{i}::V }}>(\"{i}\");")?;
     }
     Ok(format!("{modules}\nfn robots() {{\n{calls}}}\n"))
 }

@@ -13,7 +13,7 @@ use crate::physical::violation;
 use crate::project::{FileEffects, RobotFile};
 use crate::selection::{Selected, Selection};
 use crate::tree::{Numbers, Tree};
-use crate::{source, write};
+use crate::{loops, source, write};
 
 /// Which file becomes which robot.
 #[derive(Clone, Debug, Default, clap::Args)]
@@ -113,6 +113,8 @@ pub struct Report {
     pub base: String,
     /// The bodies with their joints.
     pub bodies: Vec<Row>,
+    /// The names of the joints that close loops.
+    pub loops: Vec<String>,
     /// The numbers of bodies, position and velocity coordinates.
     pub sizes: [usize; 3],
     /// What to look at.
@@ -234,6 +236,8 @@ pub fn import(args: &Args, today: &str) -> Result<Imported> {
             "Couplings of joints are left out: they need joints of one coordinate.".to_owned(),
         );
     }
+    let (closed, left_out) = loops::closed(&robot, &tree);
+    notes.extend(left_out);
     let name = args.name.clone().unwrap_or_else(|| robot.name.clone());
     let mut own = advice(&robot, &selected, &tree);
     own.extend(notes.iter().map(|note| Advice {
@@ -248,7 +252,9 @@ pub fn import(args: &Args, today: &str) -> Result<Imported> {
         date: today.to_owned(),
         notes: notes.iter().chain(&robot.notes).cloned().collect(),
     };
-    let source = write::formatted(&write::source(&tree, &name, &origin));
+    let text = write::source(&tree, &name, &origin);
+    let source =
+        write::formatted(&(text + &loops::source(&tree, &write::type_name(&name), &closed)));
     let [q, v] = tree.coordinates();
     let report = Report {
         type_name: write::type_name(&name),
@@ -256,6 +262,7 @@ pub fn import(args: &Args, today: &str) -> Result<Imported> {
         licence: robot.licence.clone(),
         base: tree.base.clone(),
         bodies: rows(&tree),
+        loops: closed.iter().map(|one| one.name.clone()).collect(),
         sizes: [tree.bodies.len(), q, v],
         advice: own,
         exact: estimate::savings(&robot, &selected, &tree),

@@ -22,6 +22,7 @@ pub mod error;
 pub mod estimate;
 pub mod import;
 pub mod inertia;
+pub mod loops;
 pub mod model;
 pub mod number;
 pub mod physical;

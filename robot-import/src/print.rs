@@ -39,6 +39,13 @@ impl Report {
             self.name, self.type_name, self.base, self.file
         );
         out += &self.joints();
+        if !self.loops.is_empty() {
+            let _ = writeln!(
+                out,
+                "\nLoops, written but not checked: {}",
+                self.loops.join(", ")
+            );
+        }
         if !self.exact.is_empty() {
             out += "\nRoundings made exact (`--keep-roundings` keeps them):\n";
             let rows: Vec<Vec<String>> = self

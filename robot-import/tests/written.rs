@@ -1,0 +1,71 @@
+//! Written files compile, are those of today's importer, and have the numbers that were checked.
+
+#[path = "robots/parallelogram.rs"]
+mod parallelogram;
+#[path = "robots/so101.rs"]
+mod so101;
+
+use std::path::Path;
+
+use dynamics_core::algorithms::rnea;
+use dynamics_core::effects::RIGID_BODY;
+use dynamics_core::loops::{LoopRobot, constraints};
+use dynamics_core::model::{ArmModel, Robot};
+use dynamics_core::state::State;
+use robot_import::import::{Args, import};
+use robot_import::model::{AnyModel, Motion};
+use robot_import::tree::Tree;
+
+/// What the importer makes of a file of these tests.
+fn imported(file: &str, name: &str) -> (String, Tree) {
+    let args = Args {
+        file: Path::new(env!("CARGO_MANIFEST_DIR"))
+            .join("tests")
+            .join(file),
+        name: Some(name.to_owned()),
+        ..Args::default()
+    };
+    let imported = import(&args, "2026-11-21").unwrap_or_else(|error| panic!("{error}"));
+    (imported.source, imported.tree)
+}
+
+/// The torques of the file's model are those of the checked tree, bit by bit.
+fn same_numbers<const N: usize>(written: &ArmModel<f64, N>, tree: &Tree) {
+    let checked = AnyModel::of(tree).expect("few joints");
+    for k in 0..10 {
+        let number = |i: usize, size: f64| size * (1.3 * k as f64 + 2.1 * i as f64).sin();
+        let [q, qd, qdd] = [1.5, 3.0, 10.0].map(|size| std::array::from_fn(|i| number(i, size)));
+        let torque = rnea(written, &State { q, qd, qdd }, &RIGID_BODY);
+        let motion = Motion {
+            q: q.into(),
+            qd: qd.into(),
+            qdd: qdd.into(),
+        };
+        assert_eq!(torque.to_vec(), checked.dynamics(&motion).torque);
+    }
+}
+
+#[test]
+fn written_files_are_todays_and_have_the_checked_numbers() {
+    let (source, tree) = imported("urdf/so101.urdf", "so101");
+    assert_eq!(source, include_str!("robots/so101.rs"));
+    same_numbers(&so101::So101::MODEL, &tree);
+    let (source, tree) = imported("mjcf/parallelogram.xml", "parallelogram");
+    assert_eq!(source, include_str!("robots/parallelogram.rs"));
+    same_numbers(&parallelogram::Parallelogram::MODEL, &tree);
+}
+
+#[test]
+fn a_loop_is_closed_where_its_machine_is() {
+    use parallelogram::Parallelogram;
+    let error = |q: [f64; 3]| {
+        let found = constraints(&Parallelogram::MODEL, &Parallelogram::LOOPS, &State::at(q));
+        found
+            .position
+            .into_iter()
+            .fold(0.0, |most: f64, x| most.max(x.abs()))
+    };
+    assert_eq!(error([0.0; 3]), 0.0);
+    assert!(error([0.4, -0.4, 0.4]) < 1e-15);
+    assert!(error([0.4, 0.0, 0.4]) > 0.05);
+}

@@ -108,7 +108,7 @@ pub enum Problem {
     #[error("{0} links are no joint's child, expected one: {1}")]
     Roots(usize, String),
     /// Nothing that moves is left.
-    #[error("no joint moves")]
+    #[error("no joint moves; `--free-base` puts the base on a free joint")]
     NothingMoves,
     /// A number cannot be used.
     #[error("{0}")]

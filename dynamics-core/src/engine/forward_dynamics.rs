@@ -78,8 +78,11 @@ impl<T> Engine<T> {
         let mut rest = *tau;
         for_each_joint!(J, {
             if const { J < V } {
-                let at = JointState::new(state.q[J], state.qd[J]);
-                rest[J] = transmitted(effects, J, at, rest[J]) - bias[J];
+                if const { E::LOAD_DEPENDENT } {
+                    let at = JointState::new(state.q[J], state.qd[J]);
+                    rest[J] = transmitted(effects, J, at, rest[J]);
+                }
+                rest[J] -= bias[J];
             }
         });
         rest

@@ -10,6 +10,9 @@ use dynamics_core::effects::{Gravity, RIGID_BODY};
 use dynamics_core::state::State;
 use firmware_demo::scenes::so101_teach::{COMPENSATION, with_back_emf};
 
+/// A measured function.
+type Torque = fn(&State<f32, 6, 6>) -> [f32; 6];
+
 /// The torques that hold and move the arm without effort.
 #[inline(never)]
 fn torques(state: &State<f32, 6, 6>) -> [f32; 6] {
@@ -29,8 +32,7 @@ fn run() -> ! {
     let asks = costs::asks::<robots::So101, 6, 6, { costs::STATES }>();
     inverse::<robots::So101, _, 6, 6>("full", &asks, &RIGID_BODY);
     inverse::<robots::So101, _, 6, 6>("gravity", &asks, &(Gravity::EARTH,));
-    let functions: [(&str, fn(&State<f32, 6, 6>) -> [f32; 6]); 2] =
-        [("compensation", torques), ("command", command)];
+    let functions: [(&str, Torque); 2] = [("compensation", torques), ("command", command)];
     for (inputs, function) in functions {
         let row = costs::row::Row::of::<robots::So101, 6, 6>("rnea", "engine", inputs, true);
         row.measure(function as usize, &asks, |ask| function(&ask.state));

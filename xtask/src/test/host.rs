@@ -21,7 +21,8 @@ pub fn tests(context: &Context) -> Result<String> {
     let more = if context.full { FULL } else { "" };
     // Not `--bins`, which builds those with `test = false` too: large ones that hold no tests.
     let printed = context.cargo(&[
-        &format!("test {HOST} --lib --tests {more}"),
+        // All failures in one run, which takes long.
+        &format!("test {HOST} --lib --tests --no-fail-fast {more}"),
         &format!("test {FIRMWARE}"),
     ])?;
     Ok(format!("{} tests", count(&printed)))

@@ -57,7 +57,7 @@ pub trait Scene<const B: usize, const Q: usize, const V: usize, const N: usize>:
     const RESOLUTION: f32 = RESOLUTION;
     /// Steps of the simulated robot in a tick.
     const STEPS: u32 = STEPS;
-    /// What that pose is called.
+    /// What that pose is called; words that end in `inertia` name what [`Scene::inertia`] is instead.
     const GAIN_POSE_NAME: &'static str;
 
     /// The runs of every scene.

@@ -83,7 +83,7 @@ pub struct Gains {
     pub omega_n: f64,
     /// Damping ratio.
     pub zeta: f64,
-    /// The pose whose mass matrix they are for.
+    /// The pose whose mass matrix they are for, or words for another inertia.
     pub pose: String,
 }
 
@@ -133,11 +133,11 @@ impl Recording {
                 name: name.into(),
                 bytes: bytes.parse().ok()?,
             }),
-            ["gains", omega_n, zeta, pose] => {
+            ["gains", omega_n, zeta, ref pose @ ..] => {
                 self.gains = Some(Gains {
                     omega_n: number(omega_n)?,
                     zeta: number(zeta)?,
-                    pose: pose.into(),
+                    pose: pose.join(" "),
                 });
             }
             ["run", plant, law, at] => {

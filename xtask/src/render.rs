@@ -26,9 +26,13 @@ impl Report {
         let (memory, rustc, qemu) = (self.memory(), &self.rustc, &self.qemu);
         text += &format!("\n{memory}\n{rustc}; {qemu}; µs at {CLOCK_MHZ} MHz\n");
         if let Some(gains) = &self.gains {
+            let inertia = match gains.pose.ends_with("inertia") {
+                true => gains.pose.clone(),
+                false => format!("M's diagonal at the pose {}", gains.pose),
+            };
             text += &format!(
-                "Feedback in every run: ω_n {:.1} rad/s, ζ {:.2}, on M's diagonal at the pose {}\n",
-                gains.omega_n, gains.zeta, gains.pose
+                "Feedback in every run: ω_n {:.1} rad/s, ζ {:.2}, on {inertia}\n",
+                gains.omega_n, gains.zeta
             );
         }
         let (speed, gate) = (self.peak_speed, self.gate());

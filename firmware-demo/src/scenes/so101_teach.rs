@@ -127,7 +127,7 @@ impl Scene<6, 6, 6, 6> for TaughtPath {
     );
     const TICK: f32 = 2e-3;
     const RESOLUTION: f32 = RESOLUTION;
-    const GAIN_POSE_NAME: &'static str = "half a rotor";
+    const GAIN_POSE_NAME: &'static str = "half a rotor's inertia";
     const BASELINES: &'static [Run<Self, 6, 6, 6, 6>] = &[
         Run::of::<PositionLoop>(PlantModel::Exact, "position-loop"),
         Run::of::<PositionLoop>(PlantModel::Mismatched, "position-loop"),

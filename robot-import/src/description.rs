@@ -41,6 +41,8 @@ pub struct Link {
     pub line: u32,
     /// Its inertia; none is no mass.
     pub inertial: Option<Inertial>,
+    /// Whether its mass is that of a mesh, which is not read: the link must not move.
+    pub of_mesh: bool,
 }
 
 /// Mass, centre of mass and rotational inertia.

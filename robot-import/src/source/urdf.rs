@@ -54,6 +54,7 @@ fn link(node: Node<'_, '_>) -> Result<Link> {
         name: required(node, "name")?.to_owned(),
         line: xml::offset(node),
         inertial: inertial.transpose()?,
+        of_mesh: false,
     })
 }
 

@@ -34,8 +34,6 @@ pub struct Tree<'e> {
     pub sites: HashMap<String, (usize, Placement)>,
     /// What is left out.
     pub notes: Vec<String>,
-    /// The first body whose mass has been left out.
-    pub without_mesh: Option<&'e Element>,
     names: HashSet<String>,
     counts: [usize; 2],
 }
@@ -60,7 +58,6 @@ impl<'e> Tree<'e> {
             bodies: HashMap::new(),
             sites: HashMap::new(),
             notes: Vec::new(),
-            without_mesh: None,
             names: HashSet::new(),
             counts: [0; 2],
         };
@@ -120,6 +117,7 @@ impl<'e> Tree<'e> {
             name,
             line: element.line,
             inertial: None,
+            of_mesh: false,
         });
         self.worlds.push(world);
         Ok(self.links.len() - 1)
@@ -169,7 +167,7 @@ impl<'e> Tree<'e> {
         if self.bodies.insert(name, inside.link).is_some() {
             return Err(element.error(Problem::Duplicate("body")));
         }
-        let geoms = self.geoms(element, &contents, inside.fixed)?;
+        let geoms = self.geoms(element, &contents, &inside)?;
         let stated = contents.inertial.as_ref();
         let stated = stated.map(|(element, frame)| (*element, &**frame));
         self.links[inside.link].inertial = inertia::of_body(stated, &geoms, self.compiler)?;
@@ -182,7 +180,7 @@ impl<'e> Tree<'e> {
         &mut self,
         body: &'e Element,
         contents: &Contents<'e>,
-        fixed: bool,
+        inside: &Around,
     ) -> Result<Vec<Solid>> {
         use super::compiler::FromGeoms::{Always, Auto, Never};
         let needed = match self.compiler.from_geoms {
@@ -195,9 +193,9 @@ impl<'e> Tree<'e> {
             match geom::read(self.classes.view(element, *class)?, frame, self.compiler)? {
                 Geom::Massless => {}
                 Geom::Solid(solid) => solids.push(*solid),
-                Geom::Mesh if fixed => {
+                Geom::Mesh if inside.fixed => {
                     let name = body.words();
-                    self.without_mesh.get_or_insert(body);
+                    self.links[inside.link].of_mesh = true;
                     self.notes.push(format!(
                         "{name}: its mass is that of a mesh, which is not read; the body is fixed to the world"
                     ));

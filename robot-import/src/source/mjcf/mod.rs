@@ -43,7 +43,7 @@ use defaults::Classes;
 use element::Element;
 
 use crate::description::{Description, Format};
-use crate::error::Result;
+use crate::error::{ImportError, Problem, Result};
 
 const SECTIONS: [&str; 16] = [
     "asset",
@@ -82,9 +82,13 @@ pub fn read(root: Node<'_, '_>, folder: &Path) -> Result<Description> {
     let loops = constraint::read(&root, &mut tree, &classes, &compiler)?;
     actuator::read(&root, &mut tree, &classes, &compiler)?;
     if let Some(total) = compiler.total_mass {
-        if let Some(body) = tree.without_mesh {
+        if let Some(link) = tree.links.iter().find(|link| link.of_mesh) {
             let sentence = "`settotalmass` needs the mass of its mesh, which is not read: give it an <inertial>";
-            return Err(body.value(sentence));
+            return Err(ImportError::at(
+                link.line,
+                format!("body `{}`", link.name),
+                Problem::Value(sentence.to_owned()),
+            ));
         }
         inertia::scale(&mut tree.links, total);
     }

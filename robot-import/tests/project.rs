@@ -20,9 +20,9 @@ mod chain;
 #[path = "../template/rust/src/robot.rs"]
 #[allow(dead_code, reason = "a robot's file has more than the test compares")]
 mod pendulum;
-#[path = "project/ur5e.rs"]
+#[path = "robots/so101.rs"]
 #[allow(dead_code, reason = "a robot's file has more than the test compares")]
-mod ur5e;
+mod so101;
 
 /// The torques of the projects' probe, as bits.
 fn expected<T: Robot<N, N, N>, E: Effect<f32, N, N>, const N: usize>(effects: &E) -> String {
@@ -186,17 +186,9 @@ fn a_pendulum() {
 #[test]
 #[ignore = "builds firmware"]
 fn an_arm() {
-    let robot = robot("Ur5e", include_str!("project/ur5e.rs"), &ur5e::JOINTS, ALL);
-    let friction = (ur5e::VISCOUS, ur5e::COULOMB, ur5e::ARMATURE);
-    let scene = (
-        Gravity::EARTH,
-        Inertia,
-        Coriolis,
-        friction.0,
-        friction.1,
-        friction.2,
-    );
-    let expected = expected::<ur5e::Ur5e, _, 6>(&scene);
+    let text = include_str!("robots/so101.rs");
+    let robot = robot("So101", text, &so101::JOINTS, FileEffects::default());
+    let expected = expected::<so101::So101, _, 6>(&so101::SCENE);
     rust_project("an-arm", robot.clone(), &expected);
     c_project("an-arm-for-c", robot, &expected);
 }

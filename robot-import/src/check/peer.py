@@ -125,4 +125,11 @@ def mujoco(request):
 
 
 request = json.load(sys.stdin)
-json.dump((pinocchio if request["format"] == "Urdf" else mujoco)(request), sys.stdout)
+compared, package, requirement = {
+    "Urdf": (pinocchio, "pinocchio", "pin"),
+    "Mjcf": (mujoco, "mujoco", "mujoco"),
+}[request["format"]]
+try:
+    json.dump(compared(request), sys.stdout)
+except ImportError:
+    sys.exit("it has no package %s: pip install %s, or --python names another Python" % (package, requirement))

@@ -94,7 +94,7 @@ pub fn compare(
     if !output.status.success() {
         let text = String::from_utf8_lossy(&output.stderr);
         let last = text.lines().rev().find(|line| !line.trim().is_empty());
-        return Err(last.unwrap_or("no message").trim().to_owned());
+        return Err(format!("{python}: {}", last.unwrap_or("no message").trim()));
     }
     let start = output
         .stdout

@@ -2,7 +2,7 @@
 
 /// Runs a closure in region K, 0 to 7.
 #[inline(always)]
-#[allow(unsafe_code)]
+#[allow(unsafe_code, reason = "inline assembly has no safe form")]
 pub fn measured<const K: u8, T>(run: impl FnOnce() -> T) -> T {
     // SAFETY: a hint that changes nothing.
     #[cfg(target_os = "none")]

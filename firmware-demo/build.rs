@@ -39,7 +39,6 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     fs::write(out.join("states.rs"), source)?;
     fs::write(out.join("torques.rs"), torques()?)?;
-    fs::write(out.join("own_robots.rs"), own_robots()?)?;
     Ok(())
 }
 
@@ -76,25 +75,4 @@ fn torques() -> Result<String, Box<dyn Error>> {
     }
     writeln!(source, "];")?;
     Ok(source)
-}
-
-/// The modules of the files that `OWN_ROBOTS` names, `path:Type` separated by `;`, and a call for each.
-fn own_robots() -> Result<String, Box<dyn Error>> {
-    println!("cargo:rerun-if-env-changed=OWN_ROBOTS");
-    println!("cargo:rerun-if-env-changed=OWN_ROBOTS_WAYS");
-    let ways = env::var("OWN_ROBOTS_WAYS").unwrap_or_else(|_| "robot".to_owned());
-    let Ok(robots) = env::var("OWN_ROBOTS") else {
-        return Ok("compile_error!(\"`cargo xtask import` names the robots' files\");".to_owned());
-    };
-    let (mut modules, mut calls) = (String::new(), String::new());
-    for (i, robot) in robots.split(';').enumerate() {
-        let (file, name) = robot.rsplit_once(':').ok_or("expected path:Type")?;
-        println!("cargo:rerun-if-changed={file}");
-        writeln!(modules, "#[path = {file:?}]\nmod robot_{i};")?;
-        writeln!(
-            calls,
-            "    {ways}::<robot_{i}::{name}, {{ robot_{i}::V }}>(\"{i}\");"
-        )?;
-    }
-    Ok(format!("{modules}\nfn robots() {{\n{calls}}}\n"))
 }

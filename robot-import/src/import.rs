@@ -2,15 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
-use serde::Serialize;
-
 use crate::advice::{Advice, advice};
-use crate::check::{self, Checked, Peer, STATES};
+use crate::check::{self, STATES};
 use crate::description::Description;
 use crate::error::{ImportError, Problem, Result};
 use crate::estimate;
 use crate::physical::violation;
 use crate::project::{FileEffects, RobotFile};
+use crate::report::{Report, rows};
 use crate::selection::{Selected, Selection};
 use crate::tree::{Numbers, Tree};
 use crate::{loops, source, write};
@@ -33,6 +32,9 @@ pub struct Args {
     /// The report as JSON on stdout
     #[arg(long)]
     pub json: bool,
+    /// The report as JSON into a file, besides the text
+    #[arg(long, value_name = "FILE", conflicts_with = "json")]
+    pub report: Option<PathBuf>,
 }
 
 /// Which part of a file becomes the robot, and how it is checked.
@@ -78,9 +80,6 @@ fn locked(text: &str) -> std::result::Result<(String, f64), String> {
     }
 }
 
-/// What notes say of a base whose mass is not known.
-const UNREAD: &str = "its mass is that of a mesh";
-
 /// An imported robot.
 #[derive(Debug)]
 pub struct Imported {
@@ -96,62 +95,6 @@ pub struct Imported {
     pub source: String,
     /// What its user should know.
     pub report: Report,
-}
-
-/// The report of an import; its fields are those of the JSON.
-#[derive(Clone, Debug, Serialize)]
-pub struct Report {
-    /// The robot's name.
-    pub name: String,
-    /// The type's name.
-    pub type_name: String,
-    /// The file.
-    pub file: String,
-    /// The licence that its comments state.
-    pub licence: Option<String>,
-    /// The name of the link that stands still.
-    pub base: String,
-    /// The bodies with their joints.
-    pub bodies: Vec<Row>,
-    /// The names of the joints that close loops.
-    pub loops: Vec<String>,
-    /// The numbers of bodies, position and velocity coordinates.
-    pub sizes: [usize; 3],
-    /// What to look at.
-    pub advice: Vec<Advice>,
-    /// The roundings that were made exact.
-    pub exact: Vec<estimate::Saved>,
-    /// The check.
-    pub check: Checked,
-    /// The comparison with a peer.
-    pub peer: Option<Peer>,
-    /// Why there is none.
-    pub no_peer: Option<String>,
-    /// Cycles of inverse dynamics by the engine, estimated.
-    pub estimated_cycles: Option<u64>,
-    /// Bytes of its code, estimated.
-    pub estimated_flash: Option<u64>,
-}
-
-/// A body in the report.
-#[derive(Clone, Debug, Serialize)]
-pub struct Row {
-    /// The joint.
-    pub joint: String,
-    /// The body.
-    pub body: String,
-    /// The parent body's name.
-    pub parent: String,
-    /// The kind of joint.
-    pub kind: String,
-    /// Mass, kg.
-    pub mass: f64,
-    /// Least and greatest position, rad or m.
-    pub range: Option<[f64; 2]>,
-    /// Greatest torque, N·m or N.
-    pub effort: Option<f64>,
-    /// The joint that it follows.
-    pub follows: Option<String>,
 }
 
 /// Reads, selects, merges, checks and writes a robot.
@@ -176,13 +119,15 @@ pub fn import(args: &Args, today: &str) -> Result<Imported> {
             inertial.exact = inertial.frame;
         }
     }
-    if let (true, Some(note)) = (
-        args.options.free_base,
-        robot.notes.iter().find(|note| note.contains(UNREAD)),
-    ) {
-        return Err(
-            Problem::Value(format!("{note}: a free base needs its mass in the file")).into(),
-        );
+    let mut links = robot.links.iter();
+    if let (true, Some(link)) = (args.options.free_base, links.find(|link| link.of_mesh)) {
+        return Err(ImportError::at(
+            link.line,
+            format!("body `{}`", link.name),
+            Problem::Value(
+                "its mass is that of a mesh, which is not read, and a free base needs it: give it an <inertial>".to_owned(),
+            ),
+        ));
     }
     let selection = Selection {
         base: args.options.base.clone(),
@@ -288,24 +233,6 @@ fn file_name(path: &Path) -> String {
         .unwrap_or(path.as_os_str())
         .to_string_lossy()
         .into_owned()
-}
-
-fn rows(tree: &Tree) -> Vec<Row> {
-    let row = |body: &crate::tree::Body| Row {
-        joint: body.joint.clone(),
-        body: body.name.clone(),
-        parent: body
-            .parent
-            .map_or(tree.base.clone(), |parent| tree.bodies[parent].name.clone()),
-        kind: format!("{:?}", body.kind).to_lowercase(),
-        mass: body.inertia.mass,
-        range: body.limits.position,
-        effort: body.limits.effort,
-        follows: body
-            .follows
-            .map(|(leader, ..)| tree.bodies[leader].joint.clone()),
-    };
-    tree.bodies.iter().map(row).collect()
 }
 
 /// Takes the nearest physical inertia of every link that has none, and says so.

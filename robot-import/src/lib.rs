@@ -28,6 +28,7 @@ pub mod number;
 pub mod physical;
 mod print;
 pub mod project;
+pub mod report;
 pub mod selection;
 pub mod snap;
 pub mod source;

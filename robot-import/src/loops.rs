@@ -3,8 +3,9 @@
 use std::fmt::Write as _;
 
 use crate::description::{Description, Kind, Pose};
-use crate::number::{Attitude, angle, literal, tidy};
+use crate::number::{Attitude, tidy};
 use crate::tree::Tree;
+use crate::write::placed;
 
 /// A joint that closes a loop.
 #[derive(Clone, Debug)]
@@ -99,18 +100,5 @@ pub fn source(tree: &Tree, type_name: &str, loops: &[Closed]) -> String {
 
 fn frame((body, xyz, attitude): &(Option<usize>, [f64; 3], Attitude)) -> String {
     let body = body.map_or("BASE".to_owned(), |body| body.to_string());
-    let mut out = format!("BodyFrame::new({body})");
-    if *xyz != [0.0; 3] {
-        let _ = write!(out, ".xyz([{}])", xyz.map(literal).join(", "));
-    }
-    match attitude {
-        Attitude::QuarterTurns([0, 0, 0]) => {}
-        Attitude::QuarterTurns(turns) => {
-            let _ = write!(out, ".quarter_turns({turns:?})");
-        }
-        Attitude::Rpy(rpy) => {
-            let _ = write!(out, ".rpy([{}])", rpy.map(angle).join(", "));
-        }
-    }
-    out
+    format!("BodyFrame::new({body}){}", placed(*xyz, *attitude))
 }

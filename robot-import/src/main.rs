@@ -65,8 +65,12 @@ fn main() -> ExitCode {
 
 fn import(args: &import::Args) -> Result<(), Box<dyn std::error::Error>> {
     let imported = import::run(args, &today())?;
+    let json = serde_json::to_string_pretty(&imported.report)? + "\n";
+    if let Some(file) = &args.report {
+        std::fs::write(file, &json).map_err(|error| format!("{}: {error}", file.display()))?;
+    }
     let report = match args.json {
-        true => serde_json::to_string_pretty(&imported.report)? + "\n",
+        true => json,
         false => imported.report.text(),
     };
     match (&args.out, args.json) {

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use crate::check::MOST;
-use crate::import::Report;
+use crate::report::Report;
 
 /// A table with columns as wide as their widest cell.
 fn table(rows: &[Vec<String>]) -> String {

@@ -71,7 +71,13 @@ fn run_own(options: Options, robot: &OwnRobot, json: bool) -> Result<ExitCode> {
         _ => &OWN_BINS[..1],
     };
     let building = Spinner::start(&format!("building {} ({RELEASE})", bins.join(", ")));
-    let elves = robot.build(&workspace, &tools, own_robot::FEATURE, bins)?;
+    let elves = own_robot::build(
+        &workspace,
+        &tools,
+        &robot.included()?,
+        own_robot::FEATURE,
+        bins,
+    )?;
     drop(building);
     let mut rows = run_all(&workspace, &tools, bins, &elves)?.0;
     rows.iter_mut()

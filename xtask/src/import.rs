@@ -8,23 +8,21 @@ use serde_json::Value;
 use crate::costs::{self, Row};
 use crate::docs;
 use crate::error::{Error, Result, check};
-use crate::firmware;
 use crate::output;
+use crate::own_robot::{self, FEATURE};
 use crate::progress::Spinner;
 use crate::report::MODEL;
 use crate::setup::{self, Options, Tools};
 use crate::shell;
 use crate::table::{Table, thousands};
-use crate::toolchain::RELEASE;
-use crate::workspace::Workspace;
+use crate::workspace::{self, Workspace};
 
 const PACKAGE: &str = "robot-import";
 const BIN: &str = "own_robots";
-const FEATURE: &str = "own-robots";
 /// More joints than this do not fit into the RAM of the measured firmware.
 const MOST_JOINTS: u64 = 40;
 
-/// A file, and what `robot-import` is told of it.
+/// A file, and options of `robot-import import`.
 #[derive(clap::Args)]
 pub struct Args {
     /// The description, URDF or MJCF, and the options of `robot-import import`: --base, --tip, --joints, --lock,
@@ -39,7 +37,7 @@ pub struct Args {
     json: bool,
 }
 
-/// A project, and what `robot-import` is told of it.
+/// A folder, and options of `robot-import new`.
 #[derive(clap::Args)]
 pub struct New {
     /// The folder, --robot FILE, and the other options of `robot-import new`: --c, --git, and those of `import`
@@ -47,7 +45,7 @@ pub struct New {
     arguments: Vec<String>,
 }
 
-/// Writes a project that uses this checkout's library, unless it is told of another.
+/// Writes a project that uses this checkout's library, unless an option names another.
 pub fn new(args: &New) -> Result<ExitCode> {
     let workspace = Workspace::find()?;
     let library = workspace
@@ -95,32 +93,27 @@ pub fn run(options: Options, args: &Args) -> Result<ExitCode> {
     if kept.is_none() {
         words.extend(["--out", &path]);
     }
-    // The text is of the same run of the same numbers as the JSON, which only the measurement needs.
+    let json_file = scratch.path().join("report.json");
+    let json_path = json_file.to_string_lossy().into_owned();
+    words.extend(["--report", &json_path]);
     let text = command(&workspace, "import", &words)?;
-    if no_measure && !json {
-        output::print(&text)?;
-        show(&file, kept.is_some())?;
-        return Ok(ExitCode::SUCCESS);
-    }
-    words.push("--json");
-    let report: Value = serde_json::from_str(&command(&workspace, "import", &words)?)
-        .map_err(|error| check!("{PACKAGE} printed no JSON: {error}"))?;
+    let report = report(&workspace::read(&json_file)?)?;
     let robot = Robot { file, report };
-    let measured = match no_measure {
-        true => Err(check!("not measured: --no-measure")),
-        false => setup::for_demo(options)
-            .and_then(|tools| measure(&workspace, &tools, &[&robot], Ways::All)),
-    };
+    let measured = (!no_measure).then(|| {
+        setup::for_demo(options).and_then(|tools| measure(&workspace, &tools, &[&robot], Ways::All))
+    });
     if json {
         let mut report = robot.report;
-        report["measured"] = serde_json::to_value(measured.unwrap_or_default()).unwrap_or_default();
+        let rows = measured.transpose().unwrap_or_default();
+        report["measured"] = serde_json::to_value(rows.unwrap_or_default()).unwrap_or_default();
         docs::print_json(&report)?;
         return Ok(ExitCode::SUCCESS);
     }
     output::print(&text)?;
     match measured {
-        Ok(rows) => output::print(&format!("\n{MODEL}:\n{}", table(&rows).text()))?,
-        Err(error) => output::note(&format!("not measured: {error}")),
+        Some(Ok(rows)) => output::print(&format!("\n{MODEL}:\n{}", table(&rows).text()))?,
+        Some(Err(error)) => output::note(&format!("not measured: {error}")),
+        None => {}
     }
     show(&robot.file, kept.is_some())?;
     Ok(ExitCode::SUCCESS)
@@ -130,7 +123,7 @@ pub fn run(options: Options, args: &Args) -> Result<ExitCode> {
 fn show(file: &Path, kept: bool) -> Result<()> {
     match kept {
         true => output::print(&format!("\nwritten: {}\n", file.display())),
-        false => output::print(&format!("\n{}", crate::workspace::read(file)?)),
+        false => output::print(&format!("\n{}", workspace::read(file)?)),
     }
 }
 
@@ -152,9 +145,15 @@ pub fn import(workspace: &Workspace, words: &[&str], file: PathBuf) -> Result<Ro
         "import",
         &[words, &["--json", "--out", &path]].concat(),
     )?;
-    let report = serde_json::from_str(&text)
-        .map_err(|error| check!("{PACKAGE} printed no JSON: {error}"))?;
-    Ok(Robot { file, report })
+    Ok(Robot {
+        file,
+        report: report(&text)?,
+    })
+}
+
+/// The report of `robot-import` from its JSON.
+fn report(json: &str) -> Result<Value> {
+    serde_json::from_str(json).map_err(|error| check!("{PACKAGE} printed no JSON: {error}"))
 }
 
 /// Which inverse dynamics is measured.
@@ -195,29 +194,20 @@ pub fn measure(
         ));
     }
     let spinner = Spinner::start("building the firmware for the robot");
-    let mut named = Vec::new();
-    for robot in robots {
+    let (mut modules, mut calls) = (String::new(), String::new());
+    for (i, robot) in robots.iter().enumerate() {
         let name = robot.report["type_name"].as_str().unwrap_or_default();
         let file = std::path::absolute(&robot.file).map_err(Error::file("find", &robot.file))?;
-        named.push(format!("{}:{name}", file.display()));
+        modules += &format!("#[path = {file:?}]\nmod robot_{i};\n");
+        let function = ways.function();
+        calls += &format!("    {function}::<robot_{i}::{name}, {{ robot_{i}::V }}>(\"{i}\");\n");
     }
-    let mut build = tools.toolchain.firmware(workspace, "build");
-    build
-        .args(["--profile", RELEASE, "--features", FEATURE, "--bin", BIN])
-        // The firmware's other bins are not built anew for it.
-        .arg("--target-dir")
-        .arg(workspace.target.join(FEATURE))
-        .env("OWN_ROBOTS", named.join(";"))
-        .env("OWN_ROBOTS_WAYS", ways.function());
-    shell::capture(&mut build)?;
-    let target = workspace
-        .target
-        .join(FEATURE)
-        .join(crate::toolchain::TARGET);
-    let elf = target.join(RELEASE).join(BIN);
-    let meter = firmware::build_meter(workspace)?;
-    spinner.say("running the robot's firmware in QEMU".to_owned());
-    Ok(costs::run_bin(tools, &meter, BIN, &elf)?.0)
+    let folder = tempfile::tempdir().map_err(Error::file("create", &workspace.target))?;
+    let included = folder.path().join("own_robots.rs");
+    workspace::write(&included, format!("{modules}\nfn robots() {{\n{calls}}}\n"))?;
+    let elves = own_robot::build(workspace, tools, &included, FEATURE, &[BIN])?;
+    drop(spinner);
+    Ok(costs::run_all(workspace, tools, &[BIN], &elves)?.0)
 }
 
 /// What was measured.

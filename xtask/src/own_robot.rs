@@ -1,7 +1,6 @@
 //! The robot of a file for a report: imported, and given to bins of the firmware and of the host.
 
-use std::path::PathBuf;
-use std::process::Command;
+use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 use tempfile::TempDir;
@@ -15,8 +14,6 @@ use crate::workspace::{self, Workspace};
 
 /// The feature of the bins.
 pub const FEATURE: &str = "own-robots";
-/// The variable that says to the bins where their robot is.
-const OWN_ROBOT: &str = "OWN_ROBOT";
 
 /// The file of a report's robot.
 #[derive(clap::Args)]
@@ -67,8 +64,8 @@ impl Args {
 }
 
 impl OwnRobot {
-    /// Says to a command of cargo where the robot is.
-    pub fn given(&self, command: &mut Command) -> Result<()> {
+    /// Writes what the bins include, and returns the file.
+    pub fn included(&self) -> Result<PathBuf> {
         let [file, bins] = ["robot.rs", "own_robot.rs"].map(|name| self.folder.path().join(name));
         let text = format!(
             "#[path = {file:?}]\nmod robot;\ntype Robot = firmware_demo::robots::Own<robot::{}>;\n\
@@ -76,26 +73,30 @@ impl OwnRobot {
             self.type_name
         );
         workspace::write(&bins, text)?;
-        command.env(OWN_ROBOT, bins);
-        Ok(())
+        Ok(bins)
     }
+}
 
-    /// Builds bins of the firmware with these features for it, and returns their ELFs.
-    pub fn build(
-        &self,
-        workspace: &Workspace,
-        tools: &Tools,
-        features: &str,
-        bins: &[&str],
-    ) -> Result<Vec<PathBuf>> {
-        let mut command = tools.toolchain.firmware(workspace, "build");
-        command.args(["--profile", RELEASE, "--features", features]);
-        command.args(bins.iter().flat_map(|bin| ["--bin", bin]));
-        self.given(&mut command)?;
-        shell::cargo(&mut command)?;
-        let elf = |bin: &&str| tools.toolchain.elf(workspace, RELEASE, bin);
-        Ok(bins.iter().map(elf).collect())
-    }
+/// The variable that says to the bins where their robot is, and its value.
+pub fn variable(included: &Path) -> (&'static str, &Path) {
+    ("OWN_ROBOT", included)
+}
+
+/// Builds bins of the firmware with these features for the robots of a file that they include, and returns their ELFs.
+pub fn build(
+    workspace: &Workspace,
+    tools: &Tools,
+    included: &Path,
+    features: &str,
+    bins: &[&str],
+) -> Result<Vec<PathBuf>> {
+    let mut command = tools.toolchain.firmware(workspace, "build");
+    command.args(["--profile", RELEASE, "--features", features]);
+    command.args(bins.iter().flat_map(|bin| ["--bin", bin]));
+    command.envs([variable(included)]);
+    shell::cargo(&mut command)?;
+    let elf = |bin: &&str| tools.toolchain.elf(workspace, RELEASE, bin);
+    Ok(bins.iter().map(elf).collect())
 }
 
 /// Why a firmware for so many joints does not take the robot of a report, if it does not.

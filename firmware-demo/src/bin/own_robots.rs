@@ -4,7 +4,7 @@
 
 mod costs;
 // A module for each file, and `robots`, which calls `robot` or `in_full` for each.
-include!(concat!(env!("OUT_DIR"), "/own_robots.rs"));
+include!(env!("OWN_ROBOT"));
 
 use costs::row::Row;
 use costs::{Ask, STATES, asks, done};

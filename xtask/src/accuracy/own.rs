@@ -12,7 +12,7 @@ use crate::docs;
 use crate::error::{Result, check};
 use crate::firmware;
 use crate::output;
-use crate::own_robot::{FEATURE, OwnRobot};
+use crate::own_robot::{self, FEATURE, OwnRobot};
 use crate::progress::Spinner;
 use crate::report::MODEL;
 use crate::setup::{self, Options, Tools};
@@ -65,7 +65,9 @@ const REFERENCE: &str = "No oracle has recorded this robot: errors are those fro
 /// Costs from the target and errors from the host.
 fn measure(workspace: &Workspace, tools: &Tools, robot: &OwnRobot) -> Result<Vec<Point>> {
     let spinner = Spinner::start(&format!("building {BIN}"));
-    let elves = robot.build(workspace, tools, &format!("{FEATURE},{ACCURACY}"), &[BIN])?;
+    let included = robot.included()?;
+    let features = format!("{FEATURE},{ACCURACY}");
+    let elves = own_robot::build(workspace, tools, &included, &features, &[BIN])?;
     let meter = firmware::build_meter(workspace)?;
     spinner.say(format!("running {BIN} in QEMU"));
     let rows = elves
@@ -75,7 +77,7 @@ fn measure(workspace: &Workspace, tools: &Tools, robot: &OwnRobot) -> Result<Vec
     let rows: Vec<_> = rows.map(|row| (BIN, "3", row)).collect();
     spinner.say(format!("building and running {BIN} on the host"));
     let mut command = workspace.cargo("run");
-    robot.given(&mut command)?;
+    command.envs([own_robot::variable(&included)]);
     command.args(["--quiet", "--package", "host-reports", "--bin", BIN]);
     let lines = shell::capture(command.args(["--features", FEATURE]))?;
     drop(spinner);

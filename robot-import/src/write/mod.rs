@@ -1,0 +1,201 @@
+//! The Rust file of a tree: the same numbers as the model that was checked.
+
+mod body;
+mod constants;
+mod rustfmt;
+
+use std::collections::BTreeSet;
+use std::fmt::Write as _;
+
+pub use body::placed;
+pub use rustfmt::formatted;
+
+use crate::tree::{Body, Tree};
+
+/// What the file's head says of its source.
+#[derive(Clone, Debug)]
+pub struct Origin {
+    /// The name of the source file.
+    pub file: String,
+    /// Its licence, if it states one.
+    pub licence: Option<String>,
+    /// The day of the import.
+    pub date: String,
+    /// What was left out or changed besides merged links and roundings, a sentence each.
+    pub notes: Vec<String>,
+}
+
+/// The type's name: the robot's in CamelCase.
+pub fn type_name(name: &str) -> String {
+    let words = name.split(|c: char| !c.is_ascii_alphanumeric());
+    let mut out = String::new();
+    for word in words {
+        let mut letters = word.chars();
+        out.extend(letters.next().map(|first| first.to_ascii_uppercase()));
+        out.extend(letters);
+    }
+    match out.chars().next() {
+        Some(first) if first.is_ascii_alphabetic() => out,
+        _ => format!("Robot{out}"),
+    }
+}
+
+/// A text within a comment or a string: one line, no control characters.
+fn plain(text: &str) -> String {
+    text.chars().filter(|c| !c.is_control()).collect()
+}
+
+/// A string literal.
+fn quoted(text: &str) -> String {
+    format!("{:?}", plain(text))
+}
+
+/// The file of a tree, not yet formatted.
+pub fn source(tree: &Tree, name: &str, origin: &Origin) -> String {
+    let mut out = head(tree, name, origin);
+    let [q, v] = tree.coordinates();
+    let b = tree.bodies.len();
+    let single = b == q && b == v;
+    let coupled = tree.has_followers() && single;
+    out += "\n#![allow(dead_code, reason = \"not every program uses every constant of its robot\")]\n\n";
+    let angles: BTreeSet<&str> = tree.bodies.iter().flat_map(body::constants).collect();
+    if !angles.is_empty() {
+        let names: Vec<&str> = angles.into_iter().collect();
+        let _ = writeln!(out, "use core::f64::consts::{{{}}};\n", names.join(", "));
+    }
+    if coupled {
+        out += "use dynamics_core::drivetrain::Transmission;\n";
+    }
+    let limited = if tree.bodies.iter().any(|body| body::limits(body).is_some()) {
+        ", JointLimits"
+    } else {
+        ""
+    };
+    let base = if tree.bodies.iter().any(|body| body.parent.is_none()) {
+        "BASE, "
+    } else {
+        ""
+    };
+    let arm = if single { "ArmModel, " } else { "" };
+    out += "use dynamics_core::effects::{Armature, Coriolis, Coulomb, Gravity, Inertia, Viscous, Width};\n";
+    let _ = writeln!(
+        out,
+        "use dynamics_core::model::{{{arm}{base}Body, Joint{limited}, Model, Robot}};"
+    );
+    let _ = writeln!(
+        out,
+        "\n/// The number of bodies.\npub const B: usize = {b};"
+    );
+    let _ = writeln!(
+        out,
+        "/// The number of position coordinates.\npub const Q: usize = {q};"
+    );
+    let _ = writeln!(
+        out,
+        "/// The number of velocity coordinates.\npub const V: usize = {v};"
+    );
+    if single {
+        out += "/// The number of joints.\npub const N: usize = V;\n";
+    }
+    let list = |of: fn(&Body) -> &String| {
+        let names: Vec<String> = tree.bodies.iter().map(|body| quoted(of(body))).collect();
+        names.join(", ")
+    };
+    let _ = writeln!(
+        out,
+        "\n/// The names of the bodies.\npub const BODIES: [&str; B] = [{}];",
+        list(|body| &body.name)
+    );
+    let _ = writeln!(
+        out,
+        "/// The names of their joints.\npub const JOINTS: [&str; B] = [{}];",
+        list(|body| &body.joint)
+    );
+    let type_name = type_name(name);
+    let _ = writeln!(
+        out,
+        "\n/// {}: {} on {v} degrees of freedom.",
+        plain(name),
+        counted(b, "body", "bodies")
+    );
+    let _ = writeln!(
+        out,
+        "#[derive(Clone, Copy, Debug, Default)]\npub struct {type_name};\n"
+    );
+    let model = if single {
+        format!("ArmModel<f64, {b}>")
+    } else {
+        format!("Model<f64, {b}, {q}, {v}>")
+    };
+    let _ = writeln!(
+        out,
+        "impl Robot<{b}, {q}, {v}> for {type_name} {{\nconst MODEL: {model} = Model::new({}, [",
+        quoted(name)
+    );
+    tree.bodies
+        .iter()
+        .for_each(|body| out += &body::entry(body));
+    let _ = writeln!(
+        out,
+        "]);\n}}\n\n// An impossible robot does not compile.\nconst _: {model} = {type_name}::MODEL;"
+    );
+    out += &constants::effects(tree);
+    if coupled {
+        out += &constants::coupling(tree);
+    }
+    out
+}
+
+/// A number with its noun.
+fn counted(n: usize, one: &str, many: &str) -> String {
+    format!("{n} {}", if n == 1 { one } else { many })
+}
+
+fn head(tree: &Tree, name: &str, origin: &Origin) -> String {
+    let mut out = format!("//! {}.\n//!\n//! # Source\n//!\n", plain(name));
+    let licence = match &origin.licence {
+        Some(licence) => format!("licence as its comments state it: {}", plain(licence)),
+        None => "it states no licence".to_owned(),
+    };
+    let _ = writeln!(
+        out,
+        "//! `{}`; {licence}. Imported on {} by robot-import {}.",
+        plain(&origin.file),
+        origin.date,
+        env!("CARGO_PKG_VERSION"),
+    );
+    let mut changes = Vec::new();
+    for body in &tree.bodies {
+        if !body.merged.is_empty() {
+            let links: Vec<String> = body
+                .merged
+                .iter()
+                .map(|link| format!("`{}`", plain(link)))
+                .collect();
+            changes.push(format!(
+                "Part of body `{}`: {}.",
+                plain(&body.name),
+                links.join(", ")
+            ));
+        }
+    }
+    for body in &tree.bodies {
+        for snap in &body.snapped {
+            changes.push(format!(
+                "Joint `{}`: {} `{}` is {}.",
+                plain(&body.joint),
+                plain(&snap.attribute),
+                plain(&snap.text),
+                snap.exact
+            ));
+        }
+    }
+    changes.extend(origin.notes.iter().map(|note| plain(note)));
+    if !changes.is_empty() {
+        out += "//!\n//! # Changed\n//!\n";
+        for change in changes {
+            let _ = writeln!(out, "//! - {change}");
+        }
+    }
+    out
+}

@@ -26,6 +26,9 @@ pub struct Args {
     /// The robot's name; that of the file if not given
     #[arg(long, value_name = "NAME")]
     pub name: Option<String>,
+    /// The name of the robot's type; from that of the robot if not given
+    #[arg(long = "type", value_name = "NAME", value_parser = type_name)]
+    pub type_name: Option<String>,
     /// Write the Rust file here instead of to stdout
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
@@ -49,6 +52,9 @@ pub struct Options {
     /// Only these joints move
     #[arg(long, value_name = "A,B,C", value_delimiter = ',')]
     pub joints: Vec<String>,
+    /// Leave out this link and all that it carries; may be repeated
+    #[arg(long, value_name = "LINK")]
+    pub without: Vec<String>,
     /// A joint that stands still at a position, rad or m; may be repeated
     #[arg(long, value_name = "JOINT=POSITION", value_parser = locked)]
     pub lock: Vec<(String, f64)>,
@@ -77,6 +83,13 @@ fn locked(text: &str) -> std::result::Result<(String, f64), String> {
     match position.is_finite() {
         true => Ok((name.to_owned(), position)),
         false => Err("the position is not finite".to_owned()),
+    }
+}
+
+fn type_name(text: &str) -> std::result::Result<String, String> {
+    match write::type_name(text) == text {
+        true => Ok(text.to_owned()),
+        false => Err("a type's name is letters and digits, the first a capital".to_owned()),
     }
 }
 
@@ -133,6 +146,7 @@ pub fn import(args: &Args, today: &str) -> Result<Imported> {
         base: args.options.base.clone(),
         tip: args.options.tip.clone(),
         joints: args.options.joints.clone(),
+        without: args.options.without.clone(),
         lock: args.options.lock.clone(),
         free_base: args.options.free_base,
     };
@@ -155,11 +169,12 @@ pub fn import(args: &Args, today: &str) -> Result<Imported> {
         &tree,
         &checked,
     );
-    let compared = !args.options.repair && args.options.base.is_none();
+    let compared =
+        !args.options.repair && args.options.base.is_none() && args.options.without.is_empty();
     let (peer, no_peer) = match peer {
         _ if !compared => (
             None,
-            Some("a changed base or inertia is not the file's".to_owned()),
+            Some("a changed base, fewer links or a changed inertia are not the file's".to_owned()),
         ),
         Ok(peer) => (Some(peer), None),
         Err(reason) => (None, Some(reason)),
@@ -181,9 +196,18 @@ pub fn import(args: &Args, today: &str) -> Result<Imported> {
             "Couplings of joints are left out: they need joints of one coordinate.".to_owned(),
         );
     }
+    for name in &args.options.without {
+        notes.push(format!(
+            "Link `{name}` and all that it carries are left out."
+        ));
+    }
     let (closed, left_out) = loops::closed(&robot, &tree);
     notes.extend(left_out);
     let name = args.name.clone().unwrap_or_else(|| robot.name.clone());
+    let type_name = args
+        .type_name
+        .clone()
+        .unwrap_or_else(|| write::type_name(&name));
     let mut own = advice(&robot, &selected, &tree);
     own.extend(notes.iter().map(|note| Advice {
         topic: crate::advice::Topic::LeftOut,
@@ -197,12 +221,11 @@ pub fn import(args: &Args, today: &str) -> Result<Imported> {
         date: today.to_owned(),
         notes: notes.iter().chain(&robot.notes).cloned().collect(),
     };
-    let text = write::source(&tree, &name, &origin);
-    let source =
-        write::formatted(&(text + &loops::source(&tree, &write::type_name(&name), &closed)));
+    let text = write::source(&tree, &name, &type_name, &origin);
+    let source = write::formatted(&(text + &loops::source(&tree, &type_name, &closed)));
     let [q, v] = tree.coordinates();
     let report = Report {
-        type_name: write::type_name(&name),
+        type_name,
         file: file_name(&args.file),
         licence: robot.licence.clone(),
         base: tree.base.clone(),

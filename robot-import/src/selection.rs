@@ -12,6 +12,8 @@ pub struct Selection {
     pub base: Option<String>,
     /// Only the joints between the base and this link move.
     pub tip: Option<String>,
+    /// These links, and all that they carry, are not part of the robot.
+    pub without: Vec<String>,
     /// Only these joints move.
     pub joints: Vec<String>,
     /// These joints stand still at a position, rad or m.
@@ -59,7 +61,16 @@ impl Selection {
                 .position(Option::is_none)
                 .unwrap_or_default(),
         };
-        let order = order(robot, base);
+        let mut absent = vec![false; robot.links.len()];
+        for name in &self.without {
+            absent[robot.link(name)?] = true;
+        }
+        if absent[base] {
+            let name = &robot.links[base].name;
+            let problem = format!("link `{name}` is the base, which cannot be left out");
+            return Err(Problem::Value(problem).into());
+        }
+        let order = order(robot, base, &absent);
         let mut roles: Vec<Role> = robot
             .joints
             .iter()
@@ -127,11 +138,14 @@ fn lock_others(roles: &mut [Role], moves: &[bool]) {
     }
 }
 
-/// The joints below a link, parents first, each branch as a whole and in the order of the file.
-fn order(robot: &Description, base: usize) -> Vec<usize> {
+/// The joints below a link, parents first, each branch as a whole and in the order of the file; none to or beyond an absent
+/// link.
+fn order(robot: &Description, base: usize, absent: &[bool]) -> Vec<usize> {
     let mut below = vec![Vec::new(); robot.links.len()];
     for (j, joint) in robot.joints.iter().enumerate().rev() {
-        below[joint.parent].push(j);
+        if !absent[joint.child] {
+            below[joint.parent].push(j);
+        }
     }
     let (mut order, mut next) = (Vec::new(), below[base].clone());
     while let Some(j) = next.pop() {

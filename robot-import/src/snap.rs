@@ -7,7 +7,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use dynamics_core::glam::{DMat3, DVec3};
 
-/// The largest angle by which a number is taken for a rounding, rad.
+/// The largest angle by which a rounding differs from its exact value, rad.
 const MOST_ANGLE: f64 = 2e-3;
 /// An angle below which no mechanism is built, rad.
 const NO_ANGLE: f64 = 1e-6;

@@ -8,7 +8,7 @@ use robot_import::check::check;
 use robot_import::selection::Selection;
 use robot_import::source::parse;
 use robot_import::tree::{Numbers, Tree};
-use robot_import::write::{Origin, source};
+use robot_import::write::{Origin, source, type_name};
 
 const FILES: [&str; 3] = [
     include_str!("urdf/zoo.urdf"),
@@ -69,7 +69,7 @@ proptest! {
             // Numbers that no machine has may overflow in the check, but not in the file.
             let checked = check(&robot, &selected, 2);
             let origin = Origin { file: "edited".into(), licence: None, date: "today".into(), notes: robot.notes.clone() };
-            let written = source(&tree, &robot.name, &origin);
+            let written = source(&tree, &robot.name, &type_name(&robot.name), &origin);
             prop_assert!(!written.contains("NaN"), "{written}");
             prop_assert!(checked.is_err() || written.contains("impl Robot<"));
         }

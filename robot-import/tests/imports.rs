@@ -158,6 +158,25 @@ fn a_joint_that_follows_a_locked_one_is_locked_where_it_follows_to() {
 }
 
 #[test]
+fn a_link_that_is_left_out_is_missing_with_all_that_it_carries() {
+    let robot = read(SO101);
+    let of = |without: &[&str]| Selection {
+        without: without.iter().map(|&link| link.into()).collect(),
+        ..Selection::default()
+    };
+    let whole = tree(&robot, &of(&[]));
+    let short = tree(&robot, &of(&["wrist_link"]));
+    assert_eq!(short.bodies.len(), 3);
+    assert_eq!(short.bodies[2].inertia, whole.bodies[2].inertia);
+    holds(&robot, &of(&["wrist_link"]));
+    // A frame without a joint of its own, and its placeholder of a mass.
+    let bare = tree(&robot, &of(&["gripper_frame_link"]));
+    assert!(bare.bodies[4].inertia.mass < whole.bodies[4].inertia.mass);
+    let error = of(&["base_link"]).of(&robot).expect_err("the base");
+    assert!(error.to_string().contains("cannot be left out"), "{error}");
+}
+
+#[test]
 fn a_selection_of_what_is_not_there_is_an_error_with_a_suggestion() {
     let robot = read(SO101);
     let error = |selection: Selection| selection.of(&robot).expect_err("not there").to_string();

@@ -227,7 +227,7 @@ mod tests {
 
     #[test]
     fn a_file_excludes_what_is_written_or_of_other_robots() {
-        let is_taken = |words: &str| {
+        let parses = |words: &str| {
             let words = ["cargo xtask"].into_iter().chain(words.split(' '));
             Cli::try_parse_from(words).is_ok()
         };
@@ -240,7 +240,7 @@ mod tests {
             "accuracy --file arm.urdf --cycles 600 --json -- --name arm",
             "accuracy --robot ur5e --cycles 600",
         ] {
-            assert!(is_taken(good), "{good}");
+            assert!(parses(good), "{good}");
         }
         for bad in [
             "costs --file",
@@ -252,7 +252,7 @@ mod tests {
             "accuracy --cycles 600",
             "accuracy --error 0.05Nm",
         ] {
-            assert!(!is_taken(bad), "{bad}");
+            assert!(!parses(bad), "{bad}");
         }
     }
 }

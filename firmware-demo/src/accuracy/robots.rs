@@ -60,11 +60,11 @@ pub trait Swung<const N: usize>: Robot<N, N, N> + Sized {
     }
 }
 
-/// The largest |q|, rad or m, and |q̇|, rad/s or m/s, on the way of a joint without limits.
+/// The largest |q|, rad or m, and |q̇|, rad/s or m/s, of a joint without limits along the path.
 const UNLIMITED: [f32; 2] = [1.5, 2.0];
 /// The share of the position limits within which a robot from a file stays.
 const WITHIN: f32 = 0.6;
-/// rad or m: joints with a larger range are taken as joints without limits.
+/// rad or m: a joint with a larger range counts as one without limits.
 const RANGE: f32 = 13.0;
 /// The way-points of a robot from a file but for the middle, where it starts and ends, as shares of what it stays
 /// within: of three joints, and in turn of those after them.

@@ -2,8 +2,8 @@
 
 use super::ProjectError;
 
-/// Names that Cargo, Rust or the templates have taken.
-const TAKEN: &str = "abstract alloc as async await become box break build const continue core crate deps do dyn \
+/// Names that Cargo, Rust or the templates use.
+const RESERVED: &str = "abstract alloc as async await become box break build const continue core crate deps do dyn \
                      else enum examples extern false final fn for gen if impl in incremental let loop macro match mod \
                      move mut override priv proc_macro pub ref return self static std struct super test trait true try \
                      type typeof unsafe unsized use virtual where while yield cortex_m cortex_m_rt \
@@ -22,9 +22,9 @@ pub(super) fn check_name(name: &str) -> Result<(), ProjectError> {
     if name.len() > 60 {
         return wrong("it is longer than 60 characters");
     }
-    if TAKEN
+    if RESERVED
         .split_whitespace()
-        .any(|taken| taken == snake_case(name))
+        .any(|reserved| reserved == snake_case(name))
     {
         return wrong("Rust, Cargo or a dependency uses it; add `-arm` for example");
     }

@@ -104,10 +104,10 @@ fn templates_have_only_what_cargo_generate_knows() {
         assert!(used.len() > 3);
         for name in used {
             let is_built_in = ["project-name", "crate_name"].contains(&name);
-            let is_asked = config(c)
+            let is_placeholder = config(c)
                 .lines()
                 .any(|line| line.starts_with(&format!("{name} = ")));
-            assert!(is_built_in || is_asked, "{name}");
+            assert!(is_built_in || is_placeholder, "{name}");
         }
     }
 }

@@ -105,9 +105,9 @@ fn check(robot: &Description) -> Result<()> {
 }
 
 fn unique<'a>(what: &'static str, names: impl Iterator<Item = (&'a String, u32)>) -> Result<()> {
-    let mut seen = HashMap::new();
+    let mut lines = HashMap::new();
     for (name, line) in names {
-        if seen.insert(name, line).is_some() {
+        if lines.insert(name, line).is_some() {
             let element = format!("{what} `{}`", shortened(name));
             return Err(ImportError::at(line, element, Problem::Duplicate(what)));
         }
@@ -194,18 +194,18 @@ fn tree(robot: &Description) -> Result<()> {
     if roots.is_empty() && robot.links.is_empty() {
         return Err(Problem::MissingElement("link").into());
     }
-    // Marks: 0 not seen, i + 1 reached from link i first.
-    let mut seen = vec![0; robot.links.len()];
+    // Marks: 0 not reached, i + 1 reached from link i first.
+    let mut marks = vec![0; robot.links.len()];
     for i in 0..robot.links.len() {
         let mut at = i;
-        while seen[at] == 0 {
-            seen[at] = i + 1;
+        while marks[at] == 0 {
+            marks[at] = i + 1;
             match joint_of[at] {
                 Some(j) => at = robot.joints[j].parent,
                 None => break,
             }
         }
-        if seen[at] == i + 1 && joint_of[at].is_some() {
+        if marks[at] == i + 1 && joint_of[at].is_some() {
             let joint = &robot.joints[joint_of[at].unwrap_or_default()];
             let element = format!("joint `{}`", shortened(&joint.name));
             let name = shortened(&robot.links[at].name);

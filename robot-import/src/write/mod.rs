@@ -51,7 +51,7 @@ fn quoted(text: &str) -> String {
 }
 
 /// The file of a tree, not yet formatted.
-pub fn source(tree: &Tree, name: &str, origin: &Origin) -> String {
+pub fn source(tree: &Tree, name: &str, type_name: &str, origin: &Origin) -> String {
     let mut out = head(tree, name, origin);
     let [q, v] = tree.coordinates();
     let b = tree.bodies.len();
@@ -111,7 +111,6 @@ pub fn source(tree: &Tree, name: &str, origin: &Origin) -> String {
         "/// The names of their joints.\npub const JOINTS: [&str; B] = [{}];",
         list(|body| &body.joint)
     );
-    let type_name = type_name(name);
     let _ = writeln!(
         out,
         "\n/// {}: {} on {v} degrees of freedom.",

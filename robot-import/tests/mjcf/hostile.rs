@@ -97,9 +97,10 @@ fn huge_models_are_refused_in_time() {
 #[test]
 fn bodies_and_joints_without_names_have_those_of_their_order() {
     let inner = format!("<body name='named'><joint/>{GEOM}</body>");
-    let taken = format!("<body name='body_1'><joint name='joint_2'/>{GEOM}</body>");
-    let bodies =
-        format!("<body><joint/><joint/>{GEOM}{inner}</body><body><joint/>{GEOM}</body>{taken}");
+    let like_generated = format!("<body name='body_1'><joint name='joint_2'/>{GEOM}</body>");
+    let bodies = format!(
+        "<body><joint/><joint/>{GEOM}{inner}</body><body><joint/>{GEOM}</body>{like_generated}"
+    );
     let robot = model("", &bodies).expect("a robot");
     let links: Vec<&str> = robot.links.iter().map(|link| link.name.as_str()).collect();
     let expected = [

@@ -47,10 +47,10 @@ impl<'e> Classes<'e> {
     }
 
     fn add(&mut self, section: &'e Element, parent: Option<usize>) -> Result<usize> {
-        let mut seen = HashSet::new();
+        let mut tags = HashSet::new();
         let others = section.children.iter().filter(|one| one.tag != "default");
         let others: Vec<_> = others.map(|one| (key(&one.tag), one)).collect();
-        if let Some((_, twice)) = others.iter().find(|(_, one)| !seen.insert(&one.tag)) {
+        if let Some((_, twice)) = others.iter().find(|(_, one)| !tags.insert(&one.tag)) {
             return Err(twice.error(Problem::Duplicate("default of this class")));
         }
         self.classes.push(Class {

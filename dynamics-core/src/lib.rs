@@ -41,6 +41,9 @@
 #![cfg_attr(not(test), no_std)]
 #![forbid(unsafe_code)]
 
+// The robots that `robot-import` writes name this crate as their users' do.
+extern crate self as dynamics_core;
+
 pub mod algorithms;
 pub mod clusters;
 pub mod control;

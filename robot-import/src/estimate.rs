@@ -13,8 +13,8 @@ use crate::snap;
 use crate::tree::{Body, Numbers, Tree};
 
 /// Cycles of a joint; less on the base; for each entry of a placement's rotation that is neither 0 nor ±1, each component of
-/// a centre of mass and each product of inertia. Least squares over the 40 robots measured in docs/robots.md (rustc 1.95),
-/// whose cycles are off by 10 % (RMS), at most 27 %.
+/// a centre of mass and each product of inertia. Least squares over the robots measured in docs/robots.md, which states how
+/// far off the estimates are (rustc 1.95).
 const PER_JOINT: f64 = 127.4;
 const LESS_ON_THE_BASE: f64 = 152.4;
 const PER_ROTATION_ENTRY: f64 = 14.9;

@@ -279,31 +279,3 @@ fn numbers_agree_with_another_reader() {
         }
     }
 }
-
-#[test]
-fn the_repositorys_so101_is_the_importers() {
-    use dynamics_core::algorithms::rnea;
-    use dynamics_core::effects::RIGID_BODY;
-    use dynamics_core::model::Robot;
-    use dynamics_core::robots::So101;
-    use dynamics_core::state::State;
-
-    let robot = read(SO101);
-    let imported = tree(&robot, &Selection::default());
-    let model = robot_import::model::AnyModel::of(&imported).expect("six joints");
-    for k in 0..20 {
-        let number = |i: usize, size: f64| size * (1.3 * k as f64 + 2.1 * i as f64).sin();
-        let [q, qd, qdd] = [1.5, 3.0, 10.0].map(|size| std::array::from_fn(|i| number(i, size)));
-        let shipped = rnea(&So101::MODEL, &State { q, qd, qdd }, &RIGID_BODY);
-        let motion = robot_import::model::Motion {
-            q: q.into(),
-            qd: qd.into(),
-            qdd: qdd.into(),
-        };
-        let torque = model.dynamics(&motion).torque;
-        for (a, b) in shipped.iter().zip(torque) {
-            // The shipped one has no massless frame of 1e-9 kg at its tip.
-            assert!((a - b).abs() < 1e-8, "{a} {b}");
-        }
-    }
-}

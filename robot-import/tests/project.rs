@@ -20,8 +20,7 @@ mod chain;
 #[path = "../template/rust/src/robot.rs"]
 #[allow(dead_code, reason = "a robot's file has more than the test compares")]
 mod pendulum;
-#[path = "robots/so101.rs"]
-#[allow(dead_code, reason = "a robot's file has more than the test compares")]
+#[path = "../../dynamics-core/src/robots/imported/so101.rs"]
 mod so101;
 
 /// The torques of the projects' probe, as bits.
@@ -186,7 +185,7 @@ fn a_pendulum() {
 #[test]
 #[ignore = "builds firmware"]
 fn an_arm() {
-    let text = include_str!("robots/so101.rs");
+    let text = include_str!("../../dynamics-core/src/robots/imported/so101.rs");
     let robot = robot("So101", text, &so101::JOINTS, FileEffects::default());
     let expected = expected::<so101::So101, _, 6>(&so101::SCENE);
     rust_project("an-arm", robot.clone(), &expected);

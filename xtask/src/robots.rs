@@ -1,6 +1,7 @@
 //! `cargo xtask robots`: the robots of published packages, imported, checked and measured; rewrites docs/robots.md.
 
-use std::collections::BTreeMap;
+mod page;
+
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 
@@ -11,14 +12,17 @@ use crate::costs::Row;
 use crate::docs;
 use crate::error::{Error, Result, check};
 use crate::import::{self, Robot, Ways};
+use crate::output;
 use crate::progress::Spinner;
-use crate::report::MODEL;
 use crate::setup::{self, Options, Tools};
 use crate::shell;
-use crate::table::{self, Table, thousands};
+use crate::table;
 use crate::workspace::{self, Workspace};
+use page::{compare, page};
 
 const PAGE: &str = "docs/robots.md";
+/// The library's robots that the importer writes.
+const IMPORTED: &str = "dynamics-core/src/robots/imported";
 const LIST: &str = include_str!("robots/list.toml");
 /// Robots of one firmware: its compilation takes memory and flash for all of them.
 const BATCH: usize = 4;
@@ -31,6 +35,9 @@ pub struct Args {
     /// The Python with pip, and with Pinocchio and MuJoCo for the comparison
     #[arg(long, value_name = "PROGRAM", default_value = "python3")]
     python: String,
+    /// Only write those robots of the library that are in one of the packages
+    #[arg(long, conflicts_with = "json")]
+    library: bool,
     /// The report as JSON on stdout; progress stays on stderr
     #[arg(long)]
     json: bool,
@@ -48,6 +55,16 @@ struct Package {
     version: String,
     folder: String,
     files: Vec<Entry>,
+    #[serde(default)]
+    library: Vec<Own>,
+}
+
+/// A robot of the library that is written by the importer.
+#[derive(Deserialize)]
+struct Own {
+    name: String,
+    file: String,
+    options: Vec<String>,
 }
 
 #[derive(Deserialize)]
@@ -72,10 +89,16 @@ struct Line {
 /// Imports, measures, writes the page and prints it.
 pub fn run(options: Options, args: &Args) -> Result<ExitCode> {
     let workspace = Workspace::for_reports()?;
-    let tools = setup::for_demo(options)?;
     let list: List = toml::from_str(LIST).map_err(|error| check!("robots/list.toml: {error}"))?;
     let folder = workspace.target.join("robots");
     std::fs::create_dir_all(&folder).map_err(Error::file("create", &folder))?;
+    if args.library {
+        for package in &list.package {
+            write_library(&workspace, package, &folder, &args.python)?;
+        }
+        return Ok(ExitCode::SUCCESS);
+    }
+    let tools = setup::for_demo(options)?;
     let mut lines = Vec::new();
     for package in &list.package {
         lines.extend(imported(&workspace, package, &folder, &args.python)?);
@@ -84,6 +107,31 @@ pub fn run(options: Options, args: &Args) -> Result<ExitCode> {
     let page = page(&lines, &tools.toolchain.rustc_version()?);
     workspace::write(&workspace.report(PAGE), &page)?;
     table::show(args.json, &lines, &page)
+}
+
+/// Writes the robots of the library that are in a package.
+fn write_library(
+    workspace: &Workspace,
+    package: &Package,
+    folder: &Path,
+    python: &str,
+) -> Result<()> {
+    if package.library.is_empty() {
+        return Ok(());
+    }
+    let unpacked = unpacked(package, folder, python)?.join(&package.folder);
+    for own in &package.library {
+        let file = workspace
+            .root
+            .join(IMPORTED)
+            .join(format!("{}.rs", own.name));
+        let path = unpacked.join(&own.file).to_string_lossy().into_owned();
+        let mut words = vec![&*path, "--name", &own.name];
+        words.extend(own.options.iter().map(String::as_str));
+        let written = import::import(workspace, &words, file)?.file;
+        output::note(&format!("written: {}", written.display()));
+    }
+    Ok(())
 }
 
 /// The robots of a package, each imported or refused.
@@ -193,129 +241,4 @@ pub fn check(workspace: &Workspace, tools: &Tools) -> Result<String> {
             "another compiler"
         }
     ))
-}
-
-/// Compares a robot's row of two pages, but for the peer, whom not every machine has.
-fn compare(written: &str, fresh: &str, name: &str, same_compiler: bool) -> Result<()> {
-    let [old, new] = [written, fresh].map(|page| cells(page, name));
-    let (Some(old), Some(new)) = (old, new) else {
-        return Err(check!(
-            "{PAGE} has no line of {name}: `cargo xtask robots` rewrites it"
-        ));
-    };
-    let measured = if same_compiler { old.len() } else { PEER };
-    let differs = |i: &usize| *i != PEER && old.get(*i) != new.get(*i);
-    match (0..measured).find(differs) {
-        None => Ok(()),
-        Some(i) => Err(check!(
-            "{PAGE} is out of date: `cargo xtask robots` rewrites it\n  there: {}\n  now:   {}",
-            old[i],
-            new.get(i).map_or("", |cell| cell)
-        )),
-    }
-}
-
-/// The column of the peer.
-const PEER: usize = 4;
-
-/// The cells of a robot's row.
-fn cells<'a>(page: &'a str, name: &str) -> Option<Vec<&'a str>> {
-    let mut rows = page.lines().filter(|line| line.starts_with("| "));
-    rows.find_map(|row| {
-        let cells: Vec<&str> = row.trim_matches('|').split('|').map(str::trim).collect();
-        (cells.first() == Some(&name)).then_some(cells)
-    })
-}
-
-fn page(lines: &[Line], rustc: &str) -> String {
-    let mut table = Table::new(&[
-        "robot",
-        "joints",
-        "advice",
-        "f32 error",
-        "against the peer",
-        "core, cycles",
-        "engine, cycles",
-        "core, B",
-        "engine, B",
-    ]);
-    let mut sources = String::new();
-    let mut refused = String::new();
-    for line in lines {
-        sources += &format!("- `{}`: {}\n", line.name, line.source);
-        let Some(report) = &line.report else {
-            let reason = line.refused.as_deref().unwrap_or_default();
-            refused += &format!("- `{}`: {}\n", line.name, reason.trim());
-            continue;
-        };
-        let number = |value: &Value| {
-            value
-                .as_f64()
-                .map_or("–".to_owned(), |x| format!("{x:.1e}"))
-        };
-        let figure = |form: &str, of: fn(&Row) -> u64| {
-            let row = line.rows.iter().find(|row| row.form == form);
-            row.map_or("–".to_owned(), |row| thousands(of(row)))
-        };
-        table.row([
-            line.name.clone(),
-            report["sizes"][2].to_string(),
-            topics(&report["advice"]),
-            number(&report["check"]["f32"]),
-            number(&report["peer"]["difference"]),
-            figure("core", |row| row.cycles.max),
-            figure("engine", |row| row.cycles.max),
-            figure("core", |row| row.code_bytes),
-            figure("engine", |row| row.code_bytes),
-        ]);
-    }
-    if refused.is_empty() {
-        refused = "None.\n".to_owned();
-    }
-    let count = lines.iter().filter(|line| line.report.is_some()).count();
-    format!(
-        include_str!("robots/page.md"),
-        count = count,
-        model = MODEL,
-        table = table.markdown(),
-        refused = refused,
-        sources = sources,
-        rustc = rustc,
-    )
-}
-
-/// How many pieces of advice there are of each topic.
-fn topics(advice: &Value) -> String {
-    let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
-    for one in advice.as_array().into_iter().flatten() {
-        *counts
-            .entry(one["topic"].as_str().unwrap_or_default())
-            .or_default() += 1;
-    }
-    let words: Vec<String> = counts
-        .iter()
-        .map(|(topic, count)| format!("{count} {topic}"))
-        .collect();
-    match words.is_empty() {
-        true => "–".to_owned(),
-        false => words.join(", "),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::compare;
-
-    #[test]
-    fn a_row_with_another_figure_is_out_of_date_but_for_the_peer() {
-        let page = |cycles: &str, peer: &str| {
-            format!("| so101 | 6 | – | 1e-7 | {peer} | 2 | {cycles} | 3 | 4 |")
-        };
-        let (old, new) = (page("990", "1e-16"), page("989", "–"));
-        assert!(compare(&old, &page("990", "–"), "so101", true).is_ok());
-        assert!(compare(&old, &new, "so101", true).is_err());
-        // Another compiler has other cycles.
-        assert!(compare(&old, &new, "so101", false).is_ok());
-        assert!(compare(&old, &new, "so100", true).is_err());
-    }
 }

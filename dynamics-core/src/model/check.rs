@@ -8,7 +8,7 @@ impl<R: Real, const B: usize, const Q: usize, const V: usize> Model<R, B, Q, V> 
     ///
     /// ```
     /// use dynamics_core::{model::Robot, robots::Panda};
-    /// const HAND: usize = Panda::MODEL.body("link7");
+    /// const HAND: usize = Panda::MODEL.body("panda_link7");
     /// assert_eq!(HAND, 6);
     /// ```
     ///

@@ -21,7 +21,7 @@ use crate::model::{BASE, Body, Joint, JointLimits, Model, Robot, attach_to};
 ///
 /// # Changed
 ///
-/// The legs are written once and mirrored, since the source's four are exact mirror images. Omitted are the
+/// Not written by `robot-import`: three robots share the legs. The legs are written once and mirrored, since the source's four are exact mirror images. Omitted are the
 /// trunk since it does not move, the IMU (1 g, with the inertia of a placeholder), and the shoulder links
 /// since they have no mass. The foot's inertia is 2/5 m r² of a 20 mm sphere, which the source prints as
 /// 9.600000000000001e-06. Limits are the degrees of the source's constants.

@@ -16,7 +16,7 @@ use crate::scene::{Less, Noise, PlantModel, Run, Scene, rigid, through};
 use crate::trajectories::{PANDA_CARRY, READY, arrival};
 
 /// The body that carries the hand.
-pub const HAND: usize = Panda::MODEL.body("link7");
+pub const HAND: usize = Panda::MODEL.body("panda_link7");
 
 /// What the hand holds.
 pub type Load = Payload<f32, HAND>;

@@ -57,7 +57,9 @@ pub fn source(tree: &Tree, name: &str, type_name: &str, origin: &Origin) -> Stri
     let b = tree.bodies.len();
     let single = b == q && b == v;
     let coupled = tree.has_followers() && single;
-    out += "\n#![allow(dead_code, reason = \"not every program uses every constant of its robot\")]\n\n";
+    out +=
+        "\n#![allow(dead_code, reason = \"not every program uses every constant of its robot\")]\n";
+    out += "#![allow(clippy::approx_constant, reason = \"numbers are those of the file\")]\n\n";
     let angles: BTreeSet<&str> = tree.bodies.iter().flat_map(body::constants).collect();
     if !angles.is_empty() {
         let names: Vec<&str> = angles.into_iter().collect();

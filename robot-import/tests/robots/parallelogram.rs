@@ -8,6 +8,7 @@
     dead_code,
     reason = "not every program uses every constant of its robot"
 )]
+#![allow(clippy::approx_constant, reason = "numbers are those of the file")]
 
 use dynamics_core::effects::{Armature, Coriolis, Coulomb, Gravity, Inertia, Viscous, Width};
 use dynamics_core::model::{ArmModel, BASE, Body, Joint, JointLimits, Model, Robot};

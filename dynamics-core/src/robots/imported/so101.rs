@@ -6,7 +6,6 @@
 //!
 //! # Changed
 //!
-//! - Part of body `gripper_link`: `gripper_frame_link`.
 //! - Joint `shoulder_pan`: y `-8.97657e-9` is 0.
 //! - Joint `shoulder_pan`: roll `3.14159` is π.
 //! - Joint `shoulder_pan`: pitch `4.18253e-17` is 0.
@@ -27,11 +26,13 @@
 //! - Joint `gripper`: roll `1.5708` is π/2.
 //! - Joint `gripper`: pitch `-5.24284e-08` is 0.
 //! - Joint `gripper`: yaw `-1.41553e-15` is 0.
+//! - Link `gripper_frame_link` and all that it carries are left out.
 
 #![allow(
     dead_code,
     reason = "not every program uses every constant of its robot"
 )]
+#![allow(clippy::approx_constant, reason = "numbers are those of the file")]
 
 use core::f64::consts::{FRAC_PI_2, PI};
 
@@ -153,19 +154,15 @@ impl Robot<6, 6, 6> for So101 {
             Body::new("gripper_link", 3, Joint::revolute([0.0, 0.0, 1.0]))
                 .xyz([0.0, -0.0611, 0.0181])
                 .rpy([FRAC_PI_2, 0.0486795, PI])
-                .mass(0.087000001)
-                .com([
-                    0.00021362690673992063,
-                    0.00024513799467518394,
-                    -0.025187000838395392,
-                ])
+                .mass(0.087)
+                .com([0.000213627, 0.000245138, -0.025187])
                 .inertia([
-                    2.7508705320516498e-5,
-                    -3.352410037587107e-7,
-                    -5.7352005918111915e-6,
-                    4.336570538613283e-5,
-                    -5.178473379029638e-8,
-                    3.450590006604555e-5,
+                    2.75087e-5,
+                    -3.35241e-7,
+                    -5.7352e-6,
+                    4.33657e-5,
+                    -5.17847e-8,
+                    3.45059e-5,
                 ])
                 .limits(JointLimits {
                     lower: -2.74385,

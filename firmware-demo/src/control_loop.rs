@@ -4,8 +4,8 @@
 //! [`MotionController`], which contains the state of the loop and the reaction to faults.
 
 use dynamics_core::control::{
-    Estimate, Fault, Gains, MotionController, ObservedTick, Reference, ReferencedTick, ResetError,
-    Status, feedback,
+    CompletedTick, Estimate, Fault, Gains, MotionController, ObservedTick, Reference,
+    ReferencedTick, ResetError, Status, StopCategory, TickCounter, feedback,
 };
 use dynamics_core::state::State;
 use embedded_hal::digital::OutputPin;
@@ -85,6 +85,7 @@ pub struct ControlLoop<Spi, Pwm, Brake, const V: usize> {
     brake: Brake,
     gains: Gains<f32, V>,
     controller: MotionController<f32, V>,
+    counter: TickCounter,
     frame: Option<FrameError>,
 }
 
@@ -110,6 +111,7 @@ where
             brake,
             gains,
             controller,
+            counter: TickCounter::new(),
             frame: None,
         }
     }
@@ -144,6 +146,31 @@ where
                 frame: self.frame,
             }
         })
+    }
+
+    /// One tick under the law `L` at the count of a timer that advances by one per period.
+    ///
+    /// Missed ticks are reported to the controller, and so is a tick that ends after its period. A tick that ends in
+    /// time gives what feeds a [`Watchdog`](dynamics_core::control::Watchdog).
+    pub fn tick_at<L: Law<V, X>, T: Reference<f32, V>, X>(
+        &mut self,
+        trajectory: &T,
+        environment: &X,
+        timer: impl Fn() -> u32,
+    ) -> (Telemetry<V>, Option<CompletedTick>) {
+        let tick = self.counter.begin(timer());
+        if tick.missed() > 0 {
+            self.controller.missed(tick.missed(), trajectory);
+        }
+        let telemetry = self.tick::<L, T, X>(trajectory, environment);
+        let completed = tick.end(timer(), &telemetry.status);
+        let completed = completed.map_err(|fault| self.controller.report(fault));
+        (telemetry, completed.ok())
+    }
+
+    /// Stops the arm from outside, by a category.
+    pub fn stop_by(&mut self, fault: Fault, category: StopCategory<f32, V>) {
+        self.controller.stop_by(fault, category);
     }
 
     /// Restarts a stopped arm: clears the fault and leads the arm back onto its trajectory. The brake holds until the

@@ -2,9 +2,11 @@
 
 mod arm;
 
+use std::cell::RefCell;
+
 use arm::outcome::bad_frames;
-use arm::{Arm, HOLD, POISON, RIDE};
-use dynamics_core::control::{Fault, Mode, ResetError};
+use arm::{Arm, FullModel, HOLD, POISON, RIDE};
+use dynamics_core::control::{Fault, Mode, ResetError, StopCategory};
 use embedded_hal::spi::ErrorKind;
 use firmware_demo::encoder::FrameError;
 use firmware_demo::scenes::ur5e::GravityOnly;
@@ -279,6 +281,64 @@ fn encoders_are_started_before_the_first_tick() {
     assert_eq!((telemetry.status.fault, telemetry.frame), (None, None));
     let error = Arm::error(&telemetry.estimate, &arm.rig.plant.state.q);
     within("error of the estimate, rad", error, 2e-9);
+}
+
+/// A tick at the counts of a timer at its begin and its end, and whether it feeds the watchdog.
+fn tick_at(arm: &mut Arm, counts: [u32; 2]) -> (Option<Fault>, bool) {
+    let counts = RefCell::new(counts.into_iter());
+    let timer = || counts.borrow_mut().next().expect("read twice");
+    let trajectory = arm.trajectory;
+    let (telemetry, completed) = arm
+        .control
+        .tick_at::<FullModel, _, ()>(&trajectory, &(), timer);
+    arm.advance();
+    (telemetry.status.fault, completed.is_some())
+}
+
+#[test]
+fn missed_ticks_are_reported_and_only_a_tick_in_time_feeds_the_watchdog() {
+    let mut arm = Arm::new();
+    let mut now = 0;
+    while now < FAST {
+        assert_eq!(tick_at(&mut arm, [now; 2]), (None, true));
+        now += 1;
+    }
+    // Four periods without a tick: the drives keep their torques, and the trajectory goes on.
+    (0..4).for_each(|_| arm.advance());
+    now += 4;
+    assert_eq!(tick_at(&mut arm, [now; 2]), (None, true));
+    assert_eq!(
+        arm.control
+            .tick::<FullModel, _, ()>(&arm.trajectory, &())
+            .tick,
+        now + 1
+    );
+    // A tick that ends a period later is a fault of the next one, which is ridden through.
+    now += 2;
+    assert_eq!(tick_at(&mut arm, [now, now + 1]), (None, false));
+    assert_eq!(
+        tick_at(&mut arm, [now + 1; 2]),
+        (Some(Fault::Overrun), true)
+    );
+    assert_eq!(tick_at(&mut arm, [now + 2; 2]), (None, true));
+    // Longer than a fault may last.
+    let late = now + 4 + RIDE + HOLD;
+    assert_eq!(tick_at(&mut arm, [late; 2]), (Some(Fault::Missed), true));
+    assert!(arm.brake.0.0.get());
+}
+
+#[test]
+fn an_external_stop_of_category_1_brings_the_arm_to_rest_before_the_brake() {
+    let mut arm = Arm::new();
+    arm.run(FAST);
+    arm.control
+        .stop_by(Fault::External, StopCategory::ControlledOff);
+    let modes: Vec<Mode> = (0..HOLD).map(|_| arm.tick().status.mode).collect();
+    assert!(modes.iter().all(|&mode| mode == Mode::Hold));
+    let speed = largest(arm.rig.plant.state.qd.map(f32::abs));
+    within("speed when the brake closes, rad/s", speed, 0.3);
+    assert_eq!(arm.tick().status.mode, Mode::Stopped);
+    assert!(arm.brake.0.0.get());
 }
 
 proptest! {

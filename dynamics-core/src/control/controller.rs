@@ -25,6 +25,7 @@ mod age;
 mod config;
 mod recovery;
 mod reset;
+mod stop;
 #[cfg(test)]
 mod tests;
 mod tick;
@@ -85,6 +86,8 @@ pub struct MotionController<R, const V: usize, A = PreviousTick> {
     clock: u32,
     /// Whether the estimate has been without a measurement for longer than the ride-through.
     dead_reckoning: bool,
+    /// The reference stands still: category 2.
+    standing: bool,
     age: PhantomData<A>,
 }
 
@@ -113,6 +116,7 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
             restart_distance: config.restart_distance,
             clock: 0,
             dead_reckoning: false,
+            standing: false,
             age: PhantomData,
         }
     }
@@ -203,7 +207,8 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
     ///
     /// Call it before the next tick. The estimate is extrapolated, the plausible range of positions grows, and the
     /// trajectory advances, unless the arm is held or returns. Ticks beyond the longest tolerated fault are not
-    /// predicted.
+    /// predicted: more of them stop the arm by [`Fault::Missed`], since its drives have applied an old torque for as
+    /// long.
     ///
     /// # Cost
     /// One prediction and one point of the trajectory per missed tick.
@@ -211,6 +216,9 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
     pub fn missed<T: Reference<R, V>>(&mut self, ticks: u32, trajectory: &T) {
         self.supervisor.missed(ticks);
         let follows = matches!(self.supervisor.mode(), Mode::Full) & !self.resume.active();
+        if ticks > self.supervisor.longest_fault() {
+            self.supervisor.stop(Fault::Missed);
+        }
         for _ in 0..ticks.min(self.supervisor.longest_fault()) {
             self.observer.predict(&self.reference.qdd);
             if follows {
@@ -218,17 +226,6 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
                 self.clock = self.clock.saturating_add(1);
             }
         }
-    }
-
-    /// Stops the arm from the next tick on, for an external reason such as a failed drive or an emergency stop.
-    ///
-    /// The stop is latched until [`Self::reset`], with its first reason. While a stop is still required after a reset,
-    /// call this function in every tick. [`ReferencedTick::stop`] acts in the present tick.
-    #[doc(alias = "e-stop")]
-    #[doc(alias = "emergency stop")]
-    #[cold]
-    pub fn stop(&mut self, fault: Fault) {
-        self.supervisor.stop(fault);
     }
 
     /// The reference of the joints in the last tick.

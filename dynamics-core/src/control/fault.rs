@@ -56,6 +56,36 @@ pub enum Fault {
         /// The joint.
         joint: usize,
     },
+    /// The encoder did not change while the reference moved; see [`FrozenEncoder`](super::FrozenEncoder).
+    Frozen {
+        /// The joint.
+        joint: usize,
+    },
+    /// The torque was at its limit for too long; see [`Saturation`](super::Saturation).
+    Saturated {
+        /// The joint.
+        joint: usize,
+    },
+    /// The reference moved further in a tick than the joint can; see [`ReferenceStep`](super::ReferenceStep).
+    Reference {
+        /// The joint.
+        joint: usize,
+    },
+    /// The drive is not ready for torques: not enabled, not commutated, or its supply is low.
+    NotReady {
+        /// The joint.
+        joint: usize,
+    },
+    /// More ticks were missed than a fault may last.
+    Missed,
+    /// A tick ended after its period; see [`TickCounter`](super::TickCounter).
+    Overrun,
+    /// The model is invalid, for instance after a calibration.
+    Model,
+    /// A queue or a stack has overflowed.
+    Overflow,
+    /// The processor restarted without being told to: a brown-out or a watchdog.
+    Restarted,
     /// The brake did not accept its command.
     Brake,
     /// A stop from outside the loop: an emergency stop, a safety controller, an operator. See
@@ -70,6 +100,11 @@ impl fmt::Display for Fault {
         let (joint, text) = match *self {
             Self::Stale => return write!(out, "no measurement of this tick"),
             Self::Unfinished => return write!(out, "the tick before got no torque"),
+            Self::Missed => return write!(out, "too many ticks were missed"),
+            Self::Overrun => return write!(out, "a tick ended after its period"),
+            Self::Model => return write!(out, "the model is invalid"),
+            Self::Overflow => return write!(out, "a queue or a stack has overflowed"),
+            Self::Restarted => return write!(out, "the processor restarted"),
             Self::Brake => return write!(out, "the brake did not respond"),
             Self::External => return write!(out, "a stop from outside"),
             Self::Encoder { joint } => (joint, "its encoder reports an error"),
@@ -79,6 +114,10 @@ impl fmt::Display for Fault {
             Self::Speed { joint } => (joint, "it exceeds its speed limit"),
             Self::Torque { joint } => (joint, "the torque of its law is not finite"),
             Self::Limits { joint } => (joint, "one of its limits is invalid"),
+            Self::Frozen { joint } => (joint, "its encoder is frozen"),
+            Self::Saturated { joint } => (joint, "its torque is at its limit for too long"),
+            Self::Reference { joint } => (joint, "its reference jumped"),
+            Self::NotReady { joint } => (joint, "its drive is not ready"),
             Self::Drive { joint } => (joint, "its drive rejected the torque command"),
         };
         write!(out, "joint {joint}: {text}")

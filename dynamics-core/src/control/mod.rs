@@ -13,6 +13,8 @@
 //! | [`hybrid_motion_force`], [`TaskCommand`] | motions and forces along a task's directions | none |
 //! | [`ZeroOrderHold`], [`FirstOrderHold`], [`Interpolator`], [`InertiaUpdate`] | the torque in ticks without a computation of the dynamics | last torques |
 //! | [`Supervisor`] | limits, plausibility, reactions to faults | last good values |
+//! | [`FrozenEncoder`], [`ReferenceStep`], [`Saturation`] | faults that take several ticks to show | the last ticks |
+//! | [`TickCounter`], [`Watchdog`] | missed ticks, overruns, and what feeds a watchdog | a count |
 //! | [`ResumeTrajectory`] | the return onto the trajectory after a fault | reference |
 //!
 //! Types with a configuration struct have a `try_new`, which checks the struct, and a `new` for constants, which does
@@ -48,6 +50,7 @@
 mod command;
 mod config_error;
 mod controller;
+mod detectors;
 mod fault;
 mod feedback;
 mod hold;
@@ -60,6 +63,7 @@ mod resume;
 mod safety_limits;
 mod shaper;
 mod supervisor;
+mod tick_counter;
 mod trajectory;
 
 pub use command::{Command, Mode, Status};
@@ -68,6 +72,7 @@ pub use controller::{
     CurrentTick, MeasurementAge, MotionController, MotionControllerConfig, ObservedTick,
     PreviousTick, ReferencedTick, ResetError,
 };
+pub use detectors::{FrozenEncoder, ReferenceStep, Saturation};
 pub use fault::Fault;
 pub use feedback::{Gains, feedback};
 pub use hold::hold;
@@ -81,7 +86,8 @@ pub use reference::Reference;
 pub use resume::{ResumeConfig, ResumeTrajectory};
 pub use safety_limits::{LimitKind, SafetyLimits, SafetyLimitsError};
 pub use shaper::{Shaped, Shaper, ShaperError, ShaperProblem, Vibration};
-pub use supervisor::{Supervisor, SupervisorConfig, SupervisorTick};
+pub use supervisor::{StopCategory, Supervisor, SupervisorConfig, SupervisorTick};
+pub use tick_counter::{CompletedTick, CountedTick, TickCounter, Watchdog};
 pub use trajectory::{MotionLimits, RestToRest, Trajectory, TrajectoryError, WayPoint};
 
 use crate::scalar::Real;

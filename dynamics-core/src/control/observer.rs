@@ -208,6 +208,21 @@ impl<R: Real, const V: usize> Observer<R, V> {
         &self.estimate
     }
 
+    /// As [`Self::update`] without acceleration, for an arm that sinks: a function of its own, so that the update of the
+    /// usual tick is inlined as before.
+    #[cold]
+    #[inline(never)]
+    pub(super) fn follow(&mut self, q: &[R; V]) {
+        let mut next = self.estimate;
+        for ((next, rate), &q) in next.q.iter_mut().zip(&mut next.qd).zip(q) {
+            *next += self.tick * *rate;
+            let e = q - *next;
+            *next += self.position_gain * e;
+            *rate += self.velocity_gain * e;
+        }
+        self.keep(next);
+    }
+
     /// Replaces the positions by measured ones q (rad, m) after ticks without measurements; the velocities keep their
     /// predicted values. A non-finite q changes nothing.
     pub fn correct_position(&mut self, q: &[R; V]) {

@@ -9,7 +9,7 @@
 //!    └──────────────────────────────────────────────────────────────┘ reset()
 //! ```
 //!
-//! Ticks with a fault are counted until `reentry_ticks` consecutive ticks had none. The state from tick to tick (last
+//! [`StopCategory`] chooses what `Hold` and `Stopped` are for an arm. Ticks with a fault are counted until `reentry_ticks` consecutive ticks had none. The state from tick to tick (last
 //! good positions, last torques, counters) is updated only by accepted values. With limits that allow no motion or
 //! torque (NaN, negative, an empty range), `try_new` returns an error and `new` a supervisor that keeps the arm
 //! stopped.
@@ -20,12 +20,15 @@ use crate::scalar::Real;
 mod config;
 mod gate;
 mod reentry;
+mod stop;
 #[cfg(test)]
 mod tests;
 mod tick;
 mod transitions;
 
 pub use config::SupervisorConfig;
+pub use stop::StopCategory;
+use stop::Stopping;
 pub use tick::SupervisorTick;
 
 /// The greatest plausible distance of a measurement from the last accepted one, in steps at full speed; the resolution
@@ -112,6 +115,9 @@ pub struct Supervisor<R, const V: usize> {
     braked: bool,
     /// The limits allow nothing: the arm stays stopped.
     unusable: Option<Fault>,
+    stopping: Stopping<R, V>,
+    /// What [`Self::report`] was told.
+    reported: Option<Fault>,
 }
 
 impl<R: Real, const V: usize> Supervisor<R, V> {
@@ -197,6 +203,8 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
             hold_next: false,
             braked: false,
             unusable,
+            stopping: Stopping::new(),
+            reported: None,
         }
     }
 
@@ -235,35 +243,6 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
     #[cold]
     pub fn missed(&mut self, ticks: u32) {
         self.ticks_since_good += real(ticks);
-    }
-
-    /// Stops the arm from the next tick on, for an external reason such as a failed drive or an emergency stop;
-    /// [`SupervisorTick::stop`] stops it in the present tick.
-    ///
-    /// The stop is latched until [`Self::reset`], with its first reason. While a stop is still required after a reset,
-    /// call this function in every tick.
-    ///
-    /// ```
-    /// # use dynamics_core::control::{Fault, SafetyLimits, Supervisor, SupervisorConfig};
-    /// # let limits = SafetyLimits { torque: [10.0_f32], rate: [8.0], speed: [3.0], lower: [-1.0], upper: [1.0] };
-    /// # let mut supervisor = Supervisor::try_new(SupervisorConfig {
-    /// #     limits, tick: 1e-3, resolution: 0.0, ride_through_ticks: 5, hold_ticks: 2, reentry_ticks: 4,
-    /// # })?;
-    /// supervisor.stop(Fault::External);
-    /// let command = supervisor.tick(Ok(&[0.5]), |_| [7.0]);
-    /// assert_eq!((command.torque, command.brake), ([0.0], true));
-    /// assert_eq!(command.status.fault, Some(Fault::External));
-    /// # Ok::<(), dynamics_core::control::ConfigError>(())
-    /// ```
-    #[doc(alias = "e-stop")]
-    #[doc(alias = "emergency stop")]
-    #[cold]
-    pub fn stop(&mut self, fault: Fault) {
-        if !matches!(self.mode, Mode::Stopped) {
-            self.mode = Mode::Stopped;
-            self.fault = Some(fault);
-            self.ramp = 0;
-        }
     }
 
     /// Whether the positions of the last tick were accepted.

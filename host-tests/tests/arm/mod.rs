@@ -176,6 +176,12 @@ impl Arm {
     /// The same under another law.
     pub fn tick_under<L: Law<6>>(&mut self) -> Telemetry<6> {
         let telemetry = self.control.tick::<L, _, ()>(&self.trajectory, &());
+        self.advance();
+        telemetry
+    }
+
+    /// A tick of the plant.
+    pub fn advance(&mut self) {
         if self.brake.0.0.get() {
             self.rig.plant.state.qd = [0.0; 6];
             self.wires.publish(&self.rig.plant.state.q);
@@ -183,7 +189,6 @@ impl Arm {
             let step = TICK / STEPS as f32;
             self.rig.advance(self.wires, STEPS, step, |_| ()).unwrap();
         }
-        telemetry
     }
 
     /// Ticks without anything wrong.

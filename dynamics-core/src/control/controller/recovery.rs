@@ -3,19 +3,16 @@
 use super::super::{Fault, Mode, Reference, hold};
 use super::{MeasurementAge, MotionController};
 use crate::scalar::Real;
-use crate::state::State;
+use crate::state::{State, all_finite};
 
 impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
     /// The estimate without a measurement, or without a torque computed from it.
     #[cold]
     pub(super) fn predict_estimate(&mut self, measured: Result<&[R; V], Fault>) {
         match (self.supervisor.mode(), measured) {
-            // The brake holds the arm where it is.
             (Mode::Stopped, measured) => {
                 self.dead_reckoning = measured.is_err();
-                if let Ok(q) = measured {
-                    self.observer.reset(q);
-                }
+                self.stopped_estimate(measured);
             }
             (_, Ok(q)) if self.supervisor.measurement_accepted() => {
                 self.dead_reckoning = false;
@@ -25,6 +22,18 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
                 self.dead_reckoning |= matches!(mode, Mode::Hold);
                 self.observer.predict(&self.reference.qdd);
             }
+        }
+    }
+
+    /// The estimate of a stopped arm: at rest where the brake holds it, or the motion of one that sinks. Without a
+    /// usable measurement the velocity is zero, and with it the damping.
+    fn stopped_estimate(&mut self, measured: Result<&[R; V], Fault>) {
+        let last = self.observer.estimate().q;
+        match measured {
+            Ok(q) if self.supervisor.lowers(&last, q) => self.observer.follow(q),
+            Ok(q) if all_finite(q) => self.observer.reset(q),
+            _ if self.supervisor.knows_positions() => self.observer.reset(&last),
+            _ => {}
         }
     }
 
@@ -66,6 +75,13 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
         self.reference.qdd = qdd;
     }
 
+    /// The reference of a stop that began after that of the tick was computed.
+    pub(super) fn hold_now(&mut self) {
+        if !matches!(self.supervisor.mode(), Mode::Full) {
+            self.reference = self.stop_reference();
+        }
+    }
+
     /// Decelerates the arm at its present position. The clock stops when the deceleration begins, and the return is
     /// initialised again in each of these ticks.
     fn stop_reference(&mut self) -> State<R, V, V> {
@@ -76,6 +92,12 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
         }
         let estimate = *self.observer.estimate();
         self.resume.start(&estimate, self.clock);
+        // With a reference at the estimate, errors of the model would let an arm that is held for long drift.
+        self.standing =
+            self.supervisor.stands() & (self.standing | self.supervisor.at_rest(&estimate.qd));
+        if self.standing {
+            return State::at(self.reference.q);
+        }
         hold(&estimate, self.resume.decay_rate())
     }
 }

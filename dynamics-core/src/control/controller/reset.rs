@@ -16,7 +16,7 @@ use crate::scalar::Real;
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum ResetError {
-    /// The arm is not stopped.
+    /// The arm is not stopped, nor held by a stop of category 2.
     NotStopped,
     /// There was no measurement in the last tick.
     NoMeasurement,
@@ -44,12 +44,14 @@ impl core::error::Error for ResetError {}
 impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
     /// Starts a stopped arm, at power-up or after a fault: clears the fault and leads the arm onto its trajectory.
     ///
-    /// The brake holds until the torque that keeps the arm at rest is reached, a few ticks later.
+    /// The brake holds until the torque that keeps the arm at rest is reached, a few ticks later. An arm that is held
+    /// by a stop of category 2 stays under power.
     ///
     /// # Errors
     /// [`ResetError`]; the controller is then unchanged.
     pub fn reset<T: Reference<R, V>>(&mut self, trajectory: &T) -> Result<(), ResetError> {
-        if !matches!(self.supervisor.mode(), Mode::Stopped) {
+        let stands = self.supervisor.stands();
+        if !matches!(self.supervisor.mode(), Mode::Stopped) & !stands {
             return Err(ResetError::NotStopped);
         }
         if self.dead_reckoning | !self.supervisor.knows_positions() {
@@ -61,7 +63,11 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
         if let Some(joint) = joints.position(|joint| !near(joint)) {
             return Err(ResetError::TooFar { joint });
         }
-        self.supervisor.reset();
+        if stands {
+            self.supervisor.release();
+        } else {
+            self.supervisor.reset();
+        }
         self.resume.start(self.observer.estimate(), self.clock);
         self.reference.qdd = [R::ZERO; V];
         Ok(())

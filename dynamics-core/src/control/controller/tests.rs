@@ -1,6 +1,8 @@
 use super::super::*;
 use super::*;
 
+mod stops;
+
 const TICK: f64 = 1e-3;
 const RIDE: u32 = 2;
 const HOLD: u32 = 3;

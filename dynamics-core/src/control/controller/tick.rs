@@ -1,6 +1,6 @@
 //! The steps of a tick: each can be called only once, and only in this order.
 
-use super::super::{Command, Estimate, Fault, Mode, Reference};
+use super::super::{Command, Estimate, Fault, Mode, Reference, StopCategory};
 use super::{MeasurementAge, MotionController, PreviousTick};
 use crate::scalar::Real;
 use crate::state::State;
@@ -151,13 +151,22 @@ impl<R: Real, const V: usize, A: MeasurementAge> ReferencedTick<'_, R, V, A> {
         self.controller.stop(fault);
     }
 
+    /// Stops the arm by a category, as [`MotionController::stop_by`], in this tick: the reference of a controlled stop
+    /// replaces that of the trajectory.
+    #[cold]
+    pub fn stop_by(&mut self, fault: Fault, category: StopCategory<R, V>) {
+        self.controller.stop_by(fault, category);
+        self.controller.hold_now();
+    }
+
     /// Ends the tick: limits the torques of the law (N·m, N) and returns the command to the drives.
     ///
     /// A torque that is not finite is a fault, see [`Supervisor::tick`](super::super::Supervisor::tick).
     #[inline(always)]
     pub fn command(self, tau: &[R; V]) -> Command<R, V> {
         let controller = self.controller;
-        let command = controller.supervisor.gate(tau);
+        let qd = &controller.observer.estimate().qd;
+        let command = controller.supervisor.gate(tau, qd);
         let moving = matches!(command.status.mode, Mode::Full) & !controller.resume.active();
         controller.clock = controller.clock.saturating_add(u32::from(moving));
         command

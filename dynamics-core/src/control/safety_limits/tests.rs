@@ -74,7 +74,7 @@ fn an_arm_with_such_limits_is_stopped_and_says_why_instead_of_going_limp() {
         let mut supervisor = Supervisor::new(config(limits));
         for _ in 0..3 {
             assert_eq!(supervisor.accept_measurement(Ok(&[0.0; 2])), Mode::Stopped);
-            let command = supervisor.gate(&[1.0, 0.0]);
+            let command = supervisor.gate(&[1.0, 0.0], &[0.0; 2]);
             assert_eq!((command.torque, command.brake), ([0.0; 2], true));
             assert_eq!(command.status.fault, Some(Fault::Limits { joint: 1 }));
             supervisor.reset();

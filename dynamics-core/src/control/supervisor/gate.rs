@@ -43,9 +43,10 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         self.mode
     }
 
-    /// Ends a tick: limits the torques of the law and returns the command to the drives.
+    /// Ends a tick: limits the torques of the law and returns the command to the drives. The velocities damp a stopped
+    /// arm that sinks.
     #[inline]
-    pub(in crate::control) fn gate(&mut self, tau: &[R; V]) -> Command<R, V> {
+    pub(in crate::control) fn gate(&mut self, tau: &[R; V], qd: &[R; V]) -> Command<R, V> {
         let mut off = R::ZERO;
         let mut torque = [R::ZERO; V];
         let wanted = tau.iter().zip(&self.torque);
@@ -62,7 +63,7 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
             torque = self.torque;
         }
         if matches!(self.mode, Mode::Stopped) {
-            torque = [R::ZERO; V];
+            return self.stopped_command(qd);
         }
         self.torque = torque;
         self.end(torque, off != R::ZERO)

@@ -65,6 +65,8 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         self.open = false;
         self.hold_next = false;
         self.braked = true;
+        self.clear_stop();
+        self.reported = None;
         if let Some(fault) = self.unusable {
             self.stop(fault);
         }

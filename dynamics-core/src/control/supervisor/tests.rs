@@ -2,6 +2,7 @@ use super::super::SafetyLimits;
 use super::*;
 
 mod protocol;
+mod stops;
 
 const LIMITS: SafetyLimits<f32, 2> = SafetyLimits {
     torque: [10.0, 5.0],
@@ -39,12 +40,12 @@ fn riding(ticks: u32) -> Supervisor<f32, 2> {
 fn good(supervisor: &mut Supervisor<f32, 2>, tau: [f32; 2]) -> Command<f32, 2> {
     let q = *supervisor.last_good();
     supervisor.accept_measurement(Ok(&q));
-    supervisor.gate(&tau)
+    supervisor.gate(&tau, &[0.0; 2])
 }
 
 fn bad(supervisor: &mut Supervisor<f32, 2>, tau: [f32; 2]) -> Command<f32, 2> {
     supervisor.accept_measurement(Err(Fault::Encoder { joint: 1 }));
-    supervisor.gate(&tau)
+    supervisor.gate(&tau, &[0.0; 2])
 }
 
 #[test]
@@ -83,19 +84,22 @@ fn each_fault_names_its_joint() {
         good(&mut supervisor, [0.0; 2]);
         assert_eq!(supervisor.accept_measurement(Ok(&q)), Mode::Hold);
         assert_eq!(supervisor.last_good(), &[0.0; 2]);
-        assert_eq!(supervisor.gate(&[0.0; 2]).status.fault, Some(fault));
+        assert_eq!(
+            supervisor.gate(&[0.0; 2], &[0.0; 2]).status.fault,
+            Some(fault)
+        );
     }
     let mut supervisor = supervisor();
     good(&mut supervisor, [0.0; 2]);
     supervisor.accept_measurement(Ok(&[0.0, 0.039]));
     assert_eq!(supervisor.check_speed(&[2.0, -2.01]), Mode::Hold);
     assert_eq!(
-        supervisor.gate(&[0.0; 2]).status.fault,
+        supervisor.gate(&[0.0; 2], &[0.0; 2]).status.fault,
         Some(Fault::Speed { joint })
     );
     supervisor.accept_measurement(Ok(&[0.0; 2]));
     assert_eq!(supervisor.check_speed(&[f32::NAN, 0.0]), Mode::Hold);
-    let status = supervisor.gate(&[0.0; 2]).status;
+    let status = supervisor.gate(&[0.0; 2], &[0.0; 2]).status;
     assert_eq!(status.fault, Some(Fault::Speed { joint: 0 }));
 }
 
@@ -110,7 +114,7 @@ fn a_lasting_fault_goes_from_full_to_hold_to_stopped_and_stays_there() {
             (supervisor.measurement_accepted(), supervisor.authority()),
             (false, share)
         );
-        let command = supervisor.gate(&[2.0; 2]);
+        let command = supervisor.gate(&[2.0; 2], &[0.0; 2]);
         assert_eq!((command.torque, command.brake), ([2.0; 2], false));
         assert_eq!(command.status.fault, Some(Fault::Stale));
     }
@@ -133,12 +137,12 @@ fn authority_rises_after_a_hold_and_stays_after_a_ride() {
     bad(&mut supervisor, [3.0; 2]);
     supervisor.accept_measurement(Ok(&[0.0; 2]));
     assert_eq!(supervisor.authority(), 1.0);
-    supervisor.gate(&[3.0; 2]);
+    supervisor.gate(&[3.0; 2], &[0.0; 2]);
     bad(&mut supervisor, [3.0; 2]);
     for share in [0.25, 0.5, 0.75, 1.0, 1.0] {
         supervisor.accept_measurement(Ok(&[0.0; 2]));
         assert_eq!(supervisor.authority(), share);
-        supervisor.gate(&[3.0; 2]);
+        supervisor.gate(&[3.0; 2], &[0.0; 2]);
     }
 }
 
@@ -168,7 +172,7 @@ fn an_external_stop_acts_in_its_tick_and_stays_until_a_reset() {
     bad(&mut supervisor, [3.0; 2]);
     supervisor.accept_measurement(Err(Fault::Encoder { joint: 1 }));
     supervisor.stop(Fault::External);
-    let command = supervisor.gate(&[3.0; 2]);
+    let command = supervisor.gate(&[3.0; 2], &[0.0; 2]);
     assert_eq!((command.torque, command.brake), ([0.0; 2], true));
     for _ in 0..10 {
         let command = good(&mut supervisor, [3.0; 2]);
@@ -212,22 +216,6 @@ fn without_a_torque_the_last_ones_stand_then_a_hold_then_the_brake() {
 }
 
 #[test]
-fn an_encoders_step_is_no_jump() {
-    let mut limits = LIMITS;
-    limits.speed = [0.01; 2];
-    let mut supervisor = Supervisor::new(SupervisorConfig {
-        limits,
-        resolution: 0.01,
-        ..CONFIG
-    });
-    good(&mut supervisor, [0.0; 2]);
-    assert_eq!(
-        supervisor.accept_measurement(Ok(&[0.01, -0.01])),
-        Mode::Full
-    );
-}
-
-#[test]
 fn a_fault_that_keeps_coming_back_stops_the_arm() {
     let mut supervisor = supervisor();
     good(&mut supervisor, [0.0; 2]);
@@ -267,7 +255,7 @@ fn the_plausible_step_of_a_joint_grows_with_the_ticks_that_were_lost() {
     good(&mut supervisor, [0.0; 2]);
     bad(&mut supervisor, [0.0; 2]);
     assert_eq!(supervisor.accept_measurement(Ok(&[0.07; 2])), Mode::Full);
-    supervisor.gate(&[0.0; 2]);
+    supervisor.gate(&[0.0; 2], &[0.0; 2]);
     assert_eq!(supervisor.accept_measurement(Ok(&[0.12; 2])), Mode::Hold);
 }
 
@@ -288,7 +276,7 @@ fn useless_limits_allow_nothing() {
             for _ in 0..2 {
                 supervisor.accept_measurement(Ok(&[0.0; 2]));
                 supervisor.check_speed(&[0.0; 2]);
-                let command = supervisor.gate(&[1.0; 2]);
+                let command = supervisor.gate(&[1.0; 2], &[0.0; 2]);
                 // −1 rad is a good lower bound.
                 let torque = if which == 4 && bad == -1.0 { 1.0 } else { 0.0 };
                 let held = which == 2 && command.status.mode == Mode::Hold;

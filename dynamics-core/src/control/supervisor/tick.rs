@@ -1,12 +1,14 @@
 //! A tick of the supervisor, which its caller can neither leave unfinished nor finish twice.
 
-use super::{Command, Fault, Mode, Supervisor};
+use super::{Command, Fault, Mode, StopCategory, Supervisor};
 use crate::scalar::Real;
 
 /// A tick of a [`Supervisor`] between its measurement and its torque.
 #[derive(Debug)]
 pub struct SupervisorTick<'a, R, const V: usize> {
     supervisor: &'a mut Supervisor<R, V>,
+    /// Those of [`Self::check_speed`].
+    qd: [R; V],
 }
 
 impl<R: Real, const V: usize> Supervisor<R, V> {
@@ -52,8 +54,13 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         law: impl FnOnce(&mut SupervisorTick<'_, R, V>) -> [R; V],
     ) -> Command<R, V> {
         self.accept_measurement(measured);
-        let tau = law(&mut SupervisorTick { supervisor: self });
-        self.gate(&tau)
+        let mut tick = SupervisorTick {
+            supervisor: self,
+            qd: [R::ZERO; V],
+        };
+        let tau = law(&mut tick);
+        let qd = tick.qd;
+        self.gate(&tau, &qd)
     }
 }
 
@@ -84,7 +91,8 @@ impl<R: Real, const V: usize> SupervisorTick<'_, R, V> {
 
     /// Compares the observer's velocities (rad/s, m/s) with their limits, and returns the mode of the arm in this tick.
     ///
-    /// Excessive speed is a fault without ride-through.
+    /// Excessive speed is a fault without ride-through. An arm that sinks ([`StopCategory::DampedLowering`]) is damped
+    /// by these velocities, and by none if this function is not called.
     ///
     /// ```
     /// # use dynamics_core::control::{SafetyLimits, Mode, Supervisor, SupervisorConfig};
@@ -101,6 +109,7 @@ impl<R: Real, const V: usize> SupervisorTick<'_, R, V> {
     /// ```
     #[inline(always)]
     pub fn check_speed(&mut self, qd: &[R; V]) -> Mode {
+        self.qd = *qd;
         self.supervisor.check_speed(qd)
     }
 
@@ -108,5 +117,11 @@ impl<R: Real, const V: usize> SupervisorTick<'_, R, V> {
     #[cold]
     pub fn stop(&mut self, fault: Fault) {
         self.supervisor.stop(fault);
+    }
+
+    /// Stops the arm by a category, as [`Supervisor::stop_by`].
+    #[cold]
+    pub fn stop_by(&mut self, fault: Fault, category: StopCategory<R, V>) {
+        self.supervisor.stop_by(fault, category);
     }
 }

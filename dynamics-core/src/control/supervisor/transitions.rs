@@ -10,14 +10,12 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
             self.unfinished();
         }
         self.open = true;
-        let clear = !self.faulted & !matches!(self.mode, Mode::Stopped);
-        if clear & self.hold_next {
-            self.mode = Mode::Hold;
-        } else if clear {
+        if self.hold_next {
+            self.begin_held();
+        } else if !self.faulted & !matches!(self.mode, Mode::Stopped) {
             self.mode = Mode::Full;
             self.fault = None;
         }
-        self.hold_next = false;
     }
 
     #[inline(always)]
@@ -55,7 +53,34 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
     #[cold]
     fn unfinished(&mut self) {
         self.faulted = false;
-        self.record_fault(Fault::Unfinished);
+        let fault = self.reported.take().unwrap_or(Fault::Unfinished);
+        self.record_fault(fault);
+    }
+
+    /// Reports a fault that the supervisor cannot detect, which is then a fault of the next tick: ridden through, held
+    /// and stopped as any other. While it lasts, report it in every tick.
+    ///
+    /// For faults that allow no deceleration, see [`Self::stop`]; for a stop without ride-through, [`Self::stop_by`].
+    ///
+    /// ```
+    /// # use dynamics_core::control::{Fault, Mode, SafetyLimits, Supervisor, SupervisorConfig};
+    /// # let limits = SafetyLimits { torque: [10.0_f32], rate: [8.0], speed: [3.0], lower: [-1.0], upper: [1.0] };
+    /// # let mut supervisor = Supervisor::try_new(SupervisorConfig {
+    /// #     limits, tick: 1e-3, resolution: 0.0, ride_through_ticks: 1, hold_ticks: 1, reentry_ticks: 4,
+    /// # })?;
+    /// supervisor.tick(Ok(&[0.5]), |_| [7.0]);
+    /// for mode in [Mode::Full, Mode::Hold, Mode::Stopped] {
+    ///     supervisor.report(Fault::Overrun);
+    ///     let status = supervisor.tick(Ok(&[0.5]), |_| [7.0]).status;
+    ///     assert_eq!((status.mode, status.fault), (mode, Some(Fault::Overrun)));
+    /// }
+    /// # Ok::<(), dynamics_core::control::ConfigError>(())
+    /// ```
+    #[cold]
+    pub fn report(&mut self, fault: Fault) {
+        // The usual path examines one flag for both.
+        self.reported = self.reported.or(Some(fault));
+        self.open = true;
     }
 
     /// No positions in this tick: the joints may have moved on.
@@ -124,7 +149,7 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
             self.faults = self.faults.saturating_add(1);
         }
         let in_hold = self.faults.saturating_sub(self.ride_through_ticks);
-        if !self.known | (in_hold > self.hold_ticks) {
+        if !self.known | (in_hold > self.held_ticks()) {
             self.mode = Mode::Stopped;
         } else if in_hold > 0 {
             self.mode = Mode::Hold;

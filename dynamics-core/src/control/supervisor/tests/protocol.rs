@@ -1,4 +1,4 @@
-//! What holds of ticks that lack a half, and of a reset.
+//! What holds of ticks that lack a half, of a reset, and of the encoders' steps.
 
 use super::*;
 
@@ -53,7 +53,7 @@ fn after_a_reset_the_brake_waits_for_the_torque() {
     let mut brakes = [true; 8];
     for brake in &mut brakes {
         supervisor.accept_measurement(Ok(&[0.5; 2]));
-        *brake = supervisor.gate(&[10.0, 0.0]).brake;
+        *brake = supervisor.gate(&[10.0, 0.0], &[0.0; 2]).brake;
     }
     assert_eq!(
         brakes,
@@ -64,8 +64,24 @@ fn after_a_reset_the_brake_waits_for_the_torque() {
     supervisor.reset();
     for _ in 0..6 {
         supervisor.accept_measurement(Ok(&[0.5; 2]));
-        assert!(supervisor.gate(&[10.0, 0.0]).brake);
+        assert!(supervisor.gate(&[10.0, 0.0], &[0.0; 2]).brake);
     }
     supervisor.accept_measurement(Ok(&[0.5; 2]));
-    assert!(!supervisor.gate(&[10.0, 0.0]).brake);
+    assert!(!supervisor.gate(&[10.0, 0.0], &[0.0; 2]).brake);
+}
+
+#[test]
+fn an_encoders_step_is_no_jump() {
+    let mut limits = LIMITS;
+    limits.speed = [0.01; 2];
+    let mut supervisor = Supervisor::new(SupervisorConfig {
+        limits,
+        resolution: 0.01,
+        ..CONFIG
+    });
+    good(&mut supervisor, [0.0; 2]);
+    assert_eq!(
+        supervisor.accept_measurement(Ok(&[0.01, -0.01])),
+        Mode::Full
+    );
 }

@@ -1,0 +1,179 @@
+//! Faults that a supervisor does not see in one measurement or one torque: small detectors that a loop composes.
+//!
+//! Each is optional and has its own memory. A detector's fault is the measurement of the tick
+//! ([`FrozenEncoder`]), or goes to [`MotionController::report`](super::MotionController::report) or `stop_by`.
+
+use super::Fault;
+use crate::scalar::Real;
+use crate::state::State;
+
+#[cfg(test)]
+mod tests;
+
+/// Detects encoders whose positions do not change while their references move.
+///
+/// A joint that a gear or an obstacle blocks gives the same fault: its encoder has to be looked at in either case.
+///
+/// ```
+/// use dynamics_core::control::{Fault, FrozenEncoder};
+/// let mut frozen = FrozenEncoder::new([0.01_f32], 3);
+/// for (tick, wanted) in [Ok(()), Ok(()), Ok(()), Err(Fault::Frozen { joint: 0 })].into_iter().enumerate() {
+///     assert_eq!(frozen.check(&[0.2], &[0.2 + 0.005 * tick as f32]), wanted);
+/// }
+/// assert_eq!(frozen.check(&[0.2001], &[0.22]), Ok(())); // it moves again
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FrozenEncoder<R, const V: usize> {
+    distance: [R; V],
+    ticks: u32,
+    last: [R; V],
+    /// The reference when the position last changed, and the ticks since then.
+    origin: [R; V],
+    unchanged: [u32; V],
+    started: bool,
+}
+
+impl<R: Real, const V: usize> FrozenEncoder<R, V> {
+    /// A detector that reports a position that is the same for `ticks` ticks while the reference has moved further than
+    /// `distance`, rad or m: ten steps of the encoder, and more than the play and friction of the gear hide.
+    pub const fn new(distance: [R; V], ticks: u32) -> Self {
+        Self {
+            distance,
+            ticks,
+            last: [R::ZERO; V],
+            origin: [R::ZERO; V],
+            unchanged: [0; V],
+            started: false,
+        }
+    }
+
+    /// Compares the measured positions of a tick with those of the tick before; `reference` is the reference of the
+    /// joints that acted in between, [`MotionController::reference`](super::MotionController::reference).
+    ///
+    /// # Errors
+    /// [`Fault::Frozen`] names the first joint, in each tick until its position changes.
+    pub fn check(&mut self, q: &[R; V], reference: &[R; V]) -> Result<(), Fault> {
+        let mut frozen = None;
+        let memory = self
+            .last
+            .iter_mut()
+            .zip(&mut self.origin)
+            .zip(&mut self.unchanged);
+        let inputs = q.iter().zip(reference).zip(&self.distance);
+        for (joint, (((last, origin), unchanged), ((&q, &r), &distance))) in
+            memory.zip(inputs).enumerate()
+        {
+            if !self.started | (q != *last) {
+                (*last, *origin, *unchanged) = (q, r, 0);
+            } else {
+                *unchanged = unchanged.saturating_add(1);
+            }
+            if (*unchanged >= self.ticks) & ((r - *origin).abs() > distance) {
+                frozen = frozen.or(Some(Fault::Frozen { joint }));
+                // Latched: the reference of a held arm may come back.
+                *origin = R::ONE / R::ZERO;
+            }
+        }
+        self.started = true;
+        frozen.map_or(Ok(()), Err)
+    }
+
+    /// Forgets what was measured, after a reset of the controller.
+    pub fn restart(&mut self) {
+        self.started = false;
+    }
+}
+
+/// Detects torques that stay at their limits.
+///
+/// ```
+/// use dynamics_core::control::{Fault, Saturation};
+/// let mut saturation = Saturation::new([10.0_f32], 2);
+/// let faults = [10.0, 10.0, 10.0, -9.0].map(|torque| saturation.check(&[torque]).err());
+/// assert_eq!(faults, [None, None, Some(Fault::Saturated { joint: 0 }), None]);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Saturation<R, const V: usize> {
+    limit: [R; V],
+    ticks: u32,
+    saturated: [u32; V],
+}
+
+impl<R: Real, const V: usize> Saturation<R, V> {
+    /// A detector that reports torques of |τ| ≥ `limit` (N·m, N) for longer than `ticks` ticks.
+    pub const fn new(limit: [R; V], ticks: u32) -> Self {
+        Self {
+            limit,
+            ticks,
+            saturated: [0; V],
+        }
+    }
+
+    /// Counts the torques of a command.
+    ///
+    /// # Errors
+    /// [`Fault::Saturated`] names the first joint, in each tick until its torque is below the limit.
+    pub fn check(&mut self, torque: &[R; V]) -> Result<(), Fault> {
+        let joints = self
+            .saturated
+            .iter_mut()
+            .zip(torque.iter().zip(&self.limit));
+        let mut fault = Ok(());
+        for (joint, (count, (torque, &limit))) in joints.enumerate() {
+            *count = if torque.abs() >= limit {
+                count.saturating_add(1)
+            } else {
+                0
+            };
+            if *count > self.ticks {
+                fault = fault.and(Err(Fault::Saturated { joint }));
+            }
+        }
+        fault
+    }
+}
+
+/// Detects steps of the reference, and references that are not finite.
+///
+/// ```
+/// use dynamics_core::control::{Fault, ReferenceStep};
+/// use dynamics_core::state::State;
+/// let mut steps = ReferenceStep::new([0.004_f32]); // 4 rad/s in ticks of 1 ms
+/// let faults = [0.0, 0.003, 0.3, 0.3].map(|q| steps.check(&State::at([q])).err());
+/// assert_eq!(faults, [None, None, Some(Fault::Reference { joint: 0 }), None]);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ReferenceStep<R, const V: usize> {
+    step: [R; V],
+    last: Option<[R; V]>,
+}
+
+impl<R: Real, const V: usize> ReferenceStep<R, V> {
+    /// A detector that reports references that move further than `step` (rad, m) in a tick.
+    pub const fn new(step: [R; V]) -> Self {
+        Self { step, last: None }
+    }
+
+    /// Compares a reference with the one before, and keeps it.
+    ///
+    /// # Errors
+    /// [`Fault::Reference`] names the first joint.
+    pub fn check(&mut self, reference: &State<R, V, V>) -> Result<(), Fault> {
+        let q = &reference.q;
+        let last = self.last.replace(*q).unwrap_or(*q);
+        let rates = reference.qd.iter().zip(&reference.qdd);
+        let joints = q.iter().zip(&last).zip(&self.step).zip(rates);
+        for (joint, (((&q, &last), &step), (qd, qdd))) in joints.enumerate() {
+            let near = (q - last).abs() <= step;
+            if !(near & q.is_finite() & qd.is_finite() & qdd.is_finite()) {
+                return Err(Fault::Reference { joint });
+            }
+        }
+        Ok(())
+    }
+
+    /// Forgets the last reference: after missed ticks, or at the start of another motion.
+    pub fn restart(&mut self) {
+        self.last = None;
+    }
+}

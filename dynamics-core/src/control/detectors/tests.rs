@@ -1,0 +1,67 @@
+use super::*;
+
+#[test]
+fn a_frozen_encoder_stays_a_fault_when_the_reference_comes_back() {
+    let mut frozen = FrozenEncoder::new([0.01_f64; 2], 2);
+    let frozen_at = |reference: f64, frozen: &mut FrozenEncoder<f64, 2>| {
+        frozen.check(&[reference, 0.5], &[reference, 0.5 + reference])
+    };
+    let fault = Err(Fault::Frozen { joint: 1 });
+    for (reference, wanted) in [
+        (0.0, Ok(())),
+        (0.02, Ok(())),
+        (0.03, fault),
+        (0.0, fault),
+        (0.005, fault),
+    ] {
+        assert_eq!(frozen_at(reference, &mut frozen), wanted, "{reference}");
+    }
+    frozen.restart();
+    assert_eq!(frozen_at(0.03, &mut frozen), Ok(()));
+}
+
+#[test]
+fn an_arm_at_rest_is_not_frozen() {
+    let mut frozen = FrozenEncoder::new([0.01_f64], 2);
+    for tick in 0..1000 {
+        // The reference of an arm at rest may be off, but does not move.
+        assert_eq!(frozen.check(&[0.5], &[0.7]), Ok(()), "{tick}");
+    }
+    // A count for each 1.3 of the reference.
+    for tick in 0..1000 {
+        let reference = 0.7 + 1e-3 * f64::from(tick);
+        let count = (reference / 1.3e-3).floor() * 1.3e-3;
+        assert_eq!(frozen.check(&[count], &[reference]), Ok(()), "{tick}");
+    }
+}
+
+#[test]
+fn each_joint_has_its_own_count_of_saturation() {
+    let mut saturation = Saturation::new([10.0_f64, 5.0], 3);
+    for tick in 0..20 {
+        // Joints in turn, each for as long as it may.
+        let torque = if tick / 3 % 2 == 0 {
+            [10.0, 4.9]
+        } else {
+            [-9.9, -5.0]
+        };
+        assert_eq!(saturation.check(&torque), Ok(()), "{tick}");
+    }
+    let faults = [(); 4].map(|()| saturation.check(&[0.0, -5.0]).is_err());
+    assert_eq!(faults, [false, false, false, true]);
+}
+
+#[test]
+fn a_reference_that_is_not_finite_is_a_step() {
+    for bad in [f64::NAN, f64::INFINITY] {
+        let mut steps = ReferenceStep::new([f64::INFINITY; 1]);
+        assert_eq!(steps.check(&State::at([0.0])), Ok(()));
+        let fault = Err(Fault::Reference { joint: 0 });
+        for field in 0..3 {
+            let mut state = State::at([0.0]);
+            [&mut state.q, &mut state.qd, &mut state.qdd][field][0] = bad;
+            assert_eq!(steps.check(&state), fault, "{field}");
+            steps.restart();
+        }
+    }
+}

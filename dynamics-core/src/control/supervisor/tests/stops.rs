@@ -1,0 +1,162 @@
+//! Stop categories.
+
+use super::*;
+
+const EXTERNAL: Option<Fault> = Some(Fault::External);
+
+/// One that is stopped by a category, after a tick with a torque of 3.
+fn stopped_by(category: StopCategory<f32, 2>) -> Supervisor<f32, 2> {
+    let mut supervisor = riding(2);
+    good(&mut supervisor, [3.0; 2]);
+    supervisor.stop_by(Fault::External, category);
+    supervisor
+}
+
+fn modes(supervisor: &mut Supervisor<f32, 2>, ticks: u32) -> Vec<Mode> {
+    let tick = |_| good(supervisor, [3.0; 2]).status;
+    let statuses = (0..ticks)
+        .map(tick)
+        .inspect(|status| assert_eq!(status.fault, EXTERNAL));
+    statuses.map(|status| status.mode).collect()
+}
+
+#[test]
+fn category_0_is_off_at_once_and_ends_a_controlled_stop() {
+    let off = |supervisor: &mut Supervisor<f32, 2>| {
+        let command = good(supervisor, [3.0; 2]);
+        assert_eq!((command.torque, command.brake), ([0.0; 2], true));
+        assert_eq!(command.status.fault, EXTERNAL);
+    };
+    off(&mut stopped_by(StopCategory::TorqueOff));
+    let mut supervisor = stopped_by(StopCategory::ControlledHold);
+    assert_eq!(modes(&mut supervisor, 1), [Mode::Hold]);
+    supervisor.stop_by(Fault::Brake, StopCategory::TorqueOff);
+    off(&mut supervisor);
+}
+
+#[test]
+fn category_1_holds_then_switches_off_and_is_latched() {
+    let mut supervisor = stopped_by(StopCategory::ControlledOff);
+    assert_eq!(modes(&mut supervisor, HOLD), [Mode::Hold; HOLD as usize]);
+    assert_eq!(modes(&mut supervisor, 20), [Mode::Stopped; 20]);
+    supervisor.reset();
+    assert_eq!(good(&mut supervisor, [3.0; 2]).status.fault, None);
+    assert_eq!(good(&mut supervisor, [3.0; 2]).status.mode, Mode::Full);
+}
+
+#[test]
+fn category_2_holds_until_it_is_released() {
+    let mut supervisor = stopped_by(StopCategory::ControlledHold);
+    assert_eq!(modes(&mut supervisor, 500), [Mode::Hold; 500]);
+    assert!(supervisor.stands());
+    // Its first reason stays.
+    supervisor.stop_by(Fault::Brake, StopCategory::ControlledOff);
+    assert_eq!(modes(&mut supervisor, 1), [Mode::Hold]);
+    supervisor.release();
+    let command = good(&mut supervisor, [3.0; 2]);
+    assert_eq!((command.status.mode, command.brake), (Mode::Full, false));
+    assert_eq!((command.status.fault, command.torque), (None, [3.0; 2]));
+}
+
+#[test]
+fn category_2_without_measurements_ends_as_category_1() {
+    let mut supervisor = stopped_by(StopCategory::ControlledHold);
+    modes(&mut supervisor, 50);
+    let lost = |supervisor: &mut _| bad(supervisor, [3.0; 2]).status.mode;
+    let held = (0..)
+        .take_while(|_| lost(&mut supervisor) == Mode::Hold)
+        .count() as u32;
+    assert_eq!(held, 2 + HOLD);
+    assert!(good(&mut supervisor, [3.0; 2]).brake);
+    // Single faults with REENTRY good ticks in between do not add up.
+    let mut supervisor = stopped_by(StopCategory::ControlledHold);
+    for _ in 0..100 {
+        modes(&mut supervisor, REENTRY + 1);
+        assert_eq!(lost(&mut supervisor), Mode::Hold);
+    }
+    // More of them do.
+    for _ in 0..100 {
+        modes(&mut supervisor, 1);
+        if lost(&mut supervisor) == Mode::Stopped {
+            return;
+        }
+    }
+    panic!("every other measurement was lost, and the arm was held");
+}
+
+#[test]
+fn the_configured_category_is_that_of_lasting_faults() {
+    let after = |category| {
+        let mut supervisor = riding(2).with_stop(category);
+        good(&mut supervisor, [3.0; 2]);
+        [(); 6].map(|()| bad(&mut supervisor, [3.0; 2]).status.mode)
+    };
+    let (full, held, stopped) = (Mode::Full, Mode::Hold, Mode::Stopped);
+    let controlled = [full, full, held, held, held, stopped];
+    assert_eq!(
+        after(StopCategory::TorqueOff),
+        [full, full, stopped, stopped, stopped, stopped]
+    );
+    assert_eq!(after(StopCategory::ControlledOff), controlled);
+    assert_eq!(after(StopCategory::ControlledHold), controlled);
+    assert_eq!(
+        after(StopCategory::DampedLowering { damping: [1.0; 2] }),
+        controlled
+    );
+}
+
+/// A sinking arm: a tick with a measurement and a velocity.
+fn sinks(supervisor: &mut Supervisor<f32, 2>, qd: [f32; 2]) -> [f32; 2] {
+    let q = *supervisor.last_good();
+    let tick = |tick: &mut SupervisorTick<'_, f32, 2>| {
+        tick.check_speed(&qd);
+        [f32::NAN; 2]
+    };
+    let command = supervisor.tick(Ok(&q), tick);
+    assert!(command.brake);
+    assert_eq!(command.status.mode, Mode::Stopped);
+    command.torque
+}
+
+#[test]
+fn a_damping_is_limited_in_torque_and_rate_and_never_drives() {
+    let damping = [2.0, f32::NAN];
+    let mut supervisor = supervisor().with_stop(StopCategory::DampedLowering { damping });
+    good(&mut supervisor, [4.0; 2]);
+    supervisor.stop(Fault::Drive { joint: 1 });
+    // 4 N·m a tick, up to 10 N·m; and 2 N·m·s/rad.
+    for (qd, torque) in [
+        (-9.0, 8.0),
+        (-9.0, 10.0),
+        (-9.0, 10.0),
+        (-4.0, 8.0),
+        (1.0, 4.0),
+        (1.0, 0.0),
+        (1.0, -2.0),
+        (f32::NAN, 0.0),
+        (f32::INFINITY, 0.0),
+        (-1.0, 2.0),
+    ] {
+        assert_eq!(sinks(&mut supervisor, [qd, 1.0]), [torque, 0.0], "{qd}");
+    }
+    // The power that it adds is never positive once the rate allows it.
+    supervisor.stop_by(Fault::External, StopCategory::TorqueOff);
+    assert_eq!(
+        sinks(&mut supervisor, [-1.0, 1.0]),
+        [2.0, 0.0],
+        "the arm is stopped already"
+    );
+}
+
+#[test]
+fn an_external_stop_of_category_0_takes_the_torque_of_an_arm_that_would_sink() {
+    let sinking = StopCategory::DampedLowering { damping: [2.0; 2] };
+    let mut supervisor = supervisor().with_stop(sinking);
+    good(&mut supervisor, [4.0; 2]);
+    supervisor.stop_by(Fault::External, StopCategory::TorqueOff);
+    assert_eq!(sinks(&mut supervisor, [-1.0; 2]), [0.0; 2]);
+    supervisor.reset();
+    good(&mut supervisor, [0.0; 2]);
+    supervisor.stop(Fault::External);
+    assert_eq!(sinks(&mut supervisor, [-1.0; 2]), [2.0; 2]);
+}

@@ -76,14 +76,14 @@ pub use tick::{ObservedTick, ReferencedTick};
 #[doc(alias = "motion control")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MotionController<R, const V: usize, A = PreviousTick> {
-    observer: Observer<R, V>,
-    supervisor: Supervisor<R, V>,
+    pub(super) observer: Observer<R, V>,
+    pub(super) supervisor: Supervisor<R, V>,
     resume: ResumeTrajectory<R, V>,
     /// The reference of the joints; its acceleration acts until the next tick.
     reference: State<R, V, V>,
     restart_distance: R,
     /// The tick of the trajectory, which does not advance during a fault.
-    clock: u32,
+    pub(super) clock: u32,
     /// Whether the estimate has been without a measurement for longer than the ride-through.
     dead_reckoning: bool,
     /// The reference stands still: category 2.
@@ -143,7 +143,7 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
     /// assert_eq!(controller.reset(&trajectory), Err(ResetError::NoMeasurement));
     /// let command = controller.tick(Ok(&[0.4]), &trajectory, |_, _| [1.0]);
     /// assert_eq!((command.torque, command.brake), ([0.0], true));
-    /// // The trajectory starts at zero: the arm has to be moved there first, or a trajectory has to start where it is.
+    /// // The trajectory starts at zero: [`MotionController::approach`] plans the way there.
     /// assert_eq!(controller.reset(&trajectory), Err(ResetError::TooFar { joint: 0 }));
     /// # Ok::<(), Box<dyn core::error::Error>>(())
     /// ```

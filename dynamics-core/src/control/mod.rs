@@ -15,6 +15,8 @@
 //! | [`Supervisor`] | limits, plausibility, reactions to faults | last good values |
 //! | [`FrozenEncoder`], [`ReferenceStep`], [`Saturation`] | faults that take several ticks to show | the last ticks |
 //! | [`TickCounter`], [`Watchdog`] | missed ticks, overruns, and what feeds a watchdog | a count |
+//! | [`Approach`] | the way from any pose to the start of a motion | none |
+//! | [`BackOff`] | the return of an arm that is beyond its bounds | how far it has come back |
 //! | [`ResumeTrajectory`] | the return onto the trajectory after a fault | reference |
 //!
 //! Types with a configuration struct have a `try_new`, which checks the struct, and a `new` for constants, which does
@@ -47,6 +49,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod approach;
+mod back_off;
 mod command;
 mod config_error;
 mod controller;
@@ -66,6 +70,8 @@ mod supervisor;
 mod tick_counter;
 mod trajectory;
 
+pub use approach::{Approach, ApproachError};
+pub use back_off::{BackOff, BackOffConfig};
 pub use command::{Command, Mode, Status};
 pub use config_error::{ConfigError, ConfigParameter};
 pub use controller::{

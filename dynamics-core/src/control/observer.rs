@@ -243,6 +243,16 @@ impl<R: Real, const V: usize> Observer<R, V> {
         }
     }
 
+    /// Whether a position was ever measured.
+    pub(super) fn started(&self) -> bool {
+        self.started
+    }
+
+    /// The nominal length of a tick.
+    pub(super) fn tick(&self) -> R {
+        self.tick
+    }
+
     /// The present estimate.
     #[inline(always)]
     pub fn estimate(&self) -> &Estimate<R, V> {

@@ -17,6 +17,7 @@
 use super::{Command, ConfigError, Fault, Mode, Status, real};
 use crate::scalar::Real;
 
+mod bounds;
 mod config;
 mod gate;
 mod reentry;

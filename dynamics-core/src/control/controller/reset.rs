@@ -20,6 +20,11 @@ pub enum ResetError {
     NotStopped,
     /// There was no measurement in the last tick.
     NoMeasurement,
+    /// The joint is outside its bounds: [`BackOff`](super::super::BackOff) leads it back, or a person moves it.
+    OutOfBounds {
+        /// The joint.
+        joint: usize,
+    },
     /// A joint is further than the restart distance from the point at which its trajectory continues.
     TooFar {
         /// The joint.
@@ -32,6 +37,7 @@ impl fmt::Display for ResetError {
         match *self {
             Self::NotStopped => out.write_str("the arm is not stopped"),
             Self::NoMeasurement => out.write_str("there was no measurement in the last tick"),
+            Self::OutOfBounds { joint } => write!(out, "joint {joint}: it is outside its bounds"),
             Self::TooFar { joint } => {
                 write!(out, "joint {joint}: it is too far from its reference")
             }
@@ -42,6 +48,11 @@ impl fmt::Display for ResetError {
 impl core::error::Error for ResetError {}
 
 impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
+    /// Whether the last tick had a measurement, which need not be within the bounds.
+    pub(in crate::control) fn measured(&self) -> bool {
+        !self.dead_reckoning & self.observer.started()
+    }
+
     /// Starts a stopped arm, at power-up or after a fault: clears the fault and leads the arm onto its trajectory.
     ///
     /// The brake holds until the torque that keeps the arm at rest is reached, a few ticks later. An arm that is held
@@ -54,7 +65,13 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
         if !matches!(self.supervisor.mode(), Mode::Stopped) & !stands {
             return Err(ResetError::NotStopped);
         }
-        if self.dead_reckoning | !self.supervisor.knows_positions() {
+        if !self.measured() {
+            return Err(ResetError::NoMeasurement);
+        }
+        if let Some(joint) = self.supervisor.outside(&self.observer.estimate().q) {
+            return Err(ResetError::OutOfBounds { joint });
+        }
+        if !self.supervisor.knows_positions() {
             return Err(ResetError::NoMeasurement);
         }
         let goal = trajectory.at(self.clock).q;
@@ -65,11 +82,18 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
         }
         if stands {
             self.supervisor.release();
+            self.resume.start(self.observer.estimate(), self.clock);
+            self.reference.qdd = [R::ZERO; V];
         } else {
-            self.supervisor.reset();
+            self.restart();
         }
+        Ok(())
+    }
+
+    /// Clears a stop; the reference begins at the estimated position.
+    pub(in crate::control) fn restart(&mut self) {
+        self.supervisor.reset();
         self.resume.start(self.observer.estimate(), self.clock);
         self.reference.qdd = [R::ZERO; V];
-        Ok(())
     }
 }

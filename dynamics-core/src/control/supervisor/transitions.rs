@@ -105,6 +105,15 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         )
     }
 
+    /// The first joint outside its bounds.
+    pub(in crate::control) fn outside(&self, q: &[R; V]) -> Option<usize> {
+        let mut joints = q.iter().zip(self.middle.iter().zip(&self.half));
+        joints.position(|(&q, (&middle, &half))| {
+            let inside = (q - middle).abs() <= half;
+            !inside
+        })
+    }
+
     /// The fault of positions that are not plausible; the most severe one if there are several.
     #[cold]
     pub(super) fn diagnose(&self, q: &[R; V]) -> Fault {

@@ -78,7 +78,8 @@ impl<R: Real, const V: usize> FrozenEncoder<R, V> {
         frozen.map_or(Ok(()), Err)
     }
 
-    /// Forgets what was measured, after a reset of the controller.
+    /// Forgets what was measured: in each tick with the brake set, since the reference of an arm that is started leaps to
+    /// where it is.
     pub fn restart(&mut self) {
         self.started = false;
     }

@@ -30,7 +30,9 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
     fn stopped_estimate(&mut self, measured: Result<&[R; V], Fault>) {
         let last = self.observer.estimate().q;
         match measured {
-            Ok(q) if self.supervisor.lowers(&last, q) => self.observer.follow(q),
+            Ok(q) if self.observer.started() && self.supervisor.lowers(&last, q) => {
+                self.observer.follow(q);
+            }
             Ok(q) if all_finite(q) => self.observer.reset(q),
             _ if self.supervisor.knows_positions() => self.observer.reset(&last),
             _ => {}

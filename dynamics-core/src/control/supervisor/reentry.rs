@@ -55,7 +55,10 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         self.known = false;
         self.accepted = false;
         self.ticks_since_good = R::from_f64(FAR);
-        self.torque = [R::ZERO; V];
+        // The rate is limited from the torque of the drives: that of a sinking arm, or of a stop without a tick since.
+        if !matches!(self.mode, Mode::Stopped) {
+            self.torque = [R::ZERO; V];
+        }
         self.faults = 0;
         self.quiet = 0;
         self.ramp = 0;

@@ -162,3 +162,15 @@ fn a_reported_fault_is_ridden_through_and_forgotten_by_a_reset() {
     let status = tick(&mut controller, &mut joint, 1.0).status;
     assert_eq!((status.mode, status.fault), (Mode::Full, None));
 }
+
+/// The observer has no position yet, and the first one is next to its zero.
+#[test]
+fn a_sinking_arm_is_known_from_its_first_measurement_on() {
+    let category = StopCategory::DampedLowering { damping: [20.0] };
+    let mut controller = Controller::new(config()).with_stop(category);
+    controller.stop(Fault::Restarted);
+    for tick in 0..3 {
+        controller.tick(Ok(&[1e-3 * f64::from(tick)]), &Cruise, law(1.0));
+    }
+    assert_eq!(controller.reset(&Cruise), Ok(()));
+}

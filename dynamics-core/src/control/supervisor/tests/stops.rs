@@ -160,3 +160,15 @@ fn an_external_stop_of_category_0_takes_the_torque_of_an_arm_that_would_sink() {
     supervisor.stop(Fault::External);
     assert_eq!(sinks(&mut supervisor, [-1.0; 2]), [2.0; 2]);
 }
+
+#[test]
+fn the_torque_of_a_sinking_arm_is_where_the_rate_of_a_restart_begins() {
+    let sinking = StopCategory::DampedLowering { damping: [2.0; 2] };
+    let mut supervisor = supervisor().with_stop(sinking);
+    good(&mut supervisor, [4.0; 2]);
+    supervisor.stop(Fault::External);
+    assert_eq!(sinks(&mut supervisor, [-1.5; 2]), [3.0; 2]);
+    supervisor.reset();
+    // 4 N·m a tick.
+    assert_eq!(good(&mut supervisor, [-4.0; 2]).torque, [-1.0; 2]);
+}

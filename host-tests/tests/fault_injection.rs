@@ -1,6 +1,8 @@
 //! Every fault at random times in random combinations: limits of torque, rate, speed and energy hold, the arm comes
 //! back, and the table of `docs/guide/src/faults.md` is what was seen. `FAULTS_WRITE=1` writes the table.
 
+#[path = "fault_injection/arm.rs"]
+mod arm;
 #[path = "fault_injection/kinds.rs"]
 mod kinds;
 #[path = "fault_injection/plants.rs"]
@@ -8,10 +10,11 @@ mod plants;
 #[path = "fault_injection/run.rs"]
 mod run;
 
+use arm::controller;
 use dynamics_core::control::{CurrentTick, Fault, Mode, MotionController, StopCategory};
 use kinds::Kind;
 use plants::{Pendulum, Plant, Ur5eArm};
-use run::{Seen, at_speed, controller, run};
+use run::{Seen, at_speed, run};
 
 /// Runs of the table, which every run of this test has.
 const TABLE: u32 = 400;
@@ -60,7 +63,7 @@ fn table(seen: &[Seen]) -> String {
         |---|---|---|---:|---:|---:|---:|---:|---:|\n";
     let rows: String = Kind::ALL.iter().map(|&kind| row(kind, seen)).collect();
     format!(
-        "<!-- written by `FAULTS_WRITE=1 cargo test -p host-tests --test fault_injection`: do not edit -->\n\n{head}{rows}\n"
+        "<!-- written by host-tests/tests/fault_injection.rs with FAULTS_WRITE=1: do not edit -->\n\n{head}{rows}\n"
     )
 }
 

@@ -1,0 +1,287 @@
+//! An arm with its firmware, of which faults spoil the inputs.
+
+use dynamics_core::control::{
+    Approach, ApproachError, BackOff, BackOffConfig, CurrentTick, Estimate, Fault, FrozenEncoder,
+    Gains, Mode, MotionController, MotionControllerConfig, MotionLimits, Reference, ReferenceStep,
+    Saturation, StopCategory, SupervisorConfig, Trajectory,
+};
+use dynamics_core::state::State;
+
+use super::kinds::{Kind, Onset};
+use super::plants::{Plant, TICK};
+
+pub const RIDE: u32 = 5;
+pub const HOLD: u32 = 100;
+const REENTRY: u32 = 200;
+/// Missed ticks after which the watchdog restarts the processor: the drives keep an old torque until then.
+const WATCHDOG: u32 = 20;
+
+/// A reference that is somewhere else.
+struct Offset<'a, T>(&'a T, f32);
+
+impl<T: Reference<f32, V>, const V: usize> Reference<f32, V> for Offset<'_, T> {
+    fn at(&self, tick: u32) -> State<f32, V, V> {
+        let mut state = self.0.at(tick);
+        state.q.iter_mut().for_each(|q| *q += self.1);
+        state
+    }
+    fn ticks(&self) -> u32 {
+        self.0.ticks()
+    }
+}
+
+/// The motion, or the way to its start and the motion.
+pub enum Way<'a, const V: usize> {
+    Motion(&'a Trajectory<f32, V, 3>),
+    Approach(Approach<'a, f32, V, Trajectory<f32, V, 3>>),
+}
+
+impl<const V: usize> Reference<f32, V> for Way<'_, V> {
+    fn at(&self, tick: u32) -> State<f32, V, V> {
+        match self {
+            Self::Motion(motion) => motion.at(tick),
+            Self::Approach(way) => way.at(tick),
+        }
+    }
+    fn ticks(&self) -> u32 {
+        u32::MAX
+    }
+}
+
+/// An episode of a fault.
+pub struct Episode {
+    pub onset: Onset,
+    /// Its first tick, and the first after it.
+    pub ticks: [u32; 2],
+    /// The position of its joint at the begin.
+    pub held: f32,
+}
+
+pub type Controller<const V: usize> = MotionController<f32, V, CurrentTick>;
+
+/// `torque` scales the supervisor's limits of torque, for a supervisor that is broken on purpose.
+pub fn controller<P: Plant<V>, const V: usize>(torque: f32) -> Controller<V> {
+    // A speed is detected when it is exceeded: the reaction takes place between the supervisor's limit and the rated speed.
+    let mut limits = P::LIMITS.with_speed_share(0.8);
+    limits.torque = limits.torque.map(|limit| limit * torque);
+    limits.rate = limits.rate.map(|limit| limit * torque);
+    MotionController::new(MotionControllerConfig {
+        supervisor: SupervisorConfig {
+            limits,
+            tick: TICK,
+            resolution: 1e-4,
+            ride_through_ticks: RIDE,
+            hold_ticks: HOLD,
+            reentry_ticks: REENTRY,
+        },
+        observer_bandwidth: 250.0,
+        decay_rate: 25.0,
+        restart_distance: 0.05,
+    })
+    .with_stop(P::STOP)
+}
+
+pub struct Arm<'a, P, const V: usize> {
+    gains: Gains<f32, V>,
+    pub state: State<f32, V, V>,
+    pub controller: Controller<V>,
+    way: Way<'a, V>,
+    pub back_off: Option<BackOff<f32, V>>,
+    frozen: FrozenEncoder<f32, V>,
+    steps: ReferenceStep<f32, V>,
+    saturation: Saturation<f32, V>,
+    pub torque: [f32; V],
+    brake: bool,
+    broken: f32,
+    plant: std::marker::PhantomData<P>,
+}
+
+impl<'a, P: Plant<V>, const V: usize> Arm<'a, P, V> {
+    pub fn new(motion: &'a Trajectory<f32, V, 3>, broken: f32) -> Self {
+        Self {
+            gains: P::gains(),
+            state: State::at(P::HOME),
+            controller: controller::<P, V>(broken),
+            way: Way::Motion(motion),
+            back_off: None,
+            frozen: FrozenEncoder::new([0.003; V], 3),
+            steps: ReferenceStep::new(P::LIMITS.speed.map(|speed| 2.0 * speed * TICK)),
+            saturation: Saturation::new(P::LIMITS.torque, 5),
+            torque: [0.0; V],
+            brake: false,
+            broken,
+            plant: std::marker::PhantomData,
+        }
+    }
+
+    /// A tick of the plant, whose limits must hold.
+    pub fn advance(&mut self) -> Result<(), String> {
+        if self.brake & P::BRAKE {
+            self.state.qd = [0.0; V];
+        } else {
+            P::step(&mut self.state, &self.torque);
+        }
+        let [kinetic, rated] = P::kinetic(&self.state);
+        let speeds = self.state.qd.iter().zip(&P::LIMITS.speed);
+        if !speeds.clone().all(|(qd, limit)| qd.abs() <= *limit) {
+            return Err(format!("speed {:?}", self.state.qd));
+        }
+        if kinetic > rated || !kinetic.is_finite() {
+            return Err(format!("kinetic energy {kinetic} J of {rated} J"));
+        }
+        Ok(())
+    }
+
+    /// A tick of the firmware with the faults of now.
+    pub fn tick(
+        &mut self,
+        now: u32,
+        episodes: &[Episode],
+    ) -> Result<(Mode, Option<Fault>), String> {
+        let begins = |episode: &Episode| episode.ticks[0] == now;
+        let mut q = self.state.q;
+        let (mut measured, mut poison, mut offset) = (Ok(()), None, 0.0);
+        let mut external = None;
+        for episode in episodes
+            .iter()
+            .filter(|e| (e.ticks[0]..e.ticks[1]).contains(&now))
+        {
+            let Onset { kind, joint, value } = episode.onset;
+            let joint = joint as usize % V;
+            match kind {
+                Kind::NotFinite => q[joint] = f32::NAN,
+                Kind::Range => q[joint] = 100.0,
+                Kind::Encoder => measured = Err(Fault::Encoder { joint }),
+                Kind::Stale => measured = Err(Fault::Stale),
+                Kind::Frozen => q[joint] = episode.held,
+                Kind::Jump => q[joint] += 0.3,
+                Kind::Reference => offset = 0.3,
+                Kind::NotReady => self.controller.report(Fault::NotReady { joint }),
+                Kind::Torque => poison = Some((joint, f32::NAN)),
+                Kind::Saturated => poison = Some((joint, 1e6)),
+                _ if !begins(episode) => {}
+                Kind::Drive => self.controller.stop(Fault::Drive { joint }),
+                Kind::Model => self.controller.stop(Fault::Model),
+                Kind::Overflow => self.controller.stop(Fault::Overflow),
+                Kind::Overrun => self.controller.report(Fault::Overrun),
+                Kind::Unfinished => {
+                    let _ = self.controller.observe(Ok(&q));
+                    self.advance()?;
+                    q = self.state.q;
+                }
+                Kind::Missed => {
+                    let ticks = 1 + value % (2 * WATCHDOG);
+                    (0..ticks.min(WATCHDOG)).try_for_each(|_| self.advance())?;
+                    if ticks > WATCHDOG {
+                        self.restart();
+                    } else {
+                        self.controller.missed(ticks, &self.way);
+                    }
+                    q = self.state.q;
+                }
+                Kind::Restarted => self.restart(),
+                Kind::External => external = Some(value % 3),
+            }
+        }
+        let gains = self.gains;
+        let law = |reference: &State<f32, V, V>, estimate: &Estimate<f32, V>| {
+            let mut tau = P::law(&gains, reference, estimate);
+            if let Some((joint, poison)) = poison {
+                tau[joint] = poison;
+            }
+            tau
+        };
+        if self.brake {
+            self.frozen.restart();
+        }
+        let measured = measured
+            .and_then(|()| self.frozen.check(&q, &self.controller.reference().q))
+            .map(|()| &q);
+        if let (Some(category), Some(_)) = (external, &self.back_off) {
+            self.controller
+                .stop_by(Fault::External, category_of(category));
+        }
+        let command = if let Some(back_off) = &mut self.back_off {
+            let command = back_off.tick(&mut self.controller, measured, law);
+            if back_off.is_done() | (command.status.mode == Mode::Stopped) {
+                self.back_off = None;
+            }
+            command
+        } else {
+            let reference = Offset(&self.way, offset);
+            let mut tick = self.controller.observe(measured).reference(&reference);
+            if tick.mode() != Mode::Full {
+                self.steps.restart();
+            } else if let Err(fault) = self.steps.check(tick.reference()) {
+                tick.stop_by(fault, StopCategory::ControlledOff);
+            }
+            if let Some(category) = external {
+                tick.stop_by(Fault::External, category_of(category));
+            }
+            let tau = law(tick.reference(), tick.estimate());
+            tick.command(&tau)
+        };
+        if let Err(fault) = self.saturation.check(&command.torque) {
+            self.controller.stop(fault);
+        }
+        let stopped = command.status.mode == Mode::Stopped;
+        for joint in 0..V {
+            let (tau, limits) = (command.torque[joint], &P::LIMITS);
+            let step = (tau - self.torque[joint]).abs();
+            // A stop may take the torque away at once; half a unit in the last place of the rate.
+            let steady = step <= limits.rate[joint] * 1.0001 || stopped & (tau == 0.0);
+            let within = tau.abs() <= limits.torque[joint];
+            if !within || !steady {
+                return Err(format!("torque {tau} after {}", self.torque[joint]));
+            }
+        }
+        (self.torque, self.brake) = (command.torque, command.brake);
+        self.advance()?;
+        Ok((command.status.mode, command.status.fault))
+    }
+
+    /// The processor restarts: by a brown-out, or by the watchdog. Its drives have no torque.
+    fn restart(&mut self) {
+        self.controller = controller::<P, V>(self.broken);
+        self.controller.stop(Fault::Restarted);
+        self.back_off = None;
+        (self.torque, self.brake) = ([0.0; V], true);
+    }
+
+    /// Starts an arm that is stopped or held, wherever it is.
+    pub fn recover(&mut self, motion: &'a Trajectory<f32, V, 3>) -> Result<bool, String> {
+        match self
+            .controller
+            .approach(motion, &[P::MOTION; V], &P::LIMITS)
+        {
+            Ok(way) => {
+                if self.controller.reset(&way).is_err() {
+                    return Ok(false);
+                }
+                self.way = Way::Approach(way);
+            }
+            Err(ApproachError::Position { .. }) => {
+                let limits = MotionLimits {
+                    velocity: 0.5,
+                    acceleration: 4.0,
+                };
+                let config = BackOffConfig {
+                    limits,
+                    margin: 0.05,
+                };
+                self.back_off = BackOff::start(&mut self.controller, &config).ok();
+            }
+            Err(_) => return Ok(false),
+        }
+        self.steps.restart();
+        Ok(true)
+    }
+}
+
+fn category_of<const V: usize>(number: u32) -> StopCategory<f32, V> {
+    match number {
+        0 => StopCategory::TorqueOff,
+        1 => StopCategory::ControlledOff,
+        _ => StopCategory::ControlledHold,
+    }
+}

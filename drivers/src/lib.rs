@@ -9,6 +9,8 @@
 //! | AS5047P | SPI | absolute angle, 14 bits | [`as5047p`] |
 //! | AS5600 | I²C | absolute angle, 12 bits, and whether its magnet is well placed | [`as5600`] |
 //! | incremental encoder with index | A, B and Z, or a timer that counts them | angle from the index, once it was passed | [`incremental`] |
+//! | H-bridge | PWM, GPIO | torque, as sign and magnitude or in locked antiphase | [`h_bridge`] |
+//! | three half-bridges | PWM | voltage along d and q of a three-phase motor | [`three_phase`] |
 //!
 //! What is common to them: a torque that is not a number becomes zero torque; errors are typed; no reading is NaN or
 //! infinite; input that is wrong leads to an error, never to a panic.
@@ -47,7 +49,9 @@ pub mod as5047p;
 pub mod as5600;
 #[cfg(any(test, feature = "async"))]
 mod asynch;
+pub mod h_bridge;
 pub mod incremental;
 mod mapping;
+pub mod three_phase;
 
 pub use mapping::{Direction, JointMapping, MappingError, Resolution};

@@ -88,7 +88,7 @@ impl JointMapping {
     /// # Errors
     /// [`MappingError::Zero`] and [`MappingError::Ratio`]: outside their ranges, or NaN.
     pub const fn new(zero: f32, direction: Direction, ratio: f32) -> Result<Self, MappingError> {
-        if !(zero.abs() <= MOST) {
+        if !(zero >= -MOST && zero <= MOST) {
             return Err(MappingError::Zero);
         }
         if !(ratio >= 1.0 / MOST && ratio <= MOST) {

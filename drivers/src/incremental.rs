@@ -253,7 +253,7 @@ impl QuadratureDecoder {
         Ok(())
     }
 
-    /// How many invalid transitions there have been.
+    /// The invalid transitions so far.
     pub const fn invalid_transitions(&self) -> u32 {
         self.invalid
     }

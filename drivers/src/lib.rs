@@ -11,6 +11,8 @@
 //! | incremental encoder with index | A, B and Z, or a timer that counts them | angle from the index, once it was passed | [`incremental`] |
 //! | H-bridge | PWM, GPIO | torque, as sign and magnitude or in locked antiphase | [`h_bridge`] |
 //! | three half-bridges | PWM | voltage along d and q of a three-phase motor | [`three_phase`] |
+//! | moteus | CAN FD | torque; position, velocity, torque, mode and fault | [`moteus`] |
+//! | ODrive | CAN | torque; position, velocity, torque, state and errors | [`odrive`] |
 //!
 //! What is common to them: a torque that is not a number becomes zero torque; errors are typed; no reading is NaN or
 //! infinite; input that is wrong leads to an error, never to a panic.
@@ -49,9 +51,12 @@ pub mod as5047p;
 pub mod as5600;
 #[cfg(any(test, feature = "async"))]
 mod asynch;
+pub mod can;
 pub mod h_bridge;
 pub mod incremental;
 mod mapping;
+pub mod moteus;
+pub mod odrive;
 pub mod three_phase;
 
 pub use mapping::{Direction, JointMapping, MappingError, Resolution};

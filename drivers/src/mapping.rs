@@ -101,6 +101,15 @@ impl JointMapping {
         })
     }
 
+    /// Which way the joint turns.
+    pub const fn direction(&self) -> Direction {
+        if self.to_joint > 0.0 {
+            Direction::Forward
+        } else {
+            Direction::Reverse
+        }
+    }
+
     /// The joint's position in rad while the shaft is at `shaft` rad. Cost: 2 flops.
     ///
     /// # Errors

@@ -13,6 +13,7 @@
 //! | three half-bridges | PWM | voltage along d and q of a three-phase motor | [`three_phase`] |
 //! | moteus | CAN FD | torque; position, velocity, torque, mode and fault | [`moteus`] |
 //! | ODrive | CAN | torque; position, velocity, torque, state and errors | [`odrive`] |
+//! | STS3215, the servo of the SO-101 | half-duplex UART | position or duty; position, 4096 counts per turn | [`feetech`] |
 //!
 //! What is common to them: a torque that is not a number becomes zero torque; errors are typed; no reading is NaN or
 //! infinite; input that is wrong leads to an error, never to a panic.
@@ -52,6 +53,7 @@ pub mod as5600;
 #[cfg(any(test, feature = "async"))]
 mod asynch;
 pub mod can;
+pub mod feetech;
 pub mod h_bridge;
 pub mod incremental;
 mod mapping;

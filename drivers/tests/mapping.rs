@@ -8,7 +8,10 @@ const DIRECTIONS: [Direction; 2] = [Direction::Forward, Direction::Reverse];
 fn the_joint_is_at_zero_where_its_shaft_is_at_the_zero() {
     for (direction, sign) in DIRECTIONS.into_iter().zip([1.0, -1.0]) {
         let mapping = JointMapping::new(1.25, direction, 8.0).unwrap();
-        assert_eq!((mapping.position(1.25), mapping.direction()), (Ok(0.0), direction));
+        assert_eq!(
+            (mapping.position(1.25), mapping.direction()),
+            (Ok(0.0), direction)
+        );
         assert_eq!(mapping.position(9.25), Ok(sign));
         assert_eq!(mapping.velocity(8.0), Ok(sign));
     }

@@ -3,25 +3,27 @@
 //! # Source
 //! Feetech, "Communication Protocol User Manual", sections 1.1 to 1.3 (packets, instructions, examples 1 to 8), and
 //! "Magnetic encoder STS servo, memory table", in public copies; the signs of position (bit 15) and duty (bit 10) also
-//! in Feetech's SCServo SDK (`SMS_STS.cpp`). Addresses: mode 0x21, torque enable 0x28, goal position 0x2A, goal duty 0x2C
-//! (in the position mode the time of the motion), present position 0x38. Low byte first; 4096 counts per turn.
+//! in Feetech's SCServo SDK (`SMS_STS.cpp`). Addresses: mode 0x21, torque enable 0x28, goal position 0x2A, goal duty
+//! 0x2C (in the position mode the time of the motion), present position 0x38. Low byte first; 4096 counts per turn.
 //!
-//! The duties need the servos in mode 2, PWM; the positions in mode 0. The mode is in the EPROM: set it with
-//! Feetech's tool, or by [`Servos::write`]. The register of speed is not read: its unit depends on a setting of the servo,
-//! and a controller's observer estimates the velocity from positions.
+//! The duties need the servos in mode 2, PWM; the positions in mode 0. The mode is in the EPROM: set it with Feetech's
+//! tool, or by [`Servos::write`]. The register of speed is not read: its unit depends on a setting of the servo, and a
+//! controller's observer estimates the velocity from positions.
 //!
 //! At 1 Mbit/s, reading the positions of six servos takes 62 bytes, 0.62 ms, and setting six duties 26 bytes, 0.26 ms,
 //! without the pauses before the replies: a control loop of 500 Hz has room for both, one of 1 kHz does not.
 
 use core::f32::consts::TAU;
-use core::fmt;
 
-use embedded_io::{Error, ErrorKind, Read, ReadReady, Write};
+use embedded_io::{ErrorKind, Read, ReadReady, Write};
 
 use crate::JointMapping;
 
+mod error;
 mod packet;
 
+pub use error::FeetechError;
+use error::port_error;
 pub use packet::{BROADCAST, Packet, Parser, Reply};
 
 /// Counts per turn.
@@ -41,75 +43,6 @@ const DUTY_SIGN: u16 = 1 << 10;
 const FULL_DUTY: f32 = 1000.0;
 /// The most bytes that are skipped in search of a reply.
 const MOST_NOISE: usize = 64;
-
-/// The reason why the bus did not do what it should.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum FeetechError {
-    /// The port reported an error.
-    Port(ErrorKind),
-    /// The port returned no byte: the servo did not reply within the port's time limit.
-    NoReply {
-        /// The servo.
-        id: u8,
-    },
-    /// No reply, but a packet with a wrong checksum.
-    Checksum {
-        /// The servo that should have replied.
-        id: u8,
-    },
-    /// No reply among the most bytes that are skipped.
-    Noise,
-    /// The port did not receive the bytes that it sent: another device sent at the same time.
-    Echo,
-    /// Another servo replied, or a reply has another length.
-    Unexpected {
-        /// The servo that should have replied.
-        id: u8,
-        /// The servo that did.
-        found: u8,
-    },
-    /// The servo reports errors in its status.
-    Servo {
-        /// The servo.
-        id: u8,
-        /// Bit 0 voltage, 1 magnetic encoder, 2 temperature, 3 current, 5 load.
-        status: u8,
-    },
-    /// An identity above 253, or two servos of the same.
-    Id(u8),
-    /// The goal of a joint is not finite, or beyond ±32,767 counts of the servo.
-    Goal {
-        /// The place of the joint.
-        joint: usize,
-    },
-    /// The packet would be longer than this driver sends or receives.
-    TooLong,
-}
-
-impl fmt::Display for FeetechError {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Port(kind) => write!(out, "the servo bus failed: {kind:?}"),
-            Self::NoReply { id } => write!(out, "servo {id} did not reply"),
-            Self::Checksum { id } => write!(out, "the reply of servo {id} has a wrong checksum"),
-            Self::Noise => out.write_str("the servo bus receives no packets but noise"),
-            Self::Echo => out.write_str("two devices sent on the servo bus at the same time"),
-            Self::Unexpected { id, found } => {
-                write!(
-                    out,
-                    "servo {found} replied instead of {id}, or not as it should"
-                )
-            }
-            Self::Servo { id, status } => write!(out, "servo {id} reports errors {status:#04x}"),
-            Self::Id(id) => write!(out, "{id} is not the identity of one servo"),
-            Self::Goal { joint } => write!(out, "the goal of joint {joint} is out of range"),
-            Self::TooLong => out.write_str("the packet is too long"),
-        }
-    }
-}
-
-impl core::error::Error for FeetechError {}
 
 /// The servos of `N` joints on one port.
 ///
@@ -137,7 +70,7 @@ impl core::error::Error for FeetechError {}
 /// let [first, second] = servos.positions()?; // counts 3072 and 2048
 /// assert!((first - core::f32::consts::FRAC_PI_2).abs() < 1e-6 && second.abs() < 1e-6);
 /// servos.set_duties(&[0.1, -0.1])?;
-/// assert!(servos.release().1.ends_with(&[0x83, 0x2c, 2, 1, 100, 0, 2, 100, 4, 0x7b]));
+/// assert!(servos.release().1.ends_with(&[0x83, 0x2c, 2, 1, 100, 0, 2, 100, 4, 0x77]));
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
 #[derive(Debug)]
@@ -334,10 +267,6 @@ impl<Port: Read + Write + ReadReady, const N: usize> Servos<Port, N> {
         let read = self.port.read(&mut byte).map_err(port_error)?;
         Ok((read > 0).then_some(byte[0]))
     }
-}
-
-fn port_error<E: Error>(error: E) -> FeetechError {
-    FeetechError::Port(error.kind())
 }
 
 /// A number whose sign is one bit above its magnitude.

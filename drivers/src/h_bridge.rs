@@ -2,8 +2,8 @@
 //!
 //! # Source
 //! No data sheet: the two modes are those of bridges with the inputs PHASE and ENABLE. In sign and magnitude the PWM is
-//! at ENABLE and a pin at PHASE: the duty is the magnitude, the pin the sign, and zero torque is a duty of zero. In locked
-//! antiphase the PWM is at PHASE and drives both diagonals in turn: zero torque is a duty of 50 %.
+//! at ENABLE and a pin at PHASE: the duty is the magnitude, the pin the sign, and zero torque is a duty of zero. In
+//! locked antiphase the PWM is at PHASE and drives both diagonals in turn: zero torque is a duty of 50 %.
 
 use core::fmt;
 
@@ -192,8 +192,8 @@ impl<Pwm: SetDutyCycle, Pin: OutputPin> SignMagnitude<Pwm, Pin> {
 
     /// Sets a torque in N·m, limited to the full scale; NaN becomes zero torque.
     ///
-    /// Zero torque is a duty of zero, with the sign unchanged. A change of sign first sets the duty to zero, so that the
-    /// magnitude of one sign is never applied with the other.
+    /// Zero torque is a duty of zero, with the sign unchanged. A change of sign first sets the duty to zero, so that
+    /// the magnitude of one sign is never applied with the other.
     ///
     /// # Errors
     /// [`DriveError`]. If the pin fails, the duty is zero.

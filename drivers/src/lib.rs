@@ -8,12 +8,12 @@
 //! |---|---|---|---|
 //! | AS5047P | SPI | absolute angle, 14 bits | [`as5047p`] |
 //! | AS5600 | I²C | absolute angle, 12 bits, and whether its magnet is well placed | [`as5600`] |
-//! | incremental encoder with index | A, B and Z, or a timer that counts them | angle from the index, once it was passed | [`incremental`] |
+//! | incremental encoder with index | A, B and Z, or a timer | angle from the index, once it was passed | [`incremental`] |
 //! | H-bridge | PWM, GPIO | torque, as sign and magnitude or in locked antiphase | [`h_bridge`] |
 //! | three half-bridges | PWM | voltage along d and q of a three-phase motor | [`three_phase`] |
 //! | moteus | CAN FD | torque; position, velocity, torque, mode and fault | [`moteus`] |
 //! | ODrive | CAN | torque; position, velocity, torque, state and errors | [`odrive`] |
-//! | STS3215, the servo of the SO-101 | half-duplex UART | position or duty; position, 4096 counts per turn | [`feetech`] |
+//! | STS3215, six in the SO-101 | half-duplex UART | position or duty; position, 4096 counts per turn | [`feetech`] |
 //!
 //! What is common to them: a torque that is not a number becomes zero torque; errors are typed; no reading is NaN or
 //! infinite; input that is wrong leads to an error, never to a panic.

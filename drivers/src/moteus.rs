@@ -2,13 +2,13 @@
 //!
 //! # Source
 //! mjbots/moteus, `docs/protocol/can.md` (identifiers, subframes, example) and `docs/protocol/registers.md` (registers,
-//! their integer mappings, fault codes), which earlier were sections A.1 and A.2 of `docs/reference.md`; section "Torque
-//! Control" of the latter.
+//! their integer mappings, fault codes), which earlier were sections A.1 and A.2 of `docs/reference.md`; section
+//! "Torque Control" of the latter.
 //!
 //! A command has 24 bytes and its reply 20: the bus and the frame type must be CAN FD. A frame type of classic CAN
 //! refuses a command ([`CanError::Length`]). [`embedded_can::Frame`] does not say whether the data phase has its own
-//! bit rate: set that in the HAL (1 Mbit/s, data 5 Mbit/s from the factory). CAN FD has no lengths between 8, 12, 16, 20,
-//! 24, 32, 48 and 64: commands are padded by NOP (0x50). `can.prefix` of the controller must be 0.
+//! bit rate: set that in the HAL (1 Mbit/s, data 5 Mbit/s from the factory). CAN FD has no lengths between 8, 12, 16,
+//! 20, 24, 32, 48 and 64: commands are padded by NOP (0x50). `can.prefix` of the controller must be 0.
 
 use core::f32::consts::TAU;
 
@@ -106,8 +106,8 @@ impl Moteus {
     /// A torque in N·m at the joint, limited to the greatest, and a query of the state; NaN becomes zero torque.
     ///
     /// Position mode with the scales of the gains kp and kd at 0, and the torque as feed-forward. The integral gain
-    /// `servo.pid_position.ki`, which these scales leave as it is, must be configured as 0. Without a further command the
-    /// controller enters [`Mode::Timeout`] after the time that it is configured with.
+    /// `servo.pid_position.ki`, which these scales leave as it is, must be configured as 0. Without a further command
+    /// the controller enters [`Mode::Timeout`] after the time that it is configured with.
     ///
     /// # Errors
     /// [`CanError::Length`]: the frame type is not CAN FD.

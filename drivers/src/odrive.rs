@@ -1,10 +1,11 @@
 //! ODrive: torque and estimates over CAN, protocol CANSimple.
 //!
 //! # Source
-//! ODrive firmware 0.5.6, `docs/can-protocol.rst` and `docs/_static/can-protocol.csv` of odriverobotics/ODrive: the
-//! 11-bit identifier is node << 5 | command, with nodes up to 0x3F; all values are little-endian; a message is requested
-//! by a remote frame with its identifier. Units (rev, rev/s, N·m), states, modes and Get_Torques (0x1C), which 0.5.6 does
-//! not have: the CAN database of firmware 0.6.10, as odrive-can documents it ("odrive-cansimple-0.6.10 interface").
+//! ODrive firmware 0.5, `docs/can-protocol.rst` and `docs/_static/can-protocol.csv` of odriverobotics/ODrive: the
+//! 11-bit identifier is node << 5 | command, with nodes up to 0x3F; all values are little-endian; a message is
+//! requested by a remote frame with its identifier. Units (rev, rev/s, N·m), states, modes and Get_Torques (0x1C),
+//! which 0.5 does not have: the CAN database of firmware 0.6.10, as odrive-can documents it ("odrive-cansimple-0.6.10
+//! interface").
 //!
 //! Nodes with extended identifiers are not supported. Of the heartbeat only the errors and the state are decoded, which
 //! both versions have in the same place.

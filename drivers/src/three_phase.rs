@@ -2,8 +2,8 @@
 //!
 //! # Source
 //! H. W. van der Broeck, H.-C. Skudelny, G. V. Stanke, "Analysis and realization of a pulsewidth modulator based on
-//! voltage space vectors", IEEE Trans. Ind. Appl. 24(1), 1988; in the form that adds −(max + min)/2 to the three phases,
-//! J. Holtz, "Pulsewidth modulation: a survey", IEEE Trans. Ind. Electron. 39(5), 1992. Transforms of constant
+//! voltage space vectors", IEEE Trans. Ind. Appl. 24(1), 1988; in the form that adds −(max + min)/2 to the three
+//! phases, J. Holtz, "Pulsewidth modulation: a survey", IEEE Trans. Ind. Electron. 39(5), 1992. Transforms of constant
 //! amplitude:
 //!
 //! vα = v_d cos θ − v_q sin θ, vβ = v_d sin θ + v_q cos θ (inverse Park);
@@ -128,8 +128,8 @@ impl<Pwm: SetDutyCycle> ThreePhase<Pwm> {
     /// The half-bridges of phases a, b and c.
     ///
     /// `commutation` maps the angle of the rotor to the electrical angle: its zero is the angle at which the d axis
-    /// lies along phase a, its ratio is one divided by the pole pairs, and its direction is reverse if the phases are in
-    /// the opposite order. The greatest duties are read once.
+    /// lies along phase a, its ratio is one divided by the pole pairs, and its direction is reverse if the phases are
+    /// in the opposite order. The greatest duties are read once.
     pub fn new(pwms: [Pwm; 3], commutation: JointMapping) -> Self {
         let max = pwms.each_ref().map(SetDutyCycle::max_duty_cycle);
         Self {

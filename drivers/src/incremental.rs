@@ -157,7 +157,9 @@ impl<Counter: QuadratureCounter> IncrementalEncoder<Counter> {
             return Ok(());
         };
         let turn = self.resolution.counts() as i32;
-        let beyond = index.wrapping_sub(reference).rem_euclid(turn);
+        // A resolution is never zero, which the compiler cannot know.
+        let beyond = index.wrapping_sub(reference).checked_rem_euclid(turn);
+        let beyond = beyond.unwrap_or_default();
         let excess = if beyond > turn / 2 {
             beyond - turn
         } else {

@@ -74,8 +74,11 @@ impl Duties {
         let (alpha, beta) = (d * cos - q * sin, d * sin + q * cos);
         let across = HALF_SQRT_3 * beta;
         let phases = [alpha, across - 0.5 * alpha, -across - 0.5 * alpha];
-        let [highest, lowest] =
-            [f32::max, f32::min].map(|pick| phases.into_iter().fold(alpha, pick));
+        // Comparisons: `f32::max` is a call on a Cortex-M4F, which has no instruction for it.
+        let [a, b, c] = phases;
+        let (high, low) = if a > b { (a, b) } else { (b, a) };
+        let highest = if c > high { c } else { high };
+        let lowest = if c < low { c } else { low };
         let centre = 0.5 - 0.5 * (highest + lowest);
         Self {
             // Rounding alone exceeds the range.

@@ -55,8 +55,8 @@ impl Duties {
     ///
     /// A vector longer than `v_dc`/√3 is shortened to that length; its direction is kept. If an input is not finite or
     /// the supply is not above zero, the duties are [`Self::ZERO`]. Accuracy: 10⁻⁶ of the supply for electrical angles
-    /// up to 10⁴ rad; beyond 2·10⁵ rad the direction is meaningless. Cost: a sine and a cosine, about 25 flops and one
-    /// division; a square root and another division when it saturates.
+    /// up to 10⁴ rad; beyond 2·10⁵ rad the direction is meaningless. Cost: a sine and a cosine, about 25 flops and
+    /// two divisions; Newton's iteration for 1/√x when it saturates.
     pub fn new(v_d: f32, v_q: f32, electrical_angle: f32, v_dc: f32) -> Self {
         let (mut d, mut q) = (v_d / v_dc, v_q / v_dc);
         let is_voltage = d.abs() <= ABSURD && q.abs() <= ABSURD;
@@ -67,7 +67,7 @@ impl Duties {
         let square = d * d + q * q;
         let is_saturated = square > LONGEST * LONGEST;
         if is_saturated {
-            let shorten = LONGEST / Real::sqrt(square);
+            let shorten = LONGEST * square.rsqrt();
             (d, q) = (d * shorten, q * shorten);
         }
         let (sin, cos) = sin_cos(electrical_angle);

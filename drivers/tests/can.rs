@@ -240,6 +240,18 @@ fn replies_of_the_moteus_are_decoded_in_every_type_and_mapped_to_the_joint() {
             assert!(near(state.torque, -1.44));
         }
     }
+    // Registers that were not queried are skipped, whatever their type.
+    for (kind, size) in [(0x21, 1), (0x25, 2), (0x29, 4), (0x2d, 4)] {
+        let mut data = [
+            &[kind, 0x0d][..],
+            &vec![0x30; size],
+            &moteus_reply(10, [0.5; 3], 0),
+        ]
+        .concat();
+        data.resize(32, 0x50);
+        let state = joint.reply(&standard(0x100, &data)).unwrap();
+        assert!(near(state.position, PI));
+    }
     let geared = Moteus::new(1, 0, 100.0, geared()).unwrap();
     let data = moteus_reply(1, [0.25, -0.5, 2.0], 33);
     let state = geared.reply(&standard(0x100, &data)).unwrap();
@@ -280,7 +292,10 @@ fn every_wrong_reply_of_a_moteus_is_a_typed_error() {
             assert_eq!(joint.reply(&frame), Err(CanError::NotFinite));
         }
     }
-    let cases: [(&[u8], CanError); 6] = [
+    let cases: [(&[u8], CanError); 9] = [
+        (&[0x25, 0x02, 0x00, 0x80], CanError::NotFinite),
+        (&[0x29, 0x03, 0, 0, 0, 0x80], CanError::NotFinite),
+        (&[0x2d, 0x00, 0, 0, 0xc0, 0x7f], CanError::NotFinite),
         (&[0x21, 0x01, 0x80], CanError::NotFinite),
         (
             &[0x31, 0x05, 0x03],

@@ -214,7 +214,7 @@ fn six_positions_are_read_in_one_exchange_with_their_signs_and_mappings() {
 #[test]
 fn goals_are_set_in_one_packet_with_signs_limits_and_directions() {
     let duties = [0, 500, 0x0400 | 250, 1000, 0x0400 | 1000, 0_u16];
-    let positions = [0, 1024, 0x8400, 1, 0x8001, 0x7fff_u16];
+    let positions = [0, 1024, 0x8400, 1, 0, 0x7fff_u16];
     let data = |goals: [u16; 6]| (1..).zip(goals.map(u16::to_le_bytes));
     let packets = [
         Packet::sync_write(0x2c, data(duties)).unwrap(),
@@ -233,7 +233,7 @@ fn goals_are_set_in_one_packet_with_signs_limits_and_directions() {
             FRAC_PI_2,
             -FRAC_PI_2,
             0.6 * count,
-            -1.4 * count,
+            -0.4 * count,
             32_767.0 * count,
         ])
         .unwrap();

@@ -99,6 +99,16 @@ fn an_invalid_transition_is_counted_and_the_position_unknown_until_the_next_inde
 }
 
 #[test]
+fn an_index_from_before_lost_counts_does_not_make_the_position_known() {
+    let mut encoder = joint(JointMapping::IDENTITY);
+    turn(&mut encoder, 0, 8);
+    let (a, b, z) = levels(10);
+    encoder.counter().update(a, b, z).unwrap_err();
+    assert!(matches!(encoder.read(), Err(IncrementalError::Counter(_))));
+    assert_eq!(encoder.read(), Err(IncrementalError::NotReferenced));
+}
+
+#[test]
 fn counts_that_were_lost_or_added_are_found_at_the_next_index() {
     // Two invalid transitions would be seen by the decoder; noise on a timer's input is not.
     for excess in [-3, -1, 1, 5] {

@@ -258,14 +258,14 @@ impl Parser {
 fn start(bytes: &[u8]) -> Start {
     let at = |place: usize| bytes.get(place).copied();
     let is_header = |place| at(place).is_none_or(|byte| byte == HEADER);
-    // Three header bytes in a row: the packet begins one later, since no servo has the identity FF.
-    if !is_header(0) || !is_header(1) || at(2) == Some(HEADER) {
+    if !is_header(0) || !is_header(1) {
         return Start::Noise;
     }
     let (Some(id), Some(length)) = (at(2), at(3).map(usize::from)) else {
         return Start::Incomplete;
     };
-    // The length counts status and checksum too.
+    // No servo has the identity of a header byte: of three in a row the packet begins one later. The length counts status
+    // and checksum too.
     if id >= BROADCAST || !(2..=MOST_PARAMETERS + 2).contains(&length) {
         return Start::Noise;
     }

@@ -178,10 +178,15 @@ pub(crate) fn bytes<const N: usize>(data: &[u8], at: usize) -> Result<[u8; N], C
 
 /// A torque within ± `most`; zero for NaN.
 pub(crate) fn limit(torque: f32, most: f32) -> f32 {
-    if torque.is_nan() {
+    // Not `f32::clamp`, which panics if the bounds are in the wrong order.
+    if torque > most {
+        most
+    } else if torque < -most {
+        -most
+    } else if torque.is_nan() {
         0.0
     } else {
-        torque.clamp(-most, most)
+        torque
     }
 }
 

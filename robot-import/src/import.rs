@@ -152,9 +152,20 @@ pub fn import(args: &Args, today: &str) -> Result<Imported> {
     };
     let selected = selection.of(&robot)?;
     let tree = Tree::of(&robot, &selected, Numbers::Exact)?;
-    let checked = check::check(&robot, &selected, STATES)?;
+    let mut checked = check::check(&robot, &selected, STATES)?;
+    let given = Tree::of(&robot, &selected, Numbers::AsGiven)?;
+    let (closed, left_out) = loops::closed(&robot, &given);
+    if !closed.is_empty() {
+        checked.loops = Some(check::loops(
+            &robot,
+            &selected,
+            &given,
+            &closed,
+            checked.states,
+        )?);
+    }
     if !checked.holds() {
-        let difference = checked.energy;
+        let difference = checked.energy.max(checked.loops.unwrap_or_default());
         return Err(Problem::Value(format!(
             "the import differs from the file by {difference:.1e} of full scale, at most {:.0e}: this is a defect of robot-import",
             check::MOST
@@ -201,7 +212,7 @@ pub fn import(args: &Args, today: &str) -> Result<Imported> {
             "Link `{name}` and all that it carries are left out."
         ));
     }
-    let (closed, left_out) = loops::closed(&robot, &tree);
+    let (closed, _) = loops::closed(&robot, &tree);
     notes.extend(left_out);
     let name = args.name.clone().unwrap_or_else(|| robot.name.clone());
     let type_name = args

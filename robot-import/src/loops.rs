@@ -10,6 +10,8 @@ use crate::write::placed;
 /// A joint that closes a loop.
 #[derive(Clone, Debug)]
 pub struct Closed {
+    /// Its index in the description.
+    pub source: usize,
     /// Its name.
     pub name: String,
     /// `Spherical` for a common point, `Fixed` for a common frame.
@@ -21,7 +23,7 @@ pub struct Closed {
 /// The loops of a description on the bodies of a tree, and a sentence for each that is left out.
 pub fn closed(robot: &Description, tree: &Tree) -> (Vec<Closed>, Vec<String>) {
     let (mut all, mut notes) = (Vec::new(), Vec::new());
-    for one in &robot.loops {
+    for (source, one) in robot.loops.iter().enumerate() {
         let ends = [0, 1].map(|i| {
             let (body, link) = tree.links[one.links[i]]?;
             let Pose { position, rotation } = link.then(&one.frames[i]);
@@ -29,6 +31,7 @@ pub fn closed(robot: &Description, tree: &Tree) -> (Vec<Closed>, Vec<String>) {
         });
         match ends {
             [Some(a), Some(b)] if a.0 != b.0 => all.push(Closed {
+                source,
                 name: one.name.clone(),
                 kind: one.kind,
                 ends: [a, b],

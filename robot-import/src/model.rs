@@ -3,12 +3,13 @@
 //! The library's models have their sizes in their types. A tree is therefore filled up to the next of three sizes with
 //! massless bodies on joints of the base, which change no torque of the tree's joints.
 
-use dynamics_core::algorithms::{crba, rnea};
+use dynamics_core::algorithms::{crba, poses, rnea};
 use dynamics_core::effects::{Inertia, RIGID_BODY};
 use dynamics_core::model::{BASE, Body, Joint, JointLimits, Model, ModelError};
 use dynamics_core::state::State;
 
-use crate::description::Kind;
+use crate::check::energy::{Rows, rows};
+use crate::description::{Kind, Pose};
 use crate::error::{Problem, Result};
 use crate::number::Attitude;
 use crate::tree::{self, Tree};
@@ -80,6 +81,15 @@ impl AnyModel {
         })
     }
 
+    /// The poses of its bodies in the base's frame at q, and of the fillers.
+    pub fn poses(&self, q: &[f64]) -> Vec<Rows<f64>> {
+        match self {
+            Self::Small(model) => model.poses(q),
+            Self::Middle(model) => model.poses(q),
+            Self::Large(model) => model.poses(q),
+        }
+    }
+
     /// Its dynamics at a state.
     pub fn dynamics(&self, motion: &Motion) -> Dynamics {
         match self {
@@ -126,15 +136,28 @@ impl<const N: usize, const Q: usize> Sized<N, Q> {
         }))
     }
 
-    fn dynamics(&self, motion: &Motion) -> Dynamics {
-        let (mut q, qd, qdd) = (
-            filled::<Q>(&motion.q),
-            filled(&motion.qd),
-            filled(&motion.qdd),
-        );
-        // Unit quaternions (x, y, z, w).
-        let fillers = q[motion.q.len()..].chunks_mut(4).take(self.balls);
+    /// q with the unit quaternions (x, y, z, w) of the fillers.
+    fn position(&self, q: &[f64]) -> [f64; Q] {
+        let mut filled = filled::<Q>(q);
+        let fillers = filled[q.len()..].chunks_mut(4).take(self.balls);
         fillers.for_each(|quaternion| quaternion[3] = 1.0);
+        filled
+    }
+
+    fn poses(&self, q: &[f64]) -> Vec<Rows<f64>> {
+        let poses = poses(&self.exact, &self.position(q));
+        let rows = poses.map(|pose| {
+            rows(&Pose {
+                position: pose.pos,
+                rotation: pose.rot,
+            })
+        });
+        rows.to_vec()
+    }
+
+    fn dynamics(&self, motion: &Motion) -> Dynamics {
+        let q = self.position(&motion.q);
+        let (qd, qdd) = (filled(&motion.qd), filled(&motion.qdd));
         let state = State { q, qd, qdd };
         let torque = rnea(&self.exact, &state, &RIGID_BODY);
         let small = State {

@@ -40,11 +40,7 @@ impl Report {
         );
         out += &self.joints();
         if !self.loops.is_empty() {
-            let _ = writeln!(
-                out,
-                "\nLoops, written but not checked: {}",
-                self.loops.join(", ")
-            );
+            let _ = writeln!(out, "\nLoops: {}", self.loops.join(", "));
         }
         if !self.exact.is_empty() {
             out += "\nRoundings made exact (`--keep-roundings` keeps them):\n";
@@ -145,6 +141,13 @@ impl Report {
             "f32 in place of f64".to_owned(),
             format!("{:.1e}", check.f32),
         ]);
+        if let Some(loops) = check.loops {
+            rows.push(vec![
+                "frames of loops on the file's links, m".to_owned(),
+                format!("{loops:.1e}"),
+                format!("at most {MOST:.0e}"),
+            ]);
+        }
         let condition = match check.condition.is_finite() {
             true => format!("1e{:.1}", check.condition),
             false => "singular".to_owned(),

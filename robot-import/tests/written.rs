@@ -13,7 +13,9 @@ use dynamics_core::robots::So101;
 use dynamics_core::state::State;
 use robot_import::import::{Args, Options, import};
 use robot_import::model::{AnyModel, Motion};
-use robot_import::tree::Tree;
+use robot_import::selection::Selection;
+use robot_import::tree::{Numbers, Tree};
+use robot_import::{check, loops, source};
 
 const SO101: &str = include_str!("../../dynamics-core/src/robots/imported/so101.rs");
 const PARALLELOGRAM: &str = include_str!("robots/parallelogram.rs");
@@ -78,4 +80,20 @@ fn a_loop_is_closed_where_its_machine_is() {
     assert_eq!(error([0.0; 3]), 0.0);
     assert!(error([0.4, -0.4, 0.4]) < 1e-15);
     assert!(error([0.4, 0.0, 0.4]) > 0.05);
+}
+
+#[test]
+fn the_frames_of_loops_are_compared_with_the_files_links() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/mjcf/parallelogram.xml");
+    let robot = source::read(&path).expect("a robot");
+    let selected = Selection::default().of(&robot).expect("all of it");
+    let tree = Tree::of(&robot, &selected, Numbers::AsGiven).expect("three joints");
+    let (mut closed, left_out) = loops::closed(&robot, &tree);
+    assert!(left_out.is_empty());
+    let most = |closed: &[loops::Closed]| {
+        check::loops(&robot, &selected, &tree, closed, 20).expect("a small robot")
+    };
+    assert!(most(&closed) < 1e-15, "{:e}", most(&closed));
+    closed[0].ends[1].1[2] += 1e-9;
+    assert!(most(&closed) > 1e-10, "{:e}", most(&closed));
 }

@@ -8,7 +8,7 @@
 use dynamics_core::glam::DVec3;
 
 use super::dual::{Dual, Number};
-use crate::description::{Description, Inertial, Joint, Kind};
+use crate::description::{Description, Inertial, Joint, Kind, Pose};
 use crate::inertia::{MassProperties, matrix};
 use crate::selection::{Role, Selected};
 
@@ -131,7 +131,7 @@ impl<'a> Energy<'a> {
     }
 
     /// The poses of the links below the base.
-    fn poses<T: Number>(&self, u: &[T]) -> Vec<Option<Rows<T>>> {
+    pub fn poses<T: Number>(&self, u: &[T]) -> Vec<Option<Rows<T>>> {
         let mut poses = vec![None; self.robot.links.len()];
         let at_base = match self.selected.free_base {
             true => moved(identity(), &FREE, u),
@@ -187,11 +187,21 @@ pub fn identity<T: Number>() -> Rows<T> {
 }
 
 /// The product of two poses.
-fn product<T: Number>(a: &Rows<T>, b: &Rows<T>) -> Rows<T> {
+pub fn product<T: Number>(a: &Rows<T>, b: &Rows<T>) -> Rows<T> {
     std::array::from_fn(|i| {
         std::array::from_fn(|k| {
             let sum = a[i][0] * b[0][k] + a[i][1] * b[1][k] + a[i][2] * b[2][k];
             if k == 3 { sum + a[i][3] } else { sum }
+        })
+    })
+}
+
+/// A pose as rows.
+pub fn rows(pose: &Pose) -> Rows<f64> {
+    std::array::from_fn(|i| {
+        std::array::from_fn(|k| match k {
+            3 => pose.position[i],
+            _ => pose.rotation.col(k)[i],
         })
     })
 }

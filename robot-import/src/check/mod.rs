@@ -3,9 +3,11 @@
 pub mod coordinates;
 pub mod dual;
 pub mod energy;
+mod loops;
 mod peer;
 mod random;
 
+pub use loops::loops;
 pub use peer::{Peer, compare};
 
 use crate::description::Description;
@@ -20,6 +22,8 @@ use random::Random;
 pub const STATES: usize = 100;
 /// The work of the energies: links times coordinates times states. A robot with more of it is checked at fewer states.
 const MOST_WORK: usize = 2_000_000;
+/// The largest random position, rad or m: attitudes within a quarter turn keep the chain of a ball joint away from its singularity.
+const SIZE: f64 = 1.2;
 /// The largest difference of torques, of full scale.
 pub const MOST: f64 = 1e-10;
 
@@ -36,6 +40,8 @@ pub struct Checked {
     pub snapping: f64,
     /// Of f32 from f64.
     pub f32: f64,
+    /// Of the frames of written loops from those on the file's links, m, if there are some.
+    pub loops: Option<f64>,
     /// The logarithm of the condition number of M, the largest of all states.
     pub condition: f64,
     /// The motions and the torques, for peers.
@@ -44,9 +50,9 @@ pub struct Checked {
 }
 
 impl Checked {
-    /// Whether the energies agree with the library.
+    /// Whether the energies and the loops agree with the library.
     pub fn holds(&self) -> bool {
-        self.energy <= MOST
+        self.energy <= MOST && self.loops.is_none_or(|loops| loops <= MOST)
     }
 }
 
@@ -81,6 +87,7 @@ pub fn check_trees(
         energy: 0.0,
         snapping: 0.0,
         f32: 0.0,
+        loops: None,
         condition: 0.0,
         samples: Vec::new(),
     };
@@ -90,8 +97,7 @@ pub fn check_trees(
                 .map(|_| size * random.symmetric())
                 .collect()
         };
-        // Attitudes within a quarter turn keep the chain of a ball joint away from its singularity.
-        let (u, ud, udd) = (draw(1.2), draw(2.0), draw(5.0));
+        let (u, ud, udd) = (draw(SIZE), draw(2.0), draw(5.0));
         let by_energy = energy.torque(&u, &ud, &udd);
         let (motion, columns) = in_library(given, &u, &ud, &udd);
         let found = library.dynamics(&motion);

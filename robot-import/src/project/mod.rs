@@ -222,7 +222,7 @@ fn values(project: &Project) -> Result<Vec<Value>, ProjectError> {
         ("n", robot.v.to_string()),
         ("form", form.into()),
         ("crate_name", crate_name),
-        ("prefix", prefix),
+        ("crate_name | upcase", prefix),
         ("library", library),
         ("robot", robot.type_name.clone()),
         ("effect_names", names),

@@ -103,7 +103,7 @@ fn templates_have_only_what_cargo_generate_knows() {
         used.dedup();
         assert!(used.len() > 3);
         for name in used {
-            let is_built_in = ["project-name", "crate_name"].contains(&name);
+            let is_built_in = ["project-name", "crate_name", "crate_name | upcase"].contains(&name);
             let is_placeholder = config(c)
                 .lines()
                 .any(|line| line.starts_with(&format!("{name} = ")));

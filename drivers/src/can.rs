@@ -1,0 +1,201 @@
+//! CAN frames: what classic CAN and CAN FD allow, and a frame of up to 64 bytes.
+
+use core::fmt;
+
+use embedded_can::{ExtendedId, Frame, Id, StandardId};
+
+/// The reason why a frame was not made, or is not a reply.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum CanError {
+    /// The identity of the node or of the host is outside the protocol's range.
+    Node,
+    /// The greatest torque is not above zero, or not finite.
+    Torque,
+    /// The frame type does not hold so many bytes: `embedded_can::Frame::new` returned `None`.
+    Length(usize),
+    /// The identifier is that of another node, another host or another message.
+    Identifier,
+    /// The frame is a remote frame: a request, not a reply.
+    Remote,
+    /// The frame ends before its last field.
+    Short,
+    /// A quantity is NaN or infinite, or is so after the mapping to the joint.
+    NotFinite,
+    /// A subframe or a value that the protocol does not have.
+    Unknown(u8),
+    /// A register that the reply should contain is missing.
+    Missing(u32),
+    /// The node refused to read or write a register.
+    Register {
+        /// Its number.
+        register: u32,
+        /// The node's error number.
+        code: u32,
+    },
+}
+
+impl fmt::Display for CanError {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Node => out.write_str("the identity of a node is outside the protocol's range"),
+            Self::Torque => out.write_str("the greatest torque is not a number above zero"),
+            Self::Length(bytes) => write!(out, "the frame type does not hold {bytes} bytes"),
+            Self::Identifier => out.write_str("the frame is of another node or message"),
+            Self::Remote => out.write_str("the frame is a request"),
+            Self::Short => out.write_str("the frame ends before its last field"),
+            Self::NotFinite => out.write_str("a quantity of the frame is not finite"),
+            Self::Unknown(value) => write!(out, "the protocol has no {value:#04x} here"),
+            Self::Missing(register) => write!(out, "the reply lacks register {register:#05x}"),
+            Self::Register { register, code } => {
+                write!(out, "the node refused register {register:#05x} with {code}")
+            }
+        }
+    }
+}
+
+impl core::error::Error for CanError {}
+
+/// The length of the shortest CAN FD frame that holds `bytes`; `None` above 64.
+///
+/// # Source
+/// ISO 11898-1:2015, coding of the data length code.
+///
+/// ```
+/// use joint_drivers::can::fd_length;
+/// assert_eq!([8, 9, 23, 33, 64, 65].map(fd_length), [Some(8), Some(12), Some(24), Some(48), Some(64), None]);
+/// ```
+pub const fn fd_length(bytes: usize) -> Option<usize> {
+    Some(match bytes {
+        0..=8 => bytes,
+        9..=12 => 12,
+        13..=16 => 16,
+        17..=20 => 20,
+        21..=24 => 24,
+        25..=32 => 32,
+        33..=48 => 48,
+        49..=64 => 64,
+        _ => return None,
+    })
+}
+
+/// A CAN FD data frame of up to 64 bytes, or a remote frame.
+///
+/// For HALs whose own frame of more than 8 bytes does not implement [`embedded_can::Frame`]: copy identifier and data
+/// from one to the other.
+///
+/// ```
+/// use embedded_can::{Frame, StandardId};
+/// use joint_drivers::can::FdFrame;
+/// let id = StandardId::new(0x101).unwrap();
+/// assert_eq!(FdFrame::new(id, &[0x50; 24]).unwrap().data(), [0x50; 24]);
+/// assert!(FdFrame::new(id, &[0x50; 23]).is_none()); // no code for this length
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FdFrame {
+    id: Id,
+    data: [u8; 64],
+    length: usize,
+    is_remote: bool,
+}
+
+impl Frame for FdFrame {
+    fn new(id: impl Into<Id>, data: &[u8]) -> Option<Self> {
+        if fd_length(data.len()) != Some(data.len()) {
+            return None;
+        }
+        let mut all = [0; 64];
+        all.get_mut(..data.len())?.copy_from_slice(data);
+        Some(Self {
+            id: id.into(),
+            data: all,
+            length: data.len(),
+            is_remote: false,
+        })
+    }
+
+    /// CAN FD has no remote frames: this is one of classic CAN, of at most 8 bytes.
+    fn new_remote(id: impl Into<Id>, dlc: usize) -> Option<Self> {
+        (dlc <= 8).then_some(Self {
+            id: id.into(),
+            data: [0; 64],
+            length: dlc,
+            is_remote: true,
+        })
+    }
+
+    fn is_extended(&self) -> bool {
+        matches!(self.id, Id::Extended(_))
+    }
+
+    fn is_remote_frame(&self) -> bool {
+        self.is_remote
+    }
+
+    fn id(&self) -> Id {
+        self.id
+    }
+
+    /// The length in bytes, not the code of it.
+    fn dlc(&self) -> usize {
+        self.length
+    }
+
+    fn data(&self) -> &[u8] {
+        let length = if self.is_remote { 0 } else { self.length };
+        self.data.get(..length).unwrap_or_default()
+    }
+}
+
+/// A data frame, or the length that the frame type does not hold.
+pub(crate) fn frame<F: Frame>(id: impl Into<Id>, data: &[u8]) -> Result<F, CanError> {
+    F::new(id, data).ok_or(CanError::Length(data.len()))
+}
+
+/// An identifier as a number.
+pub(crate) fn raw(id: Id) -> u32 {
+    match id {
+        Id::Standard(id) => StandardId::as_raw(&id).into(),
+        Id::Extended(id) => ExtendedId::as_raw(&id),
+    }
+}
+
+/// A little-endian f32 at a place of a frame.
+pub(crate) fn float(data: &[u8], at: usize) -> Result<f32, CanError> {
+    let value = f32::from_le_bytes(bytes(data, at)?);
+    if value.is_finite() {
+        Ok(value)
+    } else {
+        Err(CanError::NotFinite)
+    }
+}
+
+/// `N` bytes at a place of a frame.
+pub(crate) fn bytes<const N: usize>(data: &[u8], at: usize) -> Result<[u8; N], CanError> {
+    let rest = data.get(at..).unwrap_or_default();
+    rest.first_chunk().copied().ok_or(CanError::Short)
+}
+
+/// A torque within ± `most`; zero for NaN.
+pub(crate) fn limit(torque: f32, most: f32) -> f32 {
+    // Not `f32::clamp`, which panics if the bounds are in the wrong order.
+    if torque > most {
+        most
+    } else if torque < -most {
+        -most
+    } else if torque.is_nan() {
+        0.0
+    } else {
+        torque
+    }
+}
+
+/// The mapping's torque limit, checked: at the joint, and finite at the shaft.
+pub(crate) fn check_most(most: f32, mapping: &crate::JointMapping) -> Result<(), CanError> {
+    let at_shaft = mapping.shaft_torque(most);
+    if most > 0.0 && at_shaft.is_ok() {
+        Ok(())
+    } else {
+        Err(CanError::Torque)
+    }
+}

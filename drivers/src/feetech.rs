@@ -1,0 +1,290 @@
+//! STS3215 and its relatives: servos on Feetech's half-duplex serial bus, six of which move the SO-101.
+//!
+//! # Source
+//! Feetech, "Communication Protocol User Manual", sections 1.1 to 1.3 (packets, instructions, examples 1 to 8), and
+//! "Magnetic encoder STS servo, memory table", in public copies; the signs of position (bit 15) and duty (bit 10) also
+//! in Feetech's SCServo SDK (`SMS_STS.cpp`). Addresses: mode 0x21, torque enable 0x28, goal position 0x2A, goal duty
+//! 0x2C (in the position mode the time of the motion), present position 0x38. Low byte first; 4096 counts per turn.
+//!
+//! The duties need the servos in mode 2, PWM; the positions in mode 0. The mode is in the EPROM: set it with Feetech's
+//! tool, or by [`Servos::write`]. The register of speed is not read: its unit depends on a setting of the servo, and a
+//! controller's observer estimates the velocity from positions.
+//!
+//! At 1 Mbit/s, reading the positions of six servos takes 62 bytes, 0.62 ms, and setting six duties 26 bytes, 0.26 ms,
+//! without the pauses before the replies: a control loop of 500 Hz has room for both, one of 1 kHz does not.
+
+use core::f32::consts::TAU;
+
+use embedded_io::{ErrorKind, Read, ReadReady, Write};
+
+use crate::JointMapping;
+
+mod error;
+mod packet;
+
+pub use error::FeetechError;
+use error::port_error;
+pub use packet::{BROADCAST, Packet, Parser, Reply};
+
+/// Counts per turn.
+pub const COUNTS: u16 = 4096;
+/// The address of the torque switch: 1 on, 0 off.
+pub const TORQUE_ENABLE: u8 = 0x28;
+/// The address of the goal position.
+pub const GOAL_POSITION: u8 = 0x2a;
+/// The address of the goal duty.
+pub const GOAL_DUTY: u8 = 0x2c;
+/// The address of the present position.
+pub const PRESENT_POSITION: u8 = 0x38;
+/// A position below zero.
+const POSITION_SIGN: u16 = 1 << 15;
+/// A duty below zero, and the greatest duty, in thousandths.
+const DUTY_SIGN: u16 = 1 << 10;
+const FULL_DUTY: f32 = 1000.0;
+/// The most bytes that are skipped in search of a reply.
+const MOST_NOISE: usize = 64;
+
+/// The servos of `N` joints on one port.
+///
+/// The port returns an error or zero bytes if none comes within its time limit, which is at least the servos' return
+/// delay: without a limit a servo that is unplugged blocks the caller for ever. By [`ReadReady`] replies that came too
+/// late for an earlier request are found and dropped.
+///
+/// ```
+/// # use embedded_io::{ErrorType, Read, ReadReady, Write};
+/// # struct Uart(&'static [u8], Vec<u8>);
+/// # impl ErrorType for Uart { type Error = core::convert::Infallible; }
+/// # impl Read for Uart {
+/// #     fn read(&mut self, into: &mut [u8]) -> Result<usize, Self::Error> { self.0.read(into) }
+/// # }
+/// # impl ReadReady for Uart { fn read_ready(&mut self) -> Result<bool, Self::Error> { Ok(false) } }
+/// # impl Write for Uart {
+/// #     fn write(&mut self, bytes: &[u8]) -> Result<usize, Self::Error> { self.1.extend(bytes); Ok(bytes.len()) }
+/// #     fn flush(&mut self) -> Result<(), Self::Error> { Ok(()) }
+/// # }
+/// use joint_drivers::{Direction, JointMapping, feetech::Servos};
+/// // The joint is at zero in the middle of the servo's turn.
+/// let middle = JointMapping::new(core::f32::consts::PI, Direction::Forward, 1.0)?;
+/// # let uart = Uart(&[0xff, 0xff, 1, 4, 0, 0, 0x0c, 0xee, 0xff, 0xff, 2, 4, 0, 0, 0x08, 0xf1], Vec::new());
+/// let mut servos = Servos::new(uart, [1, 2], [middle; 2])?;
+/// let [first, second] = servos.positions()?; // counts 3072 and 2048
+/// assert!((first - core::f32::consts::FRAC_PI_2).abs() < 1e-6 && second.abs() < 1e-6);
+/// servos.set_duties(&[0.1, -0.1])?;
+/// assert!(servos.release().1.ends_with(&[0x83, 0x2c, 2, 1, 100, 0, 2, 100, 4, 0x77]));
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
+#[derive(Debug)]
+pub struct Servos<Port, const N: usize> {
+    port: Port,
+    has_echo: bool,
+    ids: [u8; N],
+    mappings: [JointMapping; N],
+}
+
+impl<Port: Read + Write + ReadReady, const N: usize> Servos<Port, N> {
+    /// The servos `ids`, 0 to 253, each with the mapping from its 0 rad (count 0) to its joint.
+    ///
+    /// # Errors
+    /// [`FeetechError::Id`].
+    pub fn new(
+        port: Port,
+        ids: [u8; N],
+        mappings: [JointMapping; N],
+    ) -> Result<Self, FeetechError> {
+        for (place, id) in ids.iter().enumerate() {
+            if *id >= BROADCAST || ids.iter().take(place).any(|other| other == id) {
+                return Err(FeetechError::Id(*id));
+            }
+        }
+        Ok(Self {
+            port,
+            has_echo: false,
+            ids,
+            mappings,
+        })
+    }
+
+    /// The same servos on a port that receives what it sends, as on one wire without a switch.
+    pub fn with_echo(mut self) -> Self {
+        self.has_echo = true;
+        self
+    }
+
+    /// The positions of the joints in rad, in one exchange.
+    ///
+    /// # Errors
+    /// [`FeetechError`] of the first servo that did not reply as it should.
+    pub fn positions(&mut self) -> Result<[f32; N], FeetechError> {
+        self.send(&Packet::sync_read(&self.ids, PRESENT_POSITION, 2)?)?;
+        let mut positions = [0.0; N];
+        let mut parser = Parser::new();
+        for (joint, position) in positions.iter_mut().enumerate() {
+            let [low, high] = self.receive(self.ids[joint], &mut parser)?;
+            let counts = from_sign(u16::from_le_bytes([low, high]), POSITION_SIGN);
+            let shaft = f32::from(counts) * (TAU / f32::from(COUNTS));
+            *position = self.mappings[joint].joint_position(shaft);
+        }
+        Ok(positions)
+    }
+
+    /// Sets the goal positions of the joints in rad, in one packet that no servo replies to.
+    ///
+    /// # Errors
+    /// [`FeetechError`]; nothing is sent after [`FeetechError::Goal`].
+    pub fn set_positions(&mut self, positions: &[f32; N]) -> Result<(), FeetechError> {
+        let mut goals = [0; N];
+        for (joint, goal) in goals.iter_mut().enumerate() {
+            let shaft = self.mappings[joint].shaft_position(positions[joint]);
+            let counts = shaft.map(|shaft| shaft * (f32::from(COUNTS) / TAU));
+            match counts {
+                Ok(counts) if counts.abs() <= 32_767.0 => {
+                    *goal = to_sign(counts, POSITION_SIGN);
+                }
+                _ => return Err(FeetechError::Goal { joint }),
+            }
+        }
+        self.set(GOAL_POSITION, goals)
+    }
+
+    /// Sets the duties of the joints, −1 to 1, in one packet that no servo replies to. NaN becomes zero duty.
+    ///
+    /// Of the mapping only the direction applies: a duty is a share of the supply's voltage.
+    ///
+    /// # Errors
+    /// [`FeetechError`].
+    pub fn set_duties(&mut self, duties: &[f32; N]) -> Result<(), FeetechError> {
+        let mut goals = [0; N];
+        for (joint, goal) in goals.iter_mut().enumerate() {
+            let sign = self.mappings[joint].direction().sign();
+            let duty = sign * duties[joint] * FULL_DUTY;
+            *goal = to_sign(duty.clamp(-FULL_DUTY, FULL_DUTY), DUTY_SIGN);
+        }
+        self.set(GOAL_DUTY, goals)
+    }
+
+    /// Switches the torque of all servos on or off, one after the other: each confirms it.
+    ///
+    /// # Errors
+    /// [`FeetechError`] of the first servo that did not; to switch off, the others are tried nevertheless.
+    pub fn enable_torque(&mut self, is_on: bool) -> Result<(), FeetechError> {
+        let mut result = Ok(());
+        for joint in 0..N {
+            result = result.and(self.write(self.ids[joint], TORQUE_ENABLE, &[is_on.into()]));
+            if is_on {
+                result?;
+            }
+        }
+        result
+    }
+
+    /// Writes bytes from an address on, and waits for the servo's confirmation.
+    ///
+    /// # Errors
+    /// [`FeetechError`].
+    pub fn write(&mut self, id: u8, address: u8, data: &[u8]) -> Result<(), FeetechError> {
+        self.send(&Packet::write(id, address, data)?)?;
+        self.receive::<0>(id, &mut Parser::new()).map(|[]| ())
+    }
+
+    /// Reads `L` bytes from an address on.
+    ///
+    /// # Errors
+    /// [`FeetechError`].
+    pub fn read<const L: usize>(&mut self, id: u8, address: u8) -> Result<[u8; L], FeetechError> {
+        let length = u8::try_from(L).map_err(|_| FeetechError::TooLong)?;
+        self.send(&Packet::read(id, address, length)?)?;
+        self.receive(id, &mut Parser::new())
+    }
+
+    /// The port.
+    pub fn release(self) -> Port {
+        self.port
+    }
+
+    fn set(&mut self, address: u8, goals: [u16; N]) -> Result<(), FeetechError> {
+        let each = self.ids.into_iter().zip(goals.map(u16::to_le_bytes));
+        self.send(&Packet::sync_write(address, each)?)
+    }
+
+    /// Sends a packet, after bytes that came too late for an earlier one were dropped.
+    fn send(&mut self, packet: &Packet) -> Result<(), FeetechError> {
+        for _ in 0..MOST_NOISE {
+            if !self.port.read_ready().map_err(port_error)? || self.byte()?.is_none() {
+                break;
+            }
+        }
+        self.port.write_all(packet.bytes()).map_err(port_error)?;
+        self.port.flush().map_err(port_error)?;
+        if self.has_echo {
+            for sent in packet.bytes() {
+                if self.byte()? != Some(*sent) {
+                    return Err(FeetechError::Echo);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The parameters of the next reply.
+    fn receive<const L: usize>(
+        &mut self,
+        id: u8,
+        parser: &mut Parser,
+    ) -> Result<[u8; L], FeetechError> {
+        let reply = loop {
+            let received = match self.byte() {
+                Ok(Some(byte)) => parser.push(byte),
+                Ok(None) | Err(FeetechError::Port(ErrorKind::TimedOut)) => match parser.finish() {
+                    None if parser.has_wrong_checksum() => {
+                        return Err(FeetechError::Checksum { id });
+                    }
+                    None => return Err(FeetechError::NoReply { id }),
+                    reply => reply,
+                },
+                Err(error) => return Err(error),
+            };
+            if let Some(reply) = received {
+                break reply;
+            }
+            if parser.skipped() > MOST_NOISE {
+                return Err(FeetechError::Noise);
+            }
+        };
+        if reply.id != id {
+            let found = reply.id;
+            return Err(FeetechError::Unexpected { id, found });
+        }
+        if reply.status != 0 {
+            let status = reply.status;
+            return Err(FeetechError::Servo { id, status });
+        }
+        let parameters = reply.parameters().try_into();
+        parameters.map_err(|_| FeetechError::Unexpected { id, found: id })
+    }
+
+    fn byte(&mut self) -> Result<Option<u8>, FeetechError> {
+        let mut byte = [0];
+        let read = self.port.read(&mut byte).map_err(port_error)?;
+        Ok((read > 0).then_some(byte[0]))
+    }
+}
+
+/// A number whose sign is one bit above its magnitude.
+fn from_sign(bits: u16, sign: u16) -> i16 {
+    let magnitude = (bits & (sign - 1)) as i16;
+    if bits & sign == 0 {
+        magnitude
+    } else {
+        -magnitude
+    }
+}
+
+/// The nearest number, as sign and magnitude; 0 for NaN.
+fn to_sign(value: f32, sign: u16) -> u16 {
+    let magnitude = (value.abs() + 0.5) as u16;
+    if value < 0.0 && magnitude != 0 {
+        magnitude | sign
+    } else {
+        magnitude
+    }
+}

@@ -1,0 +1,64 @@
+//! Drivers of joint encoders and motor drives, on the traits of [`embedded_hal`], [`embedded_can`] and
+//! [`embedded_io`]: no heap, no panic and no `unsafe`.
+//!
+//! Each driver has the zero, the direction and the resolution of its joint as parameters ([`JointMapping`],
+//! [`Resolution`]): it measures rad at the joint and commands N·m, V or a share of the full scale there.
+//!
+//! | part | bus | measures or commands | module |
+//! |---|---|---|---|
+//! | AS5047P | SPI | absolute angle, 14 bits | [`as5047p`] |
+//! | AS5600 | I²C | absolute angle, 12 bits, and whether its magnet is well placed | [`as5600`] |
+//! | incremental encoder with index | A, B and Z, or a timer | angle from the index, once it was passed | [`incremental`] |
+//! | H-bridge | PWM, GPIO | torque, as sign and magnitude or in locked antiphase | [`h_bridge`] |
+//! | three half-bridges | PWM | voltage along d and q of a three-phase motor | [`three_phase`] |
+//! | moteus | CAN FD | torque; position, velocity, torque, mode and fault | [`moteus`] |
+//! | ODrive | CAN | torque; position, velocity, torque, state and errors | [`odrive`] |
+//! | STS3215, six in the SO-101 | half-duplex UART | position or duty; position, 4096 counts per turn | [`feetech`] |
+//!
+//! What is common to them: a torque that is not a number becomes zero torque; errors are typed; no reading is NaN or
+//! infinite; input that is wrong leads to an error, never to a panic.
+//!
+//! ```
+//! use joint_drivers::{Direction, JointMapping, as5600::As5600};
+//! use embedded_hal_mock::eh1::i2c::{Mock, Transaction};
+//! // The encoder reads 1.5 rad where the joint is at zero, and turns the other way round.
+//! let mapping = JointMapping::new(1.5, Direction::Reverse, 1.0)?;
+//! let bus = Mock::new(&[
+//!     Transaction::write_read(0x36, vec![0x0b], vec![0x20]),       // a magnet was detected
+//!     Transaction::write_read(0x36, vec![0x0c], vec![0x04, 0x00]), // 1024 of 4096 counts: 90°
+//! ]);
+//! let mut encoder = As5600::new(bus, mapping);
+//! assert!((encoder.read()? - (1.5 - core::f32::consts::FRAC_PI_2)).abs() < 1e-6);
+//! encoder.release().done();
+//! # Ok::<(), Box<dyn core::error::Error>>(())
+//! ```
+//!
+//! # Cargo features
+//!
+//! - `async`, off by default: the encoders on a bus over [`embedded_hal_async`], for Embassy: `start_async`,
+//!   `read_async`. They share the state and the decoding with the blocking form.
+#![cfg_attr(
+    not(any(test, feature = "async")),
+    doc = "",
+    doc = "[`embedded_hal_async`]: https://docs.rs/embedded-hal-async"
+)]
+#![no_std]
+#![forbid(unsafe_code)]
+
+#[cfg(test)]
+extern crate std;
+
+pub mod as5047p;
+pub mod as5600;
+#[cfg(any(test, feature = "async"))]
+mod asynch;
+pub mod can;
+pub mod feetech;
+pub mod h_bridge;
+pub mod incremental;
+mod mapping;
+pub mod moteus;
+pub mod odrive;
+pub mod three_phase;
+
+pub use mapping::{Direction, JointMapping, MappingError, Resolution};

@@ -1,0 +1,175 @@
+//! What the absolute encoders promise.
+
+use core::f32::consts::{FRAC_PI_2, TAU};
+use embedded_hal::i2c::ErrorKind as I2cError;
+use embedded_hal::spi::{ErrorKind as SpiError, ErrorType, Operation, SpiDevice};
+use embedded_hal_mock::eh1::{i2c, spi};
+use joint_drivers::as5047p::{self, As5047p, FrameError, READ_ANGLE, READ_ERRORS};
+use joint_drivers::as5600::{As5600, As5600Error};
+use joint_drivers::{Direction, JointMapping};
+
+/// The transactions of one AS5047P frame.
+fn frame(command: u16, answer: u16) -> [spi::Transaction<u8>; 3] {
+    let bytes = |frame: u16| frame.to_be_bytes().to_vec();
+    [
+        spi::Transaction::transaction_start(),
+        spi::Transaction::transfer_in_place(bytes(command), bytes(answer)),
+        spi::Transaction::transaction_end(),
+    ]
+}
+
+fn restart() -> Vec<spi::Transaction<u8>> {
+    [frame(READ_ERRORS, 0xffff), frame(READ_ANGLE, 0xffff)].concat()
+}
+
+#[test]
+fn the_as5047p_is_commanded_as_its_data_sheet_says() {
+    // Read ANGLECOM: bits 15 (parity of 15 ones) and 14 (read) and the address 0x3FFF. Read ERRFL: 0x4001 is even.
+    assert_eq!((READ_ANGLE, READ_ERRORS), (0xffff, 0x4001));
+    let mut encoder = As5047p::new(spi::Mock::new(&restart()), JointMapping::IDENTITY);
+    encoder.start();
+    encoder.release().done();
+}
+
+#[test]
+fn the_as5047p_counts_turns_and_maps_them_to_the_joint() {
+    let raws = [16_000, 16_383, 0, 4096, 8192, 12_288, 0];
+    let frames: Vec<_> = raws
+        .iter()
+        .flat_map(|raw| frame(READ_ANGLE, as5047p::encode(*raw)))
+        .collect();
+    let mapping = JointMapping::new(FRAC_PI_2, Direction::Reverse, 2.0).unwrap();
+    let mut encoder = As5047p::new(spi::Mock::new(&frames), mapping);
+    for counts in [-384, -1, 0, 4096, 8192, 12_288, 16_384] {
+        let shaft = counts as f32 * as5047p::RESOLUTION;
+        let angle = encoder.read().unwrap();
+        assert!(
+            (angle - (FRAC_PI_2 - shaft) / 2.0).abs() < 1e-6,
+            "{counts}: {angle}"
+        );
+    }
+    encoder.release().done();
+}
+
+#[test]
+fn each_error_of_the_as5047p_is_typed_costs_one_angle_and_restarts_it() {
+    let ok = || frame(READ_ANGLE, as5047p::encode(100)).to_vec();
+    let transactions = [
+        ok(),
+        frame(READ_ANGLE, as5047p::encode(200) ^ 1).to_vec(),
+        restart(),
+        frame(READ_ANGLE, as5047p::with_parity(as5047p::ERROR)).to_vec(),
+        restart(),
+        ok(),
+    ]
+    .concat();
+    let mut encoder = As5047p::new(spi::Mock::new(&transactions), JointMapping::IDENTITY);
+    let angle = 100.0 * as5047p::RESOLUTION;
+    assert_eq!(encoder.read(), Ok(angle));
+    for error in [FrameError::Parity, FrameError::Flag] {
+        assert_eq!(encoder.read(), Err(error));
+        assert_eq!(encoder.angle(), angle);
+    }
+    assert_eq!(encoder.read(), Ok(angle));
+    encoder.release().done();
+}
+
+/// A bus that fails, which the mock cannot.
+struct FailedBus;
+
+impl ErrorType for FailedBus {
+    type Error = SpiError;
+}
+
+impl SpiDevice for FailedBus {
+    fn transaction(&mut self, _: &mut [Operation<'_, u8>]) -> Result<(), SpiError> {
+        Err(SpiError::Overrun)
+    }
+}
+
+#[test]
+fn a_failure_of_the_bus_of_the_as5047p_is_an_error() {
+    let mut encoder = As5047p::new(FailedBus, JointMapping::IDENTITY);
+    assert_eq!(encoder.read(), Err(FrameError::Bus(SpiError::Overrun)));
+    assert_eq!(encoder.angle(), 0.0);
+}
+
+#[test]
+fn all_frames_of_the_as5047p_decode_to_an_angle_or_an_error() {
+    let mut angles = 0;
+    for frame in 0..=u16::MAX {
+        match as5047p::decode(frame) {
+            Ok(raw) => {
+                angles += 1;
+                assert!(raw < as5047p::COUNTS && as5047p::encode(raw) == frame);
+            }
+            Err(FrameError::Parity) => assert_eq!(frame.count_ones() % 2, 1),
+            Err(error) => assert_eq!(
+                (error, frame & as5047p::ERROR != 0),
+                (FrameError::Flag, true)
+            ),
+        }
+    }
+    assert_eq!(angles, 16_384);
+}
+
+#[test]
+fn an_encoder_behind_a_gear_starts_near_the_turn_that_is_known() {
+    let mapping = JointMapping::new(0.0, Direction::Forward, 10.0).unwrap();
+    let bus = spi::Mock::new(&frame(READ_ANGLE, as5047p::encode(16_383)));
+    let mut encoder = As5047p::near(bus, mapping, 5);
+    let expected = (5.0 * TAU - as5047p::RESOLUTION) / 10.0;
+    assert!((encoder.read().unwrap() - expected).abs() < 1e-6);
+    encoder.release().done();
+}
+
+/// The transactions of one reading of an AS5600.
+fn registers(status: u8, angle: u16) -> [i2c::Transaction; 2] {
+    [
+        i2c::Transaction::write_read(0x36, vec![0x0b], vec![status]),
+        i2c::Transaction::write_read(0x36, vec![0x0c], angle.to_be_bytes().to_vec()),
+    ]
+}
+
+#[test]
+fn the_as5600_counts_turns_of_4096_and_ignores_the_upper_four_bits() {
+    let raws = [0x0fff, 0x0000, 0xf400, 0x0800, 0x0c00, 0x0000];
+    let all: Vec<_> = raws.iter().flat_map(|raw| registers(0x20, *raw)).collect();
+    let mapping = JointMapping::new(-0.5, Direction::Forward, 1.0).unwrap();
+    let mut encoder = As5600::new(i2c::Mock::new(&all), mapping);
+    for counts in [-1, 0, 1024, 2048, 3072, 4096] {
+        let expected = counts as f32 * (TAU / 4096.0) + 0.5;
+        assert!((encoder.read().unwrap() - expected).abs() < 1e-6);
+    }
+    encoder.release().done();
+}
+
+#[test]
+fn a_magnet_that_is_absent_weak_or_strong_is_a_typed_error_and_gives_no_angle() {
+    let cases = [
+        (0x00, As5600Error::MagnetAbsent),
+        (0x10, As5600Error::MagnetAbsent),
+        (0x30, As5600Error::MagnetTooWeak),
+        (0x28, As5600Error::MagnetTooStrong),
+        (0x38, As5600Error::Status(0x38)),
+        (0xff, As5600Error::Status(0xff)),
+    ];
+    for (status, error) in cases {
+        let bus = i2c::Mock::new(&registers(status, 0)[..1]);
+        let mut encoder = As5600::new(bus, JointMapping::IDENTITY);
+        assert_eq!(encoder.read(), Err(error));
+        encoder.release().done();
+    }
+}
+
+#[test]
+fn a_failure_of_the_bus_of_the_as5600_is_an_error_and_keeps_the_angle() {
+    let [_, angle] = registers(0x20, 1024);
+    let lost =
+        i2c::Transaction::write_read(0x36, vec![0x0c], vec![0, 0]).with_error(I2cError::Other);
+    let mut encoder = As5600::new(i2c::Mock::new(&[angle, lost]), JointMapping::IDENTITY);
+    assert_eq!(encoder.read_angle(), Ok(FRAC_PI_2));
+    assert_eq!(encoder.read_angle(), Err(As5600Error::Bus(I2cError::Other)));
+    assert_eq!(encoder.angle(), FRAC_PI_2);
+    encoder.release().done();
+}

@@ -1,0 +1,370 @@
+//! What the drivers on CAN promise: golden frames, and a typed error for each wrong reply.
+
+use core::f32::consts::{PI, TAU};
+
+use embedded_can::{ExtendedId, Frame, Id, StandardId};
+use joint_drivers::can::{CanError, FdFrame};
+use joint_drivers::moteus::{self, Mode, Moteus};
+use joint_drivers::odrive::{AxisState, ODrive, Reply};
+use joint_drivers::{Direction, JointMapping};
+
+/// A frame of classic CAN: at most 8 bytes.
+#[derive(Debug, PartialEq)]
+struct ClassicFrame(FdFrame);
+
+impl Frame for ClassicFrame {
+    fn new(id: impl Into<Id>, data: &[u8]) -> Option<Self> {
+        (data.len() <= 8).then(|| FdFrame::new(id, data).map(Self))?
+    }
+
+    fn new_remote(id: impl Into<Id>, dlc: usize) -> Option<Self> {
+        FdFrame::new_remote(id, dlc).map(Self)
+    }
+
+    fn is_extended(&self) -> bool {
+        self.0.is_extended()
+    }
+
+    fn is_remote_frame(&self) -> bool {
+        self.0.is_remote_frame()
+    }
+
+    fn id(&self) -> Id {
+        self.0.id()
+    }
+
+    fn dlc(&self) -> usize {
+        self.0.dlc()
+    }
+
+    fn data(&self) -> &[u8] {
+        self.0.data()
+    }
+}
+
+fn standard(id: u16, data: &[u8]) -> FdFrame {
+    FdFrame::new(StandardId::new(id).unwrap(), data).unwrap()
+}
+
+fn extended(id: u32, data: &[u8]) -> FdFrame {
+    FdFrame::new(ExtendedId::new(id).unwrap(), data).unwrap()
+}
+
+fn geared() -> JointMapping {
+    JointMapping::new(1.0, Direction::Reverse, 2.0).unwrap()
+}
+
+fn near(a: f32, b: f32) -> bool {
+    (a - b).abs() < 1e-5 * b.abs().max(1.0)
+}
+
+#[test]
+fn commands_of_the_odrive_are_the_golden_frames_of_its_protocol() {
+    let axis = ODrive::new(1, 100.0, JointMapping::IDENTITY).unwrap();
+    // The identifier of axis 1, command 0x0C, is 0x2C in the document: commands of axis 1 begin at 0x20.
+    let golden: [(Result<ClassicFrame, _>, u16, &[u8]); 7] = [
+        (axis.set_torque(1.5), 0x2e, &[0x00, 0x00, 0xc0, 0x3f]),
+        (axis.set_torque(-0.1), 0x2e, &[0xcd, 0xcc, 0xcc, 0xbd]),
+        (axis.set_torque_mode(), 0x2b, &[1, 0, 0, 0, 1, 0, 0, 0]),
+        (
+            axis.set_state(AxisState::ClosedLoopControl),
+            0x27,
+            &[8, 0, 0, 0],
+        ),
+        (axis.set_state(AxisState::Idle), 0x27, &[1, 0, 0, 0]),
+        (axis.stop(), 0x22, &[]),
+        (axis.clear_errors(), 0x38, &[0]),
+    ];
+    for (frame, id, data) in golden {
+        assert_eq!(frame, Ok(ClassicFrame(standard(id, data))));
+    }
+    let remote: ClassicFrame = axis.request_estimates().unwrap();
+    assert!(remote.is_remote_frame() && remote.id() == Id::from(StandardId::new(0x29).unwrap()));
+    let remote: ClassicFrame = axis.request_torques().unwrap();
+    assert!(remote.is_remote_frame() && remote.id() == Id::from(StandardId::new(0x3c).unwrap()));
+}
+
+#[test]
+fn replies_of_the_odrive_are_decoded_and_mapped_to_the_joint() {
+    let axis = ODrive::new(0, 100.0, geared()).unwrap();
+    // The heartbeat that the documentation of odrive-can encodes: error 1, state 11, homing.
+    let heartbeat = standard(0x001, &[1, 0, 0, 0, 0x0b, 0, 0, 0]);
+    let expected = Reply::Heartbeat {
+        errors: 1,
+        state: AxisState::Other(11),
+    };
+    assert_eq!(axis.reply(&heartbeat), Ok(expected));
+    let running = Reply::Heartbeat {
+        errors: 0x4000_0000,
+        state: AxisState::ClosedLoopControl,
+    };
+    assert_eq!(
+        axis.reply(&standard(0x001, &[0, 0, 0, 0x40, 8, 0, 1, 0])),
+        Ok(running)
+    );
+    // 1.5 rev and −0.25 rev/s.
+    let estimates = standard(0x009, &[0, 0, 0xc0, 0x3f, 0, 0, 0x80, 0xbe]);
+    let Ok(Reply::Estimates { position, velocity }) = axis.reply(&estimates) else {
+        panic!("not estimates");
+    };
+    assert!(near(position, (1.0 - 1.5 * TAU) / 2.0) && near(velocity, PI / 4.0));
+    // 2 N·m and −0.5 N·m at the motor.
+    let torques = standard(0x01c, &[0, 0, 0, 0x40, 0, 0, 0, 0xbf]);
+    assert_eq!(
+        axis.reply(&torques),
+        Ok(Reply::Torques {
+            target: -4.0,
+            estimate: 1.0
+        })
+    );
+    let command: FdFrame = axis.set_torque(3.0).unwrap();
+    assert_eq!(command.data(), (-1.5_f32).to_le_bytes());
+}
+
+#[test]
+fn every_wrong_reply_of_an_odrive_is_a_typed_error() {
+    let axis = ODrive::new(3, 100.0, JointMapping::IDENTITY).unwrap();
+    let nan = [[0, 0, 0xc0, 0x7f], [0; 4]].concat();
+    let infinite = [[0; 4], [0, 0, 0x80, 0xff]].concat();
+    let huge = [f32::MAX.to_le_bytes(), [0; 4]].concat();
+    let cases = [
+        (standard(0x009, &[0; 8]), CanError::Identifier), // node 0
+        (standard(0x089, &[0; 8]), CanError::Identifier), // node 4
+        (standard(0x06e, &[0; 8]), CanError::Identifier), // a command, not a reply
+        (extended(0x069, &[0; 8]), CanError::Identifier),
+        (standard(0x069, &[0; 7]), CanError::Short),
+        (standard(0x069, &[0; 4]), CanError::Short),
+        (standard(0x061, &[0; 5]), CanError::Short),
+        (standard(0x07c, &[]), CanError::Short),
+        (standard(0x069, &nan), CanError::NotFinite),
+        (standard(0x069, &infinite), CanError::NotFinite),
+        (standard(0x069, &huge), CanError::NotFinite), // not finite in rad
+        (standard(0x07c, &nan), CanError::NotFinite),
+        (
+            FdFrame::new_remote(StandardId::new(0x069).unwrap(), 8).unwrap(),
+            CanError::Remote,
+        ),
+    ];
+    for (frame, error) in cases {
+        assert_eq!(axis.reply(&frame), Err(error), "{frame:?}");
+    }
+}
+
+#[test]
+fn torques_are_limited_and_what_is_not_a_number_is_zero() {
+    let axis = ODrive::new(3, 2.0, JointMapping::IDENTITY).unwrap();
+    let joint = Moteus::new(3, 0, 2.0, JointMapping::IDENTITY).unwrap();
+    for (torque, sent) in [(f32::NAN, 0.0_f32), (9.0, 2.0), (f32::NEG_INFINITY, -2.0)] {
+        let frame: FdFrame = axis.set_torque(torque).unwrap();
+        assert_eq!(frame.data(), sent.to_le_bytes());
+        let frame: FdFrame = joint.set_torque(torque).unwrap();
+        assert_eq!(frame.data()[9..13], sent.to_le_bytes());
+    }
+}
+
+#[test]
+fn nodes_and_limits_outside_their_ranges_are_refused() {
+    let identity = JointMapping::IDENTITY;
+    assert_eq!(ODrive::new(0x40, 1.0, identity), Err(CanError::Node));
+    for (id, host) in [(0, 0), (128, 0), (1, 128)] {
+        assert_eq!(Moteus::new(id, host, 1.0, identity), Err(CanError::Node));
+    }
+    for most in [0.0, -1.0, f32::NAN, f32::INFINITY] {
+        assert_eq!(ODrive::new(1, most, identity), Err(CanError::Torque));
+        assert_eq!(Moteus::new(1, 0, most, identity), Err(CanError::Torque));
+    }
+}
+
+#[test]
+fn commands_of_the_moteus_are_golden_frames_of_registers() {
+    let joint = Moteus::new(1, 0, 100.0, JointMapping::IDENTITY).unwrap();
+    let command = [
+        0x01, 0x00, 0x0a, // write 1 int8: mode = position
+        0x02, 0x20, 0x80, 0x00, // write 2 int8: position = the present one, velocity = 0
+        0x0d, 0x22, 0x00, 0x00, 0xc0, 0x3f, // write 1 f32: feed-forward torque = 1.5 N·m
+        0x02, 0x23, 0x00, 0x00, // write 2 int8: scales of kp and kd = 0
+        0x11, 0x00, 0x1f, 0x01, 0x11, 0x0f, // read mode; position, velocity, torque; fault
+        0x50, // padding
+    ];
+    assert_eq!(joint.set_torque(1.5), Ok(extended(0x8001, &command)));
+    let stop = [1, 0, 0, 0x11, 0, 0x1f, 1, 0x11, 0x0f, 0x50, 0x50, 0x50];
+    assert_eq!(joint.stop(), Ok(extended(0x8001, &stop)));
+    let other = Moteus::new(0x7f, 0x12, 100.0, geared()).unwrap();
+    let query = [0x11, 0x00, 0x1f, 0x01, 0x11, 0x0f];
+    assert_eq!(other.query(), Ok(extended(0x927f, &query)));
+    let mapped: FdFrame = other.set_torque(3.0).unwrap();
+    assert_eq!(mapped.data()[9..13], (-1.5_f32).to_le_bytes());
+}
+
+#[test]
+fn a_frame_of_classic_can_refuses_a_command_of_the_moteus_by_its_length() {
+    let joint = Moteus::new(1, 0, 100.0, JointMapping::IDENTITY).unwrap();
+    assert_eq!(
+        joint.set_torque::<ClassicFrame>(1.0),
+        Err(CanError::Length(24))
+    );
+    assert_eq!(joint.stop::<ClassicFrame>(), Err(CanError::Length(12)));
+    assert!(joint.query::<ClassicFrame>().is_ok());
+}
+
+/// The reply to a query: mode and fault as int8, three f32.
+fn moteus_reply(mode: u8, values: [f32; 3], fault: u8) -> Vec<u8> {
+    let values = values.map(f32::to_le_bytes).concat();
+    [
+        &[0x21, 0x00, mode, 0x2f, 0x01][..],
+        &values,
+        &[0x21, 0x0f, fault],
+    ]
+    .concat()
+}
+
+#[test]
+fn replies_of_the_moteus_are_decoded_in_every_type_and_mapped_to_the_joint() {
+    let joint = Moteus::new(1, 0, 100.0, JointMapping::IDENTITY).unwrap();
+    // The document's example: position 2.88°, velocity 23.04°/s, torque −1.44 N·m, as int16.
+    let golden = [
+        0x24, 4, 0, 0x0a, 0, 0x50, 0, 0, 1, 0x70, 0xff, 0x23, 0x0d, 0x18, 0x14, 0,
+    ];
+    // The same as int32, with the count in the type, and as int8 where the resolution allows it.
+    let mut wide = vec![
+        0x2b, 1, 0x20, 3, 0, 0, 0, 0x19, 0, 0, 0x60, 0xfa, 0xff, 0xff,
+    ];
+    wide.extend([0x50, 0x21, 0, 10, 0x20, 1, 0x0f, 0]);
+    wide.resize(24, 0x50);
+    for data in [&golden[..], &wide] {
+        for frame in [standard(0x100, data), extended(0x100, data)] {
+            let state = joint.reply(&frame).unwrap();
+            assert_eq!((state.mode, state.fault), (Mode::Position, 0));
+            assert!(near(state.position.to_degrees(), 2.88));
+            assert!(near(state.velocity.to_degrees(), 23.04));
+            assert!(near(state.torque, -1.44));
+        }
+    }
+    // Registers that were not queried are skipped, whatever their type.
+    for (kind, size) in [(0x21, 1), (0x25, 2), (0x29, 4), (0x2d, 4)] {
+        let mut data = [
+            &[kind, 0x0d][..],
+            &vec![0x30; size],
+            &moteus_reply(10, [0.5; 3], 0),
+        ]
+        .concat();
+        data.resize(32, 0x50);
+        let state = joint.reply(&standard(0x100, &data)).unwrap();
+        assert!(near(state.position, PI));
+    }
+    let geared = Moteus::new(1, 0, 100.0, geared()).unwrap();
+    let data = moteus_reply(1, [0.25, -0.5, 2.0], 33);
+    let state = geared.reply(&standard(0x100, &data)).unwrap();
+    assert!(near(state.position, (1.0 - 0.25 * TAU) / 2.0));
+    assert!(near(state.velocity, PI / 2.0) && near(state.torque, -4.0));
+    assert_eq!((state.mode, state.fault), (Mode::Fault, 33));
+}
+
+#[test]
+fn every_wrong_reply_of_a_moteus_is_a_typed_error() {
+    let joint = Moteus::new(1, 2, 100.0, JointMapping::IDENTITY).unwrap();
+    let good = moteus_reply(10, [0.0; 3], 0);
+    assert!(joint.reply(&standard(0x102, &good)).is_ok());
+    for id in [0x100, 0x202, 0x201, 0x002] {
+        assert_eq!(joint.reply(&standard(id, &good)), Err(CanError::Identifier));
+    }
+    assert_eq!(
+        joint.reply(&extended(0x1_0102, &good)),
+        Err(CanError::Identifier)
+    );
+    for (at, error) in [
+        (4, CanError::Short),
+        (8, CanError::Short),
+        (3, CanError::Missing(1)),
+        (0, CanError::Missing(1)),
+    ] {
+        assert_eq!(
+            joint.reply(&standard(0x102, &good[..at])),
+            Err(error),
+            "{at}"
+        );
+    }
+    for place in 0..3 {
+        for value in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+            let mut values = [0.0; 3];
+            values[place] = value;
+            let frame = standard(0x102, &moteus_reply(10, values, 0));
+            assert_eq!(joint.reply(&frame), Err(CanError::NotFinite));
+        }
+    }
+    let cases: [(&[u8], CanError); 9] = [
+        (&[0x25, 0x02, 0x00, 0x80], CanError::NotFinite),
+        (&[0x29, 0x03, 0, 0, 0, 0x80], CanError::NotFinite),
+        (&[0x2d, 0x00, 0, 0, 0xc0, 0x7f], CanError::NotFinite),
+        (&[0x21, 0x01, 0x80], CanError::NotFinite),
+        (
+            &[0x31, 0x05, 0x03],
+            CanError::Register {
+                register: 5,
+                code: 3,
+            },
+        ),
+        (
+            &[0x30, 0x82, 0x01, 0x04],
+            CanError::Register {
+                register: 0x82,
+                code: 4,
+            },
+        ),
+        (&[0x40], CanError::Unknown(0x40)),
+        (
+            &[0x20, 0xff, 0xff, 0xff, 0xff, 0xff],
+            CanError::Unknown(0x80),
+        ),
+        (&[0x2c, 0xff, 0xff, 0xff, 0x7f, 0x40], CanError::Short),
+    ];
+    for (data, error) in cases {
+        assert_eq!(joint.reply(&standard(0x102, data)), Err(error), "{data:x?}");
+    }
+    let remote = FdFrame::new_remote(StandardId::new(0x102).unwrap(), 8).unwrap();
+    assert_eq!(joint.reply(&remote), Err(CanError::Remote));
+}
+
+#[test]
+fn no_bytes_of_a_reply_panic_or_give_a_quantity_that_is_not_finite() {
+    let axis = ODrive::new(1, 1.0, JointMapping::IDENTITY).unwrap();
+    let joint = Moteus::new(1, 0, 1.0, JointMapping::IDENTITY).unwrap();
+    let mut random = 7_u32;
+    let mut next = || {
+        random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        random >> 16
+    };
+    let mut decoded = 0;
+    for _ in 0..200_000 {
+        let length = [8, 12, 20, 24][next() as usize % 4];
+        let mut data: Vec<u8> = (0..length).map(|_| next() as u8).collect();
+        match next() % 3 {
+            0 => data.iter_mut().for_each(|byte| *byte &= 0x2f),
+            1 => {
+                let changed = next() as usize % 20;
+                data = moteus_reply(10, [1.0; 3], 0);
+                data[changed] = next() as u8;
+            }
+            _ => {}
+        }
+        if let Ok(moteus::State {
+            position,
+            velocity,
+            torque,
+            ..
+        }) = joint.reply(&standard(0x100, &data))
+        {
+            assert!(
+                [position, velocity, torque]
+                    .iter()
+                    .all(|value| value.is_finite())
+            );
+            decoded += 1;
+        }
+        data.truncate(8);
+        if let Ok(Reply::Estimates { position, velocity }) = axis.reply(&standard(0x029, &data)) {
+            assert!(position.is_finite() && velocity.is_finite());
+        }
+    }
+    assert!(decoded > 10_000);
+}

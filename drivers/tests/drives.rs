@@ -1,0 +1,275 @@
+//! What the bridges promise.
+
+use core::f64::consts::TAU;
+use std::io::ErrorKind as IoError;
+
+use embedded_hal::digital::{ErrorKind as PinKind, PinState};
+use embedded_hal::pwm::ErrorKind as PwmKind;
+use embedded_hal_mock::eh1::{MockError, digital, pwm};
+use joint_drivers::h_bridge::{DriveError, LockedAntiphase, SignMagnitude};
+use joint_drivers::three_phase::{Duties, LONGEST, PhaseError, ThreePhase};
+use joint_drivers::{Direction, JointMapping};
+
+/// A PWM channel of 1000 counts that expects these duties.
+fn channel(duties: &[u16]) -> pwm::Mock {
+    let set = duties
+        .iter()
+        .map(|duty| pwm::Transaction::set_duty_cycle(*duty));
+    let all: Vec<_> = [pwm::Transaction::max_duty_cycle(1000)]
+        .into_iter()
+        .chain(set)
+        .collect();
+    pwm::Mock::new(&all)
+}
+
+fn pin(levels: &[digital::State]) -> digital::Mock {
+    let set = levels.iter().map(|level| digital::Transaction::set(*level));
+    digital::Mock::new(&set.collect::<Vec<_>>())
+}
+
+fn failure() -> MockError {
+    MockError::Io(IoError::Other)
+}
+
+#[test]
+fn in_locked_antiphase_zero_torque_and_what_is_not_a_number_are_half_duty() {
+    for direction in [Direction::Forward, Direction::Reverse] {
+        let mut drive = LockedAntiphase::new(channel(&[500, 500]), 3.0, direction).unwrap();
+        drive.set_torque(0.0).unwrap();
+        drive.set_torque(f32::NAN).unwrap();
+        drive.release().done();
+    }
+}
+
+#[test]
+fn in_locked_antiphase_the_duty_is_linear_saturates_and_has_the_drives_direction() {
+    let torques = [-9.0, -3.0, -1.5, 1.5, 3.0, f32::INFINITY];
+    let duties = [0, 0, 250, 750, 1000, 1000];
+    for (direction, duties) in [
+        (Direction::Forward, duties),
+        (Direction::Reverse, duties.map(|duty| 1000 - duty)),
+    ] {
+        let mut drive = LockedAntiphase::new(channel(&duties), 3.0, direction).unwrap();
+        torques
+            .iter()
+            .for_each(|torque| drive.set_torque(*torque).unwrap());
+        drive.release().done();
+    }
+}
+
+#[test]
+fn every_duty_of_locked_antiphase_is_the_nearest_to_its_torque() {
+    for max in [1000_u16, 8400, 65_534] {
+        let mut channel = pwm::Mock::new(&[pwm::Transaction::max_duty_cycle(max)]);
+        let drive = LockedAntiphase::new(channel.clone(), 2.0, Direction::Forward).unwrap();
+        for step in -1000..=1000 {
+            let torque = step as f32 * 0.002;
+            let exact = f64::from(max) * (0.5 + f64::from(torque) / 4.0);
+            let error = f64::from(drive.duty(torque)) - exact;
+            assert!(error.abs() < 0.501, "{max} {torque}: {error}");
+        }
+        channel.done();
+    }
+}
+
+#[test]
+fn a_full_scale_that_is_not_above_zero_is_refused() {
+    for full_scale in [0.0, -1.0, f32::NAN, f32::INFINITY, 1e-38] {
+        let (mut pwm, mut level) = (channel(&[]), pin(&[]));
+        let locked = LockedAntiphase::new(pwm.clone(), full_scale, Direction::Forward);
+        assert_eq!(locked.unwrap_err(), DriveError::FullScale);
+        pwm.done();
+        let mut pwm = channel(&[]);
+        let signed = SignMagnitude::new(pwm.clone(), level.clone(), full_scale, Direction::Forward);
+        assert_eq!(signed.unwrap_err(), DriveError::FullScale);
+        pwm.done();
+        level.done();
+    }
+}
+
+#[test]
+fn with_sign_and_magnitude_the_bridge_is_off_while_the_sign_changes() {
+    use digital::State::{High, Low};
+    let torques = [0.5, 1.0, -1.0, -7.0, 0.0, f32::NAN, -0.5, 2.0];
+    //              +      +    −           −    0  NaN  −    +
+    let duties = [0, 250, 500, 0, 500, 1000, 0, 0, 250, 0, 1000];
+    let mut levels = [High, Low, High];
+    for direction in [Direction::Forward, Direction::Reverse] {
+        let mut drive = SignMagnitude::new(channel(&duties), pin(&levels), 2.0, direction).unwrap();
+        torques
+            .iter()
+            .for_each(|torque| drive.set_torque(*torque).unwrap());
+        let (mut pwm, mut level) = drive.release();
+        pwm.done();
+        level.done();
+        levels = [Low, High, Low];
+    }
+}
+
+#[test]
+fn the_full_scale_of_both_signs_is_the_greatest_duty_and_magnitudes_are_symmetrical() {
+    let mut pwm = channel(&[]);
+    let mut level = pin(&[]);
+    let drive = SignMagnitude::new(pwm.clone(), level.clone(), 2.0, Direction::Forward).unwrap();
+    for torque in [2.0, 1e30, f32::INFINITY] {
+        assert_eq!(drive.sign_and_duty(torque), (PinState::High, 1000));
+        assert_eq!(drive.sign_and_duty(-torque), (PinState::Low, 1000));
+    }
+    for step in 1..1000 {
+        let torque = step as f32 * 0.002;
+        assert_eq!(
+            drive.sign_and_duty(torque).1,
+            drive.sign_and_duty(-torque).1
+        );
+    }
+    pwm.done();
+    level.done();
+}
+
+#[test]
+fn an_error_of_a_pin_leaves_the_bridge_off_and_the_sign_is_set_again() {
+    use digital::State::{High, Low};
+    let levels = [
+        digital::Transaction::set(High),
+        digital::Transaction::set(Low).with_error(failure()),
+        digital::Transaction::set(High),
+    ];
+    let mut drive = SignMagnitude::new(
+        channel(&[0, 1000, 0, 0, 1000]),
+        digital::Mock::new(&levels),
+        1.0,
+        Direction::Forward,
+    )
+    .unwrap();
+    assert_eq!(drive.set_torque(1.0), Ok(()));
+    assert_eq!(drive.set_torque(-1.0), Err(DriveError::Pin(PinKind::Other)));
+    // The pin may have either level.
+    assert_eq!(drive.set_torque(1.0), Ok(()));
+    let (mut pwm, mut level) = drive.release();
+    pwm.done();
+    level.done();
+}
+
+#[test]
+fn an_error_of_a_pwm_is_typed() {
+    let transactions = [
+        pwm::Transaction::max_duty_cycle(1000),
+        pwm::Transaction::set_duty_cycle(500).with_error(failure()),
+    ];
+    let channel = pwm::Mock::new(&transactions);
+    let mut drive = LockedAntiphase::new(channel, 1.0, Direction::Forward).unwrap();
+    assert_eq!(drive.set_torque(0.0), Err(DriveError::Pwm(PwmKind::Other)));
+    drive.release().done();
+}
+
+/// v_d and v_q in V of three duties, by the forward transforms in f64.
+fn park(phases: [f32; 3], angle: f64, v_dc: f64) -> (f64, f64) {
+    let [a, b, c] = phases.map(|duty| f64::from(duty) * v_dc);
+    let (alpha, beta) = ((2.0 * a - b - c) / 3.0, (b - c) / 3.0_f64.sqrt());
+    let (sin, cos) = angle.sin_cos();
+    (alpha * cos + beta * sin, beta * cos - alpha * sin)
+}
+
+#[test]
+fn the_forward_transforms_of_the_duties_are_the_commanded_voltages() {
+    let (mut worst, v_dc) = (0.0_f64, 24.0);
+    for step in -200..200 {
+        let angle = (step as f32) * 0.37;
+        for (d, q) in [
+            (0.0, 13.8),
+            (0.0, -13.8),
+            (5.0, 0.0),
+            (-4.0, 9.0),
+            (3.0, -1.0),
+        ] {
+            let duties = Duties::new(d, q, angle, v_dc as f32);
+            assert!(!duties.is_saturated);
+            let (d_out, q_out) = park(duties.phases, f64::from(angle), v_dc);
+            let error = (d_out - f64::from(d)).hypot(q_out - f64::from(q));
+            worst = worst.max(error / v_dc);
+        }
+    }
+    assert!(worst < 1e-6, "{worst}");
+}
+
+#[test]
+fn the_phases_are_centred_between_the_rails_and_reach_them_at_the_longest_voltage() {
+    let mut reached = 0.5_f32;
+    for step in 0..3600 {
+        let angle = step as f32 * (TAU / 3600.0) as f32;
+        let Duties { phases, .. } = Duties::new(0.0, LONGEST * 48.0 * 0.999_99, angle, 48.0);
+        let highest = phases.into_iter().fold(0.0, f32::max);
+        let lowest = phases.into_iter().fold(1.0, f32::min);
+        assert!((highest + lowest - 1.0).abs() < 1e-6 && lowest >= 0.0);
+        reached = reached.max(highest);
+    }
+    // Without centring the same voltage needs a duty of 1.077.
+    assert!((reached - 1.0).abs() < 1e-4);
+}
+
+#[test]
+fn a_voltage_that_is_too_long_is_shortened_in_its_direction_and_says_so() {
+    for (d, q) in [(0.0, 24.0), (-30.0, 40.0), (1e6, -1e6), (1e9, 1.0)] {
+        let duties = Duties::new(d, q, 1.1, 24.0);
+        assert!(duties.is_saturated);
+        let (d_out, q_out) = park(duties.phases, f64::from(1.1_f32), 24.0);
+        let length = d_out.hypot(q_out);
+        assert!((length / 24.0 - f64::from(LONGEST)).abs() < 1e-6);
+        let (d, q) = (f64::from(d), f64::from(q));
+        assert!((d_out * q - q_out * d).abs() < 1e-5 * d.hypot(q) * length);
+    }
+}
+
+#[test]
+fn inputs_that_are_no_voltages_become_no_voltage_and_no_duty_is_not_a_number() {
+    for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+        for inputs in [
+            [bad, 0.0, 0.0, 24.0],
+            [0.0, bad, 0.0, 24.0],
+            [0.0, 1.0, bad, 24.0],
+            [0.0, 1.0, 0.0, bad],
+        ] {
+            let [d, q, angle, v_dc] = inputs;
+            assert_eq!(Duties::new(d, q, angle, v_dc), Duties::ZERO);
+        }
+    }
+    for v_dc in [0.0, -24.0, f32::MIN_POSITIVE] {
+        assert_eq!(Duties::new(0.0, 1.0, 0.0, v_dc), Duties::ZERO);
+    }
+    for extreme in [1e-45, 1e-30, 1.0, 1e9, 1e30, f32::MAX] {
+        for angle in [0.0, 1e3, 1e9, f32::MAX] {
+            for (d, v_dc) in [(extreme, 1.0), (1.0, extreme), (-extreme, extreme)] {
+                let duties = Duties::new(d, extreme, angle, v_dc).phases;
+                assert!(duties.iter().all(|duty| (0.0..=1.0).contains(duty)));
+            }
+        }
+    }
+}
+
+#[test]
+fn the_rotor_is_mapped_to_the_electrical_angle_by_zero_direction_and_pole_pairs() {
+    let commutation = JointMapping::new(0.2, Direction::Reverse, 1.0 / 4.0).unwrap();
+    let Duties { phases, .. } = Duties::new(1.0, 8.0, -4.0 * (0.5 - 0.2), 24.0);
+    let channels = phases.map(|duty| channel(&[(duty * 1000.0).round() as u16]));
+    let mut motor = ThreePhase::new(channels, commutation);
+    assert_eq!(motor.set_voltage(1.0, 8.0, 0.5, 24.0), Ok(false));
+    motor.release().iter_mut().for_each(pwm::Mock::done);
+}
+
+#[test]
+fn an_error_of_one_phase_is_typed_and_takes_the_voltage_from_all() {
+    let transactions = [
+        pwm::Transaction::max_duty_cycle(1000),
+        pwm::Transaction::set_duty_cycle(644).with_error(failure()),
+        pwm::Transaction::set_duty_cycle(500).with_error(failure()),
+    ];
+    let channels = [
+        channel(&[500, 500]),
+        pwm::Mock::new(&transactions),
+        channel(&[500]),
+    ];
+    let mut motor = ThreePhase::new(channels, JointMapping::IDENTITY);
+    let PhaseError { phase, kind, .. } = motor.set_voltage(0.0, 4.0, 0.0, 24.0).unwrap_err();
+    assert_eq!((phase, kind), (1, PwmKind::Other));
+    motor.release().iter_mut().for_each(pwm::Mock::done);
+}

@@ -343,7 +343,7 @@ fn a_missing_servo_of_a_synchronous_read_is_named() {
 }
 
 #[test]
-fn a_reply_that_comes_after_its_time_limit_is_not_taken_for_the_next() {
+fn a_reply_that_comes_after_its_time_limit_is_not_the_reply_to_the_next_request() {
     let late = reply(1, 0, &[0x11, 0x11]);
     let request = sent(&READ_ONE);
     let good = received(&reply(1, 0, &[0x18, 0x05]));

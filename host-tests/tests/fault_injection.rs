@@ -1,5 +1,5 @@
 //! Every fault at random times in random combinations: limits of torque, rate, speed and energy hold, the arm comes
-//! back, and the table of `docs/guide/src/faults.md` is what was seen. `FAULTS_WRITE=1` writes the table.
+//! back, and the table of `docs/guide/src/faults.md` is what was observed. `FAULTS_WRITE=1` writes the table.
 
 #[path = "fault_injection/arm.rs"]
 mod arm;
@@ -14,7 +14,7 @@ use arm::controller;
 use dynamics_core::control::{CurrentTick, Fault, Mode, MotionController, StopCategory};
 use kinds::Kind;
 use plants::{Pendulum, Plant, Ur5eArm};
-use run::{Seen, at_speed, run};
+use run::{Observed, at_speed, run};
 
 /// Runs of the table, which every run of this test has.
 const TABLE: u32 = 400;
@@ -29,20 +29,20 @@ const PAGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/guide/src/fault
 const BEGIN: &str = "<!-- faults:begin -->\n";
 const END: &str = "<!-- faults:end -->\n";
 
-fn one(seed: u32, broken: f32) -> Result<Vec<Seen>, String> {
-    let (name, seen) = if seed.is_multiple_of(UR5E) {
+fn one(seed: u32, broken: f32) -> Result<Vec<Observed>, String> {
+    let (name, observed) = if seed.is_multiple_of(UR5E) {
         (Ur5eArm::NAME, run::<Ur5eArm, 6>(seed, broken))
     } else {
         (Pendulum::NAME, run::<Pendulum, 1>(seed, broken))
     };
-    seen.map_err(|what| format!("run {seed}, {name}, {what}"))
+    observed.map_err(|what| format!("run {seed}, {name}, {what}"))
 }
 
 /// A row of the table.
-fn row(kind: Kind, seen: &[Seen]) -> String {
-    let of: Vec<&Seen> = seen.iter().filter(|one| one.kind == kind).collect();
+fn row(kind: Kind, observed: &[Observed]) -> String {
+    let of: Vec<&Observed> = observed.iter().filter(|one| one.kind == kind).collect();
     let latencies = || of.iter().filter_map(|one| one.latency);
-    let count = |what: fn(&Seen) -> bool| of.iter().filter(|one| what(one)).count();
+    let count = |what: fn(&Observed) -> bool| of.iter().filter(|one| what(one)).count();
     let latency = match (latencies().min(), latencies().max()) {
         (Some(least), Some(most)) if least == most => format!("{least}"),
         (Some(least), Some(most)) => format!("{least} to {most}"),
@@ -58,10 +58,10 @@ fn row(kind: Kind, seen: &[Seen]) -> String {
     )
 }
 
-fn table(seen: &[Seen]) -> String {
+fn table(observed: &[Observed]) -> String {
     let head = "| fault | detected by | reported as | injected | reported | latency, ticks | bridged | held | stopped |\n\
         |---|---|---|---:|---:|---:|---:|---:|---:|\n";
-    let rows: String = Kind::ALL.iter().map(|&kind| row(kind, seen)).collect();
+    let rows: String = Kind::ALL.iter().map(|&kind| row(kind, observed)).collect();
     format!(
         "<!-- written by host-tests/tests/fault_injection.rs with FAULTS_WRITE=1: do not edit -->\n\n{head}{rows}\n"
     )
@@ -69,10 +69,10 @@ fn table(seen: &[Seen]) -> String {
 
 #[test]
 fn no_limit_is_exceeded_and_every_arm_recovers() {
-    let (mut seen, mut failures) = (Vec::new(), Vec::new());
+    let (mut observed, mut failures) = (Vec::new(), Vec::new());
     for seed in 0..RUNS {
         match one(seed, 1.0) {
-            Ok(of) if seed < TABLE => seen.extend(of),
+            Ok(of) if seed < TABLE => observed.extend(of),
             Ok(_) => {}
             Err(failure) => failures.push(failure),
         }
@@ -91,13 +91,13 @@ fn no_limit_is_exceeded_and_every_arm_recovers() {
     let page = std::fs::read_to_string(PAGE).expect("the page of the guide");
     let (before, rest) = page.split_once(BEGIN).expect("the begin marker");
     let (written, after) = rest.split_once(END).expect("the end marker");
-    let fresh = table(&seen);
+    let fresh = table(&observed);
     if std::env::var_os("FAULTS_WRITE").is_some() {
         std::fs::write(PAGE, format!("{before}{BEGIN}{fresh}{END}{after}")).expect("written");
     } else {
         assert_eq!(
             written, fresh,
-            "the table is not what was seen: FAULTS_WRITE=1 writes it"
+            "the table is not what was observed: FAULTS_WRITE=1 writes it"
         );
     }
 }

@@ -1,8 +1,8 @@
-//! The way from where an arm is to the start of its motion.
+//! The path from where an arm is to the start of its motion.
 
 use core::fmt;
 
-use super::back_off::way;
+use super::back_off::path;
 use super::{
     LimitKind, MeasurementAge, Mode, MotionController, MotionLimits, Reference, ResetError,
     SafetyLimits, Trajectory, TrajectoryError, real,
@@ -18,10 +18,10 @@ const SPEED: f64 = 15.0 / 8.0;
 /// The greatest of |q̈| T²/|D|, at s = 1/2 ± √3/6: 10/√3.
 const ACCELERATION: f64 = 5.773_502_691_896_258;
 
-/// A motion that is preceded by the way to its start, from rest to rest within the limits of the joints.
+/// A motion that is preceded by the path to its start, from rest to rest within the limits of the joints.
 ///
-/// Each joint moves monotonically, so that the way stays within the bounds that its ends are in. It knows no obstacles:
-/// [`Self::first_point`] and [`Self::last_point`] name its ends, for a check of the way by the application.
+/// Each joint moves monotonically, so that the path stays within the bounds that its ends are in. It knows no obstacles:
+/// [`Self::first_point`] and [`Self::last_point`] name its ends, for a check of the path by the application.
 ///
 /// ```
 /// use dynamics_core::control::{Approach, MotionLimits, Reference, SafetyLimits, Trajectory, WayPoint};
@@ -31,7 +31,7 @@ const ACCELERATION: f64 = 5.773_502_691_896_258;
 /// let motion = Trajectory::new(&[point(0.0, 0), point(0.5, 1000)], 1e-3, &limits)?;
 ///
 /// let approach = Approach::plan(&[-1.6], &motion, 1e-3, &limits, &bounds)?;
-/// assert_eq!(approach.way_ticks(), 3001); // 15/8 · 1.6 rad at 1 rad/s, and a tick for rounding
+/// assert_eq!(approach.path_ticks(), 3001); // 15/8 · 1.6 rad at 1 rad/s, and a tick for rounding
 /// assert_eq!((approach.at(0).q, approach.at(3001).q, approach.at(4001).q), ([-1.6], [0.0], [0.5]));
 ///
 /// let error = Approach::plan(&[2.5], &motion, 1e-3, &limits, &bounds).unwrap_err();
@@ -42,12 +42,12 @@ const ACCELERATION: f64 = 5.773_502_691_896_258;
 #[doc(alias = "homing")]
 #[derive(Clone, Copy, Debug)]
 pub struct Approach<'a, R, const V: usize, T> {
-    way: Trajectory<R, V, 2>,
+    path: Trajectory<R, V, 2>,
     ends: [[R; V]; 2],
     motion: &'a T,
 }
 
-/// The reason why there is no way to the start of a motion. Joints are numbered from 0.
+/// The reason why there is no path to the start of a motion. Joints are numbered from 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
@@ -82,15 +82,15 @@ pub enum ApproachError {
         /// The joint.
         joint: usize,
     },
-    /// The way takes more ticks than can be counted, or the tick is not a positive number.
-    Way(TrajectoryError),
+    /// The path takes more ticks than can be counted, or the tick is not a positive number.
+    Path(TrajectoryError),
 }
 
 impl fmt::Display for ApproachError {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
             Self::Reset(error) => error.fmt(out),
-            Self::Way(error) => error.fmt(out),
+            Self::Path(error) => error.fmt(out),
             Self::NotFinite { joint } => write!(out, "joint {joint}: a position is not finite"),
             Self::Position {
                 joint,
@@ -123,7 +123,7 @@ impl fmt::Display for ApproachError {
 impl core::error::Error for ApproachError {}
 
 impl<'a, R: Real, const V: usize, T: Reference<R, V>> Approach<'a, R, V, T> {
-    /// The way from the positions `from` (rad, m) to the start of `motion`, in as few ticks of `tick` seconds as the
+    /// The path from the positions `from` (rad, m) to the start of `motion`, in as few ticks of `tick` seconds as the
     /// motion limits allow, and then the motion.
     ///
     /// # Errors
@@ -165,48 +165,48 @@ impl<'a, R: Real, const V: usize, T: Reference<R, V>> Approach<'a, R, V, T> {
             seconds = if least > seconds { least } else { seconds };
         }
         Ok(Self {
-            way: way(*from, start.q, seconds, tick, limits)?,
+            path: path(*from, start.q, seconds, tick, limits)?,
             ends: [*from, start.q],
             motion,
         })
     }
 
-    /// The ticks of the way, after which the motion begins.
-    pub fn way_ticks(&self) -> u32 {
-        self.way.ticks()
+    /// The ticks of the path, after which the motion begins.
+    pub fn path_ticks(&self) -> u32 {
+        self.path.ticks()
     }
 
-    /// The positions at which the way begins, rad or m.
+    /// The positions at which the path begins, rad or m.
     pub fn first_point(&self) -> &[R; V] {
         &self.ends[0]
     }
 
-    /// The positions at which the way ends and the motion begins, rad or m.
+    /// The positions at which the path ends and the motion begins, rad or m.
     pub fn last_point(&self) -> &[R; V] {
         &self.ends[1]
     }
 
-    /// The time of the way, s.
-    pub fn way_seconds(&self, tick: R) -> R {
-        real::<R>(self.way.ticks()) * tick
+    /// The time of the path, s.
+    pub fn path_seconds(&self, tick: R) -> R {
+        real::<R>(self.path.ticks()) * tick
     }
 }
 
 impl<R: Real, const V: usize, T: Reference<R, V>> Reference<R, V> for Approach<'_, R, V, T> {
     fn at(&self, tick: u32) -> State<R, V, V> {
-        match tick.checked_sub(self.way.ticks()) {
+        match tick.checked_sub(self.path.ticks()) {
             Some(tick) => self.motion.at(tick),
-            None => self.way.at(tick),
+            None => self.path.at(tick),
         }
     }
 
     fn ticks(&self) -> u32 {
-        self.way.ticks().saturating_add(self.motion.ticks())
+        self.path.ticks().saturating_add(self.motion.ticks())
     }
 }
 
 impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
-    /// Plans the way of a stopped arm from its measured position to the start of a motion, however far away, and sets
+    /// Plans the path of a stopped arm from its measured position to the start of a motion, however far away, and sets
     /// the clock to its begin; [`Self::reset`] with the returned reference then starts the arm.
     ///
     /// ```
@@ -229,9 +229,9 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
     ///
     /// controller.tick(Ok(&[1.4]), &motion, |_, _| [0.0]);
     /// assert_eq!(controller.reset(&motion), Err(ResetError::TooFar { joint: 0 }));
-    /// let way = controller.approach(&motion, &limits, &bounds)?;
-    /// controller.reset(&way)?;
-    /// let command = controller.tick(Ok(&[1.4]), &way, |_, _| [0.0]);
+    /// let path = controller.approach(&motion, &limits, &bounds)?;
+    /// controller.reset(&path)?;
+    /// let command = controller.tick(Ok(&[1.4]), &path, |_, _| [0.0]);
     /// assert_eq!(command.status.mode, Mode::Full);
     /// # Ok::<(), Box<dyn core::error::Error>>(())
     /// ```
@@ -251,9 +251,9 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
             return Err(ApproachError::Reset(ResetError::NoMeasurement));
         }
         let from = self.estimate().q;
-        let way = Approach::plan(&from, motion, self.observer.tick(), limits, bounds)?;
+        let path = Approach::plan(&from, motion, self.observer.tick(), limits, bounds)?;
         self.clock = 0;
-        Ok(way)
+        Ok(path)
     }
 }
 

@@ -15,7 +15,7 @@ mod tests;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct BackOffConfig<R> {
-    /// Greatest speed and acceleration of the way back, of all joints.
+    /// Greatest speed and acceleration of the path back, of all joints.
     pub limits: MotionLimits<R>,
     /// How far within its bound a joint ends, rad or m.
     pub margin: R,
@@ -65,7 +65,7 @@ pub struct BackOffConfig<R> {
 #[doc(alias = "joint limit recovery")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BackOff<R, const V: usize> {
-    way: Trajectory<R, V, 2>,
+    path: Trajectory<R, V, 2>,
     /// Where each joint ends, and where it is accepted.
     goal: [R; V],
     bounds: [[R; 2]; V],
@@ -93,7 +93,7 @@ impl<R: Real, const V: usize> Reference<R, V> for Fixed<R, V> {
 }
 
 impl<R: Real, const V: usize> BackOff<R, V> {
-    /// Plans the way back of a stopped arm from its measured position, and starts the arm.
+    /// Plans the path back of a stopped arm from its measured position, and starts the arm.
     ///
     /// # Errors
     /// [`ApproachError`]; the controller is then unchanged.
@@ -132,12 +132,12 @@ impl<R: Real, const V: usize> BackOff<R, V> {
             seconds = if least > seconds { least } else { seconds };
         }
         let limits = [config.limits; V];
-        let way = way(from, goal, seconds, controller.observer.tick(), &limits)?;
+        let path = path(from, goal, seconds, controller.observer.tick(), &limits)?;
         let mut speeds = controller.observer;
         speeds.reset(&from);
         controller.restart();
         Ok(Self {
-            way,
+            path,
             goal,
             bounds,
             configured,
@@ -149,7 +149,7 @@ impl<R: Real, const V: usize> BackOff<R, V> {
         })
     }
 
-    /// Runs one tick of the controller, as [`MotionController::tick`]; the reference is that of the way back.
+    /// Runs one tick of the controller, as [`MotionController::tick`]; the reference is that of the path back.
     ///
     /// A command in [`Mode::Stopped`] ends the return: start another one.
     pub fn tick<A: MeasurementAge>(
@@ -185,7 +185,7 @@ impl<R: Real, const V: usize> BackOff<R, V> {
                 .iter()
                 .position(|side| side.abs() > R::ZERO)
                 .unwrap_or(0);
-            self.done |= (self.tick > self.way.ticks()) & self.inside(q);
+            self.done |= (self.tick > self.path.ticks()) & self.inside(q);
             if self.done {
                 controller.stop_by(Fault::Position { joint }, StopCategory::ControlledHold);
             }
@@ -199,7 +199,7 @@ impl<R: Real, const V: usize> BackOff<R, V> {
     }
 
     fn reference(&self, estimate: &Estimate<R, V>) -> State<R, V, V> {
-        let mut state = self.way.at(self.tick);
+        let mut state = self.path.at(self.tick);
         let joints = state.q.iter_mut().zip(&estimate.q);
         for ((q, &measured), (&side, &goal)) in joints.zip(self.outward.iter().zip(&self.goal)) {
             if side * (*q - measured) > R::ZERO {
@@ -256,15 +256,15 @@ impl<R: Real, const V: usize> BackOff<R, V> {
     }
 }
 
-/// The way from rest to rest in a time, s, within limits.
-pub(super) fn way<R: Real, const V: usize>(
+/// The path from rest to rest in a time, s, within limits.
+pub(super) fn path<R: Real, const V: usize>(
     from: [R; V],
     to: [R; V],
     seconds: R,
     tick: R,
     limits: &[MotionLimits<R>; V],
 ) -> Result<Trajectory<R, V, 2>, ApproachError> {
-    // What rounding may add to a peak in f32; and a way of no distance takes a tick. A time that cannot be counted
+    // What rounding may add to a peak in f32; and a path of no distance takes a tick. A time that cannot be counted
     // becomes the greatest count.
     let ticks = (seconds / tick * R::from_f64(1.0 + 1e-5)).to_f64();
     let ticks = (ticks as u32).saturating_add(1);
@@ -273,5 +273,5 @@ pub(super) fn way<R: Real, const V: usize>(
         qd: [R::ZERO; V],
         ticks,
     };
-    Trajectory::new(&[stop(from, 0), stop(to, ticks)], tick, limits).map_err(ApproachError::Way)
+    Trajectory::new(&[stop(from, 0), stop(to, ticks)], tick, limits).map_err(ApproachError::Path)
 }

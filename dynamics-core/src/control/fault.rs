@@ -84,7 +84,7 @@ pub enum Fault {
     Model,
     /// A queue or a stack has overflowed.
     Overflow,
-    /// The processor restarted without being told to: a brown-out or a watchdog.
+    /// The processor restarted without a command: a brown-out or a watchdog.
     Restarted,
     /// The brake did not accept its command.
     Brake,

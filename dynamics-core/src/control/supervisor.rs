@@ -9,8 +9,9 @@
 //!    └──────────────────────────────────────────────────────────────┘ reset()
 //! ```
 //!
-//! [`StopCategory`] chooses what `Hold` and `Stopped` are for an arm. Ticks with a fault are counted until `reentry_ticks` consecutive ticks had none. The state from tick to tick (last
-//! good positions, last torques, counters) is updated only by accepted values. With limits that allow no motion or
+//! [`StopCategory`] chooses what `Hold` and `Stopped` are for an arm. Ticks with a fault are counted until
+//! `reentry_ticks` consecutive ticks had none. The state from tick to tick (last good positions, last torques, counters)
+//! is updated only by accepted values. With limits that allow no motion or
 //! torque (NaN, negative, an empty range), `try_new` returns an error and `new` a supervisor that keeps the arm
 //! stopped.
 
@@ -117,7 +118,7 @@ pub struct Supervisor<R, const V: usize> {
     /// The limits allow nothing: the arm stays stopped.
     unusable: Option<Fault>,
     stopping: Stopping<R, V>,
-    /// What [`Self::report`] was told.
+    /// The fault of [`Self::report`] for the next tick.
     reported: Option<Fault>,
 }
 

@@ -30,17 +30,17 @@ impl<T: Reference<f32, V>, const V: usize> Reference<f32, V> for Offset<'_, T> {
     }
 }
 
-/// The motion, or the way to its start and the motion.
-pub enum Way<'a, const V: usize> {
+/// The motion, or the path to its start and the motion.
+pub enum Path<'a, const V: usize> {
     Motion(&'a Trajectory<f32, V, 3>),
     Approach(Approach<'a, f32, V, Trajectory<f32, V, 3>>),
 }
 
-impl<const V: usize> Reference<f32, V> for Way<'_, V> {
+impl<const V: usize> Reference<f32, V> for Path<'_, V> {
     fn at(&self, tick: u32) -> State<f32, V, V> {
         match self {
             Self::Motion(motion) => motion.at(tick),
-            Self::Approach(way) => way.at(tick),
+            Self::Approach(path) => path.at(tick),
         }
     }
     fn ticks(&self) -> u32 {
@@ -85,7 +85,7 @@ pub struct Arm<'a, P, const V: usize> {
     gains: Gains<f32, V>,
     pub state: State<f32, V, V>,
     pub controller: Controller<V>,
-    way: Way<'a, V>,
+    path: Path<'a, V>,
     pub back_off: Option<BackOff<f32, V>>,
     frozen: FrozenEncoder<f32, V>,
     steps: ReferenceStep<f32, V>,
@@ -102,7 +102,7 @@ impl<'a, P: Plant<V>, const V: usize> Arm<'a, P, V> {
             gains: P::gains(),
             state: State::at(P::HOME),
             controller: controller::<P, V>(broken),
-            way: Way::Motion(motion),
+            path: Path::Motion(motion),
             back_off: None,
             frozen: FrozenEncoder::new([0.003; V], 3),
             steps: ReferenceStep::new(P::LIMITS.speed.map(|speed| 2.0 * speed * TICK)),
@@ -175,7 +175,7 @@ impl<'a, P: Plant<V>, const V: usize> Arm<'a, P, V> {
                     if ticks > WATCHDOG {
                         self.restart();
                     } else {
-                        self.controller.missed(ticks, &self.way);
+                        self.controller.missed(ticks, &self.path);
                     }
                     q = self.state.q;
                 }
@@ -208,7 +208,7 @@ impl<'a, P: Plant<V>, const V: usize> Arm<'a, P, V> {
             }
             command
         } else {
-            let reference = Offset(&self.way, offset);
+            let reference = Offset(&self.path, offset);
             let mut tick = self.controller.observe(measured).reference(&reference);
             if tick.mode() != Mode::Full {
                 self.steps.restart();
@@ -254,11 +254,11 @@ impl<'a, P: Plant<V>, const V: usize> Arm<'a, P, V> {
             .controller
             .approach(motion, &[P::MOTION; V], &P::LIMITS)
         {
-            Ok(way) => {
-                if self.controller.reset(&way).is_err() {
+            Ok(path) => {
+                if self.controller.reset(&path).is_err() {
                     return Ok(false);
                 }
-                self.way = Way::Approach(way);
+                self.path = Path::Approach(path);
             }
             Err(ApproachError::Position { .. }) => {
                 let limits = MotionLimits {

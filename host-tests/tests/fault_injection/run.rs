@@ -32,9 +32,9 @@ impl Random {
     }
 }
 
-/// What was seen of a fault that came alone while the arm followed its motion.
+/// What was observed of a fault that came alone while the arm followed its motion.
 #[derive(Clone, Copy, Debug)]
-pub struct Seen {
+pub struct Observed {
     pub kind: Kind,
     /// Ticks from its begin to its report; none if it had no effect.
     pub latency: Option<u32>,
@@ -64,8 +64,8 @@ pub fn at_speed<P: Plant<V>, const V: usize>(share: f32) -> Result<(), String> {
     arm.advance()
 }
 
-/// Runs an arm under the faults of a seed; what was seen of each, or which limit did not hold and when.
-pub fn run<P: Plant<V>, const V: usize>(seed: u32, broken: f32) -> Result<Vec<Seen>, String> {
+/// Runs an arm under the faults of a seed; what was observed of each, or which limit did not hold and when.
+pub fn run<P: Plant<V>, const V: usize>(seed: u32, broken: f32) -> Result<Vec<Observed>, String> {
     let mut random = Random::new(seed);
     let stop = |q, ticks| WayPoint {
         q,
@@ -75,7 +75,8 @@ pub fn run<P: Plant<V>, const V: usize>(seed: u32, broken: f32) -> Result<Vec<Se
     let points = [stop(P::HOME, 0), stop(P::AWAY, 1500), stop(P::HOME, 1500)];
     let motion = Trajectory::new(&points, TICK, &[P::MOTION; V]).map_err(|e| e.to_string())?;
     let mut arm = Arm::<P, V>::new(&motion, broken);
-    let (mut episodes, mut seen, mut kinds) = (Vec::<Episode>::new(), Vec::new(), BTreeSet::new());
+    let (mut episodes, mut observed, mut kinds) =
+        (Vec::<Episode>::new(), Vec::new(), BTreeSet::new());
     let (mut next, mut watched, mut quiet) = (100 + random.below(600), None::<(usize, u32)>, 0);
     let mut last = None;
     for now in 0..TICKS {
@@ -86,13 +87,13 @@ pub fn run<P: Plant<V>, const V: usize>(seed: u32, broken: f32) -> Result<Vec<Se
             let alone = episodes.is_empty() && quiet > 300 && arm.back_off.is_none();
             watched = None;
             if alone {
-                seen.push(Seen {
+                observed.push(Observed {
                     kind: onset.kind,
                     latency: None,
                     held: false,
                     stopped: false,
                 });
-                watched = Some((seen.len() - 1, now));
+                watched = Some((observed.len() - 1, now));
             }
             let held = arm.state.q[onset.joint as usize % V];
             let end = now + 1 + random.below(180);
@@ -114,7 +115,7 @@ pub fn run<P: Plant<V>, const V: usize>(seed: u32, broken: f32) -> Result<Vec<Se
             quiet + 1
         };
         if let Some((index, begin)) = watched {
-            let one = &mut seen[index];
+            let one = &mut observed[index];
             if one.latency.is_none() && fault.is_some_and(|fault| one.kind.is(fault)) {
                 one.latency = Some(now - begin);
             }
@@ -131,5 +132,5 @@ pub fn run<P: Plant<V>, const V: usize>(seed: u32, broken: f32) -> Result<Vec<Se
         let apart: Vec<f32> = apart.collect();
         return Err(format!("no recovery: {last:?} {apart:?} after {kinds:?}"));
     }
-    Ok(seen)
+    Ok(observed)
 }

@@ -41,9 +41,9 @@ fn plan(from: [f64; 2]) -> Result<Approach<'static, f64, 2, Rest>, ApproachError
 fn a_way_uses_its_limits_and_keeps_them() {
     for from in [[1.9, -0.3], [-0.01, 1.5], [1e-6, 0.0], [-2.0, 2.0]] {
         let way = plan(from).expect("within the limits");
-        assert_eq!((way.at(0).q, way.at(way.way_ticks()).q), (from, [0.0; 2]));
+        assert_eq!((way.at(0).q, way.at(way.path_ticks()).q), (from, [0.0; 2]));
         let mut used = 0.0_f64;
-        for tick in 0..way.way_ticks() {
+        for tick in 0..way.path_ticks() {
             let state = way.at(tick);
             for joint in 0..2 {
                 used = used.max(state.qd[joint].abs() / LIMITS[joint].velocity);
@@ -54,9 +54,9 @@ fn a_way_uses_its_limits_and_keeps_them() {
         assert!(used <= 1.0, "{used}");
         // One tick of rounding of a way of a tick or two is much.
         assert!(
-            used >= 0.98 || way.way_ticks() < 10,
+            used >= 0.98 || way.path_ticks() < 10,
             "{used} in {}",
-            way.way_ticks()
+            way.path_ticks()
         );
     }
 }
@@ -97,7 +97,7 @@ fn refusals_name_the_joint_and_the_limit() {
         acceleration: 1.0,
     }; 2];
     let refused = Approach::plan(&[1.0; 2], &Rest, TICK, &slow, &BOUNDS).unwrap_err();
-    assert!(matches!(refused, ApproachError::Way(_)), "{refused}");
+    assert!(matches!(refused, ApproachError::Path(_)), "{refused}");
 }
 
 #[test]

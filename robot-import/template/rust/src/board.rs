@@ -49,6 +49,8 @@ pub struct Drive<Pwm> {
     /// Steps of duty per torque, 1/(N·m) or 1/N.
     slope: f32,
     zero: f32,
+    /// What the last duty left out, in steps.
+    rest: f32,
 }
 
 impl<Pwm: SetDutyCycle> Drive<Pwm> {
@@ -56,13 +58,21 @@ impl<Pwm: SetDutyCycle> Drive<Pwm> {
     pub fn new(pwm: Pwm, full_scale: f32) -> Self {
         let zero = f32::from(pwm.max_duty_cycle()) * 0.5;
         let slope = zero / full_scale;
-        Self { pwm, slope, zero }
+        Self {
+            pwm,
+            slope,
+            zero,
+            rest: 0.0,
+        }
     }
 
     fn set(&mut self, torque: f32) -> Result<(), Pwm::Error> {
+        // What a step of duty cannot express is left for the next tick: a light joint then has the mean torque.
+        let wanted = self.zero + self.slope * torque + self.rest;
         // The conversion saturates, and the supervisor's torques are finite and within the full scale.
-        let duty = self.zero + self.slope * torque + 0.5;
-        self.pwm.set_duty_cycle(duty as u16)
+        let duty = (wanted + 0.5) as u16;
+        self.rest = (wanted - f32::from(duty)).clamp(-0.5, 0.5);
+        self.pwm.set_duty_cycle(duty)
     }
 }
 

@@ -8,7 +8,7 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
     /// Stops the arm from the next tick on, for an external reason such as a failed drive or an emergency stop.
     ///
     /// The stop is latched until [`Self::reset`], with its first reason. While a stop is still required after a reset,
-    /// call this function in every tick. [`ReferencedTick::stop`] acts in the present tick.
+    /// call this function in every tick. [`ReferencedTick::stop`](super::ReferencedTick::stop) acts in the present tick.
     #[doc(alias = "e-stop")]
     #[doc(alias = "emergency stop")]
     #[cold]
@@ -49,14 +49,15 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
         self
     }
 
-    /// Stops the arm by a category, for a reason that leaves the drives usable; see [`Supervisor::stop_by`].
+    /// Stops the arm by a category, for a reason that leaves the drives usable; see
+    /// [`Supervisor::stop_by`](super::super::Supervisor::stop_by).
     #[cold]
     pub fn stop_by(&mut self, fault: Fault, category: StopCategory<R, V>) {
         self.supervisor.stop_by(fault, category);
     }
 
     /// Reports a fault that the controller cannot detect, which is then a fault of the next tick; see
-    /// [`Supervisor::report`].
+    /// [`Supervisor::report`](super::super::Supervisor::report).
     #[cold]
     pub fn report(&mut self, fault: Fault) {
         self.supervisor.report(fault);

@@ -121,7 +121,7 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
     }
 
     /// Stops the arm from the next tick on, for an external reason such as a failed drive or an emergency stop;
-    /// [`SupervisorTick::stop`] stops it in the present tick, [`Self::stop_by`] by another stop category than 0.
+    /// [`SupervisorTick::stop`](super::SupervisorTick::stop) stops it in the present tick, [`Self::stop_by`] by another stop category than 0.
     ///
     /// The stop is latched until [`Self::reset`], with its first reason. While a stop is still required after a reset,
     /// call this function in every tick.

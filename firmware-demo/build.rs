@@ -9,9 +9,16 @@ const INPUTS: [&str; 4] = ["q", "qd", "qdd", "tau"];
 
 fn main() -> Result<(), Box<dyn Error>> {
     let out = PathBuf::from(env::var("OUT_DIR")?);
-    fs::copy("../memory.x", out.join("memory.x"))?;
-    println!("cargo:rustc-link-search={}", out.display());
-    println!("cargo:rerun-if-changed=../memory.x");
+    if env::var_os("CARGO_FEATURE_NETDUINOPLUS2").is_some() {
+        fs::copy("../memory.x", out.join("memory.x"))?;
+        println!("cargo:rustc-link-search={}", out.display());
+        println!("cargo:rerun-if-changed=../memory.x");
+    }
+    // ARMv6-M has other hints than its successors; stable Rust has no `cfg` for it.
+    println!("cargo:rustc-check-cfg=cfg(armv6m)");
+    if env::var("TARGET")?.starts_with("thumbv6m") {
+        println!("cargo:rustc-cfg=armv6m");
+    }
 
     let mut source = String::new();
     for robot in ["ur5e", "panda", "iiwa14", "a1"] {

@@ -40,23 +40,60 @@ fn pwm_error<E: pwm::Error>(error: E) -> DriveError {
     DriveError::Pwm(error.kind())
 }
 
+/// The torque of a drive at a duty of 100 %.
+///
+/// ```
+/// use joint_drivers::h_bridge::{DriveError, FullScale};
+/// assert!(FullScale::new(150.0).is_ok()); // N·m
+/// assert_eq!(FullScale::new(0.0), Err(DriveError::FullScale));
+/// assert_eq!(FullScale::of([1.0, f32::NAN]), Err(DriveError::FullScale));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FullScale {
+    /// 2³¹ per full scale: beyond it the conversion to an integer saturates.
+    slope: f32,
+}
+
+impl FullScale {
+    /// A full scale of `torque` N·m (or N).
+    ///
+    /// # Errors
+    /// [`DriveError::FullScale`].
+    pub const fn new(torque: f32) -> Result<Self, DriveError> {
+        let slope = 2_147_483_648.0 / torque;
+        if torque > 0.0 && torque.is_finite() && slope.is_finite() {
+            Ok(Self { slope })
+        } else {
+            Err(DriveError::FullScale)
+        }
+    }
+
+    /// Those of `N` drives.
+    ///
+    /// # Errors
+    /// [`DriveError::FullScale`] of any.
+    pub fn of<const N: usize>(torques: [f32; N]) -> Result<[Self; N], DriveError> {
+        let mut all = [Self { slope: 0.0 }; N];
+        for (scale, torque) in all.iter_mut().zip(torques) {
+            *scale = Self::new(torque)?;
+        }
+        Ok(all)
+    }
+}
+
 /// From torques to shares of the full scale, in integers.
 #[derive(Clone, Copy, Debug)]
 struct Scale {
-    /// 2³¹ per full scale, signed: beyond it the conversion to an integer saturates.
+    /// 2³¹ per full scale, signed.
     slope: f32,
     /// The greatest duty.
     max: u16,
 }
 
 impl Scale {
-    fn new(max: u16, full_scale: f32, direction: Direction) -> Result<Self, DriveError> {
-        let slope = direction.sign() * 2_147_483_648.0 / full_scale;
-        if full_scale > 0.0 && full_scale.is_finite() && slope.is_finite() {
-            Ok(Self { slope, max })
-        } else {
-            Err(DriveError::FullScale)
-        }
+    fn new(max: u16, full_scale: FullScale, direction: Direction) -> Self {
+        let slope = direction.sign() * full_scale.slope;
+        Self { slope, max }
     }
 
     /// The torque in 2⁻³¹ of the full scale, limited to it; zero for NaN.
@@ -70,9 +107,9 @@ impl Scale {
 ///
 /// ```
 /// use embedded_hal_mock::eh1::pwm::{Mock, Transaction};
-/// use joint_drivers::{Direction, h_bridge::LockedAntiphase};
+/// use joint_drivers::{Direction, h_bridge::{FullScale, LockedAntiphase}};
 /// let pwm = Mock::new(&[Transaction::max_duty_cycle(8400), Transaction::set_duty_cycle(6300)]);
-/// let mut drive = LockedAntiphase::new(pwm, 150.0, Direction::Forward)?;
+/// let mut drive = LockedAntiphase::new(pwm, FullScale::new(150.0)?, Direction::Forward);
 /// assert_eq!([-150.0, 0.0, 150.0].map(|tau| drive.duty(tau)), [0, 4200, 8400]);
 /// assert_eq!([f32::NAN, 1e9, -1e9].map(|tau| drive.duty(tau)), [4200, 8400, 0]);
 /// drive.set_torque(75.0)?;
@@ -86,16 +123,13 @@ pub struct LockedAntiphase<Pwm> {
 }
 
 impl<Pwm: SetDutyCycle> LockedAntiphase<Pwm> {
-    /// A drive that delivers `full_scale` N·m (or N) at a duty of 100 %.
+    /// A drive that delivers `full_scale` at a duty of 100 %.
     ///
     /// The greatest duty is read once: a timer whose period changes needs a new drive. If it is odd, zero torque is
     /// half a count below 50 %. The duty is not set: before the first torque it is that of the peripheral.
-    ///
-    /// # Errors
-    /// [`DriveError::FullScale`].
-    pub fn new(pwm: Pwm, full_scale: f32, direction: Direction) -> Result<Self, DriveError> {
-        let scale = Scale::new(pwm.max_duty_cycle(), full_scale, direction)?;
-        Ok(Self { pwm, scale })
+    pub fn new(pwm: Pwm, full_scale: FullScale, direction: Direction) -> Self {
+        let scale = Scale::new(pwm.max_duty_cycle(), full_scale, direction);
+        Self { pwm, scale }
     }
 
     /// The duty of a torque, to the nearest, limited to the full scale; NaN becomes zero torque.
@@ -136,14 +170,14 @@ impl<Pwm: SetDutyCycle> LockedAntiphase<Pwm> {
 ///
 /// ```
 /// use embedded_hal_mock::eh1::{digital, pwm};
-/// use joint_drivers::{Direction, h_bridge::SignMagnitude};
+/// use joint_drivers::{Direction, h_bridge::{FullScale, SignMagnitude}};
 /// let pwm = pwm::Mock::new(&[
 ///     pwm::Transaction::max_duty_cycle(1000),
 ///     pwm::Transaction::set_duty_cycle(0), // the sign changes while the bridge is off
 ///     pwm::Transaction::set_duty_cycle(250),
 /// ]);
 /// let pin = digital::Mock::new(&[digital::Transaction::set(digital::State::Low)]);
-/// let mut drive = SignMagnitude::new(pwm, pin, 2.0, Direction::Forward)?;
+/// let mut drive = SignMagnitude::new(pwm, pin, FullScale::new(2.0)?, Direction::Forward);
 /// drive.set_torque(-0.5)?;
 /// let (mut pwm, mut pin) = drive.release();
 /// pwm.done();
@@ -160,26 +194,18 @@ pub struct SignMagnitude<Pwm, Pin> {
 }
 
 impl<Pwm: SetDutyCycle, Pin: OutputPin> SignMagnitude<Pwm, Pin> {
-    /// A drive that delivers `full_scale` N·m (or N) at a duty of 100 %.
+    /// A drive that delivers `full_scale` at a duty of 100 %.
     ///
     /// The greatest duty is read once: a timer whose period changes needs a new drive. Nothing is set: before the first
     /// torque, duty and sign are those of the peripherals.
-    ///
-    /// # Errors
-    /// [`DriveError::FullScale`].
-    pub fn new(
-        pwm: Pwm,
-        pin: Pin,
-        full_scale: f32,
-        direction: Direction,
-    ) -> Result<Self, DriveError> {
-        let scale = Scale::new(pwm.max_duty_cycle(), full_scale, direction)?;
-        Ok(Self {
+    pub fn new(pwm: Pwm, pin: Pin, full_scale: FullScale, direction: Direction) -> Self {
+        let scale = Scale::new(pwm.max_duty_cycle(), full_scale, direction);
+        Self {
             pwm,
             pin,
             scale,
             sign: None,
-        })
+        }
     }
 
     /// The sign and the duty of a torque, to the nearest, limited to the full scale; NaN becomes zero torque.

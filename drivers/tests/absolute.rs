@@ -114,6 +114,17 @@ fn all_frames_of_the_as5047p_decode_to_an_angle_or_an_error() {
 }
 
 #[test]
+fn an_angle_is_the_nearest_count_on_either_side_of_zero() {
+    for count in [-8000_i16, -3, -1, 0, 1, 3, 8000] {
+        for off in [-0.4, 0.0, 0.4] {
+            let angle = (f32::from(count) + off) * as5047p::RESOLUTION;
+            let wanted = count.rem_euclid(as5047p::COUNTS as i16) as u16;
+            assert_eq!(as5047p::quantise(angle), wanted, "{count} {off}");
+        }
+    }
+}
+
+#[test]
 fn an_encoder_behind_a_gear_starts_near_the_turn_that_is_known() {
     let mapping = JointMapping::new(0.0, Direction::Forward, 10.0).unwrap();
     let bus = spi::Mock::new(&frame(READ_ANGLE, as5047p::encode(16_383)));

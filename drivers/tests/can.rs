@@ -151,6 +151,13 @@ fn every_wrong_reply_of_an_odrive_is_a_typed_error() {
 }
 
 #[test]
+fn a_remote_frame_has_the_lengths_of_classic_can() {
+    let remote = |length| FdFrame::new_remote(StandardId::new(1).unwrap(), length);
+    assert_eq!(remote(8).map(|frame| frame.dlc()), Some(8));
+    assert!(remote(9).is_none());
+}
+
+#[test]
 fn torques_are_limited_and_what_is_not_a_number_is_zero() {
     let axis = ODrive::new(3, 2.0, JointMapping::IDENTITY).unwrap();
     let joint = Moteus::new(3, 0, 2.0, JointMapping::IDENTITY).unwrap();

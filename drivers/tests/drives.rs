@@ -6,7 +6,7 @@ use std::io::ErrorKind as IoError;
 use embedded_hal::digital::{ErrorKind as PinKind, PinState};
 use embedded_hal::pwm::ErrorKind as PwmKind;
 use embedded_hal_mock::eh1::{MockError, digital, pwm};
-use joint_drivers::h_bridge::{DriveError, LockedAntiphase, SignMagnitude};
+use joint_drivers::h_bridge::{DriveError, FullScale, LockedAntiphase, SignMagnitude};
 use joint_drivers::three_phase::{Duties, LONGEST, PhaseError, ThreePhase};
 use joint_drivers::{Direction, JointMapping};
 
@@ -22,6 +22,10 @@ fn channel(duties: &[u16]) -> pwm::Mock {
     pwm::Mock::new(&all)
 }
 
+fn newton_metres(full_scale: f32) -> FullScale {
+    FullScale::new(full_scale).unwrap()
+}
+
 fn pin(levels: &[digital::State]) -> digital::Mock {
     let set = levels.iter().map(|level| digital::Transaction::set(*level));
     digital::Mock::new(&set.collect::<Vec<_>>())
@@ -34,7 +38,7 @@ fn failure() -> MockError {
 #[test]
 fn in_locked_antiphase_zero_torque_and_what_is_not_a_number_are_half_duty() {
     for direction in [Direction::Forward, Direction::Reverse] {
-        let mut drive = LockedAntiphase::new(channel(&[500, 500]), 3.0, direction).unwrap();
+        let mut drive = LockedAntiphase::new(channel(&[500, 500]), newton_metres(3.0), direction);
         drive.set_torque(0.0).unwrap();
         drive.set_torque(f32::NAN).unwrap();
         drive.release().done();
@@ -49,7 +53,7 @@ fn in_locked_antiphase_the_duty_is_linear_saturates_and_has_the_drives_direction
         (Direction::Forward, duties),
         (Direction::Reverse, duties.map(|duty| 1000 - duty)),
     ] {
-        let mut drive = LockedAntiphase::new(channel(&duties), 3.0, direction).unwrap();
+        let mut drive = LockedAntiphase::new(channel(&duties), newton_metres(3.0), direction);
         torques
             .iter()
             .for_each(|torque| drive.set_torque(*torque).unwrap());
@@ -61,7 +65,7 @@ fn in_locked_antiphase_the_duty_is_linear_saturates_and_has_the_drives_direction
 fn every_duty_of_locked_antiphase_is_the_nearest_to_its_torque() {
     for max in [1000_u16, 8400, 65_534] {
         let mut channel = pwm::Mock::new(&[pwm::Transaction::max_duty_cycle(max)]);
-        let drive = LockedAntiphase::new(channel.clone(), 2.0, Direction::Forward).unwrap();
+        let drive = LockedAntiphase::new(channel.clone(), newton_metres(2.0), Direction::Forward);
         for step in -1000..=1000 {
             let torque = step as f32 * 0.002;
             let exact = f64::from(max) * (0.5 + f64::from(torque) / 4.0);
@@ -75,16 +79,13 @@ fn every_duty_of_locked_antiphase_is_the_nearest_to_its_torque() {
 #[test]
 fn a_full_scale_that_is_not_above_zero_is_refused() {
     for full_scale in [0.0, -1.0, f32::NAN, f32::INFINITY, 1e-38] {
-        let (mut pwm, mut level) = (channel(&[]), pin(&[]));
-        let locked = LockedAntiphase::new(pwm.clone(), full_scale, Direction::Forward);
-        assert_eq!(locked.unwrap_err(), DriveError::FullScale);
-        pwm.done();
-        let mut pwm = channel(&[]);
-        let signed = SignMagnitude::new(pwm.clone(), level.clone(), full_scale, Direction::Forward);
-        assert_eq!(signed.unwrap_err(), DriveError::FullScale);
-        pwm.done();
-        level.done();
+        assert_eq!(FullScale::new(full_scale), Err(DriveError::FullScale));
+        for torques in [[1.0, full_scale], [full_scale, 1.0]] {
+            assert_eq!(FullScale::of(torques), Err(DriveError::FullScale));
+        }
     }
+    let both = [newton_metres(1.0), newton_metres(2.0)];
+    assert_eq!(FullScale::of([1.0, 2.0]), Ok(both));
 }
 
 #[test]
@@ -95,7 +96,12 @@ fn with_sign_and_magnitude_the_bridge_is_off_while_the_sign_changes() {
     let duties = [0, 250, 500, 0, 500, 1000, 0, 0, 250, 0, 1000];
     let mut levels = [High, Low, High];
     for direction in [Direction::Forward, Direction::Reverse] {
-        let mut drive = SignMagnitude::new(channel(&duties), pin(&levels), 2.0, direction).unwrap();
+        let mut drive = SignMagnitude::new(
+            channel(&duties),
+            pin(&levels),
+            newton_metres(2.0),
+            direction,
+        );
         torques
             .iter()
             .for_each(|torque| drive.set_torque(*torque).unwrap());
@@ -110,7 +116,12 @@ fn with_sign_and_magnitude_the_bridge_is_off_while_the_sign_changes() {
 fn the_full_scale_of_both_signs_is_the_greatest_duty_and_magnitudes_are_symmetrical() {
     let mut pwm = channel(&[]);
     let mut level = pin(&[]);
-    let drive = SignMagnitude::new(pwm.clone(), level.clone(), 2.0, Direction::Forward).unwrap();
+    let drive = SignMagnitude::new(
+        pwm.clone(),
+        level.clone(),
+        newton_metres(2.0),
+        Direction::Forward,
+    );
     for torque in [2.0, 1e30, f32::INFINITY] {
         assert_eq!(drive.sign_and_duty(torque), (PinState::High, 1000));
         assert_eq!(drive.sign_and_duty(-torque), (PinState::Low, 1000));
@@ -137,10 +148,9 @@ fn an_error_of_a_pin_leaves_the_bridge_off_and_the_sign_is_set_again() {
     let mut drive = SignMagnitude::new(
         channel(&[0, 1000, 0, 0, 1000]),
         digital::Mock::new(&levels),
-        1.0,
+        newton_metres(1.0),
         Direction::Forward,
-    )
-    .unwrap();
+    );
     assert_eq!(drive.set_torque(1.0), Ok(()));
     assert_eq!(drive.set_torque(-1.0), Err(DriveError::Pin(PinKind::Other)));
     // The pin may have either level.
@@ -157,7 +167,7 @@ fn an_error_of_a_pwm_is_typed() {
         pwm::Transaction::set_duty_cycle(500).with_error(failure()),
     ];
     let channel = pwm::Mock::new(&transactions);
-    let mut drive = LockedAntiphase::new(channel, 1.0, Direction::Forward).unwrap();
+    let mut drive = LockedAntiphase::new(channel, newton_metres(1.0), Direction::Forward);
     assert_eq!(drive.set_torque(0.0), Err(DriveError::Pwm(PwmKind::Other)));
     drive.release().done();
 }

@@ -399,6 +399,7 @@ fn identities_that_are_no_servos_and_packets_that_are_too_long_are_refused() {
         Packet::read(1, 0, 17).map(|_| ()),
         Err(FeetechError::TooLong)
     );
+    assert!(Packet::read(1, 0, 16).is_ok());
     assert_eq!(
         Packet::write(1, 0, &[0; 122]).map(|_| ()),
         Err(FeetechError::TooLong)

@@ -11,9 +11,9 @@ use dynamics_core::state::State;
 use embedded_hal::digital::OutputPin;
 use embedded_hal::pwm::SetDutyCycle;
 use embedded_hal::spi::SpiDevice;
+use joint_drivers::as5047p::{As5047p, FrameError};
+use joint_drivers::h_bridge::LockedAntiphase;
 
-use crate::drive::Drive;
-use crate::encoder::{Encoder, FrameError};
 use crate::marker::measured;
 
 /// The measured regions of a tick; [`region::TICK`] holds the others.
@@ -30,6 +30,10 @@ pub mod region {
     pub const SAFETY: u8 = 4;
     /// Drives and brake.
     pub const WRITE: u8 = 5;
+    /// Putting the record of the tick into the queue of the telemetry, after the tick.
+    pub const RECORD: u8 = 6;
+    /// What runs with interrupts masked, in firmware that measures it.
+    pub const MASKED: u8 = 7;
 }
 
 /// The feed-forward part of the control law; `X` is its input beside the reference (the payload, the motion of the
@@ -79,8 +83,8 @@ pub struct Telemetry<const V: usize> {
 /// The control loop of a robot with V joints: its devices and a [`MotionController`].
 #[derive(Debug)]
 pub struct ControlLoop<Spi, Pwm, Brake, const V: usize> {
-    encoders: [Encoder<Spi>; V],
-    drives: [Drive<Pwm>; V],
+    encoders: [As5047p<Spi>; V],
+    drives: [LockedAntiphase<Pwm>; V],
     /// High holds the joints.
     brake: Brake,
     gains: Gains<f32, V>,
@@ -98,13 +102,13 @@ where
     /// A loop at the start of its trajectory; starts the encoders. The first tick should follow within one tick, or the
     /// arm must stand still until then.
     pub fn new(
-        mut encoders: [Encoder<Spi>; V],
-        drives: [Drive<Pwm>; V],
+        mut encoders: [As5047p<Spi>; V],
+        drives: [LockedAntiphase<Pwm>; V],
         brake: Brake,
         gains: Gains<f32, V>,
         controller: MotionController<f32, V>,
     ) -> Self {
-        encoders.iter_mut().for_each(Encoder::start);
+        encoders.iter_mut().for_each(As5047p::start);
         Self {
             encoders,
             drives,
@@ -123,11 +127,36 @@ where
         trajectory: &T,
         environment: &X,
     ) -> Telemetry<V> {
+        self.phases::<L, T, X, ()>(trajectory, environment, || ()).0
+    }
+
+    /// One tick under the law `L`, and the counts of a timer at its start and after each phase: reading, reference,
+    /// dynamics, safety, writing. Reading the timer adds to the tick what six loads from a device take.
+    #[inline(never)]
+    pub fn tick_timed<L: Law<V, X>, T: Reference<f32, V>, X>(
+        &mut self,
+        trajectory: &T,
+        environment: &X,
+        timer: impl Fn() -> u32,
+    ) -> (Telemetry<V>, [u32; 6]) {
+        self.phases::<L, T, X, u32>(trajectory, environment, timer)
+    }
+
+    #[inline(always)]
+    fn phases<L: Law<V, X>, T: Reference<f32, V>, X, C>(
+        &mut self,
+        trajectory: &T,
+        environment: &X,
+        timer: impl Fn() -> C,
+    ) -> (Telemetry<V>, [C; 6]) {
         measured::<{ region::TICK }, _>(|| {
             let (encoders, controller) = (&mut self.encoders, &mut self.controller);
             let frame = &mut self.frame;
+            let start = timer();
             let tick = measured::<{ region::READ }, _>(|| read(encoders, frame, controller));
+            let read = timer();
             let mut tick = measured::<{ region::REFERENCE }, _>(|| follow(tick, trajectory));
+            let followed = timer();
             if !L::ACCELERATES {
                 tick = tick.without_inertia();
             }
@@ -135,16 +164,20 @@ where
             let torque = measured::<{ region::DYNAMICS }, _>(|| {
                 torque::<L, X, V>(&self.gains, tick.reference(), tick.estimate(), environment)
             });
+            let computed = timer();
             let command = measured::<{ region::SAFETY }, _>(|| tick.command(&torque));
+            let limited = timer();
             measured::<{ region::WRITE }, _>(|| self.write(&command.torque, command.brake));
-            Telemetry {
+            let telemetry = Telemetry {
                 tick: clock,
                 reference: self.controller.reference().q,
                 estimate: self.controller.estimate().q,
                 torque: command.torque,
                 status: command.status,
                 frame: self.frame,
-            }
+            };
+            let counts = [start, read, followed, computed, limited, timer()];
+            (telemetry, counts)
         })
     }
 
@@ -164,7 +197,7 @@ where
         }
         let telemetry = self.tick::<L, T, X>(trajectory, environment);
         let completed = tick.end(timer(), &telemetry.status);
-        let completed = completed.map_err(|fault| self.controller.report(fault));
+        let completed = completed.map_err(|fault| self.controller.react(fault));
         (telemetry, completed.ok())
     }
 
@@ -201,7 +234,7 @@ where
             self.brake.set_low()
         };
         if let Some(fault) = failed.or(set.err().map(|_| Fault::Brake)) {
-            self.controller.stop(fault);
+            self.controller.react(fault);
         }
     }
 }
@@ -209,7 +242,7 @@ where
 /// Reads the encoders and starts the controller's tick.
 #[inline(never)]
 fn read<'a, Spi: SpiDevice, const V: usize>(
-    encoders: &mut [Encoder<Spi>; V],
+    encoders: &mut [As5047p<Spi>; V],
     frame: &mut Option<FrameError>,
     controller: &'a mut MotionController<f32, V>,
 ) -> ObservedTick<'a, f32, V> {

@@ -7,8 +7,10 @@ use dynamics_core::model::Robot;
 use dynamics_core::robots::{A1, Iiwa14, Panda, Ur5e};
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
+use joint_drivers::Direction;
+use joint_drivers::h_bridge::{FullScale, LockedAntiphase};
 
-use crate::drive::Scale;
+use crate::sim_io::Wires;
 
 mod states {
     include!(concat!(env!("OUT_DIR"), "/states.rs"));
@@ -19,9 +21,19 @@ mod states {
 pub struct Digest(pub u64);
 
 impl Digest {
-    pub(crate) const EMPTY: Self = Self(0xcbf2_9ce4_8422_2325);
+    /// The digest of no result.
+    pub const EMPTY: Self = Self(0xcbf2_9ce4_8422_2325);
 
-    pub(crate) fn add<const N: usize>(&mut self, values: [f32; N]) {
+    /// Adds the bits of some results, in their order.
+    ///
+    /// ```
+    /// use firmware_demo::digest::Digest;
+    /// let [mut plus, mut minus] = [Digest::EMPTY; 2];
+    /// plus.add([0.0]);
+    /// minus.add([-0.0]);
+    /// assert_ne!(plus, minus);
+    /// ```
+    pub fn add<const N: usize>(&mut self, values: [f32; N]) {
         for byte in values.iter().flat_map(|x| x.to_bits().to_le_bytes()) {
             self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
         }
@@ -41,9 +53,14 @@ pub fn digests(mut report: impl FnMut(&'static str, &'static str, Digest)) {
 fn saturating() -> Digest {
     const STEP: usize = 0x1_0003;
     let mut digest = Digest::EMPTY;
-    let scale = Scale::new(8400, 150.0);
+    static WIRES: Wires<1> = Wires::new();
+    const FULL_SCALE: FullScale = match FullScale::new(150.0) {
+        Ok(full_scale) => full_scale,
+        Err(_) => panic!("a full scale is above zero"),
+    };
+    let drive = LockedAntiphase::new(WIRES.drive(0), FULL_SCALE, Direction::Forward);
     for x in (0..=u32::MAX).step_by(STEP).map(f32::from_bits) {
-        digest.add([smooth_sign(x), f32::from(scale.duty(x))]);
+        digest.add([smooth_sign(x), f32::from(drive.duty(x))]);
     }
     digest
 }

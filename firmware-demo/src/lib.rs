@@ -4,16 +4,20 @@
 //! | module | what | on hardware |
 //! |---|---|---|
 //! | [`control_loop`] | the tick: read, reference, dynamics, safety, write | as it is |
-//! | [`encoder`], [`drive`] | an AS5047P-type encoder on SPI, a current-controlled drive on PWM | as they are |
+//! | [`joint_drivers`] | an AS5047P on SPI, a current-controlled drive on PWM | as they are |
 //! | [`digest`] | digests of the dynamics' results on recorded states | as they are |
+//! | [`faults`] | arms under injected faults, on host and target | left out |
 //! | [`hard`] | hard cases that host and target share | left out |
 //! | [`marker`] | the measured regions | `dbg` is a no-op there |
 //! | [`plant`], [`sim_io`] | a simulated robot behind the same traits | left out |
+//! | [`replay`] | the control loop of a scene without a simulated robot, with a digest of its torques | as it is |
 //! | [`scene`] | runs of one trajectory under several laws, with their tracking errors | left out |
 //! | [`robots`] | robots that no manufacturer publishes | left out |
 //! | [`scenes`] | the data sheet of each scene | left out |
 //! | [`effect_presets`], [`trajectories`] | every effect with numbers, and motions to price effects by | left out |
 //! | `accuracy` (feature of that name) | the ways to compute a torque that `cargo xtask accuracy` compares | left out |
+//! | `watched` (feature `telemetry`) | a scene that runs without end and sends its telemetry | the queue and its two sides |
+//! | `pil` (feature `telemetry`) | a scene's controller, its robot simulated by a program on the host | left out |
 //! | `target` | interrupt, log, panic handler of the emulated board | your board's |
 #![no_std]
 
@@ -21,16 +25,20 @@
 pub mod accuracy;
 pub mod control_loop;
 pub mod digest;
-pub mod drive;
 pub mod effect_presets;
-pub mod encoder;
+pub mod faults;
 pub mod hard;
 pub mod marker;
+#[cfg(feature = "telemetry")]
+pub mod pil;
 pub mod plant;
+pub mod replay;
 pub mod robots;
 pub mod scene;
 pub mod scenes;
 pub mod sim_io;
-#[cfg(target_arch = "arm")]
+#[cfg(all(target_arch = "arm", feature = "netduinoplus2"))]
 pub mod target;
 pub mod trajectories;
+#[cfg(feature = "telemetry")]
+pub mod watched;

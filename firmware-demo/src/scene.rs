@@ -6,8 +6,8 @@ use dynamics_core::control::{MotionLimits, Reference, Trajectory, TrajectoryErro
 use dynamics_core::effects::Effect;
 use dynamics_core::model::{Calibrated, JointLimits, Robot, model};
 use dynamics_core::state::State;
+use joint_drivers::as5047p::RESOLUTION;
 
-use crate::encoder::RESOLUTION;
 use crate::plant::{Plant, Simulated, last};
 
 mod ablation;
@@ -19,9 +19,11 @@ mod noise;
 mod run;
 
 pub use ablation::{Current, CurrentWithout, Effects, Named, Without, name};
-pub use app::{App, QUEUE, Record, STEPS, SimBrake, SimLoop};
+pub use app::{App, QUEUE, Record, STEPS, SimBrake, SimLoop, StartError};
+#[cfg(feature = "telemetry")]
+pub(crate) use app::{SETTLE, start};
 pub use errors::{Errors, larger};
-pub use firmware::{HOLD, OMEGA_N, REENTRY, RIDE, TICK, ZETA, control_loop};
+pub use firmware::{HOLD, OMEGA_N, REENTRY, RIDE, TICK, ZETA, control_loop, control_loop_on_brake};
 pub use noise::Noise;
 pub use run::{Full, Less, Name, PdOnly, PlantModel, Run};
 

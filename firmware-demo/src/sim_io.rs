@@ -6,8 +6,7 @@ use core::sync::atomic::{AtomicU16, AtomicU32, Ordering::Relaxed};
 
 use embedded_hal::pwm::{self, SetDutyCycle};
 use embedded_hal::spi::{self, Operation, SpiDevice};
-
-use crate::encoder::{ERROR, READ_ANGLE, READ_ERRORS, encode, quantise, with_parity};
+use joint_drivers::as5047p::{ERROR, READ_ANGLE, READ_ERRORS, encode, quantise, with_parity};
 
 /// The duty that a simulated timer counts to: 20 kHz from 168 MHz.
 pub const MAX_DUTY: u16 = 8400;
@@ -49,6 +48,18 @@ impl<const N: usize> Wires<N> {
             let flag = encoder.load(Relaxed) & FLAG;
             encoder.store(u32::from(encode(quantise(q))) | flag, Relaxed);
         }
+    }
+
+    /// Lets the encoders answer with these frames, from the first joint on.
+    pub fn answer(&self, frames: &[u16]) {
+        for (encoder, &frame) in self.encoders.iter().zip(frames) {
+            encoder.store(frame.into(), Relaxed);
+        }
+    }
+
+    /// The duties of the drives, in counts of their timers.
+    pub fn counts(&self) -> [u16; N] {
+        self.duties.each_ref().map(|duty| duty.load(Relaxed))
     }
 
     /// The commanded share of the full torque of each drive, -1 to 1.

@@ -10,8 +10,15 @@ use defmt_semihosting as _;
 use dynamics_core::control::Status;
 use heapless::spsc::{Consumer, Queue};
 
-use crate::scene::{App, Effects, Errors, Name, OMEGA_N, QUEUE, Record, Scene, ZETA};
+use crate::control_loop::region;
+use crate::marker::measured;
+use crate::scene::{App, Effects, Errors, Name, OMEGA_N, QUEUE, Record, Scene, StartError, ZETA};
 use crate::sim_io::Wires;
+
+#[cfg(feature = "telemetry")]
+pub mod pil;
+#[cfg(feature = "telemetry")]
+pub mod watch;
 
 /// The core's clock, Hz.
 const CLOCK: u32 = 168_000_000;
@@ -36,15 +43,34 @@ where
     }
 }
 
-static TICKED: Mutex<RefCell<Option<Ticked>>> = Mutex::new(RefCell::new(None));
+/// What the interrupt takes over at its first tick.
+static INITIAL: Mutex<RefCell<Option<Ticked>>> = Mutex::new(RefCell::new(None));
 
+/// Interrupts are masked while it takes over what it runs, and not during a tick.
 #[exception]
 fn SysTick() {
-    cortex_m::interrupt::free(|cs| {
-        if let Some(app) = TICKED.borrow(cs).borrow_mut().as_mut() {
-            app.tick();
-        }
+    static mut TICKED: Option<Ticked> = None;
+    if TICKED.is_none() {
+        *TICKED = measured::<{ region::MASKED }, _>(|| {
+            cortex_m::interrupt::free(|cs| INITIAL.borrow(cs).take())
+        });
+    }
+    if let Some(app) = TICKED {
+        app.tick();
+    }
+}
+
+/// Starts the interrupt with this period.
+fn start(app: Ticked, peripherals: &mut cortex_m::Peripherals, microseconds: u32) {
+    measured::<{ region::MASKED }, _>(|| {
+        cortex_m::interrupt::free(|cs| INITIAL.borrow(cs).replace(Some(app)))
     });
+    let timer = &mut peripherals.SYST;
+    timer.set_clock_source(SystClkSource::Core);
+    timer.set_reload(CLOCK / 1_000_000 * microseconds - 1);
+    timer.clear_current();
+    timer.enable_counter();
+    timer.enable_interrupt();
 }
 
 /// Runs a scene on these wires to its end, its state and queue where `place` and the caller put them, and
@@ -61,8 +87,10 @@ where
     let Some((records, log)) = queue.map(Queue::split) else {
         fail("main ran twice");
     };
-    let Ok(app) = App::new(wires, records) else {
-        fail("the way needs more than the arm's limits");
+    let app = match App::new(wires, records) {
+        Ok(app) => app,
+        Err(StartError::Trajectory(_)) => fail("the arm's limits do not allow the trajectory"),
+        Err(StartError::Drive(_)) => fail("a torque limit is no full scale of a drive"),
     };
     match place(app) {
         Some(app) => run(app, log),
@@ -84,14 +112,7 @@ where
     };
     let ticks = app.ticks();
     head::<S, B, Q, V, N>(ticks);
-    cortex_m::interrupt::free(|cs| TICKED.borrow(cs).replace(Some(app)));
-    peripherals.SYST.set_clock_source(SystClkSource::Core);
-    peripherals
-        .SYST
-        .set_reload(CLOCK / 1_000_000 * microseconds::<S, B, Q, V, N>() - 1);
-    peripherals.SYST.clear_current();
-    peripherals.SYST.enable_counter();
-    peripherals.SYST.enable_interrupt();
+    start(app, &mut peripherals, microseconds::<S, B, Q, V, N>());
 
     for (number, run) in App::<S, B, Q, V, N>::runs().enumerate() {
         // The law's name, by its two parts.

@@ -183,7 +183,8 @@ fn a_reference_that_does_not_close_is_a_fault_and_no_torque() {
     let encoders = core::array::from_fn(|j| wires.encoder(j));
     let drives = core::array::from_fn(|j| wires.drive(j));
     let mut control: SimLoop<3> =
-        control_loop::<AnkleSteps, _, _, _, 9, 9, 9, 3>(encoders, drives, SimBrake, &Torn.at(0));
+        control_loop::<AnkleSteps, _, _, _, 9, 9, 9, 3>(encoders, drives, SimBrake, &Torn.at(0))
+            .unwrap();
     for tick in 0..60 {
         let telemetry = control.tick::<Full<AnkleSteps, 9, 9, 9>, _, _>(&reference, &Torn.at(tick));
         assert!(

@@ -8,9 +8,9 @@ use arm::outcome::bad_frames;
 use arm::{Arm, FullModel, HOLD, POISON, RIDE};
 use dynamics_core::control::{Fault, Mode, ResetError, StopCategory};
 use embedded_hal::spi::ErrorKind;
-use firmware_demo::encoder::FrameError;
 use firmware_demo::scenes::ur5e::GravityOnly;
 use host_tests::measured::{largest, within};
+use joint_drivers::as5047p::FrameError;
 use proptest::prelude::*;
 
 /// The fastest moment of the trajectory: 1.9 rad/s.

@@ -80,7 +80,8 @@ fn the_leg_flies_as_often_as_it_is_to_and_at_least_five_centimetres_high() {
     let drives = core::array::from_fn(|j| wires.drive(j));
     let environment = |tick: u32| Hopping::environment(&hop, tick as f32);
     let mut control: SimLoop<3> =
-        control_loop::<Hopping, _, _, _, 5, 4, 4, 3>(encoders, drives, SimBrake, &environment(0));
+        control_loop::<Hopping, _, _, _, 5, 4, 4, 3>(encoders, drives, SimBrake, &environment(0))
+            .unwrap();
     let mut flights = Vec::new();
     let mut off = Worst::default();
     for tick in 0..hop.ticks() + 20 {

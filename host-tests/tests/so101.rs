@@ -31,7 +31,7 @@ fn error<L: Law<6>>(exact: bool) -> f64 {
     let encoders = std::array::from_fn(|j| wires.encoder(j));
     let drives = std::array::from_fn(|j| wires.drive(j));
     let mut control =
-        control_loop::<TaughtPath, _, _, _, 6, 6, 6, 6>(encoders, drives, SimBrake, &());
+        control_loop::<TaughtPath, _, _, _, 6, 6, 6, 6>(encoders, drives, SimBrake, &()).unwrap();
     let ticks = reference.ticks() + 100;
     let mut sum = 0.0;
     for _ in 0..ticks {

@@ -20,7 +20,15 @@ pub const OTHER_RUSTC: f64 = 0.03;
 const OTHER_RUSTC_FLASH: f64 = 0.06;
 
 /// The figures that bars are set for.
-const BARRED: [&str; 4] = ["instructions", "cycles", "code_bytes", "ns"];
+const BARRED: [&str; 7] = [
+    "instructions",
+    "cycles",
+    "code_bytes",
+    "stack_bytes",
+    "flash_bytes",
+    "ram_bytes",
+    "ns",
+];
 
 const FILE: &str = "budgets.toml";
 
@@ -80,6 +88,15 @@ impl Budget {
     fn exceeded_by(&self, measured: &Self) -> Vec<String> {
         let is_other = self.rustc != measured.rustc;
         exceeded(&self.figures, &measured.figures, is_other)
+    }
+
+    /// Takes the place of what a file has of this scene.
+    fn put(&self, scene: &str, file: &mut DocumentMut) {
+        let scene = file.entry(scene).or_insert(toml_edit::table());
+        scene["rustc"] = value(&self.rustc);
+        for (what, most) in &self.figures {
+            scene[what] = value(*most as i64);
+        }
     }
 }
 
@@ -180,14 +197,8 @@ fn change(workspace: &Workspace, put: impl FnOnce(&mut DocumentMut)) -> Result<(
 
 /// Rewrites the budget of the report's scene.
 pub fn write(workspace: &Workspace, report: &Report) -> Result<()> {
-    let Budget { rustc, figures } = Budget::measured(report);
-    change(workspace, |file| {
-        let scene = file.entry(&report.scene).or_insert(toml_edit::table());
-        scene["rustc"] = value(rustc);
-        figures
-            .iter()
-            .for_each(|(what, most)| scene[what] = value(*most as i64));
-    })
+    let budget = Budget::measured(report);
+    change(workspace, |file| budget.put(&report.scene, file))
 }
 
 /// Rewrites the budgets of the costs' rows.

@@ -46,6 +46,15 @@ impl Image {
             instructions.map(move |one| (function, one))
         })
     }
+
+    /// How many instructions it has, if a Cortex-M4F has all of them.
+    pub fn m4f_instructions(&self) -> Result<usize> {
+        if let Some((function, one)) = self.instructions().find(|(_, one)| one.is_beyond_m4f()) {
+            let (name, code, at) = (&function.names[0], one.code, one.address);
+            bail!("`{name}` has {code:x?} at {at:#x}");
+        }
+        Ok(self.instructions().count())
+    }
 }
 
 impl Function {
@@ -164,6 +173,30 @@ mod tests {
 
     use super::Reach;
     use crate::elf::{Function, Image, Sizes};
+
+    #[test]
+    fn an_image_with_a_double_of_the_fpu_is_refused_and_one_without_is_counted() {
+        let image = |code: [u16; 4]| Image {
+            is_arm: true,
+            has_defmt: false,
+            sizes: Sizes { flash: 0, ram: 0 },
+            functions: vec![Function {
+                names: vec!["tick".into()],
+                address: 0x1000,
+                bytes: code.iter().flat_map(|half| half.to_le_bytes()).collect(),
+                data: Vec::new(),
+            }],
+            words: BTreeSet::new(),
+        };
+        let counted = image([0xBF00, 0xEE30, 0x0A81, 0x4770]).m4f_instructions(); // vadd.f32 s0, s1, s2
+        assert_eq!(counted.expect("all are known"), 3);
+        let refused = image([0xBF00, 0xEE30, 0x0B01, 0x4770]).m4f_instructions(); // vadd.f64 d0, d0, d1
+        let error = refused.expect_err("a double").to_string();
+        assert!(
+            error.contains("`tick` has [ee30, b01] at 0x1002"),
+            "{error}"
+        );
+    }
 
     #[test]
     fn a_function_that_jumps_through_a_register_is_refused_by_its_path() {

@@ -61,10 +61,11 @@ impl Image {
     }
 }
 
-/// What of a section lies in flash: initial values do, and are copied to RAM at start-up.
+/// What of a section lies in flash: initial values do, and are copied to RAM at start-up. Constants that the linker has merged
+/// are in sections of strings.
 fn is_in_flash(section: &object::Section<'_, '_>) -> bool {
-    use SectionKind::{Data, ReadOnlyData, Text};
-    matches!(section.kind(), Text | ReadOnlyData | Data)
+    use SectionKind::{Data, ReadOnlyData, ReadOnlyString, Text};
+    matches!(section.kind(), Text | ReadOnlyData | ReadOnlyString | Data)
 }
 
 fn sizes(file: &object::File<'_>) -> Sizes {
@@ -132,4 +133,19 @@ pub fn is_panic(symbol: &str) -> bool {
     let parts = "4core9panicking unwrap_failed expect_failed index_fail index_len_fail index_order_fail \
                  len_mismatch_fail panic_already_ rust_begin_unwind";
     parts.split(' ').any(|part| symbol.contains(part))
+}
+
+/// Whether a symbol is f64 arithmetic of the compiler's runtime, or a sine, cosine or tangent of libm: the f32 functions
+/// of libm's compute in f64 inside, but for the arc tangent.
+pub fn is_f64(symbol: &str) -> bool {
+    let has = |parts: &str| parts.split(' ').any(|part| symbol.contains(part));
+    let conversions = "__aeabi_f2d __aeabi_i2d __aeabi_ui2d __aeabi_l2d __aeabi_ul2d";
+    let runtime = symbol.starts_with("__aeabi_d")
+        || conversions.split(' ').any(|name| name == symbol)
+        || (symbol.starts_with("__") && has("df3 df2 dfsi"));
+    let trig = "sin cos tan rem_pio2";
+    let plain = symbol.strip_suffix('f').unwrap_or(symbol);
+    runtime
+        || trig.split(' ').any(|f| f == plain)
+        || (symbol.contains("libm") && has(trig) && !symbol.contains("atan"))
 }

@@ -20,8 +20,8 @@ impl Sifted {
         }
         let names: Vec<&str> = self.features.iter().map(String::as_str).collect();
         Some(format!(
-            "note: rustc does not know these target features of .cargo/config.toml and forwards them to LLVM, \
-             which does ({}); docs/decisions/0001-cpu-flags.md says what they are for",
+            "note: rustc does not know these target features and forwards them to LLVM, which does ({}); \
+             docs/decisions/0001-cpu-flags.md says what those of .cargo/config.toml are for",
             names.join(", ")
         ))
     }

@@ -257,6 +257,12 @@ mod tests {
     }
 
     #[test]
+    fn what_stands_behind_a_path_is_none_of_its_names() {
+        let source = "fn f() {\n    crate::a::g(b, S { c, d });\n}\n";
+        assert_eq!(used(source, 1), [(2, "a".to_owned())]);
+    }
+
+    #[test]
     fn macros_and_longer_paths_are_no_modules() {
         assert_eq!(
             used("crate::each!(1);\nmy_crate::x();\na::super::b();\n", 1),

@@ -9,14 +9,15 @@ use crate::table::{Table, thousands};
 use crate::workspace::{self, Workspace};
 
 /// The most that the tooling may have: what it has today. The bar is 11,000 (docs/decisions/0002).
-const MOST: usize = 15_289;
+const MOST: usize = 18_575;
 /// Where the bins of the firmware are; those of scenes are the demo's.
 const BINS: &str = "firmware-demo/src/bin/";
 /// The library and the parts of the tooling, by the beginnings of their files' paths.
 const LIBRARY: &str = "dynamics-core/src/";
 #[rustfmt::skip]
-const TOOLING: [&str; 6] = [
-    "xtask/src/", "host-tests/cycle-meter/src/", "host-tests/reports/", "host-tests/peers/",
+const TOOLING: [&str; 8] = [
+    "xtask/src/", "cores/src/", "host-tests/cycle-meter/src/", "host-tests/reports/", "host-tests/peers/",
+    "host-tests/mutants/",
     "firmware-demo/src/accuracy", BINS,
 ];
 

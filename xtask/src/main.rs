@@ -6,6 +6,7 @@ mod budgets;
 mod build_time;
 mod callgraph;
 mod chart;
+mod cores;
 mod costs;
 mod demo;
 mod docs;
@@ -25,9 +26,11 @@ mod import;
 mod layers;
 mod lines;
 mod meter;
+mod mutants;
 mod output;
 mod own_robot;
 mod peers;
+mod pil;
 mod plot;
 mod processes;
 mod progress;
@@ -46,6 +49,7 @@ mod table;
 mod test;
 mod toolchain;
 mod user_firmware;
+mod watch;
 mod workspace;
 
 use std::path::PathBuf;
@@ -75,6 +79,8 @@ enum Command {
     Demo(demo::Args),
     /// Measure what each algorithm costs on each robot, rewrite docs/costs.md
     Costs(costs::Args),
+    /// Run the control loop on every core that QEMU emulates: the same bits, instructions, stack
+    Cores(cores::Args),
     /// Measure how the core's algorithms grow with a chain's length, rewrite docs/growth.md
     Growth(Json),
     /// Measure what today's algorithms replaced, rewrite docs/history.md
@@ -117,10 +123,16 @@ enum Command {
         #[arg(long, default_value_t = 10_000_000, value_name = "N")]
         ticks: u64,
     },
+    /// Change the code in a few hundred places, one at a time, and rewrite docs/mutants.md: takes an hour
+    Mutants(mutants::Args),
     /// Run the library's unit tests in Miri, where a nightly toolchain has it
     Miri,
     /// Count the lines of code of the library and of the tooling, without tests, comments and blanks
     Lines,
+    /// Show the telemetry of a scene in QEMU or of a machine on a serial port, live in the terminal
+    Watch(watch::Args),
+    /// Compare the scene ur5e with its robot in f64 on the host, processor in the loop, and with its robot inside
+    Pil(pil::Args),
     /// Test all that guards correctness, each claim by its cheapest witness
     Test(test::Args),
 }
@@ -197,6 +209,7 @@ fn run(cli: Cli) -> Result<ExitCode> {
     match cli.command {
         Command::Demo(args) => demo::run(setup, args),
         Command::Costs(args) => costs::run(setup, args),
+        Command::Cores(args) => cores::run(setup, args),
         Command::Growth(Json { json }) => growth::run(setup, json),
         Command::History(Json { json }) => history::run(setup, json),
         Command::Effects(Json { json }) => effects::run(setup, json),
@@ -214,7 +227,10 @@ fn run(cli: Cli) -> Result<ExitCode> {
         Command::Fuzz { seconds } => endurance::fuzz(seconds),
         Command::Soak { ticks } => endurance::soak(ticks),
         Command::Miri => endurance::miri(),
+        Command::Mutants(args) => mutants::run(&args),
         Command::Lines => output::print(&lines::text()?).map(|()| ExitCode::SUCCESS),
+        Command::Watch(args) => watch::run(setup, &args),
+        Command::Pil(args) => pil::run(setup, &args),
         Command::Test(args) => test::run(setup, &args),
     }
 }

@@ -77,7 +77,7 @@ impl OwnRobot {
     }
 }
 
-/// The variable that says to the bins where their robot is, and its value.
+/// The environment variable that names the file which the bins include, and its value.
 pub fn variable(included: &Path) -> (&'static str, &Path) {
     ("OWN_ROBOT", included)
 }

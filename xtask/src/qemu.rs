@@ -2,6 +2,7 @@
 
 #[cfg(all(test, unix))]
 mod tests;
+mod text;
 mod watch;
 
 use std::io::Write;
@@ -22,6 +23,9 @@ const PROGRAM: &str = "qemu-system-arm";
 
 /// A board with a Cortex-M4F.
 pub const MACHINE: &str = "netduinoplus2";
+
+/// What every run has in common. Without `-audiodev` QEMU opens the sound of the machine that it runs on.
+const FIXED: &str = "-nographic -audiodev none,id=silent -monitor none -icount shift=3,sleep=off";
 
 /// A file that keeps nothing.
 const NOWHERE: &str = "/dev/null";
@@ -59,6 +63,10 @@ pub struct Run<'a> {
     pub meter: Option<(&'a Path, &'a Path)>,
     /// Whether it logs, and then ends with [`DONE`]; one that does not must stay silent.
     pub logs: bool,
+    /// Where its serial port leads, as QEMU's option `-serial` names it.
+    pub serial: &'a str,
+    /// The words of its command line.
+    pub words: &'a [&'a str],
 }
 
 impl<'a> Run<'a> {
@@ -69,6 +77,8 @@ impl<'a> Run<'a> {
             elf,
             meter,
             logs: true,
+            serial: "none",
+            words: &[],
         }
     }
 }
@@ -211,10 +221,11 @@ impl Qemu {
     fn command(&self, machine: &str, run: &Run<'_>) -> Result<Command> {
         let mut command = Command::new(&self.program);
         command.args(["-machine", machine]);
-        // Without `-audiodev` QEMU opens the sound of the machine that it runs on.
-        let fixed = "-nographic -audiodev none,id=silent -monitor none -serial none -icount shift=3,sleep=off \
-                     -semihosting-config enable=on,target=native";
-        command.args(fixed.split(' '));
+        command.args(FIXED.split(' '));
+        let words = [run.name].into_iter().chain(run.words.iter().copied());
+        let words: String = words.map(|word| format!(",arg={word}")).collect();
+        let semihosting = format!("enable=on,target=native{words}");
+        command.args(["-serial", run.serial, "-semihosting-config", &semihosting]);
         if let Some((plugin, out)) = run.meter {
             let plugged = format!("{},out={}", plugin.display(), out.display());
             command.args(["-plugin", &plugged]);
@@ -224,6 +235,22 @@ impl Qemu {
         command.arg("-kernel").arg(run.elf);
         shell::heard_by(&mut command, Stdio::piped);
         Ok(command)
+    }
+
+    /// Appends to a listener's command line the one of a run, for the listener to start.
+    ///
+    /// # Errors
+    /// QEMU does not take the meter.
+    pub fn start_by(&self, listener: &mut Command, run: &Run<'_>) -> Result<()> {
+        let command = self.command(MACHINE, run)?;
+        listener.arg("--").arg(command.get_program());
+        listener.args(command.get_args());
+        listener.envs(
+            command
+                .get_envs()
+                .filter_map(|(name, value)| Some((name, value?))),
+        );
+        Ok(())
     }
 
     /// Runs a firmware of which nothing is known on a board for so long at most, and returns whether it

@@ -169,6 +169,22 @@ pub fn for_projects(options: Options) -> Result<()> {
     plan.carry_out(options)
 }
 
+/// What the step about other cores needs: targets of Rust, and Debian's packages of emulators.
+pub fn for_cores(options: Options, targets: &[&str], packages: &[&'static str]) -> Result<()> {
+    let mut plan = Plan::default();
+    if shell::which("rustup").is_some() {
+        for target in targets {
+            let reason = format!("a Rust core library for {target}");
+            plan.add_rustup(reason, format!("rustup target add {target}"));
+        }
+    }
+    if !packages.is_empty() {
+        let reason = "the emulators of other cores".to_owned();
+        plan.add(reason, packages, "install QEMU for RISC-V");
+    }
+    plan.carry_out(options)
+}
+
 /// Installs what Debian's way needs, where Debian has it.
 pub fn debian(options: Options) -> Result<Toolchain> {
     if let Some(why) = toolchain::debian_lacks() {

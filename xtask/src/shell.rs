@@ -1,6 +1,6 @@
 //! Running other programs.
 
-use std::io::{BufRead, BufReader};
+use std::io::{BufRead, BufReader, IsTerminal};
 use std::path::PathBuf;
 use std::process::{Child, Command, ExitStatus, Stdio};
 
@@ -31,6 +31,18 @@ pub fn run(command: &mut Command) -> Result<()> {
     let (mut child, _group) = spawn(command)?;
     let status = child.wait().map_err(|e| Error::spawn(command, e))?;
     succeeded(command, status)
+}
+
+/// Runs a command whose output and errors are the user's, and returns how it ended. Where stdout is a terminal it stays
+/// in the foreground group, whose programs alone may read from the terminal; elsewhere it ends with xtask.
+pub fn run_for_user(command: &mut Command) -> Result<ExitStatus> {
+    let status = if std::io::stdout().is_terminal() {
+        command.status()
+    } else {
+        let (mut child, _group) = spawn(command.stdin(Stdio::null()))?;
+        child.wait()
+    };
+    status.map_err(|e| Error::spawn(command, e))
 }
 
 /// Runs a command that may ask for a password: it stays in the terminal's foreground group, whose

@@ -120,8 +120,13 @@ fn clear(command: &mut Command) {
 
 /// Whether the compiler that runs xtask has a core for the target.
 pub fn native_has_target() -> bool {
+    native_has(TARGET)
+}
+
+/// Whether it has one for another target.
+pub fn native_has(target: &str) -> bool {
     let mut rustc = native_rustc();
-    let dir = shell::capture(rustc.args(["--print", "target-libdir", "--target", TARGET]));
+    let dir = shell::capture(rustc.args(["--print", "target-libdir", "--target", target]));
     dir.is_ok_and(|dir| has_core(Path::new(dir.trim())))
 }
 

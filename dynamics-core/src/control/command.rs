@@ -5,6 +5,7 @@ use super::Fault;
 /// The mode of the arm. A lasting fault leads from each to the next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Mode {
     /// The full control law. During a ride-through it acts on the prediction of the observer.
     Full,
@@ -17,6 +18,7 @@ pub enum Mode {
 /// The decision of the supervisor in a tick, and its reason.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Status {
     /// The mode of the arm.
     pub mode: Mode,

@@ -87,6 +87,9 @@ impl<R: Real, const V: usize> FrozenEncoder<R, V> {
 
 /// Detects torques that stay at their limits.
 ///
+/// A held arm is decelerated with q̈ = −λ q̇: choose [`decay_rate`](super::MotionControllerConfig::decay_rate) such that this
+/// torque is below the limits at the speeds of the motion, or a hold becomes a stop.
+///
 /// ```
 /// use dynamics_core::control::{Fault, Saturation};
 /// let mut saturation = Saturation::new([10.0_f32], 2);

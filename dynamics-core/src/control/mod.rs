@@ -13,6 +13,7 @@
 //! | [`hybrid_motion_force`], [`TaskCommand`] | motions and forces along a task's directions | none |
 //! | [`ZeroOrderHold`], [`FirstOrderHold`], [`Interpolator`], [`InertiaUpdate`] | the torque in ticks without a computation of the dynamics | last torques |
 //! | [`Supervisor`] | limits, plausibility, reactions to faults | last good values |
+//! | [`Fault`], [`Reaction`] | what each fault leads to | |
 //! | [`FrozenEncoder`], [`ReferenceStep`], [`Saturation`] | faults that take several ticks to show | the last ticks |
 //! | [`TickCounter`], [`Watchdog`] | missed ticks, overruns, and what feeds a watchdog | a count |
 //! | [`Approach`] | the way from any pose to the start of a motion | none |
@@ -62,6 +63,7 @@ mod hybrid_force;
 mod multi_turn;
 mod multirate;
 mod observer;
+mod reaction;
 mod reference;
 mod resume;
 mod safety_limits;
@@ -88,6 +90,7 @@ pub use hybrid_force::{
 pub use multi_turn::MultiTurnEncoder;
 pub use multirate::{FirstOrderHold, InertiaUpdate, Interpolator, ZeroOrderHold};
 pub use observer::{Estimate, Observer, ObserverConfig};
+pub use reaction::Reaction;
 pub use reference::Reference;
 pub use resume::{ResumeConfig, ResumeTrajectory};
 pub use safety_limits::{LimitKind, SafetyLimits, SafetyLimitsError};

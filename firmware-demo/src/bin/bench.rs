@@ -101,8 +101,11 @@ fn tick() {
     };
     let encoders = from_fn(|j| WIRES.encoder(j));
     let drives = from_fn(|j| WIRES.drive(j));
-    let mut control: SimLoop<6> =
-        control_loop::<PickAndPlace, _, _, _, 6, 6, 6, 6>(encoders, drives, SimBrake, &());
+    let Ok(mut control): Result<SimLoop<6>, _> =
+        control_loop::<PickAndPlace, _, _, _, 6, 6, 6, 6>(encoders, drives, SimBrake, &())
+    else {
+        target::fail("a drive has no full scale");
+    };
     let torque = PickAndPlace::limits().map(|limits| limits.torque);
     let mut rig = Rig::new(PickAndPlace::plant(None), torque, &WIRES);
     let mut cycles = [0_u32; TICKS];

@@ -1,10 +1,12 @@
 //! The scene at work: the firmware on simulated devices, run after run.
 
 use core::convert::Infallible;
+use core::fmt;
 
 use dynamics_core::control::{Reference, TrajectoryError};
 use embedded_hal::digital::{self, OutputPin};
 use heapless::spsc::Producer;
+use joint_drivers::h_bridge::DriveError;
 
 use super::{Noise, PlantModel, Run, Scene, control_loop};
 use crate::control_loop::{ControlLoop, Telemetry};
@@ -14,7 +16,7 @@ use crate::sim_io::{SimDrive, SimEncoder, Wires};
 /// Steps of the simulated robot in a tick, unless its scene sets another number.
 pub const STEPS: u32 = 4;
 /// Ticks that each run goes on after the reference's end.
-const SETTLE: u32 = 200;
+pub(crate) const SETTLE: u32 = 200;
 /// Records that wait for the log at most.
 pub const QUEUE: usize = 32;
 
@@ -32,6 +34,27 @@ pub struct Record<const N: usize> {
     /// The plant failed in this tick: it has no forward dynamics, and no record follows.
     pub broken: bool,
 }
+
+/// The reason why a scene does not start.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum StartError {
+    /// The arm's limits do not allow the trajectory.
+    Trajectory(TrajectoryError),
+    /// A torque limit is no full scale of a drive.
+    Drive(DriveError),
+}
+
+impl fmt::Display for StartError {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Trajectory(error) => error.fmt(out),
+            Self::Drive(error) => error.fmt(out),
+        }
+    }
+}
+
+impl core::error::Error for StartError {}
 
 /// A brake that only a simulation has.
 #[derive(Clone, Copy, Debug)]
@@ -74,13 +97,14 @@ where
     /// The scene at the start of its first run.
     ///
     /// # Errors
-    /// A trajectory that the arm's limits do not allow.
+    /// [`StartError`].
     pub fn new(
         wires: &'static Wires<N>,
         records: Producer<'static, Record<N>>,
-    ) -> Result<Self, TrajectoryError> {
-        let reference = S::reference()?;
-        let (rig, control) = start::<S, B, Q, V, N>(&reference, wires, PlantModel::Exact);
+    ) -> Result<Self, StartError> {
+        let reference = S::reference().map_err(StartError::Trajectory)?;
+        let (rig, control) = start::<S, B, Q, V, N>(&reference, wires, PlantModel::Exact)
+            .map_err(StartError::Drive)?;
         Ok(Self {
             reference,
             wires,
@@ -138,17 +162,20 @@ where
             let next = Self::runs()
                 .nth(self.run)
                 .map_or(PlantModel::Exact, |r| r.plant);
-            (self.rig, self.control) = start::<S, B, Q, V, N>(&self.reference, self.wires, next);
+            match start::<S, B, Q, V, N>(&self.reference, self.wires, next) {
+                Ok(started) => (self.rig, self.control) = started,
+                Err(_) => self.broken = true,
+            }
         }
     }
 }
 
 /// A plant at rest at the start of the trajectory, and a loop whose observer starts there.
-fn start<S, const B: usize, const Q: usize, const V: usize, const N: usize>(
+pub(crate) fn start<S, const B: usize, const Q: usize, const V: usize, const N: usize>(
     reference: &S::Reference,
     wires: &'static Wires<N>,
     truth: PlantModel,
-) -> (Rig<S::Plant, N>, SimLoop<N>)
+) -> Result<(Rig<S::Plant, N>, SimLoop<N>), DriveError>
 where
     S: Scene<B, Q, V, N>,
 {
@@ -159,6 +186,6 @@ where
     let encoders = core::array::from_fn(|j| wires.encoder(j));
     let drives = core::array::from_fn(|j| wires.drive(j));
     let environment = S::environment(reference, 0.0);
-    let control = control_loop::<S, _, _, _, B, Q, V, N>(encoders, drives, SimBrake, &environment);
-    (rig, control)
+    let control = control_loop::<S, _, _, _, B, Q, V, N>(encoders, drives, SimBrake, &environment)?;
+    Ok((rig, control))
 }

@@ -6,11 +6,12 @@ use dynamics_core::control::{
 use embedded_hal::digital::OutputPin;
 use embedded_hal::pwm::SetDutyCycle;
 use embedded_hal::spi::SpiDevice;
+use joint_drivers::as5047p::As5047p;
+use joint_drivers::h_bridge::{DriveError, FullScale, LockedAntiphase};
+use joint_drivers::{Direction, JointMapping};
 
 use super::Scene;
 use crate::control_loop::ControlLoop;
-use crate::drive::Drive;
-use crate::encoder::Encoder;
 
 /// A tick, s, unless a scene sets another one.
 pub const TICK: f32 = 1e-3;
@@ -29,7 +30,11 @@ pub const REENTRY: u32 = 200;
 /// How far a joint may be from its reference for a restart, rad or m.
 pub const NEAR: f32 = 0.15;
 
-/// The loop on these devices, for an arm at rest at the start of its trajectory.
+/// The loop on these devices, for an arm at rest at the start of its trajectory. Encoders and drives have the joints' own
+/// zero and direction.
+///
+/// # Errors
+/// [`DriveError::FullScale`]: a torque limit of the scene is not above zero.
 pub fn control_loop<
     S,
     Spi,
@@ -44,7 +49,53 @@ pub fn control_loop<
     drives: [Pwm; N],
     brake: Brake,
     environment: &S::Environment,
-) -> ControlLoop<Spi, Pwm, Brake, N>
+) -> Result<ControlLoop<Spi, Pwm, Brake, N>, DriveError>
+where
+    S: Scene<B, Q, V, N>,
+    Spi: SpiDevice,
+    Pwm: SetDutyCycle,
+    Brake: OutputPin,
+{
+    let start = |controller| controller;
+    new::<S, _, _, _, B, Q, V, N>(encoders, drives, brake, environment, start)
+}
+
+/// The same for an arm on its brake, which [`ControlLoop::reset`] starts.
+///
+/// # Errors
+/// As [`control_loop`].
+pub fn control_loop_on_brake<
+    S,
+    Spi,
+    Pwm,
+    Brake,
+    const B: usize,
+    const Q: usize,
+    const V: usize,
+    const N: usize,
+>(
+    encoders: [Spi; N],
+    drives: [Pwm; N],
+    brake: Brake,
+    environment: &S::Environment,
+) -> Result<ControlLoop<Spi, Pwm, Brake, N>, DriveError>
+where
+    S: Scene<B, Q, V, N>,
+    Spi: SpiDevice,
+    Pwm: SetDutyCycle,
+    Brake: OutputPin,
+{
+    let start = MotionController::on_brake;
+    new::<S, _, _, _, B, Q, V, N>(encoders, drives, brake, environment, start)
+}
+
+fn new<S, Spi, Pwm, Brake, const B: usize, const Q: usize, const V: usize, const N: usize>(
+    encoders: [Spi; N],
+    drives: [Pwm; N],
+    brake: Brake,
+    environment: &S::Environment,
+    start: impl FnOnce(MotionController<f32, N>) -> MotionController<f32, N>,
+) -> Result<ControlLoop<Spi, Pwm, Brake, N>, DriveError>
 where
     S: Scene<B, Q, V, N>,
     Spi: SpiDevice,
@@ -52,13 +103,19 @@ where
     Brake: OutputPin,
 {
     let limits = S::limits();
-    let mut torques = limits.iter().map(|limit| limit.torque);
-    ControlLoop::new(
-        encoders.map(Encoder::new),
-        drives.map(|pwm| Drive::new(pwm, torques.next().unwrap_or_default())),
+    let scales = FullScale::of(limits.map(|limit| limit.torque))?;
+    let mut joint = 0;
+    let drives = drives.map(|pwm| {
+        let drive = LockedAntiphase::new(pwm, scales[joint], Direction::Forward);
+        joint += 1;
+        drive
+    });
+    Ok(ControlLoop::new(
+        encoders.map(|spi| As5047p::new(spi, JointMapping::IDENTITY)),
+        drives,
         brake,
         Gains::from_inertia(&S::inertia(environment), OMEGA_N, ZETA),
-        MotionController::new(MotionControllerConfig {
+        start(MotionController::new(MotionControllerConfig {
             supervisor: SupervisorConfig {
                 limits: SafetyLimits::from(limits).with_rate_share(0.5),
                 tick: S::TICK,
@@ -71,6 +128,6 @@ where
             // Half of what K_d does: at full speed the torques for more are not to be had.
             decay_rate: ZETA * OMEGA_N,
             restart_distance: NEAR,
-        }),
-    )
+        })),
+    ))
 }

@@ -2,7 +2,7 @@
 //! its costs summed once, when it is translated.
 
 use crate::insn::{Class, Insn, Marker};
-use crate::model::Pipe;
+use crate::model::{Pipe, Reading};
 
 /// Instructions, cycles and floating-point operations.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -57,8 +57,14 @@ pub struct Block {
 
 impl Block {
     /// The block of these instructions, the first of which is at address `start`.
+    #[cfg(test)]
     pub fn new(start: u32, insns: Vec<Insn>) -> Self {
-        let mut exit = Pipe::default();
+        Self::read_as(start, insns, Reading::Chosen)
+    }
+
+    /// The same, with the cycles of a reading of the manual.
+    pub fn read_as(start: u32, insns: Vec<Insn>, reading: Reading) -> Self {
+        let mut exit = Pipe::clear(reading);
         let mut sum = Tally::default();
         let mut before = vec![sum];
         for insn in &insns {

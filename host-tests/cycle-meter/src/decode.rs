@@ -93,6 +93,7 @@ impl Row {
     fn class(&self, code: u32) -> Class {
         match self.class {
             "Integer" => Class::Integer,
+            "IfThen" => Class::IfThen,
             "IntegerDivide" => Class::IntegerDivide,
             "System" => Class::System,
             "InstructionBarrier" => Class::InstructionBarrier,
@@ -155,11 +156,8 @@ impl Row {
                 false => low << 1 | high,
             };
             let registers = (1_u64 << self.number(code, count)) - 1;
-            if first < 32 {
-                (registers << first) as u32
-            } else {
-                0
-            }
+            // Those of a double beyond d15, which a Cortex-M4F lacks, are beyond the 32 bits.
+            (registers << first) as u32
         };
         sets.split(',').fold(0, |all, one| all | set(one))
     }

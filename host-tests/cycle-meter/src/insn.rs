@@ -14,8 +14,10 @@ pub struct Marker {
 pub enum Class {
     /// One end of a region: neither counted nor charged.
     Marker(Marker),
-    /// Data processing, multiplication, branches, hints, IT, DMB, DSB.
+    /// Data processing, multiplication, branches, hints, DMB, DSB.
     Integer,
+    /// `IT`.
+    IfThen,
     /// `SDIV`, `UDIV`.
     IntegerDivide,
     /// `MRS`, `MSR`, `CPS`.

@@ -17,6 +17,10 @@
 //! a QEMU that refuses that one. QEMU's functions are looked up when the library is loaded, so it
 //! links anywhere.
 //!
+//! On other cores the plugin counts instructions and nothing else, with a further argument: `isa=thumb2` (ARMv7-M, and
+//! ARMv8-M with the main extension), `isa=armv6m`, whose markers are `mov rN, rN`, or `isa=riscv`, whose markers are
+//! `slti x0, x0, k`. What is measured there must not access devices.
+//!
 //! # What is exact
 //!
 //! Instructions: each one that QEMU executes between the markers is counted once,
@@ -63,6 +67,17 @@
 //! - A division still running when its region is closed is charged to whoever waits for it.
 //! - The refill is 1 to 3 cycles, by the alignment and the width of the target; we take 2.
 //!
+//! The bracket of these choices is measured with the argument `reading=least` or `reading=most`:
+//!
+//! | choice | least | chosen | most |
+//! |---|---|---|---|
+//! | refill after a branch | 1 | 2 | 3 |
+//! | address from a register that a load wrote in the previous instruction | not pipelined | 1 more | 1 more |
+//! | `VLDR.32` right behind a load; `VSTR.32` | 1; 1 | 1; 1 | 2; 2 |
+//! | `IT` | 0 | 1 | 1 |
+//! | addend of a multiply-accumulate from the previous instruction | 0 | 1 more | 1 more |
+//! | `SDIV`, `UDIV` | 2 | 12 | 12 |
+//!
 //! # What is not modelled
 //!
 //! Wait states of flash and their caches, contention on the buses (between literals and
@@ -83,6 +98,7 @@ mod decode;
 mod ffi;
 mod hand_counted;
 mod insn;
+mod isa;
 mod meter;
 mod model;
 #[cfg(unix)]
@@ -97,4 +113,4 @@ pub const NEWEST_INTERFACE: i32 = 7;
 /// The environment variable that sets the version of the interface which the plugin asks QEMU for.
 pub const INTERFACE: &str = "CYCLE_METER_INTERFACE";
 
-pub use samples::{Error, HEADER, Sample, Summary, parse_samples};
+pub use samples::{Error, HEADER, INSTRUCTIONS_ALONE, Sample, Summary, parse_samples};

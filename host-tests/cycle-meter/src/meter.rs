@@ -2,7 +2,7 @@
 
 use crate::block::{Block, Mark, Tally};
 use crate::insn::Marker;
-use crate::model::Pipe;
+use crate::model::{Pipe, Reading};
 use crate::samples::Sample;
 
 /// The running count and the regions that are open.
@@ -22,6 +22,14 @@ pub struct Meter<'b> {
 }
 
 impl<'b> Meter<'b> {
+    /// A meter whose cycles are those of a reading of the manual.
+    pub fn read_as(reading: Reading) -> Self {
+        Self {
+            entry: Pipe::clear(reading),
+            ..Self::default()
+        }
+    }
+
     /// A block starts; the one before it passed so many of its checkpoints.
     pub fn enter(&mut self, block: &'b Block, passed: usize) {
         if let Some(last) = self.current.replace(block) {
@@ -70,7 +78,7 @@ impl<'b> Meter<'b> {
             if last.may_branch() {
                 self.total.cycles += u64::from(self.entry.refill());
             } else {
-                self.entry = Pipe::default();
+                self.entry = self.entry.cleared();
             }
         }
     }

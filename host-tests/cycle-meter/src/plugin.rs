@@ -7,10 +7,11 @@ use std::ptr;
 use std::sync::atomic::{AtomicI32, AtomicPtr, Ordering};
 
 use crate::block::{Block, Mark};
-use crate::decode;
 use crate::ffi::{self, Info, PluginId, Qemu, Tb};
 use crate::insn::Insn;
+use crate::isa::Isa;
 use crate::meter::Meter;
+use crate::model::Reading;
 use crate::samples::format_samples;
 
 /// All that the plugin knows.
@@ -19,6 +20,8 @@ struct Plugin {
     /// The version of the interface that QEMU speaks, whichever was requested.
     version: c_int,
     out: PathBuf,
+    isa: Isa,
+    reading: Reading,
     meter: Meter<'static>,
     /// Blocks by address and length, so that code translated again takes no new
     /// memory. They are never freed: QEMU may run them until it exits.
@@ -88,11 +91,21 @@ fn install(
     info: &Info,
     arguments: impl Iterator<Item = String>,
 ) -> Result<(), String> {
-    let mut out = None;
+    let (mut out, mut isa, mut reading) = (None, Isa::default(), Reading::default());
     for argument in arguments {
-        match argument.strip_prefix("out=") {
-            Some(path) if !path.is_empty() => out = Some(PathBuf::from(path)),
-            _ => return Err(format!("unknown argument `{argument}`; expected out=PATH")),
+        match argument.split_once('=') {
+            Some(("out", path)) if !path.is_empty() => out = Some(PathBuf::from(path)),
+            Some(("isa", name)) if Isa::named(name).is_some() => {
+                isa = Isa::named(name).unwrap_or_default();
+            }
+            Some(("reading", name)) if Reading::named(name).is_some() => {
+                reading = Reading::named(name).unwrap_or_default();
+            }
+            _ => {
+                let what = "expected out=PATH, isa=thumb2, isa=armv6m, isa=riscv, reading=least or \
+                            reading=most";
+                return Err(format!("unknown argument `{argument}`; {what}"));
+            }
         }
     }
     let out = out.ok_or("expected the argument out=PATH")?;
@@ -104,7 +117,9 @@ fn install(
         qemu,
         version: info.version_cur,
         out,
-        meter: Meter::default(),
+        isa,
+        reading,
+        meter: Meter::read_as(reading),
         blocks: HashMap::new(),
         checkpoints: 0,
         checkpoints_at_entry: 0,
@@ -142,7 +157,7 @@ extern "C" fn translated(_: PluginId, tb: *mut Tb) {
     let qemu = plugin.qemu;
     // SAFETY: the block is valid during this callback.
     let (start, insns) = unsafe {
-        let insns = read(&qemu, plugin.version, tb);
+        let insns = read(&qemu, plugin.version, plugin.isa, tb);
         ((qemu.tb_vaddr)(tb) as u32, insns)
     };
     let block = plugin.intern(start, insns);
@@ -175,7 +190,7 @@ fn user_data<T>(data: &'static T) -> *mut c_void {
 /// # Safety
 ///
 /// `tb` must be a block that is being translated.
-unsafe fn read(qemu: &Qemu, version: c_int, tb: *const Tb) -> Vec<Insn> {
+unsafe fn read(qemu: &Qemu, version: c_int, isa: Isa, tb: *const Tb) -> Vec<Insn> {
     // SAFETY: the caller's promise.
     let count = unsafe { (qemu.tb_n_insns)(tb) };
     (0..count)
@@ -194,13 +209,9 @@ unsafe fn read(qemu: &Qemu, version: c_int, tb: *const Tb) -> Vec<Insn> {
                     size
                 }
             };
-            let code = &code[..size.min(code.len())];
             // QEMU 7.2 may give a halfword too many at the end of a page, never one too few.
-            let halfword = |at| match code.get(at..at + 2) {
-                Some(&[low, high]) => u16::from_le_bytes([low, high]),
-                _ => 0,
-            };
-            decode::decode(halfword(0), halfword(2))
+            code[size.min(4)..].fill(0);
+            isa.decode(code)
         })
         .collect()
 }
@@ -212,7 +223,7 @@ impl Plugin {
         if let Some(block) = known.iter().find(|block| block.insns() == insns) {
             return block;
         }
-        let block: &Block = Box::leak(Box::new(Block::new(start, insns)));
+        let block: &Block = Box::leak(Box::new(Block::read_as(start, insns, self.reading)));
         known.push(block);
         block
     }
@@ -253,7 +264,7 @@ extern "C" fn exiting_from_7(_: *mut c_void) {
 extern "C" fn exiting(_: PluginId, _: *mut c_void) {
     // SAFETY: the only call in this callback.
     let plugin = unsafe { plugin() };
-    let text = format_samples(plugin.meter.samples(), plugin.meter.unmatched());
+    let text = format_samples(plugin.isa, plugin.meter.samples(), plugin.meter.unmatched());
     if let Err(error) = std::fs::write(&plugin.out, text) {
         eprintln!(
             "cycle-meter: cannot write {}: {error}",

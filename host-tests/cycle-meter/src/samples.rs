@@ -13,8 +13,13 @@
 
 use std::fmt::Write as _;
 
+use crate::isa::Isa;
+
 /// First line of a file.
 pub const HEADER: &str = "cycle-meter 2 cortex-m4f zero-wait";
+
+/// First line of a file of a core whose cycles are not modelled: cycles and floating-point operations are zero.
+pub const INSTRUCTIONS_ALONE: &str = "cycle-meter 2 instructions alone";
 
 /// One passage through a region.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,7 +64,7 @@ pub enum Error {
 pub fn parse_samples(text: &str) -> Result<Vec<Sample>, Error> {
     let mut lines = text.lines().enumerate();
     let header = lines.next().map_or("", |(_, line)| line);
-    if header != HEADER {
+    if header != HEADER && header != INSTRUCTIONS_ALONE {
         return Err(Error::Header(header.into()));
     }
     lines.map(|(index, line)| sample(line, index + 1)).collect()
@@ -84,12 +89,20 @@ pub(crate) fn sample(line: &str, number: usize) -> Result<Sample, Error> {
 }
 
 /// Writes what [`parse_samples`] reads.
-pub fn format_samples(samples: &[Sample], unmatched: u64) -> String {
-    let mut text = format!("{HEADER}\n");
-    // Writing to a string does not fail.
+pub fn format_samples(isa: Isa, samples: &[Sample], unmatched: u64) -> String {
+    let header = match isa.is_modelled() {
+        true => HEADER,
+        false => INSTRUCTIONS_ALONE,
+    };
+    let mut text = format!("{header}\n");
     for one in samples {
-        let (region, flops) = (one.region, one.flops);
-        let _ = writeln!(text, "{region} {} {} {flops}", one.instructions, one.cycles);
+        let (region, instructions) = (one.region, one.instructions);
+        let (cycles, flops) = match isa.is_modelled() {
+            true => (one.cycles, one.flops),
+            false => (0, 0),
+        };
+        // Writing to a string does not fail.
+        let _ = writeln!(text, "{region} {instructions} {cycles} {flops}");
     }
     if unmatched > 0 {
         let _ = writeln!(text, "unmatched {unmatched}");
@@ -152,16 +165,30 @@ mod tests {
     #[test]
     fn what_is_written_is_read() {
         assert_eq!(
-            parse_samples(&format_samples(&SAMPLES, 0)),
+            parse_samples(&format_samples(Isa::CortexM4F, &SAMPLES, 0)),
             Ok(SAMPLES.to_vec())
         );
-        assert_eq!(parse_samples(&format_samples(&[], 0)), Ok(vec![]));
+        assert_eq!(
+            parse_samples(&format_samples(Isa::CortexM4F, &[], 0)),
+            Ok(vec![])
+        );
+    }
+
+    #[test]
+    fn of_a_core_that_is_not_modelled_instructions_alone_are_written() {
+        let text = format_samples(Isa::RiscV, &SAMPLES, 0);
+        assert_eq!(
+            text,
+            format!("{INSTRUCTIONS_ALONE}\n1 390 0 0\n0 1204 0 0\n")
+        );
+        let read = parse_samples(&text).expect("a file");
+        assert_eq!(read.iter().map(|one| one.cycles).sum::<u64>(), 0);
     }
 
     #[test]
     fn a_file_with_unmatched_markers_is_refused() {
         assert_eq!(
-            parse_samples(&format_samples(&SAMPLES, 3)),
+            parse_samples(&format_samples(Isa::CortexM4F, &SAMPLES, 3)),
             Err(Error::Unmatched(3))
         );
     }

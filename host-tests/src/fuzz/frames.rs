@@ -2,7 +2,7 @@
 
 use super::bytes::Bytes;
 use dynamics_core::control::MultiTurnEncoder;
-use firmware_demo::encoder::{COUNTS, decode, encode};
+use joint_drivers::as5047p::{COUNTS, decode, encode};
 
 /// Frames of two bytes each.
 ///

@@ -158,7 +158,8 @@ impl Arm {
                 drives,
                 brake.clone(),
                 &(),
-            ),
+            )
+            .unwrap(),
             trajectory: PickAndPlace::reference().unwrap(),
             wires,
             bent,

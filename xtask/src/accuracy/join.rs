@@ -125,7 +125,7 @@ impl Line {
 #[cfg(test)]
 mod tests {
     use super::super::point::Point;
-    use super::{Host, Line, join};
+    use super::{Host, KNOWN, Line, join};
     use crate::costs::Row;
     use crate::meter::Spread;
 
@@ -166,8 +166,19 @@ mod tests {
         assert!(points[0].front);
         // A thousand steps make a second.
         assert_eq!((points[1].cycles, points[1].front), (20_000, false));
+        assert_eq!(points[1].instructions, 20_000);
         assert!(join(&host, &[("bin", "3", row("inverse", "trig=new"))]).is_err());
         assert!(Host::read("{").is_err());
+    }
+
+    #[test]
+    fn an_error_smaller_than_the_referees_is_the_referees() {
+        let exact = LINES.replace("1e-5", "1e-15").replace("9e-6", "1e-15");
+        let host = Host::read(exact.trim()).expect("good lines");
+        let points = join(&host, &[("bin", "3", row("inverse", "default"))]).expect("complete");
+        let known = Some(10.0 * KNOWN);
+        assert_eq!((points[0].error_max, points[0].error_p99), (known, known));
+        assert_eq!(points[0].error_rms, Some(1e-6));
     }
 
     #[test]

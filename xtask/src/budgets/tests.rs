@@ -1,7 +1,12 @@
-use super::{Budget, Budgets, DocumentMut, Rows, hold_costs, hold_scene};
+use std::path::PathBuf;
+
+use super::{
+    Budget, Budgets, DocumentMut, Rows, bars, check_costs, hold_costs, hold_scene, write_costs,
+};
 use crate::bars::{Bar, Bars};
 use crate::costs;
 use crate::meter::Spread;
+use crate::workspace::Workspace;
 
 /// A scene's budget of these costs.
 fn budget(rustc: &str, cost: u64) -> Budget {
@@ -226,4 +231,77 @@ fn a_figure_that_only_one_side_has_is_named() {
     let theirs: Budget = toml::from_str("rustc = \"rustc 1\"\ncycles = 1").expect("TOML");
     let wrong = ours.exceeded_by(&theirs);
     assert_eq!(wrong, ["cycles has no budget", "bytes is no figure"]);
+}
+
+/// A workspace that has nothing but these budgets.
+fn workspace(folder: &tempfile::TempDir, budgets: &str) -> Workspace {
+    std::fs::write(folder.path().join("budgets.toml"), budgets).expect("written");
+    Workspace {
+        root: folder.path().to_owned(),
+        target: PathBuf::new(),
+        reports: None,
+        bins: Vec::new(),
+    }
+}
+
+#[test]
+fn the_budgets_of_a_workspace_are_written_and_then_kept() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let workspace = workspace(&folder, "# Why.\n[costs]\nrustc = \"\"\nrows = {}\n");
+    let plain = |cost| report(cost, cost, "", Bars::new());
+    let refused = outcome(check_costs(&workspace, &plain(1000), None));
+    assert!(refused.contains("has no budget"), "{refused}");
+    write_costs(&workspace, &plain(1000)).expect("written");
+    let kept = |cost| outcome(check_costs(&workspace, &plain(cost), None));
+    assert_eq!(kept(1000), "1 rows");
+    assert!(kept(1001).contains("cycles 1001 > 1000"));
+    let text = std::fs::read_to_string(folder.path().join("budgets.toml")).expect("there");
+    assert!(text.starts_with("# Why.\n"), "{text}");
+}
+
+#[test]
+fn a_report_of_one_robot_is_held_to_the_budgets_of_this_robot_alone() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let workspace = workspace(&folder, "[costs]\n");
+    let mut both = report(1000, 1000, "", Bars::new());
+    let other = costs::Row {
+        robot: "leg".into(),
+        ..row(1000)
+    };
+    both.rows.push(other);
+    write_costs(&workspace, &both).expect("written");
+    let arm = report(1000, 1000, "", Bars::new());
+    let gone = outcome(check_costs(&workspace, &arm, None));
+    assert!(
+        gone.contains("leg rnea") && gone.contains("is no longer measured"),
+        "{gone}"
+    );
+    assert_eq!(
+        outcome(check_costs(&workspace, &arm, Some("arm"))),
+        "1 rows"
+    );
+}
+
+#[test]
+fn bars_are_those_of_rows_and_of_pairs_of_rows() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let text = "[bars]\na = { cycles = 7 }\n[ratios]\n\"a / b\" = { cycles = 0.5 }\n";
+    let bars = bars(&workspace(&folder, text)).expect("bars");
+    assert_eq!(bars["a"].most["cycles"], 7.0);
+    assert_eq!(bars["a / b"].most["cycles"], 0.5);
+}
+
+#[test]
+fn the_budget_of_a_scene_takes_the_place_of_the_old_one_and_of_no_other() {
+    let mut file: DocumentMut = "[leg]\nrustc = \"rustc 0\"\n[arm]\ntick_cycles = 1 # less\n"
+        .parse()
+        .expect("TOML");
+    budget("rustc 1", 1000).put("arm", &mut file);
+    let budgets: Budgets = toml::from_str(&file.to_string()).expect("budgets");
+    assert_eq!(budgets.scenes["arm"].rustc, "rustc 1");
+    assert_eq!(
+        budgets.scenes["arm"].figures,
+        budget("rustc 1", 1000).figures
+    );
+    assert_eq!(budgets.scenes["leg"].rustc, "rustc 0");
 }

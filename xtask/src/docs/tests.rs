@@ -60,6 +60,56 @@ fn a_row_too_many_or_too_few_is_refused() {
 }
 
 #[test]
+fn a_sentence_for_a_row_and_a_figure_for_a_rule_are_refused() {
+    let head = "| robot | insn |";
+    assert_eq!(accepted(head, "| ur5e | 12 |", "nothing"), OTHER);
+    assert_eq!(accepted(head, "nothing", "| ur5e | 12 |"), OTHER);
+    assert_eq!(accepted(head, "| ur5e | -- |", "| ur5e | 12 |"), OTHER);
+    assert_eq!(accepted(head, "| ur5e | 12 |", "| ur5e | -- |"), OTHER);
+}
+
+#[test]
+fn the_rule_below_the_headings_is_as_long_as_it_likes() {
+    let text = |rule: &str, rustc| format!("| robot | insn |\n{rule}\n\nMeasured with {rustc}.\n");
+    let (old, new) = (
+        text("| --- | ---: |", "rustc 1"),
+        text("| ----- | ------: |", NOW),
+    );
+    assert!(compare("docs/costs.md", "", &old, &new, NOW).is_ok());
+}
+
+#[test]
+fn the_headings_of_a_table_are_not_those_of_the_one_before_it() {
+    let text = |bound: &str, rustc| {
+        let first = "| robot | insn |\n| --- | ---: |\n| ur5e | 1000 |";
+        let second = format!("| robot | at most |\n| --- | ---: |\n| ur5e | {bound} |");
+        format!("{first}\n\nThe bounds.\n\n{second}\n\nMeasured with {rustc}.\n")
+    };
+    let is_accepted = |bound| {
+        let (old, new) = (text("1000", "rustc 1"), text(bound, NOW));
+        compare("docs/costs.md", "", &old, &new, NOW).is_ok()
+    };
+    assert!(is_accepted("1000") && !is_accepted("1001"));
+}
+
+#[test]
+fn a_page_that_says_something_else_is_refused_and_one_that_is_written_is_accepted() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let workspace = Workspace {
+        root: folder.path().to_owned(),
+        target: PathBuf::new(),
+        bins: Vec::new(),
+        reports: None,
+    };
+    let empty = "<!-- demo:begin -->\n<!-- demo:end -->\n";
+    std::fs::write(folder.path().join(README.file), empty).expect("written");
+    assert!(README.check(&workspace, "The text.", None).is_err());
+    README.write(&workspace, "The text.").expect("written");
+    assert!(README.check(&workspace, "The text.", None).is_ok());
+    assert!(README.check(&workspace, "The texts.", None).is_err());
+}
+
+#[test]
 fn costs_of_another_compiler_are_within_three_per_cent() {
     for heading in [
         "insn",
@@ -172,6 +222,9 @@ fn shares_of_another_compiler_move_by_three_per_cent_and_a_last_digit() {
     assert_eq!(accepted(head, &row("0.33 %"), &row("0.35 %")), OTHER);
     assert_eq!(accepted(head, &row("72.6 %"), &row("74.8 %")), CLOSE);
     assert_eq!(accepted(head, &row("72.6 %"), &row("75.0 %")), OTHER);
+    // Without a point, the last digit is a whole per cent.
+    assert_eq!(accepted(head, &row("72 %"), &row("75 %")), CLOSE);
+    assert_eq!(accepted(head, &row("72 %"), &row("76 %")), OTHER);
     let head = "| tracking error RMS, mrad | exact model |";
     let row = |figure: &str| format!("| PD | {figure} |");
     assert_eq!(
@@ -192,6 +245,7 @@ fn shares_of_another_compiler_move_by_three_per_cent_and_a_last_digit() {
 fn multiples_of_another_compiler_are_within_six_per_cent() {
     for (head, written, close, other) in [
         ("| robot | insn | of floor |", "0.46", "0.48", "0.50"),
+        ("| robot | insn | of floor |", "1.000", "1.059", "1.061"),
         ("| robot | cycles at s | s / 3 |", "0.998", "1.05", "1.07"),
         ("| robot | at most | now |", "1.010×", "1.07×", "1.08×"),
     ] {

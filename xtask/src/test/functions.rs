@@ -6,7 +6,7 @@ use super::Context;
 use crate::budgets;
 use crate::callgraph::Reach;
 use crate::costs;
-use crate::elf::{Image, is_panic};
+use crate::elf::{Image, is_f64, is_panic};
 use crate::error::{Error, Result, bail, check, refuse_if};
 use crate::firmware;
 use crate::meter::Cost;
@@ -44,6 +44,42 @@ pub fn bits(context: &Context) -> Result<String> {
     on_target.retain(|line| line.starts_with("bits "));
     let host = context.cargo(&["run --quiet --package host-reports --bin bits"])?;
     same_bits(&on_target, &host.lines().collect::<Vec<_>>())
+}
+
+/// Runs of the firmware's bin `fault_runs`.
+const FAULT_RUNS: usize = 100;
+
+pub fn faults(context: &Context) -> Result<String> {
+    let name = "fault_runs";
+    let elf = context.built(name)?;
+    let mut on_target = context.tools.qemu.lines(&Run::logging(name, &elf, None))?;
+    on_target.retain(|line| line.starts_with("run "));
+    let host = context.cargo(&["run --quiet --package host-reports --bin fault_runs"])?;
+    same_runs(&on_target, &host.lines().collect::<Vec<_>>())
+}
+
+/// Fails unless every run kept its limits on both, with the same torques.
+fn same_runs(on_target: &[String], on_host: &[&str]) -> Result<String> {
+    let mut faults = 0;
+    for (target, host) in std::iter::zip(on_target, on_host) {
+        refuse_if!(
+            target != host,
+            "a run differs:\n  QEMU: {target}\n  host: {host}"
+        );
+        let injected = target
+            .split_once(" faults ")
+            .and_then(|(run, _)| run.rsplit(' ').next()?.parse::<usize>().ok());
+        let Some(injected) = injected else {
+            bail!("a limit did not hold: {target}");
+        };
+        faults += injected;
+    }
+    let (there, here) = (on_target.len(), on_host.len());
+    refuse_if!(
+        there != FAULT_RUNS || here != FAULT_RUNS,
+        "`fault_runs` made {there} runs in QEMU and {here} on the host, not {FAULT_RUNS}"
+    );
+    Ok(format!("{there} runs with {faults} faults"))
 }
 
 /// Fails unless the lines are the same and of enough hard cases.
@@ -86,31 +122,10 @@ pub fn no_f64(context: &Context) -> Result<String> {
     Ok(format!("{count} functions reached"))
 }
 
-/// Whether a symbol is f64 arithmetic of the compiler's runtime, or a sine, cosine or tangent of libm: the f32 functions
-/// of libm's compute in f64 inside, but for the arc tangent.
-fn is_f64(symbol: &str) -> bool {
-    let has = |parts: &str| parts.split(' ').any(|part| symbol.contains(part));
-    let conversions = "__aeabi_f2d __aeabi_i2d __aeabi_ui2d __aeabi_l2d __aeabi_ul2d";
-    let runtime = symbol.starts_with("__aeabi_d")
-        || conversions.split(' ').any(|name| name == symbol)
-        || (symbol.starts_with("__") && has("df3 df2 dfsi"));
-    let trig = "sin cos tan rem_pio2";
-    let plain = symbol.strip_suffix('f').unwrap_or(symbol);
-    runtime
-        || trig.split(' ').any(|f| f == plain)
-        || (symbol.contains("libm") && has(trig) && !symbol.contains("atan"))
-}
-
 pub fn opcodes(context: &Context) -> Result<String> {
     let mut count = 0;
     for measured in context.measured()? {
-        for (function, one) in Image::read(&measured.elf)?.instructions() {
-            count += 1;
-            if one.is_beyond_m4f() {
-                let (name, code, at) = (&function.names[0], one.code, one.address);
-                bail!("`{name}` has {code:x?} at {at:#x}");
-            }
-        }
+        count += Image::read(&measured.elf)?.m4f_instructions()?;
     }
     Ok(format!("{count} instructions"))
 }
@@ -227,6 +242,28 @@ mod tests {
         ] {
             assert!(!is_f64(symbol), "{symbol}");
         }
+    }
+
+    #[test]
+    fn a_run_that_differs_that_fails_or_that_is_missing_fails_the_step() {
+        let lines: Vec<String> = (0..100)
+            .map(|k| format!("run {k} pendulum 7 faults 0{k:x}"))
+            .collect();
+        let mut host: Vec<&str> = lines.iter().map(String::as_str).collect();
+        assert_eq!(
+            super::same_runs(&lines, &host).unwrap(),
+            "100 runs with 700 faults"
+        );
+        assert!(super::same_runs(&lines[..99], &host[..99]).is_err());
+        assert!(super::same_runs(&lines[..99], &host).is_err());
+        host[3] = "run 3 pendulum 7 faults 04";
+        let error = super::same_runs(&lines, &host).expect_err("another torque");
+        assert!(error.to_string().contains("run 3"), "{error}");
+        host[3] = "run 3 pendulum joint 0: speed 4 rad/s";
+        let mut both = lines.clone();
+        host[3].clone_into(&mut both[3]);
+        let error = super::same_runs(&both, &host).expect_err("too fast");
+        assert!(error.to_string().contains("limit"), "{error}");
     }
 
     #[test]

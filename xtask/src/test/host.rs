@@ -5,8 +5,9 @@ use crate::error::Result;
 
 /// The tests that take the compiler long: further robots and scalars of claims that are tested without.
 const FULL: &str = "--features host-tests/full,unoptimised-tests/full";
-/// What is not the firmware.
-const HOST: &str = "--workspace --exclude firmware-demo";
+/// What is neither the firmware nor what listens to it: the steps `telemetry` and `pil` build and test that.
+const HOST: &str =
+    "--workspace --exclude firmware-demo --exclude telemetry-watch --exclude telemetry-pil";
 /// The part of the firmware that runs anywhere.
 const FIRMWARE: &str = "--package firmware-demo --lib";
 
@@ -14,6 +15,7 @@ pub fn clippy(context: &Context) -> Result<String> {
     context.cargo(&[
         &format!("clippy {HOST} --all-targets {FULL} -- -D warnings"),
         &format!("clippy {FIRMWARE} -- -D warnings"),
+        "clippy --package telemetry-watch --package telemetry-pil --all-targets -- -D warnings",
     ])
 }
 

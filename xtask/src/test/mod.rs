@@ -27,8 +27,8 @@ use crate::scene::Scene;
 use crate::setup::{self, Options, Tools};
 use crate::workspace::Workspace;
 use crate::{
-    accuracy, effects, flexible, growth, hard_cases, history, host_table, layers, lines, meter,
-    robots, shell,
+    accuracy, cores, effects, flexible, growth, hard_cases, history, host_table, layers, lines,
+    meter, pil, robots, shell, watch,
 };
 use Lane::{Host, Target};
 use Scope::{Everyday, Full};
@@ -93,6 +93,9 @@ const STEPS: &[Step] = &[
     ("firmware", Target, Full, "every bin of the firmware builds", functions::build),
     ("meter", Target, Everyday, "the cycle meter agrees with sequences counted by hand", functions::meter),
     ("bits", Host, Everyday, "the host and QEMU compute the same bits", functions::bits),
+    ("faults", Target, Full, "100 arms under injected faults keep their limits in QEMU, with the host's torques", functions::faults),
+    ("cores", Target, Full, "a Cortex-M4F, an M33 and an RV32 compute the host's torques, and docs/boards.md has what they and the boards' images take",
+        |c| cores::check(&c.workspace, c.options)),
     ("scene", Target, Everyday, "every scene runs to its end", scenes::runs),
     ("determinism", Target, Everyday, "two runs of a scene give the same bytes", scenes::determinism),
     ("tracking", Target, Everyday, "every scene tracks within its bound, the default one better than PD as promised", scenes::tracking),
@@ -106,6 +109,8 @@ const STEPS: &[Step] = &[
         |c| growth::check(&c.workspace, &growth::measure(&c.workspace, &c.tools)?)),
     ("history", Target, Full, "docs/history.md has today's costs of the algorithms that today's replaced",
         |c| history::check(&c.workspace, &history::measure(&c.workspace, &c.tools)?)),
+    ("telemetry", Target, Full, "a tick costs the same with a listener, without one, and with a full queue", |c| watch::check(&c.workspace, &c.tools, c.meter()?)),
+    ("pil", Target, Full, "with its robot in f64 on the host the scene ur5e moves as with its robot inside", |c| pil::check(&c.workspace, &c.tools)),
     ("absent-effects", Target, Everyday, "an effect that a scene does not name costs it nothing", absent::absent_effects_cost_nothing),
     ("accuracy", Target, Full, "docs/accuracy.md has today's costs and errors of single changes; what is printed as generated code keeps them",
         |c| accuracy::check(&c.workspace, &c.tools)),

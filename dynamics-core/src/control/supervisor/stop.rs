@@ -161,6 +161,17 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
             return;
         }
         let kind = self.stopping.choose(&category);
+        self.stop_kind(fault, kind);
+    }
+
+    /// Stops the arm by the configured category.
+    pub(in crate::control) fn stop_as_configured(&mut self, fault: Fault) {
+        if !matches!(self.mode, Mode::Stopped) {
+            self.stop_kind(fault, self.stopping.configured);
+        }
+    }
+
+    fn stop_kind(&mut self, fault: Fault, kind: Kind) {
         // An arm whose position is not known cannot be decelerated.
         if matches!(kind, Kind::Off) | !self.known {
             let reason = self.stopping.reason.unwrap_or(fault);

@@ -24,7 +24,10 @@ use dynamics_core::effects::{Armature, Coulomb, RIGID_BODY, Viscous, Width};
 use dynamics_core::robots::Ur5e;
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine, trig};
-use firmware_demo::{drive::Scale, marker::measured, target};
+use firmware_demo::sim_io::{SimDrive, Wires};
+use firmware_demo::{marker::measured, target};
+use joint_drivers::Direction;
+use joint_drivers::h_bridge::{FullScale, LockedAntiphase};
 
 const N: usize = 6;
 const STATES: usize = 10_000;
@@ -138,12 +141,16 @@ fn main() -> ! {
         },
         |(reference, estimate)| law(&gains, reference, estimate),
     );
-    let scale = Scale::new(8400, 150.0);
+    static WIRES: Wires<1> = Wires::new();
+    let Ok(full_scale) = FullScale::new(150.0) else {
+        target::fail("a full scale is above zero");
+    };
+    let drive = LockedAntiphase::new(WIRES.drive(0), full_scale, Direction::Forward);
     each(
         noise,
         "drive",
         |noise| noise.number(200.0),
-        |torque| duty(&scale, *torque),
+        |torque| duty(&drive, *torque),
     );
     defmt::println!("constant gate {=usize}", STATES);
     gate(noise, None);
@@ -167,8 +174,8 @@ fn sin_cos(x: &f32) -> (f32, f32) {
 }
 
 #[inline(never)]
-fn duty(scale: &Scale, torque: f32) -> u16 {
-    scale.duty(torque)
+fn duty(drive: &LockedAntiphase<SimDrive>, torque: f32) -> u16 {
+    drive.duty(torque)
 }
 
 #[inline(never)]

@@ -90,6 +90,35 @@ mod tests {
     }
 
     #[test]
+    fn the_bits_of_a_distance_are_those_that_change_it_alone() {
+        for code in [
+            [0xF000, 0xF87E], // bl
+            [0xF000, 0xB87E], // b.w
+            [0xF43F, 0xAF7E], // beq.w
+            [0xE07E, 0],      // b
+            [0xD07E, 0],      // beq
+            [0xB918, 0],      // cbnz r0
+            [0x4802, 0],      // ldr r0, [pc, #8]
+            [0xF8DF, 0x0008], // ldr.w r0, [pc, #8]
+            [0xED9F, 0x0A02], // vldr s0, [pc, #8]
+        ] {
+            let found = relative(0x1000, code[0], code[1]).expect("a distance");
+            for half in 0..2 {
+                for bit in 0..16 {
+                    let mut other = code;
+                    other[half] ^= 1 << bit;
+                    // Another bit may make another instruction of it, or change what is not the distance.
+                    let other = relative(0x1000, other[0], other[1]);
+                    let other = other.filter(|other| other.bits == found.bits);
+                    let is_farther = other.is_some_and(|other| other.target != found.target);
+                    let is_of_distance = found.bits[half] >> bit & 1 == 1;
+                    assert_eq!(is_farther, is_of_distance, "{code:04x?}: {half}, {bit}");
+                }
+            }
+        }
+    }
+
+    #[test]
     fn literals_lie_where_the_manual_says() {
         let cases = [
             (0x4802, 0, 0x100C, 1),      // ldr r0, [pc, #8]

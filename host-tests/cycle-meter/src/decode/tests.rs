@@ -36,7 +36,7 @@ fn narrow_results_and_addresses_are_found() {
         (0xB5F0, Class::Words(5), SP, 0),               // push {r4-r7, lr}
         (0xBC30, Class::Words(2), SP, 1 << 4 | 1 << 5), // pop {r4, r5}
         (0xC807, Class::Words(3), 1 << 0, 7),           // ldm r0, {r0, r1, r2}
-        (0xBF08, Class::Integer, 0, 0),                 // it eq
+        (0xBF08, Class::IfThen, 0, 0),                  // it eq
         (0xB672, Class::System, 0, 0),                  // cpsid i
     ];
     for (code, class, address, writes) in cases {
@@ -260,6 +260,7 @@ fn words_of_loads_and_stores_are_counted() {
         (0xED91, 0x0A02, Class::Load, 0, 1),          // vldr s0, [r1, #8]
         (0xEDC1, 0xFA00, Class::Store, 1 << 31, 0),   // vstr s31, [r1]
         (0xED91, 0x1B00, Class::Words(2), 0, 3 << 2), // vldr d1, [r1]
+        (0xEDD1, 0x1B00, Class::Words(2), 0, 0),      // vldr d17, [r1], which a Cortex-M4F lacks
         (0xEC81, 0x0A04, Class::Words(4), 0xF, 0),    // vstmia r1, {s0-s3}
         (0xEC91, 0x0B04, Class::Words(4), 0, 0xF),    // vldmia r1, {d0, d1}
         (0xED2D, 0x8B10, Class::Words(16), 0xFFFF << 16, 0), // vpush {d8-d15}

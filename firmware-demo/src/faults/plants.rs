@@ -1,12 +1,15 @@
-//! The arms that faults are injected into: a pendulum without brakes, and the UR5e.
+//! The arms that faults are injected into: a pendulum without brakes, a gimbal of three joints, and the UR5e.
 
 use dynamics_core::Core;
 use dynamics_core::control::{Estimate, Gains, MotionLimits, SafetyLimits, StopCategory, feedback};
-use dynamics_core::effects::{Armature, Coriolis, Gravity, Inertia};
-use dynamics_core::model::model;
+use dynamics_core::effects::{Armature, Coriolis, Effect, Gravity, Inertia};
+use dynamics_core::model::{Robot, model};
 use dynamics_core::robots::Ur5e;
 use dynamics_core::sim::semi_implicit;
 use dynamics_core::state::State;
+use dynamics_core::trig::sin_cos;
+
+use crate::robots::Gimbal;
 
 /// A tick, s.
 pub const TICK: f32 = 1e-3;
@@ -14,22 +17,33 @@ const OMEGA: f32 = 25.0;
 
 /// An arm with the law that knows it.
 pub trait Plant<const V: usize> {
+    /// Its name.
     const NAME: &'static str;
+    /// The rated torque, rate, speed and range.
     const LIMITS: SafetyLimits<f32, V>;
+    /// Decay rate of a held arm, 1/s: at the speeds of the motion its torque is below the limits.
+    const DECAY: f32;
+    /// Where its motion begins and ends.
     const HOME: [f32; V];
+    /// Where it stops in between.
     const AWAY: [f32; V];
+    /// The limits of the path to the motion.
     const MOTION: MotionLimits<f32>;
     /// What follows a controlled stop.
     const STOP: StopCategory<f32, V>;
     /// Whether a brake holds the arm.
     const BRAKE: bool;
 
+    /// The gains of its feedback.
     fn gains() -> Gains<f32, V>;
+    /// The torque of a reference, N·m.
     fn feed_forward(reference: &State<f32, V, V>) -> [f32; V];
+    /// A tick under a torque.
     fn step(state: &mut State<f32, V, V>, tau: &[f32; V]);
     /// Kinetic energy, and the most that joints at these speeds can have, J.
     fn kinetic(state: &State<f32, V, V>) -> [f32; 2];
 
+    /// Feed-forward and feedback, N·m.
     fn law(
         gains: &Gains<f32, V>,
         reference: &State<f32, V, V>,
@@ -40,6 +54,10 @@ pub trait Plant<const V: usize> {
         tau.iter_mut().zip(pd).for_each(|(tau, pd)| *tau += pd);
         tau
     }
+}
+
+fn cos(angle: f32) -> f32 {
+    sin_cos(angle).1
 }
 
 /// A joint of 2 kg·m² with 8 N·m of gravity, and no brake.
@@ -54,6 +72,7 @@ impl Plant<1> for Pendulum {
         lower: [-2.0],
         upper: [2.0],
     };
+    const DECAY: f32 = 15.0;
     const HOME: [f32; 1] = [0.0];
     const AWAY: [f32; 1] = [1.0];
     const MOTION: MotionLimits<f32> = MotionLimits {
@@ -68,11 +87,11 @@ impl Plant<1> for Pendulum {
     }
 
     fn feed_forward(reference: &State<f32, 1, 1>) -> [f32; 1] {
-        [2.0 * reference.qdd[0] + 8.0 * reference.q[0].cos()]
+        [2.0 * reference.qdd[0] + 8.0 * cos(reference.q[0])]
     }
 
     fn step(state: &mut State<f32, 1, 1>, tau: &[f32; 1]) {
-        state.qd[0] += TICK * (tau[0] - 8.0 * state.q[0].cos()) / 2.0;
+        state.qd[0] += TICK * (tau[0] - 8.0 * cos(state.q[0])) / 2.0;
         state.q[0] += TICK * state.qd[0];
     }
 
@@ -100,6 +119,7 @@ impl Plant<6> for Ur5eArm {
         lower: [-6.2; 6],
         upper: [6.2; 6],
     };
+    const DECAY: f32 = 25.0;
     const HOME: [f32; 6] = [0.0, -1.57, 1.57, -1.57, -1.57, 0.0];
     const AWAY: [f32; 6] = [0.8, -1.2, 1.2, -1.2, -1.0, 0.7];
     const MOTION: MotionLimits<f32> = MotionLimits {
@@ -119,19 +139,81 @@ impl Plant<6> for Ur5eArm {
     }
 
     fn step(state: &mut State<f32, 6, 6>, tau: &[f32; 6]) {
-        let robot = model::<f32, Ur5e, 6, 6, 6>();
-        semi_implicit(robot, state, tau, &SCENE, TICK).expect("M is positive definite");
+        step::<Ur5e, _, 6>(state, tau, &SCENE);
     }
 
     fn kinetic(state: &State<f32, 6, 6>) -> [f32; 2] {
         let m = Core::<Ur5e>::crba(&state.q, &SCENE);
-        let (mut kinetic, mut rated) = (0.0, 0.0);
-        for i in 0..6 {
-            for j in 0..6 {
-                kinetic += 0.5 * m.get(i, j) * state.qd[i] * state.qd[j];
-                rated += 0.5 * m.get(i, j).abs() * Self::LIMITS.speed[i] * Self::LIMITS.speed[j];
-            }
-        }
-        [kinetic, rated]
+        energies(&state.qd, &Self::LIMITS.speed, |i, j| m.get(i, j))
     }
+}
+
+const HEAVY: (Gravity, Inertia, Coriolis) = (Gravity::EARTH, Inertia, Coriolis);
+
+/// A gimbal of three joints on its brakes.
+pub struct GimbalArm;
+
+impl Plant<3> for GimbalArm {
+    const NAME: &'static str = "gimbal";
+    const LIMITS: SafetyLimits<f32, 3> = SafetyLimits {
+        torque: [60.0, 60.0, 30.0],
+        rate: [30.0, 30.0, 15.0],
+        speed: [2.0; 3],
+        lower: [-0.6, -0.6, -3.1],
+        upper: [0.6, 0.6, 3.1],
+    };
+    const DECAY: f32 = 15.0;
+    const HOME: [f32; 3] = [0.0; 3];
+    const AWAY: [f32; 3] = [0.2, -0.2, 0.6];
+    const MOTION: MotionLimits<f32> = MotionLimits {
+        velocity: 0.8,
+        acceleration: 6.0,
+    };
+    const STOP: StopCategory<f32, 3> = StopCategory::ControlledOff;
+    const BRAKE: bool = true;
+
+    fn gains() -> Gains<f32, 3> {
+        let m = Core::<Gimbal>::crba(&Self::HOME, &HEAVY);
+        Gains::from_inertia(&core::array::from_fn(|j| m.get(j, j)), OMEGA, 1.0)
+    }
+
+    fn feed_forward(reference: &State<f32, 3, 3>) -> [f32; 3] {
+        Core::<Gimbal>::rnea(reference, &HEAVY)
+    }
+
+    fn step(state: &mut State<f32, 3, 3>, tau: &[f32; 3]) {
+        step::<Gimbal, _, 3>(state, tau, &HEAVY);
+    }
+
+    fn kinetic(state: &State<f32, 3, 3>) -> [f32; 2] {
+        let m = Core::<Gimbal>::crba(&state.q, &HEAVY);
+        energies(&state.qd, &Self::LIMITS.speed, |i, j| m.get(i, j))
+    }
+}
+
+/// A tick of a robot's forward dynamics. A state without them stays, and its velocity is not a number.
+fn step<T: Robot<V, V, V>, E: Effect<f32, V, V>, const V: usize>(
+    state: &mut State<f32, V, V>,
+    tau: &[f32; V],
+    effects: &E,
+) {
+    if semi_implicit(model::<f32, T, V, V, V>(), state, tau, effects, TICK).is_err() {
+        state.qd = [f32::NAN; V];
+    }
+}
+
+/// ½ q̇ᵀ M q̇, and the same of the rated speeds with the absolute values of M, J.
+fn energies<const V: usize>(
+    qd: &[f32; V],
+    rated: &[f32; V],
+    m: impl Fn(usize, usize) -> f32,
+) -> [f32; 2] {
+    let mut energies = [0.0; 2];
+    for i in 0..V {
+        for j in 0..V {
+            energies[0] += 0.5 * m(i, j) * qd[i] * qd[j];
+            energies[1] += 0.5 * m(i, j).abs() * rated[i] * rated[j];
+        }
+    }
+    energies
 }

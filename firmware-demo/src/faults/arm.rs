@@ -1,5 +1,8 @@
 //! An arm with its firmware, of which faults spoil the inputs.
 
+use core::fmt;
+use core::marker::PhantomData;
+
 use dynamics_core::control::{
     Approach, ApproachError, BackOff, BackOffConfig, CurrentTick, Estimate, Fault, FrozenEncoder,
     Gains, Mode, MotionController, MotionControllerConfig, MotionLimits, Reference, ReferenceStep,
@@ -10,11 +13,95 @@ use dynamics_core::state::State;
 use super::kinds::{Kind, Onset};
 use super::plants::{Plant, TICK};
 
+/// Ticks that a fault is ridden through.
 pub const RIDE: u32 = 5;
+/// Ticks of a hold before the stop.
 pub const HOLD: u32 = 100;
 const REENTRY: u32 = 200;
-/// Missed ticks after which the watchdog restarts the processor: the drives keep an old torque until then.
-const WATCHDOG: u32 = 20;
+/// The most ticks that are missed at once.
+const MISSED: u32 = 40;
+
+/// What of the firmware may be wrong on purpose.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Setup {
+    /// The supervisor's limits of torque and rate, as a share of the rated ones.
+    pub limits: f32,
+    /// Missed ticks after which the watchdog restarts the processor: the drives keep an old torque until then.
+    pub watchdog: u32,
+}
+
+impl Setup {
+    /// Everything as it should be.
+    pub const SOUND: Self = Self {
+        limits: 1.0,
+        watchdog: 20,
+    };
+    /// No watchdog.
+    pub const UNWATCHED: Self = Self {
+        watchdog: MISSED,
+        ..Self::SOUND
+    };
+}
+
+/// What did not hold in a run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Violation {
+    /// A joint is faster than its rated speed.
+    Speed {
+        /// The joint.
+        joint: usize,
+        /// Its velocity, rad/s.
+        velocity: f32,
+    },
+    /// The kinetic energy is above that at the rated speeds.
+    Energy {
+        /// J.
+        kinetic: f32,
+        /// J.
+        rated: f32,
+    },
+    /// A torque or its change in a tick is above its limit, or not finite.
+    Torque {
+        /// The joint.
+        joint: usize,
+        /// N·m.
+        torque: f32,
+        /// In the tick before, N·m.
+        before: f32,
+    },
+    /// The arm was not on its motion at the end.
+    NotRecovered {
+        /// Its mode then.
+        mode: Mode,
+        /// Its fault then.
+        fault: Option<Fault>,
+    },
+    /// The motion itself exceeds the arm's limits.
+    Motion,
+}
+
+impl fmt::Display for Violation {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Speed { joint, velocity } => write!(out, "joint {joint}: speed {velocity} rad/s"),
+            Self::Energy { kinetic, rated } => {
+                write!(out, "kinetic energy {kinetic} J of {rated} J")
+            }
+            Self::Torque {
+                joint,
+                torque,
+                before,
+            } => write!(out, "joint {joint}: torque {torque} N·m after {before} N·m"),
+            Self::NotRecovered { mode, fault } => {
+                write!(out, "no recovery: {mode:?} by {fault:?}")
+            }
+            Self::Motion => out.write_str("the motion exceeds the arm's limits"),
+        }
+    }
+}
+
+impl core::error::Error for Violation {}
 
 /// A reference that is somewhere else.
 struct Offset<'a, T>(&'a T, f32);
@@ -31,7 +118,7 @@ impl<T: Reference<f32, V>, const V: usize> Reference<f32, V> for Offset<'_, T> {
 }
 
 /// The motion, or the path to its start and the motion.
-pub enum Path<'a, const V: usize> {
+enum Path<'a, const V: usize> {
     Motion(&'a Trajectory<f32, V, 3>),
     Approach(Approach<'a, f32, V, Trajectory<f32, V, 3>>),
 }
@@ -49,7 +136,8 @@ impl<const V: usize> Reference<f32, V> for Path<'_, V> {
 }
 
 /// An episode of a fault.
-pub struct Episode {
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Episode {
     pub onset: Onset,
     /// Its first tick, and the first after it.
     pub ticks: [u32; 2],
@@ -57,14 +145,15 @@ pub struct Episode {
     pub held: f32,
 }
 
+/// The controller of an arm of the injection.
 pub type Controller<const V: usize> = MotionController<f32, V, CurrentTick>;
 
-/// `torque` scales the supervisor's limits of torque, for a supervisor that is broken on purpose.
-pub fn controller<P: Plant<V>, const V: usize>(torque: f32) -> Controller<V> {
+/// The controller of a plant.
+pub fn controller<P: Plant<V>, const V: usize>(setup: Setup) -> Controller<V> {
     // A speed is detected when it is exceeded: the reaction takes place between the supervisor's limit and the rated speed.
     let mut limits = P::LIMITS.with_speed_share(0.8);
-    limits.torque = limits.torque.map(|limit| limit * torque);
-    limits.rate = limits.rate.map(|limit| limit * torque);
+    limits.torque = limits.torque.map(|limit| limit * setup.limits);
+    limits.rate = limits.rate.map(|limit| limit * setup.limits);
     MotionController::new(MotionControllerConfig {
         supervisor: SupervisorConfig {
             limits,
@@ -75,13 +164,13 @@ pub fn controller<P: Plant<V>, const V: usize>(torque: f32) -> Controller<V> {
             reentry_ticks: REENTRY,
         },
         observer_bandwidth: 250.0,
-        decay_rate: 25.0,
+        decay_rate: P::DECAY,
         restart_distance: 0.05,
     })
     .with_stop(P::STOP)
 }
 
-pub struct Arm<'a, P, const V: usize> {
+pub(super) struct Arm<'a, P, const V: usize> {
     gains: Gains<f32, V>,
     pub state: State<f32, V, V>,
     pub controller: Controller<V>,
@@ -92,16 +181,16 @@ pub struct Arm<'a, P, const V: usize> {
     saturation: Saturation<f32, V>,
     pub torque: [f32; V],
     brake: bool,
-    broken: f32,
-    plant: std::marker::PhantomData<P>,
+    setup: Setup,
+    plant: PhantomData<P>,
 }
 
 impl<'a, P: Plant<V>, const V: usize> Arm<'a, P, V> {
-    pub fn new(motion: &'a Trajectory<f32, V, 3>, broken: f32) -> Self {
+    pub fn new(motion: &'a Trajectory<f32, V, 3>, setup: Setup) -> Self {
         Self {
             gains: P::gains(),
             state: State::at(P::HOME),
-            controller: controller::<P, V>(broken),
+            controller: controller::<P, V>(setup),
             path: Path::Motion(motion),
             back_off: None,
             frozen: FrozenEncoder::new([0.003; V], 3),
@@ -109,25 +198,27 @@ impl<'a, P: Plant<V>, const V: usize> Arm<'a, P, V> {
             saturation: Saturation::new(P::LIMITS.torque, 5),
             torque: [0.0; V],
             brake: false,
-            broken,
-            plant: std::marker::PhantomData,
+            setup,
+            plant: PhantomData,
         }
     }
 
     /// A tick of the plant, whose limits must hold.
-    pub fn advance(&mut self) -> Result<(), String> {
+    pub fn advance(&mut self) -> Result<(), Violation> {
         if self.brake & P::BRAKE {
             self.state.qd = [0.0; V];
         } else {
             P::step(&mut self.state, &self.torque);
         }
         let [kinetic, rated] = P::kinetic(&self.state);
-        let speeds = self.state.qd.iter().zip(&P::LIMITS.speed);
-        if !speeds.clone().all(|(qd, limit)| qd.abs() <= *limit) {
-            return Err(format!("speed {:?}", self.state.qd));
+        for (joint, (&velocity, &limit)) in self.state.qd.iter().zip(&P::LIMITS.speed).enumerate() {
+            let within = velocity.abs() <= limit;
+            if !within {
+                return Err(Violation::Speed { joint, velocity });
+            }
         }
         if kinetic > rated || !kinetic.is_finite() {
-            return Err(format!("kinetic energy {kinetic} J of {rated} J"));
+            return Err(Violation::Energy { kinetic, rated });
         }
         Ok(())
     }
@@ -137,7 +228,7 @@ impl<'a, P: Plant<V>, const V: usize> Arm<'a, P, V> {
         &mut self,
         now: u32,
         episodes: &[Episode],
-    ) -> Result<(Mode, Option<Fault>), String> {
+    ) -> Result<(Mode, Option<Fault>), Violation> {
         let begins = |episode: &Episode| episode.ticks[0] == now;
         let mut q = self.state.q;
         let (mut measured, mut poison, mut offset) = (Ok(()), None, 0.0);
@@ -156,23 +247,23 @@ impl<'a, P: Plant<V>, const V: usize> Arm<'a, P, V> {
                 Kind::Frozen => q[joint] = episode.held,
                 Kind::Jump => q[joint] += 0.3,
                 Kind::Reference => offset = 0.3,
-                Kind::NotReady => self.controller.report(Fault::NotReady { joint }),
+                Kind::NotReady => self.controller.react(Fault::NotReady { joint }),
                 Kind::Torque => poison = Some((joint, f32::NAN)),
                 Kind::Saturated => poison = Some((joint, 1e6)),
                 _ if !begins(episode) => {}
-                Kind::Drive => self.controller.stop(Fault::Drive { joint }),
-                Kind::Model => self.controller.stop(Fault::Model),
-                Kind::Overflow => self.controller.stop(Fault::Overflow),
-                Kind::Overrun => self.controller.report(Fault::Overrun),
+                Kind::Drive => self.controller.react(Fault::Drive { joint }),
+                Kind::Model => self.controller.react(Fault::Model),
+                Kind::Overflow => self.controller.react(Fault::Overflow),
+                Kind::Overrun => self.controller.react(Fault::Overrun),
                 Kind::Unfinished => {
                     let _ = self.controller.observe(Ok(&q));
                     self.advance()?;
                     q = self.state.q;
                 }
                 Kind::Missed => {
-                    let ticks = 1 + value % (2 * WATCHDOG);
-                    (0..ticks.min(WATCHDOG)).try_for_each(|_| self.advance())?;
-                    if ticks > WATCHDOG {
+                    let ticks = 1 + value % MISSED;
+                    (0..ticks.min(self.setup.watchdog)).try_for_each(|_| self.advance())?;
+                    if ticks > self.setup.watchdog {
                         self.restart();
                     } else {
                         self.controller.missed(ticks, &self.path);
@@ -222,7 +313,7 @@ impl<'a, P: Plant<V>, const V: usize> Arm<'a, P, V> {
             tick.command(&tau)
         };
         if let Err(fault) = self.saturation.check(&command.torque) {
-            self.controller.stop(fault);
+            self.controller.react(fault);
         }
         let stopped = command.status.mode == Mode::Stopped;
         for joint in 0..V {
@@ -232,7 +323,12 @@ impl<'a, P: Plant<V>, const V: usize> Arm<'a, P, V> {
             let steady = step <= limits.rate[joint] * 1.0001 || stopped & (tau == 0.0);
             let within = tau.abs() <= limits.torque[joint];
             if !within || !steady {
-                return Err(format!("torque {tau} after {}", self.torque[joint]));
+                let before = self.torque[joint];
+                return Err(Violation::Torque {
+                    joint,
+                    torque: tau,
+                    before,
+                });
             }
         }
         (self.torque, self.brake) = (command.torque, command.brake);
@@ -242,21 +338,21 @@ impl<'a, P: Plant<V>, const V: usize> Arm<'a, P, V> {
 
     /// The processor restarts: by a brown-out, or by the watchdog. Its drives have no torque.
     fn restart(&mut self) {
-        self.controller = controller::<P, V>(self.broken);
-        self.controller.stop(Fault::Restarted);
+        self.controller = controller::<P, V>(self.setup);
+        self.controller.react(Fault::Restarted);
         self.back_off = None;
         (self.torque, self.brake) = ([0.0; V], true);
     }
 
     /// Starts an arm that is stopped or held, wherever it is.
-    pub fn recover(&mut self, motion: &'a Trajectory<f32, V, 3>) -> Result<bool, String> {
+    pub fn recover(&mut self, motion: &'a Trajectory<f32, V, 3>) -> bool {
         match self
             .controller
             .approach(motion, &[P::MOTION; V], &P::LIMITS)
         {
             Ok(path) => {
                 if self.controller.reset(&path).is_err() {
-                    return Ok(false);
+                    return false;
                 }
                 self.path = Path::Approach(path);
             }
@@ -271,10 +367,10 @@ impl<'a, P: Plant<V>, const V: usize> Arm<'a, P, V> {
                 };
                 self.back_off = BackOff::start(&mut self.controller, &config).ok();
             }
-            Err(_) => return Ok(false),
+            Err(_) => return false,
         }
         self.steps.restart();
-        Ok(true)
+        true
     }
 }
 

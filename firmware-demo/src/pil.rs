@@ -1,0 +1,92 @@
+//! The controller of a scene without its robot: encoder frames in, duties out.
+
+use heapless::Vec;
+use joint_drivers::h_bridge::DriveError;
+use telemetry::Tick;
+use telemetry::pil::{Commanded, Measured};
+
+use crate::control_loop::Telemetry;
+use crate::scene::{Full, Scene, SimBrake, SimLoop, StartError, control_loop};
+use crate::sim_io::Wires;
+
+/// A scene's control loop on wires whose other ends are elsewhere.
+pub struct Controlled<
+    S: Scene<B, Q, V, N>,
+    const B: usize,
+    const Q: usize,
+    const V: usize,
+    const N: usize,
+> {
+    reference: S::Reference,
+    wires: &'static Wires<N>,
+    control: SimLoop<N>,
+    last: Commanded<N>,
+}
+
+impl<S, const B: usize, const Q: usize, const V: usize, const N: usize> Controlled<S, B, Q, V, N>
+where
+    S: Scene<B, Q, V, N>,
+{
+    /// The loop at the start of its trajectory.
+    ///
+    /// # Errors
+    /// [`StartError`].
+    pub fn new(wires: &'static Wires<N>) -> Result<Self, StartError> {
+        let reference = S::reference().map_err(StartError::Trajectory)?;
+        Ok(Self {
+            control: start::<S, B, Q, V, N>(&reference, wires).map_err(StartError::Drive)?,
+            reference,
+            wires,
+            last: Commanded::default(),
+        })
+    }
+
+    /// One tick on these frames; the reply of before if their number came before.
+    pub fn tick(&mut self, measured: &Measured<N>) -> &Commanded<N> {
+        let number = measured.number;
+        if number > 0 && number == self.last.tick.number {
+            return &self.last;
+        }
+        self.wires.answer(&measured.answers);
+        // It started before: the limits are the same.
+        if let (0, Ok(control)) = (number, start::<S, B, Q, V, N>(&self.reference, self.wires)) {
+            self.control = control;
+        }
+        let environment = S::environment(&self.reference, number as f32);
+        let telemetry = self
+            .control
+            .tick::<Full<S, B, Q, V>, _, _>(&self.reference, &environment);
+        self.last = Commanded {
+            duties: Vec::from_array(self.wires.counts()),
+            tick: tick(number, &telemetry),
+        };
+        &self.last
+    }
+}
+
+/// The loop on its wires, for an arm at rest where its encoders are.
+fn start<S, const B: usize, const Q: usize, const V: usize, const N: usize>(
+    reference: &S::Reference,
+    wires: &'static Wires<N>,
+) -> Result<SimLoop<N>, DriveError>
+where
+    S: Scene<B, Q, V, N>,
+{
+    let encoders = core::array::from_fn(|joint| wires.encoder(joint));
+    let drives = core::array::from_fn(|joint| wires.drive(joint));
+    let environment = S::environment(reference, 0.0);
+    control_loop::<S, _, _, _, B, Q, V, N>(encoders, drives, SimBrake, &environment)
+}
+
+/// What the controller knows of a tick.
+fn tick<const N: usize>(number: u32, telemetry: &Telemetry<N>) -> Tick<N> {
+    let sample = crate::watched::sample(telemetry, [0; 6], 1);
+    Tick {
+        number,
+        dropped: 0,
+        tick: sample.tick,
+        status: sample.status,
+        joints: Vec::from_array(sample.joints),
+        cost: sample.cost,
+    }
+}

@@ -1,0 +1,187 @@
+//! A scene that runs without end and sends its telemetry over USART1, from the main loop.
+//!
+//! In QEMU the argument of `-semihosting-config` sets it: `arg=ticks=3000` ends the run, `arg=faults=5000` injects
+//! faults, `arg=listen=0` leaves the queue full, as a port does that takes no byte.
+
+use core::sync::atomic::{AtomicU32, Ordering::Relaxed};
+
+use cortex_m::peripheral::SYST;
+use embedded_io::Write;
+use stm32f4xx_hal::gpio::GpioExt;
+use stm32f4xx_hal::pac;
+use stm32f4xx_hal::rcc::{Rcc, RccExt};
+use stm32f4xx_hal::serial::config::{Config, InvalidConfig};
+use stm32f4xx_hal::serial::{SerialExt, Tx};
+use telemetry::{Consumer, Message, Queue, capacity, encode, split};
+
+use super::{CLOCK, Tick, fail, leave, microseconds, start};
+use crate::scene::Scene;
+use crate::sim_io::Wires;
+use crate::watched::{Options, Watched, machine};
+
+/// Ticks that wait for the port at most.
+pub const QUEUE: usize = 64;
+/// Of the port, bit/s: a frame of six joints takes about 0.6 ms.
+pub const BAUD: u32 = 2_000_000;
+/// Ticks from one frame with the machine's constants to the next.
+const MACHINE: u32 = 1000;
+
+impl<S, const B: usize, const Q: usize, const V: usize, const N: usize> Tick
+    for Watched<S, B, Q, V, N>
+where
+    S: Scene<B, Q, V, N>,
+{
+    fn tick(&mut self) {
+        Watched::tick(self);
+    }
+}
+
+/// Runs a scene on these wires, its state and queue where `place` and the caller put them.
+pub fn watch<S, const B: usize, const Q: usize, const V: usize, const N: usize>(
+    wires: &'static Wires<N>,
+    queue: Option<&'static mut Queue<N, QUEUE>>,
+    place: impl FnOnce(Watched<S, B, Q, V, N>) -> Option<&'static mut Watched<S, B, Q, V, N>>,
+) -> !
+where
+    S: Scene<B, Q, V, N>,
+    Watched<S, B, Q, V, N>: Send,
+{
+    static ELAPSED: AtomicU32 = AtomicU32::new(0);
+    let (Some(mut core), Some(part)) = (cortex_m::Peripherals::take(), pac::Peripherals::take())
+    else {
+        fail("the peripherals are taken");
+    };
+    let Some((records, mut ticks)) = queue.map(split) else {
+        fail("main ran twice");
+    };
+    let Ok(mut port) = port(part) else {
+        fail("the serial port cannot have this rate");
+    };
+    let options = Options {
+        ticks: argument(b"ticks").unwrap_or(0),
+        faults: argument(b"faults").unwrap_or(0),
+    };
+    let listens = argument(b"listen") != Some(0);
+    let period = CLOCK / 1_000_000 * microseconds::<S, B, Q, V, N>();
+    let timer = (SYST::get_current as fn() -> u32, period);
+    let Ok(watched) = Watched::new(wires, records, &ELAPSED, options, timer) else {
+        fail("the trajectory needs more than the arm's limits");
+    };
+    let Some(watched) = place(watched) else {
+        fail("main ran twice");
+    };
+    let constants = Message::Machine(machine::<S, B, Q, V, N>(CLOCK));
+    start(watched, &mut core, microseconds::<S, B, Q, V, N>());
+    let mut sent = 0;
+    loop {
+        if listens {
+            drain(&mut ticks, &mut port, &constants, &mut sent);
+        }
+        if options.ticks > 0 && ELAPSED.load(Relaxed) == options.ticks {
+            defmt::println!("sent {=u32} of {=u32} ticks", sent, options.ticks);
+            defmt::println!("done");
+            leave(cortex_m_semihosting::debug::EXIT_SUCCESS);
+        }
+        cortex_m::asm::wfi();
+    }
+}
+
+/// Sends what is in the queue, and from time to time the constants of the machine.
+fn drain<const N: usize>(
+    ticks: &mut Consumer<'static, N>,
+    port: &mut impl Write,
+    constants: &Message<N>,
+    sent: &mut u32,
+) {
+    while let Some(tick) = ticks.pop() {
+        if sent.is_multiple_of(MACHINE) {
+            send(constants, port);
+        }
+        send(&Message::Tick(tick), port);
+        *sent = sent.wrapping_add(1);
+    }
+}
+
+/// Sends a message; waits for the port, not for the interrupt.
+fn send<const N: usize>(message: &Message<N>, port: &mut impl Write) {
+    let mut bytes = [0; capacity(16)];
+    // A message without a frame, and a port that fails, leave a gap that the listener counts.
+    if let Ok(frame) = encode(message, &mut bytes) {
+        write(frame, port);
+    }
+}
+
+/// Writes all bytes. Not by `write_all`, which panics where the port takes none, as the HAL's does while it is busy.
+pub(super) fn write(mut bytes: &[u8], port: &mut impl Write) {
+    while let Some(rest) = port.write(bytes).ok().and_then(|n| bytes.get(n..)) {
+        if rest.is_empty() {
+            return;
+        }
+        bytes = rest;
+    }
+}
+
+/// USART1 on PA9. On a board the clock is 168 MHz from a crystal of 8 MHz; QEMU has no clock to set.
+fn port(part: pac::Peripherals) -> Result<Tx<pac::USART1>, InvalidConfig> {
+    let mut clock = clock(part.RCC);
+    let pins = part.GPIOA.split(&mut clock);
+    let config = Config::default().baudrate(stm32f4xx_hal::time::Bps(BAUD));
+    part.USART1.tx(pins.pa9, config, &mut clock)
+}
+
+#[cfg(feature = "board")]
+pub(super) fn clock(rcc: pac::RCC) -> Rcc {
+    use stm32f4xx_hal::time::Hertz;
+    let crystal = stm32f4xx_hal::rcc::Config::hse(Hertz::MHz(8));
+    rcc.freeze(crystal.sysclk(Hertz::MHz(168)))
+}
+
+#[cfg(not(feature = "board"))]
+pub(super) fn clock(rcc: pac::RCC) -> Rcc {
+    rcc.constrain()
+}
+
+/// The number behind a name in the command line that the emulator gives; on a board there is none.
+#[cfg(not(feature = "board"))]
+fn argument(name: &[u8]) -> Option<u32> {
+    let mut text = [0_u8; 256];
+    let mut block = [text.as_mut_ptr() as usize, text.len()];
+    // SAFETY: the call writes a string of at most that many bytes to that address, and its length over the second
+    // word; both are this function's own.
+    let failed = unsafe {
+        cortex_m_semihosting::syscall1(
+            cortex_m_semihosting::nr::GET_CMDLINE,
+            block.as_mut_ptr() as usize,
+        )
+    };
+    let text = text.get(..block[1]).filter(|_| failed == 0)?;
+    let mut words = text.split(|&byte| byte == b' ' || byte == 0);
+    let value = words.find_map(|word| word.strip_prefix(name)?.strip_prefix(b"="))?;
+    core::str::from_utf8(value).ok()?.parse().ok()
+}
+
+#[cfg(feature = "board")]
+fn argument(_: &[u8]) -> Option<u32> {
+    None
+}
+
+/// The `main` of a scene that sends its telemetry, as [`scene_main`](crate::scene_main).
+#[macro_export]
+macro_rules! watch_main {
+    ($module:ident::$scene:ident, $B:literal, $Q:literal, $V:literal, $N:literal) => {
+        use $crate::sim_io::Wires;
+        use $crate::target::watch::{QUEUE, watch};
+        use $crate::watched::Watched;
+
+        type Scene = Watched<$crate::scenes::$module::$scene, $B, $Q, $V, $N>;
+        type Queue = ::telemetry::Queue<$N, QUEUE>;
+
+        #[::cortex_m_rt::entry]
+        fn main() -> ! {
+            static WIRES: Wires<$N> = Wires::new();
+            let queue = ::cortex_m::singleton!(: Queue = Queue::new());
+            let place = |scene| ::cortex_m::singleton!(: Scene = scene);
+            watch(&WIRES, queue, place)
+        }
+    };
+}

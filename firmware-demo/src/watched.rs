@@ -1,0 +1,198 @@
+//! A scene that runs without end, each of its ticks with a record for the telemetry.
+
+use core::sync::atomic::{AtomicU32, Ordering::Relaxed};
+
+use dynamics_core::control::{Mode, Reference};
+use dynamics_core::model::{JointKind, model};
+use heapless::{String, Vec};
+use telemetry::{Axis, Joint, Machine, PHASES, Producer, Sample};
+
+use crate::control_loop::{Telemetry, region};
+use crate::marker::measured;
+use crate::plant::Rig;
+use crate::scene::{Full, PlantModel, SETTLE, Scene, SimLoop, StartError, start};
+use crate::sim_io::Wires;
+
+/// Ticks that an injected fault lasts: longer than it is ridden through.
+const FAULTY: u32 = 20;
+/// Ticks after which a stopped arm is restarted.
+const STOPPED: u32 = 1000;
+/// The joint whose encoder reports the injected fault.
+const JOINT: usize = 2;
+
+/// How long a scene runs, and what happens to it.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Options {
+    /// Ticks that it runs; 0 for no end.
+    pub ticks: u32,
+    /// Every so many ticks an encoder reports errors, until the arm is stopped; 0 for never.
+    pub faults: u32,
+}
+
+/// A scene at work under the feed-forward of all its effects, on the plant that its controller knows exactly.
+pub struct Watched<
+    S: Scene<B, Q, V, N>,
+    const B: usize,
+    const Q: usize,
+    const V: usize,
+    const N: usize,
+> {
+    reference: S::Reference,
+    wires: &'static Wires<N>,
+    rig: Rig<S::Plant, N>,
+    control: SimLoop<N>,
+    records: Producer<'static, N>,
+    elapsed: &'static AtomicU32,
+    options: Options,
+    timer: fn() -> u32,
+    /// The counts of the timer in a tick.
+    period: u32,
+    stopped: u32,
+}
+
+impl<S, const B: usize, const Q: usize, const V: usize, const N: usize> Watched<S, B, Q, V, N>
+where
+    S: Scene<B, Q, V, N>,
+{
+    /// The scene at the start of its trajectory; `timer` counts down from `period` − 1 in each tick, and `elapsed`
+    /// counts the ticks.
+    ///
+    /// # Errors
+    /// [`StartError`].
+    pub fn new(
+        wires: &'static Wires<N>,
+        records: Producer<'static, N>,
+        elapsed: &'static AtomicU32,
+        options: Options,
+        (timer, period): (fn() -> u32, u32),
+    ) -> Result<Self, StartError> {
+        let reference = S::reference().map_err(StartError::Trajectory)?;
+        let (rig, control) = start::<S, B, Q, V, N>(&reference, wires, PlantModel::Exact)
+            .map_err(StartError::Drive)?;
+        Ok(Self {
+            reference,
+            wires,
+            rig,
+            control,
+            records,
+            elapsed,
+            options,
+            timer,
+            period,
+            stopped: 0,
+        })
+    }
+
+    /// One tick; nothing after the last.
+    pub fn tick(&mut self) {
+        let count = self.elapsed.load(Relaxed);
+        let Options { ticks, faults } = self.options;
+        if ticks > 0 && count == ticks {
+            return;
+        }
+        let since = count.checked_rem(faults);
+        if since.is_some_and(|since| since < FAULTY && count >= faults) {
+            self.wires.flag(JOINT);
+        }
+        let environment = |ticks: f32| S::environment(&self.reference, ticks);
+        let (telemetry, counts) = self.control.tick_timed::<Full<S, B, Q, V>, _, _>(
+            &self.reference,
+            &environment(count as f32),
+            self.timer,
+        );
+        measured::<{ region::RECORD }, _>(|| {
+            self.records.push(sample(&telemetry, counts, self.period))
+        });
+        if telemetry.status.mode == Mode::Stopped {
+            self.wait();
+        } else if self.advance(count) || telemetry.tick >= self.reference.ticks() + SETTLE {
+            self.restart();
+        }
+        self.elapsed.store(count.wrapping_add(1), Relaxed);
+    }
+
+    /// Puts robot and loop back to the start of the trajectory. They started before: the limits are the same.
+    fn restart(&mut self) {
+        if let Ok(started) = start::<S, B, Q, V, N>(&self.reference, self.wires, PlantModel::Exact)
+        {
+            (self.rig, self.control) = started;
+        }
+    }
+
+    /// Moves the robot on by a tick; returns whether it has no forward dynamics any more.
+    fn advance(&mut self, count: u32) -> bool {
+        let environment = |ticks: f32| S::environment(&self.reference, ticks);
+        let part = 1.0 / S::STEPS as f32;
+        let advanced = self
+            .rig
+            .advance(self.wires, S::STEPS, S::TICK * part, |step| {
+                environment(count as f32 + part * step as f32)
+            });
+        advanced.is_err()
+    }
+
+    /// The brake holds the arm; it is restarted after a while.
+    fn wait(&mut self) {
+        self.stopped += 1;
+        if self.stopped == STOPPED {
+            // An arm too far from its trajectory stays stopped, which its next records say.
+            let _ = self.control.reset(&self.reference);
+            self.stopped = 0;
+        }
+    }
+}
+
+/// The record of a tick, its costs from the counts of a timer that counts down.
+#[inline(never)]
+pub(crate) fn sample<const N: usize>(
+    telemetry: &Telemetry<N>,
+    counts: [u32; PHASES.len() + 1],
+    period: u32,
+) -> Sample<N> {
+    let cost = core::array::from_fn(|phase| {
+        let (from, to) = (counts[phase], counts[phase + 1]);
+        let wrapped = if to > from { period } else { 0 };
+        from.wrapping_add(wrapped).wrapping_sub(to)
+    });
+    let joints = core::array::from_fn(|joint| Joint {
+        reference: telemetry.reference[joint],
+        estimate: telemetry.estimate[joint],
+        torque: telemetry.torque[joint],
+    });
+    Sample {
+        tick: telemetry.tick,
+        status: telemetry.status,
+        joints,
+        cost,
+    }
+}
+
+/// The constants of a scene's machine, with the frequency of the timer, Hz.
+pub fn machine<S, const B: usize, const Q: usize, const V: usize, const N: usize>(
+    timer_hz: u32,
+) -> Machine<N>
+where
+    S: Scene<B, Q, V, N>,
+{
+    let model = model::<f32, S::Robot, B, Q, V>();
+    // The driven joints are the last ones.
+    let slides = |joint: usize| {
+        let mut links = model.links.iter();
+        let link = links.find(|link| link.idx_v == V - N + joint);
+        link.is_some_and(|link| link.joint.kind == JointKind::Prismatic)
+    };
+    let limits = S::limits().into_iter().enumerate();
+    let joints = limits.map(|(joint, limits)| Axis {
+        limits,
+        prismatic: slides(joint),
+    });
+    let mut name = String::new();
+    // Longer names are cut short.
+    let _ = S::NAME.chars().try_for_each(|letter| name.push(letter));
+    Machine {
+        name,
+        tick_us: (S::TICK * 1e6 + 0.5) as u32,
+        timer_hz,
+        joints: joints.collect::<Vec<_, N>>(),
+    }
+}

@@ -1,0 +1,162 @@
+//! Builds the tests of the copy; sites that do not compile are found by where the compiler's errors are.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use serde_json::Value;
+
+use crate::copy::Places;
+use crate::error::{Error, Result};
+
+/// The packages whose tests are run. The full run of the tests adds robots and scalars to `unoptimised-tests`, which
+/// take longer to compile than all else.
+const PACKAGES: [&str; 10] = [
+    "dynamics-core",
+    "joint-drivers",
+    "host-tests",
+    "cluster-tests",
+    "cycle-meter",
+    "flexible-tests",
+    "loop-tests",
+    "history",
+    "unoptimised-tests",
+    "xtask",
+];
+const FEATURES: &str = "host-tests/full";
+/// A folder that this workspace has.
+const MEMBER: &str = "host-tests/unoptimised";
+
+/// A program of tests and the folder in which cargo would run it.
+#[derive(Clone, Debug)]
+pub struct Program {
+    pub name: String,
+    pub path: PathBuf,
+    pub folder: PathBuf,
+}
+
+/// What a build gave.
+pub enum Built {
+    Programs(Vec<Program>),
+    /// The numbers of sites whose changes are no valid Rust there.
+    Refused(BTreeSet<u32>),
+}
+
+/// Builds the tests of the packages that the copy has.
+pub fn build(copy: &Path, target: &Path, places: &Places, is_optimised: bool) -> Result<Built> {
+    let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    cargo
+        .current_dir(copy)
+        .env("CARGO_TARGET_DIR", target)
+        .env("CARGO_PROFILE_DEV_DEBUG", "0")
+        .env("CARGO_INCREMENTAL", "0");
+    cargo.args([
+        "build",
+        "--lib",
+        "--tests",
+        "--keep-going",
+        "--message-format=json",
+    ]);
+    if !is_optimised {
+        let packages = ["", "_BUILD_OVERRIDE"];
+        cargo.envs(packages.map(|of| (format!("CARGO_PROFILE_DEV{of}_OPT_LEVEL"), "0")));
+    }
+    // Of another workspace, such as that of a test, all.
+    if copy.join(MEMBER).is_dir() {
+        cargo.args(PACKAGES.iter().flat_map(|package| ["--package", package]));
+        cargo.args(["--features", FEATURES]);
+    } else {
+        cargo.arg("--workspace");
+    }
+    let output = cargo
+        .stdin(Stdio::null())
+        .stderr(Stdio::piped())
+        .output()
+        .map_err(Error::file(copy))?;
+    let (mut programs, mut refused, mut unexplained) = (Vec::new(), BTreeSet::new(), Vec::new());
+    for line in String::from_utf8_lossy(&output.stdout).lines() {
+        let Ok(message) = serde_json::from_str::<Value>(line) else {
+            continue;
+        };
+        programs.extend(program(&message));
+        let is_error =
+            message["reason"] == "compiler-message" && message["message"]["level"] == "error";
+        if is_error
+            && !message["message"]["spans"]
+                .as_array()
+                .is_none_or(Vec::is_empty)
+        {
+            match sites_of(&message["message"], places) {
+                sites if sites.is_empty() => {
+                    unexplained.push(message["message"]["rendered"].to_string())
+                }
+                sites => refused.extend(sites),
+            }
+        }
+    }
+    match (output.status.success(), refused.is_empty()) {
+        (true, _) => Ok(Built::Programs(programs)),
+        (false, false) => Ok(Built::Refused(refused)),
+        (false, true) => {
+            let errors = String::from_utf8_lossy(&output.stderr).into_owned();
+            Err(Error(format!(
+                "the copy does not compile: {} {errors}",
+                unexplained.join("\n")
+            )))
+        }
+    }
+}
+
+/// The test program that a message of cargo names, if it does.
+fn program(message: &Value) -> Option<Program> {
+    let is_test = message["reason"] == "compiler-artifact" && message["profile"]["test"] == true;
+    let path = message["executable"].as_str().filter(|_| is_test)?;
+    let folder = Path::new(message["manifest_path"].as_str()?).parent()?;
+    let package = folder.file_name()?.to_string_lossy();
+    Some(Program {
+        name: format!("{package}/{}", message["target"]["name"].as_str()?),
+        path: path.into(),
+        folder: folder.into(),
+    })
+}
+
+/// The sites that an error is about: the innermost at each of its spans, those of macros included.
+fn sites_of(message: &Value, places: &Places) -> BTreeSet<u32> {
+    let mut found = BTreeSet::new();
+    // The primary spans first: others may be mere context.
+    for primary in [true, false] {
+        for span in message["spans"].as_array().into_iter().flatten() {
+            if span["is_primary"] == primary {
+                at_span(span, places, &mut found);
+            }
+        }
+        if !found.is_empty() {
+            break;
+        }
+    }
+    found
+}
+
+fn at_span(span: &Value, places: &Places, found: &mut BTreeSet<u32>) {
+    let file = span["file_name"].as_str().unwrap_or_default();
+    let (begin, end) = (
+        span["byte_start"].as_u64().unwrap_or(0),
+        span["byte_end"].as_u64().unwrap_or(0),
+    );
+    let (begin, end) = (begin as usize, end as usize);
+    let of_file = || places.get(file).into_iter().flatten();
+    let around = of_file().filter(|(_, bytes)| bytes.start <= begin && end <= bytes.end);
+    if let Some((number, _)) = around.min_by_key(|(_, bytes)| bytes.len()) {
+        found.insert(*number);
+    } else {
+        // An expression that contains sites.
+        found.extend(
+            of_file()
+                .filter(|(_, bytes)| begin <= bytes.start && bytes.end <= end)
+                .map(|(number, _)| number),
+        );
+    }
+    if span["expansion"].is_object() {
+        at_span(&span["expansion"]["span"], places, found);
+    }
+}

@@ -1,0 +1,54 @@
+//! What became of a change, as it is printed and kept for the next run.
+
+use serde::{Deserialize, Serialize};
+
+use crate::rooms::room_of;
+use crate::site::Site;
+
+/// What became of a change.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Verdict {
+    /// This test failed or took too long.
+    Killed(String),
+    /// Every test that reaches it passed.
+    Survived,
+    /// No test reaches it.
+    Unreached,
+}
+
+/// A change and its verdict.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Outcome {
+    pub room: String,
+    pub file: String,
+    pub function: String,
+    pub line: usize,
+    pub change: String,
+    pub operator: String,
+    pub verdict: Verdict,
+}
+
+impl Outcome {
+    pub fn of(site: &Site, verdict: Verdict) -> Self {
+        Self {
+            room: room_of(&site.file).map_or("", |room| room.name).to_owned(),
+            file: site.file.clone(),
+            function: site.function.clone(),
+            line: site.line,
+            change: site.change.clone(),
+            operator: format!("{:?}", site.operator).to_lowercase(),
+            verdict,
+        }
+    }
+}
+
+/// All that a run found.
+#[derive(Debug, Default, Serialize)]
+pub struct Results {
+    pub seed: u64,
+    pub tests: usize,
+    /// Tests that fail in the copy without a change.
+    pub unusable: Vec<String>,
+    pub outcomes: Vec<Outcome>,
+}

@@ -1,0 +1,29 @@
+//! Shows and records the telemetry of a machine: what `cargo xtask watch` runs.
+//!
+//! | module | what |
+//! |---|---|
+//! | [`source`] | bytes from a serial port, from a program such as QEMU, or from a file |
+//! | [`view`] | what is known of the machine so far |
+//! | [`screen`] | the view as a screen of a terminal |
+//! | [`record`] | ticks as CSV or MCAP |
+//! | [`summary`] | the view as JSON and as a line of text |
+//! | [`session`] | the loop that reads, records and shows |
+
+pub mod error;
+pub mod record;
+pub mod screen;
+pub mod session;
+pub mod source;
+pub mod summary;
+pub mod view;
+
+/// The most joints that a machine may have.
+pub const JOINTS: usize = 32;
+/// A message of any machine.
+pub type Message = telemetry::Message<JOINTS>;
+/// A tick of any machine.
+pub type Tick = telemetry::Tick<JOINTS>;
+/// The constants of any machine.
+pub type Machine = telemetry::Machine<JOINTS>;
+/// The decoder of any machine's frames.
+pub type Decoder = telemetry::Decoder<JOINTS>;

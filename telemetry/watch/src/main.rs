@@ -1,0 +1,84 @@
+//! Shows and records the telemetry of a machine: what `cargo xtask watch` runs.
+
+use std::io::Write;
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::sync::atomic::Ordering::Relaxed;
+use std::time::Duration;
+
+use clap::Parser;
+use telemetry_watch::error::{Error, Result};
+use telemetry_watch::record::Recorder;
+use telemetry_watch::session::{self, Options, Show};
+use telemetry_watch::source::Place;
+use telemetry_watch::summary::Summary;
+
+/// Shows and records the telemetry of a machine
+#[derive(Parser)]
+struct Args {
+    /// Read from this serial port
+    #[arg(long, value_name = "PORT", conflicts_with = "file")]
+    port: Option<String>,
+    /// The rate of the serial port, bit/s
+    #[arg(long, default_value_t = 2_000_000, value_name = "RATE")]
+    baud: u32,
+    /// Read from a file of bytes received earlier
+    #[arg(long, value_name = "FILE")]
+    file: Option<PathBuf>,
+    /// Record the ticks; the ending .csv or .mcap names the form
+    #[arg(long, value_name = "FILE")]
+    record: Option<PathBuf>,
+    /// End after so many seconds
+    #[arg(long, value_name = "S")]
+    seconds: Option<f64>,
+    /// Show nothing, and print a summary as JSON at the end
+    #[arg(long)]
+    json: bool,
+    /// Take no more than the ticks that are due: a program that runs faster than the machine then waits
+    #[arg(long)]
+    pace: bool,
+    /// Start this program, which connects to the TCP port that replaces {port} in its arguments
+    #[arg(last = true, value_name = "PROGRAM")]
+    program: Vec<String>,
+}
+
+fn main() -> ExitCode {
+    match run(&Args::parse()) {
+        Ok(()) => ExitCode::SUCCESS,
+        // Behind `| head` nobody reads on.
+        Err(Error::Terminal(error)) if error.kind() == std::io::ErrorKind::BrokenPipe => {
+            ExitCode::from(128 + 13)
+        }
+        Err(error) => {
+            // There is no other place to report it to.
+            let _ = writeln!(std::io::stderr(), "error: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(args: &Args) -> Result<()> {
+    // Without a handler a signal ends the program, but not its children.
+    let _ = ctrlc::set_handler(|| session::ENDED.store(true, Relaxed));
+    let recorder = args.record.as_deref().map(Recorder::create).transpose()?;
+    let place = match (&args.port, &args.file) {
+        (Some(port), _) => Place::Port(port.clone(), args.baud),
+        (_, Some(file)) => Place::File(file.clone()),
+        _ => Place::Program(args.program.clone()),
+    };
+    let show = if args.json { Show::Nothing } else { Show::Live };
+    let limit = args
+        .seconds
+        .map(|seconds| Duration::from_secs_f64(seconds.max(0.0)));
+    let options = Options {
+        show,
+        limit,
+        pace: args.pace,
+    };
+    let view = session::run(&mut place.open()?, recorder, options)?;
+    if args.json {
+        let json = serde_json::to_string_pretty(&Summary::of(&view));
+        writeln!(std::io::stdout(), "{}", json.map_err(std::io::Error::from)?)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,207 @@
+//! Ticks as CSV or MCAP.
+
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::{BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+use mcap::records::MessageHeader;
+use serde::Serialize;
+use telemetry::PHASES;
+
+use crate::Tick;
+use crate::error::{Error, Result};
+use crate::view::mode;
+
+/// A file that ticks are written to.
+pub struct Recorder {
+    path: PathBuf,
+    form: Form,
+    /// The period of a tick, µs, once it is known.
+    period: u32,
+}
+
+enum Form {
+    /// Whether the titles are written.
+    Csv(BufWriter<File>, bool),
+    Mcap(Box<mcap::Writer<BufWriter<File>>>, u16),
+}
+
+/// A tick as a message of MCAP, in JSON.
+#[derive(Serialize)]
+struct Json<'a> {
+    number: u32,
+    tick: u32,
+    mode: &'a str,
+    fault: Option<String>,
+    limited: bool,
+    dropped: u32,
+    joints: &'a [telemetry::Joint],
+    cost: BTreeMap<&'a str, u32>,
+}
+
+impl Recorder {
+    /// Creates the file; its ending names its form.
+    ///
+    /// # Errors
+    /// It cannot be created, or its ending is neither `.csv` nor `.mcap`.
+    pub fn create(path: &Path) -> Result<Self> {
+        let ending = path.extension().and_then(|ending| ending.to_str());
+        let open = || -> Result<BufWriter<File>> {
+            let file = File::create(path).map_err(|source| Error::Record {
+                path: path.to_owned(),
+                source,
+            })?;
+            Ok(BufWriter::new(file))
+        };
+        let form = match ending {
+            Some("csv") => Form::Csv(open()?, false),
+            Some("mcap") => {
+                let failed = |source| mcap_error(path, source);
+                let mut writer = mcap::Writer::new(open()?).map_err(failed)?;
+                let schema = writer
+                    .add_schema("tick", "jsonschema", SCHEMA)
+                    .map_err(failed)?;
+                let channel = writer.add_channel(schema, "tick", "json", &BTreeMap::new());
+                Form::Mcap(Box::new(writer), channel.map_err(failed)?)
+            }
+            _ => {
+                return Err(Error::Ending {
+                    path: path.to_owned(),
+                });
+            }
+        };
+        Ok(Self {
+            path: path.to_owned(),
+            form,
+            period: 1000,
+        })
+    }
+
+    /// Sets the period of a tick, µs, for the times in the file.
+    pub fn period(&mut self, period: u32) {
+        self.period = period;
+    }
+
+    /// Writes a tick.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn write(&mut self, tick: &Tick) -> Result<()> {
+        match &mut self.form {
+            Form::Csv(file, titled) => {
+                let is_first = !std::mem::replace(titled, true);
+                let titles = if is_first {
+                    titles(tick.joints.len())
+                } else {
+                    String::new()
+                };
+                let line = titles + &line(tick);
+                file.write_all(line.as_bytes())
+                    .map_err(|source| Error::Record {
+                        path: self.path.clone(),
+                        source,
+                    })
+            }
+            Form::Mcap(writer, channel) => {
+                let time = u64::from(tick.number) * u64::from(self.period) * 1000;
+                let header = MessageHeader {
+                    channel_id: *channel,
+                    sequence: tick.number,
+                    log_time: time,
+                    publish_time: time,
+                };
+                let json = serde_json::to_vec(&json(tick)).map_err(|error| Error::Record {
+                    path: self.path.clone(),
+                    source: error.into(),
+                })?;
+                let written = writer.write_to_known_channel(&header, &json);
+                written.map_err(|source| mcap_error(&self.path, source))
+            }
+        }
+    }
+
+    /// Ends the file.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn finish(self) -> Result<()> {
+        match self.form {
+            Form::Csv(mut file, _) => file.flush().map_err(|source| Error::Record {
+                path: self.path,
+                source,
+            }),
+            Form::Mcap(mut writer, _) => {
+                let summary = writer.finish();
+                summary
+                    .map(|_| ())
+                    .map_err(|source| mcap_error(&self.path, source))
+            }
+        }
+    }
+}
+
+fn mcap_error(path: &Path, source: mcap::McapError) -> Error {
+    let path = path.to_owned();
+    Error::Mcap { path, source }
+}
+
+fn json(tick: &Tick) -> Json<'_> {
+    Json {
+        number: tick.number,
+        tick: tick.tick,
+        mode: mode(tick.status.mode),
+        fault: tick.status.fault.map(|fault| fault.to_string()),
+        limited: tick.status.limited,
+        dropped: tick.dropped,
+        joints: &tick.joints,
+        cost: PHASES.into_iter().zip(tick.cost).collect(),
+    }
+}
+
+fn titles(joints: usize) -> String {
+    let mut titles = String::from("number,tick,mode,fault,limited,dropped");
+    for joint in 0..joints {
+        titles += &format!(",reference_{joint},estimate_{joint},torque_{joint}");
+    }
+    for phase in PHASES {
+        titles += &format!(",{phase}_counts");
+    }
+    titles + "\n"
+}
+
+fn line(tick: &Tick) -> String {
+    let status = tick.status;
+    let fault = status
+        .fault
+        .map_or(String::new(), |fault| fault.to_string());
+    let mut line = format!(
+        "{},{},{},{fault},{},{}",
+        tick.number,
+        tick.tick,
+        mode(status.mode),
+        status.limited,
+        tick.dropped
+    );
+    for joint in &tick.joints {
+        line += &format!(",{},{},{}", joint.reference, joint.estimate, joint.torque);
+    }
+    for cost in tick.cost {
+        line += &format!(",{cost}");
+    }
+    line + "\n"
+}
+
+/// What viewers of MCAP plot by.
+const SCHEMA: &[u8] = br#"{
+  "type": "object",
+  "properties": {
+    "number": {"type": "integer"}, "tick": {"type": "integer"}, "mode": {"type": "string"},
+    "fault": {"type": ["string", "null"]}, "limited": {"type": "boolean"}, "dropped": {"type": "integer"},
+    "joints": {"type": "array", "items": {"type": "object", "properties": {
+      "reference": {"type": "number"}, "estimate": {"type": "number"}, "torque": {"type": "number"}}}},
+    "cost": {"type": "object", "properties": {
+      "read": {"type": "integer"}, "reference": {"type": "integer"}, "dynamics": {"type": "integer"},
+      "safety": {"type": "integer"}, "write": {"type": "integer"}}}
+  }
+}"#;

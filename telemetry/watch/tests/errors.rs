@@ -1,0 +1,65 @@
+//! Errors name the port, program or file concerned.
+
+use std::path::Path;
+use std::time::Duration;
+
+use telemetry_watch::record::Recorder;
+use telemetry_watch::session::{self, Options};
+use telemetry_watch::source::Place;
+
+#[test]
+fn a_record_of_another_ending_is_refused() {
+    let error = Recorder::create(Path::new("ticks.xls"))
+        .err()
+        .expect("refused");
+    assert_eq!(
+        error.to_string(),
+        "ticks.xls: a record ends with .csv or .mcap"
+    );
+}
+
+#[test]
+fn a_port_that_is_not_there_is_named_with_those_that_are() {
+    let error = Place::Port("/dev/ttyNONE".into(), 9600).open().err();
+    let error = error.expect("there is none").to_string();
+    assert!(
+        error.contains("/dev/ttyNONE") && error.contains("this machine has"),
+        "{error}"
+    );
+}
+
+#[test]
+fn a_program_that_is_not_there_or_ends_at_once_is_named() {
+    let start = |words: &[&str]| {
+        let words = words.iter().map(ToString::to_string).collect();
+        Place::Program(words)
+            .open()
+            .err()
+            .expect("an error")
+            .to_string()
+    };
+    assert!(start(&["no-such-emulator"]).starts_with("cannot start `no-such-emulator`"));
+    assert!(
+        start(&["false"]).contains("`false` ended"),
+        "{}",
+        start(&["false"])
+    );
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_silent_machine_is_an_error_in_its_time() {
+    // A program that connects and is silent.
+    let words = [
+        "bash",
+        "-c",
+        "exec 3<>/dev/tcp/127.0.0.1/{port}; exec sleep 60",
+    ];
+    let words = words.map(str::to_owned).to_vec();
+    let mut source = Place::Program(words).open().expect("a shell with TCP");
+    let start = std::time::Instant::now();
+    let outcome = session::run(&mut source, None, Options::QUIET);
+    let error = outcome.expect_err("silence").to_string();
+    assert!(error.contains("no frame from bash in 5 s"), "{error}");
+    assert!(start.elapsed() < session::PATIENCE + Duration::from_secs(2));
+}

@@ -1,0 +1,196 @@
+//! The tables of `docs/boards.md`.
+
+use super::list::{CORES, Core, Isa};
+use super::run::{Bracket, Replayed, Row, Torques};
+use super::{Report, boards};
+use crate::docs::Page;
+use crate::error::{Result, bail, check};
+use crate::table::{Column, Table, thousands};
+
+/// Where they stand.
+pub const PAGE: Page = Page {
+    file: "docs/boards.md",
+    name: "cores",
+    command: "cargo xtask cores --write-docs",
+};
+
+/// A core's results, and what it is.
+type Line<'a> = (&'a Row, &'a Core);
+
+/// Where the bracket of the README's cycles stands.
+pub const README: Page = Page {
+    file: "README.md",
+    name: "bracket",
+    command: "cargo xtask cores --write-docs",
+};
+
+impl Report {
+    fn bracket(&self) -> Option<Bracket> {
+        self.rows.iter().find_map(|row| row.bracket)
+    }
+
+    /// What stands in the README, if the core of the cycle model ran.
+    pub fn readme(&self) -> Option<String> {
+        let scene = self.torques.last()?;
+        let words = in_words(&self.bracket()?, &scene.scene);
+        let page = "([choices](host-tests/cycle-meter/src/lib.rs))";
+        Some(format!("{} {page}.\n", words.trim_end_matches('.')))
+    }
+
+    /// What stands on the page.
+    pub fn markdown(&self) -> Result<String> {
+        let mut text = String::from(
+            "The torques of every tick have the same bits on every core and on the host:\n\n",
+        );
+        for Torques {
+            scene,
+            ticks,
+            digest,
+        } in &self.torques
+        {
+            let ticks = thousands(*ticks as u64);
+            text += &format!("- `{scene}`, {ticks} ticks: digest `{digest}`\n");
+        }
+        let both: Vec<(&Row, &Core)> = self
+            .rows
+            .iter()
+            .map(|row| {
+                let core = CORES.iter().find(|core| core.name == row.core);
+                core.map(|core| (row, core))
+                    .ok_or_else(|| check!("there is no core {}", row.core))
+            })
+            .collect::<Result<_>>()?;
+        let scenes: Vec<&str> = self.torques.iter().map(|torques| &*torques.scene).collect();
+        let [small, large] = scenes[..] else {
+            bail!("two scenes were expected: {scenes:?}");
+        };
+        let instructions = |index: usize| {
+            move |(row, _): &Line<'_>| {
+                let spread = row.scenes[index].costs[0].instructions;
+                format!("{} to {}", thousands(spread.min), thousands(spread.max))
+            }
+        };
+        let cycles = |(row, core): &Line<'_>| match (core.isa, row.scenes[1].costs[0].cycles) {
+            (Isa::CortexM4F, spread) => {
+                format!("{} to {}", thousands(spread.min), thousands(spread.max))
+            }
+            _ => "–".into(),
+        };
+        let of = |index: usize, what: fn(&Replayed) -> u64| {
+            move |(row, _): &Line<'_>| thousands(what(&row.scenes[index]))
+        };
+        let columns: [Column<'_, Line<'_>>; 8] = [
+            ("core", &|(row, _)| row.core.into()),
+            ("QEMU machine", &|(_, core)| format!("`{}`", core.machine)),
+            ("target", &|(_, core)| format!("`{}`", core.target)),
+            ("flags", &|(_, core)| core.shown_flags()),
+            (
+                &format!("instructions of a tick, `{small}`"),
+                &instructions(0),
+            ),
+            (&format!("`{large}`"), &instructions(1)),
+            (&format!("cycles, `{large}`"), &cycles),
+            ("flash, B", &|(row, _)| thousands(row.flash)),
+        ];
+        text += &format!("\n{}", Table::of(&both, &columns).markdown());
+        if let Some(bracket) = self.bracket() {
+            text += &format!("\n{}\n", in_words(&bracket, large));
+        }
+        text += "\nThe stack and the code of a tick, of the function that the interrupt calls and of all that it calls:\n";
+        let columns: [Column<'_, Line<'_>>; 7] = [
+            ("core", &|(row, _)| row.core.into()),
+            (
+                &format!("stack written, `{small}`, B"),
+                &of(0, |scene| scene.stack),
+            ),
+            ("stack, bound", &of(0, |scene| scene.code.stack)),
+            (
+                &format!("stack written, `{large}`, B"),
+                &of(1, |scene| scene.stack),
+            ),
+            ("stack, bound", &of(1, |scene| scene.code.stack)),
+            (
+                &format!("code, `{small}`, B"),
+                &of(0, |scene| scene.code.code),
+            ),
+            (
+                &format!("code, `{large}`, B"),
+                &of(1, |scene| scene.code.code),
+            ),
+        ];
+        text += &format!("\n{}", Table::of(&both, &columns).markdown());
+        text += "\nThe images of real boards, without a simulation:\n\n";
+        text += &boards::markdown(&self.boards);
+        text += &format!("\nMeasured with {}.\n", self.rustc);
+        Ok(text)
+    }
+}
+
+/// The bracket of the modelled cycles, as a sentence.
+fn in_words(bracket: &Bracket, scene: &str) -> String {
+    let Bracket {
+        least,
+        chosen,
+        most,
+    } = *bracket;
+    let share = |cycles: u64| format!("{:.0} %", 100.0 * cycles as f64 / chosen as f64);
+    let [fewest, ours, longest] = [least, chosen, most].map(thousands);
+    format!(
+        "Cycles are modelled. Where the manual of the Cortex-M4 leaves room, its most favourable reading gives {fewest} cycles \
+         for the longest tick of `{scene}`, {} of {ours}, and its least favourable one {longest}, {}.",
+        share(least),
+        share(most)
+    )
+}
+
+/// A page without the rows of other cores and without padding.
+pub fn rows_of(page: &str, names: &[&str]) -> String {
+    let is_other = |line: &&str| {
+        let others = CORES.iter().filter(|core| !names.contains(&core.name));
+        others
+            .into_iter()
+            .any(|core| line.starts_with(&format!("| {} ", core.name)))
+    };
+    let squeezed = |line: &str| {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        let is_rule = line.starts_with("| ---");
+        let text = if is_rule {
+            "| --- |".into()
+        } else {
+            words.join(" ")
+        };
+        text + "\n"
+    };
+    page.lines()
+        .filter(|line| !is_other(line) && !line.starts_with("<!--"))
+        .map(squeezed)
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Bracket, in_words, rows_of};
+
+    #[test]
+    fn a_bracket_has_its_shares() {
+        let bracket = Bracket {
+            least: 1500,
+            chosen: 2000,
+            most: 2500,
+        };
+        let words = in_words(&bracket, "arm");
+        assert!(words.contains("1,500 cycles for the longest tick of `arm`, 75 % of 2,000"));
+        assert!(words.ends_with("one 2,500, 125 %."), "{words}");
+    }
+
+    #[test]
+    fn a_page_is_compared_without_the_cores_that_did_not_run() {
+        let page = "Words.\n\n| core        | code |\n| ----------- | ---: |\n| Cortex-M33  |    7 |\n| Cortex-M0   |  512 |\n";
+        let fresh =
+            "Words.\n\n| core       | code |\n| ---------- | ---: |\n| Cortex-M33 |    7 |\n";
+        let names = ["Cortex-M33"];
+        assert_eq!(rows_of(page, &names), rows_of(fresh, &names));
+        let other = fresh.replace('7', "8");
+        assert_ne!(rows_of(page, &names), rows_of(&other, &names));
+    }
+}

@@ -1,0 +1,307 @@
+//! Builds the replay for a core, runs it under the cycle meter, and reads what both wrote.
+
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use serde::Serialize;
+
+use super::list::{Core, Isa};
+use super::walk::Walk;
+use crate::elf::Image;
+use crate::error::{Error, Result, check, refuse_if};
+use crate::meter::{self, Cost, REGIONS};
+use crate::qemu::Qemu;
+use crate::shell;
+use crate::toolchain::RELEASE;
+use crate::workspace::Workspace;
+
+/// The package, and its bin.
+const PACKAGE: &str = "cores";
+/// How long a core may take in QEMU.
+const LIMIT: Duration = Duration::from_secs(300);
+/// What the bin executes in its first region (`cores/src/counted.rs`).
+const COUNTED_BY_HAND: u64 = 21;
+
+/// The bits of a scene's torques.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Torques {
+    /// The scene.
+    pub scene: String,
+    /// How many ticks.
+    pub ticks: usize,
+    /// The digest of all torques' bits.
+    pub digest: String,
+}
+
+/// A scene on a core.
+#[derive(Debug, Serialize)]
+pub struct Replayed {
+    /// Its torques.
+    pub torques: Torques,
+    /// What a tick costs, whole, by phase and between the phases; cycles are zero but for the Cortex-M4F's.
+    pub costs: Vec<Cost>,
+    /// The bytes of stack that a tick wrote to, at most.
+    pub stack: u64,
+    /// What the machine code of the tick says.
+    pub code: Walk,
+}
+
+/// A core's results.
+#[derive(Debug, Serialize)]
+pub struct Row {
+    /// The core's name.
+    pub core: &'static str,
+    /// Code and constants of the whole image, which also prints.
+    pub flash: u64,
+    /// The scenes, the small one first.
+    pub scenes: Vec<Replayed>,
+    /// Of the core whose cycles are modelled: those of the longest tick of the last scene.
+    pub bracket: Option<Bracket>,
+}
+
+/// Modelled cycles by readings of the manual where it leaves room.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct Bracket {
+    /// The fewest.
+    pub least: u64,
+    /// Those of every other figure.
+    pub chosen: u64,
+    /// The most.
+    pub most: u64,
+}
+
+impl Bracket {
+    /// Fails unless the readings are in their order.
+    fn checked(self) -> Result<Self> {
+        let Self {
+            least,
+            chosen,
+            most,
+        } = self;
+        refuse_if!(
+            least > chosen || chosen > most,
+            "the readings of the manual are not in their order: {least}, {chosen}, {most} cycles"
+        );
+        Ok(self)
+    }
+}
+
+/// What the bin says.
+#[derive(Debug, Default, PartialEq, Eq)]
+pub struct Said {
+    torques: Vec<Torques>,
+    stacks: Vec<u64>,
+    ticks_at: Vec<u64>,
+}
+
+impl Said {
+    /// From its lines.
+    ///
+    /// # Errors
+    /// A line is not of the protocol, or the last one is not `done`.
+    pub fn read(text: &str) -> Result<Self> {
+        let mut said = Self::default();
+        let mut is_done = false;
+        for line in text.lines() {
+            let bad = || check!("the line {line:?} of `{PACKAGE}` cannot be understood");
+            refuse_if!(is_done, "`{PACKAGE}` went on after its end: {line:?}");
+            match line.split(' ').collect::<Vec<_>>()[..] {
+                ["digest", scene, ticks, digest] => said.torques.push(Torques {
+                    scene: scene.into(),
+                    ticks: ticks.parse().map_err(|_| bad())?,
+                    digest: digest.into(),
+                }),
+                ["stack", _, bytes] => said.stacks.push(bytes.parse().map_err(|_| bad())?),
+                ["tick", _, at] => said.ticks_at.push(at.parse().map_err(|_| bad())?),
+                ["done"] => is_done = true,
+                _ => return Err(bad()),
+            }
+        }
+        refuse_if!(
+            !is_done || said.torques.is_empty(),
+            "`{PACKAGE}` did not end: {text:?}"
+        );
+        Ok(said)
+    }
+}
+
+/// The torques of this machine, which no emulator computes.
+pub fn on_host(workspace: &Workspace) -> Result<Vec<Torques>> {
+    let mut command = workspace.cargo("run");
+    command.args(["--quiet", "--package", PACKAGE]);
+    Ok(Said::read(&shell::capture(&mut command)?)?.torques)
+}
+
+/// Builds the bin for a core.
+pub fn build(workspace: &Workspace, core: &Core) -> Result<PathBuf> {
+    let mut flags = core.flags(workspace)?;
+    // Cargo calls the compiler in the root of the workspace.
+    for script in [format!("machines/{}.x", core.machine), "link.x".into()] {
+        flags.push(format!("-Clink-arg=-T{PACKAGE}/{script}"));
+    }
+    // The messages of panics name files of the registry: flash would depend on who builds.
+    let home = std::env::var_os("CARGO_HOME").map(PathBuf::from);
+    if let Some(home) = home.or_else(|| Some(std::env::home_dir()?.join(".cargo"))) {
+        flags.push(format!("--remap-path-prefix={}=cargo", home.display()));
+    }
+    // Apart from other firmware of the same targets, whose flags differ.
+    let target = workspace.target.join(PACKAGE);
+    let mut command = workspace.cargo("build");
+    command
+        .args(["--profile", RELEASE, "--package", PACKAGE])
+        .args(["--target", core.target, "--target-dir"])
+        .arg(&target)
+        // Instead of those of `.cargo/config.toml`, which has another linker script.
+        .env("CARGO_ENCODED_RUSTFLAGS", flags.join("\u{1f}"));
+    shell::cargo(&mut command)?;
+    // Two cores of one target have their bin in the same place.
+    let built = target.join(core.target).join(RELEASE).join(PACKAGE);
+    let elf = target.join(core.machine).with_extension("elf");
+    std::fs::copy(&built, &elf).map_err(Error::file("copy", &built))?;
+    Ok(elf)
+}
+
+/// Builds and runs the bin on a core.
+pub fn measure(workspace: &Workspace, core: &Core, plugin: &Path) -> Result<Row> {
+    let elf = build(workspace, core)?;
+    let regions = workspace.output(&format!("cores-{}.regions", core.machine))?;
+    let argument = format!("out={}{}", regions.display(), core.isa.argument());
+    let qemu = Qemu::at(core.qemu().0)?;
+    let machine = core.machine_arguments();
+    let text = qemu.text(core.name, &machine, &elf, (plugin, &argument), LIMIT)?;
+    let said = Said::read(&text)?;
+    let samples = meter::read(&regions)?;
+    let (first, mut rest) = samples
+        .split_first()
+        .ok_or_else(|| check!("the cycle meter measured nothing"))?;
+    refuse_if!(
+        first.instructions != COUNTED_BY_HAND,
+        "on {} the cycle meter counts {} instructions, by hand they are {COUNTED_BY_HAND}",
+        core.name,
+        first.instructions
+    );
+    let image = Image::read(&elf)?;
+    let count = said.torques.len();
+    refuse_if!(
+        [said.stacks.len(), said.ticks_at.len()] != [count; 2],
+        "`{PACKAGE}` did not print stack and tick of each scene: {text:?}"
+    );
+    let mut scenes = Vec::new();
+    for ((torques, stack), at) in said.torques.into_iter().zip(said.stacks).zip(said.ticks_at) {
+        let few = || {
+            check!(
+                "the cycle meter saw fewer ticks of {} than were run",
+                torques.scene
+            )
+        };
+        let (mine, others) = rest
+            .split_at_checked(torques.ticks * REGIONS.len())
+            .ok_or_else(few)?;
+        rest = others;
+        let code = Walk::of(&image, core.isa == Isa::RiscV, at)
+            .map_err(|e| Error::check(format!("{}, {}: {e}", core.name, torques.scene)))?;
+        refuse_if!(
+            code.stack < stack,
+            "{}, {}: a tick wrote to {stack} B of stack, more than the bound of its code, {} B",
+            core.name,
+            torques.scene,
+            code.stack
+        );
+        let costs = meter::costs(mine, torques.ticks, |_| true)?;
+        scenes.push(Replayed {
+            torques,
+            costs,
+            stack,
+            code,
+        });
+    }
+    refuse_if!(
+        !rest.is_empty(),
+        "the cycle meter saw more ticks than were run"
+    );
+    let longest = scenes
+        .last()
+        .map(|scene: &Replayed| scene.costs[0].cycles.max);
+    let bracket = match (core.isa, longest) {
+        (Isa::CortexM4F, Some(chosen)) => {
+            let read = |reading| longest_tick(&qemu, core, &elf, (plugin, &argument, reading));
+            let (least, most) = (read("least")?, read("most")?);
+            Some(
+                Bracket {
+                    least,
+                    chosen,
+                    most,
+                }
+                .checked()?,
+            )
+        }
+        _ => None,
+    };
+    Ok(Row {
+        core: core.name,
+        flash: image.sizes.flash,
+        scenes,
+        bracket,
+    })
+}
+
+/// The cycles of the longest tick of the last scene by a reading of the manual.
+fn longest_tick(
+    qemu: &Qemu,
+    core: &Core,
+    elf: &Path,
+    (plugin, argument, reading): (&Path, &str, &str),
+) -> Result<u64> {
+    let argument = format!("{argument},reading={reading}");
+    let machine = core.machine_arguments();
+    let text = qemu.text(core.name, &machine, elf, (plugin, &argument), LIMIT)?;
+    let last = Said::read(&text)?.torques.pop();
+    let ticks = last.map_or(0, |torques| torques.ticks);
+    let out = argument.split(',').find_map(|one| one.strip_prefix("out="));
+    let samples = meter::read(Path::new(out.unwrap_or_default()))?;
+    let count = ticks * REGIONS.len();
+    let from = samples.len().checked_sub(count).filter(|_| count > 0);
+    let mine = from.and_then(|from| samples.get(from..));
+    let mine = mine.ok_or_else(|| check!("the cycle meter saw fewer ticks than were run"))?;
+    Ok(meter::costs(mine, ticks, |_| true)?[0].cycles.max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Bracket, Said};
+
+    #[test]
+    fn readings_out_of_order_are_refused() {
+        let bracket = |least, chosen, most| {
+            Bracket {
+                least,
+                chosen,
+                most,
+            }
+            .checked()
+        };
+        assert!(bracket(7, 8, 9).is_ok() && bracket(8, 8, 8).is_ok());
+        assert!(bracket(9, 8, 9).is_err() && bracket(7, 8, 7).is_err());
+    }
+
+    #[test]
+    fn what_the_bin_says_is_read_and_an_end_without_done_is_refused() {
+        let text = "digest small 2 00ff\nstack small 200\ntick small 4096\ndone\n";
+        let said = Said::read(text).expect("a protocol");
+        assert_eq!(
+            (said.torques[0].ticks, &*said.torques[0].digest),
+            (2, "00ff")
+        );
+        assert_eq!((said.stacks, said.ticks_at), (vec![200], vec![4096]));
+        for bad in [
+            "",
+            "done\n",
+            "digest small 2 00ff\n",
+            "digest small two 00ff\ndone\n",
+            "panicked at cores/src/main.rs\n",
+            "digest small 2 00ff\ndone\nstack small 200\n",
+        ] {
+            assert!(Said::read(bad).is_err(), "{bad:?}");
+        }
+    }
+}

@@ -6,7 +6,7 @@ use telemetry::Tick;
 use telemetry::pil::{Commanded, Measured};
 
 use crate::control_loop::Telemetry;
-use crate::scene::{Full, Scene, SimBrake, SimLoop, StartError, control_loop};
+use crate::scene::{Full, Scene, SimBrake, SimLoop, Start, StartError, control_loop};
 use crate::sim_io::Wires;
 
 /// A scene's control loop on wires whose other ends are elsewhere.
@@ -74,8 +74,9 @@ where
 {
     let encoders = core::array::from_fn(|joint| wires.encoder(joint));
     let drives = core::array::from_fn(|joint| wires.drive(joint));
-    let environment = S::environment(reference, 0.0);
-    control_loop::<S, _, _, _, B, Q, V, N>(encoders, drives, SimBrake, &environment)
+    let gains = S::gains(&S::environment(reference, 0.0));
+    let start = Start::OnTrajectory;
+    control_loop::<S, _, _, _, B, Q, V, N>(encoders, drives, SimBrake, gains, start)
 }
 
 /// What the controller knows of a tick.

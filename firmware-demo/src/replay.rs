@@ -10,7 +10,7 @@ use dynamics_core::control::{Mode, Reference, Status};
 
 use crate::control_loop::Telemetry;
 use crate::digest::Digest;
-use crate::scene::{Full, Scene, SimBrake, SimLoop, StartError, control_loop};
+use crate::scene::{Full, Scene, SimBrake, SimLoop, Start, StartError, control_loop};
 use crate::sim_io::Wires;
 
 /// The control loop of a scene on wires whose encoders follow the reference exactly.
@@ -70,9 +70,10 @@ where
         wires.publish(&reference.at(0).q);
         let encoders = from_fn(|j| wires.encoder(j));
         let drives = from_fn(|j| wires.drive(j));
-        let environment = S::environment(&reference, 0.0);
+        let gains = S::gains(&S::environment(&reference, 0.0));
+        let start = Start::OnTrajectory;
         let control =
-            control_loop::<S, _, _, _, B, Q, V, N>(encoders, drives, SimBrake, &environment)
+            control_loop::<S, _, _, _, B, Q, V, N>(encoders, drives, SimBrake, gains, start)
                 .map_err(StartError::Drive)?;
         Ok(Self {
             reference,

@@ -2,7 +2,9 @@
 //! does not, with the tracking errors of each, and then without each of its effects in turn.
 
 use dynamics_core::Core;
-use dynamics_core::control::{MotionLimits, Reference, Trajectory, TrajectoryError, WayPoint};
+use dynamics_core::control::{
+    Gains, MotionLimits, Reference, Trajectory, TrajectoryError, WayPoint,
+};
 use dynamics_core::effects::Effect;
 use dynamics_core::model::{Calibrated, JointLimits, Robot, model};
 use dynamics_core::state::State;
@@ -23,7 +25,7 @@ pub use app::{App, QUEUE, Record, STEPS, SimBrake, SimLoop, StartError};
 #[cfg(feature = "telemetry")]
 pub(crate) use app::{SETTLE, start};
 pub use errors::{Errors, larger};
-pub use firmware::{HOLD, OMEGA_N, REENTRY, RIDE, TICK, ZETA, control_loop, control_loop_on_brake};
+pub use firmware::{HOLD, OMEGA_N, REENTRY, RIDE, Start, TICK, ZETA, control_loop};
 pub use noise::Noise;
 pub use run::{Full, Less, Name, PdOnly, PlantModel, Run};
 
@@ -126,6 +128,11 @@ pub trait Scene<const B: usize, const Q: usize, const V: usize, const N: usize>:
         let effects = Self::current(environment);
         let m = Core::<Self::Robot>::crba(&Self::GAIN_POSE, &effects);
         last(&core::array::from_fn::<f32, V, _>(|j| m.get(j, j)))
+    }
+
+    /// The gains of the feedback on that inertia.
+    fn gains(environment: &Self::Environment) -> Gains<f32, N> {
+        Gains::from_inertia(&Self::inertia(environment), OMEGA_N, ZETA)
     }
 }
 

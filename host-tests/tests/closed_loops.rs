@@ -11,7 +11,7 @@ use dynamics_core::{Core, Engine};
 use firmware_demo::plant::{ClusterPlant, Simulated};
 use firmware_demo::robots::{G1Ankle, PickDelta};
 use firmware_demo::scene::clustered::MotorReference;
-use firmware_demo::scene::{Full, Scene, SimBrake, SimLoop, TICK, control_loop};
+use firmware_demo::scene::{Full, Scene, SimBrake, SimLoop, Start, TICK, control_loop};
 use firmware_demo::scenes::delta_pick::Picking;
 use firmware_demo::scenes::parallel_ankle::AnkleSteps;
 use firmware_demo::sim_io::Wires;
@@ -182,8 +182,10 @@ fn a_reference_that_does_not_close_is_a_fault_and_no_torque() {
     wires.publish(&reference.at(0).q);
     let encoders = core::array::from_fn(|j| wires.encoder(j));
     let drives = core::array::from_fn(|j| wires.drive(j));
+    let gains = AnkleSteps::gains(&Torn.at(0));
+    let start = Start::OnTrajectory;
     let mut control: SimLoop<3> =
-        control_loop::<AnkleSteps, _, _, _, 9, 9, 9, 3>(encoders, drives, SimBrake, &Torn.at(0))
+        control_loop::<AnkleSteps, _, _, _, 9, 9, 9, 3>(encoders, drives, SimBrake, gains, start)
             .unwrap();
     for tick in 0..60 {
         let telemetry = control.tick::<Full<AnkleSteps, 9, 9, 9>, _, _>(&reference, &Torn.at(tick));

@@ -9,7 +9,7 @@ use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
 use firmware_demo::plant::Rig;
 use firmware_demo::robots::Leg;
-use firmware_demo::scene::{Full, STEPS, Scene, SimBrake, SimLoop, TICK, control_loop};
+use firmware_demo::scene::{Full, STEPS, Scene, SimBrake, SimLoop, Start, TICK, control_loop};
 use firmware_demo::scenes::leg_hop::{GROUND, Hopping};
 use firmware_demo::sim_io::Wires;
 use firmware_demo::trajectories::hop::{Hop, arc_cosine};
@@ -79,8 +79,10 @@ fn the_leg_flies_as_often_as_it_is_to_and_at_least_five_centimetres_high() {
     let encoders = core::array::from_fn(|j| wires.encoder(j));
     let drives = core::array::from_fn(|j| wires.drive(j));
     let environment = |tick: u32| Hopping::environment(&hop, tick as f32);
+    let gains = Hopping::gains(&environment(0));
+    let start = Start::OnTrajectory;
     let mut control: SimLoop<3> =
-        control_loop::<Hopping, _, _, _, 5, 4, 4, 3>(encoders, drives, SimBrake, &environment(0))
+        control_loop::<Hopping, _, _, _, 5, 4, 4, 3>(encoders, drives, SimBrake, gains, start)
             .unwrap();
     let mut flights = Vec::new();
     let mut off = Worst::default();

@@ -185,7 +185,9 @@ impl<R: Real, const V: usize> ResumeTrajectory<R, V> {
 
     /// w and its derivatives by the time.
     fn weights(&self, x: R) -> [R; 3] {
-        let [six, ten, fifteen, thirty] = [6.0, 10.0, 15.0, 30.0].map(R::from_f64);
+        // One by one: at opt-level s an array of them is converted while the code runs, in software.
+        let (six, ten) = (R::from_f64(6.0), R::from_f64(10.0));
+        let (fifteen, thirty) = (R::from_f64(15.0), R::from_f64(30.0));
         let (xx, r) = (x * x, R::ONE - x);
         let slope = thirty * xx * r * r * self.seconds_inv;
         let bend = (thirty + thirty) * x * r * (r - x) * self.seconds_inv * self.seconds_inv;

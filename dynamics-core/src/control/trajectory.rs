@@ -16,17 +16,19 @@
 
 use super::real;
 use crate::scalar::Real;
-use crate::state::{State, all_finite};
+use crate::state::State;
 
 mod error;
 mod rest_to_rest;
 mod segment;
+mod segments;
 #[cfg(test)]
 mod tests;
 
 pub use error::TrajectoryError;
 pub use rest_to_rest::RestToRest;
 use segment::Segment;
+use segments::Segments;
 
 /// A configuration and the velocity at which to pass it, at zero acceleration.
 ///
@@ -94,9 +96,7 @@ impl<R: Real> MotionLimits<R> {
 /// The motion of V joints through W way-points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trajectory<R, const V: usize, const W: usize> {
-    /// The segments; the last one is the rest at the end.
-    segments: [Segment<R, V>; W],
-    ticks: u32,
+    segments: Segments<R, V, W>,
 }
 
 impl<R: Real, const V: usize, const W: usize> Trajectory<R, V, W> {
@@ -124,10 +124,44 @@ impl<R: Real, const V: usize, const W: usize> Trajectory<R, V, W> {
         tick: R,
         limits: &[MotionLimits<R>; V],
     ) -> Result<Self, TrajectoryError> {
-        let (segments, ticks) = segments(points, tick, false, |point, segment| {
+        let mut trajectory = Self::REST;
+        trajectory.plan(points, tick, limits)?;
+        Ok(trajectory)
+    }
+
+    /// Rest at zero: what a `static` contains before [`Self::plan`].
+    pub const REST: Self = Self {
+        segments: Segments::REST,
+    };
+
+    /// Replaces the trajectory in its place by the one through `points`, as [`Self::new`], which takes several times the
+    /// size of the trajectory on the stack; this takes none of it.
+    ///
+    /// # Errors
+    /// As [`Self::new`]; the trajectory is then as before.
+    ///
+    /// ```
+    /// use dynamics_core::control::{MotionLimits, Trajectory, TrajectoryError, WayPoint};
+    /// let point = |q: f32, ticks| WayPoint { q: [q], qd: [0.0], ticks };
+    /// let limits = [MotionLimits { velocity: 2.0, acceleration: 10.0 }];
+    /// let mut trajectory = Trajectory::REST;
+    /// trajectory.plan(&[point(0.0, 0), point(1.0, 1000)], 1e-3, &limits)?;
+    /// assert_eq!(trajectory.at(500).q, [0.5]);
+    ///
+    /// // Too fast: it stays as it is.
+    /// assert!(trajectory.plan(&[point(0.0, 0), point(1.0, 100)], 1e-3, &limits).is_err());
+    /// assert_eq!(trajectory.at(500).q, [0.5]);
+    /// # Ok::<(), TrajectoryError>(())
+    /// ```
+    pub fn plan(
+        &mut self,
+        points: &[WayPoint<R, V>; W],
+        tick: R,
+        limits: &[MotionLimits<R>; V],
+    ) -> Result<(), TrajectoryError> {
+        self.segments.plan(points, tick, false, |point, segment| {
             segment.check(point, limits)
-        })?;
-        Ok(Self { segments, ticks })
+        })
     }
 
     /// The reference at a tick counted from the start; from [`Self::ticks`] on, at rest at the last way-point.
@@ -150,63 +184,15 @@ impl<R: Real, const V: usize, const W: usize> Trajectory<R, V, W> {
     /// ```
     #[inline(always)]
     pub fn at(&self, tick: u32) -> State<R, V, V> {
-        // W ≥ 1: the compiler drops the other branch.
-        let Some(mut segment) = self.segments.first() else {
+        let Some(segment) = self.segments.find(tick) else {
             return State::at([R::ZERO; V]);
         };
-        for next in &self.segments {
-            segment = if next.start <= tick { next } else { segment };
-        }
         let s = real::<R>(tick.wrapping_sub(segment.start)) * segment.ticks_inv;
         segment.at(s)
     }
 
     /// Ticks from the first way-point to the last.
     pub fn ticks(&self) -> u32 {
-        self.ticks
+        self.segments.ticks
     }
-}
-
-/// The segments between way-points, the rest at the end last, and the ticks that they take; `stops` if every
-/// way-point has to be at rest.
-fn segments<R: Real, const V: usize, const W: usize>(
-    points: &[WayPoint<R, V>; W],
-    tick: R,
-    stops: bool,
-    check: impl Fn(usize, &Segment<R, V>) -> Result<(), TrajectoryError>,
-) -> Result<([Segment<R, V>; W], u32), TrajectoryError> {
-    const { assert!(W > 0, "a trajectory has at least one way-point") };
-    if !(tick.is_finite() && tick > R::ZERO) {
-        return Err(TrajectoryError::Tick);
-    }
-    for (point, p) in points.iter().enumerate() {
-        let end = stops || point == 0 || point == W - 1;
-        for (joint, (&q, &qd)) in p.q.iter().zip(&p.qd).enumerate() {
-            if !all_finite(&[q, qd]) {
-                return Err(TrajectoryError::NotFinite { point, joint });
-            }
-            if end && qd != R::ZERO {
-                return Err(TrajectoryError::NotAtRest { point, joint });
-            }
-        }
-        if (point == 0) != (p.ticks == 0) {
-            return Err(TrajectoryError::Ticks { point });
-        }
-    }
-
-    let mut segments = points.map(|p| Segment::rest(p.q));
-    let mut ticks = 0_u32;
-    let pairs = points.iter().zip(points.iter().enumerate().skip(1));
-    for (segment, (from, (point, to))) in segments.iter_mut().zip(pairs) {
-        *segment = Segment::between(ticks, from, to, tick);
-        check(point, segment)?;
-        ticks = match ticks.checked_add(to.ticks) {
-            Some(sum) => sum,
-            None => return Err(TrajectoryError::Ticks { point }),
-        };
-    }
-    if let Some(rest) = segments.last_mut() {
-        rest.start = ticks;
-    }
-    Ok((segments, ticks))
 }

@@ -8,7 +8,7 @@ use embedded_hal::digital::{self, OutputPin};
 use heapless::spsc::Producer;
 use joint_drivers::h_bridge::DriveError;
 
-use super::{Noise, PlantModel, Run, Scene, control_loop};
+use super::{Noise, PlantModel, Run, Scene, Start, control_loop};
 use crate::control_loop::{ControlLoop, Telemetry};
 use crate::plant::{Rig, Simulated};
 use crate::sim_io::{SimDrive, SimEncoder, Wires};
@@ -185,7 +185,8 @@ where
     let rig = Rig::new(S::plant(noise), torque, wires);
     let encoders = core::array::from_fn(|j| wires.encoder(j));
     let drives = core::array::from_fn(|j| wires.drive(j));
-    let environment = S::environment(reference, 0.0);
-    let control = control_loop::<S, _, _, _, B, Q, V, N>(encoders, drives, SimBrake, &environment)?;
+    let gains = S::gains(&S::environment(reference, 0.0));
+    let start = Start::OnTrajectory;
+    let control = control_loop::<S, _, _, _, B, Q, V, N>(encoders, drives, SimBrake, gains, start)?;
     Ok((rig, control))
 }

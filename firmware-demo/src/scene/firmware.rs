@@ -30,8 +30,17 @@ pub const REENTRY: u32 = 200;
 /// How far a joint may be from its reference for a restart, rad or m.
 pub const NEAR: f32 = 0.15;
 
-/// The loop on these devices, for an arm at rest at the start of its trajectory. Encoders and drives have the joints' own
-/// zero and direction.
+/// Where an arm is when its loop starts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Start {
+    /// At rest at the start of its trajectory, and held there by torque.
+    OnTrajectory,
+    /// On its brake, until [`ControlLoop::reset`].
+    OnBrake,
+}
+
+/// The loop on these devices, with the scene's gains ([`Scene::gains`]). Encoders and drives have the joints' own zero and
+/// direction.
 ///
 /// # Errors
 /// [`DriveError::FullScale`]: a torque limit of the scene is not above zero.
@@ -48,53 +57,8 @@ pub fn control_loop<
     encoders: [Spi; N],
     drives: [Pwm; N],
     brake: Brake,
-    environment: &S::Environment,
-) -> Result<ControlLoop<Spi, Pwm, Brake, N>, DriveError>
-where
-    S: Scene<B, Q, V, N>,
-    Spi: SpiDevice,
-    Pwm: SetDutyCycle,
-    Brake: OutputPin,
-{
-    let start = |controller| controller;
-    new::<S, _, _, _, B, Q, V, N>(encoders, drives, brake, environment, start)
-}
-
-/// The same for an arm on its brake, which [`ControlLoop::reset`] starts.
-///
-/// # Errors
-/// As [`control_loop`].
-pub fn control_loop_on_brake<
-    S,
-    Spi,
-    Pwm,
-    Brake,
-    const B: usize,
-    const Q: usize,
-    const V: usize,
-    const N: usize,
->(
-    encoders: [Spi; N],
-    drives: [Pwm; N],
-    brake: Brake,
-    environment: &S::Environment,
-) -> Result<ControlLoop<Spi, Pwm, Brake, N>, DriveError>
-where
-    S: Scene<B, Q, V, N>,
-    Spi: SpiDevice,
-    Pwm: SetDutyCycle,
-    Brake: OutputPin,
-{
-    let start = MotionController::on_brake;
-    new::<S, _, _, _, B, Q, V, N>(encoders, drives, brake, environment, start)
-}
-
-fn new<S, Spi, Pwm, Brake, const B: usize, const Q: usize, const V: usize, const N: usize>(
-    encoders: [Spi; N],
-    drives: [Pwm; N],
-    brake: Brake,
-    environment: &S::Environment,
-    start: impl FnOnce(MotionController<f32, N>) -> MotionController<f32, N>,
+    gains: Gains<f32, N>,
+    start: Start,
 ) -> Result<ControlLoop<Spi, Pwm, Brake, N>, DriveError>
 where
     S: Scene<B, Q, V, N>,
@@ -110,24 +74,24 @@ where
         joint += 1;
         drive
     });
-    Ok(ControlLoop::new(
-        encoders.map(|spi| As5047p::new(spi, JointMapping::IDENTITY)),
-        drives,
-        brake,
-        Gains::from_inertia(&S::inertia(environment), OMEGA_N, ZETA),
-        start(MotionController::new(MotionControllerConfig {
-            supervisor: SupervisorConfig {
-                limits: SafetyLimits::from(limits).with_rate_share(0.5),
-                tick: S::TICK,
-                resolution: S::RESOLUTION,
-                ride_through_ticks: RIDE,
-                hold_ticks: HOLD,
-                reentry_ticks: REENTRY,
-            },
-            observer_bandwidth: OBSERVER,
-            // Half of what K_d does: at full speed the torques for more are not to be had.
-            decay_rate: ZETA * OMEGA_N,
-            restart_distance: NEAR,
-        })),
-    ))
+    let controller = MotionController::new(MotionControllerConfig {
+        supervisor: SupervisorConfig {
+            limits: SafetyLimits::from(limits).with_rate_share(0.5),
+            tick: S::TICK,
+            resolution: S::RESOLUTION,
+            ride_through_ticks: RIDE,
+            hold_ticks: HOLD,
+            reentry_ticks: REENTRY,
+        },
+        observer_bandwidth: OBSERVER,
+        // Half of what K_d does: at full speed the torques for more are not to be had.
+        decay_rate: ZETA * OMEGA_N,
+        restart_distance: NEAR,
+    });
+    let controller = match start {
+        Start::OnTrajectory => controller,
+        Start::OnBrake => controller.on_brake(),
+    };
+    let encoders = encoders.map(|spi| As5047p::new(spi, JointMapping::IDENTITY));
+    Ok(ControlLoop::new(encoders, drives, brake, gains, controller))
 }

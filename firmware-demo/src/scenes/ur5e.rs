@@ -10,7 +10,7 @@ use dynamics_core::state::State;
 
 use crate::control_loop::Law;
 use crate::plant::Plant;
-use crate::scene::{Noise, PlantModel, Run, Scene, rigid, through};
+use crate::scene::{Noise, PlantModel, Run, Scene, TICK, rigid, speeds};
 use crate::trajectories::{HOME, PICK_AND_PLACE};
 
 /// What acts on the arm.
@@ -59,7 +59,9 @@ impl Scene<6, 6, 6, 6> for PickAndPlace {
     ];
 
     fn reference() -> Result<Self::Reference, TrajectoryError> {
-        through(&PICK_AND_PLACE, &Self::limits(), [12.0; 6])
+        let mut path = Trajectory::REST;
+        plan(&mut path)?;
+        Ok(path)
     }
 
     fn environment(_: &Self::Reference, _: f32) {}
@@ -78,6 +80,15 @@ impl Scene<6, 6, 6, 6> for PickAndPlace {
             noise.friction(&mut coulomb.torque);
         })
     }
+}
+
+/// Plans the path of the scene in its place, which takes less stack than [`Scene::reference`].
+///
+/// # Errors
+/// As [`Scene::reference`].
+pub fn plan(path: &mut Trajectory<f32, 6, 9>) -> Result<(), TrajectoryError> {
+    let limits = speeds(&PickAndPlace::limits(), [12.0; 6]);
+    path.plan(&PICK_AND_PLACE, TICK, &limits)
 }
 
 /// Gravity compensation.

@@ -14,7 +14,7 @@ use embedded_hal::pwm::{self, SetDutyCycle};
 use embedded_hal::spi::{self, Operation, SpiDevice};
 use firmware_demo::control_loop::{ControlLoop, Law, Telemetry};
 use firmware_demo::plant::{Plant, Rig};
-use firmware_demo::scene::{Full, STEPS, Scene, TICK, control_loop};
+use firmware_demo::scene::{Full, STEPS, Scene, Start, TICK, control_loop};
 pub use firmware_demo::scene::{HOLD, REENTRY, RIDE};
 use firmware_demo::scenes::ur5e::{Effects, PickAndPlace};
 use firmware_demo::sim_io::{MAX_DUTY, SimDrive, SimEncoder, Wires};
@@ -157,7 +157,8 @@ impl Arm {
                 encoders,
                 drives,
                 brake.clone(),
-                &(),
+                PickAndPlace::gains(&()),
+                Start::OnTrajectory,
             )
             .unwrap(),
             trajectory: PickAndPlace::reference().unwrap(),

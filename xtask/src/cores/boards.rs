@@ -96,8 +96,7 @@ fn read(workspace: &Workspace, bin: &Bin) -> Result<Board> {
     let start = Walk::of_start(&image, address("main")?)?.stack;
     let tick = bin
         .tick
-        // At opt-level s the count of ticks is converted in f64, which `of` refuses.
-        .map(|name| Walk::of_start(&image, address(name)?).map(|walk| walk.stack + INTERRUPT))
+        .map(|name| Walk::of(&image, false, address(name)?).map(|walk| walk.stack + INTERRUPT))
         .transpose()?;
     Ok(Board {
         package: bin.package,

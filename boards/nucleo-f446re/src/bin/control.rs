@@ -24,12 +24,12 @@ use panic_halt as _;
 mod app {
     use core::convert::Infallible;
 
-    use dynamics_core::control::{CompletedTick, Mode, Watchdog};
+    use dynamics_core::control::{CompletedTick, Gains, Mode, Watchdog};
     use embedded_hal_bus::spi::AtomicDevice;
     use embedded_hal_bus::util::AtomicCell;
     use firmware_demo::control_loop::ControlLoop;
-    use firmware_demo::scene::{Full, Scene, control_loop_on_brake};
-    use firmware_demo::scenes::ur5e::PickAndPlace;
+    use firmware_demo::scene::{Full, Scene, Start, control_loop};
+    use firmware_demo::scenes::ur5e::{PickAndPlace, plan};
     use nucleo_f446re::clocks;
     use stm32f4xx_hal::gpio::{AnyPin, Input, Output, PA5, PB12, PC13};
     use stm32f4xx_hal::hal::delay::DelayNs;
@@ -93,17 +93,46 @@ mod app {
     #[shared]
     struct Shared {}
 
+    type Control = ControlLoop<Encoder, Channel, PB12<Output>, 6>;
+
     #[local]
     struct Local {
-        control: ControlLoop<Encoder, Channel, PB12<Output>, 6>,
-        reference: Reference,
+        // In their places already: moved through the stack, they would take as much of it again.
+        control: &'static mut Control,
+        reference: &'static Reference,
         timer: CounterHz<TIM2>,
         watchdog: Starved,
         button: PC13<Input>,
         light: PA5<Output>,
     }
 
-    #[init(local = [bus: Option<AtomicCell<Spi<SPI1>>> = None])]
+    /// The loop in its place. Not inlined, so that its copy is on the stack only here.
+    #[inline(never)]
+    fn place_control(
+        place: &mut Option<Control>,
+        encoders: [Encoder; 6],
+        drives: [Channel; 6],
+        brake: PB12<Output>,
+        gains: Gains<f32, 6>,
+    ) -> Option<&mut Control> {
+        let start = Start::OnBrake;
+        let control = control_loop::<PickAndPlace, _, _, _, 6, 6, 6, 6>(
+            encoders, drives, brake, gains, start,
+        );
+        Some(place.insert(control.ok()?))
+    }
+
+    /// The gains. Not inlined either: their inertia takes the largest part of the stack of start-up.
+    #[inline(never)]
+    fn gains() -> Gains<f32, 6> {
+        PickAndPlace::gains(&())
+    }
+
+    #[init(local = [
+        bus: Option<AtomicCell<Spi<SPI1>>> = None,
+        place: Option<Control> = None,
+        path: Reference = Reference::REST,
+    ])]
     fn init(cx: init::Context) -> (Shared, Local) {
         let device = cx.device;
         let mut rcc = device.RCC.freeze(clocks());
@@ -153,15 +182,10 @@ mod app {
             }
         }
 
-        let (Ok(reference), Ok(control)) = (
-            PickAndPlace::reference(),
-            control_loop_on_brake::<PickAndPlace, _, _, _, 6, 6, 6, 6>(
-                encoders,
-                drives,
-                brake,
-                &(),
-            ),
-        ) else {
+        let gains = gains();
+        let reference = cx.local.path;
+        let control = place_control(cx.local.place, encoders, drives, brake, gains);
+        let (Ok(()), Some(control)) = (plan(reference), control) else {
             // The brake is set, the drives have no torque, and the light stays off.
             loop {
                 cortex_m::asm::wfi();
@@ -194,21 +218,21 @@ mod app {
     )]
     fn tick(cx: tick::Context) {
         let local = cx.local;
+        let reference: &Reference = local.reference;
         local.timer.clear_flags(Flag::Update);
         *local.count = local.count.wrapping_add(1);
         let now = *local.count;
         // A period that has ended since then is pending.
         let count = || now.wrapping_add(u32::from(local.timer.flags().contains(Flag::Update)));
         type Law = Full<PickAndPlace, 6, 6, 6>;
-        let (telemetry, completed) =
-            (local.control).tick_at::<Law, _, ()>(local.reference, &(), count);
+        let (telemetry, completed) = (local.control).tick_at::<Law, _, ()>(reference, &(), count);
         if let Some(completed) = completed {
             local.watchdog.feed(completed);
         }
         let mode = telemetry.status.mode;
         if matches!(mode, Mode::Stopped) && local.button.is_low() {
             // Too far from the trajectory, or without a measurement: the arm stays on its brake.
-            let _ = local.control.reset(local.reference);
+            let _ = local.control.reset(reference);
         }
         local.light.set_state(matches!(mode, Mode::Full).into());
     }

@@ -11,7 +11,7 @@
 //!
 //! The regularised incomplete beta function I_s(5, 5) and its derivatives.
 
-use super::{MotionLimits, Segment, TrajectoryError, WayPoint, real, segments};
+use super::{MotionLimits, Segment, Segments, TrajectoryError, WayPoint, real};
 use crate::control::Reference;
 use crate::drivetrain::ElasticReference;
 use crate::scalar::Real;
@@ -25,9 +25,7 @@ const ACCELERATION: f64 = 2520.0 * 27.0 / 2744.0 * 0.377_964_473_009_227_2;
 /// The motion of V joints from stop to stop, W of them, smooth to the fourth derivative.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RestToRest<R, const V: usize, const W: usize> {
-    /// The segments; the last one is the rest at the end.
-    segments: [Segment<R, V>; W],
-    ticks: u32,
+    segments: Segments<R, V, W>,
 }
 
 impl<R: Real, const V: usize, const W: usize> RestToRest<R, V, W> {
@@ -49,10 +47,11 @@ impl<R: Real, const V: usize, const W: usize> RestToRest<R, V, W> {
         tick: R,
         limits: &[MotionLimits<R>; V],
     ) -> Result<Self, TrajectoryError> {
-        let (segments, ticks) = segments(points, tick, true, |point, segment| {
+        let mut segments = Segments::REST;
+        segments.plan(points, tick, true, |point, segment| {
             check(point, segment, limits)
         })?;
-        Ok(Self { segments, ticks })
+        Ok(Self { segments })
     }
 
     /// Position and four derivatives at a tick counted from the start; after the end, at rest at the last stop.
@@ -77,13 +76,9 @@ impl<R: Real, const V: usize, const W: usize> RestToRest<R, V, W> {
             jerk: zero,
             snap: zero,
         };
-        // W ≥ 1: the compiler drops the other branch.
-        let Some(mut segment) = self.segments.first() else {
+        let Some(segment) = self.segments.find(tick) else {
             return course;
         };
-        for next in &self.segments {
-            segment = if next.start <= tick { next } else { segment };
-        }
         let weights = weights(segment, tick);
         for (j, &[q_0, step, ..]) in segment.joints.iter().enumerate() {
             let [q, qd, qdd, jerk, snap] = weights.map(|weight| weight * step);
@@ -111,7 +106,7 @@ impl<R: Real, const V: usize, const W: usize> Reference<R, V> for RestToRest<R, 
     }
 
     fn ticks(&self) -> u32 {
-        self.ticks
+        self.segments.ticks
     }
 }
 
@@ -122,7 +117,7 @@ fn weights<R: Real, const V: usize>(segment: &Segment<R, V>, tick: u32) -> [R; 5
     let (u, w) = (s * (R::ONE - s), R::ONE - number(2.0) * s);
     let (uu, t_inv) = (u * u, segment.seconds_inv);
     let tt_inv = t_inv * t_inv;
-    let inner = [-315.0, 540.0, -420.0, 126.0].map(number);
+    let inner = [number(-315.0), number(540.0), number(-420.0), number(126.0)];
     let horner = inner.into_iter().fold(number(70.0), |sum, c| sum * s + c);
     [
         s * s * s * s * s * horner,

@@ -1,6 +1,7 @@
 //! The quintic between two way-points, and its exact peaks.
 
 use super::*;
+use crate::state::all_finite;
 
 /// The motion between two way-points.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,14 +25,20 @@ pub(super) struct Weights<R> {
 }
 
 impl<R: Real, const V: usize> Segment<R, V> {
+    /// Rest at zero.
+    pub(super) const REST: Self = Self {
+        start: 0,
+        ticks_inv: R::ZERO,
+        seconds: R::ZERO,
+        seconds_inv: R::ZERO,
+        joints: [[R::ZERO; 4]; V],
+    };
+
     /// Rest at q, of zero duration: only the weights of zeros differ from zero.
     pub(super) fn rest(q: [R; V]) -> Self {
         Self {
-            start: 0,
-            ticks_inv: R::ZERO,
-            seconds: R::ZERO,
-            seconds_inv: R::ZERO,
             joints: q.map(|q| [q, R::ZERO, R::ZERO, R::ZERO]),
+            ..Self::REST
         }
     }
 
@@ -55,8 +62,10 @@ impl<R: Real, const V: usize> Segment<R, V> {
 
     #[inline(always)]
     fn weights(&self, s: R) -> Weights<R> {
-        let [two, three, five, six] = [2.0, 3.0, 5.0, 6.0].map(R::from_f64);
-        let [twelve, fifteen, thirty] = [12.0, 15.0, 30.0].map(R::from_f64);
+        // One by one: at opt-level s an array of them is converted while the code runs, in software.
+        let (two, three, five) = (R::from_f64(2.0), R::from_f64(3.0), R::from_f64(5.0));
+        let (six, twelve) = (R::from_f64(6.0), R::from_f64(12.0));
+        let (fifteen, thirty) = (R::from_f64(15.0), R::from_f64(30.0));
         let (one, r) = (R::ONE, R::ONE - s);
         let (ss, rr, sr) = (s * s, r * r, s * r);
         let w = self.seconds_inv;

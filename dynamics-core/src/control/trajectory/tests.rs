@@ -50,7 +50,7 @@ fn peaks_are_those_of_dense_sampling() {
             stop(noise(&mut seed), 500),
         ];
         let motion = Trajectory::new(&points, 1e-3, &[FREE]).unwrap();
-        for (point, segment) in (1..4).zip(&motion.segments) {
+        for (point, segment) in (1..4).zip(&motion.segments.each) {
             let samples = (0..=20_000).map(|k| segment.at(f64::from(k) / 20_000.0));
             let (qd, qdd) = samples.fold((0.0_f64, 0.0_f64), |(qd, qdd), x| {
                 (qd.max(x.qd[0].abs()), qdd.max(x.qdd[0].abs()))
@@ -87,7 +87,7 @@ fn peaks_are_those_of_dense_sampling() {
 fn velocity_and_acceleration_are_the_derivatives() {
     let points = [stop(0.2, 0), pass(1.0, -0.7, 400), stop(-0.5, 600)];
     let motion = Trajectory::new(&points, 1e-3, &[FREE]).unwrap();
-    for segment in &motion.segments[..2] {
+    for segment in &motion.segments.each[..2] {
         let ds = 1e-6;
         for k in 1..100 {
             let s = f64::from(k) / 100.0;
@@ -113,7 +113,10 @@ fn way_points_are_met_exactly() {
         tick += point.ticks;
         let state = motion.at(tick);
         assert_eq!((state.q, state.qd, state.qdd), (point.q, point.qd, [0.0]));
-        if let Some(segment) = at.checked_sub(1).and_then(|at| motion.segments.get(at)) {
+        if let Some(segment) = at
+            .checked_sub(1)
+            .and_then(|at| motion.segments.each.get(at))
+        {
             let end = segment.at(1.0);
             assert_eq!((end.qd, end.qdd), (point.qd, [0.0]));
             assert!((end.q[0] - point.q[0]).abs() < 1e-15);

@@ -4,7 +4,7 @@
 //! [`MotionController`], which contains the state of the loop and the reaction to faults.
 
 use dynamics_core::control::{
-    CompletedTick, Estimate, Fault, Gains, MotionController, ObservedTick, Reference,
+    CompletedTick, Detect, Estimate, Fault, Gains, MotionController, ObservedTick, Reference,
     ReferencedTick, ResetError, Status, StopCategory, TickCounter, feedback,
 };
 use dynamics_core::state::State;
@@ -80,24 +80,26 @@ pub struct Telemetry<const V: usize> {
     pub frame: Option<FrameError>,
 }
 
-/// The control loop of a robot with V joints: its devices and a [`MotionController`].
+/// The control loop of a robot with V joints: its devices, a [`MotionController`] and its detectors.
 #[derive(Debug)]
-pub struct ControlLoop<Spi, Pwm, Brake, const V: usize> {
+pub struct ControlLoop<Spi, Pwm, Brake, const V: usize, D = ()> {
     encoders: [As5047p<Spi>; V],
     drives: [LockedAntiphase<Pwm>; V],
     /// High holds the joints.
     brake: Brake,
     gains: Gains<f32, V>,
     controller: MotionController<f32, V>,
+    detectors: D,
     counter: TickCounter,
     frame: Option<FrameError>,
 }
 
-impl<Spi, Pwm, Brake, const V: usize> ControlLoop<Spi, Pwm, Brake, V>
+impl<Spi, Pwm, Brake, const V: usize, D> ControlLoop<Spi, Pwm, Brake, V, D>
 where
     Spi: SpiDevice,
     Pwm: SetDutyCycle,
     Brake: OutputPin,
+    D: Detect<f32, V>,
 {
     /// A loop at the start of its trajectory; starts the encoders. The first tick should follow within one tick, or the
     /// arm must stand still until then.
@@ -107,6 +109,7 @@ where
         brake: Brake,
         gains: Gains<f32, V>,
         controller: MotionController<f32, V>,
+        detectors: D,
     ) -> Self {
         encoders.iter_mut().for_each(As5047p::start);
         Self {
@@ -115,6 +118,7 @@ where
             brake,
             gains,
             controller,
+            detectors,
             counter: TickCounter::new(),
             frame: None,
         }
@@ -151,11 +155,13 @@ where
     ) -> (Telemetry<V>, [C; 6]) {
         measured::<{ region::TICK }, _>(|| {
             let (encoders, controller) = (&mut self.encoders, &mut self.controller);
-            let frame = &mut self.frame;
+            let (frame, detectors) = (&mut self.frame, &mut self.detectors);
             let start = timer();
-            let tick = measured::<{ region::READ }, _>(|| read(encoders, frame, controller));
+            let tick =
+                measured::<{ region::READ }, _>(|| read(encoders, frame, controller, detectors));
             let read = timer();
-            let mut tick = measured::<{ region::REFERENCE }, _>(|| follow(tick, trajectory));
+            let mut tick =
+                measured::<{ region::REFERENCE }, _>(|| follow(tick, trajectory, detectors));
             let followed = timer();
             if !L::ACCELERATES {
                 tick = tick.without_inertia();
@@ -165,7 +171,13 @@ where
                 torque::<L, X, V>(&self.gains, tick.reference(), tick.estimate(), environment)
             });
             let computed = timer();
-            let command = measured::<{ region::SAFETY }, _>(|| tick.command(&torque));
+            let (command, found) = measured::<{ region::SAFETY }, _>(|| {
+                let command = tick.command(&torque);
+                (command, detectors.commanded(&command))
+            });
+            if let Err(fault) = found {
+                self.controller.react(fault);
+            }
             let limited = timer();
             measured::<{ region::WRITE }, _>(|| self.write(&command.torque, command.brake));
             let telemetry = Telemetry {
@@ -194,6 +206,7 @@ where
         let tick = self.counter.begin(timer());
         if tick.missed() > 0 {
             self.controller.missed(tick.missed(), trajectory);
+            self.detectors.restart();
         }
         let telemetry = self.tick::<L, T, X>(trajectory, environment);
         let completed = tick.end(timer(), &telemetry.status);
@@ -212,6 +225,7 @@ where
     /// # Errors
     /// [`ResetError`]; the controller is then unchanged.
     pub fn reset<T: Reference<f32, V>>(&mut self, trajectory: &T) -> Result<(), ResetError> {
+        self.detectors.restart();
         self.controller.reset(trajectory)
     }
 
@@ -241,10 +255,11 @@ where
 
 /// Reads the encoders and starts the controller's tick.
 #[inline(never)]
-fn read<'a, Spi: SpiDevice, const V: usize>(
+fn read<'a, Spi: SpiDevice, D: Detect<f32, V>, const V: usize>(
     encoders: &mut [As5047p<Spi>; V],
     frame: &mut Option<FrameError>,
     controller: &'a mut MotionController<f32, V>,
+    detectors: &mut D,
 ) -> ObservedTick<'a, f32, V> {
     let (mut bad, mut joint) = (None, 0);
     let q = encoders.each_mut().map(|encoder| {
@@ -256,17 +271,25 @@ fn read<'a, Spi: SpiDevice, const V: usize>(
         angle.unwrap_or(0.0)
     });
     *frame = bad.map(|(_, error)| error);
-    let fault = bad.map(|(joint, _)| Fault::Encoder { joint });
-    controller.observe(fault.map_or(Ok(&q), Err))
+    let measured = match bad {
+        Some((joint, _)) => Err(Fault::Encoder { joint }),
+        None => detectors.measured(&q, &controller.reference().q),
+    };
+    controller.observe(measured.map(|()| &q))
 }
 
 /// The reference of the joints.
 #[inline(never)]
-fn follow<'a, T: Reference<f32, V>, const V: usize>(
+fn follow<'a, T: Reference<f32, V>, D: Detect<f32, V>, const V: usize>(
     tick: ObservedTick<'a, f32, V>,
     trajectory: &T,
+    detectors: &mut D,
 ) -> ReferencedTick<'a, f32, V> {
-    tick.reference(trajectory)
+    let mut tick = tick.reference(trajectory);
+    if let Err(fault) = detectors.referenced(tick.reference(), tick.mode()) {
+        tick.stop_by(fault, StopCategory::ControlledOff);
+    }
+    tick
 }
 
 /// The law's command, in a function of its own.

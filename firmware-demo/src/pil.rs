@@ -6,7 +6,7 @@ use telemetry::Tick;
 use telemetry::pil::{Commanded, Measured};
 
 use crate::control_loop::Telemetry;
-use crate::scene::{Full, Scene, SimBrake, SimLoop, Start, StartError, control_loop};
+use crate::scene::{Full, Scene, SimLoop, StartError, simulated_loop};
 use crate::sim_io::Wires;
 
 /// A scene's control loop on wires whose other ends are elsewhere.
@@ -34,7 +34,8 @@ where
     pub fn new(wires: &'static Wires<N>) -> Result<Self, StartError> {
         let reference = S::reference().map_err(StartError::Trajectory)?;
         Ok(Self {
-            control: start::<S, B, Q, V, N>(&reference, wires).map_err(StartError::Drive)?,
+            control: simulated_loop::<S, _, B, Q, V, N>(&reference, wires, ())
+                .map_err(StartError::Drive)?,
             reference,
             wires,
             last: Commanded::default(),
@@ -49,7 +50,10 @@ where
         }
         self.wires.answer(&measured.answers);
         // It started before: the limits are the same.
-        if let (0, Ok(control)) = (number, start::<S, B, Q, V, N>(&self.reference, self.wires)) {
+        if let (0, Ok(control)) = (
+            number,
+            simulated_loop::<S, _, B, Q, V, N>(&self.reference, self.wires, ()),
+        ) {
             self.control = control;
         }
         let environment = S::environment(&self.reference, number as f32);
@@ -62,21 +66,6 @@ where
         };
         &self.last
     }
-}
-
-/// The loop on its wires, for an arm at rest where its encoders are.
-fn start<S, const B: usize, const Q: usize, const V: usize, const N: usize>(
-    reference: &S::Reference,
-    wires: &'static Wires<N>,
-) -> Result<SimLoop<N>, DriveError>
-where
-    S: Scene<B, Q, V, N>,
-{
-    let encoders = core::array::from_fn(|joint| wires.encoder(joint));
-    let drives = core::array::from_fn(|joint| wires.drive(joint));
-    let gains = S::gains(&S::environment(reference, 0.0));
-    let start = Start::OnTrajectory;
-    control_loop::<S, _, _, _, B, Q, V, N>(encoders, drives, SimBrake, gains, start)
 }
 
 /// What the controller knows of a tick.

@@ -3,14 +3,13 @@
 //!
 //! Nothing here depends on a processor: `cores` runs it on the cores of QEMU, and firmware of a board can do so too.
 
-use core::array::from_fn;
 use core::fmt;
 
 use dynamics_core::control::{Mode, Reference, Status};
 
 use crate::control_loop::Telemetry;
 use crate::digest::Digest;
-use crate::scene::{Full, Scene, SimBrake, SimLoop, Start, StartError, control_loop};
+use crate::scene::{Full, Scene, SimLoop, StartError, simulated_loop};
 use crate::sim_io::Wires;
 
 /// The control loop of a scene on wires whose encoders follow the reference exactly.
@@ -68,13 +67,8 @@ where
     pub fn new(wires: &'static Wires<N>) -> Result<Self, StartError> {
         let reference = S::reference().map_err(StartError::Trajectory)?;
         wires.publish(&reference.at(0).q);
-        let encoders = from_fn(|j| wires.encoder(j));
-        let drives = from_fn(|j| wires.drive(j));
-        let gains = S::gains(&S::environment(&reference, 0.0));
-        let start = Start::OnTrajectory;
         let control =
-            control_loop::<S, _, _, _, B, Q, V, N>(encoders, drives, SimBrake, gains, start)
-                .map_err(StartError::Drive)?;
+            simulated_loop::<S, _, B, Q, V, N>(&reference, wires, ()).map_err(StartError::Drive)?;
         Ok(Self {
             reference,
             wires,

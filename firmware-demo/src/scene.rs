@@ -3,13 +3,19 @@
 
 use dynamics_core::Core;
 use dynamics_core::control::{
-    Gains, MotionLimits, Reference, Trajectory, TrajectoryError, WayPoint,
+    Detect, Detectors, FrozenEncoder, Gains, MotionLimits, Reference, ReferenceStep, Saturation,
+    Trajectory, TrajectoryError, WayPoint,
 };
 use dynamics_core::effects::Effect;
 use dynamics_core::model::{Calibrated, JointLimits, Robot, model};
 use dynamics_core::state::State;
+use embedded_hal::digital::OutputPin;
+use embedded_hal::pwm::SetDutyCycle;
+use embedded_hal::spi::SpiDevice;
 use joint_drivers::as5047p::RESOLUTION;
+use joint_drivers::h_bridge::DriveError;
 
+use crate::control_loop::ControlLoop;
 use crate::plant::{Plant, Simulated, last};
 
 mod ablation;
@@ -21,11 +27,12 @@ mod noise;
 mod run;
 
 pub use ablation::{Current, CurrentWithout, Effects, Named, Without, name};
-pub use app::{App, QUEUE, Record, STEPS, SimBrake, SimLoop, StartError};
+pub use app::{App, QUEUE, Record, STEPS, SimBrake, SimLoop, StartError, devices, simulated_loop};
 #[cfg(feature = "telemetry")]
 pub(crate) use app::{SETTLE, start};
 pub use errors::{Errors, larger};
-pub use firmware::{HOLD, OMEGA_N, REENTRY, RIDE, Start, TICK, ZETA, control_loop};
+use firmware::SATURATED;
+pub use firmware::{Devices, HOLD, OMEGA_N, REENTRY, RIDE, Start, TICK, ZETA};
 pub use noise::Noise;
 pub use run::{Full, Less, Name, PdOnly, PlantModel, Run};
 
@@ -108,19 +115,14 @@ pub trait Scene<const B: usize, const Q: usize, const V: usize, const N: usize>:
     fn plant(noise: Option<&mut Noise>) -> Self::Plant;
 
     /// The driven joints' limits.
+    #[inline(never)]
     fn limits() -> [JointLimits<f32>; N] {
-        let model = model::<f32, Self::Robot, B, Q, V>();
-        let mut limits = [model.links[0].limits; V];
-        for link in &model.links {
-            if let Some(limit) = limits.get_mut(link.idx_v) {
-                *limit = link.limits;
-            }
-        }
-        let mut driven = [model.links[0].limits; N];
-        for (to, &from) in driven.iter_mut().rev().zip(limits.iter().rev()) {
-            *to = from;
-        }
-        driven
+        let links = &model::<f32, Self::Robot, B, Q, V>().links;
+        core::array::from_fn(|joint| {
+            // The last, since a body without a joint has the index of the next joint.
+            let link = links.iter().rfind(|link| link.idx_v == V - N + joint);
+            link.unwrap_or(&links[0]).limits
+        })
     }
 
     /// The inertia that each driven joint's gains are for, kg·m² or kg: M's diagonal.
@@ -133,6 +135,31 @@ pub trait Scene<const B: usize, const Q: usize, const V: usize, const N: usize>:
     /// The gains of the feedback on that inertia.
     fn gains(environment: &Self::Environment) -> Gains<f32, N> {
         Gains::from_inertia(&Self::inertia(environment), OMEGA_N, ZETA)
+    }
+
+    /// Detectors beside the supervisor, for a loop that is to have them: ten steps of an encoder without a change of its
+    /// position, twice the speed limit from one reference to the next, torques at their limits for 50 ticks.
+    fn detectors() -> Detectors<f32, N> {
+        let limits = Self::limits();
+        Detectors {
+            frozen: FrozenEncoder::new([10.0 * Self::RESOLUTION; N], 3),
+            steps: ReferenceStep::new(limits.map(|limit| 2.0 * limit.velocity * Self::TICK)),
+            saturation: Saturation::new(limits.map(|limit| limit.torque), SATURATED),
+        }
+    }
+
+    /// The loop on some devices, with the gains of [`Scene::gains`], and [`Scene::detectors`] or `()`. Encoders and drives
+    /// have the joints' own zero and direction.
+    ///
+    /// # Errors
+    /// [`DriveError::FullScale`]: a torque limit of the scene is not above zero.
+    fn control_loop<Spi: SpiDevice, Pwm: SetDutyCycle, Brake: OutputPin, D: Detect<f32, N>>(
+        devices: Devices<Spi, Pwm, Brake, N>,
+        gains: Gains<f32, N>,
+        detectors: D,
+        start: Start,
+    ) -> Result<ControlLoop<Spi, Pwm, Brake, N, D>, DriveError> {
+        firmware::control_loop::<Self, _, _, _, _, B, Q, V, N>(devices, gains, detectors, start)
     }
 }
 

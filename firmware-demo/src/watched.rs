@@ -2,9 +2,10 @@
 
 use core::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
-use dynamics_core::control::{Mode, Reference};
+use dynamics_core::control::{Detectors, Mode, Reference};
 use dynamics_core::model::{JointKind, model};
 use heapless::{String, Vec};
+use joint_drivers::h_bridge::DriveError;
 use telemetry::{Axis, Joint, Machine, PHASES, Producer, Sample};
 
 use crate::control_loop::{Telemetry, region};
@@ -40,7 +41,7 @@ pub struct Watched<
     reference: S::Reference,
     wires: &'static Wires<N>,
     rig: Rig<S::Plant, N>,
-    control: SimLoop<N>,
+    control: SimLoop<N, Detectors<f32, N>>,
     records: Producer<'static, N>,
     elapsed: &'static AtomicU32,
     options: Options,
@@ -67,8 +68,8 @@ where
         (timer, period): (fn() -> u32, u32),
     ) -> Result<Self, StartError> {
         let reference = S::reference().map_err(StartError::Trajectory)?;
-        let (rig, control) = start::<S, B, Q, V, N>(&reference, wires, PlantModel::Exact)
-            .map_err(StartError::Drive)?;
+        let (rig, control) =
+            at_start::<S, B, Q, V, N>(&reference, wires).map_err(StartError::Drive)?;
         Ok(Self {
             reference,
             wires,
@@ -113,8 +114,7 @@ where
 
     /// Puts robot and loop back to the start of the trajectory. They started before: the limits are the same.
     fn restart(&mut self) {
-        if let Ok(started) = start::<S, B, Q, V, N>(&self.reference, self.wires, PlantModel::Exact)
-        {
+        if let Ok(started) = at_start::<S, B, Q, V, N>(&self.reference, self.wires) {
             (self.rig, self.control) = started;
         }
     }
@@ -140,6 +140,18 @@ where
             self.stopped = 0;
         }
     }
+}
+
+/// The robot and the loop with its detectors at the start of the trajectory.
+#[expect(clippy::type_complexity, reason = "a pair that is taken apart at once")]
+fn at_start<S, const B: usize, const Q: usize, const V: usize, const N: usize>(
+    reference: &S::Reference,
+    wires: &'static Wires<N>,
+) -> Result<(Rig<S::Plant, N>, SimLoop<N, Detectors<f32, N>>), DriveError>
+where
+    S: Scene<B, Q, V, N>,
+{
+    start::<S, _, B, Q, V, N>(reference, wires, PlantModel::Exact, S::detectors())
 }
 
 /// The record of a tick, its costs from the counts of a timer that counts down.

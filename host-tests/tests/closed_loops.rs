@@ -11,7 +11,7 @@ use dynamics_core::{Core, Engine};
 use firmware_demo::plant::{ClusterPlant, Simulated};
 use firmware_demo::robots::{G1Ankle, PickDelta};
 use firmware_demo::scene::clustered::MotorReference;
-use firmware_demo::scene::{Full, Scene, SimBrake, SimLoop, Start, TICK, control_loop};
+use firmware_demo::scene::{Full, Scene, Start, TICK, devices};
 use firmware_demo::scenes::delta_pick::Picking;
 use firmware_demo::scenes::parallel_ankle::AnkleSteps;
 use firmware_demo::sim_io::Wires;
@@ -180,13 +180,9 @@ fn a_reference_that_does_not_close_is_a_fault_and_no_torque() {
     let wires: &'static Wires<3> = Box::leak(Box::new(Wires::new()));
     let reference = MotorReference::<G1Ankle, Torn, 9, 9>::new(Torn);
     wires.publish(&reference.at(0).q);
-    let encoders = core::array::from_fn(|j| wires.encoder(j));
-    let drives = core::array::from_fn(|j| wires.drive(j));
     let gains = AnkleSteps::gains(&Torn.at(0));
-    let start = Start::OnTrajectory;
-    let mut control: SimLoop<3> =
-        control_loop::<AnkleSteps, _, _, _, 9, 9, 9, 3>(encoders, drives, SimBrake, gains, start)
-            .unwrap();
+    let mut control =
+        AnkleSteps::control_loop(devices(wires), gains, (), Start::OnTrajectory).unwrap();
     for tick in 0..60 {
         let telemetry = control.tick::<Full<AnkleSteps, 9, 9, 9>, _, _>(&reference, &Torn.at(tick));
         assert!(

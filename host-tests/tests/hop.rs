@@ -9,7 +9,7 @@ use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
 use firmware_demo::plant::Rig;
 use firmware_demo::robots::Leg;
-use firmware_demo::scene::{Full, STEPS, Scene, SimBrake, SimLoop, Start, TICK, control_loop};
+use firmware_demo::scene::{Full, STEPS, Scene, TICK, simulated_loop};
 use firmware_demo::scenes::leg_hop::{GROUND, Hopping};
 use firmware_demo::sim_io::Wires;
 use firmware_demo::trajectories::hop::{Hop, arc_cosine};
@@ -76,14 +76,8 @@ fn the_leg_flies_as_often_as_it_is_to_and_at_least_five_centimetres_high() {
     let (hop, _) = ways();
     let torque = Hopping::limits().map(|l| l.torque);
     let mut rig = Rig::new(Hopping::plant(None), torque, wires);
-    let encoders = core::array::from_fn(|j| wires.encoder(j));
-    let drives = core::array::from_fn(|j| wires.drive(j));
     let environment = |tick: u32| Hopping::environment(&hop, tick as f32);
-    let gains = Hopping::gains(&environment(0));
-    let start = Start::OnTrajectory;
-    let mut control: SimLoop<3> =
-        control_loop::<Hopping, _, _, _, 5, 4, 4, 3>(encoders, drives, SimBrake, gains, start)
-            .unwrap();
+    let mut control = simulated_loop::<Hopping, _, 5, 4, 4, 3>(&hop, wires, ()).unwrap();
     let mut flights = Vec::new();
     let mut off = Worst::default();
     for tick in 0..hop.ticks() + 20 {

@@ -8,7 +8,7 @@ use dynamics_core::robots::So101;
 use dynamics_core::state::State;
 use firmware_demo::control_loop::Law;
 use firmware_demo::plant::{Rig, ServoPlant, Simulated};
-use firmware_demo::scene::{Full, Noise, STEPS, Scene, SimBrake, Start, control_loop};
+use firmware_demo::scene::{Full, Noise, STEPS, Scene, simulated_loop};
 use firmware_demo::scenes::so101_teach::{
     COMPENSATION, Effects, GravityAndFriction, GravityOnly, LOAD, MAX_DUTY, PositionLoop, STALL,
     TaughtPath, with_back_emf,
@@ -28,13 +28,7 @@ fn error<L: Law<6>>(exact: bool) -> f64 {
     let wires: &'static Wires<6> = Box::leak(Box::default());
     let full_scale = TaughtPath::limits().map(|limit| limit.torque);
     let mut rig = Rig::new::<()>(plant(exact), full_scale, wires);
-    let encoders = std::array::from_fn(|j| wires.encoder(j));
-    let drives = std::array::from_fn(|j| wires.drive(j));
-    let gains = TaughtPath::gains(&());
-    let start = Start::OnTrajectory;
-    let mut control =
-        control_loop::<TaughtPath, _, _, _, 6, 6, 6, 6>(encoders, drives, SimBrake, gains, start)
-            .unwrap();
+    let mut control = simulated_loop::<TaughtPath, _, 6, 6, 6, 6>(&reference, wires, ()).unwrap();
     let ticks = reference.ticks() + 100;
     let mut sum = 0.0;
     for _ in 0..ticks {

@@ -7,8 +7,11 @@ use super::Fault;
 use crate::scalar::Real;
 use crate::state::State;
 
+mod detect;
 #[cfg(test)]
 mod tests;
+
+pub use detect::{Detect, Detectors};
 
 /// Detects encoders whose positions do not change while their references move.
 ///

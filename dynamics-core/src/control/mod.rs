@@ -80,7 +80,7 @@ pub use controller::{
     CurrentTick, MeasurementAge, MotionController, MotionControllerConfig, ObservedTick,
     PreviousTick, ReferencedTick, ResetError,
 };
-pub use detectors::{FrozenEncoder, ReferenceStep, Saturation};
+pub use detectors::{Detect, Detectors, FrozenEncoder, ReferenceStep, Saturation};
 pub use fault::Fault;
 pub use feedback::{Gains, feedback};
 pub use hold::hold;

@@ -24,7 +24,7 @@ use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
 use firmware_demo::marker::measured;
 use firmware_demo::plant::Rig;
-use firmware_demo::scene::{Full, STEPS, Scene, SimBrake, SimLoop, Start, TICK, control_loop};
+use firmware_demo::scene::{Full, STEPS, Scene, TICK, simulated_loop};
 use firmware_demo::scenes::ur5e::PickAndPlace;
 use firmware_demo::sim_io::Wires;
 use firmware_demo::target;
@@ -99,12 +99,7 @@ fn tick() {
     let Ok(reference) = PickAndPlace::reference() else {
         target::fail("the way needs more than the arm's limits");
     };
-    let encoders = from_fn(|j| WIRES.encoder(j));
-    let drives = from_fn(|j| WIRES.drive(j));
-    let gains = PickAndPlace::gains(&());
-    let start = Start::OnTrajectory;
-    let Ok(mut control): Result<SimLoop<6>, _> =
-        control_loop::<PickAndPlace, _, _, _, 6, 6, 6, 6>(encoders, drives, SimBrake, gains, start)
+    let Ok(mut control) = simulated_loop::<PickAndPlace, _, 6, 6, 6, 6>(&reference, &WIRES, ())
     else {
         target::fail("a drive has no full scale");
     };

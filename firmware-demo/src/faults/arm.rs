@@ -4,9 +4,9 @@ use core::fmt;
 use core::marker::PhantomData;
 
 use dynamics_core::control::{
-    Approach, ApproachError, BackOff, BackOffConfig, CurrentTick, Estimate, Fault, FrozenEncoder,
-    Gains, Mode, MotionController, MotionControllerConfig, MotionLimits, Reference, ReferenceStep,
-    Saturation, StopCategory, SupervisorConfig, Trajectory,
+    Approach, ApproachError, BackOff, BackOffConfig, CurrentTick, Detect, Detectors, Estimate,
+    Fault, FrozenEncoder, Gains, Mode, MotionController, MotionControllerConfig, MotionLimits,
+    Reference, ReferenceStep, Saturation, StopCategory, SupervisorConfig, Trajectory,
 };
 use dynamics_core::state::State;
 
@@ -170,15 +170,21 @@ pub fn controller<P: Plant<V>, const V: usize>(setup: Setup) -> Controller<V> {
     .with_stop(P::STOP)
 }
 
+fn detectors<P: Plant<V>, const V: usize>() -> Detectors<f32, V> {
+    Detectors {
+        frozen: FrozenEncoder::new([0.003; V], 3),
+        steps: ReferenceStep::new(P::LIMITS.speed.map(|speed| 2.0 * speed * TICK)),
+        saturation: Saturation::new(P::LIMITS.torque, 5),
+    }
+}
+
 pub(super) struct Arm<'a, P, const V: usize> {
     gains: Gains<f32, V>,
     pub state: State<f32, V, V>,
     pub controller: Controller<V>,
     path: Path<'a, V>,
     pub back_off: Option<BackOff<f32, V>>,
-    frozen: FrozenEncoder<f32, V>,
-    steps: ReferenceStep<f32, V>,
-    saturation: Saturation<f32, V>,
+    detectors: Detectors<f32, V>,
     pub torque: [f32; V],
     brake: bool,
     setup: Setup,
@@ -193,9 +199,7 @@ impl<'a, P: Plant<V>, const V: usize> Arm<'a, P, V> {
             controller: controller::<P, V>(setup),
             path: Path::Motion(motion),
             back_off: None,
-            frozen: FrozenEncoder::new([0.003; V], 3),
-            steps: ReferenceStep::new(P::LIMITS.speed.map(|speed| 2.0 * speed * TICK)),
-            saturation: Saturation::new(P::LIMITS.torque, 5),
+            detectors: detectors::<P, V>(),
             torque: [0.0; V],
             brake: false,
             setup,
@@ -282,11 +286,8 @@ impl<'a, P: Plant<V>, const V: usize> Arm<'a, P, V> {
             }
             tau
         };
-        if self.brake {
-            self.frozen.restart();
-        }
         let measured = measured
-            .and_then(|()| self.frozen.check(&q, &self.controller.reference().q))
+            .and_then(|()| (self.detectors).measured(&q, &self.controller.reference().q))
             .map(|()| &q);
         if let (Some(category), Some(_)) = (external, &self.back_off) {
             self.controller
@@ -301,9 +302,7 @@ impl<'a, P: Plant<V>, const V: usize> Arm<'a, P, V> {
         } else {
             let reference = Offset(&self.path, offset);
             let mut tick = self.controller.observe(measured).reference(&reference);
-            if tick.mode() != Mode::Full {
-                self.steps.restart();
-            } else if let Err(fault) = self.steps.check(tick.reference()) {
+            if let Err(fault) = (self.detectors).referenced(tick.reference(), tick.mode()) {
                 tick.stop_by(fault, StopCategory::ControlledOff);
             }
             if let Some(category) = external {
@@ -312,7 +311,7 @@ impl<'a, P: Plant<V>, const V: usize> Arm<'a, P, V> {
             let tau = law(tick.reference(), tick.estimate());
             tick.command(&tau)
         };
-        if let Err(fault) = self.saturation.check(&command.torque) {
+        if let Err(fault) = self.detectors.commanded(&command) {
             self.controller.react(fault);
         }
         let stopped = command.status.mode == Mode::Stopped;
@@ -340,6 +339,7 @@ impl<'a, P: Plant<V>, const V: usize> Arm<'a, P, V> {
     fn restart(&mut self) {
         self.controller = controller::<P, V>(self.setup);
         self.controller.react(Fault::Restarted);
+        self.detectors = detectors::<P, V>();
         self.back_off = None;
         (self.torque, self.brake) = ([0.0; V], true);
     }
@@ -369,7 +369,7 @@ impl<'a, P: Plant<V>, const V: usize> Arm<'a, P, V> {
             }
             Err(_) => return false,
         }
-        self.steps.restart();
+        self.detectors.restart();
         true
     }
 }

@@ -3,12 +3,12 @@
 use core::convert::Infallible;
 use core::fmt;
 
-use dynamics_core::control::{Reference, TrajectoryError};
+use dynamics_core::control::{Detect, Reference, TrajectoryError};
 use embedded_hal::digital::{self, OutputPin};
 use heapless::spsc::Producer;
 use joint_drivers::h_bridge::DriveError;
 
-use super::{Noise, PlantModel, Run, Scene, Start, control_loop};
+use super::{Devices, Noise, PlantModel, Run, Scene, Start};
 use crate::control_loop::{ControlLoop, Telemetry};
 use crate::plant::{Rig, Simulated};
 use crate::sim_io::{SimDrive, SimEncoder, Wires};
@@ -74,7 +74,18 @@ impl OutputPin for SimBrake {
 }
 
 /// The firmware on simulated devices.
-pub type SimLoop<const N: usize> = ControlLoop<SimEncoder, SimDrive, SimBrake, N>;
+pub type SimLoop<const N: usize, D = ()> = ControlLoop<SimEncoder, SimDrive, SimBrake, N, D>;
+
+/// The simulated devices on some wires.
+pub fn devices<const N: usize>(
+    wires: &'static Wires<N>,
+) -> Devices<SimEncoder, SimDrive, SimBrake, N> {
+    Devices {
+        encoders: core::array::from_fn(|joint| wires.encoder(joint)),
+        drives: core::array::from_fn(|joint| wires.drive(joint)),
+        brake: SimBrake,
+    }
+}
 
 /// The scene at work: what the interrupt calls.
 pub struct App<S: Scene<B, Q, V, N>, const B: usize, const Q: usize, const V: usize, const N: usize>
@@ -103,7 +114,7 @@ where
         records: Producer<'static, Record<N>>,
     ) -> Result<Self, StartError> {
         let reference = S::reference().map_err(StartError::Trajectory)?;
-        let (rig, control) = start::<S, B, Q, V, N>(&reference, wires, PlantModel::Exact)
+        let (rig, control) = start::<S, _, B, Q, V, N>(&reference, wires, PlantModel::Exact, ())
             .map_err(StartError::Drive)?;
         Ok(Self {
             reference,
@@ -162,7 +173,7 @@ where
             let next = Self::runs()
                 .nth(self.run)
                 .map_or(PlantModel::Exact, |r| r.plant);
-            match start::<S, B, Q, V, N>(&self.reference, self.wires, next) {
+            match start::<S, _, B, Q, V, N>(&self.reference, self.wires, next, ()) {
                 Ok(started) => (self.rig, self.control) = started,
                 Err(_) => self.broken = true,
             }
@@ -170,23 +181,38 @@ where
     }
 }
 
+/// The loop of a scene on its wires, for an arm at rest where its encoders are.
+///
+/// # Errors
+/// As [`Scene::control_loop`].
+pub fn simulated_loop<S, D, const B: usize, const Q: usize, const V: usize, const N: usize>(
+    reference: &S::Reference,
+    wires: &'static Wires<N>,
+    detectors: D,
+) -> Result<SimLoop<N, D>, DriveError>
+where
+    S: Scene<B, Q, V, N>,
+    D: Detect<f32, N>,
+{
+    let gains = S::gains(&S::environment(reference, 0.0));
+    S::control_loop(devices(wires), gains, detectors, Start::OnTrajectory)
+}
+
 /// A plant at rest at the start of the trajectory, and a loop whose observer starts there.
-pub(crate) fn start<S, const B: usize, const Q: usize, const V: usize, const N: usize>(
+pub(crate) fn start<S, D, const B: usize, const Q: usize, const V: usize, const N: usize>(
     reference: &S::Reference,
     wires: &'static Wires<N>,
     truth: PlantModel,
-) -> Result<(Rig<S::Plant, N>, SimLoop<N>), DriveError>
+    detectors: D,
+) -> Result<(Rig<S::Plant, N>, SimLoop<N, D>), DriveError>
 where
     S: Scene<B, Q, V, N>,
+    D: Detect<f32, N>,
 {
     let mut noise = Noise::seeded();
     let noise = (truth == PlantModel::Mismatched).then_some(&mut noise);
     let torque = S::limits().map(|l| l.torque);
     let rig = Rig::new(S::plant(noise), torque, wires);
-    let encoders = core::array::from_fn(|j| wires.encoder(j));
-    let drives = core::array::from_fn(|j| wires.drive(j));
-    let gains = S::gains(&S::environment(reference, 0.0));
-    let start = Start::OnTrajectory;
-    let control = control_loop::<S, _, _, _, B, Q, V, N>(encoders, drives, SimBrake, gains, start)?;
+    let control = simulated_loop::<S, D, B, Q, V, N>(reference, wires, detectors)?;
     Ok((rig, control))
 }

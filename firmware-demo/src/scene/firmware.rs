@@ -1,7 +1,7 @@
 //! What a scene's data sheet makes of the control loop, whatever its devices are.
 
 use dynamics_core::control::{
-    Gains, MotionController, MotionControllerConfig, SafetyLimits, SupervisorConfig,
+    Detect, Gains, MotionController, MotionControllerConfig, SafetyLimits, SupervisorConfig,
 };
 use embedded_hal::digital::OutputPin;
 use embedded_hal::pwm::SetDutyCycle;
@@ -27,6 +27,8 @@ pub const RIDE: u32 = 5;
 pub const HOLD: u32 = 100;
 /// Ticks of the return to the trajectory after a fault.
 pub const REENTRY: u32 = 200;
+/// Ticks that a torque may be at its limit, for those who detect it.
+pub(super) const SATURATED: u32 = 50;
 /// How far a joint may be from its reference for a restart, rad or m.
 pub const NEAR: f32 = 0.15;
 
@@ -39,33 +41,46 @@ pub enum Start {
     OnBrake,
 }
 
-/// The loop on these devices, with the scene's gains ([`Scene::gains`]). Encoders and drives have the joints' own zero and
-/// direction.
-///
-/// # Errors
-/// [`DriveError::FullScale`]: a torque limit of the scene is not above zero.
-pub fn control_loop<
+/// The devices of a control loop.
+#[derive(Debug)]
+pub struct Devices<Spi, Pwm, Brake, const N: usize> {
+    /// The encoders of the joints.
+    pub encoders: [Spi; N],
+    /// The drives of the joints.
+    pub drives: [Pwm; N],
+    /// The brake; high holds.
+    pub brake: Brake,
+}
+
+/// The loop of a scene: [`Scene::control_loop`].
+pub(super) fn control_loop<
     S,
     Spi,
     Pwm,
     Brake,
+    D,
     const B: usize,
     const Q: usize,
     const V: usize,
     const N: usize,
 >(
-    encoders: [Spi; N],
-    drives: [Pwm; N],
-    brake: Brake,
+    devices: Devices<Spi, Pwm, Brake, N>,
     gains: Gains<f32, N>,
+    detectors: D,
     start: Start,
-) -> Result<ControlLoop<Spi, Pwm, Brake, N>, DriveError>
+) -> Result<ControlLoop<Spi, Pwm, Brake, N, D>, DriveError>
 where
     S: Scene<B, Q, V, N>,
     Spi: SpiDevice,
     Pwm: SetDutyCycle,
     Brake: OutputPin,
+    D: Detect<f32, N>,
 {
+    let Devices {
+        encoders,
+        drives,
+        brake,
+    } = devices;
     let limits = S::limits();
     let scales = FullScale::of(limits.map(|limit| limit.torque))?;
     let mut joint = 0;
@@ -93,5 +108,7 @@ where
         Start::OnBrake => controller.on_brake(),
     };
     let encoders = encoders.map(|spi| As5047p::new(spi, JointMapping::IDENTITY));
-    Ok(ControlLoop::new(encoders, drives, brake, gains, controller))
+    Ok(ControlLoop::new(
+        encoders, drives, brake, gains, controller, detectors,
+    ))
 }

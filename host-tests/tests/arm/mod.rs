@@ -14,7 +14,7 @@ use embedded_hal::pwm::{self, SetDutyCycle};
 use embedded_hal::spi::{self, Operation, SpiDevice};
 use firmware_demo::control_loop::{ControlLoop, Law, Telemetry};
 use firmware_demo::plant::{Plant, Rig};
-use firmware_demo::scene::{Full, STEPS, Scene, Start, TICK, control_loop};
+use firmware_demo::scene::{Devices, Full, STEPS, Scene, Start, TICK};
 pub use firmware_demo::scene::{HOLD, REENTRY, RIDE};
 use firmware_demo::scenes::ur5e::{Effects, PickAndPlace};
 use firmware_demo::sim_io::{MAX_DUTY, SimDrive, SimEncoder, Wires};
@@ -153,11 +153,14 @@ impl Arm {
         let encoders = core::array::from_fn(|j| Spi(wires.encoder(j), bent[j].clone()));
         let drives = core::array::from_fn(|j| Pwm(wires.drive(j), bent[j].clone()));
         Self {
-            control: control_loop::<PickAndPlace, _, _, _, 6, 6, 6, 6>(
-                encoders,
-                drives,
-                brake.clone(),
+            control: PickAndPlace::control_loop(
+                Devices {
+                    encoders,
+                    drives,
+                    brake: brake.clone(),
+                },
                 PickAndPlace::gains(&()),
+                (),
                 Start::OnTrajectory,
             )
             .unwrap(),

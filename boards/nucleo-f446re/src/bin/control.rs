@@ -24,19 +24,23 @@ use panic_halt as _;
 mod app {
     use core::convert::Infallible;
 
-    use dynamics_core::control::{CompletedTick, Gains, Mode, Watchdog};
+    use dynamics_core::control::{CompletedTick, Detectors, Gains, Mode, Watchdog};
     use embedded_hal_bus::spi::AtomicDevice;
     use embedded_hal_bus::util::AtomicCell;
     use firmware_demo::control_loop::ControlLoop;
-    use firmware_demo::scene::{Full, Scene, Start, control_loop};
+    use firmware_demo::scene::{Devices, Full, Scene, Start};
     use firmware_demo::scenes::ur5e::{PickAndPlace, plan};
     use nucleo_f446re::clocks;
-    use stm32f4xx_hal::gpio::{AnyPin, Input, Output, PA5, PB12, PC13};
+    use stm32f4xx_hal::gpio::{
+        AnyPin, Input, Output, PA5, PA8, PA9, PA10, PA11, PB0, PB1, PB12, PC0, PC1, PC2, PC3, PC6,
+        PC7, PC13,
+    };
     use stm32f4xx_hal::hal::delay::DelayNs;
     use stm32f4xx_hal::hal::pwm::{ErrorType, SetDutyCycle};
     use stm32f4xx_hal::hal::spi::MODE_1;
     use stm32f4xx_hal::pac::{SPI1, TIM1, TIM2, TIM8};
     use stm32f4xx_hal::prelude::*;
+    use stm32f4xx_hal::rcc::Rcc;
     use stm32f4xx_hal::spi::Spi;
     use stm32f4xx_hal::timer::{CounterHz, Event, Flag, pwm::ErasedChannel};
     use stm32f4xx_hal::watchdog::IndependentWatchdog;
@@ -93,7 +97,8 @@ mod app {
     #[shared]
     struct Shared {}
 
-    type Control = ControlLoop<Encoder, Channel, PB12<Output>, 6>;
+    type Detect = &'static mut Detectors<f32, 6>;
+    type Control = ControlLoop<Encoder, Channel, PB12<Output>, 6, Detect>;
 
     #[local]
     struct Local {
@@ -106,23 +111,73 @@ mod app {
         light: PA5<Output>,
     }
 
-    /// The loop in its place. Not inlined, so that its copy is on the stack only here.
+    /// The encoders on their bus. Not inlined, as all that follows: start-up then needs the stack of one of them.
+    #[inline(never)]
+    fn encoders(
+        bus: &'static AtomicCell<Spi<SPI1>>,
+        (pc0, pc1, pc2, pc3, pb0, pb1): (PC0, PC1, PC2, PC3, PB0, PB1),
+    ) -> [Encoder; 6] {
+        let high = true.into();
+        let selects: [AnyPin<Output>; 6] = [
+            pc0.into_push_pull_output_in_state(high).erase(),
+            pc1.into_push_pull_output_in_state(high).erase(),
+            pc2.into_push_pull_output_in_state(high).erase(),
+            pc3.into_push_pull_output_in_state(high).erase(),
+            pb0.into_push_pull_output_in_state(high).erase(),
+            pb1.into_push_pull_output_in_state(high).erase(),
+        ];
+        selects.map(|select| {
+            let Ok(encoder) = AtomicDevice::new(bus, select, Spin);
+            encoder
+        })
+    }
+
+    /// The drives, without torque.
+    #[inline(never)]
+    fn drives(
+        (one, pa8, pa9, pa10, pa11): (TIM1, PA8, PA9, PA10, PA11),
+        (eight, pc6, pc7): (TIM8, PC6, PC7),
+        rcc: &mut Rcc,
+    ) -> [Channel; 6] {
+        let (_, (first, second, third, fourth)) = one.pwm_hz(20.kHz(), rcc);
+        let (_, (fifth, sixth, ..)) = eight.pwm_hz(20.kHz(), rcc);
+        let mut drives = [
+            Channel::One(first.with(pa8).erase()),
+            Channel::One(second.with(pa9).erase()),
+            Channel::One(third.with(pa10).erase()),
+            Channel::One(fourth.with(pa11).erase()),
+            Channel::Eight(fifth.with(pc6).erase()),
+            Channel::Eight(sixth.with(pc7).erase()),
+        ];
+        for drive in &mut drives {
+            let Ok(()) = drive.set_duty_cycle_percent(50);
+            match drive {
+                Channel::One(channel) => channel.enable(),
+                Channel::Eight(channel) => channel.enable(),
+            }
+        }
+        drives
+    }
+
+    /// The detectors in their place.
+    #[inline(never)]
+    fn place_detectors(place: &'static mut Option<Detectors<f32, 6>>) -> Detect {
+        place.insert(PickAndPlace::detectors())
+    }
+
+    /// The loop in its place.
     #[inline(never)]
     fn place_control(
         place: &mut Option<Control>,
-        encoders: [Encoder; 6],
-        drives: [Channel; 6],
-        brake: PB12<Output>,
+        devices: Devices<Encoder, Channel, PB12<Output>, 6>,
         gains: Gains<f32, 6>,
+        detectors: Detect,
     ) -> Option<&mut Control> {
-        let start = Start::OnBrake;
-        let control = control_loop::<PickAndPlace, _, _, _, 6, 6, 6, 6>(
-            encoders, drives, brake, gains, start,
-        );
+        let control = PickAndPlace::control_loop(devices, gains, detectors, Start::OnBrake);
         Some(place.insert(control.ok()?))
     }
 
-    /// The gains. Not inlined either: their inertia takes the largest part of the stack of start-up.
+    /// The gains.
     #[inline(never)]
     fn gains() -> Gains<f32, 6> {
         PickAndPlace::gains(&())
@@ -130,6 +185,7 @@ mod app {
 
     #[init(local = [
         bus: Option<AtomicCell<Spi<SPI1>>> = None,
+        memory: Option<Detectors<f32, 6>> = None,
         place: Option<Control> = None,
         path: Reference = Reference::REST,
     ])]
@@ -149,42 +205,18 @@ mod app {
         let pins = (Some(clock), Some(miso), Some(b.pb5));
         let spi = Spi::new(device.SPI1, pins, MODE_1, 10.MHz(), &mut rcc);
         let bus = cx.local.bus.insert(AtomicCell::new(spi));
-        let high = true.into();
-        let selects: [AnyPin<Output>; 6] = [
-            c.pc0.into_push_pull_output_in_state(high).erase(),
-            c.pc1.into_push_pull_output_in_state(high).erase(),
-            c.pc2.into_push_pull_output_in_state(high).erase(),
-            c.pc3.into_push_pull_output_in_state(high).erase(),
-            b.pb0.into_push_pull_output_in_state(high).erase(),
-            b.pb1.into_push_pull_output_in_state(high).erase(),
-        ];
-        let bus: &'static AtomicCell<Spi<SPI1>> = bus;
-        let encoders = selects.map(|select| {
-            let Ok(encoder) = AtomicDevice::new(bus, select, Spin);
-            encoder
-        });
-
-        let (_, (one, two, three, four)) = device.TIM1.pwm_hz(20.kHz(), &mut rcc);
-        let (_, (five, six, ..)) = device.TIM8.pwm_hz(20.kHz(), &mut rcc);
-        let mut drives = [
-            Channel::One(one.with(a.pa8).erase()),
-            Channel::One(two.with(a.pa9).erase()),
-            Channel::One(three.with(a.pa10).erase()),
-            Channel::One(four.with(a.pa11).erase()),
-            Channel::Eight(five.with(c.pc6).erase()),
-            Channel::Eight(six.with(c.pc7).erase()),
-        ];
-        for drive in &mut drives {
-            let Ok(()) = drive.set_duty_cycle_percent(50);
-            match drive {
-                Channel::One(channel) => channel.enable(),
-                Channel::Eight(channel) => channel.enable(),
-            }
-        }
-
+        let selects = (c.pc0, c.pc1, c.pc2, c.pc3, b.pb0, b.pb1);
+        let one = (device.TIM1, a.pa8, a.pa9, a.pa10, a.pa11);
+        let eight = (device.TIM8, c.pc6, c.pc7);
+        let devices = Devices {
+            encoders: encoders(bus, selects),
+            drives: drives(one, eight, &mut rcc),
+            brake,
+        };
         let gains = gains();
         let reference = cx.local.path;
-        let control = place_control(cx.local.place, encoders, drives, brake, gains);
+        let detectors = place_detectors(cx.local.memory);
+        let control = place_control(cx.local.place, devices, gains, detectors);
         let (Ok(()), Some(control)) = (plan(reference), control) else {
             // The brake is set, the drives have no torque, and the light stays off.
             loop {

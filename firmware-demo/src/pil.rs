@@ -1,7 +1,6 @@
 //! The controller of a scene without its robot: encoder frames in, duties out.
 
 use heapless::Vec;
-use joint_drivers::h_bridge::DriveError;
 use telemetry::Tick;
 use telemetry::pil::{Commanded, Measured};
 

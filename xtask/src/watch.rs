@@ -6,6 +6,8 @@ use std::process::{Command, ExitCode};
 use cycle_meter::Sample;
 use serde_json::Value;
 
+use crate::bars::{Bars, Compared};
+use crate::budgets;
 use crate::callgraph::Instruction;
 use crate::elf::Image;
 use crate::error::{Result, check, refuse_if};
@@ -25,7 +27,8 @@ const SCENES: [&str; 1] = ["ur5e"];
 const SERIAL: &str = "tcp:127.0.0.1:{port}";
 /// Ticks of the check.
 const TICKS: usize = 3000;
-/// The regions of `control_loop::region` behind those of the tick.
+/// Regions of `control_loop::region`: the tick, and those behind it.
+const TICK: u8 = 0;
 const RECORD: u8 = 6;
 const MASKED: u8 = 7;
 /// The longest stretch with interrupts masked, in instructions, and the most that a record takes: what the guide says.
@@ -130,7 +133,31 @@ pub fn check(workspace: &Workspace, tools: &Tools, plugin: &Path) -> Result<Stri
     every_tick_arrived(&shell::capture(&mut listener)?)?;
 
     masked_nowhere_else(&Image::read(&elf)?)?;
-    verdict(&meter::read(&out)?, &alone, &full)
+    let said = verdict(&meter::read(&out)?, &alone, &full)?;
+    let cycles = longest(&alone);
+    within_bar(cycles, &budgets::bars(workspace)?)?;
+    Ok(format!(
+        "{said}; with detectors and record a tick takes {cycles} cycles at most"
+    ))
+}
+
+/// The cycles of the longest tick with those of its record.
+fn longest(samples: &[Sample]) -> u64 {
+    let of = |region: u8| samples.iter().filter(move |sample| sample.region == region);
+    let sums = of(TICK)
+        .zip(of(RECORD))
+        .map(|(tick, record)| tick.cycles + record.cycles);
+    sums.max().unwrap_or(u64::MAX)
+}
+
+/// Fails if a tick with its detectors and its record takes longer than promised.
+fn within_bar(cycles: u64, bars: &Bars) -> Result<()> {
+    let name = format!("{} watched tick", SCENES[0]);
+    let compared = Compared::of(bars, &name, "cycles", cycles as f64);
+    match compared.and_then(|bar| bar.complaint()) {
+        Some(complaint) => Err(check!("bar: {complaint}")),
+        None => Ok(()),
+    }
 }
 
 /// Fails if a function masks interrupts that is neither the initialisation, the interrupt, nor the log.

@@ -21,7 +21,7 @@ pub use detect::{Detect, Detectors};
 /// use dynamics_core::control::{Fault, FrozenEncoder};
 /// let mut frozen = FrozenEncoder::new([0.01_f32], 3);
 /// for (tick, wanted) in [Ok(()), Ok(()), Ok(()), Err(Fault::Frozen { joint: 0 })].into_iter().enumerate() {
-///     assert_eq!(frozen.check(&[0.2], &[0.2 + 0.005 * tick as f32]), wanted);
+///     assert_eq!(frozen.check(&[0.2], &[0.2 + 0.006 * tick as f32]), wanted);
 /// }
 /// assert_eq!(frozen.check(&[0.2001], &[0.22]), Ok(())); // it moves again
 /// ```
@@ -33,7 +33,8 @@ pub struct FrozenEncoder<R, const V: usize> {
     /// The reference when the position last changed, and the ticks since then.
     origin: [R; V],
     unchanged: [u32; V],
-    started: bool,
+    /// Ticks since the start, up to two: no reference acted before the first.
+    ticks_measured: u8,
 }
 
 impl<R: Real, const V: usize> FrozenEncoder<R, V> {
@@ -46,7 +47,7 @@ impl<R: Real, const V: usize> FrozenEncoder<R, V> {
             last: [R::ZERO; V],
             origin: [R::ZERO; V],
             unchanged: [0; V],
-            started: false,
+            ticks_measured: 0,
         }
     }
 
@@ -57,6 +58,8 @@ impl<R: Real, const V: usize> FrozenEncoder<R, V> {
     /// [`Fault::Frozen`] names the first joint, in each tick until its position changes.
     pub fn check(&mut self, q: &[R; V], reference: &[R; V]) -> Result<(), Fault> {
         let mut frozen = None;
+        let (is_first, is_second) = (self.ticks_measured == 0, self.ticks_measured == 1);
+        self.ticks_measured = if is_first { 1 } else { 2 };
         let memory = self
             .last
             .iter_mut()
@@ -66,25 +69,27 @@ impl<R: Real, const V: usize> FrozenEncoder<R, V> {
         for (joint, (((last, origin), unchanged), ((&q, &r), &distance))) in
             memory.zip(inputs).enumerate()
         {
-            if !self.started | (q != *last) {
-                (*last, *origin, *unchanged) = (q, r, 0);
+            let is_same = !is_first & (q == *last);
+            *last = q;
+            *origin = if is_same & !is_second { *origin } else { r };
+            *unchanged = if is_same {
+                unchanged.saturating_add(1)
             } else {
-                *unchanged = unchanged.saturating_add(1);
-            }
+                0
+            };
             if (*unchanged >= self.ticks) & ((r - *origin).abs() > distance) {
                 frozen = frozen.or(Some(Fault::Frozen { joint }));
                 // Latched: the reference of a held arm may come back.
                 *origin = R::ONE / R::ZERO;
             }
         }
-        self.started = true;
         frozen.map_or(Ok(()), Err)
     }
 
     /// Forgets what was measured: in each tick with the brake set, since the reference of an arm that is started leaps to
     /// where it is.
     pub fn restart(&mut self) {
-        self.started = false;
+        self.ticks_measured = 0;
     }
 }
 
@@ -166,17 +171,42 @@ impl<R: Real, const V: usize> ReferenceStep<R, V> {
     /// # Errors
     /// [`Fault::Reference`] names the first joint.
     pub fn check(&mut self, reference: &State<R, V, V>) -> Result<(), Fault> {
-        let q = &reference.q;
+        let State { q, qd, qdd } = reference;
         let last = self.last.replace(*q).unwrap_or(*q);
-        let rates = reference.qd.iter().zip(&reference.qdd);
-        let joints = q.iter().zip(&last).zip(&self.step).zip(rates);
-        for (joint, (((&q, &last), &step), (qd, qdd))) in joints.enumerate() {
-            let near = (q - last).abs() <= step;
-            if !(near & q.is_finite() & qd.is_finite() & qdd.is_finite()) {
-                return Err(Fault::Reference { joint });
-            }
+        // One comparison for all joints: what exceeds its step or is not finite makes the sum exceed zero, or NaN.
+        let mut excess = R::ZERO;
+        for (((&q, &last), &step), (&qd, &qdd)) in (q.iter().zip(&last))
+            .zip(&self.step)
+            .zip(qd.iter().zip(qdd))
+        {
+            let beyond = (q - last).abs() - step;
+            excess += beyond + beyond.abs();
+            excess += R::ZERO * qd + R::ZERO * qdd;
         }
-        Ok(())
+        if excess <= R::ZERO {
+            return Ok(());
+        }
+        self.first_step(reference, &last)
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn first_step(&self, reference: &State<R, V, V>, last: &[R; V]) -> Result<(), Fault> {
+        let State { q, qd, qdd } = reference;
+        let steps = q.iter().zip(last).zip(&self.step);
+        let mut is_near =
+            steps.map(|((&q, &last), &step)| ((q - last).abs() <= step) & q.is_finite());
+        let mut rates = qd
+            .iter()
+            .zip(qdd)
+            .map(|(qd, qdd)| qd.is_finite() & qdd.is_finite());
+        let joints = core::iter::from_fn(|| Some(is_near.next()? & rates.next()?));
+        let joint = joints.take_while(|is_good| *is_good).count();
+        // Steps without a limit make the sum NaN as well.
+        if joint == V {
+            return Ok(());
+        }
+        Err(Fault::Reference { joint })
     }
 
     /// Forgets the last reference: after missed ticks, or at the start of another motion.

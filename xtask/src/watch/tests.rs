@@ -5,8 +5,10 @@ use cycle_meter::Sample;
 use crate::elf::{Function, Image, Sizes};
 
 use super::{
-    KEPT, LONGEST, MASKED, RECORD, TICKS, every_tick_arrived, masked_nowhere_else, verdict,
+    KEPT, LONGEST, MASKED, RECORD, TICKS, every_tick_arrived, longest, masked_nowhere_else,
+    verdict, within_bar,
 };
+use crate::bars::Bar;
 
 /// A run whose records take so many instructions.
 fn run(record: u64) -> Vec<Sample> {
@@ -40,6 +42,25 @@ fn the_guide_states_what_is_checked() {
         assert!(page.contains(&words), "{words}");
     }
     assert_eq!(TICKS, 3000);
+}
+
+#[test]
+fn a_tick_and_its_record_beyond_the_bar_fail() {
+    let cycles = longest(&run(300));
+    assert_eq!(cycles, 50 + 300);
+    let bar = |most| Bar {
+        most: [("cycles".into(), most)].into(),
+        missed: Vec::new(),
+    };
+    let verdict = |most| {
+        within_bar(
+            cycles,
+            &[("ur5e watched tick".to_owned(), bar(most))].into(),
+        )
+    };
+    assert!(verdict(350.0).is_ok());
+    let error = verdict(349.0).expect_err("one cycle more").to_string();
+    assert!(error.contains("watched tick"), "{error}");
 }
 
 #[test]

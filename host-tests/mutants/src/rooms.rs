@@ -29,8 +29,7 @@ pub const ROOMS: [Room; 15] = [
     room("control", 90, &["dynamics-core/src/control/"]),
     room("drivers", 50, &["drivers/src/"]),
     room("control loop and plant", 35, &[
-        "firmware-demo/src/control_loop.rs", "firmware-demo/src/drive.rs", "firmware-demo/src/encoder.rs",
-        "firmware-demo/src/plant", "firmware-demo/src/sim_io.rs",
+        "firmware-demo/src/control_loop.rs", "firmware-demo/src/plant", "firmware-demo/src/sim_io.rs",
     ]),
     room("budgets and bars", 30, &["xtask/src/budgets", "xtask/src/bars.rs"]),
     room("tolerances", 20, &["host-tests/src/tolerances.rs", "host-tests/src/measured.rs", "host-tests/src/hard/row.rs"]),

@@ -44,6 +44,7 @@ mod scene;
 mod scenes;
 mod setup;
 mod shell;
+mod silicon;
 mod system;
 mod table;
 mod test;
@@ -109,6 +110,8 @@ enum Command {
     Flexible,
     /// Measure other libraries and this one side by side, rewrite docs/peers.md: takes minutes
     Peers(peers::Args),
+    /// Measure code whose cycles others published from chips, rewrite docs/silicon.md
+    Silicon(silicon::Args),
     /// Time release builds with and without one specialised function, rewrite docs/build-time.md
     BuildTime(Json),
     /// Feed descriptions, files, dynamics, controller and encoder frames random bytes; CI does so for a moment
@@ -223,6 +226,7 @@ fn run(cli: Cli) -> Result<ExitCode> {
         Command::Flexible => flexible::run(),
         Command::HardCases(Json { json }) => hard_cases::run(json),
         Command::Peers(args) => peers::run(setup, &args),
+        Command::Silicon(args) => silicon::run(setup, &args),
         Command::BuildTime(Json { json }) => build_time::run(setup, json),
         Command::Fuzz { seconds } => endurance::fuzz(seconds),
         Command::Soak { ticks } => endurance::soak(ticks),

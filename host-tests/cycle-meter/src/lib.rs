@@ -78,6 +78,8 @@
 //! | addend of a multiply-accumulate from the previous instruction | 0 | 1 more | 1 more |
 //! | `SDIV`, `UDIV` | 2 | 12 | 12 |
 //!
+//! `docs/silicon.md` compares the three readings with cycles that others counted on chips.
+//!
 //! # What is not modelled
 //!
 //! Wait states of flash and their caches, contention on the buses (between literals and

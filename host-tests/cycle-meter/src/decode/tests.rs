@@ -172,6 +172,31 @@ fn wide_results_and_addresses_are_found() {
 }
 
 #[test]
+fn dsp_instructions_take_a_cycle_and_write_their_results() {
+    let cases = [
+        (0xFBE1, 0x0362, 1 | 1 << 3), // umaal r0, r3, r1, r2
+        (0xFB10, 0xF401, 1 << 4),     // smulbb r4, r0, r1
+        (0xFB10, 0x2511, 1 << 5),     // smlabt r5, r0, r1, r2
+        (0xFB20, 0x2611, 1 << 6),     // smladx r6, r0, r1, r2
+        (0xFB20, 0xF711, 1 << 7),     // smuadx r7, r0, r1
+        (0xEAC0, 0x4821, 1 << 8),     // pkhtb r8, r0, r1, asr #16
+        (0xFA90, 0xFA01, 1 << 10),    // sadd16 r10, r0, r1
+        (0xFA80, 0xFB41, 1 << 11),    // uadd8 r11, r0, r1
+        (0xFAA0, 0xFC81, 1 << 12),    // sel r12, r0, r1
+        (0xFA2F, 0xF081, 1),          // sxtb16 r0, r1
+        (0xFA50, 0xF281, 1 << 2),     // uxtab r2, r0, r1
+    ];
+    for (first, second, writes) in cases {
+        let expected = Insn::new(Class::Integer, 4).writing(writes);
+        assert_eq!(
+            decode(first, second),
+            expected,
+            "{first:#06x} {second:#06x}"
+        );
+    }
+}
+
+#[test]
 fn wide_branches_are_found() {
     let cases = [
         (0xF000, 0xF800), // bl

@@ -157,13 +157,19 @@ impl<R: Real, const V: usize> Saturation<R, V> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ReferenceStep<R, const V: usize> {
     step: [R; V],
-    last: Option<[R; V]>,
+    last: [R; V],
+    /// Whether there is a last one.
+    started: bool,
 }
 
 impl<R: Real, const V: usize> ReferenceStep<R, V> {
     /// A detector that reports references that move further than `step` (rad, m) in a tick.
     pub const fn new(step: [R; V]) -> Self {
-        Self { step, last: None }
+        Self {
+            step,
+            last: [R::ZERO; V],
+            started: false,
+        }
     }
 
     /// Compares a reference with the one before, and keeps it.
@@ -172,45 +178,41 @@ impl<R: Real, const V: usize> ReferenceStep<R, V> {
     /// [`Fault::Reference`] names the first joint.
     pub fn check(&mut self, reference: &State<R, V, V>) -> Result<(), Fault> {
         let State { q, qd, qdd } = reference;
-        let last = self.last.replace(*q).unwrap_or(*q);
         // One comparison for all joints: what exceeds its step or is not finite makes the sum exceed zero, or NaN.
         let mut excess = R::ZERO;
-        for (((&q, &last), &step), (&qd, &qdd)) in (q.iter().zip(&last))
-            .zip(&self.step)
-            .zip(qd.iter().zip(qdd))
-        {
+        let steps = q.iter().zip(&self.last).zip(&self.step);
+        for (((&q, &last), &step), (&qd, &qdd)) in steps.zip(qd.iter().zip(qdd)) {
+            let last = if self.started { last } else { q };
             let beyond = (q - last).abs() - step;
-            excess += beyond + beyond.abs();
-            excess += R::ZERO * qd + R::ZERO * qdd;
+            excess += beyond + beyond.abs() + R::ZERO * (qd + qdd);
         }
-        if excess <= R::ZERO {
-            return Ok(());
-        }
-        self.first_step(reference, &last)
+        let fault = if excess <= R::ZERO {
+            Ok(())
+        } else {
+            self.first_step(reference)
+        };
+        (self.last, self.started) = (*q, true);
+        fault
     }
 
     #[cold]
     #[inline(never)]
-    fn first_step(&self, reference: &State<R, V, V>, last: &[R; V]) -> Result<(), Fault> {
+    fn first_step(&self, reference: &State<R, V, V>) -> Result<(), Fault> {
         let State { q, qd, qdd } = reference;
-        let steps = q.iter().zip(last).zip(&self.step);
-        let mut is_near =
-            steps.map(|((&q, &last), &step)| ((q - last).abs() <= step) & q.is_finite());
-        let mut rates = qd
-            .iter()
-            .zip(qdd)
-            .map(|(qd, qdd)| qd.is_finite() & qdd.is_finite());
-        let joints = core::iter::from_fn(|| Some(is_near.next()? & rates.next()?));
-        let joint = joints.take_while(|is_good| *is_good).count();
-        // Steps without a limit make the sum NaN as well.
-        if joint == V {
-            return Ok(());
+        let rates = qd.iter().zip(qdd);
+        let joints = q.iter().zip(&self.last).zip(&self.step).zip(rates);
+        for (joint, (((&q, &last), &step), (qd, qdd))) in joints.enumerate() {
+            let is_near = !self.started | ((q - last).abs() <= step);
+            if !(is_near & q.is_finite() & qd.is_finite() & qdd.is_finite()) {
+                return Err(Fault::Reference { joint });
+            }
         }
-        Err(Fault::Reference { joint })
+        // Steps without a limit make the sum NaN as well.
+        Ok(())
     }
 
     /// Forgets the last reference: after missed ticks, or at the start of another motion.
     pub fn restart(&mut self) {
-        self.last = None;
+        self.started = false;
     }
 }

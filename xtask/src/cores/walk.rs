@@ -37,12 +37,20 @@ impl Walk {
         })
     }
 
-    /// From the function at an address of Thumb code that may compute in f64 and panic.
+    /// From the function at an address, which may compute in f64 and panic.
     ///
     /// # Errors
     /// As [`Self::of`], without those two.
     pub fn of_start(image: &Image, address: u64) -> Result<Self> {
-        Self::reached(image, false, address, |_| false)
+        Self::reached(image, !image.is_arm, address, |_| false)
+    }
+
+    /// From the function at an address, which may compute in f64.
+    ///
+    /// # Errors
+    /// As [`Self::of`], without that.
+    pub fn without_panic(image: &Image, address: u64) -> Result<Self> {
+        Self::reached(image, !image.is_arm, address, is_panic)
     }
 
     fn reached(
@@ -185,6 +193,17 @@ mod tests {
                 .expect_err(what)
                 .to_string();
             assert!(error.contains(what), "{error}");
+        }
+        for (name, is_refused) in [("__aeabi_d2f", false), ("_ZN4core9panicking5panicE", true)] {
+            let functions = [
+                ("tick", 0x1000, CALLER),
+                ("shallow", 0x1020, SHALLOW),
+                (name, 0x1040, DEEP),
+            ];
+            let image = image(&functions);
+            assert!(Walk::of_start(&image, 0x1000).is_ok());
+            let walk = Walk::without_panic(&image, 0x1000);
+            assert_eq!(walk.is_err(), is_refused, "{name}");
         }
         let error = Walk::of(&image(&[("tick", 0x1000, CALLER)]), false, 0x1000);
         assert!(

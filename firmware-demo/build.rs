@@ -1,4 +1,4 @@
-//! Puts the workspace's memory.x where the linker looks for it, and the oracle's recorded states and
+//! Puts the memory of the emulated board where the workspace's memory.x includes it, and the oracle's recorded states and
 //! torques (inputs only) where `bits` and `hard` include them.
 
 use std::fmt::Write;
@@ -10,9 +10,9 @@ const INPUTS: [&str; 4] = ["q", "qd", "qdd", "tau"];
 fn main() -> Result<(), Box<dyn Error>> {
     let out = PathBuf::from(env::var("OUT_DIR")?);
     if env::var_os("CARGO_FEATURE_NETDUINOPLUS2").is_some() {
-        fs::copy("../memory.x", out.join("memory.x"))?;
+        fs::copy("netduinoplus2.x", out.join("board.x"))?;
         println!("cargo:rustc-link-search={}", out.display());
-        println!("cargo:rerun-if-changed=../memory.x");
+        println!("cargo:rerun-if-changed=netduinoplus2.x");
     }
     // ARMv6-M has other hints than its successors; stable Rust has no `cfg` for it.
     println!("cargo:rustc-check-cfg=cfg(armv6m)");

@@ -63,9 +63,15 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
             }
         }
     }
+    let boards = boards::missing();
+    for target in &boards {
+        output::note(&format!(
+            "skipped: images of boards; they need\n    rustup target add {target}"
+        ));
+    }
     refuse_if!(
-        args.write_docs && cores.len() < CORES.len(),
-        "the page has every core, and some are missing here"
+        args.write_docs && (cores.len() < CORES.len() || !boards.is_empty()),
+        "the page has every core and every board, and some are missing here"
     );
     let report = Report::measure(&workspace, &cores)?;
     let text = report.markdown()?;
@@ -84,20 +90,25 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
 /// Also [`Error::Skipped`], if none of them can be run here.
 pub fn check(workspace: &Workspace, options: Options) -> Result<String> {
     let page = workspace::read(&workspace.root.join(PAGE.file))?;
-    if !PAGE.written(&page)?.contains("nucleo-f446re") {
+    if !PAGE.written(&page)?.contains("pico2-embassy") {
         return Err(Error::Skipped(format!(
             "{} is older than the images of boards: `{}`",
             PAGE.file, PAGE.command
         )));
     }
     let wanted: Vec<&Core> = CORES.iter().filter(|core| core.in_tests).collect();
-    let (targets, packages) = list::needed(&wanted);
+    let (mut targets, packages) = list::needed(&wanted);
+    targets.extend(boards::missing());
+    targets.sort_unstable();
+    targets.dedup();
     // What cannot be installed is skipped below, with what it lacks.
     let _ = setup::for_cores(options, &targets, &packages);
     let (cores, lacking): (Vec<&Core>, Vec<&Core>) =
         wanted.iter().partition(|core| core.missing().is_empty());
+    let boards = boards::missing();
+    let add = |target: &&str| format!("rustup target add {target}");
     let lacks = lacking.iter().flat_map(|core| core.missing());
-    let lacks: Vec<String> = lacks.collect();
+    let lacks: Vec<String> = lacks.chain(boards.iter().map(add)).collect();
     if cores.is_empty() {
         return Err(Error::Skipped(format!(
             "not installed: {}",
@@ -108,7 +119,10 @@ pub fn check(workspace: &Workspace, options: Options) -> Result<String> {
     let written = PAGE.written(&page)?;
     let fresh = report.markdown()?;
     let names: Vec<&str> = cores.iter().map(|core| core.name).collect();
-    let (written, fresh) = (rows_of(written, &names), rows_of(&fresh, &names));
+    let (written, fresh) = (
+        rows_of(written, &names, &boards),
+        rows_of(&fresh, &names, &boards),
+    );
     docs::compare(PAGE.file, PAGE.command, &written, &fresh, &report.rustc)?;
     if let Some(bracket) = report.readme() {
         README.check(workspace, &bracket, Some(&report.rustc))?;

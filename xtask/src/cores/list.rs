@@ -1,6 +1,6 @@
 //! The cores: which machine of QEMU has one, and how its firmware is built.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use toml::Value;
 
@@ -133,6 +133,14 @@ pub fn needed(cores: &[&Core]) -> (Vec<&'static str>, Vec<&'static str>) {
         targets.map(|core| core.target).collect(),
         packages.map(|(_, package)| package).collect(),
     )
+}
+
+/// The flag of the compiler that shortens paths of the registry, which the messages of panics name: flash would depend on
+/// who builds.
+pub fn without_home() -> Option<String> {
+    let home = std::env::var_os("CARGO_HOME").map(PathBuf::from);
+    let home = home.or_else(|| Some(std::env::home_dir()?.join(".cargo")))?;
+    Some(format!("--remap-path-prefix={}=cargo", home.display()))
 }
 
 /// The flags of the firmware's target.

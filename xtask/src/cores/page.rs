@@ -143,8 +143,12 @@ fn in_words(bracket: &Bracket, scene: &str) -> String {
     )
 }
 
-/// A page without the rows of other cores and without padding.
-pub fn rows_of(page: &str, names: &[&str]) -> String {
+/// A page without the rows of other cores, without those of boards whose target is missing, and without padding.
+pub fn rows_of(page: &str, names: &[&str], missing: &[&str]) -> String {
+    let is_missing = |line: &&str| {
+        let mut targets = missing.iter().map(|target| format!("`{target}`"));
+        line.starts_with("| `") && targets.any(|target| line.contains(&target))
+    };
     let is_other = |line: &&str| {
         let others = CORES.iter().filter(|core| !names.contains(&core.name));
         others
@@ -162,7 +166,7 @@ pub fn rows_of(page: &str, names: &[&str]) -> String {
         text + "\n"
     };
     page.lines()
-        .filter(|line| !is_other(line) && !line.starts_with("<!--"))
+        .filter(|line| !is_other(line) && !is_missing(line) && !line.starts_with("<!--"))
         .map(squeezed)
         .collect()
 }
@@ -189,8 +193,18 @@ mod tests {
         let fresh =
             "Words.\n\n| core       | code |\n| ---------- | ---: |\n| Cortex-M33 |    7 |\n";
         let names = ["Cortex-M33"];
-        assert_eq!(rows_of(page, &names), rows_of(fresh, &names));
+        assert_eq!(rows_of(page, &names, &[]), rows_of(fresh, &names, &[]));
         let other = fresh.replace('7', "8");
-        assert_ne!(rows_of(page, &names), rows_of(&other, &names));
+        assert_ne!(rows_of(page, &names, &[]), rows_of(&other, &names, &[]));
+    }
+
+    #[test]
+    fn a_page_is_compared_without_the_boards_whose_target_is_missing() {
+        let core = "| Cortex-M33 | `thumbv8m` | 7 |\n";
+        let page = format!("{core}| `pico2` | `thumbv8m` | 9 |\n| `pico2` | `riscv32` | 3 |\n");
+        let without = |missing: &[&str]| rows_of(&page, &["Cortex-M33"], missing);
+        assert_eq!(without(&[]), page);
+        assert_eq!(without(&["thumbv8m", "riscv32"]), core);
+        assert!(without(&["riscv32"]).ends_with("| 9 |\n"));
     }
 }

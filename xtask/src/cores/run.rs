@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use serde::Serialize;
 
-use super::list::{Core, Isa};
+use super::list::{self, Core, Isa};
 use super::walk::Walk;
 use crate::elf::Image;
 use crate::error::{Error, Result, check, refuse_if};
@@ -139,11 +139,7 @@ pub fn build(workspace: &Workspace, core: &Core) -> Result<PathBuf> {
     for script in [format!("machines/{}.x", core.machine), "link.x".into()] {
         flags.push(format!("-Clink-arg=-T{PACKAGE}/{script}"));
     }
-    // The messages of panics name files of the registry: flash would depend on who builds.
-    let home = std::env::var_os("CARGO_HOME").map(PathBuf::from);
-    if let Some(home) = home.or_else(|| Some(std::env::home_dir()?.join(".cargo"))) {
-        flags.push(format!("--remap-path-prefix={}=cargo", home.display()));
-    }
+    flags.extend(list::without_home());
     // Apart from other firmware of the same targets, whose flags differ.
     let target = workspace.target.join(PACKAGE);
     let mut command = workspace.cargo("build");

@@ -37,12 +37,12 @@ impl Walk {
         })
     }
 
-    /// From the function at an address of Thumb code that may compute in f64 and panic.
+    /// From the function at an address, which may compute in f64 and panic.
     ///
     /// # Errors
     /// As [`Self::of`], without those two.
     pub fn of_start(image: &Image, address: u64) -> Result<Self> {
-        Self::reached(image, false, address, |_| false)
+        Self::reached(image, !image.is_arm, address, |_| false)
     }
 
     fn reached(
@@ -185,6 +185,16 @@ mod tests {
                 .expect_err(what)
                 .to_string();
             assert!(error.contains(what), "{error}");
+        }
+        for name in ["__aeabi_d2f", "_ZN4core9panicking5panicE"] {
+            let functions = [
+                ("tick", 0x1000, CALLER),
+                ("shallow", 0x1020, SHALLOW),
+                (name, 0x1040, DEEP),
+            ];
+            let image = image(&functions);
+            assert!(Walk::of_start(&image, 0x1000).is_ok());
+            assert!(Walk::of(&image, false, 0x1000).is_err(), "{name}");
         }
         let error = Walk::of(&image(&[("tick", 0x1000, CALLER)]), false, 0x1000);
         assert!(

@@ -90,12 +90,6 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
 /// Also [`Error::Skipped`], if none of them can be run here.
 pub fn check(workspace: &Workspace, options: Options) -> Result<String> {
     let page = workspace::read(&workspace.root.join(PAGE.file))?;
-    if !PAGE.written(&page)?.contains("pico2-embassy") {
-        return Err(Error::Skipped(format!(
-            "{} is older than the images of boards: `{}`",
-            PAGE.file, PAGE.command
-        )));
-    }
     let wanted: Vec<&Core> = CORES.iter().filter(|core| core.in_tests).collect();
     let (mut targets, packages) = list::needed(&wanted);
     targets.extend(boards::missing());

@@ -68,12 +68,19 @@ impl<Bus: I2c> As5600<Bus> {
     }
 }
 
+/// The output of a future of mocks, which are ready at once.
+#[cfg(test)]
+pub(crate) fn ready<F: Future>(future: F) -> F::Output {
+    use core::task::{Context, Poll, Waker};
+    match core::pin::pin!(future).poll(&mut Context::from_waker(Waker::noop())) {
+        Poll::Ready(output) => output,
+        Poll::Pending => panic!("a mock is never pending"),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use core::f32::consts::FRAC_PI_2;
-    use core::future::Future;
-    use core::pin::pin;
-    use core::task::{Context, Poll, Waker};
     use std::vec;
     use std::vec::Vec;
 
@@ -82,14 +89,6 @@ mod tests {
     use super::*;
     use crate::JointMapping;
     use crate::as5047p::{ERROR, encode, with_parity};
-
-    /// The output of a future of the mocks, which are ready at once.
-    fn ready<F: Future>(future: F) -> F::Output {
-        match pin!(future).poll(&mut Context::from_waker(Waker::noop())) {
-            Poll::Ready(output) => output,
-            Poll::Pending => panic!("a mock is never pending"),
-        }
-    }
 
     fn transfers(frames: &[(u16, u16)]) -> spi::Mock<u8> {
         let of = |&(command, answer): &(u16, u16)| {

@@ -15,16 +15,20 @@
 
 use core::f32::consts::TAU;
 
-use embedded_io::{ErrorKind, Read, ReadReady, Write};
+use embedded_io::{Read, ReadReady, Write};
 
 use crate::JointMapping;
 
+#[cfg(any(test, feature = "async"))]
+mod asynch;
 mod error;
 mod packet;
+mod reply;
 
 pub use error::FeetechError;
 use error::port_error;
 pub use packet::{BROADCAST, Packet, Parser, Reply};
+use reply::{next_reply, parameters};
 
 /// Counts per turn.
 pub const COUNTS: u16 = 4096;
@@ -81,7 +85,7 @@ pub struct Servos<Port, const N: usize> {
     mappings: [JointMapping; N],
 }
 
-impl<Port: Read + Write + ReadReady, const N: usize> Servos<Port, N> {
+impl<Port, const N: usize> Servos<Port, N> {
     /// The servos `ids`, 0 to 253, each with the mapping from its 0 rad (count 0) to its joint.
     ///
     /// # Errors
@@ -110,28 +114,23 @@ impl<Port: Read + Write + ReadReady, const N: usize> Servos<Port, N> {
         self
     }
 
-    /// The positions of the joints in rad, in one exchange.
-    ///
-    /// # Errors
-    /// [`FeetechError`] of the first servo that did not reply as it should.
-    pub fn positions(&mut self) -> Result<[f32; N], FeetechError> {
-        self.send(&Packet::sync_read(&self.ids, PRESENT_POSITION, 2)?)?;
-        let mut positions = [0.0; N];
-        let mut parser = Parser::new();
-        for (joint, position) in positions.iter_mut().enumerate() {
-            let [low, high] = self.receive(self.ids[joint], &mut parser)?;
-            let counts = from_sign(u16::from_le_bytes([low, high]), POSITION_SIGN);
-            let shaft = f32::from(counts) * (TAU / f32::from(COUNTS));
-            *position = self.mappings[joint].joint_position(shaft);
-        }
-        Ok(positions)
+    /// The port.
+    pub fn release(self) -> Port {
+        self.port
     }
 
-    /// Sets the goal positions of the joints in rad, in one packet that no servo replies to.
-    ///
-    /// # Errors
-    /// [`FeetechError`]; nothing is sent after [`FeetechError::Goal`].
-    pub fn set_positions(&mut self, positions: &[f32; N]) -> Result<(), FeetechError> {
+    fn request(&self) -> Result<Packet, FeetechError> {
+        Packet::sync_read(&self.ids, PRESENT_POSITION, 2)
+    }
+
+    /// The position of a joint from the register of its servo, rad.
+    fn position(&self, joint: usize, register: [u8; 2]) -> f32 {
+        let counts = from_sign(u16::from_le_bytes(register), POSITION_SIGN);
+        let shaft = f32::from(counts) * (TAU / f32::from(COUNTS));
+        self.mappings[joint].joint_position(shaft)
+    }
+
+    fn goal_positions(&self, positions: &[f32; N]) -> Result<Packet, FeetechError> {
         let mut goals = [0; N];
         for (joint, goal) in goals.iter_mut().enumerate() {
             let shaft = self.mappings[joint].shaft_position(positions[joint]);
@@ -143,7 +142,47 @@ impl<Port: Read + Write + ReadReady, const N: usize> Servos<Port, N> {
                 _ => return Err(FeetechError::Goal { joint }),
             }
         }
-        self.set(GOAL_POSITION, goals)
+        self.goals(GOAL_POSITION, goals)
+    }
+
+    fn goal_duties(&self, duties: &[f32; N]) -> Result<Packet, FeetechError> {
+        let mut goals = [0; N];
+        for (joint, goal) in goals.iter_mut().enumerate() {
+            let sign = self.mappings[joint].direction().sign();
+            let duty = sign * duties[joint] * FULL_DUTY;
+            *goal = to_sign(duty.clamp(-FULL_DUTY, FULL_DUTY), DUTY_SIGN);
+        }
+        self.goals(GOAL_DUTY, goals)
+    }
+
+    fn goals(&self, address: u8, goals: [u16; N]) -> Result<Packet, FeetechError> {
+        let each = self.ids.into_iter().zip(goals.map(u16::to_le_bytes));
+        Packet::sync_write(address, each)
+    }
+}
+
+impl<Port: Read + Write + ReadReady, const N: usize> Servos<Port, N> {
+    /// The positions of the joints in rad, in one exchange.
+    ///
+    /// # Errors
+    /// [`FeetechError`] of the first servo that did not reply as it should.
+    pub fn positions(&mut self) -> Result<[f32; N], FeetechError> {
+        self.send(&self.request()?)?;
+        let mut positions = [0.0; N];
+        let mut parser = Parser::new();
+        for (joint, position) in positions.iter_mut().enumerate() {
+            let register = self.receive(self.ids[joint], &mut parser)?;
+            *position = self.position(joint, register);
+        }
+        Ok(positions)
+    }
+
+    /// Sets the goal positions of the joints in rad, in one packet that no servo replies to.
+    ///
+    /// # Errors
+    /// [`FeetechError`]; nothing is sent after [`FeetechError::Goal`].
+    pub fn set_positions(&mut self, positions: &[f32; N]) -> Result<(), FeetechError> {
+        self.send(&self.goal_positions(positions)?)
     }
 
     /// Sets the duties of the joints, −1 to 1, in one packet that no servo replies to. NaN becomes zero duty.
@@ -153,13 +192,7 @@ impl<Port: Read + Write + ReadReady, const N: usize> Servos<Port, N> {
     /// # Errors
     /// [`FeetechError`].
     pub fn set_duties(&mut self, duties: &[f32; N]) -> Result<(), FeetechError> {
-        let mut goals = [0; N];
-        for (joint, goal) in goals.iter_mut().enumerate() {
-            let sign = self.mappings[joint].direction().sign();
-            let duty = sign * duties[joint] * FULL_DUTY;
-            *goal = to_sign(duty.clamp(-FULL_DUTY, FULL_DUTY), DUTY_SIGN);
-        }
-        self.set(GOAL_DUTY, goals)
+        self.send(&self.goal_duties(duties)?)
     }
 
     /// Switches the torque of all servos on or off, one after the other: each confirms it.
@@ -196,16 +229,6 @@ impl<Port: Read + Write + ReadReady, const N: usize> Servos<Port, N> {
         self.receive(id, &mut Parser::new())
     }
 
-    /// The port.
-    pub fn release(self) -> Port {
-        self.port
-    }
-
-    fn set(&mut self, address: u8, goals: [u16; N]) -> Result<(), FeetechError> {
-        let each = self.ids.into_iter().zip(goals.map(u16::to_le_bytes));
-        self.send(&Packet::sync_write(address, each)?)
-    }
-
     /// Sends a packet, after bytes that came too late for an earlier one were dropped.
     fn send(&mut self, packet: &Packet) -> Result<(), FeetechError> {
         for _ in 0..MOST_NOISE {
@@ -231,35 +254,11 @@ impl<Port: Read + Write + ReadReady, const N: usize> Servos<Port, N> {
         id: u8,
         parser: &mut Parser,
     ) -> Result<[u8; L], FeetechError> {
-        let reply = loop {
-            let received = match self.byte() {
-                Ok(Some(byte)) => parser.push(byte),
-                Ok(None) | Err(FeetechError::Port(ErrorKind::TimedOut)) => match parser.finish() {
-                    None if parser.has_wrong_checksum() => {
-                        return Err(FeetechError::Checksum { id });
-                    }
-                    None => return Err(FeetechError::NoReply { id }),
-                    reply => reply,
-                },
-                Err(error) => return Err(error),
-            };
-            if let Some(reply) = received {
-                break reply;
+        loop {
+            if let Some(reply) = next_reply(self.byte(), parser, id)? {
+                return parameters(&reply, id);
             }
-            if parser.skipped() > MOST_NOISE {
-                return Err(FeetechError::Noise);
-            }
-        };
-        if reply.id != id {
-            let found = reply.id;
-            return Err(FeetechError::Unexpected { id, found });
         }
-        if reply.status != 0 {
-            let status = reply.status;
-            return Err(FeetechError::Servo { id, status });
-        }
-        let parameters = reply.parameters().try_into();
-        parameters.map_err(|_| FeetechError::Unexpected { id, found: id })
     }
 
     fn byte(&mut self) -> Result<Option<u8>, FeetechError> {

@@ -35,8 +35,9 @@
 //!
 //! # Cargo features
 //!
-//! - `async`, off by default: the encoders on a bus over [`embedded_hal_async`], for Embassy: `start_async`,
-//!   `read_async`. They share the state and the decoding with the blocking form.
+//! - `async`, off by default: the encoders on a bus over [`embedded_hal_async`] and the servo bus over `embedded-io-async`,
+//!   for Embassy: `start_async`, `read_async`, `positions_async` and others. They share the state and the decoding with the
+//!   blocking form.
 #![cfg_attr(
     not(any(test, feature = "async")),
     doc = "",

@@ -31,7 +31,7 @@ use crate::{
     meter, pil, robots, shell, watch,
 };
 use Lane::{Host, Target};
-use Scope::{Everyday, Full};
+use Scope::{Everyday, Full, Named};
 
 /// One thing that is tested: its name on the command line, its lane, which runs it belongs to, the claim that holds if
 /// it passes, and the function that tests it and returns the measured figures in words, if there are any.
@@ -50,6 +50,8 @@ enum Scope {
     Everyday,
     /// A full run only, or by name.
     Full,
+    /// By name only: a full run would take longer than CI has.
+    Named,
 }
 
 /// Which of the two rows of steps that go on side by side: cargo builds for the host and for the target in
@@ -93,9 +95,6 @@ const STEPS: &[Step] = &[
     ("firmware", Target, Full, "every bin of the firmware builds", functions::build),
     ("meter", Target, Everyday, "the cycle meter agrees with sequences counted by hand", functions::meter),
     ("bits", Host, Everyday, "the host and QEMU compute the same bits", functions::bits),
-    ("faults", Target, Full, "100 arms under injected faults keep their limits in QEMU, with the host's torques", functions::faults),
-    ("cores", Target, Full, "a Cortex-M4F, an M33 and an RV32 compute the host's torques, and docs/boards.md has what they and the boards' images take",
-        |c| cores::check(&c.workspace, c.options)),
     ("scene", Target, Everyday, "every scene runs to its end", scenes::runs),
     ("determinism", Target, Everyday, "two runs of a scene give the same bytes", scenes::determinism),
     ("tracking", Target, Everyday, "every scene tracks within its bound, the default one better than PD as promised", scenes::tracking),
@@ -109,8 +108,12 @@ const STEPS: &[Step] = &[
         |c| growth::check(&c.workspace, &growth::measure(&c.workspace, &c.tools)?)),
     ("history", Target, Full, "docs/history.md has today's costs of the algorithms that today's replaced",
         |c| history::check(&c.workspace, &history::measure(&c.workspace, &c.tools)?)),
+    // From here on programs for the host are built too: earlier they would wait for the other lane's.
+    ("faults", Target, Named, "100 arms under injected faults keep their limits in QEMU, with the host's torques", functions::faults),
+    ("cores", Target, Full, "a Cortex-M33 and an RV32 compute the host's torques, and docs/boards.md has what they and the boards' images take",
+        |c| cores::check(&c.workspace, c.options)),
     ("telemetry", Target, Full, "a tick costs the same with a listener, without one, and with a full queue", |c| watch::check(&c.workspace, &c.tools, c.meter()?)),
-    ("pil", Target, Full, "with its robot in f64 on the host the scene ur5e moves as with its robot inside", |c| pil::check(&c.workspace, &c.tools)),
+    ("pil", Target, Named, "with its robot in f64 on the host the scene ur5e moves as with its robot inside", |c| pil::check(&c.workspace, &c.tools)),
     ("absent-effects", Target, Everyday, "an effect that a scene does not name costs it nothing", absent::absent_effects_cost_nothing),
     ("accuracy", Target, Full, "docs/accuracy.md has today's costs and errors of single changes; what is printed as generated code keeps them",
         |c| accuracy::check(&c.workspace, &c.tools)),
@@ -204,10 +207,11 @@ pub fn list() -> Result<ExitCode> {
         lines.collect()
     };
     let mut text = format!(
-        "every run:\n{}\nonly with --full, or by name:\n{}\n\
+        "every run:\n{}\nonly with --full, or by name:\n{}\nonly by name:\n{}\n\
          tests that only --full adds to the step `host`; every other step then takes all robots and scenes:\n",
         steps(Everyday),
-        steps(Full)
+        steps(Full),
+        steps(Named)
     );
     for folder in ["host-tests/tests", "host-tests/unoptimised/tests"] {
         for (program, test) in claims::full_only(&workspace.root.join(folder))? {
@@ -252,7 +256,7 @@ pub fn run(options: Options, args: &Args) -> Result<ExitCode> {
         measured: OnceLock::new(),
     };
     let wanted = |(name, _, scope, _, _): &&Step| match args.steps.as_slice() {
-        [] => args.full || *scope == Everyday,
+        [] => *scope == Everyday || args.full && *scope == Full,
         names => names.iter().any(|wanted| wanted == name),
     };
     let run = |lane| {

@@ -21,7 +21,7 @@ use measure::BINS;
 pub use measure::{
     Row, code_bytes, measure as measure_bins, run as run_bin, run_all, run_for_time,
 };
-pub use report::{ADDED, Report, TICK};
+pub use report::{ADDED, IMAGE, Report, TICK};
 
 /// The generated page.
 const PAGE: &str = "docs/costs.md";

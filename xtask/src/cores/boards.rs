@@ -5,6 +5,7 @@ use serde::Serialize;
 use super::list::without_home;
 use super::walk::Walk;
 use crate::bars::{Bars, Compared};
+use crate::costs::IMAGE;
 use crate::elf::Image;
 use crate::error::{Result, bail, check};
 use crate::shell;
@@ -130,7 +131,7 @@ fn read(workspace: &Workspace, bin: &Bin) -> Result<Board> {
 
 /// Fails if an image exceeds a bar.
 fn within_bars(board: &Board, bars: &Bars) -> Result<()> {
-    let name = format!("{} {}", board.package, board.bin);
+    let name = format!("{} {}{IMAGE}", board.package, board.bin);
     let quantities = [
         ("flash_bytes", Some(board.flash)),
         ("ram_bytes", board.total()),
@@ -187,7 +188,7 @@ mod tests {
             most: most.map(|(name, most)| (name.into(), most)).into(),
             missed: Vec::new(),
         };
-        let bars = [("board control".to_owned(), bar)].into();
+        let bars = [("board control image".to_owned(), bar)].into();
         assert!(within_bars(&board(32_768, Some(3096)), &bars).is_ok());
         assert!(within_bars(&board(32_768, Some(0)), &bars).is_ok());
         let error = within_bars(&board(32_769, Some(0)), &bars).expect_err("flash");

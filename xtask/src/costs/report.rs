@@ -14,6 +14,8 @@ const FLOOR_JOINTS: usize = 6;
 pub const TICK: &str = " tick";
 /// The end of the name of a bar of what effects add to a rigid body's call.
 pub const ADDED: &str = " added";
+/// The end of the name of a bar of a board's image.
+pub const IMAGE: &str = " image";
 
 /// Between the names of two rows in a bar on the difference of their figures.
 const OVER: &str = " over ";
@@ -88,7 +90,7 @@ impl Report {
         let bars = self.bars.keys();
         let bars = bars.filter(|key| !is_ratio(key) || !key.contains(OTHERS));
         let unknown = bars
-            .filter(|key| ![TICK, ADDED].iter().any(|end| key.ends_with(end)))
+            .filter(|key| ![TICK, ADDED, IMAGE].iter().any(|end| key.ends_with(end)))
             .filter(|key| self.figures(key).is_none())
             .map(|key| format!("{key}: there is no such row"));
         unmet.chain(unknown).collect()
@@ -261,6 +263,27 @@ mod tests {
         );
         let lonely = report(vec![row("loop", 400)]).missed();
         assert!(lonely[0].ends_with("there is no such row"), "{lonely:?}");
+    }
+
+    #[test]
+    fn a_bar_of_another_command_needs_no_row() {
+        let bar = || Bar {
+            most: [("cycles".to_owned(), 1.0)].into(),
+            missed: Vec::new(),
+        };
+        let missed = |key: &str| {
+            let report = Report {
+                rows: Vec::new(),
+                small: Vec::new(),
+                bars: Bars::from([(key.to_owned(), bar())]),
+                rustc: String::new(),
+            };
+            report.missed()
+        };
+        for key in ["ur5e tick", "ur5e added", "board control image"] {
+            assert!(missed(key).is_empty(), "{key}");
+        }
+        assert_eq!(missed("board control").len(), 1);
     }
 
     #[test]

@@ -65,3 +65,22 @@ fn a_reference_that_is_not_finite_is_a_step() {
         }
     }
 }
+
+#[test]
+fn no_reference_acted_before_the_first_tick() {
+    let mut frozen = FrozenEncoder::new([0.01_f64], 3);
+    // A controller that has had no tick has a reference of zero, wherever the arm is.
+    assert_eq!(frozen.check(&[2.0], &[0.0]), Ok(()));
+    for tick in 0..10 {
+        assert_eq!(frozen.check(&[2.0], &[2.0]), Ok(()), "{tick}");
+    }
+}
+
+#[test]
+fn a_step_without_a_limit_hides_no_other_joint() {
+    let mut steps = ReferenceStep::new([f64::INFINITY, 0.1]);
+    assert_eq!(steps.check(&State::at([0.0, 0.0])), Ok(()));
+    assert_eq!(steps.check(&State::at([9.0, 0.05])), Ok(()));
+    let fault = Err(Fault::Reference { joint: 1 });
+    assert_eq!(steps.check(&State::at([0.0, 0.5])), fault);
+}

@@ -1,0 +1,124 @@
+//! Claims about the control loop with its detectors, on the plant of the scene `ur5e`.
+
+use dynamics_core::control::{Detectors, Fault, Mode, Reference, Status, Trajectory};
+use dynamics_core::robots::Ur5e;
+use dynamics_core::state::State;
+use firmware_demo::control_loop::Law;
+use firmware_demo::plant::{Plant, Rig};
+use firmware_demo::scene::{Full, Noise, STEPS, Scene, SimLoop, TICK, simulated_loop};
+use firmware_demo::scenes::ur5e::{Effects, PickAndPlace};
+use firmware_demo::sim_io::Wires;
+
+type Path = Trajectory<f32, 6, 9>;
+type FullModel = Full<PickAndPlace, 6, 6, 6>;
+
+/// A moment of fast motion.
+const FAST: u32 = 3200;
+
+/// The arm with its firmware.
+struct Arm {
+    wires: &'static Wires<6>,
+    rig: Rig<Plant<Ur5e, Effects, (), 6, 6, 6>, 6>,
+    control: SimLoop<6, Detectors<f32, 6>>,
+}
+
+impl Arm {
+    fn new(path: &Path, noise: Option<&mut Noise>) -> Self {
+        let wires: &'static Wires<6> = Box::leak(Box::default());
+        let torque = PickAndPlace::limits().map(|limit| limit.torque);
+        let rig = Rig::new(PickAndPlace::plant(noise), torque, wires);
+        let detectors = PickAndPlace::detectors();
+        let control = simulated_loop::<PickAndPlace, _, 6, 6, 6, 6>(path, wires, detectors);
+        let control = control.unwrap();
+        Self {
+            wires,
+            rig,
+            control,
+        }
+    }
+
+    /// A tick of the firmware alone: the encoders keep what they show.
+    fn tick<L: Law<6>>(&mut self, reference: &impl Reference<f32, 6>) -> Status {
+        self.control.tick::<L, _, ()>(reference, &()).status
+    }
+
+    /// A tick of the firmware and of the plant.
+    fn run<L: Law<6>>(&mut self, reference: &impl Reference<f32, 6>) -> Status {
+        let status = self.tick::<L>(reference);
+        let step = TICK / STEPS as f32;
+        self.rig.advance(self.wires, STEPS, step, |_| ()).unwrap();
+        status
+    }
+}
+
+/// A path that is elsewhere from a moment on.
+struct Stepping<'a>(&'a Path);
+
+impl Reference<f32, 6> for Stepping<'_> {
+    fn at(&self, tick: u32) -> State<f32, 6, 6> {
+        let mut state = self.0.at(tick);
+        if tick >= FAST {
+            state.q[4] += 0.1;
+        }
+        state
+    }
+    fn ticks(&self) -> u32 {
+        self.0.ticks()
+    }
+}
+
+/// A law that commands more than any limit.
+struct Excessive;
+
+impl Law<6> for Excessive {
+    fn feedforward(_: &State<f32, 6, 6>, (): &()) -> [f32; 6] {
+        [0.0, 0.0, 0.0, 1e6, 0.0, 0.0]
+    }
+}
+
+#[test]
+fn the_scene_has_no_false_alarm_from_its_first_tick_to_the_rest_at_its_end() {
+    let path = PickAndPlace::reference().unwrap();
+    for noise in [None, Some(&mut Noise::seeded())] {
+        let mut arm = Arm::new(&path, noise);
+        for tick in 0..path.ticks() + 500 {
+            let status = arm.run::<FullModel>(&path);
+            assert_eq!((status.mode, status.fault), (Mode::Full, None), "{tick}");
+        }
+    }
+}
+
+#[test]
+fn encoders_that_freeze_in_motion_are_found() {
+    let path = PickAndPlace::reference().unwrap();
+    let mut arm = Arm::new(&path, None);
+    for _ in 0..FAST {
+        assert_eq!(arm.run::<FullModel>(&path).fault, None);
+    }
+    let faults = (0..20).find_map(|_| arm.tick::<FullModel>(&path).fault);
+    assert!(matches!(faults, Some(Fault::Frozen { .. })), "{faults:?}");
+}
+
+#[test]
+fn a_step_of_the_reference_stops_the_arm_and_names_the_joint() {
+    let path = PickAndPlace::reference().unwrap();
+    let mut arm = Arm::new(&path, None);
+    for _ in 0..FAST {
+        assert_eq!(arm.run::<FullModel>(&Stepping(&path)).fault, None);
+    }
+    let status = arm.run::<FullModel>(&Stepping(&path));
+    let fault = Some(Fault::Reference { joint: 4 });
+    assert_eq!((status.mode, status.fault), (Mode::Hold, fault));
+}
+
+#[test]
+fn a_torque_that_stays_at_its_limit_stops_the_arm_and_names_the_joint() {
+    let path = PickAndPlace::reference().unwrap();
+    let mut arm = Arm::new(&path, None);
+    // The encoders stand still: no speed limit is exceeded first.
+    let found = (0..200).find_map(|_| {
+        let status = arm.tick::<Excessive>(&path);
+        (status.mode == Mode::Stopped).then_some(status.fault)
+    });
+    assert_eq!(found, Some(Some(Fault::Saturated { joint: 3 })));
+}

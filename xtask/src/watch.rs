@@ -179,7 +179,8 @@ fn masked_nowhere_else(image: &Image) -> Result<()> {
     }
 }
 
-/// Fails if the listener's summary lacks a tick or has a bad frame.
+/// Fails if the listener's summary lacks a tick, has a bad frame, or another event than the start: nothing disturbs the arm,
+/// and its detectors must not find anything.
 fn every_tick_arrived(json: &str) -> Result<()> {
     let summary: Value = serde_json::from_str(json)
         .map_err(|e| check!("`{LISTENER}` printed what is not understood: {e}"))?;
@@ -189,6 +190,12 @@ fn every_tick_arrived(json: &str) -> Result<()> {
     refuse_if!(
         counts != expected,
         "ticks, bad frames, drops, losses, restarts are {counts:?}, not {expected:?}"
+    );
+    let events = summary["events"].as_array();
+    refuse_if!(
+        events.is_none_or(|events| events.len() != 1),
+        "the arm was disturbed: {}",
+        summary["events"]
     );
     Ok(())
 }

@@ -131,28 +131,30 @@ where
         trajectory: &T,
         environment: &X,
     ) -> Telemetry<V> {
-        self.phases::<L, T, X, ()>(trajectory, environment, || ()).0
+        self.phases::<L, T, X, _, _>(trajectory, environment, || (), |telemetry, _| telemetry)
     }
 
-    /// One tick under the law `L`, and the counts of a timer at its start and after each phase: reading, reference,
+    /// One tick under the law `L`, recorded with the counts of a timer at its start and after each phase: reading, reference,
     /// dynamics, safety, writing. Reading the timer adds to the tick what six loads from a device take.
     #[inline(never)]
-    pub fn tick_timed<L: Law<V, X>, T: Reference<f32, V>, X>(
+    pub fn tick_timed<L: Law<V, X>, T: Reference<f32, V>, X, R>(
         &mut self,
         trajectory: &T,
         environment: &X,
         timer: impl Fn() -> u32,
-    ) -> (Telemetry<V>, [u32; 6]) {
-        self.phases::<L, T, X, u32>(trajectory, environment, timer)
+        record: impl FnOnce(Telemetry<V>, [u32; 6]) -> R,
+    ) -> R {
+        self.phases::<L, T, X, _, _>(trajectory, environment, timer, record)
     }
 
     #[inline(always)]
-    fn phases<L: Law<V, X>, T: Reference<f32, V>, X, C>(
+    fn phases<L: Law<V, X>, T: Reference<f32, V>, X, C, R>(
         &mut self,
         trajectory: &T,
         environment: &X,
         timer: impl Fn() -> C,
-    ) -> (Telemetry<V>, [C; 6]) {
+        record: impl FnOnce(Telemetry<V>, [C; 6]) -> R,
+    ) -> R {
         measured::<{ region::TICK }, _>(|| {
             let (encoders, controller) = (&mut self.encoders, &mut self.controller);
             let (frame, detectors) = (&mut self.frame, &mut self.detectors);
@@ -189,7 +191,7 @@ where
                 frame: self.frame,
             };
             let counts = [start, read, followed, computed, limited, timer()];
-            (telemetry, counts)
+            record(telemetry, counts)
         })
     }
 

@@ -61,21 +61,15 @@ where
             .tick::<Full<S, B, Q, V>, _, _>(&self.reference, &environment);
         self.last = Commanded {
             duties: Vec::from_array(self.wires.counts()),
-            tick: tick(number, &telemetry),
+            tick: tick(number, telemetry),
         };
         &self.last
     }
 }
 
 /// What the controller knows of a tick.
-fn tick<const N: usize>(number: u32, telemetry: &Telemetry<N>) -> Tick<N> {
-    let sample = crate::watched::sample(telemetry, [0; 6], 1);
-    Tick {
-        number,
-        dropped: 0,
-        tick: sample.tick,
-        status: sample.status,
-        joints: Vec::from_array(sample.joints),
-        cost: sample.cost,
-    }
+fn tick<const N: usize>(number: u32, telemetry: Telemetry<N>) -> Tick<N> {
+    let mut sample = crate::watched::sample(telemetry, [0; 6]);
+    sample.number = number;
+    sample.message(0)
 }

@@ -1,12 +1,13 @@
 //! A scene that runs without end, each of its ticks with a record for the telemetry.
 
+use core::marker::PhantomData;
 use core::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 use dynamics_core::control::{Detectors, Mode, Reference};
 use dynamics_core::model::{JointKind, model};
 use heapless::{String, Vec};
 use joint_drivers::h_bridge::DriveError;
-use telemetry::{Axis, Joint, Machine, PHASES, Producer, Sample};
+use telemetry::{Axis, Machine, PHASES, Producer, Sample};
 
 use crate::control_loop::{Telemetry, region};
 use crate::marker::measured;
@@ -30,9 +31,16 @@ pub struct Options {
     pub faults: u32,
 }
 
+/// The timer of the ticks, known to the compiler so that reading it is a load.
+pub trait Timer {
+    /// Counts down, and begins again in each tick.
+    fn count() -> u32;
+}
+
 /// A scene at work under the feed-forward of all its effects, on the plant that its controller knows exactly.
 pub struct Watched<
     S: Scene<B, Q, V, N>,
+    T,
     const B: usize,
     const Q: usize,
     const V: usize,
@@ -45,18 +53,16 @@ pub struct Watched<
     records: Producer<'static, N>,
     elapsed: &'static AtomicU32,
     options: Options,
-    timer: fn() -> u32,
-    /// The counts of the timer in a tick.
-    period: u32,
     stopped: u32,
+    timer: PhantomData<fn() -> T>,
 }
 
-impl<S, const B: usize, const Q: usize, const V: usize, const N: usize> Watched<S, B, Q, V, N>
+impl<S, T, const B: usize, const Q: usize, const V: usize, const N: usize> Watched<S, T, B, Q, V, N>
 where
     S: Scene<B, Q, V, N>,
+    T: Timer,
 {
-    /// The scene at the start of its trajectory; `timer` counts down from `period` − 1 in each tick, and `elapsed`
-    /// counts the ticks.
+    /// The scene at the start of its trajectory; `elapsed` counts the ticks.
     ///
     /// # Errors
     /// [`StartError`].
@@ -65,7 +71,6 @@ where
         records: Producer<'static, N>,
         elapsed: &'static AtomicU32,
         options: Options,
-        (timer, period): (fn() -> u32, u32),
     ) -> Result<Self, StartError> {
         let reference = S::reference().map_err(StartError::Trajectory)?;
         let (rig, control) =
@@ -78,9 +83,8 @@ where
             records,
             elapsed,
             options,
-            timer,
-            period,
             stopped: 0,
+            timer: PhantomData,
         })
     }
 
@@ -96,17 +100,17 @@ where
             self.wires.flag(JOINT);
         }
         let environment = |ticks: f32| S::environment(&self.reference, ticks);
-        let (telemetry, counts) = self.control.tick_timed::<Full<S, B, Q, V>, _, _>(
+        let sample = self.control.tick_timed::<Full<S, B, Q, V>, _, _, _>(
             &self.reference,
             &environment(count as f32),
-            self.timer,
+            T::count,
+            sample,
         );
-        measured::<{ region::RECORD }, _>(|| {
-            self.records.push(sample(&telemetry, counts, self.period))
-        });
-        if telemetry.status.mode == Mode::Stopped {
+        let Sample { tick, status, .. } = sample;
+        measured::<{ region::RECORD }, _>(|| self.records.push(&sample));
+        if status.mode == Mode::Stopped {
             self.wait();
-        } else if self.advance(count) || telemetry.tick >= self.reference.ticks() + SETTLE {
+        } else if self.advance(count) || tick >= self.reference.ticks() + SETTLE {
             self.restart();
         }
         self.elapsed.store(count.wrapping_add(1), Relaxed);
@@ -154,28 +158,21 @@ where
     start::<S, _, B, Q, V, N>(reference, wires, PlantModel::Exact, S::detectors())
 }
 
-/// The record of a tick, its costs from the counts of a timer that counts down.
-#[inline(never)]
+/// The sample of a tick.
+#[inline(always)]
 pub(crate) fn sample<const N: usize>(
-    telemetry: &Telemetry<N>,
+    telemetry: Telemetry<N>,
     counts: [u32; PHASES.len() + 1],
-    period: u32,
 ) -> Sample<N> {
-    let cost = core::array::from_fn(|phase| {
-        let (from, to) = (counts[phase], counts[phase + 1]);
-        let wrapped = if to > from { period } else { 0 };
-        from.wrapping_add(wrapped).wrapping_sub(to)
-    });
-    let joints = core::array::from_fn(|joint| Joint {
-        reference: telemetry.reference[joint],
-        estimate: telemetry.estimate[joint],
-        torque: telemetry.torque[joint],
-    });
     Sample {
+        number: 0,
+        dropped: 0,
         tick: telemetry.tick,
         status: telemetry.status,
-        joints,
-        cost,
+        reference: telemetry.reference,
+        estimate: telemetry.estimate,
+        torque: telemetry.torque,
+        counts,
     }
 }
 

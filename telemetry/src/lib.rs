@@ -25,12 +25,12 @@
 //! # The two sides
 //!
 //! ```
-//! use telemetry::{Decoder, Joint, Message, Queue, Sample, split, encode};
+//! use telemetry::{Decoder, Message, Queue, Sample, split, encode};
 //!
 //! let mut queue = Queue::<1, 4>::new();
-//! let (mut interrupt, mut main) = split(&mut queue);
-//! let joint = Joint { reference: 0.5, estimate: 0.499, torque: 12.0 };
-//! interrupt.push(Sample { joints: [joint], ..Sample::default() }); // in the control tick
+//! let (mut interrupt, mut main) = split(&mut queue, 0);
+//! let sample = Sample { reference: [0.5], estimate: [0.499], torque: [12.0], ..Sample::default() };
+//! interrupt.push(&sample); // in the control tick
 //!
 //! let mut bytes = [0; telemetry::capacity(1)];
 //! let tick = main.pop().expect("what was pushed"); // in the main loop
@@ -39,7 +39,7 @@
 //! let mut decoder = Decoder::<8>::new(); // on the host
 //! let found: Vec<_> = frame.iter().filter_map(|&byte| decoder.push(byte)).collect();
 //! let [Ok(Message::Tick(tick))] = &found[..] else { panic!("one tick") };
-//! assert_eq!((tick.number, tick.joints[0]), (0, joint));
+//! assert_eq!((tick.number, tick.joints[0].torque), (0, 12.0));
 //! # Ok::<(), telemetry::EncodeError>(())
 //! ```
 #![no_std]

@@ -1,5 +1,7 @@
 //! The contents of a frame.
 
+use core::array;
+
 use dynamics_core::control::{Mode, Status};
 use dynamics_core::model::JointLimits;
 use heapless::{String, Vec};
@@ -91,32 +93,75 @@ impl Joint {
     }
 }
 
-/// What the control tick knows of itself, for [`Producer::push`](crate::Producer::push).
+/// The quantities of a control tick, for [`Producer::push`](crate::Producer::push).
 ///
 /// ```
 /// use dynamics_core::control::Mode;
 /// let sample = telemetry::Sample::<6>::default();
-/// assert_eq!((sample.status.mode, sample.cost), (Mode::Full, [0; 5]));
+/// assert_eq!((sample.status.mode, sample.counts), (Mode::Full, [0; 6]));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample<const N: usize> {
+    /// The number of the tick since the start of the program: of [`Producer::push`](crate::Producer::push).
+    pub number: u32,
+    /// Ticks that the full queue has dropped before this one: of [`Producer::push`](crate::Producer::push).
+    pub dropped: u32,
     /// Ticks since the start of the trajectory.
     pub tick: u32,
     /// The status of the supervisor.
     pub status: Status,
-    /// The joints, from the base outward.
-    pub joints: [Joint; N],
-    /// What each of [`PHASES`] took, in counts of the timer; 0 if there is no timer.
-    pub cost: [u32; PHASES.len()],
+    /// The reference positions from the base outward, rad or m.
+    pub reference: [f32; N],
+    /// The estimated positions, rad or m.
+    pub estimate: [f32; N],
+    /// The commanded torques, N·m or N.
+    pub torque: [f32; N],
+    /// The counts of a timer that counts down, at the start and after each of [`PHASES`]; zeros if there is no timer.
+    pub counts: [u32; PHASES.len() + 1],
 }
 
 impl<const N: usize> Default for Sample<N> {
     fn default() -> Self {
         Self {
+            number: 0,
+            dropped: 0,
             tick: 0,
             status: IDLE,
-            joints: [Joint::default(); N],
-            cost: [0; PHASES.len()],
+            reference: [0.0; N],
+            estimate: [0.0; N],
+            torque: [0.0; N],
+            counts: [0; PHASES.len() + 1],
+        }
+    }
+}
+
+impl<const N: usize> Sample<N> {
+    /// The message of this sample. `period` is the number of counts after which the timer begins again.
+    ///
+    /// ```
+    /// let sample = telemetry::Sample::<1> { counts: [50, 30, 10, 90, 80, 80], ..Default::default() };
+    /// assert_eq!(sample.message(100).cost, [20, 20, 20, 10, 0]);
+    /// ```
+    #[must_use]
+    pub fn message(&self, period: u32) -> Tick<N> {
+        let positions = self.reference.iter().zip(&self.estimate).zip(&self.torque);
+        let joints = positions.map(|((&reference, &estimate), &torque)| Joint {
+            reference,
+            estimate,
+            torque,
+        });
+        let cost = array::from_fn(|phase| {
+            let (from, to) = (self.counts[phase], self.counts[phase + 1]);
+            let wrapped = if to > from { period } else { 0 };
+            from.wrapping_add(wrapped).wrapping_sub(to)
+        });
+        Tick {
+            number: self.number,
+            dropped: self.dropped,
+            tick: self.tick,
+            status: self.status,
+            joints: joints.collect(),
+            cost,
         }
     }
 }

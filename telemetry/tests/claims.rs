@@ -163,15 +163,17 @@ fn a_listener_that_comes_late_counts_nothing_bad() {
 #[test]
 fn a_full_queue_drops_counts_and_never_blocks() {
     let mut queue = Queue::<JOINTS, 4>::new();
-    let (mut interrupt, mut main) = split(&mut queue);
-    let kept: Vec<bool> = (0..10).map(|_| interrupt.push(Sample::default())).collect();
+    let (mut interrupt, mut main) = split(&mut queue, 0);
+    let kept: Vec<bool> = (0..10)
+        .map(|_| interrupt.push(&Sample::default()))
+        .collect();
     assert_eq!(kept.iter().filter(|&&kept| kept).count(), 3);
     assert_eq!(interrupt.dropped(), 7);
     assert_eq!(
         main.pop().map(|tick| (tick.number, tick.dropped)),
         Some((0, 0))
     );
-    assert!(interrupt.push(Sample::default()));
+    assert!(interrupt.push(&Sample::default()));
     let rest: Vec<_> = std::iter::from_fn(|| main.pop()).collect();
     let last = rest.last().expect("the one after the drops");
     assert_eq!((rest.len(), last.number, last.dropped), (3, 10, 7));

@@ -17,6 +17,9 @@ pub use detect::{Detect, Detectors};
 ///
 /// A joint that a gear or an obstacle blocks gives the same fault: its encoder has to be looked at in either case.
 ///
+/// # Cost
+/// One joint is compared in each tick, in rotation, so that a fault is reported up to V − 1 ticks later than it could be.
+///
 /// ```
 /// use dynamics_core::control::{Fault, FrozenEncoder};
 /// let mut frozen = FrozenEncoder::new([0.01_f32], 3);
@@ -27,69 +30,114 @@ pub use detect::{Detect, Detectors};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FrozenEncoder<R, const V: usize> {
-    distance: [R; V],
-    ticks: u32,
-    last: [R; V],
-    /// The reference when the position last changed, and the ticks since then.
-    origin: [R; V],
-    unchanged: [u32; V],
-    /// Ticks since the start, up to two: no reference acted before the first.
-    ticks_measured: u8,
+    encoders: [Encoder<R>; V],
+    /// Comparisons of a joint that `ticks` ticks have at least.
+    comparisons: u32,
+    /// The joint that is compared next.
+    joint: usize,
+    /// Comparisons of this joint since the start, up to two: no reference acted before the first.
+    compared: u8,
+    frozen: Option<usize>,
+}
+
+/// An encoder as it was when it was last compared.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Encoder<R> {
+    distance: R,
+    last: R,
+    /// The reference when the position last changed, and the comparisons since then.
+    origin: R,
+    unchanged: u32,
 }
 
 impl<R: Real, const V: usize> FrozenEncoder<R, V> {
     /// A detector that reports a position that is the same for `ticks` ticks while the reference has moved further than
     /// `distance`, rad or m: ten steps of the encoder, and more than the play and friction of the gear hide.
     pub const fn new(distance: [R; V], ticks: u32) -> Self {
+        let mut encoders = [Encoder::NEW; V];
+        let mut joint = 0;
+        while joint < V {
+            encoders[joint].distance = distance[joint];
+            joint += 1;
+        }
+        let joints = if V == 0 { 1 } else { V as u32 };
         Self {
-            distance,
-            ticks,
-            last: [R::ZERO; V],
-            origin: [R::ZERO; V],
-            unchanged: [0; V],
-            ticks_measured: 0,
+            encoders,
+            comparisons: ticks.div_ceil(joints),
+            joint: 0,
+            compared: 0,
+            frozen: None,
         }
     }
 
-    /// Compares the measured positions of a tick with those of the tick before; `reference` is the reference of the
-    /// joints that acted in between, [`MotionController::reference`](super::MotionController::reference).
+    /// Compares the measured position of a joint with the one when it was compared before; `reference` is the reference of
+    /// the joints that acted in between, [`MotionController::reference`](super::MotionController::reference).
     ///
     /// # Errors
-    /// [`Fault::Frozen`] names the first joint, in each tick until its position changes.
+    /// [`Fault::Frozen`] names the joint, in each tick until its position changes.
+    #[inline]
     pub fn check(&mut self, q: &[R; V], reference: &[R; V]) -> Result<(), Fault> {
-        let mut frozen = None;
-        let (is_first, is_second) = (self.ticks_measured == 0, self.ticks_measured == 1);
-        self.ticks_measured = if is_first { 1 } else { 2 };
-        let memory = self
-            .last
-            .iter_mut()
-            .zip(&mut self.origin)
-            .zip(&mut self.unchanged);
-        let inputs = q.iter().zip(reference).zip(&self.distance);
-        for (joint, (((last, origin), unchanged), ((&q, &r), &distance))) in
-            memory.zip(inputs).enumerate()
-        {
-            let is_same = !is_first & (q == *last);
-            *last = q;
-            *origin = if is_same & !is_second { *origin } else { r };
-            *unchanged = if is_same {
-                unchanged.saturating_add(1)
-            } else {
-                0
-            };
-            if (*unchanged >= self.ticks) & ((r - *origin).abs() > distance) {
-                frozen = frozen.or(Some(Fault::Frozen { joint }));
-                // Latched: the reference of a held arm may come back.
-                *origin = R::ONE / R::ZERO;
-            }
+        let joint = self.joint;
+        let (Some(encoder), Some(&q), Some(&r), None) = (
+            self.encoders.get_mut(joint),
+            q.get(joint),
+            reference.get(joint),
+            self.frozen,
+        ) else {
+            return self.still_frozen(q);
+        };
+        let compared = self.compared;
+        self.joint = joint + 1;
+        if self.joint == V {
+            (self.joint, self.compared) = (0, if compared == 0 { 1 } else { 2 });
         }
-        frozen.map_or(Ok(()), Err)
+        if encoder.is_frozen(q, r, compared, self.comparisons) {
+            self.frozen = Some(joint);
+            return Err(Fault::Frozen { joint });
+        }
+        Ok(())
+    }
+
+    /// Compares the frozen joint alone: the reference of a held arm may come back.
+    #[cold]
+    #[inline(never)]
+    fn still_frozen(&mut self, q: &[R; V]) -> Result<(), Fault> {
+        let frozen = self.frozen.filter(|&joint| {
+            let encoder = self.encoders.get(joint);
+            q.get(joint) == encoder.map(|encoder| &encoder.last)
+        });
+        if frozen.is_none() {
+            self.restart();
+        }
+        frozen.map_or(Ok(()), |joint| Err(Fault::Frozen { joint }))
     }
 
     /// Forgets what was measured: in each tick with the brake set, since the reference of an arm that is started leaps to
     /// where it is.
     pub fn restart(&mut self) {
-        self.ticks_measured = 0;
+        (self.joint, self.compared, self.frozen) = (0, 0, None);
+    }
+}
+
+impl<R: Real> Encoder<R> {
+    const NEW: Self = Self {
+        distance: R::ZERO,
+        last: R::ZERO,
+        origin: R::ZERO,
+        unchanged: 0,
+    };
+
+    #[inline(always)]
+    fn is_frozen(&mut self, q: R, reference: R, compared: u8, comparisons: u32) -> bool {
+        let is_same = (compared > 0) & (q == self.last);
+        if is_same & (compared > 1) {
+            self.unchanged = self.unchanged.saturating_add(1);
+            let distance = (reference - self.origin).abs();
+            return (self.unchanged >= comparisons) & (distance > self.distance);
+        }
+        self.unchanged = u32::from(is_same);
+        (self.last, self.origin) = (q, reference);
+        false
     }
 }
 
@@ -178,20 +226,23 @@ impl<R: Real, const V: usize> ReferenceStep<R, V> {
     /// [`Fault::Reference`] names the first joint.
     pub fn check(&mut self, reference: &State<R, V, V>) -> Result<(), Fault> {
         let State { q, qd, qdd } = reference;
-        // One comparison for all joints: what exceeds its step or is not finite makes the sum exceed zero, or NaN.
-        let mut excess = R::ZERO;
+        if !self.started {
+            (self.last, self.started) = (*q, true);
+        }
+        // One comparison for all joints: what exceeds its step makes the sum exceed zero, what is not finite makes it NaN.
+        let (mut excess, mut rates) = (R::ZERO, R::ZERO);
         let steps = q.iter().zip(&self.last).zip(&self.step);
         for (((&q, &last), &step), (&qd, &qdd)) in steps.zip(qd.iter().zip(qdd)) {
-            let last = if self.started { last } else { q };
             let beyond = (q - last).abs() - step;
-            excess += beyond + beyond.abs() + R::ZERO * (qd + qdd);
+            excess += beyond + beyond.abs();
+            rates += qd + qdd;
         }
-        let fault = if excess <= R::ZERO {
+        let fault = if excess + R::ZERO * rates <= R::ZERO {
             Ok(())
         } else {
             self.first_step(reference)
         };
-        (self.last, self.started) = (*q, true);
+        self.last = *q;
         fault
     }
 
@@ -202,12 +253,12 @@ impl<R: Real, const V: usize> ReferenceStep<R, V> {
         let rates = qd.iter().zip(qdd);
         let joints = q.iter().zip(&self.last).zip(&self.step).zip(rates);
         for (joint, (((&q, &last), &step), (qd, qdd))) in joints.enumerate() {
-            let is_near = !self.started | ((q - last).abs() <= step);
+            let is_near = (q - last).abs() <= step;
             if !(is_near & q.is_finite() & qd.is_finite() & qdd.is_finite()) {
                 return Err(Fault::Reference { joint });
             }
         }
-        // Steps without a limit make the sum NaN as well.
+        // Steps without a limit, and rates whose sum is not finite, make the sum NaN as well.
         Ok(())
     }
 

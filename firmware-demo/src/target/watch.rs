@@ -17,7 +17,7 @@ use telemetry::{Consumer, Message, Queue, capacity, encode, split};
 use super::{CLOCK, Tick, fail, leave, microseconds, start};
 use crate::scene::Scene;
 use crate::sim_io::Wires;
-use crate::watched::{Options, Watched, machine};
+use crate::watched::{Options, Timer, Watched, machine};
 
 /// Ticks that wait for the port at most.
 pub const QUEUE: usize = 64;
@@ -26,8 +26,23 @@ pub const BAUD: u32 = 2_000_000;
 /// Ticks from one frame with the machine's constants to the next.
 const MACHINE: u32 = 1000;
 
+/// SysTick, whose interrupt is the tick.
+#[derive(Clone, Copy, Debug)]
+pub struct SysTick;
+
+impl Timer for SysTick {
+    #[inline(always)]
+    fn count() -> u32 {
+        SYST::get_current()
+    }
+}
+
+/// A scene with its telemetry, timed by SysTick.
+pub type Timed<S, const B: usize, const Q: usize, const V: usize, const N: usize> =
+    Watched<S, SysTick, B, Q, V, N>;
+
 impl<S, const B: usize, const Q: usize, const V: usize, const N: usize> Tick
-    for Watched<S, B, Q, V, N>
+    for Timed<S, B, Q, V, N>
 where
     S: Scene<B, Q, V, N>,
 {
@@ -40,18 +55,19 @@ where
 pub fn watch<S, const B: usize, const Q: usize, const V: usize, const N: usize>(
     wires: &'static Wires<N>,
     queue: Option<&'static mut Queue<N, QUEUE>>,
-    place: impl FnOnce(Watched<S, B, Q, V, N>) -> Option<&'static mut Watched<S, B, Q, V, N>>,
+    place: impl FnOnce(Timed<S, B, Q, V, N>) -> Option<&'static mut Timed<S, B, Q, V, N>>,
 ) -> !
 where
     S: Scene<B, Q, V, N>,
-    Watched<S, B, Q, V, N>: Send,
+    Timed<S, B, Q, V, N>: Send,
 {
     static ELAPSED: AtomicU32 = AtomicU32::new(0);
     let (Some(mut core), Some(part)) = (cortex_m::Peripherals::take(), pac::Peripherals::take())
     else {
         fail("the peripherals are taken");
     };
-    let Some((records, mut ticks)) = queue.map(split) else {
+    let period = CLOCK / 1_000_000 * microseconds::<S, B, Q, V, N>();
+    let Some((records, mut ticks)) = queue.map(|queue| split(queue, period)) else {
         fail("main ran twice");
     };
     let Ok(mut port) = port(part) else {
@@ -62,9 +78,7 @@ where
         faults: argument(b"faults").unwrap_or(0),
     };
     let listens = argument(b"listen") != Some(0);
-    let period = CLOCK / 1_000_000 * microseconds::<S, B, Q, V, N>();
-    let timer = (SYST::get_current as fn() -> u32, period);
-    let Ok(watched) = Watched::new(wires, records, &ELAPSED, options, timer) else {
+    let Ok(watched) = Watched::new(wires, records, &ELAPSED, options) else {
         fail("the trajectory needs more than the arm's limits");
     };
     let Some(watched) = place(watched) else {
@@ -170,10 +184,9 @@ fn argument(_: &[u8]) -> Option<u32> {
 macro_rules! watch_main {
     ($module:ident::$scene:ident, $B:literal, $Q:literal, $V:literal, $N:literal) => {
         use $crate::sim_io::Wires;
-        use $crate::target::watch::{QUEUE, watch};
-        use $crate::watched::Watched;
+        use $crate::target::watch::{QUEUE, Timed, watch};
 
-        type Scene = Watched<$crate::scenes::$module::$scene, $B, $Q, $V, $N>;
+        type Scene = Timed<$crate::scenes::$module::$scene, $B, $Q, $V, $N>;
         type Queue = ::telemetry::Queue<$N, QUEUE>;
 
         #[::cortex_m_rt::entry]

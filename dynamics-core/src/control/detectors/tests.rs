@@ -7,17 +7,39 @@ fn a_frozen_encoder_stays_a_fault_when_the_reference_comes_back() {
         frozen.check(&[reference, 0.5], &[reference, 0.5 + reference])
     };
     let fault = Err(Fault::Frozen { joint: 1 });
-    for (reference, wanted) in [
-        (0.0, Ok(())),
-        (0.02, Ok(())),
-        (0.03, fault),
-        (0.0, fault),
-        (0.005, fault),
-    ] {
-        assert_eq!(frozen_at(reference, &mut frozen), wanted, "{reference}");
+    // The second joint is compared in every other tick.
+    for reference in [0.0, 0.0, 0.01, 0.02, 0.03] {
+        assert_eq!(frozen_at(reference, &mut frozen), Ok(()), "{reference}");
+    }
+    for reference in [0.04, 0.0, 0.005] {
+        assert_eq!(frozen_at(reference, &mut frozen), fault, "{reference}");
     }
     frozen.restart();
     assert_eq!(frozen_at(0.03, &mut frozen), Ok(()));
+}
+
+#[test]
+fn an_encoder_that_freezes_is_found_wherever_the_rotation_is() {
+    const JOINTS: usize = 6;
+    const TICKS: u32 = 3;
+    for joint in 0..JOINTS {
+        for begin in 20..20 + JOINTS as u32 {
+            let mut frozen = FrozenEncoder::new([1.5e-3_f64; JOINTS], TICKS);
+            let found = (0..100).find(|&tick| {
+                let reference = [1e-3 * f64::from(tick); JOINTS];
+                let mut q = reference;
+                q[joint] = 1e-3 * f64::from(tick.min(begin));
+                let fault = frozen.check(&q, &reference);
+                assert!(fault.is_ok() || fault == Err(Fault::Frozen { joint }));
+                fault.is_err()
+            });
+            let ticks = found.expect("a fault") - begin;
+            assert!(
+                ticks >= TICKS && ticks < TICKS + 2 * JOINTS as u32,
+                "{ticks}"
+            );
+        }
+    }
 }
 
 #[test]

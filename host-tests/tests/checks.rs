@@ -2,7 +2,7 @@
 
 use host_tests::hard::measure::larger;
 use host_tests::hard::{Row, Verdict};
-use host_tests::tolerances::check;
+use host_tests::tolerances::{Errors, check};
 
 /// An entry of the table: 1e-15 in f64, 5e-7 in f32.
 fn rnea(scalar: &str, error: f64) -> Result<(), String> {
@@ -90,4 +90,37 @@ fn the_larger_of_two_is_the_one_that_is_not_a_number() {
     assert_eq!(scene::larger(1.0, 2.0), 2.0);
     assert_eq!(scene::larger(2.0, 1.0), 2.0);
     assert!(scene::larger(f32::NAN, 1.0).is_nan() && scene::larger(1.0, f32::NAN).is_nan());
+}
+
+/// The errors of two states of `rnea` in f64, the full scale 4.
+fn collected(errors: [f64; 2]) -> Errors {
+    let mut collected = Errors::new("ur5e");
+    for (error, scale) in errors.into_iter().zip([4.0, 2.0]) {
+        collected.add("rnea", "f64", &[scale + error, 0.0], &[scale, 0.0]);
+    }
+    collected
+}
+
+#[test]
+fn errors_are_the_largest_relative_to_the_largest_value() {
+    // Powers of two, so that the sums are exact.
+    let [large, small] = [50, 51].map(|n| 0.5_f64.powi(n));
+    let errors = collected([small, large]);
+    assert_eq!(errors.of("rnea", "f64"), Some(large / 4.0));
+    assert_eq!(errors.of("rnea", "f32"), None);
+    errors.check();
+}
+
+#[test]
+#[should_panic(expected = "exceeded")]
+fn an_error_among_those_of_several_states_is_refused() {
+    collected([0.0, 1e-14]).check();
+}
+
+#[test]
+#[should_panic(expected = "no bound")]
+fn errors_of_a_quantity_without_a_bound_are_refused() {
+    let mut errors = Errors::new("ur5e");
+    errors.add("no such quantity", "f64", &[1.0], &[1.0]);
+    errors.check();
 }

@@ -1,6 +1,10 @@
 //! Claims about the control loop with its detectors, on the plant of the scene `ur5e`.
 
-use dynamics_core::control::{Detectors, Fault, Mode, Reference, Status, Trajectory};
+use std::cell::Cell;
+
+use dynamics_core::control::{
+    Command, Detect, Detectors, Fault, Mode, Reference, Status, StopCategory, Trajectory,
+};
 use dynamics_core::robots::Ur5e;
 use dynamics_core::state::State;
 use firmware_demo::control_loop::Law;
@@ -121,4 +125,38 @@ fn a_torque_that_stays_at_its_limit_stops_the_arm_and_names_the_joint() {
         (status.mode == Mode::Stopped).then_some(status.fault)
     });
     assert_eq!(found, Some(Some(Fault::Saturated { joint: 3 })));
+}
+
+/// A detector that finds nothing, and counts how often it was restarted.
+struct Restarts<'a>(&'a Cell<u32>);
+
+impl Detect<f32, 6> for Restarts<'_> {
+    fn measured(&mut self, _: &[f32; 6], _: &[f32; 6]) -> Result<(), Fault> {
+        Ok(())
+    }
+    fn referenced(&mut self, _: &State<f32, 6, 6>, _: Mode) -> Result<(), Fault> {
+        Ok(())
+    }
+    fn commanded(&mut self, _: &Command<f32, 6>) -> Result<(), Fault> {
+        Ok(())
+    }
+    fn restart(&mut self) {
+        self.0.set(self.0.get() + 1);
+    }
+}
+
+#[test]
+fn a_reset_restarts_the_detectors() {
+    let (path, count) = (PickAndPlace::reference().unwrap(), Cell::new(0));
+    let wires: &'static Wires<6> = Box::leak(Box::default());
+    let torque = PickAndPlace::limits().map(|limit| limit.torque);
+    let _rig = Rig::new(PickAndPlace::plant(None), torque, wires);
+    let control = simulated_loop::<PickAndPlace, _, 6, 6, 6, 6>(&path, wires, Restarts(&count));
+    let mut control = control.unwrap();
+    control.tick::<FullModel, _, ()>(&path, &());
+    control.stop_by(Fault::External, StopCategory::TorqueOff);
+    let status = control.tick::<FullModel, _, ()>(&path, &()).status;
+    assert_eq!((status.mode, count.get()), (Mode::Stopped, 0));
+    control.reset(&path).unwrap();
+    assert_eq!(count.get(), 1);
 }

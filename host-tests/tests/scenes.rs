@@ -5,12 +5,12 @@ mod common;
 use common::*;
 use dynamics_core::algorithms::{momentum, poses};
 use dynamics_core::effects::{Armature, Coriolis, Coulomb, Inertia, Viscous, Width};
-use dynamics_core::model::{Robot, Static};
+use dynamics_core::model::{Calibrated, Robot, Static};
 use dynamics_core::scalar::{Real, Vector};
 use dynamics_core::sim::{linearly_implicit, momentum_preserving};
 use dynamics_core::spatial::Force;
 use dynamics_core::state::State;
-use firmware_demo::plant::Simulated;
+use firmware_demo::plant::{self, Plant, Simulated};
 use firmware_demo::robots::ship::Swing;
 use firmware_demo::robots::{Gimbal, Ship, SpaceArm};
 use firmware_demo::scene::{Scene, TICK};
@@ -223,4 +223,22 @@ fn the_watch_keeps_the_camera_level_and_on_its_sweep() {
     verdict.see("watch", "attitude of the camera", "f64", &level);
     verdict.see("watch", "rates of the joints", "f64", &rates);
     verdict.speak();
+}
+
+#[test]
+fn the_environment_acts_on_a_robot_that_floats() {
+    let still = |resistance: f32| {
+        let effects = (Inertia, Coriolis, Viscous([0.0_f32; 12]));
+        let apply: fn(&mut _, &f32) = |effects: &mut (Inertia, Coriolis, Viscous<f32, 12>), x| {
+            effects.2.0[6..].fill(*x);
+        };
+        let robot = Calibrated::<SpaceArm, f32, 7, 13, 12>::nominal();
+        let plant = Plant::new(robot, effects, SpaceArm::at(STOWED), apply);
+        let mut floating = plant::Floating(plant);
+        for _ in 0..100 {
+            Simulated::<f32, 6>::step(&mut floating, &[1.0; 6], &resistance, 1e-3).unwrap();
+        }
+        floating.0.state.qd[6..].iter().all(|qd| qd.abs() < 1e-3)
+    };
+    assert!(still(1e5) && !still(0.0));
 }

@@ -2,12 +2,14 @@
 //! the tolerance of a payload's check, what brings carried sines back to the unit circle.
 
 use dynamics_core::algorithms::{
-    base_velocity_from_momentum, centroidal_matrix, centroidal_momentum, momentum,
+    base_velocity_from_momentum, centroidal_matrix, centroidal_momentum, cholesky, crba, ltdl,
+    momentum,
 };
+use dynamics_core::control::{TaskCommand, TaskMotion, ZeroOrderHold};
 use dynamics_core::drivetrain::{ElasticJoints, ElasticReference, elastic_inverse_dynamics};
 use dynamics_core::effects::{
-    Coriolis, Effect, EndStops, Inertia, InvalidPayload, JointState, Lugre, MovingBase, Payload,
-    Spring, Stribeck, TorqueDerivatives, Width,
+    Coriolis, Effect, EndStops, GyroscopicRotors, Inertia, InvalidPayload, JointState, Lugre,
+    MovingBase, Payload, Spring, Stribeck, TorqueDerivatives, Width,
 };
 use dynamics_core::model::{ArmModel, BASE, Body, BodyInertia, Joint, Model, Problem};
 use dynamics_core::spatial::{Force, Motion};
@@ -245,4 +247,77 @@ fn a_spring_at_a_compliant_joint_adds_its_rate_to_that_of_the_torque() {
     close(motors.position[0], 0.7 + tau / 100.0);
     close(motors.velocity[0], 0.3 + rate / 100.0);
     close(motors.torque[0], 0.5 * (-0.4 + accel / 100.0) + tau);
+}
+
+#[test]
+fn a_momentum_is_reached_with_rotors_that_spin() {
+    let mut rotors = GyroscopicRotors {
+        inertia: [0.0; 7],
+        ratio: [20.0; 7],
+    };
+    rotors.inertia[6] = 0.02;
+    let wanted = Force::new(DVec3::new(0.5, -1.0, 2.0), DVec3::new(3.0, 1.0, -2.0));
+    let mut state = floating();
+    state.qd = base_velocity_from_momentum(&FLOATING, &state, wanted, &rotors)
+        .expect("the trunk has mass");
+    same(momentum(&FLOATING, &state, &rotors), wanted);
+    assert!((momentum(&FLOATING, &state, &()).ang - wanted.ang).length() > 0.1);
+}
+
+#[test]
+fn a_point_mass_that_floats_has_no_inertia_to_factor() {
+    for step in 0..50 {
+        let com = [0.1, -0.23, 0.37].map(|x| x * (1.0 + f64::from(step) / 7.0));
+        let model: Model<f64, 1, 7, 6> = Model::new(
+            "point",
+            [Body::new("point", BASE, Joint::free()).mass(1.5).com(com)],
+        );
+        let m = crba(&model, &neutral(&model), &Inertia);
+        assert!(ltdl(&model, &m).is_err(), "{com:?}");
+        assert!(cholesky(&model, &m).is_err(), "{com:?}");
+    }
+}
+
+#[test]
+fn a_held_torque_is_the_last_that_was_computed() {
+    let mut held = ZeroOrderHold::start();
+    assert_eq!(held.hold(), [0.0_f64]);
+    assert_eq!((held.update([3.0]), held.hold()), ([3.0], [3.0]));
+}
+
+#[test]
+fn a_task_is_damped_by_twice_its_ratio() {
+    let task = TaskMotion {
+        error: 0.0,
+        error_rate: 2.0,
+        acceleration: 0.5,
+        omega_n: 10.0,
+        zeta: 0.7,
+    };
+    let TaskCommand::Motion { acceleration } = TaskCommand::<f64>::motion(task) else {
+        panic!("a motion");
+    };
+    assert!((acceleration - 28.5).abs() < 1e-14, "{acceleration}");
+}
+
+#[test]
+fn a_payload_that_no_body_can_have_is_named_with_its_excess() {
+    let text = checked(0.2 - 1e-9)
+        .expect_err("no body is like that")
+        .to_string();
+    assert!(
+        text.contains("body 0") && text.contains("of the largest"),
+        "{text}"
+    );
+}
+
+#[test]
+fn a_state_is_finite_if_all_its_numbers_are() {
+    assert!(floating().is_finite());
+    for field in 0..3 {
+        let mut state = floating();
+        let State { q, qd, qdd } = &mut state;
+        *[&mut q[1], &mut qd[1], &mut qdd[1]][field] = f64::NAN;
+        assert!(!state.is_finite(), "{field}");
+    }
 }

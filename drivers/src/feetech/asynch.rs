@@ -229,6 +229,20 @@ mod tests {
     }
 
     #[test]
+    fn torque_is_switched_on_up_to_the_first_silent_servo_and_off_everywhere() {
+        for is_on in [true, false] {
+            let (mut here, mut there) = (servos(&[], 0), servos(&[], 0));
+            let found = ready(here.enable_torque_async(is_on));
+            assert_eq!(found, Err(FeetechError::NoReply { id: 1 }));
+            assert_eq!(found, there.enable_torque(is_on));
+            let (here, there) = (here.release(), there.release());
+            let packets = if is_on { 1 } else { 2 };
+            assert_eq!(here.sent.len() % packets, 0);
+            assert_eq!(here, there);
+        }
+    }
+
+    #[test]
     fn the_asynchronous_bus_sends_what_the_blocking_one_does() {
         let confirmed = [0xff, 0xff, 1, 2, 0, 0xfc];
         let (mut here, mut there) = (servos(&[&confirmed], 0), servos(&[&confirmed], 0));

@@ -33,11 +33,11 @@ pub struct FrozenEncoder<R, const V: usize> {
     encoders: [Encoder<R>; V],
     /// Comparisons of a joint that `ticks` ticks have at least.
     comparisons: u32,
-    /// The joint that is compared next.
-    joint: usize,
+    /// The joint that is compared next: the frozen one as long as it is.
+    joint: u16,
     /// Comparisons of this joint since the start, up to two: no reference acted before the first.
     compared: u8,
-    frozen: Option<usize>,
+    frozen: bool,
 }
 
 /// An encoder as it was when it was last compared.
@@ -66,7 +66,7 @@ impl<R: Real, const V: usize> FrozenEncoder<R, V> {
             comparisons: ticks.div_ceil(joints),
             joint: 0,
             compared: 0,
-            frozen: None,
+            frozen: false,
         }
     }
 
@@ -77,45 +77,35 @@ impl<R: Real, const V: usize> FrozenEncoder<R, V> {
     /// [`Fault::Frozen`] names the joint, in each tick until its position changes.
     #[inline]
     pub fn check(&mut self, q: &[R; V], reference: &[R; V]) -> Result<(), Fault> {
-        let joint = self.joint;
-        let (Some(encoder), Some(&q), Some(&r), None) = (
+        let joint = usize::from(self.joint);
+        let (Some(encoder), Some(&q), Some(&r)) = (
             self.encoders.get_mut(joint),
             q.get(joint),
             reference.get(joint),
-            self.frozen,
         ) else {
-            return self.still_frozen(q);
+            return Ok(());
         };
-        let compared = self.compared;
-        self.joint = joint + 1;
-        if self.joint == V {
-            (self.joint, self.compared) = (0, if compared == 0 { 1 } else { 2 });
+        if self.frozen {
+            // Compared with the position alone: the reference of a held arm may come back.
+            if q != encoder.last {
+                self.restart();
+                return Ok(());
+            }
+        } else if !encoder.is_frozen(q, r, self.compared, self.comparisons) {
+            self.joint += 1;
+            if joint + 1 == V {
+                (self.joint, self.compared) = (0, if self.compared == 0 { 1 } else { 2 });
+            }
+            return Ok(());
         }
-        if encoder.is_frozen(q, r, compared, self.comparisons) {
-            self.frozen = Some(joint);
-            return Err(Fault::Frozen { joint });
-        }
-        Ok(())
-    }
-
-    /// Compares the frozen joint alone: the reference of a held arm may come back.
-    #[cold]
-    #[inline(never)]
-    fn still_frozen(&mut self, q: &[R; V]) -> Result<(), Fault> {
-        let frozen = self.frozen.filter(|&joint| {
-            let encoder = self.encoders.get(joint);
-            q.get(joint) == encoder.map(|encoder| &encoder.last)
-        });
-        if frozen.is_none() {
-            self.restart();
-        }
-        frozen.map_or(Ok(()), |joint| Err(Fault::Frozen { joint }))
+        self.frozen = true;
+        Err(Fault::Frozen { joint })
     }
 
     /// Forgets what was measured: in each tick with the brake set, since the reference of an arm that is started leaps to
     /// where it is.
     pub fn restart(&mut self) {
-        (self.joint, self.compared, self.frozen) = (0, 0, None);
+        (self.joint, self.compared, self.frozen) = (0, 0, false);
     }
 }
 

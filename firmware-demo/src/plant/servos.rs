@@ -23,9 +23,7 @@ pub struct ServoPlant<T, E, const B: usize> {
 
 /// The nearest multiple of `unit`.
 fn to_nearest(x: f32, unit: f32) -> f32 {
-    let steps = x / unit;
-    let half = if steps < 0.0 { -0.5 } else { 0.5 };
-    (steps + half) as i32 as f32 * unit
+    libm::roundf(x / unit) * unit
 }
 
 impl<T, E, const B: usize> Simulated<(), B> for ServoPlant<T, E, B>

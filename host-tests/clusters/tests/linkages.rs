@@ -7,9 +7,12 @@ use cluster_tests::{
     wrist_states,
 };
 use dynamics_core::algorithms::{Pose, frame};
-use dynamics_core::clusters::{ClusterProblem, Clustered, ClusteredRobot, Stewart};
+use dynamics_core::clusters::{
+    Branch, Cluster, ClusterProblem, Clustered, ClusteredRobot, FiveBar, Stewart,
+};
 use dynamics_core::effects::RIGID_BODY;
-use dynamics_core::model::Static;
+use dynamics_core::model::{JointCoordinate, Static};
+use dynamics_core::scalar::Native;
 use dynamics_core::spatial::Motion;
 use dynamics_core::state::{RobotState, State};
 use dynamics_core::{Core, Engine, algorithms};
@@ -223,4 +226,31 @@ fn a_platform_whose_pose_or_motion_is_not_finite_has_no_forces_of_its_legs() {
             "{bad} at {i}, {k}: {refused:?}"
         );
     }
+}
+
+#[test]
+fn zeros_of_the_joints_of_a_five_bar_shift_its_coordinates_alone() {
+    const PLAIN: FiveBar = FiveBar::new(0.2, [0.1, 0.25], [0.12, 0.24], Branch::Positive);
+    const ZEROS: [f64; 4] = [0.3, -0.4, 0.5, 0.7];
+    let at = |linkage: FiveBar, [y0, y1]: [f64; 2]| {
+        let y = [y0, y1].map(JointCoordinate::revolute);
+        let motion = linkage.evaluate::<f64, Native>(&y, &[1.0, -0.5]);
+        motion.expect("it closes")
+    };
+    let y = [1.9, 1.1];
+    let plain = at(PLAIN, y);
+    let shifted = at(PLAIN.zeros(ZEROS), [y[0] - ZEROS[0], y[1] - ZEROS[2]]);
+    for (i, zero) in ZEROS.into_iter().enumerate() {
+        let (sin, cos) = zero.sin_cos();
+        let (angle, coordinate) = (&plain.q[i], &shifted.q[i]);
+        assert!(
+            (angle.sin * cos - angle.cos * sin - coordinate.sin).abs() < 1e-15,
+            "{i}"
+        );
+        assert!(
+            (angle.cos * cos + angle.sin * sin - coordinate.cos).abs() < 1e-15,
+            "{i}"
+        );
+    }
+    assert!(apart(&plain.g.as_flattened(), &shifted.g.as_flattened()) < 1e-14);
 }

@@ -1,10 +1,15 @@
 //! Laws that inverse dynamics, inertia and forward dynamics of links that bend obey.
 
-use dynamics_core::effects::{Coriolis, Elasticity, Gravity, Inertia, RIGID_BODY};
+use dynamics_core::algorithms;
+use dynamics_core::effects::{
+    Coriolis, Elasticity, Gravity, Inertia, RIGID_BODY, Viscous, WorldWrench,
+};
 use dynamics_core::flexible::{
-    JointsAndModes, Modes, crba, forward_dynamics, modal_dynamics, rnea,
+    FlexibleError, JointsAndModes, ModalFeedforward, Modes, crba, forward_dynamics, modal_dynamics,
+    rnea,
 };
 use dynamics_core::model::{ArmModel, Robot};
+use dynamics_core::spatial::Force;
 use dynamics_core::state::State;
 use flexible_tests::{JOINTS, MODES, Numbers, PLANAR, Planar, SPATIAL, Spatial};
 
@@ -142,4 +147,59 @@ fn laws<const M: usize>(model: &ArmModel<f64, 2>, modes: &Modes<f64, M>) {
 fn inertia_power_and_forward_dynamics_agree_with_inverse_dynamics() {
     laws(&Planar::MODEL, &PLANAR);
     laws(&Spatial::MODEL, &SPATIAL);
+}
+
+#[test]
+fn a_wrench_along_the_axes_of_the_base_acts_on_straight_links_as_on_rigid_ones() {
+    let mut numbers = Numbers::new(3);
+    for body in 0..2 {
+        let wrench = WorldWrench {
+            body,
+            wrench: Force::new(
+                glam::DVec3::new(1.0, -2.0, 0.5),
+                glam::DVec3::new(5.0, 3.0, -4.0),
+            ),
+        };
+        for _ in 0..20 {
+            let (state, straight) = (numbers.state::<2>(JOINTS), State::at([0.0; 6]));
+            let bending = |with: bool| {
+                let share = f64::from(u8::from(with));
+                let scaled = WorldWrench {
+                    wrench: wrench.wrench * share,
+                    ..wrench
+                };
+                rnea(
+                    &Spatial::MODEL,
+                    &SPATIAL,
+                    &state,
+                    &straight,
+                    &(SCENE, scaled),
+                )
+                .joints
+            };
+            let rigid = algorithms::rnea(&Spatial::MODEL, &state, &wrench);
+            let (with, without) = (bending(true), bending(false));
+            for j in 0..2 {
+                assert!(
+                    (with[j] - without[j] - rigid[j]).abs() < 1e-12,
+                    "{body} {j}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn a_link_too_soft_for_its_weight_is_named() {
+    let at_rest = |gravity: f64| {
+        let weight = Gravity([0.0, 0.0, -gravity]);
+        ModalFeedforward::at_rest(
+            &Spatial::MODEL,
+            &SPATIAL,
+            &[0.3, 0.2],
+            &(weight, Inertia, Elasticity),
+        )
+    };
+    assert!(at_rest(9.81).is_ok());
+    assert!(matches!(at_rest(1e5), Err(FlexibleError::Mode(_))));
 }

@@ -157,6 +157,23 @@ mod tests {
 {"kind":"simulation","robot":"arm","key":"default","configuration":{"step":"1000"},"unit":"rad","full_scale":1.0,"error_max":null,"error_rms":null,"error_p99":null,"relative_max":null}"#;
 
     #[test]
+    fn the_error_over_states_anywhere_is_that_of_the_default() {
+        let lines = LINES.replacen(r#""full_scale""#, r#""anywhere":0.25,"full_scale""#, 1);
+        let host = Host::read(lines.trim()).expect("good lines");
+        assert_eq!(
+            (host.anywhere("arm"), host.anywhere("leg")),
+            (Some(0.25), None)
+        );
+        let other = lines.replace("default", "other");
+        assert_eq!(
+            Host::read(other.trim())
+                .expect("good lines")
+                .anywhere("arm"),
+            None
+        );
+    }
+
+    #[test]
     fn rows_and_lines_meet_by_robot_kind_and_key() {
         let host = Host::read(LINES.trim()).expect("good lines");
         let rows = ["inverse", "simulation"].map(|kind| ("bin", "s", row(kind, "default")));

@@ -5,6 +5,7 @@ use super::run::{Bracket, Replayed, Row, Torques};
 use super::{Report, boards};
 use crate::docs::Page;
 use crate::error::{Result, bail, check};
+use crate::meter::REGIONS;
 use crate::table::{Column, Table, thousands};
 
 /// Where they stand.
@@ -28,14 +29,15 @@ pub const README: Page = Page {
 };
 
 impl Report {
-    fn bracket(&self) -> Option<Bracket> {
-        self.rows.iter().find_map(|row| row.bracket)
+    fn brackets(&self) -> &[Bracket] {
+        let mut brackets = self.rows.iter().map(|row| &*row.brackets);
+        brackets.find(|of| !of.is_empty()).unwrap_or_default()
     }
 
     /// What stands in the README, if the core of the cycle model ran.
     pub fn readme(&self) -> Option<String> {
         let scene = self.torques.last()?;
-        let words = in_words(&self.bracket()?, &scene.scene);
+        let words = in_words(self.brackets(), &scene.scene)?;
         let page = "([choices](host-tests/cycle-meter/src/lib.rs))";
         Some(format!("{} {page}.\n", words.trim_end_matches('.')))
     }
@@ -96,8 +98,8 @@ impl Report {
             ("flash, B", &|(row, _)| thousands(row.flash)),
         ];
         text += &format!("\n{}", Table::of(&both, &columns).markdown());
-        if let Some(bracket) = self.bracket() {
-            text += &format!("\n{}\n", in_words(&bracket, large));
+        if let Some(words) = in_words(self.brackets(), large) {
+            text += &format!("\n{words}\n");
         }
         text += "\nThe stack and the code of a tick, of the function that the interrupt calls and of all that it calls:\n";
         let columns: [Column<'_, Line<'_>>; 7] = [
@@ -129,21 +131,28 @@ impl Report {
     }
 }
 
-/// The bracket of the modelled cycles, as a sentence.
-fn in_words(bracket: &Bracket, scene: &str) -> String {
+/// The brackets of the modelled cycles, as sentences on one line.
+fn in_words(brackets: &[Bracket], scene: &str) -> Option<String> {
+    let (tick, phases) = brackets.split_first()?;
     let Bracket {
         least,
         chosen,
         most,
-    } = *bracket;
+    } = *tick;
     let share = |cycles: u64| format!("{:.0} %", 100.0 * cycles as f64 / chosen as f64);
     let [fewest, ours, longest] = [least, chosen, most].map(thousands);
-    format!(
+    let phases = REGIONS[1..].iter().zip(phases).map(|(name, phase)| {
+        let [fewest, ours, longest] = [phase.least, phase.chosen, phase.most].map(thousands);
+        format!("{name} {fewest} to {longest} ({ours})")
+    });
+    let phases = phases.collect::<Vec<_>>().join(", ");
+    Some(format!(
         "{BRACKET} Where the manual of the Cortex-M4 leaves room, its most favourable reading gives {fewest} cycles \
-         for the longest tick of `{scene}`, {} of {ours}, and its least favourable one {longest}, {}.",
+         for the longest tick of `{scene}`, {} of {ours}, and its least favourable one {longest}, {}. \
+         Its phases: {phases}.",
         share(least),
         share(most)
-    )
+    ))
 }
 
 /// A page without the rows of other cores and the bracket of the one with cycles, if it is another, without the rows of boards
@@ -183,14 +192,18 @@ mod tests {
 
     #[test]
     fn a_bracket_has_its_shares() {
-        let bracket = Bracket {
-            least: 1500,
-            chosen: 2000,
-            most: 2500,
+        let bracket = |tens: u64| Bracket {
+            least: 15 * tens,
+            chosen: 20 * tens,
+            most: 25 * tens,
         };
-        let words = in_words(&bracket, "arm");
+        let words = in_words(&[bracket(100), bracket(10)], "arm").expect("a bracket");
         assert!(words.contains("1,500 cycles for the longest tick of `arm`, 75 % of 2,000"));
-        assert!(words.ends_with("one 2,500, 125 %."), "{words}");
+        assert!(
+            words.ends_with("one 2,500, 125 %. Its phases: read 150 to 250 (200)."),
+            "{words}"
+        );
+        assert_eq!(in_words(&[], "arm"), None);
     }
 
     #[test]

@@ -55,8 +55,8 @@ pub struct Row {
     pub flash: u64,
     /// The scenes, the small one first.
     pub scenes: Vec<Replayed>,
-    /// Of the core whose cycles are modelled: those of the longest tick of the last scene.
-    pub bracket: Option<Bracket>,
+    /// Of the core whose cycles are modelled: those of the longest tick of the last scene, and of its phases.
+    pub brackets: Vec<Bracket>,
 }
 
 /// Modelled cycles by readings of the manual where it leaves room.
@@ -215,39 +215,44 @@ pub fn measure(workspace: &Workspace, core: &Core, plugin: &Path) -> Result<Row>
         !rest.is_empty(),
         "the cycle meter saw more ticks than were run"
     );
-    let longest = scenes
-        .last()
-        .map(|scene: &Replayed| scene.costs[0].cycles.max);
-    let bracket = match (core.isa, longest) {
+    let longest = scenes.last().map(|scene: &Replayed| longest(&scene.costs));
+    let brackets = match (core.isa, longest) {
         (Isa::CortexM4F, Some(chosen)) => {
-            let read = |reading| longest_tick(&qemu, core, &elf, (plugin, &argument, reading));
-            let (least, most) = (read("least")?, read("most")?);
-            Some(
+            let read = |reading| longest_by(&qemu, core, &elf, (plugin, &argument, reading));
+            let readings = read("least")?.into_iter().zip(chosen).zip(read("most")?);
+            let brackets = readings.map(|((least, chosen), most)| {
                 Bracket {
                     least,
                     chosen,
                     most,
                 }
-                .checked()?,
-            )
+                .checked()
+            });
+            brackets.collect::<Result<_>>()?
         }
-        _ => None,
+        _ => Vec::new(),
     };
     Ok(Row {
         core: core.name,
         flash: image.sizes.flash,
         scenes,
-        bracket,
+        brackets,
     })
 }
 
-/// The cycles of the longest tick of the last scene by a reading of the manual.
-fn longest_tick(
+/// The most cycles of the tick and of each of its phases.
+fn longest(costs: &[Cost]) -> Vec<u64> {
+    let costs = costs.iter().take(REGIONS.len());
+    costs.map(|cost| cost.cycles.max).collect()
+}
+
+/// The same of the last scene by a reading of the manual.
+fn longest_by(
     qemu: &Qemu,
     core: &Core,
     elf: &Path,
     (plugin, argument, reading): (&Path, &str, &str),
-) -> Result<u64> {
+) -> Result<Vec<u64>> {
     let argument = format!("{argument},reading={reading}");
     let machine = core.machine_arguments();
     let text = qemu.text(core.name, &machine, elf, (plugin, &argument), LIMIT)?;
@@ -259,7 +264,7 @@ fn longest_tick(
     let from = samples.len().checked_sub(count).filter(|_| count > 0);
     let mine = from.and_then(|from| samples.get(from..));
     let mine = mine.ok_or_else(|| check!("the cycle meter saw fewer ticks than were run"))?;
-    Ok(meter::costs(mine, ticks, |_| true)?[0].cycles.max)
+    Ok(longest(&meter::costs(mine, ticks, |_| true)?))
 }
 
 #[cfg(test)]

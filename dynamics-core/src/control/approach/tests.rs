@@ -42,6 +42,7 @@ fn a_way_uses_its_limits_and_keeps_them() {
     for from in [[1.9, -0.3], [-0.01, 1.5], [1e-6, 0.0], [-2.0, 2.0]] {
         let way = plan(from).expect("within the limits");
         assert_eq!((way.at(0).q, way.at(way.path_ticks()).q), (from, [0.0; 2]));
+        assert_eq!((way.first_point(), way.last_point()), (&from, &[0.0; 2]));
         let mut used = 0.0_f64;
         for tick in 0..way.path_ticks() {
             let state = way.at(tick);

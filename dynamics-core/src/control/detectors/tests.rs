@@ -1,4 +1,5 @@
 use super::*;
+use crate::control::{Command, Mode, Status};
 
 #[test]
 fn a_frozen_encoder_stays_a_fault_when_the_reference_comes_back() {
@@ -105,4 +106,40 @@ fn a_step_without_a_limit_hides_no_other_joint() {
     assert_eq!(steps.check(&State::at([9.0, 0.05])), Ok(()));
     let fault = Err(Fault::Reference { joint: 1 });
     assert_eq!(steps.check(&State::at([0.0, 0.5])), fault);
+}
+
+#[test]
+fn a_reference_to_detectors_detects_as_they_do() {
+    let mut own = Detectors {
+        frozen: FrozenEncoder::new([0.01_f64], 1),
+        steps: ReferenceStep::new([0.1]),
+        saturation: Saturation::new([10.0], 0),
+    };
+    let mut borrowed = &mut own;
+    let found = [0.0, 0.02, 0.04, 0.06]
+        .map(|reference| Detect::measured(&mut borrowed, &[0.5], &[reference]).err());
+    let fault = Some(Fault::Frozen { joint: 0 });
+    assert_eq!(found, [None, None, fault, fault]);
+    let follow = |detectors: &mut &mut Detectors<f64, 1>, q: f64| {
+        Detect::referenced(detectors, &State::at([q]), Mode::Full).err()
+    };
+    assert_eq!(follow(&mut borrowed, 0.0), None);
+    assert_eq!(
+        follow(&mut borrowed, 0.5),
+        Some(Fault::Reference { joint: 0 })
+    );
+    Detect::restart(&mut borrowed);
+    assert_eq!(follow(&mut borrowed, 0.9), None);
+    let status = Status {
+        mode: Mode::Full,
+        fault: None,
+        limited: false,
+    };
+    let command = Command {
+        torque: [10.0],
+        brake: false,
+        status,
+    };
+    let fault = Err(Fault::Saturated { joint: 0 });
+    assert_eq!(Detect::commanded(&mut borrowed, &command), fault);
 }

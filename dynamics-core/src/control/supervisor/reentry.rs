@@ -63,7 +63,6 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         self.quiet = 0;
         self.ramp = 0;
         self.mode = Mode::Full;
-        self.fault = None;
         self.faulted = false;
         self.open = false;
         self.hold_next = false;

@@ -172,3 +172,69 @@ fn the_torque_of_a_sinking_arm_is_where_the_rate_of_a_restart_begins() {
     // 4 N·m a tick.
     assert_eq!(good(&mut supervisor, [-4.0; 2]).torque, [-1.0; 2]);
 }
+
+#[test]
+fn a_fault_whose_reaction_is_a_controlled_stop_stops_by_the_configured_category() {
+    let (held, stopped) = (Mode::Hold, Mode::Stopped);
+    for (category, wanted) in [
+        (StopCategory::TorqueOff, [stopped; 5]),
+        (
+            StopCategory::ControlledOff,
+            [held, held, held, stopped, stopped],
+        ),
+        (StopCategory::ControlledHold, [held; 5]),
+    ] {
+        let mut supervisor = riding(2).with_stop(category);
+        good(&mut supervisor, [3.0; 2]);
+        supervisor.react(Fault::External);
+        assert_eq!(modes(&mut supervisor, 5), wanted);
+        // One that is stopped already keeps its reason.
+        supervisor.react(Fault::Reference { joint: 0 });
+        assert_eq!(good(&mut supervisor, [3.0; 2]).status.fault, EXTERNAL);
+    }
+}
+
+#[test]
+fn after_a_stop_of_category_2_the_full_law_returns_over_its_ticks() {
+    let mut supervisor = stopped_by(StopCategory::ControlledHold);
+    modes(&mut supervisor, 2 * HOLD);
+    supervisor.release();
+    for share in [0.25, 0.5, 0.75, 1.0, 1.0] {
+        supervisor.accept_measurement(Ok(&[0.0; 2]));
+        assert_eq!(supervisor.authority(), share);
+        supervisor.gate(&[3.0; 2], &[0.0; 2]);
+    }
+}
+
+#[test]
+fn an_arm_is_at_rest_when_each_of_its_joints_is() {
+    let supervisor = supervisor();
+    // A hundredth of 2 rad/s, and 1 mrad/s.
+    for (qd, rests) in [
+        ([0.0, 0.0], true),
+        ([0.0209, -0.0209], true),
+        ([0.0, 0.0211], false),
+        ([-0.0211, 0.0], false),
+        ([0.0, f32::NAN], false),
+    ] {
+        assert_eq!(supervisor.at_rest(&qd), rests, "{qd:?}");
+    }
+}
+
+#[test]
+fn a_law_reads_whether_its_measurement_was_accepted_and_may_stop_by_a_category() {
+    let mut supervisor = riding(2);
+    good(&mut supervisor, [3.0; 2]);
+    for (measured, wanted) in [(Ok(&[0.0; 2]), true), (Err(Fault::Stale), false)] {
+        supervisor.tick(measured, |tick| {
+            assert_eq!(tick.measurement_accepted(), wanted);
+            [3.0; 2]
+        });
+    }
+    let command = supervisor.tick(Ok(&[0.0; 2]), |tick| {
+        tick.stop_by(Fault::External, StopCategory::ControlledHold);
+        [3.0; 2]
+    });
+    let status = command.status;
+    assert_eq!((status.mode, status.fault), (Mode::Hold, EXTERNAL));
+}

@@ -276,6 +276,10 @@ fn a_point_mass_that_floats_has_no_inertia_to_factor() {
         assert!(ltdl(&model, &m).is_err(), "{com:?}");
         assert!(cholesky(&model, &m).is_err(), "{com:?}");
     }
+    let model: Model<f64, 1, 7, 6> =
+        Model::new("point", [Body::new("point", BASE, Joint::free()).mass(1.5)]);
+    let (state, wanted) = (State::at(neutral(&model)), Force::new(DVec3::X, DVec3::Y));
+    assert!(base_velocity_from_momentum(&model, &state, wanted, &()).is_err());
 }
 
 #[test]

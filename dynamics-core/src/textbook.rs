@@ -3,7 +3,7 @@
 use core::marker::PhantomData;
 
 use crate::algorithms::{self, Frame, JointResult, Kinematics, Ltdl, MassMatrix};
-use crate::algorithms::{NotPositiveDefinite, OsimInverse, Pose, Prescribed};
+use crate::algorithms::{MomentumAndCoriolis, NotPositiveDefinite, OsimInverse, Pose, Prescribed};
 use crate::effects::Effect;
 use crate::model::{RobotModel, Static};
 use crate::scalar::{Native, Real};
@@ -218,6 +218,18 @@ impl<T, K> Core<T, K> {
         Static<T, K>: RobotModel<R, B, Q, V>,
     {
         algorithms::base_velocity_from_momentum(&Static::<T, K>::NEW, state, h, effects)
+    }
+
+    /// p = M q̇ and Cᵀ q̇, see [`algorithms::momentum_and_coriolis`].
+    #[inline(never)]
+    pub fn momentum_and_coriolis<R: Real, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        effects: &impl Effect<R, B, V>,
+    ) -> MomentumAndCoriolis<R, V>
+    where
+        Static<T, K>: RobotModel<R, B, Q, V>,
+    {
+        algorithms::momentum_and_coriolis(&Static::<T, K>::NEW, state, effects)
     }
 
     /// The kinetic energy T, J, see [`algorithms::kinetic_energy`].

@@ -50,6 +50,21 @@ def inputs(robot, order, rng):
     }
 
 
+def in_series(bodies):
+    """The bodies with every universal joint as two revolute ones, which have the same coordinates."""
+    found, place = [], {-1: -1}
+    for i, body in enumerate(bodies):
+        body = {**body, "parent": place[body["parent"]]}
+        if body["joint"] == "universal":
+            body["joint"], massless = "revolute", {"mass": 0.0, "com": [0.0] * 3, "inertia_com": [0.0] * 6}
+            found.append({**body, "name": f"cross of {body['name']}", **massless})
+            still = {"rotation": np.eye(3).ravel(), "position": [0.0] * 3}
+            body.update({"axis": body["axis2"], "parent": len(found) - 1, "placement": still})
+        place[i] = len(found)
+        found.append(body)
+    return found
+
+
 class Plant:
     """A robot as Pinocchio has it, and variants of it."""
 
@@ -68,6 +83,8 @@ class Plant:
         }
         self.carried, _, self.carried_order = build({**robot, "bodies": [base] + below})
         self.geared = self.model.copy()
+        # Pinocchio 4.1 leaves out of C that the first axis of a universal joint moves in the body.
+        self.in_series, _, self.in_series_order = build({**robot, "bodies": in_series(robot["bodies"])})
 
     def with_armature(self, values):
         self.geared.armature = self.order.v(values)
@@ -120,6 +137,18 @@ def of_state(plant, q, qd, qdd, tau, next_q, more):
     close(robot, "potential energy", row["potential_energy"], [-by_hand[0] * free_fall @ by_hand[1]])
     close(robot, "centre of mass", com, by_hand[1])
     close(robot, "centroidal momentum", row["centroidal_momentum"], centroidal @ qd)
+
+    # Generalised momentum M q̇ and Cᵀ q̇. C is one whose C q̇ is that of ID and whose C + Cᵀ is Ṁ.
+    series, along = plant.in_series, plant.in_series_order
+    forked, there = series.createData(), (along.q(q), along.v(qd))
+    coriolis = np.array(pin.computeCoriolisMatrix(series, forked, *there))[np.ix_(along.at, along.at)]
+    products = order.v_back(pin.rnea(model, data, Q, V, np.zeros(n)) - pin.rnea(model, data, Q, 0 * V, np.zeros(n)))
+    later = lambda t: order.square(pin.crba(model, data, pin.integrate(model, Q, t * V)))
+    h = 1e-3
+    rate = (8 * (later(h) - later(-h)) - (later(2 * h) - later(-2 * h))) / (12 * h)
+    close(robot, "C q̇", coriolis @ qd, products)
+    close(robot, "C + Cᵀ", coriolis + coriolis.T, rate, 1e-8)
+    row["generalised_momentum"], row["coriolis_transposed"] = matrix @ qd, coriolis.T @ qd
 
     # M⁻¹ and the inertia that the tip feels.
     inverse = order.square(pin.computeMinverse(model, data, Q))

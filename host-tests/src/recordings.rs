@@ -83,6 +83,10 @@ pub struct Recording {
     pub centroidal_momentum: Vec<Vec<f64>>,
     /// The matrix that takes q̇ to it.
     pub centroidal_matrix: Vec<Vec<f64>>,
+    /// M q̇, the generalised momentum.
+    pub generalised_momentum: Vec<Vec<f64>>,
+    /// Cᵀ q̇ = Ṁ q̇ − C q̇.
+    pub coriolis_transposed: Vec<Vec<f64>>,
 
     /// M⁻¹.
     pub inverse_mass_matrix: Vec<Vec<f64>>,

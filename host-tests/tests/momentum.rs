@@ -2,27 +2,27 @@
 
 mod common;
 
+use core::f64::consts::{FRAC_PI_2, FRAC_PI_4, SQRT_2};
+
 use common::*;
 use dynamics_core::algorithms::{
-    aba, center_of_mass, centroidal_matrix, centroidal_momentum, kinetic_energy, momentum,
-    potential_energy, rnea,
+    MassMatrix, MomentumAndCoriolis, aba, center_of_mass, centroidal_matrix, centroidal_momentum,
+    crba, kinetic_energy, momentum, momentum_and_coriolis, potential_energy, rnea,
 };
-use dynamics_core::effects::{Armature, Coriolis, Gravity, Inertia, Payload, RIGID_BODY};
-use dynamics_core::model::BodyInertia;
-use dynamics_core::spatial::Force;
+use dynamics_core::effects::{
+    Armature, Coriolis, Gravity, Inertia, MovingBase, Payload, RIGID_BODY,
+};
+use dynamics_core::model::{BodyInertia, Model, Robot};
+use dynamics_core::robots::{A1, Panda, Ur5e};
+use dynamics_core::spatial::{Force, Motion, SpatialInertia};
 use dynamics_core::state::State;
 use glam::DVec3;
 
 #[test]
-fn kinetic_energy_is_half_qd_m_qd_with_rotors_and_a_payload() {
-    let mut worst = Worst::default();
+fn momentum_is_m_qd_and_kinetic_energy_half_qd_m_qd_with_rotors_and_a_payload() {
+    let mut worst = <[Worst; 2]>::default();
     for (tree, state) in trees(false) {
-        let load = Payload::<_, { B - 1 }>::from_inertia(BodyInertia {
-            mass: 1.5,
-            com: [0.1, -0.2, 0.05],
-            inertia: [0.01, 0.0, 0.0, 0.02, 0.0, 0.015],
-        });
-        let scene = (Inertia, Armature([0.3; V]), load);
+        let scene = (Inertia, Armature([0.3; V]), load());
         // M q̇ is the torque of q̈ = q̇ at rest.
         let at_rest = State {
             qd: [0.0; V],
@@ -31,10 +31,13 @@ fn kinetic_energy_is_half_qd_m_qd_with_rotors_and_a_payload() {
         };
         let p = rnea(&tree, &at_rest, &scene);
         let half: f64 = p.iter().zip(state.qd).map(|(p, qd)| 0.5 * p * qd).sum();
-        worst.see([kinetic_energy(&tree, &state, &scene)], [half]);
+        worst[0].see([kinetic_energy(&tree, &state, &scene)], [half]);
+        let m_qd = product(&crba(&tree, &state.q, &scene), &state.qd);
+        worst[1].see(momentum_and_coriolis(&tree, &state, &scene).p, m_qd);
     }
     let mut verdict = Verdict::default();
-    verdict.see("mixed tree", "kinetic energy", "f64", &worst);
+    verdict.see("mixed tree", "kinetic energy", "f64", &worst[0]);
+    verdict.see("mixed tree", "M qd", "f64", &worst[1]);
     verdict.speak();
 }
 
@@ -126,5 +129,142 @@ fn only_weight_changes_the_momentum_of_what_falls_freely() {
     }
     let mut verdict = Verdict::default();
     verdict.see("mixed tree", "rate of momentum", "f64", &worst);
+    verdict.speak();
+}
+
+type Law<'a> = &'a dyn Fn(&Tree, &State<f64, Q, V>, &Scene) -> MomentumAndCoriolis<f64, V>;
+type Scene = (
+    (Inertia, Coriolis, Armature<f64, V>),
+    (Payload<f64, { B - 1 }>, MovingBase<f64>),
+);
+
+/// On trees of every joint, by a payload, armatures and a base that moves: ṗ, and the torque with Cᵀ q̇.
+fn rate_of_momentum(law: Law<'_>) -> Worst {
+    let mut worst = Worst::default();
+    for (i, (tree, state)) in trees(false).enumerate() {
+        let scale = (i % 2) as f64;
+        let v = Motion::new(DVec3::new(0.3, -0.5, 0.7), DVec3::new(0.1, 0.2, -0.3)) * scale;
+        let a = Motion::new(DVec3::new(-1.0, 2.0, 0.5), DVec3::new(0.4, 1.0, -2.0)) * scale;
+        let ship = |t| MovingBase {
+            velocity: v + a * t,
+            acceleration: a,
+        };
+        let scene = |t| ((Inertia, Coriolis, Armature([0.3; V])), (load(), ship(t)));
+        let rate = slope(|t| law(&tree, &later(&tree, &state, t), &scene(t)).p);
+        let tau = rnea(&tree, &state, &scene(0.0));
+        let ct_qd = law(&tree, &state, &scene(0.0)).ct_qd;
+        worst.see(core::array::from_fn(|k| tau[k] + ct_qd[k]), rate);
+    }
+    worst
+}
+
+fn product<const V: usize>(m: &MassMatrix<f64, V>, qd: &[f64; V]) -> [f64; V] {
+    core::array::from_fn(|i| (0..V).map(|j| m.get(i, j) * qd[j]).sum())
+}
+
+fn load() -> Payload<f64, { B - 1 }> {
+    Payload::from_inertia(BodyInertia {
+        mass: 1.5,
+        com: [0.1, -0.2, 0.05],
+        inertia: [0.01, 0.0, 0.0, 0.02, 0.0, 0.015],
+    })
+}
+
+#[test]
+fn the_generalised_momentum_changes_by_the_torque_and_ct_qd_at_joints_of_every_kind() {
+    let worst = rate_of_momentum(&|tree, state, scene| momentum_and_coriolis(tree, state, scene));
+    let mut verdict = Verdict::default();
+    verdict.see("mixed tree", "rate of M qd", "f64", &worst);
+    verdict.speak();
+}
+
+/// The law above finds each of these errors: one that it did not find would pass a wrong algorithm.
+#[test]
+fn a_wrong_sign_a_missing_child_and_a_missing_armature_are_found() {
+    let error = |law: Law<'_>| {
+        let worst = rate_of_momentum(law);
+        worst.error / worst.full_scale
+    };
+    let sign = error(&|tree, state, scene| {
+        let right = momentum_and_coriolis(tree, state, scene);
+        let ct_qd = right.ct_qd.map(|x| -x);
+        MomentumAndCoriolis { ct_qd, ..right }
+    });
+    let child = error(&|tree, state, scene| {
+        let mut without = *tree;
+        without.links[B - 2].inertia = SpatialInertia::ZERO;
+        let MomentumAndCoriolis { ct_qd, .. } = momentum_and_coriolis(&without, state, scene);
+        MomentumAndCoriolis {
+            ct_qd,
+            ..momentum_and_coriolis(tree, state, scene)
+        }
+    });
+    let armature = error(&|tree, state, ((inertia, coriolis, _), rest)| {
+        let less = (*inertia, *coriolis, Armature([0.0; V]));
+        momentum_and_coriolis(tree, state, &(less, *rest))
+    });
+    for (what, error) in [("sign", sign), ("child", child), ("armature", armature)] {
+        assert!(error > 1e-4, "{what}: {error:.1e}");
+    }
+}
+
+/// df/dq of a trigonometric polynomial of second degree, without truncation: it is spanned by four values.
+fn slope_of_turn<const N: usize>(f: impl Fn(f64) -> [f64; N]) -> [f64; N] {
+    let [a, b] = [FRAC_PI_2, FRAC_PI_4].map(|by| {
+        let (ahead, behind) = (f(by), f(-by));
+        core::array::from_fn::<_, N, _>(|i| ahead[i] - behind[i])
+    });
+    core::array::from_fn(|i| b[i] + 0.5 * (1.0 - SQRT_2) * a[i])
+}
+
+/// Of an arm of revolute joints: p and M q̇; Cᵀ q̇ and Ṁ q̇ − C q̇; Cᵀ q̇ and ∂T/∂q.
+fn of_an_arm<const N: usize, const V: usize>(arm: &Model<f64, N, V, V>, worst: &mut [Worst; 3]) {
+    let mut rng = Rng::new(5);
+    for _ in 0..100 {
+        let state = random_state(arm, &mut rng);
+        let scene = (Coriolis, Armature([0.3; V]));
+        let at = |k: usize, by: f64| State {
+            q: core::array::from_fn(|i| state.q[i] + if i == k { by } else { 0.0 }),
+            ..state
+        };
+        let m_qd = |q: &[f64; V]| product(&crba(arm, q, &scene), &state.qd);
+        let MomentumAndCoriolis { p, ct_qd } = momentum_and_coriolis(arm, &state, &scene);
+        worst[0].see(p, m_qd(&state.q));
+        let rest = State {
+            qdd: [0.0; V],
+            ..state
+        };
+        let mut less = rnea(arm, &rest, &scene).map(|c_qd| -c_qd);
+        for k in 0..V {
+            let by_q = slope_of_turn(|by| m_qd(&at(k, by).q));
+            for (less, by_q) in less.iter_mut().zip(by_q) {
+                *less += by_q * state.qd[k];
+            }
+        }
+        worst[1].see(ct_qd, less);
+        let by_q = core::array::from_fn(|k| {
+            slope_of_turn(|by| [kinetic_energy(arm, &at(k, by), &scene)])[0]
+        });
+        worst[2].see(ct_qd, by_q);
+    }
+}
+
+#[test]
+fn p_is_m_qd_and_ct_qd_is_the_rate_of_m_times_qd_less_c_qd_and_the_slope_of_the_energy() {
+    let mut verdict = Verdict::default();
+    let mut see = |arm, worst: &[Worst; 3]| {
+        for (law, worst) in ["M qd", "Cᵀ qd", "slope of energy"].iter().zip(worst) {
+            verdict.see(arm, law, "f64", worst);
+        }
+    };
+    let mut worst = <[Worst; 3]>::default();
+    of_an_arm(&Ur5e::MODEL, &mut worst);
+    see("ur5e", &worst);
+    let mut worst = <[Worst; 3]>::default();
+    of_an_arm(&Panda::MODEL, &mut worst);
+    see("panda", &worst);
+    let mut worst = <[Worst; 3]>::default();
+    of_an_arm(&A1::MODEL, &mut worst);
+    see("a1", &worst);
     verdict.speak();
 }

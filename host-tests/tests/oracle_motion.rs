@@ -63,6 +63,8 @@ fn motions<R: Real, T, const B: usize, const Q: usize, const V: usize>(
         ("momentum", &r.momentum),
         ("centroidal momentum", &r.centroidal_momentum),
         ("centroidal matrix", &r.centroidal_matrix),
+        ("M qd", &r.generalised_momentum),
+        ("Cᵀ qd", &r.coriolis_transposed),
     ];
     let mut errors = quantities.map(|(_, rows)| worst(rows));
     let tip = B - 1;
@@ -135,6 +137,9 @@ fn motions<R: Real, T, const B: usize, const Q: usize, const V: usize>(
         {
             errors[14].compare(all(got), want);
         }
+        let rate = Core::<T>::momentum_and_coriolis(&state, &());
+        errors[15].compare(rate.p.map(R::to_f64), row(&r.generalised_momentum, i));
+        errors[16].compare(rate.ct_qd.map(R::to_f64), row(&r.coriolis_transposed, i));
     }
     for ((name, _), worst) in quantities.iter().zip(&errors) {
         most.see::<R>(name, worst);

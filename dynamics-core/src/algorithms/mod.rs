@@ -33,8 +33,8 @@ pub use mass_matrix::{
     spatial_operator_ltdl,
 };
 pub use momentum::{
-    CenterOfMass, base_velocity_from_momentum, center_of_mass, centroidal_matrix,
-    centroidal_momentum, momentum,
+    CenterOfMass, MomentumAndCoriolis, base_velocity_from_momentum, center_of_mass,
+    centroidal_matrix, centroidal_momentum, momentum, momentum_and_coriolis,
 };
 pub(crate) use operational_space::shifted_inverse;
 pub use operational_space::{

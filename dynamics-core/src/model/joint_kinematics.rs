@@ -191,6 +191,26 @@ impl<R: Real> LinkView<'_, R> {
             Fixed => {}
         }
     }
+
+    /// (v × S + S̊)ᵀ f: the components of a force along the rate of S in a body of velocity v.
+    #[inline(always)]
+    pub(crate) fn project_rate(
+        &self,
+        turns: &[JointCoordinate<R>],
+        rates: &[R],
+        v: Motion<R>,
+        f: Force<R>,
+        out: &mut [R],
+    ) {
+        self.project(turns, -v.cross_force(f), out);
+        if self.kind == Universal
+            && let Some(first) = out.get_mut(self.idx_v)
+        {
+            let turn = entry(turns, self.idx_q + 1);
+            let [nx, ny, _] = f.ang.array();
+            *first -= entry(rates, self.idx_v + 1) * (turn.sin * nx + turn.cos * ny);
+        }
+    }
 }
 
 /// A vector along z.

@@ -4,7 +4,7 @@ use super::*;
 use dynamics_core::MassMatrix;
 use dynamics_core::algorithms::{
     Prescribed, aba, crba, crba_jacobian, forward_dynamics, hybrid_dynamics, kinetic_energy,
-    momentum, rnea,
+    momentum, momentum_and_coriolis, rnea,
 };
 use dynamics_core::drivetrain::Transmission;
 use dynamics_core::effects::{GyroscopicRotors, MovingBase, RIGID_BODY};
@@ -123,7 +123,7 @@ fn rotors_that_spin_as_bodies_have_the_dynamics_of_the_expanded_tree() {
         acceleration: Motion::new(DVec3::new(-1.0, 2.0, 0.5), DVec3::new(0.4, 1.0, -2.0)),
     };
     let still = MovingBase::<f64>::default();
-    let mut worst: [Worst; 5] = Default::default();
+    let mut worst: [Worst; 7] = Default::default();
     let mut single = Worst::default();
     for i in 0..400 {
         let [q, qd, qdd] = [3.0, 3.0, 10.0].map(|bound| within::<4>(rng, bound));
@@ -178,8 +178,20 @@ fn rotors_that_spin_as_bodies_have_the_dynamics_of_the_expanded_tree() {
         ];
         worst[4].see_all(&got.ang.to_array(), &want.ang.to_array());
         worst[4].see_all(&got.lin.to_array(), &want.lin.to_array());
+        let got = momentum_and_coriolis(&compact, &state, &scene);
+        let want = momentum_and_coriolis(&expanded, &all, &rigid);
+        worst[5].see_all(&got.p, &gears.torque(&want.p));
+        worst[6].see_all(&got.ct_qd, &gears.torque(&want.ct_qd));
     }
-    let names = ["rnea", "crba", "aba", "kinetic energy", "momentum"];
+    let names = [
+        "rnea",
+        "crba",
+        "aba",
+        "kinetic energy",
+        "momentum",
+        "M qd",
+        "Cᵀ qd",
+    ];
     single.check::<f32>("spinning rotors", "rnea");
     for (worst, name) in worst.iter().zip(names) {
         assert!(

@@ -1,13 +1,15 @@
-//! Centre of mass and momentum of all bodies together.
+//! Centre of mass and momentum of all bodies together, and the generalised momentum of the joints.
 //!
 //! Featherstone, RBDA (2008), (2.60); Orin, Goswami & Lee, "Centroidal dynamics of a humanoid robot"
 //! (2013).
 
 mod base_velocity;
 mod centroidal;
+mod coriolis;
 
 pub use base_velocity::base_velocity_from_momentum;
 pub use centroidal::{centroidal_matrix, centroidal_momentum};
+pub use coriolis::{MomentumAndCoriolis, momentum_and_coriolis};
 
 use core::borrow::Borrow;
 

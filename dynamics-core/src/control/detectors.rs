@@ -18,7 +18,8 @@ pub use detect::{Detect, Detectors};
 /// A joint that a gear or an obstacle blocks gives the same fault: its encoder has to be looked at in either case.
 ///
 /// # Cost
-/// One joint is compared in each tick, in rotation, so that a fault is reported up to V − 1 ticks later than it could be.
+/// One joint is compared in each tick, in rotation: a position that froze is reported after two comparisons of its joint at
+/// the earliest, up to 2 V − 1 ticks later.
 ///
 /// ```
 /// use dynamics_core::control::{Fault, FrozenEncoder};

@@ -82,13 +82,29 @@ fn run(args: &Args) -> Result<Results> {
             .filter(|site| of_build(site))
             .cloned()
             .collect();
-        if sites.iter().any(|site| is_wanted(&site)) {
+        let known = kept.all_killed(args, &sites, is_optimised)?;
+        if let Some(known) = known.filter(|_| args.survivors && args.only.is_none()) {
+            results.outcomes.extend(known);
+        } else if sites.iter().any(|site| is_wanted(&site)) {
             let programs = build(args, &files, &mut sites, is_optimised)?;
             sites.retain(|site| is_wanted(&site));
             measure(args, &sites, &programs, &mut kept, &mut results)?;
         }
     }
     Ok(results)
+}
+
+fn kind(is_optimised: bool) -> &'static str {
+    if is_optimised {
+        "optimised"
+    } else {
+        "unoptimised"
+    }
+}
+
+/// The changes of a build that do not compile.
+fn refused_file(args: &Args, is_optimised: bool) -> PathBuf {
+    args.dir.join(kind(is_optimised)).join("refused.json")
 }
 
 /// Builds the tests with all changes that compile, and removes the others from the list.
@@ -98,14 +114,10 @@ fn build(
     sites: &mut Vec<Site>,
     is_optimised: bool,
 ) -> Result<Vec<Program>> {
-    let kind = if is_optimised {
-        "optimised"
-    } else {
-        "unoptimised"
-    };
+    let kind = kind(is_optimised);
     let [copy, target] = ["tree", "build"].map(|name| args.dir.join(kind).join(name));
     std::fs::create_dir_all(&copy).map_err(Error::file(&copy))?;
-    let refused_file = args.dir.join(kind).join("refused.json");
+    let refused_file = refused_file(args, is_optimised);
     let mut refused: BTreeSet<String> = read(&refused_file)?.unwrap_or_default();
     loop {
         sites.retain(|site| !refused.contains(&site.key()));
@@ -136,6 +148,25 @@ impl Kept {
         let keys: BTreeSet<String> = sites.iter().map(Site::key).collect();
         outcomes.retain(|key, _| keys.contains(key));
         Ok(Self { file, outcomes })
+    }
+
+    /// The outcomes of a build's sites, if each that compiles was killed.
+    fn all_killed(
+        &self,
+        args: &Args,
+        sites: &[Site],
+        is_optimised: bool,
+    ) -> Result<Option<Vec<Outcome>>> {
+        let refused: BTreeSet<String> =
+            read(&refused_file(args, is_optimised))?.unwrap_or_default();
+        let mut compiled = sites.iter().filter(|site| !refused.contains(&site.key()));
+        Ok(compiled
+            .try_fold(Vec::new(), |mut outcomes, site| {
+                let verdict = self.killed(site)?;
+                outcomes.push(Outcome::of(site, verdict));
+                Some(outcomes)
+            })
+            .filter(|outcomes| !outcomes.is_empty()))
     }
 
     fn killed(&self, site: &Site) -> Option<Verdict> {

@@ -8,6 +8,7 @@
 //! | [`Reference`] | the reference of a controller: a trajectory, or a user's own motion | |
 //! | [`MultiTurnEncoder`] | the position of an encoder over many turns | counts |
 //! | [`Observer`] | velocity from positions | estimate |
+//! | [`MomentumObserver`] | external torques from the momentum of the joints | momentum, external torques |
 //! | [`Gains`], [`feedback()`] | K_p (q_d − q) + K_d (q̇_d − q̇) | none |
 //! | [`hold()`] | the reference of a held arm: q̈ = −λ q̇ | none |
 //! | [`hybrid_motion_force`], [`TaskCommand`] | motions and forces along a task's directions | none |
@@ -60,6 +61,7 @@ mod fault;
 mod feedback;
 mod hold;
 mod hybrid_force;
+mod momentum_observer;
 mod multi_turn;
 mod multirate;
 mod observer;
@@ -87,6 +89,7 @@ pub use hold::hold;
 pub use hybrid_force::{
     TaskCommand, TaskForce, TaskFrame, TaskMotion, hybrid_motion_force, orientation_error,
 };
+pub use momentum_observer::MomentumObserver;
 pub use multi_turn::MultiTurnEncoder;
 pub use multirate::{FirstOrderHold, InertiaUpdate, Interpolator, ZeroOrderHold};
 pub use observer::{Estimate, Observer, ObserverConfig};

@@ -49,6 +49,19 @@ impl<R: Real> ObserverConfig<R> {
     }
 }
 
+/// 1 − exp(−x) for x from 0 to 16, at which larger numbers count.
+#[inline(always)]
+pub(super) fn one_less_decay<R: Real>(x: R) -> R {
+    let x = x.clamped(R::ZERO, R::from_f64(16.0));
+    // exp(x) − 1 to x⁵/120, and from it the result without cancellation.
+    let mut series = R::ONE;
+    for n in [5.0, 4.0, 3.0, 2.0] {
+        series = R::ONE + x * R::from_f64(1.0 / n) * series;
+    }
+    let growth = x * series;
+    growth / (R::ONE + growth)
+}
+
 /// An observer of V joints with one bandwidth.
 ///
 /// With a known acceleration (that of the reference) the estimate does not lag while the arm accelerates. A non-finite
@@ -100,14 +113,7 @@ impl<R: Real, const V: usize> Observer<R, V> {
         } else {
             (R::ZERO, R::ZERO)
         };
-        let x = x.clamped(R::ZERO, R::from_f64(16.0));
-        // exp(x) − 1 to x⁵/120, and from it 1 − β without cancellation.
-        let mut series = R::ONE;
-        for n in [5.0, 4.0, 3.0, 2.0] {
-            series = R::ONE + x * R::from_f64(1.0 / n) * series;
-        }
-        let growth = x * series;
-        let gap = growth / (R::ONE + growth);
+        let gap = one_less_decay(x);
         Self {
             tick,
             half_tick: R::from_f64(0.5) * tick,

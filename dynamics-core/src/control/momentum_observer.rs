@@ -1,0 +1,162 @@
+//! The external torques of the joints from their momentum, without accelerations and without the inverse of M.
+//!
+//! De Luca & Mattone (2003); Haddadin, De Luca & Albu-Schäffer, "Robot collisions: a survey" (2017), (43) to (47). In
+//! continuous time ṙ = K (τ_ext − r); here exactly for torques that are constant over a tick:
+//!
+//! ```text
+//! ṗ = τ + β + τ_ext                 β = Cᵀ q̇ − g − F
+//! m = (p − p⁻)/h − τ − ½ (β + β⁻)   the mean of τ_ext since the last measurement
+//! r = r⁻ + (1 − exp(−K h)) (m − r⁻)
+//! ```
+
+use super::observer::one_less_decay;
+use super::{ConfigError, Fault, ObserverConfig};
+use crate::scalar::Real;
+use crate::state::entry;
+
+/// The external torques of V joints, by an observer of the generalised momentum; ORDER poles lie at the bandwidth.
+///
+/// A first-order observer is the usual one; a second-order one passes less of the noise of the velocities.
+///
+/// ```
+/// use dynamics_core::algorithms::{MomentumAndCoriolis, momentum_and_coriolis, rnea};
+/// use dynamics_core::control::{MomentumObserver, ObserverConfig};
+/// use dynamics_core::{effects::Gravity, model::Robot, robots::Ur5e, state::State};
+/// let mut observer: MomentumObserver<f64, 6> =
+///     MomentumObserver::try_new(ObserverConfig { bandwidth: 50.0, tick: 1e-3 })?;
+/// // The arm stands still although the drives push 3 N·m less than gravity: something supports its elbow.
+/// let state = State::at([0.0, -1.0, 1.0, 0.0, 0.0, 0.0]);
+/// let gravity = rnea(&Ur5e::MODEL, &state, &Gravity::EARTH); // with friction: (Gravity::EARTH, viscous, coulomb)
+/// let mut tau = gravity;
+/// tau[2] -= 3.0;
+/// for _ in 0..200 {
+///     let MomentumAndCoriolis { p, ct_qd } = momentum_and_coriolis(&Ur5e::MODEL, &state, &());
+///     let beta = core::array::from_fn(|i| ct_qd[i] - gravity[i]);
+///     observer.update(&p, &beta)?;
+///     observer.drive(&tau);
+/// }
+/// assert!((observer.external_torque()[2] - 3.0).abs() < 1e-3);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[doc(alias = "disturbance observer")]
+#[doc(alias = "collision detection")]
+#[doc(alias = "residual")]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MomentumObserver<R, const V: usize, const ORDER: usize = 1> {
+    tick: R,
+    /// 1 − exp(−K h).
+    gap: R,
+    /// exp(−K h n) of the n ticks since the last measurement.
+    decay: R,
+    /// n h.
+    elapsed: R,
+    /// The integral of the drives' torques over these ticks.
+    impulse: [R; V],
+    p: [R; V],
+    beta: [R; V],
+    residuals: [[R; V]; ORDER],
+    started: bool,
+}
+
+impl<R: Real, const V: usize, const ORDER: usize> MomentumObserver<R, V, ORDER> {
+    /// An observer without external torques; the first update sets the momentum.
+    ///
+    /// # Errors
+    /// [`ConfigError`], as [`ObserverConfig::check`].
+    pub fn try_new(config: ObserverConfig<R>) -> Result<Self, ConfigError> {
+        const { assert!(ORDER == 1 || ORDER == 2, "the order is 1 or 2") };
+        config.check()?;
+        let ObserverConfig { bandwidth, tick } = config;
+        Ok(Self {
+            tick,
+            gap: one_less_decay(bandwidth * tick),
+            decay: R::ONE,
+            elapsed: R::ZERO,
+            impulse: [R::ZERO; V],
+            p: [R::ZERO; V],
+            beta: [R::ZERO; V],
+            residuals: [[R::ZERO; V]; ORDER],
+            started: false,
+        })
+    }
+
+    /// A tick with a measurement: the momentum p = M q̇ and β = Cᵀ q̇ − g − F of its positions and velocities, N·m·s and N·m.
+    ///
+    /// p and Cᵀ q̇ are those of [`momentum_and_coriolis`](crate::algorithms::momentum_and_coriolis()), g + F is
+    /// [`rnea`](crate::algorithms::rnea()) under the gravity and the friction of the scene alone.
+    ///
+    /// # Errors
+    /// [`Fault::NotFinite`] names the first joint with a number that is not finite; the measurement then counts as lost.
+    #[inline]
+    pub fn update(&mut self, p: &[R; V], beta: &[R; V]) -> Result<(), Fault> {
+        let mut numbers = p.iter().zip(beta);
+        if let Some(joint) = numbers.position(|(p, beta)| !(p.is_finite() & beta.is_finite())) {
+            return Err(Fault::NotFinite { joint });
+        }
+        // Without a tick in between there is no mean.
+        if self.started & (self.elapsed > R::ZERO) {
+            let (rate, half) = (R::ONE / self.elapsed, R::from_f64(0.5));
+            let share = R::ONE - self.decay;
+            for i in 0..V {
+                let model = half * (entry(beta, i) + entry(&self.beta, i));
+                let change = entry(p, i) - entry(&self.p, i) - entry(&self.impulse, i);
+                let mut input = change * rate - model;
+                for residual in &mut self.residuals {
+                    if let Some(r) = residual.get_mut(i) {
+                        *r += share * (input - *r);
+                        input = *r;
+                    }
+                }
+            }
+        }
+        (self.p, self.beta, self.started) = (*p, *beta, true);
+        (self.decay, self.elapsed, self.impulse) = (R::ONE, R::ZERO, [R::ZERO; V]);
+        Ok(())
+    }
+
+    /// The torques of the drives from this tick to the next, N·m or N: to be called once in each tick, also in one whose
+    /// measurement is lost or rejected. The next measurement then gives the mean over all ticks since the last one.
+    ///
+    /// A torque that is not finite counts as none.
+    #[inline]
+    pub fn drive(&mut self, tau: &[R; V]) {
+        for (impulse, tau) in self.impulse.iter_mut().zip(tau) {
+            let tau = if tau.is_finite() { *tau } else { R::ZERO };
+            *impulse += self.tick * tau;
+        }
+        self.elapsed += self.tick;
+        self.decay -= self.decay * self.gap;
+    }
+
+    /// The external torques r of the joints, N·m or N: positive if they push as a positive torque of the drive does.
+    #[inline]
+    pub fn external_torque(&self) -> &[R; V] {
+        let [.., last] = self.residuals.as_slice() else {
+            return &self.p;
+        };
+        last
+    }
+
+    /// The outermost joint whose |r| is beyond its threshold, N·m or N: a contact at its link, or further out where its force
+    /// has no torque about the outer joints.
+    ///
+    /// ```
+    /// use dynamics_core::control::{MomentumObserver, ObserverConfig};
+    /// let config = ObserverConfig { bandwidth: 50.0, tick: 1e-3 };
+    /// let observer: MomentumObserver<f32, 6> = MomentumObserver::try_new(config)?;
+    /// assert_eq!(observer.outermost(&[2.0; 6]), None);
+    /// # Ok::<(), dynamics_core::control::ConfigError>(())
+    /// ```
+    #[inline]
+    pub fn outermost(&self, threshold: &[R; V]) -> Option<usize> {
+        let mut joints = self.external_torque().iter().zip(threshold);
+        joints.rposition(|(r, threshold)| r.abs() > *threshold)
+    }
+
+    /// Forgets the momentum and the external torques: after a stop, or at another load.
+    pub fn restart(&mut self) {
+        self.residuals = [[R::ZERO; V]; ORDER];
+        (self.decay, self.elapsed, self.impulse) = (R::ONE, R::ZERO, [R::ZERO; V]);
+        self.started = false;
+    }
+}

@@ -1,0 +1,256 @@
+//! Claims about external torques by the observer of the momentum, on a simulated UR5e with friction.
+
+use dynamics_core::Core;
+use dynamics_core::algorithms::MomentumAndCoriolis;
+use dynamics_core::control::{Fault, MomentumObserver, ObserverConfig};
+use dynamics_core::effects::BodyWrench;
+use dynamics_core::effects::{
+    Armature, Coriolis, Coulomb, Effect, Gravity, Inertia, Viscous, Width,
+};
+use dynamics_core::robots::Ur5e;
+use dynamics_core::spatial::Force;
+use dynamics_core::state::State;
+use glam::DVec3;
+
+const TICK: f64 = 1e-3;
+/// K, rad/s.
+const BANDWIDTH: f64 = 50.0;
+const CONFIG: ObserverConfig<f64> = ObserverConfig {
+    bandwidth: BANDWIDTH,
+    tick: TICK,
+};
+type Friction = (Gravity, Viscous<f64, 6>, Coulomb<f64, 6>);
+const ROTORS: Armature<f64, 6> = Armature([2.0, 2.0, 2.0, 0.2, 0.2, 0.2]);
+
+fn friction() -> Friction {
+    let coulomb = Coulomb {
+        torque: [8.0, 8.0, 5.0, 2.0, 2.0, 2.0],
+        width: Width::new(0.05),
+    };
+    (
+        Gravity::EARTH,
+        Viscous([6.0, 6.0, 4.0, 1.0, 1.0, 1.0]),
+        coulomb,
+    )
+}
+
+/// q̈ under the torques of the drives and further effects.
+fn acceleration(
+    q: &[f64; 6],
+    qd: &[f64; 6],
+    tau: &[f64; 6],
+    more: impl Effect<f64, 6, 6> + Copy,
+) -> [f64; 6] {
+    let state = State {
+        q: *q,
+        qd: *qd,
+        qdd: [0.0; 6],
+    };
+    let effects = (friction(), (Inertia, Coriolis, ROTORS), more);
+    Core::<Ur5e>::aba(&state, tau, &effects).expect("an arm with mass")
+}
+
+/// A step of the classical Runge–Kutta method.
+fn advance(at: &mut State<f64, 6, 6>, tau: &[f64; 6], more: impl Effect<f64, 6, 6> + Copy, h: f64) {
+    let moved = |x: &[f64; 6], rate: &[f64; 6], h: f64| -> [f64; 6] {
+        core::array::from_fn(|i| x[i] + h * rate[i])
+    };
+    let mut rates = Vec::new();
+    for share in [0.0, 0.5, 0.5, 1.0] {
+        let (v, a) = rates.last().copied().unwrap_or(([0.0; 6], [0.0; 6]));
+        let (q, qd) = (moved(&at.q, &v, share * h), moved(&at.qd, &a, share * h));
+        rates.push((qd, acceleration(&q, &qd, tau, more)));
+    }
+    for (weight, (v, a)) in [1.0, 2.0, 2.0, 1.0].into_iter().zip(rates) {
+        at.q = moved(&at.q, &v, weight * h / 6.0);
+        at.qd = moved(&at.qd, &a, weight * h / 6.0);
+    }
+}
+
+/// The model of a state for an observer: p, and β with or without the transposed Coriolis product.
+fn model(at: &State<f64, 6, 6>, with_coriolis: bool) -> [[f64; 6]; 2] {
+    let MomentumAndCoriolis { p, ct_qd } = Core::<Ur5e>::momentum_and_coriolis(at, &ROTORS);
+    let load = Core::<Ur5e>::rnea(at, &friction());
+    let share = if with_coriolis { 1.0 } else { 0.0 };
+    [p, core::array::from_fn(|i| share * ct_qd[i] - load[i])]
+}
+
+/// What happens in a tick.
+struct Tick {
+    measured: bool,
+    external: [f64; 6],
+}
+
+/// The external torques of an observer in each tick of a fast motion.
+fn run<const ORDER: usize>(
+    ticks: usize,
+    with_coriolis: bool,
+    more: impl Effect<f64, 6, 6> + Copy,
+    tick: impl Fn(usize) -> Tick,
+) -> Vec<[f64; 6]> {
+    let mut observer = MomentumObserver::<f64, 6, ORDER>::try_new(CONFIG).expect("a good one");
+    let mut at = State::at([0.0, -1.2, 1.3, -0.4, 0.5, 0.1]);
+    let mut residuals = Vec::new();
+    for k in 0..ticks {
+        let Tick { measured, external } = tick(k);
+        if measured {
+            let [p, beta] = model(&at, with_coriolis);
+            observer.update(&p, &beta).expect("finite");
+        }
+        residuals.push(*observer.external_torque());
+        // Gravity and friction are held, and torques at several frequencies move the arm.
+        let mut tau = Core::<Ur5e>::rnea(
+            &State {
+                qdd: [0.0; 6],
+                ..at
+            },
+            &friction(),
+        );
+        for (i, tau) in tau.iter_mut().enumerate() {
+            let size = [20.0, 20.0, 15.0, 3.0, 3.0, 3.0][i];
+            *tau += size * (0.012 * k as f64 * (1.0 + 0.3 * i as f64)).cos();
+        }
+        observer.drive(&tau);
+        let with_external = core::array::from_fn(|i| tau[i] + external[i]);
+        for _ in 0..4 {
+            advance(&mut at, &with_external, more, TICK / 4.0);
+        }
+    }
+    assert!(at.qd.iter().any(|qd| qd.abs() > 0.5), "{:?}", at.qd);
+    residuals
+}
+
+const FREE: Tick = Tick {
+    measured: true,
+    external: [0.0; 6],
+};
+const PUSHED: [f64; 6] = [0.0, 10.0, 0.0, -2.0, 0.0, 0.0];
+
+fn pushed(measured: bool) -> Tick {
+    Tick {
+        measured,
+        external: PUSHED,
+    }
+}
+
+/// The largest difference from external torques times a share.
+fn off(residual: &[f64; 6], share: f64) -> f64 {
+    let pairs = residual.iter().zip(PUSHED);
+    pairs.fold(0.0, |worst, (r, pushed)| {
+        f64::max(worst, (r - share * pushed).abs())
+    })
+}
+
+fn worst(residuals: &[[f64; 6]]) -> f64 {
+    residuals.iter().map(|r| off(r, 0.0)).fold(0.0, f64::max)
+}
+
+#[test]
+fn a_motion_without_contact_has_no_external_torque() {
+    let free = worst(&run::<1>(1000, true, (), |_| FREE));
+    // N·m: the trapezoidal rule where friction changes its sign within a few ticks.
+    assert!(free < 0.01, "{free}");
+    // It is the transposed Coriolis product that makes it so.
+    let without = worst(&run::<1>(1000, false, (), |_| FREE));
+    assert!(without > 0.2, "{without}");
+}
+
+#[test]
+fn a_torque_is_found_at_its_joint_with_the_stated_delay() {
+    for (k, residual) in run::<1>(300, true, (), |_| pushed(true)).iter().enumerate() {
+        let share = 1.0 - (-BANDWIDTH * TICK * k as f64).exp();
+        let off = off(residual, share);
+        assert!(off < 0.01, "{k}: {off}");
+    }
+}
+
+#[test]
+fn two_poles_respond_as_a_critically_damped_filter() {
+    for (k, residual) in run::<2>(300, true, (), |_| pushed(true)).iter().enumerate() {
+        // The second pole filters what the first has at the end of the tick, half a tick early.
+        let x = BANDWIDTH * TICK * (k as f64 + 0.5);
+        let share = 1.0 - (1.0 + x) * (-x).exp();
+        assert!(off(residual, share) < 0.03, "{k}: {}", off(residual, share));
+    }
+}
+
+#[test]
+fn lost_measurements_delay_the_external_torque_and_change_nothing_else() {
+    let kept = |k: usize| k.is_multiple_of(7) && !(100..112).contains(&k);
+    let lost = run::<1>(300, true, (), |k| pushed(kept(k)));
+    for (k, residual) in lost.iter().enumerate().filter(|(k, _)| kept(*k)) {
+        let share = 1.0 - (-BANDWIDTH * TICK * k as f64).exp();
+        // N·m: the trapezoidal rule over several ticks is less accurate.
+        assert!(off(residual, share) < 0.3, "{k}: {}", off(residual, share));
+    }
+    // Between them it stays.
+    assert_eq!(lost[101], lost[111]);
+}
+
+#[test]
+fn a_force_on_a_link_is_of_no_joint_further_out() {
+    let wrench = Force::new(DVec3::new(2.0, 3.0, 4.0), DVec3::new(20.0, -30.0, 10.0));
+    let contact = BodyWrench { body: 3, wrench };
+    let mut observer = MomentumObserver::<f64, 6>::try_new(CONFIG).expect("a good one");
+    let residuals = run::<1>(300, true, contact, |_| FREE);
+    let last = residuals.last().expect("a tick");
+    assert!(
+        last[3].abs() > 0.5 && last[4].abs().max(last[5].abs()) < 0.01,
+        "{last:?}"
+    );
+    // Isolation reads the same from the observer.
+    assert_eq!(observer.outermost(&[0.1; 6]), None);
+    observer.update(&[0.0; 6], &[0.0; 6]).expect("finite");
+    observer.drive(&[0.0; 6]);
+    observer
+        .update(&last.map(|r| TICK * r), &[0.0; 6])
+        .expect("finite");
+    assert_eq!(observer.outermost(&[0.02; 6]), Some(3));
+}
+
+#[test]
+fn numbers_that_are_not_finite_are_refused_and_leave_no_trace() {
+    let update = |observer: &mut MomentumObserver<f64, 2>, p| observer.update(&[0.0, p], &[0.0; 2]);
+    let mut observer = MomentumObserver::<f64, 2>::try_new(CONFIG).expect("a good one");
+    let mut other = observer;
+    for (k, bad) in [f64::NAN, f64::INFINITY, 0.5].into_iter().enumerate() {
+        for observer in [&mut observer, &mut other] {
+            update(observer, 1e-3 * k as f64).expect("finite");
+            observer.drive(&[1.0, -1.0]);
+        }
+        if !bad.is_finite() {
+            assert_eq!(
+                update(&mut observer, bad),
+                Err(Fault::NotFinite { joint: 1 })
+            );
+            let beta = observer.update(&[0.0; 2], &[bad, 0.0]);
+            assert_eq!(beta, Err(Fault::NotFinite { joint: 0 }));
+        }
+    }
+    observer.drive(&[f64::NAN, 1.0]);
+    other.drive(&[0.0, 1.0]);
+    assert_eq!(observer, other);
+    for config in [0.0, -1.0, f64::NAN] {
+        let config = ObserverConfig {
+            bandwidth: config,
+            tick: TICK,
+        };
+        assert!(MomentumObserver::<f64, 2>::try_new(config).is_err());
+    }
+}
+
+#[test]
+fn a_restart_forgets_what_pushed() {
+    let mut observer = MomentumObserver::<f64, 1>::try_new(CONFIG).expect("a good one");
+    let fresh = observer;
+    observer.update(&[0.0], &[0.0]).expect("finite");
+    observer.drive(&[1.0]);
+    observer.update(&[5.0], &[0.0]).expect("finite");
+    assert!(observer.external_torque()[0] > 1.0);
+    observer.restart();
+    assert_eq!(observer.external_torque(), &[0.0]);
+    observer.update(&[7.0], &[0.0]).expect("finite");
+    let mut anew = fresh;
+    anew.update(&[7.0], &[0.0]).expect("finite");
+    assert_eq!(observer, anew);
+}

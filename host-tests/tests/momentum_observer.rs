@@ -2,7 +2,7 @@
 
 use dynamics_core::Core;
 use dynamics_core::algorithms::MomentumAndCoriolis;
-use dynamics_core::control::{Fault, MomentumObserver, ObserverConfig};
+use dynamics_core::control::{Contact, ContactDetector, Fault, MomentumObserver, ObserverConfig};
 use dynamics_core::effects::BodyWrench;
 use dynamics_core::effects::{
     Armature, Coriolis, Coulomb, Effect, Gravity, Inertia, Viscous, Width,
@@ -253,4 +253,117 @@ fn a_restart_forgets_what_pushed() {
     let mut anew = fresh;
     anew.update(&[7.0], &[0.0]).expect("finite");
     assert_eq!(observer, anew);
+}
+
+/// Loads of gravity, friction and acceleration of the arm that is off by these shares, and a bound of its error.
+struct Wrong {
+    bodies: f64,
+    friction: f64,
+}
+
+/// The contacts that a detector finds, with the model's torques off by shares up to the stated ones. The arm is pushed from
+/// a tick on.
+fn contacts(stated: Wrong, wrong: Wrong, pushed: Option<usize>) -> Vec<(usize, Contact<f64>)> {
+    let mut detector = ContactDetector::<f64, 6>::try_new(CONFIG, [0.2; 6]).expect("a good one");
+    let mut at = State::at([0.0, -1.2, 1.3, -0.4, 0.5, 0.1]);
+    let (mut found, mut qdd) = (Vec::new(), [0.0; 6]);
+    let (gravity, viscous, coulomb) = friction();
+    for k in 0..600 {
+        let MomentumAndCoriolis { p, ct_qd } = Core::<Ur5e>::momentum_and_coriolis(&at, &ROTORS);
+        let weight = Core::<Ur5e>::rnea(
+            &State {
+                qdd: [0.0; 6],
+                ..at
+            },
+            &gravity,
+        );
+        let resistance = Core::<Ur5e>::rnea(
+            &State {
+                qdd: [0.0; 6],
+                ..at
+            },
+            &(viscous, coulomb),
+        );
+        let effects = (gravity, Inertia, Coriolis, ROTORS);
+        let bodies = Core::<Ur5e>::rnea(&State { qdd, ..at }, &effects);
+        let share = |x: f64| 1.0 + x;
+        let p = p.map(|p| share(wrong.bodies) * p);
+        let beta = core::array::from_fn(|i| {
+            share(wrong.bodies) * (ct_qd[i] - weight[i]) - share(wrong.friction) * resistance[i]
+        });
+        let errors = core::array::from_fn(|i| {
+            stated.bodies * bodies[i].abs() + stated.friction * resistance[i].abs()
+        });
+        let contact = detector.update(&p, &beta, &errors).expect("finite");
+        found.extend(contact.map(|contact| (k, contact)));
+        let mut tau: [f64; 6] = core::array::from_fn(|i| weight[i] + resistance[i]);
+        for (i, tau) in tau.iter_mut().enumerate() {
+            let size = [20.0, 20.0, 15.0, 3.0, 3.0, 3.0][i];
+            *tau += size * (0.012 * k as f64 * (1.0 + 0.3 * i as f64)).cos();
+        }
+        detector.drive(&tau);
+        if pushed.is_some_and(|from| k >= from) {
+            tau[4] += 2.0;
+        }
+        let before = at.qd;
+        for _ in 0..4 {
+            advance(&mut at, &tau, (), TICK / 4.0);
+        }
+        qdd = core::array::from_fn(|i| (at.qd[i] - before[i]) / TICK);
+    }
+    found
+}
+
+const STATED: Wrong = Wrong {
+    bodies: 0.03,
+    friction: 0.1,
+};
+
+#[test]
+fn a_model_that_is_as_good_as_stated_gives_no_contact() {
+    for (bodies, friction) in [(0.03, 0.1), (-0.03, -0.1), (0.03, -0.1), (-0.03, 0.1)] {
+        let found = contacts(STATED, Wrong { bodies, friction }, None);
+        assert_eq!(found, []);
+    }
+    // One that is worse does.
+    let worse = Wrong {
+        bodies: 0.0,
+        friction: 0.4,
+    };
+    assert!(!contacts(STATED, worse, None).is_empty());
+}
+
+#[test]
+fn a_push_of_2_newton_metres_at_the_wrist_is_found_within_40_ticks() {
+    for from in [100, 250, 400] {
+        for (bodies, friction) in [(0.03, 0.1), (-0.03, -0.1)] {
+            let found = contacts(STATED, Wrong { bodies, friction }, Some(from));
+            let (tick, contact) = found.first().expect("a contact");
+            assert_eq!(contact.joint, 4);
+            assert!((from..from + 40).contains(tick), "{from}: {tick}");
+        }
+    }
+}
+
+#[test]
+fn a_detector_refuses_margins_and_bounds_that_are_no_numbers() {
+    for margin in [0.0, -1.0, f64::NAN] {
+        assert!(ContactDetector::<f64, 1>::try_new(CONFIG, [margin]).is_err());
+    }
+    let mut detector = ContactDetector::<f64, 1>::try_new(CONFIG, [0.5]).expect("a good one");
+    detector.update(&[0.0], &[0.0], &[0.0]).expect("finite");
+    detector.drive(&[0.0]);
+    let before = detector;
+    let refused = detector.update(&[1.0], &[0.0], &[f64::NAN]);
+    assert_eq!(refused, Err(Fault::NotFinite { joint: 0 }));
+    let refused = detector.update(&[f64::NAN], &[0.0], &[0.0]);
+    assert_eq!(refused, Err(Fault::NotFinite { joint: 0 }));
+    assert_eq!(detector, before);
+    detector.update(&[1.0], &[0.0], &[100.0]).expect("finite");
+    assert!(detector.threshold()[0] > 1.0 && detector.external_torque()[0] > 1.0);
+    detector.restart();
+    assert_eq!(
+        (detector.threshold(), *detector.external_torque()),
+        ([0.5], [0.0])
+    );
 }

@@ -37,6 +37,8 @@ pub enum ConfigParameter {
     Bandwidth,
     /// The rate at which the speed of a held arm decays.
     DecayRate,
+    /// The margin of a contact detector.
+    ContactMargin,
     /// The step of the encoders, which may be zero.
     Resolution,
     /// The greatest distance from the trajectory at a restart, which may be infinite.
@@ -74,6 +76,9 @@ impl fmt::Display for ConfigError {
             ConfigParameter::Tick => "the length of a tick is not a positive number",
             ConfigParameter::Bandwidth => "the bandwidth of the observer is not a positive number",
             ConfigParameter::DecayRate => "the decay rate of a held arm is not a positive number",
+            ConfigParameter::ContactMargin => {
+                "a margin of the contact detector is not a positive number"
+            }
             ConfigParameter::Resolution => "the step of the encoders is negative or not finite",
             ConfigParameter::RestartDistance => "the restart distance is negative or not a number",
         })

@@ -8,6 +8,7 @@
 //! | [`Reference`] | the reference of a controller: a trajectory, or a user's own motion | |
 //! | [`MultiTurnEncoder`] | the position of an encoder over many turns | counts |
 //! | [`Observer`] | velocity from positions | estimate |
+//! | [`ContactDetector`] | external torques beyond thresholds that follow the stated errors of the model | as the observer, thresholds |
 //! | [`MomentumObserver`] | external torques from the momentum of the joints | momentum, external torques |
 //! | [`Gains`], [`feedback()`] | K_p (q_d − q) + K_d (q̇_d − q̇) | none |
 //! | [`hold()`] | the reference of a held arm: q̈ = −λ q̇ | none |
@@ -55,6 +56,7 @@ mod approach;
 mod back_off;
 mod command;
 mod config_error;
+mod contact_detector;
 mod controller;
 mod detectors;
 mod fault;
@@ -78,6 +80,7 @@ pub use approach::{Approach, ApproachError};
 pub use back_off::{BackOff, BackOffConfig};
 pub use command::{Command, Mode, Status};
 pub use config_error::{ConfigError, ConfigParameter};
+pub use contact_detector::{Contact, ContactDetector};
 pub use controller::{
     CurrentTick, MeasurementAge, MotionController, MotionControllerConfig, ObservedTick,
     PreviousTick, ReferencedTick, ResetError,

@@ -93,10 +93,8 @@ impl<R: Real, const V: usize, const ORDER: usize> MomentumObserver<R, V, ORDER> 
         if let Some(joint) = numbers.position(|(p, beta)| !(p.is_finite() & beta.is_finite())) {
             return Err(Fault::NotFinite { joint });
         }
-        // Without a tick in between there is no mean.
-        if self.started & (self.elapsed > R::ZERO) {
+        if let Some(share) = self.share() {
             let (rate, half) = (R::ONE / self.elapsed, R::from_f64(0.5));
-            let share = R::ONE - self.decay;
             for i in 0..V {
                 let model = half * (entry(beta, i) + entry(&self.beta, i));
                 let change = entry(p, i) - entry(&self.p, i) - entry(&self.impulse, i);
@@ -112,6 +110,13 @@ impl<R: Real, const V: usize, const ORDER: usize> MomentumObserver<R, V, ORDER> 
         (self.p, self.beta, self.started) = (*p, *beta, true);
         (self.decay, self.elapsed, self.impulse) = (R::ONE, R::ZERO, [R::ZERO; V]);
         Ok(())
+    }
+
+    /// 1 − exp(−K h n) of the next measurement; without a tick in between there is no mean.
+    #[inline(always)]
+    pub(super) fn share(&self) -> Option<R> {
+        let has_mean = self.started & (self.elapsed > R::ZERO);
+        has_mean.then_some(R::ONE - self.decay)
     }
 
     /// The torques of the drives from this tick to the next, N·m or N: to be called once in each tick, also in one whose

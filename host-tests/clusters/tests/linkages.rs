@@ -252,5 +252,5 @@ fn zeros_of_the_joints_of_a_five_bar_shift_its_coordinates_alone() {
             "{i}"
         );
     }
-    assert!(apart(&plain.g.as_flattened(), &shifted.g.as_flattened()) < 1e-14);
+    assert!(apart(plain.g.as_flattened(), shifted.g.as_flattened()) < 1e-14);
 }

@@ -22,6 +22,7 @@ pages! {
     telemetry "telemetry.md",
     tuning "tuning.md",
     faults "faults.md",
+    contact "contact.md",
     porting "porting.md",
     engine "engine.md",
 }

@@ -41,9 +41,11 @@ struct Body<R: Real> {
 /// $$
 /// \dot p = \tau + C^T \dot q - g(q), \qquad
 /// p_i = S_i^T h^c_i, \qquad
-/// (C^T \dot q)_i = (v_i \times S_i + \mathring S_i)^T h^c_i, \qquad
+/// c_i = (v_i \times S_i + \mathring S_i)^T h^c_i, \qquad
 /// h^c_i = I_i v_i + \sum_{\lambda(j) = i} {}^jX_i^T h^c_j
 /// $$
+///
+/// with c = Cᵀ q̇.
 ///
 /// C is any matrix with $\dot M = C + C^T$ whose product with q̇ is the vector of velocity products, such as that of the
 /// Christoffel symbols: $C^T \dot q = \dot M \dot q - C \dot q$ is the same for all of them. Where q̇ is the derivative of q,

@@ -199,8 +199,9 @@ impl Results {
             table.markdown()
         );
         for name in &self.unusable {
-            text +=
-                &format!("\nNot used, because it fails in the copy without a change: `{name}`.\n");
+            text += &format!(
+                "\nNot used, because it fails in the copy without a change, or is too slow there: `{name}`.\n"
+            );
         }
         text += "\n## What survived\n";
         for room in rooms {

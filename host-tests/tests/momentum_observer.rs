@@ -2,7 +2,9 @@
 
 use dynamics_core::Core;
 use dynamics_core::algorithms::MomentumAndCoriolis;
-use dynamics_core::control::{Contact, ContactDetector, Fault, MomentumObserver, ObserverConfig};
+use dynamics_core::control::{
+    ContactDetector, DetectedContact, Fault, MomentumObserver, ObserverConfig,
+};
 use dynamics_core::effects::BodyWrench;
 use dynamics_core::effects::{
     Armature, Coriolis, Coulomb, Effect, Gravity, Inertia, Viscous, Width,
@@ -75,7 +77,7 @@ fn model(at: &State<f64, 6, 6>, with_coriolis: bool) -> [[f64; 6]; 2] {
     [p, core::array::from_fn(|i| share * ct_qd[i] - load[i])]
 }
 
-/// What happens in a tick.
+/// Whether a tick has a measurement, and the external torques until the next one.
 struct Tick {
     measured: bool,
     external: [f64; 6],
@@ -255,7 +257,7 @@ fn a_restart_forgets_what_pushed() {
     assert_eq!(observer, anew);
 }
 
-/// Loads of gravity, friction and acceleration of the arm that is off by these shares, and a bound of its error.
+/// Shares of the torques: errors of a model, or bounds of them.
 struct Wrong {
     bodies: f64,
     friction: f64,
@@ -263,7 +265,11 @@ struct Wrong {
 
 /// The contacts that a detector finds, with the model's torques off by shares up to the stated ones. The arm is pushed from
 /// a tick on.
-fn contacts(stated: Wrong, wrong: Wrong, pushed: Option<usize>) -> Vec<(usize, Contact<f64>)> {
+fn contacts(
+    stated: Wrong,
+    wrong: Wrong,
+    pushed: Option<usize>,
+) -> Vec<(usize, DetectedContact<f64>)> {
     let mut detector = ContactDetector::<f64, 6>::try_new(CONFIG, [0.2; 6]).expect("a good one");
     let mut at = State::at([0.0, -1.2, 1.3, -0.4, 0.5, 0.1]);
     let (mut found, mut qdd) = (Vec::new(), [0.0; 6]);

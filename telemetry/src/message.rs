@@ -102,9 +102,9 @@ impl Joint {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample<const N: usize> {
-    /// The number of the tick since the start of the program: of [`Producer::push`](crate::Producer::push).
+    /// The number of the tick since the start of the program; [`Producer::push`](crate::Producer::push) sets it.
     pub number: u32,
-    /// Ticks that the full queue has dropped before this one: of [`Producer::push`](crate::Producer::push).
+    /// Ticks that the full queue has dropped before this one; [`Producer::push`](crate::Producer::push) sets it.
     pub dropped: u32,
     /// Ticks since the start of the trajectory.
     pub tick: u32,

@@ -73,6 +73,7 @@ impl<const N: usize> Producer<'_, N> {
     /// ```
     #[inline]
     pub fn push(&mut self, sample: &Sample<N>) -> bool {
+        // Field by field: the sample in one piece would be copied by `memcpy`, which takes twice the cycles.
         let sample = Sample {
             number: self.number,
             dropped: self.dropped,

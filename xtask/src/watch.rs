@@ -194,7 +194,7 @@ fn every_tick_arrived(json: &str) -> Result<()> {
     let events = summary["events"].as_array();
     refuse_if!(
         events.is_none_or(|events| !events.is_empty()),
-        "the arm was disturbed: {}",
+        "the arm has events although nothing disturbed it: {}",
         summary["events"]
     );
     Ok(())

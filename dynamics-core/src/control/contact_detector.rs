@@ -1,7 +1,7 @@
 //! Contacts: external torques beyond thresholds that follow the stated errors of the model.
 //!
 //! The observer filters the error of the model as it filters the torque of a contact, by a filter whose response is nowhere
-//! negative. With the same filter for a bound e of that error, |r| ≤ e holds as long as the model is as good as stated:
+//! negative. With the same filter for a bound e of that error, |r| stays within the filtered e as long as the stated errors hold:
 //!
 //! ```text
 //! threshold = margin + filtered e
@@ -11,10 +11,10 @@ use super::{ConfigError, ConfigParameter, Fault, MomentumObserver, ObserverConfi
 use crate::scalar::Real;
 use crate::state::entry;
 
-/// A contact that a [`ContactDetector`] has found.
+/// The joint and the torque of a contact that a [`ContactDetector`] has found.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Contact<R> {
+pub struct DetectedContact<R> {
     /// The outermost joint beyond its threshold. The contact is at its link, or further out where its force has no torque
     /// about the outer joints.
     pub joint: usize,
@@ -22,7 +22,7 @@ pub struct Contact<R> {
     pub torque: R,
 }
 
-/// Finds contacts of an arm without sensors of force.
+/// A detector of contacts of an arm without force sensors.
 ///
 /// The margin is for what is not an error of the model: the noise of the encoders. If that noise is Gaussian with the
 /// standard deviation σ in r, a margin of 4.9 σ is exceeded in one of 10⁶ ticks of each joint, one of 4.3 σ in 17.
@@ -33,7 +33,7 @@ pub struct Contact<R> {
 /// let mut detector: ContactDetector<f32, 1> = ContactDetector::try_new(config, [0.5])?;
 /// let mut found = None;
 /// for tick in 0..100 {
-///     // The drive holds 10 N·m of gravity, of which the model is sure up to 3 %. From the tick 50 on, 2 N·m push.
+///     // The drive holds 10 N·m of gravity, which is modelled within 3 %. From tick 50 on, a contact adds 2 N·m.
 ///     let pushed = if tick > 50 { 2e-3 * (tick - 50) as f32 } else { 0.0 };
 ///     let contact = detector.update(&[pushed], &[-10.0], &[0.3])?;
 ///     found = found.or(contact.map(|contact| (tick, contact.joint)));
@@ -80,7 +80,7 @@ impl<R: Real, const V: usize, const ORDER: usize> ContactDetector<R, V, ORDER> {
         p: &[R; V],
         beta: &[R; V],
         errors: &[R; V],
-    ) -> Result<Option<Contact<R>>, Fault> {
+    ) -> Result<Option<DetectedContact<R>>, Fault> {
         if let Some(joint) = errors.iter().position(|error| !error.is_finite()) {
             return Err(Fault::NotFinite { joint });
         }
@@ -100,7 +100,7 @@ impl<R: Real, const V: usize, const ORDER: usize> ContactDetector<R, V, ORDER> {
         }
         self.errors = *errors;
         let joint = self.observer.outermost(&self.threshold());
-        Ok(joint.map(|joint| Contact {
+        Ok(joint.map(|joint| DetectedContact {
             joint,
             torque: entry(self.observer.external_torque(), joint),
         }))

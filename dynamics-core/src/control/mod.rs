@@ -80,7 +80,7 @@ pub use approach::{Approach, ApproachError};
 pub use back_off::{BackOff, BackOffConfig};
 pub use command::{Command, Mode, Status};
 pub use config_error::{ConfigError, ConfigParameter};
-pub use contact_detector::{Contact, ContactDetector};
+pub use contact_detector::{ContactDetector, DetectedContact};
 pub use controller::{
     CurrentTick, MeasurementAge, MotionController, MotionControllerConfig, ObservedTick,
     PreviousTick, ReferencedTick, ResetError,

@@ -18,6 +18,9 @@ use crate::state::entry;
 ///
 /// A first-order observer is the usual one; a second-order one passes less of the noise of the velocities.
 ///
+/// # Cost
+/// 8 flops and 3 for each pole, for each joint, beside the model; one division.
+///
 /// ```
 /// use dynamics_core::algorithms::{MomentumAndCoriolis, momentum_and_coriolis, rnea};
 /// use dynamics_core::control::{MomentumObserver, ObserverConfig};

@@ -36,7 +36,7 @@ struct Body<R: Real> {
 
 /// The generalised momentum p = M q̇ and the transposed Coriolis product Cᵀ q̇, in joint coordinates, N·m·s and N·m.
 ///
-/// Together they are the model of an observer that reads external torques from the momentum, without accelerations:
+/// Together they are the model of an observer that estimates external torques without accelerations:
 ///
 /// $$
 /// \dot p = \tau + C^T \dot q - g(q), \qquad

@@ -15,6 +15,7 @@ mod operational_space;
 mod pivot_check;
 mod rnea;
 mod rotors;
+mod transmitted;
 mod tree_pass;
 
 pub use aba::aba;
@@ -36,11 +37,12 @@ pub use momentum::{
     CenterOfMass, MomentumAndCoriolis, base_velocity_from_momentum, center_of_mass,
     centroidal_matrix, centroidal_momentum, momentum, momentum_and_coriolis,
 };
-pub(crate) use operational_space::shifted_inverse;
 pub use operational_space::{
     Conditioning, Damping, OperationalSpace, OsimInverse, damped_inverse, operational_space,
     osim_inverse, task_jacobian,
 };
+pub(crate) use operational_space::{shifted_inverse, shifted_solution};
 pub(crate) use pivot_check::Magnitude;
 pub use rnea::rnea;
+pub use transmitted::transmitted_torque;
 pub(crate) use tree_pass::{inward, per_body};

@@ -10,6 +10,7 @@
 //! | [`Observer`] | velocity from positions | estimate |
 //! | [`ContactDetector`] | external torques beyond thresholds that follow the stated errors of the model | as the observer, thresholds |
 //! | [`MomentumObserver`] | external torques from the momentum of the joints | momentum, external torques |
+//! | [`TipWrench`] | the wrench of a contact at the tip, from external torques | none |
 //! | [`Gains`], [`feedback()`] | K_p (q_d − q) + K_d (q̇_d − q̇) | none |
 //! | [`hold()`] | the reference of a held arm: q̈ = −λ q̇ | none |
 //! | [`hybrid_motion_force`], [`TaskCommand`] | motions and forces along a task's directions | none |
@@ -74,6 +75,7 @@ mod safety_limits;
 mod shaper;
 mod supervisor;
 mod tick_counter;
+mod tip_wrench;
 mod trajectory;
 
 pub use approach::{Approach, ApproachError};
@@ -103,6 +105,7 @@ pub use safety_limits::{LimitKind, SafetyLimits, SafetyLimitsError};
 pub use shaper::{Shaped, Shaper, ShaperError, ShaperProblem, Vibration};
 pub use supervisor::{StopCategory, Supervisor, SupervisorConfig, SupervisorTick};
 pub use tick_counter::{CompletedTick, CountedTick, TickCounter, Watchdog};
+pub use tip_wrench::TipWrench;
 pub use trajectory::{MotionLimits, RestToRest, Trajectory, TrajectoryError, WayPoint};
 
 use crate::scalar::Real;

@@ -53,6 +53,39 @@ impl<T, K> Engine<T, K> {
             .trig_or(Specialised::<T, K, B, V>(PhantomData));
         accelerate::<R, T, E, B, Q, V>(trig.borrow(), state.state(), tau, effects)
     }
+
+    /// The torques that the gears transmit while their motors supply `tau`, N·m or N, as
+    /// [`crate::algorithms::transmitted_torque`] computes them.
+    ///
+    /// ```
+    /// use dynamics_core::{Engine, effects::{LoadFriction, Width}, robots::Ur5e, state::State};
+    /// let gears = LoadFriction { driving: [0.25_f32; 6], backdriving: [0.2; 6], width: Width::new(0.01) };
+    /// let moving = State { qd: [0.5; 6], ..State::at([0.0; 6]) };
+    /// let [first, ..] = Engine::<Ur5e>::transmitted_torque(&moving, &[5.0; 6], &gears);
+    /// assert!((first - 4.0).abs() < 1e-6); // 5 / 1.25
+    /// ```
+    #[inline(always)]
+    #[must_use]
+    pub fn transmitted_torque<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+        state: &State<R, Q, V>,
+        tau: &[R; V],
+        effects: &E,
+    ) -> [R; V]
+    where
+        T: Robot<B, Q, V>,
+        E: Effect<R, B, V>,
+    {
+        let mut rest = *tau;
+        if const { E::LOAD_DEPENDENT } {
+            for_each_joint!(J, {
+                if const { J < V } {
+                    let at = JointState::new(state.q[J], state.qd[J]);
+                    rest[J] = transmitted(effects, J, at, rest[J]);
+                }
+            });
+        }
+        rest
+    }
 }
 
 impl<T> Engine<T> {
@@ -75,13 +108,9 @@ impl<T> Engine<T> {
             )
         };
         let bias = Self::run(trig, trig, state, &Bias(effects));
-        let mut rest = *tau;
+        let mut rest = Self::transmitted_torque(state, tau, effects);
         for_each_joint!(J, {
             if const { J < V } {
-                if const { E::LOAD_DEPENDENT } {
-                    let at = JointState::new(state.q[J], state.qd[J]);
-                    rest[J] = transmitted(effects, J, at, rest[J]);
-                }
                 rest[J] -= bias[J];
             }
         });

@@ -42,6 +42,7 @@ mod folding;
 mod forward_dynamics;
 mod jacobian;
 mod ltdl;
+mod momentum;
 mod pivot_noise;
 mod pose;
 mod rnea;

@@ -61,15 +61,7 @@ where
     if E::BODY_POSE {
         field.pose = parent.pose.transformed_by(joint, turn, slide);
     }
-    let mut body = if E::BASE_MOTION {
-        Inertia::second_moment_only(joint)
-    } else {
-        Inertia::of(joint)
-    };
-    if const { CompiledRobot::<T, B, Q, V>::loads(I, &E::PAYLOAD) > 0 } {
-        body = loaded::<R, T, E, B, Q, V, I>(task.effects, body);
-    }
-    let mut total = field.wrench(&body);
+    let mut total = field.wrench(&inertia::<R, T, E, B, Q, V, I>(task.effects));
     if E::WRENCH {
         total = environment::<R, T, E, B, Q, V, I>(task.effects, &field, total);
     }
@@ -98,6 +90,28 @@ where
         turn
     };
     total.to_parent::<T, B, Q, V, I>(turn, slide)
+}
+
+/// The inertia of the body behind joint I, with its payloads.
+#[inline(always)]
+pub(crate) fn inertia<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
+    effects: &E,
+) -> Inertia<R>
+where
+    R: Real,
+    T: Robot<B, Q, V>,
+    E: Effect<R, B, V>,
+{
+    let joint = const { &CompiledRobot::<T, B, Q, V>::joint(I) };
+    let mut body = if E::BASE_MOTION {
+        Inertia::second_moment_only(joint)
+    } else {
+        Inertia::of(joint)
+    };
+    if const { CompiledRobot::<T, B, Q, V>::loads(I, &E::PAYLOAD) > 0 } {
+        body = loaded::<R, T, E, B, Q, V, I>(effects, body);
+    }
+    body
 }
 
 /// Adds the payloads of the bodies on joint I, which are given in those bodies' own frames, to its inertia.

@@ -191,6 +191,44 @@ pub(crate) fn shifted_inverse<R: Real, const M: usize>(
     eliminate(a, -shift).map(|pivots| pivots.inverse())
 }
 
+/// x with (A + shift 1) x = b, of a symmetric A by its lower triangle; a component without a positive pivot is zero.
+#[inline(never)]
+pub(crate) fn shifted_solution<R: Real, const M: usize>(
+    a: &[[R; M]; M],
+    shift: R,
+    b: &[R; M],
+) -> [R; M] {
+    // A = L D Lᵀ, with L below the diagonal and D⁻¹ on it.
+    let (mut factors, mut x) = (*a, *b);
+    for i in 0..M {
+        let (above, below) = factors.split_at_mut(i);
+        let Some(row) = below.first_mut() else { break };
+        let mut pivot = row[i] + shift;
+        for j in 0..i {
+            for k in 0..j {
+                row[j] -= row[k] * above[j][k];
+            }
+        }
+        for (j, above) in above.iter().enumerate() {
+            let scaled = row[j];
+            row[j] = scaled * above[j];
+            pivot -= scaled * row[j];
+            x[i] -= row[j] * x[j];
+        }
+        let usable = pivot > R::ZERO && pivot.is_finite();
+        row[i] = if usable { R::ONE / pivot } else { R::ZERO };
+    }
+    for (i, row) in factors.iter().enumerate() {
+        x[i] *= row[i];
+    }
+    for i in (0..M).rev() {
+        for (j, l) in factors[i].iter().enumerate().take(i) {
+            x[j] -= *l * x[i];
+        }
+    }
+    x
+}
+
 /// 1/λ, damped below ε.
 #[inline(always)]
 fn reciprocal<R: Real>(value: R, threshold: R) -> R {

@@ -11,8 +11,8 @@ mod damped_inverse;
 mod eigen;
 mod osim_inverse;
 
-pub(crate) use damped_inverse::shifted_inverse;
 pub use damped_inverse::{Conditioning, Damping, damped_inverse};
+pub(crate) use damped_inverse::{shifted_inverse, shifted_solution};
 pub use osim_inverse::{OsimInverse, osim_inverse};
 
 use core::borrow::Borrow;

@@ -9,7 +9,7 @@ use dynamics_core::state::{JointTrig, State, StateWithTrig};
 use dynamics_core::{Core, Engine, MassMatrix};
 
 use super::row::Row;
-use super::{Ask, STATES, asks, done};
+use super::{Ask, STATES, asks, done, momentum};
 
 type Scene = (Gravity, Inertia, Coriolis);
 type Solution<const N: usize> = Result<[f32; N], NotPositiveDefinite>;
@@ -65,13 +65,16 @@ fn of_engine<'a, T: Robot<B, N, N>, const B: usize, const N: usize, const TIP: u
 /// Measures core and engine.
 pub fn both<T: Robot<B, N, N>, const B: usize, const N: usize, const TIP: usize>() -> ! {
     let asks = &asks::<T, B, N, STATES>();
-    run::<T, B, N>(asks, &[of_core::<T, B, N>(), of_engine::<T, B, N, TIP>()])
+    run::<T, B, N>(asks, &[of_core::<T, B, N>(), of_engine::<T, B, N, TIP>()]);
+    momentum::both::<T, B, N>(asks);
+    done()
 }
 
 /// Measures the core alone.
 pub fn core<T: Robot<B, N, N>, const B: usize, const N: usize>() -> ! {
     let asks = &asks::<T, B, N, STATES>();
-    run::<T, B, N>(asks, &[of_core::<T, B, N>()])
+    run::<T, B, N>(asks, &[of_core::<T, B, N>()]);
+    done()
 }
 
 #[inline(never)]
@@ -110,7 +113,7 @@ fn tip_jacobian_before<T: Robot<B, N, N>, const B: usize, const N: usize>(
 fn run<'a, T: Robot<B, N, N>, const B: usize, const N: usize>(
     asks: &'a [Ask<N>; STATES],
     forms: &[Forms<'a, N>],
-) -> ! {
+) {
     let scene = &RIGID_BODY;
     let row = |form: &Forms<'_, N>, algorithm, trig| {
         Row::of::<T, B, N>(algorithm, form.name, "full", trig)
@@ -147,5 +150,4 @@ fn run<'a, T: Robot<B, N, N>, const B: usize, const N: usize>(
         row(form, "jacobian", false)
             .measure(precomputed as usize, asks, |ask| precomputed(&ask.trig));
     }
-    done()
 }

@@ -12,6 +12,7 @@
 pub mod effects;
 pub mod forward;
 pub mod inverse;
+pub mod momentum;
 pub mod row;
 
 use cortex_m_semihosting::debug;

@@ -18,6 +18,7 @@ use proptest::test_runner::{RngAlgorithm, TestRng};
 
 mod large;
 mod matrix;
+mod momentum;
 mod recorded;
 /// Pushes the plinth, the rail, the bracket (a weld in mid-tree), the tool (a weld at a tip) and
 /// the jib, each in its own frame.
@@ -67,7 +68,7 @@ where
     let mut random = |bound: f64| -> [R; N] {
         core::array::from_fn(|_| R::from_f64(rng.random_range(-bound..bound)))
     };
-    let (mut worst, mut full_scale) = (0.0_f64, 0.0_f64);
+    let mut worst = Ulps::default();
     for i in 0..=states {
         let mut state = State::at([R::ZERO; N]);
         if i > 0 {
@@ -79,25 +80,39 @@ where
         }
         let core = Core::<T>::rnea(&state, scene);
         let engine = Engine::<T>::rnea(&state, scene);
+        worst.see(core, engine);
+    }
+    worst.of::<R>(T::MODEL.name)
+}
+
+/// The largest difference of two results, and the largest component of the first.
+#[derive(Default)]
+struct Ulps {
+    worst: f64,
+    full_scale: f64,
+}
+
+impl Ulps {
+    fn see<R: Real, const N: usize>(&mut self, core: [R; N], engine: [R; N]) {
         for (core, engine) in core.iter().zip(engine) {
             let (core, engine) = (core.to_f64(), engine.to_f64());
             assert!(core.is_finite() && engine.is_finite());
-            worst = largest([worst, (core - engine).abs()]);
-            full_scale = full_scale.max(core.abs());
+            self.worst = largest([self.worst, (core - engine).abs()]);
+            self.full_scale = self.full_scale.max(core.abs());
         }
     }
-    let ulp = if R::from_f64(1.0 + f64::EPSILON) == R::ONE {
-        f64::from(f32::EPSILON)
-    } else {
-        f64::EPSILON
-    };
-    let ulps = worst / (ulp * full_scale);
-    println!(
-        "{} {}: {ulps:.2} ulp of {full_scale:.1}",
-        T::MODEL.name,
-        std::any::type_name::<R>()
-    );
-    ulps
+
+    fn of<R: Real>(&self, what: &str) -> f64 {
+        let ulp = if R::from_f64(1.0 + f64::EPSILON) == R::ONE {
+            f64::from(f32::EPSILON)
+        } else {
+            f64::EPSILON
+        };
+        let (scalar, full_scale) = (std::any::type_name::<R>(), self.full_scale);
+        let ulps = self.worst / (ulp * full_scale);
+        println!("{what} {scalar}: {ulps:.2} ulp of {full_scale:.1}");
+        ulps
+    }
 }
 
 fn robot<R: Real, T, const B: usize, const N: usize>()

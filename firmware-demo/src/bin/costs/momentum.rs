@@ -1,0 +1,112 @@
+//! p and Cᵀ q̇, and what an observer of external torques costs with them.
+
+use dynamics_core::algorithms::{MomentumAndCoriolis, frame};
+use dynamics_core::control::{Fault, MomentumObserver, ObserverConfig, TipWrench};
+use dynamics_core::effects::{Coulomb, Gravity, LoadFriction, RIGID_BODY, Viscous, Width};
+use dynamics_core::model::Robot;
+use dynamics_core::spatial::{Force, Motion};
+use dynamics_core::state::{State, StateWithTrig};
+use dynamics_core::{Core, Engine};
+
+use super::row::Row;
+use super::{Ask, STATES};
+
+type Inside<'a, const N: usize> = fn(&'a State<f32, N, N>, &()) -> MomentumAndCoriolis<f32, N>;
+type Precomputed<'a, const N: usize> =
+    fn(StateWithTrig<'a, f32, N, N>, &()) -> MomentumAndCoriolis<f32, N>;
+/// The torques that need no acceleration, and the friction that does not depend on the load.
+type AtRest<const N: usize> = (Gravity, (Viscous<f32, N>, Coulomb<f32, N>));
+
+/// Measures core and engine.
+pub fn both<T: Robot<B, N, N>, const B: usize, const N: usize>(asks: &[Ask<N>; STATES]) {
+    let forms: [(&str, Inside<'_, N>, Precomputed<'_, N>); 2] = [
+        (
+            "core",
+            Core::<T>::momentum_and_coriolis,
+            Core::<T>::momentum_and_coriolis,
+        ),
+        (
+            "engine",
+            Engine::<T>::momentum_and_coriolis,
+            Engine::<T>::momentum_and_coriolis,
+        ),
+    ];
+    for (form, inside, precomputed) in forms {
+        let row = |trig| Row::of::<T, B, N>("momentum", form, "full", trig);
+        row(true).measure(inside as usize, asks, |ask| inside(&ask.state, &()));
+        row(false).measure(precomputed as usize, asks, |ask| {
+            precomputed(ask.trig.with(&ask.state), &())
+        });
+    }
+    observer::<T, B, N>(asks);
+}
+
+/// Inverse dynamics with all friction, the observer's residual with the same friction, and the wrench at the tip.
+fn observer<T: Robot<B, N, N>, const B: usize, const N: usize>(asks: &[Ask<N>; STATES]) {
+    let row = |algorithm, inputs, trig| Row::of::<T, B, N>(algorithm, "engine", inputs, trig);
+    let (torque, width) = ([2.0; N], Width::new(0.05));
+    let friction = (Viscous([0.5; N]), Coulomb { torque, width });
+    let gears = LoadFriction {
+        driving: [0.2; N],
+        backdriving: [0.15; N],
+        width,
+    };
+    let scene = &(RIGID_BODY, friction, gears);
+    let run: for<'a> fn(&'a State<f32, N, N>, &_) -> [f32; N] = Engine::<T>::rnea;
+    row("rnea", "friction", true).measure(run as *const () as usize, asks, |ask| {
+        run(&ask.state, scene)
+    });
+
+    let config = ObserverConfig {
+        bandwidth: 50.0,
+        tick: 1e-3,
+    };
+    let Ok(mut observer) = MomentumObserver::try_new(config) else {
+        return;
+    };
+    let (scene, run) = (&((Gravity::EARTH, friction), gears), residual::<T, B, N>);
+    row("residual", "friction", true).measure(run as *const () as usize, asks, |ask| {
+        run(&mut observer, &ask.state, scene)
+    });
+
+    let columns = asks
+        .each_ref()
+        .map(|ask| Core::<T>::jacobian(&ask.trig, const { B - 1 }, frame::LocalWorldAligned));
+    let wrench = TipWrench {
+        noise: [0.5; N],
+        force: 100.0,
+        couple: 10.0,
+    };
+    let run = tip_wrench::<N>;
+    row("tip_wrench", "6_directions", false).measure(
+        run as *const () as usize,
+        &columns,
+        |columns| run(&wrench, columns, &[1.0; N]),
+    );
+}
+
+#[inline(never)]
+fn tip_wrench<const N: usize>(
+    given: &TipWrench<f32, N>,
+    jacobian: &[Motion<f32>; N],
+    external: &[f32; N],
+) -> Result<Force<f32>, Fault> {
+    given.estimate(jacobian, external)
+}
+
+/// A tick of the observer: the torques are the state's accelerations, since any will do.
+#[inline(never)]
+fn residual<T: Robot<B, N, N>, const B: usize, const N: usize>(
+    observer: &mut MomentumObserver<f32, N>,
+    state: &State<f32, N, N>,
+    (at_rest, gears): &(AtRest<N>, LoadFriction<f32, N>),
+) -> bool {
+    let trig = Engine::<T>::joint_trig(&state.q);
+    let at = trig.with(state);
+    let MomentumAndCoriolis { p, ct_qd } = Engine::<T>::momentum_and_coriolis(at, &());
+    let load = Engine::<T>::rnea(at, at_rest);
+    let beta = core::array::from_fn(|i| ct_qd[i] - load[i]);
+    let fault = observer.update(&p, &beta);
+    observer.drive(&Engine::<T>::transmitted_torque(state, &state.qdd, gears));
+    fault.is_err()
+}

@@ -1,0 +1,200 @@
+//! The wrench of a contact at the tip, from the external torques of the joints.
+
+use dynamics_core::Core;
+use dynamics_core::algorithms::frame;
+use dynamics_core::control::{Fault, TipWrench};
+use dynamics_core::model::Robot;
+use dynamics_core::robots::{Panda, Ur5e};
+use dynamics_core::scalar::{Real, Vector};
+use dynamics_core::spatial::{Force, Motion};
+use glam::DVec3;
+use proptest::prelude::RngExt;
+use proptest::test_runner::{RngAlgorithm, TestRng};
+
+/// A wrench, a couple in N·m and a force in N, and the torques that it has about joints whose motions are `jacobian`.
+fn pushed<R: Real, const N: usize>(jacobian: &[Motion<R>; N], push: [f64; 6]) -> [R; N] {
+    let [a, b, c, x, y, z] = push.map(R::from_f64);
+    let push = Force::new(R::Vec3::new(a, b, c), R::Vec3::new(x, y, z));
+    jacobian.map(|column| column.dot(push))
+}
+
+fn six<R: Real>(f: Force<R>) -> [f64; 6] {
+    let [a, b] = [f.ang, f.lin].map(|v| v.array().map(R::to_f64));
+    core::array::from_fn(|i| if i < 3 { a[i] } else { b[i - 3] })
+}
+
+/// The largest error of the force over random postures away from singular ones, N, of forces of up to 50 N along each axis.
+fn worst_force<R: Real, T: Robot<N, N, N>, const N: usize>() -> f64 {
+    let mut rng = TestRng::deterministic_rng(RngAlgorithm::ChaCha);
+    let (mut worst, mut postures) = (0.0_f64, 0);
+    while postures < 200 {
+        let mut random = |bound: f64| rng.random_range(-bound..bound);
+        let q: [R; N] = [(); N].map(|()| R::from_f64(random(3.0)));
+        let push = [0.0, 0.0, 0.0, random(50.0), random(50.0), random(50.0)];
+        let jacobian = Core::<T>::jacobian(&q, N - 1, frame::LocalWorldAligned);
+        // The volume of what three joints at a time do to the tip.
+        let rows = jacobian.map(|column| column.lin.array().map(R::to_f64));
+        let gram = |a: usize, b: usize| rows.iter().map(|row| row[a] * row[b]).sum::<f64>();
+        let axes = [0, 1, 2].map(|a| DVec3::new(gram(a, 0), gram(a, 1), gram(a, 2)));
+        if axes[0].dot(axes[1].cross(axes[2])) < 1e-3 {
+            continue;
+        }
+        postures += 1;
+        let at_a_point = TipWrench {
+            noise: [R::from_f64(1e-2); N],
+            force: R::from_f64(100.0),
+            couple: R::ZERO,
+        };
+        let found = at_a_point.estimate(&jacobian, &pushed(&jacobian, push));
+        let found = six(found.expect("finite torques"));
+        for (found, push) in found.iter().zip(push) {
+            worst = worst.max((found - push).abs());
+        }
+    }
+    worst
+}
+
+#[test]
+fn a_force_at_the_tip_is_found_within_the_noise() {
+    let worst = [
+        worst_force::<f64, Ur5e, 6>(),
+        worst_force::<f64, Panda, 7>(),
+        worst_force::<f32, Ur5e, 6>(),
+    ];
+    println!("{worst:?} N");
+    assert!(worst.iter().all(|&worst| worst < 0.005), "{worst:?} N");
+}
+
+/// Half the sum of squares whose least the estimate is, at the wrench x of the sizes of `given`.
+fn cost(
+    given: &TipWrench<f64, 6>,
+    jacobian: &[Motion<f64>; 6],
+    external: &[f64; 6],
+    x: [f64; 6],
+) -> f64 {
+    let sizes = [given.couple, given.force];
+    let wrench: [f64; 6] = core::array::from_fn(|k| x[k] * sizes[k / 3]);
+    let torques = pushed(jacobian, wrench);
+    let misfit: f64 = (0..6)
+        .map(|j| ((torques[j] - external[j]) / given.noise[j]).powi(2))
+        .sum();
+    0.5 * (misfit + x.iter().map(|x| x * x).sum::<f64>())
+}
+
+/// The largest slope of the cost at an estimate, each of whose numbers is multiplied by `spoiled`.
+fn slope(spoiled: f64) -> f64 {
+    let given = TipWrench {
+        noise: [2.0, 1.5, 1.0, 0.5, 0.4, 0.3],
+        force: 40.0,
+        couple: 5.0,
+    };
+    let jacobian = Core::<Ur5e>::jacobian(
+        &[0.3, -1.2, 1.5, 0.3, 0.7, 0.2],
+        5,
+        frame::LocalWorldAligned,
+    );
+    let external = [4.0, -7.0, 3.0, 1.0, -0.8, 0.5];
+    let found = given.estimate(&jacobian, &external).expect("finite");
+    let x = six(found);
+    let x: [f64; 6] = core::array::from_fn(|k| spoiled * x[k] / [given.couple, given.force][k / 3]);
+    let at = |k: usize, step: f64| {
+        let mut x = x;
+        x[k] += step;
+        cost(&given, &jacobian, &external, x)
+    };
+    (0..6)
+        .map(|k| ((at(k, 1e-3) - at(k, -1e-3)) / 2e-3).abs())
+        .fold(0.0, f64::max)
+}
+
+#[test]
+fn the_estimate_is_the_least_of_its_squares() {
+    assert!(slope(1.0) < 1e-9, "{}", slope(1.0));
+    assert!(slope(1.01) > 1e-3, "{}", slope(1.01));
+}
+
+fn dot(a: &[f64; 6], b: &[f64; 6]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// v less its parts along some unit vectors.
+fn rest(mut v: [f64; 6], units: &[[f64; 6]]) -> [f64; 6] {
+    for unit in units {
+        let part = dot(&v, unit);
+        v.iter_mut()
+            .zip(unit)
+            .for_each(|(v, unit)| *v -= part * unit);
+    }
+    v
+}
+
+#[test]
+fn at_a_singular_posture_a_wrench_without_torque_is_estimated_as_zero_and_others_as_they_are() {
+    // Two axes of the wrist on one line.
+    let q = [0.3, -1.2, 1.5, 0.3, 0.0, 0.2];
+    let jacobian = Core::<Ur5e>::jacobian(&q, 5, frame::LocalWorldAligned);
+    let mut units: Vec<[f64; 6]> = Vec::new();
+    for column in jacobian {
+        let column = rest(six::<f64>(Force::new(column.ang, column.lin)), &units);
+        let length = dot(&column, &column).sqrt();
+        if length > 1e-9 {
+            units.push(column.map(|x| x / length));
+        }
+    }
+    assert_eq!(units.len(), 5);
+    let silent = rest([1.0, 2.0, -1.0, 0.5, 3.0, -2.0], &units).map(|x| 20.0 * x);
+    let given = TipWrench {
+        noise: [1e-3; 6],
+        force: 100.0,
+        couple: 100.0,
+    };
+    let estimate = |push| {
+        six(given
+            .estimate(&jacobian, &pushed(&jacobian, push))
+            .expect("finite"))
+    };
+    let found = estimate(silent);
+    assert!(
+        found.iter().all(|f| f.abs() < 1e-6),
+        "{found:?}, {silent:?}"
+    );
+    // A push that lifts the arm, and all that does not press along the direction without torque.
+    let push = units[1].map(|x| 20.0 * x);
+    let found = estimate(core::array::from_fn(|k| push[k] + silent[k]));
+    for (found, push) in found.iter().zip(push) {
+        assert!((found - push).abs() < 1e-3, "{found} {push}");
+    }
+}
+
+#[test]
+fn numbers_that_are_not_finite_name_their_joint() {
+    let jacobian = Core::<Ur5e>::jacobian(&[0.5_f32; 6], 5, frame::LocalWorldAligned);
+    let given = TipWrench {
+        noise: [0.1; 6],
+        force: 100.0,
+        couple: 10.0,
+    };
+    for bad in [f32::NAN, f32::INFINITY] {
+        let mut external = [1.0; 6];
+        external[3] = bad;
+        let fault = given.estimate(&jacobian, &external);
+        assert_eq!(fault, Err(Fault::NotFinite { joint: 3 }));
+        let mut moved = jacobian;
+        moved[2].lin.y = bad;
+        let fault = given.estimate(&moved, &[1.0; 6]);
+        assert_eq!(fault, Err(Fault::NotFinite { joint: 2 }));
+    }
+    let silent = TipWrench {
+        noise: [0.0; 6],
+        ..given
+    };
+    let fault = silent.estimate(&jacobian, &[1.0; 6]);
+    assert_eq!(fault, Err(Fault::NotFinite { joint: 0 }));
+    // Finite numbers whose products are not.
+    let huge = TipWrench {
+        noise: [1e-30; 6],
+        ..given
+    };
+    let fault = huge.estimate(&jacobian, &[1.0; 6]);
+    assert_eq!(fault, Err(Fault::NotFinite { joint: 0 }));
+}

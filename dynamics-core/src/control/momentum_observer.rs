@@ -125,7 +125,8 @@ impl<R: Real, const V: usize, const ORDER: usize> MomentumObserver<R, V, ORDER> 
     /// The torques of the drives from this tick to the next, N·m or N: to be called once in each tick, also in one whose
     /// measurement is lost or rejected. The next measurement then gives the mean over all ticks since the last one.
     ///
-    /// A torque that is not finite counts as none.
+    /// A torque that is not finite counts as none. With load-dependent friction it is the part that the gears
+    /// [transmit](crate::algorithms::transmitted_torque()).
     #[inline]
     pub fn drive(&mut self, tau: &[R; V]) {
         for (impulse, tau) in self.impulse.iter_mut().zip(tau) {

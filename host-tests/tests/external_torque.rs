@@ -1,8 +1,8 @@
-//! The wrench of a contact at the tip, from the external torques of the joints.
+//! From the external torques of the joints: the wrench of a contact at the tip, and thresholds.
 
 use dynamics_core::Core;
 use dynamics_core::algorithms::frame;
-use dynamics_core::control::{Fault, TipWrench};
+use dynamics_core::control::{ContactDetector, Fault, ObserverConfig, TipWrench};
 use dynamics_core::model::Robot;
 use dynamics_core::robots::{Panda, Ur5e};
 use dynamics_core::scalar::{Real, Vector};
@@ -197,4 +197,28 @@ fn numbers_that_are_not_finite_name_their_joint() {
     };
     let fault = huge.estimate(&jacobian, &[1.0; 6]);
     assert_eq!(fault, Err(Fault::NotFinite { joint: 0 }));
+}
+
+#[test]
+fn the_threshold_of_two_poles_rises_as_the_external_torque_of_the_same_error() {
+    let config = ObserverConfig {
+        bandwidth: 50.0,
+        tick: 1e-3,
+    };
+    let margin = 0.5;
+    let mut detector: ContactDetector<f64, 1, 2> =
+        ContactDetector::try_new(config, [margin]).expect("a good one");
+    // From the second tick on, the model is off by exactly the 3 N·m that are stated.
+    for tick in 0..200 {
+        let p = 3.0 * 1e-3 * f64::from(tick);
+        let contact = detector.update(&[p], &[0.0], &[3.0]).expect("finite");
+        assert_eq!(contact, None);
+        let ([threshold], [r]) = (detector.threshold(), *detector.external_torque());
+        assert!(
+            (threshold - margin - r).abs() < 1e-12,
+            "{tick}: {threshold} {r}"
+        );
+        detector.drive(&[0.0]);
+    }
+    assert!((detector.external_torque()[0] - 3.0).abs() < 0.01);
 }

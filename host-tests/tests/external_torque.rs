@@ -2,7 +2,7 @@
 
 use dynamics_core::Core;
 use dynamics_core::algorithms::frame;
-use dynamics_core::control::{ContactDetector, Fault, ObserverConfig, TipWrench};
+use dynamics_core::control::{ContactDetector, Fault, MomentumObserver, ObserverConfig, TipWrench};
 use dynamics_core::model::Robot;
 use dynamics_core::robots::{Panda, Ur5e};
 use dynamics_core::scalar::{Real, Vector};
@@ -221,4 +221,27 @@ fn the_threshold_of_two_poles_rises_as_the_external_torque_of_the_same_error() {
         detector.drive(&[0.0]);
     }
     assert!((detector.external_torque()[0] - 3.0).abs() < 0.01);
+}
+
+#[test]
+fn after_a_restart_the_momentum_of_before_is_no_external_torque() {
+    let config = ObserverConfig {
+        bandwidth: 50.0,
+        tick: 1e-3,
+    };
+    let mut observer: MomentumObserver<f64, 1> =
+        MomentumObserver::try_new(config).expect("a good one");
+    let mut step = |p: f64, restart: bool| {
+        observer.update(&[p], &[0.0]).expect("finite");
+        observer.drive(&[0.0]);
+        if restart {
+            observer.restart();
+            // Another arm moves on, with other momentum, before it is measured again.
+            observer.drive(&[0.0]);
+        }
+        observer.external_torque()[0]
+    };
+    assert_eq!(step(1.0, true), 0.0);
+    assert_eq!(step(5.0, false), 0.0);
+    assert!(step(5.1, false) > 1.0);
 }

@@ -325,3 +325,34 @@ fn a_state_is_finite_if_all_its_numbers_are() {
         assert!(!state.is_finite(), "{field}");
     }
 }
+
+/// The bound of a pivot is 32 roundings of what it is the difference of: here the difference is 48 roundings of 1.
+const SMALL: f64 = 48.0 * f64::EPSILON;
+
+#[test]
+fn a_pivot_has_the_errors_of_those_before_it_in_its_own_joint_and_no_others() {
+    // M is I: 1 − b² is left of the first coordinate once the second is free, both with the error of a 1.
+    let b = (1.0 - SMALL).sqrt();
+    let rod = Body::new("rod", BASE, Joint::spherical()).mass(1.0);
+    let ball = Model::<f64, 1, 4, 3>::new("ball", [rod.inertia([1.0, b, 0.0, 1.0, 0.0, 2.0])]);
+    let m = crba(&ball, &neutral(&ball), &Inertia);
+    assert!(ltdl(&ball, &m).is_err());
+    assert!(cholesky(&ball, &m).is_err());
+    // Two joints on one axis, the inner body of inertia SMALL, and a joint of several coordinates elsewhere.
+    let wheel = |name, parent, inertia| {
+        let x = [inertia, 0.0, 0.0, 1.0, 0.0, 1.0];
+        Body::new(name, parent, Joint::revolute([1.0, 0.0, 0.0]))
+            .mass(1.0)
+            .inertia(x)
+    };
+    let bodies = [
+        wheel("inner", BASE, SMALL),
+        wheel("outer", 0, 1.0),
+        rod.inertia([1.0, 0.0, 0.0, 1.0, 0.0, 1.0]),
+    ];
+    let wheels = Model::<f64, 3, 6, 5>::new("wheels", bodies);
+    let m = crba(&wheels, &neutral(&wheels), &Inertia);
+    assert_eq!(m.get(0, 0) - m.get(1, 1), SMALL);
+    assert!(ltdl(&wheels, &m).is_ok());
+    assert!(cholesky(&wheels, &m).is_ok());
+}

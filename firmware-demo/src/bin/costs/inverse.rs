@@ -8,7 +8,7 @@ use dynamics_core::{Core, Engine};
 use super::row::Row;
 use super::{Ask, STATES, asks, done};
 
-type Inside<'a, E, const N: usize> = fn(&'a State<f32, N, N>, &E) -> [f32; N];
+pub type Inside<'a, E, const N: usize> = fn(&'a State<f32, N, N>, &E) -> [f32; N];
 type Precomputed<'a, E, const N: usize> = fn(StateWithTrig<'a, f32, N, N>, &E) -> [f32; N];
 
 /// Measures every row of the robot T and leaves the emulator.

@@ -9,7 +9,7 @@ use dynamics_core::state::{State, StateWithTrig};
 use dynamics_core::{Core, Engine};
 
 use super::row::Row;
-use super::{Ask, STATES};
+use super::{Ask, STATES, inverse};
 
 type Inside<'a, const N: usize> = fn(&'a State<f32, N, N>, &()) -> MomentumAndCoriolis<f32, N>;
 type Precomputed<'a, const N: usize> =
@@ -52,7 +52,7 @@ fn observer<T: Robot<B, N, N>, const B: usize, const N: usize>(asks: &[Ask<N>; S
         width,
     };
     let scene = &(RIGID_BODY, friction, gears);
-    let run: for<'a> fn(&'a State<f32, N, N>, &_) -> [f32; N] = Engine::<T>::rnea;
+    let run: inverse::Inside<'_, _, N> = Engine::<T>::rnea;
     row("rnea", "friction", true).measure(run as *const () as usize, asks, |ask| {
         run(&ask.state, scene)
     });

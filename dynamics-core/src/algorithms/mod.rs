@@ -2,6 +2,7 @@
 
 mod aba;
 mod articulated_pass;
+mod coriolis_matrix;
 mod crba;
 mod crba_jacobian;
 mod energy;
@@ -14,10 +15,12 @@ mod momentum;
 mod operational_space;
 mod pivot_check;
 mod rnea;
+mod rnea_two_velocities;
 mod rotors;
 mod tree_pass;
 
 pub use aba::aba;
+pub use coriolis_matrix::coriolis_matrix;
 pub use crba::crba;
 pub use crba_jacobian::crba_jacobian;
 pub use energy::{kinetic_energy, potential_energy};
@@ -43,4 +46,5 @@ pub use operational_space::{
 };
 pub(crate) use pivot_check::Magnitude;
 pub use rnea::rnea;
+pub use rnea_two_velocities::rnea_two_velocities;
 pub(crate) use tree_pass::{inward, per_body};

@@ -184,6 +184,8 @@ const TABLE: &[(&str, &str, f64, f64)] = &[
     ("ur5e", "Christoffel symbols", 2e-11, NONE),
     ("panda", "Christoffel symbols", 2e-11, NONE),
     ("a1", "Christoffel symbols", 2e-11, NONE),
+    ("ur5e", "rate of the energy of s", 5e-12, NONE),
+    ("panda", "rate of the energy of s", 5e-12, NONE),
     ("ur5e", "C", NONE, 5e-7),
     ("ur5e", "C y", NONE, 5e-7),
     ("panda", "C", NONE, 5e-7),

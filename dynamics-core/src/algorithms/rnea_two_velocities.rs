@@ -45,7 +45,8 @@ struct Body<R: Real> {
 /// where $(f \mathbin{\bar\times^\ast}) w = w \times^\ast f$. C is that of
 /// [`coriolis_matrix`](crate::algorithms::coriolis_matrix()), which states its laws: Ṁ = C + Cᵀ for joints of every kind,
 /// and C(q, x) y = C(q, y) x where q̇ is the derivative of q. Both make it the C of a passive law: see
-/// [`crate::control`]. On a base of given motion both velocities include that motion.
+/// [`passivity_based_torque`](crate::control::passivity_based_torque()). On a base of given motion both velocities include
+/// that motion.
 ///
 /// A non-finite input gives a non-finite output, which [`crate::control`] rejects.
 ///

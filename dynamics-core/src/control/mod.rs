@@ -11,6 +11,7 @@
 //! | [`ContactDetector`] | external torques beyond thresholds that follow the stated errors of the model | as the observer, thresholds |
 //! | [`MomentumObserver`] | external torques from the momentum of the joints | momentum, external torques |
 //! | [`Gains`], [`feedback()`] | K_p (q_d − q) + K_d (q̇_d − q̇) | none |
+//! | [`PassivityGains`], [`passivity_based_torque()`] | the law of Slotine & Li: M q̈_r + C q̇_r + g + F − K_D s | none |
 //! | [`hold()`] | the reference of a held arm: q̈ = −λ q̇ | none |
 //! | [`hybrid_motion_force`], [`TaskCommand`] | motions and forces along a task's directions | none |
 //! | [`ZeroOrderHold`], [`FirstOrderHold`], [`Interpolator`], [`InertiaUpdate`] | the torque in ticks without a computation of the dynamics | last torques |
@@ -67,6 +68,7 @@ mod momentum_observer;
 mod multi_turn;
 mod multirate;
 mod observer;
+mod passivity;
 mod reaction;
 mod reference;
 mod resume;
@@ -96,6 +98,7 @@ pub use momentum_observer::MomentumObserver;
 pub use multi_turn::MultiTurnEncoder;
 pub use multirate::{FirstOrderHold, InertiaUpdate, Interpolator, ZeroOrderHold};
 pub use observer::{Estimate, Observer, ObserverConfig};
+pub use passivity::{PassivityGains, SlidingVariable, passivity_based_torque};
 pub use reaction::Reaction;
 pub use reference::Reference;
 pub use resume::{ResumeConfig, ResumeTrajectory};

@@ -39,11 +39,11 @@ pub use momentum::{
     CenterOfMass, MomentumAndCoriolis, base_velocity_from_momentum, center_of_mass,
     centroidal_matrix, centroidal_momentum, momentum, momentum_and_coriolis,
 };
-pub(crate) use operational_space::shifted_inverse;
 pub use operational_space::{
     Conditioning, Damping, OperationalSpace, OsimInverse, damped_inverse, operational_space,
     osim_inverse, task_jacobian,
 };
+pub(crate) use operational_space::{eigen, shifted_inverse};
 pub(crate) use pivot_check::Magnitude;
 pub use rnea::rnea;
 pub use rnea_two_velocities::rnea_two_velocities;

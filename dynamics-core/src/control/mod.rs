@@ -14,6 +14,7 @@
 //! | [`PassivityGains`], [`passivity_based_torque()`] | the law of Slotine & Li: M q̈_r + C q̇_r + g + F − K_D s | none |
 //! | [`hold()`] | the reference of a held arm: q̈ = −λ q̇ | none |
 //! | [`hybrid_motion_force`], [`TaskCommand`] | motions and forces along a task's directions | none |
+//! | [`CartesianImpedance`], [`pose_error`] | a spring and a damper between a body and its goal, with null space | none |
 //! | [`ZeroOrderHold`], [`FirstOrderHold`], [`Interpolator`], [`InertiaUpdate`] | the torque in ticks without a computation of the dynamics | last torques |
 //! | [`Supervisor`] | limits, plausibility, reactions to faults | last good values |
 //! | [`Fault`], [`Reaction`] | what each fault leads to | |
@@ -64,6 +65,7 @@ mod fault;
 mod feedback;
 mod hold;
 mod hybrid_force;
+mod impedance;
 mod momentum_observer;
 mod multi_turn;
 mod multirate;
@@ -93,6 +95,10 @@ pub use feedback::{Gains, feedback};
 pub use hold::hold;
 pub use hybrid_force::{
     TaskCommand, TaskForce, TaskFrame, TaskMotion, hybrid_motion_force, orientation_error,
+};
+pub use impedance::{
+    CartesianImpedance, ImpedanceConfig, ImpedanceTorque, TaskDeviation, pose_error,
+    quaternion_error,
 };
 pub use momentum_observer::MomentumObserver;
 pub use multi_turn::MultiTurnEncoder;

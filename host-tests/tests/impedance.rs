@@ -430,12 +430,31 @@ fn numbers_that_are_not_finite_are_refused() {
             assert!(CartesianImpedance::try_new(config).is_err());
         }
     }
-    // A body that nothing can move is damped, and the status says so.
+}
+
+#[test]
+fn the_damping_is_bounded_where_a_mode_has_no_frequency() {
     let impedance = CartesianImpedance::try_new(CONFIG).unwrap();
     let (d, how) = impedance.damping(&[[0.0; 6]; 6]);
     assert_eq!(how, Conditioning::Damped { smallest: 0.0 });
     let bound = 3.0 * CONFIG.zeta * STIFFNESS[5] / CONFIG.slowest;
     assert!((d[5][5] - bound).abs() < 1e-9, "{}", d[5][5]);
+    // Nor does rounding of a singular mobility, here in f32, exceed the bound.
+    let slow = CartesianImpedance::try_new(ImpedanceConfig {
+        stiffness: STIFFNESS.map(|k| k as f32),
+        zeta: 0.5,
+        slowest: 1e-2,
+    })
+    .unwrap();
+    for q4 in [0.0, 0.3, 0.6] {
+        let task = Sprung::at(Ur5e::MODEL, [0.2, -1.2, 0.0, q4, 0.7, 0.1]).task();
+        let (d, how) = slow.damping(&task.mobility.map(|row| row.map(|x| x as f32)));
+        assert!(how != Conditioning::Regular);
+        for i in 0..6 {
+            let bound = 3.0 * 0.5 * STIFFNESS[i] / 1e-2;
+            assert!(f64::from(d[i][i]) < bound * (1.0 + 1e-6), "{}", d[i][i]);
+        }
+    }
     let (d, how) = impedance.damping(&[[f64::NAN; 6]; 6]);
     assert!(d[0][0].is_nan() && how != Conditioning::Regular);
 }

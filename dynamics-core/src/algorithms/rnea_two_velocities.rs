@@ -134,7 +134,7 @@ where
             if E::VELOCITY_PRODUCTS {
                 let both = v.ang * entry(qd_r, k) + w.ang * entry(&state.qd, k);
                 couple += both.cross(axis) * half;
-                rotor = rotor - v.ang.cross(w.ang).dot(axis) * half;
+                rotor -= v.ang.cross(w.ang).dot(axis) * half;
             }
             if let Some(parent) = bodies.get_mut(link.parent) {
                 parent.f.ang += x.rot.transpose_mul(couple);

@@ -12,9 +12,8 @@
 //! For a mode slower than ω_min, 1/Ω is continued by its tangent, as a function of Ω², and at most 1.5/ω_min.
 
 use super::{ConfigError, ConfigParameter, Fault};
-use crate::algorithms::{Conditioning, OperationalSpace, Pose, eigen};
-use crate::scalar::{Matrix, Real, Vector};
-use crate::spatial::Motion;
+use crate::algorithms::{Conditioning, OperationalSpace, eigen};
+use crate::scalar::Real;
 use crate::state::{all_finite, entry};
 
 /// The spring and the damping ratio of a Cartesian impedance: for [`CartesianImpedance::try_new`].
@@ -34,7 +33,7 @@ pub struct ImpedanceConfig<R, const M: usize> {
 ///
 /// # Example
 /// ```
-/// use dynamics_core::algorithms::{Damping, OperationalSpace, frame, task_jacobian};
+/// use dynamics_core::algorithms::{Damping, OperationalSpace, Pose, frame, task_jacobian};
 /// use dynamics_core::control::{CartesianImpedance, ImpedanceConfig, TaskDeviation, TaskFrame, pose_error};
 /// use dynamics_core::effects::{Gravity, RIGID_BODY};
 /// use dynamics_core::{Core, robots::Panda, state::State};
@@ -43,7 +42,7 @@ pub struct ImpedanceConfig<R, const M: usize> {
 ///
 /// let arm = State { qd: [0.1; 7], ..State::at([0.3, -0.4, 0.2, -2.0, 0.3, 1.9, 0.5]) };
 /// let hand = Core::<Panda>::kinematics(&arm, &());
-/// let mut goal = hand.poses[6];
+/// let mut goal: Pose<f32> = hand.poses[6];
 /// goal.pos.z += 0.05;
 /// let directions = TaskFrame::BASE.turn_and_place(1.0);
 /// let rows = task_jacobian(&Core::<Panda>::jacobian(&arm.q, 6, frame::LocalWorldAligned), &directions);
@@ -72,7 +71,7 @@ pub struct CartesianImpedance<R, const M: usize> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct TaskDeviation<R, const M: usize> {
-    /// x̃ = x_d − x, m or rad: the components of [`pose_error`].
+    /// x̃ = x_d − x, m or rad: the components of [`pose_error`](super::pose_error()).
     pub position: [R; M],
     /// ẋ_d − ẋ, m/s or rad/s.
     pub velocity: [R; M],
@@ -88,17 +87,34 @@ pub struct ImpedanceTorque<R, const V: usize> {
     pub conditioning: Conditioning<R>,
 }
 
+impl<R: Real, const M: usize> ImpedanceConfig<R, M> {
+    /// Whether this is a spring with a damper.
+    ///
+    /// # Errors
+    /// [`ConfigError::OutOfRange`] names a number that is not finite and positive.
+    ///
+    /// ```
+    /// use dynamics_core::control::{ConfigError, ConfigParameter, ImpedanceConfig};
+    /// let config = ImpedanceConfig { stiffness: [600.0_f32, 0.0], zeta: 0.7, slowest: 2.0 };
+    /// let error = ConfigError::OutOfRange { parameter: ConfigParameter::Stiffness };
+    /// assert_eq!(config.check(), Err(error));
+    /// ```
+    pub fn check(&self) -> Result<(), ConfigError> {
+        for k in self.stiffness {
+            ConfigParameter::Stiffness.positive(k)?;
+        }
+        ConfigParameter::DampingRatio.positive(self.zeta)?;
+        ConfigParameter::SlowestMode.positive(self.slowest)
+    }
+}
+
 impl<R: Real, const M: usize> CartesianImpedance<R, M> {
     /// The law of this spring and damping ratio.
     ///
     /// # Errors
-    /// [`ConfigError::OutOfRange`] names a number that is not finite and positive.
+    /// [`ConfigError`], as [`ImpedanceConfig::check`].
     pub fn try_new(config: ImpedanceConfig<R, M>) -> Result<Self, ConfigError> {
-        for k in config.stiffness {
-            ConfigParameter::Stiffness.positive(k)?;
-        }
-        ConfigParameter::DampingRatio.positive(config.zeta)?;
-        ConfigParameter::SlowestMode.positive(config.slowest)?;
+        config.check()?;
         let roots = config.stiffness.map(R::sqrt);
         Ok(Self { config, roots })
     }
@@ -140,6 +156,8 @@ impl<R: Real, const M: usize> CartesianImpedance<R, M> {
         let (squares, vectors) = eigen(s);
         let (mut d, mut smallest) = ([[R::ZERO; M]; M], threshold);
         for (square, vector) in squares.into_iter().zip(vectors) {
+            // Rounding may make a zero negative.
+            let square = if square > R::ZERO { square } else { R::ZERO };
             smallest = if square < smallest { square } else { smallest };
             let r = (if square > threshold {
                 square
@@ -221,74 +239,4 @@ impl<R: Real, const M: usize> CartesianImpedance<R, M> {
             None => Ok(ImpedanceTorque { tau, conditioning }),
         }
     }
-}
-
-/// The motion from a pose to the desired one: [`quaternion_error`], rad, and the difference of the origins, m, in base axes.
-///
-/// Its power with the directions of a task gives [`TaskDeviation::position`]: see [`CartesianImpedance`]. 70 flops.
-///
-/// ```
-/// use dynamics_core::{algorithms::Pose, control::pose_error};
-/// use glam::{DMat3, DVec3};
-/// let goal = Pose::<f64> { rot: DMat3::from_rotation_x(0.2), pos: DVec3::Z };
-/// let error = pose_error(&Pose::IDENTITY, &goal);
-/// assert!((error.ang.x - 2.0 * 0.1_f64.sin()).abs() < 1e-15 && error.lin == DVec3::Z);
-/// ```
-#[inline(always)]
-#[must_use]
-pub fn pose_error<R: Real>(pose: &Pose<R>, wanted: &Pose<R>) -> Motion<R> {
-    Motion::new(
-        quaternion_error::<R>(&pose.rot, &wanted.rot),
-        wanted.pos - pose.pos,
-    )
-}
-
-/// The shortest rotation from an attitude to the desired one as a vector: 2 sin(θ/2) along its axis, in base coordinates.
-///
-/// That is twice the vector part of the unit quaternion whose scalar part is not negative: the angle θ itself within θ³/24.
-/// Its length grows up to θ = π, where it is 2; there both directions are equally short, and it is one of them. With equal
-/// stiffnesses its couple is that of the potential 4 K (1 − cos(θ/2)).
-///
-/// # Cost
-/// 67 flops, the same instructions for all data.
-///
-/// # Errors
-/// None; a non-finite input gives a non-finite output.
-///
-/// # Source
-/// Shepperd, "Quaternion from rotation matrix" (1978), which divides by the largest of the four components; Caccavale,
-/// Natale, Siciliano & Villani, "Resolved-acceleration control of robot manipulators: a critical review" (1998).
-///
-/// ```
-/// use dynamics_core::control::{orientation_error, quaternion_error};
-/// use glam::{DMat3, DVec3};
-/// let half_a_turn = DMat3::from_rotation_x(core::f64::consts::PI);
-/// assert!((quaternion_error::<f64>(&DMat3::IDENTITY, &half_a_turn).length() - 2.0).abs() < 1e-15);
-/// assert!(orientation_error::<f64>(&DMat3::IDENTITY, &half_a_turn).length() < 1e-15); // the sine vanishes
-/// ```
-#[doc(alias = "orientation error")]
-#[inline(always)]
-#[must_use]
-pub fn quaternion_error<R: Real>(attitude: &R::Mat3, wanted: &R::Mat3) -> R::Vec3 {
-    let [x, y, z] = (*wanted * attitude.transpose()).cols();
-    let ([xx, yx, zx], [xy, yy, zy], [xz, yz, zz]) = (x.array(), y.array(), z.array());
-    let one = R::ONE;
-    // 4 p pᵀ of the quaternion p, by rows of x, y, z and w.
-    let (wx, wy, wz) = (zy - yz, xz - zx, yx - xy);
-    let (xy, yz, zx) = (xy + yx, yz + zy, zx + xz);
-    let rows = [
-        [one + xx - yy - zz, xy, zx, wx],
-        [xy, one - xx + yy - zz, yz, wy],
-        [zx, yz, one - xx - yy + zz, wz],
-        [wx, wy, wz, one + xx + yy + zz],
-    ];
-    let (mut best, mut square) = (rows[0], rows[0][0]);
-    for (k, row) in rows.into_iter().enumerate().skip(1) {
-        let larger = entry(&row, k) > square;
-        best = if larger { row } else { best };
-        square = if larger { entry(&row, k) } else { square };
-    }
-    let scale = square.rsqrt();
-    let scale = if best[3] < R::ZERO { -scale } else { scale };
-    R::Vec3::new(best[0], best[1], best[2]) * scale
 }

@@ -71,6 +71,7 @@ mod multi_turn;
 mod multirate;
 mod observer;
 mod passivity;
+mod pose_error;
 mod reaction;
 mod reference;
 mod resume;
@@ -96,15 +97,13 @@ pub use hold::hold;
 pub use hybrid_force::{
     TaskCommand, TaskForce, TaskFrame, TaskMotion, hybrid_motion_force, orientation_error,
 };
-pub use impedance::{
-    CartesianImpedance, ImpedanceConfig, ImpedanceTorque, TaskDeviation, pose_error,
-    quaternion_error,
-};
+pub use impedance::{CartesianImpedance, ImpedanceConfig, ImpedanceTorque, TaskDeviation};
 pub use momentum_observer::MomentumObserver;
 pub use multi_turn::MultiTurnEncoder;
 pub use multirate::{FirstOrderHold, InertiaUpdate, Interpolator, ZeroOrderHold};
 pub use observer::{Estimate, Observer, ObserverConfig};
 pub use passivity::{PassivityGains, SlidingVariable, passivity_based_torque};
+pub use pose_error::{pose_error, quaternion_error};
 pub use reaction::Reaction;
 pub use reference::Reference;
 pub use resume::{ResumeConfig, ResumeTrajectory};

@@ -137,7 +137,7 @@ where
     };
     let mut tau = rnea_two_velocities(robot, &state, &qd_r, effects);
     for ((tau, s), kd) in tau.iter_mut().zip(s).zip(gains.kd) {
-        *tau = *tau - kd * s;
+        *tau -= kd * s;
     }
     tau
 }

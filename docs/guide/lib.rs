@@ -23,6 +23,7 @@ pages! {
     tuning "tuning.md",
     faults "faults.md",
     contact "contact.md",
+    impedance "impedance.md",
     porting "porting.md",
     engine "engine.md",
 }

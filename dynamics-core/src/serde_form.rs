@@ -183,6 +183,8 @@ record!(control::MotionControllerConfig<R, V> {
 record!(control::ObserverConfig<R> { bandwidth: R, tick: R } check);
 record!(control::ResumeConfig<R> { tick: R, decay_rate: R, ticks: u32 } check);
 record!(control::Gains<R, V> { kp: Array<R, V>, kd: Array<R, V> });
+record!(control::PassivityGains<R, V> { lambda: Array<R, V>, kd: Array<R, V> });
+record!(control::ImpedanceConfig<R, M> { stiffness: Array<R, M>, zeta: R, slowest: R } check);
 record!(control::MotionLimits<R> { velocity: R, acceleration: R });
 record!(control::WayPoint<R, V> { q: Array<R, V>, qd: Array<R, V>, ticks: u32 });
 record!(state::State<R, Q, V> { q: Array<R, Q>, qd: Array<R, V>, qdd: Array<R, V> });

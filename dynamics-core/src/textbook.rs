@@ -232,6 +232,31 @@ impl<T, K> Core<T, K> {
         algorithms::momentum_and_coriolis(&Static::<T, K>::NEW, state, effects)
     }
 
+    /// C(q, q̇), see [`algorithms::coriolis_matrix`].
+    #[inline(never)]
+    pub fn coriolis_matrix<R: Real, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        effects: &impl Effect<R, B, V>,
+    ) -> [[R; V]; V]
+    where
+        Static<T, K>: RobotModel<R, B, Q, V>,
+    {
+        algorithms::coriolis_matrix(&Static::<T, K>::NEW, state, effects)
+    }
+
+    /// M q̈_r + C(q, q̇) q̇_r + g + F, see [`algorithms::rnea_two_velocities`].
+    #[inline(never)]
+    pub fn rnea_two_velocities<R: Real, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        qd_r: &[R; V],
+        effects: &impl Effect<R, B, V>,
+    ) -> [R; V]
+    where
+        Static<T, K>: RobotModel<R, B, Q, V>,
+    {
+        algorithms::rnea_two_velocities(&Static::<T, K>::NEW, state, qd_r, effects)
+    }
+
     /// The kinetic energy T, J, see [`algorithms::kinetic_energy`].
     #[inline(never)]
     pub fn kinetic_energy<R: Real, const B: usize, const Q: usize, const V: usize>(

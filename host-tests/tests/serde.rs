@@ -1,8 +1,8 @@
 //! What firmware keeps in flash comes back as it was, and nothing else is read.
 
 use dynamics_core::control::{
-    Gains, MotionControllerConfig, MotionLimits, ObserverConfig, ResumeConfig, SafetyLimits,
-    SupervisorConfig, WayPoint,
+    Gains, ImpedanceConfig, MotionControllerConfig, MotionLimits, ObserverConfig, PassivityGains,
+    ResumeConfig, SafetyLimits, SupervisorConfig, WayPoint,
 };
 use dynamics_core::effects::{
     Armature, AsymmetricCoulomb, Cogging, Coulomb, EndStops, LoadFriction, Lugre, Payload, Spring,
@@ -76,6 +76,12 @@ fn what_the_controller_is_configured_with_comes_back_to_the_bit() {
         ticks: 200,
     });
     comes_back(Gains { kp: a, kd: b });
+    comes_back(PassivityGains { lambda: a, kd: b });
+    comes_back(ImpedanceConfig {
+        stiffness: a,
+        zeta: 0.7,
+        slowest: 2.1,
+    });
     comes_back(MotionLimits {
         velocity: a[0],
         acceleration: b[1],

@@ -2,6 +2,7 @@
 
 mod aba;
 mod articulated_pass;
+mod coriolis_matrix;
 mod crba;
 mod crba_jacobian;
 mod energy;
@@ -14,11 +15,13 @@ mod momentum;
 mod operational_space;
 mod pivot_check;
 mod rnea;
+mod rnea_two_velocities;
 mod rotors;
 mod transmitted;
 mod tree_pass;
 
 pub use aba::aba;
+pub use coriolis_matrix::coriolis_matrix;
 pub use crba::crba;
 pub use crba_jacobian::crba_jacobian;
 pub use energy::{kinetic_energy, potential_energy};
@@ -41,8 +44,9 @@ pub use operational_space::{
     Conditioning, Damping, OperationalSpace, OsimInverse, damped_inverse, operational_space,
     osim_inverse, task_jacobian,
 };
-pub(crate) use operational_space::{shifted_inverse, shifted_solution};
+pub(crate) use operational_space::{eigen, shifted_inverse, shifted_solution};
 pub(crate) use pivot_check::Magnitude;
 pub use rnea::rnea;
+pub use rnea_two_velocities::rnea_two_velocities;
 pub use transmitted::transmitted_torque;
 pub(crate) use tree_pass::{inward, per_body};

@@ -39,6 +39,12 @@ pub enum ConfigParameter {
     DecayRate,
     /// The margin of a contact detector.
     ContactMargin,
+    /// A stiffness of an impedance.
+    Stiffness,
+    /// The damping ratio of an impedance.
+    DampingRatio,
+    /// The slowest mode of an impedance that has the full damping ratio.
+    SlowestMode,
     /// The step of the encoders, which may be zero.
     Resolution,
     /// The greatest distance from the trajectory at a restart, which may be infinite.
@@ -79,6 +85,9 @@ impl fmt::Display for ConfigError {
             ConfigParameter::ContactMargin => {
                 "a margin of the contact detector is not a positive number"
             }
+            ConfigParameter::Stiffness => "a stiffness of the impedance is not a positive number",
+            ConfigParameter::DampingRatio => "the damping ratio is not a positive number",
+            ConfigParameter::SlowestMode => "the slowest mode is not a positive number",
             ConfigParameter::Resolution => "the step of the encoders is negative or not finite",
             ConfigParameter::RestartDistance => "the restart distance is negative or not a number",
         })

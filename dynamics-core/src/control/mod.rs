@@ -12,8 +12,10 @@
 //! | [`MomentumObserver`] | external torques from the momentum of the joints | momentum, external torques |
 //! | [`TipWrench`] | the wrench of a contact at the tip, from external torques | none |
 //! | [`Gains`], [`feedback()`] | K_p (q_d − q) + K_d (q̇_d − q̇) | none |
+//! | [`PassivityGains`], [`passivity_based_torque()`] | the law of Slotine & Li: M q̈_r + C q̇_r + g + F − K_D s | none |
 //! | [`hold()`] | the reference of a held arm: q̈ = −λ q̇ | none |
 //! | [`hybrid_motion_force`], [`TaskCommand`] | motions and forces along a task's directions | none |
+//! | [`CartesianImpedance`], [`pose_error`] | a spring and a damper between a body and its goal, with null space | none |
 //! | [`ZeroOrderHold`], [`FirstOrderHold`], [`Interpolator`], [`InertiaUpdate`] | the torque in ticks without a computation of the dynamics | last torques |
 //! | [`Supervisor`] | limits, plausibility, reactions to faults | last good values |
 //! | [`Fault`], [`Reaction`] | what each fault leads to | |
@@ -64,10 +66,13 @@ mod fault;
 mod feedback;
 mod hold;
 mod hybrid_force;
+mod impedance;
 mod momentum_observer;
 mod multi_turn;
 mod multirate;
 mod observer;
+mod passivity;
+mod pose_error;
 mod reaction;
 mod reference;
 mod resume;
@@ -94,10 +99,13 @@ pub use hold::hold;
 pub use hybrid_force::{
     TaskCommand, TaskForce, TaskFrame, TaskMotion, hybrid_motion_force, orientation_error,
 };
+pub use impedance::{CartesianImpedance, ImpedanceConfig, ImpedanceTorque, TaskDeviation};
 pub use momentum_observer::MomentumObserver;
 pub use multi_turn::MultiTurnEncoder;
 pub use multirate::{FirstOrderHold, InertiaUpdate, Interpolator, ZeroOrderHold};
 pub use observer::{Estimate, Observer, ObserverConfig};
+pub use passivity::{PassivityGains, SlidingVariable, passivity_based_torque};
+pub use pose_error::{pose_error, quaternion_error};
 pub use reaction::Reaction;
 pub use reference::Reference;
 pub use resume::{ResumeConfig, ResumeTrajectory};

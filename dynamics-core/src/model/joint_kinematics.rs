@@ -117,7 +117,20 @@ impl<R: Real> LinkView<'_, R> {
         rates: &[R],
         v: Motion<R>,
     ) -> Motion<R> {
-        let rate = entry(rates, self.idx_v);
+        self.plus_subspace_rate(a, turns, rates, v, rates)
+    }
+
+    /// a + (S̊ + v × S) y, where S changes by the joint's velocity in all of q̇, `rates`, and `y` is another velocity.
+    #[inline(always)]
+    pub(crate) fn plus_subspace_rate(
+        &self,
+        a: Motion<R>,
+        turns: &[JointCoordinate<R>],
+        rates: &[R],
+        v: Motion<R>,
+        y: &[R],
+    ) -> Motion<R> {
+        let rate = entry(y, self.idx_v);
         match self.kind {
             Revolute | Continuous => Motion::new(
                 plus_cross_z(a.ang, v.ang, rate),
@@ -129,9 +142,35 @@ impl<R: Real> LinkView<'_, R> {
                 let (turn, second) = (entry(turns, self.idx_q + 1), entry(rates, self.idx_v + 1));
                 let k = -(rate * second);
                 let apparent = R::Vec3::new(k * turn.sin, k * turn.cos, R::ZERO);
-                a + v.cross(self.motion(turns, rates)) + Motion::new(apparent, R::Vec3::ZERO)
+                a + v.cross(self.motion(turns, y)) + Motion::new(apparent, R::Vec3::ZERO)
             }
-            _ => a + v.cross(self.motion(turns, rates)),
+            _ => a + v.cross(self.motion(turns, y)),
+        }
+    }
+
+    /// Column k of S̊ + v × S, the rate of S in a body of velocity v.
+    #[inline(always)]
+    pub(crate) fn column_rate(
+        &self,
+        turns: &[JointCoordinate<R>],
+        rates: &[R],
+        v: Motion<R>,
+        k: usize,
+    ) -> Motion<R> {
+        let zero = R::Vec3::ZERO;
+        let cross_z = |v: R::Vec3| {
+            let [x, y, _] = v.array();
+            R::Vec3::new(y, -x, R::ZERO)
+        };
+        match self.kind {
+            Revolute | Continuous => Motion::new(cross_z(v.ang), cross_z(v.lin)),
+            Prismatic => Motion::new(zero, cross_z(v.ang)),
+            Universal if k == 0 => {
+                let (turn, second) = (entry(turns, self.idx_q + 1), entry(rates, self.idx_v + 1));
+                let apparent = R::Vec3::new(turn.sin * second, turn.cos * second, R::ZERO);
+                v.cross(self.column(turns, k)) + Motion::new(-apparent, zero)
+            }
+            _ => v.cross(self.column(turns, k)),
         }
     }
 

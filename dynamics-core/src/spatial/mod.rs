@@ -11,11 +11,13 @@
 //! let _ = v + f; // a velocity is not a force
 //! ```
 
+mod body_coriolis;
 pub(crate) mod inertia;
 mod motion_subspace;
 pub(crate) mod rotation;
 pub(crate) mod symmetric;
 
+pub(crate) use body_coriolis::BodyCoriolis;
 pub(crate) use motion_subspace::{MotionSubspace, raised};
 
 use core::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};

@@ -18,6 +18,7 @@ pub mod energy;
 pub mod engine;
 pub mod far_slide;
 pub mod friction;
+pub mod impedance;
 pub mod integrators;
 pub mod invariances;
 pub mod masses;
@@ -91,6 +92,7 @@ pub const CASES: &[&[Case]] = &[
     clock::CASES,
     continuous_turns::CASES,
     engine::CASES,
+    impedance::CASES,
 ];
 
 /// Runs the case of this number.

@@ -8,6 +8,7 @@ mod elbow;
 mod energy;
 mod engine;
 mod friction;
+mod impedance;
 mod invariances;
 mod masses;
 mod nan_injection;

@@ -13,6 +13,7 @@ mod osim_inverse;
 
 pub use damped_inverse::{Conditioning, Damping, damped_inverse};
 pub(crate) use damped_inverse::{shifted_inverse, shifted_solution};
+pub(crate) use eigen::eigen;
 pub use osim_inverse::{OsimInverse, osim_inverse};
 
 use core::borrow::Borrow;

@@ -38,6 +38,7 @@ impl<const B: usize, const V: usize> Effect<f64, B, V> for Push {
 }
 
 /// An arm on an impedance.
+#[derive(Clone, Copy)]
 pub struct Sprung<const N: usize> {
     pub arm: ArmModel<f64, N>,
     pub impedance: CartesianImpedance<f64, 6>,

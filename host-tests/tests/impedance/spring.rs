@@ -2,8 +2,10 @@
 
 use crate::common::*;
 use crate::plant::*;
+use dynamics_core::algorithms::{aba, kinetic_energy};
 use dynamics_core::control::{CartesianImpedance, ImpedanceConfig};
-use dynamics_core::model::Robot;
+use dynamics_core::effects::{Coriolis, Gravity, Inertia};
+use dynamics_core::model::{ArmModel, Robot};
 use dynamics_core::robots::{Panda, Ur5e};
 use glam::DVec3;
 
@@ -69,4 +71,48 @@ fn a_motion_of_the_elbow_does_not_move_the_tip() {
     verdict.see("panda", "tip by a motion of the elbow, m", "f64", &worst);
     verdict.speak();
     assert!(without > 20.0 * off, "{without} {off}");
+}
+
+/// The rate of kinetic energy and that of the spring, and what the damper dissipates, at random states; `more`: a torque
+/// beside the impedance.
+fn balance<const N: usize>(arm: ArmModel<f64, N>, more: f64) -> Worst {
+    let (mut worst, mut rng) = (Worst::default(), Rng::new(47));
+    for _ in 0..100 {
+        let mut sprung = Sprung::at(arm, rng.vector(2.5));
+        sprung.state = random_state(&arm, &mut rng);
+        (sprung.posture.1, sprung.posture.2) = (0.0, 0.0);
+        let (mut tau, _) = sprung.torque().unwrap();
+        tau[0] += more;
+        let rotors = Sprung::<N>::rotors();
+        let scene = (Gravity::EARTH, Inertia, Coriolis, rotors);
+        sprung.state.qdd = aba(&arm, &sprung.state, &tau, &scene).unwrap();
+        let dissipated = {
+            let (d, _) = sprung.impedance.damping(&sprung.task().mobility);
+            let v = sprung.deviation().velocity;
+            let force = d.map(|row| row.iter().zip(v).map(|(d, v)| d * v).sum::<f64>());
+            force.iter().zip(v).map(|(f, v)| f * v).sum::<f64>()
+        };
+        let [rate] = slope(|t| {
+            let state = later(&arm, &sprung.state, t);
+            let sprung = Sprung { state, ..sprung };
+            let [a, b, c, x, y, z] = sprung.deviation().position;
+            let cos = (1.0 - 0.25 * (a * a + b * b + c * c)).sqrt();
+            let stored =
+                4.0 * STIFFNESS[0] * (1.0 - cos) + 0.5 * STIFFNESS[5] * (x * x + y * y + z * z);
+            [kinetic_energy(&arm, &sprung.state, &rotors) + stored]
+        });
+        worst.see([rate], [-dissipated]);
+    }
+    worst
+}
+
+#[test]
+fn the_energy_of_the_arm_and_its_spring_changes_by_the_damper_alone() {
+    let mut verdict = Verdict::default();
+    let quantity = "energy on an impedance";
+    verdict.see("ur5e", quantity, "f64", &balance(Ur5e::MODEL, 0.0));
+    verdict.see("panda", quantity, "f64", &balance(Panda::MODEL, 0.0));
+    verdict.speak();
+    let pushed = balance(Ur5e::MODEL, 1.0);
+    assert!(pushed.error > 1e-4 * pushed.full_scale);
 }

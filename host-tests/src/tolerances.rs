@@ -188,6 +188,8 @@ const TABLE: &[(&str, &str, f64, f64)] = &[
     ("panda", "rate of the energy of s", 5e-12, NONE),
     ("ur5e", "displacement of an impedance", 2e-7, NONE),
     ("panda", "displacement of an impedance", 5e-9, NONE),
+    ("ur5e", "energy on an impedance", 5e-10, NONE),
+    ("panda", "energy on an impedance", 5e-11, NONE),
     ("ur5e", "damping ratio of a mode", 2e-3, NONE),
     ("panda", "damping ratio of a mode", 2e-3, NONE),
     ("panda", "damping of an impedance", 1.5e-14, 5e-6),

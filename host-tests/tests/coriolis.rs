@@ -81,10 +81,12 @@ fn bracket(tree: &Tree, x: &[f64; V], y: &[f64; V]) -> [f64; V] {
     b
 }
 
+type Product = dyn Fn(&Tree, &State<f64, Q, V>, &[f64; V], &Scene) -> [f64; V];
+
 /// The matrix and the product C(q, x) y under test.
 struct Under<'a> {
     matrix: &'a dyn Fn(&Tree, &State<f64, Q, V>, &Scene) -> Matrix<V>,
-    product: &'a dyn Fn(&Tree, &State<f64, Q, V>, &[f64; V], &Scene) -> [f64; V],
+    product: &'a Product,
 }
 
 const RIGHT: Under<'_> = Under {

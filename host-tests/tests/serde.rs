@@ -78,7 +78,7 @@ fn what_the_controller_is_configured_with_comes_back_to_the_bit() {
     comes_back(Gains { kp: a, kd: b });
     comes_back(PassivityGains { lambda: a, kd: b });
     comes_back(ImpedanceConfig {
-        stiffness: a,
+        stiffness: LIMITS.torque,
         zeta: 0.7,
         slowest: 2.1,
     });
@@ -135,7 +135,7 @@ fn what_is_identified_comes_back_to_the_bit() {
         width: Width::new(0.007),
     });
     comes_back(Lugre {
-        stiffness: a,
+        stiffness: LIMITS.torque,
         damping: b,
         viscous: a,
         sliding: b,
@@ -149,7 +149,7 @@ fn what_is_identified_comes_back_to_the_bit() {
         sin: [[0.4, 0.5, 0.6]; 2],
     });
     comes_back(Spring {
-        stiffness: a,
+        stiffness: LIMITS.torque,
         rest: b,
     });
     comes_back(EndStops {

@@ -1,8 +1,8 @@
 //! The Coriolis matrix C(q, q̇), from composite inertias and their rates.
 //!
 //! Echeandia & Wensing, "Numerical methods to compute the Coriolis matrix and Christoffel symbols for rigid-body systems"
-//! (2021), algorithm 1: as in the composite-rigid-body algorithm, the force of a column is projected on the joints
-//! between its body and the base.
+//! (2021). As in the composite-rigid-body algorithm, the force of a column is projected on the joints between its body and
+//! the base.
 
 use core::borrow::Borrow;
 

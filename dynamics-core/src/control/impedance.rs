@@ -159,12 +159,8 @@ impl<R: Real, const M: usize> CartesianImpedance<R, M> {
             // Rounding may make a zero negative.
             let square = if square > R::ZERO { square } else { R::ZERO };
             smallest = if square < smallest { square } else { smallest };
-            let r = (if square > threshold {
-                square
-            } else {
-                threshold
-            })
-            .rsqrt();
+            let faster = square > threshold;
+            let r = (if faster { square } else { threshold }).rsqrt();
             // 1/Ω; below the threshold the tangent to it, a Newton step towards it.
             let period = r * (R::ONE + half - half * square * r * r);
             let weight = (self.config.zeta + self.config.zeta) * period;
@@ -178,12 +174,6 @@ impl<R: Real, const M: usize> CartesianImpedance<R, M> {
         if smallest >= threshold && all_finite(&squares) {
             return (d, Conditioning::Regular);
         }
-        // Rounding may make a zero negative.
-        let smallest = if smallest < R::ZERO {
-            R::ZERO
-        } else {
-            smallest
-        };
         let smallest = smallest / threshold;
         (d, Conditioning::Damped { smallest })
     }
@@ -195,10 +185,11 @@ impl<R: Real, const M: usize> CartesianImpedance<R, M> {
     /// $$
     ///
     /// A constant force F on the body displaces it by K⁻¹ F. `bias` is τ_b: gravity and friction, with which the arm is
-    /// passive at a goal at rest; for one that moves, [`rnea_two_velocities`](crate::algorithms::rnea_two_velocities())
-    /// of the joint velocities that follow it. `posture` is τ_n = K_n (q_n − q) − D_n q̇, for example by
-    /// [`feedback`](super::feedback()); it does not act on the task where `task` is regular. Some damping in it is needed
-    /// near singularities also for arms without redundancy: there the task damps not all joints.
+    /// passive at a goal at rest, the posture apart, if rotational stiffnesses are equal; for a goal that moves,
+    /// [`rnea_two_velocities`](crate::algorithms::rnea_two_velocities()) of the joint velocities that follow it.
+    /// `posture` is τ_n = K_n (q_n − q) − D_n q̇, for example by [`feedback`](super::feedback()); it does not act on the
+    /// task where `task` is regular. Some damping in it is needed near singularities also for arms without redundancy:
+    /// there the task damps not all joints.
     ///
     /// Every number is finite in singular postures too, and nothing jumps there: the spring and the damper are bounded,
     /// and Jᵀ goes to zero along the lost direction. Velocities are damped by at most 3 ζ K/ω_min.

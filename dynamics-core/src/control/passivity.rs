@@ -1,7 +1,7 @@
 //! The control law of Slotine & Li, which keeps the arm passive.
 //!
 //! Slotine & Li, "On the adaptive control of robot manipulators" (1987); Slotine & Li, *Applied Nonlinear Control* (1991),
-//! section 9.2.
+//! chapter 9.
 //!
 //! ```text
 //! q̇_r = q̇_d + Λ (q_d − q)      q̈_r = q̈_d + Λ (q̇_d − q̇)      s = q̇ − q̇_r
@@ -46,7 +46,7 @@ impl<R: Real, const V: usize> PassivityGains<R, V> {
     /// 7 flops for each joint.
     ///
     /// # Source
-    /// Slotine & Li (1987), (5) to (7).
+    /// Slotine & Li (1987).
     ///
     /// ```
     /// use dynamics_core::{control::{Estimate, PassivityGains}, state::State};
@@ -99,7 +99,7 @@ impl<R: Real, const V: usize> PassivityGains<R, V> {
 /// None; a non-finite input gives a non-finite output, which [`super::Supervisor`] rejects.
 ///
 /// # Source
-/// Slotine & Li (1987), (8).
+/// Slotine & Li (1987).
 ///
 /// ```
 /// use dynamics_core::control::{Estimate, PassivityGains, passivity_based_torque};

@@ -40,7 +40,8 @@ pub fn pose_error<R: Real>(pose: &Pose<R>, wanted: &Pose<R>) -> Motion<R> {
 ///
 /// # Source
 /// Shepperd, "Quaternion from rotation matrix" (1978), which divides by the largest of the four components; Caccavale,
-/// Natale, Siciliano & Villani, "Resolved-acceleration control of robot manipulators: a critical review" (1998).
+/// Natale, Siciliano & Villani, "Resolved-acceleration control of robot manipulators: a critical review with
+/// experiments" (1998).
 ///
 /// ```
 /// use dynamics_core::control::{orientation_error, quaternion_error};

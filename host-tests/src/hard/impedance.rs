@@ -60,7 +60,7 @@ impl Outcome {
     };
 }
 
-/// The share of the way out of reach, at a time in s.
+/// The distance of the goal from the start, as a share of `AWAY`, at a time in s.
 fn away(t: f64) -> f64 {
     let ramp = |t: f64| {
         let t = t.clamp(0.0, 1.0);

@@ -74,7 +74,7 @@ impl<R: Real, const V: usize> TipWrench<R, V> {
             for (i, (row, b)) in a.iter_mut().zip(&mut b).enumerate() {
                 let x = entry(scaled, i);
                 *b += x * (tau * share);
-                for (entry, y) in row.iter_mut().zip(scaled).take(i + 1) {
+                for (entry, y) in row.iter_mut().zip(scaled).skip(i) {
                     *entry += x * *y;
                 }
             }

@@ -191,40 +191,33 @@ pub(crate) fn shifted_inverse<R: Real, const M: usize>(
     eliminate(a, -shift).map(|pivots| pivots.inverse())
 }
 
-/// x with (A + shift 1) x = b, of a symmetric A by its lower triangle; a component without a positive pivot is zero.
+/// x with (A + shift 1) x = b, of a symmetric A by its upper triangle; a component without a positive pivot is zero.
 #[inline(never)]
 pub(crate) fn shifted_solution<R: Real, const M: usize>(
     a: &[[R; M]; M],
     shift: R,
     b: &[R; M],
 ) -> [R; M] {
-    // A = L D Lᵀ, with L below the diagonal and D⁻¹ on it.
-    let (mut factors, mut x) = (*a, *b);
-    for i in 0..M {
-        let (above, below) = factors.split_at_mut(i);
-        let Some(row) = below.first_mut() else { break };
-        let mut pivot = row[i] + shift;
-        for j in 0..i {
-            for k in 0..j {
-                row[j] -= row[k] * above[j][k];
+    let (mut a, mut x, mut d_inv) = (*a, *b, [R::ZERO; M]);
+    for k in 0..M {
+        let (pivot_row, done) = (a[k], x[k]);
+        let pivot = pivot_row[k] + shift;
+        if pivot > R::ZERO && pivot.is_finite() {
+            d_inv[k] = R::ONE / pivot;
+        }
+        for i in k + 1..M {
+            let l = pivot_row[i] * d_inv[k];
+            for j in i..M {
+                a[i][j] -= l * pivot_row[j];
             }
+            x[i] -= l * done;
         }
-        for (j, above) in above.iter().enumerate() {
-            let scaled = row[j];
-            row[j] = scaled * above[j];
-            pivot -= scaled * row[j];
-            x[i] -= row[j] * x[j];
-        }
-        let usable = pivot > R::ZERO && pivot.is_finite();
-        row[i] = if usable { R::ONE / pivot } else { R::ZERO };
     }
-    for (i, row) in factors.iter().enumerate() {
-        x[i] *= row[i];
-    }
-    for i in (0..M).rev() {
-        for (j, l) in factors[i].iter().enumerate().take(i) {
-            x[j] -= *l * x[i];
+    for k in (0..M).rev() {
+        for j in k + 1..M {
+            x[k] -= a[k][j] * x[j];
         }
+        x[k] *= d_inv[k];
     }
     x
 }

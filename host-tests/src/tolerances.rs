@@ -557,8 +557,9 @@ impl Errors {
     pub fn check(&self) {
         let mut found = Vec::new();
         for (quantity, scalar, error, scale) in &self.rows {
-            println!("{} {quantity}, {scalar}: {:.1e}", self.robot, error / scale);
-            found.extend(check(self.robot, quantity, scalar, error / scale).err());
+            let error = error / scale;
+            println!("{} {quantity}, {scalar}: {error:.1e}", self.robot);
+            found.extend(check(self.robot, quantity, scalar, error).err());
         }
         assert!(found.is_empty(), "{}", found.join("\n"));
     }

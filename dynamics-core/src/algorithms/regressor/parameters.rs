@@ -1,0 +1,48 @@
+//! The inertial parameters that the regressor multiplies.
+
+use crate::effects::{Effect, body_inertia};
+use crate::model::RobotModel;
+use crate::scalar::{Matrix, Real};
+use crate::spatial::SpatialInertia;
+
+/// The inertial parameters φ of each body with what the effects add to it, in the body's own frame: kg, kg·m, kg·m².
+///
+/// In the order of [`SpatialInertia::parameters`].
+///
+/// # Shape
+/// B × 10.
+///
+/// # Cost
+/// O(B): 105 flops for each body, for the change of frames.
+///
+/// # Source
+/// Atkeson, An & Hollerbach (1986), (14).
+///
+/// # Example
+/// ```
+/// use dynamics_core::{algorithms::inertial_parameters, model::Robot, robots::Ur5e};
+/// let masses = inertial_parameters(&Ur5e::MODEL, &()).map(|[mass, ..]| mass);
+/// assert!((masses.iter().sum::<f64>() - 16.6).abs() < 0.1); // the arm without its base
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn inertial_parameters<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
+    robot: &D,
+    effects: &E,
+) -> [[R; 10]; B]
+where
+    D: RobotModel<R, B, Q, V>,
+    E: Effect<R, B, V>,
+{
+    let mut phi = [[R::ZERO; 10]; B];
+    for (i, (phi, link)) in phi.iter_mut().zip(robot.links()).enumerate() {
+        let (inertia, frame) = (body_inertia(effects, i, &link), &link.to_joint_frame);
+        let own = SpatialInertia {
+            mass: inertia.mass,
+            first_moment: frame.transpose_mul(inertia.first_moment),
+            rotational: frame.transpose() * inertia.rotational * *frame,
+        };
+        *phi = own.parameters();
+    }
+    phi
+}

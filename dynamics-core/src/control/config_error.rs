@@ -97,10 +97,10 @@ impl fmt::Display for ConfigError {
             ConfigParameter::Resolution => "the step of the encoders is negative or not finite",
             ConfigParameter::RestartDistance => "the restart distance is negative or not a number",
             ConfigParameter::TorqueNoise => {
-                "a standard deviation of the torques is not between 1e-9 and 1e9"
+                "a standard deviation of the torques is not between 1e-6 and 1e6"
             }
             ConfigParameter::PriorDeviation => {
-                "a standard deviation of the prior is not between 1e-9 and 1e9"
+                "a standard deviation of the prior is not between 1e-6 and 1e6"
             }
             ConfigParameter::Forgetting => "the share to forget is not at least 0 and less than 1",
         })

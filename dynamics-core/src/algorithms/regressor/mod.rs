@@ -42,7 +42,7 @@ use crate::state::{Configuration, JointTrig, RobotState, State};
 /// V × B × 10, 40 B V bytes in f32.
 ///
 /// # Cost
-/// O(B V): some 130 flops for each body, and 160 for each pair of a body and a coordinate that moves it.
+/// O(B V): some 200 flops for each body, and 140 for each pair of a body and a coordinate that moves it; 4,200 for the UR5e.
 ///
 /// # Source
 /// Atkeson, An & Hollerbach (1986), (11) to (17); the order of parameters is that of Pinocchio.
@@ -74,10 +74,14 @@ where
     let trig = state.configuration().trig_of(robot);
     let (trig, state) = (trig.borrow(), state.state());
     let mut y = [[[R::ZERO; 10]; B]; V];
-    outward(robot, trig, state, effects, |i, body, xforms| {
+    outward(robot, trig, state, effects, |i, [v, a], xforms| {
+        let Some(link) = robot.link(i) else {
+            return;
+        };
+        let power = BodyPower::of(&link, v, a);
         climb(robot, trig, i, xforms, |k, s| {
             if let Some(entry) = y.get_mut(k).and_then(|row| row.get_mut(i)) {
-                *entry = body.per_parameter(s);
+                *entry = power.per_parameter(s);
             }
         });
     });
@@ -92,8 +96,7 @@ where
 /// V × 10.
 ///
 /// # Cost
-/// O(B): as [`rnea`](crate::algorithms::rnea()) some 110 flops for each body that carries this one, and 160 for each
-/// coordinate that moves it.
+/// O(B): some 110 flops for each body, and 160 for each coordinate that moves this one; 1,700 for the last body of the UR5e.
 ///
 /// # Source
 /// As [`regressor`].
@@ -130,10 +133,11 @@ where
     let trig = state.configuration().trig_of(robot);
     let (trig, state) = (trig.borrow(), state.state());
     let mut y = [[R::ZERO; 10]; V];
-    outward(robot, trig, state, effects, |i, power, xforms| {
-        if i != body {
+    outward(robot, trig, state, effects, |i, [v, a], xforms| {
+        let Some(link) = robot.link(i).filter(|_| i == body) else {
             return;
-        }
+        };
+        let power = BodyPower::of(&link, v, a);
         climb(robot, trig, i, xforms, |k, s| {
             if let Some(row) = y.get_mut(k) {
                 *row = power.per_parameter(s);
@@ -152,7 +156,7 @@ where
 /// B × 10.
 ///
 /// # Cost
-/// O(B): some 130 flops for each body, and 140 for each body that the joint moves.
+/// O(B): some 110 flops for each body, and 180 for each body that the joint moves.
 ///
 /// # Source
 /// As [`regressor`].
@@ -184,7 +188,7 @@ where
     let turns = &trig.coordinates;
     let mut y = [[R::ZERO; 10]; B];
     let mut moved = per_body(robot, None);
-    outward(robot, trig, state, effects, |i, power, xforms| {
+    outward(robot, trig, state, effects, |i, [v, a], xforms| {
         let (Some(link), Some(x)) = (robot.link(i), xforms.last()) else {
             return;
         };
@@ -197,20 +201,21 @@ where
         if let (Some(s), Some(entry)) = (s, y.get_mut(i)) {
             let frame = &link.to_joint_frame;
             let own = Motion::new(frame.transpose_mul(s.ang), frame.transpose_mul(s.lin));
-            *entry = power.per_parameter(own);
+            *entry = BodyPower::of(&link, v, a).per_parameter(own);
         }
     });
     y
 }
 
-/// Visits each body with its number, its motion, and the transforms of all bodies up to it. Featherstone & Orin (3), (4).
+/// Visits each body with its number, its velocity and acceleration, and the transforms of all bodies up to it. Featherstone &
+/// Orin (3), (4).
 #[inline(always)]
 fn outward<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     trig: &JointTrig<R, Q>,
     state: &State<R, Q, V>,
     effects: &E,
-    mut visit: impl FnMut(usize, &BodyPower<R>, &[Xform<R>]),
+    mut visit: impl FnMut(usize, [Motion<R>; 2], &[Xform<R>]),
 ) where
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
@@ -232,7 +237,7 @@ fn outward<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
         } else {
             Motion::ZERO
         };
-        visit(i, &BodyPower::of(&link, known, a_i), &xforms);
+        visit(i, [known, a_i], &xforms);
     }
 }
 

@@ -20,9 +20,11 @@ use crate::spatial::SpatialInertia;
 ///
 /// # Example
 /// ```
-/// use dynamics_core::{algorithms::inertial_parameters, model::Robot, robots::Ur5e};
-/// let masses = inertial_parameters(&Ur5e::MODEL, &()).map(|[mass, ..]| mass);
-/// assert!((masses.iter().sum::<f64>() - 16.6).abs() < 0.1); // the arm without its base
+/// use dynamics_core::algorithms::{center_of_mass, inertial_parameters};
+/// use dynamics_core::{model::Robot, robots::Ur5e, state::State};
+/// let mass: f64 = inertial_parameters(&Ur5e::MODEL, &()).iter().map(|[mass, ..]| mass).sum();
+/// let arm = center_of_mass(&Ur5e::MODEL, &State::at([0.0; 6]), &());
+/// assert!((mass - arm.mass).abs() < 1e-12);
 /// ```
 #[inline(always)]
 #[must_use]

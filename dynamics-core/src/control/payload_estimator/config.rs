@@ -21,12 +21,12 @@ pub struct PayloadEstimatorConfig<R, const V: usize> {
 }
 
 impl<R: Real, const V: usize> PayloadEstimatorConfig<R, V> {
-    /// Checks that each standard deviation is between 10⁻⁹ and 10⁹ and the forgetting at least 0 and less than 1.
+    /// Checks that each standard deviation is between 10⁻⁶ and 10⁶ and the forgetting at least 0 and less than 1.
     ///
     /// # Errors
     /// [`ConfigError::OutOfRange`] names the number.
     pub fn check(&self) -> Result<(), ConfigError> {
-        let usable = |x: &R| (*x >= R::from_f64(1e-9)) & (*x <= R::from_f64(1e9));
+        let usable = |x: &R| (*x >= R::from_f64(1e-6)) & (*x <= R::from_f64(1e6));
         ConfigParameter::TorqueNoise.require(self.noise.iter().all(usable))?;
         ConfigParameter::PriorDeviation.require(self.prior.iter().all(usable))?;
         let share = (self.forgetting >= R::ZERO) & (self.forgetting < R::ONE);

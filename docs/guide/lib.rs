@@ -24,6 +24,7 @@ pages! {
     faults "faults.md",
     contact "contact.md",
     impedance "impedance.md",
+    payload "payload.md",
     porting "porting.md",
     engine "engine.md",
 }

@@ -1,5 +1,7 @@
 //! [`Core`]: the reference implementation of the algorithms, for a robot known at compile time.
 
+mod regressor;
+
 use core::marker::PhantomData;
 
 use crate::algorithms::{self, Frame, JointResult, Kinematics, Ltdl, MassMatrix};

@@ -3,7 +3,7 @@ in masses and momenta, also one that is welded to the base. Layouts: recordings.
 
 import numpy as np
 import pinocchio as pin
-from by_hand import close, totals
+from by_hand import close, symmetric, totals
 from joints import SIZES, SWAP, rows, six
 
 ONE_DOF = ("revolute", "continuous", "prismatic", "helical")
@@ -90,6 +90,29 @@ class Plant:
         self.geared.armature = self.order.v(values)
 
 
+def parameters(robot):
+    """m, m c, and the inertia about the origin (xx, xy, yy, xz, yz, zz) of every body, in its own frame."""
+    of = lambda body: pin.Inertia(body["mass"], np.array(body["com"]), symmetric(body["inertia_com"]))
+    return np.concatenate([of(body).toDynamicParameters() for body in robot["bodies"]])
+
+
+def regressor(plant, Q, V, A):
+    """Y with ID = Y φ: our coordinates by bodies, ten columns each. Pinocchio's has only the bodies on joints that move."""
+    robot, model, order = plant.robot, plant.model, plant.order
+    data = model.createData()
+    joints = np.array(pin.computeJointTorqueRegressor(model, data, Q, V, A)).reshape(model.nv, -1, 10)
+    pin.computeJointJacobians(model, data, Q)
+    found = np.zeros((model.nv, len(robot["bodies"]), 10))
+    for i, (body, (joint, on_joint)) in enumerate(zip(robot["bodies"], plant.bodies)):
+        if body["joint"] != "fixed":
+            found[:, i] = joints[:, joint - 1]
+        elif joint > 0:  # the wrench of the welded body, brought to the joint that carries it
+            wrench = pin.bodyRegressor(on_joint.actInv(data.v[joint]), on_joint.actInv(data.a_gf[joint]))
+            at_joint = pin.getJointJacobian(model, data, joint, pin.LOCAL)
+            found[:, i] = at_joint.T @ on_joint.toDualActionMatrix() @ wrench
+    return found[order.at]
+
+
 def of_state(plant, q, qd, qdd, tau, next_q, more):
     """Every quantity of one state, as flat rows. `more` has the other inputs."""
     robot, model, order, tip = plant.robot, plant.model, plant.order, plant.tip
@@ -149,6 +172,9 @@ def of_state(plant, q, qd, qdd, tau, next_q, more):
     close(robot, "C q̇", coriolis @ qd, products)
     close(robot, "C + Cᵀ", coriolis + coriolis.T, rate, 1e-8)
     row["generalised_momentum"], row["coriolis_transposed"] = matrix @ qd, coriolis.T @ qd
+
+    row["regressor"] = regressor(plant, Q, V, A).ravel()
+    close(robot, "regressor", row["regressor"].reshape(n, -1) @ parameters(robot), order.v_back(pin.rnea(model, data, Q, V, A)))
 
     # M⁻¹ and the inertia that the tip feels.
     inverse = order.square(pin.computeMinverse(model, data, Q))

@@ -87,6 +87,8 @@ pub struct Recording {
     pub generalised_momentum: Vec<Vec<f64>>,
     /// Cᵀ q̇ = Ṁ q̇ − C q̇.
     pub coriolis_transposed: Vec<Vec<f64>>,
+    /// Y with ID(q, q̇, q̈) = Y φ, by coordinates, bodies and ten parameters each; of fewer states.
+    pub regressor: Vec<Vec<f64>>,
 
     /// M⁻¹.
     pub inverse_mass_matrix: Vec<Vec<f64>>,

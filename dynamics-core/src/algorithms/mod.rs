@@ -14,6 +14,7 @@ mod mass_matrix;
 mod momentum;
 mod operational_space;
 mod pivot_check;
+mod regressor;
 mod rnea;
 mod rnea_two_velocities;
 mod rotors;
@@ -46,6 +47,9 @@ pub use operational_space::{
 };
 pub(crate) use operational_space::{eigen, shifted_inverse, shifted_solution};
 pub(crate) use pivot_check::Magnitude;
+pub use regressor::{
+    friction_regressor, inertial_parameters, regressor, regressor_columns, regressor_row,
+};
 pub use rnea::rnea;
 pub use rnea_two_velocities::rnea_two_velocities;
 pub use transmitted::transmitted_torque;

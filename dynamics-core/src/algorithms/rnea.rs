@@ -157,7 +157,7 @@ where
 
 /// vᵢ from X v_λ; zero if no effect needs velocities. Featherstone & Orin (3).
 #[inline(always)]
-fn velocity<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+pub(super) fn velocity<R: Real, E, const B: usize, const Q: usize, const V: usize>(
     _: &E,
     link: &LinkView<'_, R>,
     v: Motion<R>,
@@ -177,7 +177,7 @@ where
 /// aᵢ from X a_parent: S q̈ with [`crate::effects::Inertia`], S̊ q̇ + v × S q̇ with [`crate::effects::Coriolis`].
 /// Featherstone & Orin (4).
 #[inline(always)]
-fn acceleration<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+pub(super) fn acceleration<R: Real, E, const B: usize, const Q: usize, const V: usize>(
     _: &E,
     link: &LinkView<'_, R>,
     mut a: Motion<R>,

@@ -49,6 +49,12 @@ pub enum ConfigParameter {
     Resolution,
     /// The greatest distance from the trajectory at a restart, which may be infinite.
     RestartDistance,
+    /// The standard deviation of a torque.
+    TorqueNoise,
+    /// The standard deviation of a parameter before the first measurement.
+    PriorDeviation,
+    /// The share of the information that is forgotten.
+    Forgetting,
 }
 
 impl ConfigParameter {
@@ -90,6 +96,13 @@ impl fmt::Display for ConfigError {
             ConfigParameter::SlowestMode => "the slowest mode is not a positive number",
             ConfigParameter::Resolution => "the step of the encoders is negative or not finite",
             ConfigParameter::RestartDistance => "the restart distance is negative or not a number",
+            ConfigParameter::TorqueNoise => {
+                "a standard deviation of the torques is not between 1e-6 and 1e6"
+            }
+            ConfigParameter::PriorDeviation => {
+                "a standard deviation of the prior is not between 1e-6 and 1e6"
+            }
+            ConfigParameter::Forgetting => "the share to forget is not at least 0 and less than 1",
         })
     }
 }

@@ -11,6 +11,7 @@
 //! | [`ContactDetector`] | external torques beyond thresholds that follow the stated errors of the model | as the observer, thresholds |
 //! | [`MomentumObserver`] | external torques from the momentum of the joints | momentum, external torques |
 //! | [`TipWrench`] | the wrench of a contact at the tip, from external torques | none |
+//! | [`PayloadEstimator`] | mass, centre of mass and inertia of a load from the torques of the joints | information |
 //! | [`Gains`], [`feedback()`] | K_p (q_d − q) + K_d (q̇_d − q̇) | none |
 //! | [`PassivityGains`], [`passivity_based_torque()`] | the law of Slotine & Li: M q̈_r + C q̇_r + g + F − K_D s | none |
 //! | [`hold()`] | the reference of a held arm: q̈ = −λ q̇ | none |
@@ -72,6 +73,7 @@ mod multi_turn;
 mod multirate;
 mod observer;
 mod passivity;
+mod payload_estimator;
 mod pose_error;
 mod reaction;
 mod reference;
@@ -105,6 +107,7 @@ pub use multi_turn::MultiTurnEncoder;
 pub use multirate::{FirstOrderHold, InertiaUpdate, Interpolator, ZeroOrderHold};
 pub use observer::{Estimate, Observer, ObserverConfig};
 pub use passivity::{PassivityGains, SlidingVariable, passivity_based_torque};
+pub use payload_estimator::{PayloadEstimator, PayloadEstimatorConfig, RejectedMeasurement};
 pub use pose_error::{pose_error, quaternion_error};
 pub use reaction::Reaction;
 pub use reference::Reference;

@@ -69,8 +69,15 @@ impl<R: Real> BodyInertia<R> {
         }
     }
 
-    /// From the inertia about the origin.
-    fn about_com(about: &SpatialInertia<R>) -> Self {
+    /// The same inertia, given about the origin of the frame, such as an estimated one. The centre of mass of a body without
+    /// mass is the origin.
+    ///
+    /// ```
+    /// use dynamics_core::{effects::Payload, model::BodyInertia};
+    /// let load = BodyInertia { mass: 2.0, com: [0.0, 0.0, 0.5], inertia: [0.25, 0.0, 0.0, 0.25, 0.0, 0.125] };
+    /// assert_eq!(BodyInertia::about_com(&Payload::<f64, 0>::from_inertia(load).0), load);
+    /// ```
+    pub fn about_com(about: &SpatialInertia<R>) -> Self {
         let mass = about.mass;
         let per = if mass == R::ZERO {
             R::ZERO

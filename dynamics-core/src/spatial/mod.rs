@@ -263,6 +263,37 @@ impl<R: Real> SpatialInertia<R> {
         [xx, xy, xz, yy, yz, zz]
     }
 
+    /// The ten parameters: m, h_x, h_y, h_z, Ī_xx, Ī_xy, Ī_yy, Ī_xz, Ī_yz, Ī_zz in kg, kg·m and kg·m².
+    ///
+    /// ```
+    /// use dynamics_core::effects::Payload;
+    /// use dynamics_core::{model::BodyInertia, spatial::SpatialInertia};
+    /// let load = BodyInertia { mass: 2.0, com: [0.0, 0.0, 0.5], inertia: [0.1, 0.0, 0.01, 0.2, 0.0, 0.15] };
+    /// let phi = Payload::<f64, 0>::from_inertia(load).0.parameters();
+    /// assert_eq!(phi, [2.0, 0.0, 0.0, 1.0, 0.6, 0.0, 0.7, 0.01, 0.0, 0.15]);
+    /// assert_eq!(SpatialInertia::<f64>::from_parameters(phi).parameters(), phi);
+    /// ```
+    #[inline]
+    pub fn parameters(&self) -> [R; 10] {
+        let ([xx, xy, xz, yy, yz, zz], [x, y, z]) = (self.upper(), self.first_moment.array());
+        [self.mass, x, y, z, xx, xy, yy, xz, yz, zz]
+    }
+
+    /// The inertia of these [parameters](Self::parameters).
+    #[inline]
+    pub fn from_parameters([mass, x, y, z, xx, xy, yy, xz, yz, zz]: [R; 10]) -> Self {
+        let column = |x, y, z| R::Vec3::new(x, y, z);
+        Self {
+            mass,
+            first_moment: column(x, y, z),
+            rotational: R::Mat3::from_cols(
+                column(xx, xy, xz),
+                column(xy, yy, yz),
+                column(xz, yz, zz),
+            ),
+        }
+    }
+
     /// Zero inertia.
     pub const ZERO: Self = Self {
         mass: R::ZERO,

@@ -1,0 +1,48 @@
+//! The regressor for a robot known at compile time.
+
+use super::Core;
+use crate::algorithms;
+use crate::effects::Effect;
+use crate::model::{RobotModel, Static};
+use crate::scalar::Real;
+use crate::state::RobotState;
+
+impl<T, K> Core<T, K> {
+    /// Y with τ = Y φ, by coordinates, bodies and parameters, see [`algorithms::regressor`].
+    #[inline(never)]
+    pub fn regressor<R: Real, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        effects: &impl Effect<R, B, V>,
+    ) -> [[[R; 10]; B]; V]
+    where
+        Static<T, K>: RobotModel<R, B, Q, V>,
+    {
+        algorithms::regressor(&Static::<T, K>::NEW, state, effects)
+    }
+
+    /// The columns of Y of one body, by coordinates, see [`algorithms::regressor_columns`].
+    #[inline(never)]
+    pub fn regressor_columns<R: Real, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        effects: &impl Effect<R, B, V>,
+        body: usize,
+    ) -> [[R; 10]; V]
+    where
+        Static<T, K>: RobotModel<R, B, Q, V>,
+    {
+        algorithms::regressor_columns(&Static::<T, K>::NEW, state, effects, body)
+    }
+
+    /// The row of Y of one coordinate, by bodies, see [`algorithms::regressor_row`].
+    #[inline(never)]
+    pub fn regressor_row<R: Real, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        effects: &impl Effect<R, B, V>,
+        coordinate: usize,
+    ) -> [[R; 10]; B]
+    where
+        Static<T, K>: RobotModel<R, B, Q, V>,
+    {
+        algorithms::regressor_row(&Static::<T, K>::NEW, state, effects, coordinate)
+    }
+}

@@ -2,7 +2,10 @@
 
 use dynamics_core::Core;
 use dynamics_core::algorithms::frame;
-use dynamics_core::control::{ContactDetector, Fault, MomentumObserver, ObserverConfig, TipWrench};
+use dynamics_core::control::{
+    ConfigError, ConfigParameter, ContactDetector, Fault, MomentumObserver, ObserverConfig,
+    TipWrench, TipWrenchConfig,
+};
 use dynamics_core::model::Robot;
 use dynamics_core::robots::{Panda, Ur5e};
 use dynamics_core::scalar::{Real, Vector};
@@ -16,6 +19,15 @@ fn pushed<R: Real, const N: usize>(jacobian: &[Motion<R>; N], push: [f64; 6]) ->
     let [a, b, c, x, y, z] = push.map(R::from_f64);
     let push = Force::new(R::Vec3::new(a, b, c), R::Vec3::new(x, y, z));
     jacobian.map(|column| column.dot(push))
+}
+
+fn estimator<R: Real, const N: usize>(noise: f64, [couple, force]: [f64; 2]) -> TipWrench<R, N> {
+    let config = TipWrenchConfig {
+        noise: [R::from_f64(noise); N],
+        force: R::from_f64(force),
+        couple: R::from_f64(couple),
+    };
+    TipWrench::try_new(config).expect("sizes that can be")
 }
 
 fn six<R: Real>(f: Force<R>) -> [f64; 6] {
@@ -40,11 +52,7 @@ fn worst_force<R: Real, T: Robot<N, N, N>, const N: usize>() -> f64 {
             continue;
         }
         postures += 1;
-        let at_a_point = TipWrench {
-            noise: [R::from_f64(1e-2); N],
-            force: R::from_f64(100.0),
-            couple: R::ZERO,
-        };
+        let at_a_point = estimator(1e-2, [0.0, 100.0]);
         let found = at_a_point.estimate(&jacobian, &pushed(&jacobian, push));
         let found = six(found.expect("finite torques"));
         for (found, push) in found.iter().zip(push) {
@@ -67,7 +75,7 @@ fn a_force_at_the_tip_is_found_within_the_noise() {
 
 /// Half the sum of squares whose least the estimate is, at the wrench x of the sizes of `given`.
 fn cost(
-    given: &TipWrench<f64, 6>,
+    given: &TipWrenchConfig<f64, 6>,
     jacobian: &[Motion<f64>; 6],
     external: &[f64; 6],
     x: [f64; 6],
@@ -83,7 +91,7 @@ fn cost(
 
 /// The largest slope of the cost at an estimate, each of whose numbers is multiplied by `spoiled`.
 fn slope(spoiled: f64) -> f64 {
-    let given = TipWrench {
+    let given = TipWrenchConfig {
         noise: [2.0, 1.5, 1.0, 0.5, 0.4, 0.3],
         force: 40.0,
         couple: 5.0,
@@ -94,7 +102,8 @@ fn slope(spoiled: f64) -> f64 {
         frame::LocalWorldAligned,
     );
     let external = [4.0, -7.0, 3.0, 1.0, -0.8, 0.5];
-    let found = given.estimate(&jacobian, &external).expect("finite");
+    let estimator = TipWrench::try_new(given).expect("sizes that can be");
+    let found = estimator.estimate(&jacobian, &external).expect("finite");
     let x = six(found);
     let x: [f64; 6] = core::array::from_fn(|k| spoiled * x[k] / [given.couple, given.force][k / 3]);
     let at = |k: usize, step: f64| {
@@ -143,11 +152,7 @@ fn at_a_singular_posture_a_wrench_without_torque_is_estimated_as_zero_and_others
     }
     assert_eq!(units.len(), 5);
     let silent = rest([1.0, 2.0, -1.0, 0.5, 3.0, -2.0], &units).map(|x| 20.0 * x);
-    let given = TipWrench {
-        noise: [1e-3; 6],
-        force: 100.0,
-        couple: 100.0,
-    };
+    let given = estimator(1e-3, [100.0, 100.0]);
     let estimate = |push| {
         six(given
             .estimate(&jacobian, &pushed(&jacobian, push))
@@ -169,11 +174,7 @@ fn at_a_singular_posture_a_wrench_without_torque_is_estimated_as_zero_and_others
 #[test]
 fn numbers_that_are_not_finite_name_their_joint() {
     let jacobian = Core::<Ur5e>::jacobian(&[0.5_f32; 6], 5, frame::LocalWorldAligned);
-    let given = TipWrench {
-        noise: [0.1; 6],
-        force: 100.0,
-        couple: 10.0,
-    };
+    let given = estimator(0.1, [10.0, 100.0]);
     for bad in [f32::NAN, f32::INFINITY] {
         let mut external = [1.0; 6];
         external[3] = bad;
@@ -184,19 +185,42 @@ fn numbers_that_are_not_finite_name_their_joint() {
         let fault = given.estimate(&moved, &[1.0; 6]);
         assert_eq!(fault, Err(Fault::NotFinite { joint: 2 }));
     }
-    let silent = TipWrench {
-        noise: [0.0; 6],
-        ..given
-    };
-    let fault = silent.estimate(&jacobian, &[1.0; 6]);
-    assert_eq!(fault, Err(Fault::NotFinite { joint: 0 }));
     // Finite numbers whose products are not.
-    let huge = TipWrench {
-        noise: [1e-30; 6],
-        ..given
-    };
-    let fault = huge.estimate(&jacobian, &[1.0; 6]);
+    let fault = given.estimate(&jacobian, &[1e38; 6]);
     assert_eq!(fault, Err(Fault::NotFinite { joint: 0 }));
+}
+
+#[test]
+fn sizes_that_cannot_be_are_refused() {
+    let good = TipWrenchConfig {
+        noise: [0.1; 2],
+        force: 100.0,
+        couple: 0.0,
+    };
+    assert!(TipWrench::try_new(good).is_ok());
+    let refused = |config, parameter| {
+        let error = ConfigError::OutOfRange { parameter };
+        assert_eq!(TipWrench::try_new(config), Err(error));
+        assert!(error.to_string().contains("not"));
+    };
+    for bad in [0.0, -1.0, 1e7, f64::NAN] {
+        let noise = [0.1, bad];
+        refused(
+            TipWrenchConfig { noise, ..good },
+            ConfigParameter::TorqueNoise,
+        );
+    }
+    for bad in [0.0, -1.0, f64::INFINITY, f64::NAN] {
+        let force = TipWrenchConfig { force: bad, ..good };
+        refused(force, ConfigParameter::WrenchSize);
+    }
+    for bad in [-1.0, f64::INFINITY, f64::NAN] {
+        let couple = TipWrenchConfig {
+            couple: bad,
+            ..good
+        };
+        refused(couple, ConfigParameter::WrenchSize);
+    }
 }
 
 #[test]

@@ -39,6 +39,8 @@ pub enum ConfigParameter {
     DecayRate,
     /// The margin of a contact detector.
     ContactMargin,
+    /// The largest force or couple that a contact is expected to have.
+    WrenchSize,
     /// A stiffness of an impedance.
     Stiffness,
     /// The damping ratio of an impedance.
@@ -90,6 +92,9 @@ impl fmt::Display for ConfigError {
             ConfigParameter::DecayRate => "the decay rate of a held arm is not a positive number",
             ConfigParameter::ContactMargin => {
                 "a margin of the contact detector is not a positive number"
+            }
+            ConfigParameter::WrenchSize => {
+                "the largest force is not a positive number, or the largest couple a negative one"
             }
             ConfigParameter::Stiffness => "a stiffness of the impedance is not a positive number",
             ConfigParameter::DampingRatio => "the damping ratio is not a positive number",

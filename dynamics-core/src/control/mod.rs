@@ -116,7 +116,7 @@ pub use safety_limits::{LimitKind, SafetyLimits, SafetyLimitsError};
 pub use shaper::{Shaped, Shaper, ShaperError, ShaperProblem, Vibration};
 pub use supervisor::{StopCategory, Supervisor, SupervisorConfig, SupervisorTick};
 pub use tick_counter::{CompletedTick, CountedTick, TickCounter, Watchdog};
-pub use tip_wrench::TipWrench;
+pub use tip_wrench::{TipWrench, TipWrenchConfig};
 pub use trajectory::{MotionLimits, RestToRest, Trajectory, TrajectoryError, WayPoint};
 
 use crate::scalar::Real;

@@ -8,16 +8,16 @@
 //!
 //! The matrix is positive definite at singular postures too: a wrench without a torque about any joint is estimated as zero.
 
-use super::Fault;
+use super::{ConfigError, ConfigParameter, Fault};
 use crate::algorithms::shifted_solution;
 use crate::scalar::{Real, Vector};
 use crate::spatial::{Force, Motion};
 use crate::state::{all_finite, entry};
 
-/// The sizes of the wrenches at a tip, and of the noise in the external torques from which they are estimated.
+/// The sizes of the wrenches at a tip, and of the noise in the external torques: for [`TipWrench::try_new`].
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TipWrench<R, const V: usize> {
-    /// The standard deviation of the noise in the external torque of each joint, N·m or N; not zero.
+pub struct TipWrenchConfig<R, const V: usize> {
+    /// The standard deviation of the noise in the external torque of each joint, N·m or N, from 10⁻⁶ to 10⁶.
     pub noise: [R; V],
     /// The largest force that is expected, N: far beyond noise / lever, the estimate does not depend on it.
     pub force: R,
@@ -25,69 +25,135 @@ pub struct TipWrench<R, const V: usize> {
     pub couple: R,
 }
 
+/// An estimator of the wrench at a body from the external torques of V joints.
+///
+/// ```
+/// use dynamics_core::control::{TipWrench, TipWrenchConfig};
+/// use dynamics_core::{Engine, model::Robot, robots::Ur5e, spatial::Force};
+/// use glam::DVec3;
+/// const TIP: usize = Ur5e::MODEL.body("wrist_3");
+/// let at_a_point = TipWrench::try_new(TipWrenchConfig { noise: [0.1; 6], force: 100.0, couple: 0.0 })?;
+/// let jacobian = Engine::<Ur5e>::jacobian::<TIP, f64, _, _, _>(&[0.0, -1.2, 1.5, 0.3, 0.7, 0.0]);
+/// let push = Force::new(DVec3::ZERO, DVec3::new(10.0, 0.0, -20.0));
+/// let external = jacobian.map(|column| column.dot(push));
+/// let found = at_a_point.estimate(&jacobian, &external)?;
+/// assert!((found.lin - push.lin).length() < 0.01);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[doc(alias = "external wrench")]
+#[doc(alias = "external force")]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TipWrench<R, const V: usize> {
+    /// 1/σ of each joint.
+    weights: [R; V],
+    force: R,
+    couple: R,
+}
+
 impl<R: Real, const V: usize> TipWrench<R, V> {
+    /// An estimator of wrenches of these sizes.
+    ///
+    /// # Errors
+    /// [`ConfigError::OutOfRange`] names a number that is beyond its range or not finite.
+    ///
+    /// ```
+    /// use dynamics_core::control::{ConfigError, ConfigParameter, TipWrench, TipWrenchConfig};
+    /// let error = TipWrench::try_new(TipWrenchConfig { noise: [0.1_f32, 0.0], force: 100.0, couple: 0.0 });
+    /// assert_eq!(error, Err(ConfigError::OutOfRange { parameter: ConfigParameter::TorqueNoise }));
+    /// ```
+    pub fn try_new(config: TipWrenchConfig<R, V>) -> Result<Self, ConfigError> {
+        let TipWrenchConfig {
+            noise,
+            force,
+            couple,
+        } = config;
+        let (least, most) = (R::from_f64(1e-6), R::from_f64(1e6));
+        for sigma in noise {
+            ConfigParameter::TorqueNoise.require((sigma >= least) & (sigma <= most))?;
+        }
+        ConfigParameter::WrenchSize.positive(force)?;
+        ConfigParameter::WrenchSize.require((couple >= R::ZERO) & couple.is_finite())?;
+        Ok(Self {
+            weights: noise.map(|sigma| R::ONE / sigma),
+            force,
+            couple,
+        })
+    }
+
     /// The wrench fˣ that a body's surroundings exert on it, N·m and N, in the frame and about the point of its `jacobian`.
     ///
     /// `external` are the torques of a [`MomentumObserver`](super::MomentumObserver). Of an arm of fewer than six joints, and
     /// at a singular posture, it is the smallest wrench that explains them.
     ///
     /// # Cost
-    /// Constant work: 60 flops a joint, some 300 more and 6 divisions.
+    /// Constant work: 60 flops a joint, some 200 more and 6 divisions.
     ///
     /// # Errors
-    /// [`Fault::NotFinite`] names the first joint with a number that is not finite, or joint 0 if their products overflow.
+    /// [`Fault::NotFinite`] names the first joint with a number that is not finite, or joint 0 if products of finite numbers
+    /// overflow.
     ///
     /// # Source
     /// Haddadin, De Luca & Albu-Schäffer, "Robot collisions: a survey" (2017), section VI.
-    ///
-    /// ```
-    /// use dynamics_core::{control::TipWrench, Engine, model::Robot, robots::Ur5e, spatial::Force};
-    /// use glam::DVec3;
-    /// const TIP: usize = Ur5e::MODEL.body("wrist_3");
-    /// let jacobian = Engine::<Ur5e>::jacobian::<TIP, f64, _, _, _>(&[0.0, -1.2, 1.5, 0.3, 0.7, 0.0]);
-    /// let push = Force::new(DVec3::ZERO, DVec3::new(10.0, 0.0, -20.0));
-    /// let external = jacobian.map(|column| column.dot(push));
-    /// let at_a_point = TipWrench { noise: [0.1; 6], force: 100.0, couple: 0.0 };
-    /// let found = at_a_point.estimate(&jacobian, &external)?;
-    /// assert!((found.lin - push.lin).length() < 0.01);
-    /// # Ok::<(), dynamics_core::control::Fault>(())
-    /// ```
-    #[doc(alias = "external wrench")]
-    #[doc(alias = "external force")]
     #[inline]
     pub fn estimate(
         &self,
         jacobian: &[Motion<R>; V],
         external: &[R; V],
     ) -> Result<Force<R>, Fault> {
-        let (mut a, mut b) = ([[R::ZERO; 6]; 6], [R::ZERO; 6]);
-        for (joint, (column, noise)) in jacobian.iter().zip(&self.noise).enumerate() {
-            let tau = entry(external, joint);
-            let share = R::ONE / *noise;
-            let columns = [(column.ang, self.couple), (column.lin, self.force)];
-            let scaled = columns.map(|(axis, size)| (axis * (size * share)).array());
-            let scaled = scaled.as_flattened();
-            let sum = scaled.iter().fold(tau * share, |sum, x| sum + *x);
-            if !sum.is_finite() {
-                return Err(Fault::NotFinite { joint });
-            }
-            for (i, (row, b)) in a.iter_mut().zip(&mut b).enumerate() {
-                let x = entry(scaled, i);
-                *b += x * (tau * share);
-                for (entry, y) in row.iter_mut().zip(scaled).skip(i) {
-                    *entry += x * *y;
-                }
-            }
+        let mut scaled = [([R::ZERO; 6], R::ZERO); V];
+        let joints = jacobian.iter().zip(external).zip(&self.weights);
+        for (scaled, ((column, tau), weight)) in scaled.iter_mut().zip(joints) {
+            let [ang, lin] = [(column.ang, self.couple), (column.lin, self.force)]
+                .map(|(axis, size)| (axis * (size * *weight)).array());
+            let c = [ang[0], ang[1], ang[2], lin[0], lin[1], lin[2]];
+            *scaled = (c, *tau * *weight);
         }
+        let (mut a, mut b) = ([[R::ZERO; 6]; 6], [R::ZERO; 6]);
+        // In two parts, since the sums of the whole matrix are more than the M4F has registers.
+        add_rows::<R, V, 0, 2>(&scaled, &mut a, &mut b);
+        add_rows::<R, V, 2, 6>(&scaled, &mut a, &mut b);
         let x = shifted_solution(&a, R::ONE, &b);
         if !all_finite(&x) {
-            return Err(Fault::NotFinite { joint: 0 });
+            let joint = first_not_finite(jacobian, external).unwrap_or(0);
+            return Err(Fault::NotFinite { joint });
         }
         let [nx, ny, nz, fx, fy, fz] = x;
-        let wrench = Force::new(
+        Ok(Force::new(
             R::Vec3::new(nx, ny, nz) * self.couple,
             R::Vec3::new(fx, fy, fz) * self.force,
-        );
-        Ok(wrench)
+        ))
     }
+}
+
+/// The rows of Σ c cᵀ from the diagonal on, and of Σ c τ.
+#[inline(always)]
+fn add_rows<R: Real, const V: usize, const FROM: usize, const TO: usize>(
+    scaled: &[([R; 6], R); V],
+    a: &mut [[R; 6]; 6],
+    b: &mut [R; 6],
+) {
+    let (mut rows, mut sums) = ([[R::ZERO; 6]; 6], [R::ZERO; 6]);
+    for (c, tau) in scaled {
+        for i in FROM..TO {
+            sums[i] += c[i] * *tau;
+            for j in i..6 {
+                rows[i][j] += c[i] * c[j];
+            }
+        }
+    }
+    for i in FROM..TO {
+        (a[i], b[i]) = (rows[i], sums[i]);
+    }
+}
+
+/// The first joint with a number that is not finite.
+fn first_not_finite<R: Real, const V: usize>(
+    jacobian: &[Motion<R>; V],
+    external: &[R; V],
+) -> Option<usize> {
+    let mut joints = jacobian.iter().zip(external);
+    joints.position(|(column, tau)| {
+        let axes = [column.ang, column.lin].map(Vector::array);
+        !(tau.is_finite() && all_finite(axes.as_flattened()))
+    })
 }

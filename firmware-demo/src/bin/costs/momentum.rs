@@ -1,7 +1,7 @@
 //! p and Cᵀ q̇, and what an observer of external torques costs with them.
 
 use dynamics_core::algorithms::{MomentumAndCoriolis, frame};
-use dynamics_core::control::{Fault, MomentumObserver, ObserverConfig, TipWrench};
+use dynamics_core::control::{Fault, MomentumObserver, ObserverConfig, TipWrench, TipWrenchConfig};
 use dynamics_core::effects::{Coulomb, Gravity, LoadFriction, RIGID_BODY, Viscous, Width};
 use dynamics_core::model::Robot;
 use dynamics_core::spatial::{Force, Motion};
@@ -72,10 +72,13 @@ fn observer<T: Robot<B, N, N>, const B: usize, const N: usize>(asks: &[Ask<N>; S
     let columns = asks
         .each_ref()
         .map(|ask| Core::<T>::jacobian(&ask.trig, const { B - 1 }, frame::LocalWorldAligned));
-    let wrench = TipWrench {
+    let sizes = TipWrenchConfig {
         noise: [0.5; N],
         force: 100.0,
         couple: 10.0,
+    };
+    let Ok(wrench) = TipWrench::try_new(sizes) else {
+        return;
     };
     let run = tip_wrench::<N>;
     row("tip_wrench", "6_directions", false).measure(

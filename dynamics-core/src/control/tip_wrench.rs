@@ -12,7 +12,7 @@ use super::{ConfigError, ConfigParameter, Fault};
 use crate::algorithms::shifted_solution;
 use crate::scalar::{Real, Vector};
 use crate::spatial::{Force, Motion};
-use crate::state::{all_finite, entry};
+use crate::state::all_finite;
 
 /// The sizes of the wrenches at a tip, and of the noise in the external torques: for [`TipWrench::try_new`].
 #[derive(Clone, Copy, Debug, PartialEq)]

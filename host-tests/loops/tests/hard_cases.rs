@@ -93,7 +93,11 @@ fn numbers_go_on_from_the_other_cases() {
             .collect()
     };
     let mut all = numbers(host_tests::hard::CASES);
-    all.extend(numbers(CASES));
+    let own = numbers(CASES);
+    // Later cases go on from those of links that bend.
+    let last = own.iter().max().copied().unwrap_or_default();
+    all.retain(|number| *number < last);
+    all.extend(own);
     all.sort_unstable();
     assert!(all.windows(2).all(|pair| pair[0] + 1 == pair[1]), "{all:?}");
 }

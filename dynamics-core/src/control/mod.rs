@@ -16,7 +16,7 @@
 //! | [`PassivityGains`], [`passivity_based_torque()`] | the law of Slotine & Li: M q̈_r + C q̇_r + g + F − K_D s | none |
 //! | [`hold()`] | the reference of a held arm: q̈ = −λ q̇ | none |
 //! | [`hybrid_motion_force`], [`TaskCommand`] | motions and forces along a task's directions | none |
-//! | [`CartesianImpedance`], [`pose_error`] | a spring and a damper between a body and its goal, with null space | none |
+//! | [`CartesianImpedance`], [`pose_error()`] | a spring and a damper between a body and its goal, with null space | none |
 //! | [`ZeroOrderHold`], [`FirstOrderHold`], [`Interpolator`], [`InertiaUpdate`] | the torque in ticks without a computation of the dynamics | last torques |
 //! | [`Supervisor`] | limits, plausibility, reactions to faults | last good values |
 //! | [`Fault`], [`Reaction`] | what each fault leads to | |

@@ -171,6 +171,34 @@ fn at_a_singular_posture_a_wrench_without_torque_is_estimated_as_zero_and_others
     }
 }
 
+/// The largest force that f32 finds where a push of 1 N acts, at 2,000 postures each with two axes of the wrist on one line.
+fn largest_in_f32(noise: f64, couple: f64) -> f64 {
+    let mut rng = TestRng::deterministic_rng(RngAlgorithm::ChaCha);
+    let mut largest = 0.0_f64;
+    for _ in 0..2000 {
+        let mut q = [(); 6].map(|()| rng.random_range(-3.0_f32..3.0));
+        q[4] = 0.0;
+        let jacobian = Core::<Ur5e>::jacobian(&q, 5, frame::LocalWorldAligned);
+        let external = pushed(&jacobian, [0.0, 0.0, 0.0, 0.6, 0.0, 0.8]);
+        let given = estimator::<f32, 6>(noise, [couple, 100.0]);
+        let found = six(given.estimate(&jacobian, &external).expect("finite"));
+        largest = found[3..].iter().fold(largest, |most, f| most.max(f.abs()));
+    }
+    largest
+}
+
+#[test]
+fn rounding_in_f32_does_not_enlarge_a_wrench_at_singular_postures() {
+    for (noise, couple) in [1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-6]
+        .into_iter()
+        .flat_map(|noise| [0.0, 1.0, 10.0, 100.0].map(|couple| (noise, couple)))
+    {
+        let largest = largest_in_f32(noise, couple);
+        println!("noise {noise} N·m, couple {couple} N·m: {largest} N");
+        assert!(largest < 0.85, "{largest} N");
+    }
+}
+
 #[test]
 fn numbers_that_are_not_finite_name_their_joint() {
     let jacobian = Core::<Ur5e>::jacobian(&[0.5_f32; 6], 5, frame::LocalWorldAligned);

@@ -11,13 +11,11 @@ use dynamics_core::algorithms::{
 };
 use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::model::{Robot, Static};
-use dynamics_core::robots::{A1, Gen3, Iiwa14, Panda, So101, Ur5e, XArm7, Z1};
 use dynamics_core::scalar::{Matrix, Real, Vector};
 use dynamics_core::spatial::Force;
 use dynamics_core::state::State;
 use host_tests::measured::largest;
 use host_tests::recordings::{Recording, columns, full_scale, load, row, symmetric};
-use host_tests::trees::{TreeA, TreeB};
 
 /// Largest error of a quantity, and the full scale of what was recorded.
 fn worst(rows: &[Vec<f64>]) -> Worst {
@@ -183,23 +181,7 @@ where
 #[test]
 fn motions_energies_momenta_and_mobilities_agree_with_pinocchio_within_the_table() {
     let mut most = Most::default();
-    both::<Ur5e, 6, 6, 6>(&mut most);
-    both::<Panda, 7, 7, 7>(&mut most);
-    both::<Iiwa14, 7, 7, 7>(&mut most);
-    both::<Gen3, 7, 7, 7>(&mut most);
-    both::<XArm7, 7, 7, 7>(&mut most);
-    both::<Z1, 7, 7, 7>(&mut most);
-    both::<So101, 6, 6, 6>(&mut most);
-    both::<A1, 16, 12, 12>(&mut most);
-    #[cfg(feature = "full")]
-    {
-        use dynamics_core::robots::{A1Free, G1, G1Free};
-        both::<A1Free, 17, 19, 18>(&mut most);
-        both::<G1, 29, 29, 29>(&mut most);
-        both::<G1Free, 30, 36, 35>(&mut most);
-    }
-    both::<TreeA, 17, 35, 32>(&mut most);
-    both::<TreeB, 17, 35, 32>(&mut most);
+    of_recorded_robots!(both, &mut most);
     let mut verdict = Verdict::default();
     for ((quantity, scalar), &error) in &most.0 {
         let full_scale = 1.0;

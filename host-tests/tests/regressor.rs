@@ -12,14 +12,13 @@ use dynamics_core::effects::{
     Viscous, Width,
 };
 use dynamics_core::model::{BodyInertia, Robot};
-use dynamics_core::robots::{A1, Gen3, Iiwa14, Panda, So101, Ur5e, XArm7, Z1};
+use dynamics_core::robots::Ur5e;
 use dynamics_core::scalar::Real;
 use dynamics_core::spatial::Motion;
 use dynamics_core::state::State;
 use glam::DVec3;
 use host_tests::measured::largest;
 use host_tests::recordings::{Recording, load, row};
-use host_tests::trees::{TreeA, TreeB};
 
 /// By coordinates, bodies and parameters.
 type Y<const B: usize, const V: usize> = [[[f64; 10]; B]; V];
@@ -96,23 +95,7 @@ where
 #[test]
 fn the_regressor_its_rows_and_its_columns_agree_with_pinocchio() {
     let mut most = [0.0; 2];
-    both::<Ur5e, 6, 6, 6>(&mut most);
-    both::<Panda, 7, 7, 7>(&mut most);
-    both::<Iiwa14, 7, 7, 7>(&mut most);
-    both::<Gen3, 7, 7, 7>(&mut most);
-    both::<XArm7, 7, 7, 7>(&mut most);
-    both::<Z1, 7, 7, 7>(&mut most);
-    both::<So101, 6, 6, 6>(&mut most);
-    both::<A1, 16, 12, 12>(&mut most);
-    #[cfg(feature = "full")]
-    {
-        use dynamics_core::robots::{A1Free, G1, G1Free};
-        both::<A1Free, 17, 19, 18>(&mut most);
-        both::<G1, 29, 29, 29>(&mut most);
-        both::<G1Free, 30, 36, 35>(&mut most);
-    }
-    both::<TreeA, 17, 35, 32>(&mut most);
-    both::<TreeB, 17, 35, 32>(&mut most);
+    of_recorded_robots!(both, &mut most);
     let mut verdict = Verdict::default();
     for (scalar, error) in ["f64", "f32"].into_iter().zip(most) {
         let full_scale = 1.0;

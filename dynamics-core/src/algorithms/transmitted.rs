@@ -1,4 +1,4 @@
-//! The torques that gears transmit of their motors' torques: the inverse of friction in proportion to the load.
+//! The torques behind the gears, from those of the motors: the inverse of friction in proportion to the load.
 
 use crate::effects::{Effect, all_transmitted};
 use crate::model::RobotModel;

@@ -14,6 +14,9 @@ use crate::scalar::{Real, Vector};
 use crate::spatial::{Force, Motion};
 use crate::state::all_finite;
 
+/// The roundings of the trace that the matrix is shifted by.
+const ROUNDINGS: f64 = 2.0;
+
 /// The sizes of the wrenches at a tip, and of the noise in the external torques: for [`TipWrench::try_new`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TipWrenchConfig<R, const V: usize> {
@@ -112,7 +115,10 @@ impl<R: Real, const V: usize> TipWrench<R, V> {
         // In two parts, since the sums of the whole matrix are more than the M4F has registers.
         add_rows::<R, V, 0, 2>(&scaled, &mut a, &mut b);
         add_rows::<R, V, 2, 6>(&scaled, &mut a, &mut b);
-        let x = shifted_solution(&a, R::ONE, &b);
+        // Eigenvalues below the roundings of the largest are not known: a shift of that size keeps them from growing.
+        let trace = (0..6).fold(R::ZERO, |sum, i| sum + a[i][i]);
+        let shift = R::ONE + trace * (R::EPSILON * R::from_f64(ROUNDINGS));
+        let x = shifted_solution(&a, shift, &b);
         if !all_finite(&x) {
             let joint = first_not_finite(jacobian, external).unwrap_or(0);
             return Err(Fault::NotFinite { joint });

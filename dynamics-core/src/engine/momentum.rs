@@ -189,7 +189,7 @@ impl<R: Real> Velocity<R> {
         }
     }
 
-    /// (v × S)ᵀ h of a joint along z.
+    /// The entry of Cᵀ q̇ of a joint along z: (v × S)ᵀ h.
     #[inline(always)]
     fn rate(&self, h: Wrench<R>, prismatic: bool, length_inv: Folded<R>) -> Folded<R> {
         let ([wx, wy, _], [vx, vy, _]) = (self.omega.0, self.v.0);

@@ -246,3 +246,28 @@ pub fn unit<R: Real>() -> [Force<R>; 6] {
         )
     })
 }
+
+/// Calls a generic function of a robot for each robot that recordings of Pinocchio exist of.
+#[macro_export]
+macro_rules! of_recorded_robots {
+    ($function:ident, $argument:expr) => {
+        use dynamics_core::robots as arms;
+        use host_tests::trees::{TreeA, TreeB};
+        $function::<arms::Ur5e, 6, 6, 6>($argument);
+        $function::<arms::Panda, 7, 7, 7>($argument);
+        $function::<arms::Iiwa14, 7, 7, 7>($argument);
+        $function::<arms::Gen3, 7, 7, 7>($argument);
+        $function::<arms::XArm7, 7, 7, 7>($argument);
+        $function::<arms::Z1, 7, 7, 7>($argument);
+        $function::<arms::So101, 6, 6, 6>($argument);
+        $function::<arms::A1, 16, 12, 12>($argument);
+        #[cfg(feature = "full")]
+        {
+            $function::<arms::A1Free, 17, 19, 18>($argument);
+            $function::<arms::G1, 29, 29, 29>($argument);
+            $function::<arms::G1Free, 30, 36, 35>($argument);
+        }
+        $function::<TreeA, 17, 35, 32>($argument);
+        $function::<TreeB, 17, 35, 32>($argument);
+    };
+}

@@ -13,7 +13,7 @@
 //! of inertia).
 
 use super::eigen::eigen;
-use crate::scalar::Real;
+use crate::scalar::{Real, positive_part};
 use crate::state::all_finite;
 
 /// The threshold below which a direction of small mobility is damped.
@@ -191,7 +191,10 @@ pub(crate) fn shifted_inverse<R: Real, const M: usize>(
     eliminate(a, -shift).map(|pivots| pivots.inverse())
 }
 
-/// x with (A + shift 1) x = b, of a symmetric A by its upper triangle; a component without a positive pivot is zero.
+/// x with (A + shift 1) x = b, of a symmetric A without negative eigenvalues, by its upper triangle.
+///
+/// No pivot of A + shift 1 is less than the shift: those that rounding makes less are replaced by it. Unlike `eliminate`, it forms
+/// no inverse, which takes twice the flops.
 #[inline(never)]
 pub(crate) fn shifted_solution<R: Real, const M: usize>(
     a: &[[R; M]; M],
@@ -201,10 +204,7 @@ pub(crate) fn shifted_solution<R: Real, const M: usize>(
     let (mut a, mut x, mut d_inv) = (*a, *b, [R::ZERO; M]);
     for k in 0..M {
         let (pivot_row, done) = (a[k], x[k]);
-        let pivot = pivot_row[k] + shift;
-        if pivot > R::ZERO && pivot.is_finite() {
-            d_inv[k] = R::ONE / pivot;
-        }
+        d_inv[k] = R::ONE / (positive_part(pivot_row[k]) + shift);
         for i in k + 1..M {
             let l = pivot_row[i] * d_inv[k];
             for j in i..M {

@@ -1,7 +1,7 @@
 //! The declarations of an effect's hooks, in the form that core, engine and plant use.
 
 use super::hook_args::BodyVelocity;
-use super::{BodyState, Effect, JointState, LoadFactors};
+use super::{BodyState, Effect, JointState, LoadFactors, RegroupedInertia};
 use crate::scalar::Real;
 use crate::spatial::{Force, Motion, SpatialInertia};
 
@@ -29,6 +29,8 @@ pub trait Declared<R: Real, const B: usize, const V: usize>: Sized {
     const GYROSCOPIC_ROTORS: bool;
     /// Friction depends on the transmitted torque.
     const LOAD_DEPENDENT: bool;
+    /// How many sets of base parameters are loaded.
+    const BASE_PARAMETERS: usize;
 
     /// Adds to the acceleration g of free fall, in base coordinates, m/s², along [`Self::FIELD_AXES`] only.
     fn field(&self, g: &mut R::Vec3);
@@ -44,6 +46,8 @@ pub trait Declared<R: Real, const B: usize, const V: usize>: Sized {
     fn load_factors(&self, joint: usize, at: JointState<R>, factors: &mut LoadFactors<R>);
     /// Adds to their derivatives with respect to q̇.
     fn load_slopes(&self, joint: usize, at: JointState<R>, slopes: &mut LoadFactors<R>);
+    /// Writes what regrouping leaves to the body behind `joint`.
+    fn regrouped(&self, joint: usize, body: &mut RegroupedInertia<R>);
     /// Adds what stands at `joint` to an entry of M's diagonal.
     fn add_inertia(&self, joint: usize, diagonal: &mut R);
 }
@@ -62,6 +66,7 @@ where
     const PAYLOAD: [bool; B] = E::ADDED_INERTIA.bodies;
     const GYROSCOPIC_ROTORS: bool = E::ROTOR.add.is_some();
     const LOAD_DEPENDENT: bool = E::LOAD_FRICTION.factors.is_some();
+    const BASE_PARAMETERS: usize = E::REGROUPED.sets;
 
     #[inline(always)]
     fn field(&self, g: &mut R::Vec3) {
@@ -119,6 +124,13 @@ where
     fn load_slopes(&self, joint: usize, at: JointState<R>, slopes: &mut LoadFactors<R>) {
         if let Some(add) = const { E::LOAD_FRICTION.slopes } {
             add(self, joint, at, slopes);
+        }
+    }
+
+    #[inline(always)]
+    fn regrouped(&self, joint: usize, body: &mut RegroupedInertia<R>) {
+        if let Some(load) = const { E::REGROUPED.load } {
+            load(self, joint, body);
         }
     }
 

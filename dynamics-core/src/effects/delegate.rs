@@ -1,6 +1,6 @@
 //! Forwarding of effects, for tuples, for wrappers of this crate and for those of users.
 
-use super::{BodyState, JointState, LoadFactors};
+use super::{BodyState, JointState, LoadFactors, RegroupedInertia};
 use crate::scalar::Real;
 use crate::spatial::{Force, Motion, SpatialInertia};
 
@@ -15,6 +15,7 @@ pub trait Forwarder<R: Real, const B: usize, const V: usize> {
     fn forward_spin(&self, joint: usize, coupling: &mut R);
     fn forward_load(&self, joint: usize, at: JointState<R>, factors: &mut LoadFactors<R>);
     fn forward_load_slopes(&self, joint: usize, at: JointState<R>, slopes: &mut LoadFactors<R>);
+    fn forward_regrouped(&self, joint: usize, body: &mut RegroupedInertia<R>);
 }
 
 /// Which bodies any of N effects marks.
@@ -141,6 +142,12 @@ macro_rules! delegate_effect {
                     <Self as $crate::effects::Forwarder<$R, $B, $V>>::forward_load,
                     <Self as $crate::effects::Forwarder<$R, $B, $V>>::forward_load_slopes,
                 );
+            const REGROUPED: $crate::effects::hook::Regrouped<Self, $R> =
+                $crate::effects::hook::Regrouped::forwarded(
+                    $on,
+                    0 $(+ <$inner as $crate::effects::Declared<$R, $B, $V>>::BASE_PARAMETERS)*,
+                    <Self as $crate::effects::Forwarder<$R, $B, $V>>::forward_regrouped,
+                );
             const ACCELERATIONS: bool = ($on) & ($accelerations)
                 & (false $(| <$inner as $crate::effects::Effect<$R, $B, $V>>::ACCELERATIONS)*);
             const VELOCITY_PRODUCTS: bool = ($on)
@@ -248,6 +255,12 @@ macro_rules! delegate_effect {
             ) {
                 let $this = self;
                 $(<$inner as $crate::effects::Declared<$R, $B, $V>>::load_slopes(&$to, joint, at, slopes);)*
+            }
+
+            #[inline(always)]
+            fn forward_regrouped(&self, joint: usize, body: &mut $crate::effects::RegroupedInertia<$R>) {
+                let $this = self;
+                $(<$inner as $crate::effects::Declared<$R, $B, $V>>::regrouped(&$to, joint, body);)*
             }
         }
     };

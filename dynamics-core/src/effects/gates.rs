@@ -28,6 +28,34 @@ where
     };
 }
 
+/// Base parameters belong to the geometry that the engine folds.
+#[inline(always)]
+pub(crate) const fn no_base_parameters<R: Real, E, const B: usize, const V: usize>()
+where
+    E: Effect<R, B, V>,
+{
+    const {
+        assert!(
+            E::BASE_PARAMETERS == 0,
+            "base parameters are the engine's: give the textbook algorithms the `Calibrated` robot"
+        )
+    };
+}
+
+/// Of two sets of base parameters neither would be the robot's.
+#[inline(always)]
+pub(crate) const fn one_set_of_base_parameters<R: Real, E, const B: usize, const V: usize>()
+where
+    E: Effect<R, B, V>,
+{
+    const {
+        assert!(
+            E::BASE_PARAMETERS <= 1,
+            "the scene has several sets of base parameters"
+        )
+    };
+}
+
 /// Links that bend do not carry rotors that spin as bodies.
 #[inline(always)]
 pub(crate) const fn no_gyroscopic_rotors<R: Real, E, const B: usize, const V: usize>()

@@ -106,12 +106,14 @@
 //! of a closure is inlined at every level of optimisation.
 
 pub use load_friction::LoadFriction;
+pub use regrouped::Regrouped;
 pub use wrench::Wrench;
 
 use crate::scalar::Real;
 use crate::spatial::{Motion, SpatialInertia};
 
 mod load_friction;
+mod regrouped;
 mod wrench;
 
 /// Adds to the velocity and acceleration of the base.

@@ -14,7 +14,7 @@
 //! | where | effects |
 //! |---|---|
 //! | all bodies | [`Gravity`], [`GravityVector`]; [`Inertia`], [`Coriolis`]; [`MovingBase`]; of links that bend, [`Elasticity`] |
-//! | a body | [`BodyWrench`], [`WorldWrench`], [`Contact`]; [`Payload`] |
+//! | a body | [`BodyWrench`], [`WorldWrench`], [`Contact`]; [`Payload`]; of all bodies, [`BaseParameters`] |
 //! | a joint: friction | [`Viscous`], [`Coulomb`], [`AsymmetricCoulomb`], [`Stribeck`], [`Lugre`], [`LoadFriction`] |
 //! | a joint: position | [`Spring`], [`EndStops`], [`Cogging`] |
 //! | a motor | [`Armature`], [`GyroscopicRotors`]; [`crate::sim::Actuator`] and [`crate::drivetrain`] stand between command and joint |
@@ -73,7 +73,11 @@ mod rigid_body;
 mod tuple;
 mod width;
 
-pub use body::{BodyWrench, Contact, ContactPoint, InvalidPayload, Payload, WorldWrench};
+#[doc(hidden)]
+pub use body::RegroupedInertia;
+pub use body::{
+    BaseParameters, BodyWrench, Contact, ContactPoint, InvalidPayload, Payload, WorldWrench,
+};
 pub use declared::Declared;
 #[doc(hidden)]
 pub use delegate::{Forwarder, any_of, sum};
@@ -89,7 +93,10 @@ pub use rigid_body::{
 };
 pub use width::Width;
 
-pub(crate) use gates::{field_axes, loads, no_gyroscopic_rotors, one_gravity, only_load};
+pub(crate) use gates::{
+    field_axes, loads, no_base_parameters, no_gyroscopic_rotors, one_gravity,
+    one_set_of_base_parameters, only_load,
+};
 pub(crate) use load::{
     add_load_slope, all_transmitted, load_friction, load_frictions, no_load_friction, transmitted,
 };
@@ -128,7 +135,7 @@ use crate::scalar::Real;
     label = "not an effect of this size and scalar",
     note = "effects: Gravity, GravityVector, Inertia, Coriolis, Elasticity, Viscous([R; V]), Coulomb {{ .. }}, \
             AsymmetricCoulomb {{ .. }}, Stribeck {{ .. }}, Lugre {{ .. }}, LoadFriction {{ .. }}, Spring {{ .. }}, EndStops {{ .. }}, \
-            Cogging {{ .. }}, Armature([R; V]), GyroscopicRotors {{ .. }}, Payload::<_, BODY>, BodyWrench, WorldWrench, Contact, \
+            Cogging {{ .. }}, Armature([R; V]), GyroscopicRotors {{ .. }}, Payload::<_, BODY>, BaseParameters, BodyWrench, WorldWrench, Contact, \
             MovingBase, tuples of up to 12 of them, and your own through `impl Effect`"
 )]
 pub trait Effect<R: Real, const B: usize, const V: usize>: Declared<R, B, V> {
@@ -144,6 +151,8 @@ pub trait Effect<R: Real, const B: usize, const V: usize>: Declared<R, B, V> {
     const ROTOR: hook::Rotor<Self, R> = hook::Rotor::NONE;
     /// Friction of gears that depends on the torque they transmit.
     const LOAD_FRICTION: hook::LoadFriction<Self, R> = hook::LoadFriction::NONE;
+    /// Base parameters that replace those of the robot's description.
+    const REGROUPED: hook::Regrouped<Self, R> = hook::Regrouped::NONE;
     /// The scene has the products M q̈ of accelerations.
     const ACCELERATIONS: bool = false;
     /// The scene has the velocity products C(q, q̇) q̇.

@@ -1,6 +1,8 @@
 //! Evaluates the hooks of effects for the textbook algorithms, in the frames in which hooks are defined.
 
-use super::{BodyState, Effect, JointState, field_axes, loads, one_gravity, only_load};
+use super::{
+    BodyState, Effect, JointState, field_axes, loads, no_base_parameters, one_gravity, only_load,
+};
 use crate::model::LinkView;
 use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::{Force, Motion, SpatialInertia, Xform};
@@ -66,6 +68,7 @@ pub(crate) fn body_inertia<R: Real, E, const B: usize, const V: usize>(
 where
     E: Effect<R, B, V>,
 {
+    no_base_parameters::<R, E, B, V>();
     let (none, single) = const { (loads::<R, E, B, V>() == 0, loads::<R, E, B, V>() == 1) };
     // The number of a single load is a constant, with which the hook's own comparison is folded.
     let body = if single {

@@ -1,4 +1,4 @@
-//! Tuples of effects: hooks run in the order of the tuple.
+//! Tuples of effects: hooks run in the order of the tuple. And effects by reference.
 
 use super::Effect;
 use crate::effects::delegate::delegate_effect;
@@ -12,6 +12,11 @@ macro_rules! tuple {
             |this| { $($name => this.$at),* }, advance
         }
     };
+}
+
+delegate_effect! {
+    impl[R: Real, E: Effect<R, B, V>, const B: usize, const V: usize] Effect<R, B, V> for &E,
+    |this| { E => **this }
 }
 
 /// The empty scene.

@@ -8,14 +8,14 @@ use core::borrow::Borrow;
 use core::hint::black_box;
 use core::marker::PhantomData;
 
-use super::acceleration_field::{Inertia, Wrench, enter};
+use super::acceleration_field::{Wrench, enter};
 use super::articulated_inertia::Articulated;
 use super::compile::CompiledRobot;
 use super::folding::Folded;
 use super::folding::{Mat3, Vec3};
 use super::ltdl::positive;
 use super::pivot_noise::noise;
-use super::rnea::{is_on_base, is_parent, loaded};
+use super::rnea::{inertia, is_on_base, is_parent};
 use super::{Engine, Specialised};
 use crate::algorithms::NotPositiveDefinite;
 use crate::effects::Effect;
@@ -121,10 +121,7 @@ where
 {
     let joint = const { &CompiledRobot::<T, B, Q, V>::joint(I) };
     let length_inv = Folded::constant(const { 1.0 / CompiledRobot::<T, B, Q, V>::TREE.length });
-    let mut body = Inertia::of(joint);
-    if const { CompiledRobot::<T, B, Q, V>::loads(I, &E::PAYLOAD) > 0 } {
-        body = loaded::<R, T, E, B, Q, V, I>(task.effects, body);
-    }
+    let body = inertia::<R, T, E, B, Q, V, I>(task.effects, false);
     let mut ia = Articulated::of(&body);
     let mut push = Wrench {
         f: Vec3::ZERO,

@@ -19,7 +19,8 @@ use super::folding::Folded;
 use super::folding::{Mat3, Sym3, Vec3};
 use super::folding::{offset_cross, rotate_symmetric_to_parent, rotate_to_parent};
 use super::pose::Pose;
-use crate::model::{JointCoordinate, Robot};
+use crate::effects::RegroupedInertia;
+use crate::model::{BASE, JointCoordinate, Robot};
 use crate::scalar::Real;
 
 /// The acceleration field of a body, in its frame.
@@ -116,6 +117,35 @@ impl<R: Real> Inertia<R> {
         Self {
             second: Sym3::of(&Mat3::constant(&joint.second_moment_only)),
             ..Self::of(joint)
+        }
+    }
+
+    /// The inertia that loaded base parameters leave to a body; what is zero of every robot is a known zero.
+    #[inline(always)]
+    pub(crate) fn loaded(body: &RegroupedInertia<R>, joint: &Joint, base_moves: bool) -> Self {
+        let ([x, y, z], [xx, xy, xz, yy, yz]) = (
+            body.moment.map(Folded::runtime),
+            body.second.map(Folded::runtime),
+        );
+        let (zero, mut second) = (Folded::ZERO, Sym3::ZERO);
+        if joint.prismatic {
+            return Self {
+                mass: Folded::runtime(body.mass),
+                moment: Vec3([x, y, z]),
+                second,
+            };
+        }
+        if joint.parent == BASE && !base_moves {
+            // A base at rest leaves one rotation, about z, which depends on Σ_xx + Σ_yy alone.
+            second.xx = xx + yy;
+        } else {
+            (second.xx, second.yy) = (xx, yy);
+            (second.xy, second.xz, second.yz) = (xy, xz, yz);
+        }
+        Self {
+            mass: zero,
+            moment: Vec3([x, y, zero]),
+            second,
         }
     }
 

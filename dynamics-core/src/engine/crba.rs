@@ -11,7 +11,7 @@ use super::base::no_gyroscopic_rotors;
 use super::compile::CompiledRobot;
 use super::folding::Folded;
 use super::folding::Vec3;
-use super::rnea::{is_on_base, is_parent, loaded};
+use super::rnea::{inertia, is_on_base, is_parent};
 use super::{Engine, Specialised};
 use crate::algorithms::MassMatrix;
 use crate::effects::Effect;
@@ -98,11 +98,7 @@ where
     T: Robot<B, Q, V>,
     E: Effect<R, B, V>,
 {
-    let joint = const { &CompiledRobot::<T, B, Q, V>::joint(I) };
-    let mut body = Inertia::of(joint);
-    if const { CompiledRobot::<T, B, Q, V>::loads(I, &E::PAYLOAD) > 0 } {
-        body = loaded::<R, T, E, B, Q, V, I>(task.effects, body);
-    }
+    let mut body = inertia::<R, T, E, B, Q, V, I>(task.effects, false);
     for_each_joint!(J, {
         if const { is_parent::<T, B, Q, V>(I, J) } {
             body = body + composite::<R, T, E, B, Q, V, J>(task);

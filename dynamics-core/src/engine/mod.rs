@@ -36,6 +36,7 @@ mod aba;
 mod acceleration_field;
 mod articulated_inertia;
 mod base;
+mod base_parameters;
 mod compile;
 mod crba;
 mod folding;

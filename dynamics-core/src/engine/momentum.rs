@@ -106,7 +106,10 @@ where
     let (turn, qd) = (task.turns[I], task.state.qd[I]);
     let slide = Folded::runtime(turn.q) * length_inv;
     let velocity = parent.across(joint, turn, slide, Folded::runtime(qd), length_inv);
-    let mut h = velocity.momentum(&inertia::<R, T, E, B, Q, V, I>(task.effects));
+    let mut h = velocity.momentum(&inertia::<R, T, E, B, Q, V, I>(
+        task.effects,
+        E::BASE_MOTION,
+    ));
     for_each_joint!(J, {
         if const { is_parent::<T, B, Q, V>(I, J) } {
             let child = visit::<R, T, E, B, Q, V, J>(task, velocity);

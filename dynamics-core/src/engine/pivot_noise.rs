@@ -4,7 +4,7 @@
 //! it. Turns do not change them, so that they are constants of the robot; slides and a payload add to them.
 
 use super::compile::CompiledRobot;
-use crate::effects::Effect;
+use crate::effects::{Effect, RegroupedInertia};
 use crate::model::{BASE, JointCoordinate, JointKind, Model, Robot};
 use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::SpatialInertia;
@@ -150,8 +150,14 @@ where
     E: Effect<R, B, V>,
 {
     let own = const { Sizes::<T, B, Q, V>::of(I) };
+    let [mut mass, mut moment, mut second] = [own.mass, own.moment, own.second].map(R::from_f64);
+    if const { E::BASE_PARAMETERS > 0 } {
+        let mut body = RegroupedInertia::default();
+        effects.regrouped(I, &mut body);
+        [mass, moment, second] = body.size;
+    }
     let prismatic = const { CompiledRobot::<T, B, Q, V>::joint(I).prismatic };
-    let mut size = R::from_f64(if prismatic { own.mass } else { own.second });
+    let mut size = if prismatic { mass } else { second };
     let mut slides = R::ZERO;
     if !prismatic {
         for_each_joint!(K, {
@@ -163,7 +169,7 @@ where
             }
         });
         if const { slides_beyond::<T, B, Q, V>(I) } {
-            size += slides * (R::from_f64(2.0 * own.moment) + slides * R::from_f64(own.mass));
+            size += slides * (moment + moment + slides * mass);
         }
     }
     const {

@@ -2,11 +2,13 @@
 //! its children, so that intermediate values stay in registers.
 
 use super::acceleration_field::{AccelerationField, Inertia, JointRates, Wrench};
-use super::compile::{BodyPlacement, CompiledRobot, CompiledTree};
+use super::compile::{BodyPlacement, CompiledRobot, CompiledTree, Joint};
 use super::folding::Folded;
 use super::folding::{Mat3, Sym3, Vec3};
 use super::subtree::visit_child;
-use crate::effects::{BodyState, Effect, JointState, load_friction};
+use crate::effects::{
+    BodyState, Effect, JointState, RegroupedInertia, load_friction, one_set_of_base_parameters,
+};
 use crate::model::{BASE, JointCoordinate, Robot};
 use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::{Force, Motion, SpatialInertia, Xform};
@@ -61,7 +63,10 @@ where
     if E::BODY_POSE {
         field.pose = parent.pose.transformed_by(joint, turn, slide);
     }
-    let mut total = field.wrench(&inertia::<R, T, E, B, Q, V, I>(task.effects));
+    let mut total = field.wrench(&inertia::<R, T, E, B, Q, V, I>(
+        task.effects,
+        E::BASE_MOTION,
+    ));
     if E::WRENCH {
         total = environment::<R, T, E, B, Q, V, I>(task.effects, &field, total);
     }
@@ -92,10 +97,11 @@ where
     total.to_parent::<T, B, Q, V, I>(turn, slide)
 }
 
-/// The inertia of the body behind joint I, with its payloads.
+/// The inertia of the body behind joint I, with its payloads; all of Σ if the base moves.
 #[inline(always)]
 pub(crate) fn inertia<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     effects: &E,
+    base_moves: bool,
 ) -> Inertia<R>
 where
     R: Real,
@@ -103,20 +109,39 @@ where
     E: Effect<R, B, V>,
 {
     let joint = const { &CompiledRobot::<T, B, Q, V>::joint(I) };
-    let mut body = if E::BASE_MOTION {
+    let body = own_inertia::<R, E, B, V, I>(effects, joint, base_moves);
+    if const { CompiledRobot::<T, B, Q, V>::loads(I, &E::PAYLOAD) > 0 } {
+        loaded::<R, T, E, B, Q, V, I>(effects, body)
+    } else {
+        body
+    }
+}
+
+/// The same without payloads: the description's, or that of the loaded base parameters.
+#[inline(always)]
+fn own_inertia<R: Real, E, const B: usize, const V: usize, const I: usize>(
+    effects: &E,
+    joint: &'static Joint,
+    base_moves: bool,
+) -> Inertia<R>
+where
+    E: Effect<R, B, V>,
+{
+    if const { E::BASE_PARAMETERS > 0 } {
+        one_set_of_base_parameters::<R, E, B, V>();
+        let mut body = RegroupedInertia::default();
+        effects.regrouped(I, &mut body);
+        Inertia::loaded(&body, joint, base_moves)
+    } else if base_moves {
         Inertia::second_moment_only(joint)
     } else {
         Inertia::of(joint)
-    };
-    if const { CompiledRobot::<T, B, Q, V>::loads(I, &E::PAYLOAD) > 0 } {
-        body = loaded::<R, T, E, B, Q, V, I>(effects, body);
     }
-    body
 }
 
 /// Adds the payloads of the bodies on joint I, which are given in those bodies' own frames, to its inertia.
 #[inline(always)]
-pub(crate) fn loaded<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
+fn loaded<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     effects: &E,
     mut body: Inertia<R>,
 ) -> Inertia<R>

@@ -34,6 +34,8 @@ pub enum Problem {
     NotFinite,
     /// A limit is NaN, the lower one exceeds the upper, or that of speed or torque is negative.
     Limits,
+    /// The placement of its joint is not that of the description, which the engine has as constants.
+    Placement,
     /// The robot has no body of this number.
     NoBody(usize),
     /// The joints do not add up to the model's Q position and V velocity coordinates.
@@ -62,6 +64,9 @@ impl Problem {
             Self::NotFinite => "a length, an angle or an inertia is not finite",
             Self::Limits => {
                 "a limit is not a number, lower exceeds upper, or a speed or torque limit is negative"
+            }
+            Self::Placement => {
+                "its joint is placed otherwise than in the description, whose geometry the engine folds"
             }
             Self::NoBody(_) => "the robot has no body of this number",
             Self::RightAngles => "the two axes of its joint are not at right angles",

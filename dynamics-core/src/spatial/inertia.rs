@@ -36,6 +36,20 @@ impl<R: Real> AddAssign for CompositeInertia<R> {
 }
 
 impl<R: Real> CompositeInertia<R> {
+    /// The ten parameters, in the order of [`SpatialInertia::parameters`].
+    pub(crate) fn parameters(&self) -> [R; 10] {
+        let Symmetric {
+            xx,
+            xy,
+            xz,
+            yy,
+            yz,
+            zz,
+        } = self.inertia;
+        let [x, y, z] = self.first_moment.array();
+        [self.mass, x, y, z, xx, xy, yy, xz, yz, zz]
+    }
+
     /// Iᶜ s, the force of unit acceleration along a column of S.
     #[inline(always)]
     pub(crate) fn along(&self, s: &MotionSubspace<R>) -> Force<R> {

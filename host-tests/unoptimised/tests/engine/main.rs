@@ -17,6 +17,7 @@ use proptest::prelude::RngExt;
 use proptest::test_runner::{RngAlgorithm, TestRng};
 
 mod large;
+mod loaded;
 mod matrix;
 mod momentum;
 mod recorded;

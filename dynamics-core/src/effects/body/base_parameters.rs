@@ -1,0 +1,70 @@
+//! Base parameters of a robot's bodies, loaded at run time.
+
+use crate::effects::{Effect, hook};
+use crate::scalar::Real;
+
+/// What regrouping leaves to the body behind one joint, in the engine's frames and units.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct RegroupedInertia<R> {
+    /// m L², zero behind a revolute joint.
+    pub(crate) mass: R,
+    /// h L, in parts; its z is zero behind a revolute joint.
+    pub(crate) moment: [R; 3],
+    /// Σ: xx, xy, xz, yy, yz; its zz is zero.
+    pub(crate) second: [R; 5],
+    /// Mass, first moment and second moment of the joint's descendants, as if they lay in one line.
+    pub(crate) size: [R; 3],
+}
+
+/// The base parameters of a robot with V joints, which the engine then reads instead of the constants of its description.
+///
+/// [`Engine::base_parameters`](crate::Engine::base_parameters) computes them from calibrated inertias, outside the tick. Geometry
+/// and gravity stay constants, so that the engine's algorithms take nearly the time that they take without them. A set is a
+/// plain value: between two ticks the scene is given another one as a whole, by value or by reference.
+///
+/// ```
+/// use dynamics_core::effects::RIGID_BODY;
+/// use dynamics_core::model::{BodyInertia, Calibrated, Robot};
+/// use dynamics_core::{Engine, algorithms::rnea, robots::Ur5e, state::State};
+/// const UPPER_ARM: usize = Ur5e::MODEL.body("upper_arm");
+/// let mut arm = Calibrated::<Ur5e, f64, 6, 6, 6>::nominal();
+/// let described = arm.inertia(UPPER_ARM).expect("the robot has this body");
+/// arm.set_inertia(UPPER_ARM, BodyInertia { mass: described.mass + 0.4, ..described }, 1e-6)?;
+/// let learned = Engine::<Ur5e>::base_parameters(&arm, &())?;
+///
+/// let state = State { q: [0.3; 6], qd: [0.5; 6], qdd: [1.0; 6] };
+/// let tau = Engine::<Ur5e>::rnea(&state, &(RIGID_BODY, &learned));
+/// let textbook = rnea(&arm, &state, &RIGID_BODY);
+/// assert!(tau.iter().zip(textbook).all(|(a, b)| (a - b).abs() < 1e-12));
+/// # Ok::<(), dynamics_core::model::ModelError>(())
+/// ```
+///
+/// The textbook algorithms have no base parameters; they accept the calibrated robot itself:
+///
+/// ```compile_fail,E0080
+/// use dynamics_core::{Core, Engine, effects::RIGID_BODY, model::Calibrated, robots::Ur5e, state::State};
+/// let learned = Engine::<Ur5e>::base_parameters(&Calibrated::<Ur5e, f64, 6, 6, 6>::nominal(), &()).unwrap();
+/// let _ = Core::<Ur5e>::rnea(&State::at([0.3; 6]), &(RIGID_BODY, learned));
+/// // error: base parameters are the engine's: give the textbook algorithms the `Calibrated` robot
+/// ```
+///
+/// # Source
+/// Khalil & Dombre, *Modeling, Identification and Control of Robots* (2002), chapter 9.
+#[doc(alias = "calibrated")]
+#[doc(alias = "identified")]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BaseParameters<R, const V: usize>(pub(crate) [RegroupedInertia<R>; V]);
+
+impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for BaseParameters<R, V> {
+    const REGROUPED: hook::Regrouped<Self, R> = hook::Regrouped::loaded(Self::load);
+}
+
+impl<R: Real, const V: usize> BaseParameters<R, V> {
+    /// What is left to the body behind `joint`.
+    #[inline(always)]
+    fn load(&self, joint: usize, body: &mut RegroupedInertia<R>) {
+        if let Some(loaded) = self.0.get(joint) {
+            *body = *loaded;
+        }
+    }
+}

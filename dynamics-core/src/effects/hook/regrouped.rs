@@ -1,0 +1,42 @@
+//! Base parameters that replace those of the robot's description.
+
+use crate::effects::RegroupedInertia;
+
+/// Writes what is left to the body behind one joint.
+type Load<E, R> = fn(&E, usize, &mut RegroupedInertia<R>);
+
+/// Base parameters of all bodies, for the engine: see [`BaseParameters`](crate::effects::BaseParameters).
+#[derive(Debug)]
+pub struct Regrouped<E, R> {
+    pub(in crate::effects) load: Option<Load<E, R>>,
+    pub(in crate::effects) sets: usize,
+}
+
+impl<E, R> Regrouped<E, R> {
+    /// Those of the robot's description.
+    pub const NONE: Self = Self {
+        load: None,
+        sets: 0,
+    };
+
+    /// Those that `load` writes.
+    pub(in crate::effects) const fn loaded(load: Load<E, R>) -> Self {
+        Self {
+            load: Some(load),
+            sets: 1,
+        }
+    }
+
+    /// That of a forwarder.
+    #[doc(hidden)]
+    pub const fn forwarded(on: bool, sets: usize, load: Load<E, R>) -> Self {
+        if on && sets > 0 {
+            Self {
+                load: Some(load),
+                sets,
+            }
+        } else {
+            Self::NONE
+        }
+    }
+}

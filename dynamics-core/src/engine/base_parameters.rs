@@ -60,7 +60,7 @@ impl<T, K> Engine<T, K> {
         let length = R::from_f64(const { CompiledRobot::<T, B, Q, V>::TREE.length });
         let mut set = BaseParameters([RegroupedInertia::default(); V]);
         for link in robot.links().rev() {
-            let i = link.coordinates().start;
+            let i = joint_of(&link);
             let Some(&Carried { x, inertia, parent }) = joints.get(i) else {
                 continue; // a fixed body
             };
@@ -80,6 +80,11 @@ impl<T, K> Engine<T, K> {
         }
         Ok(set)
     }
+}
+
+/// The number of a body's joint, or [`BASE`] of a body that is fixed to its parent.
+fn joint_of<R: Real>(link: &LinkView<'_, R>) -> usize {
+    link.coordinates().next().unwrap_or(BASE)
 }
 
 /// A joint's frame, and the inertia of the bodies that move with it as one.
@@ -117,7 +122,7 @@ where
         }
         let (parent, frame) = places.get(link.parent).copied().unwrap_or((BASE, at_base));
         let mut place = (parent, link.placement * frame);
-        if let Some(joint) = joints.get_mut(link.coordinates().start) {
+        if let Some(joint) = joints.get_mut(joint_of(&link)) {
             // Along the axis, to where the offset from the parent is perpendicular to it.
             let Xform { rot, pos } = place.1;
             let axis = rot.transpose_mul(R::Vec3::new(R::ZERO, R::ZERO, R::ONE));
@@ -129,7 +134,7 @@ where
             joint.parent = parent;
             let back = R::Vec3::new(R::ZERO, R::ZERO, along);
             place = (
-                link.coordinates().start,
+                joint_of(&link),
                 Xform {
                     pos: back,
                     ..at_base
@@ -191,7 +196,7 @@ where
         mass += own.mass;
         moment += length(own.first_moment);
         second += R::from_f64(0.5) * (xx + yy + zz);
-        if let Some(joint) = joints.get_mut(link.coordinates().start) {
+        if let Some(joint) = joints.get_mut(joint_of(&link)) {
             *joint = [mass, moment, second];
         }
         if let Some(parent) = bodies.get_mut(link.parent) {

@@ -112,8 +112,8 @@ where
     ///
     /// Principal moments may violate the triangle inequality by `relative` of the largest: some 10⁻⁶ for numbers
     /// rounded to f32, `f64::INFINITY` for numbers that must be accepted unchecked. Not for the tick: it computes
-    /// principal moments in f64. The algorithms of [`crate::algorithms`] accept the robot by reference; the engine's
-    /// numbers are constants.
+    /// principal moments in f64. The algorithms of [`crate::algorithms`] accept the robot by reference; the engine
+    /// accepts its base parameters ([`BaseParameters`](crate::effects::BaseParameters)).
     ///
     /// ```
     /// use dynamics_core::model::{BodyInertia, Calibrated, Problem, Robot};

@@ -12,6 +12,7 @@
 pub mod effects;
 pub mod forward;
 pub mod inverse;
+pub mod loaded;
 pub mod momentum;
 pub mod row;
 

@@ -12,7 +12,7 @@
 use super::observer::one_less_decay;
 use super::{ConfigError, Fault, ObserverConfig};
 use crate::scalar::Real;
-use crate::state::entry;
+use crate::state::{all_finite, entry};
 
 /// The external torques of V joints, by an observer of the generalised momentum; ORDER poles lie at the bandwidth.
 ///
@@ -53,9 +53,8 @@ pub struct MomentumObserver<R, const V: usize, const ORDER: usize = 1> {
     decay: R,
     /// n h.
     elapsed: R,
-    /// The integral of the drives' torques over these ticks.
-    impulse: [R; V],
-    p: [R; V],
+    /// The last momentum and the integral of the drives' torques over these ticks.
+    driven: [R; V],
     beta: [R; V],
     residuals: [[R; V]; ORDER],
     started: bool,
@@ -75,8 +74,7 @@ impl<R: Real, const V: usize, const ORDER: usize> MomentumObserver<R, V, ORDER> 
             gap: one_less_decay(bandwidth * tick),
             decay: R::ONE,
             elapsed: R::ZERO,
-            impulse: [R::ZERO; V],
-            p: [R::ZERO; V],
+            driven: [R::ZERO; V],
             beta: [R::ZERO; V],
             residuals: [[R::ZERO; V]; ORDER],
             started: false,
@@ -92,15 +90,18 @@ impl<R: Real, const V: usize, const ORDER: usize> MomentumObserver<R, V, ORDER> 
     /// [`Fault::NotFinite`] names the first joint with a number that is not finite; the measurement then counts as lost.
     #[inline]
     pub fn update(&mut self, p: &[R; V], beta: &[R; V]) -> Result<(), Fault> {
-        let mut numbers = p.iter().zip(beta);
-        if let Some(joint) = numbers.position(|(p, beta)| !(p.is_finite() & beta.is_finite())) {
-            return Err(Fault::NotFinite { joint });
+        if !(all_finite(p) & all_finite(beta)) {
+            let mut numbers = p.iter().zip(beta);
+            let joint = numbers.position(|(p, beta)| !(p.is_finite() & beta.is_finite()));
+            return Err(Fault::NotFinite {
+                joint: joint.unwrap_or(0),
+            });
         }
         if let Some(share) = self.share() {
             let (rate, half) = (R::ONE / self.elapsed, R::from_f64(0.5));
             for i in 0..V {
                 let model = half * (entry(beta, i) + entry(&self.beta, i));
-                let change = entry(p, i) - entry(&self.p, i) - entry(&self.impulse, i);
+                let change = entry(p, i) - entry(&self.driven, i);
                 let mut input = change * rate - model;
                 for residual in &mut self.residuals {
                     if let Some(r) = residual.get_mut(i) {
@@ -110,8 +111,8 @@ impl<R: Real, const V: usize, const ORDER: usize> MomentumObserver<R, V, ORDER> 
                 }
             }
         }
-        (self.p, self.beta, self.started) = (*p, *beta, true);
-        (self.decay, self.elapsed, self.impulse) = (R::ONE, R::ZERO, [R::ZERO; V]);
+        (self.driven, self.beta, self.started) = (*p, *beta, true);
+        (self.decay, self.elapsed) = (R::ONE, R::ZERO);
         Ok(())
     }
 
@@ -129,9 +130,11 @@ impl<R: Real, const V: usize, const ORDER: usize> MomentumObserver<R, V, ORDER> 
     /// [transmit](crate::algorithms::transmitted_torque()).
     #[inline]
     pub fn drive(&mut self, tau: &[R; V]) {
-        for (impulse, tau) in self.impulse.iter_mut().zip(tau) {
-            let tau = if tau.is_finite() { *tau } else { R::ZERO };
-            *impulse += self.tick * tau;
+        let all = all_finite(tau);
+        for (driven, tau) in self.driven.iter_mut().zip(tau) {
+            if all || tau.is_finite() {
+                *driven += self.tick * *tau;
+            }
         }
         self.elapsed += self.tick;
         self.decay -= self.decay * self.gap;
@@ -141,7 +144,7 @@ impl<R: Real, const V: usize, const ORDER: usize> MomentumObserver<R, V, ORDER> 
     #[inline]
     pub fn external_torque(&self) -> &[R; V] {
         let [.., last] = self.residuals.as_slice() else {
-            return &self.p;
+            return &self.driven;
         };
         last
     }
@@ -165,7 +168,7 @@ impl<R: Real, const V: usize, const ORDER: usize> MomentumObserver<R, V, ORDER> 
     /// Forgets the momentum and the external torques: after a stop, or at another load.
     pub fn restart(&mut self) {
         self.residuals = [[R::ZERO; V]; ORDER];
-        (self.decay, self.elapsed, self.impulse) = (R::ONE, R::ZERO, [R::ZERO; V]);
+        (self.decay, self.elapsed) = (R::ONE, R::ZERO);
         self.started = false;
     }
 }

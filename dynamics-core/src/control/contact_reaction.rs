@@ -1,7 +1,7 @@
 //! The reaction of an arm to a contact: it stops, goes back along its path, or floats, and is then held until a reset.
 //!
 //! ```text
-//!            contact                 stop, the end of the way back, at rest without a contact, a lasting fault
+//!            contact                 stop, the end of the retraction, at rest without a contact, a lasting fault
 //! Watching ──────────▶ Retracting, Floating ──────────▶ Held ──▶ Watching
 //!                                  ▲                     │   reset, after ticks without a contact
 //!                                  └─────────────────────┘ a contact, if the arm floats
@@ -43,13 +43,13 @@ pub enum ContactPhase {
 /// a [`MotionController`], in place of [`ObservedTick::reference`].
 ///
 /// N points of the reference's path are kept, at distances along it and not in time, so that an arm that has paused goes
-/// back as far as one that moves. The way back is a cubic B-spline of them, whose speed and acceleration have closed bounds.
+/// back as far as one that moves. The retraction is a cubic B-spline of them, whose speed and acceleration have closed bounds.
 ///
-/// A lasting fault, and a contact on the way back, end the reaction: the arm is then held. Torques pass the gate of the
+/// A lasting fault, and a contact on the retraction, end the reaction: the arm is then held. Torques pass the gate of the
 /// supervisor as in any tick.
 ///
 /// # Cost
-/// 5 V flops in a tick that follows the motion, 40 V on the way back, and those of a return at its begin. The tick of a
+/// 5 V flops in a tick that follows the motion, 40 V on the retraction, and those of a return at its begin. The tick of a
 /// contact has 6 N V more.
 ///
 /// ```
@@ -94,7 +94,7 @@ pub struct ContactReaction<R, const V: usize, const N: usize = 16> {
     phase: ContactPhase,
     /// Consecutive ticks without a contact.
     quiet: u32,
-    /// On the way back: the contact that began it has ended.
+    /// During a retraction: the contact that began it has ended.
     armed: bool,
     /// The tick at which the motion was left.
     left: u32,
@@ -202,7 +202,7 @@ impl<R: Real, const V: usize, const N: usize> ContactReaction<R, V, N> {
 
     /// Returns the arm to its motion, as [`MotionController::reset`]: a person or the application has seen to the contact.
     ///
-    /// If the arm is too far from its motion, [`MotionController::approach`] plans the way; reset with it.
+    /// If the arm is too far from its motion, [`MotionController::approach`] plans the path; reset with it.
     ///
     /// # Errors
     /// [`ResetError::Contact`] unless the arm is [released](Self::released); as [`MotionController::reset`] otherwise. The

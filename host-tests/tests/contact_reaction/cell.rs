@@ -71,7 +71,7 @@ pub struct Cell {
 
 impl Cell {
     pub fn new(setup: &Setup) -> Self {
-        let [from, to] = setup.way;
+        let [from, to] = setup.motion;
         let plan = |ticks: u32| {
             let stop = |q, ticks| WayPoint {
                 q,
@@ -123,6 +123,7 @@ impl Cell {
                 origin,
                 normal: velocity.normalize(),
                 stiffness: setup.stiffness,
+                loss: setup.loss,
                 hand: DVec3::ZERO,
             },
             contact: None,
@@ -150,7 +151,7 @@ impl Cell {
 
     /// What the tip exerts on the wall, N.
     pub fn force(&self) -> f64 {
-        self.wall.force(self.tip())
+        self.wall.force(tip(&self.at))
     }
 
     /// The velocity of the tip into the wall, m/s.
@@ -158,10 +159,9 @@ impl Cell {
         tip(&self.at)[1].dot(self.wall.normal)
     }
 
-    /// The largest torque as a share of its limit; infinite if one is not finite.
-    pub fn share(&self, torque: &Q) -> f64 {
-        let joints = torque.iter().zip(self.limits.torque);
-        let shares = joints.map(|(torque, limit)| torque.abs() / limit);
+    /// The largest of numbers as a share of its limit; infinite if one is not finite.
+    pub fn share(x: &Q, limits: &Q) -> f64 {
+        let shares = x.iter().zip(limits).map(|(x, limit)| x.abs() / limit);
         shares.fold(0.0, |most, share| {
             if share.is_finite() {
                 f64::max(most, share)
@@ -269,7 +269,7 @@ impl Cell {
         command
     }
 
-    /// Returns the arm to its motion, over the way to its start, and follows it to the end. Whether it gets there.
+    /// Returns the arm to its motion, over the path to its start, and follows it to the end. Whether it gets there.
     pub fn recovers(&mut self, spoiled: Spoiled) -> bool {
         let motion = self.motion;
         let limits = [MotionLimits {

@@ -7,24 +7,24 @@ mod reactions;
 
 use cell::{Cell, MARGIN, Spoiled};
 use dynamics_core::control::{ContactResponse, MotionLimits};
-use plant::{Off, SPEED, STIFFNESSES, Setup, WAYS};
+use plant::{MOTIONS, Off, SPEED, STIFFNESSES, Setup};
 
-pub const SLOW: MotionLimits<f64> = MotionLimits {
+const SLOW: MotionLimits<f64> = MotionLimits {
     velocity: 0.5,
     acceleration: 4.0,
 };
-pub const RETRACT: ContactResponse<f64> = ContactResponse::Retract {
+const RETRACT: ContactResponse<f64> = ContactResponse::Retract {
     distance: 0.1, // rad
     limits: SLOW,
 };
-pub const FLOAT: ContactResponse<f64> = ContactResponse::Float {
+const FLOAT: ContactResponse<f64> = ContactResponse::Float {
     damping: 5.0,
     speed: 0.5,
 };
-pub const RESPONSES: [ContactResponse<f64>; 3] = [ContactResponse::Stop, RETRACT, FLOAT];
+const RESPONSES: [ContactResponse<f64>; 3] = [ContactResponse::Stop, RETRACT, FLOAT];
 
 /// Inertias off by 3 % from body to body and friction off by 10 %, in each combination of signs.
-pub const OFF: [Off; 4] = [
+const OFF: [Off; 4] = [
     Off::new(0.03, 0.1),
     Off::new(-0.03, -0.1),
     Off::new(0.03, -0.1),
@@ -41,8 +41,9 @@ struct Crash {
     /// The force half a second after the touch and the largest one of the second after it, N.
     later: f64,
     after: f64,
-    /// The largest torque, as a share of its limit.
+    /// The largest torque and the largest speed of a joint, as shares of their limits.
     torque: f64,
+    speed: f64,
 }
 
 impl Crash {
@@ -53,6 +54,7 @@ impl Crash {
             later: self.later.max(other.later),
             after: self.after.max(other.after),
             torque: self.torque.max(other.torque),
+            speed: self.speed.max(other.speed),
         }
     }
 }
@@ -61,21 +63,25 @@ impl Crash {
 fn crash(setup: &Setup) -> Crash {
     let mut cell = Cell::new(setup);
     let free = SPEED * (setup.stiffness * cell.mass()).sqrt();
-    let (mut speed, mut torque) = (0.0, 0.0_f64);
-    while cell.force() == 0.0 {
-        speed = cell.speed();
+    let (mut speed, mut torque, mut fastest) = (0.0, 0.0_f64, 0.0_f64);
+    let mut forces = Vec::new();
+    let mut found = None;
+    while forces.len() < 1500 {
+        let force = cell.force();
+        if forces.is_empty() && force == 0.0 {
+            speed = cell.speed();
+            assert_eq!(cell.contact, None, "before the wall: {setup:?}");
+        } else {
+            forces.push(force);
+        }
         let command = cell.tick(Spoiled::Nothing);
-        torque = torque.max(cell.share(&command.torque));
-        assert_eq!(cell.contact, None, "before the wall: {setup:?}");
+        torque = torque.max(Cell::share(&command.torque, &cell.limits.torque));
+        fastest = fastest.max(Cell::share(&cell.at.qd, &cell.limits.speed));
+        if !forces.is_empty() {
+            found = found.or(cell.contact.map(|_| forces.len() as u32));
+        }
     }
     assert!((speed / SPEED - 1.0).abs() < 0.01, "{speed} m/s");
-    let (mut forces, mut found) = (Vec::new(), None);
-    for tick in 1..=1500 {
-        forces.push(cell.force());
-        let command = cell.tick(Spoiled::Nothing);
-        torque = torque.max(cell.share(&command.torque));
-        found = found.or(cell.contact.map(|_| tick));
-    }
     let largest = |forces: &[f64]| forces.iter().copied().fold(0.0, f64::max);
     Crash {
         found: found.expect("a contact"),
@@ -83,23 +89,30 @@ fn crash(setup: &Setup) -> Crash {
         later: forces[500],
         after: largest(&forces[500..]),
         torque,
+        speed: fastest,
     }
 }
 
-/// The worst over ways and errors of the model.
-fn worst(stiffness: f64, response: Option<ContactResponse<f64>>) -> Crash {
-    let runs = WAYS.iter().flat_map(|way| OFF.map(|off| (*way, off)));
-    let crashes = runs.map(|(way, off)| {
+/// The worst over motions and errors of the model, of an elastic wall or one that absorbs most of the energy.
+fn worst(stiffness: f64, loss: f64, response: Option<ContactResponse<f64>>) -> Crash {
+    let runs = MOTIONS
+        .iter()
+        .flat_map(|motion| OFF.map(|off| (*motion, off)));
+    let crashes = runs.map(|(motion, off)| {
         crash(&Setup {
-            way,
+            motion,
             stiffness,
+            loss,
             off,
             response,
             ..Setup::FREE
         })
     });
     let worst = crashes.reduce(Crash::worse).expect("a run");
-    println!("{} N/mm, {response:?}: {worst:?}", 1e-3 * stiffness);
+    println!(
+        "{} N/mm, loss {loss} s/m, {response:?}: {worst:?}",
+        1e-3 * stiffness
+    );
     worst
 }
 
@@ -107,27 +120,34 @@ fn worst(stiffness: f64, response: Option<ContactResponse<f64>>) -> Crash {
 fn a_contact_peaks_below_1_2_times_that_of_a_free_mass_and_is_relieved_half_a_second_later() {
     for stiffness in STIFFNESSES {
         for response in RESPONSES {
-            let Crash {
-                found,
-                peak,
-                later,
-                after,
-                torque,
-            } = worst(stiffness, Some(response));
-            assert!(found <= 40 && peak <= 1.2, "{found} {peak}");
-            assert!(later <= 10.0 && after <= 10.0, "{later} {after}");
-            assert!(torque <= 1.0, "{torque}");
+            let worst = worst(stiffness, 0.0, Some(response));
+            assert!(worst.found <= 40 && worst.peak <= 1.2, "{worst:?}");
+            assert!(worst.later <= 10.0 && worst.after <= 10.0, "{worst:?}");
+            assert!(worst.torque <= 1.0 && worst.speed <= 1.0, "{worst:?}");
         }
         // An arm that follows its motion into the wall fails both.
-        let none = worst(stiffness, None);
+        let none = worst(stiffness, 0.0, None);
         assert!(none.peak > 1.5 && none.later > 200.0, "{none:?}");
     }
 }
 
 #[test]
+fn a_wall_that_does_not_throw_the_arm_back_is_relieved_half_a_second_later() {
+    for stiffness in STIFFNESSES {
+        for response in RESPONSES {
+            let worst = worst(stiffness, 12.0, Some(response));
+            assert!(worst.later <= 10.0 && worst.after <= 10.0, "{worst:?}");
+        }
+    }
+}
+
+#[test]
 fn the_margins_are_above_4_9_standard_deviations_of_the_noise() {
-    for way in WAYS {
-        let mut cell = Cell::new(&Setup { way, ..Setup::FREE });
+    for motion in MOTIONS {
+        let mut cell = Cell::new(&Setup {
+            motion,
+            ..Setup::FREE
+        });
         let mut squares = [0.0; 6];
         let ticks = cell.motion.ticks();
         for _ in 0..ticks {

@@ -27,8 +27,8 @@ pub fn friction(share: f64) -> Friction {
 }
 
 const HOME: Q = [0.0, -1.57, 1.57, -1.57, -1.57, 0.0];
-/// From where to where the arm moves: the first way of the pick and place, and one downward.
-pub const WAYS: [[Q; 2]; 2] = [
+/// From where to where the arm moves: the first motion of the pick and place, and one downward.
+pub const MOTIONS: [[Q; 2]; 2] = [
     [HOME, [-0.70, -1.35, 1.75, -1.97, -1.57, -0.70]],
     [HOME, [0.10, -1.20, 2.00, -2.37, -1.57, 0.10]],
 ];
@@ -39,14 +39,18 @@ pub struct Wall {
     pub origin: DVec3,
     pub normal: DVec3,
     pub stiffness: f64,
+    /// The share of its force for each m/s into it, s/m (Hunt & Crossley, 1975).
+    pub loss: f64,
     /// The force of a hand on the tip, N.
     pub hand: DVec3,
 }
 
 impl Wall {
     /// What the tip exerts on it, N.
-    pub fn force(&self, place: DVec3) -> f64 {
-        (self.stiffness * (place - self.origin).dot(self.normal)).max(0.0)
+    pub fn force(&self, [place, velocity]: [DVec3; 2]) -> f64 {
+        let depth = (place - self.origin).dot(self.normal);
+        let share = 1.0 + self.loss * velocity.dot(self.normal);
+        self.stiffness * depth.max(0.0) * share.max(0.0)
     }
 }
 
@@ -54,7 +58,8 @@ impl<const B: usize, const V: usize> Effect<f64, B, V> for Wall {
     const EXTERNAL_WRENCH: hook::Wrench<Self, f64> =
         hook::Wrench::of_state(|wall, body, at, fx| {
             if body == TIP {
-                let back = wall.normal * wall.force(at.pose.pos);
+                let velocity = at.pose.rot.transpose() * at.velocity.lin;
+                let back = wall.normal * wall.force([at.pose.pos, velocity]);
                 fx.lin += at.pose.rot * (wall.hand - back);
             }
         });
@@ -95,8 +100,9 @@ pub fn tip(state: &State<f64, 6, 6>) -> [DVec3; 2] {
 /// A run.
 #[derive(Clone, Copy, Debug)]
 pub struct Setup {
-    pub way: [Q; 2],
+    pub motion: [Q; 2],
     pub stiffness: f64,
+    pub loss: f64,
     pub off: Off,
     /// None: the arm follows its motion into the wall.
     pub response: Option<ContactResponse<f64>>,
@@ -107,8 +113,9 @@ pub struct Setup {
 impl Setup {
     /// Without a wall, a reaction, and errors of the model.
     pub const FREE: Self = Self {
-        way: WAYS[0],
+        motion: MOTIONS[0],
         stiffness: 0.0,
+        loss: 0.0,
         off: Off::new(0.0, 0.0),
         response: None,
         share: 0.6,

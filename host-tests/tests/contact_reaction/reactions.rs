@@ -1,4 +1,4 @@
-//! The way back, and an arm that a hand moves.
+//! The retraction, and an arm that a hand moves.
 
 use dynamics_core::control::{ContactPhase, ContactResponse, MotionLimits, ResetError};
 use dynamics_core::state::State;
@@ -14,33 +14,36 @@ fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
         .fold(0.0, |most, x| f64::max(most, x.abs()))
 }
 
-/// The references from the contact to the end of the way back, and the tick of the contact.
-fn way_back(response: ContactResponse<f64>, stiffness: f64) -> (Cell, Vec<State<f64, 6, 6>>, u32) {
+/// The references from the contact to the end of the retraction, and the tick of the contact.
+fn retraction(
+    response: ContactResponse<f64>,
+    stiffness: f64,
+) -> (Cell, Vec<State<f64, 6, 6>>, u32) {
     let mut cell = Cell::new(&Setup {
         stiffness,
         off: OFF[0],
         response: Some(response),
         ..Setup::FREE
     });
-    let (mut way, mut contact) = (Vec::new(), 0);
+    let (mut path, mut contact) = (Vec::new(), 0);
     for tick in 0..cell.motion.ticks() {
         cell.tick(Spoiled::Nothing);
         match cell.reaction.phase() {
-            ContactPhase::Retracting => way.push(*cell.controller.reference()),
+            ContactPhase::Retracting => path.push(*cell.controller.reference()),
             ContactPhase::Watching => contact = tick,
             _ => {}
         }
     }
     assert_eq!(cell.reaction.phase(), ContactPhase::Held);
-    (cell, way, contact)
+    (cell, path, contact)
 }
 
 /// The largest speed and acceleration of references, by their differences from tick to tick.
-fn peaks(way: &[State<f64, 6, 6>]) -> [f64; 2] {
-    let speeds = way
+fn peaks(path: &[State<f64, 6, 6>]) -> [f64; 2] {
+    let speeds = path
         .windows(2)
         .flat_map(|w| (0..6).map(|j| (w[1].q[j] - w[0].q[j]) / TICK));
-    let changes = way
+    let changes = path
         .windows(3)
         .flat_map(|w| (0..6).map(|j| (w[2].q[j] - 2.0 * w[1].q[j] + w[0].q[j]) / (TICK * TICK)));
     [largest(speeds), largest(changes)]
@@ -49,28 +52,28 @@ fn peaks(way: &[State<f64, 6, 6>]) -> [f64; 2] {
 #[test]
 fn an_arm_goes_back_along_its_path_within_its_limits() {
     for stiffness in STIFFNESSES {
-        let (cell, way, contact) = way_back(RETRACT, stiffness);
-        let [speed, acceleration] = peaks(&way);
+        let (cell, path, contact) = retraction(RETRACT, stiffness);
+        let [speed, acceleration] = peaks(&path);
         assert!(speed <= SLOW.velocity, "{speed}");
         assert!(acceleration <= SLOW.acceleration, "{acceleration}");
-        // The joint that moves most is the same all the way.
-        let ends = [&way[0], &way[way.len() - 1]];
+        // The joint that moves most is the same throughout.
+        let ends = [&path[0], &path[path.len() - 1]];
         let went = largest((0..6).map(|j| ends[0].q[j] - ends[1].q[j]));
         assert!((0.095..0.11).contains(&went), "{went}");
-        // How far a reference, and where it came to rest the arm, is from the path before the contact.
+        // How far positions are from the path before the contact.
         let off = |q: &Q| {
             let path = (contact - 1000..contact + 10).map(|tick| cell.motion.at(tick).q);
             path.map(|p| largest((0..6).map(|j| p[j] - q[j])))
                 .fold(f64::MAX, f64::min)
         };
-        let worst = largest(way.iter().map(|state| off(&state.q)));
+        let worst = largest(path.iter().map(|state| off(&state.q)));
         println!(
             "{stiffness}: {speed} rad/s, {acceleration} rad/s², off {worst} and {}",
             off(&cell.at.q)
         );
         assert!(worst < 2e-3, "{worst}");
         assert!(off(&cell.at.q) < 5e-3, "{}", off(&cell.at.q));
-        // A straight way to another place is off it.
+        // Another place is off it.
         let elsewhere = core::array::from_fn(|j| ends[1].q[j] + if j == 2 { 0.01 } else { 0.0 });
         assert!(off(&elsewhere) > 2e-3);
     }
@@ -79,14 +82,14 @@ fn an_arm_goes_back_along_its_path_within_its_limits() {
         velocity: 1.0,
         acceleration: 16.0,
     };
-    let (_, way, _) = way_back(
+    let (_, path, _) = retraction(
         ContactResponse::Retract {
             distance: 0.1,
             limits,
         },
         STIFFNESSES[0],
     );
-    let [speed, acceleration] = peaks(&way);
+    let [speed, acceleration] = peaks(&path);
     assert!(speed > SLOW.velocity && acceleration > SLOW.acceleration);
     assert!(speed <= limits.velocity && acceleration <= limits.acceleration);
 }

@@ -10,12 +10,12 @@ use crate::scalar::Real;
 pub enum ContactResponse<R> {
     /// The arm is decelerated: a stop of category 2.
     Stop,
-    /// The reference stops and goes back along its path. It gets under way as in a return after a fault, over the
+    /// The reference stops and goes back along its path. It begins as in a return after a fault, over the
     /// `reentry_ticks` of the controller.
     Retract {
         /// How far, rad or m: the sum over the path of the steps of the joint that moves most.
         distance: R,
-        /// Greatest speed and acceleration on the way back, of all joints.
+        /// Greatest speed and acceleration on the retraction, of all joints.
         limits: MotionLimits<R>,
     },
     /// The arm follows the contact: the reference is the estimate of the joints with q̈ = −d q̇, so that feedback is zero

@@ -1,4 +1,4 @@
-//! The path that a reference has travelled, and the way back along it.
+//! The path that a reference has travelled, and the retraction along it.
 //!
 //! The uniform cubic B-spline r(u) of N points P has r′ within the differences of neighbouring points and r″ within their
 //! second differences (de Boor, *A Practical Guide to Splines*, 1978, chapter X). With n steps, u = n w(t/T) and the
@@ -16,7 +16,7 @@ use crate::state::{State, all_finite, entry};
 #[cfg(test)]
 mod tests;
 
-/// The last points of a path, at equal distances along it, and the time in which to go back.
+/// The last points of a path, at about equal distances along it, and the time in which to go back.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct TravelledPath<R, const V: usize, const N: usize> {
     points: [[R; V]; N],
@@ -24,6 +24,9 @@ pub(super) struct TravelledPath<R, const V: usize, const N: usize> {
     newest: usize,
     count: usize,
     spacing: R,
+    distance: R,
+    /// n of the retraction, which ends between two points.
+    steps: R,
     ticks: u32,
     ticks_inv: R,
     seconds_inv: R,
@@ -36,7 +39,10 @@ impl<R: Real, const V: usize, const N: usize> TravelledPath<R, V, N> {
             points: [[R::ZERO; V]; N],
             newest: 0,
             count: 0,
+            // A point is at most a tick's motion further than this from the last one: N − 1 steps are at least the distance.
             spacing: distance / R::from_f64((N - 1) as f64),
+            distance,
+            steps: R::ZERO,
             ticks: 0,
             ticks_inv: R::ZERO,
             seconds_inv: R::ZERO,
@@ -64,19 +70,26 @@ impl<R: Real, const V: usize, const N: usize> TravelledPath<R, V, N> {
         }
     }
 
-    /// The least time of the way back within limits; whether there is a way.
+    /// The least time of the retraction within limits; whether there is a path to go back along.
     pub(super) fn plan(&mut self, tick: R, limits: &MotionLimits<R>) -> bool {
-        let (mut step, mut bend) = (R::ZERO, R::ZERO);
+        let (mut step, mut bend, mut length) = (R::ZERO, R::ZERO, R::ZERO);
+        self.steps = R::ZERO;
         for k in 1..self.count {
             let ahead = difference(&self.point(k), &self.point(k - 1));
-            step = greater(step, largest(&ahead));
+            let far = largest(&ahead);
+            if length < self.distance {
+                let share = (self.distance - length) / (far + R::MIN_POSITIVE);
+                self.steps += share.clamped(R::ZERO, R::ONE);
+            }
+            length += far;
+            step = greater(step, far);
             if k + 1 < self.count {
                 let next = difference(&self.point(k + 1), &self.point(k));
                 bend = greater(bend, largest(&difference(&next, &ahead)));
             }
         }
-        let rate = R::from_f64(SPEED) * self.steps();
-        let square = step * self.steps() * R::from_f64(ACCELERATION) + bend * rate * rate;
+        let rate = R::from_f64(SPEED) * self.steps;
+        let square = step * self.steps * R::from_f64(ACCELERATION) + bend * rate * rate;
         let by_speed = step * rate / limits.velocity;
         // The root is that of the control tick, which has none of zero.
         let square = square / limits.acceleration + R::MIN_POSITIVE;
@@ -87,11 +100,6 @@ impl<R: Real, const V: usize, const N: usize> TravelledPath<R, V, N> {
         self.ticks_inv = R::ONE / real(self.ticks);
         self.seconds_inv = self.ticks_inv / tick;
         step > R::ZERO
-    }
-
-    /// n.
-    fn steps(&self) -> R {
-        R::from_f64(self.count.saturating_sub(1) as f64)
     }
 
     /// The k-th newest point; the oldest one for any beyond.
@@ -127,7 +135,7 @@ impl<R: Real, const V: usize, const N: usize> Reference<R, V> for TravelledPath<
     fn at(&self, tick: u32) -> State<R, V, V> {
         let number = R::from_f64;
         let x = real::<R>(tick.min(self.ticks)) * self.ticks_inv;
-        let (n, xx, y) = (self.steps(), x * x, R::ONE - x);
+        let (n, xx, y) = (self.steps, x * x, R::ONE - x);
         let u = n * xx * x * (number(10.0) - number(15.0) * x + number(6.0) * xx);
         let rate = n * number(30.0) * xx * y * y * self.seconds_inv;
         let change = n * number(60.0) * x * y * (y - x) * self.seconds_inv * self.seconds_inv;

@@ -45,11 +45,11 @@ pub enum ContactPhase {
 /// N points of the reference's path are kept, at distances along it and not in time, so that an arm that has paused goes
 /// back as far as one that moves. The retraction is a cubic B-spline of them, whose speed and acceleration have closed bounds.
 ///
-/// A lasting fault, and a contact on the retraction, end the reaction: the arm is then held. Torques pass the gate of the
+/// A lasting fault, and a contact during the retraction, end the reaction: the arm is then held. Torques pass the gate of the
 /// supervisor as in any tick.
 ///
 /// # Cost
-/// 5 V flops in a tick that follows the motion, 40 V on the retraction, and those of a return at its begin. The tick of a
+/// 5 V flops in a tick that follows the motion, 40 V in a retraction, and those of a return at its begin. The tick of a
 /// contact has 6 N V more.
 ///
 /// ```
@@ -200,7 +200,7 @@ impl<R: Real, const V: usize, const N: usize> ContactReaction<R, V, N> {
         }
     }
 
-    /// Returns the arm to its motion, as [`MotionController::reset`]: a person or the application has seen to the contact.
+    /// Returns the arm to its motion after a contact, as [`MotionController::reset`].
     ///
     /// If the arm is too far from its motion, [`MotionController::approach`] plans the path; reset with it.
     ///

@@ -15,7 +15,7 @@ pub enum ContactResponse<R> {
     Retract {
         /// How far, rad or m: the sum over the path of the steps of the joint that moves most.
         distance: R,
-        /// Greatest speed and acceleration on the retraction, of all joints.
+        /// Greatest speed and acceleration of the retraction, of all joints.
         limits: MotionLimits<R>,
     },
     /// The arm follows the contact: the reference is the estimate of the joints with q̈ = −d q̇, so that feedback is zero

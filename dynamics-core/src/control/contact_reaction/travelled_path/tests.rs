@@ -40,7 +40,7 @@ fn most(values: impl Iterator<Item = f64>) -> f64 {
     values.fold(0.0, |most, x| most.max(x.abs()))
 }
 
-/// The largest speed and acceleration on the retraction.
+/// The largest speed and acceleration of the retraction.
 fn peaks(path: &TravelledPath<f64, 2, 16>) -> [f64; 2] {
     let states = || (0..=path.ticks()).map(|tick| path.at(tick));
     [

@@ -78,7 +78,11 @@ const CONTACT: Result<Option<DetectedContact<f64>>, Fault> = Ok(Some(DetectedCon
 }));
 
 impl Joint {
-    fn new() -> Self {
+    fn new(response: ContactResponse<f64>) -> Self {
+        let config = ContactReactionConfig {
+            response,
+            ..config()
+        };
         let supervisor = SupervisorConfig {
             limits: SafetyLimits {
                 torque: [10.0],
@@ -110,7 +114,7 @@ impl Joint {
         }];
         Self {
             controller: controller.expect("a good one"),
-            reaction: ContactReaction::try_new(config()).expect("a good one"),
+            reaction: ContactReaction::try_new(config).expect("a good one"),
             motion: Trajectory::new(&[stop(0.0, 0), stop(1.0, 1000)], TICK, &limits)
                 .expect("a slow one"),
             q: 0.0,
@@ -137,7 +141,7 @@ fn an_arm_that_goes_back_is_held_at_a_second_contact_and_at_a_lasting_fault() {
         (CONTACT, ContactPhase::Held),
         (lost, ContactPhase::Held),
     ] {
-        let mut joint = Joint::new();
+        let mut joint = Joint::new(config().response);
         joint.run(500, Ok(None));
         // The contact that began it does not end it.
         joint.run(10, CONTACT);
@@ -150,7 +154,7 @@ fn an_arm_that_goes_back_is_held_at_a_second_contact_and_at_a_lasting_fault() {
 
 #[test]
 fn an_arm_is_reset_after_ticks_without_a_contact_and_goes_on_where_it_left_its_motion() {
-    let mut joint = Joint::new();
+    let mut joint = Joint::new(config().response);
     joint.run(500, Ok(None));
     let left = joint.controller.trajectory_tick();
     joint.run(1, CONTACT);
@@ -181,4 +185,62 @@ fn an_arm_is_reset_after_ticks_without_a_contact_and_goes_on_where_it_left_its_m
     // An arm that has no path yet stops.
     joint.run(1, CONTACT);
     assert_eq!(joint.reaction.phase(), ContactPhase::Held);
+}
+
+const FLOAT: ContactResponse<f64> = ContactResponse::Float {
+    damping: 5.0,
+    speed: 1.0,
+};
+
+#[test]
+fn the_reference_of_an_arm_that_floats_is_its_estimate_also_after_a_hold() {
+    let mut joint = Joint::new(FLOAT);
+    joint.run(500, Ok(None));
+    // The first tick after a hold is one of the hold.
+    for first in [0, 1] {
+        joint.run(first, CONTACT);
+        for _ in 0..10 {
+            joint.run(1, CONTACT);
+            joint.q += 1e-3; // by a hand
+            assert_eq!(joint.reaction.phase(), ContactPhase::Floating);
+            let [reference, estimate] = [
+                joint.controller.reference().q,
+                joint.controller.estimate().q,
+            ];
+            assert_eq!(reference, estimate);
+        }
+        joint.run(1000, Ok(None));
+        assert_eq!(joint.reaction.phase(), ContactPhase::Held);
+    }
+}
+
+#[test]
+fn an_arm_floats_until_it_is_at_rest_or_a_fault_lasts() {
+    let mut joint = Joint::new(FLOAT);
+    joint.run(500, Ok(None));
+    joint.run(1, CONTACT);
+    for _ in 0..40 {
+        joint.run(1, Ok(None));
+        joint.q += 1e-3;
+    }
+    assert_eq!(joint.reaction.phase(), ContactPhase::Floating);
+    joint.run(2, Err(Fault::Stale));
+    assert_eq!(joint.reaction.phase(), ContactPhase::Floating);
+    joint.run(2, Err(Fault::Stale));
+    assert_eq!(joint.reaction.phase(), ContactPhase::Held);
+    // A stopped arm does not float again.
+    joint.controller.stop(Fault::External);
+    joint.run(5, CONTACT);
+    assert_eq!(joint.reaction.phase(), ContactPhase::Held);
+}
+
+#[test]
+fn an_arm_that_is_held_for_another_reason_stays_held() {
+    let mut joint = Joint::new(FLOAT);
+    joint.run(500, Ok(None));
+    let hold = StopCategory::ControlledHold;
+    joint.controller.stop_by(Fault::External, hold);
+    joint.run(50, CONTACT);
+    assert_eq!(joint.controller.mode(), Mode::Hold);
+    assert_eq!(joint.reaction.phase(), ContactPhase::Watching);
 }

@@ -49,8 +49,8 @@ pub enum ContactPhase {
 /// supervisor as in any tick.
 ///
 /// # Cost
-/// 5 V flops in a tick that follows the motion, 40 V in a retraction, and those of a return at its begin. The tick of a
-/// contact has 6 N V more.
+/// By count: 5 V flops in a tick that follows the motion; some 24 V and 60 in a retraction, and those of a return at its begin;
+/// 7 N V and one root more in the tick of a contact.
 ///
 /// ```
 /// use dynamics_core::control::*;

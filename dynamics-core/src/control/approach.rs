@@ -14,9 +14,9 @@ use crate::state::State;
 mod tests;
 
 /// The greatest of |q̇| T/|D| of a quintic from rest to rest, at s = 1/2.
-const SPEED: f64 = 15.0 / 8.0;
+pub(super) const SPEED: f64 = 15.0 / 8.0;
 /// The greatest of |q̈| T²/|D|, at s = 1/2 ± √3/6: 10/√3.
-const ACCELERATION: f64 = 5.773_502_691_896_258;
+pub(super) const ACCELERATION: f64 = 5.773_502_691_896_258;
 
 /// A motion that is preceded by the path to its start, from rest to rest within the limits of the joints.
 ///

@@ -39,6 +39,16 @@ pub enum ConfigParameter {
     DecayRate,
     /// The margin of a contact detector.
     ContactMargin,
+    /// The distance that an arm goes back after a contact.
+    RetractDistance,
+    /// The speed or the acceleration at which it goes back.
+    RetractLimit,
+    /// The damping of an arm that floats.
+    FloatDamping,
+    /// The speed beyond which an arm that floats is decelerated.
+    FloatSpeed,
+    /// The ticks without a contact after which an arm may be reset.
+    ReleaseTicks,
     /// The largest force or couple that a contact is expected to have.
     WrenchSize,
     /// A stiffness of an impedance.
@@ -93,6 +103,17 @@ impl fmt::Display for ConfigError {
             ConfigParameter::ContactMargin => {
                 "a margin of the contact detector is not a positive number"
             }
+            ConfigParameter::RetractDistance => {
+                "the distance back from a contact is not a positive number"
+            }
+            ConfigParameter::RetractLimit => {
+                "the speed or the acceleration back from a contact is not a positive number"
+            }
+            ConfigParameter::FloatDamping => {
+                "the damping of a floating arm is not a positive number"
+            }
+            ConfigParameter::FloatSpeed => "the speed of a floating arm is not a positive number",
+            ConfigParameter::ReleaseTicks => "an arm would be released in the tick of its contact",
             ConfigParameter::WrenchSize => {
                 "the largest force is not a positive number, or the largest couple a negative one"
             }

@@ -89,7 +89,7 @@ pub enum Fault {
     Restarted,
     /// The brake did not accept its command.
     Brake,
-    /// A stop from outside the loop: an emergency stop, a safety controller, an operator. See
+    /// A stop from outside the loop: an emergency stop, a safety controller, an operator, a contact. See
     /// [`MotionController::stop`](super::MotionController::stop) and [`Supervisor::stop`](super::Supervisor::stop).
     #[doc(alias = "e-stop")]
     #[doc(alias = "emergency stop")]

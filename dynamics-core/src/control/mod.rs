@@ -9,6 +9,7 @@
 //! | [`MultiTurnEncoder`] | the position of an encoder over many turns | counts |
 //! | [`Observer`] | velocity from positions | estimate |
 //! | [`ContactDetector`] | external torques beyond thresholds that follow the stated errors of the model | as the observer, thresholds |
+//! | [`ContactReaction`] | what an arm does after a contact: stop, go back along its path, float | the last path |
 //! | [`MomentumObserver`] | external torques from the momentum of the joints | momentum, external torques |
 //! | [`TipWrench`] | the wrench of a contact at the tip, from external torques | none |
 //! | [`PayloadEstimator`] | mass, centre of mass and inertia of a load from the torques of the joints | information |
@@ -61,6 +62,7 @@ mod back_off;
 mod command;
 mod config_error;
 mod contact_detector;
+mod contact_reaction;
 mod controller;
 mod detectors;
 mod fault;
@@ -90,6 +92,7 @@ pub use back_off::{BackOff, BackOffConfig};
 pub use command::{Command, Mode, Status};
 pub use config_error::{ConfigError, ConfigParameter};
 pub use contact_detector::{ContactDetector, DetectedContact};
+pub use contact_reaction::{ContactPhase, ContactReaction, ContactReactionConfig, ContactResponse};
 pub use controller::{
     CurrentTick, MeasurementAge, MotionController, MotionControllerConfig, ObservedTick,
     PreviousTick, ReferencedTick, ResetError,

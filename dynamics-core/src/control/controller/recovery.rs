@@ -1,6 +1,6 @@
 //! The reaction of the controller to a fault, and the return after it: decision 3.
 
-use super::super::{Fault, Mode, Reference, hold};
+use super::super::{Estimate, Fault, Mode, Reference, hold};
 use super::{MeasurementAge, MotionController};
 use crate::scalar::Real;
 use crate::state::{State, all_finite};
@@ -82,6 +82,31 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
         if !matches!(self.supervisor.mode(), Mode::Full) {
             self.reference = self.stop_reference();
         }
+    }
+
+    /// Ends a return onto the motion. Gives the tick at which the motion is left.
+    pub(in crate::control) fn leave_motion(&mut self) -> u32 {
+        if self.resume.active() {
+            self.clock = self.resume.cancel();
+        }
+        self.clock
+    }
+
+    /// Begins another motion at its tick 0, from rest at the estimated position over the ticks of a return.
+    pub(in crate::control) fn begin_motion(&mut self) {
+        let Estimate { q, .. } = *self.observer.estimate();
+        let at_rest = Estimate {
+            q,
+            qd: [R::ZERO; V],
+        };
+        self.clock = 0;
+        self.supervisor.release();
+        self.resume.start(&at_rest, 0);
+    }
+
+    /// The rate at which the speed of a held arm decays, 1/s.
+    pub(in crate::control) fn decay_rate(&self) -> R {
+        self.resume.decay_rate()
     }
 
     /// Decelerates the arm at its present position. The clock stops when the deceleration begins, and the return is

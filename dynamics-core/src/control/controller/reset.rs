@@ -20,6 +20,8 @@ pub enum ResetError {
     NotStopped,
     /// There was no measurement in the last tick.
     NoMeasurement,
+    /// There is a contact, or there was one too recently: see [`ContactReaction`](super::super::ContactReaction).
+    Contact,
     /// The joint is outside its bounds: [`BackOff`](super::super::BackOff) leads it back, or a person moves it.
     OutOfBounds {
         /// The joint.
@@ -37,6 +39,7 @@ impl fmt::Display for ResetError {
         match *self {
             Self::NotStopped => out.write_str("the arm is not stopped"),
             Self::NoMeasurement => out.write_str("there was no measurement in the last tick"),
+            Self::Contact => out.write_str("there is a contact, or there was one too recently"),
             Self::OutOfBounds { joint } => write!(out, "joint {joint}: it is outside its bounds"),
             Self::TooFar { joint } => {
                 write!(out, "joint {joint}: it is too far from its reference")

@@ -9,7 +9,7 @@ use crate::state::State;
 #[must_use = "a tick without a command leaves the drives the torques of an older one"]
 #[derive(Debug)]
 pub struct ObservedTick<'a, R, const V: usize, A = PreviousTick> {
-    controller: &'a mut MotionController<R, V, A>,
+    pub(in crate::control) controller: &'a mut MotionController<R, V, A>,
 }
 
 /// A tick of a [`MotionController`] that needs the torques of the law; [`Self::command`] ends it.

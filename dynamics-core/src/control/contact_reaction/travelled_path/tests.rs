@@ -1,0 +1,149 @@
+//! Claims about the retraction.
+
+use super::*;
+
+const TICK: f64 = 1e-3;
+const SLOW: MotionLimits<f64> = MotionLimits {
+    velocity: 0.5,
+    acceleration: 2.0,
+};
+const DISTANCE: f64 = 0.2;
+
+/// A path with a bend, at a phase of it.
+fn along(t: f64) -> [f64; 2] {
+    let (s, c) = t.sin_cos();
+    [0.5 * s, 0.3 * c]
+}
+
+/// Steps in which the path is travelled.
+const FINE: u32 = 2000;
+
+fn travelled<const N: usize>() -> TravelledPath<f64, 2, N> {
+    let mut path = TravelledPath::new(DISTANCE);
+    for k in 0..FINE {
+        path.record(&along(1.5 * f64::from(k) / f64::from(FINE)));
+    }
+    assert!(path.plan(TICK, &SLOW));
+    path
+}
+
+/// The largest distance of the retraction from the path, rad: its ellipse's equation over the slope of that.
+fn off<const N: usize>(path: &TravelledPath<f64, 2, N>) -> f64 {
+    let distance = |[x, y]: [f64; 2]| {
+        let [u, v] = [x / 0.5, y / 0.3];
+        (u * u + v * v - 1.0) / (2.0 * u / 0.5).hypot(2.0 * v / 0.3)
+    };
+    most((0..=path.ticks()).map(|tick| distance(path.at(tick).q)))
+}
+
+fn most(values: impl Iterator<Item = f64>) -> f64 {
+    values.fold(0.0, |most, x| most.max(x.abs()))
+}
+
+/// The largest speed and acceleration of the retraction.
+fn peaks(path: &TravelledPath<f64, 2, 16>) -> [f64; 2] {
+    let states = || (0..=path.ticks()).map(|tick| path.at(tick));
+    [
+        most(states().flat_map(|state| state.qd)),
+        most(states().flat_map(|state| state.qdd)),
+    ]
+}
+
+#[test]
+fn the_retraction_is_the_path_over_its_distance_from_rest_to_rest() {
+    let path = travelled::<16>();
+    let [first, last] = [path.at(0), path.at(path.ticks())];
+    assert_eq!((first.qd, first.qdd), ([0.0; 2], [0.0; 2]));
+    assert!(most(last.qd.into_iter().chain(last.qdd)) < 1e-9);
+    assert!(most((0..2).map(|j| first.q[j] - along(1.5)[j])) < DISTANCE / 15.0);
+    // The joint that moves most is another one at each end of the path.
+    let steps = (1..=path.ticks()).map(|tick| [path.at(tick - 1).q, path.at(tick).q]);
+    let went: f64 = steps.map(|[a, b]| most((0..2).map(|j| b[j] - a[j]))).sum();
+    assert!(
+        (0.995 * DISTANCE..1.005 * DISTANCE).contains(&went),
+        "{went}"
+    );
+    // Fewer points cut the bend.
+    let [few, many] = [off(&travelled::<4>()), off(&path)];
+    assert!(many < 3e-4 && few > 10.0 * many, "{many} {few}");
+}
+
+#[test]
+fn the_retraction_is_as_fast_as_its_limits_allow_and_no_faster() {
+    let mut path = travelled();
+    for (velocity, acceleration) in [(0.5, 2.0), (0.2, 20.0), (3.0, 1.0), (3.0, f64::INFINITY)] {
+        let limits = MotionLimits {
+            velocity,
+            acceleration,
+        };
+        assert!(path.plan(TICK, &limits));
+        let [speed, change] = peaks(&path);
+        assert!(
+            speed <= velocity && change <= acceleration,
+            "{speed} {change}"
+        );
+        let share = (speed / velocity).max(change / acceleration);
+        assert!(share > 0.6, "{share}");
+    }
+}
+
+#[test]
+fn positions_velocities_and_accelerations_agree() {
+    let path = travelled::<16>();
+    for tick in 1..path.ticks() {
+        let [a, b, c] = [tick - 1, tick, tick + 1].map(|tick| path.at(tick));
+        for j in 0..2 {
+            let slope = (c.q[j] - a.q[j]) / (2.0 * TICK);
+            let bend = (c.qd[j] - a.qd[j]) / (2.0 * TICK);
+            assert!(
+                (slope - b.qd[j]).abs() < 1e-4,
+                "{tick}: {slope} {}",
+                b.qd[j]
+            );
+            assert!(
+                (bend - b.qdd[j]).abs() < 0.05,
+                "{tick}: {bend} {}",
+                b.qdd[j]
+            );
+        }
+    }
+}
+
+#[test]
+fn the_retraction_in_f32_is_that_in_f64() {
+    let double = travelled::<16>();
+    let mut single: TravelledPath<f32, 2, 16> = TravelledPath::new(0.99 * DISTANCE as f32);
+    for k in (0..16).rev() {
+        single.record(&double.point(k).map(|q| q as f32));
+    }
+    single.distance = DISTANCE as f32;
+    assert!(single.plan(
+        1e-3,
+        &MotionLimits {
+            velocity: 0.5,
+            acceleration: 2.0
+        }
+    ));
+    assert!(single.ticks().abs_diff(double.ticks()) <= 1);
+    for tick in 0..=double.ticks() {
+        let (a, b) = (single.at(tick), double.at(tick));
+        for j in 0..2 {
+            assert!((f64::from(a.q[j]) - b.q[j]).abs() < 1e-3, "{tick}");
+            assert!((f64::from(a.qd[j]) - b.qd[j]).abs() < 1e-3, "{tick}");
+        }
+    }
+}
+
+#[test]
+fn without_a_path_there_is_no_retraction() {
+    let mut path: TravelledPath<f64, 2, 16> = TravelledPath::new(DISTANCE);
+    assert!(!path.plan(TICK, &SLOW));
+    path.record(&[1.0, 2.0]);
+    path.record(&[1.0, f64::NAN]);
+    assert!(!path.plan(TICK, &SLOW));
+    assert!(most((0..2).map(|j| path.at(5).q[j] - [1.0, 2.0][j])) < 1e-12);
+    path.record(&[1.1, 2.0]);
+    assert!(path.plan(TICK, &SLOW));
+    path.clear();
+    assert!(!path.plan(TICK, &SLOW));
+}

@@ -50,7 +50,8 @@ const RATE: f64 = 1.0 / 64.0;
 /// rows, the estimate is frozen until they are less than 0.4 `limit`.
 ///
 /// # Cost
-/// 3 P² flops and P divisions for the row of any joint, 1,900 for 24 parameters. A rejected row takes a third.
+/// 3 P² flops, P divisions and some 20 P more flops for the row of any joint: 2,300 for 24 parameters, and 3.2 kB. A rejected row
+/// takes a third.
 ///
 /// # Source
 /// Bierman (1977), chapter V; Kulhavý, "Restricted exponential forgetting in real-time identification" (1987); without the growth
@@ -83,8 +84,10 @@ pub struct ParameterEstimator<R, const P: usize, const V: usize> {
     /// 1/σ of the torques.
     weights: [R; V],
     estimate: [R; P],
-    /// Column j of U above its diagonal, and D_j in place of the one.
+    /// Column j of U above its diagonal, and zeros from it on.
     columns: [[R; P]; P],
+    /// D.
+    diagonal: [R; P],
     /// The mean square of the innovations of each joint.
     levels: [R; V],
     frozen: Option<usize>,
@@ -103,6 +106,7 @@ impl<R: Real, const P: usize, const V: usize> ParameterEstimator<R, P, V> {
             weights: config.noise.map(|deviation| R::ONE / deviation),
             estimate: [R::ZERO; P],
             columns: [[R::ZERO; P]; P],
+            diagonal: [R::ZERO; P],
             levels: [R::ONE; V],
             frozen: None,
             rejected: [0; V],
@@ -124,11 +128,7 @@ impl<R: Real, const P: usize, const V: usize> ParameterEstimator<R, P, V> {
     /// ```
     pub fn reopen(&mut self) {
         self.columns = [[R::ZERO; P]; P];
-        for (j, (column, prior)) in self.columns.iter_mut().zip(self.config.prior).enumerate() {
-            if let Some(d) = column.get_mut(j) {
-                *d = prior * prior;
-            }
-        }
+        self.diagonal = self.config.prior.map(|prior| prior * prior);
         self.levels = [R::ONE; V];
         self.frozen = None;
     }
@@ -148,13 +148,11 @@ impl<R: Real, const P: usize, const V: usize> ParameterEstimator<R, P, V> {
         let weight = entry(&self.weights, joint);
         let row = y.map(|y| y * weight);
         let (mut f, mut v, mut r) = ([R::ZERO; P], [R::ZERO; P], R::ZERO);
-        for (j, column) in self.columns.iter().enumerate() {
-            let f_j = dot_above(column, &row, j) + entry(&row, j);
-            let v_j = entry(column, j) * f_j;
-            r += f_j * v_j;
-            if let (Some(f), Some(v)) = (f.get_mut(j), v.get_mut(j)) {
-                (*f, *v) = (f_j, v_j);
-            }
+        let out = f.iter_mut().zip(&mut v).zip(&self.diagonal).zip(&row);
+        for (j, ((((f, v), d), y), column)) in out.zip(&self.columns).enumerate() {
+            *f = dot_above(column, &row, j) + *y;
+            *v = *d * *f;
+            r += *f * *v;
         }
         let error = residual * weight - dot_above(&row, &self.estimate, P);
         let (size, square) = (R::ONE + r, error * error);
@@ -191,19 +189,22 @@ impl<R: Real, const P: usize, const V: usize> ParameterEstimator<R, P, V> {
     /// Updates the factors with the weight ε of the row, and the estimate by b times `gain`.
     #[inline(always)]
     fn add(&mut self, f: &[R; P], v: &[R; P], weight: R, gain: R) {
-        let (mut b, mut alpha) = ([R::ZERO; P], R::ONE);
-        for (j, column) in self.columns.iter_mut().enumerate() {
-            let (f_j, v_j) = (entry(f, j), entry(v, j));
-            let (next, per) = (alpha + weight * (v_j * f_j), R::ONE / alpha);
-            let factor = -(weight * f_j) * per;
-            for (u, b) in column.iter_mut().zip(&mut b).take(j) {
-                let old = *u;
-                *u += factor * *b;
-                *b += old * v_j;
+        let mut b = [R::ZERO; P];
+        let (mut alpha, mut per) = (R::ONE, R::ONE); // and 1 / α
+        let factors = self.columns.iter_mut().zip(&mut self.diagonal);
+        for (j, ((column, d), (f, v))) in factors.zip(f.iter().zip(v)).enumerate() {
+            let factor = -(weight * *f) * per;
+            let ((four, rest), (b_four, b_rest)) =
+                (column.as_chunks_mut::<4>(), b.as_chunks_mut::<4>());
+            for (column, b) in four.iter_mut().zip(b_four).take(j.div_ceil(4)) {
+                raise(column, b, factor, *v);
             }
-            if let (Some(d), Some(b)) = (column.get_mut(j), b.get_mut(j)) {
-                *d *= alpha / next;
-                *b = v_j;
+            raise(rest, b_rest, factor, *v);
+            let next = alpha + weight * (*v * *f);
+            per = R::ONE / next;
+            *d *= alpha * per;
+            if let Some(b) = b.get_mut(j) {
+                *b = *v;
             }
             alpha = next;
         }
@@ -222,12 +223,10 @@ impl<R: Real, const P: usize, const V: usize> ParameterEstimator<R, P, V> {
     #[must_use]
     pub fn deviations(&self) -> [R; P] {
         core::array::from_fn(|i| {
-            let above = self.columns.iter().enumerate().skip(i);
-            let terms = above.map(|(j, column)| {
-                let u = if i == j { R::ONE } else { entry(column, i) };
-                u * u * entry(column, j)
-            });
-            terms.fold(R::ZERO, |sum, term| sum + term).sqrt()
+            let columns = self.columns.iter().zip(&self.diagonal);
+            let terms = columns.map(|(column, d)| entry(column, i) * entry(column, i) * *d);
+            let own = entry(&self.diagonal, i);
+            terms.fold(own, |sum, term| sum + term).sqrt()
         })
     }
 
@@ -250,11 +249,27 @@ impl<R: Real, const P: usize, const V: usize> ParameterEstimator<R, P, V> {
     }
 }
 
-/// The scalar product of the first n numbers.
+/// U_ij − ε f_j / α_{j−1} b_i and b_i + U_ij v_j: with b = 0 below the rows so far, the zeros of U there remain.
 #[inline(always)]
-fn dot_above<R: Real>(a: &[R], b: &[R], n: usize) -> R {
-    let products = a.iter().zip(b).take(n).map(|(a, b)| *a * *b);
-    products.fold(R::ZERO, |sum, product| sum + product)
+fn raise<R: Real>(column: &mut [R], b: &mut [R], factor: R, v: R) {
+    for (u, b) in column.iter_mut().zip(b) {
+        let old = *u;
+        *u += factor * *b;
+        *b += old * v;
+    }
+}
+
+/// The scalar product of the first n of P numbers, where `a` is zero from there on: by fours, for fewer branches.
+#[inline(always)]
+fn dot_above<R: Real, const P: usize>(a: &[R; P], b: &[R; P], n: usize) -> R {
+    let ((a, a_rest), (b, b_rest)) = (a.as_chunks::<4>(), b.as_chunks::<4>());
+    let mut sum = R::ZERO;
+    for (a, b) in a.iter().zip(b).take(n.div_ceil(4)) {
+        let products: [R; 4] = core::array::from_fn(|i| a[i] * b[i]);
+        sum += (products[0] + products[1]) + (products[2] + products[3]);
+    }
+    let rest = a_rest.iter().zip(b_rest);
+    rest.fold(sum, |sum, (a, b)| sum + *a * *b)
 }
 
 /// Why the numbers of a row are rejected.

@@ -88,11 +88,20 @@ pub fn truth() -> [f64; N] {
     parameters(&inertial_parameters(&So101::MODEL, &()), || 1.0)
 }
 
-/// Each mass, each component of each centre of mass, each inertia about the centre and each parameter of a joint 30 % off.
+/// The bodies off by 30 % as below, and each parameter of a joint.
 pub fn nominal(seed: u64) -> [f64; N] {
     let mut rng = Rng::new(seed);
     let mut factor = || if rng.below(2) == 0 { 0.7 } else { 1.3 };
-    let bodies = inertial_parameters(&So101::MODEL, &()).map(|body| {
+    let bodies = off_by_30_percent(&inertial_parameters(&So101::MODEL, &()), &mut factor);
+    parameters(&bodies, factor)
+}
+
+/// Each mass, each component of each centre of mass and each inertia about the centre times a factor.
+pub fn off_by_30_percent(
+    bodies: &[[f64; 10]; 6],
+    factor: &mut impl FnMut() -> f64,
+) -> [[f64; 10]; 6] {
+    bodies.map(|body| {
         let about = BodyInertia::about_com(&SpatialInertia::from_parameters(body));
         let inertia = factor();
         let off = BodyInertia {
@@ -101,8 +110,7 @@ pub fn nominal(seed: u64) -> [f64; N] {
             inertia: about.inertia.map(|x| x * inertia),
         };
         Payload::<f64, 0>::from_inertia(off).0.parameters()
-    });
-    parameters(&bodies, factor)
+    })
 }
 
 /// Each joint swings at two frequencies.

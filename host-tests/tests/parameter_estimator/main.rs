@@ -10,3 +10,4 @@ mod learner;
 mod least_squares;
 mod rest;
 mod stored;
+mod ur5e;

@@ -215,7 +215,7 @@ fn picked<R: Real, const B: usize, const F: usize>(
 ) -> R {
     let bodies = bodies.as_flattened();
     bodies.get(column).copied().unwrap_or_else(|| {
-        let place = column.wrapping_sub(bodies.len() + joint * F);
+        let place = column.wrapping_sub(bodies.len().wrapping_add(joint.wrapping_mul(F)));
         crate::math::entry(own, place)
     })
 }

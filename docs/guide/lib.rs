@@ -25,6 +25,7 @@ pages! {
     contact "contact.md",
     impedance "impedance.md",
     payload "payload.md",
+    learning "learning.md",
     porting "porting.md",
     engine "engine.md",
 }

@@ -67,6 +67,8 @@ pub enum ConfigParameter {
     PriorDeviation,
     /// The share of the information that is forgotten.
     Forgetting,
+    /// The greatest innovation of an estimator, in standard deviations.
+    InnovationLimit,
 }
 
 impl ConfigParameter {
@@ -129,6 +131,9 @@ impl fmt::Display for ConfigError {
                 "a standard deviation of the prior is not between 1e-6 and 1e6"
             }
             ConfigParameter::Forgetting => "the share to forget is not at least 0 and less than 1",
+            ConfigParameter::InnovationLimit => {
+                "the limit of innovations is not between 3 and 1000"
+            }
         })
     }
 }

@@ -13,6 +13,8 @@
 //! | [`MomentumObserver`] | external torques from the momentum of the joints | momentum, external torques |
 //! | [`TipWrench`] | the wrench of a contact at the tip, from external torques | none |
 //! | [`PayloadEstimator`] | mass, centre of mass and inertia of a load from the torques of the joints | information |
+//! | [`ParameterEstimator`] | inertial parameters, frictions and armatures of an arm, from one joint's torque in each update | estimate, covariance |
+//! | [`PhysicalParameters`] | parameters that bodies can have, near those of the estimator | the last set |
 //! | [`Gains`], [`feedback()`] | K_p (q_d − q) + K_d (q̇_d − q̇) | none |
 //! | [`PassivityGains`], [`passivity_based_torque()`] | the law of Slotine & Li: M q̈_r + C q̇_r + g + F − K_D s | none |
 //! | [`hold()`] | the reference of a held arm: q̈ = −λ q̇ | none |
@@ -74,6 +76,7 @@ mod momentum_observer;
 mod multi_turn;
 mod multirate;
 mod observer;
+mod parameter_estimator;
 mod passivity;
 mod payload_estimator;
 mod pose_error;
@@ -109,6 +112,10 @@ pub use momentum_observer::MomentumObserver;
 pub use multi_turn::MultiTurnEncoder;
 pub use multirate::{FirstOrderHold, InertiaUpdate, Interpolator, ZeroOrderHold};
 pub use observer::{Estimate, Observer, ObserverConfig};
+pub use parameter_estimator::{
+    BaseParameters, Excitation, ImpossibleParameters, ParameterEstimator, ParameterEstimatorConfig,
+    PhysicalParameters, RejectedRow,
+};
 pub use passivity::{PassivityGains, SlidingVariable, passivity_based_torque};
 pub use payload_estimator::{PayloadEstimator, PayloadEstimatorConfig, RejectedMeasurement};
 pub use pose_error::{pose_error, quaternion_error};

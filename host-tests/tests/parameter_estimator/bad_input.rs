@@ -1,0 +1,176 @@
+//! Torques, encoders, models and configurations that are wrong.
+
+use dynamics_core::control::{
+    ConfigError, ConfigParameter, ImpossibleParameters, ParameterEstimator,
+    ParameterEstimatorConfig, PhysicalParameters, RejectedRow,
+};
+
+use crate::arm::*;
+use crate::common::Rng;
+use crate::learner::*;
+
+/// What ten seconds of a fault make of a learner: the error of its torques and the joint that has frozen it at their end and 20 s
+/// later, and how many rows were accepted meanwhile.
+struct Outcome {
+    errors: [f64; 2],
+    frozen: [Option<usize>; 2],
+    accepted: usize,
+}
+
+const FAULTY: core::ops::Range<usize> = LEARNED..LEARNED + 5000;
+
+type Change = fn(&mut Row, &mut [f64; N], &mut Rng);
+
+fn after_fault(limit: f32, rows: &[(usize, Row)], change: Change) -> Outcome {
+    let (mut rng, mut learner) = (Rng::new(5), Learner::new(1, FORGETTING, limit));
+    let (nominal, mut accepted, mut at_end) = (learner.nominal, 0, None);
+    for (k, mut row) in rows.iter().copied() {
+        if FAULTY.contains(&k) {
+            change(&mut row, &mut learner.nominal, &mut rng);
+            accepted += usize::from(learner.add(&row).is_ok());
+            learner.nominal = nominal;
+        } else {
+            if k >= FAULTY.end && at_end.is_none() {
+                at_end = Some((validation(&learner.found()).0, learner.estimator.frozen()));
+            }
+            let _ = learner.add(&row);
+        }
+    }
+    let (error, frozen) = at_end.expect("rows after the fault");
+    Outcome {
+        errors: [error, validation(&learner.found()).0],
+        frozen: [frozen, learner.estimator.frozen()],
+        accepted,
+    }
+}
+
+pub fn noise(row: &mut Row, _: &mut [f64; N], rng: &mut Rng) {
+    row.tau += (10.0 * STATED[row.joint] * normal(rng)) as f32;
+}
+
+fn wrong_friction(_: &mut Row, nominal: &mut [f64; N], _: &mut Rng) {
+    for joint in nominal[60..].as_chunks_mut::<OWN>().0 {
+        (joint[0], joint[1]) = (-joint[0], -joint[1]);
+    }
+}
+
+fn nan(row: &mut Row, _: &mut [f64; N], _: &mut Rng) {
+    if row.joint == 3 {
+        row.tau = f32::NAN;
+    }
+}
+
+/// Without the limit, friction of the wrong sign and an encoder that sticks spoil the estimate, and noise passes.
+#[test]
+fn bad_input_freezes_the_estimate_with_the_joint_named_and_20_s_later_it_goes_on() {
+    let stuck = run(&nominal(1), 2 * LEARNED, FAULTY);
+    let faults: [(&[_], Change); 4] = [
+        (minute(1), nan),
+        (minute(1), noise),
+        (minute(1), wrong_friction),
+        (&stuck, |_, _, _| ()),
+    ];
+    for (k, (rows, change)) in faults.into_iter().enumerate() {
+        let (limited, free) = (
+            after_fault(LIMIT, rows, change),
+            after_fault(1000.0, rows, change),
+        );
+        assert!(
+            limited.errors.iter().all(|error| *error < 0.03),
+            "{:?}",
+            limited.errors
+        );
+        assert!(
+            limited.frozen[0].is_some() && limited.frozen[1].is_none(),
+            "{:?}",
+            limited.frozen
+        );
+        assert!(limited.accepted < 200, "{}", limited.accepted);
+        match k {
+            0 => assert_eq!(limited.frozen[0], Some(3)),
+            1 => assert!(free.accepted > 4000 && free.frozen[0].is_none()),
+            _ => assert!(free.errors[0] > 0.2, "{:?}", free.errors),
+        }
+    }
+}
+
+#[test]
+fn a_row_that_is_refused_has_its_reason_and_changes_neither_estimate_nor_deviations() {
+    let mut learner = learned(1, FORGETTING);
+    let (_, row) = minute(1)[LEARNED - 1000];
+    let (y, residual) = learner.row(&row);
+    let before = learner.estimator;
+    let same = |now: &ParameterEstimator<f32, P, 6>| {
+        now.estimate() == before.estimate() && now.deviations() == before.deviations()
+    };
+    let joint = row.joint;
+    for bad in [f32::NAN, f32::INFINITY, -f32::INFINITY, 1e30] {
+        let reason = match bad.is_finite() {
+            true => Err(RejectedRow::TooLarge { joint }),
+            false => Err(RejectedRow::NotFinite { joint }),
+        };
+        let mut wrong = y;
+        wrong[7] = bad;
+        assert_eq!(learner.estimator.update(joint, &y, bad), reason);
+        assert_eq!(learner.estimator.update(joint, &wrong, residual), reason);
+    }
+    let outlier = learner.estimator.update(joint, &y, residual + 1.0);
+    assert_eq!(outlier, Err(RejectedRow::Outlier { joint }));
+    assert!(same(&learner.estimator));
+    assert_eq!(
+        learner.estimator.rejected()[joint],
+        before.rejected()[joint] + 9
+    );
+    assert_eq!(learner.estimator.update(6, &y, f32::NAN), Ok(())); // no such joint
+    // Another twenty, and rows of every joint are refused because of this one.
+    for _ in 0..20 {
+        let _ = learner.estimator.update(joint, &y, f32::NAN);
+    }
+    let other = learner.estimator.update((joint + 1) % 6, &y, residual);
+    assert_eq!(other, Err(RejectedRow::Frozen { joint }));
+    assert!(same(&learner.estimator));
+    assert_eq!(
+        learner.estimator.update(joint, &[0.0; P], 0.0),
+        Err(RejectedRow::Frozen { joint })
+    );
+    learner.estimator.reopen();
+    assert_eq!(learner.estimator.update(joint, &y, residual), Ok(()));
+    assert!(!same(&learner.estimator));
+}
+
+#[test]
+fn a_configuration_beyond_its_range_and_an_impossible_nominal_arm_are_refused() {
+    let good = config(&Learner::new(1, 0.0, 5.0).base, 0.0, 5.0);
+    let refused = |config| ParameterEstimator::<f32, P, 6>::try_new(config).err();
+    let named = |parameter| Some(ConfigError::OutOfRange { parameter });
+    for bad in [0.0, -1.0, f32::NAN, f32::INFINITY, 1e-10] {
+        let (mut noisy, mut prior) = (good, good);
+        (noisy.noise[5], prior.prior[P - 1]) = (bad, bad);
+        assert_eq!(refused(noisy), named(ConfigParameter::TorqueNoise));
+        assert_eq!(refused(prior), named(ConfigParameter::PriorDeviation));
+    }
+    for bad in [-0.1, 1.0, f32::NAN] {
+        let wrong = ParameterEstimatorConfig {
+            forgetting: bad,
+            ..good
+        };
+        assert_eq!(refused(wrong), named(ConfigParameter::Forgetting));
+    }
+    for bad in [2.9, 1001.0, f32::NAN] {
+        let wrong = ParameterEstimatorConfig { limit: bad, ..good };
+        assert_eq!(refused(wrong), named(ConfigParameter::InnovationLimit));
+    }
+    assert_eq!(refused(good), None);
+    let refused = |change: fn(&mut [f64; N])| {
+        let mut all = nominal(1);
+        change(&mut all);
+        PhysicalParameters::<f64, 6, N>::try_new(all).err()
+    };
+    let body = |body| Some(ImpossibleParameters::Body { body });
+    assert_eq!(refused(|_| ()), None);
+    assert_eq!(refused(|all| all[20] = -all[20]), body(2));
+    assert_eq!(refused(|all| all[59] += 2.0 * (all[54] + all[56])), body(5));
+    assert_eq!(refused(|all| all[30] = f64::NAN), body(3));
+    let joint = Some(ImpossibleParameters::Joint { parameter: 1 });
+    assert_eq!(refused(|all| all[61] = -0.1), joint);
+}

@@ -1,0 +1,97 @@
+//! The recursion against least squares of all rows at once, and its forgetting.
+
+use dynamics_core::control::{ParameterEstimator, ParameterEstimatorConfig};
+
+use crate::arm::*;
+use crate::learner::*;
+
+/// The solution of a x = b by elimination with pivots on the diagonal, of a positive definite matrix.
+fn solved(mut a: Vec<[f64; P]>, mut b: [f64; P]) -> [f64; P] {
+    for k in 0..P {
+        for i in 0..P {
+            if i != k {
+                let (pivot, factor) = (a[k], a[i][k] / a[k][k]);
+                a[i].iter_mut()
+                    .zip(pivot)
+                    .for_each(|(a, p)| *a -= factor * p);
+                b[i] -= factor * b[k];
+            }
+        }
+    }
+    core::array::from_fn(|k| b[k] / a[k][k])
+}
+
+#[test]
+fn the_estimate_and_its_deviations_are_those_of_least_squares_and_f32_follows() {
+    let learner = Learner::new(2, 0.0, 1000.0);
+    let ParameterEstimatorConfig { noise, prior, .. } = config(&learner.base, 0.0, 1000.0);
+    let config = ParameterEstimatorConfig {
+        noise: noise.map(f64::from),
+        prior: prior.map(f64::from),
+        forgetting: 0.0,
+        limit: 1000.0,
+    };
+    let mut double = ParameterEstimator::try_new(config).expect("a good one");
+    let mut single = learner.estimator;
+    let (mut a, mut b) = (vec![[0.0; P]; P], [0.0; P]);
+    for (k, row) in a.iter_mut().enumerate() {
+        row[k] = config.prior[k].powi(-2);
+    }
+    for (_, row) in &minute(2)[..5000] {
+        let (y, z) = learner.row(row);
+        single.update(row.joint, &y, z).expect("a good row");
+        let (y, z) = (y.map(f64::from), f64::from(z));
+        double.update(row.joint, &y, z).expect("a good row");
+        let weight = config.noise[row.joint].powi(-2);
+        for k in 0..P {
+            b[k] += weight * y[k] * z;
+            (0..P).for_each(|l| a[k][l] += weight * y[k] * y[l]);
+        }
+    }
+    let want = solved(a.clone(), b);
+    for (k, want) in want.into_iter().enumerate() {
+        let unit = core::array::from_fn(|i| f64::from(u8::from(i == k)));
+        let deviation = solved(a.clone(), unit)[k].sqrt();
+        let apart = (double.estimate()[k] - want).abs() / deviation;
+        let ratio = double.deviations()[k] / deviation - 1.0;
+        assert!(
+            apart < 1e-7 && ratio.abs() < 1e-7,
+            "{k}: {apart:.1e} {ratio:.1e}"
+        );
+        // Far within what the noise leaves uncertain.
+        let apart = (f64::from(single.estimate()[k]) - want).abs() / deviation;
+        let ratio = f64::from(single.deviations()[k]) / deviation - 1.0;
+        assert!(
+            apart < 1e-3 && ratio.abs() < 4e-5,
+            "{k}: {apart:.1e} {ratio:.1e}"
+        );
+    }
+}
+
+#[test]
+fn an_estimator_that_forgets_follows_a_friction_that_changes_and_no_parameter_becomes_less_certain()
+{
+    let of = |forgetting| {
+        let mut learner = Learner::new(1, forgetting, 100.0);
+        let mut deviations = learner.estimator.deviations();
+        for (k, row) in minute(1) {
+            let mut row = *row;
+            if *k >= LEARNED {
+                row.tau += 0.05 * row.own[1];
+            }
+            let _ = learner.add(&row);
+            let now = learner.estimator.deviations();
+            let grown = now
+                .iter()
+                .zip(deviations)
+                .any(|(now, before)| *now > 1.0001 * before);
+            assert!(!grown, "{now:?} {deviations:?}");
+            deviations = now;
+        }
+        let coulomb = truth()[60 + 1];
+        (learner.found()[60 + 1] - coulomb) / 0.05
+    };
+    let (forgets, remembers) = (of(2e-3), of(0.0));
+    assert!((forgets - 1.0).abs() < 0.25, "{forgets:.2}");
+    assert!(remembers < 0.65, "{remembers:.2}");
+}

@@ -113,8 +113,8 @@ pub use multi_turn::MultiTurnEncoder;
 pub use multirate::{FirstOrderHold, InertiaUpdate, Interpolator, ZeroOrderHold};
 pub use observer::{Estimate, Observer, ObserverConfig};
 pub use parameter_estimator::{
-    BaseParameters, Excitation, ImpossibleParameters, ParameterEstimator, ParameterEstimatorConfig,
-    PhysicalParameters, RejectedRow,
+    Excitation, ImpossibleParameters, ParameterEstimator, ParameterEstimatorConfig,
+    PhysicalParameters, RejectedRow, SelectedParameters,
 };
 pub use passivity::{PassivityGains, SlidingVariable, passivity_based_torque};
 pub use payload_estimator::{PayloadEstimator, PayloadEstimatorConfig, RejectedMeasurement};

@@ -17,13 +17,13 @@
 //! D_j⁺ = D_j α_{j−1} / α_j      U_ij⁺ = U_ij − ε f_j / α_{j−1} Σ_{k<j} U_ik v_k
 //! ```
 
-mod base;
 mod config;
 mod physical;
+mod selection;
 
-pub use base::{BaseParameters, Excitation};
 pub use config::{ParameterEstimatorConfig, RejectedRow};
 pub use physical::{ImpossibleParameters, PhysicalParameters};
+pub use selection::{Excitation, SelectedParameters};
 
 use super::ConfigError;
 use crate::math::entry;
@@ -37,7 +37,7 @@ const RATE: f64 = 1.0 / 64.0;
 
 /// P parameters of an arm with V joints, estimated from one joint's torque in each update.
 ///
-/// A row is the torque per unit of each parameter, as a [`BaseParameters`] gathers it. The residual is what the nominal model
+/// A row is the torque per unit of each parameter, as a [`SelectedParameters`] gathers it. The residual is what the nominal model
 /// does not explain, and the estimate is the deviation from it: zero at the start.
 ///
 /// # Forgetting

@@ -37,6 +37,7 @@ fn run() -> ! {
         let row = costs::row::Row::of::<robots::So101, 6, 6>("rnea", "engine", inputs, true);
         row.measure(function as usize, &asks, |ask| function(&ask.state));
     }
+    costs::estimators::parameters(&asks);
     costs::done()
 }
 

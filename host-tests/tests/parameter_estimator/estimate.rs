@@ -1,6 +1,6 @@
 //! The torques that the estimate gives elsewhere, and the selection of its parameters.
 
-use dynamics_core::control::BaseParameters;
+use dynamics_core::control::SelectedParameters;
 use dynamics_core::state::State;
 
 use crate::arm::*;
@@ -71,7 +71,7 @@ fn all_base_parameters_by_selection_give_the_torques_of_all_parameters_at_any_st
 
 /// The torque of all parameters less that of the base parameters, for a change of these.
 fn contradiction<const P: usize>(
-    base: &BaseParameters<f64, P, N>,
+    base: &SelectedParameters<f64, P, N>,
     row: &Row<f64>,
     rng: &mut Rng,
 ) -> f64 {

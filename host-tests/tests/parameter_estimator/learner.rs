@@ -4,7 +4,7 @@ use std::sync::OnceLock;
 
 use dynamics_core::Core;
 use dynamics_core::control::{
-    BaseParameters, Excitation, ParameterEstimator, ParameterEstimatorConfig, RejectedRow,
+    Excitation, ParameterEstimator, ParameterEstimatorConfig, RejectedRow, SelectedParameters,
 };
 use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::robots::So101;
@@ -29,7 +29,7 @@ pub fn minute(seed: u64) -> &'static [(usize, Row)] {
 /// The base parameters of this motion: from the reference and the nominal model, before the arm moves.
 pub fn base_of<R: Real, const P: usize>(
     nominal: &[f64; N],
-) -> Result<BaseParameters<R, P, N>, usize> {
+) -> Result<SelectedParameters<R, P, N>, usize> {
     let mut motion: Box<Excitation<N>> = Box::default();
     for k in 0..600 {
         let state = excitation(0.05 * k as f64);
@@ -43,7 +43,7 @@ pub fn base_of<R: Real, const P: usize>(
 }
 
 pub fn config(
-    base: &BaseParameters<f32, P, N>,
+    base: &SelectedParameters<f32, P, N>,
     forgetting: f32,
     limit: f32,
 ) -> ParameterEstimatorConfig<f32, P, 6> {
@@ -58,7 +58,7 @@ pub fn config(
 #[derive(Clone)]
 pub struct Learner {
     pub nominal: [f64; N],
-    pub base: BaseParameters<f32, P, N>,
+    pub base: SelectedParameters<f32, P, N>,
     pub estimator: ParameterEstimator<f32, P, 6>,
 }
 

@@ -3,8 +3,8 @@
 use dynamics_core::Core;
 use dynamics_core::algorithms::{friction_regressor, inertial_parameters};
 use dynamics_core::control::{
-    BaseParameters, Excitation, Observer, ObserverConfig, ParameterEstimator,
-    ParameterEstimatorConfig, PhysicalParameters,
+    Excitation, Observer, ObserverConfig, ParameterEstimator, ParameterEstimatorConfig,
+    PhysicalParameters, SelectedParameters,
 };
 use dynamics_core::effects::{RIGID_BODY, Width};
 use dynamics_core::model::Robot;
@@ -92,7 +92,7 @@ fn in_half_a_minute_the_torques_of_a_ur5e_are_within_1_percent_of_full_scale() {
             excitation.add(&Excitation::row(joint, &bodies, &own), noise);
         }
     }
-    let base: BaseParameters<f32, P, N> =
+    let base: SelectedParameters<f32, P, N> =
         (excitation.select::<_, 6, _>(&nominal, 0.4)).expect("enough");
     let config = ParameterEstimatorConfig {
         noise: noise.map(|noise| noise as f32),

@@ -8,7 +8,7 @@
 
 use core::fmt;
 
-use super::BaseParameters;
+use super::SelectedParameters;
 use crate::scalar::Real;
 
 /// The share of the nominal pseudo-inertias, frictions and armatures that a stored set keeps in all directions.
@@ -117,7 +117,7 @@ impl<R: Real, const B: usize, const N: usize> PhysicalParameters<R, B, N> {
     /// Outside the tick.
     pub fn update<const P: usize>(
         &mut self,
-        base: &BaseParameters<R, P, N>,
+        base: &SelectedParameters<R, P, N>,
         estimate: &[R; P],
     ) -> R {
         let change = base.change(estimate);

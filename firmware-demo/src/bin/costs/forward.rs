@@ -9,7 +9,7 @@ use dynamics_core::state::{JointTrig, State, StateWithTrig};
 use dynamics_core::{Core, Engine, MassMatrix};
 
 use super::row::Row;
-use super::{Ask, STATES, asks, done, loaded, momentum};
+use super::{Ask, STATES, asks, done, estimators, loaded, momentum};
 
 type Scene = (Gravity, Inertia, Coriolis);
 type Solution<const N: usize> = Result<[f32; N], NotPositiveDefinite>;
@@ -68,6 +68,7 @@ pub fn both<T: Robot<B, N, N>, const B: usize, const N: usize, const TIP: usize>
     run::<T, B, N>(asks, &[of_core::<T, B, N>(), of_engine::<T, B, N, TIP>()]);
     momentum::both::<T, B, N>(asks);
     loaded::engine::<T, B, N>(asks);
+    estimators::payload::<T, B, N>(asks);
     done()
 }
 

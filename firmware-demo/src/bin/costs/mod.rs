@@ -10,6 +10,7 @@
 
 #[cfg(feature = "effects")]
 pub mod effects;
+pub mod estimators;
 pub mod forward;
 pub mod inverse;
 pub mod loaded;

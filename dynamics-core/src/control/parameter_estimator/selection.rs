@@ -13,14 +13,14 @@ const RANK: f64 = 1e-13;
 /// The sum Yᵀ Y of the rows of a motion, by N columns: the ten parameters of each body, then those of each joint. On the host.
 ///
 /// ```
-/// use dynamics_core::control::{BaseParameters, Excitation};
+/// use dynamics_core::control::{SelectedParameters, Excitation};
 /// let mut motion: Excitation<3> = Excitation::new();
 /// for t in 0..10 {
 ///     let t = f64::from(t);
 ///     motion.add(&[t, 2.0 * t, t * t], 0.1); // the second parameter is not distinguished from the first
 /// }
 /// // Three parameters of joints, no body.
-/// let base: BaseParameters<f64, 2, 3> = motion.select::<_, 0, _>(&[1.0; 3], 0.3).expect("two independent columns");
+/// let base: SelectedParameters<f64, 2, 3> = motion.select::<_, 0, _>(&[1.0; 3], 0.3).expect("two independent columns");
 /// assert_eq!(base.columns, [2, 1]);
 /// assert_eq!(motion.select::<f64, 0, 3>(&[1.0; 3], 0.3), Err(2));
 /// ```
@@ -66,7 +66,7 @@ impl<const N: usize> Excitation<N> {
         &self,
         nominal: &[f64; N],
         share: f64,
-    ) -> Result<BaseParameters<R, P, N>, usize> {
+    ) -> Result<SelectedParameters<R, P, N>, usize> {
         let covariance = covariance::<B, N>(nominal, share);
         let (mut a, mut free) = (self.0, [true; N]);
         let (mut columns, mut first) = ([0; P], 0.0);
@@ -100,7 +100,7 @@ impl<const N: usize> Excitation<N> {
         let spread = with.map(|row| {
             core::array::from_fn(|l| R::from_f64((0..P).map(|k| row[k] * own[k][l]).sum()))
         });
-        Ok(BaseParameters {
+        Ok(SelectedParameters {
             columns,
             prior,
             spread,
@@ -162,7 +162,7 @@ fn sweep<const N: usize>(a: &mut [[f64; N]; N], k: usize) {
 
 /// P base parameters of an arm among the N parameters of its bodies and joints: constants for the tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BaseParameters<R, const P: usize, const N: usize> {
+pub struct SelectedParameters<R, const P: usize, const N: usize> {
     /// The columns of the regressor that they multiply: the most important one first.
     pub columns: [usize; P],
     /// The standard deviation of each, from those of the N parameters.
@@ -171,7 +171,7 @@ pub struct BaseParameters<R, const P: usize, const N: usize> {
     pub spread: [[R; P]; N],
 }
 
-impl<R: Real, const P: usize, const N: usize> BaseParameters<R, P, N> {
+impl<R: Real, const P: usize, const N: usize> SelectedParameters<R, P, N> {
     /// The row of a joint: from its [`regressor_row`](crate::algorithms::regressor_row), and the F columns of its own friction and
     /// armature. P selections, no flops.
     #[inline(always)]
@@ -194,7 +194,7 @@ impl<R: Real, const P: usize, const N: usize> BaseParameters<R, P, N> {
 }
 
 impl<const N: usize> Excitation<N> {
-    /// All N columns of the row of a joint, in the order that [`BaseParameters::row`] selects from.
+    /// All N columns of the row of a joint, in the order that [`SelectedParameters::row`] selects from.
     #[must_use]
     pub fn row<R: Real, const B: usize, const F: usize>(
         joint: usize,

@@ -1,0 +1,100 @@
+//! Estimators of a load and of an arm's parameters: one update each.
+
+use dynamics_core::Core;
+use dynamics_core::algorithms::friction_regressor;
+use dynamics_core::control::{
+    ParameterEstimator, ParameterEstimatorConfig, PayloadEstimator, PayloadEstimatorConfig,
+    SelectedParameters,
+};
+use dynamics_core::effects::{RIGID_BODY, Width};
+use dynamics_core::model::Robot;
+use dynamics_core::robots::So101;
+use dynamics_core::state::State;
+
+use super::row::Row;
+use super::{Ask, STATES};
+
+/// The estimator of a load, with the torques of all joints and of the first three.
+pub fn payload<T: Robot<B, N, N>, const B: usize, const N: usize>(asks: &[Ask<N>; STATES]) {
+    let config = PayloadEstimatorConfig {
+        noise: [1.0; N],
+        prior: [1.0; 10],
+        forgetting: 1e-3,
+    };
+    let Ok(mut estimator) = PayloadEstimator::<f32, N>::try_new(config) else {
+        return;
+    };
+    let columns = asks
+        .each_ref()
+        .map(|ask| Core::<T>::regressor_columns(&ask.state, &RIGID_BODY, const { B - 1 }));
+    let row = |inputs| Row::of::<T, B, N>("payload_update", "core", inputs, false);
+    let run = all_joints::<N>;
+    row("all_joints").measure(run as *const () as usize, &columns, |y| {
+        run(&mut estimator, y)
+    });
+    let run = three_joints::<N>;
+    row("3_joints").measure(run as *const () as usize, &columns, |y| {
+        run(&mut estimator, y)
+    });
+}
+
+#[inline(never)]
+fn all_joints<const N: usize>(
+    estimator: &mut PayloadEstimator<f32, N>,
+    y: &[[f32; 10]; N],
+) -> bool {
+    estimator.update(y, &[1.0; N]).is_ok()
+}
+
+#[inline(never)]
+fn three_joints<const N: usize>(
+    estimator: &mut PayloadEstimator<f32, N>,
+    y: &[[f32; 10]; N],
+) -> bool {
+    estimator.update_joints([0, 1, 2], y, &[1.0; N]).is_ok()
+}
+
+/// Parameters that are estimated, of 60 of the bodies and five of each joint.
+const P: usize = 24;
+const N: usize = 90;
+/// Those that the test of the estimator selects.
+const SELECTED: SelectedParameters<f32, P, N> = SelectedParameters {
+    columns: [
+        85, 75, 70, 80, 65, 60, 30, 72, 77, 87, 67, 62, 82, 11, 68, 71, 40, 66, 86, 73, 76, 61, 81,
+        74,
+    ],
+    prior: [0.1; P],
+    spread: [[0.0; P]; N],
+};
+
+/// The estimator of the SO-101's parameters: the row of its first joint, and an update.
+pub fn parameters(asks: &[Ask<6>; STATES]) {
+    let config = ParameterEstimatorConfig {
+        noise: [1.0; 6],
+        prior: [0.1; P],
+        forgetting: 1e-4,
+        limit: 1000.0,
+    };
+    let Ok(mut estimator) = ParameterEstimator::<f32, P, 6>::try_new(config) else {
+        return;
+    };
+    let row = |algorithm, trig| Row::of::<So101, 6, 6>(algorithm, "core", "24_parameters", trig);
+    let run = parameter_row;
+    row("parameter_row", true).measure(run as *const () as usize, asks, |ask| run(&ask.state));
+    let rows = asks.each_ref().map(|ask| parameter_row(&ask.state));
+    let run = parameter_update;
+    row("parameter_update", false)
+        .measure(run as *const () as usize, &rows, |y| run(&mut estimator, y));
+}
+
+#[inline(never)]
+fn parameter_row(state: &State<f32, 6, 6>) -> [f32; P] {
+    let bodies = Core::<So101>::regressor_row(state, &RIGID_BODY, 0);
+    let [[viscous, sign], ..] = friction_regressor(&state.qd, Width::f32(0.05));
+    SELECTED.row(0, &bodies, &[viscous, sign, state.qdd[0], 0.0, 0.0])
+}
+
+#[inline(never)]
+fn parameter_update(estimator: &mut ParameterEstimator<f32, P, 6>, y: &[f32; P]) -> bool {
+    estimator.update(0, y, 0.1).is_ok()
+}

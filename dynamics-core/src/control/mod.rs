@@ -114,7 +114,7 @@ pub use multirate::{FirstOrderHold, InertiaUpdate, Interpolator, ZeroOrderHold};
 pub use observer::{Estimate, Observer, ObserverConfig};
 pub use parameter_estimator::{
     Excitation, ImpossibleParameters, ParameterEstimator, ParameterEstimatorConfig,
-    PhysicalParameters, RejectedRow, SelectedParameters,
+    PhysicalParameters, RecordError, RejectedRow, SelectedParameters,
 };
 pub use passivity::{PassivityGains, SlidingVariable, passivity_based_torque};
 pub use payload_estimator::{PayloadEstimator, PayloadEstimatorConfig, RejectedMeasurement};

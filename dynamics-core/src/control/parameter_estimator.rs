@@ -19,10 +19,12 @@
 
 mod config;
 mod physical;
+mod record;
 mod selection;
 
 pub use config::{ParameterEstimatorConfig, RejectedRow};
 pub use physical::{ImpossibleParameters, PhysicalParameters};
+pub use record::RecordError;
 pub use selection::{Excitation, SelectedParameters};
 
 use super::ConfigError;

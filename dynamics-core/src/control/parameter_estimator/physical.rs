@@ -82,8 +82,8 @@ impl core::error::Error for ImpossibleParameters {}
 #[doc(alias = "pseudo-inertia")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PhysicalParameters<R, const B: usize, const N: usize> {
-    nominal: [R; N],
-    stored: [R; N],
+    pub(super) nominal: [R; N],
+    pub(super) stored: [R; N],
 }
 
 impl<R: Real, const B: usize, const N: usize> PhysicalParameters<R, B, N> {
@@ -157,7 +157,7 @@ impl<R: Real, const B: usize, const N: usize> PhysicalParameters<R, B, N> {
 
     /// Whether each pseudo-inertia less its margin is positive definite, and each parameter of a joint at least its margin. A NaN
     /// is not possible.
-    fn is_possible(&self, tried: &[R; N]) -> bool {
+    pub(super) fn is_possible(&self, tried: &[R; N]) -> bool {
         let margin = R::from_f64(MARGIN);
         let less: [R; N] = core::array::from_fn(|i| {
             crate::math::entry(tried, i) - margin * crate::math::entry(&self.nominal, i)

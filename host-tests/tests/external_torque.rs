@@ -216,6 +216,10 @@ fn numbers_that_are_not_finite_name_their_joint() {
     // Finite numbers whose products are not.
     let fault = given.estimate(&jacobian, &[1e38; 6]);
     assert_eq!(fault, Err(Fault::NotFinite { joint: 0 }));
+    let mut far = jacobian;
+    far[2].lin.y = 1e20;
+    let fault = given.estimate(&far, &[1.0; 6]);
+    assert_eq!(fault, Err(Fault::NotFinite { joint: 0 }));
 }
 
 #[test]

@@ -119,7 +119,7 @@ impl<R: Real, const V: usize> TipWrench<R, V> {
         let trace = (0..6).fold(R::ZERO, |sum, i| sum + a[i][i]);
         let shift = R::ONE + trace * (R::EPSILON * R::from_f64(ROUNDINGS));
         let x = shifted_solution(&a, shift, &b);
-        if !all_finite(&x) {
+        if !(all_finite(&x) & shift.is_finite()) {
             let joint = first_not_finite(jacobian, external).unwrap_or(0);
             return Err(Fault::NotFinite { joint });
         }

@@ -31,6 +31,8 @@ pub trait Declared<R: Real, const B: usize, const V: usize>: Sized {
     const LOAD_DEPENDENT: bool;
     /// How many sets of base parameters are loaded.
     const BASE_PARAMETERS: usize;
+    /// The name of the robot that they belong to; empty if there are none.
+    const BASE_PARAMETERS_OF: &'static str;
 
     /// Adds to the acceleration g of free fall, in base coordinates, m/s², along [`Self::FIELD_AXES`] only.
     fn field(&self, g: &mut R::Vec3);
@@ -67,6 +69,7 @@ where
     const GYROSCOPIC_ROTORS: bool = E::ROTOR.add.is_some();
     const LOAD_DEPENDENT: bool = E::LOAD_FRICTION.factors.is_some();
     const BASE_PARAMETERS: usize = E::REGROUPED.sets;
+    const BASE_PARAMETERS_OF: &'static str = E::REGROUPED.robot;
 
     #[inline(always)]
     fn field(&self, g: &mut R::Vec3) {

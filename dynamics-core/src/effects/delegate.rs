@@ -29,6 +29,19 @@ pub const fn any_of<const B: usize, const N: usize>(effects: &[[bool; B]; N]) ->
     any
 }
 
+/// The first name that is not empty.
+#[doc(hidden)]
+pub const fn first_name(names: &[&'static str]) -> &'static str {
+    let mut i = 0;
+    while i < names.len() {
+        if !names[i].is_empty() {
+            return names[i];
+        }
+        i += 1;
+    }
+    ""
+}
+
 /// The sum of the values that are present.
 #[doc(hidden)]
 #[inline(always)]
@@ -146,6 +159,9 @@ macro_rules! delegate_effect {
                 $crate::effects::hook::Regrouped::forwarded(
                     $on,
                     0 $(+ <$inner as $crate::effects::Declared<$R, $B, $V>>::BASE_PARAMETERS)*,
+                    $crate::effects::first_name(&[
+                        $(<$inner as $crate::effects::Declared<$R, $B, $V>>::BASE_PARAMETERS_OF),*
+                    ]),
                     <Self as $crate::effects::Forwarder<$R, $B, $V>>::forward_regrouped,
                 );
             const ACCELERATIONS: bool = ($on) & ($accelerations)

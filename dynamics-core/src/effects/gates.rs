@@ -28,7 +28,7 @@ where
     };
 }
 
-/// Base parameters belong to the geometry that the engine folds.
+/// Base parameters belong to the constants of the engine.
 #[inline(always)]
 pub(crate) const fn no_base_parameters<R: Real, E, const B: usize, const V: usize>()
 where
@@ -42,18 +42,23 @@ where
     };
 }
 
-/// Of two sets of base parameters neither would be the robot's.
-#[inline(always)]
-pub(crate) const fn one_set_of_base_parameters<R: Real, E, const B: usize, const V: usize>()
+/// The base parameters of the scene are one set, of the robot of this name.
+pub(crate) const fn are_of<R: Real, E, const B: usize, const V: usize>(robot: &str)
 where
     E: Effect<R, B, V>,
 {
-    const {
-        assert!(
-            E::BASE_PARAMETERS <= 1,
-            "the scene has several sets of base parameters"
-        )
-    };
+    assert!(
+        E::BASE_PARAMETERS <= 1,
+        "the scene has several sets of base parameters"
+    );
+    let (of, robot) = (E::BASE_PARAMETERS_OF.as_bytes(), robot.as_bytes());
+    let mut same = of.len() == robot.len();
+    let mut i = 0;
+    while same && i < of.len() {
+        same = of[i] == robot[i];
+        i += 1;
+    }
+    assert!(same, "the base parameters are those of another robot");
 }
 
 /// Links that bend do not carry rotors that spin as bodies.

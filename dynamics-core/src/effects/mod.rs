@@ -80,7 +80,7 @@ pub use body::{
 };
 pub use declared::Declared;
 #[doc(hidden)]
-pub use delegate::{Forwarder, any_of, sum};
+pub use delegate::{Forwarder, any_of, first_name, sum};
 pub use friction::{
     AsymmetricCoulomb, Coulomb, LoadFriction, Lugre, Stribeck, Viscous, smooth_sign,
     smooth_sign_slope,
@@ -94,8 +94,7 @@ pub use rigid_body::{
 pub use width::Width;
 
 pub(crate) use gates::{
-    field_axes, loads, no_base_parameters, no_gyroscopic_rotors, one_gravity,
-    one_set_of_base_parameters, only_load,
+    are_of, field_axes, loads, no_base_parameters, no_gyroscopic_rotors, one_gravity, only_load,
 };
 pub(crate) use load::{
     add_load_slope, all_transmitted, load_friction, load_frictions, no_load_friction, transmitted,

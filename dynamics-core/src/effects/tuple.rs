@@ -1,4 +1,4 @@
-//! Tuples of effects: hooks run in the order of the tuple. And effects by reference.
+//! Tuples of effects: hooks run in the order of the tuple.
 
 use super::Effect;
 use crate::effects::delegate::delegate_effect;
@@ -12,11 +12,6 @@ macro_rules! tuple {
             |this| { $($name => this.$at),* }, advance
         }
     };
-}
-
-delegate_effect! {
-    impl[R: Real, E: Effect<R, B, V>, const B: usize, const V: usize] Effect<R, B, V> for &E,
-    |this| { E => **this }
 }
 
 /// The empty scene.

@@ -2,6 +2,8 @@
 //!
 //! The geometry is the description's. Khalil & Dombre, *Modeling, Identification and Control of Robots* (2002), chapter 9.
 
+use core::marker::PhantomData;
+
 use super::Engine;
 use super::compile::CompiledRobot;
 use crate::effects::{BaseParameters, Effect, RegroupedInertia, body_inertia};
@@ -40,8 +42,8 @@ impl<T, K> Engine<T, K> {
     /// Some 200 flops for each body; not for the tick.
     ///
     /// # Errors
-    /// [`ModelError`] names the first body whose placement is not that of the description ([`Problem::Placement`]), or whose
-    /// base parameters are not finite ([`Problem::NotFinite`]). That inertias are physical is what
+    /// [`ModelError`] names the first body whose placement is not that of the description ([`Problem::Placement`]), or a moving
+    /// body whose base parameters are not finite ([`Problem::NotFinite`]). That inertias are physical is what
     /// [`Calibrated::set_inertia`] and [`Calibrated::check`] are for.
     ///
     /// # Source
@@ -50,7 +52,7 @@ impl<T, K> Engine<T, K> {
     pub fn base_parameters<R: Real, E, const B: usize, const Q: usize, const V: usize>(
         robot: &Calibrated<T, R, B, Q, V>,
         effects: &E,
-    ) -> Result<BaseParameters<R, V>, ModelError>
+    ) -> Result<BaseParameters<T, R, B, Q, V>, ModelError>
     where
         T: Robot<B, Q, V>,
         E: Effect<R, B, V>,
@@ -58,7 +60,10 @@ impl<T, K> Engine<T, K> {
         let mut joints = joints_of(robot, effects)?;
         let sizes = sizes::<R, T, E, B, Q, V>(robot, effects);
         let length = R::from_f64(const { CompiledRobot::<T, B, Q, V>::TREE.length });
-        let mut set = BaseParameters([RegroupedInertia::default(); V]);
+        let mut set = BaseParameters {
+            joints: [RegroupedInertia::default(); V],
+            robot: PhantomData,
+        };
         for link in robot.links().rev() {
             let i = joint_of(&link);
             let Some(&Carried { x, inertia, parent }) = joints.get(i) else {
@@ -74,7 +79,7 @@ impl<T, K> Engine<T, K> {
             if !numbers.into_iter().all(all_finite) {
                 return Err(error(&link, Problem::NotFinite));
             }
-            if let Some(body) = set.0.get_mut(i) {
+            if let Some(body) = set.joints.get_mut(i) {
                 *body = kept;
             }
         }

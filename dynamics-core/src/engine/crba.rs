@@ -21,7 +21,8 @@ use crate::state::Configuration;
 use crate::trig::Kernel;
 
 impl<T, K> Engine<T, K> {
-    /// The joint-space inertia matrix M(q), kg·m², kg and kg·m, with the armatures and the payload of the scene.
+    /// The joint-space inertia matrix M(q), kg·m², kg and kg·m, with the armatures, the payload and the base
+    /// parameters of the scene.
     ///
     /// Other effects are ignored: [`crate::effects::RIGID_BODY`] gives the robot's own M. Angles as in
     /// [`Engine::rnea`].

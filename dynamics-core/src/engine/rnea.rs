@@ -6,9 +6,7 @@ use super::compile::{BodyPlacement, CompiledRobot, CompiledTree, Joint};
 use super::folding::Folded;
 use super::folding::{Mat3, Sym3, Vec3};
 use super::subtree::visit_child;
-use crate::effects::{
-    BodyState, Effect, JointState, RegroupedInertia, load_friction, one_set_of_base_parameters,
-};
+use crate::effects::{BodyState, Effect, JointState, RegroupedInertia, are_of, load_friction};
 use crate::model::{BASE, JointCoordinate, Robot};
 use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::{Force, Motion, SpatialInertia, Xform};
@@ -109,7 +107,7 @@ where
     E: Effect<R, B, V>,
 {
     let joint = const { &CompiledRobot::<T, B, Q, V>::joint(I) };
-    let body = own_inertia::<R, E, B, V, I>(effects, joint, base_moves);
+    let body = own_inertia::<R, T, E, B, Q, V, I>(effects, joint, base_moves);
     if const { CompiledRobot::<T, B, Q, V>::loads(I, &E::PAYLOAD) > 0 } {
         loaded::<R, T, E, B, Q, V, I>(effects, body)
     } else {
@@ -119,16 +117,17 @@ where
 
 /// The same without payloads: the description's, or that of the loaded base parameters.
 #[inline(always)]
-fn own_inertia<R: Real, E, const B: usize, const V: usize, const I: usize>(
+fn own_inertia<R: Real, T, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     effects: &E,
     joint: &'static Joint,
     base_moves: bool,
 ) -> Inertia<R>
 where
+    T: Robot<B, Q, V>,
     E: Effect<R, B, V>,
 {
     if const { E::BASE_PARAMETERS > 0 } {
-        one_set_of_base_parameters::<R, E, B, V>();
+        const { are_of::<R, E, B, V>(T::MODEL.name) };
         let mut body = RegroupedInertia::default();
         effects.regrouped(I, &mut body);
         Inertia::loaded(&body, joint, base_moves)

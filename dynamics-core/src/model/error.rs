@@ -66,7 +66,7 @@ impl Problem {
                 "a limit is not a number, lower exceeds upper, or a speed or torque limit is negative"
             }
             Self::Placement => {
-                "its joint is placed otherwise than in the description, whose geometry the engine folds"
+                "the placement of its joint differs from the description, whose geometry is constant in the engine"
             }
             Self::NoBody(_) => "the robot has no body of this number",
             Self::RightAngles => "the two axes of its joint are not at right angles",

@@ -1,6 +1,10 @@
 //! Base parameters of a robot's bodies, loaded at run time.
 
+use core::marker::PhantomData;
+
+use crate::effects::delegate::delegate_effect;
 use crate::effects::{Effect, hook};
+use crate::model::Robot;
 use crate::scalar::Real;
 
 /// What regrouping leaves to the body behind one joint, in the engine's frames and units.
@@ -12,15 +16,17 @@ pub struct RegroupedInertia<R> {
     pub(crate) moment: [R; 3],
     /// Σ: xx, xy, xz, yy, yz; its zz is zero.
     pub(crate) second: [R; 5],
-    /// Mass, first moment and second moment of the joint's descendants, as if they lay in one line.
+    /// The largest mass, first moment and second moment that the joint could move: those of its body and of its descendants, as
+    /// if they lay in one line.
     pub(crate) size: [R; 3],
 }
 
-/// The base parameters of a robot with V joints, which the engine then reads instead of the constants of its description.
+/// The base parameters of the robot `T`, which the engine then reads instead of the constants of its description.
 ///
-/// [`Engine::base_parameters`](crate::Engine::base_parameters) computes them from calibrated inertias, outside the tick. Geometry
-/// and gravity stay constants, so that the engine's algorithms take nearly the time that they take without them. A set is a
-/// plain value: between two ticks the scene is given another one as a whole, by value or by reference.
+/// [`Engine::base_parameters`](crate::Engine::base_parameters) computes them from calibrated inertias, outside the tick. The
+/// geometry stays constant: the engine's algorithms take up to 1.3 times as long as without them (rows `loaded` of
+/// `docs/costs.md` in the repository). A set is a plain value: between two ticks the scene receives another one as a whole, by
+/// value or by reference.
 ///
 /// ```
 /// use dynamics_core::effects::RIGID_BODY;
@@ -48,22 +54,45 @@ pub struct RegroupedInertia<R> {
 /// // error: base parameters are the engine's: give the textbook algorithms the `Calibrated` robot
 /// ```
 ///
+/// The base parameters of one robot are none of another:
+///
+/// ```compile_fail,E0080
+/// use dynamics_core::{Engine, effects::RIGID_BODY, model::Calibrated, robots::{Iiwa14, Panda}, state::State};
+/// let other = Engine::<Iiwa14>::base_parameters(&Calibrated::<Iiwa14, f64, 7, 7, 7>::nominal(), &()).unwrap();
+/// let _ = Engine::<Panda>::rnea(&State::at([0.3; 7]), &(RIGID_BODY, other));
+/// // error: the base parameters are those of another robot
+/// ```
+///
 /// # Source
 /// Khalil & Dombre, *Modeling, Identification and Control of Robots* (2002), chapter 9.
 #[doc(alias = "calibrated")]
 #[doc(alias = "identified")]
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BaseParameters<R, const V: usize>(pub(crate) [RegroupedInertia<R>; V]);
-
-impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for BaseParameters<R, V> {
-    const REGROUPED: hook::Regrouped<Self, R> = hook::Regrouped::loaded(Self::load);
+pub struct BaseParameters<T, R, const B: usize, const Q: usize, const V: usize> {
+    pub(crate) joints: [RegroupedInertia<R>; V],
+    // Of a function: the type contains no T.
+    pub(crate) robot: PhantomData<fn() -> T>,
 }
 
-impl<R: Real, const V: usize> BaseParameters<R, V> {
+impl<T, R: Real, const B: usize, const Q: usize, const V: usize> Effect<R, B, V>
+    for BaseParameters<T, R, B, Q, V>
+where
+    T: Robot<B, Q, V>,
+{
+    const REGROUPED: hook::Regrouped<Self, R> = hook::Regrouped::loaded(T::MODEL.name, Self::load);
+}
+
+delegate_effect! {
+    impl[T: Robot<B, Q, V>, R: Real, const B: usize, const Q: usize, const V: usize]
+    Effect<R, B, V> for &BaseParameters<T, R, B, Q, V>,
+    |this| { BaseParameters<T, R, B, Q, V> => **this }
+}
+
+impl<T, R: Real, const B: usize, const Q: usize, const V: usize> BaseParameters<T, R, B, Q, V> {
     /// What is left to the body behind `joint`.
     #[inline(always)]
     fn load(&self, joint: usize, body: &mut RegroupedInertia<R>) {
-        if let Some(loaded) = self.0.get(joint) {
+        if let Some(loaded) = self.joints.get(joint) {
             *body = *loaded;
         }
     }

@@ -10,6 +10,8 @@ type Load<E, R> = fn(&E, usize, &mut RegroupedInertia<R>);
 pub struct Regrouped<E, R> {
     pub(in crate::effects) load: Option<Load<E, R>>,
     pub(in crate::effects) sets: usize,
+    /// The name of the robot that they belong to.
+    pub(in crate::effects) robot: &'static str,
 }
 
 impl<E, R> Regrouped<E, R> {
@@ -17,23 +19,26 @@ impl<E, R> Regrouped<E, R> {
     pub const NONE: Self = Self {
         load: None,
         sets: 0,
+        robot: "",
     };
 
-    /// Those that `load` writes.
-    pub(in crate::effects) const fn loaded(load: Load<E, R>) -> Self {
+    /// Those of the robot of this name that `load` writes.
+    pub(in crate::effects) const fn loaded(robot: &'static str, load: Load<E, R>) -> Self {
         Self {
             load: Some(load),
             sets: 1,
+            robot,
         }
     }
 
     /// That of a forwarder.
     #[doc(hidden)]
-    pub const fn forwarded(on: bool, sets: usize, load: Load<E, R>) -> Self {
+    pub const fn forwarded(on: bool, sets: usize, robot: &'static str, load: Load<E, R>) -> Self {
         if on && sets > 0 {
             Self {
                 load: Some(load),
                 sets,
+                robot,
             }
         } else {
             Self::NONE

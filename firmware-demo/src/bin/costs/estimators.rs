@@ -67,7 +67,7 @@ const SELECTED: SelectedParameters<f32, P, N> = SelectedParameters {
     spread: [[0.0; P]; N],
 };
 
-/// The estimator of the SO-101's parameters: the row of its first joint, and an update.
+/// The estimator of the SO-101's parameters: an update with the row of its first joint, and with one that is given.
 pub fn parameters(asks: &[Ask<6>; STATES]) {
     let config = ParameterEstimatorConfig {
         noise: [1.0; 6],
@@ -78,16 +78,17 @@ pub fn parameters(asks: &[Ask<6>; STATES]) {
     let Ok(mut estimator) = ParameterEstimator::<f32, P, 6>::try_new(config) else {
         return;
     };
-    let row = |algorithm, trig| Row::of::<So101, 6, 6>(algorithm, "core", "24_parameters", trig);
-    let run = parameter_row;
-    row("parameter_row", true).measure(run as *const () as usize, asks, |ask| run(&ask.state));
+    let row = |inputs, trig| Row::of::<So101, 6, 6>("parameter_update", "core", inputs, trig);
+    let run = with_row;
+    row("with_row", true).measure(run as *const () as usize, asks, |ask| {
+        run(&mut estimator, &ask.state)
+    });
     let rows = asks.each_ref().map(|ask| parameter_row(&ask.state));
-    let run = parameter_update;
-    row("parameter_update", false)
-        .measure(run as *const () as usize, &rows, |y| run(&mut estimator, y));
+    let run = update;
+    row("row_given", false).measure(run as *const () as usize, &rows, |y| run(&mut estimator, y));
 }
 
-#[inline(never)]
+#[inline(always)]
 fn parameter_row(state: &State<f32, 6, 6>) -> [f32; P] {
     let bodies = Core::<So101>::regressor_row(state, &RIGID_BODY, 0);
     let [[viscous, sign], ..] = friction_regressor(&state.qd, Width::f32(0.05));
@@ -95,6 +96,11 @@ fn parameter_row(state: &State<f32, 6, 6>) -> [f32; P] {
 }
 
 #[inline(never)]
-fn parameter_update(estimator: &mut ParameterEstimator<f32, P, 6>, y: &[f32; P]) -> bool {
+fn with_row(estimator: &mut ParameterEstimator<f32, P, 6>, state: &State<f32, 6, 6>) -> bool {
+    estimator.update(0, &parameter_row(state), 0.1).is_ok()
+}
+
+#[inline(never)]
+fn update(estimator: &mut ParameterEstimator<f32, P, 6>, y: &[f32; P]) -> bool {
     estimator.update(0, y, 0.1).is_ok()
 }

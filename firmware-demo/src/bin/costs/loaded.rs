@@ -25,7 +25,7 @@ pub fn engine<T: Robot<B, N, N>, const B: usize, const N: usize>(asks: &[Ask<N>;
 
 fn rows<T: Robot<B, N, N>, const B: usize, const N: usize>(
     asks: &[Ask<N>; STATES],
-    set: BaseParameters<f32, N>,
+    set: BaseParameters<T, f32, B, N, N>,
 ) {
     let scene = &(RIGID_BODY, set);
     let row = |algorithm, trig| Row::of::<T, B, N>(algorithm, "engine", "loaded", trig);

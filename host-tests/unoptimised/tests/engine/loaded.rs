@@ -42,7 +42,7 @@ fn calibrated<T: Robot<B, N, N>, const B: usize, const N: usize>() -> Calibrated
 /// The largest difference from the textbook in units of the largest value, of τ with and without motion, M, q̈, M q̇ and Cᵀ q̇.
 fn apart<T, E, const B: usize, const N: usize>(
     scene: &E,
-    load: impl Fn(&Calibrated<T, f64, B, N, N>) -> BaseParameters<f64, N>,
+    load: impl Fn(&Calibrated<T, f64, B, N, N>) -> BaseParameters<T, f64, B, N, N>,
 ) -> f64
 where
     T: Robot<B, N, N>,
@@ -107,7 +107,7 @@ where
 
 fn loaded<T: Robot<B, N, N>, const B: usize, const N: usize>(
     arm: &Calibrated<T, f64, B, N, N>,
-) -> BaseParameters<f64, N> {
+) -> BaseParameters<T, f64, B, N, N> {
     Engine::<T>::base_parameters(arm, &()).expect("finite inertias in the described places")
 }
 

@@ -33,7 +33,7 @@ pub enum ContactResponse<R> {
     },
 }
 
-/// The parameters of a [`ContactReaction`].
+/// The parameters of a [`ContactReaction`](super::ContactReaction).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ContactReactionConfig<R> {

@@ -4,17 +4,16 @@
 //!            contact                 stop, the end of the retraction, at rest without a contact, a lasting fault
 //! Watching ──────────▶ Retracting, Floating ──────────▶ Held ──▶ Watching
 //!                                  ▲                     │   reset, after ticks without a contact
-//!                                  └─────────────────────┘ a contact, if the arm floats
+//!                                  └─────────────────────┘ a contact, if the arm floats and no other stop was required
 //! ```
 //!
 //! Haddadin, De Luca & Albu-Schäffer, "Robot collisions: a survey" (2017), has these strategies.
 
 use super::{
     ConfigError, DetectedContact, Fault, MeasurementAge, Mode, MotionController, ObservedTick,
-    Reference, ReferencedTick, ResetError, StopCategory, hold,
+    Reference, ReferencedTick, ResetError, StopCategory, Supervisor, hold,
 };
 use crate::scalar::Real;
-use crate::state::State;
 
 mod config;
 #[cfg(test)]
@@ -45,12 +44,16 @@ pub enum ContactPhase {
 /// N points of the reference's path are kept, at distances along it and not in time, so that an arm that has paused goes
 /// back as far as one that moves. The retraction is a cubic B-spline of them, whose speed and acceleration have closed bounds.
 ///
-/// A lasting fault, and a contact during the retraction, end the reaction: the arm is then held. Torques pass the gate of the
-/// supervisor as in any tick.
+/// A lasting fault ends the reaction, and so does a contact during the retraction, once there was none for `release_ticks`; a
+/// second contact before that has no further reaction. The arm is then held. Torques pass the gate of the supervisor as in any
+/// tick. A stop that you require stays until a reset: an arm does not float again after it.
+///
+/// The clock of the motion stands still from the contact to the reset; only for an arm that is stopped at once it first advances
+/// by 1/λ, as in any hold. Ticks that were missed ([`MotionController::missed`]) do not count in a retraction.
 ///
 /// # Cost
-/// By count: 5 V flops in a tick that follows the motion; some 24 V and 60 in a retraction, and those of a return at its begin;
-/// 7 N V and one root more in the tick of a contact.
+/// By count: 5 V flops in a tick that follows the motion; some 27 V and 60 in a retraction; 7 N V and one root more in the tick
+/// of a contact.
 ///
 /// ```
 /// use dynamics_core::control::*;
@@ -96,8 +99,8 @@ pub struct ContactReaction<R, const V: usize, const N: usize = 16> {
     quiet: u32,
     /// During a retraction: the contact that began it has ended.
     armed: bool,
-    /// The tick at which the motion was left.
-    left: u32,
+    /// The tick of the retraction.
+    tick: u32,
 }
 
 impl<R: Real, const V: usize, const N: usize> ContactReaction<R, V, N> {
@@ -117,7 +120,7 @@ impl<R: Real, const V: usize, const N: usize> ContactReaction<R, V, N> {
             phase: ContactPhase::Watching,
             quiet: 0,
             armed: false,
-            left: 0,
+            tick: 0,
         })
     }
 
@@ -157,30 +160,28 @@ impl<R: Real, const V: usize, const N: usize> ContactReaction<R, V, N> {
         match self.phase {
             ContactPhase::Watching if full & touched => self.begin(controller),
             ContactPhase::Retracting => {
-                let arrived = controller.clock >= self.path.ticks();
+                let arrived = self.tick >= self.path.ticks();
                 if !full | arrived | (touched & self.armed) {
                     self.end(controller);
+                } else {
+                    self.tick = self.tick.saturating_add(1);
                 }
             }
             ContactPhase::Floating => {
                 let at_rest = controller.supervisor.at_rest(&controller.estimate().qd);
                 if !full | (self.quiet() & at_rest) {
                     self.end(controller);
-                } else {
-                    // The return that follows a hold would be stiff.
-                    controller.leave_motion();
                 }
             }
             ContactPhase::Held if full => self.watch(),
-            ContactPhase::Held if touched & self.floats() & controller.supervisor.stands() => {
-                self.left = controller.leave_motion();
+            ContactPhase::Held if touched & self.floats_again(&controller.supervisor) => {
                 controller.supervisor.release();
                 self.phase = ContactPhase::Floating;
             }
             ContactPhase::Watching | ContactPhase::Held => {}
         }
         match (self.phase, self.config.response) {
-            (ContactPhase::Retracting, _) => observed.reference(&self.path),
+            (ContactPhase::Retracting, _) => observed.replace(&self.path.at(self.tick)),
             (ContactPhase::Floating, ContactResponse::Float { damping, speed }) => {
                 let decay = observed.controller.decay_rate();
                 let estimate = observed.estimate();
@@ -188,12 +189,15 @@ impl<R: Real, const V: usize, const N: usize> ContactReaction<R, V, N> {
                 for (qdd, &qd) in state.qdd.iter_mut().zip(&estimate.qd) {
                     *qdd -= decay * (qd - qd.clamped(-speed, speed));
                 }
-                observed.reference(&Unchanging(state))
+                observed.replace(&state)
             }
             (phase, _) => {
                 let tick = observed.reference(motion);
-                if matches!(phase, ContactPhase::Watching) {
-                    self.path.record(&tick.reference().q);
+                match (phase, tick.mode()) {
+                    // An arm on its brake, or one without a measurement yet, is not on its reference.
+                    (_, Mode::Stopped) => self.path.clear(),
+                    (ContactPhase::Watching, _) => self.path.record(&tick.reference().q),
+                    _ => {}
                 }
                 tick
             }
@@ -220,8 +224,10 @@ impl<R: Real, const V: usize, const N: usize> ContactReaction<R, V, N> {
         Ok(())
     }
 
-    fn floats(&self) -> bool {
-        matches!(self.config.response, ContactResponse::Float { .. })
+    /// Whether a contact moves a held arm again. A stop that was required by others is not the reaction's to release.
+    fn floats_again(&self, supervisor: &Supervisor<R, V>) -> bool {
+        let floats = matches!(self.config.response, ContactResponse::Float { .. });
+        floats & supervisor.stands() & !supervisor.stopped_again()
     }
 
     fn watch(&mut self) {
@@ -231,13 +237,11 @@ impl<R: Real, const V: usize, const N: usize> ContactReaction<R, V, N> {
 
     #[cold]
     fn begin<A: MeasurementAge>(&mut self, controller: &mut MotionController<R, V, A>) {
-        self.left = controller.leave_motion();
         self.armed = false;
+        self.tick = 0;
+        let (from, tick) = (controller.estimate().q, controller.observer.tick());
         match self.config.response {
-            ContactResponse::Retract { limits, .. }
-                if self.path.plan(controller.observer.tick(), &limits) =>
-            {
-                controller.begin_motion();
+            ContactResponse::Retract { limits, .. } if self.path.plan(&from, tick, &limits) => {
                 self.phase = ContactPhase::Retracting;
             }
             ContactResponse::Float { .. } => self.phase = ContactPhase::Floating,
@@ -245,25 +249,10 @@ impl<R: Real, const V: usize, const N: usize> ContactReaction<R, V, N> {
         }
     }
 
-    /// Holds the arm; the clock is that of the motion again.
+    /// Holds the arm.
     #[cold]
     fn end<A: MeasurementAge>(&mut self, controller: &mut MotionController<R, V, A>) {
-        controller.leave_motion();
-        controller.clock = self.left;
         controller.stop_by(Fault::External, StopCategory::ControlledHold);
         self.phase = ContactPhase::Held;
-    }
-}
-
-/// A reference that is the same in each tick.
-struct Unchanging<R, const V: usize>(State<R, V, V>);
-
-impl<R: Real, const V: usize> Reference<R, V> for Unchanging<R, V> {
-    fn at(&self, _: u32) -> State<R, V, V> {
-        self.0
-    }
-
-    fn ticks(&self) -> u32 {
-        0
     }
 }

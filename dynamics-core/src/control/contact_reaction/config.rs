@@ -10,16 +10,18 @@ use crate::scalar::Real;
 pub enum ContactResponse<R> {
     /// The arm is decelerated: a stop of category 2.
     Stop,
-    /// The reference stops and goes back along its path. It begins as in a return after a fault, over the
-    /// `reentry_ticks` of the controller.
+    /// The reference stops and goes back along its path, from rest where the arm is. The gap from there to the newest point
+    /// of the path fades over the whole retraction.
     Retract {
-        /// How far, rad or m: the sum over the path of the steps of the joint that moves most.
+        /// How far from the newest point of the path, rad or m: the sum over the path of the steps of the joint that moves
+        /// most. The points are apart by a fraction 1/(N − 1) of it.
         distance: R,
-        /// Greatest speed and acceleration of the retraction, of all joints.
+        /// Greatest speed and acceleration of the reference in the retraction, of all joints.
         limits: MotionLimits<R>,
     },
     /// The arm follows the contact: the reference is the estimate of the joints with q̈ = −d q̇, so that feedback is zero
-    /// and the law is left with gravity, friction and damping.
+    /// and the law is left with gravity, friction and damping. The law must produce q̈, with the inertia of the arm: one of
+    /// gravity and friction alone leaves the arm undamped up to the speed limit of the supervisor.
     ///
     /// An arm that is released comes to rest only if the friction that its law leaves out is larger than the error of its
     /// gravity: let the law compensate a share of the friction in [`ContactPhase::Floating`](super::ContactPhase::Floating).
@@ -31,7 +33,7 @@ pub enum ContactResponse<R> {
     },
 }
 
-/// The parameters of a [`ContactReaction`].
+/// The parameters of a [`ContactReaction`](super::ContactReaction).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ContactReactionConfig<R> {

@@ -6,6 +6,9 @@ use crate::control::{
     Trajectory, WayPoint,
 };
 
+mod motion;
+mod stops;
+
 const TICK: f64 = 1e-3;
 const SLOW: MotionLimits<f64> = MotionLimits {
     velocity: 0.5,
@@ -79,6 +82,10 @@ const CONTACT: Result<Option<DetectedContact<f64>>, Fault> = Ok(Some(DetectedCon
 
 impl Joint {
     fn new(response: ContactResponse<f64>) -> Self {
+        Self::with_ticks(response, 30, 400)
+    }
+
+    fn with_ticks(response: ContactResponse<f64>, hold_ticks: u32, reentry_ticks: u32) -> Self {
         let config = ContactReactionConfig {
             response,
             ..config()
@@ -94,8 +101,8 @@ impl Joint {
             tick: TICK,
             resolution: 0.0,
             ride_through_ticks: 2,
-            hold_ticks: 30,
-            reentry_ticks: 400,
+            hold_ticks,
+            reentry_ticks,
         };
         let controller = MotionController::try_new(MotionControllerConfig {
             supervisor,

@@ -1,11 +1,11 @@
 //! The path that a reference has travelled, and the retraction along it.
 //!
 //! The uniform cubic B-spline r(u) of N points P has r′ within the differences of neighbouring points and r″ within their
-//! second differences (de Boor, *A Practical Guide to Splines*, 1978, chapter X). With n steps, u = n w(t/T) and the
-//! quintic w from rest to rest,
+//! second differences (de Boor, *A Practical Guide to Splines*, 1978, chapter X). The arm is at a gap g from r(0). With n steps
+//! and the quintic w from rest to rest over T,
 //!
 //! ```text
-//! |q̇| ≤ max|ΔP| n max|w′|/T        |q̈| ≤ (max|ΔP| n max|w″| + max|Δ²P| n² max|w′|²)/T²
+//! q = r(n w) + (1 − w) g    |q̇| ≤ s max|w′|/T    |q̈| ≤ (s max|w″| + max|Δ²P| n² max|w′|²)/T²    s = n max|ΔP| + |g|
 //! ```
 
 use crate::control::approach::{ACCELERATION, SPEED};
@@ -27,6 +27,8 @@ pub(super) struct TravelledPath<R, const V: usize, const N: usize> {
     distance: R,
     /// n of the retraction, which ends between two points.
     steps: R,
+    /// g.
+    gap: [R; V],
     ticks: u32,
     ticks_inv: R,
     seconds_inv: R,
@@ -43,6 +45,7 @@ impl<R: Real, const V: usize, const N: usize> TravelledPath<R, V, N> {
             spacing: distance / R::from_f64((N - 1) as f64),
             distance,
             steps: R::ZERO,
+            gap: [R::ZERO; V],
             ticks: 0,
             ticks_inv: R::ZERO,
             seconds_inv: R::ZERO,
@@ -70,8 +73,8 @@ impl<R: Real, const V: usize, const N: usize> TravelledPath<R, V, N> {
         }
     }
 
-    /// The least time of the retraction within limits; whether there is a path to go back along.
-    pub(super) fn plan(&mut self, tick: R, limits: &MotionLimits<R>) -> bool {
+    /// The least time of the retraction from a place within limits; whether there is a path to go back along.
+    pub(super) fn plan(&mut self, from: &[R; V], tick: R, limits: &MotionLimits<R>) -> bool {
         let (mut step, mut bend, mut length) = (R::ZERO, R::ZERO, R::ZERO);
         self.steps = R::ZERO;
         for k in 1..self.count {
@@ -88,9 +91,11 @@ impl<R: Real, const V: usize, const N: usize> TravelledPath<R, V, N> {
                 bend = greater(bend, largest(&difference(&next, &ahead)));
             }
         }
+        self.gap = difference(from, &self.point(0));
+        let most = step * self.steps + largest(&self.gap);
         let rate = R::from_f64(SPEED) * self.steps;
-        let square = step * self.steps * R::from_f64(ACCELERATION) + bend * rate * rate;
-        let by_speed = step * rate / limits.velocity;
+        let square = most * R::from_f64(ACCELERATION) + bend * rate * rate;
+        let by_speed = most * R::from_f64(SPEED) / limits.velocity;
         // The root is that of the control tick, which has none of zero.
         let square = square / limits.acceleration + R::MIN_POSITIVE;
         let seconds = greater(by_speed, square * square.rsqrt());
@@ -136,9 +141,10 @@ impl<R: Real, const V: usize, const N: usize> Reference<R, V> for TravelledPath<
         let number = R::from_f64;
         let x = real::<R>(tick.min(self.ticks)) * self.ticks_inv;
         let (n, xx, y) = (self.steps, x * x, R::ONE - x);
-        let u = n * xx * x * (number(10.0) - number(15.0) * x + number(6.0) * xx);
-        let rate = n * number(30.0) * xx * y * y * self.seconds_inv;
-        let change = n * number(60.0) * x * y * (y - x) * self.seconds_inv * self.seconds_inv;
+        let w = xx * x * (number(10.0) - number(15.0) * x + number(6.0) * xx);
+        let wd = number(30.0) * xx * y * y * self.seconds_inv;
+        let wdd = number(60.0) * x * y * (y - x) * self.seconds_inv * self.seconds_inv;
+        let (u, rate, change) = (n * w, n * wd, n * wdd);
 
         let whole = u.clamped(R::ZERO, n).trunc_saturating();
         let (f, k) = (u - whole, whole.to_f64() as usize);
@@ -157,7 +163,11 @@ impl<R: Real, const V: usize, const N: usize> Reference<R, V> for TravelledPath<
             ff,
         ];
         let bend = [g, three * f - number(2.0), R::ONE - three * f, f];
-        let mut state = State::at([R::ZERO; V]);
+        let mut state = State {
+            q: self.gap.map(|g| g * (R::ONE - w)),
+            qd: self.gap.map(|g| -(g * wd)),
+            qdd: self.gap.map(|g| -(g * wdd)),
+        };
         for (i, ((value, slope), bend)) in value.into_iter().zip(slope).zip(bend).enumerate() {
             let point = self.control(k + i);
             let along = half * slope;

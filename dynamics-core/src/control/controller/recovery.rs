@@ -1,6 +1,6 @@
 //! The reaction of the controller to a fault, and the return after it: decision 3.
 
-use super::super::{Estimate, Fault, Mode, Reference, hold};
+use super::super::{Fault, Mode, Reference, hold};
 use super::{MeasurementAge, MotionController};
 use crate::scalar::Real;
 use crate::state::{State, all_finite};
@@ -84,24 +84,18 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
         }
     }
 
-    /// Ends a return onto the motion. Gives the tick at which the motion is left.
-    pub(in crate::control) fn leave_motion(&mut self) -> u32 {
+    /// Updates the reference of the joints by one that is not the trajectory's, whose clock stands still: a return onto it
+    /// begins in each of these ticks.
+    #[cold]
+    pub(super) fn replace_reference(&mut self, reference: &State<R, V, V>) {
         if self.resume.active() {
             self.clock = self.resume.cancel();
         }
-        self.clock
-    }
-
-    /// Begins another motion at its tick 0, from rest at the estimated position over the ticks of a return.
-    pub(in crate::control) fn begin_motion(&mut self) {
-        let Estimate { q, .. } = *self.observer.estimate();
-        let at_rest = Estimate {
-            q,
-            qd: [R::ZERO; V],
-        };
-        self.clock = 0;
-        self.supervisor.release();
-        self.resume.start(&at_rest, 0);
+        self.resume.start(self.observer.estimate(), self.clock);
+        self.standing = false;
+        self.reference.q = reference.q;
+        self.reference.qd = reference.qd;
+        self.reference.qdd = reference.qdd;
     }
 
     /// The rate at which the speed of a held arm decays, 1/s.

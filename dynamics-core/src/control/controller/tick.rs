@@ -104,6 +104,17 @@ impl<'a, R: Real, const V: usize, A: MeasurementAge> ObservedTick<'a, R, V, A> {
             controller: self.controller,
         }
     }
+
+    /// The second step with a reference that is not the trajectory's: the clock of the trajectory stands still.
+    pub(in crate::control) fn replace(
+        self,
+        reference: &State<R, V, V>,
+    ) -> ReferencedTick<'a, R, V, A> {
+        self.controller.replace_reference(reference);
+        ReferencedTick {
+            controller: self.controller,
+        }
+    }
 }
 
 impl<R: Real, const V: usize, A: MeasurementAge> ReferencedTick<'_, R, V, A> {

@@ -71,6 +71,8 @@ pub(super) struct Stopping<R, const V: usize> {
     reason: Option<Fault>,
     /// Ticks of the controlled part that are left.
     ticks: u32,
+    /// Another stop was required during this one.
+    again: bool,
 }
 
 impl<R: Real, const V: usize> Stopping<R, V> {
@@ -81,6 +83,7 @@ impl<R: Real, const V: usize> Stopping<R, V> {
             damping: [R::ZERO; V],
             reason: None,
             ticks: 0,
+            again: false,
         }
     }
 
@@ -188,6 +191,8 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
                 self.fault = Some(fault);
                 self.ramp = 0;
             }
+        } else {
+            self.stopping.again = true;
         }
     }
 
@@ -245,6 +250,11 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
             & matches!(self.mode, Mode::Hold)
     }
 
+    /// Whether more than one controlled stop has been required since the last reset: one of them may be an operator's.
+    pub(in crate::control) fn stopped_again(&self) -> bool {
+        self.stopping.again
+    }
+
     /// Whether every joint is slower than a hundredth of its limit, or as slow as 1 mrad/s.
     pub(in crate::control) fn at_rest(&self, qd: &[R; V]) -> bool {
         let slow =
@@ -261,6 +271,7 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
 
     pub(super) fn clear_stop(&mut self) {
         self.stopping.reason = None;
+        self.stopping.again = false;
         self.stopping.active = self.stopping.configured;
     }
 

@@ -23,7 +23,8 @@ fn travelled<const N: usize>() -> TravelledPath<f64, 2, N> {
     for k in 0..FINE {
         path.record(&along(1.5 * f64::from(k) / f64::from(FINE)));
     }
-    assert!(path.plan(TICK, &SLOW));
+    let from = path.point(0);
+    assert!(path.plan(&from, TICK, &SLOW));
     path
 }
 
@@ -76,7 +77,8 @@ fn the_retraction_is_as_fast_as_its_limits_allow_and_no_faster() {
             velocity,
             acceleration,
         };
-        assert!(path.plan(TICK, &limits));
+        let from = path.point(0);
+        assert!(path.plan(&from, TICK, &limits));
         let [speed, change] = peaks(&path);
         assert!(
             speed <= velocity && change <= acceleration,
@@ -88,8 +90,37 @@ fn the_retraction_is_as_fast_as_its_limits_allow_and_no_faster() {
 }
 
 #[test]
+fn the_retraction_begins_where_the_arm_is_and_its_gap_to_the_path_is_within_the_limits_too() {
+    let mut path = travelled::<16>();
+    let end = path.at(path.ticks()).q;
+    let [x, y] = path.point(0);
+    let ahead = path.ticks();
+    // Beyond the path's newest point, before it, and beside it.
+    for gap in [[-0.03, -0.01], [0.03, 0.01], [0.05, 0.1], [0.2, -0.2]] {
+        let from = [x + gap[0], y + gap[1]];
+        assert!(path.plan(&from, TICK, &SLOW));
+        let first = path.at(0);
+        assert!(most((0..2).map(|j| first.q[j] - from[j])) < 1e-15);
+        assert_eq!((first.qd, first.qdd), ([0.0; 2], [0.0; 2]));
+        let last = path.at(path.ticks());
+        assert!(most((0..2).map(|j| last.q[j] - end[j])) < 1e-9);
+        let [speed, change] = peaks(&path);
+        assert!(speed <= SLOW.velocity && change <= SLOW.acceleration);
+        // In the time of a retraction without a gap it would not be.
+        if gap == [0.2, -0.2] {
+            path.ticks = ahead;
+            path.ticks_inv = 1.0 / f64::from(ahead);
+            path.seconds_inv = path.ticks_inv / TICK;
+            assert!(peaks(&path)[1] > SLOW.acceleration);
+        }
+    }
+}
+
+#[test]
 fn positions_velocities_and_accelerations_agree() {
-    let path = travelled::<16>();
+    let mut path = travelled::<16>();
+    let [x, y] = path.point(0);
+    assert!(path.plan(&[x - 0.02, y + 0.01], TICK, &SLOW));
     for tick in 1..path.ticks() {
         let [a, b, c] = [tick - 1, tick, tick + 1].map(|tick| path.at(tick));
         for j in 0..2 {
@@ -118,6 +149,7 @@ fn the_retraction_in_f32_is_that_in_f64() {
     }
     single.distance = DISTANCE as f32;
     assert!(single.plan(
+        &single.point(0),
         1e-3,
         &MotionLimits {
             velocity: 0.5,
@@ -137,13 +169,14 @@ fn the_retraction_in_f32_is_that_in_f64() {
 #[test]
 fn without_a_path_there_is_no_retraction() {
     let mut path: TravelledPath<f64, 2, 16> = TravelledPath::new(DISTANCE);
-    assert!(!path.plan(TICK, &SLOW));
+    let from = [1.0, 2.0];
+    assert!(!path.plan(&from, TICK, &SLOW));
     path.record(&[1.0, 2.0]);
     path.record(&[1.0, f64::NAN]);
-    assert!(!path.plan(TICK, &SLOW));
+    assert!(!path.plan(&from, TICK, &SLOW));
     assert!(most((0..2).map(|j| path.at(5).q[j] - [1.0, 2.0][j])) < 1e-12);
     path.record(&[1.1, 2.0]);
-    assert!(path.plan(TICK, &SLOW));
+    assert!(path.plan(&from, TICK, &SLOW));
     path.clear();
-    assert!(!path.plan(TICK, &SLOW));
+    assert!(!path.plan(&from, TICK, &SLOW));
 }

@@ -1,0 +1,104 @@
+//! Claims about the limits of a retraction, the path that it follows, and the clock of the motion that it interrupts.
+
+use super::*;
+
+#[test]
+fn the_references_of_a_retraction_are_within_its_limits_whatever_the_ticks_of_a_return() {
+    let response = ContactResponse::Retract {
+        distance: 0.1,
+        limits: SLOW,
+    };
+    for (reentry_ticks, contact) in [(10, 400), (10, 500), (10, 503), (400, 500)] {
+        let mut joint = Joint::with_ticks(response, 30, reentry_ticks);
+        joint.run(contact, Ok(None));
+        let mut path = Vec::new();
+        joint.run(1, CONTACT);
+        while joint.reaction.phase() == ContactPhase::Retracting {
+            path.push(joint.controller.reference().q[0]);
+            joint.run(1, Ok(None));
+        }
+        // It begins from rest where the arm is.
+        path.insert(0, path[0]);
+        let peak = |changes: &[f64]| changes.iter().fold(0.0, |most, x| f64::max(most, x.abs()));
+        let rates =
+            |of: &[f64]| -> Vec<f64> { of.windows(2).map(|w| (w[1] - w[0]) / TICK).collect() };
+        let speeds = rates(&path);
+        let (speed, acceleration) = (peak(&speeds), peak(&rates(&speeds)));
+        let limits = (speed / SLOW.velocity, acceleration / SLOW.acceleration);
+        assert!(
+            limits.0 <= 1.0 && limits.1 <= 1.0,
+            "{reentry_ticks}: {limits:?}"
+        );
+        assert!(limits.0.max(limits.1) > 0.6, "{limits:?}");
+        let went = path[0] - path[path.len() - 1];
+        assert!((0.095..0.11).contains(&went), "{went}");
+    }
+}
+
+#[test]
+fn an_arm_does_not_go_back_to_where_it_was_stopped_nor_to_where_it_never_was() {
+    let mut joint = Joint::new(config().response);
+    joint.controller = joint.controller.on_brake();
+    // Before a measurement, and then moved by a hand.
+    joint.run(10, Err(Fault::Stale));
+    joint.q = 0.5;
+    for _ in 0..400 {
+        joint.controller.stop(Fault::External);
+        let q = joint.q - 1e-3;
+        joint.run(1, Ok(None));
+        joint.q = q;
+    }
+    joint.run(5, Ok(None));
+    assert!((joint.q - 0.1).abs() < 1e-9, "{}", joint.q);
+    assert_eq!(joint.controller.reset(&joint.motion), Ok(()));
+    joint.run(5, Ok(None));
+    joint.run(2, CONTACT);
+    assert_eq!(joint.reaction.phase(), ContactPhase::Held);
+}
+
+#[test]
+fn the_clock_of_the_motion_stands_still_while_the_arm_retracts_or_floats() {
+    for response in [config().response, FLOAT] {
+        let mut joint = Joint::new(response);
+        joint.run(500, Ok(None));
+        let left = joint.controller.trajectory_tick();
+        for tick in 0..100 {
+            joint.run(1, CONTACT);
+            assert_eq!(joint.controller.trajectory_tick(), left, "{tick}");
+            // The motion is no reference in ticks that were missed.
+            let before = *joint.controller.reference();
+            joint.controller.missed(1, &joint.motion);
+            assert_eq!(joint.controller.trajectory_tick(), left);
+            assert_eq!(*joint.controller.reference(), before);
+            assert_ne!(joint.reaction.phase(), ContactPhase::Watching);
+        }
+    }
+}
+
+#[test]
+fn pushes_do_not_move_the_clock_of_the_motion() {
+    for response in [config().response, FLOAT] {
+        let mut joint = Joint::new(response);
+        joint.run(500, Ok(None));
+        let left = joint.controller.trajectory_tick();
+        for _ in 0..5 {
+            joint.run(1, CONTACT);
+            joint.run(1500, Ok(None));
+            assert_eq!(joint.reaction.phase(), ContactPhase::Held);
+            assert_eq!(joint.controller.trajectory_tick(), left, "{response:?}");
+        }
+        // Nor does a fault that ends the reaction.
+        let mut joint = Joint::new(response);
+        joint.run(500, Ok(None));
+        joint.run(1, CONTACT);
+        joint.run(10, Err(Fault::Stale));
+        assert_eq!(joint.reaction.phase(), ContactPhase::Held);
+        assert_eq!(joint.controller.trajectory_tick(), left, "{response:?}");
+    }
+    // A stop leads its motion by 1/λ.
+    let mut joint = Joint::new(ContactResponse::Stop);
+    joint.run(500, Ok(None));
+    let left = joint.controller.trajectory_tick();
+    joint.run(100, CONTACT);
+    assert_eq!(joint.controller.trajectory_tick(), left + 40);
+}

@@ -176,7 +176,7 @@ impl<R: Real, const P: usize, const V: usize> ParameterEstimator<R, P, V> {
         *level += (innovation - *level) * R::from_f64(RATE);
         let consistent = *level <= most * R::from_f64(0.16);
         self.others = match self.frozen {
-            Some(by) if (by != joint) & consistent => self.others.wrapping_add(u32::from(within)),
+            Some(_) if consistent => self.others.wrapping_add(u32::from(within)),
             _ => 0,
         };
         self.frozen = match self.frozen {

@@ -69,7 +69,7 @@ fn all_base_parameters_by_selection_give_the_torques_of_all_parameters_at_any_st
     assert!(part > 1e-3, "{part:.1e}");
 }
 
-/// The smallest deviation of the prior is 6.6 · 10⁻⁷ kg·m², of a product of inertia of the jaw.
+/// The smallest deviation of the prior is 4.3 · 10⁻⁷ kg·m², of a product of inertia of the jaw.
 #[test]
 fn all_64_base_parameters_are_estimated_in_f32_and_give_the_torques_of_another_path() {
     let mut learner = Learner::new(1, FORGETTING, LIMIT);

@@ -34,6 +34,9 @@ use crate::scalar::Real;
 /// The numbers up to which no product overflows in f32.
 const LARGEST: f64 = 1e18;
 
+/// The rows of other joints that end a freeze: of five joints three time constants of their mean squares.
+const OTHERS: u32 = 1024;
+
 /// The share of a row in the mean square of the innovations of its joint.
 const RATE: f64 = 1.0 / 64.0;
 
@@ -48,11 +51,13 @@ const RATE: f64 = 1.0 / 64.0;
 ///
 /// # Faults
 /// The innovation of a row is what the estimate does not explain, divided by the standard deviation that noise and estimate imply. A
-/// row beyond `limit` is rejected. If the innovations of a joint are more than `limit`/2 in the mean square of some 64 of its
-/// rows, the estimate is frozen until they are less than 0.4 `limit`.
+/// row beyond `limit` is rejected. If the root mean square of a joint's innovations over some 64 rows exceeds `limit`/2, the
+/// estimate is frozen until it is at most 0.4 `limit`. A joint that then rests has no rows: the freeze also ends after 1,024
+/// rows of other joints within `limit`, without a row of that joint or of one above 0.4 `limit` between them. The mean square of the joint
+/// that rests is kept, so that the estimate freezes again at its next row if it still exceeds `limit`/2.
 ///
 /// # Cost
-/// 3 P² flops, P divisions and some 20 P more flops for the row of any joint: 2,300 for 24 parameters, and 3.2 kB. A rejected row
+/// 3 P² flops, P divisions and some 20 P more flops for the row of any joint: 2,300 for 24 parameters, and 2.7 kB. A rejected row
 /// takes a third.
 ///
 /// # Source
@@ -93,6 +98,8 @@ pub struct ParameterEstimator<R, const P: usize, const V: usize> {
     /// The mean square of the innovations of each joint.
     levels: [R; V],
     frozen: Option<usize>,
+    /// The consistent rows of other joints since the last row that was not.
+    others: u32,
     rejected: [u32; V],
 }
 
@@ -111,13 +118,14 @@ impl<R: Real, const P: usize, const V: usize> ParameterEstimator<R, P, V> {
             diagonal: [R::ZERO; P],
             levels: [R::ONE; V],
             frozen: None,
+            others: 0,
             rejected: [0; V],
         };
         new.reopen();
         Ok(new)
     }
 
-    /// Returns to the uncertainty of the prior with the estimate as it is: for an arm that has changed.
+    /// Returns to the uncertainty of the prior with the estimate as it is, and ends a freeze: for an arm that has changed.
     ///
     /// ```
     /// use dynamics_core::control::{ParameterEstimator, ParameterEstimatorConfig};
@@ -137,7 +145,9 @@ impl<R: Real, const P: usize, const V: usize> ParameterEstimator<R, P, V> {
 
     /// Adds a row: the torque of this joint per unit of each parameter, and its measured less its nominal torque, N·m or N.
     ///
-    /// A row of a joint that the robot does not have is left out.
+    /// The nominal torque is at all times that of the nominal model from which the estimate deviates, also if the arm is controlled
+    /// by learned parameters: a residual against these would lack the deviation that the estimate already has. A row of a joint
+    /// that the robot does not have is left out.
     ///
     /// # Errors
     /// [`RejectedRow`] names the reason and the joint; the estimate is then unchanged.
@@ -164,10 +174,15 @@ impl<R: Real, const P: usize, const V: usize> ParameterEstimator<R, P, V> {
         let within = usable & (square <= most * size);
         let innovation = if within { square / size } else { most };
         *level += (innovation - *level) * R::from_f64(RATE);
-        let inconsistent = *level > most * R::from_f64(0.25);
+        let consistent = *level <= most * R::from_f64(0.16);
+        self.others = match self.frozen {
+            Some(_) if consistent => self.others.wrapping_add(u32::from(within)),
+            _ => 0,
+        };
         self.frozen = match self.frozen {
-            Some(by) if by != joint || *level > most * R::from_f64(0.16) => Some(by),
-            _ => inconsistent.then_some(joint),
+            Some(by) if consistent & ((by == joint) | (self.others >= OTHERS)) => None,
+            None if *level > most * R::from_f64(0.25) => Some(joint),
+            same => same,
         };
         if within & self.frozen.is_none() {
             let forgotten = self.config.forgetting * size;
@@ -182,7 +197,7 @@ impl<R: Real, const P: usize, const V: usize> ParameterEstimator<R, P, V> {
         }
         *count = count.saturating_add(1);
         Err(match self.frozen {
-            _ if !usable => reason(joint, y, residual),
+            _ if !usable => RejectedRow::of_numbers(joint, y, residual),
             Some(by) => RejectedRow::Frozen { joint: by },
             None => RejectedRow::Outlier { joint },
         })
@@ -232,7 +247,7 @@ impl<R: Real, const P: usize, const V: usize> ParameterEstimator<R, P, V> {
         })
     }
 
-    /// The joint whose innovations have frozen the estimate, and none of a good estimator.
+    /// The joint whose innovations have frozen the estimate; `None` while rows are accepted.
     #[must_use]
     pub fn frozen(&self) -> Option<usize> {
         self.frozen
@@ -272,15 +287,4 @@ fn dot_above<R: Real, const P: usize>(a: &[R; P], b: &[R; P], n: usize) -> R {
     }
     let rest = a_rest.iter().zip(b_rest);
     rest.fold(sum, |sum, (a, b)| sum + *a * *b)
-}
-
-/// Why the numbers of a row are rejected.
-#[cold]
-#[inline(never)]
-fn reason<R: Real>(joint: usize, y: &[R], residual: R) -> RejectedRow {
-    if residual.is_finite() && y.iter().all(|y| y.is_finite()) {
-        RejectedRow::TooLarge { joint }
-    } else {
-        RejectedRow::NotFinite { joint }
-    }
 }

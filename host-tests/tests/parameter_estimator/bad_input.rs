@@ -138,12 +138,67 @@ fn a_row_that_is_refused_has_its_reason_and_changes_neither_estimate_nor_deviati
     assert!(!same(&learner.estimator));
 }
 
+/// Rows of good torques, but for those of joint 2.
+fn others(learner: &Learner) -> impl Iterator<Item = (usize, [f32; P], f32)> {
+    let rows = minute(1)
+        .iter()
+        .filter(|(k, row)| *k >= LEARNED && row.joint != 2);
+    rows.map(|(_, row)| {
+        let (y, residual) = learner.row(row);
+        (row.joint, y, residual)
+    })
+}
+
+#[test]
+fn a_freeze_by_a_joint_that_then_rests_ends_after_1024_good_rows_of_others_and_its_next_row_renews_it()
+ {
+    let mut learner = learned(1, FORGETTING);
+    let frozen = Err(RejectedRow::Frozen { joint: 2 });
+    let hit = |learner: &mut Learner| {
+        for _ in 0..100 {
+            let _ = learner.estimator.update(2, &[0.0; P], 100.0);
+        }
+        assert_eq!(learner.estimator.frozen(), Some(2));
+    };
+    hit(&mut learner);
+    let rows: Vec<_> = others(&learner).collect();
+    let until = |learner: &mut Learner, change: fn(usize, f32) -> f32| {
+        let mut updates = rows.iter().map(|(joint, y, residual)| {
+            learner
+                .estimator
+                .update(*joint, y, change(*joint, *residual))
+        });
+        updates.position(|update| update.is_ok())
+    };
+    // The row that ends the freeze is the first one that is added; a few are beyond the limit, and not counted.
+    let count = until(&mut learner, |_, residual| residual).expect("an end");
+    assert!((1023..1040).contains(&count), "{count}");
+    let (joint, y, residual) = rows[0];
+    assert_eq!(learner.estimator.frozen(), None);
+    assert_eq!(learner.estimator.update(2, &[0.0; P], 0.0), frozen);
+    assert_eq!(learner.estimator.update(joint, &y, residual), frozen);
+    let own = (0..200).position(|_| learner.estimator.update(2, &[0.0; P], 0.0).is_ok());
+    assert!(own.is_some_and(|own| own > 64), "{own:?}");
+    assert_eq!(learner.estimator.update(joint, &y, residual), Ok(()));
+    // Neither while another joint contradicts the estimate too, nor while the joint itself has rows.
+    hit(&mut learner);
+    let other = |joint, residual: f32| if joint == 3 { residual + 1.0 } else { residual };
+    assert_eq!(until(&mut learner, other), None);
+    hit(&mut learner);
+    for (k, (joint, y, residual)) in rows.iter().enumerate() {
+        if k % 1000 == 0 {
+            assert_eq!(learner.estimator.update(2, &[0.0; P], 100.0).ok(), None);
+        }
+        assert_eq!(learner.estimator.update(*joint, y, *residual).ok(), None);
+    }
+}
+
 #[test]
 fn a_configuration_beyond_its_range_and_an_impossible_nominal_arm_are_refused() {
     let good = config(&Learner::new(1, 0.0, 5.0).base, 0.0, 5.0);
     let refused = |config| ParameterEstimator::<f32, P, 6>::try_new(config).err();
     let named = |parameter| Some(ConfigError::OutOfRange { parameter });
-    for bad in [0.0, -1.0, f32::NAN, f32::INFINITY, 1e-10] {
+    for bad in [0.0, -1.0, f32::NAN, f32::INFINITY, 9e-13, 1e7] {
         let (mut noisy, mut prior) = (good, good);
         (noisy.noise[5], prior.prior[P - 1]) = (bad, bad);
         assert_eq!(refused(noisy), named(ConfigParameter::TorqueNoise));
@@ -171,6 +226,15 @@ fn a_configuration_beyond_its_range_and_an_impossible_nominal_arm_are_refused() 
     assert_eq!(refused(|all| all[20] = -all[20]), body(2));
     assert_eq!(refused(|all| all[59] += 2.0 * (all[54] + all[56])), body(5));
     assert_eq!(refused(|all| all[30] = f64::NAN), body(3));
+    let infinite =
+        |all: &mut [f64; N]| all[30..34].copy_from_slice(&[f64::INFINITY, 0.0, 0.0, 0.0]);
+    assert_eq!(refused(infinite), body(3));
+    for place in [10, 11, 14, 15, 19] {
+        let mut all = nominal(1);
+        all[place] = f64::INFINITY;
+        let error = PhysicalParameters::<f64, 6, N>::try_new(all).err();
+        assert_eq!(error, body(1), "{place}");
+    }
     let joint = Some(ImpossibleParameters::Joint { parameter: 1 });
     assert_eq!(refused(|all| all[61] = -0.1), joint);
 }

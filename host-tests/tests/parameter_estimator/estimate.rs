@@ -1,6 +1,6 @@
 //! The torques that the estimate gives elsewhere, and the selection of its parameters.
 
-use dynamics_core::control::SelectedParameters;
+use dynamics_core::control::{ParameterEstimator, ParameterEstimatorConfig, SelectedParameters};
 use dynamics_core::state::State;
 
 use crate::arm::*;
@@ -67,6 +67,44 @@ fn all_base_parameters_by_selection_give_the_torques_of_all_parameters_at_any_st
     }
     assert!(worst < 2e-12, "{worst:.1e}");
     assert!(part > 1e-3, "{part:.1e}");
+}
+
+/// The smallest deviation of the prior is 4.3 · 10⁻⁷ kg·m², of a product of inertia of the jaw.
+#[test]
+fn all_64_base_parameters_are_estimated_in_f32_and_give_the_torques_of_another_path() {
+    let mut learner = Learner::new(1, FORGETTING, LIMIT);
+    let base = base_of::<f32, RANK>(&learner.nominal).expect("all of them");
+    assert!(base.prior.iter().any(|prior| *prior < 1e-6));
+    let mut all: Box<ParameterEstimator<f32, RANK, 6>> = Box::new(
+        ParameterEstimator::try_new(ParameterEstimatorConfig {
+            noise: STATED.map(|x| x as f32),
+            prior: base.prior,
+            forgetting: FORGETTING,
+            limit: LIMIT,
+        })
+        .expect("a good one"),
+    );
+    for (_, row) in minute(1).iter().filter(|(k, _)| *k < LEARNED) {
+        // The load of the gears by the estimate of 24.
+        let (_, residual) = learner.row(row);
+        let load = row.tau - residual;
+        let _ = learner.add(row);
+        let loaded = row.loaded(f64::from(load));
+        let y = base.row(row.joint, &loaded.bodies, &loaded.own);
+        let _ = all.update(row.joint, &y, residual);
+    }
+    let change = base.change(all.estimate());
+    let found = core::array::from_fn(|k| learner.nominal[k] + f64::from(change[k]));
+    let error = validation(&found);
+    assert!(error.0 < 0.05, "{error:?}");
+    let deviations = all.deviations();
+    let mut pairs = deviations.iter().zip(&base.prior);
+    assert!(pairs.all(|(now, prior)| *now > 0.0 && now <= prior));
+}
+
+#[test]
+fn an_estimator_of_24_parameters_of_six_joints_has_2_7_kilobytes() {
+    assert_eq!(size_of::<ParameterEstimator<f32, 24, 6>>(), 2720);
 }
 
 /// The torque of all parameters less that of the base parameters, for a change of these.

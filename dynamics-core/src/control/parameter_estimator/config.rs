@@ -21,16 +21,18 @@ pub struct ParameterEstimatorConfig<R, const P: usize, const V: usize> {
 }
 
 impl<R: Real, const P: usize, const V: usize> ParameterEstimatorConfig<R, P, V> {
-    /// Checks that each standard deviation is between 10⁻⁶ and 10⁶, the forgetting at least 0 and less than 1, and the limit
-    /// between 3 and 1000.
+    /// Checks that each standard deviation of a torque is between 10⁻⁶ and 10⁶, of a parameter between 10⁻¹² and 10⁶, the forgetting
+    /// at least 0 and less than 1, and the limit between 3 and 1000.
     ///
     /// # Errors
     /// [`ConfigError::OutOfRange`] names the number.
     pub fn check(&self) -> Result<(), ConfigError> {
         let within = |x: R, least, most| (x >= R::from_f64(least)) & (x <= R::from_f64(most));
-        let usable = |x: &R| within(*x, 1e-6, 1e6);
-        ConfigParameter::TorqueNoise.require(self.noise.iter().all(usable))?;
-        ConfigParameter::PriorDeviation.require(self.prior.iter().all(usable))?;
+        let noise = |x: &R| within(*x, 1e-6, 1e6);
+        ConfigParameter::TorqueNoise.require(self.noise.iter().all(noise))?;
+        // The square is far from the least normal f32. Products of inertia of small bodies are below 10⁻⁶ kg·m².
+        let prior = |x: &R| within(*x, 1e-12, 1e6);
+        ConfigParameter::PriorDeviation.require(self.prior.iter().all(prior))?;
         let share = (self.forgetting >= R::ZERO) & (self.forgetting < R::ONE);
         ConfigParameter::Forgetting.require(share)?;
         ConfigParameter::InnovationLimit.require(within(self.limit, 3.0, 1e3))
@@ -63,11 +65,24 @@ pub enum RejectedRow {
         /// The joint.
         joint: usize,
     },
-    /// The torques of a joint do not agree with the estimate, which is frozen until they do.
+    /// The torques of a joint do not agree with the estimate, which is frozen until they do, or until that joint rests for long.
     Frozen {
         /// That joint, which need not be that of the row.
         joint: usize,
     },
+}
+
+impl RejectedRow {
+    /// Why the numbers of a row are rejected.
+    #[cold]
+    #[inline(never)]
+    pub(super) fn of_numbers<R: Real>(joint: usize, y: &[R], residual: R) -> Self {
+        if residual.is_finite() && y.iter().all(|y| y.is_finite()) {
+            Self::TooLarge { joint }
+        } else {
+            Self::NotFinite { joint }
+        }
+    }
 }
 
 impl fmt::Display for RejectedRow {

@@ -24,13 +24,13 @@ const STEPS: usize = 10;
 /// let point = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
 /// let error = PhysicalParameters::<f64, 1, 10>::try_new(point).expect_err("a point mass has no extent");
 /// assert_eq!(error, ImpossibleParameters::Body { body: 0 });
-/// assert_eq!(error.to_string(), "body 0: its pseudo-inertia is not positive definite");
+/// assert_eq!(error.to_string(), "body 0: its pseudo-inertia is not finite and positive definite");
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum ImpossibleParameters {
-    /// The pseudo-inertia of a body is not positive definite.
+    /// The pseudo-inertia of a body is not finite and positive definite, nor zero.
     Body {
         /// The body.
         body: usize,
@@ -47,7 +47,7 @@ impl fmt::Display for ImpossibleParameters {
         match self {
             Self::Body { body } => write!(
                 out,
-                "body {body}: its pseudo-inertia is not positive definite"
+                "body {body}: its pseudo-inertia is not finite and positive definite"
             ),
             Self::Joint { parameter } => write!(
                 out,
@@ -63,7 +63,7 @@ impl core::error::Error for ImpossibleParameters {}
 ///
 /// The first 10 B are those of the bodies, in the order of
 /// [`SpatialInertia::parameters`](crate::spatial::SpatialInertia::parameters); the others, frictions and armatures, are at least
-/// zero.
+/// zero. A body whose ten nominal parameters are all zero, such as the frame of a tool, stays so; a point mass is impossible.
 ///
 /// ```
 /// use dynamics_core::algorithms::inertial_parameters;
@@ -96,7 +96,7 @@ impl<R: Real, const B: usize, const N: usize> PhysicalParameters<R, B, N> {
             nominal,
             stored: nominal,
         };
-        let body = bodies::<R, B>(&nominal).position(|body| !is_positive(pseudo_inertia(body)));
+        let body = bodies::<R, B>(&nominal).position(|body| !is_body(body, body));
         if let Some(body) = body {
             return Err(ImpossibleParameters::Body { body });
         }
@@ -115,6 +115,9 @@ impl<R: Real, const B: usize, const N: usize> PhysicalParameters<R, B, N> {
 
     /// Moves the stored set to the nominal parameters with the smallest change that gives the estimate, as [`Self::follow`].
     /// Outside the tick.
+    ///
+    /// The estimate of zero with which an estimator starts gives the nominal parameters: a set that was read from a record is kept
+    /// until the [`deviations`](super::ParameterEstimator::deviations) are small again.
     pub fn update<const P: usize>(
         &mut self,
         base: &SelectedParameters<R, P, N>,
@@ -155,15 +158,16 @@ impl<R: Real, const B: usize, const N: usize> PhysicalParameters<R, B, N> {
         share
     }
 
-    /// Whether each pseudo-inertia less its margin is positive definite, and each parameter of a joint at least its margin. A NaN
-    /// is not possible.
+    /// Whether each pseudo-inertia less its margin is positive definite, or zero as the nominal one, and each parameter of a joint
+    /// at least its margin. A NaN is not possible.
     pub(super) fn is_possible(&self, tried: &[R; N]) -> bool {
         let margin = R::from_f64(MARGIN);
         let less: [R; N] = core::array::from_fn(|i| {
             crate::math::entry(tried, i) - margin * crate::math::entry(&self.nominal, i)
         });
         let finite = crate::state::all_finite(&less);
-        let bodies = bodies::<R, B>(&less).all(|body| is_positive(pseudo_inertia(body)));
+        let mut pairs = bodies::<R, B>(&less).zip(bodies::<R, B>(&self.nominal));
+        let bodies = pairs.all(|(body, nominal)| is_body(body, nominal));
         finite && bodies && less.iter().skip(10 * B).all(|x| *x >= R::ZERO)
     }
 }
@@ -185,11 +189,20 @@ pub(super) fn pseudo_inertia<R: Real>(body: &[R; 10]) -> [[R; 4]; 4] {
     ]
 }
 
-/// Whether all pivots of the elimination are positive, from the mass upwards.
+/// Whether a body with this nominal one can have these parameters: one without mass and inertia remains so.
+fn is_body<R: Real>(body: &[R; 10], nominal: &[R; 10]) -> bool {
+    if nominal.iter().all(|x| *x == R::ZERO) {
+        body == nominal
+    } else {
+        is_positive(pseudo_inertia(body))
+    }
+}
+
+/// Whether all pivots of the elimination are positive and finite, from the mass upwards.
 fn is_positive<R: Real>(mut a: [[R; 4]; 4]) -> bool {
     for k in (0..4).rev() {
         let pivot = a[k];
-        let positive = pivot[k] > R::ZERO;
+        let positive = (pivot[k] > R::ZERO) & pivot[k].is_finite();
         if !positive {
             return false;
         }

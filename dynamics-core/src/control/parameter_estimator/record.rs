@@ -6,7 +6,8 @@
 //! version | N | check sum of the nominal parameters | quality | N parameters | check sum of all words before
 //! ```
 //!
-//! The check sum is the CRC-32 of IEEE 802.3, of the bytes in their order.
+//! The check sum is the CRC-32 of IEEE 802.3, of the bytes in their order. The first two words and the place of the last one are the
+//! same in all versions, so that a whole record of another version or another robot is distinguished from a damaged one.
 
 use core::fmt;
 
@@ -63,7 +64,8 @@ impl<const B: usize, const N: usize> PhysicalParameters<f32, B, N> {
     /// Writes the stored set to `memory`, with a number for its quality, such as the largest
     /// [`consistency`](super::ParameterEstimator::consistency); returns the bytes of the record. Not for the tick.
     ///
-    /// Two places in turn, of which the one with the wrong check sum is written, survive a loss of power during a write.
+    /// Of two places, the one without a record is written, and then the other one is erased: whenever the power is lost, one of
+    /// them has a whole record.
     ///
     /// ```
     /// use dynamics_core::control::{PhysicalParameters, RecordError};
@@ -115,8 +117,13 @@ impl<const B: usize, const N: usize> PhysicalParameters<f32, B, N> {
         }
         let (places, _) = memory.as_chunks();
         let mut words = places.iter().map(|place| u32::from_le_bytes(*place));
-        let sum = crc(words.clone().take(N + WORDS - 1));
-        if words.clone().nth(N + WORDS - 1) != Some(sum) {
+        let numbers = words.clone().nth(1).unwrap_or(0) as usize;
+        let before = numbers.saturating_add(WORDS - 1);
+        let mut sum = words.clone().skip(before);
+        if sum
+            .next()
+            .is_none_or(|sum| sum != crc(words.clone().take(before)))
+        {
             return Err(RecordError::CheckSum);
         }
         let [version, numbers, nominal, quality] =
@@ -202,6 +209,25 @@ mod tests {
         assert_eq!(*fresh.parameters(), NOMINAL);
     }
 
+    /// Records in a memory that is larger.
+    #[test]
+    fn the_whole_record_of_a_robot_of_another_size_is_of_another_model_and_that_of_another_layout_has_its_version()
+     {
+        type Two = PhysicalParameters<f32, 1, 12>;
+        let all = core::array::from_fn(|i| NOMINAL.get(i).copied().unwrap_or(0.1));
+        let two = Two::try_new(all).expect("a possible body");
+        let mut memory = [0xff; 100];
+        assert_eq!(two.write(1.0, &mut memory), Ok(Two::RECORD_BYTES));
+        assert_eq!(arm().read(&memory), Err(RecordError::OtherModel));
+        memory[..Arm::RECORD_BYTES].copy_from_slice(&record());
+        let mut larger = two;
+        assert_eq!(larger.read(&memory), Err(RecordError::OtherModel));
+        memory[..Arm::RECORD_BYTES].copy_from_slice(&with_word(0, 2));
+        let version = RecordError::Version { found: 2 };
+        assert_eq!(larger.read(&memory), Err(version));
+        assert_eq!(larger, two);
+    }
+
     #[test]
     fn records_of_other_layouts_robots_and_sizes_leave_the_nominal_model() {
         let mut arm = arm();
@@ -212,7 +238,7 @@ mod tests {
         assert_eq!(arm.read(&[0xff; 100]), Err(RecordError::CheckSum)); // erased
         let version = RecordError::Version { found: 2 };
         assert_eq!(arm.read(&with_word(0, 2)), Err(version));
-        assert_eq!(arm.read(&with_word(1, 12)), Err(RecordError::OtherModel));
+        assert_eq!(arm.read(&with_word(1, 12)), Err(RecordError::CheckSum)); // not whole
         assert_eq!(arm.read(&with_word(2, 7)), Err(RecordError::OtherModel));
         for word in [-2.0, f32::NAN].map(f32::to_bits) {
             assert_eq!(arm.read(&with_word(4, word)), Err(RecordError::Impossible));

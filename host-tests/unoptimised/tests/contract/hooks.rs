@@ -4,7 +4,7 @@ use super::*;
 use dynamics_core::algorithms::{kinematics, kinetic_energy, momentum, potential_energy};
 use dynamics_core::delegate_effect;
 use dynamics_core::effects::{
-    BodyState, Effect, Implicit, JointState, LoadFactors, TorqueDerivatives, hook,
+    BodyState, Effect, Implicit, JointState, LoadFactors, RegroupedInertia, TorqueDerivatives, hook,
 };
 use dynamics_core::model::Static;
 use dynamics_core::scalar::{Matrix, Real, Vector};
@@ -26,6 +26,8 @@ const GYROSCOPIC_ROTORS: u32 = 256;
 const ALONG_X: u32 = 512;
 const ELASTICITY: u32 = 1024;
 const LOAD_DEPENDENT: u32 = 2048;
+/// Of another robot, so that no algorithm takes it.
+const BASE_PARAMETERS: u32 = 4096;
 
 /// Has every hook at joints, and of the others those whose bits are set.
 #[derive(Clone, Copy)]
@@ -100,6 +102,9 @@ impl<R: Real, const FLAGS: u32, const B: usize, const V: usize> Effect<R, B, V> 
         hook::LoadFriction::NONE
     };
 
+    const REGROUPED: hook::Regrouped<Self, R> =
+        hook::Regrouped::forwarded(has(FLAGS, BASE_PARAMETERS), 1, "another", regrouped);
+
     fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R) {
         *tau += of::<R>(2.0 + joint as f64) * at.q + of::<R>(0.3) * at.qd;
     }
@@ -119,6 +124,10 @@ fn field<R: Real, const FLAGS: u32>(_: &All<FLAGS>, g: &mut R::Vec3) {
     *g += vec3::<R>(1.0, -2.0, -9.0);
 }
 
+fn regrouped<R, const FLAGS: u32>(_: &All<FLAGS>, joint: usize, _: &mut RegroupedInertia<R>) {
+    LOADED.set(joint);
+}
+
 fn push<R: Real>(body: usize) -> R::Vec3 {
     vec3::<R>(1.5, body as f64, -0.5)
 }
@@ -126,6 +135,8 @@ fn push<R: Real>(body: usize) -> R::Vec3 {
 std::thread_local! {
     /// What `advance` was called with.
     static ADVANCED: Cell<f64> = const { Cell::new(0.0) };
+    /// The joint whose base parameters were loaded last.
+    static LOADED: Cell<usize> = const { Cell::new(0) };
 }
 
 fn of<R: Real>(x: f64) -> R {
@@ -301,6 +312,14 @@ fn observed<R: Real, E: Effect<R, 6, 3>>(scene: &E) -> Vec<f64> {
     for LoadFactors { magnitude, torque } in [factors, slopes] {
         numbers.extend([magnitude, torque]);
     }
+    LOADED.set(0);
+    scene.regrouped(1, &mut RegroupedInertia::default());
+    let loaded = [
+        E::BASE_PARAMETERS,
+        E::BASE_PARAMETERS_OF.len(),
+        LOADED.get(),
+    ];
+    numbers.extend(loaded.map(|x| of::<R>(x as f64)));
     numbers.extend([tau, derivatives.dq, derivatives.dqd, diagonal, coupling]);
     numbers.into_iter().map(R::to_f64).collect()
 }
@@ -312,7 +331,7 @@ fn advanced<E: Effect<f32, 6, 3>>(scene: &mut E) -> f64 {
     ADVANCED.get()
 }
 
-type Every = All<{ ENGINE | GYROSCOPIC_ROTORS | ELASTICITY }>;
+type Every = All<{ ENGINE | GYROSCOPIC_ROTORS | ELASTICITY | BASE_PARAMETERS }>;
 const EVERY: Every = All;
 
 /// A wrapper of a user's own.

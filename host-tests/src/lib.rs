@@ -5,6 +5,7 @@ pub mod export;
 pub mod fuzz;
 pub mod hard;
 pub mod measured;
+pub mod page;
 pub mod random;
 pub mod recordings;
 pub mod stress_robot;

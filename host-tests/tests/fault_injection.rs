@@ -1,6 +1,6 @@
 //! Every fault at random times in random combinations: limits of torque, rate, speed and energy hold, every fault has the
 //! reaction of the contract, the arm comes back, and the table of `docs/guide/src/faults.md` is what was observed.
-//! `FAULTS_WRITE=1` writes the table.
+//! `TABLES_WRITE=1` writes the table.
 
 use dynamics_core::control::{
     CurrentTick, Fault, Mode, MotionController, Reaction, StopCategory, Trajectory, WayPoint,
@@ -9,15 +9,18 @@ use firmware_demo::faults::{
     HOLD, Kind, Observed, Pendulum, Plant, RIDE, Setup, TICK, TICKS, Ur5eArm, Violation, at_speed,
     controller, one,
 };
+use host_tests::page::Table;
 
 /// Runs of the table, which every run of this test has.
 const TABLE: u32 = 400;
 /// Runs with the feature `full`.
 const FULL: u32 = 10_000;
 const RUNS: u32 = if cfg!(feature = "full") { FULL } else { TABLE };
-const PAGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/guide/src/faults.md");
-const BEGIN: &str = "<!-- faults:begin -->\n";
-const END: &str = "<!-- faults:end -->\n";
+const PAGE: Table = Table {
+    page: "faults.md",
+    name: "faults",
+    test: "host-tests/tests/fault_injection.rs",
+};
 
 /// What was observed in a run, or which limit did not hold and in which run.
 fn observed(seed: u32, setup: Setup) -> Result<Vec<Observed>, String> {
@@ -94,16 +97,7 @@ fn table(observed: &[Observed]) -> String {
     let head = "| fault | detected by | reported as | reaction | recovery | reported | latency, ticks | bridged | held | stopped |\n\
         |---|---|---|---|---|---:|---:|---:|---:|---:|\n";
     let rows: String = Kind::ALL.iter().map(|&kind| row(kind, observed)).collect();
-    format!(
-        "<!-- written by host-tests/tests/fault_injection.rs with FAULTS_WRITE=1: do not edit -->\n\n{head}{rows}\n"
-    )
-}
-
-/// What stands before the table of a page, the table, and what stands after it.
-fn parts(page: &str) -> [&str; 3] {
-    let (before, rest) = page.split_once(BEGIN).expect("the begin marker");
-    let (written, after) = rest.split_once(END).expect("the end marker");
-    [before, written, after]
+    format!("{head}{rows}")
 }
 
 #[test]
@@ -111,9 +105,11 @@ fn a_table_with_a_run_less_is_not_that_of_the_page() {
     let observed: Vec<Observed> = (0..20)
         .flat_map(|seed| observed(seed, Setup::SOUND).expect("good"))
         .collect();
-    let page = format!("before\n{BEGIN}{}{END}after\n", table(&observed));
-    assert_eq!(parts(&page), ["before\n", &*table(&observed), "after\n"]);
-    assert_ne!(parts(&page)[1], table(&observed[1..]));
+    let (begin, end) = ("before\n<!-- faults:begin -->\n", "<!-- faults:end -->\nafter\n");
+    let all = PAGE.text(&table(&observed));
+    let page = format!("{begin}{all}{end}");
+    assert_eq!(PAGE.parts(&page), [begin, &*all, end]);
+    assert_ne!(all, PAGE.text(&table(&observed[1..])));
 }
 
 #[test]
@@ -139,17 +135,8 @@ fn no_limit_is_exceeded_every_reaction_is_that_of_the_contract_and_every_arm_rec
         failures.is_empty(),
         "{count} failures in {RUNS} runs:\n{first}"
     );
-    let page = std::fs::read_to_string(PAGE).expect("the page of the guide");
-    let [before, written, after] = parts(&page);
-    let fresh = table(&of_table);
-    if std::env::var_os("FAULTS_WRITE").is_some() {
-        std::fs::write(PAGE, format!("{before}{BEGIN}{fresh}{END}{after}")).expect("written");
-    } else {
-        assert_eq!(
-            written, fresh,
-            "the table is not what was observed: FAULTS_WRITE=1 writes it"
-        );
-    }
+    PAGE.check(&table(&of_table));
+    let page = PAGE.read();
     let runs = format!("In {FULL} runs of {TICKS} ticks").replace("0000 runs", "0,000 runs");
     assert!(page.contains(&runs.replace("6000", "6,000")), "{runs}");
 }
@@ -208,7 +195,7 @@ fn without_the_watchdog_a_run_exceeds_a_rated_speed() {
         matches!(outcome, Err(Violation::Speed { .. })),
         "{outcome:?}"
     );
-    let page = std::fs::read_to_string(PAGE).expect("the page of the guide");
+    let page = PAGE.read();
     let text = format!("without it, run {RUN} exceeds a rated speed");
     assert!(page.replace('\n', " ").contains(&text), "{text}");
 }

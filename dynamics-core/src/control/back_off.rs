@@ -266,8 +266,8 @@ pub(super) fn path<R: Real, const V: usize>(
 ) -> Result<Trajectory<R, V, 2>, ApproachError> {
     // What rounding may add to a peak in f32; and a path of no distance takes a tick. A time that cannot be counted
     // becomes the greatest count.
-    let ticks = (seconds / tick * R::from_f64(1.0 + 1e-5)).to_f64();
-    let ticks = (ticks as u32).saturating_add(1);
+    let ticks = seconds / tick * R::from_f64(1.0 + 1e-5);
+    let ticks = ticks.to_u32().saturating_add(1);
     let stop = |q, ticks| WayPoint {
         q,
         qd: [R::ZERO; V],

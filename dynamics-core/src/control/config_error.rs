@@ -63,8 +63,10 @@ pub enum ConfigParameter {
     RestartDistance,
     /// The standard deviation of a torque.
     TorqueNoise,
-    /// The standard deviation of a parameter before the first measurement.
+    /// The standard deviation of a load's parameter before the first measurement.
     PriorDeviation,
+    /// The standard deviation of an arm's parameter before the first measurement.
+    ParameterDeviation,
     /// The share of the information that is forgotten.
     Forgetting,
     /// The greatest innovation of an estimator, in standard deviations.
@@ -129,6 +131,9 @@ impl fmt::Display for ConfigError {
             }
             ConfigParameter::PriorDeviation => {
                 "a standard deviation of the prior is not between 1e-6 and 1e6"
+            }
+            ConfigParameter::ParameterDeviation => {
+                "a standard deviation of the prior is not between 1e-12 and 1e6"
             }
             ConfigParameter::Forgetting => "the share to forget is not at least 0 and less than 1",
             ConfigParameter::InnovationLimit => {

@@ -106,7 +106,7 @@ impl<R: Real, const V: usize> ResumeTrajectory<R, V> {
             decay,
             half,
             // What is not a number of ticks becomes none or very many: the end of the trajectory.
-            lead: (R::ONE / (decay * tick)).to_f64() as u32,
+            lead: (R::ONE / (decay * tick)).to_u32(),
             ticks_inv,
             seconds_inv: ticks_inv / tick,
             rest: State::at([R::ZERO; V]),

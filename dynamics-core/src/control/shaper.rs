@@ -152,7 +152,7 @@ fn add<R: Real, const N: usize>(
     amplitude: R,
 ) -> Result<(), ()> {
     let whole = at.trunc_saturating();
-    let (later, ticks) = (at - whole, from.saturating_add(whole.to_f64() as u32));
+    let (later, ticks) = (at - whole, from.saturating_add(whole.to_u32()));
     let halves = [(ticks, R::ONE - later), (ticks.saturating_add(1), later)];
     for (ticks, share) in halves {
         let amplitude = amplitude * share;

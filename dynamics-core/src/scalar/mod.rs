@@ -94,6 +94,10 @@ pub trait Real:
     ///
     /// Cost: two conversions, which saturate; there is no comparison that waits for the FPU's flags.
     fn trunc_saturating(self) -> Self;
+    /// The whole number next to x towards zero, within 0 and 2³² − 1; a NaN becomes 0.
+    ///
+    /// Cost: one conversion, which saturates. By way of [`Real::to_f64`] it would be calls into software.
+    fn to_u32(self) -> u32;
     /// A model cast to this type.
     fn cast<const B: usize, const Q: usize, const V: usize>(
         model: &Model<f64, B, Q, V>,
@@ -171,6 +175,10 @@ macro_rules! real {
             #[inline(always)]
             fn trunc_saturating(self) -> Self {
                 (self as $whole) as $r
+            }
+            #[inline(always)]
+            fn to_u32(self) -> u32 {
+                self as u32
             }
             fn cast<const B: usize, const Q: usize, const V: usize>(
                 model: &Model<f64, B, Q, V>,

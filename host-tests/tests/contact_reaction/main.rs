@@ -1,4 +1,5 @@
 //! Claims about what an arm does after a contact: a UR5e that runs against an elastic wall, and one that a hand pushes.
+//! `TABLES_WRITE=1` writes the table of `docs/guide/src/contact.md`.
 
 mod bad_input;
 mod cell;
@@ -7,6 +8,7 @@ mod reactions;
 
 use cell::{Cell, MARGIN, Spoiled};
 use dynamics_core::control::{ContactResponse, MotionLimits};
+use host_tests::page::Table;
 use plant::{MOTIONS, Off, SPEED, STIFFNESSES, Setup};
 
 const SLOW: MotionLimits<f64> = MotionLimits {
@@ -20,6 +22,11 @@ const RETRACT: ContactResponse<f64> = ContactResponse::Retract {
 const FLOAT: ContactResponse<f64> = ContactResponse::Float {
     damping: 5.0,
     speed: 0.5,
+};
+const PAGE: Table = Table {
+    page: "contact.md",
+    name: "contact",
+    test: "host-tests/tests/contact_reaction",
 };
 const RESPONSES: [ContactResponse<f64>; 3] = [ContactResponse::Stop, RETRACT, FLOAT];
 
@@ -116,11 +123,27 @@ fn worst(stiffness: f64, loss: f64, response: Option<ContactResponse<f64>>) -> C
     worst
 }
 
+/// The worst runs of a stiffness and a response, as a row of the guide's table.
+fn row(stiffness: f64, response: Option<ContactResponse<f64>>, worst: &Crash) -> String {
+    let (name, found) = match response {
+        Some(ContactResponse::Stop) => ("`Stop`", format!("{} ms", worst.found)),
+        Some(ContactResponse::Retract { .. }) => ("`Retract`", format!("{} ms", worst.found)),
+        Some(ContactResponse::Float { .. }) => ("`Float`", format!("{} ms", worst.found)),
+        _ => ("none", String::new()),
+    };
+    let (stiffness, peak, later) = (1e-3 * stiffness, worst.peak, worst.later);
+    format!("| {stiffness:.0} N/mm | {name} | {found} | {peak:.2} | {later:.0} N |\n")
+}
+
 #[test]
 fn a_contact_peaks_below_1_2_times_that_of_a_free_mass_and_is_relieved_half_a_second_later() {
+    let mut table = String::from(
+        "| stiffness | response | contact found after | peak | force 0.5 s later |\n|---|---|---:|---:|---:|\n",
+    );
     for stiffness in STIFFNESSES {
         for response in RESPONSES {
             let worst = worst(stiffness, 0.0, Some(response));
+            table += &row(stiffness, Some(response), &worst);
             assert!(worst.found <= 40 && worst.peak <= 1.2, "{worst:?}");
             assert!(worst.later <= 10.0 && worst.after <= 10.0, "{worst:?}");
             assert!(worst.torque <= 1.0 && worst.speed <= 1.0, "{worst:?}");
@@ -128,7 +151,9 @@ fn a_contact_peaks_below_1_2_times_that_of_a_free_mass_and_is_relieved_half_a_se
         // An arm that follows its motion into the wall fails both.
         let none = worst(stiffness, 0.0, None);
         assert!(none.peak > 1.5 && none.later > 200.0, "{none:?}");
+        table += &row(stiffness, None, &none);
     }
+    PAGE.check(&table);
 }
 
 #[test]

@@ -202,7 +202,7 @@ fn a_configuration_beyond_its_range_and_an_impossible_nominal_arm_are_refused() 
         let (mut noisy, mut prior) = (good, good);
         (noisy.noise[5], prior.prior[P - 1]) = (bad, bad);
         assert_eq!(refused(noisy), named(ConfigParameter::TorqueNoise));
-        assert_eq!(refused(prior), named(ConfigParameter::PriorDeviation));
+        assert_eq!(refused(prior), named(ConfigParameter::ParameterDeviation));
     }
     for bad in [-0.1, 1.0, f32::NAN] {
         let wrong = ParameterEstimatorConfig {

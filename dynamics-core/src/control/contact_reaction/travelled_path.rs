@@ -100,8 +100,8 @@ impl<R: Real, const V: usize, const N: usize> TravelledPath<R, V, N> {
         let square = square / limits.acceleration + R::MIN_POSITIVE;
         let seconds = greater(by_speed, square * square.rsqrt());
         // What rounding may add to a peak in f32; a time that cannot be counted is the greatest count.
-        let ticks = (seconds / tick * R::from_f64(1.0 + 1e-5)).to_f64() as u32;
-        self.ticks = ticks.saturating_add(1);
+        let ticks = seconds / tick * R::from_f64(1.0 + 1e-5);
+        self.ticks = ticks.to_u32().saturating_add(1);
         self.ticks_inv = R::ONE / real(self.ticks);
         self.seconds_inv = self.ticks_inv / tick;
         step > R::ZERO
@@ -147,7 +147,7 @@ impl<R: Real, const V: usize, const N: usize> Reference<R, V> for TravelledPath<
         let (u, rate, change) = (n * w, n * wd, n * wdd);
 
         let whole = u.clamped(R::ZERO, n).trunc_saturating();
-        let (f, k) = (u - whole, whole.to_f64() as usize);
+        let (f, k) = (u - whole, whole.to_u32() as usize);
         let (g, half, sixth) = (R::ONE - f, number(0.5), number(1.0 / 6.0));
         let (ff, three) = (f * f, number(3.0));
         let value = [

@@ -32,7 +32,7 @@ impl<R: Real, const P: usize, const V: usize> ParameterEstimatorConfig<R, P, V> 
         ConfigParameter::TorqueNoise.require(self.noise.iter().all(noise))?;
         // The square is far from the least normal f32. Products of inertia of small bodies are below 10⁻⁶ kg·m².
         let prior = |x: &R| within(*x, 1e-12, 1e6);
-        ConfigParameter::PriorDeviation.require(self.prior.iter().all(prior))?;
+        ConfigParameter::ParameterDeviation.require(self.prior.iter().all(prior))?;
         let share = (self.forgetting >= R::ZERO) & (self.forgetting < R::ONE);
         ConfigParameter::Forgetting.require(share)?;
         ConfigParameter::InnovationLimit.require(within(self.limit, 3.0, 1e3))

@@ -52,6 +52,9 @@ macro_rules! real {
             fn sin_cos_near(self) -> (Self, Self) {
                 $sin_cos(self)
             }
+            fn to_u32(self) -> u32 {
+                self.to_f64() as u32
+            }
             fn exp_neg(self) -> Self {
                 Self::new(self.to_f64().exp_neg())
             }

@@ -106,12 +106,14 @@ pub trait Real:
     fn model<T, const B: usize, const Q: usize, const V: usize>() -> &'static Model<Self, B, Q, V>
     where
         T: Robot<B, Q, V>;
+    /// `yes` if `condition`, else `no`, without a branch.
+    fn either(condition: bool, yes: Self, no: Self) -> Self;
     /// The one of two values, for f64 and for f32, that is for this type.
     fn select(double: f64, single: f32) -> Self;
 }
 
 macro_rules! real {
-    ($r:ident, $whole:ident, $vec:path, $mat:path, $sin_cos:expr, $near:expr, $exp_neg:expr, $sqrt:expr, $atan2:expr, $magic:literal, $steps:literal, $model:ident, $cast:expr, |$double:ident, $single:ident| $pick:ident) => {
+    ($r:ident, $whole:ident, $bits:ident, $vec:path, $mat:path, $sin_cos:expr, $near:expr, $exp_neg:expr, $sqrt:expr, $atan2:expr, $magic:literal, $steps:literal, $model:ident, $cast:expr, |$double:ident, $single:ident| $pick:ident) => {
         impl Real for $r {
             type Vec3 = $vec;
             type Mat3 = $mat;
@@ -194,6 +196,11 @@ macro_rules! real {
                 const { &T::$model }
             }
             #[inline(always)]
+            fn either(condition: bool, yes: Self, no: Self) -> Self {
+                let mask = <$bits>::from(condition).wrapping_neg();
+                <$r>::from_bits((yes.to_bits() & mask) | (no.to_bits() & !mask))
+            }
+            #[inline(always)]
             fn select($double: f64, $single: f32) -> Self {
                 let _ = ($double, $single);
                 $pick
@@ -205,6 +212,7 @@ macro_rules! real {
 real!(
     f32,
     i32,
+    u32,
     glam::Vec3,
     glam::Mat3,
     crate::trig::sin_cos,
@@ -221,6 +229,7 @@ real!(
 real!(
     f64,
     i64,
+    u64,
     glam::DVec3,
     glam::DMat3,
     crate::trig::sin_cos_f64,

@@ -80,6 +80,10 @@ macro_rules! real {
                 const { &cast(&T::MODEL) }
             }
             #[inline(always)]
+            fn either(condition: bool, yes: Self, no: Self) -> Self {
+                if condition { yes } else { no }
+            }
+            #[inline(always)]
             fn select(double: f64, _: f32) -> Self {
                 Self::new(double)
             }

@@ -105,7 +105,10 @@ fn a_table_with_a_run_less_is_not_that_of_the_page() {
     let observed: Vec<Observed> = (0..20)
         .flat_map(|seed| observed(seed, Setup::SOUND).expect("good"))
         .collect();
-    let (begin, end) = ("before\n<!-- faults:begin -->\n", "<!-- faults:end -->\nafter\n");
+    let (begin, end) = (
+        "before\n<!-- faults:begin -->\n",
+        "<!-- faults:end -->\nafter\n",
+    );
     let all = PAGE.text(&table(&observed));
     let page = format!("{begin}{all}{end}");
     assert_eq!(PAGE.parts(&page), [begin, &*all, end]);

@@ -132,7 +132,8 @@ pub fn check(workspace: &Workspace, tools: &Tools) -> Result<String> {
     let (single, host, rustc) = (&measured.single, &measured.host, &measured.rustc);
     let generated = printed::check(&measured)?;
     page::SINGLES.check(workspace, &page::singles(single, rustc), Some(rustc))?;
-    page::README.check(workspace, &page::brief(single, rustc), Some(rustc))?;
+    let brief = page::brief(single, measured.shares, rustc);
+    page::README.check(workspace, &brief, Some(rustc))?;
     let recorded = recorded::read(workspace)?;
     recorded::check(&recorded, single)?;
     // Parts and pictures of a whole run, by its record, and by the compiler that they name.
@@ -178,7 +179,8 @@ fn write(workspace: &Workspace, measured: &Measured, only: Option<Robot>) -> Res
         let single = &measured.single;
         text = page::SINGLES.replaced(&text, &page::singles(single, rustc))?;
         let readme = workspace::read(&workspace.root.join(page::README.file))?;
-        let readme = page::README.replaced(&readme, &page::brief(single, rustc))?;
+        let brief = page::brief(single, measured.shares, rustc);
+        let readme = page::README.replaced(&readme, &brief)?;
         files.push((workspace.report(page::README.file), readme));
     }
     files.push((workspace.report(page::FILE), text));

@@ -25,7 +25,7 @@ use crate::toolchain::Toolchain;
 use crate::workspace::{self, Workspace};
 use boards::Board;
 use list::{CORES, Core};
-use page::{PAGE, README, rows_of};
+use page::{PAGE, rows_of};
 use run::{Row, Torques};
 
 /// What to do with the measurements.
@@ -77,9 +77,6 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
     let text = report.markdown()?;
     if args.write_docs {
         PAGE.write(&workspace, &text)?;
-        if let Some(bracket) = report.readme() {
-            README.write(&workspace, &bracket)?;
-        }
     }
     table::show(args.json, &report, &text)
 }
@@ -118,28 +115,12 @@ pub fn check(workspace: &Workspace, options: Options) -> Result<String> {
         rows_of(&fresh, &names, &boards),
     );
     docs::compare(PAGE.file, PAGE.command, &written, &fresh, &report.rustc)?;
-    let readme = workspace::read(&workspace.root.join(README.file))?;
-    same_bracket(README.written(&readme)?, PAGE.written(&page)?)?;
     let skipped = lacks.iter().map(|lack| format!("; skipped: {lack}"));
     Ok(format!(
         "{}{}",
         names.join(", "),
         skipped.collect::<String>()
     ))
-}
-
-/// Fails unless the bracket of the README is that of the page: one run writes both.
-fn same_bracket(readme: &str, page: &str) -> Result<()> {
-    let sentence = readme.lines().find(|line| line.starts_with("Cycles"));
-    let figures = sentence.and_then(|sentence| sentence.split(" ([").next());
-    refuse_if!(
-        !figures.is_some_and(|figures| page.contains(figures)),
-        "{} and {} have different brackets: `{}`",
-        README.file,
-        PAGE.file,
-        PAGE.command
-    );
-    Ok(())
 }
 
 /// Fails unless a core computes the same bits as the host.
@@ -202,7 +183,7 @@ impl Report {
 
 #[cfg(test)]
 mod tests {
-    use super::{Torques, same_bits, same_bracket, within_bars};
+    use super::{Torques, same_bits, within_bars};
     use crate::bars::Bar;
 
     fn torques(scene: &str, digest: &str) -> Torques {
@@ -227,16 +208,6 @@ mod tests {
             ..ur5e.clone()
         };
         assert!(same_bits("M33", &[small, &shorter], &host).is_err());
-    }
-
-    #[test]
-    fn a_readme_with_another_bracket_is_refused() {
-        let page = "a table\n\nCycles are modelled: 97 % of 2,432.\n\nanother";
-        let readme =
-            |cycles| format!("\nCycles are modelled: 97 % of {cycles} ([choices](lib.rs)).\n");
-        assert!(same_bracket(&readme("2,432"), page).is_ok());
-        assert!(same_bracket(&readme("2,431"), page).is_err());
-        assert!(same_bracket("no sentence", page).is_err());
     }
 
     #[test]

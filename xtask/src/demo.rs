@@ -7,6 +7,7 @@ use std::process::ExitCode;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
+use crate::bracket::{Bracket, READINGS};
 use crate::budgets;
 use crate::docs;
 use crate::elf::Image;
@@ -18,7 +19,7 @@ use crate::plot;
 use crate::progress::Spinner;
 use crate::protocol::{FEEDFORWARD, PD, Recording};
 use crate::qemu::Run;
-use crate::report::Report;
+use crate::report::{Report, feedforward_costs};
 use crate::scene::Scene;
 use crate::scenes;
 use crate::setup::{self, Options, Tools};
@@ -87,7 +88,7 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
     }
     let reports: Vec<&Report> = measured.iter().map(|one| &one.report).collect();
     if args.write_docs {
-        write_docs(&workspace, &measured)?;
+        write_docs(&workspace, &tools, &built.meter, &measured)?;
         if args.all {
             scenes::PAGE.write(&workspace, &scenes::markdown(&reports))?;
         }
@@ -106,10 +107,16 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
 }
 
 /// The README's tables and picture, which are those of the default scene.
-fn write_docs(workspace: &Workspace, measured: &[Measured]) -> Result<()> {
+fn write_docs(
+    workspace: &Workspace,
+    tools: &Tools,
+    plugin: &Path,
+    measured: &[Measured],
+) -> Result<()> {
     let shown = Scene::default().name();
     for one in measured.iter().filter(|one| one.report.scene == shown) {
-        docs::README.write(workspace, &one.report.markdown())?;
+        let brackets = brackets(workspace, tools, plugin, one)?;
+        docs::README.write(workspace, &one.report.markdown(&brackets))?;
         plot::write(&one.recording, &workspace.report(PICTURE))?;
     }
     Ok(())
@@ -208,6 +215,39 @@ pub fn measure(
         elf: elf.to_owned(),
         raw: (raw, metered),
     })
+}
+
+/// The brackets of the longest tick with feed-forward and of its phases, by two more runs side by side.
+pub fn brackets(
+    workspace: &Workspace,
+    tools: &Tools,
+    plugin: &Path,
+    measured: &Measured,
+) -> Result<Vec<Bracket>> {
+    let name = &*measured.report.scene;
+    let spinner = Spinner::start(&format!(
+        "running scene {name} by two more readings of the manual"
+    ));
+    let longest = |reading: &'static str| -> Result<Vec<u64>> {
+        let regions = workspace.output(&format!("{name}.{reading}.regions"))?;
+        let mut run = Run::logging(name, &measured.elf, Some((plugin, &regions)));
+        run.reading = reading;
+        tools.qemu.run(&run, |_| Ok(()))?;
+        let costs = feedforward_costs(&measured.recording, &meter::read(&regions)?)?;
+        Ok(costs.iter().map(|cost| cost.cycles.max).collect())
+    };
+    let [least, most] = std::thread::scope(|scope| {
+        let runs = READINGS.map(|reading| scope.spawn(move || longest(reading)));
+        runs.map(|run| {
+            let lost = |_| Err(Error::check("a run by another reading was lost"));
+            run.join().unwrap_or_else(lost)
+        })
+    });
+    drop(spinner);
+    let chosen = measured.report.tick.values().map(|cost| cost.cycles.max);
+    let all = least?.into_iter().zip(chosen).zip(most?);
+    all.map(|((least, chosen), most)| Bracket::of(least, chosen, most))
+        .collect()
 }
 
 /// Runs a scene, with the meter and its file or without, and returns what it said, and that as it came.

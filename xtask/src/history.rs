@@ -74,7 +74,7 @@ pub fn measure(workspace: &Workspace, tools: &Tools) -> Result<Report> {
     let elves = firmware::build_featured(workspace, tools.toolchain, RELEASE, BIN, &[BIN])?;
     let meter = firmware::build_meter(workspace)?;
     Ok(Report {
-        rows: costs::run_for_time(tools, &meter, BIN, &elves[0])?,
+        rows: costs::run_for_time(tools, &meter, BIN, &elves[0], "")?,
         ancestors: ancestors.into(),
         differences: differences.trim_end().into(),
         rustc: tools.toolchain.rustc_version()?,

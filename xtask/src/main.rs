@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod bars;
+mod bracket;
 mod budgets;
 mod build_time;
 mod callgraph;

@@ -61,6 +61,8 @@ pub struct Run<'a> {
     pub elf: &'a Path,
     /// The cycle meter and the file that it writes, if its regions are to be measured.
     pub meter: Option<(&'a Path, &'a Path)>,
+    /// By which of [`READINGS`](crate::bracket::READINGS) the meter counts cycles, or nothing for the chosen one.
+    pub reading: &'a str,
     /// Whether it logs, and then ends with [`DONE`]; one that does not must stay silent.
     pub logs: bool,
     /// Where its serial port leads, as QEMU's option `-serial` names it.
@@ -76,6 +78,7 @@ impl<'a> Run<'a> {
             name,
             elf,
             meter,
+            reading: "",
             logs: true,
             serial: "none",
             words: &[],
@@ -227,7 +230,10 @@ impl Qemu {
         let semihosting = format!("enable=on,target=native{words}");
         command.args(["-serial", run.serial, "-semihosting-config", &semihosting]);
         if let Some((plugin, out)) = run.meter {
-            let plugged = format!("{},out={}", plugin.display(), out.display());
+            let mut plugged = format!("{},out={}", plugin.display(), out.display());
+            if !run.reading.is_empty() {
+                plugged += &format!(",reading={}", run.reading);
+            }
             command.args(["-plugin", &plugged]);
             let version = self.interface(plugin)?;
             command.envs(version.map(|version| (cycle_meter::INTERFACE, version.to_string())));

@@ -2,12 +2,17 @@
 
 use std::path::Path;
 
+use crate::bracket::Bracket;
+use crate::meter::Cost;
 use crate::protocol::label;
 use crate::report::{Errors, JointError, MODEL, Report, Tracking};
-use crate::table::{Table, thousands};
+use crate::table::{Column, Table, thousands};
 
 /// The clock of the STM32F405 in MHz, so cycles per µs.
 pub const CLOCK_MHZ: f64 = 168.0;
+
+/// The column of the brackets.
+const BY_MANUAL: &str = "max by the manual";
 
 impl Report {
     /// For a terminal.
@@ -15,7 +20,7 @@ impl Report {
         let ticks = thousands(self.ticks_measured as u64);
         let mut text = format!(
             "\nCost of a tick, feed-forward, {ticks} ticks ({MODEL})\n\n{}",
-            self.costs().text()
+            self.costs(&[]).text()
         );
         for (what, tracking) in self.trackings() {
             text += &format!("\n{what}\n\n{}", errors_table(tracking).text());
@@ -42,8 +47,8 @@ impl Report {
         )
     }
 
-    /// For the README.
-    pub fn markdown(&self) -> String {
+    /// For the README, with the brackets of the cycles by the parts of a tick.
+    pub fn markdown(&self, brackets: &[Bracket]) -> String {
         let percent = |errors: &Errors, tracking: &Tracking| {
             let share = 100.0 * errors.rms_rad / tracking.pd.rms_rad;
             format!("{} ({share:.1} %)", milli(errors.rms_rad))
@@ -62,7 +67,7 @@ impl Report {
             include_str!("readme.md"),
             ticks = thousands(self.ticks_measured as u64),
             model = MODEL,
-            costs = self.costs().markdown(),
+            costs = self.costs(brackets).markdown(),
             errors = table.markdown(),
             memory = self.memory(),
             rustc = self.rustc
@@ -124,38 +129,39 @@ impl Report {
         ]
     }
 
-    fn costs(&self) -> Table {
+    fn costs(&self, brackets: &[Bracket]) -> Table {
+        let by_manual = |name: &str| {
+            let number = self.tick.get_index_of(name)?;
+            Some(brackets.get(number)?.words())
+        };
         let whole = self.tick["total"].cycles.median as f64;
         let period = f64::from(self.period_us);
         let microseconds = |cycles: u64| format!("{:.2}", cycles as f64 / CLOCK_MHZ);
-        Table::of(
-            self.tick
-                .iter()
-                .skip(1)
-                .chain(self.tick.first())
-                .collect::<Vec<_>>()
-                .iter(),
-            &[
-                ("phase", &|(name, _)| (*name).clone()),
-                ("insn min", &|(_, cost)| thousands(cost.instructions.min)),
-                ("median", &|(_, cost)| thousands(cost.instructions.median)),
-                ("max", &|(_, cost)| thousands(cost.instructions.max)),
-                ("cycles min", &|(_, cost)| thousands(cost.cycles.min)),
-                ("median", &|(_, cost)| thousands(cost.cycles.median)),
-                ("max", &|(_, cost)| thousands(cost.cycles.max)),
-                ("µs median", &|(_, cost)| microseconds(cost.cycles.median)),
-                ("µs max", &|(_, cost)| microseconds(cost.cycles.max)),
-                ("of the work", &|(_, cost)| {
-                    format!("{:.1} %", 100.0 * cost.cycles.median as f64 / whole)
-                }),
-                (&format!("of {} ms", period / 1e3), &|(_, cost)| {
-                    format!(
-                        "{:.2} %",
-                        100.0 * cost.cycles.max as f64 / CLOCK_MHZ / period
-                    )
-                }),
-            ],
-        )
+        let of_period = format!("of {} ms", period / 1e3);
+        let parts = self.tick.iter().skip(1).chain(self.tick.first());
+        let parts: Vec<_> = parts.collect();
+        let columns: [Column<'_, (&String, &Cost)>; 12] = [
+            ("phase", &|(name, _)| (*name).clone()),
+            ("insn min", &|(_, cost)| thousands(cost.instructions.min)),
+            ("median", &|(_, cost)| thousands(cost.instructions.median)),
+            ("max", &|(_, cost)| thousands(cost.instructions.max)),
+            ("cycles min", &|(_, cost)| thousands(cost.cycles.min)),
+            ("median", &|(_, cost)| thousands(cost.cycles.median)),
+            ("max", &|(_, cost)| thousands(cost.cycles.max)),
+            (BY_MANUAL, &|(name, _)| by_manual(name).unwrap_or_default()),
+            ("µs median", &|(_, cost)| microseconds(cost.cycles.median)),
+            ("µs max", &|(_, cost)| microseconds(cost.cycles.max)),
+            ("of the work", &|(_, cost)| {
+                format!("{:.1} %", 100.0 * cost.cycles.median as f64 / whole)
+            }),
+            (&of_period, &|(_, cost)| {
+                let share = cost.cycles.max as f64 / CLOCK_MHZ / period;
+                format!("{:.2} %", 100.0 * share)
+            }),
+        ];
+        let is_shown = |head: &str| !brackets.is_empty() || head != BY_MANUAL;
+        let columns = columns.into_iter().filter(|(head, _)| is_shown(head));
+        Table::of(&parts, &columns.collect::<Vec<_>>())
     }
 
     fn memory(&self) -> String {

@@ -168,6 +168,17 @@ impl Runs<'_> {
     }
 }
 
+/// Whether a tick of all runs is one with feed-forward: the other laws cost less.
+fn is_feedforward(recording: &Recording, tick: usize) -> bool {
+    recording.runs[tick / recording.ticks.max(1) as usize].law == FEEDFORWARD
+}
+
+/// The price of the ticks with feed-forward by their parts, in the order of [`Report::tick`].
+pub fn feedforward_costs(recording: &Recording, samples: &[Sample]) -> Result<Vec<Cost>> {
+    let all = recording.ticks.max(1) as usize * recording.runs.len();
+    meter::costs(samples, all, |tick| is_feedforward(recording, tick))
+}
+
 /// Bytes of the code that a run's tick can reach.
 fn code(image: &Image, run: &Trajectory) -> Result<u64> {
     code_bytes(image, run.tick_at, |_| false)
@@ -198,9 +209,8 @@ impl Report {
         recording.complete()?;
         let ticks = recording.ticks.max(1) as usize;
         let all = ticks * recording.runs.len();
-        // The other laws cost less: the figures are those of feed-forward.
-        let is_feedforward = |tick: usize| recording.runs[tick / ticks].law == FEEDFORWARD;
-        let costs = meter::costs(samples, all, is_feedforward)?;
+        let is_feedforward = |tick: usize| is_feedforward(recording, tick);
+        let costs = feedforward_costs(recording, samples)?;
         let names = REGIONS.into_iter().chain([BETWEEN]);
         let mut runs = Runs(Vec::new());
         for (number, run) in recording.runs.iter().enumerate() {

@@ -5,7 +5,8 @@ use std::path::Path;
 use super::join::{self, Bin, Host};
 use super::point::{Kind, Point};
 use super::printed::{self, PRINTED};
-use crate::costs;
+use crate::bracket::{self, READINGS};
+use crate::costs::{self, Row};
 use crate::error::{Error, Result};
 use crate::firmware;
 use crate::progress::Spinner;
@@ -55,6 +56,18 @@ impl Robot {
     }
 }
 
+/// What the target runs, and [`Measured::shares`].
+type Costs = (Vec<Bin>, Option<[f64; 2]>);
+
+/// The shares of the longest calls of the UR5e's rows.
+fn shares_of(least: &[Row], chosen: &[Row], most: &[Row]) -> Result<[f64; 2]> {
+    let readings = std::iter::zip(least, chosen).zip(most);
+    let ur5e = readings.filter(|((_, row), _)| row.robot == Robot::Ur5e.name());
+    bracket::shares(
+        ur5e.map(|((least, chosen), most)| [least, chosen, most].map(|row| row.cycles.max)),
+    )
+}
+
 /// What to run.
 pub struct Plan {
     /// Of these robots.
@@ -71,6 +84,8 @@ pub struct Measured {
     pub points: Vec<Point>,
     /// Those that differ from the default in one thing, measured in a program of their own.
     pub single: Vec<Point>,
+    /// The fewest and the most cycles of `single` of the UR5e by the readings of the manual, as shares of those shown.
+    pub shares: Option<[f64; 2]>,
     /// In a quick run, what is printed as generated code.
     pub generated: Vec<Point>,
     /// What the host printed.
@@ -120,7 +135,7 @@ impl Plan {
             let lost = |_| Err(Error::check("the host's errors were not computed"));
             (rows, host.join().unwrap_or_else(lost))
         });
-        let (mut rows, host) = (rows?, Host::read(&lines?)?);
+        let ((mut rows, shares), host) = (rows?, Host::read(&lines?)?);
         let single: Vec<_> = rows.extract_if(.., |(bin, ..)| *bin == QUICK_BIN).collect();
         let mut single = join::join(&host, &single)?;
         let is_generated = |point: &mut Point| point.kind == Kind::Generated;
@@ -133,6 +148,7 @@ impl Plan {
         Ok(Measured {
             points,
             single,
+            shares,
             generated,
             host,
             rustc,
@@ -140,10 +156,10 @@ impl Plan {
     }
 
     /// What the target runs of these robots.
-    fn costs(&self, workspace: &Workspace, tools: &Tools, printed: &Path) -> Result<Vec<Bin>> {
+    fn costs(&self, workspace: &Workspace, tools: &Tools, printed: &Path) -> Result<Costs> {
         let spinner = Spinner::start("building the cycle meter");
         let meter = firmware::build_meter(workspace)?;
-        let mut all = Vec::new();
+        let (mut all, mut shares) = (Vec::new(), None);
         for (opt, profile, bins) in self.batches() {
             spinner.line(&format!("building {} (opt-level {opt})", bins.join(", ")));
             let mut command = tools.toolchain.firmware(workspace, "build");
@@ -153,7 +169,12 @@ impl Plan {
             for bin in bins {
                 spinner.say(format!("running {bin} (opt-level {opt}) in QEMU"));
                 let elf = tools.toolchain.elf(workspace, profile, bin);
-                let mut rows = costs::run_for_time(tools, &meter, bin, &elf)?;
+                let mut rows = costs::run_for_time(tools, &meter, bin, &elf, "")?;
+                if bin == QUICK_BIN {
+                    let [least, most] = READINGS
+                        .map(|reading| costs::run_for_time(tools, &meter, bin, &elf, reading));
+                    shares = Some(shares_of(&least?, &rows, &most?)?);
+                }
                 // Only the host's quick bin knows the errors of what is generated.
                 rows.retain(|row| {
                     let known = self.quick || row.algorithm != "generated";
@@ -162,7 +183,7 @@ impl Plan {
                 all.extend(rows.into_iter().map(|row| (bin, opt, row)));
             }
         }
-        Ok(all)
+        Ok((all, shares))
     }
 
     /// What the host prints of these robots.

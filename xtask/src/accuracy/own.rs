@@ -72,7 +72,7 @@ fn measure(workspace: &Workspace, tools: &Tools, robot: &OwnRobot) -> Result<Vec
     spinner.say(format!("running {BIN} in QEMU"));
     let rows = elves
         .iter()
-        .map(|elf| costs::run_for_time(tools, &meter, BIN, elf));
+        .map(|elf| costs::run_for_time(tools, &meter, BIN, elf, ""));
     let rows = rows.collect::<Result<Vec<_>>>()?.into_iter().flatten();
     let rows: Vec<_> = rows.map(|row| (BIN, "3", row)).collect();
     spinner.say(format!("building and running {BIN} on the host"));

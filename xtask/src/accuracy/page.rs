@@ -170,12 +170,16 @@ pub fn singles(points: &[Point], rustc: &str) -> String {
 }
 
 /// The README's.
-pub fn brief(points: &[Point], rustc: &str) -> String {
+pub fn brief(points: &[Point], shares: Option<[f64; 2]>, rustc: &str) -> String {
     let mut few = of_group(points, ("ur5e", Kind::Inverse, "rigid"));
     few.retain(|point| is_single(point, 6));
     few.sort_by(|a, b| a.error().total_cmp(&b.error()));
     let table = table(&named(&few), "UR5e", BRIEF).markdown();
-    format!("{table}\nMeasured with {rustc}.")
+    let [least, most] = shares.unwrap_or([1.0; 2]).map(percent);
+    format!(
+        "{table}\nBy the most and the least favourable reading of the manual the cycles are within {least} to {most} of these.\n\
+         Measured with {rustc}."
+    )
 }
 
 /// The text about a robot's torques, or about simulations.

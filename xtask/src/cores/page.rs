@@ -1,11 +1,10 @@
 //! The tables of `docs/boards.md`.
 
 use super::list::{CORES, Core, Isa};
-use super::run::{Bracket, Replayed, Row, Torques};
+use super::run::{Replayed, Row, Torques};
 use super::{Report, boards};
 use crate::docs::Page;
 use crate::error::{Result, bail, check};
-use crate::meter::REGIONS;
 use crate::table::{Column, Table, thousands};
 
 /// Where they stand.
@@ -15,33 +14,10 @@ pub const PAGE: Page = Page {
     command: "cargo xtask cores --write-docs",
 };
 
-/// How the sentence with the bracket begins.
-const BRACKET: &str = "Cycles are modelled.";
-
 /// A core's results, and what it is.
 type Line<'a> = (&'a Row, &'a Core);
 
-/// Where the bracket of the README's cycles stands.
-pub const README: Page = Page {
-    file: "README.md",
-    name: "bracket",
-    command: "cargo xtask cores --write-docs",
-};
-
 impl Report {
-    fn brackets(&self) -> &[Bracket] {
-        let mut brackets = self.rows.iter().map(|row| &*row.brackets);
-        brackets.find(|of| !of.is_empty()).unwrap_or_default()
-    }
-
-    /// What stands in the README, if the core of the cycle model ran.
-    pub fn readme(&self) -> Option<String> {
-        let scene = self.torques.last()?;
-        let words = in_words(self.brackets(), &scene.scene)?;
-        let page = "([choices](host-tests/cycle-meter/src/lib.rs))";
-        Some(format!("{} {page}.\n", words.trim_end_matches('.')))
-    }
-
     /// What stands on the page.
     pub fn markdown(&self) -> Result<String> {
         let mut text = String::from(
@@ -98,9 +74,6 @@ impl Report {
             ("flash, B", &|(row, _)| thousands(row.flash)),
         ];
         text += &format!("\n{}", Table::of(&both, &columns).markdown());
-        if let Some(words) = in_words(self.brackets(), large) {
-            text += &format!("\n{words}\n");
-        }
         text += "\nThe stack and the code of a tick, of the function that the interrupt calls and of all that it calls:\n";
         let columns: [Column<'_, Line<'_>>; 7] = [
             ("core", &|(row, _)| row.core.into()),
@@ -131,32 +104,7 @@ impl Report {
     }
 }
 
-/// The brackets of the modelled cycles, as sentences on one line.
-fn in_words(brackets: &[Bracket], scene: &str) -> Option<String> {
-    let (tick, phases) = brackets.split_first()?;
-    let Bracket {
-        least,
-        chosen,
-        most,
-    } = *tick;
-    let share = |cycles: u64| format!("{:.0} %", 100.0 * cycles as f64 / chosen as f64);
-    let [fewest, ours, longest] = [least, chosen, most].map(thousands);
-    let phases = REGIONS[1..].iter().zip(phases).map(|(name, phase)| {
-        let [fewest, ours, longest] = [phase.least, phase.chosen, phase.most].map(thousands);
-        format!("{name} {fewest} to {longest} ({ours})")
-    });
-    let phases = phases.collect::<Vec<_>>().join(", ");
-    Some(format!(
-        "{BRACKET} Where the manual of the Cortex-M4 leaves room, its most favourable reading gives {fewest} cycles \
-         for the longest tick of `{scene}`, {} of {ours}, and its least favourable one {longest}, {}. \
-         Its phases: {phases}.",
-        share(least),
-        share(most)
-    ))
-}
-
-/// A page without the rows of other cores and the bracket of the one with cycles, if it is another, without the rows of boards
-/// whose target is missing, and without padding.
+/// A page without the rows of other cores, without the rows of boards whose target is missing, and without padding.
 pub fn rows_of(page: &str, names: &[&str], missing: &[&str]) -> String {
     let is_missing = |line: &&str| {
         let mut targets = missing.iter().map(|target| format!("`{target}`"));
@@ -164,10 +112,7 @@ pub fn rows_of(page: &str, names: &[&str], missing: &[&str]) -> String {
     };
     let is_other = |line: &&str| {
         let mut others = CORES.iter().filter(|core| !names.contains(&core.name));
-        others.any(|core| {
-            let is_bracket = core.isa == Isa::CortexM4F && line.starts_with(BRACKET);
-            is_bracket || line.starts_with(&format!("| {} ", core.name))
-        })
+        others.any(|core| line.starts_with(&format!("| {} ", core.name)))
     };
     let squeezed = |line: &str| {
         let words: Vec<&str> = line.split_whitespace().collect();
@@ -188,28 +133,11 @@ pub fn rows_of(page: &str, names: &[&str], missing: &[&str]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{Bracket, in_words, rows_of};
-
-    #[test]
-    fn a_bracket_has_its_shares() {
-        let bracket = |tens: u64| Bracket {
-            least: 15 * tens,
-            chosen: 20 * tens,
-            most: 25 * tens,
-        };
-        let words = in_words(&[bracket(100), bracket(10)], "arm").expect("a bracket");
-        assert!(words.contains("1,500 cycles for the longest tick of `arm`, 75 % of 2,000"));
-        assert!(
-            words.ends_with("one 2,500, 125 %. Its phases: read 150 to 250 (200)."),
-            "{words}"
-        );
-        assert_eq!(in_words(&[], "arm"), None);
-    }
+    use super::rows_of;
 
     #[test]
     fn a_page_is_compared_without_the_cores_that_did_not_run() {
-        let page = "Words.\n\n| core        | code |\n| ----------- | ---: |\n| Cortex-M33  |    7 |\n| Cortex-M0   |  512 |\n\n\
-                    Cycles are modelled. 97 %.\n";
+        let page = "Words.\n\n| core        | code |\n| ----------- | ---: |\n| Cortex-M33  |    7 |\n| Cortex-M0   |  512 |\n";
         let fresh =
             "Words.\n\n| core       | code |\n| ---------- | ---: |\n| Cortex-M33 |    7 |\n";
         let names = ["Cortex-M33"];

@@ -55,35 +55,6 @@ pub struct Row {
     pub flash: u64,
     /// The scenes, the small one first.
     pub scenes: Vec<Replayed>,
-    /// Of the core whose cycles are modelled: those of the longest tick of the last scene, and of its phases.
-    pub brackets: Vec<Bracket>,
-}
-
-/// Modelled cycles by readings of the manual where it leaves room.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-pub struct Bracket {
-    /// The fewest.
-    pub least: u64,
-    /// Those of every other figure.
-    pub chosen: u64,
-    /// The most.
-    pub most: u64,
-}
-
-impl Bracket {
-    /// Fails unless the readings are in their order.
-    fn checked(self) -> Result<Self> {
-        let Self {
-            least,
-            chosen,
-            most,
-        } = self;
-        refuse_if!(
-            least > chosen || chosen > most,
-            "the readings of the manual are not in their order: {least}, {chosen}, {most} cycles"
-        );
-        Ok(self)
-    }
 }
 
 /// What the bin says.
@@ -215,75 +186,16 @@ pub fn measure(workspace: &Workspace, core: &Core, plugin: &Path) -> Result<Row>
         !rest.is_empty(),
         "the cycle meter saw more ticks than were run"
     );
-    let longest = scenes.last().map(|scene: &Replayed| longest(&scene.costs));
-    let brackets = match (core.isa, longest) {
-        (Isa::CortexM4F, Some(chosen)) => {
-            let read = |reading| longest_by(&qemu, core, &elf, (plugin, &argument, reading));
-            let readings = read("least")?.into_iter().zip(chosen).zip(read("most")?);
-            let brackets = readings.map(|((least, chosen), most)| {
-                Bracket {
-                    least,
-                    chosen,
-                    most,
-                }
-                .checked()
-            });
-            brackets.collect::<Result<_>>()?
-        }
-        _ => Vec::new(),
-    };
     Ok(Row {
         core: core.name,
         flash: image.sizes.flash,
         scenes,
-        brackets,
     })
-}
-
-/// The most cycles of the tick and of each of its phases.
-fn longest(costs: &[Cost]) -> Vec<u64> {
-    let costs = costs.iter().take(REGIONS.len());
-    costs.map(|cost| cost.cycles.max).collect()
-}
-
-/// The same of the last scene by a reading of the manual.
-fn longest_by(
-    qemu: &Qemu,
-    core: &Core,
-    elf: &Path,
-    (plugin, argument, reading): (&Path, &str, &str),
-) -> Result<Vec<u64>> {
-    let argument = format!("{argument},reading={reading}");
-    let machine = core.machine_arguments();
-    let text = qemu.text(core.name, &machine, elf, (plugin, &argument), LIMIT)?;
-    let last = Said::read(&text)?.torques.pop();
-    let ticks = last.map_or(0, |torques| torques.ticks);
-    let out = argument.split(',').find_map(|one| one.strip_prefix("out="));
-    let samples = meter::read(Path::new(out.unwrap_or_default()))?;
-    let count = ticks * REGIONS.len();
-    let from = samples.len().checked_sub(count).filter(|_| count > 0);
-    let mine = from.and_then(|from| samples.get(from..));
-    let mine = mine.ok_or_else(|| check!("the cycle meter saw fewer ticks than were run"))?;
-    Ok(longest(&meter::costs(mine, ticks, |_| true)?))
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Bracket, Said};
-
-    #[test]
-    fn readings_out_of_order_are_refused() {
-        let bracket = |least, chosen, most| {
-            Bracket {
-                least,
-                chosen,
-                most,
-            }
-            .checked()
-        };
-        assert!(bracket(7, 8, 9).is_ok() && bracket(8, 8, 8).is_ok());
-        assert!(bracket(9, 8, 9).is_err() && bracket(7, 8, 7).is_err());
-    }
+    use super::Said;
 
     #[test]
     fn what_the_bin_says_is_read_and_an_end_without_done_is_refused() {

@@ -155,7 +155,7 @@ pub fn run(
     elf: &Path,
 ) -> Result<(Vec<Row>, Vec<String>)> {
     let image = Image::read(elf)?;
-    let (lines, samples) = watch(tools, meter, name, elf)?;
+    let (lines, samples) = watch(tools, meter, name, elf, "")?;
     let rows = cut(&lines, &samples, |address| {
         code_bytes(&image, address, |name| name.contains("libm"))
     })?;
@@ -163,14 +163,15 @@ pub fn run(
 }
 
 /// Runs a bin under the meter for what its rows take, not how long their code is: of code that calls through
-/// registers nobody knows.
+/// registers nobody knows. By a reading of the manual, or the chosen one if it is empty.
 pub fn run_for_time(
     tools: &Tools,
     meter: &Path,
     name: &'static str,
     elf: &Path,
+    reading: &str,
 ) -> Result<Vec<Row>> {
-    let (lines, samples) = watch(tools, meter, name, elf)?;
+    let (lines, samples) = watch(tools, meter, name, elf, reading)?;
     cut(&lines, &samples, |_| Ok(0))
 }
 
@@ -179,12 +180,12 @@ fn watch(
     meter: &Path,
     name: &'static str,
     elf: &Path,
+    reading: &str,
 ) -> Result<(Vec<String>, Vec<Sample>)> {
     let regions = elf.with_extension("regions");
-    let lines = tools
-        .qemu
-        .lines(&Run::logging(name, elf, Some((meter, &regions))))?;
-    Ok((lines, meter::read(&regions)?))
+    let mut run = Run::logging(name, elf, Some((meter, &regions)));
+    run.reading = reading;
+    Ok((tools.qemu.lines(&run)?, meter::read(&regions)?))
 }
 
 /// The rows that a log announces, each with its share of the samples.

@@ -139,7 +139,8 @@ pub fn readme(context: &Context) -> Result<String> {
     for measured in context.measured()? {
         // The README shows the default scene alone.
         if measured.report.scene == Scene::default().name() {
-            let (text, rustc) = (measured.report.markdown(), &measured.report.rustc);
+            let brackets = demo::brackets(workspace, &context.tools, context.meter()?, measured)?;
+            let (text, rustc) = (measured.report.markdown(&brackets), &measured.report.rustc);
             docs::README.check(workspace, &text, Some(rustc))?;
             // What the scene does is the same to the bit, whatever compiled it.
             let (picture, command) = (plot::svg(&measured.recording)?, docs::README.command);

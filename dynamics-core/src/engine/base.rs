@@ -72,10 +72,14 @@ where
         if E::VELOCITY_PRODUCTS {
             field.omega_products = omega;
             // [ω]×[ω]× r = ω × (ω × r), and the origin's own ω × v.
-            let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-            let [x, y, z] =
-                axes.map(|axis| omega.cross(omega.cross(Vec3(axis.map(Folded::constant)))));
-            field.u = field.u + Mat3([x, y, z]);
+            let one = Folded::ONE;
+            let centripetal = |axis| omega.cross(omega.cross(Vec3(axis)));
+            field.u = field.u
+                + Mat3([
+                    centripetal([one, zero, zero]),
+                    centripetal([zero, one, zero]),
+                    centripetal([zero, zero, one]),
+                ]);
             field.a = field.a + omega.cross(velocity);
         }
         if E::BODY_VELOCITY {

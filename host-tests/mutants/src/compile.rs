@@ -9,7 +9,7 @@ use serde_json::Value;
 use crate::copy::Places;
 use crate::error::{Error, Result};
 
-/// The packages whose tests are run. The full run of the tests adds robots and scalars to `unoptimised-tests`, which
+/// The packages whose tests are run. The full run of the tests adds robots and scalars to `specialised-tests`, which
 /// take longer to compile than all else.
 const PACKAGES: [&str; 10] = [
     "dynamics-core",
@@ -20,12 +20,12 @@ const PACKAGES: [&str; 10] = [
     "flexible-tests",
     "loop-tests",
     "history",
-    "unoptimised-tests",
+    "specialised-tests",
     "xtask",
 ];
 const FEATURES: &str = "host-tests/full";
 /// A folder that this workspace has.
-const MEMBER: &str = "host-tests/unoptimised";
+const MEMBER: &str = "host-tests/specialised";
 
 /// A program of tests and the folder in which cargo would run it.
 #[derive(Clone, Debug)]

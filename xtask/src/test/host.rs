@@ -4,7 +4,7 @@ use super::Context;
 use crate::error::Result;
 
 /// The tests that take the compiler long: further robots and scalars of claims that are tested without.
-const FULL: &str = "--features host-tests/full,unoptimised-tests/full";
+const FULL: &str = "--features host-tests/full,specialised-tests/full";
 /// What is neither the firmware nor what listens to it: the steps `telemetry` and `pil` build and test that.
 const HOST: &str =
     "--workspace --exclude firmware-demo --exclude telemetry-watch --exclude telemetry-pil";

@@ -213,7 +213,7 @@ pub fn list() -> Result<ExitCode> {
         steps(Full),
         steps(Named)
     );
-    for folder in ["host-tests/tests", "host-tests/unoptimised/tests"] {
+    for folder in ["host-tests/tests", "host-tests/specialised/tests"] {
         for (program, test) in claims::full_only(&workspace.root.join(folder))? {
             text += &format!("  {program:16} {}\n", test.replace('_', " "));
         }

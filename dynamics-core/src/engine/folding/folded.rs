@@ -67,10 +67,10 @@ impl<R: Real> Folded<R> {
     pub(crate) fn constant(value: f64) -> Self {
         let minus = value < 0.0;
         let size = f64::either(minus, -value, value);
-        let zero_or_one = u8::from(size == 0.0) * ZERO | u8::from(size == 1.0) * ONE;
+        let size_tag = either(size == 0.0, ZERO, either(size == 1.0, ONE, 0));
         Self {
             magnitude: R::from_f64(size),
-            tags: zero_or_one | u8::from(minus) * MINUS,
+            tags: size_tag | either(minus, MINUS, 0),
         }
     }
 

@@ -1,8 +1,10 @@
 //! The loop of an arm that is guided: encoders of 14 bits, observer, gravity compensation and the law.
 
 use dynamics_core::Core;
+use dynamics_core::algorithms::{Damping, OperationalSpace, frame, task_jacobian};
 use dynamics_core::control::{
-    Estimate, HandGuiding, HandGuidingConfig, LimitedSpring, Observer, ObserverConfig,
+    CartesianImpedance, Estimate, HandGuiding, HandGuidingConfig, LimitedSpring, Observer,
+    ObserverConfig, TaskDeviation, TaskFrame,
 };
 use dynamics_core::effects::{Armature, Coriolis, Gravity, Inertia, Lugre};
 use dynamics_core::model::ArmModel;
@@ -11,7 +13,7 @@ use dynamics_core::sim::linearly_implicit;
 use dynamics_core::state::State;
 use glam::DVec3;
 
-use crate::plant::{Hand, Inertias, Q, ROTORS, SLIDING, arm, modelled, real, tip};
+use crate::plant::{Hand, Inertias, Q, ROTORS, SLIDING, TIP, arm, modelled, real, tip};
 
 pub const TICK: f64 = 1e-3;
 const PARTS: u32 = 4; // the plant's steps in a tick
@@ -61,6 +63,8 @@ pub struct Cell {
     pub hand: Hand,
     /// The torque of the law in the last tick, N·m.
     pub guide: Q,
+    /// The tip is held at a height, m.
+    pub level: Option<(CartesianImpedance<f64, 1>, f64)>,
     observer: Observer<f64, 6>,
     arm: ArmModel<f64, 6>,
     friction: Lugre<f64, 6>,
@@ -87,6 +91,7 @@ impl Cell {
             at: State::at(q),
             hand: Hand::Away,
             guide: [0.0; 6],
+            level: None,
             observer,
             arm: arm(setup.inertias),
             friction: real(),
@@ -124,6 +129,15 @@ impl Cell {
         self.tick_by(&estimate);
     }
 
+    /// The greatest distance of the tip from where it is now within these ticks, m.
+    pub fn run(&mut self, ticks: u32) -> f64 {
+        let from = self.tip();
+        (0..ticks).fold(0.0, |most: f64, _| {
+            self.tick();
+            most.max((self.tip() - from).length())
+        })
+    }
+
     /// One tick with this estimate.
     pub fn tick_by(&mut self, estimate: &Estimate<f64, 6>) {
         let Estimate { q, qd } = *estimate;
@@ -132,7 +146,8 @@ impl Cell {
         let friction = Core::<Ur5e>::rnea(&at, &modelled(1.0 + self.over));
         let errors = gravity.map(|g| self.gravity_error * g);
         self.guide = self.guiding.torque(estimate, &friction, &errors);
-        let tau = core::array::from_fn(|i| gravity[i] + self.guide[i]);
+        let guided = core::array::from_fn(|i| gravity[i] + self.guide[i]);
+        let tau = self.levelled(estimate, guided);
         let mut scene = (RIGID, self.friction, self.hand);
         for _ in 0..PARTS {
             let h = TICK / f64::from(PARTS);
@@ -143,5 +158,29 @@ impl Cell {
             }
         }
         (self.friction, self.hand) = (scene.1, scene.2);
+    }
+
+    /// With the torques that hold the tip at its height.
+    fn levelled(&self, estimate: &Estimate<f64, 6>, guided: Q) -> Q {
+        let Some((impedance, height)) = &self.level else {
+            return guided;
+        };
+        let Estimate { q, qd } = *estimate;
+        let tip = tip(&State { qd, ..State::at(q) });
+        let columns = Core::<Ur5e>::jacobian(&q, TIP, frame::LocalWorldAligned);
+        let rows = task_jacobian(
+            &columns,
+            &TaskFrame::BASE.place()[2..].try_into().expect("one"),
+        );
+        let factors =
+            Core::<Ur5e>::ltdl(&Core::<Ur5e>::crba(&q, &RIGID)).expect("an arm with mass");
+        let solve = |tau: &_| Core::<Ur5e>::solve(&factors, tau);
+        let task = OperationalSpace::new(rows, solve, Damping::relative(1e-3));
+        let deviation = TaskDeviation {
+            position: [height - tip[0].z],
+            velocity: [-tip[1].z],
+        };
+        let torque = impedance.torque(&task, &deviation, &guided, &[0.0; 6]);
+        torque.expect("finite").tau
     }
 }

@@ -36,14 +36,14 @@ fn worst(off: &[Inertias], share: f64, over: f64, gravity_error: f64, speed: f64
                 let mut cell = Cell::new(q, &setup);
                 if speed > 0.0 {
                     cell.hand = Hand::Lead(cell.tip(), speed * *way);
-                    run(&mut cell, 600);
+                    cell.run(600);
                     cell.hand = Hand::Away;
                 }
-                let stop = run(&mut cell, 2000);
+                let stop = cell.run(2000);
                 let from = cell.tip();
-                let first = run(&mut cell, 9000);
+                let first = cell.run(9000);
                 let between = (cell.tip() - from).length();
-                let wave = run(&mut cell, 1000);
+                let wave = cell.run(1000);
                 worst = Drift {
                     stop: worst.stop.max(stop),
                     drift: worst.drift.max(first).max(between + wave),
@@ -54,15 +54,6 @@ fn worst(off: &[Inertias], share: f64, over: f64, gravity_error: f64, speed: f64
     }
     println!("{off:?}, share {share}, over {over}, errors {gravity_error}, {speed} m/s: {worst:?}");
     worst
-}
-
-/// The greatest distance of the tip from where it is now within these ticks.
-fn run(cell: &mut Cell, ticks: u32) -> f64 {
-    let from = cell.tip();
-    (0..ticks).fold(0.0, |most: f64, _| {
-        cell.tick();
-        most.max((cell.tip() - from).length())
-    })
 }
 
 #[test]
@@ -100,7 +91,7 @@ fn without_a_speed_of_rest_the_noise_of_the_encoders_lets_the_arm_creep() {
             ..setup(SHARE, 0.1)
         };
         setup.config.rest_speed = [rest; 6];
-        let drift = run(&mut Cell::new(POSTURES[3], &setup), 10_000);
+        let drift = Cell::new(POSTURES[3], &setup).run(10_000);
         println!("{rest} rad/s: {drift} m");
         assert_eq!(drift > 1e-3, creeps, "{rest} rad/s: {drift} m");
     }

@@ -1,5 +1,6 @@
 //! Walls and locked joints against a hand.
 
+use dynamics_core::control::{CartesianImpedance, ImpedanceConfig};
 use glam::DVec3;
 
 use crate::cell::{Cell, Setup};
@@ -67,4 +68,37 @@ fn a_locked_joint_stays_unless_the_hand_is_stronger_and_the_others_are_moved() {
     weak.config.lock.torque[0] = 2.0;
     let slips = moved(&pushed(&weak, first, push, 700));
     assert!(slips[0] > 0.1, "{slips:?}");
+}
+
+/// The tip pushed for a second and released: its greatest distance from its height, its way across, and at rest again the
+/// greatest distance within a second, m.
+fn led(level: Option<CartesianImpedance<f64, 1>>) -> [f64; 3] {
+    let mut cell = Cell::new(POSTURES[0], &setup(SHARE, 0.1));
+    let from = cell.tip();
+    cell.level = level.map(|impedance| (impedance, from.z));
+    cell.hand = Hand::Push(DVec3::new(20.0, 10.0, 20.0));
+    let mut highest = 0.0_f64;
+    for _ in 0..1000 {
+        cell.tick();
+        highest = highest.max((cell.tip().z - from.z).abs());
+    }
+    let across = (cell.tip() - from).truncate().length();
+    cell.hand = Hand::Away;
+    cell.run(5000);
+    [highest, across, cell.run(1000)]
+}
+
+#[test]
+fn a_locked_direction_of_the_tip_stays_and_the_others_are_moved() {
+    let config = ImpedanceConfig {
+        stiffness: [3000.0],
+        zeta: 1.0,
+        slowest: 2.0,
+    };
+    let impedance = CartesianImpedance::try_new(config).expect("a good one");
+    let [free, level] = [None, Some(impedance)].map(led);
+    println!("{free:?} {level:?} m");
+    assert!(free[0] > 0.2 && free[1] > 0.2, "{free:?} m");
+    assert!(level[0] < 0.02 && level[1] > 0.2, "{level:?} m");
+    assert!(level[2] < 5e-5, "it oscillates: {level:?} m");
 }

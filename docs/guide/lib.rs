@@ -24,6 +24,7 @@ pages! {
     faults "faults.md",
     contact "contact.md",
     impedance "impedance.md",
+    guiding "guiding.md",
     payload "payload.md",
     learning "learning.md",
     porting "porting.md",

@@ -51,6 +51,20 @@ pub enum ConfigParameter {
     ReleaseTicks,
     /// The largest force or couple that a contact is expected to have.
     WrenchSize,
+    /// The share by which the friction model of hand guiding may exceed the friction.
+    FrictionError,
+    /// The share of the modelled friction that hand guiding compensates.
+    CompensatedShare,
+    /// The speed below which hand guiding compensates no friction.
+    RestSpeed,
+    /// The greatest compensation of friction in hand guiding.
+    Compensation,
+    /// The positions of a joint's virtual walls.
+    WallPosition,
+    /// The stiffness, the damping or the greatest torque of a virtual wall.
+    Wall,
+    /// The stiffness, the damping or the greatest torque that holds a locked joint.
+    Lock,
     /// A stiffness of an impedance.
     Stiffness,
     /// The damping ratio of an impedance.
@@ -121,6 +135,17 @@ impl fmt::Display for ConfigError {
             ConfigParameter::WrenchSize => {
                 "the largest force is not a positive number, or the largest couple a negative one"
             }
+            ConfigParameter::FrictionError => "the error of the friction is negative or not finite",
+            ConfigParameter::CompensatedShare => {
+                "the compensated share of the friction is negative, or exceeds it at its stated error"
+            }
+            ConfigParameter::RestSpeed => "a speed of rest is not a positive number",
+            ConfigParameter::Compensation => {
+                "a greatest compensation of friction is negative or not finite"
+            }
+            ConfigParameter::WallPosition => "a lower wall is not below the upper one",
+            ConfigParameter::Wall => "a number of a virtual wall is negative or not finite",
+            ConfigParameter::Lock => "a number of a lock is negative or not finite",
             ConfigParameter::Stiffness => "a stiffness of the impedance is not a positive number",
             ConfigParameter::DampingRatio => "the damping ratio is not a positive number",
             ConfigParameter::SlowestMode => "the slowest mode is not a positive number",

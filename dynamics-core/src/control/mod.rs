@@ -20,6 +20,7 @@
 //! | [`hold()`] | the reference of a held arm: q̈ = −λ q̇ | none |
 //! | [`hybrid_motion_force`], [`TaskCommand`] | motions and forces along a task's directions | none |
 //! | [`CartesianImpedance`], [`pose_error()`] | a spring and a damper between a body and its goal, with null space | none |
+//! | [`HandGuiding`] | an arm that a hand moves: friction in part, virtual walls, locked joints | where joints are locked |
 //! | [`ZeroOrderHold`], [`FirstOrderHold`], [`Interpolator`], [`InertiaUpdate`] | the torque in ticks without a computation of the dynamics | last torques |
 //! | [`Supervisor`] | limits, plausibility, reactions to faults | last good values |
 //! | [`Fault`], [`Reaction`] | what each fault leads to | |
@@ -69,6 +70,7 @@ mod controller;
 mod detectors;
 mod fault;
 mod feedback;
+mod hand_guiding;
 mod hold;
 mod hybrid_force;
 mod impedance;
@@ -103,6 +105,7 @@ pub use controller::{
 pub use detectors::{Detect, Detectors, FrozenEncoder, ReferenceStep, Saturation};
 pub use fault::Fault;
 pub use feedback::{Gains, feedback};
+pub use hand_guiding::{HandGuiding, HandGuidingConfig, LimitedSpring};
 pub use hold::hold;
 pub use hybrid_force::{
     TaskCommand, TaskForce, TaskFrame, TaskMotion, hybrid_motion_force, orientation_error,

@@ -177,7 +177,7 @@ pub fn brief(points: &[Point], shares: Option<[f64; 2]>, rustc: &str) -> String 
     let table = table(&named(&few), "UR5e", BRIEF).markdown();
     let [least, most] = shares.unwrap_or([1.0; 2]).map(percent);
     format!(
-        "{table}\nBy the most and the least favourable reading of the manual the cycles are within {least} to {most} of these.\n\
+        "{table}\nBy the most and the least favourable reading of the manual the cycles are between {least} and {most} of these.\n\
          Measured with {rustc}."
     )
 }

@@ -89,7 +89,6 @@ pub enum ContactPhase {
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
 #[doc(alias = "collision reaction")]
-#[doc(alias = "hand guiding")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactReaction<R, const V: usize, const N: usize = 16> {
     config: ContactReactionConfig<R>,

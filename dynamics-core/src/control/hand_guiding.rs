@@ -61,6 +61,7 @@ pub use config::{HandGuidingConfig, LimitedSpring};
 /// # let _ = tau;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
+#[doc(alias = "hand guiding")]
 #[doc(alias = "lead-through")]
 #[doc(alias = "kinesthetic teaching")]
 #[doc(alias = "free drive")]

@@ -1,6 +1,7 @@
 //! The system underneath, and what installs software on it.
 
 use std::process::Command;
+use std::sync::{Mutex, PoisonError};
 
 use crate::error::Result;
 use crate::output;
@@ -129,8 +130,14 @@ pub fn apt_lines(packages: &[&str]) -> Vec<String> {
     hint.into_iter().chain(lines).collect()
 }
 
+/// What makes apt-get wait for another process that installs packages, which it otherwise refuses to do.
+const WAITS: [&str; 2] = ["-o", "DPkg::Lock::Timeout=600"];
+/// Two steps of the tests may need packages at once; the lock of the package lists has no such option.
+static INSTALLING: Mutex<()> = Mutex::new(());
+
 /// Installs Debian packages.
 pub fn apt_install(packages: &[&str]) -> Result<()> {
+    let _alone = INSTALLING.lock().unwrap_or_else(PoisonError::into_inner);
     let privilege = Privilege::this();
     let [mut update, mut install] = apt_commands(privilege, packages);
     let run = match privilege {
@@ -143,7 +150,7 @@ pub fn apt_install(packages: &[&str]) -> Result<()> {
             "warning: {error}; trying with the package index as it is"
         ));
     }
-    run(&mut install)
+    run(install.args(WAITS))
 }
 
 /// Whether apt knows a package of this name (derivatives of Debian lack some).

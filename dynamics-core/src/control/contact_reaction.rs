@@ -226,7 +226,7 @@ impl<R: Real, const V: usize, const N: usize> ContactReaction<R, V, N> {
     /// Whether a contact moves a held arm again. A stop that was required by others is not the reaction's to release.
     fn floats_again(&self, supervisor: &Supervisor<R, V>) -> bool {
         let floats = matches!(self.config.response, ContactResponse::Float { .. });
-        floats & supervisor.stands() & !supervisor.stopped_again()
+        floats & supervisor.stands_by_one_stop()
     }
 
     fn watch(&mut self) {

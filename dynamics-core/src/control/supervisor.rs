@@ -22,15 +22,18 @@ mod bounds;
 mod config;
 mod gate;
 mod reentry;
+mod state;
 mod stop;
+mod stop_category;
 #[cfg(test)]
 mod tests;
 mod tick;
 mod transitions;
 
 pub use config::SupervisorConfig;
-pub use stop::StopCategory;
-use stop::Stopping;
+use state::State;
+pub use stop_category::StopCategory;
+use stop_category::Stopping;
 pub use tick::SupervisorTick;
 
 /// The greatest plausible distance of a measurement from the last accepted one, in steps at full speed; the resolution
@@ -105,18 +108,15 @@ pub struct Supervisor<R, const V: usize> {
     quiet: u32,
     /// Ticks of the full law since the last without it, up to `reentry_ticks`.
     ramp: u32,
-    mode: Mode,
+    state: State,
+    /// The first fault of this tick, or the one that stopped the arm.
     fault: Option<Fault>,
     /// There was a fault in this tick.
     faulted: bool,
     /// A tick has begun and has no torque yet.
     open: bool,
-    /// The next tick holds the arm, whatever is measured: the full law has no torque for it.
-    hold_next: bool,
     /// The brake waits for the torque to be there after a reset.
     braked: bool,
-    /// The limits allow nothing: the arm stays stopped.
-    unusable: Option<Fault>,
     stopping: Stopping<R, V>,
     /// The fault of [`Self::report`] for the next tick.
     reported: Option<Fault>,
@@ -195,16 +195,14 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
             faults: 0,
             quiet: config.reentry_ticks,
             ramp: config.reentry_ticks,
-            mode: match unusable {
-                None => Mode::Full,
-                Some(_) => Mode::Stopped,
+            state: match unusable {
+                None => State::Full,
+                Some(fault) => State::Unusable(fault),
             },
             fault: unusable,
             faulted: false,
             open: false,
-            hold_next: false,
             braked: false,
-            unusable,
             stopping: Stopping::new(),
             reported: None,
         }
@@ -213,7 +211,9 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
     /// The same supervisor for an arm that is on its brake: stopped without a fault until [`Self::reset`].
     #[must_use]
     pub fn on_brake(mut self) -> Self {
-        self.mode = Mode::Stopped;
+        if matches!(self.state, State::Full) {
+            self.state = self.stopping.stopped(self.stopping.configured);
+        }
         self.ramp = 0;
         self
     }
@@ -264,9 +264,9 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         self.ride_through_ticks.saturating_add(self.hold_ticks)
     }
 
-    /// The mode of the arm in the last tick.
+    /// The mode of the arm: that of the last tick, or of a stop since.
     #[inline(always)]
     pub fn mode(&self) -> Mode {
-        self.mode
+        self.state.mode()
     }
 }

@@ -19,14 +19,14 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
                 self.accepted = true;
                 self.known = true;
                 self.ticks_since_good = R::ONE;
-                return self.mode;
+                return self.mode();
             }
             Ok(q) => self.diagnose(q),
             Err(fault) => fault,
         };
         self.no_measurement();
         self.record_fault(fault);
-        self.mode
+        self.mode()
     }
 
     /// Compares the observer's velocities with their limits, between [`Self::accept_measurement`] and [`Self::gate`].
@@ -40,7 +40,7 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
             self.faulted = false;
             self.record_fault(Fault::Speed { joint });
         }
-        self.mode
+        self.mode()
     }
 
     /// Ends a tick: limits the torques of the law and returns the command to the drives. The velocities damp a stopped
@@ -62,7 +62,7 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
             self.reject_torque(tau);
             torque = self.torque;
         }
-        if matches!(self.mode, Mode::Stopped) {
+        if matches!(self.mode(), Mode::Stopped) {
             return self.stopped_command(qd);
         }
         self.torque = torque;

@@ -1,5 +1,6 @@
 //! The return to the full law: after a hold, and after a stop.
 
+use super::state::State;
 use super::{FAR, Mode, Supervisor, real};
 use crate::scalar::Real;
 
@@ -23,7 +24,7 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
     /// ```
     #[inline(always)]
     pub fn authority(&self) -> R {
-        if !matches!(self.mode, Mode::Full) | self.braked {
+        if !matches!(self.state, State::Full) | self.braked {
             R::ZERO
         } else if self.next_ramp() >= self.reentry_ticks {
             R::ONE
@@ -56,21 +57,20 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         self.accepted = false;
         self.ticks_since_good = R::from_f64(FAR);
         // The rate is limited from the torque of the drives: that of a sinking arm, or of a stop without a tick since.
-        if !matches!(self.mode, Mode::Stopped) {
+        if !matches!(self.mode(), Mode::Stopped) {
             self.torque = [R::ZERO; V];
         }
         self.faults = 0;
         self.quiet = 0;
         self.ramp = 0;
-        self.mode = Mode::Full;
+        if let State::Unusable(fault) = self.state {
+            self.fault = Some(fault);
+        } else {
+            self.state = State::Full;
+        }
         self.faulted = false;
         self.open = false;
-        self.hold_next = false;
         self.braked = true;
-        self.clear_stop();
         self.reported = None;
-        if let Some(fault) = self.unusable {
-            self.stop(fault);
-        }
     }
 }

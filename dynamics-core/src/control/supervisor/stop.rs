@@ -1,105 +1,8 @@
-//! Stops: their categories, and what follows a controlled one.
+//! Stops that are required from outside, and what follows a controlled one.
 
-use super::{Command, Fault, Mode, Supervisor};
+use super::state::{Ending, Required, State};
+use super::{Command, Fault, Mode, StopCategory, Supervisor};
 use crate::scalar::Real;
-
-/// How an arm is stopped: the stop categories of IEC 60204-1 (2016), 9.2.2, and the lowering of an arm without brakes.
-///
-/// A fault that outlasts the ride-through and a [`Supervisor::stop_by`] choose among them; [`Supervisor::stop`] is at
-/// once, for faults that leave no torque to decelerate with, such as a failed drive.
-///
-/// | category | first | then | power |
-/// |---|---|---|---|
-/// | 0, [`Self::TorqueOff`] | | zero torque and the brake | off at once |
-/// | 1, [`Self::ControlledOff`] | [`Mode::Hold`] for `hold_ticks` | zero torque and the brake | off at rest |
-/// | 2, [`Self::ControlledHold`] | [`Mode::Hold`] for `hold_ticks` | held in [`Mode::Hold`] until a reset | stays on |
-/// | none, [`Self::DampedLowering`] | [`Mode::Hold`] for `hold_ticks` | τ = −d q̇, no brake needed | on while the arm sinks |
-///
-/// Category 2 needs measurements: if they fail for longer than `hold_ticks`, it ends as category 1. The controlled part
-/// is not safety-rated: keep a safe torque off in hardware.
-///
-/// ```
-/// use dynamics_core::control::{Fault, Mode, SafetyLimits, StopCategory, Supervisor, SupervisorConfig};
-/// let limits = SafetyLimits { torque: [10.0_f32], rate: [8.0], speed: [3.0], lower: [-1.0], upper: [1.0] };
-/// let mut supervisor = Supervisor::try_new(SupervisorConfig {
-///     limits, tick: 1e-3, resolution: 0.0, ride_through_ticks: 5, hold_ticks: 2, reentry_ticks: 4,
-/// })?;
-/// supervisor.tick(Ok(&[0.5]), |_| [7.0]);
-/// supervisor.stop_by(Fault::External, StopCategory::ControlledOff);
-/// for mode in [Mode::Hold, Mode::Hold, Mode::Stopped, Mode::Stopped] {
-///     let command = supervisor.tick(Ok(&[0.5]), |_| [7.0]);
-///     assert_eq!((command.status.mode, command.status.fault), (mode, Some(Fault::External)));
-///     assert_eq!(command.brake, mode == Mode::Stopped);
-/// }
-/// # Ok::<(), dynamics_core::control::ConfigError>(())
-/// ```
-#[doc(alias = "IEC 60204-1")]
-#[doc(alias = "stop category")]
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[non_exhaustive]
-pub enum StopCategory<R, const V: usize> {
-    /// Category 0: zero torque and the brake at once.
-    TorqueOff,
-    /// Category 1, the default: the arm is decelerated, then zero torque and the brake.
-    ControlledOff,
-    /// Category 2: the arm is decelerated, then held with torque until a reset.
-    ControlledHold,
-    /// For an arm without brakes: the arm is decelerated, then sinks against a damping.
-    DampedLowering {
-        /// d of each joint, N·m·s/rad or N·s/m. The arm sinks at the torque of gravity divided by d.
-        damping: [R; V],
-    },
-}
-
-/// A category without its data.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Kind {
-    Off,
-    ControlledOff,
-    ControlledHold,
-    Lowering,
-}
-
-/// The configured category, and the stop that was required from outside.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Stopping<R, const V: usize> {
-    configured: Kind,
-    active: Kind,
-    damping: [R; V],
-    /// The reason of a controlled stop.
-    reason: Option<Fault>,
-    /// Ticks of the controlled part that are left.
-    ticks: u32,
-    /// Another stop was required during this one.
-    again: bool,
-}
-
-impl<R: Real, const V: usize> Stopping<R, V> {
-    pub(super) fn new() -> Self {
-        Self {
-            configured: Kind::ControlledOff,
-            active: Kind::ControlledOff,
-            damping: [R::ZERO; V],
-            reason: None,
-            ticks: 0,
-            again: false,
-        }
-    }
-
-    fn choose(&mut self, category: &StopCategory<R, V>) -> Kind {
-        match *category {
-            StopCategory::TorqueOff => Kind::Off,
-            StopCategory::ControlledOff => Kind::ControlledOff,
-            StopCategory::ControlledHold => Kind::ControlledHold,
-            StopCategory::DampedLowering { damping } => {
-                // A damping that is not a positive number would drive the joint.
-                self.damping = damping.map(|d| if d > R::ZERO { d } else { R::ZERO });
-                Kind::Lowering
-            }
-        }
-    }
-}
 
 impl<R: Real, const V: usize> Supervisor<R, V> {
     /// The same supervisor with another stop category for lasting faults; without this call it is
@@ -118,8 +21,10 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
     /// ```
     #[must_use]
     pub fn with_stop(mut self, category: StopCategory<R, V>) -> Self {
-        let kind = self.stopping.choose(&category);
-        (self.stopping.configured, self.stopping.active) = (kind, kind);
+        self.stopping.configured = self.stopping.choose(&category);
+        if matches!(self.state, State::Stopped { .. }) {
+            self.state = self.stopping.stopped(self.stopping.configured);
+        }
         self
     }
 
@@ -145,11 +50,14 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
     #[doc(alias = "emergency stop")]
     #[cold]
     pub fn stop(&mut self, fault: Fault) {
-        if !matches!(self.mode, Mode::Stopped) {
-            self.mode = Mode::Stopped;
+        self.stop_at_once(fault, self.stopping.configured);
+    }
+
+    fn stop_at_once(&mut self, fault: Fault, ending: Option<Ending>) {
+        if !matches!(self.mode(), Mode::Stopped) {
+            self.state = self.stopping.stopped(ending);
             self.fault = Some(fault);
             self.ramp = 0;
-            self.clear_stop();
         }
     }
 
@@ -160,72 +68,86 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
     /// [`StopCategory::TorqueOff`] ends a controlled stop at once.
     #[cold]
     pub fn stop_by(&mut self, fault: Fault, category: StopCategory<R, V>) {
-        if matches!(self.mode, Mode::Stopped) {
-            return;
+        if !matches!(self.mode(), Mode::Stopped) {
+            let ending = self.stopping.choose(&category);
+            self.stop_with(fault, ending);
         }
-        let kind = self.stopping.choose(&category);
-        self.stop_kind(fault, kind);
     }
 
     /// Stops the arm by the configured category.
     pub(in crate::control) fn stop_as_configured(&mut self, fault: Fault) {
-        if !matches!(self.mode, Mode::Stopped) {
-            self.stop_kind(fault, self.stopping.configured);
+        self.stop_with(fault, self.stopping.configured);
+    }
+
+    fn stop_with(&mut self, fault: Fault, ending: Option<Ending>) {
+        match (self.state.required(), ending) {
+            // An arm whose position is not known cannot be decelerated.
+            (None, Some(ending)) if self.known => self.decelerate(fault, ending),
+            (None, ending) => self.stop_at_once(fault, ending),
+            (Some((required, _)), None) => {
+                let reason = required.reason;
+                self.stop_at_once(reason, None);
+            }
+            (Some((required, _)), Some(_)) => required.again = true,
         }
     }
 
-    fn stop_kind(&mut self, fault: Fault, kind: Kind) {
-        // An arm whose position is not known cannot be decelerated.
-        if matches!(kind, Kind::Off) | !self.known {
-            let reason = self.stopping.reason.unwrap_or(fault);
-            self.stop(reason);
-            self.stopping.active = kind;
-        } else if self.stopping.reason.is_none() {
-            self.stopping.active = kind;
-            self.stopping.reason = Some(fault);
-            self.stopping.ticks = self.hold_ticks;
-            self.hold_next = true;
-            // Within a tick, the law holds the arm already in this one.
-            if self.open {
-                self.mode = Mode::Hold;
-                self.fault = Some(fault);
-                self.ramp = 0;
-            }
-        } else {
-            self.stopping.again = true;
+    /// Begins a controlled stop; within a tick, the law holds the arm already in this one.
+    fn decelerate(&mut self, reason: Fault, ending: Ending) {
+        if matches!(self.mode(), Mode::Stopped) {
+            return;
         }
+        self.state = State::Stopping {
+            required: Required {
+                reason,
+                again: false,
+            },
+            ending,
+            ticks: self.hold_ticks,
+        };
+        self.fault = Some(reason);
+        self.ramp = 0;
     }
 
     /// The ticks after the ride-through for which a lasting fault holds the arm.
     pub(super) fn held_ticks(&self) -> u32 {
         match self.stopping.configured {
-            Kind::Off => 0,
-            _ => self.hold_ticks,
+            None => 0,
+            Some(_) => self.hold_ticks,
         }
     }
 
-    /// A tick that begins in a hold: after a torque that was not finite, or in a controlled stop.
+    /// The state of an arm that a lasting fault stops.
+    pub(super) fn stopped_by_fault(&mut self) -> State {
+        let ending = match self.state.required() {
+            Some((_, ending)) => Some(ending),
+            None => self.stopping.configured,
+        };
+        self.stopping.stopped(ending)
+    }
+
+    /// A tick of a controlled stop.
     #[cold]
-    pub(super) fn begin_held(&mut self) {
-        let controlled = self.stopping.reason;
-        let stopped = matches!(self.mode, Mode::Stopped);
-        self.hold_next = controlled.is_some() & !stopped;
-        if stopped | (controlled.is_none() & self.faulted) {
-            return;
-        }
-        self.mode = Mode::Hold;
-        if controlled.is_none() {
-            return;
-        }
-        self.fault = controlled;
+    pub(super) fn continue_stop(&mut self, required: Required, ending: Ending, ticks: u32) {
+        self.fault = Some(required.reason);
         self.forget_faults();
-        let on = matches!(self.stopping.active, Kind::ControlledHold);
-        if self.stopping.ticks > 0 {
-            self.stopping.ticks -= 1;
-        } else if !on {
-            self.mode = Mode::Stopped;
-            self.hold_next = false;
-        }
+        let ticks_left = ticks.saturating_sub(1);
+        self.state = match ending {
+            Ending::Hold if ticks_left == 0 => State::Standing(required),
+            Ending::Off | Ending::Lowering if ticks == 0 => self.stopping.stopped(Some(ending)),
+            _ => State::Stopping {
+                required,
+                ending,
+                ticks: ticks_left,
+            },
+        };
+    }
+
+    /// A tick of an arm that is held after a stop of category 2.
+    #[cold]
+    pub(super) fn stand(&mut self, required: Required) {
+        self.fault = Some(required.reason);
+        self.forget_faults();
     }
 
     /// While the arm is held with power, faults are forgotten as in the full law. The ramp, which is not used in a
@@ -244,15 +166,12 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
 
     /// Whether the arm is held by a stop of category 2 whose controlled part is over.
     pub(in crate::control) fn stands(&self) -> bool {
-        let on = matches!(self.stopping.active, Kind::ControlledHold);
-        on & self.stopping.reason.is_some()
-            & (self.stopping.ticks == 0)
-            & matches!(self.mode, Mode::Hold)
+        matches!(self.state, State::Standing(_))
     }
 
-    /// Whether more than one controlled stop has been required since the last reset: one of them may be an operator's.
-    pub(in crate::control) fn stopped_again(&self) -> bool {
-        self.stopping.again
+    /// Whether it is, and no other stop has been required since: that one may be an operator's.
+    pub(in crate::control) fn stands_by_one_stop(&self) -> bool {
+        matches!(self.state, State::Standing(Required { again: false, .. }))
     }
 
     /// Whether every joint is slower than a hundredth of its limit, or as slow as 1 mrad/s.
@@ -265,23 +184,12 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
     /// Ends a stop of category 2: the full law returns over `reentry_ticks`, without the brake.
     pub(in crate::control) fn release(&mut self) {
         self.ramp = 0;
-        self.hold_next = false;
-        self.clear_stop();
+        self.state = State::Held;
     }
 
-    pub(super) fn clear_stop(&mut self) {
-        self.stopping.reason = None;
-        self.stopping.again = false;
-        self.stopping.active = self.stopping.configured;
-    }
-
-    /// Whether the arm sinks while it is stopped. What ends a stop of category 2 early is what the arm is configured for.
+    /// Whether the arm sinks while it is stopped.
     fn sinks(&self) -> bool {
-        match self.stopping.active {
-            Kind::Lowering => true,
-            Kind::ControlledHold => matches!(self.stopping.configured, Kind::Lowering),
-            Kind::Off | Kind::ControlledOff => false,
-        }
+        matches!(self.state, State::Stopped { lowers: true })
     }
 
     /// Whether a stopped arm sinks, and a motion from one position to another in a tick is plausible for it.
@@ -302,7 +210,7 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
     /// Zero, or the damping of a sinking arm within the limits of torque and rate.
     fn stopped_torque(&self, qd: &[R; V]) -> [R; V] {
         let mut torque = [R::ZERO; V];
-        if !self.sinks() | self.unusable.is_some() {
+        if !self.sinks() {
             return torque;
         }
         let limits = self.torque_limit.iter().zip(&self.rate_limit);

@@ -2,6 +2,7 @@ use super::super::SafetyLimits;
 use super::*;
 
 mod protocol;
+mod states;
 mod stops;
 
 const LIMITS: SafetyLimits<f32, 2> = SafetyLimits {

@@ -1,5 +1,6 @@
 //! The steps of a tick: its begin and end, the check of plausibility, and the transitions on faults.
 
+use super::state::State;
 use super::{Command, Fault, Mode, Status, Supervisor};
 use crate::scalar::Real;
 
@@ -10,18 +11,29 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
             self.unfinished();
         }
         self.open = true;
-        if self.hold_next {
-            self.begin_held();
-        } else if !self.faulted & !matches!(self.mode, Mode::Stopped) {
-            self.mode = Mode::Full;
-            self.fault = None;
+        match self.state {
+            State::Full | State::Held => {
+                if !self.faulted {
+                    self.state = State::Full;
+                    self.fault = None;
+                }
+            }
+            State::Torqueless => self.state = State::Held,
+            State::Stopping {
+                required,
+                ending,
+                ticks,
+            } => self.continue_stop(required, ending, ticks),
+            State::Standing(required) => self.stand(required),
+            State::Stopped { .. } | State::Unusable(_) => {}
         }
     }
 
     #[inline(always)]
     pub(super) fn end(&mut self, torque: [R; V], limited: bool) -> Command<R, V> {
-        let stopped = matches!(self.mode, Mode::Stopped);
-        let full = matches!(self.mode, Mode::Full);
+        let mode = self.mode();
+        let stopped = matches!(mode, Mode::Stopped);
+        let full = matches!(mode, Mode::Full);
         let moving = full & !self.braked;
         self.braked &= !full | limited;
         // Sums and products for the same instructions during the return as after it.
@@ -37,7 +49,7 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
             torque,
             brake: stopped | self.braked,
             status: Status {
-                mode: self.mode,
+                mode,
                 fault: self.fault,
                 limited: limited & !stopped,
             },
@@ -139,17 +151,19 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
     pub(super) fn reject_torque(&mut self, tau: &[R; V]) {
         let joint = tau.iter().position(|tau| !tau.is_finite()).unwrap_or(V);
         let fault = Fault::Torque { joint };
-        if matches!(self.mode, Mode::Full) {
-            self.record_fault(fault);
-            self.hold_next = matches!(self.mode, Mode::Hold);
-        } else {
+        if !matches!(self.state, State::Full) {
             self.stop(fault);
+            return;
+        }
+        self.record_fault(fault);
+        if matches!(self.state, State::Held) {
+            self.state = State::Torqueless;
         }
     }
 
     #[cold]
     pub(super) fn record_fault(&mut self, fault: Fault) {
-        if matches!(self.mode, Mode::Stopped) {
+        if matches!(self.mode(), Mode::Stopped) {
             return;
         }
         if !self.faulted {
@@ -159,11 +173,11 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         }
         let in_hold = self.faults.saturating_sub(self.ride_through_ticks);
         if !self.known | (in_hold > self.held_ticks()) {
-            self.mode = Mode::Stopped;
-        } else if in_hold > 0 {
-            self.mode = Mode::Hold;
+            self.state = self.stopped_by_fault();
+        } else if (in_hold > 0) & matches!(self.state, State::Full | State::Torqueless) {
+            self.state = State::Held;
         }
-        if !matches!(self.mode, Mode::Full) {
+        if !matches!(self.state, State::Full) {
             self.ramp = 0;
         }
     }

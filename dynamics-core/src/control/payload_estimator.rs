@@ -19,6 +19,8 @@
 //! in f32 is that of Y, not of Yᵀ Y.
 
 mod config;
+mod factors;
+mod freeze;
 
 pub use config::{PayloadEstimatorConfig, RejectedMeasurement};
 
@@ -26,12 +28,21 @@ use super::ConfigError;
 use crate::scalar::Real;
 use crate::spatial::SpatialInertia;
 use crate::state::entry;
+use factors::Factors;
+use freeze::Freeze;
 
 /// The inertial parameters of a body.
 const PARAMETERS: usize = 10;
 
 /// The sum of squares of all weighted numbers of a tick up to which no product overflows in f32.
 const LARGEST: f64 = 1e18;
+
+/// The share of a tick in the mean square of the innovations.
+const RATE: f64 = 1.0 / 64.0;
+
+/// The shares of the square of the limit at which a freeze begins and ends.
+const FREEZES: f64 = 0.25;
+const THAWS: f64 = 0.16;
 
 /// The inertial parameters of a load on one body, estimated from the torques of V joints.
 ///
@@ -44,8 +55,16 @@ const LARGEST: f64 = 1e18;
 /// the tick adds to it. Therefore no D_k ever falls, nor does the determinant of the information: what the motion does not show
 /// is not forgotten and does not drift.
 ///
+/// # Faults
+/// ‖e‖² is the square of the tick's innovations in units of the standard deviations that noise and estimate imply. A tick whose
+/// innovations have a root mean square beyond `limit` is rejected; the factors of the next tick are computed into a second set, so
+/// that it changes nothing. If the root mean square over some 64 ticks exceeds `limit`/2, the estimate is frozen until it explains
+/// the torques again, within 0.4 `limit`. Meanwhile another estimate begins in the second set. If this one explains the torques
+/// after 1,024 ticks or more, by parameters within `limit` times the prior, it replaces the frozen one: the load has changed, or the
+/// first ticks were wrong. A model that is wrong is explained by no load, and the estimate stays frozen.
+///
 /// # Cost
-/// [`Self::update`] takes some 2,100 flops for six joints, 10 reciprocal roots and 20 divisions; [`Self::update_joints`] 1,300
+/// [`Self::update`] takes some 2,200 flops for six joints, 10 reciprocal roots and 20 divisions; [`Self::update_joints`] 1,300
 /// for three of them; [`Self::inertia`] 90 flops.
 ///
 /// # Source
@@ -64,6 +83,7 @@ const LARGEST: f64 = 1e18;
 ///     noise: [1.0, 1.0, 1.0, 0.3, 0.3, 0.3],
 ///     prior: [5.0, 0.5, 0.5, 0.5, 0.05, 0.05, 0.05, 0.05, 0.05, 0.05],
 ///     forgetting: 0.0,
+///     limit: 5.0,
 /// })?;
 /// let held = BodyInertia { mass: 1.5, com: [0.02, 0.0, 0.06], inertia: [0.0; 6] };
 /// let scene = (RIGID_BODY, Payload::<f64, WRIST>::from_inertia(held));
@@ -90,10 +110,15 @@ pub struct PayloadEstimator<R, const V: usize> {
     /// 1/σ² of the parameters at the start.
     start: [R; PARAMETERS],
     forgetting: R,
-    /// D.
-    information: [R; PARAMETERS],
-    /// Row k: the entries of U right of its diagonal, and that of d.
-    rows: [[R; PARAMETERS + 1]; PARAMETERS],
+    /// The square of the limit.
+    most: R,
+    /// Of this tick and of the next one.
+    factors: [Factors<R>; 2],
+    /// Those of this tick are the second ones.
+    second: bool,
+    /// The mean square of the innovations.
+    level: R,
+    freeze: Option<Freeze<R>>,
 }
 
 impl<R: Real, const V: usize> PayloadEstimator<R, V> {
@@ -103,21 +128,41 @@ impl<R: Real, const V: usize> PayloadEstimator<R, V> {
     /// [`ConfigError`], as [`PayloadEstimatorConfig::check`].
     pub fn try_new(config: PayloadEstimatorConfig<R, V>) -> Result<Self, ConfigError> {
         config.check()?;
-        let mut new = Self {
+        let start = config.prior.map(|x| R::ONE / (x * x));
+        Ok(Self {
             weights: config.noise.map(|deviation| R::ONE / deviation),
-            start: config.prior.map(|x| R::ONE / (x * x)),
+            start,
             forgetting: config.forgetting,
-            information: [R::ZERO; PARAMETERS],
-            rows: [[R::ZERO; PARAMETERS + 1]; PARAMETERS],
-        };
-        new.restart();
-        Ok(new)
+            most: config.limit * config.limit,
+            factors: [Factors::of(start); 2],
+            second: false,
+            level: R::ONE,
+            freeze: None,
+        })
     }
 
-    /// Forgets the load: for another one, or none.
+    /// Forgets the load and ends a freeze: for another load, or none: at once, without the ticks of a freeze.
     pub fn restart(&mut self) {
-        self.information = self.start;
-        self.rows = [[R::ZERO; PARAMETERS + 1]; PARAMETERS];
+        self.factors = [Factors::of(self.start); 2];
+        (self.second, self.level, self.freeze) = (false, R::ONE, None);
+    }
+
+    /// Whether the innovations have frozen the estimate.
+    #[must_use]
+    pub fn frozen(&self) -> bool {
+        self.freeze.is_some()
+    }
+
+    /// The mean square of the innovations over some 64 ticks: one if noise and model are as stated.
+    #[must_use]
+    pub fn consistency(&self) -> R {
+        self.level
+    }
+
+    #[inline(always)]
+    fn factors(&self) -> &Factors<R> {
+        let [first, second] = &self.factors;
+        if self.second { second } else { first }
     }
 
     /// Adds a tick: the body's [columns](crate::algorithms::regressor_columns) of the regressor, and the measured torques
@@ -139,7 +184,7 @@ impl<R: Real, const V: usize> PayloadEstimator<R, V> {
     ///
     /// ```
     /// use dynamics_core::control::{PayloadEstimator, PayloadEstimatorConfig};
-    /// let config = PayloadEstimatorConfig { noise: [1.0_f32; 2], prior: [2.0; 10], forgetting: 0.0 };
+    /// let config = PayloadEstimatorConfig { noise: [1.0_f32; 2], prior: [2.0; 10], forgetting: 0.0, limit: 5.0 };
     /// let mut estimator = PayloadEstimator::try_new(config)?;
     /// let (y, residual) = ([[9.81; 10], [1.0; 10]], [30.0, 5.0]);
     /// for tick in 0..2 {
@@ -175,30 +220,27 @@ impl<R: Real, const V: usize> PayloadEstimator<R, V> {
         if !usable {
             return Err(reason(joints, y, residual));
         }
-        let mut columns = columns.as_mut_slice();
-        let rows = self.rows.iter_mut().zip(&mut self.information);
-        for (k, (row, information)) in rows.enumerate() {
-            let (Some((y, later)), Some(row)) = (columns.split_first_mut(), row.get_mut(k + 1..))
-            else {
-                break;
-            };
-            let y = *y; // a copy stays in registers
-            let new = dot(&y, &y);
-            let old = self.forgetting * *information;
-            let kept = *information - if old < new { old } else { new };
-            let sum = kept + new;
-            let gain = R::ONE / sum;
-            let ratio = kept * gain;
-            let half = gain / (R::ONE + ratio * ratio.rsqrt());
-            for (u, x) in row.iter_mut().zip(later.iter_mut()) {
-                let t = dot(&y, x) - new * *u;
-                let (next, factor) = (*u + t * gain, *u + t * half);
-                *x = core::array::from_fn(|i| entry(x, i) - factor * entry(&y, i));
-                *u = next;
-            }
-            *information = sum;
-            columns = later;
+        if self.freeze.is_some() {
+            return self.frozen_tick(&mut columns);
         }
+        let [first, second] = &mut self.factors;
+        let (now, next) = if self.second {
+            (second, first)
+        } else {
+            (first, second)
+        };
+        let innovation = next.transform(now, self.forgetting, &mut columns);
+        let within = innovation <= self.most;
+        let bounded = if within { innovation } else { self.most };
+        self.level += (bounded - self.level) * R::from_f64(RATE);
+        if self.level > self.most * R::from_f64(FREEZES) {
+            self.freeze();
+            return Err(RejectedMeasurement::Frozen);
+        }
+        if !within {
+            return Err(RejectedMeasurement::Outlier);
+        }
+        self.second = !self.second;
         Ok(())
     }
 
@@ -208,8 +250,8 @@ impl<R: Real, const V: usize> PayloadEstimator<R, V> {
     /// motion does not show the moments of inertia, use mass and centre of mass alone.
     #[must_use]
     pub fn inertia(&self) -> SpatialInertia<R> {
-        let right = self.rows.map(|[.., d]| d);
-        SpatialInertia::from_parameters(self.solve(right))
+        let right = self.factors().rows.map(|[.., d]| d);
+        SpatialInertia::from_parameters(self.factors().solve(right))
     }
 
     /// The standard deviation of each estimated parameter, kg, kg·m and kg·m² in the order of
@@ -218,7 +260,7 @@ impl<R: Real, const V: usize> PayloadEstimator<R, V> {
     /// ```
     /// use dynamics_core::control::{PayloadEstimator, PayloadEstimatorConfig};
     /// let prior = [5.0, 0.5, 0.5, 0.5, 0.05, 0.05, 0.05, 0.05, 0.05, 0.05];
-    /// let config = PayloadEstimatorConfig { noise: [2.0_f64], prior, forgetting: 0.0 };
+    /// let config = PayloadEstimatorConfig { noise: [2.0_f64], prior, forgetting: 0.0, limit: 5.0 };
     /// let mut estimator = PayloadEstimator::try_new(config)?;
     /// estimator.update(&[[9.81, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]], &[19.62])?;
     /// let [mass, moment, ..] = estimator.deviations();
@@ -228,38 +270,15 @@ impl<R: Real, const V: usize> PayloadEstimator<R, V> {
     #[must_use]
     pub fn deviations(&self) -> [R; PARAMETERS] {
         let mut variances = [R::ZERO; PARAMETERS];
-        for (k, information) in self.information.iter().enumerate() {
+        for (k, information) in self.factors().information.iter().enumerate() {
             let unit = core::array::from_fn(|i| if i == k { R::ONE } else { R::ZERO });
             let per = R::ONE / *information;
-            for (variance, x) in variances.iter_mut().zip(self.solve(unit)) {
+            for (variance, x) in variances.iter_mut().zip(self.factors().solve(unit)) {
                 *variance += x * x * per;
             }
         }
         variances.map(R::sqrt)
     }
-
-    /// x with U x = b, from the last row to the first.
-    #[inline(always)]
-    fn solve(&self, mut b: [R; PARAMETERS]) -> [R; PARAMETERS] {
-        for (k, row) in self.rows.iter().enumerate().rev() {
-            let (Some((b, known)), Some(row)) = (
-                b.get_mut(k..).and_then(<[R]>::split_first_mut),
-                row.get(k + 1..PARAMETERS),
-            ) else {
-                break;
-            };
-            *b -= dot(row, known);
-        }
-        b
-    }
-}
-
-/// The scalar product.
-#[inline(always)]
-fn dot<R: Real>(a: &[R], b: &[R]) -> R {
-    let mut products = a.iter().zip(b).map(|(a, b)| *a * *b);
-    let first = products.next().unwrap_or(R::ZERO);
-    products.fold(first, |sum, product| sum + product)
 }
 
 /// Why the numbers of a tick are rejected.

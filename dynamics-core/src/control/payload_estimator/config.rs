@@ -18,10 +18,13 @@ pub struct PayloadEstimatorConfig<R, const V: usize> {
     /// The share of the information that a tick replaces at most, 0 to less than 1. 1/N forgets a load within a few times N ticks
     /// of motion and then averages over some N ticks; 0 never forgets.
     pub forgetting: R,
+    /// The greatest root mean square of a tick's innovations, in standard deviations, of a tick that is used: 3 to 1000.
+    pub limit: R,
 }
 
 impl<R: Real, const V: usize> PayloadEstimatorConfig<R, V> {
-    /// Checks that each standard deviation is between 10⁻⁶ and 10⁶ and the forgetting at least 0 and less than 1.
+    /// Checks that each standard deviation is between 10⁻⁶ and 10⁶ the forgetting at least 0 and less than 1,
+    /// and the limit between 3 and 1000.
     ///
     /// # Errors
     /// [`ConfigError::OutOfRange`] names the number.
@@ -30,7 +33,9 @@ impl<R: Real, const V: usize> PayloadEstimatorConfig<R, V> {
         ConfigParameter::TorqueNoise.require(self.noise.iter().all(usable))?;
         ConfigParameter::PriorDeviation.require(self.prior.iter().all(usable))?;
         let share = (self.forgetting >= R::ZERO) & (self.forgetting < R::ONE);
-        ConfigParameter::Forgetting.require(share)
+        ConfigParameter::Forgetting.require(share)?;
+        let limit = (self.limit >= R::from_f64(3.0)) & (self.limit <= R::from_f64(1e3));
+        ConfigParameter::InnovationLimit.require(limit)
     }
 }
 
@@ -52,6 +57,10 @@ pub enum RejectedMeasurement {
     },
     /// The numbers of the tick exceed 10⁹ standard deviations of the noise.
     TooLarge,
+    /// The innovations of the tick are beyond the limit.
+    Outlier,
+    /// The innovations of many ticks were too large: noise, model or load are not as stated.
+    Frozen,
 }
 
 impl fmt::Display for RejectedMeasurement {
@@ -64,6 +73,10 @@ impl fmt::Display for RejectedMeasurement {
                 )
             }
             Self::TooLarge => out.write_str("the torques or the regressor are too large"),
+            Self::Outlier => out.write_str("the torques are not those of the estimated load"),
+            Self::Frozen => {
+                out.write_str("the torques of many ticks are not those of the estimated load")
+            }
         }
     }
 }

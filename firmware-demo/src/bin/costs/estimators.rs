@@ -20,6 +20,7 @@ pub fn payload<T: Robot<B, N, N>, const B: usize, const N: usize>(asks: &[Ask<N>
         noise: [1.0; N],
         prior: [1.0; 10],
         forgetting: 1e-3,
+        limit: 1000.0,
     };
     let Ok(mut estimator) = PayloadEstimator::<f32, N>::try_new(config) else {
         return;

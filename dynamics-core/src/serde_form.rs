@@ -105,7 +105,7 @@ macro_rules! nested {
     )+};
 }
 
-nested!(SafetyLimits, SupervisorConfig);
+nested!(LimitedSpring, SafetyLimits, SupervisorConfig);
 
 impl<R: Real, const N: usize> Form<Array<R, N>> for [R; N] {
     fn form(self) -> Array<R, N> {
@@ -185,6 +185,40 @@ record!(control::ResumeConfig<R> { tick: R, decay_rate: R, ticks: u32 } check);
 record!(control::Gains<R, V> { kp: Array<R, V>, kd: Array<R, V> });
 record!(control::PassivityGains<R, V> { lambda: Array<R, V>, kd: Array<R, V> });
 record!(control::ImpedanceConfig<R, M> { stiffness: Array<R, M>, zeta: R, slowest: R } check);
+record!(control::TipWrenchConfig<R, V> { noise: Array<R, V>, force: R, couple: R });
+record!(control::PayloadEstimatorConfig<R, V> {
+    noise: Array<R, V>,
+    prior: Array<R, 10>,
+    forgetting: R,
+    limit: R,
+} check);
+record!(control::ParameterEstimatorConfig<R, P, V> {
+    noise: Array<R, V>,
+    prior: Array<R, P>,
+    forgetting: R,
+    limit: R,
+} check);
+record!(control::LimitedSpring<R, V> {
+    stiffness: Array<R, V>,
+    damping: Array<R, V>,
+    torque: Array<R, V>,
+});
+record!(control::HandGuidingConfig<R, V> {
+    error: R,
+    share: R,
+    rest_speed: Array<R, V>,
+    compensation: Array<R, V>,
+    lower: Array<R, V>,
+    upper: Array<R, V>,
+    wall: crate::control::LimitedSpring<R, V>,
+    lock: crate::control::LimitedSpring<R, V>,
+} check);
+record!(control::InertiaShapingConfig<R, V> {
+    amplification: R,
+    dead_band: Array<R, V>,
+    damping: Array<R, V>,
+    torque: Array<R, V>,
+} check);
 record!(control::MotionLimits<R> { velocity: R, acceleration: R });
 record!(control::WayPoint<R, V> { q: Array<R, V>, qd: Array<R, V>, ticks: u32 });
 record!(state::State<R, Q, V> { q: Array<R, Q>, qd: Array<R, V>, qdd: Array<R, V> });

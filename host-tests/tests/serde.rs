@@ -1,8 +1,10 @@
 //! What firmware keeps in flash comes back as it was, and nothing else is read.
 
 use dynamics_core::control::{
-    Gains, ImpedanceConfig, MotionControllerConfig, MotionLimits, ObserverConfig, PassivityGains,
-    ResumeConfig, SafetyLimits, SupervisorConfig, WayPoint,
+    Gains, HandGuidingConfig, ImpedanceConfig, InertiaShapingConfig, LimitedSpring,
+    MotionControllerConfig, MotionLimits, ObserverConfig, ParameterEstimatorConfig, PassivityGains,
+    PayloadEstimatorConfig, ResumeConfig, SafetyLimits, SupervisorConfig, TipWrenchConfig,
+    WayPoint,
 };
 use dynamics_core::effects::{
     Armature, AsymmetricCoulomb, Cogging, Coulomb, EndStops, LoadFriction, Lugre, Payload, Spring,
@@ -81,6 +83,45 @@ fn what_the_controller_is_configured_with_comes_back_to_the_bit() {
         stiffness: LIMITS.torque,
         zeta: 0.7,
         slowest: 2.1,
+    });
+    let positive = THIRDS.map(f32::abs);
+    comes_back(TipWrenchConfig {
+        noise: positive,
+        force: 30.1,
+        couple: 0.0,
+    });
+    comes_back(PayloadEstimatorConfig {
+        noise: positive,
+        prior: [0.3; 10],
+        forgetting: 1e-3,
+        limit: 5.1,
+    });
+    comes_back(ParameterEstimatorConfig {
+        noise: positive,
+        prior: [0.1, 0.2, 0.3],
+        forgetting: 1e-3,
+        limit: 5.1,
+    });
+    let spring = LimitedSpring {
+        stiffness: positive,
+        damping: [0.1, 0.2],
+        torque: [0.3, 0.4],
+    };
+    comes_back(HandGuidingConfig {
+        error: 0.1,
+        share: 0.9,
+        rest_speed: positive,
+        compensation: positive,
+        lower: [-1.0, -2.0],
+        upper: positive,
+        wall: spring,
+        lock: spring,
+    });
+    comes_back(InertiaShapingConfig {
+        amplification: 0.7,
+        dead_band: positive,
+        damping: positive,
+        torque: positive,
     });
     comes_back(MotionLimits {
         velocity: a[0],

@@ -65,6 +65,10 @@ pub enum ConfigParameter {
     Wall,
     /// The stiffness, the damping or the greatest torque that holds a locked joint.
     Lock,
+    /// The amplification of external torques that shapes the inertia.
+    Amplification,
+    /// The dead band, the damping or the greatest torque of a joint whose inertia is shaped.
+    ShapedJoint,
     /// A stiffness of an impedance.
     Stiffness,
     /// The damping ratio of an impedance.
@@ -146,6 +150,10 @@ impl fmt::Display for ConfigError {
             ConfigParameter::WallPosition => "a lower wall is not below the upper one",
             ConfigParameter::Wall => "a number of a virtual wall is negative or not finite",
             ConfigParameter::Lock => "a number of a lock is negative or not finite",
+            ConfigParameter::Amplification => "the amplification is negative or not finite",
+            ConfigParameter::ShapedJoint => {
+                "a number of a joint whose inertia is shaped is negative or not finite"
+            }
             ConfigParameter::Stiffness => "a stiffness of the impedance is not a positive number",
             ConfigParameter::DampingRatio => "the damping ratio is not a positive number",
             ConfigParameter::SlowestMode => "the slowest mode is not a positive number",

@@ -21,6 +21,7 @@
 //! | [`hybrid_motion_force`], [`TaskCommand`] | motions and forces along a task's directions | none |
 //! | [`CartesianImpedance`], [`pose_error()`] | a spring and a damper between a body and its goal, with null space | none |
 //! | [`HandGuiding`] | an arm that a hand moves: friction in part, virtual walls, locked joints | where joints are locked |
+//! | [`InertiaShaping`] | external torques, amplified: an arm that is lighter for a hand | none |
 //! | [`ZeroOrderHold`], [`FirstOrderHold`], [`Interpolator`], [`InertiaUpdate`] | the torque in ticks without a computation of the dynamics | last torques |
 //! | [`Supervisor`] | limits, plausibility, reactions to faults | last good values |
 //! | [`Fault`], [`Reaction`] | what each fault leads to | |
@@ -74,6 +75,7 @@ mod hand_guiding;
 mod hold;
 mod hybrid_force;
 mod impedance;
+mod inertia_shaping;
 mod momentum_observer;
 mod multi_turn;
 mod multirate;
@@ -111,6 +113,7 @@ pub use hybrid_force::{
     TaskCommand, TaskForce, TaskFrame, TaskMotion, hybrid_motion_force, orientation_error,
 };
 pub use impedance::{CartesianImpedance, ImpedanceConfig, ImpedanceTorque, TaskDeviation};
+pub use inertia_shaping::{InertiaShaping, InertiaShapingConfig};
 pub use momentum_observer::MomentumObserver;
 pub use multi_turn::MultiTurnEncoder;
 pub use multirate::{FirstOrderHold, InertiaUpdate, Interpolator, ZeroOrderHold};

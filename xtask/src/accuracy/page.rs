@@ -175,11 +175,11 @@ pub fn brief(points: &[Point], shares: Option<[f64; 2]>, rustc: &str) -> String 
     few.retain(|point| is_single(point, 6));
     few.sort_by(|a, b| a.error().total_cmp(&b.error()));
     let table = table(&named(&few), "UR5e", BRIEF).markdown();
-    let [least, most] = shares.unwrap_or([1.0; 2]).map(percent);
-    format!(
-        "{table}\nBy the most and the least favourable reading of the manual the cycles are between {least} and {most} of these.\n\
-         Measured with {rustc}."
-    )
+    let range = shares.map_or(String::new(), |shares| {
+        let [least, most] = shares.map(percent);
+        format!("By the most and the least favourable reading of the manual the cycles are between {least} and {most} of these.\n")
+    });
+    format!("{table}\n{range}Measured with {rustc}.")
 }
 
 /// The text about a robot's torques, or about simulations.

@@ -65,6 +65,8 @@ pub enum ConfigParameter {
     Wall,
     /// The stiffness, the damping or the greatest torque that holds a locked joint.
     Lock,
+    /// The spacing of the way-points of a path.
+    PathSpacing,
     /// A stiffness of an impedance.
     Stiffness,
     /// The damping ratio of an impedance.
@@ -146,6 +148,7 @@ impl fmt::Display for ConfigError {
             ConfigParameter::WallPosition => "a lower wall is not below the upper one",
             ConfigParameter::Wall => "a number of a virtual wall is negative or not finite",
             ConfigParameter::Lock => "a number of a lock is negative or not finite",
+            ConfigParameter::PathSpacing => "a spacing of way-points is not a positive number",
             ConfigParameter::Stiffness => "a stiffness of the impedance is not a positive number",
             ConfigParameter::DampingRatio => "the damping ratio is not a positive number",
             ConfigParameter::SlowestMode => "the slowest mode is not a positive number",

@@ -1,0 +1,31 @@
+//! A path of the joints without time.
+
+/// Positions and their derivatives by the path parameter s at one point of a path.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct PathPoint<R, const V: usize> {
+    /// Positions q, rad or m.
+    pub q: [R; V],
+    /// q′ = dq/ds, rad or m.
+    pub slope: [R; V],
+    /// q″ = d²q/ds², rad or m.
+    pub curvature: [R; V],
+}
+
+/// A path q(s) of V joints for 0 ≤ s ≤ 1, of which q″ is continuous: what [`TimedPath`](super::TimedPath) gives a time.
+///
+/// ```
+/// use dynamics_core::control::{GeometricPath, PathPoint};
+/// /// A straight line of two joints.
+/// struct Line([f64; 2]);
+/// impl GeometricPath<f64, 2> for Line {
+///     fn point(&self, s: f64) -> PathPoint<f64, 2> {
+///         PathPoint { q: self.0.map(|q| q * s), slope: self.0, curvature: [0.0; 2] }
+///     }
+/// }
+/// assert_eq!(Line([1.0, -2.0]).point(0.5).q, [0.5, -1.0]);
+/// ```
+pub trait GeometricPath<R, const V: usize> {
+    /// The point at s.
+    fn point(&self, s: R) -> PathPoint<R, V>;
+}

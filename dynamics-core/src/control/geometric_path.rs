@@ -1,5 +1,8 @@
 //! A path of the joints without time.
 
+use super::real;
+use crate::scalar::Real;
+
 /// Positions and their derivatives by the path parameter s at one point of a path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -24,8 +27,19 @@ pub struct PathPoint<R, const V: usize> {
 ///     }
 /// }
 /// assert_eq!(Line([1.0, -2.0]).point(0.5).q, [0.5, -1.0]);
+/// assert_eq!(Line([1.0, -2.0]).grid_point(1, 4), 0.25);
 /// ```
-pub trait GeometricPath<R, const V: usize> {
+pub trait GeometricPath<R: Real, const V: usize> {
     /// The point at s.
     fn point(&self, s: R) -> PathPoint<R, V>;
+
+    /// s of a point of a grid with this number of segments: from 0 to 1, in ascending order. Where q″ has a corner, there should be
+    /// a point.
+    fn grid_point(&self, point: usize, segments: usize) -> R {
+        if point < segments {
+            real::<R>(point as u32) / real(segments as u32)
+        } else {
+            R::ONE
+        }
+    }
 }

@@ -13,7 +13,7 @@
 //! spline with its tridiagonal system. The knots are at the lengths of the polygon through the way-points in spacings, so that
 //! most steps are about 1 and the systems are well conditioned in f32.
 
-use super::{GeometricPath, PathPoint};
+use super::{GeometricPath, PathPoint, real};
 use crate::scalar::Real;
 use crate::state::{all_finite, entry};
 
@@ -89,21 +89,11 @@ impl<R: Real, const V: usize, const N: usize> PathSpline<R, V, N> {
         tolerance: &[R; V],
     ) -> Result<(), PathSplineError> {
         *self = Self::EMPTY;
-        self.place_knots(points, spacing)?;
-        for (joint, &tolerance) in tolerance.iter().enumerate() {
-            let is_number = tolerance >= R::ZERO; // a NaN is not
-            if !is_number {
-                return Err(PathSplineError::Tolerance { joint });
-            }
+        let fitted = self.smooth(points, spacing, tolerance);
+        if fitted.is_err() {
+            *self = Self::EMPTY;
         }
-        self.count = points.len();
-        let lambda = self.smoothest(points, tolerance);
-        if self.moments.iter().all(|moments| all_finite(moments)) {
-            self.shift(points, lambda);
-            return Ok(());
-        }
-        *self = Self::EMPTY;
-        Err(PathSplineError::TooLong)
+        fitted
     }
 
     /// The greatest distance of each joint from a way-point, rad or m.
@@ -114,6 +104,29 @@ impl<R: Real, const V: usize, const N: usize> PathSpline<R, V, N> {
     /// The length of the path in spacings.
     pub fn length(&self) -> R {
         entry(&self.knots, self.count.saturating_sub(1))
+    }
+
+    fn smooth(
+        &mut self,
+        points: &[[R; V]],
+        spacing: &[R; V],
+        tolerance: &[R; V],
+    ) -> Result<(), PathSplineError> {
+        self.place_knots(points, spacing)?;
+        for (joint, &tolerance) in tolerance.iter().enumerate() {
+            let is_number = tolerance >= R::ZERO; // a NaN is not
+            if !is_number {
+                return Err(PathSplineError::Tolerance { joint });
+            }
+        }
+        self.count = points.len();
+        let lambda = self.smoothest(points, tolerance);
+        self.shift(points, lambda);
+        let mut numbers = self.moments.iter().chain(&self.values);
+        if numbers.all(|numbers| all_finite(numbers)) {
+            return Ok(());
+        }
+        Err(PathSplineError::TooLong)
     }
 
     fn place_knots(
@@ -135,15 +148,15 @@ impl<R: Real, const V: usize, const N: usize> PathSpline<R, V, N> {
             if let Some(last) = last {
                 let square = square_distance(last, q, spacing);
                 let next = t + if square > R::ZERO { square.sqrt() } else { R::ZERO };
+                if !next.is_finite() {
+                    return Err(PathSplineError::TooLong);
+                }
                 // Neighbours that are much nearer than others have a step that rounding would change.
                 let apart = next - t > R::from_f64(64.0) * R::EPSILON * next;
                 if !apart {
                     return Err(PathSplineError::Coincident { point });
                 }
                 t = next;
-            }
-            if !t.is_finite() {
-                return Err(PathSplineError::TooLong);
             }
             (*knot, last) = (t, Some(q));
         }
@@ -219,6 +232,32 @@ impl<R: Real, const V: usize, const N: usize> GeometricPath<R, V> for PathSpline
             }),
         }
     }
+
+    /// Points at all knots, with the same number of segments between them or one more, if there are as many segments as spans.
+    fn grid_point(&self, point: usize, segments: usize) -> R {
+        let spans = self.count.saturating_sub(1);
+        let uniform = || real::<R>(point as u32) / real(segments as u32);
+        if point >= segments {
+            return R::ONE;
+        }
+        // None only with fewer segments than spans.
+        place(point, segments, spans).map_or_else(uniform, |(k, index, parts)| {
+            let part = real::<R>(index) / real(parts);
+            (entry(&self.knots, k) + part * self.step(k)) / self.length()
+        })
+    }
+}
+
+/// The span of a grid's point, its index within the span, and the segments there.
+fn place(point: usize, segments: usize, spans: usize) -> Option<(usize, u32, u32)> {
+    let (each, more) = (segments.checked_div(spans)?, segments.checked_rem(spans)?);
+    let long = more * (each + 1);
+    let (first, index, parts) = match point.checked_sub(long) {
+        Some(index) => (more, index, each),
+        None => (0, point, each + 1),
+    };
+    let (span, index) = (index.checked_div(each)?.min(index.checked_div(parts)?), index.checked_rem(parts)?);
+    Some((first + span, index as u32, parts as u32))
 }
 
 fn square_distance<R: Real, const V: usize>(from: &[R; V], to: &[R; V], spacing: &[R; V]) -> R {

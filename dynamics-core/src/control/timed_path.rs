@@ -70,9 +70,13 @@ pub struct TimedPath<'a, R, P, const M: usize> {
     tick: R,
 }
 
+/// A part of a tick that makes no further tick at the end.
+const SHORT: f64 = 1e-3;
+
 /// A point of the grid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct GridPoint<R> {
+    s: R,
     /// ṡ, 1/s; while the motion is planned, x = ṡ².
     rate: R,
     /// The time at which the motion is there: the whole ticks, and the rest. While the motion is planned, the rest is x₀ of the
@@ -127,6 +131,7 @@ impl<'a, R: Real, P, const M: usize> TimedPath<'a, R, P, M> {
         }
         limits.check()?;
         let rest = GridPoint {
+            s: R::ONE,
             rate: R::ZERO,
             ticks: 0,
             rest: R::ZERO,
@@ -136,9 +141,17 @@ impl<'a, R: Real, P, const M: usize> TimedPath<'a, R, P, M> {
             grid: [rest; M],
             tick,
         };
+        for (point, at) in timed.grid.iter_mut().enumerate() {
+            at.s = path.grid_point(point, M - 1);
+        }
         timed.plan(limits, inverse_dynamics)?;
         timed.count_ticks()?;
         Ok(timed)
+    }
+
+    /// s at a point of the grid; 1 beyond the last one.
+    pub fn grid_point(&self, point: usize) -> R {
+        self.grid.get(point).map_or(R::ONE, |at| at.s)
     }
 
     /// x = ṡ² at a point of the grid, 1/s²; zero beyond the last one.
@@ -151,25 +164,24 @@ impl<'a, R: Real, P, const M: usize> TimedPath<'a, R, P, M> {
         self.grid.last().map_or(R::ZERO, |end| (real::<R>(end.ticks) + end.rest) * self.tick)
     }
 
-    /// 1/(M − 1).
-    fn step() -> R {
-        R::from_f64(1.0 / (M - 1) as f64)
-    }
-
     /// Times from x, which becomes ṡ.
     fn count_ticks(&mut self) -> Result<(), TimedPathError> {
-        let across = R::from_f64(2.0) * Self::step() / self.tick;
-        let (mut ticks, mut rest, mut before) = (0_u32, R::ZERO, None);
+        let (mut ticks, mut rest) = (0_u32, R::ZERO);
+        let mut before: Option<GridPoint<R>> = None;
         for at in &mut self.grid {
             at.rate = if at.rate > R::ZERO { at.rate.sqrt() } else { R::ZERO };
             if let Some(before) = before {
-                rest += across / (before + at.rate);
+                let step = (at.s - before.s) / self.tick;
+                rest += (step + step) / (before.rate + at.rate);
                 let whole = rest.to_u32();
                 let sum = ticks.checked_add(whole).filter(|&sum| rest.is_finite() & (sum < u32::MAX));
                 ticks = sum.ok_or(TimedPathError::TooLong)?;
                 rest = rest - real(whole);
             }
-            (at.ticks, at.rest, before) = (ticks, rest, Some(at.rate));
+            (at.ticks, at.rest, before) = (ticks, rest, Some(*at));
+        }
+        if let Some(end) = self.grid.last_mut().filter(|end| end.rest < R::from_f64(SHORT)) {
+            end.rest = R::ZERO;
         }
         Ok(())
     }
@@ -189,11 +201,10 @@ impl<R: Real, P: GeometricPath<R, V>, const V: usize, const M: usize> Reference<
         let (Some(from), Some(to)) = (self.grid.get(k), self.grid.get(next)) else {
             return State::at(self.path.point(R::ONE).q);
         };
-        let step = Self::step();
         let t = (real::<R>(tick.wrapping_sub(from.ticks)) - from.rest) * self.tick;
         let half = R::from_f64(0.5);
-        let half_u = half * half * (to.rate - from.rate) * (to.rate + from.rate) / step;
-        let s = real::<R>(k as u32) * step + t * (from.rate + half_u * t);
+        let half_u = half * half * (to.rate - from.rate) * (to.rate + from.rate) / (to.s - from.s);
+        let s = from.s + t * (from.rate + half_u * t);
         let (u, rate) = (half_u + half_u, from.rate + (half_u + half_u) * t);
         let rate = rate.clamped(R::ZERO, if from.rate > to.rate { from.rate } else { to.rate });
         let point = self.path.point(s.clamped(R::ZERO, R::ONE));

@@ -16,6 +16,7 @@ pub(super) struct Coefficients<R, const V: usize> {
     /// The greatest x within the limits of speed.
     pub(super) fastest: R,
     pub(super) point: usize,
+    pub(super) s: R,
 }
 
 /// The greatest x of all, where nothing limits it.
@@ -60,6 +61,7 @@ impl<R: Real, const V: usize> Coefficients<R, V> {
             curvature: at.curvature,
             fastest: fastest(&at.slope, limits),
             point,
+            s,
         })
     }
 }

@@ -3,7 +3,7 @@
 use super::coefficients::Coefficients;
 use super::stage::Stage;
 use super::{GridPoint, PathLimits, TimedPath, TimedPathError};
-use crate::control::{GeometricPath, real};
+use crate::control::GeometricPath;
 use crate::scalar::Real;
 use crate::state::State;
 
@@ -22,11 +22,9 @@ impl<R: Real, P, const M: usize> TimedPath<'_, R, P, M> {
     where
         P: GeometricPath<R, V>,
     {
-        let (path, step) = (self.path, Self::step());
-        let coefficients = |point: usize| {
-            let s = real::<R>(point as u32) * step;
-            Coefficients::at(path, (point, s), limits, &inverse_dynamics)
-        };
+        let path = self.path;
+        let coefficients =
+            |point: usize, s| Coefficients::at(path, (point, s), limits, &inverse_dynamics);
         let viscous = limits.friction.iter().any(|friction| friction.viscous > R::ZERO);
         for round in 0..if viscous { ROUNDS } else { 1 } {
             self.backward(round == 0, limits, coefficients)?;
@@ -41,17 +39,17 @@ impl<R: Real, P, const M: usize> TimedPath<'_, R, P, M> {
         &mut self,
         first: bool,
         limits: &PathLimits<R, V>,
-        coefficients: impl Fn(usize) -> Result<Coefficients<R, V>, TimedPathError>,
+        coefficients: impl Fn(usize, R) -> Result<Coefficients<R, V>, TimedPathError>,
     ) -> Result<(), TimedPathError> {
         let keep = R::ONE - R::from_f64(GUARD) * R::EPSILON;
-        let (mut next, mut end) = (R::ZERO, coefficients(M - 1)?);
+        let (mut next, mut end) = (R::ZERO, coefficients(M - 1, R::ONE)?);
         for (point, at) in self.grid.iter_mut().enumerate().rev().skip(1) {
-            let begin = coefficients(point)?;
+            let begin = coefficients(point, at.s)?;
             if first {
                 let slower = begin.fastest < end.fastest;
                 at.rest = if slower { begin.fastest } else { end.fastest };
             }
-            let stage = Stage::new([&begin, &end], limits, Self::step(), next, at.rest)?;
+            let stage = Stage::new([&begin, &end], limits, next, at.rest)?;
             next = stage.largest_x() * keep;
             (at.rate, end) = (next, begin);
         }
@@ -62,18 +60,17 @@ impl<R: Real, P, const M: usize> TimedPath<'_, R, P, M> {
     fn forward<const V: usize>(
         &mut self,
         limits: &PathLimits<R, V>,
-        coefficients: impl Fn(usize) -> Result<Coefficients<R, V>, TimedPathError>,
+        coefficients: impl Fn(usize, R) -> Result<Coefficients<R, V>, TimedPathError>,
     ) -> Result<(), TimedPathError> {
-        let across = Self::step() + Self::step();
-        let (mut x, mut touch, mut begin) = (R::ZERO, R::ZERO, coefficients(0)?);
+        let (mut x, mut touch, mut begin) = (R::ZERO, R::ZERO, coefficients(0, R::ZERO)?);
         for (point, at) in self.grid.iter_mut().enumerate() {
             if point == 0 {
                 (at.rate, touch) = (x, at.rest);
                 continue;
             }
-            let end = coefficients(point)?;
-            let stage = Stage::new([&begin, &end], limits, Self::step(), at.rate, touch)?;
-            let reached = x + across * stage.largest_u(x);
+            let end = coefficients(point, at.s)?;
+            let stage = Stage::new([&begin, &end], limits, at.rate, touch)?;
+            let reached = x + stage.across() * stage.largest_u(x);
             x = reached.clamped(R::ZERO, at.rate);
             let moves = (x > R::ZERO) | (point + 1 == M);
             if !moves {

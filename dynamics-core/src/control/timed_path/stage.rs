@@ -27,6 +27,8 @@ pub(super) struct Stage<R, const V: usize> {
     next: [HalfPlane<R>; 2],
     /// The greatest x within the limits of speed.
     fastest: R,
+    /// 2 Δ.
+    across: R,
 }
 
 /// The least share of a limit of torque that gravity and friction have to leave.
@@ -40,10 +42,10 @@ impl<R: Real, const V: usize> Stage<R, V> {
     pub(super) fn new(
         [from, to]: [&Coefficients<R, V>; 2],
         limits: &PathLimits<R, V>,
-        step: R,
         next: R,
         touch: R,
     ) -> Result<Self, TimedPathError> {
+        let step = to.s - from.s;
         let across = step + step;
         let mut fastest = from.fastest;
         fastest = if to.fastest > fastest { to.fastest } else { fastest };
@@ -76,7 +78,13 @@ impl<R: Real, const V: usize> Stage<R, V> {
             ],
             next: both(across, [R::ONE, -R::ONE], [next, R::ZERO]),
             fastest: from.fastest,
+            across,
         })
+    }
+
+    /// 2 Δ.
+    pub(super) fn across(&self) -> R {
+        self.across
     }
 
     fn limits(&self) -> impl Iterator<Item = &HalfPlane<R>> {

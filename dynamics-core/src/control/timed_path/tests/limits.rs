@@ -26,8 +26,8 @@ fn share<const V: usize, P: GeometricPath<f64, V>, const M: usize>(
 
 /// An arc on which the inertia of the second joint along the path, 0.8 q₁′ + 0.6 q₂′, changes its sign twice.
 fn arc(s: f64) -> [[f64; 2]; 3] {
-    let (sin, cos) = (4.0 * s).sin_cos();
-    [[sin, cos], [4.0 * cos, -4.0 * sin], [-16.0 * sin, -16.0 * cos]]
+    let (sin, cos) = (5.0 * s).sin_cos();
+    [[sin, cos], [5.0 * cos, -5.0 * sin], [-25.0 * sin, -25.0 * cos]]
 }
 
 #[test]
@@ -46,9 +46,9 @@ fn a_point_of_zero_inertia_is_no_special_case() {
     let fine = TimedPath::<_, _, 3201>::new(&path, 1e-4, &limits, coupled).unwrap();
     let lost = coarse.seconds() / fine.seconds() - 1.0;
     let excess = [share(&coarse, &limits.torque, coupled), share(&fine, &limits.torque, coupled)];
-    println!("{lost:e} {excess:?}");
-    assert!(lost.abs() < 1e-3, "{lost:e}");
-    assert!(excess[0] < 1.01 && excess[1] < 1.00002, "{excess:?}");
+    std::println!("{lost:e} {excess:?}");
+    assert!((0.0..0.01).contains(&lost), "{lost:e}");
+    assert!(excess[0] < 1.002 && excess[1] < 1.000002, "{excess:?}");
     // The second joint is at its limit near its point of zero inertia, and the first one elsewhere.
     assert!(excess.iter().all(|excess| *excess > 0.9999));
 }
@@ -96,7 +96,7 @@ fn friction_is_within_the_limits_and_helps_only_as_far_as_it_is_certain() {
         let best = fastest(certain);
         let (seconds, most) = timed(certain, f64::INFINITY);
         let (near, nearly_most) = timed(certain, 2.2); // just above the peak
-        println!("{certain}: {best} {seconds} {near} {most} {nearly_most}");
+        std::println!("{certain}: {best} {seconds} {near} {most} {nearly_most}");
         assert!((0.999..1.02).contains(&(seconds / best)), "{seconds} of {best}");
         assert!(most < 1.0 + 1e-9 && nearly_most < 1.0 + 1e-9, "{most} {nearly_most}");
     }

@@ -3,8 +3,8 @@
 
     cargo run -p host-reports --bin export_robots | .venv/bin/python host-tests/oracle/toppra_paths.py
 
-Writes host-tests/recordings/toppra_ur5e.json: of each path its way-points, its limits, the duration and ṡ² at some of the
-grid points, s from 0 to 1. The paths are natural cubic splines, parameterised by the length of the polygon through the
+Writes host-tests/recordings/toppra_ur5e.json: of each path its way-points, its limits, the duration on a fine grid, and on a
+coarse grid, which has all knots, the duration and ṡ² at all points. s is from 0 to 1. The paths are natural cubic splines, parameterised by the length of the polygon through the
 way-points (scipy's, through toppra's SplineInterpolator). Rotor inertia is on Pinocchio's diagonal, Coulomb friction is
 toppra's dry friction. toppra has no viscous friction. Needs requirements.txt.
 """
@@ -21,8 +21,8 @@ import toppra.constraint
 from record import pinocchio_model
 
 PATHS = 20
-SEGMENTS = 2000  # of toppra's grid
-RECORDED = 50  # segments of which ṡ² is recorded
+FINE = 200  # segments from knot to knot
+COARSE = 400  # segments of the whole path
 SPACING = 0.1  # rad, between way-points
 ARMATURE = [0.9, 0.9, 0.9, 0.25, 0.25, 0.25]
 COULOMB = [8.0, 8.0, 6.0, 1.5, 1.5, 1.2]
@@ -52,10 +52,23 @@ def limits(kind):
     }
 
 
-def fastest(inverse_dynamics, points, limit):
-    """The length, the greatest ṡ² on the grid, and the time."""
+def lengths(points):
     knots = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
-    knots /= knots[-1]
+    return knots / knots[-1]
+
+
+def grid_of(knots, segments):
+    """All knots, and between them the same number of segments or, in the first spans, one more."""
+    spans = len(knots) - 1
+    counts = [segments // spans + (k < segments % spans) for k in range(spans)]
+    parts = [np.linspace(knots[k], knots[k + 1], n, endpoint=False) for k, n in enumerate(counts)]
+    return np.concatenate([*parts, [1.0]])
+
+
+def fastest(inverse_dynamics, points, limit, segments):
+    """ṡ² on a grid, and the time."""
+    knots = lengths(points)
+    grid = grid_of(knots, segments)
     path = toppra.SplineInterpolator(knots, points, bc_type="natural")
     scheme = toppra.constraint.DiscretizationType.Interpolation
     torque = np.array(limit["torque"])
@@ -71,11 +84,10 @@ def fastest(inverse_dynamics, points, limit):
         constraints.append(
             toppra.constraint.JointAccelerationConstraint(np.stack([-bound, bound], 1), discretization_scheme=scheme)
         )
-    grid = np.linspace(0.0, 1.0, SEGMENTS + 1)
     instance = toppra.algorithm.TOPPRA(constraints, path, gridpoints=grid, solver_wrapper="seidel")
     _, rates, _ = instance.compute_parameterization(0.0, 0.0)
     assert rates is not None and np.isfinite(rates).all()
-    return rates**2, float(np.sum(2.0 / SEGMENTS / (rates[1:] + rates[:-1])))
+    return rates**2, float(np.sum(2.0 * np.diff(grid) / (rates[1:] + rates[:-1])))
 
 
 def main():
@@ -87,12 +99,14 @@ def main():
     paths = []
     for k in range(PATHS):
         points, limit = way_points(rng), limits(k % 3)
-        squares, seconds = fastest(inverse_dynamics, points, limit)
-        print(f"path {k}: {len(points)} way-points, {seconds:.4f} s", file=sys.stderr)
-        every = SEGMENTS // RECORDED
-        paths.append({"points": points.tolist(), **limit, "seconds": seconds, "squares": squares[::every].tolist()})
+        _, seconds = fastest(inverse_dynamics, points, limit, FINE * (len(points) - 1))
+        squares, coarse = fastest(inverse_dynamics, points, limit, COARSE)
+        print(f"path {k}: {len(points)} way-points, {seconds:.4f} s, coarse {coarse:.4f} s", file=sys.stderr)
+        paths.append(
+            {"points": points.tolist(), **limit, "seconds": seconds, "coarse": coarse, "squares": squares.tolist()}
+        )
     recording = {
-        "robot": "ur5e", "toppra": version("toppra"), "pinocchio": pin.__version__, "segments": SEGMENTS,
+        "robot": "ur5e", "toppra": version("toppra"), "pinocchio": pin.__version__, "fine": FINE, "segments": COARSE,
         "armature": ARMATURE, "paths": paths,
     }
     file = Path(__file__).parents[1] / "recordings" / "toppra_ur5e.json"

@@ -71,7 +71,7 @@ fn random_paths_of_random_trees_are_within_all_limits_and_one_is_always_reached(
             friction,
         };
         let tick = 2e-4;
-        let timed = TimedPath::<_, _, 201>::new(&path, tick, &limits, |state| {
+        let timed = TimedPath::<_, _, 401>::new(&path, tick, &limits, |state| {
             rnea(&robot, state, &RIGID_BODY)
         })
         .unwrap_or_else(|error| panic!("{error}"));
@@ -101,7 +101,7 @@ fn random_paths_of_random_trees_are_within_all_limits_and_one_is_always_reached(
         reached = reached.min(quietest);
     }
     println!("{excess} {reached}");
-    within("beyond a limit", excess, 0.02);
+    within("beyond a limit", excess, 0.01);
     // A motion could be faster where no limit is reached.
-    assert!(reached > 0.9, "{reached}");
+    assert!(reached > 0.85, "{reached}");
 }

@@ -105,8 +105,7 @@ impl<R: Real, const V: usize, const N: usize> TaughtPath<R, V, N> {
             return Recorded::NotFinite { joint };
         }
         let half = R::from_f64(0.5);
-        let near =
-            |last: &[R; V], square| -> bool { self.square_distance(last, q) < square };
+        let near = |last: &[R; V], square| -> bool { self.square_distance(last, q) < square };
         match self.points().last() {
             Some(last) if near(last, half * half) => {
                 let last = self.count - 1;

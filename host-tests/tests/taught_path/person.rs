@@ -13,14 +13,18 @@ const SECONDS: f64 = 10.0;
 /// Of the hand, m and Hz.
 const TREMOR: [(f64, f64); 3] = [(0.8e-3, 8.7), (0.6e-3, 9.6), (0.7e-3, 11.3)];
 /// A step of an encoder of 14 bits, rad; its noise is uniform and as large.
-const STEP: f64 = TAU / 16_384.0;
+pub const STEP: f64 = TAU / 16_384.0;
 
 /// The velocity of the hand at a time, m/s: once along a bent eight, slower at both ends.
 fn velocity(t: f64, tremor: f64) -> DVec3 {
     let x = t / SECONDS;
     let phase = TAU * x * x * x * (10.0 - 15.0 * x + 6.0 * x * x);
     let rate = TAU * 30.0 * x * x * (1.0 - x) * (1.0 - x) / SECONDS;
-    let slope = DVec3::new(-0.10 * phase.sin(), 0.30 * phase.cos(), 0.24 * (2.0 * phase).cos());
+    let slope = DVec3::new(
+        -0.10 * phase.sin(),
+        0.30 * phase.cos(),
+        0.24 * (2.0 * phase).cos(),
+    );
     let shake = TREMOR.map(|(size, frequency)| {
         let omega = TAU * frequency;
         // It sets in and ends smoothly.

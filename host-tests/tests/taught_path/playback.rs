@@ -3,8 +3,8 @@
 use dynamics_core::Core;
 use dynamics_core::control::{
     Gains, GeometricPath, JointFriction, Mode, MotionController, MotionControllerConfig,
-    MotionLimits, PathLimits, PathSpline, Recorded, Reference, SafetyLimits, SupervisorConfig,
-    TaughtPath, TimedPath, feedback,
+    PathLimits, PathSpline, Recorded, Reference, SafetyLimits, SupervisorConfig, TaughtPath,
+    TimedPath, feedback,
 };
 use dynamics_core::robots::Ur5e;
 use dynamics_core::sim::linearly_implicit;
@@ -12,7 +12,7 @@ use dynamics_core::state::State;
 use host_tests::measured::within;
 
 use crate::cell::TICK;
-use crate::person::{guide, measured, shaken};
+use crate::person::{STEP, guide, measured, shaken};
 use crate::plant::{Inertias, Q, SLIDING, VISCOUS, arm, modelled, real};
 use crate::table;
 use crate::ur5e::{RIGID, inverse_dynamics};
@@ -26,18 +26,22 @@ const OMEGA: f64 = 25.0;
 
 type Path = PathSpline<f64, 6, N>;
 
+const SAFETY: SafetyLimits<f64, 6> = SafetyLimits {
+    torque: TORQUE,
+    rate: [f64::INFINITY; 6], // the torques of the fastest motion jump
+    speed: [3.3; 6],
+    lower: [-6.2; 6],
+    upper: [6.2; 6],
+};
+
 fn limits() -> PathLimits<f64, 6> {
     PathLimits {
-        torque: TORQUE.map(|torque| SHARE * torque),
-        motion: [MotionLimits {
-            velocity: 3.0,
-            acceleration: f64::INFINITY,
-        }; 6],
         friction: core::array::from_fn(|j| JointFriction {
             coulomb: SLIDING[j],
             viscous: VISCOUS[j],
             certain: 0.0,
         }),
+        ..PathLimits::from(SAFETY.with_speed_share(0.9)).with_torque_share(SHARE)
     }
 }
 
@@ -46,7 +50,10 @@ fn taught(positions: &[Q], tolerance: f64) -> (usize, Path) {
     let mut taught = TaughtPath::<f64, 6, N>::try_new(SPACING).expect("spacings");
     for q in positions {
         let recorded = taught.record(q);
-        assert!(matches!(recorded, Recorded::Stored | Recorded::Near), "{recorded:?}");
+        assert!(
+            matches!(recorded, Recorded::Stored | Recorded::Near),
+            "{recorded:?}"
+        );
     }
     let end = positions.last().expect("some");
     assert_eq!(taught.end(end), Recorded::Stored);
@@ -61,12 +68,21 @@ fn timed(path: &Path) -> TimedPath<'_, f64, Path, 401> {
 
 /// The greatest distance of the path from positions of each tick, rad.
 fn off(path: &Path, positions: &[Q]) -> f64 {
-    let along: Vec<Q> = (0..=8000).map(|k| path.point(f64::from(k) / 8000.0).q).collect();
-    let distance = |a: &Q, b: &Q| {
-        (0..6).fold(0.0_f64, |most, j| most.max((a[j] - b[j]).abs()))
+    let along: Vec<Q> = (0..=8000)
+        .map(|k| path.point(f64::from(k) / 8000.0).q)
+        .collect();
+    let distance = |a: &Q, b: &Q| (0..6).fold(0.0_f64, |most, j| most.max((a[j] - b[j]).abs()));
+    let nearest = |q: &Q| {
+        along
+            .iter()
+            .map(|p| distance(p, q))
+            .fold(f64::INFINITY, f64::min)
     };
-    let nearest = |q: &Q| along.iter().map(|p| distance(p, q)).fold(f64::INFINITY, f64::min);
-    positions.iter().step_by(20).map(nearest).fold(0.0, f64::max)
+    positions
+        .iter()
+        .step_by(20)
+        .map(nearest)
+        .fold(0.0, f64::max)
 }
 
 /// What a playback was like.
@@ -83,18 +99,11 @@ struct Played {
 /// The arm with friction of bristles under a controller whose model has a smooth sign.
 fn play(motion: &impl Reference<f64, 6>) -> Played {
     let start = motion.at(0).q;
-    let unlimited = f64::INFINITY;
     let config = MotionControllerConfig {
         supervisor: SupervisorConfig {
-            limits: SafetyLimits {
-                torque: TORQUE,
-                rate: [unlimited; 6],
-                speed: [3.3; 6],
-                lower: [-6.2; 6],
-                upper: [6.2; 6],
-            },
+            limits: SAFETY,
             tick: TICK,
-            resolution: 0.0,
+            resolution: STEP,
             ride_through_ticks: 5,
             hold_ticks: 100,
             reentry_ticks: 200,
@@ -115,14 +124,18 @@ fn play(motion: &impl Reference<f64, 6>) -> Played {
         ticks: motion.ticks(),
     };
     for tick in 0..motion.ticks() + 500 {
-        let latched = core::mem::replace(&mut measured, at.q);
+        let latched = core::mem::replace(&mut measured, at.q.map(|q| (q / STEP).round() * STEP));
         let command = controller.tick(Ok(&latched), motion, |reference, estimate| {
             let model = (RIGID, modelled(1.0));
             let feedforward = Core::<Ur5e>::rnea(reference, &model);
             let pd = feedback(&gains, reference, estimate);
             core::array::from_fn(|j| feedforward[j] + pd[j])
         });
-        assert_eq!((command.status.mode, command.status.fault), (Mode::Full, None), "{tick}");
+        assert_eq!(
+            (command.status.mode, command.status.fault),
+            (Mode::Full, None),
+            "{tick}"
+        );
         played.limited += u32::from(command.status.limited);
         let reference = motion.at(tick).q;
         for j in 0..6 {

@@ -67,7 +67,10 @@ fn random_paths_of_random_trees_are_within_all_limits_and_one_is_always_reached(
         });
         let limits = PathLimits {
             torque,
-            motion: [MotionLimits { velocity: 3.0, acceleration: 40.0 }; N],
+            motion: [MotionLimits {
+                velocity: 3.0,
+                acceleration: 40.0,
+            }; N],
             friction,
         };
         let tick = 2e-4;
@@ -80,7 +83,10 @@ fn random_paths_of_random_trees_are_within_all_limits_and_one_is_always_reached(
         let mut least = vec![];
         for k in 0..timed.ticks() {
             let state = timed.at(k);
-            let moving = State { qdd: [0.0; N], ..state };
+            let moving = State {
+                qdd: [0.0; N],
+                ..state
+            };
             let bias = rnea(&robot, &moving, &RIGID_BODY);
             let m = crba(&robot, &state.q, &RIGID_BODY);
             let mut most = 0.0_f64;

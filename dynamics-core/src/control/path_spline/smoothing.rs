@@ -61,7 +61,8 @@ impl<R: Real, const V: usize, const N: usize> PathSpline<R, V, N> {
         let [before_inv, after_inv] = self.inverse_steps(k);
         core::array::from_fn(|j| {
             let here = entry(&here, j);
-            let bend = (entry(&before, j) - here) * before_inv + (entry(&after, j) - here) * after_inv;
+            let bend =
+                (entry(&before, j) - here) * before_inv + (entry(&after, j) - here) * after_inv;
             scale * bend
         })
     }
@@ -88,8 +89,7 @@ impl<R: Real, const V: usize, const N: usize> PathSpline<R, V, N> {
         Smoothing([
             (before + after) * R::from_f64(1.0 / 3.0)
                 + lambda * (w_0 * p * p + w * m * m + w_1 * n * n),
-            inner(k + 1)
-                * (after * R::from_f64(1.0 / 6.0) + lambda * (w * m * n + w_1 * n * m_1)),
+            inner(k + 1) * (after * R::from_f64(1.0 / 6.0) + lambda * (w * m * n + w_1 * n * m_1)),
             inner(k + 2) * (lambda * w_1 * n * n_1),
         ])
     }

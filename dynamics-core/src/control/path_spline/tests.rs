@@ -61,7 +61,10 @@ fn q_slope_and_curvature_are_continuous_and_belong_together() {
             }
         }
         let ends = [path.point(0.0), path.point(1.0)];
-        assert!(ends.iter().all(|end| most(end.curvature.into_iter()) < 1e-12));
+        assert!(
+            ends.iter()
+                .all(|end| most(end.curvature.into_iter()) < 1e-12)
+        );
     }
 }
 
@@ -78,9 +81,16 @@ fn cubic_polynomials_with_straight_ends_are_met_exactly() {
     // Against the solution of the moments by hand: knots 0, 1, 2 with values 0, 1, 0 have γ = −3 in the middle.
     let mut path = PathSpline::<f64, 2, 3>::EMPTY;
     let (side, up) = (0.8_f64, 0.6);
-    path.fit(&[[0.0, 0.0], [side, up], [2.0 * side, 0.0]], &[1.0; 2], &[0.0; 2]).expect("good");
+    path.fit(
+        &[[0.0, 0.0], [side, up], [2.0 * side, 0.0]],
+        &[1.0; 2],
+        &[0.0; 2],
+    )
+    .expect("good");
     let middle = path.point(0.5);
-    assert!((middle.curvature[1] + 3.0 * up * 4.0).abs() < 1e-13 && middle.curvature[0].abs() < 1e-13);
+    assert!(
+        (middle.curvature[1] + 3.0 * up * 4.0).abs() < 1e-13 && middle.curvature[0].abs() < 1e-13
+    );
 }
 
 #[test]
@@ -98,12 +108,20 @@ fn it_is_off_by_no_more_than_the_tolerance_and_as_smooth_as_that_allows() {
         let used = off >= 0.9 * tolerance || tolerance > 0.05;
         assert!(used, "{off} of {tolerance}");
         let ends = [(0.0, points[0]), (1.0, points[32])];
-        assert!(ends.iter().all(|(s, q)| most((0..2).map(|j| path.point(*s).q[j] - q[j])) < 1e-13));
+        assert!(
+            ends.iter()
+                .all(|(s, q)| most((0..2).map(|j| path.point(*s).q[j] - q[j])) < 1e-13)
+        );
         last = off;
-        curvatures.push(most(along().map(|s| path.point(s).curvature[0] / path.length().powi(2))));
+        curvatures.push(most(
+            along().map(|s| path.point(s).curvature[0] / path.length().powi(2)),
+        ));
     }
     std::println!("{curvatures:?}");
-    assert!(curvatures.windows(2).all(|pair| pair[1] < pair[0]), "{curvatures:?}");
+    assert!(
+        curvatures.windows(2).all(|pair| pair[1] < pair[0]),
+        "{curvatures:?}"
+    );
 }
 
 #[test]
@@ -126,11 +144,17 @@ fn noise_of_the_size_of_the_tolerance_leaves_little_in_the_curvature() {
 #[test]
 fn f32_has_the_path_of_f64() {
     let points = arc::<65>(0.002);
-    for (tolerance, bounds) in [(0.0, [3e-6, 5e-6]), (0.004, [3e-6, 5e-7]), (0.1, [1e-4, 5e-6])] {
+    for (tolerance, bounds) in [
+        (0.0, [3e-6, 5e-6]),
+        (0.004, [3e-6, 5e-7]),
+        (0.1, [1e-4, 5e-6]),
+    ] {
         let path = fit(&points, tolerance);
         let mut single = PathSpline::<f32, 2, 65>::EMPTY;
         let rounded = points.map(|q| q.map(|q| q as f32));
-        single.fit(&rounded, &[0.1; 2], &[tolerance as f32; 2]).expect("good");
+        single
+            .fit(&rounded, &[0.1; 2], &[tolerance as f32; 2])
+            .expect("good");
         let (mut off, mut bend) = (0.0_f64, 0.0_f64);
         for s in along() {
             let (double, single) = (path.point(s), single.point(s as f32));
@@ -149,7 +173,9 @@ fn f32_has_the_path_of_f64() {
 fn way_points_that_make_no_path_are_named_and_leave_an_empty_one() {
     let mut path = PathSpline::<f64, 2, 4>::EMPTY;
     let mut refused = |points: &[[f64; 2]], spacing: f64, tolerance: f64| {
-        let error = path.fit(points, &[spacing; 2], &[0.0, tolerance]).expect_err("refused");
+        let error = path
+            .fit(points, &[spacing; 2], &[0.0, tolerance])
+            .expect_err("refused");
         assert_eq!(path, PathSpline::EMPTY);
         error
     };
@@ -157,15 +183,27 @@ fn way_points_that_make_no_path_are_named_and_leave_an_empty_one() {
     assert_eq!(refused(&good[..1], 1.0, 0.0), PathSplineError::TooFew);
     assert_eq!(refused(&[[0.0; 2]; 5], 1.0, 0.0), PathSplineError::TooMany);
     let nan = [[0.0; 2], [1.0, f64::NAN], [2.0; 2]];
-    assert_eq!(refused(&nan, 1.0, 0.0), PathSplineError::NotFinite { point: 1, joint: 1 });
+    assert_eq!(
+        refused(&nan, 1.0, 0.0),
+        PathSplineError::NotFinite { point: 1, joint: 1 }
+    );
     let twice = [[0.0; 2], [1.0; 2], [1.0; 2]];
-    assert_eq!(refused(&twice, 1.0, 0.0), PathSplineError::Coincident { point: 2 });
+    assert_eq!(
+        refused(&twice, 1.0, 0.0),
+        PathSplineError::Coincident { point: 2 }
+    );
     for bad in [-1e-9, f64::NAN] {
-        assert_eq!(refused(&good, 1.0, bad), PathSplineError::Tolerance { joint: 1 });
+        assert_eq!(
+            refused(&good, 1.0, bad),
+            PathSplineError::Tolerance { joint: 1 }
+        );
     }
     for bad in [0.0, f64::NAN, 1e-320] {
         let error = refused(&good, bad, 0.0);
-        let typed = matches!(error, PathSplineError::TooLong | PathSplineError::Coincident { .. });
+        let typed = matches!(
+            error,
+            PathSplineError::TooLong | PathSplineError::Coincident { .. }
+        );
         assert!(typed, "{error}");
     }
 }

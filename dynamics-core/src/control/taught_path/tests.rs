@@ -16,7 +16,10 @@ fn way_points_are_at_least_the_spacing_apart() {
     }
     let points: [f64; 3] = core::array::from_fn(|k| taught.points()[k][0]);
     assert_eq!(taught.points().len(), 3);
-    assert!((points[1] - 0.1).abs() < 1.1e-4 && (points[2] - 0.2).abs() < 2.1e-4, "{points:?}");
+    assert!(
+        (points[1] - 0.1).abs() < 1.1e-4 && (points[2] - 0.2).abs() < 2.1e-4,
+        "{points:?}"
+    );
     // Joints count by their spacings.
     taught.clear();
     for (q, recorded) in [
@@ -36,7 +39,10 @@ fn the_path_ends_where_the_arm_is() {
         taught.record(&[0.0, 0.0]);
         taught.record(&[0.1, 0.0]);
         assert_eq!(taught.end(&[end, 0.0]), Recorded::Stored);
-        assert_eq!((taught.points().len(), taught.points()[count - 1][0]), (count, end));
+        assert_eq!(
+            (taught.points().len(), taught.points()[count - 1][0]),
+            (count, end)
+        );
     }
     // An arm that has not moved has no path.
     let mut taught = taught();
@@ -55,7 +61,10 @@ fn a_full_path_keeps_all_its_way_points_and_can_be_played() {
     assert_eq!(taught.record(&[5.0, 0.0]), Recorded::Full);
     assert_eq!(taught.end(&[5.0, 0.0]), Recorded::Full);
     assert_eq!(taught, before);
-    assert_eq!(taught.spline(&[0.0; 2]).expect("good").point(1.0).q, [3.0, 0.0]);
+    assert_eq!(
+        taught.spline(&[0.0; 2]).expect("good").point(1.0).q,
+        [3.0, 0.0]
+    );
 }
 
 #[test]
@@ -77,7 +86,9 @@ fn positions_that_are_not_finite_change_nothing() {
 
 #[test]
 fn a_spacing_that_is_no_positive_number_is_refused() {
-    let error = ConfigError::OutOfRange { parameter: ConfigParameter::PathSpacing };
+    let error = ConfigError::OutOfRange {
+        parameter: ConfigParameter::PathSpacing,
+    };
     for bad in [0.0, -0.1, f64::NAN, f64::INFINITY, 1e-320] {
         assert_eq!(TaughtPath::<f64, 2, 4>::try_new([0.1, bad]), Err(error));
     }

@@ -44,9 +44,13 @@ impl<R: Real, const V: usize> Coefficients<R, V> {
                 return Err(TimedPathError::NotFinite { point, joint });
             }
         }
-        let largest = c.iter().chain(&forth).chain(&back).fold(R::MIN_POSITIVE, |most, tau| {
-            if tau.abs() > most { tau.abs() } else { most }
-        });
+        let largest = c
+            .iter()
+            .chain(&forth)
+            .chain(&back)
+            .fold(R::MIN_POSITIVE, |most, tau| {
+                if tau.abs() > most { tau.abs() } else { most }
+            });
         let rounding = R::from_f64(ROUNDING) * R::EPSILON * largest;
         let mut signs = forth.iter().zip(&back);
         if let Some(joint) = signs.position(|(&forth, &back)| (forth - back).abs() > rounding) {

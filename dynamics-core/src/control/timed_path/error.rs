@@ -73,7 +73,10 @@ impl fmt::Display for TimedPathError {
         match *self {
             Self::Tick => out.write_str("the length of a tick is not a positive number"),
             Self::TorqueLimit { joint } => {
-                write!(out, "joint {joint}: its limit of torque is not a positive finite number")
+                write!(
+                    out,
+                    "joint {joint}: its limit of torque is not a positive finite number"
+                )
             }
             Self::MotionLimit { joint } => write!(
                 out,

@@ -1,7 +1,7 @@
 //! The limits of a motion along a path.
 
 use super::TimedPathError;
-use crate::control::MotionLimits;
+use crate::control::{MotionLimits, SafetyLimits};
 use crate::scalar::Real;
 
 /// The limits of V joints in a motion along a path.
@@ -54,7 +54,37 @@ impl<R: Real> JointFriction<R> {
     };
 }
 
+impl<R: Real, const V: usize> From<SafetyLimits<R, V>> for PathLimits<R, V> {
+    /// The same torques and speeds, any acceleration, and no friction.
+    fn from(limits: SafetyLimits<R, V>) -> Self {
+        Self {
+            torque: limits.torque,
+            motion: limits.speed.map(|velocity| MotionLimits {
+                velocity,
+                acceleration: R::ONE / R::ZERO,
+            }),
+            friction: [JointFriction::NONE; V],
+        }
+    }
+}
+
 impl<R: Real, const V: usize> PathLimits<R, V> {
+    /// The same limits with this share of the torques, which leaves the rest to the feedback.
+    ///
+    /// ```
+    /// use dynamics_core::control::{PathLimits, SafetyLimits};
+    /// let safety = SafetyLimits { torque: [10.0], rate: [10.0], speed: [3.0], lower: [-1.0], upper: [1.0] };
+    /// let limits = PathLimits::from(safety.with_speed_share(0.5)).with_torque_share(0.8);
+    /// assert_eq!((limits.torque, limits.motion[0].velocity), ([8.0], 1.5));
+    /// ```
+    #[must_use]
+    pub fn with_torque_share(self, share: R) -> Self {
+        Self {
+            torque: self.torque.map(|torque| torque * share),
+            ..self
+        }
+    }
+
     /// Checks that torques are positive and finite, speeds and accelerations positive, and frictions finite and not negative.
     ///
     /// # Errors

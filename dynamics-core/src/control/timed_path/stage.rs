@@ -48,7 +48,11 @@ impl<R: Real, const V: usize> Stage<R, V> {
         let step = to.s - from.s;
         let across = step + step;
         let mut fastest = from.fastest;
-        fastest = if to.fastest > fastest { to.fastest } else { fastest };
+        fastest = if to.fastest > fastest {
+            to.fastest
+        } else {
+            fastest
+        };
         let friction = SegmentFriction {
             touch: least_touch([from, to], limits, touch)?.sqrt(),
             chord: R::ONE / fastest.sqrt(),
@@ -62,7 +66,10 @@ impl<R: Real, const V: usize> Stage<R, V> {
         let accelerations = |at: &Coefficients<R, V>| {
             core::array::from_fn(|j| {
                 let [alpha, beta] = [entry(&at.slope, j), entry(&at.curvature, j)];
-                let limit = limits.motion.get(j).map_or(R::ZERO, |limit| limit.acceleration);
+                let limit = limits
+                    .motion
+                    .get(j)
+                    .map_or(R::ZERO, |limit| limit.acceleration);
                 both(alpha, [beta, -beta], [limit, limit])
             })
         };
@@ -121,7 +128,11 @@ impl<R: Real, const V: usize> Stage<R, V> {
             }
         }
         // By rounding alone the upper one may be below.
-        if upper < lower { R::from_f64(0.5) * (upper + lower) } else { upper }
+        if upper < lower {
+            R::from_f64(0.5) * (upper + lower)
+        } else {
+            upper
+        }
     }
 }
 
@@ -142,7 +153,11 @@ impl<R: Real> SegmentFriction<R> {
         j: usize,
         slopes: [R; 2],
     ) -> [HalfPlane<R>; 2] {
-        let friction = limits.friction.get(j).copied().unwrap_or(JointFriction::NONE);
+        let friction = limits
+            .friction
+            .get(j)
+            .copied()
+            .unwrap_or(JointFriction::NONE);
         let [a, b, c] = [entry(&at.a, j), entry(&at.b, j), entry(&at.c, j)];
         let torque = entry(&limits.torque, j);
         let viscous = friction.viscous * entry(&at.slope, j).abs();

@@ -5,6 +5,7 @@ use crate::control::{MotionLimits, PathPoint};
 
 mod limits;
 mod refused;
+mod wild;
 
 /// A path by a function of s that returns q, q′ and q″.
 struct Curve<F>(F);
@@ -51,7 +52,9 @@ fn share_off(is: f64, of: f64) -> f64 {
 fn an_inertia_alone_has_the_bang_bang_motion() {
     for (d, tau) in [(1.3, 8.0), (-0.02, 30.0), (20.0, 0.5)] {
         let path = line(d);
-        let timed = TimedPath::<_, _, 101>::new(&path, 1e-3, &torques([tau]), inertia).ok().unwrap();
+        let timed = TimedPath::<_, _, 101>::new(&path, 1e-3, &torques([tau]), inertia)
+            .ok()
+            .unwrap();
         let best = 2.0 * (d.abs() * 2.5 / tau).sqrt();
         assert!(share_off(timed.seconds(), best) < 1e-13, "{d} {tau}");
         assert_eq!(timed.ticks(), (1e3 * best - 1e-6).ceil() as u32);
@@ -74,7 +77,10 @@ fn limits_of_speed_and_acceleration_make_it_a_trapezoid() {
     let best = d / v + v / a;
     let path = line(d);
     let by_acceleration = PathLimits {
-        motion: [MotionLimits { velocity: v, acceleration: a }],
+        motion: [MotionLimits {
+            velocity: v,
+            acceleration: a,
+        }],
         ..torques([1e3])
     };
     let by_torque = PathLimits {
@@ -94,7 +100,11 @@ fn limits_of_speed_and_acceleration_make_it_a_trapezoid() {
 fn position_velocity_and_acceleration_belong_together_and_both_ends_are_at_rest() {
     let path = Curve(|s: f64| {
         let (sin, cos) = (3.0 * s).sin_cos();
-        [[sin, cos], [3.0 * cos, -3.0 * sin], [-9.0 * sin, -9.0 * cos]]
+        [
+            [sin, cos],
+            [3.0 * cos, -3.0 * sin],
+            [-9.0 * sin, -9.0 * cos],
+        ]
     });
     let tick = 1e-3;
     let timed = TimedPath::<_, _, 41>::new(&path, tick, &torques([3.0, 4.0]), |s| s.qdd).unwrap();
@@ -112,7 +122,10 @@ fn position_velocity_and_acceleration_belong_together_and_both_ends_are_at_rest(
             let ends = [before.qdd[j], at.qdd[j], after.qdd[j]];
             let least = ends.into_iter().fold(f64::INFINITY, f64::min);
             let most = ends.into_iter().fold(f64::NEG_INFINITY, f64::max);
-            assert!((least - 0.05..most + 0.05).contains(&change), "{k}: {change} {ends:?}");
+            assert!(
+                (least - 0.05..most + 0.05).contains(&change),
+                "{k}: {change} {ends:?}"
+            );
         }
     }
 }
@@ -123,7 +136,10 @@ fn f32_has_the_motion_of_f64() {
     let path = line(1.3_f32);
     let limits = PathLimits {
         torque: [8.0_f32],
-        motion: [MotionLimits { velocity: f32::INFINITY, acceleration: f32::INFINITY }],
+        motion: [MotionLimits {
+            velocity: f32::INFINITY,
+            acceleration: f32::INFINITY,
+        }],
         friction: [JointFriction::NONE],
     };
     let id = |state: &State<f32, 1, 1>| [2.5 * state.qdd[0]];

@@ -5,7 +5,10 @@ use super::*;
 /// M q̈ of two coupled joints, and a load of gravity on the second one.
 fn coupled(state: &State<f64, 2, 2>) -> [f64; 2] {
     let [x, y] = state.qdd;
-    [2.0 * x + 0.8 * y, 0.8 * x + 0.6 * y + 1.5 * state.q[1].cos()]
+    [
+        2.0 * x + 0.8 * y,
+        0.8 * x + 0.6 * y + 1.5 * state.q[1].cos(),
+    ]
 }
 
 /// The greatest share of a limit of torque in all ticks, with this inverse dynamics.
@@ -27,7 +30,11 @@ fn share<const V: usize, P: GeometricPath<f64, V>, const M: usize>(
 /// An arc on which the inertia of the second joint along the path, 0.8 q₁′ + 0.6 q₂′, changes its sign twice.
 fn arc(s: f64) -> [[f64; 2]; 3] {
     let (sin, cos) = (5.0 * s).sin_cos();
-    [[sin, cos], [5.0 * cos, -5.0 * sin], [-25.0 * sin, -25.0 * cos]]
+    [
+        [sin, cos],
+        [5.0 * cos, -5.0 * sin],
+        [-25.0 * sin, -25.0 * cos],
+    ]
 }
 
 #[test]
@@ -45,7 +52,10 @@ fn a_point_of_zero_inertia_is_no_special_case() {
     let coarse = TimedPath::<_, _, 101>::new(&path, 1e-4, &limits, coupled).unwrap();
     let fine = TimedPath::<_, _, 3201>::new(&path, 1e-4, &limits, coupled).unwrap();
     let lost = coarse.seconds() / fine.seconds() - 1.0;
-    let excess = [share(&coarse, &limits.torque, coupled), share(&fine, &limits.torque, coupled)];
+    let excess = [
+        share(&coarse, &limits.torque, coupled),
+        share(&fine, &limits.torque, coupled),
+    ];
     std::println!("{lost:e} {excess:?}");
     assert!((0.0..0.01).contains(&lost), "{lost:e}");
     assert!(excess[0] < 1.002 && excess[1] < 1.000002, "{excess:?}");
@@ -79,13 +89,23 @@ fn friction_is_within_the_limits_and_helps_only_as_far_as_it_is_certain() {
             x.push(v + 2.0 * h * (tau - coulomb - viscous * f64::sqrt(v)) / 2.5);
             down.push(w + 2.0 * h * (tau + certain * (coulomb + viscous * f64::sqrt(w))) / 2.5);
         }
-        let least = x.iter().zip(down.iter().rev()).map(|(x, w)| x.min(*w).sqrt());
+        let least = x
+            .iter()
+            .zip(down.iter().rev())
+            .map(|(x, w)| x.min(*w).sqrt());
         let rates: Vec<f64> = least.collect();
-        rates.windows(2).map(|w| 2.0 * h / (w[0] + w[1])).sum::<f64>()
+        rates
+            .windows(2)
+            .map(|w| 2.0 * h / (w[0] + w[1]))
+            .sum::<f64>()
     };
     let timed = |certain, velocity| {
         let limits = PathLimits {
-            friction: [JointFriction { coulomb, viscous, certain }],
+            friction: [JointFriction {
+                coulomb,
+                viscous,
+                certain,
+            }],
             motion: [MotionLimits { velocity, ..ANY }],
             ..torques([tau])
         };
@@ -97,8 +117,14 @@ fn friction_is_within_the_limits_and_helps_only_as_far_as_it_is_certain() {
         let (seconds, most) = timed(certain, f64::INFINITY);
         let (near, nearly_most) = timed(certain, 2.2); // just above the peak
         std::println!("{certain}: {best} {seconds} {near} {most} {nearly_most}");
-        assert!((0.999..1.02).contains(&(seconds / best)), "{seconds} of {best}");
-        assert!(most < 1.0 + 1e-9 && nearly_most < 1.0 + 1e-9, "{most} {nearly_most}");
+        assert!(
+            (0.999..1.02).contains(&(seconds / best)),
+            "{seconds} of {best}"
+        );
+        assert!(
+            most < 1.0 + 1e-9 && nearly_most < 1.0 + 1e-9,
+            "{most} {nearly_most}"
+        );
     }
     assert!(timed(1.0, 2.2).0 < timed(0.0, 2.2).0);
 }

@@ -21,6 +21,7 @@ use crate::state::{State, entry};
 
 mod coefficients;
 mod error;
+mod friction;
 mod limits;
 mod passes;
 mod stage;
@@ -33,9 +34,9 @@ pub use limits::{JointFriction, PathLimits};
 /// The fastest motion along a path, from rest to rest, within limits of torque, speed and acceleration: the reference of a
 /// controller.
 ///
-/// The limits hold at M equidistant points of the path, and between them up to what the coefficients curve in a segment. With
-/// two segments or more from knot to knot of a [`PathSpline`](super::PathSpline) the excess is below one percent; the tests
-/// have it for paths of the UR5e. Where a limit of torque or acceleration is reached, the torques jump: a limit of
+/// The limits hold at the M points of [`GeometricPath::grid_point`], and between them up to what the coefficients curve in a segment:
+/// the excess decreases with the square of M. The guide has it for paths of the UR5e; a [`PathSpline`](super::PathSpline) needs at
+/// least four segments from knot to knot. Where a limit of torque or acceleration is reached, the torques jump: a limit of
 /// [`SafetyLimits::rate`](super::SafetyLimits::rate) has to admit this. What the feedback needs has to be left by the limits of
 /// torque.
 ///
@@ -184,7 +185,7 @@ impl<'a, R: Real, P, const M: usize> TimedPath<'a, R, P, M> {
                     .checked_add(whole)
                     .filter(|&sum| rest.is_finite() & (sum < u32::MAX));
                 ticks = sum.ok_or(TimedPathError::TooLong)?;
-                rest = rest - real(whole);
+                rest += -real::<R>(whole);
             }
             (at.ticks, at.rest, before) = (ticks, rest, Some(*at));
         }

@@ -5,14 +5,14 @@
 //! cancels, and where an α vanishes its half-plane becomes a bound of x alone: points of zero inertia are no special case.
 
 use super::coefficients::Coefficients;
+use super::friction::{SegmentFriction, least_touch};
 use super::{PathLimits, TimedPathError};
-use crate::control::JointFriction;
 use crate::scalar::Real;
 use crate::state::entry;
 
 /// α u + β x ≤ γ.
 #[derive(Clone, Copy, Debug)]
-struct HalfPlane<R> {
+pub(super) struct HalfPlane<R> {
     alpha: R,
     beta: R,
     gamma: R,
@@ -30,11 +30,6 @@ pub(super) struct Stage<R, const V: usize> {
     /// 2 Δ.
     across: R,
 }
-
-/// The least share of a limit of torque that gravity and friction have to leave.
-const LEFT: f64 = 1e-3;
-/// The bound of √x touches it at no less than this x.
-const LEAST_TOUCH: f64 = 1e-12;
 
 impl<R: Real, const V: usize> Stage<R, V> {
     /// The limits between two points of the grid, where x at the second one may be up to `next`; the bound of viscous friction is
@@ -136,95 +131,12 @@ impl<R: Real, const V: usize> Stage<R, V> {
     }
 }
 
-/// Bounds of √x in a segment: at most (x + x₀)/(2 √x₀), at least x/√x_max.
-struct SegmentFriction<R> {
-    /// √x₀.
-    touch: R,
-    /// 1/√x_max.
-    chord: R,
-}
-
-impl<R: Real> SegmentFriction<R> {
-    /// The limits of a joint's torque, which moves with these slopes at both ends of the segment.
-    fn torques<const V: usize>(
-        &self,
-        at: &Coefficients<R, V>,
-        limits: &PathLimits<R, V>,
-        j: usize,
-        slopes: [R; 2],
-    ) -> [HalfPlane<R>; 2] {
-        let friction = limits
-            .friction
-            .get(j)
-            .copied()
-            .unwrap_or(JointFriction::NONE);
-        let [a, b, c] = [entry(&at.a, j), entry(&at.b, j), entry(&at.c, j)];
-        let torque = entry(&limits.torque, j);
-        let viscous = friction.viscous * entry(&at.slope, j).abs();
-        let half = R::from_f64(0.5);
-        let against = [
-            half * viscous / self.touch,
-            friction.coulomb + half * viscous * self.touch,
-        ];
-        let [up, down] = directions(slopes);
-        let relief = if up ^ down { friction.certain } else { R::ZERO };
-        let with = [
-            -(relief * viscous * self.chord),
-            -(relief * friction.coulomb),
-        ];
-        let [rise, fall] = [up, down].map(|opposed| if opposed { against } else { with });
-        both(
-            a,
-            [b + rise[0], fall[0] - b],
-            [torque - c - rise[1], torque + c - fall[1]],
-        )
-    }
-}
-
-/// Whether a joint moves upwards and downwards.
-fn directions<R: Real>(slopes: [R; 2]) -> [bool; 2] {
-    let any = |sign: R| slopes.iter().any(|&slope| slope * sign > R::ZERO);
-    [any(R::ONE), any(-R::ONE)]
-}
-
-/// x₀, with which Coulomb friction, gravity and the bound of viscous friction leave torque.
-fn least_touch<R: Real, const V: usize>(
-    [from, to]: [&Coefficients<R, V>; 2],
-    limits: &PathLimits<R, V>,
-    touch: R,
-) -> Result<R, TimedPathError> {
-    let mut least = touch;
-    for at in [from, to] {
-        for (joint, (friction, &torque)) in limits.friction.iter().zip(&limits.torque).enumerate() {
-            let [up, down] = directions([from, to].map(|at| entry(&at.slope, joint)));
-            let c = entry(&at.c, joint);
-            let viscous = friction.viscous * entry(&at.slope, joint).abs();
-            for (signed, opposed) in [(c, up), (-c, down)] {
-                let coulomb = if opposed { friction.coulomb } else { R::ZERO };
-                let left = torque - (signed + coulomb);
-                let enough = left > R::from_f64(LEFT) * torque;
-                if !enough {
-                    return Err(TimedPathError::Torque {
-                        point: at.point,
-                        joint,
-                        needed: (signed + coulomb).to_f64(),
-                        allowed: torque.to_f64(),
-                    });
-                }
-                if opposed {
-                    let rate = left / (viscous + R::MIN_POSITIVE);
-                    let square = rate * rate; // infinite without viscous friction
-                    least = if square < least { square } else { least };
-                }
-            }
-        }
-    }
-    let floor = R::from_f64(LEAST_TOUCH);
-    Ok(if least > floor { least } else { floor })
-}
-
 /// An upper and a lower limit with the same α.
-fn both<R: Real>(alpha: R, [up, low]: [R; 2], [above, below]: [R; 2]) -> [HalfPlane<R>; 2] {
+pub(super) fn both<R: Real>(
+    alpha: R,
+    [up, low]: [R; 2],
+    [above, below]: [R; 2],
+) -> [HalfPlane<R>; 2] {
     [(alpha, up, above), (-alpha, low, below)].map(|(alpha, beta, gamma)| HalfPlane {
         alpha,
         beta,

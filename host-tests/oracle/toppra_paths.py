@@ -27,7 +27,7 @@ SPACING = 0.1  # rad, between way-points
 ARMATURE = [0.9, 0.9, 0.9, 0.25, 0.25, 0.25]
 COULOMB = [8.0, 8.0, 6.0, 1.5, 1.5, 1.2]
 TORQUE = [150.0, 150.0, 150.0, 28.0, 28.0, 28.0]
-VELOCITY = 3.14
+VELOCITY = 1.5
 START = [0.0, -1.57, 1.57, -1.57, -1.57, 0.0]
 
 

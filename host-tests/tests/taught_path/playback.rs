@@ -219,6 +219,13 @@ fn noise_of_the_encoders_and_tremor_of_the_hand_cost_little_time() {
         let least = seconds(&calm);
         let all = [measured(&calm), shaken.clone(), measured(&shaken)];
         let costs = all.map(|positions| 100.0 * (seconds(&positions) / least - 1.0));
+        let worst = costs.into_iter().fold(0.0, f64::max);
+        let bar = match tolerance {
+            0.0 => 20.0,
+            0.002 => 2.0,
+            _ => 0.5,
+        };
+        within("cost of noise and tremor, %", worst, bar);
         let [noise, tremor, both] = costs;
         println!("{tolerance}: {least} s; {costs:?}");
         rows += &format!(

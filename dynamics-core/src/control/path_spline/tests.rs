@@ -207,3 +207,26 @@ fn way_points_that_make_no_path_are_named_and_leave_an_empty_one() {
         assert!(typed, "{error}");
     }
 }
+
+#[test]
+fn a_grid_has_all_knots_and_as_many_segments_in_every_span_or_one_more() {
+    let path = fit(&arc::<17>(0.0), 0.0);
+    for segments in [16, 17, 40, 400] {
+        let grid: std::vec::Vec<f64> = (0..=segments)
+            .map(|point| path.grid_point(point, segments))
+            .collect();
+        assert_eq!((grid[0], grid[segments]), (0.0, 1.0));
+        assert!(grid.windows(2).all(|pair| pair[0] < pair[1]), "{grid:?}");
+        for k in 0..16 {
+            let [from, to] = [k, k + 1].map(|k| path.knots[k] / path.length());
+            let inside = |s: &&f64| (from - 1e-12..to - 1e-12).contains(*s);
+            let count = grid.iter().filter(inside).count();
+            assert!((segments / 16..=segments / 16 + 1).contains(&count));
+            assert!(grid.iter().any(|s| (s - from).abs() < 1e-15), "knot {k}");
+        }
+    }
+    // With fewer segments than spans it is uniform.
+    let grid = [0, 1, 2, 3, 4].map(|point| path.grid_point(point, 4));
+    assert_eq!(grid, [0.0, 0.25, 0.5, 0.75, 1.0]);
+    assert_eq!(PathSpline::<f64, 2, 4>::EMPTY.grid_point(2, 4), 0.5);
+}

@@ -58,13 +58,13 @@ pub fn shares(motion: &impl Reference<f64, 6>, limits: &PathLimits<f64, 6>) -> S
     for k in 0..motion.ticks() {
         let state = motion.at(k);
         let rigid = torques(&state);
-        for j in 0..6 {
+        for (j, rigid) in rigid.into_iter().enumerate() {
             let (qd, friction) = (state.qd[j], limits.friction[j]);
             let sign = if qd == 0.0 { 0.0 } else { qd.signum() };
             let against = friction.coulomb * sign + friction.viscous * qd;
-            let tau = [1.0, friction.certain].map(|share| rigid[j] + share * against);
+            let tau = [1.0, friction.certain].map(|share| rigid + share * against);
             // Friction is between its certain part and the whole.
-            let tau = if against * rigid[j] > 0.0 {
+            let tau = if against * rigid > 0.0 {
                 tau[0]
             } else {
                 tau[1]

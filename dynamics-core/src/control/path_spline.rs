@@ -77,7 +77,7 @@ impl<R: Real, const V: usize, const N: usize> PathSpline<R, V, N> {
     /// are counted in it. Between its points the path is off the polygon by the sagitta of its arc.
     ///
     /// # Cost
-    /// At most eleven factorisations of a system of N rows with five diagonals, with solutions for V joints; not for a tick. 3 N
+    /// At most twelve factorisations of a system of N rows with five diagonals, with solutions for V joints; not for a tick. 3 N
     /// numbers on the stack.
     ///
     /// # Errors

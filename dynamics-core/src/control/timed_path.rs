@@ -35,9 +35,9 @@ pub use limits::{JointFriction, PathLimits};
 /// controller.
 ///
 /// The limits hold at the M points of [`GeometricPath::grid_point`], and between them up to what the coefficients curve in a segment:
-/// the excess decreases with the square of M. The guide has it for paths of the UR5e; a [`PathSpline`](super::PathSpline) needs at
-/// least four segments from knot to knot. Where a limit of torque or acceleration is reached, the torques jump: a limit of
-/// [`SafetyLimits::rate`](super::SafetyLimits::rate) has to admit this. What the feedback needs has to be left by the limits of
+/// the excess decreases with the square of M, and the time that is lost with M. The guide has both for paths of the UR5e. Where a
+/// limit of torque or acceleration is reached, the torques jump: a limit of [`SafetyLimits::rate`](super::SafetyLimits::rate) has
+/// to admit this. What the feedback needs has to be left by the limits of
 /// torque.
 ///
 /// ```

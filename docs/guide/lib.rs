@@ -25,6 +25,7 @@ pages! {
     contact "contact.md",
     impedance "impedance.md",
     guiding "guiding.md",
+    taught_paths "taught-paths.md",
     payload "payload.md",
     learning "learning.md",
     porting "porting.md",

@@ -69,6 +69,8 @@ pub enum ConfigParameter {
     Amplification,
     /// The dead band, the damping or the greatest torque of a joint whose inertia is shaped.
     ShapedJoint,
+    /// The spacing of the way-points of a path.
+    PathSpacing,
     /// A stiffness of an impedance.
     Stiffness,
     /// The damping ratio of an impedance.
@@ -154,6 +156,7 @@ impl fmt::Display for ConfigError {
             ConfigParameter::ShapedJoint => {
                 "a number of a joint whose inertia is shaped is negative or not finite"
             }
+            ConfigParameter::PathSpacing => "a spacing of way-points is not a positive number",
             ConfigParameter::Stiffness => "a stiffness of the impedance is not a positive number",
             ConfigParameter::DampingRatio => "the damping ratio is not a positive number",
             ConfigParameter::SlowestMode => "the slowest mode is not a positive number",

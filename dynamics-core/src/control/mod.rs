@@ -22,6 +22,9 @@
 //! | [`CartesianImpedance`], [`pose_error()`] | a spring and a damper between a body and its goal, with null space | none |
 //! | [`HandGuiding`] | an arm that a hand moves: friction in part, virtual walls, locked joints | where joints are locked |
 //! | [`InertiaShaping`] | external torques, amplified: an arm that is lighter for a hand | none |
+//! | [`TaughtPath`] | way-points of an arm that is guided by hand | the way-points |
+//! | [`PathSpline`], [`GeometricPath`] | a smooth path near way-points | none |
+//! | [`TimedPath`] | the fastest motion along a path within limits of torque, speed and acceleration | none |
 //! | [`ZeroOrderHold`], [`FirstOrderHold`], [`Interpolator`], [`InertiaUpdate`] | the torque in ticks without a computation of the dynamics | last torques |
 //! | [`Supervisor`] | limits, plausibility, reactions to faults | last good values |
 //! | [`Fault`], [`Reaction`] | what each fault leads to | |
@@ -71,6 +74,7 @@ mod controller;
 mod detectors;
 mod fault;
 mod feedback;
+mod geometric_path;
 mod hand_guiding;
 mod hold;
 mod hybrid_force;
@@ -82,6 +86,7 @@ mod multirate;
 mod observer;
 mod parameter_estimator;
 mod passivity;
+mod path_spline;
 mod payload_estimator;
 mod pose_error;
 mod reaction;
@@ -90,7 +95,9 @@ mod resume;
 mod safety_limits;
 mod shaper;
 mod supervisor;
+mod taught_path;
 mod tick_counter;
+mod timed_path;
 mod tip_wrench;
 mod trajectory;
 
@@ -107,6 +114,7 @@ pub use controller::{
 pub use detectors::{Detect, Detectors, FrozenEncoder, ReferenceStep, Saturation};
 pub use fault::Fault;
 pub use feedback::{Gains, feedback};
+pub use geometric_path::{GeometricPath, PathPoint};
 pub use hand_guiding::{HandGuiding, HandGuidingConfig, LimitedSpring};
 pub use hold::hold;
 pub use hybrid_force::{
@@ -123,6 +131,7 @@ pub use parameter_estimator::{
     PhysicalParameters, RecordError, RejectedRow, SelectedParameters,
 };
 pub use passivity::{PassivityGains, SlidingVariable, passivity_based_torque};
+pub use path_spline::{PathSpline, PathSplineError};
 pub use payload_estimator::{PayloadEstimator, PayloadEstimatorConfig, RejectedMeasurement};
 pub use pose_error::{pose_error, quaternion_error};
 pub use reaction::Reaction;
@@ -131,7 +140,9 @@ pub use resume::{ResumeConfig, ResumeTrajectory};
 pub use safety_limits::{LimitKind, SafetyLimits, SafetyLimitsError};
 pub use shaper::{Shaped, Shaper, ShaperError, ShaperProblem, Vibration};
 pub use supervisor::{StopCategory, Supervisor, SupervisorConfig, SupervisorTick};
+pub use taught_path::{Recorded, TaughtPath};
 pub use tick_counter::{CompletedTick, CountedTick, TickCounter, Watchdog};
+pub use timed_path::{JointFriction, PathLimits, TimedPath, TimedPathError};
 pub use tip_wrench::{TipWrench, TipWrenchConfig};
 pub use trajectory::{MotionLimits, RestToRest, Trajectory, TrajectoryError, WayPoint};
 

@@ -12,7 +12,7 @@ pub const TIP: usize = 5;
 pub const ROTORS: Armature<f64, 6> = Armature([0.9, 0.9, 0.9, 0.25, 0.25, 0.25]);
 
 /// That of the scene `ur5e`, N·m·s/rad and N·m.
-const VISCOUS: Q = [12.0, 12.0, 8.0, 2.0, 2.0, 1.5];
+pub const VISCOUS: Q = [12.0, 12.0, 8.0, 2.0, 2.0, 1.5];
 pub const SLIDING: Q = [8.0, 8.0, 6.0, 1.5, 1.5, 1.2];
 /// Stiction exceeds sliding friction by this share of it.
 const EXCESS: f64 = 0.15;

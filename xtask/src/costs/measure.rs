@@ -17,7 +17,7 @@ use crate::workspace::Workspace;
 
 /// Two bins for each robot, inverse dynamics and the rest, but one for the SO-101, two for robots with loops, and one for links that bend: the
 /// compiler builds them side by side.
-pub const BINS: [&str; 12] = [
+pub const BINS: [&str; 13] = [
     "costs_ur5e",
     "forward_ur5e",
     "costs_panda",
@@ -27,6 +27,7 @@ pub const BINS: [&str; 12] = [
     "costs_a1",
     "forward_a1",
     "costs_so101",
+    "costs_laws",
     "costs_clusters",
     "costs_loops",
     "costs_flexible",

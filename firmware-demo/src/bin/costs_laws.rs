@@ -1,0 +1,220 @@
+//! What control laws and the regressor cost on the UR5e, beside inverse dynamics.
+#![no_std]
+#![no_main]
+
+mod costs;
+
+use costs::row::Row;
+use costs::{Ask, STATES};
+use dynamics_core::algorithms::{Damping, OperationalSpace, task_jacobian};
+use dynamics_core::control::*;
+use dynamics_core::effects::RIGID_BODY;
+use dynamics_core::model::Static;
+use dynamics_core::state::{ArmState, State};
+use dynamics_core::{Core, Engine};
+
+const TIP: usize = 5;
+
+/// The row of a law under all effects, with sines and cosines inside or outside.
+fn row(algorithm: &'static str, form: &'static str, trig: bool) -> Row<'static> {
+    Row::of::<robots::Ur5e, 6, 6>(algorithm, form, "full", trig)
+}
+
+#[inline(never)]
+fn slotine_li(gains: &PassivityGains<f32, 6>, at: &ArmState<f32, 6>) -> [f32; 6] {
+    let estimate = Estimate {
+        q: at.q,
+        qd: at.qdd,
+    };
+    passivity_based_torque(
+        &Static::<robots::Ur5e>::NEW,
+        gains,
+        at,
+        &estimate,
+        &RIGID_BODY,
+    )
+}
+
+#[inline(never)]
+fn guided(law: &HandGuiding<f32, 6>, at: &ArmState<f32, 6>) -> [f32; 6] {
+    law.torque(&Estimate { q: at.q, qd: at.qd }, &at.qdd, &at.qd)
+}
+
+#[inline(never)]
+fn shaped(law: &InertiaShaping<f32, 6>, at: &ArmState<f32, 6>) -> [f32; 6] {
+    law.torque(&at.qdd, &at.qd)
+}
+
+#[inline(never)]
+fn detected(detector: &mut ContactDetector<f32, 6>, at: &ArmState<f32, 6>) -> bool {
+    let contact = detector.update(&at.qd, &at.qdd, &at.q.map(f32::abs));
+    detector.drive(&at.qdd);
+    contact.is_ok()
+}
+
+/// All of a Cartesian impedance: gravity, Jacobian, M with its factors, the operational space and the law.
+#[inline(never)]
+fn impedance(law: &CartesianImpedance<f32, 6>, ask: &Ask<6>) -> [f32; 6] {
+    let directions = TaskFrame::BASE.turn_and_place(1.0);
+    let columns = Engine::<robots::Ur5e>::jacobian::<TIP, _, _, _, _>(&ask.trig);
+    let rows = task_jacobian(&columns, &directions);
+    let m = Engine::<robots::Ur5e>::crba(&ask.trig, &RIGID_BODY);
+    let Ok(factors) = Engine::<robots::Ur5e>::ltdl(&m) else {
+        return [0.0; 6];
+    };
+    let solve = |tau: &_| Engine::<robots::Ur5e>::solve(&factors, tau);
+    let task = OperationalSpace::new(rows, solve, Damping::relative(1e-3));
+    let bias = Engine::<robots::Ur5e>::rnea(
+        ask.trig.with(&State {
+            qdd: [0.0; 6],
+            ..ask.state
+        }),
+        &RIGID_BODY,
+    );
+    let deviation = TaskDeviation {
+        position: ask.state.qd,
+        velocity: ask.state.qdd,
+    };
+    let torque = law.torque(&task, &deviation, &bias, &[0.0; 6]);
+    torque.map_or([0.0; 6], |torque| torque.tau)
+}
+
+fn laws(asks: &[Ask<6>; STATES]) -> Result<(), ConfigError> {
+    let gains = PassivityGains {
+        lambda: [10.0; 6],
+        kd: [60.0, 60.0, 30.0, 5.0, 5.0, 5.0],
+    };
+    let run = slotine_li;
+    row("slotine_li", "core", true).measure(run as *const () as usize, asks, |ask| {
+        run(&gains, &ask.state)
+    });
+    let law = CartesianImpedance::try_new(ImpedanceConfig {
+        stiffness: [30.0, 30.0, 30.0, 600.0, 600.0, 600.0],
+        zeta: 0.7,
+        slowest: 2.0,
+    })?;
+    let run = impedance;
+    row("impedance", "engine", false)
+        .measure(run as *const () as usize, asks, |ask| run(&law, ask));
+    let spring = LimitedSpring {
+        stiffness: [300.0; 6],
+        damping: [20.0; 6],
+        torque: [40.0; 6],
+    };
+    let law = HandGuiding::try_new(HandGuidingConfig {
+        error: 0.1,
+        share: 0.85,
+        rest_speed: [0.004; 6],
+        compensation: [10.0; 6],
+        lower: [-3.0; 6],
+        upper: [3.0; 6],
+        wall: spring,
+        lock: spring,
+    })?;
+    let run = guided;
+    row("hand_guiding", "law", false)
+        .measure(run as *const () as usize, asks, |ask| run(&law, &ask.state));
+    let law = InertiaShaping::try_new(InertiaShapingConfig {
+        amplification: 1.0,
+        dead_band: [1.0; 6],
+        damping: [5.0; 6],
+        torque: [30.0; 6],
+    })?;
+    let run = shaped;
+    row("inertia_shaping", "law", false)
+        .measure(run as *const () as usize, asks, |ask| run(&law, &ask.state));
+    let config = ObserverConfig {
+        bandwidth: 50.0,
+        tick: 1e-3,
+    };
+    let mut detector = ContactDetector::try_new(config, [5.0; 6])?;
+    let run = detected;
+    row("contact_detector", "law", false).measure(run as *const () as usize, asks, |ask| {
+        run(&mut detector, &ask.state)
+    });
+    Ok(())
+}
+
+#[inline(never)]
+fn regressor(at: &ArmState<f32, 6>) -> [[[f32; 10]; 6]; 6] {
+    Core::<robots::Ur5e>::regressor(at, &RIGID_BODY)
+}
+
+#[inline(never)]
+fn regressor_columns(at: &ArmState<f32, 6>) -> [[f32; 10]; 6] {
+    Core::<robots::Ur5e>::regressor_columns(at, &RIGID_BODY, TIP)
+}
+
+#[inline(never)]
+fn regressor_row(at: &ArmState<f32, 6>) -> [[f32; 10]; 6] {
+    Core::<robots::Ur5e>::regressor_row(at, &RIGID_BODY, 0)
+}
+
+fn regressors(asks: &[Ask<6>; STATES]) {
+    let run = regressor;
+    row("regressor", "core", true).measure(run as *const () as usize, asks, |ask| run(&ask.state));
+    let run = regressor_columns;
+    row("regressor_columns", "core", true)
+        .measure(run as *const () as usize, asks, |ask| run(&ask.state));
+    let run = regressor_row;
+    row("regressor_row", "core", true)
+        .measure(run as *const () as usize, asks, |ask| run(&ask.state));
+}
+
+/// A point of a motion along a path, in a grid of 201 points.
+#[inline(never)]
+fn timed_path(
+    motion: &TimedPath<'_, f32, PathSpline<f32, 6, 4>, 201>,
+    tick: u32,
+) -> ArmState<f32, 6> {
+    motion.at(tick)
+}
+
+#[inline(never)]
+fn taught_path(path: &mut TaughtPath<f32, 6, 40>, q: &[f32; 6]) -> Recorded {
+    path.record(q)
+}
+
+fn paths(asks: &[Ask<6>; STATES]) {
+    let mut path = PathSpline::<f32, 6, 4>::EMPTY;
+    let points = [[0.0; 6], [0.4; 6], [0.6; 6], [0.4; 6]];
+    let limits = PathLimits {
+        torque: [140.0, 140.0, 140.0, 25.0, 25.0, 25.0],
+        motion: [MotionLimits {
+            velocity: 3.0,
+            acceleration: 20.0,
+        }; 6],
+        friction: [JointFriction::NONE; 6],
+    };
+    let fitted = path.fit(&points, &[0.1; 6], &[0.0; 6]).is_ok();
+    let inverse = |state: &ArmState<f32, 6>| Core::<robots::Ur5e>::rnea(state, &RIGID_BODY);
+    let Ok(motion) = TimedPath::new(&path, 1e-3, &limits, inverse) else {
+        return;
+    };
+    let Ok(mut taught) = TaughtPath::try_new([0.05; 6]) else {
+        return;
+    };
+    if !fitted {
+        return;
+    }
+    let ticks: [u32; STATES] = core::array::from_fn(|k| motion.ticks() * k as u32 / STATES as u32);
+    let run = timed_path;
+    row("timed_path", "law", false).measure(run as *const () as usize, &ticks, |tick| {
+        run(&motion, *tick)
+    });
+    let run = taught_path;
+    row("taught_path", "law", false).measure(run as *const () as usize, asks, |ask| {
+        run(&mut taught, &ask.state.q)
+    });
+}
+
+fn run() -> ! {
+    let asks = costs::asks::<robots::Ur5e, 6, 6, STATES>();
+    if laws(&asks).is_ok() {
+        regressors(&asks);
+        paths(&asks);
+    }
+    costs::done()
+}
+
+costs::main!(run());

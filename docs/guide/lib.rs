@@ -27,6 +27,7 @@ pages! {
     guiding "guiding.md",
     payload "payload.md",
     learning "learning.md",
+    identification "identification.md",
     porting "porting.md",
     engine "engine.md",
 }

@@ -122,6 +122,13 @@ where
         self.selected.len()
     }
 
+    /// The root mean square of the column of each base parameter over random states within the limits, each row relative to the
+    /// torque of its joint: what [`Self::condition`] divides the columns by.
+    #[must_use]
+    pub fn scales(&self) -> Vec<f64> {
+        self.scale.iter().copied().collect()
+    }
+
     /// The torque of each joint per unit of each base parameter.
     #[must_use]
     pub fn rows(&self, state: &State<f64, V, V>) -> [Vec<f64>; V] {

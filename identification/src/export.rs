@@ -65,17 +65,23 @@ const PERIOD: u32 = {ticks};
 /// 2π/PERIOD, and the angular velocity, rad/s.
 const ANGLE: f32 = {angle:?};
 const RATE: f32 = {rate:?};
-const CENTRE: [f32; {V}] = {centre};
-const SINES: [[f32; {V}]; {harmonics}] = [
+/// Of the positions, rad or m.
+#[rustfmt::skip]
+pub const CENTRE: [f32; {V}] = {centre};
+/// Amplitudes of the sines by harmonics, rad or m.
+#[rustfmt::skip]
+pub const SINES: [[f32; {V}]; {harmonics}] = [
 {sines}];
-const COSINES: [[f32; {V}]; {harmonics}] = [
+/// Amplitudes of the cosines by harmonics, rad or m.
+#[rustfmt::skip]
+pub const COSINES: [[f32; {V}]; {harmonics}] = [
 {cosines}];
 
 impl Reference<f32, {V}> for {name} {{
     fn at(&self, tick: u32) -> State<f32, {V}, {V}> {{
         let ended = tick >= Reference::<f32, {V}>::ticks(self);
         let within = if ended {{ 0 }} else {{ tick % PERIOD }};
-        let (sine, cosine) = (ANGLE * within as f32).sin_cos();
+        let (sine, cosine) = Real::sin_cos(ANGLE * within as f32);
         let (mut s, mut c, mut w) = (sine, cosine, RATE);
         let mut state = State::at(CENTRE);
         for (a, b) in SINES.iter().zip(&COSINES) {{
@@ -110,6 +116,6 @@ impl Reference<f32, {V}> for {name} {{
 const HEADER: &str = "//! Written by `identification::FourierMotion::rust_source`.
 
 use dynamics_core::control::Reference;
-use dynamics_core::scalar::Real as _;
+use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
 ";

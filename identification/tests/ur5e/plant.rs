@@ -73,6 +73,20 @@ impl Run {
     }
 }
 
+/// Bristles that slide from 10⁻⁴ rad on, with the sliding friction of the model and 15 % more stiction.
+pub fn bristles(truth: &Parameters) -> Lugre<f64, 6> {
+    let of = |k: usize| truth.joints.map(|joint| joint[k]);
+    Lugre {
+        stiffness: of(1).map(|f| f / 1e-4),
+        damping: of(1).map(|f| 30.0 * f),
+        viscous: of(0),
+        sliding: of(1),
+        excess: of(1).map(|f| 0.15 * f),
+        stribeck_speed: Width::new(0.01),
+        bristle: [0.0; 6],
+    }
+}
+
 struct Plant {
     arm: ArmModel<f64, 6>,
     joints: [[f64; 4]; 6],
@@ -92,20 +106,10 @@ impl Plant {
                 rotational: frame * own.rotational * frame.transpose(),
             };
         }
-        let of = |k: usize| truth.joints.map(|joint| joint[k]);
-        let bristles = Lugre {
-            stiffness: of(1).map(|f| f / 1e-4),
-            damping: of(1).map(|f| 30.0 * f),
-            viscous: of(0),
-            sliding: of(1),
-            excess: of(1).map(|f| 0.15 * f),
-            stribeck_speed: Width::new(0.01),
-            bristle: [0.0; 6],
-        };
         Self {
             arm,
             joints: truth.joints,
-            bristles: (friction == Friction::Bristles).then_some(bristles),
+            bristles: (friction == Friction::Bristles).then(|| bristles(truth)),
             at: State {
                 qdd: [0.0; 6],
                 ..at
@@ -114,11 +118,7 @@ impl Plant {
     }
 
     fn encoders(&self) -> [f64; 6] {
-        {
-            let c = std::f64::consts::TAU
-                / f64::from(1u32 << BITS.load(std::sync::atomic::Ordering::Relaxed));
-            self.at.q.map(|q| (q / c).round() * c)
-        }
+        self.at.q.map(|q| (q / COUNT).round() * COUNT)
     }
 
     /// A tick under constant torques.

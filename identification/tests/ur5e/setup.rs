@@ -3,11 +3,15 @@
 use std::sync::LazyLock;
 
 use dynamics_core::algorithms::inertial_parameters;
+use dynamics_core::control::{Reference, Trajectory};
 use dynamics_core::effects::{Coriolis, Gravity, Inertia, Payload, RIGID_BODY, Width};
 use dynamics_core::model::{ArmModel, BodyInertia, Robot};
 use dynamics_core::robots::Ur5e;
 use dynamics_core::spatial::SpatialInertia;
-use identification::{BaseModel, Excitation, ExcitationLimits, Search};
+use dynamics_core::state::State;
+use identification::{BaseModel, ExcitationLimits, FourierMotion, Search};
+
+use crate::generated;
 
 /// Gravity, inertia and velocity products.
 pub type Scene = (Gravity, Inertia, Coriolis);
@@ -16,7 +20,7 @@ pub type Arm = BaseModel<ArmModel<f64, 6>, Scene, 6, 6>;
 pub const RATED: [f64; 6] = [150.0, 150.0, 150.0, 28.0, 28.0, 28.0];
 /// Of the measured torque, N·m.
 pub const NOISE: [f64; 6] = [1.5, 1.5, 1.5, 0.28, 0.28, 0.28];
-pub static BITS: std::sync::atomic::AtomicU32 = std::sync::atomic::AtomicU32::new(14);
+pub const COUNT: f64 = std::f64::consts::TAU / 16384.0;
 pub const TICK: f64 = 2e-3;
 pub const PERIOD: f64 = 5.0;
 pub const EACH: usize = 2500;
@@ -46,8 +50,38 @@ pub const SEARCH: Search = Search {
 pub static ARM: LazyLock<Arm> =
     LazyLock::new(|| BaseModel::new(Ur5e::MODEL, RIGID_BODY, WIDTH, LIMITS));
 
-pub static CHOSEN: LazyLock<Excitation<6>> =
-    LazyLock::new(|| SEARCH.run(&*ARM, |_| true, |_| ()).expect("a motion"));
+/// What the search has found, as the file for firmware has it.
+pub static CHOSEN: LazyLock<FourierMotion<6>> = LazyLock::new(|| {
+    let rows = |rows: &[[f32; 6]]| rows.iter().map(|row| row.map(f64::from)).collect();
+    FourierMotion {
+        period: PERIOD,
+        centre: generated::CENTRE.map(f64::from),
+        sines: rows(&generated::SINES),
+        cosines: rows(&generated::COSINES),
+    }
+});
+
+/// States of a period.
+pub fn states(motion: &FourierMotion<6>, count: u32) -> Vec<State<f64, 6, 6>> {
+    let time = |k| motion.period * f64::from(k) / f64::from(count);
+    (0..count).map(|k| motion.at(time(k))).collect()
+}
+
+/// Every twentieth tick of the pick and place.
+pub fn pick_and_place() -> Vec<State<f64, 6, 6>> {
+    let mut path = Trajectory::REST;
+    firmware_demo::scenes::ur5e::plan(&mut path).expect("a path within the limits");
+    let ticks = (0..Reference::<f32, 6>::ticks(&path)).step_by(20);
+    let states = ticks.map(|tick| {
+        let State { q, qd, qdd } = path.at(tick);
+        State {
+            q: q.map(f64::from),
+            qd: qd.map(f64::from),
+            qdd: qdd.map(f64::from),
+        }
+    });
+    states.collect()
+}
 
 /// Viscous and Coulomb friction, armature and offset.
 pub const JOINTS: [[f64; 4]; 6] = [
@@ -101,6 +135,9 @@ impl Parameters {
         ARM.of_all(&self.bodies, &self.joints)
     }
 }
+
+/// Harmonics of the evaluation, up to 15 Hz.
+pub const HARMONICS: usize = 75;
 
 /// A number of a normal distribution: Box & Muller.
 pub fn normal(rng: &mut fastrand::Rng) -> f64 {

@@ -41,7 +41,7 @@ const ROUNDING: f64 = 1e-9;
 /// let arm = BaseModel::new(Ur5e::MODEL, RIGID_BODY, Width::new(0.05), limits);
 /// // 36 of bodies alone; four of the six armatures are distinguishable from these; and 18 of friction and offsets.
 /// assert_eq!(arm.len(), 36 + 4 + 18);
-/// assert_eq!(arm.name(0), "body 0 I_zz + body 1 I_yy + body 2 I_yy + body 3 I_yy + 0.1806 body 3 m + … (13)");
+/// assert_eq!(arm.name(1), "body 1 m c_x − 0.425 body 2 m − 0.425 body 3 m − 0.425 body 4 m − 0.425 body 5 m");
 /// ```
 #[derive(Clone, Debug)]
 pub struct BaseModel<D, E, const B: usize, const V: usize> {

@@ -228,11 +228,10 @@ impl Solved {
         }
         let svd = scaled.svd(false, true);
         let values = &svd.singular_values;
+        // At rest all are zero.
         let bound = values.max() / most;
         let directions = svd.v_t.as_ref().expect("computed");
-        let lost: Vec<usize> = (0..values.len())
-            .filter(|&k| !(values[k] > bound))
-            .collect();
+        let lost: Vec<usize> = (0..values.len()).filter(|&k| values[k] <= bound).collect();
         if lost.is_empty() {
             return Ok(values.max() / values.min());
         }

@@ -1,6 +1,11 @@
 //! Why an identification has no result.
 
 /// The reason for which there is no estimate.
+///
+/// ```
+/// let error = identification::IdentificationError::NotFinite { sample: 13, joint: 4 };
+/// assert_eq!(error.to_string(), "sample 13: the position or the torque of joint 4 is not finite");
+/// ```
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum IdentificationError {

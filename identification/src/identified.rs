@@ -33,6 +33,15 @@ pub struct Identified<const V: usize> {
 
 impl<const V: usize> Identified<V> {
     /// The covariance of the base parameters, row by row.
+    ///
+    /// ```
+    /// use identification::Identified;
+    /// /// The standard deviation of the sum of two parameters.
+    /// fn of_sum<const V: usize>(found: &Identified<V>, [a, b]: [usize; 2]) -> f64 {
+    ///     let covariance = found.covariance();
+    ///     (covariance[a][a] + 2.0 * covariance[a][b] + covariance[b][b]).sqrt()
+    /// }
+    /// ```
     #[must_use]
     pub fn covariance(&self) -> Vec<Vec<f64>> {
         let covariance = self.root.tr_mul(&self.root);

@@ -113,7 +113,7 @@ fn at_no_time_is_a_limit_exceeded_and_each_joint_reaches_one() {
     assert!(rates.fold(0.0, |most, rate| rate.abs().max(most)) < 1e-5);
     let mut shares = [0.0_f64; 6];
     for state in states(&CHOSEN, 20_000) {
-        for j in 0..6 {
+        for (j, most) in shares.iter_mut().enumerate() {
             let middle = 0.5 * (LIMITS.lower[j] + LIMITS.upper[j]);
             let half = 0.5 * (LIMITS.upper[j] - LIMITS.lower[j]);
             let share = [
@@ -121,7 +121,7 @@ fn at_no_time_is_a_limit_exceeded_and_each_joint_reaches_one() {
                 state.qd[j].abs() / LIMITS.velocity[j],
                 state.qdd[j].abs() / LIMITS.acceleration[j],
             ];
-            shares[j] = share.into_iter().fold(shares[j], f64::max);
+            *most = share.into_iter().fold(*most, f64::max);
         }
     }
     assert!(

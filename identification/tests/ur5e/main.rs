@@ -2,6 +2,7 @@
 //! parameters that are off by up to 30 %. `TABLES_WRITE=1` writes the tables of `docs/guide/src/identification.md`.
 
 mod bad_input;
+mod base;
 mod coverage;
 mod excitation;
 #[path = "../generated/ur5e_excitation.rs"]

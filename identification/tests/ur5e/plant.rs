@@ -87,6 +87,21 @@ pub fn bristles(truth: &Parameters) -> Lugre<f64, 6> {
     }
 }
 
+/// The bodies of an arm with these parameters.
+pub fn arm(truth: &Parameters) -> ArmModel<f64, 6> {
+    let mut arm = Ur5e::MODEL;
+    for (link, phi) in arm.links.iter_mut().zip(truth.bodies) {
+        let own = SpatialInertia::from_parameters(phi);
+        let frame = link.to_joint_frame;
+        link.inertia = SpatialInertia {
+            mass: own.mass,
+            first_moment: frame * own.first_moment,
+            rotational: frame * own.rotational * frame.transpose(),
+        };
+    }
+    arm
+}
+
 struct Plant {
     arm: ArmModel<f64, 6>,
     joints: [[f64; 4]; 6],
@@ -96,16 +111,7 @@ struct Plant {
 
 impl Plant {
     fn new(truth: &Parameters, friction: Friction, at: At) -> Self {
-        let mut arm = Ur5e::MODEL;
-        for (link, phi) in arm.links.iter_mut().zip(truth.bodies) {
-            let own = SpatialInertia::from_parameters(phi);
-            let frame = link.to_joint_frame;
-            link.inertia = SpatialInertia {
-                mass: own.mass,
-                first_moment: frame * own.first_moment,
-                rotational: frame * own.rotational * frame.transpose(),
-            };
-        }
+        let arm = arm(truth);
         Self {
             arm,
             joints: truth.joints,

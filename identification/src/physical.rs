@@ -17,6 +17,9 @@ use crate::{BaseModel, IdentificationError, Identified};
 /// The share of the nominal pseudo-inertia and friction that remains in all directions: more than that of
 /// [`PhysicalParameters`](dynamics_core::control::PhysicalParameters), so that rounding to f32 leaves a set possible.
 const MARGIN: f64 = 0.06;
+/// No base parameter counts as known better than to this share of its nominal deviation: without noise, in a simulation, rounding would
+/// decide.
+const LEAST: f64 = 1e-5;
 const STEPS: usize = 20_000;
 /// The change of a step, in relative units, from which on the set is final.
 const FINAL: f64 = 1e-9;
@@ -65,9 +68,13 @@ impl<const V: usize> Identified<V> {
         }
         let units = units(&roots, joints, &arm.limits.torque);
         let nominal = nominal(&roots, joints, &units);
-        // In units of the estimate's deviations: S⁻ᵀ (K U x − β).
-        let root = self.root.transpose().try_inverse();
-        let factor = root.expect("positive deviations");
+        // In units of the estimate's deviations: L⁻¹ (K U x − β), with the covariance L Lᵀ.
+        let mut covariance = self.root.tr_mul(&self.root);
+        for (k, row) in (&arm.grouping * &units).row_iter().enumerate() {
+            covariance[(k, k)] += (LEAST * share * row.norm()).powi(2);
+        }
+        let lower = covariance.cholesky().expect("positive deviations").l();
+        let factor = lower.try_inverse().expect("positive deviations");
         let explained = &factor * &arm.grouping * &units;
         let target = &factor * DVector::from_column_slice(&self.base);
         let prior = 1.0 / (share * share);

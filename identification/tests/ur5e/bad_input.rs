@@ -119,6 +119,20 @@ fn an_arm_without_noise_is_found_and_at_rest_nothing_is_determined() {
             ARM.name(k)
         );
     }
+    let Parameters { bodies, joints } = Parameters::nominal();
+    let set = (found.physical(&*ARM, &bodies, &joints, 0.3)).expect("a good model");
+    for ((k, found), base) in ARM
+        .of_all(&set.bodies, &set.joints)
+        .iter()
+        .enumerate()
+        .zip(truth.base())
+    {
+        assert!(
+            (found - base).abs() < 1e-4 * base.abs().max(0.1),
+            "{}: {found} {base}",
+            ARM.name(k)
+        );
+    }
     let error = batch
         .identify(&*ARM, &record(&still))
         .expect_err("no motion");

@@ -18,6 +18,8 @@ use crate::{BaseModel, FourierMotion, IdentificationError, Identified, Recording
 const PASSES: usize = 30;
 /// Noise that changes by less than this share is final.
 const FINAL: f64 = 1e-4;
+/// Beyond this condition number rounding decides, whatever is allowed.
+const LARGEST: f64 = 1e12;
 /// The share in the undetermined directions from which on a base parameter is named.
 const NAMED: f64 = 0.01;
 
@@ -229,7 +231,7 @@ impl Solved {
         let svd = scaled.svd(false, true);
         let values = &svd.singular_values;
         // At rest all are zero.
-        let bound = values.max() / most;
+        let bound = values.max() / most.min(LARGEST);
         let directions = svd.v_t.as_ref().expect("computed");
         let lost: Vec<usize> = (0..values.len()).filter(|&k| values[k] <= bound).collect();
         if lost.is_empty() {

@@ -145,7 +145,7 @@ fn an_arm_without_noise_is_found_and_at_rest_nothing_is_determined() {
 #[test]
 fn a_nominal_body_that_is_impossible_is_named_and_a_body_without_mass_remains_so() {
     let Parameters { mut bodies, joints } = Parameters::nominal();
-    let found = crate::coverage::identified(&Parameters::off(1), Friction::Modelled, 1);
+    let found = crate::coverage::identified(&ARM, &Parameters::off(1), Friction::Modelled, 1);
     bodies[4] = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
     let error = found.physical(&*ARM, &bodies, &joints, 0.3);
     assert_eq!(error, Err(IdentificationError::ImpossibleBody { body: 4 }));
@@ -168,7 +168,8 @@ fn the_delay_of_held_torques_matters() {
             ..Batch::new(HARMONICS, TICK)
         };
         let found = batch.identify(&*ARM, &recording).expect("a good motion");
-        crate::coverage::errors(&found.base, &truth.base(), &states(&CHOSEN, 200), &[]).largest
+        crate::coverage::errors(&ARM, &found.base, &truth.base(), &states(&CHOSEN, 200), &[])
+            .largest
     });
     assert!(
         3.0 * errors[0] < errors[1] && 1.5 * errors[1] < errors[2],

@@ -1,7 +1,9 @@
 //! The simulated arm in closed loop, and what is recorded of it.
 
-use dynamics_core::algorithms::aba;
-use dynamics_core::effects::{Armature, Coulomb, Effect, Lugre, RIGID_BODY, Viscous, Width};
+use dynamics_core::algorithms::{aba, rnea};
+use dynamics_core::effects::{
+    Armature, Coulomb, Effect, JointState, Lugre, RIGID_BODY, Viscous, Width,
+};
 use dynamics_core::model::{ArmModel, Robot};
 use dynamics_core::robots::Ur5e;
 use dynamics_core::spatial::SpatialInertia;
@@ -137,7 +139,7 @@ impl Plant {
             let h = TICK / STEPS as f64;
             for _ in 0..STEPS {
                 for j in 0..6 {
-                    let at = dynamics_core::effects::JointState::new(self.at.q[j], self.at.qd[j]);
+                    let at = JointState::new(self.at.q[j], self.at.qd[j]);
                     Effect::<f64, 6, 6>::advance(&mut bristles, j, at, h);
                 }
                 let qdd = aba(&self.arm, &self.at, &tau, &(RIGID_BODY, armature, bristles));
@@ -174,4 +176,33 @@ impl Plant {
             last = (qd, qdd);
         }
     }
+}
+
+/// The friction of bristles along a motion, less that of the model with the same coefficients: at every state, after a lead.
+pub fn beyond(truth: &Parameters, motion: &FourierMotion<6>) -> Vec<[f64; 6]> {
+    const STEP: f64 = 1e-4;
+    let per_state = (PERIOD / STEP / 500.0) as usize;
+    let of = |k: usize| truth.joints.map(|joint| joint[k]);
+    let modelled = (
+        Viscous(of(0)),
+        Coulomb {
+            torque: of(1),
+            width: WIDTH,
+        },
+    );
+    let mut friction = bristles(truth);
+    let mut all = Vec::new();
+    for k in 0..2 * 500 * per_state {
+        let at = motion.at(STEP * k as f64);
+        if k >= 500 * per_state && k.is_multiple_of(per_state) {
+            let with = rnea(&Ur5e::MODEL, &at, &friction);
+            let without = rnea(&Ur5e::MODEL, &at, &modelled);
+            all.push(std::array::from_fn(|j| with[j] - without[j]));
+        }
+        for j in 0..6 {
+            let joint = JointState::new(at.q[j], at.qd[j]);
+            Effect::<f64, 6, 6>::advance(&mut friction, j, joint, STEP);
+        }
+    }
+    all
 }

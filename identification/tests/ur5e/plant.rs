@@ -63,13 +63,19 @@ impl Run {
         run
     }
 
-    /// With noise of the torques, N·m, of which the plant is free.
+    /// With white noise of the torques, N·m, of which the plant is free.
     pub fn recorded(&self, noise: [f64; 6], seed: u64) -> Recording<6> {
+        self.coloured(noise, 0.0, seed)
+    }
+
+    /// With noise of which this share is that of the sample before.
+    pub fn coloured(&self, noise: [f64; 6], kept: f64, seed: u64) -> Recording<6> {
         let mut rng = fastrand::Rng::with_seed(seed);
-        let torques = self
-            .torques
-            .iter()
-            .map(|tau| std::array::from_fn(|j| tau[j] + noise[j] * normal(&mut rng)));
+        let (mut now, fresh) = ([0.0; 6], (1.0 - kept * kept).sqrt());
+        let torques = self.torques.iter().map(|tau| {
+            now = now.map(|now| kept * now + fresh * normal(&mut rng));
+            std::array::from_fn(|j| tau[j] + noise[j] * now[j])
+        });
         let torques = torques.collect();
         Recording::try_new(self.positions.clone(), torques, EACH, TICK).expect("whole periods")
     }

@@ -28,8 +28,8 @@ pub struct ExcitationLimits<const V: usize> {
     pub velocity: [f64; V],
     /// Greatest |q̈|, rad/s² or m/s².
     pub acceleration: [f64; V],
-    /// Greatest torque of the nominal rigid bodies, N·m or N, without friction and armatures. Its share of the noise of all joints
-    /// also weights their rows before the noise is known.
+    /// Greatest torque of the nominal rigid bodies, N·m or N, without friction and armatures. The rows of each joint are relative to
+    /// it before their noise is known.
     pub torque: [f64; V],
 }
 

@@ -7,6 +7,7 @@ mod coverage;
 mod excitation;
 #[path = "../generated/ur5e_excitation.rs"]
 mod generated;
+mod physical;
 mod plant;
 mod setup;
 

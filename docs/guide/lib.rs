@@ -28,6 +28,7 @@ pages! {
     taught_paths "taught-paths.md",
     payload "payload.md",
     learning "learning.md",
+    identification "identification.md",
     porting "porting.md",
     engine "engine.md",
 }

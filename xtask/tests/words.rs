@@ -78,7 +78,7 @@ fn names_and_first_sentences_are_in_plain_words() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap();
     let (mut files, mut wrong) = (Vec::new(), Vec::new());
     for folder in
-        "dynamics-core drivers firmware-demo host-tests robot-import telemetry xtask docs/guide"
+        "dynamics-core drivers firmware-demo host-tests identification robot-import telemetry xtask docs/guide"
             .split(' ')
     {
         sources(&root.join(folder), &mut files);

@@ -90,7 +90,7 @@ fn leads_somewhere(page: &Path, link: &str) -> bool {
     target.exists() && (anchor.is_empty() || has_heading())
 }
 
-/// Where `cargo doc` writes the library's documentation.
+/// Where `cargo doc` writes the library's documentation, beside that of `identification`.
 fn reference() -> PathBuf {
     Path::new(env!("CARGO_TARGET_TMPDIR")).with_file_name("doc/dynamics_core")
 }
@@ -112,6 +112,8 @@ static DOCUMENTED: LazyLock<Documented> = LazyLock::new(|| {
         "--no-deps",
         "--package",
         "dynamics-core",
+        "--package",
+        "identification",
         "--target-dir",
     ]);
     let header = root().canonicalize().expect("a path");
@@ -121,25 +123,29 @@ static DOCUMENTED: LazyLock<Documented> = LazyLock::new(|| {
         format!("--html-in-header={}", header.display()),
     );
     assert!(cargo.arg(target).status().expect("cargo").success());
-    let all = read_to_string(reference().join("all.html")).expect("the list of all items");
     let (mut pages, mut names) = (BTreeSet::new(), BTreeSet::new());
-    for page in between(&all, "href=\"", '"') {
-        let file: Vec<&str> = page
-            .rsplit('/')
-            .next()
-            .expect("a name")
-            .split('.')
-            .collect();
-        let &[_, item, "html"] = file.as_slice() else {
-            continue;
-        };
-        pages.insert(page.to_owned());
-        names.insert(item.to_owned());
-        let text = read_to_string(reference().join(page)).expect("the page of an item");
-        for id in between(&text, "id=\"", '"') {
-            if let Some((kind, member)) = id.split_once('.') {
-                names.insert(format!("{item}::{member}"));
-                names.extend((kind == "variant").then(|| member.to_owned()));
+    for folder in [reference(), reference().with_file_name("identification")] {
+        let all = read_to_string(folder.join("all.html")).expect("the list of all items");
+        for page in between(&all, "href=\"", '"') {
+            let file: Vec<&str> = page
+                .rsplit('/')
+                .next()
+                .expect("a name")
+                .split('.')
+                .collect();
+            let &[_, item, "html"] = file.as_slice() else {
+                continue;
+            };
+            if folder == reference() {
+                pages.insert(page.to_owned());
+            }
+            names.insert(item.to_owned());
+            let text = read_to_string(folder.join(page)).expect("the page of an item");
+            for id in between(&text, "id=\"", '"') {
+                if let Some((kind, member)) = id.split_once('.') {
+                    names.insert(format!("{item}::{member}"));
+                    names.extend((kind == "variant").then(|| member.to_owned()));
+                }
             }
         }
     }
@@ -148,7 +154,7 @@ static DOCUMENTED: LazyLock<Documented> = LazyLock::new(|| {
         let text = read_to_string(&file).expect("a source file");
         names.extend(between(&text, "pub const ", ':').map(str::to_owned));
     }
-    for known in ["Engine", "Gravity::EARTH", "COUPLING"] {
+    for known in ["Engine", "Gravity::EARTH", "COUPLING", "Batch::new"] {
         assert!(names.contains(known), "{known}");
     }
     Documented { pages, names }

@@ -1,0 +1,67 @@
+//! Why an identification has no result.
+
+/// The reason for which there is no estimate.
+///
+/// ```
+/// let error = identification::IdentificationError::NotFinite { sample: 13, joint: 4 };
+/// assert_eq!(error.to_string(), "sample 13: the position or the torque of joint 4 is not finite");
+/// ```
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum IdentificationError {
+    /// There are not as many torques as positions.
+    #[error("{samples} positions, but {torques} torques")]
+    Lengths {
+        /// Positions.
+        samples: usize,
+        /// Torques.
+        torques: usize,
+    },
+    /// The samples are not those of whole periods.
+    #[error("{samples} samples are not whole periods of {each}")]
+    NotWholePeriods {
+        /// All samples.
+        samples: usize,
+        /// Those of a period.
+        each: usize,
+    },
+    /// The interval between samples is not a positive time.
+    #[error("the interval between samples is not a positive time")]
+    Interval,
+    /// A position or a torque is not finite.
+    #[error("sample {sample}: the position or the torque of joint {joint} is not finite")]
+    NotFinite {
+        /// The sample.
+        sample: usize,
+        /// The joint.
+        joint: usize,
+    },
+    /// The harmonics are fewer than the parameters need, or a period has too few samples for them.
+    #[error(
+        "{harmonics} harmonics: at least {least} for the parameters, at most {most} for the samples of a period"
+    )]
+    Harmonics {
+        /// Those that were given.
+        harmonics: usize,
+        /// The fewest.
+        least: usize,
+        /// The most.
+        most: usize,
+    },
+    /// The motion does not show all base parameters: the condition number exceeds the greatest one that is allowed.
+    #[error("the motion shows {rank} independent directions only; undetermined: {}", parameters.join("; "))]
+    RankDeficient {
+        /// The number of directions that the motion shows.
+        rank: usize,
+        /// The places of the base parameters that have a part in the others.
+        undetermined: Vec<usize>,
+        /// Their names.
+        parameters: Vec<String>,
+    },
+    /// A body of the nominal model has a pseudo-inertia that is not positive definite, and is not without mass either.
+    #[error("body {body}: its nominal pseudo-inertia is not positive definite")]
+    ImpossibleBody {
+        /// The body.
+        body: usize,
+    },
+}

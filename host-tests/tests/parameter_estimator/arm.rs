@@ -12,6 +12,7 @@ use dynamics_core::effects::{
 use dynamics_core::model::{BodyInertia, Robot};
 use dynamics_core::robots::So101;
 use dynamics_core::scalar::Real;
+use dynamics_core::sim::runge_kutta;
 use dynamics_core::spatial::SpatialInertia;
 use dynamics_core::state::State;
 use firmware_demo::scenes::so101_teach as so101;
@@ -178,26 +179,6 @@ pub fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// A step of the classical Runge–Kutta method.
-pub fn advance(at: &mut State<f64, 6, 6>, tau: &[f64; 6], h: f64) {
-    let scene = (Gravity::EARTH, (Inertia, Coriolis), friction());
-    let moved = |x: &[f64; 6], rate: &[f64; 6], h: f64| -> [f64; 6] {
-        core::array::from_fn(|i| x[i] + h * rate[i])
-    };
-    let mut rates: Vec<([f64; 6], [f64; 6])> = Vec::new();
-    for share in [0.0, 0.5, 0.5, 1.0] {
-        let (v, a) = rates.last().copied().unwrap_or(([0.0; 6], [0.0; 6]));
-        let (q, qd) = (moved(&at.q, &v, share * h), moved(&at.qd, &a, share * h));
-        let qdd = [0.0; 6];
-        let a = Core::<So101>::aba(&State { q, qd, qdd }, tau, &scene).expect("an arm with mass");
-        rates.push((qd, a));
-    }
-    for (weight, (v, a)) in [1.0, 2.0, 2.0, 1.0].into_iter().zip(rates) {
-        at.q = moved(&at.q, &v, weight * h / 6.0);
-        at.qd = moved(&at.qd, &a, weight * h / 6.0);
-    }
-}
-
 /// The rows of a run in closed loop under the servos' position gains with the feed-forward of a model, and their ticks; the encoder
 /// of joint 2 sticks in the ticks `stuck`.
 pub fn run(nominal: &[f64; N], ticks: usize, stuck: core::ops::Range<usize>) -> Vec<(usize, Row)> {
@@ -205,6 +186,7 @@ pub fn run(nominal: &[f64; N], ticks: usize, stuck: core::ops::Range<usize>) -> 
     let step = f64::from(so101::STALL) * 1e-3;
     let most = f64::from(so101::MAX_DUTY * so101::STALL);
     let resolution = f64::from(so101::RESOLUTION);
+    let scene = (Gravity::EARTH, (Inertia, Coriolis), friction());
     let (mut rng, mut at) = (Rng::new(1), excitation(0.0));
     let config = ObserverConfig {
         bandwidth: 60.0,
@@ -245,7 +227,8 @@ pub fn run(nominal: &[f64; N], ticks: usize, stuck: core::ops::Range<usize>) -> 
             past.pop_front();
         }
         for _ in 0..2 {
-            advance(&mut at, &tau, TICK / 2.0);
+            runge_kutta(&So101::MODEL, &mut at, &tau, &scene, TICK / 2.0)
+                .expect("an arm with mass");
         }
     }
     found

@@ -9,6 +9,7 @@ use dynamics_core::effects::{
 };
 use dynamics_core::model::{BodyInertia, Robot};
 use dynamics_core::robots::Ur5e;
+use dynamics_core::sim::runge_kutta;
 use dynamics_core::state::State;
 
 use crate::common::Rng;
@@ -57,26 +58,6 @@ pub fn reference(t: f64) -> State<f64, 6, 6> {
         q: core::array::from_fn(|i| START[i] + swing[i]),
         qd: of(|w, t| w * (w * t).sin()),
         qdd: of(|w, t| w * w * (w * t).cos()),
-    }
-}
-
-/// A step of the classical Runge–Kutta method, by the load and friction.
-fn advance(at: &mut State<f64, 6, 6>, tau: &[f64; 6], load: Payload<f64, WRIST>, h: f64) {
-    let scene = (Gravity::EARTH, (Inertia, Coriolis), friction(1.0), load);
-    let moved = |x: &[f64; 6], rate: &[f64; 6], h: f64| -> [f64; 6] {
-        core::array::from_fn(|i| x[i] + h * rate[i])
-    };
-    let mut rates: Vec<([f64; 6], [f64; 6])> = Vec::new();
-    for share in [0.0, 0.5, 0.5, 1.0] {
-        let (v, a) = rates.last().copied().unwrap_or(([0.0; 6], [0.0; 6]));
-        let (q, qd) = (moved(&at.q, &v, share * h), moved(&at.qd, &a, share * h));
-        let qdd = [0.0; 6];
-        let a = Core::<Ur5e>::aba(&State { q, qd, qdd }, tau, &scene).expect("an arm with mass");
-        rates.push((qd, a));
-    }
-    for (weight, (v, a)) in [1.0, 2.0, 2.0, 1.0].into_iter().zip(rates) {
-        at.q = moved(&at.q, &v, weight * h / 6.0);
-        at.qd = moved(&at.qd, &a, weight * h / 6.0);
     }
 }
 
@@ -146,8 +127,10 @@ pub fn measure(run: &Run) -> Vec<Tick> {
             Some((from, load)) if k >= from => load,
             _ => LOAD,
         };
+        let load = Payload::<f64, WRIST>::from_inertia(load);
+        let scene = (Gravity::EARTH, (Inertia, Coriolis), friction(1.0), load);
         for _ in 0..4 {
-            advance(&mut at, &tau, Payload::from_inertia(load), TICK / 4.0);
+            runge_kutta(&Ur5e::MODEL, &mut at, &tau, &scene, TICK / 4.0).expect("an arm with mass");
         }
     }
     found

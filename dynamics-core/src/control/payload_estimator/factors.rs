@@ -22,7 +22,7 @@ impl<R: Real> Factors<R> {
     }
 
     /// T: these from the factors of the tick before and from its rows. Returns the mean square of e.
-    #[inline(always)]
+    #[inline(never)] // shared by the tick and that of a freeze: 3 kB
     pub(super) fn transform<const N: usize>(
         &mut self,
         now: &Self,
@@ -49,10 +49,11 @@ impl<R: Real> Factors<R> {
             let ratio = kept * gain;
             let half = gain / (R::ONE + ratio * ratio.rsqrt());
             for ((u, next), x) in row.iter().zip(next_row).zip(later.iter_mut()) {
-                let t = dot(&y, x) - new * *u;
+                let old = *x; // the store of `next` is not between its two uses
+                let t = dot(&y, &old) - new * *u;
                 let factor = *u + t * half;
+                *x = core::array::from_fn(|i| entry(&old, i) - factor * entry(&y, i));
                 *next = *u + t * gain;
-                *x = core::array::from_fn(|i| entry(x, i) - factor * entry(&y, i));
             }
             *next = sum;
             rest = later;

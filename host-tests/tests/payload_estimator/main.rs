@@ -342,6 +342,11 @@ fn a_configuration_that_is_no_deviation_or_no_share_is_refused() {
         assert_eq!(refused(noisy), named(ConfigParameter::TorqueNoise));
         assert_eq!(refused(prior), named(ConfigParameter::PriorDeviation));
     }
+    for end in [1e-6, 1e6] {
+        let (mut noisy, mut prior) = (config(0.0), config(0.0));
+        (noisy.noise[5], prior.prior[9]) = (end, end);
+        assert_eq!((refused(noisy), refused(prior)), (None, None));
+    }
     for bad in [-0.1, 1.0, f64::NAN] {
         assert_eq!(refused(config(bad)), named(ConfigParameter::Forgetting));
     }

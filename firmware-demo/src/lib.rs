@@ -3,6 +3,7 @@
 //!
 //! | module | what | on hardware |
 //! |---|---|---|
+//! | [`contact`] | an arm that finds contacts without sensors, and reacts | its tick |
 //! | [`control_loop`] | the tick: read, reference, dynamics, safety, write | as it is |
 //! | [`joint_drivers`] | an AS5047P on SPI, a current-controlled drive on PWM | as they are |
 //! | [`digest`] | digests of the dynamics' results on recorded states | as they are |
@@ -23,6 +24,7 @@
 
 #[cfg(feature = "accuracy")]
 pub mod accuracy;
+pub mod contact;
 pub mod control_loop;
 pub mod digest;
 pub mod effect_presets;

@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::error::{Error, Result, check};
-use crate::scene::Scene;
+use crate::scene::{Scene, Story};
 use crate::table::{Table, thousands};
 use crate::workspace::{self, Workspace};
 
@@ -77,7 +77,9 @@ fn is_below(path: &Path, place: &str) -> bool {
     let bin = text
         .strip_prefix(BINS)
         .and_then(|rest| rest.split(['/', '.']).next());
-    let is_scene = bin.is_some_and(|bin| Scene::all().iter().any(|scene| scene.name() == bin));
+    let scenes = Scene::all().iter().map(|scene| scene.name());
+    let stories = Story::all().iter().map(|story| story.name());
+    let is_scene = bin.is_some_and(|bin| scenes.chain(stories).any(|name| name == bin));
     text.starts_with(place) && !is_other && !is_scene
 }
 

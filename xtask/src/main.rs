@@ -46,6 +46,7 @@ mod scenes;
 mod setup;
 mod shell;
 mod silicon;
+mod story;
 mod system;
 mod table;
 mod test;

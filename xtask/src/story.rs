@@ -1,0 +1,246 @@
+//! Scenes about something else than tracking: the same runs in QEMU and on the host, and a page with what more of them shows.
+
+use std::path::Path;
+use std::process::ExitCode;
+
+use serde::{Deserialize, Serialize};
+
+use crate::chart::{self, Axis, HPos, Line, RGBColor};
+use crate::docs::{self, Page};
+use crate::error::{Result, refuse_if};
+use crate::firmware;
+use crate::host_bin;
+use crate::meter::{self, BETWEEN, Cost};
+use crate::output;
+use crate::qemu::Run;
+use crate::render::CLOCK_MHZ;
+use crate::report::MODEL;
+use crate::scene::Story;
+use crate::setup::Tools;
+use crate::table::{Table, plain, thousands};
+use crate::workspace::{self, Workspace};
+
+/// Of the lines of a chart, in their order: readable to the colour-blind.
+const COLOURS: [RGBColor; 6] = [
+    RGBColor(27, 80, 162),
+    RGBColor(230, 145, 0),
+    RGBColor(86, 160, 211),
+    RGBColor(120, 120, 120),
+    RGBColor(0, 130, 90),
+    RGBColor(190, 60, 60),
+];
+const CHART: u32 = 330;
+
+/// The package of the bins of the host.
+const PACKAGE: &str = "story-tests";
+
+/// The bin that measures what the page shows beside the runs.
+fn report(story: Story) -> String {
+    format!("{}_report", story.name())
+}
+
+/// What a bin of the host prints.
+#[derive(Deserialize)]
+struct Shown {
+    text: String,
+    charts: Vec<Chart>,
+}
+
+#[derive(Deserialize)]
+struct Chart {
+    title: String,
+    x: Scale,
+    y: Scale,
+    lines: Vec<(String, Vec<(f64, f64)>)>,
+    dots: bool,
+}
+
+#[derive(Deserialize)]
+struct Scale {
+    name: String,
+    ends: [f64; 2],
+    logarithmic: bool,
+}
+
+/// A story as the firmware told it.
+#[derive(Serialize)]
+pub struct Told {
+    columns: Vec<String>,
+    rows: Vec<Vec<String>>,
+    /// Region by region: its name and its cost.
+    regions: Vec<(String, Cost)>,
+    stack_bytes: u64,
+}
+
+impl Told {
+    /// Runs a story in QEMU under the meter, and on the host.
+    ///
+    /// # Errors
+    /// The host's rows are others, or a tick lacks a region.
+    pub fn of(workspace: &Workspace, tools: &Tools, meter: &Path, story: Story) -> Result<Self> {
+        let name = story.name();
+        let elf = firmware::build(workspace, tools.toolchain, name)?;
+        let regions = workspace.output(&format!("{name}.regions"))?;
+        let run = Run::logging(name, &elf, Some((meter, &regions)));
+        let lines = tools.qemu.lines(&run)?;
+        let said = |word: &str| -> Vec<&str> {
+            let lines = lines.iter();
+            let lines = lines.filter_map(|line| line.strip_prefix(word)?.strip_prefix(' '));
+            lines.collect()
+        };
+        let (rows, host) = (said("row"), host_bin::text_of(workspace, PACKAGE, name)?);
+        let other = rows.iter().zip(host.lines()).find(|(a, b)| *a != b);
+        refuse_if!(
+            rows.is_empty() || rows.len() != host.lines().count() || other.is_some(),
+            "{name}: the host and QEMU differ: {other:?}"
+        );
+        let samples = meter::read(&regions)?;
+        let ticks = samples.iter().filter(|sample| sample.region == 0).count();
+        let costs = meter::costs(&samples, ticks, |_| true)?;
+        let names = said("region").into_iter().chain([BETWEEN]);
+        let cells = |row: &str| row.split('|').map(str::to_owned).collect();
+        Ok(Self {
+            columns: said("columns")
+                .first()
+                .map(|row| cells(row))
+                .unwrap_or_default(),
+            rows: rows.into_iter().map(cells).collect(),
+            regions: names.map(str::to_owned).zip(costs).collect(),
+            stack_bytes: said("stack")
+                .first()
+                .and_then(|n| n.parse().ok())
+                .unwrap_or(0),
+        })
+    }
+
+    fn markdown(&self) -> String {
+        let columns: Vec<&str> = self.columns.iter().map(String::as_str).collect();
+        let mut rows = Table::new(&columns);
+        self.rows.iter().for_each(|row| rows.row(row.clone()));
+        let head = ["phase", "insn max", "cycles median", "cycles max", "µs max"];
+        let mut phases = Table::new(&head);
+        for (
+            name,
+            Cost {
+                instructions,
+                cycles,
+            },
+        ) in &self.regions
+        {
+            let numbers = [instructions.max, cycles.median, cycles.max].map(thousands);
+            let time = format!("{:.2}", cycles.max as f64 / CLOCK_MHZ);
+            phases.row([name.clone()].into_iter().chain(numbers).chain([time]));
+        }
+        let (rows, phases, stack) = (
+            rows.markdown(),
+            phases.markdown(),
+            thousands(self.stack_bytes),
+        );
+        format!(
+            "The runs of the firmware in QEMU, with the host's torques to the bit:\n\n{rows}\n\
+             Cost of its ticks ({MODEL}), the simulated arm not counted:\n\n{phases}\nPeak stack {stack} B, the simulated arm included.\n"
+        )
+    }
+}
+
+/// Runs a story and prints it; with `write` it rewrites the page and its picture.
+pub fn run(tools: &Tools, story: Story, json: bool, write: bool) -> Result<ExitCode> {
+    let workspace = Workspace::for_reports()?;
+    let meter = firmware::build_meter(&workspace)?;
+    tools.qemu.interface(&meter)?;
+    let told = Told::of(&workspace, tools, &meter, story)?;
+    let page = page(story);
+    if write {
+        let (text, picture) = measure(&workspace, tools, story, &told)?;
+        page.write(&workspace, &text)?;
+        workspace::write(&workspace.report(&picture_of(&page)), picture)?;
+    }
+    if json {
+        docs::print_json(&told)?;
+    } else {
+        output::print(&format!("\n{}\n", plain(&told.markdown())))?;
+        output::line(&format!(
+            "plots: {}; page: {}",
+            picture_of(&page),
+            page.file
+        ))?;
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Fails unless QEMU and the host agree, and page and picture are those of today.
+pub fn check(workspace: &Workspace, tools: &Tools, meter: &Path) -> Result<String> {
+    for story in Story::all() {
+        let told = Told::of(workspace, tools, meter, *story)?;
+        let (text, picture) = measure(workspace, tools, *story, &told)?;
+        let (page, rustc) = (page(*story), tools.toolchain.rustc_version()?);
+        page.check(workspace, &text, Some(&rustc))?;
+        let written = workspace::read(&workspace.root.join(page.file))?;
+        let same = docs::rustc_of(&written) == Some(&*rustc);
+        docs::compare_picture(workspace, &picture_of(&page), page.command, &picture, same)?;
+    }
+    Ok(String::new())
+}
+
+fn page(story: Story) -> Page {
+    match story {
+        Story::Ur5eContact => Page {
+            file: "docs/contact.md",
+            name: "contact",
+            command: "cargo xtask demo --scene ur5e_contact --write-docs",
+        },
+    }
+}
+
+fn picture_of(page: &Page) -> String {
+    page.file.replace(".md", ".svg")
+}
+
+/// The text and the picture of the page.
+fn measure(
+    workspace: &Workspace,
+    tools: &Tools,
+    story: Story,
+    told: &Told,
+) -> Result<(String, String)> {
+    let shown: Shown = host_bin::json_of(workspace, PACKAGE, &report(story))?;
+    let rustc = tools.toolchain.rustc_version()?;
+    let text = format!(
+        "{}\n{}\nMeasured with {rustc}.",
+        shown.text,
+        told.markdown()
+    );
+    Ok((text, svg(&shown.charts)?))
+}
+
+/// One chart below the other.
+fn svg(charts: &[Chart]) -> Result<String> {
+    chart::svg((760, CHART * charts.len() as u32), |root| {
+        let areas = root.split_evenly((charts.len(), 1));
+        for (shown, area) in charts.iter().zip(&areas) {
+            chart::label(area, &shown.title, (28, 20), 17, HPos::Left)?;
+            let coloured = || shown.lines.iter().zip(COLOURS);
+            let names = coloured().map(|((name, _), colour)| (name.clone(), colour));
+            chart::legend(area, names, (90, 46))?;
+            let lines = coloured().map(|((_, points), colour)| Line {
+                points: points.clone(),
+                colour,
+                dots: shown.dots,
+            });
+            let [x, y] = [(&shown.x, 48), (&shown.y, 72)].map(|(scale, room)| scale.axis(room));
+            chart::lines(area, 62, [&x, &y], &lines.collect::<Vec<_>>())?;
+        }
+        Ok(())
+    })
+}
+
+impl Scale {
+    fn axis(&self, room: u32) -> Axis {
+        // An axis' name lives as long as the program.
+        let name: &'static str = self.name.clone().leak();
+        match self.logarithmic {
+            true => Axis::decades(name, self.ends, room),
+            false => Axis::linear(name, self.ends, 7, room),
+        }
+    }
+}

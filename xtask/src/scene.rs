@@ -67,6 +67,8 @@ impl Scene {
 pub enum Story {
     /// A UR5e without force sensors runs into a wall, finds the contact, and stops, goes back, or floats.
     Ur5eContact,
+    /// An SO-101 whose parameters are off by 30 % learns them, and then weighs what it carries.
+    So101Learn,
 }
 
 impl Story {
@@ -79,6 +81,7 @@ impl Story {
     pub fn name(self) -> &'static str {
         match self {
             Self::Ur5eContact => "ur5e_contact",
+            Self::So101Learn => "so101_learn",
         }
     }
 }

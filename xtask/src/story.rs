@@ -10,7 +10,7 @@ use crate::docs::{self, Page};
 use crate::error::{Result, refuse_if};
 use crate::firmware;
 use crate::host_bin;
-use crate::meter::{self, BETWEEN, Cost};
+use crate::meter::{self, BETWEEN, Cost, REGIONS};
 use crate::output;
 use crate::qemu::Run;
 use crate::render::CLOCK_MHZ;
@@ -44,6 +44,8 @@ fn report(story: Story) -> String {
 struct Shown {
     text: String,
     charts: Vec<Chart>,
+    /// Name, region, and the share of the error that is left.
+    estimators: Vec<(String, String, f64)>,
 }
 
 #[derive(Deserialize)]
@@ -97,7 +99,24 @@ impl Told {
         let samples = meter::read(&regions)?;
         let ticks = samples.iter().filter(|sample| sample.region == 0).count();
         let costs = meter::costs(&samples, ticks, |_| true)?;
-        let names = said("region").into_iter().chain([BETWEEN]);
+        let names = said("region");
+        let (phases, parts) = names.split_at(REGIONS.len().min(names.len()));
+        // Further regions are of some ticks only.
+        let part = |(number, name): (usize, &&str)| {
+            let of = || {
+                samples
+                    .iter()
+                    .filter(|s| usize::from(s.region) == number + phases.len())
+            };
+            let cost = Cost::of(of().map(|s| s.instructions), of().map(|s| s.cycles))?;
+            Ok((String::from(*name), cost))
+        };
+        let parts = parts
+            .iter()
+            .enumerate()
+            .map(part)
+            .collect::<Result<Vec<_>>>()?;
+        let names = phases.iter().copied().chain([BETWEEN]).map(str::to_owned);
         let cells = |row: &str| row.split('|').map(str::to_owned).collect();
         Ok(Self {
             columns: said("columns")
@@ -105,7 +124,7 @@ impl Told {
                 .map(|row| cells(row))
                 .unwrap_or_default(),
             rows: rows.into_iter().map(cells).collect(),
-            regions: names.map(str::to_owned).zip(costs).collect(),
+            regions: names.zip(costs).chain(parts).collect(),
             stack_bytes: said("stack")
                 .first()
                 .and_then(|n| n.parse().ok())
@@ -189,6 +208,11 @@ fn page(story: Story) -> Page {
             name: "contact",
             command: "cargo xtask demo --scene ur5e_contact --write-docs",
         },
+        Story::So101Learn => Page {
+            file: "docs/learning.md",
+            name: "learning",
+            command: "cargo xtask demo --scene so101_learn --write-docs",
+        },
     }
 }
 
@@ -210,7 +234,33 @@ fn measure(
         shown.text,
         told.markdown()
     );
-    Ok((text, svg(&shown.charts)?))
+    let mut charts = shown.charts;
+    let cycles = |region: &str| {
+        let mut regions = told.regions.iter().filter(|(name, _)| name == region);
+        regions
+            .next()
+            .map_or(f64::NAN, |(_, cost)| cost.cycles.max as f64)
+    };
+    let points = shown
+        .estimators
+        .into_iter()
+        .map(|(name, region, left)| (name, vec![(cycles(&region), 100.0 * left)]));
+    let lines: Vec<_> = points.collect();
+    if !lines.is_empty() {
+        let scale = |name: &str, ends| Scale {
+            name: name.into(),
+            ends,
+            logarithmic: true,
+        };
+        charts.push(Chart {
+            title: "What the estimators leave of the torques' error".into(),
+            x: scale("modelled cycles of a tick, at most", [1e3, 1e5]),
+            y: scale("% of the error at the start", [1.0, 100.0]),
+            lines,
+            dots: true,
+        });
+    }
+    Ok((text, svg(&charts)?))
 }
 
 /// One chart below the other.

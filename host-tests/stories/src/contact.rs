@@ -324,6 +324,7 @@ pub fn shown() -> Shown {
     Shown {
         text,
         charts: charts(),
+        estimators: Vec::new(),
     }
 }
 

@@ -9,6 +9,8 @@ pub struct Shown {
     pub text: String,
     /// From the top to the bottom of the picture.
     pub charts: Vec<Chart>,
+    /// Estimators: their names, the regions of the firmware that they take, and the share of the error that they leave.
+    pub estimators: Vec<(String, &'static str, f64)>,
 }
 
 /// Lines over two axes.

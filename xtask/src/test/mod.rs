@@ -114,7 +114,7 @@ const STEPS: &[Step] = &[
         |c| cores::check(&c.workspace, c.options)),
     ("telemetry", Target, Full, "a tick costs the same with a listener, without one, and with a full queue", |c| watch::check(&c.workspace, &c.tools, c.meter()?)),
     ("pil", Target, Named, "with its robot in f64 on the host the scene ur5e moves as with its robot inside", |c| pil::check(&c.workspace, &c.tools)),
-    ("stories", Target, Full, "the host and QEMU agree on the scenes of contact and learning, and docs/contact.md has today's figures",
+    ("stories", Target, Full, "the host and QEMU agree on the scenes of contact and learning, and docs/contact.md and docs/learning.md have today's figures",
         |c| story::check(&c.workspace, &c.tools, c.meter()?)),
     ("absent-effects", Target, Everyday, "an effect that a scene does not name costs it nothing", absent::absent_effects_cost_nothing),
     ("accuracy", Target, Full, "docs/accuracy.md has today's costs and errors of single changes; what is printed as generated code keeps them",

@@ -11,7 +11,7 @@ pub enum Checked {
 }
 
 /// The files; a test compares the list with the repository.
-pub const FILES: [(&str, Checked); 31] = [
+pub const FILES: [(&str, Checked); 33] = [
     ("README.md", Checked::Step("readme")),
     ("docs/accuracy-a1_leg-all.svg", Checked::Step("accuracy")),
     ("docs/accuracy-a1_leg.svg", Checked::Step("accuracy")),
@@ -40,6 +40,8 @@ pub const FILES: [(&str, Checked); 31] = [
     ("docs/hard-cases.md", Checked::Step("hard-cases")),
     ("docs/history.md", Checked::Step("history")),
     ("docs/history.svg", Checked::Step("history")),
+    ("docs/learning.md", Checked::Step("stories")),
+    ("docs/learning.svg", Checked::Step("stories")),
     ("docs/loops.md", Checked::Step("loops")),
     (
         "docs/peers.md",

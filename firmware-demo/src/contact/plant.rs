@@ -14,9 +14,10 @@ use glam::Vec3;
 
 /// The body that touches.
 pub const TIP: usize = 5;
-/// Rotor inertias, viscous friction and sliding friction of the scene [`ur5e`](crate::scenes::ur5e): kg·m², N·m·s/rad, N·m.
-const ROTORS: [f64; 6] = [0.9, 0.9, 0.9, 0.25, 0.25, 0.25];
-const VISCOUS: [f64; 6] = [12.0, 12.0, 8.0, 2.0, 2.0, 1.5];
+/// Rotor inertias of the scene [`ur5e`](crate::scenes::ur5e), as its friction below, kg·m².
+pub const ROTORS: [f64; 6] = [0.9, 0.9, 0.9, 0.25, 0.25, 0.25];
+/// Viscous friction, N·m·s/rad.
+pub const VISCOUS: [f64; 6] = [12.0, 12.0, 8.0, 2.0, 2.0, 1.5];
 /// Sliding friction, N·m.
 pub const SLIDING: [f64; 6] = [8.0, 8.0, 6.0, 1.5, 1.5, 1.2];
 /// Stiction exceeds sliding friction by this share of it.

@@ -48,7 +48,8 @@ fn swing(t: f32, rates: impl Fn(f32) -> [f32; 2]) -> State<f32, 6, 6> {
     let mut state = State::at(CENTRE);
     for i in 0..6 {
         for (share, rate) in [0.6, 0.4].into_iter().zip(rates(i as f32)) {
-            let ((sin, cos), size) = ((rate * t).sin_cos(), share * SIZE[i]);
+            // Not the method: where std is linked it would be another sine.
+            let ((sin, cos), size) = (Real::sin_cos(rate * t), share * SIZE[i]);
             state.q[i] += size * sin;
             state.qd[i] += size * rate * cos;
             state.qdd[i] -= size * rate * rate * sin;

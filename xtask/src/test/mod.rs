@@ -3,7 +3,7 @@
 
 mod absent;
 mod claims;
-mod functions;
+pub mod functions;
 mod host;
 mod others;
 mod package;

@@ -228,7 +228,7 @@ macro_rules! scene_main {
 /// The `main` of a scene that is not about tracking: the names of its regions and columns, and the function that reports
 /// its rows.
 #[macro_export]
-macro_rules! story_main {
+macro_rules! trial_main {
     ($regions:expr, $columns:expr, $rows:path) => {
         #[::cortex_m_rt::entry]
         fn main() -> ! {

@@ -23,8 +23,8 @@ use crate::report::{Report, feedforward_costs};
 use crate::scene::{Scene, Shown};
 use crate::scenes;
 use crate::setup::{self, Options, Tools};
-use crate::story;
 use crate::toolchain::RELEASE;
+use crate::trial;
 use crate::workspace::{self, Workspace};
 
 /// The README's picture, of the default scene.
@@ -68,7 +68,7 @@ pub fn run(options: Options, args: Args) -> Result<ExitCode> {
     let workspace = Workspace::find()?;
     let tools = setup::for_demo(options)?;
     let one = match args.scene {
-        Shown::Story(story) => return story::run(&tools, story, args.json, args.write_docs),
+        Shown::Trial(trial) => return trial::run(&tools, trial, args.json, args.write_docs),
         Shown::Tracking(scene) => [scene],
     };
     let scenes = if args.all { Scene::all() } else { &one };

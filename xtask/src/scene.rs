@@ -64,14 +64,14 @@ impl Scene {
 /// A bin of `firmware-demo` that shows something else than how an arm tracks, on a page of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 #[value(rename_all = "snake_case")]
-pub enum Story {
+pub enum Trial {
     /// A UR5e without force sensors runs into a wall, finds the contact, and stops, goes back, or floats.
     Ur5eContact,
     /// An SO-101 whose parameters are off by 30 % learns them, and then weighs what it carries.
     So101Learn,
 }
 
-impl Story {
+impl Trial {
     /// All of them.
     pub fn all() -> &'static [Self] {
         Self::value_variants()
@@ -90,7 +90,7 @@ impl Story {
 #[derive(Clone, Copy, Debug)]
 pub enum Shown {
     Tracking(Scene),
-    Story(Story),
+    Trial(Trial),
 }
 
 impl Default for Shown {
@@ -102,9 +102,9 @@ impl Default for Shown {
 impl ValueEnum for Shown {
     fn value_variants<'a>() -> &'a [Self] {
         static ALL: LazyLock<Vec<Shown>> = LazyLock::new(|| {
-            let stories = Story::all().iter().copied().map(Shown::Story);
+            let trials = Trial::all().iter().copied().map(Shown::Trial);
             let scenes = Scene::all().iter().copied().map(Shown::Tracking);
-            scenes.chain(stories).collect()
+            scenes.chain(trials).collect()
         });
         &ALL
     }
@@ -112,7 +112,7 @@ impl ValueEnum for Shown {
     fn to_possible_value(&self) -> Option<PossibleValue> {
         match self {
             Self::Tracking(scene) => scene.to_possible_value(),
-            Self::Story(story) => story.to_possible_value(),
+            Self::Trial(trial) => trial.to_possible_value(),
         }
     }
 }

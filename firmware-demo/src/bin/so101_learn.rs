@@ -4,4 +4,4 @@
 
 use firmware_demo::learning::{firmware::REGIONS, run};
 
-firmware_demo::story_main!(REGIONS, run::COLUMNS, run::rows);
+firmware_demo::trial_main!(REGIONS, run::COLUMNS, run::rows);

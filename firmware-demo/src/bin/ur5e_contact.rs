@@ -4,4 +4,4 @@
 
 use firmware_demo::contact::{crash, firmware::REGIONS};
 
-firmware_demo::story_main!(REGIONS, crash::COLUMNS, crash::rows);
+firmware_demo::trial_main!(REGIONS, crash::COLUMNS, crash::rows);

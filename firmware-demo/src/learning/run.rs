@@ -46,10 +46,10 @@ fn swing(t: f32, rates: impl Fn(f32) -> [f32; 2]) -> State<f32, 6, 6> {
     const CENTRE: [f32; 6] = [0.0, -0.2, 0.2, 0.0, 0.0, 0.8];
     const SIZE: [f32; 6] = [0.9, 0.8, -0.8, 0.9, 1.2, 0.7];
     let mut state = State::at(CENTRE);
-    for i in 0..6 {
+    for (i, size) in SIZE.into_iter().enumerate() {
         for (share, rate) in [0.6, 0.4].into_iter().zip(rates(i as f32)) {
             // Not the method: where std is linked it would be another sine.
-            let ((sin, cos), size) = (Real::sin_cos(rate * t), share * SIZE[i]);
+            let ((sin, cos), size) = (Real::sin_cos(rate * t), share * size);
             state.q[i] += size * sin;
             state.qd[i] += size * rate * cos;
             state.qdd[i] -= size * rate * rate * sin;
@@ -120,8 +120,9 @@ pub struct Outcome {
     pub digest: Digest,
 }
 
-/// Learns and weighs, with friction of the kind `F`. `observe` is told the estimate in each tick of learning, and the load so far, kg, in
-/// each of the others. Nothing if the nominal model is impossible or the arm has no forward dynamics.
+/// Learns and weighs, with friction of the kind `F`. `observe` gets the task, its tick and the firmware after each tick.
+///
+/// Nothing if the nominal model is impossible or the arm has no forward dynamics.
 pub fn run<F: Effect<f32, 6, 6> + Clone>(
     known: &Known,
     friction: F,

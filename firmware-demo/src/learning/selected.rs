@@ -1,4 +1,4 @@
-//! What the firmware knows before the arm moves: written by host-tests/stories/tests/learning.rs with TABLES_WRITE=1.
+//! What the firmware knows before the arm moves: written by host-tests/trials/tests/learning.rs with TABLES_WRITE=1.
 
 use dynamics_core::control::SelectedParameters;
 

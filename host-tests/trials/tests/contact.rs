@@ -1,7 +1,7 @@
 //! Claims about the scene `ur5e_contact`, in f32 as in the firmware.
 
 use firmware_demo::contact::crash::{FRICTIONS, RESPONSES, STIFFNESSES};
-use story_tests::contact::{LATER, PEAK, WATCHES, asked, worst};
+use trial_tests::contact::{LATER, PEAK, WATCHES, required, worst};
 
 #[test]
 fn a_contact_peaks_below_its_bar_and_is_relieved_half_a_second_later_with_either_friction() {
@@ -29,9 +29,9 @@ fn pushes_at_shoulder_and_wrist_are_found_within_their_bars() {
     for watch in &WATCHES[..2] {
         for delays in watch.delays(4) {
             let longest = delays.last().copied();
-            println!("{watch:?}: {longest:?} of {} ms", asked(watch.bits));
+            println!("{watch:?}: {longest:?} of {} ms", required(watch.bits));
             assert!(
-                longest.is_some_and(|ticks| ticks <= asked(watch.bits)),
+                longest.is_some_and(|ticks| ticks <= required(watch.bits)),
                 "{watch:?}"
             );
         }
@@ -40,7 +40,7 @@ fn pushes_at_shoulder_and_wrist_are_found_within_their_bars() {
 
 #[test]
 fn a_million_ticks_of_the_pick_and_place_have_no_false_alarm() {
-    let [ticks, found] = WATCHES[0].alarms(story_tests::contact::LAPS);
+    let [ticks, found] = WATCHES[0].alarms(trial_tests::contact::LAPS);
     assert!(ticks >= 1_000_000 && found == 0, "{found} in {ticks}");
 }
 

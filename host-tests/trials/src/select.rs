@@ -133,7 +133,7 @@ pub fn source() -> String {
         .map(|row| format!("            [{}],\n", words(row)))
         .collect();
     format!(
-        "//! What the firmware knows before the arm moves: written by host-tests/stories/tests/learning.rs with TABLES_WRITE=1.\n\n\
+        "//! What the firmware knows before the arm moves: written by host-tests/trials/tests/learning.rs with TABLES_WRITE=1.\n\n\
          use dynamics_core::control::SelectedParameters;\n\nuse super::parameters::Known;\n\n\
          /// A nominal model whose parameters are off by 30 %, and the base parameters of the motion by it.\n\
          pub const KNOWN: Known = Known {{\n    nominal: [\n{}    ],\n    base: SelectedParameters {{\n\

@@ -70,8 +70,8 @@ pub fn table(head: &str, rows: impl IntoIterator<Item = Vec<String>>) -> String 
     text
 }
 
-/// A bar: its name, what is asked and what was got, and whether it is met.
-pub fn bar(name: &str, asked: &str, got: String, met: bool) -> Vec<String> {
+/// A bar: its name, what is required and what was got, and whether it is met.
+pub fn bar(name: &str, required: &str, got: String, met: bool) -> Vec<String> {
     let verdict = if met { "met" } else { "missed" };
-    vec![name.into(), asked.into(), got, verdict.into()]
+    vec![name.into(), required.into(), got, verdict.into()]
 }

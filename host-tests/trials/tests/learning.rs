@@ -1,7 +1,7 @@
 //! Claims about the scene `so101_learn`, in f32 as in the firmware. `TABLES_WRITE=1` writes what the firmware knows.
 
-use story_tests::learning::{ERROR, LOAD_ERRORS, both, of_load};
-use story_tests::select::{FILE, known, selected, source, truth};
+use trial_tests::learning::{ERROR, LOAD_ERRORS, both, of_load};
+use trial_tests::select::{FILE, known, selected, source, truth};
 
 #[test]
 fn the_firmware_knows_what_the_selection_gives() {

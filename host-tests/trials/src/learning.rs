@@ -13,7 +13,7 @@ use crate::select::{known, selected, truth};
 
 /// The arms that differ in which of their parameters are off by 30 % in which direction.
 pub const SEEDS: core::ops::Range<u32> = 1..7;
-/// The error of the torques that is asked for.
+/// The required error of the torques.
 pub const ERROR: f32 = 0.05;
 /// The errors of a load: of its mass, as a share, and of its centre, m.
 pub const LOAD_ERRORS: [f32; 2] = [0.02, 5e-3];
@@ -21,11 +21,11 @@ pub const LOAD_ERRORS: [f32; 2] = [0.02, 5e-3];
 const EVERY: u32 = 250;
 /// The parameters of a joint.
 const OF_JOINTS: [&str; OWN] = [
-    "viscous friction",
-    "Coulomb friction",
+    "viscous",
+    "Coulomb",
     "armature",
-    "gear, driving",
-    "gear, driven",
+    "gear drives",
+    "gear driven",
 ];
 
 /// The outcomes of an arm with either kind of friction.
@@ -87,7 +87,7 @@ pub fn shown() -> Shown {
     let load = |[mass, off]: [f32; 2]| format!("{}, {:.1} mm", percent(mass), 1e3 * off);
     let within = |found: [f32; 2]| found.iter().zip(LOAD_ERRORS).all(|(x, most)| *x <= most);
     let learned = [most[2], most[3]];
-    let asked = "≤ 2 %, 5 mm, of a UR5e";
+    let required = "≤ 2 %, 5 mm, of a UR5e";
     let bars = [
         bar(
             "torque error by 24 parameters after 30 s, all joints",
@@ -97,26 +97,26 @@ pub fn shown() -> Shown {
         ),
         bar(
             "the same of the worst joint",
-            "not asked",
+            "not required",
             percent(most[1]),
             most[1] <= ERROR,
         ),
         bar(
             "load after 5 s, learned model: mass, centre",
-            asked,
+            required,
             load(learned),
             within(learned),
         ),
         bar(
             "load after 5 s, exact model: mass, centre",
-            asked,
+            required,
             load(exact),
             within(exact),
         ),
     ];
     let text = format!(
         "{}\nThe arms:\n\n{}",
-        table("bar|asked|got, the worst|verdict", bars),
+        table("bar|required|got, the worst|verdict", bars),
         table(
             "nominal model|friction|torque error before|after 30 s|of the worst joint|rows rejected|load of 150 g|its centre off by",
             rows
@@ -144,8 +144,8 @@ fn parameters(known: &Known) -> Vec<(String, usize)> {
     };
     let mut all: Vec<(String, usize)> = columns.map(name).collect();
     // The most important one of each kind.
-    let mut seen = [false; OWN];
-    all.retain(|(_, column)| !std::mem::replace(&mut seen[(column - 60) % OWN], true));
+    let mut listed = [false; OWN];
+    all.retain(|(_, column)| !std::mem::replace(&mut listed[(column - 60) % OWN], true));
     all
 }
 
@@ -185,7 +185,7 @@ fn charts() -> (Vec<Chart>, Vec<(String, &'static str, f64)>) {
     let (_, sticking, _) = curves(BRISTLES);
     let seconds = || Scale::linear("s of motion", [0.0, 30.0]);
     let parameters = Chart {
-        title: "Parameters of joints, Coulomb friction".into(),
+        title: "The most important parameter of each kind, with its joint; Coulomb friction".into(),
         x: seconds(),
         y: Scale::linear("estimate over truth", [0.5, 1.5]),
         lines,
@@ -194,7 +194,7 @@ fn charts() -> (Vec<Chart>, Vec<(String, &'static str, f64)>) {
     let errors = Chart {
         title: "Error of the torques on another path, by the friction of the arm".into(),
         x: seconds(),
-        y: Scale::linear("%", [0.0, 30.0]),
+        y: Scale::decades("% of the torques", [1.0, 100.0]),
         lines: vec![("Coulomb".into(), smooth), ("LuGre".into(), sticking)],
         dots: false,
     };

@@ -15,10 +15,10 @@ use crate::output;
 use crate::qemu::Run;
 use crate::render::CLOCK_MHZ;
 use crate::report::MODEL;
-use crate::scene::Story;
+use crate::scene::Trial;
 use crate::setup::Tools;
 use crate::table::{Table, plain, thousands};
-use crate::test::functions::f32_only;
+use crate::test::f32_only;
 use crate::workspace::{self, Workspace};
 
 /// Of the lines of a chart, in their order: readable to the colour-blind.
@@ -33,11 +33,11 @@ const COLOURS: [RGBColor; 6] = [
 const CHART: u32 = 330;
 
 /// The package of the bins of the host.
-const PACKAGE: &str = "story-tests";
+const PACKAGE: &str = "trial-tests";
 
 /// The bin that measures what the page shows beside the runs.
-fn report(story: Story) -> String {
-    format!("{}_report", story.name())
+fn report(trial: Trial) -> String {
+    format!("{}_report", trial.name())
 }
 
 /// What a bin of the host prints.
@@ -65,9 +65,9 @@ struct Scale {
     logarithmic: bool,
 }
 
-/// A story as the firmware told it.
+/// A trial as the firmware recorded it.
 #[derive(Serialize)]
-pub struct Told {
+pub struct Recorded {
     columns: Vec<String>,
     rows: Vec<Vec<String>>,
     /// Region by region: its name and its cost.
@@ -75,13 +75,13 @@ pub struct Told {
     stack_bytes: u64,
 }
 
-impl Told {
-    /// Runs a story in QEMU under the meter, and on the host.
+impl Recorded {
+    /// Runs a trial in QEMU under the meter, and on the host.
     ///
     /// # Errors
     /// The host's rows are others, or a tick lacks a region.
-    pub fn of(workspace: &Workspace, tools: &Tools, meter: &Path, story: Story) -> Result<Self> {
-        let name = story.name();
+    pub fn of(workspace: &Workspace, tools: &Tools, meter: &Path, trial: Trial) -> Result<Self> {
+        let name = trial.name();
         let elf = firmware::build(workspace, tools.toolchain, name)?;
         let regions = workspace.output(&format!("{name}.regions"))?;
         let run = Run::logging(name, &elf, Some((meter, &regions)));
@@ -163,22 +163,22 @@ impl Told {
     }
 }
 
-/// Runs a story and prints it; with `write` it rewrites the page and its picture.
-pub fn run(tools: &Tools, story: Story, json: bool, write: bool) -> Result<ExitCode> {
+/// Runs a trial and prints it; with `write` it rewrites the page and its picture.
+pub fn run(tools: &Tools, trial: Trial, json: bool, write: bool) -> Result<ExitCode> {
     let workspace = Workspace::for_reports()?;
     let meter = firmware::build_meter(&workspace)?;
     tools.qemu.interface(&meter)?;
-    let told = Told::of(&workspace, tools, &meter, story)?;
-    let page = page(story);
+    let recorded = Recorded::of(&workspace, tools, &meter, trial)?;
+    let page = page(trial);
     if write {
-        let (text, picture) = measure(&workspace, tools, story, &told)?;
+        let (text, picture) = measure(&workspace, tools, trial, &recorded)?;
         page.write(&workspace, &text)?;
         workspace::write(&workspace.report(&picture_of(&page)), picture)?;
     }
     if json {
-        docs::print_json(&told)?;
+        docs::print_json(&recorded)?;
     } else {
-        output::print(&format!("\n{}\n", plain(&told.markdown())))?;
+        output::print(&format!("\n{}\n", plain(&recorded.markdown())))?;
         output::line(&format!(
             "plots: {}; page: {}",
             picture_of(&page),
@@ -191,14 +191,14 @@ pub fn run(tools: &Tools, story: Story, json: bool, write: bool) -> Result<ExitC
 /// Fails unless QEMU and the host agree, and page and picture are those of today.
 pub fn check(workspace: &Workspace, tools: &Tools, meter: &Path) -> Result<String> {
     let mut functions = 0;
-    for story in Story::all() {
-        let told = Told::of(workspace, tools, meter, *story)?;
-        let elf = firmware::build(workspace, tools.toolchain, story.name())?;
+    for trial in Trial::all() {
+        let recorded = Recorded::of(workspace, tools, meter, *trial)?;
+        let elf = firmware::build(workspace, tools.toolchain, trial.name())?;
         functions += f32_only(&elf, |name| {
             name.contains("Firmware") && name.contains("4tick")
         })?;
-        let (text, picture) = measure(workspace, tools, *story, &told)?;
-        let (page, rustc) = (page(*story), tools.toolchain.rustc_version()?);
+        let (text, picture) = measure(workspace, tools, *trial, &recorded)?;
+        let (page, rustc) = (page(*trial), tools.toolchain.rustc_version()?);
         page.check(workspace, &text, Some(&rustc))?;
         let written = workspace::read(&workspace.root.join(page.file))?;
         let same = docs::rustc_of(&written) == Some(&*rustc);
@@ -207,14 +207,14 @@ pub fn check(workspace: &Workspace, tools: &Tools, meter: &Path) -> Result<Strin
     Ok(format!("{functions} functions reached"))
 }
 
-fn page(story: Story) -> Page {
-    match story {
-        Story::Ur5eContact => Page {
+fn page(trial: Trial) -> Page {
+    match trial {
+        Trial::Ur5eContact => Page {
             file: "docs/contact.md",
             name: "contact",
             command: "cargo xtask demo --scene ur5e_contact --write-docs",
         },
-        Story::So101Learn => Page {
+        Trial::So101Learn => Page {
             file: "docs/learning.md",
             name: "learning",
             command: "cargo xtask demo --scene so101_learn --write-docs",
@@ -230,19 +230,19 @@ fn picture_of(page: &Page) -> String {
 fn measure(
     workspace: &Workspace,
     tools: &Tools,
-    story: Story,
-    told: &Told,
+    trial: Trial,
+    recorded: &Recorded,
 ) -> Result<(String, String)> {
-    let shown: Shown = host_bin::json_of(workspace, PACKAGE, &report(story))?;
+    let shown: Shown = host_bin::json_of(workspace, PACKAGE, &report(trial))?;
     let rustc = tools.toolchain.rustc_version()?;
     let text = format!(
         "{}\n{}\nMeasured with {rustc}.",
         shown.text,
-        told.markdown()
+        recorded.markdown()
     );
     let mut charts = shown.charts;
     let cycles = |region: &str| {
-        let mut regions = told.regions.iter().filter(|(name, _)| name == region);
+        let mut regions = recorded.regions.iter().filter(|(name, _)| name == region);
         regions
             .next()
             .map_or(f64::NAN, |(_, cost)| cost.cycles.max as f64)

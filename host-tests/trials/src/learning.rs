@@ -95,12 +95,9 @@ pub fn shown() -> Shown {
             percent(most[0]),
             most[0] <= ERROR,
         ),
-        bar(
-            "the same of the worst joint",
-            "not required",
-            percent(most[1]),
-            most[1] <= ERROR,
-        ),
+        ["the same of the worst joint", "–", &percent(most[1]), "–"]
+            .map(str::to_owned)
+            .into(),
         bar(
             "load after 5 s, learned model: mass, centre",
             required,

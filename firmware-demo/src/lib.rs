@@ -3,11 +3,13 @@
 //!
 //! | module | what | on hardware |
 //! |---|---|---|
+//! | [`contact`] | an arm that finds contacts without sensors, and reacts | its tick |
 //! | [`control_loop`] | the tick: read, reference, dynamics, safety, write | as it is |
 //! | [`joint_drivers`] | an AS5047P on SPI, a current-controlled drive on PWM | as they are |
 //! | [`digest`] | digests of the dynamics' results on recorded states | as they are |
 //! | [`faults`] | arms under injected faults, on host and target | left out |
 //! | [`hard`] | hard cases that host and target share | left out |
+//! | [`learning`] | an arm that finds its own parameters, and weighs its load | its tick |
 //! | [`marker`] | the measured regions | `dbg` is a no-op there |
 //! | [`plant`], [`sim_io`] | a simulated robot behind the same traits | left out |
 //! | [`replay`] | the control loop of a scene without a simulated robot, with a digest of its torques | as it is |
@@ -23,11 +25,13 @@
 
 #[cfg(feature = "accuracy")]
 pub mod accuracy;
+pub mod contact;
 pub mod control_loop;
 pub mod digest;
 pub mod effect_presets;
 pub mod faults;
 pub mod hard;
+pub mod learning;
 pub mod marker;
 #[cfg(feature = "telemetry")]
 pub mod pil;

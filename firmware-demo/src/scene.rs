@@ -32,7 +32,7 @@ pub use app::{App, QUEUE, Record, STEPS, SimBrake, SimLoop, StartError, devices,
 pub(crate) use app::{SETTLE, start};
 pub use errors::{Errors, larger};
 use firmware::SATURATED;
-pub use firmware::{Devices, HOLD, OMEGA_N, REENTRY, RIDE, Start, TICK, ZETA};
+pub use firmware::{Devices, HOLD, NEAR, OMEGA_N, REENTRY, RIDE, Start, TICK, ZETA};
 pub use noise::Noise;
 pub use run::{Full, Less, Name, PdOnly, PlantModel, Run};
 

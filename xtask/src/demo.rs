@@ -20,10 +20,11 @@ use crate::progress::Spinner;
 use crate::protocol::{FEEDFORWARD, PD, Recording};
 use crate::qemu::Run;
 use crate::report::{Report, feedforward_costs};
-use crate::scene::Scene;
+use crate::scene::{Scene, Shown};
 use crate::scenes;
 use crate::setup::{self, Options, Tools};
 use crate::toolchain::RELEASE;
+use crate::trial;
 use crate::workspace::{self, Workspace};
 
 /// The README's picture, of the default scene.
@@ -47,8 +48,8 @@ pub struct Args {
     /// The scene
     #[arg(long, value_enum, default_value_t)]
     #[arg(value_name = "NAME", ignore_case = true)]
-    scene: Scene,
-    /// Every scene, and one table of all
+    scene: Shown,
+    /// Every scene that is about tracking, and one table of all
     #[arg(long, conflicts_with = "scene")]
     all: bool,
     /// The report as JSON on stdout; progress stays on stderr
@@ -66,7 +67,10 @@ pub struct Args {
 pub fn run(options: Options, args: Args) -> Result<ExitCode> {
     let workspace = Workspace::find()?;
     let tools = setup::for_demo(options)?;
-    let one = [args.scene];
+    let one = match args.scene {
+        Shown::Trial(trial) => return trial::run(&tools, trial, args.json, args.write_docs),
+        Shown::Tracking(scene) => [scene],
+    };
     let scenes = if args.all { Scene::all() } else { &one };
     let built = Built::new(&workspace, &tools, scenes)?;
     let measured = match built.measure(&workspace, &tools) {

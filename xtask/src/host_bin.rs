@@ -19,6 +19,11 @@ pub fn text_of(workspace: &Workspace, package: &str, bin: &str) -> Result<String
 
 /// The same of a bin that prints JSON.
 pub fn json<T: DeserializeOwned>(workspace: &Workspace, bin: &str) -> Result<T> {
-    serde_json::from_str(&text(workspace, bin)?)
+    json_of(workspace, "host-reports", bin)
+}
+
+/// The same of a bin of another package.
+pub fn json_of<T: DeserializeOwned>(workspace: &Workspace, package: &str, bin: &str) -> Result<T> {
+    serde_json::from_str(&text_of(workspace, package, bin)?)
         .map_err(|e| check!("`{bin}` printed what is not understood: {e}"))
 }

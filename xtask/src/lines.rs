@@ -4,12 +4,12 @@
 use std::path::{Path, PathBuf};
 
 use crate::error::{Error, Result, check};
-use crate::scene::Scene;
+use crate::scene::{Scene, Trial};
 use crate::table::{Table, thousands};
 use crate::workspace::{self, Workspace};
 
 /// The most that the tooling may have: what it has today. The bar is 11,000 (docs/decisions/0002).
-const MOST: usize = 19_126;
+const MOST: usize = 19_455;
 /// Where the bins of the firmware are; those of scenes are the demo's.
 const BINS: &str = "firmware-demo/src/bin/";
 /// The library and the parts of the tooling, by the beginnings of their files' paths.
@@ -77,7 +77,9 @@ fn is_below(path: &Path, place: &str) -> bool {
     let bin = text
         .strip_prefix(BINS)
         .and_then(|rest| rest.split(['/', '.']).next());
-    let is_scene = bin.is_some_and(|bin| Scene::all().iter().any(|scene| scene.name() == bin));
+    let scenes = Scene::all().iter().map(|scene| scene.name());
+    let trials = Trial::all().iter().map(|trial| trial.name());
+    let is_scene = bin.is_some_and(|bin| scenes.chain(trials).any(|name| name == bin));
     text.starts_with(place) && !is_other && !is_scene
 }
 

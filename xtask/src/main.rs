@@ -50,6 +50,7 @@ mod system;
 mod table;
 mod test;
 mod toolchain;
+mod trial;
 mod user_firmware;
 mod watch;
 mod workspace;

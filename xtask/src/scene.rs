@@ -1,6 +1,9 @@
 //! The scenes: the one list of them.
 
+use std::sync::LazyLock;
+
 use clap::ValueEnum;
+use clap::builder::PossibleValue;
 
 /// A bin of `firmware-demo` that moves an arm and reports what it costs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
@@ -54,6 +57,62 @@ impl Scene {
             Self::DeltaPick => "delta_pick",
             Self::FlexibleLink => "flexible_link",
             Self::So101Teach => "so101_teach",
+        }
+    }
+}
+
+/// A bin of `firmware-demo` that shows something else than how an arm tracks, on a page of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[value(rename_all = "snake_case")]
+pub enum Trial {
+    /// A UR5e without force sensors runs into a wall, finds the contact, and stops, goes back, or floats.
+    Ur5eContact,
+    /// An SO-101 whose parameters are off by 30 % learns them, and then weighs what it carries.
+    So101Learn,
+}
+
+impl Trial {
+    /// All of them.
+    pub fn all() -> &'static [Self] {
+        Self::value_variants()
+    }
+
+    /// The name on the command line and of the bins.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Ur5eContact => "ur5e_contact",
+            Self::So101Learn => "so101_learn",
+        }
+    }
+}
+
+/// What the demo shows.
+#[derive(Clone, Copy, Debug)]
+pub enum Shown {
+    Tracking(Scene),
+    Trial(Trial),
+}
+
+impl Default for Shown {
+    fn default() -> Self {
+        Self::Tracking(Scene::default())
+    }
+}
+
+impl ValueEnum for Shown {
+    fn value_variants<'a>() -> &'a [Self] {
+        static ALL: LazyLock<Vec<Shown>> = LazyLock::new(|| {
+            let trials = Trial::all().iter().copied().map(Shown::Trial);
+            let scenes = Scene::all().iter().copied().map(Shown::Tracking);
+            scenes.chain(trials).collect()
+        });
+        &ALL
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        match self {
+            Self::Tracking(scene) => scene.to_possible_value(),
+            Self::Trial(trial) => trial.to_possible_value(),
         }
     }
 }

@@ -1,43 +1,23 @@
 //! A UR5e with the friction of bristles, and the hand that moves it.
 
-use dynamics_core::algorithms::{frame, kinematics};
 use dynamics_core::effects::{Armature, Coulomb, Effect, Lugre, Viscous, Width, hook};
-use dynamics_core::model::{ArmModel, Robot};
-use dynamics_core::robots::Ur5e;
-use dynamics_core::state::State;
+use dynamics_core::model::ArmModel;
+use firmware_demo::contact::plant;
 use glam::DVec3;
 
-pub type Q = [f64; 6];
-pub const TIP: usize = 5;
-pub const ROTORS: Armature<f64, 6> = Armature([0.9, 0.9, 0.9, 0.25, 0.25, 0.25]);
+pub use firmware_demo::contact::plant::{SLIDING, TIP, tip};
 
-/// That of the scene `ur5e`, N·m·s/rad and N·m.
-pub const VISCOUS: Q = [12.0, 12.0, 8.0, 2.0, 2.0, 1.5];
-pub const SLIDING: Q = [8.0, 8.0, 6.0, 1.5, 1.5, 1.2];
-/// Stiction exceeds sliding friction by this share of it.
-const EXCESS: f64 = 0.15;
+pub type Q = [f64; 6];
+pub const ROTORS: Armature<f64, 6> = Armature(plant::ROTORS);
 
 /// The model of the friction, with a smooth sign, times a share.
 pub fn modelled(share: f64) -> (Viscous<f64, 6>, Coulomb<f64, 6>) {
-    let torque = SLIDING.map(|f| share * f);
-    let width = Width::new(0.002);
-    (
-        Viscous(VISCOUS.map(|d| share * d)),
-        Coulomb { torque, width },
-    )
+    plant::coulomb([share; 6], Width::new(0.002))
 }
 
 /// The friction of the arm: bristles, stiction, and Stribeck's effect.
 pub fn real() -> Lugre<f64, 6> {
-    Lugre {
-        stiffness: SLIDING.map(|f| f / 1e-4), // bristles slide from 10⁻⁴ rad on
-        damping: SLIDING.map(|f| 30.0 * f),
-        viscous: VISCOUS,
-        sliding: SLIDING,
-        excess: SLIDING.map(|f| EXCESS * f),
-        stribeck_speed: Width::new(0.01),
-        bristle: [0.0; 6],
-    }
+    plant::bristles([1.0; 6])
 }
 
 /// The errors of the arm's inertias.
@@ -50,24 +30,10 @@ pub enum Inertias {
 }
 
 pub fn arm(off: Inertias) -> ArmModel<f64, 6> {
-    let mut arm = Ur5e::MODEL;
-    for (i, link) in arm.links.iter_mut().enumerate() {
-        let share = match off {
-            Inertias::All(off) => 1.0 + off,
-            Inertias::Alternating(off) => 1.0 + if i % 2 == 0 { off } else { -off },
-        };
-        link.inertia.mass *= share;
-        link.inertia.first_moment *= share;
-        link.inertia.rotational *= share;
-    }
-    arm
-}
-
-/// The place and the velocity of the tip.
-pub fn tip(state: &State<f64, 6, 6>) -> [DVec3; 2] {
-    let k = kinematics(&Ur5e::MODEL, state, &());
-    let v = k.velocity(TIP, frame::LocalWorldAligned);
-    [k.poses[TIP].pos, v.lin]
+    plant::arm(match off {
+        Inertias::All(off) => [1.0 + off; 6],
+        Inertias::Alternating(off) => plant::alternating(off),
+    })
 }
 
 /// A hand at the tip.

@@ -13,9 +13,10 @@ use host_tests::measured::within;
 
 use crate::cell::TICK;
 use crate::person::{STEP, guide, measured, shaken};
-use crate::plant::{Inertias, Q, SLIDING, VISCOUS, arm, modelled, real};
+use crate::plant::{Inertias, Q, SLIDING, arm, modelled, real};
 use crate::table;
 use crate::ur5e::{RIGID, inverse_dynamics};
+use firmware_demo::contact::plant::VISCOUS;
 
 const TORQUE: Q = [150.0, 150.0, 150.0, 28.0, 28.0, 28.0];
 /// Of the torques, for the motion; the rest is for the feedback and stiction.

@@ -1,5 +1,7 @@
 //! The steps about the firmware's code: what it consists of, what it computes, and what its functions cost.
 
+use std::path::Path;
+
 use cycle_meter::Sample;
 
 use super::Context;
@@ -109,17 +111,24 @@ fn same_bits(on_target: &[String], on_host: &[&str]) -> Result<String> {
 pub fn no_f64(context: &Context) -> Result<String> {
     let mut count = 0;
     for measured in context.measured()? {
-        let image = Image::read(&measured.elf)?;
-        let reach = Reach::of(&image, |function| function.is_named(is_tick))?;
-        for (function, path) in reach.functions() {
-            count += 1;
-            let unwanted = |name: &&String| is_f64(name) || is_panic(name);
-            if let Some(name) = function.names.iter().find(unwanted) {
-                bail!("the tick reaches `{name}`: {path}");
-            }
-        }
+        count += f32_only(&measured.elf, is_tick)?;
     }
     Ok(format!("{count} functions reached"))
+}
+
+/// How many functions the ticks of an image reach; fails if one of them is f64 arithmetic, a sine of libm or a panic.
+pub fn f32_only(elf: &Path, is_tick: fn(&str) -> bool) -> Result<usize> {
+    let image = Image::read(elf)?;
+    let reach = Reach::of(&image, |function| function.is_named(is_tick))?;
+    let mut count = 0;
+    for (function, path) in reach.functions() {
+        count += 1;
+        let unwanted = |name: &&String| is_f64(name) || is_panic(name);
+        if let Some(name) = function.names.iter().find(unwanted) {
+            bail!("the tick reaches `{name}`: {path}");
+        }
+    }
+    Ok(count)
 }
 
 pub fn opcodes(context: &Context) -> Result<String> {

@@ -28,10 +28,11 @@ use crate::setup::{self, Options, Tools};
 use crate::workspace::Workspace;
 use crate::{
     accuracy, cores, effects, flexible, growth, hard_cases, history, host_table, layers, lines,
-    meter, pil, robots, shell, watch,
+    meter, pil, robots, shell, trial, watch,
 };
 use Lane::{Host, Target};
 use Scope::{Everyday, Full, Named};
+pub use functions::f32_only;
 
 /// One thing that is tested: its name on the command line, its lane, which runs it belongs to, the claim that holds if
 /// it passes, and the function that tests it and returns the measured figures in words, if there are any.
@@ -114,6 +115,8 @@ const STEPS: &[Step] = &[
         |c| cores::check(&c.workspace, c.options)),
     ("telemetry", Target, Full, "a tick costs the same with a listener, without one, and with a full queue", |c| watch::check(&c.workspace, &c.tools, c.meter()?)),
     ("pil", Target, Named, "with its robot in f64 on the host the scene ur5e moves as with its robot inside", |c| pil::check(&c.workspace, &c.tools)),
+    ("trials", Target, Full, "the host and QEMU agree on the scenes of contact and learning, and docs/contact.md and docs/learning.md have today's figures",
+        |c| trial::check(&c.workspace, &c.tools, c.meter()?)),
     ("absent-effects", Target, Everyday, "an effect that a scene does not name costs it nothing", absent::absent_effects_cost_nothing),
     ("accuracy", Target, Full, "docs/accuracy.md has today's costs and errors of single changes; what is printed as generated code keeps them",
         |c| accuracy::check(&c.workspace, &c.tools)),

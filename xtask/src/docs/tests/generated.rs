@@ -11,7 +11,7 @@ pub enum Checked {
 }
 
 /// The files; a test compares the list with the repository.
-pub const FILES: [(&str, Checked); 29] = [
+pub const FILES: [(&str, Checked); 33] = [
     ("README.md", Checked::Step("readme")),
     ("docs/accuracy-a1_leg-all.svg", Checked::Step("accuracy")),
     ("docs/accuracy-a1_leg.svg", Checked::Step("accuracy")),
@@ -27,6 +27,8 @@ pub const FILES: [(&str, Checked); 29] = [
         "docs/build-time.md",
         Checked::Bars("seconds are those of one machine and of what else it does"),
     ),
+    ("docs/contact.md", Checked::Step("trials")),
+    ("docs/contact.svg", Checked::Step("trials")),
     ("docs/costs.md", Checked::Step("costs")),
     ("docs/effects.md", Checked::Step("effects")),
     ("docs/effects.svg", Checked::Step("effects")),
@@ -38,6 +40,8 @@ pub const FILES: [(&str, Checked); 29] = [
     ("docs/hard-cases.md", Checked::Step("hard-cases")),
     ("docs/history.md", Checked::Step("history")),
     ("docs/history.svg", Checked::Step("history")),
+    ("docs/learning.md", Checked::Step("trials")),
+    ("docs/learning.svg", Checked::Step("trials")),
     ("docs/loops.md", Checked::Step("loops")),
     (
         "docs/peers.md",

@@ -1,0 +1,15 @@
+//! Scene `ur5e_contact`: a UR5e without force sensors runs against a wall, finds the contact by its momentum, and reacts.
+//!
+//! | module | what |
+//! |---|---|
+//! | [`plant`] | the arm, its friction of either kind, the wall, and how they differ from the model |
+//! | [`firmware`] | a tick: observer, detector, reaction, law, gate, in the regions of the meter |
+//! | [`crash`] | a run into the wall |
+//! | [`path`] | the pick and place without a wall: false alarms, and the delay until a push is found |
+//!
+//! The code is the same on the host and in QEMU, and so are the torques, to the bit.
+
+pub mod crash;
+pub mod firmware;
+pub mod path;
+pub mod plant;

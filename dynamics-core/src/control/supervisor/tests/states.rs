@@ -1,4 +1,4 @@
-//! The table of states against what random events show.
+//! The table of states against what random events have.
 
 use std::collections::BTreeSet;
 
@@ -72,7 +72,7 @@ fn event(supervisor: &mut Supervisor<f32, 2>, which: u64) {
 #[test]
 fn every_transition_of_the_table_occurs_and_no_other_one() {
     let [modes, transitions] = table();
-    let (mut seen_modes, mut seen) = (BTreeSet::new(), BTreeSet::new());
+    let (mut found_modes, mut found) = (BTreeSet::new(), BTreeSet::new());
     let mut events = Events(0x9E37_79B9_7F4A_7C15);
     let useless = SupervisorConfig {
         limits: SafetyLimits {
@@ -91,14 +91,14 @@ fn every_transition_of_the_table_occurs_and_no_other_one() {
             let before = supervisor.state;
             event(&mut supervisor, events.below(26));
             let [before, after] = [before, supervisor.state].map(name);
-            seen_modes.insert([after.clone(), format!("{:?}", supervisor.mode())]);
+            found_modes.insert([after.clone(), format!("{:?}", supervisor.mode())]);
             if before != after {
-                seen.insert([before, after]);
+                found.insert([before, after]);
             }
         }
     }
-    assert_eq!(seen, transitions);
-    assert_eq!(seen_modes, modes);
+    assert_eq!(found, transitions);
+    assert_eq!(found_modes, modes);
 }
 
 #[test]

@@ -1,8 +1,11 @@
 //! Scene `panda_payload`: a part is picked up and put down. The gripper reports what the hand holds; a
 //! feed-forward that does not read that signal carries an unknown load.
 
-use dynamics_core::Engine;
-use dynamics_core::control::{Reference, Trajectory, TrajectoryError};
+use dynamics_core::algorithms::{Damping, OperationalSpace, frame, task_jacobian};
+use dynamics_core::control::{
+    CartesianImpedance, Estimate, Gains, ImpedanceConfig, Reference, TaskDeviation, TaskFrame,
+    Trajectory, TrajectoryError, feedback, pose_error,
+};
 use dynamics_core::effects::{
     Armature, Coriolis, Coulomb, Effect, Gravity, Inertia, InvalidPayload, Payload, Viscous, Width,
 };
@@ -10,7 +13,9 @@ use dynamics_core::model::{BodyInertia, Robot};
 use dynamics_core::robots::Panda;
 use dynamics_core::spatial::SpatialInertia;
 use dynamics_core::state::State;
+use dynamics_core::{Core, Engine};
 
+use crate::control_loop::Law;
 use crate::plant::Plant;
 use crate::scene::{Less, Noise, PlantModel, Run, Scene, rigid, through};
 use crate::trajectories::{PANDA_CARRY, READY, arrival};
@@ -105,6 +110,8 @@ impl Scene<7, 7, 7, 7> for Carry {
     const BASELINES: &'static [Run<Self, 7, 7, 7, 7>] = &[
         Run::of::<Less<Self, LOAD, 7, 7, 7>>(PlantModel::Exact, "unknown-load"),
         Run::of::<Less<Self, LOAD, 7, 7, 7>>(PlantModel::Mismatched, "unknown-load"),
+        Run::of::<Impedance>(PlantModel::Exact, "impedance"),
+        Run::of::<Impedance>(PlantModel::Mismatched, "impedance"),
     ];
 
     fn reference() -> Result<Job, TrajectoryError> {
@@ -150,5 +157,61 @@ impl Scene<7, 7, 7, 7> for Carry {
             noise.friction(&mut viscous.0);
             noise.friction(&mut coulomb.torque);
         })
+    }
+}
+
+/// The hand on a spring and a damper, with the same feed-forward; the feedback of the joints acts on the null space alone.
+#[derive(Clone, Copy, Debug)]
+pub struct Impedance;
+
+/// N·m/rad about the axes and N/m along them.
+const SPRING: ImpedanceConfig<f32, 6> = ImpedanceConfig {
+    stiffness: [150.0, 150.0, 150.0, 5000.0, 5000.0, 5000.0],
+    zeta: 1.0,
+    slowest: 2.0,
+};
+
+impl Law<7, Load> for Impedance {
+    fn feedforward(reference: &State<f32, 7, 7>, borne: &Load) -> [f32; 7] {
+        Carry::inverse(reference, borne, &Carry::current(borne))
+    }
+
+    fn torque(
+        gains: &Gains<f32, 7>,
+        reference: &State<f32, 7, 7>,
+        estimate: &Estimate<f32, 7>,
+        borne: &Load,
+    ) -> [f32; 7] {
+        let mut bias = Self::feedforward(reference, borne);
+        let posture = feedback(gains, reference, estimate);
+        let arm = State {
+            qd: estimate.qd,
+            ..State::at(estimate.q)
+        };
+        let trig = Core::<Panda>::joint_trig(&arm.q);
+        let frame = frame::LocalWorldAligned;
+        let [hand, goal] = [&arm, reference].map(|state| Core::<Panda>::kinematics(state, &()));
+        let directions = TaskFrame::BASE.turn_and_place(1.0);
+        let rows = task_jacobian(&Core::<Panda>::jacobian(&trig, HAND, frame), &directions);
+        let m = Engine::<Panda>::crba(&trig, &Carry::current(borne));
+        let spring = CartesianImpedance::try_new(SPRING);
+        if let (Ok(factors), Ok(spring)) = (Engine::<Panda>::ltdl(&m), spring) {
+            let solve = |tau: &_| Engine::<Panda>::solve(&factors, tau);
+            let task = OperationalSpace::new(rows, solve, Damping::relative(1e-3));
+            let off = pose_error(&hand.poses[HAND], &goal.poses[HAND]);
+            let [v, wanted] = [&hand, &goal].map(|arm| arm.velocity(HAND, frame));
+            let deviation = TaskDeviation {
+                position: directions.map(|d| off.dot(d)),
+                velocity: directions.map(|d| (wanted - v).dot(d)),
+            };
+            if let Ok(torque) = spring.torque(&task, &deviation, &bias, &posture) {
+                return torque.tau;
+            }
+        }
+        // Without an operational space the joints are led.
+        for (tau, posture) in bias.iter_mut().zip(posture) {
+            *tau += posture;
+        }
+        bias
     }
 }

@@ -101,7 +101,8 @@ impl<'a> Firmware<'a> {
                 noise: STATED,
                 prior: LOAD_PRIOR,
                 forgetting: 0.0,
-                limit: 5.0,
+                // The scene has only five seconds: also the ticks count in which the arm sags under its load.
+                limit: 1000.0,
             })?,
             observer,
             fresh: observer,

@@ -31,6 +31,7 @@ pub mod digest;
 pub mod effect_presets;
 pub mod faults;
 pub mod hard;
+#[cfg(not(armv6m))] // its tick has eight regions
 pub mod learning;
 pub mod marker;
 #[cfg(feature = "telemetry")]

@@ -53,6 +53,8 @@ pub struct Core {
 }
 
 const NO_FLAGS: &[&str] = &[];
+/// A jump by a table looks like a call through a pointer, whose stack is not bounded.
+const NO_TABLES: &[&str] = &["-Cjump-tables=no"];
 
 /// The core of the cycle model first, then those with a floating-point unit.
 #[rustfmt::skip]
@@ -61,9 +63,9 @@ pub const CORES: [Core; 7] = [
     Core { name: "Cortex-M7", machine: "mps2-an500", target: toolchain::TARGET, flags: &["-Ctarget-cpu=cortex-m7"], isa: Isa::Thumb2, in_tests: false },
     Core { name: "Cortex-M33", machine: "mps2-an505", target: "thumbv8m.main-none-eabihf", flags: &["-Ctarget-cpu=cortex-m33"], isa: Isa::Thumb2, in_tests: true },
     Core { name: "Cortex-M55", machine: "mps3-an547", target: "thumbv8m.main-none-eabihf", flags: &["-Ctarget-cpu=cortex-m55", "-Ctarget-feature=-mve.fp"], isa: Isa::Thumb2, in_tests: false },
-    Core { name: "RV32 with F", machine: "virt", target: "riscv32imafc-unknown-none-elf", flags: NO_FLAGS, isa: Isa::RiscV, in_tests: true },
+    Core { name: "RV32 with F", machine: "virt", target: "riscv32imafc-unknown-none-elf", flags: NO_TABLES, isa: Isa::RiscV, in_tests: true },
     Core { name: "Cortex-M3", machine: "mps2-an385", target: "thumbv7m-none-eabi", flags: NO_FLAGS, isa: Isa::Thumb2, in_tests: false },
-    Core { name: "Cortex-M0", machine: "microbit", target: "thumbv6m-none-eabi", flags: NO_FLAGS, isa: Isa::Armv6M, in_tests: false },
+    Core { name: "Cortex-M0", machine: "microbit", target: "thumbv6m-none-eabi", flags: NO_TABLES, isa: Isa::Armv6M, in_tests: false },
 ];
 
 /// What the flags of the linker begin with: the scripts of `.cargo/config.toml` are for another start-up.

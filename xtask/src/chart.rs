@@ -16,6 +16,17 @@ const FONT: &str = "system-ui, Helvetica, Arial, sans-serif";
 /// Of texts and axes.
 pub const INK: RGBColor = RGBColor(45, 50, 58);
 const FAINT: RGBColor = RGBColor(228, 231, 235);
+/// Of the lines of a chart, in their order: readable to the colour-blind.
+pub const COLOURS: [RGBColor; 8] = [
+    RGBColor(27, 80, 162),
+    RGBColor(230, 145, 0),
+    RGBColor(86, 160, 211),
+    RGBColor(60, 60, 60),
+    RGBColor(0, 140, 110),
+    RGBColor(200, 50, 90),
+    RGBColor(120, 70, 150),
+    RGBColor(150, 150, 60),
+];
 
 /// A picture or a part of it.
 pub type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;

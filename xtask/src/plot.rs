@@ -4,18 +4,10 @@
 use std::path::Path;
 
 use crate::bars::largest;
-use crate::chart::{self, Area, Axis, HPos, INK, Line, Outcome, RGBColor};
+use crate::chart::{self, Area, Axis, HPos, INK, Line, Outcome};
 use crate::error::Result;
 use crate::protocol::{FEEDFORWARD, PLANTS, Recording, Sample, label};
 use crate::workspace;
-
-/// One colour per law; readable to the colour-blind.
-const LAW_COLOURS: [RGBColor; 4] = [
-    RGBColor(0, 128, 110),
-    RGBColor(230, 145, 0),
-    RGBColor(200, 50, 90),
-    RGBColor(86, 120, 190),
-];
 
 /// Samples of which one point of an error's line is the largest: more points would not be visible.
 const OF_A_POINT: usize = 5;
@@ -136,7 +128,7 @@ fn error_range(recording: &Recording) -> [f64; 2] {
 
 fn errors(recording: &Recording, plant: &str, what: &str, below: u32, area: &Area<'_>) -> Outcome {
     let laws = recording.laws(plant);
-    let entries = laws.iter().zip(LAW_COLOURS).map(|(law, colour)| {
+    let entries = laws.iter().zip(chart::COLOURS).map(|(law, colour)| {
         let run = recording.trajectory(plant, law);
         let rms = short(run.map_or(f64::NAN, |run| 1e3 * run.total));
         (format!("{}: {rms} mrad RMS", label(law)), colour)
@@ -147,7 +139,7 @@ fn errors(recording: &Recording, plant: &str, what: &str, below: u32, area: &Are
     chart::legend(area, entries, (left, 38))?;
     let y = Axis::decades("|error|, mrad", error_range(recording), ROOM[0]);
     columns(recording, area, (54, below), &y, |joint| {
-        let colours = laws.iter().zip(LAW_COLOURS);
+        let colours = laws.iter().zip(chart::COLOURS);
         // The worst first, so that the best is drawn on top.
         let runs = colours
             .rev()

@@ -5,9 +5,9 @@ use std::process::ExitCode;
 
 use serde::{Deserialize, Serialize};
 
-use crate::chart::{self, Axis, HPos, Line, RGBColor};
+use crate::chart::{self, Axis, HPos, Line};
 use crate::docs::{self, Page};
-use crate::error::{Result, refuse_if};
+use crate::error::{Result, check, refuse_if};
 use crate::firmware;
 use crate::host_bin;
 use crate::meter::{self, BETWEEN, Cost, REGIONS};
@@ -21,15 +21,6 @@ use crate::table::{Table, plain, thousands};
 use crate::test::f32_only;
 use crate::workspace::{self, Workspace};
 
-/// Of the lines of a chart, in their order: readable to the colour-blind.
-const COLOURS: [RGBColor; 6] = [
-    RGBColor(27, 80, 162),
-    RGBColor(230, 145, 0),
-    RGBColor(86, 160, 211),
-    RGBColor(120, 120, 120),
-    RGBColor(0, 130, 90),
-    RGBColor(190, 60, 60),
-];
 const CHART: u32 = 330;
 
 /// The package of the bins of the host.
@@ -91,12 +82,14 @@ impl Recorded {
             let lines = lines.filter_map(|line| line.strip_prefix(word)?.strip_prefix(' '));
             lines.collect()
         };
-        let (rows, host) = (said("row"), host_bin::text_of(workspace, PACKAGE, name)?);
-        let other = rows.iter().zip(host.lines()).find(|(a, b)| *a != b);
-        refuse_if!(
-            rows.is_empty() || rows.len() != host.lines().count() || other.is_some(),
-            "{name}: the host and QEMU differ: {other:?}"
-        );
+        let rows = said("row");
+        compare(name, &rows, &host_bin::text_of(workspace, PACKAGE, name)?)?;
+        let only = |word| match *said(word) {
+            [value] => Ok(value.to_owned()),
+            _ => Err(check!(
+                "{name}: not one line of the log begins with `{word}`"
+            )),
+        };
         let samples = meter::read(&regions)?;
         let ticks = samples.iter().filter(|sample| sample.region == 0).count();
         let costs = meter::costs(&samples, ticks, |_| true)?;
@@ -120,16 +113,12 @@ impl Recorded {
         let names = phases.iter().copied().chain([BETWEEN]).map(str::to_owned);
         let cells = |row: &str| row.split('|').map(str::to_owned).collect();
         Ok(Self {
-            columns: said("columns")
-                .first()
-                .map(|row| cells(row))
-                .unwrap_or_default(),
+            columns: cells(&only("columns")?),
             rows: rows.into_iter().map(cells).collect(),
             regions: names.zip(costs).chain(parts).collect(),
-            stack_bytes: said("stack")
-                .first()
-                .and_then(|n| n.parse().ok())
-                .unwrap_or(0),
+            stack_bytes: only("stack")?
+                .parse()
+                .map_err(|e| check!("{name}: its stack: {e}"))?,
         })
     }
 
@@ -161,6 +150,17 @@ impl Recorded {
              Cost of its ticks ({MODEL}), the simulated arm not counted:\n\n{phases}\nPeak stack {stack} B, the simulated arm included.\n"
         )
     }
+}
+
+/// Fails unless the rows of a run in QEMU are those of the host.
+fn compare(name: &str, qemu: &[&str], host: &str) -> Result<()> {
+    let host: Vec<&str> = host.lines().collect();
+    let other = qemu.iter().zip(&host).find(|(a, b)| a != b);
+    refuse_if!(
+        qemu.is_empty() || qemu.len() != host.len() || other.is_some(),
+        "{name}: the host and QEMU differ: {other:?}"
+    );
+    Ok(())
 }
 
 /// Runs a trial and prints it; with `write` it rewrites the page and its picture.
@@ -242,16 +242,15 @@ fn measure(
     );
     let mut charts = shown.charts;
     let cycles = |region: &str| {
-        let mut regions = recorded.regions.iter().filter(|(name, _)| name == region);
-        regions
-            .next()
-            .map_or(f64::NAN, |(_, cost)| cost.cycles.max as f64)
+        let found = recorded.regions.iter().find(|(name, _)| name == region);
+        let cost = found.ok_or_else(|| check!("the ticks have no region `{region}`"))?;
+        Ok(cost.1.cycles.max as f64)
     };
     let points = shown
         .estimators
         .into_iter()
-        .map(|(name, region, left)| (name, vec![(cycles(&region), 100.0 * left)]));
-    let lines: Vec<_> = points.collect();
+        .map(|(name, region, left)| Ok((name, vec![(cycles(&region)?, 100.0 * left)])));
+    let lines = points.collect::<Result<Vec<_>>>()?;
     if !lines.is_empty() {
         let scale = |name: &str, ends| Scale {
             name: name.into(),
@@ -275,7 +274,7 @@ fn svg(charts: &[Chart]) -> Result<String> {
         let areas = root.split_evenly((charts.len(), 1));
         for (shown, area) in charts.iter().zip(&areas) {
             chart::label(area, &shown.title, (28, 20), 17, HPos::Left)?;
-            let coloured = || shown.lines.iter().zip(COLOURS);
+            let coloured = || shown.lines.iter().zip(chart::COLOURS);
             let names = coloured().map(|((name, _), colour)| (name.clone(), colour));
             chart::legend(area, names, (90, 46))?;
             let lines = coloured().map(|((_, points), colour)| Line {
@@ -297,6 +296,24 @@ impl Scale {
         match self.logarithmic {
             true => Axis::decades(name, self.ends, room),
             false => Axis::linear(name, self.ends, 7, room),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::compare;
+
+    #[test]
+    fn rows_that_differ_are_missing_or_too_many_are_refused() {
+        assert!(compare("one", &["a|1", "b|2"], "a|1\nb|2\n").is_ok());
+        for (qemu, host) in [
+            (&["a|1", "b|2"][..], "a|1\nb|3\n"),
+            (&["a|1"], "a|1\nb|2\n"),
+            (&["a|1", "b|2"], "a|1\n"),
+            (&[], ""),
+        ] {
+            assert!(compare("one", qemu, host).is_err(), "{qemu:?} {host:?}");
         }
     }
 }

@@ -1,16 +1,16 @@
 //! A UR5e that a wall touches, and how it differs from its model.
 
 use dynamics_core::algorithms::{NotPositiveDefinite, frame, kinematics, osim_inverse};
-use dynamics_core::effects::{
-    Armature, Coulomb, Effect, JointState, Lugre, RIGID_BODY, Viscous, Width, hook,
-};
+use dynamics_core::effects::{Armature, Coulomb, Effect, Lugre, RIGID_BODY, Viscous, Width, hook};
 use dynamics_core::model::{ArmModel, model};
 use dynamics_core::robots::Ur5e;
 use dynamics_core::scalar::{Matrix, Real, Vector, positive_part};
-use dynamics_core::sim::{Integrator, KahanState, LinearlyImplicit, ModelDynamics};
+use dynamics_core::sim::KahanState;
 use dynamics_core::spatial::Force;
 use dynamics_core::state::State;
 use glam::Vec3;
+
+use crate::plant::compensated_step;
 
 /// The body that touches.
 pub const TIP: usize = 5;
@@ -164,18 +164,8 @@ impl<F: Effect<f32, 6, 6> + Clone> Plant<F> {
         let tau = core::array::from_fn(|i| torque[i] + self.pushed[i]);
         for _ in 0..steps {
             let scene = (RIGID_BODY, rotors(), (self.friction.clone(), self.wall));
-            let mechanics = ModelDynamics {
-                robot: &self.arm,
-                tau,
-                effects: &scene,
-            };
-            let step = LinearlyImplicit.step(&mechanics, &self.at.state, h)?;
-            self.at.add(&step, h);
-            for joint in 0..6 {
-                let State { q, qd, .. } = self.at.state;
-                let at = JointState::new(q[joint], qd[joint]);
-                self.friction.advance(joint, at, h);
-            }
+            let acting = (&scene, &mut self.friction);
+            compensated_step(&self.arm, &mut self.at, tau, acting, h)?;
         }
         Ok(())
     }

@@ -2,15 +2,16 @@
 
 use dynamics_core::algorithms::NotPositiveDefinite;
 use dynamics_core::effects::{
-    Armature, Coulomb, Effect, JointState, LoadFriction, Lugre, Payload, RIGID_BODY, Viscous, Width,
+    Armature, Coulomb, Effect, LoadFriction, Lugre, Payload, RIGID_BODY, Viscous, Width,
 };
 use dynamics_core::model::model;
 use dynamics_core::robots::So101;
-use dynamics_core::sim::{Integrator, KahanState, LinearlyImplicit, ModelDynamics};
+use dynamics_core::sim::KahanState;
 use dynamics_core::state::State;
 
 use super::TICK;
 use super::parameters::WIDTH;
+use crate::plant::compensated_step;
 use crate::scenes::so101_teach::{
     ARMATURE, BACK_EMF, COULOMB, LOAD, MAX_DUTY, RESOLUTION, STALL, VISCOUS,
 };
@@ -89,18 +90,8 @@ impl<F: Effect<f32, 6, 6> + Clone> Arm<F> {
         let h = TICK / STEPS as f32;
         for _ in 0..STEPS {
             let scene = (RIGID_BODY, GEARS, self.load, self.friction.clone());
-            let mechanics = ModelDynamics {
-                robot: model::<f32, So101, 6, 6, 6>(),
-                tau,
-                effects: &scene,
-            };
-            let step = LinearlyImplicit.step(&mechanics, &self.at.state, h)?;
-            self.at.add(&step, h);
-            for joint in 0..6 {
-                let State { q, qd, .. } = self.at.state;
-                let at = JointState::new(q[joint], qd[joint]);
-                self.friction.advance(joint, at, h);
-            }
+            let (robot, acting) = (model::<f32, So101, 6, 6, 6>(), (&scene, &mut self.friction));
+            compensated_step(robot, &mut self.at, tau, acting, h)?;
         }
         Ok(tau.map(|tau| tau + NOISE * self.normal()))
     }

@@ -1,20 +1,8 @@
 //! Pictures of what grows with the number of bodies, both logarithmic.
 
 use super::{ALGORITHMS, Report};
-use crate::chart::{self, Axis, HPos, Line, RGBColor};
+use crate::chart::{self, Axis, HPos, Line};
 use crate::error::Result;
-
-/// One colour a curve, in their order; readable to the colour-blind.
-const COLOURS: [RGBColor; 8] = [
-    RGBColor(27, 80, 162),
-    RGBColor(86, 160, 211),
-    RGBColor(150, 150, 60),
-    RGBColor(230, 145, 0),
-    RGBColor(200, 50, 90),
-    RGBColor(120, 70, 150),
-    RGBColor(60, 60, 60),
-    RGBColor(0, 140, 110),
-];
 
 /// Where the literature has the crossing.
 const LITERATURE: f64 = 9.0;
@@ -44,11 +32,14 @@ pub fn curves_svg(
     curves: &[Curve],
     marks: &[Mark],
 ) -> Result<String> {
-    let lines = curves.iter().zip(COLOURS).map(|((_, costs), colour)| Line {
-        points: costs.iter().map(|(n, y)| (*n as f64, *y as f64)).collect(),
-        colour,
-        dots: true,
-    });
+    let lines = curves
+        .iter()
+        .zip(chart::COLOURS)
+        .map(|((_, costs), colour)| Line {
+            points: costs.iter().map(|(n, y)| (*n as f64, *y as f64)).collect(),
+            colour,
+            dots: true,
+        });
     let lines: Vec<Line> = lines.collect();
     let longest = lines.iter().max_by_key(|line| line.points.len());
     let lengths = longest.map_or_else(Vec::new, |line| {
@@ -69,7 +60,7 @@ pub fn curves_svg(
         let names = curves
             .iter()
             .map(|(name, _)| (*name).to_owned())
-            .zip(COLOURS);
+            .zip(chart::COLOURS);
         let names: Vec<_> = names.collect();
         for (row, names) in names.chunks(5).enumerate() {
             chart::legend(root, names.iter().cloned(), (98, 56 + 22 * row as i32))?;

@@ -97,10 +97,11 @@ fn that_parameters_are_of_one_joint_alone_changes_the_work_of_a_row_and_not_the_
         rejected += usize::from(updates[0].is_err());
     }
     assert!((1..2500).contains(&rejected), "{rejected}");
-    let deviations = all.deviations();
-    for k in 0..P {
-        let distance = (all.estimate()[k] - apart.estimate()[k]).abs() / deviations[k];
-        let ratio = apart.deviations()[k] / deviations[k] - 1.0;
+    let (dense, sparse) = (all.estimate(), apart.estimate());
+    let pairs = all.deviations().into_iter().zip(apart.deviations());
+    for (k, (deviation, other)) in pairs.enumerate() {
+        let distance = (dense[k] - sparse[k]).abs() / deviation;
+        let ratio = other / deviation - 1.0;
         assert!(
             distance < 1e-8 && ratio.abs() < 1e-8,
             "{k}: {distance:.1e} {ratio:.1e}"

@@ -116,6 +116,15 @@ impl<R: Real, const N: usize> Form<Array<R, N>> for [R; N] {
     }
 }
 
+impl<const N: usize> Form<Array<u16, N>> for [u16; N] {
+    fn form(self) -> Array<u16, N> {
+        Array(self)
+    }
+    fn of(form: Array<u16, N>) -> Self {
+        form.0
+    }
+}
+
 impl<R: Real, const H: usize, const N: usize> Form<Array<Array<R, H>, N>> for [[R; H]; N] {
     fn form(self) -> Array<Array<R, H>, N> {
         Array(self.map(Array))
@@ -195,6 +204,7 @@ record!(control::PayloadEstimatorConfig<R, V> {
 record!(control::ParameterEstimatorConfig<R, P, V> {
     noise: Array<R, V>,
     prior: Array<R, P>,
+    own: Array<u16, V>,
     forgetting: R,
     limit: R,
 } check);

@@ -99,6 +99,7 @@ fn what_the_controller_is_configured_with_comes_back_to_the_bit() {
     comes_back(ParameterEstimatorConfig {
         noise: positive,
         prior: [0.1, 0.2, 0.3],
+        own: [2, 1],
         forgetting: 1e-3,
         limit: 5.1,
     });

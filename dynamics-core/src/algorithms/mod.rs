@@ -49,6 +49,7 @@ pub(crate) use operational_space::{eigen, shifted_inverse, shifted_solution};
 pub(crate) use pivot_check::Magnitude;
 pub use regressor::{
     friction_regressor, inertial_parameters, regressor, regressor_columns, regressor_row,
+    regressor_row_of_bodies,
 };
 pub use rnea::rnea;
 pub use rnea_two_velocities::rnea_two_velocities;

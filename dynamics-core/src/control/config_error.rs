@@ -87,6 +87,8 @@ pub enum ConfigParameter {
     PriorDeviation,
     /// The standard deviation of an arm's parameter before the first measurement.
     ParameterDeviation,
+    /// The numbers of parameters that one joint alone has.
+    OwnParameters,
     /// The share of the information that is forgotten.
     Forgetting,
     /// The greatest innovation of an estimator, in standard deviations.
@@ -171,6 +173,7 @@ impl fmt::Display for ConfigError {
             ConfigParameter::ParameterDeviation => {
                 "a standard deviation of the prior is not between 1e-12 and 1e6"
             }
+            ConfigParameter::OwnParameters => "the joints have more parameters than there are",
             ConfigParameter::Forgetting => "the share to forget is not at least 0 and less than 1",
             ConfigParameter::InnovationLimit => {
                 "the limit of innovations is not between 3 and 1000"

@@ -1,23 +1,19 @@
 //! The parameters of an arm from the torques of its joints: a recursive estimator of constant work, one row in each update.
 //!
-//! Of a row yᵀ θ = z + noise of the standard deviation 1 and the covariance P = U D Uᵀ, with a unit upper triangle U and a
-//! diagonal D (Bierman, *Factorization Methods for Discrete Sequential Estimation*, 1977, chapter V; Thornton & Bierman 1980):
+//! Of a row yᵀ θ = z + noise of the standard deviation 1 and the covariance P:
 //!
 //! ```text
-//! f = Uᵀ y      v = D f      r = f·v = yᵀ P y      b = U v = P y      e = z − yᵀ θ
-//! θ⁺ = θ + b e / (1 + r)      P⁺ = P − ε b bᵀ / (1 + ε r)      ε = max(0, 1 − φ (1 + r) / r)
+//! r = yᵀ P y      e = z − yᵀ θ
+//! θ⁺ = θ + P y e / (1 + r)      (P⁺)⁻¹ = P⁻¹ + ε y yᵀ      ε = max(0, 1 − φ (1 + r) / r)
 //! ```
 //!
-//! The information P⁻¹ grows by ε y yᵀ. With ε = 1 this is least squares. Kulhavý (1987) forgets the share φ in the direction
-//! of y alone: ε = 1 − φ (1 + r) / r. Where that is negative, the information of the direction would shrink, and with it that of
-//! directions which noise mixes in. Here it is kept at that point, so that P never grows; e r / (1 + r) still follows changes.
-//! The factors of P⁺ need no root and no difference: with α_j = α_{j−1} + ε v_j f_j ≥ 1,
-//!
-//! ```text
-//! D_j⁺ = D_j α_{j−1} / α_j      U_ij⁺ = U_ij − ε f_j / α_{j−1} Σ_{k<j} U_ik v_k
-//! ```
+//! With ε = 1 this is least squares. Kulhavý (1987) forgets the share φ in the direction of y alone: ε = 1 − φ (1 + r) / r. Where
+//! that is negative, the information of the direction would shrink, and with it that of directions which noise mixes in. Here it
+//! is kept at that point, so that P never grows; e r / (1 + r) still follows changes. The information is kept in [`factors`], which need
+//! no root and no difference.
 
 mod config;
+mod factors;
 mod physical;
 mod record;
 mod selection;
@@ -27,6 +23,7 @@ pub use physical::{ImpossibleParameters, PhysicalParameters};
 pub use record::RecordError;
 pub use selection::{Excitation, SelectedParameters};
 
+use self::factors::{Factors, Places, Row};
 use super::ConfigError;
 use crate::math::entry;
 use crate::scalar::Real;
@@ -56,12 +53,17 @@ const RATE: f64 = 1.0 / 64.0;
 /// rows of other joints within `limit`, without a row of that joint or of one above 0.4 `limit` between them. The mean square of the joint
 /// that rests is kept, so that the estimate freezes again at its next row if it still exceeds `limit`/2.
 ///
+/// # Joints
+/// Parameters that have an effect on one joint alone, such as its friction, come last, joint by joint, `own` of each. They are
+/// correlated with those of other joints by the common parameters only, and a row is added where its joint has entries: of three
+/// common parameters and 21 of six joints, six or seven places in place of 24.
+///
 /// # Cost
-/// 3 P² flops, P divisions and some 20 P more flops for the row of any joint: 2,300 for 24 parameters, and 2.7 kB. A rejected row
-/// takes a third.
+/// Some 3 n² + 35 n flops and n divisions for a row of n entries. A rejected row takes a third. 2.8 kB for 24 parameters.
 ///
 /// # Source
-/// Bierman (1977), chapter V; Kulhavý, "Restricted exponential forgetting in real-time identification" (1987); without the growth
+/// Gentleman, "Least squares computations by Givens transformations without square roots" (1973); Bierman, *Factorization Methods for
+/// Discrete Sequential Estimation* (1977), chapter V; Kulhavý, "Restricted exponential forgetting in real-time identification" (1987); without the growth
 /// of P, after Bittanti, Bolzern & Campi, "Convergence and exponential convergence of identification algorithms with directional
 /// forgetting factor" (1990), and Cao & Schwartz, "A directional forgetting algorithm based on the decomposition of the
 /// information matrix" (2000).
@@ -69,14 +71,14 @@ const RATE: f64 = 1.0 / 64.0;
 /// # Example
 /// ```
 /// use dynamics_core::control::{ParameterEstimator, ParameterEstimatorConfig};
-/// let config = ParameterEstimatorConfig { noise: [0.01_f32], prior: [1.0, 1.0], forgetting: 1e-3, limit: 5.0 };
+/// let config = ParameterEstimatorConfig { noise: [0.01_f32], prior: [1.0, 1.0], own: [2], forgetting: 1e-3, limit: 5.0 };
 /// let mut friction = ParameterEstimator::try_new(config)?;
 /// for tick in 0..200 {
 ///     let speed = (0.05 * tick as f32).sin();
 ///     let row = [speed, speed.signum()]; // viscous and Coulomb
 ///     friction.update(0, &row, 0.3 * row[0] - 0.2 * row[1])?;
 /// }
-/// let [viscous, coulomb] = *friction.estimate();
+/// let [viscous, coulomb] = friction.estimate();
 /// assert!((viscous - 0.3).abs() < 1e-3 && (coulomb + 0.2).abs() < 1e-3);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -90,11 +92,8 @@ pub struct ParameterEstimator<R, const P: usize, const V: usize> {
     config: ParameterEstimatorConfig<R, P, V>,
     /// 1/σ of the torques.
     weights: [R; V],
-    estimate: [R; P],
-    /// Column j of U above its diagonal, and zeros from it on.
-    columns: [[R; P]; P],
-    /// D.
-    diagonal: [R; P],
+    places: [Places; V],
+    factors: Factors<R, P>,
     /// The mean square of the innovations of each joint.
     levels: [R; V],
     frozen: Option<usize>,
@@ -110,26 +109,23 @@ impl<R: Real, const P: usize, const V: usize> ParameterEstimator<R, P, V> {
     /// [`ConfigError`], as [`ParameterEstimatorConfig::check`].
     pub fn try_new(config: ParameterEstimatorConfig<R, P, V>) -> Result<Self, ConfigError> {
         config.check()?;
-        let mut new = Self {
+        Ok(Self {
             config,
             weights: config.noise.map(|deviation| R::ONE / deviation),
-            estimate: [R::ZERO; P],
-            columns: [[R::ZERO; P]; P],
-            diagonal: [R::ZERO; P],
+            places: config.places(),
+            factors: Factors::new(&[R::ZERO; P], &config.prior.map(|prior| prior * prior)),
             levels: [R::ONE; V],
             frozen: None,
             others: 0,
             rejected: [0; V],
-        };
-        new.reopen();
-        Ok(new)
+        })
     }
 
     /// Returns to the uncertainty of the prior with the estimate as it is, and ends a freeze: for an arm that has changed.
     ///
     /// ```
     /// use dynamics_core::control::{ParameterEstimator, ParameterEstimatorConfig};
-    /// let config = ParameterEstimatorConfig { noise: [0.01_f64], prior: [1.0], forgetting: 0.0, limit: 5.0 };
+    /// let config = ParameterEstimatorConfig { noise: [0.01_f64], prior: [1.0], own: [0], forgetting: 0.0, limit: 5.0 };
     /// let mut one = ParameterEstimator::try_new(config)?;
     /// one.update(0, &[1.0], 0.5)?;
     /// one.reopen();
@@ -137,8 +133,8 @@ impl<R: Real, const P: usize, const V: usize> ParameterEstimator<R, P, V> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn reopen(&mut self) {
-        self.columns = [[R::ZERO; P]; P];
-        self.diagonal = self.config.prior.map(|prior| prior * prior);
+        let variances = self.config.prior.map(|prior| prior * prior);
+        self.factors = Factors::new(&self.estimate(), &variances);
         self.levels = [R::ONE; V];
         self.frozen = None;
     }
@@ -153,23 +149,22 @@ impl<R: Real, const P: usize, const V: usize> ParameterEstimator<R, P, V> {
     /// [`RejectedRow`] names the reason and the joint; the estimate is then unchanged.
     #[inline]
     pub fn update(&mut self, joint: usize, y: &[R; P], residual: R) -> Result<(), RejectedRow> {
-        let (Some(level), Some(count)) = (self.levels.get_mut(joint), self.rejected.get_mut(joint))
-        else {
+        let (Some(level), Some(count), Some(&places)) = (
+            self.levels.get_mut(joint),
+            self.rejected.get_mut(joint),
+            self.places.get(joint),
+        ) else {
             return Ok(());
         };
         let weight = entry(&self.weights, joint);
-        let row = y.map(|y| y * weight);
-        let (mut f, mut v, mut r) = ([R::ZERO; P], [R::ZERO; P], R::ZERO);
-        let out = f.iter_mut().zip(&mut v).zip(&self.diagonal).zip(&row);
-        for (j, ((((f, v), d), y), column)) in out.zip(&self.columns).enumerate() {
-            *f = dot_above(column, &row, j) + *y;
-            *v = *d * *f;
-            r += *f * *v;
-        }
-        let error = residual * weight - dot_above(&row, &self.estimate, P);
+        let mut row = Row::ZERO;
+        row.set(places, y, weight);
+        self.factors.reduce(places, &mut row);
+        let (r, own) = (row.variance, places.have_all(y));
+        let error = residual * weight - row.explained;
         let (size, square) = (R::ONE + r, error * error);
         // Every number reaches one of the two; a NaN fails the comparison.
-        let usable = size + square <= R::from_f64(LARGEST);
+        let usable = own & (size + square <= R::from_f64(LARGEST));
         let most = self.config.limit * self.config.limit;
         let within = usable & (square <= most * size);
         let innovation = if within { square / size } else { most };
@@ -192,59 +187,41 @@ impl<R: Real, const P: usize, const V: usize> ParameterEstimator<R, P, V> {
             } else {
                 R::ZERO
             };
-            self.add(&f, &v, known, error / size);
+            self.factors.add(places, &mut row, known, error / size);
             return Ok(());
         }
         *count = count.saturating_add(1);
         Err(match self.frozen {
-            _ if !usable => RejectedRow::of_numbers(joint, y, residual),
+            _ if !usable => RejectedRow::of_numbers(joint, (y, own), residual),
             Some(by) => RejectedRow::Frozen { joint: by },
             None => RejectedRow::Outlier { joint },
         })
     }
 
-    /// Updates the factors with the weight ε of the row, and the estimate by b times `gain`.
-    #[inline(always)]
-    fn add(&mut self, f: &[R; P], v: &[R; P], weight: R, gain: R) {
-        let mut b = [R::ZERO; P];
-        let (mut alpha, mut per) = (R::ONE, R::ONE); // and 1 / α
-        let factors = self.columns.iter_mut().zip(&mut self.diagonal);
-        for (j, ((column, d), (f, v))) in factors.zip(f.iter().zip(v)).enumerate() {
-            let factor = -(weight * *f) * per;
-            let ((four, rest), (b_four, b_rest)) =
-                (column.as_chunks_mut::<4>(), b.as_chunks_mut::<4>());
-            for (column, b) in four.iter_mut().zip(b_four).take(j.div_ceil(4)) {
-                raise(column, b, factor, *v);
-            }
-            raise(rest, b_rest, factor, *v);
-            let next = alpha + weight * (*v * *f);
-            per = R::ONE / next;
-            *d *= alpha * per;
-            if let Some(b) = b.get_mut(j) {
-                *b = *v;
-            }
-            alpha = next;
-        }
-        for (estimate, b) in self.estimate.iter_mut().zip(b) {
-            *estimate += b * gain;
-        }
-    }
-
-    /// The estimated deviations from the nominal parameters, in their units.
+    /// The torque of a row by the estimate, N·m or N: yᵀ θ, with the work of a rejected row. Zero for a joint that the robot does not
+    /// have.
+    #[inline]
     #[must_use]
-    pub fn estimate(&self) -> &[R; P] {
-        &self.estimate
+    pub fn explained(&self, joint: usize, y: &[R; P]) -> R {
+        let places = self.places.get(joint);
+        places.map_or(R::ZERO, |&places| {
+            let mut row = Row::ZERO;
+            row.set(places, y, R::ONE);
+            self.factors.reduce(places, &mut row);
+            row.explained
+        })
     }
 
-    /// The standard deviation of each estimated parameter, if the noise is as stated and white. Not for the tick: P² flops.
+    /// The estimated deviations from the nominal parameters, in their units. Not for the tick: n² flops for each.
+    #[must_use]
+    pub fn estimate(&self) -> [R; P] {
+        self.factors.estimate(&self.places)
+    }
+
+    /// The standard deviation of each estimated parameter, if the noise is as stated and white. Not for the tick: n² flops for each.
     #[must_use]
     pub fn deviations(&self) -> [R; P] {
-        core::array::from_fn(|i| {
-            let columns = self.columns.iter().zip(&self.diagonal);
-            let terms = columns.map(|(column, d)| entry(column, i) * entry(column, i) * *d);
-            let own = entry(&self.diagonal, i);
-            terms.fold(own, |sum, term| sum + term).sqrt()
-        })
+        self.factors.variances(&self.places).map(R::sqrt)
     }
 
     /// The joint whose innovations have frozen the estimate; `None` while rows are accepted.
@@ -266,22 +243,12 @@ impl<R: Real, const P: usize, const V: usize> ParameterEstimator<R, P, V> {
     }
 }
 
-/// U_ij − ε f_j / α_{j−1} b_i and b_i + U_ij v_j: with b = 0 below the rows so far, the zeros of U there remain.
+/// The scalar product of two rows of P numbers: by fours, for fewer branches.
 #[inline(always)]
-fn raise<R: Real>(column: &mut [R], b: &mut [R], factor: R, v: R) {
-    for (u, b) in column.iter_mut().zip(b) {
-        let old = *u;
-        *u += factor * *b;
-        *b += old * v;
-    }
-}
-
-/// The scalar product of the first n of P numbers, where `a` is zero from there on: by fours, for fewer branches.
-#[inline(always)]
-fn dot_above<R: Real, const P: usize>(a: &[R; P], b: &[R; P], n: usize) -> R {
+fn dot<R: Real, const P: usize>(a: &[R; P], b: &[R; P]) -> R {
     let ((a, a_rest), (b, b_rest)) = (a.as_chunks::<4>(), b.as_chunks::<4>());
     let mut sum = R::ZERO;
-    for (a, b) in a.iter().zip(b).take(n.div_ceil(4)) {
+    for (a, b) in a.iter().zip(b) {
         let products: [R; 4] = core::array::from_fn(|i| a[i] * b[i]);
         sum += (products[0] + products[1]) + (products[2] + products[3]);
     }

@@ -45,4 +45,24 @@ impl<T, K> Core<T, K> {
     {
         algorithms::regressor_row(&Static::<T, K>::NEW, state, effects, coordinate)
     }
+
+    /// Its entries at these bodies, see [`algorithms::regressor_row_of_bodies`].
+    #[inline(never)]
+    pub fn regressor_row_of_bodies<R: Real, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        effects: &impl Effect<R, B, V>,
+        coordinate: usize,
+        bodies: &[bool; B],
+    ) -> [[R; 10]; B]
+    where
+        Static<T, K>: RobotModel<R, B, Q, V>,
+    {
+        algorithms::regressor_row_of_bodies(
+            &Static::<T, K>::NEW,
+            state,
+            effects,
+            coordinate,
+            bodies,
+        )
+    }
 }

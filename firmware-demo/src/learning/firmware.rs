@@ -94,6 +94,7 @@ impl<'a> Firmware<'a> {
             estimator: ParameterEstimator::try_new(ParameterEstimatorConfig {
                 noise: STATED,
                 prior: known.base.prior,
+                own: known.base.own(6, OWN),
                 forgetting: 1e-4,
                 limit: 5.0,
             })?,
@@ -204,7 +205,10 @@ impl<'a> Firmware<'a> {
         let [viscous, sign] = friction_regressor(&state.qd, WIDTH)[joint];
         let mut own = [viscous, sign, state.qdd[joint], 0.0, 0.0];
         let still = dot(bodies.as_flattened(), &nominal[..60]) + dot(&own, joints(nominal, joint));
-        let load = still + dot(&base.row(joint, &bodies, &own), self.estimator.estimate());
+        let load = still
+            + self
+                .estimator
+                .explained(joint, &base.row(joint, &bodies, &own));
         // s (m |τ| + d s τ) per μ₁ = m + d and μ₂ = m − d.
         let (even, odd) = (0.5 * sign * load.abs(), 0.5 * sign * sign * load);
         (own[3], own[4]) = (even + odd, even - odd);

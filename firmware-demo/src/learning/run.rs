@@ -147,7 +147,7 @@ pub fn run<F: Effect<f32, 6, 6> + Clone>(
         Some(())
     };
     ticks(&mut firmware, &mut arm, Task::Learn)?;
-    let learned = Model::of(&possible(known, firmware.estimator.estimate())?)?;
+    let learned = Model::of(&possible(known, &firmware.estimator.estimate())?)?;
     firmware.model = learned;
     let rejected = firmware.rejected;
     // The other motion begins at rest of the estimates: the first period is for the arm to follow it.

@@ -110,7 +110,7 @@ fn a_row_that_is_refused_has_its_reason_and_changes_neither_estimate_nor_deviati
             false => Err(RejectedRow::NotFinite { joint }),
         };
         let mut wrong = y;
-        wrong[7] = bad;
+        wrong[0] = bad;
         assert_eq!(learner.estimator.update(joint, &y, bad), reason);
         assert_eq!(learner.estimator.update(joint, &wrong, residual), reason);
     }
@@ -126,8 +126,11 @@ fn a_row_that_is_refused_has_its_reason_and_changes_neither_estimate_nor_deviati
     for _ in 0..20 {
         let _ = learner.estimator.update(joint, &y, f32::NAN);
     }
-    let other = learner.estimator.update((joint + 1) % 6, &y, residual);
-    assert_eq!(other, Err(RejectedRow::Frozen { joint }));
+    let other = (joint + 1) % 6;
+    let update = learner.estimator.update(other, &[0.0; P], 0.0);
+    assert_eq!(update, Err(RejectedRow::Frozen { joint }));
+    let update = learner.estimator.update(other, &y, residual);
+    assert_eq!(update, Err(RejectedRow::OtherJoint { joint: other }));
     assert!(same(&learner.estimator));
     assert_eq!(
         learner.estimator.update(joint, &[0.0; P], 0.0),
@@ -211,6 +214,11 @@ fn a_configuration_beyond_its_range_and_an_impossible_nominal_arm_are_refused() 
         };
         assert_eq!(refused(wrong), named(ConfigParameter::Forgetting));
     }
+    let more = ParameterEstimatorConfig {
+        own: [5, 5, 5, 5, 5, 0],
+        ..good
+    };
+    assert_eq!(refused(more), named(ConfigParameter::OwnParameters));
     for bad in [2.9, 1001.0, f32::NAN] {
         let wrong = ParameterEstimatorConfig { limit: bad, ..good };
         assert_eq!(refused(wrong), named(ConfigParameter::InnovationLimit));

@@ -50,6 +50,7 @@ pub fn config(
     ParameterEstimatorConfig {
         noise: STATED.map(|x| x as f32),
         prior: base.prior,
+        own: base.own(6, OWN),
         forgetting,
         limit,
     }
@@ -78,11 +79,7 @@ impl Learner {
     /// The row of the base parameters, with the load-dependent friction of the torque that the estimate implies, and the residual.
     pub fn row(&self, row: &Row) -> ([f32; P], f32) {
         let still = self.base.row(row.joint, &row.bodies, &row.own);
-        let change: f32 = still
-            .iter()
-            .zip(self.estimator.estimate())
-            .map(|(y, x)| y * x)
-            .sum();
+        let change = self.estimator.explained(row.joint, &still);
         let row = row.loaded(row.torque(&self.nominal) + f64::from(change));
         let y = self.base.row(row.joint, &row.bodies, &row.own);
         (y, row.tau - row.torque(&self.nominal) as f32)

@@ -28,6 +28,7 @@ fn the_estimate_and_its_deviations_are_those_of_least_squares_and_f32_follows() 
     let config = ParameterEstimatorConfig {
         noise: noise.map(f64::from),
         prior: prior.map(f64::from),
+        own: learner.base.own(6, OWN),
         forgetting: 0.0,
         limit: 1000.0,
     };
@@ -64,6 +65,46 @@ fn the_estimate_and_its_deviations_are_those_of_least_squares_and_f32_follows() 
         assert!(
             apart < 1e-3 && ratio.abs() < 4e-5,
             "{k}: {apart:.1e} {ratio:.1e}"
+        );
+    }
+}
+
+/// One of them processes all 24 places of each row.
+#[test]
+fn that_parameters_are_of_one_joint_alone_changes_the_work_of_a_row_and_not_the_estimate() {
+    let learner = Learner::new(3, FORGETTING, LIMIT);
+    let given = config(&learner.base, FORGETTING, LIMIT);
+    assert!(given.own.iter().all(|own| *own > 0), "{:?}", given.own);
+    let of = |own| {
+        let config = ParameterEstimatorConfig {
+            noise: given.noise.map(f64::from),
+            prior: given.prior.map(f64::from),
+            own,
+            forgetting: f64::from(FORGETTING),
+            limit: f64::from(LIMIT),
+        };
+        ParameterEstimator::try_new(config).expect("a good one")
+    };
+    let (mut all, mut apart): (ParameterEstimator<f64, P, 6>, _) = (of([0; 6]), of(given.own));
+    let mut rejected = 0;
+    for (_, row) in &minute(3)[..5000] {
+        let (y, z) = learner.row(row);
+        let (y, z) = (y.map(f64::from), f64::from(z));
+        let explained = [&all, &apart].map(|one| one.explained(row.joint, &y));
+        assert!((explained[0] - explained[1]).abs() < 1e-9, "{explained:?}");
+        let updates = [&mut all, &mut apart].map(|one| one.update(row.joint, &y, z));
+        assert_eq!(updates[0], updates[1]);
+        rejected += usize::from(updates[0].is_err());
+    }
+    assert!((1..2500).contains(&rejected), "{rejected}");
+    let (dense, sparse) = (all.estimate(), apart.estimate());
+    let pairs = all.deviations().into_iter().zip(apart.deviations());
+    for (k, (deviation, other)) in pairs.enumerate() {
+        let distance = (dense[k] - sparse[k]).abs() / deviation;
+        let ratio = other / deviation - 1.0;
+        assert!(
+            distance < 1e-8 && ratio.abs() < 1e-8,
+            "{k}: {distance:.1e} {ratio:.1e}"
         );
     }
 }

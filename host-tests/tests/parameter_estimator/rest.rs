@@ -20,11 +20,7 @@ fn standing(learner: &Learner, by_all: bool) -> Vec<(usize, [f32; P], f32)> {
         let mut row = Row::of(k % 6, &at, 0.0);
         row.tau = row.loaded(row.torque(&found)).torque(&found) as f32;
         let (y, residual) = learner.row(&row);
-        let explained = y
-            .iter()
-            .zip(learner.estimator.estimate())
-            .map(|(y, x)| y * x)
-            .sum();
+        let explained = learner.estimator.explained(row.joint, &y);
         (row.joint, y, if by_all { residual } else { explained })
     });
     rows.collect()

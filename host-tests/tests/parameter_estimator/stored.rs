@@ -37,7 +37,7 @@ fn no_stored_set_is_impossible_in_many_noisy_ticks() {
         let mut row = *row;
         noise(&mut row, &mut [0.0; N], &mut rng);
         let _ = learner.add(&row);
-        stored.update(&learner.base, learner.estimator.estimate());
+        stored.update(&learner.base, &learner.estimator.estimate());
         let candidate = learner.found().map(|x| x as f32);
         let possible = |all: &[f32; N]| {
             all.as_chunks::<10>().0[..6].iter().all(is_possible)

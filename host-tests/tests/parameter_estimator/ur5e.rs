@@ -97,6 +97,7 @@ fn in_half_a_minute_the_torques_of_a_ur5e_are_within_1_percent_of_full_scale() {
     let config = ParameterEstimatorConfig {
         noise: noise.map(|noise| noise as f32),
         prior: base.prior,
+        own: base.own(6, OWN),
         forgetting: 1e-4,
         limit: 5.0,
     };
@@ -128,7 +129,7 @@ fn in_half_a_minute_the_torques_of_a_ur5e_are_within_1_percent_of_full_scale() {
     }
     let mut stored: PhysicalParameters<f32, 6, N> =
         PhysicalParameters::try_new(nominal.map(|x| x as f32)).expect("a possible arm");
-    stored.update(&base, estimator.estimate());
+    stored.update(&base, &estimator.estimate());
     let kept = stored.parameters().map(f64::from);
     let (before, after) = (validation(&nominal, &truth), validation(&kept, &truth));
     assert!(before > 0.05, "{before:.4}");

@@ -162,7 +162,7 @@ fn curves<F: Effect<f32, 6, 6> + Clone>(friction: F) -> (Vec<(String, Points)>, 
         }
         let (seconds, estimate) = (
             f64::from(TICK) * f64::from(tick),
-            firmware.estimator.estimate(),
+            &firmware.estimator.estimate(),
         );
         let change = KNOWN.base.change(estimate);
         for (_, column, points) in &mut lines {

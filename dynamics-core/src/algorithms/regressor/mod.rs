@@ -74,7 +74,7 @@ where
     let trig = state.configuration().trig_of(robot);
     let (trig, state) = (trig.borrow(), state.state());
     let mut y = [[[R::ZERO; 10]; B]; V];
-    outward(robot, trig, state, effects, |i, [v, a], xforms| {
+    outward(robot, trig, state, effects, B, |i, [v, a], xforms| {
         let Some(link) = robot.link(i) else {
             return;
         };
@@ -133,7 +133,7 @@ where
     let trig = state.configuration().trig_of(robot);
     let (trig, state) = (trig.borrow(), state.state());
     let mut y = [[R::ZERO; 10]; V];
-    outward(robot, trig, state, effects, |i, [v, a], xforms| {
+    outward(robot, trig, state, effects, B, |i, [v, a], xforms| {
         let Some(link) = robot.link(i).filter(|_| i == body) else {
             return;
         };
@@ -183,12 +183,56 @@ where
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
+    regressor_row_of_bodies(robot, state, effects, coordinate, &[true; B])
+}
+
+/// The entries of a [`regressor_row`] at these bodies, and zeros.
+///
+/// For an estimator of few parameters: those of its
+/// [`SelectedParameters::bodies`](crate::control::SelectedParameters::bodies).
+///
+/// # Shape
+/// B × 10.
+///
+/// # Cost
+/// O(B): some 110 flops for each body up to the last one of these, 30 for each that the joint moves, 150 for each of these.
+///
+/// # Source
+/// As [`regressor`].
+///
+/// # Example
+/// ```
+/// use dynamics_core::algorithms::{regressor_row, regressor_row_of_bodies};
+/// use dynamics_core::{effects::RIGID_BODY, model::Robot, robots::Ur5e, state::State};
+/// let state = State { qd: [0.5; 6], qdd: [1.0; 6], ..State::at([0.3_f64; 6]) };
+/// let bodies = [false, false, true, false, true, false];
+/// let row = regressor_row_of_bodies(&Ur5e::MODEL, &state, &RIGID_BODY, 1, &bodies);
+/// let whole = regressor_row(&Ur5e::MODEL, &state, &RIGID_BODY, 1);
+/// assert_eq!([row[2], row[4], row[5]], [whole[2], whole[4], [0.0; 10]]);
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn regressor_row_of_bodies<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
+    robot: &D,
+    state: impl RobotState<R, Q, V>,
+    effects: &E,
+    coordinate: usize,
+    bodies: &[bool; B],
+) -> [[R; 10]; B]
+where
+    D: RobotModel<R, B, Q, V>,
+    E: Effect<R, B, V>,
+{
     let trig = state.configuration().trig_of(robot);
     let (trig, state) = (trig.borrow(), state.state());
     let turns = &trig.coordinates;
     let mut y = [[R::ZERO; 10]; B];
     let mut moved = per_body(robot, None);
-    outward(robot, trig, state, effects, |i, [v, a], xforms| {
+    let count = bodies
+        .iter()
+        .rposition(|is_in| *is_in)
+        .map_or(0, |last| last + 1);
+    outward(robot, trig, state, effects, count, |i, [v, a], xforms| {
         let (Some(link), Some(x)) = (robot.link(i), xforms.last()) else {
             return;
         };
@@ -198,7 +242,7 @@ where
             moved.parent(&link).map(|s| *x * s)
         };
         moved.push(s);
-        if let (Some(s), Some(entry)) = (s, y.get_mut(i)) {
+        if let (Some(s), Some(entry), Some(true)) = (s, y.get_mut(i), bodies.get(i)) {
             let frame = &link.to_joint_frame;
             let own = Motion::new(frame.transpose_mul(s.ang), frame.transpose_mul(s.lin));
             *entry = BodyPower::of(&link, v, a).per_parameter(own);
@@ -207,7 +251,7 @@ where
     y
 }
 
-/// Visits each body with its number, its velocity and acceleration, and the transforms of all bodies up to it. Featherstone &
+/// Visits each of the first `count` bodies with its number, its velocity and acceleration, and the transforms of all bodies up to it. Featherstone &
 /// Orin (3), (4).
 #[inline(always)]
 fn outward<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
@@ -215,6 +259,7 @@ fn outward<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     trig: &JointTrig<R, Q>,
     state: &State<R, Q, V>,
     effects: &E,
+    count: usize,
     mut visit: impl FnMut(usize, [Motion<R>; 2], &[Xform<R>]),
 ) where
     D: RobotModel<R, B, Q, V>,
@@ -225,7 +270,7 @@ fn outward<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     let mut v = per_body(robot, v_0);
     let mut a = per_body(robot, a_0);
     let mut xforms: Vec<Xform<R>, B> = Vec::new();
-    for (i, link) in robot.links().enumerate() {
+    for (i, link) in robot.links().enumerate().take(count) {
         let x = link.xform(turns);
         let v_i = velocity(effects, &link, x * v.parent(&link), turns, state); // (3)
         v.push(v_i);

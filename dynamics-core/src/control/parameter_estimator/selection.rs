@@ -21,7 +21,7 @@ const RANK: f64 = 1e-13;
 /// }
 /// // Three parameters of joints, no body.
 /// let base: SelectedParameters<f64, 2, 3> = motion.select::<_, 0, _>(&[1.0; 3], 0.3).expect("two independent columns");
-/// assert_eq!(base.columns, [2, 1]);
+/// assert_eq!(base.columns, [1, 2]);
 /// assert_eq!(motion.select::<f64, 0, 3>(&[1.0; 3], 0.3), Err(2));
 /// ```
 #[doc(alias = "identifiability")]
@@ -85,6 +85,7 @@ impl<const N: usize> Excitation<N> {
             (*column, free[k]) = (k, false);
             sweep(&mut a, k);
         }
+        columns.sort_unstable();
         // Row k of K_β, its covariance with the N parameters, and that with the other rows.
         let of = |row: usize, i: usize| match free[i] {
             true => a[columns[row]][i],
@@ -163,7 +164,7 @@ fn sweep<const N: usize>(a: &mut [[f64; N]; N], k: usize) {
 /// P base parameters of an arm among the N parameters of its bodies and joints: constants for the tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SelectedParameters<R, const P: usize, const N: usize> {
-    /// The columns of the regressor that they multiply: the most important one first.
+    /// The columns of the regressor that they multiply: those of the bodies first, then those of the joints, joint by joint.
     pub columns: [usize; P],
     /// The standard deviation of each, from those of the N parameters.
     pub prior: [R; P],
@@ -186,10 +187,45 @@ impl<R: Real, const P: usize, const N: usize> SelectedParameters<R, P, N> {
             .map(|column| picked(column, joint, bodies, own))
     }
 
+    /// The bodies of which a parameter is among them: for
+    /// [`regressor_row_of_bodies`](crate::algorithms::regressor_row_of_bodies).
+    #[must_use]
+    pub fn bodies<const B: usize>(&self) -> [bool; B] {
+        let mut bodies = [false; B];
+        for column in self.columns {
+            if let Some(is_in) = bodies.get_mut(column / 10) {
+                *is_in = true;
+            }
+        }
+        bodies
+    }
+
+    /// How many of them are parameters of each joint, of `each` that a joint has; the others are of the `bodies`:
+    /// [`ParameterEstimatorConfig::own`](super::ParameterEstimatorConfig::own).
+    ///
+    /// ```
+    /// use dynamics_core::control::SelectedParameters;
+    /// // The mass of the first of two bodies, Coulomb friction of the first of two joints, both frictions of the second.
+    /// let base = SelectedParameters::<f32, 4, 24> { columns: [0, 21, 22, 23], prior: [1.0; 4], spread: [[0.0; 4]; 24] };
+    /// assert_eq!((base.own(2, 2), base.bodies()), ([1, 2], [true, false]));
+    /// ```
+    #[must_use]
+    pub fn own<const V: usize>(&self, bodies: usize, each: usize) -> [u16; V] {
+        let mut own = [0; V];
+        for column in self.columns {
+            let place = column.checked_sub(10 * bodies);
+            let joint = place.and_then(|place| place.checked_div(each));
+            if let Some(count) = joint.and_then(|joint| own.get_mut(joint)) {
+                *count += 1;
+            }
+        }
+        own
+    }
+
     /// The change of the N parameters that gives the estimated base parameters.
     #[must_use]
     pub fn change(&self, estimate: &[R; P]) -> [R; N] {
-        self.spread.map(|row| super::dot_above(&row, estimate, P))
+        self.spread.map(|row| super::dot(&row, estimate))
     }
 }
 

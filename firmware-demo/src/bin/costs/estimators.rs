@@ -61,8 +61,8 @@ const N: usize = 90;
 /// Those that the test of the estimator selects.
 const SELECTED: SelectedParameters<f32, P, N> = SelectedParameters {
     columns: [
-        85, 75, 70, 80, 65, 60, 30, 72, 77, 87, 67, 62, 82, 11, 68, 71, 40, 66, 86, 73, 76, 61, 81,
-        74,
+        11, 30, 40, 60, 61, 62, 65, 66, 67, 68, 70, 71, 72, 73, 74, 75, 76, 77, 80, 81, 82, 85, 86,
+        87,
     ],
     prior: [0.1; P],
     spread: [[0.0; P]; N],
@@ -73,32 +73,42 @@ pub fn parameters(asks: &[Ask<6>; STATES]) {
     let config = ParameterEstimatorConfig {
         noise: [1.0; 6],
         prior: [0.1; P],
+        own: SELECTED.own(6, 5),
         forgetting: 1e-4,
         limit: 1000.0,
     };
     let Ok(mut estimator) = ParameterEstimator::<f32, P, 6>::try_new(config) else {
         return;
     };
+    let bodies = SELECTED.bodies();
     let row = |inputs, trig| Row::of::<So101, 6, 6>("parameter_update", "core", inputs, trig);
     let run = with_row;
     row("with_row", true).measure(run as *const () as usize, asks, |ask| {
-        run(&mut estimator, &ask.state)
+        run(&mut estimator, &bodies, &ask.state)
     });
-    let rows = asks.each_ref().map(|ask| parameter_row(&ask.state));
+    let rows = asks
+        .each_ref()
+        .map(|ask| parameter_row(&bodies, &ask.state));
     let run = update;
     row("row_given", false).measure(run as *const () as usize, &rows, |y| run(&mut estimator, y));
 }
 
 #[inline(always)]
-fn parameter_row(state: &State<f32, 6, 6>) -> [f32; P] {
-    let bodies = Core::<So101>::regressor_row(state, &RIGID_BODY, 0);
+fn parameter_row(bodies: &[bool; 6], state: &State<f32, 6, 6>) -> [f32; P] {
+    let bodies = Core::<So101>::regressor_row_of_bodies(state, &RIGID_BODY, 0, bodies);
     let [[viscous, sign], ..] = friction_regressor(&state.qd, Width::f32(0.05));
     SELECTED.row(0, &bodies, &[viscous, sign, state.qdd[0], 0.0, 0.0])
 }
 
 #[inline(never)]
-fn with_row(estimator: &mut ParameterEstimator<f32, P, 6>, state: &State<f32, 6, 6>) -> bool {
-    estimator.update(0, &parameter_row(state), 0.1).is_ok()
+fn with_row(
+    estimator: &mut ParameterEstimator<f32, P, 6>,
+    bodies: &[bool; 6],
+    state: &State<f32, 6, 6>,
+) -> bool {
+    estimator
+        .update(0, &parameter_row(bodies, state), 0.1)
+        .is_ok()
 }
 
 #[inline(never)]

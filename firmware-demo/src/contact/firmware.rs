@@ -1,7 +1,7 @@
 //! What runs on the arm: a tick in five regions of the meter, and the arm behind it.
 
 use dynamics_core::Engine;
-use dynamics_core::algorithms::{MomentumAndCoriolis, NotPositiveDefinite};
+use dynamics_core::algorithms::{MomentumAndDrift, NotPositiveDefinite};
 use dynamics_core::control::{
     Command, ConfigError, ContactDetector, ContactPhase, ContactReaction, ContactReactionConfig,
     ContactResponse, DetectedContact, Estimate, Fault, Gains, MotionController,
@@ -210,12 +210,13 @@ fn detect(
     let state = State { q, qd, qdd };
     let trig = Engine::<Ur5e>::joint_trig(&q);
     let at = trig.with(&state);
-    let (.., rotors) = RIGID;
-    let MomentumAndCoriolis { p, ct_qd } = Engine::<Ur5e>::momentum_and_coriolis(at, &rotors);
-    let weight = Engine::<Ur5e>::rnea(at, &Gravity::EARTH);
+    // Without friction, whose torques the errors need by themselves.
+    let MomentumAndDrift { p, mut beta } = Engine::<Ur5e>::momentum_and_drift(at, &RIGID);
     let resistance = Engine::<Ur5e>::rnea(at, &FRICTION);
     let bodies = Engine::<Ur5e>::rnea(at, &RIGID);
-    let beta = core::array::from_fn(|i| ct_qd[i] - weight[i] - resistance[i]);
+    for (beta, resistance) in beta.iter_mut().zip(resistance) {
+        *beta -= resistance;
+    }
     let (_, Coulomb { torque, width }) = FRICTION;
     let errors = core::array::from_fn(|i| {
         let sliding = smooth_sign(qd[i] / (STUCK * width.get())).abs();

@@ -4,7 +4,7 @@
 //! continuous time ṙ = K (τ_ext − r); here exactly for torques that are constant over a tick:
 //!
 //! ```text
-//! ṗ = τ + β + τ_ext                 β = Cᵀ q̇ − g − F
+//! ṗ = τ + β + τ_ext                 β = Cᵀ q̇ − g − F, the drift
 //! m = (p − p⁻)/h − τ − ½ (β + β⁻)   the mean of τ_ext since the last measurement
 //! r = r⁻ + (1 − exp(−K h)) (m − r⁻)
 //! ```
@@ -21,7 +21,7 @@ use crate::state::entry;
 /// A first-order observer is the usual one; a second-order one passes less of the noise of the velocities.
 ///
 /// # Cost
-/// 8 flops and 3 for each pole, for each joint, beside the model; one division.
+/// 10 flops and 3 for each pole, for each joint, beside the model; a division after lost measurements.
 ///
 /// ```
 /// use dynamics_core::algorithms::{MomentumAndDrift, momentum_and_drift, rnea};

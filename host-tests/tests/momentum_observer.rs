@@ -285,7 +285,7 @@ fn numbers_that_are_not_finite_are_refused_and_leave_no_trace() {
 }
 
 #[test]
-fn numbers_are_taken_whose_sum_alone_is_too_large() {
+fn finite_numbers_with_an_infinite_sum_are_accepted() {
     let mut observer = MomentumObserver::<f64, 2>::try_new(CONFIG).expect("a good one");
     let (p, tau) = (0.6 * f64::MAX, 0.9 * f64::MAX);
     assert!(!(p + p).is_finite() && !(tau + tau).is_finite());

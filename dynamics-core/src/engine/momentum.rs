@@ -2,8 +2,8 @@
 //! weights on returning.
 //!
 //! De Luca & Mattone (2003), over base parameters: they give the same kinetic energy for all q and q̇, hence the same
-//! p = ∂T/∂q̇ and Cᵀ q̇ = ∂T/∂q. Masses are known zeros behind revolute joints. The field has no rotation U, for g and the
-//! wrenches of the environment without the products of velocities.
+//! p = ∂T/∂q̇ and Cᵀ q̇ = ∂T/∂q. Masses are known zeros behind revolute joints. The U of the field is zero: g and the wrenches of
+//! the environment come without products of velocities.
 
 use core::borrow::Borrow;
 use core::hint::black_box;
@@ -219,7 +219,7 @@ where
         }
     });
 
-    // Behind the children: until then the velocity takes fewer registers than the momentum beside it.
+    // After the children: until then the velocity takes fewer registers than the momentum beside it.
     let own = inertia::<R, T, E, B, Q, V, I>(task.effects, E::BASE_MOTION);
     let h = momentum(&body, &own) + inner.h;
     let mut p = h.along(joint.prismatic, length_inv).get();

@@ -5,7 +5,9 @@ mod regressor;
 use core::marker::PhantomData;
 
 use crate::algorithms::{self, Frame, JointResult, Kinematics, Ltdl, MassMatrix};
-use crate::algorithms::{MomentumAndCoriolis, NotPositiveDefinite, OsimInverse, Pose, Prescribed};
+use crate::algorithms::{
+    MomentumAndCoriolis, MomentumAndDrift, NotPositiveDefinite, OsimInverse, Pose, Prescribed,
+};
 use crate::effects::Effect;
 use crate::model::{RobotModel, Static};
 use crate::scalar::{Native, Real};
@@ -232,6 +234,18 @@ impl<T, K> Core<T, K> {
         Static<T, K>: RobotModel<R, B, Q, V>,
     {
         algorithms::momentum_and_coriolis(&Static::<T, K>::NEW, state, effects)
+    }
+
+    /// p = M q̇ and β = Cᵀ q̇ − g − F, see [`algorithms::momentum_and_drift`].
+    #[inline(never)]
+    pub fn momentum_and_drift<R: Real, const B: usize, const Q: usize, const V: usize>(
+        state: impl RobotState<R, Q, V>,
+        effects: &impl Effect<R, B, V>,
+    ) -> MomentumAndDrift<R, V>
+    where
+        Static<T, K>: RobotModel<R, B, Q, V>,
+    {
+        algorithms::momentum_and_drift(&Static::<T, K>::NEW, state, effects)
     }
 
     /// C(q, q̇), see [`algorithms::coriolis_matrix`].

@@ -164,6 +164,7 @@ const TABLE: &[(&str, &str, f64, f64)] = &[
     ("mixed tree", "kinetic energy", 6e-16, 3e-7),
     ("mixed tree", "M qd", 1e-15, NONE),
     ("mixed tree", "rate of M qd", 1e-12, NONE),
+    ("mixed tree", "rate of M qd by its drift", 1e-12, NONE),
     ("mixed tree", "Y φ", 8e-16, 6e-7),
     ("ur5e", "Y φ with friction", 8e-16, NONE),
     ("ur5e", "M qd", 1e-15, NONE),

@@ -7,13 +7,16 @@ use core::f64::consts::{FRAC_PI_2, FRAC_PI_4, SQRT_2};
 use common::*;
 use dynamics_core::algorithms::{
     MassMatrix, MomentumAndCoriolis, aba, center_of_mass, centroidal_matrix, centroidal_momentum,
-    crba, kinetic_energy, momentum, momentum_and_coriolis, potential_energy, rnea,
+    crba, kinetic_energy, momentum, momentum_and_coriolis, momentum_and_drift, potential_energy,
+    rnea,
 };
 use dynamics_core::effects::{
-    Armature, Coriolis, Gravity, Inertia, MovingBase, Payload, RIGID_BODY,
+    Armature, Coriolis, Coulomb, Effect, Gravity, Inertia, LoadFriction, MovingBase, Payload,
+    RIGID_BODY, Viscous, Width, hook,
 };
 use dynamics_core::model::{BodyInertia, Model, Robot};
 use dynamics_core::robots::{A1, Panda, Ur5e};
+use dynamics_core::scalar::Real;
 use dynamics_core::spatial::{Force, Motion, SpatialInertia};
 use dynamics_core::state::State;
 use glam::DVec3;
@@ -206,6 +209,58 @@ fn a_wrong_sign_a_missing_child_and_a_missing_armature_are_found() {
     for (what, error) in [("sign", sign), ("child", child), ("armature", armature)] {
         assert!(error > 1e-4, "{what}: {error:.1e}");
     }
+}
+
+/// Drags every body through the air, against its velocity and that of the base, and pulls it to a point.
+struct Air;
+
+impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Air {
+    const EXTERNAL_WRENCH: hook::Wrench<Self, R> = hook::Wrench::of_state(|_, body, at, fx| {
+        let k = R::from_f64(0.3 + 0.1 * body as f64);
+        let base = at.base.unwrap_or(Motion::ZERO).lin;
+        *fx -= Force::new(at.velocity.ang * k, (at.velocity.lin + base) * k);
+        fx.lin -= at.pose.rot * at.pose.pos;
+    });
+}
+
+/// On the same trees, with weight, friction and wrenches of their surroundings.
+#[test]
+fn the_generalised_momentum_changes_by_the_motors_torque_and_its_drift() {
+    let mut worst = Worst::default();
+    for (i, (tree, state)) in trees(false).enumerate() {
+        let scale = (i % 2) as f64;
+        let v = Motion::new(DVec3::new(0.3, -0.5, 0.7), DVec3::new(0.1, 0.2, -0.3)) * scale;
+        let a = Motion::new(DVec3::new(-1.0, 2.0, 0.5), DVec3::new(0.4, 1.0, -2.0)) * scale;
+        let width = Width::new(0.5);
+        let coulomb = Coulomb {
+            torque: [0.8; V],
+            width,
+        };
+        let scene = |t| {
+            let ship = MovingBase {
+                velocity: v + a * t,
+                acceleration: a,
+            };
+            let joints = (Armature([0.3; V]), Viscous([0.7; V]), coulomb);
+            (RIGID_BODY, joints, load(), ship, Air)
+        };
+        let gears = LoadFriction {
+            driving: [0.2; V],
+            backdriving: [0.1; V],
+            width,
+        };
+        let rate = slope(|t| {
+            let later = later(&tree, &state, t);
+            momentum_and_drift(&tree, &later, &scene(t)).p
+        });
+        let tau = rnea(&tree, &state, &scene(0.0));
+        // What the gears do not transmit is no part of it.
+        let beta = momentum_and_drift(&tree, &state, &(scene(0.0), gears)).beta;
+        worst.see(core::array::from_fn(|k| tau[k] + beta[k]), rate);
+    }
+    let mut verdict = Verdict::default();
+    verdict.see("mixed tree", "rate of M qd by its drift", "f64", &worst);
+    verdict.speak();
 }
 
 /// df/dq of a trigonometric polynomial of second degree, without truncation: it is spanned by four values.

@@ -285,6 +285,19 @@ fn numbers_that_are_not_finite_are_refused_and_leave_no_trace() {
 }
 
 #[test]
+fn finite_numbers_with_an_infinite_sum_are_accepted() {
+    let mut observer = MomentumObserver::<f64, 2>::try_new(CONFIG).expect("a good one");
+    let (p, tau) = (0.6 * f64::MAX, 0.9 * f64::MAX);
+    assert!(!(p + p).is_finite() && !(tau + tau).is_finite());
+    observer.update(&[p; 2], &[0.0; 2]).expect("finite");
+    observer.drive(&[tau; 2]);
+    observer
+        .update(&[p + TICK * tau; 2], &[0.0; 2])
+        .expect("finite");
+    assert_eq!(observer.external_torque(), &[0.0; 2]);
+}
+
+#[test]
 fn a_restart_forgets_what_pushed() {
     let mut observer = MomentumObserver::<f64, 1>::try_new(CONFIG).expect("a good one");
     let fresh = observer;

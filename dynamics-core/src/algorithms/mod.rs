@@ -38,8 +38,9 @@ pub use mass_matrix::{
     spatial_operator_ltdl,
 };
 pub use momentum::{
-    CenterOfMass, MomentumAndCoriolis, base_velocity_from_momentum, center_of_mass,
-    centroidal_matrix, centroidal_momentum, momentum, momentum_and_coriolis,
+    CenterOfMass, MomentumAndCoriolis, MomentumAndDrift, base_velocity_from_momentum,
+    center_of_mass, centroidal_matrix, centroidal_momentum, momentum, momentum_and_coriolis,
+    momentum_and_drift,
 };
 pub use operational_space::{
     Conditioning, Damping, OperationalSpace, OsimInverse, damped_inverse, operational_space,

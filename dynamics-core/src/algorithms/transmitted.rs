@@ -26,10 +26,10 @@ use crate::state::State;
 /// assert!(found.iter().zip(load).all(|(found, load)| (found - load).abs() < 1e-14));
 /// ```
 ///
-/// Not finite for a gear that its load cannot drive (a back-driving friction μ₂ of 1 or more).
+/// Not finite where the load drives a gear that it cannot turn (a back-driving friction μ₂ of 1 or more).
 ///
 /// # Cost
-/// Some 20 flops and a division a joint in a scene with such friction; else none.
+/// Some 16 flops and a division a joint in a scene with such friction; else none.
 ///
 /// # Source
 /// Duclusaud, Passault, Padois & Ly, "Extended friction models for the physics simulation of servo actuators" (2025).

@@ -4,37 +4,38 @@
 //! continuous time ṙ = K (τ_ext − r); here exactly for torques that are constant over a tick:
 //!
 //! ```text
-//! ṗ = τ + β + τ_ext                 β = Cᵀ q̇ − g − F
+//! ṗ = τ + β + τ_ext                 β = Cᵀ q̇ − g − F, the drift
 //! m = (p − p⁻)/h − τ − ½ (β + β⁻)   the mean of τ_ext since the last measurement
 //! r = r⁻ + (1 − exp(−K h)) (m − r⁻)
 //! ```
 
+use core::hint::black_box;
+
 use super::observer::one_less_decay;
 use super::{ConfigError, Fault, ObserverConfig};
 use crate::scalar::Real;
-use crate::state::{all_finite, entry};
+use crate::state::entry;
 
 /// The external torques of V joints, by an observer of the generalised momentum; ORDER poles lie at the bandwidth.
 ///
 /// A first-order observer is the usual one; a second-order one passes less of the noise of the velocities.
 ///
 /// # Cost
-/// 8 flops and 3 for each pole, for each joint, beside the model; one division.
+/// 10 flops and 3 for each pole, for each joint, beside the model; a division after lost measurements.
 ///
 /// ```
-/// use dynamics_core::algorithms::{MomentumAndCoriolis, momentum_and_coriolis, rnea};
+/// use dynamics_core::algorithms::{MomentumAndDrift, momentum_and_drift, rnea};
 /// use dynamics_core::control::{MomentumObserver, ObserverConfig};
 /// use dynamics_core::{effects::Gravity, model::Robot, robots::Ur5e, state::State};
 /// let mut observer: MomentumObserver<f64, 6> =
 ///     MomentumObserver::try_new(ObserverConfig { bandwidth: 50.0, tick: 1e-3 })?;
 /// // The arm stands still although the drives push 3 N·m less than gravity: something supports its elbow.
 /// let state = State::at([0.0, -1.0, 1.0, 0.0, 0.0, 0.0]);
-/// let gravity = rnea(&Ur5e::MODEL, &state, &Gravity::EARTH); // with friction: (Gravity::EARTH, viscous, coulomb)
-/// let mut tau = gravity;
+/// let scene = Gravity::EARTH; // with friction: (Gravity::EARTH, viscous, coulomb)
+/// let mut tau = rnea(&Ur5e::MODEL, &state, &scene);
 /// tau[2] -= 3.0;
 /// for _ in 0..200 {
-///     let MomentumAndCoriolis { p, ct_qd } = momentum_and_coriolis(&Ur5e::MODEL, &state, &());
-///     let beta = core::array::from_fn(|i| ct_qd[i] - gravity[i]);
+///     let MomentumAndDrift { p, beta } = momentum_and_drift(&Ur5e::MODEL, &state, &scene);
 ///     observer.update(&p, &beta)?;
 ///     observer.drive(&tau);
 /// }
@@ -47,6 +48,8 @@ use crate::state::{all_finite, entry};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MomentumObserver<R, const V: usize, const ORDER: usize = 1> {
     tick: R,
+    /// 1/h.
+    rate: R,
     /// 1 − exp(−K h).
     gap: R,
     /// exp(−K h n) of the n ticks since the last measurement.
@@ -71,6 +74,7 @@ impl<R: Real, const V: usize, const ORDER: usize> MomentumObserver<R, V, ORDER> 
         let ObserverConfig { bandwidth, tick } = config;
         Ok(Self {
             tick,
+            rate: R::ONE / tick,
             gap: one_less_decay(bandwidth * tick),
             decay: R::ONE,
             elapsed: R::ZERO,
@@ -83,22 +87,23 @@ impl<R: Real, const V: usize, const ORDER: usize> MomentumObserver<R, V, ORDER> 
 
     /// A tick with a measurement: the momentum p = M q̇ and β = Cᵀ q̇ − g − F of its positions and velocities, N·m·s and N·m.
     ///
-    /// p and Cᵀ q̇ are those of [`momentum_and_coriolis`](crate::algorithms::momentum_and_coriolis()), g + F is
-    /// [`rnea`](crate::algorithms::rnea()) under the gravity and the friction of the scene alone.
+    /// Both are those of [`momentum_and_drift`](crate::algorithms::momentum_and_drift()) under the effects of the scene.
     ///
     /// # Errors
     /// [`Fault::NotFinite`] names the first joint with a number that is not finite; the measurement then counts as lost.
     #[inline]
     pub fn update(&mut self, p: &[R; V], beta: &[R; V]) -> Result<(), Fault> {
-        if !(all_finite(p) & all_finite(beta)) {
+        if !sum(p, beta).is_finite() {
+            cold();
+            // Or the sum alone is too large.
             let mut numbers = p.iter().zip(beta);
             let joint = numbers.position(|(p, beta)| !(p.is_finite() & beta.is_finite()));
-            return Err(Fault::NotFinite {
-                joint: joint.unwrap_or(0),
-            });
+            if let Some(joint) = joint {
+                return Err(Fault::NotFinite { joint });
+            }
         }
-        if let Some(share) = self.share() {
-            let (rate, half) = (R::ONE / self.elapsed, R::from_f64(0.5));
+        if let Some((share, rate)) = self.mean() {
+            let half = R::from_f64(0.5);
             for i in 0..V {
                 let model = half * (entry(beta, i) + entry(&self.beta, i));
                 let change = entry(p, i) - entry(&self.driven, i);
@@ -119,8 +124,21 @@ impl<R: Real, const V: usize, const ORDER: usize> MomentumObserver<R, V, ORDER> 
     /// 1 − exp(−K h n) of the next measurement; without a tick in between there is no mean.
     #[inline(always)]
     pub(super) fn share(&self) -> Option<R> {
-        let has_mean = self.started & (self.elapsed > R::ZERO);
-        has_mean.then_some(R::ONE - self.decay)
+        self.mean().map(|(share, _)| share)
+    }
+
+    /// The same and 1/(n h).
+    #[inline(always)]
+    fn mean(&self) -> Option<(R, R)> {
+        let rate = if self.elapsed == self.tick {
+            Some(self.rate)
+        } else {
+            // Hidden, so that a tick without lost measurements does not divide, too.
+            let elapsed = black_box(self.elapsed);
+            (elapsed > R::ZERO).then(|| R::ONE / elapsed)
+        };
+        rate.filter(|_| self.started)
+            .map(|rate| (R::ONE - self.decay, rate))
     }
 
     /// The torques of the drives from this tick to the next, N·m or N: to be called once in each tick, also in one whose
@@ -130,7 +148,7 @@ impl<R: Real, const V: usize, const ORDER: usize> MomentumObserver<R, V, ORDER> 
     /// [transmit](crate::algorithms::transmitted_torque()).
     #[inline]
     pub fn drive(&mut self, tau: &[R; V]) {
-        let all = all_finite(tau);
+        let all = sum(tau, &[]).is_finite();
         for (driven, tau) in self.driven.iter_mut().zip(tau) {
             if all || tau.is_finite() {
                 *driven += self.tick * *tau;
@@ -172,3 +190,15 @@ impl<R: Real, const V: usize, const ORDER: usize> MomentumObserver<R, V, ORDER> 
         self.started = false;
     }
 }
+
+/// The sum of all numbers, which is finite only if each of them is.
+#[inline(always)]
+fn sum<R: Real>(a: &[R], b: &[R]) -> R {
+    // −0 is the number that changes no other by its addition.
+    a.iter().chain(b).fold(R::from_f64(-0.0), |sum, &x| sum + x)
+}
+
+/// Marks what rarely happens.
+#[cold]
+#[inline]
+fn cold() {}

@@ -1,7 +1,7 @@
 //! Friction of gears that grows with the torque they transmit, in inverse and in forward dynamics.
 //!
 //! The motor supplies x = τ + a |τ| + b τ, where τ is the torque for all else at the joint. With |a| < 1 + b, τ has the sign
-//! of x, and τ = x / (1 + b + a sgn x) = ((1 + b) x − a |x|) / ((1 + b + a) (1 + b − a)), without a comparison.
+//! of x, and τ = x / (1 + b + a sgn x).
 
 use super::{Effect, JointState, LoadFactors, TorqueDerivatives, joint_state};
 use crate::model::LinkView;
@@ -43,8 +43,8 @@ pub(crate) fn load_frictions<R: Real, E, const B: usize, const Q: usize, const V
     }
 }
 
-/// What of the motor's torque x is left for all else, τ. Where the load cannot turn the gear backward, 1 + b ≤ |a|, it is not
-/// finite: that takes a friction which holds, not one of a smooth sign.
+/// What of the motor's torque x is left for all else, τ. Where the load drives and cannot turn the gear, 1 + b + a sgn x ≤ 0, it
+/// is not finite: that takes a friction which holds, not one of a smooth sign.
 #[inline(always)]
 pub(crate) fn transmitted<R: Real, E, const B: usize, const V: usize>(
     effects: &E,
@@ -60,8 +60,7 @@ where
     }
     let LoadFactors { magnitude, torque } = factors(effects, joint, at);
     let even = R::ONE + torque;
-    let product = positive_part(even + magnitude) * positive_part(even - magnitude);
-    (even * tau - magnitude * tau.abs()) / product
+    tau / positive_part(even + R::either(tau < R::ZERO, -magnitude, magnitude))
 }
 
 /// Adds −∂τ/∂q̇ of [`transmitted`] to the derivatives of one joint, where it is positive.

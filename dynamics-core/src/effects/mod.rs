@@ -103,7 +103,7 @@ pub(crate) use query::{
     base_given, base_motion, body_inertia, body_wrench, field, gyroscopic, joint_state,
     joint_torque, joint_torques, rotor_force,
 };
-pub(crate) use rigid_body::{Bias, OfBodies};
+pub(crate) use rigid_body::{Bias, OfBodies, Resting};
 
 use crate::scalar::Real;
 

@@ -67,6 +67,11 @@ pub(crate) struct Wrench<R> {
 }
 
 impl<R: Real> Wrench<R> {
+    pub(crate) const ZERO: Self = Self {
+        f: Vec3::ZERO,
+        n: Vec3::ZERO,
+    };
+
     /// The component along a joint at the origin: N·m about z, or N along z.
     #[inline(always)]
     pub(crate) fn along(&self, prismatic: bool, length_inv: Folded<R>) -> Folded<R> {
@@ -96,6 +101,17 @@ impl<R: Real> Wrench<R> {
         Self {
             f,
             n: rotate_to_parent::<R, T, B, Q, V, I>(n) + offset_cross::<R, T, B, Q, V, I>(f, slide),
+        }
+    }
+}
+
+impl<R: Real> Add for Wrench<R> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, o: Self) -> Self {
+        Self {
+            f: self.f + o.f,
+            n: self.n + o.n,
         }
     }
 }

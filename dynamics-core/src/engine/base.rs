@@ -22,10 +22,10 @@ where
     };
 }
 
-/// The motion of the base: a = −g plus its own acceleration, in units of length. If it is at rest, all other values are
+/// The base without its acceleration: a = −g, its velocity if it moves, and its pose, in units of length; all other values are
 /// known zeros.
 #[inline(always)]
-pub(crate) fn base<R: Real, E, const B: usize, const V: usize>(
+pub(crate) fn unaccelerated<R: Real, E, const B: usize, const V: usize>(
     effects: &E,
     length: f64,
 ) -> AccelerationField<R>
@@ -56,19 +56,37 @@ where
         field.pose = Pose::BASE;
     }
     if E::BASE_MOTION {
+        let (mut velocity, mut acceleration) = (Motion::ZERO, Motion::ZERO);
+        effects.base(&mut velocity, &mut acceleration);
+        field.omega = Vec3::runtime(velocity.ang);
+        field.v = Vec3::runtime(velocity.lin).scale(Folded::constant(1.0 / length));
+    }
+    field
+}
+
+/// The motion of the base: a = −g plus its own acceleration, in units of length. If it is at rest, all other values are
+/// known zeros.
+#[inline(always)]
+pub(crate) fn base<R: Real, E, const B: usize, const V: usize>(
+    effects: &E,
+    length: f64,
+) -> AccelerationField<R>
+where
+    E: Effect<R, B, V>,
+{
+    let mut field = unaccelerated::<R, E, B, V>(effects, length);
+    if E::BASE_MOTION {
         let (mut v, mut a) = (Motion::ZERO, Motion::ZERO);
         effects.base(&mut v, &mut a);
-        let length_inv = Folded::constant(1.0 / length);
-        let (omega, alpha) = (Vec3::runtime(v.ang), Vec3::runtime(a.ang));
-        let [ax, ay, az] = alpha.0;
-        let (zero, velocity) = (Folded::ZERO, Vec3::runtime(v.lin).scale(length_inv));
+        let (omega, velocity, alpha) = (field.omega, field.v, Vec3::runtime(a.ang));
+        let ([ax, ay, az], zero) = (alpha.0, Folded::ZERO);
         field.alpha = alpha;
         field.u = Mat3([
             Vec3([zero, az, -ay]),
             Vec3([-az, zero, ax]),
             Vec3([ay, -ax, zero]),
         ]);
-        field.a = field.a + Vec3::runtime(a.lin).scale(length_inv);
+        field.a = field.a + Vec3::runtime(a.lin).scale(Folded::constant(1.0 / length));
         if E::VELOCITY_PRODUCTS {
             field.omega_products = omega;
             // [ω]×[ω]× r = ω × (ω × r), and the origin's own ω × v.
@@ -82,8 +100,8 @@ where
                 ]);
             field.a = field.a + omega.cross(velocity);
         }
-        if E::BODY_VELOCITY {
-            (field.omega, field.v) = (omega, velocity);
+        if !E::BODY_VELOCITY {
+            (field.omega, field.v) = (Vec3::ZERO, Vec3::ZERO);
         }
     }
     field

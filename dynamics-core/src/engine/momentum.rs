@@ -1,23 +1,24 @@
-//! p = M q̇ and Cᵀ q̇ by one recursion over the bodies: velocities on entering a joint, momenta on returning.
+//! p = M q̇ with Cᵀ q̇ or with β = Cᵀ q̇ − g − F, by one recursion over the bodies: velocities on entering a joint, momenta and
+//! weights on returning.
 //!
 //! De Luca & Mattone (2003), over base parameters: they give the same kinetic energy for all q and q̇, hence the same
-//! p = ∂T/∂q̇ and Cᵀ q̇ = ∂T/∂q. Masses are known zeros behind revolute joints.
+//! p = ∂T/∂q̇ and Cᵀ q̇ = ∂T/∂q. Masses are known zeros behind revolute joints. The U of the field is zero: g and the wrenches of
+//! the environment come without products of velocities.
 
 use core::borrow::Borrow;
+use core::hint::black_box;
 use core::marker::PhantomData;
 
-use super::acceleration_field::{Inertia, Wrench, along_z, enter};
-use super::base::no_gyroscopic_rotors;
-use super::compile::{CompiledRobot, Joint};
-use super::folding::Folded;
-use super::folding::{Mat3, Vec3};
-use super::rnea::{inertia, is_on_base, is_parent};
+use super::acceleration_field::{AccelerationField, Inertia, JointRates, Wrench};
+use super::base::{no_gyroscopic_rotors, unaccelerated};
+use super::compile::CompiledRobot;
+use super::folding::{Folded, Vec3};
+use super::rnea::{environment, inertia, is_on_base, is_parent};
 use super::{Engine, Specialised};
-use crate::algorithms::MomentumAndCoriolis;
-use crate::effects::Effect;
+use crate::algorithms::{MomentumAndCoriolis, MomentumAndDrift};
+use crate::effects::{Effect, JointState};
 use crate::model::{JointCoordinate, Robot};
 use crate::scalar::Real;
-use crate::spatial::Motion;
 use crate::state::{Configuration, RobotState, State};
 use crate::trig::Kernel;
 
@@ -55,27 +56,90 @@ impl<T, K> Engine<T, K> {
         S: RobotState<R, Q, V>,
         E: Effect<R, B, V>,
     {
+        let MomentumAndDrift { p, beta } = Self::momenta::<R, S, E, B, Q, V, false>(state, effects);
+        MomentumAndCoriolis { p, ct_qd: beta }
+    }
+
+    /// The generalised momentum p = M q̇ and its drift β = Cᵀ q̇ − g − F, N·m·s and N·m, as
+    /// [`crate::algorithms::momentum_and_drift`] computes them.
+    ///
+    /// Angles as in [`Engine::rnea`].
+    ///
+    /// # Cost
+    /// `docs/costs.md` in the repository, with the rest of an observer's tick, as `residual`; the same instructions for all data.
+    ///
+    /// # Source
+    /// De Luca & Mattone (2003); Haddadin, De Luca & Albu-Schäffer (2017), section V.
+    ///
+    /// # Example
+    /// ```
+    /// use dynamics_core::effects::{RIGID_BODY, Viscous};
+    /// use dynamics_core::{Core, Engine, robots::Ur5e, state::State};
+    /// let state = State { qd: [0.5, -1.0, 2.0, 0.3, 0.0, 1.0], ..State::at([0.3_f64; 6]) };
+    /// let scene = (RIGID_BODY, Viscous([8.0; 6]));
+    /// let (a, b) = (
+    ///     Core::<Ur5e>::momentum_and_drift(&state, &scene),
+    ///     Engine::<Ur5e>::momentum_and_drift(&state, &scene),
+    /// );
+    /// assert!((0..6).all(|i| (a.p[i] - b.p[i]).abs() < 1e-14 && (a.beta[i] - b.beta[i]).abs() < 1e-12));
+    /// ```
+    #[doc(alias = "momentum observer")]
+    #[inline(never)]
+    pub fn momentum_and_drift<R: Real, S, E, const B: usize, const Q: usize, const V: usize>(
+        state: S,
+        effects: &E,
+    ) -> MomentumAndDrift<R, V>
+    where
+        T: Robot<B, Q, V>,
+        K: Kernel<R>,
+        S: RobotState<R, Q, V>,
+        E: Effect<R, B, V>,
+    {
+        Self::momenta::<R, S, E, B, Q, V, true>(state, effects)
+    }
+
+    /// p and β, or p and Cᵀ q̇ if there is no DRIFT.
+    #[inline(always)]
+    fn momenta<R: Real, S, E, const B: usize, const Q: usize, const V: usize, const DRIFT: bool>(
+        state: S,
+        effects: &E,
+    ) -> MomentumAndDrift<R, V>
+    where
+        T: Robot<B, Q, V>,
+        K: Kernel<R>,
+        S: RobotState<R, Q, V>,
+        E: Effect<R, B, V>,
+    {
         let trig = state
             .configuration()
             .trig_or(Specialised::<T, K, B, V>(PhantomData));
+        let trig = trig.borrow();
         no_gyroscopic_rotors::<R, E, B, V>();
-        let mut result = MomentumAndCoriolis {
+        let mut result = MomentumAndDrift {
             p: [R::ZERO; V],
-            ct_qd: [R::ZERO; V],
+            beta: [R::ZERO; V],
         };
-        let base = Velocity::of_base::<E, B, V>(
-            effects,
-            const { CompiledRobot::<T, B, Q, V>::TREE.length },
-        );
+        // As in `rnea`.
+        let back = if const { S::Configuration::PRECOMPUTED } {
+            black_box(trig)
+        } else {
+            trig
+        };
+        let length = const { CompiledRobot::<T, B, Q, V>::TREE.length };
+        let mut base = unaccelerated::<R, E, B, V>(effects, length);
+        if !DRIFT {
+            base.a = Vec3::ZERO;
+        }
         let mut task = Task {
-            turns: &trig.borrow().coordinates,
+            turns: &trig.coordinates,
+            back: &back.coordinates,
             state: state.state(),
             effects,
             result: &mut result,
         };
         for_each_joint!(J, {
             if const { is_on_base::<T, B, Q, V>(J) } {
-                visit::<R, T, E, B, Q, V, J>(&mut task, base);
+                visit::<R, T, E, B, Q, V, DRIFT, J>(&mut task, &base);
             }
         });
         result
@@ -85,17 +149,35 @@ impl<T, K> Engine<T, K> {
 /// The data that all bodies share.
 struct Task<'a, R: Real, E, const Q: usize, const V: usize> {
     turns: &'a [JointCoordinate<R>; Q],
+    /// The same, loaded again on returning.
+    back: &'a [JointCoordinate<R>; Q],
     state: &'a State<R, Q, V>,
     effects: &'a E,
-    result: &'a mut MomentumAndCoriolis<R, V>,
+    result: &'a mut MomentumAndDrift<R, V>,
 }
 
-/// Visits joint I and its descendants; returns their momentum about the origin of the parent, in its frame.
+/// The momentum of a body and its descendants, and the wrench that carries their weight less those of the environment.
+#[derive(Clone, Copy)]
+struct Carried<R> {
+    h: Wrench<R>,
+    load: Wrench<R>,
+}
+
+/// Visits joint I and its descendants; returns what they carry about the origin of the parent, in its frame.
 #[inline(always)]
-fn visit<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
+fn visit<
+    R,
+    T,
+    E,
+    const B: usize,
+    const Q: usize,
+    const V: usize,
+    const DRIFT: bool,
+    const I: usize,
+>(
     task: &mut Task<'_, R, E, Q, V>,
-    parent: Velocity<R>,
-) -> Wrench<R>
+    parent: &AccelerationField<R>,
+) -> Carried<R>
 where
     R: Real,
     T: Robot<B, Q, V>,
@@ -103,104 +185,97 @@ where
 {
     let joint = const { &CompiledRobot::<T, B, Q, V>::joint(I) };
     let length_inv = Folded::constant(const { 1.0 / CompiledRobot::<T, B, Q, V>::TREE.length });
-    let (turn, qd) = (task.turns[I], task.state.qd[I]);
+    let (turn, at) = (
+        task.turns[I],
+        JointState::new(task.state.q[I], task.state.qd[I]),
+    );
     let slide = Folded::runtime(turn.q) * length_inv;
-    let velocity = parent.across(joint, turn, slide, Folded::runtime(qd), length_inv);
-    let mut h = velocity.momentum(&inertia::<R, T, E, B, Q, V, I>(
-        task.effects,
-        E::BASE_MOTION,
-    ));
+    let mut rates = JointRates {
+        velocity: Folded::runtime(at.qd),
+        omega_products: Folded::ZERO,
+        accel: Folded::ZERO,
+    };
+    let mut body = if joint.prismatic {
+        rates.velocity = rates.velocity * length_inv;
+        parent.across_prismatic(joint, slide, rates)
+    } else {
+        parent.across_revolute(joint, turn, rates)
+    };
+    if DRIFT && E::BODY_POSE {
+        body.pose = parent.pose.transformed_by(joint, turn, slide);
+    }
+
+    let mut inner = Carried {
+        h: Wrench::ZERO,
+        load: Wrench::ZERO,
+    };
     for_each_joint!(J, {
         if const { is_parent::<T, B, Q, V>(I, J) } {
-            let child = visit::<R, T, E, B, Q, V, J>(task, velocity);
-            h = Wrench {
-                f: h.f + child.f,
-                n: h.n + child.n,
+            let child = visit::<R, T, E, B, Q, V, DRIFT, J>(task, &body);
+            inner = Carried {
+                h: inner.h + child.h,
+                load: inner.load + child.load,
             };
         }
     });
+
+    // After the children: until then the velocity takes fewer registers than the momentum beside it.
+    let own = inertia::<R, T, E, B, Q, V, I>(task.effects, E::BASE_MOTION);
+    let h = momentum(&body, &own) + inner.h;
     let mut p = h.along(joint.prismatic, length_inv).get();
     if let Some(armature) = task.effects.inertia(I) {
-        p += armature * qd;
+        p += armature * at.qd;
     }
     task.result.p[I] = p;
-    task.result.ct_qd[I] = velocity.rate(h, joint.prismatic, length_inv).get();
-    h.to_parent::<T, B, Q, V, I>(turn, slide)
+    let mut beta = rate(&body, h, joint.prismatic, length_inv).get();
+    let mut load = Wrench::ZERO;
+    if DRIFT {
+        load = body.wrench(&own);
+        if E::WRENCH {
+            load = environment::<R, T, E, B, Q, V, I>(task.effects, &body, load);
+        }
+        load = load + inner.load;
+        let mut held = load.along(joint.prismatic, length_inv).get();
+        task.effects.torque(I, at, &mut held);
+        beta -= held;
+    }
+    task.result.beta[I] = beta;
+    let turn = task.back[I];
+    Carried {
+        h: h.to_parent::<T, B, Q, V, I>(turn, slide),
+        load: load.to_parent::<T, B, Q, V, I>(turn, slide),
+    }
 }
 
-/// The velocity of a body's frame, in that frame; v in units of length.
-#[derive(Clone, Copy)]
-struct Velocity<R> {
-    omega: Vec3<R>,
-    v: Vec3<R>,
+/// The momentum I v of a body: m v + ω × h, and h × v + tr(Σ) ω − Σ ω.
+#[inline(always)]
+fn momentum<R: Real>(body: &AccelerationField<R>, inertia: &Inertia<R>) -> Wrench<R> {
+    let (s, [wx, wy, wz]) = (&inertia.second, body.omega.0);
+    let (xy, xz, yz) = (s.xx + s.yy, s.xx + s.zz, s.yy + s.zz);
+    let spin = Vec3([
+        yz * wx - s.xy * wy - s.xz * wz,
+        xz * wy - s.xy * wx - s.yz * wz,
+        xy * wz - s.xz * wx - s.yz * wy,
+    ]);
+    Wrench {
+        f: body.v.scale(inertia.mass) + body.omega.cross(inertia.moment),
+        n: inertia.moment.cross(body.v) + spin,
+    }
 }
 
-impl<R: Real> Velocity<R> {
-    /// The velocity of the base: known zeros if it is at rest.
-    #[inline(always)]
-    fn of_base<E, const B: usize, const V: usize>(effects: &E, length: f64) -> Self
-    where
-        E: Effect<R, B, V>,
-    {
-        let (mut omega, mut v) = (Vec3::ZERO, Vec3::ZERO);
-        if E::BASE_MOTION {
-            let (mut velocity, mut acceleration) = (Motion::ZERO, Motion::ZERO);
-            effects.base(&mut velocity, &mut acceleration);
-            omega = Vec3::runtime(velocity.ang);
-            v = Vec3::runtime(velocity.lin).scale(Folded::constant(1.0 / length));
-        }
-        Self { omega, v }
-    }
-
-    /// The velocity of a child behind `joint`.
-    #[inline(always)]
-    fn across(
-        &self,
-        joint: &Joint,
-        turn: JointCoordinate<R>,
-        slide: Folded<R>,
-        qd: Folded<R>,
-        length_inv: Folded<R>,
-    ) -> Self {
-        let (rot, mut p) = (Mat3::constant(&joint.rot), Vec3::constant(joint.pos));
-        if joint.prismatic {
-            p = p + rot.0[2].scale(slide);
-            return Self {
-                omega: rot.transpose_mul(self.omega),
-                v: rot.transpose_mul(self.v + self.omega.cross(p)) + along_z(qd * length_inv),
-            };
-        }
-        Self {
-            omega: enter(&rot, turn, self.omega) + along_z(qd),
-            v: enter(&rot, turn, self.v + self.omega.cross(p)),
-        }
-    }
-
-    /// The momentum I v: m v + ω × h, and h × v + tr(Σ) ω − Σ ω.
-    #[inline(always)]
-    fn momentum(&self, body: &Inertia<R>) -> Wrench<R> {
-        let (s, [wx, wy, wz]) = (&body.second, self.omega.0);
-        let (xy, xz, yz) = (s.xx + s.yy, s.xx + s.zz, s.yy + s.zz);
-        let spin = Vec3([
-            yz * wx - s.xy * wy - s.xz * wz,
-            xz * wy - s.xy * wx - s.yz * wz,
-            xy * wz - s.xz * wx - s.yz * wy,
-        ]);
-        Wrench {
-            f: self.v.scale(body.mass) + self.omega.cross(body.moment),
-            n: body.moment.cross(self.v) + spin,
-        }
-    }
-
-    /// The entry of Cᵀ q̇ of a joint along z: (v × S)ᵀ h.
-    #[inline(always)]
-    fn rate(&self, h: Wrench<R>, prismatic: bool, length_inv: Folded<R>) -> Folded<R> {
-        let ([wx, wy, _], [vx, vy, _]) = (self.omega.0, self.v.0);
-        let ([fx, fy, _], [nx, ny, _]) = (h.f.0, h.n.0);
-        if prismatic {
-            (wy * fx - wx * fy) * length_inv
-        } else {
-            wy * nx - wx * ny + (vy * fx - vx * fy)
-        }
+/// The entry of Cᵀ q̇ of a joint along z: (v × S)ᵀ h.
+#[inline(always)]
+fn rate<R: Real>(
+    body: &AccelerationField<R>,
+    h: Wrench<R>,
+    prismatic: bool,
+    length_inv: Folded<R>,
+) -> Folded<R> {
+    let ([wx, wy, _], [vx, vy, _]) = (body.omega.0, body.v.0);
+    let ([fx, fy, _], [nx, ny, _]) = (h.f.0, h.n.0);
+    if prismatic {
+        (wy * fx - wx * fy) * length_inv
+    } else {
+        wy * nx - wx * ny + (vy * fx - vx * fy)
     }
 }

@@ -216,7 +216,7 @@ where
 
 /// Subtracts the wrenches fˣ of the bodies on joint I.
 #[inline(always)]
-fn environment<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
+pub(crate) fn environment<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     effects: &E,
     field: &AccelerationField<R>,
     mut total: Wrench<R>,

@@ -1,7 +1,7 @@
 //! What runs on the arm: a tick in five regions of the meter, and the arm behind it.
 
 use dynamics_core::Engine;
-use dynamics_core::algorithms::{MomentumAndCoriolis, NotPositiveDefinite};
+use dynamics_core::algorithms::NotPositiveDefinite;
 use dynamics_core::control::{
     Command, ConfigError, ContactDetector, ContactPhase, ContactReaction, ContactReactionConfig,
     ContactResponse, DetectedContact, Estimate, Fault, Gains, MotionController,
@@ -210,12 +210,13 @@ fn detect(
     let state = State { q, qd, qdd };
     let trig = Engine::<Ur5e>::joint_trig(&q);
     let at = trig.with(&state);
-    let (.., rotors) = RIGID;
-    let MomentumAndCoriolis { p, ct_qd } = Engine::<Ur5e>::momentum_and_coriolis(at, &rotors);
-    let weight = Engine::<Ur5e>::rnea(at, &Gravity::EARTH);
+    // Without friction, whose torques the errors need by themselves.
+    let mut model = Engine::<Ur5e>::momentum_and_drift(at, &RIGID);
     let resistance = Engine::<Ur5e>::rnea(at, &FRICTION);
     let bodies = Engine::<Ur5e>::rnea(at, &RIGID);
-    let beta = core::array::from_fn(|i| ct_qd[i] - weight[i] - resistance[i]);
+    for (beta, resistance) in model.beta.iter_mut().zip(resistance) {
+        *beta -= resistance;
+    }
     let (_, Coulomb { torque, width }) = FRICTION;
     let errors = core::array::from_fn(|i| {
         let sliding = smooth_sign(qd[i] / (STUCK * width.get())).abs();
@@ -223,7 +224,7 @@ fn detect(
         let stuck = if sticks { stuck } else { 0.0 };
         STATED[0] * bodies[i].abs() + STATED[1] * resistance[i].abs() + stuck
     });
-    detector.update(&p, &beta, &errors)
+    detector.update(&model.p, &model.beta, &errors)
 }
 
 /// The arm with its firmware.

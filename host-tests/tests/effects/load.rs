@@ -270,4 +270,8 @@ fn a_gear_that_its_load_cannot_drive_has_no_forward_dynamics() {
     let got = algorithms::aba(&HOIST, &down, &[5.0], &scene);
     assert!(got.is_ok_and(|qdd| !qdd[0].is_finite()));
     assert!(rnea(&HOIST, &down, &scene)[0].is_finite());
+    // While the motor drives it down, it has.
+    let qdd = algorithms::aba(&HOIST, &down, &[-50.0], &scene).expect("a mass");
+    let [tau] = rnea(&HOIST, &State { qdd, ..down }, &scene);
+    assert!((tau + 50.0).abs() < 1e-12, "{tau}");
 }

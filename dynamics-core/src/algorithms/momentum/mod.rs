@@ -6,10 +6,12 @@
 mod base_velocity;
 mod centroidal;
 mod coriolis;
+mod drift;
 
 pub use base_velocity::base_velocity_from_momentum;
 pub use centroidal::{centroidal_matrix, centroidal_momentum};
 pub use coriolis::{MomentumAndCoriolis, momentum_and_coriolis};
+pub use drift::{MomentumAndDrift, momentum_and_drift};
 
 use core::borrow::Borrow;
 

@@ -17,7 +17,7 @@ use crate::state::entry;
 ///
 /// The transmitted torque is that of all other effects at the joint, other friction and [`Armature`](crate::effects::Armature)
 /// included. In inverse dynamics the friction is added last, in forward dynamics it is solved for in closed form, which
-/// needs `backdriving` < 1: results are not finite for a gear that its load cannot drive. At rest the smooth sign is zero.
+/// needs `backdriving` < 1: results are not finite where the load drives a gear that it cannot turn. At rest the smooth sign is zero.
 /// Robots with loops, clusters or elastic joints, whose motors do not supply the tree's torques, do not compile with it.
 ///
 /// Cost: some 14 flops a joint; in forward dynamics a division more.

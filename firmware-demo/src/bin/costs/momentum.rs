@@ -1,8 +1,10 @@
 //! p and Cᵀ q̇, and what an observer of external torques costs with them.
 
-use dynamics_core::algorithms::{MomentumAndCoriolis, frame};
+use dynamics_core::algorithms::{MomentumAndCoriolis, MomentumAndDrift, frame};
 use dynamics_core::control::{Fault, MomentumObserver, ObserverConfig, TipWrench, TipWrenchConfig};
-use dynamics_core::effects::{Coulomb, Gravity, LoadFriction, RIGID_BODY, Viscous, Width};
+use dynamics_core::effects::{
+    Coriolis, Coulomb, Gravity, Inertia, LoadFriction, RIGID_BODY, Viscous, Width,
+};
 use dynamics_core::model::Robot;
 use dynamics_core::spatial::{Force, Motion};
 use dynamics_core::state::{State, StateWithTrig};
@@ -14,8 +16,12 @@ use super::{Ask, STATES, inverse};
 type Inside<'a, const N: usize> = fn(&'a State<f32, N, N>, &()) -> MomentumAndCoriolis<f32, N>;
 type Precomputed<'a, const N: usize> =
     fn(StateWithTrig<'a, f32, N, N>, &()) -> MomentumAndCoriolis<f32, N>;
-/// The torques that need no acceleration, and the friction that does not depend on the load.
-type AtRest<const N: usize> = (Gravity, (Viscous<f32, N>, Coulomb<f32, N>));
+/// Inverse dynamics and the observer have the same scene.
+type Scene<const N: usize> = (
+    (Gravity, Inertia, Coriolis),
+    (Viscous<f32, N>, Coulomb<f32, N>),
+    LoadFriction<f32, N>,
+);
 
 /// Measures core and engine.
 pub fn both<T: Robot<B, N, N>, const B: usize, const N: usize>(asks: &[Ask<N>; STATES]) {
@@ -64,7 +70,7 @@ fn observer<T: Robot<B, N, N>, const B: usize, const N: usize>(asks: &[Ask<N>; S
     let Ok(mut observer) = MomentumObserver::try_new(config) else {
         return;
     };
-    let (scene, run) = (&((Gravity::EARTH, friction), gears), residual::<T, B, N>);
+    let run = residual::<T, B, N>;
     row("residual", "friction", true).measure(run as *const () as usize, asks, |ask| {
         run(&mut observer, &ask.state, scene)
     });
@@ -102,14 +108,10 @@ fn tip_wrench<const N: usize>(
 fn residual<T: Robot<B, N, N>, const B: usize, const N: usize>(
     observer: &mut MomentumObserver<f32, N>,
     state: &State<f32, N, N>,
-    (at_rest, gears): &(AtRest<N>, LoadFriction<f32, N>),
+    scene: &Scene<N>,
 ) -> bool {
-    let trig = Engine::<T>::joint_trig(&state.q);
-    let at = trig.with(state);
-    let MomentumAndCoriolis { p, ct_qd } = Engine::<T>::momentum_and_coriolis(at, &());
-    let load = Engine::<T>::rnea(at, at_rest);
-    let beta = core::array::from_fn(|i| ct_qd[i] - load[i]);
+    let MomentumAndDrift { p, beta } = Engine::<T>::momentum_and_drift(state, scene);
     let fault = observer.update(&p, &beta);
-    observer.drive(&Engine::<T>::transmitted_torque(state, &state.qdd, gears));
+    observer.drive(&Engine::<T>::transmitted_torque(state, &state.qdd, scene));
     fault.is_err()
 }

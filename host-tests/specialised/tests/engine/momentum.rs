@@ -1,7 +1,8 @@
-//! p = M q̇ and Cᵀ q̇ of the engine are those of the core.
+//! p = M q̇, Cᵀ q̇ and β = Cᵀ q̇ − g − F of the engine are those of the core.
 
-use dynamics_core::algorithms::MomentumAndCoriolis;
-use dynamics_core::effects::{Armature, Effect, Gravity, Inertia, MovingBase};
+use dynamics_core::effects::{
+    Armature, Coulomb, Effect, Gravity, Inertia, LoadFriction, MovingBase, Viscous, Width,
+};
 use dynamics_core::model::Robot;
 use dynamics_core::robots::Ur5e;
 use dynamics_core::scalar::{Real, Vector};
@@ -12,13 +13,13 @@ use host_tests::stress_robot::StressRobot;
 use proptest::prelude::RngExt;
 use proptest::test_runner::{RngAlgorithm, TestRng};
 
-use super::{ULPS, Ulps, payload};
+use super::{Aslant, Drag, Push, ULPS, Ulps, payload};
 
-/// The worst differences of both quantities over random states, in ulps of full scale; `spoil` changes the engine's.
+/// The worst differences of the quantities over random states, in ulps of full scale; `spoil` changes the engine's Cᵀ q̇ and β.
 fn compare<R: Real, T, E, const B: usize, const N: usize>(
     scene: &E,
-    spoil: impl Fn(&mut MomentumAndCoriolis<R, N>),
-) -> [f64; 2]
+    spoil: impl Fn(&mut [R; N]),
+) -> [f64; 3]
 where
     T: Robot<B, N, N>,
     E: Effect<R, B, N>,
@@ -27,7 +28,7 @@ where
     let mut random = |bound: f64| -> [R; N] {
         core::array::from_fn(|_| R::from_f64(rng.random_range(-bound..bound)))
     };
-    let mut worst = <[Ulps; 2]>::default();
+    let mut worst = <[Ulps; 3]>::default();
     for _ in 0..2_000 {
         let qd = random(3.0);
         let state = State {
@@ -36,12 +37,21 @@ where
         };
         let core = Core::<T>::momentum_and_coriolis(&state, scene);
         let mut engine = Engine::<T>::momentum_and_coriolis(&state, scene);
-        spoil(&mut engine);
+        spoil(&mut engine.ct_qd);
         worst[0].see(core.p, engine.p);
         worst[1].see(core.ct_qd, engine.ct_qd);
+        let core = Core::<T>::momentum_and_drift(&state, scene);
+        let mut drift = Engine::<T>::momentum_and_drift(&state, scene);
+        assert_eq!(drift.p, engine.p);
+        spoil(&mut drift.beta);
+        worst[2].see(core.beta, drift.beta);
     }
-    let [p, ct_qd] = worst;
-    [p.of::<R>("M qd"), ct_qd.of::<R>("C^T qd")]
+    let [p, ct_qd, beta] = worst;
+    [
+        p.of::<R>("M qd"),
+        ct_qd.of::<R>("C^T qd"),
+        beta.of::<R>("drift"),
+    ]
 }
 
 fn agree<R: Real, T, E, const B: usize, const N: usize>(scene: &E)
@@ -53,7 +63,7 @@ where
     assert!(ulps.iter().all(|&ulps| ulps <= ULPS), "{ulps:?} ulp");
 }
 
-/// An odd tree with prismatic joints, branches and welds, with rotors and a load, on a base that moves.
+/// An odd tree with prismatic joints, branches and welds, with rotors and a load, pushed and with friction, on a base that moves.
 fn odd_tree<R: Real>() {
     let vec3 = |[x, y, z]: [f64; 3]| R::Vec3::new(R::from_f64(x), R::from_f64(y), R::from_f64(z));
     let ship = MovingBase {
@@ -64,6 +74,22 @@ fn odd_tree<R: Real>() {
     let load = payload::<R, 10>();
     agree::<R, StressRobot, _, 11, 7>(&(Gravity::EARTH, Inertia, rotors, load));
     agree::<R, StressRobot, _, 11, 7>(&(ship, rotors, load));
+    let width = Width::new(R::from_f64(0.5));
+    let friction = (
+        Viscous([0.7, 0.3, 0.9, 0.2, 0.4, 0.1, 0.6].map(R::from_f64)),
+        Coulomb {
+            torque: [0.5, 0.2, 0.8, 0.1, 0.3, 0.4, 0.7].map(R::from_f64),
+            width,
+        },
+        LoadFriction {
+            driving: [R::from_f64(0.2); 7],
+            backdriving: [R::from_f64(0.1); 7],
+            width,
+        },
+    );
+    let aslant = Gravity::<Aslant>::new(9.81);
+    agree::<R, StressRobot, _, 11, 7>(&(aslant, rotors, load, friction, Push, Drag));
+    agree::<R, StressRobot, _, 11, 7>(&(aslant, ship, load, friction, Push, Drag));
 }
 
 #[test]
@@ -82,7 +108,11 @@ fn momenta_and_coriolis_products_of_engine_and_core_are_equal_in_f64() {
 
 #[test]
 fn a_product_that_is_off_by_ten_ulps_is_found() {
-    let [_, whole] = compare::<f32, Ur5e, _, 6, 6>(&(), |_| ());
-    let [p, ct_qd] = compare::<f32, Ur5e, _, 6, 6>(&(), |found| found.ct_qd[1] *= 1.000_01);
-    assert!(p <= ULPS && whole <= ULPS && ct_qd > ULPS, "{p} {ct_qd}");
+    let whole = compare::<f32, Ur5e, _, 6, 6>(&(), |_| ());
+    assert!(whole.iter().all(|&ulps| ulps <= ULPS), "{whole:?}");
+    let [p, ct_qd, beta] = compare::<f32, Ur5e, _, 6, 6>(&(), |found| found[1] *= 1.000_01);
+    assert!(
+        p <= ULPS && ct_qd > ULPS && beta > ULPS,
+        "{p} {ct_qd} {beta}"
+    );
 }

@@ -7,6 +7,7 @@
 //! threshold = margin + filtered e
 //! ```
 
+use super::momentum_observer::follow;
 use super::{ConfigError, ConfigParameter, Fault, MomentumObserver, ObserverConfig};
 use crate::scalar::Real;
 use crate::state::entry;
@@ -72,6 +73,16 @@ impl<R: Real, const V: usize, const ORDER: usize> ContactDetector<R, V, ORDER> {
     /// N·m or N, such as 3 % of the torques of the rigid bodies, those of their accelerations included, and 10 % of those of
     /// friction.
     ///
+    /// ```
+    /// use dynamics_core::control::{ContactDetector, Fault, ObserverConfig};
+    /// let config = ObserverConfig { bandwidth: 50.0, tick: 1e-3 };
+    /// let mut detector: ContactDetector<f32, 2> = ContactDetector::try_new(config, [0.5; 2])?;
+    /// assert_eq!(detector.update(&[0.0; 2], &[-10.0, 2.0], &[0.3, 0.1]), Ok(None));
+    /// let lost = detector.update(&[0.0; 2], &[-10.0, f32::NAN], &[0.3, 0.1]);
+    /// assert_eq!(lost, Err(Fault::NotFinite { joint: 1 }));
+    /// # Ok::<(), dynamics_core::control::ConfigError>(())
+    /// ```
+    ///
     /// # Errors
     /// [`Fault::NotFinite`] names the first joint with a number that is not finite; the measurement then counts as lost.
     #[inline]
@@ -89,13 +100,7 @@ impl<R: Real, const V: usize, const ORDER: usize> ContactDetector<R, V, ORDER> {
         if let Some(share) = share {
             for i in 0..V {
                 let mean = entry(errors, i).abs() + entry(&self.errors, i).abs();
-                let mut input = R::from_f64(0.5) * mean;
-                for bound in &mut self.bounds {
-                    if let Some(bound) = bound.get_mut(i) {
-                        *bound += share * (input - *bound);
-                        input = *bound;
-                    }
-                }
+                follow(&mut self.bounds, i, share, R::from_f64(0.5) * mean);
             }
         }
         self.errors = *errors;
@@ -106,7 +111,19 @@ impl<R: Real, const V: usize, const ORDER: usize> ContactDetector<R, V, ORDER> {
         }))
     }
 
-    /// The torques of the drives until the next tick, as [`MomentumObserver::drive`].
+    /// The torques of the drives until the next tick, N·m or N, as [`MomentumObserver::drive`].
+    ///
+    /// ```
+    /// use dynamics_core::control::{ContactDetector, ObserverConfig};
+    /// let config = ObserverConfig { bandwidth: 50.0, tick: 1e-3 };
+    /// let mut detector: ContactDetector<f32, 1> = ContactDetector::try_new(config, [0.5])?;
+    /// for _ in 0..200 {
+    ///     detector.update(&[0.0], &[-10.0], &[0.3])?;
+    ///     detector.drive(&[9.8]); // 0.2 N·m less than gravity, and the arm stands still
+    /// }
+    /// assert!((detector.external_torque()[0] - 0.2).abs() < 1e-3);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[inline]
     pub fn drive(&mut self, tau: &[R; V]) {
         self.observer.drive(tau);
@@ -117,7 +134,20 @@ impl<R: Real, const V: usize, const ORDER: usize> ContactDetector<R, V, ORDER> {
         self.observer.external_torque()
     }
 
-    /// The thresholds of the joints, N·m or N.
+    /// The thresholds of the joints, N·m or N: the margin and the filtered bound of the model's error.
+    ///
+    /// ```
+    /// use dynamics_core::control::{ContactDetector, ObserverConfig};
+    /// let config = ObserverConfig { bandwidth: 50.0, tick: 1e-3 };
+    /// let mut detector: ContactDetector<f32, 1> = ContactDetector::try_new(config, [0.5])?;
+    /// assert_eq!(detector.threshold(), [0.5]);
+    /// for _ in 0..200 {
+    ///     detector.update(&[0.0], &[-10.0], &[0.3])?;
+    ///     detector.drive(&[10.0]);
+    /// }
+    /// assert!((detector.threshold()[0] - 0.8).abs() < 1e-3);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[inline]
     pub fn threshold(&self) -> [R; V] {
         let [.., bound] = self.bounds.as_slice() else {
@@ -127,6 +157,19 @@ impl<R: Real, const V: usize, const ORDER: usize> ContactDetector<R, V, ORDER> {
     }
 
     /// Forgets what was measured, as [`MomentumObserver::restart`].
+    ///
+    /// ```
+    /// # use dynamics_core::control::{ContactDetector, ObserverConfig};
+    /// # let config = ObserverConfig { bandwidth: 50.0, tick: 1e-3 };
+    /// let mut detector: ContactDetector<f32, 1> = ContactDetector::try_new(config, [0.5])?;
+    /// for _ in 0..2 {
+    ///     detector.update(&[0.0], &[-10.0], &[0.3])?;
+    ///     detector.drive(&[4.0]);
+    /// }
+    /// detector.restart();
+    /// assert_eq!((detector.external_torque(), detector.threshold()), (&[0.0], [0.5]));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn restart(&mut self) {
         self.observer.restart();
         self.bounds = [[R::ZERO; V]; ORDER];

@@ -107,13 +107,7 @@ impl<R: Real, const V: usize, const ORDER: usize> MomentumObserver<R, V, ORDER> 
             for i in 0..V {
                 let model = half * (entry(beta, i) + entry(&self.beta, i));
                 let change = entry(p, i) - entry(&self.driven, i);
-                let mut input = change * rate - model;
-                for residual in &mut self.residuals {
-                    if let Some(r) = residual.get_mut(i) {
-                        *r += share * (input - *r);
-                        input = *r;
-                    }
-                }
+                follow(&mut self.residuals, i, share, change * rate - model);
             }
         }
         (self.driven, self.beta, self.started) = (*p, *beta, true);
@@ -143,6 +137,19 @@ impl<R: Real, const V: usize, const ORDER: usize> MomentumObserver<R, V, ORDER> 
 
     /// The torques of the drives from this tick to the next, N·m or N: to be called once in each tick, also in one whose
     /// measurement is lost or rejected. The next measurement then gives the mean over all ticks since the last one.
+    ///
+    /// ```
+    /// use dynamics_core::control::{MomentumObserver, ObserverConfig};
+    /// let config = ObserverConfig { bandwidth: 50.0, tick: 1e-3 };
+    /// let mut observer: MomentumObserver<f64, 1> = MomentumObserver::try_new(config)?;
+    /// observer.update(&[0.0], &[0.0])?;
+    /// for _ in 0..3 {
+    ///     observer.drive(&[2.0]); // two measurements are lost
+    /// }
+    /// observer.update(&[0.0], &[0.0])?; // the arm stands still: something takes 2 N·m
+    /// assert!((observer.external_torque()[0] + 2.0 * (1.0 - (-0.15_f64).exp())).abs() < 1e-6);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     ///
     /// A torque that is not finite counts as none. With load-dependent friction it is the part that the gears
     /// [transmit](crate::algorithms::transmitted_torque()).
@@ -184,10 +191,39 @@ impl<R: Real, const V: usize, const ORDER: usize> MomentumObserver<R, V, ORDER> 
     }
 
     /// Forgets the momentum and the external torques: after a stop, or at another load.
+    ///
+    /// ```
+    /// # use dynamics_core::control::{MomentumObserver, ObserverConfig};
+    /// # let config = ObserverConfig { bandwidth: 50.0, tick: 1e-3 };
+    /// let mut observer: MomentumObserver<f64, 1> = MomentumObserver::try_new(config)?;
+    /// observer.update(&[0.0], &[0.0])?;
+    /// observer.drive(&[2.0]);
+    /// observer.update(&[0.0], &[0.0])?;
+    /// observer.restart();
+    /// observer.update(&[5.0], &[0.0])?; // the first measurement sets the momentum
+    /// assert_eq!(observer.external_torque(), &[0.0]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn restart(&mut self) {
         self.residuals = [[R::ZERO; V]; ORDER];
         (self.decay, self.elapsed) = (R::ONE, R::ZERO);
         self.started = false;
+    }
+}
+
+/// Moves the filters of a joint by the share of a tick: each follows the one before, the first one follows `input`.
+#[inline(always)]
+pub(super) fn follow<R: Real, const V: usize>(
+    filters: &mut [[R; V]],
+    joint: usize,
+    share: R,
+    mut input: R,
+) {
+    for filter in filters {
+        if let Some(value) = filter.get_mut(joint) {
+            *value += share * (input - *value);
+            input = *value;
+        }
     }
 }
 

@@ -11,13 +11,20 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
             self.unfinished();
         }
         self.open = true;
+        if !matches!(self.state, State::Full | State::Held) {
+            self.begin_otherwise();
+        } else if !self.faulted {
+            self.state = State::Full;
+            self.fault = None;
+        }
+    }
+
+    /// The begin of a tick in the states that the usual tick does not know: out of its machine code, which would have a
+    /// table of jumps.
+    #[cold]
+    #[inline(never)]
+    fn begin_otherwise(&mut self) {
         match self.state {
-            State::Full | State::Held => {
-                if !self.faulted {
-                    self.state = State::Full;
-                    self.fault = None;
-                }
-            }
             State::Torqueless => self.state = State::Held,
             State::Stopping {
                 required,
@@ -25,7 +32,7 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
                 ticks,
             } => self.continue_stop(required, ending, ticks),
             State::Standing(required) => self.stand(required),
-            State::Stopped { .. } | State::Unusable(_) => {}
+            State::Full | State::Held | State::Stopped { .. } | State::Unusable(_) => {}
         }
     }
 

@@ -192,15 +192,32 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
     /// ```
     #[inline]
     pub fn observe(&mut self, measured: Result<&[R; V], Fault>) -> ObservedTick<'_, R, V, A> {
-        self.supervisor.accept_measurement(measured);
-        let stopped = matches!(self.supervisor.mode(), Mode::Stopped);
-        let usual = self.supervisor.measurement_accepted() & !self.dead_reckoning & !stopped;
         match measured {
-            Ok(q) if usual => A::correct(&mut self.observer, q, &self.reference.qdd),
-            _ => self.predict_estimate(measured),
+            Ok(q) => self.observe_positions(q),
+            Err(fault) => self.observe_fault(fault),
+        }
+        ObservedTick::new(self)
+    }
+
+    #[inline(always)]
+    fn observe_positions(&mut self, q: &[R; V]) {
+        self.supervisor.accept_positions(q);
+        let stopped = matches!(self.supervisor.mode(), Mode::Stopped);
+        if self.supervisor.measurement_accepted() & !self.dead_reckoning & !stopped {
+            A::correct(&mut self.observer, q, &self.reference.qdd);
+        } else {
+            self.predict_estimate(Ok(q));
         }
         self.supervisor.check_speed(&self.observer.estimate().qd);
-        ObservedTick::new(self)
+    }
+
+    /// A function of its own, so that the usual tick has no case for it.
+    #[cold]
+    #[inline(never)]
+    fn observe_fault(&mut self, fault: Fault) {
+        self.supervisor.accept_fault(fault);
+        self.predict_estimate(Err(fault));
+        self.supervisor.check_speed(&self.observer.estimate().qd);
     }
 
     /// Reports ticks that have passed without a call, as counted by a timer.

@@ -12,21 +12,34 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         &mut self,
         measured: Result<&[R; V], Fault>,
     ) -> Mode {
-        self.begin();
-        let fault = match measured {
-            Ok(q) if self.plausible(q) => {
-                self.last_good = *q;
-                self.accepted = true;
-                self.known = true;
-                self.ticks_since_good = R::ONE;
-                return self.mode();
-            }
-            Ok(q) => self.diagnose(q),
-            Err(fault) => fault,
-        };
-        self.no_measurement();
-        self.record_fault(fault);
+        match measured {
+            Ok(q) => self.accept_positions(q),
+            Err(fault) => self.accept_fault(fault),
+        }
         self.mode()
+    }
+
+    /// As [`Self::accept_measurement`], with positions.
+    #[inline(always)]
+    pub(in crate::control) fn accept_positions(&mut self, q: &[R; V]) {
+        self.begin();
+        if self.plausible(q) {
+            self.last_good = *q;
+            self.accepted = true;
+            self.known = true;
+            self.ticks_since_good = R::ONE;
+        } else {
+            self.no_measurement(self.diagnose(q));
+        }
+    }
+
+    /// As [`Self::accept_measurement`], without positions: a function of its own, so that the usual tick has no case for
+    /// it.
+    #[cold]
+    #[inline(never)]
+    pub(in crate::control) fn accept_fault(&mut self, fault: Fault) {
+        self.begin();
+        self.no_measurement(fault);
     }
 
     /// Compares the observer's velocities with their limits, between [`Self::accept_measurement`] and [`Self::gate`].

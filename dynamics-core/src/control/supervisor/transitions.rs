@@ -104,9 +104,10 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
 
     /// No positions in this tick: the joints may have moved on.
     #[cold]
-    pub(super) fn no_measurement(&mut self) {
+    pub(super) fn no_measurement(&mut self, fault: Fault) {
         self.accepted = false;
         self.ticks_since_good += R::ONE;
+        self.record_fault(fault);
     }
 
     #[inline(always)]

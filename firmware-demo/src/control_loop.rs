@@ -289,9 +289,16 @@ fn follow<'a, T: Reference<f32, V>, D: Detect<f32, V>, const V: usize>(
 ) -> ReferencedTick<'a, f32, V> {
     let mut tick = tick.reference(trajectory);
     if let Err(fault) = detectors.referenced(tick.reference(), tick.mode()) {
-        tick.stop_by(fault, StopCategory::ControlledOff);
+        stop(&mut tick, fault);
     }
     tick
+}
+
+/// Stops the arm in this tick: in a function of its own, so that the usual tick keeps no registers for it.
+#[cold]
+#[inline(never)]
+fn stop<const V: usize>(tick: &mut ReferencedTick<'_, f32, V>, fault: Fault) {
+    tick.stop_by(fault, StopCategory::ControlledOff);
 }
 
 /// The law's command, in a function of its own.

@@ -231,42 +231,47 @@ impl<R: Real, const V: usize> ReferenceStep<R, V> {
     ///
     /// # Errors
     /// [`Fault::Reference`] names the first joint.
+    #[inline(always)]
     pub fn check(&mut self, reference: &State<R, V, V>) -> Result<(), Fault> {
         let State { q, qd, qdd } = reference;
         if !self.started {
             (self.last, self.started) = (*q, true);
         }
-        // One comparison for all joints: what exceeds its step makes the sum exceed zero, what is not finite makes it NaN.
-        let (mut excess, mut rates) = (R::ZERO, R::ZERO);
-        let steps = q.iter().zip(&self.last).zip(&self.step);
-        for (((&q, &last), &step), (&qd, &qdd)) in steps.zip(qd.iter().zip(qdd)) {
-            let beyond = (q - last).abs() - step;
-            excess += beyond + beyond.abs();
+        let mut rates = -R::ZERO;
+        for (&qd, &qdd) in qd.iter().zip(qdd) {
             rates += qd + qdd;
         }
-        let fault = if excess + R::ZERO * rates <= R::ZERO {
-            Ok(())
-        } else {
-            self.first_step(reference)
-        };
-        self.last = *q;
-        fault
+        for ((&q, last), &step) in q.iter().zip(&mut self.last).zip(&self.step) {
+            // False for what is not finite, too.
+            let is_near = (q - *last).abs() < step;
+            if !is_near {
+                return self.first_step(reference);
+            }
+            *last = q;
+        }
+        if !rates.is_finite() {
+            return self.first_step(reference);
+        }
+        Ok(())
     }
 
+    /// Compares joint by joint; those that were compared before have not moved since.
     #[cold]
     #[inline(never)]
-    fn first_step(&self, reference: &State<R, V, V>) -> Result<(), Fault> {
+    fn first_step(&mut self, reference: &State<R, V, V>) -> Result<(), Fault> {
         let State { q, qd, qdd } = reference;
         let rates = qd.iter().zip(qdd);
         let joints = q.iter().zip(&self.last).zip(&self.step).zip(rates);
+        let mut fault = Ok(());
         for (joint, (((&q, &last), &step), (qd, qdd))) in joints.enumerate() {
             let is_near = (q - last).abs() <= step;
             if !(is_near & q.is_finite() & qd.is_finite() & qdd.is_finite()) {
-                return Err(Fault::Reference { joint });
+                fault = fault.and(Err(Fault::Reference { joint }));
             }
         }
-        // Steps without a limit, and rates whose sum is not finite, make the sum NaN as well.
-        Ok(())
+        // Without a fault: a step at its limit, or rates whose sum is not finite.
+        self.last = *q;
+        fault
     }
 
     /// Forgets the last reference: after missed ticks, or at the start of another motion.

@@ -2,6 +2,7 @@
 
 use super::super::{Command, Fault, Mode};
 use super::Supervisor;
+use super::state::State;
 use crate::scalar::Real;
 
 impl<R: Real, const V: usize> Supervisor<R, V> {
@@ -75,10 +76,24 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
             self.reject_torque(tau);
             torque = self.torque;
         }
+        let limited = off != R::ZERO;
+        if matches!(self.state, State::Full) {
+            self.torque = torque;
+            return self.end(Mode::Full, torque, limited);
+        }
+        if !matches!(self.mode(), Mode::Stopped) {
+            self.torque = torque;
+        }
+        self.command_otherwise(qd, limited)
+    }
+
+    /// The command of an arm that is held or stopped: a function of its own, so that the usual tick has no case for it.
+    #[cold]
+    #[inline(never)]
+    fn command_otherwise(&mut self, qd: &[R; V], limited: bool) -> Command<R, V> {
         if matches!(self.mode(), Mode::Stopped) {
             return self.stopped_command(qd);
         }
-        self.torque = torque;
-        self.end(torque, off != R::ZERO)
+        self.end(Mode::Hold, self.torque, limited)
     }
 }

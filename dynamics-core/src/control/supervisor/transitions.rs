@@ -37,8 +37,7 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
     }
 
     #[inline(always)]
-    pub(super) fn end(&mut self, torque: [R; V], limited: bool) -> Command<R, V> {
-        let mode = self.mode();
+    pub(super) fn end(&mut self, mode: Mode, torque: [R; V], limited: bool) -> Command<R, V> {
         let stopped = matches!(mode, Mode::Stopped);
         let full = matches!(mode, Mode::Full);
         let moving = full & !self.braked;

@@ -1,7 +1,7 @@
 //! The controller of a scene without its robot: encoder frames in, duties out.
 
 use heapless::Vec;
-use telemetry::Tick;
+use telemetry::{Sample, Tick};
 use telemetry::pil::{Commanded, Measured};
 
 use crate::control_loop::Telemetry;
@@ -69,7 +69,8 @@ where
 
 /// What the controller knows of a tick.
 fn tick<const N: usize>(number: u32, telemetry: Telemetry<N>) -> Tick<N> {
-    let mut sample = crate::watched::sample(telemetry, [0; 6]);
+    let mut sample = Sample::default();
+    crate::watched::write(&mut sample, &telemetry, [0; 6]);
     sample.number = number;
     sample.message(0)
 }

@@ -50,7 +50,7 @@ pub struct Watched<
     wires: &'static Wires<N>,
     rig: Rig<S::Plant, N>,
     control: SimLoop<N, Detectors<f32, N>>,
-    records: Producer<'static, N>,
+    records: Producer<'static, 'static, N>,
     elapsed: &'static AtomicU32,
     options: Options,
     stopped: u32,
@@ -68,7 +68,7 @@ where
     /// [`StartError`].
     pub fn new(
         wires: &'static Wires<N>,
-        records: Producer<'static, N>,
+        records: Producer<'static, 'static, N>,
         elapsed: &'static AtomicU32,
         options: Options,
     ) -> Result<Self, StartError> {
@@ -100,15 +100,18 @@ where
             self.wires.flag(JOINT);
         }
         let environment = |ticks: f32| S::environment(&self.reference, ticks);
-        let sample = self.control.tick_timed::<Full<S, B, Q, V>, _, _, _>(
+        let sample = self.records.sample();
+        let (tick, mode) = self.control.tick_timed::<Full<S, B, Q, V>, _, _, _>(
             &self.reference,
             &environment(count as f32),
             T::count,
-            sample,
+            |telemetry, counts| {
+                write(sample, &telemetry, counts);
+                (telemetry.tick, telemetry.status.mode)
+            },
         );
-        let Sample { tick, status, .. } = sample;
-        measured::<{ region::RECORD }, _>(|| self.records.push(&sample));
-        if status.mode == Mode::Stopped {
+        measured::<{ region::RECORD }, _>(|| self.records.push());
+        if mode == Mode::Stopped {
             self.wait();
         } else if self.advance(count) || tick >= self.reference.ticks() + SETTLE {
             self.restart();
@@ -158,22 +161,19 @@ where
     start::<S, _, B, Q, V, N>(reference, wires, PlantModel::Exact, S::detectors())
 }
 
-/// The sample of a tick.
+/// Writes the sample of a tick; its number is the queue's.
 #[inline(always)]
-pub(crate) fn sample<const N: usize>(
-    telemetry: Telemetry<N>,
+pub(crate) fn write<const N: usize>(
+    sample: &mut Sample<N>,
+    telemetry: &Telemetry<N>,
     counts: [u32; PHASES.len() + 1],
-) -> Sample<N> {
-    Sample {
-        number: 0,
-        dropped: 0,
-        tick: telemetry.tick,
-        status: telemetry.status,
-        reference: telemetry.reference,
-        estimate: telemetry.estimate,
-        torque: telemetry.torque,
-        counts,
-    }
+) {
+    sample.tick = telemetry.tick;
+    sample.status = telemetry.status;
+    sample.reference = telemetry.reference;
+    sample.estimate = telemetry.estimate;
+    sample.torque = telemetry.torque;
+    sample.counts = counts;
 }
 
 /// The constants of a scene's machine, with the frequency of the timer, Hz.

@@ -203,20 +203,25 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
     fn observe_positions(&mut self, q: &[R; V]) {
         self.supervisor.accept_positions(q);
         let stopped = matches!(self.supervisor.mode(), Mode::Stopped);
-        if self.supervisor.measurement_accepted() & !self.dead_reckoning & !stopped {
-            A::correct(&mut self.observer, q, &self.reference.qdd);
-        } else {
-            self.predict_estimate(Ok(q));
+        if !self.supervisor.measurement_accepted() | self.dead_reckoning | stopped {
+            self.observe_otherwise(Ok(q));
+            return;
         }
+        A::correct(&mut self.observer, q, &self.reference.qdd);
         self.supervisor.check_speed(&self.observer.estimate().qd);
     }
 
-    /// A function of its own, so that the usual tick has no case for it.
     #[cold]
-    #[inline(never)]
     fn observe_fault(&mut self, fault: Fault) {
         self.supervisor.accept_fault(fault);
-        self.predict_estimate(Err(fault));
+        self.observe_otherwise(Err(fault));
+    }
+
+    /// A tick during or after a fault: in a function of its own, so that the usual one has no case for it.
+    #[cold]
+    #[inline(never)]
+    fn observe_otherwise(&mut self, measured: Result<&[R; V], Fault>) {
+        self.predict_estimate(measured);
         self.supervisor.check_speed(&self.observer.estimate().qd);
     }
 

@@ -1,10 +1,10 @@
 //! The controller of a scene without its robot: encoder frames in, duties out.
 
 use heapless::Vec;
-use telemetry::{Sample, Tick};
 use telemetry::pil::{Commanded, Measured};
+use telemetry::{Sample, Tick};
 
-use crate::control_loop::Telemetry;
+use crate::control_loop::{Recorder, Telemetry};
 use crate::scene::{Full, Scene, SimLoop, StartError, simulated_loop};
 use crate::sim_io::Wires;
 
@@ -70,7 +70,7 @@ where
 /// What the controller knows of a tick.
 fn tick<const N: usize>(number: u32, telemetry: Telemetry<N>) -> Tick<N> {
     let mut sample = Sample::default();
-    crate::watched::write(&mut sample, &telemetry, [0; 6]);
+    sample.record(&telemetry);
     sample.number = number;
     sample.message(0)
 }

@@ -7,9 +7,9 @@ use dynamics_core::control::{Detectors, Mode, Reference};
 use dynamics_core::model::{JointKind, model};
 use heapless::{String, Vec};
 use joint_drivers::h_bridge::DriveError;
-use telemetry::{Axis, Machine, PHASES, Producer, Sample};
+use telemetry::{Axis, Machine, Producer, Sample};
 
-use crate::control_loop::{Telemetry, region};
+use crate::control_loop::{Recorder, Telemetry, region};
 use crate::marker::measured;
 use crate::plant::Rig;
 use crate::scene::{Full, PlantModel, SETTLE, Scene, SimLoop, StartError, start};
@@ -101,15 +101,13 @@ where
         }
         let environment = |ticks: f32| S::environment(&self.reference, ticks);
         let sample = self.records.sample();
-        let (tick, mode) = self.control.tick_timed::<Full<S, B, Q, V>, _, _, _>(
+        self.control.tick_timed::<Full<S, B, Q, V>, _, _>(
             &self.reference,
             &environment(count as f32),
             T::count,
-            |telemetry, counts| {
-                write(sample, &telemetry, counts);
-                (telemetry.tick, telemetry.status.mode)
-            },
+            sample,
         );
+        let (tick, mode) = (sample.tick, sample.status.mode);
         measured::<{ region::RECORD }, _>(|| self.records.push());
         if mode == Mode::Stopped {
             self.wait();
@@ -161,19 +159,22 @@ where
     start::<S, _, B, Q, V, N>(reference, wires, PlantModel::Exact, S::detectors())
 }
 
-/// Writes the sample of a tick; its number is the queue's.
-#[inline(always)]
-pub(crate) fn write<const N: usize>(
-    sample: &mut Sample<N>,
-    telemetry: &Telemetry<N>,
-    counts: [u32; PHASES.len() + 1],
-) {
-    sample.tick = telemetry.tick;
-    sample.status = telemetry.status;
-    sample.reference = telemetry.reference;
-    sample.estimate = telemetry.estimate;
-    sample.torque = telemetry.torque;
-    sample.counts = counts;
+impl<const N: usize> Recorder<N> for Sample<N> {
+    #[inline(always)]
+    fn count(&mut self, phase: usize, count: u32) {
+        if let Some(at) = self.counts.get_mut(phase) {
+            *at = count;
+        }
+    }
+
+    #[inline(always)]
+    fn record(&mut self, telemetry: &Telemetry<N>) {
+        self.tick = telemetry.tick;
+        self.status = telemetry.status;
+        self.reference = telemetry.reference;
+        self.estimate = telemetry.estimate;
+        self.torque = telemetry.torque;
+    }
 }
 
 /// The constants of a scene's machine, with the frequency of the timer, Hz.

@@ -281,16 +281,15 @@ fn read<'a, Spi: SpiDevice, D: Detect<f32, V>, const V: usize>(
     controller: &'a mut MotionController<f32, V>,
     detectors: &mut D,
 ) -> ObservedTick<'a, f32, V> {
-    let (mut bad, mut joint) = (None, 0);
-    let q = encoders.each_mut().map(|encoder| {
-        let angle = encoder.read();
-        if let Err(error) = angle {
+    let mut bad = None;
+    for (joint, encoder) in encoders.iter_mut().enumerate() {
+        if let Err(error) = encoder.read() {
             bad = bad.or(Some((joint, error)));
         }
-        joint += 1;
-        angle.unwrap_or(0.0)
-    });
+    }
     *frame = bad.map(|(_, error)| error);
+    // All angles at once, after the transfers: the conversion of one joint fills the time in which the FPU is at another.
+    let q = encoders.each_ref().map(As5047p::angle);
     let measured = match bad {
         Some((joint, _)) => Err(Fault::Encoder { joint }),
         None => detectors.measured(&q, &controller.reference().q),

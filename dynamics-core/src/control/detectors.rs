@@ -118,6 +118,7 @@ impl<R: Real, const V: usize> FrozenEncoder<R, V> {
 
     /// Forgets what was measured: in each tick with the brake set, since the reference of an arm that is started leaps to
     /// where it is.
+    #[cold]
     pub fn restart(&mut self) {
         (self.joint, self.frozen) = (V, None);
     }

@@ -103,8 +103,8 @@ pub fn split<'q, 's, const N: usize, const Q: usize>(
     for slot in slots.others.iter_mut().skip(1) {
         let _ = queue.free.enqueue(slot);
     }
-    let (filled, taken) = queue.filled.split();
-    let (given_back, free) = queue.free.split();
+    let (filled, waiting) = queue.filled.split();
+    let (used, free) = queue.free.split();
     let producer = Producer {
         filled,
         free,
@@ -113,8 +113,8 @@ pub fn split<'q, 's, const N: usize, const Q: usize>(
         dropped: 0,
     };
     let consumer = Consumer {
-        filled: taken,
-        free: given_back,
+        filled: waiting,
+        free: used,
         period,
     };
     (producer, consumer)

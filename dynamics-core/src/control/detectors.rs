@@ -111,7 +111,8 @@ impl<R: Real, const V: usize> FrozenEncoder<R, V> {
         } else {
             // Different from whatever is measured next.
             (self.encoders.iter_mut()).for_each(|encoder| encoder.last = R::from_f64(f64::NAN));
-            self.joint = 0;
+            // This tick was that of the first joint.
+            self.joint = if V > 1 { 1 } else { 0 };
         }
         Ok(())
     }

@@ -80,6 +80,23 @@ pub struct Telemetry<const V: usize> {
     pub frame: Option<FrameError>,
 }
 
+/// What keeps a record of a tick while it runs; `()` keeps none and is not in the machine code.
+pub trait Recorder<const V: usize> {
+    /// The count of a timer at the start of the tick, with 0, and after each phase, with 1 to 5: reading, reference,
+    /// dynamics, safety, writing.
+    fn count(&mut self, phase: usize, count: u32);
+
+    /// The end of the tick.
+    fn record(&mut self, telemetry: &Telemetry<V>);
+}
+
+impl<const V: usize> Recorder<V> for () {
+    #[inline(always)]
+    fn count(&mut self, _: usize, _: u32) {}
+    #[inline(always)]
+    fn record(&mut self, _: &Telemetry<V>) {}
+}
+
 /// The control loop of a robot with V joints: its devices, a [`MotionController`] and its detectors.
 #[derive(Debug)]
 pub struct ControlLoop<Spi, Pwm, Brake, const V: usize, D = ()> {
@@ -131,40 +148,40 @@ where
         trajectory: &T,
         environment: &X,
     ) -> Telemetry<V> {
-        self.phases::<L, T, X, _, _>(trajectory, environment, || (), |telemetry, _| telemetry)
+        self.phases::<L, T, X>(trajectory, environment, || 0, &mut ())
     }
 
-    /// One tick under the law `L`, recorded with the counts of a timer at its start and after each phase: reading, reference,
-    /// dynamics, safety, writing. Reading the timer adds to the tick what six loads from a device take.
+    /// One tick under the law `L`, recorded with the counts of a timer. Reading the timer adds to the tick what six loads
+    /// from a device take.
     #[inline(never)]
-    pub fn tick_timed<L: Law<V, X>, T: Reference<f32, V>, X, R>(
+    pub fn tick_timed<L: Law<V, X>, T: Reference<f32, V>, X>(
         &mut self,
         trajectory: &T,
         environment: &X,
         timer: impl Fn() -> u32,
-        record: impl FnOnce(Telemetry<V>, [u32; 6]) -> R,
-    ) -> R {
-        self.phases::<L, T, X, _, _>(trajectory, environment, timer, record)
+        recorder: &mut impl Recorder<V>,
+    ) {
+        self.phases::<L, T, X>(trajectory, environment, timer, recorder);
     }
 
     #[inline(always)]
-    fn phases<L: Law<V, X>, T: Reference<f32, V>, X, C, R>(
+    fn phases<L: Law<V, X>, T: Reference<f32, V>, X>(
         &mut self,
         trajectory: &T,
         environment: &X,
-        timer: impl Fn() -> C,
-        record: impl FnOnce(Telemetry<V>, [C; 6]) -> R,
-    ) -> R {
+        timer: impl Fn() -> u32,
+        recorder: &mut impl Recorder<V>,
+    ) -> Telemetry<V> {
         measured::<{ region::TICK }, _>(|| {
             let (encoders, controller) = (&mut self.encoders, &mut self.controller);
             let (frame, detectors) = (&mut self.frame, &mut self.detectors);
-            let start = timer();
+            recorder.count(0, timer());
             let tick =
                 measured::<{ region::READ }, _>(|| read(encoders, frame, controller, detectors));
-            let read = timer();
+            recorder.count(1, timer());
             let mut tick =
                 measured::<{ region::REFERENCE }, _>(|| follow(tick, trajectory, detectors));
-            let followed = timer();
+            recorder.count(2, timer());
             if !L::ACCELERATES {
                 tick = tick.without_inertia();
             }
@@ -172,7 +189,7 @@ where
             let torque = measured::<{ region::DYNAMICS }, _>(|| {
                 torque::<L, X, V>(&self.gains, tick.reference(), tick.estimate(), environment)
             });
-            let computed = timer();
+            recorder.count(3, timer());
             let (command, found) = measured::<{ region::SAFETY }, _>(|| {
                 let command = tick.command(&torque);
                 (command, detectors.commanded(&command))
@@ -180,8 +197,9 @@ where
             if let Err(fault) = found {
                 self.controller.react(fault);
             }
-            let limited = timer();
+            recorder.count(4, timer());
             measured::<{ region::WRITE }, _>(|| self.write(&command.torque, command.brake));
+            recorder.count(5, timer());
             let telemetry = Telemetry {
                 tick: clock,
                 reference: self.controller.reference().q,
@@ -190,8 +208,8 @@ where
                 status: command.status,
                 frame: self.frame,
             };
-            let counts = [start, read, followed, computed, limited, timer()];
-            record(telemetry, counts)
+            recorder.record(&telemetry);
+            telemetry
         })
     }
 
@@ -263,16 +281,15 @@ fn read<'a, Spi: SpiDevice, D: Detect<f32, V>, const V: usize>(
     controller: &'a mut MotionController<f32, V>,
     detectors: &mut D,
 ) -> ObservedTick<'a, f32, V> {
-    let (mut bad, mut joint) = (None, 0);
-    let q = encoders.each_mut().map(|encoder| {
-        let angle = encoder.read();
-        if let Err(error) = angle {
+    let mut bad = None;
+    for (joint, encoder) in encoders.iter_mut().enumerate() {
+        if let Err(error) = encoder.read() {
             bad = bad.or(Some((joint, error)));
         }
-        joint += 1;
-        angle.unwrap_or(0.0)
-    });
+    }
     *frame = bad.map(|(_, error)| error);
+    // All angles at once, after the transfers: the conversion of one joint fills the time in which the FPU is at another.
+    let q = encoders.each_ref().map(As5047p::angle);
     let measured = match bad {
         Some((joint, _)) => Err(Fault::Encoder { joint }),
         None => detectors.measured(&q, &controller.reference().q),
@@ -289,9 +306,16 @@ fn follow<'a, T: Reference<f32, V>, D: Detect<f32, V>, const V: usize>(
 ) -> ReferencedTick<'a, f32, V> {
     let mut tick = tick.reference(trajectory);
     if let Err(fault) = detectors.referenced(tick.reference(), tick.mode()) {
-        tick.stop_by(fault, StopCategory::ControlledOff);
+        stop(&mut tick, fault);
     }
     tick
+}
+
+/// Stops the arm in this tick: in a function of its own, so that the usual tick keeps no registers for it.
+#[cold]
+#[inline(never)]
+fn stop<const V: usize>(tick: &mut ReferencedTick<'_, f32, V>, fault: Fault) {
+    tick.stop_by(fault, StopCategory::ControlledOff);
 }
 
 /// The law's command, in a function of its own.

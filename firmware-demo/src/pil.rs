@@ -1,10 +1,10 @@
 //! The controller of a scene without its robot: encoder frames in, duties out.
 
 use heapless::Vec;
-use telemetry::Tick;
 use telemetry::pil::{Commanded, Measured};
+use telemetry::{Sample, Tick};
 
-use crate::control_loop::Telemetry;
+use crate::control_loop::{Recorder, Telemetry};
 use crate::scene::{Full, Scene, SimLoop, StartError, simulated_loop};
 use crate::sim_io::Wires;
 
@@ -69,7 +69,8 @@ where
 
 /// What the controller knows of a tick.
 fn tick<const N: usize>(number: u32, telemetry: Telemetry<N>) -> Tick<N> {
-    let mut sample = crate::watched::sample(telemetry, [0; 6]);
+    let mut sample = Sample::default();
+    sample.record(&telemetry);
     sample.number = number;
     sample.message(0)
 }

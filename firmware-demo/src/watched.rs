@@ -7,9 +7,9 @@ use dynamics_core::control::{Detectors, Mode, Reference};
 use dynamics_core::model::{JointKind, model};
 use heapless::{String, Vec};
 use joint_drivers::h_bridge::DriveError;
-use telemetry::{Axis, Machine, PHASES, Producer, Sample};
+use telemetry::{Axis, Machine, Producer, Sample};
 
-use crate::control_loop::{Telemetry, region};
+use crate::control_loop::{Recorder, Telemetry, region};
 use crate::marker::measured;
 use crate::plant::Rig;
 use crate::scene::{Full, PlantModel, SETTLE, Scene, SimLoop, StartError, start};
@@ -50,7 +50,7 @@ pub struct Watched<
     wires: &'static Wires<N>,
     rig: Rig<S::Plant, N>,
     control: SimLoop<N, Detectors<f32, N>>,
-    records: Producer<'static, N>,
+    records: Producer<'static, 'static, N>,
     elapsed: &'static AtomicU32,
     options: Options,
     stopped: u32,
@@ -68,7 +68,7 @@ where
     /// [`StartError`].
     pub fn new(
         wires: &'static Wires<N>,
-        records: Producer<'static, N>,
+        records: Producer<'static, 'static, N>,
         elapsed: &'static AtomicU32,
         options: Options,
     ) -> Result<Self, StartError> {
@@ -100,15 +100,16 @@ where
             self.wires.flag(JOINT);
         }
         let environment = |ticks: f32| S::environment(&self.reference, ticks);
-        let sample = self.control.tick_timed::<Full<S, B, Q, V>, _, _, _>(
+        let sample = self.records.sample();
+        self.control.tick_timed::<Full<S, B, Q, V>, _, _>(
             &self.reference,
             &environment(count as f32),
             T::count,
             sample,
         );
-        let Sample { tick, status, .. } = sample;
-        measured::<{ region::RECORD }, _>(|| self.records.push(&sample));
-        if status.mode == Mode::Stopped {
+        let (tick, mode) = (sample.tick, sample.status.mode);
+        measured::<{ region::RECORD }, _>(|| self.records.push());
+        if mode == Mode::Stopped {
             self.wait();
         } else if self.advance(count) || tick >= self.reference.ticks() + SETTLE {
             self.restart();
@@ -158,21 +159,21 @@ where
     start::<S, _, B, Q, V, N>(reference, wires, PlantModel::Exact, S::detectors())
 }
 
-/// The sample of a tick.
-#[inline(always)]
-pub(crate) fn sample<const N: usize>(
-    telemetry: Telemetry<N>,
-    counts: [u32; PHASES.len() + 1],
-) -> Sample<N> {
-    Sample {
-        number: 0,
-        dropped: 0,
-        tick: telemetry.tick,
-        status: telemetry.status,
-        reference: telemetry.reference,
-        estimate: telemetry.estimate,
-        torque: telemetry.torque,
-        counts,
+impl<const N: usize> Recorder<N> for Sample<N> {
+    #[inline(always)]
+    fn count(&mut self, phase: usize, count: u32) {
+        if let Some(at) = self.counts.get_mut(phase) {
+            *at = count;
+        }
+    }
+
+    #[inline(always)]
+    fn record(&mut self, telemetry: &Telemetry<N>) {
+        self.tick = telemetry.tick;
+        self.status = telemetry.status;
+        self.reference = telemetry.reference;
+        self.estimate = telemetry.estimate;
+        self.torque = telemetry.torque;
     }
 }
 

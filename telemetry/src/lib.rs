@@ -25,12 +25,14 @@
 //! # The two sides
 //!
 //! ```
-//! use telemetry::{Decoder, Message, Queue, Sample, split, encode};
+//! use telemetry::{Decoder, Message, Queue, Sample, Slots, split, encode};
 //!
-//! let mut queue = Queue::<1, 4>::new();
-//! let (mut interrupt, mut main) = split(&mut queue, 0);
+//! let mut slots = Slots::<1, 4>::default();
+//! let mut queue = Queue::new();
+//! let (mut interrupt, mut main) = split(&mut slots, &mut queue, 0);
 //! let sample = Sample { reference: [0.5], estimate: [0.499], torque: [12.0], ..Sample::default() };
-//! interrupt.push(&sample); // in the control tick
+//! *interrupt.sample() = sample; // in the control tick
+//! interrupt.push();
 //!
 //! let mut bytes = [0; telemetry::capacity(1)];
 //! let tick = main.pop().expect("what was pushed"); // in the main loop
@@ -53,5 +55,5 @@ pub mod wire;
 
 pub use decoder::{Counts, Decoder};
 pub use message::{Axis, Joint, Machine, Message, PHASES, Sample, Tick};
-pub use queue::{Consumer, Producer, Queue, split};
+pub use queue::{Consumer, Producer, Queue, Slots, split};
 pub use wire::{EncodeError, FrameError, VERSION, capacity, decode, encode};

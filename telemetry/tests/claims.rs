@@ -3,7 +3,7 @@
 use dynamics_core::control::{Fault, Mode, Status};
 use dynamics_core::model::JointLimits;
 use telemetry::{
-    Axis, Counts, Decoder, EncodeError, FrameError, Joint, Machine, Message, Queue, Sample, Tick,
+    Axis, Counts, Decoder, EncodeError, FrameError, Joint, Machine, Message, Queue, Slots, Tick,
     VERSION, capacity, encode, split,
 };
 
@@ -162,21 +162,48 @@ fn a_listener_that_comes_late_counts_nothing_bad() {
 
 #[test]
 fn a_full_queue_drops_counts_and_never_blocks() {
-    let mut queue = Queue::<JOINTS, 4>::new();
-    let (mut interrupt, mut main) = split(&mut queue, 0);
-    let kept: Vec<bool> = (0..10)
-        .map(|_| interrupt.push(&Sample::default()))
-        .collect();
+    let mut slots = Slots::<JOINTS, 4>::default();
+    let mut queue = Queue::new();
+    let (mut interrupt, mut main) = split(&mut slots, &mut queue, 0);
+    let kept: Vec<bool> = (0..10).map(|_| interrupt.push()).collect();
     assert_eq!(kept.iter().filter(|&&kept| kept).count(), 3);
     assert_eq!(interrupt.dropped(), 7);
     assert_eq!(
         main.pop().map(|tick| (tick.number, tick.dropped)),
         Some((0, 0))
     );
-    assert!(interrupt.push(&Sample::default()));
+    assert!(interrupt.push());
     let rest: Vec<_> = std::iter::from_fn(|| main.pop()).collect();
     let last = rest.last().expect("the one after the drops");
     assert_eq!((rest.len(), last.number, last.dropped), (3, 10, 7));
+}
+
+#[test]
+fn each_tick_arrives_as_it_was_written_however_often_its_place_was_used() {
+    let mut slots = Slots::<JOINTS, 4>::default();
+    let mut queue = Queue::new();
+    let (mut interrupt, mut main) = split(&mut slots, &mut queue, 0);
+    let mut arrived = Vec::new();
+    for tick in 0..100 {
+        interrupt.sample().tick = tick;
+        interrupt.sample().torque = [tick as f32; JOINTS];
+        interrupt.push();
+        // The main loop is slower at times: full, then empty.
+        if tick % 7 > 3 {
+            arrived.extend(std::iter::from_fn(|| main.pop()));
+        }
+    }
+    assert!(interrupt.dropped() > 0);
+    let expected = |tick: &Tick<JOINTS>| {
+        let torques = tick.joints.iter().map(|joint| joint.torque);
+        tick.number == tick.tick && torques.eq([tick.tick as f32; JOINTS])
+    };
+    assert!(arrived.iter().all(expected));
+    assert!(arrived.is_sorted_by(|one, next| one.number < next.number));
+    assert_eq!(
+        arrived.len() as u32 + interrupt.dropped(),
+        100 - std::iter::from_fn(|| main.pop()).count() as u32
+    );
 }
 
 #[test]

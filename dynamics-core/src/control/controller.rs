@@ -192,15 +192,37 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
     /// ```
     #[inline]
     pub fn observe(&mut self, measured: Result<&[R; V], Fault>) -> ObservedTick<'_, R, V, A> {
-        self.supervisor.accept_measurement(measured);
-        let stopped = matches!(self.supervisor.mode(), Mode::Stopped);
-        let usual = self.supervisor.measurement_accepted() & !self.dead_reckoning & !stopped;
         match measured {
-            Ok(q) if usual => A::correct(&mut self.observer, q, &self.reference.qdd),
-            _ => self.predict_estimate(measured),
+            Ok(q) => self.observe_positions(q),
+            Err(fault) => self.observe_fault(fault),
         }
-        self.supervisor.check_speed(&self.observer.estimate().qd);
         ObservedTick::new(self)
+    }
+
+    #[inline(always)]
+    fn observe_positions(&mut self, q: &[R; V]) {
+        self.supervisor.accept_positions(q);
+        let stopped = matches!(self.supervisor.mode(), Mode::Stopped);
+        if !self.supervisor.measurement_accepted() | self.dead_reckoning | stopped {
+            self.observe_otherwise(Ok(q));
+            return;
+        }
+        A::correct(&mut self.observer, q, &self.reference.qdd);
+        self.supervisor.check_speed(&self.observer.estimate().qd);
+    }
+
+    #[cold]
+    fn observe_fault(&mut self, fault: Fault) {
+        self.supervisor.accept_fault(fault);
+        self.observe_otherwise(Err(fault));
+    }
+
+    /// A tick during or after a fault: in a function of its own, so that the usual one has no case for it.
+    #[cold]
+    #[inline(never)]
+    fn observe_otherwise(&mut self, measured: Result<&[R; V], Fault>) {
+        self.predict_estimate(measured);
+        self.supervisor.check_speed(&self.observer.estimate().qd);
     }
 
     /// Reports ticks that have passed without a call, as counted by a timer.

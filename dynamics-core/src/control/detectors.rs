@@ -24,21 +24,21 @@ pub use detect::{Detect, Detectors};
 /// ```
 /// use dynamics_core::control::{Fault, FrozenEncoder};
 /// let mut frozen = FrozenEncoder::new([0.01_f32], 3);
-/// for (tick, wanted) in [Ok(()), Ok(()), Ok(()), Err(Fault::Frozen { joint: 0 })].into_iter().enumerate() {
-///     assert_eq!(frozen.check(&[0.2], &[0.2 + 0.006 * tick as f32]), wanted);
+/// for tick in 0..5 {
+///     let fault = frozen.check(&[0.2], &[0.2 + 0.006 * tick as f32]).err();
+///     // No reference acted before the first tick.
+///     assert_eq!(fault, (tick == 4).then_some(Fault::Frozen { joint: 0 }));
 /// }
 /// assert_eq!(frozen.check(&[0.2001], &[0.22]), Ok(())); // it moves again
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FrozenEncoder<R, const V: usize> {
     encoders: [Encoder<R>; V],
-    /// Comparisons of a joint that `ticks` ticks have at least.
-    comparisons: u32,
-    /// The joint that is compared next: the frozen one as long as it is.
-    joint: u16,
-    /// Comparisons of this joint since the start, up to two: no reference acted before the first.
-    compared: u8,
-    frozen: bool,
+    /// Comparisons without a change that precede the one which reports it.
+    patience: u32,
+    /// The joint that is compared next; V if none is: before the first comparison, and while one is frozen.
+    joint: usize,
+    frozen: Option<usize>,
 }
 
 /// An encoder as it was when it was last compared.
@@ -46,9 +46,9 @@ pub struct FrozenEncoder<R, const V: usize> {
 struct Encoder<R> {
     distance: R,
     last: R,
-    /// The reference when the position last changed, and the comparisons since then.
+    /// The reference when the position last changed, and what is left of the patience since then.
     origin: R,
-    unchanged: u32,
+    left: u32,
 }
 
 impl<R: Real, const V: usize> FrozenEncoder<R, V> {
@@ -64,10 +64,9 @@ impl<R: Real, const V: usize> FrozenEncoder<R, V> {
         let joints = if V == 0 { 1 } else { V as u32 };
         Self {
             encoders,
-            comparisons: ticks.div_ceil(joints),
-            joint: 0,
-            compared: 0,
-            frozen: false,
+            patience: ticks.div_ceil(joints).saturating_sub(1),
+            joint: V,
+            frozen: None,
         }
     }
 
@@ -76,37 +75,53 @@ impl<R: Real, const V: usize> FrozenEncoder<R, V> {
     ///
     /// # Errors
     /// [`Fault::Frozen`] names the joint, in each tick until its position changes.
-    #[inline]
+    #[inline(always)]
     pub fn check(&mut self, q: &[R; V], reference: &[R; V]) -> Result<(), Fault> {
-        let joint = usize::from(self.joint);
-        let (Some(encoder), Some(&q), Some(&r)) = (
+        let joint = self.joint;
+        let (Some(encoder), Some(&q), Some(&reference)) = (
             self.encoders.get_mut(joint),
             q.get(joint),
             reference.get(joint),
         ) else {
-            return Ok(());
+            return self.compare_none(q);
         };
-        if self.frozen {
-            // Compared with the position alone: the reference of a held arm may come back.
-            if q != encoder.last {
-                self.restart();
-                return Ok(());
-            }
-        } else if !encoder.is_frozen(q, r, self.compared, self.comparisons) {
-            self.joint += 1;
-            if joint + 1 == V {
-                (self.joint, self.compared) = (0, if self.compared == 0 { 1 } else { 2 });
-            }
-            return Ok(());
+        if q != encoder.last {
+            (encoder.last, encoder.origin, encoder.left) = (q, reference, self.patience);
+        } else if encoder.left > 0 {
+            encoder.left -= 1;
+        } else if (reference - encoder.origin).abs() > encoder.distance {
+            (self.joint, self.frozen) = (V, Some(joint));
+            return Err(Fault::Frozen { joint });
         }
-        self.frozen = true;
-        Err(Fault::Frozen { joint })
+        self.joint = if joint + 1 == V { 0 } else { joint + 1 };
+        Ok(())
+    }
+
+    /// The first tick, before which no reference acted; or one with a frozen joint, whose position alone is compared: the
+    /// reference of a held arm may come back.
+    #[cold]
+    #[inline(never)]
+    fn compare_none(&mut self, q: &[R; V]) -> Result<(), Fault> {
+        if let Some(joint) = self.frozen {
+            let encoder = self.encoders.get(joint);
+            if q.get(joint) == encoder.map(|encoder| &encoder.last) {
+                return Err(Fault::Frozen { joint });
+            }
+            self.restart();
+        } else {
+            // Different from whatever is measured next.
+            (self.encoders.iter_mut()).for_each(|encoder| encoder.last = R::from_f64(f64::NAN));
+            // This tick was that of the first joint.
+            self.joint = if V > 1 { 1 } else { 0 };
+        }
+        Ok(())
     }
 
     /// Forgets what was measured: in each tick with the brake set, since the reference of an arm that is started leaps to
     /// where it is.
+    #[cold]
     pub fn restart(&mut self) {
-        (self.joint, self.compared, self.frozen) = (0, 0, false);
+        (self.joint, self.frozen) = (V, None);
     }
 }
 
@@ -115,21 +130,8 @@ impl<R: Real> Encoder<R> {
         distance: R::ZERO,
         last: R::ZERO,
         origin: R::ZERO,
-        unchanged: 0,
+        left: 0,
     };
-
-    #[inline(always)]
-    fn is_frozen(&mut self, q: R, reference: R, compared: u8, comparisons: u32) -> bool {
-        let is_same = (compared > 0) & (q == self.last);
-        if is_same & (compared > 1) {
-            self.unchanged = self.unchanged.saturating_add(1);
-            let distance = (reference - self.origin).abs();
-            return (self.unchanged >= comparisons) & (distance > self.distance);
-        }
-        self.unchanged = u32::from(is_same);
-        (self.last, self.origin) = (q, reference);
-        false
-    }
 }
 
 /// Detects torques that stay at their limits.
@@ -148,6 +150,8 @@ pub struct Saturation<R, const V: usize> {
     limit: [R; V],
     ticks: u32,
     saturated: [u32; V],
+    /// Whether one of these is not zero.
+    counts: bool,
 }
 
 impl<R: Real, const V: usize> Saturation<R, V> {
@@ -157,6 +161,7 @@ impl<R: Real, const V: usize> Saturation<R, V> {
             limit,
             ticks,
             saturated: [0; V],
+            counts: false,
         }
     }
 
@@ -164,18 +169,31 @@ impl<R: Real, const V: usize> Saturation<R, V> {
     ///
     /// # Errors
     /// [`Fault::Saturated`] names the first joint, in each tick until its torque is below the limit.
+    #[inline(always)]
     pub fn check(&mut self, torque: &[R; V]) -> Result<(), Fault> {
-        let joints = self
-            .saturated
-            .iter_mut()
-            .zip(torque.iter().zip(&self.limit));
+        // Not `any`: joints need not wait for each other's verdict.
+        let limits = torque.iter().zip(&self.limit);
+        let at_limit = limits.fold(self.counts, |at, (torque, &limit)| {
+            at | (torque.abs() >= limit)
+        });
+        if at_limit {
+            return self.count(torque);
+        }
+        Ok(())
+    }
+
+    /// Counts the torques of a tick in which one is at its limit, or that follows one.
+    #[cold]
+    #[inline(never)]
+    fn count(&mut self, torque: &[R; V]) -> Result<(), Fault> {
+        self.counts = false;
         let mut fault = Ok(());
-        for (joint, (count, (torque, &limit))) in joints.enumerate() {
-            *count = if torque.abs() >= limit {
-                count.saturating_add(1)
-            } else {
-                0
-            };
+        let limits = torque.iter().zip(&self.limit);
+        for (joint, (count, (torque, &limit))) in self.saturated.iter_mut().zip(limits).enumerate()
+        {
+            let at_limit = torque.abs() >= limit;
+            *count = if at_limit { count.saturating_add(1) } else { 0 };
+            self.counts |= at_limit;
             if *count > self.ticks {
                 fault = fault.and(Err(Fault::Saturated { joint }));
             }
@@ -215,42 +233,47 @@ impl<R: Real, const V: usize> ReferenceStep<R, V> {
     ///
     /// # Errors
     /// [`Fault::Reference`] names the first joint.
+    #[inline(always)]
     pub fn check(&mut self, reference: &State<R, V, V>) -> Result<(), Fault> {
         let State { q, qd, qdd } = reference;
         if !self.started {
             (self.last, self.started) = (*q, true);
         }
-        // One comparison for all joints: what exceeds its step makes the sum exceed zero, what is not finite makes it NaN.
-        let (mut excess, mut rates) = (R::ZERO, R::ZERO);
-        let steps = q.iter().zip(&self.last).zip(&self.step);
-        for (((&q, &last), &step), (&qd, &qdd)) in steps.zip(qd.iter().zip(qdd)) {
-            let beyond = (q - last).abs() - step;
-            excess += beyond + beyond.abs();
+        let mut rates = -R::ZERO;
+        for (&qd, &qdd) in qd.iter().zip(qdd) {
             rates += qd + qdd;
         }
-        let fault = if excess + R::ZERO * rates <= R::ZERO {
-            Ok(())
-        } else {
-            self.first_step(reference)
-        };
-        self.last = *q;
-        fault
+        for ((&q, last), &step) in q.iter().zip(&mut self.last).zip(&self.step) {
+            // False for what is not finite, too.
+            let is_near = (q - *last).abs() < step;
+            if !is_near {
+                return self.first_step(reference);
+            }
+            *last = q;
+        }
+        if !rates.is_finite() {
+            return self.first_step(reference);
+        }
+        Ok(())
     }
 
+    /// Compares joint by joint; those that were compared before have not moved since.
     #[cold]
     #[inline(never)]
-    fn first_step(&self, reference: &State<R, V, V>) -> Result<(), Fault> {
+    fn first_step(&mut self, reference: &State<R, V, V>) -> Result<(), Fault> {
         let State { q, qd, qdd } = reference;
         let rates = qd.iter().zip(qdd);
         let joints = q.iter().zip(&self.last).zip(&self.step).zip(rates);
+        let mut fault = Ok(());
         for (joint, (((&q, &last), &step), (qd, qdd))) in joints.enumerate() {
             let is_near = (q - last).abs() <= step;
             if !(is_near & q.is_finite() & qd.is_finite() & qdd.is_finite()) {
-                return Err(Fault::Reference { joint });
+                fault = fault.and(Err(Fault::Reference { joint }));
             }
         }
-        // Steps without a limit, and rates whose sum is not finite, make the sum NaN as well.
-        Ok(())
+        // Without a fault: a step at its limit, or rates whose sum is not finite.
+        self.last = *q;
+        fault
     }
 
     /// Forgets the last reference: after missed ticks, or at the start of another motion.

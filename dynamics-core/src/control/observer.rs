@@ -198,7 +198,7 @@ impl<R: Real, const V: usize> Observer<R, V> {
             return &self.estimate;
         }
         let mut next = self.estimate;
-        let mut sum = R::ZERO;
+        let mut sum = -R::ZERO;
         let inputs = q.iter().zip(qdd);
         for ((next, rate), (&q, &qdd)) in next.q.iter_mut().zip(&mut next.qd).zip(inputs) {
             let e = q - *next;

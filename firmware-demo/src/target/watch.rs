@@ -12,7 +12,7 @@ use stm32f4xx_hal::pac;
 use stm32f4xx_hal::rcc::{Rcc, RccExt};
 use stm32f4xx_hal::serial::config::{Config, InvalidConfig};
 use stm32f4xx_hal::serial::{SerialExt, Tx};
-use telemetry::{Consumer, Message, Queue, capacity, encode, split};
+use telemetry::{Consumer, Message, Queue, Slots, capacity, encode, split};
 
 use super::{CLOCK, Tick, fail, leave, microseconds, start};
 use crate::scene::Scene;
@@ -51,10 +51,16 @@ where
     }
 }
 
-/// Runs a scene on these wires, its state and queue where `place` and the caller put them.
+/// Where the ticks are, and their queue.
+pub type Records<const N: usize> = (
+    &'static mut Slots<N, QUEUE>,
+    &'static mut Queue<'static, N, QUEUE>,
+);
+
+/// Runs a scene on these wires, its state and records where `place` and the caller put them.
 pub fn watch<S, const B: usize, const Q: usize, const V: usize, const N: usize>(
     wires: &'static Wires<N>,
-    queue: Option<&'static mut Queue<N, QUEUE>>,
+    records: Option<Records<N>>,
     place: impl FnOnce(Timed<S, B, Q, V, N>) -> Option<&'static mut Timed<S, B, Q, V, N>>,
 ) -> !
 where
@@ -67,7 +73,8 @@ where
         fail("the peripherals are taken");
     };
     let period = CLOCK / 1_000_000 * microseconds::<S, B, Q, V, N>();
-    let Some((records, mut ticks)) = queue.map(|queue| split(queue, period)) else {
+    let split = |(slots, queue)| split(slots, queue, period);
+    let Some((records, mut ticks)) = records.map(split) else {
         fail("main ran twice");
     };
     let Ok(mut port) = port(part) else {
@@ -102,7 +109,7 @@ where
 
 /// Sends what is in the queue, and from time to time the constants of the machine.
 fn drain<const N: usize>(
-    ticks: &mut Consumer<'static, N>,
+    ticks: &mut Consumer<'static, 'static, N>,
     port: &mut impl Write,
     constants: &Message<N>,
     sent: &mut u32,
@@ -187,14 +194,16 @@ macro_rules! watch_main {
         use $crate::target::watch::{QUEUE, Timed, watch};
 
         type Scene = Timed<$crate::scenes::$module::$scene, $B, $Q, $V, $N>;
-        type Queue = ::telemetry::Queue<$N, QUEUE>;
+        type Slots = ::telemetry::Slots<$N, QUEUE>;
+        type Queue = ::telemetry::Queue<'static, $N, QUEUE>;
 
         #[::cortex_m_rt::entry]
         fn main() -> ! {
             static WIRES: Wires<$N> = Wires::new();
+            let slots = ::cortex_m::singleton!(: Slots = Slots::default());
             let queue = ::cortex_m::singleton!(: Queue = Queue::new());
             let place = |scene| ::cortex_m::singleton!(: Scene = scene);
-            watch(&WIRES, queue, place)
+            watch(&WIRES, slots.zip(queue), place)
         }
     };
 }

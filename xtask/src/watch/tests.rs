@@ -26,7 +26,7 @@ fn run(record: u64) -> Vec<Sample> {
 
 /// The run with a change to one sample.
 fn changed(at: usize, change: impl Fn(&mut Sample)) -> Vec<Sample> {
-    let mut run = run(70);
+    let mut run = run(KEPT);
     change(&mut run[at]);
     run
 }
@@ -46,8 +46,8 @@ fn the_guide_states_what_is_checked() {
 
 #[test]
 fn a_tick_and_its_record_beyond_the_bar_fail() {
-    let cycles = longest(&run(70));
-    assert_eq!(cycles, 50 + 70);
+    let cycles = longest(&run(KEPT));
+    assert_eq!(cycles, 50 + KEPT);
     let bar = |most| Bar {
         most: [("cycles".into(), most)].into(),
         missed: Vec::new(),
@@ -58,30 +58,32 @@ fn a_tick_and_its_record_beyond_the_bar_fail() {
             &[("ur5e watched tick".to_owned(), bar(most))].into(),
         )
     };
-    assert!(verdict(120.0).is_ok());
-    let error = verdict(119.0).expect_err("one cycle more").to_string();
+    assert!(verdict((50 + KEPT) as f64).is_ok());
+    let error = verdict((49 + KEPT) as f64)
+        .expect_err("one cycle more")
+        .to_string();
     assert!(error.contains("watched tick"), "{error}");
 }
 
 #[test]
 fn a_record_that_takes_longer_than_stated_fails() {
     let longer = run(KEPT + 1);
-    assert!(verdict(&longer, &longer, &run(40)).is_err());
+    assert!(verdict(&longer, &longer, &run(KEPT / 2)).is_err());
 }
 
 #[test]
 fn equal_ticks_pass() {
-    assert!(verdict(&run(70), &run(70), &run(40)).is_ok());
+    assert!(verdict(&run(KEPT), &run(KEPT), &run(KEPT / 2)).is_ok());
 }
 
 #[test]
 fn one_cycle_more_in_one_tick_fails() {
     let slower = changed(7 * 100, |sample| sample.cycles += 1);
-    let error = verdict(&slower, &run(70), &run(40))
+    let error = verdict(&slower, &run(KEPT), &run(KEPT / 2))
         .expect_err("a listener")
         .to_string();
     assert!(error.contains("a listener, tick 100"), "{error}");
-    let error = verdict(&run(70), &run(70), &slower)
+    let error = verdict(&run(KEPT), &run(KEPT), &slower)
         .expect_err("a queue")
         .to_string();
     assert!(error.contains("a full queue, tick 100"), "{error}");
@@ -89,20 +91,20 @@ fn one_cycle_more_in_one_tick_fails() {
 
 #[test]
 fn a_run_that_ends_early_fails() {
-    let short = &run(70)[..7 * (TICKS - 1)];
+    let short = &run(KEPT)[..7 * (TICKS - 1)];
     assert!(verdict(short, short, short).is_err());
-    assert!(verdict(&run(70), &run(70), short).is_err());
+    assert!(verdict(&run(KEPT), &run(KEPT), short).is_err());
 }
 
 #[test]
 fn a_full_queue_that_costs_more_fails() {
-    assert!(verdict(&run(70), &run(70), &run(71)).is_err());
+    assert!(verdict(&run(KEPT), &run(KEPT), &run(KEPT + 1)).is_err());
 }
 
 #[test]
 fn a_longer_masked_stretch_fails() {
     let longer = changed(7 * TICKS, |sample| sample.instructions += 1);
-    assert!(verdict(&run(70), &longer, &run(40)).is_err());
+    assert!(verdict(&run(KEPT), &longer, &run(KEPT / 2)).is_err());
 }
 
 #[test]

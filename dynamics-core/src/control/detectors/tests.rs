@@ -9,10 +9,10 @@ fn a_frozen_encoder_stays_a_fault_when_the_reference_comes_back() {
     };
     let fault = Err(Fault::Frozen { joint: 1 });
     // The second joint is compared in every other tick.
-    for reference in [0.0, 0.0, 0.01, 0.02, 0.03] {
+    for reference in [0.0, 0.0, 0.01] {
         assert_eq!(frozen_at(reference, &mut frozen), Ok(()), "{reference}");
     }
-    for reference in [0.04, 0.0, 0.005] {
+    for reference in [0.02, 0.0, 0.005] {
         assert_eq!(frozen_at(reference, &mut frozen), fault, "{reference}");
     }
     frozen.restart();

@@ -2,6 +2,7 @@
 
 use super::super::{Command, Fault, Mode};
 use super::Supervisor;
+use super::state::State;
 use crate::scalar::Real;
 
 impl<R: Real, const V: usize> Supervisor<R, V> {
@@ -12,21 +13,34 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         &mut self,
         measured: Result<&[R; V], Fault>,
     ) -> Mode {
-        self.begin();
-        let fault = match measured {
-            Ok(q) if self.plausible(q) => {
-                self.last_good = *q;
-                self.accepted = true;
-                self.known = true;
-                self.ticks_since_good = R::ONE;
-                return self.mode();
-            }
-            Ok(q) => self.diagnose(q),
-            Err(fault) => fault,
-        };
-        self.no_measurement();
-        self.record_fault(fault);
+        match measured {
+            Ok(q) => self.accept_positions(q),
+            Err(fault) => self.accept_fault(fault),
+        }
         self.mode()
+    }
+
+    /// As [`Self::accept_measurement`], with positions.
+    #[inline(always)]
+    pub(in crate::control) fn accept_positions(&mut self, q: &[R; V]) {
+        self.begin();
+        if self.plausible(q) {
+            self.last_good = *q;
+            self.accepted = true;
+            self.known = true;
+            self.ticks_since_good = R::ONE;
+        } else {
+            self.no_measurement(self.diagnose(q));
+        }
+    }
+
+    /// As [`Self::accept_measurement`], without positions: a function of its own, so that the usual tick has no case for
+    /// it.
+    #[cold]
+    #[inline(never)]
+    pub(in crate::control) fn accept_fault(&mut self, fault: Fault) {
+        self.begin();
+        self.no_measurement(fault);
     }
 
     /// Compares the observer's velocities with their limits, between [`Self::accept_measurement`] and [`Self::gate`].
@@ -62,10 +76,24 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
             self.reject_torque(tau);
             torque = self.torque;
         }
+        let limited = off != R::ZERO;
+        if matches!(self.state, State::Full) {
+            self.torque = torque;
+            return self.end(Mode::Full, torque, limited);
+        }
+        if !matches!(self.mode(), Mode::Stopped) {
+            self.torque = torque;
+        }
+        self.command_otherwise(qd, limited)
+    }
+
+    /// The command of an arm that is held or stopped: a function of its own, so that the usual tick has no case for it.
+    #[cold]
+    #[inline(never)]
+    fn command_otherwise(&mut self, qd: &[R; V], limited: bool) -> Command<R, V> {
         if matches!(self.mode(), Mode::Stopped) {
             return self.stopped_command(qd);
         }
-        self.torque = torque;
-        self.end(torque, off != R::ZERO)
+        self.end(Mode::Hold, self.torque, limited)
     }
 }

@@ -204,7 +204,7 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
     pub(super) fn stopped_command(&mut self, qd: &[R; V]) -> Command<R, V> {
         let torque = self.stopped_torque(qd);
         self.torque = torque;
-        self.end(torque, false)
+        self.end(Mode::Stopped, torque, false)
     }
 
     /// Zero, or the damping of a sinking arm within the limits of torque and rate.

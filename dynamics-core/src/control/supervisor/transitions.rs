@@ -11,13 +11,20 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
             self.unfinished();
         }
         self.open = true;
+        if !matches!(self.state, State::Full | State::Held) {
+            self.begin_otherwise();
+        } else if !self.faulted {
+            self.state = State::Full;
+            self.fault = None;
+        }
+    }
+
+    /// The begin of a tick in the states that the usual tick does not know: out of its machine code, which would have a
+    /// table of jumps.
+    #[cold]
+    #[inline(never)]
+    fn begin_otherwise(&mut self) {
         match self.state {
-            State::Full | State::Held => {
-                if !self.faulted {
-                    self.state = State::Full;
-                    self.fault = None;
-                }
-            }
             State::Torqueless => self.state = State::Held,
             State::Stopping {
                 required,
@@ -25,13 +32,12 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
                 ticks,
             } => self.continue_stop(required, ending, ticks),
             State::Standing(required) => self.stand(required),
-            State::Stopped { .. } | State::Unusable(_) => {}
+            State::Full | State::Held | State::Stopped { .. } | State::Unusable(_) => {}
         }
     }
 
     #[inline(always)]
-    pub(super) fn end(&mut self, torque: [R; V], limited: bool) -> Command<R, V> {
-        let mode = self.mode();
+    pub(super) fn end(&mut self, mode: Mode, torque: [R; V], limited: bool) -> Command<R, V> {
         let stopped = matches!(mode, Mode::Stopped);
         let full = matches!(mode, Mode::Full);
         let moving = full & !self.braked;
@@ -97,9 +103,10 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
 
     /// No positions in this tick: the joints may have moved on.
     #[cold]
-    pub(super) fn no_measurement(&mut self) {
+    pub(super) fn no_measurement(&mut self, fault: Fault) {
         self.accepted = false;
         self.ticks_since_good += R::ONE;
+        self.record_fault(fault);
     }
 
     #[inline(always)]

@@ -155,6 +155,7 @@ impl<R: Real, const P: usize> Factors<R, P> {
     }
 
     /// The row of a parameter alone, which explains the estimate and has the variance of this parameter.
+    #[inline(never)] // inlined once a parameter, its rows would fill the stack
     fn alone(&self, k: usize, places: &[Places]) -> Row<R, P> {
         let of = |places: &&Places| places.own().contains(&k) | places.common().contains(&k);
         let unit = core::array::from_fn(|i| if i == k { R::ONE } else { R::ZERO });

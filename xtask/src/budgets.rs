@@ -215,6 +215,16 @@ pub fn bars(workspace: &Workspace) -> Result<Bars> {
     Ok(bars)
 }
 
+/// The cycles that a row of the costs may take.
+pub fn cycles(workspace: &Workspace, row: &str) -> Result<u64> {
+    let costs = read(workspace)?.costs;
+    let figures = costs.as_ref().and_then(|costs| costs.rows.get(row));
+    let cycles = figures.and_then(|figures| figures.get("cycles"));
+    cycles
+        .copied()
+        .ok_or_else(|| check!("no region and no row of the costs is named `{row}`"))
+}
+
 /// Fails if a row of the costs exceeds its budget or misses its bar; else says how many rows hold. With a
 /// robot: the report has the rows of this one alone.
 pub fn check_costs(

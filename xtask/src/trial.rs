@@ -5,6 +5,7 @@ use std::process::ExitCode;
 
 use serde::{Deserialize, Serialize};
 
+use crate::budgets;
 use crate::chart::{self, Axis, HPos, Line};
 use crate::docs::{self, Page};
 use crate::error::{Result, check, refuse_if};
@@ -36,7 +37,7 @@ fn report(trial: Trial) -> String {
 struct Shown {
     text: String,
     charts: Vec<Chart>,
-    /// Name, region, and the share of the error that is left.
+    /// Name, region or row of the costs, and the share of the error that is left.
     estimators: Vec<(String, String, f64)>,
 }
 
@@ -243,8 +244,8 @@ fn measure(
     let mut charts = shown.charts;
     let cycles = |region: &str| {
         let found = recorded.regions.iter().find(|(name, _)| name == region);
-        let cost = found.ok_or_else(|| check!("the ticks have no region `{region}`"))?;
-        Ok(cost.1.cycles.max as f64)
+        let cycles = found.map(|(_, cost)| Ok(cost.cycles.max));
+        Ok(cycles.unwrap_or_else(|| budgets::cycles(workspace, region))? as f64)
     };
     let points = shown
         .estimators

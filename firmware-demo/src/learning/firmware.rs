@@ -180,6 +180,18 @@ impl<'a> Firmware<'a> {
         self.tick = 0;
     }
 
+    /// The rows of the load and what the model lacks of the torques, each divided by the standard deviation of its noise.
+    pub fn weighted(&self) -> ([[f32; 10]; 6], [f32; 6]) {
+        let Addition::Load(mut y, mut residual) = self.load() else {
+            return ([[0.0; 10]; 6], [0.0; 6]);
+        };
+        for ((y, residual), noise) in y.iter_mut().zip(&mut residual).zip(STATED) {
+            *y = y.map(|y| y / noise);
+            *residual /= noise;
+        }
+        (y, residual)
+    }
+
     /// The state in the middle of what is kept, and its measured torques. The oldest estimate is the one that this tick replaces.
     fn measured(&self) -> (State<f32, 6, 6>, [f32; 6]) {
         let at = |ticks: usize| &self.past[(self.tick as usize + ticks) % KEPT];

@@ -8,6 +8,7 @@
 //! | [`arm`] | the simulated arm, with friction of either kind |
 //! | [`firmware`] | a tick: observer, row, update, law, gate, in the regions of the meter |
 //! | [`run`] | learning, then the load |
+//! | [`tag_k`] | another estimator of a load, for comparison |
 //!
 //! The code is the same on the host and in QEMU, and so are the torques, to the bit.
 
@@ -17,6 +18,7 @@ pub mod parameters;
 pub mod run;
 #[rustfmt::skip]
 pub mod selected;
+pub mod tag_k;
 
 /// A tick, s.
 pub const TICK: f32 = 2e-3;

@@ -7,6 +7,7 @@ use firmware_demo::learning::firmware::{LEARNED, Task, WEIGHED};
 use firmware_demo::learning::parameters::{Known, Model, N, OWN};
 use firmware_demo::learning::run::{LOAD, Outcome, load_error, possible, run, validation};
 use firmware_demo::learning::selected::KNOWN;
+use firmware_demo::learning::tag_k::TagK;
 
 use crate::page::{Chart, Scale, Shown, bar, table};
 use crate::select::{known, selected, truth};
@@ -127,7 +128,7 @@ pub fn shown() -> Shown {
     }
 }
 
-/// The parameters of joints that matter most in the motion, as shares of their true values.
+/// The first estimated parameter of each kind that joints have, by its name and its column.
 fn parameters(known: &Known) -> Vec<(String, usize)> {
     let columns = known
         .base
@@ -140,7 +141,6 @@ fn parameters(known: &Known) -> Vec<(String, usize)> {
         (format!("{} {}", OF_JOINTS[own], joint + 1), column)
     };
     let mut all: Vec<(String, usize)> = columns.map(name).collect();
-    // The most important one of each kind.
     let mut listed = [false; OWN];
     all.retain(|(_, column)| !std::mem::replace(&mut listed[(column - 60) % OWN], true));
     all
@@ -148,15 +148,32 @@ fn parameters(known: &Known) -> Vec<(String, usize)> {
 
 type Points = Vec<(f64, f64)>;
 
-/// By seconds: each of [`parameters`], and the error of the torques.
-fn curves<F: Effect<f32, 6, 6> + Clone>(friction: F) -> (Vec<(String, Points)>, Points, Outcome) {
+/// What a run shows.
+struct Curves {
+    /// By seconds: each of [`parameters`], and the error of the torques.
+    lines: Vec<(String, Points)>,
+    errors: Points,
+    outcome: Outcome,
+    /// The load by another estimator from the same ticks, six rows in each.
+    by_tag_k: [f32; 10],
+}
+
+fn curves<F: Effect<f32, 6, 6> + Clone>(friction: F) -> Curves {
     let truth = truth();
     let mut lines: Vec<(String, usize, Points)> = parameters(&KNOWN)
         .into_iter()
         .map(|(name, column)| (name, column, Vec::new()))
         .collect();
     let mut errors = Vec::new();
+    let (mut weighings, mut greedy) = (Vec::new(), TagK::default());
     let outcome = run(&KNOWN, friction, |task, tick, firmware| {
+        if task == Task::Weigh {
+            if tick == 0 {
+                weighings.push(*std::mem::take(&mut greedy).estimate());
+            }
+            let (y, residual) = firmware.weighted();
+            greedy.update(&y, &residual);
+        }
         if task != Task::Learn || !tick.is_multiple_of(EVERY) {
             return;
         }
@@ -173,16 +190,30 @@ fn curves<F: Effect<f32, 6, 6> + Clone>(friction: F) -> (Vec<(String, Points)>, 
         let [error, _] = validation(&model.expect("a possible one"));
         errors.push((seconds, 100.0 * f64::from(error)));
     });
+    // What the model lacks without the load is found in the weighing before the last one.
+    let tare = *weighings.last().expect("a weighing");
+    let load = core::array::from_fn(|i| greedy.estimate()[i] - tare[i]);
     let lines = lines.into_iter().map(|(name, _, points)| (name, points));
-    (lines.collect(), errors, outcome.expect("a run"))
+    Curves {
+        lines: lines.collect(),
+        errors,
+        outcome: outcome.expect("a run"),
+        by_tag_k: load,
+    }
 }
 
 fn charts() -> (Vec<Chart>, Vec<(String, &'static str, f64)>) {
-    let (lines, smooth, outcome) = curves(SMOOTH);
-    let (_, sticking, _) = curves(BRISTLES);
+    let Curves {
+        lines,
+        errors: smooth,
+        outcome,
+        by_tag_k,
+    } = curves(SMOOTH);
+    let sticking = curves(BRISTLES).errors;
     let seconds = || Scale::linear("s of motion", [0.0, 30.0]);
     let parameters = Chart {
-        title: "The most important parameter of each kind, with its joint; Coulomb friction".into(),
+        title: "The first estimated parameter of each kind, with its joint; Coulomb friction"
+            .into(),
         x: seconds(),
         y: Scale::linear("estimate over truth", [0.5, 1.5]),
         lines,
@@ -199,8 +230,15 @@ fn charts() -> (Vec<Chart>, Vec<(String, &'static str, f64)>) {
     let left = [
         f64::from(after / before),
         f64::from(load_error(&outcome.found)),
+        f64::from(load_error(&by_tag_k)),
     ];
-    let estimators = [LEARNED, WEIGHED].into_iter().zip(left);
-    let estimators = estimators.map(|(region, left)| (region.to_owned(), region, left));
+    let rows = [LEARNED, WEIGHED, "ur5e payload_update core tag_k"];
+    let names = [
+        LEARNED,
+        WEIGHED,
+        "update of a load by TAG-K, without its rows",
+    ];
+    let estimators = names.map(str::to_owned).into_iter().zip(rows).zip(left);
+    let estimators = estimators.map(|((name, row), left)| (name, row, left));
     (vec![parameters, errors], estimators.collect())
 }

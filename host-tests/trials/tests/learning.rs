@@ -1,5 +1,6 @@
 //! Claims about the scene `so101_learn`, in f32 as in the firmware. `TABLES_WRITE=1` writes what the firmware knows.
 
+use firmware_demo::learning::tag_k::TagK;
 use trial_tests::learning::{ERROR, LOAD_ERRORS, both, of_load};
 use trial_tests::select::{FILE, known, selected, source, truth};
 
@@ -36,5 +37,25 @@ fn a_load_is_found_within_2_percent_and_5_mm_by_an_exact_model() {
             mass < LOAD_ERRORS[0] && centre < LOAD_ERRORS[1],
             "{outcome:?}"
         );
+    }
+}
+
+#[test]
+fn tag_k_solves_rows_without_noise_and_leaves_out_rows_without_entries() {
+    let truth: [f32; 10] = core::array::from_fn(|i| 0.1 * i as f32 - 0.3);
+    let mut found = TagK::default();
+    for tick in 0..2000_u32 {
+        let entry = |row: usize, k: usize| {
+            let phase = 0.7 * tick as f32 * (1.0 + 0.31 * row as f32) + 1.3 * (k * k) as f32;
+            if row == 4 { 0.0 } else { phase.sin() }
+        };
+        let rows: [[f32; 10]; 6] = core::array::from_fn(|i| core::array::from_fn(|k| entry(i, k)));
+        let torque = |row: &[f32; 10]| row.iter().zip(&truth).map(|(y, x)| y * x).sum();
+        let mut torques: [f32; 6] = rows.each_ref().map(torque);
+        torques[4] = 100.0;
+        found.update(&rows, &torques);
+    }
+    for (found, truth) in found.estimate().iter().zip(truth) {
+        assert!((found - truth).abs() < 1e-4, "{found} {truth}");
     }
 }

@@ -46,8 +46,12 @@ fn tag_k_solves_rows_without_noise_and_leaves_out_rows_without_entries() {
     let mut found = TagK::default();
     for tick in 0..2000_u32 {
         let entry = |row: usize, k: usize| {
-            let phase = 0.7 * tick as f32 * (1.0 + 0.31 * row as f32) + 1.3 * (k * k) as f32;
-            if row == 4 { 0.0 } else { phase.sin() }
+            let rate = (1.0 + 0.31 * row as f32) * (0.7 + 0.13 * k as f32);
+            if row == 4 {
+                0.0
+            } else {
+                (rate * tick as f32).sin()
+            }
         };
         let rows: [[f32; 10]; 6] = core::array::from_fn(|i| core::array::from_fn(|k| entry(i, k)));
         let torque = |row: &[f32; 10]| row.iter().zip(&truth).map(|(y, x)| y * x).sum();

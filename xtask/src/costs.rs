@@ -98,7 +98,7 @@ pub fn measure(workspace: &Workspace, tools: &Tools) -> Result<Report> {
 /// Measures the rows of the first robot alone, with what is promised of them.
 pub fn measure_first(workspace: &Workspace, tools: &Tools) -> Result<Report> {
     let mut bars = budgets::bars(workspace)?;
-    let rows = measure_bins(workspace, tools, RELEASE, &BINS[..2])?;
+    let rows = measure_bins(workspace, tools, RELEASE, &[BINS[0], BINS[1], "costs_laws"])?;
     bars.retain(|key, _| rows.iter().any(|row| key.contains(&*row.robot)));
     report(workspace, tools, rows, bars)
 }

@@ -6,17 +6,16 @@
 //!
 //! A frame answers the command of the frame before, with the angle latched when that one ended. One frame a tick is
 //! read, and the angle is one tick old: the observer extrapolates by one tick
-//! ([`dynamics_core::control::Observer::update_delayed`]), which costs no transfers. A second frame for the present
+//! ([`motion_control::Observer::update_delayed`]), which costs no transfers. A second frame for the present
 //! angle would cost six transfers per tick on the bus of six joints, 10 µs and more at the 10 MHz that the part
 //! supports.
 
 use core::f32::consts::TAU;
 use core::fmt;
 
-use dynamics_core::control::MultiTurnEncoder;
 use embedded_hal::spi::{Error, ErrorKind, SpiDevice};
 
-use crate::JointMapping;
+use crate::{JointMapping, MultiTurnEncoder};
 
 /// Counts per turn.
 pub const COUNTS: u16 = 1 << BITS;

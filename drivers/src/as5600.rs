@@ -12,10 +12,9 @@
 
 use core::fmt;
 
-use dynamics_core::control::MultiTurnEncoder;
 use embedded_hal::i2c::{Error, ErrorKind, I2c};
 
-use crate::JointMapping;
+use crate::{JointMapping, MultiTurnEncoder};
 
 /// The 7-bit address of the device, which cannot be changed.
 pub const ADDRESS: u8 = 0x36;

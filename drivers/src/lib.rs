@@ -45,6 +45,7 @@
 )]
 #![no_std]
 #![forbid(unsafe_code)]
+#![deny(missing_docs)]
 
 #[cfg(test)]
 extern crate std;
@@ -59,7 +60,9 @@ pub mod h_bridge;
 pub mod incremental;
 mod mapping;
 pub mod moteus;
+mod multi_turn;
 pub mod odrive;
 pub mod three_phase;
 
 pub use mapping::{Direction, JointMapping, MappingError, Resolution};
+pub use multi_turn::MultiTurnEncoder;

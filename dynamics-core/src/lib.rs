@@ -19,7 +19,7 @@
 //! | [`drivetrain`] | between motors and joints: a constant matrix that couples them, or springs |
 //! | [`clusters`] | kinematic loops of closed form, such as four-bars and parallel ankles, as joints of several bodies |
 //! | [`flexible`] | links that bend: modes of beams, inverse and forward dynamics with them |
-//! | [`control`] | trajectories, observer, control law, safety gate |
+//! | [`advice`] | numbers of a description or a configuration that look like another unit, in words |
 //! | [`sim`] | time steps of a simulated robot, and its actuators |
 //!
 //! ```
@@ -31,22 +31,23 @@
 //!
 //! Cargo features, off by default, neither of which changes a number:
 //!
-//! - `defmt`: `defmt::Format` for what firmware logs: faults, modes, status, commands, errors, states, forces.
-//! - `serde`: `Serialize` and `Deserialize` for what firmware keeps in flash: bounds, gains, limits, way-points, states,
-//!   inertias, friction. Types that a constructor checks are built from these by that constructor.
+//! - `defmt`: `defmt::Format` for what firmware logs: errors, states, motions, forces, advice.
+//! - `serde`: `Serialize` and `Deserialize` for what firmware keeps in flash: joint limits, states, inertias, friction and other
+//!   effects. Types that a constructor checks are built from these by that constructor.
 //!
 //! `examples/` in the crate has a file for each use.
 //!
 #![doc = include_str!("../NOTATION.md")]
 #![cfg_attr(not(test), no_std)]
 #![forbid(unsafe_code)]
+#![deny(missing_docs)]
 
 // The robots that `robot-import` writes name this crate as their users' do.
 extern crate self as dynamics_core;
 
+pub mod advice;
 pub mod algorithms;
 pub mod clusters;
-pub mod control;
 #[cfg(feature = "defmt")]
 mod defmt_form;
 pub mod drivetrain;
@@ -59,7 +60,8 @@ pub mod model;
 pub mod robots;
 pub mod scalar;
 #[cfg(feature = "serde")]
-mod serde_form;
+#[doc(hidden)]
+pub mod serde_form;
 pub mod sim;
 pub mod spatial;
 pub mod state;

@@ -3,6 +3,8 @@
 //! A field at a time, under its name, arrays as tuples of their length. Only types whose fields are public have them,
 //! and limits that their check rejects are not read. Types that a constructor checks (models, trajectories,
 //! supervisors, payloads) have no `Deserialize`: the constructor builds them from these.
+//!
+//! Public, and hidden, for the crates of this project whose structs have the same form.
 
 use crate::effects::{Armature, Viscous, Width};
 use crate::scalar::{Matrix, Real, Vector};
@@ -15,7 +17,8 @@ use serde::ser::SerializeTuple;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 /// An array of any length: serde implements its traits only up to 32.
-struct Array<T, const N: usize>([T; N]);
+#[derive(Debug)]
+pub struct Array<T, const N: usize>(pub [T; N]);
 
 impl<T: Serialize, const N: usize> Serialize for Array<T, N> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
@@ -58,8 +61,10 @@ impl<'de, T: Deserialize<'de>, const N: usize> Visitor<'de> for Elements<T, N> {
 }
 
 /// A field's value in the form that serde takes, and back.
-trait Form<F>: Copy {
+pub trait Form<F>: Copy {
+    /// In that form.
     fn form(self) -> F;
+    /// From that form.
     fn of(form: F) -> Self;
 }
 
@@ -91,22 +96,6 @@ impl<R: Real> Form<R> for Width<R> {
     }
 }
 
-/// What has a record of its own.
-macro_rules! nested {
-    ($($name:ident),+) => {$(
-        impl<R: Real, const V: usize> Form<Self> for crate::control::$name<R, V> {
-            fn form(self) -> Self {
-                self
-            }
-            fn of(form: Self) -> Self {
-                form
-            }
-        }
-    )+};
-}
-
-nested!(LimitedSpring, SafetyLimits, SupervisorConfig);
-
 impl<R: Real, const N: usize> Form<Array<R, N>> for [R; N] {
     fn form(self) -> Array<R, N> {
         Array(self)
@@ -136,9 +125,18 @@ impl<R: Real, const H: usize, const N: usize> Form<Array<Array<R, H>, N>> for [[
 
 /// The traits of a struct, by a twin whose arrays are [`Array`]s. A field that is missing here does not compile. What
 /// its `check` refuses is not read.
-macro_rules! record {
+#[macro_export]
+#[doc(hidden)]
+#[allow(
+    clippy::crate_in_macro_def,
+    reason = "the struct is of the crate that calls it"
+)]
+macro_rules! serde_record {
     ($module:ident::$name:ident<R $(, $n:ident)*> { $($field:ident: $form:ty),+ $(,)? } $($check:ident)?) => {
         const _: () = {
+            use $crate::serde_form::Form;
+            use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
             #[derive(Serialize, Deserialize)]
             #[serde(
                 deny_unknown_fields,
@@ -160,7 +158,7 @@ macro_rules! record {
                 fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
                     let read = $name::deserialize(deserializer)?;
                     let value = Self { $($field: Form::of(read.$field)),+ };
-                    $(value.$check().map_err(D::Error::custom)?;)?
+                    $(value.$check().map_err(serde::de::Error::custom)?;)?
                     Ok(value)
                 }
             }
@@ -168,86 +166,23 @@ macro_rules! record {
     };
 }
 
-record!(control::SafetyLimits<R, V> {
-    torque: Array<R, V>,
-    rate: Array<R, V>,
-    speed: Array<R, V>,
-    lower: Array<R, V>,
-    upper: Array<R, V>,
-} check);
-record!(control::SupervisorConfig<R, V> {
-    limits: crate::control::SafetyLimits<R, V>,
-    tick: R,
-    resolution: R,
-    ride_through_ticks: u32,
-    hold_ticks: u32,
-    reentry_ticks: u32,
-} check);
-record!(control::MotionControllerConfig<R, V> {
-    supervisor: crate::control::SupervisorConfig<R, V>,
-    observer_bandwidth: R,
-    decay_rate: R,
-    restart_distance: R,
-} check);
-record!(control::ObserverConfig<R> { bandwidth: R, tick: R } check);
-record!(control::ResumeConfig<R> { tick: R, decay_rate: R, ticks: u32 } check);
-record!(control::Gains<R, V> { kp: Array<R, V>, kd: Array<R, V> });
-record!(control::PassivityGains<R, V> { lambda: Array<R, V>, kd: Array<R, V> });
-record!(control::ImpedanceConfig<R, M> { stiffness: Array<R, M>, zeta: R, slowest: R } check);
-record!(control::TipWrenchConfig<R, V> { noise: Array<R, V>, force: R, couple: R });
-record!(control::PayloadEstimatorConfig<R, V> {
-    noise: Array<R, V>,
-    prior: Array<R, 10>,
-    forgetting: R,
-    limit: R,
-} check);
-record!(control::ParameterEstimatorConfig<R, P, V> {
-    noise: Array<R, V>,
-    prior: Array<R, P>,
-    own: Array<u16, V>,
-    forgetting: R,
-    limit: R,
-} check);
-record!(control::LimitedSpring<R, V> {
-    stiffness: Array<R, V>,
-    damping: Array<R, V>,
-    torque: Array<R, V>,
-});
-record!(control::HandGuidingConfig<R, V> {
-    error: R,
-    share: R,
-    rest_speed: Array<R, V>,
-    compensation: Array<R, V>,
-    lower: Array<R, V>,
-    upper: Array<R, V>,
-    wall: crate::control::LimitedSpring<R, V>,
-    lock: crate::control::LimitedSpring<R, V>,
-} check);
-record!(control::InertiaShapingConfig<R, V> {
-    amplification: R,
-    dead_band: Array<R, V>,
-    damping: Array<R, V>,
-    torque: Array<R, V>,
-} check);
-record!(control::MotionLimits<R> { velocity: R, acceleration: R });
-record!(control::WayPoint<R, V> { q: Array<R, V>, qd: Array<R, V>, ticks: u32 });
-record!(state::State<R, Q, V> { q: Array<R, Q>, qd: Array<R, V>, qdd: Array<R, V> });
-record!(model::JointLimits<R> { lower: R, upper: R, velocity: R, torque: R });
-record!(model::BodyInertia<R> { mass: R, com: Array<R, 3>, inertia: Array<R, 6> });
+serde_record!(state::State<R, Q, V> { q: Array<R, Q>, qd: Array<R, V>, qdd: Array<R, V> });
+serde_record!(model::JointLimits<R> { lower: R, upper: R, velocity: R, torque: R });
+serde_record!(model::BodyInertia<R> { mass: R, com: Array<R, 3>, inertia: Array<R, 6> });
 
-record!(effects::Coulomb<R, V> { torque: Array<R, V>, width: R });
-record!(effects::AsymmetricCoulomb<R, V> {
+serde_record!(effects::Coulomb<R, V> { torque: Array<R, V>, width: R });
+serde_record!(effects::AsymmetricCoulomb<R, V> {
     forward: Array<R, V>,
     backward: Array<R, V>,
     width: R,
 });
-record!(effects::LoadFriction<R, V> {
+serde_record!(effects::LoadFriction<R, V> {
     driving: Array<R, V>,
     backdriving: Array<R, V>,
     width: R,
 });
-record!(effects::Stribeck<R, V> { excess: Array<R, V>, stribeck_speed: R, width: R });
-record!(effects::Lugre<R, V> {
+serde_record!(effects::Stribeck<R, V> { excess: Array<R, V>, stribeck_speed: R, width: R });
+serde_record!(effects::Lugre<R, V> {
     stiffness: Array<R, V>,
     damping: Array<R, V>,
     viscous: Array<R, V>,
@@ -256,13 +191,13 @@ record!(effects::Lugre<R, V> {
     stribeck_speed: R,
     bristle: Array<R, V>,
 });
-record!(effects::Cogging<R, H, V> {
+serde_record!(effects::Cogging<R, H, V> {
     per_turn: Array<R, V>,
     cos: Array<Array<R, H>, V>,
     sin: Array<Array<R, H>, V>,
 });
-record!(effects::Spring<R, V> { stiffness: Array<R, V>, rest: Array<R, V> });
-record!(effects::EndStops<R, V> {
+serde_record!(effects::Spring<R, V> { stiffness: Array<R, V>, rest: Array<R, V> });
+serde_record!(effects::EndStops<R, V> {
     lower: Array<R, V>,
     upper: Array<R, V>,
     stiffness: R,

@@ -1,6 +1,7 @@
 //! [`Core`]: the reference implementation of the algorithms, for a robot known at compile time.
 
 mod regressor;
+mod scene;
 
 use core::marker::PhantomData;
 
@@ -8,7 +9,7 @@ use crate::algorithms::{self, Frame, JointResult, Kinematics, Ltdl, MassMatrix};
 use crate::algorithms::{
     MomentumAndCoriolis, MomentumAndDrift, NotPositiveDefinite, OsimInverse, Pose, Prescribed,
 };
-use crate::effects::Effect;
+use crate::effects::{Effect, Scene};
 use crate::model::{RobotModel, Static};
 use crate::scalar::{Native, Real};
 use crate::spatial::{Force, Motion};
@@ -45,13 +46,15 @@ impl<T, K> Core<T, K> {
 
     /// τ = ID(q, q̇, q̈): the torque of each motor, see [`algorithms::rnea`].
     #[inline(never)]
-    pub fn rnea<R: Real, const B: usize, const Q: usize, const V: usize>(
+    pub fn rnea<R: Real, E, const B: usize, const Q: usize, const V: usize>(
         state: impl RobotState<R, Q, V>,
-        effects: &impl Effect<R, B, V>,
+        effects: &E,
     ) -> [R; V]
     where
         Static<T, K>: RobotModel<R, B, Q, V>,
+        E: Effect<R, B, V>,
     {
+        const { Scene::<R, E, B, V>::OF_CORE };
         algorithms::rnea(&Static::<T, K>::NEW, state, effects)
     }
 
@@ -60,14 +63,16 @@ impl<T, K> Core<T, K> {
     /// # Errors
     /// [`NotPositiveDefinite`] names a joint that moves no inertia.
     #[inline(never)]
-    pub fn aba<R: Real, const B: usize, const Q: usize, const V: usize>(
+    pub fn aba<R: Real, E, const B: usize, const Q: usize, const V: usize>(
         state: impl RobotState<R, Q, V>,
         tau: &[R; V],
-        effects: &impl Effect<R, B, V>,
+        effects: &E,
     ) -> Result<[R; V], NotPositiveDefinite>
     where
         Static<T, K>: RobotModel<R, B, Q, V>,
+        E: Effect<R, B, V>,
     {
+        const { Scene::<R, E, B, V>::OF_CORE };
         algorithms::aba(&Static::<T, K>::NEW, state, tau, effects)
     }
 
@@ -76,14 +81,16 @@ impl<T, K> Core<T, K> {
     /// # Errors
     /// [`NotPositiveDefinite`] names a joint that moves no inertia.
     #[inline(never)]
-    pub fn forward_dynamics<R: Real, const B: usize, const Q: usize, const V: usize>(
+    pub fn forward_dynamics<R: Real, E, const B: usize, const Q: usize, const V: usize>(
         state: impl RobotState<R, Q, V>,
         tau: &[R; V],
-        effects: &impl Effect<R, B, V>,
+        effects: &E,
     ) -> Result<[R; V], NotPositiveDefinite>
     where
         Static<T, K>: RobotModel<R, B, Q, V>,
+        E: Effect<R, B, V>,
     {
+        const { Scene::<R, E, B, V>::OF_CORE };
         algorithms::forward_dynamics(&Static::<T, K>::NEW, state, tau, effects)
     }
 
@@ -92,26 +99,30 @@ impl<T, K> Core<T, K> {
     /// # Errors
     /// [`NotPositiveDefinite`] names a joint of given torque that moves no inertia.
     #[inline(never)]
-    pub fn hybrid_dynamics<R: Real, const B: usize, const Q: usize, const V: usize>(
+    pub fn hybrid_dynamics<R: Real, E, const B: usize, const Q: usize, const V: usize>(
         state: impl RobotState<R, Q, V>,
         given: &[Prescribed<R>; V],
-        effects: &impl Effect<R, B, V>,
+        effects: &E,
     ) -> Result<JointResult<R, V>, NotPositiveDefinite>
     where
         Static<T, K>: RobotModel<R, B, Q, V>,
+        E: Effect<R, B, V>,
     {
+        const { Scene::<R, E, B, V>::OF_CORE };
         algorithms::hybrid_dynamics(&Static::<T, K>::NEW, state, given, effects)
     }
 
     /// M(q): the joint-space inertia matrix, see [`algorithms::crba`].
     #[inline(never)]
-    pub fn crba<R: Real, const B: usize, const Q: usize, const V: usize>(
+    pub fn crba<R: Real, E, const B: usize, const Q: usize, const V: usize>(
         q: &impl Configuration<R, Q>,
-        effects: &impl Effect<R, B, V>,
+        effects: &E,
     ) -> MassMatrix<R, V>
     where
         Static<T, K>: RobotModel<R, B, Q, V>,
+        E: Effect<R, B, V>,
     {
+        const { Scene::<R, E, B, V>::OF_CORE };
         algorithms::crba(&Static::<T, K>::NEW, q, effects)
     }
 
@@ -154,13 +165,15 @@ impl<T, K> Core<T, K> {
 
     /// Pose, velocity and acceleration of every body, see [`algorithms::kinematics()`].
     #[inline(never)]
-    pub fn kinematics<R: Real, const B: usize, const Q: usize, const V: usize>(
+    pub fn kinematics<R: Real, E, const B: usize, const Q: usize, const V: usize>(
         state: impl RobotState<R, Q, V>,
-        effects: &impl Effect<R, B, V>,
+        effects: &E,
     ) -> Kinematics<R, B>
     where
         Static<T, K>: RobotModel<R, B, Q, V>,
+        E: Effect<R, B, V>,
     {
+        const { Scene::<R, E, B, V>::OF_CORE };
         algorithms::kinematics(&Static::<T, K>::NEW, state, effects)
     }
 
@@ -195,15 +208,17 @@ impl<T, K> Core<T, K> {
     /// # Errors
     /// [`NotPositiveDefinite`] names a joint that moves no inertia.
     #[inline(never)]
-    pub fn osim_inverse<R: Real, F: Frame, const B: usize, const Q: usize, const V: usize>(
+    pub fn osim_inverse<R: Real, E, F: Frame, const B: usize, const Q: usize, const V: usize>(
         q: &impl Configuration<R, Q>,
         body: usize,
         frame: F,
-        effects: &impl Effect<R, B, V>,
+        effects: &E,
     ) -> Result<OsimInverse<R>, NotPositiveDefinite>
     where
         Static<T, K>: RobotModel<R, B, Q, V>,
+        E: Effect<R, B, V>,
     {
+        const { Scene::<R, E, B, V>::OF_CORE };
         algorithms::osim_inverse(&Static::<T, K>::NEW, q, body, frame, effects)
     }
 
@@ -213,87 +228,101 @@ impl<T, K> Core<T, K> {
     /// # Errors
     /// [`NotPositiveDefinite`] names the first coordinate of bodies without mass or inertia.
     #[inline(never)]
-    pub fn base_velocity_from_momentum<R: Real, const B: usize, const Q: usize, const V: usize>(
+    pub fn base_velocity_from_momentum<R: Real, E, const B: usize, const Q: usize, const V: usize>(
         state: impl RobotState<R, Q, V>,
         h: Force<R>,
-        effects: &impl Effect<R, B, V>,
+        effects: &E,
     ) -> Result<[R; V], NotPositiveDefinite>
     where
         Static<T, K>: RobotModel<R, B, Q, V>,
+        E: Effect<R, B, V>,
     {
+        const { Scene::<R, E, B, V>::OF_CORE };
         algorithms::base_velocity_from_momentum(&Static::<T, K>::NEW, state, h, effects)
     }
 
     /// p = M q̇ and Cᵀ q̇, see [`algorithms::momentum_and_coriolis`].
     #[inline(never)]
-    pub fn momentum_and_coriolis<R: Real, const B: usize, const Q: usize, const V: usize>(
+    pub fn momentum_and_coriolis<R: Real, E, const B: usize, const Q: usize, const V: usize>(
         state: impl RobotState<R, Q, V>,
-        effects: &impl Effect<R, B, V>,
+        effects: &E,
     ) -> MomentumAndCoriolis<R, V>
     where
         Static<T, K>: RobotModel<R, B, Q, V>,
+        E: Effect<R, B, V>,
     {
+        const { Scene::<R, E, B, V>::OF_CORE };
         algorithms::momentum_and_coriolis(&Static::<T, K>::NEW, state, effects)
     }
 
     /// p = M q̇ and β = Cᵀ q̇ − g − F, see [`algorithms::momentum_and_drift`].
     #[inline(never)]
-    pub fn momentum_and_drift<R: Real, const B: usize, const Q: usize, const V: usize>(
+    pub fn momentum_and_drift<R: Real, E, const B: usize, const Q: usize, const V: usize>(
         state: impl RobotState<R, Q, V>,
-        effects: &impl Effect<R, B, V>,
+        effects: &E,
     ) -> MomentumAndDrift<R, V>
     where
         Static<T, K>: RobotModel<R, B, Q, V>,
+        E: Effect<R, B, V>,
     {
+        const { Scene::<R, E, B, V>::OF_CORE };
         algorithms::momentum_and_drift(&Static::<T, K>::NEW, state, effects)
     }
 
     /// C(q, q̇), see [`algorithms::coriolis_matrix`].
     #[inline(never)]
-    pub fn coriolis_matrix<R: Real, const B: usize, const Q: usize, const V: usize>(
+    pub fn coriolis_matrix<R: Real, E, const B: usize, const Q: usize, const V: usize>(
         state: impl RobotState<R, Q, V>,
-        effects: &impl Effect<R, B, V>,
+        effects: &E,
     ) -> [[R; V]; V]
     where
         Static<T, K>: RobotModel<R, B, Q, V>,
+        E: Effect<R, B, V>,
     {
+        const { Scene::<R, E, B, V>::OF_CORE };
         algorithms::coriolis_matrix(&Static::<T, K>::NEW, state, effects)
     }
 
     /// M q̈_r + C(q, q̇) q̇_r + g + F, see [`algorithms::rnea_two_velocities`].
     #[inline(never)]
-    pub fn rnea_two_velocities<R: Real, const B: usize, const Q: usize, const V: usize>(
+    pub fn rnea_two_velocities<R: Real, E, const B: usize, const Q: usize, const V: usize>(
         state: impl RobotState<R, Q, V>,
         qd_r: &[R; V],
-        effects: &impl Effect<R, B, V>,
+        effects: &E,
     ) -> [R; V]
     where
         Static<T, K>: RobotModel<R, B, Q, V>,
+        E: Effect<R, B, V>,
     {
+        const { Scene::<R, E, B, V>::OF_CORE };
         algorithms::rnea_two_velocities(&Static::<T, K>::NEW, state, qd_r, effects)
     }
 
     /// The kinetic energy T, J, see [`algorithms::kinetic_energy`].
     #[inline(never)]
-    pub fn kinetic_energy<R: Real, const B: usize, const Q: usize, const V: usize>(
+    pub fn kinetic_energy<R: Real, E, const B: usize, const Q: usize, const V: usize>(
         state: impl RobotState<R, Q, V>,
-        effects: &impl Effect<R, B, V>,
+        effects: &E,
     ) -> R
     where
         Static<T, K>: RobotModel<R, B, Q, V>,
+        E: Effect<R, B, V>,
     {
+        const { Scene::<R, E, B, V>::OF_CORE };
         algorithms::kinetic_energy(&Static::<T, K>::NEW, state, effects)
     }
 
     /// The potential energy U, J, see [`algorithms::potential_energy`].
     #[inline(never)]
-    pub fn potential_energy<R: Real, const B: usize, const Q: usize, const V: usize>(
+    pub fn potential_energy<R: Real, E, const B: usize, const Q: usize, const V: usize>(
         q: &impl Configuration<R, Q>,
-        effects: &impl Effect<R, B, V>,
+        effects: &E,
     ) -> R
     where
         Static<T, K>: RobotModel<R, B, Q, V>,
+        E: Effect<R, B, V>,
     {
+        const { Scene::<R, E, B, V>::OF_CORE };
         algorithms::potential_energy(&Static::<T, K>::NEW, q, effects)
     }
 }

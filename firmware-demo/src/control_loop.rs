@@ -3,16 +3,16 @@
 //! The loop owns its encoders, drives and brake through `embedded-hal` traits, and calls the library's
 //! [`MotionController`], which contains the state of the loop and the reaction to faults.
 
-use dynamics_core::control::{
-    CompletedTick, Detect, Estimate, Fault, Gains, MotionController, ObservedTick, Reference,
-    ReferencedTick, ResetError, StopCategory, TickCounter, feedback,
-};
 use dynamics_core::state::State;
 use embedded_hal::digital::OutputPin;
 use embedded_hal::pwm::SetDutyCycle;
 use embedded_hal::spi::SpiDevice;
 use joint_drivers::as5047p::{As5047p, FrameError};
 use joint_drivers::h_bridge::LockedAntiphase;
+use motion_control::{
+    CompletedTick, Detect, Estimate, Fault, Gains, MotionController, ObservedTick, Reference,
+    ReferencedTick, ResetError, StopCategory, TickCounter, feedback,
+};
 
 use crate::marker::measured;
 
@@ -24,7 +24,7 @@ pub use record::{Recorder, Telemetry};
 pub mod region {
     /// The whole tick.
     pub const TICK: u8 = 0;
-    /// Encoders, plausibility, observer: [`dynamics_core::control::MotionController::observe`].
+    /// Encoders, plausibility, observer: [`motion_control::MotionController::observe`].
     pub const READ: u8 = 1;
     /// The trajectory at this tick.
     pub const REFERENCE: u8 = 2;
@@ -186,7 +186,7 @@ where
     /// One tick under the law `L` at the count of a timer that advances by one per period.
     ///
     /// Missed ticks are reported to the controller, and so is a tick that ends after its period. A tick that ends in
-    /// time gives what feeds a [`Watchdog`](dynamics_core::control::Watchdog).
+    /// time gives what feeds a [`Watchdog`](motion_control::Watchdog).
     pub fn tick_at<L: Law<V, X>, T: Reference<f32, V>, X>(
         &mut self,
         trajectory: &T,

@@ -5,7 +5,7 @@
 
 use core::fmt;
 
-use dynamics_core::control::{Mode, Reference, Status};
+use motion_control::{Mode, Reference, Status};
 
 use crate::control_loop::Telemetry;
 use crate::digest::Digest;
@@ -15,7 +15,7 @@ use crate::sim_io::Wires;
 /// The control loop of a scene on wires whose encoders follow the reference exactly.
 ///
 /// ```
-/// use dynamics_core::control::Mode;
+/// use motion_control::Mode;
 /// use firmware_demo::{replay::Replay, scenes::scara_table::Serve, sim_io::Wires};
 ///
 /// static WIRES: Wires<3> = Wires::new();

@@ -2,10 +2,6 @@
 //! does not, with the tracking errors of each, and then without each of its effects in turn.
 
 use dynamics_core::Core;
-use dynamics_core::control::{
-    Detect, Detectors, FrozenEncoder, Gains, MotionLimits, Reference, ReferenceStep, Saturation,
-    Trajectory, TrajectoryError, WayPoint,
-};
 use dynamics_core::effects::Effect;
 use dynamics_core::model::{Calibrated, JointLimits, Robot, model};
 use dynamics_core::state::State;
@@ -14,6 +10,10 @@ use embedded_hal::pwm::SetDutyCycle;
 use embedded_hal::spi::SpiDevice;
 use joint_drivers::as5047p::RESOLUTION;
 use joint_drivers::h_bridge::DriveError;
+use motion_control::{
+    Detect, Detectors, FrozenEncoder, Gains, MotionLimits, Reference, ReferenceStep, Saturation,
+    Trajectory, TrajectoryError, WayPoint,
+};
 
 use crate::control_loop::ControlLoop;
 use crate::plant::{Plant, Simulated, last};

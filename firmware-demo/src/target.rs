@@ -7,8 +7,8 @@ use cortex_m::peripheral::syst::SystClkSource;
 use cortex_m_rt::{ExceptionFrame, exception};
 use cortex_m_semihosting::debug;
 use defmt_semihosting as _;
-use dynamics_core::control::Status;
 use heapless::spsc::{Consumer, Queue};
+use motion_control::Status;
 
 use crate::control_loop::region;
 use crate::marker::measured;

@@ -2,7 +2,7 @@
 
 use core::f32::consts::{FRAC_PI_2, FRAC_PI_4};
 
-use dynamics_core::control::WayPoint;
+use motion_control::WayPoint;
 
 pub mod hop;
 pub mod picks;

@@ -3,10 +3,10 @@
 use core::marker::PhantomData;
 use core::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
-use dynamics_core::control::{Detectors, Mode, Reference};
 use dynamics_core::model::{JointKind, model};
 use heapless::{String, Vec};
 use joint_drivers::h_bridge::DriveError;
+use motion_control::{Detectors, Mode, Reference};
 use telemetry::{Axis, Machine, Producer, Sample};
 
 use crate::control_loop::{Recorder, Telemetry, region};

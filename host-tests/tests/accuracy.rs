@@ -6,7 +6,6 @@ mod motion;
 
 use std::collections::BTreeSet;
 
-use dynamics_core::control::{FirstOrderHold, InertiaUpdate};
 use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::model::Robot;
 use dynamics_core::robots::{A1Leg, Panda, Ur5e};
@@ -25,6 +24,7 @@ use firmware_demo::accuracy::{Inverse, Visitor, list};
 use host_tests::measured::largest;
 use host_tests::recordings::{Precise, load, read};
 use host_tests::tolerances::check;
+use motion_control::{FirstOrderHold, InertiaUpdate};
 
 /// The ways' names.
 #[derive(Default)]

@@ -1,4 +1,8 @@
-//! The comparisons of errors with bounds fail when they must: the tables of tolerances and of hard cases.
+//! The comparisons of errors with bounds fail when they must: the tables of tolerances and of hard cases; and
+//! the compiler refuses what is wrong, at the line of its user.
+
+#[path = "checks/mistakes.rs"]
+mod mistakes;
 
 use host_tests::hard::measure::larger;
 use host_tests::hard::{Row, Verdict};

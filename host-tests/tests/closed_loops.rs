@@ -1,11 +1,8 @@
 //! Claims about the scenes with closed loops, `parallel_ankle` and `delta_pick`: their references, and what happens where
 //! a loop does not close.
 
-mod common;
-
-use common::{Verdict, Worst};
+use crate::common::{Verdict, Worst};
 use dynamics_core::clusters::{ClusterProblem, Clustered};
-use dynamics_core::control::{Fault, Reference};
 use dynamics_core::state::{RobotState, State};
 use dynamics_core::{Core, Engine};
 use firmware_demo::plant::{ClusterPlant, Simulated};
@@ -18,6 +15,7 @@ use firmware_demo::sim_io::Wires;
 use firmware_demo::trajectories::MID_STANCE;
 use firmware_demo::trajectories::picks::{FEEDER, LIFT, MOVE, Picks, REACH, cranks};
 use glam::Vec3;
+use motion_control::{Fault, Reference};
 
 fn wide<const N: usize>(state: &State<f32, N, N>) -> State<f64, N, N> {
     State {

@@ -1,13 +1,8 @@
 //! An arm that presses on a wall while it moves along it, under motion and force control.
 
-mod common;
-
-use common::{Verdict, Worst};
+use crate::common::{Verdict, Worst};
 use dynamics_core::algorithms::{
     Damping, bias_acceleration, frame, kinematics, operational_space, rnea,
-};
-use dynamics_core::control::{
-    TaskCommand, TaskForce, TaskFrame, TaskMotion, hybrid_motion_force, orientation_error,
 };
 use dynamics_core::effects::{Coriolis, Effect, Gravity, Inertia, RIGID_BODY, hook};
 use dynamics_core::model::Robot;
@@ -16,6 +11,9 @@ use dynamics_core::sim::semi_implicit;
 use dynamics_core::state::{JointTrig, State};
 use glam::{DMat3, DVec3};
 use host_tests::measured::largest;
+use motion_control::{
+    TaskCommand, TaskForce, TaskFrame, TaskMotion, hybrid_motion_force, orientation_error,
+};
 
 const HAND: usize = 6;
 const TICK: f64 = 1e-3;

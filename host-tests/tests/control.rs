@@ -2,13 +2,13 @@
 //! the error for a way-point beyond the limits.
 
 use dynamics_core::Core;
-use dynamics_core::control::{
-    Estimate, Fault, Gains, Mode, MotionLimits, Observer, ObserverConfig, SafetyLimits, Supervisor,
-    SupervisorConfig, Trajectory, TrajectoryError, WayPoint, feedback,
-};
 use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::robots::Ur5e;
 use dynamics_core::state::State;
+use motion_control::{
+    Estimate, Fault, Gains, Mode, MotionLimits, Observer, ObserverConfig, SafetyLimits, Supervisor,
+    SupervisorConfig, Trajectory, TrajectoryError, WayPoint, feedback,
+};
 use proptest::prelude::*;
 
 const TICK: f32 = 1e-3;

@@ -1,7 +1,6 @@
-//! The control loop in the documentation of `dynamics_core::control`, on a simulated arm: it keeps what the firmware's
+//! The control loop in the documentation of `motion_control`, on a simulated arm: it keeps what the firmware's
 //! loop promises.
 
-use dynamics_core::control::{Fault, Mode, SafetyLimits};
 use dynamics_core::model::Static;
 use dynamics_core::robots::Ur5e;
 use dynamics_core::sim::linearly_implicit;
@@ -9,8 +8,9 @@ use dynamics_core::state::State;
 use firmware_demo::scene::Scene;
 use firmware_demo::scenes::ur5e::PickAndPlace;
 use host_tests::measured::{largest, within};
+use motion_control::{Fault, Mode, SafetyLimits};
 
-#[path = "../../dynamics-core/src/control/example.rs"]
+#[path = "../../motion-control/src/example.rs"]
 mod example;
 
 use example::{EFFECTS, HOLD, OMEGA_N, REENTRY, RIDE_THROUGH as RIDE, TICK};

@@ -1,15 +1,15 @@
 //! Claims about single parts of the control layer: what they forget, and what they keep to second order.
 
 use dynamics_core::Core;
-use dynamics_core::control::{
-    Estimate, Fault, InertiaUpdate, Mode, MotionLimits, Observer, ObserverConfig, Reference,
-    RestToRest, ResumeConfig, ResumeTrajectory, SafetyLimits, Supervisor, SupervisorConfig,
-    TrajectoryError, WayPoint,
-};
 use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::robots::Ur5e;
 use dynamics_core::state::State;
 use host_tests::measured::{largest, within};
+use motion_control::{
+    Estimate, Fault, InertiaUpdate, Mode, MotionLimits, Observer, ObserverConfig, Reference,
+    RestToRest, ResumeConfig, ResumeTrajectory, SafetyLimits, Supervisor, SupervisorConfig,
+    TrajectoryError, WayPoint,
+};
 
 const H: f64 = 1e-3;
 const RIDE: u32 = 2;

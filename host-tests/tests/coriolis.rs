@@ -1,8 +1,6 @@
 //! C(q, q̇) as a matrix and by the RNEA of two velocities: laws on trees with joints of every kind, and on arms.
 
-mod common;
-
-use common::*;
+use crate::common::*;
 use dynamics_core::algorithms::{
     MassMatrix, coriolis_matrix, crba, momentum_and_coriolis, rnea, rnea_two_velocities,
 };

@@ -2,9 +2,6 @@
 
 use std::cell::Cell;
 
-use dynamics_core::control::{
-    Command, Detect, Detectors, Fault, Mode, Reference, Status, StopCategory, Trajectory,
-};
 use dynamics_core::robots::Ur5e;
 use dynamics_core::state::State;
 use firmware_demo::control_loop::Law;
@@ -12,6 +9,9 @@ use firmware_demo::plant::{Plant, Rig};
 use firmware_demo::scene::{Full, Noise, STEPS, Scene, SimLoop, TICK, simulated_loop};
 use firmware_demo::scenes::ur5e::{Effects, PickAndPlace};
 use firmware_demo::sim_io::Wires;
+use motion_control::{
+    Command, Detect, Detectors, Fault, Mode, Reference, Status, StopCategory, Trajectory,
+};
 
 type Path = Trajectory<f32, 6, 9>;
 type FullModel = Full<PickAndPlace, 6, 6, 6>;

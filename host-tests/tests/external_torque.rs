@@ -2,15 +2,15 @@
 
 use dynamics_core::Core;
 use dynamics_core::algorithms::frame;
-use dynamics_core::control::{
-    ConfigError, ConfigParameter, ContactDetector, Fault, MomentumObserver, ObserverConfig,
-    TipWrench, TipWrenchConfig,
-};
 use dynamics_core::model::Robot;
 use dynamics_core::robots::{Panda, Ur5e};
 use dynamics_core::scalar::{Real, Vector};
 use dynamics_core::spatial::{Force, Motion};
 use glam::DVec3;
+use motion_control::{
+    ConfigError, ConfigParameter, ContactDetector, Fault, MomentumObserver, ObserverConfig,
+    TipWrench, TipWrenchConfig,
+};
 use proptest::prelude::RngExt;
 use proptest::test_runner::{RngAlgorithm, TestRng};
 

@@ -1,7 +1,6 @@
 //! The simulation that `cargo xtask accuracy` prints as generated code is the one that it measured.
 
 #[path = "generated/ur5e_rk4.rs"]
-#[allow(missing_docs, reason = "as it is printed")]
 mod ur5e_rk4;
 
 use dynamics_core::robots::Ur5e;

@@ -1,9 +1,7 @@
 //! Poses, velocities, accelerations, Jacobians, energies and momenta: closed forms, and laws that hold for every
 //! tree and joint.
 
-mod common;
-
-use common::*;
+use crate::common::*;
 use dynamics_core::algorithms::{
     bias_acceleration, center_of_mass, centroidal_matrix, classical, frame, jacobian, kinematics,
     kinetic_energy, momentum, poses, potential_energy,

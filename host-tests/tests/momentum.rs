@@ -1,10 +1,8 @@
 //! Energy and momentum: laws of mechanics on trees of every joint.
 
-mod common;
-
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_4, SQRT_2};
 
-use common::*;
+use crate::common::*;
 use dynamics_core::algorithms::{
     MassMatrix, MomentumAndCoriolis, aba, center_of_mass, centroidal_matrix, centroidal_momentum,
     crba, kinetic_energy, momentum, momentum_and_coriolis, momentum_and_drift, potential_energy,

@@ -1,18 +1,16 @@
 //! Operational space: two ways to Λ⁻¹, what Λ and its inverse are for, no jump at singular poses, and control of
 //! motion and force with them.
 
-mod common;
-
-use common::*;
+use crate::common::*;
 use dynamics_core::algorithms::{
     Conditioning, Damping, OperationalSpace, frame, operational_space, osim_inverse,
 };
-use dynamics_core::control::TaskFrame;
 use dynamics_core::effects::{Armature, Inertia, Payload, RIGID_BODY};
 use dynamics_core::model::{ArmModel, BASE, Body, BodyInertia, Joint, Model, Robot};
 use dynamics_core::robots::{Panda, Ur5e};
 use dynamics_core::spatial::Force;
 use glam::DMat3;
+use motion_control::TaskFrame;
 
 const DAMPING: f64 = 1e-3;
 

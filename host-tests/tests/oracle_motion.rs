@@ -1,10 +1,9 @@
 //! Kinematics, energies, momenta and mobilities against Pinocchio, in f64 and f32.
 
-mod common;
-
 use std::collections::BTreeMap;
 
-use common::{Verdict, Worst, flat, six, unit};
+use crate::common::of_recorded_robots;
+use crate::common::{Verdict, Worst, flat, six, unit};
 use dynamics_core::Core;
 use dynamics_core::algorithms::{
     center_of_mass, centroidal_matrix, centroidal_momentum, frame, momentum,

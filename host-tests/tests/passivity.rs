@@ -1,14 +1,12 @@
 //! The law of Slotine & Li: the energy of s changes by its damping alone, and tracking on a simulated arm.
 
-mod common;
-
-use common::*;
+use crate::common::*;
 use dynamics_core::algorithms::{aba, crba, rnea};
-use dynamics_core::control::{Estimate, PassivityGains, passivity_based_torque};
 use dynamics_core::effects::{Armature, Coriolis, Gravity, Inertia, Viscous};
 use dynamics_core::model::{ArmModel, Model, Robot};
 use dynamics_core::robots::{Panda, Ur5e};
 use dynamics_core::state::State;
+use motion_control::{Estimate, PassivityGains, passivity_based_torque};
 
 type Scene<const V: usize> = (
     (Gravity, Inertia, Coriolis),

@@ -1,8 +1,7 @@
 //! The regressor: against Pinocchio's, and Y φ as inverse dynamics on trees of every joint.
 
-mod common;
-
-use common::*;
+use crate::common::of_recorded_robots;
+use crate::common::*;
 use dynamics_core::Core;
 use dynamics_core::algorithms::{
     friction_regressor, inertial_parameters, regressor, regressor_columns, regressor_row, rnea,

@@ -1,8 +1,6 @@
 //! What the scenes' machines promise: momentum that stays, and a camera that a ship does not turn.
 
-mod common;
-
-use common::*;
+use crate::common::*;
 use dynamics_core::algorithms::{momentum, poses};
 use dynamics_core::effects::{Armature, Coriolis, Coulomb, Inertia, Viscous, Width};
 use dynamics_core::model::{Calibrated, Robot, Static};

@@ -1,11 +1,5 @@
 //! What firmware keeps in flash comes back as it was, and nothing else is read.
 
-use dynamics_core::control::{
-    Gains, HandGuidingConfig, ImpedanceConfig, InertiaShapingConfig, LimitedSpring,
-    MotionControllerConfig, MotionLimits, ObserverConfig, ParameterEstimatorConfig, PassivityGains,
-    PayloadEstimatorConfig, ResumeConfig, SafetyLimits, SupervisorConfig, TipWrenchConfig,
-    WayPoint,
-};
 use dynamics_core::effects::{
     Armature, AsymmetricCoulomb, Cogging, Coulomb, EndStops, LoadFriction, Lugre, Payload, Spring,
     Stribeck, Viscous, Width,
@@ -14,6 +8,12 @@ use dynamics_core::glam::Mat3;
 use dynamics_core::model::{BodyInertia, JointLimits};
 use dynamics_core::spatial::SpatialInertia;
 use dynamics_core::state::State;
+use motion_control::{
+    Gains, HandGuidingConfig, ImpedanceConfig, InertiaShapingConfig, LimitedSpring,
+    MotionControllerConfig, MotionLimits, ObserverConfig, ParameterEstimatorConfig, PassivityGains,
+    PayloadEstimatorConfig, ResumeConfig, SafetyLimits, SupervisorConfig, TipWrenchConfig,
+    WayPoint,
+};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
@@ -230,9 +230,7 @@ fn bounds_that_allow_nothing_are_refused_as_they_are_read() {
         ..LIMITS
     };
     let text = serde_json::to_string(&negative).expect("bounds");
-    assert!(
-        refusal::<SafetyLimits<f32, 2>>(&text).contains("joint 1: its limit of torque is negative")
-    );
+    assert!(refusal::<SafetyLimits<f32, 2>>(&text).contains("joint 1: its torque limit"));
     let mut config = CONFIG;
     config.observer_bandwidth = -1.0;
     let text = serde_json::to_string(&config).expect("a configuration");

@@ -1,16 +1,14 @@
 //! Near and at singular poses: the damping is as documented, and nothing jumps along a path through them.
 
-mod common;
-
-use common::*;
+use crate::common::*;
 use dynamics_core::algorithms::{
     Conditioning, Damping, OperationalSpace, damped_inverse, frame, operational_space,
 };
-use dynamics_core::control::TaskFrame;
 use dynamics_core::effects::{Armature, Inertia, RIGID_BODY};
 use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model, Robot};
 use dynamics_core::robots::{Panda, Ur5e};
 use dynamics_core::scalar::Real;
+use motion_control::TaskFrame;
 
 const DAMPING: f64 = 1e-3;
 

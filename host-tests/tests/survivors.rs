@@ -5,7 +5,6 @@ use dynamics_core::algorithms::{
     base_velocity_from_momentum, centroidal_matrix, centroidal_momentum, cholesky, crba, ltdl,
     momentum,
 };
-use dynamics_core::control::{TaskCommand, TaskMotion, ZeroOrderHold};
 use dynamics_core::drivetrain::{ElasticJoints, ElasticReference, elastic_inverse_dynamics};
 use dynamics_core::effects::{
     Coriolis, Effect, EndStops, GyroscopicRotors, Inertia, InvalidPayload, JointState, Lugre,
@@ -17,6 +16,7 @@ use dynamics_core::state::IncrementalTrig;
 use dynamics_core::state::State;
 use dynamics_core::state::manifold::{integrate, neutral};
 use glam::DVec3;
+use motion_control::{TaskCommand, TaskMotion, ZeroOrderHold};
 
 fn at(q: f64, qd: f64) -> JointState<f64> {
     JointState::new(q, qd)

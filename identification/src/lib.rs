@@ -9,7 +9,7 @@
 //! | base parameters with standard deviations | [`Batch`], [`Identified`] |
 //! | parameters of each body that are possible | [`PhysicalSet`] |
 //!
-//! The recursive estimator for the tick is `dynamics_core::control::ParameterEstimator`.
+//! The recursive estimator for the tick is `motion_control::ParameterEstimator`.
 //!
 //! # Why the motion is periodic
 //! Encoders measure positions only, and differences of their steps are useless as accelerations. A periodic motion is a Fourier series
@@ -51,6 +51,7 @@
 //! assert!(found.base.iter().zip(true_values).all(|(found, value)| (found - value).abs() < 1e-6));
 //! # Ok::<(), identification::IdentificationError>(())
 //! ```
+#![deny(missing_docs)]
 
 mod base;
 mod batch;

@@ -15,7 +15,7 @@ use crate::columns::OF_JOINT;
 use crate::{BaseModel, IdentificationError, Identified};
 
 /// The share of the nominal pseudo-inertia and friction that remains in all directions: more than that of
-/// [`PhysicalParameters`](dynamics_core::control::PhysicalParameters), so that rounding to f32 leaves a set possible.
+/// [`PhysicalParameters`](motion_control::PhysicalParameters), so that rounding to f32 leaves a set possible.
 const MARGIN: f64 = 0.06;
 /// No base parameter counts as known better than to this share of its nominal deviation: without noise, in a simulation, rounding would
 /// decide.

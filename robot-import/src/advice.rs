@@ -4,11 +4,12 @@ use std::f64::consts::PI;
 
 use serde::Serialize;
 
+use crate::check::Checked;
 use crate::description::{Description, Format, Joint, Kind};
 use crate::inertia::MassProperties;
-use crate::physical::violation;
+use crate::physical::impossible;
 use crate::selection::{Role, Selected};
-use crate::tree::Tree;
+use crate::tree::{Body, Tree};
 
 /// A kind of advice.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
@@ -29,8 +30,16 @@ pub enum Topic {
     Limits,
     /// A joint that follows another inconsistently.
     Mimic,
+    /// Numbers that look like another unit.
+    Units,
+    /// Limits of torque that gravity exceeds, or that are far above every need.
+    Torque,
     /// What the file states and the import leaves out.
     LeftOut,
+    /// A type with another name than the robot.
+    Renamed,
+    /// A peer that may be there did not answer.
+    Peer,
 }
 
 /// A piece of advice.
@@ -47,7 +56,62 @@ pub struct Advice {
 }
 
 /// By how much a principal moment may exceed the sum of the others: the rounding of a file's digits.
-const TOLERANCE: f64 = 1e-3;
+pub const TOLERANCE: f64 = 1e-3;
+
+/// The longest time for a joint's range at its limit of speed without a word, s.
+const SLOWEST: f64 = 600.0;
+
+/// How many times the torque that a robot needs a limit may be without a word: legs that carry a body need more than when they hang
+/// from it.
+const MOST_LIMIT: f64 = 30.0;
+
+/// The advice on limits of torque that are far above what the robot needs at the states of a check, of which each joint's is
+/// compared with its limit; none if the limit of one joint, the most loaded, is near enough.
+pub fn needless_torque(tree: &Tree, checked: &Checked) -> Option<Advice> {
+    let mut most = vec![0.0_f64; tree.coordinates()[1]];
+    let (mut speed, mut acceleration) = (0.0_f64, 0.0_f64);
+    for (motion, torque) in &checked.samples {
+        for (most, torque) in most.iter_mut().zip(torque) {
+            *most = most.max(torque.abs());
+        }
+        speed = motion.qd.iter().fold(speed, |most, x| most.max(x.abs()));
+        let rates = motion.qdd.iter();
+        acceleration = rates.fold(acceleration, |most, x| most.max(x.abs()));
+    }
+    let mut at = 0;
+    let mut nearest: Option<(f64, &Body, f64, f64)> = None;
+    for body in &tree.bodies {
+        let first = at;
+        at += body.kind.coordinates()[1];
+        let (Some(limit), true) = (body.limits.effort, body.kind.has_axis()) else {
+            continue;
+        };
+        let of_joint = body.friction + body.damping * speed + body.armature * acceleration;
+        let needed = most.get(first).copied().unwrap_or_default() + of_joint;
+        let ratio = limit / needed;
+        if needed > 0.0 && nearest.is_none_or(|(other, ..)| ratio < other) {
+            nearest = Some((ratio, body, limit, needed));
+        }
+    }
+    let (ratio, body, limit, needed) = nearest.filter(|(ratio, ..)| *ratio > MOST_LIMIT)?;
+    let unit = if body.kind == Kind::Prismatic {
+        "N"
+    } else {
+        "N·m"
+    };
+    Some(Advice {
+        topic: Topic::Limits,
+        line: body.line,
+        name: body.joint.clone(),
+        text: format!(
+            "Its limit is {limit} {unit}, {ratio:.0} times the {needed:.2} {unit} that it needs at most at {} random states of up to \
+             {speed:.0} rad/s and {acceleration:.0} rad/s²; no joint's limit is nearer to its need, so that a safety gate with these \
+             limits never acts. State what the drive can do, or may, in `effort` of <limit> (`forcerange` or `ctrlrange` of an MJCF), \
+             or in `torque` of the written file.",
+            checked.samples.len(),
+        ),
+    })
+}
 
 /// The advice on a selection.
 pub fn advice(robot: &Description, selected: &Selected, tree: &Tree) -> Vec<Advice> {
@@ -55,8 +119,9 @@ pub fn advice(robot: &Description, selected: &Selected, tree: &Tree) -> Vec<Advi
     links(robot, tree, &mut all);
     bodies(tree, &mut all);
     for &j in &selected.order {
-        if selected.roles[j] == Role::Moves {
-            joint(robot, &robot.joints[j], selected, &mut all);
+        match selected.roles[j] {
+            Role::Moves => joint(robot, &robot.joints[j], selected, &mut all),
+            Role::Locked(position) => locked(robot, &robot.joints[j], position, selected, &mut all),
         }
     }
     all.extend(robot.notes.iter().map(|note| Advice {
@@ -84,16 +149,9 @@ fn links(robot: &Description, tree: &Tree, all: &mut Vec<Advice>) {
             });
         };
         let own = MassProperties::in_frame(inertial.mass, &inertial.exact, inertial.inertia);
-        if let Some(found) = violation(own.inertia, TOLERANCE) {
-            let axis = found.axis.to_array().map(|x| format!("{x:.2}")).join(", ");
-            add(
-                Topic::NonPhysical,
-                format!(
-                    "The moment of inertia about ({axis}) exceeds the sum of the two others by {:.1} %: \
-                     no body has it. `--repair` takes the nearest physical one.",
-                    100.0 * found.excess
-                ),
-            );
+        if let Some(words) = impossible(own.inertia, TOLERANCE) {
+            let text = format!("{words} `--repair` takes the nearest physical one.");
+            add(Topic::NonPhysical, text);
         }
         let [xx, xy, xz, yy, yz, zz] = own.inertia;
         let largest = xx.max(yy).max(zz);
@@ -189,6 +247,26 @@ fn joint(robot: &Description, joint: &Joint, selected: &Selected, all: &mut Vec<
         }
         _ => {}
     }
+    let range = limits
+        .position
+        .map_or(2.0 * PI, |[lower, upper]| upper - lower);
+    if let Some(speed) = limits.velocity.filter(|speed| *speed > 0.0)
+        && range / speed > SLOWEST
+    {
+        let unit = if joint.kind == Kind::Prismatic {
+            "m"
+        } else {
+            "rad"
+        };
+        add(
+            Topic::Limits,
+            format!(
+                "At its limit of speed, {speed} {unit}/s, it takes {:.1} hours for its range of {range:.3} {unit}. The motion of a \
+                 project moves it as far as it comes in 4 s; its safety gate may take the last digit of an encoder for more speed.",
+                range / speed / 3_600.0
+            ),
+        );
+    }
     let missing: Vec<&str> = [("speed", limits.velocity), ("torque", limits.effort)]
         .into_iter()
         // MJCF has no limits of speed.
@@ -211,6 +289,72 @@ fn joint(robot: &Description, joint: &Joint, selected: &Selected, all: &mut Vec<
         );
     }
     mimic(robot, joint, selected, &mut add);
+}
+
+/// A joint that stands still, where its limits and the joint that it follows would have it.
+fn locked(
+    robot: &Description,
+    joint: &Joint,
+    position: f64,
+    selected: &Selected,
+    all: &mut Vec<Advice>,
+) {
+    let mut add = |topic, text: String| {
+        all.push(Advice {
+            topic,
+            line: joint.line,
+            name: joint.name.clone(),
+            text,
+        });
+    };
+    if !joint.kind.has_axis() {
+        return;
+    }
+    if let Some([lower, upper]) = joint.limits.position
+        && position != 0.0
+        && joint.kind != Kind::Continuous
+        && lower < upper
+        && !(lower..=upper).contains(&position)
+    {
+        add(
+            Topic::Limits,
+            format!("It stands still at {position}, beyond its limits {lower} to {upper}."),
+        );
+    }
+    let Some(mimic) = &joint.mimic else {
+        return;
+    };
+    let leader = robot
+        .joints
+        .iter()
+        .position(|other| other.name == mimic.joint);
+    let Some(leader) = leader else {
+        return;
+    };
+    let name = &mimic.joint;
+    match selected.roles[leader] {
+        Role::Moves if selected.order.contains(&leader) => add(
+            Topic::Mimic,
+            format!(
+                "It stands still at {position}, although it follows `{name}`, which moves: their coupling is left out."
+            ),
+        ),
+        Role::Moves => {}
+        Role::Locked(at) => {
+            let follows = mimic.multiplier * at + mimic.offset;
+            let text = match follows == position {
+                true if position == 0.0 => return,
+                true => format!(
+                    "It follows `{name}`, which stands still at {at}: it stands still at {position}."
+                ),
+                false => format!(
+                    "It stands still at {position}, and `{name}`, which it follows, at {at}, where it would be at {follows}: \
+                     the lock is taken."
+                ),
+            };
+            add(Topic::Mimic, text);
+        }
+    }
 }
 
 fn mimic(

@@ -41,6 +41,8 @@ pub struct Link {
     pub line: u32,
     /// Its inertia; none is no mass.
     pub inertial: Option<Inertial>,
+    /// The numbers of the frame of its inertia that are roundings, with what they are rounded from.
+    pub snapped: Vec<Snap>,
     /// Whether its mass is that of a mesh, which is not read: the link must not move.
     pub of_mesh: bool,
 }
@@ -96,6 +98,8 @@ pub struct Joint {
     pub friction: f64,
     /// Rotor inertia reflected to the joint, kg·m² or kg.
     pub armature: f64,
+    /// Whether the file has a motor on it; of URDF, whether it states the torque of one.
+    pub driven: bool,
     /// Position = multiplier · (position of another joint) + offset.
     pub mimic: Option<Mimic>,
 }

@@ -1,18 +1,25 @@
 //! `robot-import import`: a file becomes a Rust file, with advice and a check.
 
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
-use crate::advice::{Advice, advice};
-use crate::check::{self, STATES};
-use crate::description::Description;
+use crate::advice::{Advice, advice, needless_torque};
+use crate::check::{self, NoPeer, Python, STATES};
+use crate::description::{Description, shortened};
 use crate::error::{ImportError, Problem, Result};
 use crate::estimate;
+use crate::loops::{Closed, Motors};
+use crate::model::AnyModel;
 use crate::physical::violation;
+use crate::plausible::plausible;
 use crate::project::{FileEffects, RobotFile};
 use crate::report::{Report, rows};
 use crate::selection::{Selected, Selection};
 use crate::tree::{Numbers, Tree};
 use crate::{loops, source, write};
+
+/// How long a comparison with a peer may take, s: the first start of a Python with large packages takes ten.
+const PEER_TIME: f64 = 60.0;
 
 /// Which file becomes which robot.
 #[derive(Clone, Debug, Default, clap::Args)]
@@ -27,7 +34,7 @@ pub struct Args {
     #[arg(long, value_name = "NAME")]
     pub name: Option<String>,
     /// The name of the robot's type; from that of the robot if not given
-    #[arg(long = "type", value_name = "NAME", value_parser = type_name)]
+    #[arg(long = "type", value_name = "NAME", value_parser = write::given_type_name)]
     pub type_name: Option<String>,
     /// Write the Rust file here instead of to stdout
     #[arg(long, value_name = "FILE")]
@@ -61,6 +68,9 @@ pub struct Options {
     /// The base moves freely
     #[arg(long)]
     pub free_base: bool,
+    /// The joints that have motors, of a machine with loops; those of the file if not given
+    #[arg(long, value_name = "A,B,C", value_delimiter = ',')]
+    pub motors: Vec<String>,
     /// Compare with Pinocchio or MuJoCo, too, and fail if they are not there
     #[arg(long)]
     pub check: bool,
@@ -70,9 +80,25 @@ pub struct Options {
     /// Keep roundings of right angles and of zero
     #[arg(long)]
     pub keep_roundings: bool,
-    /// The Python that has Pinocchio or MuJoCo
+    /// The Python that has Pinocchio or MuJoCo; `none` compares with neither
     #[arg(long, value_name = "PROGRAM", default_value = "python3")]
     pub python: String,
+    /// Let that Python see PYTHONPATH and the packages of `pip install --user`; otherwise it is isolated
+    #[arg(long)]
+    pub python_environment: bool,
+    /// How long the comparison may take, s
+    #[arg(long, value_name = "SECONDS", default_value_t = PEER_TIME)]
+    pub peer_time: f64,
+}
+
+impl Options {
+    /// How long a comparison may take: a minute where none or an impossible time is given.
+    fn peer_time(&self) -> Duration {
+        let given = Duration::try_from_secs_f64(self.peer_time).ok();
+        given
+            .filter(|time| !time.is_zero() && *time < Duration::from_secs(1 << 20))
+            .unwrap_or(Duration::from_secs_f64(PEER_TIME))
+    }
 }
 
 fn locked(text: &str) -> std::result::Result<(String, f64), String> {
@@ -83,13 +109,6 @@ fn locked(text: &str) -> std::result::Result<(String, f64), String> {
     match position.is_finite() {
         true => Ok((name.to_owned(), position)),
         false => Err("the position is not finite".to_owned()),
-    }
-}
-
-fn type_name(text: &str) -> std::result::Result<String, String> {
-    match write::type_name(text) == text {
-        true => Ok(text.to_owned()),
-        false => Err("a type's name is letters and digits, the first a capital".to_owned()),
     }
 }
 
@@ -124,12 +143,11 @@ pub fn import(args: &Args, today: &str) -> Result<Imported> {
         for joint in &mut robot.joints {
             (joint.exact, joint.snapped) = (joint.origin, Vec::new());
         }
-        for inertial in robot
-            .links
-            .iter_mut()
-            .filter_map(|link| link.inertial.as_mut())
-        {
-            inertial.exact = inertial.frame;
+        for link in &mut robot.links {
+            link.snapped.clear();
+            if let Some(inertial) = &mut link.inertial {
+                inertial.exact = inertial.frame;
+            }
         }
     }
     let mut links = robot.links.iter();
@@ -172,36 +190,10 @@ pub fn import(args: &Args, today: &str) -> Result<Imported> {
         ))
         .into());
     }
-    let peer = check::compare(
-        &args.options.python,
-        &args.file,
-        &robot,
-        &selected,
-        &tree,
-        &checked,
-    );
-    let compared =
-        !args.options.repair && args.options.base.is_none() && args.options.without.is_empty();
-    let (peer, no_peer) = match peer {
-        _ if !compared => (
-            None,
-            Some("a changed base, fewer links or a changed inertia are not the file's".to_owned()),
-        ),
+    let (peer, no_peer) = match compared(args, &robot, &selected, &tree, &checked)? {
         Ok(peer) => (Some(peer), None),
-        Err(reason) => (None, Some(reason)),
+        Err(no_peer) => (None, Some(no_peer)),
     };
-    if let (true, Some(reason)) = (args.options.check, &no_peer) {
-        return Err(Problem::Value(format!("no peer to compare with: {reason}")).into());
-    }
-    if let Some(peer) = peer.as_ref().filter(|peer| peer.difference > check::MOST) {
-        return Err(Problem::Value(format!(
-            "the import differs from {} by {:.1e} of full scale, at most {:.0e}",
-            peer.name,
-            peer.difference,
-            check::MOST
-        ))
-        .into());
-    }
     if tree.has_followers() && !tree.is_single() {
         notes.push(
             "Couplings of joints are left out: they need joints of one coordinate.".to_owned(),
@@ -213,6 +205,9 @@ pub fn import(args: &Args, today: &str) -> Result<Imported> {
         ));
     }
     let (closed, _) = loops::closed(&robot, &tree);
+    let motors = Motors::of(&tree, &closed, &args.options.motors)?;
+    notes.extend(motors.advice.clone());
+    loops_of_the_library(&robot, &tree, &closed)?;
     notes.extend(left_out);
     let name = args.name.clone().unwrap_or_else(|| robot.name.clone());
     let type_name = args
@@ -220,20 +215,43 @@ pub fn import(args: &Args, today: &str) -> Result<Imported> {
         .clone()
         .unwrap_or_else(|| write::type_name(&name));
     let mut own = advice(&robot, &selected, &tree);
+    // The motors of a machine with loops share what its joints need.
+    own.extend(needless_torque(&tree, &checked).filter(|_| closed.is_empty()));
+    if let Some(NoPeer::Failed(reason)) = &no_peer {
+        own.push(Advice {
+            topic: crate::advice::Topic::Peer,
+            line: 0,
+            name: name.clone(),
+            text: format!("The import was compared with no peer: {reason}."),
+        });
+    }
+    own.extend(plausible(&tree, &name));
     own.extend(notes.iter().map(|note| Advice {
         topic: crate::advice::Topic::LeftOut,
         line: 0,
         name: name.clone(),
         text: note.clone(),
     }));
+    let renamed = match args.type_name {
+        Some(_) => None,
+        None => write::renamed(&name),
+    };
+    own.extend(renamed.map(|text| Advice {
+        topic: crate::advice::Topic::Renamed,
+        line: 0,
+        name: name.clone(),
+        text,
+    }));
     let origin = write::Origin {
         file: file_name(&args.file),
         licence: robot.licence.clone(),
         date: today.to_owned(),
-        notes: notes.iter().chain(&robot.notes).cloned().collect(),
+        notes: roundings(&tree)
+            .chain(notes.iter().chain(&robot.notes).cloned())
+            .collect(),
     };
     let text = write::source(&tree, &name, &type_name, &origin);
-    let source = write::formatted(&(text + &loops::source(&tree, &type_name, &closed)));
+    let source = write::formatted(&(text + &loops::source(&tree, &type_name, &closed, &motors)));
     let [q, v] = tree.coordinates();
     let report = Report {
         type_name,
@@ -245,9 +263,10 @@ pub fn import(args: &Args, today: &str) -> Result<Imported> {
         sizes: [tree.bodies.len(), q, v],
         advice: own,
         exact: estimate::savings(&robot, &selected, &tree),
+        exact_inertias: roundings(&tree).collect(),
         check: checked,
         peer,
-        no_peer,
+        no_peer: no_peer.map(|no_peer| no_peer.reason().to_owned()),
         estimated_cycles: estimate::cycles(&tree),
         estimated_flash: estimate::flash(&tree),
         name: name.clone(),
@@ -262,11 +281,86 @@ pub fn import(args: &Args, today: &str) -> Result<Imported> {
     })
 }
 
+/// The comparison with a peer, or why there is none.
+///
+/// # Errors
+/// A peer that differs, or none where one is required.
+fn compared(
+    args: &Args,
+    robot: &Description,
+    selected: &Selected,
+    tree: &Tree,
+    checked: &check::Checked,
+) -> Result<std::result::Result<check::Peer, NoPeer>> {
+    let options = &args.options;
+    let peer = match options.repair || options.base.is_some() || !options.without.is_empty() {
+        true => Err(NoPeer::Absent(
+            "a changed base, fewer links or a changed inertia are not the file's".to_owned(),
+        )),
+        false => {
+            let python = Python {
+                program: options.python.clone(),
+                environment: options.python_environment,
+                time: options.peer_time(),
+            };
+            let text = source::for_peer(&args.file)?;
+            check::compare(&python, &text, robot, selected, tree, checked)
+        }
+    };
+    match &peer {
+        Err(no_peer) if options.check => Err(Problem::Value(format!(
+            "no peer to compare with: {}",
+            no_peer.reason()
+        ))
+        .into()),
+        Ok(peer) if peer.difference > check::MOST => Err(Problem::Value(format!(
+            "the import differs from {} by {:.1e} of full scale, at most {:.0e}, most at joint `{}`: nothing that the import leaves \
+             out explains it, so that one of the two misreads the file; with `--python none` the import is compared with no peer",
+            peer.name,
+            peer.difference,
+            check::MOST,
+            peer.joint
+        ))
+        .into()),
+        _ => Ok(peer),
+    }
+}
+
 fn file_name(path: &Path) -> String {
     path.file_name()
         .unwrap_or(path.as_os_str())
         .to_string_lossy()
         .into_owned()
+}
+
+/// The roundings in frames of inertias, a sentence each.
+fn roundings(tree: &Tree) -> impl Iterator<Item = String> {
+    let all = tree.bodies.iter().flat_map(|body| &body.roundings);
+    all.map(|(link, snap)| {
+        format!(
+            "Inertia of link `{}`: {} `{}` is {}.",
+            shortened(link),
+            snap.attribute,
+            shortened(&snap.text),
+            snap.exact
+        )
+    })
+}
+
+/// Loops that the library refuses, such as one that cannot close, are those of the file.
+fn loops_of_the_library(robot: &Description, tree: &Tree, closed: &[Closed]) -> Result<()> {
+    let model = match closed {
+        [] => return Ok(()),
+        _ => AnyModel::of(tree)?,
+    };
+    for one in closed {
+        if let Some(problem) = model.problem_of(one) {
+            let name = format!("loop `{}`", one.name);
+            let line = robot.loops[one.source].line;
+            return Err(ImportError::at(line, name, Problem::Value(problem)));
+        }
+    }
+    Ok(())
 }
 
 /// Takes the nearest physical inertia of every link that has none, and says so.
@@ -313,6 +407,12 @@ impl Imported {
             type_name: self.report.type_name.clone(),
             text: self.source.clone(),
             joints: joints.collect(),
+            bodies: self
+                .tree
+                .bodies
+                .iter()
+                .map(|body| body.name.clone())
+                .collect(),
             b,
             q,
             v,

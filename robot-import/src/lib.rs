@@ -14,6 +14,7 @@
 //! assert_eq!(tree.bodies[0].inertia.com, [0.0, 0.0, -0.5]);
 //! # Ok::<(), robot_import::error::ImportError>(())
 //! ```
+#![deny(missing_docs)]
 
 pub mod advice;
 pub mod check;
@@ -26,11 +27,13 @@ pub mod loops;
 pub mod model;
 pub mod number;
 pub mod physical;
+pub mod plausible;
 mod print;
 pub mod project;
 pub mod report;
 pub mod selection;
 pub mod snap;
 pub mod source;
+pub mod text;
 pub mod tree;
 pub mod write;

@@ -3,8 +3,10 @@
 use std::fmt::Write as _;
 
 use crate::description::{Description, Kind, Pose};
+use crate::error::{Problem, Result};
 use crate::number::{Attitude, tidy};
-use crate::tree::Tree;
+use crate::text::string_literal;
+use crate::tree::{Body, Tree};
 use crate::write::placed;
 
 /// A joint that closes a loop.
@@ -51,30 +53,102 @@ pub fn closed(robot: &Description, tree: &Tree) -> (Vec<Closed>, Vec<String>) {
     (all, notes)
 }
 
-/// The `impl LoopRobot` of a tree with loops, whose actuated coordinates are those of joints with a limit of torque; empty
-/// without loops.
-pub fn source(tree: &Tree, type_name: &str, loops: &[Closed]) -> String {
+/// The actuated coordinates of a machine with loops.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Motors {
+    /// Their indices in q̇.
+    pub actuated: Vec<usize>,
+    /// Which they are, a sentence.
+    pub which: &'static str,
+    /// What its user should know, if the file does not say which they are.
+    pub advice: Option<String>,
+}
+
+impl Motors {
+    /// Those of some joints if there are names, otherwise those that the file drives; all where these are too few.
+    ///
+    /// # Errors
+    /// A name that no moving joint has, or fewer joints than the library takes.
+    pub fn of(tree: &Tree, loops: &[Closed], names: &[String]) -> Result<Self> {
+        if let Some(name) = names.iter().find(|name| {
+            let mut bodies = tree.bodies.iter();
+            !bodies.any(|body| body.joint == **name)
+        }) {
+            let problem = format!("`--motors {name}`: no joint of this name moves");
+            return Err(Problem::Value(problem).into());
+        }
+        if let (false, true) = (names.is_empty(), loops.is_empty()) {
+            let problem =
+                "`--motors`: the robot has no loop, so that each of its joints has a motor";
+            return Err(Problem::Value(problem.to_owned()).into());
+        }
+        let of = |driven: &dyn Fn(&Body) -> bool| {
+            let (mut all, mut first) = (Vec::new(), 0);
+            for body in &tree.bodies {
+                let own = first..first + body.kind.coordinates()[1];
+                first = own.end;
+                if driven(body) {
+                    all.extend(own);
+                }
+            }
+            all
+        };
+        let [_, v] = tree.coordinates();
+        // At least so many coordinates move freely; the library asks for as many motors.
+        let least = v.saturating_sub(rows(loops)).max(1);
+        if !names.is_empty() {
+            let actuated = of(&|body| names.contains(&body.joint));
+            if actuated.len() < least {
+                let given = actuated.len();
+                let problem = format!(
+                    "`--motors` has {given} coordinates, and at least {least} move freely: name more joints"
+                );
+                return Err(Problem::Value(problem).into());
+            }
+            return Ok(Self {
+                actuated,
+                which: "The actuated coordinates are those of the joints that were named as driven.",
+                advice: None,
+            });
+        }
+        let actuated = of(&|body| body.driven);
+        if actuated.len() >= least {
+            return Ok(Self {
+                actuated,
+                which: "The actuated coordinates are those of the joints with a motor.",
+                advice: None,
+            });
+        }
+        let driven = match actuated.len() {
+            0 => "The file has no motor on a joint of its machine with loops".to_owned(),
+            n => format!("The file has motors on {n} coordinates of its machine with loops"),
+        };
+        Ok(Self {
+            actuated: of(&|_| true),
+            which: "The file has too few motors: every coordinate is taken as actuated.",
+            advice: Some(format!(
+                "{driven}, and at least {least} move freely: every joint is taken as driven. `--motors A,B` names those with a \
+                 motor, or `<motor joint=…/>` in the file."
+            )),
+        })
+    }
+}
+
+/// How many directions the loops constrain.
+fn rows(loops: &[Closed]) -> usize {
+    let each = loops.iter();
+    each.map(|one| if one.kind == Kind::Fixed { 6 } else { 3 })
+        .sum()
+}
+
+/// The `impl LoopRobot` of a tree with loops; empty without loops.
+pub fn source(tree: &Tree, type_name: &str, loops: &[Closed], motors: &Motors) -> String {
     if loops.is_empty() {
         return String::new();
     }
-    let rows = loops
-        .iter()
-        .map(|one| if one.kind == Kind::Fixed { 6 } else { 3 });
     let [q, v] = tree.coordinates();
-    let (mut actuated, mut first) = (Vec::new(), 0);
-    for body in &tree.bodies {
-        let own = first..first + body.kind.coordinates()[1];
-        first = own.end;
-        if body.limits.effort.is_some() {
-            actuated.extend(own.map(|k| k.to_string()));
-        }
-    }
-    let sizes = format!(
-        "{}, {}, {}",
-        loops.len(),
-        rows.sum::<usize>(),
-        actuated.len()
-    );
+    let actuated: Vec<String> = motors.actuated.iter().map(usize::to_string).collect();
+    let sizes = format!("{}, {}, {}", loops.len(), rows(loops), actuated.len());
     let mut joints = String::new();
     for one in loops {
         let kind = if one.kind == Kind::Fixed {
@@ -85,19 +159,20 @@ pub fn source(tree: &Tree, type_name: &str, loops: &[Closed]) -> String {
         let frames: Vec<String> = one.ends.iter().map(frame).collect();
         let _ = writeln!(
             joints,
-            "LoopJoint::new({:?}, Joint::{kind}(), [{}]),",
-            one.name,
+            "LoopJoint::new({}, Joint::{kind}(), [{}]),",
+            string_literal(&one.name),
             frames.join(", ")
         );
     }
     format!(
-        "\nuse dynamics_core::loops::{{BodyFrame, LoopJoint, LoopRobot, Loops}};\n\n\
+        "\nuse ::dynamics_core::loops::{{BodyFrame, LoopJoint, LoopRobot, Loops}};\n\n\
          impl LoopRobot<{b}, {q}, {v}, {sizes}> for {type_name} {{\n\
-         /// The actuated coordinates are those of the joints with a limit of torque.\n\
+         /// {which}\n\
          const LOOPS: Loops<{sizes}> = Loops::new(&{type_name}::MODEL, [{joints}], [{actuated}]);\n}}\n\n\
          const _: Loops<{sizes}> = {type_name}::LOOPS;\n",
         b = tree.bodies.len(),
         actuated = actuated.join(", "),
+        which = motors.which,
     )
 }
 

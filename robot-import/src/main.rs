@@ -6,6 +6,7 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 use robot_import::import;
 use robot_import::project::{self, Library, Project};
+use robot_import::text::visible;
 
 /// Robots from URDF or MJCF as constants of dynamics-core
 #[derive(Parser)]
@@ -57,7 +58,16 @@ fn main() -> ExitCode {
     match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("error: {error}");
+            // It names what the file has, whose control characters are not for the terminal.
+            let text = error.to_string();
+            let lines: Vec<String> = text.lines().map(visible).collect();
+            eprintln!(
+                "error: {}",
+                lines.join(
+                    "
+"
+                )
+            );
             ExitCode::FAILURE
         }
     }

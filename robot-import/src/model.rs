@@ -3,14 +3,17 @@
 //! The library's models have their sizes in their types. A tree is therefore filled up to the next of three sizes with
 //! massless bodies on joints of the base, which change no torque of the tree's joints.
 
+use dynamics_core::advice::Advice;
 use dynamics_core::algorithms::{crba, poses, rnea};
 use dynamics_core::effects::{Inertia, RIGID_BODY};
+use dynamics_core::loops::{BodyFrame, LoopJoint, Loops};
 use dynamics_core::model::{BASE, Body, Joint, JointLimits, Model, ModelError};
 use dynamics_core::state::State;
 
 use crate::check::energy::{Rows, rows};
 use crate::description::{Kind, Pose};
 use crate::error::{Problem, Result};
+use crate::loops::Closed;
 use crate::number::Attitude;
 use crate::tree::{self, Tree};
 
@@ -90,6 +93,24 @@ impl AnyModel {
         }
     }
 
+    /// Why the library refuses a loop on the bodies, if it does.
+    pub fn problem_of(&self, closed: &Closed) -> Option<String> {
+        match self {
+            Self::Small(model) => model.problem_of(closed),
+            Self::Middle(model) => model.problem_of(closed),
+            Self::Large(model) => model.problem_of(closed),
+        }
+    }
+
+    /// What of its numbers looks like another unit, or asks more of the motors than they have.
+    pub fn advice(&self) -> Vec<Advice> {
+        match self {
+            Self::Small(model) => model.exact.advice().collect(),
+            Self::Middle(model) => model.exact.advice().collect(),
+            Self::Large(model) => model.exact.advice().collect(),
+        }
+    }
+
     /// Its dynamics at a state.
     pub fn dynamics(&self, motion: &Motion) -> Dynamics {
         match self {
@@ -153,6 +174,32 @@ impl<const N: usize, const Q: usize> Sized<N, Q> {
             })
         });
         rows.to_vec()
+    }
+
+    fn problem_of(&self, closed: &Closed) -> Option<String> {
+        let joint = match closed.kind {
+            Kind::Fixed => Joint::fixed(),
+            _ => Joint::spherical(),
+        };
+        let ends = closed.ends.map(|(body, xyz, attitude)| {
+            let frame = BodyFrame::new(body.unwrap_or(BASE)).xyz(xyz);
+            match attitude {
+                Attitude::QuarterTurns(turns) => frame.quarter_turns(turns),
+                Attitude::Rpy(rpy) => frame.rpy(rpy),
+            }
+        });
+        let joint = [LoopJoint::new("loop", joint, ends)];
+        // All coordinates are actuated here: their number is looked at elsewhere.
+        let all = std::array::from_fn(|i| i);
+        let refused = match closed.kind {
+            Kind::Fixed => Loops::<1, 6, N>::try_new(&self.exact, joint, all).err(),
+            _ => Loops::<1, 3, N>::try_new(&self.exact, joint, all).err(),
+        };
+        refused.map(|error| {
+            let text = error.to_string();
+            let problem = text.strip_prefix("loop `loop`: ").map(str::to_owned);
+            problem.unwrap_or(text)
+        })
     }
 
     fn dynamics(&self, motion: &Motion) -> Dynamics {

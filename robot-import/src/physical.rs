@@ -48,6 +48,38 @@ pub fn violation(inertia: [f64; 6], tolerance: f64) -> Option<Violation> {
     })
 }
 
+/// What is impossible about an inertia about the centre of mass, a sentence, if it is by more than `tolerance` of its largest
+/// moment: a moment that is negative, or one that exceeds the sum of the two others.
+pub fn impossible(inertia: [f64; 6], tolerance: f64) -> Option<String> {
+    let found = violation(inertia, tolerance)?;
+    let (moments, axes) = eigen(matrix(inertia));
+    let largest = moments.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+    let about = |axis: DVec3| {
+        // Of the two directions of an axis, the one with more positive components.
+        let axis = if axis.element_sum() < 0.0 {
+            -axis
+        } else {
+            axis
+        };
+        axis.to_array()
+            .map(|x| format!("{:.2}", x + 0.0))
+            .join(", ")
+            .replace("-0.00", "0.00")
+    };
+    let least = moments.iter().zip(axes).min_by(|a, b| a.0.total_cmp(b.0));
+    if let Some((least, axis)) = least.filter(|(least, _)| **least < -tolerance * largest) {
+        return Some(format!(
+            "The moment of inertia about ({}) is {least:.3e} kg·m², and none is negative: no body has it.",
+            about(axis)
+        ));
+    }
+    Some(format!(
+        "The moment of inertia about ({}) exceeds the sum of the two others by {:.1} % of the largest: no body has it.",
+        about(found.axis),
+        100.0 * found.excess
+    ))
+}
+
 /// Eigenvalues and eigenvectors of a symmetric matrix by Jacobi's rotations.
 pub fn eigen(mut m: DMat3) -> ([f64; 3], [DVec3; 3]) {
     let mut axes = DMat3::IDENTITY;
@@ -88,6 +120,26 @@ mod tests {
         // The second moments (0.25, 0.25, −… ) keep those that are positive: xx = yy = 1.25, zz = 2.5.
         let [xx, _, _, yy, _, zz] = found.repaired;
         assert!((xx - 1.25).abs() < 1e-12 && (yy - 1.25).abs() < 1e-12 && (zz - 2.5).abs() < 1e-12);
+    }
+
+    #[test]
+    fn what_is_impossible_is_named_with_its_amount() {
+        assert_eq!(impossible([1.0, 0.0, 0.0, 1.0, 0.0, 1.9], 1e-3), None);
+        let words = impossible([1.0, 0.0, 0.0, 1.0, 0.0, 2.5], 1e-3).expect("too large");
+        assert!(
+            words.contains("about (0.00, 0.00, 1.00) exceeds the sum of the two others by 20.0 %"),
+            "{words}"
+        );
+        let words = impossible([0.012, 0.0, 0.0, -0.01, 0.0, 0.009], 1e-3).expect("negative");
+        assert!(
+            words.contains("about (0.00, 1.00, 0.00) is -1.000e-2 kg·m²"),
+            "{words}"
+        );
+        // Two moments of which one is small and negative, by turned axes.
+        let words = impossible([1.0, 1.5, 0.0, 1.0, 0.0, 1.0], 1e-3).expect("negative");
+        assert!(words.contains("is -5.000e-1 kg·m²"), "{words}");
+        let rounded = [1.0, 0.0, 0.0, 1.0, 0.0, 2.000_1];
+        assert_eq!(impossible(rounded, 1e-3), None);
     }
 
     #[test]

@@ -4,9 +4,12 @@ use std::fmt::Write as _;
 
 use crate::check::MOST;
 use crate::report::Report;
+use crate::text::visible;
 
 /// A table with columns as wide as their widest cell.
 fn table(rows: &[Vec<String>]) -> String {
+    let shown = |row: &Vec<String>| row.iter().map(|cell| visible(cell)).collect();
+    let rows: Vec<Vec<String>> = rows.iter().map(shown).collect();
     let columns = rows.iter().map(Vec::len).max().unwrap_or_default();
     let cell = |row: &Vec<String>, k: usize| row.get(k).map_or(0, |cell| cell.chars().count());
     let widths: Vec<usize> = (0..columns)
@@ -18,7 +21,7 @@ fn table(rows: &[Vec<String>]) -> String {
         })
         .collect();
     let mut out = String::new();
-    for row in rows {
+    for row in &rows {
         let mut line = String::from(" ");
         for (text, width) in row.iter().zip(&widths) {
             let _ = write!(line, " {text:<width$} ");
@@ -33,16 +36,19 @@ impl Report {
     /// The report as text.
     pub fn text(&self) -> String {
         let [bodies, _, v] = self.sizes;
-        let licence = self.licence.as_deref().unwrap_or("no licence stated");
+        let licence = visible(self.licence.as_deref().unwrap_or("no licence stated"));
         let mut out = format!(
             "{} as `{}`: {bodies} bodies, {v} degrees of freedom, on `{}` ({}, {licence})\n\n",
-            self.name, self.type_name, self.base, self.file
+            visible(&self.name),
+            self.type_name,
+            visible(&self.base),
+            visible(&self.file)
         );
         out += &self.joints();
         if !self.loops.is_empty() {
-            let _ = writeln!(out, "\nLoops: {}", self.loops.join(", "));
+            let _ = writeln!(out, "\nLoops: {}", visible(&self.loops.join(", ")));
         }
-        if !self.exact.is_empty() {
+        if !self.exact.is_empty() || !self.exact_inertias.is_empty() {
             out += "\nRoundings made exact (`--keep-roundings` keeps them):\n";
             let rows: Vec<Vec<String>> = self
                 .exact
@@ -60,6 +66,9 @@ impl Report {
                 })
                 .collect();
             out += &table(&rows);
+            for sentence in &self.exact_inertias {
+                let _ = writeln!(out, "  {}", visible(sentence));
+            }
         }
         out += "\nAdvice:\n";
         if self.advice.is_empty() {

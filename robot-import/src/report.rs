@@ -30,6 +30,8 @@ pub struct Report {
     pub advice: Vec<Advice>,
     /// The roundings that were made exact.
     pub exact: Vec<estimate::Saved>,
+    /// Those in the frames of inertias, a sentence each.
+    pub exact_inertias: Vec<String>,
     /// The check.
     pub check: Checked,
     /// The comparison with a peer.

@@ -106,6 +106,7 @@ impl Selection {
             }
             lock_others(&mut roles, &listed);
         }
+        let mut locked = HashMap::new();
         for (name, position) in &self.lock {
             let j = robot.joint(name)?;
             let kind = robot.joints[j].kind;
@@ -114,8 +115,9 @@ impl Selection {
                 return Err(at_joint(robot, j, Problem::Value(problem)));
             }
             roles[j] = Role::Locked(*position);
+            locked.insert(j, *position);
         }
-        follow(robot, &mut roles)?;
+        follow(robot, &mut roles, &order, &locked)?;
         Ok(Selected {
             base,
             order,
@@ -155,33 +157,49 @@ fn order(robot: &Description, base: usize, absent: &[bool]) -> Vec<usize> {
     order
 }
 
-/// Joints that follow a locked joint are locked at their positions; none follows itself.
-fn follow(robot: &Description, roles: &mut [Role]) -> Result<()> {
-    let names = robot.joints.iter().enumerate();
-    let index: HashMap<&str, usize> = names.map(|(j, joint)| (joint.name.as_str(), j)).collect();
-    for (j, joint) in robot.joints.iter().enumerate() {
-        let (mut at, mut steps) = (j, 0);
-        let (mut ratio, mut offset) = (1.0, 0.0);
-        while let Some(mimic) = &robot.joints[at].mimic {
-            // A joint that follows none of the file's moves by itself.
-            let Some(&next) = index.get(mimic.joint.as_str()) else {
-                break;
-            };
-            offset += ratio * mimic.offset;
-            ratio *= mimic.multiplier;
-            at = next;
-            steps += 1;
-            if steps > robot.joints.len() {
+/// Locks each joint that follows one that stands still, where it follows to; none follows itself.
+///
+/// A joint of `locked`, which the user has locked, stands still where the user says, whatever it follows. A leader that is not
+/// below the base and that nobody has locked leads nothing.
+fn follow(
+    robot: &Description,
+    roles: &mut [Role],
+    order: &[usize],
+    locked: &HashMap<usize, f64>,
+) -> Result<()> {
+    let mut below = vec![false; robot.joints.len()];
+    order.iter().for_each(|&j| below[j] = true);
+    let leaders = leaders(robot);
+    for j in 0..robot.joints.len() {
+        // From the joint to the last one that it follows, and back: each after its leader.
+        let mut chain = vec![j];
+        while let Some(leader) = leaders[chain[chain.len() - 1]] {
+            if chain.len() > robot.joints.len() {
                 let problem = Problem::Value("it follows itself".to_owned());
                 return Err(at_joint(robot, j, problem));
             }
+            chain.push(leader);
         }
-        if at == j || joint.kind == Kind::Fixed {
-            continue;
-        }
-        if let (Role::Moves, Role::Locked(position)) = (roles[j], roles[at]) {
-            roles[j] = Role::Locked(ratio * position + offset);
+        for pair in chain.windows(2).rev() {
+            let [follower, leader] = [pair[0], pair[1]];
+            let stands = below[leader] || locked.contains_key(&leader);
+            let free =
+                !locked.contains_key(&follower) && robot.joints[follower].kind != Kind::Fixed;
+            if let (true, true, Role::Locked(position), Some(mimic)) =
+                (stands, free, roles[leader], &robot.joints[follower].mimic)
+            {
+                roles[follower] = Role::Locked(mimic.multiplier * position + mimic.offset);
+            }
         }
     }
     Ok(())
+}
+
+/// The joint that each joint follows; none of one that follows none, or none of the file's.
+fn leaders(robot: &Description) -> Vec<Option<usize>> {
+    let names = robot.joints.iter().enumerate();
+    let index: HashMap<&str, usize> = names.map(|(j, joint)| (joint.name.as_str(), j)).collect();
+    let each = robot.joints.iter();
+    each.map(|joint| index.get(joint.mimic.as_ref()?.joint.as_str()).copied())
+        .collect()
 }

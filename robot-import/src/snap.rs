@@ -27,12 +27,25 @@ pub fn resolution(text: &str) -> f64 {
     }
 }
 
-/// The number of quarter turns that an angle is a rounding of, if it is one: within a unit of its last digit.
+/// The number of quarter turns that an angle is a rounding of, if it is one: within a unit of its last digit, since some
+/// exporters cut digits off.
+///
+/// Zero has no digits that a file could have lost: 0.001 states a milliradian, and only the noise of a computation is none.
 pub fn quarter_turns(angle: f64, resolution: f64) -> Option<i32> {
     let turns = (angle / FRAC_PI_2).round();
     let apart = (angle - turns * FRAC_PI_2).abs();
-    let most = resolution.clamp(NO_ANGLE, MOST_ANGLE);
+    let most = match turns == 0.0 {
+        true => NO_ANGLE,
+        false => resolution.clamp(NO_ANGLE, MOST_ANGLE),
+    };
     (apart <= most && turns.abs() <= 4.0).then_some(turns as i32)
+}
+
+/// Whether one of a direction's or a unit quaternion's entries is small, but not zero, so that the file states it.
+///
+/// The entries of right angles are 0, ±½, ±√½ and ±1.
+pub fn states_a_small_entry(entries: &[f64]) -> bool {
+    entries.iter().any(|x| (NO_ANGLE..0.25).contains(&x.abs()))
 }
 
 /// The words for a number of quarter turns.
@@ -104,6 +117,12 @@ mod tests {
         assert_eq!(turns("1.5707963267948966"), Some(1));
         assert_eq!(turns("-5.55112e-17"), Some(0));
         assert_eq!(turns("0"), Some(0));
+        assert_eq!(turns("3.141"), Some(2));
+        assert_eq!(turns("4.71239"), Some(3));
+        // What is small is stated: zero is written as 0.
+        for text in ["0.001", "-0.0001", "0.00001", "0.01", "1e-5"] {
+            assert_eq!(turns(text), None, "{text}");
+        }
         // A calibrated angle is none, and neither is one of two digits that is far off.
         assert_eq!(turns("1.5694"), None);
         assert_eq!(turns("1.57013854"), None);

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use dynamics_core::glam::{DMat3, DVec3};
 
-use crate::description::{Description, Joint, Kind, Limits, Pose, Snap};
+use crate::description::{Description, Joint, Kind, Limits, Link, Pose, Snap};
 use crate::error::{Problem, Result};
 use crate::inertia::MassProperties;
 use crate::number::{Attitude, tidy};
@@ -52,12 +52,16 @@ pub struct Body {
     pub friction: f64,
     /// Reflected inertia of the rotor, kg·m² or kg.
     pub armature: f64,
+    /// Whether its joint has a motor, or a limit of torque.
+    pub driven: bool,
     /// The body whose joint this one follows, with ratio and offset.
     pub follows: Option<(usize, f64, f64)>,
     /// The links that are part of it, besides that of its name.
     pub merged: Vec<String>,
     /// The roundings that were made exact in its placement.
     pub snapped: Vec<Snap>,
+    /// Those in the frames of its links' inertias, with the links' names.
+    pub roundings: Vec<(String, Snap)>,
 }
 
 /// Which numbers of the file a tree has.
@@ -162,6 +166,11 @@ impl Tree {
         let own = MassProperties::in_frame(inertial.mass, frame, inertial.inertia);
         let body = &mut self.bodies[body];
         body.inertia = body.inertia.plus(&own.moved(&pose));
+        if numbers == Numbers::Exact {
+            let Link { name, snapped, .. } = &robot.links[link];
+            let snaps = snapped.iter().map(|snap| (name.clone(), snap.clone()));
+            body.roundings.extend(snaps);
+        }
     }
 
     /// Resolves which body each follower follows, through followers of followers.
@@ -173,7 +182,10 @@ impl Tree {
             .collect();
         for (name, &body) in body_of_joint {
             let (mut ratio, mut offset, mut at) = (1.0, 0.0, *name);
-            while let Some(mimic) = joints.get(at).and_then(|joint| joint.mimic.as_ref()) {
+            // One that follows a joint that is not part of the robot moves by itself, and leads.
+            while let Some(mimic) = joints.get(at).and_then(|joint| joint.mimic.as_ref())
+                && body_of_joint.contains_key(mimic.joint.as_str())
+            {
                 offset += ratio * mimic.offset;
                 ratio *= mimic.multiplier;
                 at = &mimic.joint;
@@ -202,9 +214,11 @@ fn floating(robot: &Description, base: usize) -> Body {
         damping: 0.0,
         friction: 0.0,
         armature: 0.0,
+        driven: false,
         follows: None,
         merged: Vec::new(),
         snapped: Vec::new(),
+        roundings: Vec::new(),
     }
 }
 
@@ -232,9 +246,11 @@ fn body_on(
         damping: joint.damping,
         friction: joint.friction,
         armature: joint.armature,
+        driven: joint.driven || joint.limits.effort.is_some_and(|effort| effort > 0.0),
         follows: None,
         merged: Vec::new(),
         snapped,
+        roundings: Vec::new(),
     }
 }
 

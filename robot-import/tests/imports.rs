@@ -1,5 +1,12 @@
 //! What an import makes of a file, and that its check fails where the import is wrong.
 
+#[path = "imports/changes.rs"]
+mod changes;
+#[path = "imports/locks.rs"]
+mod locks;
+#[path = "imports/peer.rs"]
+mod peer;
+
 use std::path::Path;
 
 use robot_import::advice::{Topic, advice};
@@ -238,6 +245,54 @@ fn each_topic_of_advice_names_its_line() {
             .text
             .contains("(0.00, 0.00, 1.00) exceeds the sum of the two others by 20.0 %")
     );
+}
+
+/// The SO-101 with the numbers of attributes changed, as advice on units and torques.
+fn plausible_with(changes: &[(&str, f64)]) -> Vec<robot_import::advice::Advice> {
+    let mut text = SO101.to_owned();
+    for (attribute, factor) in changes {
+        let begin = format!(" {attribute}=\"");
+        let mut parts = text.split(&begin);
+        let mut changed = parts.next().unwrap_or_default().to_owned();
+        for part in parts {
+            let (numbers, rest) = part.split_once('"').expect("a closing quote");
+            let numbers = numbers.split_whitespace().map(|number| {
+                let number: f64 = number.parse().expect("a number");
+                format!("{:e}", number * factor)
+            });
+            changed += &format!("{begin}{}\"{rest}", numbers.collect::<Vec<_>>().join(" "));
+        }
+        text = changed;
+    }
+    let robot = read(&text);
+    let selected = Selection::default().of(&robot).expect("all joints");
+    let tree = Tree::of(&robot, &selected, Numbers::Exact).expect("a tree");
+    robot_import::plausible::plausible(&tree, "so101")
+}
+
+#[test]
+fn a_file_in_other_units_is_told_so_by_joint_and_line() {
+    assert_eq!(plausible_with(&[]), []);
+    let degrees = 180.0 / std::f64::consts::PI;
+    let found = plausible_with(&[("lower", degrees), ("upper", degrees)]);
+    let [one] = &found[..] else {
+        panic!("{found:#?}");
+    };
+    assert_eq!((one.topic, &*one.name), (Topic::Units, "wrist_roll"));
+    assert!(
+        one.line > 0 && one.text.contains("these look like degrees"),
+        "{one:#?}"
+    );
+    let inertias = ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"].map(|name| (name, 1e3));
+    let found = plausible_with(&[&inertias[..], &[("value", 1e3)]].concat());
+    assert!(
+        found
+            .iter()
+            .any(|one| one.text.contains("these look like g") && one.name == "so101"),
+        "{found:#?}"
+    );
+    let found = plausible_with(&[("effort", 0.01)]);
+    assert!(found[0].text.starts_with("Gravity needs "), "{found:#?}");
 }
 
 #[test]

@@ -36,12 +36,18 @@ fn expected<T: Robot<N, N, N>, E: Effect<f32, N, N>, const N: usize>(effects: &E
     format!("  bits:{}", bits.concat())
 }
 
-fn robot(type_name: &str, text: &str, joints: &[&str], effects: FileEffects) -> RobotFile {
+fn robot(
+    type_name: &str,
+    text: &str,
+    [joints, bodies]: [&[&str]; 2],
+    effects: FileEffects,
+) -> RobotFile {
     let n = joints.len();
     RobotFile {
         type_name: type_name.into(),
         text: text.into(),
         joints: joints.iter().map(|&joint| joint.into()).collect(),
+        bodies: bodies.iter().map(|&body| body.into()).collect(),
         b: n,
         q: n,
         v: n,
@@ -86,6 +92,7 @@ impl Trial {
             .args(arguments)
             .current_dir(&self.folder)
             .env("CARGO_TARGET_DIR", &self.built)
+            .env("SAMPLES", SAMPLES)
             .env_remove("RUSTFLAGS")
             .env_remove("CARGO_ENCODED_RUSTFLAGS")
             .output()
@@ -123,6 +130,8 @@ impl Drop for Trial {
     }
 }
 
+/// How many random inputs each function of a library for C gets.
+const SAMPLES: &str = "1000000";
 const PROBE: &str = "inverse dynamics of the probe";
 const FIRST: &str = "torques of the first tick";
 
@@ -159,10 +168,12 @@ fn c_project(name: &str, robot: RobotFile, expected: &str) {
         .lines()
         .filter(|line| line.contains(": status 0, "))
         .collect();
-    assert_eq!(costs.len(), 4, "{device}");
+    assert_eq!(costs.len(), 12, "{device}");
     eprintln!("{}", costs.join("\n"));
     let check = trial.run("make", &[&out, "check"]);
     assert_eq!(check.lines().last(), Some("no panic"));
+    let host = trial.run("make", &[&out, "host"]);
+    assert_eq!(host.lines().last(), Some("good"), "{host}");
     trial.run("cargo", &["test"]);
     trial.run("cargo", &["fmt", "--check"]);
 }
@@ -175,7 +186,12 @@ fn a_pendulum() {
         ..FileEffects::default()
     };
     let text = include_str!("../template/rust/src/robot.rs");
-    let robot = robot("Pendulum", text, &pendulum::JOINTS, effects);
+    let robot = robot(
+        "Pendulum",
+        text,
+        [&pendulum::JOINTS, &pendulum::BODIES],
+        effects,
+    );
     let scene = (Gravity::EARTH, Inertia, Coriolis, pendulum::VISCOUS);
     let expected = expected::<pendulum::Pendulum, _, 1>(&scene);
     rust_project("a-pendulum", robot.clone(), &expected);
@@ -186,7 +202,12 @@ fn a_pendulum() {
 #[ignore = "builds firmware"]
 fn an_arm() {
     let text = include_str!("../../dynamics-core/src/robots/imported/so101.rs");
-    let robot = robot("So101", text, &so101::JOINTS, FileEffects::default());
+    let robot = robot(
+        "So101",
+        text,
+        [&so101::JOINTS, &so101::BODIES],
+        FileEffects::default(),
+    );
     let expected = expected::<so101::So101, _, 6>(&so101::SCENE);
     rust_project("an-arm", robot.clone(), &expected);
     c_project("an-arm-for-c", robot, &expected);
@@ -198,7 +219,7 @@ fn thirty_joints() {
     let robot = robot(
         "Chain",
         include_str!("project/chain.rs"),
-        &chain::JOINTS,
+        [&chain::JOINTS, &chain::JOINTS],
         ALL,
     );
     let friction = (chain::VISCOUS, chain::COULOMB, chain::ARMATURE);
@@ -213,4 +234,94 @@ fn thirty_joints() {
     let expected = expected::<chain::Chain, _, 30>(&scene);
     rust_project("thirty-joints", robot.clone(), &expected);
     c_project("thirty-joints-for-c", robot, &expected);
+}
+
+/// Two libraries in one program, found by CMake: on this computer, and on the emulated processor.
+#[test]
+#[ignore = "builds firmware"]
+fn two_robots_in_c() {
+    let effects = FileEffects {
+        viscous: true,
+        ..FileEffects::default()
+    };
+    let text = include_str!("../template/rust/src/robot.rs");
+    let one = robot(
+        "Pendulum",
+        text,
+        [&pendulum::JOINTS, &pendulum::BODIES],
+        effects,
+    );
+    let text = include_str!("../../dynamics-core/src/robots/imported/so101.rs");
+    let other = robot(
+        "So101",
+        text,
+        [&so101::JOINTS, &so101::BODIES],
+        FileEffects::default(),
+    );
+    let (left, right) = (
+        Trial::new("left-arm", one, true),
+        Trial::new("right-arm", other, true),
+    );
+    let program = left.folder.join("program");
+    fs::create_dir_all(&program).unwrap_or_else(|error| panic!("{error}"));
+    for (name, text) in [
+        (
+            "CMakeLists.txt",
+            include_str!("project/two_robots/CMakeLists.txt"),
+        ),
+        ("main.c", include_str!("project/two_robots/main.c")),
+    ] {
+        fs::write(program.join(name), text).unwrap_or_else(|error| panic!("{error}"));
+    }
+    let found = [&left, &right].map(|trial| trial.folder.display().to_string());
+    let prefix = format!("-DCMAKE_PREFIX_PATH={}", found.join(";"));
+    let cargo = format!("-DRUST_TARGET_DIR={}", left.built.display());
+    let build = |folder: &str, options: &[&str]| {
+        let configure = ["-S", "program", "-B", folder, &prefix, &cargo];
+        left.run("cmake", &[&configure, options].concat());
+        left.run("cmake", &["--build", folder]);
+    };
+    build("host", &[]);
+    let host = left.run("host/two_robots", &[]);
+    build(
+        "device",
+        &["-DCMAKE_TOOLCHAIN_FILE=../left-arm/example/arm.cmake"
+            .replace("../left-arm", &left.folder.display().to_string())
+            .as_str()],
+    );
+    let line = "-machine netduinoplus2 -nographic -semihosting-config enable=on,target=native -kernel \
+                device/two_robots";
+    let device = left.run(
+        "qemu-system-arm",
+        &line.split_whitespace().collect::<Vec<_>>(),
+    );
+    for text in [&host, &device] {
+        assert_eq!(text.lines().last(), Some("good"), "{text}");
+    }
+    // The guide's code compiles with the header.
+    let page = include_str!("../../docs/guide/src/c.md");
+    let blocks = page.split("```c\n").skip(1);
+    let code: String = blocks
+        .filter_map(|block| block.split("```").next())
+        .collect();
+    assert!(code.contains("my_arm_controller_command"));
+    let code = code
+        .replace("my_arm", "left_arm")
+        .replace("MY_ARM", "LEFT_ARM");
+    let file = program.join("guide.c");
+    fs::write(&file, code).unwrap_or_else(|error| panic!("{error}"));
+    let line = "-std=c11 -Wall -Wextra -Werror -Iinclude -fsyntax-only program/guide.c";
+    left.run("cc", &line.split(' ').collect::<Vec<_>>());
+    // The example of each project is such a program, too.
+    right.run(
+        "cmake",
+        &[
+            "-B",
+            "example/built",
+            &cargo,
+            "-DRUST_TARGET=thumbv7em-none-eabihf",
+            "-DCMAKE_TOOLCHAIN_FILE=example/arm.cmake",
+        ],
+    );
+    right.run("cmake", &["--build", "example/built"]);
 }

@@ -1,7 +1,13 @@
 //! Written files compile, are those of today's importer, and have the numbers that were checked.
 
+mod names;
 #[path = "robots/parallelogram.rs"]
 mod parallelogram;
+// Machines whose motors have no limit, and that have no motor: that they compile is what is tested.
+#[path = "robots/driven_loop.rs"]
+mod driven_loop;
+#[path = "robots/passive_loop.rs"]
+mod passive_loop;
 
 use std::path::Path;
 
@@ -18,6 +24,8 @@ use robot_import::tree::{Numbers, Tree};
 use robot_import::{check, loops, source};
 
 const SO101: &str = include_str!("../../dynamics-core/src/robots/imported/so101.rs");
+const DRIVEN: &str = include_str!("robots/driven_loop.rs");
+const PASSIVE: &str = include_str!("robots/passive_loop.rs");
 const PARALLELOGRAM: &str = include_str!("robots/parallelogram.rs");
 
 /// What the importer makes of a file of these tests, on the day on which `written` was.
@@ -30,6 +38,7 @@ fn imported(file: &str, name: &str, without: &[&str], written: &str) -> (String,
             .join(file),
         name: Some(name.to_owned()),
         options: Options {
+            python: "none".to_owned(),
             without: without.iter().map(|&link| link.to_owned()).collect(),
             ..Options::default()
         },
@@ -65,6 +74,109 @@ fn written_files_are_todays_and_have_the_checked_numbers() {
     let (source, tree) = imported(file, "parallelogram", &[], PARALLELOGRAM);
     assert_eq!(source, PARALLELOGRAM);
     same_numbers(&parallelogram::Parallelogram::MODEL, &tree);
+}
+
+#[test]
+fn loops_without_limits_of_torque_have_their_motors() {
+    let (source, _) = imported(
+        "mjcf/driven_loop_no_ctrlrange.xml",
+        "driven_loop",
+        &[],
+        DRIVEN,
+    );
+    assert_eq!(source, DRIVEN);
+    // A motor without a range, and a drive of position.
+    assert_eq!(driven_loop::DrivenLoop::LOOPS.actuated(), &[0, 3]);
+    let (source, _) = imported("mjcf/passive_loop.xml", "passive_loop", &[], PASSIVE);
+    assert_eq!(source, PASSIVE);
+    assert_eq!(passive_loop::PassiveLoop::LOOPS.actuated(), &[0, 1, 2, 3]);
+}
+
+#[test]
+fn a_loop_without_enough_motors_is_advice_and_its_motors_can_be_named() {
+    let of = |file: &str, motors: &[&str]| {
+        let args = Args {
+            file: Path::new(env!("CARGO_MANIFEST_DIR"))
+                .join("tests")
+                .join(file),
+            options: Options {
+                python: "none".to_owned(),
+                motors: motors.iter().map(|&name| name.to_owned()).collect(),
+                ..Options::default()
+            },
+            ..Args::default()
+        };
+        import(&args, "today").map_err(|error| error.to_string())
+    };
+    let passive = |motors: &[&str]| of("mjcf/passive_loop.xml", motors);
+    let report = passive(&[]).expect("a machine").report.text();
+    let words = "The file has no motor on a joint of its machine with loops, and at least 1 move freely: every joint is taken as driven.";
+    assert!(report.contains(words), "{report}");
+    let named = passive(&["p", "s"]).expect("a machine");
+    assert!(named.source.contains("Loops<1, 3, 2>"), "{}", named.source);
+    assert!(
+        !named.report.text().contains("motor"),
+        "{}",
+        named.report.text()
+    );
+    let error = passive(&["p", "t"]).expect_err("no joint");
+    assert!(
+        error.contains("`--motors t`: no joint of this name moves"),
+        "{error}"
+    );
+    let error = of("urdf/so101.urdf", &["elbow_flex"]).expect_err("no loop");
+    assert!(error.contains("has no loop"), "{error}");
+    // Nobody has said which of the joints have motors, but the file compiles.
+    for (file, sizes) in [
+        ("loop_name", "<1, 3, 1>"),
+        ("loop_no_motor", "<1, 3, 3>"),
+        ("weld", "<1, 6, 1>"),
+    ] {
+        let machine = of(&format!("mjcf/{file}.xml"), &[]).expect(file);
+        assert!(
+            machine.source.contains(&format!("Loops{sizes}")),
+            "{}",
+            machine.source
+        );
+    }
+}
+
+#[test]
+fn a_loop_that_the_library_refuses_is_named_with_its_line() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("m.xml");
+    let text = include_str!("mjcf/passive_loop.xml");
+    let ends = [
+        (
+            "body1=\"c\" body2=\"d\" anchor=\".1 0 0\"",
+            "site1=\"one\" site2=\"two\"",
+        ),
+        ("<joint name=\"r\"", "<site name=\"one\"/><joint name=\"r\""),
+        (
+            "<joint name=\"s\"",
+            "<site name=\"two\" pos=\".1 0 0\"/><joint name=\"s\"",
+        ),
+        ("pos=\".5 0 0\"", "pos=\"50 0 0\""),
+    ];
+    let text = ends
+        .iter()
+        .fold(text.to_owned(), |text, (from, to)| text.replace(from, to));
+    std::fs::write(&file, text).expect("a model");
+    let options = Options {
+        python: "none".to_owned(),
+        ..Options::default()
+    };
+    let args = Args {
+        file,
+        options,
+        ..Args::default()
+    };
+    let error = import(&args, "today").expect_err("open").to_string();
+    let words = "loop `loop_0`: one link is longer than all the others together";
+    assert!(
+        error.starts_with("line 1: ") && error.contains(words),
+        "{error}"
+    );
 }
 
 #[test]

@@ -2,9 +2,9 @@
 
 use core::array;
 
-use dynamics_core::control::{Mode, Status};
 use dynamics_core::model::JointLimits;
 use heapless::{String, Vec};
+use motion_control::{Mode, Status};
 use serde::{Deserialize, Serialize};
 
 /// The phases of a tick whose cost is sent, in their order.
@@ -96,7 +96,7 @@ impl Joint {
 /// The quantities of a control tick, for [`Producer::push`](crate::Producer::push).
 ///
 /// ```
-/// use dynamics_core::control::Mode;
+/// use motion_control::Mode;
 /// let sample = telemetry::Sample::<6>::default();
 /// assert_eq!((sample.status.mode, sample.counts), (Mode::Full, [0; 6]));
 /// ```

@@ -1,7 +1,7 @@
 //! What the crate claims of its queue, its frames and its decoder.
 
-use dynamics_core::control::{Fault, Mode, Status};
 use dynamics_core::model::JointLimits;
+use motion_control::{Fault, Mode, Status};
 use telemetry::{
     Axis, Counts, Decoder, EncodeError, FrameError, Joint, Machine, Message, Queue, Slots, Tick,
     VERSION, capacity, encode, split,

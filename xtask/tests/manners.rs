@@ -46,12 +46,14 @@ fn a_full_disk_is_an_error_and_no_panic() {
 /// A user who is not root, may use sudo, and has neither QEMU nor anything else.
 fn poor_user(dir: &Dir, with_sudo: bool) -> Command {
     dir.program("id", "echo 1000");
+    dir.program("apt-get", "true");
     if with_sudo {
         let ran = dir.0.join("sudo-ran");
         dir.program("sudo", &format!("echo \"$@\" >> {}", ran.display()));
     }
     let mut command = xtask(&["demo"]);
     command.env("PATH", &dir.0).env("RUSTC", rustc());
+    command.env("XTASK_PROGRAMS", dir.0.join("programs"));
     command
 }
 
@@ -110,6 +112,62 @@ fn without_sudo_the_command_is_printed_and_nothing_is_run() {
         assert!(said.contains("as root"), "{said}");
         assert!(said.contains("    apt-get install"), "{said}");
     }
+}
+
+/// Root on a Debian where `qemu-system-arm` conflicts with the user's `qemu-utils`; `apt-ran` lists the calls of apt-get.
+fn root_with_a_conflict(dir: &Dir) -> Command {
+    let mut command = poor_user(dir, false);
+    dir.program("id", "echo 0");
+    let home = dir.0.display();
+    dir.program(
+        "apt-get",
+        &format!(
+            "echo \"$@\" >> {home}/apt-ran\n\
+             case \"$*\" in\n\
+             *--simulate*qemu-system-arm*) echo 'Remv qemu-utils [1:10]'; echo 'Inst libslirp0 (4)'; echo 'Inst qemu-system-arm (1:7)';;\n\
+             *--simulate*) echo 'Inst libslirp0 (4)';;\n\
+             *download*) > qemu-system-arm.deb;;\n\
+             esac"
+        ),
+    );
+    let qemu = "/bin/mkdir -p \"$3/usr/bin\"; echo \"$2\" > \"$3/usr/bin/qemu-system-arm\"";
+    dir.program("dpkg", qemu);
+    command.env("CARGO", cargo_but(dir, "build", "exit 1"));
+    command
+}
+
+#[test]
+fn root_is_asked_too() {
+    let dir = Dir::new();
+    let (code, _, said) = outcome(&mut root_with_a_conflict(&dir));
+    assert_eq!(code, Some(1), "{said}");
+    assert!(!dir.0.join("apt-ran").exists(), "{said}");
+    if on_debian() {
+        assert!(said.contains("    apt-get install"), "{said}");
+        assert!(said.contains("--yes"), "{said}");
+    }
+}
+
+#[test]
+fn a_package_of_the_user_is_not_removed() {
+    if !on_debian() {
+        return;
+    }
+    let dir = Dir::new();
+    let (_, _, said) = outcome(root_with_a_conflict(&dir).arg("--yes"));
+    let ran = std::fs::read_to_string(dir.0.join("apt-ran")).expect("apt-get ran");
+    let installs: Vec<&str> = ran
+        .lines()
+        .filter(|line| line.starts_with("install") && !line.contains("--simulate"))
+        .collect();
+    assert!(!installs.is_empty(), "{ran}");
+    for install in installs {
+        assert!(install.contains("--no-remove"), "{ran}");
+        assert!(!install.contains("qemu-system-arm"), "{ran}");
+    }
+    assert!(said.contains("qemu-utils, which stays"), "{said}");
+    let unpacked = dir.0.join("programs/usr/bin/qemu-system-arm");
+    assert!(unpacked.is_file(), "{said}");
 }
 
 /// Cargo, with another program for one of its commands.
@@ -181,7 +239,7 @@ fn no_process_is_left_behind_after_a_signal_to_end() {
 const FIGURES: &str = "echo '| a figure | 1 |'";
 
 #[test]
-fn reports_are_written_elsewhere_and_the_workspace_stays_as_it_is() {
+fn reports_written_elsewhere_leave_the_workspace_as_it_is() {
     let dir = Dir::new();
     let out = dir.0.join("new/reports");
     let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/eliminations.md");
@@ -199,7 +257,7 @@ fn reports_are_written_elsewhere_and_the_workspace_stays_as_it_is() {
 }
 
 #[test]
-fn a_directory_that_cannot_be_written_is_named_before_anything_is_measured() {
+fn a_read_only_directory_is_named_before_anything_is_measured() {
     let dir = Dir::new();
     let file = dir.file("file", b"in the way");
     let measured = dir.0.join("measured");

@@ -8,7 +8,7 @@ use std::process::Command;
 
 use support::{Dir, EXIT, FOR_EVER, firmware, outcome, three_passages, xtask};
 
-/// What comes of a file.
+/// Runs `cargo xtask meter` on a file.
 fn metered(contents: &[u8], arguments: &[&str]) -> (Option<i32>, String, String) {
     let dir = Dir::new();
     let file = dir.file("firmware", contents);
@@ -68,7 +68,7 @@ fn a_firmware_is_measured_between_its_markers() {
 }
 
 #[test]
-fn a_firmware_that_never_ends_is_stopped_and_its_figures_are_printed() {
+fn the_figures_of_an_endless_firmware_are_printed() {
     if !has_qemu() {
         return;
     }

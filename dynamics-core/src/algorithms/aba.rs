@@ -14,7 +14,7 @@ use super::rnea::external_force;
 use super::tree_pass::per_body;
 use super::{JointResult, NotPositiveDefinite, Prescribed};
 use crate::effects::{
-    Effect, base_motion, body_inertia, gyroscopic, joint_state, joint_torque, load_friction,
+    Effect, Scene, base_motion, body_inertia, gyroscopic, joint_state, joint_torque, load_friction,
     rotor_force, transmitted,
 };
 use crate::model::{JointKind, LinkView, RobotModel};
@@ -82,6 +82,7 @@ where
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
+    const { Scene::<R, E, B, V>::OF_CORE };
     let trig = state.configuration().trig_of(robot);
     let (trig, state) = (trig.borrow(), state.state());
     let given = |joint| Prescribed::Torque(entry(tau, joint));

@@ -10,7 +10,7 @@ use heapless::Vec;
 
 use super::tree_pass::inward;
 use crate::algorithms::MassMatrix;
-use crate::effects::{Effect, body_inertia, rotor_force};
+use crate::effects::{Effect, Scene, body_inertia, rotor_force};
 use crate::model::{LinkView, RobotModel};
 use crate::scalar::Real;
 use crate::spatial::Xform;
@@ -58,6 +58,7 @@ where
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
+    const { Scene::<R, E, B, V>::OF_CORE };
     let trig = q.trig_of(robot);
     let trig = trig.borrow();
     match robot.as_all_revolute() {

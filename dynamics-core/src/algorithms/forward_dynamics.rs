@@ -6,14 +6,16 @@
 use core::borrow::Borrow;
 
 use super::{NotPositiveDefinite, crba, ltdl, rnea, solve};
-use crate::effects::{Bias, Effect, all_transmitted};
+use crate::effects::{Bias, Effect, Scene, all_transmitted};
 use crate::model::RobotModel;
 use crate::scalar::Real;
 use crate::state::{Configuration, RobotState};
 
 /// The acceleration of each joint, q̈ = FD(q, q̇, τ), rad/s² or m/s², by M and its factors.
 ///
-/// [`aba`](super::aba()) gives the same without M. `state.qdd` is not read.
+/// [`aba`](super::aba()) gives the same without M. `state.qdd` is not read. In f32 the accelerations of long chains and of
+/// light links with heavy loads lose digits: [`forward_dynamics_with_error`](super::forward_dynamics_with_error()) says how
+/// many.
 ///
 /// $$
 /// M(q) \ddot q = \tau - C(q, \dot q), \qquad C(q, \dot q) = \mathrm{ID}(q, \dot q, 0)
@@ -54,6 +56,7 @@ where
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
+    const { Scene::<R, E, B, V>::OF_CORE };
     let trig = state.configuration().trig_of(robot);
     let (trig, state) = (trig.borrow(), state.state());
     const {

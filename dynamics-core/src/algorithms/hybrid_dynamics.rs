@@ -8,6 +8,7 @@ use core::borrow::Borrow;
 use super::NotPositiveDefinite;
 use super::aba::sweep;
 use crate::effects::Effect;
+use crate::effects::Scene;
 use crate::model::{LinkView, RobotModel};
 use crate::scalar::{Real, Vector};
 use crate::spatial::Motion;
@@ -99,6 +100,7 @@ where
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
+    const { Scene::<R, E, B, V>::OF_CORE };
     let trig = state.configuration().trig_of(robot);
     let (trig, state) = (trig.borrow(), state.state());
     sweep(robot, trig, state, effects, |joint| entry(given, joint))

@@ -8,6 +8,7 @@ mod crba_jacobian;
 mod energy;
 mod error;
 mod forward_dynamics;
+mod forward_error;
 mod hybrid_dynamics;
 pub mod kinematics;
 mod mass_matrix;
@@ -28,6 +29,7 @@ pub use crba_jacobian::crba_jacobian;
 pub use energy::{kinetic_energy, potential_energy};
 pub use error::NotPositiveDefinite;
 pub use forward_dynamics::forward_dynamics;
+pub use forward_error::{EstimatedAcceleration, acceleration_error, forward_dynamics_with_error};
 pub use hybrid_dynamics::{JointResult, Prescribed, hybrid_dynamics};
 pub use kinematics::{
     Frame, Kinematics, Pose, bias_acceleration, classical, frame, jacobian, kinematics, poses,
@@ -42,11 +44,13 @@ pub use momentum::{
     center_of_mass, centroidal_matrix, centroidal_momentum, momentum, momentum_and_coriolis,
     momentum_and_drift,
 };
+pub(crate) use operational_space::shifted_inverse;
 pub use operational_space::{
     Conditioning, Damping, OperationalSpace, OsimInverse, damped_inverse, operational_space,
     osim_inverse, task_jacobian,
 };
-pub(crate) use operational_space::{eigen, shifted_inverse, shifted_solution};
+#[doc(hidden)]
+pub use operational_space::{eigen, shifted_solution};
 pub(crate) use pivot_check::Magnitude;
 pub use regressor::{
     friction_regressor, inertial_parameters, regressor, regressor_columns, regressor_row,

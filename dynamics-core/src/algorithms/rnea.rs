@@ -10,7 +10,7 @@ use heapless::Vec;
 use super::rotors::rotor;
 use super::tree_pass::{PerBody, Topology, inward, per_body};
 use crate::effects::{
-    Effect, base_motion, body_inertia, body_wrench, joint_torques, load_frictions,
+    Effect, Scene, base_motion, body_inertia, body_wrench, joint_torques, load_frictions,
 };
 use crate::model::{JointCoordinate, LinkView, RobotModel};
 use crate::scalar::{Matrix, Real};
@@ -19,7 +19,7 @@ use crate::state::{Configuration, JointTrig, RobotState, State, entry};
 
 /// The torque of each motor, τ = ID(q, q̇, q̈), N·m or N, under the effects of the scene.
 ///
-/// A non-finite input gives a non-finite output, which [`crate::control`] rejects.
+/// A non-finite input gives a non-finite output, which the safety gate of `motion-control` rejects.
 ///
 /// The velocities and accelerations follow from the base to the tips, with $a_0 = -g$, the forces from the tips to the
 /// base:
@@ -65,6 +65,7 @@ where
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
+    const { Scene::<R, E, B, V>::OF_CORE };
     let trig = state.configuration().trig_of(robot);
     let (trig, state) = (trig.borrow(), state.state());
     match robot.as_all_revolute() {

@@ -11,7 +11,7 @@ use heapless::Vec;
 use super::rnea::external_force;
 use super::tree_pass::{inward, per_body};
 use crate::effects::{
-    Effect, base_motion, body_inertia, joint_torques, load_frictions, rotor_force,
+    Effect, Scene, base_motion, body_inertia, joint_torques, load_frictions, rotor_force,
 };
 use crate::model::RobotModel;
 use crate::scalar::{Matrix, Real, Vector};
@@ -45,10 +45,10 @@ struct Body<R: Real> {
 /// where $(f \mathbin{\bar\times^\ast}) w = w \times^\ast f$. C is that of
 /// [`coriolis_matrix`](crate::algorithms::coriolis_matrix()), which states its laws: Ṁ = C + Cᵀ for joints of every kind,
 /// and C(q, x) y = C(q, y) x where q̇ is the derivative of q. Both make it the C of a passive law: see
-/// [`passivity_based_torque`](crate::control::passivity_based_torque()). On a base of given motion both velocities include
+/// `motion_control::passivity_based_torque`. On a base of given motion both velocities include
 /// that motion.
 ///
-/// A non-finite input gives a non-finite output, which [`crate::control`] rejects.
+/// A non-finite input gives a non-finite output, which the safety gate of `motion-control` rejects.
 ///
 /// # Shape
 /// V.
@@ -89,6 +89,7 @@ where
     D: RobotModel<R, B, Q, V>,
     E: Effect<R, B, V>,
 {
+    const { Scene::<R, E, B, V>::OF_CORE };
     let trig = state.configuration().trig_of(robot);
     let (trig, state) = (trig.borrow(), state.state());
     let turns = &trig.coordinates;

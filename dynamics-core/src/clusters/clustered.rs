@@ -203,6 +203,9 @@ impl<A> Clustered<A> {
     /// Gravity alone: the same with `&Gravity::EARTH`. Effects act on the tree: friction and rotors are of its
     /// coordinates.
     ///
+    /// Towards a singular configuration of a cluster the torques grow without bound, and this result does not say so:
+    /// [`Clustered::rnea_with_status`] does.
+    ///
     /// # Shape
     /// Y.
     ///

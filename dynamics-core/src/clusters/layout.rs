@@ -192,8 +192,7 @@ const fn is_scalar(kind: JointKind) -> bool {
 
 /// Whether a joint has limits within ±4π, as the engine takes them for its sines.
 const fn is_near(link: &Link<f64>) -> bool {
-    const FOUR_PI: f64 = 4.0 * core::f64::consts::PI;
-    link.limits.lower >= -FOUR_PI && link.limits.upper <= FOUR_PI
+    link.limits.within_two_turns()
 }
 
 /// Whether the joint of velocity coordinate `v` is prismatic, and whether its limits are within ±4π.

@@ -65,6 +65,7 @@ mod motor_motion;
 mod motors;
 mod passes;
 mod set;
+mod status;
 mod tree_motion;
 
 pub use aba::ForwardError;
@@ -76,4 +77,5 @@ pub use linkages::{
 };
 pub use motors::{DEAD_POINT, MotorTorques};
 pub use set::ClusterSet;
+pub use status::{ClusteredTorque, Conditioning, NEAR_SINGULAR, NearSingular};
 pub use tree_motion::TreeMotion;

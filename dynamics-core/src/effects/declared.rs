@@ -25,6 +25,8 @@ pub trait Declared<R: Real, const B: usize, const V: usize>: Sized {
     const BASE_MOTION: bool;
     /// The bodies to whose inertia something is added.
     const PAYLOAD: [bool; B];
+    /// A number to whose body something is added, but which no body of the robot has.
+    const PAYLOAD_ON_NO_BODY: Option<usize>;
     /// Rotors spin as bodies.
     const GYROSCOPIC_ROTORS: bool;
     /// Friction depends on the transmitted torque.
@@ -66,6 +68,7 @@ where
     const BODY_POSE: bool = E::EXTERNAL_WRENCH.reads_pose;
     const BASE_MOTION: bool = E::BASE.add.is_some();
     const PAYLOAD: [bool; B] = E::ADDED_INERTIA.bodies;
+    const PAYLOAD_ON_NO_BODY: Option<usize> = E::ADDED_INERTIA.no_body;
     const GYROSCOPIC_ROTORS: bool = E::ROTOR.add.is_some();
     const LOAD_DEPENDENT: bool = E::LOAD_FRICTION.factors.is_some();
     const BASE_PARAMETERS: usize = E::REGROUPED.sets;

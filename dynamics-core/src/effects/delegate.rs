@@ -29,6 +29,19 @@ pub const fn any_of<const B: usize, const N: usize>(effects: &[[bool; B]; N]) ->
     any
 }
 
+/// The first number that is there.
+#[doc(hidden)]
+pub const fn first_some(numbers: &[Option<usize>]) -> Option<usize> {
+    let mut i = 0;
+    while i < numbers.len() {
+        if numbers[i].is_some() {
+            return numbers[i];
+        }
+        i += 1;
+    }
+    None
+}
+
 /// The first name that is not empty.
 #[doc(hidden)]
 pub const fn first_name(names: &[&'static str]) -> &'static str {
@@ -140,6 +153,9 @@ macro_rules! delegate_effect {
                     $crate::effects::any_of(&[
                         $(<$inner as $crate::effects::Declared<$R, $B, $V>>::PAYLOAD),*
                     ]),
+                    $crate::effects::first_some(&[
+                        $(<$inner as $crate::effects::Declared<$R, $B, $V>>::PAYLOAD_ON_NO_BODY),*
+                    ]),
                     <Self as $crate::effects::Forwarder<$R, $B, $V>>::forward_payload,
                 );
             const ROTOR: $crate::effects::hook::Rotor<Self, $R> =
@@ -170,6 +186,10 @@ macro_rules! delegate_effect {
                 & (false $(| <$inner as $crate::effects::Effect<$R, $B, $V>>::VELOCITY_PRODUCTS)*);
             const ELASTICITY: bool = ($on)
                 & (false $(| <$inner as $crate::effects::Effect<$R, $B, $V>>::ELASTICITY)*);
+            const ONCE: $crate::effects::Once = $crate::effects::Once::forwarded(
+                $on,
+                &[$(<$inner as $crate::effects::Effect<$R, $B, $V>>::ONCE),*],
+            );
 
             #[inline(always)]
             fn torque(&self, joint: usize, at: $crate::effects::JointState<$R>, tau: &mut $R) {

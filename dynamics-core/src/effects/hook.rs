@@ -213,6 +213,8 @@ impl<E, R: Real> Base<E, R> {
 pub struct Inertia<E, R: Real, const B: usize> {
     pub(super) add: Option<fn(&E, usize, &mut SpatialInertia<R>)>,
     pub(super) bodies: [bool; B],
+    /// A number of a body that the robot does not have.
+    pub(super) no_body: Option<usize>,
 }
 
 impl<E, R: Real, const B: usize> Inertia<E, R, B> {
@@ -220,6 +222,7 @@ impl<E, R: Real, const B: usize> Inertia<E, R, B> {
     pub const NONE: Self = Self {
         add: None,
         bodies: [false; B],
+        no_body: None,
     };
 
     /// Adds to the inertia of the bodies that are marked, about the origin of a body's frame and in its coordinates;
@@ -228,7 +231,22 @@ impl<E, R: Real, const B: usize> Inertia<E, R, B> {
         Self {
             add: Some(add),
             bodies,
+            no_body: None,
         }
+    }
+
+    /// Adds to the inertia of one body; a scene in which the robot does not have it does not compile.
+    pub(in crate::effects) const fn on_body(
+        body: usize,
+        add: fn(&E, usize, &mut SpatialInertia<R>),
+    ) -> Self {
+        let mut hook = Self::on([false; B], add);
+        if body < B {
+            hook.bodies[body] = true;
+        } else {
+            hook.no_body = Some(body);
+        }
+        hook
     }
 
     /// That of a forwarder.
@@ -236,10 +254,14 @@ impl<E, R: Real, const B: usize> Inertia<E, R, B> {
     pub const fn forwarded(
         on: bool,
         bodies: [bool; B],
+        no_body: Option<usize>,
         add: fn(&E, usize, &mut SpatialInertia<R>),
     ) -> Self {
         if on {
-            Self::on(bodies, add)
+            Self {
+                no_body,
+                ..Self::on(bodies, add)
+            }
         } else {
             Self::NONE
         }

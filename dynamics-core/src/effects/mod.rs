@@ -43,15 +43,40 @@
 //! assert!(core[0] > Core::<Ur5e>::rnea(&swinging, &RIGID_BODY)[0]);
 //! ```
 //!
-//! A scene that contains gravity twice does not compile:
+//! A scene that contains gravity twice does not compile, nor does one that contains another effect twice that cannot mean
+//! two things ([`Once`] has the list):
 //!
 //! ```compile_fail,E0080
 //! use dynamics_core::effects::{GravityVector, RIGID_BODY};
-//! use dynamics_core::{Engine, robots::Ur5e, state::State};
-//! let tilted = GravityVector(glam::Vec3::new(0.0, 3.0, -9.3));
+//! use dynamics_core::{Engine, glam::Vec3, robots::Ur5e, state::State};
+//! let tilted = GravityVector(Vec3::new(0.0, 3.0, -9.3));
 //! let _ = Engine::<Ur5e>::rnea(&State::at([0.3_f32; 6]), &(RIGID_BODY, tilted));
 //! // error: the scene has several fields of gravity, whose sum would act: instead of (RIGID_BODY, GravityVector(..)) write
 //! // (Inertia, Coriolis, GravityVector(..))
+//! ```
+//!
+//! This call is checked by a full build, whose error names it in a note. A scene that is a constant is checked by `cargo
+//! check` and rust-analyzer, too, at its own line, if [`Engine::scene_f32`](crate::Engine::scene_f32) or its sisters for
+//! f64 and for [`Core`](crate::Core) return it:
+//!
+//! ```
+//! use dynamics_core::effects::{Coriolis, Gravity, Inertia, Viscous};
+//! use dynamics_core::{Engine, robots::Ur5e};
+//! const SCENE: (Gravity, Inertia, Coriolis, Viscous<f32, 6>) =
+//!     Engine::<Ur5e>::scene_f32((Gravity::EARTH, Inertia, Coriolis, Viscous([0.5; 6])));
+//! # assert_eq!(SCENE.3, Viscous([0.5; 6]));
+//! ```
+//!
+//! Nor does an effect without a hook compile:
+//!
+//! ```compile_fail,E0080
+//! use dynamics_core::effects::Effect;
+//! use dynamics_core::{Core, robots::Ur5e, scalar::Real, state::State};
+//! struct Drag;
+//! impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Drag {}
+//! let _ = Core::<Ur5e>::rnea(&State::at([0.3_f32; 6]), &Drag);
+//! // error: this effect has neither a hook among the constants of `Effect` nor the function `torque`: it would do nothing.
+//! // note: the above error was encountered while instantiating `fn <Drag as Effect<f32, 6, 6>>::torque`
 //! ```
 //!
 //! Signs are stated once, on M q̈ + C = τ: joint hooks add the torque that the motor must supply
@@ -68,6 +93,7 @@ mod hook_args;
 mod implicit;
 mod joint;
 mod load;
+pub(crate) mod once;
 mod query;
 mod rigid_body;
 mod tuple;
@@ -80,7 +106,7 @@ pub use body::{
 };
 pub use declared::Declared;
 #[doc(hidden)]
-pub use delegate::{Forwarder, any_of, first_name, sum};
+pub use delegate::{Forwarder, any_of, first_name, first_some, sum};
 pub use friction::{
     AsymmetricCoulomb, Coulomb, LoadFriction, Lugre, Stribeck, Viscous, smooth_sign,
     smooth_sign_slope,
@@ -88,13 +114,14 @@ pub use friction::{
 pub use hook_args::{BodyState, BodyVelocity, JointState, LoadFactors, TorqueDerivatives};
 pub use implicit::Implicit;
 pub use joint::{Armature, Cogging, EndStops, GyroscopicRotors, Spring};
+pub use once::Once;
 pub use rigid_body::{
     Coriolis, Direction, Down, Elasticity, Gravity, GravityVector, Inertia, MovingBase, RIGID_BODY,
 };
 pub use width::Width;
 
 pub(crate) use gates::{
-    are_of, field_axes, loads, no_base_parameters, no_gyroscopic_rotors, one_gravity, only_load,
+    Scene, are_of, field_axes, loads, meaning, no_gyroscopic_rotors, of_core, only_load,
 };
 pub(crate) use load::{
     add_load_slope, all_transmitted, load_friction, load_frictions, no_load_friction, transmitted,
@@ -109,7 +136,10 @@ use crate::scalar::Real;
 
 /// A physical effect, or a tuple of them, on a robot of B bodies and V velocity coordinates.
 ///
-/// Every hook has an empty default, which costs nothing. Hooks *add* to their last argument: an effect that returned
+/// Every hook has an empty default, which costs nothing; but an effect has at least one constant hook or the function
+/// [`torque`](Effect::torque). (That is found when the default of `torque` is compiled: the one place where the compiler
+/// knows that it was not written. An effect whose only hook is `inertia` or `advance`, or that is to do nothing, writes
+/// an empty `torque`.) Hooks *add* to their last argument: an effect that returned
 /// zero would leave an addition in the machine code (x + 0.0 is not x for IEEE's −0.0). Sizes are part of the type, so
 /// that five friction values on six joints do not compile. Hooks at joints are functions. Hooks that enable a part of
 /// the algorithms are constants that name their function and what it reads ([`hook`]), so that a hook and its
@@ -158,10 +188,14 @@ pub trait Effect<R: Real, const B: usize, const V: usize>: Declared<R, B, V> {
     const VELOCITY_PRODUCTS: bool = false;
     /// The scene has the stiffness and damping of links that bend ([`crate::flexible`]).
     const ELASTICITY: bool = false;
+    /// What a scene contains at most once: a scene of two does not compile. Any number of times for an effect of one's own,
+    /// unless it takes this constant from one of the library, such as `<Viscous<R, V> as Effect<R, B, V>>::ONCE`.
+    const ONCE: Once = Once::NONE;
 
     /// Adds to the torque τ that the motor of `joint` must supply independently of its acceleration, N·m or N.
     #[inline(always)]
     fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R) {
+        const { gates::has_hook::<R, Self, B, V>() };
         let _ = (joint, at, tau);
     }
 

@@ -1,8 +1,6 @@
 //! Evaluates the hooks of effects for the textbook algorithms, in the frames in which hooks are defined.
 
-use super::{
-    BodyState, Effect, JointState, field_axes, loads, no_base_parameters, one_gravity, only_load,
-};
+use super::{BodyState, Effect, JointState, Scene, field_axes, loads, only_load};
 use crate::model::LinkView;
 use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::{Force, Motion, SpatialInertia, Xform};
@@ -14,7 +12,7 @@ pub(crate) fn field<R: Real, E, const B: usize, const V: usize>(effects: &E) -> 
 where
     E: Effect<R, B, V>,
 {
-    one_gravity::<R, E, B, V>();
+    const { Scene::<R, E, B, V>::MEANING };
     let [x, y, z] = const { field_axes::<R, E, B, V>() };
     if !(x | y | z) {
         return R::Vec3::ZERO;
@@ -68,7 +66,7 @@ pub(crate) fn body_inertia<R: Real, E, const B: usize, const V: usize>(
 where
     E: Effect<R, B, V>,
 {
-    no_base_parameters::<R, E, B, V>();
+    const { Scene::<R, E, B, V>::OF_CORE };
     let (none, single) = const { (loads::<R, E, B, V>() == 0, loads::<R, E, B, V>() == 1) };
     // The number of a single load is a constant, with which the hook's own comparison is folded.
     let body = if single {

@@ -1,6 +1,6 @@
 //! Tuples of effects: hooks run in the order of the tuple.
 
-use super::Effect;
+use super::{Effect, JointState};
 use crate::effects::delegate::delegate_effect;
 use crate::scalar::Real;
 
@@ -15,7 +15,10 @@ macro_rules! tuple {
 }
 
 /// The empty scene.
-impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for () {}
+impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for () {
+    #[inline(always)]
+    fn torque(&self, _: usize, _: JointState<R>, _: &mut R) {}
+}
 
 tuple!(E0 0);
 tuple!(E0 0, E1 1);

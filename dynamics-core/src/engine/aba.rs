@@ -13,6 +13,7 @@ use super::articulated_inertia::Articulated;
 use super::compile::CompiledRobot;
 use super::folding::Folded;
 use super::folding::{Mat3, Vec3};
+use super::gate::EngineScene;
 use super::ltdl::positive;
 use super::pivot_noise::noise;
 use super::rnea::{inertia, is_on_base, is_parent};
@@ -51,6 +52,7 @@ impl<T, K> Engine<T, K> {
         S: RobotState<R, Q, V>,
         E: Effect<R, B, V>,
     {
+        const { EngineScene::<T, R, E, B, Q, V>::TAKEN };
         let trig = state
             .configuration()
             .trig_or(Specialised::<T, K, B, V>(PhantomData));
@@ -69,7 +71,7 @@ struct Task<'a, R, E, const Q: usize, const V: usize> {
     x: &'a mut [R; V],
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn accelerate<R, T, E, const B: usize, const Q: usize, const V: usize>(
     trig: &JointTrig<R, Q>,
     state: &State<R, Q, V>,
@@ -110,7 +112,7 @@ where
 }
 
 /// The inward pass: the articulated inertia of joint I and its bias force, in the parent's frame.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn inward<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     task: &mut Task<'_, R, E, Q, V>,
 ) -> (Articulated<R>, Wrench<R>)
@@ -170,7 +172,7 @@ where
 }
 
 /// The outward pass: the acceleration of joint I, from its parent's α and a.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn outward<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     task: &mut Task<'_, R, E, Q, V>,
     [alpha, a]: [R::Vec3; 2],

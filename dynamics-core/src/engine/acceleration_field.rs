@@ -73,7 +73,7 @@ impl<R: Real> Wrench<R> {
     };
 
     /// The component along a joint at the origin: N·m about z, or N along z.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn along(&self, prismatic: bool, length_inv: Folded<R>) -> Folded<R> {
         if prismatic {
             self.f.0[2] * length_inv
@@ -83,7 +83,7 @@ impl<R: Real> Wrench<R> {
     }
 
     /// The same in the frame of joint I's parent and about its origin.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn to_parent<T, const B: usize, const Q: usize, const V: usize, const I: usize>(
         self,
         turn: JointCoordinate<R>,
@@ -107,7 +107,7 @@ impl<R: Real> Wrench<R> {
 
 impl<R: Real> Add for Wrench<R> {
     type Output = Self;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn add(self, o: Self) -> Self {
         Self {
             f: self.f + o.f,
@@ -118,7 +118,7 @@ impl<R: Real> Add for Wrench<R> {
 
 impl<R: Real> Inertia<R> {
     /// The inertia left to a body.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn of(joint: &Joint) -> Self {
         Self {
             mass: Folded::constant(joint.mass),
@@ -128,7 +128,7 @@ impl<R: Real> Inertia<R> {
     }
 
     /// The inertia left to a body on a base that may move.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn second_moment_only(joint: &Joint) -> Self {
         Self {
             second: Sym3::of(&Mat3::constant(&joint.second_moment_only)),
@@ -137,7 +137,7 @@ impl<R: Real> Inertia<R> {
     }
 
     /// The inertia that loaded base parameters leave to a body; what is zero of every robot is a known zero.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn loaded(body: &RegroupedInertia<R>, joint: &Joint, base_moves: bool) -> Self {
         let ([x, y, z], [xx, xy, xz, yy, yz]) = (
             body.moment.map(Folded::runtime),
@@ -166,7 +166,7 @@ impl<R: Real> Inertia<R> {
     }
 
     /// The same in the frame of joint I's parent and about its origin.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn to_parent<T, const B: usize, const Q: usize, const V: usize, const I: usize>(
         self,
         turn: JointCoordinate<R>,
@@ -196,7 +196,7 @@ impl<R: Real> Inertia<R> {
 
 impl<R: Real> Add for Inertia<R> {
     type Output = Self;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn add(self, o: Self) -> Self {
         Self {
             mass: self.mass + o.mass,
@@ -208,7 +208,7 @@ impl<R: Real> Add for Inertia<R> {
 
 impl<R: Real> AccelerationField<R> {
     /// The field of a child behind a revolute joint.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn across_revolute(
         &self,
         joint: &Joint,
@@ -234,7 +234,7 @@ impl<R: Real> AccelerationField<R> {
     }
 
     /// The field of a child behind a prismatic joint at q, in units of length.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn across_prismatic(
         &self,
         joint: &Joint,
@@ -264,7 +264,7 @@ impl<R: Real> AccelerationField<R> {
     }
 
     /// The wrench that accelerates the body's inertia: f = m a + U h, n = h × a + axial(U Σ − Σ Uᵀ).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn wrench(&self, body: &Inertia<R>) -> Wrench<R> {
         let (mass, h) = (body.mass, body.moment);
         let ([x, y, z], [wx, wy, wz]) = (self.u.0, self.omega_products.0);
@@ -285,7 +285,7 @@ impl<R: Real> AccelerationField<R> {
 }
 
 /// α_x, α_y and U from ω, α_z and U's z column.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn complete<R: Real>(
     omega: Vec3<R>,
     az: Folded<R>,
@@ -305,14 +305,14 @@ fn complete<R: Real>(
 
 /// Rz(q)ᵀ Rᵀ v: from the parent's frame into the body's. A function, not a closure: closures are
 /// inlined too late for the tags to fold.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn enter<R: Real>(rot: &Mat3<R>, turn: JointCoordinate<R>, v: Vec3<R>) -> Vec3<R> {
     rot.transpose_mul(v)
         .turn_back(Folded::runtime(turn.sin), Folded::runtime(turn.cos))
 }
 
 /// A vector along the joint's axis.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn along_z<R: Real>(z: Folded<R>) -> Vec3<R> {
     Vec3([Folded::ZERO, Folded::ZERO, z])
 }

@@ -26,7 +26,7 @@ pub(crate) struct Articulated<R> {
 
 impl<R: Real> Articulated<R> {
     /// A rigid body's: I = tr Σ 1 − Σ, H = \[h\]×, A = m 1.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn of(body: &Inertia<R>) -> Self {
         let (s, m, zero) = (body.second, body.mass, Folded::ZERO);
         let [x, y, z] = body.moment.0;
@@ -54,7 +54,7 @@ impl<R: Real> Articulated<R> {
     }
 
     /// The inertia with a joint free: minus U Uᵀ/d.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn minus_joint(self, n: Vec3<R>, f: Vec3<R>, d_inv: Folded<R>) -> Self {
         let ([fx, fy, fz], minus) = (f.scale(d_inv).0, -d_inv);
         let [hx, hy, hz] = self.coupling.0;
@@ -66,7 +66,7 @@ impl<R: Real> Articulated<R> {
     }
 
     /// The same in the frame of joint I's parent and about its origin; RBDA (2.66).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn to_parent<T, const B: usize, const Q: usize, const V: usize, const I: usize>(
         self,
         turn: JointCoordinate<R>,
@@ -108,7 +108,7 @@ impl<R: Real> Articulated<R> {
 
 impl<R: Real> Add for Articulated<R> {
     type Output = Self;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn add(self, o: Self) -> Self {
         Self {
             ang: self.ang + o.ang,

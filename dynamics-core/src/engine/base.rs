@@ -4,12 +4,12 @@ use super::acceleration_field::AccelerationField;
 use super::folding::Folded;
 use super::folding::{Mat3, Vec3};
 use super::pose::Pose;
-use crate::effects::{Effect, field_axes, one_gravity};
+use crate::effects::{Effect, Scene, field_axes};
 use crate::scalar::{Real, Vector};
 use crate::spatial::Motion;
 
 /// The engine has no rotors that spin as bodies.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) const fn no_gyroscopic_rotors<R: Real, E, const B: usize, const V: usize>()
 where
     E: Effect<R, B, V>,
@@ -24,7 +24,7 @@ where
 
 /// The base without its acceleration: a = −g, its velocity if it moves, and its pose, in units of length; all other values are
 /// known zeros.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn unaccelerated<R: Real, E, const B: usize, const V: usize>(
     effects: &E,
     length: f64,
@@ -33,7 +33,7 @@ where
     E: Effect<R, B, V>,
 {
     no_gyroscopic_rotors::<R, E, B, V>();
-    one_gravity::<R, E, B, V>();
+    const { Scene::<R, E, B, V>::MEANING };
     let mut g = R::Vec3::ZERO;
     effects.field(&mut g);
     let (g, [x, y, z]) = (g.array(), const { field_axes::<R, E, B, V>() });
@@ -66,7 +66,7 @@ where
 
 /// The motion of the base: a = −g plus its own acceleration, in units of length. If it is at rest, all other values are
 /// known zeros.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn base<R: Real, E, const B: usize, const V: usize>(
     effects: &E,
     length: f64,

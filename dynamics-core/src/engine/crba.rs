@@ -11,6 +11,7 @@ use super::base::no_gyroscopic_rotors;
 use super::compile::CompiledRobot;
 use super::folding::Folded;
 use super::folding::Vec3;
+use super::gate::EngineScene;
 use super::rnea::{inertia, is_on_base, is_parent};
 use super::{Engine, Specialised};
 use crate::algorithms::MassMatrix;
@@ -54,6 +55,7 @@ impl<T, K> Engine<T, K> {
         K: Kernel<R>,
         E: Effect<R, B, V>,
     {
+        const { EngineScene::<T, R, E, B, Q, V>::TAKEN };
         let trig = q.trig_or(Specialised::<T, K, B, V>(PhantomData));
         let mut m = MassMatrix::ZERO;
         mass_matrix::<R, T, E, B, Q, V>(&trig.borrow().coordinates, effects, &mut m);
@@ -69,7 +71,7 @@ struct Task<'a, R, E, const Q: usize, const V: usize> {
 }
 
 /// Writes M(q), both triangles; what is zero by the tree's branches stays as it is.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn mass_matrix<R, T, E, const B: usize, const Q: usize, const V: usize>(
     turns: &[JointCoordinate<R>; Q],
     effects: &E,
@@ -90,7 +92,7 @@ pub(crate) fn mass_matrix<R, T, E, const B: usize, const Q: usize, const V: usiz
 
 /// Writes the columns of joint I and of its descendants; returns their inertia in the parent's
 /// frame.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn composite<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     task: &mut Task<'_, R, E, Q, V>,
 ) -> Inertia<R>
@@ -112,7 +114,7 @@ where
 }
 
 /// Column I of M: the wrench of joint I's unit acceleration, projected on each ancestor.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn column<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     task: &mut Task<'_, R, E, Q, V>,
     body: &Inertia<R>,

@@ -8,6 +8,7 @@ use core::hint::black_box;
 use core::marker::PhantomData;
 
 use super::crba::mass_matrix;
+use super::gate::EngineScene;
 use super::ltdl::{decompose, positive, substitute};
 use super::pivot_noise::noise;
 use super::{Engine, Specialised};
@@ -48,6 +49,7 @@ impl<T, K> Engine<T, K> {
         S: RobotState<R, Q, V>,
         E: Effect<R, B, V>,
     {
+        const { EngineScene::<T, R, E, B, Q, V>::TAKEN };
         let trig = state
             .configuration()
             .trig_or(Specialised::<T, K, B, V>(PhantomData));
@@ -64,7 +66,7 @@ impl<T, K> Engine<T, K> {
     /// let [first, ..] = Engine::<Ur5e>::transmitted_torque(&moving, &[5.0; 6], &gears);
     /// assert!((first - 4.0).abs() < 1e-6); // 5 / 1.25
     /// ```
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn transmitted_torque<R: Real, E, const B: usize, const Q: usize, const V: usize>(
         state: &State<R, Q, V>,
@@ -90,7 +92,7 @@ impl<T, K> Engine<T, K> {
 
 impl<T> Engine<T> {
     /// τ − C(q, q̇), the torque that is left to accelerate.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn remaining<R: Real, E, const B: usize, const Q: usize, const V: usize>(
         trig: &JointTrig<R, Q>,
         state: &State<R, Q, V>,
@@ -118,7 +120,7 @@ impl<T> Engine<T> {
     }
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn accelerate<R, T, E, const B: usize, const Q: usize, const V: usize>(
     trig: &JointTrig<R, Q>,
     state: &State<R, Q, V>,

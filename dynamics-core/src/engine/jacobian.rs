@@ -60,7 +60,7 @@ impl<T, K> Engine<T, K> {
 }
 
 /// The columns of the joints that move the body; zero for others.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn columns<R: Real, T, const B: usize, const Q: usize, const V: usize, const BODY: usize>(
     turns: &[JointCoordinate<R>; Q],
 ) -> [Motion<R>; V]
@@ -85,7 +85,7 @@ where
 
 /// Writes the columns of joint I and of its descendants; returns the offset of the body's origin from the
 /// parent's, in base coordinates, m. `parent` holds the axes of the parent's frame.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn reach<
     R: Real,
     T,

@@ -75,7 +75,7 @@ impl<T, K> Engine<T, K> {
 }
 
 /// M's lower triangle becomes L; returns the reciprocals of D.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn decompose<R: Real, T, const B: usize, const Q: usize, const V: usize>(
     m: &mut [[R; V]; V],
 ) -> [R; V]
@@ -93,7 +93,7 @@ where
 }
 
 /// Row K of L, and its share of the rows of its ancestors.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn eliminate<R: Real, T, const B: usize, const Q: usize, const V: usize, const K: usize>(
     m: &mut [[R; V]; V],
     d_inv: R,
@@ -110,7 +110,7 @@ fn eliminate<R: Real, T, const B: usize, const Q: usize, const V: usize, const K
 }
 
 /// Row I less `l` times row K.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn subtract<
     R: Real,
     T,
@@ -133,7 +133,7 @@ fn subtract<
 }
 
 /// Lᵀ y = τ, D z = y, L x = z, in place.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn substitute<R: Real, T, const B: usize, const Q: usize, const V: usize>(
     l: &[[R; V]; V],
     d_inv: &[R; V],
@@ -155,7 +155,7 @@ pub(crate) fn substitute<R: Real, T, const B: usize, const Q: usize, const V: us
 }
 
 /// Subtracts from x_I the products with the entries of its ancestors.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn scatter<R: Real, T, const B: usize, const Q: usize, const V: usize, const I: usize>(
     l: &[[R; V]; V],
     x: &mut [R; V],
@@ -170,7 +170,7 @@ fn scatter<R: Real, T, const B: usize, const Q: usize, const V: usize, const I: 
 }
 
 /// Subtracts the products with x_I from the entries of its ancestors.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn gather<R: Real, T, const B: usize, const Q: usize, const V: usize, const I: usize>(
     l: &[[R; V]; V],
     x: &mut [R; V],
@@ -185,7 +185,7 @@ fn gather<R: Real, T, const B: usize, const Q: usize, const V: usize, const I: u
 }
 
 /// Whether all pivots are numbers and more than `noise`, given their reciprocals; the same instructions if they are.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn positive<R: Real, const V: usize>(
     d_inv: &[R; V],
     noise: &[R; V],
@@ -204,7 +204,7 @@ pub(crate) fn positive<R: Real, const V: usize>(
 }
 
 /// Whether 0 < 1/d < ∞ and noise/d < 1, in one comparison: of zero, infinities and NaN it is false too.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn is_pivot<R: Real>(d_inv: R, noise: R) -> bool {
     d_inv > d_inv * (d_inv * noise)
 }

@@ -5,6 +5,9 @@
 //! robot that are 0, 1 or −1, [`compile`] regroups its inertias to base parameters at compile time, and one recursion
 //! over its bodies keeps intermediate values in registers.
 //!
+//! Functions are inlined by force unless debug assertions are on: the folding needs it where code is optimised, and an
+//! unoptimised build of forced inlining has twenty times the code.
+//!
 //! Joints: revolute, prismatic and fixed, on trees of up to 32 moving bodies.
 
 /// Expands a block once for each joint that there may be, its number a constant: loops are not
@@ -41,6 +44,7 @@ mod compile;
 mod crba;
 mod folding;
 mod forward_dynamics;
+mod gate;
 mod jacobian;
 mod ltdl;
 mod momentum;
@@ -60,6 +64,7 @@ use crate::state::{Configuration, JointTrig, RobotState, State, TrigSource};
 use crate::trig::Kernel;
 use base::base;
 use compile::CompiledRobot;
+use gate::EngineScene;
 use rnea::{Task, is_on_base, visit};
 pub(crate) use subtree::has_subtree_functions;
 use subtree::root_subtree;
@@ -102,7 +107,7 @@ pub struct Engine<T, K = Native>(PhantomData<(T, K)>);
 
 impl<T, K> Engine<T, K> {
     /// The sines and cosines of the configuration q, for every algorithm of a tick.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn joint_trig<R: Real, const B: usize, const Q: usize, const V: usize>(
         q: &[R; Q],
@@ -156,6 +161,7 @@ impl<T, K> Engine<T, K> {
         S: RobotState<R, Q, V>,
         E: Effect<R, B, V>,
     {
+        const { EngineScene::<T, R, E, B, Q, V>::TAKEN };
         let trig = state
             .configuration()
             .trig_or(Specialised::<T, K, B, V>(PhantomData));
@@ -182,7 +188,7 @@ where
     T: Robot<B, Q, V>,
     K: Kernel<R>,
 {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn compute(&self, q: &[R; Q]) -> JointTrig<R, Q> {
         Engine::<T, K>::joint_trig(q)
     }
@@ -190,7 +196,7 @@ where
 
 impl<T> Engine<T> {
     /// The recursion of [`rnea`]; `back` is `trig` as the inward pass loads it.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn run<R: Real, E, const B: usize, const Q: usize, const V: usize>(
         trig: &JointTrig<R, Q>,
         back: &JointTrig<R, Q>,

@@ -13,6 +13,7 @@ use super::acceleration_field::{AccelerationField, Inertia, JointRates, Wrench};
 use super::base::{no_gyroscopic_rotors, unaccelerated};
 use super::compile::CompiledRobot;
 use super::folding::{Folded, Vec3};
+use super::gate::EngineScene;
 use super::rnea::{environment, inertia, is_on_base, is_parent};
 use super::{Engine, Specialised};
 use crate::algorithms::{MomentumAndCoriolis, MomentumAndDrift};
@@ -56,6 +57,7 @@ impl<T, K> Engine<T, K> {
         S: RobotState<R, Q, V>,
         E: Effect<R, B, V>,
     {
+        const { EngineScene::<T, R, E, B, Q, V>::TAKEN };
         let MomentumAndDrift { p, beta } = Self::momenta::<R, S, E, B, Q, V, false>(state, effects);
         MomentumAndCoriolis { p, ct_qd: beta }
     }
@@ -95,11 +97,12 @@ impl<T, K> Engine<T, K> {
         S: RobotState<R, Q, V>,
         E: Effect<R, B, V>,
     {
+        const { EngineScene::<T, R, E, B, Q, V>::TAKEN };
         Self::momenta::<R, S, E, B, Q, V, true>(state, effects)
     }
 
     /// p and β, or p and Cᵀ q̇ if there is no DRIFT.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn momenta<R: Real, S, E, const B: usize, const Q: usize, const V: usize, const DRIFT: bool>(
         state: S,
         effects: &E,
@@ -164,7 +167,7 @@ struct Carried<R> {
 }
 
 /// Visits joint I and its descendants; returns what they carry about the origin of the parent, in its frame.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn visit<
     R,
     T,
@@ -248,7 +251,7 @@ where
 }
 
 /// The momentum I v of a body: m v + ω × h, and h × v + tr(Σ) ω − Σ ω.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn momentum<R: Real>(body: &AccelerationField<R>, inertia: &Inertia<R>) -> Wrench<R> {
     let (s, [wx, wy, wz]) = (&inertia.second, body.omega.0);
     let (xy, xz, yz) = (s.xx + s.yy, s.xx + s.zz, s.yy + s.zz);
@@ -264,7 +267,7 @@ fn momentum<R: Real>(body: &AccelerationField<R>, inertia: &Inertia<R>) -> Wrenc
 }
 
 /// The entry of Cᵀ q̇ of a joint along z: (v × S)ᵀ h.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn rate<R: Real>(
     body: &AccelerationField<R>,
     h: Wrench<R>,

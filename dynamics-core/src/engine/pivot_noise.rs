@@ -118,7 +118,7 @@ const fn length(v: DVec3) -> f64 {
 }
 
 /// The pivots that rounding may leave of a singular M: of each joint, kg·m² or kg.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn noise<R, T, E, const B: usize, const Q: usize, const V: usize>(
     turns: &[JointCoordinate<R>; Q],
     effects: &E,
@@ -139,7 +139,7 @@ where
 }
 
 /// The largest inertia that joint I could move: a constant of robots without slides and payload.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn of_joint<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     turns: &[JointCoordinate<R>; Q],
     effects: &E,
@@ -195,7 +195,7 @@ where
 }
 
 /// The largest inertia of a payload about an axis that is no further than `reach` from its body's origin.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn of_load<R: Real>(load: &SpatialInertia<R>, reach: R) -> R {
     let [x, y, z] = load.rotational.cols().map(Vector::array);
     let [hx, hy, hz] = load.first_moment.array();

@@ -35,7 +35,7 @@ impl<R: Real> Pose<R> {
     };
 
     /// The pose of a child behind `joint`.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn transformed_by(
         &self,
         joint: &Joint,
@@ -60,7 +60,7 @@ impl<R: Real> Pose<R> {
     }
 
     /// ᵘX₀ of a body of the description: from the base to its own frame.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn of(&self, place: &BodyPlacement, length: Folded<R>) -> Xform<R> {
         let [x, y, z] = Mat3::constant(&place.rot).0;
         let axes = [self.axes.mul(x), self.axes.mul(y), self.axes.mul(z)];

@@ -5,8 +5,9 @@ use super::acceleration_field::{AccelerationField, Inertia, JointRates, Wrench};
 use super::compile::{BodyPlacement, CompiledRobot, CompiledTree, Joint};
 use super::folding::Folded;
 use super::folding::{Mat3, Sym3, Vec3};
+use super::gate::EngineScene;
 use super::subtree::visit_child;
-use crate::effects::{BodyState, Effect, JointState, RegroupedInertia, are_of, load_friction};
+use crate::effects::{BodyState, Effect, JointState, RegroupedInertia, load_friction};
 use crate::model::{BASE, JointCoordinate, Robot};
 use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::{Force, Motion, SpatialInertia, Xform};
@@ -23,7 +24,7 @@ pub(crate) struct Task<'a, R: Real, E, const Q: usize, const V: usize> {
 }
 
 /// Visits joint I and its descendants; returns the wrench that they need from the parent, in its frame.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn visit<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     task: &mut Task<'_, R, E, Q, V>,
     parent: &AccelerationField<R>,
@@ -96,7 +97,7 @@ where
 }
 
 /// The inertia of the body behind joint I, with its payloads; all of Σ if the base moves.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn inertia<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     effects: &E,
     base_moves: bool,
@@ -116,7 +117,7 @@ where
 }
 
 /// The same without payloads: the description's, or that of the loaded base parameters.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn own_inertia<R: Real, T, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     effects: &E,
     joint: &'static Joint,
@@ -127,7 +128,7 @@ where
     E: Effect<R, B, V>,
 {
     if const { E::BASE_PARAMETERS > 0 } {
-        const { are_of::<R, E, B, V>(T::MODEL.name) };
+        const { EngineScene::<T, R, E, B, Q, V>::TAKEN };
         let mut body = RegroupedInertia::default();
         effects.regrouped(I, &mut body);
         Inertia::loaded(&body, joint, base_moves)
@@ -139,7 +140,7 @@ where
 }
 
 /// Adds the payloads of the bodies on joint I, which are given in those bodies' own frames, to its inertia.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn loaded<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     effects: &E,
     mut body: Inertia<R>,
@@ -170,7 +171,7 @@ where
 }
 
 /// Adds the payload of one body, at `place`.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn with_load<R, E, const B: usize, const V: usize>(
     effects: &E,
     of: usize,
@@ -215,7 +216,7 @@ where
 }
 
 /// Subtracts the wrenches fˣ of the bodies on joint I.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn environment<R, T, E, const B: usize, const Q: usize, const V: usize, const I: usize>(
     effects: &E,
     field: &AccelerationField<R>,
@@ -249,7 +250,7 @@ where
 }
 
 /// The wrench fˣ of one body, which the effects give in its own frame, in that of its joint.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn exerted<R, E, const B: usize, const V: usize>(
     effects: &E,
     body: usize,

@@ -61,7 +61,7 @@ pub(crate) fn root_subtree<
 }
 
 /// Visits joint J on joint I, whose field is `parent`.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn visit_child<
     R,
     T,
@@ -140,7 +140,7 @@ where
 }
 
 /// A vector that is a known zero unless an effect needs it.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn runtime_if<R: Real>(needed: bool, v: R::Vec3) -> Vec3<R> {
     let [x, y, z] = v.array();
     Vec3([

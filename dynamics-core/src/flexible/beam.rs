@@ -1,5 +1,6 @@
 //! Modes of a uniform beam.
 
+use super::check::is_finite;
 use super::link::{FlexibleLink, MODES_PER_LINK, Mode, ModeProblem, Row, Rows};
 use super::shape::{Line, POINTS, point};
 use crate::math::const_eval::sqrt;
@@ -126,8 +127,15 @@ impl Beam {
     ///
     /// # Errors
     /// [`ModeProblem::Beam`] if the beam has no length, no mass, not the stiffness of a shape (torsion: nor the inertia),
-    /// or a negative property; [`ModeProblem::NoShape`] if there is no such shape; [`ModeProblem::Count`] if there are
+    /// or a negative property; [`ModeProblem::NotFinite`] if one is infinite, such as the stiffness of a beam that does not
+    /// bend, whose link has no modes; [`ModeProblem::NoShape`] if there is no such shape; [`ModeProblem::Count`] if there are
     /// more than [`MODES_PER_LINK`].
+    ///
+    /// ```
+    /// use dynamics_core::flexible::{Beam, ModeProblem, Shape};
+    /// let rigid = Beam::new(0.5, 0.161).bending([f64::INFINITY; 2]);
+    /// assert_eq!(rigid.link(0, &[Shape::BendZ(1)]), Err(ModeProblem::NotFinite));
+    /// ```
     pub const fn link(&self, body: usize, shapes: &[Shape]) -> Result<FlexibleLink, ModeProblem> {
         if shapes.len() > MODES_PER_LINK {
             return Err(ModeProblem::Count);
@@ -155,6 +163,9 @@ impl Beam {
             let (inertia, omega) = (xx + yy + zz, fields[k].omega);
             link.stiffness[k][k] = inertia * omega * omega;
             link.damping[k][k] = 2.0 * self.damping_ratio * omega * inertia;
+            if !is_finite(&link, k) {
+                return Err(ModeProblem::NotFinite);
+            }
             k += 1;
         }
         Ok(link)

@@ -164,7 +164,7 @@ const fn not_transposed(link: &FlexibleLink, inertia: &[[f64; ALL]; ALL]) -> Opt
 }
 
 /// Whether every number of a mode is finite: 0 · x is zero of finite numbers alone.
-const fn is_finite(link: &FlexibleLink, k: usize) -> bool {
+pub(super) const fn is_finite(link: &FlexibleLink, k: usize) -> bool {
     let (mode, mut sum, mut i) = (&link.modes[k], 0.0, 0);
     while i < 3 {
         sum += 0.0 * (mode.momentum[i] + mode.shift[i] + mode.turn[i] + link.end[i]);

@@ -18,7 +18,7 @@
 //! whose joints are clamped, and settle. The torques that would move the *tip* along one are not: the tip of a link that
 //! bends is a non-minimum-phase output, whose inverse grows without bound or begins before the motion (De Luca &
 //! Siciliano, 1993). No function has it. A tip that is to come to rest is a matter of the reference:
-//! [`Shaped`](crate::control::Shaped).
+//! `motion_control::Shaped`.
 //!
 //! # Limits
 //! Displacements are linear in the modes: deflections to some 10 % of a link's length. A beam's shortening and the

@@ -9,14 +9,12 @@ use super::constraints::over;
 use super::description::Loops;
 use super::elimination::{Elimination, LoopRows, dot, eliminate};
 use super::error::LoopError;
+use super::status::OPEN;
 use super::{Constraints, constraints};
 use crate::algorithms::{Damping, damped_inverse};
 use crate::model::RobotModel;
 use crate::scalar::Real;
 use crate::state::{Configuration, JointTrig, State, entry};
-
-/// The error of a loop relative to its size above which it counts as open.
-const OPEN: f64 = 1e-2;
 
 /// Whether the motion determines the torques.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -88,7 +86,7 @@ pub struct CoordinateMap<R, const V: usize, const C: usize, const A: usize> {
 /// ```
 ///
 /// # Errors
-/// [`LoopError::Open`] names a loop that is open by more than a hundredth of its size, [`LoopError::UnderActuated`] one
+/// [`LoopError::Open`] names a loop that is open by more than [`OPEN`] of its size, [`LoopError::UnderActuated`] one
 /// that still moves with all actuated coordinates held, and the coordinate; [`LoopError::NotFinite`] the first loop of
 /// which a number is not finite. Near a dead point of the motors there is a damped map: [`Drive::Singular`].
 #[doc(alias = "explicit constraints")]

@@ -81,8 +81,11 @@ pub struct LoopMotion<R: Real, const V: usize, const L: usize, const C: usize> {
 /// The acceleration of each joint, q̈, rad/s² or m/s², and the forces of the loop joints, from the torques of the
 /// actuated coordinates.
 ///
-/// `state.qdd` is not read. The state need not be closed: errors are corrected as `stabilisation` says. Where rows of
-/// K depend on each other, those that elimination finds last are left out, and carry no force.
+/// `state.qdd` is not read. The state need not be closed: errors are corrected as `stabilisation` says, and
+/// [`LoopMotion::closure`] says how large they are; [`LoopMotion::closed`] refuses loops that are open by more than
+/// [`OPEN`](super::OPEN) of their sizes. Where rows of K depend on each other, those that elimination finds last are left
+/// out, and carry no force; [`LoopMotion::rank`] says whether these are more than usual, as at a change point, where the
+/// accelerations jump.
 ///
 /// # Shape
 /// V, and C.

@@ -71,6 +71,7 @@ mod loop_joint;
 mod mass_root;
 mod reach;
 mod singular;
+mod status;
 
 pub use assembly::{Assembly, Moving, assemble};
 pub use constraints::{Constraints, constraints};
@@ -82,6 +83,7 @@ pub use forward_dynamics::{LoopMotion, Stabilisation, TIME_CONSTANT, forward_dyn
 pub use inverse_dynamics::{LoopTorque, inverse_dynamics};
 pub use loop_joint::{BodyFrame, LoopJoint};
 pub use singular::SINGULAR;
+pub use status::{Closure, LoopRank, Mobility, OPEN, mobility};
 
 use crate::model::Robot;
 

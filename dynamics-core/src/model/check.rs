@@ -1,6 +1,6 @@
 //! Queries of a model: the number of a body by its name, and whether its inertias are physical.
 
-use super::{BASE, Model, ModelError, Problem, body, error};
+use super::{BASE, Model, ModelError, Problem, Text, body, error};
 use crate::scalar::Real;
 
 impl<R: Real, const B: usize, const Q: usize, const V: usize> Model<R, B, Q, V> {
@@ -16,12 +16,13 @@ impl<R: Real, const B: usize, const Q: usize, const V: usize> Model<R, B, Q, V> 
     ///
     /// ```compile_fail,E0080
     /// use dynamics_core::{model::Robot, robots::Panda};
-    /// const HAND: usize = Panda::MODEL.body("hnad"); // error: no body of the robot has the name `hnad`
+    /// const HAND: usize = Panda::MODEL.body("hnad"); // error: no body of the robot has the name `hnad`: its bodies are `panda_link1`, ..
     /// # let _ = HAND;
     /// ```
     ///
     /// # Panics
     /// If not exactly one body has the name. Meant for `const` items, where a panic is a compile error.
+    #[track_caller]
     pub const fn body(&self, name: &str) -> usize {
         let (mut found, mut i) = (BASE, 0);
         while i < B {
@@ -34,9 +35,32 @@ impl<R: Real, const B: usize, const Q: usize, const V: usize> Model<R, B, Q, V> 
             i += 1;
         }
         if found == BASE {
-            error::panic(&["no body of the robot has the name `", name, "`"]);
+            self.no_body(name);
         }
         found
+    }
+
+    /// Panics with the names that there are.
+    #[track_caller]
+    const fn no_body(&self, name: &str) -> ! {
+        let mut text = Text::EMPTY
+            .with("no body of the robot has the name `")
+            .with(name)
+            .with("`: its bodies are ");
+        let mut i = 0;
+        while i < B {
+            let name = self.links[i].name;
+            if !text.has_room_for(name) {
+                text = text.with(" and others");
+                break;
+            }
+            text = text
+                .with(if i == 0 { "`" } else { ", `" })
+                .with(name)
+                .with("`");
+            i += 1;
+        }
+        text.panic()
     }
 
     /// Checks that every inertia is physical: not without mass, symmetric, with principal moments (about the centre of

@@ -109,6 +109,7 @@ impl core::error::Error for ModelError {}
 
 impl ModelError {
     /// Panics with the text of `Display`, in a form that a `const` evaluation can print.
+    #[track_caller]
     pub(super) const fn panic(self) -> ! {
         let text = match self.problem {
             Problem::Coordinates { expected, given } => Text::EMPTY
@@ -133,6 +134,7 @@ impl ModelError {
 }
 
 /// Panics with these parts of a sentence, in a form that a `const` evaluation can print.
+#[track_caller]
 pub(super) const fn panic(parts: &[&str]) -> ! {
     let (mut text, mut part) = (Text::EMPTY, 0);
     while part < parts.len() {
@@ -142,15 +144,18 @@ pub(super) const fn panic(parts: &[&str]) -> ! {
     text.panic()
 }
 
+/// The length of a message: the names of a humanoid's bodies.
+const LONGEST: usize = 1024;
+
 /// A message that is put together while compiling, where there is no `format!`.
 pub(crate) struct Text {
-    bytes: [u8; 160],
+    bytes: [u8; LONGEST],
     length: usize,
 }
 
 impl Text {
     pub(crate) const EMPTY: Self = Self {
-        bytes: [b' '; 160],
+        bytes: [b' '; LONGEST],
         length: 0,
     };
 
@@ -164,12 +169,18 @@ impl Text {
         self
     }
 
+    /// Whether these words still have their place, with some more.
+    pub(super) const fn has_room_for(&self, text: &str) -> bool {
+        self.length + text.len() + 20 < LONGEST
+    }
+
     pub(crate) const fn number(self, x: usize) -> Self {
         let digits = ["0", "1", "2", "3", "4", "5", "6", "7", "8", "9"];
         let text = if x > 9 { self.number(x / 10) } else { self };
         text.with(digits[x % 10])
     }
 
+    #[track_caller]
     pub(crate) const fn panic(self) -> ! {
         match core::str::from_utf8(self.bytes.split_at(self.length).0) {
             Ok(text) => panic!("{}", text),

@@ -19,7 +19,8 @@
 //!
 //! An impossible description does not compile; the message names the body. The compiler evaluates a trait's constant
 //! only where compiled code uses it: `cargo check` and clippy compile none, and a library need not use its robot. The
-//! line `const _` above evaluates it at once; every robot should have one. This description compiles,
+//! line `const _` above evaluates it at once; every robot should have one, or a scene that is a constant
+//! ([`Engine::scene_f32`](crate::Engine::scene_f32)), which evaluates it, too. This description compiles,
 //!
 //! ```
 //! use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model};
@@ -118,6 +119,25 @@ pub struct Link<R: Real> {
     pub limits: JointLimits<R>,
 }
 
+impl Link<f64> {
+    /// The greatest angle to which the engine computes this joint to its stated accuracy, rad, on either side of zero: 100 where
+    /// the joint's limits lie within ±4π, 10⁴ elsewhere; none for a joint whose position is no angle.
+    ///
+    /// ```
+    /// use dynamics_core::{model::Robot, robots::Ur5e};
+    /// assert_eq!(Ur5e::MODEL.links[0].angle_range(), Some(100.0));
+    /// ```
+    pub const fn angle_range(&self) -> Option<f64> {
+        match self.joint.kind {
+            JointKind::Revolute | JointKind::Continuous if self.limits.within_two_turns() => {
+                Some(100.0)
+            }
+            JointKind::Revolute | JointKind::Continuous => Some(1e4),
+            _ => None,
+        }
+    }
+}
+
 /// A robot of B bodies, Q position and V velocity coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Model<R: Real, const B: usize, const Q: usize, const V: usize> {
@@ -141,6 +161,7 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
     /// # Panics
     /// If [`Model::try_new`] returns an error, with the body's name. Meant for `const` items, where a panic is a
     /// compile error; for descriptions at run time use `try_new`.
+    #[track_caller]
     pub const fn new(name: &'static str, bodies: [Body; B]) -> Self {
         match Self::try_new(name, bodies) {
             Ok(model) => model,

@@ -4,6 +4,12 @@ use super::Model;
 use crate::scalar::Real;
 
 /// A robot known at compile time.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a robot of these sizes",
+    label = "not a robot",
+    note = "describe it by `impl Robot<B, Q, V> for {Self}` with `const MODEL: Model<f64, B, Q, V> = Model::new(..)`",
+    note = "or write that from a URDF or MJCF: `cargo xtask import robot.urdf --out robot.rs`"
+)]
 pub trait Robot<const B: usize, const Q: usize, const V: usize> {
     /// The robot's description, in f64.
     const MODEL: Model<f64, B, Q, V>;

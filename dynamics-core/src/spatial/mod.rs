@@ -97,7 +97,7 @@ macro_rules! vector_space {
             };
             #[doc = concat!("A ", $what, " from its angular and linear parts.")]
             #[inline(always)]
-            pub fn new(ang: R::Vec3, lin: R::Vec3) -> Self {
+            pub const fn new(ang: R::Vec3, lin: R::Vec3) -> Self {
                 Self { ang, lin }
             }
         }

@@ -1,9 +1,9 @@
 //! Every way of a robot.
 
-use dynamics_core::control::{FirstOrderHold, Interpolator, ZeroOrderHold};
 use dynamics_core::model::Robot;
 use dynamics_core::trig::{Minimax, Table};
 use dynamics_core::{Core, Engine};
+use motion_control::{FirstOrderHold, Interpolator, ZeroOrderHold};
 
 use super::compliant::{Compliant, Rigid};
 use super::form::Form;

@@ -3,10 +3,10 @@
 use core::marker::PhantomData;
 
 use dynamics_core::Engine;
-use dynamics_core::control::{FirstOrderHold, InertiaUpdate, Interpolator, ZeroOrderHold};
 use dynamics_core::drivetrain::ElasticReference;
 use dynamics_core::state::State;
 use dynamics_core::trig::Kernel;
+use motion_control::{FirstOrderHold, InertiaUpdate, Interpolator, ZeroOrderHold};
 
 use super::Inverse;
 use super::key::{Key, Named};

@@ -1,11 +1,11 @@
 //! The robots, each with a way to go.
 
-use dynamics_core::control::{MotionLimits, RestToRest, Trajectory, TrajectoryError, WayPoint};
 use dynamics_core::drivetrain::{ElasticJoints, ElasticReference};
 use dynamics_core::model::{Robot, model};
 use dynamics_core::robots::{A1Leg, Panda, Ur5e};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
+use motion_control::{MotionLimits, RestToRest, Trajectory, TrajectoryError, WayPoint};
 
 use crate::robots::Own;
 use crate::scene::TICK;

@@ -16,7 +16,6 @@ use core::hint::black_box;
 use cortex_m::peripheral::DWT;
 use cortex_m_rt::entry;
 use cortex_m_semihosting::debug;
-use dynamics_core::control::Mode;
 use dynamics_core::effects::{Effect, Gravity, RIGID_BODY};
 use dynamics_core::model::Robot;
 use dynamics_core::robots::{A1, Iiwa14, Panda, Ur5e};
@@ -28,6 +27,7 @@ use firmware_demo::scene::{Full, STEPS, Scene, TICK, simulated_loop};
 use firmware_demo::scenes::ur5e::PickAndPlace;
 use firmware_demo::sim_io::Wires;
 use firmware_demo::target;
+use motion_control::Mode;
 use stm32f4xx_hal::prelude::*;
 use stm32f4xx_hal::{pac, rcc};
 

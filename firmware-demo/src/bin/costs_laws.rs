@@ -7,11 +7,11 @@ mod costs;
 use costs::row::Row;
 use costs::{Ask, STATES};
 use dynamics_core::algorithms::{Damping, OperationalSpace, task_jacobian};
-use dynamics_core::control::*;
 use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::model::Static;
 use dynamics_core::state::{ArmState, State};
 use dynamics_core::{Core, Engine};
+use motion_control::*;
 
 const TIP: usize = 5;
 

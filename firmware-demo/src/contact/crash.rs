@@ -2,9 +2,9 @@
 
 use core::fmt;
 
-use dynamics_core::control::{ContactResponse, MotionLimits, Trajectory, WayPoint};
 use dynamics_core::effects::Effect;
 use glam::Vec3;
+use motion_control::{ContactResponse, MotionLimits, Trajectory, WayPoint};
 
 use super::firmware::{Cell, Firmware, Sensing};
 use super::path::Off;

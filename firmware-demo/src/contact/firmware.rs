@@ -2,17 +2,17 @@
 
 use dynamics_core::Engine;
 use dynamics_core::algorithms::NotPositiveDefinite;
-use dynamics_core::control::{
-    Command, ConfigError, ContactDetector, ContactPhase, ContactReaction, ContactReactionConfig,
-    ContactResponse, DetectedContact, Estimate, Fault, Gains, MotionController,
-    MotionControllerConfig, Observer, ObserverConfig, Reference, SafetyLimits, SupervisorConfig,
-    feedback,
-};
 use dynamics_core::effects::{
     Armature, Coriolis, Coulomb, Effect, Gravity, Inertia, Viscous, smooth_sign,
 };
 use dynamics_core::robots::Ur5e;
 use dynamics_core::state::State;
+use motion_control::{
+    Command, ConfigError, ContactDetector, ContactPhase, ContactReaction, ContactReactionConfig,
+    ContactResponse, DetectedContact, Estimate, Fault, Gains, MotionController,
+    MotionControllerConfig, Observer, ObserverConfig, Reference, SafetyLimits, SupervisorConfig,
+    feedback,
+};
 
 use super::plant::{EXCESS, Plant};
 use crate::marker;

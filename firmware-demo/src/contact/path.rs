@@ -1,7 +1,7 @@
 //! The pick and place without a wall: what the detector reports there, and when it finds a push.
 
-use dynamics_core::control::Trajectory;
 use dynamics_core::effects::{Coulomb, Effect, Lugre, Viscous};
+use motion_control::Trajectory;
 
 use super::firmware::{Cell, Firmware, Sensing};
 use super::plant::{Plant, bristles, coulomb};

@@ -1,7 +1,7 @@
 //! What is kept of a tick.
 
-use dynamics_core::control::Status;
 use joint_drivers::as5047p::FrameError;
+use motion_control::Status;
 
 /// The record of a tick, for logs.
 #[derive(Clone, Copy, Debug, PartialEq)]

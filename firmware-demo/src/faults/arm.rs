@@ -3,12 +3,12 @@
 use core::fmt;
 use core::marker::PhantomData;
 
-use dynamics_core::control::{
+use dynamics_core::state::State;
+use motion_control::{
     Approach, ApproachError, BackOff, BackOffConfig, CurrentTick, Detect, Detectors, Estimate,
     Fault, FrozenEncoder, Gains, Mode, MotionController, MotionControllerConfig, MotionLimits,
     Reference, ReferenceStep, Saturation, StopCategory, SupervisorConfig, Trajectory,
 };
-use dynamics_core::state::State;
 
 use super::kinds::{Kind, Onset};
 use super::plants::{Plant, TICK};

@@ -1,12 +1,11 @@
 //! The faults that are injected.
 
-use dynamics_core::control::Fault;
+use motion_control::Fault;
 
 use super::run::Random;
 
 /// The kinds of faults that are injected.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs, reason = "`words` has them")]
 pub enum Kind {
     NotFinite,
     Range,

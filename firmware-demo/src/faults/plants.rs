@@ -1,13 +1,13 @@
 //! The arms that faults are injected into: a pendulum without brakes, a gimbal of three joints, and the UR5e.
 
 use dynamics_core::Core;
-use dynamics_core::control::{Estimate, Gains, MotionLimits, SafetyLimits, StopCategory, feedback};
 use dynamics_core::effects::{Armature, Coriolis, Effect, Gravity, Inertia};
 use dynamics_core::model::{Robot, model};
 use dynamics_core::robots::Ur5e;
 use dynamics_core::sim::semi_implicit;
 use dynamics_core::state::State;
 use dynamics_core::trig::sin_cos;
+use motion_control::{Estimate, Gains, MotionLimits, SafetyLimits, StopCategory, feedback};
 
 use crate::robots::Gimbal;
 

@@ -1,7 +1,7 @@
 //! One arm under random faults.
 
-use dynamics_core::control::{Fault, Mode, Trajectory, WayPoint};
 use heapless::Vec;
+use motion_control::{Fault, Mode, Trajectory, WayPoint};
 
 use super::arm::{Arm, Episode, Setup, Violation};
 use super::kinds::{Kind, Onset};

@@ -2,14 +2,14 @@
 
 use dynamics_core::Core;
 use dynamics_core::algorithms::{friction_regressor, regressor_columns};
-use dynamics_core::control::{
-    ConfigError, Estimate, Observer, ObserverConfig, ParameterEstimator, ParameterEstimatorConfig,
-    PayloadEstimator, PayloadEstimatorConfig,
-};
 use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::model::model;
 use dynamics_core::robots::So101;
 use dynamics_core::state::State;
+use motion_control::{
+    ConfigError, Estimate, Observer, ObserverConfig, ParameterEstimator, ParameterEstimatorConfig,
+    PayloadEstimator, PayloadEstimatorConfig,
+};
 
 use super::TICK;
 use super::arm::GRIPPER;

@@ -1,7 +1,6 @@
 //! The parameters of an SO-101, and the engine's model of them.
 
 use dynamics_core::Engine;
-use dynamics_core::control::SelectedParameters;
 use dynamics_core::effects::{
     Armature, BaseParameters, Coulomb, LoadFriction, RIGID_BODY, Viscous, Width,
 };
@@ -9,6 +8,7 @@ use dynamics_core::model::{BodyInertia, Calibrated};
 use dynamics_core::robots::So101;
 use dynamics_core::spatial::SpatialInertia;
 use dynamics_core::state::State;
+use motion_control::SelectedParameters;
 
 /// Of each joint: viscous and Coulomb friction, armature, and friction per torque of the load while the motor drives and while the
 /// load does.

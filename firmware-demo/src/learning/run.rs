@@ -3,7 +3,6 @@
 use core::fmt;
 
 use dynamics_core::Core;
-use dynamics_core::control::PhysicalParameters;
 use dynamics_core::effects::{Effect, Payload, RIGID_BODY};
 use dynamics_core::model::BodyInertia;
 use dynamics_core::robots::So101;
@@ -11,6 +10,7 @@ use dynamics_core::scalar::Real;
 use dynamics_core::sim::KahanState;
 use dynamics_core::spatial::SpatialInertia;
 use dynamics_core::state::State;
+use motion_control::PhysicalParameters;
 
 use super::arm::{Arm, BRISTLES, GEARS, GRIPPER, SMOOTH};
 use super::firmware::{Firmware, Task};

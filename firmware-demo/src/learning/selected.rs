@@ -1,6 +1,6 @@
 //! What the firmware knows before the arm moves: written by host-tests/trials/tests/learning.rs with TABLES_WRITE=1.
 
-use dynamics_core::control::SelectedParameters;
+use motion_control::SelectedParameters;
 
 use super::parameters::Known;
 

@@ -3,10 +3,10 @@
 use core::convert::Infallible;
 use core::fmt;
 
-use dynamics_core::control::{Detect, Reference, TrajectoryError};
 use embedded_hal::digital::{self, OutputPin};
 use heapless::spsc::Producer;
 use joint_drivers::h_bridge::DriveError;
+use motion_control::{Detect, Reference, TrajectoryError};
 
 use super::{Devices, Noise, PlantModel, Run, Scene, Start};
 use crate::control_loop::{ControlLoop, Telemetry};
@@ -138,9 +138,16 @@ where
         S::RUNS.iter().chain(S::BASELINES).chain(S::ABLATIONS)
     }
 
+    /// The run of this number.
+    // Inlined, the three lists would be searched by two copies of the same code.
+    #[inline(never)]
+    fn numbered(run: usize) -> Option<&'static Run<S, B, Q, V, N>> {
+        Self::runs().nth(run)
+    }
+
     /// One tick of the present run; nothing after the last, nor after a plant that failed.
     pub fn tick(&mut self) {
-        let Some(run) = Self::runs().nth(self.run).filter(|_| !self.broken) else {
+        let Some(run) = Self::numbered(self.run).filter(|_| !self.broken) else {
             return;
         };
         let environment = |ticks: f32| S::environment(&self.reference, ticks);
@@ -170,9 +177,7 @@ where
         if self.tick == self.ticks() {
             self.run += 1;
             self.tick = 0;
-            let next = Self::runs()
-                .nth(self.run)
-                .map_or(PlantModel::Exact, |r| r.plant);
+            let next = Self::numbered(self.run).map_or(PlantModel::Exact, |run| run.plant);
             match start::<S, _, B, Q, V, N>(&self.reference, self.wires, next, ()) {
                 Ok(started) => (self.rig, self.control) = started,
                 Err(_) => self.broken = true,

@@ -3,11 +3,11 @@
 use core::marker::PhantomData;
 
 use dynamics_core::clusters::{ClusterError, Clustered, ClusteredRobot, MotorTorques};
-use dynamics_core::control::Reference;
 use dynamics_core::effects::Effect;
 use dynamics_core::model::{Calibrated, JointLimits, model};
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
+use motion_control::Reference;
 
 use super::{Noise, Scene};
 use crate::plant::ClusterPlant;
@@ -52,7 +52,7 @@ where
 /// The motors' torques at y, ẏ, ÿ; zero where the loops do not close.
 ///
 /// A [`MotorReference`] of the same y is then NaN, and so is the feedback's torque: the supervisor stops the robot with
-/// [`Fault::Torque`](dynamics_core::control::Fault::Torque), which the telemetry shows. The status of motors near a
+/// [`Fault::Torque`](motion_control::Fault::Torque), which the telemetry shows. The status of motors near a
 /// dead point is not read: the references of the scenes have none.
 #[inline(always)]
 pub fn inverse<T, E, const B: usize, const V: usize, const N: usize>(

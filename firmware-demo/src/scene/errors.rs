@@ -1,6 +1,6 @@
 //! Tracking errors of a run.
 
-use dynamics_core::control::Status;
+use motion_control::Status;
 
 use super::Record;
 

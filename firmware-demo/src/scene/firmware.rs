@@ -1,14 +1,14 @@
 //! What a scene's data sheet makes of the control loop, whatever its devices are.
 
-use dynamics_core::control::{
-    Detect, Gains, MotionController, MotionControllerConfig, SafetyLimits, SupervisorConfig,
-};
 use embedded_hal::digital::OutputPin;
 use embedded_hal::pwm::SetDutyCycle;
 use embedded_hal::spi::SpiDevice;
 use joint_drivers::as5047p::As5047p;
 use joint_drivers::h_bridge::{DriveError, FullScale, LockedAntiphase};
 use joint_drivers::{Direction, JointMapping};
+use motion_control::{
+    Detect, Gains, MotionController, MotionControllerConfig, SafetyLimits, SupervisorConfig,
+};
 
 use super::Scene;
 use crate::control_loop::ControlLoop;

@@ -1,11 +1,11 @@
 //! Scene `delta_pick`: a Delta robot picks parts from a feeder, 120 a minute.
 
-use dynamics_core::control::TrajectoryError;
 use dynamics_core::effects::{
     Armature, Coriolis, Coulomb, Effect, Gravity, Inertia, Viscous, Width,
 };
 use dynamics_core::model::JointLimits;
 use dynamics_core::state::State;
+use motion_control::TrajectoryError;
 
 use crate::plant::ClusterPlant;
 use crate::robots::PickDelta;

@@ -2,12 +2,12 @@
 
 use core::f32::consts::FRAC_PI_4;
 
-use dynamics_core::control::{Trajectory, TrajectoryError, WayPoint};
 use dynamics_core::effects::{
     Armature, Coriolis, Effect, Gravity, GyroscopicRotors, Inertia, Viscous,
 };
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
+use motion_control::{Trajectory, TrajectoryError, WayPoint};
 
 use crate::control_loop::Law;
 use crate::plant::Plant;

@@ -2,12 +2,12 @@
 //! does not. Its encoders sit on the motors, as those of most arms do; what counts is where the links are.
 
 use dynamics_core::Core;
-use dynamics_core::control::{Estimate, Gains, RestToRest, TrajectoryError, feedback};
 use dynamics_core::drivetrain::{ElasticJoints, ElasticReference, elastic_inverse_dynamics};
 use dynamics_core::effects::{Armature, Coriolis, Effect, Gravity, Inertia, Viscous};
 use dynamics_core::model::{Calibrated, Static};
 use dynamics_core::robots::Iiwa14;
 use dynamics_core::state::State;
+use motion_control::{Estimate, Gains, RestToRest, TrajectoryError, feedback};
 
 use crate::control_loop::Law;
 use crate::plant::FlexiblePlant;
@@ -118,7 +118,9 @@ pub struct RigidJoints;
 
 impl Law<7, ElasticReference<f32, 7, 7>> for RigidJoints {
     fn feedforward(reference: &State<f32, 7, 7>, _: &ElasticReference<f32, 7, 7>) -> [f32; 7] {
-        let motors = (Armature(JOINTS.rotor), Viscous(JOINTS.friction));
-        Core::<Iiwa14>::rnea(reference, &(CompliantArm::EFFECTS, motors))
+        let (gravity, inertia, coriolis, Viscous(links)) = CompliantArm::EFFECTS;
+        let friction = core::array::from_fn(|j| links[j] + JOINTS.friction[j]);
+        let motors = (Armature(JOINTS.rotor), Viscous(friction));
+        Core::<Iiwa14>::rnea(reference, &(gravity, inertia, coriolis, motors))
     }
 }

@@ -2,11 +2,11 @@
 //! for rigid. It swings to a pose through a shaper that leaves no vibration, and back without.
 
 use dynamics_core::Core;
-use dynamics_core::control::{Shaped, TrajectoryError};
 use dynamics_core::effects::{Armature, Coriolis, Effect, Elasticity, Gravity, Inertia, Viscous};
 use dynamics_core::flexible::{ModalFeedforward, Modes};
 use dynamics_core::model::{Calibrated, Static};
 use dynamics_core::state::State;
+use motion_control::{Shaped, TrajectoryError};
 
 use crate::control_loop::Law;
 use crate::plant::BendingPlant;

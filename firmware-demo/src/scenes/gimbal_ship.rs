@@ -1,13 +1,13 @@
 //! Scene `gimbal_ship`: a camera on a rolling ship sweeps the horizon, the ship's motion as feed-forward.
 
 use dynamics_core::Engine;
-use dynamics_core::control::TrajectoryError;
 use dynamics_core::effects::{
     Coriolis, Coulomb, Effect, GravityVector, Inertia, MovingBase, Viscous, Width,
 };
 use dynamics_core::spatial::Motion;
 use dynamics_core::state::State;
 use glam::Vec3;
+use motion_control::TrajectoryError;
 
 use crate::plant::Plant;
 use crate::robots::ship::Swing;

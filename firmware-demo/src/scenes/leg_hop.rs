@@ -1,12 +1,12 @@
 //! Scene `leg_hop`: a leg hops on a rail, and the feed-forward knows the ground.
 
 use dynamics_core::Engine;
-use dynamics_core::control::TrajectoryError;
 use dynamics_core::effects::{
     Armature, Contact, ContactPoint, Coriolis, Effect, Gravity, Inertia, Viscous, Width,
 };
 use dynamics_core::state::State;
 use glam::Vec3;
+use motion_control::TrajectoryError;
 
 use crate::plant::{Plant, last};
 use crate::robots::Leg;

@@ -2,10 +2,6 @@
 //! feed-forward that does not read that signal carries an unknown load.
 
 use dynamics_core::algorithms::{Damping, OperationalSpace, frame, task_jacobian};
-use dynamics_core::control::{
-    CartesianImpedance, Estimate, Gains, ImpedanceConfig, Reference, TaskDeviation, TaskFrame,
-    Trajectory, TrajectoryError, feedback, pose_error,
-};
 use dynamics_core::effects::{
     Armature, Coriolis, Coulomb, Effect, Gravity, Inertia, InvalidPayload, Payload, Viscous, Width,
 };
@@ -14,6 +10,10 @@ use dynamics_core::robots::Panda;
 use dynamics_core::spatial::SpatialInertia;
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
+use motion_control::{
+    CartesianImpedance, Estimate, Gains, ImpedanceConfig, Reference, TaskDeviation, TaskFrame,
+    Trajectory, TrajectoryError, feedback, pose_error,
+};
 
 use crate::control_loop::Law;
 use crate::plant::Plant;

@@ -3,12 +3,12 @@
 
 use dynamics_core::Engine;
 use dynamics_core::clusters::{Clustered, MotorTorques};
-use dynamics_core::control::{MotionLimits, Trajectory, TrajectoryError};
 use dynamics_core::effects::{
     Armature, Coriolis, Coulomb, Effect, Gravity, Inertia, JointState, RIGID_BODY, Viscous, Width,
 };
 use dynamics_core::model::JointLimits;
 use dynamics_core::state::State;
+use motion_control::{MotionLimits, Trajectory, TrajectoryError};
 
 use crate::control_loop::Law;
 use crate::plant::ClusterPlant;

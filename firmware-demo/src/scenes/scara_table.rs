@@ -2,12 +2,12 @@
 //! there, so that the scene does not name it.
 
 use dynamics_core::Engine;
-use dynamics_core::control::{Trajectory, TrajectoryError};
 use dynamics_core::effects::{
     Armature, Coriolis, Coulomb, Effect, Gravity, GravityVector, Inertia, Viscous, Width,
 };
 use dynamics_core::state::State;
 use glam::Vec3;
+use motion_control::{Trajectory, TrajectoryError};
 
 use crate::control_loop::Law;
 use crate::plant::Plant;

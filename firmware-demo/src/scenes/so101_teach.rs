@@ -20,13 +20,13 @@
 //! The width of the smooth sign, path and gains are chosen, not measured.
 
 use dynamics_core::Engine;
-use dynamics_core::control::{Estimate, Gains, Trajectory, TrajectoryError};
 use dynamics_core::effects::{
     Armature, Coriolis, Coulomb, Effect, Gravity, Inertia, LoadFriction, Viscous, Width,
 };
 use dynamics_core::model::{JointLimits, model};
 use dynamics_core::robots::So101;
 use dynamics_core::state::State;
+use motion_control::{Estimate, Gains, Trajectory, TrajectoryError};
 
 use crate::control_loop::Law;
 use crate::plant::ServoPlant;

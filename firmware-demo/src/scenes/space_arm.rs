@@ -3,10 +3,10 @@
 
 use dynamics_core::Core;
 use dynamics_core::algorithms::Prescribed;
-use dynamics_core::control::{Trajectory, TrajectoryError};
 use dynamics_core::effects::{Armature, Coriolis, Coulomb, Effect, Inertia, Viscous, Width};
 use dynamics_core::spatial::Force;
 use dynamics_core::state::State;
+use motion_control::{Trajectory, TrajectoryError};
 
 use crate::control_loop::Law;
 use crate::plant::{Floating, last};

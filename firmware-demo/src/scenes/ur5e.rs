@@ -1,12 +1,12 @@
 //! Scene `ur5e`: pick and place, with the arm's full model as feed-forward.
 
 use dynamics_core::Engine;
-use dynamics_core::control::{Trajectory, TrajectoryError};
 use dynamics_core::effects::{
     Armature, Coriolis, Coulomb, Effect, Gravity, Inertia, Viscous, Width,
 };
 use dynamics_core::robots::Ur5e;
 use dynamics_core::state::State;
+use motion_control::{Trajectory, TrajectoryError};
 
 use crate::control_loop::Law;
 use crate::plant::Plant;

@@ -13,12 +13,12 @@
 //! is above it by c + r cos(α − φ): the inverse kinematics is an arc cosine.
 
 use dynamics_core::algorithms::center_of_mass;
-use dynamics_core::control::Reference;
 use dynamics_core::effects::Contact;
 use dynamics_core::model::Static;
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
 use dynamics_core::trig::sin_cos_near;
+use motion_control::Reference;
 
 use crate::plant::last;
 use crate::robots::Leg;
@@ -32,7 +32,7 @@ pub use phase::arc_cosine;
 /// The desired motion of the leg.
 ///
 /// ```
-/// use dynamics_core::control::Reference;
+/// use motion_control::Reference;
 /// use firmware_demo::scenes::leg_hop::{COURSE, GROUND};
 /// use firmware_demo::trajectories::hop::Hop;
 /// let hop = Hop::new(&COURSE, &GROUND, 9.81);
@@ -77,19 +77,20 @@ pub struct Hop {
     lag: f32,
 }
 
+/// The mass of all bodies, and how high their centre is above the foot with the knee's half angle α.
+// Inlined, it would be in flash four times.
+#[inline(never)]
+fn above_foot(alpha: f32) -> (f32, f32) {
+    let state = State::at([0.0, 0.0, alpha, -2.0 * alpha]);
+    let centre = center_of_mass(&Static::<Leg>::NEW, &state, &());
+    let (_, cos) = sin_cos_near(alpha);
+    (centre.mass, centre.position.z + 2.0 * Leg::LIMB * cos)
+}
+
 impl Hop {
     /// The hops of this course on this ground.
     pub fn new(course: &ElasticReference, ground: &Contact<f32, 1>, gravity: f32) -> Self {
         // The centre above the foot with the leg straight down and straight ahead tells the rest.
-        let above_foot = |alpha: f32| {
-            let centre = center_of_mass(
-                &Static::<Leg>::NEW,
-                &State::at([0.0, 0.0, alpha, -2.0 * alpha]),
-                &(),
-            );
-            let (_, cos) = sin_cos_near(alpha);
-            (centre.mass, centre.position.z + 2.0 * Leg::LIMB * cos)
-        };
         let (mass, down) = above_foot(0.0);
         let (_, up) = above_foot(core::f32::consts::PI);
         let (_, ahead) = above_foot(core::f32::consts::FRAC_PI_2);

@@ -1,8 +1,8 @@
 //! Picks of a Delta robot: the path of its platform, and the cranks' motion in closed form.
 
-use dynamics_core::control::{MotionLimits, Reference, Trajectory, TrajectoryError, WayPoint};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
+use motion_control::{MotionLimits, Reference, Trajectory, TrajectoryError, WayPoint};
 
 use crate::robots::PickDelta;
 use crate::robots::pick_delta::SIDES;

@@ -2,13 +2,13 @@
 
 use core::cell::Cell;
 
-use dynamics_core::control::{
-    MotionLimits, Reference, Shaped, Shaper, Trajectory, TrajectoryError, Vibration, WayPoint,
-};
 use dynamics_core::effects::Inertia;
 use dynamics_core::flexible::{ModalFeedforward, Modes, crba};
 use dynamics_core::model::RobotModel;
 use dynamics_core::state::State;
+use motion_control::{
+    MotionLimits, Reference, Shaped, Shaper, Trajectory, TrajectoryError, Vibration, WayPoint,
+};
 
 use crate::scene::TICK;
 

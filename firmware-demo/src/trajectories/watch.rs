@@ -1,8 +1,8 @@
 //! What a gimbal on a ship's mast has to do to look where it should.
 
-use dynamics_core::control::Reference;
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
+use motion_control::Reference;
 
 use crate::robots::Ship;
 use crate::robots::ship::Swing;

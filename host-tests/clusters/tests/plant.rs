@@ -3,7 +3,6 @@
 use std::cell::RefCell;
 use std::rc::Rc;
 
-use dynamics_core::control::{Mode, Reference};
 use dynamics_core::effects::{Effect, JointState};
 use dynamics_core::model::Calibrated;
 use dynamics_core::state::State;
@@ -11,6 +10,7 @@ use firmware_demo::plant::{ClusterPlant, Rig, Simulated};
 use firmware_demo::scene::{Full, STEPS, Scene, TICK, simulated_loop};
 use firmware_demo::scenes::parallel_ankle::AnkleSteps;
 use firmware_demo::sim_io::Wires;
+use motion_control::{Mode, Reference};
 
 #[test]
 fn the_motors_of_a_leg_with_rods_follow_their_reference() {
@@ -42,6 +42,8 @@ fn the_motors_of_a_leg_with_rods_follow_their_reference() {
 struct Recorder(Rc<RefCell<Vec<usize>>>);
 
 impl Effect<f32, 9, 9> for Recorder {
+    fn torque(&self, _: usize, _: JointState<f32>, _: &mut f32) {}
+
     fn advance(&mut self, joint: usize, _: JointState<f32>, _: f32) {
         self.0.borrow_mut().push(joint);
     }

@@ -6,7 +6,7 @@ use cluster_tests::{DeltaRobot, Random, ankle_states, apart, hold};
 use dynamics_core::algorithms::NotPositiveDefinite;
 use dynamics_core::clusters::{
     Belt, Branch, Cluster, ClusterError, ClusterProblem, Clustered, ClusteredRobot, DEAD_POINT,
-    Driven, FiveBar, ForwardError, FourBar, ParallelAnkle, Rod,
+    Driven, FiveBar, ForwardError, FourBar, NEAR_SINGULAR, ParallelAnkle, Rod,
 };
 use dynamics_core::effects::{Gravity, RIGID_BODY};
 use dynamics_core::model::{ArmModel, BASE, Body, Joint, JointCoordinate, Model, Robot};
@@ -207,6 +207,97 @@ impl<const MASS: u8> ClusteredRobot<4, 4, 4, 2, 2> for Light<MASS> {
     type Clusters = (Driven<FourBar, 3, 1>,);
     const CLUSTERS: Self::Clusters = (Driven::new("parallelogram", FLAT).actuated([2]),);
     const COORDINATES: &'static [&'static [usize]] = &[&[1, 2, 3]];
+}
+
+/// A four-bar whose crank does not turn all around.
+struct Rocking;
+
+impl Robot<3, 3, 3> for Rocking {
+    const MODEL: ArmModel<f64, 3> = {
+        let z = Joint::revolute([0.0, 0.0, 1.0]);
+        Model::new(
+            "rocking",
+            [
+                Body::new("crank", BASE, z).mass(1.0).com([0.1, 0.0, 0.0]),
+                Body::new("coupler", 0, z)
+                    .xyz([0.2, 0.0, 0.0])
+                    .mass(1.0)
+                    .com([0.1, 0.0, 0.0]),
+                Body::new("rocker", BASE, z)
+                    .xyz([0.3, 0.0, 0.0])
+                    .mass(1.0)
+                    .com([0.05, 0.0, 0.0]),
+            ],
+        )
+    };
+}
+
+impl ClusteredRobot<3, 3, 3, 1, 1> for Rocking {
+    type Clusters = (Driven<FourBar, 3, 1>,);
+    const CLUSTERS: Self::Clusters = (Driven::new("rocker", ROCKING),);
+    const COORDINATES: &'static [&'static [usize]] = &[&[0, 1, 2]];
+}
+
+#[test]
+fn torques_near_a_singularity_come_with_their_conditioning() {
+    // Coupler and rocker in line: the law of cosines in the triangle of 0.3, 0.2 and 0.25 + 0.1.
+    let end = ((0.3_f64 * 0.3 + 0.2 * 0.2 - 0.35 * 0.35) / (2.0 * 0.3 * 0.2)).acos();
+    let at = |off: f64| {
+        let y = State {
+            q: [end - off],
+            qd: [2.0],
+            qdd: [10.0],
+        };
+        let found = Clustered::<Core<Rocking>>::rnea_with_status(&y, &RIGID_BODY);
+        let found = found.expect("it closes");
+        assert_eq!(
+            Clustered::<Core<Rocking>>::rnea(&y, &RIGID_BODY),
+            Ok(found.tau)
+        );
+        (y, found)
+    };
+    let (mut largest, mut errors) = (0.0_f64, Vec::new());
+    for k in 0..=40 {
+        let (y, found) = at(10_f64.powf(-0.25 * f64::from(k)));
+        largest = largest.max(found.tau[0].abs());
+        let motion = Clustered::<Core<Rocking>>::motion(&y).expect("it closes");
+        assert_eq!(found.conditioning, motion.conditioning());
+        assert_eq!(found.conditioning.cluster, "rocker");
+        // The rates of coupler and rocker by the sine rule of the velocity polygon.
+        let q = motion.configuration().coordinates.map(|q| q.q);
+        let [crank, coupler, rocker] = [q[0], q[0] + q[1], q[2]];
+        let of_coupler = 0.2 * (rocker - crank).sin() / (0.25 * (coupler - rocker).sin());
+        let of_rocker = 0.2 * (crank - coupler).sin() / (0.1 * (rocker - coupler).sin());
+        let want = (of_coupler - 1.0).abs().max(of_rocker.abs()).max(1.0);
+        let transmission = found.conditioning.transmission;
+        match found.regular(NEAR_SINGULAR) {
+            Ok(tau) => {
+                assert_eq!(tau, found.tau);
+                errors.push((transmission / want - 1.0).abs());
+                assert!(tau[0].abs() < 1e6, "{tau:?}");
+            }
+            Err(error) => {
+                assert_eq!(error.cluster, "rocker");
+                assert!(
+                    error.damped || want > 0.99 * NEAR_SINGULAR,
+                    "{error} {want}"
+                );
+            }
+        }
+    }
+    assert!(
+        largest > 1e10,
+        "a torque that no motor has: {largest:e} N·m"
+    );
+    let error = errors.iter().fold(0.0, |a: f64, &b| a.max(b));
+    hold(
+        "transmission of a four-bar against the sine rule",
+        error,
+        1e-9,
+    );
+    let (_, damped) = at(1e-12);
+    let error = damped.regular(NEAR_SINGULAR).expect_err("it is damped");
+    assert!(error.damped && error.to_string().contains("near a singular configuration"));
 }
 
 #[test]

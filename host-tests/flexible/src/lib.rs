@@ -150,7 +150,6 @@ pub mod recording {
 
     /// States, and the forces on joints and modes at each.
     #[derive(Debug, Deserialize)]
-    #[allow(missing_docs, reason = "the quantities of the library, by their names")]
     pub struct Dynamics {
         pub q: Vec<Vec<f64>>,
         pub qd: Vec<Vec<f64>>,

@@ -3,9 +3,9 @@
 
 use std::fmt::Write;
 
-use dynamics_core::flexible::{Beam, Modes, Shape};
+use dynamics_core::flexible::{Beam, ModeProblem, Modes, Shape};
 use dynamics_core::model::{ArmModel, Robot};
-use flexible_tests::recording::recording;
+use flexible_tests::recording::{Static, recording};
 use flexible_tests::referee::{error, forced, inverse, sag, vibration};
 use flexible_tests::{LOWER, PLANAR, Planar, SPATIAL, Spatial, UPPER};
 
@@ -115,6 +115,51 @@ fn static_sag_converges_to_the_beams_as_modes_are_added() {
         assert!(all[0][1] < 3e-3 && all[5][1] < 1e-6, "{name}");
     }
     println!("{page}");
+}
+
+/// What the guide says of the sag by one mode and by two: a body at the end makes a beam's shape that of its first mode.
+#[test]
+fn a_bare_beam_needs_more_modes_for_its_sag_than_one_with_a_body_at_its_end() {
+    let (length, density, stiffness, body) = (0.5_f64, 0.8, 4.0, 0.3);
+    let bare = Beam::new(length, density).bending([stiffness; 2]);
+    for (beam, body, of_one, of_two) in [
+        (bare.tip(body, 0.0), body, 1.2e-3..1.9e-3, 5e-5..7e-5),
+        (bare, 0.0, 1.2e-2..1.4e-2, 8.6e-4..9.6e-4),
+    ] {
+        // ρ L⁴ / 8 and m L³ / 3, times g / EI.
+        let load = density * length.powi(4) / 8.0 + body * length.powi(3) / 3.0;
+        let closed = -load * 9.81 / stiffness;
+        let whole = Static {
+            x_deflection_slope: vec![[length, closed, 0.0]; 4],
+            tip_of_modes: vec![closed; 2],
+        };
+        let [one, two] = [sag::<1>(&beam, &whole)[1], sag::<2>(&beam, &whole)[1]];
+        println!("sag by one mode {one:.2e}, by two {two:.2e}");
+        assert!(
+            of_one.contains(&one) && of_two.contains(&two),
+            "{one:.2e}, {two:.2e}"
+        );
+    }
+}
+
+#[test]
+fn a_beam_of_infinite_stiffness_has_no_modes() {
+    let rigid = UPPER.bending([f64::INFINITY; 2]);
+    let endless = Beam::new(f64::INFINITY, 0.8).bending([4.0; 2]);
+    // Finite properties of which the modes' stiffness is not.
+    let overflowing = Beam::new(1e-3, 0.8).bending([1e308; 2]);
+    for beam in [rigid, endless, overflowing] {
+        assert_eq!(
+            beam.link(0, &[Shape::BendZ(1)]),
+            Err(ModeProblem::NotFinite),
+            "{beam:?}"
+        );
+    }
+    let twisted = UPPER.sections([1e-5; 2]).torsion(f64::INFINITY);
+    assert_eq!(
+        twisted.link(0, &[Shape::Twist(1)]),
+        Err(ModeProblem::NotFinite)
+    );
 }
 
 #[test]

@@ -1,6 +1,5 @@
 //! Claims about the scene `flexible_link`: what feed-forward with modes and a shaper are worth.
 
-use dynamics_core::control::{Estimate, Gains, Reference, Shaped, feedback};
 use dynamics_core::flexible::{ModalFeedforward, Modes};
 use dynamics_core::model::{Calibrated, Static};
 use dynamics_core::state::State;
@@ -11,6 +10,7 @@ use firmware_demo::robots::two_link::{MODES_2, MODES_2_SOFT};
 use firmware_demo::scene::{OMEGA_N, STEPS, Scene, TICK, ZETA};
 use firmware_demo::scenes::flexible_link::{BendingArm, EFFECTS, END, RigidLinks, START, swing};
 use firmware_demo::trajectories::swing_and_back::shaper;
+use motion_control::{Estimate, Gains, Reference, Shaped, feedback};
 
 /// The largest error of a joint, rad, and the vibration that is left: half of the range of the ends' deflections, m, in
 /// four periods after the reference has stopped.

@@ -11,19 +11,21 @@ use crate::error::{Error, Result};
 
 /// The packages whose tests are run. The full run of the tests adds robots and scalars to `specialised-tests`, which
 /// take longer to compile than all else.
-const PACKAGES: [&str; 10] = [
+const PACKAGES: [&str; 12] = [
     "dynamics-core",
+    "motion-control",
     "joint-drivers",
     "host-tests",
     "cluster-tests",
     "cycle-meter",
     "flexible-tests",
     "loop-tests",
+    "simulation-tests",
     "history",
     "specialised-tests",
     "xtask",
 ];
-const FEATURES: &str = "host-tests/full";
+const FEATURES: &str = "host-tests/full,simulation-tests/full";
 /// A folder that this workspace has.
 const MEMBER: &str = "host-tests/specialised";
 

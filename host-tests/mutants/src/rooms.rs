@@ -26,17 +26,17 @@ const fn room(name: &'static str, draws: usize, places: &'static [&'static str])
 /// the meter's plugin), and what measures for a report.
 #[rustfmt::skip]
 pub const ROOMS: [Room; 15] = [
-    room("control", 90, &["dynamics-core/src/control/"]),
+    room("control", 90, &["motion-control/src/"]),
     room("drivers", 50, &["drivers/src/"]),
     room("control loop and plant", 35, &[
         "firmware-demo/src/control_loop.rs", "firmware-demo/src/plant", "firmware-demo/src/sim_io.rs",
     ]),
-    room("budgets and bars", 30, &["xtask/src/budgets", "xtask/src/bars.rs"]),
+    room("budgets and bars", 30, &["xtask/src/studies/budgets", "xtask/src/kit/bars.rs"]),
     room("tolerances", 20, &["host-tests/src/tolerances.rs", "host-tests/src/measured.rs", "host-tests/src/hard/row.rs"]),
-    room("document checks", 30, &["xtask/src/docs.rs", "xtask/src/docs/"]),
+    room("document checks", 30, &["xtask/src/kit/docs.rs", "xtask/src/kit/docs/"]),
     room("other checks", 40, &[
-        "xtask/src/callgraph.rs", "xtask/src/lines.rs", "xtask/src/layers.rs", "xtask/src/same_code.rs",
-        "xtask/src/meter.rs", "xtask/src/test/functions.rs", "xtask/src/test/others.rs", "xtask/src/accuracy/join.rs",
+        "xtask/src/kit/callgraph.rs", "xtask/src/kit/sources.rs", "xtask/src/commands/weight.rs", "xtask/src/commands/layers.rs", "xtask/src/kit/same_code.rs",
+        "xtask/src/kit/meter.rs", "xtask/src/commands/test/functions.rs", "xtask/src/commands/test/others.rs", "xtask/src/studies/accuracy/join.rs",
     ]),
     room("cycle meter", 45, &[
         "host-tests/cycle-meter/src/block.rs", "host-tests/cycle-meter/src/decode",

@@ -138,11 +138,13 @@ fn tests_and_configured_items_have_no_switch() {
         assert_eq!(changes(source), [""; 0], "{source}");
     }
     assert!(
-        room_of("xtask/src/docs/tests.rs").is_none()
-            && room_of("xtask/src/docs/tests/pages.rs").is_none()
+        room_of("xtask/src/kit/docs/tests.rs").is_none()
+            && room_of("xtask/src/kit/docs/tests/pages.rs").is_none()
     );
     assert_eq!(
-        room_of("xtask/src/docs/columns.rs").expect("a room").name,
+        room_of("xtask/src/kit/docs/columns.rs")
+            .expect("a room")
+            .name,
         "document checks"
     );
 }

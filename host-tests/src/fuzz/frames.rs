@@ -1,7 +1,7 @@
 //! Frames of an encoder: what passes its checks is an angle, and no bit that falls over passes them.
 
 use super::bytes::Bytes;
-use dynamics_core::control::MultiTurnEncoder;
+use joint_drivers::MultiTurnEncoder;
 use joint_drivers::as5047p::{COUNTS, decode, encode};
 
 /// Frames of two bytes each.

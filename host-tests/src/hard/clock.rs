@@ -3,11 +3,12 @@
 use super::controller::{Bench, TICK};
 use super::measure::larger;
 use super::{Case, Row, name};
-use dynamics_core::control::{
-    Mode, MotionLimits, MultiTurnEncoder, Observer, ObserverConfig, SafetyLimits, Supervisor,
-    SupervisorConfig, Trajectory, WayPoint,
-};
 use dynamics_core::scalar::Real;
+use joint_drivers::MultiTurnEncoder;
+use motion_control::{
+    Mode, MotionLimits, Observer, ObserverConfig, SafetyLimits, Supervisor, SupervisorConfig,
+    Trajectory, WayPoint,
+};
 
 /// The family's cases.
 pub const CASES: &[Case] = &[

@@ -3,16 +3,16 @@
 
 use super::measure::larger;
 use dynamics_core::algorithms::{crba, rnea};
-use dynamics_core::control::{
-    Command, CurrentTick, Fault, Gains, Mode, MotionController, MotionControllerConfig,
-    MotionLimits, ResetError, SafetyLimits, SupervisorConfig, Trajectory, WayPoint, feedback,
-};
 use dynamics_core::effects::{Armature, Coriolis, Gravity, Inertia};
 use dynamics_core::model::{ArmModel, model};
 use dynamics_core::robots::Ur5e;
 use dynamics_core::scalar::Real;
 use dynamics_core::sim::semi_implicit;
 use dynamics_core::state::State;
+use motion_control::{
+    Command, CurrentTick, Fault, Gains, Mode, MotionController, MotionControllerConfig,
+    MotionLimits, ResetError, SafetyLimits, SupervisorConfig, Trajectory, WayPoint, feedback,
+};
 
 /// A tick, s.
 pub const TICK: f64 = 1e-3;

@@ -5,15 +5,13 @@ use super::{Case, Row};
 use dynamics_core::algorithms::{
     Conditioning, Damping, Pose, frame, kinematics, operational_space, rnea,
 };
-use dynamics_core::control::{
-    CartesianImpedance, ImpedanceConfig, TaskDeviation, TaskFrame, pose_error,
-};
 use dynamics_core::effects::{Armature, Coriolis, Gravity, Inertia};
 use dynamics_core::model::{ArmModel, Robot};
 use dynamics_core::robots::Ur5e;
 use dynamics_core::scalar::{Real, Vector};
 use dynamics_core::sim::semi_implicit;
 use dynamics_core::state::State;
+use motion_control::{CartesianImpedance, ImpedanceConfig, TaskDeviation, TaskFrame, pose_error};
 
 /// The family's cases.
 pub const CASES: &[Case] = &[Case {

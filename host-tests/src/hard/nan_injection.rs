@@ -4,11 +4,11 @@ use super::controller::{Bench, INPUTS, Input, Poison, TICK, apart};
 use super::measure::larger;
 use super::{Case, Row};
 use dynamics_core::algorithms::{aba, crba, forward_dynamics, rnea};
-use dynamics_core::control::{Fault, Mode};
 use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::robots::Ur5e;
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
+use motion_control::{Fault, Mode};
 
 /// The family's cases.
 pub const CASES: &[Case] = &[Case {

@@ -5,10 +5,11 @@ use super::setup::list::arm;
 use super::setup::turning;
 use super::{Case, Row};
 use dynamics_core::algorithms::rnea;
-use dynamics_core::control::{Fault, MultiTurnEncoder, SafetyLimits, Supervisor, SupervisorConfig};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
 use firmware_demo::hard::{N, counts, scene};
+use joint_drivers::MultiTurnEncoder;
+use motion_control::{Fault, SafetyLimits, Supervisor, SupervisorConfig};
 
 const ORACLE: &str = "computation in 50 digits from the same f32 bits (oracle/hard.py)";
 

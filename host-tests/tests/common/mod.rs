@@ -248,7 +248,7 @@ pub fn unit<R: Real>() -> [Force<R>; 6] {
 }
 
 /// Calls a generic function of a robot for each robot that recordings of Pinocchio exist of.
-#[macro_export]
+#[allow(unused_macros, reason = "each program uses a part")]
 macro_rules! of_recorded_robots {
     ($function:ident, $argument:expr) => {
         use dynamics_core::robots as arms;
@@ -271,3 +271,5 @@ macro_rules! of_recorded_robots {
         $function::<TreeB, 17, 35, 32>($argument);
     };
 }
+#[allow(unused_imports, reason = "each program uses a part")]
+pub(crate) use of_recorded_robots;

@@ -193,7 +193,6 @@ fn scene<R: Real>() -> impl Effect<R, 6, 6> {
         },
         Armature([of(0.7); 6]),
         gears::<R, 6>(0.4, 0.3, 1.5),
-        gears::<R, 6>(0.1, 0.2, 0.5),
     )
 }
 

@@ -3,7 +3,6 @@
 
 use dynamics_core::Core;
 use dynamics_core::algorithms::{friction_regressor, inertial_parameters};
-use dynamics_core::control::Excitation;
 use dynamics_core::effects::{Payload, RIGID_BODY, Width};
 use dynamics_core::model::{BodyInertia, Robot};
 use dynamics_core::robots::So101;
@@ -14,6 +13,7 @@ use firmware_demo::learning::firmware::STATED;
 use firmware_demo::learning::parameters::{Known, N, OWN, P, WIDTH};
 use firmware_demo::learning::run::excitation;
 use firmware_demo::scenes::so101_teach::{ARMATURE, COULOMB};
+use motion_control::Excitation;
 
 /// The parameters of a joint.
 fn own() -> [f64; OWN] {
@@ -134,7 +134,7 @@ pub fn source() -> String {
         .collect();
     format!(
         "//! What the firmware knows before the arm moves: written by host-tests/trials/tests/learning.rs with TABLES_WRITE=1.\n\n\
-         use dynamics_core::control::SelectedParameters;\n\nuse super::parameters::Known;\n\n\
+         use motion_control::SelectedParameters;\n\nuse super::parameters::Known;\n\n\
          /// A nominal model whose parameters are off by 30 %, and the base parameters of the motion by it.\n\
          pub const KNOWN: Known = Known {{\n    nominal: [\n{}    ],\n    base: SelectedParameters {{\n\
          \x20       columns: {:?},\n        prior: [{}],\n        spread: [\n{spread}        ],\n    }},\n}};\n",

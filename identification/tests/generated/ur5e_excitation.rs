@@ -1,8 +1,8 @@
 //! Written by `identification::FourierMotion::rust_source`.
 
-use dynamics_core::control::Reference;
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
+use motion_control::Reference;
 
 /// An excitation of 6 joints: period 5 s, 6 periods.
 #[derive(Clone, Copy, Debug)]

@@ -1,8 +1,8 @@
 //! The motion that is chosen.
 
-use dynamics_core::control::Reference;
 use dynamics_core::state::State;
 use identification::{FourierMotion, Search};
+use motion_control::Reference;
 use nalgebra::DMatrix;
 
 use crate::generated::Ur5eExcitation;

@@ -1,7 +1,7 @@
 //! Sets of parameters that bodies can have.
 
-use dynamics_core::control::PhysicalParameters;
 use identification::PhysicalSet;
+use motion_control::PhysicalParameters;
 use nalgebra::{DMatrix, DVector};
 
 use crate::coverage::identified;

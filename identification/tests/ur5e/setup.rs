@@ -3,13 +3,13 @@
 use std::sync::LazyLock;
 
 use dynamics_core::algorithms::inertial_parameters;
-use dynamics_core::control::{Reference, Trajectory};
 use dynamics_core::effects::{Coriolis, Gravity, Inertia, Payload, RIGID_BODY, Width};
 use dynamics_core::model::{ArmModel, BodyInertia, Robot};
 use dynamics_core::robots::Ur5e;
 use dynamics_core::spatial::SpatialInertia;
 use dynamics_core::state::State;
 use identification::{BaseModel, ExcitationLimits, FourierMotion, Search};
+use motion_control::{Reference, Trajectory};
 
 use crate::generated;
 

@@ -8,6 +8,8 @@ pub trait Number:
 {
     /// A constant.
     fn constant(x: f64) -> Self;
+    /// The product with a constant: half the work of that with a number whose derivatives are zero, and the same bits.
+    fn scaled(self, by: f64) -> Self;
     /// Sine and cosine.
     fn sin_cos(self) -> (Self, Self);
 }
@@ -15,6 +17,10 @@ pub trait Number:
 impl Number for f64 {
     fn constant(x: f64) -> Self {
         x
+    }
+
+    fn scaled(self, by: f64) -> Self {
+        self * by
     }
 
     fn sin_cos(self) -> (Self, Self) {
@@ -41,6 +47,10 @@ impl<T: Number> Dual<T> {
 impl<T: Number> Number for Dual<T> {
     fn constant(x: f64) -> Self {
         Self::new(T::constant(x), T::constant(0.0))
+    }
+
+    fn scaled(self, by: f64) -> Self {
+        Self::new(self.value.scaled(by), self.rate.scaled(by))
     }
 
     fn sin_cos(self) -> (Self, Self) {

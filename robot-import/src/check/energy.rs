@@ -118,13 +118,13 @@ impl<'a> Energy<'a> {
                             (3, i) | (i, 3) => first[i],
                             (i, k) => moments[i][k],
                         };
-                        energy = energy + x * y * T::constant(0.5 * weight);
+                        energy = energy + (x * y).scaled(0.5 * weight);
                     }
                 }
             }
             let [_, _, z] = pose;
             for (entry, &h) in z.iter().zip(first.iter().chain([mass])) {
-                energy = energy - entry.value * T::constant(G * h);
+                energy = energy - entry.value.scaled(G * h);
             }
         }
         energy
@@ -144,7 +144,7 @@ impl<'a> Energy<'a> {
             let Some(parent) = poses[joint.parent] else {
                 continue;
             };
-            let placed = product(&parent, &placement(joint));
+            let placed = placed(&parent, &joint.origin);
             let motion = match self.selected.roles[j] {
                 Role::Moves if joint.kind.has_axis() => along_axis(joint, u[self.first[j]]),
                 Role::Moves => moved(identity(), axes(joint.kind), &u[self.first[j]..]),
@@ -188,12 +188,15 @@ pub fn identity<T: Number>() -> Rows<T> {
 
 /// The product of two poses.
 pub fn product<T: Number>(a: &Rows<T>, b: &Rows<T>) -> Rows<T> {
-    std::array::from_fn(|i| {
-        std::array::from_fn(|k| {
-            let sum = a[i][0] * b[0][k] + a[i][1] * b[1][k] + a[i][2] * b[2][k];
-            if k == 3 { sum + a[i][3] } else { sum }
-        })
-    })
+    // Loops: closures that return arrays of arrays are copied more often than they are computed.
+    let mut out = *a;
+    for (out, a) in out.iter_mut().zip(a) {
+        for (k, out) in out.iter_mut().enumerate() {
+            let sum = a[0] * b[0][k] + a[1] * b[1][k] + a[2] * b[2][k];
+            *out = if k == 3 { sum + a[3] } else { sum };
+        }
+    }
+    out
 }
 
 /// A pose as rows.
@@ -206,17 +209,18 @@ pub fn rows(pose: &Pose) -> Rows<f64> {
     })
 }
 
-/// The placement of a joint, as the file gives it.
-fn placement<T: Number>(joint: &Joint) -> Rows<T> {
-    let origin = &joint.origin;
-    std::array::from_fn(|i| {
-        std::array::from_fn(|k| {
-            T::constant(match k {
-                3 => origin.position[i],
-                _ => origin.rotation.col(k)[i],
-            })
-        })
-    })
+/// A pose followed by the placement of a joint, as the file gives it.
+fn placed<T: Number>(pose: &Rows<T>, origin: &Pose) -> Rows<T> {
+    let origin = rows(origin);
+    let mut out = *pose;
+    for (out, a) in out.iter_mut().zip(pose) {
+        for (k, out) in out.iter_mut().enumerate() {
+            let [x, y, z] = [0, 1, 2].map(|j| a[j].scaled(origin[j][k]));
+            let sum = x + y + z;
+            *out = if k == 3 { sum + a[3] } else { sum };
+        }
+    }
+    out
 }
 
 /// A turn about, or a translation along, a joint's axis: Rodrigues' formula.
@@ -241,7 +245,7 @@ pub fn moved<T: Number>(mut pose: Rows<T>, axes: &[usize], u: &[T]) -> Rows<T> {
 fn slide<T: Number>(n: DVec3, u: T) -> Rows<T> {
     let mut pose = identity();
     for (row, n) in pose.iter_mut().zip(n.to_array()) {
-        row[3] = T::constant(n) * u;
+        row[3] = u.scaled(n);
     }
     pose
 }
@@ -250,13 +254,12 @@ fn turn<T: Number>(n: DVec3, u: T) -> Rows<T> {
     let (sin, cos) = u.sin_cos();
     let cross = [[0.0, -n.z, n.y], [n.z, 0.0, -n.x], [-n.y, n.x, 0.0]];
     let rest = T::constant(1.0) - cos;
-    std::array::from_fn(|i| {
-        std::array::from_fn(|k| match k {
-            3 => T::constant(0.0),
-            _ => {
-                let diagonal = if i == k { cos } else { T::constant(0.0) };
-                diagonal + T::constant(cross[i][k]) * sin + T::constant(n[i] * n[k]) * rest
-            }
-        })
-    })
+    let mut pose = identity();
+    for (i, row) in pose.iter_mut().enumerate() {
+        for (k, entry) in row.iter_mut().take(3).enumerate() {
+            let diagonal = if i == k { cos } else { T::constant(0.0) };
+            *entry = diagonal + sin.scaled(cross[i][k]) + rest.scaled(n[i] * n[k]);
+        }
+    }
+    pose
 }

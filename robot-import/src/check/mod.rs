@@ -5,10 +5,11 @@ pub mod dual;
 pub mod energy;
 mod loops;
 mod peer;
+mod process;
 mod random;
 
 pub use loops::loops;
-pub use peer::{Peer, compare};
+pub use peer::{NoPeer, Peer, Python, compare};
 
 use crate::description::Description;
 use crate::error::Result;

@@ -15,7 +15,7 @@ use std::process::{Command, Stdio};
 
 pub use error::ProjectError;
 use names::{check_name, enumerators, snake_case, toml_string};
-use templates::{C, File, RUST};
+use templates::{C, File, RUST, constants};
 
 /// A project to be written.
 #[derive(Clone, Debug)]
@@ -39,6 +39,8 @@ pub struct RobotFile {
     pub text: String,
     /// The names of the joints, one for each velocity coordinate.
     pub joints: Vec<String>,
+    /// The names of the bodies, in their order.
+    pub bodies: Vec<String>,
     /// How many bodies.
     pub b: usize,
     /// How many position coordinates.
@@ -62,13 +64,40 @@ pub struct FileEffects {
     pub armature: bool,
 }
 
-/// Where a project gets dynamics-core from.
+/// Where a project gets dynamics-core and the crates beside it from.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Library {
     /// The folder of the crate `dynamics-core`.
     Path(PathBuf),
     /// The address of its repository.
     Git(String),
+}
+
+/// The folder of the library.
+const DYNAMICS: &str = "dynamics-core";
+
+impl Library {
+    /// A dependency on the crate in this folder of the repository, as a value of TOML.
+    fn dependency(&self, folder: &str) -> Result<String, ProjectError> {
+        match self {
+            Self::Path(path) => {
+                let path = match folder {
+                    DYNAMICS => path.clone(),
+                    beside => path.with_file_name(beside),
+                };
+                let text = path.to_str().and_then(toml_string);
+                let wrong = || ProjectError::Library(path.display().to_string());
+                Ok(format!("{{ path = {} }}", text.ok_or_else(wrong)?))
+            }
+            Self::Git(address) => {
+                let wrong = || ProjectError::Library(address.clone());
+                Ok(format!(
+                    "{{ git = {} }}",
+                    toml_string(address).ok_or_else(wrong)?
+                ))
+            }
+        }
+    }
 }
 
 /// What was written.
@@ -122,8 +151,7 @@ const COUPLED: &str = "the joints coupled by `COUPLING` are driven each by itsel
 /// # Errors
 /// [`ProjectError`]; no file that was there is overwritten.
 pub fn create(folder: &Path, project: &Project) -> Result<Created, ProjectError> {
-    check_name(&project.name)?;
-    let values = values(project)?;
+    let planned = files(project)?;
     let is_used = match fs::read_dir(folder) {
         Ok(mut entries) => entries.next().is_some(),
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => false,
@@ -132,25 +160,37 @@ pub fn create(folder: &Path, project: &Project) -> Result<Created, ProjectError>
     if is_used {
         return Err(ProjectError::NotEmpty(folder.to_path_buf()));
     }
-    let robot_only = project.robot.robot_only();
-    let templates: &[File] = match (&robot_only, project.c) {
-        (Some(_), _) => &[],
-        (None, true) => C,
-        (None, false) => RUST,
-    };
     let mut files = Vec::new();
-    for File { path, text } in templates {
-        let path = substitute(path, &values);
-        write(folder, &path, &substitute(text, &values), &mut files)?;
+    for (path, text) in &planned {
+        write(folder, path, text, &mut files)?;
     }
-    write(folder, "src/robot.rs", &project.robot.text, &mut files)?;
     format(&files);
+    let robot_only = project.robot.robot_only();
     let note = (project.robot.coupled && robot_only.is_none()).then_some(COUPLED);
     Ok(Created {
         files,
         robot_only,
         note,
     })
+}
+
+/// The path of each file of a project in its folder, and its text before it is formatted.
+///
+/// # Errors
+/// A name or an address that cannot be used.
+pub fn files(project: &Project) -> Result<Vec<(String, String)>, ProjectError> {
+    check_name(&project.name)?;
+    let values = values(project)?;
+    let templates: &[File] = match (project.robot.robot_only(), project.c) {
+        (Some(_), _) => &[],
+        (None, true) => C,
+        (None, false) => RUST,
+    };
+    let filled = |file: &File| [file.path, file.text].map(|template| substitute(template, &values));
+    let mut files: Vec<(String, String)> =
+        templates.iter().map(|file| filled(file).into()).collect();
+    files.push(("src/robot.rs".to_owned(), project.robot.text.clone()));
+    Ok(files)
 }
 
 fn write(
@@ -173,6 +213,10 @@ fn format(files: &[PathBuf]) {
     let sources = (files.iter()).filter(|path| path.extension().is_some_and(|end| end == "rs"));
     let mut rustfmt = Command::new("rustfmt");
     rustfmt.args(["--quiet", "--edition", "2024"]);
+    // In the project: a `rust-toolchain.toml` of the current folder would name the program that runs.
+    if let Some(folder) = files.first().and_then(|file| file.parent()) {
+        rustfmt.current_dir(folder);
+    }
     let silent = rustfmt
         .args(sources)
         .stdout(Stdio::null())
@@ -195,18 +239,7 @@ impl RobotFile {
 type Value = (&'static str, String);
 
 fn values(project: &Project) -> Result<Vec<Value>, ProjectError> {
-    let library = match &project.library {
-        Library::Path(path) => {
-            let text = path.to_str().and_then(toml_string);
-            let wrong = || ProjectError::Library(path.display().to_string());
-            format!("{{ path = {} }}", text.ok_or_else(wrong)?)
-        }
-        Library::Git(address) => {
-            let wrong = || ProjectError::Library(address.clone());
-            let text = toml_string(address).ok_or_else(wrong)?;
-            format!("{{ git = {text} }}")
-        }
-    };
+    let dependency = |name| project.library.dependency(name);
     let robot = &project.robot;
     let crate_name = snake_case(&project.name);
     let prefix = crate_name.to_ascii_uppercase();
@@ -215,19 +248,29 @@ fn values(project: &Project) -> Result<Vec<Value>, ProjectError> {
     } else {
         "Engine"
     };
-    let (names, types, values) = robot.effects.in_scene();
+    let (names, types, values) = robot.effects.in_scene(&["Gravity", "Inertia", "Coriolis"]);
+    let (_, force_types, force_values) = robot.effects.in_scene(&["Inertia", "Coriolis"]);
+    let taken = &constants(C);
     Ok(vec![
         ("project-name", project.name.clone()),
-        ("joints", enumerators(&prefix, &robot.joints)),
+        (
+            "joints",
+            enumerators(&prefix, "JOINT", &robot.joints, taken),
+        ),
+        ("bodies", enumerators(&prefix, "BODY", &robot.bodies, taken)),
         ("n", robot.v.to_string()),
         ("form", form.into()),
         ("crate_name", crate_name),
         ("crate_name | upcase", prefix),
-        ("library", library),
+        ("library", dependency(DYNAMICS)?),
+        ("motion_control", dependency("motion-control")?),
+        ("joint_drivers", dependency("drivers")?),
         ("robot", robot.type_name.clone()),
         ("effect_names", names),
         ("effect_types", types),
         ("effect_values", values),
+        ("force_types", force_types),
+        ("force_values", force_values),
     ])
 }
 
@@ -249,23 +292,21 @@ fn substitute(text: &str, values: &[Value]) -> String {
 }
 
 impl FileEffects {
-    /// The names to import, the type and the value of the scene.
-    fn in_scene(self) -> (String, String, String) {
+    /// The names to import, the type and the value of a scene of these effects of the rigid body and those of the file.
+    fn in_scene(self, rigid_body: &[&str]) -> (String, String, String) {
         let of_file = [
             (self.viscous, "Viscous", "VISCOUS"),
             (self.coulomb, "Coulomb", "COULOMB"),
             (self.armature, "Armature", "ARMATURE"),
         ];
         let of_file = of_file.into_iter().filter(|(given, ..)| *given);
-        let (mut names, mut types, mut values) = (
-            vec!["Coriolis", "Gravity", "Inertia"],
-            ["Gravity", "Inertia", "Coriolis"]
-                .map(str::to_owned)
-                .to_vec(),
-            ["Gravity::EARTH", "Inertia", "Coriolis"]
-                .map(str::to_owned)
-                .to_vec(),
-        );
+        let value = |&effect: &&str| match effect {
+            "Gravity" => "Gravity::EARTH".to_owned(),
+            other => other.to_owned(),
+        };
+        let mut names = rigid_body.to_vec();
+        let mut types: Vec<String> = rigid_body.iter().map(|&effect| effect.into()).collect();
+        let mut values: Vec<String> = rigid_body.iter().map(value).collect();
         for (_, name, value) in of_file {
             names.push(name);
             types.push(format!("{name}<f32, N>"));
@@ -275,7 +316,11 @@ impl FileEffects {
         (
             format!("{{{}}}", names.join(", ")),
             format!("({})", types.join(", ")),
-            format!("({})", values.join(", ")),
+            // As rustfmt breaks the line.
+            match values.len() {
+                3 => format!("({})", values.join(", ")),
+                _ => format!("(\n    {},\n)", values.join(",\n    ")),
+            },
         )
     }
 }

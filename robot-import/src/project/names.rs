@@ -1,13 +1,20 @@
 //! Names and strings of the languages that a project is written in.
 
-use super::ProjectError;
+use std::collections::BTreeSet;
 
-/// Names that Cargo, Rust or the templates use.
-const RESERVED: &str = "abstract alloc as async await become box break build const continue core crate deps do dyn \
-                     else enum examples extern false final fn for gen if impl in incremental let loop macro match mod \
-                     move mut override priv proc_macro pub ref return self static std struct super test trait true try \
-                     type typeof unsafe unsized use virtual where while yield cortex_m cortex_m_rt \
-                     cortex_m_semihosting dynamics_core embedded_hal";
+use super::ProjectError;
+use crate::text::{c_comment, string_literal};
+
+/// Names that no crate with these dependencies can have: Rust's keywords, its libraries and its primitive types, which a
+/// crate of their name would hide in programs and tests; Cargo's folders; the dependencies.
+const RESERVED: &str = "
+    abstract as async await become box break const continue crate do dyn else enum extern false final fn for gen if impl
+    in let loop macro match mod move mut override priv pub ref return self static struct super trait true try type
+    typeof unsafe unsized use virtual where while yield
+    alloc core proc_macro std test
+    bool char f128 f16 f32 f64 i128 i16 i32 i64 i8 isize str u128 u16 u32 u64 u8 usize
+    build deps examples incremental
+    cortex_m cortex_m_rt cortex_m_semihosting dynamics_core embedded_hal joint_drivers motion_control";
 
 /// Fails unless the name can be that of a crate, and in lower case a prefix of C functions.
 pub(super) fn check_name(name: &str) -> Result<(), ProjectError> {
@@ -45,28 +52,47 @@ pub(super) fn toml_string(text: &str) -> Option<String> {
     Some(format!("\"{escaped}\""))
 }
 
-/// The lines of a C enumeration of the joints: names in upper case, those that are equal then with their number.
-pub(super) fn enumerators(prefix: &str, joints: &[String]) -> String {
-    let plain: Vec<String> = joints.iter().map(|joint| constant(joint)).collect();
-    let lines = plain.iter().enumerate().map(|(number, name)| {
-        let is_unique = plain.iter().filter(|other| *other == name).count() == 1;
-        let suffix = if is_unique {
-            String::new()
-        } else {
-            format!("_{number}")
+/// The lines of a C enumeration of joints, or of other parts, each with another constant: `kind` and the name in upper case,
+/// with the part's number where another one or the header, whose constants are `taken`, has the same. A comment has the
+/// name where the constant does not tell it.
+pub(super) fn enumerators(prefix: &str, kind: &str, parts: &[String], taken: &[&str]) -> String {
+    let plain: Vec<String> = parts.iter().map(|part| constant(part)).collect();
+    let is_single = |name: &String| {
+        let same = plain.iter().filter(|other| *other == name);
+        same.count() == 1 && !name.is_empty() && !taken.contains(&&*format!("{kind}_{name}"))
+    };
+    // Names that are unique as they are stay so, whatever the numbers make of others.
+    let singles = plain.iter().filter(|name| is_single(name));
+    let mut used: BTreeSet<String> = taken.iter().map(|&name| name.to_owned()).collect();
+    used.extend(singles.map(|name| format!("{kind}_{name}")));
+    let mut lines = Vec::new();
+    for (number, (name, part)) in plain.iter().zip(parts).enumerate() {
+        let mut full = format!("{kind}_{name}");
+        if !is_single(name) {
+            let end = if full.ends_with('_') { "" } else { "_" };
+            full += &format!("{end}{number}");
+            while !used.insert(full.clone()) {
+                full += &format!("_{number}");
+            }
+        }
+        let is_plain = |c: char| c.is_ascii_alphanumeric() || c == '_';
+        let comment = match is_single(name) && part.chars().all(is_plain) {
+            true => String::new(),
+            false => format!(" /* {} */", c_comment(&string_literal(part))),
         };
-        format!("    {prefix}_JOINT_{name}{suffix} = {number},")
-    });
-    lines.collect::<Vec<_>>().join("\n")
+        lines.push(format!("    {prefix}_{full} = {number},{comment}"));
+    }
+    lines.join("\n")
 }
 
+/// The name in upper case with an underscore for each other character; empty if there would be nothing else.
 fn constant(name: &str) -> String {
-    let upper = name.chars().map(|c| {
-        if c.is_ascii_alphanumeric() {
-            c.to_ascii_uppercase()
-        } else {
-            '_'
-        }
+    if !name.contains(|c: char| c.is_ascii_alphanumeric()) {
+        return String::new();
+    }
+    let upper = name.chars().map(|c| match c.is_ascii_alphanumeric() {
+        true => c.to_ascii_uppercase(),
+        false => '_',
     });
     upper.collect()
 }

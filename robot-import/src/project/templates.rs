@@ -46,12 +46,38 @@ pub(super) const C: &[File] = files!["c":
     "rust-toolchain.toml",
     ".gitignore",
     ".cargo/config.toml",
+    "isolate.sh",
+    "{{crate_name}}Config.cmake" ".liquid",
+    "CMakeLists.txt" ".liquid",
     "src/lib.rs" ".liquid",
     "src/scene.rs" ".liquid",
+    "src/status.rs",
+    "src/check.rs",
+    "src/dynamics.rs" ".liquid",
+    "src/tool.rs" ".liquid",
+    "src/kinematics.rs" ".liquid",
+    "src/control.rs",
+    "src/advice.rs" ".liquid",
+    "src/controller.rs" ".liquid",
+    "src/memory.rs",
     "include/{{crate_name}}.h" ".liquid",
     "example/main.c" ".liquid",
     "example/board.c",
     "example/board.h",
+    "example/host.c",
+    "example/arm.cmake",
     "example/link.ld",
-    "tests/calls.rs" ".liquid",
+    "tests/c/main.rs" ".liquid",
+    "tests/c/controller.rs" ".liquid",
+    "tests/c/fuzz.rs" ".liquid",
 ];
+
+/// The constants of C that templates define or use, without the prefix that the project's name is to them.
+pub(super) fn constants(templates: &[File]) -> Vec<&'static str> {
+    let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    let of = |text: &'static str| {
+        let after = text.split("{{crate_name | upcase}}_").skip(1);
+        after.filter_map(move |rest| rest.split(|c| !is_part(c)).next())
+    };
+    templates.iter().flat_map(|file| of(file.text)).collect()
+}

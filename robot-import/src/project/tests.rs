@@ -8,6 +8,7 @@ fn pendulum() -> RobotFile {
         type_name: "Pendulum".into(),
         text: include_str!("../../template/rust/src/robot.rs").into(),
         joints: vec!["bearing".into()],
+        bodies: vec!["rod".into()],
         b: 1,
         q: 1,
         v: 1,
@@ -172,11 +173,27 @@ fn a_floating_robot_gets_its_file_only() {
 }
 
 #[test]
-fn joints_of_equal_constants_are_numbered() {
-    let joints = ["a-b", "a.b", "c"].map(str::to_owned);
-    let lines = enumerators("ARM", &joints);
-    let expected = "    ARM_JOINT_A_B_0 = 0,\n    ARM_JOINT_A_B_1 = 1,\n    ARM_JOINT_C = 2,";
-    assert_eq!(lines, expected);
+fn no_two_joints_have_one_constant() {
+    let lines = |joints: &[&str]| {
+        let joints: Vec<String> = joints.iter().map(|&joint| joint.to_owned()).collect();
+        enumerators("ARM", "JOINT", &joints, &constants(C))
+    };
+    let expected = "    ARM_JOINT_A_B_0_0 = 0, /* \"a-b\" */\n    ARM_JOINT_A_B_1 = 1, /* \"a.b\" */\n    \
+                    ARM_JOINT_A_B_0 = 2,\n    ARM_JOINT_C = 3,";
+    assert_eq!(lines(&["a-b", "a.b", "a_b_0", "c"]), expected);
+    // Names without a letter of ASCII, names that are each other's numbered form, and the header's own.
+    let all = ["", "é", "-", "1", "a", "A", "a_4", "a_4_4", "a 5"];
+    let text = lines(&all);
+    let mut names: Vec<&str> = text
+        .lines()
+        .filter_map(|line| line.split('=').next())
+        .collect();
+    names.sort_unstable();
+    names.dedup();
+    assert_eq!(names.len(), all.len(), "{text}");
+    let taken = enumerators("ARM", "JOINT", &["x".to_owned()], &["JOINT_X"]);
+    assert_eq!(taken, "    ARM_JOINT_X_0 = 0, /* \"x\" */");
+    assert!(constants(C).contains(&"JOINTS"));
 }
 
 #[test]

@@ -2,9 +2,11 @@
 
 mod mjcf;
 mod urdf;
+mod xacro;
 pub mod xml;
 
 use std::collections::HashMap;
+use std::io::Read as _;
 use std::path::Path;
 
 use crate::description::{Description, shortened};
@@ -20,6 +22,30 @@ const MOST: f64 = 1e9;
 /// # Errors
 /// [`ImportError`] with the line and the element.
 pub fn read(path: &Path) -> Result<Description> {
+    parse(&text(path)?, folder(path))
+}
+
+/// The folder of a file.
+fn folder(path: &Path) -> &Path {
+    path.parent().unwrap_or(Path::new("."))
+}
+
+/// The description in a file as another reader is given it: a URDF as it is, an MJCF with its included files and without the
+/// names of others, so that the reader opens none.
+///
+/// # Errors
+/// As [`read`].
+pub fn for_peer(path: &Path) -> Result<String> {
+    let text = text(path)?;
+    let document = xml::parse(text.trim_start_matches('\u{feff}'))?;
+    match document.root_element().tag_name().name() {
+        "mujoco" => mjcf::text::of(document.root_element(), folder(path)),
+        _ => Ok(text.trim_start_matches('\u{feff}').to_owned()),
+    }
+}
+
+/// The text of a file that is not too large.
+fn text(path: &Path) -> Result<String> {
     let unreadable = |reason: std::io::Error| Problem::File {
         path: path.display().to_string(),
         reason: reason.to_string(),
@@ -33,8 +59,13 @@ pub fn read(path: &Path) -> Result<Description> {
         }
         .into());
     }
-    let text = std::fs::read_to_string(path).map_err(unreadable)?;
-    parse(&text, path.parent().unwrap_or(Path::new(".")))
+    // What is no file, such as a pipe, has no length.
+    let file = std::fs::File::open(path).map_err(unreadable)?;
+    let mut text = String::new();
+    file.take(xml::MOST_BYTES as u64 + 1)
+        .read_to_string(&mut text)
+        .map_err(unreadable)?;
+    Ok(text)
 }
 
 /// The robot that a text describes; other files that it names are in `folder`.

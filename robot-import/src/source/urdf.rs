@@ -2,9 +2,11 @@
 
 use roxmltree::Node;
 
+use super::xacro;
 use super::xml::{self, child, children, number, numbers, required};
 use crate::description::{
     Description, Format, Inertial, Joint, Kind, Limits, Link, Mimic, Pose, Snap, index_of,
+    shortened,
 };
 use crate::error::{Problem, Result};
 use crate::snap;
@@ -21,22 +23,31 @@ pub fn read(root: Node<'_, '_>) -> Result<Description> {
         };
         return Err(xml::error(root, problem));
     }
+    xacro::refuse(root)?;
+    let mut notes = xacro::left_out(root);
+    // The version that has quaternions (urdfdom).
+    let quaternions = version != "1.0";
     let count = children(root, "link")
         .count()
         .max(children(root, "joint").count());
     super::few_enough(count)?;
-    let links = children(root, "link").map(link);
+    let links = children(root, "link").map(|node| link(node, quaternions));
     let links = links.collect::<Result<Vec<_>>>()?;
     // Transmissions have elements of the same tag; they are no children of the root.
-    let joints = children(root, "joint").map(|node| joint(node, &links));
+    let joints = children(root, "joint").map(|node| joint(node, &links, quaternions));
+    let joints = joints.collect::<Result<Vec<_>>>()?;
+    notes.extend(children(root, "joint").flat_map(not_read));
+    if !quaternions {
+        notes.extend(root.descendants().filter_map(ignored_quaternion));
+    }
     let mut robot = Description {
         name: root.attribute("name").unwrap_or("robot").to_owned(),
         format: Format::Urdf,
         licence: None,
-        joints: joints.collect::<Result<_>>()?,
+        joints,
         links,
         loops: Vec::new(),
-        notes: Vec::new(),
+        notes,
     };
     // So far offsets.
     let lines = xml::Lines::of(root.document().input_text());
@@ -48,17 +59,24 @@ pub fn read(root: Node<'_, '_>) -> Result<Description> {
     Ok(robot)
 }
 
-fn link(node: Node<'_, '_>) -> Result<Link> {
-    let inertial = child(node, "inertial").map(|inertial| mass(node, inertial));
+fn link(node: Node<'_, '_>, quaternions: bool) -> Result<Link> {
+    let inertial = child(node, "inertial").map(|inertial| mass(node, inertial, quaternions));
+    let (inertial, snapped) = inertial.transpose()?.unzip();
     Ok(Link {
         name: required(node, "name")?.to_owned(),
         line: xml::offset(node),
-        inertial: inertial.transpose()?,
+        inertial,
+        snapped: snapped.unwrap_or_default(),
         of_mesh: false,
     })
 }
 
-fn mass(link: Node<'_, '_>, node: Node<'_, '_>) -> Result<Inertial> {
+/// An inertia, with the roundings of its frame.
+fn mass(
+    link: Node<'_, '_>,
+    node: Node<'_, '_>,
+    quaternions: bool,
+) -> Result<(Inertial, Vec<Snap>)> {
     let missing = |tag| xml::error(link, Problem::MissingElement(tag));
     let mass = child(node, "mass").ok_or_else(|| missing("mass"))?;
     let inertia = child(node, "inertia").ok_or_else(|| missing("inertia"))?;
@@ -69,13 +87,15 @@ fn mass(link: Node<'_, '_>, node: Node<'_, '_>) -> Result<Inertial> {
         *entry = number(inertia, name)?.unwrap_or_default();
     }
     required(mass, "value")?;
-    let frame = child(node, "origin").map(origin).transpose()?;
-    Ok(Inertial {
+    let frame = child(node, "origin").map(|node| origin(node, quaternions));
+    let frame = frame.transpose()?.unwrap_or(Origin::NONE);
+    let inertial = Inertial {
         mass: number(mass, "value")?.unwrap_or_default(),
-        frame: frame.as_ref().map_or(Pose::IDENTITY, |frame| frame.pose),
-        exact: frame.map_or(Pose::IDENTITY, |frame| frame.exact),
+        frame: frame.pose,
+        exact: frame.exact,
         inertia: entries,
-    })
+    };
+    Ok((inertial, frame.snapped))
 }
 
 /// A placement as the file has it, and with exact values in place of roundings.
@@ -85,7 +105,16 @@ struct Origin {
     snapped: Vec<Snap>,
 }
 
-fn origin(node: Node<'_, '_>) -> Result<Origin> {
+impl Origin {
+    /// No displacement.
+    const NONE: Self = Self {
+        pose: Pose::IDENTITY,
+        exact: Pose::IDENTITY,
+        snapped: Vec::new(),
+    };
+}
+
+fn origin(node: Node<'_, '_>, quaternions: bool) -> Result<Origin> {
     let mut snapped = Vec::new();
     let position = numbers::<3>(node, "xyz")?.unwrap_or_default();
     let mut exact_position = position;
@@ -100,7 +129,11 @@ fn origin(node: Node<'_, '_>) -> Result<Origin> {
             *x = 0.0;
         }
     }
-    let (rotation, exact) = match numbers::<4>(node, "quat_xyzw")? {
+    let stated = match quaternions {
+        true => numbers::<4>(node, "quat_xyzw")?,
+        false => None,
+    };
+    let (rotation, exact) = match stated {
         Some(_) if node.has_attribute("rpy") => {
             let problem = Problem::Value("`rpy` and `quat_xyzw` exclude each other".to_owned());
             return Err(xml::error(node, problem));
@@ -158,7 +191,10 @@ fn quaternion(
     let rotation = DMat3::from_quat(given / length);
     let text = node.attribute("quat_xyzw").unwrap_or_default();
     let resolutions = text.split_ascii_whitespace().map(snap::resolution);
-    let resolution = resolutions.fold(0.0, f64::max);
+    let resolution = match snap::states_a_small_entry(&xyzw.map(|x| x / length)) {
+        true => 0.0,
+        false => resolutions.fold(0.0, f64::max),
+    };
     let Some((exact, difference)) = snap::permutation(&rotation, 2.0 * resolution) else {
         return Ok((rotation, rotation));
     };
@@ -173,7 +209,56 @@ fn quaternion(
     Ok((rotation, exact))
 }
 
-fn joint(node: Node<'_, '_>, links: &[Link]) -> Result<Joint> {
+/// The orientation that version 1.0 does not have, as a sentence, where a link or a joint states it.
+fn ignored_quaternion(node: Node<'_, '_>) -> Option<String> {
+    node.attribute("quat_xyzw")?;
+    let part = node.ancestors().skip(1).find(|node| {
+        ["inertial", "link", "joint"]
+            .iter()
+            .any(|tag| node.has_tag_name(*tag))
+    })?;
+    let of = part.ancestors().find(|node| node.has_attribute("name"))?;
+    // Looks and shapes have placements, too.
+    if part.has_tag_name("link") {
+        return None;
+    }
+    Some(format!(
+        "The `quat_xyzw` of the <{}> of {} `{}` is left out, since URDF has it from version 1.1 on: state version=\"1.1\" in <robot>, \
+         or `rpy`.",
+        node.tag_name().name(),
+        of.tag_name().name(),
+        shortened(of.attribute("name").unwrap_or_default()),
+    ))
+}
+
+/// What a joint states and the import leaves out, a sentence each.
+fn not_read(node: Node<'_, '_>) -> Vec<String> {
+    let name = shortened(node.attribute("name").unwrap_or_default());
+    let mut notes = Vec::new();
+    let text = |node: Node<'_, '_>, attribute| node.attribute(attribute).map(shortened);
+    if let Some(soft) = child(node, "safety_controller") {
+        let ends = ["soft_lower_limit", "soft_upper_limit"].map(|end| text(soft, end));
+        if ends.iter().any(Option::is_some) {
+            let [lower, upper] = ends.map(|end| end.unwrap_or("0".to_owned()));
+            notes.push(format!(
+                "The soft limits {lower} to {upper} of joint `{name}` are left out; its limits are those of its <limit>."
+            ));
+        }
+    }
+    if let (Some("continuous"), Some(limit)) = (node.attribute("type"), child(node, "limit")) {
+        let ends = ["lower", "upper"].map(|end| text(limit, end));
+        if ends.iter().any(Option::is_some) {
+            let [lower, upper] = ends.map(|end| end.unwrap_or("0".to_owned()));
+            notes.push(format!(
+                "The limits of position {lower} to {upper} of joint `{name}` are left out: a continuous joint has none, a revolute one \
+                 has."
+            ));
+        }
+    }
+    notes
+}
+
+fn joint(node: Node<'_, '_>, links: &[Link], quaternions: bool) -> Result<Joint> {
     let name = required(node, "name")?.to_owned();
     let kind = match required(node, "type")? {
         "fixed" => Kind::Fixed,
@@ -198,12 +283,8 @@ fn joint(node: Node<'_, '_>, links: &[Link]) -> Result<Joint> {
         let found = index_of(required(end, "link")?, "link", names);
         found.map_err(|error| xml::error(node, error.problem))
     };
-    let at = child(node, "origin").map(origin).transpose()?;
-    let at = at.unwrap_or(Origin {
-        pose: Pose::IDENTITY,
-        exact: Pose::IDENTITY,
-        snapped: Vec::new(),
-    });
+    let at = child(node, "origin").map(|node| origin(node, quaternions));
+    let at = at.transpose()?.unwrap_or(Origin::NONE);
     let axis = match child(node, "axis") {
         Some(axis) => numbers::<3>(axis, "xyz")?,
         None => None,
@@ -213,6 +294,7 @@ fn joint(node: Node<'_, '_>, links: &[Link]) -> Result<Joint> {
         let stated = dynamics.map(|dynamics| number(dynamics, attribute));
         Ok(stated.transpose()?.flatten().unwrap_or_default())
     };
+    let limits = limits(node)?;
     Ok(Joint {
         line: xml::offset(node),
         parent: end("parent")?,
@@ -221,7 +303,8 @@ fn joint(node: Node<'_, '_>, links: &[Link]) -> Result<Joint> {
         exact: at.exact,
         snapped: at.snapped,
         axis: DVec3::from_array(axis.unwrap_or([1.0, 0.0, 0.0])),
-        limits: limits(node)?,
+        limits,
+        driven: limits.effort.is_some_and(|effort| effort > 0.0),
         damping: of_dynamics("damping")?,
         friction: of_dynamics("friction")?,
         armature: 0.0,

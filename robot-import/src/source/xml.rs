@@ -38,6 +38,11 @@ pub fn parse(text: &str) -> Result<Document<'_>> {
     };
     Document::parse_with_options(text, options).map_err(|error| {
         let line = error.pos().row;
+        if let roxmltree::Error::UnknownNamespace(prefix, _) = &error
+            && prefix == "xacro"
+        {
+            return super::xacro::undeclared(line);
+        }
         ImportError::at(line, "", Problem::Xml(error.to_string()))
     })
 }

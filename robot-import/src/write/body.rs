@@ -2,9 +2,9 @@
 
 use std::fmt::Write as _;
 
-use super::quoted;
 use crate::description::Kind;
 use crate::number::{Attitude, angle, literal};
+use crate::text::string_literal;
 use crate::tree::Body;
 
 /// The constants of π in a body's attitude.
@@ -59,7 +59,7 @@ pub fn entry(body: &Body) -> String {
         .map_or("BASE".to_owned(), |parent| parent.to_string());
     let mut out = format!(
         "Body::new({}, {parent}, Joint::{joint})",
-        quoted(&body.name)
+        string_literal(&body.name)
     );
     out += &placed(body.xyz, body.attitude);
     let own = &body.inertia;

@@ -12,8 +12,8 @@ fn per_coordinate(tree: &Tree, of: fn(&Body) -> f64) -> Vec<f64> {
     each.collect::<Vec<_>>().concat()
 }
 
-/// The effects that the file states, and the scene of those that are not zero.
-pub fn effects(tree: &Tree) -> String {
+/// The effects that the file states, and the scene of those that are not zero, which the compiler checks at its line.
+pub fn effects(tree: &Tree, type_name: &str) -> String {
     let text = |values: &[f64]| {
         let values: Vec<String> = values.iter().map(|&x| literal(x)).collect();
         format!("[{}]", values.join(", "))
@@ -45,7 +45,7 @@ pub fn effects(tree: &Tree) -> String {
          pub const COULOMB: Coulomb<f32, V> = Coulomb {{ torque: {}, width: Width::f32(0.02) }};\n\
          /// Inertia of the rotors at the joints, kg·m² or kg.\npub const ARMATURE: Armature<f32, V> = Armature({});\n\
          \n/// The rigid body, and the effects that the description states.\n\
-         pub const SCENE: ({}) = ({});\n",
+         pub const SCENE: ({}) = ::dynamics_core::Core::<{type_name}>::scene_f32(({}));\n",
         text(&viscous),
         text(&coulomb),
         text(&armature),

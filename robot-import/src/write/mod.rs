@@ -2,14 +2,19 @@
 
 mod body;
 mod constants;
+mod names;
 mod rustfmt;
 
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
 pub use body::placed;
+pub use names::{given_type_name, renamed, type_name};
 pub use rustfmt::formatted;
 
+use crate::advice::TOLERANCE;
+use crate::physical::impossible;
+use crate::text::{code_span, doc_name, doc_sentence, string_literal, visible};
 use crate::tree::{Body, Tree};
 
 /// What the file's head says of its source.
@@ -25,31 +30,6 @@ pub struct Origin {
     pub notes: Vec<String>,
 }
 
-/// The type's name: the robot's in CamelCase.
-pub fn type_name(name: &str) -> String {
-    let words = name.split(|c: char| !c.is_ascii_alphanumeric());
-    let mut out = String::new();
-    for word in words {
-        let mut letters = word.chars();
-        out.extend(letters.next().map(|first| first.to_ascii_uppercase()));
-        out.extend(letters);
-    }
-    match out.chars().next() {
-        Some(first) if first.is_ascii_alphabetic() => out,
-        _ => format!("Robot{out}"),
-    }
-}
-
-/// A text within a comment or a string: one line, no control characters.
-fn plain(text: &str) -> String {
-    text.chars().filter(|c| !c.is_control()).collect()
-}
-
-/// A string literal.
-fn quoted(text: &str) -> String {
-    format!("{:?}", plain(text))
-}
-
 /// The file of a tree, not yet formatted.
 pub fn source(tree: &Tree, name: &str, type_name: &str, origin: &Origin) -> String {
     let mut out = head(tree, name, origin);
@@ -63,10 +43,10 @@ pub fn source(tree: &Tree, name: &str, type_name: &str, origin: &Origin) -> Stri
     let angles: BTreeSet<&str> = tree.bodies.iter().flat_map(body::constants).collect();
     if !angles.is_empty() {
         let names: Vec<&str> = angles.into_iter().collect();
-        let _ = writeln!(out, "use core::f64::consts::{{{}}};\n", names.join(", "));
+        let _ = writeln!(out, "use ::core::f64::consts::{{{}}};\n", names.join(", "));
     }
     if coupled {
-        out += "use dynamics_core::drivetrain::Transmission;\n";
+        out += "use ::dynamics_core::drivetrain::Transmission;\n";
     }
     let limited = if tree.bodies.iter().any(|body| body::limits(body).is_some()) {
         ", JointLimits"
@@ -79,10 +59,10 @@ pub fn source(tree: &Tree, name: &str, type_name: &str, origin: &Origin) -> Stri
         ""
     };
     let arm = if single { "ArmModel, " } else { "" };
-    out += "use dynamics_core::effects::{Armature, Coriolis, Coulomb, Gravity, Inertia, Viscous, Width};\n";
+    out += "use ::dynamics_core::effects::{Armature, Coriolis, Coulomb, Gravity, Inertia, Viscous, Width};\n";
     let _ = writeln!(
         out,
-        "use dynamics_core::model::{{{arm}{base}Body, Joint{limited}, Model, Robot}};"
+        "use ::dynamics_core::model::{{{arm}{base}Body, Joint{limited}, Model, Robot}};"
     );
     let _ = writeln!(
         out,
@@ -100,7 +80,11 @@ pub fn source(tree: &Tree, name: &str, type_name: &str, origin: &Origin) -> Stri
         out += "/// The number of joints.\npub const N: usize = V;\n";
     }
     let list = |of: fn(&Body) -> &String| {
-        let names: Vec<String> = tree.bodies.iter().map(|body| quoted(of(body))).collect();
+        let names: Vec<String> = tree
+            .bodies
+            .iter()
+            .map(|body| string_literal(of(body)))
+            .collect();
         names.join(", ")
     };
     let _ = writeln!(
@@ -116,7 +100,7 @@ pub fn source(tree: &Tree, name: &str, type_name: &str, origin: &Origin) -> Stri
     let _ = writeln!(
         out,
         "\n/// {}: {} on {v} degrees of freedom.",
-        plain(name),
+        doc_name(name),
         counted(b, "body", "bodies")
     );
     let _ = writeln!(
@@ -131,20 +115,33 @@ pub fn source(tree: &Tree, name: &str, type_name: &str, origin: &Origin) -> Stri
     let _ = writeln!(
         out,
         "impl Robot<{b}, {q}, {v}> for {type_name} {{\nconst MODEL: {model} = Model::new({}, [",
-        quoted(name)
+        string_literal(name)
     );
     tree.bodies
         .iter()
         .for_each(|body| out += &body::entry(body));
     let _ = writeln!(
         out,
-        "]);\n}}\n\n// An impossible robot does not compile.\nconst _: {model} = {type_name}::MODEL;"
+        "]);\n}}\n\n// A robot with an impossible joint or a negative mass does not compile.{}\nconst _: {model} = {type_name}::MODEL;",
+        inertias(tree)
     );
-    out += &constants::effects(tree);
+    out += &constants::effects(tree, type_name);
     if coupled {
         out += &constants::coupling(tree);
     }
     out
+}
+
+/// Which bodies have an inertia that no body has, each on a line of a comment: such a robot is computed with all the same.
+fn inertias(tree: &Tree) -> String {
+    let each = tree.bodies.iter().filter_map(|body| {
+        let words = impossible(body.inertia.inertia, TOLERANCE)?;
+        Some(format!(
+            "\n// Body `{}` has an impossible inertia, which compiles. {words}",
+            visible(&body.name)
+        ))
+    });
+    each.collect()
 }
 
 /// A number with its noun.
@@ -153,29 +150,28 @@ fn counted(n: usize, one: &str, many: &str) -> String {
 }
 
 fn head(tree: &Tree, name: &str, origin: &Origin) -> String {
-    let mut out = format!("//! {}.\n//!\n//! # Source\n//!\n", plain(name));
+    let mut out = format!("//! {}.\n//!\n//! # Source\n//!\n", doc_name(name));
     let licence = match &origin.licence {
-        Some(licence) => format!("licence as its comments state it: {}", plain(licence)),
+        Some(licence) => format!(
+            "licence as its comments state it: {}",
+            doc_sentence(licence)
+        ),
         None => "it states no licence".to_owned(),
     };
     let _ = writeln!(
         out,
-        "//! `{}`; {licence}. Imported on {} by robot-import {}.",
-        plain(&origin.file),
-        origin.date,
+        "//! {}; {licence}. Imported on {} by robot-import {}.",
+        code_span(&origin.file),
+        visible(&origin.date),
         env!("CARGO_PKG_VERSION"),
     );
     let mut changes = Vec::new();
     for body in &tree.bodies {
         if !body.merged.is_empty() {
-            let links: Vec<String> = body
-                .merged
-                .iter()
-                .map(|link| format!("`{}`", plain(link)))
-                .collect();
+            let links: Vec<String> = body.merged.iter().map(|link| code_span(link)).collect();
             changes.push(format!(
-                "Part of body `{}`: {}.",
-                plain(&body.name),
+                "Part of body {}: {}.",
+                code_span(&body.name),
                 links.join(", ")
             ));
         }
@@ -183,15 +179,15 @@ fn head(tree: &Tree, name: &str, origin: &Origin) -> String {
     for body in &tree.bodies {
         for snap in &body.snapped {
             changes.push(format!(
-                "Joint `{}`: {} `{}` is {}.",
-                plain(&body.joint),
-                plain(&snap.attribute),
-                plain(&snap.text),
+                "Joint {}: {} {} is {}.",
+                code_span(&body.joint),
+                visible(&snap.attribute),
+                code_span(&snap.text),
                 snap.exact
             ));
         }
     }
-    changes.extend(origin.notes.iter().map(|note| plain(note)));
+    changes.extend(origin.notes.iter().map(|note| doc_sentence(note)));
     if !changes.is_empty() {
         out += "//!\n//! # Changed\n//!\n";
         for change in changes {

@@ -26,7 +26,11 @@ fn roundings_of_quarter_turns_are_exact() {
         ("axisangle='0 0 1 -90'", true, 0),
         ("xyaxes='0 1 0 -1 0 0.00001'", true, 1),
         ("xyaxes='0 1 0 -1 0 0.01'", false, 0),
+        ("xyaxes='0 1 0 -1 0 0.001'", false, 0),
+        ("quat='1 0.001 0 0'", false, 0),
+        ("quat='0.7071 0.001 0 0.7071'", false, 0),
         ("zaxis='0 -2 0'", true, 0),
+        ("zaxis='0 -2 0.002'", false, 0),
         ("pos='1e-9 0.1 -2e-10'", true, 2),
         ("pos='1e-5 0.1 0'", true, 0),
     ];
@@ -66,6 +70,7 @@ fn right_angles_in_radians_are_roundings() {
         ("1.57 0 -3.1416", true),
         ("1.5708 0 0", true),
         ("1.5694 0 0", false),
+        ("0.001 0 1.571", false),
     ] {
         let bodies = format!("<body name='a' euler='{euler}'>{GEOM}</body>");
         let robot = model("<compiler angle='radian'/>", &bodies).expect(euler);

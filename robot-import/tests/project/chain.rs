@@ -15,6 +15,12 @@ pub const JOINTS: [&str; N] = [
     "j15", "j16", "j17", "j18", "j19", "j20", "j21", "j22", "j23", "j24", "j25", "j26", "j27",
     "j28", "j29",
 ];
+/// The bodies.
+pub const BODIES: [&str; N] = [
+    "b0", "b1", "b2", "b3", "b4", "b5", "b6", "b7", "b8", "b9", "b10", "b11", "b12", "b13", "b14",
+    "b15", "b16", "b17", "b18", "b19", "b20", "b21", "b22", "b23", "b24", "b25", "b26", "b27",
+    "b28", "b29",
+];
 
 const fn limits(lower: f64, upper: f64, torque: f64) -> JointLimits<f64> {
     JointLimits {

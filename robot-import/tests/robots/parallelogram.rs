@@ -10,8 +10,8 @@
 )]
 #![allow(clippy::approx_constant, reason = "numbers are those of the file")]
 
-use dynamics_core::effects::{Armature, Coriolis, Coulomb, Gravity, Inertia, Viscous, Width};
-use dynamics_core::model::{ArmModel, BASE, Body, Joint, JointLimits, Model, Robot};
+use ::dynamics_core::effects::{Armature, Coriolis, Coulomb, Gravity, Inertia, Viscous, Width};
+use ::dynamics_core::model::{ArmModel, BASE, Body, Joint, JointLimits, Model, Robot};
 
 /// The number of bodies.
 pub const B: usize = 3;
@@ -78,7 +78,7 @@ impl Robot<3, 3, 3> for Parallelogram {
     );
 }
 
-// An impossible robot does not compile.
+// A robot with an impossible joint or a negative mass does not compile.
 const _: ArmModel<f64, 3> = Parallelogram::MODEL;
 
 /// Viscous friction, N·m·s/rad or N·s/m.
@@ -92,12 +92,13 @@ pub const COULOMB: Coulomb<f32, V> = Coulomb {
 pub const ARMATURE: Armature<f32, V> = Armature([0.0, 0.0, 0.0]);
 
 /// The rigid body, and the effects that the description states.
-pub const SCENE: (Gravity, Inertia, Coriolis) = (Gravity::EARTH, Inertia, Coriolis);
+pub const SCENE: (Gravity, Inertia, Coriolis) =
+    ::dynamics_core::Core::<Parallelogram>::scene_f32((Gravity::EARTH, Inertia, Coriolis));
 
-use dynamics_core::loops::{BodyFrame, LoopJoint, LoopRobot, Loops};
+use ::dynamics_core::loops::{BodyFrame, LoopJoint, LoopRobot, Loops};
 
 impl LoopRobot<3, 3, 3, 1, 3, 1> for Parallelogram {
-    /// The actuated coordinates are those of the joints with a limit of torque.
+    /// The actuated coordinates are those of the joints with a motor.
     const LOOPS: Loops<1, 3, 1> = Loops::new(
         &Parallelogram::MODEL,
         [LoopJoint::new(

@@ -1,6 +1,6 @@
 //! The view as a screen of a terminal.
 
-use dynamics_core::control::Mode;
+use motion_control::Mode;
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::style::{Color, Style, Stylize};

@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use dynamics_core::control::{Fault, Mode};
+use motion_control::{Fault, Mode};
 use telemetry::{Counts, PHASES};
 
 use crate::{Machine, Message, Tick};

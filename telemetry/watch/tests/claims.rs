@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use dynamics_core::control::{Fault, Mode};
 use dynamics_core::model::JointLimits;
+use motion_control::{Fault, Mode};
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
 use telemetry::{Axis, Joint, encode};

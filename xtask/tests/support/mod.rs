@@ -29,7 +29,6 @@ impl Dir {
         path
     }
 
-    /// A file in it.
     pub fn file(&self, name: &str, contents: &[u8]) -> PathBuf {
         let path = self.0.join(name);
         std::fs::write(&path, contents).expect("a file");
@@ -69,7 +68,7 @@ pub fn outcome(command: &mut Command) -> (Option<i32>, String, String) {
     (out.status.code(), text(&out.stdout), text(&out.stderr))
 }
 
-/// Where the code of [`firmware`] begins.
+/// The offset of the code in [`firmware`].
 const CODE: u32 = 0x40;
 const FLASH: u32 = 0x0800_0000;
 
@@ -89,7 +88,6 @@ pub fn three_passages(end: &[u16]) -> Vec<u8> {
 
 /// Leaves the emulator: `SYS_EXIT` with `ADP_Stopped_ApplicationExit`.
 pub const EXIT: &[u16] = &[0x2018, 0xf240, 0x0126, 0xf2c0, 0x0102, 0xbeab];
-/// Goes on for ever.
 pub const FOR_EVER: &[u16] = &[0xe7fe];
 
 /// An ELF for a processor of this number (40 is ARM), whose one function has this code.

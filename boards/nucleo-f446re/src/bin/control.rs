@@ -11,10 +11,6 @@
 //! The arm starts on its brake. The button starts it if every joint is near the start of the trajectory. A tick that
 //! does not end within its period feeds no watchdog; 20 of them restart the processor, which sets the brake.
 #![cfg_attr(target_arch = "arm", no_std, no_main)]
-#![cfg_attr(
-    target_arch = "arm",
-    expect(missing_docs, reason = "RTIC's macro makes items without")
-)]
 
 #[cfg(target_arch = "arm")]
 use panic_halt as _;
@@ -24,12 +20,12 @@ use panic_halt as _;
 mod app {
     use core::convert::Infallible;
 
-    use dynamics_core::control::{CompletedTick, Detectors, Gains, Mode, Watchdog};
     use embedded_hal_bus::spi::AtomicDevice;
     use embedded_hal_bus::util::AtomicCell;
     use firmware_demo::control_loop::ControlLoop;
     use firmware_demo::scene::{Devices, Full, Scene, Start};
     use firmware_demo::scenes::ur5e::{PickAndPlace, plan};
+    use motion_control::{CompletedTick, Detectors, Gains, Mode, Watchdog};
     use nucleo_f446re::clocks;
     use stm32f4xx_hal::gpio::{
         AnyPin, Input, Output, PA5, PA8, PA9, PA10, PA11, PB0, PB1, PB12, PC0, PC1, PC2, PC3, PC6,

@@ -20,7 +20,6 @@
 #[cfg(target_arch = "arm")]
 mod firmware {
     use cortex_m_rt::entry;
-    use dynamics_core::control::{self, CompletedTick, Detectors, Mode};
     use embassy_executor::InterruptExecutor;
     use embassy_rp::Peripherals;
     use embassy_rp::gpio::Level;
@@ -41,6 +40,7 @@ mod firmware {
     use firmware_demo::control_loop::ControlLoop;
     use firmware_demo::scene::{Devices, Full, Scene, Start};
     use firmware_demo::scenes::ur5e::{PickAndPlace, plan};
+    use motion_control::{self as control, CompletedTick, Detectors, Mode};
     use panic_halt as _;
     use pico2_embassy::devices::{Button, Channel, Line, Select};
     use pico2_embassy::{Moment, PERIOD, Periods};

@@ -1,17 +1,17 @@
 //! The common part of the programs of the guide's page on firmware: the arm of the page, and a placeholder for the board.
 #![no_std]
 
-use dynamics_core::control::*;
 use dynamics_core::effects::{Armature, Coriolis, Gravity, Inertia};
 use dynamics_core::{Engine, robots::Ur5e};
+use motion_control::*;
 
 const TICK: f32 = 1e-3; // s
-const SCENE: (Gravity, Inertia, Coriolis, Armature<f32, 6>) = (
+const SCENE: (Gravity, Inertia, Coriolis, Armature<f32, 6>) = Engine::<Ur5e>::scene_f32((
     Gravity::EARTH,
     Inertia,
     Coriolis,
     Armature([0.9, 0.9, 0.9, 0.25, 0.25, 0.25]),
-);
+));
 const HOME: [f32; 6] = [0.0, -1.57, 1.57, -1.57, -1.57, 0.0];
 
 /// The arm: a controller, its trajectory and its gains.
@@ -80,7 +80,7 @@ impl Arm {
 
 /// Stands for encoders and drives.
 pub mod board {
-    use dynamics_core::control::{Command, Fault};
+    use motion_control::{Command, Fault};
 
     /// The joints' positions, rad.
     pub fn positions() -> Result<[f32; 6], Fault> {

@@ -33,7 +33,8 @@ pub struct MassMatrix<R, const V: usize> {
 }
 
 impl<R: Real, const V: usize> MassMatrix<R, V> {
-    pub(crate) const ZERO: Self = Self {
+    /// The matrix of zeros, kg·m² or kg.
+    pub const ZERO: Self = Self {
         rows: [[R::ZERO; V]; V],
     };
 

@@ -20,7 +20,7 @@ pub struct MomentumAndDrift<R: Real, const V: usize> {
 
 /// The generalised momentum p = M q̇ and its drift β = Cᵀ q̇ − g − F, in joint coordinates, N·m·s and N·m.
 ///
-/// Both arguments of [`MomentumObserver::update`](crate::control::MomentumObserver::update), of the whole scene:
+/// Both arguments of `motion_control::MomentumObserver::update`, of the whole scene:
 ///
 /// $$
 /// \dot p = \tau + \beta + \tau_{ext}, \qquad \beta = C^T \dot q - g(q) - F(q, \dot q)

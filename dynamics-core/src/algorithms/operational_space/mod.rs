@@ -11,9 +11,10 @@ mod damped_inverse;
 mod eigen;
 mod osim_inverse;
 
+pub(crate) use damped_inverse::shifted_inverse;
+pub use damped_inverse::shifted_solution;
 pub use damped_inverse::{Conditioning, Damping, damped_inverse};
-pub(crate) use damped_inverse::{shifted_inverse, shifted_solution};
-pub(crate) use eigen::eigen;
+pub use eigen::eigen;
 pub use osim_inverse::{OsimInverse, osim_inverse};
 
 use core::borrow::Borrow;
@@ -76,8 +77,9 @@ pub fn task_jacobian<R: Real, const M: usize, const V: usize>(
 /// # Example
 /// ```
 /// use dynamics_core::algorithms::{Damping, frame, operational_space};
-/// use dynamics_core::{control::TaskFrame, effects::RIGID_BODY, model::Robot, robots::Ur5e};
-/// let (q, place) = ([0.0_f64, -1.2, 1.5, 0.3, 0.7, 0.0], TaskFrame::BASE.place());
+/// use dynamics_core::{effects::RIGID_BODY, glam::DVec3, model::Robot, robots::Ur5e, spatial::Force};
+/// let q = [0.0_f64, -1.2, 1.5, 0.3, 0.7, 0.0];
+/// let place = DVec3::AXES.map(|axis| Force::new(DVec3::ZERO, axis)); // the hand's position
 /// let damping = Damping::relative(1e-3);
 /// let task = operational_space(&Ur5e::MODEL, &q, (5, frame::LocalWorldAligned), &place, &RIGID_BODY, damping)?;
 /// assert!(task.inertia[2][2] > 1.0); // kg, vertically

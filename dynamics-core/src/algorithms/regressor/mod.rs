@@ -189,7 +189,7 @@ where
 /// The entries of a [`regressor_row`] at these bodies, and zeros.
 ///
 /// For an estimator of few parameters: those of its
-/// [`SelectedParameters::bodies`](crate::control::SelectedParameters::bodies).
+/// `motion_control::SelectedParameters::bodies`.
 ///
 /// # Shape
 /// B × 10.

@@ -5,6 +5,7 @@ use crate::model::{BodyInertia, Problem};
 use crate::scalar::Real;
 use crate::spatial::SpatialInertia;
 use core::fmt;
+use glam::{DMat3, DVec3, Mat3, Vec3};
 
 /// A rigid payload fixed to the body of the number BODY in the description: its inertia about the origin of that body's
 /// frame.
@@ -34,7 +35,8 @@ use core::fmt;
 /// use dynamics_core::{Core, robots::Ur5e, state::State};
 /// let scene = (RIGID_BODY, Payload::<f32, 6>::default());
 /// let _ = Core::<Ur5e>::rnea(&State::at([0.3; 6]), &scene);
-/// // error: a payload is on a body that the robot does not have: bodies are numbered from 0
+/// // error: a payload is on body 6 of a robot of 6 bodies, which are numbered from 0: `Robot::MODEL.body("..")` finds a
+/// // body by its name
 /// ```
 #[doc(alias = "load")]
 #[doc(alias = "tool")]
@@ -43,6 +45,8 @@ pub struct Payload<R: Real, const BODY: usize>(pub SpatialInertia<R>);
 
 impl<R: Real, const BODY: usize> Payload<R, BODY> {
     /// The payload of this mass, centre of mass and inertia in the body's frame, unchecked. RBDA (2.63).
+    ///
+    /// For a scene in a `const` or `static` [`Payload::f32`] and [`Payload::f64`] are evaluated by the compiler.
     pub fn from_inertia(inertia: BodyInertia<R>) -> Self {
         Self(inertia.about_origin())
     }
@@ -83,6 +87,65 @@ impl<R: Real, const BODY: usize> Payload<R, BODY> {
     }
 }
 
+/// [`Payload::f32`] and [`Payload::f64`]: the operations of [`BodyInertia::about_origin`] in their order.
+macro_rules! known_payload {
+    ($(#[$doc:meta])* $r:ident $vec:ident $mat:ident) => {
+        impl<const BODY: usize> Payload<$r, BODY> {
+            $(#[$doc])*
+            pub const fn $r(inertia: BodyInertia<$r>) -> Self {
+                let BodyInertia { mass, com, inertia } = inertia;
+                let ([x, y, z], [xx, xy, xz, yy, yz, zz]) = (com, inertia);
+                let (xx, yy, zz) = (
+                    xx + mass * (y * y + z * z),
+                    yy + mass * (x * x + z * z),
+                    zz + mass * (x * x + y * y),
+                );
+                let (xy, xz, yz) = (xy - mass * x * y, xz - mass * x * z, yz - mass * y * z);
+                Self(SpatialInertia {
+                    mass,
+                    first_moment: $vec::new(x * mass, y * mass, z * mass),
+                    rotational: $mat::from_cols(
+                        $vec::new(xx, xy, xz),
+                        $vec::new(xy, yy, yz),
+                        $vec::new(xz, yz, zz),
+                    ),
+                })
+            }
+        }
+    };
+}
+
+known_payload! {
+    /// [`Payload::from_inertia`] of numbers that the compiler knows, for a scene in a `const` or `static`; unchecked.
+    ///
+    /// ```
+    /// use dynamics_core::effects::{Coriolis, Gravity, Inertia, Payload};
+    /// use dynamics_core::model::{BodyInertia, Robot};
+    /// use dynamics_core::{Engine, robots::Ur5e, state::State};
+    /// const WRIST: usize = Ur5e::MODEL.body("wrist_3");
+    /// const TOOL: Payload<f32, WRIST> =
+    ///     Payload::f32(BodyInertia { mass: 2.0, com: [0.0, 0.0, 0.1], inertia: [0.01, 0.0, 0.0, 0.01, 0.0, 0.005] });
+    /// const SCENE: (Gravity, Inertia, Coriolis, Payload<f32, WRIST>) =
+    ///     Engine::<Ur5e>::scene_f32((Gravity::EARTH, Inertia, Coriolis, TOOL));
+    /// let at = State::at([0.0, -1.2, 1.5, 0.3, 0.0, 0.0]);
+    /// let without = (Gravity::EARTH, Inertia, Coriolis);
+    /// let [held, empty] = [Engine::<Ur5e>::rnea(&at, &SCENE)[1], Engine::<Ur5e>::rnea(&at, &without)[1]];
+    /// assert!(held.abs() > empty.abs() + 2.0); // N·m at the shoulder
+    /// ```
+    f32 Vec3 Mat3
+}
+known_payload! {
+    /// [`Payload::from_inertia`] of numbers that the compiler knows, unchecked: see [`Payload::f32`].
+    ///
+    /// ```
+    /// use dynamics_core::{effects::Payload, model::BodyInertia};
+    /// const LOAD: BodyInertia<f64> = BodyInertia { mass: 2.0, com: [0.0, 0.0, 0.1], inertia: [0.0; 6] };
+    /// const TOOL: Payload<f64, 5> = Payload::f64(LOAD);
+    /// assert_eq!(TOOL, Payload::from_inertia(LOAD));
+    /// ```
+    f64 DVec3 DMat3
+}
+
 /// A payload with a mass or an inertia that is not physical.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -109,15 +172,7 @@ impl core::error::Error for InvalidPayload {}
 impl<R: Real, const BODY: usize, const B: usize, const V: usize> Effect<R, B, V>
     for Payload<R, BODY>
 {
-    const ADDED_INERTIA: hook::Inertia<Self, R, B> = {
-        assert!(
-            BODY < B,
-            "a payload is on a body that the robot does not have: bodies are numbered from 0"
-        );
-        let mut bodies = [false; B];
-        bodies[BODY] = true;
-        hook::Inertia::on(bodies, Self::add_to)
-    };
+    const ADDED_INERTIA: hook::Inertia<Self, R, B> = hook::Inertia::on_body(BODY, Self::add_to);
 }
 
 impl<R: Real, const BODY: usize> Payload<R, BODY> {

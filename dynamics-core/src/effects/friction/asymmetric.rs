@@ -4,6 +4,7 @@
 //! and since |F₊ − F₋| ≤ F₊ + F₋ never of the sign of a drive. Gears load their flanks differently:
 //! Armstrong-Hélouvry, *Control of Machines with Friction* (1991), chapter 4.
 
+use crate::effects::once::{Kind, Once};
 use crate::effects::{
     Effect, JointState, TorqueDerivatives, Width, smooth_sign, smooth_sign_slope,
 };
@@ -44,6 +45,8 @@ impl<R: Real, const V: usize> AsymmetricCoulomb<R, V> {
 }
 
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for AsymmetricCoulomb<R, V> {
+    const ONCE: Once = Once::of(Kind::AsymmetricCoulomb);
+
     #[inline(always)]
     fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R) {
         let ((even, odd), s) = (

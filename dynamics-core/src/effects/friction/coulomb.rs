@@ -3,6 +3,7 @@
 //! s is the cubic u (3 − u²) / 2 on |u| ≤ 1 and the sign beyond: continuous with its slope, ±F to
 //! a rounding outside the width, and neither a comparison nor a division.
 
+use crate::effects::once::{Kind, Once};
 use crate::effects::{Effect, JointState, TorqueDerivatives, Width};
 use crate::scalar::Real;
 
@@ -67,6 +68,8 @@ fn sliding<R: Real>(force: R, scaled: R) -> R {
 }
 
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Coulomb<R, V> {
+    const ONCE: Once = Once::of(Kind::Coulomb);
+
     #[inline(always)]
     fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R) {
         if let Some(&torque) = self.torque.get(joint) {

@@ -7,6 +7,7 @@
 //! (2025), models M3 to M5, solved for the motor's torque.
 
 use super::coulomb::sign_beyond;
+use crate::effects::once::{Kind, Once};
 use crate::effects::{
     Effect, JointState, LoadFactors, Width, hook, smooth_sign, smooth_sign_slope,
 };
@@ -119,7 +120,74 @@ impl<R: Real, const V: usize> LoadFriction<R, V> {
     }
 }
 
+/// [`LoadFriction::of_efficiency`] and [`LoadFriction::of_motor_and_load`] of numbers that the compiler knows.
+macro_rules! known_gears {
+    ($r:ident, $of_efficiency:ident, $of_motor_and_load:ident) => {
+        impl<const V: usize> LoadFriction<$r, V> {
+            /// [`LoadFriction::of_efficiency`] of numbers that the compiler knows, for a scene in a `const` or `static`.
+            ///
+            /// ```
+            /// use dynamics_core::effects::{LoadFriction, Width};
+            #[doc = concat!("const WIDTH: Width<", stringify!($r), "> = Width::", stringify!($r), "(0.01);")]
+            #[doc = concat!("const GEARS: LoadFriction<", stringify!($r), ", 1> = LoadFriction::",
+                stringify!($of_efficiency), "([0.8], [0.75], WIDTH);")]
+            /// assert_eq!(GEARS, LoadFriction::of_efficiency([0.8], [0.75], WIDTH));
+            /// ```
+            pub const fn $of_efficiency(
+                mut driving: [$r; V],
+                mut backdriving: [$r; V],
+                width: Width<$r>,
+            ) -> Self {
+                let mut j = 0;
+                while j < V {
+                    driving[j] = 1.0 / driving[j] - 1.0;
+                    backdriving[j] = 1.0 - backdriving[j];
+                    j += 1;
+                }
+                Self {
+                    driving,
+                    backdriving,
+                    width,
+                }
+            }
+
+            /// [`LoadFriction::of_motor_and_load`] of numbers that the compiler knows, for a scene in a `const` or
+            /// `static`.
+            ///
+            /// ```
+            /// use dynamics_core::effects::{LoadFriction, Width};
+            #[doc = concat!("const WIDTH: Width<", stringify!($r), "> = Width::", stringify!($r), "(0.01);")]
+            #[doc = concat!("const GEARS: LoadFriction<", stringify!($r), ", 1> = LoadFriction::",
+                stringify!($of_motor_and_load), "([0.2], [0.1], WIDTH);")]
+            /// assert_eq!(GEARS, LoadFriction::of_motor_and_load([0.2], [0.1], WIDTH));
+            /// ```
+            pub const fn $of_motor_and_load(
+                motor: [$r; V],
+                load: [$r; V],
+                width: Width<$r>,
+            ) -> Self {
+                let (mut driving, mut backdriving, mut j) = ([0.0; V], [0.0; V], 0);
+                while j < V {
+                    let sum = motor[j] + load[j];
+                    driving[j] = sum / (1.0 - motor[j]);
+                    backdriving[j] = sum / (1.0 + motor[j]);
+                    j += 1;
+                }
+                Self {
+                    driving,
+                    backdriving,
+                    width,
+                }
+            }
+        }
+    };
+}
+
+known_gears!(f32, of_efficiency_f32, of_motor_and_load_f32);
+known_gears!(f64, of_efficiency_f64, of_motor_and_load_f64);
+
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for LoadFriction<R, V> {
+    const ONCE: Once = Once::of(Kind::LoadFriction);
     const LOAD_FRICTION: hook::LoadFriction<Self, R> =
         hook::LoadFriction::new(Self::factors, Self::slopes);
 }

@@ -4,6 +4,7 @@
 //! Wit, Olsson, Åström & Lischinsky, "A new model for control of systems with friction" (1995),
 //! equations (1) to (4). One bristle a joint: z is in rad or m.
 
+use crate::effects::once::{Kind, Once};
 use crate::effects::{Effect, JointState, TorqueDerivatives, Width};
 use crate::scalar::Real;
 use crate::state::entry;
@@ -64,6 +65,8 @@ impl<R: Real, const V: usize> Lugre<R, V> {
 }
 
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Lugre<R, V> {
+    const ONCE: Once = Once::of(Kind::Lugre);
+
     #[inline(always)]
     fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R) {
         let of = |values| entry::<R>(values, joint);

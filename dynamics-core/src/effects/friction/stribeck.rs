@@ -3,6 +3,7 @@
 //! Bo & Pavelescu (1982); Armstrong-Hélouvry (1991), chapter 2. It is used together with
 //! [`Coulomb`](crate::effects::Coulomb), which has F_c, and has the same smooth sign s.
 
+use crate::effects::once::{Kind, Once};
 use crate::effects::{
     Effect, JointState, TorqueDerivatives, Width, smooth_sign, smooth_sign_slope,
 };
@@ -44,6 +45,8 @@ impl<R: Real, const V: usize> Stribeck<R, V> {
 }
 
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Stribeck<R, V> {
+    const ONCE: Once = Once::of(Kind::Stribeck);
+
     #[inline(always)]
     fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R) {
         *tau += self.left(joint, at.qd) * smooth_sign(at.qd * self.width.inverse());

@@ -1,5 +1,6 @@
 //! Viscous friction: τ = b q̇.
 
+use crate::effects::once::{Kind, Once};
 use crate::effects::{Effect, JointState, TorqueDerivatives};
 use crate::scalar::Real;
 
@@ -25,6 +26,8 @@ use crate::scalar::Real;
 pub struct Viscous<R, const V: usize>(pub [R; V]);
 
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Viscous<R, V> {
+    const ONCE: Once = Once::of(Kind::Viscous);
+
     #[inline(always)]
     fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R) {
         if let Some(&b) = self.0.get(joint) {

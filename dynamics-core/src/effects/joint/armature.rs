@@ -1,6 +1,7 @@
 //! Rotors behind gears, as inertia at the joints: τ = ρ² I_r q̈, without their gyroscopic torque.
 
-use crate::effects::Effect;
+use crate::effects::once::{Kind, Once};
+use crate::effects::{Effect, JointState};
 use crate::scalar::Real;
 
 /// Rotor inertia reflected to each joint, ρ² I_r in kg·m² (ρ the gear ratio).
@@ -20,6 +21,12 @@ use crate::scalar::Real;
 pub struct Armature<R, const V: usize>(pub [R; V]);
 
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Armature<R, V> {
+    const ONCE: Once = Once::of(Kind::Armature);
+
+    // Its only hook is the next one.
+    #[inline(always)]
+    fn torque(&self, _: usize, _: JointState<R>, _: &mut R) {}
+
     #[inline(always)]
     fn inertia(&self, joint: usize) -> Option<R> {
         self.0.get(joint).copied()

@@ -6,6 +6,7 @@
 //! with the parent: ρ I (ρ q̈ + z·α_λ) at the joint. Featherstone, RBDA (2008), section 9.6; Chen, "The
 //! effects of gear reduction on robot dynamics" (1989).
 
+use crate::effects::once::{Kind, Once};
 use crate::effects::{Effect, hook};
 use crate::scalar::Real;
 use crate::state::entry;
@@ -54,6 +55,7 @@ impl<R: Real, const V: usize> GyroscopicRotors<R, V> {
 }
 
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for GyroscopicRotors<R, V> {
+    const ONCE: Once = Once::of(Kind::GyroscopicRotors);
     const ROTOR: hook::Rotor<Self, R> = hook::Rotor::coupling(|rotors, joint, coupling| {
         *coupling += rotors.once(joint);
     });

@@ -1,5 +1,6 @@
 //! The terms of the rigid-body equation M q̈ + C(q, q̇) q̇ + g = τ, as effects like any other.
 
+use crate::effects::once::{Kind, Once};
 use crate::effects::{Effect, Gravity};
 use crate::scalar::Real;
 
@@ -22,13 +23,16 @@ pub const RIGID_BODY: (Gravity, Inertia, Coriolis) = (Gravity::EARTH, Inertia, C
 pub struct Elasticity;
 
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Elasticity {
+    const ONCE: Once = Once::of(Kind::Elasticity);
     const ELASTICITY: bool = true;
 }
 
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Inertia {
+    const ONCE: Once = Once::of(Kind::Inertia);
     const ACCELERATIONS: bool = true;
 }
 
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Coriolis {
+    const ONCE: Once = Once::of(Kind::Coriolis);
     const VELOCITY_PRODUCTS: bool = true;
 }

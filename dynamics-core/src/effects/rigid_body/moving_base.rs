@@ -2,6 +2,7 @@
 //!
 //! v₀ and a₀ of RBDA (2008), section 5.3, are then not zero.
 
+use crate::effects::once::{Kind, Once};
 use crate::effects::{Effect, hook};
 use crate::scalar::{Matrix, Real, Vector};
 use crate::spatial::Motion;
@@ -44,6 +45,7 @@ impl<R: Real> MovingBase<R> {
 }
 
 impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for MovingBase<R> {
+    const ONCE: Once = Once::of(Kind::MovingBase);
     const BASE: hook::Base<Self, R> = hook::Base::moving(Self::add_to);
 }
 

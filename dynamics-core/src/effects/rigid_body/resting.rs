@@ -1,6 +1,6 @@
 //! A scene whose bodies are not accelerated, by which the rate of the momentum is computed.
 
-use crate::effects::{Effect, JointState, hook};
+use crate::effects::{Effect, JointState, Once, hook};
 use crate::scalar::Real;
 use crate::spatial::Motion;
 
@@ -27,10 +27,15 @@ where
         E::BODY_VELOCITY,
         |scene, body, at, fx| scene.0.wrench(body, at, fx),
     );
-    const ADDED_INERTIA: hook::Inertia<Self, R, B> =
-        hook::Inertia::forwarded(true, E::PAYLOAD, |scene, body, inertia| {
+    const ADDED_INERTIA: hook::Inertia<Self, R, B> = hook::Inertia::forwarded(
+        true,
+        E::PAYLOAD,
+        E::PAYLOAD_ON_NO_BODY,
+        |scene, body, inertia| {
             scene.0.payload(body, inertia);
-        });
+        },
+    );
+    const ONCE: Once = E::ONCE;
 
     #[inline(always)]
     fn torque(&self, joint: usize, at: JointState<R>, tau: &mut R) {

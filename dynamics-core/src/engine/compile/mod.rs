@@ -60,7 +60,7 @@ const fn compile<const B: usize, const Q: usize, const V: usize>(
             let joint = &mut joints[link.idx_v];
             joint.parent = parent.joint;
             joint.prismatic = prismatic;
-            joint.near = link.limits.lower >= -FOUR_PI && link.limits.upper <= FOUR_PI;
+            joint.near = link.limits.within_two_turns();
             joint.rot = rot;
             joint.pos = snap_small(add(pos, scale(rot.z_axis, slide)));
             places[i] = BodyPlacement {
@@ -144,6 +144,3 @@ const fn offset(joint: &Joint, k: usize) -> f64 {
         _ => joint.pos.z.abs(),
     }
 }
-
-/// The bound of limits within which the reduction with two parts of π/2 is accurate, with a margin for overshoot.
-const FOUR_PI: f64 = 4.0 * core::f64::consts::PI;

@@ -13,7 +13,7 @@ const ROT: usize = 0;
 const CROSS: usize = 1;
 
 /// R v of joint I.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn rotate_to_parent<
     R: Real,
     T,
@@ -31,7 +31,7 @@ where
 }
 
 /// p × v, p the offset from the origin of joint I's parent to its own.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn offset_cross<
     R: Real,
     T,
@@ -55,7 +55,7 @@ where
 }
 
 /// p × each column.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn cross_offset<
     R: Real,
     T,
@@ -78,7 +78,7 @@ where
 }
 
 /// R M Rᵀ of joint I.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn rotate_matrix_to_parent<
     R: Real,
     T,
@@ -97,7 +97,7 @@ where
     Mat3(rows.rows())
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn columns_rotated<R: Real, T, const B: usize, const Q: usize, const V: usize, const I: usize>(
     Mat3([x, y, z]): Mat3<R>,
 ) -> Mat3<R>
@@ -112,7 +112,7 @@ where
 }
 
 /// R S Rᵀ of joint I.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn rotate_symmetric_to_parent<
     R: Real,
     T,
@@ -131,7 +131,7 @@ where
     )))
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn product<
     R: Real,
     T,
@@ -153,7 +153,7 @@ where
     ])
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn row<
     R: Real,
     T,

@@ -17,7 +17,7 @@ pub(crate) struct Mat3<R>(pub(crate) [Vec3<R>; 3]);
 impl<R: Real> Vec3<R> {
     pub(crate) const ZERO: Self = Self([Folded::ZERO; 3]);
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn constant(v: DVec3) -> Self {
         Self([
             Folded::constant(v.x),
@@ -27,46 +27,46 @@ impl<R: Real> Vec3<R> {
     }
 
     /// A vector of run-time numbers.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn runtime(v: R::Vec3) -> Self {
         let [x, y, z] = v.array();
         Self([Folded::runtime(x), Folded::runtime(y), Folded::runtime(z)])
     }
 
     /// The plain vector.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn get(self) -> R::Vec3 {
         let [x, y, z] = self.0;
         R::Vec3::new(x.get(), y.get(), z.get())
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn scale(self, s: Folded<R>) -> Self {
         let [x, y, z] = self.0;
         Self([x * s, y * s, z * s])
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn dot(self, o: Self) -> Folded<R> {
         let ([ax, ay, az], [bx, by, bz]) = (self.0, o.0);
         ax * bx + ay * by + az * bz
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn cross(self, o: Self) -> Self {
         let ([ax, ay, az], [bx, by, bz]) = (self.0, o.0);
         Self([ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx])
     }
 
     /// Rz(q) v: out of the body's frame.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn turn(self, sin: Folded<R>, cos: Folded<R>) -> Self {
         let [x, y, z] = self.0;
         Self([cos * x - sin * y, sin * x + cos * y, z])
     }
 
     /// Rz(q)ᵀ v: into the body's frame.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn turn_back(self, sin: Folded<R>, cos: Folded<R>) -> Self {
         let [x, y, z] = self.0;
         Self([cos * x + sin * y, cos * y - sin * x, z])
@@ -75,7 +75,7 @@ impl<R: Real> Vec3<R> {
 
 impl<R: Real> Add for Vec3<R> {
     type Output = Self;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn add(self, o: Self) -> Self {
         let ([ax, ay, az], [bx, by, bz]) = (self.0, o.0);
         Self([ax + bx, ay + by, az + bz])
@@ -84,7 +84,7 @@ impl<R: Real> Add for Vec3<R> {
 
 impl<R: Real> Sub for Vec3<R> {
     type Output = Self;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn sub(self, o: Self) -> Self {
         let ([ax, ay, az], [bx, by, bz]) = (self.0, o.0);
         Self([ax - bx, ay - by, az - bz])
@@ -93,7 +93,7 @@ impl<R: Real> Sub for Vec3<R> {
 
 impl<R: Real> Neg for Vec3<R> {
     type Output = Self;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn neg(self) -> Self {
         let [x, y, z] = self.0;
         Self([-x, -y, -z])
@@ -103,7 +103,7 @@ impl<R: Real> Neg for Vec3<R> {
 impl<R: Real> Mat3<R> {
     pub(crate) const ZERO: Self = Self([Vec3::ZERO; 3]);
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn constant(m: &DMat3) -> Self {
         Self([
             Vec3::constant(m.x_axis),
@@ -113,7 +113,7 @@ impl<R: Real> Mat3<R> {
     }
 
     /// The rows.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn rows(&self) -> [Vec3<R>; 3] {
         let [x, y, z] = self.0;
         [
@@ -124,14 +124,14 @@ impl<R: Real> Mat3<R> {
     }
 
     /// M v.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn mul(&self, v: Vec3<R>) -> Vec3<R> {
         let ([x, y, z], [a, b, c]) = (self.0, v.0);
         x.scale(a) + y.scale(b) + z.scale(c)
     }
 
     /// Mᵀ v.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn transpose_mul(&self, v: Vec3<R>) -> Vec3<R> {
         let [x, y, z] = self.0;
         Vec3([x.dot(v), y.dot(v), z.dot(v)])
@@ -140,7 +140,7 @@ impl<R: Real> Mat3<R> {
 
 impl<R: Real> Mat3<R> {
     /// Rz M Rzᵀ.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn rotated_about_z(&self, sin: Folded<R>, cos: Folded<R>) -> Self {
         let [Vec3([xx, yx, zx]), Vec3([xy, yy, zy]), Vec3([xz, yz, zz])] = self.0;
         let w = sin * (xx - yy) + cos * (xy + yx);
@@ -155,7 +155,7 @@ impl<R: Real> Mat3<R> {
 
 impl<R: Real> Add for Mat3<R> {
     type Output = Self;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn add(self, o: Self) -> Self {
         let ([ax, ay, az], [bx, by, bz]) = (self.0, o.0);
         Self([ax + bx, ay + by, az + bz])
@@ -184,7 +184,7 @@ impl<R: Real> Sym3<R> {
     };
 
     /// A matrix that is symmetric but for rounding.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn of(m: &Mat3<R>) -> Self {
         let [x, y, z] = m.0;
         Self {
@@ -198,7 +198,7 @@ impl<R: Real> Sym3<R> {
     }
 
     /// The columns.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn columns(&self) -> [Vec3<R>; 3] {
         [
             Vec3([self.xx, self.xy, self.xz]),
@@ -208,7 +208,7 @@ impl<R: Real> Sym3<R> {
     }
 
     /// Rz S Rzᵀ, by five products.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn turn(self, sin: Folded<R>, cos: Folded<R>) -> Self {
         let bend = cos * self.xy;
         let w = sin * (self.xx - self.yy) + bend + bend;
@@ -224,7 +224,7 @@ impl<R: Real> Sym3<R> {
     }
 
     /// a bᵀ + b aᵀ.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn both(a: Vec3<R>, b: Vec3<R>) -> Self {
         let ([ax, ay, az], [bx, by, bz]) = (a.0, b.0);
         let (xx, yy, zz) = (ax * bx, ay * by, az * bz);
@@ -239,7 +239,7 @@ impl<R: Real> Sym3<R> {
     }
 
     /// s a aᵀ.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn square(a: Vec3<R>, s: Folded<R>) -> Self {
         let ([x, y, z], [sx, sy, sz]) = (a.0, a.scale(s).0);
         Self {
@@ -255,7 +255,7 @@ impl<R: Real> Sym3<R> {
 
 impl<R: Real> Add for Sym3<R> {
     type Output = Self;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn add(self, o: Self) -> Self {
         Self {
             xx: self.xx + o.xx,

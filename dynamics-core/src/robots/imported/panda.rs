@@ -8,6 +8,13 @@
 //!
 //! - Part of body `panda_link7`: `panda_link8`.
 //! - Link `panda_hand` and all that it carries are left out.
+//! - The soft limits -2.8973 to 2.8973 of joint `panda_joint1` are left out; its limits are those of its \<limit>.
+//! - The soft limits -1.7628 to 1.7628 of joint `panda_joint2` are left out; its limits are those of its \<limit>.
+//! - The soft limits -2.8973 to 2.8973 of joint `panda_joint3` are left out; its limits are those of its \<limit>.
+//! - The soft limits -3.0718 to -0.0698 of joint `panda_joint4` are left out; its limits are those of its \<limit>.
+//! - The soft limits -2.8973 to 2.8973 of joint `panda_joint5` are left out; its limits are those of its \<limit>.
+//! - The soft limits -0.0175 to 3.7525 of joint `panda_joint6` are left out; its limits are those of its \<limit>.
+//! - The soft limits -2.8973 to 2.8973 of joint `panda_joint7` are left out; its limits are those of its \<limit>.
 
 #![allow(
     dead_code,
@@ -15,8 +22,8 @@
 )]
 #![allow(clippy::approx_constant, reason = "numbers are those of the file")]
 
-use dynamics_core::effects::{Armature, Coriolis, Coulomb, Gravity, Inertia, Viscous, Width};
-use dynamics_core::model::{ArmModel, BASE, Body, Joint, JointLimits, Model, Robot};
+use ::dynamics_core::effects::{Armature, Coriolis, Coulomb, Gravity, Inertia, Viscous, Width};
+use ::dynamics_core::model::{ArmModel, BASE, Body, Joint, JointLimits, Model, Robot};
 
 /// The number of bodies.
 pub const B: usize = 7;
@@ -143,7 +150,7 @@ impl Robot<7, 7, 7> for Panda {
     );
 }
 
-// An impossible robot does not compile.
+// A robot with an impossible joint or a negative mass does not compile.
 const _: ArmModel<f64, 7> = Panda::MODEL;
 
 /// Viscous friction, N·m·s/rad or N·s/m.
@@ -158,4 +165,4 @@ pub const ARMATURE: Armature<f32, V> = Armature([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0
 
 /// The rigid body, and the effects that the description states.
 pub const SCENE: (Gravity, Inertia, Coriolis, Viscous<f32, V>) =
-    (Gravity::EARTH, Inertia, Coriolis, VISCOUS);
+    ::dynamics_core::Core::<Panda>::scene_f32((Gravity::EARTH, Inertia, Coriolis, VISCOUS));

@@ -34,10 +34,10 @@
 )]
 #![allow(clippy::approx_constant, reason = "numbers are those of the file")]
 
-use core::f64::consts::{FRAC_PI_2, PI};
+use ::core::f64::consts::{FRAC_PI_2, PI};
 
-use dynamics_core::effects::{Armature, Coriolis, Coulomb, Gravity, Inertia, Viscous, Width};
-use dynamics_core::model::{ArmModel, BASE, Body, Joint, JointLimits, Model, Robot};
+use ::dynamics_core::effects::{Armature, Coriolis, Coulomb, Gravity, Inertia, Viscous, Width};
+use ::dynamics_core::model::{ArmModel, BASE, Body, Joint, JointLimits, Model, Robot};
 
 /// The number of bodies.
 pub const B: usize = 6;
@@ -197,7 +197,7 @@ impl Robot<6, 6, 6> for So101 {
     );
 }
 
-// An impossible robot does not compile.
+// A robot with an impossible joint or a negative mass does not compile.
 const _: ArmModel<f64, 6> = So101::MODEL;
 
 /// Viscous friction, N·m·s/rad or N·s/m.
@@ -211,4 +211,5 @@ pub const COULOMB: Coulomb<f32, V> = Coulomb {
 pub const ARMATURE: Armature<f32, V> = Armature([0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
 
 /// The rigid body, and the effects that the description states.
-pub const SCENE: (Gravity, Inertia, Coriolis) = (Gravity::EARTH, Inertia, Coriolis);
+pub const SCENE: (Gravity, Inertia, Coriolis) =
+    ::dynamics_core::Core::<So101>::scene_f32((Gravity::EARTH, Inertia, Coriolis));

@@ -14,8 +14,8 @@
 )]
 #![allow(clippy::approx_constant, reason = "numbers are those of the file")]
 
-use dynamics_core::effects::{Armature, Coriolis, Coulomb, Gravity, Inertia, Viscous, Width};
-use dynamics_core::model::{ArmModel, BASE, Body, Joint, JointLimits, Model, Robot};
+use ::dynamics_core::effects::{Armature, Coriolis, Coulomb, Gravity, Inertia, Viscous, Width};
+use ::dynamics_core::model::{ArmModel, BASE, Body, Joint, JointLimits, Model, Robot};
 
 /// The number of bodies.
 pub const B: usize = 7;
@@ -160,7 +160,7 @@ impl Robot<7, 7, 7> for Z1 {
     );
 }
 
-// An impossible robot does not compile.
+// A robot with an impossible joint or a negative mass does not compile.
 const _: ArmModel<f64, 7> = Z1::MODEL;
 
 /// Viscous friction, N·m·s/rad or N·s/m.
@@ -175,4 +175,4 @@ pub const ARMATURE: Armature<f32, V> = Armature([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0
 
 /// The rigid body, and the effects that the description states.
 pub const SCENE: (Gravity, Inertia, Coriolis, Viscous<f32, V>, Coulomb<f32, V>) =
-    (Gravity::EARTH, Inertia, Coriolis, VISCOUS, COULOMB);
+    ::dynamics_core::Core::<Z1>::scene_f32((Gravity::EARTH, Inertia, Coriolis, VISCOUS, COULOMB));

@@ -9,7 +9,6 @@ mod row;
 use core::fmt::{Display, Write};
 
 use cortex_m_semihosting::debug;
-use dynamics_core::control::Reference;
 use dynamics_core::drivetrain::ElasticReference;
 use dynamics_core::state::State;
 use firmware_demo::accuracy::robots::{Compared, Swung, momentary};
@@ -17,6 +16,7 @@ use firmware_demo::accuracy::simulation::{self, PassiveMotion, Simulation};
 use firmware_demo::accuracy::{Inverse, Visitor, list};
 use firmware_demo::target;
 use heapless::String;
+use motion_control::Reference;
 use row::Row;
 
 /// Ticks of each way: two periods of the lowest rate.

@@ -2,15 +2,15 @@
 
 use dynamics_core::Core;
 use dynamics_core::algorithms::friction_regressor;
-use dynamics_core::control::{
-    ParameterEstimator, ParameterEstimatorConfig, PayloadEstimator, PayloadEstimatorConfig,
-    SelectedParameters,
-};
 use dynamics_core::effects::{RIGID_BODY, Width};
 use dynamics_core::model::Robot;
 use dynamics_core::robots::So101;
 use dynamics_core::state::State;
 use firmware_demo::learning::tag_k::TagK;
+use motion_control::{
+    ParameterEstimator, ParameterEstimatorConfig, PayloadEstimator, PayloadEstimatorConfig,
+    SelectedParameters,
+};
 
 use super::row::Row;
 use super::{Ask, STATES};

@@ -1,7 +1,6 @@
 //! p and Cᵀ q̇, and what an observer of external torques costs with them.
 
 use dynamics_core::algorithms::{MomentumAndCoriolis, MomentumAndDrift, frame};
-use dynamics_core::control::{Fault, MomentumObserver, ObserverConfig, TipWrench, TipWrenchConfig};
 use dynamics_core::effects::{
     Coriolis, Coulomb, Gravity, Inertia, LoadFriction, RIGID_BODY, Viscous, Width,
 };
@@ -9,6 +8,7 @@ use dynamics_core::model::Robot;
 use dynamics_core::spatial::{Force, Motion};
 use dynamics_core::state::{State, StateWithTrig};
 use dynamics_core::{Core, Engine};
+use motion_control::{Fault, MomentumObserver, ObserverConfig, TipWrench, TipWrenchConfig};
 
 use super::row::Row;
 use super::{Ask, STATES, inverse};

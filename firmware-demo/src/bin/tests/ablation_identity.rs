@@ -7,7 +7,7 @@
 mod costs;
 
 use cortex_m_rt::entry;
-use dynamics_core::effects::{Armature, Coulomb, Effect, RIGID_BODY, Viscous, Width};
+use dynamics_core::effects::{Armature, Coulomb, Effect, JointState, RIGID_BODY, Viscous, Width};
 use dynamics_core::robots::Ur5e;
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
@@ -16,10 +16,12 @@ use dynamics_core::{Core, Engine};
 use costs::row::Row;
 use costs::{Ask, STATES, asks, done};
 
-/// An effect with nothing but defaults.
+/// An effect with nothing but an empty hook.
 struct Nothing;
 
-impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Nothing {}
+impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Nothing {
+    fn torque(&self, _: usize, _: JointState<R>, _: &mut R) {}
+}
 
 const VISCOUS: Viscous<f32, 6> = Viscous([12.0, 12.0, 8.0, 2.0, 2.0, 1.5]);
 const COULOMB: Coulomb<f32, 6> = Coulomb {

@@ -17,9 +17,6 @@ use core::hint::black_box;
 
 use cortex_m_rt::entry;
 use cortex_m_semihosting::debug;
-use dynamics_core::control::{
-    Command, Estimate, Gains, Mode, SafetyLimits, Supervisor, SupervisorConfig, feedback,
-};
 use dynamics_core::effects::{Armature, Coulomb, RIGID_BODY, Viscous, Width};
 use dynamics_core::robots::Ur5e;
 use dynamics_core::state::State;
@@ -28,6 +25,9 @@ use firmware_demo::sim_io::{SimDrive, Wires};
 use firmware_demo::{marker::measured, target};
 use joint_drivers::Direction;
 use joint_drivers::h_bridge::{FullScale, LockedAntiphase};
+use motion_control::{
+    Command, Estimate, Gains, Mode, SafetyLimits, Supervisor, SupervisorConfig, feedback,
+};
 
 const N: usize = 6;
 const STATES: usize = 10_000;

@@ -1,11 +1,11 @@
 //! Modes, shapers and numbers that are refused.
 
-use dynamics_core::control::{Shaper, ShaperProblem, Vibration};
 use dynamics_core::effects::{Elasticity, RIGID_BODY};
 use dynamics_core::flexible::{FlexibleLink, ModeProblem, Modes, Shape, step};
 use dynamics_core::model::{ArmModel, BASE};
 use dynamics_core::state::State;
 use host_tests::hard::Row;
+use motion_control::{Shaper, ShaperProblem, Vibration};
 
 use super::{body, one};
 use crate::UPPER;

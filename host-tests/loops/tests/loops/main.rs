@@ -7,3 +7,4 @@ mod drift;
 mod kinds;
 mod laws;
 mod recorded;
+mod status;

@@ -4,7 +4,6 @@
 use std::marker::PhantomData;
 
 use dynamics_core::Core;
-use dynamics_core::control::{MotionLimits, Trajectory, WayPoint};
 use dynamics_core::effects::{Effect, JointState, RIGID_BODY};
 use dynamics_core::model::{Robot, model};
 use dynamics_core::robots::{Panda, Ur5e};
@@ -12,6 +11,7 @@ use dynamics_core::state::State;
 use firmware_demo::effect_presets::{self, RIGID, Visitor};
 use firmware_demo::scene::TICK;
 use firmware_demo::trajectories::{PANDA_PICK_AND_PLACE, PICK_AND_PLACE};
+use motion_control::{MotionLimits, Trajectory, WayPoint};
 
 /// Greatest acceleration of each joint, rad/s², as in the scene `ur5e`.
 const ACCELERATION: f32 = 12.0;

@@ -4,7 +4,8 @@ use super::*;
 use dynamics_core::algorithms::{kinematics, kinetic_energy, momentum, potential_energy};
 use dynamics_core::delegate_effect;
 use dynamics_core::effects::{
-    BodyState, Effect, Implicit, JointState, LoadFactors, RegroupedInertia, TorqueDerivatives, hook,
+    BodyState, Effect, Implicit, JointState, LoadFactors, Once, RegroupedInertia,
+    TorqueDerivatives, Viscous, hook,
 };
 use dynamics_core::model::Static;
 use dynamics_core::scalar::{Matrix, Real, Vector};
@@ -28,6 +29,8 @@ const ELASTICITY: u32 = 1024;
 const LOAD_DEPENDENT: u32 = 2048;
 /// Of another robot, so that no algorithm takes it.
 const BASE_PARAMETERS: u32 = 4096;
+/// Of a kind of which a scene contains at most one.
+const ONCE: u32 = 8192;
 
 /// Has every hook at joints, and of the others those whose bits are set.
 #[derive(Clone, Copy)]
@@ -47,6 +50,11 @@ impl<R: Real, const FLAGS: u32, const B: usize, const V: usize> Effect<R, B, V> 
     const ACCELERATIONS: bool = has(FLAGS, ACCELERATIONS);
     const VELOCITY_PRODUCTS: bool = has(FLAGS, VELOCITY_PRODUCTS);
     const ELASTICITY: bool = has(FLAGS, ELASTICITY);
+    const ONCE: Once = if has(FLAGS, ONCE) {
+        <Viscous<R, V> as Effect<R, B, V>>::ONCE
+    } else {
+        Once::NONE
+    };
     const EXTERNAL_WRENCH: hook::Wrench<Self, R> = match (
         has(FLAGS, WRENCH),
         has(FLAGS, BODY_POSE),
@@ -272,6 +280,7 @@ fn observed<R: Real, E: Effect<R, 6, 3>>(scene: &E) -> Vec<f64> {
         E::GYROSCOPIC_ROTORS,
         E::ELASTICITY,
         E::LOAD_DEPENDENT,
+        E::ONCE != Once::NONE,
     ];
     let mut numbers = vec![of::<R>(E::GRAVITIES as f64)];
     let flags = [&flags[..], &E::FIELD_AXES, &E::PAYLOAD].concat();
@@ -331,7 +340,7 @@ fn advanced<E: Effect<f32, 6, 3>>(scene: &mut E) -> f64 {
     ADVANCED.get()
 }
 
-type Every = All<{ ENGINE | GYROSCOPIC_ROTORS | ELASTICITY | BASE_PARAMETERS }>;
+type Every = All<{ ENGINE | GYROSCOPIC_ROTORS | ELASTICITY | BASE_PARAMETERS | ONCE }>;
 const EVERY: Every = All;
 
 /// A wrapper of a user's own.

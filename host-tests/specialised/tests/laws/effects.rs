@@ -4,9 +4,11 @@ use super::*;
 
 #[test]
 fn absent_effects_change_nothing() {
-    /// An effect of defaults.
+    /// An effect with nothing but an empty hook.
     struct Nothing;
-    impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Nothing {}
+    impl<R: Real, const B: usize, const V: usize> Effect<R, B, V> for Nothing {
+        fn torque(&self, _: usize, _: JointState<R>, _: &mut R) {}
+    }
 
     struct Absent;
     impl Law for Absent {

@@ -24,7 +24,7 @@ pub fn read(
     let joints: HashMap<String, usize> = joints.map(|(i, joint)| (joint.name.clone(), i)).collect();
     // Each joint's limit by its actuators together; none if one of them has no limit.
     let mut efforts: BTreeMap<usize, Option<f64>> = BTreeMap::new();
-    let mut controllers: BTreeMap<&str, usize> = BTreeMap::new();
+    let mut controllers: BTreeMap<&str, Vec<String>> = BTreeMap::new();
     for element in root.all("actuator").flat_map(|section| &section.children) {
         let view = classes.view(element, classes.main())?;
         let Some(name) = element
@@ -58,9 +58,16 @@ pub fn read(
         }
         tree.joints[joint].damping += gear * gear * damping.first().copied().unwrap_or_default();
         tree.joints[joint].armature += gear * gear * view.number("armature")?;
+        // A damper only brakes.
+        tree.joints[joint].driven |= element.tag != "damper";
         let limit = effort(view, gear, compiler, &mut tree.notes)?;
         if element.tag != "motor" {
-            *controllers.entry(&element.tag).or_default() += 1;
+            let joint = shortened(name);
+            let one = match element.name() {
+                Some(own) => format!("`{}` of joint `{joint}`", shortened(own)),
+                None => format!("that of joint `{joint}`"),
+            };
+            controllers.entry(&element.tag).or_default().push(one);
         }
         let total = efforts.entry(joint).or_insert(Some(0.0));
         *total = total.zip(limit).map(|(sum, limit)| sum + limit);
@@ -72,13 +79,13 @@ pub fn read(
             (stated, effort) => stated.or(effort),
         };
     }
-    for (tag, count) in controllers {
+    for (tag, all) in controllers {
         tree.notes.push(format!(
-            "{count} actuators of type {tag}: their gains are controllers of the simulation and left out"
+            "Actuators of type {tag}, {}: their gains are controllers of the simulation and are left out.",
+            all.join(", ")
         ));
     }
-    tendons(root, tree);
-    Ok(())
+    tendons(root, tree, classes)
 }
 
 /// The greatest torque or force at the joint: a motor's control is its force.
@@ -102,13 +109,14 @@ fn effort(
     Ok(range.map(|range| gear.abs() * greatest(range, &words, notes)))
 }
 
-fn tendons(root: &Element, tree: &mut Tree<'_>) {
+fn tendons(root: &Element, tree: &mut Tree<'_>, classes: &Classes<'_>) -> Result<()> {
     for element in root.all("tendon").flat_map(|section| &section.children) {
         let words = element.words();
+        let view = classes.view(element, classes.main())?;
         let forces = ["stiffness", "damping", "frictionloss", "armature"];
         let stated: Vec<&str> = forces
             .into_iter()
-            .filter(|name| element.get(name).is_some())
+            .filter(|name| view.get(name).is_some())
             .collect();
         let which = match stated.is_empty() {
             true => String::new(),
@@ -117,4 +125,5 @@ fn tendons(root: &Element, tree: &mut Tree<'_>) {
         tree.notes
             .push(format!("{words}: the tendon{which} is left out"));
     }
+    Ok(())
 }

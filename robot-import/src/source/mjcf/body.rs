@@ -117,6 +117,7 @@ impl<'e> Tree<'e> {
             name,
             line: element.line,
             inertial: None,
+            snapped: Vec::new(),
             of_mesh: false,
         });
         self.worlds.push(world);
@@ -170,7 +171,8 @@ impl<'e> Tree<'e> {
         let geoms = self.geoms(element, &contents, &inside)?;
         let stated = contents.inertial.as_ref();
         let stated = stated.map(|(element, frame)| (*element, &**frame));
-        self.links[inside.link].inertial = inertia::of_body(stated, &geoms, self.compiler)?;
+        let link = &mut self.links[inside.link];
+        (link.inertial, link.snapped) = inertia::of_body(stated, &geoms, self.compiler)?;
         self.sites(&contents, inside.link)?;
         self.bodies(&contents, &inside)
     }

@@ -37,7 +37,7 @@ pub struct Element {
     pub line: u32,
     /// The included file that it is from.
     file: Option<Rc<str>>,
-    attributes: Vec<(String, String)>,
+    pub(super) attributes: Vec<(String, String)>,
     /// The elements below it.
     pub children: Vec<Element>,
 }

@@ -7,7 +7,7 @@ use super::defaults::View;
 use super::element::Element;
 use super::geom::Solid;
 use super::pose::Placement;
-use crate::description::{Inertial, Link, Pose};
+use crate::description::{Inertial, Link, Pose, Snap};
 use crate::error::{Problem, Result};
 
 const KNOWN: &str = "axisangle diaginertia euler fullinertia mass pos quat xyaxes zaxis";
@@ -22,21 +22,28 @@ pub fn of_body(
     stated: Option<(&Element, &Placement)>,
     geoms: &[Solid],
     compiler: &Compiler,
-) -> Result<Option<Inertial>> {
+) -> Result<(Option<Inertial>, Vec<Snap>)> {
     let explicit = match stated {
         Some((element, frame)) => Some(explicit(element, frame, compiler)?),
         None => None,
     };
+    // Those of geoms are of the geoms' frames.
+    let of_geoms = || Some((sum(geoms)?, Vec::new()));
     let inertial = match compiler.from_geoms {
         FromGeoms::Never => explicit,
-        FromGeoms::Auto => explicit.or_else(|| sum(geoms)),
-        FromGeoms::Always => sum(geoms).or(explicit),
+        FromGeoms::Auto => explicit.or_else(of_geoms),
+        FromGeoms::Always => of_geoms().or(explicit),
     };
-    Ok(bounded(inertial, compiler))
+    let (inertial, snapped) = inertial.unzip();
+    Ok((bounded(inertial, compiler), snapped.unwrap_or_default()))
 }
 
 /// An element `<inertial>`.
-fn explicit(element: &Element, frame: &Placement, compiler: &Compiler) -> Result<Inertial> {
+fn explicit(
+    element: &Element,
+    frame: &Placement,
+    compiler: &Compiler,
+) -> Result<(Inertial, Vec<Snap>)> {
     element.only(KNOWN)?;
     let view = View::plain(element);
     for name in ["pos", "mass"] {
@@ -59,7 +66,7 @@ fn explicit(element: &Element, frame: &Placement, compiler: &Compiler) -> Result
         return Err(element.value(format!("its mass is {mass} kg")));
     }
     let [x, y, z] = view.numbers::<3>("diaginertia")?.unwrap_or_default();
-    Ok(Inertial {
+    let inertial = Inertial {
         mass,
         frame: placement.pose,
         exact: placement.exact,
@@ -67,7 +74,8 @@ fn explicit(element: &Element, frame: &Placement, compiler: &Compiler) -> Result
         inertia: full.map_or([x, 0.0, 0.0, y, 0.0, z], |[xx, yy, zz, xy, xz, yz]| {
             [xx, xy, xz, yy, yz, zz]
         }),
-    })
+    };
+    Ok((inertial, placement.snapped))
 }
 
 /// The geoms' masses together.

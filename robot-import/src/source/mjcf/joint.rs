@@ -201,6 +201,7 @@ impl Parsed {
             damping: self.damping,
             friction: self.friction,
             armature: self.armature,
+            driven: false,
             mimic: None,
         }
     }
@@ -222,6 +223,7 @@ pub fn fixed(name: String, line: u32, [parent, child]: [usize; 2], origin: Place
         damping: 0.0,
         friction: 0.0,
         armature: 0.0,
+        driven: false,
         mimic: None,
     }
 }

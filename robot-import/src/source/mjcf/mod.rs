@@ -32,6 +32,7 @@ mod inertia;
 mod joint;
 mod mimic;
 mod pose;
+pub mod text;
 
 use std::path::Path;
 

@@ -164,24 +164,37 @@ fn orientation(view: View<'_>, compiler: &Compiler) -> Result<Turn> {
             if !(1e-10..1e10).contains(&length) {
                 return Err(element.value(format!("`{name}=\"{text}\"` is no rotation")));
             }
-            digits *= 2.0 / length;
+            digits *= match snap::states_a_small_entry(&[w, x, y, z].map(|x| x / length)) {
+                true => 0.0,
+                false => 2.0 / length,
+            };
             DMat3::from_quat(given / length)
         }
         "axisangle" => {
             let numbers = numbers(4)?;
             let axis = direction(&numbers[..3])?;
             let angle = text.split_ascii_whitespace().last().unwrap_or_default();
-            digits = rounding(angle, compiler);
+            let small = snap::states_a_small_entry(axis.as_ref())
+                || (numbers[3] * compiler.angle).abs() < std::f64::consts::FRAC_PI_4;
+            digits = match small {
+                true => 0.0,
+                false => rounding(angle, compiler),
+            };
             DMat3::from_axis_angle(axis, numbers[3] * compiler.angle)
         }
         "xyaxes" => {
+            // Directions along axes are of zeros and ones, which have no digits to lose.
+            digits = 0.0;
             let numbers = numbers(6)?;
             let x = direction(&numbers[..3])?;
             let y = DVec3::from_slice(&numbers[3..]);
             let y = direction((y - x * x.dot(y)).as_ref())?;
             DMat3::from_cols(x, y, x.cross(y))
         }
-        _ => to_axis(direction(&numbers(3)?)?),
+        _ => {
+            digits = 0.0;
+            to_axis(direction(&numbers(3)?)?)
+        }
     };
     let mut turn = Turn {
         given,

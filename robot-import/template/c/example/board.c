@@ -1,8 +1,27 @@
 /* Start-up, semihosting and SysTick of a Cortex-M4F without a C library. */
 #include "board.h"
 
+#include <stddef.h>
+
 extern uint32_t stack_top, data_start, data_end, data_load, bss_start, bss_end;
 int main(void);
+
+/* GCC calls these for whole objects, also without a C library. The volatile keeps them from calling themselves. */
+void *memcpy(void *to, const void *from, size_t bytes)
+{
+    for (size_t at = 0; at < bytes; at++) {
+        ((volatile unsigned char *)to)[at] = ((const unsigned char *)from)[at];
+    }
+    return to;
+}
+
+void *memset(void *to, int value, size_t bytes)
+{
+    for (size_t at = 0; at < bytes; at++) {
+        ((volatile unsigned char *)to)[at] = (unsigned char)value;
+    }
+    return to;
+}
 
 static void enable_fpu(void)
 {

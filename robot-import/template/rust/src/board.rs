@@ -1,6 +1,7 @@
 //! Encoders, drives and the brake, on the traits of embedded-hal: adapt the frame and the scales to your parts.
 
-use dynamics_core::control::{Command, Fault, MultiTurnEncoder};
+use joint_drivers::MultiTurnEncoder;
+use motion_control::{Command, Fault};
 use embedded_hal::{digital::OutputPin, pwm::SetDutyCycle, spi::SpiDevice};
 
 use crate::scene::N;

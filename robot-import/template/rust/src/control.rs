@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use dynamics_core::control::{
+use motion_control::{
     Command, ConfigError, CurrentTick, Estimate, Gains, MotionController, MotionControllerConfig,
     SupervisorConfig, TrajectoryError, feedback,
 };
@@ -28,6 +28,23 @@ pub fn feed_forward(
     core::array::from_fn(|joint| model[joint] + pd[joint])
 }
 
+/// The numbers of the safety gate and the observer.
+pub fn config(motion: &Motion) -> MotionControllerConfig<f32, N> {
+    MotionControllerConfig {
+        supervisor: SupervisorConfig {
+            limits: scene::limits(motion),
+            tick: TICK,
+            resolution: RESOLUTION,
+            ride_through_ticks: 5,
+            hold_ticks: 100,
+            reentry_ticks: 200,
+        },
+        observer_bandwidth: 10.0 * OMEGA_N,
+        decay_rate: OMEGA_N,
+        restart_distance: 0.15,
+    }
+}
+
 /// The reference, the gains and the safety gate of the robot.
 #[derive(Debug)]
 pub struct Control {
@@ -44,20 +61,7 @@ impl Control {
     /// [`SetupError`]: a motion or limits that are impossible.
     pub fn new() -> Result<Self, SetupError> {
         let motion = scene::motion().map_err(SetupError::Motion)?;
-        let supervisor = SupervisorConfig {
-            limits: scene::limits(&motion),
-            tick: TICK,
-            resolution: RESOLUTION,
-            ride_through_ticks: 5,
-            hold_ticks: 100,
-            reentry_ticks: 200,
-        };
-        let config = MotionControllerConfig {
-            supervisor,
-            observer_bandwidth: 10.0 * OMEGA_N,
-            decay_rate: OMEGA_N,
-            restart_distance: 0.15,
-        };
+        let config = config(&motion);
         Ok(Self {
             controller: MotionController::try_new(config).map_err(SetupError::Limits)?,
             motion,

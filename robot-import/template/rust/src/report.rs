@@ -4,7 +4,7 @@ use core::fmt::{self, Write};
 use core::hint::black_box;
 
 use dynamics_core::algorithms::NotPositiveDefinite;
-use dynamics_core::control::{Command, Mode};
+use motion_control::{Command, Mode};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
 

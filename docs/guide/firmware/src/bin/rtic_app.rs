@@ -1,9 +1,5 @@
 //! The control tick as a hardware task of RTIC.
 #![cfg_attr(target_arch = "arm", no_std, no_main)]
-#![cfg_attr(
-    target_arch = "arm",
-    expect(missing_docs, reason = "RTIC's macro makes items without")
-)]
 
 #[cfg(target_arch = "arm")]
 use panic_halt as _;

@@ -3,7 +3,6 @@
 use std::f64::consts::PI;
 
 use dynamics_core::Core;
-use dynamics_core::control::Reference;
 use dynamics_core::drivetrain::{ElasticReference, elastic_inverse_dynamics};
 use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::model::{Robot, Static};
@@ -12,6 +11,7 @@ use firmware_demo::accuracy::robots::{Compared, Swung, momentary};
 use firmware_demo::accuracy::{Inverse, Visitor, list};
 use host_tests::random::{random_numbers, within};
 use host_tests::recordings::{Precise, load, read};
+use motion_control::Reference;
 use proptest::test_runner::TestRng;
 use serde_json::json;
 

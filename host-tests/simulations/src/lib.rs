@@ -1,0 +1,1 @@
+//! Tests that simulate, in `tests/`.

@@ -1,0 +1,242 @@
+//! Every fault at random times in random combinations: limits of torque, rate, speed and energy hold, every fault has the
+//! reaction of the contract, the arm comes back, and the table of `docs/guide/src/faults.md` is what was observed.
+//! `TABLES_WRITE=1` writes the table.
+
+use firmware_demo::faults::{
+    HOLD, Kind, Observed, Pendulum, Plant, RIDE, Setup, TICK, TICKS, Ur5eArm, Violation, at_speed,
+    controller, one,
+};
+use host_tests::page::Table;
+use motion_control::{
+    CurrentTick, Fault, Mode, MotionController, Reaction, StopCategory, Trajectory, WayPoint,
+};
+
+/// Runs of the table, which every run of this test has.
+const TABLE: u32 = 400;
+/// Runs with the feature `full`.
+const FULL: u32 = 10_000;
+const RUNS: u32 = if cfg!(feature = "full") { FULL } else { TABLE };
+const PAGE: Table = Table {
+    page: "faults.md",
+    name: "faults",
+    test: "host-tests/simulations/tests/fault_injection.rs",
+};
+
+/// What was observed in a run, or which limit did not hold and in which run.
+fn observed(seed: u32, setup: Setup) -> Result<Vec<Observed>, String> {
+    let mut observed = Vec::new();
+    let (name, outcome) = one(seed, setup, |one| observed.push(one));
+    let outcome = outcome.map_err(|what| format!("run {seed}, {name}: {what}"))?;
+    assert!(outcome.injected > 0);
+    Ok(observed)
+}
+
+/// What of an observation the contract does not allow.
+fn against_contract(one: &Observed) -> Option<&'static str> {
+    use Kind::{Encoder, External, Missed, NotFinite, NotReady, Range, Stale};
+    if !one.whole || one.latency.is_none() {
+        return None;
+    }
+    match (one.kind, one.kind.fault(0).reaction()) {
+        // Each has a category of its own.
+        (External, _) => (!one.held & !one.stopped).then_some("an external stop did not stop"),
+        (Missed, _) => (!one.stopped).then_some("a restarted arm was not stopped"),
+        // They are faults in each of their ticks.
+        (NotFinite | Range | Encoder | Stale | NotReady, Reaction::RideThrough) => {
+            let wanted = (one.ticks > RIDE, one.ticks > RIDE + HOLD);
+            ((one.held, one.stopped) != wanted).then_some("not ridden through, held and stopped")
+        }
+        (_, Reaction::RideThrough) => None,
+        (_, Reaction::ControlledStop) => (!one.held).then_some("not stopped under control"),
+        (_, Reaction::TorqueOff) => (one.held | !one.stopped).then_some("not switched off at once"),
+        _ => Some("no such reaction"),
+    }
+}
+
+fn recovery(kind: Kind) -> String {
+    let [_, _, first] = kind.words();
+    let itself = match kind.fault(0).reaction() {
+        Reaction::RideThrough => "by itself; `reset` of a stopped arm",
+        _ => "`reset`",
+    };
+    if first.is_empty() {
+        itself.to_owned()
+    } else {
+        format!("{first}, then {itself}")
+    }
+}
+
+/// A row of the table.
+fn row(kind: Kind, observed: &[Observed]) -> String {
+    let of: Vec<&Observed> = observed.iter().filter(|one| one.kind == kind).collect();
+    let latencies = || of.iter().filter_map(|one| one.latency);
+    let count = |what: fn(&Observed) -> bool| of.iter().filter(|one| what(one)).count();
+    let latency = match (latencies().min(), latencies().max()) {
+        (Some(least), Some(most)) if least == most => format!("{least}"),
+        (Some(least), Some(most)) => format!("{least} to {most}"),
+        _ => "none".to_owned(),
+    };
+    let [fault, detection, _] = kind.words();
+    let name = format!("{:?}", kind.fault(0));
+    let name = name.split(' ').next().unwrap_or_default();
+    let reaction = match kind {
+        Kind::External => "by the category".to_owned(),
+        _ => format!("`{:?}`", kind.fault(0).reaction()),
+    };
+    let recovery = recovery(kind);
+    let bridged = count(|one| !one.held & !one.stopped);
+    let held = count(|one| one.held & !one.stopped);
+    let stopped = count(|one| one.stopped);
+    let (all, reported) = (of.len(), latencies().count());
+    format!(
+        "| {fault} | {detection} | `{name}` | {reaction} | {recovery} | {reported} of {all} | {latency} | {bridged} | {held} | {stopped} |\n"
+    )
+}
+
+fn table(observed: &[Observed]) -> String {
+    let head = "| fault | detected by | reported as | reaction | recovery | reported | latency, ticks | bridged | held | stopped |\n\
+        |---|---|---|---|---|---:|---:|---:|---:|---:|\n";
+    let rows: String = Kind::ALL.iter().map(|&kind| row(kind, observed)).collect();
+    format!("{head}{rows}")
+}
+
+#[test]
+fn a_table_with_a_run_less_is_not_that_of_the_page() {
+    let observed: Vec<Observed> = (0..20)
+        .flat_map(|seed| observed(seed, Setup::SOUND).expect("good"))
+        .collect();
+    let (begin, end) = (
+        "before\n<!-- faults:begin -->\n",
+        "<!-- faults:end -->\nafter\n",
+    );
+    let all = PAGE.text(&table(&observed));
+    let page = format!("{begin}{all}{end}");
+    assert_eq!(PAGE.parts(&page), [begin, &*all, end]);
+    assert_ne!(all, PAGE.text(&table(&observed[1..])));
+}
+
+#[test]
+fn no_limit_is_exceeded_every_reaction_is_that_of_the_contract_and_every_arm_recovers() {
+    let (mut of_table, mut failures) = (Vec::new(), Vec::new());
+    for seed in 0..RUNS {
+        match observed(seed, Setup::SOUND) {
+            Ok(of) => {
+                let against = of
+                    .iter()
+                    .filter_map(|one| Some((one, against_contract(one)?)));
+                failures.extend(against.map(|(one, what)| format!("run {seed}: {what}: {one:?}")));
+                if seed < TABLE {
+                    of_table.extend(of);
+                }
+            }
+            Err(failure) => failures.push(failure),
+        }
+    }
+    let first: Vec<_> = failures.iter().take(12).cloned().collect();
+    let (count, first) = (failures.len(), first.join("\n"));
+    assert!(
+        failures.is_empty(),
+        "{count} failures in {RUNS} runs:\n{first}"
+    );
+    PAGE.check(&table(&of_table));
+    let page = PAGE.read();
+    let runs = format!("In {FULL} runs of {TICKS} ticks").replace("0000 runs", "0,000 runs");
+    assert!(page.contains(&runs.replace("6000", "6,000")), "{runs}");
+}
+
+#[test]
+fn each_kind_of_deviation_from_the_contract_is_found() {
+    let bridged = |kind, ticks| Observed {
+        kind,
+        ticks,
+        latency: Some(0),
+        held: false,
+        stopped: false,
+        whole: true,
+    };
+    assert_eq!(against_contract(&bridged(Kind::Stale, RIDE)), None);
+    let wrong = [
+        bridged(Kind::Stale, RIDE + 1),
+        bridged(Kind::External, 1),
+        bridged(Kind::Missed, 1),
+        bridged(Kind::Reference, 1),
+        bridged(Kind::Drive, 1),
+    ];
+    for one in wrong {
+        assert!(against_contract(&one).is_some(), "{one:?}");
+        let unseen = Observed {
+            latency: None,
+            ..one
+        };
+        assert_eq!(against_contract(&unseen), None);
+    }
+    let held = Observed {
+        held: true,
+        stopped: true,
+        ..bridged(Kind::Drive, 1)
+    };
+    assert!(against_contract(&held).is_some());
+}
+
+#[test]
+fn a_supervisor_with_a_wrong_limit_is_found() {
+    let wrong = Setup {
+        limits: 1.5,
+        ..Setup::SOUND
+    };
+    let found = (0..60)
+        .filter(|&seed| observed(seed, wrong).is_err())
+        .count();
+    assert!(found > 5, "{found}");
+}
+
+#[test]
+fn without_the_watchdog_a_run_exceeds_a_rated_speed() {
+    const RUN: u32 = 6180;
+    let (_, outcome) = one(RUN, Setup::UNWATCHED, |_| ());
+    assert!(
+        matches!(outcome, Err(Violation::Speed { .. })),
+        "{outcome:?}"
+    );
+    let page = PAGE.read();
+    let text = format!("without it, run {RUN} exceeds a rated speed");
+    assert!(page.replace('\n', " ").contains(&text), "{text}");
+}
+
+#[test]
+fn a_speed_beyond_the_rated_one_is_found() {
+    assert_eq!(at_speed::<Pendulum, 1>(0.99), Ok(()));
+    for share in [1.01, -1.01, f32::NAN] {
+        let found = at_speed::<Pendulum, 1>(share).expect_err("too fast");
+        assert!(
+            matches!(found, Violation::Speed { joint: 0, .. }),
+            "{found}"
+        );
+    }
+}
+
+#[test]
+fn an_arm_of_unknown_position_gets_no_torque_at_power_up() {
+    let mut fresh = controller::<Ur5eArm, 6>(Setup::SOUND).on_brake();
+    let rest = Trajectory::new(
+        &[WayPoint {
+            q: Ur5eArm::HOME,
+            qd: [0.0; 6],
+            ticks: 0,
+        }],
+        TICK,
+        &[Ur5eArm::MOTION; 6],
+    )
+    .expect("a point");
+    let silent = |controller: &mut MotionController<f32, 6, CurrentTick>| {
+        for measured in [Err(Fault::Stale), Ok(&[f32::NAN; 6]), Ok(&[1e30; 6])] {
+            let command = controller.tick(measured, &rest, |_, _| [9.0; 6]);
+            assert_eq!((command.torque, command.brake), ([0.0; 6], true));
+            assert_eq!(command.status.mode, Mode::Stopped);
+            let _ = controller.reset(&rest);
+            controller.stop_by(Fault::External, StopCategory::ControlledHold);
+        }
+    };
+    silent(&mut fresh);
+    silent(&mut controller::<Ur5eArm, 6>(Setup::SOUND));
+}

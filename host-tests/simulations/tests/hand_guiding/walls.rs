@@ -1,0 +1,104 @@
+//! Walls and locked joints against a hand.
+
+use glam::DVec3;
+use motion_control::{CartesianImpedance, ImpedanceConfig};
+
+use crate::hand_guiding::cell::{Cell, Setup};
+use crate::hand_guiding::plant::{Hand, Q};
+use crate::hand_guiding::{POSTURES, SHARE, setup};
+
+/// An arm with locked joints after a push of a hand.
+fn pushed(setup: &Setup, locked: [bool; 6], push: DVec3, ticks: u32) -> Cell {
+    let mut cell = Cell::new(POSTURES[0], setup);
+    cell.guiding.lock(&locked, &POSTURES[0]).expect("finite");
+    cell.hand = Hand::Push(push);
+    for _ in 0..ticks {
+        cell.tick();
+    }
+    cell
+}
+
+fn moved(cell: &Cell) -> Q {
+    core::array::from_fn(|j| (cell.at.q[j] - POSTURES[0][j]).abs())
+}
+
+#[test]
+fn a_wall_stops_the_joint_without_oscillation_and_pushes_it_back() {
+    let mut walls = setup(SHARE, 0.1);
+    (walls.config.lower[0], walls.config.upper[0]) = (-0.1, 0.1);
+    let others = [false, true, true, true, true, true];
+    for side in [1.0, -1.0] {
+        let push = DVec3::new(0.0, -40.0 * side, 0.0);
+        let mut cell = pushed(&walls, others, push, 4000);
+        let depth = |cell: &Cell| side * cell.at.q[0] - 0.1;
+        let before = depth(&cell);
+        let frictionless = 40.0 * cell.tip().length() / 400.0;
+        assert!(
+            (0.5..1.0).contains(&(before / frictionless)),
+            "{before} rad"
+        );
+        for _ in 0..1000 {
+            cell.tick();
+            let wave = (depth(&cell) - before).abs();
+            assert!(wave < 1e-5, "it oscillates: {wave} rad");
+        }
+        cell.hand = Hand::Away;
+        for _ in 0..3000 {
+            cell.tick();
+            let deeper = depth(&cell) - before;
+            assert!(deeper < 1e-5, "{deeper} rad deeper");
+        }
+        // The energy of the spring is lost to friction outside.
+        let after = depth(&cell);
+        assert!((-0.3..0.0).contains(&after), "{after} rad");
+        cell.tick();
+        assert!((depth(&cell) - after).abs() < 1e-6, "it is at rest");
+    }
+}
+
+#[test]
+fn a_locked_joint_stays_unless_the_hand_is_stronger_and_the_others_are_moved() {
+    let (strong, push) = (setup(SHARE, 0.1), DVec3::new(0.0, 25.0, 0.0));
+    let first = [true, false, false, false, false, false];
+    let free = moved(&pushed(&strong, [false; 6], push, 700));
+    let locked = moved(&pushed(&strong, first, push, 700));
+    println!("{free:.3?} {locked:.3?} rad");
+    assert!(free[0] > 0.1 && locked[0] < 0.02 && locked[4] > 0.1);
+    let mut weak = strong;
+    weak.config.lock.torque[0] = 2.0;
+    let slips = moved(&pushed(&weak, first, push, 700));
+    assert!(slips[0] > 0.1, "{slips:?}");
+}
+
+/// The tip pushed for a second and released: its greatest distance from its height, its way across, and at rest again the
+/// greatest distance within a second, m.
+fn led(level: Option<CartesianImpedance<f64, 1>>) -> [f64; 3] {
+    let mut cell = Cell::new(POSTURES[0], &setup(SHARE, 0.1));
+    let from = cell.tip();
+    cell.level = level.map(|impedance| (impedance, from.z));
+    cell.hand = Hand::Push(DVec3::new(20.0, 10.0, 20.0));
+    let mut highest = 0.0_f64;
+    for _ in 0..1000 {
+        cell.tick();
+        highest = highest.max((cell.tip().z - from.z).abs());
+    }
+    let across = (cell.tip() - from).truncate().length();
+    cell.hand = Hand::Away;
+    cell.run(5000);
+    [highest, across, cell.run(1000)]
+}
+
+#[test]
+fn a_locked_direction_of_the_tip_stays_and_the_others_are_moved() {
+    let config = ImpedanceConfig {
+        stiffness: [3000.0],
+        zeta: 1.0,
+        slowest: 2.0,
+    };
+    let impedance = CartesianImpedance::try_new(config).expect("a good one");
+    let [free, level] = [None, Some(impedance)].map(led);
+    println!("{free:?} {level:?} m");
+    assert!(free[0] > 0.2 && free[1] > 0.2, "{free:?} m");
+    assert!(level[0] < 0.02 && level[1] > 0.2, "{level:?} m");
+    assert!(level[2] < 5e-5, "it oscillates: {level:?} m");
+}

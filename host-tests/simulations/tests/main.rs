@@ -1,0 +1,20 @@
+//! Tests that simulate: optimised, and in one program.
+
+mod arm;
+#[path = "../../tests/common/mod.rs"]
+mod common;
+
+mod contact_reaction;
+mod control_loop;
+mod fault_injection;
+mod hand_guiding;
+mod hop;
+mod impedance;
+mod momentum_observer;
+mod panda_payload;
+mod parameter_estimator;
+mod payload_estimator;
+mod replay;
+mod so101;
+mod soak;
+mod taught_path;

@@ -1,0 +1,37 @@
+//! The tests of the library on the host, in one program: each robot, scalar and scene is compiled once for all of them.
+
+mod common;
+
+mod accuracy;
+mod calibrated;
+mod checks;
+mod closed_loops;
+mod contact;
+mod control;
+mod control_example;
+mod control_parts;
+mod coriolis;
+mod detectors;
+mod devices;
+mod effects;
+mod energy_projected;
+mod external_torque;
+mod fuzz;
+mod generated;
+mod hard_cases;
+mod integrators;
+mod kinematics;
+mod manifold;
+mod measured;
+mod model;
+mod momentum;
+mod operational;
+mod oracle_motion;
+mod passivity;
+mod regressor;
+mod scara;
+mod scenes;
+mod serde;
+mod singular;
+mod survivors;
+mod trig;

@@ -1,0 +1,208 @@
+//! Hand guiding of an arm without torque sensors: friction compensation that stays passive, virtual walls, locked joints.
+//!
+//! Of the modelled friction F̂, which exceeds the true friction F at most by the share ε, and of the errors e of the torques
+//! that this one is added to:
+//!
+//! ```text
+//! τ_c = s max(σ |F̂| − e, 0) sgn F̂      σ (1 + ε) ≤ 1      ⟹  |τ_c| + e ≤ |F| wherever e ≤ σ |F̂|
+//! s = |q̇|/v₀ − 1, limited to 0 and 1
+//! τ_w = −min(K d + D max(ḋ, 0), τ_max) along the outward normal, d > 0 the depth in the wall
+//! τ_l = K (q_l − q) − D q̇, limited to ±τ_max
+//! ```
+//!
+//! No acceleration is needed. Colgate & Schenkel (1997) have the passivity of walls in discrete time; Armstrong-Hélouvry,
+//! Dupont & Canudas de Wit (1994) the compensation of friction and its limit cycles.
+
+use crate::entry;
+use crate::estimate::Estimate;
+use crate::limits::{ConfigError, Fault};
+use dynamics_core::scalar::Real;
+use dynamics_core::state::all_finite;
+
+mod config;
+#[cfg(test)]
+mod tests;
+
+pub use config::{HandGuidingConfig, LimitedSpring};
+
+/// The law of an arm that a hand moves: torques to add to the compensation of gravity.
+///
+/// - **Friction** is compensated in part, and never by more than there is: with a model that over-estimates it at most by the
+///   stated share, the power of compensation and true friction together is nowhere positive. True friction whose sign is
+///   steeper than that of the model, or which sticks, exceeds the model near rest, where it is then compensated less; a
+///   true sign that is wider than that of the model would not be.
+/// - **Walls** at bounds of the joints push back and never pull; their damping acts only on motion into them.
+/// - **Locked joints** are held where they were locked, and their friction is not compensated.
+///
+/// Directions of the tip are locked by a [`CartesianImpedance`](crate::CartesianImpedance) of these directions alone.
+///
+/// ```
+/// use motion_control::{Estimate, HandGuiding, HandGuidingConfig, LimitedSpring};
+/// use dynamics_core::effects::{Coulomb, Gravity, Viscous, Width};
+/// use dynamics_core::{Engine, robots::Ur5e, state::State};
+/// let mut guiding = HandGuiding::try_new(HandGuidingConfig {
+///     error: 0.1,
+///     share: 0.85,
+///     rest_speed: [0.004; 6],
+///     compensation: [12.0_f32, 12.0, 9.0, 2.0, 2.0, 1.6],
+///     lower: [-3.0; 6],
+///     upper: [3.0; 6],
+///     wall: LimitedSpring { stiffness: [300.0; 6], damping: [20.0; 6], torque: [40.0; 6] },
+///     lock: LimitedSpring { stiffness: [300.0; 6], damping: [20.0; 6], torque: [20.0; 6] },
+/// })?;
+/// let estimate = Estimate { q: [0.0, -1.57, 1.57, -1.57, -1.57, 0.0], qd: [0.1; 6] };
+/// guiding.lock(&[false, false, false, false, false, true], &estimate.q)?;
+/// // In each tick:
+/// let at = State { qd: estimate.qd, ..State::at(estimate.q) };
+/// let coulomb = Coulomb { torque: [8.0, 8.0, 6.0, 1.5, 1.5, 1.2], width: Width::new(0.01) };
+/// let gravity = Engine::<Ur5e>::rnea(&at, &Gravity::EARTH);
+/// let friction = Engine::<Ur5e>::rnea(&at, &(Viscous([12.0, 12.0, 8.0, 2.0, 2.0, 1.5]), coulomb));
+/// let guide = guiding.torque(&estimate, &friction, &gravity.map(|g| 0.03 * g));
+/// let tau: [f32; 6] = core::array::from_fn(|i| gravity[i] + guide[i]); // to the supervisor
+/// assert!((guide[0] - 0.85 * (12.0 * 0.1 + 8.0)).abs() < 1e-4 && guide[5] < 0.0);
+/// # let _ = tau;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[doc(alias = "hand guiding")]
+#[doc(alias = "lead-through")]
+#[doc(alias = "kinesthetic teaching")]
+#[doc(alias = "free drive")]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HandGuiding<R, const V: usize> {
+    config: HandGuidingConfig<R, V>,
+    /// 1/v₀.
+    rest_inv: [R; V],
+    /// Where joints are locked.
+    held: [Option<R>; V],
+}
+
+impl<R: Real, const V: usize> HandGuiding<R, V> {
+    /// The law of this configuration, with no joint locked.
+    ///
+    /// # Errors
+    /// [`ConfigError`], as [`HandGuidingConfig::check`].
+    pub fn try_new(config: HandGuidingConfig<R, V>) -> Result<Self, ConfigError> {
+        config.check()?;
+        Ok(Self {
+            config,
+            rest_inv: config.rest_speed.map(|speed| R::ONE / speed),
+            held: [None; V],
+        })
+    }
+
+    /// Which joints are locked.
+    pub fn locked(&self) -> [bool; V] {
+        self.held.map(|held| held.is_some())
+    }
+
+    /// Locks these joints and no others: joints that were free are held at the positions q, rad or m, joints that were
+    /// locked remain where they are held.
+    ///
+    /// # Errors
+    /// [`Fault::NotFinite`] names the first joint to be locked whose position is not finite; nothing is changed then.
+    ///
+    /// ```
+    /// # use motion_control::{Fault, HandGuiding, HandGuidingConfig, LimitedSpring};
+    /// # let spring = LimitedSpring { stiffness: [100.0; 2], damping: [10.0; 2], torque: [5.0; 2] };
+    /// # let mut guiding = HandGuiding::<f32, 2>::try_new(HandGuidingConfig {
+    /// #     error: 0.1, share: 0.8, rest_speed: [0.01; 2], compensation: [2.0; 2], lower: [-1.0; 2], upper: [1.0; 2],
+    /// #     wall: spring, lock: spring,
+    /// # })?;
+    /// guiding.lock(&[false, true], &[0.0, 0.5])?;
+    /// assert_eq!(guiding.locked(), [false, true]);
+    /// assert_eq!(guiding.lock(&[true, true], &[f32::NAN, 0.7]), Err(Fault::NotFinite { joint: 0 }));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn lock(&mut self, joints: &[bool; V], q: &[R; V]) -> Result<(), Fault> {
+        let mut wanted = joints.iter().zip(q);
+        if let Some(joint) = wanted.position(|(lock, q)| *lock & !q.is_finite()) {
+            return Err(Fault::NotFinite { joint });
+        }
+        for ((held, lock), q) in self.held.iter_mut().zip(joints).zip(q) {
+            *held = lock.then_some(held.unwrap_or(*q));
+        }
+        Ok(())
+    }
+
+    /// The torques to add to the compensation of gravity, N·m or N: finite whatever the arguments are.
+    ///
+    /// `friction` is F̂, [`rnea`](dynamics_core::algorithms::rnea()) under the friction of the scene alone at the estimated velocities.
+    /// `errors` bound how far the other torques are off, for example 3 % of gravity: by so much less is friction compensated,
+    /// so that a released arm comes to rest. Their sign does not count.
+    ///
+    /// A velocity that is not finite counts as zero; without a finite position there is neither wall nor lock, without finite
+    /// friction and errors no compensation. Friction that does not oppose the velocity is not compensated.
+    ///
+    /// # Cost
+    /// By count: some 35 flops a joint, the same for all data.
+    ///
+    /// ```
+    /// # use motion_control::{Estimate, HandGuiding, HandGuidingConfig, LimitedSpring};
+    /// # let spring = LimitedSpring { stiffness: [100.0], damping: [10.0], torque: [5.0] };
+    /// # let guiding = HandGuiding::<f64, 1>::try_new(HandGuidingConfig {
+    /// #     error: 0.25, share: 0.8, rest_speed: [0.01], compensation: [4.0], lower: [-1.0], upper: [1.0],
+    /// #     wall: spring, lock: spring,
+    /// # })?;
+    /// let torque = |q, qd, friction, error| guiding.torque(&Estimate { q: [q], qd: [qd] }, &[friction], &[error])[0];
+    /// assert_eq!(torque(0.0, 0.1, 2.5, 0.5), 1.5); // 0.8 · 2.5 − 0.5
+    /// assert_eq!(torque(0.0, f64::NAN, f64::NAN, 0.5), 0.0);
+    /// assert!((torque(1.01, 0.1, 0.0, 0.0) + 2.0).abs() < 1e-12); // spring and damper
+    /// assert!((torque(1.01, -0.1, 0.0, 0.0) + 1.0).abs() < 1e-12); // the spring alone
+    /// assert_eq!(torque(1.2, 0.1, 0.0, 0.0), -5.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[inline]
+    #[must_use]
+    pub fn torque(&self, estimate: &Estimate<R, V>, friction: &[R; V], errors: &[R; V]) -> [R; V] {
+        let HandGuidingConfig { lower, upper, .. } = &self.config;
+        core::array::from_fn(|i| {
+            let q = entry(&estimate.q, i);
+            let qd = finite(entry(&estimate.qd, i));
+            let held = self.held.get(i).copied().flatten();
+            let free = self.compensation(i, qd, entry(friction, i), entry(errors, i));
+            let lock = self.config.lock.pull(i, held.unwrap_or(q) - q, qd);
+            let wall = &self.config.wall;
+            let walls =
+                wall.push(i, entry(lower, i) - q, -qd) - wall.push(i, q - entry(upper, i), qd);
+            R::either(held.is_some(), lock, free) + walls
+        })
+    }
+
+    /// σ F̂, less the errors, towards zero.
+    #[inline(always)]
+    fn compensation(&self, i: usize, qd: R, friction: R, error: R) -> R {
+        let (most, share) = (
+            entry(&self.config.compensation, i),
+            self.config.share * friction,
+        );
+        let tau = share - share.clamped(-error.abs(), error.abs());
+        let opposes = tau * qd > R::ZERO;
+        let moves = qd.abs() * entry(&self.rest_inv, i) - R::ONE;
+        let tau = R::either(opposes & all_finite(&[tau, error]), tau, R::ZERO);
+        moves.clamped(R::ZERO, R::ONE) * tau.clamped(-most, most)
+    }
+}
+
+impl<R: Real, const V: usize> LimitedSpring<R, V> {
+    /// K (q_l − q) − D q̇, limited.
+    #[inline(always)]
+    fn pull(&self, i: usize, off: R, qd: R) -> R {
+        let most = entry(&self.torque, i);
+        finite(entry(&self.stiffness, i) * off - entry(&self.damping, i) * qd).clamped(-most, most)
+    }
+
+    /// K d + D max(ḋ, 0) in the wall, limited; zero outside.
+    #[inline(always)]
+    fn push(&self, i: usize, depth: R, inward: R) -> R {
+        let inward = R::either(inward > R::ZERO, inward, R::ZERO);
+        let push = entry(&self.stiffness, i) * depth + entry(&self.damping, i) * inward;
+        let inside = (depth > R::ZERO) & depth.is_finite();
+        R::either(inside, push, R::ZERO).clamped(R::ZERO, entry(&self.torque, i))
+    }
+}
+
+/// x, or zero if it is not finite.
+#[inline(always)]
+fn finite<R: Real>(x: R) -> R {
+    R::either(x.is_finite(), x, R::ZERO)
+}

@@ -1,0 +1,234 @@
+//! Cartesian impedance control with null space: a spring and a damper between a body and its goal.
+//!
+//! Albu-Schäffer, Ott, Frese & Hirzinger, "Cartesian impedance control of redundant robots: recent results with the
+//! DLR-light-weight-arms" (2003); Khatib (1987) for the null space. The inertia Λ is not shaped, so that no force need be
+//! measured. The damping is that of double diagonalisation: Λ = Q Qᵀ, K = Q Ω² Qᵀ, D = 2 ζ Q Ω Qᵀ. With S = √K Λ⁻¹ √K =
+//! U Ω² Uᵀ, Q is √K U Ω⁻¹, and D needs no inverse of Λ⁻¹, which is singular where the arm is:
+//!
+//! ```text
+//! D = 2 ζ √K U Ω⁻¹ Uᵀ √K
+//! ```
+//!
+//! For a mode slower than ω_min, 1/Ω is continued by its tangent, as a function of Ω², and at most 1.5/ω_min.
+
+use crate::entry;
+use crate::limits::{ConfigError, ConfigParameter, Fault};
+use dynamics_core::algorithms::{Conditioning, OperationalSpace, eigen};
+use dynamics_core::scalar::Real;
+use dynamics_core::state::all_finite;
+
+/// The spring and the damping ratio of a Cartesian impedance: for [`CartesianImpedance::try_new`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct ImpedanceConfig<R, const M: usize> {
+    /// Stiffness K along each direction of the task, N/m, or N·m/rad if the direction is a couple of 1 N·m.
+    pub stiffness: [R; M],
+    /// Damping ratio ζ of every mode.
+    pub zeta: R,
+    /// ω_min, rad/s: modes down to this natural frequency have the damping ratio ζ; slower ones, near a singularity, have
+    /// less, since no damping exceeds 3 ζ K/ω_min.
+    pub slowest: R,
+}
+
+/// A spring and a damper between a body and its goal, along M directions of a task.
+///
+/// # Example
+/// ```
+/// use dynamics_core::algorithms::{Damping, OperationalSpace, Pose, frame, task_jacobian};
+/// use motion_control::{CartesianImpedance, ImpedanceConfig, TaskDeviation, TaskFrame, pose_error};
+/// use dynamics_core::effects::{Gravity, RIGID_BODY};
+/// use dynamics_core::{Core, robots::Panda, state::State};
+/// let stiffness = [30.0_f32, 30.0, 30.0, 600.0, 600.0, 600.0]; // N·m/rad about the axes, N/m along them
+/// let impedance = CartesianImpedance::try_new(ImpedanceConfig { stiffness, zeta: 0.7, slowest: 2.0 })?;
+///
+/// let arm = State { qd: [0.1; 7], ..State::at([0.3, -0.4, 0.2, -2.0, 0.3, 1.9, 0.5]) };
+/// let hand = Core::<Panda>::kinematics(&arm, &());
+/// let mut goal: Pose<f32> = hand.poses[6];
+/// goal.pos.z += 0.05;
+/// let directions = TaskFrame::BASE.turn_and_place(1.0);
+/// let rows = task_jacobian(&Core::<Panda>::jacobian(&arm.q, 6, frame::LocalWorldAligned), &directions);
+/// let factors = Core::<Panda>::ltdl(&Core::<Panda>::crba(&arm.q, &RIGID_BODY))?;
+/// let task = OperationalSpace::new(rows, |tau: &_| Core::<Panda>::solve(&factors, tau), Damping::relative(1e-3));
+///
+/// let (off, v) = (pose_error(&hand.poses[6], &goal), hand.velocity(6, frame::LocalWorldAligned));
+/// let deviation = TaskDeviation { position: directions.map(|d| off.dot(d)), velocity: directions.map(|d| -v.dot(d)) };
+/// let gravity = Core::<Panda>::rnea(&arm, &Gravity::EARTH);
+/// let posture = arm.qd.map(|qd| -2.0 * qd); // K_n (q_n − q) − D_n q̇: here the elbow is only damped
+/// let command = impedance.torque(&task, &deviation, &gravity, &posture)?;
+/// assert!(command.tau.iter().all(|tau| tau.is_finite()));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[doc(alias = "impedance control")]
+#[doc(alias = "compliance control")]
+#[doc(alias = "double diagonalization")]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CartesianImpedance<R, const M: usize> {
+    config: ImpedanceConfig<R, M>,
+    /// √K.
+    roots: [R; M],
+}
+
+/// How far a body is from its goal, along the directions of a task.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct TaskDeviation<R, const M: usize> {
+    /// x̃ = x_d − x, m or rad: the components of [`pose_error`](crate::pose_error()).
+    pub position: [R; M],
+    /// ẋ_d − ẋ, m/s or rad/s.
+    pub velocity: [R; M],
+}
+
+/// The torques of a Cartesian impedance, and whether its damping is exact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct ImpedanceTorque<R, const V: usize> {
+    /// τ, N·m or N: finite.
+    pub tau: [R; V],
+    /// Regular if all modes are faster than ω_min; else the square of the slowest one's frequency over ω_min².
+    pub conditioning: Conditioning<R>,
+}
+
+impl<R: Real, const M: usize> ImpedanceConfig<R, M> {
+    /// Whether this is a spring with a damper.
+    ///
+    /// # Errors
+    /// [`ConfigError::OutOfRange`] names a number that is not finite and positive.
+    ///
+    /// ```
+    /// use motion_control::{ConfigError, ConfigParameter, ImpedanceConfig};
+    /// let config = ImpedanceConfig { stiffness: [600.0_f32, 0.0], zeta: 0.7, slowest: 2.0 };
+    /// let error = ConfigError::OutOfRange { parameter: ConfigParameter::Stiffness };
+    /// assert_eq!(config.check(), Err(error));
+    /// ```
+    pub fn check(&self) -> Result<(), ConfigError> {
+        for k in self.stiffness {
+            ConfigParameter::Stiffness.positive(k)?;
+        }
+        ConfigParameter::DampingRatio.positive(self.zeta)?;
+        ConfigParameter::SlowestMode.positive(self.slowest)
+    }
+}
+
+impl<R: Real, const M: usize> CartesianImpedance<R, M> {
+    /// The law of this spring and damping ratio.
+    ///
+    /// # Errors
+    /// [`ConfigError`], as [`ImpedanceConfig::check`].
+    pub fn try_new(config: ImpedanceConfig<R, M>) -> Result<Self, ConfigError> {
+        config.check()?;
+        let roots = config.stiffness.map(R::sqrt);
+        Ok(Self { config, roots })
+    }
+
+    /// The damping D by double diagonalisation, N·s/m or N·m·s/rad, and whether all modes have the damping ratio ζ.
+    ///
+    /// Without slow modes D Λ⁻¹ D = 4 ζ² K. `mobility` is Λ⁻¹ of the task, which may be singular.
+    ///
+    /// # Shape
+    /// M × M, symmetric.
+    ///
+    /// # Cost
+    /// 3 M (M − 1) (18 M + 50) + 3 M³ flops, with 3 M (M − 1) divisions, in f64 a sixth more: the same for all data.
+    ///
+    /// # Errors
+    /// None; from numbers that are not finite it is not finite and not regular.
+    ///
+    /// # Source
+    /// Albu-Schäffer, Ott, Frese & Hirzinger (2003).
+    ///
+    /// ```
+    /// use dynamics_core::algorithms::Conditioning;
+    /// use motion_control::{CartesianImpedance, ImpedanceConfig};
+    /// let config = ImpedanceConfig { stiffness: [400.0_f64], zeta: 1.0, slowest: 2.0 };
+    /// let ([[d]], how) = CartesianImpedance::try_new(config)?.damping(&[[0.25]]); // 4 kg
+    /// assert!((d - 2.0 * (400.0_f64 * 4.0).sqrt()).abs() < 1e-12 && how == Conditioning::Regular);
+    /// # Ok::<(), motion_control::ConfigError>(())
+    /// ```
+    #[inline(never)]
+    #[must_use]
+    pub fn damping(&self, mobility: &[[R; M]; M]) -> ([[R; M]; M], Conditioning<R>) {
+        let (half, threshold) = (R::from_f64(0.5), self.config.slowest * self.config.slowest);
+        let mut s = *mobility;
+        for (row, root) in s.iter_mut().zip(self.roots) {
+            for (entry, other) in row.iter_mut().zip(self.roots) {
+                *entry *= root * other;
+            }
+        }
+        let (squares, vectors) = eigen(s);
+        let (mut d, mut smallest) = ([[R::ZERO; M]; M], threshold);
+        for (square, vector) in squares.into_iter().zip(vectors) {
+            // Rounding may make a zero negative.
+            let square = if square > R::ZERO { square } else { R::ZERO };
+            smallest = if square < smallest { square } else { smallest };
+            let faster = square > threshold;
+            let r = (if faster { square } else { threshold }).rsqrt();
+            // 1/Ω; below the threshold the tangent to it, a Newton step towards it.
+            let period = r * (R::ONE + half - half * square * r * r);
+            let weight = (self.config.zeta + self.config.zeta) * period;
+            for (i, row) in d.iter_mut().enumerate() {
+                let of = |k| entry(&self.roots, k) * entry(&vector, k);
+                for (j, entry) in row.iter_mut().enumerate() {
+                    *entry += weight * (of(i) * of(j));
+                }
+            }
+        }
+        if smallest >= threshold && all_finite(&squares) {
+            return (d, Conditioning::Regular);
+        }
+        let smallest = smallest / threshold;
+        (d, Conditioning::Damped { smallest })
+    }
+
+    /// The torque of each motor, N·m or N, that makes the body behave as a mass on a spring with a damper.
+    ///
+    /// $$
+    /// \tau = \tau_b + J^T (K \tilde x + D \dot{\tilde x}) + (1 - J^T \bar J^T) \tau_n
+    /// $$
+    ///
+    /// A constant force F on the body displaces it by K⁻¹ F. `bias` is τ_b: gravity and friction, with which the arm is
+    /// passive at a goal at rest, the posture apart, if rotational stiffnesses are equal; for a goal that moves,
+    /// [`rnea_two_velocities`](dynamics_core::algorithms::rnea_two_velocities()) of the joint velocities that follow it.
+    /// `posture` is τ_n = K_n (q_n − q) − D_n q̇, for example by [`feedback`](crate::feedback()); it does not act on the
+    /// task where `task` is regular. Some damping in it is needed near singularities also for arms without redundancy:
+    /// there the task damps not all joints.
+    ///
+    /// Every number is finite in singular postures too, and nothing jumps there: the spring and the damper are bounded,
+    /// and Jᵀ goes to zero along the lost direction. Velocities are damped by at most 3 ζ K/ω_min.
+    ///
+    /// # Cost
+    /// That of [`CartesianImpedance::damping`], 2 M² + 6 M V + 2 V flops: the same for all data. That of
+    /// [`OperationalSpace::new`] varies with [`OperationalSpace::conditioning`].
+    ///
+    /// # Errors
+    /// [`Fault::NotFinite`] names the first joint whose torque is not finite, by numbers that are not finite or beyond the
+    /// scalar's range.
+    ///
+    /// # Source
+    /// Albu-Schäffer, Ott, Frese & Hirzinger (2003); Khatib (1987), (53).
+    #[inline]
+    pub fn torque<const V: usize>(
+        &self,
+        task: &OperationalSpace<R, M, V>,
+        deviation: &TaskDeviation<R, M>,
+        bias: &[R; V],
+        posture: &[R; V],
+    ) -> Result<ImpedanceTorque<R, V>, Fault> {
+        let (d, conditioning) = self.damping(&task.mobility);
+        let mut force = [R::ZERO; M];
+        for (i, (force, row)) in force.iter_mut().zip(&d).enumerate() {
+            *force = entry(&self.config.stiffness, i) * entry(&deviation.position, i);
+            for (&d, &rate) in row.iter().zip(&deviation.velocity) {
+                *force += d * rate;
+            }
+        }
+        let mut tau = task.torque(&force);
+        let free = task.null_space_torque(posture);
+        for ((tau, &bias), free) in tau.iter_mut().zip(bias).zip(free) {
+            *tau += bias + free;
+        }
+        match tau.iter().position(|tau| !tau.is_finite()) {
+            Some(joint) => Err(Fault::NotFinite { joint }),
+            None => Ok(ImpedanceTorque { tau, conditioning }),
+        }
+    }
+}

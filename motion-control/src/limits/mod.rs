@@ -1,0 +1,15 @@
+//! What a command may be: limits, faults and what follows from them, the command itself, errors of configurations.
+
+pub(crate) mod command;
+pub(crate) mod config_error;
+pub(crate) mod fault;
+pub(crate) mod motion_limits;
+pub(crate) mod reaction;
+pub(crate) mod safety_limits;
+
+pub use command::{Command, Mode, Status};
+pub use config_error::{ConfigError, ConfigParameter};
+pub use fault::Fault;
+pub use motion_limits::MotionLimits;
+pub use reaction::Reaction;
+pub use safety_limits::{LimitKind, SafetyLimits, SafetyLimitsError};

@@ -1,0 +1,60 @@
+//! The reaction to each fault.
+
+use crate::limits::Fault;
+
+/// The reaction of a [`Supervisor`](crate::Supervisor) to a fault, by [`Fault::reaction`].
+///
+/// | reaction | while the fault lasts | after it |
+/// |---|---|---|
+/// | [`RideThrough`](Self::RideThrough) | bridged for `ride_through_ticks`, then held for `hold_ticks`, then stopped | a bridged or held arm continues by itself, a stopped one after a reset |
+/// | [`ControlledStop`](Self::ControlledStop) | stopped by the configured [`StopCategory`](crate::StopCategory) | a reset |
+/// | [`TorqueOff`](Self::TorqueOff) | zero torque and the brake, at once | a reset |
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
+pub enum Reaction {
+    /// [`Supervisor::report`](crate::Supervisor::report): the fault may pass.
+    RideThrough,
+    /// [`Supervisor::stop_by`](crate::Supervisor::stop_by) with the configured category: the motion must not go on, the drives and the measurements
+    /// are usable.
+    ControlledStop,
+    /// [`Supervisor::stop`](crate::Supervisor::stop): a drive, a model or a memory that a deceleration needs is not usable.
+    TorqueOff,
+}
+
+impl Fault {
+    /// The reaction to this fault, whichever joint has it.
+    ///
+    /// A torque that is not finite is ridden through only in [`Mode::Full`](crate::Mode::Full): in a hold it switches off.
+    ///
+    /// ```
+    /// use motion_control::{Fault, Reaction};
+    /// assert_eq!(Fault::Stale.reaction(), Reaction::RideThrough);
+    /// assert_eq!(Fault::External.reaction(), Reaction::ControlledStop);
+    /// assert_eq!(Fault::Drive { joint: 3 }.reaction(), Reaction::TorqueOff);
+    /// ```
+    pub const fn reaction(&self) -> Reaction {
+        match self {
+            Self::Encoder { .. }
+            | Self::Stale
+            | Self::Unfinished
+            | Self::NotFinite { .. }
+            | Self::Position { .. }
+            | Self::Jump { .. }
+            | Self::Speed { .. }
+            | Self::Torque { .. }
+            | Self::Frozen { .. }
+            | Self::NotReady { .. }
+            | Self::Missed
+            | Self::Overrun => Reaction::RideThrough,
+            Self::Reference { .. } | Self::External => Reaction::ControlledStop,
+            Self::Saturated { .. }
+            | Self::Drive { .. }
+            | Self::Limits { .. }
+            | Self::Model
+            | Self::Overflow
+            | Self::Restarted
+            | Self::Brake => Reaction::TorqueOff,
+        }
+    }
+}

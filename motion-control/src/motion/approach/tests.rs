@@ -1,0 +1,135 @@
+use super::*;
+use crate::limits::Fault;
+use crate::motion::MotionControllerConfig;
+use crate::safety::{StopCategory, SupervisorConfig};
+
+const TICK: f64 = 1e-3;
+const LIMITS: [MotionLimits<f64>; 2] = [
+    MotionLimits {
+        velocity: 1.0,
+        acceleration: 4.0,
+    },
+    MotionLimits {
+        velocity: 2.0,
+        acceleration: 3.0,
+    },
+];
+const BOUNDS: SafetyLimits<f64, 2> = SafetyLimits {
+    torque: [10.0; 2],
+    rate: [10.0; 2],
+    speed: [3.0; 2],
+    lower: [-2.0; 2],
+    upper: [2.0; 2],
+};
+
+/// Rest at zero.
+#[derive(Debug)]
+struct Rest;
+
+impl Reference<f64, 2> for Rest {
+    fn at(&self, _: u32) -> State<f64, 2, 2> {
+        State::at([0.0; 2])
+    }
+    fn ticks(&self) -> u32 {
+        0
+    }
+}
+
+fn plan(from: [f64; 2]) -> Result<Approach<'static, f64, 2, Rest>, ApproachError> {
+    Approach::plan(&from, &Rest, TICK, &LIMITS, &BOUNDS)
+}
+
+#[test]
+fn a_way_uses_its_limits_and_keeps_them() {
+    for from in [[1.9, -0.3], [-0.01, 1.5], [1e-6, 0.0], [-2.0, 2.0]] {
+        let way = plan(from).expect("within the limits");
+        assert_eq!((way.at(0).q, way.at(way.path_ticks()).q), (from, [0.0; 2]));
+        assert_eq!((way.first_point(), way.last_point()), (&from, &[0.0; 2]));
+        let mut used = 0.0_f64;
+        for tick in 0..way.path_ticks() {
+            let state = way.at(tick);
+            for joint in 0..2 {
+                used = used.max(state.qd[joint].abs() / LIMITS[joint].velocity);
+                used = used.max(state.qdd[joint].abs() / LIMITS[joint].acceleration);
+                assert!(state.q[joint].abs() <= from[joint].abs());
+            }
+        }
+        assert!(used <= 1.0, "{used}");
+        // One tick of rounding of a way of a tick or two is much.
+        assert!(
+            used >= 0.98 || way.path_ticks() < 10,
+            "{used} in {}",
+            way.path_ticks()
+        );
+    }
+}
+
+#[test]
+fn refusals_name_the_joint_and_the_limit() {
+    let outside = |joint, position| ApproachError::Position {
+        joint,
+        position,
+        lower: -2.0,
+        upper: 2.0,
+    };
+    assert_eq!(plan([0.0, 2.1]).unwrap_err(), outside(1, 2.1));
+    assert_eq!(plan([-2.1, 2.1]).unwrap_err(), outside(0, -2.1));
+    assert_eq!(
+        plan([0.0, f64::NAN]).unwrap_err(),
+        ApproachError::NotFinite { joint: 1 }
+    );
+    for (change, of) in [
+        (
+            (|l| l.velocity = 0.0) as fn(&mut MotionLimits<f64>),
+            LimitKind::Speed,
+        ),
+        (|l| l.acceleration = -1.0, LimitKind::Torque),
+        (|l| l.velocity = f64::NAN, LimitKind::Speed),
+    ] {
+        let mut limits = LIMITS;
+        change(&mut limits[1]);
+        let refused = Approach::plan(&[1.0; 2], &Rest, TICK, &limits, &BOUNDS).unwrap_err();
+        assert_eq!(refused, ApproachError::NoMotion { joint: 1, of });
+    }
+    // A joint that does not have to move needs no speed.
+    let mut limits = LIMITS;
+    limits[1].velocity = 0.0;
+    assert!(Approach::plan(&[1.0, 0.0], &Rest, TICK, &limits, &BOUNDS).is_ok());
+    let slow = [MotionLimits {
+        velocity: 1e-7,
+        acceleration: 1.0,
+    }; 2];
+    let refused = Approach::plan(&[1.0; 2], &Rest, TICK, &slow, &BOUNDS).unwrap_err();
+    assert!(matches!(refused, ApproachError::Path(_)), "{refused}");
+}
+
+#[test]
+fn an_arm_with_an_unknown_position_gets_no_way_and_no_torque() {
+    let mut controller = MotionController::<f64, 2>::new(MotionControllerConfig {
+        supervisor: SupervisorConfig {
+            limits: BOUNDS,
+            tick: TICK,
+            resolution: 0.0,
+            ride_through_ticks: 2,
+            hold_ticks: 3,
+            reentry_ticks: 10,
+        },
+        observer_bandwidth: 250.0,
+        decay_rate: 25.0,
+        restart_distance: 0.1,
+    });
+    for on_brake in [false, true] {
+        if on_brake {
+            controller = controller.on_brake();
+        }
+        for measured in [Err(Fault::Stale), Ok(&[f64::NAN; 2])] {
+            let command = controller.tick(measured, &Rest, |_, _| [5.0; 2]);
+            assert_eq!((command.torque, command.brake), ([0.0; 2], true));
+            let refused = controller.approach(&Rest, &LIMITS, &BOUNDS).unwrap_err();
+            assert_eq!(refused, ApproachError::Reset(ResetError::NoMeasurement));
+            controller.stop_by(Fault::External, StopCategory::ControlledHold);
+        }
+    }
+    controller.tick(Ok(&[1.0; 2]), &Rest, |_, _| [0.0; 2]);
+    assert!(controller.approach(&Rest, &LIMITS, &BOUNDS).is_ok());
+}

@@ -1,0 +1,186 @@
+use super::*;
+use crate::limits::SafetyLimits;
+use crate::motion::{CurrentTick, MotionControllerConfig};
+use crate::safety::SupervisorConfig;
+
+const TICK: f64 = 1e-3;
+const INERTIA: f64 = 2.0;
+const CONFIG: MotionControllerConfig<f64, 1> = MotionControllerConfig {
+    supervisor: SupervisorConfig {
+        limits: SafetyLimits {
+            torque: [40.0],
+            rate: [10.0],
+            speed: [3.0],
+            lower: [-1.0],
+            upper: [1.0],
+        },
+        tick: TICK,
+        resolution: 0.0,
+        ride_through_ticks: 2,
+        hold_ticks: 100,
+        reentry_ticks: 50,
+    },
+    observer_bandwidth: 250.0,
+    decay_rate: 25.0,
+    restart_distance: 0.1,
+};
+const SLOW: BackOffConfig<f64> = BackOffConfig {
+    limits: MotionLimits {
+        velocity: 0.5,
+        acceleration: 2.0,
+    },
+    margin: 0.05,
+};
+
+type Controller = MotionController<f64, 1, CurrentTick>;
+
+/// A joint on its brake beyond its bound, where it has been measured.
+struct Bench {
+    controller: Controller,
+    q: f64,
+    qd: f64,
+    gravity: f64,
+    command: Command<f64, 1>,
+}
+
+impl Bench {
+    fn new(q: f64, gravity: f64) -> Self {
+        let mut controller = Controller::new(CONFIG).on_brake();
+        let rest = Fixed(State::at([0.0]));
+        let command = controller.tick(Ok(&[q]), &rest, |_, _| [0.0]);
+        let outside = ResetError::OutOfBounds { joint: 0 };
+        assert_eq!(controller.reset(&rest), Err(outside));
+        Self {
+            controller,
+            q,
+            qd: 0.0,
+            gravity,
+            command,
+        }
+    }
+
+    fn step(&mut self) {
+        if self.command.brake {
+            self.qd = 0.0;
+            return;
+        }
+        self.qd += TICK * (self.command.torque[0] + self.gravity) / INERTIA;
+        self.q += TICK * self.qd;
+    }
+
+    fn back_off(&mut self, back_off: &mut BackOff<f64, 1>, push: f64) {
+        let law = |reference: &State<f64, 1, 1>, estimate: &Estimate<f64, 1>| {
+            let (e, ed) = (
+                reference.q[0] - estimate.q[0],
+                reference.qd[0] - estimate.qd[0],
+            );
+            let tau = INERTIA * reference.qdd[0] - self.gravity + 1250.0 * e + 100.0 * ed;
+            [tau + push]
+        };
+        self.command = back_off.tick(&mut self.controller, Ok(&[self.q]), law);
+        self.step();
+    }
+}
+
+#[test]
+fn a_joint_beyond_either_bound_comes_back_under_gravity_of_either_sign() {
+    for side in [1.0, -1.0] {
+        for gravity in [-8.0, 0.0, 8.0] {
+            let start = side * 1.2;
+            let mut bench = Bench::new(start, gravity);
+            let mut back_off = BackOff::start(&mut bench.controller, &SLOW).expect("measured");
+            let (mut ticks, mut fastest) = (0, 0.0_f64);
+            while !back_off.is_done() {
+                bench.back_off(&mut back_off, 0.0);
+                assert!(side * bench.q <= 1.2 + 1e-4, "{} {gravity}", bench.q);
+                assert_eq!(bench.command.status.fault, None);
+                fastest = fastest.max(bench.qd.abs());
+                ticks += 1;
+                assert!(ticks < 2000, "{} {gravity}", bench.q);
+            }
+            assert!(fastest < 0.6, "{fastest} {gravity}");
+            assert!((side * bench.q - 0.95).abs() < 0.06, "{}", bench.q);
+            // Held there; from there on as any stopped arm.
+            for _ in 0..500 {
+                let law = |r: &State<f64, 1, 1>, e: &Estimate<f64, 1>| {
+                    let gap = [r.q[0] - e.q[0], r.qd[0] - e.qd[0]];
+                    [INERTIA * r.qdd[0] - gravity + 1250.0 * gap[0] + 100.0 * gap[1]]
+                };
+                let rest = Fixed(State::at([0.0]));
+                bench.command = bench.controller.tick(Ok(&[bench.q]), &rest, law);
+                bench.step();
+                assert_eq!(bench.command.status.mode, Mode::Hold);
+                assert!(bench.q.abs() <= 1.0);
+            }
+        }
+    }
+}
+
+#[test]
+fn no_law_drives_a_joint_further_out() {
+    let mut bench = Bench::new(1.2, 0.0);
+    let mut back_off = BackOff::start(&mut bench.controller, &SLOW).expect("measured");
+    for _ in 0..1000 {
+        bench.back_off(&mut back_off, 500.0);
+        // Rounding of the estimated speed is all that is left of 40 N·m.
+        assert!(bench.q <= 1.2 + 1e-9, "{}", bench.q);
+        assert!(bench.command.torque[0] <= 1e-6);
+    }
+}
+
+#[test]
+fn a_joint_that_is_pushed_out_is_stopped_in_the_same_tick() {
+    let mut bench = Bench::new(1.2, 0.0);
+    let mut back_off = BackOff::start(&mut bench.controller, &SLOW).expect("measured");
+    (0..400).for_each(|_| bench.back_off(&mut back_off, 0.0));
+    assert!(bench.q < 1.15, "{}", bench.q);
+    // Nearer than where it began, and further than where it was.
+    bench.q += 0.02;
+    bench.back_off(&mut back_off, 0.0);
+    let fault = Some(Fault::Position { joint: 0 });
+    assert_eq!(
+        (bench.command.status.fault, bench.command.brake),
+        (fault, true)
+    );
+    assert_eq!(bench.command.torque, [0.0]);
+}
+
+#[test]
+fn the_configured_bounds_hold_outside_of_its_ticks() {
+    let mut bench = Bench::new(1.2, 0.0);
+    let mut back_off = BackOff::start(&mut bench.controller, &SLOW).expect("measured");
+    (0..10).for_each(|_| bench.back_off(&mut back_off, 0.0));
+    let rest = Fixed(State::at([0.0]));
+    let status = bench
+        .controller
+        .tick(Ok(&[bench.q]), &rest, |_, _| [0.0])
+        .status;
+    assert_eq!(status.fault, Some(Fault::Position { joint: 0 }));
+}
+
+#[test]
+fn by_hand_an_arm_comes_back_as_well() {
+    let mut bench = Bench::new(1.2, 0.0);
+    let rest = Fixed(State::at([0.9]));
+    while bench.q > 0.95 {
+        bench.q -= 1e-3;
+        let command = bench.controller.tick(Ok(&[bench.q]), &rest, |_, _| [9.0]);
+        assert_eq!((command.torque, command.brake), ([0.0], true));
+    }
+    assert_eq!(bench.controller.reset(&rest), Ok(()));
+}
+
+#[test]
+fn without_a_measurement_or_a_stop_there_is_no_way_back() {
+    let mut controller = Controller::new(CONFIG);
+    let refused = |controller: &mut Controller| BackOff::start(controller, &SLOW).unwrap_err();
+    assert_eq!(
+        refused(&mut controller),
+        ApproachError::Reset(ResetError::NotStopped)
+    );
+    controller = controller.on_brake();
+    assert_eq!(
+        refused(&mut controller),
+        ApproachError::Reset(ResetError::NoMeasurement)
+    );
+}

@@ -1,0 +1,254 @@
+//! Claims about the configuration, about what ends a reaction, and about the reset.
+
+use super::*;
+use crate::limits::MotionLimits;
+use crate::limits::{ConfigParameter, SafetyLimits};
+use crate::motion::MotionControllerConfig;
+use crate::reference::{Trajectory, WayPoint};
+use crate::safety::SupervisorConfig;
+
+mod motion;
+mod stops;
+
+const TICK: f64 = 1e-3;
+const SLOW: MotionLimits<f64> = MotionLimits {
+    velocity: 0.5,
+    acceleration: 2.0,
+};
+const DISTANCE: f64 = 0.2;
+
+fn config() -> ContactReactionConfig<f64> {
+    ContactReactionConfig {
+        response: ContactResponse::Retract {
+            distance: DISTANCE,
+            limits: SLOW,
+        },
+        release_ticks: 20,
+    }
+}
+
+#[test]
+fn numbers_that_are_no_configuration_are_refused_by_name() {
+    assert_eq!(config().check(), Ok(()));
+    let refused = |response, release_ticks| {
+        let config = ContactReactionConfig {
+            response,
+            release_ticks,
+        };
+        match ContactReaction::<f64, 1>::try_new(config) {
+            Err(ConfigError::OutOfRange { parameter }) => Some(parameter),
+            _ => None,
+        }
+    };
+    let retract = |distance, velocity, acceleration| ContactResponse::Retract {
+        distance,
+        limits: MotionLimits {
+            velocity,
+            acceleration,
+        },
+    };
+    let float = |damping, speed| ContactResponse::Float { damping, speed };
+    use ConfigParameter::*;
+    assert_eq!(refused(ContactResponse::Stop, 0), Some(ReleaseTicks));
+    for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        assert_eq!(refused(retract(bad, 1.0, 1.0), 1), Some(RetractDistance));
+        assert_eq!(refused(retract(1.0, bad, 1.0), 1), Some(RetractLimit));
+        assert_eq!(refused(float(bad, 1.0), 1), Some(FloatDamping));
+        assert_eq!(refused(float(1.0, bad), 1), Some(FloatSpeed));
+    }
+    for bad in [0.0, -1.0, f64::NAN] {
+        assert_eq!(refused(retract(1.0, 1.0, bad), 1), Some(RetractLimit));
+    }
+    for good in [
+        ContactResponse::Stop,
+        retract(1.0, 1.0, f64::INFINITY),
+        float(1.0, 1.0),
+    ] {
+        assert_eq!(refused(good, 1), None);
+    }
+}
+
+/// A joint that follows its reference, with a contact in some ticks and a lost measurement in others.
+struct Joint {
+    controller: MotionController<f64, 1>,
+    reaction: ContactReaction<f64, 1>,
+    motion: Trajectory<f64, 1, 2>,
+    q: f64,
+}
+
+const CONTACT: Result<Option<DetectedContact<f64>>, Fault> = Ok(Some(DetectedContact {
+    joint: 0,
+    torque: 3.0,
+}));
+
+impl Joint {
+    fn new(response: ContactResponse<f64>) -> Self {
+        Self::with_ticks(response, 30, 400)
+    }
+
+    fn with_ticks(response: ContactResponse<f64>, hold_ticks: u32, reentry_ticks: u32) -> Self {
+        let config = ContactReactionConfig {
+            response,
+            ..config()
+        };
+        let supervisor = SupervisorConfig {
+            limits: SafetyLimits {
+                torque: [10.0],
+                rate: [10.0],
+                speed: [3.0],
+                lower: [-2.0],
+                upper: [2.0],
+            },
+            tick: TICK,
+            resolution: 0.0,
+            ride_through_ticks: 2,
+            hold_ticks,
+            reentry_ticks,
+        };
+        let controller = MotionController::try_new(MotionControllerConfig {
+            supervisor,
+            observer_bandwidth: 250.0,
+            decay_rate: 25.0,
+            restart_distance: 1.0,
+        });
+        let stop = |q, ticks| WayPoint {
+            q: [q],
+            qd: [0.0],
+            ticks,
+        };
+        let limits = [MotionLimits {
+            velocity: 3.0,
+            acceleration: 10.0,
+        }];
+        Self {
+            controller: controller.expect("a good one"),
+            reaction: ContactReaction::try_new(config).expect("a good one"),
+            motion: Trajectory::new(&[stop(0.0, 0), stop(1.0, 1000)], TICK, &limits)
+                .expect("a slow one"),
+            q: 0.0,
+        }
+    }
+
+    fn run(&mut self, ticks: u32, contact: Result<Option<DetectedContact<f64>>, Fault>) {
+        for _ in 0..ticks {
+            let measured = [self.q];
+            let measured = contact.map(|_| &measured);
+            let observed = self.controller.observe(measured);
+            let tick = self.reaction.reference(observed, contact, &self.motion);
+            self.q = tick.reference().q[0];
+            tick.command(&[0.0]);
+        }
+    }
+}
+
+#[test]
+fn an_arm_that_goes_back_is_held_at_a_second_contact_and_at_a_lasting_fault() {
+    let lost = Err(Fault::Stale);
+    for (again, phase) in [
+        (Ok(None), ContactPhase::Retracting),
+        (CONTACT, ContactPhase::Held),
+        (lost, ContactPhase::Held),
+    ] {
+        let mut joint = Joint::new(config().response);
+        joint.run(500, Ok(None));
+        // The contact that began it does not end it.
+        joint.run(10, CONTACT);
+        assert_eq!(joint.reaction.phase(), ContactPhase::Retracting);
+        joint.run(25, Ok(None));
+        joint.run(4, again);
+        assert_eq!(joint.reaction.phase(), phase, "{again:?}");
+    }
+}
+
+#[test]
+fn an_arm_is_reset_after_ticks_without_a_contact_and_goes_on_where_it_left_its_motion() {
+    let mut joint = Joint::new(config().response);
+    joint.run(500, Ok(None));
+    let left = joint.controller.trajectory_tick();
+    joint.run(1, CONTACT);
+    joint.run(2000, Ok(None));
+    assert_eq!(joint.reaction.phase(), ContactPhase::Held);
+    assert!((left..left + 60).contains(&joint.controller.trajectory_tick()));
+    let reset = |joint: &mut Joint| joint.reaction.reset(&mut joint.controller, &joint.motion);
+    for unknown in [CONTACT, Err(Fault::Stale)] {
+        joint.run(1, unknown);
+        joint.run(19, Ok(None));
+        assert_eq!(reset(&mut joint), Err(ResetError::Contact));
+        joint.run(1, Ok(None));
+        assert!(joint.reaction.released());
+    }
+    assert_eq!(reset(&mut joint), Ok(()));
+    joint.run(1000, Ok(None));
+    assert_eq!(joint.reaction.phase(), ContactPhase::Watching);
+    assert!((joint.q - 1.0).abs() < 1e-9, "{}", joint.q);
+    // A reset of the controller itself counts as well.
+    joint.run(1, CONTACT);
+    assert_eq!(joint.reaction.phase(), ContactPhase::Retracting);
+    joint.run(25, Ok(None));
+    joint.run(50, CONTACT);
+    assert_eq!(joint.reaction.phase(), ContactPhase::Held);
+    assert_eq!(joint.controller.reset(&joint.motion), Ok(()));
+    joint.run(1, Ok(None));
+    assert_eq!(joint.reaction.phase(), ContactPhase::Watching);
+    // An arm that has no path yet stops.
+    joint.run(1, CONTACT);
+    assert_eq!(joint.reaction.phase(), ContactPhase::Held);
+}
+
+const FLOAT: ContactResponse<f64> = ContactResponse::Float {
+    damping: 5.0,
+    speed: 1.0,
+};
+
+#[test]
+fn the_reference_of_an_arm_that_floats_is_its_estimate_also_after_a_hold() {
+    let mut joint = Joint::new(FLOAT);
+    joint.run(500, Ok(None));
+    // The first tick after a hold is one of the hold.
+    for first in [0, 1] {
+        joint.run(first, CONTACT);
+        for _ in 0..10 {
+            joint.run(1, CONTACT);
+            joint.q += 1e-3; // by a hand
+            assert_eq!(joint.reaction.phase(), ContactPhase::Floating);
+            let [reference, estimate] = [
+                joint.controller.reference().q,
+                joint.controller.estimate().q,
+            ];
+            assert_eq!(reference, estimate);
+        }
+        joint.run(1000, Ok(None));
+        assert_eq!(joint.reaction.phase(), ContactPhase::Held);
+    }
+}
+
+#[test]
+fn an_arm_floats_until_it_is_at_rest_or_a_fault_lasts() {
+    let mut joint = Joint::new(FLOAT);
+    joint.run(500, Ok(None));
+    joint.run(1, CONTACT);
+    for _ in 0..40 {
+        joint.run(1, Ok(None));
+        joint.q += 1e-3;
+    }
+    assert_eq!(joint.reaction.phase(), ContactPhase::Floating);
+    joint.run(2, Err(Fault::Stale));
+    assert_eq!(joint.reaction.phase(), ContactPhase::Floating);
+    joint.run(2, Err(Fault::Stale));
+    assert_eq!(joint.reaction.phase(), ContactPhase::Held);
+    // A stopped arm does not float again.
+    joint.controller.stop(Fault::External);
+    joint.run(5, CONTACT);
+    assert_eq!(joint.reaction.phase(), ContactPhase::Held);
+}
+
+#[test]
+fn an_arm_that_is_held_for_another_reason_stays_held() {
+    let mut joint = Joint::new(FLOAT);
+    joint.run(500, Ok(None));
+    let hold = StopCategory::ControlledHold;
+    joint.controller.stop_by(Fault::External, hold);
+    joint.run(50, CONTACT);
+    assert_eq!(joint.controller.mode(), Mode::Hold);
+    assert_eq!(joint.reaction.phase(), ContactPhase::Watching);
+}

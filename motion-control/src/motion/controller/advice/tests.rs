@@ -1,0 +1,110 @@
+use std::string::{String, ToString};
+use std::vec::Vec;
+
+use crate::{MotionControllerConfig, SafetyLimits, SupervisorConfig};
+use dynamics_core::advice::Advice;
+
+fn kind(advice: &Advice) -> String {
+    let text = std::format!("{advice:?}");
+    text.split(' ').next().unwrap_or_default().to_string()
+}
+
+fn config() -> MotionControllerConfig<f32, 2> {
+    MotionControllerConfig {
+        supervisor: SupervisorConfig {
+            limits: SafetyLimits {
+                torque: [10.0; 2],
+                rate: [5.0; 2],
+                speed: [3.0; 2],
+                lower: [-2.0; 2],
+                upper: [2.0; 2],
+            },
+            tick: 1e-3,
+            resolution: core::f32::consts::TAU / 16_384.0,
+            ride_through_ticks: 5,
+            hold_ticks: 100,
+            reentry_ticks: 200,
+        },
+        observer_bandwidth: 250.0,
+        decay_rate: 25.0,
+        restart_distance: 0.15,
+    }
+}
+
+#[test]
+fn a_configuration_in_other_units_gets_this_advice_alone() {
+    let of = |change: fn(&mut MotionControllerConfig<f32, 2>)| {
+        let mut config = config();
+        change(&mut config);
+        assert_eq!(config.check(), Ok(()), "advice is not a refusal");
+        config
+            .advice()
+            .map(|advice| kind(&advice))
+            .collect::<Vec<_>>()
+    };
+    let none: [&str; 0] = [];
+    assert_eq!(of(|_| ()), none);
+    assert_eq!(of(|c| c.restart_distance = f32::INFINITY), none);
+    assert_eq!(of(|c| c.restart_distance = 15.0), ["FarRestart"]);
+    assert_eq!(of(|c| c.supervisor.limits.rate[1] = 0.0), ["ZeroRate"]);
+    // A second is far beyond every frequency, and an observer of 250 rad/s multiplies each step of the encoder.
+    let long = of(|c| c.supervisor.tick = 1.0);
+    let all = [
+        "LongTick",
+        "BeyondNyquist",
+        "BeyondNyquist",
+        "CoarseEncoder",
+        "CoarseEncoder",
+    ];
+    assert_eq!(long, all);
+    assert_eq!(
+        of(|c| {
+            c.supervisor.limits.lower = [-115.0; 2];
+            c.supervisor.limits.upper = [115.0; 2];
+        }),
+        ["PositionsInDegrees"]
+    );
+    assert_eq!(
+        of(|c| c.supervisor.limits.speed = [172.0; 2]),
+        ["SpeedsInDegrees"]
+    );
+    assert_eq!(of(|c| c.supervisor.limits.speed = [f32::INFINITY; 2]), none);
+    assert_eq!(of(|c| c.decay_rate = 250.0), ["BeyondObserver"]);
+    assert_eq!(of(|c| c.observer_bandwidth = 4000.0)[0], "BeyondNyquist");
+    // 14 bits in degrees.
+    let coarse = of(|c| c.supervisor.resolution = 360.0 / 16_384.0);
+    assert_eq!(coarse, ["CoarseEncoder"; 2]);
+}
+
+#[test]
+fn the_advice_on_a_configuration_says_number_reason_and_remedy() {
+    let mut wrong = config();
+    wrong.supervisor.tick = 1.0;
+    wrong.restart_distance = 15.0;
+    wrong.supervisor.limits.rate[1] = 0.0;
+    let words: Vec<String> = wrong
+        .advice()
+        .map(|advice| advice.named(&["shoulder", "elbow"]).to_string())
+        .collect();
+    assert_eq!(
+        words[..2],
+        [
+            "a tick of 1 s means 1 ticks a second, where control loops have 50 to 10000: the tick is in s, 1 ms is 0.001",
+            "a restart distance of 15 rad or m allows a start 859° from the trajectory: it is in rad, and looks like \
+             degrees; 0.15 is usual",
+        ]
+    );
+    assert!(
+        words
+            .iter()
+            .any(|text| text.starts_with("joint 1 (`elbow`): a rate of zero")),
+        "{words:?}"
+    );
+    let feedback = config().advice_on_feedback(5000.0, 300.0);
+    let kinds: Vec<String> = feedback.map(|advice| kind(&advice)).collect();
+    assert_eq!(kinds, ["BeyondNyquist", "BeyondObserver", "BeyondDrive"]);
+    assert_eq!(
+        config().advice_on_feedback(25.0, f32::INFINITY).next(),
+        None
+    );
+}

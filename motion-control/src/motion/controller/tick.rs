@@ -1,0 +1,185 @@
+//! The steps of a tick: each can be called only once, and only in this order.
+
+use super::{MeasurementAge, MotionController, PreviousTick};
+use crate::estimate::Estimate;
+use crate::limits::{Command, Fault, Mode};
+use crate::reference::Reference;
+use crate::safety::StopCategory;
+use dynamics_core::scalar::Real;
+use dynamics_core::state::State;
+
+/// A tick of a [`MotionController`] after the check of its measurement; [`Self::reference`] is the next step.
+#[must_use = "a tick without a command leaves the drives the torques of an older one"]
+#[derive(Debug)]
+pub struct ObservedTick<'a, R, const V: usize, A = PreviousTick> {
+    pub(crate) controller: &'a mut MotionController<R, V, A>,
+}
+
+/// A tick of a [`MotionController`] that needs the torques of the law; [`Self::command`] ends it.
+///
+/// ```
+/// use motion_control::{Command, Fault, MotionController, Reference};
+/// fn tick(
+///     controller: &mut MotionController<f32, 6>,
+///     trajectory: &impl Reference<f32, 6>,
+///     measured: Result<&[f32; 6], Fault>,
+///     emergency_stop: bool,
+/// ) -> Command<f32, 6> {
+///     let mut tick = controller.observe(measured).reference(trajectory);
+///     if emergency_stop {
+///         tick.stop(Fault::External);
+///     }
+///     let tau = [0.0; 6]; // of the law, from tick.reference() and tick.estimate()
+///     tick.command(&tau)
+/// }
+/// ```
+///
+/// A tick has one command:
+///
+/// ```compile_fail,E0382
+/// # use motion_control::{MotionController, Reference};
+/// # fn tick(controller: &mut MotionController<f32, 6>, trajectory: &impl Reference<f32, 6>) {
+/// let tick = controller.observe(Ok(&[0.0; 6])).reference(trajectory);
+/// tick.command(&[0.0; 6]);
+/// tick.command(&[0.0; 6]);
+/// # }
+/// ```
+///
+/// and one reference:
+///
+/// ```compile_fail,E0382
+/// # use motion_control::{MotionController, Reference};
+/// # fn tick(controller: &mut MotionController<f32, 6>, trajectory: &impl Reference<f32, 6>) {
+/// let tick = controller.observe(Ok(&[0.0; 6]));
+/// let referenced = tick.reference(trajectory);
+/// let again = tick.reference(trajectory);
+/// # }
+/// ```
+///
+/// which comes before the command:
+///
+/// ```compile_fail,E0599
+/// # use motion_control::MotionController;
+/// # fn tick(controller: &mut MotionController<f32, 6>) {
+/// controller.observe(Ok(&[0.0; 6])).command(&[0.0; 6]);
+/// # }
+/// ```
+///
+/// and no other tick begins before it has ended:
+///
+/// ```compile_fail,E0499
+/// # use motion_control::{MotionController, Reference};
+/// # fn tick(controller: &mut MotionController<f32, 6>, trajectory: &impl Reference<f32, 6>) {
+/// let tick = controller.observe(Ok(&[0.0; 6])).reference(trajectory);
+/// let other = controller.observe(Ok(&[0.0; 6]));
+/// tick.command(&[0.0; 6]);
+/// # }
+/// ```
+#[must_use = "a tick without a command leaves the drives the torques of an older one"]
+#[derive(Debug)]
+pub struct ReferencedTick<'a, R, const V: usize, A = PreviousTick> {
+    controller: &'a mut MotionController<R, V, A>,
+}
+
+impl<'a, R: Real, const V: usize, A: MeasurementAge> ObservedTick<'a, R, V, A> {
+    #[inline(always)]
+    pub(super) fn new(controller: &'a mut MotionController<R, V, A>) -> Self {
+        Self { controller }
+    }
+
+    /// The estimated positions and velocities of the joints.
+    #[inline(always)]
+    pub fn estimate(&self) -> &Estimate<R, V> {
+        self.controller.estimate()
+    }
+
+    /// The mode of the arm in this tick.
+    #[inline(always)]
+    pub fn mode(&self) -> Mode {
+        self.controller.mode()
+    }
+
+    /// The second step: computes the reference of this tick, which is the trajectory or, on a fault, what replaces it.
+    #[inline(always)]
+    pub fn reference<T: Reference<R, V>>(self, trajectory: &T) -> ReferencedTick<'a, R, V, A> {
+        self.controller.next_reference(trajectory);
+        ReferencedTick {
+            controller: self.controller,
+        }
+    }
+
+    /// The second step with a reference that is not the trajectory's: the clock of the trajectory stands still.
+    pub(crate) fn replace(self, reference: &State<R, V, V>) -> ReferencedTick<'a, R, V, A> {
+        self.controller.replace_reference(reference);
+        ReferencedTick {
+            controller: self.controller,
+        }
+    }
+}
+
+impl<R: Real, const V: usize, A: MeasurementAge> ReferencedTick<'_, R, V, A> {
+    /// The reference of the joints in this tick.
+    #[inline(always)]
+    pub fn reference(&self) -> &State<R, V, V> {
+        &self.controller.reference
+    }
+
+    /// The estimated positions and velocities of the joints.
+    #[inline(always)]
+    pub fn estimate(&self) -> &Estimate<R, V> {
+        self.controller.estimate()
+    }
+
+    /// The mode of the arm in this tick.
+    #[inline(always)]
+    pub fn mode(&self) -> Mode {
+        self.controller.mode()
+    }
+
+    /// The tick of the trajectory; it does not advance while the arm is held or returns.
+    #[inline(always)]
+    pub fn trajectory_tick(&self) -> u32 {
+        self.controller.clock
+    }
+
+    /// The same tick for a law without inertia in its feed-forward (gravity compensation, or no feed-forward at all).
+    ///
+    /// Such a law cannot produce the deceleration of a held arm. The reference of a held arm then has zero velocity,
+    /// and K_d decelerates the joints.
+    #[inline(always)]
+    pub fn without_inertia(self) -> Self {
+        if !matches!(self.mode(), Mode::Full) {
+            self.controller.reference.qd = [R::ZERO; V];
+        }
+        self
+    }
+
+    /// Stops the arm in this tick, as [`MotionController::stop`] does from the next one on.
+    #[doc(alias = "e-stop")]
+    #[doc(alias = "emergency stop")]
+    #[cold]
+    pub fn stop(&mut self, fault: Fault) {
+        self.controller.stop(fault);
+    }
+
+    /// Stops the arm by a category, as [`MotionController::stop_by`], in this tick: the reference of a controlled stop
+    /// replaces that of the trajectory.
+    #[cold]
+    pub fn stop_by(&mut self, fault: Fault, category: StopCategory<R, V>) {
+        self.controller.stop_by(fault, category);
+        self.controller.hold_now();
+    }
+
+    /// Ends the tick: limits the torques of the law (N·m, N) and returns the command to the drives.
+    ///
+    /// A torque that is not finite is a fault, see [`Supervisor::tick`](crate::Supervisor::tick).
+    #[inline(always)]
+    pub fn command(self, tau: &[R; V]) -> Command<R, V> {
+        let controller = self.controller;
+        let qd = &controller.observer.estimate().qd;
+        let command = controller.supervisor.gate(tau, qd);
+        let moving = matches!(command.status.mode, Mode::Full) & !controller.resume.active();
+        controller.clock = controller.clock.saturating_add(u32::from(moving));
+        command
+    }
+}

@@ -1,0 +1,18 @@
+//! A whole control loop without its law and devices, and how it comes to rest and starts again.
+
+pub(crate) mod approach;
+pub(crate) mod back_off;
+pub(crate) mod contact_reaction;
+pub(crate) mod controller;
+pub(crate) mod hold;
+pub(crate) mod resume;
+
+pub use approach::{Approach, ApproachError};
+pub use back_off::{BackOff, BackOffConfig};
+pub use contact_reaction::{ContactPhase, ContactReaction, ContactReactionConfig, ContactResponse};
+pub use controller::{
+    CurrentTick, MeasurementAge, MotionController, MotionControllerConfig, ObservedTick,
+    PreviousTick, ReferencedTick, ResetError,
+};
+pub use hold::hold;
+pub use resume::{ResumeConfig, ResumeTrajectory};

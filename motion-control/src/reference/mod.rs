@@ -1,0 +1,55 @@
+//! Where the arm should be: trajectories, paths, and their timing.
+
+pub(crate) mod geometric_path;
+pub(crate) mod path_spline;
+pub(crate) mod shaper;
+pub(crate) mod taught_path;
+pub(crate) mod timed_path;
+pub(crate) mod trajectory;
+
+pub use geometric_path::{GeometricPath, PathPoint};
+pub use path_spline::{PathSpline, PathSplineError};
+pub use shaper::{Shaped, Shaper, ShaperError, ShaperProblem, Vibration};
+pub use taught_path::{Recorded, TaughtPath};
+pub use timed_path::{JointFriction, PathLimits, TimedPath, TimedPathError};
+pub use trajectory::{RestToRest, Trajectory, TrajectoryError, WayPoint};
+
+use dynamics_core::scalar::Real;
+use dynamics_core::state::State;
+
+/// The motion that a controller follows: a state of V joints for each tick.
+///
+/// ```
+/// use motion_control::Reference;
+/// use dynamics_core::state::State;
+/// /// Two joints that stand still.
+/// struct Rest([f32; 2]);
+/// impl Reference<f32, 2> for Rest {
+///     fn at(&self, _: u32) -> State<f32, 2, 2> {
+///         State::at(self.0)
+///     }
+///     fn ticks(&self) -> u32 {
+///         0
+///     }
+/// }
+/// assert_eq!(Rest([0.1, 0.2]).at(7).q, [0.1, 0.2]);
+/// ```
+pub trait Reference<R, const V: usize> {
+    /// Position, velocity and acceleration at a tick, rad and s or m and s; after the end, the final state of the
+    /// motion (a trajectory is then at rest).
+    fn at(&self, tick: u32) -> State<R, V, V>;
+
+    /// Ticks from start to end.
+    fn ticks(&self) -> u32;
+}
+
+impl<R: Real, const V: usize, const W: usize> Reference<R, V> for Trajectory<R, V, W> {
+    #[inline(always)]
+    fn at(&self, tick: u32) -> State<R, V, V> {
+        Trajectory::at(self, tick)
+    }
+
+    fn ticks(&self) -> u32 {
+        Trajectory::ticks(self)
+    }
+}

@@ -1,0 +1,141 @@
+use super::*;
+use crate::limits::{Command, Mode, Status};
+
+#[test]
+fn a_frozen_encoder_stays_a_fault_when_the_reference_comes_back() {
+    let mut frozen = FrozenEncoder::new([0.01_f64; 2], 2);
+    let frozen_at = |reference: f64, frozen: &mut FrozenEncoder<f64, 2>| {
+        frozen.check(&[reference, 0.5], &[reference, 0.5 + reference])
+    };
+    let fault = Err(Fault::Frozen { joint: 1 });
+    // The second joint is compared in every other tick.
+    for reference in [0.0, 0.0, 0.01] {
+        assert_eq!(frozen_at(reference, &mut frozen), Ok(()), "{reference}");
+    }
+    for reference in [0.02, 0.0, 0.005] {
+        assert_eq!(frozen_at(reference, &mut frozen), fault, "{reference}");
+    }
+    frozen.restart();
+    assert_eq!(frozen_at(0.03, &mut frozen), Ok(()));
+}
+
+#[test]
+fn an_encoder_that_freezes_is_found_wherever_the_rotation_is() {
+    const JOINTS: usize = 6;
+    for joint in 0..JOINTS {
+        for begin in 20..20 + JOINTS as u32 {
+            let mut frozen = FrozenEncoder::new([1.5e-3_f64; JOINTS], 3);
+            let found = (0..100).find(|&tick| {
+                let reference = [1e-3 * f64::from(tick); JOINTS];
+                let mut q = reference;
+                q[joint] = 1e-3 * f64::from(tick.min(begin));
+                let fault = frozen.check(&q, &reference);
+                assert!(fault.is_ok() || fault == Err(Fault::Frozen { joint }));
+                fault.is_err()
+            });
+            let ticks = found.expect("a fault") - begin;
+            assert!((JOINTS..2 * JOINTS).contains(&(ticks as usize)), "{ticks}");
+        }
+    }
+}
+
+#[test]
+fn an_arm_at_rest_is_not_frozen() {
+    let mut frozen = FrozenEncoder::new([0.01_f64], 2);
+    for tick in 0..1000 {
+        // The reference of an arm at rest may be off, but does not move.
+        assert_eq!(frozen.check(&[0.5], &[0.7]), Ok(()), "{tick}");
+    }
+    // A count for each 1.3 of the reference.
+    for tick in 0..1000 {
+        let reference = 0.7 + 1e-3 * f64::from(tick);
+        let count = (reference / 1.3e-3).floor() * 1.3e-3;
+        assert_eq!(frozen.check(&[count], &[reference]), Ok(()), "{tick}");
+    }
+}
+
+#[test]
+fn each_joint_has_its_own_count_of_saturation() {
+    let mut saturation = Saturation::new([10.0_f64, 5.0], 3);
+    for tick in 0..20 {
+        // Joints in turn, each for as long as it may.
+        let torque = if tick / 3 % 2 == 0 {
+            [10.0, 4.9]
+        } else {
+            [-9.9, -5.0]
+        };
+        assert_eq!(saturation.check(&torque), Ok(()), "{tick}");
+    }
+    let faults = [(); 4].map(|()| saturation.check(&[0.0, -5.0]).is_err());
+    assert_eq!(faults, [false, false, false, true]);
+}
+
+#[test]
+fn a_reference_that_is_not_finite_is_a_step() {
+    for bad in [f64::NAN, f64::INFINITY] {
+        let mut steps = ReferenceStep::new([f64::INFINITY; 1]);
+        assert_eq!(steps.check(&State::at([0.0])), Ok(()));
+        let fault = Err(Fault::Reference { joint: 0 });
+        for field in 0..3 {
+            let mut state = State::at([0.0]);
+            [&mut state.q, &mut state.qd, &mut state.qdd][field][0] = bad;
+            assert_eq!(steps.check(&state), fault, "{field}");
+            steps.restart();
+        }
+    }
+}
+
+#[test]
+fn no_reference_acted_before_the_first_tick() {
+    let mut frozen = FrozenEncoder::new([0.01_f64], 3);
+    // A controller that has had no tick has a reference of zero, wherever the arm is.
+    assert_eq!(frozen.check(&[2.0], &[0.0]), Ok(()));
+    for tick in 0..10 {
+        assert_eq!(frozen.check(&[2.0], &[2.0]), Ok(()), "{tick}");
+    }
+}
+
+#[test]
+fn a_step_without_a_limit_hides_no_other_joint() {
+    let mut steps = ReferenceStep::new([f64::INFINITY, 0.1]);
+    assert_eq!(steps.check(&State::at([0.0, 0.0])), Ok(()));
+    assert_eq!(steps.check(&State::at([9.0, 0.05])), Ok(()));
+    let fault = Err(Fault::Reference { joint: 1 });
+    assert_eq!(steps.check(&State::at([0.0, 0.5])), fault);
+}
+
+#[test]
+fn a_reference_to_detectors_detects_as_they_do() {
+    let mut own = Detectors {
+        frozen: FrozenEncoder::new([0.01_f64], 1),
+        steps: ReferenceStep::new([0.1]),
+        saturation: Saturation::new([10.0], 0),
+    };
+    let mut borrowed = &mut own;
+    let found = [0.0, 0.02, 0.04, 0.06]
+        .map(|reference| Detect::measured(&mut borrowed, &[0.5], &[reference]).err());
+    let fault = Some(Fault::Frozen { joint: 0 });
+    assert_eq!(found, [None, None, fault, fault]);
+    let follow = |detectors: &mut &mut Detectors<f64, 1>, q: f64| {
+        Detect::referenced(detectors, &State::at([q]), Mode::Full).err()
+    };
+    assert_eq!(follow(&mut borrowed, 0.0), None);
+    assert_eq!(
+        follow(&mut borrowed, 0.5),
+        Some(Fault::Reference { joint: 0 })
+    );
+    Detect::restart(&mut borrowed);
+    assert_eq!(follow(&mut borrowed, 0.9), None);
+    let status = Status {
+        mode: Mode::Full,
+        fault: None,
+        limited: false,
+    };
+    let command = Command {
+        torque: [10.0],
+        brake: false,
+        status,
+    };
+    let fault = Err(Fault::Saturated { joint: 0 });
+    assert_eq!(Detect::commanded(&mut borrowed, &command), fault);
+}

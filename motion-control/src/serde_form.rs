@@ -1,0 +1,86 @@
+//! serde's traits for the configurations that firmware stores in flash, for the feature `serde`: their form is that of
+//! dynamics-core's.
+
+use dynamics_core::scalar::Real;
+use dynamics_core::serde_form::{Array, Form};
+use dynamics_core::serde_record;
+
+/// What has a record of its own.
+macro_rules! nested {
+    ($($name:ident),+) => {$(
+        impl<R: Real, const V: usize> Form<Self> for crate::$name<R, V> {
+            fn form(self) -> Self {
+                self
+            }
+            fn of(form: Self) -> Self {
+                form
+            }
+        }
+    )+};
+}
+
+nested!(LimitedSpring, SafetyLimits, SupervisorConfig);
+
+serde_record!(limits::SafetyLimits<R, V> {
+    torque: Array<R, V>,
+    rate: Array<R, V>,
+    speed: Array<R, V>,
+    lower: Array<R, V>,
+    upper: Array<R, V>,
+} check);
+serde_record!(safety::SupervisorConfig<R, V> {
+    limits: crate::SafetyLimits<R, V>,
+    tick: R,
+    resolution: R,
+    ride_through_ticks: u32,
+    hold_ticks: u32,
+    reentry_ticks: u32,
+} check);
+serde_record!(motion::MotionControllerConfig<R, V> {
+    supervisor: crate::SupervisorConfig<R, V>,
+    observer_bandwidth: R,
+    decay_rate: R,
+    restart_distance: R,
+} check);
+serde_record!(estimate::ObserverConfig<R> { bandwidth: R, tick: R } check);
+serde_record!(motion::ResumeConfig<R> { tick: R, decay_rate: R, ticks: u32 } check);
+serde_record!(law::Gains<R, V> { kp: Array<R, V>, kd: Array<R, V> });
+serde_record!(law::PassivityGains<R, V> { lambda: Array<R, V>, kd: Array<R, V> });
+serde_record!(law::ImpedanceConfig<R, M> { stiffness: Array<R, M>, zeta: R, slowest: R } check);
+serde_record!(estimate::TipWrenchConfig<R, V> { noise: Array<R, V>, force: R, couple: R });
+serde_record!(estimate::PayloadEstimatorConfig<R, V> {
+    noise: Array<R, V>,
+    prior: Array<R, 10>,
+    forgetting: R,
+    limit: R,
+} check);
+serde_record!(estimate::ParameterEstimatorConfig<R, P, V> {
+    noise: Array<R, V>,
+    prior: Array<R, P>,
+    own: Array<u16, V>,
+    forgetting: R,
+    limit: R,
+} check);
+serde_record!(law::LimitedSpring<R, V> {
+    stiffness: Array<R, V>,
+    damping: Array<R, V>,
+    torque: Array<R, V>,
+});
+serde_record!(law::HandGuidingConfig<R, V> {
+    error: R,
+    share: R,
+    rest_speed: Array<R, V>,
+    compensation: Array<R, V>,
+    lower: Array<R, V>,
+    upper: Array<R, V>,
+    wall: crate::LimitedSpring<R, V>,
+    lock: crate::LimitedSpring<R, V>,
+} check);
+serde_record!(law::InertiaShapingConfig<R, V> {
+    amplification: R,
+    dead_band: Array<R, V>,
+    damping: Array<R, V>,
+    torque: Array<R, V>,
+} check);
+serde_record!(limits::MotionLimits<R> { velocity: R, acceleration: R });
+serde_record!(reference::WayPoint<R, V> { q: Array<R, V>, qd: Array<R, V>, ticks: u32 });

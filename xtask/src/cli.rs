@@ -1,0 +1,206 @@
+//! The command line: what a user types first, and the laboratory's commands apart.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::error::ErrorKind;
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+
+use crate::commands::{demo, endurance, import, meter, pil, test, watch, weight};
+use crate::kit::error::{Result, check};
+use crate::kit::{output, processes, setup, workspace};
+use crate::studies::Chosen;
+
+/// Set-up, demo, tests and reports of this workspace
+#[derive(Parser)]
+#[command(name = "cargo xtask", bin_name = "cargo xtask")]
+pub struct Cli {
+    #[command(subcommand)]
+    command: Command,
+    #[command(flatten)]
+    setup: setup::Options,
+    /// Write reports and their pictures into this directory instead of docs/ (budgets stay where they are)
+    #[arg(long, global = true, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Run a scene in QEMU, report what a tick costs and how well the arm tracks
+    Demo(demo::Args),
+    /// Test all that guards correctness, each claim by its cheapest witness
+    Test(test::Args),
+    /// Write a firmware project, or with --c a static library for C, for a robot from URDF or MJCF
+    New(import::New),
+    /// Write the Rust file of a robot from URDF or MJCF, with advice, a check, and what its inverse dynamics costs
+    Import(import::Args),
+    /// Measure a firmware of your own between its markers, and check its instructions
+    #[command(after_long_help = meter::MARKERS)]
+    Meter(meter::Args),
+    /// Show the telemetry of a scene in QEMU or of a machine on a serial port, live in the terminal
+    Watch(watch::Args),
+    /// Compare the scene ur5e with its robot in f64 on the host, processor in the loop, and with its robot inside
+    Pil(pil::Args),
+    #[command(flatten)]
+    Study(Chosen),
+    /// Feed descriptions, files, dynamics, controller and encoder frames random bytes; CI does so for a moment
+    Fuzz {
+        /// Seconds for each target
+        #[arg(long, default_value_t = 60, value_name = "N")]
+        seconds: u64,
+    },
+    /// Run the control loop under random faults; CI does so for 200,000 ticks
+    Soak {
+        /// Ticks
+        #[arg(long, default_value_t = 10_000_000, value_name = "N")]
+        ticks: u64,
+    },
+    /// Run the library's unit tests in Miri, where a nightly toolchain has it
+    Miri,
+    /// Count the lines of code of product, tests and apparatus
+    Lines,
+}
+
+/// The commands for users, in the order of the help; all others are the laboratory's.
+const FIRST: [&str; 9] = [
+    "demo", "test", "new", "import", "meter", "watch", "pil", "costs", "accuracy",
+];
+
+const LABORATORY: &str = "\x1b[1;4mLaboratory, which writes the pages of docs/\x1b[0m";
+
+/// All commands; those of the laboratory stand behind the help's other parts.
+fn command() -> clap::Command {
+    let place = |name: &str| FIRST.iter().position(|first| *first == name);
+    let root = Cli::command().mut_subcommands(|command| match place(command.get_name()) {
+        Some(place) => command.display_order(place),
+        None => command.hide(true),
+    });
+    let hidden = root
+        .get_subcommands()
+        .filter(|command| command.is_hide_set());
+    let lines = hidden.map(|command| {
+        let about = command.get_about().map(ToString::to_string);
+        format!(
+            "\n  {:13} {}",
+            command.get_name(),
+            about.unwrap_or_default()
+        )
+    });
+    let laboratory = format!("{LABORATORY}:{}", lines.collect::<String>());
+    root.after_help(laboratory)
+}
+
+/// The command line of this process, or what is wrong with it, or the help that was asked for.
+pub fn parse() -> std::result::Result<Cli, clap::Error> {
+    Cli::from_arg_matches(&command().try_get_matches()?)
+}
+
+/// Prints help or what is wrong with the command line, with the words that could have stood there.
+pub fn explain(error: &clap::Error) -> i32 {
+    if let Err(error) = error.print() {
+        // A reader such as `head` may close the pipe early.
+        if error.kind() != std::io::ErrorKind::BrokenPipe {
+            output::note(&format!("error: cannot print: {error}"));
+        }
+        return 1;
+    }
+    // Clap lists the values that it would take, but not the commands and options.
+    if let Some(valid) = valid_words(error.kind()) {
+        output::note(&format!("\n{valid}"));
+    }
+    error.exit_code()
+}
+
+/// The valid words in place of one that is unknown.
+fn valid_words(kind: ErrorKind) -> Option<String> {
+    let mut root = command();
+    root.build();
+    let (what, words): (_, Vec<String>) = match kind {
+        ErrorKind::InvalidSubcommand => {
+            let names = root
+                .get_subcommands()
+                .map(|command| command.get_name().to_owned());
+            ("commands".to_owned(), names.collect())
+        }
+        ErrorKind::UnknownArgument => {
+            let typed = std::env::args().find_map(|word| root.find_subcommand(&word));
+            let command = typed.unwrap_or(&root);
+            let shown = command
+                .get_arguments()
+                .filter(|argument| !argument.is_hide_set());
+            let options = shown.filter_map(|argument| Some(format!("--{}", argument.get_long()?)));
+            (
+                format!("options of {}", command.get_name()),
+                options.collect(),
+            )
+        }
+        _ => return None,
+    };
+    Some(format!("valid {what}: {}", words.join(", ")))
+}
+
+pub fn run(cli: Cli) -> Result<ExitCode> {
+    processes::end_with_us().map_err(|e| check!("cannot handle signals: {e}"))?;
+    if let Some(dir) = cli.out {
+        workspace::write_reports_to(dir)?;
+    }
+    let setup = cli.setup;
+    match cli.command {
+        Command::Demo(args) => demo::run(setup, args),
+        Command::Test(args) => test::run(setup, &args),
+        Command::New(args) => import::new(&args),
+        Command::Import(args) => import::run(setup, &args),
+        Command::Meter(args) => meter::run(setup, &args),
+        Command::Watch(args) => watch::run(setup, &args),
+        Command::Pil(args) => pil::run(setup, &args),
+        Command::Study(study) => study.run(setup),
+        Command::Fuzz { seconds } => endurance::fuzz(seconds),
+        Command::Soak { ticks } => endurance::soak(ticks),
+        Command::Miri => endurance::miri(),
+        Command::Lines => output::print(&weight::lines()?).map(|()| ExitCode::SUCCESS),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect_file;
+
+    use super::command;
+
+    #[test]
+    fn the_help_shows_a_users_commands_before_the_laboratorys() {
+        let help = command().term_width(100).render_help().to_string();
+        expect_file!["help.txt"].assert_eq(&help);
+    }
+
+    #[test]
+    fn a_file_excludes_what_is_written_or_of_other_robots() {
+        let parses = |words: &str| {
+            let words = ["cargo xtask"].into_iter().chain(words.split(' '));
+            command().try_get_matches_from(words).is_ok()
+        };
+        for good in [
+            "costs --file arm.urdf",
+            "costs --file arm.urdf --json",
+            "costs --file arm.xml -- --tip hand --lock finger=0.01",
+            "accuracy --file arm.urdf",
+            "accuracy --file arm.urdf --error 0.05Nm",
+            "accuracy --file arm.urdf --cycles 600 --json -- --name arm",
+            "accuracy --robot ur5e --cycles 600",
+        ] {
+            assert!(parses(good), "{good}");
+        }
+        for bad in [
+            "costs --file",
+            "costs --file arm.urdf --write-budgets",
+            "costs -- --tip hand",
+            "accuracy --file arm.urdf --robot ur5e",
+            "accuracy --file arm.urdf --error 0.05Nm --cycles 600",
+            "accuracy --file arm.urdf --error 0.05",
+            "accuracy --cycles 600",
+            "accuracy --error 0.05Nm",
+        ] {
+            assert!(!parses(bad), "{bad}");
+        }
+    }
+}

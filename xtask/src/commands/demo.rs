@@ -1,0 +1,282 @@
+//! `cargo xtask demo`: builds scenes, runs them in QEMU, reports.
+
+mod tracking;
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
+
+use crate::kit::bracket::{Bracket, READINGS};
+use crate::kit::elf::Image;
+use crate::kit::error::{Error, Result};
+use crate::kit::progress::Spinner;
+use crate::kit::protocol::{FEEDFORWARD, PD, Recording};
+use crate::kit::qemu::Run;
+use crate::kit::scene::{Scene, Shown};
+use crate::kit::setup::{self, Options, Tools};
+use crate::kit::toolchain::RELEASE;
+use crate::kit::workspace::{self, Workspace};
+use crate::kit::{docs, firmware, meter, output};
+use crate::studies::scenes::plot;
+use crate::studies::scenes::report::{Report, feedforward_costs};
+use crate::studies::{budgets, scenes, trial};
+
+/// The README's picture, of the default scene.
+pub const PICTURE: &str = "docs/ur5e.svg";
+
+/// A run of a scene, in full.
+pub struct Measured {
+    pub report: Report,
+    pub recording: Recording,
+    pub elf: PathBuf,
+    /// The log as it came and the meter's file: the same for each run of the same ELF.
+    pub raw: (Vec<u8>, String),
+}
+
+#[derive(clap::Args)]
+pub struct Args {
+    /// The scene
+    #[arg(long, value_enum, default_value_t)]
+    #[arg(value_name = "NAME", ignore_case = true)]
+    scene: Shown,
+    /// Every scene that is about tracking, and one table of all
+    #[arg(long, conflicts_with = "scene")]
+    all: bool,
+    /// The report as JSON on stdout; progress stays on stderr
+    #[arg(long)]
+    json: bool,
+    /// Rewrite the README's tables (with --all: docs/scenes.md too) from this run
+    #[arg(long)]
+    write_docs: bool,
+    /// Rewrite the scenes' budgets from this run
+    #[arg(long)]
+    write_budgets: bool,
+}
+
+/// Runs scenes, writes what the arguments name, and prints.
+pub fn run(options: Options, args: Args) -> Result<ExitCode> {
+    let workspace = Workspace::find()?;
+    let tools = setup::for_demo(options)?;
+    let one = match args.scene {
+        Shown::Trial(trial) => return trial::run(&tools, trial, args.json, args.write_docs),
+        Shown::Tracking(scene) => [scene],
+    };
+    let scenes = if args.all { Scene::all() } else { &one };
+    let built = Built::new(&workspace, &tools, scenes)?;
+    let measured = match built.measure(&workspace, &tools) {
+        Ok(measured) => measured,
+        Err(why) if args.write_docs || args.write_budgets => return Err(why),
+        Err(why) if built.lacks_the_meter(&tools, &why) => {
+            return tracking::run(&workspace, &tools, &built.runs, &why, args.json);
+        }
+        Err(why) => return Err(why),
+    };
+    let mut pictures = Vec::new();
+    for one in &measured {
+        let picture = workspace.output(&format!("{}.svg", one.report.scene))?;
+        plot::write(&one.recording, &picture)?;
+        pictures.push(picture);
+        if args.write_budgets {
+            budgets::write(&workspace, &one.report)?;
+        }
+    }
+    let reports: Vec<&Report> = measured.iter().map(|one| &one.report).collect();
+    if args.write_docs {
+        write_docs(&workspace, &tools, &built.meter, &measured)?;
+        if args.all {
+            scenes::PAGE.write(&workspace, &scenes::markdown(&reports))?;
+        }
+    }
+    match reports.as_slice() {
+        [one] if args.json && !args.all => docs::print_json(one)?,
+        all if args.json => docs::print_json(&all)?,
+        all if args.all => output::print(&scenes::text(all))?,
+        all => {
+            for (report, picture) in all.iter().zip(&pictures) {
+                output::print(&report.text(workspace.relative(picture)))?;
+            }
+        }
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// The README's tables and picture, which are those of the default scene.
+fn write_docs(
+    workspace: &Workspace,
+    tools: &Tools,
+    plugin: &Path,
+    measured: &[Measured],
+) -> Result<()> {
+    let shown = Scene::default().name();
+    for one in measured.iter().filter(|one| one.report.scene == shown) {
+        let brackets = brackets(workspace, tools, plugin, one)?;
+        docs::README.write(workspace, &one.report.markdown(&brackets))?;
+        plot::write(&one.recording, &workspace.report(PICTURE))?;
+    }
+    Ok(())
+}
+
+/// Scenes and the meter, built.
+pub struct Built {
+    meter: PathBuf,
+    runs: Vec<(Scene, PathBuf)>,
+}
+
+impl Built {
+    pub fn new(workspace: &Workspace, tools: &Tools, scenes: &[Scene]) -> Result<Self> {
+        let names: Vec<&str> = scenes.iter().map(|scene| scene.name()).collect();
+        let building = Spinner::start(&format!("building {}", names.join(", ")));
+        let elves = firmware::build_bins(workspace, tools.toolchain, RELEASE, &names)?;
+        building.say("building the cycle meter".into());
+        let meter = firmware::build_meter(workspace)?;
+        drop(building);
+        let runs = scenes.iter().copied().zip(elves).collect();
+        Ok(Self { meter, runs })
+    }
+
+    /// Runs the ones under the other.
+    pub fn measure(&self, workspace: &Workspace, tools: &Tools) -> Result<Vec<Measured>> {
+        tools.qemu.interface(&self.meter)?;
+        measure_all(workspace, tools, &self.meter, &self.runs)
+    }
+
+    /// Whether the runs failed because QEMU does not take the meter: it said so, or it is so new that
+    /// the meter may be what made it fail.
+    fn lacks_the_meter(&self, tools: &Tools, why: &Error) -> bool {
+        let refused = tools.qemu.interface(&self.meter).is_err();
+        refused || (matches!(why, Error::Qemu { .. }) && !tools.qemu.is_known())
+    }
+}
+
+/// Runs scenes under the meter, as many at a time as there are cores, and returns them in their order.
+pub fn measure_all(
+    workspace: &Workspace,
+    tools: &Tools,
+    meter: &Path,
+    runs: &[(Scene, PathBuf)],
+) -> Result<Vec<Measured>> {
+    let next = AtomicUsize::new(0);
+    let done: Vec<_> = runs.iter().map(|_| OnceLock::new()).collect();
+    let work = || {
+        while let Some(number) = Some(next.fetch_add(1, Relaxed)).filter(|n| *n < runs.len()) {
+            let (scene, elf) = &runs[number];
+            done[number].get_or_init(|| measure(workspace, tools, *scene, elf, meter));
+        }
+    };
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    std::thread::scope(|scope| {
+        for _ in 0..cores.min(runs.len()) {
+            scope.spawn(work);
+        }
+    });
+    done.into_iter().filter_map(OnceLock::into_inner).collect()
+}
+
+/// A run in words, from the line that announces it: `run exact pd 0x800b789`.
+fn run_in_words(line: &str) -> Option<String> {
+    let mut words = line.strip_prefix("run ")?.split(' ');
+    let (plant, law) = (words.next()?, words.next()?);
+    let law = match law {
+        PD => "PD alone".to_owned(),
+        FEEDFORWARD => "feed-forward and PD".to_owned(),
+        _ => law.replace('-', " "),
+    };
+    Some(format!("{law}, with the {plant} model"))
+}
+
+/// Runs a scene under the meter.
+pub fn measure(
+    workspace: &Workspace,
+    tools: &Tools,
+    scene: Scene,
+    elf: &Path,
+    plugin: &Path,
+) -> Result<Measured> {
+    let regions = workspace.output(&format!("{}.regions", scene.name()))?;
+    let (recording, raw) = record(tools, scene, elf, Some((plugin, &regions)))?;
+    let metered = workspace::read(&regions)?;
+    let report = Report::new(
+        &recording,
+        &meter::read(&regions)?,
+        &Image::read(elf)?,
+        tools.toolchain.rustc_version()?,
+        tools.qemu.version.clone(),
+    )?;
+    Ok(Measured {
+        report,
+        recording,
+        elf: elf.to_owned(),
+        raw: (raw, metered),
+    })
+}
+
+/// The brackets of the longest tick with feed-forward and of its phases, by two more runs side by side.
+pub fn brackets(
+    workspace: &Workspace,
+    tools: &Tools,
+    plugin: &Path,
+    measured: &Measured,
+) -> Result<Vec<Bracket>> {
+    let name = &*measured.report.scene;
+    let spinner = Spinner::start(&format!(
+        "running scene {name} by two more readings of the manual"
+    ));
+    let longest = |reading: &'static str| -> Result<Vec<u64>> {
+        let regions = workspace.output(&format!("{name}.{reading}.regions"))?;
+        let mut run = Run::logging(name, &measured.elf, Some((plugin, &regions)));
+        run.reading = reading;
+        tools.qemu.run(&run, |_| Ok(()))?;
+        let costs = feedforward_costs(&measured.recording, &meter::read(&regions)?)?;
+        Ok(costs.iter().map(|cost| cost.cycles.max).collect())
+    };
+    let [least, most] = std::thread::scope(|scope| {
+        let runs = READINGS.map(|reading| scope.spawn(move || longest(reading)));
+        runs.map(|run| {
+            let lost = |_| Err(Error::check("a run by another reading was lost"));
+            run.join().unwrap_or_else(lost)
+        })
+    });
+    drop(spinner);
+    let chosen = measured.report.tick.values().map(|cost| cost.cycles.max);
+    let all = least?.into_iter().zip(chosen).zip(most?);
+    all.map(|((least, chosen), most)| Bracket::of(least, chosen, most))
+        .collect()
+}
+
+/// Runs a scene, with the meter and its file or without, and returns what it said, and that as it came.
+fn record(
+    tools: &Tools,
+    scene: Scene,
+    elf: &Path,
+    meter: Option<(&Path, &Path)>,
+) -> Result<(Recording, Vec<u8>)> {
+    let name = scene.name();
+    let spinner = Spinner::start(&format!("running scene {name} in QEMU"));
+    let mut recording = Recording::default();
+    let run = Run::logging(name, elf, meter);
+    let raw = tools.qemu.run(&run, |line| {
+        if !recording.line(line)? {
+            output::note(&format!("[{name}] {line}"));
+        } else if let Some(words) = run_in_words(line) {
+            spinner.say(format!("scene {name} in QEMU: {words}"));
+        }
+        Ok(())
+    })?;
+    Ok((recording, raw))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::run_in_words;
+
+    #[test]
+    fn a_run_is_said_in_words() {
+        let words = |line: &str| run_in_words(line);
+        let pd = words("run exact pd 0x800b789").expect("a run");
+        assert_eq!(pd, "PD alone, with the exact model");
+        let without = words("run mismatched without-Coulomb 0x1").expect("a run");
+        assert_eq!(without, "without Coulomb, with the mismatched model");
+        assert_eq!(words("tick 7"), None);
+    }
+}

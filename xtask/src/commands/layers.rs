@@ -1,0 +1,274 @@
+//! The library's modules in one-way layers: the table at the top of `lib.rs` lists them in order, and none uses a
+//! later one. A module that is not in it, such as the forms for a feature, stands above all.
+
+use std::path::Path;
+
+use crate::kit::error::{Error, Result, refuse_if};
+use crate::kit::sources::{code, sources};
+use crate::kit::workspace;
+
+/// The beginning of a row of the table; its first column has the names of modules in backticks.
+const ROW: &str = "//! | ";
+
+/// The one circle that is left: the trait `Real` names the model that its cast returns (docs/decisions/0007).
+const CIRCLE: (&str, &str) = ("scalar", "model");
+
+/// The library's modules, in order, and what it exports under a name of its own.
+struct Order {
+    listed: Vec<String>,
+    declared: Vec<String>,
+    /// An item's name at the crate's root, and its module.
+    exports: Vec<(String, String)>,
+}
+
+/// Fails with every place where a module of the library uses a later one; modules within a module count as it.
+pub fn check(root: &Path) -> Result<String> {
+    let library = root.join("dynamics-core/src");
+    let order = Order::read(&workspace::read(&library.join("lib.rs"))?)?;
+    let (mut uses, mut wrong) = (0, Vec::new());
+    for path in sources(&library)? {
+        let inside = path.strip_prefix(&library).unwrap_or(&path);
+        let inside = inside.with_extension("");
+        let mut names: Vec<_> = inside.iter().map(|name| name.to_string_lossy()).collect();
+        names.retain(|name| name != "mod");
+        let user = &*names[0];
+        if user == "lib" || names.iter().any(|name| name == "tests") {
+            continue;
+        }
+        let file = path.strip_prefix(root).unwrap_or(&path).display();
+        for (line, used) in used(&workspace::read(&path)?, names.len()) {
+            uses += 1;
+            if let Some(complaint) = order.complaint(user, &used) {
+                wrong.push(format!("{file}:{line}: `{user}` {complaint}"));
+            }
+        }
+    }
+    if wrong.is_empty() {
+        return Ok(format!("{} modules, {uses} uses", order.declared.len()));
+    }
+    Err(Error::check(wrong.join("\n")))
+}
+
+impl Order {
+    /// From the source of `lib.rs`.
+    fn read(source: &str) -> Result<Self> {
+        let rows = source.lines().filter_map(|line| line.strip_prefix(ROW));
+        let names = rows.flat_map(|row| {
+            let cell = row.split(" | ").next().unwrap_or_default();
+            cell.split('`').skip(1).step_by(2)
+        });
+        // Types of the crate's root, which have capitals, are exports of a module.
+        let modules = names.filter(|name| name.starts_with(char::is_lowercase));
+        let listed: Vec<String> = modules.map(str::to_owned).collect();
+        let (mut exports, mut declared) = (Vec::new(), Vec::new());
+        let text: String = code(source)
+            .map(|(_, line)| line.to_owned() + " ")
+            .collect();
+        for statement in text.split(';') {
+            // Behind its attributes and its visibility.
+            let words = statement.rsplit(']').next().unwrap_or_default().trim();
+            let words = words
+                .trim_start_matches("pub(crate) ")
+                .trim_start_matches("pub ");
+            if let Some(name) = words.strip_prefix("mod ") {
+                declared.push(name.to_owned());
+            }
+            let path = words
+                .strip_prefix("use ")
+                .and_then(|path| path.split_once("::"));
+            if let Some((module, items)) = path {
+                let items = items.split(['{', '}', ',']).map(str::trim);
+                exports.extend(items.map(|item| (item.to_owned(), module.to_owned())));
+            }
+        }
+        refuse_if!(listed.is_empty(), "lib.rs has no table of its modules");
+        let gone = listed.iter().find(|name| !declared.contains(name));
+        let gone = gone.map_or("", String::as_str);
+        refuse_if!(
+            !gone.is_empty(),
+            "the table in lib.rs lists `{gone}`, which is no module"
+        );
+        Ok(Self {
+            listed,
+            declared,
+            exports,
+        })
+    }
+
+    /// The complaint about a module that uses a name of the crate's root, if there is one.
+    fn complaint(&self, user: &str, used: &str) -> Option<String> {
+        let export = self.exports.iter().find(|(item, _)| item == used);
+        let module = export.map_or(used, |(_, module)| module);
+        let place = |name: &str| self.listed.iter().position(|module| module == name);
+        let place = |name: &str| place(name).unwrap_or(usize::MAX);
+        let is_known = (user, module) == CIRCLE;
+        if module == "glam" || module == user || is_known || place(module) < place(user) {
+            return None;
+        }
+        let is_module = self.declared.iter().any(|name| name == module);
+        let why = if is_module {
+            "comes after it"
+        } else {
+            "is no module"
+        };
+        Some(format!("uses `{module}`, which {why}"))
+    }
+}
+
+/// The names of the crate's root that a source at this depth of modules uses outside its tests, each with its line.
+fn used(source: &str, depth: usize) -> Vec<(usize, String)> {
+    // Behind the code of a line stands no comment for this, and a list of paths may go over several lines.
+    let lines: Vec<(usize, &str)> = code(source).collect();
+    let bare = |line: &str| line.split(" // ").next().unwrap_or(line).to_owned() + "\n";
+    let text: String = lines.iter().map(|(_, line)| bare(line)).collect();
+    let line_at = |at: usize| lines[text[..at].matches('\n').count()].0;
+    let mut found = Vec::new();
+    for root in ["crate::".to_owned(), "super::".repeat(depth)] {
+        for (at, _) in text.match_indices(&root) {
+            let is_part = |before: char| before.is_alphanumeric() || "_:".contains(before);
+            if text[..at].ends_with(is_part) {
+                continue;
+            }
+            let names = names_at(&text, at + root.len()).into_iter();
+            found.extend(names.map(|(at, name)| (line_at(at), name)));
+        }
+    }
+    found
+}
+
+/// The first names of a path, or of each path of a list in braces, with their places; none of a macro's.
+fn names_at(text: &str, from: usize) -> Vec<(usize, String)> {
+    let mut names = Vec::new();
+    let (mut depth, mut expects, mut at) = (0, true, from);
+    while let Some(letter) = text[at..].chars().next() {
+        let is_name = |c: &char| c.is_alphanumeric() || "_*".contains(*c);
+        match letter {
+            '{' => depth += 1,
+            '}' => depth -= 1,
+            ',' if depth == 1 => expects = true,
+            _ if expects && is_name(&letter) => {
+                let name: String = text[at..].chars().take_while(is_name).collect();
+                let end = at + name.len();
+                // A macro's name, or what it is called with.
+                if !text[end..].starts_with('!') && !text[..at].ends_with('$') {
+                    names.push((at, name));
+                }
+                (expects, at) = (false, end - 1);
+            }
+            _ => {}
+        }
+        if depth == 0 && !expects || letter == ';' {
+            break;
+        }
+        at += text[at..].chars().next().map_or(1, char::len_utf8);
+    }
+    names
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::{check, used};
+
+    /// A library of three layers, the middle one of two files, with this text in one of them.
+    fn tree(name: &str, file: &str, text: &str) -> Result<String, String> {
+        let root = std::env::temp_dir().join(format!("layers-{name}-{}", std::process::id()));
+        let source = root.join("dynamics-core/src");
+        let put = |file: &str, text: &str| {
+            let path = source.join(file);
+            std::fs::create_dir_all(path.parent().unwrap_or(Path::new("."))).expect("a folder");
+            std::fs::write(path, text).expect("a file");
+        };
+        let lib = "//! A library.\n//!\n//! | module | contents |\n//! |---|---|\n//! | `scalar` | numbers |\n//! | \
+                   [`model`], `control`: [`Law`] | the rest, not `scalar` |\n\n#[cfg(feature = \"form\")]\nmod \
+                   form;\npub mod control;\npub mod model;\nmod scalar;\npub use control::{Law, \
+                   Gate};\npub use glam;\n";
+        put("lib.rs", lib);
+        put("scalar.rs", "use crate::glam::Vec3;\n");
+        put("form.rs", "use crate::control::Law;\n");
+        put("model/mod.rs", "use crate::scalar::Real;\n");
+        put(
+            "model/tree.rs",
+            "use super::Joint;\nuse super::super::scalar;\n",
+        );
+        put(
+            "control.rs",
+            "use crate::{model, scalar::Real};\nuse super::model::Body;\n",
+        );
+        put(file, text);
+        let outcome = check(&root).map_err(|error| error.to_string());
+        std::fs::remove_dir_all(&root).expect("gone again");
+        outcome
+    }
+
+    #[test]
+    fn modules_that_use_lower_ones_pass() {
+        let outcome = tree("good", "notes.txt", "").expect("in order");
+        assert_eq!(outcome, "4 modules, 7 uses");
+        let tests = "use crate::scalar;\n// crate::control is above.\n#[cfg(test)]\nmod tests {\n    use crate::control::Law;\n}\n";
+        assert!(tree("tests", "model/tree.rs", tests).is_ok());
+    }
+
+    #[test]
+    fn a_module_that_uses_a_later_one_is_named() {
+        let cases = [
+            ("use std::fmt;\nuse crate::control::Gate;\n", 2),
+            (
+                "use crate::{\n    scalar,\n    control::{Law, Gate},\n};\n",
+                3,
+            ),
+            ("fn f() -> u8 {\n    crate::Law::new()\n}\n", 2),
+            ("use super::super::control;\n", 1),
+        ];
+        for (text, line) in cases {
+            let error = tree("bad", "model/tree.rs", text).expect_err(text);
+            let place = Path::new("dynamics-core/src/model/tree.rs")
+                .display()
+                .to_string();
+            assert_eq!(
+                error,
+                format!("{place}:{line}: `model` uses `control`, which comes after it")
+            );
+        }
+    }
+
+    #[test]
+    fn what_is_no_module_is_refused() {
+        let refused = |name, file, text| tree(name, file, text).expect_err(name);
+        let gone = refused(
+            "gone",
+            "lib.rs",
+            "//! | `scalar`, `model` | all |\nmod scalar;\n",
+        );
+        assert!(gone.contains("`model`, which is no module"), "{gone}");
+        let none = refused("none", "lib.rs", "mod scalar;\n");
+        assert!(none.contains("no table"), "{none}");
+        let all = refused("all", "control.rs", "use crate::*;\n");
+        assert!(
+            all.contains("`control` uses `*`, which is no module"),
+            "{all}"
+        );
+        let form = refused("form", "control.rs", "use crate::form;\n");
+        assert!(
+            form.contains("`control` uses `form`, which comes after it"),
+            "{form}"
+        );
+    }
+
+    #[test]
+    fn what_stands_behind_a_path_is_none_of_its_names() {
+        let source = "fn f() {\n    crate::a::g(b, S { c, d });\n}\n";
+        assert_eq!(used(source, 1), [(2, "a".to_owned())]);
+    }
+
+    #[test]
+    fn macros_and_longer_paths_are_no_modules() {
+        assert_eq!(
+            used("crate::each!(1);\nmy_crate::x();\na::super::b();\n", 1),
+            []
+        );
+        assert_eq!(used("crate::$module::x();\n", 1), []);
+        assert_eq!(used("$crate::a::b();\n", 2), [(1, "a".to_owned())]);
+    }
+}

@@ -1,0 +1,11 @@
+//! What a user runs, and the tests.
+
+pub mod demo;
+pub mod endurance;
+pub mod import;
+pub mod layers;
+pub mod meter;
+pub mod pil;
+pub mod test;
+pub mod watch;
+pub mod weight;

@@ -1,0 +1,279 @@
+//! The steps about the firmware's code: what it consists of, what it computes, and what its functions cost.
+
+use cycle_meter::Sample;
+
+use super::Context;
+use crate::kit::callgraph::f32_only;
+use crate::kit::elf::Image;
+use crate::kit::error::{Error, Result, bail, check, refuse_if};
+use crate::kit::meter::Cost;
+use crate::kit::qemu::Run;
+use crate::kit::{firmware, shell};
+
+/// The least number of hard cases in QEMU.
+const HARD_CASES: usize = 25;
+/// Whether a symbol is `ControlLoop::tick`, which is there once for each control law.
+fn is_tick(symbol: &str) -> bool {
+    symbol.contains("ControlLoop") && symbol.contains("4tick")
+}
+
+pub fn clippy(context: &Context) -> Result<String> {
+    let toolchain = context.tools.toolchain;
+    let mut command = toolchain.firmware(&context.workspace, "clippy");
+    shell::capture(command.args(["--lib", "--bins", "--", "-D", "warnings"]))
+}
+
+pub fn build(context: &Context) -> Result<String> {
+    firmware::build_all(&context.workspace, context.tools.toolchain)?;
+    Ok(context.workspace.bins.join(", "))
+}
+
+pub fn meter(context: &Context) -> Result<String> {
+    let (_, samples) = context.metered("meter_check", false)?;
+    let agreeing = cycle_meter::check_hand_counted(&samples).map_err(Error::check)?;
+    Ok(format!("{agreeing} sequences"))
+}
+
+pub fn bits(context: &Context) -> Result<String> {
+    let name = "bits";
+    let elf = context.built(name)?;
+    let mut on_target = context.tools.qemu.lines(&Run::logging(name, &elf, None))?;
+    on_target.retain(|line| line.starts_with("bits "));
+    let host = context.cargo(&["run --quiet --package host-reports --bin bits"])?;
+    same_bits(&on_target, &host.lines().collect::<Vec<_>>())
+}
+
+/// Runs of the firmware's bin `fault_runs`.
+const FAULT_RUNS: usize = 100;
+
+pub fn faults(context: &Context) -> Result<String> {
+    let name = "fault_runs";
+    let elf = context.built(name)?;
+    let mut on_target = context.tools.qemu.lines(&Run::logging(name, &elf, None))?;
+    on_target.retain(|line| line.starts_with("run "));
+    let host = context.cargo(&["run --quiet --package host-reports --bin fault_runs"])?;
+    same_runs(&on_target, &host.lines().collect::<Vec<_>>())
+}
+
+/// Fails unless every run kept its limits on both, with the same torques.
+fn same_runs(on_target: &[String], on_host: &[&str]) -> Result<String> {
+    let mut faults = 0;
+    for (target, host) in std::iter::zip(on_target, on_host) {
+        refuse_if!(
+            target != host,
+            "a run differs:\n  QEMU: {target}\n  host: {host}"
+        );
+        let injected = target
+            .split_once(" faults ")
+            .and_then(|(run, _)| run.rsplit(' ').next()?.parse::<usize>().ok());
+        let Some(injected) = injected else {
+            bail!("a limit did not hold: {target}");
+        };
+        faults += injected;
+    }
+    let (there, here) = (on_target.len(), on_host.len());
+    refuse_if!(
+        there != FAULT_RUNS || here != FAULT_RUNS,
+        "`fault_runs` made {there} runs in QEMU and {here} on the host, not {FAULT_RUNS}"
+    );
+    Ok(format!("{there} runs with {faults} faults"))
+}
+
+/// Fails unless the lines are the same and of enough hard cases.
+fn same_bits(on_target: &[String], on_host: &[&str]) -> Result<String> {
+    if let Some((target, host)) = std::iter::zip(on_target, on_host).find(|(a, b)| a != b) {
+        let both = format!("  QEMU: {target}\n  host: {host}");
+        bail!("the same states give other bits:\n{both}");
+    }
+    let (there, here) = (on_target.len(), on_host.len());
+    refuse_if!(
+        there == 0 || there != here,
+        "`bits` printed {there} digests in QEMU and {here} on the host"
+    );
+    let hard = on_host
+        .iter()
+        .filter_map(|line| line.strip_prefix("bits hard "));
+    let mut cases: Vec<_> = hard.map(|case| case.split(' ').next()).collect();
+    cases.dedup();
+    let count = cases.len();
+    refuse_if!(
+        count < HARD_CASES,
+        "`bits` ran {count} of at least {HARD_CASES} hard cases"
+    );
+    Ok(format!("{there} digests, {count} hard cases among them"))
+}
+
+pub fn no_f64(context: &Context) -> Result<String> {
+    let mut count = 0;
+    for measured in context.measured()? {
+        count += f32_only(&measured.elf, is_tick)?;
+    }
+    Ok(format!("{count} functions reached"))
+}
+
+pub fn opcodes(context: &Context) -> Result<String> {
+    let mut count = 0;
+    for measured in context.measured()? {
+        count += Image::read(&measured.elf)?.m4f_instructions()?;
+    }
+    Ok(format!("{count} instructions"))
+}
+
+pub fn constant(context: &Context) -> Result<String> {
+    let (lines, samples) = context.metered("constant_time", true)?;
+    let mut kinds = Vec::new();
+    for line in &lines {
+        let words: Vec<&str> = line.split(' ').collect();
+        if let [word @ ("constant" | "bounded"), name, states] = *words {
+            let bad = |_| check!("the line {line:?} cannot be understood");
+            kinds.push(Kind {
+                name: name.to_owned(),
+                states: states.parse().map_err(bad)?,
+                constant: word == "constant",
+            });
+        }
+    }
+    Ok(steady(&kinds, &samples)?.join(", "))
+}
+
+/// Work that was done on so many states.
+struct Kind {
+    name: String,
+    states: usize,
+    /// Whether it must cost the same each time; else its maximum is reported.
+    constant: bool,
+}
+
+/// The instructions of each kind of work.
+fn steady(kinds: &[Kind], mut samples: &[Sample]) -> Result<Vec<String>> {
+    let (mut costs, mut unsteady) = (Vec::new(), false);
+    for kind in kinds {
+        let (mine, rest) = samples
+            .split_at_checked(kind.states)
+            .ok_or_else(|| check!("the cycle meter saw fewer calls than were made"))?;
+        samples = rest;
+        let instructions = mine.iter().map(|sample| sample.instructions);
+        let cost = Cost::of(instructions, mine.iter().map(|sample| sample.cycles))?;
+        let (name, least, most) = (&kind.name, cost.instructions.min, cost.instructions.max);
+        unsteady |= kind.constant && least != most;
+        costs.push(match least == most {
+            true => format!("{name} {most}"),
+            false => format!("{name} {least} to {most}"),
+        });
+    }
+    refuse_if!(
+        kinds.is_empty() || !samples.is_empty(),
+        "the cycle meter saw more calls than were made"
+    );
+    refuse_if!(
+        unsteady,
+        "the instructions depend on the data: {}",
+        costs.join(", ")
+    );
+    Ok(costs)
+}
+
+#[cfg(test)]
+mod tests {
+    use cycle_meter::Sample;
+
+    use super::{Kind, steady};
+    use crate::kit::elf::{is_f64, is_panic};
+
+    #[test]
+    fn panics_are_known_by_their_symbols() {
+        for symbol in [
+            "_ZN4core9panicking5panic17h0123456789abcdefE",
+            "_ZN4core9panicking18panic_bounds_check17h0123456789abcdefE",
+            "_RNvNtCs1_4core9panicking9panic_fmt",
+            "_ZN4core6option13unwrap_failed17h0123456789abcdefE",
+            "_ZN4core5slice5index24slice_end_index_len_fail17h0123456789abcdefE",
+            "_ZN4core5slice5index16slice_index_fail17h0123456789abcdefE",
+        ] {
+            assert!(is_panic(symbol), "{symbol}");
+        }
+        assert!(!is_panic("_ZN13dynamics_core7control10supervisor4pass17hE"));
+    }
+
+    #[test]
+    fn f64_is_known_by_its_symbols() {
+        for symbol in [
+            "__aeabi_dadd",
+            "__muldf3",
+            "__extendsfdf2",
+            "__fixdfsi",
+            "sinf",
+            "rem_pio2",
+            "_ZN4libm4math5k_cosf17h0123456789abcdefE",
+        ] {
+            assert!(is_f64(symbol), "{symbol}");
+        }
+        for symbol in [
+            "_ZN4libm4math5atanf5atanf17ha3c5c8d53d243c59E",
+            "__aeabi_fadd",
+            "__aeabi_memcpy",
+            "_ZN13dynamics_core4trig7sin_cosE",
+        ] {
+            assert!(!is_f64(symbol), "{symbol}");
+        }
+    }
+
+    #[test]
+    fn a_differing_failing_or_missing_run_fails_the_step() {
+        let lines: Vec<String> = (0..100)
+            .map(|k| format!("run {k} pendulum 7 faults 0{k:x}"))
+            .collect();
+        let mut host: Vec<&str> = lines.iter().map(String::as_str).collect();
+        assert_eq!(
+            super::same_runs(&lines, &host).unwrap(),
+            "100 runs with 700 faults"
+        );
+        assert!(super::same_runs(&lines[..99], &host[..99]).is_err());
+        assert!(super::same_runs(&lines[..99], &host).is_err());
+        host[3] = "run 3 pendulum 7 faults 04";
+        let error = super::same_runs(&lines, &host).expect_err("another torque");
+        assert!(error.to_string().contains("run 3"), "{error}");
+        host[3] = "run 3 pendulum joint 0: speed 4 rad/s";
+        let mut both = lines.clone();
+        host[3].clone_into(&mut both[3]);
+        let error = super::same_runs(&both, &host).expect_err("too fast");
+        assert!(error.to_string().contains("limit"), "{error}");
+    }
+
+    #[test]
+    fn a_differing_bit_and_a_missing_digest_are_named() {
+        let lines: Vec<String> = (0..25).map(|k| format!("bits hard {k} a 0{k:x}")).collect();
+        let mut host: Vec<&str> = lines.iter().map(String::as_str).collect();
+        assert!(super::same_bits(&lines, &host).is_ok());
+        assert!(super::same_bits(&lines[..24], &host[..24]).is_err());
+        assert!(super::same_bits(&lines[..24], &host).is_err());
+        host[7] = "bits hard 7 a 06";
+        let error = super::same_bits(&lines, &host).expect_err("another bit");
+        assert!(error.to_string().contains(host[7]), "{error}");
+    }
+
+    #[test]
+    fn work_that_varies_is_named() {
+        let samples = [5, 5, 7, 8].map(|instructions| Sample {
+            region: 0,
+            instructions,
+            cycles: 10,
+            flops: 0,
+        });
+        let kind = |name: &str, constant| Kind {
+            name: name.into(),
+            states: 2,
+            constant,
+        };
+        let kinds = [kind("law", true), kind("gate", true)];
+        let message = steady(&kinds, &samples).expect_err("varies").to_string();
+        assert!(message.contains("law 5, gate 7 to 8"), "{message}");
+        let costs = steady(&kinds[..1], &samples[..2]).expect("steady");
+        assert_eq!(costs, ["law 5"]);
+        let bounded = [kind("law", true), kind("reentry", false)];
+        let costs = steady(&bounded, &samples).expect("steady but for the bounded");
+        assert_eq!(costs, ["law 5", "reentry 7 to 8"]);
+        assert!(steady(&kinds[..1], &samples).is_err());
+        assert!(steady(&kinds, &samples[..3]).is_err());
+    }
+}

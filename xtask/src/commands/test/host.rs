@@ -1,0 +1,102 @@
+//! The steps that need no target.
+
+use std::path::PathBuf;
+
+use serde_json::Value;
+
+use super::Context;
+use crate::kit::error::Result;
+
+/// The tests that take the compiler long: further robots and scalars of claims that are tested without.
+const FULL: &str =
+    "--features host-tests/full,robot-import/full,simulation-tests/full,specialised-tests/full";
+/// All packages but the firmware and its listeners, which the steps `telemetry` and `pil` build and test.
+const HOST: &str =
+    "--workspace --exclude firmware-demo --exclude telemetry-watch --exclude telemetry-pil";
+/// The part of the firmware that runs anywhere.
+const FIRMWARE: &str = "--package firmware-demo --lib";
+
+pub fn clippy(context: &Context) -> Result<String> {
+    context.cargo(&[
+        &format!("clippy {HOST} --all-targets {FULL} -- -D warnings"),
+        &format!("clippy {FIRMWARE} -- -D warnings"),
+        "clippy --package telemetry-watch --package telemetry-pil --all-targets -- -D warnings",
+    ])
+}
+
+pub fn tests(context: &Context) -> Result<String> {
+    let more = if context.full { FULL } else { "" };
+    // Not `--bins`, which builds those with `test = false` too: large ones that hold no tests.
+    let printed = context.cargo(&[
+        // All failures in one run, which takes long.
+        &format!("test {HOST} --lib --tests --no-fail-fast {more}"),
+        &format!("test {FIRMWARE}"),
+    ])?;
+    Ok(format!("{} tests", count(&printed)))
+}
+
+/// The programs of the tests, built.
+pub fn programs(context: &Context) -> Result<Vec<PathBuf>> {
+    let printed = context.cargo(&[
+        &format!("test {HOST} --lib --tests --no-run --message-format json"),
+        &format!("test {FIRMWARE} --no-run --message-format json"),
+    ])?;
+    Ok(printed.lines().filter_map(executable).collect())
+}
+
+/// The test program that a message of cargo announces, if it does.
+fn executable(message: &str) -> Option<PathBuf> {
+    let message: Value = serde_json::from_str(message).ok()?;
+    let is_test = message["profile"]["test"] == true;
+    is_test.then(|| message["executable"].as_str().map(PathBuf::from))?
+}
+
+pub fn doctests(context: &Context) -> Result<String> {
+    let of_firmware = "test --package firmware-demo --doc";
+    let printed = context.cargo(&[&format!("test {HOST} --doc"), of_firmware])?;
+    Ok(format!("{} examples", count(&printed)))
+}
+
+pub fn doc(context: &Context) -> Result<String> {
+    // Without private items too: a link to one of them is broken only there.
+    for private in ["", "--document-private-items"] {
+        context.cargo(&[
+            &format!("doc {HOST} --no-deps {private}"),
+            &format!("doc {FIRMWARE} --no-deps {private}"),
+        ])?;
+    }
+    Ok(String::new())
+}
+
+/// The tests that passed, from `test result: ok. 12 passed; …`.
+fn count(output: &str) -> u32 {
+    let results = output
+        .lines()
+        .filter_map(|line| line.strip_prefix("test result: ok. "));
+    results
+        .filter_map(|line| line.split(' ').next()?.parse::<u32>().ok())
+        .sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::executable;
+
+    #[test]
+    fn only_programs_of_tests_are_weighed() {
+        let message = |test: bool, executable: &str| {
+            format!(
+                r#"{{"reason":"compiler-artifact","profile":{{"test":{test}}},"executable":{executable}}}"#
+            )
+        };
+        let program = executable(&message(true, r#""/target/laws""#)).expect("a test");
+        assert_eq!(program.to_str(), Some("/target/laws"));
+        for other in [
+            message(false, r#""/target/xtask""#),
+            message(true, "null"),
+            "running 3 tests".into(),
+        ] {
+            assert_eq!(executable(&other), None, "{other}");
+        }
+    }
+}

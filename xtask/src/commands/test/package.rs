@@ -1,0 +1,183 @@
+//! The steps about the library as a dependency: what cargo packages and vendors, its features and its examples.
+
+use std::ffi::OsString;
+use std::path::Path;
+use std::process::Command;
+
+use tempfile::TempDir;
+
+use super::Context;
+use crate::kit::error::{Error, Result, refuse_if};
+use crate::kit::shell;
+use crate::kit::toolchain::{TARGET, Toolchain};
+use crate::kit::workspace::{read, write};
+
+const LIBRARY: &str = "dynamics-core";
+const CONTROLLER: &str = "motion-control";
+const FEATURES: &str = "defmt,serde";
+/// The files of the root that the crate has to contain: copies, since a symbolic link is a text file after a checkout
+/// on Windows.
+const COPIES: [&str; 2] = ["LICENSE-APACHE", "LICENSE-MIT"];
+/// The example whose numbers are compared with and without features: it prints all digits of a simulation's end.
+const COMPARED: &str = "computed_torque";
+
+pub fn package(context: &Context) -> Result<String> {
+    let root = &context.workspace.root;
+    for library in [LIBRARY, CONTROLLER] {
+        copies_are_equal(root, &root.join(library))?;
+    }
+    context.cargo(&["package --package dynamics-core --allow-dirty"])?;
+    vendored_builds(context, folder()?.path())?;
+    Ok(String::new())
+}
+
+/// Compares what stands in the workspace's root with the crate's copies.
+fn copies_are_equal(root: &Path, library: &Path) -> Result<()> {
+    for name in COPIES {
+        let is_other = read(&root.join(name))? != read(&library.join(name))?;
+        refuse_if!(
+            is_other,
+            "{} is not a copy of {name}",
+            library.join(name).display()
+        );
+    }
+    Ok(())
+}
+
+/// Builds a project that depends on the library by git, from nothing but what `cargo vendor` has copied.
+fn vendored_builds(context: &Context, folder: &Path) -> Result<()> {
+    let git_url = commit_work_tree(&context.workspace.root, &folder.join("repository"))?;
+    let project = folder.join("project");
+    let put = |name: &str, text: &str| {
+        let path = project.join(name);
+        create_parent(&path)?;
+        write(&path, text)
+    };
+    let manifest = format!(
+        "[package]\nname = \"vendored\"\nversion = \"0.1.0\"\nedition = \"2024\"\n\n[workspace]\n\n\
+         [dependencies]\n{LIBRARY} = {{ git = \"{git_url}\", features = [\"serde\"] }}\n"
+    );
+    let program = "use dynamics_core::glam::Vec3;\n\nfn main() {\n    \
+                   let _ = dynamics_core::effects::GravityVector::<f32>(Vec3::X);\n}\n";
+    let files = [("Cargo.toml", manifest.as_str()), ("src/main.rs", program)];
+    for (name, text) in files {
+        put(name, text)?;
+    }
+    // The versions that the workspace's other steps have been tested with.
+    let lock = read(&context.workspace.root.join("Cargo.lock"))?;
+    put("Cargo.lock", &lock)?;
+    let cargo = |subcommand| {
+        let mut command = context.workspace.cargo(subcommand);
+        command.current_dir(&project);
+        command
+    };
+    put(".cargo/config.toml", &shell::capture(&mut cargo("vendor"))?)?;
+    let mut check = cargo("check");
+    check.args(["--offline", "--locked", "--target-dir", "target"]);
+    shell::capture(&mut check).map(drop)
+}
+
+/// Commits the work tree as it is, without what git ignores, into a new repository, and returns its URL.
+fn commit_work_tree(root: &Path, repository: &Path) -> Result<String> {
+    let mut init = Command::new("git");
+    shell::capture(init.args(["init", "--quiet"]).arg(repository))?;
+    let commit = "commit --quiet --no-gpg-sign --no-verify --message work-tree";
+    for arguments in ["add --all", commit] {
+        let mut git = Command::new("git");
+        git.arg("--git-dir").arg(repository.join(".git"));
+        git.arg("--work-tree").arg(root).current_dir(root);
+        git.args(["-c", "user.name=test", "-c", "user.email=test@localhost"]);
+        shell::capture(git.args(arguments.split(' ')))?;
+    }
+    let path = repository.to_string_lossy().replace('\\', "/");
+    Ok(format!("file:///{}", path.trim_start_matches('/')))
+}
+
+pub fn features(context: &Context) -> Result<String> {
+    if context.tools.toolchain == Toolchain::Native {
+        for library in [LIBRARY, CONTROLLER] {
+            let check = format!("check --package {library} --features {FEATURES}");
+            context.cargo(&[&format!("{check} --target {TARGET}")])?;
+        }
+    }
+    let plain = run_example(context, COMPARED, "")?;
+    let with_features = run_example(context, COMPARED, &format!("--features {FEATURES}"))?;
+    refuse_if!(
+        plain != with_features,
+        "the features `{FEATURES}` change the numbers of `{COMPARED}`:\n{plain}\n{with_features}"
+    );
+    Ok(FEATURES.to_owned())
+}
+
+pub fn examples(context: &Context) -> Result<String> {
+    let mut ran = Vec::new();
+    for library in [LIBRARY, CONTROLLER] {
+        let names = example_names(&context.workspace.root, library)?;
+        context.cargo(&[&format!("build --package {library} --examples")])?;
+        for name in &names {
+            context.cargo(&[&format!("run --quiet --package {library} --example {name}")])?;
+        }
+        ran.extend(names);
+    }
+    Ok(ran.join(", "))
+}
+
+fn run_example(context: &Context, name: &str, more: &str) -> Result<String> {
+    let run = format!("run --quiet --package {LIBRARY}");
+    context.cargo(&[&format!("{run} --example {name} {more}")])
+}
+
+/// The names of a library's examples, which must be some.
+fn example_names(root: &Path, library: &str) -> Result<Vec<String>> {
+    let folder = root.join(library).join("examples");
+    let entries = std::fs::read_dir(&folder).map_err(Error::file("read", &folder))?;
+    let files = entries.flatten().map(|entry| entry.file_name());
+    let stem = |file: OsString| Some(file.to_str()?.strip_suffix(".rs")?.to_owned());
+    let mut names: Vec<String> = files.filter_map(stem).collect();
+    names.sort();
+    refuse_if!(names.is_empty(), "{} is empty", folder.display());
+    Ok(names)
+}
+
+pub fn deny(context: &Context) -> Result<String> {
+    if shell::which("cargo-deny").is_none() {
+        if !context.may_install_debian {
+            let why = "to have it run: cargo install cargo-deny --locked";
+            return Err(Error::Skipped(why.into()));
+        }
+        context.cargo(&["install cargo-deny --locked"])?;
+    }
+    context.cargo(&["deny check bans licenses sources"])?;
+    Ok(String::new())
+}
+
+/// A folder outside the workspace, whose configuration would otherwise apply.
+fn folder() -> Result<TempDir> {
+    TempDir::new().map_err(Error::file("create", "a folder for what is temporary"))
+}
+
+fn create_parent(path: &Path) -> Result<()> {
+    let parent = path.parent().unwrap_or(path);
+    std::fs::create_dir_all(parent).map_err(Error::file("create", parent))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{COPIES, LIBRARY, copies_are_equal, create_parent, folder};
+    use crate::kit::workspace::write;
+
+    #[test]
+    fn a_licence_that_differs_from_its_copy_is_refused() {
+        let folder = folder().expect("a folder");
+        let library = folder.path().join(LIBRARY);
+        for name in COPIES {
+            create_parent(&library.join(name)).expect("a folder");
+            write(&folder.path().join(name), "a licence").expect("written");
+            write(&library.join(name), "a licence").expect("written");
+        }
+        copies_are_equal(folder.path(), &library).expect("equal");
+        write(&library.join(COPIES[0]), "another licence").expect("written");
+        let error = copies_are_equal(folder.path(), &library).expect_err("not equal");
+        assert!(error.to_string().contains(COPIES[0]), "{error}");
+    }
+}

@@ -1,0 +1,155 @@
+//! The steps about what the scenes do.
+
+use super::Context;
+use crate::commands::demo::{self, Measured};
+use crate::kit::docs;
+use crate::kit::error::{Result, refuse_if};
+use crate::kit::meter::CLOCK_MHZ;
+use crate::kit::protocol::FEEDFORWARD;
+use crate::kit::scene::Scene;
+use crate::studies::scenes::plot;
+use crate::studies::{budgets, scenes};
+
+/// The largest ratio of a scene's bound to the measured error.
+const SLACK: f64 = 10.0;
+
+/// The scenes whose feed-forward is held against PD alone.
+const HELD: [Scene; 2] = [Scene::Ur5e, Scene::DeltaPick];
+
+/// The largest error with feed-forward in these scenes as a share of PD's: with the exact model, and with one that is off.
+const LARGEST_RATIO: [f64; 2] = [0.1, 0.2];
+
+/// The longest tick, as a share of its period.
+const LARGEST_SHARE: f64 = 0.5;
+
+/// The status of the safety gate in a run in which it changed nothing.
+const PLAIN: &str = "mode Full, fault None, limited false";
+
+/// The peak joint speed that the default scene must reach for its tracking to mean something, rad/s.
+const LEAST_PEAK_SPEED: f64 = 1.5;
+
+/// The scenes that run twice: one on the engine, one on the core.
+const TWICE: [Scene; 2] = [Scene::Ur5e, Scene::SpaceArm];
+
+pub fn runs(context: &Context) -> Result<String> {
+    let mut ticks = 0;
+    for measured in context.measured()? {
+        let name = &measured.report.scene;
+        // Of the default scene no law needs the gate; elsewhere some are there to show that they do.
+        let is_checked = |law: &str| law == FEEDFORWARD || *name == Scene::default().name();
+        let other = measured.recording.differing_status(PLAIN, is_checked);
+        let run = other.as_deref().unwrap_or_default();
+        refuse_if!(!run.is_empty(), "{name}: the safety gate stepped in: {run}");
+        let picture = context.workspace.output(&format!("{name}.svg"))?;
+        plot::write(&measured.recording, &picture)?;
+        ticks += measured.recording.ticks as usize * measured.recording.runs.len();
+    }
+    Ok(format!("{ticks} ticks"))
+}
+
+pub fn determinism(context: &Context) -> Result<String> {
+    let scenes = context.measured()?.iter().zip(context.scenes());
+    let firsts: Vec<_> = scenes.filter(|(_, scene)| TWICE.contains(scene)).collect();
+    let run = |(first, scene): &(&Measured, &Scene)| (**scene, first.elf.clone());
+    let runs: Vec<_> = firsts.iter().map(run).collect();
+    let again = demo::measure_all(&context.workspace, &context.tools, context.meter()?, &runs)?;
+    let mut bytes = 0;
+    for ((first, _), second) in firsts.iter().zip(&again) {
+        let [one, other] = [first, second].map(|run| &run.raw);
+        for (differ, what) in [
+            (one.0 != other.0, "logged different bytes"),
+            (one.1 != other.1, "cost differently"),
+        ] {
+            refuse_if!(differ, "two runs of the same ELF {what}");
+        }
+        bytes += one.0.len() + one.1.len();
+    }
+    Ok(format!("{bytes} bytes"))
+}
+
+pub fn tracking(context: &Context) -> Result<String> {
+    let mut outcomes = Vec::new();
+    for measured in context.measured()? {
+        let report = &measured.report;
+        let (name, tracking) = (&report.scene, &report.tracking);
+        let (max, bound) = (tracking.feedforward.max_rad, report.bound_rad);
+        refuse_if!(
+            max.is_nan() || max > bound,
+            "{name}, exact plant: feed-forward's largest error is {max:.2e} rad, more than the scene's bound \
+                 of {bound:.2e}"
+        );
+        refuse_if!(
+            bound > SLACK * max,
+            "{name}: its bound of {bound:.2e} rad has become slack: the largest error is {max:.2e}"
+        );
+        let mrad = [max, bound].map(|rad| format!("{:.2}", 1e3 * rad));
+        outcomes.push(format!("{name} {} mrad", mrad.join(" of ")));
+        if !HELD.iter().any(|scene| name == scene.name()) {
+            continue;
+        }
+        let mismatched = &report.tracking_mismatched;
+        let plants = [("exact", tracking), ("mismatched", mismatched)];
+        for ((plant, tracking), largest) in plants.into_iter().zip(LARGEST_RATIO) {
+            let ratio = tracking.ratio();
+            // A ratio that is not a number fails as well.
+            refuse_if!(
+                ratio.is_nan() || ratio > largest,
+                "{name}, {plant} plant: feed-forward's error is {ratio:.4} of PD's, more than {largest}"
+            );
+            outcomes.push(format!("{plant} {ratio:.4}"));
+        }
+        if name != Scene::default().name() {
+            continue;
+        }
+        let peak = measured.recording.peak_speed();
+        refuse_if!(
+            peak < LEAST_PEAK_SPEED,
+            "{name}: no joint is faster than {peak:.2} rad/s: too easy a trajectory"
+        );
+        outcomes.push(format!("peak speed {peak:.2} rad/s"));
+    }
+    Ok(outcomes.join(", "))
+}
+
+pub fn cycles(context: &Context) -> Result<String> {
+    let mut outcomes = Vec::new();
+    for measured in context.measured()? {
+        let (report, longest) = (&measured.report, measured.report.tick["total"].cycles.max);
+        let share = longest as f64 / (f64::from(report.period_us) * CLOCK_MHZ);
+        let (name, percent) = (&report.scene, 100.0 * share);
+        refuse_if!(
+            share > LARGEST_SHARE,
+            "{name}: the longest tick takes {longest} modelled cycles, {percent:.0} % of its period"
+        );
+        outcomes.push(format!("{name} {longest}"));
+    }
+    Ok(outcomes.join(", "))
+}
+
+pub fn budgets(context: &Context) -> Result<String> {
+    let measured = context.measured()?.iter();
+    let spare = measured.map(|measured| budgets::check(&context.workspace, &measured.report));
+    Ok(spare.collect::<Result<Vec<_>>>()?.join("; "))
+}
+
+pub fn readme(context: &Context) -> Result<String> {
+    let workspace = &context.workspace;
+    let reports: Vec<_> = context.measured()?.iter().map(|one| &one.report).collect();
+    for measured in context.measured()? {
+        // The README shows the default scene alone.
+        if measured.report.scene == Scene::default().name() {
+            let brackets = demo::brackets(workspace, &context.tools, context.meter()?, measured)?;
+            let (text, rustc) = (measured.report.markdown(&brackets), &measured.report.rustc);
+            docs::README.check(workspace, &text, Some(rustc))?;
+            // What the scene does is the same to the bit, whatever compiled it.
+            let (picture, command) = (plot::svg(&measured.recording)?, docs::README.command);
+            docs::compare_picture(workspace, demo::PICTURE, command, &picture, true)?;
+        }
+    }
+    if !context.full {
+        return Ok("README.md alone".into());
+    }
+    let rustc = reports.first().map(|report| report.rustc.as_str());
+    scenes::PAGE.check(workspace, &scenes::markdown(&reports), rustc)?;
+    Ok(String::new())
+}

@@ -1,0 +1,248 @@
+//! `cargo xtask watch`: the telemetry of a machine, live; and the check that telemetry never delays a tick.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitCode};
+
+use cycle_meter::Sample;
+use serde_json::Value;
+
+use crate::kit::bars::{Bars, Compared};
+use crate::kit::callgraph::Instruction;
+use crate::kit::elf::Image;
+use crate::kit::error::{Result, check, refuse_if};
+use crate::kit::qemu::Run;
+use crate::kit::setup::{self, Options, Tools};
+use crate::kit::toolchain::RELEASE;
+use crate::kit::workspace::Workspace;
+use crate::kit::{firmware, meter, shell};
+use crate::studies::budgets;
+
+/// The package that listens, and its program.
+const LISTENER: &str = "telemetry-watch";
+/// Scenes that have a bin which sends telemetry.
+const SCENES: [&str; 1] = ["ur5e"];
+/// The serial port of QEMU, connected to the listener.
+const SERIAL: &str = "tcp:127.0.0.1:{port}";
+const TICKS: usize = 3000;
+/// Regions of `control_loop::region`: the tick, and those behind it.
+const TICK: u8 = 0;
+const RECORD: u8 = 6;
+const MASKED: u8 = 7;
+/// The longest stretch with interrupts masked, in instructions, and the most that a record takes: what the guide says.
+const LONGEST: u64 = 10;
+const KEPT: u64 = 39;
+
+#[derive(clap::Args)]
+pub struct Args {
+    /// Run this scene in QEMU
+    #[arg(long, default_value = SCENES[0], value_parser = SCENES, conflicts_with = "port")]
+    scene: String,
+    /// Every so many ticks an encoder of the scene reports errors
+    #[arg(long, value_name = "TICKS", conflicts_with = "port")]
+    faults: Option<u32>,
+    /// Listen to the machine on this serial port
+    #[arg(long, value_name = "PORT")]
+    port: Option<String>,
+    /// The rate of the serial port, bit/s
+    #[arg(long, value_name = "RATE", requires = "port")]
+    baud: Option<u32>,
+    /// Record the ticks; the ending .csv or .mcap names the form
+    #[arg(long, value_name = "FILE")]
+    record: Option<PathBuf>,
+    /// End after so many seconds
+    #[arg(long, value_name = "S")]
+    seconds: Option<f64>,
+    /// Show nothing, and print a summary as JSON at the end
+    #[arg(long)]
+    json: bool,
+}
+
+/// Builds the listener and what it listens to, and shows it until the user ends it.
+pub fn run(options: Options, args: &Args) -> Result<ExitCode> {
+    let workspace = Workspace::find()?;
+    let mut listener = program(&workspace, LISTENER)?;
+    let path = args.record.as_ref().map(|path| path.display().to_string());
+    let texts = [
+        ("--record", path),
+        ("--seconds", args.seconds.map(|seconds| seconds.to_string())),
+        ("--baud", args.baud.map(|baud| baud.to_string())),
+        ("--port", args.port.clone()),
+    ];
+    for (name, value) in texts {
+        listener.args(value.map(|value| format!("{name}={value}")));
+    }
+    listener.args(args.json.then_some("--json"));
+    if args.port.is_none() {
+        let tools = setup::for_demo(options)?;
+        let name = format!("watch_{}", args.scene);
+        let elf = firmware(&workspace, &tools, &name)?;
+        let faults = format!("faults={}", args.faults.unwrap_or(0));
+        let words = [faults.as_str()];
+        let mut run = Run::logging(&name, &elf, None);
+        (run.serial, run.words) = (SERIAL, &words);
+        listener.arg("--pace");
+        tools.qemu.start_by(&mut listener, &run)?;
+    }
+    let status = shell::run_for_user(&mut listener)?;
+    // It has printed its error.
+    Ok(ExitCode::from(u8::from(!status.success())))
+}
+
+/// A host program of the package of its name, built.
+pub fn program(workspace: &Workspace, package: &str) -> Result<Command> {
+    shell::cargo(workspace.cargo("build").args(["--package", package]))?;
+    let program = format!("debug/{package}{}", std::env::consts::EXE_SUFFIX);
+    Ok(Command::new(workspace.target.join(program)))
+}
+
+/// A bin of the firmware that sends telemetry, built.
+pub fn firmware(workspace: &Workspace, tools: &Tools, bin: &str) -> Result<PathBuf> {
+    let built = firmware::build_featured(workspace, tools.toolchain, RELEASE, "telemetry", &[bin]);
+    Ok(built?.remove(0))
+}
+
+/// Fails if a tick costs something else with a listener, without one, or with a queue that nobody empties; if a full
+/// queue costs more than one with room; if a frame is lost on the line; or if interrupts are masked for longer than
+/// stated.
+pub fn check(workspace: &Workspace, tools: &Tools, plugin: &Path) -> Result<String> {
+    shell::cargo(workspace.cargo("test").args(["--package", LISTENER]))?;
+    let name = format!("watch_{}", SCENES[0]);
+    let elf = firmware(workspace, tools, &name)?;
+    let ticks = format!("ticks={TICKS}");
+    let regions = |case: &str| workspace.output(&format!("{name}.{case}.regions"));
+    let run = |case, serial, words: &[&str]| {
+        let out = regions(case)?;
+        let mut run = Run::logging(&name, &elf, Some((plugin, &out)));
+        (run.serial, run.words) = (serial, words);
+        tools.qemu.lines(&run)?;
+        meter::read(&out)
+    };
+    let alone = run("alone", "null", &[&ticks])?;
+    let full = run("full", "null", &[&ticks, "listen=0"])?;
+
+    let out = regions("heard")?;
+    let words = [ticks.as_str()];
+    let mut heard = Run::logging(&name, &elf, Some((plugin, &out)));
+    (heard.serial, heard.words) = (SERIAL, &words);
+    let mut listener = program(workspace, LISTENER)?;
+    tools.qemu.start_by(listener.arg("--json"), &heard)?;
+    every_tick_arrived(&shell::capture(&mut listener)?)?;
+
+    masked_nowhere_else(&Image::read(&elf)?)?;
+    let said = verdict(&meter::read(&out)?, &alone, &full)?;
+    let cycles = longest(&alone);
+    within_bar(cycles, &budgets::bars(workspace)?)?;
+    Ok(format!(
+        "{said}; with detectors and record a tick takes {cycles} cycles at most"
+    ))
+}
+
+/// The cycles of the longest tick with those of its record.
+fn longest(samples: &[Sample]) -> u64 {
+    let of = |region: u8| samples.iter().filter(move |sample| sample.region == region);
+    let sums = of(TICK)
+        .zip(of(RECORD))
+        .map(|(tick, record)| tick.cycles + record.cycles);
+    sums.max().unwrap_or(u64::MAX)
+}
+
+/// Fails if a tick with its detectors and its record takes longer than promised.
+fn within_bar(cycles: u64, bars: &Bars) -> Result<()> {
+    let name = format!("{} watched tick", SCENES[0]);
+    let compared = Compared::of(bars, &name, "cycles", cycles as f64);
+    match compared.and_then(|bar| bar.complaint()) {
+        Some(complaint) => Err(check!("bar: {complaint}")),
+        None => Ok(()),
+    }
+}
+
+/// Fails if a function masks interrupts that is neither the initialisation, the interrupt, nor the log.
+fn masked_nowhere_else(image: &Image) -> Result<()> {
+    const KNOWN: [&str; 4] = [
+        "cortex_m_rt_main",
+        "watch5watch",
+        "_defmt_acquire",
+        "SysTick",
+    ];
+    const CPSID_I: u16 = 0xb672;
+    let masks = |one: &Instruction| one.code[0] == CPSID_I;
+    let others = image.instructions().find(|(function, one)| {
+        masks(one) && !function.is_named(|name| KNOWN.iter().any(|known| name.contains(known)))
+    });
+    match others {
+        None => Ok(()),
+        Some((function, _)) => Err(check!("`{}` masks interrupts", function.names.join("`, `"))),
+    }
+}
+
+/// Fails if the listener's summary lacks a tick, has a bad frame, or an event: nothing disturbs the arm, and its
+/// detectors must not find anything.
+fn every_tick_arrived(json: &str) -> Result<()> {
+    let summary: Value = serde_json::from_str(json)
+        .map_err(|e| check!("`{LISTENER}` printed what is not understood: {e}"))?;
+    let of = |key: &str| summary[key].as_u64();
+    let counts = ["ticks", "bad_frames", "dropped", "lost", "restarts"].map(of);
+    let expected = [TICKS as u64, 0, 0, 0, 0].map(Some);
+    refuse_if!(
+        counts != expected,
+        "ticks, bad frames, drops, losses, restarts are {counts:?}, not {expected:?}"
+    );
+    let events = summary["events"].as_array();
+    refuse_if!(
+        events.is_none_or(|events| !events.is_empty()),
+        "the arm has events although nothing disturbed it: {}",
+        summary["events"]
+    );
+    Ok(())
+}
+
+/// Compares the ticks of three runs, and what their records and masked stretches cost.
+fn verdict(heard: &[Sample], alone: &[Sample], full: &[Sample]) -> Result<String> {
+    let of = |samples: &[Sample], is_mine: fn(u8) -> bool| -> Vec<Sample> {
+        let mine = samples.iter().filter(|sample| is_mine(sample.region));
+        mine.copied().collect()
+    };
+    let ticks = |samples| of(samples, |region| region < RECORD);
+    let (with, without) = (ticks(heard), ticks(alone));
+    let found = with.len() / meter::REGIONS.len();
+    refuse_if!(found != TICKS, "{found} ticks were measured, not {TICKS}");
+    for (what, others) in [("a listener", with), ("a full queue", ticks(full))] {
+        let pairs = others
+            .iter()
+            .zip(&without)
+            .position(|(one, other)| one != other);
+        let differs = pairs.or((others.len() != without.len()).then_some(without.len()));
+        if let Some(at) = differs {
+            let tick = at / meter::REGIONS.len();
+            return Err(check!(
+                "with {what}, tick {tick} costs something else than without"
+            ));
+        }
+    }
+    let most = |samples, mine: fn(u8) -> bool| {
+        let mine = of(samples, mine);
+        mine.iter().map(|sample| sample.instructions).max()
+    };
+    let record = |samples| most(samples, |region| region == RECORD);
+    let (kept, dropped) = (record(alone), record(full));
+    let is_stated = kept.is_some_and(|kept| kept <= KEPT);
+    refuse_if!(
+        !is_stated || dropped > kept || record(heard) != kept,
+        "recording a tick takes {kept:?} instructions ({KEPT} are stated), with a listener {:?}, with a full queue \
+         {dropped:?}",
+        record(heard)
+    );
+    let masked = [heard, alone, full].map(|samples| most(samples, |region| region == MASKED));
+    let longest = masked.into_iter().max().flatten().unwrap_or(u64::MAX);
+    refuse_if!(
+        longest > LONGEST,
+        "interrupts are masked for {longest} instructions, {LONGEST} are stated"
+    );
+    Ok(format!(
+        "{TICKS} ticks the same; a record takes {} instructions at most; interrupts are masked for {longest}",
+        kept.unwrap_or_default()
+    ))
+}
+
+#[cfg(test)]
+mod tests;

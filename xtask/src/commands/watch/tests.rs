@@ -1,0 +1,143 @@
+//! The comparison of runs fails where it should.
+
+use cycle_meter::Sample;
+
+use crate::kit::elf::{Function, Image, Sizes};
+
+use super::{
+    KEPT, LONGEST, MASKED, RECORD, TICKS, every_tick_arrived, longest, masked_nowhere_else,
+    verdict, within_bar,
+};
+use crate::kit::bars::Bar;
+
+/// A run whose records take so many instructions.
+fn run(record: u64) -> Vec<Sample> {
+    let sample = |region, instructions| Sample {
+        region,
+        instructions,
+        cycles: instructions,
+        flops: 0,
+    };
+    let tick =
+        (0..=RECORD).map(|region| sample(region, if region == RECORD { record } else { 50 }));
+    let ticks = std::iter::repeat_n(tick, TICKS).flatten();
+    ticks.chain([sample(MASKED, LONGEST)]).collect()
+}
+
+/// The run with a change to one sample.
+fn changed(at: usize, change: impl Fn(&mut Sample)) -> Vec<Sample> {
+    let mut run = run(KEPT);
+    change(&mut run[at]);
+    run
+}
+
+#[test]
+fn the_guide_states_what_is_checked() {
+    let page = include_str!("../../../../docs/guide/src/telemetry.md");
+    for words in [
+        format!("interrupts masked takes {LONGEST} instructions"),
+        format!("takes at most {KEPT} instructions"),
+        "runs 3,000 ticks".to_owned(),
+    ] {
+        assert!(page.contains(&words), "{words}");
+    }
+    assert_eq!(TICKS, 3000);
+}
+
+#[test]
+fn a_tick_and_its_record_beyond_the_bar_fail() {
+    let cycles = longest(&run(KEPT));
+    assert_eq!(cycles, 50 + KEPT);
+    let bar = |most| Bar {
+        most: [("cycles".into(), most)].into(),
+        missed: Vec::new(),
+    };
+    let verdict = |most| {
+        within_bar(
+            cycles,
+            &[("ur5e watched tick".to_owned(), bar(most))].into(),
+        )
+    };
+    assert!(verdict((50 + KEPT) as f64).is_ok());
+    let error = verdict((49 + KEPT) as f64)
+        .expect_err("one cycle more")
+        .to_string();
+    assert!(error.contains("watched tick"), "{error}");
+}
+
+#[test]
+fn a_record_that_takes_longer_than_stated_fails() {
+    let longer = run(KEPT + 1);
+    assert!(verdict(&longer, &longer, &run(KEPT / 2)).is_err());
+}
+
+#[test]
+fn equal_ticks_pass() {
+    assert!(verdict(&run(KEPT), &run(KEPT), &run(KEPT / 2)).is_ok());
+}
+
+#[test]
+fn one_cycle_more_in_one_tick_fails() {
+    let slower = changed(7 * 100, |sample| sample.cycles += 1);
+    let error = verdict(&slower, &run(KEPT), &run(KEPT / 2))
+        .expect_err("a listener")
+        .to_string();
+    assert!(error.contains("a listener, tick 100"), "{error}");
+    let error = verdict(&run(KEPT), &run(KEPT), &slower)
+        .expect_err("a queue")
+        .to_string();
+    assert!(error.contains("a full queue, tick 100"), "{error}");
+}
+
+#[test]
+fn a_run_that_ends_early_fails() {
+    let short = &run(KEPT)[..7 * (TICKS - 1)];
+    assert!(verdict(short, short, short).is_err());
+    assert!(verdict(&run(KEPT), &run(KEPT), short).is_err());
+}
+
+#[test]
+fn a_full_queue_that_costs_more_fails() {
+    assert!(verdict(&run(KEPT), &run(KEPT), &run(KEPT + 1)).is_err());
+}
+
+#[test]
+fn a_longer_masked_stretch_fails() {
+    let longer = changed(7 * TICKS, |sample| sample.instructions += 1);
+    assert!(verdict(&run(KEPT), &longer, &run(KEPT / 2)).is_err());
+}
+
+#[test]
+fn lost_ticks_bad_frames_and_disturbed_arms_fail() {
+    let summary = |ticks: usize, bad: u64, events: &str| {
+        every_tick_arrived(&format!(
+            r#"{{"ticks":{ticks},"bad_frames":{bad},"dropped":0,"lost":0,"restarts":0,"events":[{events}]}}"#
+        ))
+    };
+    assert!(summary(TICKS, 0, "").is_ok());
+    assert!(summary(TICKS - 1, 0, "").is_err() && summary(TICKS, 1, "").is_err());
+    let error = summary(TICKS, 0, r#"[8,"hold"]"#).expect_err("a false alarm");
+    assert!(error.to_string().contains("disturbed"), "{error}");
+    assert!(every_tick_arrived("{}").is_err());
+}
+
+#[test]
+fn a_tick_that_masks_interrupts_fails() {
+    let image = |name: &str, code: [u8; 2]| Image {
+        is_arm: true,
+        has_defmt: false,
+        sizes: Sizes { flash: 0, ram: 0 },
+        functions: vec![Function {
+            names: vec![name.to_owned()],
+            address: 0x1000,
+            bytes: [code, [0x70, 0x47]].concat(),
+            data: Vec::new(),
+        }],
+        words: std::collections::BTreeSet::new(),
+    };
+    let masking = [0x72, 0xb6];
+    assert!(masked_nowhere_else(&image("SysTick", masking)).is_ok());
+    assert!(masked_nowhere_else(&image("tick", [0x00, 0xbf])).is_ok());
+    let error = masked_nowhere_else(&image("tick", masking)).expect_err("it masks");
+    assert_eq!(error.to_string(), "`tick` masks interrupts");
+}

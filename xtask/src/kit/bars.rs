@@ -1,0 +1,168 @@
+//! Bars: promised figures compared with measured ones, and the record of those that are missed.
+
+use std::collections::BTreeMap;
+
+use serde::Deserialize;
+
+use crate::kit::table::{Table, thousands};
+
+/// The page that explains the missed bars.
+const RECORD: &str = "decisions/0002-bars.md";
+
+/// The share by which the code of another compiler than the budgets' own may be larger.
+pub const OTHER_RUSTC: f64 = 0.03;
+
+/// The bars, by the name of a row or of a pair of rows.
+pub type Bars = BTreeMap<String, Bar>;
+
+/// The upper bounds of the figures of a row, or of their ratios to those of another row.
+#[derive(Clone, Debug, Default, Deserialize)]
+pub struct Bar {
+    /// The figures by their names.
+    #[serde(flatten)]
+    pub most: BTreeMap<String, f64>,
+    /// The figures that are recorded as missed.
+    #[serde(default)]
+    pub missed: Vec<String>,
+}
+
+/// Whether a bar of this name is of a pair of rows.
+pub fn is_ratio(key: &str) -> bool {
+    key.contains(" / ")
+}
+
+/// One figure of a bar, beside what was measured.
+#[derive(Clone, Debug)]
+pub struct Compared {
+    pub what: String,
+    pub measured: f64,
+    pub most: f64,
+    /// It is recorded as missed.
+    pub recorded: bool,
+    /// It is a multiple, not a number of something.
+    pub ratio: bool,
+}
+
+impl Compared {
+    /// The figure of the row or pair `key` as measured; nothing if no bar is set.
+    pub fn of(bars: &Bars, key: &str, figure: &str, measured: f64) -> Option<Self> {
+        let bar = bars.get(key)?;
+        Some(Self {
+            what: format!("{key}: {figure}"),
+            measured,
+            most: *bar.most.get(figure)?,
+            recorded: bar.missed.iter().any(|missed| missed == figure),
+            ratio: is_ratio(key),
+        })
+    }
+
+    /// Whether it is within the bar.
+    pub fn is_met(&self) -> bool {
+        self.measured <= self.most
+    }
+
+    /// The error, if there is one: a bar is missed without a record, or met in spite of one.
+    pub fn complaint(&self) -> Option<String> {
+        let (what, [most, measured]) = (&self.what, self.numbers());
+        match (self.is_met(), self.recorded) {
+            (false, false) => Some(format!("{what} {measured} > {most}")),
+            (true, true) => Some(format!("{what} is met now: take it off `missed`")),
+            _ => None,
+        }
+    }
+
+    /// The bar and what was measured, in print.
+    fn numbers(&self) -> [String; 2] {
+        [self.most, self.measured].map(|x| {
+            if self.ratio {
+                format!("{x:.3}×")
+            } else {
+                thousands(x as u64)
+            }
+        })
+    }
+}
+
+/// The largest of some figures: the one that is not a number, if there is one, which `f64::max` would drop; 0 of none.
+pub fn largest(figures: impl Iterator<Item = f64>) -> f64 {
+    figures.fold(0.0, |a, b| if b > a || b.is_nan() { b } else { a })
+}
+
+/// The table of bars for a page.
+pub fn table(compared: &[Compared]) -> Table {
+    let mut table = Table::new(&["bar", "at most", "now", ""]);
+    for compared in compared {
+        let verdict = match (compared.is_met(), compared.recorded) {
+            (true, _) => "met".to_owned(),
+            (false, true) => format!("missed, see {RECORD}"),
+            (false, false) => "MISSED".to_owned(),
+        };
+        let [most, measured] = compared.numbers();
+        table.row([compared.what.clone(), most, measured, verdict]);
+    }
+    table
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Bar, Bars, Compared, largest, table};
+
+    #[test]
+    fn a_bar_is_met_or_recorded() {
+        let pair = Bar {
+            most: [("cycles".into(), 0.47), ("ns".into(), 0.15)].into(),
+            missed: vec!["ns".into()],
+        };
+        let ratios = Bars::from([("a / b".into(), pair)]);
+        let complaint =
+            |figure, measured| Compared::of(&ratios, "a / b", figure, measured)?.complaint();
+        assert_eq!(complaint("cycles", 0.47), None);
+        assert_eq!(
+            complaint("cycles", 0.48).unwrap(),
+            "a / b: cycles 0.480× > 0.470×"
+        );
+        // One in a thousand is too much already.
+        assert!(complaint("cycles", 0.470_5).is_some());
+        assert!(complaint("cycles", f64::NAN).is_some());
+        assert_eq!(complaint("ns", 0.16), None);
+        assert!(complaint("ns", 0.14).unwrap().contains("met now"));
+        assert!(Compared::of(&ratios, "a / b", "code_bytes", 1.0).is_none());
+        assert!(Compared::of(&ratios, "a / c", "cycles", 1.0).is_none());
+    }
+
+    #[test]
+    fn a_figure_that_is_not_a_number_is_the_largest() {
+        assert_eq!(largest([1.0, 3.0, 2.0].into_iter()), 3.0);
+        for figures in [[f64::NAN, 1.0], [1.0, f64::NAN]] {
+            assert!(largest(figures.into_iter()).is_nan());
+        }
+        assert_eq!(largest(std::iter::empty()), 0.0);
+    }
+
+    #[test]
+    fn one_cycle_beyond_a_bar_is_a_miss() {
+        let compared = |measured, recorded| Compared {
+            what: "rnea: cycles".into(),
+            measured,
+            most: 640.0,
+            recorded,
+            ratio: false,
+        };
+        assert_eq!(compared(640.0, false).complaint(), None);
+        assert_eq!(
+            compared(641.0, false).complaint().unwrap(),
+            "rnea: cycles 641 > 640"
+        );
+        assert_eq!(compared(641.0, true).complaint(), None);
+        assert!(compared(640.0, true).complaint().is_some());
+        let words = table(&[
+            compared(640.0, false),
+            compared(641.0, true),
+            compared(641.0, false),
+        ])
+        .text();
+        for word in ["met", "missed, see", "MISSED"] {
+            assert!(words.contains(word), "{word}: {words}");
+        }
+    }
+}

@@ -1,0 +1,244 @@
+//! Which functions a function can reach, read from the machine code: what the sources say is
+//! one thing, what the linker kept is another.
+
+use std::collections::VecDeque;
+use std::collections::btree_map::{BTreeMap, Entry};
+use std::path::Path;
+
+use cycle_meter::{Class, Insn, Relative};
+
+use crate::kit::elf::{Function, Image, is_f64, is_panic};
+use crate::kit::error::{Result, bail, check};
+
+#[derive(Clone, Copy, Debug)]
+pub struct Instruction {
+    pub address: u64,
+    /// Its halfwords; the second is zero if it has one.
+    pub code: [u16; 2],
+    pub insn: Insn,
+}
+
+impl Instruction {
+    /// The target of a relative branch or load.
+    pub fn relative(self) -> Option<Relative> {
+        cycle_meter::relative(self.address as u32, self.code[0], self.code[1])
+    }
+
+    /// The target of a direct call or jump.
+    pub fn target(self) -> Option<u64> {
+        let branch = self.relative().filter(|reached| reached.words == 0)?;
+        Some(branch.target.into())
+    }
+
+    /// Whether a Cortex-M4F lacks it.
+    pub fn is_beyond_m4f(self) -> bool {
+        self.insn.class == Class::Unknown
+    }
+}
+
+impl Image {
+    /// The instructions of all its functions.
+    pub fn instructions(&self) -> impl Iterator<Item = (&Function, Instruction)> {
+        self.functions.iter().flat_map(|function| {
+            let instructions = function.instructions().into_iter();
+            instructions.map(move |one| (function, one))
+        })
+    }
+
+    /// The number of instructions; an error if a Cortex-M4F lacks one of them.
+    pub fn m4f_instructions(&self) -> Result<usize> {
+        if let Some((function, one)) = self.instructions().find(|(_, one)| one.is_beyond_m4f()) {
+            let (name, code, at) = (&function.names[0], one.code, one.address);
+            bail!("`{name}` has {code:x?} at {at:#x}");
+        }
+        Ok(self.instructions().count())
+    }
+}
+
+impl Function {
+    /// Whether an address lies in it.
+    pub fn contains(&self, address: u64) -> bool {
+        let end = self.address + self.bytes.len() as u64;
+        (self.address..end).contains(&address)
+    }
+
+    /// Its instructions, without the literal pools.
+    pub fn instructions(&self) -> Vec<Instruction> {
+        let halfword = |at: usize| {
+            let pair = self.bytes.get(at..at + 2)?;
+            Some(u16::from_le_bytes([pair[0], pair[1]]))
+        };
+        let mut instructions = Vec::new();
+        let mut at = 0;
+        while let Some(first) = halfword(at) {
+            let address = self.address + at as u64;
+            let mark = self.data.iter().rev().find(|(from, _)| *from <= address);
+            if mark.is_some_and(|(_, is_data)| *is_data) {
+                at += 2;
+                continue;
+            }
+            let size = usize::from(cycle_meter::size(first));
+            let second = halfword(at + 2).filter(|_| size == 4).unwrap_or_default();
+            instructions.push(Instruction {
+                address,
+                code: [first, second],
+                insn: cycle_meter::decode(first, second),
+            });
+            at += size;
+        }
+        instructions
+    }
+
+    /// Whether one of its names matches.
+    pub fn is_named(&self, matches: impl Fn(&str) -> bool) -> bool {
+        self.names.iter().any(|name| matches(name))
+    }
+
+    fn name(&self) -> &str {
+        &self.names[0]
+    }
+}
+
+/// The functions that one can reach.
+pub struct Reach<'a> {
+    /// Each function, and the one that it was first reached from.
+    from: BTreeMap<usize, Option<usize>>,
+    image: &'a Image,
+}
+
+impl<'a> Reach<'a> {
+    /// Follows the direct calls and jumps from every function that is a root.
+    ///
+    /// # Errors
+    /// There is no root, or something reached calls through a register or leaves the known
+    /// functions, so that what else is reached is not known.
+    pub fn of(image: &'a Image, is_root: impl Fn(&Function) -> bool) -> Result<Self> {
+        let is_root = |index: &usize| is_root(&image.functions[*index]);
+        let roots: Vec<usize> = (0..image.functions.len()).filter(is_root).collect();
+        if roots.is_empty() {
+            bail!("the firmware has no function to start from");
+        }
+        let from = roots.iter().map(|root| (*root, None)).collect();
+        let mut reach = Self { from, image };
+        let mut queue = VecDeque::from(roots);
+        while let Some(index) = queue.pop_front() {
+            let function = &image.functions[index];
+            for one in function.instructions() {
+                if one.insn.indirect {
+                    let (path, at) = (reach.path(index), one.address);
+                    bail!(
+                        "{path} calls through a register at {at:#x}: what it reaches is not known"
+                    );
+                }
+                let Some(target) = one.target().filter(|to| !function.contains(*to)) else {
+                    continue;
+                };
+                let callee = image.functions.iter().position(|f| f.contains(target));
+                let callee = callee.ok_or_else(|| {
+                    let jumps = format!("{} jumps to {target:#x}", reach.path(index));
+                    check!("{jumps}, which is in no function")
+                })?;
+                if let Entry::Vacant(new) = reach.from.entry(callee) {
+                    new.insert(Some(index));
+                    queue.push_back(callee);
+                }
+            }
+        }
+        Ok(reach)
+    }
+
+    /// The functions, each with the chain of calls that reaches it.
+    pub fn functions(&self) -> impl Iterator<Item = (&'a Function, String)> + '_ {
+        let found = self.from.keys();
+        found.map(|index| (&self.image.functions[*index], self.path(*index)))
+    }
+
+    fn path(&self, index: usize) -> String {
+        let mut names = vec![self.image.functions[index].name()];
+        let mut at = index;
+        while let Some(Some(caller)) = self.from.get(&at) {
+            names.push(self.image.functions[*caller].name());
+            at = *caller;
+        }
+        names.reverse();
+        names.join(" → ")
+    }
+}
+
+/// The number of functions that the ticks of an image reach; fails if one of them is f64 arithmetic, a sine of libm or a panic.
+pub fn f32_only(elf: &Path, is_tick: fn(&str) -> bool) -> Result<usize> {
+    let image = Image::read(elf)?;
+    let reach = Reach::of(&image, |function| function.is_named(is_tick))?;
+    let mut count = 0;
+    for (function, path) in reach.functions() {
+        count += 1;
+        let unwanted = |name: &&String| is_f64(name) || is_panic(name);
+        if let Some(name) = function.names.iter().find(unwanted) {
+            bail!("the tick reaches `{name}`: {path}");
+        }
+    }
+    Ok(count)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::Reach;
+    use crate::kit::elf::{Function, Image, Sizes};
+
+    #[test]
+    fn an_image_with_a_double_of_the_fpu_is_refused() {
+        let image = |code: [u16; 4]| Image {
+            is_arm: true,
+            has_defmt: false,
+            sizes: Sizes { flash: 0, ram: 0 },
+            functions: vec![Function {
+                names: vec!["tick".into()],
+                address: 0x1000,
+                bytes: code.iter().flat_map(|half| half.to_le_bytes()).collect(),
+                data: Vec::new(),
+            }],
+            words: BTreeSet::new(),
+        };
+        let counted = image([0xBF00, 0xEE30, 0x0A81, 0x4770]).m4f_instructions(); // vadd.f32 s0, s1, s2
+        assert_eq!(counted.expect("all are known"), 3);
+        let refused = image([0xBF00, 0xEE30, 0x0B01, 0x4770]).m4f_instructions(); // vadd.f64 d0, d0, d1
+        let error = refused.expect_err("a double").to_string();
+        assert!(
+            error.contains("`tick` has [ee30, b01] at 0x1002"),
+            "{error}"
+        );
+    }
+
+    #[test]
+    fn a_jump_through_a_register_is_refused_with_its_path() {
+        let function = |name: &str, address, code: [u16; 3]| Function {
+            names: vec![name.into()],
+            address,
+            bytes: code.iter().flat_map(|half| half.to_le_bytes()).collect(),
+            data: Vec::new(),
+        };
+        // bl 0x1010; bx lr
+        let caller = function("tick", 0x1000, [0xf000, 0xf806, 0x4770]);
+        let image = |code| Image {
+            is_arm: true,
+            has_defmt: false,
+            sizes: Sizes { flash: 0, ram: 0 },
+            functions: vec![caller.clone(), function("callee", 0x1010, code)],
+            words: BTreeSet::new(),
+        };
+        let returns = image([0xbf00, 0xbf00, 0x4770]);
+        let reach = Reach::of(&returns, |f| f.is_named(|name| name == "tick")).expect("no jump");
+        let paths: Vec<String> = reach.functions().map(|(_, path)| path).collect();
+        assert_eq!(paths, ["tick", "tick → callee"]);
+        let jumps = image([0xbf00, 0x469f, 0x4770]); // mov pc, r3
+        let error = Reach::of(&jumps, |f| f.is_named(|name| name == "tick")).err();
+        let error = error.expect("refused").to_string();
+        assert!(
+            error.contains("tick → callee calls through a register at 0x1012"),
+            "{error}"
+        );
+        assert!(Reach::of(&jumps, |_| false).is_err());
+    }
+}

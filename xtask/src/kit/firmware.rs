@@ -1,0 +1,87 @@
+//! Builds what runs in QEMU, and the plugin that watches it.
+
+use std::path::{Path, PathBuf};
+
+use crate::kit::error::{Error, Result};
+use crate::kit::shell;
+use crate::kit::toolchain::{RELEASE, Toolchain};
+use crate::kit::workspace::Workspace;
+
+/// Builds a bin of the firmware and returns its ELF. Here and below, of what cargo says
+/// its warnings are shown, and the rest only if it fails.
+pub fn build(workspace: &Workspace, toolchain: Toolchain, bin: &str) -> Result<PathBuf> {
+    build_bins(workspace, toolchain, RELEASE, &[bin]).map(|mut elves| elves.remove(0))
+}
+
+/// Builds some bins side by side in a profile and returns their ELFs.
+pub fn build_bins(
+    workspace: &Workspace,
+    toolchain: Toolchain,
+    profile: &str,
+    bins: &[&str],
+) -> Result<Vec<PathBuf>> {
+    build_featured(workspace, toolchain, profile, "", bins)
+}
+
+/// Builds some bins side by side in a profile that are built for a feature only, and returns their ELFs.
+pub fn build_featured(
+    workspace: &Workspace,
+    toolchain: Toolchain,
+    profile: &str,
+    feature: &str,
+    bins: &[&str],
+) -> Result<Vec<PathBuf>> {
+    let mut command = toolchain.firmware(workspace, "build");
+    command.args(["--profile", profile, "--features", feature]);
+    command.args(bins.iter().flat_map(|bin| ["--bin", bin]));
+    shell::cargo(&mut command)?;
+    bins.iter()
+        .map(|bin| existing(toolchain.elf(workspace, profile, bin)))
+        .collect()
+}
+
+/// The feature of the bins for robots from files.
+pub const OWN_ROBOTS: &str = "own-robots";
+
+/// The environment variable that names the file which the bins include, and its value.
+pub fn variable(included: &Path) -> (&'static str, &Path) {
+    ("OWN_ROBOT", included)
+}
+
+/// Builds bins of the firmware with these features for the robots of a file that they include, and returns their ELFs.
+pub fn build_own(
+    workspace: &Workspace,
+    toolchain: Toolchain,
+    included: &Path,
+    features: &str,
+    bins: &[&str],
+) -> Result<Vec<PathBuf>> {
+    let mut command = toolchain.firmware(workspace, "build");
+    command.args(["--profile", RELEASE, "--features", features]);
+    command.args(bins.iter().flat_map(|bin| ["--bin", bin]));
+    command.envs([variable(included)]);
+    shell::cargo(&mut command)?;
+    let elf = |bin: &&str| toolchain.elf(workspace, RELEASE, bin);
+    Ok(bins.iter().map(elf).collect())
+}
+
+/// Builds every bin of the firmware.
+pub fn build_all(workspace: &Workspace, toolchain: Toolchain) -> Result<()> {
+    let mut command = toolchain.firmware(workspace, "build");
+    shell::cargo(command.args(["--release", "--bins"]))?;
+    Ok(())
+}
+
+/// Builds the cycle meter and returns the shared library.
+pub fn build_meter(workspace: &Workspace) -> Result<PathBuf> {
+    let mut command = workspace.cargo("build");
+    shell::cargo(command.args(["--release", "--package", "cycle-meter"]))?;
+    use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
+    let library = format!("release/{DLL_PREFIX}cycle_meter{DLL_SUFFIX}");
+    existing(workspace.target.join(library))
+}
+
+fn existing(path: PathBuf) -> Result<PathBuf> {
+    std::fs::metadata(&path).map_err(Error::file("find", &path))?;
+    Ok(path)
+}

@@ -1,0 +1,127 @@
+//! What the cycle meter wrote, as statistics of each region.
+
+use std::path::Path;
+
+use cycle_meter::Sample;
+pub use cycle_meter::Summary as Spread;
+use serde::{Deserialize, Serialize};
+
+use crate::kit::error::{Result, check, refuse_if};
+use crate::kit::workspace;
+
+/// The note that goes with every cycle figure.
+pub const MODEL: &str = "modelled Cortex-M4F, zero-wait memory; instructions exact";
+
+/// The clock of the STM32F405 in MHz, so cycles per µs.
+pub const CLOCK_MHZ: f64 = 168.0;
+
+/// The regions' names by their number; 0 is the whole tick.
+pub const REGIONS: [&str; 6] = ["total", "read", "reference", "dynamics", "safety", "write"];
+
+/// The price of a region.
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
+pub struct Cost {
+    /// Instructions, exact.
+    pub instructions: Spread,
+    pub cycles: Spread,
+}
+
+/// Reads the file that the meter wrote.
+pub fn read(path: &Path) -> Result<Vec<Sample>> {
+    cycle_meter::parse_samples(&workspace::read(path)?)
+        .map_err(|e| check!("{}: {e}", path.display()))
+}
+
+/// The name of what a tick does outside its phases: moving their results, and its own entry.
+pub const BETWEEN: &str = "between";
+
+/// The cost of each of [`REGIONS`] and then of what is [`BETWEEN`] them, over the ticks that `counts`
+/// picks by their number.
+///
+/// # Errors
+/// A region does not occur once in each tick, or the number of ticks is not `ticks`.
+pub fn costs(
+    samples: &[Sample],
+    ticks: usize,
+    counts: impl Fn(usize) -> bool,
+) -> Result<Vec<Cost>> {
+    let of = |(number, name): (usize, &&str)| {
+        let is_mine = |one: &&Sample| usize::from(one.region) == number;
+        let mine = samples.iter().filter(is_mine);
+        let mine: Vec<[u64; 2]> = mine.map(|one| [one.instructions, one.cycles]).collect();
+        let found = mine.len();
+        refuse_if!(
+            found != ticks,
+            "the cycle meter saw region {number} ({name}) {found} times in {ticks} ticks"
+        );
+        Ok(mine)
+    };
+    let regions = REGIONS.iter().enumerate().map(of);
+    let mut regions = regions.collect::<Result<Vec<_>>>()?;
+    let between = (0..ticks).map(|tick| {
+        [0, 1].map(|which| {
+            let phases: u64 = regions[1..].iter().map(|phase| phase[tick][which]).sum();
+            regions[0][tick][which].saturating_sub(phases)
+        })
+    });
+    regions.push(between.collect());
+    let cost = |region: &Vec<[u64; 2]>| {
+        let ticks = || (0..ticks).filter(|tick| counts(*tick));
+        let chosen = |which: usize| ticks().map(move |tick| region[tick][which]);
+        Cost::of(chosen(0), chosen(1))
+    };
+    regions.iter().map(cost).collect()
+}
+
+impl Cost {
+    /// The cost of some passages through a region.
+    pub fn of(
+        instructions: impl IntoIterator<Item = u64>,
+        cycles: impl IntoIterator<Item = u64>,
+    ) -> Result<Self> {
+        let nothing = || check!("the cycle meter measured nothing");
+        Ok(Self {
+            instructions: Spread::of(instructions).ok_or_else(nothing)?,
+            cycles: Spread::of(cycles).ok_or_else(nothing)?,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use cycle_meter::Sample;
+
+    use super::{REGIONS, costs};
+
+    #[test]
+    fn only_the_chosen_ticks_count() {
+        let samples: Vec<Sample> = (0..4)
+            .flat_map(|tick| {
+                (0..REGIONS.len() as u8).map(move |region| Sample {
+                    region,
+                    instructions: 10 * tick,
+                    cycles: 20 * tick,
+                    flops: 0,
+                })
+            })
+            .collect();
+        let total = costs(&samples, 4, |tick| tick < 3).expect("complete")[0];
+        assert_eq!((total.instructions.median, total.cycles.max), (10, 40));
+        assert!(costs(&samples, 5, |_| true).is_err());
+    }
+
+    #[test]
+    fn what_is_in_no_phase_is_between_them() {
+        let samples: Vec<Sample> = (0..REGIONS.len() as u8)
+            .map(|region| Sample {
+                region,
+                instructions: if region == 0 { 100 } else { 19 },
+                cycles: if region == 0 { 210 } else { 39 },
+                flops: 0,
+            })
+            .collect();
+        let costs = costs(&samples, 1, |_| true).expect("complete");
+        let between = costs[REGIONS.len()];
+        assert_eq!((between.instructions.max, between.cycles.max), (5, 15));
+    }
+}

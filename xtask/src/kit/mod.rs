@@ -1,0 +1,31 @@
+//! What studies and commands are made of: programs that run, firmware and its costs, tables, pictures and pages.
+
+pub mod apt;
+pub mod bars;
+pub mod bracket;
+pub mod callgraph;
+pub mod chart;
+pub mod docs;
+pub mod elf;
+pub mod error;
+pub mod firmware;
+pub mod flags;
+pub mod host_bin;
+pub mod importer;
+pub mod meter;
+pub mod output;
+pub mod own_robot;
+pub mod processes;
+pub mod progress;
+pub mod protocol;
+pub mod qemu;
+pub mod rows;
+pub mod same_code;
+pub mod scene;
+pub mod setup;
+pub mod shell;
+pub mod sources;
+pub mod system;
+pub mod table;
+pub mod toolchain;
+pub mod workspace;

@@ -1,0 +1,44 @@
+//! What the user reads. `println!` panics where a pipe is closed or a disk is full; here the first is
+//! the end of a run, the second an error, and notes on stderr that nobody can read are lost.
+
+use std::collections::BTreeSet;
+use std::io::Write;
+use std::sync::{Mutex, PoisonError};
+
+use crate::kit::error::{Error, Result};
+use crate::kit::progress;
+
+/// Writes a text to stdout.
+///
+/// # Errors
+/// It cannot be written, all of it.
+pub fn print(text: &str) -> Result<()> {
+    let mut stdout = std::io::stdout().lock();
+    let written = stdout.write_all(text.as_bytes());
+    written.and_then(|()| stdout.flush()).map_err(Error::Output)
+}
+
+/// Writes a line to stdout.
+///
+/// # Errors
+/// As [`print()`].
+pub fn line(text: &str) -> Result<()> {
+    print(&format!("{text}\n"))
+}
+
+/// Writes a line to stderr.
+pub fn note(text: &str) {
+    progress::above(|| {
+        // There is nowhere to say that it failed.
+        let _ = writeln!(std::io::stderr().lock(), "{text}");
+    });
+}
+
+/// Writes a line to stderr if it has not been written there before.
+pub fn note_once(text: &str) {
+    static WRITTEN: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
+    let mut written = WRITTEN.lock().unwrap_or_else(PoisonError::into_inner);
+    if written.insert(text.to_owned()) {
+        note(text);
+    }
+}

@@ -1,0 +1,123 @@
+//! Running other programs.
+
+use std::io::{BufRead, BufReader, IsTerminal};
+use std::path::PathBuf;
+use std::process::{Child, Command, ExitStatus, Stdio};
+
+use crate::kit::error::{Error, Result};
+use crate::kit::processes::Group;
+use crate::kit::{flags, output};
+
+/// The command as one would type it, without its environment.
+pub fn display(command: &Command) -> String {
+    let words = std::iter::once(command.get_program()).chain(command.get_args());
+    let quoted = words.map(|word| match word.to_string_lossy() {
+        word if word.contains([' ', '"', '*']) => format!("'{word}'"),
+        word => word.into_owned(),
+    });
+    quoted.collect::<Vec<_>>().join(" ")
+}
+
+/// Starts a command whose processes end on a signal that ends xtask.
+pub fn spawn(command: &mut Command) -> Result<(Child, Group)> {
+    Group::spawn(command).map_err(|e| Error::spawn(command, e))
+}
+
+/// Runs a command whose output the user watches. All of it goes to stderr, since stdout is
+/// kept for `--json`.
+pub fn run(command: &mut Command) -> Result<()> {
+    command.stdin(Stdio::null()).stdout(std::io::stderr());
+    let (mut child, _group) = spawn(command)?;
+    let status = child.wait().map_err(|e| Error::spawn(command, e))?;
+    succeeded(command, status)
+}
+
+/// Runs a command whose output and errors are the user's, and returns how it ended. Where stdout is a terminal it stays
+/// in the foreground group, whose programs alone may read from the terminal; elsewhere it ends with xtask.
+pub fn run_for_user(command: &mut Command) -> Result<ExitStatus> {
+    let status = if std::io::stdout().is_terminal() {
+        command.status()
+    } else {
+        let (mut child, _group) = spawn(command.stdin(Stdio::null()))?;
+        child.wait()
+    };
+    status.map_err(|e| Error::spawn(command, e))
+}
+
+/// Runs a command that may ask for a password: it stays in the terminal's foreground group, whose
+/// programs alone may read from it and all get what is typed to interrupt.
+pub fn run_with_questions(command: &mut Command) -> Result<()> {
+    let status = command.stdout(std::io::stderr()).status();
+    succeeded(command, status.map_err(|e| Error::spawn(command, e))?)
+}
+
+fn succeeded(command: &Command, status: ExitStatus) -> Result<()> {
+    if status.success() {
+        return Ok(());
+    }
+    Err(Error::failed(command, status, String::new()))
+}
+
+/// Runs a command and returns its stdout; what it printed is shown only if it fails.
+pub fn capture(command: &mut Command) -> Result<String> {
+    Ok(output_of(command)?.0)
+}
+
+/// Runs cargo and returns its stdout. Its warnings are shown, except rustc's about target features that it
+/// forwards to LLVM, of which one sentence says that there are some.
+pub fn cargo(command: &mut Command) -> Result<String> {
+    let (stdout, stderr) = output_of(command)?;
+    let warnings = flags::sifted(&stderr);
+    if let Some(sentence) = warnings.sentence() {
+        output::note_once(&sentence);
+    }
+    for warning in &warnings.others {
+        output::note(warning);
+    }
+    Ok(stdout)
+}
+
+fn output_of(command: &mut Command) -> Result<(String, String)> {
+    let (child, _group) = spawn(heard_by(command, Stdio::piped))?;
+    let out = child.wait_with_output();
+    let out = out.map_err(|e| Error::spawn(command, e))?;
+    let [stdout, stderr] =
+        [out.stdout, out.stderr].map(|text| String::from_utf8_lossy(&text).into_owned());
+    if out.status.success() {
+        return Ok((stdout, stderr));
+    }
+    let output = format!("\n{stdout}{stderr}");
+    let output = output.trim_end().to_owned();
+    Err(Error::failed(command, out.status, output))
+}
+
+/// Runs a command and hands over its stdout line by line; its stderr is the user's.
+pub fn each_line(command: &mut Command, mut on_line: impl FnMut(&str) -> Result<()>) -> Result<()> {
+    command.stdin(Stdio::null()).stdout(Stdio::piped());
+    let (mut child, _group) = spawn(command)?;
+    let stdout = child.stdout.take().into_iter();
+    for line in stdout.flat_map(|out| BufReader::new(out).lines()) {
+        on_line(&line.map_err(|e| Error::spawn(command, e))?)?;
+    }
+    let status = child.wait().map_err(|e| Error::spawn(command, e))?;
+    succeeded(command, status)
+}
+
+/// Whether the command can be started and succeeds, with nothing shown.
+pub fn succeeds(command: &mut Command) -> bool {
+    let status = heard_by(command, Stdio::null).status();
+    status.is_ok_and(|status| status.success())
+}
+
+/// A command that reads nothing, and whose output goes there.
+pub fn heard_by(command: &mut Command, place: fn() -> Stdio) -> &mut Command {
+    command.stdin(Stdio::null()).stdout(place()).stderr(place())
+}
+
+/// The path of a program on the PATH.
+pub fn which(program: &str) -> Option<PathBuf> {
+    let path = std::env::var_os("PATH")?;
+    std::env::split_paths(&path)
+        .map(|dir| dir.join(format!("{program}{}", std::env::consts::EXE_SUFFIX)))
+        .find(|file| file.is_file())
+}

@@ -1,0 +1,199 @@
+//! The two ways to a compiler for the target: the one that runs xtask, with the target's
+//! core added by rustup, or Debian's own, which builds core from Debian's sources.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use crate::kit::error::{Result, bail};
+use crate::kit::shell;
+use crate::kit::workspace::{FIRMWARE, Workspace};
+
+/// The target of the firmware.
+pub const TARGET: &str = "thumbv7em-none-eabihf";
+
+/// The profile of what is measured, and the same at opt-level s.
+pub const RELEASE: &str = "release";
+pub const SMALL: &str = "small";
+pub const TINY: &str = "tiny";
+
+pub const DEBIAN_PACKAGES: &[&str] = &["rustc-web", "cargo-web", "rust-web-src", "lld"];
+
+const DEBIAN_RUSTC: &str = "/usr/bin/rustc";
+const DEBIAN_CARGO: &str = "/usr/bin/cargo";
+const DEBIAN_CLIPPY: &str = "/usr/bin/cargo-clippy";
+const DEBIAN_LINKER: &str = "/usr/bin/ld.lld";
+
+/// A compiler that can build the firmware.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Toolchain {
+    /// The compiler that runs xtask.
+    Native,
+    Debian,
+}
+
+impl Toolchain {
+    /// `cargo SUBCOMMAND … --package firmware-demo --target …`, to be completed.
+    pub fn firmware(self, workspace: &Workspace, subcommand: &str) -> Command {
+        let mut command = match self {
+            Self::Native => workspace.cargo(subcommand),
+            Self::Debian => {
+                // Cargo would find rustup's `cargo-clippy` first.
+                let programs = [DEBIAN_CARGO, DEBIAN_CLIPPY];
+                let mut command = debian(programs[usize::from(subcommand == "clippy")]);
+                command
+                    .args([subcommand, "-Zbuild-std=core"])
+                    .env("CARGO", DEBIAN_CARGO)
+                    .current_dir(&workspace.root)
+                    .env("RUSTC", DEBIAN_RUSTC)
+                    .env("RUSTC_BOOTSTRAP", "1")
+                    .env("CARGO_TARGET_DIR", self.target_dir(workspace))
+                    // Debian ships no rust-lld.
+                    .env("CARGO_TARGET_THUMBV7EM_NONE_EABIHF_LINKER", DEBIAN_LINKER);
+                command
+            }
+        };
+        command.args(["--package", FIRMWARE, "--target", TARGET]);
+        command
+    }
+
+    /// Where this compiler's artefacts go: two compilers in one directory would rebuild
+    /// everything at each change of hands.
+    fn target_dir(self, workspace: &Workspace) -> PathBuf {
+        match self {
+            Self::Native => workspace.target.clone(),
+            Self::Debian => workspace.target.join("debian"),
+        }
+    }
+
+    /// The ELF of a bin of the firmware in a profile.
+    pub fn elf(self, workspace: &Workspace, profile: &str, bin: &str) -> PathBuf {
+        let mut path = self.target_dir(workspace);
+        path.extend([TARGET, profile, bin]);
+        path
+    }
+
+    pub fn rustc_version(self) -> Result<String> {
+        let mut command = match self {
+            Self::Native => native_rustc(),
+            Self::Debian => debian(DEBIAN_RUSTC),
+        };
+        Ok(shell::capture(command.arg("--version"))?.trim().to_owned())
+    }
+}
+
+fn native_rustc() -> Command {
+    Command::new(std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into()))
+}
+
+/// A command of Debian's toolchain.
+fn debian(program: &str) -> Command {
+    let mut command = Command::new(program);
+    clear(&mut command);
+    command
+}
+
+/// A program of one of rustup's toolchains, to be completed.
+pub fn rustup(toolchain: &str, program: &str) -> Command {
+    let mut command = Command::new("rustup");
+    command.args(["run", toolchain, program]);
+    clear(&mut command);
+    command
+}
+
+/// Rids a command of what `cargo run` and rustup's shims left in the environment: library paths and variables that
+/// lead back to the other compiler.
+fn clear(command: &mut Command) {
+    let left = "CARGO RUSTC RUSTDOC LD_LIBRARY_PATH RUSTUP_TOOLCHAIN RUST_RECURSION_COUNT";
+    for (name, _) in std::env::vars_os() {
+        let text = name.to_string_lossy();
+        let of_a_package = ["CARGO_PKG_", "CARGO_BIN_", "CARGO_MANIFEST_"];
+        let is_foreign = of_a_package.iter().any(|prefix| text.starts_with(prefix))
+            || left.split(' ').any(|word| word == text);
+        if is_foreign {
+            command.env_remove(&name);
+        }
+    }
+}
+
+/// Whether the compiler that runs xtask has a core for the target.
+pub fn native_has_target() -> bool {
+    native_has(TARGET)
+}
+
+/// Whether it has one for another target.
+pub fn native_has(target: &str) -> bool {
+    let mut rustc = native_rustc();
+    let dir = shell::capture(rustc.args(["--print", "target-libdir", "--target", target]));
+    dir.is_ok_and(|dir| has_core(Path::new(dir.trim())))
+}
+
+/// Whether there is a precompiled core library in a directory.
+pub fn has_core(dir: &Path) -> bool {
+    let mut files = std::fs::read_dir(dir).into_iter().flatten().flatten();
+    files.any(|file| file.file_name().to_string_lossy().starts_with("libcore-"))
+}
+
+/// The sources of the core library, below a compiler's root.
+const SOURCES: &str = "lib/rustlib/src/rust/library/core/Cargo.toml";
+
+/// Whether the sources of the core library are below a compiler's root.
+pub fn has_sources(sysroot: &Path) -> bool {
+    sysroot.join(SOURCES).is_file()
+}
+
+/// Why Debian's way does not work yet, if it does not.
+pub fn debian_lacks() -> Option<String> {
+    let files = [DEBIAN_RUSTC, DEBIAN_CARGO, DEBIAN_LINKER];
+    if let Some(file) = files.into_iter().find(|file| !Path::new(file).is_file()) {
+        return Some(format!("{file} is not there"));
+    }
+    let says = |arguments: &[&str]| shell::capture(debian(DEBIAN_RUSTC).args(arguments));
+    let (version, sysroot) = match (says(&["--version"]), says(&["--print", "sysroot"])) {
+        (Ok(version), Ok(sysroot)) => (version, sysroot),
+        (Err(error), _) | (_, Err(error)) => return Some(error.to_string()),
+    };
+    let (version, sysroot) = (version.trim(), sysroot.trim());
+    let oldest = env!("CARGO_PKG_RUST_VERSION");
+    if release(version) < release(oldest) {
+        return Some(format!("{DEBIAN_RUSTC} is {version}, older than {oldest}"));
+    }
+    (!has_sources(Path::new(sysroot))).then(|| format!("{sysroot}/{SOURCES} is not there"))
+}
+
+/// Whether Debian's clippy is there.
+pub fn has_debian_clippy() -> bool {
+    Path::new(DEBIAN_CLIPPY).is_file()
+}
+
+/// Fails with the reason if Debian's way does not work.
+pub fn require_debian() -> Result<()> {
+    let Some(why) = debian_lacks() else {
+        return Ok(());
+    };
+    let packages = DEBIAN_PACKAGES.join(" ");
+    bail!("Debian's packages {packages} are not enough: {why}");
+}
+
+/// Major and minor of the first version number in the text.
+pub fn release(text: &str) -> (u32, u32) {
+    let is_number = |word: &&str| word.starts_with(|c: char| c.is_ascii_digit());
+    let number = text.split_whitespace().find(is_number);
+    let mut parts = number.unwrap_or_default().split('.').map(str::parse);
+    let mut part = || parts.next().and_then(|part| part.ok()).unwrap_or(0);
+    (part(), part())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::release;
+
+    #[test]
+    fn a_release_is_read_from_what_programs_say_of_themselves() {
+        assert_eq!(release("rustc 1.96.0 (ac68faa20 2026-05-25)"), (1, 96));
+        assert_eq!(
+            release("QEMU emulator version 7.2.22 (Debian 1:7.2)"),
+            (7, 2)
+        );
+        assert_eq!(release("1.95"), (1, 95));
+    }
+}

@@ -1,0 +1,214 @@
+//! The choice: the cheapest way within an error, the most accurate one within a time.
+
+use std::str::FromStr;
+
+use super::measure::Robot;
+use super::names::{cycles, digits, lines, name, stated};
+use super::point::{Kind, Point, of_group};
+use super::{code, front};
+use crate::kit::error::{Error, Result};
+use crate::kit::table::thousands;
+
+/// An allowed error.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Allowed {
+    /// In the unit of [`Allowed::kind`]: N·m or rad.
+    pub error: f64,
+    /// The kind of quantity.
+    pub kind: Kind,
+}
+
+/// The criterion of the choice.
+#[derive(Clone, Copy, Debug)]
+pub enum Budget {
+    /// The cheapest within this error.
+    Error(Allowed),
+    /// The most accurate within this worst tick.
+    Cycles(u64),
+}
+
+/// Units by their names, each of which `m` makes a thousandth of.
+const UNITS: [(&str, Kind); 3] = [
+    ("N·m", Kind::Inverse),
+    ("Nm", Kind::Inverse),
+    ("rad", Kind::Simulation),
+];
+
+impl FromStr for Allowed {
+    type Err = String;
+
+    fn from_str(text: &str) -> std::result::Result<Self, String> {
+        let text = text.trim();
+        let units = "an error is a torque in Nm or mNm (0.05Nm), for a simulation an angle in rad or mrad (2mrad)";
+        let known = UNITS
+            .iter()
+            .find_map(|(unit, kind)| Some((text.strip_suffix(unit)?, *kind)));
+        let (number, kind) = known.ok_or_else(|| format!("{text} has no unit: {units}"))?;
+        let (number, scale) = match number.strip_suffix('m') {
+            Some(number) => (number, 1e-3),
+            None => (number, 1.0),
+        };
+        match number.trim().parse::<f64>() {
+            Ok(number) if number > 0.0 && number.is_finite() => {
+                let error = number * scale;
+                Ok(Self { error, kind })
+            }
+            Ok(_) => Err(format!("{text}: an error is more than nothing")),
+            Err(_) => Err(format!("{text} does not begin with a number: {units}")),
+        }
+    }
+}
+
+impl Budget {
+    pub fn group(self, robot: Robot) -> (&'static str, Kind, &'static str) {
+        let kind = match self {
+            Self::Error(allowed) => allowed.kind,
+            Self::Cycles(_) if robot == Robot::DoublePendulum => Kind::Simulation,
+            Self::Cycles(_) => Kind::Inverse,
+        };
+        let circumstances = match kind {
+            Kind::Simulation => "free",
+            _ => "rigid",
+        };
+        (robot.name(), kind, circumstances)
+    }
+
+    /// The point of the front that this allows.
+    pub fn choose<'a>(self, points: &[&'a Point]) -> Result<&'a Point> {
+        let front = front::front(points, 0);
+        let (&[cheapest, ..], &[.., best]) = (&front[..], &front[..]) else {
+            return Err(Error::check("nothing was measured of this robot"));
+        };
+        let unit = &best.unit;
+        let mut within = front.iter().copied().filter(|point| match self {
+            Self::Cycles(most) => point.cycles <= most,
+            Self::Error(allowed) => point.error() <= allowed.error,
+        });
+        let (chosen, what, end) = match self {
+            Self::Cycles(most) => {
+                let what = format!("below {} cycles; the cheapest", thousands(most));
+                (within.next_back(), what, cheapest)
+            }
+            Self::Error(allowed) => {
+                let error = digits(allowed.error);
+                let what = format!("off by less than {error} {unit}; the most accurate");
+                (within.next(), what, best)
+            }
+        };
+        chosen.ok_or_else(|| {
+            let (cycles, error) = (thousands(end.cycles), digits(end.error()));
+            let (name, front) = (name(end), "nothing on the front is");
+            Error::check(format!(
+                "{front} {what} takes {cycles} cycles ({name}) and is off by up to {error} {unit}"
+            ))
+        })
+    }
+
+    /// The cheapest in the mean that is no less accurate, if that is another one.
+    fn in_the_mean<'a>(self, points: &[&'a Point], chosen: &Point) -> Option<&'a Point> {
+        let allowed = match self {
+            Self::Error(allowed) => allowed.error,
+            Self::Cycles(_) => chosen.error(),
+        };
+        let front = front::front(points, 1);
+        let point = front.into_iter().find(|point| point.error() <= allowed)?;
+        (point.cycles_mean < 0.95 * chosen.cycles_mean).then_some(point)
+    }
+
+    /// The choice in words, with the Rust to paste.
+    pub fn answer(self, points: &[&Point]) -> Result<String> {
+        let chosen = self.choose(points)?;
+        let mut text = described(chosen)?;
+        if let Some(other) = self.in_the_mean(points, chosen) {
+            text += "\nIf the mean over ticks matters rather than the worst tick:\n\n";
+            text += &described(other)?;
+        }
+        Ok(text)
+    }
+}
+
+/// The configurations of a group that the library ships, with their fronts.
+pub fn shipped(points: &[Point], group: (&str, Kind, &str)) -> Vec<Point> {
+    let own = of_group(points, group).into_iter();
+    let mut own: Vec<Point> = own
+        .filter(|point| code::rust(point).is_ok())
+        .cloned()
+        .collect();
+    front::mark(&mut own);
+    own
+}
+
+/// A point's figures in words, and its code.
+fn described(point: &Point) -> Result<String> {
+    let of = match point.kind {
+        Kind::Simulation => "cycles for a simulated second",
+        _ => "cycles in the worst tick",
+    };
+    let (robot, name, unit) = (&point.robot, name(point), &point.unit);
+    let [worst, mean] = point.costs().map(cycles);
+    let (error, share) = (digits(point.error()), stated(point.relative_max));
+    let (lines, code) = (lines(point), code::rust(point)?);
+    Ok(format!(
+        "{robot} {name}: {worst} modelled {of}, {mean} in the mean; off by up to {error} {unit} ({share} of full scale)\n\
+         {lines}\n{code}"
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::front::{mark, tests::point};
+    use super::super::point::{Kind, Point};
+    use super::{Allowed, Budget};
+
+    #[test]
+    fn an_error_needs_a_number_and_a_unit() {
+        let torque = |error| {
+            Ok(Allowed {
+                error,
+                kind: Kind::Inverse,
+            })
+        };
+        assert_eq!("0.05Nm".parse(), torque(0.05));
+        assert_eq!("50 mN·m".parse(), torque(0.05));
+        assert_eq!(
+            "2mrad".parse(),
+            Ok(Allowed {
+                error: 2e-3,
+                kind: Kind::Simulation
+            })
+        );
+        for bad in ["0.05", "Nm", "-1Nm", "0Nm", "nanNm", "5kg", "infNm"] {
+            assert!(bad.parse::<Allowed>().is_err(), "{bad}");
+        }
+        let refused = "0.05".parse::<Allowed>().expect_err("no unit");
+        assert!(refused.contains("no unit"), "{refused}");
+    }
+
+    #[test]
+    fn a_budget_picks_from_the_front_or_explains() {
+        let mut points = [
+            point("default", 1e-5, 1000, 1000.0),
+            point("trig=table", 1e-3, 900, 900.0),
+            point("model=gravity", 10.0, 300, 300.0),
+        ];
+        mark(&mut points);
+        let all: Vec<&Point> = points.iter().collect();
+        let chosen = |budget: Budget| budget.choose(&all).map(|point| &*point.key);
+        let error = |error| {
+            Budget::Error(Allowed {
+                error,
+                kind: Kind::Inverse,
+            })
+        };
+        assert!(chosen(error(0.05)).is_ok_and(|key| key == "trig=table"));
+        assert!(chosen(Budget::Cycles(1500)).is_ok_and(|key| key == "default"));
+        let refused = chosen(Budget::Cycles(10))
+            .expect_err("too little")
+            .to_string();
+        assert!(
+            refused.starts_with("nothing on the front is below 10 cycles; the cheapest takes 300"),
+            "{refused}"
+        );
+        assert!(chosen(error(1e-9)).is_err());
+    }
+}

@@ -1,0 +1,260 @@
+//! A configuration as Rust to paste.
+
+use super::measure::Robot;
+use super::names;
+use super::point::{Kind, Point};
+use crate::kit::error::{Error, Result};
+
+/// The paths of the items of dynamics-core in generated code.
+const DYNAMICS: &str = "Core Engine effects::Gravity effects::Inertia effects::RIGID_BODY model::Pruned robots::A1Leg \
+                        robots::Panda robots::Ur5e state::State state::IncrementalTrig trig::Minimax trig::Table";
+/// The names of the controller's items in generated code.
+const CONTROL: &str = "FirstOrderHold ZeroOrderHold Interpolator InertiaUpdate";
+
+/// The simulation of the UR5e, which the tests compile and run.
+const SIMULATION: &str = include_str!("../../../../host-tests/tests/generated/ur5e_rk4.rs");
+
+/// The code, with what has to stand in the user's manifest.
+///
+/// # Errors
+/// The Rust of a configuration; an error if the library does not ship a part of it.
+pub fn rust(point: &Point) -> Result<String> {
+    let code = match point.kind {
+        Kind::Simulation => simulation(point)?,
+        _ => torques(point)?,
+    };
+    Ok(match point.on("opt") {
+        opt @ ("s" | "z") => {
+            format!("// In Cargo.toml: [profile.release] opt-level = \"{opt}\"\n{code}")
+        }
+        _ => code,
+    })
+}
+
+/// The library's types and constants for the values on these axes.
+fn shipped<const K: usize>(point: &Point, axes: [&str; K]) -> Result<[&'static str; K]> {
+    let mut all = [""; K];
+    for (rust, axis) in all.iter_mut().zip(axes) {
+        let value = point.on(axis);
+        let lacks = || {
+            let robot = &point.robot;
+            let what = format!("there is no Rust to paste of {robot} with {axis}={value}");
+            Error::check(what + ": see firmware-demo/src/accuracy")
+        };
+        *rust = names::rust(axis, value).ok_or_else(lacks)?;
+    }
+    Ok(all)
+}
+
+/// The code with each of these words replaced, one after the other.
+pub fn filled(code: &str, values: &[(&str, &str)]) -> String {
+    let fill = |code: String, (word, value): &(&str, &str)| code.replace(word, value);
+    values.iter().fold(code.to_owned(), fill)
+}
+
+/// Whether it remembers something from tick to tick.
+pub fn ticks(point: &Point) -> bool {
+    point.on("rate") != "1" || point.on("trig") == "incremental"
+}
+
+fn torques(point: &Point) -> Result<String> {
+    let axes = ["model", "trig", "between", "form", "arith"];
+    let [effects, kernel, between, form, scalar] = shipped(point, axes)?;
+    let [rate, trig] = ["rate", "trig"].map(|axis| point.on(axis));
+    let known = || {
+        let mut arms = Robot::COMPUTED.map(Robot::names).into_iter();
+        arms.find_map(|[name, _, arm, joints]| (name == point.robot).then_some([arm, joints]))
+    };
+    let arm = point.own.as_ref();
+    let arm = arm.map(|own| own.each_ref().map(String::as_str));
+    let lacks = || Error::check(format!("no torques of {} are computed", point.robot));
+    let [arm, joints] = arm.or_else(known).ok_or_else(lacks)?;
+    let robot = match point.on("model").strip_prefix("pruned") {
+        Some(millionths) => format!("Pruned<{arm}, {millionths}>"),
+        None => arm.to_owned(),
+    };
+    let template = match (rate, trig, point.on("between")) {
+        ("1", "incremental", _) => include_str!("templates/carried.txt"),
+        ("1", ..) => include_str!("templates/every.txt"),
+        (_, _, "interpolated") => include_str!("templates/interpolated.txt"),
+        (_, _, "linearised") => include_str!("templates/linearised.txt"),
+        _ => include_str!("templates/held.txt"),
+    };
+    let own = match form {
+        "Core" => "table3x4",
+        _ => "table3",
+    };
+    let generics = match [own, "incremental"].contains(&trig) || scalar == "f64" {
+        true => robot.clone(),
+        false => format!("{robot}, {kernel}"),
+    };
+    let values = [
+        ("BETWEEN", between),
+        ("NAME", between.split('<').next().unwrap_or_default()),
+        ("FORM", form),
+        ("GENERICS", &generics),
+        ("ROBOT", &robot),
+        ("EFFECTS", effects),
+        ("KERNEL", kernel),
+        ("JOINTS", joints),
+        ("TICKS", rate),
+        ("f32", scalar),
+    ];
+    let code = filled(template, &values);
+    let dynamics = DYNAMICS
+        .split_whitespace()
+        .map(|path| ("dynamics_core", path));
+    let control = CONTROL
+        .split_whitespace()
+        .map(|path| ("motion_control", path));
+    let uses = dynamics.chain(control).filter(|(_, path)| {
+        let name = path.rsplit("::").next().unwrap_or_default();
+        let mut words = code.split(|letter: char| !letter.is_alphanumeric() && letter != '_');
+        words.any(|word| word == name)
+    });
+    let uses: String = uses
+        .map(|(library, path)| format!("use {library}::{path};\n"))
+        .collect();
+    // Where the importer's file is a module of the program, the user knows.
+    let own = point.own.as_ref();
+    let own = own.map(|[arm, _]| format!("use crate::robot::{arm};\n"));
+    Ok(format!("{uses}{}\n{code}", own.unwrap_or_default()))
+}
+
+fn simulation(point: &Point) -> Result<String> {
+    let axes = ["scene", "integrator", "state", "arith"];
+    let [_, integrator, compensated, scalar] = shipped(point, axes)?;
+    let pendulum = [
+        ("robots::Ur5e", "DoublePendulum"),
+        (
+            "dynamics_core::D",
+            "firmware_demo::accuracy::passive_motion::D",
+        ),
+        ("Ur5e", "DoublePendulum"),
+        ("6]", "2]"),
+        ("6,", "2,"),
+        ("6>", "2>"),
+    ];
+    let robot = match &*point.robot {
+        "ur5e" => &[],
+        _ => &pendulum[..],
+    };
+    let name = integrator.split('<').next().unwrap_or_default();
+    let step: f64 = point.on("step").parse().unwrap_or_default();
+    let values = [
+        (
+            "integrator: RungeKutta",
+            &*format!("integrator: {integrator}"),
+        ),
+        (", RungeKutta", &format!(", {name}")),
+        ("1000.0e-6", &format!("{step:?}e-6")),
+        ("true", compensated),
+        ("f32", scalar),
+    ];
+    Ok(filled(&filled(SIMULATION, robot), &values))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::front::tests::point;
+    use super::super::point::{Kind, Point};
+    use super::super::recorded;
+    use super::rust;
+    use crate::kit::docs::repository::root;
+
+    fn recorded() -> Vec<Point> {
+        let text = std::fs::read_to_string(root().join(recorded::FILE)).expect("a record");
+        serde_json::from_str(&text).expect("points")
+    }
+
+    #[test]
+    fn the_default_prints_as_five_lines() {
+        let points = recorded();
+        let default = points
+            .iter()
+            .find(|p| p.is_default() && p.robot == "ur5e")
+            .expect("a default");
+        let code = "use dynamics_core::Engine;\nuse dynamics_core::effects::RIGID_BODY;\nuse dynamics_core::robots::Ur5e;\n\
+                    use dynamics_core::state::State;\n\n/// Torques of a motion, N·m.\n#[inline]\n\
+                    pub fn torques(state: &State<f32, 6, 6>) -> [f32; 6] {\n    Engine::<Ur5e>::rnea(state, &RIGID_BODY)\n}\n";
+        assert_eq!(rust(default).expect("there is code"), code);
+    }
+
+    /// All that the library ships has code, in which nothing is left to be filled in.
+    #[test]
+    fn whatever_the_library_ships_can_be_generated() {
+        let shipped = |point: &&Point| match point.kind {
+            Kind::Simulation => {
+                point.on("scene") == "free" && point.on("integrator") != "implicit_damping"
+            }
+            _ => {
+                point.on("plant") == "rigid"
+                    && matches!(point.on("arith"), "f32" | "f64")
+                    && !matches!(point.on("trig"), "libm" | "micromath")
+                    && !point.on("model").starts_with("params")
+            }
+        };
+        let points = recorded();
+        assert!(points.iter().filter(shipped).count() > 1000);
+        for point in points.iter().filter(shipped) {
+            let code = rust(point).unwrap_or_else(|e| panic!("{} {}: {e}", point.robot, point.key));
+            for blank in [
+                "FORM", "ROBOT", "GENERICS", "JOINTS", "TICK", "BETWEEN", "NAME", "KERNEL", "<>",
+            ] {
+                assert!(
+                    !code.contains(blank),
+                    "{} {}:\n{code}",
+                    point.robot,
+                    point.key
+                );
+            }
+        }
+    }
+
+    /// With the values of the printed simulation itself, the text is the file that the tests compile and run.
+    #[test]
+    fn the_tested_simulation_is_the_printed_one() {
+        let points = recorded();
+        let key = "integrator=rk4,state=compensated,step=1000";
+        let point = points.iter().find(|p| p.robot == "ur5e" && p.key == key);
+        assert_eq!(
+            rust(point.expect("it was measured")).expect("code"),
+            super::SIMULATION
+        );
+    }
+
+    #[test]
+    fn code_of_a_robot_from_a_file_names_its_type() {
+        let mut own = point("form=core", 1.0, 1, 1.0);
+        let axes = [
+            ("model", "pruned1000"),
+            ("trig", "table3x4"),
+            ("between", "held"),
+            ("form", "core"),
+        ];
+        let axes = axes
+            .into_iter()
+            .chain([("arith", "f32"), ("rate", "1"), ("plant", "rigid")]);
+        own.configuration = axes
+            .map(|(axis, value)| (axis.into(), value.into()))
+            .collect();
+        assert!(rust(&own).is_err(), "the repository has no such robot");
+        own.own = Some(["MyArm".into(), "5".into()]);
+        let code = rust(&own).expect("there is code");
+        assert!(code.contains("use crate::robot::MyArm;\n\n"), "{code}");
+        assert!(
+            code.contains("state: &State<f32, 5, 5>) -> [f32; 5]"),
+            "{code}"
+        );
+        assert!(code.contains("Core::<Pruned<MyArm, 1000>>::rnea"), "{code}");
+    }
+
+    #[test]
+    fn what_has_no_code_says_so() {
+        let mut other = point("arith=q31", 1.0, 1, 1.0);
+        assert!(rust(&other).is_err());
+        other.robot = "ur5e".into();
+        let said = rust(&other).expect_err("it has no model").to_string();
+        assert!(said.contains("no Rust to paste"), "{said}");
+    }
+}

@@ -1,0 +1,194 @@
+//! Builds and runs: bins in QEMU for costs, a bin on the host for errors.
+
+use std::path::Path;
+
+use super::join::{self, Bin, Host};
+use super::point::{Kind, Point};
+use super::printed::{self, PRINTED};
+use crate::kit::bracket::{self, READINGS};
+use crate::kit::error::{Error, Result};
+use crate::kit::progress::Spinner;
+use crate::kit::rows::{self, Row};
+use crate::kit::setup::Tools;
+use crate::kit::toolchain::{RELEASE, SMALL, TINY};
+use crate::kit::workspace::Workspace;
+use crate::kit::{firmware, shell};
+
+/// The feature, and the bin on the host.
+pub const ACCURACY: &str = "accuracy";
+/// The bins of the robots whose torques are computed.
+const BINS: [&str; 3] = ["accuracy_ur5e", "accuracy_panda", "accuracy_leg"];
+/// The bins, here and there, with a dozen ways of each robot.
+const QUICK_BIN: &str = "accuracy_quick";
+const SIMULATION_BIN: &str = "accuracy_simulation";
+
+/// A robot that there is something to measure of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum Robot {
+    Ur5e,
+    Panda,
+    #[value(name = "a1_leg")]
+    A1Leg,
+    #[value(name = "double_pendulum")]
+    DoublePendulum,
+}
+
+impl Robot {
+    pub const ALL: [Self; 4] = [Self::Ur5e, Self::Panda, Self::A1Leg, Self::DoublePendulum];
+    /// The robots whose torques are computed.
+    pub const COMPUTED: [Self; 3] = [Self::Ur5e, Self::Panda, Self::A1Leg];
+
+    /// Its name in rows, lines and files, in print, and in the library; and the number of its joints.
+    pub fn names(self) -> [&'static str; 4] {
+        match self {
+            Self::Ur5e => ["ur5e", "UR5e", "Ur5e", "6"],
+            Self::Panda => ["panda", "Panda", "Panda", "7"],
+            Self::A1Leg => ["a1_leg", "leg of the A1", "A1Leg", "3"],
+            Self::DoublePendulum => ["double_pendulum", "double pendulum", "", "2"],
+        }
+    }
+
+    /// Its name in rows, lines and files.
+    pub fn name(self) -> &'static str {
+        self.names()[0]
+    }
+}
+
+/// The rows from the target, and [`Measured::shares`].
+type Costs = (Vec<Bin>, Option<[f64; 2]>);
+
+/// The shares of the longest calls of the UR5e's rows.
+fn shares_of(least: &[Row], chosen: &[Row], most: &[Row]) -> Result<[f64; 2]> {
+    let readings = std::iter::zip(least, chosen).zip(most);
+    let ur5e = readings.filter(|((_, row), _)| row.robot == Robot::Ur5e.name());
+    bracket::shares(
+        ur5e.map(|((least, chosen), most)| [least, chosen, most].map(|row| row.cycles.max)),
+    )
+}
+
+pub struct Plan {
+    pub robots: Vec<Robot>,
+    /// A dozen ways of each, at opt-level 3, and no simulations.
+    pub quick: bool,
+    /// Only this is computed.
+    pub kind: Option<Kind>,
+}
+
+pub struct Measured {
+    pub points: Vec<Point>,
+    /// The configurations that differ from the default in one thing, measured in a separate program.
+    pub single: Vec<Point>,
+    /// The fewest and the most cycles of `single` of the UR5e by the readings of the manual, as shares of those shown.
+    pub shares: Option<[f64; 2]>,
+    /// In a quick run, what is printed as generated code.
+    pub generated: Vec<Point>,
+    pub host: Host,
+    pub rustc: String,
+}
+
+impl Plan {
+    /// The robots whose torques are computed, each with its bin.
+    fn computed(&self) -> impl Iterator<Item = (Robot, &'static str)> {
+        let wanted = self.kind != Some(Kind::Simulation);
+        let all = std::iter::zip(Robot::COMPUTED, BINS);
+        all.filter(move |(robot, _)| wanted && self.robots.contains(robot))
+    }
+
+    fn simulates(&self) -> bool {
+        let simulated = [Robot::DoublePendulum, Robot::Ur5e];
+        let wanted = !self.quick && self.kind != Some(Kind::Inverse);
+        wanted && simulated.iter().any(|robot| self.robots.contains(robot))
+    }
+
+    /// Opt-levels, their profiles and the bins that are built with them.
+    fn batches(&self) -> Vec<(&'static str, &'static str, Vec<&'static str>)> {
+        let bins = self.computed().map(|(_, bin)| bin);
+        let all: Vec<_> = bins.filter(|_| !self.quick).collect();
+        let mut first = all.clone();
+        // In every run, so that what is written here is what the tests measure.
+        first.extend(self.computed().next().map(|_| QUICK_BIN));
+        // Simulations are no code for a controller: their size is nobody's concern.
+        first.extend(self.simulates().then_some(SIMULATION_BIN));
+        let batches = [
+            ("3", RELEASE, first),
+            ("s", SMALL, all.clone()),
+            ("z", TINY, all),
+        ];
+        let batches = batches.into_iter().filter(|batch| !batch.2.is_empty());
+        batches.collect()
+    }
+
+    /// Builds and runs it all, for host and target side by side.
+    pub fn run(&self, workspace: &Workspace, tools: &Tools) -> Result<Measured> {
+        let printed = printed::write(workspace)?;
+        let (rows, lines) = std::thread::scope(|scope| {
+            let host = scope.spawn(|| self.errors(workspace, &printed));
+            let rows = self.costs(workspace, tools, &printed);
+            let lost = |_| Err(Error::check("the host's errors were not computed"));
+            (rows, host.join().unwrap_or_else(lost))
+        });
+        let ((mut rows, shares), host) = (rows?, Host::read(&lines?)?);
+        let single: Vec<_> = rows.extract_if(.., |(bin, ..)| *bin == QUICK_BIN).collect();
+        let mut single = join::join(&host, &single)?;
+        let is_generated = |point: &mut Point| point.kind == Kind::Generated;
+        let generated = single.extract_if(.., is_generated).collect();
+        let points = match self.quick {
+            true => single.clone(),
+            false => join::join(&host, &rows)?,
+        };
+        let rustc = tools.toolchain.rustc_version()?;
+        Ok(Measured {
+            points,
+            single,
+            shares,
+            generated,
+            host,
+            rustc,
+        })
+    }
+
+    /// Measures these robots on the target.
+    fn costs(&self, workspace: &Workspace, tools: &Tools, printed: &Path) -> Result<Costs> {
+        let spinner = Spinner::start("building the cycle meter");
+        let meter = firmware::build_meter(workspace)?;
+        let (mut all, mut shares) = (Vec::new(), None);
+        for (opt, profile, bins) in self.batches() {
+            spinner.line(&format!("building {} (opt-level {opt})", bins.join(", ")));
+            let mut command = tools.toolchain.firmware(workspace, "build");
+            let command = command.env(PRINTED, printed).args(["--profile", profile]);
+            command.args(["--features", ACCURACY]);
+            shell::cargo(command.args(bins.iter().flat_map(|bin| ["--bin", bin])))?;
+            for bin in bins {
+                spinner.say(format!("running {bin} (opt-level {opt}) in QEMU"));
+                let elf = tools.toolchain.elf(workspace, profile, bin);
+                let mut rows = rows::run_for_time(tools, &meter, bin, &elf, "")?;
+                if bin == QUICK_BIN {
+                    let [least, most] = READINGS
+                        .map(|reading| rows::run_for_time(tools, &meter, bin, &elf, reading));
+                    shares = Some(shares_of(&least?, &rows, &most?)?);
+                }
+                // Only the host's quick bin knows the errors of what is generated.
+                rows.retain(|row| {
+                    let known = self.quick || row.algorithm != "generated";
+                    known && self.robots.iter().any(|robot| robot.name() == row.robot)
+                });
+                all.extend(rows.into_iter().map(|row| (bin, opt, row)));
+            }
+        }
+        Ok((all, shares))
+    }
+
+    /// Measures the errors of these robots on the host.
+    fn errors(&self, workspace: &Workspace, printed: &Path) -> Result<String> {
+        // Not for speed: to build it with optimisation across crates takes longer than it runs.
+        let mut command = workspace.cargo("run");
+        let bin = if self.quick { QUICK_BIN } else { ACCURACY };
+        command
+            .env(PRINTED, printed)
+            .args(["--quiet", "--package", "host-reports"]);
+        command.args(["--features", ACCURACY, "--bin", bin, "--"]);
+        command.args(self.computed().map(|(robot, _)| robot.name()));
+        command.args(self.simulates().then_some("simulation"));
+        shell::capture(&mut command)
+    }
+}

@@ -1,0 +1,87 @@
+//! The robot of a file: a dozen ways to compute its torques, measured anew each time.
+
+use std::process::ExitCode;
+
+use super::choice::{Budget, shipped};
+use super::join::{Host, join};
+use super::measure::ACCURACY;
+use super::page;
+use super::point::{Kind, Point};
+use crate::kit::error::{Result, check};
+use crate::kit::firmware::{OWN_ROBOTS, build_own, variable};
+use crate::kit::meter::MODEL;
+use crate::kit::own_robot::OwnRobot;
+use crate::kit::progress::Spinner;
+use crate::kit::setup::{self, Options, Tools};
+use crate::kit::workspace::Workspace;
+use crate::kit::{docs, firmware, output, rows, shell};
+
+/// The bin on the target and the bin on the host.
+const BIN: &str = "own_accuracy";
+/// More joints than this do not fit into the RAM of the measured firmware, with 80 states and the ways' inputs.
+pub const MOST_JOINTS: u64 = 20;
+
+/// Measures and prints; with a budget, what it chooses.
+pub fn run(
+    options: Options,
+    robot: &OwnRobot,
+    budget: Option<Budget>,
+    json: bool,
+) -> Result<ExitCode> {
+    if let Some(Budget::Error(allowed)) = budget
+        && allowed.kind != Kind::Inverse
+    {
+        return Err(check!(
+            "of a robot from a file only torques are measured: --error 0.05Nm"
+        ));
+    }
+    let workspace = Workspace::find()?;
+    let points = measure(&workspace, &setup::for_demo(options)?, robot)?;
+    if let Some(budget) = budget {
+        let points = shipped(&points, (&*robot.name, Kind::Inverse, "rigid"));
+        super::show(budget, &points, json)?;
+        output::note(&format!(
+            "\n`crate::robot` is the file of `cargo xtask import`. {REFERENCE}."
+        ));
+    } else if json {
+        docs::print_json(&points)?;
+    } else {
+        let name = &robot.name;
+        output::print(&format!(
+            "{name}; {MODEL}.\n{REFERENCE}.\n\n{}",
+            page::every(&points)
+        ))?;
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// The definition of errors and full scale.
+const REFERENCE: &str = "No oracle has recorded this robot: errors are those from the core in f64, along a way within \
+                         60 % of the limits of the file; full scale is the largest torque at 2000 random states";
+
+/// Costs from the target and errors from the host.
+fn measure(workspace: &Workspace, tools: &Tools, robot: &OwnRobot) -> Result<Vec<Point>> {
+    let spinner = Spinner::start(&format!("building {BIN}"));
+    let included = robot.included()?;
+    let features = format!("{OWN_ROBOTS},{ACCURACY}");
+    let elves = build_own(workspace, tools.toolchain, &included, &features, &[BIN])?;
+    let meter = firmware::build_meter(workspace)?;
+    spinner.say(format!("running {BIN} in QEMU"));
+    let rows = elves
+        .iter()
+        .map(|elf| rows::run_for_time(tools, &meter, BIN, elf, ""));
+    let rows = rows.collect::<Result<Vec<_>>>()?.into_iter().flatten();
+    let rows: Vec<_> = rows.map(|row| (BIN, "3", row)).collect();
+    spinner.say(format!("building and running {BIN} on the host"));
+    let mut command = workspace.cargo("run");
+    command.envs([variable(&included)]);
+    command.args(["--quiet", "--package", "host-reports", "--bin", BIN]);
+    let lines = shell::capture(command.args(["--features", OWN_ROBOTS]))?;
+    drop(spinner);
+    let mut points = join(&Host::read(&lines)?, &rows)?;
+    for point in &mut points {
+        point.robot.clone_from(&robot.name);
+        point.own = Some([robot.type_name.clone(), robot.joints.to_string()]);
+    }
+    Ok(points)
+}

@@ -1,0 +1,308 @@
+//! docs/accuracy.md: fronts, what single choices cost, yardsticks, simulations; and the README's few lines.
+
+#[cfg(test)]
+mod tests;
+
+use super::front;
+use super::join::{Host, Line};
+use super::measure::Robot;
+use super::names::{cycles, digits, name, stated};
+use super::plot;
+use super::point::{Kind, Point, of_group};
+use crate::kit::docs::Page;
+use crate::kit::error::{Error, Result};
+use crate::kit::meter::MODEL;
+use crate::kit::table::{Table, thousands};
+
+pub const FILE: &str = "docs/accuracy.md";
+pub const COMMAND: &str = "cargo xtask accuracy";
+
+/// A part of a page that the command writes.
+const fn part(file: &'static str, name: &'static str) -> Page<'static> {
+    Page {
+        file,
+        name,
+        command: COMMAND,
+    }
+}
+
+/// Single changes, which CI compares with a quick run.
+pub const SINGLES: Page<'_> = part(FILE, "accuracy-single");
+/// The meaning of the names in the tables.
+pub const NAMES: Page<'_> = part(FILE, "accuracy-names");
+/// The few of them that the README shows.
+pub const README: Page<'_> = part("README.md", "accuracy");
+
+/// The configurations that the bins `accuracy_quick` run; those of the README come first.
+const SINGLE: &str = "default trig=table model=pruned1000 rate=10,between=linearised model=no_coriolis model=gravity \
+                      trig=minimax5 trig=minimax3 trig=minimax7 trig=incremental model=params8 rate=10 \
+                      rate=10,between=interpolated trig=table3x4,form=core";
+
+/// Whether a point is one of the first so many of them.
+pub fn is_single(point: &Point, most: usize) -> bool {
+    SINGLE.split(' ').take(most).any(|key| key == point.key)
+}
+
+/// A step of a front is at least so much more accurate than the one before it: others are there, but not worth a word.
+const STEP: f64 = 0.8;
+
+/// The negligible error, as a share of full scale, and what a point of the front may cost of the default at it: its
+/// worst tick, its mean.
+const ERROR: f64 = 1e-3;
+const MOST: [f64; 2] = [0.85, 0.6];
+
+/// The part of the page about a robot's torques, or about the simulations.
+pub fn page_of(robot: Robot) -> Page<'static> {
+    let name = match robot {
+        Robot::Ur5e => "accuracy-ur5e",
+        Robot::Panda => "accuracy-panda",
+        Robot::A1Leg => "accuracy-a1_leg",
+        Robot::DoublePendulum => "accuracy-simulation",
+    };
+    part(FILE, name)
+}
+
+/// The pictures of that part: file and SVG.
+pub fn pictures(points: &[Point], host: &Host, robot: Robot) -> Result<Vec<(String, String)>> {
+    let file = format!("docs/{}", page_of(robot).name);
+    if robot == Robot::DoublePendulum {
+        return Ok(vec![(file + ".svg", plot::simulations(points)?)]);
+    }
+    let own = of_group(points, (robot.name(), Kind::Inverse, "rigid"));
+    let [front, all] = [plot::front(robot, &own, host)?, plot::all(robot, &own)?];
+    Ok(vec![
+        (format!("{file}.svg"), front),
+        (file + "-all.svg", all),
+    ])
+}
+
+/// The points of a front, from the cheapest on, each much more accurate than the one before; the default in any case.
+pub fn steps<'a>(points: &[&'a Point], cost: usize) -> Vec<&'a Point> {
+    let mut least = f64::INFINITY;
+    let mut steps = front::front(points, cost);
+    steps.retain(|point| {
+        let step = point.error() <= STEP * least;
+        if step {
+            least = point.error();
+        }
+        step || point.is_default()
+    });
+    steps
+}
+
+/// Rows by their names, with the columns of these numbers, each with what it is called.
+fn table(rows: &[(String, &Point)], first: &str, columns: &str) -> Table {
+    let default = rows.iter().find(|(_, point)| point.is_default());
+    let columns = columns.split("; ").filter_map(|column| {
+        let (number, head) = column.split_once(' ')?;
+        Some((number.parse::<usize>().ok()?, head))
+    });
+    let (numbers, heads): (Vec<_>, Vec<_>) = columns.unzip();
+    let mut table = Table::new(&[&[first], &heads[..]].concat());
+    for (name, point) in rows {
+        let share = |cost: usize| {
+            let ratio = default.map(|(_, default)| point.costs()[cost] / default.costs()[cost]);
+            ratio.map_or_else(String::new, percent)
+        };
+        let step = 1e-6 * point.on("step").parse().unwrap_or(1.0);
+        let [max, p99, rms, relative] = point.errors().map(stated);
+        let cells = [
+            thousands(point.instructions),
+            thousands(point.cycles),
+            share(0),
+            cycles(point.cycles_mean),
+            share(1),
+            max,
+            p99,
+            rms,
+            relative,
+            cycles(point.cycles as f64 * step),
+            stated(point.drift),
+        ];
+        let row = numbers.iter().map(|number| cells[*number].clone());
+        table.row(std::iter::once(name.clone()).chain(row));
+    }
+    table
+}
+
+/// These points by their names.
+fn named<'a>(points: &[&'a Point]) -> Vec<(String, &'a Point)> {
+    points.iter().map(|point| (name(point), *point)).collect()
+}
+
+/// These points by their robots and names.
+fn of_robots<'a>(points: &'a [Point], shown: impl Fn(&Point) -> bool) -> Vec<(String, &'a Point)> {
+    let shown = points.iter().filter(|point| shown(point));
+    let name = |point: &'a Point| (format!("{} {}", point.robot, name(point)), point);
+    shown.map(name).collect()
+}
+
+fn percent(ratio: f64) -> String {
+    if ratio < 9.95 {
+        return format!("{:.0} %", 100.0 * ratio);
+    }
+    format!("{ratio:.0} ×")
+}
+
+const COSTS: &str = "0 insn; 1 worst tick; 3 mean; 5 max, N·m; 6 99 %; 7 RMS; 8 of full scale";
+const FRONTS: &str = "0 insn; 1 worst tick; 3 mean; 5 max error; 8 of full scale";
+const SHARES: &str = "1 worst tick; 2 of default's; 3 mean; 4 of default's; 5 max, N·m; 6 99 %; 7 RMS; 8 of full scale";
+const BRIEF: &str = "1 worst tick, cycles; 3 mean; 5 largest error, N·m; 8 of full scale";
+const STEPS: &str = "1 cycles a second; 9 a step; 5 max, rad; 6 99 %; 7 RMS; 10 energy drift";
+const SPEEDS: &str = "5 max, N·m; 8 of full scale";
+const ERRORS: &str = "5 max, N·m; 6 99 %; 7 RMS; 8 of full scale";
+
+/// The fronts, for a terminal.
+pub fn terminal(points: &[Point]) -> String {
+    let on = of_robots(points, |point| point.front);
+    table(&on, "robot, configuration", FRONTS).text()
+}
+
+/// Every way of one robot, for a terminal.
+pub fn every(points: &[Point]) -> String {
+    let all: Vec<&Point> = points.iter().collect();
+    table(&named(&all), "configuration", SHARES).text()
+}
+
+/// Single changes to the default.
+pub fn singles(points: &[Point], rustc: &str) -> String {
+    let few = of_robots(points, |point| is_single(point, usize::MAX));
+    let table = table(&few, "robot, what is changed", COSTS).markdown();
+    format!("{table}\nMeasured with {rustc}.")
+}
+
+pub fn brief(points: &[Point], shares: Option<[f64; 2]>, rustc: &str) -> String {
+    let mut few = of_group(points, ("ur5e", Kind::Inverse, "rigid"));
+    few.retain(|point| is_single(point, 6));
+    few.sort_by(|a, b| a.error().total_cmp(&b.error()));
+    let table = table(&named(&few), "UR5e", BRIEF).markdown();
+    let range = shares.map_or(String::new(), |shares| {
+        let [least, most] = shares.map(percent);
+        format!("By the most and the least favourable reading of the manual the cycles are between {least} and {most} of these.\n")
+    });
+    format!("{table}\n{range}Measured with {rustc}.")
+}
+
+/// The text about a robot's torques, or about simulations.
+pub fn text(points: &[Point], host: &Host, robot: Robot, rustc: &str) -> String {
+    let text = match robot {
+        Robot::DoublePendulum => simulations(points),
+        _ => torques(points, host, robot),
+    };
+    format!("{text}Measured with {rustc}.\n")
+}
+
+fn torques(points: &[Point], host: &Host, robot: Robot) -> String {
+    let rigid = of_group(points, (robot.name(), Kind::Inverse, "rigid"));
+    let (title, part) = (robot.names()[1], page_of(robot).name);
+    let mut text = format!(
+        "![Front of error against cycles of inverse dynamics of the {title}]({part}.svg)\n\n{} configurations, of which {} \
+         are on a front ([picture of all]({part}-all.svg)); {MODEL}.\n\n",
+        rigid.len(),
+        rigid.iter().filter(|point| point.front).count(),
+    );
+    for line in host.of(Kind::Oracle, robot.name()) {
+        let [scale, precise] = [line.full_scale, line.from_50_digits].map(digits);
+        let [off, anywhere] = [line.point.relative_max, host.anywhere(robot.name())].map(stated);
+        let (pinocchio, states, sample) = (&line.pinocchio, line.states, line.sample);
+        text += &format!(
+            "Full scale is {scale} N·m. The f64 that errors are measured from is off by at most {off} of it from Pinocchio \
+             {pinocchio} on {states} states, and by at most {precise} from 50 digits on {sample}. Over all states anywhere \
+             the default is within {anywhere} of it.\n\n"
+        );
+    }
+    if let Some([worst, mean]) = cheapest(&rigid) {
+        let [(worst, tick), (mean, ticks)] =
+            [worst, mean].map(|(point, share)| (name(point), percent(share)));
+        let error = digits(ERROR);
+        text += &format!(
+            "Within {error} of full scale, the cheapest worst tick is {tick} of the default's (*{worst}*) and the \
+             cheapest mean {ticks} (*{mean}*).\n\n"
+        );
+    }
+    for (cost, which) in ["worst tick", "mean over ticks"].into_iter().enumerate() {
+        let mut shown = steps(&rigid, cost);
+        // What is on both fronts stands in the first; the default is shown even where a front passes it by.
+        shown.retain(|point| cost == 0 || !point.fronts[0]);
+        shown.extend(rigid.iter().filter(|point| point.is_default()));
+        shown.sort_by(|a, b| a.costs()[cost].total_cmp(&b.costs()[cost]));
+        shown.dedup_by_key(|point| &point.key);
+        let head = format!("The {which}: what each step costs and gives up");
+        text += &section(&head, &named(&shown), "configuration", SHARES);
+    }
+    let lines = |kind, name: fn(&Line) -> String| -> Vec<_> {
+        let lines = host.of(kind, robot.name());
+        lines.map(|line| (name(line), &line.point)).collect()
+    };
+    let head = "Without Coriolis: how slow is slow enough";
+    let speeds = lines(Kind::Speed, |line| digits(line.speed));
+    text += &section(head, &speeds, "joints as fast as, rad/s", SPEEDS);
+    let mut elastic = of_group(points, (robot.name(), Kind::Inverse, "compliant"));
+    elastic.retain(|point| point.on("opt") == "3");
+    if !elastic.is_empty() {
+        let head = "Motors' torques on elastic joints, along a smooth swing";
+        text += &section(head, &named(&elastic), "configuration", COSTS);
+    }
+    let others = lines(Kind::Yardstick, |line| line.what.clone());
+    text + &section(
+        "Where accuracy stops mattering",
+        &others,
+        "what is off",
+        ERRORS,
+    )
+}
+
+/// A table under a heading.
+fn section(head: &str, rows: &[(String, &Point)], first: &str, columns: &str) -> String {
+    format!("### {head}\n\n{}\n", table(rows, first, columns).markdown())
+}
+
+/// The cheapest within [`ERROR`], by the worst tick and by the mean, each with its share of the default's cost.
+fn cheapest<'a>(points: &[&'a Point]) -> Option<[(&'a Point, f64); 2]> {
+    let default = points.iter().find(|point| point.is_default())?;
+    let of = |cost: usize| {
+        let within = |point: &&Point| point.relative_max.is_some_and(|share| share <= ERROR);
+        let point = front::front(points, cost).into_iter().find(within)?;
+        Some((point, point.costs()[cost] / default.costs()[cost]))
+    };
+    Some([of(0)?, of(1)?])
+}
+
+/// Fails unless a negligible error saves as much as was promised; returns the saving.
+pub fn check_bars(points: &[&Point]) -> Result<String> {
+    let none = || Error::check("nothing on the front is within the bar's error");
+    let [worst, mean] = cheapest(points).ok_or_else(none)?.map(|(_, share)| share);
+    let saved = format!("{worst:.3} of the worst tick, {mean:.3} of the mean");
+    if worst > MOST[0] || mean > MOST[1] {
+        return Err(Error::check(format!(
+            "bar: within {ERROR} of full scale, the cheapest takes {saved} of the default's; at most {MOST:?}"
+        )));
+    }
+    Ok(saved)
+}
+
+/// Robots and scenes in the order of the page and of its picture.
+pub const SCENES: [(Robot, &str, &str); 4] = [
+    (Robot::DoublePendulum, "free", "A double pendulum, let go"),
+    (
+        Robot::DoublePendulum,
+        "damped",
+        "A double pendulum with viscous friction, stiff at one joint",
+    ),
+    (Robot::Ur5e, "free", "The UR5e, let go"),
+    (Robot::Ur5e, "damped", "The UR5e with viscous friction"),
+];
+
+fn simulations(points: &[Point]) -> String {
+    let mut text = format!(
+        "![Errors against cycles of integrators over their lengths of step](accuracy-simulation.svg)\n\n\
+         Cycles are those of as many steps as make a simulated second; trajectory errors are over its first second, \
+         energy drift over five, a second, as a share of the largest kinetic energy. {MODEL}.\n\n"
+    );
+    for (robot, scene, title) in SCENES {
+        let own = of_group(points, (robot.name(), Kind::Simulation, scene));
+        let steps = steps(&own, 0);
+        text += &section(title, &named(&steps), "configuration", STEPS);
+    }
+    text
+}

@@ -1,0 +1,74 @@
+//! What the last whole run has measured: what a choice is made from in no time.
+
+use std::path::PathBuf;
+
+use super::front;
+use super::page::COMMAND;
+use super::point::Point;
+use crate::kit::error::{Error, Result};
+use crate::kit::workspace::{self, Workspace};
+
+/// The points, one a line.
+pub const FILE: &str = "docs/accuracy.json";
+
+/// Recorded figures may be so far from today's, as a share: those of one program, these of another one.
+const CLOSE: f64 = 0.05;
+
+pub fn read(workspace: &Workspace) -> Result<Vec<Point>> {
+    let text = workspace::read(&workspace.root.join(FILE))?;
+    let mut points: Vec<Point> = serde_json::from_str(&text)
+        .map_err(|e| Error::check(format!("{FILE}: {e}; `{COMMAND}` writes it anew")))?;
+    front::mark(&mut points);
+    Ok(points)
+}
+
+/// The file with what was measured in the place of what it had of the same.
+pub fn replaced(workspace: &Workspace, measured: &[Point]) -> Result<(PathBuf, String)> {
+    let mut points = read(workspace)?;
+    points.retain(|old| !measured.iter().any(|new| new.group() == old.group()));
+    points.extend_from_slice(measured);
+    points.sort_by(|a, b| a.group().cmp(&b.group()));
+    let lines = points.iter().map(serde_json::to_string);
+    let lines: Vec<String> = lines
+        .collect::<std::result::Result<_, _>>()
+        .map_err(|e| Error::check(format!("cannot write {FILE}: {e}")))?;
+    Ok((
+        workspace.report(FILE),
+        format!("[\n{}\n]\n", lines.join(",\n")),
+    ))
+}
+
+/// Fails unless these, measured now, are recorded as they are: errors to the bit, costs closely.
+pub fn check(recorded: &[Point], now: &[Point]) -> Result<()> {
+    for point in now {
+        let same = |old: &&Point| old.group() == point.group() && old.key == point.key;
+        let old = recorded.iter().find(same);
+        let close = |old: &Point| {
+            let apart =
+                std::iter::zip(old.costs(), point.costs()).map(|(a, b)| (a / b - 1.0).abs());
+            old.error_max == point.error_max && apart.into_iter().all(|apart| apart <= CLOSE)
+        };
+        if !old.is_some_and(close) {
+            return Err(Error::check(format!(
+                "{FILE} is out of date in {} {}: `{COMMAND}` rewrites it",
+                point.robot, point.key
+            )));
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::front::tests::point;
+    use super::check;
+
+    #[test]
+    fn what_is_recorded_is_compared_with_today() {
+        let old = [point("default", 1e-6, 1000, 1000.0)];
+        assert!(check(&old, &[point("default", 1e-6, 1040, 1040.0)]).is_ok());
+        assert!(check(&old, &[point("default", 1e-6, 1100, 1100.0)]).is_err());
+        assert!(check(&old, &[point("default", 2e-6, 1000, 1000.0)]).is_err());
+        assert!(check(&old, &[point("trig=a", 1e-6, 1000, 1000.0)]).is_err());
+    }
+}

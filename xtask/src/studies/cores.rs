@@ -1,0 +1,226 @@
+//! `cargo xtask cores`: the control loop of two scenes on every core that QEMU emulates. The torques must have the same
+//! bits on all of them and on the host; instructions, stack and code are reported.
+
+mod boards;
+mod frame;
+mod list;
+mod page;
+mod run;
+mod walk;
+
+use std::process::ExitCode;
+
+use serde::Serialize;
+
+use crate::kit::bars::{Bars, Compared};
+use crate::kit::error::{Error, Result, bail, refuse_if};
+use crate::kit::progress::Spinner;
+use crate::kit::setup::{self, Options};
+use crate::kit::toolchain::Toolchain;
+use crate::kit::workspace::{self, Workspace};
+use crate::kit::{docs, firmware, output};
+use crate::studies::budgets;
+use crate::studies::study::Bench;
+use boards::Board;
+use list::{CORES, Core};
+use page::{PAGE, rows_of};
+use run::{Row, Torques};
+
+#[derive(Clone, Copy, clap::Args)]
+pub struct Args {
+    /// The measurements as JSON on stdout; progress stays on stderr
+    #[arg(long)]
+    json: bool,
+    /// Rewrite the tables of docs/boards.md; needs every core
+    #[arg(long)]
+    write_docs: bool,
+}
+
+#[derive(Serialize)]
+struct Report {
+    /// The torques of the host, which are those of every core.
+    torques: Vec<Torques>,
+    rows: Vec<Row>,
+    boards: Vec<Board>,
+    rustc: String,
+}
+
+/// Builds and runs every core that can be, prints what the others lack, and writes the page if wanted.
+pub fn run(options: Options, args: Args) -> Result<ExitCode> {
+    let workspace = Workspace::for_reports()?;
+    setup::for_demo(options)?;
+    let mut cores = Vec::new();
+    for core in &CORES {
+        match core.missing().as_slice() {
+            [] => cores.push(core),
+            commands => {
+                let how = commands.join("\n    ");
+                output::note(&format!("skipped: {}; it needs\n    {how}", core.name));
+            }
+        }
+    }
+    let boards = boards::missing();
+    for target in &boards {
+        output::note(&format!(
+            "skipped: images of boards; they need\n    rustup target add {target}"
+        ));
+    }
+    refuse_if!(
+        args.write_docs && (cores.len() < CORES.len() || !boards.is_empty()),
+        "the page has every core and every board, and some are missing here"
+    );
+    let report = Report::measure(&workspace, &cores)?;
+    let text = report.markdown()?;
+    if args.write_docs {
+        PAGE.write(&workspace, &text)?;
+    }
+    docs::show(args.json, &report, &text)
+}
+
+/// Fails unless the cores of CI compute the host's torques, in as many instructions as the page says.
+///
+/// # Errors
+/// Also [`Error::Skipped`], if none of them can be run here.
+pub fn check(bench: &Bench<'_>) -> Result<String> {
+    let (workspace, options) = (bench.workspace, bench.options);
+    let page = workspace::read(&workspace.root.join(PAGE.file))?;
+    let wanted: Vec<&Core> = CORES.iter().filter(|core| core.in_tests).collect();
+    let (mut targets, packages) = list::needed(&wanted);
+    targets.extend(boards::missing());
+    targets.sort_unstable();
+    targets.dedup();
+    // What cannot be installed is skipped below, with what it lacks.
+    let _ = setup::for_cores(options, &targets, &packages);
+    let (cores, lacking): (Vec<&Core>, Vec<&Core>) =
+        wanted.iter().partition(|core| core.missing().is_empty());
+    let boards = boards::missing();
+    let add = |target: &&str| format!("rustup target add {target}");
+    let lacks = lacking.iter().flat_map(|core| core.missing());
+    let lacks: Vec<String> = lacks.chain(boards.iter().map(add)).collect();
+    if cores.is_empty() {
+        return Err(Error::Skipped(format!(
+            "not installed: {}",
+            lacks.join(", ")
+        )));
+    }
+    let report = Report::measure(workspace, &cores)?;
+    let written = PAGE.written(&page)?;
+    let fresh = report.markdown()?;
+    let names: Vec<&str> = cores.iter().map(|core| core.name).collect();
+    let (written, fresh) = (
+        rows_of(written, &names, &boards),
+        rows_of(&fresh, &names, &boards),
+    );
+    docs::compare(PAGE.file, PAGE.command, &written, &fresh, &report.rustc)?;
+    let skipped = lacks.iter().map(|lack| format!("; skipped: {lack}"));
+    Ok(format!(
+        "{}{}",
+        names.join(", "),
+        skipped.collect::<String>()
+    ))
+}
+
+/// Fails unless a core computes the same bits as the host.
+fn same_bits(core: &str, torques: &[&Torques], host: &[Torques]) -> Result<()> {
+    refuse_if!(
+        torques.len() != host.len(),
+        "{core} runs {} scenes and the host {}",
+        torques.len(),
+        host.len()
+    );
+    for (there, here) in std::iter::zip(torques, host) {
+        if *there != here {
+            bail!(
+                "{core} computes other torques than the host:\n  {core}: {there:?}\n  host: {here:?}"
+            );
+        }
+    }
+    Ok(())
+}
+
+/// Fails if the bound of a tick's stack exceeds its bar.
+fn within_bars<'a>(
+    core: &str,
+    stacks: impl Iterator<Item = (&'a str, u64)>,
+    bars: &Bars,
+) -> Result<()> {
+    for (scene, bytes) in stacks {
+        let compared = Compared::of(bars, &format!("{scene} tick"), "stack_bytes", bytes as f64);
+        if let Some(complaint) = compared.and_then(|bar| bar.complaint()) {
+            bail!("{core}, bar: {complaint}");
+        }
+    }
+    Ok(())
+}
+
+impl Report {
+    fn measure(workspace: &Workspace, cores: &[&Core]) -> Result<Self> {
+        let torques = run::on_host(workspace)?;
+        let plugin = firmware::build_meter(workspace)?;
+        let bars = budgets::bars(workspace)?;
+        let mut rows = Vec::new();
+        for core in cores {
+            let _spinner = Spinner::start(&format!("{} in QEMU", core.name));
+            let row = run::measure(workspace, core, &plugin)?;
+            let mine: Vec<&Torques> = row.scenes.iter().map(|scene| &scene.torques).collect();
+            same_bits(core.name, &mine, &torques)?;
+            let stacks = row.scenes.iter();
+            let stacks = stacks.map(|scene| (&*scene.torques.scene, scene.code.stack));
+            within_bars(core.name, stacks, &bars)?;
+            rows.push(row);
+        }
+        Ok(Self {
+            torques,
+            rows,
+            boards: boards::measure(workspace, &bars)?,
+            rustc: Toolchain::Native.rustc_version()?,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Torques, same_bits, within_bars};
+    use crate::kit::bars::Bar;
+
+    fn torques(scene: &str, digest: &str) -> Torques {
+        Torques {
+            scene: scene.into(),
+            ticks: 10,
+            digest: digest.into(),
+        }
+    }
+
+    #[test]
+    fn a_core_whose_torques_differ_in_a_bit_is_refused() {
+        let host = [torques("small", "00ff"), torques("ur5e", "12ab")];
+        let [small, ur5e] = &host;
+        assert!(same_bits("M33", &[small, ur5e], &host).is_ok());
+        let other = torques("ur5e", "12aa");
+        let error = same_bits("M33", &[small, &other], &host).expect_err("another bit");
+        assert!(error.to_string().contains("12aa"), "{error}");
+        assert!(same_bits("M33", &[small], &host).is_err());
+        let shorter = Torques {
+            ticks: 9,
+            ..ur5e.clone()
+        };
+        assert!(same_bits("M33", &[small, &shorter], &host).is_err());
+    }
+
+    #[test]
+    fn a_stack_beyond_its_bar_is_refused() {
+        let bar = Bar {
+            most: [("stack_bytes".into(), 2048.0)].into(),
+            missed: Vec::new(),
+        };
+        let bars = [("ur5e tick".to_owned(), bar)].into();
+        let verdict =
+            |bytes| within_bars("M0", [("small", 9000), ("ur5e", bytes)].into_iter(), &bars);
+        assert!(verdict(2048).is_ok());
+        let error = verdict(2049).expect_err("too much").to_string();
+        assert!(
+            error.contains("M0, bar: ur5e tick: stack_bytes 2,049 > 2,048"),
+            "{error}"
+        );
+    }
+}

@@ -1,0 +1,201 @@
+//! The images of real boards: flash, RAM and stack, read from what was built.
+
+use serde::Serialize;
+
+use super::list::without_home;
+use super::walk::Walk;
+use crate::kit::bars::{Bars, Compared};
+use crate::kit::elf::Image;
+use crate::kit::error::{Result, bail, check};
+use crate::kit::shell;
+use crate::kit::table::{Column, Table, thousands};
+use crate::kit::toolchain::{self, RELEASE, SMALL};
+use crate::kit::workspace::Workspace;
+use crate::studies::costs::IMAGE;
+
+/// A bin for a board.
+struct Bin {
+    package: &'static str,
+    name: &'static str,
+    profile: &'static str,
+    target: &'static str,
+    /// The handler of the interrupt that runs a tick, if one does; else a part of the name of a function that runs one.
+    tick: Option<&'static str>,
+    /// Whether an executor calls the tick through a pointer, and start-up too: their stack has then no bound that the code says.
+    is_polled: bool,
+}
+
+#[rustfmt::skip]
+const BINS: [Bin; 5] = [
+    Bin { package: "nucleo-f446re", name: "control", profile: SMALL, target: toolchain::TARGET, tick: Some("TIM2"), is_polled: false },
+    Bin { package: "nucleo-f446re", name: "replay", profile: RELEASE, target: toolchain::TARGET, tick: None, is_polled: false },
+    Bin { package: "pico2", name: "replay", profile: RELEASE, target: "thumbv8m.main-none-eabihf", tick: None, is_polled: false },
+    Bin { package: "pico2", name: "replay", profile: RELEASE, target: "riscv32imac-unknown-none-elf", tick: None, is_polled: false },
+    Bin { package: "pico2-embassy", name: "control", profile: SMALL, target: "thumbv8m.main-none-eabihf", tick: Some("8firmware4tick17h"), is_polled: true },
+];
+
+/// The stack that the hardware takes for an interrupt: a frame with the FPU's registers, aligned.
+const INTERRUPT: u64 = 108;
+
+/// The size of an image, bytes.
+#[derive(Debug, Serialize)]
+pub struct Board {
+    package: &'static str,
+    bin: &'static str,
+    profile: &'static str,
+    target: &'static str,
+    /// Code, constants and initial values.
+    flash: u64,
+    /// Variables, without the stack.
+    ram: u64,
+    /// The bound of the stack of start-up, if it has one.
+    start: Option<u64>,
+    /// The bound of the stack of a tick in an interrupt, the hardware's frame included.
+    tick: Option<u64>,
+}
+
+impl Board {
+    /// Variables and the larger of both stacks, if they have bounds: start-up has ended when the first tick begins.
+    fn total(&self) -> Option<u64> {
+        let start = self.start?;
+        Some(self.ram + start.max(self.tick.unwrap_or_default()))
+    }
+}
+
+/// The targets of Rust that some images need and that are not installed.
+pub fn missing() -> Vec<&'static str> {
+    let mut targets: Vec<&str> = BINS.iter().map(|bin| bin.target).collect();
+    targets.sort_unstable();
+    targets.dedup();
+    targets.retain(|target| !toolchain::native_has(target));
+    targets
+}
+
+/// Builds and reads every image whose target is installed, and compares it with its bars.
+///
+/// # Errors
+/// An image beyond a bar, or whose stack has no bound although nothing calls it through a pointer; a tick that can panic.
+pub fn measure(workspace: &Workspace, bars: &Bars) -> Result<Vec<Board>> {
+    let (mut boards, missing) = (Vec::new(), missing());
+    for bin in BINS.iter().filter(|bin| !missing.contains(&bin.target)) {
+        let board = read(workspace, bin)?;
+        within_bars(&board, bars)?;
+        boards.push(board);
+    }
+    Ok(boards)
+}
+
+fn read(workspace: &Workspace, bin: &Bin) -> Result<Board> {
+    let mut command = workspace.cargo("build");
+    command
+        .args(["--profile", bin.profile, "--package", bin.package])
+        .args(["--bin", bin.name, "--target", bin.target]);
+    if let Some(flag) = without_home() {
+        // Beside those of `.cargo/config.toml`.
+        let flags = format!("target.{:?}.rustflags=['{flag}']", bin.target);
+        command.args(["--config", &flags]);
+    }
+    shell::cargo(&mut command)?;
+    let elf = workspace.target.join(bin.target).join(bin.profile);
+    let image = Image::read(&elf.join(bin.name))?;
+    let address = |name: &str| {
+        let is_it = |own: &String| own == name || (bin.is_polled && own.contains(name));
+        let mut functions = image.functions.iter();
+        let found = functions.find(|function| function.names.iter().any(is_it));
+        found
+            .map(|function| function.address)
+            .ok_or_else(|| check!("`{}` has no function `{name}`", bin.name))
+    };
+    let (start, tick) = if bin.is_polled {
+        if let Some(name) = bin.tick {
+            Walk::of(&image, false, address(name)?)?;
+        }
+        (None, None)
+    } else {
+        let stack = |name| Walk::of(&image, false, address(name)?).map(|walk| walk.stack);
+        let tick = bin.tick.map(stack).transpose()?;
+        let start = Walk::of_start(&image, address("main")?)?;
+        (Some(start.stack), tick.map(|stack| stack + INTERRUPT))
+    };
+    Ok(Board {
+        package: bin.package,
+        bin: bin.name,
+        profile: bin.profile,
+        target: bin.target,
+        flash: image.sizes.flash,
+        ram: image.sizes.ram,
+        start,
+        tick,
+    })
+}
+
+/// Fails if an image exceeds a bar.
+fn within_bars(board: &Board, bars: &Bars) -> Result<()> {
+    let name = format!("{} {}{IMAGE}", board.package, board.bin);
+    let quantities = [
+        ("flash_bytes", Some(board.flash)),
+        ("ram_bytes", board.total()),
+    ];
+    for (quantity, bytes) in quantities {
+        // A bar of what has no bound is exceeded.
+        let bytes = bytes.map_or(f64::INFINITY, |bytes| bytes as f64);
+        let compared = Compared::of(bars, &name, quantity, bytes);
+        if let Some(complaint) = compared.and_then(|bar| bar.complaint()) {
+            bail!("bar: {complaint}");
+        }
+    }
+    Ok(())
+}
+
+/// The table of the page.
+pub fn markdown(boards: &[Board]) -> String {
+    let bound = |bytes: Option<u64>| bytes.map_or("–".into(), thousands);
+    let columns: [Column<'_, Board>; 9] = [
+        ("board", &|board| format!("`{}`", board.package)),
+        ("bin", &|board| format!("`{}`", board.bin)),
+        ("target", &|board| format!("`{}`", board.target)),
+        ("profile", &|board| format!("`{}`", board.profile)),
+        ("flash, B", &|board| thousands(board.flash)),
+        ("variables, B", &|board| thousands(board.ram)),
+        ("stack of start-up, bound", &|board| bound(board.start)),
+        ("of a tick in its interrupt, bound", &|board| {
+            bound(board.tick)
+        }),
+        ("RAM with stack, B", &|board| bound(board.total())),
+    ];
+    Table::of(boards, &columns).markdown()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Board, within_bars};
+    use crate::kit::bars::Bar;
+
+    #[test]
+    fn an_image_beyond_a_bar_is_refused() {
+        let board = |flash, start| Board {
+            package: "board",
+            bin: "control",
+            profile: "small",
+            flash,
+            target: "target",
+            ram: 1000,
+            start,
+            tick: Some(700),
+        };
+        let most = [("flash_bytes", 32_768.0), ("ram_bytes", 4096.0)];
+        let bar = Bar {
+            most: most.map(|(name, most)| (name.into(), most)).into(),
+            missed: Vec::new(),
+        };
+        let bars = [("board control image".to_owned(), bar)].into();
+        assert!(within_bars(&board(32_768, Some(3096)), &bars).is_ok());
+        assert!(within_bars(&board(32_768, Some(0)), &bars).is_ok());
+        let error = within_bars(&board(32_769, Some(0)), &bars).expect_err("flash");
+        assert!(error.to_string().contains("flash_bytes"), "{error}");
+        let error = within_bars(&board(0, Some(3097)), &bars).expect_err("RAM");
+        assert!(error.to_string().contains("ram_bytes"), "{error}");
+        let error = within_bars(&board(0, None), &bars).expect_err("no bound");
+        assert!(error.to_string().contains("ram_bytes"), "{error}");
+    }
+}

@@ -1,0 +1,214 @@
+//! Builds the replay for a core, runs it under the cycle meter, and reads what both wrote.
+
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use serde::Serialize;
+
+use super::list::{self, Core, Isa};
+use super::walk::Walk;
+use crate::kit::elf::Image;
+use crate::kit::error::{Error, Result, check, refuse_if};
+use crate::kit::meter::{self, Cost, REGIONS};
+use crate::kit::qemu::Qemu;
+use crate::kit::shell;
+use crate::kit::toolchain::RELEASE;
+use crate::kit::workspace::Workspace;
+
+/// The package, and its bin.
+const PACKAGE: &str = "cores";
+/// The time limit of a core in QEMU.
+const LIMIT: Duration = Duration::from_secs(300);
+/// The instructions in the bin's first region (`cores/src/counted.rs`).
+const COUNTED_BY_HAND: u64 = 21;
+
+/// The bits of a scene's torques.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Torques {
+    pub scene: String,
+    pub ticks: usize,
+    /// The digest of all torques' bits.
+    pub digest: String,
+}
+
+/// A scene on a core.
+#[derive(Debug, Serialize)]
+pub struct Replayed {
+    pub torques: Torques,
+    /// The cost of a tick: whole, by phase, and between the phases; cycles are zero except on the Cortex-M4F.
+    pub costs: Vec<Cost>,
+    /// The bytes of stack that a tick wrote to, at most.
+    pub stack: u64,
+    /// The stack and the functions of the tick, from its machine code.
+    pub code: Walk,
+}
+
+#[derive(Debug, Serialize)]
+pub struct Row {
+    pub core: &'static str,
+    /// Code and constants of the whole image, which also prints.
+    pub flash: u64,
+    /// The scenes, the small one first.
+    pub scenes: Vec<Replayed>,
+}
+
+#[derive(Debug, Default, PartialEq, Eq)]
+pub struct Said {
+    torques: Vec<Torques>,
+    stacks: Vec<u64>,
+    ticks_at: Vec<u64>,
+}
+
+impl Said {
+    /// From its lines.
+    ///
+    /// # Errors
+    /// A line is not of the protocol, or the last one is not `done`.
+    pub fn read(text: &str) -> Result<Self> {
+        let mut said = Self::default();
+        let mut is_done = false;
+        for line in text.lines() {
+            let bad = || check!("the line {line:?} of `{PACKAGE}` cannot be understood");
+            refuse_if!(is_done, "`{PACKAGE}` went on after its end: {line:?}");
+            match line.split(' ').collect::<Vec<_>>()[..] {
+                ["digest", scene, ticks, digest] => said.torques.push(Torques {
+                    scene: scene.into(),
+                    ticks: ticks.parse().map_err(|_| bad())?,
+                    digest: digest.into(),
+                }),
+                ["stack", _, bytes] => said.stacks.push(bytes.parse().map_err(|_| bad())?),
+                ["tick", _, at] => said.ticks_at.push(at.parse().map_err(|_| bad())?),
+                ["done"] => is_done = true,
+                _ => return Err(bad()),
+            }
+        }
+        refuse_if!(
+            !is_done || said.torques.is_empty(),
+            "`{PACKAGE}` did not end: {text:?}"
+        );
+        Ok(said)
+    }
+}
+
+/// The torques of this machine, which no emulator computes.
+pub fn on_host(workspace: &Workspace) -> Result<Vec<Torques>> {
+    let mut command = workspace.cargo("run");
+    command.args(["--quiet", "--package", PACKAGE]);
+    Ok(Said::read(&shell::capture(&mut command)?)?.torques)
+}
+
+/// Builds the bin for a core.
+pub fn build(workspace: &Workspace, core: &Core) -> Result<PathBuf> {
+    let mut flags = core.flags(workspace)?;
+    // Cargo calls the compiler in the root of the workspace.
+    for script in [format!("machines/{}.x", core.machine), "link.x".into()] {
+        flags.push(format!("-Clink-arg=-T{PACKAGE}/{script}"));
+    }
+    flags.extend(list::without_home());
+    // Apart from other firmware of the same targets, whose flags differ.
+    let target = workspace.target.join(PACKAGE);
+    let mut command = workspace.cargo("build");
+    command
+        .args(["--profile", RELEASE, "--package", PACKAGE])
+        .args(["--target", core.target, "--target-dir"])
+        .arg(&target)
+        // Instead of those of `.cargo/config.toml`, which has another linker script.
+        .env("CARGO_ENCODED_RUSTFLAGS", flags.join("\u{1f}"));
+    shell::cargo(&mut command)?;
+    // Two cores of one target have their bin in the same place.
+    let built = target.join(core.target).join(RELEASE).join(PACKAGE);
+    let elf = target.join(core.machine).with_extension("elf");
+    std::fs::copy(&built, &elf).map_err(Error::file("copy", &built))?;
+    Ok(elf)
+}
+
+/// Builds and runs the bin on a core.
+pub fn measure(workspace: &Workspace, core: &Core, plugin: &Path) -> Result<Row> {
+    let elf = build(workspace, core)?;
+    let regions = workspace.output(&format!("cores-{}.regions", core.machine))?;
+    let argument = format!("out={}{}", regions.display(), core.isa.argument());
+    let qemu = Qemu::at(core.qemu().0)?;
+    let machine = core.machine_arguments();
+    let text = qemu.text(core.name, &machine, &elf, (plugin, &argument), LIMIT)?;
+    let said = Said::read(&text)?;
+    let samples = meter::read(&regions)?;
+    let (first, mut rest) = samples
+        .split_first()
+        .ok_or_else(|| check!("the cycle meter measured nothing"))?;
+    refuse_if!(
+        first.instructions != COUNTED_BY_HAND,
+        "on {} the cycle meter counts {} instructions, by hand they are {COUNTED_BY_HAND}",
+        core.name,
+        first.instructions
+    );
+    let image = Image::read(&elf)?;
+    let count = said.torques.len();
+    refuse_if!(
+        [said.stacks.len(), said.ticks_at.len()] != [count; 2],
+        "`{PACKAGE}` did not print stack and tick of each scene: {text:?}"
+    );
+    let mut scenes = Vec::new();
+    for ((torques, stack), at) in said.torques.into_iter().zip(said.stacks).zip(said.ticks_at) {
+        let few = || {
+            check!(
+                "the cycle meter saw fewer ticks of {} than were run",
+                torques.scene
+            )
+        };
+        let (mine, others) = rest
+            .split_at_checked(torques.ticks * REGIONS.len())
+            .ok_or_else(few)?;
+        rest = others;
+        let code = Walk::of(&image, core.isa == Isa::RiscV, at)
+            .map_err(|e| Error::check(format!("{}, {}: {e}", core.name, torques.scene)))?;
+        refuse_if!(
+            code.stack < stack,
+            "{}, {}: a tick wrote to {stack} B of stack, more than the bound of its code, {} B",
+            core.name,
+            torques.scene,
+            code.stack
+        );
+        let costs = meter::costs(mine, torques.ticks, |_| true)?;
+        scenes.push(Replayed {
+            torques,
+            costs,
+            stack,
+            code,
+        });
+    }
+    refuse_if!(
+        !rest.is_empty(),
+        "the cycle meter saw more ticks than were run"
+    );
+    Ok(Row {
+        core: core.name,
+        flash: image.sizes.flash,
+        scenes,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Said;
+
+    #[test]
+    fn a_bin_that_ends_without_done_is_refused() {
+        let text = "digest small 2 00ff\nstack small 200\ntick small 4096\ndone\n";
+        let said = Said::read(text).expect("a protocol");
+        assert_eq!(
+            (said.torques[0].ticks, &*said.torques[0].digest),
+            (2, "00ff")
+        );
+        assert_eq!((said.stacks, said.ticks_at), (vec![200], vec![4096]));
+        for bad in [
+            "",
+            "done\n",
+            "digest small 2 00ff\n",
+            "digest small two 00ff\ndone\n",
+            "panicked at cores/src/main.rs\n",
+            "digest small 2 00ff\ndone\nstack small 200\n",
+        ] {
+            assert!(Said::read(bad).is_err(), "{bad:?}");
+        }
+    }
+}

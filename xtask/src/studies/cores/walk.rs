@@ -1,0 +1,207 @@
+//! What a function can reach, and the most stack that it can take: read from the machine code of any of the cores.
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+
+use super::frame::{self, Flow};
+use crate::kit::elf::{Function, Image, is_f64, is_panic};
+use crate::kit::error::{Result, bail, check, refuse_if};
+
+/// The functions that a function reaches.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct Walk {
+    /// The number of functions, with itself.
+    pub functions: usize,
+    /// Their bytes, constants in the code included.
+    pub code: u64,
+    /// No call takes more stack: the largest sum of frames along a chain of calls.
+    pub stack: u64,
+}
+
+/// A function while it is walked, and its stack afterwards.
+enum State {
+    Open,
+    Known(u64),
+}
+
+impl Walk {
+    /// From the function at an address.
+    ///
+    /// # Errors
+    /// Something in reach calls through a register, calls itself, takes a frame whose size the code does not say, leaves
+    /// the known functions, computes in f64, or panics.
+    pub fn of(image: &Image, is_risc_v: bool, address: u64) -> Result<Self> {
+        Self::reached(image, is_risc_v, address, |name| {
+            is_f64(name) || is_panic(name)
+        })
+    }
+
+    /// From the function at an address, which may compute in f64 and panic.
+    ///
+    /// # Errors
+    /// As [`Self::of`], without those two.
+    pub fn of_start(image: &Image, address: u64) -> Result<Self> {
+        Self::reached(image, !image.is_arm, address, |_| false)
+    }
+
+    fn reached(
+        image: &Image,
+        is_risc_v: bool,
+        address: u64,
+        unwanted: fn(&str) -> bool,
+    ) -> Result<Self> {
+        let mut known = BTreeMap::new();
+        // The lowest bit says Thumb and is no part of the address.
+        let address = if is_risc_v { address } else { address & !1 };
+        let stack = stack_of(image, (is_risc_v, unwanted), address, &mut known)?;
+        let bytes = |index: &usize| image.functions[*index].bytes.len() as u64;
+        Ok(Self {
+            functions: known.len(),
+            code: known.keys().map(bytes).sum(),
+            stack,
+        })
+    }
+}
+
+/// The stack of the function that an address lies in, and of all that it calls.
+fn stack_of(
+    image: &Image,
+    (is_risc_v, unwanted): (bool, fn(&str) -> bool),
+    address: u64,
+    known: &mut BTreeMap<usize, State>,
+) -> Result<u64> {
+    let index = image
+        .functions
+        .iter()
+        .position(|function| function.contains(address));
+    let index = index.ok_or_else(|| check!("{address:#x} is in no function"))?;
+    let function = &image.functions[index];
+    let name = &function.names[0];
+    match known.get(&index) {
+        Some(State::Known(stack)) => return Ok(*stack),
+        Some(State::Open) => bail!("`{name}` calls itself: its stack has no bound"),
+        None => {}
+    }
+    if let Some(name) = function.names.iter().find(|name| unwanted(name)) {
+        bail!("the tick reaches `{name}`");
+    }
+    known.insert(index, State::Open);
+    let flow = flow(function, is_risc_v).map_err(|e| check!("`{name}`: {e}"))?;
+    let mut deepest = 0;
+    for target in flow
+        .targets
+        .iter()
+        .filter(|target| !function.contains(**target))
+    {
+        let callee = stack_of(image, (is_risc_v, unwanted), *target, known);
+        deepest = deepest.max(callee.map_err(|e| check!("`{name}` → {e}"))?);
+    }
+    let stack = flow.frame + deepest;
+    known.insert(index, State::Known(stack));
+    Ok(stack)
+}
+
+/// The frame of a function and where it goes.
+fn flow(function: &Function, is_risc_v: bool) -> Result<Flow> {
+    refuse_if!(function.bytes.is_empty(), "it has no code");
+    if is_risc_v {
+        return frame::risc_v(function.address, &function.bytes);
+    }
+    let mut flow = Flow::default();
+    for one in function.instructions() {
+        refuse_if!(
+            one.insn.indirect,
+            "it calls through a register at {:#x}",
+            one.address
+        );
+        flow.frame += frame::thumb(one.code)
+            .ok_or_else(|| check!("its frame at {:#x} is of an unknown size", one.address))?;
+        flow.targets.extend(one.target());
+    }
+    Ok(flow)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::Walk;
+    use crate::kit::elf::{Function, Image, Sizes};
+
+    fn image(functions: &[(&str, u64, &[u16])]) -> Image {
+        let function = |&(name, address, code): &(&str, u64, &[u16])| Function {
+            names: vec![name.into()],
+            address,
+            bytes: code.iter().flat_map(|half| half.to_le_bytes()).collect(),
+            data: Vec::new(),
+        };
+        Image {
+            is_arm: true,
+            has_defmt: false,
+            sizes: Sizes { flash: 0, ram: 0 },
+            functions: functions.iter().map(function).collect(),
+            words: BTreeSet::new(),
+        }
+    }
+
+    /// push {r4, lr}; sub sp, #8; bl 0x1020; bl 0x1040; pop {r4, pc}
+    const CALLER: &[u16] = &[0xb510, 0xb082, 0xf000, 0xf80c, 0xf000, 0xf81a, 0xbd10];
+    /// push {r4, r5, r6, lr}; bx lr
+    const SHALLOW: &[u16] = &[0xb570, 0x4770];
+    /// sub sp, #64; bx lr
+    const DEEP: &[u16] = &[0xb090, 0x4770];
+
+    #[test]
+    fn the_stack_of_the_deepest_chain_counts() {
+        let image = image(&[
+            ("tick", 0x1000, CALLER),
+            ("shallow", 0x1020, SHALLOW),
+            ("deep", 0x1040, DEEP),
+        ]);
+        let walk = Walk::of(&image, false, 0x1001).expect("a bound");
+        assert_eq!((walk.functions, walk.code, walk.stack), (3, 22, 16 + 64));
+    }
+
+    #[test]
+    fn what_has_no_bound_or_is_unwanted_is_named() {
+        // bl 0x1000, at 0x1040.
+        let recursive: &[u16] = &[0xf7ff, 0xffde, 0x4770];
+        let indirect: &[u16] = &[0x4798, 0x4770]; // blx r3
+        let dynamic: &[u16] = &[0xebad, 0x0d00, 0x4770]; // sub.w sp, sp, r0
+        for (name, code, what) in [
+            ("deep", recursive, "calls itself"),
+            ("deep", indirect, "through a register"),
+            ("deep", dynamic, "unknown size"),
+            ("__aeabi_dadd", DEEP, "reaches `__aeabi_dadd`"),
+            ("_ZN4core9panicking5panicE", DEEP, "panicking"),
+        ] {
+            let functions = [
+                ("tick", 0x1000, CALLER),
+                ("shallow", 0x1020, SHALLOW),
+                (name, 0x1040, code),
+            ];
+            let error = Walk::of(&image(&functions), false, 0x1000)
+                .expect_err(what)
+                .to_string();
+            assert!(error.contains(what), "{error}");
+        }
+        for name in ["__aeabi_d2f", "_ZN4core9panicking5panicE"] {
+            let functions = [
+                ("tick", 0x1000, CALLER),
+                ("shallow", 0x1020, SHALLOW),
+                (name, 0x1040, DEEP),
+            ];
+            let image = image(&functions);
+            assert!(Walk::of_start(&image, 0x1000).is_ok());
+            assert!(Walk::of(&image, false, 0x1000).is_err(), "{name}");
+        }
+        let error = Walk::of(&image(&[("tick", 0x1000, CALLER)]), false, 0x1000);
+        assert!(
+            error
+                .expect_err("a gap")
+                .to_string()
+                .contains("0x1020 is in no function")
+        );
+    }
+}

@@ -1,0 +1,142 @@
+//! What today's algorithms replaced, counted on the host and measured on the target.
+
+use crate::kit::error::{Result, check};
+use crate::kit::meter::MODEL;
+use crate::kit::rows::{self, Row};
+use crate::kit::table::{Table, thousands};
+use crate::kit::toolchain::RELEASE;
+use crate::kit::{chart, firmware, host_bin};
+use crate::studies::study::{Bench, Found};
+
+/// The bin, and the feature that it is built for.
+const BIN: &str = "history";
+
+/// The length at which all are compared.
+const COMPARED: usize = 6;
+
+/// Inverse dynamics, in the order of the columns, and what they are compared with.
+const TORQUES: [(&str, &str); 8] = [
+    ("uicker_kahn", "Uicker, Kahn 1965"),
+    ("waters", "Waters 1979"),
+    ("hollerbach_4", "Hollerbach 4 × 4 1980"),
+    ("hollerbach_3", "3 × 3 1980"),
+    ("luh_walker_paul", "Luh, Walker, Paul 1980"),
+    ("balafoutis_patel", "Balafoutis, Patel, Misra 1988"),
+    ("rnea", "RNEA, core"),
+    ("engine_rnea", "RNEA, engine"),
+];
+
+const INERTIA: [(&str, &str); 6] = [
+    ("method_1", "method 1"),
+    ("method_2", "method 2"),
+    ("method_3", "method 3"),
+    ("method_4", "method 4"),
+    ("crba", "CRBA, core"),
+    ("engine_crba", "CRBA, engine"),
+];
+
+struct Report {
+    rows: Vec<Row>,
+    /// A line for each algorithm: its key, then its cells.
+    ancestors: String,
+    /// Why published and counted operations differ.
+    differences: String,
+    rustc: String,
+}
+
+/// Counts on the host and runs the firmware's bin under the meter.
+pub fn measure(bench: &Bench<'_>) -> Result<Found> {
+    let (workspace, tools) = (bench.workspace, bench.tools()?);
+    let counts = host_bin::text_of(workspace, "history", "history_counts")?;
+    let (ancestors, differences) = counts
+        .split_once("\n\n")
+        .ok_or_else(|| check!("`history_counts` printed no differences"))?;
+    let elves = firmware::build_featured(workspace, tools.toolchain, RELEASE, BIN, &[BIN])?;
+    let meter = firmware::build_meter(workspace)?;
+    let report = Report {
+        rows: rows::run_for_time(tools, &meter, BIN, &elves[0], "")?,
+        ancestors: ancestors.into(),
+        differences: differences.trim_end().into(),
+        rustc: bench.rustc()?,
+    };
+    Ok(Found {
+        picture: Some(report.picture()?),
+        rustc: Some(report.rustc.clone()),
+        ..Found::new(report.markdown()?, &report.rows)?
+    })
+}
+
+impl Report {
+    /// The rows of an algorithm, by length.
+    fn of<'a>(&'a self, algorithm: &'a str) -> impl Iterator<Item = &'a Row> {
+        self.rows
+            .iter()
+            .filter(move |row| row.algorithm == algorithm)
+    }
+
+    /// An algorithm's row at a length.
+    fn at(&self, algorithm: &str, joints: usize) -> Option<&Row> {
+        let key = (algorithm, joints);
+        self.rows
+            .iter()
+            .find(|row| (&*row.algorithm, row.joints) == key)
+    }
+
+    /// Flops, cycles, and the cycles in relation to those of the core, at [`COMPARED`].
+    fn measured(&self, algorithm: &str) -> Result<[String; 3]> {
+        let is_torque = TORQUES.iter().any(|(name, _)| *name == algorithm);
+        let core = self.at(if is_torque { "rnea" } else { "crba" }, COMPARED);
+        let both = self.at(algorithm, COMPARED).zip(core);
+        let (row, core) = both.ok_or_else(|| check!("the bin did not measure {algorithm}"))?;
+        let ratio = row.cycles.max as f64 / core.cycles.max as f64;
+        let [flops, cycles] = [row.flops, row.cycles.max].map(thousands);
+        Ok([flops, cycles, format!("{ratio:.2}×")])
+    }
+
+    /// All ancestors, then the core and the engine.
+    fn comparison(&self) -> Result<Table> {
+        let head = "year|authors|form|published: products + sums|counted|flops executed|cycles|to the core";
+        let mut table = Table::new(&head.split('|').collect::<Vec<_>>());
+        for line in self.ancestors.lines() {
+            let mut cells = line.split('|').map(str::to_owned);
+            let measured = self.measured(&cells.next().unwrap_or_default())?;
+            table.row(cells.chain(measured));
+        }
+        Ok(table)
+    }
+
+    fn cycles(&self, algorithms: &[(&str, &str)]) -> Table {
+        let heads = algorithms.iter().map(|(_, head)| *head);
+        let mut table = Table::new(&std::iter::once("n").chain(heads).collect::<Vec<_>>());
+        for row in self.of(algorithms[0].0) {
+            let cost = |(name, _): &(&str, &str)| {
+                let row = self.at(name, row.joints);
+                row.map_or("–".into(), |row| thousands(row.cycles.max))
+            };
+            table.row(std::iter::once(row.joints.to_string()).chain(algorithms.iter().map(cost)));
+        }
+        table
+    }
+
+    fn picture(&self) -> Result<String> {
+        let curves = TORQUES.map(|(key, name)| {
+            let costs = self.of(key).map(|row| (row.joints, row.cycles.max));
+            (name, costs.collect())
+        });
+        let title = "Inverse dynamics from 1965 on: cycles of a call against bodies of a chain (Cortex-M4F)";
+        chart::curves(title, "cycles", &curves, &[])
+    }
+
+    fn markdown(&self) -> Result<String> {
+        Ok(format!(
+            include_str!("history/page.md"),
+            model = MODEL,
+            compared = COMPARED,
+            comparison = self.comparison()?.markdown(),
+            torques = self.cycles(&TORQUES).markdown(),
+            inertia = self.cycles(&INERTIA).markdown(),
+            differences = self.differences,
+            rustc = self.rustc
+        ))
+    }
+}

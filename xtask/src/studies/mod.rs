@@ -1,0 +1,232 @@
+//! The studies: each measures something and keeps a page in docs/.
+//!
+//! A study is a file of this folder and its row in [`STUDIES`].
+
+pub mod accuracy;
+pub mod budgets;
+pub mod build_time;
+pub mod cores;
+pub mod costs;
+pub mod effects;
+pub mod flexible;
+pub mod growth;
+pub mod hard_cases;
+pub mod history;
+pub mod host_table;
+pub mod mutants;
+pub mod peers;
+pub mod robots;
+pub mod scenes;
+pub mod silicon;
+pub mod study;
+pub mod trial;
+
+use std::process::ExitCode;
+
+use clap::{ArgMatches, Args, Command, FromArgMatches, Subcommand};
+
+use crate::kit::error::Result;
+use crate::kit::setup::Options;
+use study::Form::{Demo, Own, Part, Whole};
+use study::Held::{Bars, Step};
+use study::Lane::{Host, Target};
+use study::Scope::{Everyday, Full};
+use study::{Study, given};
+
+/// The check of a study that no step measures.
+const NO_STEP: fn(&study::Bench<'_>) -> Result<String> = |_| Ok(String::new());
+
+/// In the order in which their steps run.
+#[rustfmt::skip]
+pub const STUDIES: &[Study] = &[
+    Study {
+        name: "costs", about: "Measure what each algorithm costs on each robot, rewrite docs/costs.md",
+        files: &["docs/costs.md"],
+        held: Step(Target, Everyday, "every function is within budgets.toml and its bar, and docs/costs.md says so"),
+        form: Own(costs::Args::augment_args, |options, matches| costs::run(options, given(matches)?), costs::check),
+    },
+    Study {
+        name: "growth", about: "Measure how the core's algorithms grow with a chain's length, rewrite docs/growth.md",
+        files: &["docs/growth.md", "docs/growth.svg"],
+        held: Step(Target, Full, "inverse and forward dynamics grow in step with a chain, and docs/growth.md says so"),
+        form: Whole(growth::measure),
+    },
+    Study {
+        name: "history", about: "Measure what today's algorithms replaced, rewrite docs/history.md",
+        files: &["docs/history.md", "docs/history.svg"],
+        held: Step(Target, Full, "docs/history.md has today's costs of the algorithms that today's replaced"),
+        form: Whole(history::measure),
+    },
+    Study {
+        name: "cores", about: "Run the control loop on every core that QEMU emulates: the same bits, instructions, stack",
+        files: &["docs/boards.md"],
+        held: Step(Target, Full, "a Cortex-M33 and an RV32 compute the host's torques, and docs/boards.md has what they and the boards' images take"),
+        form: Own(cores::Args::augment_args, |options, matches| cores::run(options, given(matches)?), cores::check),
+    },
+    Study {
+        name: "trials", about: "",
+        files: &["docs/contact.md", "docs/contact.svg", "docs/learning.md", "docs/learning.svg"],
+        held: Step(Target, Full, "the host and QEMU agree on the scenes of contact and learning, and docs/contact.md and docs/learning.md have today's figures"),
+        form: Demo(trial::check),
+    },
+    Study {
+        name: "accuracy", about: "Measure what accuracy costs in time, rewrite docs/accuracy.md and its plots; or choose a configuration",
+        files: &[
+            "docs/accuracy.md", "docs/accuracy.json", "docs/accuracy-ur5e.svg", "docs/accuracy-ur5e-all.svg", "docs/accuracy-panda.svg",
+            "docs/accuracy-panda-all.svg", "docs/accuracy-a1_leg.svg", "docs/accuracy-a1_leg-all.svg", "docs/accuracy-simulation.svg",
+        ],
+        held: Step(Target, Full, "docs/accuracy.md has today's costs and errors of single changes; what is printed as generated code keeps them"),
+        form: Own(accuracy::Args::augment_args, |options, matches| accuracy::run(options, given(matches)?), accuracy::check),
+    },
+    Study {
+        name: "effects", about: "Measure what each effect costs and the torque it contributes, rewrite docs/effects.md",
+        files: &["docs/effects.md", "docs/effects.svg"],
+        held: Step(Target, Full, "docs/effects.md has today's prices"),
+        form: Part(effects::measure),
+    },
+    Study {
+        name: "eliminations", about: "Measure on the host which of the two eliminations is less accurate where, rewrite docs/eliminations.md",
+        files: &["docs/eliminations.md"],
+        held: Step(Host, Full, "docs/eliminations.md has today's accuracies"),
+        form: Part(host_table::eliminations),
+    },
+    Study {
+        name: "loops", about: "Measure on the host how accurate dynamics with kinematic loops are, rewrite docs/loops.md",
+        files: &["docs/loops.md"],
+        held: Step(Host, Full, "docs/loops.md has today's accuracies of robots with loops"),
+        form: Part(host_table::loops),
+    },
+    Study {
+        name: "flexible", about: "Measure on the host what few modes leave out of links that bend, rewrite docs/flexible.md",
+        files: &["docs/flexible.md", "docs/flexible.svg"],
+        held: Step(Host, Full, "docs/flexible.md has today's errors of links that bend"),
+        form: Part(flexible::measure),
+    },
+    Study {
+        name: "hard-cases", about: "Measure on the host what breaks dynamics codes, rewrite docs/hard-cases.md",
+        files: &["docs/hard-cases.md"],
+        held: Step(Host, Full, "every hard case holds, and docs/hard-cases.md has today's figures"),
+        form: Part(hard_cases::measure),
+    },
+    Study {
+        name: "robots", about: "Import, check and measure the robots of published packages, rewrite docs/robots.md: takes minutes",
+        files: &["docs/robots.md"],
+        held: Step(Target, Full, "an imported robot is checked, and costs what docs/robots.md says"),
+        form: Own(robots::Args::augment_args, |options, matches| robots::run(options, given(matches)?), robots::check),
+    },
+    Study {
+        name: "peers", about: "Measure other libraries and this one side by side, rewrite docs/peers.md: takes minutes",
+        files: &["docs/peers.md"],
+        held: Bars("the other libraries are not installed for a test, and times are those of one machine"),
+        form: Own(peers::Args::augment_args, |options, matches| peers::run(options, given(matches)?), NO_STEP),
+    },
+    Study {
+        name: "silicon", about: "Measure code whose cycles others published from chips, rewrite docs/silicon.md",
+        files: &["docs/silicon.md"],
+        held: Bars("the other code is not part of this repository"),
+        form: Own(silicon::Args::augment_args, |options, matches| silicon::run(options, given(matches)?), NO_STEP),
+    },
+    Study {
+        name: "build-time", about: "Time release builds with and without one specialised function, rewrite docs/build-time.md",
+        files: &["docs/build-time.md"],
+        held: Bars("seconds are those of one machine and of what else it does"),
+        form: Whole(build_time::measure),
+    },
+    Study {
+        name: "mutants", about: "Change the code in a few hundred places, one at a time, and rewrite docs/mutants.md: takes an hour",
+        files: &["docs/mutants.md"],
+        held: Bars("a run over the whole sample takes an hour"),
+        form: Own(mutants::Args::augment_args, |options, matches| mutants::run(options, given(matches)?), NO_STEP),
+    },
+];
+
+/// A study that was chosen on the command line.
+pub struct Chosen(&'static Study, ArgMatches);
+
+impl Chosen {
+    pub fn run(&self, options: Options) -> Result<ExitCode> {
+        self.0.run(options, &self.1)
+    }
+}
+
+impl FromArgMatches for Chosen {
+    fn from_arg_matches(matches: &ArgMatches) -> std::result::Result<Self, clap::Error> {
+        let chosen = matches.subcommand().and_then(|(name, matches)| {
+            let study = STUDIES.iter().find(|study| study.name == name)?;
+            Some(Self(study, matches.clone()))
+        });
+        chosen.ok_or_else(|| clap::Error::new(clap::error::ErrorKind::InvalidSubcommand))
+    }
+
+    fn update_from_arg_matches(
+        &mut self,
+        matches: &ArgMatches,
+    ) -> std::result::Result<(), clap::Error> {
+        *self = Self::from_arg_matches(matches)?;
+        Ok(())
+    }
+}
+
+impl Subcommand for Chosen {
+    fn augment_subcommands(command: Command) -> Command {
+        let studies = STUDIES.iter().filter(|study| study.has_command());
+        studies.fold(command, |command, study| {
+            command.subcommand(study.command())
+        })
+    }
+
+    fn augment_subcommands_for_update(command: Command) -> Command {
+        Self::augment_subcommands(command)
+    }
+
+    fn has_subcommand(name: &str) -> bool {
+        STUDIES
+            .iter()
+            .any(|study| study.name == name && study.has_command())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::STUDIES;
+    use super::study::Held;
+    use crate::kit::docs::repository::root;
+
+    /// The files that the demo writes; the step `readme` compares them.
+    const OF_THE_DEMO: [&str; 3] = ["README.md", "docs/scenes.md", "docs/ur5e.svg"];
+
+    fn below(directory: &str) -> Vec<String> {
+        let entries = std::fs::read_dir(root().join(directory)).expect("a directory");
+        let each = entries.flatten().flat_map(|entry| {
+            let name = format!("{directory}/{}", entry.file_name().to_string_lossy());
+            match entry.path().is_dir() {
+                true => below(&name),
+                false => vec![name],
+            }
+        });
+        each.collect()
+    }
+
+    /// Whether a command writes it: all data and pictures, and pages that say so.
+    fn is_generated(name: &str) -> bool {
+        let text = || std::fs::read_to_string(root().join(name)).expect("a page");
+        !name.ends_with(".md") || text().contains("<!-- written by `")
+    }
+
+    #[test]
+    fn every_generated_file_belongs_to_a_study_that_is_held() {
+        let mut there = below("docs");
+        // The guide is written by hand, its programs included.
+        there.retain(|name| !name.starts_with("docs/guide/") && is_generated(name));
+        there.push("README.md".into());
+        there.sort();
+        let of_studies = STUDIES.iter().flat_map(|study| study.files.iter().copied());
+        let mut listed: Vec<&str> = of_studies.chain(OF_THE_DEMO).collect();
+        listed.sort_unstable();
+        assert_eq!(there, listed);
+        for study in STUDIES {
+            let (Held::Step(_, _, why) | Held::Bars(why)) = study.held;
+            assert!(!why.is_empty(), "{}", study.name);
+        }
+    }
+}

@@ -1,0 +1,244 @@
+//! `cargo xtask mutants`: small changes to the code, and which of them no test notices.
+
+#[cfg(test)]
+mod tests;
+
+use std::collections::BTreeMap;
+use std::process::ExitCode;
+
+use serde::{Deserialize, Serialize};
+
+use crate::kit::docs::{self, Page};
+use crate::kit::error::{Result, check};
+use crate::kit::setup::Options;
+use crate::kit::table::Table;
+use crate::kit::workspace::{self, Workspace};
+use crate::kit::{output, shell};
+
+const PAGE: Page<'_> = Page {
+    file: "docs/mutants.md",
+    name: "mutants",
+    command: "cargo xtask mutants",
+};
+/// Why a change may survive, by file, function and change.
+const REASONS: &str = "host-tests/mutants/reasons.toml";
+/// The largest share of changes that may survive.
+const MOST: f64 = 0.08;
+/// Printed in place of a missing reason.
+const NO_REASON: &str = "**no reason yet**";
+
+#[derive(clap::Args)]
+pub struct Args {
+    /// The results as JSON on stdout; progress stays on stderr
+    #[arg(long)]
+    json: bool,
+    /// Only changes to files whose paths begin so; the page stays as it is
+    #[arg(long, value_name = "PATH")]
+    only: Option<String>,
+    /// Only changes that survived the last time; the others keep their verdicts
+    #[arg(long)]
+    survivors: bool,
+    /// Another sample; the page is of the sample 1
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+}
+
+/// The verdict on a change, in the words of `host-tests/mutants`.
+#[derive(Clone, Debug, Deserialize, Serialize)]
+#[serde(rename_all = "snake_case")]
+enum Verdict {
+    Killed(String),
+    Survived,
+    Unreached,
+}
+
+#[derive(Clone, Debug, Deserialize, Serialize)]
+struct Outcome {
+    room: String,
+    file: String,
+    function: String,
+    line: usize,
+    change: String,
+    operator: String,
+    verdict: Verdict,
+}
+
+#[derive(Debug, Deserialize, Serialize)]
+struct Results {
+    seed: u64,
+    tests: usize,
+    unusable: Vec<String>,
+    outcomes: Vec<Outcome>,
+}
+
+#[derive(Deserialize)]
+struct Reasons {
+    #[serde(default)]
+    reason: Vec<Reason>,
+}
+
+/// A change that may survive.
+#[derive(Deserialize)]
+struct Reason {
+    file: String,
+    function: String,
+    change: String,
+    because: String,
+}
+
+/// Runs the changes, then writes the page and prints it.
+pub fn run(_: Options, args: Args) -> Result<ExitCode> {
+    let workspace = Workspace::for_reports()?;
+    let results = measure(&workspace, &args)?;
+    let reasons: Reasons =
+        toml_edit::de::from_str(&workspace::read(&workspace.root.join(REASONS))?)
+            .map_err(|e| check!("{REASONS}: {e}"))?;
+    for reason in results.idle(&reasons) {
+        output::note(&format!(
+            "{REASONS} has a reason for a change that does not survive: {reason}"
+        ));
+    }
+    let text = results.text(&reasons, &docs::today_and_commit(&workspace));
+    if args.only.is_none() && args.seed == 1 {
+        PAGE.write(&workspace, &text)?;
+    }
+    docs::show(args.json, &results, &text)
+}
+
+fn measure(workspace: &Workspace, args: &Args) -> Result<Results> {
+    let mut command = workspace.cargo("run");
+    command
+        .args(["--quiet", "--package", "mutants", "--", "--root"])
+        .arg(&workspace.root);
+    command.arg("--dir").arg(workspace.target.join("mutants"));
+    command.args(["--seed", &args.seed.to_string()]);
+    command.args(args.only.iter().flat_map(|only| ["--only", only]));
+    command.args(args.survivors.then_some("--survivors"));
+    let mut printed = String::new();
+    shell::each_line(&mut command, |line| {
+        printed += line;
+        Ok(())
+    })?;
+    serde_json::from_str(&printed)
+        .map_err(|e| check!("`mutants` printed what is not understood: {e}"))
+}
+
+impl Outcome {
+    fn is_killed(&self) -> bool {
+        matches!(self.verdict, Verdict::Killed(_))
+    }
+
+    fn is_of(&self, reason: &Reason) -> bool {
+        let Reason {
+            file,
+            function,
+            change,
+            ..
+        } = reason;
+        (&self.file, &self.function, &self.change) == (file, function, change)
+    }
+}
+
+impl Results {
+    /// The reasons for changes that are noticed now, or that are not in the sample.
+    fn idle<'a>(&self, reasons: &'a Reasons) -> Vec<&'a str> {
+        let idle = reasons.reason.iter().filter(|reason| {
+            let mut of_reason = self.outcomes.iter().filter(|outcome| outcome.is_of(reason));
+            of_reason.next().is_some_and(Outcome::is_killed)
+        });
+        idle.map(|reason| &*reason.change).collect()
+    }
+
+    /// The text between the markers.
+    fn text(&self, reasons: &Reasons, when: &str) -> String {
+        let mut rooms: Vec<&str> = Vec::new();
+        for outcome in &self.outcomes {
+            if !rooms.contains(&&*outcome.room) {
+                rooms.push(&outcome.room);
+            }
+        }
+        rooms.sort_unstable();
+        let mut table = Table::new(&[
+            "part",
+            "changes",
+            "killed",
+            "survived",
+            "of these unreached",
+            "survived, %",
+        ]);
+        let mut row = |name: &str, of: &[&Outcome]| {
+            let killed = of.iter().filter(|outcome| outcome.is_killed()).count();
+            let unreached = of
+                .iter()
+                .filter(|outcome| matches!(outcome.verdict, Verdict::Unreached))
+                .count();
+            let survived = of.len() - killed;
+            let share = format!("{:.1}", 100.0 * share(survived, of.len()));
+            let counts = [of.len(), killed, survived, unreached].map(|count| count.to_string());
+            table.row([name.to_owned()].into_iter().chain(counts).chain([share]));
+        };
+        for room in &rooms {
+            let of_room: Vec<&Outcome> = self
+                .outcomes
+                .iter()
+                .filter(|outcome| outcome.room == *room)
+                .collect();
+            row(room, &of_room);
+        }
+        let all: Vec<&Outcome> = self.outcomes.iter().collect();
+        row("all", &all);
+        let survivors: Vec<&Outcome> = all
+            .into_iter()
+            .filter(|outcome| !outcome.is_killed())
+            .collect();
+        let is_met = share(survivors.len(), self.outcomes.len()) <= MOST;
+        let verdict = if is_met { "met" } else { "missed" };
+        let (changes, tests, most) = (self.outcomes.len(), self.tests, 100.0 * MOST);
+        let mut text = format!(
+            "{changes} changes against {tests} tests, on {when}. At most {most:.0} % may survive: {verdict}.\n\n{}",
+            table.markdown()
+        );
+        for name in &self.unusable {
+            text += &format!(
+                "\nNot used, because it fails in the copy without a change, or is too slow there: `{name}`.\n"
+            );
+        }
+        text += "\n## What survived\n";
+        for room in rooms {
+            let lines: BTreeMap<String, ()> = survivors
+                .iter()
+                .filter(|outcome| outcome.room == room)
+                .map(|outcome| (line(outcome, reasons), ()))
+                .collect();
+            if !lines.is_empty() {
+                text += &format!("\n### {room}\n\n");
+                text.extend(lines.into_keys());
+            }
+        }
+        text.trim_end().to_owned()
+    }
+}
+
+fn share(part: usize, all: usize) -> f64 {
+    part as f64 / all.max(1) as f64
+}
+
+/// A survivor in the list.
+fn line(outcome: &Outcome, reasons: &Reasons) -> String {
+    let reason = reasons.reason.iter().find(|reason| outcome.is_of(reason));
+    let reason = reason.map_or(NO_REASON, |reason| reason.because.trim());
+    let Outcome {
+        file,
+        line,
+        function,
+        change,
+        verdict,
+        ..
+    } = outcome;
+    let unreached = if matches!(verdict, Verdict::Unreached) {
+        ", unreached"
+    } else {
+        ""
+    };
+    format!("- {file}:{line}, `{function}`{unreached}: {change}. {reason}\n")
+}

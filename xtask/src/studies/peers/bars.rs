@@ -1,0 +1,132 @@
+//! How engine and core stand against the best peer, and what was promised of that.
+
+use crate::kit::bars::{Bars, Compared};
+use crate::studies::peers::PRECISIONS;
+use crate::studies::peers::report::{HOST, M4F, Row};
+
+/// CasADi's C by gcc on the target: the one with fewer cycles is the peer.
+const BUILDS: [&str; 2] = ["casadi gcc", "casadi gcc -ffp-contract=off"];
+
+const OURS: [&str; 2] = ["engine", "core run-time model"];
+/// Others, on the host, by how their names begin.
+const OTHERS: [&str; 3] = ["casadi", "pinocchio", "dynibo"];
+
+/// The bars of `budgets.toml` that this run has the figures for.
+pub fn compared(ratios: &Bars, rows: &[Row]) -> Vec<Compared> {
+    let mut all = Vec::new();
+    for (robot, algorithm) in pairs(rows, M4F) {
+        let key = format!("{robot} {algorithm}, m4f, engine / casadi");
+        let of = |peer: &str| {
+            rows.iter()
+                .find(|row| is_of(row, M4F, robot, algorithm, "f32") && row.peer == peer)
+        };
+        let best = BUILDS
+            .iter()
+            .filter_map(|build| of(build))
+            .min_by_key(|row| row.cycles);
+        let Some((engine, best)) = of("engine").zip(best) else {
+            continue;
+        };
+        for (figure, ours, theirs) in [
+            ("cycles", engine.cycles, best.cycles),
+            ("code_bytes", engine.code_bytes, best.code_bytes),
+        ] {
+            let pair = ours.zip(theirs);
+            all.extend(
+                pair.and_then(|(a, b)| Compared::of(ratios, &key, figure, a as f64 / b as f64)),
+            );
+        }
+    }
+    for (robot, algorithm) in pairs(rows, HOST) {
+        for precision in PRECISIONS {
+            let best = |is_peer: &dyn Fn(&str) -> bool| {
+                rows.iter()
+                    .filter(|row| is_of(row, HOST, robot, algorithm, precision))
+                    .filter(|row| is_peer(&row.peer))
+                    .filter_map(|row| row.ns)
+                    .min_by(f64::total_cmp)
+            };
+            for ours in OURS {
+                for other in OTHERS {
+                    let key = format!("{robot} {algorithm}, host {precision}, {ours} / {other}");
+                    let pair =
+                        best(&|peer| peer == ours).zip(best(&|peer| peer.starts_with(other)));
+                    all.extend(pair.and_then(|(a, b)| Compared::of(ratios, &key, "ns", a / b)));
+                }
+            }
+        }
+    }
+    all
+}
+
+/// The robots and algorithms of a target, each once.
+fn pairs<'a>(rows: &'a [Row], target: &str) -> Vec<(&'a str, &'a str)> {
+    let mut pairs = Vec::new();
+    for row in rows.iter().filter(|row| row.target == target) {
+        let pair = (&*row.robot, &*row.algorithm);
+        if !pairs.contains(&pair) {
+            pairs.push(pair);
+        }
+    }
+    pairs
+}
+
+fn is_of(row: &Row, target: &str, robot: &str, algorithm: &str, precision: &str) -> bool {
+    (row.target, &*row.robot, &*row.algorithm, &*row.precision)
+        == (target, robot, algorithm, precision)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{HOST, M4F, Row, compared};
+    use crate::kit::bars::{Bar, Bars};
+
+    #[test]
+    fn the_engine_is_checked_against_the_best_build() {
+        let row = |target, peer: &str, cycles, ns| Row {
+            target,
+            robot: "ur5e".into(),
+            algorithm: "rnea".into(),
+            peer: peer.into(),
+            precision: "f32".into(),
+            cycles,
+            code_bytes: cycles,
+            ns,
+            ..Row::default()
+        };
+        let rows = [
+            row(M4F, "casadi gcc", Some(1400), None),
+            row(M4F, "casadi gcc -ffp-contract=off", Some(1000), None),
+            row(M4F, "casadi clang", Some(10), None),
+            row(M4F, "engine", Some(500), None),
+            row(HOST, "casadi gcc", None, Some(50.0)),
+            row(HOST, "casadi clang", None, Some(40.0)),
+            row(HOST, "engine", None, Some(20.0)),
+        ];
+        let bar = |most: &[(&str, f64)]| Bar {
+            most: most
+                .iter()
+                .map(|(figure, most)| ((*figure).into(), *most))
+                .collect(),
+            missed: Vec::new(),
+        };
+        let ratios = Bars::from([
+            (
+                "ur5e rnea, m4f, engine / casadi".into(),
+                bar(&[("cycles", 0.47), ("code_bytes", 0.47)]),
+            ),
+            (
+                "ur5e rnea, host f32, engine / casadi".into(),
+                bar(&[("ns", 0.8)]),
+            ),
+        ]);
+        let compared = compared(&ratios, &rows);
+        let measured: Vec<f64> = compared.iter().map(|compared| compared.measured).collect();
+        assert_eq!(measured, [0.5, 0.5, 0.5]);
+        let unmet: Vec<bool> = compared
+            .iter()
+            .map(|compared| compared.complaint().is_some())
+            .collect();
+        assert_eq!(unmet, [true, true, false]);
+    }
+}

@@ -1,0 +1,205 @@
+//! The library's robots in the forms that the peers read. All of them hold the numbers that are in
+//! our source, none is a maker's URDF with rounded angles.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use serde::Deserialize;
+
+use crate::kit::error::Result;
+use crate::kit::host_bin;
+use crate::kit::workspace::{self, Workspace};
+
+/// A robot as `export_robots` prints it.
+#[derive(Deserialize)]
+pub struct Robot {
+    pub name: String,
+    /// Its bodies, parents first.
+    bodies: Vec<Body>,
+}
+
+#[derive(Deserialize)]
+struct Body {
+    name: String,
+    parent: i64,
+    joint: String,
+    axis: [f64; 3],
+    placement: Placement,
+    mass: f64,
+    com: [f64; 3],
+    inertia_com: [f64; 6],
+}
+
+#[derive(Deserialize)]
+struct Placement {
+    rotation: [f64; 9],
+    position: [f64; 3],
+}
+
+/// The library's robots that are compared: of revolute joints alone, as the peers' forms are.
+const COMPARED: [&str; 5] = ["ur5e", "panda", "iiwa14", "a1", "g1"];
+
+/// More joints than a robot has that is compared everywhere and in every precision.
+const MANY: usize = 16;
+
+/// Asks the library for its robots.
+pub fn export(workspace: &Workspace) -> Result<Vec<Robot>> {
+    let mut robots: Vec<Robot> = host_bin::json(workspace, "export_robots")?;
+    robots.retain(|robot| COMPARED.contains(&&*robot.name));
+    for body in robots.iter_mut().flat_map(|robot| &mut robot.bodies) {
+        // The library holds inertias about the link's origin. What comes back to the centre of mass
+        // is off by rounding, and CasADi drops products with exact zeros only.
+        let [xx, _, _, yy, _, zz] = body.inertia_com;
+        for entry in &mut body.inertia_com {
+            if entry.abs() < 1e-15 * (xx + yy + zz) {
+                *entry = 0.0;
+            }
+        }
+    }
+    Ok(robots)
+}
+
+impl Robot {
+    /// Joints that move.
+    pub fn joints(&self) -> usize {
+        self.bodies.iter().filter(|body| body.moves()).count()
+    }
+
+    /// Whether it is compared on the host alone, in f64, and of less: its C takes compilers minutes.
+    pub fn has_subtree_functions(&self) -> bool {
+        self.joints() > MANY
+    }
+
+    /// Writes `<name>.urdf` and `<name>.xml` (MuJoCo's form).
+    pub fn write(&self, dir: &Path) -> Result<()> {
+        workspace::write(&dir.join(format!("{}.urdf", self.name)), self.urdf())?;
+        workspace::write(&dir.join(format!("{}.xml", self.name)), self.mjcf())
+    }
+
+    pub fn text(&self) -> String {
+        let mut text = format!("{} {}\n", self.name, self.bodies.len());
+        for body in &self.bodies {
+            let Placement { rotation, position } = &body.placement;
+            let numbers = [
+                &body.axis[..],
+                rotation,
+                position,
+                &[body.mass],
+                &body.com,
+                &body.inertia_com,
+            ];
+            let (name, numbers) = (&body.name, spaced(&numbers.concat()));
+            let _ = writeln!(text, "{name} {} {} {numbers}", body.parent, body.joint);
+        }
+        text
+    }
+
+    fn urdf(&self) -> String {
+        let mut text = format!("<robot name=\"{}\">\n<link name=\"base\"/>\n", self.name);
+        for body in &self.bodies {
+            let Body {
+                name,
+                mass,
+                placement,
+                ..
+            } = body;
+            let [xx, xy, xz, yy, yz, zz] = body.inertia_com;
+            let (com, axis) = (spaced(&body.com), spaced(&body.axis));
+            let (xyz, rpy) = (
+                spaced(&placement.position),
+                spaced(&angles(&placement.rotation)),
+            );
+            let kind = if body.moves() { "continuous" } else { "fixed" };
+            let parent = usize::try_from(body.parent).ok();
+            let parent = parent.map_or("base", |index| &self.bodies[index].name);
+            let _ = write!(
+                text,
+                "<link name=\"{name}\"><inertial><origin xyz=\"{com}\"/><mass value=\"{mass}\"/>\
+                 <inertia ixx=\"{xx}\" ixy=\"{xy}\" ixz=\"{xz}\" iyy=\"{yy}\" iyz=\"{yz}\" \
+                 izz=\"{zz}\"/></inertial></link>\n\
+                 <joint name=\"{name}_joint\" type=\"{kind}\"><origin xyz=\"{xyz}\" rpy=\"{rpy}\"/>\
+                 <parent link=\"{parent}\"/><child link=\"{name}\"/><axis xyz=\"{axis}\"/></joint>\n"
+            );
+        }
+        text + "</robot>\n"
+    }
+
+    /// Without contacts and constraints, which a robot that moves freely has none of.
+    fn mjcf(&self) -> String {
+        format!(
+            "<mujoco model=\"{}\">\n<compiler angle=\"radian\"/>\n<option gravity=\"0 0 -9.81\">\
+             <flag contact=\"disable\" constraint=\"disable\"/></option>\n<worldbody>\n{}\
+             </worldbody>\n</mujoco>\n",
+            self.name,
+            self.mjcf_children(-1)
+        )
+    }
+
+    fn mjcf_children(&self, parent: i64) -> String {
+        let mut text = String::new();
+        for (index, body) in self.bodies.iter().enumerate() {
+            if body.parent != parent {
+                continue;
+            }
+            let [xx, xy, xz, yy, yz, zz] = body.inertia_com;
+            let inertia = spaced(&[xx, yy, zz, xy, xz, yz]);
+            let (pos, com) = (spaced(&body.placement.position), spaced(&body.com));
+            let [xx, xy, _, yx, yy, _, zx, zy, _] = body.placement.rotation;
+            let axes = spaced(&[xx, yx, zx, xy, yy, zy]);
+            let axis = spaced(&body.axis);
+            let joint = match body.moves() {
+                true => format!("<joint type=\"hinge\" axis=\"{axis}\"/>"),
+                false => String::new(),
+            };
+            let children = self.mjcf_children(index as i64);
+            let _ = writeln!(
+                text,
+                "<body name=\"{}\" pos=\"{pos}\" xyaxes=\"{axes}\"><inertial pos=\"{com}\" \
+                 mass=\"{}\" fullinertia=\"{inertia}\"/>{joint}\n{children}</body>",
+                body.name, body.mass
+            );
+        }
+        text
+    }
+}
+
+impl Body {
+    fn moves(&self) -> bool {
+        self.joint != "fixed"
+    }
+}
+
+/// Shortest decimals that read back to the same f64.
+fn spaced(numbers: &[f64]) -> String {
+    numbers
+        .iter()
+        .map(f64::to_string)
+        .collect::<Vec<_>>()
+        .join(" ")
+}
+
+/// Roll, pitch and yaw of a rotation by rows: R = Rz(yaw) Ry(pitch) Rx(roll).
+fn angles(r: &[f64; 9]) -> [f64; 3] {
+    let level = r[0].hypot(r[3]);
+    let pitch = (-r[6]).atan2(level);
+    if level < 1e-12 {
+        // Roll and yaw turn about the same axis: all of it is called roll.
+        return [(-r[5]).atan2(r[4]), pitch, 0.0];
+    }
+    [r[7].atan2(r[8]), pitch, r[3].atan2(r[0])]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::angles;
+
+    #[test]
+    fn a_quarter_turn_is_one_about_an_axis() {
+        let close = |a: &[f64], b: &[f64]| std::iter::zip(a, b).all(|(a, b)| (a - b).abs() < 1e-15);
+        let quarter = std::f64::consts::FRAC_PI_2;
+        let about_x = [1.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0];
+        assert!(close(&angles(&about_x), &[quarter, 0.0, 0.0]));
+        let about_y = [0.0, 0.0, 1.0, 0.0, 1.0, 0.0, -1.0, 0.0, 0.0];
+        assert!(close(&angles(&about_y), &[0.0, quarter, 0.0]));
+    }
+}

@@ -1,0 +1,295 @@
+//! docs/peers.md, which no step measures anew, against itself, `budgets.toml` and what a decision says of it.
+
+use super::bars::compared;
+use super::report::{HOST, M4F, Report, Row};
+use super::{ALGORITHMS, PRECISIONS};
+use crate::kit::bars::{self, Bars, Compared};
+use crate::kit::docs::repository::{root, rows_of};
+
+/// What a ratio of figures may be off by that are printed in three digits or more.
+const ROUNDING: f64 = 0.005;
+
+fn page() -> String {
+    std::fs::read_to_string(root().join("docs/peers.md")).expect("a page")
+}
+
+/// The ratios that `budgets.toml` promises of peers.
+fn promised() -> Bars {
+    let text = std::fs::read_to_string(root().join("budgets.toml")).expect("budgets");
+    let budgets: serde_json::Value = toml_edit::de::from_str(&text).expect("TOML");
+    let mut ratios: Bars = serde_json::from_value(budgets["ratios"].clone()).expect("ratios");
+    ratios.retain(|key, _| key.contains(", m4f, ") || key.contains(", host "));
+    ratios
+}
+
+/// The part of a page under a heading.
+fn under<'a>(page: &'a str, heading: &str) -> &'a str {
+    let (_, after) = page
+        .split_once(&format!("\n## {heading}\n"))
+        .unwrap_or_else(|| panic!("there is no {heading:?}"));
+    after.split_once("\n## ").map_or(after, |(part, _)| part)
+}
+
+fn number<T: std::str::FromStr>(cell: &str) -> Option<T> {
+    cell.replace(',', "").parse().ok()
+}
+
+/// The measurements that the page shows, robot by robot.
+fn measured(page: &str) -> Vec<Row> {
+    let mut rows = Vec::new();
+    for algorithm in ALGORITHMS {
+        let row = |target, cells: &[&str]| {
+            let (robot, peer) = cells[0].split_once(", ").expect("robot and code");
+            Row {
+                target,
+                robot: robot.into(),
+                algorithm: algorithm.into(),
+                peer: peer.into(),
+                precision: "f32".into(),
+                ..Row::default()
+            }
+        };
+        for cells in rows_of(under(page, &format!("Cortex-M4F: {algorithm}"))) {
+            rows.push(Row {
+                instructions: number(cells[1]),
+                cycles: number(cells[2]),
+                code_bytes: number(cells[3]),
+                ..row(M4F, &cells)
+            });
+        }
+        for cells in rows_of(under(page, &format!("Host: {algorithm}"))) {
+            for (precision, cell) in PRECISIONS.into_iter().zip([cells[2], cells[1]]) {
+                rows.push(Row {
+                    precision: precision.into(),
+                    ns: Some(number(cell)).filter(Option::is_some).flatten(),
+                    ..row(HOST, &cells)
+                });
+            }
+        }
+    }
+    let mut robots: Vec<String> = Vec::new();
+    for row in &rows {
+        if !robots.contains(&row.robot) {
+            robots.push(row.robot.clone());
+        }
+    }
+    rows.sort_by_key(|row| robots.iter().position(|robot| *robot == row.robot));
+    rows
+}
+
+/// Holds a page against its own figures and what is promised.
+fn check(page: &str, promised: &Bars) -> Result<(), String> {
+    let rows = measured(page);
+    let mut of_rows = compared(promised, &rows);
+    let bars = rows_of(under(page, "Against the bars"));
+    if bars.len() != of_rows.len() {
+        return Err(format!("{} bars of {}", bars.len(), of_rows.len()));
+    }
+    for (compared, cells) in of_rows.iter_mut().zip(&bars) {
+        let now: f64 = number(cells[2].trim_end_matches('×')).ok_or("no figure")?;
+        let off = (now / compared.measured - 1.0).abs();
+        // What is not a number is off as well.
+        if off.is_nan() || off > ROUNDING {
+            return Err(format!(
+                "{}: {now}, by the tables {:.4}",
+                compared.what, compared.measured
+            ));
+        }
+        compared.measured = now;
+    }
+    if let Some(wrong) = of_rows.iter().find_map(Compared::complaint) {
+        return Err(wrong);
+    }
+    let table = bars::table(&of_rows).markdown();
+    if !under(page, "Against the bars").contains(&table) {
+        return Err(format!("the bars are not\n{table}"));
+    }
+    let report = Report {
+        rows,
+        compared: of_rows,
+        versions: Vec::new(),
+        date: String::new(),
+    };
+    let text = report.markdown();
+    for algorithm in ALGORITHMS {
+        for target in ["Cortex-M4F", "Host"] {
+            let heading = format!("{target}: {algorithm}");
+            if under(page, &heading) != under(&text, &heading) {
+                return Err(format!("{heading} is not as its figures make it"));
+            }
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn the_page_agrees_with_itself_and_with_what_is_promised() {
+    let (page, promised) = (page(), promised());
+    check(&page, &promised).expect("docs/peers.md: `cargo xtask peers` rewrites it");
+    let figures: usize = promised.values().map(|bar| bar.most.len()).sum();
+    assert_eq!(
+        compared(&promised, &measured(&page)).len(),
+        figures,
+        "a bar has no figures"
+    );
+}
+
+#[test]
+fn a_page_that_disagrees_is_refused() {
+    let (page, promised) = (page(), promised());
+    let bar = |what: &str| {
+        let rows = rows_of(under(&page, "Against the bars"));
+        let row = rows.into_iter().find(|cells| cells[0] == what);
+        row.expect("a bar").join("|")
+    };
+    let line = bar("ur5e rnea, m4f, engine / casadi: cycles");
+    let line = page
+        .lines()
+        .find(|l| l.starts_with("| ur5e rnea, m4f, engine / casadi: cycles"))
+        .filter(|_| !line.is_empty())
+        .expect("a line");
+    let now = line.split('|').nth(3).expect("a figure");
+    let other = line.replace(now, &now.replace("0.", "0.1"));
+    let refused = |page: &str| check(page, &promised).is_err();
+    assert!(refused(&page.replace(line, &other)));
+    assert!(refused(&page.replace(&format!("{line}\n"), "")));
+    assert!(refused(&page.replace(line, &line.replace("met", "missed"))));
+    // Cycles of the engine, in the table that the ratio is taken from.
+    let row = page.lines().find(|l| l.starts_with("| ur5e, engine "));
+    let row = row.expect("a row");
+    let cycles = row.split('|').nth(3).expect("cycles").trim();
+    assert!(refused(&page.replacen(row, &row.replace(cycles, "999"), 1)));
+    // Another promise than that of the page.
+    let mut stricter = promised.clone();
+    for ratio in stricter.values_mut() {
+        for (_, most) in ratio
+            .most
+            .iter_mut()
+            .filter(|(figure, _)| *figure == "cycles")
+        {
+            *most *= 0.9;
+        }
+    }
+    assert!(check(&page, &stricter).is_err());
+}
+
+/// The figures of a row of the decision's table by robot, and in how many digits.
+fn decided(name: &str) -> Vec<(String, f64, usize)> {
+    let path = root().join("docs/decisions/0002-bars.md");
+    let text = std::fs::read_to_string(path).expect("a decision");
+    let rows = rows_of(&text);
+    let row = rows.iter().find(|cells| cells[0] == name).expect("a row");
+    let figures = row[2].split([';', ',']).map(str::trim);
+    let read = |text: &str| {
+        let (robot, figure) = text.rsplit_once(' ').expect("robot and figure");
+        let robot = robot.replace(' ', "").to_lowercase();
+        let digits = figure.split_once('.').map_or(0, |(_, after)| after.len());
+        (robot, figure.parse().expect("a figure"), digits)
+    };
+    figures.map(read).collect()
+}
+
+#[test]
+fn the_decision_on_missed_bars_quotes_the_page() {
+    let page = page();
+    let bars = rows_of(under(&page, "Against the bars"));
+    let missed = |of: &str| -> usize {
+        let all = bars.iter().filter(|cells| cells[0].ends_with(of));
+        all.filter(|cells| cells[3].starts_with("missed")).count()
+    };
+    for (row, of) in [
+        (
+            "engine against Pinocchio on the host, f64",
+            "rnea, host f64, engine / pinocchio: ns",
+        ),
+        (
+            "engine CRBA against the best CasADi build",
+            "crba, m4f, engine / casadi: cycles",
+        ),
+    ] {
+        let quoted = decided(row);
+        assert_eq!(quoted.len(), missed(of), "{row}");
+        for (robot, figure, digits) in quoted {
+            let what = format!("{robot} {of}");
+            let cells = bars.iter().find(|cells| cells[0] == what);
+            let now: f64 =
+                number(cells.expect("a bar")[2].trim_end_matches('×')).expect("a figure");
+            let close = (now - figure).abs() <= 0.51 * 0.1_f64.powi(digits as i32);
+            assert!(
+                close,
+                "{row}, {robot}: {figure} in the decision, {now} on the page"
+            );
+        }
+    }
+}
+
+/// The measurements of robots with loops that a page shows.
+fn measured_loops(page: &str) -> Vec<Row> {
+    let part = under(page, "Host: robots with kinematic loops");
+    let (inverse, forward) = part.split_once("\n### Forward dynamics\n").expect("both");
+    let parts = [("loops inverse", inverse), ("loops forward", forward)];
+    let rows = parts.into_iter().flat_map(|(algorithm, part)| {
+        rows_of(part).into_iter().map(move |cells| {
+            let (robot, peer) = cells[0].split_once(", ").expect("robot and code");
+            Row {
+                target: HOST,
+                robot: robot.into(),
+                algorithm: algorithm.into(),
+                peer: peer.into(),
+                precision: "f64".into(),
+                ns: number(cells[1]),
+                ..Row::default()
+            }
+        })
+    });
+    rows.collect()
+}
+
+/// The ratios of a page's robots with loops, to half of their last digit and what rounding the times makes of it.
+fn loop_ratios_agree(page: &str) -> bool {
+    let ratios = |page: &str| -> Vec<f64> {
+        let rows = rows_of(under(page, "Host: robots with kinematic loops"));
+        rows.iter().filter_map(|cells| number(cells[2])).collect()
+    };
+    let report = Report {
+        rows: measured_loops(page),
+        compared: Vec::new(),
+        versions: Vec::new(),
+        date: String::new(),
+    };
+    let text = format!("\n## Host: robots with kinematic loops\n{}", report.loops());
+    let (written, again) = (ratios(page), ratios(&text));
+    let close = |(a, b): (&f64, &f64)| (a - b).abs() < 0.011;
+    written.len() == report.rows.len()
+        && written.len() == again.len()
+        && written.iter().zip(&again).all(close)
+}
+
+#[test]
+fn ratios_of_robots_with_loops_are_those_of_their_times() {
+    let page = page();
+    let robots = [
+        "delta",
+        "stewart",
+        "four_bar_leg",
+        "ankle_leg",
+        "delta_robot",
+        "stewart_platform",
+    ];
+    let rows = measured_loops(&page);
+    for robot in robots {
+        assert!(rows.iter().any(|row| row.robot == robot), "{robot}");
+    }
+    assert!(
+        loop_ratios_agree(&page),
+        "`cargo xtask peers --loops` rewrites it"
+    );
+    let row = page.lines().find(|line| line.starts_with("| delta, core "));
+    let row = row.expect("a row");
+    let ns = row.split('|').nth(2).expect("a time").trim();
+    assert!(!loop_ratios_agree(&page.replacen(
+        row,
+        &row.replace(ns, "999999.0"),
+        1
+    )));
+}

@@ -1,0 +1,276 @@
+//! A report in print: text for a terminal, Markdown for the docs.
+
+use std::path::Path;
+
+use crate::kit::bracket::Bracket;
+use crate::kit::meter::MODEL;
+use crate::kit::meter::{CLOCK_MHZ, Cost};
+use crate::kit::protocol::label;
+use crate::kit::table::{Column, Table, thousands};
+use crate::studies::scenes::report::{Errors, JointError, Report, Tracking};
+
+/// The column of the brackets.
+const BY_MANUAL: &str = "max by the manual";
+
+impl Report {
+    pub fn text(&self, plot: &Path) -> String {
+        let ticks = thousands(self.ticks_measured as u64);
+        let mut text = format!(
+            "\nCost of a tick, feed-forward, {ticks} ticks ({MODEL})\n\n{}",
+            self.costs(&[]).text()
+        );
+        for (what, tracking) in self.trackings() {
+            text += &format!("\n{what}\n\n{}", errors_table(tracking).text());
+        }
+        if !self.effects.is_empty() {
+            text += &format!("\n{WORTH}\n\n{}", self.worth().text());
+        }
+        let (memory, rustc, qemu) = (self.memory(), &self.rustc, &self.qemu);
+        text += &format!("\n{memory}\n{rustc}; {qemu}; µs at {CLOCK_MHZ} MHz\n");
+        if let Some(gains) = &self.gains {
+            let inertia = match gains.pose.ends_with("inertia") {
+                true => gains.pose.clone(),
+                false => format!("M's diagonal at the pose {}", gains.pose),
+            };
+            text += &format!(
+                "Feedback in every run: ω_n {:.1} rad/s, ζ {:.2}, on {inertia}\n",
+                gains.omega_n, gains.zeta
+            );
+        }
+        let (speed, gate) = (self.peak_speed, self.gate());
+        text + &format!(
+            "The reference reaches {speed:.2} rad/s\n{gate}Plot: {}\n",
+            plot.display()
+        )
+    }
+
+    /// For the README, with the brackets of the cycles by the parts of a tick.
+    pub fn markdown(&self, brackets: &[Bracket]) -> String {
+        let percent = |errors: &Errors, tracking: &Tracking| {
+            let share = 100.0 * errors.rms_rad / tracking.pd.rms_rad;
+            format!("{} ({share:.1} %)", milli(errors.rms_rad))
+        };
+        let (exact, off) = (&self.tracking, &self.tracking_mismatched);
+        let laws: Vec<_> = exact.laws().into_iter().zip(off.laws()).collect();
+        let table = Table::of(
+            &laws,
+            &[
+                ("tracking error RMS, mrad", &|((law, _), _)| label(law)),
+                ("exact model", &|((_, errors), _)| percent(errors, exact)),
+                ("model off", &|(_, (_, errors))| percent(errors, off)),
+            ],
+        );
+        format!(
+            include_str!("readme.md"),
+            ticks = thousands(self.ticks_measured as u64),
+            model = MODEL,
+            costs = self.costs(brackets).markdown(),
+            errors = table.markdown(),
+            memory = self.memory(),
+            rustc = self.rustc
+        )
+    }
+
+    fn worth(&self) -> Table {
+        let full = &self.tracking.feedforward;
+        let rows = self.effects.iter().map(|worth| {
+            let saved = [worth.cycles, worth.flash_bytes, worth.ram_bytes as i64];
+            (&*worth.effect, saved, &worth.without)
+        });
+        let rows: Vec<_> = std::iter::once(("(none dropped)", [0; 3], full))
+            .chain(rows)
+            .collect();
+        Table::of(
+            &rows,
+            &[
+                ("effect", &|(name, ..)| (*name).to_owned()),
+                ("saves cycles", &|(_, [cycles, ..], _)| signed(*cycles, "-")),
+                ("flash B", &|(_, [_, flash, _], _)| signed(*flash, "-")),
+                ("RAM B", &|(_, [.., ram], _)| signed(*ram, "-")),
+                ("error RMS, mrad", &|(.., errors)| milli(errors.rms_rad)),
+                ("max", &|(.., errors)| milli(errors.max_rad)),
+                ("RMS ×", &|(.., errors)| {
+                    format!("{:.1}", errors.rms_rad / full.rms_rad)
+                }),
+                ("safety gate", &|(.., errors)| gate(&errors.status)),
+            ],
+        )
+    }
+
+    /// The status of the safety gate: once, if it is the same in every run.
+    fn gate(&self) -> String {
+        let runs = self.trackings().into_iter().flat_map(|(what, tracking)| {
+            let laws = tracking.laws().into_iter();
+            laws.map(move |(law, e)| (format!("{what}, {}", label(law)), words(&e.status)))
+        });
+        let said: Vec<(String, String)> = runs.collect();
+        match said.as_slice() {
+            [(_, first), rest @ ..] if rest.iter().all(|(_, status)| status == first) => {
+                format!("Safety gate in every run: {first}\n")
+            }
+            each => each
+                .iter()
+                .map(|(run, status)| format!("Safety gate. {run}: {status}\n"))
+                .collect(),
+        }
+    }
+
+    fn trackings(&self) -> [(&'static str, &Tracking); 2] {
+        [
+            ("Tracking error, exact model", &self.tracking),
+            (
+                "Tracking error, plant's inertias off by up to ±3 %, friction by up to ±10 %",
+                &self.tracking_mismatched,
+            ),
+        ]
+    }
+
+    fn costs(&self, brackets: &[Bracket]) -> Table {
+        let by_manual = |name: &str| {
+            let number = self.tick.get_index_of(name)?;
+            Some(brackets.get(number)?.words())
+        };
+        let whole = self.tick["total"].cycles.median as f64;
+        let period = f64::from(self.period_us);
+        let microseconds = |cycles: u64| format!("{:.2}", cycles as f64 / CLOCK_MHZ);
+        let of_period = format!("of {} ms", period / 1e3);
+        let parts = self.tick.iter().skip(1).chain(self.tick.first());
+        let parts: Vec<_> = parts.collect();
+        let columns: [Column<'_, (&String, &Cost)>; 12] = [
+            ("phase", &|(name, _)| (*name).clone()),
+            ("insn min", &|(_, cost)| thousands(cost.instructions.min)),
+            ("median", &|(_, cost)| thousands(cost.instructions.median)),
+            ("max", &|(_, cost)| thousands(cost.instructions.max)),
+            ("cycles min", &|(_, cost)| thousands(cost.cycles.min)),
+            ("median", &|(_, cost)| thousands(cost.cycles.median)),
+            ("max", &|(_, cost)| thousands(cost.cycles.max)),
+            (BY_MANUAL, &|(name, _)| by_manual(name).unwrap_or_default()),
+            ("µs median", &|(_, cost)| microseconds(cost.cycles.median)),
+            ("µs max", &|(_, cost)| microseconds(cost.cycles.max)),
+            ("of the work", &|(_, cost)| {
+                format!("{:.1} %", 100.0 * cost.cycles.median as f64 / whole)
+            }),
+            (&of_period, &|(_, cost)| {
+                let share = cost.cycles.max as f64 / CLOCK_MHZ / period;
+                format!("{:.2} %", 100.0 * share)
+            }),
+        ];
+        let is_shown = |head: &str| !brackets.is_empty() || head != BY_MANUAL;
+        let columns = columns.into_iter().filter(|(head, _)| is_shown(head));
+        Table::of(&parts, &columns.collect::<Vec<_>>())
+    }
+
+    fn memory(&self) -> String {
+        format!(
+            "Flash {} B (of which {} B are the tick's code), RAM {} B, peak stack {} B",
+            thousands(self.flash_bytes),
+            thousands(self.tick_bytes),
+            thousands(self.ram_bytes),
+            thousands(self.stack_bytes)
+        )
+    }
+}
+
+/// A row per law: RMS and maximum of each joint and of all, the ratio to PD, and the longest tick.
+fn errors_table(tracking: &Tracking) -> Table {
+    let joints = tracking.pd.per_joint.len();
+    let joints: Vec<String> = (1..=joints).map(|joint| format!("joint {joint}")).collect();
+    let names = joints.iter().map(String::as_str);
+    let head = std::iter::once("mrad")
+        .chain(names)
+        .chain(["all", "of PD", "tick cycles"]);
+    let mut table = Table::new(&head.collect::<Vec<_>>());
+    type Pick = (fn(&Errors) -> f64, fn(&JointError) -> f64);
+    let kinds: [(&str, Pick); 2] = [
+        ("RMS", (|e| e.rms_rad, |j| j.rms_rad)),
+        ("max", (|e| e.max_rad, |j| j.max_rad)),
+    ];
+    for (kind, (all, each)) in kinds {
+        for (law, errors) in tracking.laws() {
+            let mut cells = vec![format!("{} {kind}", label(law))];
+            cells.extend(errors.per_joint.iter().map(|joint| milli(each(joint))));
+            cells.push(milli(all(errors)));
+            cells.push(format!("{:.1} %", 100.0 * all(errors) / all(&tracking.pd)));
+            cells.push(thousands(errors.tick_cycles));
+            table.row(cells);
+        }
+    }
+    table
+}
+
+/// A number with its sign in print, if that is a minus.
+pub fn signed(number: i64, minus: &str) -> String {
+    let sign = if number < 0 { minus } else { "" };
+    format!("{sign}{}", thousands(number.unsigned_abs()))
+}
+
+/// The caption of the table of effects.
+const WORTH: &str = "What each effect is worth: saved in the longest tick, in the tick's code and in the plant's RAM \
+     by dropping it, and the error then, exact model";
+
+/// The safety gate's status in a word or two.
+pub fn gate(status: &str) -> String {
+    let said = words(status);
+    let usual = ["the full law", "no fault", "no limit reached"];
+    let changed: Vec<&str> = said
+        .split(", ")
+        .filter(|part| !usual.contains(part))
+        .collect();
+    match changed.as_slice() {
+        [] => "silent".into(),
+        changed => changed.join(", "),
+    }
+}
+
+/// The safety gate's status in words, from `mode Full, fault None, limited false`.
+fn words(status: &str) -> String {
+    let mut text = status.to_owned();
+    for (logged, plain) in [
+        ("mode Full", "the full law"),
+        ("mode Hold", "brought to rest"),
+        ("mode Stopped", "stopped on the brake"),
+        ("fault None", "no fault"),
+        ("limited false", "no limit reached"),
+        ("limited true", "torque or its rate limited"),
+        ("fault Some(", "fault: "),
+        (" }),", ","),
+        ("),", ","),
+        (" { joint: ", " of joint "),
+    ] {
+        text = text.replace(logged, plain);
+    }
+    text
+}
+
+pub fn milli(radians: f64) -> String {
+    format!("{:.3}", 1e3 * radians)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::words;
+
+    #[test]
+    fn a_status_is_written_in_words() {
+        for (logged, expected) in [
+            (
+                "mode Full, fault None, limited false",
+                "the full law, no fault, no limit reached",
+            ),
+            (
+                "mode Hold, fault Some(Encoder { joint: 2 }), limited true",
+                "brought to rest, fault: Encoder of joint 2, torque or its rate limited",
+            ),
+            (
+                "mode Stopped, fault Some(Stale), limited false",
+                "stopped on the brake, fault: Stale, no limit reached",
+            ),
+            (
+                "mode Stopped, fault Some(External), limited false",
+                "stopped on the brake, fault: External, no limit reached",
+            ),
+        ] {
+            assert_eq!(words(logged), expected);
+        }
+    }
+}

@@ -115,7 +115,7 @@ impl Reference<f32, {V}> for {name} {{
 
 const HEADER: &str = "//! Written by `identification::FourierMotion::rust_source`.
 
-use motion_control::Reference;
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
+use motion_control::Reference;
 ";

@@ -70,7 +70,7 @@ fn leads_somewhere(page: &Path, link: &str) -> bool {
         return true;
     }
     let (path, anchor) = link.split_once('#').unwrap_or((link, ""));
-    if let Some((_, item)) = path.split_once("dynamics_core/") {
+    if let Some((_, item)) = path.split_once("doc/") {
         let id = format!("id=\"{anchor}\"");
         let page = DOCUMENTED
             .pages
@@ -90,9 +90,17 @@ fn leads_somewhere(page: &Path, link: &str) -> bool {
     target.exists() && (anchor.is_empty() || has_heading())
 }
 
-/// Where `cargo doc` writes the library's documentation, beside that of `identification`.
+/// The crates whose items the guide names, as `cargo` and as `rustdoc` call them.
+const CRATES: [(&str, &str); 4] = [
+    ("dynamics-core", "dynamics_core"),
+    ("motion-control", "motion_control"),
+    ("joint-drivers", "joint_drivers"),
+    ("identification", "identification"),
+];
+
+/// Where `cargo doc` writes.
 fn reference() -> PathBuf {
-    Path::new(env!("CARGO_TARGET_TMPDIR")).with_file_name("doc/dynamics_core")
+    Path::new(env!("CARGO_TARGET_TMPDIR")).with_file_name("doc")
 }
 
 /// What `cargo doc` wrote: its pages, and the names of items, `Type::member` and variants.
@@ -106,16 +114,13 @@ static DOCUMENTED: LazyLock<Documented> = LazyLock::new(|| {
         .parent()
         .expect("the target's directory");
     let mut cargo = Command::new(env!("CARGO"));
-    cargo.args([
-        "doc",
-        "--quiet",
-        "--no-deps",
-        "--package",
-        "dynamics-core",
-        "--package",
-        "identification",
-        "--target-dir",
-    ]);
+    cargo.args(["doc", "--quiet", "--no-deps"]);
+    cargo.args(
+        CRATES
+            .iter()
+            .flat_map(|(package, _)| ["--package", package]),
+    );
+    cargo.arg("--target-dir");
     let header = root().canonicalize().expect("a path");
     let header = header.join("dynamics-core/katex.html");
     cargo.env(
@@ -124,7 +129,8 @@ static DOCUMENTED: LazyLock<Documented> = LazyLock::new(|| {
     );
     assert!(cargo.arg(target).status().expect("cargo").success());
     let (mut pages, mut names) = (BTreeSet::new(), BTreeSet::new());
-    for folder in [reference(), reference().with_file_name("identification")] {
+    for (_, library) in CRATES {
+        let folder = reference().join(library);
         let all = read_to_string(folder.join("all.html")).expect("the list of all items");
         for page in between(&all, "href=\"", '"') {
             let file: Vec<&str> = page
@@ -136,9 +142,7 @@ static DOCUMENTED: LazyLock<Documented> = LazyLock::new(|| {
             let &[_, item, "html"] = file.as_slice() else {
                 continue;
             };
-            if folder == reference() {
-                pages.insert(page.to_owned());
-            }
+            pages.insert(format!("{library}/{page}"));
             names.insert(item.to_owned());
             let text = read_to_string(folder.join(page)).expect("the page of an item");
             for id in between(&text, "id=\"", '"') {

@@ -293,7 +293,7 @@ fn torques_near_a_singularity_come_with_their_conditioning() {
     hold(
         "transmission of a four-bar against the sine rule",
         error,
-        1e-9,
+        1e-13,
     );
     let (_, damped) = at(1e-12);
     let error = damped.regular(NEAR_SINGULAR).expect_err("it is damped");

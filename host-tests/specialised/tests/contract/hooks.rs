@@ -418,7 +418,7 @@ fn declared(source: &str) -> Vec<&str> {
             let end = rest.find(|c: char| !c.is_alphanumeric() && c != '_')?;
             Some(&rest[..end])
         })
-        .filter(|name| !["R", "fn"].contains(name))
+        .filter(|name| !["", "R", "fn"].contains(name))
         .collect();
     names.sort_unstable();
     names.dedup();

@@ -297,7 +297,7 @@ fn torques_near_a_singularity_come_with_their_conditioning() {
     );
     let (_, damped) = at(1e-12);
     let error = damped.regular(NEAR_SINGULAR).expect_err("it is damped");
-    assert!(error.damped && error.to_string().contains("near a singular configuration"));
+    assert!(error.damped && error.to_string().contains("at a singular configuration"));
 }
 
 #[test]

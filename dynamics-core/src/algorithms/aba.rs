@@ -9,13 +9,14 @@ use core::borrow::Borrow;
 
 use heapless::Vec;
 
+use super::hybrid_dynamics::{prescribed_factor, prescribed_torque};
 use super::pivot_check::{Magnitude, PivotCheck};
 use super::rnea::external_force;
+use super::rotors::with_rotor;
 use super::tree_pass::per_body;
 use super::{JointResult, NotPositiveDefinite, Prescribed};
 use crate::effects::{
-    Effect, Scene, base_motion, body_inertia, gyroscopic, joint_state, joint_torque, load_friction,
-    rotor_force, transmitted,
+    Effect, Scene, base_motion, body_inertia, gyroscopic, joint_state, joint_torque, transmitted,
 };
 use crate::model::{JointKind, LinkView, RobotModel};
 use crate::scalar::{Matrix, Real};
@@ -105,10 +106,10 @@ struct Body<'a, R: Real> {
 
 /// The results of the inward pass for a coordinate: U, 1/D and u; for a prescribed motion, only U and sᵀ pᴬ.
 #[derive(Clone, Copy)]
-struct JointFactor<R: Real> {
-    u_a: Force<R>,
-    d_inv: R,
-    u: R,
+pub(super) struct JointFactor<R: Real> {
+    pub(super) u_a: Force<R>,
+    pub(super) d_inv: R,
+    pub(super) u: R,
 }
 
 /// The three passes of table 7.1; each coordinate's torque or its acceleration is `given`.
@@ -228,28 +229,16 @@ where
                     effects.add_inertia(joint, &mut d);
                     pivots.check((&body.link, k), turns, (u_a, d), joint)?;
                     let d_inv = R::ONE / d;
-                    let tau =
-                        transmitted(effects, joint, joint_state(&body.link, state, joint), tau);
+                    let at = joint_state(&body.link, state, joint);
+                    let tau = transmitted(effects, joint, at, tau);
                     let u = tau - joint_torque(effects, &body.link, state, joint) - s.dot(pa);
-                    // Compiled in one place or the other: a sum that may be made or not costs scenes without rotors
-                    // 18 instructions.
-                    if E::GYROSCOPIC_ROTORS {
-                        let u_a = u_a + rotor_force(effects, &body.link);
-                        eliminate(&mut ia, &mut pa, JointFactor { u_a, d_inv, u })
-                    } else {
-                        eliminate(&mut ia, &mut pa, JointFactor { u_a, d_inv, u })
-                    }
+                    let u_a = with_rotor(effects, &body.link, u_a);
+                    ia = ia.minus_outer(u_a, d_inv);
+                    pa += u_a * (u * d_inv);
+                    JointFactor { u_a, d_inv, u }
                 }
                 Prescribed::Acceleration(qdd) => {
-                    let (d_inv, u) = (R::ZERO, s.dot(pa));
-                    if E::GYROSCOPIC_ROTORS {
-                        let u_a = u_a + rotor_force(effects, &body.link);
-                        pa += u_a * qdd;
-                        JointFactor { u_a, d_inv, u }
-                    } else {
-                        pa += u_a * qdd;
-                        JointFactor { u_a, d_inv, u }
-                    }
+                    prescribed_factor(effects, &body.link, s, u_a, qdd, &mut pa)
                 }
             };
             let _ = factors.push(factor);
@@ -263,20 +252,6 @@ where
         left = inner;
     }
     Ok(())
-}
-
-/// Iᵃ = Iᴬ − U D⁻¹ Uᵀ and pᴬ + U D⁻¹ u: the articulated body with the coordinate free. A spinning rotor is included in
-/// U, since it is mounted on the parent's side of the joint and rotates with its q̈.
-#[inline(always)]
-fn eliminate<R: Real>(
-    ia: &mut ArticulatedInertia<R>,
-    pa: &mut Force<R>,
-    factor: JointFactor<R>,
-) -> JointFactor<R> {
-    let JointFactor { u_a, d_inv, u } = factor;
-    *ia = ia.minus_outer(u_a, d_inv);
-    *pa += u_a * (u * d_inv);
-    factor
 }
 
 /// Pass 3: q̈ᵢ = D⁻¹ (u − Uᵀ a′) with a′ = X a_λ + c, and aᵢ = a′ + S q̈. The factors are used in reverse order.
@@ -314,19 +289,11 @@ where
             let (tau, qdd) = match given(joint) {
                 Prescribed::Torque(tau) => (tau, (u - a_i.dot(u_a)) * d_inv),
                 Prescribed::Acceleration(qdd) => {
-                    let (mut tau, mut armature) = (a_i.dot(u_a) + s.dot(u_a) * qdd + u, R::ZERO);
-                    if E::GYROSCOPIC_ROTORS {
-                        tau -= s.dot(rotor_force(effects, &body.link)) * qdd;
-                    }
-                    effects.add_inertia(joint, &mut armature);
-                    tau += armature * qdd + joint_torque(effects, &body.link, state, joint);
-                    load_friction(
-                        effects,
-                        joint,
-                        joint_state(&body.link, state, joint),
-                        &mut tau,
-                    );
-                    (tau, qdd)
+                    let load = a_i.dot(u_a) + s.dot(u_a) * qdd + u;
+                    (
+                        prescribed_torque(effects, &body.link, state, joint, s, load, qdd),
+                        qdd,
+                    )
                 }
             };
             a_i = s.add_scaled_to(a_i, qdd);

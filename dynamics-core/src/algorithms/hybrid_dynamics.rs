@@ -6,13 +6,13 @@
 use core::borrow::Borrow;
 
 use super::NotPositiveDefinite;
-use super::aba::sweep;
-use crate::effects::Effect;
-use crate::effects::Scene;
+use super::aba::{JointFactor, sweep};
+use super::rotors::with_rotor;
+use crate::effects::{Effect, Scene, joint_state, joint_torque, load_friction, rotor_force};
 use crate::model::{LinkView, RobotModel};
 use crate::scalar::{Real, Vector};
-use crate::spatial::Motion;
-use crate::state::{Configuration, RobotState, entry};
+use crate::spatial::{Force, Motion, MotionSubspace};
+use crate::state::{Configuration, RobotState, State, entry};
 
 /// The given quantity of a coordinate; hybrid dynamics computes the other.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -104,4 +104,47 @@ where
     let trig = state.configuration().trig_of(robot);
     let (trig, state) = (trig.borrow(), state.state());
     sweep(robot, trig, state, effects, |joint| entry(given, joint))
+}
+
+/// Pass 2 of a coordinate with a prescribed motion, which stays part of the articulated body: pᴬ + U q̈, U and sᵀ pᴬ.
+#[inline(always)]
+pub(super) fn prescribed_factor<R: Real, E, const B: usize, const V: usize>(
+    effects: &E,
+    link: &LinkView<'_, R>,
+    s: MotionSubspace<R>,
+    u_a: Force<R>,
+    qdd: R,
+    pa: &mut Force<R>,
+) -> JointFactor<R>
+where
+    E: Effect<R, B, V>,
+{
+    let (d_inv, u) = (R::ZERO, s.dot(*pa));
+    let u_a = with_rotor(effects, link, u_a);
+    *pa += u_a * qdd;
+    JointFactor { u_a, d_inv, u }
+}
+
+/// Pass 3 of a coordinate with a prescribed motion: its torque, from the load Uᵀ a′ + sᵀ U q̈ + sᵀ pᴬ of the articulated body.
+#[inline(always)]
+pub(super) fn prescribed_torque<R: Real, E, const B: usize, const Q: usize, const V: usize>(
+    effects: &E,
+    link: &LinkView<'_, R>,
+    state: &State<R, Q, V>,
+    joint: usize,
+    s: MotionSubspace<R>,
+    load: R,
+    qdd: R,
+) -> R
+where
+    E: Effect<R, B, V>,
+{
+    let (mut tau, mut armature) = (load, R::ZERO);
+    if E::GYROSCOPIC_ROTORS {
+        tau -= s.dot(rotor_force(effects, link)) * qdd;
+    }
+    effects.add_inertia(joint, &mut armature);
+    tau += armature * qdd + joint_torque(effects, link, state, joint);
+    load_friction(effects, joint, joint_state(link, state, joint), &mut tau);
+    tau
 }

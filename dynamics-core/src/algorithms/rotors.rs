@@ -6,7 +6,7 @@
 use crate::effects::{Effect, gyroscopic, rotor_force};
 use crate::model::LinkView;
 use crate::scalar::Real;
-use crate::spatial::Motion;
+use crate::spatial::{Force, Motion};
 use crate::state::{State, entry};
 
 /// The couple that the rotor of a joint exerts on the parent link, in the body's frame, and the torque at the rotor due
@@ -33,4 +33,21 @@ where
     let qdd = rate(E::ACCELERATIONS, &state.qdd);
     let couple = gyroscopic(effects, link, v_i.ang, qd, qdd);
     (couple, a_parent.dot(rotor_force(effects, link)))
+}
+
+/// U, and the force of the rotor's spin: mounted on the parent's side of the joint, it rotates with the joint's q̈.
+#[inline(always)]
+pub(super) fn with_rotor<R: Real, E, const B: usize, const V: usize>(
+    effects: &E,
+    link: &LinkView<'_, R>,
+    u_a: Force<R>,
+) -> Force<R>
+where
+    E: Effect<R, B, V>,
+{
+    if E::GYROSCOPIC_ROTORS {
+        u_a + rotor_force(effects, link)
+    } else {
+        u_a
+    }
 }

@@ -9,8 +9,10 @@ use serde_json::Value;
 use crate::kit::error::{Error, Result, check};
 use crate::kit::shell;
 
-/// The package whose bins are the scenes and the checks that run on the target.
-pub const FIRMWARE: &str = "firmware-demo";
+/// The packages whose bins run on the target: the demo's scenes, and what the laboratory measures. Cargo finds a bin
+/// and a feature in the one that has it.
+pub const FIRMWARE: [&str; 2] = ["firmware-demo", LAB];
+pub const LAB: &str = "lab-target";
 
 /// The workspace that xtask was called in.
 pub struct Workspace {
@@ -66,7 +68,7 @@ impl Workspace {
         let lacks = || check!("`cargo metadata` names no directories");
         let list = |value: &Value| value.as_array().cloned().unwrap_or_default();
         let packages = list(&metadata["packages"]).into_iter();
-        let targets = packages.filter(|package| package["name"] == FIRMWARE);
+        let targets = packages.filter(|package| FIRMWARE.iter().any(|name| package["name"] == *name));
         let targets = targets.flat_map(|package| list(&package["targets"]));
         let bins = targets.filter(|target| {
             let is_bin = list(&target["kind"]).iter().any(|kind| kind == "bin");

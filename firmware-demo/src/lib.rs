@@ -3,36 +3,23 @@
 //!
 //! | module | what | on hardware |
 //! |---|---|---|
-//! | [`contact`] | an arm that finds contacts without sensors, and reacts | its tick |
 //! | [`control_loop`] | the tick: read, reference, dynamics, safety, write | as it is |
 //! | [`joint_drivers`] | an AS5047P on SPI, a current-controlled drive on PWM | as they are |
-//! | [`digest`] | digests of the dynamics' results on recorded states | as they are |
-//! | [`faults`] | arms under injected faults, on host and target | left out |
-//! | [`hard`] | hard cases that host and target share | left out |
-//! | [`learning`] | an arm that finds its own parameters, and weighs its load | its tick |
+//! | [`digest`] | a digest of many numbers, to compare machines by | as it is |
 //! | [`marker`] | the measured regions | `dbg` is a no-op there |
 //! | [`plant`], [`sim_io`] | a simulated robot behind the same traits | left out |
 //! | [`replay`] | the control loop of a scene without a simulated robot, with a digest of its torques | as it is |
 //! | [`scene`] | runs of one trajectory under several laws, with their tracking errors | left out |
 //! | [`robots`] | robots that no manufacturer publishes | left out |
 //! | [`scenes`] | the data sheet of each scene | left out |
-//! | [`effect_presets`], [`trajectories`] | every effect with numbers, and motions to price effects by | left out |
-//! | `accuracy` (feature of that name) | the ways to compute a torque that `cargo xtask accuracy` compares | left out |
+//! | [`trajectories`] | the motions of the scenes | left out |
 //! | `watched` (feature `telemetry`) | a scene that runs without end and sends its telemetry | the queue and its two sides |
 //! | `pil` (feature `telemetry`) | a scene's controller, its robot simulated by a program on the host | left out |
 //! | `target` | interrupt, log, panic handler of the emulated board | your board's |
 #![no_std]
 
-#[cfg(feature = "accuracy")]
-pub mod accuracy;
-pub mod contact;
 pub mod control_loop;
 pub mod digest;
-pub mod effect_presets;
-pub mod faults;
-pub mod hard;
-#[cfg(not(armv6m))] // its tick has eight regions
-pub mod learning;
 pub mod marker;
 #[cfg(feature = "telemetry")]
 pub mod pil;

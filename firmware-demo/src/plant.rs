@@ -2,11 +2,9 @@
 //! outside the measured regions.
 
 use dynamics_core::algorithms::NotPositiveDefinite;
-use dynamics_core::effects::{Effect, JointState};
-use dynamics_core::model::{Calibrated, Robot, RobotModel};
-use dynamics_core::sim::{
-    Integrator, KahanState, LinearlyImplicit, ModelDynamics, linearly_implicit, momentum_preserving,
-};
+use dynamics_core::effects::Effect;
+use dynamics_core::model::{Calibrated, Robot};
+use dynamics_core::sim::{linearly_implicit, momentum_preserving};
 use dynamics_core::spatial::Force;
 use dynamics_core::state::State;
 
@@ -180,36 +178,6 @@ where
             h,
         )
     }
-}
-
-/// One linearly implicit step of `h` seconds with compensated sums, under a scene that contains `friction`, whose bristles then
-/// move on.
-///
-/// # Errors
-/// As forward dynamics.
-pub(crate) fn compensated_step<D, E, F, const N: usize>(
-    robot: &D,
-    at: &mut KahanState<f32, N, true>,
-    tau: [f32; N],
-    (scene, friction): (&E, &mut F),
-    h: f32,
-) -> Result<(), NotPositiveDefinite>
-where
-    D: RobotModel<f32, N, N, N>,
-    E: Effect<f32, N, N>,
-    F: Effect<f32, N, N>,
-{
-    let mechanics = ModelDynamics {
-        robot,
-        tau,
-        effects: scene,
-    };
-    let step = LinearlyImplicit.step(&mechanics, &at.state, h)?;
-    at.add(&step, h);
-    for (joint, (&q, &qd)) in at.state.q.iter().zip(&at.state.qd).enumerate() {
-        friction.advance(joint, JointState::new(q, qd), h);
-    }
-    Ok(())
 }
 
 /// The torques of all coordinates from those of the driven joints.

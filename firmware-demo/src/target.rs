@@ -225,25 +225,6 @@ macro_rules! scene_main {
     };
 }
 
-/// The `main` of a scene that is not about tracking: the names of its regions and columns, and the function that reports
-/// its rows.
-#[macro_export]
-macro_rules! trial_main {
-    ($regions:expr, $columns:expr, $rows:path) => {
-        #[::cortex_m_rt::entry]
-        fn main() -> ! {
-            for name in $regions {
-                ::defmt::println!("region {=str}", name);
-            }
-            ::defmt::println!("columns {=str}", $columns);
-            $rows(|row| ::defmt::println!("row {}", ::defmt::Display2Format(row)));
-            ::defmt::println!("stack {=usize}", $crate::target::stack_peak());
-            ::defmt::println!("done");
-            $crate::target::leave(::cortex_m_semihosting::debug::EXIT_SUCCESS)
-        }
-    };
-}
-
 /// Leaves the emulator with a message and a failure.
 pub fn fail(why: &str) -> ! {
     defmt::error!("{=str}", why);

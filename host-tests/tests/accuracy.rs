@@ -1,7 +1,7 @@
 //! The ways to compute that `cargo xtask accuracy` compares: that there are enough of them, each once, and that the
 //! default and its oracle are as good as the report says.
 
-#[path = "../reports/src/bin/accuracy/motion.rs"]
+#[path = "../../lab/reports/src/bin/accuracy/motion.rs"]
 mod motion;
 
 use std::collections::BTreeSet;
@@ -14,16 +14,16 @@ use dynamics_core::state::IncrementalTrig;
 use dynamics_core::state::State;
 use dynamics_core::trig::{Kernel, Minimax, Table};
 use dynamics_core::{Core, Engine};
-use firmware_demo::accuracy::inverse::In;
-use firmware_demo::accuracy::key::Key;
-use firmware_demo::accuracy::model::{Full, InUnits, Rounded};
-use firmware_demo::accuracy::numbers::{Compensated, Fixed, FixedPoint, HalfTurns};
-use firmware_demo::accuracy::robots::momentary;
-use firmware_demo::accuracy::simulation::{self, DoublePendulum, PassiveMotion};
-use firmware_demo::accuracy::{Inverse, Visitor, list};
 use host_tests::measured::largest;
 use host_tests::recordings::{Precise, load, read};
 use host_tests::tolerances::check;
+use lab_target::accuracy::inverse::In;
+use lab_target::accuracy::key::Key;
+use lab_target::accuracy::model::{Full, InUnits, Rounded};
+use lab_target::accuracy::numbers::{Compensated, Fixed, FixedPoint, HalfTurns};
+use lab_target::accuracy::robots::momentary;
+use lab_target::accuracy::simulation::{self, DoublePendulum, PassiveMotion};
+use lab_target::accuracy::{Inverse, Visitor, list};
 use motion_control::{FirstOrderHold, InertiaUpdate};
 
 /// The ways' names.

@@ -2,11 +2,11 @@
 //! reaction of the contract, the arm comes back, and the table of `docs/guide/src/faults.md` is what was observed.
 //! `TABLES_WRITE=1` writes the table.
 
-use firmware_demo::faults::{
+use host_tests::page::Table;
+use lab_target::faults::{
     HOLD, Kind, Observed, Pendulum, Plant, RIDE, Setup, TICK, TICKS, Ur5eArm, Violation, at_speed,
     controller, one,
 };
-use host_tests::page::Table;
 use motion_control::{
     CurrentTick, Fault, Mode, MotionController, Reaction, StopCategory, Trajectory, WayPoint,
 };

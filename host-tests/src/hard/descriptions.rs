@@ -10,7 +10,7 @@ use dynamics_core::model::{
 };
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
-use firmware_demo::hard::{DOUBLE, EXCESS, N};
+use lab_target::hard::{DOUBLE, EXCESS, N};
 
 /// The family's cases.
 pub const CASES: &[Case] = &[

@@ -7,7 +7,7 @@ use dynamics_core::model::{ArmModel, Robot};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
-use firmware_demo::hard::{DOUBLE, N, SINGLE, scene, state};
+use lab_target::hard::{DOUBLE, N, SINGLE, scene, state};
 
 /// The family's cases.
 pub const CASES: &[Case] = &[Case {

@@ -7,8 +7,8 @@ use super::setup::{Setup, literally_in_f64, turning, widened};
 use super::{Case, Row};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
-use firmware_demo::hard::{Answers, N, RENUMBERING, Scene, answers_to, scene};
 use glam::DMat3;
+use lab_target::hard::{Answers, N, RENUMBERING, Scene, answers_to, scene};
 
 /// The family's cases.
 pub const CASES: &[Case] = &[

@@ -5,7 +5,7 @@ use super::naive::floored;
 use super::setup::list::{arm, light_links};
 use super::{Case, Row};
 use dynamics_core::algorithms::NotPositiveDefinite;
-use firmware_demo::hard::{N, Scene, scene};
+use lab_target::hard::{N, Scene, scene};
 
 const ORACLE: &str = "computation in 50 digits from the same f32 bits (oracle/hard.py)";
 
@@ -121,7 +121,7 @@ fn massless_tip() -> Vec<Row> {
 
 /// Whom each algorithm of forward dynamics names.
 pub(super) fn refusals<R, const K: usize>(
-    a: &firmware_demo::hard::Answers<R, K>,
+    a: &lab_target::hard::Answers<R, K>,
 ) -> [Option<NotPositiveDefinite>; 4] {
     [
         a.forward.as_ref().err().copied(),

@@ -5,7 +5,7 @@ use super::setup::{Setup, TrueState};
 use crate::measured::largest;
 use dynamics_core::algorithms::NotPositiveDefinite;
 use dynamics_core::scalar::Real;
-use firmware_demo::hard::Answers;
+use lab_target::hard::Answers;
 
 /// The quantities, in the order of [`ErrorBounds`].
 const QUANTITIES: [&str; 5] = [

@@ -11,7 +11,7 @@ use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::model::{ArmModel, BASE, Body, Joint, Model};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
-use firmware_demo::hard::{GRAVITY, N, scene};
+use lab_target::hard::{GRAVITY, N, scene};
 use proptest::test_runner::TestRng;
 
 const ORACLE: &str = "computation in 50 digits from the same f32 bits (oracle/hard.py)";

@@ -6,7 +6,7 @@ use super::setup::list::{arm, reframed};
 use super::setup::{Setup, widened};
 use super::{Case, Row};
 use dynamics_core::scalar::Real;
-use firmware_demo::hard::{Answers, GRAVITY, N, scene};
+use lab_target::hard::{Answers, GRAVITY, N, scene};
 
 /// The family's cases.
 pub const CASES: &[Case] = &[

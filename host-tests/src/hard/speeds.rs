@@ -7,8 +7,8 @@ use super::{Case, Row};
 use dynamics_core::algorithms::rnea;
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
-use firmware_demo::hard::{N, counts, scene};
 use joint_drivers::MultiTurnEncoder;
+use lab_target::hard::{N, counts, scene};
 use motion_control::{Fault, SafetyLimits, Supervisor, SupervisorConfig};
 
 const ORACLE: &str = "computation in 50 digits from the same f32 bits (oracle/hard.py)";

@@ -1,11 +1,12 @@
 //! The library's modules in one-way layers: the table at the top of `lib.rs` lists them in order, and none uses a
-//! later one. A module that is not in it, such as the forms for a feature, stands above all.
+//! later one. A module that is not in it, such as the forms for a feature, stands above all. And the packages: what
+//! ships uses neither the tests nor what measures.
 
 use std::path::Path;
 
 use crate::kit::error::{Error, Result, refuse_if};
 use crate::kit::sources::{code, sources};
-use crate::kit::workspace;
+use crate::kit::workspace::{self, Use, Workspace};
 
 /// The beginning of a row of the table; its first column has the names of modules in backticks.
 const ROW: &str = "//! | ";
@@ -21,8 +22,30 @@ struct Order {
     exports: Vec<(String, String)>,
 }
 
+/// The laboratory, and what else does not ship.
+const LAB: &str = "lab";
+const UNSHIPPED: [&str; 2] = ["host-tests", "xtask"];
+
+/// Fails with every use against the order, of packages and of the library's modules.
+pub fn check(workspace: &Workspace) -> Result<String> {
+    let wrong: Vec<String> = workspace.uses.iter().filter_map(complaint).collect();
+    refuse_if!(!wrong.is_empty(), "{}", wrong.join("\n"));
+    modules(&workspace.root)
+}
+
+/// The complaint about a package that ships and uses one that does not. Its tests may use those of `host-tests`. What
+/// a package uses through others needs no search: each of them ships, so that the same holds for it.
+fn complaint(a: &Use) -> Option<String> {
+    let is_unshipped = |path: &Path| UNSHIPPED.iter().any(|folder| path.starts_with(folder));
+    let (by_lab, of_lab) = (a.user.starts_with(LAB), a.used.starts_with(LAB));
+    let ships = !by_lab && !is_unshipped(&a.user);
+    let is_wrong = ships && (of_lab || !a.is_for_tests && is_unshipped(&a.used));
+    let (user, used) = (a.user.display(), a.used.display());
+    is_wrong.then(|| format!("{user}/Cargo.toml: what ships uses `{used}`, which does not"))
+}
+
 /// Fails with every place where a module of the library uses a later one; modules within a module count as it.
-pub fn check(root: &Path) -> Result<String> {
+fn modules(root: &Path) -> Result<String> {
     let library = root.join("dynamics-core/src");
     let order = Order::read(&workspace::read(&library.join("lib.rs"))?)?;
     let (mut uses, mut wrong) = (0, Vec::new());
@@ -169,7 +192,8 @@ fn names_at(text: &str, from: usize) -> Vec<(usize, String)> {
 mod tests {
     use std::path::Path;
 
-    use super::{check, used};
+    use super::{complaint, modules, used};
+    use crate::kit::workspace::{Use, Workspace};
 
     /// A library of three layers, the middle one of two files, with this text in one of them.
     fn tree(name: &str, file: &str, text: &str) -> Result<String, String> {
@@ -197,9 +221,55 @@ mod tests {
             "use crate::{model, scalar::Real};\nuse super::model::Body;\n",
         );
         put(file, text);
-        let outcome = check(&root).map_err(|error| error.to_string());
+        let outcome = modules(&root).map_err(|error| error.to_string());
         std::fs::remove_dir_all(&root).expect("gone again");
         outcome
+    }
+
+    fn verdict(user: &str, used: &str, is_for_tests: bool) -> Option<String> {
+        complaint(&Use {
+            user: user.into(),
+            used: used.into(),
+            is_for_tests,
+        })
+    }
+
+    #[test]
+    fn what_ships_must_not_use_the_laboratory() {
+        let error = verdict("firmware-demo", "lab/history", false).expect("refused");
+        assert_eq!(
+            error,
+            "firmware-demo/Cargo.toml: what ships uses `lab/history`, which does not"
+        );
+        for (user, used, is_for_tests) in [
+            ("identification", "lab/target", true),
+            ("telemetry/pil", "host-tests", false),
+            ("boards/pico2", "xtask", false),
+        ] {
+            assert!(verdict(user, used, is_for_tests).is_some(), "{user}");
+        }
+        for (user, used, is_for_tests) in [
+            ("firmware-demo", "drivers", false),
+            ("identification", "host-tests", true),
+            ("host-tests/loops", "lab/target", false),
+            ("lab/reports", "host-tests", false),
+            ("xtask", "lab/meter", false),
+        ] {
+            assert_eq!(verdict(user, used, is_for_tests), None);
+        }
+    }
+
+    #[test]
+    fn the_workspace_names_what_its_packages_use() {
+        let uses = Workspace::find().expect("a workspace").uses;
+        let has = |user: &str, used: &str, is_for_tests: bool| {
+            uses.iter().any(|a| {
+                let names = (a.user.as_path(), a.used.as_path(), a.is_for_tests);
+                names == (Path::new(user), Path::new(used), is_for_tests)
+            })
+        };
+        assert!(has("lab/target", "lab/history", false));
+        assert!(has("identification", "host-tests", true));
     }
 
     #[test]

@@ -8,24 +8,14 @@ use serde::Deserialize;
 
 use crate::kit::elf;
 use crate::kit::error::{Error, Result, check};
-use crate::kit::scene::{Scene, Trial};
 use crate::kit::sources::{code, lines_of_code, sources};
 use crate::kit::table::{Table, thousands};
 use crate::kit::workspace::{self, Workspace};
 
 const FILE: &str = "budgets.toml";
-/// The bins of the firmware; those of scenes are the demo's.
-const BINS: &str = "firmware-demo/src/bin/";
 const LIBRARY: [&str; 2] = ["dynamics-core/src/", "motion-control/src/"];
 /// The laboratory, and xtask with its tests.
-#[rustfmt::skip]
-const APPARATUS: [&str; 14] = [
-    "lab/", "xtask/",
-    "host-tests/cycle-meter/", "host-tests/history/", "host-tests/mutants/", "host-tests/peers/", "host-tests/reports/",
-    "host-tests/trials/",
-    "firmware-demo/src/accuracy/", "firmware-demo/src/contact/", "firmware-demo/src/faults/", "firmware-demo/src/hard/",
-    "firmware-demo/src/learning/", BINS,
-];
+const APPARATUS: [&str; 2] = ["lab/", "xtask/"];
 
 /// The purpose of a line of code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -50,13 +40,7 @@ impl Kind {
         let text = path.to_string_lossy().replace('\\', "/");
         let is_below = |places: &[&str]| places.iter().any(|place| text.starts_with(place));
         let is_test = |name: &str| matches!(name, "tests" | "tests.rs" | "host-tests");
-        let bin = text.strip_prefix(BINS);
-        let bin = bin.map(|rest| rest.strip_suffix(".rs").unwrap_or(rest));
-        let scenes = Scene::all().iter().map(|scene| scene.name());
-        let mut scenes = scenes.chain(Trial::all().iter().map(|trial| trial.name()));
-        if bin.is_some_and(|bin| scenes.any(|scene| scene == bin)) {
-            Self::Product
-        } else if is_below(&APPARATUS) {
+        if is_below(&APPARATUS) {
             Self::Apparatus
         } else if path.iter().any(|name| is_test(&name.to_string_lossy())) {
             Self::Tests
@@ -213,7 +197,7 @@ fn identity(_: &std::fs::Metadata, path: &Path) -> PathBuf {
 mod tests {
     use std::path::Path;
 
-    use super::{BINS, Bounds, FILE, Kind, Lines, Weight, bytes_below, elf};
+    use super::{Bounds, FILE, Kind, Lines, Weight, bytes_below, elf};
     use crate::kit::docs::repository::root;
 
     const BOUNDS: Bounds = Bounds {
@@ -268,7 +252,6 @@ mod tests {
 
     #[test]
     fn the_laboratory_is_apparatus_and_a_scene_is_none() {
-        let scene = format!("{BINS}ur5e.rs");
         for (path, kind) in [
             ("dynamics-core/src/algorithms/rnea.rs", Kind::Library),
             ("dynamics-core/src/tests.rs", Kind::Tests),
@@ -276,11 +259,10 @@ mod tests {
             ("drivers/src/lib.rs", Kind::Product),
             ("drivers/tests/spi.rs", Kind::Tests),
             ("host-tests/src/lib.rs", Kind::Tests),
-            ("host-tests/history/src/lib.rs", Kind::Apparatus),
+            ("lab/history/src/lib.rs", Kind::Apparatus),
             ("lab/target/src/lib.rs", Kind::Apparatus),
             ("xtask/src/kit/docs/tests.rs", Kind::Apparatus),
-            (&scene, Kind::Product),
-            ("firmware-demo/src/bin/bits.rs", Kind::Apparatus),
+            ("firmware-demo/src/bin/ur5e.rs", Kind::Product),
         ] {
             assert_eq!(Kind::of(Path::new(path)), kind, "{path}");
         }

@@ -31,9 +31,22 @@ pub fn build_featured(
     feature: &str,
     bins: &[&str],
 ) -> Result<Vec<PathBuf>> {
+    build_with(workspace, toolchain, profile, feature, bins, None)
+}
+
+/// The same with a variable of the environment that names a file which the bins include.
+pub fn build_with(
+    workspace: &Workspace,
+    toolchain: Toolchain,
+    profile: &str,
+    features: &str,
+    bins: &[&str],
+    included: Option<(&str, &Path)>,
+) -> Result<Vec<PathBuf>> {
     let mut command = toolchain.firmware(workspace, "build");
-    command.args(["--profile", profile, "--features", feature]);
+    command.args(["--profile", profile, "--features", features]);
     command.args(bins.iter().flat_map(|bin| ["--bin", bin]));
+    command.envs(included);
     shell::cargo(&mut command)?;
     bins.iter()
         .map(|bin| existing(toolchain.elf(workspace, profile, bin)))
@@ -56,13 +69,8 @@ pub fn build_own(
     features: &str,
     bins: &[&str],
 ) -> Result<Vec<PathBuf>> {
-    let mut command = toolchain.firmware(workspace, "build");
-    command.args(["--profile", RELEASE, "--features", features]);
-    command.args(bins.iter().flat_map(|bin| ["--bin", bin]));
-    command.envs([variable(included)]);
-    shell::cargo(&mut command)?;
-    let elf = |bin: &&str| toolchain.elf(workspace, RELEASE, bin);
-    Ok(bins.iter().map(elf).collect())
+    let included = Some(variable(included));
+    build_with(workspace, toolchain, RELEASE, features, bins, included)
 }
 
 /// Builds every bin of the firmware.

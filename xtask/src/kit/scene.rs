@@ -61,7 +61,7 @@ impl Scene {
     }
 }
 
-/// A bin of `firmware-demo` that shows something else than how an arm tracks, on a page of its own.
+/// A bin of `lab-target` that shows something else than how an arm tracks, on a page of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 #[value(rename_all = "snake_case")]
 pub enum Trial {

@@ -10,7 +10,9 @@ pub fn sources(folder: &Path) -> Result<Vec<PathBuf>> {
     for entry in std::fs::read_dir(folder).map_err(Error::file("read", folder))? {
         let path = entry.map_err(Error::file("read", folder))?.path();
         let name = path.file_name().unwrap_or_default().to_string_lossy();
-        if path.is_dir() && name != "target" && !name.starts_with('.') {
+        // Cargo tags what it builds; a folder of sources may be called `target` too.
+        let is_built = path.join("CACHEDIR.TAG").is_file();
+        if path.is_dir() && !is_built && !name.starts_with('.') {
             found.extend(sources(&path)?);
         } else if name.ends_with(".rs") {
             found.push(path);

@@ -32,8 +32,15 @@ pub enum Toolchain {
 }
 
 impl Toolchain {
-    /// `cargo SUBCOMMAND … --package firmware-demo --target …`, to be completed.
+    /// `cargo SUBCOMMAND … --target … --package firmware-demo …`, to be completed.
     pub fn firmware(self, workspace: &Workspace, subcommand: &str) -> Command {
+        let mut command = self.cargo(workspace, subcommand);
+        command.args(FIRMWARE.iter().flat_map(|name| ["--package", name]));
+        command
+    }
+
+    /// `cargo SUBCOMMAND … --target …`, to be completed.
+    pub fn cargo(self, workspace: &Workspace, subcommand: &str) -> Command {
         let mut command = match self {
             Self::Native => workspace.cargo(subcommand),
             Self::Debian => {
@@ -52,7 +59,7 @@ impl Toolchain {
                 command
             }
         };
-        command.args(["--package", FIRMWARE, "--target", TARGET]);
+        command.args(["--target", TARGET]);
         command
     }
 

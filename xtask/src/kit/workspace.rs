@@ -9,8 +9,10 @@ use serde_json::Value;
 use crate::kit::error::{Error, Result, check};
 use crate::kit::shell;
 
-/// The package whose bins are the scenes and the checks that run on the target.
-pub const FIRMWARE: &str = "firmware-demo";
+/// The packages whose bins run on the target: the demo's scenes, and what the laboratory measures. Cargo finds a bin
+/// and a feature in the one that has it.
+pub const FIRMWARE: [&str; 2] = ["firmware-demo", LAB];
+pub const LAB: &str = "lab-target";
 
 /// The workspace that xtask was called in.
 pub struct Workspace {
@@ -21,6 +23,16 @@ pub struct Workspace {
     pub reports: Option<PathBuf>,
     /// The firmware's bins that need no feature.
     pub bins: Vec<String>,
+    /// What packages use of this workspace.
+    pub uses: Vec<Use>,
+}
+
+/// A package's dependency on one of the workspace, both by their folders from its root.
+pub struct Use {
+    pub user: PathBuf,
+    pub used: PathBuf,
+    /// Only the package's tests and examples use it.
+    pub is_for_tests: bool,
 }
 
 /// Set once from the command line.
@@ -65,8 +77,13 @@ impl Workspace {
         let path = |key: &str| metadata[key].as_str().map(PathBuf::from);
         let lacks = || check!("`cargo metadata` names no directories");
         let list = |value: &Value| value.as_array().cloned().unwrap_or_default();
-        let packages = list(&metadata["packages"]).into_iter();
-        let targets = packages.filter(|package| package["name"] == FIRMWARE);
+        let root = path("workspace_root").ok_or_else(lacks)?;
+        let packages = list(&metadata["packages"]);
+        let uses = packages.iter().flat_map(|package| uses(&root, package));
+        let uses = uses.collect();
+        let targets = packages
+            .into_iter()
+            .filter(|package| FIRMWARE.iter().any(|name| package["name"] == *name));
         let targets = targets.flat_map(|package| list(&package["targets"]));
         let bins = targets.filter(|target| {
             let is_bin = list(&target["kind"]).iter().any(|kind| kind == "bin");
@@ -74,10 +91,11 @@ impl Workspace {
         });
         let names = bins.filter_map(|bin| bin["name"].as_str().map(str::to_owned));
         Ok(Self {
-            root: path("workspace_root").ok_or_else(lacks)?,
+            root,
             target: path("target_directory").ok_or_else(lacks)?,
             reports: REPORTS.get().cloned(),
             bins: names.collect(),
+            uses,
         })
     }
 
@@ -109,9 +127,27 @@ impl Workspace {
             root: folder.to_owned(),
             target: PathBuf::new(),
             bins: Vec::new(),
+            uses: Vec::new(),
             reports: None,
         }
     }
+}
+
+/// What a package of cargo's metadata uses of the workspace.
+fn uses(root: &Path, package: &Value) -> Vec<Use> {
+    fn below<'a>(root: &Path, path: &'a Value) -> Option<&'a Path> {
+        Path::new(path.as_str()?).strip_prefix(root).ok()
+    }
+    let manifest = below(root, &package["manifest_path"]).and_then(Path::parent);
+    let dependencies = package["dependencies"].as_array();
+    let uses = dependencies.into_iter().flatten().filter_map(|dependency| {
+        Some(Use {
+            user: manifest?.to_owned(),
+            used: below(root, &dependency["path"])?.to_owned(),
+            is_for_tests: dependency["kind"] == "dev",
+        })
+    });
+    uses.collect()
 }
 
 fn host_cargo() -> Command {

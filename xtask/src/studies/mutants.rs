@@ -21,7 +21,7 @@ const PAGE: Page<'_> = Page {
     command: "cargo xtask mutants",
 };
 /// Why a change may survive, by file, function and change.
-const REASONS: &str = "host-tests/mutants/reasons.toml";
+const REASONS: &str = "lab/mutants/reasons.toml";
 /// The largest share of changes that may survive.
 const MOST: f64 = 0.08;
 /// Printed in place of a missing reason.
@@ -43,7 +43,7 @@ pub struct Args {
     seed: u64,
 }
 
-/// The verdict on a change, in the words of `host-tests/mutants`.
+/// The verdict on a change, in the words of `lab/mutants`.
 #[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(rename_all = "snake_case")]
 enum Verdict {

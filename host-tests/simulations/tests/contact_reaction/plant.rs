@@ -2,10 +2,10 @@
 
 use dynamics_core::effects::{Armature, Coulomb, Viscous, Width};
 use dynamics_core::model::ArmModel;
-use firmware_demo::contact::plant;
+use lab_target::contact::plant;
 use motion_control::ContactResponse;
 
-pub use firmware_demo::contact::plant::{TIP, tip};
+pub use lab_target::contact::plant::{TIP, tip};
 
 pub type Q = [f64; 6];
 /// Of the tip at the contact, m/s.

@@ -2,10 +2,10 @@
 
 use dynamics_core::effects::{Armature, Coulomb, Effect, Lugre, Viscous, Width, hook};
 use dynamics_core::model::ArmModel;
-use firmware_demo::contact::plant;
 use glam::DVec3;
+use lab_target::contact::plant;
 
-pub use firmware_demo::contact::plant::{SLIDING, TIP, tip};
+pub use lab_target::contact::plant::{SLIDING, TIP, tip};
 
 pub type Q = [f64; 6];
 pub const ROTORS: Armature<f64, 6> = Armature(plant::ROTORS);

@@ -11,10 +11,9 @@ use crate::kit::error::Result;
 const FULL: &str =
     "--features host-tests/full,robot-import/full,simulation-tests/full,specialised-tests/full";
 /// All packages but the firmware and its listeners, which the steps `telemetry` and `pil` build and test.
-const HOST: &str =
-    "--workspace --exclude firmware-demo --exclude telemetry-watch --exclude telemetry-pil";
+const HOST: &str = "--workspace --exclude firmware-demo --exclude lab-target --exclude telemetry-watch --exclude telemetry-pil";
 /// The part of the firmware that runs anywhere.
-const FIRMWARE: &str = "--package firmware-demo --lib";
+const FIRMWARE: &str = "--package firmware-demo --package lab-target --lib";
 
 pub fn clippy(context: &Context) -> Result<String> {
     context.cargo(&[
@@ -52,7 +51,7 @@ fn executable(message: &str) -> Option<PathBuf> {
 }
 
 pub fn doctests(context: &Context) -> Result<String> {
-    let of_firmware = "test --package firmware-demo --doc";
+    let of_firmware = "test --package firmware-demo --package lab-target --doc";
     let printed = context.cargo(&[&format!("test {HOST} --doc"), of_firmware])?;
     Ok(format!("{} examples", count(&printed)))
 }

@@ -164,8 +164,8 @@ fn cores(name: &str) -> (bool, bool) {
 fn built_by(context: &Context, name: &str, version: &str, precompiled: bool) -> Result<String> {
     let target = context.workspace.target.join("compilers").join(name);
     let mut command = toolchain::rustup(name, "cargo");
-    let line = format!("build --release --package {FIRMWARE} --target {TARGET}");
-    command.args(line.split(' '));
+    command.args(["build", "--release", "--target", TARGET]);
+    command.args(FIRMWARE.iter().flat_map(|name| ["--package", name]));
     command.args(["--bin", SCENE, "--bin", COSTS, "--target-dir"]);
     command.arg(&target).current_dir(&context.workspace.root);
     if !precompiled {

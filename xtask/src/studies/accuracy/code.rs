@@ -39,7 +39,7 @@ fn shipped<const K: usize>(point: &Point, axes: [&str; K]) -> Result<[&'static s
         let lacks = || {
             let robot = &point.robot;
             let what = format!("there is no Rust to paste of {robot} with {axis}={value}");
-            Error::check(what + ": see firmware-demo/src/accuracy")
+            Error::check(what + ": see lab/target/src/accuracy")
         };
         *rust = names::rust(axis, value).ok_or_else(lacks)?;
     }
@@ -128,7 +128,7 @@ fn simulation(point: &Point) -> Result<String> {
         ("robots::Ur5e", "DoublePendulum"),
         (
             "dynamics_core::D",
-            "firmware_demo::accuracy::passive_motion::D",
+            "lab_target::accuracy::passive_motion::D",
         ),
         ("Ur5e", "DoublePendulum"),
         ("6]", "2]"),

@@ -154,13 +154,11 @@ impl Plan {
         let (mut all, mut shares) = (Vec::new(), None);
         for (opt, profile, bins) in self.batches() {
             spinner.line(&format!("building {} (opt-level {opt})", bins.join(", ")));
-            let mut command = tools.toolchain.firmware(workspace, "build");
-            let command = command.env(PRINTED, printed).args(["--profile", profile]);
-            command.args(["--features", ACCURACY]);
-            shell::cargo(command.args(bins.iter().flat_map(|bin| ["--bin", bin])))?;
-            for bin in bins {
+            let included = Some((PRINTED, printed));
+            let chain = tools.toolchain;
+            let elves = firmware::build_with(workspace, chain, profile, ACCURACY, &bins, included)?;
+            for (bin, elf) in std::iter::zip(bins, elves) {
                 spinner.say(format!("running {bin} (opt-level {opt}) in QEMU"));
-                let elf = tools.toolchain.elf(workspace, profile, bin);
                 let mut rows = rows::run_for_time(tools, &meter, bin, &elf, "")?;
                 if bin == QUICK_BIN {
                     let [least, most] = READINGS

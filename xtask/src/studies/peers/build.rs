@@ -44,7 +44,7 @@ impl<'a> Workshop<'a> {
         };
         Ok(Self {
             peers,
-            sources: workspace.root.join("host-tests/peers/cpp"),
+            sources: workspace.root.join("lab/peers/cpp"),
             compilers: target::compilers().join("\n"),
             robots: make("robots")?,
             code: make("code")?,

@@ -120,7 +120,7 @@ fn wanted(robots: &[Robot]) -> impl Iterator<Item = Wanted<'_>> {
     })
 }
 
-/// A library's function (see `host-tests/peers/bench/src/foreign.rs`), which writes M as a square.
+/// A library's function (see `lab/peers/bench/src/foreign.rs`), which writes M as a square.
 fn foreign(
     (robot, algorithm, precision): Wanted<'_>,
     peer: &str,

@@ -9,7 +9,7 @@ use crate::kit::rows::{Row as MeasuredRow, run_all};
 use crate::kit::setup::Tools;
 use crate::kit::shell;
 use crate::kit::toolchain::RELEASE;
-use crate::kit::workspace::{self, Workspace};
+use crate::kit::workspace::{self, LAB, Workspace};
 use crate::studies::peers::ALGORITHMS;
 use crate::studies::peers::build::{Workshop, words};
 use crate::studies::peers::report::{M4F, Row};
@@ -56,9 +56,18 @@ pub fn measure(
     let objects = objects
         .iter()
         .map(|object| format!("-Clink-arg={}", object.display()));
-    let mut command = tools.toolchain.firmware(workspace, "rustc");
+    let mut command = tools.toolchain.cargo(workspace, "rustc");
     command
-        .args(["--release", "--features", BIN, "--bin", BIN, "--"])
+        .args([
+            "--package",
+            LAB,
+            "--release",
+            "--features",
+            BIN,
+            "--bin",
+            BIN,
+            "--",
+        ])
         .args(objects)
         .env("PEERS_TABLE", &table);
     shell::capture(&mut command)?;

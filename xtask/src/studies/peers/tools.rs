@@ -71,7 +71,7 @@ pub fn set_up(workspace: &Workspace, options: Options) -> Result<(Tools, Peers)>
     let dir = workspace.target.join("peers");
     let venv = dir.join("venv");
     let python = venv.join("bin/python");
-    let requirements = workspace.root.join("host-tests/peers/requirements.txt");
+    let requirements = workspace.root.join("lab/peers/requirements.txt");
     let wanted = workspace::read(&requirements)?;
     // Written last: an environment that was left half done has none.
     let stamp = venv.join("installed.txt");

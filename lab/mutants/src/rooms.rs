@@ -1,0 +1,133 @@
+//! Which parts of the workspace are changed, and how many changes each of them has.
+
+use std::collections::BTreeMap;
+use std::hash::Hasher;
+
+use crate::site::{Operator, Site};
+
+/// A part of the workspace.
+pub struct Room {
+    pub name: &'static str,
+    /// Changes that are drawn; those that do not compile are left out afterwards.
+    draws: usize,
+    /// The beginnings of its paths; a file belongs to the first room that has one.
+    places: &'static [&'static str],
+}
+
+const fn room(name: &'static str, draws: usize, places: &'static [&'static str]) -> Room {
+    Room {
+        name,
+        draws,
+        places,
+    }
+}
+
+/// The rooms. What is missing is data (robots, trajectories), what only the target or an emulator runs (`target.rs`,
+/// the meter's plugin), and what measures for a report.
+#[rustfmt::skip]
+pub const ROOMS: [Room; 15] = [
+    room("control", 90, &["motion-control/src/"]),
+    room("drivers", 50, &["drivers/src/"]),
+    room("control loop and plant", 35, &[
+        "firmware-demo/src/control_loop.rs", "firmware-demo/src/plant", "firmware-demo/src/sim_io.rs",
+    ]),
+    room("budgets and bars", 30, &["xtask/src/studies/budgets", "xtask/src/kit/bars.rs"]),
+    room("tolerances", 20, &["host-tests/src/tolerances.rs", "host-tests/src/measured.rs", "host-tests/src/hard/row.rs"]),
+    room("document checks", 30, &["xtask/src/kit/docs.rs", "xtask/src/kit/docs/"]),
+    room("other checks", 40, &[
+        "xtask/src/kit/callgraph.rs", "xtask/src/kit/sources.rs", "xtask/src/commands/weight.rs", "xtask/src/commands/layers.rs", "xtask/src/kit/same_code.rs",
+        "xtask/src/kit/meter.rs", "xtask/src/commands/test/functions.rs", "xtask/src/commands/test/others.rs", "xtask/src/studies/accuracy/join.rs",
+    ]),
+    room("cycle meter", 45, &[
+        "lab/meter/src/block.rs", "lab/meter/src/decode",
+        "lab/meter/src/insn.rs", "lab/meter/src/meter.rs",
+        "lab/meter/src/model.rs", "lab/meter/src/samples.rs",
+    ]),
+    room("algorithms", 50, &["dynamics-core/src/algorithms/", "dynamics-core/src/textbook"]),
+    room("engine", 35, &["dynamics-core/src/engine/"]),
+    room("vectors and states", 40, &[
+        "dynamics-core/src/spatial/", "dynamics-core/src/state/", "dynamics-core/src/trig/", "dynamics-core/src/math/",
+        "dynamics-core/src/scalar/",
+    ]),
+    room("model and effects", 50, &["dynamics-core/src/model/", "dynamics-core/src/effects/"]),
+    room("loops and clusters", 45, &["dynamics-core/src/loops/", "dynamics-core/src/clusters/"]),
+    room("flexible links and drivetrain", 30, &["dynamics-core/src/flexible/", "dynamics-core/src/drivetrain/"]),
+    room("integrators", 20, &["dynamics-core/src/sim/"]),
+];
+
+/// The room whose code the compiler specialises for each robot, in functions of many thousand operations: with switches
+/// at each of them, optimising takes hours, so that its changes have a build of their own that is not optimised.
+const UNOPTIMISED: &str = "engine";
+
+/// The largest share of a room that one operator may have, in per cent.
+const SHARE: usize = 30;
+
+/// The room of a file, if it is in one and holds no tests.
+pub fn room_of(file: &str) -> Option<&'static Room> {
+    let is_test = file.split(['/', '.']).any(|part| part == "tests");
+    let has = |room: &&Room| room.places.iter().any(|place| file.starts_with(place));
+    ROOMS
+        .iter()
+        .find(has)
+        .filter(|_| !is_test && file.ends_with(".rs"))
+}
+
+/// Whether the changes of a file are built without optimisation.
+pub fn is_unoptimised(file: &str) -> bool {
+    room_of(file).is_some_and(|room| room.name == UNOPTIMISED)
+}
+
+/// The sites that are drawn, numbered from 0 by file and place. The order of the draw depends on a site's key and the
+/// seed alone, so that a change to the code leaves the draw elsewhere as it is.
+pub fn drawn(sites: Vec<Site>, seed: u64) -> Vec<Site> {
+    let mut rooms: BTreeMap<&str, Vec<Site>> = BTreeMap::new();
+    for site in sites {
+        if let Some(room) = room_of(&site.file) {
+            rooms.entry(room.name).or_default().push(site);
+        }
+    }
+    let mut drawn = Vec::new();
+    for room in &ROOMS {
+        let mut sites = rooms.remove(room.name).unwrap_or_default();
+        sites.sort_by_key(|site| (hash(&site.key(), seed), site.line));
+        // One reason is for one change: of several with the same words in a function, the first is drawn.
+        let mut keys = std::collections::BTreeSet::new();
+        sites.retain(|site| keys.insert(site.key()));
+        let mut of_operator: BTreeMap<Operator, usize> = BTreeMap::new();
+        sites.retain(|site| {
+            let count = of_operator.entry(site.operator).or_default();
+            *count += 1;
+            *count <= (room.draws * SHARE).div_ceil(100)
+        });
+        drawn.extend(sites.into_iter().take(room.draws));
+    }
+    drawn.sort_by(|a, b| {
+        (&a.file, a.bytes.start, a.bytes.end).cmp(&(&b.file, b.bytes.start, b.bytes.end))
+    });
+    for (number, site) in drawn.iter_mut().enumerate() {
+        site.number = number as u32;
+    }
+    drawn
+}
+
+/// A number that looks random, the same on every machine: FNV-1a, its bits mixed.
+fn hash(key: &str, seed: u64) -> u64 {
+    let mut fnv = Fnv(0xcbf2_9ce4_8422_2325 ^ seed);
+    fnv.write(key.as_bytes());
+    let mixed = (fnv.0 ^ (fnv.0 >> 33)).wrapping_mul(0xff51_afd7_ed55_8ccd);
+    mixed ^ (mixed >> 33)
+}
+
+struct Fnv(u64);
+
+impl Hasher for Fnv {
+    fn write(&mut self, bytes: &[u8]) {
+        for byte in bytes {
+            self.0 = (self.0 ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
+        }
+    }
+
+    fn finish(&self) -> u64 {
+        self.0
+    }
+}

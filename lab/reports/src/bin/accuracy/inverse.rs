@@ -1,0 +1,187 @@
+//! Inverse dynamics: errors over states anywhere and along the robot's way.
+
+use std::f64::consts::PI;
+
+use dynamics_core::Core;
+use dynamics_core::drivetrain::{ElasticReference, elastic_inverse_dynamics};
+use dynamics_core::effects::RIGID_BODY;
+use dynamics_core::model::{Robot, Static};
+use dynamics_core::state::State;
+use host_tests::random::{random_numbers, within};
+use host_tests::recordings::{Precise, load, read};
+use lab_target::accuracy::robots::{Compared, Swung, momentary};
+use lab_target::accuracy::{Inverse, Visitor, list};
+use motion_control::Reference;
+use proptest::test_runner::TestRng;
+use serde_json::json;
+
+use super::statistics::{Errors, object, widened};
+use super::yardsticks;
+
+/// States beside those recorded, whose oracle is our f64.
+const MORE_STATES: usize = 2000;
+
+/// Ticks that the robot rests before it goes, so that its way-points, where the torque bends, fall between the ticks
+/// that compute: elsewhere, what rates lose would look too small.
+const REST: u32 = 3;
+
+/// What every way of a robot is compared with.
+pub struct Bench<const N: usize> {
+    /// What the lines call them.
+    pub kind: &'static str,
+    robot: &'static str,
+    /// What its joints are: `rigid` or `compliant`.
+    plant: &'static str,
+    full_scale: f64,
+    /// How far the oracle itself is off, N·m: smaller errors are given as that.
+    floor: f64,
+    states: Vec<Problem<N>>,
+    way: Vec<Problem<N>>,
+}
+
+/// A desired motion of the joints, and its exact torques.
+pub struct Problem<const N: usize> {
+    pub course: ElasticReference<f32, N, N>,
+    pub truth: [f64; N],
+}
+
+impl<const N: usize> Visitor<N> for Bench<N> {
+    fn way<W: Inverse<N>>(&mut self) {
+        let run = |problems: &[Problem<N>]| {
+            let mut way = W::start(&problems[0].course.state);
+            let given = (0..).map(|k: usize| &problems[(k + W::AHEAD).min(problems.len() - 1)]);
+            let answers = given.map(|given| W::torque(way.tick(&W::input(&given.course))));
+            Errors::of(answers.zip(problems.iter().map(|problem| problem.truth)))
+        };
+        let states = !W::MEMORY && !self.states.is_empty();
+        let axes = W::KEY.axes();
+        let line = json!({
+            "key": W::KEY.to_string(),
+            "configuration": object(axes.iter().chain(&[("plant", self.plant)])),
+            "anywhere": states.then(|| run(&self.states).max() / self.full_scale),
+        });
+        let scales = [self.full_scale, self.floor];
+        run(&self.way).print(self.robot, self.kind, scales, line);
+    }
+}
+
+/// Random positions, speeds and accelerations within ± these bounds.
+pub fn drawn<const N: usize>(random: &mut TestRng, bounds: [f64; 3]) -> State<f32, N, N> {
+    let [q, qd, qdd] = bounds.map(|bound| within::<N>(random, bound).map(|x| x as f32));
+    State { q, qd, qdd }
+}
+
+/// Prints what everything is compared with, and a line for each of these ways of the robot T.
+pub fn print<T: Compared<B, N, W>, const B: usize, const N: usize, const W: usize>(
+    ways: fn(&mut Bench<N>),
+) {
+    let labelled = |state| Problem {
+        course: momentary(state),
+        truth: ours::<T, B, N>(&state),
+    };
+    let mut random = random_numbers();
+    let more = (0..MORE_STATES).map(|_| labelled(drawn(&mut random, [PI, 3.0, 10.0])));
+    let mut states: Vec<_> = more.collect();
+    let (mut full_scale, mut floor) = (full_scale(&states), 0.0);
+    if let Some(name) = T::RECORDED {
+        let recorded = recorded_states::<N>(name);
+        (full_scale, floor) = print_oracle::<T, B, N>(name, &recorded);
+        states.splice(..0, recorded);
+    }
+    let way = T::way().expect("the robot can go there");
+    let ticks = 0..=way.ticks() + REST;
+    let way = ticks.map(|tick| labelled(way.at(tick.saturating_sub(REST))));
+    let way: Vec<_> = way.collect();
+    if T::RECORDED.is_some() {
+        yardsticks::print::<T, B, N>(full_scale, &way);
+        yardsticks::print_speeds::<T, B, N>(full_scale);
+    }
+    ways(&mut Bench {
+        kind: "inverse",
+        robot: T::MODEL.name,
+        plant: "rigid",
+        full_scale,
+        floor,
+        states,
+        way,
+    });
+}
+
+fn ours<T: Robot<B, N, N>, const B: usize, const N: usize>(state: &State<f32, N, N>) -> [f64; N] {
+    Core::<T>::rnea(&widened(state), &RIGID_BODY)
+}
+
+/// Prints how far the f64 is off from what was recorded; returns the full scale and the largest error.
+fn print_oracle<T: Robot<B, N, N>, const B: usize, const N: usize>(
+    name: &str,
+    recorded: &[Problem<N>],
+) -> (f64, f64) {
+    let full_scale = full_scale(recorded);
+    let ours = ours::<T, B, N>;
+    let off = Errors::of(recorded.iter().map(|it| (ours(&it.course.state), it.truth)));
+    let precise: Precise = read("precise");
+    let sample = precise.states.iter().zip(precise.rnea(name));
+    let sample = Errors::of(sample.map(|(&k, tau)| {
+        let truth: [f64; N] = std::array::from_fn(|j| tau[j]);
+        (ours(&recorded[k].course.state), truth)
+    }));
+    let oracle = json!({
+        "pinocchio": load(name).pinocchio,
+        "states": recorded.len(),
+        "from_50_digits": sample.max() / full_scale,
+        "sample": precise.states.len(),
+    });
+    off.print(T::MODEL.name, "oracle", [full_scale, 0.0], oracle);
+    (full_scale, off.max())
+}
+
+#[allow(dead_code, reason = "the quick bin has no such joints")]
+/// Prints a line for each way of the arm T on joints that give way.
+pub fn print_compliant<T, const N: usize, const W: usize>()
+where
+    T: Compared<N, N, W> + Swung<N>,
+{
+    let swing = T::swing().expect("the arm can swing there");
+    let labelled = |tick| {
+        let course = swing.elastic_reference(tick);
+        let double = ElasticReference {
+            state: widened(&course.state),
+            jerk: course.jerk.map(f64::from),
+            snap: course.snap.map(f64::from),
+        };
+        let motors =
+            elastic_inverse_dynamics(&Static::<T>::NEW, &T::joints(), &double, &RIGID_BODY);
+        Problem {
+            course,
+            truth: motors.expect("joints of one freedom").torque,
+        }
+    };
+    list::compliant::<T, N>(&mut Bench {
+        kind: "inverse",
+        robot: T::MODEL.name,
+        plant: "compliant",
+        full_scale: full_scale(&T::RECORDED.map_or_else(Vec::new, recorded_states::<N>)),
+        floor: 0.0,
+        states: Vec::new(),
+        way: (0..=swing.ticks()).map(labelled).collect(),
+    });
+}
+
+fn full_scale<const N: usize>(recorded: &[Problem<N>]) -> f64 {
+    let truths = recorded.iter().flat_map(|problem| problem.truth);
+    truths.fold(0.0, |most, tau| most.max(tau.abs()))
+}
+
+fn recorded_states<const N: usize>(name: &str) -> Vec<Problem<N>> {
+    let recording = load(name);
+    let first = |rows: &[Vec<f64>], k: usize| -> [f64; N] { std::array::from_fn(|j| rows[k][j]) };
+    let state = |k| {
+        let [q, qd, qdd] = [&recording.q, &recording.qd, &recording.qdd]
+            .map(|rows| first(rows, k).map(|x| x as f32));
+        Problem {
+            course: momentary(State { q, qd, qdd }),
+            truth: first(&recording.rnea, k),
+        }
+    };
+    (0..recording.rnea.len()).map(state).collect()
+}

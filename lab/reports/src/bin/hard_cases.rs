@@ -1,0 +1,31 @@
+//! Prints the hard cases and all that they measure as JSON: `cargo xtask hard-cases` makes a page of it.
+
+use host_tests::hard::{CASES, Case, Row};
+use serde::Serialize;
+
+#[derive(Serialize)]
+struct Suite {
+    cases: Vec<Case>,
+    /// The numbers of those that the firmware's bin `bits` has too.
+    in_qemu: Vec<u32>,
+    rows: Vec<Row>,
+}
+
+fn main() {
+    let all = CASES
+        .iter()
+        .chain(loop_tests::hard::CASES)
+        .chain(flexible_tests::hard::CASES);
+    let mut cases: Vec<Case> = all.copied().flatten().copied().collect();
+    cases.sort_by_key(|case| case.number);
+    let rows = cases.iter().flat_map(Case::rows).collect();
+    let suite = Suite {
+        cases,
+        in_qemu: lab_target::hard::cases().collect(),
+        rows,
+    };
+    println!(
+        "{}",
+        serde_json::to_string(&suite).expect("rows are plain data")
+    );
+}

@@ -1,0 +1,181 @@
+//! The robots, each with a way to go.
+
+use dynamics_core::drivetrain::{ElasticJoints, ElasticReference};
+use dynamics_core::model::{Robot, model};
+use dynamics_core::robots::{A1Leg, Panda, Ur5e};
+use dynamics_core::scalar::Real;
+use dynamics_core::state::State;
+use motion_control::{MotionLimits, RestToRest, Trajectory, TrajectoryError, WayPoint};
+
+use crate::Own;
+use firmware_demo::scene::TICK;
+use firmware_demo::trajectories::{
+    LEG_STEPS, PANDA_PICK_AND_PLACE, PANDA_SWING, PICK_AND_PLACE, UR5E_SWING,
+};
+
+/// A robot of N joints and B bodies, its way through W points, and all ways to compute its torques.
+pub trait Compared<const B: usize, const N: usize, const W: usize>: Robot<B, N, N> + Sized {
+    /// The name of the recording whose first coordinates are this robot's; none if nothing was recorded of it.
+    const RECORDED: Option<&'static str>;
+    /// Greatest acceleration, rad/s².
+    const ACCELERATION: f32;
+
+    /// Through these points.
+    fn points() -> [WayPoint<f32, N>; W];
+
+    /// Where it goes, tick by tick.
+    ///
+    /// # Errors
+    /// Way-points that the limits do not allow.
+    fn way() -> Result<Trajectory<f32, N, W>, TrajectoryError> {
+        let speeds = speeds::<Self, B, N>(Self::ACCELERATION);
+        Trajectory::new(&Self::points(), TICK, &speeds)
+    }
+}
+
+/// An arm with joints that give way, and a swing of so many stops that leaves them time.
+pub trait Swung<const N: usize>: Robot<N, N, N> + Sized {
+    /// From stop to stop.
+    const STOPS: [WayPoint<f32, N>; 4];
+    /// Stiffness, N·m/rad, reflected inertia of the rotor, kg·m², and friction, N·m·s/rad: assumed, of the order of
+    /// harmonic drives of this size.
+    const JOINTS: [[f64; N]; 3];
+
+    /// The joints in a scalar.
+    fn joints<R: Real>() -> ElasticJoints<R, N> {
+        let [stiffness, rotor, friction] = Self::JOINTS.map(|numbers| numbers.map(R::from_f64));
+        ElasticJoints {
+            stiffness,
+            rotor,
+            friction,
+        }
+    }
+
+    /// Where it goes, tick by tick.
+    ///
+    /// # Errors
+    /// End stops that the limits do not allow.
+    fn swing() -> Result<RestToRest<f32, N, 4>, TrajectoryError> {
+        RestToRest::new(&Self::STOPS, TICK, &speeds::<Self, N, N>(8.0))
+    }
+}
+
+/// The largest |q|, rad or m, and |q̇|, rad/s or m/s, of a joint without limits along the path.
+const UNLIMITED: [f32; 2] = [1.5, 2.0];
+/// The share of the position limits within which a robot from a file stays.
+const WITHIN: f32 = 0.6;
+/// rad or m: a joint with a larger range counts as one without limits.
+const RANGE: f32 = 13.0;
+/// The way-points of a robot from a file but for the middle, where it starts and ends, as shares of what it stays
+/// within: of three joints, and in turn of those after them.
+const SHARES: [[f32; 3]; 3] = [[1.0, -0.7, 0.5], [-0.6, 1.0, -1.0], [0.3, -1.0, 0.8]];
+
+fn speeds<T: Robot<B, N, N>, const B: usize, const N: usize>(
+    acceleration: f32,
+) -> [MotionLimits<f32>; N] {
+    let velocity = 0.0;
+    let mut speeds = [MotionLimits {
+        velocity,
+        acceleration,
+    }; N];
+    for link in &model::<f32, T, B, N, N>().links {
+        if let Some(speed) = speeds.get_mut(link.idx_v) {
+            // A file may state no limit.
+            let limit = link.limits.velocity;
+            speed.velocity = if limit.is_finite() {
+                limit
+            } else {
+                UNLIMITED[1]
+            };
+        }
+    }
+    speeds
+}
+
+/// A state that nothing is known of beyond.
+pub fn momentary<const N: usize>(state: State<f32, N, N>) -> ElasticReference<f32, N, N> {
+    let [jerk, snap] = [[0.0; N]; 2];
+    ElasticReference { state, jerk, snap }
+}
+
+impl Compared<6, 6, 9> for Ur5e {
+    const RECORDED: Option<&'static str> = Some("ur5e");
+    const ACCELERATION: f32 = 12.0;
+
+    fn points() -> [WayPoint<f32, 6>; 9] {
+        PICK_AND_PLACE
+    }
+}
+
+impl Compared<7, 7, 7> for Panda {
+    const RECORDED: Option<&'static str> = Some("panda");
+    const ACCELERATION: f32 = 12.0;
+
+    fn points() -> [WayPoint<f32, 7>; 7] {
+        PANDA_PICK_AND_PLACE
+    }
+}
+
+impl Compared<4, 3, 7> for A1Leg {
+    const RECORDED: Option<&'static str> = Some("a1");
+    const ACCELERATION: f32 = 300.0;
+
+    fn points() -> [WayPoint<f32, 3>; 7] {
+        LEG_STEPS
+    }
+}
+
+impl<T: Robot<N, N, N>, const N: usize> Compared<N, N, 5> for Own<T> {
+    const RECORDED: Option<&'static str> = None;
+    const ACCELERATION: f32 = 12.0;
+
+    fn points() -> [WayPoint<f32, N>; 5] {
+        let speeds = speeds::<Self, N, N>(Self::ACCELERATION);
+        let (mut middle, mut half) = ([0.0; N], [UNLIMITED[0]; N]);
+        for link in &model::<f32, Self, N, N, N>().links {
+            let range = link.limits.upper - link.limits.lower;
+            if range <= RANGE {
+                middle[link.idx_v] = 0.5 * (link.limits.lower + link.limits.upper);
+                half[link.idx_v] = 0.5 * WITHIN * range;
+            }
+        }
+        let stop = |q| WayPoint {
+            q,
+            qd: [0.0; N],
+            ticks: 0,
+        };
+        let mut points = [stop(middle); 5];
+        for k in 1..5 {
+            if let Some(shares) = SHARES.get(k - 1) {
+                points[k].q = core::array::from_fn(|j| middle[j] + shares[j % 3] * half[j]);
+            }
+            // A quintic from rest to rest takes peaks of 15/8 D/T and 10/√3 D/T².
+            let times = core::array::from_fn::<_, N, _>(|j| {
+                let step = (points[k].q[j] - points[k - 1].q[j]).abs();
+                let by_acceleration = libm::sqrtf(5.8 * step / speeds[j].acceleration);
+                by_acceleration.max(1.9 * step / speeds[j].velocity)
+            });
+            let time = times.into_iter().fold(TICK, f32::max);
+            points[k].ticks = libm::ceilf(time / TICK) as u32;
+        }
+        points
+    }
+}
+
+impl Swung<6> for Ur5e {
+    const STOPS: [WayPoint<f32, 6>; 4] = UR5E_SWING;
+    const JOINTS: [[f64; 6]; 3] = [
+        [1.5e4, 1.5e4, 1e4, 4e3, 4e3, 4e3],
+        [0.9, 0.9, 0.9, 0.25, 0.25, 0.25],
+        [12.0, 12.0, 8.0, 2.0, 2.0, 1.5],
+    ];
+}
+
+impl Swung<7> for Panda {
+    const STOPS: [WayPoint<f32, 7>; 4] = PANDA_SWING;
+    const JOINTS: [[f64; 7]; 3] = [
+        [1.4e4, 1.4e4, 1.4e4, 1.4e4, 9e3, 9e3, 9e3],
+        [0.6, 0.6, 0.5, 0.5, 0.2, 0.2, 0.2],
+        [5.0, 5.0, 5.0, 5.0, 2.0, 2.0, 2.0],
+    ];
+}

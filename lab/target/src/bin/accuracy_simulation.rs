@@ -1,0 +1,12 @@
+//! What each way to simulate costs, a step.
+#![no_std]
+#![no_main]
+
+mod accuracy;
+
+#[cortex_m_rt::entry]
+fn main() -> ! {
+    accuracy::simulated::<lab_target::accuracy::passive_motion::DoublePendulum, 2>();
+    accuracy::simulated::<dynamics_core::robots::Ur5e, 6>();
+    accuracy::done()
+}

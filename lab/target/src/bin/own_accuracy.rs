@@ -1,0 +1,15 @@
+//! What single changes to the default way to compute torques cost on the robot of a file: the bin of `cargo xtask
+//! accuracy --file`.
+#![no_std]
+#![no_main]
+
+mod accuracy;
+// `Robot` and the number of its joints, `N`.
+include!(env!("OWN_ROBOT"));
+
+#[cortex_m_rt::entry]
+fn main() -> ! {
+    let mut priced = accuracy::states::<Robot, N, N, _>();
+    lab_target::accuracy::list::single::<Robot, N, N>(&mut priced);
+    accuracy::done()
+}

@@ -1,0 +1,52 @@
+//! Claims about the scene `ur5e_contact`, in f32 as in the firmware.
+
+use lab_target::contact::crash::{FRICTIONS, RESPONSES, STIFFNESSES};
+use trial_tests::contact::{LATER, PEAK, WATCHES, required, worst};
+
+#[test]
+fn a_contact_peaks_below_its_bar_and_is_relieved_half_a_second_later_with_either_friction() {
+    for friction in FRICTIONS {
+        for stiffness in STIFFNESSES {
+            for (number, (name, response)) in RESPONSES.into_iter().enumerate() {
+                let worst = worst(friction, stiffness, number);
+                println!("{friction} {stiffness} {name}: {worst:?}");
+                assert!(worst.early == 0 && worst.found <= 40, "{worst:?}");
+                let [later, after] = worst.later;
+                match response {
+                    Some(_) => assert!(
+                        worst.peak <= PEAK && later <= LATER && after <= LATER,
+                        "{worst:?}"
+                    ),
+                    None => assert!(worst.peak > 1.5 && later > 200.0, "{worst:?}"),
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn pushes_at_shoulder_and_wrist_are_found_within_their_bars() {
+    for watch in &WATCHES[..2] {
+        for delays in watch.delays(4) {
+            let longest = delays.last().copied();
+            println!("{watch:?}: {longest:?} of {} ms", required(watch.bits));
+            assert!(
+                longest.is_some_and(|ticks| ticks <= required(watch.bits)),
+                "{watch:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_million_ticks_of_the_pick_and_place_have_no_false_alarm() {
+    let [ticks, found] = WATCHES[0].alarms(trial_tests::contact::LAPS);
+    assert!(ticks >= 1_000_000 && found == 0, "{found} in {ticks}");
+}
+
+#[test]
+fn an_arm_whose_joints_stick_gives_false_alarms_unless_stiction_is_stated() {
+    let [_, stated] = WATCHES[2].alarms(10);
+    let [_, sliding] = WATCHES[4].alarms(10);
+    assert!(stated == 0 && sliding > 1000, "{stated} {sliding}");
+}

@@ -1,10 +1,7 @@
 //! What an import makes of a file, and that its check fails where the import is wrong.
 
-#[path = "imports/changes.rs"]
 mod changes;
-#[path = "imports/locks.rs"]
 mod locks;
-#[path = "imports/peer.rs"]
 mod peer;
 
 use std::path::Path;

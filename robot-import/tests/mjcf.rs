@@ -2,11 +2,8 @@
 //!
 //! The tree is walked here by the frames of the description alone; nothing of the reader is used for it.
 
-#[path = "mjcf/exact.rs"]
 mod exact;
-#[path = "mjcf/hostile.rs"]
 mod hostile;
-#[path = "mjcf/refused.rs"]
 mod refused;
 #[path = "mjcf/walk.rs"]
 mod walk;

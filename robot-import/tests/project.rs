@@ -1,6 +1,6 @@
 //! Projects as a newcomer gets them: built, tested and run in QEMU, their torques compared with those of this process.
 //!
-//! Slow: `cargo test -p robot-import --test project -- --ignored --nocapture` builds both projects of two robots. They
+//! Slow: `cargo test -p robot-import --test import -- --ignored --nocapture project::` builds both projects of two robots. They
 //! need the target thumbv7em-none-eabihf, qemu-system-arm, make and arm-none-eabi-gcc.
 
 use std::path::{Path, PathBuf};
@@ -14,7 +14,6 @@ use dynamics_core::model::Robot;
 use dynamics_core::state::State;
 use robot_import::project::{FileEffects, Library, Project, RobotFile, create};
 
-#[path = "project/chain.rs"]
 #[allow(dead_code, reason = "a robot's file has more than the test compares")]
 mod chain;
 #[path = "../template/rust/src/robot.rs"]

@@ -1,6 +1,5 @@
 //! Written files compile, are those of today's importer, and have the numbers that were checked.
 
-mod names;
 #[path = "robots/parallelogram.rs"]
 mod parallelogram;
 // Machines whose motors have no limit, and that have no motor: that they compile is what is tested.

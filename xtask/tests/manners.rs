@@ -1,15 +1,11 @@
 //! What xtask does where it is interrupted, may not install, or cannot write.
 
-#![cfg(unix)]
-
-mod support;
-
 use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use support::{Dir, EXIT, cargo, outcome, three_passages, xtask};
+use crate::support::{Dir, EXIT, cargo, outcome, three_passages, xtask};
 
 #[test]
 fn a_closed_pipe_ends_it_without_a_panic() {

@@ -1,12 +1,8 @@
 //! `cargo xtask meter ELF` on firmwares of a few instructions.
 
-#![cfg(unix)]
-
-mod support;
-
 use std::process::Command;
 
-use support::{Dir, EXIT, FOR_EVER, firmware, outcome, three_passages, xtask};
+use crate::support::{Dir, EXIT, FOR_EVER, firmware, outcome, three_passages, xtask};
 
 /// Runs `cargo xtask meter` on a file.
 fn metered(contents: &[u8], arguments: &[&str]) -> (Option<i32>, String, String) {

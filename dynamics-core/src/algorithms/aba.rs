@@ -72,7 +72,7 @@ use crate::state::{Configuration, JointTrig, RobotState, State, entry};
 #[doc(alias = "forward dynamics")]
 #[doc(alias = "FDab")]
 #[doc(alias = "FD")]
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn aba<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     state: impl RobotState<R, Q, V>,
@@ -113,7 +113,7 @@ pub(super) struct JointFactor<R: Real> {
 }
 
 /// The three passes of table 7.1; each coordinate's torque or its acceleration is `given`.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn sweep<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     trig: &JointTrig<R, Q>,
@@ -149,7 +149,7 @@ where
 }
 
 /// Pass 1: vᵢ, cᵢ = v × S q̇ + S̊ q̇, and, of each body alone, Iᴬ = I and pᴬ = v ×* I v − fˣ.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn outward_velocities<'a, R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &'a D,
     trig: &JointTrig<R, Q>,
@@ -202,7 +202,7 @@ fn outward_velocities<'a, R: Real, D, E, const B: usize, const Q: usize, const V
 }
 
 /// Pass 2: Iᴬ and pᴬ of every articulated body, and U, D and u of every coordinate.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn inward_inertias<R: Real, E, const B: usize, const Q: usize, const V: usize>(
     bodies: &mut [Body<'_, R>],
     trig: &JointTrig<R, Q>,
@@ -255,7 +255,7 @@ where
 }
 
 /// Pass 3: q̈ᵢ = D⁻¹ (u − Uᵀ a′) with a′ = X a_λ + c, and aᵢ = a′ + S q̈. The factors are used in reverse order.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[allow(
     clippy::too_many_arguments,
     reason = "what the other two passes have left, and what they had"
@@ -310,7 +310,7 @@ where
 /// Whether a body is decoupled from its parent: no constraint, no prescribed motion, no inertia at the joint.
 ///
 /// The body's acceleration is then independent of the parent's; without it free fall is exact.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn is_free<R: Real, E, const B: usize, const V: usize>(
     link: &LinkView<'_, R>,
     effects: &E,

@@ -47,7 +47,7 @@ use crate::state::{Configuration, JointTrig};
 #[doc(alias = "JSIM")]
 #[doc(alias = "inertia matrix")]
 #[doc(alias = "mass matrix")]
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn crba<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
@@ -75,7 +75,7 @@ struct Body<'a, R: Real> {
 }
 
 /// The two passes.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn sweep<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     trig: &JointTrig<R, Q>,

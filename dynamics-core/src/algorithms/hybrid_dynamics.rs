@@ -44,7 +44,7 @@ impl<R: Real, const V: usize> JointResult<R, V> {
         qdd: [R::ZERO; V],
     };
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn set(&mut self, joint: usize, tau: R, qdd: R) {
         if let (Some(t), Some(a)) = (self.tau.get_mut(joint), self.qdd.get_mut(joint)) {
             (*t, *a) = (tau, qdd);
@@ -52,7 +52,7 @@ impl<R: Real, const V: usize> JointResult<R, V> {
     }
 
     /// Sets the accelerations of a free joint: those of the body relative to its parent's.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn set_relative(&mut self, link: &LinkView<'_, R>, a: Motion<R>, parent: Motion<R>) {
         let [ang, lin] = [a.ang - parent.ang, a.lin - parent.lin].map(R::Vec3::array);
         for (joint, &qdd) in link.coordinates().zip(ang.iter().chain(&lin)) {
@@ -89,7 +89,7 @@ impl<R: Real, const V: usize> JointResult<R, V> {
 /// # Errors
 /// [`NotPositiveDefinite`] names a coordinate with a given torque that moves no inertia, as [`aba`](super::aba()) does.
 #[doc(alias = "HD")]
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn hybrid_dynamics<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     state: impl RobotState<R, Q, V>,
@@ -107,7 +107,7 @@ where
 }
 
 /// Pass 2 of a coordinate with a prescribed motion, which stays part of the articulated body: pᴬ + U q̈, U and sᵀ pᴬ.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn prescribed_factor<R: Real, E, const B: usize, const V: usize>(
     effects: &E,
     link: &LinkView<'_, R>,
@@ -126,7 +126,7 @@ where
 }
 
 /// Pass 3 of a coordinate with a prescribed motion: its torque, from the load Uᵀ a′ + sᵀ U q̈ + sᵀ pᴬ of the articulated body.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn prescribed_torque<R: Real, E, const B: usize, const Q: usize, const V: usize>(
     effects: &E,
     link: &LinkView<'_, R>,

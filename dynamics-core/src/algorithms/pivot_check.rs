@@ -34,7 +34,7 @@ pub(crate) struct Magnitude<R> {
 }
 
 impl<R: Real> From<&SpatialInertia<R>> for Magnitude<R> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn from(body: &SpatialInertia<R>) -> Self {
         let [x, y, z] = body.rotational.cols().map(Vector::array);
         Self {
@@ -46,7 +46,7 @@ impl<R: Real> From<&SpatialInertia<R>> for Magnitude<R> {
 }
 
 impl<R: Real> AddAssign for Magnitude<R> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn add_assign(&mut self, o: Self) {
         self.mass += o.mass;
         self.first_moment += o.first_moment;
@@ -56,7 +56,7 @@ impl<R: Real> AddAssign for Magnitude<R> {
 
 impl<R: Real> Magnitude<R> {
     /// The same about the origin of the parent's frame, from which the body's is at `pos`. 10 flops.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn at_parent(&self, pos: R::Vec3) -> Self {
         let r = length::<R>(pos);
         let moment = self.first_moment + r * self.mass;
@@ -68,7 +68,7 @@ impl<R: Real> Magnitude<R> {
     }
 
     /// The largest sᵀ Iᶜ s.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn along(&self, s: &MotionSubspace<R>) -> R {
         match s {
             MotionSubspace::RevoluteZ => self.second,
@@ -81,7 +81,7 @@ impl<R: Real> Magnitude<R> {
 }
 
 /// |x| + |y| + |z|, a bound of the length without a root.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn length<R: Real>(v: R::Vec3) -> R {
     let [x, y, z] = v.array();
     x.abs() + y.abs() + z.abs()
@@ -96,7 +96,7 @@ pub(super) struct PivotCheck<R> {
 
 impl<R: Real> PivotCheck<R> {
     /// Of a joint that moves bodies of `magnitude`.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn of(magnitude: Magnitude<R>) -> Self {
         let inherited = [R::ZERO; MOST];
         Self {
@@ -107,7 +107,7 @@ impl<R: Real> PivotCheck<R> {
 
     /// Whether `d`, the pivot of coordinate `k` of the joint, which is coordinate `joint` of the robot, is not NaN and
     /// exceeds rounding errors.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn check(
         &mut self,
         (link, k): (&LinkView<'_, R>, usize),

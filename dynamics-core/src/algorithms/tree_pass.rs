@@ -33,7 +33,7 @@ pub(crate) struct PerBody<A, T, const B: usize> {
 }
 
 /// The base's quantity, for the bodies of `robot` to follow.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn per_body<A: Copy, D, R: Real, const B: usize, const Q: usize, const V: usize>(
     _: &D,
     base: A,
@@ -51,7 +51,7 @@ where
 
 impl<A: Copy, T: Topology, const B: usize> PerBody<A, T, B> {
     /// That of the parent of `link`.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn parent<R: Real>(&self, link: &LinkView<'_, R>) -> A {
         if T::CHAIN {
             self.last
@@ -61,7 +61,7 @@ impl<A: Copy, T: Topology, const B: usize> PerBody<A, T, B> {
     }
 
     /// Adds that of the next body.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn push(&mut self, value: A) {
         if T::CHAIN {
             self.last = value;
@@ -75,14 +75,14 @@ impl<A: Copy, T: Topology, const B: usize> PerBody<A, T, B> {
 pub(crate) struct Inward<'a, A>(&'a mut [A]);
 
 /// From the last body to the first.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn inward<A>(bodies: &mut [A]) -> Inward<'_, A> {
     Inward(bodies)
 }
 
 impl<'a, A> Inward<'a, A> {
     /// The next body, and those before it, among which is its parent: their count is the body's number.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn next(&mut self) -> Option<(&'a mut A, &mut [A])> {
         let (body, before) = core::mem::take(&mut self.0).split_last_mut()?;
         self.0 = before;

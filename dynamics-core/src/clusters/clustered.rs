@@ -25,7 +25,7 @@ pub struct Clustered<A>(PhantomData<A>);
 pub struct Unbounded<K>(PhantomData<K>);
 
 impl<R, K: Kernel<R>> Kernel<R> for Unbounded<K> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn sin_cos(x: R) -> (R, R) {
         K::sin_cos(x)
     }
@@ -77,7 +77,7 @@ where
     type Robot = T;
     type Kernel = Unbounded<K>;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn free_turns<const P: usize, const Y: usize>(q: &[R; Q], turns: &mut [JointCoordinate<R>; Q])
     where
         T: ClusteredRobot<B, Q, V, P, Y>,
@@ -91,7 +91,7 @@ where
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn rnea<E: Effect<R, B, V>>(
         trig: &JointTrig<R, Q>,
         state: &State<R, Q, V>,
@@ -110,7 +110,7 @@ where
     type Robot = T;
     type Kernel = K;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn free_turns<const P: usize, const Y: usize>(q: &[R; Q], turns: &mut [JointCoordinate<R>; Q])
     where
         T: ClusteredRobot<B, Q, V, P, Y>,
@@ -127,7 +127,7 @@ where
         });
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn rnea<E: Effect<R, B, V>>(
         trig: &JointTrig<R, Q>,
         state: &State<R, Q, V>,
@@ -251,7 +251,7 @@ impl<A> Clustered<A> {
 }
 
 /// The tree's state, and the motions of its clusters.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn evaluate<
     R,
     A,

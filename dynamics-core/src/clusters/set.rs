@@ -99,7 +99,7 @@ pub(super) mod sealed {
 
 impl<C: Cluster<M, N>, const M: usize, const N: usize> Driven<C, M, N> {
     /// Evaluates the cluster, which is the I-th, and fills in the tree's coordinates that it drives.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn place<
         R: Real,
         K: Kernel<R>,
@@ -161,7 +161,7 @@ impl<C: Cluster<M, N>, const M: usize, const N: usize> Driven<C, M, N> {
     }
 
     /// Gᵀ τ of the I-th cluster.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn put_torque<
         R: Real,
         T: ClusteredRobot<B, Q, V, P, Y>,
@@ -207,7 +207,7 @@ macro_rules! tuple {
             type Motions<R: Real> = ($(ClusterMotion<R, $m, $n>,)*);
             const SIZES: &'static [[usize; 2]] = &[$([$m, $n]),*];
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn evaluate<
                 R: Real,
                 K: Kernel<R>,
@@ -225,7 +225,7 @@ macro_rules! tuple {
                 Ok(($(self.$at.place::<R, K, T, $at, B, Q, V, P, Y>(y, tree)?,)*))
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn torque<
                 R: Real,
                 T: ClusteredRobot<B, Q, V, P, Y, Clusters = Self>,
@@ -242,7 +242,7 @@ macro_rules! tuple {
                 $(Driven::<$name, $m, $n>::put_torque::<R, T, $at, B, Q, V, P, Y>(&motions.$at, tau, out);)*
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn motors<
                 R: Real,
                 T: ClusteredRobot<B, Q, V, P, Y, Clusters = Self>,
@@ -260,7 +260,7 @@ macro_rules! tuple {
                 Ok(())
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn row<R: Real>(motions: &Self::Motions<R>, cluster: usize, row: usize) -> (&[R], R) {
                 match cluster {
                     $($at => match motions.$at.g.get(row) {

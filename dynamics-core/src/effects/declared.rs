@@ -74,21 +74,21 @@ where
     const BASE_PARAMETERS: usize = E::REGROUPED.sets;
     const BASE_PARAMETERS_OF: &'static str = E::REGROUPED.robot;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn field(&self, g: &mut R::Vec3) {
         if let Some(add) = const { E::GRAVITY_FIELD.add } {
             add(self, g);
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn base(&self, velocity: &mut Motion<R>, acceleration: &mut Motion<R>) {
         if let Some(add) = const { E::BASE.add } {
             add(self, velocity, acceleration);
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn wrench(&self, body: usize, at: &BodyState<R>, fx: &mut Force<R>) {
         if let Some(add) = const { E::EXTERNAL_WRENCH.constant } {
             add(self, body, fx);
@@ -105,42 +105,42 @@ where
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn payload(&self, body: usize, inertia: &mut SpatialInertia<R>) {
         if let Some(add) = const { E::ADDED_INERTIA.add } {
             add(self, body, inertia);
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn rotor_coupling(&self, joint: usize, coupling: &mut R) {
         if let Some(add) = const { E::ROTOR.add } {
             add(self, joint, coupling);
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn load_factors(&self, joint: usize, at: JointState<R>, factors: &mut LoadFactors<R>) {
         if let Some(add) = const { E::LOAD_FRICTION.factors } {
             add(self, joint, at, factors);
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn load_slopes(&self, joint: usize, at: JointState<R>, slopes: &mut LoadFactors<R>) {
         if let Some(add) = const { E::LOAD_FRICTION.slopes } {
             add(self, joint, at, slopes);
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn regrouped(&self, joint: usize, body: &mut RegroupedInertia<R>) {
         if let Some(load) = const { E::REGROUPED.load } {
             load(self, joint, body);
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn add_inertia(&self, joint: usize, diagonal: &mut R) {
         if let Some(inertia) = self.inertia(joint) {
             *diagonal += inertia;

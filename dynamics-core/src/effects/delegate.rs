@@ -57,7 +57,7 @@ pub const fn first_name(names: &[&'static str]) -> &'static str {
 
 /// The sum of the values that are present.
 #[doc(hidden)]
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn sum<R: Real>(a: Option<R>, b: Option<R>) -> Option<R> {
     match (a, b) {
         (Some(a), Some(b)) => Some(a + b),
@@ -191,7 +191,7 @@ macro_rules! delegate_effect {
                 &[$(<$inner as $crate::effects::Effect<$R, $B, $V>>::ONCE),*],
             );
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn torque(&self, joint: usize, at: $crate::effects::JointState<$R>, tau: &mut $R) {
                 let $this = self;
                 if const { ($on) & ($joints) } {
@@ -199,7 +199,7 @@ macro_rules! delegate_effect {
                 }
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn derivatives(
                 &self,
                 joint: usize,
@@ -212,7 +212,7 @@ macro_rules! delegate_effect {
                 }
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn inertia(&self, joint: usize) -> Option<$R> {
                 let $this = self;
                 let sum = None;
@@ -232,13 +232,13 @@ macro_rules! delegate_effect {
         impl<$($generics)*> $crate::effects::Forwarder<$R, $B, $V> for $type
         $(where $($bounds)*)?
         {
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn forward_field(&self, g: &mut <$R as $crate::scalar::Real>::Vec3) {
                 let $this = self;
                 $(<$inner as $crate::effects::Declared<$R, $B, $V>>::field(&$to, g);)*
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn forward_base(
                 &self,
                 velocity: &mut $crate::spatial::Motion<$R>,
@@ -248,7 +248,7 @@ macro_rules! delegate_effect {
                 $(<$inner as $crate::effects::Declared<$R, $B, $V>>::base(&$to, velocity, acceleration);)*
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn forward_wrench(
                 &self,
                 body: usize,
@@ -259,19 +259,19 @@ macro_rules! delegate_effect {
                 $(<$inner as $crate::effects::Declared<$R, $B, $V>>::wrench(&$to, body, at, fx);)*
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn forward_payload(&self, body: usize, inertia: &mut $crate::spatial::SpatialInertia<$R>) {
                 let $this = self;
                 $(<$inner as $crate::effects::Declared<$R, $B, $V>>::payload(&$to, body, inertia);)*
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn forward_spin(&self, joint: usize, coupling: &mut $R) {
                 let $this = self;
                 $(<$inner as $crate::effects::Declared<$R, $B, $V>>::rotor_coupling(&$to, joint, coupling);)*
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn forward_load(
                 &self,
                 joint: usize,
@@ -282,7 +282,7 @@ macro_rules! delegate_effect {
                 $(<$inner as $crate::effects::Declared<$R, $B, $V>>::load_factors(&$to, joint, at, factors);)*
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn forward_load_slopes(
                 &self,
                 joint: usize,
@@ -293,7 +293,7 @@ macro_rules! delegate_effect {
                 $(<$inner as $crate::effects::Declared<$R, $B, $V>>::load_slopes(&$to, joint, at, slopes);)*
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn forward_regrouped(&self, joint: usize, body: &mut $crate::effects::RegroupedInertia<$R>) {
                 let $this = self;
                 $(<$inner as $crate::effects::Declared<$R, $B, $V>>::regrouped(&$to, joint, body);)*
@@ -302,7 +302,7 @@ macro_rules! delegate_effect {
     };
     (@advance [] $on:expr, [$R:ty, $B:tt, $V:tt] |$this:ident| $rest:tt) => {};
     (@advance [advance] $on:expr, [$R:ty, $B:tt, $V:tt] |$this:ident| { $($inner:ty => $to:expr),* }) => {
-        #[inline(always)]
+        #[cfg_attr(not(debug_assertions), inline(always))]
         fn advance(&mut self, joint: usize, at: $crate::effects::JointState<$R>, h: $R) {
             let $this = self;
             if const { $on } {

@@ -7,7 +7,7 @@ use crate::spatial::{Force, Motion, SpatialInertia, Xform};
 use crate::state::{State, entry};
 
 /// The field g, in base coordinates.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn field<R: Real, E, const B: usize, const V: usize>(effects: &E) -> R::Vec3
 where
     E: Effect<R, B, V>,
@@ -25,7 +25,7 @@ where
 }
 
 /// v₀ and a₀ of the base, a₀ less the field g: gravity is an acceleration of the base. RBDA (5.20).
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn base_motion<R: Real, E, const B: usize, const V: usize>(
     effects: &E,
 ) -> (Motion<R>, Motion<R>)
@@ -42,7 +42,7 @@ where
 }
 
 /// v₀ and a₀ of the base.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn base_given<R: Real, E, const B: usize, const V: usize>(
     effects: &E,
 ) -> (Motion<R>, Motion<R>)
@@ -57,7 +57,7 @@ where
 }
 
 /// The inertia of body `i` with the contributions of the effects, in its aligned frame.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn body_inertia<R: Real, E, const B: usize, const V: usize>(
     effects: &E,
     i: usize,
@@ -88,7 +88,7 @@ where
 }
 
 /// Whether body `i` carries a payload.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn is_loaded<R: Real, E, const B: usize, const V: usize>(i: usize) -> bool
 where
     E: Effect<R, B, V>,
@@ -97,7 +97,7 @@ where
 }
 
 /// fˣ on body `i`, in its aligned frame; `pose` and `v` are that frame's.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn body_wrench<R: Real, E, const B: usize, const V: usize>(
     effects: &E,
     i: usize,
@@ -131,7 +131,7 @@ where
 }
 
 /// The state that joint hooks read of velocity coordinate k.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn joint_state<R: Real, const Q: usize, const V: usize>(
     link: &LinkView<'_, R>,
     state: &State<R, Q, V>,
@@ -144,7 +144,7 @@ pub(crate) fn joint_state<R: Real, const Q: usize, const V: usize>(
 }
 
 /// Adds to the torques of one joint's coordinates those of the effects, inertia times q̈ included.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn joint_torques<R: Real, E, const B: usize, const Q: usize, const V: usize>(
     effects: &E,
     link: &LinkView<'_, R>,
@@ -164,7 +164,7 @@ pub(crate) fn joint_torques<R: Real, E, const B: usize, const Q: usize, const V:
 }
 
 /// The torque of the effects at one joint's coordinate at q̈ = 0.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn joint_torque<R: Real, E, const B: usize, const Q: usize, const V: usize>(
     effects: &E,
     link: &LinkView<'_, R>,
@@ -180,7 +180,7 @@ where
 }
 
 /// ρ I z of the rotor that spins about the axis of this joint's only coordinate.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn rotor_force<R: Real, E, const B: usize, const V: usize>(
     effects: &E,
     link: &LinkView<'_, R>,
@@ -196,7 +196,7 @@ where
 }
 
 /// ρ I (q̈ z + q̇ ω × z): the couple that the parent link exerts on such a rotor, in the body's aligned frame.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn gyroscopic<R: Real, E, const B: usize, const V: usize>(
     effects: &E,
     link: &LinkView<'_, R>,

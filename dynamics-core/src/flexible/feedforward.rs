@@ -114,7 +114,7 @@ impl<R: Real, const M: usize> ModalFeedforward<R, M> {
     ///
     /// # Errors
     /// [`FlexibleError::Mode`] if a number is not finite; the modes are then unchanged.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn tick<D, E, const B: usize, const Q: usize, const V: usize>(
         &mut self,
         robot: &D,

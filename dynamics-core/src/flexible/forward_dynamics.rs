@@ -68,7 +68,7 @@ impl core::error::Error for FlexibleError {}
 /// assert!((tau.joints[0] - 2.0).abs() < 1e-12 && tau.modes[0].abs() < 1e-12);
 /// # Ok::<(), dynamics_core::flexible::FlexibleError>(())
 /// ```
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn forward_dynamics<
     R: Real,
     D,
@@ -119,7 +119,7 @@ where
 ///
 /// # Example
 /// That of [`ModalFeedforward`](super::ModalFeedforward).
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn modal_dynamics<
     R: Real,
     D,

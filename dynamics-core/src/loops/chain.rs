@@ -14,7 +14,7 @@ pub(super) struct Chain<R: Real> {
 }
 
 /// Inward from a frame on body `at` to `ancestor`, setting the columns of the Jacobian of the frame.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn climb<R: Real, D, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     (turns, qd): (&[JointCoordinate<R>; Q], &[R; V]),
@@ -47,7 +47,7 @@ where
 }
 
 /// The nearest body that carries both, or the base.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn common_ancestor<R: Real, D, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     mut p: usize,
@@ -73,7 +73,7 @@ where
 }
 
 /// X⁻¹
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn inverse<R: Real>(x: &Xform<R>) -> Xform<R> {
     Xform {
         rot: x.rot.transpose(),

@@ -36,7 +36,7 @@ pub struct Constraints<R: Real, const V: usize, const L: usize, const C: usize> 
 
 impl<R: Real, const V: usize, const L: usize, const C: usize> Constraints<R, V, L, C> {
     /// The largest error of position relative to the size of its loop, and its row.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn worst(&self) -> (R, usize) {
         let mut worst = (R::ZERO, 0);
         for (row, (&error, &size)) in self.position.iter().zip(&self.size).enumerate() {
@@ -49,7 +49,7 @@ impl<R: Real, const V: usize, const L: usize, const C: usize> Constraints<R, V, 
     }
 
     /// The rows of K over the sizes of their loops.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn scaled(&self) -> [[R; V]; C] {
         let mut rows = self.jacobian;
         for (row, &size) in rows.iter_mut().zip(&self.size) {
@@ -60,19 +60,19 @@ impl<R: Real, const V: usize, const L: usize, const C: usize> Constraints<R, V, 
     }
 
     /// The errors of position over the sizes of their loops.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn error(&self) -> [R; C] {
         over(self.position, &self.size)
     }
 
     /// k over the sizes of the loops.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn scaled_bias(&self) -> [R; C] {
         over(self.bias, &self.size)
     }
 
     /// Row `row` of K q̈, with what stabilises it.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn wanted(&self, row: usize, by: Stabilisation<R>) -> R {
         let errors =
             by.velocity * entry(&self.velocity, row) + by.position * entry(&self.position, row);
@@ -109,7 +109,7 @@ impl<R: Real, const V: usize, const L: usize, const C: usize> Constraints<R, V, 
 
     /// # Errors
     /// [`LoopError::NotFinite`] with the name of the first loop of which a number is not finite.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn check<const A: usize>(&self, loops: &Loops<L, C, A>) -> Result<(), LoopError> {
         for (row, entries) in self.jacobian.iter().enumerate() {
             let others = [self.bias, self.position, self.velocity, self.size];
@@ -124,7 +124,7 @@ impl<R: Real, const V: usize, const L: usize, const C: usize> Constraints<R, V, 
 }
 
 /// Numbers of rows over the sizes of their loops.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn over<R: Real, const C: usize>(mut rows: [R; C], size: &[R; C]) -> [R; C] {
     for (x, &size) in rows.iter_mut().zip(size) {
         *x *= R::ONE / size;
@@ -166,7 +166,7 @@ pub(super) fn over<R: Real, const C: usize>(mut rows: [R; C], size: &[R; C]) -> 
 /// assert_eq!(stretched.position, [0.0; 5]); // the rod reaches the piston
 /// assert!(stretched.velocity.iter().any(|error| error.abs() > 0.3)); // m/s: the crank alone would lift its end
 /// ```
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn constraints<
     R: Real,

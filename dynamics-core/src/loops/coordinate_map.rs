@@ -90,7 +90,7 @@ pub struct CoordinateMap<R, const V: usize, const C: usize, const A: usize> {
 /// that still moves with all actuated coordinates held, and the coordinate; [`LoopError::NotFinite`] the first loop of
 /// which a number is not finite. Near a dead point of the motors there is a damped map: [`Drive::Singular`].
 #[doc(alias = "explicit constraints")]
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn coordinate_map<
     R: Real,
     D,
@@ -115,7 +115,7 @@ where
 }
 
 impl<R: Real, const V: usize, const C: usize, const A: usize> CoordinateMap<R, V, C, A> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn of<D, const B: usize, const Q: usize, const L: usize>(
         robot: &D,
         loops: &Loops<L, C, A>,
@@ -197,13 +197,13 @@ impl<R: Real, const V: usize, const C: usize, const A: usize> CoordinateMap<R, V
     }
 
     /// q̇ = G ẏ from the rates of the actuated coordinates; of a redundantly driven robot the independent ones count.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn velocity(&self, rates: &[R; A]) -> [R; V] {
         self.elimination.complete(self.spread(rates), &[R::ZERO; C])
     }
 
     /// q̈ = G ÿ + ġ from the accelerations of the actuated coordinates and the k of [`Constraints::bias`].
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn acceleration(&self, accelerations: &[R; A], bias: &[R; C]) -> [R; V] {
         self.elimination
             .complete(self.spread(accelerations), &over(*bias, &self.size))
@@ -212,7 +212,7 @@ impl<R: Real, const V: usize, const C: usize, const A: usize> CoordinateMap<R, V
     /// The torques of the actuated coordinates that do what torques of all coordinates would: Gᵀ τ_a = Gᵀ τ, N·m or N.
     ///
     /// Of several, that with the least sum of squares, in which an N counts as an N·m.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn torque(&self, tau: &[R; V]) -> [R; A] {
         let mut wanted = [R::ZERO; A];
         for ((wanted, &joint), &independent) in
@@ -242,13 +242,13 @@ impl<R: Real, const V: usize, const C: usize, const A: usize> CoordinateMap<R, V
     }
 
     /// The λ that takes the place of the torques `rest` = τ − τ_a.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn lambda(&self, rest: &[R; V]) -> [R; C] {
         over(self.elimination.lambda(rest), &self.size)
     }
 
     /// Numbers of the independent coordinates in their places of all coordinates.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn spread(&self, of_actuated: &[R; A]) -> [R; V] {
         let mut all = [R::ZERO; V];
         let places = self.actuated.iter().zip(&self.independent);
@@ -261,7 +261,7 @@ impl<R: Real, const V: usize, const C: usize, const A: usize> CoordinateMap<R, V
     }
 
     /// The row of G of one coordinate, in the places of the actuated ones.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn row(&self, joint: usize) -> [R; A] {
         let pivot_row = self.elimination.row_of(joint);
         let mut g = [R::ZERO; A];

@@ -35,14 +35,14 @@ impl<const C: usize> LoopRows<C> {
     }
 
     /// Also leaves out independent rows that differ from a combination of others by no more than rounding errors.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn keep(&mut self, keeps: impl Fn(usize) -> bool) {
         for (row, independent) in self.independent.iter_mut().enumerate() {
             *independent &= keeps(row);
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn has(&self, row: usize) -> bool {
         entry(&self.independent, row)
     }
@@ -62,7 +62,7 @@ pub(super) struct Elimination<R, const V: usize, const C: usize> {
 }
 
 /// The elimination of `rows`, pivots in the coordinates `first` before those in others.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn eliminate<R: Real, const V: usize, const C: usize>(
     rows: [[R; V]; C],
     first: &[bool; V],
@@ -89,7 +89,7 @@ pub(super) fn eliminate<R: Real, const V: usize, const C: usize>(
 
 impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
     /// The largest entry of the rows and columns without a pivot.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn largest(&self, allowed: impl Fn(usize) -> bool) -> Option<(usize, usize)> {
         let (mut largest, mut place) = (R::select(RANK_TOLERANCE.0, RANK_TOLERANCE.1), None);
         for (i, row) in self.rows.iter().enumerate() {
@@ -107,7 +107,7 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
     }
 
     /// Makes a column a unit column.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn pivot(&mut self, row: usize, column: usize) {
         let (Some(&pivot_row), Some(&pivot_transform)) =
             (self.rows.get(row), self.transform.get(row))
@@ -138,7 +138,7 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
     }
 
     /// Which rows have a pivot.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn loop_rows(&self) -> LoopRows<C> {
         LoopRows {
             independent: self.column_of.map(|column| column != NONE),
@@ -146,20 +146,20 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
     }
 
     /// The coordinates without a pivot, which the others depend on.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn free(&self) -> impl Iterator<Item = usize> {
         let columns = self.row_of.iter().enumerate();
         columns.filter_map(|(column, &row)| (row == NONE).then_some(column))
     }
 
     /// The row of the pivot of a column.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn row_of(&self, column: usize) -> Option<&[R; V]> {
         self.rows.get(entry(&self.row_of, column))
     }
 
     /// x with K x = `right`, of given free coordinates; `right` over the sizes of the loops, as the rows.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn complete(&self, free: [R; V], right: &[R; C]) -> [R; V] {
         let mut x = free;
         for ((row, transform), &column) in
@@ -173,7 +173,7 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
     }
 
     /// Entry `free` of Gᵀ τ.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn transposed(&self, free: usize, tau: &[R; V]) -> R {
         let mut sum = entry(tau, free);
         for (row, &column) in self.rows.iter().zip(&self.column_of) {
@@ -185,7 +185,7 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
     }
 
     /// λ of rows over the sizes of the loops, with Kᵀ λ = `torque` in the coordinates with a pivot.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn lambda(&self, torque: &[R; V]) -> [R; C] {
         let mut lambda = [R::ZERO; C];
         for (transform, &column) in self.transform.iter().zip(&self.column_of) {
@@ -197,7 +197,7 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
     }
 
     /// The sum of a row's entries in free columns, times x.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn of_free(&self, row: &[R; V], x: &[R; V]) -> R {
         let mut sum = R::ZERO;
         for ((&entry, &x), &pivot) in row.iter().zip(x).zip(&self.row_of) {
@@ -209,14 +209,14 @@ impl<R: Real, const V: usize, const C: usize> Elimination<R, V, C> {
     }
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn dot<R: Real, const N: usize>(a: &[R; N], b: &[R; N]) -> R {
     let products = a.iter().zip(b).map(|(&a, &b)| a * b);
     products.fold(R::ZERO, |sum, product| sum + product)
 }
 
 /// a −= factor b.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn subtract<R: Real, const N: usize>(a: &mut [R; N], factor: R, b: &[R; N]) {
     for (a, &b) in a.iter_mut().zip(b) {
         *a -= factor * b;

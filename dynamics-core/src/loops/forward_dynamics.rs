@@ -131,7 +131,7 @@ pub struct LoopMotion<R: Real, const V: usize, const L: usize, const C: usize> {
 /// first loop that a number which is not finite reaches.
 #[doc(alias = "constraintDynamics")]
 #[doc(alias = "closed loops")]
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn forward_dynamics<
     R: Real,
     D,

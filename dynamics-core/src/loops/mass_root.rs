@@ -22,7 +22,7 @@ pub(super) struct MassRoot<'a, R, const V: usize> {
 }
 
 impl<'a, R: Real, const V: usize> MassRoot<'a, R, V> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn of<D, const B: usize, const Q: usize>(
         robot: &'a D,
         factors: &'a Ltdl<R, V>,
@@ -37,13 +37,13 @@ impl<'a, R: Real, const V: usize> MassRoot<'a, R, V> {
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn parent(&self, i: usize) -> usize {
         self.lambda.get(i).copied().unwrap_or(BASE)
     }
 
     /// D^-½ L⁻ᵀ τ. 2 V² flops on a chain, less on a tree. RBDA (2008), table 6.5.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn of_torque(&self, tau: &[R; V]) -> [R; V] {
         let mut x = *tau;
         for i in (0..V).rev() {
@@ -62,7 +62,7 @@ impl<'a, R: Real, const V: usize> MassRoot<'a, R, V> {
     }
 
     /// L⁻¹ D^-½ z: an acceleration. 2 V² flops on a chain, less on a tree.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn acceleration(&self, z: &[R; V]) -> [R; V] {
         let mut x = *z;
         for i in 0..V {
@@ -91,7 +91,7 @@ pub(super) struct Orthogonal<R, const V: usize, const C: usize> {
 
 impl<R: Real, const V: usize, const C: usize> Orthogonal<R, V, C> {
     /// By the modified method of Gram and Schmidt, twice for each row. A row that is zero is left out.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn of(rows: [[R; V]; C]) -> Self {
         let (mut q, mut r, mut r_inv) = (rows, [[R::ZERO; C]; C], [R::ZERO; C]);
         for (j, (coefficients, r_inv)) in r.iter_mut().zip(&mut r_inv).enumerate() {
@@ -120,13 +120,13 @@ impl<R: Real, const V: usize, const C: usize> Orthogonal<R, V, C> {
     }
 
     /// Whether a row is independent of those before it.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn has(&self, row: usize) -> bool {
         entry(&self.r_inv, row) != R::ZERO
     }
 
     /// The z nearest to `free` with W z = `right`, and the λ with z = `free` + Wᵀ λ.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn nearest(&self, free: &[R; V], right: &[R; C]) -> ([R; V], [R; C]) {
         let (mut along, mut z) = ([R::ZERO; C], *free);
         for (i, (row, &r_inv)) in self.r.iter().zip(&self.r_inv).enumerate() {

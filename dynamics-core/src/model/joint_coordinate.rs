@@ -22,28 +22,28 @@ pub struct JointCoordinate<R> {
 
 impl<R: Real> JointCoordinate<R> {
     /// A rotation by q rad.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn revolute(q: R) -> Self {
         let (sin, cos) = q.sin_cos();
         Self { q, sin, cos }
     }
 
     /// A rotation by q rad, its sine and cosine by the kernel K.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn with_kernel<K: Kernel<R>>(q: R) -> Self {
         let (sin, cos) = K::sin_cos(q);
         Self { q, sin, cos }
     }
 
     /// A rotation by q rad, |q| ≤ 100, its sine and cosine by the kernel K.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn revolute_bounded<K: Kernel<R>>(q: R) -> Self {
         let (sin, cos) = K::sin_cos_near(q);
         Self { q, sin, cos }
     }
 
     /// A coordinate that is not an angle.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn linear(q: R) -> Self {
         Self {
             q,
@@ -52,7 +52,7 @@ impl<R: Real> JointCoordinate<R> {
     }
 
     /// Rz(q)ᵀ E for every column of E: from the frame before the turn into the one after. 18 flops.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn about_z(self, e: &R::Mat3) -> R::Mat3 {
         let [x, y, z] = e.cols().map(|column| {
             let [x, y, z] = column.array();
@@ -63,7 +63,7 @@ impl<R: Real> JointCoordinate<R> {
     }
 
     /// The same about x. 18 flops.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn about_x(self, e: &R::Mat3) -> R::Mat3 {
         let [x, y, z] = e.cols().map(|column| {
             let [x, y, z] = column.array();
@@ -76,7 +76,7 @@ impl<R: Real> JointCoordinate<R> {
 
 /// The rotation of coordinates into a body whose attitude is the unit quaternion (x, y, z, w).
 /// RBDA (4.12). 30 flops.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn rotation<R: Real>([x, y, z, w]: [R; 4]) -> R::Mat3 {
     let (x2, y2, z2) = (x + x, y + y, z + z);
     let (xx, yy, zz) = (x * x2, y * y2, z * z2);
@@ -93,7 +93,7 @@ pub(crate) fn rotation<R: Real>([x, y, z, w]: [R; 4]) -> R::Mat3 {
 /// A quaternion at unit length. One that has drifted, |p|² = 1 + ε with |ε| < 1/8, by one step of Newton's iteration
 /// for 1/|p|: no root, no division; its length is then 1 to 3ε²/8. Any other by its length; [`rotation`] interprets the
 /// quaternion zero as no rotation. 29 flops.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn near_unit<R: Real>(p: [R; 4]) -> [R; 4] {
     let [x, y, z, w] = p;
     let squared = (x * x + y * y) + (z * z + w * w);

@@ -93,7 +93,7 @@ impl JointKinds {
         .with(JointKind::Continuous);
 
     /// Whether each is one of these.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) const fn are_revolute(self) -> bool {
         self.0 & !Self::REVOLUTE.0 == 0
     }
@@ -111,13 +111,13 @@ impl JointKinds {
     }
 
     /// Whether this kind is one of them.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) const fn has(self, kind: JointKind) -> bool {
         self.0 & (1 << kind as u16) != 0
     }
 
     /// `kind`, which is one of these, in a form from which the compiler can prove that it is.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn of(self, kind: JointKind) -> JointKind {
         use JointKind::*;
         match kind {
@@ -135,7 +135,7 @@ impl JointKinds {
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     const fn first(self) -> JointKind {
         let kinds = JointKind::ALL;
         let mut i = 0;

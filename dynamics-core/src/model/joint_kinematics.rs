@@ -15,7 +15,7 @@ use JointKind::*;
 
 impl<R: Real> LinkView<'_, R> {
     /// Its entries of the joints' sines and cosines: those of its angles, its quaternion at unit length.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn pose<K: Kernel<R>>(&self, q: &[R], turns: &mut [JointCoordinate<R>]) {
         let (count, _) = self.kind.coordinates();
         let (angles, quaternion) = self.kind.angles();
@@ -39,7 +39,7 @@ impl<R: Real> LinkView<'_, R> {
     }
 
     /// ⁱX_λ(i) = X_J ᵀX: from the parent's aligned frame to the body's, at the configuration `turns`.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn xform(&self, turns: &[JointCoordinate<R>]) -> Xform<R> {
         let e = &self.placement.rot;
         let q = |k| entry(turns, self.idx_q + k);
@@ -54,7 +54,7 @@ impl<R: Real> LinkView<'_, R> {
     }
 
     /// The origin of the body in its parent's aligned frame, m.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn origin(&self, turns: &[JointCoordinate<R>]) -> R::Vec3 {
         let (e, r) = (&self.placement.rot, self.placement.pos);
         let q = |k| entry(turns, self.idx_q + k).q;
@@ -69,7 +69,7 @@ impl<R: Real> LinkView<'_, R> {
     }
 
     /// S q̇: the velocity of the joint, where `rates` is all of q̇ (or S q̈ of all of q̈).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn motion(&self, turns: &[JointCoordinate<R>], rates: &[R]) -> Motion<R> {
         let zero = R::Vec3::ZERO;
         let rate = |k| entry(rates, self.idx_v + k);
@@ -92,7 +92,7 @@ impl<R: Real> LinkView<'_, R> {
     }
 
     /// m + S q̇, without additions of the zeros of S.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn plus_motion(
         &self,
         m: Motion<R>,
@@ -109,7 +109,7 @@ impl<R: Real> LinkView<'_, R> {
     }
 
     /// a + S̊ q̇ + v × S q̇: an acceleration with the velocity products of the body and its joint.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn plus_velocity_product(
         &self,
         a: Motion<R>,
@@ -121,7 +121,7 @@ impl<R: Real> LinkView<'_, R> {
     }
 
     /// a + (S̊ + v × S) y, where S changes by the joint's velocity in all of q̇, `rates`, and `y` is another velocity.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn plus_subspace_rate(
         &self,
         a: Motion<R>,
@@ -149,7 +149,7 @@ impl<R: Real> LinkView<'_, R> {
     }
 
     /// Column k of S̊ + v × S, the rate of S in a body of velocity v.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn column_rate(
         &self,
         turns: &[JointCoordinate<R>],
@@ -175,7 +175,7 @@ impl<R: Real> LinkView<'_, R> {
     }
 
     /// Column k of S: the velocity of the joint at unit rate of its coordinate k.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn column(&self, turns: &[JointCoordinate<R>], k: usize) -> Motion<R> {
         let zero = R::Vec3::ZERO;
         match self.kind {
@@ -195,7 +195,7 @@ impl<R: Real> LinkView<'_, R> {
     }
 
     /// Column k of S.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn subspace(&self, turns: &[JointCoordinate<R>], k: usize) -> MotionSubspace<R> {
         match self.kind {
             JointKind::Revolute | JointKind::Continuous => MotionSubspace::RevoluteZ,
@@ -205,7 +205,7 @@ impl<R: Real> LinkView<'_, R> {
     }
 
     /// Sᵀ f: the components of a force along the joint's coordinates, stored in their entries of `tau`.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn project(&self, turns: &[JointCoordinate<R>], f: Force<R>, tau: &mut [R]) {
         let ([nx, ny, nz], [fx, fy, fz]) = (f.ang.array(), f.lin.array());
         let mut put = |values: &[R]| {
@@ -232,7 +232,7 @@ impl<R: Real> LinkView<'_, R> {
     }
 
     /// (v × S + S̊)ᵀ f: the components of a force along the rate of S in a body of velocity v.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn project_rate(
         &self,
         turns: &[JointCoordinate<R>],
@@ -253,27 +253,27 @@ impl<R: Real> LinkView<'_, R> {
 }
 
 /// A vector along z.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn z<R: Real>(z: R) -> R::Vec3 {
     R::Vec3::new(R::ZERO, R::ZERO, z)
 }
 
 /// a + v × z r.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn plus_cross_z<R: Real>(a: R::Vec3, v: R::Vec3, r: R) -> R::Vec3 {
     let ([x, y, z], [vx, vy, _]) = (a.array(), v.array());
     R::Vec3::new(x + vy * r, y - vx * r, z)
 }
 
 /// The last row of a matrix: z of the turned frame.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn row_z<R: Real>(m: &R::Mat3) -> R::Vec3 {
     let [x, y, z] = m.cols().map(|column| column.array()[2]);
     R::Vec3::new(x, y, z)
 }
 
 /// The k-th unit vector of M⁶.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn unit<R: Real>(k: usize) -> Motion<R> {
     let at = |i| if i == k { R::ONE } else { R::ZERO };
     Motion::new(

@@ -26,13 +26,13 @@ pub trait RobotModel<R: Real, const B: usize, const Q: usize, const V: usize> {
 
     /// The same robot as one of revolute joints only, if all joints of a model loaded at run time are revolute: for algorithms
     /// that are compiled a second time for this case. None if the robot is known at compile time.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn as_all_revolute(&self) -> Option<AllRevolute<'_, R, B, Q, V>> {
         None
     }
 
     /// The links, parents first, each with the properties of its joint that are known at compile time.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn links<'a>(&'a self) -> impl DoubleEndedIterator<Item = LinkView<'a, R>> + ExactSizeIterator
     where
         R: 'a,
@@ -42,7 +42,7 @@ pub trait RobotModel<R: Real, const B: usize, const Q: usize, const V: usize> {
     }
 
     /// Link `i`.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn link<'a>(&'a self, i: usize) -> Option<LinkView<'a, R>>
     where
         R: 'a,
@@ -57,12 +57,12 @@ impl<R: Real, const B: usize, const Q: usize, const V: usize> RobotModel<R, B, Q
 {
     type Kernel = Native;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn model(&self) -> &Self {
         self
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn as_all_revolute(&self) -> Option<AllRevolute<'_, R, B, Q, V>> {
         let only = B == Q && B == V && self.kinds.are_revolute();
         only.then_some(AllRevolute(self))
@@ -85,7 +85,7 @@ impl<R: Real, const B: usize, const Q: usize, const V: usize> RobotModel<R, B, Q
     const KINDS: JointKinds = JointKinds::REVOLUTE;
     const SINGLE: bool = true;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn model(&self) -> &Model<R, B, Q, V> {
         self.0
     }
@@ -119,7 +119,7 @@ where
     const CHAIN: bool = T::MODEL.is_chain();
     const SINGLE: bool = T::MODEL.kinds().are_single() && B == Q && B == V;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn model(&self) -> &Model<R, B, Q, V> {
         model::<R, T, B, Q, V>()
     }
@@ -189,7 +189,7 @@ where
     const CHAIN: bool = T::MODEL.is_chain();
     const SINGLE: bool = T::MODEL.kinds().are_single() && B == Q && B == V;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn model(&self) -> &Model<R, B, Q, V> {
         &self.model
     }

@@ -8,11 +8,11 @@ use crate::trig::Kernel;
 pub struct Native;
 
 impl<R: Real> Kernel<R> for Native {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn sin_cos(x: R) -> (R, R) {
         x.sin_cos()
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn sin_cos_near(x: R) -> (R, R) {
         x.sin_cos_near()
     }

@@ -20,7 +20,7 @@ pub struct StepIncrement<R, const V: usize> {
 
 impl<R: Real, const V: usize> StepIncrement<R, V> {
     /// A velocity and an acceleration that are constant over the step.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn constant(qd: [R; V], qdd: [R; V]) -> Self {
         let half_difference = None;
         Self {
@@ -44,7 +44,7 @@ impl<R: Real, const V: usize> StepIncrement<R, V> {
     /// let [x, y, z, w] = quarters.configuration_after(&ball, &neutral(&ball), core::f64::consts::PI);
     /// assert!([x, y, z, w].iter().all(|part| (part - 0.5).abs() < 1e-15));
     /// ```
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn configuration_after<D, const B: usize, const Q: usize>(
         &self,
         robot: &D,
@@ -66,7 +66,7 @@ impl<R: Real, const V: usize> StepIncrement<R, V> {
     }
 
     /// State after h seconds; its q̈ is the step's mean.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn end<const Q: usize>(
         &self,
         mechanics: &impl Dynamics<R, Q, V>,
@@ -82,7 +82,7 @@ impl<R: Real, const V: usize> StepIncrement<R, V> {
 }
 
 /// x + h ẋ.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn add_scaled<R: Real, const V: usize>(mut x: [R; V], h: R, rates: &[R; V]) -> [R; V] {
     for (x, &rate) in x.iter_mut().zip(rates) {
         *x += h * rate;

@@ -16,7 +16,7 @@ pub(crate) struct CompositeInertia<R: Real> {
 }
 
 impl<R: Real> From<SpatialInertia<R>> for CompositeInertia<R> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn from(i: SpatialInertia<R>) -> Self {
         Self {
             mass: i.mass,
@@ -27,7 +27,7 @@ impl<R: Real> From<SpatialInertia<R>> for CompositeInertia<R> {
 }
 
 impl<R: Real> AddAssign for CompositeInertia<R> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn add_assign(&mut self, o: Self) {
         self.mass += o.mass;
         self.first_moment += o.first_moment;
@@ -51,7 +51,7 @@ impl<R: Real> CompositeInertia<R> {
     }
 
     /// Iᶜ s, the force of unit acceleration along a column of S.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn along(&self, s: &MotionSubspace<R>) -> Force<R> {
         let [x, y, _] = self.first_moment.array();
         let zero = R::ZERO;
@@ -72,7 +72,7 @@ impl<R: Real> CompositeInertia<R> {
 
     /// The motion m with Iᶜ m = f, RBDA (2.74): about the centre of mass, rotation and translation are decoupled. None
     /// if there is no mass, or no inertia about some axis. 130 flops.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn solve(&self, f: Force<R>) -> Option<Motion<R>> {
         let mass_inv = R::ONE / self.mass;
         let c = self.first_moment * mass_inv;
@@ -94,7 +94,7 @@ impl<R: Real> CompositeInertia<R> {
     }
 
     /// Xᵀ Iᶜ X: the same inertia at the parent's frame. RBDA (2.66). 107 flops.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn at_parent(&self, x: &Xform<R>) -> Self {
         let (h, r) = (x.rot.transpose_mul(self.first_moment), x.pos);
         let moment = h + r * self.mass;
@@ -129,7 +129,7 @@ pub(crate) struct ArticulatedInertia<R: Real> {
 }
 
 impl<R: Real> From<SpatialInertia<R>> for ArticulatedInertia<R> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn from(i: SpatialInertia<R>) -> Self {
         let ([x, y, z], zero) = (i.first_moment.array(), R::ZERO);
         Self {
@@ -145,7 +145,7 @@ impl<R: Real> From<SpatialInertia<R>> for ArticulatedInertia<R> {
 }
 
 impl<R: Real> AddAssign for ArticulatedInertia<R> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn add_assign(&mut self, o: Self) {
         self.inertia += o.inertia;
         self.coupling += o.coupling;
@@ -155,7 +155,7 @@ impl<R: Real> AddAssign for ArticulatedInertia<R> {
 
 impl<R: Real> ArticulatedInertia<R> {
     /// Iᴬ m. 66 flops.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn times(&self, m: Motion<R>) -> Force<R> {
         Force::new(
             self.inertia.times(m.ang) + self.coupling * m.lin,
@@ -164,7 +164,7 @@ impl<R: Real> ArticulatedInertia<R> {
     }
 
     /// U = Iᴬ s, for a column of S.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn along(&self, s: &MotionSubspace<R>) -> Force<R> {
         let [x, y, z] = self.coupling.cols();
         match s {
@@ -178,7 +178,7 @@ impl<R: Real> ArticulatedInertia<R> {
     }
 
     /// Iᴬ − U Uᵀ / D: what remains when the joint is free. RBDA (7.43). 48 flops.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn minus_outer(&self, u: Force<R>, d_inv: R) -> Self {
         let (n, f) = (u.ang * d_inv, u.lin * d_inv);
         let [fx, fy, fz] = f.array();
@@ -190,7 +190,7 @@ impl<R: Real> ArticulatedInertia<R> {
     }
 
     /// Xᵀ Iᴬ X: the same inertia at the parent's frame. RBDA (2.66). 270 flops.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn at_parent(&self, x: &Xform<R>) -> Self {
         let i = self.inertia.turned_back(&x.rot);
         let h = turned_back::<R>(&self.coupling, &x.rot);

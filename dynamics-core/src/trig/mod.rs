@@ -41,7 +41,7 @@ pub trait Kernel<R> {
     fn sin_cos(x: R) -> (R, R);
 
     /// (sin x, cos x) of x in rad, |x| ≤ 100: [`crate::Engine`] uses it for joints whose limits lie within ±4π.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn sin_cos_near(x: R) -> (R, R) {
         Self::sin_cos(x)
     }
@@ -54,7 +54,7 @@ pub trait Kernel<R> {
     clippy::eq_op,
     reason = "x − x is 0 of a finite x and NaN of any other"
 )]
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn bounded(r: f32, inside: bool, x: f32) -> f32 {
     core::hint::select_unpredictable(inside, r, x - x)
 }
@@ -68,7 +68,7 @@ fn bounded(r: f32, inside: bool, x: f32) -> f32 {
 /// let (s, c) = dynamics_core::trig::sin_cos(0.5);
 /// assert!((s - 0.479_425_54).abs() < 1e-7 && (c - 0.877_582_55).abs() < 1e-7);
 /// ```
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn sin_cos(x: f32) -> (f32, f32) {
     Table::<128, 3, 4>::sin_cos(x)
 }
@@ -82,7 +82,7 @@ pub fn sin_cos(x: f32) -> (f32, f32) {
 /// let (s, c) = dynamics_core::trig::sin_cos_near(-3.0);
 /// assert!((s + 0.141_120_01).abs() < 1e-7 && (c + 0.989_992_5).abs() < 1e-7);
 /// ```
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn sin_cos_near(x: f32) -> (f32, f32) {
     Table::<128, 3, 2>::sin_cos(x)
 }
@@ -103,7 +103,7 @@ pub fn sin_cos_near(x: f32) -> (f32, f32) {
     clippy::eq_op,
     reason = "x − x is 0 of a finite x and NaN of any other"
 )]
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn sin_cos_f64(x: f64) -> (f64, f64) {
     const ROUND: f64 = 6_755_399_441_055_744.0;
     const SIN: [f64; 6] = [

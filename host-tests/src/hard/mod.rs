@@ -95,6 +95,29 @@ pub const CASES: &[&[Case]] = &[
     impedance::CASES,
 ];
 
+/// The numbers of all cases, as a constant: a program that names [`CASES`] has the code of all of them.
+pub const NUMBERS: [u32; count()] = {
+    let (mut numbers, mut next, mut family) = ([0; count()], 0, 0);
+    while family < CASES.len() {
+        let mut case = 0;
+        while case < CASES[family].len() {
+            numbers[next] = CASES[family][case].number;
+            (case, next) = (case + 1, next + 1);
+        }
+        family += 1;
+    }
+    numbers
+};
+
+const fn count() -> usize {
+    let (mut count, mut family) = (0, 0);
+    while family < CASES.len() {
+        count += CASES[family].len();
+        family += 1;
+    }
+    count
+}
+
 /// Runs the case of this number.
 ///
 /// # Errors

@@ -1,7 +1,5 @@
 //! Runs xtask with programs that stand in for others.
 
-#![allow(dead_code, reason = "each test program uses a part of it")]
-
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};

@@ -32,13 +32,13 @@ impl<R: Real> Pose<R> {
     };
 
     /// A point given in the body's frame, in base coordinates, m. 18 flops.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn point(&self, p: R::Vec3) -> R::Vec3 {
         self.rot * p + self.pos
     }
 
     /// ⁱX₀: motions from the base's frame to the body's.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn xform(&self) -> Xform<R> {
         Xform {
             rot: self.rot.transpose(),
@@ -47,7 +47,7 @@ impl<R: Real> Pose<R> {
     }
 
     /// The pose of the frame to which X transforms coordinates from this one's. 63 flops.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(in crate::algorithms) fn transformed_by(&self, x: &Xform<R>) -> Self {
         Self {
             rot: self.rot * x.rot.transpose(),
@@ -56,7 +56,7 @@ impl<R: Real> Pose<R> {
     }
 
     /// The pose with the same origin, and axes that `frame` rotates into this one's.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(in crate::algorithms) fn in_link_frame(&self, frame: &R::Mat3) -> Self {
         Self {
             rot: self.rot * *frame,
@@ -89,7 +89,7 @@ pub trait Frame: sealed::Sealed + Copy {
     /// The transform that [`Frame::express`] applies.
     fn from_body<R: Real>(pose: &Pose<R>) -> Xform<R>;
     /// The difference of the acceleration in this frame and the spatial one; v is the velocity in this frame.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn classical_term<R: Real>(v: Motion<R>) -> Motion<R> {
         let _ = v;
         Motion::ZERO
@@ -110,23 +110,23 @@ pub struct World;
 pub struct LocalWorldAligned;
 
 impl Frame for Local {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn express<R: Real>(_: &Pose<R>, m: Motion<R>) -> Motion<R> {
         m
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn from_body<R: Real>(_: &Pose<R>) -> Xform<R> {
         Xform::IDENTITY
     }
 }
 
 impl Frame for World {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn express<R: Real>(pose: &Pose<R>, m: Motion<R>) -> Motion<R> {
         let m = LocalWorldAligned::express(pose, m);
         Motion::new(m.ang, m.lin + pose.pos.cross(m.ang))
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn from_body<R: Real>(pose: &Pose<R>) -> Xform<R> {
         Xform {
             rot: pose.rot,
@@ -136,18 +136,18 @@ impl Frame for World {
 }
 
 impl Frame for LocalWorldAligned {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn express<R: Real>(pose: &Pose<R>, m: Motion<R>) -> Motion<R> {
         Motion::new(pose.rot * m.ang, pose.rot * m.lin)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn from_body<R: Real>(pose: &Pose<R>) -> Xform<R> {
         Xform {
             rot: pose.rot,
             pos: R::Vec3::ZERO,
         }
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn classical_term<R: Real>(v: Motion<R>) -> Motion<R> {
         classical(Motion::ZERO, v)
     }
@@ -172,7 +172,7 @@ impl Frame for LocalWorldAligned {
 /// let v = Motion::<f32>::new(Vec3::Z * 3.0, Vec3::Y * 6.0);
 /// assert_eq!(classical(Motion::ZERO, v).lin, Vec3::X * -18.0);
 /// ```
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn classical<R: Real>(a: Motion<R>, v: Motion<R>) -> Motion<R> {
     Motion::new(a.ang, a.lin + v.ang.cross(v.lin))

@@ -42,7 +42,7 @@ use crate::state::{Configuration, RobotState};
 /// ```
 #[doc(alias = "geometric Jacobian")]
 #[doc(alias = "end effector")]
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn jacobian<R: Real, D, F: Frame, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
@@ -114,7 +114,7 @@ where
 /// ```
 #[doc(alias = "drift")]
 #[doc(alias = "Jdot")]
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn bias_acceleration<R: Real, D, F: Frame, const B: usize, const Q: usize, const V: usize>(
     robot: &D,

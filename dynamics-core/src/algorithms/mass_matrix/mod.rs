@@ -39,14 +39,14 @@ impl<R: Real, const V: usize> MassMatrix<R, V> {
     };
 
     /// M_ij; zero beyond the matrix.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn get(&self, i: usize, j: usize) -> R {
         let row = self.rows.get(i).and_then(|row| row.get(j));
         row.copied().unwrap_or_default()
     }
 
     /// Row i.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn row(&self, i: usize) -> Option<&[R; V]> {
         self.rows.get(i)
     }
@@ -93,7 +93,7 @@ impl<R: Real, const V: usize> MassMatrix<R, V> {
     }
 
     /// Sets M_ij and M_ji.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn set(&mut self, i: usize, j: usize, value: R) {
         if let Some(entry) = self.rows.get_mut(i).and_then(|row| row.get_mut(j)) {
             *entry = value;
@@ -104,7 +104,7 @@ impl<R: Real, const V: usize> MassMatrix<R, V> {
     }
 
     /// M_ii.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn diagonal_mut(&mut self, i: usize) -> Option<&mut R> {
         self.rows.get_mut(i).and_then(|row| row.get_mut(i))
     }
@@ -123,7 +123,7 @@ pub struct Ltdl<R, const V: usize> {
 
 impl<R: Real, const V: usize> Ltdl<R, V> {
     /// L_ij: one on the diagonal, zero above it and beyond the matrix.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn get(&self, i: usize, j: usize) -> R {
         match self.rows.get(i).and_then(|row| row.get(j)) {
             Some(_) if i == j => R::ONE,
@@ -134,7 +134,7 @@ impl<R: Real, const V: usize> Ltdl<R, V> {
 
     /// The reciprocals of D: the acceleration of each coordinate under a unit torque when its ancestors are fixed and
     /// its descendants are free.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn d_inv(&self) -> &[R; V] {
         &self.d_inv
     }

@@ -51,7 +51,7 @@ use crate::state::{Configuration, entry};
 /// # Errors
 /// [`NotPositiveDefinite`] names a coordinate that moves no inertia, as [`aba`](crate::algorithms::aba()) does.
 #[doc(alias = "innovations factorisation")]
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn spatial_operator_ltdl<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     q: &impl Configuration<R, Q>,
@@ -83,7 +83,7 @@ where
 ///
 /// # Errors
 /// As [`spatial_operator_ltdl`].
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn spatial_operator_inverse<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     q: &impl Configuration<R, Q>,
@@ -112,7 +112,7 @@ where
 
 /// H (Φ or Ψ) K by rows of joints, and D⁻¹: K of each joint, projected on its ancestors; `pass` is the force that a
 /// joint transmits inward, given the force's projection on the joint and its own K.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn columns<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     q: &impl Configuration<R, Q>,

@@ -39,7 +39,7 @@ use crate::state::{Configuration, RobotState};
 /// let state = State { qd: [1.0, 0.0, 0.0, 0.0, 0.0, 0.0], ..State::at([0.0_f64; 6]) };
 /// assert!(centroidal_momentum(&Ur5e::MODEL, &state, &()).ang.z > 0.0);
 /// ```
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn centroidal_momentum<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
@@ -83,7 +83,7 @@ where
 /// assert!((h.ang - column.ang * 2.0).length() < 1e-12);
 /// ```
 #[doc(alias = "CMM")]
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn centroidal_matrix<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,

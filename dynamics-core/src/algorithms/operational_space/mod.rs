@@ -49,7 +49,7 @@ use crate::state::Configuration;
 /// ```
 #[doc(alias = "task_rows")]
 #[doc(alias = "selection matrix")]
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn task_jacobian<R: Real, const M: usize, const V: usize>(
     jacobian: &[Motion<R>; V],
@@ -91,7 +91,7 @@ pub fn task_jacobian<R: Real, const M: usize, const V: usize>(
 /// are finite, and [`OperationalSpace::conditioning`] reports it.
 #[doc(alias = "end effector")]
 #[doc(alias = "OSIM")]
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn operational_space<
     R: Real,
     D,
@@ -158,7 +158,7 @@ impl<R: Real, const M: usize, const V: usize> OperationalSpace<R, M, V> {
     /// assert!(task.inertia[2][2] > 1.0); // kg, vertically
     /// # Ok::<(), dynamics_core::algorithms::NotPositiveDefinite>(())
     /// ```
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn new(
         jacobian: [[R; V]; M],
         solve: impl Fn(&[R; V]) -> [R; V],
@@ -188,20 +188,20 @@ impl<R: Real, const M: usize, const V: usize> OperationalSpace<R, M, V> {
     }
 
     /// F = Λ ẍ: the task force of a task acceleration. 2 M² flops.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn force(&self, acceleration: &[R; M]) -> [R; M] {
         self.inertia.map(|row| dot(&row, acceleration))
     }
 
     /// τ = Jᵀ F: the torques of a task force, N·m or N. 2 M V flops.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn torque(&self, force: &[R; M]) -> [R; V] {
         combine(&self.jacobian, force)
     }
 
     /// J̄ = M⁻¹ Jᵀ Λ by columns: the dynamically consistent inverse of J, whose q̇ = J̄ ẋ has the least
     /// kinetic energy. 2 M² V flops. Khatib (1987), (37).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn consistent_inverse(&self) -> [[R; V]; M] {
         self.inertia.map(|row| combine(&self.response, &row))
     }
@@ -209,7 +209,7 @@ impl<R: Real, const M: usize, const V: usize> OperationalSpace<R, M, V> {
     /// (1 − Jᵀ J̄ᵀ) τ₀: the part of torques τ₀ that does not accelerate the task. Khatib (1987), (53).
     ///
     /// Where Λ is damped, some acceleration along the damped direction remains. 4 M V + 2 M² flops.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[doc(alias = "null space")]
     #[doc(alias = "nullspace")]
     pub fn null_space_torque(&self, tau: &[R; V]) -> [R; V] {
@@ -222,14 +222,14 @@ impl<R: Real, const M: usize, const V: usize> OperationalSpace<R, M, V> {
     }
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn dot<R: Real, const N: usize>(a: &[R; N], b: &[R; N]) -> R {
     let products = a.iter().zip(b).map(|(&a, &b)| a * b);
     products.fold(R::ZERO, |sum, product| sum + product)
 }
 
 /// Σ rows × weights.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn combine<R: Real, const M: usize, const V: usize>(rows: &[[R; V]; M], by: &[R; M]) -> [R; V] {
     let mut sum = [R::ZERO; V];
     for (row, &by) in rows.iter().zip(by) {

@@ -60,7 +60,7 @@ use crate::state::{Configuration, JointTrig, RobotState, State};
 /// ```
 #[doc(alias = "computeJointTorqueRegressor")]
 #[doc(alias = "parameter identification")]
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn regressor<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
@@ -118,7 +118,7 @@ where
 /// ```
 #[doc(alias = "load identification")]
 #[doc(alias = "payload identification")]
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn regressor_columns<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
@@ -171,7 +171,7 @@ where
 /// assert!(row.iter().flatten().zip(all.iter().flatten()).all(|(row, all)| (row - all).abs() < 1e-12));
 /// assert_eq!(row[1], [0.0; 10]); // the elbow does not move the upper arm
 /// ```
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn regressor_row<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
@@ -210,7 +210,7 @@ where
 /// let whole = regressor_row(&Ur5e::MODEL, &state, &RIGID_BODY, 1);
 /// assert_eq!([row[2], row[4], row[5]], [whole[2], whole[4], [0.0; 10]]);
 /// ```
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn regressor_row_of_bodies<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
@@ -253,7 +253,7 @@ where
 
 /// Visits each of the first `count` bodies with its number, its velocity and acceleration, and the transforms of all bodies up to it. Featherstone &
 /// Orin (3), (4).
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn outward<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     trig: &JointTrig<R, Q>,
@@ -288,7 +288,7 @@ fn outward<R: Real, D, E, const B: usize, const Q: usize, const V: usize>(
 
 /// Visits each coordinate that moves body `i` with the body's motion per unit of its rate, in the body's own frame: X S of
 /// the joints on the path from the body to the base.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn climb<R: Real, D, const B: usize, const Q: usize, const V: usize>(
     robot: &D,
     trig: &JointTrig<R, Q>,

@@ -25,7 +25,7 @@ pub(super) struct Platform<R: Real> {
 }
 
 impl<R: Real> Platform<R> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn of([x, y, z, yaw, pitch, roll]: &[JointCoordinate<R>; 6], yd: &[R; 6]) -> Self {
         let ahead = R::Vec3::new(yaw.cos * pitch.cos, yaw.sin * pitch.cos, -pitch.sin);
         let left = R::Vec3::new(-yaw.sin, yaw.cos, R::ZERO);
@@ -52,7 +52,7 @@ impl<R: Real> Platform<R> {
     }
 
     /// A point of the platform from its origin.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn arm(&self, at: [f64; 3]) -> R::Vec3 {
         let mut r = self.attitude[0] * R::from_f64(at[0]);
         // Constants: what is zero is not in the machine code.
@@ -65,7 +65,7 @@ impl<R: Real> Platform<R> {
     }
 
     /// The row of G of a rate that is `form` · ż at the end of `r`, from the platform's origin.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn row(&self, r: R::Vec3, form: R::Vec3) -> [R; 6] {
         let moment = r.cross(form);
         let ([x, y, z], [mx, my, mz]) = (form.array(), moment.array());
@@ -75,7 +75,7 @@ impl<R: Real> Platform<R> {
 }
 
 /// The matrix of ω̇ × r + ω × (ω × r).
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn centripetal<R: Real>(omega: R::Vec3, alpha: R::Vec3) -> R::Mat3 {
     let ([x, y, z], [ax, ay, az]) = (omega.array(), alpha.array());
     let (xx, yy, zz, xy, xz, yz) = (x * x, y * y, z * z, x * y, x * z, y * z);

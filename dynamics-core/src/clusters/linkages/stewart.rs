@@ -125,7 +125,7 @@ struct LegMotion<R> {
 }
 
 impl Leg {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn reach<R: Real>(
         &self,
         platform: &Platform<R>,
@@ -175,7 +175,7 @@ impl Cluster<24, 6> for Stewart {
         platform
     };
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn evaluate<R: Real, K: Kernel<R>>(
         &self,
         y: &[JointCoordinate<R>; 6],

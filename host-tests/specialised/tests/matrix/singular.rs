@@ -10,7 +10,7 @@ use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
 use proptest::prelude::RngExt;
 
-use crate::trees::random_numbers;
+use super::trees::random_numbers;
 
 /// A link of mass, one of none, and a fork: another of mass.
 fn massless_tip() -> ArmModel<f64, 3> {

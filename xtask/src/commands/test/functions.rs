@@ -2,7 +2,7 @@
 
 use cycle_meter::Sample;
 
-use super::Context;
+use super::{Context, host};
 use crate::kit::callgraph::f32_only;
 use crate::kit::elf::Image;
 use crate::kit::error::{Error, Result, bail, check, refuse_if};
@@ -39,7 +39,7 @@ pub fn bits(context: &Context) -> Result<String> {
     let elf = context.built(name)?;
     let mut on_target = context.tools.qemu.lines(&Run::logging(name, &elf, None))?;
     on_target.retain(|line| line.starts_with("bits "));
-    let host = context.cargo(&["run --quiet --package host-reports --bin bits"])?;
+    let host = host::run(&host::build(context, "--bin bits")?, name)?;
     same_bits(&on_target, &host.lines().collect::<Vec<_>>())
 }
 
@@ -51,7 +51,7 @@ pub fn faults(context: &Context) -> Result<String> {
     let elf = context.built(name)?;
     let mut on_target = context.tools.qemu.lines(&Run::logging(name, &elf, None))?;
     on_target.retain(|line| line.starts_with("run "));
-    let host = context.cargo(&["run --quiet --package host-reports --bin fault_runs"])?;
+    let host = host::run(&host::build(context, "--bin fault_runs")?, name)?;
     same_runs(&on_target, &host.lines().collect::<Vec<_>>())
 }
 

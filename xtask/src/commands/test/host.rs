@@ -1,17 +1,28 @@
 //! The steps that need no target.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::process::Command;
 
 use serde_json::Value;
 
 use super::Context;
 use crate::kit::error::Result;
+use crate::kit::shell;
 
 /// The tests that take the compiler long: further robots and scalars of claims that are tested without.
 const FULL: &str =
     "--features host-tests/full,robot-import/full,simulation-tests/full,specialised-tests/full";
 /// All packages but the firmware and its listeners, which the steps `telemetry` and `pil` build and test.
 const HOST: &str = "--workspace --exclude firmware-demo --exclude lab-target --exclude telemetry-watch --exclude telemetry-pil";
+/// The packages whose tests are built at once, with one set of features of their dependencies: another selection of packages has
+/// other features, and all crates would be compiled once more. xtask is there already, with its own.
+const SHARED: &str =
+    "--workspace --exclude xtask --exclude telemetry-watch --exclude telemetry-pil";
+/// Not `--tests`, which takes the bins of the firmware for the target too, nor `--bins`, which takes those with `test = false`.
+const TESTS: [&str; 2] = [
+    "test --workspace --exclude xtask --exclude telemetry-watch --exclude telemetry-pil --lib --test * --bin mutants",
+    "test --package xtask",
+];
 /// The part of the firmware that runs anywhere.
 const FIRMWARE: &str = "--package firmware-demo --package lab-target --lib";
 
@@ -25,22 +36,31 @@ pub fn clippy(context: &Context) -> Result<String> {
 
 pub fn tests(context: &Context) -> Result<String> {
     let more = if context.full { FULL } else { "" };
-    // Not `--bins`, which builds those with `test = false` too: large ones that hold no tests.
-    let printed = context.cargo(&[
-        // All failures in one run, which takes long.
-        &format!("test {HOST} --lib --tests --no-fail-fast {more}"),
-        &format!("test {FIRMWARE}"),
-    ])?;
+    // All failures in one run, which takes long.
+    let [all, xtask] = TESTS;
+    let printed = context.cargo(&[&format!("{all} --no-fail-fast {more}"), xtask])?;
     Ok(format!("{} tests", count(&printed)))
 }
 
 /// The programs of the tests, built.
 pub fn programs(context: &Context) -> Result<Vec<PathBuf>> {
-    let printed = context.cargo(&[
-        &format!("test {HOST} --lib --tests --no-run --message-format json"),
-        &format!("test {FIRMWARE} --no-run --message-format json"),
-    ])?;
+    let [all, xtask] = TESTS.map(|line| format!("{line} --no-run --message-format json"));
+    let printed = context.cargo(&[&all, &xtask])?;
     Ok(printed.lines().filter_map(executable).collect())
+}
+
+/// Builds programs for the host among all packages of the tests, whose crates they share.
+pub fn build(context: &Context, targets: &str) -> Result<PathBuf> {
+    context.cargo(&[&format!(
+        "build {SHARED} --exclude firmware-demo --exclude lab-target {targets}"
+    )])?;
+    Ok(context.workspace.target.join("debug"))
+}
+
+/// Runs a program that [`build`] built, and returns what it printed.
+pub fn run(folder: &Path, name: &str) -> Result<String> {
+    let file = format!("{name}{}", std::env::consts::EXE_SUFFIX);
+    shell::capture(&mut Command::new(folder.join(file)))
 }
 
 /// The test program that a message of cargo announces, if it does.
@@ -51,8 +71,7 @@ fn executable(message: &str) -> Option<PathBuf> {
 }
 
 pub fn doctests(context: &Context) -> Result<String> {
-    let of_firmware = "test --package firmware-demo --package lab-target --doc";
-    let printed = context.cargo(&[&format!("test {HOST} --doc"), of_firmware])?;
+    let printed = context.cargo(&[&format!("test {SHARED} --doc")])?;
     Ok(format!("{} examples", count(&printed)))
 }
 

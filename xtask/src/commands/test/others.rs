@@ -52,9 +52,10 @@ pub fn projects(context: &Context) -> Result<String> {
     if setup::for_projects(context.options).is_err() {
         return skip("there is no arm-none-eabi-gcc, make, cmake or cc");
     }
-    let tests = "--ignored --test-threads 1 a_pendulum an_arm two_robots_in_c";
+    let tests =
+        "--ignored --test-threads 1 project::a_pendulum project::an_arm project::two_robots_in_c";
     context.cargo(&[&format!(
-        "test --package robot-import --test project -- {tests}"
+        "test --package robot-import --test import -- {tests}"
     )])?;
     Ok(String::new())
 }

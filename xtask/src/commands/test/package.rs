@@ -6,7 +6,7 @@ use std::process::Command;
 
 use tempfile::TempDir;
 
-use super::Context;
+use super::{Context, host};
 use crate::kit::error::{Error, Result, refuse_if};
 use crate::kit::shell;
 use crate::kit::toolchain::{TARGET, Toolchain};
@@ -110,14 +110,13 @@ pub fn features(context: &Context) -> Result<String> {
 }
 
 pub fn examples(context: &Context) -> Result<String> {
+    let folder = host::build(context, "--examples")?.join("examples");
     let mut ran = Vec::new();
     for library in [LIBRARY, CONTROLLER] {
-        let names = example_names(&context.workspace.root, library)?;
-        context.cargo(&[&format!("build --package {library} --examples")])?;
-        for name in &names {
-            context.cargo(&[&format!("run --quiet --package {library} --example {name}")])?;
-        }
-        ran.extend(names);
+        ran.extend(example_names(&context.workspace.root, library)?);
+    }
+    for name in &ran {
+        host::run(&folder, name)?;
     }
     Ok(ran.join(", "))
 }

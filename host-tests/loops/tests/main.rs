@@ -3,8 +3,11 @@
 
 mod bad_input;
 mod closed_forms;
+mod clusters;
 mod drift;
+mod hard_cases;
 mod kinds;
 mod laws;
 mod recorded;
+mod singular;
 mod status;

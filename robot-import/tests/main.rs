@@ -1,0 +1,9 @@
+//! Imports from files to written code and projects, in one program.
+
+mod edits;
+mod hostile;
+mod imports;
+mod mjcf;
+mod names;
+mod project;
+mod written;

@@ -33,7 +33,7 @@ pub const PICK_AND_PLACE: [WayPoint<f32, 6>; 9] = [
     stop(HOME, 1400),
 ];
 
-/// Where the Panda's begins and ends, rad.
+/// Where the Panda begins and ends, rad.
 pub const READY: [f32; 7] = [
     0.0,
     -FRAC_PI_4,
@@ -42,17 +42,6 @@ pub const READY: [f32; 7] = [
     0.0,
     FRAC_PI_2,
     FRAC_PI_4,
-];
-
-/// The Panda's pick and place.
-pub const PANDA_PICK_AND_PLACE: [WayPoint<f32, 7>; 7] = [
-    stop(READY, 0),
-    stop([-0.70, -0.30, 0.10, -2.00, 0.05, 1.75, 0.10], 1200),
-    stop([-0.70, 0.05, 0.10, -2.00, 0.05, 2.10, 0.10], 700),
-    stop([-0.70, -0.30, 0.10, -2.00, 0.05, 1.75, 0.10], 700),
-    stop([0.80, -0.20, -0.10, -2.10, -0.05, 1.90, 1.50], 1600),
-    stop([0.80, 0.15, -0.10, -2.05, -0.05, 2.20, 1.50], 700),
-    stop(READY, 1600),
 ];
 
 /// Where the iiwa 14 swings from, rad.
@@ -135,36 +124,6 @@ pub const REACH_OUT: [WayPoint<f32, 6>; 6] = [
     stop(STOWED, 2000),
 ];
 
-/// A swing of the UR5e there and back.
-pub const UR5E_SWING: [WayPoint<f32, 6>; 4] = [
-    stop(HOME, 0),
-    stop([0.7, -1.2, 1.2, -1.2, -1.3, 0.6], 1300),
-    stop([-0.5, -1.8, 1.8, -1.8, -1.8, -0.6], 2100),
-    stop(HOME, 1300),
-];
-
-/// A swing of the Panda there and back.
-pub const PANDA_SWING: [WayPoint<f32, 7>; 4] = [
-    stop(READY, 0),
-    stop([0.7, -0.4, 0.3, -2.0, 0.5, 1.9, 1.2], 1300),
-    stop([-0.5, -1.0, -0.3, -2.6, -0.5, 1.3, 0.2], 2100),
-    stop(READY, 1300),
-];
-
-/// How a quadruped's leg stands, rad.
-pub const STANDING: [f32; 3] = [0.0, 0.8, -1.6];
-
-/// Two steps of a quadruped's leg at a trot, one turned outwards: lifted, put ahead, drawn back under the body.
-pub const LEG_STEPS: [WayPoint<f32, 3>; 7] = [
-    stop(STANDING, 0),
-    pass([0.05, 0.95, -2.20], [0.0, -4.0, 0.0], 120),
-    stop([0.0, 0.55, -1.50], 120),
-    stop(STANDING, 240),
-    pass([0.25, 0.95, -2.20], [0.0, -4.0, 0.0], 120),
-    stop([0.20, 0.55, -1.50], 120),
-    stop(STANDING, 240),
-];
-
 /// The configuration in which the steps of a humanoid's leg begin and end: knee, pitch and roll of the ankle, rad.
 pub const MID_STANCE: [f32; 3] = [0.3, -0.15, 0.0];
 
@@ -185,11 +144,11 @@ pub const ANKLE_STEPS: [WayPoint<f32, 3>; 11] = [
 ];
 
 /// A way-point at rest.
-const fn stop<const N: usize>(q: [f32; N], ticks: u32) -> WayPoint<f32, N> {
+pub const fn stop<const N: usize>(q: [f32; N], ticks: u32) -> WayPoint<f32, N> {
     pass(q, [0.0; N], ticks)
 }
 
 /// A way-point that the arm passes at speed.
-const fn pass<const N: usize>(q: [f32; N], qd: [f32; N], ticks: u32) -> WayPoint<f32, N> {
+pub const fn pass<const N: usize>(q: [f32; N], qd: [f32; N], ticks: u32) -> WayPoint<f32, N> {
     WayPoint { q, qd, ticks }
 }

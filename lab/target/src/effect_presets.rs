@@ -11,9 +11,8 @@ use dynamics_core::effects::{
 };
 use dynamics_core::model::BodyInertia;
 use dynamics_core::spatial::{Force, Motion};
-use glam::Vec3;
-
 use firmware_demo::scenes::ur5e;
+use glam::Vec3;
 
 /// The scene that all others are compared with.
 pub const RIGID: &str = "rigid_body";

@@ -10,6 +10,7 @@
 //! | [`hard`] | hard cases that host and target share |
 //! | [`learning`] | an arm that finds its own parameters, and weighs its load |
 //! | [`recorded`] | digests of the dynamics' results on recorded states |
+//! | [`trajectories`] | ways that arms go where no scene does |
 #![no_std]
 
 pub mod accuracy;
@@ -21,6 +22,7 @@ pub mod learning;
 mod own;
 pub mod recorded;
 mod step;
+pub mod trajectories;
 
 pub use own::Own;
 

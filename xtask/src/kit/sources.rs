@@ -60,7 +60,22 @@ pub fn code(source: &str) -> impl Iterator<Item = (usize, &str)> {
 
 #[cfg(test)]
 mod tests {
-    use super::{code, lines_of_code};
+    use super::{code, lines_of_code, sources};
+
+    #[test]
+    fn sources_in_a_folder_called_target_count() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let put = |file: &str| {
+            let path = folder.path().join(file);
+            std::fs::create_dir_all(path.parent().expect("a folder")).expect("made");
+            std::fs::write(path, "").expect("written");
+        };
+        put("lab/target/lib.rs");
+        put("target/CACHEDIR.TAG");
+        put("target/generated.rs");
+        let found = sources(folder.path()).expect("read");
+        assert_eq!(found, [folder.path().join("lab/target/lib.rs")]);
+    }
 
     #[test]
     fn blanks_comments_and_tests_are_not_counted() {

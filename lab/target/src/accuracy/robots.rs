@@ -5,13 +5,12 @@ use dynamics_core::model::{Robot, model};
 use dynamics_core::robots::{A1Leg, Panda, Ur5e};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
+use firmware_demo::scene::TICK;
+use firmware_demo::trajectories::PICK_AND_PLACE;
 use motion_control::{MotionLimits, RestToRest, Trajectory, TrajectoryError, WayPoint};
 
 use crate::Own;
-use firmware_demo::scene::TICK;
-use firmware_demo::trajectories::{
-    LEG_STEPS, PANDA_PICK_AND_PLACE, PANDA_SWING, PICK_AND_PLACE, UR5E_SWING,
-};
+use crate::trajectories::{LEG_STEPS, PANDA_PICK_AND_PLACE, PANDA_SWING, UR5E_SWING};
 
 /// A robot of N joints and B bodies, its way through W points, and all ways to compute its torques.
 pub trait Compared<const B: usize, const N: usize, const W: usize>: Robot<B, N, N> + Sized {

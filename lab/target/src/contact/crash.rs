@@ -3,15 +3,15 @@
 use core::fmt;
 
 use dynamics_core::effects::Effect;
+use firmware_demo::digest::Digest;
+use firmware_demo::scene::TICK;
+use firmware_demo::trajectories::HOME;
 use glam::Vec3;
 use motion_control::{ContactResponse, MotionLimits, Trajectory, WayPoint};
 
 use super::firmware::{Cell, Firmware, Sensing};
 use super::path::Off;
 use super::plant::{Plant, Wall, tip};
-use firmware_demo::digest::Digest;
-use firmware_demo::scene::TICK;
-use firmware_demo::trajectories::HOME;
 
 /// Of the tip at the contact, m/s.
 pub const SPEED: f32 = 0.25;

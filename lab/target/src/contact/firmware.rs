@@ -7,6 +7,10 @@ use dynamics_core::effects::{
 };
 use dynamics_core::robots::Ur5e;
 use dynamics_core::state::State;
+use firmware_demo::marker;
+use firmware_demo::scene::{HOLD, NEAR, OMEGA_N, REENTRY, RIDE, Scene, TICK, ZETA};
+use firmware_demo::scenes::ur5e::{EFFECTS, PickAndPlace};
+use firmware_demo::trajectories::HOME;
 use motion_control::{
     Command, ConfigError, ContactDetector, ContactPhase, ContactReaction, ContactReactionConfig,
     ContactResponse, DetectedContact, Estimate, Fault, Gains, MotionController,
@@ -15,10 +19,6 @@ use motion_control::{
 };
 
 use super::plant::{EXCESS, Plant};
-use firmware_demo::marker;
-use firmware_demo::scene::{HOLD, NEAR, OMEGA_N, REENTRY, RIDE, Scene, TICK, ZETA};
-use firmware_demo::scenes::ur5e::{EFFECTS, PickAndPlace};
-use firmware_demo::trajectories::HOME;
 
 /// The names of the regions, by their numbers: the tick and its phases.
 pub const REGIONS: [&str; 6] = ["tick", "observe", "detect", "react", "law", "gate"];

@@ -1,12 +1,12 @@
 //! The pick and place without a wall: what the detector reports there, and when it finds a push.
 
 use dynamics_core::effects::{Coulomb, Effect, Lugre, Viscous};
+use firmware_demo::scenes::ur5e;
+use firmware_demo::trajectories::HOME;
 use motion_control::Trajectory;
 
 use super::firmware::{Cell, Firmware, Sensing};
 use super::plant::{Plant, bristles, coulomb};
-use firmware_demo::scenes::ur5e;
-use firmware_demo::trajectories::HOME;
 
 /// Steps of the plant in a tick.
 const STEPS: u32 = 4;

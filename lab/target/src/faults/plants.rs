@@ -7,9 +7,8 @@ use dynamics_core::robots::Ur5e;
 use dynamics_core::sim::semi_implicit;
 use dynamics_core::state::State;
 use dynamics_core::trig::sin_cos;
-use motion_control::{Estimate, Gains, MotionLimits, SafetyLimits, StopCategory, feedback};
-
 use firmware_demo::robots::Gimbal;
+use motion_control::{Estimate, Gains, MotionLimits, SafetyLimits, StopCategory, feedback};
 
 /// A tick, s.
 pub const TICK: f32 = 1e-3;

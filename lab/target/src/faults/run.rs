@@ -1,12 +1,12 @@
 //! One arm under random faults.
 
+use firmware_demo::digest::Digest;
 use heapless::Vec;
 use motion_control::{Fault, Mode, Trajectory, WayPoint};
 
 use super::arm::{Arm, Episode, Setup, Violation};
 use super::kinds::{Kind, Onset};
 use super::plants::{Plant, TICK};
-use firmware_demo::digest::Digest;
 
 /// Ticks of a run: faults begin in the first part.
 pub const TICKS: u32 = 6000;

@@ -8,13 +8,13 @@ use dynamics_core::model::model;
 use dynamics_core::robots::So101;
 use dynamics_core::sim::KahanState;
 use dynamics_core::state::State;
+use firmware_demo::scenes::so101_teach::{
+    ARMATURE, BACK_EMF, COULOMB, LOAD, MAX_DUTY, RESOLUTION, STALL, VISCOUS,
+};
 
 use super::TICK;
 use super::parameters::WIDTH;
 use crate::step::compensated_step;
-use firmware_demo::scenes::so101_teach::{
-    ARMATURE, BACK_EMF, COULOMB, LOAD, MAX_DUTY, RESOLUTION, STALL, VISCOUS,
-};
 
 /// The body that carries the load.
 pub const GRIPPER: usize = 4;

@@ -6,6 +6,8 @@ use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::model::model;
 use dynamics_core::robots::So101;
 use dynamics_core::state::State;
+use firmware_demo::marker;
+use firmware_demo::scenes::so101_teach::{MAX_DUTY, SERVO_GAIN, STALL};
 use motion_control::{
     ConfigError, Estimate, Observer, ObserverConfig, ParameterEstimator, ParameterEstimatorConfig,
     PayloadEstimator, PayloadEstimatorConfig,
@@ -14,8 +16,6 @@ use motion_control::{
 use super::TICK;
 use super::arm::GRIPPER;
 use super::parameters::{Known, Model, OWN, P, WIDTH};
-use firmware_demo::marker;
-use firmware_demo::scenes::so101_teach::{MAX_DUTY, SERVO_GAIN, STALL};
 
 /// The names of the regions, by their numbers: the tick and its phases, and of those the row and the update by their task.
 pub const REGIONS: [&str; 8] = [

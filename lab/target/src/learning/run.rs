@@ -10,15 +10,15 @@ use dynamics_core::scalar::Real;
 use dynamics_core::sim::KahanState;
 use dynamics_core::spatial::SpatialInertia;
 use dynamics_core::state::State;
+use firmware_demo::digest::Digest;
+use firmware_demo::scene::Scene;
+use firmware_demo::scenes::so101_teach::TaughtPath;
 use motion_control::PhysicalParameters;
 
 use super::arm::{Arm, BRISTLES, GEARS, GRIPPER, SMOOTH};
 use super::firmware::{Firmware, Task};
 use super::parameters::{Known, Model, N, P};
 use super::{TICK, selected};
-use firmware_demo::digest::Digest;
-use firmware_demo::scene::Scene;
-use firmware_demo::scenes::so101_teach::TaughtPath;
 
 /// Ticks of learning: half a minute.
 pub const LEARNING: u32 = 15_000;

@@ -8,10 +8,10 @@ use dynamics_core::loops::{
 };
 use dynamics_core::scalar::{Real, Vector};
 use dynamics_core::state::State;
+use firmware_demo::digest::Digest;
 
 use super::super::GRAVITY;
 use super::{FourBar, LoopProblem, PROBLEMS, RIG, Start};
-use firmware_demo::digest::Digest;
 
 /// Weight, inertia and velocity products.
 pub type Scene<R> = (GravityVector<R>, Inertia, Coriolis);

@@ -69,6 +69,16 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+// The rooms in order; each uses those before it alone.
+//
+// | room | contents |
+// |---|---|
+// | `limits` | what a command may be: limits, faults and reactions, the command itself |
+// | `estimate` | what is known of the arm |
+// | `reference` | where the arm should be |
+// | `law` | the torque from a reference and an estimate |
+// | `safety` | the gate that every command passes, and what detects faults |
+// | `motion` | a whole control loop without its law and devices |
 mod estimate;
 mod law;
 mod limits;

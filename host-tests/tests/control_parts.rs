@@ -152,7 +152,8 @@ fn the_return_is_on_its_reference_within_ticks_too_with_its_derivatives() {
             reentry_ticks: TICKS,
         },
         observer_bandwidth: 250.0,
-        decay_rate: 40.0,
+        // A speed that decays within a tick: the trajectory waits at its start.
+        decay_rate: 2.0 / H,
         restart_distance: 0.1,
     })
     .on_brake();

@@ -213,7 +213,7 @@ impl Advice {
         }
     }
 
-    /// The same with the joint's name, from [`Model::coordinate_names`] or another list of the joints.
+    /// The same with the joint's name, from [`coordinate_names`](crate::model::Model::coordinate_names) or another list of the joints.
     ///
     /// ```
     /// use dynamics_core::advice::{Advice, AdvisedJoint};

@@ -141,7 +141,7 @@ fn the_return_is_on_its_reference_within_ticks_too_with_its_derivatives() {
             limits: SafetyLimits {
                 torque: [1.0],
                 rate: [1.0],
-                speed: [1.0],
+                speed: [1e3],
                 lower: [-1.0],
                 upper: [1.0],
             },

@@ -211,7 +211,7 @@ fn control(noise: &mut Noise, reset: Option<usize>) {
         },
         observer_bandwidth: 250.0,
         decay_rate: 25.0,
-        restart_distance: 2.0 * RANGE,
+        restart_distance: RANGE,
     });
     let mut q = [0.0; N];
     // The first measurement is a transition of its own: nothing was known before it.
@@ -219,7 +219,7 @@ fn control(noise: &mut Noise, reset: Option<usize>) {
     for tick in 0..STATES {
         if reset.is_some_and(|every| tick % every == 0) {
             controller.stop(Fault::External);
-            if controller.reset(&REST).is_err() {
+            if controller.reset(&State::at(q)).is_err() {
                 target::fail("the controller did not restart");
             }
         }
@@ -237,18 +237,12 @@ fn control(noise: &mut Noise, reset: Option<usize>) {
     }
 }
 
-/// The reference, which costs nothing.
-const REST: State<f32, N, N> = State {
-    q: [0.0; N],
-    qd: [0.0; N],
-    qdd: [0.0; N],
-};
-
 #[inline(never)]
 fn pass(
     controller: &mut MotionController<f32, N>,
     q: &[f32; N],
     tau: &[f32; N],
 ) -> Command<f32, N> {
-    controller.tick(Ok(q), &REST, |_, _| *tau)
+    // The reference is where the arm is, so that no return onto it is fast.
+    controller.tick(Ok(q), &State::at(*q), |_, _| *tau)
 }

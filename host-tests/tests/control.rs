@@ -6,8 +6,9 @@ use dynamics_core::effects::RIGID_BODY;
 use dynamics_core::robots::Ur5e;
 use dynamics_core::state::State;
 use motion_control::{
-    Estimate, Fault, Gains, Mode, MotionLimits, Observer, ObserverConfig, SafetyLimits, Supervisor,
-    SupervisorConfig, Trajectory, TrajectoryError, WayPoint, feedback,
+    Estimate, Fault, Gains, Mode, MotionController, MotionControllerConfig, MotionLimits, Observer,
+    ObserverConfig, SafetyLimits, SupervisorConfig, Trajectory, TrajectoryError, WayPoint,
+    feedback,
 };
 use proptest::prelude::*;
 
@@ -23,19 +24,20 @@ const LIMITS: SafetyLimits<f32, 6> = SafetyLimits {
     upper: [6.3; 6],
 };
 
-const CONFIG: SupervisorConfig<f32, 6> = SupervisorConfig {
-    limits: LIMITS,
-    tick: TICK,
-    resolution: 0.0,
-    ride_through_ticks: 0,
-    hold_ticks: HOLD,
-    reentry_ticks: REENTRY,
-};
-
-fn supervisor() -> Supervisor<f32, 6> {
-    Supervisor::new(SupervisorConfig {
-        ride_through_ticks: 5,
-        ..CONFIG
+/// A controller of an arm within these limits that rides through so many ticks.
+fn controller(limits: SafetyLimits<f32, 6>, ride_through_ticks: u32) -> MotionController<f32, 6> {
+    MotionController::new(MotionControllerConfig {
+        supervisor: SupervisorConfig {
+            limits,
+            tick: TICK,
+            resolution: 0.0,
+            ride_through_ticks,
+            hold_ticks: HOLD,
+            reentry_ticks: REENTRY,
+        },
+        observer_bandwidth: 250.0,
+        decay_rate: 25.0,
+        restart_distance: 0.1,
     })
 }
 
@@ -63,26 +65,18 @@ proptest! {
     fn no_measurement_whatever_gets_past_the_gate(
         ticks in prop::collection::vec((prop::array::uniform6(any_bits()), 0..4_u8), 1..60),
     ) {
-        let mut supervisor = supervisor();
-        let mut observer = observer();
+        let mut controller = controller(LIMITS, 5);
         for (q, kind) in ticks {
             let measured = match kind {
                 0 => Ok(&q),
                 1 => Err(Fault::Stale),
                 _ => Ok(&HOME),
             };
-            let command = supervisor.tick(measured, |tick| {
-                if tick.measurement_accepted() {
-                    observer.update_delayed(tick.last_good(), &[0.0; 6]);
-                } else {
-                    observer.predict(&[0.0; 6]);
-                }
-                tick.check_speed(&observer.estimate().qd);
-                [1.0; 6]
-            });
-            let estimate = observer.estimate();
+            let command = controller.tick(measured, &State::at(HOME), |_, _| [1.0; 6]);
+            let estimate = controller.estimate();
             prop_assert!(estimate.qd.iter().chain(&estimate.q).all(|x| x.is_finite()));
-            prop_assert!(supervisor.last_good().iter().all(|q| q.abs() <= 6.3));
+            let inside = measured.is_ok_and(|q| q.iter().all(|q| q.abs() <= 6.3));
+            prop_assert!(inside || command.status.fault.is_some());
             let stopped = command.status.mode == Mode::Stopped;
             prop_assert!(!stopped || (command.brake && command.torque == [0.0; 6]));
         }
@@ -97,10 +91,10 @@ proptest! {
         let [torque, rate, speed, upper] = bounds.map(|x| [x; 6]);
         let lower = upper.map(|x| -x);
         let limits = if wild { SafetyLimits { torque, rate, speed, lower, upper } } else { LIMITS };
-        let mut supervisor = Supervisor::new(SupervisorConfig { limits, ..CONFIG });
+        let mut controller = controller(limits, 0);
         let mut last = [0.0; 6];
         for tau in ticks {
-            let command = supervisor.tick(Ok(&[0.0; 6]), |_| tau);
+            let command = controller.tick(Ok(&[0.0; 6]), &State::at([0.0; 6]), |_, _| tau);
             let whole = tau.iter().all(|tau| tau.is_finite());
             let mode = command.status.mode;
             let (stopped, held) = (mode == Mode::Stopped, mode == Mode::Hold);
@@ -126,18 +120,16 @@ proptest! {
 
 #[test]
 fn a_rejected_torque_is_never_remembered() {
-    let mut supervisor = supervisor();
+    let mut controller = controller(LIMITS, 5);
     for tau in [
         [70.0; 6],
         [f32::NAN; 6],
         [1.0, 1.0, 1.0, 1.0, 1.0, f32::INFINITY],
     ] {
-        supervisor.tick(Ok(&HOME), |_| tau);
+        controller.tick(Ok(&HOME), &State::at(HOME), |_, _| tau);
     }
-    assert_eq!(
-        supervisor.tick(Ok(&HOME), |_| [-150.0; 6]).torque,
-        [-5.0, -5.0, -5.0, 0.0, 0.0, 0.0]
-    );
+    let command = controller.tick(Ok(&HOME), &State::at(HOME), |_, _| [-150.0; 6]);
+    assert_eq!(command.torque, [-5.0, -5.0, -5.0, 0.0, 0.0, 0.0]);
 }
 
 #[test]
@@ -159,14 +151,15 @@ fn the_same_inputs_after_a_fault_give_the_same_bits() {
         tau.iter_mut().zip(pd).for_each(|(tau, pd)| *tau += pd);
         tau
     };
-    let [mut whole, mut hurt] = [(); 2].map(|()| Supervisor::new(CONFIG));
+    let [mut whole, mut hurt] = [(); 2].map(|()| controller(LIMITS, 0));
     for tick in 0..500 {
         let fault = (100..100 + HOLD).contains(&tick);
         let tau = law(tick);
-        let a = whole.tick(Ok(&HOME), |_| tau);
+        let a = whole.tick(Ok(&HOME), &State::at(HOME), |_, _| tau);
         let held = tau.map(|tau| 0.9 * tau);
         let measured = if fault { Err(Fault::Stale) } else { Ok(&HOME) };
-        let b = hurt.tick(measured, |_| if fault { held } else { tau });
+        let answer = if fault { held } else { tau };
+        let b = hurt.tick(measured, &State::at(HOME), |_, _| answer);
         assert_eq!(fault, b.status.mode == Mode::Hold);
         assert!(fault || bits(&a.torque) == bits(&b.torque), "tick {tick}");
     }

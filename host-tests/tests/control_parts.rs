@@ -6,72 +6,12 @@ use dynamics_core::robots::Ur5e;
 use dynamics_core::state::State;
 use host_tests::measured::{largest, within};
 use motion_control::{
-    Estimate, Fault, InertiaUpdate, Mode, MotionLimits, Observer, ObserverConfig, Reference,
-    RestToRest, ResumeConfig, ResumeTrajectory, SafetyLimits, Supervisor, SupervisorConfig,
-    TrajectoryError, WayPoint,
+    InertiaUpdate, MotionController, MotionControllerConfig, MotionLimits, Observer,
+    ObserverConfig, Reference, RestToRest, SafetyLimits, SupervisorConfig, TrajectoryError,
+    WayPoint,
 };
 
 const H: f64 = 1e-3;
-const RIDE: u32 = 2;
-const HOLD: u32 = 3;
-
-fn supervisor() -> Supervisor<f64, 1> {
-    let limits = SafetyLimits {
-        torque: [10.0],
-        rate: [4.0],
-        speed: [2.0],
-        lower: [-1.0],
-        upper: [1.0],
-    };
-    let mut supervisor = Supervisor::new(SupervisorConfig {
-        limits,
-        tick: 0.01,
-        resolution: 0.0,
-        ride_through_ticks: RIDE,
-        hold_ticks: HOLD,
-        reentry_ticks: 200,
-    });
-    supervisor.tick(Ok(&[0.5]), |_| [1.0]);
-    supervisor
-}
-
-/// The modes of so many ticks with a fault.
-fn faults(supervisor: &mut Supervisor<f64, 1>, ticks: u32) -> Vec<Mode> {
-    let fault = Fault::Encoder { joint: 0 };
-    let tick = |_| supervisor.tick(Err(fault), |_| [1.0]).status.mode;
-    (0..ticks).map(tick).collect()
-}
-
-#[test]
-fn after_a_reset_faults_are_counted_anew() {
-    let mut supervisor = supervisor();
-    let all = faults(&mut supervisor, RIDE + HOLD + 1);
-    assert_eq!(all.last(), Some(&Mode::Stopped));
-    supervisor.reset();
-    supervisor.tick(Ok(&[0.5]), |_| [1.0]);
-    assert_eq!(faults(&mut supervisor, RIDE + HOLD + 1), all);
-}
-
-#[test]
-fn a_speed_adds_to_the_faults_before_it() {
-    let mut supervisor = supervisor();
-    faults(&mut supervisor, RIDE + HOLD);
-    supervisor.tick(Ok(&[0.5]), |tick| {
-        assert_eq!(tick.check_speed(&[2.1]), Mode::Stopped);
-        [0.0]
-    });
-}
-
-#[test]
-fn no_limit_is_reported_of_a_torque_that_a_stop_has_made_zero() {
-    let mut supervisor = supervisor();
-    supervisor.stop(Fault::External);
-    for _ in 0..3 {
-        let command = supervisor.tick(Ok(&[0.5]), |_| [100.0]);
-        assert_eq!((command.torque, command.status.limited), ([0.0], false));
-    }
-}
-
 /// Both poles at β = exp(−ω h): e_{n+2} = 2β e_{n+1} − β² e_n, of a late measurement too.
 #[test]
 fn an_observer_of_late_measurements_has_both_poles_where_its_bandwidth_puts_them() {
@@ -196,21 +136,36 @@ impl Reference<f64, 1> for Falling {
 #[test]
 fn the_return_is_on_its_reference_within_ticks_too_with_its_derivatives() {
     const TICKS: u32 = 200;
-    let mut resume = ResumeTrajectory::<f64, 1>::new(ResumeConfig {
-        tick: H,
-        decay_rate: 40.0,
-        ticks: TICKS,
-    });
-    let rest = Estimate {
-        q: [0.0],
-        qd: [0.0],
-    };
-    resume.start(&rest, 0);
+    let mut controller = MotionController::<f64, 1>::new(MotionControllerConfig {
+        supervisor: SupervisorConfig {
+            limits: SafetyLimits {
+                torque: [1.0],
+                rate: [1.0],
+                speed: [1e3],
+                lower: [-1.0],
+                upper: [1.0],
+            },
+            tick: H,
+            resolution: 0.0,
+            ride_through_ticks: 0,
+            hold_ticks: 0,
+            reentry_ticks: TICKS,
+        },
+        observer_bandwidth: 250.0,
+        // A speed that decays within a tick: the trajectory waits at its start.
+        decay_rate: 2.0 / H,
+        restart_distance: 0.1,
+    })
+    .on_brake();
+    // The arm stands still at 0, in the tick before the reset too.
+    controller.tick(Ok(&[0.0]), &Falling, |_, _| [0.0]);
+    controller.reset(&Falling).expect("a stopped arm");
     let mut way = vec![];
     let mut errors = vec![];
     for tick in 0..TICKS {
         let x = f64::from(tick) / f64::from(TICKS);
-        let at = resume.at(&Falling, x);
+        controller.tick(Ok(&[0.0]), &Falling, |_, _| [0.0]);
+        let at = *controller.reference();
         let w = x.powi(3) * (10.0 - 15.0 * x + 6.0 * x * x);
         let sigma = H * f64::from(TICKS) * x.powi(4) * (2.5 - 3.0 * x + x * x);
         errors.push((at.q[0] - w * 0.5 * FALL * sigma * sigma).abs());
@@ -238,18 +193,4 @@ fn the_return_is_on_its_reference_within_ticks_too_with_its_derivatives() {
     ];
     within("q̇ against the slope of q", rate / speeds, 2e-4);
     within("q̈ against the slope of q̇", bend / bends, 1e-3);
-}
-
-#[test]
-fn the_trajectory_waits_where_a_speed_that_decays_has_its_end() {
-    // 1/λ = 32 ticks.
-    let resume = ResumeTrajectory::<f64, 1>::new(ResumeConfig {
-        tick: 1.0 / 1024.0,
-        decay_rate: 32.0,
-        ticks: 200,
-    });
-    assert_eq!(
-        (resume.resume_tick(100), resume.resume_tick(u32::MAX)),
-        (132, u32::MAX)
-    );
 }

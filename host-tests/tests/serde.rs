@@ -11,8 +11,7 @@ use dynamics_core::state::State;
 use motion_control::{
     Gains, HandGuidingConfig, ImpedanceConfig, InertiaShapingConfig, LimitedSpring,
     MotionControllerConfig, MotionLimits, ObserverConfig, ParameterEstimatorConfig, PassivityGains,
-    PayloadEstimatorConfig, ResumeConfig, SafetyLimits, SupervisorConfig, TipWrenchConfig,
-    WayPoint,
+    PayloadEstimatorConfig, SafetyLimits, SupervisorConfig, TipWrenchConfig, WayPoint,
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -71,11 +70,6 @@ fn what_the_controller_is_configured_with_comes_back_to_the_bit() {
     comes_back(ObserverConfig {
         bandwidth: 250.1_f32,
         tick: 1e-3,
-    });
-    comes_back(ResumeConfig {
-        tick: 1e-3_f32,
-        decay_rate: 25.1,
-        ticks: 200,
     });
     comes_back(Gains { kp: a, kd: b });
     comes_back(PassivityGains { lambda: a, kd: b });

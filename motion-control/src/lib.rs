@@ -26,13 +26,11 @@
 //! | [`PathSpline`], [`GeometricPath`] | a smooth path near way-points | none |
 //! | [`TimedPath`] | the fastest motion along a path within limits of torque, speed and acceleration | none |
 //! | [`ZeroOrderHold`], [`FirstOrderHold`], [`Interpolator`], [`InertiaUpdate`] | the torque in ticks without a computation of the dynamics | last torques |
-//! | [`Supervisor`] | limits, plausibility, reactions to faults | last good values |
 //! | [`Fault`], [`Reaction`] | what each fault leads to | |
 //! | [`FrozenEncoder`], [`ReferenceStep`], [`Saturation`] | faults that take several ticks to show | the last ticks |
 //! | [`TickCounter`], [`Watchdog`] | missed ticks, overruns, and what feeds a watchdog | a count |
 //! | [`Approach`] | the way from any pose to the start of a motion | none |
 //! | [`BackOff`] | the return of an arm that is beyond its bounds | how far it has come back |
-//! | [`ResumeTrajectory`] | the return onto the trajectory after a fault | reference |
 //!
 //! Types with a configuration struct have a `try_new`, which checks the struct, and a `new` for constants, which does
 //! not.
@@ -71,6 +69,16 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+// The rooms in order; each uses those before it alone.
+//
+// | room | contents |
+// |---|---|
+// | `limits` | what a command may be: limits, faults and reactions, the command itself |
+// | `estimate` | what is known of the arm |
+// | `reference` | where the arm should be |
+// | `law` | the torque from a reference and an estimate |
+// | `safety` | the gate that every command passes, and what detects faults |
+// | `motion` | a whole control loop without its law and devices |
 mod estimate;
 mod law;
 mod limits;
@@ -100,8 +108,7 @@ pub use limits::{
 pub use motion::{
     Approach, ApproachError, BackOff, BackOffConfig, ContactPhase, ContactReaction,
     ContactReactionConfig, ContactResponse, CurrentTick, MeasurementAge, MotionController,
-    MotionControllerConfig, ObservedTick, PreviousTick, ReferencedTick, ResetError, ResumeConfig,
-    ResumeTrajectory, hold,
+    MotionControllerConfig, ObservedTick, PreviousTick, ReferencedTick, ResetError, hold,
 };
 pub use reference::{
     GeometricPath, JointFriction, PathLimits, PathPoint, PathSpline, PathSplineError, Recorded,
@@ -110,7 +117,7 @@ pub use reference::{
 };
 pub use safety::{
     CompletedTick, CountedTick, Detect, Detectors, FrozenEncoder, ReferenceStep, Saturation,
-    StopCategory, Supervisor, SupervisorConfig, SupervisorTick, TickCounter, Watchdog,
+    StopCategory, SupervisorConfig, TickCounter, Watchdog,
 };
 
 use dynamics_core::scalar::Real;

@@ -43,7 +43,6 @@ serde_record!(motion::MotionControllerConfig<R, V> {
     restart_distance: R,
 } check);
 serde_record!(estimate::ObserverConfig<R> { bandwidth: R, tick: R } check);
-serde_record!(motion::ResumeConfig<R> { tick: R, decay_rate: R, ticks: u32 } check);
 serde_record!(law::Gains<R, V> { kp: Array<R, V>, kd: Array<R, V> });
 serde_record!(law::PassivityGains<R, V> { lambda: Array<R, V>, kd: Array<R, V> });
 serde_record!(law::ImpedanceConfig<R, M> { stiffness: Array<R, M>, zeta: R, slowest: R } check);

@@ -3,8 +3,9 @@ use std::vec::Vec;
 
 use super::*;
 use crate::glam::{DMat3, DVec3};
-use crate::model::{ArmModel, BASE, Body, Joint, JointLimits, Link, Robot};
+use crate::model::{ArmModel, BASE, Body, Joint, JointLimits, Link, Model, Robot};
 use crate::robots::*;
+use crate::scalar::Real;
 
 /// The robots whose inertias about the joints can be told from those about the centres of mass.
 const ABOUT_JOINTS: [&str; 6] = ["g1", "g1_free", "gen3", "iiwa14", "so101", "xarm7"];

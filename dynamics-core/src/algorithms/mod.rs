@@ -10,6 +10,7 @@ mod error;
 mod forward_dynamics;
 mod forward_error;
 mod hybrid_dynamics;
+mod joint_result;
 pub mod kinematics;
 mod mass_matrix;
 mod momentum;
@@ -30,7 +31,8 @@ pub use energy::{kinetic_energy, potential_energy};
 pub use error::NotPositiveDefinite;
 pub use forward_dynamics::forward_dynamics;
 pub use forward_error::{EstimatedAcceleration, acceleration_error, forward_dynamics_with_error};
-pub use hybrid_dynamics::{JointResult, Prescribed, hybrid_dynamics};
+pub use hybrid_dynamics::hybrid_dynamics;
+pub use joint_result::{JointResult, Prescribed};
 pub use kinematics::{
     Frame, Kinematics, Pose, bias_acceleration, classical, frame, jacobian, kinematics, poses,
 };

@@ -22,6 +22,7 @@ pub struct Clustered<A>(PhantomData<A>);
 
 /// The kernel K without its form for small angles, which the engine takes and the core does not.
 #[derive(Clone, Copy, Debug)]
+#[doc(hidden)]
 pub struct Unbounded<K>(PhantomData<K>);
 
 impl<R, K: Kernel<R>> Kernel<R> for Unbounded<K> {
@@ -32,6 +33,7 @@ impl<R, K: Kernel<R>> Kernel<R> for Unbounded<K> {
 }
 
 /// The algorithms of a tree: [`Core`] or [`Engine`].
+#[doc(hidden)]
 pub trait TreeAlgorithms<R: Real, const B: usize, const Q: usize, const V: usize>:
     sealed::Tree<R, B, Q, V>
 {

@@ -1,10 +1,13 @@
 //! How a robot with clusters is described: its spanning tree, and what drives its coordinates.
 
 use super::layout::Layout;
-use super::motors::DEAD_POINT;
 use super::set::sealed;
 use super::{ClusterError, ClusterProblem, ClusterSet};
 use crate::model::Robot;
+
+/// The least rate of a cluster's motors per rate of an independent coordinate that is not damped, by default; see
+/// [`Driven::damped_below`](super::Driven::damped_below).
+pub const DEAD_POINT: f64 = 0.01;
 
 /// A cluster of a robot, with its name and the places of its motors.
 ///

@@ -71,11 +71,11 @@ mod tree_motion;
 pub use aba::ForwardError;
 pub use cluster::{Cluster, ClusterError, ClusterMotion, ClusterProblem};
 pub use clustered::{Clustered, TreeAlgorithms};
-pub use description::{ClusteredRobot, Driven};
+pub use description::{ClusteredRobot, DEAD_POINT, Driven};
 pub use linkages::{
     Belt, Branch, Delta, Differential, FiveBar, FourBar, Leg, ParallelAnkle, Rod, Stewart,
 };
-pub use motors::{DEAD_POINT, MotorTorques};
+pub use motors::MotorTorques;
 pub use set::ClusterSet;
 pub use status::{ClusteredTorque, Conditioning, NEAR_SINGULAR, NearSingular};
 pub use tree_motion::TreeMotion;

@@ -10,10 +10,6 @@ use crate::engine::for_each_joint;
 use crate::scalar::Real;
 use crate::state::{all_finite, entry};
 
-/// The least rate of a cluster's motors per rate of an independent coordinate that is not damped, by default; see
-/// [`Driven::damped_below`](super::Driven::damped_below).
-pub const DEAD_POINT: f64 = 0.01;
-
 /// Rows are exchanged where an entry below the pivot is more than this many times as large.
 const PIVOT: f64 = 4.0;
 

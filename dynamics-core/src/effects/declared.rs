@@ -1,60 +1,8 @@
-//! The declarations of an effect's hooks, in the form that core, engine and plant use.
+//! The declarations of an effect's hooks, from these.
 
-use super::hook_args::BodyVelocity;
-use super::{BodyState, Effect, JointState, LoadFactors, RegroupedInertia};
+use super::{BodyState, BodyVelocity, Declared, Effect, JointState, LoadFactors, RegroupedInertia};
 use crate::scalar::Real;
 use crate::spatial::{Force, Motion, SpatialInertia};
-
-/// Which hooks an effect has and what they read, and their calls. Every [`Effect`] has it, from its hooks; nobody implements it.
-///
-/// A hook that an effect does not have adds nothing.
-pub trait Declared<R: Real, const B: usize, const V: usize>: Sized {
-    /// A field accelerates every body.
-    const FIELD: bool;
-    /// Which base components of the field may differ from zero.
-    const FIELD_AXES: [bool; 3];
-    /// How many fields of gravity there are.
-    const GRAVITIES: usize;
-    /// The environment exerts a wrench on some body.
-    const WRENCH: bool;
-    /// A wrench reads the body's velocity.
-    const BODY_VELOCITY: bool;
-    /// A wrench reads the body's pose.
-    const BODY_POSE: bool;
-    /// The base moves.
-    const BASE_MOTION: bool;
-    /// The bodies to whose inertia something is added.
-    const PAYLOAD: [bool; B];
-    /// A number to whose body something is added, but which no body of the robot has.
-    const PAYLOAD_ON_NO_BODY: Option<usize>;
-    /// Rotors spin as bodies.
-    const GYROSCOPIC_ROTORS: bool;
-    /// Friction depends on the transmitted torque.
-    const LOAD_DEPENDENT: bool;
-    /// How many sets of base parameters are loaded.
-    const BASE_PARAMETERS: usize;
-    /// The name of the robot that they belong to; empty if there are none.
-    const BASE_PARAMETERS_OF: &'static str;
-
-    /// Adds to the acceleration g of free fall, in base coordinates, m/s², along [`Self::FIELD_AXES`] only.
-    fn field(&self, g: &mut R::Vec3);
-    /// Adds to the spatial velocity v₀ and acceleration a₀ of the base.
-    fn base(&self, velocity: &mut Motion<R>, acceleration: &mut Motion<R>);
-    /// Adds to the wrench fˣ on `body`.
-    fn wrench(&self, body: usize, at: &BodyState<R>, fx: &mut Force<R>);
-    /// Adds to the inertia of `body`.
-    fn payload(&self, body: usize, inertia: &mut SpatialInertia<R>);
-    /// Adds to ρ I of the rotor of `joint`.
-    fn rotor_coupling(&self, joint: usize, coupling: &mut R);
-    /// Adds to the factors a and b of the friction a |τ| + b τ of `joint`.
-    fn load_factors(&self, joint: usize, at: JointState<R>, factors: &mut LoadFactors<R>);
-    /// Adds to their derivatives with respect to q̇.
-    fn load_slopes(&self, joint: usize, at: JointState<R>, slopes: &mut LoadFactors<R>);
-    /// Writes what regrouping leaves to the body behind `joint`.
-    fn regrouped(&self, joint: usize, body: &mut RegroupedInertia<R>);
-    /// Adds what stands at `joint` to an entry of M's diagonal.
-    fn add_inertia(&self, joint: usize, diagonal: &mut R);
-}
 
 impl<R: Real, E, const B: usize, const V: usize> Declared<R, B, V> for E
 where

@@ -107,6 +107,8 @@
 
 pub use load_friction::LoadFriction;
 pub use regrouped::Regrouped;
+#[doc(hidden)]
+pub use regrouped::RegroupedInertia;
 pub use wrench::Wrench;
 
 use crate::scalar::Real;

@@ -4,11 +4,12 @@ use core::ops::Range;
 
 use glam::DMat3;
 
+use super::elimination::{SINGULAR, thresholds};
 use super::error::{LoopModelError, LoopProblem};
 use super::joint_constraint::{JointConstraint, MOST, counts};
 use super::loop_frame::{Both, Frame, both, select};
 use super::loop_joint::{BodyFrame, LoopJoint};
-use super::singular::{SINGULAR, thresholds};
+use super::reach;
 use crate::model::{BASE, Joint, Model};
 use crate::scalar::{Matrix, Real};
 use crate::spatial::{Force, Xform};
@@ -145,7 +146,11 @@ impl<const L: usize, const C: usize, const A: usize> Loops<L, C, A> {
         let (mut rows, mut i) = (0, 0);
         while i < L {
             let joint = &joints[i];
-            if let Some(problem) = joint.problem(model) {
+            let problem = match joint.problem(B) {
+                None => reach::problem(joint, model),
+                problem => problem,
+            };
+            if let Some(problem) = problem {
                 let name = joint.name;
                 return Err(LoopModelError { name, problem });
             }

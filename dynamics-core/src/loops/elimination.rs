@@ -3,6 +3,7 @@
 //! Golub & Van Loan, *Matrix Computations*, section 3.4. Rows are compared relative to the sizes of their loops, so
 //! that neither the unit of length nor rounding errors of a direction in which nothing moves decide.
 
+use crate::math::const_eval as m;
 use crate::scalar::Real;
 use crate::state::entry;
 
@@ -12,6 +13,19 @@ use crate::state::entry;
 /// exceeds p itself, the rank is that of the rounding errors. Closer than this to a singular configuration, in rad, a
 /// machine is treated as singular.
 pub const RANK_TOLERANCE: (f64, f32) = (1e-7, 2e-3);
+
+/// The distance ς from a singular configuration of the motors below which the passive coordinates are damped, by
+/// default; see [`Loops::damped_below`](super::Loops::damped_below).
+pub const SINGULAR: f64 = 5e-3;
+
+/// ε in f64 and f32: a given threshold, and at least that below which elimination may leave a passive coordinate
+/// without a pivot. With complete pivoting C rows of p columns have no pivot that is less than their least singular
+/// value over √(C − p + 1).
+pub(super) const fn thresholds(given: f64, rows: usize, passive: usize) -> (f64, f32) {
+    let root = m::sqrt((rows.saturating_sub(passive) + 1) as f64);
+    let (double, single) = (root * RANK_TOLERANCE.0, root as f32 * RANK_TOLERANCE.1);
+    (given.max(double), (given as f32).max(single))
+}
 
 /// No row, or no column.
 pub(super) const NONE: usize = usize::MAX;

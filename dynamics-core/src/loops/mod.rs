@@ -71,18 +71,19 @@ mod loop_joint;
 mod mass_root;
 mod reach;
 mod singular;
+mod stabilisation;
 mod status;
 
 pub use assembly::{Assembly, Moving, assemble};
 pub use constraints::{Constraints, constraints};
 pub use coordinate_map::{CoordinateMap, Drive, coordinate_map};
 pub use description::Loops;
-pub use elimination::{LoopRows, RANK_TOLERANCE};
+pub use elimination::{LoopRows, RANK_TOLERANCE, SINGULAR};
 pub use error::{LoopError, LoopModelError, LoopProblem};
-pub use forward_dynamics::{LoopMotion, Stabilisation, TIME_CONSTANT, forward_dynamics};
+pub use forward_dynamics::{LoopMotion, forward_dynamics};
 pub use inverse_dynamics::{LoopTorque, inverse_dynamics};
 pub use loop_joint::{BodyFrame, LoopJoint};
-pub use singular::SINGULAR;
+pub use stabilisation::{Stabilisation, TIME_CONSTANT};
 pub use status::{Closure, LoopRank, Mobility, OPEN, mobility};
 
 use crate::model::Robot;

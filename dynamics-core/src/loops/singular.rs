@@ -13,28 +13,14 @@
 use core::iter::once;
 
 use super::description::Loops;
-use super::elimination::{Elimination, NONE, RANK_TOLERANCE, dot, subtract};
+use super::elimination::{Elimination, NONE, RANK_TOLERANCE, dot, subtract, thresholds};
 use crate::algorithms::shifted_inverse;
-use crate::math::const_eval as m;
 use crate::scalar::Real;
 use crate::state::entry;
 
-/// The distance ς from a singular configuration of the motors below which the passive coordinates are damped, by
-/// default; see [`Loops::damped_below`](super::Loops::damped_below).
-pub const SINGULAR: f64 = 5e-3;
-
-/// ε in f64 and f32: a given threshold, and at least that below which elimination may leave a passive coordinate
-/// without a pivot. With complete pivoting C rows of p columns have no pivot that is less than their least singular
-/// value over √(C − p + 1).
-pub(super) const fn thresholds(given: f64, rows: usize, passive: usize) -> (f64, f32) {
-    let root = m::sqrt((rows.saturating_sub(passive) + 1) as f64);
-    let (double, single) = (root * RANK_TOLERANCE.0, root as f32 * RANK_TOLERANCE.1);
-    (given.max(double), (given as f32).max(single))
-}
-
 impl<const L: usize, const C: usize, const A: usize> Loops<L, C, A> {
     /// These loops with another distance from a singular configuration of the motors below which the passive
-    /// coordinates are damped, in place of [`SINGULAR`].
+    /// coordinates are damped, in place of [`SINGULAR`](super::SINGULAR).
     ///
     /// It bounds the torques: |τ_a| ≤ |τ_m| + √(2 L) / ε · |τ_p| of the tree's torques τ_m at the motors and τ_p at the
     /// passive coordinates. The distance is 1 / √(tr (K_pᵀ K_p)⁻¹) of the passive columns of K, rows relative to the

@@ -35,13 +35,7 @@ impl JointLimits<f64> {
 
     /// Whether all positions lie within two turns, ±4π: for revolute joints with such limits the engine takes
     /// [`crate::trig::sin_cos_near`], whose range leaves a margin for overshoot.
-    ///
-    /// ```
-    /// use dynamics_core::model::JointLimits;
-    /// let limits = JointLimits { lower: -6.3, upper: 6.3, ..JointLimits::NONE };
-    /// assert!(limits.within_two_turns() && !JointLimits::NONE.within_two_turns());
-    /// ```
-    pub const fn within_two_turns(&self) -> bool {
+    pub(crate) const fn within_two_turns(&self) -> bool {
         const FOUR_PI: f64 = 4.0 * core::f64::consts::PI;
         self.lower >= -FOUR_PI && self.upper <= FOUR_PI
     }

@@ -37,7 +37,7 @@ impl<R: Real> JointCoordinate<R> {
 
     /// A rotation by q rad, |q| ≤ 100, its sine and cosine by the kernel K.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub fn revolute_bounded<K: Kernel<R>>(q: R) -> Self {
+    pub(crate) fn revolute_bounded<K: Kernel<R>>(q: R) -> Self {
         let (sin, cos) = K::sin_cos_near(q);
         Self { q, sin, cos }
     }

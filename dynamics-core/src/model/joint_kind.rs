@@ -78,6 +78,7 @@ impl JointKind {
 
 /// The kinds of joint that a robot has; its machine code leaves out all others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[doc(hidden)]
 pub struct JointKinds(u16);
 
 impl JointKinds {

@@ -93,7 +93,7 @@ impl<R: Real> LinkView<'_, R> {
 
     /// m + S q̇, without additions of the zeros of S.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub fn plus_motion(
+    pub(crate) fn plus_motion(
         &self,
         m: Motion<R>,
         turns: &[JointCoordinate<R>],
@@ -110,7 +110,7 @@ impl<R: Real> LinkView<'_, R> {
 
     /// a + S̊ q̇ + v × S q̇: an acceleration with the velocity products of the body and its joint.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub fn plus_velocity_product(
+    pub(crate) fn plus_velocity_product(
         &self,
         a: Motion<R>,
         turns: &[JointCoordinate<R>],

@@ -228,12 +228,12 @@ impl<const B: usize, const Q: usize, const V: usize> Model<f64, B, Q, V> {
     }
 
     /// The kinds of its joints.
-    pub const fn kinds(&self) -> JointKinds {
+    pub(crate) const fn kinds(&self) -> JointKinds {
         self.kinds
     }
 
     /// Whether the parent of every body is the one before it.
-    pub const fn is_chain(&self) -> bool {
+    pub(crate) const fn is_chain(&self) -> bool {
         let mut i = 0;
         while i < B {
             if self.links[i].parent != i.wrapping_sub(1) {

@@ -74,6 +74,7 @@ impl<R: Real, const B: usize, const Q: usize, const V: usize> RobotModel<R, B, Q
 /// [`RobotModel::as_all_revolute`] makes it. A loop over it has no branch on the kind of joint, which saves a fifth of inverse dynamics
 /// on a host.
 #[derive(Clone, Copy, Debug)]
+#[doc(hidden)]
 pub struct AllRevolute<'a, R: Real, const B: usize, const Q: usize, const V: usize>(
     &'a Model<R, B, Q, V>,
 );

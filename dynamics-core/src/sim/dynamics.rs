@@ -1,6 +1,7 @@
 //! The dynamics of a robot, as an integrator uses them.
 
 use super::StepIncrement;
+use super::step_increment::add_scaled;
 use crate::algorithms::{NotPositiveDefinite, aba, kinetic_energy, potential_energy};
 use crate::effects::{Effect, Implicit};
 use crate::model::RobotModel;
@@ -30,6 +31,23 @@ pub trait Dynamics<R, const Q: usize, const V: usize> {
 
     /// Where q is after h seconds at these rates: [`StepIncrement::configuration_after`].
     fn configuration_after(&self, q: &[R; Q], at: &StepIncrement<R, V>, h: R) -> [R; Q];
+}
+
+impl<R: Real, const V: usize> StepIncrement<R, V> {
+    /// State after h seconds; its q̈ is the step's mean.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    pub fn end<const Q: usize>(
+        &self,
+        mechanics: &impl Dynamics<R, Q, V>,
+        from: &State<R, Q, V>,
+        h: R,
+    ) -> State<R, Q, V> {
+        State {
+            q: mechanics.configuration_after(&from.q, self, h),
+            qd: add_scaled(from.qd, h, &self.qdd),
+            qdd: self.qdd,
+        }
+    }
 }
 
 /// A robot by its description, under constant torques.

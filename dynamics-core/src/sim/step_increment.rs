@@ -1,9 +1,7 @@
 //! The mean velocity and acceleration of a time step, on joints of any kind.
 
-use super::Dynamics;
 use crate::model::RobotModel;
 use crate::scalar::Real;
-use crate::state::State;
 use crate::state::manifold::integrate;
 
 /// Mean rates of a step: q ⊕ h q̇ and q̇ + h q̈ are its end.
@@ -62,21 +60,6 @@ impl<R: Real, const V: usize> StepIncrement<R, V> {
                 integrate(robot, &integrate(robot, q, &half(R::ONE)), &half(-R::ONE))
             }
             _ => integrate(robot, q, &self.qd.map(|qd| h * qd)),
-        }
-    }
-
-    /// State after h seconds; its q̈ is the step's mean.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    pub fn end<const Q: usize>(
-        &self,
-        mechanics: &impl Dynamics<R, Q, V>,
-        from: &State<R, Q, V>,
-        h: R,
-    ) -> State<R, Q, V> {
-        State {
-            q: mechanics.configuration_after(&from.q, self, h),
-            qd: add_scaled(from.qd, h, &self.qdd),
-            qdd: self.qdd,
         }
     }
 }

@@ -64,6 +64,7 @@ impl<R, const Q: usize> Configuration<R, Q> for JointTrig<R, Q> {
 
 /// A source of the sines and cosines of a configuration. It is a trait, since a closure would not be inlined
 /// everywhere.
+#[doc(hidden)]
 pub trait TrigSource<R, const Q: usize> {
     /// The sines and cosines at q.
     fn compute(&self, q: &[R; Q]) -> JointTrig<R, Q>;
@@ -127,6 +128,7 @@ impl<R, const Q: usize, const V: usize> RobotState<R, Q, V> for &State<R, Q, V> 
 
 /// A state with the sines and cosines of its configuration, by reference: [`JointTrig::with`].
 #[derive(Debug)]
+#[doc(hidden)]
 pub struct StateWithTrig<'a, R, const Q: usize, const V: usize> {
     trig: &'a JointTrig<R, Q>,
     state: &'a State<R, Q, V>,

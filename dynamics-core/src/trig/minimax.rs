@@ -1,6 +1,7 @@
 //! Minimax polynomials of several degrees on |r| ≤ π/4, behind a reduction in two or three parts.
 
-use super::{Kernel, bounded};
+use super::Kernel;
+use super::kernel::bounded;
 
 /// Sine by a polynomial of degree `DEGREE` (3, 5 or 7), cosine by one of a degree more, of x − k π/2 with π/2 in
 /// `PARTS` (2 or 3) parts.

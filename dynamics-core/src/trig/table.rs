@@ -1,6 +1,7 @@
 //! A table of one turn, and Taylor's polynomials from its nearest entry.
 
-use super::{Kernel, bounded};
+use super::Kernel;
+use super::kernel::bounded;
 use crate::math::const_eval;
 
 /// Sine and cosine of the nearest of `N` (a power of two) angles of a turn, turned on by the rest r, |r| ≤ π/N, by

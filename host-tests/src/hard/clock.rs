@@ -4,10 +4,11 @@ use super::controller::{Bench, TICK};
 use super::measure::larger;
 use super::{Case, Row, name};
 use dynamics_core::scalar::Real;
+use dynamics_core::state::State;
 use joint_drivers::MultiTurnEncoder;
 use motion_control::{
-    Mode, MotionLimits, Observer, ObserverConfig, SafetyLimits, Supervisor, SupervisorConfig,
-    Trajectory, WayPoint,
+    CurrentTick, Mode, MotionController, MotionControllerConfig, MotionLimits, Observer,
+    ObserverConfig, SafetyLimits, SupervisorConfig, Trajectory, WayPoint,
 };
 
 /// The family's cases.
@@ -47,10 +48,6 @@ fn wrap() -> Vec<Row> {
     const COUNTS: f64 = 16_384.0;
     fn run<R: Real>(rows: &mut Vec<Row>, direction: f64) {
         let (mut counter, of) = (MultiTurnEncoder::<14>::new(), R::from_f64);
-        let mut observer = Observer::<R, 1>::new(ObserverConfig {
-            bandwidth: of(250.0),
-            tick: of(TICK),
-        });
         let limits = SafetyLimits {
             torque: [R::ONE],
             rate: [R::ONE],
@@ -58,26 +55,31 @@ fn wrap() -> Vec<Row> {
             lower: [of(-100.0)],
             upper: [of(100.0)],
         };
-        let mut supervisor = Supervisor::new(SupervisorConfig {
-            limits,
-            tick: of(TICK),
-            resolution: R::ZERO,
-            ride_through_ticks: 0,
-            hold_ticks: 20,
-            reentry_ticks: 50,
-        });
+        let config = MotionControllerConfig {
+            supervisor: SupervisorConfig {
+                limits,
+                tick: of(TICK),
+                resolution: R::ZERO,
+                ride_through_ticks: 0,
+                hold_ticks: 20,
+                reentry_ticks: 50,
+            },
+            observer_bandwidth: of(250.0),
+            decay_rate: of(25.0),
+            restart_distance: R::ZERO,
+        };
+        let mut controller = MotionController::<R, 1, CurrentTick>::new(config);
         let (mut worst, mut full, mut naive, mut last) = (0.0_f64, true, 0.0_f64, 0.0);
         for tick in 0..10_000 {
             let turns = f64::from(tick) * (2.0 / std::f64::consts::TAU * TICK) * direction;
             let raw = (turns * COUNTS).round() as i32 & 0x3fff;
             counter.update(raw as u16);
             let q = [counter.angle()];
-            let qd = observer.update(&q, &[R::ZERO]).qd;
-            supervisor.tick(Ok(&q), |tick| {
-                full &= tick.mode() == Mode::Full;
-                full &= tick.check_speed(&qd) == Mode::Full;
-                [R::ZERO]
-            });
+            let status = controller
+                .tick(Ok(&q), &State::at(q), |_, _| [R::ZERO])
+                .status;
+            full &= status.mode == Mode::Full;
+            let qd = controller.estimate().qd;
             let angle = f64::from(raw) / COUNTS * std::f64::consts::TAU;
             if tick >= 200 {
                 worst = larger(worst, (qd[0].to_f64() - 2.0 * direction).abs());

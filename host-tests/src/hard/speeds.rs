@@ -9,7 +9,9 @@ use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
 use joint_drivers::MultiTurnEncoder;
 use lab_target::hard::{N, counts, scene};
-use motion_control::{Fault, SafetyLimits, Supervisor, SupervisorConfig};
+use motion_control::{
+    Fault, MotionController, MotionControllerConfig, SafetyLimits, SupervisorConfig,
+};
 
 const ORACLE: &str = "computation in 50 digits from the same f32 bits (oracle/hard.py)";
 
@@ -101,15 +103,20 @@ fn refused<R: Real>(q: R) -> bool {
         lower: [-far],
         upper: [far],
     };
-    let mut gate = Supervisor::new(SupervisorConfig {
-        limits,
-        tick: R::from_f64(1e-3),
-        resolution: R::ZERO,
-        ride_through_ticks: 0,
-        hold_ticks: 1,
-        reentry_ticks: 4,
+    let mut controller = MotionController::<R, 1>::new(MotionControllerConfig {
+        supervisor: SupervisorConfig {
+            limits,
+            tick: R::from_f64(1e-3),
+            resolution: R::ZERO,
+            ride_through_ticks: 0,
+            hold_ticks: 1,
+            reentry_ticks: 4,
+        },
+        observer_bandwidth: some,
+        decay_rate: some,
+        restart_distance: R::ZERO,
     });
-    let command = gate.tick(Ok(&[q]), |_| [R::ZERO]);
+    let command = controller.tick(Ok(&[q]), &State::at([q]), |_, _| [R::ZERO]);
     command.status.fault == Some(Fault::Position { joint: 0 })
 }
 

@@ -18,18 +18,12 @@
 //! so that a tick without information changes no bit. No product Yᵀ Y of different columns is stored: the condition of the problem
 //! in f32 is that of Y, not of Yᵀ Y.
 
-mod config;
-mod factors;
-mod freeze;
-
-pub use config::{PayloadEstimatorConfig, RejectedMeasurement};
+use core::fmt;
 
 use crate::entry;
-use crate::limits::ConfigError;
+use crate::limits::{ConfigError, ConfigParameter};
 use dynamics_core::scalar::Real;
 use dynamics_core::spatial::SpatialInertia;
-use factors::Factors;
-use freeze::Freeze;
 
 /// The inertial parameters of a body.
 const PARAMETERS: usize = 10;
@@ -43,6 +37,88 @@ const RATE: f64 = 1.0 / 64.0;
 /// The shares of the square of the limit at which a freeze begins and ends.
 const FREEZES: f64 = 0.25;
 const THAWS: f64 = 0.16;
+
+/// The ticks after which another estimate may replace a frozen one: 16 time constants of its mean square.
+const OTHER: u32 = 1024;
+/// The ticks from which on its mean square counts.
+const FIRST: u32 = 256;
+
+/// The parameters of a [`PayloadEstimator`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct PayloadEstimatorConfig<R, const V: usize> {
+    /// Standard deviation of the measured less the modelled torque of each joint in one tick, N·m or N.
+    pub noise: [R; V],
+    /// Standard deviation of each parameter before the first tick, about zero: kg, kg·m, kg·m². It decides what is estimated
+    /// of a parameter that the motion does not show.
+    pub prior: [R; PARAMETERS],
+    /// The share of the information that a tick replaces at most, 0 to less than 1. 1/N forgets a load within a few times N ticks
+    /// of motion and then averages over some N ticks; 0 never forgets.
+    pub forgetting: R,
+    /// The greatest root mean square of a tick's innovations, in standard deviations, of a tick that is used: 3 to 1000.
+    pub limit: R,
+}
+
+impl<R: Real, const V: usize> PayloadEstimatorConfig<R, V> {
+    /// Checks that each standard deviation is between 10⁻⁶ and 10⁶ the forgetting at least 0 and less than 1,
+    /// and the limit between 3 and 1000.
+    ///
+    /// # Errors
+    /// [`ConfigError::OutOfRange`] names the number.
+    pub fn check(&self) -> Result<(), ConfigError> {
+        let usable = |x: &R| (*x >= R::from_f64(1e-6)) & (*x <= R::from_f64(1e6));
+        ConfigParameter::TorqueNoise.require(self.noise.iter().all(usable))?;
+        ConfigParameter::PriorDeviation.require(self.prior.iter().all(usable))?;
+        let share = (self.forgetting >= R::ZERO) & (self.forgetting < R::ONE);
+        ConfigParameter::Forgetting.require(share)?;
+        let limit = (self.limit >= R::from_f64(3.0)) & (self.limit <= R::from_f64(1e3));
+        ConfigParameter::InnovationLimit.require(limit)
+    }
+}
+
+/// The reason why a [`PayloadEstimator`] rejects a tick.
+///
+/// ```
+/// use motion_control::RejectedMeasurement;
+/// let reason = RejectedMeasurement::NotFinite { joint: 2 };
+/// assert_eq!(reason.to_string(), "joint 2: its torque or its regressor is not finite");
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
+pub enum RejectedMeasurement {
+    /// A torque or an entry of the regressor is infinite or not a number.
+    NotFinite {
+        /// The joint.
+        joint: usize,
+    },
+    /// The numbers of the tick exceed 10⁹ standard deviations of the noise.
+    TooLarge,
+    /// The innovations of the tick are beyond the limit.
+    Outlier,
+    /// The innovations of many ticks were too large: noise, model or load are not as stated.
+    Frozen,
+}
+
+impl fmt::Display for RejectedMeasurement {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotFinite { joint } => {
+                write!(
+                    out,
+                    "joint {joint}: its torque or its regressor is not finite"
+                )
+            }
+            Self::TooLarge => out.write_str("the torques or the regressor are too large"),
+            Self::Outlier => out.write_str("the torques are not those of the estimated load"),
+            Self::Frozen => {
+                out.write_str("the torques of many ticks are not those of the estimated load")
+            }
+        }
+    }
+}
+
+impl core::error::Error for RejectedMeasurement {}
 
 /// The inertial parameters of a load on one body, estimated from the torques of V joints.
 ///
@@ -301,4 +377,172 @@ fn reason<R: Real, const N: usize, const V: usize>(
     wrong.map_or(RejectedMeasurement::TooLarge, |joint| {
         RejectedMeasurement::NotFinite { joint }
     })
+}
+
+/// A freeze.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Freeze<R> {
+    /// The frozen parameters.
+    parameters: [R; PARAMETERS],
+    /// The mean square of the innovations of the estimate that began with the freeze, and its ticks.
+    level: R,
+    ticks: u32,
+}
+
+impl<R: Real, const V: usize> PayloadEstimator<R, V> {
+    /// Freezes the estimate, and begins another one in the second set of factors.
+    #[cold]
+    fn freeze(&mut self) {
+        let factors = self.factors();
+        let parameters = factors.solve(factors.rows.map(|[.., d]| d));
+        self.begin(parameters);
+    }
+
+    /// Begins another estimate beside these frozen parameters.
+    fn begin(&mut self, parameters: [R; PARAMETERS]) {
+        *self.other() = Factors::of(self.start);
+        self.freeze = Some(Freeze {
+            parameters,
+            level: self.most,
+            ticks: 0,
+        });
+    }
+
+    #[inline(always)]
+    fn other(&mut self) -> &mut Factors<R> {
+        let [first, second] = &mut self.factors;
+        if self.second { first } else { second }
+    }
+
+    /// Whether no parameter of the other estimate is beyond the limit of its deviation before the first tick.
+    fn other_is_expected(&mut self) -> bool {
+        let (most, start) = (self.most, self.start);
+        let other = self.other();
+        let parameters = other.solve(other.rows.map(|[.., d]| d));
+        parameters
+            .iter()
+            .zip(start)
+            .all(|(x, start)| *x * *x * start <= most)
+    }
+
+    /// A tick of a frozen estimate.
+    #[cold]
+    #[inline(never)]
+    fn frozen_tick<const N: usize>(
+        &mut self,
+        columns: &mut [[R; N]; PARAMETERS + 1],
+    ) -> Result<(), RejectedMeasurement> {
+        let (most, rate) = (self.most, R::from_f64(RATE));
+        let bounded = |square: R| if square <= most { square } else { most };
+        let thaws = most * R::from_f64(THAWS);
+        let Some(mut freeze) = self.freeze else {
+            return Ok(());
+        };
+        let [y @ .., z] = &*columns;
+        let mut error = *z;
+        for (y, parameter) in y.iter().zip(&freeze.parameters) {
+            error = core::array::from_fn(|i| entry(&error, i) - entry(y, i) * *parameter);
+        }
+        let share = R::from_f64(const { 1.0 / (if N == 0 { 1 } else { N }) as f64 });
+        self.level += (bounded(dot(&error, &error) * share) - self.level) * rate;
+
+        let forgetting = self.forgetting;
+        let other = self.other();
+        let before = *other;
+        let innovation = other.transform(&before, forgetting, columns);
+        freeze.level += (bounded(innovation) - freeze.level) * rate;
+        freeze.ticks = freeze.ticks.saturating_add(1);
+        self.freeze = Some(freeze);
+        if self.level <= thaws {
+            self.freeze = None;
+        } else if (freeze.ticks >= OTHER) & (freeze.level <= thaws) && self.other_is_expected() {
+            (self.second, self.level, self.freeze) = (!self.second, freeze.level, None);
+        } else if (freeze.ticks >= FIRST) & (freeze.level > most * R::from_f64(FREEZES)) {
+            // It has ticks of a fault.
+            self.begin(freeze.parameters);
+        }
+        Err(RejectedMeasurement::Frozen)
+    }
+}
+
+/// The information about the parameters.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Factors<R> {
+    /// D.
+    information: [R; PARAMETERS],
+    /// Row k: the entries of U right of its diagonal, and that of d.
+    rows: [[R; PARAMETERS + 1]; PARAMETERS],
+}
+
+impl<R: Real> Factors<R> {
+    fn of(information: [R; PARAMETERS]) -> Self {
+        Self {
+            information,
+            rows: [[R::ZERO; PARAMETERS + 1]; PARAMETERS],
+        }
+    }
+
+    /// T: these from the factors of the tick before and from its rows. Returns the mean square of e.
+    #[inline(never)] // shared by the tick and that of a freeze: 3 kB
+    fn transform<const N: usize>(
+        &mut self,
+        now: &Self,
+        forgetting: R,
+        columns: &mut [[R; N]; PARAMETERS + 1],
+    ) -> R {
+        let mut rest = columns.as_mut_slice();
+        let rows = now.rows.iter().zip(&now.information);
+        let next_rows = self.rows.iter_mut().zip(&mut self.information);
+        for (k, ((row, information), (next_row, next))) in rows.zip(next_rows).enumerate() {
+            let (Some((y, later)), Some(row), Some(next_row)) = (
+                rest.split_first_mut(),
+                row.get(k + 1..),
+                next_row.get_mut(k + 1..),
+            ) else {
+                break;
+            };
+            let y = *y; // a copy stays in registers
+            let new = dot(&y, &y);
+            let old = forgetting * *information;
+            let kept = *information - if old < new { old } else { new };
+            let sum = kept + new;
+            let gain = R::ONE / sum;
+            let ratio = kept * gain;
+            let half = gain / (R::ONE + ratio * ratio.rsqrt());
+            for ((u, next), x) in row.iter().zip(next_row).zip(later.iter_mut()) {
+                let old = *x; // the store of `next` is not between its two uses
+                let t = dot(&y, &old) - new * *u;
+                let factor = *u + t * half;
+                *x = core::array::from_fn(|i| entry(&old, i) - factor * entry(&y, i));
+                *next = *u + t * gain;
+            }
+            *next = sum;
+            rest = later;
+        }
+        let [.., e] = columns;
+        dot(e, e) * R::from_f64(const { 1.0 / (if N == 0 { 1 } else { N }) as f64 })
+    }
+
+    /// x with U x = b, from the last row to the first.
+    #[inline(always)]
+    fn solve(&self, mut b: [R; PARAMETERS]) -> [R; PARAMETERS] {
+        for (k, row) in self.rows.iter().enumerate().rev() {
+            let (Some((b, known)), Some(row)) = (
+                b.get_mut(k..).and_then(<[R]>::split_first_mut),
+                row.get(k + 1..PARAMETERS),
+            ) else {
+                break;
+            };
+            *b -= dot(row, known);
+        }
+        b
+    }
+}
+
+/// The scalar product.
+#[inline(always)]
+fn dot<R: Real>(a: &[R], b: &[R]) -> R {
+    let mut products = a.iter().zip(b).map(|(a, b)| *a * *b);
+    let first = products.next().unwrap_or(R::ZERO);
+    products.fold(first, |sum, product| sum + product)
 }

@@ -44,7 +44,7 @@ impl<R: Real, const V: usize> Gains<R, V> {
 /// 5 flops per joint, with the same instructions for all data.
 ///
 /// # Errors
-/// None; a non-finite input gives a non-finite output, which [`crate::Supervisor`] rejects.
+/// None; a non-finite input gives a non-finite output, which [`crate::MotionController`] rejects.
 ///
 /// ```
 /// use dynamics_core::state::State;

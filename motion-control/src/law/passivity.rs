@@ -98,7 +98,7 @@ impl<R: Real, const V: usize> PassivityGains<R, V> {
 /// instructions for all data.
 ///
 /// # Errors
-/// None; a non-finite input gives a non-finite output, which [`crate::Supervisor`] rejects.
+/// None; a non-finite input gives a non-finite output, which [`crate::MotionController`] rejects.
 ///
 /// # Source
 /// Slotine & Li (1987).

@@ -11,7 +11,7 @@ pub enum Mode {
     Full,
     /// The arm is brought to rest at its estimated position: inverse dynamics of q̈ = −λ q̇, see [`crate::hold()`].
     Hold,
-    /// Zero torque and the brake, until a reset ([`crate::MotionController::reset`], [`crate::Supervisor::reset`]).
+    /// Zero torque and the brake, until a reset ([`MotionController::reset`](crate::MotionController::reset)).
     Stopped,
 }
 

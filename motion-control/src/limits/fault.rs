@@ -90,7 +90,7 @@ pub enum Fault {
     /// The brake did not accept its command.
     Brake,
     /// A stop from outside the loop: an emergency stop, a safety controller, an operator, a contact. See
-    /// [`MotionController::stop`](crate::MotionController::stop) and [`Supervisor::stop`](crate::Supervisor::stop).
+    /// [`MotionController::stop`](crate::MotionController::stop).
     #[doc(alias = "e-stop")]
     #[doc(alias = "emergency stop")]
     External,

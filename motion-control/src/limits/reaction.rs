@@ -2,7 +2,7 @@
 
 use crate::limits::Fault;
 
-/// The reaction of a [`Supervisor`](crate::Supervisor) to a fault, by [`Fault::reaction`].
+/// The reaction of a [`MotionController`](crate::MotionController) to a fault, by [`Fault::reaction`].
 ///
 /// | reaction | while the fault lasts | after it |
 /// |---|---|---|
@@ -13,12 +13,12 @@ use crate::limits::Fault;
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum Reaction {
-    /// [`Supervisor::report`](crate::Supervisor::report): the fault may pass.
+    /// [`report`](crate::MotionController::report): the fault may pass.
     RideThrough,
-    /// [`Supervisor::stop_by`](crate::Supervisor::stop_by) with the configured category: the motion must not go on, the drives and the measurements
-    /// are usable.
+    /// [`stop_by`](crate::MotionController::stop_by) with the configured category: the motion must not go on, the drives
+    /// and the measurements are usable.
     ControlledStop,
-    /// [`Supervisor::stop`](crate::Supervisor::stop): a drive, a model or a memory that a deceleration needs is not usable.
+    /// [`stop`](crate::MotionController::stop): a drive, a model or a memory that a deceleration needs is not usable.
     TorqueOff,
 }
 

@@ -9,7 +9,7 @@ use dynamics_core::scalar::Real;
 #[cfg(test)]
 mod tests;
 
-/// The limits of each joint that a [`Supervisor`](crate::Supervisor) enforces.
+/// The limits of each joint that a [`MotionController`](crate::MotionController) enforces.
 ///
 /// They can be made from the [`JointLimits`] of a robot's description; the rate of the torque is then unlimited:
 ///
@@ -88,7 +88,7 @@ impl<R: Real, const V: usize> SafetyLimits<R, V> {
         }
     }
 
-    /// Checks that every limit allows some motion or torque, as [`crate::Supervisor::try_new`] requires.
+    /// Checks that every limit allows some motion or torque, as [`crate::MotionController::try_new`] requires.
     ///
     /// Positions, speeds and rates may be unlimited (infinite), torques may not. Zero is a valid limit, such as of a joint
     /// that stays on its brake; [`MotionControllerConfig::advice`](crate::MotionControllerConfig::advice) names a rate of

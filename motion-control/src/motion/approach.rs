@@ -4,10 +4,9 @@ use core::fmt;
 
 use crate::limits::MotionLimits;
 use crate::limits::{LimitKind, Mode, SafetyLimits};
-use crate::motion::back_off::path;
 use crate::motion::{MeasurementAge, MotionController, ResetError};
 use crate::real;
-use crate::reference::{Reference, Trajectory, TrajectoryError};
+use crate::reference::{Reference, Trajectory, TrajectoryError, WayPoint};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
 
@@ -289,4 +288,24 @@ pub(crate) fn least_seconds<R: Real>(
     } else {
         by_acceleration
     })
+}
+
+/// The path from rest to rest in a time, s, within limits.
+pub(crate) fn path<R: Real, const V: usize>(
+    from: [R; V],
+    to: [R; V],
+    seconds: R,
+    tick: R,
+    limits: &[MotionLimits<R>; V],
+) -> Result<Trajectory<R, V, 2>, ApproachError> {
+    // What rounding may add to a peak in f32; and a path of no distance takes a tick. A time that cannot be counted
+    // becomes the greatest count.
+    let ticks = seconds / tick * R::from_f64(1.0 + 1e-5);
+    let ticks = ticks.to_u32().saturating_add(1);
+    let stop = |q, ticks| WayPoint {
+        q,
+        qd: [R::ZERO; V],
+        ticks,
+    };
+    Trajectory::new(&[stop(from, 0), stop(to, ticks)], tick, limits).map_err(ApproachError::Path)
 }

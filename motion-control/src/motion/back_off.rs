@@ -3,9 +3,9 @@
 use crate::estimate::{Estimate, Observer};
 use crate::limits::MotionLimits;
 use crate::limits::{Command, Fault, Mode};
-use crate::motion::approach::least_seconds;
+use crate::motion::approach::{least_seconds, path};
 use crate::motion::{ApproachError, MeasurementAge, MotionController, ResetError};
-use crate::reference::{Reference, Trajectory, WayPoint};
+use crate::reference::Trajectory;
 use crate::safety::StopCategory;
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
@@ -81,19 +81,6 @@ pub struct BackOff<R, const V: usize> {
     done: bool,
 }
 
-/// A reference that is the same in each tick.
-struct Fixed<R, const V: usize>(State<R, V, V>);
-
-impl<R: Real, const V: usize> Reference<R, V> for Fixed<R, V> {
-    fn at(&self, _: u32) -> State<R, V, V> {
-        self.0
-    }
-
-    fn ticks(&self) -> u32 {
-        0
-    }
-}
-
 impl<R: Real, const V: usize> BackOff<R, V> {
     /// Plans the path back of a stopped arm from its measured position, and starts the arm.
     ///
@@ -164,7 +151,7 @@ impl<R: Real, const V: usize> BackOff<R, V> {
         let before = controller.supervisor.replace_bounds(&self.bounds);
         let limit = *controller.supervisor.torque_limit();
         let observed = controller.observe(measured);
-        let reference = Fixed(self.reference(observed.estimate()));
+        let reference = self.reference(observed.estimate());
         let mut tick = observed.reference(&reference);
         if let Some(joint) = measured.ok().and_then(|q| self.further_out(q)) {
             tick.stop(Fault::Position { joint });
@@ -256,24 +243,4 @@ impl<R: Real, const V: usize> BackOff<R, V> {
             }
         }
     }
-}
-
-/// The path from rest to rest in a time, s, within limits.
-pub(crate) fn path<R: Real, const V: usize>(
-    from: [R; V],
-    to: [R; V],
-    seconds: R,
-    tick: R,
-    limits: &[MotionLimits<R>; V],
-) -> Result<Trajectory<R, V, 2>, ApproachError> {
-    // What rounding may add to a peak in f32; and a path of no distance takes a tick. A time that cannot be counted
-    // becomes the greatest count.
-    let ticks = seconds / tick * R::from_f64(1.0 + 1e-5);
-    let ticks = ticks.to_u32().saturating_add(1);
-    let stop = |q, ticks| WayPoint {
-        q,
-        qd: [R::ZERO; V],
-        ticks,
-    };
-    Trajectory::new(&[stop(from, 0), stop(to, ticks)], tick, limits).map_err(ApproachError::Path)
 }

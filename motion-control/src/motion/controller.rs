@@ -10,33 +10,124 @@
 //! | `hold_ticks` more | [`hold`](crate::hold()): q̈ = −λ q̇ where the arm is; the trajectory's clock stands still | predicted |
 //! | longer | the same, with zero torque on the brake, latched | as measured |
 //!
-//! After the fault a separate reference leads back onto the trajectory ([`ResumeTrajectory`]). The reasons, with
+//! After the fault a separate reference leads back onto the trajectory (`resume.rs`). The reasons, with
 //! figures, are in `docs/decisions/0003-faults.md` of the repository.
 
+use core::fmt;
 use core::marker::PhantomData;
 
 use crate::estimate::{Estimate, Observer};
-use crate::limits::{Command, ConfigError, Fault, Mode};
-use crate::motion::ResumeTrajectory;
+use crate::limits::{ConfigError, Fault, Mode};
+use crate::motion::hold;
+use crate::motion::resume::ResumeTrajectory;
 use crate::reference::Reference;
-use crate::safety::Supervisor;
+use crate::safety::StopCategory;
+use crate::safety::supervisor::Supervisor;
 use dynamics_core::scalar::Real;
-use dynamics_core::state::State;
+use dynamics_core::state::{State, all_finite};
 
-mod advice;
-mod age;
-mod config;
-mod recovery;
-mod reset;
-mod stop;
+pub(crate) mod config;
 #[cfg(test)]
 mod tests;
-mod tick;
+pub(crate) mod tick;
 
-pub use age::{CurrentTick, MeasurementAge, PreviousTick};
-pub use config::MotionControllerConfig;
-pub use reset::ResetError;
-pub use tick::{ObservedTick, ReferencedTick};
+use config::MotionControllerConfig;
+
+mod sealed {
+    pub trait Sealed {}
+}
+
+/// The age of the measurements of a [`MotionController`], a property of the encoders, as a
+/// type.
+pub trait MeasurementAge: sealed::Sealed {
+    /// Updates the estimate by positions that were accepted.
+    #[doc(hidden)]
+    fn correct<R: Real, const V: usize>(observer: &mut Observer<R, V>, q: &[R; V], qdd: &[R; V]);
+
+    /// Replaces the estimated positions after ticks without measurements.
+    #[doc(hidden)]
+    fn correct_position<R: Real, const V: usize>(observer: &mut Observer<R, V>, q: &[R; V]);
+}
+
+/// The positions are those of the previous tick: for encoders that latch at the end of a frame and send in the next
+/// one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PreviousTick;
+
+/// The positions are those of the tick in which they arrive.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CurrentTick;
+
+impl sealed::Sealed for PreviousTick {}
+impl sealed::Sealed for CurrentTick {}
+
+impl MeasurementAge for PreviousTick {
+    #[inline(always)]
+    fn correct<R: Real, const V: usize>(observer: &mut Observer<R, V>, q: &[R; V], qdd: &[R; V]) {
+        observer.update_delayed(q, qdd);
+    }
+
+    #[inline(always)]
+    fn correct_position<R: Real, const V: usize>(observer: &mut Observer<R, V>, q: &[R; V]) {
+        observer.correct_position_delayed(q);
+    }
+}
+
+impl MeasurementAge for CurrentTick {
+    #[inline(always)]
+    fn correct<R: Real, const V: usize>(observer: &mut Observer<R, V>, q: &[R; V], qdd: &[R; V]) {
+        observer.update(q, qdd);
+    }
+
+    #[inline(always)]
+    fn correct_position<R: Real, const V: usize>(observer: &mut Observer<R, V>, q: &[R; V]) {
+        observer.correct_position(q);
+    }
+}
+
+/// The reason why a stopped arm is not restarted. Joints are numbered from 0.
+///
+/// ```
+/// use motion_control::ResetError;
+/// assert_eq!(ResetError::TooFar { joint: 2 }.to_string(), "joint 2: it is too far from its reference");
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
+pub enum ResetError {
+    /// The arm is not stopped, nor held by a stop of category 2.
+    NotStopped,
+    /// There was no measurement in the last tick.
+    NoMeasurement,
+    /// There is a contact, or there was one too recently: see [`ContactReaction`](crate::ContactReaction).
+    Contact,
+    /// The joint is outside its bounds: [`BackOff`](crate::BackOff) leads it back, or a person moves it.
+    OutOfBounds {
+        /// The joint.
+        joint: usize,
+    },
+    /// A joint is further than the restart distance from the point at which its trajectory continues.
+    TooFar {
+        /// The joint.
+        joint: usize,
+    },
+}
+
+impl fmt::Display for ResetError {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::NotStopped => out.write_str("the arm is not stopped"),
+            Self::NoMeasurement => out.write_str("there was no measurement in the last tick"),
+            Self::Contact => out.write_str("there is a contact, or there was one too recently"),
+            Self::OutOfBounds { joint } => write!(out, "joint {joint}: it is outside its bounds"),
+            Self::TooFar { joint } => {
+                write!(out, "joint {joint}: it is too far from its reference")
+            }
+        }
+    }
+}
+
+impl core::error::Error for ResetError {}
 
 /// The controller of a robot's motion: the state of a control loop, and its reaction to faults.
 ///
@@ -109,12 +200,18 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
 
     /// As [`Self::try_new`], without the check: for constant configurations.
     ///
-    /// If a limit allows no motion or torque, the arm stays stopped: see [`Supervisor::new`].
+    /// If a limit allows no motion or torque ([`SafetyLimits::check`](crate::SafetyLimits::check)), the arm is stopped by
+    /// [`Fault::Limits`], and a reset does not restart it. If the tick is not a positive number, no step of the joints is
+    /// plausible; a resolution that is not a positive number is treated as zero.
     pub fn new(config: MotionControllerConfig<R, V>) -> Self {
         Self {
             observer: Observer::new(config.observer()),
             supervisor: Supervisor::new(config.supervisor),
-            resume: ResumeTrajectory::new(config.resume()),
+            resume: ResumeTrajectory::new(
+                config.supervisor.tick,
+                config.decay_rate,
+                config.supervisor.reentry_ticks,
+            ),
             reference: State::at([R::ZERO; V]),
             restart_distance: config.restart_distance,
             clock: 0,
@@ -156,76 +253,6 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
     pub fn on_brake(mut self) -> Self {
         self.supervisor = self.supervisor.on_brake();
         self
-    }
-
-    /// Runs one tick: from the measured positions (rad, m), or the fault that prevented them, to the command to the
-    /// drives.
-    ///
-    /// `law` is called once, in every mode; it computes torques (N·m, N) from the reference and the estimate of the
-    /// joints. Its feed-forward must produce the acceleration of the reference; for a law without inertia, see
-    /// [`ReferencedTick::without_inertia`].
-    ///
-    /// # Cost
-    /// 25 flops per joint in addition to the trajectory and the law, with the same instructions for all data; more
-    /// during a fault and the return after it.
-    #[inline]
-    pub fn tick<T: Reference<R, V>>(
-        &mut self,
-        measured: Result<&[R; V], Fault>,
-        trajectory: &T,
-        law: impl FnOnce(&State<R, V, V>, &Estimate<R, V>) -> [R; V],
-    ) -> Command<R, V> {
-        let tick = self.observe(measured).reference(trajectory);
-        let tau = law(tick.reference(), tick.estimate());
-        tick.command(&tau)
-    }
-
-    /// Starts a tick: checks the measured positions (rad, m), or accepts the fault that prevented them, and updates the
-    /// estimate.
-    ///
-    /// The first of the three steps of [`Self::tick`], for loops that do other work between them. A tick that ends
-    /// without a command is [`Fault::Unfinished`] in the next one.
-    ///
-    /// ```compile_fail
-    /// # #![deny(unused_must_use)]
-    /// # use motion_control::{MotionController, Reference};
-    /// fn tick(controller: &mut MotionController<f32, 1>, trajectory: &impl Reference<f32, 1>) {
-    ///     controller.observe(Ok(&[0.0])).reference(trajectory); // and the command?
-    /// }
-    /// ```
-    #[inline]
-    pub fn observe(&mut self, measured: Result<&[R; V], Fault>) -> ObservedTick<'_, R, V, A> {
-        match measured {
-            Ok(q) => self.observe_positions(q),
-            Err(fault) => self.observe_fault(fault),
-        }
-        ObservedTick::new(self)
-    }
-
-    #[inline(always)]
-    fn observe_positions(&mut self, q: &[R; V]) {
-        self.supervisor.accept_positions(q);
-        let stopped = matches!(self.supervisor.mode(), Mode::Stopped);
-        if !self.supervisor.measurement_accepted() | self.dead_reckoning | stopped {
-            self.observe_otherwise(Ok(q));
-            return;
-        }
-        A::correct(&mut self.observer, q, &self.reference.qdd);
-        self.supervisor.check_speed(&self.observer.estimate().qd);
-    }
-
-    #[cold]
-    fn observe_fault(&mut self, fault: Fault) {
-        self.supervisor.accept_fault(fault);
-        self.observe_otherwise(Err(fault));
-    }
-
-    /// A tick during or after a fault: in a function of its own, so that the usual one has no case for it.
-    #[cold]
-    #[inline(never)]
-    fn observe_otherwise(&mut self, measured: Result<&[R; V], Fault>) {
-        self.predict_estimate(measured);
-        self.supervisor.check_speed(&self.observer.estimate().qd);
     }
 
     /// Reports ticks that have passed without a call, as counted by a timer.
@@ -275,5 +302,277 @@ impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
     #[inline(always)]
     pub fn trajectory_tick(&self) -> u32 {
         self.clock
+    }
+}
+
+/// Stops and faults from outside the controller.
+impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
+    /// Stops the arm from the next tick on, for an external reason such as a failed drive or an emergency stop.
+    ///
+    /// The stop is latched until [`Self::reset`], with its first reason. While a stop is still required after a reset,
+    /// call this function in every tick. [`ReferencedTick::stop`](crate::ReferencedTick::stop) acts in the present tick.
+    #[doc(alias = "e-stop")]
+    #[doc(alias = "emergency stop")]
+    #[cold]
+    pub fn stop(&mut self, fault: Fault) {
+        self.supervisor.stop(fault);
+    }
+
+    /// The same controller with another stop category for lasting faults than [`StopCategory::ControlledOff`].
+    ///
+    /// ```
+    /// use motion_control::{Fault, Mode, MotionController, MotionControllerConfig, StopCategory};
+    /// # use motion_control::{SafetyLimits, SupervisorConfig, MotionLimits, Trajectory, WayPoint};
+    /// # let config = MotionControllerConfig {
+    /// #     supervisor: SupervisorConfig {
+    /// #         limits: SafetyLimits { torque: [10.0], rate: [10.0], speed: [3.0], lower: [-1.0], upper: [1.0] },
+    /// #         tick: 1e-3, resolution: 0.0, ride_through_ticks: 2, hold_ticks: 3, reentry_ticks: 10,
+    /// #     },
+    /// #     observer_bandwidth: 250.0, decay_rate: 25.0, restart_distance: 0.1,
+    /// # };
+    /// # let point = |q, ticks| WayPoint { q: [q], qd: [0.0], ticks };
+    /// # let limits = [MotionLimits { velocity: 3.0, acceleration: 10.0 }];
+    /// # let trajectory = Trajectory::new(&[point(0.0, 0), point(0.5, 1000)], 1e-3, &limits)?;
+    /// let sinks = StopCategory::DampedLowering { damping: [4.0] };
+    /// let mut controller = MotionController::<f32, 1>::try_new(config)?.with_stop(sinks);
+    /// controller.tick(Ok(&[0.0]), &trajectory, |_, _| [1.0]);
+    /// controller.stop(Fault::External);
+    /// for tick in 0..50 {
+    ///     // The arm sinks at 0.5 rad/s: −4 N·m·s/rad of it are 2 N·m.
+    ///     let command = controller.tick(Ok(&[-5e-4 * tick as f32]), &trajectory, |_, _| [1.0]);
+    ///     assert_eq!(command.status.mode, Mode::Stopped);
+    ///     assert!(tick < 40 || (command.torque[0] - 2.0).abs() < 0.01);
+    /// }
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn with_stop(mut self, category: StopCategory<R, V>) -> Self {
+        self.supervisor = self.supervisor.with_stop(category);
+        self
+    }
+
+    /// Stops the arm by a category, for a reason that leaves the drives usable: an operator, a safety controller, a
+    /// lost connection. The stop begins in the next tick.
+    ///
+    /// The stop is latched until [`Self::reset`], with its first reason. A later call with
+    /// [`StopCategory::TorqueOff`] ends a controlled stop at once.
+    #[cold]
+    pub fn stop_by(&mut self, fault: Fault, category: StopCategory<R, V>) {
+        self.supervisor.stop_by(fault, category);
+    }
+
+    /// Reports a fault that the controller cannot detect, which is then a fault of the next tick: ridden through, held
+    /// and stopped as any other. While it lasts, report it in every tick.
+    ///
+    /// For faults that allow no deceleration, see [`Self::stop`]; for a stop without ride-through, [`Self::stop_by`].
+    #[cold]
+    pub fn report(&mut self, fault: Fault) {
+        self.supervisor.report(fault);
+    }
+
+    /// Reacts to a fault that the controller cannot detect, by its [`Fault::reaction`]. Between two ticks the reaction
+    /// begins in the next one. While the fault lasts, call this function in every tick.
+    ///
+    /// ```
+    /// use motion_control::{Fault, Mode, MotionController, MotionControllerConfig};
+    /// # use dynamics_core::state::State;
+    /// # use motion_control::{SafetyLimits, SupervisorConfig};
+    /// # let config = MotionControllerConfig {
+    /// #     supervisor: SupervisorConfig {
+    /// #         limits: SafetyLimits { torque: [10.0], rate: [8.0], speed: [3.0], lower: [-1.0], upper: [1.0] },
+    /// #         tick: 1e-3, resolution: 0.0, ride_through_ticks: 1, hold_ticks: 2, reentry_ticks: 4,
+    /// #     },
+    /// #     observer_bandwidth: 250.0, decay_rate: 25.0, restart_distance: 0.1,
+    /// # };
+    /// # let reference = State::at([0.5]);
+    /// let overrun = [Mode::Full, Mode::Hold, Mode::Hold, Mode::Stopped];
+    /// let external = [Mode::Hold, Mode::Hold, Mode::Stopped, Mode::Stopped];
+    /// let drive = [Mode::Stopped; 4];
+    /// let faults = [Fault::Overrun, Fault::External, Fault::Drive { joint: 0 }];
+    /// for (fault, modes) in faults.into_iter().zip([overrun, external, drive]) {
+    ///     let mut controller = MotionController::<f32, 1>::try_new(config)?;
+    ///     controller.tick(Ok(&[0.5]), &reference, |_, _| [7.0]);
+    ///     for mode in modes {
+    ///         controller.react(fault);
+    ///         let status = controller.tick(Ok(&[0.5]), &reference, |_, _| [7.0]).status;
+    ///         assert_eq!((status.mode, status.fault), (mode, Some(fault)));
+    ///     }
+    /// }
+    /// # Ok::<(), motion_control::ConfigError>(())
+    /// ```
+    #[cold]
+    pub fn react(&mut self, fault: Fault) {
+        self.supervisor.react(fault);
+    }
+}
+
+/// The reaction to a fault, and the return after it: decision 3.
+impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
+    /// The estimate without a measurement, or without a torque computed from it.
+    #[cold]
+    fn predict_estimate(&mut self, measured: Result<&[R; V], Fault>) {
+        match (self.supervisor.mode(), measured) {
+            (Mode::Stopped, measured) => {
+                self.dead_reckoning = measured.is_err();
+                self.stopped_estimate(measured);
+            }
+            (_, Ok(q)) if self.supervisor.measurement_accepted() => {
+                self.dead_reckoning = false;
+                A::correct_position(&mut self.observer, q);
+            }
+            (mode, _) => {
+                self.dead_reckoning |= matches!(mode, Mode::Hold);
+                self.observer.predict(&self.reference.qdd);
+            }
+        }
+    }
+
+    /// The estimate of a stopped arm: at rest where the brake holds it, or the motion of one that sinks. Without a
+    /// usable measurement the velocity is zero, and with it the damping.
+    fn stopped_estimate(&mut self, measured: Result<&[R; V], Fault>) {
+        let last = self.observer.estimate().q;
+        match measured {
+            Ok(q) if self.observer.started() && self.supervisor.lowers(&last, q) => {
+                self.observer.follow(q);
+            }
+            Ok(q) if all_finite(q) => self.observer.reset(q),
+            _ if self.supervisor.knows_positions() => self.observer.reset(&last),
+            _ => {}
+        }
+    }
+
+    /// Updates the reference of the joints in this tick.
+    #[inline(always)]
+    fn next_reference<T: Reference<R, V>>(&mut self, trajectory: &T) {
+        let full = matches!(self.supervisor.mode(), Mode::Full);
+        if (!full | self.resume.active()) && !self.recovery_done(full) {
+            self.recovery_reference(trajectory, full);
+        } else {
+            self.reference = trajectory.at(self.clock);
+        }
+    }
+
+    /// Whether the return onto the trajectory ends in this tick.
+    #[cold]
+    fn recovery_done(&mut self, full: bool) -> bool {
+        let done = full & (self.supervisor.authority() >= R::ONE);
+        if done {
+            self.clock = self.resume.finish();
+        }
+        done
+    }
+
+    /// While the arm is held, the reference is its estimated position with a decaying velocity, so that the same law
+    /// brings all joints to rest together. Then the return onto the trajectory.
+    #[cold]
+    #[inline(never)]
+    fn recovery_reference<T: Reference<R, V>>(&mut self, trajectory: &T, full: bool) {
+        let State { q, qd, qdd } = if full {
+            let share = self.supervisor.authority();
+            self.resume.at(trajectory, share)
+        } else {
+            self.stop_reference()
+        };
+        // A state of six joints in one piece would be copied by `memcpy`, which adds 0.9 kB to a tick's code.
+        self.reference.q = q;
+        self.reference.qd = qd;
+        self.reference.qdd = qdd;
+    }
+
+    /// The reference of a stop that began after that of the tick was computed.
+    fn hold_now(&mut self) {
+        if !matches!(self.supervisor.mode(), Mode::Full) {
+            self.reference = self.stop_reference();
+        }
+    }
+
+    /// Updates the reference of the joints by one that is not the trajectory's, whose clock stands still: a return onto it
+    /// begins in each of these ticks.
+    #[cold]
+    fn replace_reference(&mut self, reference: &State<R, V, V>) {
+        if self.resume.active() {
+            self.clock = self.resume.cancel();
+        }
+        self.resume.start(self.observer.estimate(), self.clock);
+        self.standing = false;
+        self.reference.q = reference.q;
+        self.reference.qd = reference.qd;
+        self.reference.qdd = reference.qdd;
+    }
+
+    /// The rate at which the speed of a held arm decays, 1/s.
+    pub(crate) fn decay_rate(&self) -> R {
+        self.resume.decay_rate()
+    }
+
+    /// Decelerates the arm at its present position. The clock stops when the deceleration begins, and the return is
+    /// initialised again in each of these ticks.
+    fn stop_reference(&mut self) -> State<R, V, V> {
+        if self.resume.active() {
+            self.clock = self.resume.cancel();
+        } else {
+            self.clock = self.resume.resume_tick(self.clock);
+        }
+        let estimate = *self.observer.estimate();
+        self.resume.start(&estimate, self.clock);
+        // With a reference at the estimate, errors of the model would let an arm that is held for long drift.
+        self.standing =
+            self.supervisor.stands() & (self.standing | self.supervisor.at_rest(&estimate.qd));
+        if self.standing {
+            return State::at(self.reference.q);
+        }
+        hold(&estimate, self.resume.decay_rate())
+    }
+}
+
+/// The start of an arm that is stopped, at power-up or after a fault.
+impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
+    /// Whether the last tick had a measurement, which need not be within the bounds.
+    pub(crate) fn measured(&self) -> bool {
+        !self.dead_reckoning & self.observer.started()
+    }
+
+    /// Starts a stopped arm, at power-up or after a fault: clears the fault and leads the arm onto its trajectory.
+    ///
+    /// The brake holds until the torque that keeps the arm at rest is reached, a few ticks later. An arm that is held
+    /// by a stop of category 2 stays under power.
+    ///
+    /// # Errors
+    /// [`ResetError`]; the controller is then unchanged.
+    pub fn reset<T: Reference<R, V>>(&mut self, trajectory: &T) -> Result<(), ResetError> {
+        let stands = self.supervisor.stands();
+        if !matches!(self.supervisor.mode(), Mode::Stopped) & !stands {
+            return Err(ResetError::NotStopped);
+        }
+        if !self.measured() {
+            return Err(ResetError::NoMeasurement);
+        }
+        if let Some(joint) = self.supervisor.outside(&self.observer.estimate().q) {
+            return Err(ResetError::OutOfBounds { joint });
+        }
+        if !self.supervisor.knows_positions() {
+            return Err(ResetError::NoMeasurement);
+        }
+        let goal = trajectory.at(self.clock).q;
+        let mut joints = goal.iter().zip(&self.observer.estimate().q);
+        let near = |(goal, q): (&R, &R)| (*goal - *q).abs() <= self.restart_distance;
+        if let Some(joint) = joints.position(|joint| !near(joint)) {
+            return Err(ResetError::TooFar { joint });
+        }
+        if stands {
+            self.supervisor.release();
+            self.resume.start(self.observer.estimate(), self.clock);
+            self.reference.qdd = [R::ZERO; V];
+        } else {
+            self.restart();
+        }
+        Ok(())
+    }
+
+    /// Clears a stop; the reference begins at the estimated position.
+    pub(crate) fn restart(&mut self) {
+        self.supervisor.reset();
+        self.resume.start(self.observer.estimate(), self.clock);
+        self.reference.qdd = [R::ZERO; V];
     }
 }

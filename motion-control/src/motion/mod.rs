@@ -10,9 +10,7 @@ pub(crate) mod resume;
 pub use approach::{Approach, ApproachError};
 pub use back_off::{BackOff, BackOffConfig};
 pub use contact_reaction::{ContactPhase, ContactReaction, ContactReactionConfig, ContactResponse};
-pub use controller::{
-    CurrentTick, MeasurementAge, MotionController, MotionControllerConfig, ObservedTick,
-    PreviousTick, ReferencedTick, ResetError,
-};
+pub use controller::config::MotionControllerConfig;
+pub use controller::tick::{ObservedTick, ReferencedTick};
+pub use controller::{CurrentTick, MeasurementAge, MotionController, PreviousTick, ResetError};
 pub use hold::hold;
-pub use resume::{ResumeConfig, ResumeTrajectory};

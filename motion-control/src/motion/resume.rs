@@ -11,7 +11,6 @@
 //! so that position, velocity and acceleration are those of a at the start and of q at the end.
 
 use crate::estimate::Estimate;
-use crate::limits::{ConfigError, ConfigParameter};
 use crate::real;
 use crate::reference::Reference;
 use dynamics_core::scalar::Real;
@@ -20,52 +19,9 @@ use dynamics_core::state::State;
 #[cfg(test)]
 mod tests;
 
-/// The parameters of a [`ResumeTrajectory`].
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct ResumeConfig<R> {
-    /// Nominal length of a tick, s.
-    pub tick: R,
-    /// Rate λ at which the arm's own velocity decays, 1/s: q̈ = −λ q̇, about ω_n of the feedback.
-    pub decay_rate: R,
-    /// Ticks of the return, an even number; an odd number is rounded up.
-    pub ticks: u32,
-}
-
-impl<R: Real> ResumeConfig<R> {
-    /// Checks that the tick and the decay rate are finite and greater than zero.
-    ///
-    /// # Errors
-    /// [`ConfigError::OutOfRange`] names the number.
-    pub fn check(&self) -> Result<(), ConfigError> {
-        ConfigParameter::Tick.positive(self.tick)?;
-        ConfigParameter::DecayRate.positive(self.decay_rate)
-    }
-}
-
 /// A reference that leads from the state of the arm onto its stopped trajectory.
-///
-/// ```
-/// use motion_control::{Estimate, MotionLimits, ResumeConfig, ResumeTrajectory, Trajectory, WayPoint};
-/// # use motion_control::TrajectoryError;
-/// let points = [
-///     WayPoint { q: [0.0_f32], qd: [0.0], ticks: 0 },
-///     WayPoint { q: [1.0], qd: [0.0], ticks: 1000 },
-/// ];
-/// let trajectory = Trajectory::new(&points, 1e-3, &[MotionLimits { velocity: 2.0, acceleration: 10.0 }])?;
-/// let mut resume = ResumeTrajectory::new(ResumeConfig { tick: 1e-3, decay_rate: 40.0, ticks: 200 });
-/// resume.start(&Estimate { q: [0.02], qd: [0.0] }, 300);
-/// assert_eq!(resume.at(&trajectory, 0.0).q, [0.02]);
-/// for tick in 1..200 {
-///     resume.at(&trajectory, tick as f32 / 200.0);
-/// }
-/// assert_eq!(resume.finish(), 400); // the trajectory lost half of the 200 ticks
-/// # Ok::<(), TrajectoryError>(())
-/// ```
-#[doc(alias = "resynchronisation")]
-#[doc(alias = "Rejoin")]
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ResumeTrajectory<R, const V: usize> {
+pub(crate) struct ResumeTrajectory<R, const V: usize> {
     tick: R,
     /// λ.
     decay: R,
@@ -86,22 +42,9 @@ pub struct ResumeTrajectory<R, const V: usize> {
 }
 
 impl<R: Real, const V: usize> ResumeTrajectory<R, V> {
-    /// A return that has not begun.
-    ///
-    /// # Errors
-    /// [`ConfigError`], as [`ResumeConfig::check`].
-    pub fn try_new(config: ResumeConfig<R>) -> Result<Self, ConfigError> {
-        config.check()?;
-        Ok(Self::new(config))
-    }
-
-    /// As [`Self::try_new`], without the check: for constant configurations.
-    pub fn new(config: ResumeConfig<R>) -> Self {
-        let ResumeConfig {
-            tick,
-            decay_rate: decay,
-            ticks,
-        } = config;
+    /// A return that has not begun, in ticks of `tick` seconds: for an arm whose speed decays at the rate `decay`, 1/s,
+    /// over an even number of `ticks`, to which an odd one is rounded up.
+    pub(crate) fn new(tick: R, decay: R, ticks: u32) -> Self {
         let half = ticks.div_ceil(2).max(1);
         let ticks_inv = R::from_f64(0.5) / real(half);
         Self {
@@ -122,18 +65,18 @@ impl<R: Real, const V: usize> ResumeTrajectory<R, V> {
 
     /// The decay rate λ, 1/s.
     #[inline(always)]
-    pub fn decay_rate(&self) -> R {
+    pub(crate) fn decay_rate(&self) -> R {
         self.decay
     }
 
     /// Whether a return has been started and not finished.
     #[inline(always)]
-    pub fn active(&self) -> bool {
+    pub(crate) fn active(&self) -> bool {
         self.active
     }
 
     /// Starts from the state of the arm; the trajectory continues from the tick `clock`.
-    pub fn start(&mut self, estimate: &Estimate<R, V>, clock: u32) {
+    pub(crate) fn start(&mut self, estimate: &Estimate<R, V>, clock: u32) {
         self.rest.q = estimate.q;
         self.rest.qd = estimate.qd;
         self.rest.qdd = estimate.qd.map(|qd| -(self.decay * qd));
@@ -146,18 +89,18 @@ impl<R: Real, const V: usize> ResumeTrajectory<R, V> {
     /// The tick from which a trajectory should continue for an arm that leaves it at the tick `clock` with a decaying
     /// speed: 1 / λ later the trajectory is near the point at which the arm comes to rest, so that the return does not
     /// lead backwards.
-    pub fn resume_tick(&self, clock: u32) -> u32 {
+    pub(crate) fn resume_tick(&self, clock: u32) -> u32 {
         clock.saturating_add(self.lead)
     }
 
     /// Ends a completed return and gives the tick of the trajectory.
-    pub fn finish(&mut self) -> u32 {
+    pub(crate) fn finish(&mut self) -> u32 {
         self.active = false;
         self.clock.saturating_add(self.half)
     }
 
     /// Cancels the return and gives the present tick of the trajectory.
-    pub fn cancel(&mut self) -> u32 {
+    pub(crate) fn cancel(&mut self) -> u32 {
         self.active = false;
         self.clock.saturating_add(self.advanced)
     }
@@ -170,7 +113,7 @@ impl<R: Real, const V: usize> ResumeTrajectory<R, V> {
     /// That of the trajectory and about 40 flops per joint.
     #[cold]
     #[inline(never)]
-    pub fn at<T: Reference<R, V>>(&mut self, trajectory: &T, share: R) -> State<R, V, V> {
+    pub(crate) fn at<T: Reference<R, V>>(&mut self, trajectory: &T, share: R) -> State<R, V, V> {
         let [w, slope, bend] = self.weights(share);
         let goal = self.goal(trajectory, share, w, slope);
         self.decay_step(share);

@@ -43,6 +43,17 @@ pub trait Reference<R, const V: usize> {
     fn ticks(&self) -> u32;
 }
 
+/// The same state in every tick: an arm that stands still at a [`State::at`].
+impl<R: Real, const V: usize> Reference<R, V> for State<R, V, V> {
+    fn at(&self, _: u32) -> Self {
+        *self
+    }
+
+    fn ticks(&self) -> u32 {
+        0
+    }
+}
+
 impl<R: Real, const V: usize, const W: usize> Reference<R, V> for Trajectory<R, V, W> {
     #[inline(always)]
     fn at(&self, tick: u32) -> State<R, V, V> {

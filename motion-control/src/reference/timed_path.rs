@@ -24,6 +24,7 @@ use dynamics_core::state::State;
 mod coefficients;
 mod error;
 mod friction;
+mod half_plane;
 mod limits;
 mod passes;
 mod stage;

@@ -28,60 +28,8 @@ mod tests;
 
 pub use error::TrajectoryError;
 pub use rest_to_rest::RestToRest;
-use segment::Segment;
+pub use segment::WayPoint;
 use segments::Segments;
-
-/// A configuration and the velocity at which to pass it, at zero acceleration.
-///
-/// ```
-/// use motion_control::WayPoint;
-/// let stop = WayPoint { q: [0.3_f32, 1.2], qd: [0.0; 2], ticks: 800 };
-/// # let _ = stop;
-/// ```
-#[doc(alias = "via point")]
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct WayPoint<R, const V: usize> {
-    /// Positions, rad or m.
-    pub q: [R; V],
-    /// Velocities in passing, rad/s or m/s; zero to stop.
-    pub qd: [R; V],
-    /// Ticks since the previous way-point; 0 for the first.
-    pub ticks: u32,
-}
-
-impl<R: Real> MotionLimits<R> {
-    /// Compares the speed that a joint needs before a point with its limit; a NaN is rejected.
-    fn admits_speed(&self, needed: R, point: usize, joint: usize) -> Result<(), TrajectoryError> {
-        if needed.is_finite() && needed <= self.velocity {
-            return Ok(());
-        }
-        Err(TrajectoryError::Velocity {
-            point,
-            joint,
-            needed: needed.to_f64(),
-            allowed: self.velocity.to_f64(),
-        })
-    }
-
-    /// Compares the acceleration that a joint needs before a point with its limit; a NaN is rejected.
-    fn admits_acceleration(
-        &self,
-        needed: R,
-        point: usize,
-        joint: usize,
-    ) -> Result<(), TrajectoryError> {
-        if needed.is_finite() && needed <= self.acceleration {
-            return Ok(());
-        }
-        Err(TrajectoryError::Acceleration {
-            point,
-            joint,
-            needed: needed.to_f64(),
-            allowed: self.acceleration.to_f64(),
-        })
-    }
-}
 
 /// The motion of V joints through W way-points.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,9 +1,11 @@
 //! The gate that every command passes, and what detects faults.
 
 pub(crate) mod detectors;
+pub(crate) mod stop_category;
 pub(crate) mod supervisor;
 pub(crate) mod tick_counter;
 
 pub use detectors::{Detect, Detectors, FrozenEncoder, ReferenceStep, Saturation};
-pub use supervisor::{StopCategory, Supervisor, SupervisorConfig, SupervisorTick};
+pub use stop_category::StopCategory;
+pub use supervisor::SupervisorConfig;
 pub use tick_counter::{CompletedTick, CountedTick, TickCounter, Watchdog};

@@ -9,33 +9,30 @@
 //!    └──────────────────────────────────────────────────────────────┘ reset()
 //! ```
 //!
-//! [`StopCategory`] chooses what `Hold` and `Stopped` are for an arm. Ticks with a fault are counted until
-//! `reentry_ticks` consecutive ticks had none. The state from tick to tick (last good positions, last torques, counters)
-//! is updated only by accepted values. With limits that allow no motion or
-//! torque (NaN, negative, an empty range), `try_new` returns an error and `new` a supervisor that keeps the arm
-//! stopped.
+//! [`StopCategory`](crate::StopCategory) chooses what `Hold` and `Stopped` are for an arm. Ticks with a fault are counted
+//! until `reentry_ticks` consecutive ticks had none. The state from tick to tick (last good positions, last torques,
+//! counters) is updated only by accepted values.
+//!
+//! | state | mode | leads to |
+//! |---|---|---|
+//! | `Full` | `Full` | `Held`, `Torqueless`, `Stopping`, `Stopped` |
+//! | `Held` | `Hold` | `Full` in the first tick without a fault; `Stopping`, `Stopped` |
+//! | `Torqueless` | `Hold` | `Held` in the next tick; `Stopping`, `Stopped` |
+//! | `Stopping` | `Hold` | `Stopped` or `Standing` after `hold_ticks` |
+//! | `Standing` | `Hold` | `Held` by a release; `Stopped` |
+//! | `Stopped` | `Stopped` | `Full` by a reset |
+//! | `Unusable` | `Stopped` | |
+//!
+//! A reset leads from every state but `Unusable` to `Full`.
 
-use crate::limits::{Command, ConfigError, Fault, Mode, Status};
+use crate::limits::{Command, ConfigError, ConfigParameter, Fault, Mode, SafetyLimits, Status};
 use crate::real;
+use crate::safety::stop_category::{Ending, Required, Stopping};
 use dynamics_core::scalar::Real;
 
-mod bounds;
-mod config;
-mod gate;
-mod reentry;
-mod state;
 mod stop;
-mod stop_category;
 #[cfg(test)]
 mod tests;
-mod tick;
-mod transitions;
-
-pub use config::SupervisorConfig;
-use state::State;
-pub use stop_category::StopCategory;
-use stop_category::Stopping;
-pub use tick::SupervisorTick;
 
 /// The greatest plausible distance of a measurement from the last accepted one, in steps at full speed; the resolution
 /// of the encoder is added. Speed itself is checked with the velocity of the observer.
@@ -46,40 +43,106 @@ const FAR: f64 = f32::MAX as f64;
 /// without limits the angle within a turn is measured, `MultiTurnEncoder::within_turn` of `joint-drivers`.
 const RANGE: f64 = 1e4;
 
-/// The safety gate that every measurement and every torque passes in each tick: [`Self::tick`].
-///
-/// [`crate::MotionController`] contains one, with the rest of a loop's state.
+/// The parameters of the safety gate of a [`MotionController`](crate::MotionController): those of the arm and of the loop.
 ///
 /// ```
-/// use motion_control::{Fault, Mode, SafetyLimits, Supervisor, SupervisorConfig};
-/// let mut supervisor = Supervisor::try_new(SupervisorConfig {
+/// use motion_control::{SafetyLimits, SupervisorConfig};
+/// let config = SupervisorConfig {
 ///     limits: SafetyLimits { torque: [10.0_f32], rate: [8.0], speed: [3.0], lower: [-1.0], upper: [1.0] },
 ///     tick: 1e-3,
-///     resolution: 0.0,
-///     ride_through_ticks: 1,
-///     hold_ticks: 1,
-///     reentry_ticks: 4,
-/// })?;
-/// // Not more than 8 N·m in one tick.
-/// assert_eq!(supervisor.tick(Ok(&[0.5]), |_| [9.0]).torque, [8.0]);
-///
-/// // One bad measurement is ridden through.
-/// let command = supervisor.tick(Ok(&[f32::NAN]), |tick| {
-///     assert_eq!((tick.mode(), tick.last_good()), (Mode::Full, &[0.5]));
-///     [9.0]
-/// });
-/// assert_eq!(command.status.fault, Some(Fault::NotFinite { joint: 0 }));
-///
-/// for (mode, torque, brake) in [(Mode::Hold, [5.0], false), (Mode::Stopped, [0.0], true)] {
-///     let command = supervisor.tick(Err(Fault::Encoder { joint: 0 }), |_| [5.0]);
-///     assert_eq!((command.status.mode, command.torque, command.brake), (mode, torque, brake));
-/// }
-/// # Ok::<(), motion_control::ConfigError>(())
+///     resolution: core::f32::consts::TAU / 16_384.0, // 14 bits
+///     ride_through_ticks: 5,
+///     hold_ticks: 100,
+///     reentry_ticks: 200,
+/// };
+/// assert_eq!(config.check(), Ok(()));
 /// ```
-#[doc(alias = "watchdog")]
-#[doc(alias = "safety gate")]
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Supervisor<R, const V: usize> {
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct SupervisorConfig<R, const V: usize> {
+    /// The limits of each joint.
+    pub limits: SafetyLimits<R, V>,
+    /// Nominal length of a tick, s.
+    pub tick: R,
+    /// Step of the encoders, rad or m, by which a slow joint may seem to exceed its greatest speed; zero for none.
+    pub resolution: R,
+    /// Ticks with a fault for which the arm stays in [`Mode::Full`]: the prediction of an observer
+    /// replaces the measurements, and the last torque replaces a torque that is not finite. Excessive speed has no
+    /// ride-through.
+    pub ride_through_ticks: u32,
+    /// Ticks with a fault after those for which the arm is held, before it is stopped.
+    pub hold_ticks: u32,
+    /// Consecutive ticks without a fault after which earlier faults are no longer counted, and ticks of the return to
+    /// the trajectory.
+    pub reentry_ticks: u32,
+}
+
+impl<R: Real, const V: usize> SupervisorConfig<R, V> {
+    /// Checks that every number is within its range and that every limit allows some motion or torque.
+    ///
+    /// # Errors
+    /// [`ConfigError`]; if a limit is wrong, with the joint, the limit and its value.
+    pub fn check(&self) -> Result<(), ConfigError> {
+        ConfigParameter::Tick.positive(self.tick)?;
+        let step = self.resolution;
+        ConfigParameter::Resolution.require(step.is_finite() & (step >= R::ZERO))?;
+        Ok(self.limits.check()?)
+    }
+}
+
+/// What the supervisor does with the arm, from tick to tick.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum State {
+    /// The full law; faults are ridden through.
+    Full,
+    /// A fault outlasted the ride-through: the arm is held until a tick has none.
+    Held,
+    /// The torque of the law was not finite: the arm is held in the next tick, whatever is measured.
+    Torqueless,
+    /// A controlled stop: the arm is decelerated for `ticks` more, whatever is measured.
+    Stopping {
+        required: Required,
+        ending: Ending,
+        ticks: u32,
+    },
+    /// Category 2 after the deceleration: the arm is held until it is released.
+    Standing(Required),
+    /// Zero torque and the brake, or a damping, until a reset.
+    Stopped { lowers: bool },
+    /// The limits allow no motion or torque: zero torque and the brake, for ever.
+    Unusable(Fault),
+}
+
+impl State {
+    #[inline(always)]
+    fn mode(&self) -> Mode {
+        match self {
+            Self::Full => Mode::Full,
+            Self::Held | Self::Torqueless | Self::Stopping { .. } | Self::Standing(_) => Mode::Hold,
+            Self::Stopped { .. } | Self::Unusable(_) => Mode::Stopped,
+        }
+    }
+
+    /// The controlled stop that was required from outside, and what follows its deceleration.
+    fn required(&mut self) -> Option<(&mut Required, Ending)> {
+        match self {
+            Self::Stopping {
+                required, ending, ..
+            } => Some((required, *ending)),
+            Self::Standing(required) => Some((required, Ending::Hold)),
+            Self::Full
+            | Self::Held
+            | Self::Torqueless
+            | Self::Stopped { .. }
+            | Self::Unusable(_) => None,
+        }
+    }
+}
+
+/// The safety gate that every measurement and every torque passes in each tick. Its steps are [`Self::accept_positions`]
+/// or [`Self::accept_fault`], then [`Self::check_speed`], then [`Self::gate`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Supervisor<R, const V: usize> {
     /// Greatest torque, its greatest change in a tick, and greatest speed.
     torque_limit: [R; V],
     rate_limit: [R; V],
@@ -125,34 +188,12 @@ pub struct Supervisor<R, const V: usize> {
 
 impl<R: Real, const V: usize> Supervisor<R, V> {
     /// A supervisor of an arm that holds its position, at full authority from the first tick; the torque rises from
-    /// zero at the allowed rate. For an arm on its brake, use [`Self::on_brake`].
+    /// zero at the allowed rate.
     ///
-    /// A fault that lasts longer than `ride_through_ticks` and `hold_ticks` together, or recurs as often without
-    /// `reentry_ticks` good ticks in between, stops the arm.
-    ///
-    /// ```
-    /// use motion_control::{ConfigError, SafetyLimits, SafetyLimitsError, Supervisor, SupervisorConfig};
-    /// let limits = SafetyLimits { torque: [10.0_f32], rate: [8.0], speed: [3.0], lower: [1.0], upper: [-1.0] };
-    /// let config = SupervisorConfig {
-    ///     limits, tick: 1e-3, resolution: 0.0, ride_through_ticks: 0, hold_ticks: 1, reentry_ticks: 4,
-    /// };
-    /// let empty = SafetyLimitsError::Empty { joint: 0, lower: 1.0, upper: -1.0 };
-    /// assert_eq!(Supervisor::try_new(config), Err(ConfigError::Limits(empty)));
-    /// ```
-    ///
-    /// # Errors
-    /// [`ConfigError`], as [`SupervisorConfig::check`].
-    pub fn try_new(config: SupervisorConfig<R, V>) -> Result<Self, ConfigError> {
-        config.check()?;
-        Ok(Self::new(config))
-    }
-
-    /// As [`Self::try_new`], without the check: for constant configurations.
-    ///
-    /// If a limit allows no motion or torque ([`crate::SafetyLimits::check`]), the arm is stopped by [`Fault::Limits`],
-    /// and a reset does not restart it. If the tick is not a positive number, no step of the joints is plausible; a
-    /// resolution that is not a positive number is treated as zero.
-    pub fn new(config: SupervisorConfig<R, V>) -> Self {
+    /// If a limit allows no motion or torque ([`SafetyLimits::check`]), the arm is stopped by [`Fault::Limits`], and a
+    /// reset does not restart it. If the tick is not a positive number, no step of the joints is plausible; a resolution
+    /// that is not a positive number is treated as zero.
+    pub(crate) fn new(config: SupervisorConfig<R, V>) -> Self {
         let (limits, tick) = (&config.limits, config.tick);
         let unusable = limits.check().err().map(|error| Fault::Limits {
             joint: error.joint(),
@@ -210,8 +251,7 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
     }
 
     /// The same supervisor for an arm that is on its brake: stopped without a fault until [`Self::reset`].
-    #[must_use]
-    pub fn on_brake(mut self) -> Self {
+    pub(crate) fn on_brake(mut self) -> Self {
         if matches!(self.state, State::Full) {
             self.state = self.stopping.stopped(self.stopping.configured);
         }
@@ -226,38 +266,15 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
     }
 
     /// Reports ticks that have passed without a call, as counted by a timer: the joints may have moved.
-    ///
-    /// Call it before [`Self::tick`], and [`crate::Observer::predict`] as many times for the estimate.
-    /// [`crate::MotionController::missed`] does both.
-    ///
-    /// ```
-    /// # use motion_control::{SafetyLimits, Mode, Supervisor, SupervisorConfig};
-    /// # let limits = SafetyLimits { torque: [10.0_f32], rate: [8.0], speed: [3.0], lower: [-1.0], upper: [1.0] };
-    /// # let mut supervisor = Supervisor::try_new(SupervisorConfig {
-    /// #     limits, tick: 1e-3, resolution: 0.0, ride_through_ticks: 0, hold_ticks: 1, reentry_ticks: 4,
-    /// # })?;
-    /// supervisor.tick(Ok(&[0.5]), |_| [0.0]);
-    /// supervisor.missed(9); // 3 rad/s for 10 ms are no jump
-    /// for (q, mode) in [([0.53], Mode::Full), ([0.56], Mode::Hold)] {
-    ///     assert_eq!(supervisor.tick(Ok(&q), |_| [0.0]).status.mode, mode);
-    /// }
-    /// # Ok::<(), motion_control::ConfigError>(())
-    /// ```
     #[cold]
-    pub fn missed(&mut self, ticks: u32) {
+    pub(crate) fn missed(&mut self, ticks: u32) {
         self.ticks_since_good += real(ticks);
     }
 
     /// Whether the positions of the last tick were accepted.
     #[inline(always)]
-    pub fn measurement_accepted(&self) -> bool {
+    pub(crate) fn measurement_accepted(&self) -> bool {
         self.accepted
-    }
-
-    /// The last positions that were accepted, rad or m; zeros before the first.
-    #[inline(always)]
-    pub fn last_good(&self) -> &[R; V] {
-        &self.last_good
     }
 
     /// The greatest number of ticks for which a fault may last before the arm is stopped.
@@ -267,7 +284,338 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
 
     /// The mode of the arm: that of the last tick, or of a stop since.
     #[inline(always)]
-    pub fn mode(&self) -> Mode {
+    pub(crate) fn mode(&self) -> Mode {
         self.state.mode()
+    }
+
+    /// Starts a tick with its measured positions. [`Self::gate`] must follow.
+    #[inline(always)]
+    pub(crate) fn accept_positions(&mut self, q: &[R; V]) {
+        self.begin();
+        if self.plausible(q) {
+            self.last_good = *q;
+            self.accepted = true;
+            self.known = true;
+            self.ticks_since_good = R::ONE;
+        } else {
+            self.no_measurement(self.diagnose(q));
+        }
+    }
+
+    /// As [`Self::accept_positions`], with the fault that prevented them: a function of its own, so that the usual tick
+    /// has no case for it.
+    #[cold]
+    #[inline(never)]
+    pub(crate) fn accept_fault(&mut self, fault: Fault) {
+        self.begin();
+        self.no_measurement(fault);
+    }
+
+    /// Compares the observer's velocities with their limits, before [`Self::gate`].
+    #[inline]
+    pub(crate) fn check_speed(&mut self, qd: &[R; V]) -> Mode {
+        let slow = |(qd, limit): (&R, &R)| qd.abs() <= *limit;
+        let joints = || qd.iter().zip(&self.speed_limit);
+        if !joints().fold(true, |ok, joint| ok & slow(joint)) {
+            let joint = joints().position(|joint| !slow(joint)).unwrap_or(V);
+            self.faults = self.faults.max(self.ride_through_ticks);
+            self.faulted = false;
+            self.record_fault(Fault::Speed { joint });
+        }
+        self.mode()
+    }
+
+    /// Ends a tick: limits the torques of the law and returns the command to the drives. The velocities damp a stopped
+    /// arm that sinks.
+    #[inline]
+    pub(crate) fn gate(&mut self, tau: &[R; V], qd: &[R; V]) -> Command<R, V> {
+        let mut off = R::ZERO;
+        let mut torque = [R::ZERO; V];
+        let wanted = tau.iter().zip(&self.torque);
+        let limits = self.torque_limit.iter().zip(&self.rate_limit);
+        for ((out, (&tau, &last)), (&most, &rate)) in torque.iter_mut().zip(wanted).zip(limits) {
+            let next = tau.clamped(-most, most).clamped(last - rate, last + rate);
+            // Zero if no torque was limited, and not finite if a torque is not; the factor keeps the sum of finite
+            // terms from overflowing.
+            off += (next - tau).abs() * R::from_f64(1.0 / 64.0);
+            *out = next;
+        }
+        if !off.is_finite() {
+            self.reject_torque(tau);
+            torque = self.torque;
+        }
+        let limited = off != R::ZERO;
+        if matches!(self.state, State::Full) {
+            self.torque = torque;
+            return self.end(Mode::Full, torque, limited);
+        }
+        if !matches!(self.mode(), Mode::Stopped) {
+            self.torque = torque;
+        }
+        self.command_otherwise(qd, limited)
+    }
+
+    /// The command of an arm that is held or stopped: a function of its own, so that the usual tick has no case for it.
+    #[cold]
+    #[inline(never)]
+    fn command_otherwise(&mut self, qd: &[R; V], limited: bool) -> Command<R, V> {
+        if matches!(self.mode(), Mode::Stopped) {
+            return self.stopped_command(qd);
+        }
+        self.end(Mode::Hold, self.torque, limited)
+    }
+
+    #[inline(always)]
+    fn begin(&mut self) {
+        if self.open {
+            self.unfinished();
+        }
+        self.open = true;
+        if !matches!(self.state, State::Full | State::Held) {
+            self.begin_otherwise();
+        } else if !self.faulted {
+            self.state = State::Full;
+            self.fault = None;
+        }
+    }
+
+    /// The begin of a tick in the states that the usual tick does not know: out of its machine code, which would have a
+    /// table of jumps.
+    #[cold]
+    #[inline(never)]
+    fn begin_otherwise(&mut self) {
+        match self.state {
+            State::Torqueless => self.state = State::Held,
+            State::Stopping {
+                required,
+                ending,
+                ticks,
+            } => self.continue_stop(required, ending, ticks),
+            State::Standing(required) => self.stand(required),
+            State::Full | State::Held | State::Stopped { .. } | State::Unusable(_) => {}
+        }
+    }
+
+    #[inline(always)]
+    fn end(&mut self, mode: Mode, torque: [R; V], limited: bool) -> Command<R, V> {
+        let stopped = matches!(mode, Mode::Stopped);
+        let full = matches!(mode, Mode::Full);
+        let moving = full & !self.braked;
+        self.braked &= !full | limited;
+        // Sums and products for the same instructions during the return as after it.
+        self.ramp += u32::from(moving & (self.ramp < self.reentry_ticks));
+        let quiet = full & !self.faulted;
+        self.quiet += u32::from(self.quiet < self.reentry_ticks);
+        self.quiet *= u32::from(quiet);
+        let calm = quiet & (self.quiet >= self.reentry_ticks);
+        self.faults *= u32::from(!calm);
+        self.open = false;
+        self.faulted = false;
+        Command {
+            torque,
+            brake: stopped | self.braked,
+            status: Status {
+                mode,
+                fault: self.fault,
+                limited: limited & !stopped,
+            },
+        }
+    }
+
+    #[inline(always)]
+    fn next_ramp(&self) -> u32 {
+        self.ramp.saturating_add(1).min(self.reentry_ticks)
+    }
+
+    /// The previous tick ended without a torque: a fault of this tick, even if the previous one had another fault.
+    #[cold]
+    fn unfinished(&mut self) {
+        self.faulted = false;
+        let fault = self.reported.take().unwrap_or(Fault::Unfinished);
+        self.record_fault(fault);
+    }
+
+    /// Makes a fault that the supervisor cannot detect one of the next tick.
+    #[cold]
+    pub(crate) fn report(&mut self, fault: Fault) {
+        // The usual path examines one flag for both.
+        self.reported = self.reported.or(Some(fault));
+        self.open = true;
+    }
+
+    /// No positions in this tick: the joints may have moved on.
+    #[cold]
+    fn no_measurement(&mut self, fault: Fault) {
+        self.accepted = false;
+        self.ticks_since_good += R::ONE;
+        self.record_fault(fault);
+    }
+
+    #[inline(always)]
+    fn plausible(&self, q: &[R; V]) -> bool {
+        let ranges = self.middle.iter().zip(&self.half);
+        let steps = self.last_good.iter().zip(&self.plausible_step);
+        // The ranges are finite, and so is what lies in them. Not `all`: joints need not wait for
+        // each other's verdict.
+        q.iter().zip(ranges).zip(steps).fold(
+            true,
+            |ok, ((&q, (&middle, &half)), (&last, &step))| {
+                ok & ((q - middle).abs() <= half)
+                    & ((q - last).abs() <= step * self.ticks_since_good)
+            },
+        )
+    }
+
+    /// The first joint outside its bounds.
+    pub(crate) fn outside(&self, q: &[R; V]) -> Option<usize> {
+        let mut joints = q.iter().zip(self.middle.iter().zip(&self.half));
+        joints.position(|(&q, (&middle, &half))| {
+            let inside = (q - middle).abs() <= half;
+            !inside
+        })
+    }
+
+    /// The fault of positions that are not plausible; the most severe one if there are several.
+    #[cold]
+    fn diagnose(&self, q: &[R; V]) -> Fault {
+        if let Some(joint) = q.iter().position(|q| !q.is_finite()) {
+            return Fault::NotFinite { joint };
+        }
+        let ranges = self.middle.iter().zip(&self.half);
+        let inside = |(&q, (&middle, &half)): (&R, (&R, &R))| (q - middle).abs() <= half;
+        if let Some(joint) = q.iter().zip(ranges).position(|joint| !inside(joint)) {
+            return Fault::Position { joint };
+        }
+        let steps = self.last_good.iter().zip(&self.plausible_step);
+        let near =
+            |(&q, (&last, &step)): (&R, (&R, &R))| (q - last).abs() <= step * self.ticks_since_good;
+        let joint = q.iter().zip(steps).position(|joint| !near(joint));
+        Fault::Jump {
+            joint: joint.unwrap_or(V),
+        }
+    }
+
+    /// A torque that is not finite.
+    #[cold]
+    fn reject_torque(&mut self, tau: &[R; V]) {
+        let joint = tau.iter().position(|tau| !tau.is_finite()).unwrap_or(V);
+        let fault = Fault::Torque { joint };
+        if !matches!(self.state, State::Full) {
+            self.stop(fault);
+            return;
+        }
+        self.record_fault(fault);
+        if matches!(self.state, State::Held) {
+            self.state = State::Torqueless;
+        }
+    }
+
+    #[cold]
+    fn record_fault(&mut self, fault: Fault) {
+        if matches!(self.mode(), Mode::Stopped) {
+            return;
+        }
+        if !self.faulted {
+            self.faulted = true;
+            self.fault = Some(fault);
+            self.faults = self.faults.saturating_add(1);
+        }
+        let in_hold = self.faults.saturating_sub(self.ride_through_ticks);
+        if !self.known | (in_hold > self.held_ticks()) {
+            self.state = self.stopped_by_fault();
+        } else if (in_hold > 0) & matches!(self.state, State::Full | State::Torqueless) {
+            self.state = State::Held;
+        }
+        if !matches!(self.state, State::Full) {
+            self.ramp = 0;
+        }
+    }
+
+    /// The progress of the return to the full law in this tick, 0 to 1, for the reference. It is zero while the arm is held
+    /// and before the brake opens.
+    #[inline(always)]
+    pub(crate) fn authority(&self) -> R {
+        if !matches!(self.state, State::Full) | self.braked {
+            R::ZERO
+        } else if self.next_ramp() >= self.reentry_ticks {
+            R::ONE
+        } else {
+            real::<R>(self.next_ramp()) * self.reentry_inv
+        }
+    }
+
+    /// Restarts the arm with zero torque and the brake set: clears a latched fault and accepts the next positions that are
+    /// within their limits.
+    ///
+    /// The brake opens when the torque of the law is reached; then [`Self::authority`] rises.
+    pub(crate) fn reset(&mut self) {
+        self.known = false;
+        self.accepted = false;
+        self.ticks_since_good = R::from_f64(FAR);
+        // The rate is limited from the torque of the drives: that of a sinking arm, or of a stop without a tick since.
+        if !matches!(self.mode(), Mode::Stopped) {
+            self.torque = [R::ZERO; V];
+        }
+        self.faults = 0;
+        self.quiet = 0;
+        self.ramp = 0;
+        if let State::Unusable(fault) = self.state {
+            self.fault = Some(fault);
+        } else {
+            self.state = State::Full;
+        }
+        self.faulted = false;
+        self.open = false;
+        self.braked = true;
+        self.reported = None;
+    }
+}
+
+/// The middles and half widths of the ranges of positions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Ranges<R, const V: usize> {
+    middle: [R; V],
+    half: [R; V],
+}
+
+/// The range of accepted positions, which a [`crate::BackOff`] replaces within its ticks.
+impl<R: Real, const V: usize> Supervisor<R, V> {
+    /// The least and the greatest position of each joint.
+    pub(crate) fn bounds(&self) -> [[R; 2]; V] {
+        let mut bounds = [[R::ZERO; 2]; V];
+        let ranges = self.middle.iter().zip(&self.half);
+        for (bounds, (&middle, &half)) in bounds.iter_mut().zip(ranges) {
+            *bounds = [middle - half, middle + half];
+        }
+        bounds
+    }
+
+    /// Replaces the ranges by those between these bounds, and returns what they were.
+    pub(crate) fn replace_bounds(&mut self, bounds: &[[R; 2]; V]) -> Ranges<R, V> {
+        let before = Ranges {
+            middle: self.middle,
+            half: self.half,
+        };
+        let ranges = self.middle.iter_mut().zip(&mut self.half);
+        for ((middle, half), &[lower, upper]) in ranges.zip(bounds) {
+            let [a, b] = [lower, upper].map(|x| R::from_f64(0.5) * x);
+            (*middle, *half) = (a + b, b - a);
+        }
+        before
+    }
+
+    /// Restores what [`Self::replace_bounds`] returned, to the bit.
+    pub(crate) fn restore_bounds(&mut self, before: Ranges<R, V>) {
+        (self.middle, self.half) = (before.middle, before.half);
+    }
+
+    /// The greatest torque of each joint.
+    pub(crate) fn torque_limit(&self) -> &[R; V] {
+        &self.torque_limit
+    }
+
+    /// The greatest plausible change of position in one tick.
+    pub(crate) fn plausible_step(&self) -> &[R; V] {
+        &self.plausible_step
     }
 }

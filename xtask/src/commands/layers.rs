@@ -1,6 +1,6 @@
-//! The library's modules in one-way layers: the table at the top of `lib.rs` lists them in order, and none uses a
-//! later one. A module that is not in it, such as the forms for a feature, stands above all. And the packages: what
-//! ships uses neither the tests nor what measures.
+//! The modules of the libraries in one-way layers: a table in `lib.rs` lists them in order, and none uses a later one.
+//! A module that is not in it, such as the forms for a feature, stands above all. And the packages: what ships uses
+//! neither the tests nor what measures.
 
 use std::path::Path;
 
@@ -8,18 +8,24 @@ use crate::kit::error::{Error, Result, refuse_if};
 use crate::kit::sources::{code, sources};
 use crate::kit::workspace::{self, Use, Workspace};
 
-/// The beginning of a row of the table; its first column has the names of modules in backticks.
-const ROW: &str = "//! | ";
+/// The libraries, and the beginning of a row of the table; its first column has the names of modules in backticks. Users
+/// of dynamics-core see its modules, those of motion-control see its items alone.
+const LIBRARIES: [(&str, &str); 2] = [
+    ("dynamics-core/src", "//! | "),
+    ("motion-control/src", "// | "),
+];
 
 /// The one circle that is left: the trait `Real` names the model that its cast returns (docs/decisions/0007).
 const CIRCLE: (&str, &str) = ("scalar", "model");
 
-/// The library's modules, in order, and what it exports under a name of its own.
+/// A library's modules, in order, and what it exports under a name of its own.
 struct Order {
     listed: Vec<String>,
     declared: Vec<String>,
     /// An item's name at the crate's root, and its module.
     exports: Vec<(String, String)>,
+    /// The functions of the crate's root itself, which every module may use.
+    functions: Vec<String>,
 }
 
 /// The laboratory, and what else does not ship.
@@ -44,38 +50,48 @@ fn complaint(a: &Use) -> Option<String> {
     is_wrong.then(|| format!("{user}/Cargo.toml: what ships uses `{used}`, which does not"))
 }
 
-/// Fails with every place where a module of the library uses a later one; modules within a module count as it.
+/// Fails with every place where a module of a library uses a later one; modules within a module count as it.
 fn modules(root: &Path) -> Result<String> {
-    let library = root.join("dynamics-core/src");
-    let order = Order::read(&workspace::read(&library.join("lib.rs"))?)?;
-    let (mut uses, mut wrong) = (0, Vec::new());
-    for path in sources(&library)? {
-        let inside = path.strip_prefix(&library).unwrap_or(&path);
-        let inside = inside.with_extension("");
-        let mut names: Vec<_> = inside.iter().map(|name| name.to_string_lossy()).collect();
-        names.retain(|name| name != "mod");
-        let user = &*names[0];
-        if user == "lib" || names.iter().any(|name| name == "tests") {
-            continue;
-        }
-        let file = path.strip_prefix(root).unwrap_or(&path).display();
-        for (line, used) in used(&workspace::read(&path)?, names.len()) {
-            uses += 1;
-            if let Some(complaint) = order.complaint(user, &used) {
-                wrong.push(format!("{file}:{line}: `{user}` {complaint}"));
-            }
-        }
+    let (mut modules, mut uses, mut wrong) = (0, 0, Vec::new());
+    for (library, row) in LIBRARIES {
+        let library = root.join(library);
+        let order = Order::read(&workspace::read(&library.join("lib.rs"))?, row)?;
+        modules += order.declared.len();
+        uses += order.examine(root, &library, &mut wrong)?;
     }
     if wrong.is_empty() {
-        return Ok(format!("{} modules, {uses} uses", order.declared.len()));
+        return Ok(format!("{modules} modules, {uses} uses"));
     }
     Err(Error::check(wrong.join("\n")))
 }
 
 impl Order {
-    /// From the source of `lib.rs`.
-    fn read(source: &str) -> Result<Self> {
-        let rows = source.lines().filter_map(|line| line.strip_prefix(ROW));
+    /// Counts the uses in a library, and adds what is wrong with them.
+    fn examine(&self, root: &Path, library: &Path, wrong: &mut Vec<String>) -> Result<usize> {
+        let mut uses = 0;
+        for path in sources(library)? {
+            let inside = path.strip_prefix(library).unwrap_or(&path);
+            let inside = inside.with_extension("");
+            let mut names: Vec<_> = inside.iter().map(|name| name.to_string_lossy()).collect();
+            names.retain(|name| name != "mod");
+            let user = &*names[0];
+            if user == "lib" || names.iter().any(|name| name == "tests") {
+                continue;
+            }
+            let file = path.strip_prefix(root).unwrap_or(&path).display();
+            for (line, used) in used(&workspace::read(&path)?, names.len()) {
+                uses += 1;
+                if let Some(complaint) = self.complaint(user, &used) {
+                    wrong.push(format!("{file}:{line}: `{user}` {complaint}"));
+                }
+            }
+        }
+        Ok(uses)
+    }
+
+    /// From the source of `lib.rs`, in which a row of the table begins so.
+    fn read(source: &str, row: &str) -> Result<Self> {
+        let rows = source.lines().filter_map(|line| line.strip_prefix(row));
         let names = rows.flat_map(|row| {
             let cell = row.split(" | ").next().unwrap_or_default();
             cell.split('`').skip(1).step_by(2)
@@ -104,6 +120,11 @@ impl Order {
                 exports.extend(items.map(|item| (item.to_owned(), module.to_owned())));
             }
         }
+        let functions = code(source).filter_map(|(_, line)| line.strip_prefix("fn "));
+        let end = |c: char| !c.is_alphanumeric() && c != '_';
+        let functions =
+            functions.map(|words| words[..words.find(end).unwrap_or(words.len())].to_owned());
+        let functions = functions.collect();
         refuse_if!(listed.is_empty(), "lib.rs has no table of its modules");
         let gone = listed.iter().find(|name| !declared.contains(name));
         let gone = gone.map_or("", String::as_str);
@@ -115,6 +136,7 @@ impl Order {
             listed,
             declared,
             exports,
+            functions,
         })
     }
 
@@ -124,7 +146,7 @@ impl Order {
         let module = export.map_or(used, |(_, module)| module);
         let place = |name: &str| self.listed.iter().position(|module| module == name);
         let place = |name: &str| place(name).unwrap_or(usize::MAX);
-        let is_known = (user, module) == CIRCLE;
+        let is_known = (user, module) == CIRCLE || self.functions.iter().any(|name| name == used);
         if module == "glam" || module == user || is_known || place(module) < place(user) {
             return None;
         }
@@ -195,12 +217,11 @@ mod tests {
     use super::{complaint, modules, used};
     use crate::kit::workspace::{Use, Workspace};
 
-    /// A library of three layers, the middle one of two files, with this text in one of them.
+    /// Two libraries, of three layers, the middle one of two files, and of two, with this text in one of the files.
     fn tree(name: &str, file: &str, text: &str) -> Result<String, String> {
         let root = std::env::temp_dir().join(format!("layers-{name}-{}", std::process::id()));
-        let source = root.join("dynamics-core/src");
         let put = |file: &str, text: &str| {
-            let path = source.join(file);
+            let path = root.join(file);
             std::fs::create_dir_all(path.parent().unwrap_or(Path::new("."))).expect("a folder");
             std::fs::write(path, text).expect("a file");
         };
@@ -208,18 +229,28 @@ mod tests {
                    [`model`], `control`: [`Law`] | the rest, not `scalar` |\n\n#[cfg(feature = \"form\")]\nmod \
                    form;\npub mod control;\npub mod model;\nmod scalar;\npub use control::{Law, \
                    Gate};\npub use glam;\n";
-        put("lib.rs", lib);
-        put("scalar.rs", "use crate::glam::Vec3;\n");
-        put("form.rs", "use crate::control::Law;\n");
-        put("model/mod.rs", "use crate::scalar::Real;\n");
-        put(
-            "model/tree.rs",
-            "use super::Joint;\nuse super::super::scalar;\n",
-        );
-        put(
-            "control.rs",
-            "use crate::{model, scalar::Real};\nuse super::model::Body;\n",
-        );
+        let core = "dynamics-core/src/";
+        for (file, text) in [
+            ("lib.rs", lib),
+            ("scalar.rs", "use crate::glam::Vec3;\n"),
+            ("form.rs", "use crate::control::Law;\n"),
+            ("model/mod.rs", "use crate::scalar::Real;\n"),
+            (
+                "model/tree.rs",
+                "use super::Joint;\nuse super::super::scalar;\n",
+            ),
+            (
+                "control.rs",
+                "use crate::{model, scalar::Real};\nuse super::model::Body;\n",
+            ),
+        ] {
+            put(&format!("{core}{file}"), text);
+        }
+        let lib = "// | `limits` | what may be |\n// | `safety` | what guards it |\nmod limits;\nmod safety;\npub use \
+                   safety::Stop;\nfn real() {}\n";
+        put("motion-control/src/lib.rs", lib);
+        put("motion-control/src/limits.rs", "use crate::real;\n");
+        put("motion-control/src/safety.rs", "use crate::limits;\n");
         put(file, text);
         let outcome = modules(&root).map_err(|error| error.to_string());
         std::fs::remove_dir_all(&root).expect("gone again");
@@ -275,9 +306,9 @@ mod tests {
     #[test]
     fn modules_that_use_lower_ones_pass() {
         let outcome = tree("good", "notes.txt", "").expect("in order");
-        assert_eq!(outcome, "4 modules, 7 uses");
+        assert_eq!(outcome, "6 modules, 9 uses");
         let tests = "use crate::scalar;\n// crate::control is above.\n#[cfg(test)]\nmod tests {\n    use crate::control::Law;\n}\n";
-        assert!(tree("tests", "model/tree.rs", tests).is_ok());
+        assert!(tree("tests", "dynamics-core/src/model/tree.rs", tests).is_ok());
     }
 
     #[test]
@@ -292,10 +323,9 @@ mod tests {
             ("use super::super::control;\n", 1),
         ];
         for (text, line) in cases {
-            let error = tree("bad", "model/tree.rs", text).expect_err(text);
-            let place = Path::new("dynamics-core/src/model/tree.rs")
-                .display()
-                .to_string();
+            let file = "dynamics-core/src/model/tree.rs";
+            let error = tree("bad", file, text).expect_err(text);
+            let place = Path::new(file).display();
             assert_eq!(
                 error,
                 format!("{place}:{line}: `model` uses `control`, which comes after it")
@@ -304,8 +334,23 @@ mod tests {
     }
 
     #[test]
+    fn a_room_of_motion_control_uses_no_later_one() {
+        for text in ["use crate::safety::Stop;\n", "use crate::Stop;\n"] {
+            let file = "motion-control/src/limits.rs";
+            let error = tree("rooms", file, text).expect_err(text);
+            let place = Path::new(file).display();
+            assert_eq!(
+                error,
+                format!("{place}:1: `limits` uses `safety`, which comes after it")
+            );
+        }
+    }
+
+    #[test]
     fn what_is_no_module_is_refused() {
-        let refused = |name, file, text| tree(name, file, text).expect_err(name);
+        let refused = |name, file, text| {
+            tree(name, &format!("dynamics-core/src/{file}"), text).expect_err(name)
+        };
         let gone = refused(
             "gone",
             "lib.rs",

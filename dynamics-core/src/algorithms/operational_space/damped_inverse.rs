@@ -196,6 +196,7 @@ pub(crate) fn shifted_inverse<R: Real, const M: usize>(
 /// No pivot of A + shift 1 is less than the shift: those that rounding makes less are replaced by it. Unlike `eliminate`, it forms
 /// no inverse, which takes twice the flops.
 #[inline(never)]
+#[doc(hidden)]
 pub fn shifted_solution<R: Real, const M: usize>(a: &[[R; M]; M], shift: R, b: &[R; M]) -> [R; M] {
     let (mut a, mut x, mut d_inv) = (*a, *b, [R::ZERO; M]);
     for k in 0..M {

@@ -17,6 +17,7 @@ fn sweeps<R: Real>() -> usize {
 
 /// Eigenvalues and eigenvectors (by rows) of a symmetric matrix, unordered.
 #[cfg_attr(not(debug_assertions), inline(always))]
+#[doc(hidden)]
 pub fn eigen<R: Real, const M: usize>(mut a: [[R; M]; M]) -> ([R; M], [[R; M]; M]) {
     let mut vectors = [[R::ZERO; M]; M];
     for (i, row) in vectors.iter_mut().enumerate() {

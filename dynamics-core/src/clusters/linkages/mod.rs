@@ -17,7 +17,6 @@ mod five_bar;
 mod four_bar;
 mod hook;
 mod parallel_ankle;
-mod platform;
 mod stewart;
 mod zero;
 

@@ -3,23 +3,9 @@
 use core::marker::PhantomData;
 
 use crate::effects::delegate::delegate_effect;
-use crate::effects::{Effect, hook};
+use crate::effects::{Effect, RegroupedInertia, hook};
 use crate::model::Robot;
 use crate::scalar::Real;
-
-/// What regrouping leaves to the body behind one joint, in the engine's frames and units.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct RegroupedInertia<R> {
-    /// m L², zero behind a revolute joint.
-    pub(crate) mass: R,
-    /// h L, in parts; its z is zero behind a revolute joint.
-    pub(crate) moment: [R; 3],
-    /// Σ: xx, xy, xz, yy, yz; its zz is zero.
-    pub(crate) second: [R; 5],
-    /// The largest mass, first moment and second moment that the joint could move: those of its body and of its descendants, as
-    /// if they lay in one line.
-    pub(crate) size: [R; 3],
-}
 
 /// The base parameters of the robot `T`, which the engine then reads instead of the constants of its description.
 ///

@@ -5,7 +5,7 @@ mod contact;
 mod payload;
 mod wrench;
 
-pub use base_parameters::{BaseParameters, RegroupedInertia};
+pub use base_parameters::BaseParameters;
 pub use contact::{Contact, ContactPoint};
 pub use payload::{InvalidPayload, Payload};
 pub use wrench::{BodyWrench, WorldWrench};

@@ -1,12 +1,26 @@
 //! Base parameters that replace those of the robot's description.
 
-use crate::effects::RegroupedInertia;
+/// What regrouping leaves to the body behind one joint, in the engine's frames and units.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[doc(hidden)]
+pub struct RegroupedInertia<R> {
+    /// m L², zero behind a revolute joint.
+    pub(crate) mass: R,
+    /// h L, in parts; its z is zero behind a revolute joint.
+    pub(crate) moment: [R; 3],
+    /// Σ: xx, xy, xz, yy, yz; its zz is zero.
+    pub(crate) second: [R; 5],
+    /// The largest mass, first moment and second moment that the joint could move: those of its body and of its descendants, as
+    /// if they lay in one line.
+    pub(crate) size: [R; 3],
+}
 
 /// Writes what is left to the body behind one joint.
 type Load<E, R> = fn(&E, usize, &mut RegroupedInertia<R>);
 
 /// Base parameters of all bodies, for the engine: see [`BaseParameters`](crate::effects::BaseParameters).
 #[derive(Debug)]
+#[doc(hidden)]
 pub struct Regrouped<E, R> {
     pub(in crate::effects) load: Option<Load<E, R>>,
     pub(in crate::effects) sets: usize,

@@ -8,7 +8,7 @@
 
 use core::fmt;
 
-use super::SelectedParameters;
+use super::selection::{SelectedParameters, bodies, pseudo_inertia};
 use dynamics_core::scalar::Real;
 
 /// The share of the nominal pseudo-inertias, frictions and armatures that a stored set keeps in all directions.
@@ -167,23 +167,6 @@ impl<R: Real, const B: usize, const N: usize> PhysicalParameters<R, B, N> {
         let bodies = pairs.all(|(body, nominal)| is_body(body, nominal));
         finite && bodies && less.iter().skip(10 * B).all(|x| *x >= R::ZERO)
     }
-}
-
-/// The parameters of each body.
-pub(super) fn bodies<R, const B: usize>(all: &[R]) -> impl Iterator<Item = &[R; 10]> {
-    all.as_chunks::<10>().0.iter().take(B)
-}
-
-/// \[Σ h; hᵀ m\].
-pub(super) fn pseudo_inertia<R: Real>(body: &[R; 10]) -> [[R; 4]; 4] {
-    let [m, x, y, z, xx, xy, yy, xz, yz, zz] = *body;
-    let half = R::from_f64(0.5) * (xx + yy + zz);
-    [
-        [half - xx, -xy, -xz, x],
-        [-xy, half - yy, -yz, y],
-        [-xz, -yz, half - zz, z],
-        [x, y, z, m],
-    ]
 }
 
 /// Whether a body with this nominal one can have these parameters: one without mass and inertia remains so.

@@ -4,7 +4,6 @@
 //! multiply are the base parameters β = K_β θ, K_β = [1 K]. Gautier, "Numerical calculation of the base inertial parameters of
 //! robots" (1991), selects by QR with pivots; here YᵀY is eliminated with pivots, which are the same columns.
 
-use super::physical::{bodies, pseudo_inertia};
 use dynamics_core::scalar::Real;
 
 /// A pivot below this share of the first one is rounding.
@@ -254,4 +253,21 @@ fn picked<R: Real, const B: usize, const F: usize>(
         let place = column.wrapping_sub(bodies.len().wrapping_add(joint.wrapping_mul(F)));
         crate::entry(own, place)
     })
+}
+
+/// The parameters of each body.
+pub(super) fn bodies<R, const B: usize>(all: &[R]) -> impl Iterator<Item = &[R; 10]> {
+    all.as_chunks::<10>().0.iter().take(B)
+}
+
+/// \[Σ h; hᵀ m\].
+pub(super) fn pseudo_inertia<R: Real>(body: &[R; 10]) -> [[R; 4]; 4] {
+    let [m, x, y, z, xx, xy, yy, xz, yz, zz] = *body;
+    let half = R::from_f64(0.5) * (xx + yy + zz);
+    [
+        [half - xx, -xy, -xz, x],
+        [-xy, half - yy, -yz, y],
+        [-xz, -yz, half - zz, z],
+        [x, y, z, m],
+    ]
 }

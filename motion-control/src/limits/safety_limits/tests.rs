@@ -1,6 +1,7 @@
 use super::*;
 use crate::limits::{ConfigError, Fault, Mode};
-use crate::safety::{Supervisor, SupervisorConfig};
+use crate::safety::SupervisorConfig;
+use crate::safety::supervisor::Supervisor;
 
 const GOOD: SafetyLimits<f32, 2> = SafetyLimits {
     torque: [10.0, 0.0],
@@ -72,7 +73,9 @@ fn limits_that_allow_nothing_are_refused_by_joint_and_name() {
 #[test]
 fn the_text_of_a_limit_has_joint_limit_and_value() {
     let text = |of, limit| {
-        let error = Supervisor::try_new(config(with(of, limit))).expect_err("it allows nothing");
+        let error = config(with(of, limit))
+            .check()
+            .expect_err("it allows nothing");
         std::format!("{error}")
     };
     let cases = [
@@ -128,7 +131,7 @@ fn an_arm_with_such_limits_is_stopped_and_says_why_instead_of_going_limp() {
         LimitKind::GreatestPosition,
     ] {
         let limits = with(of, f32::NAN);
-        let Err(ConfigError::Limits(error)) = Supervisor::try_new(config(limits)) else {
+        let Err(ConfigError::Limits(error)) = config(limits).check() else {
             panic!("such a limit allows nothing");
         };
         assert_eq!(error.joint(), 1);
@@ -141,7 +144,7 @@ fn an_arm_with_such_limits_is_stopped_and_says_why_instead_of_going_limp() {
             supervisor.reset();
         }
     }
-    let mut supervisor = Supervisor::try_new(config(GOOD)).expect("limits that allow something");
+    let mut supervisor = Supervisor::new(config(GOOD));
     assert_eq!(supervisor.accept_measurement(Ok(&[0.0; 2])), Mode::Full);
 }
 

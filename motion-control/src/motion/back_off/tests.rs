@@ -46,7 +46,7 @@ struct Bench {
 impl Bench {
     fn new(q: f64, gravity: f64) -> Self {
         let mut controller = Controller::new(CONFIG).on_brake();
-        let rest = Fixed(State::at([0.0]));
+        let rest = State::at([0.0]);
         let command = controller.tick(Ok(&[q]), &rest, |_, _| [0.0]);
         let outside = ResetError::OutOfBounds { joint: 0 };
         assert_eq!(controller.reset(&rest), Err(outside));
@@ -106,7 +106,7 @@ fn a_joint_beyond_either_bound_comes_back_under_gravity_of_either_sign() {
                     let gap = [r.q[0] - e.q[0], r.qd[0] - e.qd[0]];
                     [INERTIA * r.qdd[0] - gravity + 1250.0 * gap[0] + 100.0 * gap[1]]
                 };
-                let rest = Fixed(State::at([0.0]));
+                let rest = State::at([0.0]);
                 bench.command = bench.controller.tick(Ok(&[bench.q]), &rest, law);
                 bench.step();
                 assert_eq!(bench.command.status.mode, Mode::Hold);
@@ -150,7 +150,7 @@ fn the_configured_bounds_hold_outside_of_its_ticks() {
     let mut bench = Bench::new(1.2, 0.0);
     let mut back_off = BackOff::start(&mut bench.controller, &SLOW).expect("measured");
     (0..10).for_each(|_| bench.back_off(&mut back_off, 0.0));
-    let rest = Fixed(State::at([0.0]));
+    let rest = State::at([0.0]);
     let status = bench
         .controller
         .tick(Ok(&[bench.q]), &rest, |_, _| [0.0])
@@ -161,7 +161,7 @@ fn the_configured_bounds_hold_outside_of_its_ticks() {
 #[test]
 fn by_hand_an_arm_comes_back_as_well() {
     let mut bench = Bench::new(1.2, 0.0);
-    let rest = Fixed(State::at([0.9]));
+    let rest = State::at([0.9]);
     while bench.q > 0.95 {
         bench.q -= 1e-3;
         let command = bench.controller.tick(Ok(&[bench.q]), &rest, |_, _| [9.0]);

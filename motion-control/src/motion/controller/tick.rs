@@ -1,4 +1,4 @@
-//! The steps of a tick: each can be called only once, and only in this order.
+//! A tick and its steps: each can be called only once, and only in this order.
 
 use super::{MeasurementAge, MotionController, PreviousTick};
 use crate::estimate::Estimate;
@@ -81,12 +81,83 @@ pub struct ReferencedTick<'a, R, const V: usize, A = PreviousTick> {
     controller: &'a mut MotionController<R, V, A>,
 }
 
-impl<'a, R: Real, const V: usize, A: MeasurementAge> ObservedTick<'a, R, V, A> {
-    #[inline(always)]
-    pub(super) fn new(controller: &'a mut MotionController<R, V, A>) -> Self {
-        Self { controller }
+impl<R: Real, const V: usize, A: MeasurementAge> MotionController<R, V, A> {
+    /// Runs one tick: from the measured positions (rad, m), or the fault that prevented them, to the command to the
+    /// drives.
+    ///
+    /// `law` is called once, in every mode; it computes torques (N·m, N) from the reference and the estimate of the
+    /// joints. Its feed-forward must produce the acceleration of the reference; for a law without inertia, see
+    /// [`ReferencedTick::without_inertia`].
+    ///
+    /// # Cost
+    /// 25 flops per joint in addition to the trajectory and the law, with the same instructions for all data; more
+    /// during a fault and the return after it.
+    #[inline]
+    pub fn tick<T: Reference<R, V>>(
+        &mut self,
+        measured: Result<&[R; V], Fault>,
+        trajectory: &T,
+        law: impl FnOnce(&State<R, V, V>, &Estimate<R, V>) -> [R; V],
+    ) -> Command<R, V> {
+        let tick = self.observe(measured).reference(trajectory);
+        let tau = law(tick.reference(), tick.estimate());
+        tick.command(&tau)
     }
 
+    /// Starts a tick: checks the measured positions (rad, m), or accepts the fault that prevented them, and updates the
+    /// estimate.
+    ///
+    /// The first of the three steps of [`Self::tick`], for loops that do other work between them. A tick that ends
+    /// without a command is [`Fault::Unfinished`] in the next one.
+    ///
+    /// Accepted are positions that are finite, within their limits (and within 10⁴ rad or m, beyond which f32 has no
+    /// accurate sine) and plausible: within twice the greatest speed times the ticks since the last good ones. Before
+    /// the first accepted position there is no position to hold: a fault stops the arm at once.
+    ///
+    /// ```compile_fail
+    /// # #![deny(unused_must_use)]
+    /// # use motion_control::{MotionController, Reference};
+    /// fn tick(controller: &mut MotionController<f32, 1>, trajectory: &impl Reference<f32, 1>) {
+    ///     controller.observe(Ok(&[0.0])).reference(trajectory); // and the command?
+    /// }
+    /// ```
+    #[inline]
+    pub fn observe(&mut self, measured: Result<&[R; V], Fault>) -> ObservedTick<'_, R, V, A> {
+        match measured {
+            Ok(q) => self.observe_positions(q),
+            Err(fault) => self.observe_fault(fault),
+        }
+        ObservedTick { controller: self }
+    }
+
+    #[inline(always)]
+    fn observe_positions(&mut self, q: &[R; V]) {
+        self.supervisor.accept_positions(q);
+        let stopped = matches!(self.supervisor.mode(), Mode::Stopped);
+        if !self.supervisor.measurement_accepted() | self.dead_reckoning | stopped {
+            self.observe_otherwise(Ok(q));
+            return;
+        }
+        A::correct(&mut self.observer, q, &self.reference.qdd);
+        self.supervisor.check_speed(&self.observer.estimate().qd);
+    }
+
+    #[cold]
+    fn observe_fault(&mut self, fault: Fault) {
+        self.supervisor.accept_fault(fault);
+        self.observe_otherwise(Err(fault));
+    }
+
+    /// A tick during or after a fault: in a function of its own, so that the usual one has no case for it.
+    #[cold]
+    #[inline(never)]
+    fn observe_otherwise(&mut self, measured: Result<&[R; V], Fault>) {
+        self.predict_estimate(measured);
+        self.supervisor.check_speed(&self.observer.estimate().qd);
+    }
+}
+
+impl<'a, R: Real, const V: usize, A: MeasurementAge> ObservedTick<'a, R, V, A> {
     /// The estimated positions and velocities of the joints.
     #[inline(always)]
     pub fn estimate(&self) -> &Estimate<R, V> {
@@ -172,7 +243,9 @@ impl<R: Real, const V: usize, A: MeasurementAge> ReferencedTick<'_, R, V, A> {
 
     /// Ends the tick: limits the torques of the law (N·m, N) and returns the command to the drives.
     ///
-    /// A torque that is not finite is a fault, see [`Supervisor::tick`](crate::Supervisor::tick).
+    /// Torques and their rates of change are limited. A torque that is not finite is a fault: the last torques stand for
+    /// all of its tick, and the next tick is a hold unless the fault is ridden through; in a hold, for which there is
+    /// then no torque, it stops the arm. After a reset the brake opens when no limit keeps the torque from being there.
     #[inline(always)]
     pub fn command(self, tau: &[R; V]) -> Command<R, V> {
         let controller = self.controller;

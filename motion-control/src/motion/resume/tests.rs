@@ -4,11 +4,7 @@ use crate::reference::{Trajectory, WayPoint};
 
 const H: f64 = 1e-3;
 const TICKS: u32 = 200;
-const CONFIG: ResumeConfig<f64> = ResumeConfig {
-    tick: H,
-    decay_rate: 40.0,
-    ticks: TICKS,
-};
+const DECAY: f64 = 40.0;
 
 fn trajectory() -> Trajectory<f64, 1, 2> {
     let limits = [MotionLimits {
@@ -30,7 +26,7 @@ fn the_return_reaches_the_trajectory_without_a_jump() {
         q: [trajectory.at(400).q[0] + 0.03],
         qd: [1.0],
     };
-    let mut resume = ResumeTrajectory::new(CONFIG);
+    let mut resume = ResumeTrajectory::new(H, DECAY, TICKS);
     resume.start(&start, 400);
     let mut way: Vec<_> = (0..TICKS)
         .map(|tick| resume.at(&trajectory, f64::from(tick) / f64::from(TICKS)))
@@ -52,7 +48,7 @@ fn the_return_reaches_the_trajectory_without_a_jump() {
 #[test]
 fn a_way_that_is_left_early_keeps_the_trajectorys_progress() {
     let trajectory = trajectory();
-    let mut resume = ResumeTrajectory::new(CONFIG);
+    let mut resume = ResumeTrajectory::new(H, DECAY, TICKS);
     let start = Estimate {
         q: [0.5],
         qd: [0.0],
@@ -65,4 +61,14 @@ fn a_way_that_is_left_early_keeps_the_trajectorys_progress() {
     // ∫w over the first half is 0.078 of the whole way.
     assert_eq!(resume.cancel(), 415);
     assert!(!resume.active());
+}
+
+#[test]
+fn the_trajectory_waits_where_a_decaying_speed_ends() {
+    // 1/λ = 32 ticks.
+    let resume = ResumeTrajectory::<f64, 1>::new(1.0 / 1024.0, 32.0, 200);
+    assert_eq!(
+        (resume.resume_tick(100), resume.resume_tick(u32::MAX)),
+        (132, u32::MAX)
+    );
 }

@@ -8,7 +8,7 @@
 //! ```
 
 use super::coefficients::Coefficients;
-use super::stage::{HalfPlane, both};
+use super::half_plane::{HalfPlane, both};
 use super::{PathLimits, TimedPathError};
 use crate::entry;
 use crate::reference::JointFriction;

@@ -6,17 +6,10 @@
 
 use super::coefficients::Coefficients;
 use super::friction::{SegmentFriction, least_touch};
+use super::half_plane::{HalfPlane, both};
 use super::{PathLimits, TimedPathError};
 use crate::entry;
 use dynamics_core::scalar::Real;
-
-/// α u + β x ≤ γ.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct HalfPlane<R> {
-    alpha: R,
-    beta: R,
-    gamma: R,
-}
 
 /// The limits within a segment, with u and with x at its begin.
 #[derive(Clone, Copy, Debug)]
@@ -127,29 +120,6 @@ impl<R: Real, const V: usize> Stage<R, V> {
             R::from_f64(0.5) * (upper + lower)
         } else {
             upper
-        }
-    }
-}
-
-/// An upper and a lower limit with the same α.
-pub(super) fn both<R: Real>(
-    alpha: R,
-    [up, low]: [R; 2],
-    [above, below]: [R; 2],
-) -> [HalfPlane<R>; 2] {
-    [(alpha, up, above), (-alpha, low, below)].map(|(alpha, beta, gamma)| HalfPlane {
-        alpha,
-        beta,
-        gamma,
-    })
-}
-
-impl<R: Real> HalfPlane<R> {
-    /// A limit of u and of x at the end of the segment, where x is greater by 2 Δ u.
-    fn at_end(self, across: R) -> Self {
-        Self {
-            alpha: self.alpha + across * self.beta,
-            ..self
         }
     }
 }

@@ -11,8 +11,11 @@
 //!
 //! The regularised incomplete beta function I_s(5, 5) and its derivatives.
 
-use super::{Segment, Segments, TrajectoryError, WayPoint, real};
+use super::error::TrajectoryError;
+use super::segment::{Segment, WayPoint};
+use super::segments::Segments;
 use crate::limits::MotionLimits;
+use crate::real;
 use crate::reference::Reference;
 use dynamics_core::drivetrain::ElasticReference;
 use dynamics_core::scalar::Real;

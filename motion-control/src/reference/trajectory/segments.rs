@@ -1,6 +1,7 @@
 //! The segments between way-points.
 
-use super::{Segment, TrajectoryError, WayPoint};
+use super::error::TrajectoryError;
+use super::segment::{Segment, WayPoint};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::all_finite;
 

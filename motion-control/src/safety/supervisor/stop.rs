@@ -1,27 +1,27 @@
 //! Stops that are required from outside, and what follows a controlled one.
 
-use super::state::{Ending, Required, State};
-use super::{Command, Fault, Mode, StopCategory, Supervisor};
-use crate::limits::Reaction;
+use super::{State, Supervisor};
+use crate::limits::{Command, Fault, Mode, Reaction};
+use crate::safety::stop_category::{Ending, Required, StopCategory, Stopping};
 use dynamics_core::scalar::Real;
+
+impl<R: Real, const V: usize> Stopping<R, V> {
+    /// The state at the end of a stop. What ends category 2 early is what the arm is configured for.
+    pub(super) fn stopped(&self, ending: Option<Ending>) -> State {
+        let ending = match ending {
+            Some(Ending::Hold) => self.configured,
+            ending => ending,
+        };
+        State::Stopped {
+            lowers: ending == Some(Ending::Lowering),
+        }
+    }
+}
 
 impl<R: Real, const V: usize> Supervisor<R, V> {
     /// The same supervisor with another stop category for lasting faults; without this call it is
     /// [`StopCategory::ControlledOff`].
-    ///
-    /// ```
-    /// # use motion_control::{Fault, Mode, SafetyLimits, StopCategory, Supervisor, SupervisorConfig};
-    /// # let limits = SafetyLimits { torque: [10.0_f32], rate: [8.0], speed: [3.0], lower: [-1.0], upper: [1.0] };
-    /// # let config = SupervisorConfig {
-    /// #     limits, tick: 1e-3, resolution: 0.0, ride_through_ticks: 0, hold_ticks: 2, reentry_ticks: 4,
-    /// # };
-    /// let mut supervisor = Supervisor::try_new(config)?.with_stop(StopCategory::TorqueOff);
-    /// supervisor.tick(Ok(&[0.5]), |_| [7.0]);
-    /// assert_eq!(supervisor.tick(Err(Fault::Stale), |_| [7.0]).status.mode, Mode::Stopped);
-    /// # Ok::<(), motion_control::ConfigError>(())
-    /// ```
-    #[must_use]
-    pub fn with_stop(mut self, category: StopCategory<R, V>) -> Self {
+    pub(crate) fn with_stop(mut self, category: StopCategory<R, V>) -> Self {
         self.stopping.configured = self.stopping.choose(&category);
         if matches!(self.state, State::Stopped { .. }) {
             self.state = self.stopping.stopped(self.stopping.configured);
@@ -29,28 +29,9 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         self
     }
 
-    /// Stops the arm from the next tick on, for an external reason such as a failed drive or an emergency stop;
-    /// [`SupervisorTick::stop`](super::SupervisorTick::stop) stops it in the present tick, [`Self::stop_by`] by another stop category than 0.
-    ///
-    /// The stop is latched until [`Self::reset`], with its first reason. While a stop is still required after a reset,
-    /// call this function in every tick.
-    ///
-    /// ```
-    /// # use motion_control::{Fault, SafetyLimits, Supervisor, SupervisorConfig};
-    /// # let limits = SafetyLimits { torque: [10.0_f32], rate: [8.0], speed: [3.0], lower: [-1.0], upper: [1.0] };
-    /// # let mut supervisor = Supervisor::try_new(SupervisorConfig {
-    /// #     limits, tick: 1e-3, resolution: 0.0, ride_through_ticks: 5, hold_ticks: 2, reentry_ticks: 4,
-    /// # })?;
-    /// supervisor.stop(Fault::External);
-    /// let command = supervisor.tick(Ok(&[0.5]), |_| [7.0]);
-    /// assert_eq!((command.torque, command.brake), ([0.0], true));
-    /// assert_eq!(command.status.fault, Some(Fault::External));
-    /// # Ok::<(), motion_control::ConfigError>(())
-    /// ```
-    #[doc(alias = "e-stop")]
-    #[doc(alias = "emergency stop")]
+    /// Stops the arm at once. The stop is latched until [`Self::reset`], with its first reason.
     #[cold]
-    pub fn stop(&mut self, fault: Fault) {
+    pub(crate) fn stop(&mut self, fault: Fault) {
         self.stop_at_once(fault, self.stopping.configured);
     }
 
@@ -62,13 +43,9 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         }
     }
 
-    /// Stops the arm by a category, for a reason that leaves the drives usable: an operator, a safety controller, a
-    /// lost connection. Between two ticks, the stop begins in the next one; within a tick it begins in this one.
-    ///
-    /// The stop is latched until [`Self::reset`], with its first reason. A later call with
-    /// [`StopCategory::TorqueOff`] ends a controlled stop at once.
+    /// Stops the arm by a category. A later call with [`StopCategory::TorqueOff`] ends a controlled stop at once.
     #[cold]
-    pub fn stop_by(&mut self, fault: Fault, category: StopCategory<R, V>) {
+    pub(crate) fn stop_by(&mut self, fault: Fault, category: StopCategory<R, V>) {
         if !matches!(self.mode(), Mode::Stopped) {
             let ending = self.stopping.choose(&category);
             self.stop_with(fault, ending);
@@ -76,7 +53,7 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
     }
 
     /// Stops the arm by the configured category.
-    pub(crate) fn stop_as_configured(&mut self, fault: Fault) {
+    fn stop_as_configured(&mut self, fault: Fault) {
         self.stop_with(fault, self.stopping.configured);
     }
 
@@ -227,35 +204,10 @@ impl<R: Real, const V: usize> Supervisor<R, V> {
         }
         torque
     }
-}
 
-impl<R: Real, const V: usize> Supervisor<R, V> {
-    /// Reacts to a fault that the supervisor cannot detect, by its [`Fault::reaction`]. Between two ticks the reaction
-    /// begins in the next one. While the fault lasts, call this function in every tick.
-    ///
-    /// ```
-    /// # use motion_control::{Fault, Mode, SafetyLimits, Supervisor, SupervisorConfig};
-    /// # let limits = SafetyLimits { torque: [10.0_f32], rate: [8.0], speed: [3.0], lower: [-1.0], upper: [1.0] };
-    /// # let config = SupervisorConfig {
-    /// #     limits, tick: 1e-3, resolution: 0.0, ride_through_ticks: 1, hold_ticks: 2, reentry_ticks: 4,
-    /// # };
-    /// let overrun = [Mode::Full, Mode::Hold, Mode::Hold];
-    /// let external = [Mode::Hold, Mode::Hold, Mode::Stopped];
-    /// let drive = [Mode::Stopped; 3];
-    /// let faults = [Fault::Overrun, Fault::External, Fault::Drive { joint: 0 }];
-    /// for (fault, modes) in faults.into_iter().zip([overrun, external, drive]) {
-    ///     let mut supervisor = Supervisor::try_new(config)?;
-    ///     supervisor.tick(Ok(&[0.5]), |_| [7.0]);
-    ///     for mode in modes {
-    ///         supervisor.react(fault);
-    ///         let status = supervisor.tick(Ok(&[0.5]), |_| [7.0]).status;
-    ///         assert_eq!((status.mode, status.fault), (mode, Some(fault)));
-    ///     }
-    /// }
-    /// # Ok::<(), motion_control::ConfigError>(())
-    /// ```
+    /// Reacts to a fault that the supervisor cannot detect, by its [`Fault::reaction`].
     #[cold]
-    pub fn react(&mut self, fault: Fault) {
+    pub(crate) fn react(&mut self, fault: Fault) {
         match fault.reaction() {
             Reaction::RideThrough => self.report(fault),
             Reaction::ControlledStop => self.stop_as_configured(fault),

@@ -1,5 +1,4 @@
 use super::*;
-use crate::limits::SafetyLimits;
 
 mod protocol;
 mod states;
@@ -37,9 +36,20 @@ fn riding(ticks: u32) -> Supervisor<f32, 2> {
     })
 }
 
+impl<const V: usize> Supervisor<f32, V> {
+    /// Starts a tick with its measured positions or the fault that prevented them.
+    pub(crate) fn accept_measurement(&mut self, measured: Result<&[f32; V], Fault>) -> Mode {
+        match measured {
+            Ok(q) => self.accept_positions(q),
+            Err(fault) => self.accept_fault(fault),
+        }
+        self.mode()
+    }
+}
+
 /// A tick with good positions.
 fn good(supervisor: &mut Supervisor<f32, 2>, tau: [f32; 2]) -> Command<f32, 2> {
-    let q = *supervisor.last_good();
+    let q = supervisor.last_good;
     supervisor.accept_measurement(Ok(&q));
     supervisor.gate(&tau, &[0.0; 2])
 }
@@ -84,7 +94,7 @@ fn each_fault_names_its_joint() {
         let mut supervisor = supervisor();
         good(&mut supervisor, [0.0; 2]);
         assert_eq!(supervisor.accept_measurement(Ok(&q)), Mode::Hold);
-        assert_eq!(supervisor.last_good(), &[0.0; 2]);
+        assert_eq!(supervisor.last_good, [0.0; 2]);
         assert_eq!(
             supervisor.gate(&[0.0; 2], &[0.0; 2]).status.fault,
             Some(fault)
@@ -284,5 +294,38 @@ fn useless_limits_allow_nothing() {
                 assert!(command.torque == [torque; 2] || held, "{which} {command:?}");
             }
         }
+    }
+}
+
+#[test]
+fn after_a_reset_faults_are_counted_anew() {
+    let mut supervisor = riding(2);
+    good(&mut supervisor, [1.0; 2]);
+    let modes = |supervisor: &mut _| [(); 6].map(|()| bad(supervisor, [1.0; 2]).status.mode);
+    let all = modes(&mut supervisor);
+    assert_eq!(all[5], Mode::Stopped);
+    supervisor.reset();
+    good(&mut supervisor, [1.0; 2]);
+    assert_eq!(modes(&mut supervisor), all);
+}
+
+#[test]
+fn a_speed_adds_to_the_faults_before_it() {
+    let mut supervisor = riding(2);
+    good(&mut supervisor, [1.0; 2]);
+    for _ in 0..2 + HOLD {
+        bad(&mut supervisor, [1.0; 2]);
+    }
+    supervisor.accept_measurement(Ok(&[0.0; 2]));
+    assert_eq!(supervisor.check_speed(&[2.1, 0.0]), Mode::Stopped);
+}
+
+#[test]
+fn a_stop_reports_no_limit_of_the_torque() {
+    let mut supervisor = supervisor();
+    supervisor.stop(Fault::External);
+    for _ in 0..3 {
+        let command = good(&mut supervisor, [100.0; 2]);
+        assert_eq!((command.torque, command.status.limited), ([0.0; 2], false));
     }
 }

@@ -61,7 +61,7 @@ const STEPS: &[Step] = &[
     ("host", Host, Everyday, "the host tests pass", host::tests),
     ("doctests", Host, Everyday, "the examples in the documentation run", host::doctests),
     ("doc", Host, Full, "the documentation builds without a warning, that of private items too", host::doc),
-    ("layers", Host, Full, "each module of the library uses those above it alone, and nothing that ships the laboratory", |c| layers::check(&c.workspace)),
+    ("layers", Host, Full, "each module of the libraries uses those above it alone, and nothing that ships the laboratory", |c| layers::check(&c.workspace)),
     ("examples", Host, Everyday, "the library's examples run", package::examples),
     ("features", Host, Full, "the library's features build for the target and change no number", package::features),
     ("msrv", Host, Full, "the library builds with the oldest compiler that its manifest promises", others::msrv),

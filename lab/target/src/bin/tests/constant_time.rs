@@ -1,4 +1,4 @@
-//! The same work whatever the data: dynamics, sine and cosine, control law, drives and safety gate on random
+//! The same work whatever the data: dynamics, sine and cosine, control law, drives and motion controller on random
 //! and adversarial states, between the meter's markers.
 //!
 //! ```text
@@ -7,9 +7,8 @@
 //! done
 //! ```
 //!
-//! The gate's common path is that without a fault, so what it gets is what it accepts: positions
-//! within the joints' limits and finite torques, however odd. Its way back from a fault is bounded, not
-//! constant.
+//! The controller's common path is that without a fault, so what it gets is what its safety gate accepts: positions
+//! within the joints' limits and finite torques, however odd. Its way back from a fault is bounded, not constant.
 #![no_std]
 #![no_main]
 
@@ -26,7 +25,8 @@ use firmware_demo::{marker::measured, target};
 use joint_drivers::Direction;
 use joint_drivers::h_bridge::{FullScale, LockedAntiphase};
 use motion_control::{
-    Command, Estimate, Gains, Mode, SafetyLimits, Supervisor, SupervisorConfig, feedback,
+    Command, Estimate, Fault, Gains, Mode, MotionController, MotionControllerConfig, SafetyLimits,
+    SupervisorConfig, feedback,
 };
 
 const N: usize = 6;
@@ -152,10 +152,10 @@ fn main() -> ! {
         |noise| noise.number(200.0),
         |torque| duty(&drive, *torque),
     );
-    defmt::println!("constant gate {=usize}", STATES);
-    gate(noise, None);
+    defmt::println!("constant controller {=usize}", STATES);
+    control(noise, None);
     defmt::println!("bounded reentry {=usize}", STATES);
-    gate(noise, Some(REENTRY / 2));
+    control(noise, Some(REENTRY / 2));
     defmt::println!("done");
     target::leave(debug::EXIT_SUCCESS)
 }
@@ -187,43 +187,49 @@ fn law(
     feedback(gains, reference, estimate)
 }
 
-/// The gate on accepted commands: at full authority, or, with a reset every so many ticks, during the
-/// return to it.
-fn gate(noise: &mut Noise, reset: Option<usize>) {
+/// The controller on accepted commands: at full authority, or, with a reset every so many ticks, during the return to
+/// it.
+fn control(noise: &mut Noise, reset: Option<usize>) {
     const SPEED: f32 = 3.2;
     const RANGE: f32 = 6.3;
-    // The greatest step that the gate takes for a movement.
-    const STEP: f32 = 2.0 * SPEED * 1e-3;
-    let limits = SafetyLimits {
-        torque: [150.0; N],
-        rate: [75.0; N],
-        speed: [SPEED; N],
-        lower: [-RANGE; N],
-        upper: [RANGE; N],
-    };
-    let mut supervisor = Supervisor::new(SupervisorConfig {
-        limits,
-        tick: 1e-3,
-        resolution: 0.0,
-        ride_through_ticks: 0,
-        hold_ticks: 100,
-        reentry_ticks: REENTRY as u32,
+    // Steps whose mean over any ticks is a speed within its limit, so that the estimate of the observer is one too.
+    const STEP: f32 = 0.99 * SPEED * 1e-3;
+    let mut controller = MotionController::new(MotionControllerConfig {
+        supervisor: SupervisorConfig {
+            limits: SafetyLimits {
+                torque: [150.0; N],
+                rate: [75.0; N],
+                speed: [SPEED; N],
+                lower: [-RANGE; N],
+                upper: [RANGE; N],
+            },
+            tick: 1e-3,
+            resolution: 0.0,
+            ride_through_ticks: 0,
+            hold_ticks: 100,
+            reentry_ticks: REENTRY as u32,
+        },
+        observer_bandwidth: 250.0,
+        decay_rate: 25.0,
+        restart_distance: RANGE,
     });
     let mut q = [0.0; N];
     // The first measurement is a transition of its own: nothing was known before it.
-    pass(&mut supervisor, &q, &q, &q);
+    pass(&mut controller, &q, &q);
     for tick in 0..STATES {
         if reset.is_some_and(|every| tick % every == 0) {
-            supervisor.reset();
+            controller.stop(Fault::External);
+            if controller.reset(&State::at(q)).is_err() {
+                target::fail("the controller did not restart");
+            }
         }
         q = q.map(|q: f32| {
-            let step = noise.finite(STEP).clamp(-0.99 * STEP, 0.99 * STEP);
+            let step = noise.finite(STEP).clamp(-STEP, STEP);
             (q + step).clamp(-RANGE, RANGE)
         });
-        let qd = [(); N].map(|()| noise.finite(SPEED).clamp(-SPEED, SPEED));
         let tau = [(); N].map(|()| noise.finite(200.0));
-        let (q, qd, tau) = black_box((&q, &qd, &tau));
-        let command = measured::<0, _>(|| pass(&mut supervisor, q, qd, tau));
+        let (q, tau) = black_box((&q, &tau));
+        let command = measured::<0, _>(|| pass(&mut controller, q, tau));
         let status = black_box(command).status;
         if status.fault.is_some() || !matches!(status.mode, Mode::Full) {
             target::fail("the gate did not take what it should have: nothing was measured");
@@ -233,13 +239,10 @@ fn gate(noise: &mut Noise, reset: Option<usize>) {
 
 #[inline(never)]
 fn pass(
-    supervisor: &mut Supervisor<f32, N>,
+    controller: &mut MotionController<f32, N>,
     q: &[f32; N],
-    qd: &[f32; N],
     tau: &[f32; N],
 ) -> Command<f32, N> {
-    supervisor.tick(Ok(q), |tick| {
-        tick.check_speed(qd);
-        *tau
-    })
+    // The reference is where the arm is, so that no return onto it is fast.
+    controller.tick(Ok(q), &State::at(*q), |_, _| *tau)
 }

@@ -2,12 +2,12 @@
 
 use super::*;
 
-/// A tick without positions; one that was not begun has no torque to ask for, which the type of a tick sees to.
 #[test]
 fn a_tick_without_a_measurement_is_stale() {
     let mut supervisor = supervisor();
     good(&mut supervisor, [1.0; 2]);
-    let status = supervisor.tick(Err(Fault::Stale), |_| [1.0; 2]).status;
+    supervisor.accept_measurement(Err(Fault::Stale));
+    let status = supervisor.gate(&[1.0; 2], &[0.0; 2]).status;
     assert_eq!(
         (status.mode, status.fault),
         (Mode::Hold, Some(Fault::Stale))

@@ -2,7 +2,6 @@
 
 use std::collections::BTreeSet;
 
-use super::super::state::{Ending, Required};
 use super::*;
 use crate::safety::StopCategory;
 
@@ -26,7 +25,7 @@ fn name(state: State) -> String {
 
 /// The modes of the states and the transitions of the table, each as a pair.
 fn table() -> [BTreeSet<[String; 2]>; 2] {
-    let rows = include_str!("../state.rs").lines();
+    let rows = include_str!("../../supervisor.rs").lines();
     let rows: Vec<_> = rows.filter_map(|row| row.strip_prefix("//! | `")).collect();
     let words = |cell: &str| -> Vec<String> {
         let quoted = cell.split('`').skip(1).step_by(2);

@@ -1,6 +1,7 @@
 //! Stop categories.
 
 use super::*;
+use crate::safety::StopCategory;
 
 const EXTERNAL: Option<Fault> = Some(Fault::External);
 
@@ -107,12 +108,10 @@ fn the_configured_category_is_that_of_lasting_faults() {
 
 /// A sinking arm: a tick with a measurement and a velocity.
 fn sinks(supervisor: &mut Supervisor<f32, 2>, qd: [f32; 2]) -> [f32; 2] {
-    let q = *supervisor.last_good();
-    let tick = |tick: &mut SupervisorTick<'_, f32, 2>| {
-        tick.check_speed(&qd);
-        [f32::NAN; 2]
-    };
-    let command = supervisor.tick(Ok(&q), tick);
+    let q = supervisor.last_good;
+    supervisor.accept_measurement(Ok(&q));
+    supervisor.check_speed(&qd);
+    let command = supervisor.gate(&[f32::NAN; 2], &qd);
     assert!(command.brake);
     assert_eq!(command.status.mode, Mode::Stopped);
     command.torque
@@ -222,19 +221,11 @@ fn an_arm_is_at_rest_when_each_of_its_joints_is() {
 }
 
 #[test]
-fn a_law_reads_whether_its_measurement_was_accepted_and_may_stop_by_a_category() {
+fn a_stop_within_a_tick_acts_in_it() {
     let mut supervisor = riding(2);
     good(&mut supervisor, [3.0; 2]);
-    for (measured, wanted) in [(Ok(&[0.0; 2]), true), (Err(Fault::Stale), false)] {
-        supervisor.tick(measured, |tick| {
-            assert_eq!(tick.measurement_accepted(), wanted);
-            [3.0; 2]
-        });
-    }
-    let command = supervisor.tick(Ok(&[0.0; 2]), |tick| {
-        tick.stop_by(Fault::External, StopCategory::ControlledHold);
-        [3.0; 2]
-    });
-    let status = command.status;
+    supervisor.accept_measurement(Ok(&[0.0; 2]));
+    supervisor.stop_by(Fault::External, StopCategory::ControlledHold);
+    let status = supervisor.gate(&[3.0; 2], &[0.0; 2]).status;
     assert_eq!((status.mode, status.fault), (Mode::Hold, EXTERNAL));
 }

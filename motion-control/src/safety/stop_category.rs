@@ -1,14 +1,14 @@
 //! The categories of stops, and the one that is configured.
 
-use super::state::{Ending, State};
+use crate::limits::Fault;
 #[cfg(doc)]
-use super::{Mode, Supervisor};
+use crate::limits::Mode;
 use dynamics_core::scalar::Real;
 
 /// How an arm is stopped: the stop categories of IEC 60204-1 (2016), 9.2.2, and the lowering of an arm without brakes.
 ///
-/// A fault that outlasts the ride-through and a [`Supervisor::stop_by`] choose among them; [`Supervisor::stop`] is at
-/// once, for faults that leave no torque to decelerate with, such as a failed drive.
+/// A fault that outlasts the ride-through and a [`stop_by`](crate::MotionController::stop_by) choose among them;
+/// [`stop`](crate::MotionController::stop) is at once, for faults that leave no torque to decelerate with, such as a failed drive.
 ///
 /// | category | first | then | power |
 /// |---|---|---|---|
@@ -21,15 +21,22 @@ use dynamics_core::scalar::Real;
 /// is not safety-rated: keep a safe torque off in hardware.
 ///
 /// ```
-/// use motion_control::{Fault, Mode, SafetyLimits, StopCategory, Supervisor, SupervisorConfig};
-/// let limits = SafetyLimits { torque: [10.0_f32], rate: [8.0], speed: [3.0], lower: [-1.0], upper: [1.0] };
-/// let mut supervisor = Supervisor::try_new(SupervisorConfig {
-///     limits, tick: 1e-3, resolution: 0.0, ride_through_ticks: 5, hold_ticks: 2, reentry_ticks: 4,
-/// })?;
-/// supervisor.tick(Ok(&[0.5]), |_| [7.0]);
-/// supervisor.stop_by(Fault::External, StopCategory::ControlledOff);
+/// use motion_control::{Fault, Mode, MotionController, MotionControllerConfig, StopCategory};
+/// # use dynamics_core::state::State;
+/// # use motion_control::{SafetyLimits, SupervisorConfig};
+/// # let config = MotionControllerConfig {
+/// #     supervisor: SupervisorConfig {
+/// #         limits: SafetyLimits { torque: [10.0], rate: [8.0], speed: [3.0], lower: [-1.0], upper: [1.0] },
+/// #         tick: 1e-3, resolution: 0.0, ride_through_ticks: 5, hold_ticks: 2, reentry_ticks: 4,
+/// #     },
+/// #     observer_bandwidth: 250.0, decay_rate: 25.0, restart_distance: 0.1,
+/// # };
+/// # let reference = State::at([0.5]);
+/// let mut controller = MotionController::<f32, 1>::try_new(config)?;
+/// controller.tick(Ok(&[0.5]), &reference, |_, _| [7.0]);
+/// controller.stop_by(Fault::External, StopCategory::ControlledOff);
 /// for mode in [Mode::Hold, Mode::Hold, Mode::Stopped, Mode::Stopped] {
-///     let command = supervisor.tick(Ok(&[0.5]), |_| [7.0]);
+///     let command = controller.tick(Ok(&[0.5]), &reference, |_, _| [7.0]);
 ///     assert_eq!((command.status.mode, command.status.fault), (mode, Some(Fault::External)));
 ///     assert_eq!(command.brake, mode == Mode::Stopped);
 /// }
@@ -54,23 +61,42 @@ pub enum StopCategory<R, const V: usize> {
     },
 }
 
+/// What follows the deceleration of a controlled stop.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Ending {
+    /// Category 1.
+    Off,
+    /// Category 2.
+    Hold,
+    /// The arm sinks against a damping.
+    Lowering,
+}
+
+/// A controlled stop that was required from outside.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Required {
+    pub(crate) reason: Fault,
+    /// Another one was required during this one.
+    pub(crate) again: bool,
+}
+
 /// The configured category.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Stopping<R, const V: usize> {
+pub(crate) struct Stopping<R, const V: usize> {
     /// What follows the deceleration; none for category 0.
-    pub(super) configured: Option<Ending>,
-    pub(super) damping: [R; V],
+    pub(crate) configured: Option<Ending>,
+    pub(crate) damping: [R; V],
 }
 
 impl<R: Real, const V: usize> Stopping<R, V> {
-    pub(super) fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self {
             configured: Some(Ending::Off),
             damping: [R::ZERO; V],
         }
     }
 
-    pub(super) fn choose(&mut self, category: &StopCategory<R, V>) -> Option<Ending> {
+    pub(crate) fn choose(&mut self, category: &StopCategory<R, V>) -> Option<Ending> {
         match *category {
             StopCategory::TorqueOff => None,
             StopCategory::ControlledOff => Some(Ending::Off),
@@ -80,17 +106,6 @@ impl<R: Real, const V: usize> Stopping<R, V> {
                 self.damping = damping.map(|d| if d > R::ZERO { d } else { R::ZERO });
                 Some(Ending::Lowering)
             }
-        }
-    }
-
-    /// The state at the end of a stop. What ends category 2 early is what the arm is configured for.
-    pub(super) fn stopped(&self, ending: Option<Ending>) -> State {
-        let ending = match ending {
-            Some(Ending::Hold) => self.configured,
-            ending => ending,
-        };
-        State::Stopped {
-            lowers: ending == Some(Ending::Lowering),
         }
     }
 }

@@ -53,16 +53,23 @@ extern crate std;
 pub mod as5047p;
 pub mod as5600;
 #[cfg(any(test, feature = "async"))]
-mod asynch;
+pub mod asynch;
 pub mod can;
+mod control_loop;
 pub mod feetech;
 pub mod h_bridge;
 pub mod incremental;
+mod joint;
 mod mapping;
 pub mod moteus;
 mod multi_turn;
 pub mod odrive;
 pub mod three_phase;
 
+pub use control_loop::{ControlLoop, Law, Phase, Probe, Telemetry};
+pub use joint::{
+    DriveFault, DriveFaultKind, EncoderType, JointDrive, JointDrives, JointEncoder, JointEncoders,
+    JointError, NoBrake,
+};
 pub use mapping::{Direction, JointMapping, MappingError, Resolution};
 pub use multi_turn::MultiTurnEncoder;

@@ -31,11 +31,12 @@ pub trait JointEncoders<const V: usize>: EncoderType {
     /// Prepares the first reading. Errors are those of that reading.
     async fn start(&mut self);
 
-    /// The joints' positions, rad or m, finite.
+    /// Sets the joints' positions, rad or m, finite.
     ///
     /// # Errors
-    /// That of the first joint without a position. In an array all others have been read nevertheless.
-    async fn read(&mut self) -> Result<[f32; V], JointError<Self::Error>>;
+    /// That of the first joint without a position; all are then meaningless. In an array all others have been read
+    /// nevertheless.
+    async fn read(&mut self, positions: &mut [f32; V]) -> Result<(), JointError<Self::Error>>;
 }
 
 impl<E: JointEncoder, const V: usize> JointEncoders<V> for [E; V] {
@@ -45,17 +46,15 @@ impl<E: JointEncoder, const V: usize> JointEncoders<V> for [E; V] {
         }
     }
 
-    async fn read(&mut self) -> Result<[f32; V], JointError<E::Error>> {
+    async fn read(&mut self, positions: &mut [f32; V]) -> Result<(), JointError<E::Error>> {
         let mut failed = None;
         for (joint, encoder) in self.iter_mut().enumerate() {
             if let Err(error) = encoder.sample().await {
                 failed = failed.or(Some(JointError { joint, error }));
             }
         }
-        match failed {
-            Some(error) => Err(error),
-            None => Ok(self.each_ref().map(E::position)),
-        }
+        *positions = self.each_ref().map(E::position);
+        failed.map_or(Ok(()), Err)
     }
 }
 

@@ -80,11 +80,12 @@ pub trait JointEncoders<const V: usize>: EncoderType {
     /// Prepares the first reading. Errors are those of that reading.
     fn start(&mut self);
 
-    /// The joints' positions, rad or m, finite.
+    /// Sets the joints' positions, rad or m, finite.
     ///
     /// # Errors
-    /// That of the first joint without a position. In an array all others have been read nevertheless.
-    fn read(&mut self) -> Result<[f32; V], JointError<Self::Error>>;
+    /// That of the first joint without a position; all are then meaningless. In an array all others have been read
+    /// nevertheless.
+    fn read(&mut self, positions: &mut [f32; V]) -> Result<(), JointError<Self::Error>>;
 }
 
 /// The drive of a joint.
@@ -218,17 +219,15 @@ impl<E: JointEncoder, const V: usize> JointEncoders<V> for [E; V] {
     }
 
     #[inline(always)]
-    fn read(&mut self) -> Result<[f32; V], JointError<E::Error>> {
+    fn read(&mut self, positions: &mut [f32; V]) -> Result<(), JointError<E::Error>> {
         let mut failed = None;
         for (joint, encoder) in self.iter_mut().enumerate() {
             if let Err(error) = encoder.sample() {
-                failed = failed.or(Some(JointError { joint, error }));
+                keep_first(&mut failed, JointError { joint, error });
             }
         }
-        match failed {
-            Some(error) => Err(error),
-            None => Ok(self.each_ref().map(E::position)),
-        }
+        *positions = self.each_ref().map(E::position);
+        failed.map_or(Ok(()), Err)
     }
 }
 
@@ -251,8 +250,18 @@ impl<D: JointDrive, const V: usize> JointDrives<V> for [D; V] {
     }
 }
 
+/// Keeps the first error: in a function of its own, so that a tick without one keeps no register for it.
+#[cold]
+#[inline(never)]
+fn keep_first<E>(kept: &mut Option<JointError<E>>, other: JointError<E>) {
+    if kept.is_none() {
+        *kept = Some(other);
+    }
+}
+
 /// Keeps the first error of those that failed, else of those that are not ready.
 #[cold]
+#[inline(never)]
 fn keep_worse<E: DriveFault>(kept: &mut Option<JointError<E>>, other: JointError<E>) {
     let is_kept = |kept: &JointError<E>| {
         kept.error.kind() == DriveFaultKind::Failed || other.error.kind() != DriveFaultKind::Failed

@@ -329,9 +329,10 @@ impl JointEncoders<2> for Bus {
     fn start(&mut self) {
         self.0 = 0;
     }
-    fn read(&mut self) -> Result<[f32; 2], JointError<Infallible>> {
+    fn read(&mut self, positions: &mut [f32; 2]) -> Result<(), JointError<Infallible>> {
         self.0 += 1;
-        Ok([0.25; 2])
+        *positions = [0.25; 2];
+        Ok(())
     }
 }
 

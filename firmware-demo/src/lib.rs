@@ -4,14 +4,14 @@
 //! | module | what | on hardware |
 //! |---|---|---|
 //! | [`contact`] | an arm that finds contacts without sensors, and reacts | its tick |
-//! | [`control_loop`] | the tick: read, reference, dynamics, safety, write | as it is |
-//! | [`joint_drivers`] | an AS5047P on SPI, a current-controlled drive on PWM | as they are |
+//! | [`joint_drivers`] | the control loop, an AS5047P on SPI, a current-controlled drive on PWM | as they are |
 //! | [`digest`] | digests of the dynamics' results on recorded states | as they are |
 //! | [`faults`] | arms under injected faults, on host and target | left out |
 //! | [`hard`] | hard cases that host and target share | left out |
 //! | [`learning`] | an arm that finds its own parameters, and weighs its load | its tick |
 //! | [`marker`] | the measured regions | `dbg` is a no-op there |
 //! | [`plant`], [`sim_io`] | a simulated robot behind the same traits | left out |
+//! | [`region`] | the regions of a tick, as a probe of the control loop | left out |
 //! | [`replay`] | the control loop of a scene without a simulated robot, with a digest of its torques | as it is |
 //! | [`scene`] | runs of one trajectory under several laws, with their tracking errors | left out |
 //! | [`robots`] | robots that no manufacturer publishes | left out |
@@ -26,7 +26,6 @@
 #[cfg(feature = "accuracy")]
 pub mod accuracy;
 pub mod contact;
-pub mod control_loop;
 pub mod digest;
 pub mod effect_presets;
 pub mod faults;
@@ -37,6 +36,7 @@ pub mod marker;
 #[cfg(feature = "telemetry")]
 pub mod pil;
 pub mod plant;
+pub mod region;
 pub mod replay;
 pub mod robots;
 pub mod scene;

@@ -3,7 +3,7 @@
 use dynamics_core::flexible::{ModalFeedforward, Modes};
 use dynamics_core::model::{Calibrated, Static};
 use dynamics_core::state::State;
-use firmware_demo::control_loop::Law;
+use joint_drivers::Law;
 use firmware_demo::plant::{BendingPlant, Simulated};
 use firmware_demo::robots::TwoLink;
 use firmware_demo::robots::two_link::{MODES_2, MODES_2_SOFT};

@@ -5,7 +5,7 @@ use dynamics_core::Engine;
 use dynamics_core::effects::{Effect, Gravity, LoadFriction};
 use dynamics_core::robots::So101;
 use dynamics_core::state::State;
-use firmware_demo::control_loop::Law;
+use joint_drivers::Law;
 use firmware_demo::plant::{Rig, ServoPlant, Simulated};
 use firmware_demo::scene::{Full, Noise, STEPS, Scene, simulated_loop};
 use firmware_demo::scenes::so101_teach::{

@@ -31,12 +31,11 @@ pub trait JointEncoders<const V: usize>: EncoderType {
     /// Prepares the first reading. Errors are those of that reading.
     async fn start(&mut self);
 
-    /// Sets the joints' positions, rad or m, finite.
+    /// The joints' positions, rad or m, finite.
     ///
     /// # Errors
-    /// That of the first joint without a position; all are then meaningless. In an array all others have been read
-    /// nevertheless.
-    async fn read(&mut self, positions: &mut [f32; V]) -> Result<(), JointError<Self::Error>>;
+    /// That of the first joint without a position. In an array all others have been read nevertheless.
+    async fn read(&mut self) -> Result<[f32; V], JointError<Self::Error>>;
 }
 
 impl<E: JointEncoder, const V: usize> JointEncoders<V> for [E; V] {
@@ -46,15 +45,14 @@ impl<E: JointEncoder, const V: usize> JointEncoders<V> for [E; V] {
         }
     }
 
-    async fn read(&mut self, positions: &mut [f32; V]) -> Result<(), JointError<E::Error>> {
+    async fn read(&mut self) -> Result<[f32; V], JointError<E::Error>> {
         let mut failed = None;
         for (joint, encoder) in self.iter_mut().enumerate() {
             if let Err(error) = encoder.sample().await {
                 failed = failed.or(Some(JointError { joint, error }));
             }
         }
-        *positions = self.each_ref().map(E::position);
-        failed.map_or(Ok(()), Err)
+        failed.map_or_else(|| Ok(self.each_ref().map(E::position)), Err)
     }
 }
 

@@ -285,8 +285,8 @@ impl<Port, const N: usize> EncoderType for Servos<Port, N> {
 impl<Port: Read + Write + ReadReady, const N: usize> JointEncoders<N> for Servos<Port, N> {
     fn start(&mut self) {}
 
-    fn read(&mut self, positions: &mut [f32; N]) -> Result<(), JointError<FeetechError>> {
-        self.read_all().map(|all| *positions = all)
+    fn read(&mut self) -> Result<[f32; N], JointError<FeetechError>> {
+        self.read_all()
     }
 }
 

@@ -80,12 +80,11 @@ pub trait JointEncoders<const V: usize>: EncoderType {
     /// Prepares the first reading. Errors are those of that reading.
     fn start(&mut self);
 
-    /// Sets the joints' positions, rad or m, finite.
+    /// The joints' positions, rad or m, finite.
     ///
     /// # Errors
-    /// That of the first joint without a position; all are then meaningless. In an array all others have been read
-    /// nevertheless.
-    fn read(&mut self, positions: &mut [f32; V]) -> Result<(), JointError<Self::Error>>;
+    /// That of the first joint without a position. In an array all others have been read nevertheless.
+    fn read(&mut self) -> Result<[f32; V], JointError<Self::Error>>;
 }
 
 /// The drive of a joint.
@@ -219,15 +218,17 @@ impl<E: JointEncoder, const V: usize> JointEncoders<V> for [E; V] {
     }
 
     #[inline(always)]
-    fn read(&mut self, positions: &mut [f32; V]) -> Result<(), JointError<E::Error>> {
+    fn read(&mut self) -> Result<[f32; V], JointError<E::Error>> {
         let mut failed = None;
         for (joint, encoder) in self.iter_mut().enumerate() {
             if let Err(error) = encoder.sample() {
                 keep_first(&mut failed, JointError { joint, error });
             }
         }
-        *positions = self.each_ref().map(E::position);
-        failed.map_or(Ok(()), Err)
+        if let Some(failed) = failed {
+            return Err(failed);
+        }
+        Ok(self.each_ref().map(E::position))
     }
 }
 
@@ -250,7 +251,7 @@ impl<D: JointDrive, const V: usize> JointDrives<V> for [D; V] {
     }
 }
 
-/// Keeps the first error: in a function of its own, so that a tick without one keeps no register for it.
+/// Keeps the first error: in a function of its own, so that a tick without errors keeps no register for them.
 #[cold]
 #[inline(never)]
 fn keep_first<E>(kept: &mut Option<JointError<E>>, other: JointError<E>) {

@@ -329,10 +329,9 @@ impl JointEncoders<2> for Bus {
     fn start(&mut self) {
         self.0 = 0;
     }
-    fn read(&mut self, positions: &mut [f32; 2]) -> Result<(), JointError<Infallible>> {
+    fn read(&mut self) -> Result<[f32; 2], JointError<Infallible>> {
         self.0 += 1;
-        *positions = [0.25; 2];
-        Ok(())
+        Ok([0.25; 2])
     }
 }
 

@@ -15,8 +15,8 @@ use super::{
 impl<Port: Read + Write + ReadReady, const N: usize> JointEncoders<N> for Servos<Port, N> {
     async fn start(&mut self) {}
 
-    async fn read(&mut self, positions: &mut [f32; N]) -> Result<(), JointError<FeetechError>> {
-        self.read_all_async().await.map(|all| *positions = all)
+    async fn read(&mut self) -> Result<[f32; N], JointError<FeetechError>> {
+        self.read_all_async().await
     }
 }
 

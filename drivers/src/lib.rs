@@ -12,9 +12,9 @@
 //! Each driver has the zero, the direction and the resolution of its joint as parameters ([`JointMapping`],
 //! [`Resolution`]): it measures rad at the joint and commands N·m, V or a share of the full scale there.
 //!
-//! The encoders and the H-bridges implement the traits of a joint, the servos that of all encoders. Three half-bridges take a
-//! voltage and the servos a duty: they are no drives of torque. The controllers on CAN make and read frames, and leave the bus
-//! to your code, which implements the traits for it.
+//! The encoders and the H-bridges implement the traits of a joint, the servos that of all encoders. The controllers on CAN are
+//! both at once, on a bus that they share ([`CanJoints`]). Three half-bridges take a voltage and the servos a duty: they are
+//! no drives of torque.
 //!
 //! | part | bus | measures or commands | module |
 //! |---|---|---|---|
@@ -67,6 +67,7 @@ pub mod as5600;
 #[cfg(any(test, feature = "async"))]
 pub mod asynch;
 pub mod can;
+mod can_joints;
 mod control_loop;
 pub mod feetech;
 pub mod h_bridge;
@@ -78,6 +79,7 @@ mod multi_turn;
 pub mod odrive;
 pub mod three_phase;
 
+pub use can_joints::{CanJoint, CanJoints, Report};
 pub use control_loop::{ControlLoop, Law, Phase, Probe, Telemetry};
 pub use joint::{
     DriveFault, DriveFaultKind, EncoderType, JointDrive, JointDrives, JointEncoder, JointEncoders,

@@ -2,8 +2,8 @@
 
 use core::arch::asm;
 
-use firmware_demo::control_loop::region;
 use firmware_demo::marker::measured;
+use firmware_demo::region;
 
 /// Executes 21 instructions between the markers of a tick: one, and then ten times two.
 #[inline(never)]

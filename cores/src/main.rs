@@ -5,7 +5,7 @@
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
 use firmware_demo::replay::Replay;
-use firmware_demo::scene::{Full, Scene, SimLoop};
+use firmware_demo::scene::{Full, Scene, marked_tick};
 use firmware_demo::scenes::scara_table::Serve;
 use firmware_demo::scenes::ur5e::PickAndPlace;
 use firmware_demo::sim_io::Wires;
@@ -55,7 +55,7 @@ fn replay<S, const B: usize, const Q: usize, const V: usize, const N: usize>(
         Err(interrupted) => panic!("{interrupted}"),
     }
     if cfg!(target_os = "none") {
-        let tick = SimLoop::<N>::tick::<Full<S, B, Q, V>, S::Reference, S::Environment>;
+        let tick = marked_tick::<Full<S, B, Q, V>, S::Reference, S::Environment, N>;
         println!("stack {name} {deepest}");
         println!("tick {name} {}", tick as *const () as usize);
     }

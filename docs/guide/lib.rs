@@ -19,6 +19,7 @@ pages! {
     loops "loops.md",
     flexible "flexible.md",
     firmware "firmware.md",
+    board "board.md",
     c "c.md",
     telemetry "telemetry.md",
     tuning "tuning.md",

@@ -14,8 +14,9 @@ use core::f32::consts::TAU;
 use core::fmt;
 
 use embedded_hal::spi::{Error, ErrorKind, SpiDevice};
+use motion_control::PreviousTick;
 
-use crate::{JointMapping, MultiTurnEncoder};
+use crate::{EncoderType, JointEncoder, JointMapping, MultiTurnEncoder};
 
 /// Counts per turn.
 pub const COUNTS: u16 = 1 << BITS;
@@ -156,6 +157,27 @@ impl<Spi: SpiDevice> As5047p<Spi> {
                 Err(error)
             }
         }
+    }
+}
+
+impl<Spi> EncoderType for As5047p<Spi> {
+    type Error = FrameError;
+    type Age = PreviousTick;
+}
+
+impl<Spi: SpiDevice> JointEncoder for As5047p<Spi> {
+    fn start(&mut self) {
+        As5047p::start(self);
+    }
+
+    #[inline(always)]
+    fn sample(&mut self) -> Result<(), FrameError> {
+        self.read().map(|_| ())
+    }
+
+    #[inline(always)]
+    fn position(&self) -> f32 {
+        self.angle()
     }
 }
 

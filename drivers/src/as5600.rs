@@ -13,8 +13,9 @@
 use core::fmt;
 
 use embedded_hal::i2c::{Error, ErrorKind, I2c};
+use motion_control::CurrentTick;
 
-use crate::{JointMapping, MultiTurnEncoder};
+use crate::{EncoderType, JointEncoder, JointMapping, MultiTurnEncoder};
 
 /// The 7-bit address of the device, which cannot be changed.
 pub const ADDRESS: u8 = 0x36;
@@ -144,6 +145,21 @@ impl<Bus: I2c> As5600<Bus> {
     pub fn read(&mut self) -> Result<f32, As5600Error> {
         self.check_magnet()?;
         self.read_angle()
+    }
+}
+
+impl<Bus> EncoderType for As5600<Bus> {
+    type Error = As5600Error;
+    type Age = CurrentTick;
+}
+
+impl<Bus: I2c> JointEncoder for As5600<Bus> {
+    fn sample(&mut self) -> Result<(), As5600Error> {
+        self.read().map(|_| ())
+    }
+
+    fn position(&self) -> f32 {
+        self.angle()
     }
 }
 

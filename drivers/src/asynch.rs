@@ -1,10 +1,84 @@
 //! The encoders on a bus over `embedded-hal-async`: the transfers alone; state and decoding are the blocking form's.
+//!
+//! Drives have no such form: `embedded-hal-async` has no PWM and no output pins.
 
 use embedded_hal_async::i2c::I2c;
 use embedded_hal_async::spi::SpiDevice;
 
 use crate::as5047p::{As5047p, FrameError, READ_ANGLE, READ_ERRORS};
 use crate::as5600::{ADDRESS, As5600, As5600Error, RAW_ANGLE, STATUS, bus_error, decode_status};
+use crate::{EncoderType, JointError};
+
+/// As [`JointEncoder`](crate::JointEncoder), without waiting for the bus.
+#[expect(async_fn_in_trait, reason = "a loop's future stays on its core")]
+pub trait JointEncoder: EncoderType {
+    /// Prepares the first reading. Errors are those of that reading.
+    async fn start(&mut self) {}
+
+    /// Takes a reading from the device.
+    ///
+    /// # Errors
+    /// There is none; [`Self::position`] is then meaningless.
+    async fn sample(&mut self) -> Result<(), Self::Error>;
+
+    /// The joint's position in the reading, rad or m, finite.
+    fn position(&self) -> f32;
+}
+
+/// As [`JointEncoders`](crate::JointEncoders), without waiting for the bus.
+#[expect(async_fn_in_trait, reason = "a loop's future stays on its core")]
+pub trait JointEncoders<const V: usize>: EncoderType {
+    /// Prepares the first reading. Errors are those of that reading.
+    async fn start(&mut self);
+
+    /// The joints' positions, rad or m, finite.
+    ///
+    /// # Errors
+    /// That of the first joint without a position. In an array all others have been read nevertheless.
+    async fn read(&mut self) -> Result<[f32; V], JointError<Self::Error>>;
+}
+
+impl<E: JointEncoder, const V: usize> JointEncoders<V> for [E; V] {
+    async fn start(&mut self) {
+        for encoder in self {
+            encoder.start().await;
+        }
+    }
+
+    async fn read(&mut self) -> Result<[f32; V], JointError<E::Error>> {
+        let mut failed = None;
+        for (joint, encoder) in self.iter_mut().enumerate() {
+            if let Err(error) = encoder.sample().await {
+                failed = failed.or(Some(JointError { joint, error }));
+            }
+        }
+        failed.map_or_else(|| Ok(self.each_ref().map(E::position)), Err)
+    }
+}
+
+impl<Spi: SpiDevice> JointEncoder for As5047p<Spi> {
+    async fn start(&mut self) {
+        self.start_async().await;
+    }
+
+    async fn sample(&mut self) -> Result<(), FrameError> {
+        self.read_async().await.map(|_| ())
+    }
+
+    fn position(&self) -> f32 {
+        self.angle()
+    }
+}
+
+impl<Bus: I2c> JointEncoder for As5600<Bus> {
+    async fn sample(&mut self) -> Result<(), As5600Error> {
+        self.read_async().await.map(|_| ())
+    }
+
+    fn position(&self) -> f32 {
+        self.angle()
+    }
+}
 
 impl<Spi: SpiDevice> As5047p<Spi> {
     /// As [`Self::start`], over `embedded-hal-async`.
@@ -80,15 +154,21 @@ pub(crate) fn ready<F: Future>(future: F) -> F::Output {
 
 #[cfg(test)]
 mod tests {
+    use core::convert::Infallible;
     use core::f32::consts::FRAC_PI_2;
     use std::vec;
     use std::vec::Vec;
 
+    use dynamics_core::state::State;
     use embedded_hal_mock::eh1::{i2c, spi};
+    use motion_control::{
+        Fault, Gains, MotionController, MotionControllerConfig, MotionLimits, SafetyLimits,
+        SupervisorConfig, Trajectory, WayPoint,
+    };
 
     use super::*;
-    use crate::JointMapping;
-    use crate::as5047p::{ERROR, encode, with_parity};
+    use crate::as5047p::{ERROR, RESOLUTION, encode, with_parity};
+    use crate::{ControlLoop, JointDrive, JointMapping, Law, NoBrake};
 
     fn transfers(frames: &[(u16, u16)]) -> spi::Mock<u8> {
         let of = |&(command, answer): &(u16, u16)| {
@@ -159,5 +239,89 @@ mod tests {
             assert_eq!(encoder.read(), angle);
         }
         encoder.release().done();
+    }
+
+    /// Holds still by one N·m.
+    struct One;
+
+    impl Law<1> for One {
+        fn feedforward(_: &State<f32, 1, 1>, (): &()) -> [f32; 1] {
+            [1.0]
+        }
+    }
+
+    struct Torque(f32);
+
+    impl JointDrive for Torque {
+        type Error = Infallible;
+        type Setpoint = f32;
+        fn setpoint(&self, torque: f32) -> f32 {
+            torque
+        }
+        fn set(&mut self, torque: f32) -> Result<(), Infallible> {
+            self.0 = torque;
+            Ok(())
+        }
+    }
+
+    #[test]
+    fn the_asynchronous_loop_commands_what_the_blocking_one_does() {
+        let frames = [
+            (READ_ERRORS, 0),
+            (READ_ANGLE, 0),
+            (READ_ANGLE, encode(0)),
+            (READ_ANGLE, 1),
+            (READ_ERRORS, 0),
+            (READ_ANGLE, 0),
+            (READ_ANGLE, encode(1)),
+        ];
+        let buses = [(); 2].map(|()| transfers(&frames));
+        let encoders = buses.clone();
+        let [first, second] = encoders.map(|spi| [As5047p::new(spi, JointMapping::IDENTITY)]);
+        let config = MotionControllerConfig {
+            supervisor: SupervisorConfig {
+                limits: SafetyLimits {
+                    torque: [2.0],
+                    rate: [2.0],
+                    speed: [3.0],
+                    lower: [-1.0],
+                    upper: [1.0],
+                },
+                tick: 1e-3,
+                resolution: RESOLUTION,
+                ride_through_ticks: 5,
+                hold_ticks: 5,
+                reentry_ticks: 5,
+            },
+            observer_bandwidth: 250.0,
+            decay_rate: 25.0,
+            restart_distance: 0.1,
+        };
+        let points = [0, 100].map(|ticks| WayPoint {
+            q: [0.0],
+            qd: [0.0],
+            ticks,
+        });
+        let limits = MotionLimits {
+            velocity: 1.0,
+            acceleration: 1.0,
+        };
+        let path = Trajectory::new(&points, 1e-3, &[limits]).unwrap();
+        let gains = Gains {
+            kp: [10.0],
+            kd: [1.0],
+        };
+        let controller = MotionController::new(config);
+        let drive = || [Torque(0.0)];
+        let mut other = ControlLoop::new(first, drive(), NoBrake, gains, controller, ());
+        let new = ControlLoop::new_async(second, drive(), NoBrake, gains, controller, ());
+        let mut control = ready(new);
+        for fault in [None, Some(Fault::Encoder { joint: 0 }), None] {
+            let telemetry = ready(control.tick_async::<One, _, ()>(&path, &()));
+            assert_eq!(telemetry, other.tick::<One, _, ()>(&path, &()));
+            assert_eq!(telemetry.status.fault, fault);
+            assert_eq!(control.encoder_error(), other.encoder_error());
+        }
+        buses.into_iter().for_each(|mut bus| bus.done());
     }
 }

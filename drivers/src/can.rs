@@ -2,7 +2,9 @@
 
 use core::fmt;
 
-use embedded_can::{ExtendedId, Frame, Id, StandardId};
+use embedded_can::{ErrorKind, ExtendedId, Frame, Id, StandardId};
+
+use crate::{DriveFault, DriveFaultKind};
 
 /// The reason why a frame was not made, or is not a reply.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,6 +28,16 @@ pub enum CanError {
     Unknown(u8),
     /// A register that the reply should contain is missing.
     Missing(u32),
+    /// The bus reported an error.
+    Bus(ErrorKind),
+    /// The bus has no room for the frame, which would be sent late.
+    Full,
+    /// No position came since the last tick.
+    NoReply,
+    /// The node delivers no torque, without a fault of its own.
+    NotReady,
+    /// The node delivers no torque, because of the fault or the errors of this number.
+    Fault(u32),
     /// The node refused to read or write a register.
     Register {
         /// Its number.
@@ -47,6 +59,11 @@ impl fmt::Display for CanError {
             Self::NotFinite => out.write_str("a quantity of the frame is not finite"),
             Self::Unknown(value) => write!(out, "the protocol has no {value:#04x} here"),
             Self::Missing(register) => write!(out, "the reply lacks register {register:#05x}"),
+            Self::Bus(kind) => write!(out, "the bus failed: {kind}"),
+            Self::Full => out.write_str("the bus has no room for the frame"),
+            Self::NoReply => out.write_str("no position came since the last tick"),
+            Self::NotReady => out.write_str("the node delivers no torque"),
+            Self::Fault(number) => write!(out, "the node reports the fault {number:#x}"),
             Self::Register { register, code } => {
                 write!(out, "the node refused register {register:#05x} with {code}")
             }
@@ -55,6 +72,15 @@ impl fmt::Display for CanError {
 }
 
 impl core::error::Error for CanError {}
+
+impl DriveFault for CanError {
+    fn kind(&self) -> DriveFaultKind {
+        match self {
+            Self::NotReady => DriveFaultKind::NotReady,
+            _ => DriveFaultKind::Failed,
+        }
+    }
+}
 
 /// The length of the shortest CAN FD frame that holds `bytes`; `None` above 64.
 ///

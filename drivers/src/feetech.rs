@@ -16,8 +16,9 @@
 use core::f32::consts::TAU;
 
 use embedded_io::{Read, ReadReady, Write};
+use motion_control::CurrentTick;
 
-use crate::JointMapping;
+use crate::{EncoderType, JointEncoders, JointError, JointMapping};
 
 #[cfg(any(test, feature = "async"))]
 mod asynch;
@@ -167,11 +168,18 @@ impl<Port: Read + Write + ReadReady, const N: usize> Servos<Port, N> {
     /// # Errors
     /// [`FeetechError`] of the first servo that did not reply as it should.
     pub fn positions(&mut self) -> Result<[f32; N], FeetechError> {
-        self.send(&self.request()?)?;
+        self.read_all().map_err(|failed| failed.error)
+    }
+
+    /// The positions, or the joint whose servo did not reply; the first if the request could not be sent.
+    fn read_all(&mut self) -> Result<[f32; N], JointError<FeetechError>> {
+        let sent = self.request().and_then(|request| self.send(&request));
+        sent.map_err(|error| JointError { joint: 0, error })?;
         let mut positions = [0.0; N];
         let mut parser = Parser::new();
         for (joint, position) in positions.iter_mut().enumerate() {
-            let register = self.receive(self.ids[joint], &mut parser)?;
+            let register = self.receive(self.ids[joint], &mut parser);
+            let register = register.map_err(|error| JointError { joint, error })?;
             *position = self.position(joint, register);
         }
         Ok(positions)
@@ -265,6 +273,20 @@ impl<Port: Read + Write + ReadReady, const N: usize> Servos<Port, N> {
         let mut byte = [0];
         let read = self.port.read(&mut byte).map_err(port_error)?;
         Ok((read > 0).then_some(byte[0]))
+    }
+}
+
+impl<Port, const N: usize> EncoderType for Servos<Port, N> {
+    type Error = FeetechError;
+    type Age = CurrentTick;
+}
+
+/// No reading of the servos that come after one that did not reply.
+impl<Port: Read + Write + ReadReady, const N: usize> JointEncoders<N> for Servos<Port, N> {
+    fn start(&mut self) {}
+
+    fn read(&mut self) -> Result<[f32; N], JointError<FeetechError>> {
+        self.read_all()
     }
 }
 

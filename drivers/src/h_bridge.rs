@@ -10,7 +10,7 @@ use core::fmt;
 use embedded_hal::digital::{self, OutputPin, PinState};
 use embedded_hal::pwm::{self, SetDutyCycle};
 
-use crate::Direction;
+use crate::{Direction, DriveFault, JointDrive};
 
 /// The reason why a drive did not accept its torque.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,6 +35,8 @@ impl fmt::Display for DriveError {
 }
 
 impl core::error::Error for DriveError {}
+
+impl DriveFault for DriveError {}
 
 fn pwm_error<E: pwm::Error>(error: E) -> DriveError {
     DriveError::Pwm(error.kind())
@@ -166,6 +168,22 @@ impl<Pwm: SetDutyCycle> LockedAntiphase<Pwm> {
     }
 }
 
+impl<Pwm: SetDutyCycle> JointDrive for LockedAntiphase<Pwm> {
+    type Error = DriveError;
+    /// The duty.
+    type Setpoint = u16;
+
+    #[inline(always)]
+    fn setpoint(&self, torque: f32) -> u16 {
+        self.duty(torque)
+    }
+
+    #[inline(always)]
+    fn set(&mut self, duty: u16) -> Result<(), DriveError> {
+        LockedAntiphase::set(self, duty)
+    }
+}
+
 /// A drive with a PWM for the magnitude of the torque and a pin for its sign, high for torques above zero.
 ///
 /// ```
@@ -246,5 +264,19 @@ impl<Pwm: SetDutyCycle, Pin: OutputPin> SignMagnitude<Pwm, Pin> {
     /// The PWM channel and the pin.
     pub fn release(self) -> (Pwm, Pin) {
         (self.pwm, self.pin)
+    }
+}
+
+impl<Pwm: SetDutyCycle, Pin: OutputPin> JointDrive for SignMagnitude<Pwm, Pin> {
+    type Error = DriveError;
+    /// N·m or N: the sign and the duty follow when it is set.
+    type Setpoint = f32;
+
+    fn setpoint(&self, torque: f32) -> f32 {
+        torque
+    }
+
+    fn set(&mut self, torque: f32) -> Result<(), DriveError> {
+        self.set_torque(torque)
     }
 }

@@ -11,7 +11,9 @@
 use core::convert::Infallible;
 use core::fmt;
 
-use crate::{JointMapping, Resolution};
+use motion_control::CurrentTick;
+
+use crate::{EncoderType, JointEncoder, JointMapping, Resolution};
 
 mod decoder;
 
@@ -170,6 +172,22 @@ impl<Counter: QuadratureCounter> IncrementalEncoder<Counter> {
         }
         self.reference = Some(reference.wrapping_add(excess));
         Err(IncrementalError::Index { excess })
+    }
+}
+
+impl<Counter: QuadratureCounter> EncoderType for IncrementalEncoder<Counter> {
+    type Error = IncrementalError<Counter::Error>;
+    type Age = CurrentTick;
+}
+
+impl<Counter: QuadratureCounter> JointEncoder for IncrementalEncoder<Counter> {
+    fn sample(&mut self) -> Result<(), Self::Error> {
+        self.read().map(|_| ())
+    }
+
+    /// Zero until the index was passed.
+    fn position(&self) -> f32 {
+        IncrementalEncoder::position(self).unwrap_or_default()
     }
 }
 

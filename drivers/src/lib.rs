@@ -1,8 +1,20 @@
-//! Drivers of joint encoders and motor drives, on the traits of [`embedded_hal`], [`embedded_can`] and
-//! [`embedded_io`]: no heap, no panic and no `unsafe`.
+//! One control loop for encoders and drives of any kind, and drivers of common parts, on the traits of [`embedded_hal`],
+//! [`embedded_can`] and [`embedded_io`]: no heap, no panic and no `unsafe`.
+//!
+//! | what | is |
+//! |---|---|
+//! | [`JointEncoder`], [`JointEncoders`] | reads rad, of one joint or of all; an array of the first is the second |
+//! | [`JointDrive`], [`JointDrives`] | sets N·m, and says whether it failed or is not ready |
+//! | [`ControlLoop`] | owns both and a brake; read, reference, law, limits, write in each tick |
+//! | [`Law`] | the model's torque |
+//! | [`Probe`] | sees the phases of a tick |
 //!
 //! Each driver has the zero, the direction and the resolution of its joint as parameters ([`JointMapping`],
 //! [`Resolution`]): it measures rad at the joint and commands N·m, V or a share of the full scale there.
+//!
+//! The encoders and the H-bridges implement the traits of a joint, the servos that of all encoders. The controllers on CAN are
+//! both at once, on a bus that they share ([`CanJoints`]). Three half-bridges take a voltage and the servos a duty: they are
+//! no drives of torque.
 //!
 //! | part | bus | measures or commands | module |
 //! |---|---|---|---|
@@ -36,8 +48,8 @@
 //! # Cargo features
 //!
 //! - `async`, off by default: the encoders on a bus over [`embedded_hal_async`] and the servo bus over `embedded-io-async`,
-//!   for Embassy: `start_async`, `read_async`, `positions_async` and others. They share the state and the decoding with the
-//!   blocking form.
+//!   for Embassy: traits of the same names in `asynch`, `ControlLoop::tick_async`, and `start_async`, `read_async`,
+//!   `positions_async` and others. They share the state and the decoding with the blocking form.
 #![cfg_attr(
     not(any(test, feature = "async")),
     doc = "",
@@ -53,16 +65,25 @@ extern crate std;
 pub mod as5047p;
 pub mod as5600;
 #[cfg(any(test, feature = "async"))]
-mod asynch;
+pub mod asynch;
 pub mod can;
+mod can_joints;
+mod control_loop;
 pub mod feetech;
 pub mod h_bridge;
 pub mod incremental;
+mod joint;
 mod mapping;
 pub mod moteus;
 mod multi_turn;
 pub mod odrive;
 pub mod three_phase;
 
+pub use can_joints::{CanJoint, CanJoints, Report};
+pub use control_loop::{ControlLoop, Law, Phase, Probe, Telemetry};
+pub use joint::{
+    DriveFault, DriveFaultKind, EncoderType, JointDrive, JointDrives, JointEncoder, JointEncoders,
+    JointError, NoBrake,
+};
 pub use mapping::{Direction, JointMapping, MappingError, Resolution};
 pub use multi_turn::MultiTurnEncoder;

@@ -3,11 +3,11 @@
 //!
 //! | module | what | on hardware |
 //! |---|---|---|
-//! | [`control_loop`] | the tick: read, reference, dynamics, safety, write | as it is |
-//! | [`joint_drivers`] | an AS5047P on SPI, a current-controlled drive on PWM | as they are |
+//! | [`joint_drivers`] | the control loop, an AS5047P on SPI, a current-controlled drive on PWM | as they are |
 //! | [`digest`] | a digest of many numbers, to compare machines by | as it is |
 //! | [`marker`] | the measured regions | `dbg` is a no-op there |
 //! | [`plant`], [`sim_io`] | a simulated robot behind the same traits | left out |
+//! | [`region`] | the regions of a tick, as a probe of the control loop | left out |
 //! | [`replay`] | the control loop of a scene without a simulated robot, with a digest of its torques | as it is |
 //! | [`scene`] | runs of one trajectory under several laws, with their tracking errors | left out |
 //! | [`robots`] | robots that no manufacturer publishes | left out |
@@ -18,12 +18,12 @@
 //! | `target` | interrupt, log, panic handler of the emulated board | your board's |
 #![no_std]
 
-pub mod control_loop;
 pub mod digest;
 pub mod marker;
 #[cfg(feature = "telemetry")]
 pub mod pil;
 pub mod plant;
+pub mod region;
 pub mod replay;
 pub mod robots;
 pub mod scene;

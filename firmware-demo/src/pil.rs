@@ -1,12 +1,13 @@
 //! The controller of a scene without its robot: encoder frames in, duties out.
 
 use heapless::Vec;
+use joint_drivers::Telemetry;
 use telemetry::pil::{Commanded, Measured};
 use telemetry::{Sample, Tick};
 
-use crate::control_loop::{Recorder, Telemetry};
-use crate::scene::{Full, Scene, SimLoop, StartError, simulated_loop};
+use crate::scene::{Full, Scene, SimLoop, StartError, marked_tick, simulated_loop};
 use crate::sim_io::Wires;
+use crate::watched::fill;
 
 /// A scene's control loop on wires whose other ends are elsewhere.
 pub struct Controlled<
@@ -56,9 +57,11 @@ where
             self.control = control;
         }
         let environment = S::environment(&self.reference, number as f32);
-        let telemetry = self
-            .control
-            .tick::<Full<S, B, Q, V>, _, _>(&self.reference, &environment);
+        let telemetry = marked_tick::<Full<S, B, Q, V>, _, _, N>(
+            &mut self.control,
+            &self.reference,
+            &environment,
+        );
         self.last = Commanded {
             duties: Vec::from_array(self.wires.counts()),
             tick: tick(number, telemetry),
@@ -70,7 +73,7 @@ where
 /// What the controller knows of a tick.
 fn tick<const N: usize>(number: u32, telemetry: Telemetry<N>) -> Tick<N> {
     let mut sample = Sample::default();
-    sample.record(&telemetry);
+    fill(&mut sample, &telemetry);
     sample.number = number;
     sample.message(0)
 }

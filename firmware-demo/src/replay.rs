@@ -5,11 +5,11 @@
 
 use core::fmt;
 
+use joint_drivers::Telemetry;
 use motion_control::{Mode, Reference, Status};
 
-use crate::control_loop::Telemetry;
 use crate::digest::Digest;
-use crate::scene::{Full, Scene, SimLoop, StartError, simulated_loop};
+use crate::scene::{Full, Scene, SimLoop, StartError, marked_tick, simulated_loop};
 use crate::sim_io::Wires;
 
 /// The control loop of a scene on wires whose encoders follow the reference exactly.
@@ -92,7 +92,7 @@ where
     pub fn tick(&mut self) -> Telemetry<N> {
         let environment = S::environment(&self.reference, self.ticks as f32);
         self.ticks += 1;
-        (self.control).tick::<Full<S, B, Q, V>, _, _>(&self.reference, &environment)
+        marked_tick::<Full<S, B, Q, V>, _, _, N>(&mut self.control, &self.reference, &environment)
     }
 
     /// Runs so many ticks, each by `tick` (which calls [`Self::tick`] and may measure it): the digest of the bits of

@@ -15,7 +15,6 @@ use motion_control::{
     Trajectory, TrajectoryError, WayPoint,
 };
 
-use crate::control_loop::ControlLoop;
 use crate::plant::{Plant, Simulated, last};
 
 mod ablation;
@@ -27,12 +26,14 @@ mod noise;
 mod run;
 
 pub use ablation::{Current, CurrentWithout, Effects, Named, Without, name};
-pub use app::{App, QUEUE, Record, STEPS, SimBrake, SimLoop, StartError, devices, simulated_loop};
+pub use app::{
+    App, QUEUE, Record, STEPS, SimLoop, StartError, devices, marked_tick, simulated_loop,
+};
 #[cfg(feature = "telemetry")]
 pub(crate) use app::{SETTLE, start};
 pub use errors::{Errors, larger};
 use firmware::SATURATED;
-pub use firmware::{Devices, HOLD, NEAR, OMEGA_N, REENTRY, RIDE, Start, TICK, ZETA};
+pub use firmware::{Devices, HOLD, NEAR, OMEGA_N, REENTRY, RIDE, SceneLoop, Start, TICK, ZETA};
 pub use noise::Noise;
 pub use run::{Full, Less, Name, PdOnly, PlantModel, Run};
 
@@ -158,7 +159,7 @@ pub trait Scene<const B: usize, const Q: usize, const V: usize, const N: usize>:
         gains: Gains<f32, N>,
         detectors: D,
         start: Start,
-    ) -> Result<ControlLoop<Spi, Pwm, Brake, N, D>, DriveError> {
+    ) -> Result<SceneLoop<Spi, Pwm, Brake, N, D>, DriveError> {
         firmware::control_loop::<Self, _, _, _, _, B, Q, V, N>(devices, gains, detectors, start)
     }
 }

@@ -10,8 +10,8 @@ use defmt_semihosting as _;
 use heapless::spsc::{Consumer, Queue};
 use motion_control::Status;
 
-use crate::control_loop::region;
 use crate::marker::measured;
+use crate::region;
 use crate::scene::{App, Effects, Errors, Name, OMEGA_N, QUEUE, Record, Scene, StartError, ZETA};
 use crate::sim_io::Wires;
 

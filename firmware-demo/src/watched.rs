@@ -6,12 +6,13 @@ use core::sync::atomic::{AtomicU32, Ordering::Relaxed};
 use dynamics_core::model::{JointKind, model};
 use heapless::{String, Vec};
 use joint_drivers::h_bridge::DriveError;
+use joint_drivers::{Phase, Probe, Telemetry};
 use motion_control::{Detectors, Mode, Reference};
 use telemetry::{Axis, Machine, Producer, Sample};
 
-use crate::control_loop::{Recorder, Telemetry, region};
 use crate::marker::measured;
 use crate::plant::Rig;
+use crate::region::{self, Marked};
 use crate::scene::{Full, PlantModel, SETTLE, Scene, SimLoop, StartError, start};
 use crate::sim_io::Wires;
 
@@ -101,10 +102,10 @@ where
         }
         let environment = |ticks: f32| S::environment(&self.reference, ticks);
         let sample = self.records.sample();
-        self.control.tick_timed::<Full<S, B, Q, V>, _, _>(
+        timed_tick::<S, T, B, Q, V, N>(
+            &mut self.control,
             &self.reference,
             &environment(count as f32),
-            T::count,
             sample,
         );
         let (tick, mode) = (sample.tick, sample.status.mode);
@@ -159,22 +160,73 @@ where
     start::<S, _, B, Q, V, N>(reference, wires, PlantModel::Exact, S::detectors())
 }
 
-impl<const N: usize> Recorder<N> for Sample<N> {
+/// One tick, recorded with the counts of the timer. Reading the timer adds to the tick what six loads from a device take.
+#[inline(never)]
+fn timed_tick<S, T, const B: usize, const Q: usize, const V: usize, const N: usize>(
+    control: &mut SimLoop<N, Detectors<f32, N>>,
+    reference: &S::Reference,
+    environment: &S::Environment,
+    sample: &mut Sample<N>,
+) where
+    S: Scene<B, Q, V, N>,
+    T: Timer,
+{
+    let timed = Timed::<T, N> {
+        sample,
+        timer: PhantomData,
+    };
+    control.tick_probed::<Full<S, B, Q, V>, _, _>(reference, environment, &mut Marked(timed));
+}
+
+/// Counts a timer at the start of a tick and after each phase, and keeps the record.
+struct Timed<'a, T, const N: usize> {
+    sample: &'a mut Sample<N>,
+    timer: PhantomData<fn() -> T>,
+}
+
+impl<T: Timer, const N: usize> Timed<'_, T, N> {
     #[inline(always)]
-    fn count(&mut self, phase: usize, count: u32) {
-        if let Some(at) = self.counts.get_mut(phase) {
-            *at = count;
+    fn count(&mut self, at: usize) {
+        if let Some(count) = self.sample.counts.get_mut(at) {
+            *count = T::count();
+        }
+    }
+}
+
+impl<T: Timer, const N: usize> Probe<N> for Timed<'_, T, N> {
+    #[inline(always)]
+    fn begin(&mut self, phase: Phase) {
+        if phase == Phase::Tick {
+            self.count(0);
+        }
+    }
+
+    #[inline(always)]
+    fn end(&mut self, phase: Phase) {
+        match phase {
+            Phase::Tick => {}
+            Phase::Read => self.count(1),
+            Phase::Reference => self.count(2),
+            Phase::Dynamics => self.count(3),
+            Phase::Safety => self.count(4),
+            Phase::Write => self.count(5),
         }
     }
 
     #[inline(always)]
     fn record(&mut self, telemetry: &Telemetry<N>) {
-        self.tick = telemetry.tick;
-        self.status = telemetry.status;
-        self.reference = telemetry.reference;
-        self.estimate = telemetry.estimate;
-        self.torque = telemetry.torque;
+        fill(self.sample, telemetry);
     }
+}
+
+/// What the controller knows of a tick.
+#[inline(always)]
+pub(crate) fn fill<const N: usize>(sample: &mut Sample<N>, telemetry: &Telemetry<N>) {
+    sample.tick = telemetry.tick;
+    sample.status = telemetry.status;
+    sample.reference = telemetry.reference;
+    sample.estimate = telemetry.estimate;
+    sample.torque = telemetry.torque;
 }
 
 /// The constants of a scene's machine, with the frequency of the timer, Hz.

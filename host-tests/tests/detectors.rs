@@ -4,11 +4,11 @@ use std::cell::Cell;
 
 use dynamics_core::robots::Ur5e;
 use dynamics_core::state::State;
-use firmware_demo::control_loop::Law;
 use firmware_demo::plant::{Plant, Rig};
 use firmware_demo::scene::{Full, Noise, STEPS, Scene, SimLoop, TICK, simulated_loop};
 use firmware_demo::scenes::ur5e::{Effects, PickAndPlace};
 use firmware_demo::sim_io::Wires;
+use joint_drivers::Law;
 use motion_control::{
     Command, Detect, Detectors, Fault, Mode, Reference, Status, StopCategory, Trajectory,
 };

@@ -51,6 +51,19 @@ fn the_programs_on_the_page_are_those_that_are_compiled() {
 }
 
 #[test]
+fn the_board_on_the_page_is_the_one_that_is_compiled() {
+    let page = include_str!("../src/board.md");
+    for program in [
+        include_str!("../firmware/src/bin/board.rs"),
+        include_str!("../firmware/src/rod.rs"),
+    ] {
+        let shown = shown(program);
+        assert!(page.contains(&shown), "the page lacks:\n{shown}");
+        assert!(shown.lines().count() <= 60);
+    }
+}
+
+#[test]
 fn the_controller_on_the_page_is_the_one_of_the_programs() {
     let library = include_str!("../firmware/src/lib.rs");
     let (_, controller) = library.split_once("const TICK").expect("the constants");

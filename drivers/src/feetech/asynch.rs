@@ -3,10 +3,22 @@
 use embedded_io::ReadReady;
 use embedded_io_async::{Read, Write};
 
+use crate::JointError;
+use crate::asynch::JointEncoders;
+
 use super::error::port_error;
 use super::{
     FeetechError, MOST_NOISE, Packet, Parser, Servos, TORQUE_ENABLE, next_reply, parameters,
 };
+
+/// No reading of the servos that come after one that did not reply.
+impl<Port: Read + Write + ReadReady, const N: usize> JointEncoders<N> for Servos<Port, N> {
+    async fn start(&mut self) {}
+
+    async fn read(&mut self) -> Result<[f32; N], JointError<FeetechError>> {
+        self.read_all_async().await
+    }
+}
 
 impl<Port: Read + Write + ReadReady, const N: usize> Servos<Port, N> {
     /// As [`Self::positions`], over `embedded-io-async`.
@@ -14,11 +26,18 @@ impl<Port: Read + Write + ReadReady, const N: usize> Servos<Port, N> {
     /// # Errors
     /// [`FeetechError`] of the first servo that did not reply as it should.
     pub async fn positions_async(&mut self) -> Result<[f32; N], FeetechError> {
-        self.send_async(&self.request()?).await?;
+        self.read_all_async().await.map_err(|failed| failed.error)
+    }
+
+    async fn read_all_async(&mut self) -> Result<[f32; N], JointError<FeetechError>> {
+        let first = |error| JointError { joint: 0, error };
+        let request = self.request().map_err(first)?;
+        self.send_async(&request).await.map_err(first)?;
         let mut positions = [0.0; N];
         let mut parser = Parser::new();
         for (joint, position) in positions.iter_mut().enumerate() {
-            let register = self.receive_async(self.ids[joint], &mut parser).await?;
+            let register = self.receive_async(self.ids[joint], &mut parser).await;
+            let register = register.map_err(|error| JointError { joint, error })?;
             *position = self.position(joint, register);
         }
         Ok(positions)

@@ -1,16 +1,15 @@
 //! The scene at work: the firmware on simulated devices, run after run.
 
-use core::convert::Infallible;
 use core::fmt;
 
-use embedded_hal::digital::{self, OutputPin};
 use heapless::spsc::Producer;
 use joint_drivers::h_bridge::DriveError;
+use joint_drivers::{Law, NoBrake, Telemetry};
 use motion_control::{Detect, Reference, TrajectoryError};
 
-use super::{Devices, Noise, PlantModel, Run, Scene, Start};
-use crate::control_loop::{ControlLoop, Telemetry};
+use super::{Devices, Noise, PlantModel, Run, Scene, SceneLoop, Start};
 use crate::plant::{Rig, Simulated};
+use crate::region::Marked;
 use crate::sim_io::{SimDrive, SimEncoder, Wires};
 
 /// Steps of the simulated robot in a tick, unless its scene sets another number.
@@ -56,34 +55,27 @@ impl fmt::Display for StartError {
 
 impl core::error::Error for StartError {}
 
-/// A brake that only a simulation has.
-#[derive(Clone, Copy, Debug)]
-pub struct SimBrake;
-
-impl digital::ErrorType for SimBrake {
-    type Error = Infallible;
-}
-
-impl OutputPin for SimBrake {
-    fn set_low(&mut self) -> Result<(), Infallible> {
-        Ok(())
-    }
-    fn set_high(&mut self) -> Result<(), Infallible> {
-        Ok(())
-    }
-}
-
 /// The firmware on simulated devices.
-pub type SimLoop<const N: usize, D = ()> = ControlLoop<SimEncoder, SimDrive, SimBrake, N, D>;
+pub type SimLoop<const N: usize, D = ()> = SceneLoop<SimEncoder, SimDrive, NoBrake, N, D>;
+
+/// One tick of it under the law `L`, between the markers of its regions.
+#[inline(never)]
+pub fn marked_tick<L: Law<N, X>, T: Reference<f32, N>, X, const N: usize>(
+    control: &mut SimLoop<N>,
+    trajectory: &T,
+    environment: &X,
+) -> Telemetry<N> {
+    control.tick_probed::<L, T, X>(trajectory, environment, &mut Marked(()))
+}
 
 /// The simulated devices on some wires.
 pub fn devices<const N: usize>(
     wires: &'static Wires<N>,
-) -> Devices<SimEncoder, SimDrive, SimBrake, N> {
+) -> Devices<SimEncoder, SimDrive, NoBrake, N> {
     Devices {
         encoders: core::array::from_fn(|joint| wires.encoder(joint)),
         drives: core::array::from_fn(|joint| wires.drive(joint)),
-        brake: SimBrake,
+        brake: NoBrake,
     }
 }
 

@@ -5,13 +5,12 @@ use embedded_hal::pwm::SetDutyCycle;
 use embedded_hal::spi::SpiDevice;
 use joint_drivers::as5047p::As5047p;
 use joint_drivers::h_bridge::{DriveError, FullScale, LockedAntiphase};
-use joint_drivers::{Direction, JointMapping};
+use joint_drivers::{ControlLoop, Direction, JointMapping};
 use motion_control::{
     Detect, Gains, MotionController, MotionControllerConfig, SafetyLimits, SupervisorConfig,
 };
 
 use super::Scene;
-use crate::control_loop::ControlLoop;
 
 /// A tick, s, unless a scene sets another one.
 pub const TICK: f32 = 1e-3;
@@ -52,6 +51,10 @@ pub struct Devices<Spi, Pwm, Brake, const N: usize> {
     pub brake: Brake,
 }
 
+/// The control loop of a scene on AS5047P encoders and drives in locked antiphase.
+pub type SceneLoop<Spi, Pwm, Brake, const N: usize, D = ()> =
+    ControlLoop<[As5047p<Spi>; N], [LockedAntiphase<Pwm>; N], Brake, N, D>;
+
 /// The loop of a scene: [`Scene::control_loop`].
 pub(super) fn control_loop<
     S,
@@ -68,7 +71,7 @@ pub(super) fn control_loop<
     gains: Gains<f32, N>,
     detectors: D,
     start: Start,
-) -> Result<ControlLoop<Spi, Pwm, Brake, N, D>, DriveError>
+) -> Result<SceneLoop<Spi, Pwm, Brake, N, D>, DriveError>
 where
     S: Scene<B, Q, V, N>,
     Spi: SpiDevice,

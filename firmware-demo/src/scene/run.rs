@@ -5,9 +5,10 @@ use core::marker::PhantomData;
 use dynamics_core::effects::Effect;
 use dynamics_core::state::State;
 
-use super::app::SimLoop;
+use joint_drivers::{Law, Telemetry};
+
+use super::app::{SimLoop, marked_tick};
 use super::{Current, CurrentWithout, Scene, Without};
-use crate::control_loop::{Law, Telemetry};
 
 /// How well the controller knows the plant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -65,7 +66,7 @@ where
         Self {
             plant,
             law: Name::Of(name),
-            tick: SimLoop::<N>::tick::<L, S::Reference, S::Environment>,
+            tick: marked_tick::<L, S::Reference, S::Environment, N>,
         }
     }
 
@@ -74,7 +75,7 @@ where
         Self {
             plant: PlantModel::Exact,
             law: Name::Without(name),
-            tick: SimLoop::<N>::tick::<L, S::Reference, S::Environment>,
+            tick: marked_tick::<L, S::Reference, S::Environment, N>,
         }
     }
 }

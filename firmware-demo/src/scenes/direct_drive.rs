@@ -9,10 +9,10 @@ use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
 use motion_control::{Trajectory, TrajectoryError, WayPoint};
 
-use crate::control_loop::Law;
 use crate::plant::Plant;
 use crate::robots::DirectDrive;
 use crate::scene::{Noise, PlantModel, Run, Scene, rigid, through};
+use joint_drivers::Law;
 
 /// What acts on the arm.
 pub type Effects = (

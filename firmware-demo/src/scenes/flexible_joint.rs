@@ -9,10 +9,10 @@ use dynamics_core::robots::Iiwa14;
 use dynamics_core::state::State;
 use motion_control::{Estimate, Gains, RestToRest, TrajectoryError, feedback};
 
-use crate::control_loop::Law;
 use crate::plant::FlexiblePlant;
 use crate::scene::{Less, Noise, OMEGA_N, PlantModel, Run, Scene, TICK, ZETA, name, speeds};
 use crate::trajectories::{SWING, UPRIGHT};
+use joint_drivers::Law;
 
 /// What acts on the links.
 pub type Effects = (Gravity, Inertia, Coriolis, Viscous<f32, 7>);

@@ -8,12 +8,12 @@ use dynamics_core::model::{Calibrated, Static};
 use dynamics_core::state::State;
 use motion_control::{Shaped, TrajectoryError};
 
-use crate::control_loop::Law;
 use crate::plant::BendingPlant;
 use crate::robots::TwoLink;
 use crate::robots::two_link::{MODES_2, MODES_2_SOFT};
 use crate::scene::{Noise, PlantModel, Run, Scene, TICK, speeds};
 use crate::trajectories::swing_and_back::{Move, SwingAndBack, rest_to_rest, shaper};
+use joint_drivers::Law;
 
 /// What acts on the arm.
 pub type Effects = (

@@ -15,10 +15,10 @@ use motion_control::{
     Trajectory, TrajectoryError, feedback, pose_error,
 };
 
-use crate::control_loop::Law;
 use crate::plant::Plant;
 use crate::scene::{Less, Noise, PlantModel, Run, Scene, rigid, through};
 use crate::trajectories::{PANDA_CARRY, READY, arrival};
+use joint_drivers::Law;
 
 /// The body that carries the hand.
 pub const HAND: usize = Panda::MODEL.body("panda_link7");

@@ -10,12 +10,12 @@ use dynamics_core::model::JointLimits;
 use dynamics_core::state::State;
 use motion_control::{MotionLimits, Trajectory, TrajectoryError};
 
-use crate::control_loop::Law;
 use crate::plant::ClusterPlant;
 use crate::robots::{G1Ankle, SerialAnkle};
 use crate::scene::clustered::{self, MotorReference};
 use crate::scene::{Noise, PlantModel, Run, Scene, TICK};
 use crate::trajectories::{ANKLE_STEPS, MID_STANCE};
+use joint_drivers::Law;
 
 /// What acts on the leg.
 pub type Effects = (

@@ -9,11 +9,11 @@ use dynamics_core::state::State;
 use glam::Vec3;
 use motion_control::{Trajectory, TrajectoryError};
 
-use crate::control_loop::Law;
 use crate::plant::Plant;
 use crate::robots::Scara;
 use crate::scene::{Noise, PlantModel, Run, Scene, rigid, through};
 use crate::trajectories::{ASIDE, SCARA_SERVES};
+use joint_drivers::Law;
 
 /// What acts on the arm.
 pub type Effects = (

@@ -28,10 +28,10 @@ use dynamics_core::robots::So101;
 use dynamics_core::state::State;
 use motion_control::{Estimate, Gains, Trajectory, TrajectoryError};
 
-use crate::control_loop::Law;
 use crate::plant::ServoPlant;
 use crate::scene::{Noise, PlantModel, Run, Scene, rigid, speeds};
 use crate::trajectories::{SO101_START, TAUGHT};
+use joint_drivers::Law;
 
 /// Torque constant and back-EMF constant at the joint, N·m/A and V·s/rad.
 pub const TORQUE_CONSTANT: f32 = 1.211_641_4;

@@ -8,11 +8,11 @@ use dynamics_core::spatial::Force;
 use dynamics_core::state::State;
 use motion_control::{Trajectory, TrajectoryError};
 
-use crate::control_loop::Law;
 use crate::plant::{Floating, last};
 use crate::robots::SpaceArm;
 use crate::scene::{Less, Noise, PlantModel, Run, Scene, name, rigid, through};
 use crate::trajectories::{REACH_OUT, STOWED};
+use joint_drivers::Law;
 
 /// What acts on the joints; nothing acts on the satellite.
 pub type Effects = (

@@ -8,10 +8,10 @@ use dynamics_core::robots::Ur5e;
 use dynamics_core::state::State;
 use motion_control::{Trajectory, TrajectoryError};
 
-use crate::control_loop::Law;
 use crate::plant::Plant;
 use crate::scene::{Noise, PlantModel, Run, Scene, TICK, rigid, speeds};
 use crate::trajectories::{HOME, PICK_AND_PLACE};
+use joint_drivers::Law;
 
 /// What acts on the arm.
 pub type Effects = (

@@ -3,13 +3,13 @@
 use dynamics_core::flexible::{ModalFeedforward, Modes};
 use dynamics_core::model::{Calibrated, Static};
 use dynamics_core::state::State;
-use firmware_demo::control_loop::Law;
 use firmware_demo::plant::{BendingPlant, Simulated};
 use firmware_demo::robots::TwoLink;
 use firmware_demo::robots::two_link::{MODES_2, MODES_2_SOFT};
 use firmware_demo::scene::{OMEGA_N, STEPS, Scene, TICK, ZETA};
 use firmware_demo::scenes::flexible_link::{BendingArm, EFFECTS, END, RigidLinks, START, swing};
 use firmware_demo::trajectories::swing_and_back::shaper;
+use joint_drivers::Law;
 use motion_control::{Estimate, Gains, Reference, Shaped, feedback};
 
 /// The largest error of a joint, rad, and the vibration that is left: half of the range of the ends' deflections, m, in

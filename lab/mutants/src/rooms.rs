@@ -27,10 +27,10 @@ const fn room(name: &'static str, draws: usize, places: &'static [&'static str])
 #[rustfmt::skip]
 pub const ROOMS: [Room; 15] = [
     room("control", 90, &["motion-control/src/"]),
-    room("drivers", 50, &["drivers/src/"]),
     room("control loop and plant", 35, &[
-        "firmware-demo/src/control_loop.rs", "firmware-demo/src/plant", "firmware-demo/src/sim_io.rs",
+        "drivers/src/control_loop.rs", "firmware-demo/src/plant", "firmware-demo/src/sim_io.rs",
     ]),
+    room("drivers", 50, &["drivers/src/"]),
     room("budgets and bars", 30, &["xtask/src/studies/budgets", "xtask/src/kit/bars.rs"]),
     room("tolerances", 20, &["host-tests/src/tolerances.rs", "host-tests/src/measured.rs", "host-tests/src/hard/row.rs"]),
     room("document checks", 30, &["xtask/src/kit/docs.rs", "xtask/src/kit/docs/"]),

@@ -24,7 +24,7 @@ const SCENES: [&str; 1] = ["ur5e"];
 /// The serial port of QEMU, connected to the listener.
 const SERIAL: &str = "tcp:127.0.0.1:{port}";
 const TICKS: usize = 3000;
-/// Regions of `control_loop::region`: the tick, and those behind it.
+/// Regions of `firmware_demo::region`: the tick, and those behind it.
 const TICK: u8 = 0;
 const RECORD: u8 = 6;
 const MASKED: u8 = 7;

@@ -22,8 +22,7 @@ mod app {
 
     use embedded_hal_bus::spi::AtomicDevice;
     use embedded_hal_bus::util::AtomicCell;
-    use firmware_demo::control_loop::ControlLoop;
-    use firmware_demo::scene::{Devices, Full, Scene, Start};
+    use firmware_demo::scene::{Devices, Full, Scene, SceneLoop, Start};
     use firmware_demo::scenes::ur5e::{PickAndPlace, plan};
     use motion_control::{CompletedTick, Detectors, Gains, Mode, Watchdog};
     use nucleo_f446re::clocks;
@@ -94,7 +93,7 @@ mod app {
     struct Shared {}
 
     type Detect = &'static mut Detectors<f32, 6>;
-    type Control = ControlLoop<Encoder, Channel, PB12<Output>, 6, Detect>;
+    type Control = SceneLoop<Encoder, Channel, PB12<Output>, 6, Detect>;
 
     #[local]
     struct Local {

@@ -37,8 +37,7 @@ mod firmware {
     use embedded_hal::digital::OutputPin;
     use embedded_hal_bus::spi::AtomicDevice;
     use embedded_hal_bus::util::AtomicCell;
-    use firmware_demo::control_loop::ControlLoop;
-    use firmware_demo::scene::{Devices, Full, Scene, Start};
+    use firmware_demo::scene::{Devices, Full, Scene, SceneLoop, Start};
     use firmware_demo::scenes::ur5e::{PickAndPlace, plan};
     use motion_control::{self as control, CompletedTick, Detectors, Mode};
     use panic_halt as _;
@@ -81,7 +80,7 @@ mod firmware {
 
     /// What a tick needs.
     struct Arm<'a> {
-        control: ControlLoop<Encoder<'a>, Channel, Line, 6, Detectors<f32, 6>>,
+        control: SceneLoop<Encoder<'a>, Channel, Line, 6, Detectors<f32, 6>>,
         reference: Reference,
         periods: Periods,
         watchdog: Starved,

@@ -5,6 +5,8 @@ use dynamics_core::effects::{Armature, Coriolis, Gravity, Inertia};
 use dynamics_core::{Engine, robots::Ur5e};
 use motion_control::*;
 
+pub mod rod;
+
 const TICK: f32 = 1e-3; // s
 const SCENE: (Gravity, Inertia, Coriolis, Armature<f32, 6>) = Engine::<Ur5e>::scene_f32((
     Gravity::EARTH,

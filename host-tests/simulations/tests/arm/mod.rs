@@ -11,13 +11,13 @@ use dynamics_core::state::State;
 use embedded_hal::digital::{self, OutputPin};
 use embedded_hal::pwm::{self, SetDutyCycle};
 use embedded_hal::spi::{self, Operation, SpiDevice};
-use firmware_demo::control_loop::{ControlLoop, Law, Telemetry};
 use firmware_demo::plant::{Plant, Rig};
-use firmware_demo::scene::{Devices, Full, STEPS, Scene, Start, TICK};
+use firmware_demo::scene::{Devices, Full, STEPS, Scene, SceneLoop, Start, TICK};
 pub use firmware_demo::scene::{HOLD, REENTRY, RIDE};
 use firmware_demo::scenes::ur5e::{Effects, PickAndPlace};
 use firmware_demo::sim_io::{MAX_DUTY, SimDrive, SimEncoder, Wires};
 use host_tests::measured::largest;
+use joint_drivers::{Law, Telemetry};
 use motion_control::Trajectory;
 
 /// The full model, which a test may make fail: on this thread, no number for a joint.
@@ -138,7 +138,7 @@ pub struct Arm {
     pub brake: Brake,
     pub rig: Rig<Plant<Ur5e, Effects, (), 6, 6, 6>, 6>,
     pub trajectory: Trajectory<f32, 6, 9>,
-    pub control: ControlLoop<Spi, Pwm, Brake, 6>,
+    pub control: SceneLoop<Spi, Pwm, Brake, 6>,
     pub limits: [JointLimits<f32>; 6],
 }
 

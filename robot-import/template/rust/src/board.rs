@@ -1,10 +1,13 @@
-//! Encoders, drives and the brake, on the traits of embedded-hal: adapt the frame and the scales to your parts.
+//! Encoders and drives, on the traits of embedded-hal: adapt the frame and the scales to your parts.
+//!
+//! `joint-drivers` has the common ones, which the control loop takes as they are.
 
-use joint_drivers::MultiTurnEncoder;
-use motion_control::{Command, Fault};
-use embedded_hal::{digital::OutputPin, pwm::SetDutyCycle, spi::SpiDevice};
-
-use crate::scene::N;
+use embedded_hal::pwm::{Error as _, SetDutyCycle};
+use embedded_hal::spi::{Error as _, SpiDevice};
+use joint_drivers::as5047p::FrameError;
+use joint_drivers::h_bridge::DriveError;
+use joint_drivers::{EncoderType, JointDrive, JointEncoder, MultiTurnEncoder};
+use motion_control::CurrentTick;
 
 /// Bits of an encoder's angle.
 pub const BITS: u32 = 14;
@@ -33,13 +36,26 @@ impl<Spi: SpiDevice> Encoder<Spi> {
             ratio,
         }
     }
+}
 
-    /// The joint's position, rad or m. Here a frame is the angle in two bytes; your part has others, with a check.
-    fn position(&mut self) -> Option<f32> {
+impl<Spi> EncoderType for Encoder<Spi> {
+    type Error = FrameError;
+    /// Of the angle that it answers with: `PreviousTick` for one that was latched in the frame before.
+    type Age = CurrentTick;
+}
+
+impl<Spi: SpiDevice> JointEncoder for Encoder<Spi> {
+    /// Here a frame is the angle in two bytes; your part has others, with a check.
+    fn sample(&mut self) -> Result<(), FrameError> {
         let mut frame = [0; 2];
-        self.spi.read(&mut frame).ok()?;
+        let read = self.spi.read(&mut frame);
+        read.map_err(|error| FrameError::Bus(error.kind()))?;
         self.turns.update(u16::from_be_bytes(frame));
-        Some(self.zero + self.ratio * self.turns.angle::<f32>())
+        Ok(())
+    }
+
+    fn position(&self) -> f32 {
+        self.zero + self.ratio * self.turns.angle::<f32>()
     }
 }
 
@@ -66,58 +82,24 @@ impl<Pwm: SetDutyCycle> Drive<Pwm> {
             rest: 0.0,
         }
     }
+}
 
-    fn set(&mut self, torque: f32) -> Result<(), Pwm::Error> {
+impl<Pwm: SetDutyCycle> JointDrive for Drive<Pwm> {
+    type Error = DriveError;
+    /// Steps of duty.
+    type Setpoint = f32;
+
+    fn setpoint(&self, torque: f32) -> f32 {
+        self.zero + self.slope * torque
+    }
+
+    fn set(&mut self, steps: f32) -> Result<(), DriveError> {
         // What a step of duty cannot express is left for the next tick: a light joint then has the mean torque.
-        let wanted = self.zero + self.slope * torque + self.rest;
-        // The conversion saturates, and the supervisor's torques are finite and within the full scale.
+        let wanted = steps + self.rest;
+        // The conversion saturates, and the controller's torques are finite and within the full scale.
         let duty = (wanted + 0.5) as u16;
         self.rest = (wanted - f32::from(duty)).clamp(-0.5, 0.5);
-        self.pwm.set_duty_cycle(duty)
-    }
-}
-
-/// The devices of all joints.
-#[derive(Debug)]
-pub struct Board<Spi, Pwm, Brake> {
-    /// The encoders, in the order of the joints.
-    pub encoders: [Encoder<Spi>; N],
-    /// The drives.
-    pub drives: [Drive<Pwm>; N],
-    /// High holds the joints.
-    pub brake: Brake,
-}
-
-impl<Spi: SpiDevice, Pwm: SetDutyCycle, Brake: OutputPin> Board<Spi, Pwm, Brake> {
-    /// The positions of the joints, rad or m.
-    ///
-    /// # Errors
-    /// [`Fault::Encoder`].
-    pub fn positions(&mut self) -> Result<[f32; N], Fault> {
-        let mut positions = [0.0; N];
-        let each = positions.iter_mut().zip(&mut self.encoders);
-        for (joint, (position, encoder)) in each.enumerate() {
-            *position = encoder.position().ok_or(Fault::Encoder { joint })?;
-        }
-        Ok(positions)
-    }
-
-    /// Writes a command.
-    ///
-    /// # Errors
-    /// [`Fault::Drive`] or [`Fault::Brake`]; the brake is then set.
-    pub fn drive(&mut self, command: &Command<f32, N>) -> Result<(), Fault> {
-        let mut result = Ok(());
-        let each = self.drives.iter_mut().zip(command.torque);
-        for (joint, (drive, torque)) in each.enumerate() {
-            if drive.set(torque).is_err() {
-                result = result.and(Err(Fault::Drive { joint }));
-            }
-        }
-        let held = match command.brake || result.is_err() {
-            true => self.brake.set_high(),
-            false => self.brake.set_low(),
-        };
-        result.and(held.map_err(|_| Fault::Brake))
+        let set = self.pwm.set_duty_cycle(duty);
+        set.map_err(|error| DriveError::Pwm(error.kind()))
     }
 }

@@ -1,31 +1,25 @@
-//! One tick: read, compute, limit, write.
+//! The law of the robot, and its control loop: `tick` of it reads, computes, limits and writes.
 
 use core::fmt;
 
-use motion_control::{
-    Command, ConfigError, CurrentTick, Estimate, Gains, MotionController, MotionControllerConfig,
-    SupervisorConfig, TrajectoryError, feedback,
-};
 use dynamics_core::state::State;
 use embedded_hal::{digital::OutputPin, pwm::SetDutyCycle, spi::SpiDevice};
+use joint_drivers::{ControlLoop, Law};
+use motion_control::{
+    ConfigError, Gains, MotionController, MotionControllerConfig, SupervisorConfig, TrajectoryError,
+};
 
-use crate::board::{Board, RESOLUTION};
+use crate::board::{Drive, Encoder, RESOLUTION};
 use crate::scene::{self, Motion, N, OMEGA_N, TICK};
 
-/// The torque for a reference and an estimate of the joints, N·m or N.
-pub type Law = fn(&Gains<f32, N>, &State<f32, N, N>, &Estimate<f32, N>) -> [f32; N];
-
 /// The model's torque, and feedback for what it does not know.
-pub fn feed_forward(
-    gains: &Gains<f32, N>,
-    reference: &State<f32, N, N>,
-    estimate: &Estimate<f32, N>,
-) -> [f32; N] {
-    let (model, pd) = (
-        scene::inverse_dynamics(reference),
-        feedback(gains, reference, estimate),
-    );
-    core::array::from_fn(|joint| model[joint] + pd[joint])
+#[derive(Clone, Copy, Debug)]
+pub struct FeedForward;
+
+impl Law<N> for FeedForward {
+    fn feedforward(reference: &State<f32, N, N>, (): &()) -> [f32; N] {
+        scene::inverse_dynamics(reference)
+    }
 }
 
 /// The numbers of the safety gate and the observer.
@@ -45,49 +39,29 @@ pub fn config(motion: &Motion) -> MotionControllerConfig<f32, N> {
     }
 }
 
-/// The reference, the gains and the safety gate of the robot.
-#[derive(Debug)]
-pub struct Control {
-    controller: MotionController<f32, N, CurrentTick>,
-    /// The reference.
-    pub motion: Motion,
-    gains: Gains<f32, N>,
-}
+/// The control loop: call its `tick` or `tick_at` from a timer interrupt.
+pub type Control<Spi, Pwm, Brake> = ControlLoop<[Encoder<Spi>; N], [Drive<Pwm>; N], Brake, N>;
 
-impl Control {
-    /// Of a robot that holds its position at the start of the motion.
-    ///
-    /// # Errors
-    /// [`SetupError`]: a motion or limits that are impossible.
-    pub fn new() -> Result<Self, SetupError> {
-        let motion = scene::motion().map_err(SetupError::Motion)?;
-        let config = config(&motion);
-        Ok(Self {
-            controller: MotionController::try_new(config).map_err(SetupError::Limits)?,
-            motion,
-            gains: Gains::from_inertia(&scene::inertia(), OMEGA_N, 1.0),
-        })
-    }
-
-    /// One tick. Call it from a timer interrupt.
-    #[inline(never)]
-    pub fn tick<Spi: SpiDevice, Pwm: SetDutyCycle, Brake: OutputPin>(
-        &mut self,
-        board: &mut Board<Spi, Pwm, Brake>,
-        law: Law,
-    ) -> Command<f32, N> {
-        let measured = board.positions();
-        let gains = &self.gains;
-        let command = self.controller.tick(
-            measured.as_ref().map_err(|&fault| fault),
-            &self.motion,
-            |reference, estimate| law(gains, reference, estimate),
-        );
-        if let Err(fault) = board.drive(&command) {
-            self.controller.stop(fault);
-        }
-        command
-    }
+/// The loop of a robot that holds its position at the start of the motion. High at the brake holds the joints.
+///
+/// # Errors
+/// [`SetupError::Limits`].
+pub fn control<Spi: SpiDevice, Pwm: SetDutyCycle, Brake: OutputPin>(
+    encoders: [Encoder<Spi>; N],
+    drives: [Drive<Pwm>; N],
+    brake: Brake,
+    motion: &Motion,
+) -> Result<Control<Spi, Pwm, Brake>, SetupError> {
+    let controller = MotionController::try_new(config(motion)).map_err(SetupError::Limits)?;
+    let gains = Gains::from_inertia(&scene::inertia(), OMEGA_N, 1.0);
+    Ok(ControlLoop::new(
+        encoders,
+        drives,
+        brake,
+        gains,
+        controller,
+        (),
+    ))
 }
 
 /// The motion or the limits in `scene.rs` are impossible.

@@ -4,11 +4,12 @@ use core::fmt::{self, Write};
 use core::hint::black_box;
 
 use dynamics_core::algorithms::NotPositiveDefinite;
-use motion_control::{Command, Mode};
 use dynamics_core::scalar::Real;
 use dynamics_core::state::State;
+use joint_drivers::{Law, Telemetry};
+use motion_control::Mode;
 
-use crate::control::{Control, Law, SetupError, feed_forward};
+use crate::control::{FeedForward, SetupError, control};
 use crate::marker::measured;
 use crate::scene::{self, JOINTS, N};
 use crate::simulation::{Plant, Wires};
@@ -63,27 +64,29 @@ const COUNTS: u32 = 0x00ff_ffff;
 /// The ticks of the start in which the torque may still rise at its allowed rate.
 const START: u32 = 20;
 
-/// Runs the motion under a law; `clock` counts what a tick costs.
+/// Runs the motion under the law `L`; `clock` counts what a tick costs.
 ///
 /// # Errors
 /// [`RunError`].
-pub fn run(law: Law, clock: impl Fn() -> u32) -> Result<Outcome, RunError> {
-    let mut control = Control::new().map_err(RunError::Setup)?;
-    let (home, full_scale) = (scene::home(), scene::limits(&control.motion).torque);
+pub fn run<L: Law<N>>(clock: impl Fn() -> u32) -> Result<Outcome, RunError> {
+    let motion = scene::motion().map_err(|error| RunError::Setup(SetupError::Motion(error)))?;
+    let (home, full_scale) = (scene::home(), scene::limits(&motion).torque);
     let wires = Wires::new();
-    let mut board = wires.board(&home, &full_scale);
+    let (encoders, drives) = (wires.encoders(&home), wires.drives(&full_scale));
+    let mut control =
+        control(encoders, drives, wires.brake(), &motion).map_err(RunError::Setup)?;
     let mut plant = Plant::new(home, full_scale);
     let mut outcome = Outcome {
         first: [0.0; N],
         largest: [0.0; N],
         error: [0.0; N],
-        ticks: control.motion.ticks(),
+        ticks: motion.ticks(),
         limited: 0,
         faulted: 0,
         cost: [u32::MAX, 0],
     };
     for tick in 0..outcome.ticks {
-        let reference = control.motion.at(tick).q;
+        let reference = motion.at(tick).q;
         for (error, (is, wanted)) in outcome
             .error
             .iter_mut()
@@ -92,10 +95,10 @@ pub fn run(law: Law, clock: impl Fn() -> u32) -> Result<Outcome, RunError> {
             *error += (is - wanted) * (is - wanted);
         }
         let start = clock();
-        let command = measured::<0, _>(|| control.tick(&mut board, law));
+        let telemetry = measured::<0, _>(|| control.tick::<L, _, _>(&motion, &()));
         let cost = clock().wrapping_sub(start) & COUNTS;
         outcome.cost = [outcome.cost[0].min(cost), outcome.cost[1].max(cost)];
-        outcome.note(tick, &command);
+        outcome.note(tick, &telemetry);
         plant.advance(&wires).map_err(RunError::Plant)?;
     }
     let per_tick = 1.0 / outcome.ticks.max(1) as f32;
@@ -104,15 +107,15 @@ pub fn run(law: Law, clock: impl Fn() -> u32) -> Result<Outcome, RunError> {
 }
 
 impl Outcome {
-    fn note(&mut self, tick: u32, command: &Command<f32, N>) {
+    fn note(&mut self, tick: u32, telemetry: &Telemetry<N>) {
         if tick == 0 {
-            self.first = command.torque;
+            self.first = telemetry.torque;
         }
-        for (largest, torque) in self.largest.iter_mut().zip(command.torque) {
+        for (largest, torque) in self.largest.iter_mut().zip(telemetry.torque) {
             *largest = largest.max(torque.abs());
         }
-        self.limited += u32::from(command.status.limited && tick > START);
-        self.faulted += u32::from(command.status.mode != Mode::Full);
+        self.limited += u32::from(telemetry.status.limited && tick > START);
+        self.faulted += u32::from(telemetry.status.mode != Mode::Full);
     }
 
     /// Whether the robot followed its motion by its own torque.
@@ -148,7 +151,7 @@ pub fn print(out: &mut impl Write, clock: Clock<impl Fn() -> u32>) -> Result<boo
     let state = black_box(probe());
     let torque = measured::<1, _>(|| scene::inverse_dynamics(&state));
     values(out, "inverse dynamics of the probe", &torque)?;
-    let outcome = match run(feed_forward, &clock.now) {
+    let outcome = match run::<FeedForward>(&clock.now) {
         Ok(outcome) => outcome,
         Err(error) => {
             writeln!(out, "error: {error}")?;
@@ -160,9 +163,9 @@ pub fn print(out: &mut impl Write, clock: Clock<impl Fn() -> u32>) -> Result<boo
         out,
         "joint: tracking error RMS in 1e-3 rad or m, greatest torque in N·m or N, its limit"
     )?;
-    let limits = Control::new().map(|control| {
-        let needed = scene::needed_torque(&control.motion);
-        (scene::limits(&control.motion).torque, needed)
+    let limits = scene::motion().map(|motion| {
+        let needed = scene::needed_torque(&motion);
+        (scene::limits(&motion).torque, needed)
     });
     let (limits, needed) = limits.unwrap_or(([0.0; N], [0.0; N]));
     for (joint, name) in JOINTS.iter().enumerate() {

@@ -12,7 +12,7 @@ use embedded_hal::digital::{self, OutputPin};
 use embedded_hal::pwm::{self, SetDutyCycle};
 use embedded_hal::spi::{self, Operation, SpiDevice};
 
-use crate::board::{BITS, Board, Drive, Encoder};
+use crate::board::{BITS, Drive, Encoder};
 use crate::scene::{Arm, EFFECTS, Effects, N, TICK, encoder_ratios};
 
 /// Steps of the simulation in a tick.
@@ -38,22 +38,22 @@ impl Wires {
         }
     }
 
-    /// The board on these wires.
-    pub fn board(
-        &self,
-        zero: &[f32; N],
-        full_scale: &[f32; N],
-    ) -> Board<SimEncoder<'_>, SimDrive<'_>, SimBrake<'_>> {
+    /// The encoders, which read zero at the positions `zero`, rad or m.
+    pub fn encoders(&self, zero: &[f32; N]) -> [Encoder<SimEncoder<'_>>; N] {
         let ratio = encoder_ratios();
-        Board {
-            encoders: core::array::from_fn(|joint| {
-                Encoder::new(SimEncoder(&self.angles[joint]), zero[joint], ratio[joint])
-            }),
-            drives: core::array::from_fn(|joint| {
-                Drive::new(SimDrive(&self.duties[joint]), full_scale[joint])
-            }),
-            brake: SimBrake(&self.brake),
-        }
+        core::array::from_fn(|joint| {
+            Encoder::new(SimEncoder(&self.angles[joint]), zero[joint], ratio[joint])
+        })
+    }
+
+    /// The drives, which deliver `full_scale` at full duty, N·m or N.
+    pub fn drives(&self, full_scale: &[f32; N]) -> [Drive<SimDrive<'_>>; N] {
+        core::array::from_fn(|joint| Drive::new(SimDrive(&self.duties[joint]), full_scale[joint]))
+    }
+
+    /// The brake.
+    pub fn brake(&self) -> SimBrake<'_> {
+        SimBrake(&self.brake)
     }
 }
 

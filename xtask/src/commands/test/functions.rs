@@ -12,9 +12,9 @@ use crate::kit::{firmware, shell};
 
 /// The least number of hard cases in QEMU.
 const HARD_CASES: usize = 25;
-/// Whether a symbol is `ControlLoop::tick`, which is there once for each control law.
+/// Whether a symbol is `firmware_demo::scene::marked_tick`, which is there once for each control law.
 fn is_tick(symbol: &str) -> bool {
-    symbol.contains("ControlLoop") && symbol.contains("4tick")
+    symbol.contains("marked_tick")
 }
 
 pub fn clippy(context: &Context) -> Result<String> {

@@ -1,0 +1,229 @@
+//! The controllers of a robot's joints on one CAN bus, whose replies carry the positions: encoders and drives at once.
+
+use core::cell::RefCell;
+
+use embedded_can::Error as _;
+use embedded_can::nb::Can;
+use motion_control::PreviousTick;
+use nb::Error::{Other, WouldBlock};
+
+use crate::can::CanError;
+use crate::odrive::{AxisState, Reply};
+use crate::{EncoderType, JointDrives, JointEncoders, JointError, moteus, odrive};
+
+/// A motor controller on CAN that measures its joint and takes torques.
+pub trait CanJoint {
+    /// The frame of a torque, N·m or N at the joint; that of zero torque for NaN.
+    ///
+    /// # Errors
+    /// [`CanError::Length`].
+    fn command<F: embedded_can::Frame>(&self, torque: f32) -> Result<F, CanError>;
+
+    /// What a frame says of the joint.
+    ///
+    /// # Errors
+    /// [`CanError::Identifier`] for a frame of another joint; else the frame is wrong.
+    fn report<F: embedded_can::Frame>(&self, frame: &F) -> Result<Report, CanError>;
+}
+
+/// What a frame says of a joint.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Report {
+    /// The joint's position, rad or m.
+    pub position: Option<f32>,
+    /// Whether the controller delivers torques, or why it does not: [`CanError::NotReady`], [`CanError::Fault`].
+    pub delivers: Option<Result<(), CanError>>,
+}
+
+impl CanJoint for moteus::Moteus {
+    fn command<F: embedded_can::Frame>(&self, torque: f32) -> Result<F, CanError> {
+        self.set_torque(torque)
+    }
+
+    fn report<F: embedded_can::Frame>(&self, frame: &F) -> Result<Report, CanError> {
+        let state = self.reply(frame)?;
+        Ok(Report {
+            position: Some(state.position),
+            delivers: Some(match state.mode {
+                moteus::Mode::Position => Ok(()),
+                moteus::Mode::Fault => Err(CanError::Fault(state.fault.into())),
+                _ => Err(CanError::NotReady),
+            }),
+        })
+    }
+}
+
+/// The axis is to send its estimates and its heartbeat by itself, at least once a tick and in its ride-through.
+impl CanJoint for odrive::ODrive {
+    fn command<F: embedded_can::Frame>(&self, torque: f32) -> Result<F, CanError> {
+        self.set_torque(torque)
+    }
+
+    fn report<F: embedded_can::Frame>(&self, frame: &F) -> Result<Report, CanError> {
+        let (mut position, mut delivers) = (None, None);
+        match self.reply(frame)? {
+            Reply::Estimates { position: at, .. } => position = Some(at),
+            Reply::Heartbeat { errors, state } => {
+                delivers = Some(match state {
+                    _ if errors != 0 => Err(CanError::Fault(errors)),
+                    AxisState::ClosedLoopControl => Ok(()),
+                    _ => Err(CanError::NotReady),
+                });
+            }
+            Reply::Torques { .. } => {}
+        }
+        Ok(Report { position, delivers })
+    }
+}
+
+/// The joints on one bus. A [`ControlLoop`](crate::ControlLoop) takes a reference to it twice, as its encoders and its drives.
+///
+/// In each tick it takes the frames that have come since the last one, and then sends a torque to each joint: a position is that
+/// of the tick before. A joint without a position since then has no angle in this tick.
+///
+/// ```
+/// use embedded_can::{ExtendedId, Frame, nb::Can};
+/// use joint_drivers::can::{CanError, FdFrame};
+/// use joint_drivers::{CanJoints, JointDrives, JointEncoders, JointError, JointMapping, moteus::Moteus};
+/// # struct Bus(Vec<FdFrame>);
+/// # impl Can for Bus {
+/// #     type Frame = FdFrame;
+/// #     type Error = embedded_can::ErrorKind;
+/// #     fn transmit(&mut self, _: &FdFrame) -> nb::Result<Option<FdFrame>, Self::Error> { Ok(None) }
+/// #     fn receive(&mut self) -> nb::Result<FdFrame, Self::Error> { self.0.pop().ok_or(nb::Error::WouldBlock) }
+/// # }
+/// # // The reply of the protocol's own example: 2.88°, position mode.
+/// # let data = [0x24, 4, 0, 0x0a, 0, 0x50, 0, 0, 1, 0x70, 0xff, 0x23, 0x0d, 0x18, 0x14, 0];
+/// # let bus = Bus(vec![FdFrame::new(ExtendedId::new(0x100).unwrap(), &data).unwrap()]);
+/// let joints = CanJoints::new(bus, [Moteus::new(1, 0, 10.0, JointMapping::IDENTITY)?]);
+/// let (mut encoders, mut drives) = (&joints, &joints);
+/// assert!((encoders.read()?[0].to_degrees() - 2.88).abs() < 1e-5);
+/// drives.set_torques(&[0.5])?;
+/// assert_eq!(encoders.read(), Err(JointError { joint: 0, error: CanError::NoReply }));
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
+#[derive(Debug)]
+pub struct CanJoints<Bus, Joint, const V: usize>(RefCell<State<Bus, Joint, V>>);
+
+#[derive(Debug)]
+struct State<Bus, Joint, const V: usize> {
+    bus: Bus,
+    joints: [Joint; V],
+    positions: [Option<f32>; V],
+    delivers: [Result<(), CanError>; V],
+}
+
+impl<Bus: Can, Joint: CanJoint, const V: usize> CanJoints<Bus, Joint, V> {
+    /// The joints, of which none has reported yet.
+    pub const fn new(bus: Bus, joints: [Joint; V]) -> Self {
+        Self(RefCell::new(State {
+            bus,
+            joints,
+            positions: [None; V],
+            delivers: [Ok(()); V],
+        }))
+    }
+
+    /// The bus.
+    pub fn release(self) -> Bus {
+        self.0.into_inner().bus
+    }
+}
+
+impl<Bus: Can, Joint: CanJoint, const V: usize> State<Bus, Joint, V> {
+    /// Takes the frames that have come: no more than four of each joint, so that a bus that is busy ends the tick.
+    fn receive(&mut self) -> Result<(), CanError> {
+        for _ in 0..4 * V {
+            match self.bus.receive() {
+                Ok(frame) => self.take(&frame),
+                Err(WouldBlock) => break,
+                Err(Other(error)) => return Err(CanError::Bus(error.kind())),
+            }
+        }
+        Ok(())
+    }
+
+    /// A frame that is wrong says nothing: its joint has then no position.
+    fn take(&mut self, frame: &Bus::Frame) {
+        let kept = self.positions.iter_mut().zip(&mut self.delivers);
+        for (joint, (position, delivers)) in self.joints.iter().zip(kept) {
+            if let Ok(report) = joint.report(frame) {
+                *position = report.position.or(*position);
+                *delivers = report.delivers.unwrap_or(*delivers);
+            }
+        }
+    }
+
+    fn send(&mut self, torques: &[f32; V]) -> Result<(), JointError<CanError>> {
+        let mut failed = Ok(());
+        for (joint, (of, &torque)) in self.joints.iter().zip(torques).enumerate() {
+            let sent = of.command(torque).and_then(|frame| {
+                match self.bus.transmit(&frame) {
+                    Ok(None) => Ok(()),
+                    // Another frame, of a lower priority, was taken out of the queue for it.
+                    Ok(Some(_)) | Err(WouldBlock) => Err(CanError::Full),
+                    Err(Other(error)) => Err(CanError::Bus(error.kind())),
+                }
+            });
+            failed = failed.and(sent.map_err(|error| JointError { joint, error }));
+        }
+        failed
+    }
+}
+
+impl<Bus, Joint, const V: usize> EncoderType for &CanJoints<Bus, Joint, V> {
+    type Error = CanError;
+    type Age = PreviousTick;
+}
+
+impl<Bus: Can, Joint: CanJoint, const V: usize> JointEncoders<V> for &CanJoints<Bus, Joint, V> {
+    /// Commands zero torque, which is replied to with the first positions.
+    fn start(&mut self) {
+        // Errors are those of the first reading.
+        let _ = self.set_torques(&[0.0; V]);
+    }
+
+    fn read(&mut self) -> Result<[f32; V], JointError<CanError>> {
+        let first = |error| JointError { joint: 0, error };
+        let Ok(mut state) = self.0.try_borrow_mut() else {
+            return Err(first(CanError::Full));
+        };
+        state.receive().map_err(first)?;
+        let mut positions = [0.0; V];
+        let reported = state.positions.iter_mut().map(Option::take);
+        let mut failed = Ok(());
+        for (joint, (position, reported)) in positions.iter_mut().zip(reported).enumerate() {
+            match reported {
+                Some(reported) => *position = reported,
+                None => {
+                    let error = CanError::NoReply;
+                    failed = failed.and(Err(JointError { joint, error }));
+                }
+            }
+        }
+        failed.map(|()| positions)
+    }
+}
+
+impl<Bus: Can, Joint: CanJoint, const V: usize> JointDrives<V> for &CanJoints<Bus, Joint, V> {
+    type Error = CanError;
+
+    fn set_torques(&mut self, torques: &[f32; V]) -> Result<(), JointError<CanError>> {
+        let Ok(mut state) = self.0.try_borrow_mut() else {
+            let error = CanError::Full;
+            return Err(JointError { joint: 0, error });
+        };
+        state.send(torques)?;
+        let mut faults = state.delivers.iter().enumerate();
+        let mut waiting = Ok(());
+        let failed = faults.find_map(|(joint, delivers)| {
+            let error = delivers.err()?;
+            if error == CanError::NotReady {
+                waiting = waiting.and(Err(JointError { joint, error }));
+                return None;
+            }
+            Some(JointError { joint, error })
+        });
+        failed.map_or(waiting, Err)
+    }
+}

@@ -1,0 +1,456 @@
+//! The tick: read, reference, dynamics, safety, write.
+//!
+//! The loop owns encoders, drives and brake through [`JointEncoders`], [`JointDrives`] and [`OutputPin`], and calls the
+//! [`MotionController`], which contains the state of the loop and the reaction to faults.
+
+use dynamics_core::state::State;
+use embedded_hal::digital::OutputPin;
+use motion_control::{
+    Command, CompletedTick, Detect, Estimate, Fault, Gains, MeasurementAge, MotionController,
+    ObservedTick, Reference, ReferencedTick, ResetError, StopCategory, TickCounter, feedback,
+};
+
+#[cfg(any(test, feature = "async"))]
+use crate::asynch;
+use crate::{DriveFault, DriveFaultKind, EncoderType, JointDrives, JointEncoders, JointError};
+
+mod probe;
+
+pub use probe::{Phase, Probe, Telemetry};
+
+/// The feed-forward part of the control law; `X` is its input beside the reference (the payload, the motion of the
+/// base).
+///
+/// ```
+/// use dynamics_core::effects::RIGID_BODY;
+/// use dynamics_core::{Engine, robots::Ur5e, state::State};
+/// use joint_drivers::Law;
+/// struct Model;
+/// impl Law<6> for Model {
+///     fn feedforward(reference: &State<f32, 6, 6>, (): &()) -> [f32; 6] {
+///         Engine::<Ur5e>::rnea(reference, &RIGID_BODY)
+///     }
+/// }
+/// ```
+pub trait Law<const V: usize, X = ()> {
+    /// Whether the feed-forward produces the acceleration of the reference. If so, it decelerates a held arm with all
+    /// coupling; if not, only K_d of the feedback does.
+    const ACCELERATES: bool = true;
+
+    /// The torque for the reference, N·m or N.
+    fn feedforward(reference: &State<f32, V, V>, environment: &X) -> [f32; V];
+
+    /// The command, N·m or N: τ = feed-forward + K_p (q_d − q) + K_d (q̇_d − q̇), or that of another loop.
+    #[inline(always)]
+    fn torque(
+        gains: &Gains<f32, V>,
+        reference: &State<f32, V, V>,
+        estimate: &Estimate<f32, V>,
+        environment: &X,
+    ) -> [f32; V] {
+        let mut tau = Self::feedforward(reference, environment);
+        let pd = feedback(gains, reference, estimate);
+        for (tau, pd) in tau.iter_mut().zip(pd) {
+            *tau += pd;
+        }
+        tau
+    }
+}
+
+/// The control loop of a robot with V joints: its devices, a [`MotionController`] and its detectors.
+///
+/// The age of the measurements is that of the encoders ([`EncoderType::Age`]). It has no heap and no panic.
+///
+/// ```
+/// use dynamics_core::state::State;
+/// use embedded_hal_mock::eh1::{pwm, spi};
+/// use joint_drivers::as5047p::{As5047p, FrameError};
+/// use joint_drivers::h_bridge::{FullScale, LockedAntiphase};
+/// use joint_drivers::{ControlLoop, Direction, JointError, JointMapping, Law, NoBrake};
+/// use motion_control::*;
+///
+/// /// A joint of 2 kg·m² without gravity.
+/// struct Wheel;
+/// impl Law<1> for Wheel {
+///     fn feedforward(reference: &State<f32, 1, 1>, (): &()) -> [f32; 1] {
+///         reference.qdd.map(|qdd| 2.0 * qdd)
+///     }
+/// }
+/// # let config = MotionControllerConfig {
+/// #     supervisor: SupervisorConfig {
+/// #         limits: SafetyLimits { torque: [10.0], rate: [10.0], speed: [3.0], lower: [-1.0], upper: [1.0] },
+/// #         tick: 1e-3, resolution: 0.0, ride_through_ticks: 2, hold_ticks: 3, reentry_ticks: 10,
+/// #     },
+/// #     observer_bandwidth: 250.0, decay_rate: 25.0, restart_distance: 0.1,
+/// # };
+/// # let point = |q, ticks| WayPoint { q: [q], qd: [0.0], ticks };
+/// # let limits = [MotionLimits { velocity: 3.0, acceleration: 10.0 }];
+/// # let trajectory = Trajectory::new(&[point(0.0, 0), point(0.5, 1000)], 1e-3, &limits)?;
+/// // Two frames at the start, one each tick; the second tick's has a wrong parity, which costs two more.
+/// # let transfer = |answer: u16| [
+/// #     spi::Transaction::transaction_start(),
+/// #     spi::Transaction::transfer_in_place(vec![], answer.to_be_bytes().to_vec()),
+/// #     spi::Transaction::transaction_end(),
+/// # ];
+/// # struct Bus(std::vec::IntoIter<u16>);
+/// # impl embedded_hal::spi::ErrorType for Bus { type Error = core::convert::Infallible; }
+/// # impl embedded_hal::spi::SpiDevice for Bus {
+/// #     fn transaction(&mut self, all: &mut [embedded_hal::spi::Operation<'_, u8>]) -> Result<(), Self::Error> {
+/// #         for operation in all {
+/// #             if let embedded_hal::spi::Operation::TransferInPlace(words) = operation {
+/// #                 words.copy_from_slice(&self.0.next().unwrap().to_be_bytes());
+/// #             }
+/// #         }
+/// #         Ok(())
+/// #     }
+/// # }
+/// # let spi = Bus(vec![0, 0, 0, 1, 0, 0].into_iter());
+/// let encoder = As5047p::new(spi, JointMapping::IDENTITY);
+/// let pwm = pwm::Mock::new(&[
+///     pwm::Transaction::max_duty_cycle(8400),
+///     pwm::Transaction::set_duty_cycle(4200),
+///     pwm::Transaction::set_duty_cycle(4200),
+/// ]);
+/// # let mut check = pwm.clone();
+/// let drive = LockedAntiphase::new(pwm, FullScale::new(10.0)?, Direction::Forward);
+/// let controller = MotionController::try_new(config)?;
+/// let gains = Gains { kp: [0.0], kd: [0.0] };
+/// let mut control = ControlLoop::new([encoder], [drive], NoBrake, gains, controller, ());
+///
+/// assert_eq!(control.tick::<Wheel, _, _>(&trajectory, &()).status.fault, None);
+/// let telemetry = control.tick::<Wheel, _, _>(&trajectory, &());
+/// assert_eq!(telemetry.status.fault, Some(Fault::Encoder { joint: 0 }));
+/// assert_eq!(control.encoder_error(), Some(&JointError { joint: 0, error: FrameError::Parity }));
+/// # check.done();
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
+#[derive(Debug)]
+pub struct ControlLoop<E, D, Brake, const V: usize, Detectors = ()>
+where
+    E: EncoderType,
+    D: JointDrives<V>,
+{
+    encoders: E,
+    drives: D,
+    /// High holds the joints.
+    brake: Brake,
+    gains: Gains<f32, V>,
+    controller: MotionController<f32, V, E::Age>,
+    detectors: Detectors,
+    counter: TickCounter,
+    encoder_error: Option<JointError<E::Error>>,
+    drive_error: Option<JointError<D::Error>>,
+}
+
+impl<E, D, Brake, const V: usize, Detectors> ControlLoop<E, D, Brake, V, Detectors>
+where
+    E: EncoderType,
+    D: JointDrives<V>,
+    Brake: OutputPin,
+    Detectors: Detect<f32, V>,
+{
+    /// A loop at the start of its trajectory; starts the encoders. High at `brake` holds the joints.
+    ///
+    /// The first tick should follow within one tick, or the arm must stand still until then.
+    // Inlined, it takes 200 bytes more of the demo's flash.
+    #[inline(never)]
+    pub fn new(
+        mut encoders: E,
+        drives: D,
+        brake: Brake,
+        gains: Gains<f32, V>,
+        controller: MotionController<f32, V, E::Age>,
+        detectors: Detectors,
+    ) -> Self
+    where
+        E: JointEncoders<V>,
+    {
+        encoders.start();
+        Self::started(encoders, drives, brake, gains, controller, detectors)
+    }
+
+    #[inline(always)]
+    fn started(
+        encoders: E,
+        drives: D,
+        brake: Brake,
+        gains: Gains<f32, V>,
+        controller: MotionController<f32, V, E::Age>,
+        detectors: Detectors,
+    ) -> Self {
+        Self {
+            encoders,
+            drives,
+            brake,
+            gains,
+            controller,
+            detectors,
+            counter: TickCounter::new(),
+            encoder_error: None,
+            drive_error: None,
+        }
+    }
+
+    /// One tick under the law `L`.
+    #[inline(never)]
+    pub fn tick<L: Law<V, X>, T: Reference<f32, V>, X>(
+        &mut self,
+        trajectory: &T,
+        environment: &X,
+    ) -> Telemetry<V>
+    where
+        E: JointEncoders<V>,
+    {
+        self.tick_probed::<L, T, X>(trajectory, environment, &mut ())
+    }
+
+    /// One tick under the law `L`, watched by a probe. It is inlined: call it from a function that is not.
+    #[inline(always)]
+    pub fn tick_probed<L: Law<V, X>, T: Reference<f32, V>, X>(
+        &mut self,
+        trajectory: &T,
+        environment: &X,
+        probe: &mut impl Probe<V>,
+    ) -> Telemetry<V>
+    where
+        E: JointEncoders<V>,
+    {
+        probe.begin(Phase::Tick);
+        probe.begin(Phase::Read);
+        let (encoders, controller) = (&mut self.encoders, &mut self.controller);
+        let (error, detectors) = (&mut self.encoder_error, &mut self.detectors);
+        let tick = read(encoders, error, controller, detectors);
+        probe.end(Phase::Read);
+        let gains = &self.gains;
+        let computed =
+            compute::<L, T, X, _, _, V>(tick, detectors, gains, trajectory, environment, probe);
+        self.complete(computed, probe)
+    }
+
+    /// The end of a tick: drives, brake and the record.
+    #[inline(always)]
+    fn complete(
+        &mut self,
+        (clock, command, found): (u32, Command<f32, V>, Result<(), Fault>),
+        probe: &mut impl Probe<V>,
+    ) -> Telemetry<V> {
+        if let Err(fault) = found {
+            self.controller.react(fault);
+        }
+        probe.begin(Phase::Write);
+        self.write(&command.torque, command.brake);
+        probe.end(Phase::Write);
+        let telemetry = Telemetry {
+            tick: clock,
+            reference: self.controller.reference().q,
+            estimate: self.controller.estimate().q,
+            torque: command.torque,
+            status: command.status,
+        };
+        probe.record(&telemetry);
+        probe.end(Phase::Tick);
+        telemetry
+    }
+
+    /// One tick under the law `L` at the count of a timer that advances by one per period.
+    ///
+    /// Missed ticks are reported to the controller, and so is a tick that ends after its period. A tick that ends in
+    /// time gives what feeds a [`Watchdog`](motion_control::Watchdog).
+    pub fn tick_at<L: Law<V, X>, T: Reference<f32, V>, X>(
+        &mut self,
+        trajectory: &T,
+        environment: &X,
+        timer: impl Fn() -> u32,
+    ) -> (Telemetry<V>, Option<CompletedTick>)
+    where
+        E: JointEncoders<V>,
+    {
+        let tick = self.counter.begin(timer());
+        if tick.missed() > 0 {
+            self.controller.missed(tick.missed(), trajectory);
+            self.detectors.restart();
+        }
+        let telemetry = self.tick::<L, T, X>(trajectory, environment);
+        let completed = tick.end(timer(), &telemetry.status);
+        let completed = completed.map_err(|fault| self.controller.react(fault));
+        (telemetry, completed.ok())
+    }
+
+    /// Stops the arm from outside, by a category.
+    pub fn stop_by(&mut self, fault: Fault, category: StopCategory<f32, V>) {
+        self.controller.stop_by(fault, category);
+    }
+
+    /// Restarts a stopped arm: clears the fault and leads the arm back onto its trajectory. The brake holds until the
+    /// torque that keeps the arm at rest is reached, a few ticks later.
+    ///
+    /// # Errors
+    /// [`ResetError`]; the controller is then unchanged.
+    pub fn reset<T: Reference<f32, V>>(&mut self, trajectory: &T) -> Result<(), ResetError> {
+        self.detectors.restart();
+        self.controller.reset(trajectory)
+    }
+
+    /// The error of the first encoder without a position in the last tick, which was [`Fault::Encoder`].
+    pub fn encoder_error(&self) -> Option<&JointError<E::Error>> {
+        self.encoder_error.as_ref()
+    }
+
+    /// The last error of a drive, which was [`Fault::Drive`] or [`Fault::NotReady`].
+    pub fn drive_error(&self) -> Option<&JointError<D::Error>> {
+        self.drive_error.as_ref()
+    }
+
+    #[inline(never)]
+    fn write(&mut self, torque: &[f32; V], brake: bool) {
+        let failed = self.drives.set_torques(torque).err();
+        // A drive that may have failed: the brake at once, the other drives from the next tick on.
+        let is_lost = |failed: &JointError<D::Error>| failed.error.kind() == DriveFaultKind::Failed;
+        let set = if brake | failed.as_ref().is_some_and(is_lost) {
+            self.brake.set_high()
+        } else {
+            self.brake.set_low()
+        };
+        if let Some(error) = failed {
+            self.controller.react(error.drive_fault());
+            self.drive_error = Some(error);
+        } else if set.is_err() {
+            self.controller.react(Fault::Brake);
+        }
+    }
+}
+
+#[cfg(any(test, feature = "async"))]
+impl<E, D, Brake, const V: usize, Detectors> ControlLoop<E, D, Brake, V, Detectors>
+where
+    E: asynch::JointEncoders<V>,
+    D: JointDrives<V>,
+    Brake: OutputPin,
+    Detectors: Detect<f32, V>,
+{
+    /// As [`Self::new`], with encoders over `embedded-hal-async`.
+    pub async fn new_async(
+        mut encoders: E,
+        drives: D,
+        brake: Brake,
+        gains: Gains<f32, V>,
+        controller: MotionController<f32, V, E::Age>,
+        detectors: Detectors,
+    ) -> Self {
+        encoders.start().await;
+        Self::started(encoders, drives, brake, gains, controller, detectors)
+    }
+
+    /// As [`Self::tick`]; other tasks run while the encoders' bus is busy.
+    pub async fn tick_async<L: Law<V, X>, T: Reference<f32, V>, X>(
+        &mut self,
+        trajectory: &T,
+        environment: &X,
+    ) -> Telemetry<V> {
+        let read = self.encoders.read().await;
+        let (error, detectors) = (&mut self.encoder_error, &mut self.detectors);
+        let tick = observe(read, error, &mut self.controller, detectors);
+        let gains = &self.gains;
+        let computed =
+            compute::<L, T, X, _, _, V>(tick, detectors, gains, trajectory, environment, &mut ());
+        self.complete(computed, &mut ())
+    }
+}
+
+/// Reads the encoders and starts the controller's tick.
+#[inline(never)]
+fn read<'a, E: JointEncoders<V>, D: Detect<f32, V>, const V: usize>(
+    encoders: &mut E,
+    last: &mut Option<JointError<E::Error>>,
+    controller: &'a mut MotionController<f32, V, E::Age>,
+    detectors: &mut D,
+) -> ObservedTick<'a, f32, V, E::Age> {
+    observe(encoders.read(), last, controller, detectors)
+}
+
+/// Starts the controller's tick with what the encoders have read.
+#[inline(always)]
+fn observe<'a, E, D: Detect<f32, V>, A: MeasurementAge, const V: usize>(
+    read: Result<[f32; V], JointError<E>>,
+    last: &mut Option<JointError<E>>,
+    controller: &'a mut MotionController<f32, V, A>,
+    detectors: &mut D,
+) -> ObservedTick<'a, f32, V, A> {
+    match read {
+        Ok(q) => {
+            *last = None;
+            let measured = detectors.measured(&q, &controller.reference().q);
+            controller.observe(measured.map(|()| &q))
+        }
+        Err(error) => {
+            let joint = error.joint;
+            *last = Some(error);
+            controller.observe(Err(Fault::Encoder { joint }))
+        }
+    }
+}
+
+/// Reference, law and limits: the tick of the trajectory, the command, and what the detectors say of it.
+#[inline(always)]
+fn compute<L, T, X, A, D, const V: usize>(
+    tick: ObservedTick<'_, f32, V, A>,
+    detectors: &mut D,
+    gains: &Gains<f32, V>,
+    trajectory: &T,
+    environment: &X,
+    probe: &mut impl Probe<V>,
+) -> (u32, Command<f32, V>, Result<(), Fault>)
+where
+    L: Law<V, X>,
+    T: Reference<f32, V>,
+    A: MeasurementAge,
+    D: Detect<f32, V>,
+{
+    probe.begin(Phase::Reference);
+    let mut tick = follow(tick, trajectory, detectors);
+    probe.end(Phase::Reference);
+    if !L::ACCELERATES {
+        tick = tick.without_inertia();
+    }
+    let clock = tick.trajectory_tick();
+    probe.begin(Phase::Dynamics);
+    let tau = torque::<L, X, V>(gains, tick.reference(), tick.estimate(), environment);
+    probe.end(Phase::Dynamics);
+    probe.begin(Phase::Safety);
+    let command = tick.command(&tau);
+    let found = detectors.commanded(&command);
+    probe.end(Phase::Safety);
+    (clock, command, found)
+}
+
+/// The reference of the joints.
+#[inline(never)]
+fn follow<'a, T: Reference<f32, V>, D: Detect<f32, V>, A: MeasurementAge, const V: usize>(
+    tick: ObservedTick<'a, f32, V, A>,
+    trajectory: &T,
+    detectors: &mut D,
+) -> ReferencedTick<'a, f32, V, A> {
+    let mut tick = tick.reference(trajectory);
+    if let Err(fault) = detectors.referenced(tick.reference(), tick.mode()) {
+        stop(&mut tick, fault);
+    }
+    tick
+}
+
+/// Stops the arm in this tick: in a function of its own, so that the usual tick keeps no registers for it.
+#[cold]
+#[inline(never)]
+fn stop<A: MeasurementAge, const V: usize>(tick: &mut ReferencedTick<'_, f32, V, A>, fault: Fault) {
+    tick.stop_by(fault, StopCategory::ControlledOff);
+}
+
+/// The law's command, in a function of its own.
+#[inline(never)]
+fn torque<L: Law<V, X>, X, const V: usize>(
+    gains: &Gains<f32, V>,
+    reference: &State<f32, V, V>,
+    estimate: &Estimate<f32, V>,
+    environment: &X,
+) -> [f32; V] {
+    L::torque(gains, reference, estimate, environment)
+}

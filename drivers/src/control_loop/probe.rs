@@ -1,0 +1,72 @@
+//! What watches a tick while it runs, and what is kept of it.
+
+use motion_control::Status;
+
+/// A phase of a tick.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Phase {
+    /// The whole tick, which contains the others.
+    Tick,
+    /// Encoders, plausibility, observer: [`motion_control::MotionController::observe`].
+    Read,
+    /// The trajectory at this tick.
+    Reference,
+    /// Feed-forward and feedback torque.
+    Dynamics,
+    /// Limits and state machine.
+    Safety,
+    /// Drives and brake.
+    Write,
+}
+
+/// What watches a tick while it runs: a pin for an oscilloscope, a counter of cycles, a record. `()` watches nothing and is
+/// not in the machine code.
+///
+/// ```
+/// use embedded_hal::digital::OutputPin;
+/// use joint_drivers::{Phase, Probe};
+/// /// A pin that is high during the dynamics.
+/// struct Scope<Pin>(Pin);
+/// impl<Pin: OutputPin, const V: usize> Probe<V> for Scope<Pin> {
+///     fn begin(&mut self, phase: Phase) {
+///         if phase == Phase::Dynamics {
+///             let _ = self.0.set_high();
+///         }
+///     }
+///     fn end(&mut self, phase: Phase) {
+///         if phase == Phase::Dynamics {
+///             let _ = self.0.set_low();
+///         }
+///     }
+/// }
+/// ```
+pub trait Probe<const V: usize> {
+    /// A phase begins.
+    #[inline(always)]
+    fn begin(&mut self, _: Phase) {}
+
+    /// A phase ends.
+    #[inline(always)]
+    fn end(&mut self, _: Phase) {}
+
+    /// What is kept of the tick, shortly before its end.
+    #[inline(always)]
+    fn record(&mut self, _: &Telemetry<V>) {}
+}
+
+impl<const V: usize> Probe<V> for () {}
+
+/// The record of a tick, for logs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Telemetry<const V: usize> {
+    /// Ticks since the trajectory's start, held during a fault.
+    pub tick: u32,
+    /// The reference positions, rad or m.
+    pub reference: [f32; V],
+    /// The estimated positions, rad or m.
+    pub estimate: [f32; V],
+    /// Torque commanded, N·m or N.
+    pub torque: [f32; V],
+    /// The status of the controller.
+    pub status: Status,
+}

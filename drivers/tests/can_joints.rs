@@ -1,0 +1,132 @@
+//! What joints on a CAN bus promise as encoders and drives.
+
+use embedded_can::nb::Can;
+use embedded_can::{ErrorKind, ExtendedId, Frame, StandardId};
+use joint_drivers::can::{CanError, FdFrame};
+use joint_drivers::moteus::Moteus;
+use joint_drivers::odrive::ODrive;
+use joint_drivers::{CanJoints, DriveFault, DriveFaultKind};
+use joint_drivers::{JointDrives, JointEncoders, JointError, JointMapping};
+
+#[derive(Default)]
+struct Bus {
+    received: Vec<FdFrame>,
+    sent: Vec<FdFrame>,
+    error: Option<nb::Error<ErrorKind>>,
+}
+
+impl Can for Bus {
+    type Frame = FdFrame;
+    type Error = ErrorKind;
+    fn transmit(&mut self, frame: &FdFrame) -> nb::Result<Option<FdFrame>, ErrorKind> {
+        if let Some(error) = self.error.clone() {
+            return Err(error);
+        }
+        self.sent.push(*frame);
+        Ok(None)
+    }
+    fn receive(&mut self) -> nb::Result<FdFrame, ErrorKind> {
+        if let Some(nb::Error::Other(error)) = self.error {
+            return Err(nb::Error::Other(error));
+        }
+        self.received.pop().ok_or(nb::Error::WouldBlock)
+    }
+}
+
+/// A reply of a moteus: mode, position in f32 turns, no velocity, no torque, a fault.
+fn reply(node: u32, mode: u8, turns: f32, fault: u8) -> FdFrame {
+    let [q0, q1, q2, q3] = turns.to_le_bytes();
+    let data = [
+        0x21, 0, mode, 0x2f, 1, q0, q1, q2, q3, 0, 0, 0, 0, 0, 0, 0, 0, 0x21, 0x0f, fault,
+    ];
+    FdFrame::new(ExtendedId::new(node << 8).unwrap(), &data).unwrap()
+}
+
+fn joints(bus: Bus) -> CanJoints<Bus, Moteus, 2> {
+    let of = |node| Moteus::new(node, 0, 10.0, JointMapping::IDENTITY).unwrap();
+    CanJoints::new(bus, [of(1), of(2)])
+}
+
+fn heard(received: &[FdFrame]) -> Bus {
+    let received = received.to_vec();
+    Bus {
+        received,
+        ..Bus::default()
+    }
+}
+
+const fn at(joint: usize, error: CanError) -> JointError<CanError> {
+    JointError { joint, error }
+}
+
+#[test]
+fn positions_come_in_any_order_and_each_counts_once() {
+    let joints = joints(heard(&[reply(1, 10, 0.0, 0), reply(2, 10, 0.5, 0)]));
+    let [first, second] = (&joints).read().unwrap();
+    assert_eq!((first, second), (0.0, core::f32::consts::PI));
+    assert_eq!((&joints).read(), Err(at(0, CanError::NoReply)));
+}
+
+#[test]
+fn a_joint_that_does_not_reply_is_named() {
+    let joints = joints(heard(&[reply(1, 10, 0.0, 0), reply(3, 10, 0.0, 0)]));
+    assert_eq!((&joints).read(), Err(at(1, CanError::NoReply)));
+}
+
+#[test]
+fn each_joint_gets_its_torque() {
+    let joints = joints(Bus::default());
+    (&joints).set_torques(&[1.0, -2.0]).unwrap();
+    let sent = joints.release().sent;
+    let of = |node, torque| {
+        let joint = Moteus::new(node, 0, 10.0, JointMapping::IDENTITY).unwrap();
+        joint.set_torque::<FdFrame>(torque).unwrap()
+    };
+    assert_eq!(sent, [of(1, 1.0), of(2, -2.0)]);
+}
+
+#[test]
+fn a_controllers_fault_outranks_one_that_is_not_ready() {
+    let joints = joints(heard(&[reply(1, 0, 0.0, 0), reply(2, 1, 0.0, 33)]));
+    (&joints).read().unwrap();
+    let set = (&joints).set_torques(&[0.0; 2]);
+    assert_eq!(set, Err(at(1, CanError::Fault(33))));
+    assert_eq!(CanError::Fault(33).kind(), DriveFaultKind::Failed);
+    assert_eq!(CanError::NotReady.kind(), DriveFaultKind::NotReady);
+}
+
+#[test]
+fn a_bus_that_fails_or_is_full_is_an_error() {
+    for (error, expected) in [
+        (
+            nb::Error::Other(ErrorKind::Overrun),
+            CanError::Bus(ErrorKind::Overrun),
+        ),
+        (nb::Error::WouldBlock, CanError::Full),
+    ] {
+        let error = Some(error);
+        let joints = joints(Bus {
+            error,
+            ..Bus::default()
+        });
+        assert_eq!((&joints).set_torques(&[0.0; 2]), Err(at(0, expected)));
+    }
+}
+
+#[test]
+fn an_odrive_measures_and_says_whether_it_is_ready() {
+    let frame = |command: u16, data: [u8; 8]| {
+        FdFrame::new(StandardId::new(3 << 5 | command).unwrap(), &data).unwrap()
+    };
+    let half = frame(0x09, [0, 0, 0, 0x3f, 0, 0, 0, 0]);
+    for (heartbeat, expected) in [
+        ([0, 0, 0, 0, 8, 0, 0, 0], Ok(())),
+        ([0, 0, 0, 0, 1, 0, 0, 0], Err(at(0, CanError::NotReady))),
+        ([1, 0, 0, 0, 1, 0, 0, 0], Err(at(0, CanError::Fault(1)))),
+    ] {
+        let axis = ODrive::new(3, 10.0, JointMapping::IDENTITY).unwrap();
+        let joints = CanJoints::new(heard(&[half, frame(0x01, heartbeat)]), [axis]);
+        assert_eq!((&joints).read(), Ok([core::f32::consts::PI]));
+        assert_eq!((&joints).set_torques(&[0.0]), expected);
+    }
+}

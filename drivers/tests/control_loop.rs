@@ -1,0 +1,353 @@
+//! What the control loop promises about devices that fail.
+
+use std::cell::Cell;
+use std::convert::Infallible;
+use std::fmt;
+
+use dynamics_core::state::State;
+use embedded_hal::digital::{self, OutputPin};
+use joint_drivers::{
+    ControlLoop, DriveFault, DriveFaultKind, EncoderType, JointDrive, JointDrives, JointEncoder,
+    JointEncoders, JointError, Law, NoBrake, Phase, Probe, Telemetry,
+};
+use motion_control::{
+    CurrentTick, Fault, Gains, Mode, MotionController, MotionControllerConfig, SafetyLimits,
+    SupervisorConfig,
+};
+
+const RIDE: u32 = 3;
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Broken {
+    Wire,
+    Disabled,
+}
+
+impl fmt::Display for Broken {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Debug::fmt(self, out)
+    }
+}
+
+impl core::error::Error for Broken {}
+
+impl DriveFault for Broken {
+    fn kind(&self) -> DriveFaultKind {
+        match self {
+            Self::Wire => DriveFaultKind::Failed,
+            Self::Disabled => DriveFaultKind::NotReady,
+        }
+    }
+}
+
+/// The other end of a joint's wires.
+#[derive(Default)]
+struct Wire {
+    error: Cell<Option<Broken>>,
+    accesses: Cell<u32>,
+    torque: Cell<f32>,
+}
+
+impl Wire {
+    fn access(&self) -> Result<(), Broken> {
+        self.accesses.set(self.accesses.get() + 1);
+        self.error.get().map_or(Ok(()), Err)
+    }
+}
+
+struct Encoder<'a>(&'a Wire);
+
+impl EncoderType for Encoder<'_> {
+    type Error = Broken;
+    type Age = CurrentTick;
+}
+
+impl JointEncoder for Encoder<'_> {
+    fn sample(&mut self) -> Result<(), Broken> {
+        self.0.access()
+    }
+    fn position(&self) -> f32 {
+        0.25
+    }
+}
+
+struct Drive<'a>(&'a Wire);
+
+impl JointDrive for Drive<'_> {
+    type Error = Broken;
+    type Setpoint = f32;
+    fn setpoint(&self, torque: f32) -> f32 {
+        torque
+    }
+    fn set(&mut self, torque: f32) -> Result<(), Broken> {
+        self.0.access()?;
+        self.0.torque.set(torque);
+        Ok(())
+    }
+}
+
+struct Brake<'a>(&'a Wire);
+
+impl digital::ErrorType for Brake<'_> {
+    type Error = Infallible;
+}
+
+impl OutputPin for Brake<'_> {
+    fn set_low(&mut self) -> Result<(), Infallible> {
+        self.0.torque.set(0.0);
+        Ok(())
+    }
+    fn set_high(&mut self) -> Result<(), Infallible> {
+        self.0.torque.set(1.0);
+        Ok(())
+    }
+}
+
+/// As much torque as holds still.
+struct One;
+
+impl Law<2> for One {
+    fn feedforward(_: &State<f32, 2, 2>, (): &()) -> [f32; 2] {
+        [1.0, 2.0]
+    }
+}
+
+#[derive(Default)]
+struct Wires {
+    encoders: [Wire; 2],
+    drives: [Wire; 2],
+    brake: Wire,
+}
+
+type Arm<'a> = ControlLoop<[Encoder<'a>; 2], [Drive<'a>; 2], Brake<'a>, 2>;
+
+fn controller() -> MotionController<f32, 2, CurrentTick> {
+    MotionController::new(MotionControllerConfig {
+        supervisor: SupervisorConfig {
+            limits: SafetyLimits {
+                torque: [10.0; 2],
+                rate: [10.0; 2],
+                speed: [3.0; 2],
+                lower: [-1.0; 2],
+                upper: [1.0; 2],
+            },
+            tick: 1e-3,
+            resolution: 0.0,
+            ride_through_ticks: RIDE,
+            hold_ticks: 2,
+            reentry_ticks: 10,
+        },
+        observer_bandwidth: 250.0,
+        decay_rate: 25.0,
+        restart_distance: 0.1,
+    })
+}
+
+const GAINS: Gains<f32, 2> = Gains {
+    kp: [0.0; 2],
+    kd: [0.0; 2],
+};
+
+impl Wires {
+    fn arm(&self) -> Arm<'_> {
+        let (encoders, drives) = (
+            self.encoders.each_ref().map(Encoder),
+            self.drives.each_ref().map(Drive),
+        );
+        ControlLoop::new(
+            encoders,
+            drives,
+            Brake(&self.brake),
+            GAINS,
+            controller(),
+            (),
+        )
+    }
+
+    fn braked(&self) -> bool {
+        self.brake.torque.get() == 1.0
+    }
+}
+
+fn tick(arm: &mut Arm<'_>) -> Telemetry<2> {
+    arm.tick::<One, _, ()>(&at_rest(), &())
+}
+
+/// A reference that stays where the encoders are.
+fn at_rest() -> impl motion_control::Reference<f32, 2> {
+    motion_control::Trajectory::new(
+        &[0, 1000].map(|ticks| motion_control::WayPoint {
+            q: [0.25; 2],
+            qd: [0.0; 2],
+            ticks,
+        }),
+        1e-3,
+        &[motion_control::MotionLimits {
+            velocity: 3.0,
+            acceleration: 10.0,
+        }; 2],
+    )
+    .unwrap()
+}
+
+#[test]
+fn an_encoders_error_names_its_joint_and_the_others_are_read() {
+    let wires = Wires::default();
+    let mut arm = wires.arm();
+    assert_eq!(tick(&mut arm).status.fault, None);
+    wires.encoders[0].error.set(Some(Broken::Wire));
+    assert_eq!(
+        tick(&mut arm).status.fault,
+        Some(Fault::Encoder { joint: 0 })
+    );
+    let error = JointError {
+        joint: 0,
+        error: Broken::Wire,
+    };
+    assert_eq!(arm.encoder_error(), Some(&error));
+    assert_eq!(wires.encoders[1].accesses.get(), 2);
+    wires.encoders[0].error.set(None);
+    assert_eq!(tick(&mut arm).status.fault, None);
+    assert_eq!(arm.encoder_error(), None);
+}
+
+#[test]
+fn a_failed_drive_sets_the_brake_and_the_others_their_torque() {
+    let wires = Wires::default();
+    let mut arm = wires.arm();
+    tick(&mut arm);
+    assert!(!wires.braked());
+    wires.drives[0].error.set(Some(Broken::Wire));
+    tick(&mut arm);
+    assert!(wires.braked());
+    assert_eq!(wires.drives[1].torque.get(), 2.0);
+    let error = JointError {
+        joint: 0,
+        error: Broken::Wire,
+    };
+    assert_eq!(arm.drive_error(), Some(&error));
+    let status = tick(&mut arm).status;
+    assert_eq!(
+        (status.mode, status.fault),
+        (Mode::Stopped, Some(Fault::Drive { joint: 0 }))
+    );
+}
+
+#[test]
+fn a_drive_that_is_not_ready_for_a_moment_is_ridden_through() {
+    let wires = Wires::default();
+    let mut arm = wires.arm();
+    tick(&mut arm);
+    wires.drives[1].error.set(Some(Broken::Disabled));
+    for _ in 0..RIDE {
+        let status = tick(&mut arm).status;
+        assert_eq!((status.mode, wires.braked()), (Mode::Full, false));
+    }
+    wires.drives[1].error.set(None);
+    let status = tick(&mut arm).status;
+    assert_eq!(
+        (status.mode, status.fault),
+        (Mode::Full, Some(Fault::NotReady { joint: 1 }))
+    );
+    assert_eq!(tick(&mut arm).status.fault, None);
+}
+
+#[test]
+fn a_drive_that_never_gets_ready_stops_the_arm() {
+    let wires = Wires::default();
+    let mut arm = wires.arm();
+    wires.drives[1].error.set(Some(Broken::Disabled));
+    let last = (0..20).map(|_| tick(&mut arm).status).last().unwrap();
+    assert_eq!((last.mode, wires.braked()), (Mode::Stopped, true));
+    assert_eq!(last.fault, Some(Fault::NotReady { joint: 1 }));
+}
+
+#[test]
+fn of_two_drives_the_one_that_failed_is_named() {
+    let wires = Wires::default();
+    for (errors, joint) in [
+        ([Broken::Disabled, Broken::Wire], 1),
+        ([Broken::Wire, Broken::Disabled], 0),
+        ([Broken::Wire, Broken::Wire], 0),
+        ([Broken::Disabled, Broken::Disabled], 0),
+    ] {
+        for (wire, error) in wires.drives.iter().zip(errors) {
+            wire.error.set(Some(error));
+        }
+        let error = errors[joint];
+        let set = wires.drives.each_ref().map(Drive).set_torques(&[0.0; 2]);
+        assert_eq!(set, Err(JointError { joint, error }));
+    }
+}
+
+#[test]
+fn a_probe_sees_each_phase_once_and_in_order() {
+    #[derive(Default)]
+    struct Seen(Vec<(Phase, bool)>, Option<Telemetry<2>>);
+    impl Probe<2> for Seen {
+        fn begin(&mut self, phase: Phase) {
+            self.0.push((phase, true));
+        }
+        fn end(&mut self, phase: Phase) {
+            self.0.push((phase, false));
+        }
+        fn record(&mut self, telemetry: &Telemetry<2>) {
+            self.1 = Some(*telemetry);
+        }
+    }
+    let (wires, mut seen) = (Wires::default(), Seen::default());
+    let telemetry = wires
+        .arm()
+        .tick_probed::<One, _, ()>(&at_rest(), &(), &mut seen);
+    let inner = [
+        Phase::Read,
+        Phase::Reference,
+        Phase::Dynamics,
+        Phase::Safety,
+        Phase::Write,
+    ];
+    let inner = inner
+        .into_iter()
+        .flat_map(|phase| [(phase, true), (phase, false)]);
+    let whole = [(Phase::Tick, true)].into_iter().chain(inner);
+    assert_eq!(
+        seen.0,
+        whole.chain([(Phase::Tick, false)]).collect::<Vec<_>>()
+    );
+    assert_eq!(seen.1, Some(telemetry));
+}
+
+/// One exchange for all joints, as on a bus.
+struct Bus(u32);
+
+impl EncoderType for Bus {
+    type Error = Infallible;
+    type Age = CurrentTick;
+}
+
+impl JointEncoders<2> for Bus {
+    fn start(&mut self) {
+        self.0 = 0;
+    }
+    fn read(&mut self) -> Result<[f32; 2], JointError<Infallible>> {
+        self.0 += 1;
+        Ok([0.25; 2])
+    }
+}
+
+impl JointDrives<2> for Bus {
+    type Error = Infallible;
+    fn set_torques(&mut self, _: &[f32; 2]) -> Result<(), JointError<Infallible>> {
+        Ok(())
+    }
+}
+
+#[test]
+fn devices_of_all_joints_at_once_are_encoders_and_drives() {
+    let mut arm = ControlLoop::new(Bus(9), Bus(9), NoBrake, GAINS, controller(), ());
+    let telemetry = arm.tick::<One, _, ()>(&at_rest(), &());
+    assert_eq!(
+        (telemetry.status.fault, telemetry.torque),
+        (None, [1.0, 2.0])
+    );
+}

@@ -7,12 +7,23 @@ use dynamics_core::effects::{Armature, Coriolis, Effect, Gravity, Inertia, Visco
 use dynamics_core::model::{Calibrated, Static};
 use dynamics_core::robots::Iiwa14;
 use dynamics_core::state::State;
-use motion_control::{Estimate, Gains, RestToRest, TrajectoryError, feedback};
+use motion_control::{Estimate, Gains, RestToRest, TrajectoryError, WayPoint, feedback};
 
 use crate::plant::FlexiblePlant;
 use crate::scene::{Less, Noise, OMEGA_N, PlantModel, Run, Scene, TICK, ZETA, name, speeds};
-use crate::trajectories::{SWING, UPRIGHT};
+use crate::trajectories::stop;
 use joint_drivers::Law;
+
+/// Where the iiwa 14 swings from, rad.
+const UPRIGHT: [f32; 7] = [0.0, 0.4, 0.0, -1.2, 0.0, 0.8, 0.0];
+
+/// A swing of the iiwa 14 there and back.
+const SWING: [WayPoint<f32, 7>; 4] = [
+    stop(UPRIGHT, 0),
+    stop([0.7, 0.9, 0.3, -0.8, 0.5, 0.3, 0.6], 1300),
+    stop([-0.5, 0.7, -0.3, -1.5, -0.5, 1.0, -0.6], 2100),
+    stop(UPRIGHT, 1300),
+];
 
 /// What acts on the links.
 pub type Effects = (Gravity, Inertia, Coriolis, Viscous<f32, 7>);

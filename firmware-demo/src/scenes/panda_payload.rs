@@ -12,13 +12,37 @@ use dynamics_core::state::State;
 use dynamics_core::{Core, Engine};
 use motion_control::{
     CartesianImpedance, Estimate, Gains, ImpedanceConfig, Reference, TaskDeviation, TaskFrame,
-    Trajectory, TrajectoryError, feedback, pose_error,
+    Trajectory, TrajectoryError, WayPoint, feedback, pose_error,
 };
 
 use crate::plant::Plant;
 use crate::scene::{Less, Noise, PlantModel, Run, Scene, rigid, through};
-use crate::trajectories::{PANDA_CARRY, READY, arrival};
+use crate::trajectories::{READY, stop};
 use joint_drivers::Law;
+
+/// The Panda carries a part from low to low, at rest there while the gripper moves: points 2 to 3 and 6 to 7.
+const PANDA_CARRY: [WayPoint<f32, 7>; 10] = [
+    stop(READY, 0),
+    stop([-0.70, -0.30, 0.10, -2.00, 0.05, 1.75, 0.10], 700),
+    stop([-0.70, 0.05, 0.10, -2.00, 0.05, 2.10, 0.10], 550),
+    stop([-0.70, 0.05, 0.10, -2.00, 0.05, 2.10, 0.10], 200),
+    stop([-0.70, -0.30, 0.10, -2.00, 0.05, 1.75, 0.10], 550),
+    stop([0.80, -0.20, -0.10, -2.10, -0.05, 1.90, 1.50], 1350),
+    stop([0.80, 0.15, -0.10, -2.05, -0.05, 2.20, 1.50], 550),
+    stop([0.80, 0.15, -0.10, -2.05, -0.05, 2.20, 1.50], 200),
+    stop([0.80, -0.20, -0.10, -2.10, -0.05, 1.90, 1.50], 550),
+    stop(READY, 800),
+];
+
+/// Ticks from the first way-point to this one.
+const fn arrival<const N: usize>(way: &[WayPoint<f32, N>], point: usize) -> u32 {
+    let (mut ticks, mut i) = (0, 0);
+    while i <= point {
+        ticks += way[i].ticks;
+        i += 1;
+    }
+    ticks
+}
 
 /// The body that carries the hand.
 pub const HAND: usize = Panda::MODEL.body("panda_link7");

@@ -8,14 +8,30 @@ use dynamics_core::effects::{
 };
 use dynamics_core::model::JointLimits;
 use dynamics_core::state::State;
-use motion_control::{MotionLimits, Trajectory, TrajectoryError};
+use motion_control::{MotionLimits, Trajectory, TrajectoryError, WayPoint};
 
 use crate::plant::ClusterPlant;
 use crate::robots::{G1Ankle, SerialAnkle};
 use crate::scene::clustered::{self, MotorReference};
 use crate::scene::{Noise, PlantModel, Run, Scene, TICK};
-use crate::trajectories::{ANKLE_STEPS, MID_STANCE};
+use crate::trajectories::{MID_STANCE, pass, stop};
 use joint_drivers::Law;
+
+/// Two steps of a humanoid's leg in the air: knee, pitch and roll of the ankle. The heel rises, the leg swings, the
+/// heel comes down, and the foot follows the ground; it rolls to the left in the first and to the right in the second.
+const ANKLE_STEPS: [WayPoint<f32, 3>; 11] = [
+    stop(MID_STANCE, 0),
+    pass([0.75, 0.40, 0.08], [4.0, 0.0, 0.0], 220),
+    pass([1.10, -0.05, 0.15], [0.0, -2.0, 0.0], 150),
+    stop([0.08, -0.10, 0.06], 280),
+    stop([0.30, 0.15, -0.06], 130),
+    stop(MID_STANCE, 220),
+    pass([0.75, 0.40, -0.08], [4.0, 0.0, 0.0], 220),
+    pass([1.10, -0.05, -0.15], [0.0, -2.0, 0.0], 150),
+    stop([0.08, -0.10, -0.06], 280),
+    stop([0.30, 0.15, 0.06], 130),
+    stop(MID_STANCE, 220),
+];
 
 /// What acts on the leg.
 pub type Effects = (

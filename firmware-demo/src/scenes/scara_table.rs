@@ -7,13 +7,30 @@ use dynamics_core::effects::{
 };
 use dynamics_core::state::State;
 use glam::Vec3;
-use motion_control::{Trajectory, TrajectoryError};
+use motion_control::{Trajectory, TrajectoryError, WayPoint};
 
 use crate::plant::Plant;
 use crate::robots::Scara;
 use crate::scene::{Noise, PlantModel, Run, Scene, rigid, through};
-use crate::trajectories::{ASIDE, SCARA_SERVES};
+use crate::trajectories::{pass, stop};
 use joint_drivers::Law;
+
+/// Where the SCARA's begins and ends, rad.
+const ASIDE: [f32; 3] = [-0.9, 1.6, -0.7];
+
+/// The SCARA serves a table: from a feeder to two places and back, at rest there for a grip.
+const SCARA_SERVES: [WayPoint<f32, 3>; 10] = [
+    stop(ASIDE, 0),
+    stop([-0.4, 0.7, 0.9], 360),
+    stop([-0.4, 0.7, 0.9], 80),
+    stop([0.5, 1.6, -0.9], 400),
+    stop([0.5, 1.6, -0.9], 80),
+    stop([-0.4, 0.7, 0.9], 400),
+    stop([-0.4, 0.7, 0.9], 80),
+    pass([0.2, -0.1, 0.3], [2.2, -3.0, -2.5], 240),
+    stop([0.6, -0.7, 0.0], 280),
+    stop(ASIDE, 640),
+];
 
 /// What acts on the arm.
 pub type Effects = (

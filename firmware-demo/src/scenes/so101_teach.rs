@@ -26,12 +26,24 @@ use dynamics_core::effects::{
 use dynamics_core::model::{JointLimits, model};
 use dynamics_core::robots::So101;
 use dynamics_core::state::State;
-use motion_control::{Estimate, Gains, Trajectory, TrajectoryError};
+use motion_control::{Estimate, Gains, Trajectory, TrajectoryError, WayPoint};
 
 use crate::plant::ServoPlant;
 use crate::scene::{Noise, PlantModel, Run, Scene, rigid, speeds};
-use crate::trajectories::{SO101_START, TAUGHT};
+use crate::trajectories::{SO101_START, stop};
 use joint_drivers::Law;
+
+/// A path that the SO-101 is taught: to a part, down, the jaw closes, up, over, down, and back; ticks of 2 ms.
+const TAUGHT: [WayPoint<f32, 6>; 8] = [
+    stop(SO101_START, 0),
+    stop([-0.6, -0.2, 0.5, 0.9, 0.4, 1.2], 600),
+    stop([-0.6, 0.3, 0.3, 0.8, 0.4, 1.2], 350),
+    stop([-0.6, 0.3, 0.3, 0.8, 0.4, 0.2], 350),
+    stop([-0.6, -0.3, 0.6, 0.9, 0.4, 0.2], 350),
+    stop([0.8, -0.2, 0.5, 0.9, -0.5, 0.2], 700),
+    stop([0.8, 0.3, 0.2, 0.8, -0.5, 0.9], 400),
+    stop(SO101_START, 850),
+];
 
 /// Torque constant and back-EMF constant at the joint, N·m/A and V·s/rad.
 pub const TORQUE_CONSTANT: f32 = 1.211_641_4;

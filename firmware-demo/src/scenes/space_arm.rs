@@ -6,13 +6,23 @@ use dynamics_core::algorithms::Prescribed;
 use dynamics_core::effects::{Armature, Coriolis, Coulomb, Effect, Inertia, Viscous, Width};
 use dynamics_core::spatial::Force;
 use dynamics_core::state::State;
-use motion_control::{Trajectory, TrajectoryError};
+use motion_control::{Trajectory, TrajectoryError, WayPoint};
 
 use crate::plant::{Floating, last};
 use crate::robots::SpaceArm;
 use crate::scene::{Less, Noise, PlantModel, Run, Scene, name, rigid, through};
-use crate::trajectories::{REACH_OUT, STOWED};
+use crate::trajectories::{STOWED, stop};
 use joint_drivers::Law;
+
+/// The space arm reaches out for something that drifts by, pulls it in, and folds.
+const REACH_OUT: [WayPoint<f32, 6>; 6] = [
+    stop(STOWED, 0),
+    stop([0.7, -0.9, 1.3, -0.4, 0.0, 0.8], 1800),
+    stop([1.0, -0.3, 0.7, -0.4, 0.4, 1.2], 1400),
+    stop([1.0, -0.9, 1.7, -0.8, 0.4, 1.2], 1400),
+    stop([-0.9, -1.0, 1.9, -0.9, -0.3, -0.6], 2600),
+    stop(STOWED, 2000),
+];
 
 /// What acts on the joints; nothing acts on the satellite.
 pub type Effects = (

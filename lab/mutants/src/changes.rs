@@ -1,13 +1,5 @@
 //! What is changed to what, as text.
 
-use crate::site::Operator;
-
-/// What stands instead of an expression, and the change in words.
-pub struct Change {
-    pub text: String,
-    pub words: String,
-}
-
 /// The longest piece of source in the words of a change.
 const LONGEST: usize = 60;
 
@@ -34,46 +26,35 @@ fn on_one_line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
+/// What binary operators are changed to, by their kinds.
+const OPERATORS: [(&str, &str); 3] = [
+    (
+        "arithmetic",
+        "+:- -:+ *:/ *:+ /:* %:* <<:>> >>:<< +=:-= -=:+= *=:/= /=:*=",
+    ),
+    (
+        "comparison",
+        "<:<= <:>= <=:< <=:> >:>= >:<= >=:> >=:< ==:!= !=:==",
+    ),
+    ("logic", "&&:|| ||:&& &:| |:& ^:| &=:|= |=:&="),
+];
+
+/// The others that a binary operator is changed to, with their kind.
+pub fn operators(op: &str) -> impl Iterator<Item = (&'static str, &'static str)> {
+    let each = OPERATORS.into_iter().flat_map(|(kind, pairs)| {
+        let pairs = pairs.split(' ').filter_map(|pair| pair.split_once(':'));
+        pairs.map(move |(one, other)| (kind, one, other))
+    });
+    each.filter_map(move |(kind, one, other)| (one == op).then_some((kind, other)))
+}
+
 /// Whether a binary operator compares.
 pub fn is_comparison(op: &str) -> bool {
-    matches!(op, "<" | "<=" | ">" | ">=" | "==" | "!=")
+    operators(op).any(|(kind, _)| kind == "comparison")
 }
 
-/// What a binary operator is changed to.
-pub fn operators(op: &str) -> Vec<(Operator, &'static str)> {
-    use Operator::{Arithmetic, Comparison, Logic};
-    let (operator, others): (_, &[&'static str]) = match op {
-        "+" => (Arithmetic, &["-"]),
-        "-" => (Arithmetic, &["+"]),
-        "*" => (Arithmetic, &["/", "+"]),
-        "/" => (Arithmetic, &["*"]),
-        "%" => (Arithmetic, &["*"]),
-        "<<" => (Arithmetic, &[">>"]),
-        ">>" => (Arithmetic, &["<<"]),
-        "+=" => (Arithmetic, &["-="]),
-        "-=" => (Arithmetic, &["+="]),
-        "*=" => (Arithmetic, &["/="]),
-        "/=" => (Arithmetic, &["*="]),
-        "<" => (Comparison, &["<=", ">="]),
-        "<=" => (Comparison, &["<", ">"]),
-        ">" => (Comparison, &[">=", "<="]),
-        ">=" => (Comparison, &[">", "<"]),
-        "==" => (Comparison, &["!="]),
-        "!=" => (Comparison, &["=="]),
-        "&&" => (Logic, &["||"]),
-        "||" => (Logic, &["&&"]),
-        "&" => (Logic, &["|"]),
-        "|" => (Logic, &["&"]),
-        "^" => (Logic, &["|"]),
-        "&=" => (Logic, &["|="]),
-        "|=" => (Logic, &["&="]),
-        _ => (Logic, &[]),
-    };
-    others.iter().map(|other| (operator, *other)).collect()
-}
-
-/// Another operator between the same operands, which keep their precedence.
-pub fn operator(left: &str, op: &str, other: &str, right: &str) -> Change {
+/// Another operator between the same operands, which keep their precedence, and the change in words.
+pub fn operator(left: &str, op: &str, other: &str, right: &str) -> (String, String) {
     let text = match op.ends_with('=') && !is_comparison(op) {
         // What is assigned to is no value.
         true => format!("{left} {other} ({right})"),
@@ -81,8 +62,7 @@ pub fn operator(left: &str, op: &str, other: &str, right: &str) -> Change {
     };
     let (before, after) = (tail(left), short(right));
     let after: String = after.chars().take(LONGEST / 2).collect();
-    let words = format!("`{before} {op} {after}` → `{other}`");
-    Change { text, words }
+    (text, format!("`{before} {op} {after}` → `{other}`"))
 }
 
 /// Another integer: 0 for 1, else one more.
@@ -92,43 +72,38 @@ pub fn integer(written: &str, digits: &str, suffix: &str) -> Option<String> {
     }
     // Masks and codes keep their base in the words of the change, so one more is written as a sum.
     let is_decimal = written.trim_end_matches(suffix).replace('_', "") == digits;
-    match digits.parse::<u128>() {
-        Ok(number) if is_decimal => Some(format!("{}{suffix}", number + 1)),
-        Ok(_) => Some(format!("({written} + 1)")),
-        Err(_) => None,
-    }
+    let number = digits.parse::<u128>().ok()?;
+    Some(match is_decimal {
+        true => format!("{}{suffix}", number + 1),
+        false => format!("({written} + 1)"),
+    })
 }
 
 /// Another real number: 1 for 0, else a tenth more.
 pub fn float(written: &str, digits: &str, suffix: &str) -> Option<String> {
     let number: f64 = digits.parse().ok()?;
-    if number == 0.0 {
-        return Some(format!("1.0{suffix}"));
-    }
-    Some(format!("({written} * 1.1)"))
+    Some(match number == 0.0 {
+        true => format!("1.0{suffix}"),
+        false => format!("({written} * 1.1)"),
+    })
 }
+
+/// Methods and their counterparts.
+const METHODS: [[&str; 2]; 8] = [
+    ["min", "max"],
+    ["all", "any"],
+    ["is_some", "is_none"],
+    ["is_ok", "is_err"],
+    ["wrapping_add", "wrapping_sub"],
+    ["saturating_add", "saturating_sub"],
+    ["sin", "cos"],
+    ["starts_with", "ends_with"],
+];
 
 /// The counterpart of a method.
 pub fn method(name: &str) -> Option<&'static str> {
-    Some(match name {
-        "min" => "max",
-        "max" => "min",
-        "all" => "any",
-        "any" => "all",
-        "is_some" => "is_none",
-        "is_none" => "is_some",
-        "is_ok" => "is_err",
-        "is_err" => "is_ok",
-        "wrapping_add" => "wrapping_sub",
-        "wrapping_sub" => "wrapping_add",
-        "saturating_add" => "saturating_sub",
-        "saturating_sub" => "saturating_add",
-        "sin" => "cos",
-        "cos" => "sin",
-        "starts_with" => "ends_with",
-        "ends_with" => "starts_with",
-        _ => return None,
-    })
+    let pair = METHODS.iter().find(|pair| pair.contains(&name))?;
+    Some(pair[usize::from(pair[0] == name)])
 }
 
 /// What a function may return at its beginning, by its type.

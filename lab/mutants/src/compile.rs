@@ -47,18 +47,11 @@ pub enum Built {
 /// Builds the tests of the packages that the copy has.
 pub fn build(copy: &Path, target: &Path, places: &Places, is_optimised: bool) -> Result<Built> {
     let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    cargo.current_dir(copy).env("CARGO_TARGET_DIR", target);
     cargo
-        .current_dir(copy)
-        .env("CARGO_TARGET_DIR", target)
         .env("CARGO_PROFILE_DEV_DEBUG", "0")
         .env("CARGO_INCREMENTAL", "0");
-    cargo.args([
-        "build",
-        "--lib",
-        "--tests",
-        "--keep-going",
-        "--message-format=json",
-    ]);
+    cargo.args("build --lib --tests --keep-going --message-format=json".split(' '));
     if !is_optimised {
         let packages = ["", "_BUILD_OVERRIDE"];
         cargo.envs(packages.map(|of| (format!("CARGO_PROFILE_DEV{of}_OPT_LEVEL"), "0")));
@@ -72,41 +65,29 @@ pub fn build(copy: &Path, target: &Path, places: &Places, is_optimised: bool) ->
     }
     let output = cargo
         .stdin(Stdio::null())
-        .stderr(Stdio::piped())
         .output()
         .map_err(Error::file(copy))?;
-    let (mut programs, mut refused, mut unexplained) = (Vec::new(), BTreeSet::new(), Vec::new());
-    for line in String::from_utf8_lossy(&output.stdout).lines() {
-        let Ok(message) = serde_json::from_str::<Value>(line) else {
-            continue;
-        };
+    let (mut programs, mut refused, mut errors) = (Vec::new(), BTreeSet::new(), String::new());
+    let text = String::from_utf8_lossy(&output.stdout);
+    for message in text
+        .lines()
+        .filter_map(|line| serde_json::from_str::<Value>(line).ok())
+    {
         programs.extend(program(&message));
-        let is_error =
-            message["reason"] == "compiler-message" && message["message"]["level"] == "error";
-        if is_error
-            && !message["message"]["spans"]
-                .as_array()
-                .is_none_or(Vec::is_empty)
-        {
-            match sites_of(&message["message"], places) {
-                sites if sites.is_empty() => {
-                    unexplained.push(message["message"]["rendered"].to_string())
-                }
-                sites => refused.extend(sites),
-            }
+        let error = &message["message"];
+        if message["reason"] == "compiler-message" && error["level"] == "error" {
+            refused.extend(sites_of(error, places));
+            errors += error["rendered"].as_str().unwrap_or_default();
         }
     }
-    match (output.status.success(), refused.is_empty()) {
-        (true, _) => Ok(Built::Programs(programs)),
-        (false, false) => Ok(Built::Refused(refused)),
-        (false, true) => {
-            let errors = String::from_utf8_lossy(&output.stderr).into_owned();
-            Err(Error(format!(
-                "the copy does not compile: {} {errors}",
-                unexplained.join("\n")
-            )))
-        }
+    if output.status.success() {
+        return Ok(Built::Programs(programs));
     }
+    if refused.is_empty() {
+        let said = String::from_utf8_lossy(&output.stderr);
+        return Err(Error(format!("the copy does not compile: {errors} {said}")));
+    }
+    Ok(Built::Refused(refused))
 }
 
 /// The test program that a message of cargo names, if it does.
@@ -123,40 +104,33 @@ fn program(message: &Value) -> Option<Program> {
 }
 
 /// The sites that an error is about: the innermost at each of its spans, those of macros included.
-fn sites_of(message: &Value, places: &Places) -> BTreeSet<u32> {
-    let mut found = BTreeSet::new();
+fn sites_of(error: &Value, places: &Places) -> BTreeSet<u32> {
     // The primary spans first: others may be mere context.
-    for primary in [true, false] {
-        for span in message["spans"].as_array().into_iter().flatten() {
-            if span["is_primary"] == primary {
-                at_span(span, places, &mut found);
-            }
+    let of = |is_primary: bool| {
+        let spans = error["spans"].as_array().into_iter().flatten();
+        let mut found = BTreeSet::new();
+        for span in spans.filter(|span| span["is_primary"] == is_primary) {
+            at_span(span, places, &mut found);
         }
-        if !found.is_empty() {
-            break;
-        }
-    }
-    found
+        found
+    };
+    Some(of(true))
+        .filter(|found| !found.is_empty())
+        .unwrap_or_else(|| of(false))
 }
 
 fn at_span(span: &Value, places: &Places, found: &mut BTreeSet<u32>) {
+    let byte = |name: &str| span[name].as_u64().unwrap_or(0) as usize;
+    let (begin, end) = (byte("byte_start"), byte("byte_end"));
     let file = span["file_name"].as_str().unwrap_or_default();
-    let (begin, end) = (
-        span["byte_start"].as_u64().unwrap_or(0),
-        span["byte_end"].as_u64().unwrap_or(0),
-    );
-    let (begin, end) = (begin as usize, end as usize);
     let of_file = || places.get(file).into_iter().flatten();
     let around = of_file().filter(|(_, bytes)| bytes.start <= begin && end <= bytes.end);
     if let Some((number, _)) = around.min_by_key(|(_, bytes)| bytes.len()) {
         found.insert(*number);
     } else {
         // An expression that contains sites.
-        found.extend(
-            of_file()
-                .filter(|(_, bytes)| begin <= bytes.start && bytes.end <= end)
-                .map(|(number, _)| number),
-        );
+        let inside = of_file().filter(|(_, bytes)| begin <= bytes.start && bytes.end <= end);
+        found.extend(inside.map(|(number, _)| number));
     }
     if span["expansion"].is_object() {
         at_span(&span["expansion"]["span"], places, found);

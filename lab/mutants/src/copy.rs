@@ -1,13 +1,12 @@
 //! A copy of the workspace whose drawn sites have switches.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::error::{Error, Result};
 use crate::rooms::room_of;
-use crate::site::{Site, rewritten};
+use crate::site::{Site, Taken, rewritten};
 
 /// The crate of the switch, in the copy.
 const SWITCH: &str = "mutant-switch";
@@ -15,7 +14,7 @@ const SWITCH_MANIFEST: &str =
     "[package]\nname = \"mutant-switch\"\nversion = \"0.0.0\"\nedition = \"2024\"\n";
 
 /// The bytes of each site, by the file of the copy that contains it.
-pub type Places = BTreeMap<String, Vec<(u32, Range<usize>)>>;
+pub type Places = BTreeMap<String, Taken>;
 
 /// The files of the workspace: those of its repository and those that are not ignored.
 pub fn files(root: &Path) -> Result<Vec<String>> {
@@ -60,10 +59,7 @@ pub fn update(root: &Path, copy: &Path, files: &[String], sites: &[Site]) -> Res
             let (text, of_sites) = rewritten(&source, sites);
             places.insert(file.clone(), of_sites);
             bytes = text.into_bytes();
-        } else if Path::new(file)
-            .file_name()
-            .is_some_and(|name| name == "Cargo.toml")
-        {
+        } else if Path::new(file).ends_with("Cargo.toml") {
             let text = String::from_utf8(bytes).map_err(Error::file(&path))?;
             bytes = manifest(file, text).into_bytes();
         }
@@ -98,7 +94,7 @@ fn manifest(file: &str, text: String) -> String {
 
 fn write(path: &Path, bytes: &[u8]) -> Result<()> {
     // Cargo completes the lock file of the copy: it is written when the workspace's own has changed.
-    if path.file_name().is_some_and(|name| name == "Cargo.lock") && path.exists() {
+    if path.ends_with("Cargo.lock") && path.exists() {
         return Ok(());
     }
     if std::fs::read(path).is_ok_and(|old| old == bytes) {

@@ -23,11 +23,10 @@ use std::process::ExitCode;
 use clap::Parser;
 
 use crate::compile::{Built, Program};
-use crate::copy::Places;
 use crate::error::{Error, Result};
 use crate::outcome::{Outcome, Results, Verdict};
 use crate::site::Site;
-use crate::suite::{End, Test};
+use crate::suite::{Test, UNOPTIMISED};
 
 /// Small changes to the code, one at a time, each against the tests that reach it
 #[derive(Parser)]
@@ -44,9 +43,6 @@ struct Args {
     /// Only changes that survived the last time, or that it did not have
     #[arg(long)]
     survivors: bool,
-    /// Another sample
-    #[arg(long, default_value_t = 1)]
-    seed: u64,
 }
 
 fn main() -> ExitCode {
@@ -65,193 +61,129 @@ fn main() -> ExitCode {
 
 fn run(args: &Args) -> Result<Results> {
     let files = copy::files(&args.root)?;
-    let sites = rooms::drawn(copy::sites(&args.root, &files)?, args.seed);
-    let is_wanted = |site: &&Site| {
-        let only = args.only.as_ref();
-        only.is_none_or(|only| site.file.starts_with(only.as_str()))
-    };
-    let mut kept = Kept::read(args, &sites)?;
-    let mut results = Results {
-        seed: args.seed,
-        ..Results::default()
-    };
-    for is_optimised in [true, false] {
-        let of_build = |site: &Site| rooms::is_unoptimised(&site.file) != is_optimised;
-        let mut sites: Vec<Site> = sites
-            .iter()
-            .filter(|site| of_build(site))
-            .cloned()
-            .collect();
-        let known = kept.all_killed(args, &sites, is_optimised)?;
-        if let Some(known) = known.filter(|_| args.survivors && args.only.is_none()) {
-            results.outcomes.extend(known);
-        } else if sites.iter().any(|site| is_wanted(&site)) {
-            let programs = build(args, &files, &mut sites, is_optimised)?;
-            sites.retain(|site| is_wanted(&site));
-            let [optimised, unoptimised] = suite::LONGEST;
-            let longest = if is_optimised { optimised } else { unoptimised };
-            measure(args, &sites, (&programs, longest), &mut kept, &mut results)?;
+    let sites = rooms::drawn(copy::sites(&args.root, &files)?);
+    let kept_file = args.dir.join("verdicts.json");
+    let mut kept: BTreeMap<String, Outcome> = read(&kept_file)?;
+    kept.retain(|key, _| sites.iter().any(|site| site.key() == *key));
+    let mut results = Results::default();
+    let only = args.only.as_deref().unwrap_or_default();
+    for (kind, longest) in suite::LONGEST {
+        let is_of_build = |site: &&Site| rooms::is_unoptimised(&site.file) == (kind == UNOPTIMISED);
+        let mut sites: Vec<Site> = sites.iter().filter(is_of_build).cloned().collect();
+        let mut build = Build::read(args, kind)?;
+        sites.retain(|site| !build.refused.contains(&site.key()));
+        let is_open = |site: &Site, kept: &BTreeMap<String, Outcome>| {
+            let verdict = kept.get(&site.key()).map(|outcome| &outcome.verdict);
+            let is_known = args.survivors && matches!(verdict, Some(Verdict::Killed(_)));
+            site.file.starts_with(only) && !is_known
+        };
+        if sites.iter().any(|site| is_open(site, &kept)) {
+            let programs = build.programs(args, &files, &mut sites)?;
+            let log = args.dir.join("reached.txt");
+            let (tests, unusable) = suite::record(&programs, &log, longest)?;
+            results.tests = results.tests.max(tests.len());
+            for name in unusable {
+                eprintln!("fails or is too slow without a change: {name}");
+                if !results.unusable.contains(&name) {
+                    results.unusable.push(name);
+                }
+            }
+            let open = sites.iter().filter(|site| is_open(site, &kept)).cloned();
+            let open: Vec<Site> = open.collect();
+            for (number, site) in (1..).zip(&open) {
+                let outcome = Outcome::of(site, verdict(site, &tests)?);
+                if !matches!(outcome.verdict, Verdict::Killed(_)) {
+                    let (key, of) = (site.key(), open.len());
+                    eprintln!("{number} of {of}, {:?}: {key}", outcome.verdict);
+                }
+                kept.insert(site.key(), outcome);
+                // A run may be interrupted.
+                if number % 20 == 0 || number == open.len() {
+                    write(&kept_file, &kept)?;
+                }
+            }
         }
+        let wanted = sites.iter().filter(|site| site.file.starts_with(only));
+        results
+            .outcomes
+            .extend(wanted.filter_map(|site| kept.get(&site.key()).cloned()));
     }
     Ok(results)
 }
 
-fn kind(is_optimised: bool) -> &'static str {
-    if is_optimised {
-        "optimised"
-    } else {
-        "unoptimised"
-    }
+/// A build of the tests.
+struct Build {
+    kind: &'static str,
+    folder: PathBuf,
+    /// The keys of changes that do not compile.
+    refused: BTreeSet<String>,
 }
 
-/// The changes of a build that do not compile.
-fn refused_file(args: &Args, is_optimised: bool) -> PathBuf {
-    args.dir.join(kind(is_optimised)).join("refused.json")
-}
-
-/// Builds the tests with all changes that compile, and removes the others from the list.
-fn build(
-    args: &Args,
-    files: &[String],
-    sites: &mut Vec<Site>,
-    is_optimised: bool,
-) -> Result<Vec<Program>> {
-    let kind = kind(is_optimised);
-    let [copy, target] = ["tree", "build"].map(|name| args.dir.join(kind).join(name));
-    std::fs::create_dir_all(&copy).map_err(Error::file(&copy))?;
-    let refused_file = refused_file(args, is_optimised);
-    let mut refused: BTreeSet<String> = read(&refused_file)?.unwrap_or_default();
-    loop {
-        sites.retain(|site| !refused.contains(&site.key()));
-        eprintln!("building the tests with {} changes, {kind} …", sites.len());
-        let places: Places = copy::update(&args.root, &copy, files, sites)?;
-        match compile::build(&copy, &target, &places, is_optimised)? {
-            Built::Programs(programs) => return Ok(programs),
-            Built::Refused(numbers) => {
-                eprintln!("{} changes do not compile", numbers.len());
-                let is_refused = |site: &&Site| numbers.contains(&site.number);
-                refused.extend(sites.iter().filter(is_refused).map(Site::key));
-                write(&refused_file, &refused)?;
-            }
-        }
-    }
-}
-
-/// The verdicts on changes of this sample, kept for `--survivors` and for a run that was interrupted.
-struct Kept {
-    file: PathBuf,
-    outcomes: BTreeMap<String, Outcome>,
-}
-
-impl Kept {
-    fn read(args: &Args, sites: &[Site]) -> Result<Self> {
-        let file = args.dir.join("verdicts.json");
-        let mut outcomes: BTreeMap<String, Outcome> = read(&file)?.unwrap_or_default();
-        let keys: BTreeSet<String> = sites.iter().map(Site::key).collect();
-        outcomes.retain(|key, _| keys.contains(key));
-        Ok(Self { file, outcomes })
+impl Build {
+    fn read(args: &Args, kind: &'static str) -> Result<Self> {
+        let folder = args.dir.join(kind);
+        let refused = read(&folder.join("refused.json"))?;
+        Ok(Self {
+            kind,
+            folder,
+            refused,
+        })
     }
 
-    /// The outcomes of a build's sites, if each that compiles was killed.
-    fn all_killed(
-        &self,
+    /// Builds the tests with all changes that compile, and removes the others from the list.
+    fn programs(
+        &mut self,
         args: &Args,
-        sites: &[Site],
-        is_optimised: bool,
-    ) -> Result<Option<Vec<Outcome>>> {
-        let refused: BTreeSet<String> =
-            read(&refused_file(args, is_optimised))?.unwrap_or_default();
-        let mut compiled = sites.iter().filter(|site| !refused.contains(&site.key()));
-        Ok(compiled
-            .try_fold(Vec::new(), |mut outcomes, site| {
-                let verdict = self.killed(site)?;
-                outcomes.push(Outcome::of(site, verdict));
-                Some(outcomes)
-            })
-            .filter(|outcomes| !outcomes.is_empty()))
-    }
-
-    fn killed(&self, site: &Site) -> Option<Verdict> {
-        let verdict = &self.outcomes.get(&site.key())?.verdict;
-        Some(verdict.clone()).filter(|verdict| matches!(verdict, Verdict::Killed(_)))
-    }
-}
-
-/// Runs each change against the tests that reach it, until one of them fails.
-fn measure(
-    args: &Args,
-    sites: &[Site],
-    (programs, longest): (&[Program], f64),
-    kept: &mut Kept,
-    results: &mut Results,
-) -> Result<()> {
-    let is_known = |site: &Site| args.survivors && kept.killed(site).is_some();
-    let open = sites.iter().filter(|site| !is_known(site)).count();
-    let log = args.dir.join("reached.txt");
-    let (tests, unusable) = suite::record(programs, &log, longest, |line| eprintln!("{line}"))?;
-    for name in unusable {
-        eprintln!("fails or is too slow without a change: {name}");
-        if !results.unusable.contains(&name) {
-            results.unusable.push(name);
-        }
-    }
-    results.tests = results.tests.max(tests.len());
-    let by_site = suite::by_site(&tests);
-    let mut done = 0;
-    for site in sites {
-        let verdict = match kept.killed(site).filter(|_| args.survivors) {
-            Some(verdict) => verdict,
-            None => {
-                done += 1;
-                verdict(
-                    site,
-                    by_site.get(&site.number).map_or(&[][..], Vec::as_slice),
-                )?
-            }
-        };
-        if !matches!(verdict, Verdict::Killed(_)) {
+        files: &[String],
+        sites: &mut Vec<Site>,
+    ) -> Result<Vec<Program>> {
+        let [copy, target] = ["tree", "build"].map(|name| self.folder.join(name));
+        std::fs::create_dir_all(&copy).map_err(Error::file(&copy))?;
+        loop {
             eprintln!(
-                "{done} of {open}, {verdict:?}: {}:{}: {}",
-                site.file, site.line, site.change
+                "building the tests with {} changes, {} …",
+                sites.len(),
+                self.kind
             );
-        }
-        let outcome = Outcome::of(site, verdict);
-        kept.outcomes.insert(site.key(), outcome.clone());
-        results.outcomes.push(outcome);
-        if done % 20 == 19 {
-            write(&kept.file, &kept.outcomes)?;
-        }
-    }
-    write(&kept.file, &kept.outcomes)
-}
-
-fn verdict(site: &Site, tests: &[&Test<'_>]) -> Result<Verdict> {
-    for test in tests {
-        match suite::with(test, site.number).map_err(Error::file(&test.program.path))? {
-            End::Passed => {}
-            End::Failed => return Ok(Verdict::Killed(test.full_name())),
-            End::TimedOut => {
-                return Ok(Verdict::Killed(format!(
-                    "{} took too long",
-                    test.full_name()
-                )));
+            let places = copy::update(&args.root, &copy, files, sites)?;
+            match compile::build(&copy, &target, &places, self.kind != UNOPTIMISED)? {
+                Built::Programs(programs) => return Ok(programs),
+                Built::Refused(numbers) => {
+                    eprintln!("{} changes do not compile", numbers.len());
+                    let is_refused = |site: &&Site| numbers.contains(&site.number);
+                    self.refused
+                        .extend(sites.iter().filter(is_refused).map(Site::key));
+                    sites.retain(|site| !numbers.contains(&site.number));
+                    write(&self.folder.join("refused.json"), &self.refused)?;
+                }
             }
         }
     }
-    Ok(if tests.is_empty() {
-        Verdict::Unreached
-    } else {
-        Verdict::Survived
-    })
 }
 
-fn read<T: serde::de::DeserializeOwned>(path: &Path) -> Result<Option<T>> {
-    match std::fs::read_to_string(path) {
-        Ok(text) => serde_json::from_str(&text)
-            .map(Some)
-            .map_err(Error::file(path)),
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
-        Err(error) => Err(Error::file(path)(error)),
+/// Runs the tests that reach a change, the fastest first, until one of them fails.
+fn verdict(site: &Site, tests: &[Test<'_>]) -> Result<Verdict> {
+    let mut verdict = Verdict::Unreached;
+    for test in tests
+        .iter()
+        .filter(|test| test.sites.contains(&site.number))
+    {
+        if !suite::passes_with(test, site.number)? {
+            return Ok(Verdict::Killed(test.full_name()));
+        }
+        verdict = Verdict::Survived;
+    }
+    Ok(verdict)
+}
+
+/// What a file has in JSON; nothing if there is none.
+fn read<T: serde::de::DeserializeOwned + Default>(path: &Path) -> Result<T> {
+    match path.exists() {
+        true => {
+            let text = std::fs::read_to_string(path).map_err(Error::file(path))?;
+            serde_json::from_str(&text).map_err(Error::file(path))
+        }
+        false => Ok(T::default()),
     }
 }
 

@@ -9,7 +9,7 @@ use crate::site::Site;
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {
-    /// This test failed or took too long.
+    /// This test failed, or took more than ten times as long as without a change.
     Killed(String),
     /// Every test that reaches it passed.
     Survived,
@@ -37,7 +37,7 @@ impl Outcome {
             function: site.function.clone(),
             line: site.line,
             change: site.change.clone(),
-            operator: format!("{:?}", site.operator).to_lowercase(),
+            operator: site.operator.to_owned(),
             verdict,
         }
     }
@@ -46,7 +46,6 @@ impl Outcome {
 /// All that a run found.
 #[derive(Debug, Default, Serialize)]
 pub struct Results {
-    pub seed: u64,
     pub tests: usize,
     /// Tests that fail in the copy without a change.
     pub unusable: Vec<String>,

@@ -1,9 +1,8 @@
 //! Which parts of the workspace are changed, and how many changes each of them has.
 
-use std::collections::BTreeMap;
-use std::hash::Hasher;
+use std::collections::{BTreeMap, BTreeSet};
 
-use crate::site::{Operator, Site};
+use crate::site::Site;
 
 /// A part of the workspace.
 pub struct Room {
@@ -77,29 +76,24 @@ pub fn is_unoptimised(file: &str) -> bool {
     room_of(file).is_some_and(|room| room.name == UNOPTIMISED)
 }
 
-/// The sites that are drawn, numbered from 0 by file and place. The order of the draw depends on a site's key and the
-/// seed alone, so that a change to the code leaves the draw elsewhere as it is.
-pub fn drawn(sites: Vec<Site>, seed: u64) -> Vec<Site> {
-    let mut rooms: BTreeMap<&str, Vec<Site>> = BTreeMap::new();
-    for site in sites {
-        if let Some(room) = room_of(&site.file) {
-            rooms.entry(room.name).or_default().push(site);
-        }
-    }
+/// The sites that are drawn, numbered from 0 by file and place. The order of the draw depends on a site's key alone, so
+/// that a change to the code leaves the draw elsewhere as it is.
+pub fn drawn(mut sites: Vec<Site>) -> Vec<Site> {
     let mut drawn = Vec::new();
+    sites.sort_by_cached_key(|site| (hash(&site.key()), site.line));
+    // One reason is for one change: of several with the same words in a function, the first is drawn.
+    let mut keys = BTreeSet::new();
+    sites.retain(|site| keys.insert(site.key()));
     for room in &ROOMS {
-        let mut sites = rooms.remove(room.name).unwrap_or_default();
-        sites.sort_by_key(|site| (hash(&site.key(), seed), site.line));
-        // One reason is for one change: of several with the same words in a function, the first is drawn.
-        let mut keys = std::collections::BTreeSet::new();
-        sites.retain(|site| keys.insert(site.key()));
-        let mut of_operator: BTreeMap<Operator, usize> = BTreeMap::new();
-        sites.retain(|site| {
+        let mut of_operator: BTreeMap<&str, usize> = BTreeMap::new();
+        let mut is_drawn = |site: &&Site| {
+            let is_here = room_of(&site.file).is_some_and(|of| of.name == room.name);
             let count = of_operator.entry(site.operator).or_default();
-            *count += 1;
-            *count <= (room.draws * SHARE).div_ceil(100)
-        });
-        drawn.extend(sites.into_iter().take(room.draws));
+            *count += usize::from(is_here);
+            is_here && *count <= (room.draws * SHARE).div_ceil(100)
+        };
+        let of_room = sites.iter().filter(|site| is_drawn(site));
+        drawn.extend(of_room.take(room.draws).cloned());
     }
     drawn.sort_by(|a, b| {
         (&a.file, a.bytes.start, a.bytes.end).cmp(&(&b.file, b.bytes.start, b.bytes.end))
@@ -110,24 +104,10 @@ pub fn drawn(sites: Vec<Site>, seed: u64) -> Vec<Site> {
     drawn
 }
 
-/// A number that looks random, the same on every machine: FNV-1a, its bits mixed.
-fn hash(key: &str, seed: u64) -> u64 {
-    let mut fnv = Fnv(0xcbf2_9ce4_8422_2325 ^ seed);
-    fnv.write(key.as_bytes());
-    let mixed = (fnv.0 ^ (fnv.0 >> 33)).wrapping_mul(0xff51_afd7_ed55_8ccd);
+/// A number that looks random, the same on every machine: FNV-1a from one below its usual beginning, its bits mixed.
+fn hash(key: &str) -> u64 {
+    let step = |hash: u64, byte: u8| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+    let hash = key.bytes().fold(0xcbf2_9ce4_8422_2324, step);
+    let mixed = (hash ^ (hash >> 33)).wrapping_mul(0xff51_afd7_ed55_8ccd);
     mixed ^ (mixed >> 33)
-}
-
-struct Fnv(u64);
-
-impl Hasher for Fnv {
-    fn write(&mut self, bytes: &[u8]) {
-        for byte in bytes {
-            self.0 = (self.0 ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
-        }
-    }
-
-    fn finish(&self) -> u64 {
-        self.0
-    }
 }

@@ -13,25 +13,6 @@ pub enum Form {
     Return,
 }
 
-/// The kinds of changes, by which the sample is balanced.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Operator {
-    /// `+`, `-`, `*`, `/`, `%`, shifts, and the signs.
-    Arithmetic,
-    /// `<`, `==`, …
-    Comparison,
-    /// `&&`, `|`, `!`, conditions.
-    Logic,
-    /// Numbers and `true`, `false`.
-    Literal,
-    /// Statements that are left out.
-    Statement,
-    /// Functions that return a constant at once, or `None` for `Some`.
-    Return,
-    /// A method by its counterpart, such as `min` and `max`.
-    Method,
-}
-
 /// One change.
 #[derive(Clone, Debug)]
 pub struct Site {
@@ -42,7 +23,8 @@ pub struct Site {
     /// The function that contains it.
     pub function: String,
     pub line: usize,
-    pub operator: Operator,
+    /// The kind of change, by which the sample is balanced.
+    pub operator: &'static str,
     pub form: Form,
     /// The bytes of the source that are changed; none for [`Form::Return`].
     pub bytes: Range<usize>,
@@ -60,10 +42,8 @@ impl Site {
 
     /// The text before the original one and after it.
     fn around(&self) -> (String, &'static str) {
-        let (on, changed) = (
-            format!("::mutant_switch::on({})", self.number),
-            &self.changed,
-        );
+        let on = format!("::mutant_switch::on({})", self.number);
+        let changed = &self.changed;
         match self.form {
             Form::Replace => (format!("(if {on} {{ {changed} }} else {{ "), " })"),
             Form::Delete => (format!("if !{on} {{ "), " }"),
@@ -72,43 +52,33 @@ impl Site {
     }
 }
 
-/// A source in which the sites have switches, and the bytes that each of them takes there.
-pub fn rewritten(source: &str, sites: &[&Site]) -> (String, Vec<(u32, Range<usize>)>) {
+/// The bytes that each site takes in a source with switches.
+pub type Taken = Vec<(u32, Range<usize>)>;
+
+/// A source in which the sites have switches.
+pub fn rewritten(source: &str, sites: &[&Site]) -> (String, Taken) {
     let mut sites = sites.to_vec();
     // Of two that begin together, the longer one contains the other.
-    sites.sort_by_key(|site| {
-        (
-            site.bytes.start,
-            std::cmp::Reverse(site.bytes.end),
-            site.number,
-        )
-    });
-    let (mut text, mut places) = (String::with_capacity(2 * source.len()), Vec::new());
-    render(source, 0..source.len(), &sites, &mut text, &mut places);
-    (text, places)
+    let order = |s: &&Site| (s.bytes.start, std::cmp::Reverse(s.bytes.end), s.number);
+    sites.sort_by_key(order);
+    let mut written = (String::with_capacity(2 * source.len()), Taken::new());
+    render(source, 0..source.len(), &sites, &mut written);
+    written
 }
 
-fn render(
-    source: &str,
-    bytes: Range<usize>,
-    mut sites: &[&Site],
-    text: &mut String,
-    places: &mut Vec<(u32, Range<usize>)>,
-) {
+fn render(source: &str, bytes: Range<usize>, mut sites: &[&Site], to: &mut (String, Taken)) {
     let mut at = bytes.start;
     while let [site, rest @ ..] = sites {
-        text.push_str(&source[at..site.bytes.start]);
-        let begin = text.len();
-        let inside = rest
-            .iter()
-            .take_while(|inner| inner.bytes.start < site.bytes.end);
-        let (inner, after) = rest.split_at(inside.count());
+        to.0.push_str(&source[at..site.bytes.start]);
+        let begin = to.0.len();
+        let is_inside = |inner: &&&Site| inner.bytes.start < site.bytes.end;
+        let (inner, after) = rest.split_at(rest.iter().take_while(is_inside).count());
         let (before, behind) = site.around();
-        text.push_str(&before);
-        render(source, site.bytes.clone(), inner, text, places);
-        text.push_str(behind);
-        places.push((site.number, begin..text.len()));
+        to.0.push_str(&before);
+        render(source, site.bytes.clone(), inner, to);
+        to.0.push_str(behind);
+        to.1.push((site.number, begin..to.0.len()));
         (at, sites) = (site.bytes.end, after);
     }
-    text.push_str(&source[at..bytes.end]);
+    to.0.push_str(&source[at..bytes.end]);
 }

@@ -17,6 +17,7 @@ use crate::kit::workspace::{self, Workspace};
 use crate::kit::{output, shell};
 
 /// The part of a page that a command writes: between `<!-- NAME:begin -->` and `<!-- NAME:end -->`.
+#[derive(Clone, Copy, Debug)]
 pub struct Page<'a> {
     pub file: &'a str,
     /// In the markers; empty if the command writes the whole page.

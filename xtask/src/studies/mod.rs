@@ -17,7 +17,6 @@ pub mod mutants;
 pub mod peers;
 pub mod robots;
 pub mod scenes;
-pub mod silicon;
 pub mod study;
 pub mod trial;
 
@@ -119,12 +118,6 @@ pub const STUDIES: &[Study] = &[
         files: &["docs/peers.md"],
         held: Bars("the other libraries are not installed for a test, and times are those of one machine"),
         form: Own(peers::Args::augment_args, |options, matches| peers::run(options, given(matches)?), NO_STEP),
-    },
-    Study {
-        name: "silicon", about: "Measure code whose cycles others published from chips, rewrite docs/silicon.md",
-        files: &["docs/silicon.md"],
-        held: Bars("the other code is not part of this repository"),
-        form: Own(silicon::Args::augment_args, |options, matches| silicon::run(options, given(matches)?), NO_STEP),
     },
     Study {
         name: "build-time", about: "Time release builds with and without one specialised function, rewrite docs/build-time.md",

@@ -169,7 +169,7 @@ pub fn run(tools: &Tools, trial: Trial, json: bool, write: bool) -> Result<ExitC
     let meter = firmware::build_meter(&workspace)?;
     tools.qemu.interface(&meter)?;
     let recorded = Recorded::of(&workspace, tools, &meter, trial)?;
-    let page = page(trial);
+    let page = trial.page;
     if write {
         let (text, picture) = measure(&workspace, tools, trial, &recorded)?;
         page.write(&workspace, &text)?;
@@ -200,28 +200,13 @@ pub fn check(bench: &Bench<'_>) -> Result<String> {
             name.contains("Firmware") && name.contains("4tick")
         })?;
         let (text, picture) = measure(workspace, tools, *trial, &recorded)?;
-        let (page, rustc) = (page(*trial), tools.toolchain.rustc_version()?);
+        let (page, rustc) = (trial.page, tools.toolchain.rustc_version()?);
         page.check(workspace, &text, Some(&rustc))?;
         let written = workspace::read(&workspace.root.join(page.file))?;
         let same = docs::rustc_of(&written) == Some(&*rustc);
         docs::compare_picture(workspace, &picture_of(&page), page.command, &picture, same)?;
     }
     Ok(format!("{functions} functions reached"))
-}
-
-fn page(trial: Trial) -> Page<'static> {
-    match trial {
-        Trial::Ur5eContact => Page {
-            file: "docs/contact.md",
-            name: "contact",
-            command: "cargo xtask demo --scene ur5e_contact --write-docs",
-        },
-        Trial::So101Learn => Page {
-            file: "docs/learning.md",
-            name: "learning",
-            command: "cargo xtask demo --scene so101_learn --write-docs",
-        },
-    }
 }
 
 fn picture_of(page: &Page<'_>) -> String {

@@ -213,7 +213,8 @@ impl Advice {
         }
     }
 
-    /// The same with the joint's name, from [`coordinate_names`](crate::model::Model::coordinate_names) or another list of the joints.
+    /// The same with the joint's name, from [`coordinate_names`](crate::model::Model::coordinate_names) or another list of
+    /// the joints.
     ///
     /// ```
     /// use dynamics_core::advice::{Advice, AdvisedJoint};
@@ -221,8 +222,8 @@ impl Advice {
     /// let advice = Advice::ZeroRate { joint, torque: 9.0 }.named(&["shoulder", "elbow"]);
     /// assert_eq!(
     ///     advice.to_string(),
-    ///     "joint 1 (`elbow`): a rate of zero lets its torque never change, although its limit is 9: the joint gets no \
-    ///      torque; the rate is a change in a tick, such as half of the limit, or infinite"
+    ///     "joint 1 (`elbow`): a rate of zero lets its torque never change, although its limit is 9 N·m or N: the joint gets \
+    ///      no torque; the rate is a change in a tick, such as half of the limit, or infinite"
     /// );
     /// ```
     #[must_use]

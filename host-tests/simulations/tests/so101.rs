@@ -5,7 +5,6 @@ use dynamics_core::Engine;
 use dynamics_core::effects::{Effect, Gravity, LoadFriction};
 use dynamics_core::robots::So101;
 use dynamics_core::state::State;
-use joint_drivers::Law;
 use firmware_demo::plant::{Rig, ServoPlant, Simulated};
 use firmware_demo::scene::{Full, Noise, STEPS, Scene, simulated_loop};
 use firmware_demo::scenes::so101_teach::{
@@ -14,6 +13,7 @@ use firmware_demo::scenes::so101_teach::{
 };
 use firmware_demo::sim_io::Wires;
 use firmware_demo::trajectories::SO101_START;
+use joint_drivers::Law;
 use motion_control::{Observer, ObserverConfig, Reference};
 
 type Servos = ServoPlant<So101, Effects, 6>;

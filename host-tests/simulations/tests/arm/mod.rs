@@ -11,13 +11,13 @@ use dynamics_core::state::State;
 use embedded_hal::digital::{self, OutputPin};
 use embedded_hal::pwm::{self, SetDutyCycle};
 use embedded_hal::spi::{self, Operation, SpiDevice};
-use joint_drivers::{Law, Telemetry};
 use firmware_demo::plant::{Plant, Rig};
 use firmware_demo::scene::{Devices, Full, STEPS, Scene, SceneLoop, Start, TICK};
 pub use firmware_demo::scene::{HOLD, REENTRY, RIDE};
 use firmware_demo::scenes::ur5e::{Effects, PickAndPlace};
 use firmware_demo::sim_io::{MAX_DUTY, SimDrive, SimEncoder, Wires};
 use host_tests::measured::largest;
+use joint_drivers::{Law, Telemetry};
 use motion_control::Trajectory;
 
 /// The full model, which a test may make fail: on this thread, no number for a joint.

@@ -19,7 +19,7 @@ impl Can for Bus {
     type Frame = FdFrame;
     type Error = ErrorKind;
     fn transmit(&mut self, frame: &FdFrame) -> nb::Result<Option<FdFrame>, ErrorKind> {
-        if let Some(error) = self.error.clone() {
+        if let Some(error) = self.error {
             return Err(error);
         }
         self.sent.push(*frame);

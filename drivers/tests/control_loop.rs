@@ -202,9 +202,9 @@ fn an_encoders_error_names_its_joint_and_the_others_are_read() {
     );
     let error = JointError {
         joint: 0,
-        error: Broken::Wire,
+        error: &Broken::Wire,
     };
-    assert_eq!(arm.encoder_error(), Some(&error));
+    assert_eq!(arm.encoder_error(), Some(error));
     assert_eq!(wires.encoders[1].accesses.get(), 2);
     wires.encoders[0].error.set(None);
     assert_eq!(tick(&mut arm).status.fault, None);
@@ -223,9 +223,9 @@ fn a_failed_drive_sets_the_brake_and_the_others_their_torque() {
     assert_eq!(wires.drives[1].torque.get(), 2.0);
     let error = JointError {
         joint: 0,
-        error: Broken::Wire,
+        error: &Broken::Wire,
     };
-    assert_eq!(arm.drive_error(), Some(&error));
+    assert_eq!(arm.drive_error(), Some(error));
     let status = tick(&mut arm).status;
     assert_eq!(
         (status.mode, status.fault),

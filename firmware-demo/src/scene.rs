@@ -8,6 +8,7 @@ use dynamics_core::state::State;
 use embedded_hal::digital::OutputPin;
 use embedded_hal::pwm::SetDutyCycle;
 use embedded_hal::spi::SpiDevice;
+use joint_drivers::ControlLoop;
 use joint_drivers::as5047p::RESOLUTION;
 use joint_drivers::h_bridge::DriveError;
 use motion_control::{
@@ -160,7 +161,10 @@ pub trait Scene<const B: usize, const Q: usize, const V: usize, const N: usize>:
         detectors: D,
         start: Start,
     ) -> Result<SceneLoop<Spi, Pwm, Brake, N, D>, DriveError> {
-        firmware::control_loop::<Self, _, _, _, _, B, Q, V, N>(devices, gains, detectors, start)
+        let new = ControlLoop::new;
+        firmware::control_loop::<Self, _, _, _, _, B, Q, V, N>(
+            devices, gains, detectors, start, new,
+        )
     }
 }
 

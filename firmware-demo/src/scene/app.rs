@@ -3,10 +3,12 @@
 use core::fmt;
 
 use heapless::spsc::Producer;
-use joint_drivers::h_bridge::DriveError;
-use joint_drivers::{Law, NoBrake, Telemetry};
-use motion_control::{Detect, Reference, TrajectoryError};
+use joint_drivers::as5047p::As5047p;
+use joint_drivers::h_bridge::{DriveError, LockedAntiphase};
+use joint_drivers::{ControlLoop, Law, NoBrake, Telemetry};
+use motion_control::{Detect, Gains, MotionController, Reference, TrajectoryError};
 
+use super::firmware::control_loop;
 use super::{Devices, Noise, PlantModel, Run, Scene, SceneLoop, Start};
 use crate::plant::{Rig, Simulated};
 use crate::region::Marked;
@@ -192,7 +194,22 @@ where
     D: Detect<f32, N>,
 {
     let gains = S::gains(&S::environment(reference, 0.0));
-    S::control_loop(devices(wires), gains, detectors, Start::OnTrajectory)
+    let (devices, start) = (devices(wires), Start::OnTrajectory);
+    let new = new_simulated::<N, D>;
+    control_loop::<S, _, _, _, _, B, Q, V, N>(devices, gains, detectors, start, new)
+}
+
+/// [`ControlLoop::new`] in a function of its own: inlined, it takes 200 bytes more of flash.
+#[inline(never)]
+fn new_simulated<const N: usize, D: Detect<f32, N>>(
+    encoders: [As5047p<SimEncoder>; N],
+    drives: [LockedAntiphase<SimDrive>; N],
+    brake: NoBrake,
+    gains: Gains<f32, N>,
+    controller: MotionController<f32, N>,
+    detectors: D,
+) -> SimLoop<N, D> {
+    ControlLoop::new(encoders, drives, brake, gains, controller, detectors)
 }
 
 /// A plant at rest at the start of the trajectory, and a loop whose observer starts there.

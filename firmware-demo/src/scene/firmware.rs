@@ -55,7 +55,18 @@ pub struct Devices<Spi, Pwm, Brake, const N: usize> {
 pub type SceneLoop<Spi, Pwm, Brake, const N: usize, D = ()> =
     ControlLoop<[As5047p<Spi>; N], [LockedAntiphase<Pwm>; N], Brake, N, D>;
 
-/// The loop of a scene: [`Scene::control_loop`].
+/// [`ControlLoop::new`] on the devices of a scene.
+pub(super) type New<Spi, Pwm, Brake, const N: usize, D> = fn(
+    [As5047p<Spi>; N],
+    [LockedAntiphase<Pwm>; N],
+    Brake,
+    Gains<f32, N>,
+    MotionController<f32, N>,
+    D,
+) -> SceneLoop<Spi, Pwm, Brake, N, D>;
+
+/// The loop of a scene, by `new`: [`Scene::control_loop`].
+#[inline(always)]
 pub(super) fn control_loop<
     S,
     Spi,
@@ -71,6 +82,7 @@ pub(super) fn control_loop<
     gains: Gains<f32, N>,
     detectors: D,
     start: Start,
+    new: New<Spi, Pwm, Brake, N, D>,
 ) -> Result<SceneLoop<Spi, Pwm, Brake, N, D>, DriveError>
 where
     S: Scene<B, Q, V, N>,
@@ -111,7 +123,5 @@ where
         Start::OnBrake => controller.on_brake(),
     };
     let encoders = encoders.map(|spi| As5047p::new(spi, JointMapping::IDENTITY));
-    Ok(ControlLoop::new(
-        encoders, drives, brake, gains, controller, detectors,
-    ))
+    Ok(new(encoders, drives, brake, gains, controller, detectors))
 }

@@ -19,7 +19,7 @@ const SLOW: u32 = 1600;
 /// The joint whose encoder had no angle in the last tick, and why.
 fn frame(arm: &Arm) -> Option<(usize, FrameError)> {
     let last = arm.control.encoder_error();
-    last.map(|last| (last.joint, last.error))
+    last.map(|last| (last.joint, *last.error))
 }
 
 #[test]

@@ -206,30 +206,19 @@ mod tests {
     #[test]
     fn a_result_of_arithmetic_may_not_be_used_at_once() {
         let add = float(Class::FloatArithmetic, 0b110, 0b1);
+        let uses = float(Class::FloatArithmetic, 0b1, 0b1000);
         assert_eq!(cycles(&[add, add]), 2);
-        assert_eq!(
-            cycles(&[add, float(Class::FloatArithmetic, 0b1, 0b1000)]),
-            3
-        );
-        assert_eq!(
-            cycles(&[add, INTEGER, float(Class::FloatArithmetic, 0b1, 0b1000)]),
-            3
-        );
+        assert_eq!(cycles(&[add, uses]), 3);
+        assert_eq!(cycles(&[add, INTEGER, uses]), 3);
         assert_eq!(cycles(&[add, float(Class::Store, 0b1, 0)]), 3);
         assert_eq!(cycles(&[add, float(Class::FloatMove, 0b1, 0)]), 3);
         assert_eq!(cycles(&[float(Class::FloatMove, 0, 0b1), add, add]), 3);
     }
 
     #[test]
-    fn an_instruction_barrier_refills_the_pipeline() {
-        assert_eq!(
-            cycles(&[Insn::new(Class::InstructionBarrier, 4)]),
-            1 + REFILL
-        );
-    }
-
-    #[test]
-    fn multiply_add_costs_three() {
+    fn barriers_and_multiply_add_cost_what_the_manual_says() {
+        let barrier = Insn::new(Class::InstructionBarrier, 4);
+        assert_eq!(cycles(&[barrier]), 1 + REFILL);
         let mac = float(Class::FloatMultiplyAdd, 0b111, 0b1);
         assert_eq!(cycles(&[mac]), 3);
         assert_eq!(cycles(&[mac, mac]), 7);
@@ -255,10 +244,8 @@ mod tests {
         let mut pipe = Pipe::default();
         pipe.step(&float(Class::FloatDivide, 0b110, 0b1));
         assert_eq!(pipe.refill(), REFILL);
-        assert_eq!(
-            pipe.step(&float(Class::FloatMove, 0, 0)),
-            DIVIDER_BUSY - REFILL + 1
-        );
+        let waits = pipe.step(&float(Class::FloatMove, 0, 0));
+        assert_eq!(waits, DIVIDER_BUSY - REFILL + 1);
     }
 
     #[test]
@@ -272,32 +259,19 @@ mod tests {
     #[test]
     fn an_address_just_computed_stalls_loads_and_stores() {
         let add = INTEGER.writing(1);
+        let by = |class| Insn::new(class, 2).addressed_by(1);
         assert_eq!(cycles(&[add, load(1, 2)]), 4);
         assert_eq!(cycles(&[add, INTEGER, load(1, 2)]), 4);
-        assert_eq!(
-            cycles(&[add, Insn::new(Class::Store, 2).addressed_by(1)]),
-            3
-        );
-        assert_eq!(
-            cycles(&[add, Insn::new(Class::Words(4), 2).addressed_by(1)]),
-            7
-        );
+        assert_eq!(cycles(&[add, by(Class::Store)]), 3);
+        assert_eq!(cycles(&[add, by(Class::Words(4))]), 7);
     }
 
     #[test]
     fn a_marker_is_not_there() {
-        let marker = Insn::new(
-            Class::Marker(Marker {
-                region: 0,
-                opens: true,
-            }),
-            4,
-        );
+        let (region, opens) = (0, true);
+        let marker = Insn::new(Class::Marker(Marker { region, opens }), 4);
         let sequence = [INTEGER.writing(1), load(1, 2), load(4, 8), load(8, 1)];
-        let marked: Vec<Insn> = sequence
-            .iter()
-            .flat_map(|&insn| [marker, insn, marker])
-            .collect();
-        assert_eq!(cycles(&marked), cycles(&sequence));
+        let marked = sequence.map(|insn| [marker, insn, marker]);
+        assert_eq!(cycles(marked.as_flattened()), cycles(&sequence));
     }
 }

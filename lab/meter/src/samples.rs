@@ -147,100 +147,54 @@ impl Summary {
 mod tests {
     use super::*;
 
-    const SAMPLES: [Sample; 2] = [
+    const fn sample(region: u8, instructions: u64, cycles: u64, flops: u64) -> Sample {
         Sample {
-            region: 1,
-            instructions: 390,
-            cycles: 508,
-            flops: 308,
-        },
-        Sample {
-            region: 0,
-            instructions: 1204,
-            cycles: 1657,
-            flops: 402,
-        },
-    ];
+            region,
+            instructions,
+            cycles,
+            flops,
+        }
+    }
+
+    const SAMPLES: [Sample; 2] = [sample(1, 390, 508, 308), sample(0, 1204, 1657, 402)];
 
     #[test]
     fn what_is_written_is_read() {
-        assert_eq!(
-            parse_samples(&format_samples(Isa::CortexM4F, &SAMPLES, 0)),
-            Ok(SAMPLES.to_vec())
-        );
-        assert_eq!(
-            parse_samples(&format_samples(Isa::CortexM4F, &[], 0)),
-            Ok(vec![])
-        );
+        for samples in [&SAMPLES[..], &[]] {
+            let text = format_samples(Isa::CortexM4F, samples, 0);
+            assert_eq!(parse_samples(&text), Ok(samples.to_vec()));
+        }
+        let text = format_samples(Isa::CortexM4F, &SAMPLES, 3);
+        assert_eq!(parse_samples(&text), Err(Error::Unmatched(3)));
     }
 
     #[test]
     fn of_a_core_that_is_not_modelled_instructions_alone_are_written() {
         let text = format_samples(Isa::RiscV, &SAMPLES, 0);
-        assert_eq!(
-            text,
-            format!("{INSTRUCTIONS_ALONE}\n1 390 0 0\n0 1204 0 0\n")
-        );
-        let read = parse_samples(&text).expect("a file");
-        assert_eq!(read.iter().map(|one| one.cycles).sum::<u64>(), 0);
-    }
-
-    #[test]
-    fn a_file_with_unmatched_markers_is_refused() {
-        assert_eq!(
-            parse_samples(&format_samples(Isa::CortexM4F, &SAMPLES, 3)),
-            Err(Error::Unmatched(3))
-        );
+        let expected = format!("{INSTRUCTIONS_ALONE}\n1 390 0 0\n0 1204 0 0\n");
+        assert_eq!(text, expected);
+        assert_eq!(parse_samples(&text).expect("a file")[0].cycles, 0);
     }
 
     #[test]
     fn what_is_no_sample_is_refused_by_its_line() {
         assert_eq!(parse_samples(""), Err(Error::Header(String::new())));
-        for line in [
-            "",
-            "0 1 2",
-            "0 1 2 3 4",
-            "8 1 2 3",
-            "0 1 x 3",
-            "0 -1 2 3",
-            "unmatched x",
-        ] {
-            let refused = Err(Error::Line(2, line.into()));
-            assert_eq!(
-                parse_samples(&format!("{HEADER}\n{line}\n")),
-                refused,
-                "{line}"
-            );
+        for line in "/0 1 2/0 1 2 3 4/8 1 2 3/0 1 x 3/0 -1 2 3/unmatched x".split('/') {
+            let read = parse_samples(&format!("{HEADER}\n{line}\n"));
+            assert_eq!(read, Err(Error::Line(2, line.into())));
         }
     }
 
     #[test]
     fn a_summary_holds_measured_values() {
-        assert_eq!(Summary::of([]), None);
-        assert_eq!(
-            Summary::of([5]),
-            Some(Summary {
-                min: 5,
-                median: 5,
-                max: 5
-            })
-        );
-        assert_eq!(
-            Summary::of([9, 1, 4, 2]),
-            Some(Summary {
-                min: 1,
-                median: 2,
-                max: 9
-            })
-        );
-        assert_eq!(
-            Summary::of_region(&SAMPLES, 1, |one| one.cycles).map(|cycles| cycles.max),
-            Some(508)
-        );
-        assert_eq!(
-            Summary::of_region(&SAMPLES, 0, |one| one.instructions).map(|insns| insns.min),
-            Some(1204)
-        );
-        assert_eq!(Summary::of_region(&SAMPLES, 5, |one| one.cycles), None);
+        let of = |values: &[u64]| {
+            let summary = Summary::of(values.iter().copied())?;
+            Some([summary.min, summary.median, summary.max])
+        };
+        assert_eq!(of(&[]), None);
+        assert_eq!(of(&[5]), Some([5; 3]));
+        assert_eq!(of(&[9, 1, 4, 2]), Some([1, 2, 9]));
+        let max = |region| Summary::of_region(&SAMPLES, region, |one| one.cycles).map(|of| of.max);
+        assert_eq!([1, 0, 5].map(max), [Some(508), Some(1657), None]);
     }
 }

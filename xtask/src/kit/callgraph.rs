@@ -182,25 +182,12 @@ pub fn f32_only(elf: &Path, is_tick: fn(&str) -> bool) -> Result<usize> {
 
 #[cfg(test)]
 mod tests {
-    use std::collections::BTreeSet;
-
     use super::Reach;
-    use crate::kit::elf::{Function, Image, Sizes};
+    use crate::kit::elf::{Function, Image};
 
     #[test]
     fn an_image_with_a_double_of_the_fpu_is_refused() {
-        let image = |code: [u16; 4]| Image {
-            is_arm: true,
-            has_defmt: false,
-            sizes: Sizes { flash: 0, ram: 0 },
-            functions: vec![Function {
-                names: vec!["tick".into()],
-                address: 0x1000,
-                bytes: code.iter().flat_map(|half| half.to_le_bytes()).collect(),
-                data: Vec::new(),
-            }],
-            words: BTreeSet::new(),
-        };
+        let image = |code: [u16; 4]| Image::of(vec![Function::of("tick", 0x1000, &code)]);
         let counted = image([0xBF00, 0xEE30, 0x0A81, 0x4770]).m4f_instructions(); // vadd.f32 s0, s1, s2
         assert_eq!(counted.expect("all are known"), 3);
         let refused = image([0xBF00, 0xEE30, 0x0B01, 0x4770]).m4f_instructions(); // vadd.f64 d0, d0, d1
@@ -213,21 +200,10 @@ mod tests {
 
     #[test]
     fn a_jump_through_a_register_is_refused_with_its_path() {
-        let function = |name: &str, address, code: [u16; 3]| Function {
-            names: vec![name.into()],
-            address,
-            bytes: code.iter().flat_map(|half| half.to_le_bytes()).collect(),
-            data: Vec::new(),
-        };
         // bl 0x1010; bx lr
-        let caller = function("tick", 0x1000, [0xf000, 0xf806, 0x4770]);
-        let image = |code| Image {
-            is_arm: true,
-            has_defmt: false,
-            sizes: Sizes { flash: 0, ram: 0 },
-            functions: vec![caller.clone(), function("callee", 0x1010, code)],
-            words: BTreeSet::new(),
-        };
+        let caller = Function::of("tick", 0x1000, &[0xf000, 0xf806, 0x4770]);
+        let image =
+            |code: [u16; 3]| Image::of(vec![caller.clone(), Function::of("callee", 0x1010, &code)]);
         let returns = image([0xbf00, 0xbf00, 0x4770]);
         let reach = Reach::of(&returns, |f| f.is_named(|name| name == "tick")).expect("no jump");
         let paths: Vec<String> = reach.functions().map(|(_, path)| path).collect();

@@ -42,6 +42,33 @@ pub struct Image {
     pub words: BTreeSet<u32>,
 }
 
+#[cfg(test)]
+impl Function {
+    /// A function of these halfwords, for tests.
+    pub fn of(name: &str, address: u64, code: &[u16]) -> Self {
+        Self {
+            names: vec![name.into()],
+            address,
+            bytes: code.iter().flat_map(|half| half.to_le_bytes()).collect(),
+            data: Vec::new(),
+        }
+    }
+}
+
+#[cfg(test)]
+impl Image {
+    /// An image of these functions for a Cortex-M, for tests.
+    pub fn of(functions: Vec<Function>) -> Self {
+        Self {
+            is_arm: true,
+            has_defmt: false,
+            sizes: Sizes { flash: 0, ram: 0 },
+            functions,
+            words: BTreeSet::new(),
+        }
+    }
+}
+
 impl Image {
     pub fn read(path: &Path) -> Result<Self> {
         let bytes = std::fs::read(path).map_err(Error::file("read", path))?;

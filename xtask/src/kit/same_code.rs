@@ -84,40 +84,24 @@ fn act(function: &Function, instruction: Instruction) -> Act {
 #[cfg(test)]
 mod tests {
     use super::same;
-    use crate::kit::elf::{Function, Image, Sizes};
+    use crate::kit::elf::{Function, Image};
 
     /// Loads a literal from where it lies, calls 0x2000, returns.
     fn function(address: u64, call: [u16; 2], literal: u32, padding: usize) -> Function {
         let load = 0x4800 | (2 + padding / 2) as u16;
-        let mut bytes: Vec<u8> = [load, call[0], call[1], 0x4770, 0xbf00, 0xbf00]
-            .iter()
-            .flat_map(|half| half.to_le_bytes())
-            .collect();
-        bytes.extend(std::iter::repeat_n(0, 2 * padding));
-        bytes.extend(literal.to_le_bytes());
-        Function {
-            names: vec![format!("f{address:x}")],
-            address,
-            bytes,
-            data: vec![(address + 12, true)],
-        }
-    }
-
-    fn image(functions: Vec<Function>) -> Image {
-        Image {
-            is_arm: true,
-            has_defmt: false,
-            sizes: Sizes { flash: 0, ram: 0 },
-            functions,
-            words: std::collections::BTreeSet::new(),
-        }
+        let code = [load, call[0], call[1], 0x4770, 0xbf00, 0xbf00];
+        let mut function = Function::of(&format!("f{address:x}"), address, &code);
+        function.bytes.resize(12 + 2 * padding, 0);
+        function.bytes.extend(literal.to_le_bytes());
+        function.data.push((address + 12, true));
+        function
     }
 
     #[test]
     fn code_is_the_same_wherever_it_lies() {
         // Both calls go to 0x2000: from 0x1002 it is 0xffa ahead, from 0x1102 0xefa.
         let (one, two) = ([0xf000, 0xfffd], [0xf000, 0xff7d]);
-        let image = image(vec![
+        let image = Image::of(vec![
             function(0x1000, one, 1.5_f32.to_bits(), 0),
             function(0x1100, two, 1.5_f32.to_bits(), 2),
             function(0x1200, two, 1.5_f32.to_bits(), 0),
@@ -131,13 +115,9 @@ mod tests {
 
     #[test]
     fn a_function_that_only_jumps_is_where_it_jumps_to() {
-        let mut image = image(vec![function(0x1000, [0xf000, 0xfffd], 7, 0)]);
-        image.functions.push(Function {
-            names: vec!["jump".into()],
-            address: 0x1100,
-            bytes: vec![0x7e, 0xe7], // b 0x1000
-            data: Vec::new(),
-        });
+        let code = function(0x1000, [0xf000, 0xfffd], 7, 0);
+        let jump = Function::of("jump", 0x1100, &[0xe77e]); // b 0x1000
+        let image = Image::of(vec![code, jump]);
         assert_eq!(same(&image, 0x1000, 0x1100).expect("the same"), 5);
     }
 }

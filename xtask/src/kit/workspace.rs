@@ -196,30 +196,27 @@ mod tests {
 
     #[test]
     fn a_failed_write_leaves_the_old_file_and_no_part() {
-        let folder = std::env::temp_dir().join(format!("written-not-{}", std::process::id()));
-        std::fs::create_dir_all(&folder).expect("a folder");
-        let [page, plot] = ["page.md", "plot.svg"].map(|name| folder.join(name));
+        let folder = tempfile::tempdir().expect("a folder");
+        let [page, plot] = ["page.md", "plot.svg"].map(|name| folder.path().join(name));
         std::fs::write(&page, "old").expect("the page of before");
         // A directory in the way stands for a full disk: the second file cannot be written.
-        std::fs::create_dir_all(folder.join("plot.svg.part")).expect("in the way");
+        std::fs::create_dir_all(folder.path().join("plot.svg.part")).expect("in the way");
         let error =
             write_whole(&[(page.clone(), "new"), (plot.clone(), "new")]).expect_err("refused");
         assert!(error.to_string().contains("plot.svg:"), "{error}");
         assert_eq!(read(&page).expect("there"), "old");
-        assert!(!folder.join("page.md.part").exists());
-        std::fs::remove_dir_all(&folder).expect("gone again");
+        assert!(!folder.path().join("page.md.part").exists());
     }
 
     #[test]
     fn files_of_one_stem_are_written_side_by_side() {
-        let folder = std::env::temp_dir().join(format!("written-whole-{}", std::process::id()));
-        std::fs::create_dir_all(&folder).expect("a folder");
-        let files = ["page.md", "page.json"].map(|name| (folder.join(name), name.to_owned()));
+        let folder = tempfile::tempdir().expect("a folder");
+        let files =
+            ["page.md", "page.json"].map(|name| (folder.path().join(name), name.to_owned()));
         write_whole(&files).expect("both");
         for (path, contents) in &files {
             assert_eq!(read(path).expect("there"), *contents);
         }
         assert_eq!(std::fs::read_dir(&folder).expect("the folder").count(), 2);
-        std::fs::remove_dir_all(&folder).expect("gone again");
     }
 }

@@ -209,10 +209,7 @@ mod tests {
 
     #[test]
     fn a_stack_beyond_its_bar_is_refused() {
-        let bar = Bar {
-            most: [("stack_bytes".into(), 2048.0)].into(),
-            missed: Vec::new(),
-        };
+        let bar = Bar::of([("stack_bytes", 2048.0)]);
         let bars = [("ur5e tick".to_owned(), bar)].into();
         let verdict =
             |bytes| within_bars("M0", [("small", 9000), ("ur5e", bytes)].into_iter(), &bars);

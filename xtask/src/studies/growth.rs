@@ -189,10 +189,7 @@ mod tests {
 
     #[test]
     fn the_crossing_is_between_the_lengths_around_it() {
-        let bar = Bar {
-            most: [("instructions".into(), 1.1)].into(),
-            missed: Vec::new(),
-        };
+        let bar = Bar::of([("instructions", 1.1)]);
         let report = Report {
             rows: vec![
                 row("forward_dynamics", 8, 700),

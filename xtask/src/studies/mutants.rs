@@ -3,7 +3,7 @@
 #[cfg(test)]
 mod tests;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::process::ExitCode;
 
 use serde::{Deserialize, Serialize};
@@ -24,6 +24,14 @@ const PAGE: Page<'_> = Page {
 const REASONS: &str = "lab/mutants/reasons.toml";
 /// The largest share of changes that may survive.
 const MOST: f64 = 0.08;
+const HEADS: [&str; 6] = [
+    "part",
+    "changes",
+    "killed",
+    "survived",
+    "of these unreached",
+    "survived, %",
+];
 /// Printed in place of a missing reason.
 const NO_REASON: &str = "**no reason yet**";
 
@@ -38,9 +46,6 @@ pub struct Args {
     /// Only changes that survived the last time; the others keep their verdicts
     #[arg(long)]
     survivors: bool,
-    /// Another sample; the page is of the sample 1
-    #[arg(long, value_name = "N", default_value_t = 1)]
-    seed: u64,
 }
 
 /// The verdict on a change, in the words of `lab/mutants`.
@@ -65,7 +70,6 @@ struct Outcome {
 
 #[derive(Debug, Deserialize, Serialize)]
 struct Results {
-    seed: u64,
     tests: usize,
     unusable: Vec<String>,
     outcomes: Vec<Outcome>,
@@ -99,7 +103,7 @@ pub fn run(_: Options, args: Args) -> Result<ExitCode> {
         ));
     }
     let text = results.text(&reasons, &docs::today_and_commit(&workspace));
-    if args.only.is_none() && args.seed == 1 {
+    if args.only.is_none() {
         PAGE.write(&workspace, &text)?;
     }
     docs::show(args.json, &results, &text)
@@ -111,7 +115,6 @@ fn measure(workspace: &Workspace, args: &Args) -> Result<Results> {
         .args(["--quiet", "--package", "mutants", "--", "--root"])
         .arg(&workspace.root);
     command.arg("--dir").arg(workspace.target.join("mutants"));
-    command.args(["--seed", &args.seed.to_string()]);
     command.args(args.only.iter().flat_map(|only| ["--only", only]));
     command.args(args.survivors.then_some("--survivors"));
     let mut printed = String::new();
@@ -129,13 +132,8 @@ impl Outcome {
     }
 
     fn is_of(&self, reason: &Reason) -> bool {
-        let Reason {
-            file,
-            function,
-            change,
-            ..
-        } = reason;
-        (&self.file, &self.function, &self.change) == (file, function, change)
+        let own = (&self.file, &self.function, &self.change);
+        own == (&reason.file, &reason.function, &reason.change)
     }
 }
 
@@ -151,49 +149,28 @@ impl Results {
 
     /// The text between the markers.
     fn text(&self, reasons: &Reasons, when: &str) -> String {
-        let mut rooms: Vec<&str> = Vec::new();
+        let mut rooms: BTreeMap<&str, Vec<&Outcome>> = BTreeMap::new();
         for outcome in &self.outcomes {
-            if !rooms.contains(&&*outcome.room) {
-                rooms.push(&outcome.room);
-            }
-        }
-        rooms.sort_unstable();
-        let mut table = Table::new(&[
-            "part",
-            "changes",
-            "killed",
-            "survived",
-            "of these unreached",
-            "survived, %",
-        ]);
-        let mut row = |name: &str, of: &[&Outcome]| {
-            let killed = of.iter().filter(|outcome| outcome.is_killed()).count();
-            let unreached = of
-                .iter()
-                .filter(|outcome| matches!(outcome.verdict, Verdict::Unreached))
-                .count();
-            let survived = of.len() - killed;
-            let share = format!("{:.1}", 100.0 * share(survived, of.len()));
-            let counts = [of.len(), killed, survived, unreached].map(|count| count.to_string());
-            table.row([name.to_owned()].into_iter().chain(counts).chain([share]));
-        };
-        for room in &rooms {
-            let of_room: Vec<&Outcome> = self
-                .outcomes
-                .iter()
-                .filter(|outcome| outcome.room == *room)
-                .collect();
-            row(room, &of_room);
+            rooms.entry(&outcome.room).or_default().push(outcome);
         }
         let all: Vec<&Outcome> = self.outcomes.iter().collect();
-        row("all", &all);
-        let survivors: Vec<&Outcome> = all
-            .into_iter()
-            .filter(|outcome| !outcome.is_killed())
-            .collect();
-        let is_met = share(survivors.len(), self.outcomes.len()) <= MOST;
+        let counted = |(name, of): (&&str, &Vec<&Outcome>)| {
+            let count = |is: fn(&Outcome) -> bool| of.iter().filter(|one| is(one)).count();
+            let killed = count(Outcome::is_killed);
+            let unreached = count(|one| matches!(one.verdict, Verdict::Unreached));
+            let survived = of.len() - killed;
+            let counts = [of.len(), killed, survived, unreached].map(|count| count.to_string());
+            let share = format!("{:.1}", 100.0 * share(survived, of.len()));
+            [&[name.to_string()], &counts[..], &[share]].concat()
+        };
+        let mut table = Table::new(&HEADS);
+        for row in rooms.iter().chain([(&"all", &all)]).map(counted) {
+            table.row(row);
+        }
+        let survived = all.iter().filter(|outcome| !outcome.is_killed()).count();
+        let is_met = share(survived, all.len()) <= MOST;
         let verdict = if is_met { "met" } else { "missed" };
-        let (changes, tests, most) = (self.outcomes.len(), self.tests, 100.0 * MOST);
+        let (changes, tests, most) = (all.len(), self.tests, 100.0 * MOST);
         let mut text = format!(
             "{changes} changes against {tests} tests, on {when}. At most {most:.0} % may survive: {verdict}.\n\n{}",
             table.markdown()
@@ -204,15 +181,12 @@ impl Results {
             );
         }
         text += "\n## What survived\n";
-        for room in rooms {
-            let lines: BTreeMap<String, ()> = survivors
-                .iter()
-                .filter(|outcome| outcome.room == room)
-                .map(|outcome| (line(outcome, reasons), ()))
-                .collect();
+        for (room, of) in rooms {
+            let survivors = of.iter().filter(|outcome| !outcome.is_killed());
+            let lines: BTreeSet<String> = survivors.map(|one| line(one, reasons)).collect();
             if !lines.is_empty() {
                 text += &format!("\n### {room}\n\n");
-                text.extend(lines.into_keys());
+                text.extend(lines);
             }
         }
         text.trim_end().to_owned()
@@ -227,18 +201,11 @@ fn share(part: usize, all: usize) -> f64 {
 fn line(outcome: &Outcome, reasons: &Reasons) -> String {
     let reason = reasons.reason.iter().find(|reason| outcome.is_of(reason));
     let reason = reason.map_or(NO_REASON, |reason| reason.because.trim());
-    let Outcome {
-        file,
-        line,
-        function,
-        change,
-        verdict,
-        ..
-    } = outcome;
-    let unreached = if matches!(verdict, Verdict::Unreached) {
-        ", unreached"
-    } else {
-        ""
+    let unreached = match outcome.verdict {
+        Verdict::Unreached => ", unreached",
+        _ => "",
     };
+    let (file, line, function) = (&outcome.file, outcome.line, &outcome.function);
+    let change = &outcome.change;
     format!("- {file}:{line}, `{function}`{unreached}: {change}. {reason}\n")
 }

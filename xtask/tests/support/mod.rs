@@ -3,24 +3,24 @@
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
-use std::sync::atomic::{AtomicU32, Ordering};
+
+use tempfile::TempDir;
 
 /// A directory of its own, gone with the value.
-pub struct Dir(pub PathBuf);
+pub struct Dir(TempDir);
 
 impl Dir {
     pub fn new() -> Self {
-        static COUNT: AtomicU32 = AtomicU32::new(0);
-        let number = COUNT.fetch_add(1, Ordering::Relaxed);
-        let name = format!("xtask-manners-{}-{number}", std::process::id());
-        let dir = std::env::temp_dir().join(name);
-        std::fs::create_dir_all(&dir).expect("a temporary directory");
-        Self(dir)
+        Self(tempfile::tempdir().expect("a temporary directory"))
+    }
+
+    pub fn join(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
     }
 
     /// A program of these lines of shell in it.
     pub fn program(&self, name: &str, lines: &str) -> PathBuf {
-        let path = self.0.join(name);
+        let path = self.join(name);
         std::fs::write(&path, format!("#!/bin/sh\n{lines}\n")).expect("a script");
         let mode = std::fs::Permissions::from_mode(0o755);
         std::fs::set_permissions(&path, mode).expect("made executable");
@@ -28,15 +28,9 @@ impl Dir {
     }
 
     pub fn file(&self, name: &str, contents: &[u8]) -> PathBuf {
-        let path = self.0.join(name);
+        let path = self.join(name);
         std::fs::write(&path, contents).expect("a file");
         path
-    }
-}
-
-impl Drop for Dir {
-    fn drop(&mut self) {
-        let _ = std::fs::remove_dir_all(&self.0);
     }
 }
 
@@ -105,62 +99,29 @@ pub fn firmware(code: &[u16], processor: u16) -> Vec<u8> {
     let sections = b"\0.text\0.symtab\0.strtab\0\0";
     let text_at = 52 + 32;
     let symbols_at = text_at + text.len() as u32;
-    let names_at = symbols_at + symbols.len() as u32;
+    let symbols_length = symbols.len() as u32;
+    let names_at = symbols_at + symbols_length;
     let sections_at = names_at + names.len() as u32;
     let table_at = sections_at + sections.len() as u32;
     let length = text.len() as u32;
 
-    let mut elf = b"\x7fELF\x01\x01\x01\0\0\0\0\0\0\0\0\0".to_vec();
-    elf.extend(
-        [2_u16, processor]
-            .iter()
-            .flat_map(|half| half.to_le_bytes()),
-    );
-    elf.extend(words(&[1, FLASH + CODE + 1, 52, table_at, 0x0500_0200]));
-    let sizes: [u16; 6] = [52, 32, 1, 40, 5, 4];
-    elf.extend(sizes.iter().flat_map(|half| half.to_le_bytes()));
-    elf.extend(words(&[1, text_at, FLASH, FLASH, length, length, 5, 4]));
-    elf.extend(&text);
-    elf.extend(&symbols);
-    elf.extend(names);
-    elf.extend(sections);
-    elf.extend([0; 40]);
-    elf.extend(words(&[1, 1, 6, FLASH, text_at, length, 0, 0, 4, 0]));
-    elf.extend(words(&[
-        7,
-        2,
-        0,
-        0,
-        symbols_at,
-        symbols.len() as u32,
-        3,
-        1,
-        4,
-        16,
-    ]));
-    elf.extend(words(&[
-        15,
-        3,
-        0,
-        0,
-        names_at,
-        names.len() as u32,
-        0,
-        0,
-        1,
-        0,
-    ]));
-    elf.extend(words(&[
-        15,
-        3,
-        0,
-        0,
-        sections_at,
-        sections.len() as u32,
-        0,
-        0,
-        1,
-        0,
-    ]));
-    elf
+    let halves =
+        |halves: &[u16]| -> Vec<u8> { halves.iter().flat_map(|h| h.to_le_bytes()).collect() };
+    [
+        b"\x7fELF\x01\x01\x01\0\0\0\0\0\0\0\0\0".to_vec(),
+        halves(&[2, processor]),
+        words(&[1, FLASH + CODE + 1, 52, table_at, 0x0500_0200]),
+        halves(&[52, 32, 1, 40, 5, 4]),
+        words(&[1, text_at, FLASH, FLASH, length, length, 5, 4]),
+        text,
+        symbols,
+        names.to_vec(),
+        sections.to_vec(),
+        vec![0; 40],
+        words(&[1, 1, 6, FLASH, text_at, length, 0, 0, 4, 0]),
+        words(&[7, 2, 0, 0, symbols_at, symbols_length, 3, 1, 4, 16]),
+        words(&[15, 3, 0, 0, names_at, names.len() as u32, 0, 0, 1, 0]),
+        words(&[15, 3, 0, 0, sections_at, sections.len() as u32, 0, 0, 1, 0]),
+    ]
+    .concat()
 }

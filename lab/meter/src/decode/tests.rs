@@ -6,16 +6,8 @@ const SP: u16 = 1 << 13;
 
 #[test]
 fn the_first_halfword_tells_the_size() {
-    for (first, expected) in [
-        (0xBF00, 2),
-        (0xE7FE, 2),
-        (0xE800, 4),
-        (0xEE30, 4),
-        (0xF000, 4),
-        (0xFFFF, 4),
-    ] {
-        assert_eq!(size(first), expected, "{first:#06x}");
-    }
+    let sizes = [0xBF00, 0xE7FE, 0xE800, 0xEE30, 0xF000, 0xFFFF].map(size);
+    assert_eq!(sizes, [2, 2, 4, 4, 4, 4]);
 }
 
 #[test]
@@ -52,35 +44,22 @@ fn narrow_results_and_addresses_are_found() {
 
 #[test]
 fn a_branch_through_any_register_is_indirect_and_a_return_is_not() {
-    // blx r3, blx lr, bx r3, mov pc, r3, add pc, r3, ldr.w pc, [r3], ldr.w pc, [pc, #4], ldm.w r0, {r1, pc}
-    let indirect = [
-        [0x4798, 0],
-        [0x47F0, 0],
-        [0x4718, 0],
-        [0x469F, 0],
-        [0x449F, 0],
-        [0xF8D3, 0xF000],
-        [0xF8DF, 0xF004],
-        [0xE890, 0x8002],
-    ];
-    // bx lr, mov pc, lr, mov r0, r3, pop {pc}, pop.w {r4, pc}, ldr pc, [sp], #4, b, bl, svc
-    let direct = [
-        [0x4770, 0],
-        [0x46F7, 0],
-        [0x4618, 0],
-        [0xBD00, 0],
-        [0xE8BD, 0x8010],
-        [0xF85D, 0xFB04],
-        [0xE07E, 0],
-        [0xF000, 0xF87E],
-        [0xDF00, 0],
-    ];
-    for [first, second] in indirect {
-        assert!(decode(first, second).indirect, "{first:#06x}");
-    }
-    for [first, second] in direct {
-        assert!(!decode(first, second).indirect, "{first:#06x}");
-    }
+    let is_indirect = |[first, second]: [u16; 2]| decode(first, second).indirect;
+    let narrow = |first| is_indirect([first, 0]);
+    // blx r3, blx lr, bx r3, mov pc, r3, add pc, r3
+    assert_eq!(
+        [0x4798, 0x47F0, 0x4718, 0x469F, 0x449F].map(narrow),
+        [true; 5]
+    );
+    // ldr.w pc, [r3], ldr.w pc, [pc, #4], ldm.w r0, {r1, pc}
+    let wide = [[0xF8D3, 0xF000], [0xF8DF, 0xF004], [0xE890, 0x8002]];
+    assert_eq!(wide.map(is_indirect), [true; 3]);
+    // bx lr, mov pc, lr, mov r0, r3, pop {pc}, b, svc
+    let direct = [0x4770, 0x46F7, 0x4618, 0xBD00, 0xE07E, 0xDF00];
+    assert_eq!(direct.map(narrow), [false; 6]);
+    // pop.w {r4, pc}, ldr pc, [sp], #4, bl
+    let wide = [[0xE8BD, 0x8010], [0xF85D, 0xFB04], [0xF000, 0xF87E]];
+    assert_eq!(wide.map(is_indirect), [false; 3]);
 }
 
 #[test]
@@ -219,13 +198,7 @@ fn wide_branches_are_found() {
 fn operands_of_arithmetic_are_found() {
     let cases = [
         (0xEE30, 0x0A81, Class::FloatArithmetic, 1 << 1 | 1 << 2, 1), // vadd.f32 s0, s1, s2
-        (
-            0xEE62,
-            0x1A22,
-            Class::FloatArithmetic,
-            1 << 4 | 1 << 5,
-            1 << 3,
-        ), // vmul.f32 s3, s4, s5
+        (0xEE62, 0x1A22, Class::FloatArithmetic, 3 << 4, 1 << 3),     // vmul.f32 s3, s4, s5
         (0xEEA0, 0x0A81, Class::FloatMultiplyAdd, 7, 1),              // vfma.f32 s0, s1, s2
         (0xEE00, 0x0AC1, Class::FloatMultiplyAdd, 7, 1),              // vmls.f32 s0, s1, s2
         (0xEE80, 0x0A81, Class::FloatDivide, 1 << 1 | 1 << 2, 1),     // vdiv.f32 s0, s1, s2

@@ -2,7 +2,7 @@
 
 use cycle_meter::Sample;
 
-use crate::kit::elf::{Function, Image, Sizes};
+use crate::kit::elf::{Function, Image};
 
 use super::{
     KEPT, LONGEST, MASKED, RECORD, TICKS, every_tick_arrived, longest, masked_nowhere_else,
@@ -48,15 +48,9 @@ fn the_guide_states_what_is_checked() {
 fn a_tick_and_its_record_beyond_the_bar_fail() {
     let cycles = longest(&run(KEPT));
     assert_eq!(cycles, 50 + KEPT);
-    let bar = |most| Bar {
-        most: [("cycles".into(), most)].into(),
-        missed: Vec::new(),
-    };
     let verdict = |most| {
-        within_bar(
-            cycles,
-            &[("ur5e watched tick".to_owned(), bar(most))].into(),
-        )
+        let bar = Bar::of([("cycles", most)]);
+        within_bar(cycles, &[("ur5e watched tick".to_owned(), bar)].into())
     };
     assert!(verdict((50 + KEPT) as f64).is_ok());
     let error = verdict((49 + KEPT) as f64)
@@ -123,21 +117,10 @@ fn lost_ticks_bad_frames_and_disturbed_arms_fail() {
 
 #[test]
 fn a_tick_that_masks_interrupts_fails() {
-    let image = |name: &str, code: [u8; 2]| Image {
-        is_arm: true,
-        has_defmt: false,
-        sizes: Sizes { flash: 0, ram: 0 },
-        functions: vec![Function {
-            names: vec![name.to_owned()],
-            address: 0x1000,
-            bytes: [code, [0x70, 0x47]].concat(),
-            data: Vec::new(),
-        }],
-        words: std::collections::BTreeSet::new(),
-    };
-    let masking = [0x72, 0xb6];
+    let image = |name, code| Image::of(vec![Function::of(name, 0x1000, &[code, 0x4770])]);
+    let masking = 0xb672;
     assert!(masked_nowhere_else(&image("SysTick", masking)).is_ok());
-    assert!(masked_nowhere_else(&image("tick", [0x00, 0xbf])).is_ok());
+    assert!(masked_nowhere_else(&image("tick", 0xbf00)).is_ok());
     let error = masked_nowhere_else(&image("tick", masking)).expect_err("it masks");
     assert_eq!(error.to_string(), "`tick` masks interrupts");
 }

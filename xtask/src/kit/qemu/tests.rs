@@ -1,34 +1,20 @@
 //! Programs that stand in for QEMU and misbehave.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, Stdio};
-use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::{Duration, Instant};
 
 use defmt_decoder::DecodeError;
+use tempfile::TempDir;
 
 use super::Qemu;
 use super::watch::{Decoder, Line, Watch};
 
-/// A script, gone with its directory.
-struct Script(PathBuf);
-
-impl Script {
-    fn new(lines: &str) -> Self {
-        static COUNT: AtomicU32 = AtomicU32::new(0);
-        let number = COUNT.fetch_add(1, Ordering::Relaxed);
-        let name = format!("xtask-qemu-{}-{number}", std::process::id());
-        let dir = std::env::temp_dir().join(name);
-        std::fs::create_dir_all(&dir).expect("a temporary directory");
-        std::fs::write(dir.join("qemu"), lines).expect("a script");
-        Self(dir)
-    }
-}
-
-impl Drop for Script {
-    fn drop(&mut self) {
-        let _ = std::fs::remove_dir_all(&self.0);
-    }
+/// The folder of a script `qemu`, gone with the value.
+fn script(lines: &str) -> TempDir {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("qemu"), lines).expect("a script");
+    folder
 }
 
 /// Lines of text in frames that end with a zero, as defmt's do; `!` marks an error and `?` is
@@ -43,22 +29,17 @@ impl Decoder for Plain {
 
     fn decode(&mut self) -> Result<Line, DecodeError> {
         let end = self.0.iter().position(|byte| *byte == 0);
-        let frame: Vec<u8> = self
-            .0
-            .drain(..=end.ok_or(DecodeError::UnexpectedEof)?)
-            .collect();
-        let text = String::from_utf8_lossy(&frame[..frame.len() - 1]).into_owned();
-        match text.strip_prefix('!') {
-            _ if text.starts_with('?') => Err(DecodeError::Malformed),
-            Some(error) => Ok(Line {
-                text: error.into(),
-                is_error: true,
-            }),
-            None => Ok(Line {
-                text,
-                is_error: false,
-            }),
+        let end = end.ok_or(DecodeError::UnexpectedEof)?;
+        let frame: Vec<u8> = self.0.drain(..=end).collect();
+        let text = String::from_utf8_lossy(&frame[..end]).into_owned();
+        if text.starts_with('?') {
+            return Err(DecodeError::Malformed);
         }
+        let error = text.strip_prefix('!');
+        Ok(Line {
+            is_error: error.is_some(),
+            text: error.unwrap_or(&text).to_owned(),
+        })
     }
 }
 
@@ -67,7 +48,7 @@ const PATIENCE: Duration = Duration::from_secs(3);
 
 /// The outcome of a run of some lines of shell, within a few times [`PATIENCE`].
 fn outcome(lines: &str) -> Result<Vec<u8>, String> {
-    let script = Script::new(lines);
+    let script = script(lines);
     let start = Instant::now();
     let watch = Watch {
         name: "fake",
@@ -76,7 +57,7 @@ fn outcome(lines: &str) -> Result<Vec<u8>, String> {
     };
     let mut command = Command::new("sh");
     command
-        .arg(script.0.join("qemu"))
+        .arg(script.path().join("qemu"))
         .stdin(Stdio::null())
         .stdout(Stdio::piped())
         .stderr(Stdio::piped());
@@ -95,78 +76,64 @@ fn assert_fails(lines: &str, with: &[&str]) {
 
 #[test]
 fn a_run_that_ends_with_done_passes() {
-    assert_eq!(
-        outcome(r"printf 'hello\0done\0'"),
-        Ok(b"hello\0done\0".to_vec())
-    );
+    let log = b"hello\0done\0".to_vec();
+    assert_eq!(outcome(r"printf 'hello\0done\0'"), Ok(log));
 }
 
 #[test]
-fn a_crash_is_reported_with_its_output() {
-    assert_fails(
-        r"printf 'hello\0'; echo 'no such machine' >&2; exit 3",
-        &["it failed", "3", "QEMU said: no such machine"],
-    );
-    assert_fails(
-        r"printf '!a record was lost\0'; exit 1",
-        &["a record was lost"],
-    );
-    assert_fails("kill -SEGV $$", &["it failed", "signal"]);
+fn whatever_else_a_run_does_is_reported() {
+    for (lines, with) in [
+        // A crash, with its output.
+        (
+            r"printf 'hello\0'; echo 'no such machine' >&2; exit 3",
+            &["it failed", "3", "QEMU said: no such machine"][..],
+        ),
+        (
+            r"printf '!a record was lost\0'; exit 1",
+            &["a record was lost"],
+        ),
+        ("kill -SEGV $$", &["it failed", "signal"]),
+        // A silent exit.
+        ("exit 0", &["ended without `done`", "\"\""]),
+        (r"printf 'hello\0'", &["ended without `done`", "\"hello\""]),
+        // A panic, at once.
+        (
+            r"printf '!panic: out of bounds\0'; exec sleep 100",
+            &["the firmware panicked: panic: out of bounds"],
+        ),
+        // Malformed frames, and a flood of them.
+        (
+            r"printf '?bad\0'; exec sleep 100",
+            &["not the defmt log", "?bad"],
+        ),
+        (
+            r"printf 'done\0half a frame'",
+            &["not the defmt log", "half a"],
+        ),
+        ("exec yes junk", &["not the defmt log", "junk"]),
+    ] {
+        assert_fails(lines, with);
+    }
 }
 
 #[test]
-fn a_hang_is_killed() {
-    assert_fails(
-        r"printf 'hello\0'; exec sleep 100",
-        &["no progress for 3s, killed", "\"hello\""],
-    );
-}
-
-#[test]
-fn a_flood_of_junk_is_killed_by_its_size() {
-    assert_fails("exec yes junk", &["not the defmt log", "junk"]);
-}
-
-#[test]
-fn a_trickle_of_junk_is_killed_by_the_clock() {
-    assert_fails(
-        "while :; do printf junk; sleep 0.02; done",
-        &["no progress for 3s"],
-    );
-}
-
-#[test]
-fn malformed_frames_are_reported() {
-    assert_fails(
-        r"printf '?bad\0'; exec sleep 100",
-        &["not the defmt log", "?bad"],
-    );
-    assert_fails(
-        r"printf 'done\0half a frame'",
-        &["not the defmt log", "half a"],
-    );
-}
-
-#[test]
-fn a_silent_exit_is_no_success() {
-    assert_fails("exit 0", &["ended without `done`", "\"\""]);
-    assert_fails(r"printf 'hello\0'", &["ended without `done`", "\"hello\""]);
-}
-
-#[test]
-fn a_panic_is_reported_at_once() {
-    assert_fails(
-        r"printf '!panic: out of bounds\0'; exec sleep 100",
-        &["the firmware panicked: panic: out of bounds"],
-    );
-}
-
-#[test]
-fn a_program_that_goes_on_without_output_is_killed() {
-    assert_fails(
-        r"printf 'done\0'; exec >&- 2>&-; exec sleep 100",
-        &["closed its output and went on for 3s, killed"],
-    );
+fn a_run_without_progress_is_killed() {
+    for (lines, with) in [
+        (
+            r"printf 'hello\0'; exec sleep 100",
+            &["no progress for 3s, killed", "\"hello\""][..],
+        ),
+        (
+            "while :; do printf junk; sleep 0.02; done",
+            &["no progress for 3s"],
+        ),
+        (
+            r"printf 'done\0'; exec >&- 2>&-; exec sleep 100",
+            &["closed its output and went on for 3s, killed"],
+        ),
+    ] {
+        assert_fails(lines, with);
+    }
 }
 
 #[test]
@@ -175,16 +142,16 @@ fn a_child_that_holds_the_pipe_of_stderr_keeps_nobody() {
 }
 
 /// A QEMU that is a script.
-fn qemu(script: &Script) -> Qemu {
-    let program = script.0.join("qemu");
+fn qemu(script: &TempDir) -> Qemu {
+    let program = script.path().join("qemu");
     let mode = std::os::unix::fs::PermissionsExt::from_mode(0o755);
     std::fs::set_permissions(&program, mode).expect("made executable");
     Qemu::at(program).expect("a version")
 }
 
 /// A QEMU of this version that runs `why` in place of loading the meter.
-fn refusing(version: &str, why: &str) -> Script {
-    Script::new(&format!(
+fn refusing(version: &str, why: &str) -> TempDir {
+    script(&format!(
         "#!/bin/sh\nif [ \"$1\" = --version ]; then echo 'QEMU emulator version {version}'; exit; fi\n{why}\n"
     ))
 }

@@ -167,17 +167,19 @@ mod tests {
         serde_json::from_str(&text).expect("points")
     }
 
+    /// The code of a recorded point of the UR5e.
+    fn code_of(key: &str) -> String {
+        let points = recorded();
+        let point = points.iter().find(|p| p.robot == "ur5e" && p.key == key);
+        rust(point.expect("it was measured")).expect("there is code")
+    }
+
     #[test]
     fn the_default_prints_as_five_lines() {
-        let points = recorded();
-        let default = points
-            .iter()
-            .find(|p| p.is_default() && p.robot == "ur5e")
-            .expect("a default");
         let code = "use dynamics_core::Engine;\nuse dynamics_core::effects::RIGID_BODY;\nuse dynamics_core::robots::Ur5e;\n\
                     use dynamics_core::state::State;\n\n/// Torques of a motion, N·m.\n#[inline]\n\
                     pub fn torques(state: &State<f32, 6, 6>) -> [f32; 6] {\n    Engine::<Ur5e>::rnea(state, &RIGID_BODY)\n}\n";
-        assert_eq!(rust(default).expect("there is code"), code);
+        assert_eq!(code_of("default"), code);
     }
 
     /// All that the library ships has code, in which nothing is left to be filled in.
@@ -198,55 +200,41 @@ mod tests {
         assert!(points.iter().filter(shipped).count() > 1000);
         for point in points.iter().filter(shipped) {
             let code = rust(point).unwrap_or_else(|e| panic!("{} {}: {e}", point.robot, point.key));
-            for blank in [
-                "FORM", "ROBOT", "GENERICS", "JOINTS", "TICK", "BETWEEN", "NAME", "KERNEL", "<>",
-            ] {
-                assert!(
-                    !code.contains(blank),
-                    "{} {}:\n{code}",
-                    point.robot,
-                    point.key
-                );
-            }
+            let mut blanks = "FORM ROBOT GENERICS JOINTS TICK BETWEEN NAME KERNEL <>".split(' ');
+            assert!(
+                !blanks.any(|blank| code.contains(blank)),
+                "{}:\n{code}",
+                point.key
+            );
         }
     }
 
     /// With the values of the printed simulation itself, the text is the file that the tests compile and run.
     #[test]
     fn the_tested_simulation_is_the_printed_one() {
-        let points = recorded();
         let key = "integrator=rk4,state=compensated,step=1000";
-        let point = points.iter().find(|p| p.robot == "ur5e" && p.key == key);
-        assert_eq!(
-            rust(point.expect("it was measured")).expect("code"),
-            super::SIMULATION
-        );
+        assert_eq!(code_of(key), super::SIMULATION);
     }
 
     #[test]
     fn code_of_a_robot_from_a_file_names_its_type() {
         let mut own = point("form=core", 1.0, 1, 1.0);
-        let axes = [
-            ("model", "pruned1000"),
-            ("trig", "table3x4"),
-            ("between", "held"),
-            ("form", "core"),
-        ];
-        let axes = axes
-            .into_iter()
-            .chain([("arith", "f32"), ("rate", "1"), ("plant", "rigid")]);
+        let axes =
+            "model=pruned1000 trig=table3x4 between=held form=core arith=f32 rate=1 plant=rigid";
+        let axes = axes.split(' ').filter_map(|axis| axis.split_once('='));
         own.configuration = axes
             .map(|(axis, value)| (axis.into(), value.into()))
             .collect();
         assert!(rust(&own).is_err(), "the repository has no such robot");
         own.own = Some(["MyArm".into(), "5".into()]);
         let code = rust(&own).expect("there is code");
-        assert!(code.contains("use crate::robot::MyArm;\n\n"), "{code}");
-        assert!(
-            code.contains("state: &State<f32, 5, 5>) -> [f32; 5]"),
-            "{code}"
-        );
-        assert!(code.contains("Core::<Pruned<MyArm, 1000>>::rnea"), "{code}");
+        for part in [
+            "use crate::robot::MyArm;\n\n",
+            "state: &State<f32, 5, 5>) -> [f32; 5]",
+            "Core::<Pruned<MyArm, 1000>>::rnea",
+        ] {
+            assert!(code.contains(part), "{code}");
+        }
     }
 
     #[test]

@@ -121,7 +121,6 @@ impl Line {
 
 #[cfg(test)]
 mod tests {
-    use super::super::point::Point;
     use super::{Host, KNOWN, Line, join};
     use crate::kit::meter::Spread;
     use crate::kit::rows::Row;
@@ -147,18 +146,14 @@ mod tests {
     #[test]
     fn the_error_over_states_anywhere_is_that_of_the_default() {
         let lines = LINES.replacen(r#""full_scale""#, r#""anywhere":0.25,"full_scale""#, 1);
-        let host = Host::read(lines.trim()).expect("good lines");
-        assert_eq!(
-            (host.anywhere("arm"), host.anywhere("leg")),
-            (Some(0.25), None)
-        );
         let other = lines.replace("default", "other");
-        assert_eq!(
-            Host::read(other.trim())
-                .expect("good lines")
-                .anywhere("arm"),
-            None
-        );
+        let [host, other] = [&lines, &other].map(|lines| Host::read(lines.trim()).expect("good"));
+        let found = [
+            host.anywhere("arm"),
+            host.anywhere("leg"),
+            other.anywhere("arm"),
+        ];
+        assert_eq!(found, [Some(0.25), None, None]);
     }
 
     #[test]
@@ -189,19 +184,11 @@ mod tests {
     #[test]
     fn a_key_names_what_is_not_the_default() {
         let key = |key: &str, step: Option<&str>, opt| {
-            let configuration = step.map(|step| ("step".into(), step.into()));
-            let configuration = configuration.into_iter().collect();
-            let point = Point {
-                key: key.into(),
-                configuration,
-                ..Point::default()
-            };
-            Line {
-                point,
-                ..Line::default()
-            }
-            .costing(&row("inverse", key), opt)
-            .key
+            let mut line = Line::default();
+            line.point.key = key.into();
+            let step = step.map(|step: &str| ("step".into(), step.into()));
+            line.point.configuration.extend(step);
+            line.costing(&row("inverse", key), opt).key
         };
         assert_eq!(key("default", None, "3"), "default");
         assert_eq!(key("default", Some("5"), "3"), "step=5");

@@ -83,10 +83,7 @@ fn one_cycle_beyond_the_budget_of_a_row_is_refused() {
 fn bars_of_the_costs_hold_whatever_the_budget_allows() {
     let key = row(0).key();
     let compared = |bar: &str, ratio: f64, small: u64| {
-        let ratio = Bar {
-            most: [("cycles".into(), ratio)].into(),
-            missed: Vec::new(),
-        };
+        let ratio = Bar::of([("cycles", ratio)]);
         let ratios = Bars::from([(format!("opt-level s / 3, {key}"), ratio)]);
         let report = report(1000, small, bar, ratios);
         outcome(hold_costs(&budgets_of(&report), &report))
@@ -113,40 +110,24 @@ fn bars_of_the_costs_hold_whatever_the_budget_allows() {
 
 #[test]
 fn a_scene_is_held_to_its_budget_and_bar() {
-    let text = |bar: &str| {
-        let Budget { rustc, figures } = budget("rustc 1", 1000);
-        let budget = format!(
-            "rustc = {rustc:?}\n{}",
-            toml_edit::ser::to_string(&figures).expect("TOML")
-        );
-        format!("[bars]\n{bar}\n[arm]\n{budget}")
-    };
     let compared = |bar: &str, measured: u64| {
-        let budgets: Budgets = toml_edit::de::from_str(&text(bar)).expect("budgets");
+        let Budget { rustc, figures } = budget("rustc 1", 1000);
+        let figures = toml_edit::ser::to_string(&figures).expect("TOML");
+        let text = format!("[bars]\n{bar}\n[arm]\nrustc = {rustc:?}\n{figures}");
+        let budgets: Budgets = toml_edit::de::from_str(&text).expect("budgets");
         hold_scene(&budgets, "arm", &budget("rustc 1", measured))
     };
+    let bar = |most, missed| format!("\"arm tick\" = {{ cycles = {most}, missed = [{missed}] }}");
     assert!(compared("", 1000).is_ok());
     assert!(compared("", 1001).is_err());
-    assert!(compared("\"arm tick\" = { cycles = 1000 }", 1000).is_ok());
-    let missed = outcome(compared("\"arm tick\" = { cycles = 999 }", 1000));
+    assert!(compared(&bar(1000, ""), 1000).is_ok());
+    let missed = outcome(compared(&bar(999, ""), 1000));
     assert!(
         missed.contains("bar: arm tick: cycles 1,000 > 999"),
         "{missed}"
     );
-    assert!(
-        compared(
-            "\"arm tick\" = { cycles = 999, missed = [\"cycles\"] }",
-            1000
-        )
-        .is_ok()
-    );
-    assert!(
-        compared(
-            "\"arm tick\" = { cycles = 1000, missed = [\"cycles\"] }",
-            1000
-        )
-        .is_err()
-    );
+    assert!(compared(&bar(999, "\"cycles\""), 1000).is_ok());
+    assert!(compared(&bar(1000, "\"cycles\""), 1000).is_err());
     assert!(hold_scene(&Budgets::default(), "arm", &budget("rustc 1", 1)).is_err());
 }
 
@@ -160,17 +141,6 @@ fn rows(rustc: &str, key: &str, cycles: u64) -> Rows {
 }
 
 #[test]
-fn what_is_written_is_read() {
-    let before =
-        "# Why.\n[costs]\nrustc = \"rustc 0\"\n\n[costs.rows]\n\"gone\" = { cycles = 1 }\n";
-    let mut file: DocumentMut = before.parse().expect("TOML");
-    rows("rustc 1", "ur5e rnea core full", 1000).put(&mut file);
-    let after = "# Why.\n[costs]\nrustc = \"rustc 1\"\n\n[costs.rows]\n\"ur5e rnea core full\" = { instructions = 9, \
-                 cycles = 1000, code_bytes = 9, stack_bytes = 9 }\n";
-    assert_eq!(file.to_string(), after);
-}
-
-#[test]
 fn the_same_costs_leave_the_file_as_it_is() {
     let path = crate::kit::docs::repository::root().join("budgets.toml");
     let text = std::fs::read_to_string(path).expect("budgets");
@@ -181,39 +151,42 @@ fn the_same_costs_leave_the_file_as_it_is() {
 }
 
 #[test]
-fn the_budget_of_one_robot_misses_no_row_of_another() {
-    let both = rows("rustc 1", "ur5e rnea core full", 9).only("ur5e");
-    let measured = rows("rustc 1", "ur5e aba core full", 9);
-    let wrong = both.exceeded_by(&measured).join("; ");
-    assert!(
-        wrong.contains("ur5e rnea core full: is no longer measured"),
-        "{wrong}"
-    );
-    let other = rows("rustc 1", "ur5e10 rnea core full", 9).only("ur5e");
-    let wrong = other.exceeded_by(&measured);
-    assert_eq!(wrong, ["ur5e aba core full: has no budget"]);
-}
-
-#[test]
-fn a_row_over_budget_is_named() {
-    let ours = rows("rustc 1", "a", 1000);
-    assert!(ours.exceeded_by(&rows("rustc 1", "a", 1000)).is_empty());
-    assert!(ours.exceeded_by(&rows("rustc 2", "a", 1030)).is_empty());
-    assert_eq!(
-        ours.exceeded_by(&rows("rustc 1", "a", 1001)),
-        ["a: cycles 1001 > 1000"]
-    );
-    assert_eq!(
-        ours.exceeded_by(&rows("rustc 1", "b", 1)),
-        ["b: has no budget", "a: is no longer measured"]
-    );
-}
-
-#[test]
-fn a_figure_that_only_one_side_has_is_named() {
-    let ours: Budget = toml_edit::de::from_str("rustc = \"rustc 1\"\nbytes = 1").expect("TOML");
-    let theirs: Budget = toml_edit::de::from_str("rustc = \"rustc 1\"\ncycles = 1").expect("TOML");
-    let wrong = ours.exceeded_by(&theirs);
+fn a_row_or_figure_over_budget_or_of_one_side_is_named() {
+    let row = |rustc, key, cycles| rows(rustc, key, cycles);
+    let of_arm = || row("rustc 1", "ur5e rnea core full", 9).only("ur5e");
+    let other_robot = || row("rustc 1", "ur5e10 rnea core full", 9).only("ur5e");
+    let aba = || row("rustc 1", "ur5e aba core full", 9);
+    let ours = || row("rustc 1", "a", 1000);
+    for (ours, theirs, wrong) in [
+        (ours(), row("rustc 1", "a", 1000), &[][..]),
+        (ours(), row("rustc 2", "a", 1030), &[]),
+        (
+            ours(),
+            row("rustc 1", "a", 1001),
+            &["a: cycles 1001 > 1000"],
+        ),
+        (
+            ours(),
+            row("rustc 1", "b", 1),
+            &["b: has no budget", "a: is no longer measured"],
+        ),
+        // The budget of one robot misses no row of another, whose name begins alike.
+        (
+            of_arm(),
+            aba(),
+            &[
+                "ur5e aba core full: has no budget",
+                "ur5e rnea core full: is no longer measured",
+            ],
+        ),
+        (other_robot(), aba(), &["ur5e aba core full: has no budget"]),
+    ] {
+        assert_eq!(ours.exceeded_by(&theirs), wrong);
+    }
+    let figure = |name| -> Budget {
+        toml_edit::de::from_str(&format!("rustc = \"rustc 1\"\n{name} = 1")).expect("TOML")
+    };
+    let wrong = figure("bytes").exceeded_by(&figure("cycles"));
     assert_eq!(wrong, ["cycles has no budget", "bytes is no figure"]);
 }
 

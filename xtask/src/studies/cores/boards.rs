@@ -183,11 +183,7 @@ mod tests {
             start,
             tick: Some(700),
         };
-        let most = [("flash_bytes", 32_768.0), ("ram_bytes", 4096.0)];
-        let bar = Bar {
-            most: most.map(|(name, most)| (name.into(), most)).into(),
-            missed: Vec::new(),
-        };
+        let bar = Bar::of([("flash_bytes", 32_768.0), ("ram_bytes", 4096.0)]);
         let bars = [("board control image".to_owned(), bar)].into();
         assert!(within_bars(&board(32_768, Some(3096)), &bars).is_ok());
         assert!(within_bars(&board(32_768, Some(0)), &bars).is_ok());

@@ -124,25 +124,13 @@ fn flow(function: &Function, is_risc_v: bool) -> Result<Flow> {
 
 #[cfg(test)]
 mod tests {
-    use std::collections::BTreeSet;
-
     use super::Walk;
-    use crate::kit::elf::{Function, Image, Sizes};
+    use crate::kit::elf::{Function, Image};
 
     fn image(functions: &[(&str, u64, &[u16])]) -> Image {
-        let function = |&(name, address, code): &(&str, u64, &[u16])| Function {
-            names: vec![name.into()],
-            address,
-            bytes: code.iter().flat_map(|half| half.to_le_bytes()).collect(),
-            data: Vec::new(),
-        };
-        Image {
-            is_arm: true,
-            has_defmt: false,
-            sizes: Sizes { flash: 0, ram: 0 },
-            functions: functions.iter().map(function).collect(),
-            words: BTreeSet::new(),
-        }
+        let function =
+            |&(name, address, code): &(&str, u64, &[u16])| Function::of(name, address, code);
+        Image::of(functions.iter().map(function).collect())
     }
 
     /// push {r4, lr}; sub sp, #8; bl 0x1020; bl 0x1040; pop {r4, pc}
@@ -169,6 +157,13 @@ mod tests {
         let recursive: &[u16] = &[0xf7ff, 0xffde, 0x4770];
         let indirect: &[u16] = &[0x4798, 0x4770]; // blx r3
         let dynamic: &[u16] = &[0xebad, 0x0d00, 0x4770]; // sub.w sp, sp, r0
+        let of = |name, code| {
+            image(&[
+                ("tick", 0x1000, CALLER),
+                ("shallow", 0x1020, SHALLOW),
+                (name, 0x1040, code),
+            ])
+        };
         for (name, code, what) in [
             ("deep", recursive, "calls itself"),
             ("deep", indirect, "through a register"),
@@ -176,23 +171,13 @@ mod tests {
             ("__aeabi_dadd", DEEP, "reaches `__aeabi_dadd`"),
             ("_ZN4core9panicking5panicE", DEEP, "panicking"),
         ] {
-            let functions = [
-                ("tick", 0x1000, CALLER),
-                ("shallow", 0x1020, SHALLOW),
-                (name, 0x1040, code),
-            ];
-            let error = Walk::of(&image(&functions), false, 0x1000)
+            let error = Walk::of(&of(name, code), false, 0x1000)
                 .expect_err(what)
                 .to_string();
             assert!(error.contains(what), "{error}");
         }
         for name in ["__aeabi_d2f", "_ZN4core9panicking5panicE"] {
-            let functions = [
-                ("tick", 0x1000, CALLER),
-                ("shallow", 0x1020, SHALLOW),
-                (name, 0x1040, DEEP),
-            ];
-            let image = image(&functions);
+            let image = of(name, DEEP);
             assert!(Walk::of_start(&image, 0x1000).is_ok());
             assert!(Walk::of(&image, false, 0x1000).is_err(), "{name}");
         }

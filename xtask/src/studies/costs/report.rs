@@ -235,79 +235,46 @@ mod tests {
     use super::{Report, Row};
     use crate::kit::bars::{Bar, Bars};
 
-    #[test]
-    fn what_one_row_takes_more_than_another_has_a_bar() {
-        let row = |algorithm, cycles| Row::sample(["leg", algorithm, "engine", "full"], cycles);
-        let report = |rows: Vec<Row>| Report {
-            rows,
+    /// What is missed of rows `tree` and `loop` of these cycles, by a bar of this name.
+    fn missed(rows: &[(&str, u64)], key: &str, most: f64) -> Vec<String> {
+        let row =
+            |(name, cycles): &(&str, u64)| Row::sample(["leg", name, "engine", "full"], *cycles);
+        let report = Report {
+            rows: rows.iter().map(row).collect(),
             small: Vec::new(),
-            bars: Bars::from([(
-                "leg loop engine full trig over leg tree engine full trig".into(),
-                Bar {
-                    most: [("cycles".into(), 180.0)].into(),
-                    missed: Vec::new(),
-                },
-            )]),
+            bars: Bars::from([
+                (key.into(), Bar::of([("cycles", most)])),
+                (
+                    "leg rnea, m4f, engine / casadi".into(),
+                    Bar::of([("cycles", 0.1)]),
+                ),
+            ]),
             rustc: String::new(),
         };
-        let missed = |more: u64| report(vec![row("tree", 400), row("loop", 400 + more)]).missed();
-        assert!(missed(180).is_empty());
-        assert!(
-            missed(181)[0].ends_with("cycles 181 > 180"),
-            "{:?}",
-            missed(181)
-        );
-        let lonely = report(vec![row("loop", 400)]).missed();
-        assert!(lonely[0].ends_with("there is no such row"), "{lonely:?}");
+        report.missed()
+    }
+
+    #[test]
+    fn differences_and_multiples_of_rows_have_bars() {
+        let [over, multiple] = [" over ", " / "]
+            .map(|of| format!("leg loop engine full trig{of}leg tree engine full trig"));
+        for (key, most, cycles, more) in [
+            (over, 180.0, 580, "cycles 181 > 180"),
+            (multiple, 2.5, 1_000, "cycles 2.502× > 2.500×"),
+        ] {
+            let of = |cycles| missed(&[("tree", 400), ("loop", cycles)], &key, most);
+            assert!(of(cycles).is_empty());
+            assert!(of(cycles + 1)[0].ends_with(more), "{:?}", of(cycles + 1));
+            let lonely = missed(&[("loop", 400)], &key, most);
+            assert!(lonely[0].ends_with("there is no such row"), "{lonely:?}");
+        }
     }
 
     #[test]
     fn a_bar_of_another_command_needs_no_row() {
-        let bar = || Bar {
-            most: [("cycles".to_owned(), 1.0)].into(),
-            missed: Vec::new(),
-        };
-        let missed = |key: &str| {
-            let report = Report {
-                rows: Vec::new(),
-                small: Vec::new(),
-                bars: Bars::from([(key.to_owned(), bar())]),
-                rustc: String::new(),
-            };
-            report.missed()
-        };
         for key in ["ur5e tick", "ur5e added", "board control image"] {
-            assert!(missed(key).is_empty(), "{key}");
+            assert!(missed(&[], key, 1.0).is_empty(), "{key}");
         }
-        assert_eq!(missed("board control").len(), 1);
-    }
-
-    #[test]
-    fn one_row_as_a_multiple_of_another_has_a_bar() {
-        let key = "leg bent engine full trig / leg tree engine full trig";
-        let row = |algorithm, cycles| Row::sample(["leg", algorithm, "engine", "full"], cycles);
-        let most = |most| [("cycles".to_owned(), most)].into();
-        let bar = |most| Bar {
-            most,
-            missed: Vec::new(),
-        };
-        let report = |rows: Vec<Row>| Report {
-            rows,
-            small: Vec::new(),
-            bars: Bars::from([
-                (key.into(), bar(most(2.5))),
-                ("leg rnea, m4f, engine / casadi".into(), bar(most(0.1))),
-            ]),
-            rustc: String::new(),
-        };
-        let missed = |cycles| report(vec![row("tree", 400), row("bent", cycles)]).missed();
-        assert!(missed(1_000).is_empty());
-        assert!(
-            missed(1_001)[0].ends_with("cycles 2.502× > 2.500×"),
-            "{:?}",
-            missed(1_001)
-        );
-        let lonely = report(vec![row("bent", 400)]).missed();
-        assert!(lonely[0].ends_with("there is no such row"), "{lonely:?}");
+        assert_eq!(missed(&[], "board control", 1.0).len(), 1);
     }
 }

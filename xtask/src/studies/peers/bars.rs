@@ -103,21 +103,14 @@ mod tests {
             row(HOST, "casadi clang", None, Some(40.0)),
             row(HOST, "engine", None, Some(20.0)),
         ];
-        let bar = |most: &[(&str, f64)]| Bar {
-            most: most
-                .iter()
-                .map(|(figure, most)| ((*figure).into(), *most))
-                .collect(),
-            missed: Vec::new(),
-        };
         let ratios = Bars::from([
             (
                 "ur5e rnea, m4f, engine / casadi".into(),
-                bar(&[("cycles", 0.47), ("code_bytes", 0.47)]),
+                Bar::of([("cycles", 0.47), ("code_bytes", 0.47)]),
             ),
             (
                 "ur5e rnea, host f32, engine / casadi".into(),
-                bar(&[("ns", 0.8)]),
+                Bar::of([("ns", 0.8)]),
             ),
         ]);
         let compared = compared(&ratios, &rows);

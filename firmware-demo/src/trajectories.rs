@@ -1,4 +1,4 @@
-//! Ways that arms go, of more than one user; the others are in the files of their scenes.
+//! Ways that arms go, for the laboratory, for tests and for several scenes; what one scene alone uses is in its file.
 
 use core::f32::consts::{FRAC_PI_2, FRAC_PI_4};
 

@@ -27,6 +27,29 @@ pub enum Kind {
     External,
 }
 
+/// Each kind with its [`Kind::words`].
+#[rustfmt::skip]
+const KINDS: [(Kind, [&str; 3]); 18] = [
+    (Kind::NotFinite, ["non-finite position", "supervisor", ""]),
+    (Kind::Range, ["position out of range", "supervisor", ""]),
+    (Kind::Encoder, ["encoder parity or error bit", "driver", ""]),
+    (Kind::Frozen, ["frozen encoder", "`FrozenEncoder`", ""]),
+    (Kind::Stale, ["stale or missing measurement", "loop", ""]),
+    (Kind::Jump, ["jump beyond physics", "supervisor", ""]),
+    (Kind::Reference, ["reference discontinuity", "`ReferenceStep`", ""]),
+    (Kind::NotReady, ["drive not ready", "driver", ""]),
+    (Kind::Drive, ["drive's own fault", "driver", ""]),
+    (Kind::Missed, ["missed ticks, 1 to 40", "`TickCounter`, watchdog after 20", ""]),
+    (Kind::Overrun, ["tick overrun", "`TickCounter`", ""]),
+    (Kind::Unfinished, ["tick without a command", "supervisor", ""]),
+    (Kind::Saturated, ["saturation longer than 5 ticks", "`Saturation`", ""]),
+    (Kind::Torque, ["torque that is not finite", "supervisor", ""]),
+    (Kind::Model, ["model invalid after a calibration", "loop", "a valid model"]),
+    (Kind::Overflow, ["queue or stack overflow", "loop", "a restart"]),
+    (Kind::Restarted, ["brown-out reset", "start-up", ""]),
+    (Kind::External, ["external stop", "loop, by `stop_by`", "its release"]),
+];
+
 /// A fault that begins.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Onset {
@@ -47,26 +70,14 @@ impl Onset {
 
 impl Kind {
     /// All kinds.
-    pub const ALL: [Self; 18] = [
-        Self::NotFinite,
-        Self::Range,
-        Self::Encoder,
-        Self::Frozen,
-        Self::Stale,
-        Self::Jump,
-        Self::Reference,
-        Self::NotReady,
-        Self::Drive,
-        Self::Missed,
-        Self::Overrun,
-        Self::Unfinished,
-        Self::Saturated,
-        Self::Torque,
-        Self::Model,
-        Self::Overflow,
-        Self::Restarted,
-        Self::External,
-    ];
+    pub const ALL: [Self; KINDS.len()] = {
+        let (mut all, mut i) = ([KINDS[0].0; KINDS.len()], 0);
+        while i < all.len() {
+            all[i] = KINDS[i].0;
+            i += 1;
+        }
+        all
+    };
 
     /// The fault that is reported, of a joint.
     pub fn fault(self, joint: usize) -> Fault {
@@ -99,29 +110,7 @@ impl Kind {
 
     /// The fault in words, what detects it, and what besides the reaction's own recovery is needed.
     pub fn words(self) -> [&'static str; 3] {
-        match self {
-            Self::NotFinite => ["non-finite position", "supervisor", ""],
-            Self::Range => ["position out of range", "supervisor", ""],
-            Self::Encoder => ["encoder parity or error bit", "driver", ""],
-            Self::Frozen => ["frozen encoder", "`FrozenEncoder`", ""],
-            Self::Stale => ["stale or missing measurement", "loop", ""],
-            Self::Jump => ["jump beyond physics", "supervisor", ""],
-            Self::Reference => ["reference discontinuity", "`ReferenceStep`", ""],
-            Self::NotReady => ["drive not ready", "driver", ""],
-            Self::Drive => ["drive's own fault", "driver", ""],
-            Self::Missed => [
-                "missed ticks, 1 to 40",
-                "`TickCounter`, watchdog after 20",
-                "",
-            ],
-            Self::Overrun => ["tick overrun", "`TickCounter`", ""],
-            Self::Unfinished => ["tick without a command", "supervisor", ""],
-            Self::Saturated => ["saturation longer than 5 ticks", "`Saturation`", ""],
-            Self::Torque => ["torque that is not finite", "supervisor", ""],
-            Self::Model => ["model invalid after a calibration", "loop", "a valid model"],
-            Self::Overflow => ["queue or stack overflow", "loop", "a restart"],
-            Self::Restarted => ["brown-out reset", "start-up", ""],
-            Self::External => ["external stop", "loop, by `stop_by`", "its release"],
-        }
+        let row = KINDS.iter().find(|(kind, _)| *kind == self);
+        row.map_or([""; 3], |(_, words)| *words)
     }
 }

@@ -35,31 +35,11 @@ const STATES: usize = 10_000;
 const REENTRY: usize = 200;
 
 /// Numbers that tempt an algorithm to branch.
+#[rustfmt::skip]
 const ODD: [f32; 24] = [
-    0.0,
-    -0.0,
-    f32::NAN,
-    -f32::NAN,
-    f32::INFINITY,
-    f32::NEG_INFINITY,
-    f32::MAX,
-    f32::MIN,
-    f32::MIN_POSITIVE,
-    f32::EPSILON,
-    1.0e-45,
-    -1.0e-40,
-    1.0,
-    -1.0,
-    1.0e4,
-    -1.0e4,
-    1.0e6,
-    -1.0e6,
-    1.0e7,
-    1.0e30,
-    core::f32::consts::FRAC_PI_2,
-    -core::f32::consts::FRAC_PI_2,
-    core::f32::consts::PI,
-    core::f32::consts::TAU,
+    0.0, -0.0, f32::NAN, -f32::NAN, f32::INFINITY, f32::NEG_INFINITY, f32::MAX, f32::MIN, f32::MIN_POSITIVE, f32::EPSILON,
+    1.0e-45, -1.0e-40, 1.0, -1.0, 1.0e4, -1.0e4, 1.0e6, -1.0e6, 1.0e7, 1.0e30,
+    core::f32::consts::FRAC_PI_2, -core::f32::consts::FRAC_PI_2, core::f32::consts::PI, core::f32::consts::TAU,
 ];
 
 /// Marsaglia's xorshift32 (2003), from a fixed seed.
